@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Handle <-> object, sized structs, and the checks that every entry point begins with.
+#pragma once
+
+#include <cstring>
+
+#include "capi/mien.h"
+#include "runtime/base/arena.h"
+#include "runtime/base/mapped_file.h"
+#include "runtime/base/status.h"
+#include "runtime/dna/dna_view.h"
+#include "runtime/eval/instance.h"
+
+// Tags stand first in every object, are cleared when it is destroyed, and tell kinds apart.
+constexpr uint32_t kDnaTag = 0x6D44'4E41;
+constexpr uint32_t kReportTag = 0x6D52'5054;
+constexpr uint32_t kRigTag = 0x6D52'4947;
+constexpr uint32_t kInstanceTag = 0x6D49'4E53;
+
+struct MienDna {
+  uint32_t tag;
+  mien::Allocator allocator;
+  mien::MappedFile file;  // empty if opened from memory or generated
+  mien::Arena arena;
+  mien::dna::DnaView view;
+};
+
+namespace mien::capi {
+
+inline Rig* object(MienRig* handle) { return reinterpret_cast<Rig*>(handle); }
+inline const Rig* object(const MienRig* handle) { return reinterpret_cast<const Rig*>(handle); }
+inline Instance* object(MienInstance* handle) { return reinterpret_cast<Instance*>(handle); }
+inline const Instance* object(const MienInstance* handle) {
+  return reinterpret_cast<const Instance*>(handle);
+}
+
+inline MienStatus check_tag(const void* handle, uint32_t tag) {
+  if (!handle) return MIEN_ERROR_NULL_ARGUMENT;
+  if (reinterpret_cast<uintptr_t>(handle) % alignof(uint32_t) != 0) return MIEN_ERROR_HANDLE;
+  uint32_t found;
+  memcpy(&found, handle, sizeof(found));
+  return found == tag ? MIEN_OK : MIEN_ERROR_HANDLE;
+}
+inline MienStatus check(const MienDna* dna) { return check_tag(dna, kDnaTag); }
+inline MienStatus check(const MienReport* report) { return check_tag(report, kReportTag); }
+inline MienStatus check(const MienRig* rig) { return check_tag(rig, kRigTag); }
+inline MienStatus check(const MienInstance* instance) { return check_tag(instance, kInstanceTag); }
+
+/// Reads a caller's description into `out`, which is zero where the caller's is shorter or NULL.
+/// `first_size` is the size in the release that introduced the struct.
+template <class T>
+MienStatus read_struct(const T* in, T& out, size_t first_size = sizeof(T)) {
+  memset(static_cast<void*>(&out), 0, sizeof(T));
+  if (!in) return MIEN_OK;
+  const size_t size = in->struct_size;
+  if (size < first_size) return MIEN_ERROR_STRUCT_SIZE;
+  const uint8_t* bytes = reinterpret_cast<const uint8_t*>(in);
+  for (size_t i = sizeof(T); i < size; ++i) {
+    if (bytes[i] != 0) return MIEN_ERROR_STRUCT_SIZE;
+  }
+  memcpy(static_cast<void*>(&out), bytes, size < sizeof(T) ? size : sizeof(T));
+  return MIEN_OK;
+}
+
+/// Clears a caller's output struct but for its size, so that a failure leaves it zero.
+template <class T>
+MienStatus clear_struct(T* out, size_t first_size = sizeof(T)) {
+  if (!out) return MIEN_ERROR_NULL_ARGUMENT;
+  const uint32_t size = out->struct_size;
+  if (size < first_size) return MIEN_ERROR_STRUCT_SIZE;
+  memset(static_cast<void*>(out), 0, size);
+  out->struct_size = size;
+  return MIEN_OK;
+}
+
+/// Writes `value` over a struct that clear_struct() accepted.
+template <class T>
+void write_struct(T* out, T value) {
+  value.struct_size = out->struct_size;
+  memcpy(static_cast<void*>(out), &value,
+         value.struct_size < sizeof(T) ? value.struct_size : sizeof(T));
+}
+
+inline MienStatus check_error(const MienError* error) {
+  return error && error->struct_size < sizeof(MienError) ? MIEN_ERROR_STRUCT_SIZE : MIEN_OK;
+}
+
+/// Hands an error to the caller, if he wants it.
+inline MienStatus give_error(const Error& from, MienError* to) {
+  if (to) {
+    to->status = static_cast<MienStatus>(from.status);
+    to->byte_offset = from.byte_offset;
+    memcpy(to->message, from.message, sizeof(to->message));
+    memset(to + 1, 0, to->struct_size - sizeof(*to));
+  }
+  return static_cast<MienStatus>(from.status);
+}
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+MienStatus
+give_error(MienError* to, MienStatus status, const char* format, ...);
+
+/// The beginning of a call with an output and an error: clears the one, if the caller gave it.
+template <class T>
+MienStatus clear_output(T* out, MienError* error) {
+  if (out) *out = {};
+  if (MienStatus status = check_error(error)) return status;
+  return out ? MIEN_OK : give_error(error, MIEN_ERROR_NULL_ARGUMENT, "the output pointer is NULL");
+}
+
+inline MienStatus succeed(MienError* error) {
+  if (error) error->status = MIEN_OK;
+  return MIEN_OK;
+}
+
+/// The caller's allocator, or the heap for NULL.
+inline MienStatus read_allocator(const MienAllocator* in, Allocator& out) {
+  out = default_allocator();
+  if (!in) return MIEN_OK;
+  if (!in->allocate || !in->release) return MIEN_ERROR_INVALID_ARGUMENT;
+  out = {in->user, in->allocate, in->release};
+  return MIEN_OK;
+}
+
+/// An empty MienDna in the allocator's memory; null if there is none.
+MienDna* new_dna(const Allocator& allocator);
+
+}  // namespace mien::capi

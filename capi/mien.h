@@ -1,0 +1,613 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Mien: facial rigs in DNA files, opened, evaluated and written.
+ *
+ *     DNA file -> MienDna -> MienRig -> MienInstance -> joint, channel and map values
+ *
+ * A MienDna is a checked, read-only view of a file. A MienRig is the same data packed for
+ * evaluation; it keeps its own copy of all it needs, so the MienDna may be closed at once. A
+ * MienInstance is one character: its controls, and the outputs of its last evaluation.
+ *
+ * Rules that hold for every function, unless it says otherwise
+ *
+ *   Status    A function that can fail returns MienStatus; MIEN_OK is 0. When it fails, what it
+ *             would have written through `out_...` pointers is NULL or zero. Functions that can
+ *             fail because of data also take a MienError*, which may be NULL.
+ *   Threads   A const handle may be used by any number of threads at the same time. A handle that
+ *             is not const is for one thread at a time. There is no global state.
+ *   Ownership What a create, open or generate call gives, the matching destroy or close releases;
+ *             both accept NULL. Views (pointer + count) point into the handle they came from and
+ *             live as long as it does. Strings are UTF-8 by convention, not by check, have a
+ *             length, and are not terminated.
+ *   Structs   Zero a struct, then set struct_size to its sizeof: zero is the default of every
+ *             field. Structs only ever grow. A larger one than the library knows is accepted if the
+ *             rest is zero (of an output the rest is set to zero); one shorter than in the release
+ *             that introduced it is MIEN_ERROR_STRUCT_SIZE, a MienError too.
+ *   Misuse    NULL, a wrong index, a handle of the wrong kind and (as far as a tag can tell) a
+ *             handle used after it was destroyed return a status. Nothing aborts or prints.
+ *   Units     Those of the file: mien_rig_info() tells centimetres or metres, degrees or radians,
+ *             and which way the axes point. Outputs are deltas from the neutral pose.
+ *   Numbers   32-bit floats. See README.md for which results are equal bit for bit.
+ */
+#ifndef MIEN_H
+#define MIEN_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(MIEN_STATIC)
+#define MIEN_API
+#elif defined(_WIN32)
+#if defined(MIEN_BUILD)
+#define MIEN_API __declspec(dllexport)
+#else
+#define MIEN_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define MIEN_API __attribute__((visibility("default")))
+#else
+#define MIEN_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Version ------------------------------------------------------------------------------- */
+
+#define MIEN_VERSION_MAJOR 0
+#define MIEN_VERSION_MINOR 1
+#define MIEN_VERSION_PATCH 0
+#define MIEN_VERSION ((MIEN_VERSION_MAJOR << 24) | (MIEN_VERSION_MINOR << 16) | MIEN_VERSION_PATCH)
+
+/* MIEN_VERSION of the library that runs; the header's may be older. */
+MIEN_API uint32_t mien_version(void);
+
+/* ---- Status and errors ----------------------------------------------------------------------- */
+
+typedef int32_t MienStatus;
+
+enum {
+    MIEN_OK = 0,
+    MIEN_ERROR_NULL_ARGUMENT = 1,    /* a pointer that has to be given is NULL */
+    MIEN_ERROR_INVALID_ARGUMENT = 2, /* a value outside its range; a buffer that is too small */
+    MIEN_ERROR_STRUCT_SIZE = 3,      /* struct_size too small, or unknown fields that are not zero */
+    MIEN_ERROR_HANDLE = 4,           /* not a live handle of this kind */
+    MIEN_ERROR_MISMATCH = 5,         /* an instance of another rig */
+    MIEN_ERROR_INDEX = 6,            /* an index past the end */
+    MIEN_ERROR_LOD = 7,              /* a LOD that the rig does not have */
+    MIEN_ERROR_NAME = 8,             /* no such name or path */
+    MIEN_ERROR_ISA = 9,              /* this CPU (or build) lacks the instruction set */
+    MIEN_ERROR_MEMORY = 10,          /* the allocator returned NULL */
+    MIEN_ERROR_FILE_OPEN = 20,
+    MIEN_ERROR_FILE_READ = 21,
+    MIEN_ERROR_FILE_WRITE = 22,
+    MIEN_ERROR_DNA_SIGNATURE = 30, /* not a DNA file */
+    MIEN_ERROR_DNA_VERSION = 31,   /* a DNA file of another generation than 2 */
+    MIEN_ERROR_DNA_TRUNCATED = 32, /* the file ends before what it announces */
+    MIEN_ERROR_DNA_STRUCTURE = 33, /* offsets, sizes or counts contradict each other */
+    MIEN_ERROR_DNA_REFERENCE = 34, /* an index to something that is not there */
+    MIEN_ERROR_DNA_LIMIT = 35,     /* more of something than the format or Mien can number */
+    MIEN_ERROR_DNA_LAYER = 36,     /* a layer that the call needs was not loaded or not in the file */
+    MIEN_ERROR_DNA_VALUE = 37      /* a value that has no meaning */
+};
+
+/* "DNA_TRUNCATED" for MIEN_ERROR_DNA_TRUNCATED; "UNKNOWN" for other numbers. Static, terminated. */
+MIEN_API const char* mien_status_name(MienStatus status);
+
+#define MIEN_NO_OFFSET UINT64_MAX
+
+/* Detail of one failure, owned by the caller. Written by the call that fails; left alone, but for
+ * status = MIEN_OK, by one that succeeds. */
+typedef struct MienError {
+    uint32_t struct_size;
+    MienStatus status;
+    uint64_t byte_offset; /* in the file; MIEN_NO_OFFSET if there is no such place */
+    char message[240];    /* what, where and what to do; terminated, possibly cut */
+} MienError;
+
+/* ---- Memory and views ------------------------------------------------------------------------ */
+
+/* NULL instead of a MienAllocator means the C library's heap. `allocate` returns `size` bytes at a
+ * multiple of `alignment` (a power of two, 64 at most) or NULL; `release` gets both back. Copied by
+ * the call that takes it; the functions have to work until the object is destroyed, on every thread
+ * that creates or destroys objects with it. */
+typedef struct MienAllocator {
+    void* user;
+    void* (*allocate)(void* user, size_t size, size_t alignment);
+    void (*release)(void* user, void* block, size_t size, size_t alignment);
+} MienAllocator;
+
+typedef struct MienStringView {
+    const char* data;
+    size_t count; /* bytes, no terminator */
+} MienStringView;
+
+typedef struct MienFloatView {
+    const float* data;
+    size_t count;
+} MienFloatView;
+
+typedef struct MienMutableFloatView {
+    float* data;
+    size_t count;
+} MienMutableFloatView;
+
+typedef struct MienIndexView {
+    const uint16_t* data;
+    size_t count;
+} MienIndexView;
+
+/* ---- DNA: opening ---------------------------------------------------------------------------- */
+
+typedef struct MienDna MienDna;
+
+/* Layers, to be combined with |. A layer brings along what it needs (everything needs the
+ * definition, RBF behavior needs behavior); the descriptor is always read. */
+enum {
+    MIEN_LAYER_ALL = 0,
+    MIEN_LAYER_DESCRIPTOR = 1,
+    MIEN_LAYER_DEFINITION = 2,
+    MIEN_LAYER_BEHAVIOR = 4,
+    MIEN_LAYER_GEOMETRY = 8,
+    MIEN_LAYER_GEOMETRY_WITHOUT_BLEND_SHAPES = 16,
+    MIEN_LAYER_MACHINE_LEARNED_BEHAVIOR = 32,
+    MIEN_LAYER_RBF_BEHAVIOR = 64,
+    MIEN_LAYER_JOINT_BEHAVIOR_METADATA = 128,
+    MIEN_LAYER_TWIST_SWING_BEHAVIOR = 256
+};
+
+/* Layers of a kind that Mien does not know. */
+enum {
+    MIEN_UNKNOWN_LAYERS_KEEP = 0, /* carried along, written back unchanged */
+    MIEN_UNKNOWN_LAYERS_DROP = 1
+};
+
+enum {
+    MIEN_FILE_MAP = 0, /* map; read into memory where the system cannot map (pipes) */
+    MIEN_FILE_READ = 1 /* read it all now: for files that others may truncate meanwhile */
+};
+
+typedef struct MienDnaDesc {
+    uint32_t struct_size;
+    uint32_t layers;         /* MIEN_LAYER_...; what is not chosen is never touched */
+    uint32_t unknown_layers; /* MIEN_UNKNOWN_LAYERS_... */
+    uint32_t file_access;    /* MIEN_FILE_...; of no meaning for memory */
+    uint64_t lods;           /* bit l keeps LOD l of the file; 0 keeps all. Kept LODs are numbered
+                                anew from 0, and joints, meshes, channels and maps that no kept LOD
+                                uses are dropped and the others renumbered everywhere.
+                                MIEN_ERROR_LOD if the file has none of the LODs named. */
+    const MienAllocator* allocator;
+} MienDnaDesc;
+
+/* Opens a file of versions 2.1 to 2.8 (later 2.x: what is known of it). Checks everything that is
+ * loaded, so that a rig made of it has nothing left to check; memory taken is at most six times the
+ * bytes of the chosen layers. `path` is UTF-8. A mapped file must not be truncated or rewritten in
+ * place while it is open (replacing it by renaming is safe).
+ * `desc` may be NULL. Close with mien_dna_close(). */
+MIEN_API MienStatus mien_dna_open_file(const char* path, const MienDnaDesc* desc, MienDna** out_dna,
+                                       MienError* error);
+
+/* The same from memory, which stays the caller's and has to outlive the MienDna, unchanged. */
+MIEN_API MienStatus mien_dna_open_memory(const void* bytes, size_t size, const MienDnaDesc* desc,
+                                         MienDna** out_dna, MienError* error);
+
+MIEN_API void mien_dna_close(MienDna* dna);
+
+/* ---- DNA: looking into it -------------------------------------------------------------------- */
+
+enum { MIEN_TRANSLATION_CENTIMETERS = 0, MIEN_TRANSLATION_METERS = 1 };
+enum { MIEN_ROTATION_DEGREES = 0, MIEN_ROTATION_RADIANS = 1 };
+enum {
+    MIEN_DIRECTION_LEFT = 0,
+    MIEN_DIRECTION_RIGHT = 1,
+    MIEN_DIRECTION_UP = 2,
+    MIEN_DIRECTION_DOWN = 3,
+    MIEN_DIRECTION_FRONT = 4,
+    MIEN_DIRECTION_BACK = 5
+};
+enum {
+    MIEN_ROTATION_XYZ = 0, /* x first, then y, then z, about fixed axes */
+    MIEN_ROTATION_XZY = 1,
+    MIEN_ROTATION_YXZ = 2,
+    MIEN_ROTATION_YZX = 3,
+    MIEN_ROTATION_ZXY = 4,
+    MIEN_ROTATION_ZYX = 5
+};
+
+typedef struct MienDnaInfo {
+    uint32_t struct_size;
+    uint32_t generation;           /* 2 */
+    uint32_t version;              /* 1 ... 8: the file is generation.version */
+    uint32_t layers;               /* MIEN_LAYER_... that were loaded */
+    uint64_t file_bytes;           /* size of the file; 0 if generated */
+    uint64_t memory_bytes;         /* taken from the allocator */
+    uint32_t mapped;               /* 1 if the file is mapped */
+    uint32_t layer_count;          /* entries for mien_dna_layer() */
+    uint32_t translation_unit;     /* MIEN_TRANSLATION_... */
+    uint32_t rotation_unit;        /* MIEN_ROTATION_DEGREES or _RADIANS */
+    uint32_t axes[3];              /* MIEN_DIRECTION_... of x, y, z */
+    uint32_t rotation_sequence;    /* MIEN_ROTATION_XYZ ... */
+    int32_t rotation_signs[3];     /* 1 or -1, for the angles about x, y, z */
+    uint32_t face_winding;         /* 0 counter-clockwise, 1 clockwise, seen from outside */
+    uint32_t lod_count;
+    uint32_t max_lod;              /* this file's LOD 0 is LOD max_lod of its data base */
+    uint32_t gui_control_count;
+    uint32_t raw_control_count;
+    uint32_t psd_control_count;
+    uint32_t ml_control_count;
+    uint32_t rbf_control_count;
+    uint32_t joint_count;
+    uint32_t joint_group_count;
+    uint32_t blend_shape_channel_count;
+    uint32_t animated_map_count;
+    uint32_t mesh_count;
+    uint32_t neural_network_count;
+    uint32_t rbf_solver_count;
+    uint32_t rbf_pose_count;
+    uint32_t twist_count;
+    uint32_t swing_count;
+    uint32_t metadata_count;       /* pairs: desc.metadata[i].key and .value */
+} MienDnaInfo;
+
+MIEN_API MienStatus mien_dna_info(const MienDna* dna, MienDnaInfo* out_info);
+
+/* One entry of the file's table of layers, in file order. Files of version 2.1 have no such table;
+ * their sections are listed as the layers desc, defn, bhvr and geom. */
+typedef struct MienDnaLayer {
+    uint32_t struct_size;
+    uint32_t layer;         /* MIEN_LAYER_... that loads it; 0: of a kind that Mien does not know */
+    char code[8];           /* "bhvr", terminated */
+    uint32_t version_major;
+    uint32_t version_minor;
+    uint64_t byte_offset;
+    uint64_t byte_count;
+    uint32_t loaded;        /* 1: read; 0: skipped, or carried along unread */
+    uint32_t reserved;
+} MienDnaLayer;
+
+MIEN_API MienStatus mien_dna_layer(const MienDna* dna, uint32_t index, MienDnaLayer* out_layer);
+
+/* Every field of every loaded layer can be read by its path: the layer's code and the field names
+ * of the DNA format, with an index after each list:
+ *
+ *     desc.name                                 a string
+ *     desc.metadata[0].key                      a string
+ *     defn.jointNames                           a list of strings; defn.jointNames[3] is one
+ *     defn.neutralJointTranslations.xs          floats
+ *     bhvr.joints.jointGroups[7].values         floats
+ *     geom.meshes[0].skinWeights[12].weights    floats
+ *     mlbh.neuralNetworks[0].layers[1].biases   floats
+ *
+ * mien_dna_field() tells what is at a path; the read calls copy it out in native byte order. */
+enum {
+    MIEN_FIELD_RECORD = 0,  /* named fields */
+    MIEN_FIELD_LIST = 1,    /* records, strings or arrays, each with its own path [i] */
+    MIEN_FIELD_STRING = 2,
+    MIEN_FIELD_U8 = 3,      /* numbers: one, or an array of them */
+    MIEN_FIELD_U16 = 4,
+    MIEN_FIELD_U32 = 5,
+    MIEN_FIELD_I32 = 6,
+    MIEN_FIELD_F32 = 7
+};
+
+typedef struct MienDnaField {
+    uint32_t struct_size;
+    uint32_t type;        /* MIEN_FIELD_... */
+    uint64_t count;       /* elements of an array or list, bytes of a string, 1 for a number, fields
+                             of a record */
+    uint64_t byte_offset; /* where the bytes of an array or string begin in the file; MIEN_NO_OFFSET
+                             for others, and for what was made here */
+} MienDnaField;
+
+/* `path` is terminated. MIEN_ERROR_NAME tells the part of it that is not there. */
+MIEN_API MienStatus mien_dna_field(const MienDna* dna, const char* path, MienDnaField* out_field,
+                                   MienError* error);
+
+/* Name of field `index` of the record at `path` ("" for the layers themselves). */
+MIEN_API MienStatus mien_dna_field_name(const MienDna* dna, const char* path, uint32_t index,
+                                        MienStringView* out_name, MienError* error);
+
+/* Copies `count` elements from `first` on. `out` has room for them. Integers of any width widen;
+ * reading a float field as integers (or the other way round) is MIEN_ERROR_INVALID_ARGUMENT, a range
+ * past the end MIEN_ERROR_INDEX. */
+MIEN_API MienStatus mien_dna_read_floats(const MienDna* dna, const char* path, uint64_t first,
+                                         uint64_t count, float* out, MienError* error);
+MIEN_API MienStatus mien_dna_read_integers(const MienDna* dna, const char* path, uint64_t first,
+                                           uint64_t count, int64_t* out, MienError* error);
+/* Points into the file: valid until mien_dna_close(). */
+MIEN_API MienStatus mien_dna_read_string(const MienDna* dna, const char* path,
+                                         MienStringView* out_string, MienError* error);
+
+/* ---- DNA: writing ---------------------------------------------------------------------------- */
+
+typedef struct MienWriteDesc {
+    uint32_t struct_size;
+    uint32_t version;        /* 1 ... 8 writes 2.1 ... 2.8; 0 keeps the version. Layers that the
+                                version does not know are carried along (2.2 and later) unless
+                                unknown_layers says drop; 2.1 keeps the four classic ones only. */
+    uint32_t unknown_layers; /* MIEN_UNKNOWN_LAYERS_... */
+    uint32_t reserved;
+} MienWriteDesc;
+
+/* Writes a canonical file: the same bytes that were read if the file was canonical and everything
+ * was loaded; layers that were not loaded are written empty. Goes to a temporary name first, so a
+ * failure leaves `path` as it was. `desc` may be NULL. */
+MIEN_API MienStatus mien_dna_write_file(const MienDna* dna, const char* path,
+                                        const MienWriteDesc* desc, MienError* error);
+
+/* The same to memory. With buffer NULL and capacity 0 only *out_size is set; a capacity that is too
+ * small gives MIEN_ERROR_INVALID_ARGUMENT and the size. */
+MIEN_API MienStatus mien_dna_write_memory(const MienDna* dna, const MienWriteDesc* desc, void* buffer,
+                                          size_t capacity, size_t* out_size, MienError* error);
+
+/* ---- DNA: validating ------------------------------------------------------------------------- */
+
+typedef struct MienReport MienReport;
+
+enum {
+    MIEN_SEVERITY_ERROR = 0,   /* opening or mien_rig_create() refuses this */
+    MIEN_SEVERITY_WARNING = 1  /* allowed, but probably not meant */
+};
+
+typedef struct MienFinding {
+    uint32_t struct_size;
+    uint32_t severity;       /* MIEN_SEVERITY_... */
+    MienStatus status;       /* what opening would return; MIEN_OK for a warning */
+    uint32_t reserved;
+    uint64_t byte_offset;    /* MIEN_NO_OFFSET if there is no such place */
+    MienStringView field;    /* path as for mien_dna_field(), or a layer's code */
+    MienStringView message;
+} MienFinding;
+
+/* Checks a whole file and lists every finding: at most 32 for one field (the last of them says how
+ * many more there are), and 1000 in all. Returns MIEN_OK if the file could be examined, whatever was
+ * found. `allocator` may be NULL. */
+MIEN_API MienStatus mien_report_create_file(const char* path, const MienAllocator* allocator,
+                                            MienReport** out_report, MienError* error);
+MIEN_API MienStatus mien_report_create_memory(const void* bytes, size_t size,
+                                              const MienAllocator* allocator, MienReport** out_report,
+                                              MienError* error);
+MIEN_API MienStatus mien_report_counts(const MienReport* report, uint32_t* out_errors,
+                                       uint32_t* out_warnings);
+/* Findings are in the order of the checks: 0 ... errors + warnings - 1. Views live as long as the
+ * report. */
+MIEN_API MienStatus mien_report_finding(const MienReport* report, uint32_t index,
+                                        MienFinding* out_finding);
+MIEN_API void mien_report_destroy(MienReport* report);
+
+/* ---- DNA: generating ------------------------------------------------------------------------- */
+
+enum {
+    MIEN_PRESET_TINY = 0,   /* readable by eye */
+    MIEN_PRESET_SMALL = 1,
+    MIEN_PRESET_MEDIUM = 2,
+    MIEN_PRESET_LARGE = 3   /* a production head: 870 joints, 260 raw controls, 8 LODs, a million
+                               matrix entries */
+};
+
+typedef struct MienGenerateDesc {
+    uint32_t struct_size;
+    uint32_t preset; /* MIEN_PRESET_... */
+    uint64_t seed;   /* the same seed gives the same bytes on every machine */
+    const MienAllocator* allocator;
+} MienGenerateDesc;
+
+/* Makes a synthetic face rig: behaviour of realistic size and sparsity, with simple geometry. `desc`
+ * may be NULL (tiny, seed 0). Close with mien_dna_close(). */
+MIEN_API MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna,
+                                      MienError* error);
+
+/* ---- Rig ------------------------------------------------------------------------------------- */
+
+typedef struct MienRig MienRig;
+
+enum {
+    MIEN_ISA_BEST = 0, /* the environment variable MIEN_ISA (scalar, sse2, ...) if set, else the best
+                          that this CPU and operating system allow */
+    MIEN_ISA_SCALAR = 1,
+    MIEN_ISA_SSE2 = 2,
+    MIEN_ISA_AVX2 = 3, /* with FMA and F16C */
+    MIEN_ISA_AVX512 = 4, /* F, CD, DQ, BW, VL */
+    MIEN_ISA_NEON = 5
+};
+
+/* 1 if rigs can be created for this MIEN_ISA_... here. MIEN_ISA_BEST is always available. */
+MIEN_API uint32_t mien_isa_available(uint32_t isa);
+/* "avx2" for MIEN_ISA_AVX2, "unknown" for other numbers. Static, terminated. */
+MIEN_API const char* mien_isa_name(uint32_t isa);
+
+/* How joint rotations come out. */
+enum {
+    MIEN_OUTPUT_EULER = 0,      /* 9 values per joint: tx ty tz rx ry rz sx sy sz */
+    MIEN_OUTPUT_QUATERNION = 1  /* 10 values per joint: tx ty tz qx qy qz qw sx sy sz */
+};
+
+/* What a mask of a mesh region does to the networks of the region (mien_instance_ml_masks()). */
+enum {
+    MIEN_ML_MASKS_SWITCH = 0, /* 0: the networks give their default (0, or 1 for the w of a
+                                 quaternion); anything else: they are evaluated. What files were made
+                                 for. */
+    MIEN_ML_MASKS_BLEND = 1   /* in between, outputs are blended with the default; clamped to 0..1 */
+};
+
+typedef struct MienRigDesc {
+    uint32_t struct_size;
+    uint32_t isa; /* MIEN_ISA_...; one that is absent is MIEN_ERROR_ISA, never replaced silently */
+    uint32_t rotation; /* MIEN_OUTPUT_... */
+    uint32_t ml_masks; /* MIEN_ML_MASKS_... */
+    const MienAllocator* allocator;
+} MienRigDesc;
+
+typedef struct MienRigInfo {
+    uint32_t struct_size;
+    uint32_t isa;               /* MIEN_ISA_... in use */
+    uint32_t lod_count;
+    uint32_t translation_unit;  /* MIEN_TRANSLATION_... */
+    uint32_t rotation_unit;     /* MIEN_ROTATION_DEGREES or _RADIANS */
+    uint32_t axes[3];           /* MIEN_DIRECTION_... of x, y, z */
+    uint32_t rotation_sequence; /* MIEN_ROTATION_XYZ ... */
+    int32_t rotation_signs[3];
+    uint32_t control_count;     /* length of a control row: raw, PSD, ML, RBF, in this order */
+    uint32_t joint_value_count; /* length of a row of joint outputs: 9 or 10 per joint */
+    uint32_t rotation;          /* MIEN_OUTPUT_... */
+    uint32_t reserved;
+    uint64_t rig_bytes;         /* memory of the rig */
+    uint64_t instance_bytes;    /* memory of each instance */
+} MienRigInfo;
+
+/* Packs the behavior of `dna` for evaluation. The DNA needs definition and behavior loaded, else
+ * MIEN_ERROR_DNA_LAYER; correctives that depend on each other in a circle are MIEN_ERROR_DNA_VALUE.
+ * `desc` may be NULL. The DNA may be closed afterwards. The rig is one block of memory; making it
+ * takes some more for the time of the call. */
+MIEN_API MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig** out_rig,
+                                    MienError* error);
+
+/* Memory is released when the last instance is gone too, so the order of destruction does not
+ * matter; a destroyed rig cannot be evaluated any more. */
+MIEN_API void mien_rig_destroy(MienRig* rig);
+
+MIEN_API MienStatus mien_rig_info(const MienRig* rig, MienRigInfo* out_info);
+
+/* Things with names and numbers. */
+enum {
+    MIEN_KIND_GUI_CONTROL = 0,
+    MIEN_KIND_RAW_CONTROL = 1,
+    MIEN_KIND_PSD_CONTROL = 2, /* correctives: DNA files do not name them; here "psd0", "psd1", ... */
+    MIEN_KIND_ML_CONTROL = 3,
+    MIEN_KIND_RBF_CONTROL = 4,
+    MIEN_KIND_JOINT = 5,
+    MIEN_KIND_BLEND_SHAPE_CHANNEL = 6,
+    MIEN_KIND_ANIMATED_MAP = 7,
+    MIEN_KIND_MESH = 8,
+    MIEN_KIND_ML_MASK = 9,     /* one per region of a mesh; "mesh/region" */
+    MIEN_KIND_JOINT_GROUP = 10, /* the last three have no names */
+    MIEN_KIND_RBF_SOLVER = 11,
+    MIEN_KIND_TWIST_SWING = 12  /* a swing with the twists of the same inputs, or a twist alone */
+};
+
+MIEN_API MienStatus mien_rig_count(const MienRig* rig, uint32_t kind, uint32_t* out_count);
+/* Kinds without names give "". */
+MIEN_API MienStatus mien_rig_name(const MienRig* rig, uint32_t kind, uint32_t index,
+                                  MienStringView* out_name);
+/* Exact match, in O(log n); of equal names the first. `name` needs no terminator.
+ * MIEN_ERROR_NAME if there is none. */
+MIEN_API MienStatus mien_rig_find(const MienRig* rig, uint32_t kind, const char* name,
+                                  size_t name_count, uint32_t* out_index);
+
+/* Which joints, channels, maps, meshes or RBF solvers exist at a LOD, in file order. Other kinds:
+ * MIEN_ERROR_INVALID_ARGUMENT. */
+MIEN_API MienStatus mien_rig_lod_indices(const MienRig* rig, uint32_t kind, uint32_t lod,
+                                         MienIndexView* out_indices);
+/* Indices into the joint outputs that evaluation may change at a LOD, ascending: all others keep their
+ * initial value (0, or 1 for the w of a quaternion). */
+MIEN_API MienStatus mien_rig_variable_joint_values(const MienRig* rig, uint32_t lod,
+                                                   MienIndexView* out_indices);
+/* Parent of each joint; a root is its own parent. */
+MIEN_API MienStatus mien_rig_joint_parents(const MienRig* rig, MienIndexView* out_parents);
+/* Neutral pose in the layout of the joint outputs, relative to the parent: translation in translation
+ * units, rotation as angles in rotation units or as a quaternion, scale 1. */
+MIEN_API MienStatus mien_rig_neutral_joint_values(const MienRig* rig, MienFloatView* out_values);
+/* The controls whose product drives a corrective, as indices into the control row. */
+MIEN_API MienStatus mien_rig_psd_inputs(const MienRig* rig, uint32_t psd, MienIndexView* out_controls);
+/* Value each raw control starts with: 0, or 1 for the w of a quaternion input. */
+MIEN_API MienStatus mien_rig_initial_raw_controls(const MienRig* rig, MienFloatView* out_values);
+
+/* What one evaluation at a LOD works through. */
+typedef struct MienRigStatistics {
+    uint32_t struct_size;
+    uint32_t psd_count;               /* correctives computed */
+    uint32_t joint_count;             /* joints that exist at this LOD */
+    uint32_t joint_row_count;         /* joint values computed */
+    uint32_t blend_shape_count;       /* channels written */
+    uint32_t animated_map_row_count;  /* rows of the animated map table */
+    uint64_t joint_entry_count;       /* rows x columns, over the groups */
+    uint64_t joint_byte_count;        /* bytes of the joint matrix that are read */
+    uint32_t rbf_solver_count;        /* solvers that the LOD lists */
+    uint32_t turned_joint_count;      /* joints represented by quaternions */
+} MienRigStatistics;
+
+MIEN_API MienStatus mien_rig_statistics(const MienRig* rig, uint32_t lod,
+                                        MienRigStatistics* out_statistics);
+
+/* ---- Instance -------------------------------------------------------------------------------- */
+
+typedef struct MienInstance MienInstance;
+
+/* One character in its initial state. `allocator` NULL: the heap. One allocation of
+ * MienRigInfo.instance_bytes. */
+MIEN_API MienStatus mien_instance_create(const MienRig* rig, const MienAllocator* allocator,
+                                         MienInstance** out_instance, MienError* error);
+MIEN_API void mien_instance_destroy(MienInstance* instance);
+
+/* Everything as after creation. */
+MIEN_API MienStatus mien_instance_reset(MienInstance* instance);
+
+/* Inputs, to be written in place: the views stay valid and the same until the instance is destroyed.
+ * GUI controls only matter to mien_rig_map_gui_to_raw(). Raw controls are usually in 0..1 but not
+ * clamped. Masks (one per region of a mesh, 0..1, initially 1) switch or blend learned behaviour, see
+ * MIEN_ML_MASKS_.... */
+MIEN_API MienStatus mien_instance_gui_controls(MienInstance* instance, MienMutableFloatView* out_view);
+MIEN_API MienStatus mien_instance_raw_controls(MienInstance* instance, MienMutableFloatView* out_view);
+MIEN_API MienStatus mien_instance_ml_masks(MienInstance* instance, MienMutableFloatView* out_view);
+
+/* Outputs of the last evaluation; the views stay valid, their contents change with each evaluation.
+ *   controls      the whole control row: raw, PSD, ML, RBF
+ *   joints        9 or 10 per joint, as MIEN_OUTPUT_... says: deltas from the neutral pose.
+ *                 Translation, angles and scale are added to it; with quaternions the rotation is
+ *                 the product neutral * delta (the delta turns first)
+ *   blend shapes  one weight per channel
+ *   animated maps one weight per map, 0..1 */
+MIEN_API MienStatus mien_instance_controls(const MienInstance* instance, MienFloatView* out_view);
+MIEN_API MienStatus mien_instance_psd_controls(const MienInstance* instance, MienFloatView* out_view);
+MIEN_API MienStatus mien_instance_ml_controls(const MienInstance* instance, MienFloatView* out_view);
+MIEN_API MienStatus mien_instance_rbf_controls(const MienInstance* instance, MienFloatView* out_view);
+MIEN_API MienStatus mien_instance_joints(const MienInstance* instance, MienFloatView* out_view);
+MIEN_API MienStatus mien_instance_blend_shapes(const MienInstance* instance, MienFloatView* out_view);
+MIEN_API MienStatus mien_instance_animated_maps(const MienInstance* instance, MienFloatView* out_view);
+
+/* ---- Evaluation ------------------------------------------------------------------------------ */
+
+/* Raw controls from GUI controls, and back. Forward writes only raw controls that some row of the
+ * table drives, and clamps them to 0..1; others keep what they hold. Backward writes every GUI
+ * control: the value whose forward mapping gives the raw controls, 0 where there is none. */
+MIEN_API MienStatus mien_rig_map_gui_to_raw(const MienRig* rig, MienInstance* instance);
+MIEN_API MienStatus mien_rig_map_raw_to_gui(const MienRig* rig, MienInstance* instance);
+
+/* Evaluates all stages at a LOD. Outputs that the LOD does not reach are 0. Changing the LOD from
+ * call to call costs no more than clearing the outputs; raw controls are left alone. Allocates
+ * nothing, locks nothing. Finite inputs are expected. */
+MIEN_API MienStatus mien_rig_evaluate(const MienRig* rig, MienInstance* instance, uint32_t lod);
+
+enum {
+    MIEN_STAGE_ML = 1,      /* neural networks */
+    MIEN_STAGE_RBF = 2,
+    MIEN_STAGE_PSD = 4,
+    MIEN_STAGE_JOINTS = 8,  /* joint groups, then twists and swings, then joints that networks move */
+    MIEN_STAGE_BLEND_SHAPES = 16,
+    MIEN_STAGE_ANIMATED_MAPS = 32,
+    MIEN_STAGE_ALL = 63
+};
+
+/* Only some stages, in the order above; the others keep the results of the last evaluation at the
+ * same LOD (after a change of LOD: 0). */
+MIEN_API MienStatus mien_rig_evaluate_stages(const MienRig* rig, MienInstance* instance, uint32_t lod,
+                                             uint32_t stages);
+
+/* Only the joint values of one joint group (MIEN_KIND_JOINT_GROUP). */
+MIEN_API MienStatus mien_rig_evaluate_joint_group(const MienRig* rig, MienInstance* instance,
+                                                  uint32_t lod, uint32_t group);
+
+/* Only the pose controls of one RBF solver (MIEN_KIND_RBF_SOLVER), whether the LOD lists it or not. */
+MIEN_API MienStatus mien_rig_evaluate_rbf_solver(const MienRig* rig, MienInstance* instance,
+                                                 uint32_t lod, uint32_t solver);
+
+/* Only the joints of one twist and swing set-up (MIEN_KIND_TWIST_SWING). */
+MIEN_API MienStatus mien_rig_evaluate_twist_swing(const MienRig* rig, MienInstance* instance,
+                                                  uint32_t lod, uint32_t setup);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MIEN_H */

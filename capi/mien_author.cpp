@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Rigs that are made here. mien.h is the manual.
+#include "capi/handles.h"
+#include "runtime/author/synthetic_rig.h"
+
+using namespace mien;
+using namespace mien::capi;
+
+static_assert(MIEN_PRESET_LARGE == int(SyntheticPreset::kLarge), "the presets agree");
+
+MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna, MienError* error) {
+  if (MienStatus status = clear_output(out_dna, error)) return status;
+  MienGenerateDesc known;
+  if (MienStatus status = read_struct(desc, known)) {
+    return give_error(error, status,
+                      "MienGenerateDesc.struct_size is %u, expected %zu or more with zeros",
+                      desc->struct_size, sizeof(MienGenerateDesc));
+  }
+  if (known.preset > MIEN_PRESET_LARGE) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienGenerateDesc.preset %u is no MIEN_PRESET_...", known.preset);
+  }
+  Allocator allocator;
+  if (read_allocator(known.allocator, allocator) != MIEN_OK) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
+  }
+  MienDna* dna = new_dna(allocator);
+  if (!dna || !make_synthetic_rig(static_cast<SyntheticPreset>(known.preset), known.seed,
+                                  dna->arena, dna->view)) {
+    mien_dna_close(dna);
+    return give_error(error, MIEN_ERROR_MEMORY, "no memory for the rig");
+  }
+  *out_dna = dna;
+  return succeed(error);
+}

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: MIT
+// DNA files: opening, looking into them, writing. mien.h is the manual.
+#include "capi/handles.h"
+#include "runtime/dna/dna_path.h"
+#include "runtime/dna/dna_reader.h"
+#include "runtime/dna/dna_writer.h"
+
+using namespace mien;
+using namespace mien::capi;
+using dna::DnaView;
+
+static_assert(MIEN_ERROR_ISA == int(Status::kIsa) && MIEN_ERROR_MEMORY == int(Status::kMemory) &&
+                  MIEN_ERROR_FILE_WRITE == int(Status::kFileWrite) &&
+                  MIEN_ERROR_DNA_SIGNATURE == int(Status::kDnaSignature) &&
+                  MIEN_ERROR_DNA_LAYER == int(Status::kDnaLayer) &&
+                  MIEN_ERROR_DNA_VALUE == int(Status::kDnaValue),
+              "status.h and mien.h number the same things");
+static_assert(MIEN_LAYER_TWIST_SWING_BEHAVIOR == int(dna::kLayerTwistSwing) &&
+                  MIEN_LAYER_MACHINE_LEARNED_BEHAVIOR == int(dna::kLayerMachineLearned),
+              "dna_view.h and mien.h number the same layers");
+static_assert(MIEN_FIELD_F32 == int(dna::FieldType::kF32), "dna_path.h and mien.h agree");
+static_assert(sizeof(MienError::message) == sizeof(Error::message), "messages are copied whole");
+
+namespace {
+
+struct OpenArguments {
+  MienDnaDesc desc;
+  Allocator allocator;
+  dna::ReadOptions options;
+};
+
+MienStatus read_open_arguments(const MienDnaDesc* desc, OpenArguments& out, MienError* error) {
+  MienStatus status = read_struct(desc, out.desc);
+  if (status != MIEN_OK) {
+    return give_error(error, status,
+                      "MienDnaDesc.struct_size is %u, expected %zu or more with zeros",
+                      desc->struct_size, sizeof(MienDnaDesc));
+  }
+  if (read_allocator(out.desc.allocator, out.allocator) != MIEN_OK) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
+  }
+  if (out.desc.layers & ~uint32_t{dna::kLayersAll}) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienDnaDesc.layers has unknown bits: 0x%x", out.desc.layers);
+  }
+  if (out.desc.unknown_layers > MIEN_UNKNOWN_LAYERS_DROP || out.desc.file_access > MIEN_FILE_READ) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienDnaDesc.unknown_layers or .file_access is none of its values");
+  }
+  out.options.layers = out.desc.layers ? out.desc.layers : uint32_t{dna::kLayersAll};
+  out.options.keep_unknown = out.desc.unknown_layers == MIEN_UNKNOWN_LAYERS_KEEP;
+  out.options.lods = out.desc.lods;
+  return MIEN_OK;
+}
+
+/// Reads the view of a file that `dna` owns or borrows; closes `dna` on failure.
+MienStatus finish_open(MienDna* dna, const uint8_t* bytes, size_t size,
+                       const dna::ReadOptions& options, MienDna** out_dna, MienError* error) {
+  Error detail;
+  const Status status = dna::read_dna(bytes, size, options, dna->arena, dna->view, detail);
+  if (status != Status::kOk) {
+    mien_dna_close(dna);
+    return give_error(detail, error);
+  }
+  *out_dna = dna;
+  return succeed(error);
+}
+
+MienStatus no_memory(MienError* error) {
+  return give_error(error, MIEN_ERROR_MEMORY, "no memory for a DNA handle");
+}
+
+}  // namespace
+
+MienStatus mien_dna_open_file(const char* path, const MienDnaDesc* desc, MienDna** out_dna,
+                              MienError* error) {
+  if (MienStatus status = clear_output(out_dna, error)) return status;
+  if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
+  OpenArguments arguments;
+  if (MienStatus status = read_open_arguments(desc, arguments, error)) return status;
+  MienDna* dna = new_dna(arguments.allocator);
+  if (!dna) return no_memory(error);
+  Error detail;
+  const Status status = open_file(path, static_cast<FileAccess>(arguments.desc.file_access),
+                                  arguments.allocator, dna->file, detail);
+  if (status != Status::kOk) {
+    mien_dna_close(dna);
+    return give_error(detail, error);
+  }
+  return finish_open(dna, dna->file.bytes, dna->file.size, arguments.options, out_dna, error);
+}
+
+MienStatus mien_dna_open_memory(const void* bytes, size_t size, const MienDnaDesc* desc,
+                                MienDna** out_dna, MienError* error) {
+  if (MienStatus status = clear_output(out_dna, error)) return status;
+  if (!bytes && size != 0) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "bytes is NULL");
+  OpenArguments arguments;
+  if (MienStatus status = read_open_arguments(desc, arguments, error)) return status;
+  MienDna* dna = new_dna(arguments.allocator);
+  if (!dna) return no_memory(error);
+  return finish_open(dna, static_cast<const uint8_t*>(bytes), size, arguments.options, out_dna,
+                     error);
+}
+
+void mien_dna_close(MienDna* dna) {
+  if (check(dna) != MIEN_OK) return;
+  const Allocator allocator = dna->allocator;
+  close_file(dna->file);
+  dna->tag = 0;
+  dna->~MienDna();
+  allocator.put(dna, sizeof(MienDna), alignof(MienDna));
+}
+
+// Looking into it ---------------------------------------------------------------------------------
+
+MienStatus mien_dna_info(const MienDna* dna, MienDnaInfo* out_info) {
+  if (MienStatus status = clear_struct(out_info)) return status;
+  if (MienStatus status = check(dna)) return status;
+  const DnaView& view = dna->view;
+  MienDnaInfo info = {};
+  info.generation = view.generation;
+  info.version = view.version;
+  info.layers = view.loaded;
+  info.file_bytes = view.file_size;
+  info.memory_bytes = sizeof(MienDna) + dna->arena.reserved() + dna->file.capacity;
+  info.mapped = dna->file.mapped;
+  info.layer_count = view.index.count;
+  info.translation_unit = view.desc.translation_unit;
+  info.rotation_unit = view.desc.rotation_unit;
+  info.axes[0] = view.desc.coordinate_system.x_axis;
+  info.axes[1] = view.desc.coordinate_system.y_axis;
+  info.axes[2] = view.desc.coordinate_system.z_axis;
+  info.rotation_sequence = view.dsce.rotation_sequence;
+  info.rotation_signs[0] = view.dsce.rotation_sign.x;
+  info.rotation_signs[1] = view.dsce.rotation_sign.y;
+  info.rotation_signs[2] = view.dsce.rotation_sign.z;
+  info.face_winding = view.dsce.face_winding_order;
+  info.lod_count = view.desc.lod_count;
+  info.max_lod = view.desc.max_lod;
+  info.gui_control_count = view.defn.gui_control_names.count;
+  info.raw_control_count = view.defn.raw_control_names.count;
+  info.psd_control_count = view.bhvr.controls.psd_count;
+  info.ml_control_count = view.ml_control_count;
+  info.rbf_control_count = view.rbfe.pose_control_names.count;
+  info.joint_count = view.defn.joint_names.count;
+  info.joint_group_count = view.bhvr.joints.groups.count;
+  info.blend_shape_channel_count = view.defn.channel_names.count;
+  info.animated_map_count = view.defn.map_names.count;
+  info.mesh_count = view.defn.mesh_names.count;
+  info.neural_network_count = view.mlbh.networks.count;
+  info.rbf_solver_count = view.rbfb.solvers.count;
+  info.rbf_pose_count = view.rbfb.poses.count;
+  info.twist_count = view.twsw.twists.count;
+  info.swing_count = view.twsw.swings.count;
+  info.metadata_count = view.desc.metadata.count;
+  write_struct(out_info, info);
+  return MIEN_OK;
+}
+
+MienStatus mien_dna_layer(const MienDna* dna, uint32_t index, MienDnaLayer* out_layer) {
+  if (MienStatus status = clear_struct(out_layer)) return status;
+  if (MienStatus status = check(dna)) return status;
+  const DnaView& view = dna->view;
+  if (index >= view.index.count) return MIEN_ERROR_INDEX;
+  const dna::IndexEntry& entry = view.index[index];
+  const dna::LayerKind* kind = dna::find_layer_kind(entry.code, entry.layer_version);
+  MienDnaLayer layer = {};
+  store_big_endian(reinterpret_cast<uint8_t*>(layer.code), entry.code);
+  layer.layer = kind ? kind->loaded_by & ~uint32_t{dna::kLayerGeometryWithoutBlendShapes} : 0;
+  layer.version_major = entry.layer_version >> 16;
+  layer.version_minor = entry.layer_version & 0xFFFF;
+  layer.byte_offset = entry.data ? view.offset_of(entry.data) : 0;
+  layer.byte_count = entry.size;
+  layer.loaded = kind && view.has(kind->loaded_by);
+  write_struct(out_layer, layer);
+  return MIEN_OK;
+}
+
+namespace {
+
+MienStatus find(const MienDna* dna, const char* path, dna::FieldRef& field, MienError* error) {
+  if (MienStatus status = check(dna)) return give_error(error, status, "not an open DNA");
+  if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
+  Error detail;
+  if (dna::find_field(dna->view, path, field, detail) != Status::kOk)
+    return give_error(detail, error);
+  return MIEN_OK;
+}
+
+/// Copies big-endian elements of type From into `out`.
+template <class From, class To>
+void copy_elements(const dna::FieldRef& field, uint64_t first, uint64_t count, To* out) {
+  const uint8_t* bytes = field.bytes ? field.bytes : field.number;
+  for (uint64_t i = 0; i < count; ++i) {
+    out[i] = static_cast<To>(load_big_endian<From>(bytes + (first + i) * sizeof(From)));
+  }
+}
+
+MienStatus check_range(const dna::FieldRef& field, const char* path, uint64_t first, uint64_t count,
+                       const void* out, MienError* error) {
+  if (first > field.count || count > field.count - first) {
+    return give_error(error, MIEN_ERROR_INDEX, "%.120s has %llu elements, not %llu from %llu on",
+                      path, static_cast<unsigned long long>(field.count),
+                      static_cast<unsigned long long>(count),
+                      static_cast<unsigned long long>(first));
+  }
+  if (!out && count != 0) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "out is NULL");
+  return MIEN_OK;
+}
+
+}  // namespace
+
+MienStatus mien_dna_field(const MienDna* dna, const char* path, MienDnaField* out_field,
+                          MienError* error) {
+  const MienStatus cleared = clear_struct(out_field);
+  if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
+  if (cleared != MIEN_OK) {
+    return give_error(error, cleared, "out_field is NULL or its struct_size too small");
+  }
+  dna::FieldRef field;
+  if (MienStatus status = find(dna, path, field, error)) return status;
+  MienDnaField result = {};
+  result.type = static_cast<uint32_t>(field.type);
+  result.count = field.count;
+  result.byte_offset = field.bytes ? dna->view.offset_of(field.bytes) : MIEN_NO_OFFSET;
+  write_struct(out_field, result);
+  return succeed(error);
+}
+
+MienStatus mien_dna_field_name(const MienDna* dna, const char* path, uint32_t index,
+                               MienStringView* out_name, MienError* error) {
+  if (MienStatus status = clear_output(out_name, error)) return status;
+  if (MienStatus status = check(dna)) return give_error(error, status, "not an open DNA");
+  if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
+  const char* name = nullptr;
+  Error detail;
+  if (dna::find_field_name(dna->view, path, index, name, detail) != Status::kOk) {
+    return give_error(detail, error);
+  }
+  *out_name = {name, strlen(name)};
+  return succeed(error);
+}
+
+MienStatus mien_dna_read_floats(const MienDna* dna, const char* path, uint64_t first,
+                                uint64_t count, float* out, MienError* error) {
+  if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
+  dna::FieldRef field;
+  if (MienStatus status = find(dna, path, field, error)) return status;
+  if (field.type != dna::FieldType::kF32) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "%.160s does not hold floats", path);
+  }
+  if (MienStatus status = check_range(field, path, first, count, out, error)) return status;
+  copy_elements<float>(field, first, count, out);
+  return succeed(error);
+}
+
+MienStatus mien_dna_read_integers(const MienDna* dna, const char* path, uint64_t first,
+                                  uint64_t count, int64_t* out, MienError* error) {
+  if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
+  dna::FieldRef field;
+  if (MienStatus status = find(dna, path, field, error)) return status;
+  const bool integer = field.type == dna::FieldType::kU8 || field.type == dna::FieldType::kU16 ||
+                       field.type == dna::FieldType::kU32 || field.type == dna::FieldType::kI32;
+  if (!integer) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "%.160s does not hold integers", path);
+  }
+  if (MienStatus status = check_range(field, path, first, count, out, error)) return status;
+  switch (field.type) {
+    case dna::FieldType::kU8: copy_elements<uint8_t>(field, first, count, out); break;
+    case dna::FieldType::kU16: copy_elements<uint16_t>(field, first, count, out); break;
+    case dna::FieldType::kU32: copy_elements<uint32_t>(field, first, count, out); break;
+    default: copy_elements<int32_t>(field, first, count, out); break;
+  }
+  return succeed(error);
+}
+
+MienStatus mien_dna_read_string(const MienDna* dna, const char* path, MienStringView* out_string,
+                                MienError* error) {
+  if (MienStatus status = clear_output(out_string, error)) return status;
+  dna::FieldRef field;
+  if (MienStatus status = find(dna, path, field, error)) return status;
+  if (field.type != dna::FieldType::kString) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "%.160s is not a string", path);
+  }
+  *out_string = {reinterpret_cast<const char*>(field.bytes), static_cast<size_t>(field.count)};
+  return succeed(error);
+}
+
+// Writing -----------------------------------------------------------------------------------------
+
+namespace {
+
+MienStatus plan_write(const MienDna* dna, const MienWriteDesc* desc, dna::WriteOptions& options,
+                      size_t& size, MienError* error) {
+  if (MienStatus status = check(dna)) return give_error(error, status, "not an open DNA");
+  MienWriteDesc known;
+  if (MienStatus status = read_struct(desc, known)) {
+    return give_error(error, status,
+                      "MienWriteDesc.struct_size is %u, expected %zu or more with zeros",
+                      desc->struct_size, sizeof(MienWriteDesc));
+  }
+  if (known.version > 8 || known.unknown_layers > MIEN_UNKNOWN_LAYERS_DROP || known.reserved != 0) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienWriteDesc: version is 0 or 1 to 8, unknown_layers 0 or 1, reserved 0");
+  }
+  options.version = known.version ? static_cast<uint16_t>(known.version) : dna->view.version;
+  options.keep_unknown = known.unknown_layers == MIEN_UNKNOWN_LAYERS_KEEP;
+  const uint64_t bytes = dna::encoded_size(dna->view, options);
+  if (bytes > UINT32_MAX) {
+    return give_error(error, MIEN_ERROR_DNA_LIMIT,
+                      "the file would have %llu bytes: DNA files hold 32-bit "
+                      "offsets",
+                      static_cast<unsigned long long>(bytes));
+  }
+  size = static_cast<size_t>(bytes);
+  return MIEN_OK;
+}
+
+}  // namespace
+
+MienStatus mien_dna_write_file(const MienDna* dna, const char* path, const MienWriteDesc* desc,
+                               MienError* error) {
+  if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
+  if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
+  dna::WriteOptions options;
+  size_t size = 0;
+  if (MienStatus status = plan_write(dna, desc, options, size, error)) return status;
+  uint8_t* bytes = static_cast<uint8_t*>(dna->allocator.get(size, kBlockAlignment));
+  if (!bytes) {
+    return give_error(error, MIEN_ERROR_MEMORY, "no memory for a file of %zu bytes", size);
+  }
+  dna::encode(dna->view, options, bytes);
+  Error detail;
+  const Status status = write_file(path, bytes, size, dna->allocator, detail);
+  dna->allocator.put(bytes, size, kBlockAlignment);
+  return status == Status::kOk ? succeed(error) : give_error(detail, error);
+}
+
+MienStatus mien_dna_write_memory(const MienDna* dna, const MienWriteDesc* desc, void* buffer,
+                                 size_t capacity, size_t* out_size, MienError* error) {
+  if (MienStatus status = clear_output(out_size, error)) return status;
+  if (!buffer && capacity != 0) {
+    return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "buffer is NULL");
+  }
+  dna::WriteOptions options;
+  size_t size = 0;
+  if (MienStatus status = plan_write(dna, desc, options, size, error)) return status;
+  *out_size = size;
+  if (!buffer) return succeed(error);
+  if (capacity < size) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "the file takes %zu bytes, the buffer has %zu", size, capacity);
+  }
+  dna::encode(dna->view, options, static_cast<uint8_t*>(buffer));
+  return succeed(error);
+}

@@ -1,0 +1,432 @@
+// SPDX-License-Identifier: MIT
+// Rigs, instances and evaluation. mien.h is the manual.
+#include <algorithm>
+
+#include "capi/handles.h"
+#include "runtime/eval/evaluate.h"
+#include "runtime/rig/compile_rig.h"
+
+using namespace mien;
+using namespace mien::capi;
+
+static_assert(MIEN_KIND_ML_MASK == int(Kind::kMlMask) &&
+                  MIEN_KIND_TWIST_SWING == int(Kind::kTwistSwing),
+              "rig.h and mien.h number the same kinds");
+static_assert(MIEN_STAGE_ALL == int(kStagesAll) &&
+                  MIEN_STAGE_ANIMATED_MAPS == int(kStageAnimatedMaps),
+              "evaluate.h and mien.h number the same stages");
+static_assert(MIEN_ISA_NEON == int(Isa::kNeon) && MIEN_ISA_BEST == int(Isa::kBest),
+              "kernels.h and mien.h number the same instruction sets");
+// Library -----------------------------------------------------------------------------------------
+
+uint32_t mien_version(void) { return MIEN_VERSION; }
+
+const char* mien_status_name(MienStatus status) { return status_name(static_cast<Status>(status)); }
+
+uint32_t mien_isa_available(uint32_t isa) {
+  return isa == MIEN_ISA_BEST || (isa < kIsaCount && kernels_for(static_cast<Isa>(isa)));
+}
+
+const char* mien_isa_name(uint32_t isa) { return isa_name(static_cast<Isa>(isa)); }
+
+// Rig ---------------------------------------------------------------------------------------------
+
+MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig** out_rig,
+                           MienError* error) {
+  if (MienStatus status = clear_output(out_rig, error)) return status;
+  if (MienStatus status = check(dna)) return give_error(error, status, "not an open DNA");
+  MienRigDesc known;
+  if (MienStatus status = read_struct(desc, known)) {
+    return give_error(error, status,
+                      "MienRigDesc.struct_size is %u, expected %zu or more with zeros",
+                      desc->struct_size, sizeof(MienRigDesc));
+  }
+  Allocator allocator;
+  if (read_allocator(known.allocator, allocator) != MIEN_OK) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
+  }
+  if (known.isa >= kIsaCount) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "MienRigDesc.isa %u is no MIEN_ISA_...",
+                      known.isa);
+  }
+  if (known.rotation > MIEN_OUTPUT_QUATERNION || known.ml_masks > MIEN_ML_MASKS_BLEND) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienRigDesc.rotation or .ml_masks is none of its values");
+  }
+  const KernelTable* kernels = choose_kernels(static_cast<Isa>(known.isa));
+  if (!kernels) {
+    return known.isa == MIEN_ISA_BEST
+               ? give_error(error, MIEN_ERROR_ISA,
+                            "the environment variable MIEN_ISA names an instruction "
+                            "set that is not to be had here; unset it or use scalar")
+               : give_error(error, MIEN_ERROR_ISA, "this CPU or build lacks %s; use MIEN_ISA_BEST",
+                            mien_isa_name(known.isa));
+  }
+  if (!dna->view.has(dna::kLayerBehavior)) {
+    return give_error(error, MIEN_ERROR_DNA_LAYER,
+                      "the DNA was opened without its behavior; open it with MIEN_LAYER_BEHAVIOR");
+  }
+  Rig* rig = nullptr;
+  Error detail;
+  const CompileOptions options = {kernels, known.rotation == MIEN_OUTPUT_QUATERNION,
+                                  known.ml_masks == MIEN_ML_MASKS_BLEND};
+  if (compile_rig(dna->view, options, allocator, rig, detail) != Status::kOk) {
+    return give_error(detail, error);
+  }
+  rig->tag = kRigTag;
+  rig->instance_size = instance_size(*rig);
+  *out_rig = reinterpret_cast<MienRig*>(rig);
+  return succeed(error);
+}
+
+void mien_rig_destroy(MienRig* rig) {
+  if (check(rig) != MIEN_OK) return;
+  object(rig)->tag = 0;
+  release_rig(object(rig));
+}
+
+MienStatus mien_rig_info(const MienRig* handle, MienRigInfo* out_info) {
+  if (MienStatus status = clear_struct(out_info)) return status;
+  if (MienStatus status = check(handle)) return status;
+  const Rig& rig = *object(handle);
+  MienRigInfo info = {};
+  info.isa = static_cast<uint32_t>(rig.kernels->isa);
+  info.lod_count = rig.lod_count;
+  info.translation_unit = rig.units.translation;
+  info.rotation_unit = rig.units.rotation;
+  std::copy(rig.units.axes, rig.units.axes + 3, info.axes);
+  info.rotation_sequence = rig.units.rotation_sequence;
+  std::copy(rig.units.rotation_signs, rig.units.rotation_signs + 3, info.rotation_signs);
+  info.control_count = rig.control_count;
+  info.joint_value_count = rig.joint_value_count();
+  info.rotation = rig.quaternion_outputs ? MIEN_OUTPUT_QUATERNION : MIEN_OUTPUT_EULER;
+  info.rig_bytes = rig.block_size;
+  info.instance_bytes = rig.instance_size;
+  write_struct(out_info, info);
+  return MIEN_OK;
+}
+
+// Names and lists
+// -----------------------------------------------------------------------------------
+
+namespace {
+
+MienStatus count_of(const Rig& rig, uint32_t kind, uint32_t& count) {
+  if (kind < kKindsWithNames) {
+    count = rig.names[kind].count();
+  } else if (kind == MIEN_KIND_JOINT_GROUP) {
+    count = static_cast<uint32_t>(rig.joints.groups.count);
+  } else if (kind == MIEN_KIND_RBF_SOLVER) {
+    count = static_cast<uint32_t>(rig.rbf.solvers.count);
+  } else if (kind == MIEN_KIND_TWIST_SWING) {
+    count = static_cast<uint32_t>(rig.twist_swing.setups.count);
+  } else {
+    return MIEN_ERROR_INVALID_ARGUMENT;
+  }
+  return MIEN_OK;
+}
+
+MienIndexView view_of(const Span<uint16_t>& span) { return {span.data, span.count}; }
+
+/// Sign of a comparison of bytes: shorter strings come before longer ones that they begin.
+int compare(const Span<char>& a, const char* b, size_t b_count) {
+  const size_t common = std::min(a.count, b_count);
+  const int order = common ? memcmp(a.data, b, common) : 0;
+  if (order != 0) return order;
+  return a.count < b_count ? -1 : a.count > b_count;
+}
+
+}  // namespace
+
+MienStatus mien_rig_count(const MienRig* rig, uint32_t kind, uint32_t* out_count) {
+  if (!out_count) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_count = 0;
+  if (MienStatus status = check(rig)) return status;
+  return count_of(*object(rig), kind, *out_count);
+}
+
+MienStatus mien_rig_name(const MienRig* rig, uint32_t kind, uint32_t index,
+                         MienStringView* out_name) {
+  if (!out_name) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_name = {nullptr, 0};
+  if (MienStatus status = check(rig)) return status;
+  uint32_t count = 0;
+  if (MienStatus status = count_of(*object(rig), kind, count)) return status;
+  if (index >= count) return MIEN_ERROR_INDEX;
+  *out_name = {"", 0};
+  if (kind >= kKindsWithNames) return MIEN_OK;
+  const Span<char> name = object(rig)->names[kind][index];
+  *out_name = {name.data, name.count};
+  return MIEN_OK;
+}
+
+MienStatus mien_rig_find(const MienRig* rig, uint32_t kind, const char* name, size_t name_count,
+                         uint32_t* out_index) {
+  if (!out_index) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_index = 0;
+  if (MienStatus status = check(rig)) return status;
+  if (!name && name_count != 0) return MIEN_ERROR_NULL_ARGUMENT;
+  if (kind >= kKindsWithNames) return MIEN_ERROR_INVALID_ARGUMENT;
+  const NameList& list = object(rig)->names[kind];
+  const uint32_t* found = std::lower_bound(
+      list.sorted.begin(), list.sorted.end(), name,
+      [&](uint32_t i, const char* wanted) { return compare(list[i], wanted, name_count) < 0; });
+  if (found == list.sorted.end() || compare(list[*found], name, name_count) != 0)
+    return MIEN_ERROR_NAME;
+  *out_index = *found;
+  return MIEN_OK;
+}
+
+MienStatus mien_rig_lod_indices(const MienRig* handle, uint32_t kind, uint32_t lod,
+                                MienIndexView* out_indices) {
+  if (!out_indices) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_indices = {nullptr, 0};
+  if (MienStatus status = check(handle)) return status;
+  const Rig& rig = *object(handle);
+  const LodLists* lists = nullptr;
+  switch (kind) {
+    case MIEN_KIND_JOINT: lists = &rig.lod_joints; break;
+    case MIEN_KIND_BLEND_SHAPE_CHANNEL: lists = &rig.lod_channels; break;
+    case MIEN_KIND_ANIMATED_MAP: lists = &rig.lod_maps; break;
+    case MIEN_KIND_MESH: lists = &rig.lod_meshes; break;
+    case MIEN_KIND_RBF_SOLVER: lists = &rig.rbf.lod_solvers; break;
+    default: return MIEN_ERROR_INVALID_ARGUMENT;
+  }
+  if (lod >= rig.lod_count) return MIEN_ERROR_LOD;
+  *out_indices = view_of(lists->at(lod));
+  return MIEN_OK;
+}
+
+MienStatus mien_rig_variable_joint_values(const MienRig* rig, uint32_t lod,
+                                          MienIndexView* out_indices) {
+  if (!out_indices) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_indices = {nullptr, 0};
+  if (MienStatus status = check(rig)) return status;
+  if (lod >= object(rig)->lod_count) return MIEN_ERROR_LOD;
+  *out_indices = view_of(object(rig)->variable_joint_values.at(lod));
+  return MIEN_OK;
+}
+
+MienStatus mien_rig_joint_parents(const MienRig* rig, MienIndexView* out_parents) {
+  if (!out_parents) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_parents = {nullptr, 0};
+  if (MienStatus status = check(rig)) return status;
+  *out_parents = view_of(object(rig)->joint_parents);
+  return MIEN_OK;
+}
+
+MienStatus mien_rig_neutral_joint_values(const MienRig* rig, MienFloatView* out_values) {
+  if (!out_values) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_values = {nullptr, 0};
+  if (MienStatus status = check(rig)) return status;
+  *out_values = {object(rig)->neutral_joints.data, object(rig)->neutral_joints.count};
+  return MIEN_OK;
+}
+
+MienStatus mien_rig_psd_inputs(const MienRig* rig, uint32_t psd, MienIndexView* out_controls) {
+  if (!out_controls) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_controls = {nullptr, 0};
+  if (MienStatus status = check(rig)) return status;
+  const PsdTable& psds = object(rig)->psds;
+  if (psd >= psds.entry_of_psd.count) return MIEN_ERROR_INDEX;
+  const uint32_t entry = psds.entry_of_psd[psd];
+  const uint32_t first = psds.first_input[entry];
+  *out_controls = view_of(psds.inputs.slice(first, psds.first_input[entry + 1] - first));
+  return MIEN_OK;
+}
+
+MienStatus mien_rig_initial_raw_controls(const MienRig* rig, MienFloatView* out_values) {
+  if (!out_values) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_values = {nullptr, 0};
+  if (MienStatus status = check(rig)) return status;
+  *out_values = {object(rig)->initial_controls.data, object(rig)->raw_count};
+  return MIEN_OK;
+}
+
+MienStatus mien_rig_statistics(const MienRig* handle, uint32_t lod,
+                               MienRigStatistics* out_statistics) {
+  if (MienStatus status = clear_struct(out_statistics)) return status;
+  if (MienStatus status = check(handle)) return status;
+  const Rig& rig = *object(handle);
+  if (lod >= rig.lod_count) return MIEN_ERROR_LOD;
+  MienRigStatistics statistics = {};
+  if (rig.psd_count) statistics.psd_count = rig.psds.count_at_lod[lod];
+  statistics.joint_count = static_cast<uint32_t>(rig.lod_joints.at(lod).count);
+  statistics.blend_shape_count = rig.channels.count_at_lod[lod];
+  statistics.animated_map_row_count = rig.map_rows_at_lod[lod];
+  statistics.rbf_solver_count = static_cast<uint32_t>(rig.rbf.lod_solvers.at(lod).count);
+  for (size_t g = 0; g < rig.joints.groups.count; ++g) {
+    const uint64_t rows = rig.joints.rows_at_lod[g * rig.lod_count + lod];
+    const uint64_t columns = rig.joints.groups[g].column_count;
+    const uint64_t blocks = (rows + kBlockRows - 1) / kBlockRows;
+    statistics.joint_row_count += static_cast<uint32_t>(rows);
+    statistics.joint_entry_count += rows * columns;
+    const GroupRotations& rotations = rig.rotations.groups[g];
+    for (const TurnedJoint& turned :
+         rig.rotations.turn_joints.slice(rotations.first_turn_joint, rotations.turn_joint_count)) {
+      statistics.turned_joint_count += turned.first_row < rows;
+    }
+    statistics.joint_byte_count += blocks * kBlockRows * columns * sizeof(float);
+  }
+  write_struct(out_statistics, statistics);
+  return MIEN_OK;
+}
+
+// Instance
+// ------------------------------------------------------------------------------------------
+
+MienStatus mien_instance_create(const MienRig* rig, const MienAllocator* given,
+                                MienInstance** out_instance, MienError* error) {
+  if (MienStatus status = clear_output(out_instance, error)) return status;
+  if (MienStatus status = check(rig)) return give_error(error, status, "not a rig");
+  Allocator allocator;
+  if (read_allocator(given, allocator) != MIEN_OK) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
+  }
+  Instance* instance = create_instance(*object(rig), allocator);
+  if (!instance) {
+    return give_error(error, MIEN_ERROR_MEMORY, "no memory for an instance of %zu bytes",
+                      object(rig)->instance_size);
+  }
+  instance->tag = kInstanceTag;
+  *out_instance = reinterpret_cast<MienInstance*>(instance);
+  return succeed(error);
+}
+
+void mien_instance_destroy(MienInstance* instance) {
+  if (check(instance) == MIEN_OK) destroy_instance(object(instance));
+}
+
+MienStatus mien_instance_reset(MienInstance* instance) {
+  if (MienStatus status = check(instance)) return status;
+  reset_instance(*object(instance));
+  return MIEN_OK;
+}
+
+namespace {
+
+/// Hands out the span that `pick(instance)` names.
+template <class View, class Handle, class Pick>
+MienStatus give_view(Handle* handle, View* out_view, Pick&& pick) {
+  if (!out_view) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_view = {nullptr, 0};
+  if (MienStatus status = check(handle)) return status;
+  const Span<float> span = pick(*object(handle));
+  *out_view = {span.data, span.count};
+  return MIEN_OK;
+}
+
+}  // namespace
+
+MienStatus mien_instance_gui_controls(MienInstance* instance, MienMutableFloatView* out_view) {
+  return give_view(instance, out_view, [](Instance& i) { return i.gui; });
+}
+
+MienStatus mien_instance_raw_controls(MienInstance* instance, MienMutableFloatView* out_view) {
+  return give_view(instance, out_view,
+                   [](Instance& i) { return i.controls.first(i.rig->raw_count); });
+}
+
+MienStatus mien_instance_ml_masks(MienInstance* instance, MienMutableFloatView* out_view) {
+  return give_view(instance, out_view, [](Instance& i) { return i.masks; });
+}
+
+MienStatus mien_instance_controls(const MienInstance* instance, MienFloatView* out_view) {
+  return give_view(instance, out_view, [](const Instance& i) { return i.controls; });
+}
+
+MienStatus mien_instance_psd_controls(const MienInstance* instance, MienFloatView* out_view) {
+  return give_view(instance, out_view, [](const Instance& i) {
+    return i.controls.slice(i.rig->raw_count, i.rig->psd_count);
+  });
+}
+
+MienStatus mien_instance_ml_controls(const MienInstance* instance, MienFloatView* out_view) {
+  return give_view(instance, out_view, [](const Instance& i) {
+    return i.controls.slice(i.rig->raw_count + i.rig->psd_count, i.rig->ml_count);
+  });
+}
+
+MienStatus mien_instance_rbf_controls(const MienInstance* instance, MienFloatView* out_view) {
+  return give_view(instance, out_view, [](const Instance& i) {
+    return i.controls.slice(i.rig->raw_count + i.rig->psd_count + i.rig->ml_count,
+                            i.rig->rbf_count);
+  });
+}
+
+MienStatus mien_instance_joints(const MienInstance* instance, MienFloatView* out_view) {
+  return give_view(instance, out_view, [](const Instance& i) { return i.joints; });
+}
+
+MienStatus mien_instance_blend_shapes(const MienInstance* instance, MienFloatView* out_view) {
+  return give_view(instance, out_view, [](const Instance& i) { return i.channels; });
+}
+
+MienStatus mien_instance_animated_maps(const MienInstance* instance, MienFloatView* out_view) {
+  return give_view(instance, out_view, [](const Instance& i) { return i.maps; });
+}
+
+// Evaluation
+// ----------------------------------------------------------------------------------------
+
+namespace {
+
+MienStatus check_pair(const MienRig* rig, const MienInstance* instance) {
+  if (MienStatus status = check(rig)) return status;
+  if (MienStatus status = check(instance)) return status;
+  return object(instance)->rig == object(rig) ? MIEN_OK : MIEN_ERROR_MISMATCH;
+}
+
+}  // namespace
+
+MienStatus mien_rig_map_gui_to_raw(const MienRig* rig, MienInstance* instance) {
+  if (MienStatus status = check_pair(rig, instance)) return status;
+  map_gui_to_raw(*object(rig), *object(instance));
+  return MIEN_OK;
+}
+
+MienStatus mien_rig_map_raw_to_gui(const MienRig* rig, MienInstance* instance) {
+  if (MienStatus status = check_pair(rig, instance)) return status;
+  map_raw_to_gui(*object(rig), *object(instance));
+  return MIEN_OK;
+}
+
+MienStatus mien_rig_evaluate(const MienRig* rig, MienInstance* instance, uint32_t lod) {
+  return mien_rig_evaluate_stages(rig, instance, lod, MIEN_STAGE_ALL);
+}
+
+MienStatus mien_rig_evaluate_stages(const MienRig* rig, MienInstance* instance, uint32_t lod,
+                                    uint32_t stages) {
+  if (MienStatus status = check_pair(rig, instance)) return status;
+  if (lod >= object(rig)->lod_count) return MIEN_ERROR_LOD;
+  if (stages & ~uint32_t{kStagesAll}) return MIEN_ERROR_INVALID_ARGUMENT;
+  evaluate(*object(rig), *object(instance), lod, stages);
+  return MIEN_OK;
+}
+
+MienStatus mien_rig_evaluate_joint_group(const MienRig* rig, MienInstance* instance, uint32_t lod,
+                                         uint32_t group) {
+  if (MienStatus status = check_pair(rig, instance)) return status;
+  if (lod >= object(rig)->lod_count) return MIEN_ERROR_LOD;
+  if (group >= object(rig)->joints.groups.count) return MIEN_ERROR_INDEX;
+  evaluate_joint_group(*object(rig), *object(instance), lod, group);
+  return MIEN_OK;
+}
+
+MienStatus mien_rig_evaluate_rbf_solver(const MienRig* rig, MienInstance* instance, uint32_t lod,
+                                        uint32_t solver) {
+  if (MienStatus status = check_pair(rig, instance)) return status;
+  if (lod >= object(rig)->lod_count) return MIEN_ERROR_LOD;
+  if (solver >= object(rig)->rbf.solvers.count) return MIEN_ERROR_INDEX;
+  evaluate_rbf_solver(*object(rig), *object(instance), lod, solver);
+  return MIEN_OK;
+}
+
+MienStatus mien_rig_evaluate_twist_swing(const MienRig* rig, MienInstance* instance, uint32_t lod,
+                                         uint32_t setup) {
+  if (MienStatus status = check_pair(rig, instance)) return status;
+  if (lod >= object(rig)->lod_count) return MIEN_ERROR_LOD;
+  if (setup >= object(rig)->twist_swing.setups.count) return MIEN_ERROR_INDEX;
+  evaluate_twist_swing(*object(rig), *object(instance), lod, setup);
+  return MIEN_OK;
+}

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/cli/frames.h"
+
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "integrations/cli/names.h"
+#include "integrations/cli/rig_file.h"
+
+namespace mien::cli {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kCannot = "cannot use frames";
+
+/// One thing of a frame that gets numbers.
+struct Target {
+  uint32_t kind;
+  const char* noun;    // one of them
+  const char* names;   // the option of `mien info` that lists them
+  bool takes_indices;  // "12" may stand for a name
+};
+
+constexpr Target kRaw = {MIEN_KIND_RAW_CONTROL, "raw control", "--names raw", false};
+constexpr Target kRawAfterGui = {MIEN_KIND_RAW_CONTROL, "raw control", "--names raw", true};
+constexpr Target kGui = {MIEN_KIND_GUI_CONTROL, "GUI control", "--names gui", false};
+constexpr Target kMask = {MIEN_KIND_ML_MASK, "region mask", "--names regions,meshes", false};
+
+std::string at_index(const std::string& where, size_t index) {
+  return where + "[" + std::to_string(index) + "]";
+}
+
+float parse_value(const json& value, const std::string& where) {
+  if (!value.is_number()) {
+    fail(kInvalid, kCannot, where, std::string("a number is needed, not ") + value.type_name(),
+         "write a number");
+  }
+  const auto number = static_cast<float>(value.get<double>());
+  if (!std::isfinite(number)) {
+    fail(kInvalid, kCannot, where, value.dump() + " is too large for a 32-bit float",
+         "controls are usually in 0..1");
+  }
+  return number;
+}
+
+uint32_t find_control(const MienRig* rig, const Target& target, const std::string& name,
+                      const std::string& where) {
+  uint32_t index = 0;
+  if (mien_rig_find(rig, target.kind, name.data(), name.size(), &index) == MIEN_OK) return index;
+  const uint32_t count = rig_count(rig, target.kind);
+
+  const char* end = name.data() + name.size();
+  const auto [stop, error] = std::from_chars(name.data(), end, index);
+  const bool is_number = stop == end && !name.empty() && error != std::errc::invalid_argument;
+  if (target.takes_indices && is_number) {
+    if (error == std::errc() && index < count) return index;
+    fail(kInvalid, kCannot, where,
+         "index " + name + " is out of range: there are " + std::to_string(count) + " of kind " +
+             target.noun,
+         "count from 0");
+  }
+
+  NearestName nearest(name);
+  for (uint32_t i = 0; i < count; ++i) {
+    MienStringView candidate{};
+    check(mien_rig_name(rig, target.kind, i, &candidate), nullptr, "cannot list names", "");
+    nearest.offer({candidate.data, candidate.count});
+  }
+  fail(kInvalid, kCannot, where, std::string("no ") + target.noun + " is named \"" + name + "\"",
+       nearest.question(std::string("'mien info RIG ") + target.names + "' lists the names"));
+}
+
+/// An array with all numbers in order, or an object with some by name.
+std::vector<Assignment> parse_assignments(const json& values, const MienRig* rig,
+                                          const Target& target, const std::string& where) {
+  std::vector<Assignment> assignments;
+  if (values.is_array() && !target.takes_indices) {
+    const uint32_t count = rig_count(rig, target.kind);
+    if (values.size() != count) {
+      fail(kInvalid, kCannot, where,
+           std::to_string(values.size()) + " numbers given, " + std::to_string(count) + " expected",
+           std::string("give one for each ") + target.noun + ", or an object with some by name");
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+      assignments.push_back({i, parse_value(values[i], at_index(where, i))});
+    }
+  } else if (values.is_object()) {
+    for (const auto& [name, value] : values.items()) {
+      assignments.push_back({find_control(rig, target, name, where),
+                             parse_value(value, where + "[\"" + name + "\"]")});
+    }
+  } else {
+    fail(kInvalid, kCannot, where,
+         std::string("has to be ") + (target.takes_indices ? "" : "an array or ") +
+             "an object of numbers, not " + values.type_name(),
+         "see 'mien eval --help' for an example");
+  }
+  return assignments;
+}
+
+Frame parse_frame(const json& value, const MienRig* rig, const std::string& where) {
+  if (!value.is_object()) {
+    fail(kInvalid, kCannot, where, std::string("a frame is an object, not ") + value.type_name(),
+         "see 'mien eval --help' for an example");
+  }
+  Frame frame;
+  for (const auto& [key, values] : value.items()) {
+    const std::string member = where + "." + key;
+    if (key == "raw") {
+      frame.raw = parse_assignments(values, rig, kRaw, member);
+    } else if (key == "gui") {
+      frame.gui = parse_assignments(values, rig, kGui, member);
+      frame.maps_gui = true;
+    } else if (key == "ml_mask") {
+      frame.masks = parse_assignments(values, rig, kMask, member);
+    } else if (key != "raw_after_gui") {
+      fail(kInvalid, kCannot, where, "\"" + key + "\" is nothing that a frame has",
+           nearest_question(key, {"raw", "gui", "raw_after_gui", "ml_mask"},
+                            "it has raw, or gui with raw_after_gui, and ml_mask"));
+    }
+  }
+  if (value.contains("raw") && frame.maps_gui) {
+    fail(kInvalid, kCannot, where, "both raw and gui are given, but mapping gui overwrites raw",
+         "leave one out, or write raw_after_gui for what comes after the mapping");
+  }
+  const auto after = value.find("raw_after_gui");
+  if (after != value.end()) {
+    if (!frame.maps_gui) {
+      fail(kInvalid, kCannot, where, "raw_after_gui is given without gui",
+           "name it raw, or add gui");
+    }
+    frame.raw = parse_assignments(*after, rig, kRawAfterGui, where + ".raw_after_gui");
+  }
+  return frame;
+}
+
+json parse_json(const std::string& text, const std::string& shown) {
+  // The parser's own messages begin with a tag in brackets, and may tell the place a second time.
+  const auto plain = [](const json::exception& error) {
+    const std::string message = error.what();
+    const size_t tag = message.find("] ");
+    return tag == std::string::npos ? message : message.substr(tag + 2);
+  };
+  try {
+    return json::parse(text);
+  } catch (const json::parse_error& error) {
+    fail(kInvalid, kCannot, shown + ", byte " + std::to_string(error.byte), plain(error),
+         "give one JSON object: {\"frames\": [...]}");
+  } catch (const json::exception& error) {  // a number past the range of a double
+    fail(kInvalid, kCannot, shown, plain(error), "give finite numbers only");
+  }
+}
+
+void assign(const std::vector<Assignment>& assignments, const MienMutableFloatView& view) {
+  for (const Assignment& assignment : assignments) view.data[assignment.index] = assignment.value;
+}
+
+}  // namespace
+
+std::vector<Frame> parse_frames(const std::string& text, const MienRig* rig,
+                                const std::string& shown) {
+  const json document = parse_json(text, shown);
+  if (!document.is_object() || !document.contains("frames") || !document["frames"].is_array()) {
+    fail(kInvalid, kCannot, shown, "there is no list \"frames\"",
+         "give one JSON object: {\"frames\": [...]}");
+  }
+  std::vector<Frame> frames;
+  for (const json& value : document["frames"]) {
+    frames.push_back(parse_frame(value, rig, shown + ", " + at_index("frames", frames.size())));
+  }
+  return frames;
+}
+
+void apply_frame(const Frame& frame, const MienRig* rig, MienInstance* instance) {
+  const std::string what = "cannot set controls";
+  MienMutableFloatView masks{}, gui{}, raw{};
+  check(mien_instance_ml_masks(instance, &masks), nullptr, what, "");
+  check(mien_instance_gui_controls(instance, &gui), nullptr, what, "");
+  check(mien_instance_raw_controls(instance, &raw), nullptr, what, "");
+  assign(frame.masks, masks);
+  assign(frame.gui, gui);
+  if (frame.maps_gui)
+    check(mien_rig_map_gui_to_raw(rig, instance), nullptr, "cannot map GUI controls", "");
+  assign(frame.raw, raw);
+}
+
+}  // namespace mien::cli

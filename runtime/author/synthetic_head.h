@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+// The head behind a synthetic rig: where its joints and controls sit and which of them meet.
+// synthetic_rig.cpp writes it as definition and behaviour, synthetic_mesh.cpp puts skin around it.
+//
+// Frame: centimetres, x to the character's left, y up, z to the front.
+#pragma once
+
+#include "runtime/author/random.h"
+#include "runtime/author/synthetic_rig.h"
+
+namespace mien::synthetic {
+
+// Making things in an arena; false if memory ran out
+// -----------------------------------------------
+
+template <class T>
+bool make(Arena& arena, size_t count, dna::NewArray<T>& out) {
+  out = dna::new_array<T>(arena, count);
+  return count == 0 || out.data;
+}
+
+template <class T>
+bool make(Arena& arena, size_t count, Span<T>& out) {
+  out = arena.array<T>(count);
+  return out.count == count;
+}
+
+template <class T>
+bool make(Arena& arena, size_t count, dna::List<T>& out) {
+  Span<T> items;
+  if (!make(arena, count, items)) return false;
+  out = {items.data, static_cast<uint32_t>(count)};
+  return true;
+}
+
+/// A name in the making.
+struct Text {
+  char chars[256];
+  uint32_t count = 0;
+
+  Text& add(const char* from, size_t n) {
+    assert(n <= sizeof(chars) - count);
+    memcpy(chars + count, from, n);
+    count += static_cast<uint32_t>(n);
+    return *this;
+  }
+  Text& add(const char* terminated) { return add(terminated, strlen(terminated)); }
+  Text& add(dna::String s) { return add(s.chars(), s.count); }
+  Text& add(uint64_t number) {
+    char digits[20];
+    size_t n = sizeof(digits);
+    do digits[--n] = static_cast<char>('0' + number % 10);
+    while (number /= 10);
+    return add(digits + n, sizeof(digits) - n);
+  }
+};
+
+inline bool copy_text(Arena& arena, const Text& text, dna::String& out) {
+  uint8_t* chars = static_cast<uint8_t*>(arena.allocate(text.count, 1));
+  if (!chars) return false;
+  memcpy(chars, text.chars, text.count);
+  out = {chars, text.count};
+  return true;
+}
+
+// Space
+// ---------------------------------------------------------------------------------------------
+
+struct Vec3 {
+  double x = 0, y = 0, z = 0;
+};
+
+inline Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec3 operator*(Vec3 a, double s) { return {a.x * s, a.y * s, a.z * s}; }
+inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+/// 1 in the middle, 0 from `radius` on, with a smooth end; takes squares to spare the root.
+inline double falloff(double squared_distance, double radius) {
+  double rest = 1.0 - squared_distance / (radius * radius);
+  return rest > 0 ? rest * rest : 0.0;
+}
+
+/// The skull, and the eyeballs.
+struct Ellipsoid {
+  Vec3 centre, radii;
+};
+constexpr Ellipsoid kSkull = {{0, -3.5, 0}, {7.6, 15.5, 9.6}};
+constexpr Ellipsoid kLeftEye = {{3.2, 1.0, 7.1}, {1.22, 1.22, 1.22}};
+
+// Sizes -----------------------------------------------------------------------------------------
+
+constexpr uint32_t kMaxLodCount = 8;
+
+struct Sizes {
+  const char* name;
+  uint32_t lod_count, raw_count, gui_count, psd_count, group_count, channel_count, map_count;
+  uint32_t first_grid;   // into the table of mesh grids; the next one for each LOD
+  double target_radius;  // of blend shape targets, on the skin
+};
+
+/// What remains of `count` elements at a LOD: all at LOD 0, a twentieth at the last.
+uint32_t shrink(uint32_t count, uint32_t lod, uint32_t lod_count);
+
+// Joints ----------------------------------------------------------------------------------------
+
+enum BaseJoint : uint16_t { kRoot, kNeckJoint, kHeadJoint, kFaceJoint, kJawJoint, kBaseJointCount };
+
+enum RegionKind : uint8_t {
+  kForehead,
+  kBrow,
+  kUpperLid,
+  kLowerLid,
+  kEye,
+  kNose,
+  kCheek,
+  kUpperLip,
+  kLowerLip,
+  kMouthCorner,
+  kChin,
+  kSide,
+  kTongue,
+  kTeeth,
+  kNeck,
+  kRegionKindCount
+};
+
+/// A patch of the head: a kind, or its left or right half.
+struct Region {
+  RegionKind kind;
+  int side = 0;  // 1 left, -1 right, 0 in the middle
+  Vec3 centre, spread;
+};
+
+constexpr uint32_t kRegionCount = 22;
+constexpr uint8_t kNoRegion = 255;
+
+/// Mirrored kinds have their right half behind the left.
+struct Regions {
+  Region items[kRegionCount];
+  uint8_t first[kRegionKindCount];
+
+  Regions();
+  uint8_t find(RegionKind kind, int side) const;
+};
+
+struct Joint {
+  dna::String name;
+  Vec3 position;               // on the head
+  double axes[9] = {};         // rotation to the head, row-major, column vectors
+  Vec3 translation, rotation;  // neutral: relative to the parent, Euler angles in degrees
+  uint16_t parent = 0;
+  uint16_t ordinal = 0;     // within the region
+  uint16_t rank = 0;        // exists at the LODs whose rank limit lies above
+  uint16_t group = 0;       // joint group, unless the region is kNoRegion
+  uint16_t attributes = 0;  // bit k: attribute k has a row
+  uint8_t region = kNoRegion;
+  bool inside = false;  // eye, tongue, teeth: does not move skin
+};
+
+// Controls --------------------------------------------------------------------------------------
+
+struct Ramp {
+  float from = 0, to = 0, slope = 0, cut = 0;
+};
+
+constexpr uint32_t kMaxMembers = 5;
+
+/// A raw control, or a corrective of several raw controls.
+struct Control {
+  dna::String name;  // without "CTRL_expressions."; members joined by '_'
+  Vec3 home;
+  double reach = 0;      // moves joints nearer than this ...
+  uint32_t regions = 0;  // ... in these regions (bit mask)
+  uint16_t gui = 0;      // raw control: what drives it, by these ramps
+  uint16_t ramp_count = 0;
+  Ramp ramps[2];
+  uint16_t member_count = 0;  // corrective: its raw controls, ascending
+  uint16_t members[kMaxMembers] = {};
+};
+
+/// One stream of random numbers for each thing that is drawn.
+enum Stream : uint64_t {
+  kJointStream = 1,
+  kControlStream,
+  kCorrectiveStream,
+  kWeightStream,
+  kGroupStream,
+  kChannelStream,
+  kMapStream,
+  kFirstTargetStream = 1000  // and on, one per channel
+};
+
+struct Head {
+  const Sizes* sizes = nullptr;
+  Span<Joint> joints;
+  Span<Control> controls;  // raw, then correctives: numbered as in the file
+  Span<dna::String> gui_names;
+  uint16_t rank_limits[kMaxLodCount] = {};
+
+  bool joint_in_lod(size_t joint, size_t lod) const {
+    return joints[joint].rank < rank_limits[lod];
+  }
+  /// Channels are taken evenly from all controls.
+  size_t control_of_channel(size_t channel) const {
+    return channel * controls.count / sizes->channel_count;
+  }
+  /// How much the control moves the joint, 0 to 1.
+  double influence(const Control& control, const Joint& joint) const {
+    if (joint.region == kNoRegion || !(control.regions >> joint.region & 1)) return 0;
+    Vec3 apart = joint.position - control.home;
+    return falloff(dot(apart, apart), control.reach);
+  }
+};
+
+/// `in_lod(lod, element)` tells which elements a LOD has. Equal neighbouring lists are stored once.
+template <class InLod>
+bool make_lod_map(Arena& arena, size_t lod_count, size_t element_count, const InLod& in_lod,
+                  dna::LodMap& out) {
+  dna::NewArray<uint16_t> lods;
+  dna::List<dna::Array<uint16_t>> lists;
+  if (!make(arena, lod_count, lods) || !make(arena, lod_count, lists)) return false;
+  uint32_t used = 0;
+  for (size_t lod = 0; lod < lod_count; ++lod) {
+    bool same = lod > 0;
+    size_t count = 0;
+    for (size_t i = 0; i < element_count; ++i) {
+      bool in = in_lod(lod, i);
+      count += in;
+      same = same && in == in_lod(lod - 1, i);
+    }
+    if (!same) {
+      dna::NewArray<uint16_t> list;
+      if (!make(arena, count, list)) return false;
+      for (size_t i = 0, n = 0; i < element_count; ++i) {
+        if (in_lod(lod, i)) list.set(n++, static_cast<uint16_t>(i));
+      }
+      lists[used++] = list;
+    }
+    lods.set(lod, static_cast<uint16_t>(used - 1));
+  }
+  out = {lods, {lists.items, used}};
+  return true;
+}
+
+/// These return false if memory ran out.
+bool make_head(SyntheticPreset preset, uint64_t seed, Arena& arena, Head& out);
+
+/// The part of make_head() that needs no joints.
+bool make_controls(SyntheticPreset preset, uint64_t seed, Arena& arena, Head& head);
+
+/// Head meshes, one per LOD, then two eyes that all LODs share. `kept[c]`: channel c exists at LOD
+/// 1 too. Fills geom, and mesh names, LODs and channels of defn.
+bool make_meshes(const Head& head, uint64_t seed, Span<const uint8_t> kept, Arena& arena,
+                 dna::DnaView& out);
+
+}  // namespace mien::synthetic

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Memory comes from the caller, per object. The library never calls malloc behind his back.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace mien {
+
+/// `allocate` returns memory of at least `size` bytes at a multiple of `alignment` (a power of two,
+/// 64 at most), or null. `release` gets the same size and alignment back.
+struct Allocator {
+  void* user = nullptr;
+  void* (*allocate)(void* user, size_t size, size_t alignment) = nullptr;
+  void (*release)(void* user, void* block, size_t size, size_t alignment) = nullptr;
+
+  /// Null also if the allocator gave a misaligned block, which goes back to it.
+  void* get(size_t size, size_t alignment) const {
+    void* block = allocate(user, size, alignment);
+    if ((reinterpret_cast<uintptr_t>(block) & (alignment - 1)) == 0) return block;
+    release(user, block, size, alignment);
+    return nullptr;
+  }
+  void put(void* block, size_t size, size_t alignment) const {
+    if (block) release(user, block, size, alignment);
+  }
+};
+
+/// The C library's heap.
+Allocator default_allocator();
+
+}  // namespace mien

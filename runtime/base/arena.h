@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// Two ways to put many arrays into few allocations.
+//
+//   Arena   grows by chunks; for data whose size shows only while a file is read.
+//   Placer  measures, then places; for objects of known shape (rig, instance): one block each.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <new>
+#include <type_traits>
+
+#include "runtime/base/allocator.h"
+#include "runtime/base/span.h"
+
+namespace mien {
+
+constexpr size_t kBlockAlignment = 64;  // a cache line, and the widest vector we use
+
+inline size_t align_up(size_t value, size_t alignment) {
+  return (value + alignment - 1) & ~(alignment - 1);
+}
+
+/// Memory that is only ever added to and released all at once. Nothing placed in it is destroyed,
+/// so it takes trivially destructible types only.
+class Arena {
+ public:
+  explicit Arena(const Allocator& allocator) : allocator_(allocator) {}
+  ~Arena() { clear(); }
+  Arena(const Arena&) = delete;
+  Arena& operator=(const Arena&) = delete;
+
+  /// Null when the allocator gives nothing.
+  void* allocate(size_t size, size_t alignment) {
+    size_t at = align_up(used_, alignment);
+    if (!chunk_ || at > chunk_->size || size > chunk_->size - at) {
+      if (!grow(size)) return nullptr;
+      at = align_up(used_, alignment);
+    }
+    used_ = at + size;
+    return reinterpret_cast<uint8_t*>(chunk_) + at;
+  }
+
+  /// `count` value-initialised elements; data is null if memory ran out (or count is 0).
+  template <class T>
+  Span<T> array(size_t count) {
+    static_assert(std::is_trivially_destructible<T>::value, "an arena destroys nothing");
+    if (count == 0 || count > SIZE_MAX / 2 / sizeof(T)) return {};
+    void* memory = allocate(count * sizeof(T), alignof(T));
+    if (!memory) return {};
+    T* items = static_cast<T*>(memory);
+    for (size_t i = 0; i < count; ++i) new (items + i) T();
+    return {items, count};
+  }
+
+  /// Bytes taken from the allocator so far.
+  size_t reserved() const { return reserved_; }
+
+  void clear() {
+    while (chunk_) {
+      Chunk* previous = chunk_->previous;
+      allocator_.put(chunk_, chunk_->size, kBlockAlignment);
+      chunk_ = previous;
+    }
+    used_ = reserved_ = 0;
+  }
+
+ private:
+  struct Chunk {
+    Chunk* previous;
+    size_t size;  // with this header
+  };
+
+  // Chunks grow with what is already there, so that a large file needs few of them, and the unused
+  // end of the last one stays a fraction of the whole.
+  bool grow(size_t size) {
+    if (size > SIZE_MAX / 2) return false;
+    size_t wanted = align_up(size + sizeof(Chunk) + kBlockAlignment, kBlockAlignment);
+    size_t step =
+        reserved_ / 2 < kSmallestChunk ? kSmallestChunk : align_up(reserved_ / 2, kBlockAlignment);
+    if (wanted < step) wanted = step;
+    void* memory = allocator_.get(wanted, kBlockAlignment);
+    if (!memory) return false;
+    chunk_ = new (memory) Chunk{chunk_, wanted};
+    used_ = sizeof(Chunk);
+    reserved_ += wanted;
+    return true;
+  }
+
+  static constexpr size_t kSmallestChunk = 16 * 1024;
+
+  Allocator allocator_;
+  Chunk* chunk_ = nullptr;
+  size_t used_ = 0;
+  size_t reserved_ = 0;
+};
+
+/// Run the same placing code twice: over null to learn the size, then over the block.
+/// While it measures, the spans it gives have a count and no data.
+class Placer {
+ public:
+  explicit Placer(void* block) : base_(static_cast<uint8_t*>(block)) {}
+
+  /// Zeroed when placed.
+  template <class T>
+  Span<T> array(size_t count, size_t alignment = alignof(T)) {
+    static_assert(std::is_trivially_destructible<T>::value, "a block destroys nothing");
+    used_ = align_up(used_, alignment);
+    uint8_t* at = base_ ? base_ + used_ : nullptr;
+    used_ += count * sizeof(T);
+    if (at && count) memset(static_cast<void*>(at), 0, count * sizeof(T));
+    return {reinterpret_cast<T*>(at), count};
+  }
+
+  bool measuring() const { return base_ == nullptr; }
+  size_t size() const { return align_up(used_, kBlockAlignment); }
+
+ private:
+  uint8_t* base_;
+  size_t used_ = 0;
+};
+
+}  // namespace mien

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Status codes and the detail of one error. The numbers are those of MienStatus in capi/mien.h,
+// which asserts that they agree; a number is never given a second meaning.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace mien {
+
+enum class Status : int32_t {
+  kOk = 0,
+  // arguments
+  kNullArgument = 1,
+  kInvalidArgument = 2,
+  kStructSize = 3,
+  kHandle = 4,
+  kMismatch = 5,
+  kIndex = 6,
+  kLod = 7,
+  kName = 8,
+  kIsa = 9,
+  // memory
+  kMemory = 10,
+  // files
+  kFileOpen = 20,
+  kFileRead = 21,
+  kFileWrite = 22,
+  // DNA
+  kDnaSignature = 30,
+  kDnaVersion = 31,
+  kDnaTruncated = 32,
+  kDnaStructure = 33,
+  kDnaReference = 34,
+  kDnaLimit = 35,
+  kDnaLayer = 36,
+  kDnaValue = 37,
+};
+
+/// Name of a status as it stands in mien.h, without the MIEN_ prefix of the enum ("DNA_TRUNCATED").
+/// Static storage; "UNKNOWN" for a number that is no status.
+const char* status_name(Status status);
+
+constexpr uint64_t kNoOffset = ~uint64_t{0};
+
+/// What went wrong, and where in the file if there is a where.
+struct Error {
+  Status status = Status::kOk;
+  uint64_t byte_offset = kNoOffset;
+  char message[240] = {};
+};
+
+/// Writes the error and returns its status, so that a check reads `return fail(error, ...)`.
+/// A message that does not fit is cut at the end of the array.
+#if defined(__GNUC__)
+__attribute__((format(printf, 4, 5)))
+#endif
+Status
+fail(Error& error, Status status, uint64_t byte_offset, const char* format, ...);
+
+}  // namespace mien

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Rotations: quaternions (x, y, z, w) and Euler angles in the conventions of DNA files
+// (rig-evaluation 4.6). a * b rotates by b first.
+#pragma once
+
+#include <cstdint>
+
+namespace mien {
+
+struct Quaternion {
+  float x = 0, y = 0, z = 0, w = 1;
+};
+
+Quaternion operator*(const Quaternion& a, const Quaternion& b);
+
+/// Which axis turns first, which way, and in what unit.
+struct RotationConvention {
+  uint8_t axes[3] = {0, 1, 2};  // first, second, third axis to turn about
+  float signs[3] = {1, 1, 1};   // of the angles about x, y, z
+  float parity = 1;             // of `axes` as a permutation: 1 or -1
+  float to_radians = 1;         // from the file's unit
+};
+
+/// `sequence` 0 ... 5: xyz xzy yxz yzx zxy zyx; `unit` 0: degrees, 1: radians.
+RotationConvention rotation_convention(uint32_t sequence, const int32_t signs[3], uint32_t unit);
+
+/// From angles about x, y, z.
+Quaternion quaternion_from_euler(const RotationConvention& convention, const float angles[3]);
+
+/// To angles about x, y, z, which always describe the rotation, at the poles too; there the angle
+/// that the conventions leave open is 0. The length of `q` does not matter; zero reads as identity.
+void euler_from_quaternion(const RotationConvention& convention, const Quaternion& q,
+                           float angles[3]);
+
+/// Rotation matrix for row vectors, v * m.
+struct Matrix3 {
+  double m[3][3];
+};
+/// The length of `q` does not matter; zero gives the identity.
+Matrix3 matrix_from_quaternion(const Quaternion& q);
+void euler_from_matrix(const RotationConvention& convention, const Matrix3& matrix,
+                       float angles[3]);
+Matrix3 operator*(const Matrix3& a, const Matrix3& b);
+Matrix3 transposed(const Matrix3& a);
+
+/// From the axes `from` to the axes `to`, for row vectors; an axis is a direction 0 ... 5: left,
+/// right, up, down, front, back (dna-format 7.1, 11).
+Matrix3 change_of_axes(const uint32_t from[3], const uint32_t to[3]);
+
+/// Unit length; identity if there is no direction.
+Quaternion normalized(const Quaternion& q);
+
+/// The part of a rotation about an axis (0, 1, 2: x, y, z), or what is left without it: how RBF
+/// solvers see it (rig-evaluation 6.2). Not a number if `q` has no such part.
+Quaternion rotation_part(const Quaternion& q, uint32_t axis, bool swing);
+
+/// From `q` (t = 0) to the identity (t = 1) and beyond, the short way.
+Quaternion slerp_to_identity(const Quaternion& q, float t);
+
+}  // namespace mien

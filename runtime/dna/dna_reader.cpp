@@ -1,0 +1,669 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/dna/dna_reader.h"
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
+
+#include "runtime/dna/dna_check.h"
+#include "runtime/dna/lod_selection.h"
+#include "runtime/dna/record_size.h"
+
+namespace mien::dna {
+namespace {
+
+constexpr size_t kHeaderBytes = 7;
+constexpr size_t kIndexEntryBytes = 16;
+
+// Section table of version 2.1, in file order. "behavior" has no bytes: it starts where controls
+// do.
+enum Section {
+  kSDescriptor,
+  kSDefinition,
+  kSBehavior,
+  kSControls,
+  kSJoints,
+  kSChannels,
+  kSMaps,
+  kSGeometry,
+  kSectionCount
+};
+constexpr size_t kSectionTableEnd = kHeaderBytes + 4 * kSectionCount;
+
+/// Reads the fields of one record after another within [at, limit).
+class FieldReader {
+ public:
+  FieldReader(const DnaView& view, const FindingSink& sink, Arena& arena)
+      : view_(view), sink_(sink), arena_(arena) {}
+
+  const uint8_t* kept_meshes = nullptr;  // one byte for each of mesh_count; null keeps all
+  size_t mesh_count = 0;
+  bool skip_blend_shape_targets = false;
+
+  bool has_face_winding() const { return version_has_face_winding(view_.version); }
+
+  /// False if the record could not be read; the finding has been reported.
+  template <class Record>
+  bool read_record(const char* layer, size_t from, size_t to, Record& record) {
+    at_ = from;
+    limit_ = to;
+    depth_ = 0;
+    good_ = true;
+    path_[depth_++] = {layer, kNoIndex};
+    Record::fields(record, *this);
+    return good_;
+  }
+
+  /// Same layer, another place: the parts of the behavior layer in version 2.1.
+  template <class Record>
+  bool read_part(const char* layer, const char* part, size_t from, size_t to, Record& record) {
+    at_ = from;
+    limit_ = to;
+    depth_ = 0;
+    good_ = true;
+    path_[depth_++] = {layer, kNoIndex};
+    (*this)(part, record);
+    return good_;
+  }
+
+  size_t position() const { return at_; }
+
+  template <class T>
+  void operator()(const char* name, T& member) {
+    if (!good_) return;
+    path_[depth_++] = {name, kNoIndex};
+    read(member);
+    --depth_;
+  }
+
+ private:
+  static constexpr uint32_t kNoIndex = ~uint32_t{0};
+  static constexpr int kDepth = 16;
+  struct Step {
+    const char* name;
+    uint32_t index;
+    uint32_t inner_index = kNoIndex;  // lists of lists have two
+  };
+
+  template <class T, std::enable_if_t<std::is_arithmetic<T>::value, int> = 0>
+  void read(T& value) {
+    if (!need(sizeof(T))) return;
+    value = load_big_endian<T>(view_.file + at_);
+    at_ += sizeof(T);
+  }
+
+  void read(String& string) {
+    uint32_t count;
+    if (!read_count(1, count)) return;
+    string.data = view_.file + at_;
+    string.count = count;
+    at_ += count;
+  }
+
+  template <class T>
+  void read(Array<T>& array) {
+    uint32_t count;
+    if (!read_count(sizeof(T), count)) return;
+    array.data = view_.file + at_;
+    array.count = count;
+    at_ += size_t{count} * sizeof(T);
+  }
+
+  template <class T>
+  void read(List<T>& list) {
+    if (std::is_same<T, BlendShapeTarget>::value && skip_blend_shape_targets) return;
+    uint32_t count;
+    if (!read_count(smallest_size<T>(), count) || count == 0) return;
+    Span<T> items = arena_.array<T>(count);
+    if (!items.data) return report(Status::kMemory, at_, "no memory for %u elements", count);
+    list.items = items.data;
+    list.count = count;
+    Step& step = path_[depth_ - 1];
+    uint32_t& index = step.index == kNoIndex ? step.index : step.inner_index;
+    for (uint32_t i = 0; i < count && good_; ++i) {
+      index = i;
+      read_element(list.items[i], i);
+    }
+    index = kNoIndex;
+  }
+
+  template <class Record, std::enable_if_t<std::is_class<Record>::value, int> = 0>
+  void read(Record& record) {
+    if (!IsBlock<Record>::value) {
+      Record::fields(record, *this);
+      return;
+    }
+    size_t end;
+    if (!read_block_end(end)) return;
+    const size_t outer = limit_;
+    limit_ = end;
+    Record::fields(record, *this);
+    if (good_ && at_ != end && sink_.thorough) {
+      warn(at_, "%zu bytes at the end of this block are of no known use", end - at_);
+    }
+    limit_ = outer;
+    at_ = end;
+  }
+
+  template <class T>
+  void read_element(T& element, uint32_t) {
+    read(element);
+  }
+
+  // A mesh of a LOD that was not chosen is jumped over.
+  void read_element(Mesh& mesh, uint32_t index) {
+    if (!kept_meshes || (index < mesh_count && kept_meshes[index])) return read(mesh);
+    size_t end;
+    if (read_block_end(end)) at_ = end;
+  }
+
+  bool need(size_t bytes) {
+    if (bytes <= limit_ - at_) return true;
+    report(Status::kDnaTruncated, at_, "needs %zu bytes, but only %zu are left", bytes,
+           limit_ - at_);
+    return false;
+  }
+
+  bool read_count(size_t element_bytes, uint32_t& count) {
+    if (!need(4)) return false;
+    count = load_big_endian<uint32_t>(view_.file + at_);
+    if (count > (limit_ - at_ - 4) / element_bytes) {
+      report(Status::kDnaTruncated, at_,
+             "announces %u elements of %zu bytes or more, but only %zu "
+             "bytes are left",
+             count, element_bytes, limit_ - at_ - 4);
+      return false;
+    }
+    at_ += 4;
+    return true;
+  }
+
+  // From 2.2 on a block starts with its size, in 2.1 with the offset of its end.
+  bool read_block_end(size_t& end) {
+    if (!need(4)) return false;
+    const uint32_t value = load_big_endian<uint32_t>(view_.file + at_);
+    at_ += 4;
+    const bool fits = view_.version == 1 ? value >= at_ && value <= limit_ : value <= limit_ - at_;
+    if (!fits) {
+      report(Status::kDnaStructure, at_ - 4, "block %s %u does not fit into the %zu bytes left",
+             view_.version == 1 ? "end" : "size", value, limit_ - at_);
+      return false;
+    }
+    end = view_.version == 1 ? value : at_ + value;
+    return true;
+  }
+
+  void format_path(char* text, size_t capacity) const {
+    size_t used = 0;
+    text[0] = 0;
+    for (int i = 0; i < depth_ && used < capacity; ++i) {
+      const Step& step = path_[i];
+      int n = snprintf(text + used, capacity - used, i ? ".%s" : "%s", step.name);
+      used += static_cast<size_t>(n);
+      for (uint32_t index : {step.index, step.inner_index}) {
+        if (index == kNoIndex || used >= capacity) continue;
+        used += static_cast<size_t>(snprintf(text + used, capacity - used, "[%u]", index));
+      }
+    }
+  }
+
+  void send(Status status, size_t offset, const char* format, va_list arguments) {
+    char field[200], message[200];
+    format_path(field, sizeof(field));
+    vsnprintf(message, sizeof(message), format, arguments);
+    if (!sink_.report(sink_.user, {status, offset, field, message})) good_ = false;
+  }
+
+#if defined(__GNUC__)
+  __attribute__((format(printf, 4, 5)))
+#endif
+  void
+  report(Status status, size_t offset, const char* format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    send(status, offset, format, arguments);
+    va_end(arguments);
+    good_ = false;
+  }
+
+#if defined(__GNUC__)
+  __attribute__((format(printf, 3, 4)))
+#endif
+  void
+  warn(size_t offset, const char* format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    send(Status::kOk, offset, format, arguments);
+    va_end(arguments);
+  }
+
+  const DnaView& view_;
+  const FindingSink& sink_;
+  Arena& arena_;
+  size_t at_ = 0, limit_ = 0;
+  bool good_ = true;
+  int depth_ = 0;
+  Step path_[kDepth] = {};
+};
+
+/// One pass over a file: container, definition, then the other layers.
+class DnaReader {
+ public:
+  DnaReader(const uint8_t* bytes, size_t size, const ReadOptions& options, Arena& arena,
+            DnaView& view, const FindingSink& sink)
+      : size_(size), options_(options), arena_(arena), view_(view),
+        outer_sink_(sink), sink_{this, count_and_forward, sink.thorough},
+        fields_(view, sink_, arena) {
+    view_ = {};
+    view_.file = bytes;
+    view_.file_size = size;
+    view_.loaded = close_layer_mask(options.layers);
+  }
+
+  /// Stops where the sink ended the examination or the rest depends on what is wrong.
+  void run() {
+    if (!read_header()) return;
+    if (!(view_.version == 1 ? read_sections() : read_index())) return;
+
+    // The descriptor and the definition say how to read and select everything else.
+    for (LayerId id : {LayerId::kDesc, LayerId::kDsce, LayerId::kDefn}) load(id);
+    if (errors_ == 0 && !ended_ && check_definition(view_, sink_) && errors_ == 0) choose_lods();
+    const bool definition_is_good = errors_ == 0;
+    if (ended_) return;
+
+    for (LayerId id : {LayerId::kBhvr, LayerId::kMlbh, LayerId::kRbfb, LayerId::kRbfe,
+                       LayerId::kJbmd, LayerId::kTwsw, LayerId::kMlbe, LayerId::kGeom}) {
+      load(id);
+      if (ended_) return;
+    }
+    if (view_.version == 1 && view_.has(kLayerGeometry) && errors_ == 0) check_end_marker();
+    if (!definition_is_good || !count_ml_controls() || !synthesize_rbf_extension()) return;
+    if (!check_layers(view_, sink_) || errors_ != 0) return;
+    if (lods_ != 0 && !select_lods(view_, lods_, arena_)) {
+      report(Status::kMemory, kNoOffset, "", "no memory to select LODs");
+    }
+  }
+
+  bool good() const { return errors_ == 0; }
+  bool ended() const { return ended_; }
+
+ private:
+  static bool count_and_forward(void* self, const Finding& finding) {
+    DnaReader& reader = *static_cast<DnaReader*>(self);
+    if (finding.status != Status::kOk) ++reader.errors_;
+    if (!reader.outer_sink_.report(reader.outer_sink_.user, finding)) reader.ended_ = true;
+    return !reader.ended_;
+  }
+
+#if defined(__GNUC__)
+  __attribute__((format(printf, 5, 6)))
+#endif
+  bool
+  report(Status status, uint64_t offset, const char* field, const char* format, ...) {
+    char message[200];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof(message), format, arguments);
+    va_end(arguments);
+    const bool go_on = sink_.report(sink_.user, {status, offset, field, message});
+    return status == Status::kOk && go_on;
+  }
+
+  bool read_header() {
+    if (size_ < 3 || memcmp(view_.file, "DNA", 3) != 0) {
+      return report(Status::kDnaSignature, 0, "",
+                    size_ == 0 ? "the file is empty"
+                               : "the file does not start with \"DNA\": it is no DNA file");
+    }
+    if (size_ < kHeaderBytes) {
+      return report(Status::kDnaTruncated, size_, "", "the file ends within its header");
+    }
+    view_.generation = load_big_endian<uint16_t>(view_.file + 3);
+    view_.version = load_big_endian<uint16_t>(view_.file + 5);
+    if (view_.generation != 2) {
+      return report(Status::kDnaVersion, 3, "", "version %u.%u: only 2.x can be read",
+                    unsigned{view_.generation}, unsigned{view_.version});
+    }
+    if (sink_.thorough && (view_.version == 0 || view_.version > 8)) {
+      return report(Status::kOk, 5, "", "version 2.%u is not known; read by the rules of 2.8",
+                    unsigned{view_.version});
+    }
+    return true;
+  }
+
+  bool read_index() {
+    if (size_ < kHeaderBytes + 4) {
+      return report(Status::kDnaTruncated, size_, "", "the file ends before its index");
+    }
+    const uint32_t count = load_big_endian<uint32_t>(view_.file + kHeaderBytes);
+    const size_t first = kHeaderBytes + 4;
+    if (count > (size_ - first) / kIndexEntryBytes) {
+      return report(Status::kDnaTruncated, kHeaderBytes, "",
+                    "the index announces %u layers, but the "
+                    "file has %zu bytes",
+                    count, size_);
+    }
+    if (!allocate_index(count)) return false;
+    const size_t data_begin = first + kIndexEntryBytes * count;
+    for (uint32_t i = 0; i < count; ++i) {
+      const size_t at = first + kIndexEntryBytes * i;
+      const uint8_t* entry = view_.file + at;
+      const uint32_t offset = load_big_endian<uint32_t>(entry + 8);
+      const uint32_t bytes = load_big_endian<uint32_t>(entry + 12);
+      if (uint64_t{offset} + bytes > size_) {
+        return report(Status::kDnaTruncated, at + 8, "",
+                      "layer %u (%.4s) is said to be at %u with %u "
+                      "bytes, but the file has %zu",
+                      i, entry, offset, bytes, size_);
+      }
+      if (bytes != 0 && offset < data_begin) {
+        return report(Status::kDnaStructure, at + 8, "",
+                      "layer %u (%.4s) is said to be at %u, within "
+                      "the index",
+                      i, entry, offset);
+      }
+      view_.index[i] = {load_big_endian<uint32_t>(entry), load_big_endian<uint32_t>(entry + 4),
+                        view_.file + offset, bytes};
+    }
+    return check_index(data_begin) && drop_unknown();
+  }
+
+  // No two entries of the same kind, none that share bytes; gaps are allowed.
+  bool check_index(size_t data_begin) {
+    const List<IndexEntry>& index = view_.index;
+    Span<uint32_t> order = arena_.array<uint32_t>(index.count);
+    if (index.count && !order.data) return report(Status::kMemory, kNoOffset, "", "no memory");
+    for (uint32_t i = 0; i < index.count; ++i) order[i] = i;
+    auto entry_at = [&](uint32_t i) { return kHeaderBytes + 4 + kIndexEntryBytes * i; };
+
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+      const IndexEntry &x = index[a], &y = index[b];
+      if (x.code != y.code) return x.code < y.code;
+      if (x.layer_version != y.layer_version) return x.layer_version < y.layer_version;
+      return a < b;
+    });
+    for (uint32_t i = 1; i < index.count; ++i) {
+      const IndexEntry &x = index[order[i - 1]], &y = index[order[i]];
+      if (x.code == y.code && x.layer_version == y.layer_version) {
+        return report(Status::kDnaStructure, entry_at(order[i]), "",
+                      "layers %u and %u of the index "
+                      "are of the same kind",
+                      order[i - 1], order[i]);
+      }
+    }
+
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+      if (index[a].data != index[b].data) return index[a].data < index[b].data;
+      if (index[a].size != index[b].size) return index[a].size < index[b].size;
+      return a < b;
+    });
+    const uint8_t* end = view_.file + data_begin;
+    bool go_on = true;
+    for (uint32_t i : order) {
+      if (index[i].size == 0) continue;
+      if (index[i].data < end) {
+        return report(Status::kDnaStructure, entry_at(i) + 8, "", "layer %u begins within another",
+                      i);
+      }
+      if (sink_.thorough && index[i].data > end) {
+        go_on &= report(Status::kOk, view_.offset_of(end), "",
+                        "%zu bytes before layer %u belong to no "
+                        "layer",
+                        static_cast<size_t>(index[i].data - end), i);
+      }
+      end = index[i].data + index[i].size;
+    }
+    if (sink_.thorough && end < view_.file + size_) {
+      go_on &= report(Status::kOk, view_.offset_of(end), "",
+                      "%zu bytes after the last layer belong to "
+                      "no layer",
+                      static_cast<size_t>(view_.file + size_ - end));
+    }
+    return go_on;
+  }
+
+  bool drop_unknown() {
+    if (options_.keep_unknown) return true;
+    List<IndexEntry>& index = view_.index;
+    auto unknown = [](const IndexEntry& e) { return !find_layer_kind(e.code, e.layer_version); };
+    IndexEntry* end = std::remove_if(index.begin(), index.end(), unknown);
+    index.count = static_cast<uint32_t>(end - index.begin());
+    return true;
+  }
+
+  bool read_sections() {
+    if (size_ < kSectionTableEnd) {
+      return report(Status::kDnaTruncated, size_, "", "the file ends within its section table");
+    }
+    for (int s = 0; s < kSectionCount; ++s) {
+      sections_[s] = load_big_endian<uint32_t>(view_.file + kHeaderBytes + 4 * s);
+      if (sections_[s] < kSectionTableEnd || sections_[s] > size_) {
+        const Status status = sections_[s] > size_ ? Status::kDnaTruncated : Status::kDnaStructure;
+        return report(
+            status, kHeaderBytes + 4 * static_cast<size_t>(s), "",
+            "section %d is said to be at %zu, but the file has %zu bytes and its sections "
+            "begin at %zu",
+            s, sections_[s], size_, kSectionTableEnd);
+      }
+    }
+    // Two sections in one place would be read twice.
+    for (int s = 0; s < kSectionCount; ++s) {
+      for (int t = 0; t < s; ++t) {
+        if (sections_[s] == sections_[t] && t != kSBehavior && s != kSBehavior) {
+          return report(Status::kDnaStructure, kHeaderBytes + 4 * static_cast<size_t>(s), "",
+                        "sections %d and %d begin at the same place", t, s);
+        }
+      }
+    }
+    if (sink_.thorough && sections_[kSBehavior] != sections_[kSControls] &&
+        !report(Status::kOk, kHeaderBytes + 4 * kSBehavior, "",
+                "the behavior section does not begin where the controls section does")) {
+      return false;
+    }
+    if (!allocate_index(4)) return false;
+    const struct {
+      LayerId id;
+      Section first;
+      Section last;
+    } layers[] = {{LayerId::kDesc, kSDescriptor, kSDescriptor},
+                  {LayerId::kDefn, kSDefinition, kSDefinition},
+                  {LayerId::kBhvr, kSControls, kSMaps},
+                  {LayerId::kGeom, kSGeometry, kSGeometry}};
+    for (const auto& layer : layers) {
+      const LayerKind& kind = kLayerKinds[static_cast<size_t>(layer.id)];
+      size_t begin = sections_[layer.first], end = section_end(layer.last);
+      if (end < begin) end = begin;
+      view_.index[static_cast<size_t>(layer.id)] = {
+          kind.code, kind.layer_version, view_.file + begin, static_cast<uint32_t>(end - begin)};
+    }
+    return true;
+  }
+
+  // A section ends where the next one in the file begins; the last one before the end marker.
+  size_t section_end(int section) const {
+    size_t end = size_ >= kSectionTableEnd + 3 ? size_ - 3 : size_;
+    if (end < sections_[section]) end = sections_[section];
+    for (int other = 0; other < kSectionCount; ++other) {
+      if (other == kSBehavior) continue;
+      if (sections_[other] > sections_[section] && sections_[other] < end) end = sections_[other];
+    }
+    return end;
+  }
+
+  void check_end_marker() {
+    const size_t at = geometry_end_;
+    if (size_ - at < 3 || memcmp(view_.file + at, "AND", 3) != 0) {
+      report(Status::kDnaStructure, at, "",
+             "the end marker \"AND\" is missing: the file is cut off or "
+             "damaged");
+    } else if (sink_.thorough && size_ - at > 3) {
+      report(Status::kOk, at + 3, "", "%zu bytes after the end marker", size_ - at - 3);
+    }
+  }
+
+  bool allocate_index(uint32_t count) {
+    if (count == 0) return true;
+    Span<IndexEntry> entries = arena_.array<IndexEntry>(count);
+    if (!entries.data) return report(Status::kMemory, kNoOffset, "", "no memory for the index");
+    view_.index = {entries.data, count};
+    return true;
+  }
+
+  const IndexEntry* find_entry(LayerId id) const {
+    const LayerKind& kind = kLayerKinds[static_cast<size_t>(id)];
+    for (const IndexEntry& entry : view_.index) {
+      if (entry.code == kind.code && entry.layer_version == kind.layer_version) return &entry;
+    }
+    return nullptr;
+  }
+
+  /// Reads a layer if it was chosen and is there.
+  void load(LayerId id) {
+    const LayerKind& kind = kLayerKinds[static_cast<size_t>(id)];
+    const IndexEntry* entry = find_entry(id);
+    if (!view_.has(kind.loaded_by) || !entry) return;
+    if (view_.version == 1 && id == LayerId::kBhvr) {
+      load_behavior_sections();
+      return;
+    }
+    fields_.skip_blend_shape_targets = !view_.has(kLayerGeometry);
+    fields_.kept_meshes = kept_meshes_.data;
+    fields_.mesh_count = kept_meshes_.count;
+    const size_t begin = static_cast<size_t>(entry->data - view_.file);
+    const size_t end = begin + entry->size;
+    const bool good = with_layer(view_, id, [&](auto& record) {
+      return fields_.read_record(kind.name, begin, end, record);
+    });
+    if (id == LayerId::kGeom) geometry_end_ = fields_.position();
+    if (good && sink_.thorough && fields_.position() != end) {
+      report(Status::kOk, fields_.position(), kind.name,
+             "%zu bytes at the end of this layer are of no known use", end - fields_.position());
+    }
+  }
+
+  void load_behavior_sections() {
+    Behavior& b = view_.bhvr;
+    auto part = [&](const char* name, Section s, auto& record) {
+      fields_.read_part("bhvr", name, sections_[s], section_end(s), record);
+    };
+    part("controls", kSControls, b.controls);
+    part("joints", kSJoints, b.joints);
+    part("blendShapeChannels", kSChannels, b.channels);
+    part("animatedMaps", kSMaps, b.maps);
+  }
+
+  // From here on a mesh that no chosen LOD shows is not read.
+  void choose_lods() {
+    if (options_.lods == 0) return;
+    const unsigned lod_count = view_.desc.lod_count;
+    const uint64_t existing = (uint64_t{1} << lod_count) - 1;
+    lods_ = options_.lods & existing;
+    if (lods_ == 0) {
+      report(Status::kLod, kNoOffset, "desc.lodCount",
+             "none of the chosen LODs exists: the file has %u, "
+             "numbered from 0",
+             lod_count);
+    } else if (lods_ == existing) {
+      lods_ = 0;  // nothing to select
+    } else if (view_.defn.mesh_names.count != 0) {
+      kept_meshes_ = arena_.array<uint8_t>(view_.defn.mesh_names.count);
+      if (!kept_meshes_.data) {
+        report(Status::kMemory, kNoOffset, "", "no memory to select LODs");
+        return;
+      }
+      mark_lod_elements(view_.defn.lod_meshes, lods_, kept_meshes_);
+    }
+  }
+
+  // RBF pose controls are numbered behind the ML controls, so their number is needed even if the ML
+  // layer is not loaded: it is the first four bytes of mlbh.
+  bool count_ml_controls() {
+    view_.ml_control_count = view_.mlbh.control_names.count;
+    const IndexEntry* entry = find_entry(LayerId::kMlbh);
+    if (view_.has(kLayerMachineLearned) || !view_.has(kLayerRbf) || !entry) return true;
+    const uint64_t offset = view_.offset_of(entry->data);
+    const uint32_t count = entry->size < 4 ? 0 : load_big_endian<uint32_t>(entry->data);
+    if (entry->size < 4 || count > (entry->size - 4) / 4) {
+      return report(Status::kDnaTruncated, offset, "mlbh.mlControlNames",
+                    "announces %u names, but the "
+                    "layer has %u bytes",
+                    count, entry->size);
+    }
+    view_.ml_control_count = count;
+    return true;
+  }
+
+  // Poses of files older than 2.5: one pose control each, of the same name (dna-format 6.7).
+  bool synthesize_rbf_extension() {
+    const List<RbfPose>& poses = view_.rbfb.poses;
+    RbfBehaviorExtension& rbfe = view_.rbfe;
+    if (rbfe.poses.count != 0 || poses.count == 0) return true;
+    Span<String> names = arena_.array<String>(poses.count);
+    Span<RbfPoseControls> controls = arena_.array<RbfPoseControls>(poses.count);
+    NewArray<uint16_t> outputs = new_array<uint16_t>(arena_, poses.count);
+    NewArray<float> weights = new_array<float>(arena_, poses.count);
+    if (!names.data || !controls.data || !outputs.data || !weights.data) {
+      return report(Status::kMemory, kNoOffset, "rbfe", "no memory for pose controls");
+    }
+    const uint32_t first = view_.first_ml() + view_.ml_control_count;
+    for (uint32_t i = 0; i < poses.count; ++i) {
+      names[i] = poses[i].name;
+      outputs.set(i, static_cast<uint16_t>(first + i));
+      weights.set(i, 1.0f);
+      controls[i].output_control_indices = {outputs.data + i * sizeof(uint16_t), 1};
+      controls[i].output_control_weights = {weights.data + i * sizeof(float), 1};
+    }
+    rbfe.pose_control_names = {names.data, poses.count};
+    rbfe.poses = {controls.data, poses.count};
+    return true;
+  }
+
+  size_t size_;
+  const ReadOptions& options_;
+  Arena& arena_;
+  DnaView& view_;
+  const FindingSink& outer_sink_;
+  FindingSink sink_;  // counts, then hands on
+  FieldReader fields_;
+  uint32_t errors_ = 0;
+  bool ended_ = false;
+  size_t sections_[kSectionCount] = {};
+  size_t geometry_end_ = 0;
+  uint64_t lods_ = 0;
+  Span<uint8_t> kept_meshes_;
+};
+
+bool keep_first_error(void* user, const Finding& finding) {
+  if (finding.status == Status::kOk) return true;
+  Error& error = *static_cast<Error*>(user);
+  if (finding.field[0]) {
+    fail(error, finding.status, finding.byte_offset, "%s: %s", finding.field, finding.message);
+  } else {
+    fail(error, finding.status, finding.byte_offset, "%s", finding.message);
+  }
+  return false;
+}
+
+}  // namespace
+
+Status read_dna(const uint8_t* bytes, size_t size, const ReadOptions& options, Arena& arena,
+                DnaView& out, Error& error) {
+  Error first;
+  const FindingSink sink{&first, keep_first_error, false};
+  DnaReader reader(bytes, size, options, arena, out, sink);
+  reader.run();
+  if (reader.good()) return Status::kOk;
+  error = first;
+  return error.status;
+}
+
+bool examine_dna(const uint8_t* bytes, size_t size, Arena& arena, DnaView& out,
+                 const FindingSink& sink) {
+  const ReadOptions options;
+  DnaReader reader(bytes, size, options, arena, out, sink);
+  reader.run();
+  return !reader.ended();
+}
+
+}  // namespace mien::dna

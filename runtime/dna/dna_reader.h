@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Bytes -> view. Every offset, count and size is compared with the bytes that remain before it is
+// used; every cross reference is checked before it is followed.
+#pragma once
+
+#include "runtime/dna/dna_view.h"
+#include "runtime/dna/findings.h"
+
+namespace mien::dna {
+
+struct ReadOptions {
+  uint32_t layers = kLayersAll;  // LayerMask; what it needs is added
+  bool keep_unknown = true;      // layers of unknown kind stay in the index
+  uint64_t lods = 0;             // bit l keeps LOD l; 0 keeps all
+};
+
+/// Fills `out` with views into `bytes`, which have to outlive it, and into `arena`. Touches only
+/// the header, the index, and the bytes of the chosen layers and meshes; numbers in arrays are not
+/// touched unless they are indices. Takes from the arena at most about five times the bytes of the
+/// lists that it reads. On failure `out` is not to be used.
+Status read_dna(const uint8_t* bytes, size_t size, const ReadOptions& options, Arena& arena,
+                DnaView& out, Error& error);
+
+/// Reads everything and reports all that is wrong or odd to `sink`. An error in one layer does not
+/// keep the others from being examined. `out` holds what could be read, for looking only.
+/// False if the sink ended it.
+bool examine_dna(const uint8_t* bytes, size_t size, Arena& arena, DnaView& out,
+                 const FindingSink& sink);
+
+}  // namespace mien::dna

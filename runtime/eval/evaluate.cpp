@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/eval/evaluate.h"
+
+#include <algorithm>
+
+namespace mien {
+namespace {
+
+/// NaN becomes 0.
+float clamp01(float value) { return value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f; }
+
+// Outputs that a LOD does not write stay 0 from here on, so evaluation needs to clear nothing.
+// Raw controls belong to the caller.
+void enter_lod(const Rig& rig, Instance& instance, uint32_t lod) {
+  if (instance.lod == lod) return;
+  instance.lod = lod;
+  std::copy(rig.initial_controls.begin() + rig.raw_count, rig.initial_controls.end(),
+            instance.controls.begin() + rig.raw_count);
+  clear_outputs(instance);
+}
+
+// rig-evaluation 2.2, without the final clamp.
+void add_table_rows(const ControlTable& table, uint32_t row_count, const Span<float>& inputs,
+                    const Span<float>& outputs) {
+  for (uint32_t r = 0; r < row_count;) {
+    const float input = inputs[table.inputs[r]];
+    if (table.from[r] <= input && input <= table.to[r]) {
+      outputs[table.outputs[r]] += table.slope[r] * input + table.cut[r];
+      r = table.run_ends[r];
+    } else {
+      ++r;
+    }
+  }
+}
+
+// rig-evaluation 3.3, in dependency order.
+void evaluate_psds(const Rig& rig, Instance& instance, uint32_t lod) {
+  const PsdTable& psds = rig.psds;
+  float* controls = instance.controls.data;
+  const uint32_t count = psds.count_at_lod[lod];
+  for (uint32_t i = 0; i < count; ++i) {
+    float product = 1.0f;
+    for (uint32_t k = psds.first_input[i]; k < psds.first_input[i + 1]; ++k) {
+      product *= clamp01(controls[psds.inputs[k]]);
+    }
+    product *= psds.weights[i];
+    controls[psds.outputs[i]] = product < 1.0f ? product : 1.0f;
+  }
+}
+
+// rig-evaluation 4.4.
+void evaluate_group(const Rig& rig, Instance& instance, uint32_t lod, uint32_t index) {
+  const JointMatrix& joints = rig.joints;
+  const JointGroup& group = joints.groups[index];
+  const uint32_t rows = joints.rows_at_lod[size_t{index} * rig.lod_count + lod];
+  if (rows == 0) return;
+
+  JointGroupArgs args;
+  args.values = joints.values.data + group.first_value;
+  args.columns = joints.columns.data + group.first_column;
+  args.controls = instance.controls.data;
+  args.inputs = instance.joint_inputs.data;
+  args.sums = instance.joint_sums.data;
+  args.column_count = group.column_count;
+  args.block_count = (rows + kBlockRows - 1) / kBlockRows;
+  rig.kernels->joint_group(args);
+
+  const uint16_t* outputs = joints.outputs.data + group.first_row;
+  for (uint32_t r = 0; r < rows; ++r) {
+    if (outputs[r] != kNoOutput) instance.joints_and_angles[outputs[r]] = args.sums[r];
+  }
+}
+
+void evaluate_joints(const Rig& rig, Instance& instance, uint32_t lod) {
+  clear_ml_joints(rig, instance, lod);
+  for (uint32_t g = 0; g < rig.joints.groups.count; ++g) evaluate_group(rig, instance, lod, g);
+  for (uint32_t g = 0; g < rig.joints.groups.count; ++g) evaluate_rotations(rig, instance, lod, g);
+  for (const TwistSwing& setup : rig.twist_swing.setups) turn_setup(rig, instance, setup);
+  add_ml_joints(rig, instance, lod);
+}
+
+// rig-evaluation 5.
+void evaluate_blend_shapes(const Rig& rig, Instance& instance, uint32_t lod) {
+  const uint32_t count = rig.channels.count_at_lod[lod];
+  for (uint32_t i = 0; i < count; ++i) {
+    instance.channels[rig.channels.outputs[i]] = instance.controls[rig.channels.inputs[i]];
+  }
+}
+
+void evaluate_animated_maps(const Rig& rig, Instance& instance, uint32_t lod) {
+  std::fill(instance.maps.begin(), instance.maps.end(), 0.0f);
+  add_table_rows(rig.maps, rig.map_rows_at_lod[lod], instance.controls, instance.maps);
+  for (float& value : instance.maps) value = clamp01(value);
+}
+
+}  // namespace
+
+void map_gui_to_raw(const Rig& rig, Instance& instance) {
+  for (uint16_t raw : rig.driven_raw) instance.controls[raw] = 0.0f;
+  add_table_rows(rig.gui_to_raw, static_cast<uint32_t>(rig.gui_to_raw.inputs.count), instance.gui,
+                 instance.controls);
+  for (uint16_t raw : rig.driven_raw) instance.controls[raw] = clamp01(instance.controls[raw]);
+}
+
+// rig-evaluation 2.4: of the groups of rows with equal intervals the one that explains the most raw
+// controls tells the value.
+void map_raw_to_gui(const Rig& rig, Instance& instance) {
+  const ControlTable& table = rig.gui_to_raw;
+  const ReverseTable& reverse = rig.raw_to_gui;
+  const auto solve = [&](uint32_t row) {
+    return (instance.controls[table.outputs[row]] - table.cut[row]) / table.slope[row];
+  };
+  // A flat row explains nothing, even if its interval is unbounded.
+  const auto within = [&](uint32_t row, float value) {
+    return table.slope[row] != 0.0f && table.from[row] <= value && value <= table.to[row];
+  };
+
+  for (uint32_t i = 0; i < rig.gui_count; ++i) {
+    instance.gui[i] = 0.0f;
+    const uint32_t begin = reverse.first_group[i], end = reverse.first_group[i + 1];
+    uint32_t best = begin, most = 0;
+    for (uint32_t g = begin; g < end; ++g) {
+      uint32_t consistent = 0;
+      for (uint32_t k = reverse.first_row[g]; k < reverse.first_row[g + 1]; ++k) {
+        const uint32_t row = reverse.rows[k];
+        consistent += instance.controls[table.outputs[row]] != 0.0f && within(row, solve(row));
+      }
+      if (consistent > most) {
+        most = consistent;
+        best = g;
+      }
+    }
+    if (begin == end) continue;
+    for (uint32_t k = reverse.first_row[best]; k < reverse.first_row[best + 1]; ++k) {
+      const uint32_t row = reverse.rows[k];
+      const float value = solve(row);
+      if (!within(row, value)) continue;
+      instance.gui[i] = value;
+      break;
+    }
+  }
+}
+
+void evaluate(const Rig& rig, Instance& instance, uint32_t lod, uint32_t stages) {
+  enter_lod(rig, instance, lod);
+  if (stages & kStageMl) evaluate_ml(rig, instance, lod);
+  if (stages & kStageRbf) evaluate_rbf(rig, instance, lod);
+  if (stages & kStagePsd) evaluate_psds(rig, instance, lod);
+  if (stages & kStageJoints) evaluate_joints(rig, instance, lod);
+  if (stages & kStageBlendShapes) evaluate_blend_shapes(rig, instance, lod);
+  if (stages & kStageAnimatedMaps) evaluate_animated_maps(rig, instance, lod);
+}
+
+void evaluate_joint_group(const Rig& rig, Instance& instance, uint32_t lod, uint32_t group) {
+  enter_lod(rig, instance, lod);
+  evaluate_group(rig, instance, lod, group);
+  evaluate_rotations(rig, instance, lod, group);
+}
+
+void evaluate_rbf_solver(const Rig& rig, Instance& instance, uint32_t lod, uint32_t solver) {
+  enter_lod(rig, instance, lod);
+  solve_rbf(rig, instance, solver);
+}
+
+void evaluate_twist_swing(const Rig& rig, Instance& instance, uint32_t lod, uint32_t setup) {
+  enter_lod(rig, instance, lod);
+  turn_setup(rig, instance, rig.twist_swing.setups[setup]);
+}
+
+}  // namespace mien

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Rig + instance -> pose. Nothing here allocates, locks or fails: the rig was checked when it was
+// compiled, and callers check LOD and group numbers.
+#pragma once
+
+#include "runtime/eval/instance.h"
+
+namespace mien {
+
+/// Numbers of MIEN_STAGE_... in mien.h, in the order of evaluation.
+enum Stages : uint32_t {
+  kStageMl = 1,
+  kStageRbf = 2,
+  kStagePsd = 4,
+  kStageJoints = 8,  // groups, then twists and swings, then joints of learned behaviour
+  kStageBlendShapes = 16,
+  kStageAnimatedMaps = 32,
+  kStagesAll = 63,
+};
+
+void map_gui_to_raw(const Rig& rig, Instance& instance);
+void map_raw_to_gui(const Rig& rig, Instance& instance);
+
+/// The stages named, in the order above.
+void evaluate(const Rig& rig, Instance& instance, uint32_t lod, uint32_t stages);
+
+/// The joint values of one group; the others are left alone.
+void evaluate_joint_group(const Rig& rig, Instance& instance, uint32_t lod, uint32_t group);
+
+/// The pose controls of one solver, whether the LOD lists it or not.
+void evaluate_rbf_solver(const Rig& rig, Instance& instance, uint32_t lod, uint32_t solver);
+
+/// The joints of one twist or swing.
+void evaluate_twist_swing(const Rig& rig, Instance& instance, uint32_t lod, uint32_t setup);
+
+// Stages in files of their own; `lod` has been entered.
+
+void evaluate_ml(const Rig& rig, Instance& instance, uint32_t lod);
+/// Starts the joints of learned behaviour from no delta; they add to what the groups write.
+void clear_ml_joints(const Rig& rig, Instance& instance, uint32_t lod);
+void add_ml_joints(const Rig& rig, Instance& instance, uint32_t lod);
+
+void evaluate_rbf(const Rig& rig, Instance& instance, uint32_t lod);
+void solve_rbf(const Rig& rig, Instance& instance, uint32_t solver);
+
+/// In the form of the rig's outputs.
+void write_rotation(const Rig& rig, Instance& instance, uint32_t joint, const Quaternion& q);
+
+/// What a joint group turns, once its rows are written.
+void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32_t group);
+void turn_setup(const Rig& rig, Instance& instance, const TwistSwing& setup);
+
+}  // namespace mien

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// Learned behaviour: networks, what they give to controls, and the joints that follow
+// (rig-evaluation 8).
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "runtime/eval/evaluate.h"
+
+namespace mien {
+namespace {
+
+bool is_active(uint64_t lods, uint32_t lod) { return lods >> lod & 1; }
+
+void gather(const Rig& rig, Instance& instance, const MlStep& step, float* inputs) {
+  const MlTable& ml = rig.ml;
+  if (step.gather_count != 0) {
+    for (uint16_t control : ml.controls.slice(step.first_gather, step.gather_count)) {
+      *inputs++ = instance.controls[control];
+    }
+    return;
+  }
+  for (const MlDependency& from :
+       ml.dependencies.slice(step.first_dependency, step.dependency_count)) {
+    const float* values = instance.ml_values.data + from.first;
+    inputs = std::copy(values, values + from.count, inputs);
+  }
+}
+
+/// Layer after layer; the last one writes where the step's outputs lie.
+void run_network(const Rig& rig, Instance& instance, const MlStep& step) {
+  const MlTable& ml = rig.ml;
+  float* in = instance.ml_layers[0].data;
+  float* out = instance.ml_layers[1].data;
+  gather(rig, instance, step, in);
+  for (uint32_t l = 0; l < step.layer_count; ++l) {
+    const NetworkLayer& layer = ml.layers[step.first_layer + l];
+    const bool last = l + 1 == step.layer_count;
+    DenseLayerArgs args;
+    args.values = ml.values.data + layer.first_value;
+    args.biases = ml.biases.data + layer.first_bias;
+    args.inputs = in;
+    args.outputs = last ? instance.ml_values.data + step.first_output : out;
+    args.alpha = layer.alpha;
+    args.column_count = layer.input_count;
+    args.block_count = (layer.output_count + kBlockRows - 1) / kBlockRows;
+    args.function = layer.function;
+    rig.kernels->dense_layer(args);
+    std::swap(in, out);
+  }
+}
+
+void add_weighted(const Rig& rig, Instance& instance, const MlStep& step) {
+  float* sums = instance.ml_values.data + step.first_output;
+  std::fill(sums, sums + step.output_count, 0.0f);
+  for (const MlDependency& from :
+       rig.ml.dependencies.slice(step.first_dependency, step.dependency_count)) {
+    const float* values = instance.ml_values.data + from.first;
+    for (uint32_t i = 0; i < step.output_count; ++i) sums[i] += from.weight * values[i];
+  }
+}
+
+float mask_of(const Rig& rig, const Instance& instance, const MlStep& step) {
+  if (step.mask == kNoMask) return 1.0f;
+  const float mask = instance.masks[step.mask];
+  if (!rig.ml.blend_masks) return mask == 0.0f ? 0.0f : 1.0f;
+  return mask > 0.0f ? (mask < 1.0f ? mask : 1.0f) : 0.0f;
+}
+
+// Between 0 and 1 a mask blends with the default: 0, or 1 for the w of a quaternion. In the buffer,
+// for later steps, the default is 0.
+void scatter(const Rig& rig, Instance& instance, const MlStep& step, uint32_t lod, float mask) {
+  const MlTable& ml = rig.ml;
+  const float* values = instance.ml_values.data + step.first_output;
+  const uint32_t count =
+      std::min({step.scatter_count, step.output_count, ml.limits[step.first_limit + lod]});
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint16_t control = ml.controls[step.first_scatter + i];
+    const float rest = ml.default_is_one[control] ? 1.0f : 0.0f;
+    instance.controls[control] = mask == 1.0f ? values[i] : rest + mask * (values[i] - rest);
+  }
+}
+
+// ML joints may come in axes and angles of their own.
+void convert_triple(const Rig& rig, Instance& instance, const uint16_t controls[3], bool scale) {
+  float v[3] = {};
+  for (int i = 0; i < 3; ++i)
+    v[i] = controls[i] == kNoControl ? 0.0f : instance.controls[controls[i]];
+  const auto& m = rig.ml.to_rig.m;
+  for (int i = 0; i < 3; ++i) {
+    if (controls[i] == kNoControl) continue;
+    const double turned = v[0] * m[0][i] + v[1] * m[1][i] + v[2] * m[2][i];
+    instance.controls[controls[i]] = static_cast<float>(scale ? std::fabs(turned) : turned);
+  }
+}
+
+void convert_rotation(const Rig& rig, Instance& instance, uint16_t base) {
+  const MlTable& ml = rig.ml;
+  float* x = instance.controls.data + base;
+  const Quaternion q = ml.quaternion_rotations ? normalized({x[0], x[1], x[2], x[3]})
+                                               : quaternion_from_euler(ml.rotation, x);
+  // A quaternion is read in the angles of its own system, as everything else there is.
+  Quaternion plain = q;
+  if (ml.quaternion_rotations) {
+    float own[3];
+    euler_from_quaternion(ml.rotation, q, own);
+    plain = quaternion_from_euler(ml.rotation, own);
+  }
+  const Matrix3 turned = transposed(ml.to_rig) * matrix_from_quaternion(plain) * ml.to_rig;
+  float angles[3];
+  euler_from_matrix(rig.rotation, turned, angles);
+  if (!ml.quaternion_rotations) {
+    std::copy(angles, angles + 3, x);
+    return;
+  }
+  const Quaternion out = quaternion_from_euler(rig.rotation, angles);
+  x[0] = out.x;
+  x[1] = out.y;
+  x[2] = out.z;
+  x[3] = out.w;
+}
+
+}  // namespace
+
+void evaluate_ml(const Rig& rig, Instance& instance, uint32_t lod) {
+  for (const MlStep& step : rig.ml.steps) {
+    if (!is_active(step.lods, lod)) continue;
+    if (step.layer_count == 0) {
+      add_weighted(rig, instance, step);
+      continue;
+    }
+    const float mask = mask_of(rig, instance, step);
+    float* values = instance.ml_values.data + step.first_output;
+    if (mask > 0.0f) {
+      run_network(rig, instance, step);
+    } else {
+      std::fill(values, values + step.output_count, 0.0f);
+    }
+    scatter(rig, instance, step, lod, mask);
+    if (mask > 0.0f && mask < 1.0f) {
+      for (uint32_t i = 0; i < step.output_count; ++i) values[i] *= mask;
+    }
+  }
+  if (!rig.ml.converts) return;
+  for (const MlJoint& joint : rig.ml.joints) {
+    if (!is_active(joint.lods, lod)) continue;
+    convert_triple(rig, instance, joint.translation, false);
+    convert_triple(rig, instance, joint.scale, true);
+    if (joint.rotation_control != kNoControl)
+      convert_rotation(rig, instance, joint.rotation_control);
+  }
+}
+
+void clear_ml_joints(const Rig& rig, Instance& instance, uint32_t lod) {
+  for (const MlJoint& joint : rig.ml.joints) {
+    if (!is_active(joint.lods, lod)) continue;
+    float* out = instance.joints.data + size_t{joint.joint} * rig.joint_attributes;
+    std::fill(out, out + rig.joint_attributes, 0.0f);
+    if (rig.quaternion_outputs) out[6] = 1.0f;
+  }
+}
+
+void add_ml_joints(const Rig& rig, Instance& instance, uint32_t lod) {
+  const MlTable& ml = rig.ml;
+  for (const MlJoint& joint : ml.joints) {
+    if (!is_active(joint.lods, lod)) continue;
+    float* out = instance.joints.data + size_t{joint.joint} * rig.joint_attributes;
+    float* scale = out + rig.joint_attributes - 3;
+    for (int i = 0; i < 3; ++i) {
+      if (joint.translation[i] != kNoControl) out[i] += instance.controls[joint.translation[i]];
+      if (joint.scale[i] != kNoControl) scale[i] += instance.controls[joint.scale[i]];
+    }
+    if (joint.rotation_control == kNoControl) continue;
+    const float* x = instance.controls.data + joint.rotation_control;
+    const Quaternion q = ml.quaternion_rotations ? normalized({x[0], x[1], x[2], x[3]})
+                                                 : quaternion_from_euler(rig.rotation, x);
+    if (rig.quaternion_outputs) {
+      write_rotation(rig, instance, joint.joint, q * Quaternion{out[3], out[4], out[5], out[6]});
+    } else {
+      float angles[3] = {x[0], x[1], x[2]};
+      if (ml.quaternion_rotations) euler_from_quaternion(rig.rotation, q, angles);
+      for (int i = 0; i < 3; ++i) out[3 + i] += angles[i];
+    }
+  }
+}
+
+}  // namespace mien

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/eval/instance.h"
+
+#include <algorithm>
+
+namespace mien {
+namespace {
+
+void place_instance(const Rig& rig, Placer& placer, Instance& instance) {
+  placer.array<Instance>(1);
+  instance.controls = placer.array<float>(rig.control_count, kBlockAlignment);
+  instance.gui = placer.array<float>(rig.gui_count, kBlockAlignment);
+  instance.masks = placer.array<float>(rig.mask_count, kBlockAlignment);
+  const size_t angles = rig.quaternion_outputs ? size_t{rig.joint_count} * 3 : 0;
+  instance.joints_and_angles =
+      placer.array<float>(rig.joint_value_count() + angles, kBlockAlignment);
+  instance.joints = instance.joints_and_angles.first(rig.joint_value_count());
+  instance.channels = placer.array<float>(rig.channel_count, kBlockAlignment);
+  instance.maps = placer.array<float>(rig.map_count, kBlockAlignment);
+  instance.joint_inputs = placer.array<float>(rig.joints.widest_group, kBlockAlignment);
+  instance.joint_sums = placer.array<float>(rig.joints.tallest_group, kBlockAlignment);
+  instance.turns =
+      placer.array<float>(4 * align_up(rig.rotations.most_turns, kBlockRows), kBlockAlignment);
+  instance.ml_values = placer.array<float>(rig.ml.buffer_size, kBlockAlignment);
+  for (Span<float>& layer : instance.ml_layers) {
+    layer = placer.array<float>(align_up(rig.ml.widest_layer, kBlockRows), kBlockAlignment);
+  }
+  instance.rbf_inputs = placer.array<float>(rig.rbf.most_inputs, kBlockAlignment);
+  instance.rbf_weights = placer.array<float>(2 * size_t{rig.rbf.most_poses}, kBlockAlignment);
+}
+
+void fill(const Span<float>& values, float value) {
+  std::fill(values.begin(), values.end(), value);
+}
+
+}  // namespace
+
+size_t instance_size(const Rig& rig) {
+  Instance instance;
+  Placer placer(nullptr);
+  place_instance(rig, placer, instance);
+  return placer.size();
+}
+
+Instance* create_instance(const Rig& rig, const Allocator& allocator) {
+  void* block = allocator.get(rig.instance_size, kBlockAlignment);
+  if (!block) return nullptr;
+  Instance placed;
+  Placer placer(block);
+  place_instance(rig, placer, placed);
+  Instance* instance = new (block) Instance(placed);
+  instance->rig = &rig;
+  instance->allocator = allocator;
+  instance->block_size = rig.instance_size;
+  rig.owners.fetch_add(1, std::memory_order_relaxed);
+  reset_instance(*instance);
+  return instance;
+}
+
+void destroy_instance(Instance* instance) {
+  const Rig* rig = instance->rig;
+  const Allocator allocator = instance->allocator;
+  const size_t size = instance->block_size;
+  instance->tag = 0;
+  allocator.put(instance, size, kBlockAlignment);
+  release_rig(rig);
+}
+
+void clear_outputs(Instance& instance) {
+  const Rig& rig = *instance.rig;
+  fill(instance.joints_and_angles, 0.0f);
+  if (rig.quaternion_outputs) {
+    for (uint32_t j = 0; j < rig.joint_count; ++j) {
+      instance.joints[size_t{j} * rig.joint_attributes + 6] = 1.0f;  // w
+    }
+  }
+  fill(instance.channels, 0.0f);
+  fill(instance.maps, 0.0f);
+}
+
+void reset_instance(Instance& instance) {
+  const Rig& rig = *instance.rig;
+  std::copy(rig.initial_controls.begin(), rig.initial_controls.end(), instance.controls.begin());
+  fill(instance.gui, 0.0f);
+  fill(instance.masks, 1.0f);
+  clear_outputs(instance);
+  instance.lod = 0;
+}
+
+}  // namespace mien

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// One character: its inputs, what was computed last, and scratch, in one block of memory.
+//
+//     | Instance | controls: raw, PSD, ML, RBF | GUI | masks | joints | channels | maps | scratch |
+#pragma once
+
+#include "runtime/base/arena.h"
+#include "runtime/rig/rig.h"
+
+namespace mien {
+
+struct Instance {
+  uint32_t tag = 0;  // first, for the C API to recognise its handles
+  uint32_t lod = 0;  // of the last evaluation: outputs that it does not reach are 0
+  const Rig* rig = nullptr;
+  Allocator allocator;
+  size_t block_size = 0;
+
+  Span<float> controls;
+  Span<float> gui;
+  Span<float> masks;
+  Span<float> joints;
+  Span<float> joints_and_angles;  // joints; with quaternion outputs, 3 angles per joint behind them
+  Span<float> channels;
+  Span<float> maps;
+
+  Span<float> joint_inputs;  // scratch: the columns of the widest joint group
+  Span<float> joint_sums;    // scratch: the rows of the tallest
+  Span<float> turns;         // scratch: the quaternions of the tallest
+  Span<float> ml_values;     // what the ML steps give, for each other
+  Span<float> ml_layers[2];  // scratch: in and out of the widest network layer
+  Span<float> rbf_inputs;    // scratch: of the largest solver
+  Span<float> rbf_weights;   // scratch: of the largest solver, twice
+};
+
+/// Bytes of an instance of a rig.
+size_t instance_size(const Rig& rig);
+
+/// In its initial state, at LOD 0. Becomes an owner of the rig. Null if memory ran out.
+Instance* create_instance(const Rig& rig, const Allocator& allocator);
+void destroy_instance(Instance* instance);
+
+/// Outputs as after creation.
+void clear_outputs(Instance& instance);
+
+/// Inputs and outputs as after creation.
+void reset_instance(Instance& instance);
+
+}  // namespace mien

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// View -> rig: the pieces of compilation. compile_rig() measures, allocates once, and lets each
+// piece fill its arrays.
+#pragma once
+
+#include "runtime/base/arena.h"
+#include "runtime/base/status.h"
+#include "runtime/dna/dna_view.h"
+#include "runtime/rig/rig.h"
+
+namespace mien {
+
+struct CompileOptions {
+  const KernelTable* kernels = nullptr;
+  bool quaternion_outputs = false;  // joint rotations as quaternions instead of Euler angles
+  bool blend_masks = false;         // ML masks blend instead of switching
+};
+
+/// Packs a checked view (definition and behavior loaded). On success `out` is one block of
+/// `allocator`, to be given back by release_rig(); the view is no longer needed.
+Status compile_rig(const dna::DnaView& view, const CompileOptions& options,
+                   const Allocator& allocator, Rig*& out, Error& error);
+
+// The pieces. place_...() says how much memory a piece takes (its spans get their counts, and their
+// data when the block is there); fill_...() writes it. `scratch` is for the time of compilation.
+
+void place_controls(const dna::DnaView& view, Placer& placer, Rig& rig);
+/// kMemory (scratch), or kDnaValue for correctives that depend on each other in a circle.
+Status fill_controls(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
+
+void place_joints(const dna::DnaView& view, Placer& placer, Rig& rig);
+/// Also marks in `reach` how many LODs, counted from 0, read each control through a joint group.
+void fill_joints(const dna::DnaView& view, Span<uint8_t> reach, Rig& rig);
+
+/// After joints, twists and swings, and before the neutral pose.
+void fill_variable_joint_values(const dna::DnaView& view, Rig& rig);
+
+/// After fill_joints(), which knows the largest group.
+void place_rotations(const dna::DnaView& view, Placer& placer, Rig& rig);
+Status fill_rotations(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
+
+/// kDnaLimit for a solver too large to be made.
+Status place_rbf(const dna::DnaView& view, Placer& placer, Rig& rig, Error& error);
+Status fill_rbf(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
+
+/// kDnaLimit for operations that repeat networks beyond measure.
+Status place_ml(const dna::DnaView& view, Placer& placer, Rig& rig, Error& error);
+Status fill_ml(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
+/// How many LODs, counted from 0, read a control to move a joint.
+void mark_ml_joint_inputs(const dna::DnaView& view, uint32_t lod_count, Span<uint8_t> reach);
+
+void place_twists_and_swings(const dna::DnaView& view, Placer& placer, Rig& rig);
+Status fill_twists_and_swings(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
+
+void place_lod_lists(const dna::LodMap& map, uint32_t lod_count, Placer& placer, LodLists& lists);
+void fill_lod_lists(const dna::LodMap& map, LodLists& lists);
+
+/// Correctives, once every reader of a control has marked its reach.
+Status fill_psds(const dna::DnaView& view, Span<uint8_t> reach, Arena& scratch, Rig& rig,
+                 Error& error);
+
+/// Of an output as files number it.
+inline bool is_rotation(uint32_t output) {
+  const uint32_t attribute = output % kFileAttributes;
+  return attribute >= 3 && attribute < 6;
+}
+
+inline bool is_quaternion_joint(const dna::DnaView& view, uint32_t joint) {
+  return joint < view.jbmd.joints.count && view.jbmd.joints[joint].rotation == 1;
+}
+
+/// Leading rows of a table at a LOD; 0 past the end of the list.
+inline uint32_t rows_at_lod(const dna::Array<uint16_t>& lods, uint32_t lod) {
+  return lod < lods.count ? lods[lod] : 0;
+}
+
+/// How many LODs, counted from 0, reach a row.
+inline uint8_t lod_reach(const dna::Array<uint16_t>& lods, uint32_t lod_count, uint32_t row) {
+  uint32_t reach = lod_count;
+  while (reach > 0 && rows_at_lod(lods, reach - 1) <= row) --reach;
+  return static_cast<uint8_t>(reach);
+}
+
+/// Big-endian array -> native array of at least its length.
+template <class T, class U>
+void copy_array(const dna::Array<T>& from, const Span<U>& to) {
+  for (uint32_t i = 0; i < from.count; ++i) to[i] = static_cast<U>(from[i]);
+}
+
+}  // namespace mien

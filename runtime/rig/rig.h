@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: MIT
+// The compiled rig: everything that evaluation reads, in one block of memory, never changed after
+// it was made.
+//
+//     | Rig | tables | correctives | joint matrix | neutral pose | LOD lists | names |
+//
+// A LOD never needs a list of what to evaluate: tables, correctives and joint rows are ordered so
+// that each LOD uses a prefix of what the LOD before it uses.
+#pragma once
+
+#include <atomic>
+
+#include "runtime/base/allocator.h"
+#include "runtime/base/span.h"
+#include "runtime/base/transform.h"
+#include "simd/kernels.h"
+
+namespace mien {
+
+constexpr uint32_t kFileAttributes = 9;  // tx ty tz rx ry rz sx sy sz, as files number them
+constexpr uint16_t kNoOutput = 0xFFFF;   // a joint row whose result goes nowhere
+constexpr uint32_t kMaxLods = 33;
+
+/// What exists at each LOD, with LODs that are alike sharing a row.
+struct LodLists {
+  Span<uint16_t> row_of_lod;
+  Span<uint32_t> first;  // [row], one more at the end
+  Span<uint16_t> indices;
+
+  Span<uint16_t> at(uint32_t lod) const {
+    if (lod >= row_of_lod.count) return {};
+    const uint32_t row = row_of_lod[lod];
+    return indices.slice(first[row], first[row + 1] - first[row]);
+  }
+};
+
+/// Piecewise-linear map (rig-evaluation 2): row r fires when from <= input <= to and then adds
+/// slope * input + cut to its output. Of neighbouring rows with the same input and output only the
+/// first that fires counts: `run_ends[r]` is the first row behind the neighbours of r.
+struct ControlTable {
+  Span<uint16_t> inputs, outputs;
+  Span<float> from, to, slope, cut;
+  Span<uint32_t> run_ends;
+};
+
+/// The same table read backwards (rig-evaluation 2.4): for each input its rows, in groups of equal
+/// [from, to], groups in order of first appearance.
+struct ReverseTable {
+  Span<uint32_t> first_group;  // [input], one more at the end
+  Span<uint32_t> first_row;    // [group], one more at the end
+  Span<uint32_t> rows;         // into the ControlTable
+};
+
+/// Correctives in the order of evaluation: an entry follows all that it depends on, and the first
+/// `count_at_lod[l]` entries are those that LOD l needs.
+///     value = min(1, weight * product of clamp(control, 0, 1) over its inputs)
+struct PsdTable {
+  Span<uint16_t> outputs;      // [entry] control number
+  Span<float> weights;         // [entry]
+  Span<uint32_t> first_input;  // [entry], one more at the end
+  Span<uint16_t> inputs;       // control numbers
+  Span<uint32_t> count_at_lod;
+  Span<uint16_t> entry_of_psd;  // where corrective p stands
+};
+
+/// A dense piece of the joint matrix in blocks of kBlockRows rows, as simd/kernels.h draws it.
+struct JointGroup {
+  size_t first_value;     // into JointMatrix::values
+  uint32_t first_column;  // into JointMatrix::columns
+  uint32_t first_row;     // into JointMatrix::outputs, which has whole blocks too
+  uint32_t column_count;
+  uint32_t row_count;
+};
+
+struct JointMatrix {
+  Span<JointGroup> groups;
+  Span<float> values;
+  Span<uint16_t> columns;      // control that a column reads
+  Span<uint16_t> outputs;      // joint value that a row writes, or kNoOutput
+  Span<uint16_t> rows_at_lod;  // [group][lod]: leading rows
+  uint32_t widest_group = 0;   // columns
+  uint32_t tallest_group = 0;  // rows, in whole blocks
+};
+
+/// A joint that a group turns, and the first of the group's rows that does: it turns at the LODs
+/// that reach this row.
+struct TurnedJoint {
+  uint16_t joint;
+  uint16_t first_row;
+};
+
+/// What a joint group does to rotations besides writing angles.
+///
+/// Angles: with quaternion outputs, rotation rows write their angles behind the joint outputs, at
+/// 3 * joint, and the group's `angle_joints` are then made into quaternions.
+///
+/// Turns: joints represented by quaternions (rig-evaluation 4.8). Per column there is one
+/// quaternion per joint; the rotation is the product, over the columns, of each blended with the
+/// identity by its control. In blocks of kBlockRows joints, as simd/kernels.h draws them.
+struct GroupRotations {
+  uint32_t first_angle_joint, angle_joint_count;  // into RotationTable::angle_joints
+  uint32_t first_turn_joint, turn_joint_count;    // into RotationTable::turn_joints
+  uint32_t first_column, column_count;            // into RotationTable::columns
+  size_t first_value;                             // into RotationTable::values
+};
+
+struct RotationTable {
+  Span<GroupRotations> groups;  // one for each joint group
+  Span<TurnedJoint> angle_joints;
+  Span<TurnedJoint> turn_joints;
+  Span<uint16_t> columns;         // control that a column reads
+  Span<uint16_t> columns_at_lod;  // [group][lod]: leading columns
+  Span<float> values;
+  uint32_t most_turns = 0;  // of one group
+};
+
+/// One RBF solver (rig-evaluation 6), its data in RbfTable.
+struct RbfSolver {
+  uint32_t first_input, input_count;  // into inputs
+  uint32_t first_pose, pose_count;    // into poses
+  size_t first_target;                // into targets: [input][pose], poses padded to whole blocks
+  size_t first_inverse;               // into inverses, if interpolative: blocks as of a joint group
+  float scale;  // what the distance is multiplied with before the weight function
+  float threshold;
+  uint8_t distance, function, twist_axis;
+  bool interpolative, always_normalize;
+};
+
+struct RbfTable {
+  Span<RbfSolver> solvers;
+  Span<uint16_t> inputs;  // control numbers
+  Span<uint16_t> poses;   // pose numbers
+  Span<float> targets, inverses;
+  Span<float> pose_scales;      // [pose]
+  Span<uint32_t> first_input;   // [pose] into pose_inputs, one more at the end
+  Span<uint32_t> first_output;  // [pose] into pose_outputs, one more at the end
+  Span<uint16_t> pose_inputs, pose_outputs;
+  Span<float> pose_weights;  // beside pose_outputs
+  LodLists lod_solvers;
+  uint32_t most_inputs = 0, most_poses = 0;  // of one solver; poses in whole blocks
+};
+
+/// One layer of a neural network, as simd/kernels.h wants it.
+struct NetworkLayer {
+  size_t first_value;   // into MlTable::values
+  uint32_t first_bias;  // into MlTable::biases
+  uint32_t input_count;
+  uint32_t output_count;
+  float alpha;
+  uint8_t function;
+};
+
+/// Values that an operation takes from another one: `count` floats at `first` of the instance's ML
+/// buffer, weighted if it is a weighted sum.
+struct MlDependency {
+  uint32_t first, count;
+  float weight;
+};
+
+/// A step of the learned behaviour (rig-evaluation 8): a network that runs, or a weighted sum. What
+/// gathers and scatters has become lists of controls. Its values go to `first_output` of the
+/// instance's ML buffer, and on to the controls of its scatter list.
+struct MlStep {
+  uint64_t lods;                                // bit l: runs at LOD l
+  uint32_t first_layer, layer_count;            // none: a weighted sum
+  uint32_t first_gather, gather_count;          // into controls: if there are any, the only inputs
+  uint32_t first_dependency, dependency_count;  // into dependencies
+  uint32_t first_scatter, scatter_count;        // into controls
+  uint32_t first_limit;                         // into limits: [lod] leading outputs to scatter
+  uint32_t first_output, output_count;
+  uint32_t mask;  // or kNoMask
+};
+constexpr uint32_t kNoMask = ~uint32_t{0};
+
+/// A joint that learned behaviour moves (rig-evaluation 8.6). Controls of what it does not give are
+/// kNoControl; a rotation takes three or four controls from rotation_control on.
+struct MlJoint {
+  uint64_t lods;  // bit l: exists at LOD l
+  uint16_t joint;
+  uint16_t translation[3], scale[3];
+  uint16_t rotation_control;
+};
+constexpr uint16_t kNoControl = 0xFFFF;
+
+struct MlTable {
+  Span<MlStep> steps;
+  Span<NetworkLayer> layers;
+  Span<float> values, biases;
+  Span<uint16_t> controls;
+  Span<MlDependency> dependencies;
+  Span<uint32_t> limits;
+  Span<uint8_t>
+      default_is_one;  // [control]: what a masked network gives: 1 for the w of a quaternion
+  Span<MlJoint> joints;
+  uint32_t buffer_size = 0;   // floats of an instance's ML buffer
+  uint32_t widest_layer = 0;  // inputs or padded outputs
+
+  bool blend_masks = false;           // else a mask is on or off
+  bool quaternion_rotations = false;  // of the ML joints
+  bool converts = false;              // ML joints come in a system of their own:
+  RotationConvention rotation;        // its angles
+  Matrix3 to_rig;                     // its axes to the rig's, for row vectors
+};
+
+/// Joints that follow a quaternion input: what swings with it, what twists with it (rig-evaluation
+/// 7). A twist alone has no swing outputs.
+struct TwistSwing {
+  uint16_t inputs[4];  // control numbers of x y z w
+  uint8_t axis;        // of the swing if there is one
+  bool has_swing;
+  uint32_t first_swing, swing_count;  // into TwistSwingTable::outputs
+  uint32_t first_twist, twist_count;
+};
+
+struct TwistSwingOutput {
+  uint16_t joint;
+  float blend;
+};
+
+struct TwistSwingTable {
+  Span<TwistSwing> setups;
+  Span<TwistSwingOutput> outputs;
+};
+
+/// Channel i copies a control: the first count_at_lod[l] entries do at LOD l.
+struct ChannelTable {
+  Span<uint16_t> inputs, outputs;
+  Span<uint32_t> count_at_lod;
+};
+
+struct NameList {
+  Span<uint32_t> first;  // [name] into chars, one more at the end
+  Span<char> chars;
+  Span<uint32_t> sorted;  // names in ascending order of their bytes, then of their index
+
+  uint32_t count() const { return first.count ? static_cast<uint32_t>(first.count - 1) : 0; }
+  Span<char> operator[](uint32_t i) const { return chars.slice(first[i], first[i + 1] - first[i]); }
+};
+
+/// Numbers of MIEN_KIND_... in mien.h. Those before kKindsWithNames have names.
+enum class Kind : uint32_t {
+  kGuiControl,
+  kRawControl,
+  kPsdControl,
+  kMlControl,
+  kRbfControl,
+  kJoint,
+  kBlendShapeChannel,
+  kAnimatedMap,
+  kMesh,
+  kMlMask,
+  kJointGroup,
+  kRbfSolver,
+  kTwistSwing,
+};
+constexpr size_t kKindsWithNames = 10;
+
+struct Units {
+  uint32_t translation = 0, rotation = 0;
+  uint32_t axes[3] = {};
+  uint32_t rotation_sequence = 0;
+  int32_t rotation_signs[3] = {1, 1, 1};
+};
+
+struct Rig {
+  uint32_t tag = 0;  // first, for the C API to recognise its handles
+  Allocator allocator;
+  size_t block_size = 0;
+  size_t instance_size = 0;
+  mutable std::atomic<uint32_t> owners{1};  // the creator and every instance
+
+  const KernelTable* kernels = nullptr;
+  uint32_t lod_count = 0;
+  Units units;
+
+  // Control row: raw | PSD | ML | RBF | controls of layers that were not loaded.
+  uint32_t gui_count = 0, raw_count = 0, psd_count = 0, ml_count = 0, rbf_count = 0;
+  uint32_t control_count = 0;
+  uint32_t joint_count = 0, channel_count = 0, map_count = 0, mesh_count = 0, mask_count = 0;
+  bool quaternion_outputs = false;
+  uint32_t joint_attributes = kFileAttributes;  // per joint: 9, or 10 with quaternion outputs
+  uint32_t joint_value_count() const { return joint_count * joint_attributes; }
+  RotationConvention rotation;
+
+  ControlTable gui_to_raw;
+  Span<uint16_t> driven_raw;  // raw controls that gui_to_raw writes, ascending
+  ReverseTable raw_to_gui;
+  PsdTable psds;
+  JointMatrix joints;
+  RotationTable rotations;
+  RbfTable rbf;
+  TwistSwingTable twist_swing;
+  MlTable ml;
+  ChannelTable channels;
+  ControlTable maps;
+  Span<uint32_t> map_rows_at_lod;
+
+  Span<float> initial_controls;  // [raw | PSD | ML | RBF]
+  Span<float> neutral_joints;    // joint values
+  Span<uint16_t> joint_parents;
+  LodLists lod_joints, lod_channels, lod_maps, lod_meshes;
+  LodLists variable_joint_values;
+  NameList names[kKindsWithNames];
+};
+
+/// Drops one owner; the last one releases the block.
+void release_rig(const Rig* rig);
+
+}  // namespace mien

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "simd/cpu_features.h"
+
+#include <stdint.h>
+
+#if defined(__x86_64__)
+#include <cpuid.h>
+#endif
+
+namespace mien {
+
+#if defined(__x86_64__)
+
+namespace {
+
+constexpr uint32_t bit(uint32_t number) { return uint32_t{1} << number; }
+constexpr bool has_all(uint32_t bits, uint32_t wanted) { return (bits & wanted) == wanted; }
+
+// CPUID leaf 1, register ECX. AVX2 code may use all the older sets: compilers take them as implied.
+constexpr uint32_t kLeaf1Xsave = bit(26) | bit(27);  // XSAVE, and that the system turned it on
+constexpr uint32_t kLeaf1Avx2 = bit(0) | bit(9) | bit(19) | bit(20) | bit(23) |  // SSE3 to POPCNT
+                                bit(28) | bit(12) | bit(29);                     // AVX, FMA, F16C
+// CPUID leaf 7, register EBX.
+constexpr uint32_t kLeaf7Avx2 = bit(5);
+constexpr uint32_t kLeaf7Avx512 = bit(16) | bit(17) | bit(28) | bit(30) | bit(31);  // F DQ CD BW VL
+
+// XCR0: which registers the system saves when it switches threads. Wide ones it does not save are
+// lost at any moment, whatever CPUID says.
+constexpr uint32_t kXcr0Avx = bit(1) | bit(2);                         // XMM, YMM
+constexpr uint32_t kXcr0Avx512 = kXcr0Avx | bit(5) | bit(6) | bit(7);  // masks, ZMM, ZMM16-31
+
+uint32_t read_xcr0() {
+  uint32_t low, high;
+  __asm__ volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(0));  // _xgetbv would need -mxsave
+  return low;
+}
+
+}  // namespace
+
+CpuFeatures detect_cpu_features() {
+  CpuFeatures features = {};
+  features.sse2 = true;  // part of x86-64
+
+  uint32_t eax, ebx, ecx, edx;
+  if (!__get_cpuid(1, &eax, &ebx, &ecx, &edx)) return features;
+  if (!has_all(ecx, kLeaf1Xsave | kLeaf1Avx2)) return features;
+  const uint32_t xcr0 = read_xcr0();
+
+  if (!__get_cpuid_count(7, 0, &eax, &ebx, &ecx, &edx)) return features;
+  features.avx2 = has_all(ebx, kLeaf7Avx2) && has_all(xcr0, kXcr0Avx);
+  features.avx512 = features.avx2 && has_all(ebx, kLeaf7Avx512) && has_all(xcr0, kXcr0Avx512);
+  return features;
+}
+
+#else
+
+CpuFeatures detect_cpu_features() {
+  CpuFeatures features = {};
+#if defined(__aarch64__)
+  features.neon = true;  // part of AArch64
+#endif
+  return features;
+}
+
+#endif
+
+}  // namespace mien

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// All kernels of one instruction set, and their table: the only name its object file exports.
+
+#include "simd/dense_kernels.inl"
+#include "simd/joint_kernels.inl"
+#include "simd/rotation_kernels.inl"
+
+#define MIEN_KERNEL_STRING_OF(name) #name
+#define MIEN_KERNEL_STRING(macro) MIEN_KERNEL_STRING_OF(macro)
+
+namespace mien::MIEN_KERNEL_ISA {
+
+extern const KernelTable kTable;  // const alone would keep it inside this file
+const KernelTable kTable = {
+    kIsa, MIEN_KERNEL_STRING(MIEN_KERNEL_ISA), joint_group, dense_layer, joint_turns, rbf_weights};
+
+}  // namespace mien::MIEN_KERNEL_ISA

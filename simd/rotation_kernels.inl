@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Joints represented by quaternions.
+
+#include "simd/vec.inl"
+
+namespace mien::MIEN_KERNEL_ISA {
+namespace {
+
+struct VecQuaternion {
+  Vec x, y, z, w;
+};
+
+inline VecQuaternion load_quaternion(const float* at) {
+  return {load(at), load(at + kBlockRows), load(at + 2 * kBlockRows), load(at + 3 * kBlockRows)};
+}
+
+// The blend is made unit by a true root and division: estimates would bend the joints.
+inline VecQuaternion blend_with_identity(const VecQuaternion& q, float weight) {
+  const Vec t = broadcast(weight);
+  const VecQuaternion b = {t * q.x, t * q.y, t * q.z, t * q.w + broadcast(1.0f - weight)};
+  const Vec length = square_root(b.x * b.x + b.y * b.y + b.z * b.z + b.w * b.w);
+  const Vec scale = broadcast(1.0f) / length;
+  return {b.x * scale, b.y * scale, b.z * scale, b.w * scale};
+}
+
+inline VecQuaternion multiply(const VecQuaternion& a, const VecQuaternion& b) {
+  return {
+      a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+      a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
+
+// Controls this large turn no joint any further, but their squares would overflow.
+inline float bounded(float weight) {
+  constexpr float kLargest = 1e9f;
+  return weight > kLargest ? kLargest : weight < -kLargest ? -kLargest : weight;
+}
+
+void joint_turns(const JointTurnArgs& args) {
+  constexpr size_t kColumnFloats = 4 * kBlockRows;
+  for (size_t block = 0; block < args.block_count; ++block) {
+    const float* values = args.values + block * args.column_stride * kColumnFloats;
+    for (size_t lane = 0; lane < kBlockRows; lane += kWidth) {
+      VecQuaternion product = {broadcast(0.0f), broadcast(0.0f), broadcast(0.0f), broadcast(1.0f)};
+      for (size_t c = 0; c < args.column_count; ++c) {
+        const float weight = bounded(args.controls[args.columns[c]]);
+        if (weight == 0.0f) continue;  // the identity
+        const VecQuaternion q = load_quaternion(values + c * kColumnFloats + lane);
+        product = multiply(blend_with_identity(q, weight), product);
+      }
+      float* out = args.rotations + block * kColumnFloats + lane;
+      store(out, product.x);
+      store(out + kBlockRows, product.y);
+      store(out + 2 * kBlockRows, product.z);
+      store(out + 3 * kBlockRows, product.w);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mien::MIEN_KERNEL_ISA

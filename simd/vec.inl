@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// Our names over xsimd: the only file that knows xsimd, and the only one that asks which
+// instruction set this is. A kernel written with these names is right for every width.
+//
+//   Vec             kWidth floats
+//   load            from memory aligned to the vector
+//   store           to any address
+//   broadcast       the same float in each lane
+//   + - * /         rounded once each: never fused (the kernels are built without contraction)
+//   square_root, at_least, at_most
+//   select(m,a,b)   a where m, else b; masks come from less(a,b)
+//   saturate        to the range of finite floats
+//   power_of_two(n) 2^n for whole n in -126 ... 127
+//   mul_add(a,b,c)  a * b + c, rounded once where the hardware fuses (AVX2, AVX-512, NEON), else
+//                   rounded after each step (scalar, SSE2). By intrinsic: xsimd 8.1 leaves the
+//                   choice to the compiler on AVX-512 and NEON.
+//
+// The including kernels_<isa>.cpp defines first:
+//
+//   MIEN_KERNEL_ISA    name of the instruction set, and of the namespace of its kernels
+//   MIEN_KERNEL_AVX2   (or _SCALAR, _SSE2, _AVX512, _NEON) so that the preprocessor can ask
+//   xsimd              a name of its own, so that no two kernel objects share an inline function
+//
+// Everything is in an unnamed namespace for the same reason; in kernel files use nothing but this,
+// kernels.h and C headers.
+
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "simd/kernels.h"
+
+#if !defined(MIEN_KERNEL_SCALAR)
+#if !defined(xsimd)
+#error "rename xsimd before including it: see above"
+#endif
+#include <xsimd/xsimd.hpp>
+#endif
+
+namespace mien::MIEN_KERNEL_ISA {
+namespace {
+
+#if defined(MIEN_KERNEL_SCALAR)
+
+constexpr Isa kIsa = Isa::kScalar;
+constexpr size_t kWidth = 1;
+using Vec = float;
+
+inline Vec load(const float* from) { return *from; }
+inline void store(float* to, Vec value) { *to = value; }
+inline Vec broadcast(float value) { return value; }
+inline Vec mul_add(Vec a, Vec b, Vec c) { return a * b + c; }  // built with -ffp-contract=off
+inline Vec square_root(Vec v) { return __builtin_sqrtf(v); }
+inline Vec at_least(Vec v, Vec low) { return v > low ? v : low; }    // NaN becomes `low`
+inline Vec at_most(Vec v, Vec high) { return v < high ? v : high; }  // NaN becomes `high`
+using Mask = bool;
+inline Mask less(Vec a, Vec b) { return a < b; }
+inline Vec select(Mask m, Vec a, Vec b) { return m ? a : b; }
+inline Vec power_of_two(Vec n) {
+  const uint32_t bits = static_cast<uint32_t>(static_cast<int32_t>(n) + 127) << 23;
+  float power;
+  __builtin_memcpy(&power, &bits, sizeof(power));
+  return power;
+}
+
+#else
+
+#if defined(MIEN_KERNEL_SSE2)
+constexpr Isa kIsa = Isa::kSse2;
+using Vec = xsimd::batch<float, xsimd::sse2>;
+inline Vec mul_add(Vec a, Vec b, Vec c) { return _mm_add_ps(_mm_mul_ps(a, b), c); }
+
+#elif defined(MIEN_KERNEL_AVX2)
+constexpr Isa kIsa = Isa::kAvx2;
+using Vec = xsimd::batch<float, xsimd::fma3<xsimd::avx2>>;
+inline Vec mul_add(Vec a, Vec b, Vec c) { return _mm256_fmadd_ps(a, b, c); }
+
+#elif defined(MIEN_KERNEL_AVX512)
+constexpr Isa kIsa = Isa::kAvx512;
+using Vec = xsimd::batch<float, xsimd::avx512bw>;
+inline Vec mul_add(Vec a, Vec b, Vec c) { return _mm512_fmadd_ps(a, b, c); }
+
+#elif defined(MIEN_KERNEL_NEON)
+constexpr Isa kIsa = Isa::kNeon;
+using Vec = xsimd::batch<float, xsimd::neon64>;
+inline Vec mul_add(Vec a, Vec b, Vec c) { return vfmaq_f32(c, a, b); }
+#endif
+
+constexpr size_t kWidth = Vec::size;
+
+inline Vec load(const float* from) { return Vec::load_aligned(from); }
+inline void store(float* to, Vec value) { value.store_unaligned(to); }
+inline Vec broadcast(float value) { return Vec(value); }
+inline Vec square_root(Vec v) { return xsimd::sqrt(v); }
+using Mask = Vec::batch_bool_type;
+inline Mask less(Vec a, Vec b) { return a < b; }
+inline Vec select(Mask m, Vec a, Vec b) { return xsimd::select(m, a, b); }
+inline Vec at_least(Vec v, Vec low) { return select(v > low, v, low); }
+inline Vec at_most(Vec v, Vec high) { return select(v < high, v, high); }
+inline Vec power_of_two(Vec n) {
+  // The sum is exact, so its lowest bits are n + 127.
+  constexpr float kFirstOfUnitSpacing = 12582912.0f;  // 1.5 * 2^23
+  using Bits = xsimd::batch<int32_t, Vec::arch_type>;
+  const Bits sum = xsimd::bitwise_cast<Bits>(n + broadcast(kFirstOfUnitSpacing + 127.0f));
+  return xsimd::bitwise_cast<Vec>(sum << 23);
+}
+
+#endif
+
+// Sums of finite products can overflow, and infinities of both signs cancel to nothing sensible.
+inline Vec saturate(Vec v) {
+  constexpr float kLargest = 3.40282347e38f;
+  return at_most(at_least(v, broadcast(-kLargest)), broadcast(kLargest));
+}
+
+}  // namespace
+}  // namespace mien::MIEN_KERNEL_ISA

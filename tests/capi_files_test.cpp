@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+// Files behind mien.h: reading them in both ways, writing them so that nothing is lost if it fails,
+// and what is no file but a pipe or a device.
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "tests/support/golden.h"
+#include "tests/support/misuse.h"
+
+namespace mien {
+namespace {
+
+namespace fs = std::filesystem;
+
+Bytes read_all(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return Bytes(std::istreambuf_iterator<char>(in), {});
+}
+
+void write_all(const std::string& path, const Bytes& bytes) {
+  std::ofstream out(path, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(bytes.data()),
+            static_cast<std::streamsize>(bytes.size()));
+  ASSERT_TRUE(out.flush());
+}
+
+MienDnaInfo info_of(const DnaHandle& dna) {
+  MienDnaInfo info = sized<MienDnaInfo>();
+  EXPECT_EQ(mien_dna_info(dna.get(), &info), MIEN_OK);
+  return info;
+}
+
+/// A folder of its own for each test.
+class Files : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = testing::TempDir() + "mien_files_XXXXXX";
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder = pattern;
+    dna = generate_dna(MIEN_PRESET_TINY, 1);
+    bytes = write_dna(dna.get());
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  std::string path(const std::string& name) const { return folder + "/" + name; }
+  std::vector<std::string> names() const {
+    std::vector<std::string> found;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+      found.push_back(entry.path().filename());
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+  MienStatus write(const std::string& to, MienError* error = nullptr) const {
+    return mien_dna_write_file(dna.get(), to.c_str(), nullptr, error);
+  }
+  DnaHandle open(const std::string& from, uint32_t access = MIEN_FILE_MAP) const {
+    MienDnaDesc desc = sized<MienDnaDesc>();
+    desc.file_access = access;
+    MienError error = sized<MienError>();
+    MienDna* opened = nullptr;
+    EXPECT_EQ(mien_dna_open_file(from.c_str(), &desc, &opened, &error), MIEN_OK) << error.message;
+    return DnaHandle(opened);
+  }
+
+  std::string folder;
+  DnaHandle dna;
+  Bytes bytes;  // what writing `dna` gives
+};
+
+// Reading -----------------------------------------------------------------------------------------
+
+TEST_F(Files, MappedOrRead) {
+  write_all(path("a.dna"), bytes);
+  const DnaHandle mapped = open(path("a.dna")), read = open(path("a.dna"), MIEN_FILE_READ);
+  EXPECT_EQ(info_of(mapped).mapped, 1u);
+  EXPECT_EQ(info_of(read).mapped, 0u);
+  EXPECT_EQ(info_of(mapped).file_bytes, bytes.size());
+  EXPECT_EQ(info_of(read).file_bytes, bytes.size());
+  EXPECT_GE(info_of(read).memory_bytes, info_of(mapped).memory_bytes + bytes.size());
+  EXPECT_EQ(write_dna(mapped.get()), bytes);
+  EXPECT_EQ(write_dna(read.get()), bytes);
+}
+
+// "for files that others may truncate meanwhile"
+TEST_F(Files, ReadFilesMayBeTruncated) {
+  write_all(path("a.dna"), bytes);
+  const DnaHandle read = open(path("a.dna"), MIEN_FILE_READ);
+  fs::resize_file(path("a.dna"), 0);
+  EXPECT_EQ(write_dna(read.get()), bytes);
+}
+
+// What the structs say about memory is what the allocator was asked for.
+TEST_F(Files, MemoryIsCounted) {
+  write_all(path("a.dna"), bytes);
+  for (uint32_t access : {uint32_t{MIEN_FILE_MAP}, uint32_t{MIEN_FILE_READ}}) {
+    KeepingAllocator kept;
+    MienDnaDesc desc = sized<MienDnaDesc>();
+    desc.file_access = access;
+    desc.allocator = &kept.interface;
+    MienDna* opened = nullptr;
+    ASSERT_EQ(mien_dna_open_file(path("a.dna").c_str(), &desc, &opened, nullptr), MIEN_OK);
+    const DnaHandle from(opened);
+    EXPECT_EQ(info_of(from).memory_bytes, kept.live_bytes);
+
+    // A rig is one block, and so is an instance.
+    const size_t before = kept.live_bytes;
+    MienRigDesc rig_desc = sized<MienRigDesc>();
+    rig_desc.allocator = &kept.interface;
+    MienRig* rig = nullptr;
+    MienInstance* instance = nullptr;
+    ASSERT_EQ(mien_rig_create(opened, &rig_desc, &rig, nullptr), MIEN_OK);
+    const RigHandle made(rig);
+    EXPECT_EQ(info_of(made).rig_bytes, kept.live_bytes - before);
+    const size_t blocks = kept.blocks.size(), with_rig = kept.live_bytes;
+    ASSERT_EQ(mien_instance_create(rig, &kept.interface, &instance, nullptr), MIEN_OK);
+    const InstanceHandle character(instance);
+    EXPECT_EQ(kept.blocks.size(), blocks + 1);
+    EXPECT_EQ(info_of(made).instance_bytes, kept.live_bytes - with_rig);
+    EXPECT_EQ(mien_rig_evaluate(rig, instance, 0), MIEN_OK);
+    EXPECT_EQ(kept.blocks.size(), blocks + 1) << "evaluation allocates nothing";
+  }
+}
+
+// "memory taken is at most six times the bytes of the chosen layers", but for what the handle
+// itself takes.
+TEST_F(Files, MemoryIsBounded) {
+  std::vector<Bytes> files = {bytes, write_dna(generate_dna(MIEN_PRESET_SMALL, 1).get())};
+  const std::string shared = golden::shared_folder();
+  for (const char* name : {"tiny", "body", "head", "ml_ext"}) {
+    if (!shared.empty()) files.push_back(golden::read_bytes(shared + "/golden/" + name + ".dna"));
+  }
+  for (const Bytes& file : files) {
+    MienDna* opened = nullptr;
+    ASSERT_EQ(mien_dna_open_memory(file.data(), file.size(), nullptr, &opened, nullptr), MIEN_OK);
+    const DnaHandle from(opened);
+    EXPECT_LE(info_of(from).memory_bytes, 6 * file.size() + 20 * 1024);
+  }
+}
+
+TEST_F(Files, FilesThatCannotBeOpened) {
+  write_all(path("a.dna"), bytes);
+  write_all(path("empty.dna"), {});
+  const struct {
+    std::string path;
+    MienStatus status;
+  } cases[] = {{path("none.dna"), MIEN_ERROR_FILE_OPEN},
+               {path("none/a.dna"), MIEN_ERROR_FILE_OPEN},
+               {path("a.dna/b.dna"), MIEN_ERROR_FILE_OPEN},
+               {"", MIEN_ERROR_FILE_OPEN},
+               {path(std::string(5000, 'x')), MIEN_ERROR_FILE_OPEN},
+               {folder, MIEN_ERROR_FILE_READ},
+               {path("empty.dna"), MIEN_ERROR_DNA_SIGNATURE},
+               {"/dev/null", MIEN_ERROR_DNA_SIGNATURE}};
+  for (const auto& c : cases) {
+    for (uint32_t access : {uint32_t{MIEN_FILE_MAP}, uint32_t{MIEN_FILE_READ}}) {
+      MienDnaDesc desc = sized<MienDnaDesc>();
+      desc.file_access = access;
+      MienError error = sized<MienError>();
+      MienDna* opened = dna.get();
+      EXPECT_EQ(mien_dna_open_file(c.path.c_str(), &desc, &opened, &error), c.status) << c.path;
+      EXPECT_EQ(opened, nullptr);
+      EXPECT_EQ(error.status, c.status);
+      EXPECT_GT(strlen(error.message), 0u);
+    }
+    // A report says the same, or tells it as a finding.
+    MienReport* report = nullptr;
+    MienError error = sized<MienError>();
+    const MienStatus status = mien_report_create_file(c.path.c_str(), nullptr, &report, &error);
+    EXPECT_EQ(error.status, status);
+    if (c.status == MIEN_ERROR_DNA_SIGNATURE) {
+      MienFinding finding = sized<MienFinding>();
+      EXPECT_EQ(status, MIEN_OK) << "the file could be examined";
+      EXPECT_EQ(mien_report_finding(report, 0, &finding), MIEN_OK);
+      EXPECT_EQ(finding.status, c.status);
+    } else {
+      EXPECT_EQ(status, c.status);
+      EXPECT_EQ(report, nullptr);
+    }
+    mien_report_destroy(report);
+  }
+}
+
+// "read into memory where the system cannot map (pipes)"
+TEST_F(Files, PipesAreReadToTheirEnd) {
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  for (uint32_t preset : {MIEN_PRESET_TINY, MIEN_PRESET_SMALL}) {  // one that does not fit into it
+    const Bytes sent = write_dna(generate_dna(preset, 2).get());
+    std::thread writer([&] { write_all(path("pipe"), sent); });
+    const DnaHandle read = open(path("pipe"));
+    writer.join();
+    EXPECT_EQ(info_of(read).mapped, 0u);
+    EXPECT_EQ(info_of(read).file_bytes, sent.size());
+    EXPECT_EQ(write_dna(read.get()), sent);
+  }
+}
+
+// Writing -----------------------------------------------------------------------------------------
+
+TEST_F(Files, WritesWhatMemoryGets) {
+  EXPECT_EQ(write(path("a.dna")), MIEN_OK);
+  EXPECT_EQ(read_all(path("a.dna")), bytes);
+  write_all(path("a.dna"), Bytes(3 * bytes.size(), 7));
+  EXPECT_EQ(write(path("a.dna")), MIEN_OK);
+  EXPECT_EQ(read_all(path("a.dna")), bytes);
+  EXPECT_EQ(write(path("a gesicht \xC3\xA4\xF0\x9F\x99\x82.dna")), MIEN_OK);
+  EXPECT_EQ(read_all(path("a gesicht \xC3\xA4\xF0\x9F\x99\x82.dna")), bytes);
+  EXPECT_EQ(names().size(), 2u) << "no temporary file is left";
+}
+
+TEST_F(Files, FailuresLeaveNothingBehind) {
+  write_all(path("file"), {1, 2, 3});
+  fs::create_directory(path("folder"));
+  const std::vector<std::string> before = names();
+  for (const std::string& to :
+       {path("none/a.dna"), path("file/a.dna"), path("folder"), folder, std::string(),
+        path(std::string(5000, 'x')), std::string("/proc/a.dna")}) {
+    MienError error = sized<MienError>();
+    EXPECT_EQ(write(to, &error), MIEN_ERROR_FILE_WRITE) << to;
+    EXPECT_EQ(error.status, MIEN_ERROR_FILE_WRITE);
+    EXPECT_GT(strlen(error.message), to.empty() ? 0u : 10u);
+  }
+  EXPECT_EQ(names(), before);
+  EXPECT_EQ(read_all(path("file")), Bytes({1, 2, 3}));
+  EXPECT_TRUE(fs::is_empty(path("folder")));
+}
+
+// A disk that is full in the middle of a file, as far as a test can have one.
+TEST_F(Files, FailureLeavesTheOldFile) {
+  const Bytes old = {'o', 'l', 'd'};
+  write_all(path("a.dna"), old);
+  rlimit limit;
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
+  const rlimit small = {bytes.size() / 2, limit.rlim_max};
+  void (*const handler)(int) = signal(SIGXFSZ, SIG_IGN);
+  MienError error = sized<MienError>();
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const MienStatus over = write(path("a.dna"), &error), fresh = write(path("b.dna"));
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+  signal(SIGXFSZ, handler);
+  EXPECT_EQ(over, MIEN_ERROR_FILE_WRITE);
+  EXPECT_EQ(fresh, MIEN_ERROR_FILE_WRITE);
+  EXPECT_GT(strlen(error.message), 0u);
+  EXPECT_EQ(read_all(path("a.dna")), old);
+  EXPECT_EQ(names(), std::vector<std::string>{"a.dna"});
+}
+
+// "replacing it by renaming is safe"
+TEST_F(Files, WritingOverTheOpenFile) {
+  EXPECT_EQ(write(path("a.dna")), MIEN_OK);
+  const DnaHandle opened = open(path("a.dna"));
+  ASSERT_EQ(info_of(opened).mapped, 1u);
+
+  MienWriteDesc desc = sized<MienWriteDesc>();
+  desc.version = 1;
+  ASSERT_EQ(mien_dna_write_file(opened.get(), path("a.dna").c_str(), &desc, nullptr), MIEN_OK);
+  EXPECT_EQ(write_dna(opened.get()), bytes) << "the view is of the old file";
+  EXPECT_EQ(info_of(open(path("a.dna"))).version, 1u);
+  EXPECT_EQ(mien_dna_write_file(opened.get(), path("a.dna").c_str(), nullptr, nullptr), MIEN_OK);
+  EXPECT_EQ(read_all(path("a.dna")), bytes);
+  EXPECT_EQ(names().size(), 1u);
+}
+
+// A pipe comes first: it shows without harm that nothing is put in a device's place.
+TEST_F(Files, DevicesAreWrittenToAndSurvive) {
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  const int reader = ::open(path("pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  ASSERT_LT(bytes.size(), 65536u) << "does not fit into a pipe";
+  EXPECT_EQ(write(path("pipe")), MIEN_OK);
+  Bytes arrived(bytes.size() + 1);
+  const ssize_t count = ::read(reader, arrived.data(), arrived.size());
+  close(reader);
+  ASSERT_EQ(count, static_cast<ssize_t>(bytes.size()));
+  arrived.pop_back();
+  EXPECT_EQ(arrived, bytes);
+  ASSERT_TRUE(fs::is_fifo(path("pipe"))) << "replaced by a file";
+
+  EXPECT_EQ(write("/dev/null"), MIEN_OK);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  MienError error = sized<MienError>();
+  EXPECT_EQ(write("/dev/full", &error), MIEN_ERROR_FILE_WRITE);
+  EXPECT_NE(std::string(error.message).find("/dev/full"), std::string::npos) << error.message;
+  EXPECT_NE(std::string(error.message).find(strerror(ENOSPC)), std::string::npos) << error.message;
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+  // Larger than any buffer on the way.
+  const DnaHandle large = generate_dna(MIEN_PRESET_SMALL, 1);
+  EXPECT_EQ(mien_dna_write_file(large.get(), "/dev/full", nullptr, &error), MIEN_ERROR_FILE_WRITE);
+  EXPECT_EQ(mien_dna_write_file(large.get(), "/dev/null", nullptr, &error), MIEN_OK);
+}
+
+}  // namespace
+}  // namespace mien

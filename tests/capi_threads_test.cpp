@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// The promises of mien.h about threads, to be run under the thread sanitizer: a const handle serves
+// any number of threads, an instance one at a time, and a rig may be destroyed while instances of
+// it are still in use elsewhere.
+#include <atomic>
+#include <functional>
+#include <thread>
+
+#include "tests/support/rig_handles.h"
+
+namespace mien {
+namespace {
+
+constexpr int kThreads = 16;
+
+/// Runs `body(t)` on all threads, none of which begins before all are there.
+void on_threads(int count, const std::function<void(int)>& body) {
+  std::atomic<int> missing{count};
+  std::vector<std::thread> threads;
+  for (int t = 0; t < count; ++t) {
+    threads.emplace_back([&, t] {
+      --missing;
+      while (missing > 0) std::this_thread::yield();
+      body(t);
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+}
+
+RigHandle small_rig() { return create_rig(generate_dna(MIEN_PRESET_SMALL, 5).get()); }
+
+/// Frame `frame` of the animation of character `seed`: sliders in 0..1, and the LOD.
+uint32_t animate(Character& character, int seed, int frame, uint32_t lods) {
+  uint32_t state = static_cast<uint32_t>(seed * 7919 + frame * 104729 + 1);
+  for (float& value : character.gui) {
+    state = state * 1664525 + 1013904223;
+    value = static_cast<float>(state >> 8) / static_cast<float>(1 << 24);
+  }
+  character.map_gui_to_raw();
+  return state % lods;
+}
+
+TEST(CapiThreads, InstancesOfOneRigDoNotDisturbEachOther) {
+  constexpr int kFrames = 12;
+  const RigHandle rig = small_rig();
+  const uint32_t lods = info_of(rig).lod_count;
+  ASSERT_GT(lods, 1u);
+
+  std::vector<std::vector<float>> expected(kThreads * kFrames), found(kThreads * kFrames);
+  auto play = [&](int seed, std::vector<std::vector<float>>& results) {
+    Character character(rig);
+    for (int frame = 0; frame < kFrames; ++frame) {
+      character.evaluate(animate(character, seed, frame, lods));
+      results[static_cast<size_t>(seed * kFrames + frame)] = character.results();
+    }
+  };
+  for (int t = 0; t < kThreads; ++t) play(t, expected);
+  on_threads(kThreads, [&](int t) { play(t, found); });
+  for (size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_TRUE(same_bits(span_of(expected[i]), span_of(found[i]))) << "result " << i;
+  }
+  EXPECT_FALSE(same_bits(span_of(expected[0]), span_of(expected[kFrames]))) << "they all do alike";
+}
+
+TEST(CapiThreads, RigsAreLookedIntoByAll) {
+  const RigHandle rig = small_rig();
+  const std::vector<std::string> joints = names_of(rig, MIEN_KIND_JOINT);
+  const MienRigInfo info = info_of(rig);
+  on_threads(kThreads, [&](int) {
+    EXPECT_EQ(names_of(rig, MIEN_KIND_JOINT), joints);
+    for (uint32_t i = 0; i < joints.size(); ++i) {
+      uint32_t found = 0;
+      EXPECT_EQ(
+          mien_rig_find(rig.get(), MIEN_KIND_JOINT, joints[i].data(), joints[i].size(), &found),
+          MIEN_OK);
+      EXPECT_EQ(found, i);
+    }
+    const MienRigInfo again = info_of(rig);
+    EXPECT_EQ(memcmp(&again, &info, sizeof(info)), 0);
+    for (uint32_t lod = 0; lod < info.lod_count; ++lod) {
+      MienRigStatistics statistics = sized<MienRigStatistics>();
+      EXPECT_EQ(mien_rig_statistics(rig.get(), lod, &statistics), MIEN_OK);
+      MienIndexView indices = {};
+      EXPECT_EQ(mien_rig_variable_joint_values(rig.get(), lod, &indices), MIEN_OK);
+      EXPECT_EQ(mien_rig_lod_indices(rig.get(), MIEN_KIND_JOINT, lod, &indices), MIEN_OK);
+      EXPECT_EQ(indices.count, statistics.joint_count);
+    }
+  });
+}
+
+TEST(CapiThreads, DnaIsReadWrittenAndCompiledByAll) {
+  const DnaHandle generated = generate_dna(MIEN_PRESET_TINY, 5);
+  const std::vector<uint8_t> bytes = write_dna(generated.get());
+  const DnaHandle opened = open_dna(bytes);
+  on_threads(kThreads, [&](int t) {
+    const MienDna* dna = t % 2 ? opened.get() : generated.get();
+    MienDnaField field = sized<MienDnaField>();
+    MienError error = sized<MienError>();
+    EXPECT_EQ(mien_dna_field(dna, "bhvr.joints.jointGroups[0].values", &field, &error), MIEN_OK);
+    std::vector<float> values(field.count);
+    EXPECT_EQ(mien_dna_read_floats(dna, "bhvr.joints.jointGroups[0].values", 0, values.size(),
+                                   values.data(), &error),
+              MIEN_OK);
+    EXPECT_EQ(mien_dna_field(dna, "bhvr.joints.jointGroups[9999]", &field, &error),
+              MIEN_ERROR_INDEX);
+    MienDnaInfo info = sized<MienDnaInfo>();
+    EXPECT_EQ(mien_dna_info(dna, &info), MIEN_OK);
+    for (uint32_t i = 0; i < info.joint_count; ++i) {
+      MienStringView name = {};
+      const std::string path = "defn.jointNames[" + std::to_string(i) + "]";
+      EXPECT_EQ(mien_dna_read_string(dna, path.c_str(), &name, nullptr), MIEN_OK);
+    }
+    EXPECT_EQ(write_dna(dna), bytes);
+    const RigHandle rig = create_rig(dna);
+    Character character(rig);
+    character.evaluate(0);
+  });
+}
+
+// The allocator counts, so that nothing is released twice or never.
+struct CountingAllocator {
+  std::atomic<int64_t> live_bytes{0};
+  std::atomic<int> calls{0};
+  MienAllocator interface = {this, allocate, release};
+
+  static void* allocate(void* user, size_t size, size_t alignment) {
+    CountingAllocator& self = *static_cast<CountingAllocator*>(user);
+    self.live_bytes += static_cast<int64_t>(size);
+    ++self.calls;
+    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  }
+  static void release(void* user, void* block, size_t size, size_t) {
+    static_cast<CountingAllocator*>(user)->live_bytes -= static_cast<int64_t>(size);
+    free(block);
+  }
+};
+
+RigHandle counted_rig(const MienDna* dna, CountingAllocator& counting) {
+  MienRigDesc desc = sized<MienRigDesc>();
+  desc.allocator = &counting.interface;
+  MienRig* rig = nullptr;
+  EXPECT_EQ(mien_rig_create(dna, &desc, &rig, nullptr), MIEN_OK);
+  return RigHandle(rig);
+}
+
+TEST(CapiThreads, InstancesComeAndGo) {
+  CountingAllocator counting;
+  {
+    const DnaHandle dna = generate_dna(MIEN_PRESET_TINY, 5);
+    const RigHandle rig = counted_rig(dna.get(), counting);
+    const int64_t rig_bytes = counting.live_bytes;
+    on_threads(kThreads, [&](int t) {
+      for (int i = 0; i < 50; ++i) {
+        MienInstance* made = nullptr;
+        EXPECT_EQ(mien_instance_create(rig.get(), &counting.interface, &made, nullptr), MIEN_OK);
+        EXPECT_EQ(mien_rig_evaluate(rig.get(), made, static_cast<uint32_t>(t % 2)), MIEN_OK);
+        mien_instance_destroy(made);
+      }
+    });
+    EXPECT_EQ(counting.live_bytes, rig_bytes);
+  }
+  EXPECT_EQ(counting.live_bytes, 0);
+}
+
+TEST(CapiThreads, RigsComeAndGo) {
+  CountingAllocator counting;
+  const DnaHandle dna = generate_dna(MIEN_PRESET_TINY, 5);
+  on_threads(kThreads, [&](int) {
+    for (int i = 0; i < 5; ++i) {
+      const RigHandle rig = counted_rig(dna.get(), counting);
+      Character character(rig);
+      character.evaluate(0);
+    }
+  });
+  EXPECT_EQ(counting.live_bytes, 0);
+}
+
+// "Memory is released when the last instance is gone too, so the order of destruction does not
+// matter": whoever comes last, on whatever thread.
+TEST(CapiThreads, RigIsDestroyedWhileInstancesLive) {
+  const DnaHandle dna = generate_dna(MIEN_PRESET_TINY, 5);
+  for (int round = 0; round < 20; ++round) {
+    CountingAllocator counting;
+    RigHandle rig = counted_rig(dna.get(), counting);
+    std::vector<InstanceHandle> instances;
+    for (int t = 1; t < kThreads; ++t) {
+      MienInstance* made = nullptr;
+      ASSERT_EQ(mien_instance_create(rig.get(), &counting.interface, &made, nullptr), MIEN_OK);
+      ASSERT_EQ(mien_rig_evaluate(rig.get(), made, 0), MIEN_OK);
+      instances.emplace_back(made);
+    }
+    on_threads(kThreads, [&](int t) {
+      if (t == 0) return rig.reset();
+      InstanceHandle& mine = instances[static_cast<size_t>(t - 1)];
+      MienFloatView joints = {};
+      MienMutableFloatView raw = {};
+      EXPECT_EQ(mien_instance_raw_controls(mine.get(), &raw), MIEN_OK);
+      EXPECT_EQ(mien_instance_reset(mine.get()), MIEN_OK);
+      EXPECT_EQ(mien_instance_joints(mine.get(), &joints), MIEN_OK);
+      for (size_t i = 0; i < joints.count; ++i) EXPECT_EQ(joints.data[i], 0.0f);
+      mine.reset();
+    });
+    EXPECT_EQ(counting.live_bytes, 0) << "round " << round;
+  }
+}
+
+TEST(CapiThreads, LibraryIsAskedByAll) {
+  on_threads(kThreads, [](int) {
+    for (uint32_t isa = MIEN_ISA_BEST; isa <= MIEN_ISA_NEON; ++isa) {
+      EXPECT_STRNE(mien_isa_name(isa), "unknown");
+      EXPECT_LE(mien_isa_available(isa), 1u);
+    }
+    EXPECT_STREQ(mien_status_name(MIEN_ERROR_ISA), "ISA");
+  });
+}
+
+}  // namespace
+}  // namespace mien

@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Includes go one way: a file includes its own layer and lower ones, never a higher one.
+
+Every directory with C or C++ files has to be named here, so that a new one is not forgotten.
+Usage: check_layers.py [PROJECT_DIRECTORY]
+"""
+import re
+import sys
+from pathlib import Path
+
+# Lowest first; those on one line may not include each other unless they are the same.
+LAYERS = [
+    ["runtime/base", "simd"],
+    ["runtime/dna"],
+    ["runtime/rig"],
+    ["runtime/eval"],
+    ["runtime/author"],
+    ["capi"],
+]
+RANK = {layer: rank for rank, layers in enumerate(LAYERS) for layer in layers}
+
+# Sees the public header and its own files. Tests and benchmarks see everything.
+OUTSIDE = "integrations"
+
+SUFFIXES = {".h", ".hpp", ".cpp", ".c", ".inl"}
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+# An inline function of a C++ header, compiled for AVX2, may be the copy that the linker keeps for
+# CPUs without. C headers have none; <utility> is for index_sequence, a type.
+KERNEL_HEADERS = re.compile(r"(std\w+|string|math|float|assert|limits|arm_neon|immintrin)\.h|utility")
+
+
+def layer_of(path):
+    """Layer of a path relative to the project, or None."""
+    for layer in RANK:
+        if path.startswith(layer + "/"):
+            return layer
+    return None
+
+
+def includes(file):
+    """(line number, quoted, path) of every include of a file."""
+    for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
+        match = INCLUDE.match(line)
+        if match:
+            yield number, match.group(1) == '"', match.group(2)
+
+
+def resolve(root, file, target):
+    """An include path as a path relative to the project, or None if it is not of the project."""
+    for directory in (root, file.parent, root / "capi"):
+        found = directory / target
+        if found.is_file():
+            return found.resolve().relative_to(root).as_posix()
+    return None
+
+
+def is_kernel(path):
+    """Files compiled for one instruction set."""
+    name = path.rsplit("/", 1)[-1]
+    return path.startswith("simd/") and (name.endswith(".inl") or name.startswith("kernels_"))
+
+
+def check_include(path, quoted, target, resolved):
+    """Why a file may not include this, or None."""
+    if resolved is None:
+        if quoted and not is_kernel(path):
+            return "there is no such file in the project"
+        if is_kernel(path) and not (target.startswith("xsimd") or KERNEL_HEADERS.fullmatch(target)):
+            return "kernel files include C headers and xsimd only"
+        if path.startswith("simd/") and not is_kernel(path) and target.startswith("xsimd"):
+            return "only kernel files include xsimd"
+        if path.startswith(("runtime/", "capi/")) and target.startswith("xsimd"):
+            return "only kernel files include xsimd"
+        return None
+
+    own = layer_of(path)
+    if own is None:
+        own_directory = "/".join(path.split("/")[:2]) + "/"
+        if resolved != "capi/mien.h" and not resolved.startswith(own_directory):
+            return "integrations include mien.h and their own files only"
+        return None
+
+    other = layer_of(resolved)
+    if other is None:
+        return "the library includes nothing from outside of it"
+    if other == own:
+        if is_kernel(resolved) and not is_kernel(path):
+            return "only kernel files include kernel bodies"
+        return None
+    if own == "simd":
+        return "simd knows nothing of the rest"
+    if other == "simd":
+        # Of simd, the others see the kernel table only.
+        if resolved != "simd/kernels.h":
+            return "outside simd, simd/kernels.h is all there is"
+        return None
+    if RANK[other] >= RANK[own]:
+        return f"{own} is not above {other}"
+    return None
+
+
+def sources(root):
+    for area in ("runtime", "simd", "capi", OUTSIDE):
+        for file in sorted((root / area).rglob("*")):
+            if file.suffix in SUFFIXES and file.is_file():
+                yield file
+
+
+def main():
+    root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).resolve()
+    problems = []
+    count = 0
+    for file in sources(root):
+        path = file.relative_to(root).as_posix()
+        count += 1
+        if path.startswith("runtime/") and layer_of(path) is None:
+            problems.append(f"{path}: a directory that this check does not know")
+            continue
+        for number, quoted, target in includes(file):
+            reason = check_include(path, quoted, target, resolve(root, file, target))
+            if reason:
+                problems.append(f"{path}:{number}: includes {target}: {reason}")
+    if count == 0:
+        problems.append(f"{root}: no sources found")
+    print("\n".join(problems) if problems else f"{count} files, includes in order")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

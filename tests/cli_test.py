@@ -1,0 +1,736 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The `mien` program from outside: every command, every family of failures.
+
+    cli_test.py path/to/mien [unittest options]      (or MIEN_BIN=path/to/mien)
+
+All rigs come from `mien gen`; nothing else is needed but Python 3.
+"""
+import json
+import math
+import os
+import random
+import resource
+import shutil
+import signal
+import stat
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+DONE, USAGE, INVALID, FILE, INTERNAL = range(5)
+PRESETS = ("tiny", "small", "medium", "large")
+VERSIONS = ["2.%d" % i for i in range(1, 9)]
+
+mien = os.environ.get("MIEN_BIN", "")
+folder = ""
+
+
+def setUpModule():
+    global folder
+    folder = tempfile.mkdtemp(prefix="mien-cli-")
+    for preset in PRESETS:
+        done = run("gen", "-o", path(preset + ".dna"), "--preset", preset)
+        assert done.returncode == DONE, done.stderr
+
+
+def tearDownModule():
+    shutil.rmtree(folder)
+
+
+def path(name):
+    return os.path.join(folder, name)
+
+
+def read(name):
+    with open(path(name), "rb") as file:
+        return file.read()
+
+
+def write(name, content):
+    with open(path(name), "wb") as file:
+        file.write(content if isinstance(content, bytes) else content.encode())
+    return path(name)
+
+
+def run(*arguments, stdin=b"", env=None, **more):
+    """Output and errors as bytes and text."""
+    more.setdefault("stdout", subprocess.PIPE)
+    done = subprocess.run([mien, *arguments], input=stdin, stderr=subprocess.PIPE, timeout=300,
+                          env={**os.environ, **(env or {})}, **more)
+    done.stderr = done.stderr.decode()
+    return done
+
+
+def float32(number):
+    return struct.unpack("<f", struct.pack("<f", number))[0]
+
+
+class CliTest(unittest.TestCase):
+    def ok(self, *arguments, **more):
+        done = run(*arguments, **more)
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        return done
+
+    def fails(self, code, *arguments, says=(), **more):
+        """Fails with that code and one line that names what it should."""
+        done = run(*arguments, **more)
+        self.assertEqual(done.returncode, code, (arguments, done.stderr, done.stdout))
+        lines = done.stderr.splitlines()
+        self.assertEqual(len(lines), 1, done.stderr)
+        self.assertTrue(lines[0].startswith("mien: "), done.stderr)
+        for word in [says] if isinstance(says, str) else says:
+            self.assertIn(word, lines[0])
+        return done
+
+    def json(self, *arguments, **more):
+        def refuse(name):
+            raise AssertionError("not a number of JSON: " + name)
+        return json.loads(self.ok(*arguments, **more).stdout, parse_constant=refuse)
+
+    def names(self, rig, kind):
+        return self.ok("info", path(rig), "--names", kind).stdout.decode().splitlines()
+
+    def evaluate(self, rig, frames, *options):
+        frames = json.dumps({"frames": frames}).encode()
+        return self.json("eval", path(rig), "--input", "-", "--quiet", *options, stdin=frames)
+
+    def evaluate_one(self, rig, frame, lod=0):
+        return self.evaluate(rig, [frame], "--lod", str(lod))["frames"][0]["lods"][0]
+
+
+class General(CliTest):
+    def test_help_and_version_end_well(self):
+        text = self.ok("--help").stdout.decode()
+        for command in ("info", "validate", "eval", "convert", "gen", "bench", "completion"):
+            self.assertIn("\n  " + command + " ", text)
+            help_text = self.ok(command, "--help").stdout
+            self.assertIn(b"Examples:", help_text)
+            self.assertIn(b"mien " + command.encode(), help_text)
+            self.assertEqual(self.ok("help", command).stdout, help_text)
+        self.assertIn("Subcommands:", self.ok("help").stdout.decode())
+        self.assertRegex(self.ok("--version").stdout.decode(), r"^mien \d+\.\d+\.\d+\n$")
+
+    def test_layer_words_are_in_the_help(self):
+        text = self.ok("info", "--help").stdout.decode()
+        for word in ("descriptor", "definition", "behavior", "geometry", "ml", "rbf",
+                     "geometry-without-blend-shapes", "joint-metadata", "twist-swing", "all"):
+            self.assertIn(word, text)
+            self.ok("info", path("tiny.dna"), "--layers", word)
+
+    def test_wrong_usage(self):
+        tiny = path("tiny.dna")
+        self.fails(USAGE, says="no command")
+        self.fails(USAGE, "evl", says='did you mean "eval"')
+        self.fails(USAGE, "help", "evl", says='did you mean "eval"')
+        self.fails(USAGE, "--nope", says="--nope")
+        self.fails(USAGE, "info", says="RIG is required")
+        self.fails(USAGE, "info", tiny, "more", says="more")
+        self.fails(USAGE, "info", tiny, "--jsn", says='did you mean "--json"')
+        self.fails(USAGE, "info", tiny, "--names", "jints", says='did you mean "joints"')
+        self.fails(USAGE, "eval", tiny, says="--input")
+        self.fails(USAGE, "eval", tiny, "--inptu", "x", says='did you mean "--input"')
+        self.fails(USAGE, "eval", tiny, "--input", "-", "--lod", "first", says="--lod")
+        self.fails(USAGE, "eval", "-", "--input", "-", says="standard input")
+        self.fails(USAGE, "eval", tiny, "--input", "-", "--layers", "geometry", says="behavior")
+        self.fails(USAGE, "convert", tiny, says="--output")
+        self.fails(USAGE, "convert", tiny, "-o", "", says="empty")
+        self.fails(USAGE, "convert", tiny, "-o", path("x"), "--version", "2.9", says="2.9")
+        self.fails(USAGE, "convert", tiny, "-o", path("x"), "--version", "2", says="2.1")
+        self.fails(USAGE, "convert", tiny, "-o", path("x"), "--unknown", "maybe", says="keep")
+        self.fails(USAGE, "gen", says="--output")
+        self.fails(USAGE, "gen", "-o", path("x"), "--preset", "larg", says='did you mean "large"')
+        self.fails(USAGE, "gen", "-o", path("x"), "--seed", "-1")
+        self.fails(USAGE, "gen", "-o", path("x"), "--seed", "1.5", says="1.5")
+        self.fails(USAGE, "gen", "-o", path("x"), "--seed", "18446744073709551616")
+        self.fails(USAGE, "completion", "csh", says='did you mean "zsh"')
+        self.assertFalse(os.path.exists(path("x")))
+
+    def test_wrong_choices_of_what_to_load(self):
+        tiny = path("tiny.dna")
+        self.fails(USAGE, "info", tiny, "--layers", "behaviour", says='did you mean "behavior"')
+        self.fails(USAGE, "info", tiny, "--layers", "geometry,,rbf")
+        self.fails(USAGE, "info", tiny, "--layers", "geometry,geometry-without-blend-shapes")
+        self.fails(USAGE, "info", tiny, "--lods", "1,x", says='"x"')
+        self.fails(USAGE, "info", tiny, "--lods", "2-1", says="1-2")
+        self.fails(USAGE, "info", tiny, "--lods", "-1")
+        self.fails(USAGE, "info", tiny, "--max-lod", "2", "--min-lod", "1", says="finest")
+        self.fails(INVALID, "info", tiny, "--lods", "9", says="3")
+        self.fails(INVALID, "info", tiny, "--lods", "1000", says="LOD")
+        self.fails(INVALID, "info", tiny, "--max-lod", "3", says="LOD")
+
+    def test_options_of_later_versions_are_refused(self):
+        tiny = path("tiny.dna")
+        for command in (["eval", tiny, "--input", "-"], ["bench", tiny, "--quick"], ["info", tiny]):
+            self.fails(USAGE, *command, "--storage", "f16", says="f32")
+            self.fails(USAGE, *command, "--rotation", "matrix", says="euler")
+            self.fails(USAGE, *command, "--ml-masks", "half", says="blend")
+            self.fails(USAGE, *command, "--isa", "avx9", says="avx2")
+        self.ok("info", tiny, "--storage", "f32", "--rotation", "quaternion", "--isa", "scalar")
+
+    def test_an_absent_instruction_set_is_wrong_usage(self):
+        absent = [isa for isa in ("sse2", "neon")
+                  if run("info", path("tiny.dna"), "--isa", isa).returncode != DONE]
+        self.assertTrue(absent)  # no machine has both
+        for isa in absent:
+            self.fails(USAGE, "info", path("tiny.dna"), "--isa", isa, says=isa)
+
+    def test_files_that_cannot_be_read(self):
+        frames = write("neutral.json", '{"frames": [{}]}')
+        for name in (path("missing.dna"), folder):
+            self.fails(FILE, "info", name, says=name)
+            self.fails(FILE, "validate", name, says=name)
+            self.fails(FILE, "eval", name, "--input", frames, says=name)
+            self.fails(FILE, "convert", name, "-o", path("x"), says=name)
+            self.fails(FILE, "bench", name, says=name)
+            self.fails(FILE, "eval", path("tiny.dna"), "--input", name, says=name)
+        self.assertFalse(os.path.exists(path("x")))
+
+    def test_files_that_cannot_be_written(self):
+        tiny = path("tiny.dna")
+        frames = write("neutral.json", '{"frames": [{}]}')
+        for target in (path("missing/x"), folder, "/dev/full"):
+            self.fails(FILE, "gen", "-o", target, says=target)
+            self.fails(FILE, "convert", tiny, "-o", target, says=target)
+            self.fails(FILE, "eval", tiny, "--input", frames, "-o", target, says=target)
+        with open("/dev/full", "wb") as full:
+            for command in (["info", tiny], ["info", tiny, "--json"], ["validate", tiny],
+                            ["gen", "-o", "-"], ["completion", "bash"],
+                            ["eval", tiny, "--input", frames]):
+                self.fails(FILE, *command, stdout=full, says="standard output")
+
+    def test_files_that_are_no_rigs(self):
+        frames = write("neutral.json", '{"frames": [{}]}')
+        small = read("small.dna")
+        version3 = small[:3] + b"\0\3" + small[5:]
+        for name, content in (("text.dna", b"this is no DNA file, but long enough to be one " * 9),
+                              ("empty.dna", b""), ("short.dna", small[:5]),
+                              ("version3.dna", version3),
+                              ("half.dna", small[:len(small) // 2])):
+            rig = write(name, content)
+            self.fails(INVALID, "info", rig, says=name)
+            self.fails(INVALID, "eval", rig, "--input", frames, says=name)
+            self.fails(INVALID, "convert", rig, "-o", path("x"), says=name)
+            self.fails(INVALID, "bench", rig, says=name)
+            self.fails(INVALID, "validate", rig, says=name)
+            self.fails(INVALID, "info", "-", stdin=content, says="standard input")
+        self.fails(INVALID, "info", path("half.dna"), says="byte ")
+        self.assertFalse(os.path.exists(path("x")))
+
+    def test_damaged_files_end_with_a_code_of_ours(self):
+        chance = random.Random(3)
+        small = read("tiny.dna")
+        for _ in range(60):
+            damaged = bytearray(small[:chance.randrange(len(small))] if chance.random() < 0.3 else small)
+            for _ in range(chance.randrange(1, 6)):
+                if damaged:
+                    damaged[chance.randrange(len(damaged))] = chance.randrange(256)
+            rig = write("damaged.dna", bytes(damaged))
+            for command in (["info", rig], ["validate", rig], ["convert", rig, "-o", path("y.dna")],
+                            ["eval", rig, "--input", "-"]):
+                done = run(*command, stdin=b'{"frames": [{}]}')
+                self.assertIn(done.returncode, (DONE, INVALID), (command, done.stderr))
+
+    def test_an_instruction_set_of_the_environment(self):
+        self.fails(USAGE, "info", path("tiny.dna"), "--layers", "behavior", env={"MIEN_ISA": "abacus"},
+                   says="MIEN_ISA")
+        self.assertEqual(self.json("info", path("tiny.dna"), "--json", env={"MIEN_ISA": "scalar"})["rig"]["isa"],
+                         "scalar")
+
+    def test_out_of_memory(self):
+        def limited(megabytes, *arguments):
+            limit = megabytes << 20
+            return run(*arguments, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+        codes = set()
+        for megabytes in range(16, 100, 4):
+            if limited(megabytes, "--version").returncode != DONE:
+                continue
+            for command in (["gen", "-o", path("big.dna"), "--preset", "large"],
+                            ["eval", path("large.dna"), "--input", write("neutral.json", '{"frames": [{}]}')],
+                            ["convert", path("large.dna"), "-o", path("big.dna")]):
+                done = limited(megabytes, *command)
+                self.assertIn(done.returncode, (DONE, INTERNAL), done.stderr)
+                self.assertEqual(len(done.stderr.splitlines()), done.returncode != DONE, done.stderr)
+                codes.add(done.returncode)
+        if not codes:
+            self.skipTest("the program cannot start with little memory (a sanitizer?)")
+        self.assertEqual(codes, {DONE, INTERNAL})
+        self.assertEqual([name for name in os.listdir(folder) if name.startswith(".mien")], [])
+
+    def test_names_with_control_characters_stay_on_one_line(self):
+        self.fails(FILE, "info", path("two\nlines.dna"), says="two\\nlines.dna")
+
+
+class Info(CliTest):
+    def test_text(self):
+        text = self.ok("info", path("tiny.dna")).stdout.decode()
+        for word in ("Layers", "Counts", "Levels of detail", "Metadata", "degrees", "bhvr"):
+            self.assertIn(word, text)
+        self.assertNotIn("\033", text)
+        for line in text.splitlines():
+            self.assertEqual(line, line.rstrip())
+
+    def test_json(self):
+        for preset in PRESETS:
+            info = self.json("info", path(preset + ".dna"), "--json")
+            self.assertEqual(info["file_bytes"], os.path.getsize(path(preset + ".dna")))
+            self.assertEqual(info["version"], "2.8")
+            self.assertEqual(len(info["lods"]), info["lod_count"])
+            self.assertEqual(info["lods"][0]["joints"], info["counts"]["joints"])
+            last = info["layers"][-1]
+            self.assertEqual(last["offset"] + last["bytes"], info["file_bytes"])
+            self.assertTrue(all(layer["known"] and layer["loaded"] for layer in info["layers"]))
+        self.assertEqual(info["counts"]["joints"], 870)
+        self.assertEqual(info["lod_count"], 8)
+
+    def test_names(self):
+        info = self.json("info", path("small.dna"), "--json", "--names", "all")
+        counts = {"gui": "gui_controls", "raw": "raw_controls", "joints": "joints", "maps": "animated_maps",
+                  "channels": "blend_shape_channels", "meshes": "meshes"}
+        for kind, count in counts.items():
+            self.assertEqual(len(info["names"][kind]), info["counts"][count])
+            self.assertEqual(self.names("small.dna", kind), info["names"][kind])
+        two = self.ok("info", path("small.dna"), "--names", "raw,gui").stdout.decode().splitlines()
+        self.assertEqual(two[0], "gui")
+        self.assertIn("raw", two)
+
+    def test_only_what_is_named_is_loaded(self):
+        info = self.json("info", path("small.dna"), "--json", "--layers", "definition")
+        loaded = {layer["code"] for layer in info["layers"] if layer["loaded"]}
+        self.assertEqual(loaded - {"desc", "dsce", "defn"}, set())
+        self.assertIn("defn", loaded)
+        self.assertIsNone(info["rig"])
+        self.assertGreater(info["counts"]["joints"], 0)
+        self.assertEqual(info["counts"]["joint_groups"], 0)
+
+    def test_lods(self):
+        whole = self.json("info", path("medium.dna"), "--json")
+        last = whole["lod_count"] - 1
+        for options in (["--lods", "1,%d" % last], ["--lods", "%d,1" % last]):
+            part = self.json("info", path("medium.dna"), "--json", *options)
+            self.assertEqual(part["lod_count"], 2)
+            self.assertEqual(part["max_lod"], whole["max_lod"] + 1)
+            self.assertEqual(part["lods"][1]["meshes"], whole["lods"][last]["meshes"])
+        for options, count in ((["--max-lod", "1"], last), (["--min-lod", "1"], 2),
+                               (["--max-lod", "1", "--min-lod", "1"], 1), (["--lods", "0-1"], 2),
+                               (["--max-lod", "1", "--lods", "0-1"], 2),  # the list wins
+                               (["--min-lod", "65535"], last + 1), (["--lods", "0-60000"], last + 1)):
+            part = self.json("info", path("medium.dna"), "--json", *options)
+            self.assertEqual(part["lod_count"], count, options)
+
+    def test_a_missing_lod_among_those_named_is_noted(self):
+        done = self.ok("info", path("tiny.dna"), "--lods", "0,9")
+        self.assertIn("mien: note:", done.stderr)
+        self.assertEqual(self.ok("info", path("tiny.dna"), "--lods", "0,9", "--quiet").stderr, "")
+        self.assertEqual(self.ok("--quiet", "info", path("tiny.dna"), "--lods", "0,9").stderr, "")
+
+    def test_standard_input(self):
+        info = self.json("info", "-", "--json", stdin=read("small.dna"))
+        self.assertEqual(info["file"], "standard input")
+        self.assertFalse(info["mapped"])
+
+
+class Validate(CliTest):
+    def test_generated_rigs_are_valid(self):
+        for preset in PRESETS:
+            report = self.json("validate", path(preset + ".dna"), "--json")
+            self.assertEqual((report["valid"], report["errors"], report["findings"]), (True, 0, []))
+        self.assertIn(b"valid", self.ok("validate", path("tiny.dna")).stdout)
+        self.assertEqual(self.ok("validate", path("tiny.dna"), "--quiet").stdout, b"")
+        self.ok("validate", "-", stdin=read("tiny.dna"))
+
+    def damaged(self):
+        """tiny.dna with two joints that have no parent."""
+        content = bytearray(read("tiny.dna"))
+        count = len(self.names("tiny.dna", "joints"))
+        info = self.json("info", path("tiny.dna"), "--json")
+        layer = next(layer for layer in info["layers"] if layer["code"] == "defn")
+        # jointHierarchy is the last array before two times three arrays of floats.
+        at = layer["offset"] + layer["bytes"] - 6 * (4 + 4 * count) - 2 * count
+        self.assertEqual(struct.unpack_from(">I", content, at - 4)[0], count)
+        struct.pack_into(">HH", content, at + 2, 7777, 8888)
+        return write("orphans.dna", bytes(content)), at + 2
+
+    def test_every_finding_is_listed(self):
+        rig, offset = self.damaged()
+        done = self.fails(INVALID, "validate", rig, "--json", says="orphans.dna")
+        report = json.loads(done.stdout)
+        self.assertFalse(report["valid"])
+        self.assertEqual(report["errors"], len([f for f in report["findings"] if f["severity"] == "error"]))
+        self.assertGreaterEqual(report["errors"], 2)
+        first = report["findings"][0]
+        self.assertIn("defn.jointHierarchy", first["field"])
+        self.assertEqual(first["status"], "DNA_REFERENCE")
+        self.assertEqual(first["offset"], offset)
+        self.assertIn("7777", first["message"])
+        text = self.fails(INVALID, "validate", rig).stdout.decode()
+        self.assertEqual(len(text.splitlines()), len(report["findings"]))
+        self.assertIn("8888", text)
+        self.assertIn("byte %d" % offset, text)
+        self.fails(INVALID, "info", rig, says=("7777", "byte %d" % offset))
+
+    def test_truncation(self):
+        rig = write("cut.dna", read("tiny.dna")[:-10])
+        done = self.fails(INVALID, "validate", rig, "--json")
+        self.assertEqual(json.loads(done.stdout)["findings"][0]["status"], "DNA_TRUNCATED")
+
+
+class Generate(CliTest):
+    def test_the_same_seed_gives_the_same_bytes(self):
+        for seed in ("0", "1", "18446744073709551615"):
+            self.ok("gen", "-o", path("a.dna"), "--seed", seed)
+            done = self.ok("gen", "-o", "-", "--seed", seed)
+            self.assertEqual(done.stdout, read("a.dna"))
+        self.assertNotEqual(read("a.dna"), read("tiny.dna"))
+        self.assertEqual(self.ok("gen", "-o", "-").stdout, read("tiny.dna"))
+
+    def test_outputs_are_replaced_whole(self):
+        write("old.dna", "something else")
+        os.chmod(path("old.dna"), 0o600)
+        os.symlink("old.dna", path("link.dna"))
+        self.ok("gen", "-o", path("link.dna"))
+        self.assertTrue(os.path.islink(path("link.dna")))
+        self.assertEqual(read("old.dna"), read("tiny.dna"))
+        self.assertEqual(stat.S_IMODE(os.stat(path("old.dna")).st_mode), 0o600)
+        self.ok("gen", "-o", "/dev/null")
+        self.assertTrue(stat.S_ISCHR(os.stat("/dev/null").st_mode))
+        self.assertEqual([name for name in os.listdir(folder) if name.startswith(".mien")], [])
+
+    def test_a_relative_name_is_written_here(self):
+        self.ok("gen", "-o", "here.dna", cwd=folder)
+        self.assertEqual(read("here.dna"), read("tiny.dna"))
+
+
+class Convert(CliTest):
+    def test_without_options_the_bytes_stay(self):
+        for preset in PRESETS:
+            original = read(preset + ".dna")
+            self.ok("convert", path(preset + ".dna"), "-o", path("copy.dna"))
+            self.assertEqual(read("copy.dna"), original)
+            self.assertEqual(self.ok("convert", "-", "-o", "-", stdin=original).stdout, original)
+
+    def test_in_place(self):
+        shutil.copy(path("small.dna"), path("place.dna"))
+        self.ok("convert", path("place.dna"), "-o", path("place.dna"))
+        self.assertEqual(read("place.dna"), read("small.dna"))
+        self.ok("convert", path("place.dna"), "-o", path("place.dna"), "--version", "2.2")
+        self.assertEqual(self.json("info", path("place.dna"), "--json")["version"], "2.2")
+
+    def test_every_version(self):
+        for preset in ("tiny", "small"):
+            before = self.json("info", path(preset + ".dna"), "--json")["counts"]
+            for version in VERSIONS:
+                old = path("v%s.dna" % version)
+                done = self.ok("convert", path(preset + ".dna"), "-o", old, "--version", version)
+                self.assertEqual("left out" in done.stderr, version == "2.1")
+                info = self.json("info", old, "--json")
+                self.assertEqual(info["version"], version)
+                self.assertEqual(info["counts"], before)
+                self.assertTrue(self.json("validate", old, "--json")["valid"])
+                # And back: what came through is the same. 2.1 has lost its empty layers.
+                self.ok("convert", old, "-o", path("back.dna"), "--version", "2.8")
+                self.assertEqual(self.json("info", path("back.dna"), "--json")["counts"], before)
+
+    def test_unknown_layers(self):
+        original = read("tiny.dna")
+        # The code of the last entry of the index becomes one that nobody knows.
+        count = struct.unpack_from(">I", original, 7)[0]
+        entry = 11 + 16 * (count - 1)
+        strange = write("strange.dna", original[:entry] + b"zzzz" + original[entry + 4:])
+        layers = self.json("info", strange, "--json")["layers"]
+        self.assertEqual([layer["code"] for layer in layers if not layer["known"]], ["zzzz"])
+        def codes(*options):
+            self.ok("convert", strange, "-o", path("y.dna"), *options)
+            return [layer["code"] for layer in self.json("info", path("y.dna"), "--json")["layers"]]
+        self.assertIn("zzzz", codes())
+        self.assertIn("zzzz", codes("--unknown", "keep"))
+        self.assertNotIn("zzzz", codes("--unknown", "drop"))
+        self.assertIn("zzzz", codes("--version", "2.3"))
+        self.assertNotIn("zzzz", codes("--version", "2.3", "--unknown", "drop"))
+
+    def test_layers_and_lods(self):
+        self.ok("convert", path("medium.dna"), "-o", path("part.dna"), "--layers", "behavior",
+                "--max-lod", "2")
+        whole = self.json("info", path("medium.dna"), "--json")
+        part = self.json("info", path("part.dna"), "--json")
+        self.assertEqual(part["lod_count"], whole["lod_count"] - 2)
+        self.assertEqual(part["counts"]["vertices"], 0)
+        self.assertLess(part["counts"]["joints"], whole["counts"]["joints"])
+        self.assertEqual(part["lods"][0]["joints"], whole["lods"][2]["joints"])
+        self.assertLess(part["file_bytes"], whole["file_bytes"] / 2)
+        self.assertTrue(self.json("validate", path("part.dna"), "--json")["valid"])
+
+    def test_lod_selection_keeps_the_joint_values(self):
+        controls = {name: 0.5 for name in self.names("small.dna", "raw")}
+        whole = self.evaluate_one("small.dna", {"raw": controls}, lod=1)
+        self.ok("convert", path("small.dna"), "-o", path("lod1.dna"), "--lods", "1")
+        part = self.evaluate_one("lod1.dna", {"raw": controls})
+        old, new = self.names("small.dna", "joints"), self.names("lod1.dna", "joints")
+        for i, name in enumerate(new):
+            k = old.index(name)
+            self.assertEqual(part["joints"][9 * i:9 * i + 9], whole["joints"][9 * k:9 * k + 9], name)
+        self.assertTrue(any(part["joints"]))
+        # The same without a file in between.
+        part = self.evaluate("small.dna", [{"raw": controls}], "--lods", "1")
+        self.assertEqual(part["lod_count"], 1)
+        self.assertEqual(part["frames"][0]["lods"][0]["lod"], 0)
+
+
+class Eval(CliTest):
+    def test_shape(self):
+        info = self.json("info", path("small.dna"), "--json")
+        counts = info["counts"]
+        sizes = {"raw": counts["raw_controls"], "psd": counts["psd_controls"], "ml": counts["ml_controls"],
+                 "rbf": counts["rbf_controls"], "joints": 9 * counts["joints"],
+                 "blend_shapes": counts["blend_shape_channels"], "animated_maps": counts["animated_maps"]}
+        result = self.evaluate("small.dna", [{}, {"raw": {}}])
+        self.assertEqual(list(result), ["rig", "version", "lod_count", "rotation", "frames"])
+        self.assertEqual((result["rig"], result["version"]), (info["name"], "2.8"))
+        self.assertEqual((result["rotation"], result["lod_count"]), ("euler", info["lod_count"]))
+        self.assertEqual(len(result["frames"]), 2)
+        for frame in result["frames"]:
+            self.assertEqual([lod["lod"] for lod in frame["lods"]], list(range(info["lod_count"])))
+            for lod in frame["lods"]:
+                self.assertEqual(list(lod), ["lod"] + list(sizes))
+                for key, size in sizes.items():
+                    self.assertEqual(len(lod[key]), size, key)
+                    self.assertFalse(any(lod[key]), key)  # neutral
+
+    def test_by_name_and_by_number_are_the_same(self):
+        names = self.names("small.dna", "raw")
+        values = [float32(0.3 + 0.5 * i / len(names)) for i in range(len(names))]
+        by_number = self.evaluate_one("small.dna", {"raw": values})
+        by_name = self.evaluate_one("small.dna", {"raw": dict(reversed(list(zip(names, values))))})
+        self.assertEqual(by_number, by_name)
+        self.assertTrue(any(by_number["joints"]) and any(by_number["psd"]))
+        self.assertTrue(any(by_number["blend_shapes"]) and any(by_number["animated_maps"]))
+        one = self.evaluate_one("small.dna", {"raw": {names[4]: 0.5}})["raw"]
+        self.assertEqual(one, [0.5 if i == 4 else 0 for i in range(len(names))])
+
+    def test_numbers_come_back_as_the_same_float(self):
+        names = self.names("tiny.dna", "raw")
+        chance = random.Random(5)
+        values = [struct.unpack("<f", struct.pack("<I", chance.randrange(0x00000001, 0x3f800000)))[0]
+                  for _ in names]
+        raw = self.evaluate_one("tiny.dna", {"raw": values})["raw"]
+        self.assertEqual([struct.pack("<f", number) for number in raw],
+                         [struct.pack("<f", number) for number in values])
+        text = self.ok("eval", path("tiny.dna"), "-i", "-", stdin=json.dumps(
+            {"frames": [{"raw": [0.1] * len(names)}]}).encode()).stdout.decode()
+        self.assertIn("[0.1,", text)  # the shortest that reads back, not 0.100000001
+
+    def test_gui_frames(self):
+        gui, raw = self.names("small.dna", "gui"), self.names("small.dna", "raw")
+        everything = [0.5] * len(gui)
+        mapped = self.evaluate_one("small.dna", {"gui": everything})["raw"]
+        self.assertTrue(any(mapped))
+        self.assertEqual(self.evaluate_one("small.dna", {"gui": dict(zip(gui, everything))})["raw"], mapped)
+        # The result is that of the mapped raw controls.
+        by_gui = self.evaluate_one("small.dna", {"gui": everything})
+        self.assertEqual(self.evaluate_one("small.dna", {"raw": mapped}), by_gui)
+        after = self.evaluate_one("small.dna", {"gui": everything, "raw_after_gui": {"3": 0.25, raw[1]: 0.75}})
+        expected = list(mapped)
+        expected[3], expected[1] = 0.25, 0.75
+        self.assertEqual(after["raw"], expected)
+
+    def test_frames_and_lods_start_afresh(self):
+        names = self.names("small.dna", "raw")
+        frames = [{"raw": [0.9] * len(names)}, {"raw": {names[0]: 0.5}}, {"gui": [1.0] * len(self.names("small.dna", "gui"))}, {}]
+        together = self.evaluate("small.dna", frames)["frames"]
+        for i, frame in enumerate(frames):
+            for lod in together[i]["lods"]:
+                self.assertEqual(lod, self.evaluate_one("small.dna", frame, lod["lod"]))
+        self.assertFalse(any(together[3]["lods"][0]["raw"]))
+
+    def test_instruction_sets_agree(self):
+        frames = [{"raw": [(i * 7 % 11) / 10 for i in range(len(self.names("medium.dna", "raw")))]}]
+        reference = self.evaluate("medium.dna", frames, "--isa", "scalar")["frames"][0]["lods"]
+        compared = 0
+        for isa in ("sse2", "avx2", "avx512", "neon"):
+            if run("info", path("tiny.dna"), "--isa", isa).returncode != DONE:
+                continue
+            compared += 1
+            for mine, scalar in zip(self.evaluate("medium.dna", frames, "--isa", isa)["frames"][0]["lods"], reference):
+                for key in ("psd", "joints", "blend_shapes", "animated_maps"):
+                    largest = max(map(abs, scalar[key]), default=0)
+                    for a, b in zip(mine[key], scalar[key]):
+                        self.assertLessEqual(abs(a - b), 1e-5 + 1e-5 * largest, (isa, key))
+        self.assertGreater(compared, 0)
+
+    def test_geometry_is_not_needed(self):
+        self.ok("convert", path("small.dna"), "-o", path("lean.dna"), "--layers", "behavior")
+        frame = {"raw": [0.5] * len(self.names("small.dna", "raw"))}
+        self.assertEqual(self.evaluate_one("lean.dna", frame), self.evaluate_one("small.dna", frame))
+        self.assertEqual(self.evaluate("small.dna", [frame], "--layers", "all"),
+                         self.evaluate("small.dna", [frame]))
+
+    def test_input_and_output(self):
+        frames = write("one.json", '{"frames": [{}], "comment": "more keys do no harm"}')
+        self.ok("eval", path("tiny.dna"), "--input", frames, "-o", path("out.json"))
+        by_pipe = self.ok("eval", "-", "--input", frames, stdin=read("tiny.dna")).stdout
+        self.assertEqual(read("out.json"), by_pipe)
+        by_input = self.ok("eval", path("tiny.dna"), "--input", "-", "-o", "-", stdin=read("one.json")).stdout
+        self.assertEqual(by_input, by_pipe)
+        self.assertEqual(self.evaluate("tiny.dna", [])["frames"], [])
+
+    def refused(self, frame, *says):
+        text = frame if isinstance(frame, (str, bytes)) else json.dumps({"frames": [{}, frame]})
+        text = text.encode() if isinstance(text, str) else text
+        write("old.json", "old")
+        done = self.fails(INVALID, "eval", path("tiny.dna"), "--input", "-", "-o", path("old.json"),
+                          stdin=text, says=says)
+        self.assertEqual(read("old.json"), b"old")
+        self.assertEqual([name for name in os.listdir(folder) if name.startswith(".mien")], [])
+        return done
+
+    def test_unknown_names(self):
+        raw, gui = self.names("tiny.dna", "raw")[2], self.names("tiny.dna", "gui")[1]
+        self.refused({"raw": {raw[:-1] + "x": 1}}, "frames[1].raw", raw[:-1] + "x", 'did you mean "')
+        self.refused({"raw": {raw.upper(): 1}}, 'did you mean "%s"' % raw)
+        self.refused({"raw": {raw.split(".", 1)[1]: 1}}, 'did you mean "%s"' % raw)
+        self.refused({"gui": {gui[1:]: 1}}, "frames[1].gui", 'did you mean "%s"' % gui)
+        self.refused({"gui": {}, "raw_after_gui": {"completely different": 1}}, "--names raw")
+        self.refused({"raw": {"3": 1}}, '"3"')
+        self.refused({"raws": {}}, 'did you mean "raw"')
+        self.refused({"something": {}}, "something")
+
+    def test_wrong_counts_and_indices(self):
+        raw, gui = len(self.names("tiny.dna", "raw")), len(self.names("tiny.dna", "gui"))
+        self.refused({"raw": [0] * (raw + 1)}, "%d numbers given, %d expected" % (raw + 1, raw))
+        self.refused({"raw": []}, "0 numbers given, %d expected" % raw)
+        self.refused({"gui": [0] * (gui - 1)}, "%d numbers given, %d expected" % (gui - 1, gui))
+        self.refused({"ml_mask": [1]}, "1 numbers given, 0 expected")
+        self.refused({"gui": {}, "raw_after_gui": {str(raw): 1}}, str(raw), "out of range")
+        self.refused({"gui": {}, "raw_after_gui": {"99999999999999999999": 1}}, "out of range")
+        self.ok("eval", path("tiny.dna"), "--input", "-", stdin=b'{"frames": [{"ml_mask": []}]}')
+        for lod in ("3", "4294967295"):
+            self.fails(INVALID, "eval", path("tiny.dna"), "--input", "-", "--lod", lod, says=(lod, "3"))
+
+    def test_wrong_json(self):
+        count = len(self.names("tiny.dna", "raw"))
+        def with_number(text):
+            return '{"frames": [{"raw": [%s]}]}' % ",".join([text] * count)
+        self.refused("", "byte")
+        self.refused("{", "byte 2")
+        self.refused("[]", "frames")
+        self.refused("{}", "frames")
+        self.refused('{"frames": {}}', "frames")
+        self.refused('{"frames": [[]]}', "frames[0]")
+        self.refused('{"frames": [{}]} {}', "byte")
+        self.refused(b'{"frames": [{"raw": {"\xff": 1}}]}', "byte", "\\xff")
+        for number in ("NaN", "nan", "Infinity", "-Infinity", "1e999", "-1e999", "1e39", "3.5e38", "0x1"):
+            self.refused(with_number(number))
+        for value in ("true", "null", '"1"', "[1]", "{}"):
+            self.refused(with_number(value), "frames[0].raw[0]", "number")
+        self.refused({"raw": 1}, "frames[1].raw")
+        self.refused({"raw": None}, "frames[1].raw")
+        self.refused({"gui": {}, "raw_after_gui": [1]}, "raw_after_gui")
+        self.refused({"raw": {}, "gui": {}}, "both")
+        self.refused({"raw_after_gui": {}}, "without gui")
+        self.ok("eval", path("tiny.dna"), "--input", "-", stdin=with_number("1e-50").encode())
+
+    def test_results_that_are_not_finite_are_never_printed(self):
+        done = self.refused({"raw": [3.4e38] * len(self.names("tiny.dna", "raw"))}, "frame 1", "finite")
+        self.assertNotIn("inf", done.stderr)
+
+    def test_an_interrupt_leaves_nothing_behind(self):
+        target = path("never.json")
+        frames = [{"raw": [0.5] * len(self.names("large.dna", "raw"))}] * 400
+        frames = write("many.json", json.dumps({"frames": frames}))
+        child = subprocess.Popen([mien, "eval", path("large.dna"), "--input", frames, "-o", target],
+                                 stderr=subprocess.DEVNULL)
+        for _ in range(2000):
+            if any(name.startswith(".mien") for name in os.listdir(folder)):
+                break
+            time.sleep(0.005)
+        child.send_signal(signal.SIGTERM)
+        self.assertEqual(child.wait(), -signal.SIGTERM)
+        self.assertEqual([name for name in os.listdir(folder) if name.startswith(".mien")], [])
+        self.assertFalse(os.path.exists(target))
+
+
+class Bench(CliTest):
+    ROW = ["isa", "storage", "rotation", "lod", "activity", "shared_controls", "characters",
+           "evaluate_ns", "joints_ns", "bytes_touched"]
+
+    def test_json(self):
+        result = self.json("bench", path("tiny.dna"), "--quick", "--json", "--isa", "all")
+        self.assertEqual(list(result), ["rig", "cpu", "compiler", "csr", "rows"])
+        lods = self.json("info", path("tiny.dna"), "--json")["lod_count"]
+        self.assertEqual([row["lod"] for row in result["csr"]], list(range(lods)))
+        for row in result["csr"]:
+            self.assertEqual(list(row), ["lod", "joints_ns"])
+            self.assertGreater(row["joints_ns"], 0)
+        isas = {row["isa"] for row in result["rows"]}
+        self.assertIn("scalar", isas)
+        expected = {(isa, lod, activity, *crowd) for isa in isas for lod in range(lods)
+                    for activity in (0.05, 0.08, 0.25, 0.5, 1.0)
+                    for crowd in ((1, False), (64, False), (64, True))}
+        keys = [(row["isa"], row["lod"], row["activity"], row["characters"], row["shared_controls"])
+                for row in result["rows"]]
+        self.assertEqual(len(keys), len(set(keys)))
+        self.assertEqual(set(keys), expected)
+        for row in result["rows"]:
+            self.assertEqual(list(row), self.ROW)
+            self.assertEqual((row["storage"], row["rotation"]), ("f32", "euler"))
+            self.assertGreater(row["evaluate_ns"], 0)
+            self.assertGreater(row["joints_ns"], 0)
+            self.assertGreaterEqual(row["bytes_touched"], 0)
+            self.assertTrue(math.isfinite(row["evaluate_ns"] + row["joints_ns"]))
+
+    def test_one_instruction_set_and_one_lod(self):
+        result = self.json("bench", path("tiny.dna"), "--quick", "--json", "--isa", "scalar", "--lods", "0")
+        self.assertEqual({row["isa"] for row in result["rows"]}, {"scalar"})
+        self.assertEqual(len(result["rows"]), 15)
+        result = self.json("bench", path("tiny.dna"), "--quick", "--json", "--lods", "0",
+                           env={"MIEN_ISA": "scalar"})
+        self.assertEqual({row["isa"] for row in result["rows"]}, {"scalar"})
+
+    def test_text(self):
+        text = self.ok("bench", path("tiny.dna"), "--quick", "--lods", "0", "--isa", "scalar").stdout.decode()
+        self.assertIn("x CSR", text)
+        self.assertEqual(len([line for line in text.splitlines() if line.startswith("scalar")]), 5)
+        self.fails(USAGE, "bench", path("tiny.dna"), "--layers", "definition")
+
+
+class Completion(CliTest):
+    def test_scripts_parse(self):
+        parsed = []
+        for shell in ("bash", "zsh", "fish"):
+            script = self.ok("completion", shell).stdout
+            for word in (b"--max-lod", b"validate", b"geometry-without-blend-shapes", b"quaternion"):
+                self.assertIn(word, script.replace(b"-l max-lod", b"--max-lod"))
+            if shutil.which(shell):
+                check = subprocess.run([shell, "-n"], input=script, stderr=subprocess.PIPE)
+                self.assertEqual((check.returncode, check.stderr), (0, b""), shell)
+                parsed.append(shell)
+        self.assertIn("bash", parsed)
+
+    def complete(self, *words):
+        script = self.ok("completion", "bash").stdout.decode() + (
+            "COMP_WORDS=(mien %s); COMP_CWORD=%d; _mien; printf '%%s\\n' \"${COMPREPLY[@]}\"\n"
+            % (" ".join("'%s'" % word for word in words), len(words)))
+        done = subprocess.run(["bash"], input=script.encode(), stdout=subprocess.PIPE, cwd=folder)
+        return done.stdout.decode().split()
+
+    def test_bash_completes(self):
+        self.assertEqual(self.complete("va"), ["validate"])
+        self.assertEqual(self.complete("gen", "--preset", "l"), ["large"])
+        self.assertEqual(self.complete("bench", "--isa", "a"), ["avx2", "avx512", "all"])
+        self.assertEqual(self.complete("eval", "--isa", "a"), ["avx2", "avx512"])
+        self.assertEqual(self.complete("eval", "--max"), ["--max-lod"])
+        self.assertEqual(self.complete("completion", ""), ["bash", "zsh", "fish"])
+        self.assertIn("large.dna", self.complete("info", "la"))
+        self.assertIn("large.dna", self.complete("convert", "-o", "la"))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1 and not sys.argv[1].startswith("-") and os.path.exists(sys.argv[1]):
+        mien = sys.argv.pop(1)
+    if not mien:
+        sys.exit("usage: cli_test.py path/to/mien (or MIEN_BIN)")
+    mien = os.path.abspath(mien)
+    unittest.main()

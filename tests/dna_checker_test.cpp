@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// How findings are told: where, in which words, how many at most, and when to stop.
+#include "runtime/dna/dna_checker.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/support/kept_findings.h"
+#include "tests/support/tiny_rig.h"
+
+namespace mien::dna {
+namespace {
+
+TEST(DnaCheckerTest, TellsOffsetAndNumbers) {
+  Arena arena(default_allocator());
+  DnaView view = tiny_rig(arena);
+  std::vector<uint8_t> file(100);
+  const uint16_t outputs[] = {21, 22, 27, 24};
+  for (size_t i = 0; i < 4; ++i) store_big_endian(&file[60 + 2 * i], outputs[i]);
+  view.file = file.data();
+  view.file_size = file.size();
+  view.bhvr.joints.groups[1].output_indices = {&file[60], 4};
+
+  KeptFindings report;
+  check(view, report, false);
+  ASSERT_EQ(report.findings.size(), 1u) << report.text();
+  EXPECT_EQ(report.findings[0].byte_offset, 64u);
+  EXPECT_EQ(report.findings[0].field, "bhvr.joints.jointGroups[1].outputIndices");
+  EXPECT_EQ(report.findings[0].message, "element 2 is 27, but there are 27 joint values");
+}
+
+TEST(DnaCheckerTest, OffsetsOfSingleNumbers) {
+  Arena arena(default_allocator());
+  DnaView view = tiny_rig(arena);
+  std::vector<uint8_t> file(100);
+  view.file = file.data();
+  view.file_size = file.size();
+  view.index[10].data = &file[70];  // dsce: rotationSequence, then the signs
+  view.dsce.rotation_sign.z = 7;
+  view.desc.complexity.data = &file[30];  // preceded by lodCount, maxLOD, its own count
+  view.desc.lod_count = 34;
+  KeptFindings report;
+  check(view, report, false);
+  ASSERT_EQ(report.findings.size(), 2u) << report.text();
+  EXPECT_EQ(report.findings[0].field, "desc.lodCount");
+  EXPECT_EQ(report.findings[0].byte_offset, 22u);
+  EXPECT_EQ(report.findings[1].field, "dsce.rotationSign.z");
+  EXPECT_EQ(report.findings[1].byte_offset, 82u);
+}
+
+// One array or a thousand records: what is the same field but for list numbers fills no report.
+TEST(DnaCheckerTest, FloodsAreCut) {
+  Arena arena(default_allocator());
+  DnaView view = tiny_rig(arena);
+  const NewArray<uint16_t> bad = new_array<uint16_t>(arena, 100);
+  for (size_t i = 0; i < 100; ++i) bad.set(i, 500);
+  view.defn.lod_joints.indices[0] = bad;
+  KeptFindings report;
+  EXPECT_TRUE(check_definition(view, report.sink(true)));
+  size_t of_joints = 0;
+  for (const auto& f : report.findings) of_joints += f.field == "defn.lodJointMapping.indices[0]";
+  EXPECT_EQ(of_joints, 32u);
+  // 100 that are missing, 99 that are there twice, and LOD 1 has two joints that LOD 0 lacks.
+  EXPECT_EQ(report.findings.size(), 32u);
+  EXPECT_EQ(report.findings.back().message, "from here on 170 more findings for this field");
+  EXPECT_EQ(report.findings.back().status, Status::kDnaReference);
+
+  DnaView meshes = tiny_rig(arena);
+  const Span<Face> faces = arena.array<Face>(1000);
+  meshes.geom.meshes[0].faces = {faces.data, 1000};
+  KeptFindings corners;
+  EXPECT_TRUE(check(meshes, corners, true));
+  ASSERT_EQ(corners.findings.size(), 32u);
+  EXPECT_EQ(corners.findings[31].field, "geom.meshes[0].faces[31].layoutIndices");
+  EXPECT_EQ(corners.findings[31].message, "from here on 969 more findings for this field");
+  EXPECT_EQ(corners.errors(), 0u);
+}
+
+TEST(DnaCheckerTest, ThirtyTwoAreNotCut) {
+  Arena arena(default_allocator());
+  DnaView view = tiny_rig(arena);
+  view.geom.meshes[0].faces = {arena.array<Face>(32).data, 32};
+  KeptFindings report;
+  check(view, report, true);
+  ASSERT_EQ(report.findings.size(), 32u);
+  EXPECT_EQ(report.findings[31].field, "geom.meshes[0].faces[31].layoutIndices");
+  EXPECT_EQ(report.findings[31].message, "a face with 0 corners");
+}
+
+TEST(DnaCheckerTest, StopsWhenTheSinkHasEnough) {
+  for (size_t enough : {1u, 2u, 5u}) {
+    Arena arena(default_allocator());
+    DnaView view = tiny_rig(arena);
+    view.bhvr.joints.groups[0].input_indices = be<uint16_t>(arena, {99, 98});
+    view.bhvr.joints.groups[1].output_indices = be<uint16_t>(arena, {99, 98, 97, 96});
+    view.twsw.twists[0].twist_axis = 9;
+    view.rbfe.poses.count = 1;
+    view.geom.meshes[0].skin_weights.count = 1;
+    KeptFindings report;
+    report.enough = enough;  // KeptFindings::keep expects no call after that
+    EXPECT_FALSE(check_layers(view, report.sink(true)));
+    EXPECT_EQ(report.findings.size(), enough);
+  }
+}
+
+}  // namespace
+}  // namespace mien::dna

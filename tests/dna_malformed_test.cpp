@@ -1,0 +1,641 @@
+// SPDX-License-Identifier: MIT
+// Files from outside: cut off, flipped, contradicting themselves. Whatever the bytes are, opening
+// gives a known status and a sentence, what opens can be used to the end (dna_life.h tells how),
+// and memory stays in proportion to the file.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+#include "runtime/dna/dna_view.h"
+#include "tests/support/dna_bytes.h"
+#include "tests/support/dna_life.h"
+#include "tests/support/rig_handles.h"
+#include "tests/support/tiny_rig.h"
+
+namespace mien {
+namespace {
+
+using dna::Bytes;
+
+/// Every layer, as a file of version 2.`version`.
+Bytes tiny_file(uint16_t version) {
+  Arena arena(default_allocator());
+  dna::DnaView view = dna::tiny_rig(arena);
+  if (version == 1) {
+    // 2.1 has no place for the pose control that the tongue listens to.
+    view.bhvr.joints.groups[1].input_indices = dna::be<uint16_t>(arena, {0, 4, 2});
+  }
+  return dna::written(view, version);
+}
+
+Bytes generated_file(uint16_t version) {
+  const DnaHandle dna = generate_dna(MIEN_PRESET_TINY, 7);
+  return dna::written(dna->view, version);
+}
+
+/// Lives through many broken files; keeps the worst and the tally of ends.
+class Survivor {
+ public:
+  void live_through(const uint8_t* bytes, size_t size, const std::string& what) {
+    // A block of its own, so that the address sanitizer sees the first byte past the end.
+    const std::unique_ptr<uint8_t[]> copy(new uint8_t[size]);
+    if (size) memcpy(copy.get(), bytes, size);
+    const Life life = live(copy.get(), size);
+    EXPECT_EQ(life.broken, "") << what;
+    ++lives_;
+    opened_ += life.opened == MIEN_OK;
+    compiled_ += life.opened == MIEN_OK && life.compiled == MIEN_OK;
+    open_.add(life.open_peak, size);
+    rig_.add(life.rig_peak, size);
+    report_.add(life.report_peak, size);
+  }
+  void live_through(const Bytes& bytes, const std::string& what) {
+    live_through(bytes.data(), bytes.size(), what);
+  }
+
+  size_t lives() const { return lives_; }
+  size_t opened() const { return opened_; }
+
+  ~Survivor() {
+    printf("%zu files, %zu opened, %zu compiled\n", lives_, opened_, compiled_);
+    open_.print("opening");
+    rig_.print("a rig and its instance");
+    report_.print("a report");
+  }
+
+ private:
+  // What memory is in proportion to shows in large files only.
+  struct Peak {
+    size_t bytes = 0;
+    double ratio = 0;
+
+    void add(size_t taken, size_t file_size) {
+      bytes = std::max(bytes, taken);
+      if (file_size >= 100000) ratio = std::max(ratio, double(taken) / double(file_size));
+    }
+    void print(const char* of) const {
+      printf("  %s took at most %zu bytes", of, bytes);
+      printf(ratio > 0 ? ", %.1f x a large file\n" : "\n", ratio);
+    }
+  };
+
+  size_t lives_ = 0, opened_ = 0, compiled_ = 0;
+  Peak open_, rig_, report_;
+};
+
+/// Cut, set and flipped at every `stride`-th byte; the header and the index at every byte.
+void break_everywhere(const Bytes& good, size_t stride, Survivor& survivor) {
+  constexpr size_t kFront = 200;
+  auto step = [&](size_t at) { return at < kFront ? 1 : stride; };
+  for (size_t cut = 0; cut < good.size(); cut += step(cut)) {
+    survivor.live_through(good.data(), cut, "cut at " + std::to_string(cut));
+  }
+  Bytes bad = good;
+  for (size_t at = 0; at < good.size(); at += step(at)) {
+    const std::string where = " at " + std::to_string(at);
+    for (uint8_t value : {uint8_t{0}, uint8_t{0xFF}}) {
+      bad[at] = value;
+      if (bad[at] != good[at]) survivor.live_through(bad, std::to_string(value) + where);
+    }
+    for (int bit = 0; bit < 8; ++bit) {
+      bad[at] = static_cast<uint8_t>(good[at] ^ (1 << bit));
+      survivor.live_through(bad, "bit " + std::to_string(bit) + where);
+    }
+    bad[at] = good[at];
+  }
+}
+
+class Version : public testing::TestWithParam<uint16_t> {};
+INSTANTIATE_TEST_SUITE_P(Malformed, Version, testing::Values(1, 2, 5, 8));
+
+TEST_P(Version, GoodFilesLiveToTheEnd) {
+  for (const Bytes& file : {tiny_file(GetParam()), generated_file(GetParam())}) {
+    const Life life = live(file.data(), file.size());
+    EXPECT_EQ(life.broken, "");
+    EXPECT_EQ(life.opened, MIEN_OK) << life.message;
+    EXPECT_EQ(life.compiled, MIEN_OK) << life.message;
+  }
+}
+
+TEST_P(Version, EveryByteOfASmallFile) {
+  const Bytes good = tiny_file(GetParam());
+  Survivor survivor;
+  break_everywhere(good, 1, survivor);
+  EXPECT_GT(survivor.lives(), 9 * good.size());
+  // Floats and strings may hold anything: not all that is broken is refused.
+  EXPECT_GT(survivor.opened(), survivor.lives() / 20);
+  EXPECT_LT(survivor.opened(), survivor.lives());
+}
+
+TEST_P(Version, SomeBytesOfAGeneratedFile) {
+  const Bytes good = generated_file(GetParam());
+  Survivor survivor;
+  break_everywhere(good, good.size() / 40, survivor);
+}
+
+// Anything that is cut off is told from a whole file: no layer may silently lack its end.
+TEST_P(Version, NoCutFileOpens) {
+  for (const Bytes& good : {tiny_file(GetParam()), generated_file(GetParam())}) {
+    const size_t stride = std::max<size_t>(1, good.size() / 2000);
+    for (size_t cut = 0; cut < good.size(); cut += stride) {
+      MienDna* dna = nullptr;
+      MienError error = sized<MienError>();
+      const MienStatus status = mien_dna_open_memory(good.data(), cut, nullptr, &dna, &error);
+      const MienStatus expected = cut < 3 ? MIEN_ERROR_DNA_SIGNATURE : MIEN_ERROR_DNA_TRUNCATED;
+      // 2.1 does not say how long it is: what is missing may show as a contradiction.
+      const bool structure = GetParam() == 1 && status == MIEN_ERROR_DNA_STRUCTURE;
+      EXPECT_TRUE(status == expected || structure) << "cut at " << cut << ": " << error.message;
+      EXPECT_EQ(dna, nullptr);
+    }
+  }
+}
+
+// Every 32-bit number that says where and how much.
+TEST_P(Version, OffsetsSizesAndCountsOfTheContainer) {
+  const Bytes good = tiny_file(GetParam());
+  const uint32_t size = static_cast<uint32_t>(good.size());
+  const uint32_t extremes[] = {0, 1, size - 1, size, size + 1, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF};
+  std::vector<size_t> places;
+  if (GetParam() == 1) {
+    for (size_t s = 0; s < 8; ++s) places.push_back(7 + 4 * s);
+  } else {
+    places.push_back(7);
+    const size_t layers = dna::number32(good, 7);
+    for (size_t i = 0; i < 4 * layers; ++i) places.push_back(11 + 4 * i);
+  }
+  Survivor survivor;
+  for (size_t place : places) {
+    for (uint32_t value : extremes) {
+      Bytes bad = good;
+      dna::set32(bad, place, value);
+      survivor.live_through(bad, std::to_string(value) + " at " + std::to_string(place));
+    }
+  }
+  // Two at a time, where they have to add up: an offset and the size beside it.
+  for (size_t i = 1; GetParam() != 1 && i < places.size(); i += 4) {
+    for (uint32_t offset : extremes) {
+      for (uint32_t bytes : extremes) {
+        Bytes bad = good;
+        dna::set32(bad, places[i + 2], offset);
+        dna::set32(bad, places[i + 3], bytes);
+        survivor.live_through(bad, std::to_string(offset) + " + " + std::to_string(bytes));
+      }
+    }
+  }
+}
+
+// Every count in every layer, found as a big-endian number that fits: also what is no count.
+TEST_P(Version, CountsInsideLayers) {
+  const Bytes good = tiny_file(GetParam());
+  const uint32_t size = static_cast<uint32_t>(good.size());
+  Survivor survivor;
+  for (size_t at = 7; at + 4 <= good.size(); ++at) {
+    if (dna::number32(good, at) > 64) continue;
+    for (uint32_t value : {dna::number32(good, at) + 1, size, 0x10000u, 0x7FFFFFFFu, 0xFFFFFFFFu}) {
+      Bytes bad = good;
+      dna::set32(bad, at, value);
+      survivor.live_through(bad, std::to_string(value) + " at " + std::to_string(at));
+    }
+  }
+}
+
+// One contradiction at a time ------------------------------------------------------------------
+
+void expect_refused(const Bytes& bytes, MienStatus expected, const char* part_of_message = "") {
+  const Life life = live(bytes.data(), bytes.size());
+  EXPECT_EQ(life.broken, "");
+  EXPECT_STREQ(mien_status_name(life.opened), mien_status_name(expected)) << life.message;
+  EXPECT_NE(life.message.find(part_of_message), std::string::npos) << life.message;
+}
+
+void expect_accepted(const Bytes& bytes) {
+  const Life life = live(bytes.data(), bytes.size());
+  EXPECT_EQ(life.broken, "");
+  EXPECT_EQ(life.opened, MIEN_OK) << life.message;
+  EXPECT_EQ(life.compiled, MIEN_OK) << life.message;
+}
+
+constexpr size_t kEntry = 11;  // first entry of the index: code, version, offset, size
+
+size_t entry_of(const Bytes& file, const char* code) {
+  const size_t layers = dna::number32(file, 7);
+  for (size_t i = 0; i < layers; ++i) {
+    if (memcmp(file.data() + kEntry + 16 * i, code, 4) == 0) return kEntry + 16 * i;
+  }
+  ADD_FAILURE() << "no layer " << code;
+  return kEntry;
+}
+
+TEST(Container, SignatureAndGeneration) {
+  expect_refused({}, MIEN_ERROR_DNA_SIGNATURE, "empty");
+  expect_refused({'D'}, MIEN_ERROR_DNA_SIGNATURE);
+  expect_refused({'D', 'N', 'B', 0, 2, 0, 8, 0, 0, 0, 0}, MIEN_ERROR_DNA_SIGNATURE);
+  expect_refused({'D', 'N', 'A', 0, 2}, MIEN_ERROR_DNA_TRUNCATED);
+  Bytes file = tiny_file(8);
+  for (uint16_t generation : {uint16_t{0}, uint16_t{1}, uint16_t{3}, uint16_t{0x200}}) {
+    file[3] = static_cast<uint8_t>(generation >> 8);
+    file[4] = static_cast<uint8_t>(generation);
+    expect_refused(file, MIEN_ERROR_DNA_VERSION);
+  }
+}
+
+TEST(Container, UnknownVersionsAreReadLikeTheNewest) {
+  Bytes file = tiny_file(8);
+  for (uint16_t version : {uint16_t{0}, uint16_t{9}, uint16_t{0xFFFF}}) {
+    file[5] = static_cast<uint8_t>(version >> 8);
+    file[6] = static_cast<uint8_t>(version);
+    expect_accepted(file);
+    const DnaHandle dna = open_dna(file);
+    ASSERT_TRUE(dna);
+    MienDnaInfo info = sized<MienDnaInfo>();
+    ASSERT_EQ(mien_dna_info(dna.get(), &info), MIEN_OK);
+    EXPECT_EQ(info.version, version);
+    EXPECT_EQ(write_dna(dna.get()), file);
+  }
+}
+
+TEST(Container, LayersThatOverlap) {
+  Bytes file = tiny_file(8);
+  const size_t desc = entry_of(file, "desc"), defn = entry_of(file, "defn");
+  dna::set32(file, defn + 8, dna::number32(file, desc + 8) + 1);
+  expect_refused(file, MIEN_ERROR_DNA_STRUCTURE, "within another");
+
+  file = tiny_file(8);
+  dna::set32(file, desc + 12, dna::number32(file, desc + 12) + 1);
+  expect_refused(file, MIEN_ERROR_DNA_STRUCTURE, "within another");
+}
+
+TEST(Container, LayersThatComeTwice) {
+  std::vector<dna::Layer> layers = dna::layers_of(tiny_file(8));
+  layers.push_back(layers[1]);
+  expect_refused(dna::file_of(8, layers), MIEN_ERROR_DNA_STRUCTURE, "same kind");
+  // Also of a kind that nobody knows.
+  layers.back() = dna::layer("abcd 1.0", {1, 2, 3});
+  expect_accepted(dna::file_of(8, layers));
+  layers.push_back(layers.back());
+  expect_refused(dna::file_of(8, layers), MIEN_ERROR_DNA_STRUCTURE, "same kind");
+  // Another version of a known layer is another kind.
+  layers.back() = dna::layer("desc 1.2", {1, 2, 3});
+  expect_accepted(dna::file_of(8, layers));
+}
+
+TEST(Container, LayersWithinTheHeaderOrIndex) {
+  for (uint32_t offset : {0u, 7u, 11u, 100u}) {
+    Bytes file = tiny_file(8);
+    dna::set32(file, entry_of(file, "jbmd") + 8, offset);
+    expect_refused(file, MIEN_ERROR_DNA_STRUCTURE, "within the index");
+  }
+}
+
+TEST(Container, LayersBeyondTheEnd) {
+  Bytes file = tiny_file(8);
+  const size_t dsce = entry_of(file, "dsce");
+  dna::set32(file, dsce + 12, 18);
+  expect_refused(file, MIEN_ERROR_DNA_TRUNCATED);
+  // Offset and size whose sum is small in 32 bits.
+  dna::set32(file, dsce + 8, 0xFFFFFFF0);
+  dna::set32(file, dsce + 12, 0x20);
+  expect_refused(file, MIEN_ERROR_DNA_TRUNCATED);
+}
+
+TEST(Container, GapsAndAnyOrderAreFine) {
+  std::vector<dna::Layer> layers = dna::layers_of(tiny_file(8));
+  std::reverse(layers.begin(), layers.end());
+  Bytes file = dna::file_of(8, layers);
+  expect_accepted(file);
+  file.insert(file.end(), 5, 0xEE);
+  expect_accepted(file);
+}
+
+TEST(Container, NoLayersAtAll) {
+  const Bytes file = dna::file_of(8, {});
+  expect_accepted(file);
+  for (size_t cut = 0; cut < file.size(); ++cut) {
+    expect_refused(Bytes(file.begin(), file.begin() + static_cast<ptrdiff_t>(cut)),
+                   cut < 3 ? MIEN_ERROR_DNA_SIGNATURE : MIEN_ERROR_DNA_TRUNCATED);
+  }
+}
+
+TEST(Container, MissingLayersReadAsEmptyUnlessOthersNeedThem) {
+  for (const char* code :
+       {"desc", "defn", "bhvr", "geom", "mlbh", "rbfb", "rbfe", "jbmd", "twsw", "mlbe", "dsce"}) {
+    std::vector<dna::Layer> layers = dna::layers_of(tiny_file(8));
+    for (size_t i = 0; i < layers.size(); ++i) {
+      if (layers[i].code == code) layers.erase(layers.begin() + static_cast<ptrdiff_t>(i));
+    }
+    const Bytes file = dna::file_of(8, layers);
+    const Life life = live(file.data(), file.size());
+    EXPECT_EQ(life.broken, "") << code;
+    EXPECT_TRUE(life.opened == MIEN_OK || life.opened >= MIEN_ERROR_DNA_STRUCTURE) << code;
+  }
+}
+
+// Blocks: mesh, network and solver.
+TEST(Container, BlocksThatEndBeforeTheyBeginOrTooLate) {
+  const Bytes good = tiny_file(8);
+  for (const char* code : {"geom", "mlbh", "rbfb"}) {
+    const size_t begin = dna::number32(good, entry_of(good, code) + 8);
+    const size_t bytes = dna::number32(good, entry_of(good, code) + 12);
+    bool found = false;
+    for (size_t at = begin; at + 4 <= begin + bytes; ++at) {
+      // The block is the last thing in geom and mlbh; behind the solver come the poses.
+      const size_t left = begin + bytes - at - 4;
+      const uint32_t value = dna::number32(good, at);
+      const size_t poses = strcmp(code, "rbfb") == 0 ? 4 + 2 * (4 + 4 + 4) : 0;
+      if (value != left - poses || value < 20) continue;
+      found = true;
+      for (uint32_t bad : {0u, 1u, value - 1, uint32_t(left + 1), 0xFFFFFFFFu, 0xFFFFFF00u}) {
+        Bytes file = good;
+        dna::set32(file, at, bad);
+        const Life life = live(file.data(), file.size());
+        EXPECT_EQ(life.broken, "");
+        EXPECT_TRUE(life.opened == MIEN_ERROR_DNA_STRUCTURE ||
+                    life.opened == MIEN_ERROR_DNA_TRUNCATED)
+            << code << " block size " << bad << ": " << life.message;
+      }
+    }
+    EXPECT_TRUE(found) << code;
+  }
+}
+
+// Version 2.1 ----------------------------------------------------------------------------------
+
+size_t section(size_t number) { return 7 + 4 * number; }
+
+TEST(Sections, EndMarker) {
+  Bytes file = tiny_file(1);
+  ASSERT_EQ(std::string(file.end() - 3, file.end()), "AND");
+  for (size_t i = 1; i <= 3; ++i) {
+    Bytes bad = file;
+    bad[bad.size() - i] ^= 0x20;
+    expect_refused(bad, MIEN_ERROR_DNA_STRUCTURE, "AND");
+    bad.resize(file.size() - i);
+    const Life life = live(bad.data(), bad.size());
+    EXPECT_EQ(life.broken, "");
+    EXPECT_NE(life.opened, MIEN_OK);
+  }
+  file.push_back(0);  // what follows it is no matter
+  expect_accepted(file);
+}
+
+TEST(Sections, TwoInOnePlace) {
+  const Bytes good = tiny_file(1);
+  constexpr size_t kBehavior = 2;  // has no bytes of its own
+  for (size_t s = 0; s < 8; ++s) {
+    for (size_t t = 0; t < s; ++t) {
+      if (s == kBehavior || t == kBehavior) continue;
+      Bytes bad = good;
+      dna::set32(bad, section(s), dna::number32(good, section(t)));
+      expect_refused(bad, MIEN_ERROR_DNA_STRUCTURE, "same place");
+    }
+  }
+}
+
+TEST(Sections, WithinTheHeader) {
+  const Bytes good = tiny_file(1);
+  for (size_t s = 0; s < 8; ++s) {
+    for (uint32_t offset : {0u, 7u, 0x26u}) {
+      Bytes bad = good;
+      dna::set32(bad, section(s), offset);
+      expect_refused(bad, MIEN_ERROR_DNA_STRUCTURE);
+    }
+  }
+}
+
+TEST(Sections, MeshThatEndsBeforeItBegins) {
+  const Bytes good = tiny_file(1);
+  const size_t mesh = dna::number32(good, section(7)) + 4;  // behind the number of meshes
+  ASSERT_EQ(dna::number32(good, mesh), good.size() - 3);
+  for (uint32_t end : {0u, 0x27u, uint32_t(mesh), uint32_t(mesh + 3), uint32_t(good.size() - 2),
+                       uint32_t(good.size()), 0xFFFFFFFFu}) {
+    Bytes bad = good;
+    dna::set32(bad, mesh, end);
+    expect_refused(bad, MIEN_ERROR_DNA_STRUCTURE);
+  }
+}
+
+// Memory ---------------------------------------------------------------------------------------
+
+// The worst of each list: as many of the smallest records as the file can hold.
+Bytes many_records(const char* code, Bytes front, size_t record_bytes, uint32_t count, Bytes back) {
+  std::vector<dna::Layer> layers = dna::layers_of(dna::file_of(8, {}));
+  dna::put32(front, count);
+  front.insert(front.end(), record_bytes * count, 0);
+  front.insert(front.end(), back.begin(), back.end());
+  layers.push_back(dna::layer(code, front));
+  return dna::file_of(8, layers);
+}
+
+TEST(Memory, ListsOfTheSmallestRecords) {
+  Survivor survivor;
+  const struct {
+    const char* code;
+    size_t front_zeros, record_bytes, back_zeros;
+    const char* what;
+  } lists[] = {
+      {"defn", 4, 4, 84, "LOD rows"},
+      {"defn", 32, 4, 56, "names"},
+      {"bhvr", 42, 20, 40, "joint groups"},
+      {"geom", 0, 4 + 58, 0, "meshes with a size of 0"},
+      {"mlbh", 0, 4, 20, "ML control names"},
+      {"mlbh", 12, 4, 8, "meshes with regions"},
+      {"mlbh", 20, 4 + 12, 0, "networks with a size of 0"},
+      {"rbfb", 8, 4 + 36, 4, "solvers with a size of 0"},
+      {"rbfb", 12, 8, 0, "poses"},
+      {"rbfe", 0, 4, 4, "pose names"},
+      {"rbfe", 4, 12, 0, "pose controls"},
+      {"jbmd", 0, 6, 0, "joint metadata"},
+      {"twsw", 0, 14, 4, "twists"},
+      {"twsw", 4, 14, 0, "swings"},
+      {"mlbe", 0, 8, 16, "ML types"},
+      {"desc", 10, 8, 26, "metadata"},
+  };
+  for (const auto& list : lists) {
+    for (uint32_t count : {1000u, 40000u, 200000u}) {
+      survivor.live_through(many_records(list.code, Bytes(list.front_zeros), list.record_bytes,
+                                         count, Bytes(list.back_zeros)),
+                            std::to_string(count) + " " + list.what);
+    }
+  }
+}
+
+// The same within a file that opens, and with LODs to be selected from.
+TEST(Memory, LongListsOfEmptyThings) {
+  using dna::DnaView;
+  constexpr uint32_t kMany = 60000;
+  const struct {
+    const char* what;
+    void (*fill)(DnaView& view, Arena& arena);
+  } cases[] = {
+      {"faces",
+       [](DnaView& v, Arena& a) {
+         v.geom.meshes[0].faces = {a.array<dna::Face>(kMany).data, kMany};
+       }},
+      {"targets",
+       [](DnaView& v, Arena& a) {
+         v.geom.meshes[0].blend_shape_targets = {a.array<dna::BlendShapeTarget>(kMany).data, kMany};
+       }},
+      {"vertices without weights",
+       [](DnaView& v, Arena& a) {
+         dna::Mesh& mesh = v.geom.meshes[0];
+         const dna::NewArray<float> zeros = dna::new_array<float>(a, kMany);
+         memset(zeros.data, 0, 4 * kMany);
+         mesh.positions = {zeros, zeros, zeros};
+         mesh.skin_weights = {a.array<dna::VertexSkinWeights>(kMany).data, kMany};
+       }},
+      {"LOD rows",
+       [](DnaView& v, Arena& a) {
+         v.defn.lod_joints.indices = {a.array<dna::Array<uint16_t>>(kMany).data, kMany};
+       }},
+      {"meshes",
+       [](DnaView& v, Arena& a) {
+         v.defn.mesh_names = {a.array<dna::String>(kMany).data, kMany};
+         v.geom.meshes = {a.array<dna::Mesh>(kMany).data, kMany};
+       }},
+      {"joint groups",
+       [](DnaView& v, Arena& a) {
+         v.bhvr.joints.groups = {a.array<dna::JointGroup>(kMany).data, kMany};
+       }},
+      {"regions",
+       [](DnaView& v, Arena& a) {
+         v.mlbh.mesh_regions.region_names[0] = {a.array<dna::String>(kMany).data, kMany};
+         v.mlbh.mesh_regions.indices[0] = {a.array<dna::Array<uint16_t>>(kMany).data, kMany};
+       }},
+      {"network layers",
+       [](DnaView& v, Arena& a) {
+         v.mlbe = {};
+         v.mlbh.networks[0] = {};
+         v.mlbh.networks[0].layers = {a.array<dna::NetworkLayer>(kMany).data, kMany};
+       }},
+      {"networks",
+       [](DnaView& v, Arena& a) {
+         v.mlbe = {};
+         v.mlbh.networks = {a.array<dna::NeuralNetwork>(kMany).data, kMany};
+       }},
+      {"operation sets",
+       [](DnaView& v, Arena& a) {
+         v.mlbe.types[0].operations = {a.array<dna::List<dna::MlOperation>>(kMany).data, kMany};
+         v.mlbe.types[0].lod_operations = {a.array<dna::LodMap>(kMany).data, kMany};
+       }},
+      {"operations",
+       [](DnaView& v, Arena& a) {
+         v.mlbe.types[0].operations[2] = {a.array<dna::MlOperation>(kMany).data, kMany};
+       }},
+      {"ML types",
+       [](DnaView& v, Arena& a) {
+         v.mlbe.types = {a.array<dna::MlType>(kMany).data, kMany};
+       }},
+      {"solvers",
+       [](DnaView& v, Arena& a) {
+         v.rbfb.solvers = {a.array<dna::RbfSolver>(kMany).data, kMany};
+       }},
+  };
+  Survivor survivor;
+  for (const auto& one : cases) {
+    Arena arena(default_allocator());
+    DnaView view = dna::tiny_rig(arena);
+    one.fill(view, arena);
+    const Bytes file = dna::written(view);
+    survivor.live_through(file, one.what);
+    LifeOptions options;
+    options.lods = 2;
+    options.validate = false;
+    const Life life = live(file.data(), file.size(), options);
+    EXPECT_EQ(life.broken, "") << one.what << " with LODs selected";
+    EXPECT_EQ(life.opened, MIEN_OK) << one.what << ": " << life.message;
+    printf("%s: %zu bytes, opened with LODs selected in %.1f x the file\n", one.what, file.size(),
+           double(life.open_peak) / double(file.size()));
+  }
+}
+
+// A rig may not take what the file does not have: a name that many things share is one name.
+TEST(Memory, RegionsOfAMeshWithALongName) {
+  Arena arena(default_allocator());
+  dna::DnaView view = dna::tiny_rig(arena);
+  const std::string name(20000, 'm');
+  view.defn.mesh_names[0] = dna::text(name.c_str());
+  constexpr uint32_t kRegions = 5000;
+  view.mlbh.mesh_regions.region_names[0] = {arena.array<dna::String>(kRegions).data, kRegions};
+  view.mlbh.mesh_regions.indices[0] = {arena.array<dna::Array<uint16_t>>(kRegions).data, kRegions};
+  const Bytes file = dna::written(view);
+  const Life life = live(file.data(), file.size());
+  EXPECT_EQ(life.broken, "");
+}
+
+// Files that are none --------------------------------------------------------------------------
+
+class Paths : public testing::Test {
+ protected:
+  std::string folder;
+
+  void SetUp() override {
+    char made[] = "/tmp/mien_malformed_XXXXXX";
+    ASSERT_NE(mkdtemp(made), nullptr);
+    folder = made;
+  }
+  void TearDown() override {
+    remove((folder + "/file").c_str());
+    rmdir(folder.c_str());
+  }
+
+  void expect_status(const std::string& path, MienStatus expected) {
+    for (uint32_t access : {MIEN_FILE_MAP, MIEN_FILE_READ}) {
+      CountingAllocator counter;
+      const MienAllocator allocator = counter.get();
+      MienDnaDesc desc = sized<MienDnaDesc>();
+      desc.file_access = access;
+      desc.allocator = &allocator;
+      MienError error = sized<MienError>();
+      MienDna* dna = nullptr;
+      const MienStatus status = mien_dna_open_file(path.c_str(), &desc, &dna, &error);
+      EXPECT_STREQ(mien_status_name(status), mien_status_name(expected)) << error.message;
+      EXPECT_EQ(dna, nullptr);
+      EXPECT_NE(error.message[0], 0);
+      EXPECT_TRUE(counter.clean()) << counter.first_wrong;
+
+      MienReport* report = nullptr;
+      const MienStatus examined =
+          mien_report_create_file(path.c_str(), &allocator, &report, &error);
+      const bool is_file = expected >= MIEN_ERROR_DNA_SIGNATURE;
+      EXPECT_EQ(examined, is_file ? MIEN_OK : expected) << error.message;
+      EXPECT_EQ(report != nullptr, is_file);
+      mien_report_destroy(report);
+      EXPECT_TRUE(counter.clean()) << counter.first_wrong;
+    }
+  }
+};
+
+TEST_F(Paths, ThatAreNoFiles) {
+  expect_status(folder + "/missing", MIEN_ERROR_FILE_OPEN);
+  expect_status(folder + "/missing/file", MIEN_ERROR_FILE_OPEN);
+  expect_status("", MIEN_ERROR_FILE_OPEN);
+  expect_status(folder, MIEN_ERROR_FILE_READ);
+  expect_status(std::string(5000, 'x'), MIEN_ERROR_FILE_OPEN);
+}
+
+TEST_F(Paths, ThatHoldNothingOrNoDna) {
+  std::ofstream(folder + "/file");
+  expect_status(folder + "/file", MIEN_ERROR_DNA_SIGNATURE);
+  std::ofstream(folder + "/file") << "no DNA";
+  expect_status(folder + "/file", MIEN_ERROR_DNA_SIGNATURE);
+  std::ofstream(folder + "/file") << "DNA";
+  expect_status(folder + "/file", MIEN_ERROR_DNA_TRUNCATED);
+}
+
+TEST_F(Paths, ThatCannotBeWritten) {
+  const DnaHandle dna = generate_dna(MIEN_PRESET_TINY, 0);
+  for (const std::string& path :
+       {folder, folder + "/missing/file", std::string(), std::string("/dev/full")}) {
+    MienError error = sized<MienError>();
+    EXPECT_EQ(mien_dna_write_file(dna.get(), path.c_str(), nullptr, &error), MIEN_ERROR_FILE_WRITE)
+        << path;
+    EXPECT_NE(error.message[0], 0);
+  }
+}
+
+}  // namespace
+}  // namespace mien

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// Handles of the C interface that close themselves, and the calls that tests make all the time.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "capi/handles.h"
+#include "capi/mien.h"
+
+namespace mien {
+
+struct CloseHandle {
+  void operator()(MienDna* dna) const { mien_dna_close(dna); }
+  void operator()(MienRig* rig) const { mien_rig_destroy(rig); }
+  void operator()(MienInstance* instance) const { mien_instance_destroy(instance); }
+};
+using DnaHandle = std::unique_ptr<MienDna, CloseHandle>;
+using RigHandle = std::unique_ptr<MienRig, CloseHandle>;
+using InstanceHandle = std::unique_ptr<MienInstance, CloseHandle>;
+
+/// A struct of the C interface, ready to be passed.
+template <class T>
+T sized() {
+  T object = {};
+  object.struct_size = sizeof(T);
+  return object;
+}
+
+inline DnaHandle open_dna(const std::vector<uint8_t>& bytes, uint64_t lods = 0,
+                          MienStatus expected = MIEN_OK) {
+  MienDnaDesc desc = sized<MienDnaDesc>();
+  desc.lods = lods;
+  MienError error = sized<MienError>();
+  MienDna* dna = nullptr;
+  EXPECT_EQ(mien_dna_open_memory(bytes.data(), bytes.size(), &desc, &dna, &error), expected)
+      << error.message;
+  return DnaHandle(dna);
+}
+
+inline std::vector<uint8_t> write_dna(const MienDna* dna) {
+  size_t size = 0;
+  EXPECT_EQ(mien_dna_write_memory(dna, nullptr, nullptr, 0, &size, nullptr), MIEN_OK);
+  std::vector<uint8_t> bytes(size);
+  EXPECT_EQ(mien_dna_write_memory(dna, nullptr, bytes.data(), size, &size, nullptr), MIEN_OK);
+  return bytes;
+}
+
+/// File bytes of a view that was made by hand: opening them checks it like any other file.
+inline std::vector<uint8_t> write_view(const dna::DnaView& view) {
+  const DnaHandle dna(capi::new_dna(default_allocator()));
+  dna->view = view;
+  return write_dna(dna.get());
+}
+
+inline DnaHandle generate_dna(uint32_t preset, uint64_t seed) {
+  MienGenerateDesc desc = sized<MienGenerateDesc>();
+  desc.preset = preset;
+  desc.seed = seed;
+  MienDna* dna = nullptr;
+  EXPECT_EQ(mien_dna_generate(&desc, &dna, nullptr), MIEN_OK);
+  return DnaHandle(dna);
+}
+
+inline RigHandle create_rig(const MienDna* dna, uint32_t isa = MIEN_ISA_BEST,
+                            MienStatus expected = MIEN_OK, uint32_t rotation = MIEN_OUTPUT_EULER) {
+  MienRigDesc desc = sized<MienRigDesc>();
+  desc.isa = isa;
+  desc.rotation = rotation;
+  MienError error = sized<MienError>();
+  MienRig* rig = nullptr;
+  EXPECT_EQ(mien_rig_create(dna, &desc, &rig, &error), expected) << error.message;
+  return RigHandle(rig);
+}
+
+inline MienRigInfo info_of(const RigHandle& rig) {
+  MienRigInfo info = sized<MienRigInfo>();
+  EXPECT_EQ(mien_rig_info(rig.get(), &info), MIEN_OK);
+  return info;
+}
+
+inline uint32_t count_of(const RigHandle& rig, uint32_t kind) {
+  uint32_t count = 0;
+  EXPECT_EQ(mien_rig_count(rig.get(), kind, &count), MIEN_OK);
+  return count;
+}
+
+inline std::vector<std::string> names_of(const RigHandle& rig, uint32_t kind) {
+  std::vector<std::string> names(count_of(rig, kind));
+  for (uint32_t i = 0; i < names.size(); ++i) {
+    MienStringView name;
+    EXPECT_EQ(mien_rig_name(rig.get(), kind, i, &name), MIEN_OK);
+    names[i].assign(name.data, name.count);
+  }
+  return names;
+}
+
+/// Instruction sets that this build and this CPU have, without MIEN_ISA_BEST.
+inline std::vector<uint32_t> present_isas() {
+  std::vector<uint32_t> isas;
+  for (uint32_t isa = MIEN_ISA_SCALAR; isa <= MIEN_ISA_NEON; ++isa) {
+    if (mien_isa_available(isa)) isas.push_back(isa);
+  }
+  return isas;
+}
+
+/// An instance and its views: they stay valid and the same as long as it lives.
+struct Character {
+  RigHandle owned;  // a rig that nobody else keeps
+  const MienRig* rig;
+  InstanceHandle instance;
+  Span<float> gui, raw, masks;
+  Span<const float> controls, psd, ml, rbf, joints, channels, maps;
+
+  explicit Character(RigHandle&& of) : Character(of) { owned = std::move(of); }
+  explicit Character(const RigHandle& of) : rig(of.get()) {
+    MienInstance* made = nullptr;
+    EXPECT_EQ(mien_instance_create(rig, nullptr, &made, nullptr), MIEN_OK);
+    instance.reset(made);
+    gui = inputs(mien_instance_gui_controls);
+    raw = inputs(mien_instance_raw_controls);
+    masks = inputs(mien_instance_ml_masks);
+    controls = outputs(mien_instance_controls);
+    psd = outputs(mien_instance_psd_controls);
+    ml = outputs(mien_instance_ml_controls);
+    rbf = outputs(mien_instance_rbf_controls);
+    joints = outputs(mien_instance_joints);
+    channels = outputs(mien_instance_blend_shapes);
+    maps = outputs(mien_instance_animated_maps);
+  }
+
+  void evaluate(uint32_t lod, uint32_t stages = MIEN_STAGE_ALL) {
+    EXPECT_EQ(mien_rig_evaluate_stages(rig, instance.get(), lod, stages), MIEN_OK);
+  }
+  void map_gui_to_raw() { EXPECT_EQ(mien_rig_map_gui_to_raw(rig, instance.get()), MIEN_OK); }
+  void map_raw_to_gui() { EXPECT_EQ(mien_rig_map_raw_to_gui(rig, instance.get()), MIEN_OK); }
+
+  /// Bits of all that evaluation gives.
+  std::vector<float> results() const {
+    std::vector<float> all(controls.begin(), controls.end());
+    for (const Span<const float>& part : {joints, channels, maps}) {
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+  }
+
+ private:
+  template <class Get>
+  Span<float> inputs(Get get) {
+    MienMutableFloatView view = {};
+    EXPECT_EQ(get(instance.get(), &view), MIEN_OK);
+    return {view.data, view.count};
+  }
+  template <class Get>
+  Span<const float> outputs(Get get) {
+    MienFloatView view = {};
+    EXPECT_EQ(get(instance.get(), &view), MIEN_OK);
+    return {view.data, view.count};
+  }
+};
+
+/// True if both have the same bits.
+inline bool same_bits(Span<const float> a, Span<const float> b) {
+  return a.count == b.count &&
+         (a.count == 0 || memcmp(a.data, b.data, a.count * sizeof(float)) == 0);
+}
+inline Span<const float> span_of(const std::vector<float>& values) {
+  return {values.data(), values.size()};
+}
+
+}  // namespace mien
