@@ -96,11 +96,8 @@ inline MienStatus give_error(const Error& from, MienError* to) {
   return static_cast<MienStatus>(from.status);
 }
 
-#if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
-#endif
-MienStatus
-give_error(MienError* to, MienStatus status, const char* format, ...);
+MIEN_PRINTF(3, 4)
+MienStatus give_error(MienError* to, MienStatus status, const char* format, ...);
 
 /// The beginning of a call with an output and an error: clears the one, if the caller gave it.
 template <class T>

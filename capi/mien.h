@@ -181,8 +181,9 @@ typedef struct MienDnaDesc {
 } MienDnaDesc;
 
 /* Opens a file of versions 2.1 to 2.8 (later 2.x: what is known of it). Checks everything that is
- * loaded, so that a rig made of it has nothing left to check; memory taken is at most six times the
- * bytes of the chosen layers. `path` is UTF-8. A mapped file must not be truncated or rewritten in
+ * loaded, so that a rig made of it has nothing left to check. Numbers and names stay in the file;
+ * memory goes to lists: usually some percent of the chosen layers, and at most 20 times their bytes
+ * for a file made of nothing but the smallest records. `path` is UTF-8. A mapped file must not be truncated or rewritten in
  * place while it is open (replacing it by renaming is safe).
  * `desc` may be NULL. Close with mien_dna_close(). */
 MIEN_API MienStatus mien_dna_open_file(const char* path, const MienDnaDesc* desc, MienDna** out_dna,
@@ -296,8 +297,8 @@ typedef struct MienDnaField {
     uint32_t type;        /* MIEN_FIELD_... */
     uint64_t count;       /* elements of an array or list, bytes of a string, 1 for a number, fields
                              of a record */
-    uint64_t byte_offset; /* where the bytes of an array or string begin in the file; MIEN_NO_OFFSET
-                             for others, and for what was made here */
+    uint64_t byte_offset; /* where the bytes of an array, of one of its elements or of a string begin
+                             in the file; MIEN_NO_OFFSET for others, and for what was made here */
 } MienDnaField;
 
 /* `path` is terminated. MIEN_ERROR_NAME tells the part of it that is not there. */
@@ -332,7 +333,9 @@ typedef struct MienWriteDesc {
 
 /* Writes a canonical file: the same bytes that were read if the file was canonical and everything
  * was loaded; layers that were not loaded are written empty. Goes to a temporary name first, so a
- * failure leaves `path` as it was. `desc` may be NULL. */
+ * failure leaves `path` as it was. RBF behavior that was opened without the machine learned behavior
+ * of its file cannot be written (MIEN_ERROR_DNA_LAYER): its controls are numbered behind those.
+ * `desc` may be NULL. */
 MIEN_API MienStatus mien_dna_write_file(const MienDna* dna, const char* path,
                                         const MienWriteDesc* desc, MienError* error);
 

@@ -293,6 +293,12 @@ namespace {
 MienStatus plan_write(const MienDna* dna, const MienWriteDesc* desc, dna::WriteOptions& options,
                       size_t& size, MienError* error) {
   if (MienStatus status = check(dna)) return give_error(error, status, "not an open DNA");
+  if (dna->view.ml_control_count != dna->view.mlbh.control_names.count) {
+    return give_error(
+        error, MIEN_ERROR_DNA_LAYER,
+        "RBF behavior was opened without machine learned behavior, whose controls come "
+        "before its own: open both to write the file");
+  }
   MienWriteDesc known;
   if (MienStatus status = read_struct(desc, known)) {
     return give_error(error, status,

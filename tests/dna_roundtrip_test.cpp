@@ -219,7 +219,7 @@ TEST(DnaVersions, DroppingLeavesACanonicalFile) {
 }
 
 // Layers that take controls away from a behavior that reads them.
-TEST(DnaVersions, DISABLED_WhatIsWrittenOpensAgain) {
+TEST(DnaVersions, WhatIsWrittenOpensAgain) {
   Arena arena(default_allocator());
   const Bytes file = written(tiny_rig(arena));
   for (uint16_t version = 1; version <= 8; ++version) Read(rewritten(file, version, false));

@@ -85,10 +85,27 @@ struct Refusal {
     desc.isa = MIEN_ISA_SCALAR;
     opened = mien_dna_open_memory(file.data(), file.size(), nullptr, &dna, &error) == MIEN_OK;
     if (opened) mien_rig_create(dna, &desc, &rig, &error);
+    if (rig) evaluate(rig);
     mien_rig_destroy(rig);
     mien_dna_close(dna);
   }
   bool refused() const { return error.status != MIEN_OK; }
+
+ private:
+  // What was not refused has nothing left that could go wrong: the sanitizers watch.
+  static void evaluate(const MienRig* rig) {
+    MienInstance* instance = nullptr;
+    MienRigInfo info = sized<MienRigInfo>();
+    MienMutableFloatView raw = {};
+    EXPECT_EQ(mien_rig_info(rig, &info), MIEN_OK);
+    EXPECT_EQ(mien_instance_create(rig, nullptr, &instance, nullptr), MIEN_OK);
+    EXPECT_EQ(mien_instance_raw_controls(instance, &raw), MIEN_OK);
+    std::fill(raw.data, raw.data + raw.count, 0.5f);
+    for (uint32_t lod = 0; lod < info.lod_count; ++lod) {
+      EXPECT_EQ(mien_rig_evaluate(rig, instance, lod), MIEN_OK);
+    }
+    mien_instance_destroy(instance);
+  }
 };
 
 /// True if report and refusal agree: that there is an error, and, but for the rig, at which place.

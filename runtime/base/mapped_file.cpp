@@ -148,7 +148,7 @@ Status write_file(const char* path, const uint8_t* bytes, size_t size, const All
   }
 
   // The temporary file stands in the same folder: only there can a rename be atomic.
-  const size_t capacity = strlen(path) + 32;
+  const size_t capacity = strlen(path) + 48;
   char* temporary = static_cast<char*>(allocator.get(capacity, 1));
   if (!temporary) return fail(error, Status::kMemory, kNoOffset, "%.100s: no memory", path);
 #if defined(_WIN32)
@@ -156,7 +156,8 @@ Status write_file(const char* path, const uint8_t* bytes, size_t size, const All
 #else
   const int process = static_cast<int>(getpid());
 #endif
-  snprintf(temporary, capacity, "%s.tmp%d", path, process);
+  // Unique among processes by the number, among threads by the address of something on the stack.
+  snprintf(temporary, capacity, "%s.tmp%d-%zx", path, process, reinterpret_cast<size_t>(&path));
 
   FILE* stream = fopen(temporary, "wbx");
   bool written = stream && fwrite(bytes, 1, size, stream) == size;

@@ -6,6 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 
+/// Lets the compiler check arguments against a format, as of printf; `first` is 0 for a va_list.
+#if defined(__GNUC__)
+#define MIEN_PRINTF(format_number, first) __attribute__((format(printf, format_number, first)))
+#else
+#define MIEN_PRINTF(format_number, first)
+#endif
+
 namespace mien {
 
 enum class Status : int32_t {
@@ -52,10 +59,7 @@ struct Error {
 
 /// Writes the error and returns its status, so that a check reads `return fail(error, ...)`.
 /// A message that does not fit is cut at the end of the array.
-#if defined(__GNUC__)
-__attribute__((format(printf, 4, 5)))
-#endif
-Status
-fail(Error& error, Status status, uint64_t byte_offset, const char* format, ...);
+MIEN_PRINTF(4, 5)
+Status fail(Error& error, Status status, uint64_t byte_offset, const char* format, ...);
 
 }  // namespace mien

@@ -301,6 +301,7 @@ void check_joints(Checker& c, const Field& bhvr) {
     c.has_length(Field{&at, "values"}, group.values, uint64_t{rows} * group.input_indices.count,
                  "rows times columns");
     c.indices_below(Field{&at, "inputIndices"}, group.input_indices, c.control_limit, "controls");
+    c.known_controls(Field{&at, "inputIndices"}, group.input_indices);
     c.indices_below(Field{&at, "outputIndices"}, group.output_indices, 9 * joint_count,
                     "joint values");
     c.indices_below(Field{&at, "jointIndices"}, group.joint_indices, joint_count, "joints");

@@ -28,11 +28,11 @@ uint32_t pattern_of(const Field& field) {
   return hash;
 }
 
-// Controls are numbered raw, PSD, ML, RBF. Only if the RBF layer is loaded are all four counts
-// known (it brings the others along); else a number may be that of a control of a layer left out.
+// Controls are numbered raw, PSD, ML, RBF. Without RBF pose controls a number past the others may
+// be that of one whose layer was not loaded, or was lost when the file was written for an old
+// version: such a control stays 0.
 uint32_t find_control_limit(const DnaView& view) {
-  const bool counted =
-      view.has(kLayerRbf) && view.has(kLayerBehavior) && view.has(kLayerDefinition);
+  const bool counted = view.rbfe.pose_control_names.count != 0;
   return counted ? view.control_count() : 65536;
 }
 
@@ -48,6 +48,16 @@ void Checker::error(const Field& field, Status status, uint64_t offset, const ch
   va_start(arguments, format);
   add(field, status, offset, format, arguments);
   va_end(arguments);
+}
+
+void Checker::known_controls(const Field& field, const Array<uint16_t>& indices) {
+  const uint32_t known = view.control_count();
+  if (!thorough || control_limit <= known) return;
+  for (uint32_t i = 0; i < indices.count && !stopped_; ++i) {
+    if (indices[i] < known) continue;
+    warning(field, offset(indices, i), "element %u is %u, but there are %u controls: it stays 0", i,
+            unsigned{indices[i]}, known);
+  }
 }
 
 void Checker::warning(const Field& field, uint64_t offset, const char* format, ...) {

@@ -60,18 +60,12 @@ class Checker {
   /// Reports what flood control held back. False if the sink ended the examination.
   bool finish();
 
-#if defined(__GNUC__)
-  __attribute__((format(printf, 5, 6)))
-#endif
-  void
-  error(const Field& field, Status status, uint64_t offset, const char* format, ...);
+  MIEN_PRINTF(5, 6)
+  void error(const Field& field, Status status, uint64_t offset, const char* format, ...);
 
   /// Does nothing unless the examination is thorough.
-#if defined(__GNUC__)
-  __attribute__((format(printf, 4, 5)))
-#endif
-  void
-  warning(const Field& field, uint64_t offset, const char* format, ...);
+  MIEN_PRINTF(4, 5)
+  void warning(const Field& field, uint64_t offset, const char* format, ...);
 
   // Offsets in the file -------------------------------------------------------------------------
 
@@ -118,6 +112,9 @@ class Checker {
     }
   }
 
+  /// Warns of controls that no loaded layer gives. Thorough only.
+  void known_controls(const Field& field, const Array<uint16_t>& indices);
+
   /// Numbers of an enumeration 0 ... last. Those that evaluation branches on are errors; those that
   /// only inform are warnings.
   void enumeration(const Field& field, uint64_t offset, unsigned value, unsigned last);
@@ -156,11 +153,8 @@ class Checker {
 
   void wrong_length(const Field& field, uint64_t offset, uint64_t count, uint64_t expected,
                     const char* of);
-#if defined(__GNUC__)
-  __attribute__((format(printf, 5, 0)))
-#endif
-  void
-  add(const Field& field, Status status, uint64_t offset, const char* format, va_list list);
+  MIEN_PRINTF(5, 0)
+  void add(const Field& field, Status status, uint64_t offset, const char* format, va_list list);
   void send(Status status, uint64_t offset, const char* field, const char* message);
   Tally& tally_of(const Field& field);
 

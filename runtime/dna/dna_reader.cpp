@@ -80,6 +80,7 @@ class FieldReader {
  private:
   static constexpr uint32_t kNoIndex = ~uint32_t{0};
   static constexpr int kDepth = 16;
+  static constexpr uint32_t kMostWarnings = 32;
   struct Step {
     const char* name;
     uint32_t index;
@@ -208,6 +209,7 @@ class FieldReader {
     }
   }
 
+  MIEN_PRINTF(4, 0)
   void send(Status status, size_t offset, const char* format, va_list arguments) {
     char field[200], message[200];
     format_path(field, sizeof(field));
@@ -215,11 +217,8 @@ class FieldReader {
     if (!sink_.report(sink_.user, {status, offset, field, message})) good_ = false;
   }
 
-#if defined(__GNUC__)
-  __attribute__((format(printf, 4, 5)))
-#endif
-  void
-  report(Status status, size_t offset, const char* format, ...) {
+  MIEN_PRINTF(4, 5)
+  void report(Status status, size_t offset, const char* format, ...) {
     va_list arguments;
     va_start(arguments, format);
     send(status, offset, format, arguments);
@@ -227,11 +226,9 @@ class FieldReader {
     good_ = false;
   }
 
-#if defined(__GNUC__)
-  __attribute__((format(printf, 3, 4)))
-#endif
-  void
-  warn(size_t offset, const char* format, ...) {
+  MIEN_PRINTF(3, 4)
+  void warn(size_t offset, const char* format, ...) {
+    if (++warnings_ > kMostWarnings) return;  // a file of small blocks could have millions
     va_list arguments;
     va_start(arguments, format);
     send(Status::kOk, offset, format, arguments);
@@ -243,6 +240,7 @@ class FieldReader {
   Arena& arena_;
   size_t at_ = 0, limit_ = 0;
   bool good_ = true;
+  uint32_t warnings_ = 0;
   int depth_ = 0;
   Step path_[kDepth] = {};
 };
@@ -291,16 +289,14 @@ class DnaReader {
  private:
   static bool count_and_forward(void* self, const Finding& finding) {
     DnaReader& reader = *static_cast<DnaReader*>(self);
+    if (reader.ended_) return false;
     if (finding.status != Status::kOk) ++reader.errors_;
     if (!reader.outer_sink_.report(reader.outer_sink_.user, finding)) reader.ended_ = true;
     return !reader.ended_;
   }
 
-#if defined(__GNUC__)
-  __attribute__((format(printf, 5, 6)))
-#endif
-  bool
-  report(Status status, uint64_t offset, const char* field, const char* format, ...) {
+  MIEN_PRINTF(5, 6)
+  bool report(Status status, uint64_t offset, const char* field, const char* format, ...) {
     char message[200];
     va_list arguments;
     va_start(arguments, format);

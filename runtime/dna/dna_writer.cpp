@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/dna/dna_writer.h"
 
-#include <initializer_list>
-
 #include "runtime/dna/record_size.h"
 
 namespace mien::dna {
@@ -80,25 +78,48 @@ bool is_written(const DnaView& view, const WriteOptions& options, const IndexEnt
   return kind && version_knows(view.version, *kind) && version_knows(options.version, *kind);
 }
 
-bool in_index(const DnaView& view, const LayerKind& kind) {
+const IndexEntry* find_entry(const DnaView& view, const LayerKind& kind) {
   for (const IndexEntry& entry : view.index) {
-    if (entry.code == kind.code && entry.layer_version == kind.layer_version) return true;
+    if (entry.code == kind.code && entry.layer_version == kind.layer_version) return &entry;
   }
-  return false;
+  return nullptr;
 }
 
-/// Calls f(code, layer_version, kind or null, entry or null) for each layer of the file, in order:
-/// those of the index, then those of the version that the index lacks.
+/// A layer of the file: of a known kind, or bytes that are carried along.
+struct LayerToWrite {
+  uint32_t code, layer_version;
+  const LayerKind* kind;    // null: write `entry` as it is
+  const IndexEntry* entry;  // null: the index lacks it
+  bool empty;               // what the source had was dropped
+};
+
+/// Calls f(layer) for each layer of the file, in order: those of the index, then those that the
+/// version knows and the index lacks or lost.
 template <class F>
 void for_each_layer(const DnaView& view, const WriteOptions& options, F&& f) {
   for (const IndexEntry& entry : view.index) {
     if (!is_written(view, options, entry)) continue;
-    f(entry.code, entry.layer_version, find_layer_kind(entry.code, entry.layer_version), &entry);
+    const LayerKind* kind = find_layer_kind(entry.code, entry.layer_version);
+    f(LayerToWrite{entry.code, entry.layer_version, kind, &entry, false});
   }
   for (const LayerKind& kind : kLayerKinds) {
-    if (!version_knows(options.version, kind) || in_index(view, kind)) continue;
-    f(kind.code, kind.layer_version, &kind, static_cast<const IndexEntry*>(nullptr));
+    if (!version_knows(options.version, kind)) continue;
+    const IndexEntry* entry = find_entry(view, kind);
+    if (entry && is_written(view, options, *entry)) continue;
+    // An extension that was made for poses goes where they go.
+    const LayerKind& origin = kind.id == LayerId::kRbfe && !entry ? kLayerKinds[5] : kind;
+    const IndexEntry* lost = find_entry(view, origin);
+    const bool empty = lost && !is_written(view, options, *lost);
+    f(LayerToWrite{kind.code, kind.layer_version, &kind, nullptr, empty});
   }
+}
+
+void write_layer(const DnaView& view, const LayerToWrite& layer, FieldWriter& writer) {
+  if (!layer.kind) return writer.copy(layer.entry->data, layer.entry->size);
+  with_layer(view, layer.kind->id, [&](const auto& record) {
+    using Record = std::decay_t<decltype(record)>;
+    writer.write(layer.empty ? Record{} : record);
+  });
 }
 
 void write_header(const DnaView& view, const WriteOptions& options, FieldWriter& writer) {
@@ -136,26 +157,20 @@ void write_sections(const DnaView& view, FieldWriter& writer) {
 // Header | layer count | {code, layer version, offset, size} of each | layers
 void write_layers(const DnaView& view, const WriteOptions& options, FieldWriter& writer) {
   uint32_t count = 0;
-  for_each_layer(view, options, [&](auto...) { ++count; });
+  for_each_layer(view, options, [&](const LayerToWrite&) { ++count; });
   writer.write(count);
   uint64_t slot = writer.position();
   for (uint64_t i = 0; i < 4 * uint64_t{count}; ++i) writer.write(uint32_t{0});
 
-  for_each_layer(
-      view, options,
-      [&](uint32_t code, uint32_t layer_version, const LayerKind* kind, const IndexEntry* entry) {
-        const uint64_t begin = writer.position();
-        if (kind) {
-          with_layer(view, kind->id, [&](const auto& record) { writer.write(record); });
-        } else {
-          writer.copy(entry->data, entry->size);
-        }
-        for (uint64_t number :
-             {uint64_t{code}, uint64_t{layer_version}, begin, writer.position() - begin}) {
-          writer.put(slot, static_cast<uint32_t>(number));
-          slot += 4;
-        }
-      });
+  for_each_layer(view, options, [&](const LayerToWrite& layer) {
+    const uint64_t begin = writer.position();
+    write_layer(view, layer, writer);
+    const uint64_t numbers[] = {layer.code, layer.layer_version, begin, writer.position() - begin};
+    for (uint64_t number : numbers) {
+      writer.put(slot, static_cast<uint32_t>(number));
+      slot += 4;
+    }
+  });
 }
 
 uint64_t write_file_bytes(const DnaView& view, const WriteOptions& options, uint8_t* out) {

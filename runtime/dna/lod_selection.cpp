@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/dna/lod_selection.h"
 
+#include "runtime/dna/turn_columns.h"
+
 namespace mien::dna {
 namespace {
 
@@ -21,6 +23,8 @@ class LodSelector {
   }
 
   bool run() {
+    keep_turn_order();
+    if (out_of_memory_) return false;
     number_survivors();
     if (out_of_memory_) return false;
     select_definition();
@@ -206,6 +210,70 @@ class LodSelector {
     defn.joint_hierarchy = hierarchy;
     defn.neutral_translations = survivors(defn.neutral_translations, joints_);
     defn.neutral_rotations = survivors(defn.neutral_rotations, joints_);
+  }
+
+  // Which columns a LOD needs decides the order in which they turn joints represented by
+  // quaternions, so a file without some LODs would turn them in another order. Rows that turn get a
+  // group of their own then, behind the others, with the columns in the order of the whole file: it
+  // stays.
+  void keep_turn_order() {
+    List<JointGroup>& groups = view_.bhvr.joints.groups;
+    uint32_t widest = 0;
+    for (const JointGroup& group : groups) {
+      if (group.input_indices.count > widest) widest = group.input_indices.count;
+    }
+    if (view_.jbmd.joints.count == 0 || widest == 0) return;
+    Span<uint32_t> first_rows = make<uint32_t>(widest), order = make<uint32_t>(widest);
+    Span<JointGroup> all = make<JointGroup>(size_t{groups.count} * 2);
+    if (out_of_memory_) return;
+    uint32_t count = groups.count;
+    for (uint32_t g = 0; g < groups.count; ++g) {
+      all[g] = groups[g];
+      const uint32_t columns = order_turn_columns(view_, groups[g], first_rows, order, nullptr);
+      bool in_file_order = true;
+      for (uint32_t k = 1; k < columns; ++k) in_file_order &= order[k - 1] < order[k];
+      if (in_file_order) continue;
+      JointGroup& turning = all[count++];
+      turning = rows_of(groups[g], true, order.first(columns));
+      for (uint32_t c = 0; c < groups[g].input_indices.count; ++c) order[c] = c;
+      all[g] = rows_of(groups[g], false, order.first(groups[g].input_indices.count));
+      if (out_of_memory_) return;
+    }
+    groups = {all.data, count};
+  }
+
+  /// The rows of a group that turn, or the others, with these columns.
+  JointGroup rows_of(const JointGroup& group, bool turning, const Span<uint32_t>& columns) {
+    JointGroup part = group;
+    uint32_t rows = 0;
+    for (uint32_t r = 0; r < group.output_indices.count; ++r) {
+      rows += is_turning_row(view_, group.output_indices[r]) == turning;
+    }
+    NewArray<uint16_t> inputs = make_array<uint16_t>(columns.count);
+    NewArray<uint16_t> outputs = make_array<uint16_t>(rows);
+    NewArray<float> values = make_array<float>(columns.count * rows);
+    NewArray<uint16_t> lods = make_array<uint16_t>(group.lods.count);
+    if (out_of_memory_) return part;
+    for (uint32_t c = 0; c < columns.count; ++c) inputs.set(c, group.input_indices[columns[c]]);
+    uint32_t kept = 0;
+    for (uint32_t l = 0; l < lods.count; ++l) lods.set(l, 0);
+    for (uint32_t r = 0; r < group.output_indices.count; ++r) {
+      if (is_turning_row(view_, group.output_indices[r]) != turning) continue;
+      outputs.set(kept, group.output_indices[r]);
+      for (uint32_t c = 0; c < columns.count; ++c) {
+        values.set(kept * columns.count + c,
+                   group.values[size_t{r} * group.input_indices.count + columns[c]]);
+      }
+      ++kept;
+      for (uint32_t l = 0; l < lods.count; ++l) {
+        if (group.lods[l] > r) lods.set(l, static_cast<uint16_t>(kept));
+      }
+    }
+    part.input_indices = inputs;
+    part.output_indices = outputs;
+    part.values = values;
+    part.lods = lods;
+    return part;
   }
 
   void select_behavior() {

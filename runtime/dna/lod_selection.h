@@ -8,7 +8,10 @@
 //   - what the kept LODs still drive or need survives even if no LOD list names it: joints,
 //   channels
 //     and maps that remaining rows write, operations that remaining operations depend on, and
-//     networks that those run.
+//     networks that those run;
+//   - joints represented by quaternions keep the order in which columns turn them: where it is not
+//   the
+//     order of the file, the rows that turn move to a group of their own behind the others.
 #pragma once
 
 #include "runtime/dna/dna_view.h"

@@ -75,7 +75,7 @@ void evaluate_joints(const Rig& rig, Instance& instance, uint32_t lod) {
   clear_ml_joints(rig, instance, lod);
   for (uint32_t g = 0; g < rig.joints.groups.count; ++g) evaluate_group(rig, instance, lod, g);
   for (uint32_t g = 0; g < rig.joints.groups.count; ++g) evaluate_rotations(rig, instance, lod, g);
-  for (const TwistSwing& setup : rig.twist_swing.setups) turn_setup(rig, instance, setup);
+  for (const TwistSwing& setup : rig.twist_swing.setups) turn_setup(rig, instance, lod, setup);
   add_ml_joints(rig, instance, lod);
 }
 
@@ -164,7 +164,7 @@ void evaluate_rbf_solver(const Rig& rig, Instance& instance, uint32_t lod, uint3
 
 void evaluate_twist_swing(const Rig& rig, Instance& instance, uint32_t lod, uint32_t setup) {
   enter_lod(rig, instance, lod);
-  turn_setup(rig, instance, rig.twist_swing.setups[setup]);
+  turn_setup(rig, instance, lod, rig.twist_swing.setups[setup]);
 }
 
 }  // namespace mien

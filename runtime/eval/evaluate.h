@@ -48,6 +48,6 @@ void write_rotation(const Rig& rig, Instance& instance, uint32_t joint, const Qu
 
 /// What a joint group turns, once its rows are written.
 void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32_t group);
-void turn_setup(const Rig& rig, Instance& instance, const TwistSwing& setup);
+void turn_setup(const Rig& rig, Instance& instance, uint32_t lod, const TwistSwing& setup);
 
 }  // namespace mien

@@ -55,8 +55,11 @@ void add_weighted(const Rig& rig, Instance& instance, const MlStep& step) {
   std::fill(sums, sums + step.output_count, 0.0f);
   for (const MlDependency& from :
        rig.ml.dependencies.slice(step.first_dependency, step.dependency_count)) {
-    const float* values = instance.ml_values.data + from.first;
-    for (uint32_t i = 0; i < step.output_count; ++i) sums[i] += from.weight * values[i];
+    for (uint32_t i = 0; i < step.output_count; ++i) {
+      const float value = from.gathers ? instance.controls[rig.ml.controls[from.first + i]]
+                                       : instance.ml_values[from.first + i];
+      sums[i] += from.weight * value;
+    }
   }
 }
 

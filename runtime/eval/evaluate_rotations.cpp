@@ -79,7 +79,7 @@ void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32
   if (!joints.empty()) turn_joints(rig, instance, lod, group, joints);
 }
 
-void turn_setup(const Rig& rig, Instance& instance, const TwistSwing& setup) {
+void turn_setup(const Rig& rig, Instance& instance, uint32_t lod, const TwistSwing& setup) {
   const TwistSwingTable& table = rig.twist_swing;
   const float* c = instance.controls.data;
   const Quaternion q = {c[setup.inputs[0]], c[setup.inputs[1]], c[setup.inputs[2]],
@@ -89,10 +89,12 @@ void turn_setup(const Rig& rig, Instance& instance, const TwistSwing& setup) {
     twist = conjugate(twist);  // unit, so this is its inverse
     const Quaternion swing = inverse(q * twist);
     for (const TwistSwingOutput& out : table.outputs.slice(setup.first_swing, setup.swing_count)) {
+      if (!(out.lods >> lod & 1)) continue;
       write_rotation(rig, instance, out.joint, twist * slerp_to_identity(swing, out.blend));
     }
   }
   for (const TwistSwingOutput& out : table.outputs.slice(setup.first_twist, setup.twist_count)) {
+    if (!(out.lods >> lod & 1)) continue;
     write_rotation(rig, instance, out.joint, slerp_to_identity(twist, out.blend));
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/dna/turn_columns.h"
 #include "runtime/rig/compile_rig.h"
 
 namespace mien {
@@ -15,9 +16,9 @@ uint32_t block_rows(uint32_t rows) { return (rows + kBlockRows - 1) / kBlockRows
 /// stand behind all joints until they are made into quaternions.
 uint32_t output_of(const dna::DnaView& view, const Rig& rig, uint32_t file_output) {
   const uint32_t joint = file_output / kFileAttributes, attribute = file_output % kFileAttributes;
-  if (is_rotation(file_output) && is_quaternion_joint(view, joint)) return kNoOutput;
+  if (dna::is_rotation(file_output) && dna::is_quaternion_joint(view, joint)) return kNoOutput;
   if (!rig.quaternion_outputs) return file_output;
-  if (is_rotation(file_output)) return rig.joint_value_count() + joint * 3 + attribute - 3;
+  if (dna::is_rotation(file_output)) return rig.joint_value_count() + joint * 3 + attribute - 3;
   return joint * rig.joint_attributes + attribute + (attribute >= 6);
 }
 
@@ -128,15 +129,17 @@ void fill_variable_joint_values(const dna::DnaView& view, Rig& rig) {
       const uint32_t rows = rows_at_lod(group.lods, l);
       for (uint32_t r = 0; r < rows; ++r) {
         const uint32_t output = group.output_indices[r], joint = output / kFileAttributes;
-        const bool whole = rig.quaternion_outputs || is_quaternion_joint(view, joint);
-        if (is_rotation(output) && whole) {
+        const bool whole = rig.quaternion_outputs || dna::is_quaternion_joint(view, joint);
+        if (dna::is_rotation(output) && whole) {
           mark_rotation(joint);
         } else {
           marks[output_of(view, rig, output)] = 1.0f;
         }
       }
     }
-    for (const TwistSwingOutput& output : rig.twist_swing.outputs) mark_rotation(output.joint);
+    for (const TwistSwingOutput& output : rig.twist_swing.outputs) {
+      if (output.lods >> l & 1) mark_rotation(output.joint);
+    }
     for (const MlJoint& joint : rig.ml.joints) {
       if (!(joint.lods >> l & 1)) continue;
       const uint32_t first = joint.joint * rig.joint_attributes;

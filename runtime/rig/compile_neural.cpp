@@ -74,7 +74,6 @@ uint32_t output_count(const DnaView& view, const Visit& visit) {
 template <class F>
 void for_each_gather(const DnaView& view, const Visit& visit, F&& f) {
   if (!visit.operation) return f(view.mlbh.networks[visit.network].input_indices);
-  if (visit.network == kNone) return;
   for (uint32_t d = 0; d < visit.operation->set_dependencies.count; ++d) {
     const MlOperation& from = dependency(visit, d);
     if (type_of(from) == MlOperationType::kGather) f(from.parameters);
@@ -283,10 +282,24 @@ Status place_ml(const DnaView& view, Placer& placer, Rig& rig, Error& error) {
   }
 
   size_t steps = 0, controls = 0, dependencies = 0, buffer = 0, multiplications = 0;
+  size_t most_inputs = 0;
   for_each_step(view, [&](const Visit& visit) {
     ++steps;
     buffer += padded(output_count(view, visit));
-    for_each_gather(view, visit, [&](const auto& indices) { controls += indices.count; });
+    // What a step gathers lies where the inputs of its first layer do, whether the layer takes it
+    // or not; a step that gathers nothing takes the outputs of what it depends on.
+    size_t inputs = 0;
+    for_each_gather(view, visit, [&](const auto& indices) { inputs += indices.count; });
+    controls += inputs;
+    for (uint32_t d = 0; visit.operation && d < visit.operation->set_dependencies.count; ++d) {
+      const MlOperation& from = dependency(visit, d);
+      if (type_of(from) == MlOperationType::kMlp) {
+        inputs += output_count(view, {visit.type, 0, 0, from.parameters[0], &from});
+      } else if (type_of(from) == MlOperationType::kWeightedSum) {
+        inputs += output_count(view, {visit.type, 0, 0, kNone, &from});
+      }
+    }
+    if (visit.network != kNone) most_inputs = std::max(most_inputs, inputs);
     if (visit.operation) dependencies += visit.operation->set_dependencies.count;
     if (visit.network == kNone) return;
     if (!visit.operation) controls += view.mlbh.networks[visit.network].output_indices.count;
@@ -298,8 +311,8 @@ Status place_ml(const DnaView& view, Placer& placer, Rig& rig, Error& error) {
     for_each_scatter(type,
                      [&](uint32_t, uint32_t, const Array<uint32_t>& p) { controls += p.count; });
   }
-  if (buffer > kMostBufferFloats || controls > kMostBufferFloats ||
-      multiplications > kMostMultiplications) {
+  if (most_inputs > kMostBufferFloats || buffer > kMostBufferFloats ||
+      controls > kMostBufferFloats || multiplications > kMostMultiplications) {
     return fail(
         error, Status::kDnaLimit, kNoOffset,
         "mlbe: the operations together take %zu values, %zu controls and %zu multiplications; "
@@ -308,6 +321,7 @@ Status place_ml(const DnaView& view, Placer& placer, Rig& rig, Error& error) {
         kMostMultiplications);
   }
   ml.buffer_size = static_cast<uint32_t>(buffer);
+  ml.widest_layer = std::max(ml.widest_layer, static_cast<uint32_t>(most_inputs));
   ml.steps = placer.array<MlStep>(steps);
   ml.layers = placer.array<NetworkLayer>(layers);
   ml.values = placer.array<float>(values, kBlockAlignment);
@@ -315,7 +329,8 @@ Status place_ml(const DnaView& view, Placer& placer, Rig& rig, Error& error) {
   ml.controls = placer.array<uint16_t>(controls);
   ml.dependencies = placer.array<MlDependency>(dependencies);
   ml.limits = placer.array<uint32_t>(steps * rig.lod_count);
-  ml.default_is_one = placer.array<uint8_t>(steps ? rig.control_count : 0);
+  ml.default_is_one =
+      placer.array<uint8_t>(steps || view.mlbe.joints.output_indices.count ? rig.control_count : 0);
   ml.joints = placer.array<MlJoint>(
       std::min<size_t>(view.mlbe.joints.output_indices.count, rig.joint_count));
   return Status::kOk;
@@ -379,13 +394,19 @@ Status fill_ml(const DnaView& view, Arena& scratch, Rig& rig, Error& error) {
     const MlOperation& operation = *visit.operation;
     const StepNumbers& type_steps =
         numbers[static_cast<size_t>(visit.type - view.mlbe.types.items)];
+    uint32_t gathered = step.first_gather;
     for (uint32_t d = 0; d < operation.set_dependencies.count; ++d) {
       const uint32_t from =
           type_steps.steps[type_steps.first_of_set[operation.set_dependencies[d]] +
                            operation.operation_dependencies[d]];
       MlDependency& to = ml.dependencies[dependency_number++];
-      to = {0, 0, 0};
-      if (from != kNone) to = {ml.steps[from].first_output, ml.steps[from].output_count, 0};
+      to = {};
+      if (from != kNone) {
+        to = {ml.steps[from].first_output, ml.steps[from].output_count, 0, false};
+      } else if (type_of(dependency(visit, d)) == MlOperationType::kGather) {
+        to = {gathered, dependency(visit, d).parameters.count, 0, true};
+        gathered += to.count;
+      }
       if (visit.network == kNone)
         to.weight = load_big_endian<float>(operation.parameters.data + 4 * (d + 1));
       ++step.dependency_count;

@@ -276,9 +276,12 @@ Status fill_twists_and_swings(const dna::DnaView& view, Arena& scratch, Rig& rig
   };
   Span<KeyedSwing> swings = scratch.array<KeyedSwing>(twsw.swings.count);
   Span<OwnedTwist> twists = scratch.array<OwnedTwist>(twsw.twists.count);
-  if ((twsw.swings.count && !swings.data) || (twsw.twists.count && !twists.data)) {
+  Span<uint64_t> joint_lods = scratch.array<uint64_t>(rig.joint_count);
+  if ((rig.joint_count && !joint_lods.data) || (twsw.swings.count && !swings.data) ||
+      (twsw.twists.count && !twists.data)) {
     return fail(error, Status::kMemory, kNoOffset, "no memory to compile twists and swings");
   }
+  mark_joint_lods(view, joint_lods);
   for (uint32_t s = 0; s < swings.count; ++s) {
     swings[s] = {input_key(twsw.swings[s].input_control_indices), s};
   }
@@ -306,7 +309,8 @@ Status fill_twists_and_swings(const dna::DnaView& view, Arena& scratch, Rig& rig
   };
   const auto add_outputs = [&](const auto& from) {
     for (uint32_t i = 0; i < from.output_joint_indices.count; ++i) {
-      table.outputs[output++] = {from.output_joint_indices[i], from.blend_weights[i]};
+      const uint16_t joint = from.output_joint_indices[i];
+      table.outputs[output++] = {joint_lods[joint], joint, from.blend_weights[i]};
     }
     return from.output_joint_indices.count;
   };

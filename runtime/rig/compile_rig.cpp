@@ -247,6 +247,16 @@ Status fill_all(const DnaView& view, Span<uint8_t> reach, Arena& scratch, Rig& r
 
 }  // namespace
 
+void mark_joint_lods(const DnaView& view, Span<uint64_t> lods) {
+  for (uint32_t l = 0; l < view.desc.lod_count; ++l) {
+    const Array<uint16_t> row = view.defn.lod_joints.at(l);
+    for (uint32_t i = 0; i < row.count; ++i) lods[row[i]] |= uint64_t{1} << l;
+  }
+  for (uint64_t& bits : lods) {
+    if (bits == 0) bits = ~uint64_t{0};
+  }
+}
+
 void place_lod_lists(const LodMap& map, uint32_t lod_count, Placer& placer, LodLists& lists) {
   size_t total = 0;
   for (const Array<uint16_t>& row : map.indices) total += row.count;
@@ -273,6 +283,19 @@ Status compile_rig(const DnaView& view, const CompileOptions& options, const All
     return fail(error, Status::kDnaLimit, kNoOffset,
                 "%u joints are too many for quaternion outputs; use Euler angles",
                 measured.joint_count);
+  }
+  // A mesh's name stands before each of its regions, so a long one multiplies.
+  constexpr size_t kMostMaskNameBytes = size_t{1} << 20;
+  size_t mask_name_bytes = 0;
+  for_each_name(view, measured, [&](Kind kind, uint32_t, const String& a, const String& b) {
+    if (kind == Kind::kMlMask) mask_name_bytes += name_length(kind, a, b);
+  });
+  if (mask_name_bytes > kMostMaskNameBytes) {
+    return fail(
+        error, Status::kDnaLimit, kNoOffset,
+        "mlbh.neuralNetworkToMeshRegion.regionNames: the names of the regions take %zu bytes "
+        "with those of their meshes; %zu are allowed",
+        mask_name_bytes, kMostMaskNameBytes);
   }
   Placer measure(nullptr);
   measure.array<Rig>(1);

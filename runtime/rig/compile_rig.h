@@ -52,22 +52,15 @@ void mark_ml_joint_inputs(const dna::DnaView& view, uint32_t lod_count, Span<uin
 void place_twists_and_swings(const dna::DnaView& view, Placer& placer, Rig& rig);
 Status fill_twists_and_swings(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
 
+/// [joint]: bit l is set if LOD l lists it; all are if no LOD does.
+void mark_joint_lods(const dna::DnaView& view, Span<uint64_t> lods);
+
 void place_lod_lists(const dna::LodMap& map, uint32_t lod_count, Placer& placer, LodLists& lists);
 void fill_lod_lists(const dna::LodMap& map, LodLists& lists);
 
 /// Correctives, once every reader of a control has marked its reach.
 Status fill_psds(const dna::DnaView& view, Span<uint8_t> reach, Arena& scratch, Rig& rig,
                  Error& error);
-
-/// Of an output as files number it.
-inline bool is_rotation(uint32_t output) {
-  const uint32_t attribute = output % kFileAttributes;
-  return attribute >= 3 && attribute < 6;
-}
-
-inline bool is_quaternion_joint(const dna::DnaView& view, uint32_t joint) {
-  return joint < view.jbmd.joints.count && view.jbmd.joints[joint].rotation == 1;
-}
 
 /// Leading rows of a table at a LOD; 0 past the end of the list.
 inline uint32_t rows_at_lod(const dna::Array<uint16_t>& lods, uint32_t lod) {

@@ -2,8 +2,8 @@
 // What joint groups do to rotations: angles that become quaternions, and joints represented by
 // quaternions (rig-evaluation 4.3, 4.7, 4.8).
 #include <algorithm>
-#include <cmath>
 
+#include "runtime/dna/turn_columns.h"
 #include "runtime/rig/compile_rig.h"
 
 namespace mien {
@@ -13,8 +13,8 @@ enum class RowKind { kOther, kAngle, kTurn };
 
 /// kOther also for rotation rows that write plain Euler outputs.
 RowKind kind_of(const dna::DnaView& view, bool quaternion_outputs, uint32_t output) {
-  if (!is_rotation(output)) return RowKind::kOther;
-  if (is_quaternion_joint(view, output / kFileAttributes)) return RowKind::kTurn;
+  if (!dna::is_rotation(output)) return RowKind::kOther;
+  if (dna::is_turning_row(view, output)) return RowKind::kTurn;
   return quaternion_outputs ? RowKind::kAngle : RowKind::kOther;
 }
 
@@ -63,44 +63,6 @@ uint32_t list_joints(const dna::DnaView& view, const dna::JointGroup& group, Row
   return count;
 }
 
-bool is_significant(const dna::JointGroup& group, uint32_t row, uint32_t column) {
-  return std::fabs(group.values[size_t{row} * group.input_indices.count + column]) > 0.0f;
-}
-
-/// [column]: the first turning row with an entry, or kNone.
-void find_first_rows(const dna::DnaView& view, const dna::JointGroup& group,
-                     const Span<uint32_t>& first_rows) {
-  std::fill(first_rows.begin(), first_rows.end(), kNone);
-  for (uint32_t r = 0; r < group.output_indices.count; ++r) {
-    if (kind_of(view, true, group.output_indices[r]) != RowKind::kTurn) continue;
-    for (uint32_t c = 0; c < group.input_indices.count; ++c) {
-      if (first_rows[c] == kNone && is_significant(group, r, c)) first_rows[c] = r;
-    }
-  }
-}
-
-/// Puts the columns into the order that decides the product: columns that a LOD does not need are
-/// exchanged with the last one that it may use (rig-evaluation 4.3, step 3).
-void order_columns(const dna::JointGroup& group, uint32_t lod_count,
-                   const Span<uint32_t>& first_rows, const Span<uint32_t>& order, uint32_t& count,
-                   uint16_t* columns_at_lod) {
-  count = 0;
-  const uint32_t rows = rows_at_lod(group.lods, 0);
-  for (uint32_t c = 0; c < group.input_indices.count; ++c) {
-    if (first_rows[c] < rows) order[count++] = c;
-  }
-  uint32_t used = count;
-  for (uint32_t l = 0; l < lod_count; ++l) {
-    const uint32_t lod_rows = rows_at_lod(group.lods, l);
-    for (uint32_t i = used; i-- > 0;) {
-      if (first_rows[order[i]] < lod_rows) continue;
-      std::swap(order[i], order[--used]);
-      i = used;  // look again from the end
-    }
-    columns_at_lod[l] = static_cast<uint16_t>(used);
-  }
-}
-
 /// One quaternion for each column and joint; of the two that mean the same rotation the one with
 /// w >= 0, so that blending with the identity never needs to ask.
 void fill_turns(const dna::JointGroup& group, uint32_t column_count, const Scratch& scratch,
@@ -145,7 +107,7 @@ void place_rotations(const dna::DnaView& view, Placer& placer, Rig& rig) {
   rig.rotations.angle_joints = placer.array<TurnedJoint>(angle_joints);
   rig.rotations.turn_joints = placer.array<TurnedJoint>(turn_joints);
   rig.rotations.columns = placer.array<uint16_t>(columns);
-  rig.rotations.columns_at_lod = placer.array<uint16_t>(size_t{groups.count} * rig.lod_count);
+  rig.rotations.columns_at_lod = placer.array<uint32_t>(size_t{groups.count} * rig.lod_count);
   rig.rotations.values = placer.array<float>(values, kBlockAlignment);
 }
 
@@ -177,10 +139,9 @@ Status fill_rotations(const dna::DnaView& view, Arena& arena, Rig& rig, Error& e
     turn_joint += rotations.turn_joint_count;
     if (rotations.turn_joint_count == 0) continue;
 
-    const Span<uint32_t> first_rows = scratch.first_rows.first(group.input_indices.count);
-    find_first_rows(view, group, first_rows);
-    order_columns(group, rig.lod_count, first_rows, scratch.column_order, rotations.column_count,
-                  table.columns_at_lod.data + size_t{g} * rig.lod_count);
+    rotations.column_count =
+        dna::order_turn_columns(view, group, scratch.first_rows, scratch.column_order,
+                                table.columns_at_lod.data + size_t{g} * rig.lod_count);
     for (uint32_t k = 0; k < rotations.column_count; ++k) {
       table.columns[column + k] = group.input_indices[scratch.column_order[k]];
     }

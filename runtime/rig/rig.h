@@ -109,7 +109,7 @@ struct RotationTable {
   Span<TurnedJoint> angle_joints;
   Span<TurnedJoint> turn_joints;
   Span<uint16_t> columns;         // control that a column reads
-  Span<uint16_t> columns_at_lod;  // [group][lod]: leading columns
+  Span<uint32_t> columns_at_lod;  // [group][lod]: leading columns
   Span<float> values;
   uint32_t most_turns = 0;  // of one group
 };
@@ -151,10 +151,11 @@ struct NetworkLayer {
 };
 
 /// Values that an operation takes from another one: `count` floats at `first` of the instance's ML
-/// buffer, weighted if it is a weighted sum.
+/// buffer, or the controls at `first` of MlTable::controls. The weight is for weighted sums.
 struct MlDependency {
   uint32_t first, count;
   float weight;
+  bool gathers;
 };
 
 /// A step of the learned behaviour (rig-evaluation 8): a network that runs, or a weighted sum. What
@@ -213,6 +214,7 @@ struct TwistSwing {
 };
 
 struct TwistSwingOutput {
+  uint64_t lods;  // bit l: the joint exists at LOD l
   uint16_t joint;
   float blend;
 };

@@ -17,7 +17,7 @@
 namespace mien {
 
 /// Most memory that opening may hold at a time.
-constexpr size_t open_memory_bound(size_t file_size) { return 8 * file_size + 256 * 1024; }
+constexpr size_t open_memory_bound(size_t file_size) { return 20 * file_size + 256 * 1024; }
 
 /// The same for compiling a rig and one instance. A joint group of one row is padded to 16, so an
 /// entry of 4 bytes can become one of 64; names and tables of 65536 controls, which a file asks for
@@ -125,6 +125,7 @@ class DnaLife {
       if (layer.byte_offset + layer.byte_count > size_) broke("layer %u lies outside", i);
     }
     layers_ = info.layers;
+    only_correctives_ = info.neural_network_count == 0 && info.rbf_pose_count == 0;
   }
 
   void compile(const MienDna* dna) {
@@ -140,10 +141,12 @@ class DnaLife {
     if ((life_.compiled == MIEN_OK) != (rig != nullptr)) broke("create gave a rig or none");
     if (!rig) {
       check_failure("create", life_.compiled, error, size_);
-      // Opening has left nothing else to find.
-      const MienStatus expected =
-          layers_ & MIEN_LAYER_BEHAVIOR ? MIEN_ERROR_DNA_VALUE : MIEN_ERROR_DNA_LAYER;
-      if (life_.compiled != expected) broke("create gave %d: %s", life_.compiled, error.message);
+      // Opening leaves circles of correctives, and what a file may ask a rig to compute.
+      const bool expected =
+          layers_ & MIEN_LAYER_BEHAVIOR
+              ? life_.compiled == MIEN_ERROR_DNA_VALUE || life_.compiled == MIEN_ERROR_DNA_LIMIT
+              : life_.compiled == MIEN_ERROR_DNA_LAYER;
+      if (!expected) broke("create gave %d: %s", life_.compiled, error.message);
       if (counter_.bytes != before) broke("a failed create kept memory");
       return;
     }
@@ -192,7 +195,8 @@ class DnaLife {
     mien_instance_destroy(instance);
   }
 
-  // Correctives end at 1, maps lie in 0..1, whatever the numbers in the file are.
+  // Correctives end at 1, maps lie in 0..1, whatever the numbers in the file are. (Networks and
+  // poses may be told to write over correctives.)
   void check_outputs(const MienInstance* instance, uint32_t lod) {
     MienFloatView psd, joints, channels, maps;
     if (mien_instance_psd_controls(instance, &psd) != MIEN_OK ||
@@ -202,7 +206,8 @@ class DnaLife {
       return broke("no outputs");
     }
     for (size_t i = 0; i < psd.count; ++i) {
-      if (!(psd.data[i] <= 1)) broke("corrective %zu is %g", i, static_cast<double>(psd.data[i]));
+      if (only_correctives_ && !(psd.data[i] <= 1))
+        broke("corrective %zu is %g", i, static_cast<double>(psd.data[i]));
     }
     for (size_t i = 0; i < maps.count; ++i) {
       if (!(maps.data[i] >= 0 && maps.data[i] <= 1)) {
@@ -287,6 +292,7 @@ class DnaLife {
   MienAllocator allocator_;
   Life life_;
   uint32_t layers_ = 0;  // that were loaded
+  bool only_correctives_ = false;
   uint32_t state_ = 1;
   volatile float sink_ = 0;
 };

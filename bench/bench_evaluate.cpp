@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// Evaluation by instruction set, LOD and share of active controls; stages; and the yardstick, a
+// plain evaluation of the same joint matrix in compressed rows, so that numbers of two machines
+// compare.
+#include <cmath>
+#include <random>
+
+#include "bench/bench_support.h"
+#include "integrations/cli/bench_csr.h"
+
+namespace mien::bench {
+namespace {
+
+const MienDna* behavior() {
+  static const MienDna* dna = open_rig(kBehaviorLayers, 0);
+  return dna;
+}
+
+const MienRig* rig_for(uint32_t isa) {
+  static const MienRig* rigs[MIEN_ISA_NEON + 1] = {};
+  if (!rigs[isa]) rigs[isa] = create_rig(behavior(), isa);
+  return rigs[isa];
+}
+
+/// The first of a random order of the controls are active: values in (0, 1].
+void activate(MienMutableFloatView raw, int percent) {
+  std::mt19937 random(7);
+  std::vector<size_t> order(raw.count);
+  for (size_t i = 0; i < raw.count; ++i) order[i] = i;
+  for (size_t i = 0; i + 1 < raw.count; ++i) {
+    std::swap(order[i], order[i + random() % (raw.count - i)]);
+  }
+  const auto active =
+      static_cast<size_t>(std::lround(percent / 100.0 * static_cast<double>(raw.count)));
+  for (size_t i = 0; i < active; ++i) {
+    raw.data[order[i]] = static_cast<float>((random() >> 8) + 1) / 16777216.0f;
+  }
+}
+
+void evaluate(benchmark::State& state, uint32_t isa, uint32_t lod, int percent, uint32_t stages) {
+  const MienRig* rig = rig_for(isa);
+  MienInstance* instance = nullptr;
+  MienError error = sized<MienError>();
+  require(mien_instance_create(rig, nullptr, &instance, &error), error);
+  MienMutableFloatView raw = {};
+  mien_instance_raw_controls(instance, &raw);
+  activate(raw, percent);
+  mien_rig_evaluate(rig, instance, lod);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(mien_rig_evaluate_stages(rig, instance, lod, stages));
+    benchmark::ClobberMemory();
+  }
+  MienRigStatistics statistics = sized<MienRigStatistics>();
+  mien_rig_statistics(rig, lod, &statistics);
+  state.counters["matrix_bytes"] = static_cast<double>(statistics.joint_byte_count);
+  mien_instance_destroy(instance);
+}
+
+template <class T, class Read>
+std::vector<T> read_field(const std::string& path, Read read) {
+  MienDnaField field = sized<MienDnaField>();
+  MienError error = sized<MienError>();
+  require(mien_dna_field(behavior(), path.c_str(), &field, &error), error);
+  std::vector<T> values(static_cast<size_t>(field.count));
+  require(read(behavior(), path.c_str(), 0, field.count, values.data(), &error), error);
+  return values;
+}
+
+void csr(benchmark::State& state, uint32_t lod) {
+  MienDnaInfo info = sized<MienDnaInfo>();
+  mien_dna_info(behavior(), &info);
+  std::vector<cli::DenseGroup> groups(info.joint_group_count);
+  for (size_t g = 0; g < groups.size(); ++g) {
+    const std::string at = "bhvr.joints.jointGroups[" + std::to_string(g) + "].";
+    groups[g].lods = read_field<int64_t>(at + "lods", mien_dna_read_integers);
+    groups[g].inputs = read_field<int64_t>(at + "inputIndices", mien_dna_read_integers);
+    groups[g].outputs = read_field<int64_t>(at + "outputIndices", mien_dna_read_integers);
+    groups[g].values = read_field<float>(at + "values", mien_dna_read_floats);
+  }
+  const cli::CsrMatrix matrix = cli::make_csr(groups, lod, size_t{info.joint_count} * 9);
+  std::vector<float> x(65536, 0.5f), y(size_t{info.joint_count} * 9);
+  for (auto _ : state) {
+    cli::multiply(matrix, x.data(), y.data());
+    benchmark::DoNotOptimize(y.data());
+    benchmark::ClobberMemory();
+  }
+}
+
+const int kRegistered = [] {
+  MienDnaInfo info = sized<MienDnaInfo>();
+  mien_dna_info(behavior(), &info);
+  for (uint32_t lod = 0; lod < info.lod_count; ++lod) {
+    benchmark::RegisterBenchmark(("csr/lod" + std::to_string(lod)).c_str(), csr, lod);
+  }
+  const struct {
+    const char* name;
+    uint32_t stages;
+  } stages[] = {{"all", MIEN_STAGE_ALL},           {"ml", MIEN_STAGE_ML},
+                {"rbf", MIEN_STAGE_RBF},           {"psd", MIEN_STAGE_PSD},
+                {"joints", MIEN_STAGE_JOINTS},     {"channels", MIEN_STAGE_BLEND_SHAPES},
+                {"maps", MIEN_STAGE_ANIMATED_MAPS}};
+  for (uint32_t isa = MIEN_ISA_SCALAR; isa <= MIEN_ISA_NEON; ++isa) {
+    if (!mien_isa_available(isa)) continue;
+    for (uint32_t lod = 0; lod < info.lod_count; ++lod) {
+      for (int percent : {5, 25, 50, 100}) {
+        for (const auto& stage : stages) {
+          // The stages by themselves where they weigh most.
+          if (stage.stages != MIEN_STAGE_ALL && (lod != 0 || percent != 25)) continue;
+          const std::string name = std::string(stage.name) + "/" + mien_isa_name(isa) + "/lod" +
+                                   std::to_string(lod) + "/" + std::to_string(percent) + "%";
+          benchmark::RegisterBenchmark(name.c_str(), evaluate, isa, lod, percent, stage.stages);
+        }
+      }
+    }
+  }
+  return 0;
+}();
+
+}  // namespace
+}  // namespace mien::bench
