@@ -293,7 +293,9 @@ namespace {
 MienStatus plan_write(const MienDna* dna, const MienWriteDesc* desc, dna::WriteOptions& options,
                       size_t& size, MienError* error) {
   if (MienStatus status = check(dna)) return give_error(error, status, "not an open DNA");
-  if (dna->view.ml_control_count != dna->view.mlbh.control_names.count) {
+  const DnaView& view = dna->view;
+  if (view.has(dna::kLayerRbf) && !view.has(dna::kLayerMachineLearned) &&
+      view.ml_control_count != 0) {
     return give_error(
         error, MIEN_ERROR_DNA_LAYER,
         "RBF behavior was opened without machine learned behavior, whose controls come "

@@ -1,5 +1,5 @@
-// SPDX-Licene-Identifier: MIT
-// What mien.h tell about an open file: counts and units, the table of layers, fields and their
+// SPDX-License-Identifier: MIT
+// What mien.h tells about an open file: counts and units, the table of layers, fields and their
 // place, and what is chosen when it is opened.
 #include <algorithm>
 #include <cmath>
@@ -249,6 +249,21 @@ TEST_F(CapiDna, OffsetsAreWhereTheBytesBegin) {
   const DnaHandle generated = generate_dna(MIEN_PRESET_TINY, 0);
   EXPECT_EQ(field_of(generated, "desc.name").byte_offset, MIEN_NO_OFFSET);
   EXPECT_EQ(field_of(generated, "defn.jointHierarchy").byte_offset, MIEN_NO_OFFSET);
+}
+
+// Pose controls are numbered behind the ML controls: without those a file could not be written
+// right.
+TEST_F(CapiDna, RbfWithoutTheControlsBeforeItIsNotWritten) {
+  size_t size = 1;
+  MienError error = sized<MienError>();
+  const DnaHandle part = open(file, MIEN_LAYER_RBF_BEHAVIOR);
+  EXPECT_EQ(mien_dna_write_memory(part.get(), nullptr, nullptr, 0, &size, &error),
+            MIEN_ERROR_DNA_LAYER);
+  EXPECT_EQ(size, 0u);
+  EXPECT_NE(std::string(error.message).find("machine learned"), std::string::npos);
+
+  const DnaHandle both = open(file, MIEN_LAYER_RBF_BEHAVIOR | MIEN_LAYER_MACHINE_LEARNED_BEHAVIOR);
+  EXPECT_EQ(mien_dna_write_memory(both.get(), nullptr, nullptr, 0, &size, &error), MIEN_OK);
 }
 
 }  // namespace
