@@ -89,7 +89,8 @@ inline Vec squared_angles(const RbfWeightArgs& args, size_t pose) {
     }
     const Vec u = dot * dot;
     const Vec angle = arc_cosine((u + u) - one);
-    const Vec counted = select(less(one, u), broadcast(0.0f), angle);
+    // u - u is 0, or hands on what is not a number, which the polynomial would hide.
+    const Vec counted = select(less(one, u), broadcast(0.0f), angle + (u - u));
     sum = sum + counted * counted;
   }
   return sum;
