@@ -25,14 +25,14 @@ inline Vec hyperbolic_tangent(Vec v) {
   const Vec zero = broadcast(0.0f), one = broadcast(1.0f);
   const Vec minus = select(less(v, zero), v, zero - v);  // -|v|
   const Vec e = exp_of_negative(minus + minus);
-  const Vec t = (one - e) / (one + e);
+  const Vec t = divide(one - e, one + e);
   return select(less(v, zero), zero - t, t);
 }
 
 inline Vec logistic(Vec v) {
   const Vec zero = broadcast(0.0f), one = broadcast(1.0f);
   const Vec e = exp_of_negative(select(less(v, zero), v, zero - v));  // e^-|v|
-  return select(less(v, zero), e, one) / (one + e);
+  return divide(select(less(v, zero), e, one), one + e);
 }
 
 inline Vec activate(Vec v, uint8_t function, Vec alpha) {
@@ -105,7 +105,7 @@ void rbf_weights(const RbfWeightArgs& args) {
     Vec weight;
     if (args.function < 2) {
       const Vec falling = exp_of_negative(select(less(x, zero), x, zero - x));
-      weight = select(less(x, zero), one / falling, falling);  // a radius below zero grows
+      weight = select(less(x, zero), divide(one, falling), falling);  // a radius below zero grows
     } else {
       Vec power = x;
       for (int n = 2; n < args.function; ++n) power = power * x * x;

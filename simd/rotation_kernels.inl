@@ -19,7 +19,7 @@ inline VecQuaternion blend_with_identity(const VecQuaternion& q, float weight) {
   const Vec t = broadcast(weight);
   const VecQuaternion b = {t * q.x, t * q.y, t * q.z, t * q.w + broadcast(1.0f - weight)};
   const Vec length = square_root(b.x * b.x + b.y * b.y + b.z * b.z + b.w * b.w);
-  const Vec scale = broadcast(1.0f) / length;
+  const Vec scale = divide(broadcast(1.0f), length);
   return {b.x * scale, b.y * scale, b.z * scale, b.w * scale};
 }
 

@@ -6,8 +6,9 @@
 //   load            from memory aligned to the vector
 //   store           to any address
 //   broadcast       the same float in each lane
-//   + - * /         rounded once each: never fused (the kernels are built without contraction)
-//   square_root, at_least, at_most
+//   + - *           rounded once each: never fused (the kernels are built without contraction)
+//   divide, square_root   correctly rounded
+//   at_least, at_most
 //   select(m,a,b)   a where m, else b; masks come from less(a,b)
 //   saturate        to the range of finite floats
 //   power_of_two(n) 2^n for whole n in -126 ... 127
@@ -52,6 +53,7 @@ inline void store(float* to, Vec value) { *to = value; }
 inline Vec broadcast(float value) { return value; }
 inline Vec mul_add(Vec a, Vec b, Vec c) { return a * b + c; }  // built with -ffp-contract=off
 inline Vec square_root(Vec v) { return __builtin_sqrtf(v); }
+inline Vec divide(Vec a, Vec b) { return a / b; }
 inline Vec at_least(Vec v, Vec low) { return v > low ? v : low; }    // NaN becomes `low`
 inline Vec at_most(Vec v, Vec high) { return v < high ? v : high; }  // NaN becomes `high`
 using Mask = bool;
@@ -92,7 +94,14 @@ constexpr size_t kWidth = Vec::size;
 inline Vec load(const float* from) { return Vec::load_aligned(from); }
 inline void store(float* to, Vec value) { value.store_unaligned(to); }
 inline Vec broadcast(float value) { return Vec(value); }
+#if defined(MIEN_KERNEL_NEON)
+// xsimd 8.1 refines estimates here, which does not round as these do.
+inline Vec square_root(Vec v) { return vsqrtq_f32(v); }
+inline Vec divide(Vec a, Vec b) { return vdivq_f32(a, b); }
+#else
 inline Vec square_root(Vec v) { return xsimd::sqrt(v); }
+inline Vec divide(Vec a, Vec b) { return a / b; }
+#endif
 using Mask = Vec::batch_bool_type;
 inline Mask less(Vec a, Vec b) { return a < b; }
 inline Vec select(Mask m, Vec a, Vec b) { return xsimd::select(m, a, b); }

@@ -184,6 +184,18 @@ dna::Array<uint16_t> repeated(Arena& arena, uint32_t count, uint16_t value) {
   return array;
 }
 
+// Without names of pose controls any control number passes, so the row has to have room for it.
+TEST(Buffers, PosesThatDriveControlsWithoutNames) {
+  Arena arena(default_allocator());
+  dna::DnaView view = dna::tiny_rig(arena);
+  view.rbfe.pose_control_names = {};
+  for (dna::RbfPoseControls& pose : view.rbfe.poses) {
+    pose.output_control_indices = dna::be<uint16_t>(arena, {65535});
+    pose.output_control_weights = dna::be<float>(arena, {1});
+  }
+  expect_life(dna::written(view), "poses that drive controls without names");
+}
+
 TEST(Buffers, InputsThatNoLayerTakes) {
   Arena arena(default_allocator());
   dna::DnaView view = dna::tiny_rig(arena);

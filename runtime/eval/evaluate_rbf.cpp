@@ -91,6 +91,7 @@ void solve_rbf(const Rig& rig, Instance& instance, uint32_t index) {
 }
 
 void evaluate_rbf(const Rig& rig, Instance& instance, uint32_t lod) {
+  if (rig.rbf_count == 0) return;  // without a pose control there is nothing to drive
   for (uint16_t solver : rig.rbf.lod_solvers.at(lod)) solve_rbf(rig, instance, solver);
 }
 

@@ -165,6 +165,11 @@ uint32_t count_controls(const DnaView& view) {
       }
     }
   }
+  for (const dna::RbfSolver& solver : view.rbfb.solvers) include(solver.raw_control_indices);
+  for (const dna::RbfPoseControls& pose : view.rbfe.poses) {
+    include(pose.input_control_indices);
+    include(pose.output_control_indices);
+  }
   for (const dna::Twist& twist : view.twsw.twists) include(twist.input_control_indices);
   for (const dna::Swing& swing : view.twsw.swings) include(swing.input_control_indices);
   for (const dna::NeuralNetwork& network : view.mlbh.networks) {

@@ -239,12 +239,15 @@ class DnaLife {
 
   // What opens can be written, what is written opens, and gives the same bytes when written.
   // Layers that were not loaded are written empty. The one selection that cannot live with that is
-  // RBF behavior without learned behavior: the numbers of its pose controls begin behind the ML
-  // controls, and those are gone.
+  // RBF behavior without the learned behavior of the file, and it is refused.
   void write(const MienDna* dna) {
-    const std::vector<uint8_t> first = write_bytes(dna);
     constexpr uint32_t kBoth = MIEN_LAYER_RBF_BEHAVIOR | MIEN_LAYER_MACHINE_LEARNED_BEHAVIOR;
-    if ((layers_ & kBoth) == MIEN_LAYER_RBF_BEHAVIOR) return;
+    size_t size = 0;
+    if ((layers_ & kBoth) == MIEN_LAYER_RBF_BEHAVIOR &&
+        mien_dna_write_memory(dna, nullptr, nullptr, 0, &size, nullptr) == MIEN_ERROR_DNA_LAYER) {
+      return;
+    }
+    const std::vector<uint8_t> first = write_bytes(dna);
     MienStatus status = MIEN_OK;
     MienDna* copy = open(first.data(), first.size(), 0, status);
     if (!copy) return broke("the written file does not open: %s", life_.message.c_str());
