@@ -363,8 +363,8 @@ typedef struct MienFinding {
     MienStringView message;
 } MienFinding;
 
-/* Checks a whole file and lists every finding: at most 32 for one field (the last of them says how
- * many more there are), and 1000 in all. Returns MIEN_OK if the file could be examined, whatever was
+/* Checks a whole file and lists every finding: at most 32 for one field (of cross references
+ * the last one says how many more there are), and 1000 in all. Returns MIEN_OK if the file could be examined, whatever was
  * found. `allocator` may be NULL. */
 MIEN_API MienStatus mien_report_create_file(const char* path, const MienAllocator* allocator,
                                             MienReport** out_report, MienError* error);

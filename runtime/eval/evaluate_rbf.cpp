@@ -5,8 +5,6 @@
 namespace mien {
 namespace {
 
-enum Distance : uint8_t { kEuclidean, kQuaternion, kSwingAngle, kTwistAngle };
-
 void fetch_inputs(const Rig& rig, const RbfSolver& solver, Instance& instance) {
   const uint16_t* controls = rig.rbf.inputs.data + solver.first_input;
   float* inputs = instance.rbf_inputs.data;

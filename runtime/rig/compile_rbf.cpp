@@ -13,7 +13,6 @@ namespace {
 constexpr uint32_t kMostPoses = 1024;
 constexpr size_t kMostInverseFloats = size_t{4} << 20;
 
-enum Distance : uint16_t { kEuclidean, kQuaternion, kSwingAngle, kTwistAngle };
 enum Function : uint16_t { kGaussian, kExponential, kLinear, kCubic, kQuintic };
 
 uint32_t padded(uint32_t count) { return static_cast<uint32_t>(align_up(count, kBlockRows)); }

@@ -114,6 +114,9 @@ struct RotationTable {
   uint32_t most_turns = 0;  // of one group
 };
 
+/// How a solver measures, as files number it.
+enum RbfDistance : uint8_t { kEuclidean, kQuaternion, kSwingAngle, kTwistAngle };
+
 /// One RBF solver (rig-evaluation 6), its data in RbfTable.
 struct RbfSolver {
   uint32_t first_input, input_count;  // into inputs
