@@ -20,9 +20,12 @@
  *             live as long as it does. Strings are UTF-8 by convention, not by check, have a
  *             length, and are not terminated.
  *   Structs   Zero a struct, then set struct_size to its sizeof: zero is the default of every
- *             field. Structs only ever grow. A larger one than the library knows is accepted if the
+ *             field. A description (`desc`) or an `allocator` may be NULL: all of it is default.
+ *             Structs only ever grow. A larger one than the library knows is accepted if the
  *             rest is zero (of an output the rest is set to zero); one shorter than in the release
  *             that introduced it is MIEN_ERROR_STRUCT_SIZE, a MienError too.
+ *   Enums     have names for other languages to keep; fields and arguments that hold one are of a
+ *             fixed width, since a C enum is not.
  *   Misuse    NULL, a wrong index, a handle of the wrong kind and (as far as a tag can tell) a
  *             handle used after it was destroyed return a status. Nothing aborts or prints.
  *   Units     Those of the file: mien_rig_info() tells centimetres or metres, degrees or radians,
@@ -67,7 +70,7 @@ MIEN_API uint32_t mien_version(void);
 
 typedef int32_t MienStatus;
 
-enum {
+enum MienStatusCode {
     MIEN_OK = 0,
     MIEN_ERROR_NULL_ARGUMENT = 1,    /* a pointer that has to be given is NULL */
     MIEN_ERROR_INVALID_ARGUMENT = 2, /* a value outside its range; a buffer that is too small */
@@ -144,7 +147,7 @@ typedef struct MienDna MienDna;
 
 /* Layers, to be combined with |. A layer brings along what it needs (everything needs the
  * definition, RBF behavior needs behavior); the descriptor is always read. */
-enum {
+enum MienLayer {
     MIEN_LAYER_ALL = 0,
     MIEN_LAYER_DESCRIPTOR = 1,
     MIEN_LAYER_DEFINITION = 2,
@@ -158,12 +161,12 @@ enum {
 };
 
 /* Layers of a kind that Mien does not know. */
-enum {
+enum MienUnknownLayers {
     MIEN_UNKNOWN_LAYERS_KEEP = 0, /* carried along, written back unchanged */
     MIEN_UNKNOWN_LAYERS_DROP = 1
 };
 
-enum {
+enum MienFileAccess {
     MIEN_FILE_MAP = 0, /* map; read into memory where the system cannot map (pipes) */
     MIEN_FILE_READ = 1 /* read it all now: for files that others may truncate meanwhile */
 };
@@ -197,9 +200,9 @@ MIEN_API void mien_dna_close(MienDna* dna);
 
 /* ---- DNA: looking into it -------------------------------------------------------------------- */
 
-enum { MIEN_TRANSLATION_CENTIMETERS = 0, MIEN_TRANSLATION_METERS = 1 };
-enum { MIEN_ROTATION_DEGREES = 0, MIEN_ROTATION_RADIANS = 1 };
-enum {
+enum MienTranslationUnit { MIEN_TRANSLATION_CENTIMETERS = 0, MIEN_TRANSLATION_METERS = 1 };
+enum MienRotationUnit { MIEN_ROTATION_DEGREES = 0, MIEN_ROTATION_RADIANS = 1 };
+enum MienDirection {
     MIEN_DIRECTION_LEFT = 0,
     MIEN_DIRECTION_RIGHT = 1,
     MIEN_DIRECTION_UP = 2,
@@ -207,7 +210,7 @@ enum {
     MIEN_DIRECTION_FRONT = 4,
     MIEN_DIRECTION_BACK = 5
 };
-enum {
+enum MienRotationSequence {
     MIEN_ROTATION_XYZ = 0, /* x first, then y, then z, about fixed axes */
     MIEN_ROTATION_XZY = 1,
     MIEN_ROTATION_YXZ = 2,
@@ -281,7 +284,7 @@ MIEN_API MienStatus mien_dna_layer(const MienDna* dna, uint32_t index, MienDnaLa
  *     mlbh.neuralNetworks[0].layers[1].biases   floats
  *
  * mien_dna_field() tells what is at a path; the read calls copy it out in native byte order. */
-enum {
+enum MienFieldType {
     MIEN_FIELD_RECORD = 0,  /* named fields */
     MIEN_FIELD_LIST = 1,    /* records, strings or arrays, each with its own path [i] */
     MIEN_FIELD_STRING = 2,
@@ -348,7 +351,7 @@ MIEN_API MienStatus mien_dna_write_memory(const MienDna* dna, const MienWriteDes
 
 typedef struct MienReport MienReport;
 
-enum {
+enum MienSeverity {
     MIEN_SEVERITY_ERROR = 0,   /* opening or mien_rig_create() refuses this */
     MIEN_SEVERITY_WARNING = 1  /* allowed, but probably not meant */
 };
@@ -381,7 +384,7 @@ MIEN_API void mien_report_destroy(MienReport* report);
 
 /* ---- DNA: generating ------------------------------------------------------------------------- */
 
-enum {
+enum MienPreset {
     MIEN_PRESET_TINY = 0,   /* readable by eye */
     MIEN_PRESET_SMALL = 1,
     MIEN_PRESET_MEDIUM = 2,
@@ -405,7 +408,7 @@ MIEN_API MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** ou
 
 typedef struct MienRig MienRig;
 
-enum {
+enum MienIsa {
     MIEN_ISA_BEST = 0, /* the environment variable MIEN_ISA (scalar, sse2, ...) if set, else the best
                           that this CPU and operating system allow */
     MIEN_ISA_SCALAR = 1,
@@ -421,13 +424,13 @@ MIEN_API uint32_t mien_isa_available(uint32_t isa);
 MIEN_API const char* mien_isa_name(uint32_t isa);
 
 /* How joint rotations come out. */
-enum {
+enum MienOutput {
     MIEN_OUTPUT_EULER = 0,      /* 9 values per joint: tx ty tz rx ry rz sx sy sz */
     MIEN_OUTPUT_QUATERNION = 1  /* 10 values per joint: tx ty tz qx qy qz qw sx sy sz */
 };
 
 /* What a mask of a mesh region does to the networks of the region (mien_instance_ml_masks()). */
-enum {
+enum MienMlMasks {
     MIEN_ML_MASKS_SWITCH = 0, /* 0: the networks give their default (0, or 1 for the w of a
                                  quaternion); anything else: they are evaluated. What files were made
                                  for. */
@@ -473,7 +476,7 @@ MIEN_API void mien_rig_destroy(MienRig* rig);
 MIEN_API MienStatus mien_rig_info(const MienRig* rig, MienRigInfo* out_info);
 
 /* Things with names and numbers. */
-enum {
+enum MienKind {
     MIEN_KIND_GUI_CONTROL = 0,
     MIEN_KIND_RAW_CONTROL = 1,
     MIEN_KIND_PSD_CONTROL = 2, /* correctives: DNA files do not name them; here "psd0", "psd1", ... */
@@ -582,7 +585,7 @@ MIEN_API MienStatus mien_rig_map_raw_to_gui(const MienRig* rig, MienInstance* in
  * nothing, locks nothing. Finite inputs are expected. */
 MIEN_API MienStatus mien_rig_evaluate(const MienRig* rig, MienInstance* instance, uint32_t lod);
 
-enum {
+enum MienStage {
     MIEN_STAGE_ML = 1,      /* neural networks */
     MIEN_STAGE_RBF = 2,
     MIEN_STAGE_PSD = 4,
