@@ -437,12 +437,22 @@ enum MienMlMasks {
     MIEN_ML_MASKS_BLEND = 1   /* in between, outputs are blended with the default; clamped to 0..1 */
 };
 
+/* How a rig keeps the large arrays that evaluation reads. Sums and results are 32-bit floats either
+ * way. */
+enum {
+    MIEN_STORAGE_F32 = 0,
+    MIEN_STORAGE_F16 = 1 /* rounded to IEEE half precision (to nearest, ties to even; what exceeds its
+                            range becomes +-65504): half the memory, about three decimal digits */
+};
+
 typedef struct MienRigDesc {
     uint32_t struct_size;
     uint32_t isa; /* MIEN_ISA_...; one that is absent is MIEN_ERROR_ISA, never replaced silently */
     uint32_t rotation; /* MIEN_OUTPUT_... */
     uint32_t ml_masks; /* MIEN_ML_MASKS_... */
     const MienAllocator* allocator;
+    uint32_t storage;  /* MIEN_STORAGE_... */
+    uint32_t reserved; /* 0 */
 } MienRigDesc;
 
 typedef struct MienRigInfo {
@@ -457,7 +467,7 @@ typedef struct MienRigInfo {
     uint32_t control_count;     /* length of a control row: raw, PSD, ML, RBF, in this order */
     uint32_t joint_value_count; /* length of a row of joint outputs: 9 or 10 per joint */
     uint32_t rotation;          /* MIEN_OUTPUT_... */
-    uint32_t reserved;
+    uint32_t storage;           /* MIEN_STORAGE_... */
     uint64_t rig_bytes;         /* memory of the rig */
     uint64_t instance_bytes;    /* memory of each instance */
 } MienRigInfo;

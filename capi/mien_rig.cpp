@@ -49,9 +49,11 @@ MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig*
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "MienRigDesc.isa %u is no MIEN_ISA_...",
                       known.isa);
   }
-  if (known.rotation > MIEN_OUTPUT_QUATERNION || known.ml_masks > MIEN_ML_MASKS_BLEND) {
+  if (known.rotation > MIEN_OUTPUT_QUATERNION || known.ml_masks > MIEN_ML_MASKS_BLEND ||
+      known.storage > MIEN_STORAGE_F16 || known.reserved != 0) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienRigDesc.rotation or .ml_masks is none of its values");
+                      "MienRigDesc.rotation, .ml_masks or .storage is none of its values, or "
+                      ".reserved is not 0");
   }
   const KernelTable* kernels = choose_kernels(static_cast<Isa>(known.isa));
   if (!kernels) {
@@ -69,7 +71,8 @@ MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig*
   Rig* rig = nullptr;
   Error detail;
   const CompileOptions options = {kernels, known.rotation == MIEN_OUTPUT_QUATERNION,
-                                  known.ml_masks == MIEN_ML_MASKS_BLEND};
+                                  known.ml_masks == MIEN_ML_MASKS_BLEND,
+                                  known.storage == MIEN_STORAGE_F16};
   if (compile_rig(dna->view, options, allocator, rig, detail) != Status::kOk) {
     return give_error(detail, error);
   }
@@ -100,6 +103,7 @@ MienStatus mien_rig_info(const MienRig* handle, MienRigInfo* out_info) {
   info.control_count = rig.control_count;
   info.joint_value_count = rig.joint_value_count();
   info.rotation = rig.quaternion_outputs ? MIEN_OUTPUT_QUATERNION : MIEN_OUTPUT_EULER;
+  info.storage = rig.half_storage ? MIEN_STORAGE_F16 : MIEN_STORAGE_F32;
   info.rig_bytes = rig.block_size;
   info.instance_bytes = rig.instance_size;
   write_struct(out_info, info);

@@ -71,6 +71,16 @@ TEST_F(Misuse, ValuesOutsideTheirRange) {
     desc.ml_masks = MIEN_ML_MASKS_BLEND + 1;
     return mien_rig_create(dna, &desc, o, e);
   });
+  c.with_error<MienRig*>("storage", [&](auto* o, auto* e) {
+    MienRigDesc desc = sized<MienRigDesc>();
+    desc.storage = MIEN_STORAGE_F16 + 1;
+    return mien_rig_create(dna, &desc, o, e);
+  });
+  c.with_error<MienRig*>("reserved", [&](auto* o, auto* e) {
+    MienRigDesc desc = sized<MienRigDesc>();
+    desc.reserved = 1;
+    return mien_rig_create(dna, &desc, o, e);
+  });
   c.with_error<MienRig*>("rig without allocate", [&](auto* o, auto* e) {
     MienRigDesc desc = sized<MienRigDesc>();
     desc.allocator = &no_allocate;

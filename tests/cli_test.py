@@ -162,14 +162,16 @@ class General(CliTest):
         self.fails(INVALID, "info", tiny, "--lods", "1000", says="LOD")
         self.fails(INVALID, "info", tiny, "--max-lod", "3", says="LOD")
 
-    def test_options_of_later_versions_are_refused(self):
+    def test_words_that_options_do_not_take_are_refused(self):
         tiny = path("tiny.dna")
         for command in (["eval", tiny, "--input", "-"], ["bench", tiny, "--quick"], ["info", tiny]):
-            self.fails(USAGE, *command, "--storage", "f16", says="f32")
+            self.fails(USAGE, *command, "--storage", "f64", says="f16")
             self.fails(USAGE, *command, "--rotation", "matrix", says="euler")
             self.fails(USAGE, *command, "--ml-masks", "half", says="blend")
             self.fails(USAGE, *command, "--isa", "avx9", says="avx2")
-        self.ok("info", tiny, "--storage", "f32", "--rotation", "quaternion", "--isa", "scalar")
+        for storage in ("f32", "f16"):
+            self.ok("info", tiny, "--storage", storage, "--rotation", "quaternion",
+                    "--isa", "scalar")
 
     def test_an_absent_instruction_set_is_wrong_usage(self):
         absent = [isa for isa in ("sse2", "neon")

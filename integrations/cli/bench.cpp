@@ -323,7 +323,7 @@ void write_json(const Bench& bench, const std::string& name) {
   for (const Row& row : bench.rows) {
     json.begin_object();
     json.member("isa", mien_isa_name(row.engine->info.isa));
-    json.member("storage", "f32");
+    json.member("storage", row.engine->info.storage == MIEN_STORAGE_F16 ? "f16" : "f32");
     json.member("rotation",
                 row.engine->info.rotation == MIEN_OUTPUT_QUATERNION ? "quaternion" : "euler");
     json.member("lod", row.lod);

@@ -160,7 +160,8 @@ void add_rig_options(CLI::App& app, RigOptions& options) {
                      "\n(default: $MIEN_ISA, else the best of this machine)")
       ->type_name("NAME")
       ->group(group);
-  app.add_option("--storage", options.storage, "Joint matrices: f32 (f16 is not available yet)")
+  app.add_option("--storage", options.storage,
+                 "Matrices and weights: f32, or f16 (half the memory, 3 digits)")
       ->type_name("TYPE")
       ->group(group);
   app.add_option("--rotation", options.rotation,
@@ -212,13 +213,10 @@ void require_behavior(const MienDnaDesc& desc) {
 }
 
 MienRigDesc parse_rig_options(const RigOptions& options) {
-  if (parse_word("--storage", options.storage) != 0) {
-    fail_usage("--storage " + options.storage, "this version has no half-precision matrices",
-               "use --storage f32");
-  }
   auto desc = sized<MienRigDesc>();
   desc.rotation = static_cast<uint32_t>(parse_word("--rotation", options.rotation));
   desc.ml_masks = static_cast<uint32_t>(parse_word("--ml-masks", options.ml_masks));
+  desc.storage = static_cast<uint32_t>(parse_word("--storage", options.storage));
   if (options.isa.empty()) return desc;
   desc.isa = MIEN_ISA_SCALAR + static_cast<uint32_t>(parse_word("--isa", options.isa));
   if (!mien_isa_available(desc.isa)) {

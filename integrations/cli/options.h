@@ -43,7 +43,7 @@ MienDnaDesc parse_load_options(const LoadOptions& options, uint32_t default_laye
 /// A command that evaluates has to load behavior.
 void require_behavior(const MienDnaDesc& desc);
 
-/// Refuses instruction sets that this machine and storages that this version does not have.
+/// Refuses instruction sets that this machine does not have.
 MienRigDesc parse_rig_options(const RigOptions& options);
 
 /// All that evaluation needs, and no geometry.

@@ -179,10 +179,11 @@ uint32_t count_controls(const DnaView& view) {
   return count;
 }
 
-void count_things(const DnaView& view, bool quaternion_outputs, Rig& rig) {
+void count_things(const DnaView& view, const CompileOptions& options, Rig& rig) {
   const dna::Definition& defn = view.defn;
-  rig.quaternion_outputs = quaternion_outputs;
-  if (quaternion_outputs) rig.joint_attributes = kFileAttributes + 1;
+  rig.quaternion_outputs = options.quaternion_outputs;
+  rig.half_storage = options.half_storage;
+  if (rig.quaternion_outputs) rig.joint_attributes = kFileAttributes + 1;
   rig.lod_count = view.desc.lod_count;
   rig.gui_count = defn.gui_control_names.count;
   rig.raw_count = defn.raw_control_names.count;
@@ -282,7 +283,7 @@ Status compile_rig(const DnaView& view, const CompileOptions& options, const All
                    Rig*& out, Error& error) {
   out = nullptr;
   Rig measured;
-  count_things(view, options.quaternion_outputs, measured);
+  count_things(view, options, measured);
   if (options.quaternion_outputs &&
       measured.joint_value_count() + size_t{measured.joint_count} * 3 > kNoOutput) {
     return fail(error, Status::kDnaLimit, kNoOffset,
@@ -325,7 +326,7 @@ Status compile_rig(const DnaView& view, const CompileOptions& options, const All
   rig->block_size = measure.size();
   rig->kernels = options.kernels;
   rig->ml.blend_masks = options.blend_masks;
-  count_things(view, options.quaternion_outputs, *rig);
+  count_things(view, options, *rig);
   status = place_all(view, placer, *rig, error);
   if (status == Status::kOk) status = fill_all(view, reach, scratch, *rig, error);
   if (status != Status::kOk) {

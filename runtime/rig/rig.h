@@ -283,6 +283,7 @@ struct Rig {
   uint32_t control_count = 0;
   uint32_t joint_count = 0, channel_count = 0, map_count = 0, mesh_count = 0, mask_count = 0;
   bool quaternion_outputs = false;
+  bool half_storage = false;
   uint32_t joint_attributes = kFileAttributes;  // per joint: 9, or 10 with quaternion outputs
   uint32_t joint_value_count() const { return joint_count * joint_attributes; }
   RotationConvention rotation;
