@@ -534,11 +534,13 @@ typedef struct MienRigStatistics {
     uint32_t struct_size;
     uint32_t psd_count;               /* correctives computed */
     uint32_t joint_count;             /* joints that exist at this LOD */
-    uint32_t joint_row_count;         /* joint values computed */
+    uint32_t joint_row_count;         /* rows of the joint groups */
     uint32_t blend_shape_count;       /* channels written */
     uint32_t animated_map_row_count;  /* rows of the animated map table */
-    uint64_t joint_entry_count;       /* rows x columns, over the groups */
-    uint64_t joint_byte_count;        /* bytes of the joint matrix that are read */
+    uint64_t joint_entry_count;       /* of the joint matrix: 8 per piece of a column, pieces of
+                                         zeros not counted */
+    uint64_t joint_byte_count;        /* of the joint matrix, if every control is active: those of
+                                         controls that are 0 are not read */
     uint32_t rbf_solver_count;        /* solvers that the LOD lists */
     uint32_t turned_joint_count;      /* joints represented by quaternions */
 } MienRigStatistics;

@@ -119,7 +119,7 @@ MienStatus count_of(const Rig& rig, uint32_t kind, uint32_t& count) {
   if (kind < kKindsWithNames) {
     count = rig.names[kind].count();
   } else if (kind == MIEN_KIND_JOINT_GROUP) {
-    count = static_cast<uint32_t>(rig.joints.groups.count);
+    count = static_cast<uint32_t>(rig.joints.group_count);
   } else if (kind == MIEN_KIND_RBF_SOLVER) {
     count = static_cast<uint32_t>(rig.rbf.solvers.count);
   } else if (kind == MIEN_KIND_TWIST_SWING) {
@@ -259,18 +259,23 @@ MienStatus mien_rig_statistics(const MienRig* handle, uint32_t lod,
   statistics.blend_shape_count = rig.channels.count_at_lod[lod];
   statistics.animated_map_row_count = rig.map_rows_at_lod[lod];
   statistics.rbf_solver_count = static_cast<uint32_t>(rig.rbf.lod_solvers.at(lod).count);
-  for (size_t g = 0; g < rig.joints.groups.count; ++g) {
-    const uint64_t rows = rig.joints.rows_at_lod[g * rig.lod_count + lod];
-    const uint64_t columns = rig.joints.groups[g].column_count;
-    const uint64_t blocks = (rows + kBlockRows - 1) / kBlockRows;
-    statistics.joint_row_count += static_cast<uint32_t>(rows);
-    statistics.joint_entry_count += rows * columns;
+  const JointMatrix& joints = rig.joints;
+  const uint32_t chunks = joints.chunks_at_lod[lod];
+  uint64_t pieces = 0;
+  for (size_t k = 0; k < joints.columns.count; ++k) {
+    pieces += joints.chunk_pieces[k * joints.chunks.count + chunks];
+  }
+  const size_t value_size = joints.values.empty() ? sizeof(int16_t) : sizeof(float);
+  statistics.joint_entry_count = pieces * kPieceRows;
+  statistics.joint_byte_count = pieces * (kPieceRows * value_size + sizeof(uint16_t));
+  for (size_t g = 0; g < joints.group_count; ++g) {
+    const uint32_t rows = joints.group_rows_at_lod[g * rig.lod_count + lod];
+    statistics.joint_row_count += rows;
     const GroupRotations& rotations = rig.rotations.groups[g];
     for (const TurnedJoint& turned :
          rig.rotations.turn_joints.slice(rotations.first_turn_joint, rotations.turn_joint_count)) {
       statistics.turned_joint_count += turned.first_row < rows;
     }
-    statistics.joint_byte_count += blocks * kBlockRows * columns * sizeof(float);
   }
   write_struct(out_statistics, statistics);
   return MIEN_OK;
@@ -412,7 +417,7 @@ MienStatus mien_rig_evaluate_joint_group(const MienRig* rig, MienInstance* insta
                                          uint32_t group) {
   if (MienStatus status = check_pair(rig, instance)) return status;
   if (lod >= object(rig)->lod_count) return MIEN_ERROR_LOD;
-  if (group >= object(rig)->joints.groups.count) return MIEN_ERROR_INDEX;
+  if (group >= object(rig)->joints.group_count) return MIEN_ERROR_INDEX;
   evaluate_joint_group(*object(rig), *object(instance), lod, group);
   return MIEN_OK;
 }

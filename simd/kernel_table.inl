@@ -11,7 +11,9 @@
 namespace mien::MIEN_KERNEL_ISA {
 
 extern const KernelTable kTable;  // const alone would keep it inside this file
-const KernelTable kTable = {
-    kIsa, MIEN_KERNEL_STRING(MIEN_KERNEL_ISA), joint_group, dense_layer, joint_turns, rbf_weights};
+const KernelTable kTable = {kIsa,          MIEN_KERNEL_STRING(MIEN_KERNEL_ISA),
+                            joint_columns, joint_columns_fixed,
+                            finish_sums,   dense_layer,
+                            joint_turns,   rbf_weights};
 
 }  // namespace mien::MIEN_KERNEL_ISA

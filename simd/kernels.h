@@ -13,28 +13,45 @@ namespace mien {
 enum class Isa : uint32_t { kBest = 0, kScalar = 1, kSse2 = 2, kAvx2 = 3, kAvx512 = 4, kNeon = 5 };
 constexpr uint32_t kIsaCount = 6;
 
-/// Rows per block of a joint matrix, the same for every instruction set.
+/// Rows per block of a dense layer and of other arrays in lanes, the same for every instruction
+/// set.
 constexpr uint32_t kBlockRows = 16;
 
-/// One joint group, as blocks of 16 rows. Within a block the 16 values of a column are adjacent:
+/// Rows per piece of a joint matrix.
+constexpr uint32_t kPieceRows = 8;
+/// Blocks are named by multiples of this, which are addresses with the least work.
+constexpr uint32_t kBlockUnit = 4;
+
+/// Columns of a joint matrix times their inputs, added to sums. A column is a run of pieces of 8
+/// values, each of which belongs to a block of 8 sums:
 ///
-///     values   block 0: c0 r0..r15 | c1 r0..r15 | ... ; block 1: ...        (64-byte aligned)
-///     columns  number of the control that each column reads
+///     values  piece 0: r0 ... r7 | piece 1: r0 ... r7 | ...      (aligned to the size of a piece)
+///     blocks  where each piece is added; those of a column differ
 ///
-/// Writes, for block_count blocks, sums[16 * b + r] = sum over columns c, ascending, of
-/// values(b, r, c) * controls[columns[c]]. `inputs` is scratch for column_count floats.
-struct JointGroupArgs {
-  const float* values;
+/// For i in order, with k = columns[i], for p in order from first_pieces[k] + begins[k * stride] to
+/// first_pieces[k] + ends[k * stride]:
+///
+///     sums[8 * (blocks[p] / kBlockUnit - first_block) + r] += values(p, r) * inputs[i]
+struct JointColumnsArgs {
+  const void* values;  // float, or int16_t
+  const uint16_t* blocks;
+  const uint32_t* first_pieces;
+  const uint16_t* begins;
+  const uint16_t* ends;
   const uint16_t* columns;
-  const float* controls;
-  float* inputs;
-  float* sums;
+  const float* inputs;
+  float* sums;  // 64-byte aligned
+  size_t stride;
   uint32_t column_count;
-  uint32_t block_count;
+  uint32_t first_block;
 };
 
 /// One dense layer of a neural network: outputs[r] = f(sum over c of values(r, c) * inputs[c] +
-/// bias), in blocks of 16 rows as in a joint group. Activation f: 0 itself, 1 max(0, v), 2 v or
+/// bias), in blocks of 16 rows. Within a block the 16 values of a column are adjacent:
+///
+///     values   block 0: c0 r0..r15 | c1 r0..r15 | ... ; block 1: ...
+///
+/// Activation f: 0 itself, 1 max(0, v), 2 v or
 /// alpha * v below 0, 3 tanh, 4 1 / (1 + e^-v); tanh and the last are within 3e-7. What overflows
 /// saturates.
 struct DenseLayerArgs {
@@ -87,7 +104,10 @@ struct RbfWeightArgs {
 struct KernelTable {
   Isa isa;
   const char* name;
-  void (*joint_group)(const JointGroupArgs& args);
+  void (*joint_columns)(const JointColumnsArgs& args);        // of floats
+  void (*joint_columns_fixed)(const JointColumnsArgs& args);  // of 16-bit integers
+  /// sums[i] = sums[i] * scales[i] (unless scales is null), saturated; count is a multiple of 8.
+  void (*finish_sums)(float* sums, const float* scales, size_t count);
   void (*dense_layer)(const DenseLayerArgs& args);
   void (*joint_turns)(const JointTurnArgs& args);
   void (*rbf_weights)(const RbfWeightArgs& args);

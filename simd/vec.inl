@@ -16,6 +16,12 @@
 //                   rounded after each step (scalar, SSE2). By intrinsic: xsimd 8.1 leaves the
 //                   choice to the compiler on AVX-512 and NEON.
 //
+// A piece of a joint matrix is narrower than the widest vectors:
+//
+//   PieceVec        kPieceWidth floats, at most kPieceRows: Vec, or half of it
+//   load_piece      kPieceWidth floats, aligned; or as many 16-bit integers made floats
+//   store_piece, broadcast_piece, mul_add   as above
+//
 // The including kernels_<isa>.cpp defines first:
 //
 //   MIEN_KERNEL_ISA    name of the instruction set, and of the namespace of its kernels
@@ -59,6 +65,12 @@ inline Vec at_most(Vec v, Vec high) { return v < high ? v : high; }  // NaN beco
 using Mask = bool;
 inline Mask less(Vec a, Vec b) { return a < b; }
 inline Vec select(Mask m, Vec a, Vec b) { return m ? a : b; }
+using PieceVec = Vec;
+constexpr size_t kPieceWidth = 1;
+inline PieceVec load_piece(const float* from) { return *from; }
+inline PieceVec load_piece(const int16_t* from) { return *from; }
+inline PieceVec broadcast_piece(float value) { return value; }
+inline void store_piece(float* to, PieceVec value) { *to = value; }
 inline Vec power_of_two(Vec n) {
   const uint32_t bits = static_cast<uint32_t>(static_cast<int32_t>(n) + 127) << 23;
   float power;
@@ -91,6 +103,30 @@ inline Vec mul_add(Vec a, Vec b, Vec c) { return vfmaq_f32(c, a, b); }
 
 constexpr size_t kWidth = Vec::size;
 
+#if defined(MIEN_KERNEL_AVX512)
+using PieceVec = xsimd::batch<float, xsimd::fma3<xsimd::avx2>>;
+inline PieceVec mul_add(PieceVec a, PieceVec b, PieceVec c) { return _mm256_fmadd_ps(a, b, c); }
+#else
+using PieceVec = Vec;
+#endif
+constexpr size_t kPieceWidth = PieceVec::size;
+inline PieceVec load_piece(const float* from) { return PieceVec::load_aligned(from); }
+inline PieceVec broadcast_piece(float value) { return PieceVec(value); }
+inline void store_piece(float* to, PieceVec value) { value.store_aligned(to); }
+#if defined(MIEN_KERNEL_SSE2)
+inline PieceVec load_piece(const int16_t* from) {
+  const __m128i narrow = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
+  return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(narrow, narrow), 16));
+}
+#elif defined(MIEN_KERNEL_NEON)
+inline PieceVec load_piece(const int16_t* from) { return vcvtq_f32_s32(vmovl_s16(vld1_s16(from))); }
+#else
+inline PieceVec load_piece(const int16_t* from) {
+  const __m128i narrow = _mm_load_si128(reinterpret_cast<const __m128i*>(from));
+  return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(narrow));
+}
+#endif
+
 inline Vec load(const float* from) { return Vec::load_aligned(from); }
 inline void store(float* to, Vec value) { value.store_unaligned(to); }
 inline Vec broadcast(float value) { return Vec(value); }
@@ -118,10 +154,18 @@ inline Vec power_of_two(Vec n) {
 #endif
 
 // Sums of finite products can overflow, and infinities of both signs cancel to nothing sensible.
+// What is not a number becomes the lowest.
 inline Vec saturate(Vec v) {
   constexpr float kLargest = 3.40282347e38f;
   return at_most(at_least(v, broadcast(-kLargest)), broadcast(kLargest));
 }
+#if defined(MIEN_KERNEL_AVX512)
+inline PieceVec saturate(PieceVec v) {
+  const PieceVec largest(3.40282347e38f), lowest(-3.40282347e38f);
+  const PieceVec bounded = xsimd::select(v > lowest, v, lowest);
+  return xsimd::select(bounded < largest, bounded, largest);
+}
+#endif
 
 }  // namespace
 }  // namespace mien::MIEN_KERNEL_ISA

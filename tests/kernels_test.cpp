@@ -41,73 +41,95 @@ uint32_t bits_of(float value) {
   return bits;
 }
 
-/// A joint group with awkward numbers; the same for the same counts.
-class JointGroup {
+/// A joint matrix with awkward numbers; the same for the same counts. Every column holds some of
+/// the blocks; the kernel works on those in the middle, as if the others were other chunks.
+class JointMatrix {
  public:
-  JointGroup(uint32_t column_count, uint32_t block_count)
-      : column_count_(column_count), block_count_(block_count),
-        state_(column_count * 131 + block_count + 1),
-        storage_(size_t{column_count} * block_count * kBlockRows + 16), controls_(400) {
-    for (float& control : controls_) control = awkward_number();
-    for (uint32_t c = 0; c < column_count; ++c) {
-      columns_.push_back(static_cast<uint16_t>(random() % controls_.size()));
+  static constexpr uint32_t kFirstBlock = 3;
+  static constexpr uint32_t kUnknown = 2;  // columns that are not evaluated, between the others
+
+  JointMatrix(uint32_t column_count, uint32_t block_count, bool fixed)
+      : fixed_(fixed), block_count_(block_count), state_(column_count * 131 + block_count + 1) {
+    for (uint32_t k = 0; k < column_count * kUnknown + 1; ++k) {
+      first_pieces_.push_back(static_cast<uint32_t>(blocks_.size()));
+      uint16_t counts[3] = {};  // pieces before, within and behind the chunk
+      for (uint32_t b = 0; b < kFirstBlock + block_count + 2; ++b) {
+        if (random() % 3 == 0) continue;
+        blocks_.push_back(static_cast<uint16_t>(b * kBlockUnit));
+        ++counts[b < kFirstBlock ? 0 : (b < kFirstBlock + block_count ? 1 : 2)];
+      }
+      ends_.push_back(counts[0]);
+      ends_.push_back(static_cast<uint16_t>(counts[0] + counts[1]));
     }
-    for (size_t i = 0; i < value_count(); ++i) values()[i] = awkward_number();
+    for (uint32_t i = 0; i < column_count; ++i) {
+      columns_.push_back(static_cast<uint16_t>(i * kUnknown));
+      inputs_.push_back(awkward_number());
+    }
+    const size_t value_count = blocks_.size() * kPieceRows;
+    floats_.resize(value_count + 16);
+    integers_.resize(value_count + 32);
+    for (size_t i = 0; i < value_count; ++i) {
+      integer_values()[i] = static_cast<int16_t>(random() % 65535 - 32767);
+      float_values()[i] = fixed ? static_cast<float>(integer_values()[i]) : awkward_number();
+    }
+    for (size_t i = 0; i < sum_count(); ++i) initial_.push_back(awkward_number());
   }
 
-  /// Sums by one instruction set. Scratch and sums are written where they should be and nowhere
-  /// else; sums need no alignment.
+  /// Sums by one instruction set; only those of the chunk are written.
   std::vector<float> run(const KernelTable& kernels) {
     const float untouched = 12345.0f;
-    std::vector<float> inputs(column_count_ + 16, untouched);
-    std::vector<float> sums(1 + row_count() + 16, untouched);
-    kernels.joint_group({values(), columns_.data(), controls_.data(), inputs.data(),
-                         sums.data() + 1, column_count_, block_count_});
-    EXPECT_EQ(sums[0], untouched);
-    for (size_t i = 0; i < 16; ++i) {
-      EXPECT_EQ(inputs[column_count_ + i], untouched);
-      EXPECT_EQ(sums[1 + row_count() + i], untouched);
+    std::vector<float> storage(16 + kGuard + sum_count() + kGuard, untouched);
+    float* sums = aligned(storage.data()) + kGuard;
+    std::copy(initial_.begin(), initial_.end(), sums);
+    JointColumnsArgs args = {};
+    args.values = fixed_ ? static_cast<const void*>(integer_values()) : float_values();
+    args.blocks = blocks_.data();
+    args.first_pieces = first_pieces_.data();
+    args.begins = ends_.data();
+    args.ends = ends_.data() + 1;
+    args.stride = 2;
+    args.columns = columns_.data();
+    args.inputs = inputs_.data();
+    args.sums = sums;
+    args.column_count = static_cast<uint32_t>(columns_.size());
+    args.first_block = kFirstBlock;
+    (fixed_ ? kernels.joint_columns_fixed : kernels.joint_columns)(args);
+    for (size_t i = 0; i < kGuard; ++i) {
+      EXPECT_EQ(sums[-1 - static_cast<ptrdiff_t>(i)], untouched);
+      EXPECT_EQ(sums[sum_count() + i], untouched);
     }
-    return {sums.begin() + 1, sums.begin() + 1 + static_cast<ptrdiff_t>(row_count())};
+    return {sums, sums + sum_count()};
   }
 
   /// The same sums by a plain loop with the given multiply-add.
-  template <class MulAdd>
-  std::vector<float> expected(MulAdd mul_add) {
-    std::vector<float> sums(row_count(), 0.0f);
-    for (size_t row = 0; row < row_count(); ++row) {
-      for (uint32_t c = 0; c < column_count_; ++c) {
-        sums[row] = mul_add(value(row, c), controls_[columns_[c]], sums[row]);
+  template <class Number, class MulAdd>
+  std::vector<Number> expected(MulAdd mul_add) {
+    std::vector<Number> sums(initial_.begin(), initial_.end());
+    for (size_t i = 0; i < columns_.size(); ++i) {
+      const size_t k = columns_[i];
+      for (size_t p = ends_[2 * k]; p < ends_[2 * k + 1]; ++p) {
+        const size_t piece = first_pieces_[k] + p;
+        for (size_t r = 0; r < kPieceRows; ++r) {
+          Number& sum = sums[(blocks_[piece] / kBlockUnit - kFirstBlock) * kPieceRows + r];
+          sum = mul_add(Number{float_values()[piece * kPieceRows + r]}, Number{inputs_[i]}, sum);
+        }
       }
     }
     return sums;
   }
 
-  double exact(size_t row, double* out_sum_of_sizes) {
-    double sum = 0.0;
-    *out_sum_of_sizes = 0.0;
-    for (uint32_t c = 0; c < column_count_; ++c) {
-      const double product = double{value(row, c)} * double{controls_[columns_[c]]};
-      sum += product;
-      *out_sum_of_sizes += std::abs(product);
-    }
-    return sum;
-  }
-
-  size_t row_count() const { return size_t{block_count_} * kBlockRows; }
+  size_t sum_count() const { return size_t{block_count_} * kPieceRows; }
 
  private:
-  size_t value_count() const { return row_count() * column_count_; }
+  static constexpr size_t kGuard = 16;
 
-  float* values() {
-    const uintptr_t address = reinterpret_cast<uintptr_t>(storage_.data());
-    return storage_.data() + (64 - address % 64) % 64 / sizeof(float);
+  template <class T>
+  static T* aligned(T* storage) {
+    const uintptr_t address = reinterpret_cast<uintptr_t>(storage);
+    return storage + (64 - address % 64) % 64 / sizeof(T);
   }
-
-  float value(size_t row, uint32_t column) {
-    const size_t block = row / kBlockRows;
-    return values()[(block * column_count_ + column) * kBlockRows + row % kBlockRows];
-  }
+  float* float_values() { return aligned(floats_.data()); }
+  int16_t* integer_values() { return aligned(integers_.data()); }
 
   uint32_t random() {
     state_ = state_ * 1664525u + 1013904223u;
@@ -126,52 +148,81 @@ class JointGroup {
     }
   }
 
-  uint32_t column_count_, block_count_, state_;
-  std::vector<float> storage_, controls_;
-  std::vector<uint16_t> columns_;
+  bool fixed_;
+  uint32_t block_count_, state_;
+  std::vector<uint32_t> first_pieces_;
+  std::vector<uint16_t> blocks_, ends_, columns_;
+  std::vector<float> inputs_, floats_, initial_;
+  std::vector<int16_t> integers_;
 };
 
-/// Calls check(group, kernels) for odd sizes on each instruction set present. Fifteen blocks take
-/// every path of the widest one: eight, four, two and one vectors at a time.
+/// Calls check(matrix, kernels) for odd sizes on each instruction set present.
 template <class Check>
-void for_each_group(Check check) {
+void for_each_matrix(Check check) {
   for (const KernelTable* kernels : present_kernels()) {
-    for (uint32_t column_count : {0u, 1u, 2u, 3u, 17u, 300u}) {
-      for (uint32_t block_count : {0u, 1u, 2u, 3u, 5u, 8u, 15u}) {
-        SCOPED_TRACE(std::string(kernels->name) + ", columns " + std::to_string(column_count) +
-                     ", blocks " + std::to_string(block_count));
-        JointGroup group(column_count, block_count);
-        check(group, *kernels);
+    for (uint32_t column_count : {0u, 1u, 2u, 17u, 300u}) {
+      for (uint32_t block_count : {0u, 1u, 2u, 3u, 7u, 40u}) {
+        for (bool fixed : {false, true}) {
+          SCOPED_TRACE(std::string(kernels->name) + ", columns " + std::to_string(column_count) +
+                       ", blocks " + std::to_string(block_count) + (fixed ? ", fixed" : ""));
+          JointMatrix matrix(column_count, block_count, fixed);
+          check(matrix, *kernels);
+        }
       }
     }
   }
 }
 
-TEST(JointGroupKernel, BitEqualToPlainLoopOfItsFamily) {
-  for_each_group([](JointGroup& group, const KernelTable& kernels) {
-    const std::vector<float> sums = group.run(kernels);
-    const std::vector<float> expected =
-        is_fused(kernels.isa) ? group.expected(fused) : group.expected(rounded_twice);
-    for (size_t row = 0; row < group.row_count(); ++row) {
-      ASSERT_EQ(bits_of(sums[row]), bits_of(expected[row])) << "row " << row;
+TEST(JointColumnsKernel, BitEqualToPlainLoopOfItsFamily) {
+  for_each_matrix([](JointMatrix& matrix, const KernelTable& kernels) {
+    const std::vector<float> sums = matrix.run(kernels);
+    const std::vector<float> expected = is_fused(kernels.isa)
+                                            ? matrix.expected<float>(fused)
+                                            : matrix.expected<float>(rounded_twice);
+    for (size_t i = 0; i < sums.size(); ++i) {
+      ASSERT_EQ(bits_of(sums[i]), bits_of(expected[i])) << "sum " << i;
     }
   });
 }
 
-TEST(JointGroupKernel, CloseToDoublePrecision) {
-  for_each_group([](JointGroup& group, const KernelTable& kernels) {
-    const std::vector<float> sums = group.run(kernels);
-    for (size_t row = 0; row < group.row_count(); ++row) {
-      double sum_of_sizes;
-      const double exact = group.exact(row, &sum_of_sizes);
-      ASSERT_NEAR(sums[row], exact, 302 * 1.2e-7 * sum_of_sizes + 302 * 1.5e-45) << "row " << row;
+TEST(JointColumnsKernel, CloseToDoublePrecision) {
+  for_each_matrix([](JointMatrix& matrix, const KernelTable& kernels) {
+    const std::vector<float> sums = matrix.run(kernels);
+    const auto multiply_add = [](double a, double b, double c) { return a * b + c; };
+    const auto add_sizes = [](double a, double b, double c) {
+      return std::abs(a * b) + std::abs(c);
+    };
+    const std::vector<double> exact = matrix.expected<double>(multiply_add);
+    const std::vector<double> sizes = matrix.expected<double>(add_sizes);
+    for (size_t i = 0; i < sums.size(); ++i) {
+      ASSERT_NEAR(sums[i], exact[i], 302 * 1.2e-7 * std::abs(sizes[i]) + 302 * 1.5e-45) << "sum " << i;
     }
   });
 }
 
-TEST(JointGroupKernel, TestDataTellsTheFamiliesApart) {
-  JointGroup group(300, 5);
-  EXPECT_NE(group.expected(fused), group.expected(rounded_twice));
+TEST(JointColumnsKernel, TestDataTellsTheFamiliesApart) {
+  JointMatrix matrix(300, 5, false);
+  EXPECT_NE(matrix.expected<float>(fused), matrix.expected<float>(rounded_twice));
+}
+
+TEST(FinishSumsKernel, ScalesAndSaturates) {
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  const float infinity = std::numeric_limits<float>::infinity();
+  alignas(64) const float scales[8] = {2, 0.5f, 1, 1, 1, 4, 0, -1};
+  for (const KernelTable* kernels : present_kernels()) {
+    SCOPED_TRACE(kernels->name);
+    alignas(64) float sums[16] = {1, 2, -3, infinity, -infinity, kLargest, 5, 6};
+    std::copy(sums, sums + 8, sums + 8);
+    sums[8 + 3] = std::numeric_limits<float>::quiet_NaN();
+    kernels->finish_sums(sums, scales, 8);
+    kernels->finish_sums(sums + 8, nullptr, 8);
+    const float scaled[] = {2, 1, -3, kLargest, -kLargest, kLargest, 0, -6};
+    const float plain[] = {1, 2, -3, -kLargest, -kLargest, kLargest, 5, 6};
+    for (size_t i = 0; i < 8; ++i) {
+      EXPECT_EQ(sums[i], scaled[i]) << i;
+      EXPECT_EQ(sums[8 + i], plain[i]) << i;
+    }
+  }
 }
 
 TEST(KernelsFor, TablesKnowTheirNames) {

@@ -48,33 +48,10 @@ void evaluate_psds(const Rig& rig, Instance& instance, uint32_t lod) {
   }
 }
 
-// rig-evaluation 4.4.
-void evaluate_group(const Rig& rig, Instance& instance, uint32_t lod, uint32_t index) {
-  const JointMatrix& joints = rig.joints;
-  const JointGroup& group = joints.groups[index];
-  const uint32_t rows = joints.rows_at_lod[size_t{index} * rig.lod_count + lod];
-  if (rows == 0) return;
-
-  JointGroupArgs args;
-  args.values = joints.values.data + group.first_value;
-  args.columns = joints.columns.data + group.first_column;
-  args.controls = instance.controls.data;
-  args.inputs = instance.joint_inputs.data;
-  args.sums = instance.joint_sums.data;
-  args.column_count = group.column_count;
-  args.block_count = (rows + kBlockRows - 1) / kBlockRows;
-  rig.kernels->joint_group(args);
-
-  const uint16_t* outputs = joints.outputs.data + group.first_row;
-  for (uint32_t r = 0; r < rows; ++r) {
-    if (outputs[r] != kNoOutput) instance.joints_and_angles[outputs[r]] = args.sums[r];
-  }
-}
-
 void evaluate_joints(const Rig& rig, Instance& instance, uint32_t lod) {
   clear_ml_joints(rig, instance, lod);
-  for (uint32_t g = 0; g < rig.joints.groups.count; ++g) evaluate_group(rig, instance, lod, g);
-  for (uint32_t g = 0; g < rig.joints.groups.count; ++g) evaluate_rotations(rig, instance, lod, g);
+  evaluate_joint_rows(rig, instance, lod, kAllChunks, kAllGroups);
+  for (uint32_t g = 0; g < rig.joints.group_count; ++g) evaluate_rotations(rig, instance, lod, g);
   for (const TwistSwing& setup : rig.twist_swing.setups) turn_setup(rig, instance, lod, setup);
   add_ml_joints(rig, instance, lod);
 }
@@ -153,7 +130,7 @@ void evaluate(const Rig& rig, Instance& instance, uint32_t lod, uint32_t stages)
 
 void evaluate_joint_group(const Rig& rig, Instance& instance, uint32_t lod, uint32_t group) {
   enter_lod(rig, instance, lod);
-  evaluate_group(rig, instance, lod, group);
+  evaluate_joint_rows(rig, instance, lod, kAllChunks, group);
   evaluate_rotations(rig, instance, lod, group);
 }
 

@@ -24,7 +24,8 @@ void map_raw_to_gui(const Rig& rig, Instance& instance);
 /// The stages named, in the order above.
 void evaluate(const Rig& rig, Instance& instance, uint32_t lod, uint32_t stages);
 
-/// The joint values of one group; the others are left alone.
+/// The joint values of one group; the others are left alone, and so are values that a later group
+/// writes instead.
 void evaluate_joint_group(const Rig& rig, Instance& instance, uint32_t lod, uint32_t group);
 
 /// The pose controls of one solver, whether the LOD lists it or not.
@@ -34,6 +35,12 @@ void evaluate_rbf_solver(const Rig& rig, Instance& instance, uint32_t lod, uint3
 void evaluate_twist_swing(const Rig& rig, Instance& instance, uint32_t lod, uint32_t setup);
 
 // Stages in files of their own; `lod` has been entered.
+
+constexpr uint64_t kAllChunks = ~uint64_t{0};
+constexpr uint32_t kAllGroups = ~uint32_t{0};
+/// Rows of the chunks that are marked (bit c >> chunk_shift for chunk c).
+void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, uint64_t marks,
+                         uint32_t only_group);
 
 void evaluate_ml(const Rig& rig, Instance& instance, uint32_t lod);
 /// Starts the joints of learned behaviour from no delta; they add to what the groups write.

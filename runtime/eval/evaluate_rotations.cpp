@@ -64,7 +64,7 @@ void write_rotation(const Rig& rig, Instance& instance, uint32_t joint, const Qu
 void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32_t group) {
   const RotationTable& table = rig.rotations;
   const GroupRotations& rotations = table.groups[group];
-  const uint32_t rows = rig.joints.rows_at_lod[size_t{group} * rig.lod_count + lod];
+  const uint32_t rows = rig.joints.group_rows_at_lod[size_t{group} * rig.lod_count + lod];
 
   Span<TurnedJoint> joints =
       table.angle_joints.slice(rotations.first_angle_joint, rotations.angle_joint_count);

@@ -17,8 +17,6 @@ void place_instance(const Rig& rig, Placer& placer, Instance& instance) {
   instance.joints = instance.joints_and_angles.first(rig.joint_value_count());
   instance.channels = placer.array<float>(rig.channel_count, kBlockAlignment);
   instance.maps = placer.array<float>(rig.map_count, kBlockAlignment);
-  instance.joint_inputs = placer.array<float>(rig.joints.widest_group, kBlockAlignment);
-  instance.joint_sums = placer.array<float>(rig.joints.tallest_group, kBlockAlignment);
   instance.turns =
       placer.array<float>(4 * align_up(rig.rotations.most_turns, kBlockRows), kBlockAlignment);
   instance.ml_values = placer.array<float>(rig.ml.buffer_size, kBlockAlignment);

@@ -24,9 +24,7 @@ struct Instance {
   Span<float> channels;
   Span<float> maps;
 
-  Span<float> joint_inputs;  // scratch: the columns of the widest joint group
-  Span<float> joint_sums;    // scratch: the rows of the tallest
-  Span<float> turns;         // scratch: the quaternions of the tallest
+  Span<float> turns;         // scratch: the quaternions of the group with most
   Span<float> ml_values;     // what the ML steps give, for each other
   Span<float> ml_layers[2];  // scratch: in and out of the widest network layer
   Span<float> rbf_inputs;    // scratch: of the largest solver

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Joint groups -> row blocks (rig-evaluation 4.3, 4.4).
+// Joint groups -> columns of pieces (rig-evaluation 4.3, 4.4).
+//
+//     rows of the groups  ->  rows that count  ->  blocks of 8  ->  chunks  ->  pieces by column
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "runtime/dna/turn_columns.h"
 #include "runtime/rig/compile_rig.h"
 
 namespace mien {
 namespace {
-
-uint32_t block_rows(uint32_t rows) { return (rows + kBlockRows - 1) / kBlockRows * kBlockRows; }
 
 /// Where a row's result goes. Rows of joints represented by quaternions go nowhere: their columns
 /// are turns. With quaternion outputs the attributes behind the rotation move up by one, and angles
@@ -20,6 +21,278 @@ uint32_t output_of(const dna::DnaView& view, const Rig& rig, uint32_t file_outpu
   if (!rig.quaternion_outputs) return file_output;
   if (dna::is_rotation(file_output)) return rig.joint_value_count() + joint * 3 + attribute - 3;
   return joint * rig.joint_attributes + attribute + (attribute >= 6);
+}
+
+uint32_t output_limit(const Rig& rig) {
+  return rig.joint_value_count() + (rig.quaternion_outputs ? rig.joint_count * 3 : 0);
+}
+
+/// Bits of a big-endian float, but for its sign; zero if it is zero.
+uint32_t magnitude_bits(const uint8_t* value) {
+  uint32_t bits;
+  memcpy(&bits, value, sizeof(bits));
+  return bits & to_big_endian(uint32_t{0x7FFFFFFF});
+}
+
+const uint8_t* row_values(const dna::JointGroup& group, uint32_t row) {
+  return group.values.data + size_t{row} * group.input_indices.count * sizeof(float);
+}
+
+bool is_zero(const dna::JointGroup& group, uint32_t row) {
+  const uint8_t* values = row_values(group, row);
+  for (uint32_t c = 0; c < group.input_indices.count; ++c) {
+    if (magnitude_bits(values + size_t{c} * sizeof(float)) != 0) return false;
+  }
+  return true;
+}
+
+Status no_scratch(Error& error) {
+  return fail(error, Status::kMemory, kNoOffset, "no memory to compile the joint groups");
+}
+
+// Which rows count ------------------------------------------------------------------------------
+
+enum RowUse : uint8_t {
+  kUnused,  // zeros, out of reach, or overridden wherever it is reached
+  kUsed,
+  kContested,  // another row writes the same value at some LODs
+};
+
+/// Of rows with the same output the last one counts, at each LOD anew: a row is overridden where a
+/// later one is reached. Rows of zeros write nothing, so that they override nothing.
+Status choose_rows(const dna::DnaView& view, const Rig& rig, Arena& scratch, Span<uint8_t>& uses,
+                   Error& error) {
+  const auto& groups = view.bhvr.joints.groups;
+  size_t row_count = 0;
+  for (const dna::JointGroup& group : groups) row_count += group.output_indices.count;
+  uses = scratch.array<uint8_t>(row_count);
+  const uint32_t outputs = output_limit(rig);
+  Span<uint8_t> overridden = scratch.array<uint8_t>(outputs);  // leading LODs taken by later rows
+  Span<uint32_t> writer = scratch.array<uint32_t>(outputs);    // 1 + the row that took them
+  if ((row_count && !uses.data) || (outputs && (!overridden.data || !writer.data))) {
+    return no_scratch(error);
+  }
+  size_t at = row_count;
+  for (uint32_t g = groups.count; g-- > 0;) {
+    const dna::JointGroup& group = groups[g];
+    for (uint32_t r = group.output_indices.count; r-- > 0;) {
+      --at;
+      const uint32_t output = output_of(view, rig, group.output_indices[r]);
+      const uint8_t reach = lod_reach(group.lods, rig.lod_count, r);
+      if (output == kNoOutput || reach == 0 || is_zero(group, r)) continue;
+      if (reach <= overridden[output]) continue;
+      uses[at] = kUsed;
+      if (writer[output] != 0) {
+        uses[at] = kContested;
+        uses[writer[output] - 1] = kContested;
+      }
+      overridden[output] = reach;
+      writer[output] = static_cast<uint32_t>(at + 1);
+    }
+  }
+  return Status::kOk;
+}
+
+// Blocks and chunks -----------------------------------------------------------------------------
+
+/// Calls f(group number, rows, row count) for every block, in file order: neighbouring rows that
+/// count, of one group. A contested row is alone in its block, so that blocks in order of their
+/// reach write in the right order.
+template <class F>
+void for_each_block(const dna::DnaView& view, const Span<uint8_t>& uses, F&& f) {
+  size_t first_row = 0;
+  const auto& groups = view.bhvr.joints.groups;
+  for (uint32_t g = 0; g < groups.count; ++g) {
+    uint16_t rows[kPieceRows];
+    uint32_t count = 0;
+    const uint32_t row_count = groups[g].output_indices.count;
+    for (uint32_t r = 0; r < row_count; ++r) {
+      const uint8_t use = uses[first_row + r];
+      const auto row = static_cast<uint16_t>(r);
+      if (use == kContested) f(g, &row, 1u);
+      if (use != kUsed) continue;
+      rows[count++] = row;
+      if (count == kPieceRows) f(g, rows, count);
+      count %= kPieceRows;
+    }
+    if (count != 0) f(g, rows, count);
+    first_row += row_count;
+  }
+}
+
+Status plan_blocks(const dna::DnaView& view, const Rig& rig, const Span<uint8_t>& uses,
+                   Arena& scratch, JointPlan& plan, Error& error) {
+  size_t block_count = 0;
+  uint32_t begin[kMaxLods + 2] = {};  // blocks by reach, the farthest first
+  for_each_block(view, uses, [&](uint32_t g, const uint16_t* rows, uint32_t) {
+    ++block_count;
+    ++begin[rig.lod_count - lod_reach(view.bhvr.joints.groups[g].lods, rig.lod_count, rows[0]) + 1];
+  });
+  constexpr uint32_t kMostBlocks = 0x10000 / kBlockUnit;
+  if (block_count > kMostBlocks) {
+    return fail(error, Status::kDnaLimit, kNoOffset,
+                "bhvr.joints.jointGroups: rows make up %zu blocks of %u; %u are allowed",
+                block_count, kPieceRows, kMostBlocks);
+  }
+  plan.blocks = scratch.array<PlannedBlock>(block_count);
+  if (block_count && !plan.blocks.data) return no_scratch(error);
+  for (uint32_t l = 0; l <= rig.lod_count; ++l) begin[l + 1] += begin[l];
+  for_each_block(view, uses, [&](uint32_t g, const uint16_t* rows, uint32_t count) {
+    const uint8_t reach = lod_reach(view.bhvr.joints.groups[g].lods, rig.lod_count, rows[0]);
+    PlannedBlock& block = plan.blocks[begin[rig.lod_count - reach]++];
+    block.group = g;
+    block.row_count = static_cast<uint8_t>(count);
+    std::copy(rows, rows + count, block.rows);
+    for (uint32_t k = 0; k < count; ++k) {
+      block.reaches[k] = lod_reach(view.bhvr.joints.groups[g].lods, rig.lod_count, rows[k]);
+    }
+  });
+  return Status::kOk;
+}
+
+/// How many blocks a chunk has at most. Small chunks tell changes apart; their table has an entry
+/// for each column, though, and shall stay small beside the pieces.
+uint32_t chunk_size(size_t block_count, size_t piece_count, size_t column_count) {
+  constexpr size_t kMarks = 48;  // of the 64 bits of a set of chunks: LODs divide some once more
+  const size_t affordable = column_count ? std::max<size_t>(piece_count / column_count / 2, 1) : 1;
+  const size_t count = std::min(kMarks, affordable);
+  return static_cast<uint32_t>(
+      std::clamp<size_t>((block_count + count - 1) / count, 1, kMostChunkBlocks));
+}
+
+/// Calls f(first block) for each chunk, and once more for the end.
+template <class F>
+void for_each_chunk(const JointPlan& plan, F&& f) {
+  const auto block_count = static_cast<uint32_t>(plan.blocks.count);
+  for (uint32_t b = 0, first = 0; b < block_count; ++b) {
+    const bool begins = b == 0 || plan.blocks[b].reach() != plan.blocks[b - 1].reach() ||
+                        b - first == plan.chunk_size;
+    if (!begins) continue;
+    first = b;
+    f(b);
+  }
+  f(block_count);
+}
+
+// Pieces ----------------------------------------------------------------------------------------
+
+/// Calls f(block number, block, column of the group, first) for every piece that is not all zeros,
+/// by ascending blocks. `first` is false if the group lists the control once more: those pieces are
+/// one. Needs plan.used and plan.last_block.
+template <class F>
+void for_each_piece(const dna::DnaView& view, const JointPlan& plan, F&& f) {
+  std::fill(plan.last_block.begin(), plan.last_block.end(), 0u);
+  for (uint32_t b = 0; b < plan.blocks.count; ++b) {
+    const PlannedBlock& block = plan.blocks[b];
+    const dna::JointGroup& group = view.bhvr.joints.groups[block.group];
+    const uint32_t columns = group.input_indices.count;
+    uint32_t* used = plan.used.data;
+    std::fill(used, used + columns, 0u);
+    for (uint32_t k = 0; k < block.row_count; ++k) {
+      const uint8_t* row = row_values(group, block.rows[k]);
+      for (uint32_t c = 0; c < columns; ++c) used[c] |= magnitude_bits(row + size_t{c} * 4);
+    }
+    for (uint32_t c = 0; c < columns; ++c) {
+      if (used[c] == 0) continue;
+      uint32_t& last_block = plan.last_block[group.input_indices[c]];
+      f(b, block, c, last_block != b + 1);
+      last_block = b + 1;
+    }
+  }
+}
+
+/// Calls f(target, number of rows, reach) for all targets of a chunk, in order of their slots.
+template <class F>
+void for_each_target(const dna::DnaView& view, const JointPlan& plan, const Rig& rig,
+                     uint32_t chunk, F&& f) {
+  const uint32_t first = rig.joints.chunks[chunk].first_block;
+  const uint32_t end = rig.joints.chunks[chunk + 1].first_block;
+  for (uint32_t b = first; b < end; ++b) {
+    const PlannedBlock& block = plan.blocks[b];
+    const dna::JointGroup& group = view.bhvr.joints.groups[block.group];
+    uint32_t outputs[kPieceRows];
+    for (uint32_t k = 0; k < block.row_count; ++k) {
+      outputs[k] = output_of(view, rig, group.output_indices[block.rows[k]]);
+    }
+    for (uint32_t k = 0; k < block.row_count;) {
+      const bool three = k + 2 < block.row_count && outputs[k + 1] == outputs[k] + 1 &&
+                         outputs[k + 2] == outputs[k] + 2 &&
+                         block.reaches[k + 2] == block.reaches[k];
+      const JointTarget target = {static_cast<uint16_t>((b - first) * kPieceRows + k),
+                                  static_cast<uint16_t>(outputs[k]),
+                                  static_cast<uint16_t>(block.group)};
+      f(target, three ? 3 : 1, block.reaches[k]);
+      k += three ? 3 : 1;
+    }
+  }
+}
+
+void fill_targets(const dna::DnaView& view, const JointPlan& plan, uint32_t chunk, Rig& rig) {
+  JointMatrix& joints = rig.joints;
+  // Where targets of each kind and reach begin, the farthest first.
+  uint32_t begin[2][kMaxLods + 2] = {};
+  for_each_target(view, plan, rig, chunk, [&](const JointTarget&, int rows, uint8_t reach) {
+    ++begin[rows == 1][rig.lod_count - reach + 1];
+  });
+  uint32_t count = 0;
+  for (int one = 0; one < 2; ++one) {
+    uint32_t* kind = begin[one];
+    for (uint32_t l = 0; l <= rig.lod_count; ++l) kind[l + 1] += kind[l];
+    Span<uint16_t>& at_lod = one ? joints.ones_at_lod : joints.threes_at_lod;
+    for (uint32_t l = 0; l < rig.lod_count; ++l) {
+      at_lod[size_t{chunk} * rig.lod_count + l] = static_cast<uint16_t>(kind[rig.lod_count - l]);
+    }
+    const uint32_t of_kind = kind[rig.lod_count];
+    for (uint32_t l = 0; l <= rig.lod_count; ++l) kind[l] += count;
+    count += of_kind;
+  }
+  const uint32_t first = joints.chunks[chunk].first_target;
+  joints.chunks[chunk + 1].first_target = first + count;
+  for_each_target(view, plan, rig, chunk, [&](const JointTarget& target, int rows, uint8_t reach) {
+    joints.targets[first + begin[rows == 1][rig.lod_count - reach]++] = target;
+  });
+}
+
+/// The largest number of a row becomes the largest of 16 bits.
+void fill_scales(const dna::DnaView& view, const JointPlan& plan, JointMatrix& joints) {
+  for (uint32_t b = 0; b < plan.blocks.count; ++b) {
+    const PlannedBlock& block = plan.blocks[b];
+    const dna::JointGroup& group = view.bhvr.joints.groups[block.group];
+    for (uint32_t k = 0; k < block.row_count; ++k) {
+      const uint8_t* row = row_values(group, block.rows[k]);
+      float largest = 0.0f;
+      for (uint32_t c = 0; c < group.input_indices.count; ++c) {
+        const float size = std::fabs(load_big_endian<float>(row + size_t{c} * sizeof(float)));
+        if (size <= 3.4e38f) largest = std::max(largest, size);
+      }
+      joints.scales[size_t{b} * kPieceRows + k] = largest / 32767.0f;
+    }
+  }
+}
+
+int16_t add_fixed(int16_t to, float value, float scale) {
+  if (!(scale > 0.0f)) return 0;
+  const float steps = static_cast<float>(to) + std::nearbyint(value / scale);
+  return static_cast<int16_t>(steps >= 32767.0f ? 32767.0f
+                                                : (steps > -32767.0f ? steps : -32767.0f));
+}
+
+/// Rows that are not in the matrix (they turn joints, or are overridden) mark what they read, too.
+void mark_other_rows(const dna::DnaView& view, const JointPlan& plan, const Rig& rig,
+                     Span<uint8_t> reach) {
+  size_t at = 0;
+  for (const dna::JointGroup& group : view.bhvr.joints.groups) {
+    for (uint32_t r = 0; r < group.output_indices.count; ++r) {
+      if (plan.uses[at++] != kUnused) continue;
+      const uint8_t row_reach = lod_reach(group.lods, rig.lod_count, r);
+      const uint8_t* values = row_values(group, r);
+      for (uint32_t c = 0; c < group.input_indices.count; ++c) {
+        if (magnitude_bits(values + size_t{c} * sizeof(float)) == 0) continue;
+        uint8_t& control_reach = reach[group.input_indices[c]];
+        control_reach = std::max(control_reach, row_reach);
+      }
+    }
+  }
 }
 
 void place_variable_values(const dna::DnaView& view, Placer& placer, Rig& rig) {
@@ -41,76 +314,130 @@ void place_variable_values(const dna::DnaView& view, Placer& placer, Rig& rig) {
   lists.indices = placer.array<uint16_t>(total);
 }
 
-// 16 rows of a row-major big-endian matrix become columns of 16 floats; rows past the end are 0.
-void fill_block(const dna::JointGroup& from, uint32_t first_row, float* block) {
-  const uint32_t columns = from.input_indices.count;
-  const uint32_t rows = std::min(kBlockRows, from.output_indices.count - first_row);
-  for (uint32_t r = 0; r < rows; ++r) {
-    const uint8_t* row = from.values.data + size_t{first_row + r} * columns * sizeof(float);
-    for (uint32_t c = 0; c < columns; ++c) {
-      block[size_t{c} * kBlockRows + r] = load_big_endian<float>(row + c * sizeof(float));
-    }
-  }
-}
-
 }  // namespace
 
-void place_joints(const dna::DnaView& view, Placer& placer, Rig& rig) {
-  size_t values = 0, columns = 0, outputs = 0;
+Status plan_joints(const dna::DnaView& view, const Rig& rig, Arena& scratch, JointPlan& plan,
+                   Error& error) {
   const auto& groups = view.bhvr.joints.groups;
-  for (const dna::JointGroup& group : groups) {
-    const uint32_t rows = block_rows(group.output_indices.count);
-    values += size_t{rows} * group.input_indices.count;
-    columns += group.input_indices.count;
-    outputs += rows;
-    rig.joints.widest_group = std::max(rig.joints.widest_group, group.input_indices.count);
-    rig.joints.tallest_group = std::max(rig.joints.tallest_group, rows);
+  uint32_t widest = 0;
+  for (const dna::JointGroup& group : groups) widest = std::max(widest, group.input_indices.count);
+  Status status = choose_rows(view, rig, scratch, plan.uses, error);
+  if (status == Status::kOk) status = plan_blocks(view, rig, plan.uses, scratch, plan, error);
+  if (status != Status::kOk) return status;
+
+  plan.used = scratch.array<uint32_t>(widest);
+  plan.last_block = scratch.array<uint32_t>(rig.control_count);
+  plan.pieces_of_control = scratch.array<uint32_t>(rig.control_count);
+  if ((widest && !plan.used.data) ||
+      (rig.control_count && (!plan.last_block.data || !plan.pieces_of_control.data))) {
+    return no_scratch(error);
   }
-  rig.joints.groups = placer.array<JointGroup>(groups.count);
-  rig.joints.values = placer.array<float>(values, kBlockAlignment);
-  rig.joints.columns = placer.array<uint16_t>(columns);
-  rig.joints.outputs = placer.array<uint16_t>(outputs);
-  rig.joints.rows_at_lod = placer.array<uint16_t>(size_t{groups.count} * rig.lod_count);
+  for_each_piece(view, plan, [&](uint32_t, const PlannedBlock& block, uint32_t column, bool first) {
+    plan.pieces_of_control[groups[block.group].input_indices[column]] += first;
+    plan.piece_count += first;
+  });
+  for (uint32_t count : plan.pieces_of_control) plan.column_count += count != 0;
+  for (const PlannedBlock& block : plan.blocks) plan.row_count += block.row_count;
+  plan.chunk_size = chunk_size(plan.blocks.count, plan.piece_count, plan.column_count);
+  for_each_chunk(plan, [&](uint32_t) { ++plan.chunk_ends; });
+  return Status::kOk;
+}
+
+void place_joints(const dna::DnaView& view, const JointPlan& plan, Placer& placer, Rig& rig) {
+  JointMatrix& joints = rig.joints;
+  const size_t values = plan.piece_count * kPieceRows;
+  if (rig.half_storage) {
+    joints.fixed_values = placer.array<int16_t>(values, kBlockAlignment);
+    joints.scales = placer.array<float>(plan.blocks.count * kPieceRows, kBlockAlignment);
+  } else {
+    joints.values = placer.array<float>(values, kBlockAlignment);
+  }
+  joints.blocks = placer.array<uint16_t>(plan.piece_count);
+  joints.columns = placer.array<uint16_t>(plan.column_count);
+  joints.first_piece = placer.array<uint32_t>(plan.column_count + 1);
+  joints.chunk_pieces = placer.array<uint16_t>(plan.column_count * plan.chunk_ends);
+  joints.chunks = placer.array<JointChunk>(plan.chunk_ends);
+  joints.chunks_at_lod = placer.array<uint32_t>(rig.lod_count);
+  joints.control_chunks = placer.array<uint64_t>(rig.control_count);
+  joints.targets = placer.array<JointTarget>(plan.row_count);
+  joints.threes_at_lod = placer.array<uint16_t>((plan.chunk_ends - 1) * rig.lod_count);
+  joints.ones_at_lod = placer.array<uint16_t>((plan.chunk_ends - 1) * rig.lod_count);
+
+  const auto& groups = view.bhvr.joints.groups;
+  joints.group_rows_at_lod = placer.array<uint16_t>(size_t{groups.count} * rig.lod_count);
+  joints.group_count = groups.count;
+  for (const dna::JointGroup& group : groups) {
+    joints.widest_group = std::max(joints.widest_group, group.input_indices.count);
+    joints.tallest_group = std::max(joints.tallest_group, group.output_indices.count);
+  }
   place_variable_values(view, placer, rig);
 }
 
-void fill_joints(const dna::DnaView& view, Span<uint8_t> reach, Rig& rig) {
+void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach, Rig& rig) {
   JointMatrix& joints = rig.joints;
-  size_t value = 0;
-  uint32_t column = 0, row = 0;
-  for (uint32_t g = 0; g < joints.groups.count; ++g) {
-    const dna::JointGroup& from = view.bhvr.joints.groups[g];
-    JointGroup& group = joints.groups[g];
-    group = {value, column, row, from.input_indices.count, from.output_indices.count};
-    for (uint32_t r = 0; r < group.row_count; r += kBlockRows) {
-      fill_block(from, r, joints.values.data + value + size_t{r} * group.column_count);
-    }
-    copy_array(from.input_indices, joints.columns.slice(column, group.column_count));
+  const auto& groups = view.bhvr.joints.groups;
+  for (uint32_t g = 0; g < groups.count; ++g) {
     for (uint32_t l = 0; l < rig.lod_count; ++l) {
-      joints.rows_at_lod[g * rig.lod_count + l] = static_cast<uint16_t>(rows_at_lod(from.lods, l));
+      joints.group_rows_at_lod[size_t{g} * rig.lod_count + l] =
+          static_cast<uint16_t>(rows_at_lod(groups[g].lods, l));
     }
+  }
+  mark_other_rows(view, plan, rig, reach);
 
-    // A row of zeros writes nothing, so that it does not undo what another group writes there.
-    // A control is read as long as a row that the LOD reaches has an entry for it.
-    const float* block = joints.values.data + value;
-    const uint32_t padded_rows = block_rows(group.row_count);
-    for (uint32_t r = 0; r < padded_rows; ++r) {
-      const float* first =
-          block + size_t{r / kBlockRows * kBlockRows} * group.column_count + r % kBlockRows;
-      const uint8_t lods = r < group.row_count ? lod_reach(from.lods, rig.lod_count, r) : 0;
-      bool any = false;
-      for (uint32_t c = 0; c < group.column_count; ++c) {
-        if (!(std::fabs(first[size_t{c} * kBlockRows]) > 0.0f)) continue;
-        any = true;
-        uint8_t& control_reach = reach[joints.columns[column + c]];
-        control_reach = std::max(control_reach, lods);
+  uint32_t chunk = 0;
+  for_each_chunk(plan, [&](uint32_t block) { joints.chunks[chunk++].first_block = block; });
+  const uint32_t chunk_count = joints.chunk_count();
+  while (chunk_count > uint64_t{64} << joints.chunk_shift) ++joints.chunk_shift;
+  for (uint32_t c = 0; c < chunk_count; ++c) {
+    fill_targets(view, plan, c, rig);
+    const uint8_t chunk_reach = plan.blocks[joints.chunks[c].first_block].reach();
+    for (uint32_t l = 0; l < chunk_reach; ++l) joints.chunks_at_lod[l] = c + 1;
+  }
+  if (rig.half_storage) fill_scales(view, plan, joints);
+
+  // From here on: where the next piece of a control goes.
+  uint32_t column = 0, piece = 0;
+  for (uint32_t control = 0; control < rig.control_count; ++control) {
+    const uint32_t count = plan.pieces_of_control[control];
+    plan.pieces_of_control[control] = piece;
+    if (count == 0) continue;
+    joints.columns[column] = static_cast<uint16_t>(control);
+    piece += count;
+    joints.first_piece[++column] = piece;
+  }
+  for_each_piece(view, plan, [&](uint32_t b, const PlannedBlock& block, uint32_t c, bool first) {
+    const dna::JointGroup& group = groups[block.group];
+    const uint32_t control = group.input_indices[c];
+    const size_t at = plan.pieces_of_control[control] - !first;
+    plan.pieces_of_control[control] += first;
+    joints.blocks[at] = static_cast<uint16_t>(b * kBlockUnit);
+    for (uint32_t k = 0; k < block.row_count; ++k) {
+      const float value =
+          load_big_endian<float>(row_values(group, block.rows[k]) + size_t{c} * sizeof(float));
+      if (value != 0.0f) reach[control] = std::max(reach[control], block.reaches[k]);
+      if (rig.half_storage) {
+        int16_t& to = joints.fixed_values[at * kPieceRows + k];
+        to = add_fixed(to, value, joints.scales[size_t{b} * kPieceRows + k]);
+      } else {
+        joints.values[at * kPieceRows + k] += value;
       }
-      const uint32_t output = any ? output_of(view, rig, from.output_indices[r]) : kNoOutput;
-      joints.outputs[row + r] = static_cast<uint16_t>(output);
     }
-    value += size_t{padded_rows} * group.column_count;
-    column += group.column_count;
-    row += padded_rows;
+  });
+
+  // Where the chunks begin in each column.
+  for (uint32_t k = 0; k < joints.columns.count; ++k) {
+    const uint32_t first = joints.first_piece[k], end = joints.first_piece[k + 1];
+    uint16_t* begins = joints.chunk_pieces.data + size_t{k} * joints.chunks.count;
+    uint64_t& marks = joints.control_chunks[joints.columns[k]];
+    uint32_t p = first;
+    for (uint32_t c = 0; c <= chunk_count; ++c) {
+      begins[c] = static_cast<uint16_t>(p - first);
+      if (c == chunk_count) break;
+      if (p < end && joints.blocks[p] / kBlockUnit < joints.chunks[c + 1].first_block) {
+        marks |= uint64_t{1} << (c >> joints.chunk_shift);
+      }
+      while (p < end && joints.blocks[p] / kBlockUnit < joints.chunks[c + 1].first_block) ++p;
+    }
   }
 }
 

@@ -213,8 +213,9 @@ void count_things(const DnaView& view, const CompileOptions& options, Rig& rig) 
                                      rig.units.rotation);
 }
 
-Status place_all(const DnaView& view, Placer& placer, Rig& rig, Error& error) {
-  place_joints(view, placer, rig);
+Status place_all(const DnaView& view, const JointPlan& joints, Placer& placer, Rig& rig,
+                 Error& error) {
+  place_joints(view, joints, placer, rig);
   place_rotations(view, placer, rig);
   place_controls(view, placer, rig);
   place_twists_and_swings(view, placer, rig);
@@ -229,11 +230,12 @@ Status place_all(const DnaView& view, Placer& placer, Rig& rig, Error& error) {
 }
 
 /// `reach` is zeroed scratch, one for each control.
-Status fill_all(const DnaView& view, Span<uint8_t> reach, Arena& scratch, Rig& rig, Error& error) {
+Status fill_all(const DnaView& view, JointPlan& joints, Span<uint8_t> reach, Arena& scratch,
+                Rig& rig, Error& error) {
   Status status = fill_controls(view, scratch, rig, error);
   if (status != Status::kOk) return status;
   // Which LODs read a control decides which correctives they need.
-  fill_joints(view, reach, rig);
+  fill_joints(view, joints, reach, rig);
   mark_ml_joint_inputs(view, rig.lod_count, reach);
   status = fill_psds(view, reach, scratch, rig, error);
   if (status == Status::kOk) status = fill_rotations(view, scratch, rig, error);
@@ -303,12 +305,15 @@ Status compile_rig(const DnaView& view, const CompileOptions& options, const All
         "with those of their meshes; %zu are allowed",
         mask_name_bytes, kMostMaskNameBytes);
   }
+  Arena scratch(allocator);
+  JointPlan joints;
+  Status status = plan_joints(view, measured, scratch, joints, error);
+  if (status != Status::kOk) return status;
   Placer measure(nullptr);
   measure.array<Rig>(1);
-  Status status = place_all(view, measure, measured, error);
+  status = place_all(view, joints, measure, measured, error);
   if (status != Status::kOk) return status;
 
-  Arena scratch(allocator);
   Span<uint8_t> reach = scratch.array<uint8_t>(measured.control_count);
   void* block = nullptr;
   if (reach.data || measured.control_count == 0) {
@@ -327,8 +332,8 @@ Status compile_rig(const DnaView& view, const CompileOptions& options, const All
   rig->kernels = options.kernels;
   rig->ml.blend_masks = options.blend_masks;
   count_things(view, options, *rig);
-  status = place_all(view, placer, *rig, error);
-  if (status == Status::kOk) status = fill_all(view, reach, scratch, *rig, error);
+  status = place_all(view, joints, placer, *rig, error);
+  if (status == Status::kOk) status = fill_all(view, joints, reach, scratch, *rig, error);
   if (status != Status::kOk) {
     release_rig(rig);
     return status;

@@ -29,9 +29,35 @@ void place_controls(const dna::DnaView& view, Placer& placer, Rig& rig);
 /// kMemory (scratch), or kDnaValue for correctives that depend on each other in a circle.
 Status fill_controls(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
 
-void place_joints(const dna::DnaView& view, Placer& placer, Rig& rig);
+/// Neighbouring rows of one joint group that are computed together.
+struct PlannedBlock {
+  uint32_t group;
+  uint16_t rows[kPieceRows];
+  uint8_t reaches[kPieceRows];  // how many LODs, counted from 0, reach a row
+  uint8_t row_count;
+
+  uint8_t reach() const { return reaches[0]; }  // of the whole: rows are in order
+};
+
+/// What becomes of the joint groups, in scratch memory: found out once, before anything is placed.
+struct JointPlan {
+  Span<uint8_t> uses;         // of all rows of all groups
+  Span<PlannedBlock> blocks;  // those that more LODs reach first
+  size_t piece_count = 0, column_count = 0, row_count = 0;
+  uint32_t chunk_size = 0;  // blocks
+  size_t chunk_ends = 0;    // chunks, and one more
+  Span<uint32_t> pieces_of_control;
+  Span<uint32_t> used;        // for the columns of the widest group
+  Span<uint32_t> last_block;  // [control]
+};
+
+/// kMemory (scratch), or kDnaLimit for more blocks or pieces than can be numbered.
+Status plan_joints(const dna::DnaView& view, const Rig& rig, Arena& scratch, JointPlan& plan,
+                   Error& error);
+void place_joints(const dna::DnaView& view, const JointPlan& plan, Placer& placer, Rig& rig);
 /// Also marks in `reach` how many LODs, counted from 0, read each control through a joint group.
-void fill_joints(const dna::DnaView& view, Span<uint8_t> reach, Rig& rig);
+/// Uses the plan up.
+void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach, Rig& rig);
 
 /// After joints, twists and swings, and before the neutral pose.
 void fill_variable_joint_values(const dna::DnaView& view, Rig& rig);

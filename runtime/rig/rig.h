@@ -63,24 +63,57 @@ struct PsdTable {
   Span<uint16_t> entry_of_psd;  // where corrective p stands
 };
 
-/// A dense piece of the joint matrix in blocks of kBlockRows rows, as simd/kernels.h draws it.
-struct JointGroup {
-  size_t first_value;     // into JointMatrix::values
-  uint32_t first_column;  // into JointMatrix::columns
-  uint32_t first_row;     // into JointMatrix::outputs, which has whole blocks too
-  uint32_t column_count;
-  uint32_t row_count;
+/// A run of blocks of the joint matrix that reach the same LODs.
+struct JointChunk {
+  uint32_t first_block;
+  uint32_t first_target;  // into JointMatrix::targets
 };
 
-struct JointMatrix {
-  Span<JointGroup> groups;
-  Span<float> values;
-  Span<uint16_t> columns;      // control that a column reads
-  Span<uint16_t> outputs;      // joint value that a row writes, or kNoOutput
-  Span<uint16_t> rows_at_lod;  // [group][lod]: leading rows
-  uint32_t widest_group = 0;   // columns
-  uint32_t tallest_group = 0;  // rows, in whole blocks
+/// Where sums go: one, or three neighbouring ones.
+struct JointTarget {
+  uint16_t slot;    // counted from the chunk's first
+  uint16_t output;  // joint value
+  uint16_t group;   // joint group that the rows are from
 };
+
+/// The joint matrix (rig-evaluation 4), one column per control that it reads. Nothing but zeros is
+/// left out, so that evaluating touches the pieces of those controls that are not zero, one after
+/// the other, and no others.
+///
+///     slot    a row that is computed: slots 8b ... 8b + 7 are block b, rows of one joint group
+///     piece   the 8 values of a column in a block
+///     chunk   a run of blocks
+///
+///     values  | column 0: piece piece piece ... | column 1: piece piece ... | ...
+///               of ascending blocks
+///
+/// Blocks that more LODs reach come first, so a LOD is a prefix of the chunks.
+struct JointMatrix {
+  Span<float> values;             // [piece][8], or
+  Span<int16_t> fixed_values;     // the same in units of the slot's scale
+  Span<float> scales;             // [slot], beside fixed_values
+  Span<uint16_t> blocks;          // [piece]
+  Span<uint16_t> columns;         // [column] control, ascending
+  Span<uint32_t> first_piece;     // [column], one more at the end
+  Span<uint16_t> chunk_pieces;    // [column][chunk], one more at the end of each column: pieces of
+                                  // the column before the chunk
+  Span<JointChunk> chunks;        // one more at the end
+  Span<uint32_t> chunks_at_lod;   // leading chunks
+  Span<uint64_t> control_chunks;  // [control] bit c >> chunk_shift: has pieces in chunk c
+
+  // By chunk: those of three rows, then those of one; of each, those that more LODs reach first.
+  Span<JointTarget> targets;
+  Span<uint16_t> threes_at_lod, ones_at_lod;  // [chunk][lod]: leading ones of either kind
+
+  Span<uint16_t> group_rows_at_lod;  // [group][lod]: leading rows of the group, as in the file
+  uint32_t group_count = 0;
+  uint32_t chunk_shift = 0;
+  uint32_t widest_group = 0;   // columns
+  uint32_t tallest_group = 0;  // rows
+
+  uint32_t chunk_count() const { return static_cast<uint32_t>(chunks.count - 1); }
+};
+constexpr uint32_t kMostChunkBlocks = 256;
 
 /// A joint that a group turns, and the first of the group's rows that does: it turns at the LODs
 /// that reach this row.
