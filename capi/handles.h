@@ -8,6 +8,7 @@
 #include "runtime/base/arena.h"
 #include "runtime/base/mapped_file.h"
 #include "runtime/base/status.h"
+#include "runtime/deform/pose.h"
 #include "runtime/dna/dna_view.h"
 #include "runtime/eval/instance.h"
 
@@ -16,6 +17,8 @@ constexpr uint32_t kDnaTag = 0x6D44'4E41;
 constexpr uint32_t kReportTag = 0x6D52'5054;
 constexpr uint32_t kRigTag = 0x6D52'4947;
 constexpr uint32_t kInstanceTag = 0x6D49'4E53;
+constexpr uint32_t kDeformerTag = 0x6D44'4652;
+constexpr uint32_t kPoseTag = 0x6D50'4F53;
 
 struct MienDna {
   uint32_t tag;
@@ -33,6 +36,12 @@ inline Instance* object(MienInstance* handle) { return reinterpret_cast<Instance
 inline const Instance* object(const MienInstance* handle) {
   return reinterpret_cast<const Instance*>(handle);
 }
+inline Deformer* object(MienDeformer* handle) { return reinterpret_cast<Deformer*>(handle); }
+inline const Deformer* object(const MienDeformer* handle) {
+  return reinterpret_cast<const Deformer*>(handle);
+}
+inline Pose* object(MienPose* handle) { return reinterpret_cast<Pose*>(handle); }
+inline const Pose* object(const MienPose* handle) { return reinterpret_cast<const Pose*>(handle); }
 
 inline MienStatus check_tag(const void* handle, uint32_t tag) {
   if (!handle) return MIEN_ERROR_NULL_ARGUMENT;
@@ -45,6 +54,8 @@ inline MienStatus check(const MienDna* dna) { return check_tag(dna, kDnaTag); }
 inline MienStatus check(const MienReport* report) { return check_tag(report, kReportTag); }
 inline MienStatus check(const MienRig* rig) { return check_tag(rig, kRigTag); }
 inline MienStatus check(const MienInstance* instance) { return check_tag(instance, kInstanceTag); }
+inline MienStatus check(const MienDeformer* deformer) { return check_tag(deformer, kDeformerTag); }
+inline MienStatus check(const MienPose* pose) { return check_tag(pose, kPoseTag); }
 
 /// Reads a caller's description into `out`, which is zero where the caller's is shorter or NULL.
 /// `first_size` is the size in the release that introduced the struct.

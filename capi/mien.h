@@ -3,10 +3,13 @@
  * Mien: facial rigs in DNA files, opened, evaluated and written.
  *
  *     DNA file -> MienDna -> MienRig -> MienInstance -> joint, channel and map values
+ *                    \______ MienDeformer -> MienPose -> joint matrices, positions, normals
  *
  * A MienDna is a checked, read-only view of a file. A MienRig is the same data packed for
  * evaluation; it keeps its own copy of all it needs, so the MienDna may be closed at once. A
- * MienInstance is one character: its controls, and the outputs of its last evaluation.
+ * MienInstance is one character: its controls, and the outputs of its last evaluation. A MienDeformer
+ * is the geometry of the file packed for deformation, shared like a rig; a MienPose is what it makes
+ * of one character.
  *
  * Rules that hold for every function, unless it says otherwise
  *
@@ -121,6 +124,15 @@ typedef struct MienAllocator {
     void (*release)(void* user, void* block, size_t size, size_t alignment);
 } MienAllocator;
 
+/* Threads of the caller: the library starts none. `run` calls task(context, i) once for each
+ * i < count, in any order and on any threads, and returns when all are done. Tasks never wait for
+ * each other, call no other function of the caller, and are worth some 10 microseconds each. */
+typedef struct MienParallelFor {
+    void* user;
+    void (*run)(void* user, uint32_t count, void (*task)(void* context, uint32_t index),
+                void* context);
+} MienParallelFor;
+
 typedef struct MienStringView {
     const char* data;
     size_t count; /* bytes, no terminator */
@@ -140,6 +152,11 @@ typedef struct MienIndexView {
     const uint16_t* data;
     size_t count;
 } MienIndexView;
+
+typedef struct MienIndex32View {
+    const uint32_t* data;
+    size_t count;
+} MienIndex32View;
 
 /* ---- DNA: opening ---------------------------------------------------------------------------- */
 
@@ -623,6 +640,199 @@ MIEN_API MienStatus mien_rig_evaluate_rbf_solver(const MienRig* rig, MienInstanc
 /* Only the joints of one twist and swing set-up (MIEN_KIND_TWIST_SWING). */
 MIEN_API MienStatus mien_rig_evaluate_twist_swing(const MienRig* rig, MienInstance* instance,
                                                   uint32_t lod, uint32_t setup);
+
+/* ---- Deformer -------------------------------------------------------------------------------- */
+
+/* The geometry of a DNA and the hierarchy of its joints, packed once, then immutable: one block,
+ * shared by any number of characters and threads.
+ *
+ *   local    Translate(neutral + delta) * R * Scale(1 + delta), for column vectors. R is, as
+ *            MIEN_COMPOSE_... says, R(neutral) * R(delta), or the rotation of the summed angles. With
+ *            quaternion outputs R(delta) is the quaternion, of any length; zero is the identity.
+ *   model    model of the parent * local; a root (its own parent) starts from the origin
+ *   skin     model * inverse of the model matrix of the neutral pose
+ *   vertex   sum of weight * skin * (neutral position + sum of channel weight * target delta), over
+ *            the joints that hold it: linear blend skinning. A vertex that no joint holds stays
+ *            where its targets put it. Channel weights within 1e-5 of 0 count as 0.
+ *
+ * Joints that a LOD lacks have no delta and pass on their parent's motion. A position is shared by
+ * all faces around it; a vertex is a position with a texture coordinate and a normal (a layout of the
+ * file), so a mesh has at least as many vertices as positions it uses. */
+typedef struct MienDeformer MienDeformer;
+
+enum {
+    MIEN_COMPOSE_PRODUCT = 0,  /* neutral rotation * delta rotation: the delta turns first */
+    MIEN_COMPOSE_EULER_ADD = 1 /* the angles are added; needs MIEN_OUTPUT_EULER. The same where the
+                                  neutral rotation is zero. */
+};
+
+enum {
+    MIEN_WEIGHTS_AS_STORED = 0,
+    MIEN_WEIGHTS_FIX = 1 /* negative weights count as 0, and the weights of a position sum to 1 */
+};
+
+/* Normals that mien_pose_deform() makes, unit length. Where there is no direction to be had (no
+ * area, no face) they are the neutral ones. */
+enum {
+    MIEN_NORMALS_DEFAULT = 0,    /* what MienDeformerDesc.normals says; there: recomputed */
+    MIEN_NORMALS_NONE = 1,       /* left as they are */
+    MIEN_NORMALS_SKINNED = 2,    /* neutral normals turned as the skin is: cheap, but blend shape
+                                    targets do not turn them (they carry no normals) */
+    MIEN_NORMALS_RECOMPUTED = 3  /* sum of the area vectors of the faces around the position. Where
+                                    that is more than 30 degrees off the neutral normal (a hard
+                                    edge), the neutral normal is turned as the sum turned since
+                                    neutral. */
+};
+
+typedef struct MienDeformerDesc {
+    uint32_t struct_size;
+    uint32_t isa;     /* MIEN_ISA_...; here MIEN_ISA_BEST means that of the rig */
+    uint32_t compose; /* MIEN_COMPOSE_... */
+    uint32_t weights; /* MIEN_WEIGHTS_... */
+    uint32_t normals; /* MIEN_NORMALS_...: of calls that leave the choice open */
+    uint32_t reserved;
+    const MienAllocator* allocator;
+} MienDeformerDesc;
+
+/* Packs the geometry of `dna`, which may be closed afterwards, and keeps the rig's memory alive (the
+ * rig may be destroyed). `dna` is the one that the rig was made of, or another opening of the same
+ * file with the same LODs: other numbers or names of joints, channels or meshes are
+ * MIEN_ERROR_MISMATCH. It needs MIEN_LAYER_GEOMETRY (or ..._WITHOUT_BLEND_SHAPES: then there are no
+ * targets), else MIEN_ERROR_DNA_LAYER.
+ * A position may have any number of influences; those of weight 0 are dropped. Faces of fewer than
+ * three corners are left out. Meshes without faces, weights, normals, texture coordinates or anything
+ * at all are accepted: normals that the file lacks are recomputed from the faces, texture coordinates
+ * are 0. MIEN_ERROR_DNA_VALUE: joints that descend from themselves; positions, deltas or weights that
+ * are not finite (the message names mesh and position). `desc` may be NULL. Takes some memory beyond
+ * the block for the time of the call. */
+MIEN_API MienStatus mien_deformer_create(const MienDna* dna, const MienRig* rig,
+                                         const MienDeformerDesc* desc, MienDeformer** out_deformer,
+                                         MienError* error);
+
+/* Memory is released when the last pose is gone too: poses go on working. */
+MIEN_API void mien_deformer_destroy(MienDeformer* deformer);
+
+typedef struct MienDeformerInfo {
+    uint32_t struct_size;
+    uint32_t isa;            /* MIEN_ISA_... in use */
+    uint32_t compose;        /* MIEN_COMPOSE_... */
+    uint32_t weights;        /* MIEN_WEIGHTS_... */
+    uint32_t normals;        /* MIEN_NORMALS_..., never MIEN_NORMALS_DEFAULT */
+    uint32_t lod_count;
+    uint32_t joint_count;
+    uint32_t channel_count;
+    uint32_t mesh_count;     /* as in the rig, with its names: MIEN_KIND_MESH */
+    uint32_t reserved;
+    uint64_t deformer_bytes; /* memory of the deformer */
+    uint64_t pose_bytes;     /* memory of a pose with room for all meshes */
+} MienDeformerInfo;
+
+MIEN_API MienStatus mien_deformer_info(const MienDeformer* deformer, MienDeformerInfo* out_info);
+
+/* The neutral mesh. Views live as long as the deformer. */
+typedef struct MienMesh {
+    uint32_t struct_size;
+    uint32_t position_count;
+    uint32_t vertex_count;
+    uint32_t triangle_count;
+    uint32_t most_influences;            /* of one position */
+    uint32_t target_count;               /* blend shape targets */
+    uint64_t delta_count;                /* over all targets */
+    uint64_t lods;                       /* bit l: LOD l shows this mesh */
+    MienFloatView positions;             /* x y z per position */
+    MienFloatView normals;               /* x y z per vertex, unit length */
+    MienFloatView texture_coordinates;   /* u v per vertex, as in the file */
+    MienIndex32View vertex_positions;    /* position of each vertex */
+    MienIndex32View triangles;           /* three vertices each, wound as in the file; faces of more
+                                            corners are fans about their first */
+    MienIndexView target_channels;       /* channel of each target, in file order */
+} MienMesh;
+
+MIEN_API MienStatus mien_deformer_mesh(const MienDeformer* deformer, uint32_t mesh,
+                                       MienMesh* out_mesh);
+
+/* Joints that hold a position and their weights, as they are used: as many as each other, possibly
+ * none. Views live as long as the deformer. */
+MIEN_API MienStatus mien_deformer_influences(const MienDeformer* deformer, uint32_t mesh,
+                                             uint32_t position, MienIndexView* out_joints,
+                                             MienFloatView* out_weights);
+
+/* Writes x y z for each position of the mesh: how far a target moves it at channel weight 1 (0 where it
+ * does not). `count` is the room in `out_deltas`, 3 * position_count floats or more. */
+MIEN_API MienStatus mien_deformer_target(const MienDeformer* deformer, uint32_t mesh,
+                                         uint32_t target, float* out_deltas, size_t count);
+
+/* Model matrices of the joints in the neutral pose, or their inverses: 16 floats per joint, column by
+ * column (column vectors; the last column is the translation, the last row 0 0 0 1). Views live as
+ * long as the deformer. */
+MIEN_API MienStatus mien_deformer_bind_matrices(const MienDeformer* deformer,
+                                                MienFloatView* out_matrices);
+MIEN_API MienStatus mien_deformer_inverse_bind_matrices(const MienDeformer* deformer,
+                                                        MienFloatView* out_matrices);
+
+/* ---- Pose ------------------------------------------------------------------------------------ */
+
+/* One character's joint matrices, positions and normals: one block. */
+typedef struct MienPose MienPose;
+
+typedef struct MienPoseDesc {
+    uint32_t struct_size;
+    uint32_t reserved;
+    uint64_t lods; /* room for the meshes that these LODs show: bit l is LOD l. 0: for all meshes. A
+                      LOD that is not there counts for nothing. */
+    const MienAllocator* allocator;
+} MienPoseDesc;
+
+/* A pose in neutral: matrices, positions and normals are those of the deformer. It keeps the
+ * deformer's memory alive. `desc` may be NULL. One allocation. */
+MIEN_API MienStatus mien_pose_create(const MienDeformer* deformer, const MienPoseDesc* desc,
+                                     MienPose** out_pose, MienError* error);
+MIEN_API void mien_pose_destroy(MienPose* pose);
+
+/* Takes over joint values and channel weights of the instance's last evaluation, and computes the
+ * matrices of all joints; meshes follow with mien_pose_deform(). The instance is one of the rig that
+ * the deformer was made with, else MIEN_ERROR_MISMATCH. Allocates nothing, locks nothing. Values that
+ * are not finite give results that are not. */
+MIEN_API MienStatus mien_pose_update(MienPose* pose, const MienInstance* instance);
+
+/* The same from arrays: joint values as mien_instance_joints() gives them, and one weight per
+ * channel. Either may be NULL with count 0 (no deltas, no weights); any other count than that of the
+ * rig is MIEN_ERROR_INVALID_ARGUMENT. */
+MIEN_API MienStatus mien_pose_update_from_values(MienPose* pose, const float* joint_values,
+                                                 size_t joint_value_count,
+                                                 const float* channel_weights,
+                                                 size_t channel_weight_count);
+
+/* Matrices of the last update, 16 floats per joint, laid out as mien_deformer_bind_matrices() says:
+ * model matrices, and skin matrices (for skinning elsewhere, as on a GPU). The views stay valid,
+ * their contents change with each update. */
+MIEN_API MienStatus mien_pose_joint_matrices(const MienPose* pose, MienFloatView* out_matrices);
+MIEN_API MienStatus mien_pose_skin_matrices(const MienPose* pose, MienFloatView* out_matrices);
+
+/* Writes the local transforms of the last update, relative to the parent, 10 floats per joint: tx ty tz
+ * qx qy qz qw sx sy sz, the quaternion of unit length. `count` is the room in `out_transforms`. */
+MIEN_API MienStatus mien_pose_local_transforms(const MienPose* pose, float* out_transforms,
+                                               size_t count);
+
+/* Positions of one mesh as of the last update, and its normals (MIEN_NORMALS_...). `parallel` NULL, and
+ * meshes below 16384 positions: on this thread. Otherwise in blocks of 2048; the result has the same
+ * bits. Allocates nothing. MIEN_ERROR_LOD: the pose has no room for this mesh. */
+MIEN_API MienStatus mien_pose_deform(MienPose* pose, uint32_t mesh, uint32_t normals,
+                                     const MienParallelFor* parallel);
+
+/* The same mesh of several different poses of one deformer: the same bits as one after the other, but
+ * each piece of the mesh is fetched once, and the size that counts for `parallel` is that of all. A
+ * pose that comes up twice is MIEN_ERROR_INVALID_ARGUMENT, one of another deformer MIEN_ERROR_MISMATCH;
+ * then none is deformed. */
+MIEN_API MienStatus mien_pose_deform_batch(MienPose* const* poses, size_t pose_count, uint32_t mesh,
+                                           uint32_t normals, const MienParallelFor* parallel);
+
+/* Results of the last mien_pose_deform() of the mesh: x y z per position, x y z per vertex. The views
+ * stay valid, their contents change with each call. A mesh without room: MIEN_ERROR_LOD. */
+MIEN_API MienStatus mien_pose_positions(const MienPose* pose, uint32_t mesh,
+                                        MienFloatView* out_positions);
+MIEN_API MienStatus mien_pose_normals(const MienPose* pose, uint32_t mesh,
+                                      MienFloatView* out_normals);
 
 #ifdef __cplusplus
 }

@@ -15,6 +15,8 @@ LAYERS = [
     ["runtime/dna"],
     ["runtime/rig"],
     ["runtime/eval"],
+    ["runtime/pose"],
+    ["runtime/deform"],
     ["runtime/author"],
     ["capi"],
 ]

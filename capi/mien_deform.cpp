@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: MIT
+// Deformers and poses. mien.h is the manual.
+#include <algorithm>
+
+#include "capi/handles.h"
+#include "runtime/deform/compile_deformer.h"
+#include "runtime/deform/deform.h"
+
+using namespace mien;
+using namespace mien::capi;
+
+static_assert(MIEN_NORMALS_RECOMPUTED == int(Normals::kRecomputed) &&
+                  MIEN_NORMALS_SKINNED == int(Normals::kSkinned) &&
+                  MIEN_COMPOSE_EULER_ADD == int(Compose::kEulerAdd),
+              "deformer.h, skeleton.h and mien.h number the same things");
+
+namespace {
+
+MienIndexView view_of(const Span<uint16_t>& span) { return {span.data, span.count}; }
+MienIndex32View view_of(const Span<uint32_t>& span) { return {span.data, span.count}; }
+MienFloatView view_of(const Span<float>& span) { return {span.data, span.count}; }
+
+/// Joints, channels and meshes of a rig and a DNA: what the two have to have in common.
+MienStatus compare_names(const dna::DnaView& view, const Rig& rig, MienError* error) {
+  const struct {
+    Kind kind;
+    const dna::List<dna::String>& names;
+    const char* noun;
+  } lists[] = {{Kind::kJoint, view.defn.joint_names, "joint"},
+               {Kind::kBlendShapeChannel, view.defn.channel_names, "blend shape channel"},
+               {Kind::kMesh, view.defn.mesh_names, "mesh"}};
+  for (const auto& list : lists) {
+    const NameList& own = rig.names[size_t(list.kind)];
+    if (own.count() != list.names.count) {
+      return give_error(error, MIEN_ERROR_MISMATCH,
+                        "the rig was made of another file, or with other LODs: its number of %s "
+                        "names is %u, that of the DNA is %u",
+                        list.noun, own.count(), list.names.count);
+    }
+    for (uint32_t i = 0; i < own.count(); ++i) {
+      const Span<char> a = own[i];
+      const dna::String& b = list.names[i];
+      if (a.count == b.count && (a.count == 0 || memcmp(a.data, b.data, a.count) == 0)) continue;
+      return give_error(error, MIEN_ERROR_MISMATCH,
+                        "the rig was made of another file, or with other LODs: %s %u is %.*s, "
+                        "in the DNA it is %.*s",
+                        list.noun, i, static_cast<int>(std::min<size_t>(a.count, 40)), a.data,
+                        static_cast<int>(std::min<size_t>(b.count, 40)), b.chars());
+    }
+  }
+  return MIEN_OK;
+}
+
+}  // namespace
+
+// Deformer ----------------------------------------------------------------------------------------
+
+MienStatus mien_deformer_create(const MienDna* dna, const MienRig* handle,
+                                const MienDeformerDesc* desc, MienDeformer** out_deformer,
+                                MienError* error) {
+  if (MienStatus status = clear_output(out_deformer, error)) return status;
+  if (MienStatus status = check(dna)) return give_error(error, status, "not an open DNA");
+  if (MienStatus status = check(handle)) return give_error(error, status, "not a rig");
+  MienDeformerDesc known;
+  if (MienStatus status = read_struct(desc, known)) {
+    return give_error(error, status,
+                      "MienDeformerDesc.struct_size is %u, expected %zu or more with zeros",
+                      desc->struct_size, sizeof(MienDeformerDesc));
+  }
+  Allocator allocator;
+  if (read_allocator(known.allocator, allocator) != MIEN_OK) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
+  }
+  if (known.isa >= kIsaCount || known.compose > MIEN_COMPOSE_EULER_ADD ||
+      known.weights > MIEN_WEIGHTS_FIX || known.normals > MIEN_NORMALS_RECOMPUTED ||
+      known.reserved != 0) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienDeformerDesc.isa, .compose, .weights, .normals or .reserved is none of "
+                      "its values");
+  }
+  const Rig& rig = *object(handle);
+  const KernelTable* kernels =
+      known.isa == MIEN_ISA_BEST ? rig.kernels : kernels_for(static_cast<Isa>(known.isa));
+  if (!kernels) {
+    return give_error(error, MIEN_ERROR_ISA, "this CPU or build lacks %s; use MIEN_ISA_BEST",
+                      mien_isa_name(known.isa));
+  }
+  if (known.compose == MIEN_COMPOSE_EULER_ADD && rig.quaternion_outputs) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MIEN_COMPOSE_EULER_ADD needs a rig with MIEN_OUTPUT_EULER");
+  }
+  if (!dna->view.has(dna::kAnyGeometry)) {
+    return give_error(error, MIEN_ERROR_DNA_LAYER,
+                      "the DNA was opened without its geometry; open it with MIEN_LAYER_GEOMETRY");
+  }
+  if (MienStatus status = compare_names(dna->view, rig, error)) return status;
+
+  DeformOptions options;
+  options.kernels = kernels;
+  options.compose = static_cast<Compose>(known.compose);
+  options.fix_weights = known.weights == MIEN_WEIGHTS_FIX;
+  if (known.normals != MIEN_NORMALS_DEFAULT) options.normals = static_cast<Normals>(known.normals);
+  Deformer* deformer = nullptr;
+  Error detail;
+  if (compile_deformer(dna->view, rig, options, allocator, deformer, detail) != Status::kOk) {
+    return give_error(detail, error);
+  }
+  deformer->tag = kDeformerTag;
+  *out_deformer = reinterpret_cast<MienDeformer*>(deformer);
+  return succeed(error);
+}
+
+void mien_deformer_destroy(MienDeformer* deformer) {
+  if (check(deformer) != MIEN_OK) return;
+  object(deformer)->tag = 0;
+  release_deformer(object(deformer));
+}
+
+MienStatus mien_deformer_info(const MienDeformer* handle, MienDeformerInfo* out_info) {
+  if (MienStatus status = clear_struct(out_info)) return status;
+  if (MienStatus status = check(handle)) return status;
+  const Deformer& deformer = *object(handle);
+  MienDeformerInfo info = {};
+  info.isa = static_cast<uint32_t>(deformer.kernels->isa);
+  info.compose = static_cast<uint32_t>(deformer.skeleton.compose);
+  info.weights = deformer.fix_weights ? MIEN_WEIGHTS_FIX : MIEN_WEIGHTS_AS_STORED;
+  info.normals = static_cast<uint32_t>(deformer.normals);
+  info.lod_count = deformer.rig->lod_count;
+  info.joint_count = deformer.skeleton.joint_count;
+  info.channel_count = deformer.rig->channel_count;
+  info.mesh_count = static_cast<uint32_t>(deformer.meshes.count);
+  info.deformer_bytes = deformer.block_size;
+  info.pose_bytes = pose_size(deformer, 0);
+  write_struct(out_info, info);
+  return MIEN_OK;
+}
+
+MienStatus mien_deformer_mesh(const MienDeformer* handle, uint32_t m, MienMesh* out_mesh) {
+  if (MienStatus status = clear_struct(out_mesh)) return status;
+  if (MienStatus status = check(handle)) return status;
+  if (m >= object(handle)->meshes.count) return MIEN_ERROR_INDEX;
+  const DeformMesh& mesh = object(handle)->meshes[m];
+  MienMesh told = {};
+  told.position_count = mesh.position_count;
+  told.vertex_count = mesh.vertex_count;
+  told.triangle_count = mesh.triangle_count;
+  told.most_influences = mesh.most_influences;
+  told.target_count = mesh.target_count;
+  told.delta_count = mesh.delta_count;
+  told.lods = mesh.lods;
+  told.positions = {mesh.positions.data, size_t{mesh.position_count} * 3};
+  told.normals = {mesh.normals.data, size_t{mesh.vertex_count} * 3};
+  told.texture_coordinates = view_of(mesh.texture_coordinates);
+  told.vertex_positions = view_of(mesh.vertex_positions);
+  told.triangles = view_of(mesh.triangles);
+  told.target_channels = view_of(mesh.target_channels);
+  write_struct(out_mesh, told);
+  return MIEN_OK;
+}
+
+MienStatus mien_deformer_influences(const MienDeformer* handle, uint32_t m, uint32_t position,
+                                    MienIndexView* out_joints, MienFloatView* out_weights) {
+  if (out_joints) *out_joints = {nullptr, 0};
+  if (out_weights) *out_weights = {nullptr, 0};
+  if (!out_joints || !out_weights) return MIEN_ERROR_NULL_ARGUMENT;
+  if (MienStatus status = check(handle)) return status;
+  if (m >= object(handle)->meshes.count) return MIEN_ERROR_INDEX;
+  const DeformMesh& mesh = object(handle)->meshes[m];
+  if (position >= mesh.position_count) return MIEN_ERROR_INDEX;
+  const uint32_t place = mesh.place_of[position];
+  const SkinRun* run = std::upper_bound(mesh.runs.begin(), mesh.runs.end(), place,
+                                        [](uint32_t p, const SkinRun& r) { return p < r.first; }) -
+                       1;
+  const size_t row = run->first_weight + size_t{place - run->first} * run->influences;
+  *out_joints = view_of(mesh.joints.slice(row, run->influences));
+  *out_weights = view_of(mesh.weights.slice(row, run->influences));
+  return MIEN_OK;
+}
+
+MienStatus mien_deformer_target(const MienDeformer* handle, uint32_t m, uint32_t target,
+                                float* out_deltas, size_t count) {
+  if (MienStatus status = check(handle)) return status;
+  if (m >= object(handle)->meshes.count) return MIEN_ERROR_INDEX;
+  const DeformMesh& mesh = object(handle)->meshes[m];
+  if (target >= mesh.target_count) return MIEN_ERROR_INDEX;
+  if (!out_deltas) return MIEN_ERROR_NULL_ARGUMENT;
+  const size_t needed = size_t{mesh.position_count} * 3;
+  if (count < needed) return MIEN_ERROR_INVALID_ARGUMENT;
+  std::fill(out_deltas, out_deltas + needed, 0.0f);
+  for (uint32_t block = 0; block < mesh.block_count(); ++block) {
+    TargetPiece* const end = mesh.pieces.data + mesh.first_piece[block + 1];
+    const TargetPiece* piece =
+        std::lower_bound(mesh.pieces.data + mesh.first_piece[block], end, target,
+                         [](const TargetPiece& p, uint32_t t) { return p.target < t; });
+    if (piece == end || piece->target != target) continue;
+    for (size_t d = piece->first_delta; d < piece->first_delta + piece->count; ++d) {
+      const uint32_t place = block * kBlockPlaces + mesh.delta_places[d];
+      float* at = out_deltas + size_t{mesh.position_at[place]} * 3;
+      for (int k = 0; k < 3; ++k) at[k] += mesh.deltas[d * 3 + static_cast<size_t>(k)];
+    }
+  }
+  return MIEN_OK;
+}
+
+MienStatus mien_deformer_bind_matrices(const MienDeformer* deformer, MienFloatView* out_matrices) {
+  if (!out_matrices) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_matrices = {nullptr, 0};
+  if (MienStatus status = check(deformer)) return status;
+  *out_matrices = view_of(object(deformer)->skeleton.bind);
+  return MIEN_OK;
+}
+
+MienStatus mien_deformer_inverse_bind_matrices(const MienDeformer* deformer,
+                                               MienFloatView* out_matrices) {
+  if (!out_matrices) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_matrices = {nullptr, 0};
+  if (MienStatus status = check(deformer)) return status;
+  *out_matrices = view_of(object(deformer)->skeleton.inverse_bind);
+  return MIEN_OK;
+}
+
+// Pose --------------------------------------------------------------------------------------------
+
+MienStatus mien_pose_create(const MienDeformer* deformer, const MienPoseDesc* desc,
+                            MienPose** out_pose, MienError* error) {
+  if (MienStatus status = clear_output(out_pose, error)) return status;
+  if (MienStatus status = check(deformer)) return give_error(error, status, "not a deformer");
+  MienPoseDesc known;
+  if (MienStatus status = read_struct(desc, known)) {
+    return give_error(error, status,
+                      "MienPoseDesc.struct_size is %u, expected %zu or more with zeros",
+                      desc->struct_size, sizeof(MienPoseDesc));
+  }
+  Allocator allocator;
+  if (read_allocator(known.allocator, allocator) != MIEN_OK) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
+  }
+  if (known.reserved != 0) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "MienPoseDesc.reserved is not 0");
+  }
+  Pose* pose = create_pose(*object(deformer), known.lods, allocator);
+  if (!pose) {
+    return give_error(error, MIEN_ERROR_MEMORY, "no memory for a pose of %zu bytes",
+                      pose_size(*object(deformer), known.lods));
+  }
+  pose->tag = kPoseTag;
+  *out_pose = reinterpret_cast<MienPose*>(pose);
+  return succeed(error);
+}
+
+void mien_pose_destroy(MienPose* pose) {
+  if (check(pose) == MIEN_OK) destroy_pose(object(pose));
+}
+
+MienStatus mien_pose_update(MienPose* pose, const MienInstance* instance) {
+  if (MienStatus status = check(pose)) return status;
+  if (MienStatus status = check(instance)) return status;
+  const Instance& source = *object(instance);
+  if (source.rig != object(pose)->deformer->rig) return MIEN_ERROR_MISMATCH;
+  update_pose(*object(pose), source.joints.data, source.channels.data);
+  return MIEN_OK;
+}
+
+MienStatus mien_pose_update_from_values(MienPose* handle, const float* joint_values,
+                                        size_t joint_value_count, const float* channel_weights,
+                                        size_t channel_weight_count) {
+  if (MienStatus status = check(handle)) return status;
+  Pose& pose = *object(handle);
+  if (joint_value_count != (joint_values ? pose.deformer->skeleton.value_count() : 0) ||
+      channel_weight_count != (channel_weights ? pose.channels.count : 0)) {
+    return MIEN_ERROR_INVALID_ARGUMENT;
+  }
+  update_pose(pose, joint_values, channel_weights);
+  return MIEN_OK;
+}
+
+MienStatus mien_pose_joint_matrices(const MienPose* pose, MienFloatView* out_matrices) {
+  if (!out_matrices) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_matrices = {nullptr, 0};
+  if (MienStatus status = check(pose)) return status;
+  *out_matrices = view_of(object(pose)->joints.model);
+  return MIEN_OK;
+}
+
+MienStatus mien_pose_skin_matrices(const MienPose* pose, MienFloatView* out_matrices) {
+  if (!out_matrices) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_matrices = {nullptr, 0};
+  if (MienStatus status = check(pose)) return status;
+  *out_matrices = view_of(object(pose)->joints.skin);
+  return MIEN_OK;
+}
+
+MienStatus mien_pose_local_transforms(const MienPose* pose, float* out_transforms, size_t count) {
+  if (MienStatus status = check(pose)) return status;
+  if (!out_transforms) return MIEN_ERROR_NULL_ARGUMENT;
+  const Span<float>& locals = object(pose)->joints.locals;
+  if (count < locals.count) return MIEN_ERROR_INVALID_ARGUMENT;
+  std::copy(locals.begin(), locals.end(), out_transforms);
+  return MIEN_OK;
+}
+
+MienStatus mien_pose_deform(MienPose* pose, uint32_t mesh, uint32_t normals,
+                            const MienParallelFor* parallel) {
+  return mien_pose_deform_batch(&pose, 1, mesh, normals, parallel);
+}
+
+MienStatus mien_pose_deform_batch(MienPose* const* handles, size_t pose_count, uint32_t mesh,
+                                  uint32_t normals, const MienParallelFor* parallel) {
+  if (pose_count == 0) return MIEN_OK;
+  if (!handles) return MIEN_ERROR_NULL_ARGUMENT;
+  for (size_t i = 0; i < pose_count; ++i) {
+    if (MienStatus status = check(handles[i])) return status;
+  }
+  const Deformer& deformer = *object(handles[0])->deformer;
+  if (normals > MIEN_NORMALS_RECOMPUTED) return MIEN_ERROR_INVALID_ARGUMENT;
+  if (parallel && !parallel->run) return MIEN_ERROR_INVALID_ARGUMENT;
+  if (mesh >= deformer.meshes.count) return MIEN_ERROR_INDEX;
+  MienStatus status = MIEN_OK;
+  size_t marked = 0;
+  for (; marked < pose_count && status == MIEN_OK; ++marked) {
+    Pose& pose = *object(handles[marked]);
+    if (pose.deformer != &deformer) {
+      status = MIEN_ERROR_MISMATCH;
+    } else if (!pose.meshes[mesh].present) {
+      status = MIEN_ERROR_LOD;
+    } else if (pose.in_batch) {
+      status = MIEN_ERROR_INVALID_ARGUMENT;
+    } else {
+      pose.in_batch = true;
+    }
+  }
+  for (size_t i = 0; i < marked; ++i) object(handles[i])->in_batch = false;
+  if (status != MIEN_OK) return status;
+
+  ParallelFor run;
+  if (parallel) run = {parallel->user, parallel->run};
+  const Normals wanted =
+      normals == MIEN_NORMALS_DEFAULT ? deformer.normals : static_cast<Normals>(normals);
+  deform(deformer, {reinterpret_cast<Pose* const*>(handles), pose_count}, mesh, wanted, run);
+  return MIEN_OK;
+}
+
+namespace {
+
+template <class Count>
+MienStatus view_mesh(const MienPose* handle, uint32_t m, MienFloatView* out, Count&& count,
+                     Span<float> PosedMesh::*values) {
+  if (!out) return MIEN_ERROR_NULL_ARGUMENT;
+  *out = {nullptr, 0};
+  if (MienStatus status = check(handle)) return status;
+  const Pose& pose = *object(handle);
+  if (m >= pose.meshes.count) return MIEN_ERROR_INDEX;
+  if (!pose.meshes[m].present) return MIEN_ERROR_LOD;
+  *out = {(pose.meshes[m].*values).data, size_t{count(pose.deformer->meshes[m])} * 3};
+  return MIEN_OK;
+}
+
+}  // namespace
+
+MienStatus mien_pose_positions(const MienPose* pose, uint32_t mesh, MienFloatView* out_positions) {
+  return view_mesh(
+      pose, mesh, out_positions, [](const DeformMesh& m) { return m.position_count; },
+      &PosedMesh::positions);
+}
+
+MienStatus mien_pose_normals(const MienPose* pose, uint32_t mesh, MienFloatView* out_normals) {
+  return view_mesh(
+      pose, mesh, out_normals, [](const DeformMesh& m) { return m.vertex_count; },
+      &PosedMesh::normals);
+}

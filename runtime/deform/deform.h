@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Pose -> positions and normals of a mesh. Nothing here allocates, locks or fails: the deformer was
+// checked when it was made, and callers check mesh numbers and rooms.
+#pragma once
+
+#include "runtime/deform/pose.h"
+
+namespace mien {
+
+/// MienParallelFor of mien.h. Without `run` all happens on this thread.
+struct ParallelFor {
+  void* user = nullptr;
+  void (*run)(void* user, uint32_t count, void (*task)(void* context, uint32_t index),
+              void* context) = nullptr;
+};
+
+/// One mesh of poses of one deformer, all different, all with room for it. `normals` is not
+/// kDefault.
+void deform(const Deformer& deformer, Span<Pose* const> poses, uint32_t mesh, Normals normals,
+            const ParallelFor& parallel);
+
+}  // namespace mien

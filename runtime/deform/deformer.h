@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// The deformer: all meshes packed for deformation, in one block of memory, never changed after it
+// was made.
+//
+//     | Deformer | skeleton | meshes | mesh 0: neutral, skin, targets, faces, corners | mesh 1 ...
+//     |
+//
+// Positions are worked on in an order of their own, "places": by number of influences, then by the
+// joint that holds them most, so that neighbours need the same code and the same matrices.
+#pragma once
+
+#include "runtime/pose/skeleton.h"
+
+namespace mien {
+
+/// Numbers of MIEN_NORMALS_... in mien.h.
+enum class Normals : uint32_t { kDefault = 0, kNone = 1, kSkinned = 2, kRecomputed = 3 };
+
+/// Positions that are worked on together: their scratch stays in the nearest cache.
+constexpr uint32_t kBlockPlaces = 512;
+
+/// Places with the same number of influences. Row r of the run has its weights and joints at
+/// first_weight + r * influences.
+struct SkinRun {
+  uint32_t first, count;
+  uint32_t influences;
+  size_t first_weight;
+};
+
+/// What one target does to the places of one block.
+struct TargetPiece {
+  uint32_t target;
+  uint32_t count;
+  size_t first_delta;
+};
+
+/// Set in DeformMesh::corners where the neutral normal is that of a hard edge.
+constexpr uint32_t kHardCorner = 0x8000'0000;
+
+struct DeformMesh {
+  uint32_t position_count = 0, vertex_count = 0, triangle_count = 0;
+  uint32_t most_influences = 0, target_count = 0;
+  size_t delta_count = 0;
+  uint64_t lods = 0;
+
+  // As the file has it, for the caller.
+  Span<float> positions;            // [position] x y z, and one float more
+  Span<float> normals;              // [vertex] x y z, unit, and one float more
+  Span<float> texture_coordinates;  // [vertex] u v
+  Span<uint32_t> vertex_positions;  // [vertex]
+  Span<uint32_t> triangles;
+  Span<uint16_t> target_channels;  // [target]
+
+  // Skin.
+  Span<uint32_t> position_at;  // [place]
+  Span<uint32_t> place_of;     // [position]
+  Span<float> neutral;         // [place] x y z 0
+  Span<SkinRun> runs;
+  Span<float> weights;
+  Span<uint16_t> joints;
+
+  // Blend shape targets, by block, then by target: deltas x y z (and one float more), and the
+  // places that they move, counted from the first of the block.
+  Span<uint32_t> first_piece;  // [block], one more at the end
+  Span<TargetPiece> pieces;
+  Span<float> deltas;
+  Span<uint16_t> delta_places;
+
+  // Normals. A face is four positions (a triangle has its last one twice); its area vector is
+  // (p2 - p0) x (p3 - p1) / 2, pointing out of the mesh.
+  Span<uint32_t> faces;            // [face][4]
+  Span<uint32_t> first_touching;   // [place], one more at the end
+  Span<uint32_t> touching;         // faces around the place
+  Span<uint32_t> first_corner;     // [place], one more at the end
+  Span<uint32_t> corners;          // vertex, with kHardCorner or without
+  Span<float> neutral_directions;  // [place] x y z 0, unit, recomputed
+
+  uint32_t block_count() const { return (position_count + kBlockPlaces - 1) / kBlockPlaces; }
+  uint32_t face_count() const { return static_cast<uint32_t>(faces.count / 4); }
+};
+
+struct Deformer {
+  uint32_t tag = 0;  // first, for the C API to recognise its handles
+  Allocator allocator;
+  size_t block_size = 0;
+  mutable std::atomic<uint32_t> owners{1};  // the creator and every pose
+
+  const KernelTable* kernels = nullptr;
+  const Rig* rig = nullptr;                // owned with others
+  Normals normals = Normals::kRecomputed;  // of calls that leave the choice open
+  bool fix_weights = false;
+  Skeleton skeleton;
+  Span<DeformMesh> meshes;
+};
+
+/// Drops one owner; the last one releases the block.
+void release_deformer(const Deformer* deformer);
+
+}  // namespace mien

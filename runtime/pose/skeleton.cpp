@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/pose/skeleton.h"
+
+#include <algorithm>
+
+namespace mien {
+namespace {
+
+/// Joints in file order, each after its parent; parents that stand later are fetched first.
+Status sort_joints(Skeleton& skeleton, Arena& scratch, Error& error) {
+  const uint32_t count = skeleton.joint_count;
+  const Span<uint8_t> placed = scratch.array<uint8_t>(count);
+  const Span<uint16_t> line = scratch.array<uint16_t>(count);
+  if (count != 0 && (!placed.data || !line.data)) {
+    return fail(error, Status::kMemory, kNoOffset, "no memory to sort %u joints", count);
+  }
+  uint32_t sorted = 0;
+  for (uint32_t j = 0; j < count; ++j) {
+    uint32_t at = j, length = 0;
+    while (!placed[at]) {
+      if (length == count) {
+        return fail(error, Status::kDnaValue, kNoOffset,
+                    "joint %u is its own ancestor: its line of parents never ends", j);
+      }
+      line[length++] = static_cast<uint16_t>(at);
+      if (skeleton.parents[at] == at) break;
+      at = skeleton.parents[at];
+    }
+    while (length != 0) {
+      skeleton.order[sorted++] = line[--length];
+      placed[line[length]] = 1;
+    }
+  }
+  return Status::kOk;
+}
+
+struct Frame {
+  double turn[3][3];  // for column vectors
+  double at[3];
+};
+
+Frame neutral_frame(const Skeleton& skeleton, uint32_t joint) {
+  const float* values = skeleton.neutral.data + size_t{joint} * skeleton.joint_attributes;
+  const Quaternion q = skeleton.quaternions()
+                           ? Quaternion{values[3], values[4], values[5], values[6]}
+                           : quaternion_from_euler(skeleton.rotation, values + 3);
+  const Matrix3 rows = matrix_from_quaternion(q);
+  Frame frame;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) frame.turn[r][c] = rows.m[c][r];
+    frame.at[r] = values[r];
+  }
+  return frame;
+}
+
+Frame operator*(const Frame& a, const Frame& b) {
+  Frame product;
+  for (int r = 0; r < 3; ++r) {
+    product.at[r] = a.at[r];
+    for (int k = 0; k < 3; ++k) product.at[r] += a.turn[r][k] * b.at[k];
+    for (int c = 0; c < 3; ++c) {
+      product.turn[r][c] = 0;
+      for (int k = 0; k < 3; ++k) product.turn[r][c] += a.turn[r][k] * b.turn[k][c];
+    }
+  }
+  return product;
+}
+
+Frame inverse(const Frame& a) {
+  Frame result;
+  for (int r = 0; r < 3; ++r) {
+    result.at[r] = 0;
+    for (int k = 0; k < 3; ++k) {
+      result.turn[r][k] = a.turn[k][r];
+      result.at[r] -= a.turn[k][r] * a.at[k];
+    }
+  }
+  return result;
+}
+
+void store(const Frame& frame, float* columns) {
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) columns[c * 4 + r] = static_cast<float>(frame.turn[r][c]);
+    columns[12 + r] = static_cast<float>(frame.at[r]);
+  }
+  columns[15] = 1;
+}
+
+}  // namespace
+
+void place_skeleton(const Rig& rig, Placer& placer, Skeleton& skeleton) {
+  skeleton.joint_count = rig.joint_count;
+  skeleton.joint_attributes = rig.joint_attributes;
+  skeleton.rotation = rig.rotation;
+  skeleton.order = placer.array<uint16_t>(rig.joint_count);
+  skeleton.parents = placer.array<uint16_t>(rig.joint_count);
+  skeleton.neutral = placer.array<float>(rig.joint_value_count(), kBlockAlignment);
+  skeleton.bind = placer.array<float>(rig.joint_count * kMatrixFloats, kBlockAlignment);
+  skeleton.inverse_bind = placer.array<float>(rig.joint_count * kMatrixFloats, kBlockAlignment);
+}
+
+Status fill_skeleton(const Rig& rig, Compose compose, Arena& scratch, Skeleton& skeleton,
+                     Error& error) {
+  skeleton.compose = compose;
+  std::copy(rig.joint_parents.begin(), rig.joint_parents.end(), skeleton.parents.begin());
+  std::copy(rig.neutral_joints.begin(), rig.neutral_joints.end(), skeleton.neutral.begin());
+  const Status status = sort_joints(skeleton, scratch, error);
+  if (status != Status::kOk) return status;
+
+  // In double: the inverses have to undo the matrices far from the origin too.
+  const Span<Frame> frames = scratch.array<Frame>(skeleton.joint_count);
+  if (!frames.data && skeleton.joint_count != 0) {
+    return fail(error, Status::kMemory, kNoOffset, "no memory for %u joints", skeleton.joint_count);
+  }
+  for (uint16_t j : skeleton.order) {
+    const Frame local = neutral_frame(skeleton, j);
+    const uint16_t parent = skeleton.parents[j];
+    frames[j] = parent == j ? local : frames[parent] * local;
+    store(frames[j], skeleton.bind.data + j * kMatrixFloats);
+    store(inverse(frames[j]), skeleton.inverse_bind.data + j * kMatrixFloats);
+  }
+  return Status::kOk;
+}
+
+}  // namespace mien

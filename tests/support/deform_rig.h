@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Rigs with geometry for tests of the deformer, and the deformer once more in double precision:
+// straight from the formulas, sharing no code with the library.
+#pragma once
+
+#include <array>
+#include <random>
+#include <vector>
+
+#include "runtime/dna/dna_view.h"
+#include "tests/support/rig_handles.h"
+
+namespace mien {
+
+struct CloseDeform {
+  void operator()(MienDeformer* deformer) const { mien_deformer_destroy(deformer); }
+  void operator()(MienPose* pose) const { mien_pose_destroy(pose); }
+};
+using DeformerHandle = std::unique_ptr<MienDeformer, CloseDeform>;
+using PoseHandle = std::unique_ptr<MienPose, CloseDeform>;
+
+DeformerHandle create_deformer(const MienDna* dna, const MienRig* rig, MienDeformerDesc desc = {},
+                               MienStatus expected = MIEN_OK);
+PoseHandle create_pose(const MienDeformer* deformer, uint64_t lods = 0);
+MienMesh mesh_of(const MienDeformer* deformer, uint32_t mesh);
+
+/// What a random rig is like.
+struct DeformRigOptions {
+  uint32_t joints = 12;
+  uint32_t meshes = 2;
+  uint32_t rows = 9, columns = 11;  // of the grid that each mesh is
+  uint32_t most_influences = 14;
+  uint32_t channels = 5;
+  uint32_t rotation_sequence = 0;
+  int32_t rotation_signs[3] = {1, 1, 1};
+  uint32_t rotation_unit = 0;
+  double height = 0;           // of the whole rig above the origin
+  bool clockwise = false;      // faces
+  bool normals = true;         // stored
+  double neutral_angles = 90;  // degrees
+};
+
+/// The bytes of a file: one LOD of everything. Joints stand in any order; positions have from 0 to
+/// `most_influences` influences, faces three to six corners, every third mesh column a seam.
+std::vector<uint8_t> random_deform_rig(uint32_t seed, const DeformRigOptions& options);
+
+/// Deltas for all joints and weights for all channels.
+struct DeformValues {
+  std::vector<float> joints, channels;
+};
+/// `scale_skew` 0: uniform scales.
+DeformValues random_values(const MienRig* rig, uint32_t seed, double scale_skew = 0.1);
+
+using Vec3d = std::array<double, 3>;
+using Matrix4d = std::array<std::array<double, 4>, 4>;  // [row][column]
+
+struct PlainDeformer {
+  const dna::DnaView& view;
+  bool quaternions = false;
+  bool add_angles = false;
+  bool fix_weights = false;
+
+  std::vector<Matrix4d> models(const std::vector<float>& values) const;
+  std::vector<Matrix4d> skins(const std::vector<float>& values) const;
+  std::vector<Vec3d> positions(uint32_t mesh, const DeformValues& values) const;
+  /// Unit; of vertices.
+  std::vector<Vec3d> skinned_normals(uint32_t mesh, const DeformValues& values) const;
+  std::vector<Vec3d> recomputed_normals(uint32_t mesh, const DeformValues& values) const;
+  double diagonal(uint32_t mesh) const;
+
+ private:
+  Matrix4d local(uint32_t joint, const float* delta) const;
+  std::vector<Vec3d> directions(uint32_t mesh, const std::vector<Vec3d>& positions) const;
+};
+
+/// Largest distance between the two.
+double largest_error(const MienFloatView& made, const std::vector<Vec3d>& expected);
+
+}  // namespace mien
