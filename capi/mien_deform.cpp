@@ -168,9 +168,7 @@ MienStatus mien_deformer_influences(const MienDeformer* handle, uint32_t m, uint
   const DeformMesh& mesh = object(handle)->meshes[m];
   if (position >= mesh.position_count) return MIEN_ERROR_INDEX;
   const uint32_t place = mesh.place_of[position];
-  const SkinRun* run = std::upper_bound(mesh.runs.begin(), mesh.runs.end(), place,
-                                        [](uint32_t p, const SkinRun& r) { return p < r.first; }) -
-                       1;
+  const SkinRun* run = run_of(mesh, place);
   const size_t row = run->first_weight + size_t{place - run->first} * run->influences;
   *out_joints = view_of(mesh.joints.slice(row, run->influences));
   *out_weights = view_of(mesh.weights.slice(row, run->influences));
@@ -184,21 +182,8 @@ MienStatus mien_deformer_target(const MienDeformer* handle, uint32_t m, uint32_t
   const DeformMesh& mesh = object(handle)->meshes[m];
   if (target >= mesh.target_count) return MIEN_ERROR_INDEX;
   if (!out_deltas) return MIEN_ERROR_NULL_ARGUMENT;
-  const size_t needed = size_t{mesh.position_count} * 3;
-  if (count < needed) return MIEN_ERROR_INVALID_ARGUMENT;
-  std::fill(out_deltas, out_deltas + needed, 0.0f);
-  for (uint32_t block = 0; block < mesh.block_count(); ++block) {
-    TargetPiece* const end = mesh.pieces.data + mesh.first_piece[block + 1];
-    const TargetPiece* piece =
-        std::lower_bound(mesh.pieces.data + mesh.first_piece[block], end, target,
-                         [](const TargetPiece& p, uint32_t t) { return p.target < t; });
-    if (piece == end || piece->target != target) continue;
-    for (size_t d = piece->first_delta; d < piece->first_delta + piece->count; ++d) {
-      const uint32_t place = block * kBlockPlaces + mesh.delta_places[d];
-      float* at = out_deltas + size_t{mesh.position_at[place]} * 3;
-      for (int k = 0; k < 3; ++k) at[k] += mesh.deltas[d * 3 + static_cast<size_t>(k)];
-    }
-  }
+  if (count < size_t{mesh.position_count} * 3) return MIEN_ERROR_INVALID_ARGUMENT;
+  write_target(mesh, target, out_deltas);
   return MIEN_OK;
 }
 
@@ -293,9 +278,9 @@ MienStatus mien_pose_skin_matrices(const MienPose* pose, MienFloatView* out_matr
 MienStatus mien_pose_local_transforms(const MienPose* pose, float* out_transforms, size_t count) {
   if (MienStatus status = check(pose)) return status;
   if (!out_transforms) return MIEN_ERROR_NULL_ARGUMENT;
-  const Span<float>& locals = object(pose)->joints.locals;
-  if (count < locals.count) return MIEN_ERROR_INVALID_ARGUMENT;
-  std::copy(locals.begin(), locals.end(), out_transforms);
+  const Skeleton& skeleton = object(pose)->deformer->skeleton;
+  if (count < skeleton.joint_count * kLocalTransformFloats) return MIEN_ERROR_INVALID_ARGUMENT;
+  write_local_transforms(skeleton, object(pose)->joints, out_transforms);
   return MIEN_OK;
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // All kernels of one instruction set, and their table: the only name its object file exports.
 
+#include "simd/deform_kernels.inl"
 #include "simd/dense_kernels.inl"
 #include "simd/joint_kernels.inl"
+#include "simd/pose_kernels.inl"
 #include "simd/rotation_kernels.inl"
 
 #define MIEN_KERNEL_STRING_OF(name) #name
@@ -11,9 +13,11 @@
 namespace mien::MIEN_KERNEL_ISA {
 
 extern const KernelTable kTable;  // const alone would keep it inside this file
-const KernelTable kTable = {kIsa,          MIEN_KERNEL_STRING(MIEN_KERNEL_ISA),
-                            joint_columns, joint_columns_fixed,
-                            finish_sums,   dense_layer,
-                            joint_turns,   rbf_weights};
+const KernelTable kTable = {kIsa,         MIEN_KERNEL_STRING(MIEN_KERNEL_ISA),
+                            joint_columns, joint_columns_fixed, finish_sums, dense_layer,
+                            joint_turns,  rbf_weights,
+                            joint_locals, joint_tree,
+                            add_target,   skin_places,
+                            face_areas,   sum_normals};
 
 }  // namespace mien::MIEN_KERNEL_ISA

@@ -101,6 +101,105 @@ struct RbfWeightArgs {
   bool angular;
 };
 
+/// Local transforms of joints, in blocks of 16, one lane each:
+///
+///     neutral   block 0: tx0..tx15 ty tz qx qy qz qw | block 1: ...
+///     deltas    block 0: tx0..tx15 ty tz, half angles about x y z in radians within a quarter turn
+///               or qx qy qz qw (any length; zero is the identity), sx sy sz | block 1: ...
+///     locals    block 0: x axis (xyz), y axis, z axis, translation, qx qy qz qw | block 1: ...
+///
+/// Translation: the sum. Rotation: neutral * delta, unit. Axes: those of the rotation, scaled by
+/// 1 + delta. Not fused: every instruction set gives the same bits. All 64-byte aligned.
+struct JointLocalArgs {
+  const float* neutral;
+  const float* deltas;
+  float* locals;
+  uint32_t block_count;
+  uint8_t axes[3];   // first, second, third to turn about
+  bool quaternions;  // in the deltas
+};
+constexpr uint32_t kNeutralRows = 7, kDeltaRows = 10, kLocalRows = 16;
+
+/// Model and skin matrices out of local transforms, parents before children; joint order[i] has
+/// lane i. A joint that is `still` skins exactly as its parent does, a root not at all. Matrices:
+/// four columns of four floats, 64-byte aligned, the last row is 0 0 0 1. Not fused, as above.
+struct JointTreeArgs {
+  const uint16_t* order;
+  const uint16_t* parents;  // [joint]; a root is its own
+  const float* locals;
+  const uint8_t* still;  // [lane]
+  const float* inverse_bind;
+  float* model;
+  float* skin;
+  uint32_t joint_count;
+};
+
+/// moved[4 * places[i] + k] += weight * deltas[3 * i + k]; a fourth float follows the last delta.
+/// The fourth float of a place is left with no meaning.
+struct TargetArgs {
+  const float* deltas;
+  const uint16_t* places;
+  float* moved;
+  float weight;
+  uint32_t count;
+};
+
+/// What becomes of normals while places are skinned: turned by the blended matrix, or as area
+/// vectors are (its cofactors): right for any scale.
+enum class SkinNormals : uint32_t { kNone, kMatrix, kCofactors };
+
+/// Linear blend skinning of `count` places with the same number of influences, at least one:
+///
+///     places    x y z * of each place
+///     weights   row by row, `influences` each; joints beside them
+///     matrices  skin matrices by joint, 64-byte aligned
+///
+/// Writes positions[3 * position_at[i] ...]. Corners first_corner[i] ... first_corner[i + 1] are
+/// vertices at place i (their highest bit is a mark): normals[3 * vertex ...] is turned and written
+/// to turned_normals, unit; where there is no direction it is copied. Reads a float beyond each
+/// normal.
+struct SkinArgs {
+  const float* places;
+  const float* weights;
+  const uint16_t* joints;
+  const float* matrices;
+  const uint32_t* position_at;
+  float* positions;
+  const uint32_t* first_corner;
+  const uint32_t* corners;
+  const float* normals;
+  float* turned_normals;
+  uint32_t count;
+  uint32_t influences;
+  SkinNormals mode;
+};
+
+/// areas[4 * i ...] = (p2 - p0) x (p3 - p1) for the four positions of each face. Reads a float
+/// beyond each position.
+struct AreaArgs {
+  const float* positions;
+  const uint32_t* faces;
+  float* areas;
+  uint32_t count;
+};
+
+/// Normals of the corners of `count` places from the area vectors of the faces that touch them. A
+/// corner with its highest bit set is a hard edge: its neutral normal is turned as the sum of the
+/// areas turned away from the neutral direction of the place. Unit; where there is no direction the
+/// neutral normal is copied.
+struct NormalArgs {
+  const float* areas;
+  const uint32_t* first_touching;  // [place], one more at the end
+  const uint32_t* touching;
+  const uint32_t* first_corner;  // [place], one more at the end
+  const uint32_t* corners;
+  const float* normals;             // [vertex] x y z, neutral
+  const float* neutral_directions;  // [place] x y z *
+  float* turned_normals;
+  uint32_t count;
+};
+constexpr uint32_t kHardCorner = 0x8000'0000;
+
 struct KernelTable {
   Isa isa;
   const char* name;
@@ -111,6 +210,12 @@ struct KernelTable {
   void (*dense_layer)(const DenseLayerArgs& args);
   void (*joint_turns)(const JointTurnArgs& args);
   void (*rbf_weights)(const RbfWeightArgs& args);
+  void (*joint_locals)(const JointLocalArgs& args);
+  void (*joint_tree)(const JointTreeArgs& args);
+  void (*add_target)(const TargetArgs& args);
+  void (*skin_places)(const SkinArgs& args);
+  void (*face_areas)(const AreaArgs& args);
+  void (*sum_normals)(const NormalArgs& args);
 };
 
 /// The table of an instruction set; null if this build or this CPU lacks it. kBest gives the best

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Joints represented by quaternions.
 
+#pragma once
+
 #include "simd/vec.inl"
 
 namespace mien::MIEN_KERNEL_ISA {

@@ -22,6 +22,14 @@
 //   load_piece      kPieceWidth floats, aligned; or as many 16-bit integers made floats
 //   store_piece, broadcast_piece, mul_add   as above
 //
+// Quads are four floats on every instruction set: a column of a matrix, a point and one float that
+// nobody looks at. Names as above, with a 4: load4 and store4 take any address, store3 writes the
+// first three.
+//
+//   cross4(a,b)     the cross product of the first three
+//   transpose4      four quads, rows to columns
+//   columns4(m,q)   the four columns of a matrix of 16 floats in 16 / kWidth Vecs
+//
 // The including kernels_<isa>.cpp defines first:
 //
 //   MIEN_KERNEL_ISA    name of the instruction set, and of the namespace of its kernels
@@ -152,6 +160,131 @@ inline Vec power_of_two(Vec n) {
 }
 
 #endif
+
+// Quads -------------------------------------------------------------------------------------------
+
+#if defined(MIEN_KERNEL_SCALAR)
+
+struct Quad {
+  float v[4];
+};
+template <class F>
+inline Quad lanes4(F&& f) {
+  return {{f(0), f(1), f(2), f(3)}};
+}
+inline Quad load4(const float* from) { return {{from[0], from[1], from[2], from[3]}}; }
+inline void store4(float* to, const Quad& q) {
+  for (int i = 0; i < 4; ++i) to[i] = q.v[i];
+}
+inline void store3(float* to, const Quad& q) {
+  for (int i = 0; i < 3; ++i) to[i] = q.v[i];
+}
+inline Quad broadcast4(float value) { return {{value, value, value, value}}; }
+inline Quad operator+(const Quad& a, const Quad& b) {
+  return lanes4([&](int i) { return a.v[i] + b.v[i]; });
+}
+inline Quad operator-(const Quad& a, const Quad& b) {
+  return lanes4([&](int i) { return a.v[i] - b.v[i]; });
+}
+inline Quad operator*(const Quad& a, const Quad& b) {
+  return lanes4([&](int i) { return a.v[i] * b.v[i]; });
+}
+inline Quad mul_add4(const Quad& a, const Quad& b, const Quad& c) { return a * b + c; }
+inline Quad mul_sub4(const Quad& a, const Quad& b, const Quad& c) { return a * b - c; }
+inline Quad divide4(const Quad& a, const Quad& b) {
+  return lanes4([&](int i) { return a.v[i] / b.v[i]; });
+}
+inline Quad square_root4(const Quad& a) {
+  return lanes4([&](int i) { return __builtin_sqrtf(a.v[i]); });
+}
+inline Quad yzx4(const Quad& a) { return {{a.v[1], a.v[2], a.v[0], a.v[3]}}; }
+inline void transpose4(Quad& a, Quad& b, Quad& c, Quad& d) {
+  const Quad rows[4] = {a, b, c, d};
+  Quad* const columns[4] = {&a, &b, &c, &d};
+  for (int i = 0; i < 4; ++i) *columns[i] = lanes4([&](int k) { return rows[k].v[i]; });
+}
+inline void columns4(const Vec* m, Quad* columns) {
+  for (int i = 0; i < 4; ++i) columns[i] = load4(m + 4 * i);
+}
+
+#elif defined(MIEN_KERNEL_NEON)
+
+using Quad = Vec;
+inline Quad load4(const float* from) { return Quad(vld1q_f32(from)); }
+inline void store4(float* to, Quad q) { vst1q_f32(to, q); }
+inline void store3(float* to, Quad q) {
+  vst1_f32(to, vget_low_f32(q));
+  vst1q_lane_f32(to + 2, q, 2);
+}
+inline Quad broadcast4(float value) { return Quad(value); }
+inline Quad mul_add4(Quad a, Quad b, Quad c) { return vfmaq_f32(c, a, b); }
+inline Quad mul_sub4(Quad a, Quad b, Quad c) { return vnegq_f32(vfmsq_f32(c, a, b)); }
+inline Quad divide4(Quad a, Quad b) { return vdivq_f32(a, b); }
+inline Quad square_root4(Quad a) { return vsqrtq_f32(a); }
+inline Quad yzx4(Quad a) { return vextq_f32(vextq_f32(a, a, 3), a, 2); }
+inline void transpose4(Quad& a, Quad& b, Quad& c, Quad& d) {
+  const float32x4x2_t ab = vtrnq_f32(a, b), cd = vtrnq_f32(c, d);
+  a = vcombine_f32(vget_low_f32(ab.val[0]), vget_low_f32(cd.val[0]));
+  b = vcombine_f32(vget_low_f32(ab.val[1]), vget_low_f32(cd.val[1]));
+  c = vcombine_f32(vget_high_f32(ab.val[0]), vget_high_f32(cd.val[0]));
+  d = vcombine_f32(vget_high_f32(ab.val[1]), vget_high_f32(cd.val[1]));
+}
+inline void columns4(const Vec* m, Quad* columns) {
+  for (int i = 0; i < 4; ++i) columns[i] = m[i];
+}
+
+#else
+
+using Quad = xsimd::batch<float, xsimd::sse2>;
+inline Quad load4(const float* from) { return _mm_loadu_ps(from); }
+inline void store4(float* to, Quad q) { _mm_storeu_ps(to, q); }
+inline void store3(float* to, Quad q) {
+  _mm_storel_pi(reinterpret_cast<__m64*>(to), q);
+  _mm_store_ss(to + 2, _mm_movehl_ps(q, q));
+}
+inline Quad broadcast4(float value) { return _mm_set1_ps(value); }
+#if defined(MIEN_KERNEL_SSE2)
+inline Quad mul_add4(Quad a, Quad b, Quad c) { return _mm_add_ps(_mm_mul_ps(a, b), c); }
+inline Quad mul_sub4(Quad a, Quad b, Quad c) { return _mm_sub_ps(_mm_mul_ps(a, b), c); }
+#else
+inline Quad mul_add4(Quad a, Quad b, Quad c) { return _mm_fmadd_ps(a, b, c); }
+inline Quad mul_sub4(Quad a, Quad b, Quad c) { return _mm_fmsub_ps(a, b, c); }
+#endif
+inline Quad divide4(Quad a, Quad b) { return _mm_div_ps(a, b); }
+inline Quad square_root4(Quad a) { return _mm_sqrt_ps(a); }
+inline Quad yzx4(Quad a) { return _mm_shuffle_ps(a, a, _MM_SHUFFLE(3, 0, 2, 1)); }
+inline void transpose4(Quad& a, Quad& b, Quad& c, Quad& d) {
+  const __m128 ab = _mm_unpacklo_ps(a, b), cd = _mm_unpacklo_ps(c, d);
+  const __m128 ab_high = _mm_unpackhi_ps(a, b), cd_high = _mm_unpackhi_ps(c, d);
+  a = _mm_movelh_ps(ab, cd);
+  b = _mm_movehl_ps(cd, ab);
+  c = _mm_movelh_ps(ab_high, cd_high);
+  d = _mm_movehl_ps(cd_high, ab_high);
+}
+#if defined(MIEN_KERNEL_SSE2)
+inline void columns4(const Vec* m, Quad* columns) {
+  for (int i = 0; i < 4; ++i) columns[i] = m[i];
+}
+#elif defined(MIEN_KERNEL_AVX2)
+inline void columns4(const Vec* m, Quad* columns) {
+  for (int i = 0; i < 2; ++i) {
+    columns[2 * i] = _mm256_castps256_ps128(m[i]);
+    columns[2 * i + 1] = _mm256_extractf128_ps(m[i], 1);
+  }
+}
+#else
+inline void columns4(const Vec* m, Quad* columns) {
+  columns[0] = _mm512_castps512_ps128(m[0]);
+  columns[1] = _mm512_extractf32x4_ps(m[0], 1);
+  columns[2] = _mm512_extractf32x4_ps(m[0], 2);
+  columns[3] = _mm512_extractf32x4_ps(m[0], 3);
+}
+#endif
+
+#endif
+
+// (a * b.yzx - a.yzx * b) is the cross product, turned by one.
+inline Quad cross4(const Quad& a, const Quad& b) { return yzx4(mul_sub4(a, yzx4(b), yzx4(a) * b)); }
 
 // Sums of finite products can overflow, and infinities of both signs cancel to nothing sensible.
 // What is not a number becomes the lowest.

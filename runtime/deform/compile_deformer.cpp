@@ -125,7 +125,7 @@ Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions
   deformer->meshes = placed.meshes;
   rig.owners.fetch_add(1, std::memory_order_relaxed);
 
-  status = fill_skeleton(rig, options.compose, scratch, deformer->skeleton, error);
+  status = fill_skeleton(rig, options.kernels, options.compose, scratch, deformer->skeleton, error);
   for (uint32_t m = 0; m < rig.mesh_count && status == Status::kOk; ++m) {
     status = fill_mesh(source(m), plans[m], deformer->meshes[m]);
   }
@@ -135,18 +135,6 @@ Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions
   }
   out = deformer;
   return Status::kOk;
-}
-
-void release_deformer(const Deformer* deformer) {
-  if (deformer->owners.fetch_sub(1, std::memory_order_acq_rel) != 1) return;
-  Deformer* last = const_cast<Deformer*>(deformer);
-  const Allocator allocator = last->allocator;
-  const size_t size = last->block_size;
-  const Rig* rig = last->rig;
-  last->tag = 0;
-  last->~Deformer();
-  allocator.put(last, size, kBlockAlignment);
-  release_rig(rig);
 }
 
 }  // namespace mien

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/deform/deform.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -8,126 +9,177 @@ namespace mien {
 namespace {
 
 constexpr float kLeastChannelWeight = 1e-5f;
+constexpr uint32_t kLeastParallelPositions = 16384;
+constexpr uint32_t kTaskPlaces = 2048;  // and faces
+constexpr uint32_t kTaskBlocks = kTaskPlaces / kBlockPlaces;
+constexpr uint32_t kEnoughTasks = 64;
 
-/// Unit length; `otherwise` if there is no direction.
-void put_unit(const float* v, const float* otherwise, float* out) {
-  const float squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-  if (!(squared > 1e-36f)) {
-    memcpy(out, otherwise, 3 * sizeof(float));
-    return;
-  }
-  const float scale = 1.0f / std::sqrt(squared);
-  for (int i = 0; i < 3; ++i) out[i] = v[i] * scale;
-}
+uint32_t divide_up(size_t a, size_t b) { return static_cast<uint32_t>((a + b - 1) / b); }
 
-void cross(const float* a, const float* b, float* out) {
-  out[0] = a[1] * b[2] - a[2] * b[1];
-  out[1] = a[2] * b[0] - a[0] * b[2];
-  out[2] = a[0] * b[1] - a[1] * b[0];
-}
+/// One mesh of some poses, and how it is cut into tasks.
+struct Job {
+  const Deformer& deformer;
+  const DeformMesh& mesh;
+  Span<Pose* const> poses;
+  uint32_t mesh_number;
+  Normals normals;
+  uint32_t pose_parts = 1;
 
-void skin_block(const Deformer& deformer, const DeformMesh& mesh, const Pose& pose, uint32_t block,
-                bool normals, PosedMesh& out) {
+  const KernelTable& kernels() const { return *deformer.kernels; }
+};
+
+// Targets and skin --------------------------------------------------------------------------------
+
+/// Neutral places of a block with its targets added to them, or the neutral ones themselves if no
+/// target of the block is active.
+const float* move_block(const Job& job, const Pose& pose, uint32_t block, float* moved) {
+  const DeformMesh& mesh = job.mesh;
   const uint32_t first = block * kBlockPlaces;
-  const uint32_t end = std::min(first + kBlockPlaces, mesh.position_count);
-  float moved[kBlockPlaces * 4];
-  memcpy(moved, mesh.neutral.data + size_t{first} * 4, (end - first) * 4 * sizeof(float));
+  const float* neutral = mesh.neutral.data + size_t{first} * 4;
+  const float* places = neutral;
   for (uint32_t i = mesh.first_piece[block]; i < mesh.first_piece[block + 1]; ++i) {
     const TargetPiece& piece = mesh.pieces[i];
-    const float weight = pose.channels[mesh.target_channels[piece.target]];
+    const float weight = pose.channels[piece.channel];
     if (std::fabs(weight) < kLeastChannelWeight) continue;
-    for (size_t d = piece.first_delta; d < piece.first_delta + piece.count; ++d) {
-      for (int k = 0; k < 3; ++k)
-        moved[mesh.delta_places[d] * 4 + k] += weight * mesh.deltas[d * 3 + k];
+    if (places == neutral) {
+      const size_t count = std::min(kBlockPlaces, mesh.position_count - first);
+      memcpy(moved, neutral, count * 4 * sizeof(float));
+      places = moved;
     }
+    TargetArgs args;
+    args.deltas = mesh.deltas.data + size_t{piece.first_delta} * 3;
+    args.places = mesh.delta_places.data + piece.first_delta;
+    args.moved = moved;
+    args.weight = weight;
+    args.count = piece.count;
+    job.kernels().add_target(args);
   }
-  (void)deformer;
-  for (const SkinRun& run : mesh.runs) {
-    const uint32_t from = std::max(run.first, first), to = std::min(run.first + run.count, end);
-    for (uint32_t place = from; place < to; ++place) {
-      const float* v = moved + (place - first) * 4;
-      float m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-      if (run.influences != 0) memset(m, 0, sizeof(m));
-      const size_t row = run.first_weight + size_t{place - run.first} * run.influences;
-      for (size_t k = row; k < row + run.influences; ++k) {
-        const float* skin = pose.joints.skin.data + mesh.joints[k] * kMatrixFloats;
-        for (int i = 0; i < 16; ++i) m[i] += mesh.weights[k] * skin[i];
-      }
-      float* p = out.positions.data + size_t{mesh.position_at[place]} * 3;
-      for (int r = 0; r < 3; ++r)
-        p[r] = m[r] * v[0] + m[4 + r] * v[1] + m[8 + r] * v[2] + m[12 + r];
-      if (!normals) continue;
-      float c[9];
-      for (int i = 0; i < 3; ++i) memcpy(c + i * 3, m + i * 4, 3 * sizeof(float));
-      if (pose.joints.skewed) {
-        float axes[9];
-        memcpy(axes, c, sizeof(axes));
-        cross(axes + 3, axes + 6, c);
-        cross(axes + 6, axes, c + 3);
-        cross(axes, axes + 3, c + 6);
-      }
-      for (uint32_t i = mesh.first_corner[place]; i < mesh.first_corner[place + 1]; ++i) {
-        const size_t vertex = mesh.corners[i] & ~kHardCorner;
-        const float* n = mesh.normals.data + vertex * 3;
-        float turned[3];
-        for (int r = 0; r < 3; ++r) turned[r] = c[r] * n[0] + c[3 + r] * n[1] + c[6 + r] * n[2];
-        put_unit(turned, n, out.normals.data + vertex * 3);
-      }
-    }
+  return places;
+}
+
+/// Places that no joint holds.
+void leave_places(const Job& job, const float* places, uint32_t first, uint32_t count,
+                  PosedMesh& out) {
+  const DeformMesh& mesh = job.mesh;
+  for (uint32_t i = 0; i < count; ++i) {
+    float* position = out.positions.data + size_t{mesh.position_at[first + i]} * 3;
+    memcpy(position, places + size_t{i} * 4, 3 * sizeof(float));
+  }
+  if (job.normals != Normals::kSkinned) return;
+  for (uint32_t c = mesh.first_corner[first]; c < mesh.first_corner[first + count]; ++c) {
+    const size_t at = size_t{mesh.corners[c] & ~kHardCorner} * 3;
+    memcpy(out.normals.data + at, mesh.normals.data + at, 3 * sizeof(float));
   }
 }
 
-void recompute_normals(const DeformMesh& mesh, Pose& pose, PosedMesh& out) {
-  for (uint32_t f = 0; f < mesh.face_count(); ++f) {
-    const uint32_t* corners = mesh.faces.data + size_t{f} * 4;
-    float a[3], b[3];
-    for (int k = 0; k < 3; ++k) {
-      a[k] = out.positions[size_t{corners[2]} * 3 + k] - out.positions[size_t{corners[0]} * 3 + k];
-      b[k] = out.positions[size_t{corners[3]} * 3 + k] - out.positions[size_t{corners[1]} * 3 + k];
+void skin_block(const Job& job, Pose& pose, uint32_t block) {
+  alignas(kBlockAlignment) float moved[kBlockPlaces * 4];
+  const DeformMesh& mesh = job.mesh;
+  PosedMesh& out = pose.meshes[job.mesh_number];
+  const uint32_t first = block * kBlockPlaces;
+  const uint32_t end = std::min(first + kBlockPlaces, mesh.position_count);
+  const float* places = move_block(job, pose, block, moved);
+
+  for (const SkinRun* run = run_of(mesh, first); run != mesh.runs.end() && run->first < end;
+       ++run) {
+    const uint32_t from = std::max(run->first, first);
+    const uint32_t to = std::min(run->first + run->count, end);
+    if (run->influences == 0) {
+      leave_places(job, places + size_t{from - first} * 4, from, to - from, out);
+      continue;
     }
-    cross(a, b, pose.areas.data + size_t{f} * 4);
+    const size_t weight = run->first_weight + size_t{from - run->first} * run->influences;
+    SkinArgs args;
+    args.places = places + size_t{from - first} * 4;
+    args.weights = mesh.weights.data + weight;
+    args.joints = mesh.joints.data + weight;
+    args.matrices = pose.joints.skin.data;
+    args.position_at = mesh.position_at.data + from;
+    args.positions = out.positions.data;
+    args.first_corner = mesh.first_corner.data + from;
+    args.corners = mesh.corners.data;
+    args.normals = mesh.normals.data;
+    args.turned_normals = out.normals.data;
+    args.count = to - from;
+    args.influences = run->influences;
+    args.mode = job.normals != Normals::kSkinned ? SkinNormals::kNone
+                : pose.joints.skewed             ? SkinNormals::kCofactors
+                                                 : SkinNormals::kMatrix;
+    job.kernels().skin_places(args);
   }
-  for (uint32_t place = 0; place < mesh.position_count; ++place) {
-    float sum[3] = {};
-    for (uint32_t i = mesh.first_touching[place]; i < mesh.first_touching[place + 1]; ++i) {
-      for (int k = 0; k < 3; ++k) sum[k] += pose.areas[size_t{mesh.touching[i]} * 4 + k];
-    }
-    for (uint32_t i = mesh.first_corner[place]; i < mesh.first_corner[place + 1]; ++i) {
-      const size_t vertex = mesh.corners[i] & ~kHardCorner;
-      const float* n = mesh.normals.data + vertex * 3;
-      float* to = out.normals.data + vertex * 3;
-      const float zero[3] = {};
-      float now[3];
-      put_unit(sum, zero, now);
-      if (!(mesh.corners[i] & kHardCorner)) {
-        put_unit(sum, n, to);
-        continue;
-      }
-      const float* was = mesh.neutral_directions.data + size_t{place} * 4;
-      float axis[3], turned[3];
-      cross(was, now, axis);
-      cross(axis, n, turned);
-      const float c = was[0] * now[0] + was[1] * now[1] + was[2] * now[2];
-      const float along =
-          (axis[0] * n[0] + axis[1] * n[1] + axis[2] * n[2]) / std::max(1 + c, 1e-6f);
-      for (int k = 0; k < 3; ++k) turned[k] += c * n[k] + axis[k] * along;
-      put_unit(turned, n, to);
-    }
+}
+
+/// Block by block, all poses of a part: what one block needs of the mesh is fetched once.
+void skin_task(void* context, uint32_t index) {
+  const Job& job = *static_cast<const Job*>(context);
+  const uint32_t first = index / job.pose_parts * kTaskBlocks;
+  const uint32_t end = std::min(first + kTaskBlocks, job.mesh.block_count());
+  const size_t part = index % job.pose_parts;
+  const size_t from = job.poses.count * part / job.pose_parts;
+  const size_t to = job.poses.count * (part + 1) / job.pose_parts;
+  for (uint32_t block = first; block < end; ++block) {
+    for (size_t p = from; p < to; ++p) skin_block(job, *job.poses[p], block);
   }
+}
+
+// Recomputed normals ------------------------------------------------------------------------------
+
+void area_task(void* context, uint32_t index) {
+  const Job& job = *static_cast<const Job*>(context);
+  const uint32_t tasks = divide_up(job.mesh.face_count(), kTaskPlaces);
+  Pose& pose = *job.poses[index / tasks];
+  const uint32_t first = index % tasks * kTaskPlaces;
+  AreaArgs args;
+  args.positions = pose.meshes[job.mesh_number].positions.data;
+  args.faces = job.mesh.faces.data + size_t{first} * 4;
+  args.areas = pose.areas.data + size_t{first} * 4;
+  args.count = std::min(kTaskPlaces, job.mesh.face_count() - first);
+  job.kernels().face_areas(args);
+}
+
+void normal_task(void* context, uint32_t index) {
+  const Job& job = *static_cast<const Job*>(context);
+  const DeformMesh& mesh = job.mesh;
+  const uint32_t tasks = divide_up(mesh.position_count, kTaskPlaces);
+  Pose& pose = *job.poses[index / tasks];
+  const uint32_t first = index % tasks * kTaskPlaces;
+  NormalArgs args;
+  args.areas = pose.areas.data;
+  args.first_touching = mesh.first_touching.data + first;
+  args.touching = mesh.touching.data;
+  args.first_corner = mesh.first_corner.data + first;
+  args.corners = mesh.corners.data;
+  args.normals = mesh.normals.data;
+  args.neutral_directions = mesh.neutral_directions.data + size_t{first} * 4;
+  args.turned_normals = pose.meshes[job.mesh_number].normals.data;
+  args.count = std::min(kTaskPlaces, mesh.position_count - first);
+  job.kernels().sum_normals(args);
+}
+
+void run_all(const ParallelFor& parallel, uint32_t count, void (*task)(void*, uint32_t), Job& job) {
+  if (parallel.run && count > 1) return parallel.run(parallel.user, count, task, &job);
+  for (uint32_t i = 0; i < count; ++i) task(&job, i);
 }
 
 }  // namespace
 
-void deform(const Deformer& deformer, Span<Pose* const> poses, uint32_t m, Normals normals,
-            const ParallelFor&) {
-  const DeformMesh& mesh = deformer.meshes[m];
-  for (Pose* pose : poses) {
-    PosedMesh& out = pose->meshes[m];
-    for (uint32_t b = 0; b < mesh.block_count(); ++b) {
-      skin_block(deformer, mesh, *pose, b, normals == Normals::kSkinned, out);
-    }
-    if (normals == Normals::kRecomputed) recompute_normals(mesh, *pose, out);
+void deform(const Deformer& deformer, Span<Pose* const> poses, uint32_t mesh_number,
+            Normals normals, const ParallelFor& given) {
+  const DeformMesh& mesh = deformer.meshes[mesh_number];
+  const bool large = size_t{mesh.position_count} * poses.count >= kLeastParallelPositions;
+  const ParallelFor parallel = large ? given : ParallelFor{};
+  Job job = {deformer, mesh, poses, mesh_number, normals};
+
+  const uint32_t groups = divide_up(mesh.block_count(), kTaskBlocks);
+  if (parallel.run && groups != 0) {
+    const size_t parts = std::min<size_t>(poses.count, divide_up(kEnoughTasks, groups));
+    job.pose_parts = static_cast<uint32_t>(parts);
   }
+  run_all(parallel, groups * job.pose_parts, skin_task, job);
+  if (normals != Normals::kRecomputed) return;
+  const uint32_t pose_count = static_cast<uint32_t>(poses.count);
+  run_all(parallel, divide_up(mesh.face_count(), kTaskPlaces) * pose_count, area_task, job);
+  run_all(parallel, divide_up(mesh.position_count, kTaskPlaces) * pose_count, normal_task, job);
 }
 
 }  // namespace mien

@@ -30,12 +30,9 @@ struct SkinRun {
 /// What one target does to the places of one block.
 struct TargetPiece {
   uint32_t target;
-  uint32_t count;
-  size_t first_delta;
+  uint32_t channel;
+  uint32_t first_delta, count;
 };
-
-/// Set in DeformMesh::corners where the neutral normal is that of a hard edge.
-constexpr uint32_t kHardCorner = 0x8000'0000;
 
 struct DeformMesh {
   uint32_t position_count = 0, vertex_count = 0, triangle_count = 0;
@@ -92,6 +89,12 @@ struct Deformer {
   Skeleton skeleton;
   Span<DeformMesh> meshes;
 };
+
+/// The run that a place belongs to.
+const SkinRun* run_of(const DeformMesh& mesh, uint32_t place);
+
+/// x y z for each position: how far a target moves it at weight 1.
+void write_target(const DeformMesh& mesh, uint32_t target, float* out);
 
 /// Drops one owner; the last one releases the block.
 void release_deformer(const Deformer* deformer);

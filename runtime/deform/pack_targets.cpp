@@ -55,8 +55,7 @@ void place_targets(const MeshPlan& plan, Placer& placer, DeformMesh& mesh) {
 Status fill_targets(const MeshSource& source, DeformMesh& mesh) {
   struct Block {
     uint32_t last;  // target + 1 seen last
-    uint32_t piece;
-    size_t delta;
+    uint32_t piece, delta;
   };
   const auto& targets = source.mesh.blend_shape_targets;
   const Span<Block> blocks = source.scratch.array<Block>(mesh.block_count());
@@ -75,8 +74,7 @@ Status fill_targets(const MeshSource& source, DeformMesh& mesh) {
     block.last = t + 1;
     ++block.delta;
   });
-  uint32_t piece = 0;
-  size_t delta = 0;
+  uint32_t piece = 0, delta = 0;
   for (uint32_t b = 0; b < mesh.block_count(); ++b) {
     mesh.first_piece[b] = piece;
     piece += blocks[b].piece;
@@ -87,10 +85,12 @@ Status fill_targets(const MeshSource& source, DeformMesh& mesh) {
 
   for_each_delta([&](uint32_t t, uint32_t i, uint32_t place) {
     Block& block = blocks[place / kBlockPlaces];
-    if (block.last != t + 1) mesh.pieces[block.piece++] = {t, 0, block.delta};
+    if (block.last != t + 1) {
+      mesh.pieces[block.piece++] = {t, targets[t].channel_index, block.delta, 0};
+    }
     block.last = t + 1;
     ++mesh.pieces[block.piece - 1].count;
-    float* at = mesh.deltas.data + block.delta * 3;
+    float* at = mesh.deltas.data + size_t{block.delta} * 3;
     at[0] = targets[t].deltas.xs[i];
     at[1] = targets[t].deltas.ys[i];
     at[2] = targets[t].deltas.zs[i];

@@ -39,12 +39,15 @@ struct Frame {
   double at[3];
 };
 
-Frame neutral_frame(const Skeleton& skeleton, uint32_t joint) {
-  const float* values = skeleton.neutral.data + size_t{joint} * skeleton.joint_attributes;
-  const Quaternion q = skeleton.quaternions()
-                           ? Quaternion{values[3], values[4], values[5], values[6]}
-                           : quaternion_from_euler(skeleton.rotation, values + 3);
-  const Matrix3 rows = matrix_from_quaternion(q);
+Quaternion neutral_rotation(const Rig& rig, uint32_t joint) {
+  const float* values = rig.neutral_joints.data + size_t{joint} * rig.joint_attributes;
+  if (rig.quaternion_outputs) return {values[3], values[4], values[5], values[6]};
+  return quaternion_from_euler(rig.rotation, values + 3);
+}
+
+Frame neutral_frame(const Rig& rig, uint32_t joint) {
+  const float* values = rig.neutral_joints.data + size_t{joint} * rig.joint_attributes;
+  const Matrix3 rows = matrix_from_quaternion(neutral_rotation(rig, joint));
   Frame frame;
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) frame.turn[r][c] = rows.m[c][r];
@@ -86,26 +89,52 @@ void store(const Frame& frame, float* columns) {
   columns[15] = 1;
 }
 
+void fill_neutral(const Rig& rig, Skeleton& skeleton) {
+  // Lanes without a joint are the identity, and their results go nowhere.
+  for (uint32_t i = 0; i < skeleton.block_count() * kBlockRows; ++i) {
+    float* lane =
+        skeleton.neutral.data + i / kBlockRows * kNeutralRows * kBlockRows + i % kBlockRows;
+    lane[6 * kBlockRows] = 1;
+    if (i >= skeleton.joint_count) continue;
+    const uint32_t joint = skeleton.order[i];
+    const float* values = rig.neutral_joints.data + size_t{joint} * rig.joint_attributes;
+    for (int k = 0; k < 3; ++k) lane[k * kBlockRows] = values[k];
+    if (skeleton.compose == Compose::kEulerAdd) {
+      std::copy(values + 3, values + 6, skeleton.added_angles.data + size_t{i} * 3);
+      continue;
+    }
+    const Quaternion q = neutral_rotation(rig, joint);
+    lane[3 * kBlockRows] = q.x;
+    lane[4 * kBlockRows] = q.y;
+    lane[5 * kBlockRows] = q.z;
+    lane[6 * kBlockRows] = q.w;
+  }
+}
+
 }  // namespace
 
 void place_skeleton(const Rig& rig, Placer& placer, Skeleton& skeleton) {
+  const size_t count = rig.joint_count;
   skeleton.joint_count = rig.joint_count;
   skeleton.joint_attributes = rig.joint_attributes;
   skeleton.rotation = rig.rotation;
-  skeleton.order = placer.array<uint16_t>(rig.joint_count);
-  skeleton.parents = placer.array<uint16_t>(rig.joint_count);
-  skeleton.neutral = placer.array<float>(rig.joint_value_count(), kBlockAlignment);
-  skeleton.bind = placer.array<float>(rig.joint_count * kMatrixFloats, kBlockAlignment);
-  skeleton.inverse_bind = placer.array<float>(rig.joint_count * kMatrixFloats, kBlockAlignment);
+  skeleton.order = placer.array<uint16_t>(count);
+  skeleton.parents = placer.array<uint16_t>(count);
+  skeleton.neutral = placer.array<float>(size_t{skeleton.block_count()} * kNeutralRows * kBlockRows,
+                                         kBlockAlignment);
+  skeleton.added_angles = placer.array<float>(count * 3);
+  skeleton.bind = placer.array<float>(count * kMatrixFloats, kBlockAlignment);
+  skeleton.inverse_bind = placer.array<float>(count * kMatrixFloats, kBlockAlignment);
 }
 
-Status fill_skeleton(const Rig& rig, Compose compose, Arena& scratch, Skeleton& skeleton,
-                     Error& error) {
+Status fill_skeleton(const Rig& rig, const KernelTable* kernels, Compose compose, Arena& scratch,
+                     Skeleton& skeleton, Error& error) {
+  skeleton.kernels = kernels;
   skeleton.compose = compose;
   std::copy(rig.joint_parents.begin(), rig.joint_parents.end(), skeleton.parents.begin());
-  std::copy(rig.neutral_joints.begin(), rig.neutral_joints.end(), skeleton.neutral.begin());
   const Status status = sort_joints(skeleton, scratch, error);
   if (status != Status::kOk) return status;
+  fill_neutral(rig, skeleton);
 
   // In double: the inverses have to undo the matrices far from the origin too.
   const Span<Frame> frames = scratch.array<Frame>(skeleton.joint_count);
@@ -113,7 +142,7 @@ Status fill_skeleton(const Rig& rig, Compose compose, Arena& scratch, Skeleton& 
     return fail(error, Status::kMemory, kNoOffset, "no memory for %u joints", skeleton.joint_count);
   }
   for (uint16_t j : skeleton.order) {
-    const Frame local = neutral_frame(skeleton, j);
+    const Frame local = neutral_frame(rig, j);
     const uint16_t parent = skeleton.parents[j];
     frames[j] = parent == j ? local : frames[parent] * local;
     store(frames[j], skeleton.bind.data + j * kMatrixFloats);

@@ -15,25 +15,28 @@ enum class Compose : uint32_t { kProduct = 0, kEulerAdd = 1 };
 constexpr size_t kMatrixFloats = 16;  // four columns; the last row is 0 0 0 1
 
 struct Skeleton {
+  const KernelTable* kernels = nullptr;
   uint32_t joint_count = 0;
   uint32_t joint_attributes = kFileAttributes;  // 9, or 10 with quaternions
   Compose compose = Compose::kProduct;
   RotationConvention rotation;
 
-  Span<uint16_t> order;      // joints, parents before children
+  Span<uint16_t> order;      // joints, parents before children; order[i] has lane i
   Span<uint16_t> parents;    // [joint]; a root is its own
-  Span<float> neutral;       // [joint] values in the layout of the rig's outputs
+  Span<float> neutral;       // blocks of lanes: kNeutralRows as simd/kernels.h draws them
+  Span<float> added_angles;  // [lane] about x y z, in the file's unit: what Euler angles add up to
   Span<float> bind;          // [joint] model matrix in neutral
   Span<float> inverse_bind;  // [joint]
 
   uint32_t value_count() const { return joint_count * joint_attributes; }
+  uint32_t block_count() const { return (joint_count + kBlockRows - 1) / kBlockRows; }
   bool quaternions() const { return joint_attributes != kFileAttributes; }
 };
 
 void place_skeleton(const Rig& rig, Placer& placer, Skeleton& skeleton);
 
 /// kDnaValue if joints descend from themselves; kMemory for `scratch`.
-Status fill_skeleton(const Rig& rig, Compose compose, Arena& scratch, Skeleton& skeleton,
-                     Error& error);
+Status fill_skeleton(const Rig& rig, const KernelTable* kernels, Compose compose, Arena& scratch,
+                     Skeleton& skeleton, Error& error);
 
 }  // namespace mien

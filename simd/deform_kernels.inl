@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// Blend shape targets, linear blend skinning, normals.
+
+#pragma once
+
+#include "simd/vec.inl"
+
+namespace mien::MIEN_KERNEL_ISA {
+namespace {
+
+void add_target(const TargetArgs& args) {
+  const Quad weight = broadcast4(args.weight);
+  for (size_t i = 0; i < args.count; ++i) {
+    float* at = args.moved + size_t{args.places[i]} * 4;
+    store4(at, mul_add4(weight, load4(args.deltas + i * 3), load4(at)));
+  }
+}
+
+// Normals -----------------------------------------------------------------------------------------
+
+/// Takes vectors one by one, makes them unit four by four, and writes them where they belong.
+class UnitWriter {
+ public:
+  void add(const Quad& v, const float* otherwise, float* out) {
+    store4(vectors_ + 4 * count_, v);
+    otherwise_[count_] = otherwise;
+    out_[count_] = out;
+    if (++count_ == 4) flush();
+  }
+  void flush() {
+    Quad x = load4(vectors_), y = load4(vectors_ + 4), z = load4(vectors_ + 8),
+         w = load4(vectors_ + 12);
+    transpose4(x, y, z, w);
+    const Quad squared = mul_add4(z, z, mul_add4(y, y, x * x));
+    const Quad scale = divide4(broadcast4(1.0f), square_root4(squared));
+    x = x * scale;
+    y = y * scale;
+    z = z * scale;
+    w = squared;
+    transpose4(x, y, z, w);
+    const Quad units[4] = {x, y, z, w};
+    float lengths[4];
+    store4(lengths, squared);
+    for (size_t i = 0; i < count_; ++i) {
+      const bool has_direction = lengths[i] > 1e-36f && lengths[i] < 3.4e38f;
+      store3(out_[i], has_direction ? units[i] : load4(otherwise_[i]));
+    }
+    count_ = 0;
+  }
+
+ private:
+  alignas(16) float vectors_[16] = {};
+  const float* otherwise_[4];
+  float* out_[4];
+  size_t count_ = 0;
+};
+
+// Skinning ----------------------------------------------------------------------------------------
+
+constexpr size_t kVecsPerMatrix = 16 / kWidth;
+
+/// The sum of weight * matrix over one row of influences. Each float of the matrix is a lane and
+/// adds the influences in order, so the width does not change a bit.
+template <size_t kInfluences>
+inline void blend(const float* weights, const uint16_t* joints, const float* matrices,
+                  size_t influences, Quad (&columns)[4]) {
+  const size_t count = kInfluences != 0 ? kInfluences : influences;
+  Vec sums[kVecsPerMatrix];
+  const float* matrix = matrices + size_t{joints[0]} * 16;
+  const Vec first = broadcast(weights[0]);
+  for (size_t v = 0; v < kVecsPerMatrix; ++v) sums[v] = first * load(matrix + v * kWidth);
+  for (size_t k = 1; k < count; ++k) {
+    matrix = matrices + size_t{joints[k]} * 16;
+    const Vec weight = broadcast(weights[k]);
+    for (size_t v = 0; v < kVecsPerMatrix; ++v) {
+      sums[v] = mul_add(weight, load(matrix + v * kWidth), sums[v]);
+    }
+  }
+  columns4(sums, columns);
+}
+
+template <SkinNormals kMode, size_t kInfluences>
+void skin_rows(const SkinArgs& args) {
+  const size_t influences = kInfluences != 0 ? kInfluences : args.influences;
+  UnitWriter normals;
+  for (size_t i = 0; i < args.count; ++i) {
+    Quad c[4];
+    blend<kInfluences>(args.weights + i * influences, args.joints + i * influences, args.matrices,
+                       influences, c);
+    const float* p = args.places + i * 4;
+    const Quad moved =
+        mul_add4(c[0], broadcast4(p[0]),
+                 mul_add4(c[1], broadcast4(p[1]), mul_add4(c[2], broadcast4(p[2]), c[3])));
+    store3(args.positions + size_t{args.position_at[i]} * 3, moved);
+    if constexpr (kMode != SkinNormals::kNone) {
+      if constexpr (kMode == SkinNormals::kCofactors) {
+        const Quad x = c[0], y = c[1], z = c[2];
+        c[0] = cross4(y, z);
+        c[1] = cross4(z, x);
+        c[2] = cross4(x, y);
+      }
+      for (size_t k = args.first_corner[i]; k < args.first_corner[i + 1]; ++k) {
+        const size_t vertex = args.corners[k] & ~kHardCorner;
+        const float* n = args.normals + vertex * 3;
+        normals.add(mul_add4(c[0], broadcast4(n[0]),
+                             mul_add4(c[1], broadcast4(n[1]), c[2] * broadcast4(n[2]))),
+                    n, args.turned_normals + vertex * 3);
+      }
+    }
+  }
+  if constexpr (kMode != SkinNormals::kNone) normals.flush();
+}
+
+template <SkinNormals kMode>
+void skin_mode(const SkinArgs& args) {
+  switch (args.influences) {
+    case 1: return skin_rows<kMode, 1>(args);
+    case 2: return skin_rows<kMode, 2>(args);
+    case 3: return skin_rows<kMode, 3>(args);
+    case 4: return skin_rows<kMode, 4>(args);
+    case 8: return skin_rows<kMode, 8>(args);
+    default: return skin_rows<kMode, 0>(args);
+  }
+}
+
+void skin_places(const SkinArgs& args) {
+  switch (args.mode) {
+    case SkinNormals::kNone: return skin_mode<SkinNormals::kNone>(args);
+    case SkinNormals::kMatrix: return skin_mode<SkinNormals::kMatrix>(args);
+    case SkinNormals::kCofactors: return skin_mode<SkinNormals::kCofactors>(args);
+  }
+}
+
+// Recomputed normals ------------------------------------------------------------------------------
+
+void face_areas(const AreaArgs& args) {
+  for (size_t i = 0; i < args.count; ++i) {
+    const uint32_t* face = args.faces + i * 4;
+    const auto corner = [&](size_t k) { return load4(args.positions + size_t{face[k]} * 3); };
+    store4(args.areas + i * 4, cross4(corner(2) - corner(0), corner(3) - corner(1)));
+  }
+}
+
+inline float dot3(const float* a, const float* b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// The shortest turn that takes the neutral direction to that of `sum`, applied to a normal; zero
+/// if the sum has no direction.
+inline Quad turned_normal(const Quad& sum, const float* neutral_direction, const float* normal) {
+  float now[4];
+  store4(now, sum);
+  const float squared = dot3(now, now);
+  if (!(squared > 1e-36f && squared < 3.4e38f)) return broadcast4(0.0f);
+  const Quad unit = sum * broadcast4(1.0f / __builtin_sqrtf(squared));
+  const Quad axis = cross4(load4(neutral_direction), unit), n = load4(normal);
+  float unit_parts[4], axis_parts[4];
+  store4(unit_parts, unit);
+  store4(axis_parts, axis);
+  const float cosine = dot3(neutral_direction, unit_parts);
+  const float rest = 1 + cosine < 1e-6f ? 1e-6f : 1 + cosine;
+  return mul_add4(axis, broadcast4(dot3(axis_parts, normal) / rest),
+                  mul_add4(n, broadcast4(cosine), cross4(axis, n)));
+}
+
+void sum_normals(const NormalArgs& args) {
+  UnitWriter normals;
+  for (size_t i = 0; i < args.count; ++i) {
+    Quad sum = broadcast4(0.0f);
+    for (size_t k = args.first_touching[i]; k < args.first_touching[i + 1]; ++k) {
+      sum = sum + load4(args.areas + size_t{args.touching[k]} * 4);
+    }
+    for (size_t k = args.first_corner[i]; k < args.first_corner[i + 1]; ++k) {
+      const size_t vertex = args.corners[k] & ~kHardCorner;
+      const float* n = args.normals + vertex * 3;
+      const bool hard = (args.corners[k] & kHardCorner) != 0;
+      normals.add(hard ? turned_normal(sum, args.neutral_directions + i * 4, n) : sum, n,
+                  args.turned_normals + vertex * 3);
+    }
+  }
+  normals.flush();
+}
+
+}  // namespace
+}  // namespace mien::MIEN_KERNEL_ISA

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Joint values -> local transforms -> model and skin matrices. Products and sums are not fused
+// here: all that follows is sensitive to these matrices, so they are the same on every instruction
+// set.
+
+#pragma once
+
+#include "simd/rotation_kernels.inl"
+
+namespace mien::MIEN_KERNEL_ISA {
+namespace {
+
+// Taylor series, for |x| <= pi/2: the next terms are below 7e-10 there.
+inline Vec sine(Vec x) {
+  const Vec xx = x * x;
+  const float terms[] = {-2.50521084e-8f, 2.75573192e-6f, -1.98412698e-4f, 8.33333333e-3f,
+                         -1.66666667e-1f};
+  Vec p = broadcast(1.60590438e-10f);
+  for (float term : terms) p = p * xx + broadcast(term);
+  return (p * xx) * x + x;
+}
+inline Vec cosine(Vec x) {
+  const Vec xx = x * x;
+  const float terms[] = {2.08767570e-9f,  -2.75573192e-7f, 2.48015873e-5f,
+                         -1.38888889e-3f, 4.16666667e-2f,  -0.5f};
+  Vec p = broadcast(-1.14707456e-11f);
+  for (float term : terms) p = p * xx + broadcast(term);
+  return p * xx + broadcast(1.0f);
+}
+
+/// Turns by three half angles about the axes, one after the other.
+inline VecQuaternion turns(const float* half_angles, const uint8_t* axes) {
+  Vec q[4] = {broadcast(0.0f), broadcast(0.0f), broadcast(0.0f), broadcast(1.0f)};
+  for (int i = 0; i < 3; ++i) {
+    const size_t a = axes[i], b = (a + 1) % 3, c = (a + 2) % 3;
+    const Vec half = load(half_angles + a * kBlockRows);
+    const Vec s = sine(half), k = cosine(half);
+    const Vec qa = q[a], qb = q[b], qc = q[c], qw = q[3];
+    q[a] = k * qa + s * qw;
+    q[b] = k * qb - s * qc;
+    q[c] = k * qc + s * qb;
+    q[3] = k * qw - s * qa;
+  }
+  return {q[0], q[1], q[2], q[3]};
+}
+
+/// Unit length; the identity if there is no direction to be had.
+inline VecQuaternion unit(const VecQuaternion& q) {
+  const Vec zero = broadcast(0.0f), one = broadcast(1.0f);
+  const Vec squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  const Vec scale = divide(one, square_root(squared));
+  const auto part = [&](Vec value, Vec otherwise) {
+    const Vec bounded = select(less(squared, broadcast(3.4e38f)), value * scale, otherwise);
+    return select(less(broadcast(1e-36f), squared), bounded, otherwise);
+  };
+  return {part(q.x, zero), part(q.y, zero), part(q.z, zero), part(q.w, one)};
+}
+
+void joint_locals(const JointLocalArgs& args) {
+  const Vec one = broadcast(1.0f);
+  for (size_t block = 0; block < args.block_count; ++block) {
+    for (size_t lane = 0; lane < kBlockRows; lane += kWidth) {
+      const float* neutral = args.neutral + block * kNeutralRows * kBlockRows + lane;
+      const float* delta = args.deltas + block * kDeltaRows * kBlockRows + lane;
+      float* out = args.locals + block * kLocalRows * kBlockRows + lane;
+      const float* turn = delta + 3 * kBlockRows;
+      const VecQuaternion own =
+          args.quaternions ? unit(load_quaternion(turn)) : turns(turn, args.axes);
+      const VecQuaternion q = unit(multiply(load_quaternion(neutral + 3 * kBlockRows), own));
+
+      const Vec x2 = q.x + q.x, y2 = q.y + q.y, z2 = q.z + q.z;
+      const Vec xx = q.x * x2, yy = q.y * y2, zz = q.z * z2;
+      const Vec xy = q.x * y2, xz = q.x * z2, yz = q.y * z2;
+      const Vec wx = q.w * x2, wy = q.w * y2, wz = q.w * z2;
+      const Vec axes[3][3] = {{one - (yy + zz), xy + wz, xz - wy},
+                              {xy - wz, one - (xx + zz), yz + wx},
+                              {xz + wy, yz - wx, one - (xx + yy)}};
+      for (size_t c = 0; c < 3; ++c) {
+        const Vec scale = one + load(delta + (7 + c) * kBlockRows);
+        for (size_t r = 0; r < 3; ++r) store(out + (3 * c + r) * kBlockRows, axes[c][r] * scale);
+        store(out + (9 + c) * kBlockRows,
+              load(neutral + c * kBlockRows) + load(delta + c * kBlockRows));
+      }
+      store(out + 12 * kBlockRows, q.x);
+      store(out + 13 * kBlockRows, q.y);
+      store(out + 14 * kBlockRows, q.z);
+      store(out + 15 * kBlockRows, q.w);
+    }
+  }
+}
+
+struct Columns {
+  Quad x, y, z, at;
+};
+inline Columns load_columns(const float* from) {
+  return {load4(from), load4(from + 4), load4(from + 8), load4(from + 12)};
+}
+inline void store_columns(float* to, const Columns& m) {
+  store4(to, m.x);
+  store4(to + 4, m.y);
+  store4(to + 8, m.z);
+  store4(to + 12, m.at);
+}
+
+/// m * (column whose three numbers are `stride` apart).
+inline Quad turned(const Columns& m, const float* column, size_t stride) {
+  return m.x * broadcast4(column[0]) + m.y * broadcast4(column[stride]) +
+         m.z * broadcast4(column[2 * stride]);
+}
+
+/// m * (matrix of four columns, `column` floats apart, of three numbers, `row` floats apart).
+inline Columns product(const Columns& m, const float* of, size_t column, size_t row) {
+  return {turned(m, of, row), turned(m, of + column, row), turned(m, of + 2 * column, row),
+          turned(m, of + 3 * column, row) + m.at};
+}
+
+void joint_tree(const JointTreeArgs& args) {
+  alignas(16) static constexpr float kIdentity[16] = {1, 0, 0, 0, 0, 1, 0, 0,
+                                                      0, 0, 1, 0, 0, 0, 0, 1};
+  for (size_t i = 0; i < args.joint_count; ++i) {
+    const size_t joint = args.order[i], parent = args.parents[joint];
+    const bool root = parent == joint;
+    const float* local = args.locals + i / kBlockRows * kLocalRows * kBlockRows + i % kBlockRows;
+    const Columns above = load_columns(root ? kIdentity : args.model + parent * 16);
+    const Columns model = product(above, local, 3 * kBlockRows, kBlockRows);
+    store_columns(args.model + joint * 16, model);
+    const Columns skin = !args.still[i] ? product(model, args.inverse_bind + joint * 16, 4, 1)
+                         : root         ? load_columns(kIdentity)
+                                        : load_columns(args.skin + parent * 16);
+    store_columns(args.skin + joint * 16, skin);
+  }
+}
+
+}  // namespace
+}  // namespace mien::MIEN_KERNEL_ISA
