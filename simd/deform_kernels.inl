@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <utility>  // index_sequence, a mere type
+
 #include "simd/vec.inl"
 
 namespace mien::MIEN_KERNEL_ISA {
@@ -18,41 +20,53 @@ void add_target(const TargetArgs& args) {
 
 // Normals -----------------------------------------------------------------------------------------
 
-/// Takes vectors one by one, makes them unit four by four, and writes them where they belong.
-class UnitWriter {
+/// Takes one vector for each corner of a list, in its order, and writes them as unit vectors to the
+/// vertices that the corners name: some at a time, for roots and divisions take long alone.
+class CornerNormals {
  public:
-  void add(const Quad& v, const float* otherwise, float* out) {
+  CornerNormals(const uint32_t* corners, const float* neutral, float* normals)
+      : corners_(corners), neutral_(neutral), normals_(normals) {}
+
+  void add(const Quad& v) {
     store4(vectors_ + 4 * count_, v);
-    otherwise_[count_] = otherwise;
-    out_[count_] = out;
-    if (++count_ == 4) flush();
+    if (++count_ == kMost) flush();
   }
   void flush() {
-    Quad x = load4(vectors_), y = load4(vectors_ + 4), z = load4(vectors_ + 8),
-         w = load4(vectors_ + 12);
-    transpose4(x, y, z, w);
-    const Quad squared = mul_add4(z, z, mul_add4(y, y, x * x));
-    const Quad scale = divide4(broadcast4(1.0f), square_root4(squared));
-    x = x * scale;
-    y = y * scale;
-    z = z * scale;
-    w = squared;
-    transpose4(x, y, z, w);
-    const Quad units[4] = {x, y, z, w};
-    float lengths[4];
-    store4(lengths, squared);
-    for (size_t i = 0; i < count_; ++i) {
-      const bool has_direction = lengths[i] > 1e-36f && lengths[i] < 3.4e38f;
-      store3(out_[i], has_direction ? units[i] : load4(otherwise_[i]));
+    for (size_t i = 0; i < count_; i += 4) {
+      const float* v = vectors_ + 4 * i;
+      Quad x = load4(v), y = load4(v + 4), z = load4(v + 8), w = load4(v + 12);
+      transpose4(x, y, z, w);
+      const Quad squared = mul_add4(z, z, mul_add4(y, y, x * x));
+      const Quad scale = divide4(broadcast4(1.0f), square_root4(squared));
+      x = x * scale;
+      y = y * scale;
+      z = z * scale;
+      transpose4(x, y, z, w);
+      float lengths[4];
+      store4(lengths, squared);
+      const size_t rest = count_ - i;
+      put(x, lengths[0], corners_[i]);
+      if (rest > 1) put(y, lengths[1], corners_[i + 1]);
+      if (rest > 2) put(z, lengths[2], corners_[i + 2]);
+      if (rest > 3) put(w, lengths[3], corners_[i + 3]);
     }
+    corners_ += count_;
     count_ = 0;
   }
 
  private:
-  alignas(16) float vectors_[16] = {};
-  const float* otherwise_[4];
-  float* out_[4];
+  void put(const Quad& unit, float squared, uint32_t corner) {
+    const size_t at = size_t{corner & ~kHardCorner} * 3;
+    const bool has_direction = squared > 1e-36f && squared < 3.4e38f;
+    store3(normals_ + at, has_direction ? unit : load4(neutral_ + at));
+  }
+
+  static constexpr size_t kMost = 64;
+  alignas(16) float vectors_[kMost * 4] = {};
   size_t count_ = 0;
+  const uint32_t* corners_;
+  const float* neutral_;
+  float* normals_;
 };
 
 // Skinning ----------------------------------------------------------------------------------------
@@ -60,21 +74,18 @@ class UnitWriter {
 constexpr size_t kVecsPerMatrix = 16 / kWidth;
 
 /// The sum of weight * matrix over one row of influences. Each float of the matrix is a lane and
-/// adds the influences in order, so the width does not change a bit.
-template <size_t kInfluences>
-inline void blend(const float* weights, const uint16_t* joints, const float* matrices,
-                  size_t influences, Quad (&columns)[4]) {
-  const size_t count = kInfluences != 0 ? kInfluences : influences;
-  Vec sums[kVecsPerMatrix];
+/// adds the influences in order, so the width does not change a bit. The pack instead of a loop
+/// makes each sum a register of its own.
+template <size_t... V>
+inline void blend(const float* weights, const uint16_t* joints, const float* matrices, size_t count,
+                  Quad* columns, std::index_sequence<V...>) {
   const float* matrix = matrices + size_t{joints[0]} * 16;
   const Vec first = broadcast(weights[0]);
-  for (size_t v = 0; v < kVecsPerMatrix; ++v) sums[v] = first * load(matrix + v * kWidth);
+  Vec sums[] = {first * load(matrix + V * kWidth)...};
   for (size_t k = 1; k < count; ++k) {
     matrix = matrices + size_t{joints[k]} * 16;
     const Vec weight = broadcast(weights[k]);
-    for (size_t v = 0; v < kVecsPerMatrix; ++v) {
-      sums[v] = mul_add(weight, load(matrix + v * kWidth), sums[v]);
-    }
+    ((sums[V] = mul_add(weight, load(matrix + V * kWidth), sums[V])), ...);
   }
   columns4(sums, columns);
 }
@@ -82,11 +93,11 @@ inline void blend(const float* weights, const uint16_t* joints, const float* mat
 template <SkinNormals kMode, size_t kInfluences>
 void skin_rows(const SkinArgs& args) {
   const size_t influences = kInfluences != 0 ? kInfluences : args.influences;
-  UnitWriter normals;
+  CornerNormals normals(args.corners + args.first_corner[0], args.normals, args.turned_normals);
   for (size_t i = 0; i < args.count; ++i) {
     Quad c[4];
-    blend<kInfluences>(args.weights + i * influences, args.joints + i * influences, args.matrices,
-                       influences, c);
+    blend(args.weights + i * influences, args.joints + i * influences, args.matrices, influences, c,
+          std::make_index_sequence<kVecsPerMatrix>());
     const float* p = args.places + i * 4;
     const Quad moved =
         mul_add4(c[0], broadcast4(p[0]),
@@ -100,11 +111,9 @@ void skin_rows(const SkinArgs& args) {
         c[2] = cross4(x, y);
       }
       for (size_t k = args.first_corner[i]; k < args.first_corner[i + 1]; ++k) {
-        const size_t vertex = args.corners[k] & ~kHardCorner;
-        const float* n = args.normals + vertex * 3;
+        const float* n = args.normals + size_t{args.corners[k] & ~kHardCorner} * 3;
         normals.add(mul_add4(c[0], broadcast4(n[0]),
-                             mul_add4(c[1], broadcast4(n[1]), c[2] * broadcast4(n[2]))),
-                    n, args.turned_normals + vertex * 3);
+                             mul_add4(c[1], broadcast4(n[1]), c[2] * broadcast4(n[2]))));
       }
     }
   }
@@ -164,18 +173,19 @@ inline Quad turned_normal(const Quad& sum, const float* neutral_direction, const
 }
 
 void sum_normals(const NormalArgs& args) {
-  UnitWriter normals;
+  CornerNormals normals(args.corners + args.first_corner[0], args.normals, args.turned_normals);
   for (size_t i = 0; i < args.count; ++i) {
     Quad sum = broadcast4(0.0f);
     for (size_t k = args.first_touching[i]; k < args.first_touching[i + 1]; ++k) {
       sum = sum + load4(args.areas + size_t{args.touching[k]} * 4);
     }
     for (size_t k = args.first_corner[i]; k < args.first_corner[i + 1]; ++k) {
-      const size_t vertex = args.corners[k] & ~kHardCorner;
-      const float* n = args.normals + vertex * 3;
-      const bool hard = (args.corners[k] & kHardCorner) != 0;
-      normals.add(hard ? turned_normal(sum, args.neutral_directions + i * 4, n) : sum, n,
-                  args.turned_normals + vertex * 3);
+      if ((args.corners[k] & kHardCorner) == 0) {
+        normals.add(sum);
+        continue;
+      }
+      const float* n = args.normals + size_t{args.corners[k] & ~kHardCorner} * 3;
+      normals.add(turned_normal(sum, args.neutral_directions + i * 4, n));
     }
   }
   normals.flush();

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+// Deformation by instruction set: joints, skin, targets, normals, a whole frame of a head, and many
+// characters. The head is the finest mesh of the bench rig (by default a generated one of 24,578
+// positions and 135,254 deltas), but with eight influences for each position: those of the joints
+// that lie nearest.
+#include <algorithm>
+#include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <random>
+#include <thread>
+
+#include "bench/bench_support.h"
+#include "capi/handles.h"
+
+namespace mien::bench {
+namespace {
+
+constexpr uint32_t kInfluences = 8;
+
+/// Model positions of the joints, from a deformer of the rig as it is.
+std::vector<float> joint_positions(const MienDna* dna) {
+  MienError error = sized<MienError>();
+  MienRig* rig = create_rig(dna, MIEN_ISA_SCALAR);
+  MienDeformer* deformer = nullptr;
+  require(mien_deformer_create(dna, rig, nullptr, &deformer, &error), error);
+  MienFloatView matrices = {};
+  mien_deformer_bind_matrices(deformer, &matrices);
+  std::vector<float> positions;
+  for (size_t i = 0; i < matrices.count; i += 16) {
+    positions.insert(positions.end(), matrices.data + i + 12, matrices.data + i + 15);
+  }
+  mien_deformer_destroy(deformer);
+  mien_rig_destroy(rig);
+  return positions;
+}
+
+MienDna* head() {
+  static MienDna* const made = [] {
+    MienDna* dna = open_rig(MIEN_LAYER_ALL, 0);
+    const std::vector<float> joints = joint_positions(dna);
+    dna::Mesh& mesh = dna->view.geom.meshes[0];
+    mesh.skin_weights.items =
+        dna->arena.array<dna::VertexSkinWeights>(mesh.positions.xs.count).data;
+    mesh.skin_weights.count = mesh.positions.xs.count;
+    std::vector<std::pair<float, uint16_t>> near(joints.size() / 3);
+    for (uint32_t v = 0; v < mesh.skin_weights.count; ++v) {
+      for (size_t j = 0; j < near.size(); ++j) {
+        const float x = mesh.positions.xs[v] - joints[j * 3];
+        const float y = mesh.positions.ys[v] - joints[j * 3 + 1];
+        const float z = mesh.positions.zs[v] - joints[j * 3 + 2];
+        near[j] = {x * x + y * y + z * z, static_cast<uint16_t>(j)};
+      }
+      std::partial_sort(near.begin(), near.begin() + kInfluences, near.end());
+      const auto weights = dna::new_array<float>(dna->arena, kInfluences);
+      const auto indices = dna::new_array<uint16_t>(dna->arena, kInfluences);
+      for (uint32_t k = 0; k < kInfluences; ++k) {
+        weights.set(k, 1.0f / kInfluences);
+        indices.set(k, near[k].second);
+      }
+      mesh.skin_weights[v] = {weights, indices};
+    }
+    return dna;
+  }();
+  return made;
+}
+
+/// A deformer of the head for an instruction set, made once.
+const MienDeformer* deformer_for(uint32_t isa) {
+  static MienDeformer* deformers[MIEN_ISA_NEON + 1] = {};
+  if (deformers[isa]) return deformers[isa];
+  MienError error = sized<MienError>();
+  MienRig* rig = create_rig(head(), isa);
+  require(mien_deformer_create(head(), rig, nullptr, &deformers[isa], &error), error);
+  mien_rig_destroy(rig);
+  return deformers[isa];
+}
+
+/// A character in some pose: small turns and shifts of all joints, and `channels` percent of the
+/// channels at work.
+struct Character {
+  MienPose* pose = nullptr;
+  std::vector<float> joints, weights;
+
+  Character(uint32_t isa, uint32_t seed, uint32_t channels) {
+    const MienDeformer* deformer = deformer_for(isa);
+    MienDeformerInfo info = sized<MienDeformerInfo>();
+    mien_deformer_info(deformer, &info);
+    MienPoseDesc desc = sized<MienPoseDesc>();
+    desc.lods = 1;
+    MienError error = sized<MienError>();
+    require(mien_pose_create(deformer, &desc, &pose, &error), error);
+    std::mt19937 random(seed);
+    const auto next = [&] { return static_cast<float>(random() >> 8) / 16777216.0f - 0.5f; };
+    for (uint32_t j = 0; j < info.joint_count; ++j) {
+      for (int i = 0; i < 3; ++i) joints.push_back(0.2f * next());
+      for (int i = 0; i < 3; ++i) joints.push_back(10 * next());
+      for (int i = 0; i < 3; ++i) joints.push_back(0);
+    }
+    weights.resize(info.channel_count);
+    for (float& weight : weights) weight = random() % 100 < channels ? next() + 0.6f : 0;
+    update();
+  }
+  ~Character() { mien_pose_destroy(pose); }
+  Character(const Character&) = delete;
+
+  void update() {
+    mien_pose_update_from_values(pose, joints.data(), joints.size(), weights.data(),
+                                 weights.size());
+  }
+};
+
+double position_count() {
+  MienMesh mesh = sized<MienMesh>();
+  mien_deformer_mesh(deformer_for(MIEN_ISA_SCALAR), 0, &mesh);
+  return static_cast<double>(mesh.position_count);
+}
+
+void count_vertices(benchmark::State& state, double characters = 1) {
+  state.counters["vertices"] = benchmark::Counter(position_count() * characters,
+                                                  benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void joints(benchmark::State& state, uint32_t isa) {
+  Character character(isa, 1, 0);
+  for (auto _ : state) character.update();
+  state.counters["joints"] = benchmark::Counter(static_cast<double>(character.joints.size() / 9),
+                                                benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void deform(benchmark::State& state, uint32_t isa, uint32_t normals, uint32_t channels) {
+  Character character(isa, 1, channels);
+  for (auto _ : state) mien_pose_deform(character.pose, 0, normals, nullptr);
+  count_vertices(state);
+}
+
+void frame(benchmark::State& state, uint32_t isa, uint32_t channels,
+           const MienParallelFor* parallel) {
+  Character character(isa, 1, channels);
+  for (auto _ : state) {
+    character.update();
+    mien_pose_deform(character.pose, 0, MIEN_NORMALS_RECOMPUTED, parallel);
+  }
+  count_vertices(state);
+}
+
+/// Eight characters: one after the other, or together.
+void crowd(benchmark::State& state, uint32_t isa, bool together) {
+  constexpr uint32_t kCharacters = 8;
+  std::vector<std::unique_ptr<Character>> characters;
+  std::vector<MienPose*> poses;
+  for (uint32_t i = 0; i < kCharacters; ++i) {
+    characters.push_back(std::make_unique<Character>(isa, i, 10));
+    poses.push_back(characters.back()->pose);
+  }
+  for (auto _ : state) {
+    if (together) {
+      mien_pose_deform_batch(poses.data(), poses.size(), 0, MIEN_NORMALS_SKINNED, nullptr);
+      continue;
+    }
+    for (MienPose* pose : poses) mien_pose_deform(pose, 0, MIEN_NORMALS_SKINNED, nullptr);
+  }
+  count_vertices(state, kCharacters);
+}
+
+/// Threads that wait for work; the caller works too.
+class Pool {
+ public:
+  explicit Pool(unsigned helpers) {
+    for (unsigned i = 0; i < helpers; ++i) threads_.emplace_back([this] { help(); });
+  }
+  ~Pool() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      over_ = true;
+    }
+    wake_.notify_all();
+    for (std::thread& thread : threads_) thread.join();
+  }
+  MienParallelFor interface() { return {this, run}; }
+
+ private:
+  struct Work {
+    uint32_t count = 0;
+    void (*task)(void*, uint32_t) = nullptr;
+    void* context = nullptr;
+  };
+  static void run(void* user, uint32_t count, void (*task)(void*, uint32_t), void* context) {
+    Pool& pool = *static_cast<Pool*>(user);
+    std::unique_lock<std::mutex> lock(pool.mutex_);
+    pool.work_ = {count, task, context};
+    pool.next_ = pool.done_ = 0;
+    pool.wake_.notify_all();
+    pool.take(lock);
+    pool.finished_.wait(lock, [&] { return pool.done_ == count; });
+    pool.work_ = {};
+  }
+  void take(std::unique_lock<std::mutex>& lock) {
+    while (next_ < work_.count) {
+      const uint32_t index = next_++;
+      const Work work = work_;
+      lock.unlock();
+      work.task(work.context, index);
+      lock.lock();
+      if (++done_ == work.count) finished_.notify_all();
+    }
+  }
+  void help() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (!over_) {
+      wake_.wait(lock, [&] { return over_ || next_ < work_.count; });
+      take(lock);
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable wake_, finished_;
+  std::vector<std::thread> threads_;
+  Work work_;
+  uint32_t next_ = 0, done_ = 0;
+  bool over_ = false;
+};
+
+void threaded_frame(benchmark::State& state, uint32_t isa, unsigned threads) {
+  Pool pool(threads - 1);
+  const MienParallelFor parallel = pool.interface();
+  frame(state, isa, 100, &parallel);
+}
+
+int registered = [] {
+  for (uint32_t isa = MIEN_ISA_SCALAR; isa <= MIEN_ISA_NEON; ++isa) {
+    if (!mien_isa_available(isa)) continue;
+    const auto add = [&](const std::string& name, auto&&... arguments) {
+      benchmark::RegisterBenchmark((name + "/" + mien_isa_name(isa)).c_str(), arguments...)
+          ->Unit(benchmark::kMicrosecond)
+          ->UseRealTime();
+    };
+    add("joints", joints, isa);
+    add("skin", deform, isa, MIEN_NORMALS_NONE, 0u);
+    add("skin_and_normals", deform, isa, MIEN_NORMALS_SKINNED, 0u);
+    add("skin_and_recomputed", deform, isa, MIEN_NORMALS_RECOMPUTED, 0u);
+    add("targets_and_skin", deform, isa, MIEN_NORMALS_NONE, 100u);
+    add("frame", frame, isa, 100u, nullptr);
+    add("frame_few_channels", frame, isa, 8u, nullptr);
+    add("frame_two_threads", threaded_frame, isa, 2u);
+    add("eight_characters_one_by_one", crowd, isa, false);
+    add("eight_characters_together", crowd, isa, true);
+  }
+  return 0;
+}();
+
+}  // namespace
+}  // namespace mien::bench
