@@ -660,20 +660,22 @@ MIEN_API MienStatus mien_rig_evaluate_twist_swing(const MienRig* rig, MienInstan
  * file), so a mesh has at least as many vertices as positions it uses. */
 typedef struct MienDeformer MienDeformer;
 
-enum {
+/* How the rotation of a joint is made of the neutral one and the delta. */
+enum MienCompose {
     MIEN_COMPOSE_PRODUCT = 0,  /* neutral rotation * delta rotation: the delta turns first */
     MIEN_COMPOSE_EULER_ADD = 1 /* the angles are added; needs MIEN_OUTPUT_EULER. The same where the
                                   neutral rotation is zero. */
 };
 
-enum {
+/* What is done about skin weights. */
+enum MienWeights {
     MIEN_WEIGHTS_AS_STORED = 0,
     MIEN_WEIGHTS_FIX = 1 /* negative weights count as 0, and the weights of a position sum to 1 */
 };
 
 /* Normals that mien_pose_deform() makes, unit length. Where there is no direction to be had (no
  * area, no face) they are the neutral ones. */
-enum {
+enum MienNormals {
     MIEN_NORMALS_DEFAULT = 0,    /* what MienDeformerDesc.normals says; there: recomputed */
     MIEN_NORMALS_NONE = 1,       /* left as they are */
     MIEN_NORMALS_SKINNED = 2,    /* neutral normals turned as the skin is: cheap, but blend shape
@@ -703,8 +705,8 @@ typedef struct MienDeformerDesc {
  * three corners are left out. Meshes without faces, weights, normals, texture coordinates or anything
  * at all are accepted: normals that the file lacks are recomputed from the faces, texture coordinates
  * are 0. MIEN_ERROR_DNA_VALUE: joints that descend from themselves; positions, deltas or weights that
- * are not finite (the message names mesh and position). `desc` may be NULL. Takes some memory beyond
- * the block for the time of the call. */
+ * are not finite (the message names mesh and position). Takes some memory beyond the block for the time
+ * of the call. */
 MIEN_API MienStatus mien_deformer_create(const MienDna* dna, const MienRig* rig,
                                          const MienDeformerDesc* desc, MienDeformer** out_deformer,
                                          MienError* error);
@@ -784,7 +786,7 @@ typedef struct MienPoseDesc {
 } MienPoseDesc;
 
 /* A pose in neutral: matrices, positions and normals are those of the deformer. It keeps the
- * deformer's memory alive. `desc` may be NULL. One allocation. */
+ * deformer's memory alive. One allocation. */
 MIEN_API MienStatus mien_pose_create(const MienDeformer* deformer, const MienPoseDesc* desc,
                                      MienPose** out_pose, MienError* error);
 MIEN_API void mien_pose_destroy(MienPose* pose);
@@ -796,8 +798,8 @@ MIEN_API void mien_pose_destroy(MienPose* pose);
 MIEN_API MienStatus mien_pose_update(MienPose* pose, const MienInstance* instance);
 
 /* The same from arrays: joint values as mien_instance_joints() gives them, and one weight per
- * channel. Either may be NULL with count 0 (no deltas, no weights); any other count than that of the
- * rig is MIEN_ERROR_INVALID_ARGUMENT. */
+ * channel. `joint_values` may be NULL, with count 0: no deltas. `channel_weights` may be NULL, with
+ * count 0: all 0. Any other count than that of the rig is MIEN_ERROR_INVALID_ARGUMENT. */
 MIEN_API MienStatus mien_pose_update_from_values(MienPose* pose, const float* joint_values,
                                                  size_t joint_value_count,
                                                  const float* channel_weights,
@@ -814,16 +816,17 @@ MIEN_API MienStatus mien_pose_skin_matrices(const MienPose* pose, MienFloatView*
 MIEN_API MienStatus mien_pose_local_transforms(const MienPose* pose, float* out_transforms,
                                                size_t count);
 
-/* Positions of one mesh as of the last update, and its normals (MIEN_NORMALS_...). `parallel` NULL, and
- * meshes below 16384 positions: on this thread. Otherwise in blocks of 2048; the result has the same
- * bits. Allocates nothing. MIEN_ERROR_LOD: the pose has no room for this mesh. */
+/* Positions of one mesh as of the last update, and its normals (MIEN_NORMALS_...). On this thread, but
+ * for meshes of 16384 positions and more in tasks of about 2048, if there is somebody to run them:
+ * `parallel` may be NULL. The result has the same bits. Allocates nothing, locks nothing.
+ * MIEN_ERROR_LOD: the pose has no room for this mesh. */
 MIEN_API MienStatus mien_pose_deform(MienPose* pose, uint32_t mesh, uint32_t normals,
                                      const MienParallelFor* parallel);
 
 /* The same mesh of several different poses of one deformer: the same bits as one after the other, but
- * each piece of the mesh is fetched once, and the size that counts for `parallel` is that of all. A
- * pose that comes up twice is MIEN_ERROR_INVALID_ARGUMENT, one of another deformer MIEN_ERROR_MISMATCH;
- * then none is deformed. */
+ * each piece of the mesh is fetched once, and the size that counts is that of all of them together;
+ * `parallel` may be NULL. A pose that comes up twice is MIEN_ERROR_INVALID_ARGUMENT, one of another
+ * deformer MIEN_ERROR_MISMATCH; then none is deformed. */
 MIEN_API MienStatus mien_pose_deform_batch(MienPose* const* poses, size_t pose_count, uint32_t mesh,
                                            uint32_t normals, const MienParallelFor* parallel);
 
