@@ -69,12 +69,17 @@ bool faces_point_inwards(const MeshSource& source, const DeformMesh& mesh,
     if (std::isfinite(along)) sum += along;
   }
   if (sum != 0) return sum < 0;
+  const bool clockwise = source.view.dsce.face_winding_order == 1;
   const dna::CoordinateSystem& axes = source.view.desc.coordinate_system;
   const uint32_t named[3] = {axes.x_axis, axes.y_axis, axes.z_axis};
   static constexpr uint32_t kRightUpFront[3] = {1, 2, 4};
+  // Directions only inform elsewhere, so a file may have any numbers there.
+  for (uint32_t direction : named) {
+    if (direction > 5) return clockwise;
+  }
   const Matrix3 change = change_of_axes(named, kRightUpFront);
   const auto row = [&](int r) { return Vec3{change.m[r][0], change.m[r][1], change.m[r][2]}; };
-  return (dot(cross(row(0), row(1)), row(2)) < 0) != (source.view.dsce.face_winding_order == 1);
+  return (dot(cross(row(0), row(1)), row(2)) < 0) != clockwise;
 }
 
 void fill_vertices(const Mesh& source, DeformMesh& mesh) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The whole life of a file, whatever is in it: opened, compiled, evaluated, written, opened again,
-// validated. What the library promises of each step for any bytes at all is checked on the way; the
-// first broken promise is told in words. Used by tests and by the fuzzer, so without GoogleTest.
+// The whole life of a file, whatever is in it: opened, compiled, evaluated, deformed, written,
+// opened again, validated. What the library promises of each step for any bytes at all is checked
+// on the way; the first broken promise is told in words. Used by tests and by the fuzzer, so
+// without GoogleTest.
 #pragma once
 
 #include <cmath>
@@ -19,6 +20,10 @@ namespace mien {
 /// Most memory that opening may hold at a time.
 constexpr size_t open_memory_bound(size_t file_size) { return 20 * file_size + 256 * 1024; }
 
+/// The same for packing the geometry and one pose. A position of 12 bytes becomes about 100, with
+/// places, neighbours and results.
+constexpr size_t deformer_memory_bound(size_t file_size) { return 40 * file_size + 1024 * 1024; }
+
 /// The same for compiling a rig and one instance. A joint group of one row is padded to 16, so an
 /// entry of 4 bytes can become one of 64; names and tables of 65536 controls, which a file asks for
 /// with two bytes (psdCount), are the constant.
@@ -35,8 +40,9 @@ struct LifeOptions {
 struct Life {
   MienStatus opened = MIEN_OK;
   MienStatus compiled = MIEN_OK;  // if opened
+  MienStatus packed = MIEN_OK;    // the geometry, if compiled
   std::string message;            // of the step that failed
-  size_t open_peak = 0, rig_peak = 0, report_peak = 0;
+  size_t open_peak = 0, rig_peak = 0, deformer_peak = 0, report_peak = 0;
   std::string broken;  // a promise that was not kept; "" if all were
 };
 
@@ -155,8 +161,126 @@ class DnaLife {
     if (life_.rig_peak > rig_memory_bound(size_)) {
       broke("a rig of %zu bytes of file took %zu", size_, life_.rig_peak);
     }
+    deform(dna, rig);
     mien_rig_destroy(rig);
     if (counter_.bytes != before) broke("a destroyed rig kept memory");
+  }
+
+  void deform(const MienDna* dna, MienRig* rig) {
+    const size_t before = counter_.bytes;
+    counter_.restart();
+    MienDeformerDesc desc = {};
+    desc.struct_size = sizeof(desc);
+    desc.weights = options_.control_seed & 1 ? MIEN_WEIGHTS_FIX : MIEN_WEIGHTS_AS_STORED;
+    desc.compose = options_.control_seed & 2 ? MIEN_COMPOSE_EULER_ADD : MIEN_COMPOSE_PRODUCT;
+    desc.allocator = &allocator_;
+    MienError error = {};
+    error.struct_size = sizeof(error);
+    MienDeformer* deformer = nullptr;
+    life_.packed = mien_deformer_create(dna, rig, &desc, &deformer, &error);
+    if ((life_.packed == MIEN_OK) != (deformer != nullptr)) broke("a deformer or none");
+    if (!deformer) {
+      check_failure("packing", life_.packed, error, size_);
+      const uint32_t geometry = MIEN_LAYER_GEOMETRY | MIEN_LAYER_GEOMETRY_WITHOUT_BLEND_SHAPES;
+      const bool expected = layers_ & geometry ? life_.packed == MIEN_ERROR_DNA_VALUE ||
+                                                     life_.packed == MIEN_ERROR_DNA_LIMIT
+                                               : life_.packed == MIEN_ERROR_DNA_LAYER;
+      if (!expected) broke("packing gave %d: %s", life_.packed, error.message);
+      if (counter_.bytes != before) broke("a failed deformer kept memory");
+      return;
+    }
+    read_meshes(deformer);
+    MienInstance* instance = nullptr;
+    MienPose* pose = nullptr;
+    if (mien_instance_create(rig, &allocator_, &instance, nullptr) != MIEN_OK) broke("no instance");
+    MienPoseDesc pose_desc = {};
+    pose_desc.struct_size = sizeof(pose_desc);
+    pose_desc.allocator = &allocator_;
+    if (mien_pose_create(deformer, &pose_desc, &pose, nullptr) != MIEN_OK) broke("no pose");
+    mien_deformer_destroy(deformer);  // the pose keeps what it needs
+    if (instance && pose) pose_meshes(rig, instance, pose);
+    life_.deformer_peak = counter_.peak - before;
+    mien_pose_destroy(pose);
+    mien_instance_destroy(instance);
+    if (life_.deformer_peak > deformer_memory_bound(size_)) {
+      broke("a deformer of %zu bytes of file took %zu", size_, life_.deformer_peak);
+    }
+    if (counter_.bytes != before) broke("a destroyed deformer kept memory");
+  }
+
+  // What views point at can be read, and indices lie within what they number.
+  void read_meshes(const MienDeformer* deformer) {
+    MienDeformerInfo info = {};
+    info.struct_size = sizeof(info);
+    if (mien_deformer_info(deformer, &info) != MIEN_OK) broke("no deformer info");
+    for (uint32_t m = 0; m < info.mesh_count; ++m) {
+      MienMesh mesh = {};
+      mesh.struct_size = sizeof(mesh);
+      if (mien_deformer_mesh(deformer, m, &mesh) != MIEN_OK) broke("no mesh %u", m);
+      float sum = 0;
+      for (size_t i = 0; i < mesh.positions.count; ++i) sum += mesh.positions.data[i];
+      for (size_t i = 0; i < mesh.normals.count; ++i) sum += mesh.normals.data[i];
+      for (size_t i = 0; i < mesh.texture_coordinates.count; ++i) {
+        sum += mesh.texture_coordinates.data[i];
+      }
+      sink_ = sum;
+      for (size_t i = 0; i < mesh.triangles.count; ++i) {
+        if (mesh.triangles.data[i] >= mesh.vertex_count) broke("mesh %u: a corner too far", m);
+      }
+      for (size_t i = 0; i < mesh.vertex_positions.count; ++i) {
+        if (mesh.vertex_positions.data[i] >= mesh.position_count) broke("mesh %u: a position", m);
+      }
+      for (uint32_t p = 0; p < mesh.position_count; ++p) {
+        MienIndexView joints;
+        MienFloatView weights;
+        if (mien_deformer_influences(deformer, m, p, &joints, &weights) != MIEN_OK ||
+            joints.count != weights.count || joints.count > mesh.most_influences) {
+          broke("mesh %u: influences of position %u", m, p);
+        }
+        for (size_t i = 0; i < joints.count; ++i) {
+          if (joints.data[i] >= info.joint_count) broke("mesh %u: a joint too far", m);
+        }
+      }
+      std::vector<float> deltas(size_t{mesh.position_count} * 3 + 1);
+      for (uint32_t t = 0; t < mesh.target_count && t < 4; ++t) {
+        if (mien_deformer_target(deformer, m, t, deltas.data(), deltas.size()) != MIEN_OK) {
+          broke("mesh %u: no target %u", m, t);
+        }
+      }
+    }
+  }
+
+  void pose_meshes(const MienRig* rig, MienInstance* instance, MienPose* pose) {
+    MienRigInfo info = {};
+    info.struct_size = sizeof(info);
+    mien_rig_info(rig, &info);
+    uint32_t meshes = 0;
+    mien_rig_count(rig, MIEN_KIND_MESH, &meshes);
+    MienMutableFloatView raw = {};
+    mien_instance_raw_controls(instance, &raw);
+    const size_t requests = counter_.requests;
+    for (uint32_t lod = 0; lod < info.lod_count; lod += 1 + info.lod_count / 3) {
+      for (size_t i = 0; i < raw.count; ++i) raw.data[i] = next_control();
+      if (mien_rig_evaluate(rig, instance, lod) != MIEN_OK) broke("LOD %u not evaluated", lod);
+      if (mien_pose_update(pose, instance) != MIEN_OK) broke("no update");
+      for (uint32_t m = 0; m < meshes; ++m) {
+        for (uint32_t normals = 0; normals <= MIEN_NORMALS_RECOMPUTED; ++normals) {
+          if (mien_pose_deform(pose, m, normals, nullptr) != MIEN_OK) broke("mesh %u not posed", m);
+        }
+        MienFloatView views[2] = {};
+        if (mien_pose_positions(pose, m, &views[0]) != MIEN_OK ||
+            mien_pose_normals(pose, m, &views[1]) != MIEN_OK) {
+          broke("no results of mesh %u", m);
+        }
+        float sum = 0;
+        for (const MienFloatView& view : views) {
+          for (size_t i = 0; i < view.count; ++i) sum += view.data[i];
+        }
+        sink_ = sum;
+      }
+    }
+    if (mien_pose_deform(pose, meshes, 0, nullptr) != MIEN_ERROR_INDEX) broke("a mesh too many");
+    if (counter_.requests != requests) broke("deforming allocated");
   }
 
   // Small steps of a linear congruence: anything from -1 to 2.
