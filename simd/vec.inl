@@ -4,11 +4,14 @@
 //
 //   Vec             kWidth floats
 //   load            from memory aligned to the vector
+//   load_half       widens kWidth halves (IEEE binary16) from memory aligned to half a vector:
+//   exact.
+//                   What is stored is finite: infinities and NaN need not survive
 //   store           to any address
 //   broadcast       the same float in each lane
 //   + - *           rounded once each: never fused (the kernels are built without contraction)
 //   divide, square_root   correctly rounded
-//   at_least, at_most
+//   at_least, at_most     NaN becomes the bound
 //   select(m,a,b)   a where m, else b; masks come from less(a,b)
 //   saturate        to the range of finite floats
 //   power_of_two(n) 2^n for whole n in -126 ... 127
@@ -63,6 +66,14 @@ constexpr size_t kWidth = 1;
 using Vec = float;
 
 inline Vec load(const float* from) { return *from; }
+inline Vec load_half(const uint16_t* from) {
+  // Sign, exponent and fraction go where floats have them; the factor makes up for the bias of the
+  // exponent, 15 instead of 127, and is exact for subnormal halves, too.
+  const uint32_t bits = (*from & 0x8000u) << 16 | (*from & 0x7FFFu) << 13;
+  float value;
+  __builtin_memcpy(&value, &bits, sizeof(value));
+  return value * 0x1p112f;
+}
 inline void store(float* to, Vec value) { *to = value; }
 inline Vec broadcast(float value) { return value; }
 inline Vec mul_add(Vec a, Vec b, Vec c) { return a * b + c; }  // built with -ffp-contract=off
@@ -92,21 +103,38 @@ inline Vec power_of_two(Vec n) {
 constexpr Isa kIsa = Isa::kSse2;
 using Vec = xsimd::batch<float, xsimd::sse2>;
 inline Vec mul_add(Vec a, Vec b, Vec c) { return _mm_add_ps(_mm_mul_ps(a, b), c); }
+inline Vec load_half(const uint16_t* from) {
+  // As the scalar one. The shift copies the sign to the right, where the mask takes it off again.
+  const __m128i halves = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
+  const __m128i high = _mm_unpacklo_epi16(_mm_setzero_si128(), halves);
+  const __m128i bits =
+      _mm_and_si128(_mm_srai_epi32(high, 3), _mm_set1_epi32(static_cast<int>(0x8FFFE000)));
+  return _mm_mul_ps(_mm_castsi128_ps(bits), _mm_set1_ps(0x1p112f));
+}
 
 #elif defined(MIEN_KERNEL_AVX2)
 constexpr Isa kIsa = Isa::kAvx2;
 using Vec = xsimd::batch<float, xsimd::fma3<xsimd::avx2>>;
 inline Vec mul_add(Vec a, Vec b, Vec c) { return _mm256_fmadd_ps(a, b, c); }
+inline Vec load_half(const uint16_t* from) {
+  return _mm256_cvtph_ps(_mm_load_si128(reinterpret_cast<const __m128i*>(from)));
+}
 
 #elif defined(MIEN_KERNEL_AVX512)
 constexpr Isa kIsa = Isa::kAvx512;
 using Vec = xsimd::batch<float, xsimd::avx512bw>;
 inline Vec mul_add(Vec a, Vec b, Vec c) { return _mm512_fmadd_ps(a, b, c); }
+inline Vec load_half(const uint16_t* from) {
+  return _mm512_cvtph_ps(_mm256_load_si256(reinterpret_cast<const __m256i*>(from)));
+}
 
 #elif defined(MIEN_KERNEL_NEON)
 constexpr Isa kIsa = Isa::kNeon;
 using Vec = xsimd::batch<float, xsimd::neon64>;
 inline Vec mul_add(Vec a, Vec b, Vec c) { return vfmaq_f32(c, a, b); }
+inline Vec load_half(const uint16_t* from) {
+  return vcvt_f32_f16(vreinterpret_f16_u16(vld1_u16(from)));
+}
 #endif
 
 constexpr size_t kWidth = Vec::size;
@@ -149,8 +177,14 @@ inline Vec divide(Vec a, Vec b) { return a / b; }
 using Mask = Vec::batch_bool_type;
 inline Mask less(Vec a, Vec b) { return a < b; }
 inline Vec select(Mask m, Vec a, Vec b) { return xsimd::select(m, a, b); }
+#if defined(MIEN_KERNEL_NEON)
 inline Vec at_least(Vec v, Vec low) { return select(v > low, v, low); }
 inline Vec at_most(Vec v, Vec high) { return select(v < high, v, high); }
+#else
+// max and min of x86 are exactly v > low ? v : low and v < high ? v : high.
+inline Vec at_least(Vec v, Vec low) { return xsimd::max(v, low); }
+inline Vec at_most(Vec v, Vec high) { return xsimd::min(v, high); }
+#endif
 inline Vec power_of_two(Vec n) {
   // The sum is exact, so its lowest bits are n + 127.
   constexpr float kFirstOfUnitSpacing = 12582912.0f;  // 1.5 * 2^23
