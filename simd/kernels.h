@@ -51,18 +51,20 @@ struct JointColumnsArgs {
 ///
 ///     values   block 0: c0 r0..r15 | c1 r0..r15 | ... ; block 1: ...
 ///
-/// Activation f: 0 itself, 1 max(0, v), 2 v or
-/// alpha * v below 0, 3 tanh, 4 1 / (1 + e^-v); tanh and the last are within 3e-7. What overflows
-/// saturates.
+/// The even columns are summed, and the odd ones, and the two added: twice as many sums hide the
+/// wait for each other. Activation f: 0 itself, 1 max(0, v), 2 v or alpha * v below 0, 3 tanh, 4
+/// 1 / (1 + e^-v); tanh and the last are within 3e-7. What overflows saturates. Rows past row_count,
+/// up to the next 16, may be written.
 struct DenseLayerArgs {
-  const float* values;  // 64-byte aligned
-  const float* biases;  // 16 * block_count, 64-byte aligned
+  const void* values;   // floats or halves, 64-byte aligned
+  const float* biases;  // one for each row, in whole blocks, 64-byte aligned
   const float* inputs;
-  float* outputs;  // 16 * block_count, 64-byte aligned
+  float* outputs;  // as biases
   float alpha;
   uint32_t column_count;
-  uint32_t block_count;
+  uint32_t row_count;
   uint8_t function;
+  bool halves;
 };
 
 /// Joints represented by quaternions, in blocks of 16 joints, one lane each:
@@ -73,13 +75,14 @@ struct DenseLayerArgs {
 /// with the identity by the column's control; later columns turn last. All w are >= 0. Writes
 /// rotations[4 * 16 * b + 16 * k + j] for k = x, y, z, w.
 struct JointTurnArgs {
-  const float* values;
+  const void* values;  // floats or halves, 64-byte aligned
   const uint16_t* columns;
   const float* controls;
   float* rotations;
   uint32_t column_count;   // to evaluate
   uint32_t column_stride;  // columns stored per block
   uint32_t block_count;
+  bool halves;
 };
 
 /// Distances of an input to the poses of an RBF solver, and the weights that follow from them.

@@ -15,6 +15,10 @@ struct VecQuaternion {
 inline VecQuaternion load_quaternion(const float* at) {
   return {load(at), load(at + kBlockRows), load(at + 2 * kBlockRows), load(at + 3 * kBlockRows)};
 }
+inline VecQuaternion load_quaternion(const uint16_t* at) {
+  return {load_half(at), load_half(at + kBlockRows), load_half(at + 2 * kBlockRows),
+          load_half(at + 3 * kBlockRows)};
+}
 
 // The blend is made unit by a true root and division: estimates would bend the joints.
 inline VecQuaternion blend_with_identity(const VecQuaternion& q, float weight) {
@@ -37,10 +41,11 @@ inline float bounded(float weight) {
   return weight > kLargest ? kLargest : weight < -kLargest ? -kLargest : weight;
 }
 
-void joint_turns(const JointTurnArgs& args) {
+template <class Value>
+void turn(const Value* all_values, const JointTurnArgs& args) {
   constexpr size_t kColumnFloats = 4 * kBlockRows;
   for (size_t block = 0; block < args.block_count; ++block) {
-    const float* values = args.values + block * args.column_stride * kColumnFloats;
+    const Value* values = all_values + block * args.column_stride * kColumnFloats;
     for (size_t lane = 0; lane < kBlockRows; lane += kWidth) {
       VecQuaternion product = {broadcast(0.0f), broadcast(0.0f), broadcast(0.0f), broadcast(1.0f)};
       for (size_t c = 0; c < args.column_count; ++c) {
@@ -55,6 +60,14 @@ void joint_turns(const JointTurnArgs& args) {
       store(out + 2 * kBlockRows, product.z);
       store(out + 3 * kBlockRows, product.w);
     }
+  }
+}
+
+void joint_turns(const JointTurnArgs& args) {
+  if (args.halves) {
+    turn(static_cast<const uint16_t*>(args.values), args);
+  } else {
+    turn(static_cast<const float*>(args.values), args);
   }
 }
 

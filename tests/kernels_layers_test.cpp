@@ -3,11 +3,13 @@
 // plain model in double, and against each other.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <vector>
 
 #include "runtime/author/random.h"
+#include "runtime/base/half.h"
 #include "simd/kernels.h"
 
 namespace mien {
@@ -45,8 +47,8 @@ TEST(DenseLayer, EveryActivationAndSize) {
   Random random = Random::from_seed(11, 1);
   for (uint8_t function = 0; function <= 4; ++function) {
     for (uint32_t columns : {0u, 1u, 3u, 64u, 129u}) {
-      for (uint32_t blocks : {1u, 2u, 5u, 9u}) {
-        const uint32_t rows = blocks * kBlockRows;
+      for (uint32_t row_count : {1u, 16u, 29u, 49u, 80u, 141u, 400u}) {
+        const uint32_t rows = (row_count + kBlockRows - 1) / kBlockRows * kBlockRows;
         Aligned values(size_t{rows} * columns), biases(rows), outputs(rows);
         std::vector<float> inputs(columns);
         for (size_t i = 0; i < size_t{rows} * columns; ++i) {
@@ -58,8 +60,8 @@ TEST(DenseLayer, EveryActivationAndSize) {
         }
         for (const KernelTable* table : present()) {
           table->dense_layer({values.data, biases.data, inputs.data(), outputs.data, 0.1f, columns,
-                              blocks, function});
-          for (uint32_t r = 0; r < rows; ++r) {
+                              row_count, function, false});
+          for (uint32_t r = 0; r < row_count; ++r) {
             double sum = biases.data[r], size = std::fabs(sum);
             for (uint32_t c = 0; c < columns; ++c) {
               const size_t at =
@@ -85,8 +87,70 @@ TEST(DenseLayer, WhatOverflowsSaturates) {
   const float input = 3e38f;
   for (const KernelTable* table : present()) {
     for (uint8_t function = 0; function <= 4; ++function) {
-      table->dense_layer({values.data, biases.data, &input, outputs.data, 0.5f, 1, 1, function});
+      table->dense_layer(
+          {values.data, biases.data, &input, outputs.data, 0.5f, 1, kBlockRows, function, false});
       for (uint32_t r = 0; r < kBlockRows; ++r) EXPECT_TRUE(std::isfinite(outputs.data[r]));
+    }
+  }
+}
+
+/// The same floats as halves.
+struct AlignedHalves {
+  AlignedHalves(const float* values, size_t count) : storage(count + 32) {
+    const size_t past = reinterpret_cast<uintptr_t>(storage.data()) / sizeof(uint16_t) % 32;
+    data = storage.data() + (past ? 32 - past : 0);
+    for (size_t i = 0; i < count; ++i) data[i] = half_from_float(values[i]);
+  }
+  std::vector<uint16_t> storage;
+  uint16_t* data;
+};
+
+// A layer of one column: each half comes out as it is.
+TEST(DenseLayer, EveryFiniteHalfIsReadExactly) {
+  std::vector<uint16_t> all;
+  for (uint32_t half = 0; half < 65536; ++half) {
+    if ((half & 0x7C00) != 0x7C00) all.push_back(static_cast<uint16_t>(half));
+  }
+  const auto count = static_cast<uint32_t>(all.size());
+  ASSERT_EQ(count % kBlockRows, 0u);
+  Aligned biases(count), outputs(count);
+  AlignedHalves halves(biases.data, count);
+  std::copy(all.begin(), all.end(), halves.data);
+  const float one = 1;
+  for (const KernelTable* table : present()) {
+    table->dense_layer({halves.data, biases.data, &one, outputs.data, 0, 1, count, 0, true});
+    for (uint32_t i = 0; i < count; ++i) {
+      ASSERT_EQ(outputs.data[i], float_from_half(all[i])) << table->name << ", " << all[i];
+    }
+  }
+}
+
+TEST(DenseLayer, HalvesGiveWhatTheirFloatsGive) {
+  Random random = Random::from_seed(14, 1);
+  for (uint32_t columns : {1u, 2u, 57u}) {
+    for (uint32_t row_count : {3u, 16u, 100u}) {
+      const uint32_t rows = (row_count + kBlockRows - 1) / kBlockRows * kBlockRows;
+      Aligned values(size_t{rows} * columns), biases(rows), outputs(rows), expected(rows);
+      std::vector<float> inputs(columns);
+      for (float& x : inputs) x = static_cast<float>(random.between(-2, 2));
+      for (size_t i = 0; i < size_t{rows} * columns; ++i) {
+        values.data[i] = static_cast<float>(random.between(-1, 1));
+      }
+      const AlignedHalves halves(values.data, size_t{rows} * columns);
+      for (size_t i = 0; i < size_t{rows} * columns; ++i) {
+        values.data[i] = float_from_half(halves.data[i]);
+      }
+      for (const KernelTable* table : present()) {
+        DenseLayerArgs args = {values.data, biases.data, inputs.data(), expected.data, 0, columns,
+                               row_count,   3,           false};
+        table->dense_layer(args);
+        args.values = halves.data;
+        args.outputs = outputs.data;
+        args.halves = true;
+        table->dense_layer(args);
+        EXPECT_EQ(std::memcmp(outputs.data, expected.data, row_count * sizeof(float)), 0)
+            << table->name;
+      }
     }
   }
 }
@@ -112,14 +176,21 @@ TEST(JointTurns, ProductOfBlends) {
             for (double part : q) length += part * part;
             for (uint32_t k = 0; k < 4; ++k) {
               values.data[(size_t{b} * (columns + 1) + c) * kFloats + k * kBlockRows + j] =
-                  static_cast<float>(q[k] / std::sqrt(length));
+                  float_from_half(half_from_float(static_cast<float>(q[k] / std::sqrt(length))));
             }
           }
         }
       }
+      const AlignedHalves halves(values.data, size_t{blocks} * (columns + 1) * kFloats);
       for (const KernelTable* table : present()) {
-        table->joint_turns({values.data, controls_of.data(), controls.data(), rotations.data,
-                            columns, columns + 1, blocks});
+        JointTurnArgs args = {halves.data, controls_of.data(), controls.data(), rotations.data,
+                              columns,     columns + 1,        blocks,          true};
+        table->joint_turns(args);
+        const std::vector<float> from_halves(rotations.data, rotations.data + blocks * kFloats);
+        args.values = values.data;
+        args.halves = false;
+        table->joint_turns(args);
+        EXPECT_TRUE(std::equal(from_halves.begin(), from_halves.end(), rotations.data));
         for (uint32_t b = 0; b < blocks; ++b) {
           for (uint32_t j = 0; j < kBlockRows; ++j) {
             double a[4] = {0, 0, 0, 1};

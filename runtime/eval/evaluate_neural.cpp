@@ -37,13 +37,18 @@ void run_network(const Rig& rig, Instance& instance, const MlStep& step) {
     const NetworkLayer& layer = ml.layers[step.first_layer + l];
     const bool last = l + 1 == step.layer_count;
     DenseLayerArgs args;
-    args.values = ml.values.data + layer.first_value;
+    args.halves = rig.half_storage;
+    if (args.halves) {
+      args.values = ml.halves.data + layer.first_value;
+    } else {
+      args.values = ml.values.data + layer.first_value;
+    }
     args.biases = ml.biases.data + layer.first_bias;
     args.inputs = in;
     args.outputs = last ? instance.ml_values.data + step.first_output : out;
     args.alpha = layer.alpha;
     args.column_count = layer.input_count;
-    args.block_count = (layer.output_count + kBlockRows - 1) / kBlockRows;
+    args.row_count = layer.output_count;
     args.function = layer.function;
     rig.kernels->dense_layer(args);
     std::swap(in, out);

@@ -18,7 +18,12 @@ void turn_joints(const Rig& rig, Instance& instance, uint32_t lod, uint32_t grou
   const RotationTable& table = rig.rotations;
   const GroupRotations& rotations = table.groups[group];
   JointTurnArgs args;
-  args.values = table.values.data + rotations.first_value;
+  args.halves = rig.half_storage;
+  if (args.halves) {
+    args.values = table.halves.data + rotations.first_value;
+  } else {
+    args.values = table.values.data + rotations.first_value;
+  }
   args.columns = table.columns.data + rotations.first_column;
   args.controls = instance.controls.data;
   args.rotations = instance.turns.data;

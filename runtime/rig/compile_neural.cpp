@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/base/half.h"
 #include "runtime/rig/compile_rig.h"
 
 namespace mien {
@@ -132,7 +133,7 @@ bool number_steps(const MlType& type, uint32_t first_step, Arena& scratch, StepN
   return true;
 }
 
-void fill_networks(const DnaView& view, MlTable& ml) {
+void fill_networks(const DnaView& view, bool half_storage, MlTable& ml) {
   size_t value = 0;
   uint32_t layer_number = 0, bias = 0;
   for (const dna::NeuralNetwork& network : view.mlbh.networks) {
@@ -146,11 +147,16 @@ void fill_networks(const DnaView& view, MlTable& ml) {
       layer.function = from.function_id <= 4 ? static_cast<uint8_t>(from.function_id) : 0;
       layer.alpha = from.parameters.count ? from.parameters[0] : 0.01f;
       for (uint32_t r = 0; r < layer.output_count; ++r) {
-        float* lane =
-            ml.values.data + value + size_t{r / kBlockRows} * layer.input_count * kBlockRows;
+        const size_t lane =
+            value + size_t{r / kBlockRows} * layer.input_count * kBlockRows + r % kBlockRows;
         for (uint32_t c = 0; c < layer.input_count; ++c) {
-          lane[size_t{c} * kBlockRows + r % kBlockRows] =
-              from.weights[size_t{r} * layer.input_count + c];
+          const float weight = from.weights[size_t{r} * layer.input_count + c];
+          const size_t at = lane + size_t{c} * kBlockRows;
+          if (half_storage) {
+            ml.halves[at] = half_from_float(weight);
+          } else {
+            ml.values[at] = weight;
+          }
         }
       }
       copy_array(from.biases, ml.biases.slice(bias, from.biases.count));
@@ -324,7 +330,8 @@ Status place_ml(const DnaView& view, Placer& placer, Rig& rig, Error& error) {
   ml.widest_layer = std::max(ml.widest_layer, static_cast<uint32_t>(most_inputs));
   ml.steps = placer.array<MlStep>(steps);
   ml.layers = placer.array<NetworkLayer>(layers);
-  ml.values = placer.array<float>(values, kBlockAlignment);
+  ml.values = placer.array<float>(rig.half_storage ? 0 : values, kBlockAlignment);
+  ml.halves = placer.array<uint16_t>(rig.half_storage ? values : 0, kBlockAlignment);
   ml.biases = placer.array<float>(biases, kBlockAlignment);
   ml.controls = placer.array<uint16_t>(controls);
   ml.dependencies = placer.array<MlDependency>(dependencies);
@@ -352,7 +359,7 @@ Status fill_ml(const DnaView& view, Arena& scratch, Rig& rig, Error& error) {
   }
   if (!memory) return fail(error, Status::kMemory, kNoOffset, "no memory to compile the networks");
 
-  fill_networks(view, ml);
+  fill_networks(view, rig.half_storage, ml);
   find_masks(view, masks);
   for (uint32_t n = 0, layer = 0; n < first_layer.count; ++n) {
     first_layer[n] = layer;

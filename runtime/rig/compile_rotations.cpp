@@ -3,6 +3,7 @@
 // quaternions (rig-evaluation 4.3, 4.7, 4.8).
 #include <algorithm>
 
+#include "runtime/base/half.h"
 #include "runtime/dna/turn_columns.h"
 #include "runtime/rig/compile_rig.h"
 
@@ -67,10 +68,10 @@ uint32_t list_joints(const dna::DnaView& view, const dna::JointGroup& group, Row
 /// w >= 0, so that blending with the identity never needs to ask.
 void fill_turns(const dna::JointGroup& group, uint32_t column_count, const Scratch& scratch,
                 const Rig& rig, const GroupRotations& rotations) {
-  float* values = rig.rotations.values.data + rotations.first_value;
   for (uint32_t j = 0; j < rotations.turn_joint_count; ++j) {
     const uint32_t* rows = scratch.rotation_rows.data + size_t{j} * 3;
-    float* lane = values + size_t{j / kBlockRows} * column_count * 4 * kBlockRows + j % kBlockRows;
+    const size_t lane = rotations.first_value +
+                        size_t{j / kBlockRows} * column_count * 4 * kBlockRows + j % kBlockRows;
     for (uint32_t k = 0; k < column_count; ++k) {
       float angles[3] = {};
       for (int axis = 0; axis < 3; ++axis) {
@@ -80,11 +81,15 @@ void fill_turns(const dna::JointGroup& group, uint32_t column_count, const Scrat
       }
       const Quaternion q = quaternion_from_euler(rig.rotation, angles);
       const float sign = q.w < 0 ? -1.0f : 1.0f;
-      float* at = lane + size_t{k} * 4 * kBlockRows;
-      at[0 * kBlockRows] = q.x * sign;
-      at[1 * kBlockRows] = q.y * sign;
-      at[2 * kBlockRows] = q.z * sign;
-      at[3 * kBlockRows] = q.w * sign;
+      size_t at = lane + size_t{k} * 4 * kBlockRows;
+      for (float part : {q.x, q.y, q.z, q.w}) {
+        if (rig.half_storage) {
+          rig.rotations.halves[at] = half_from_float(part * sign);
+        } else {
+          rig.rotations.values[at] = part * sign;
+        }
+        at += kBlockRows;
+      }
     }
   }
 }
@@ -108,7 +113,8 @@ void place_rotations(const dna::DnaView& view, Placer& placer, Rig& rig) {
   rig.rotations.turn_joints = placer.array<TurnedJoint>(turn_joints);
   rig.rotations.columns = placer.array<uint16_t>(columns);
   rig.rotations.columns_at_lod = placer.array<uint32_t>(size_t{groups.count} * rig.lod_count);
-  rig.rotations.values = placer.array<float>(values, kBlockAlignment);
+  rig.rotations.values = placer.array<float>(rig.half_storage ? 0 : values, kBlockAlignment);
+  rig.rotations.halves = placer.array<uint16_t>(rig.half_storage ? values : 0, kBlockAlignment);
 }
 
 Status fill_rotations(const dna::DnaView& view, Arena& arena, Rig& rig, Error& error) {

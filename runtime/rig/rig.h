@@ -143,8 +143,9 @@ struct RotationTable {
   Span<TurnedJoint> turn_joints;
   Span<uint16_t> columns;         // control that a column reads
   Span<uint32_t> columns_at_lod;  // [group][lod]: leading columns
-  Span<float> values;
-  uint32_t most_turns = 0;  // of one group
+  Span<float> values;             // or
+  Span<uint16_t> halves;          // in half storage
+  uint32_t most_turns = 0;        // of one group
 };
 
 /// How a solver measures, as files number it.
@@ -222,7 +223,9 @@ constexpr uint16_t kNoControl = 0xFFFF;
 struct MlTable {
   Span<MlStep> steps;
   Span<NetworkLayer> layers;
-  Span<float> values, biases;
+  Span<float> values;     // or
+  Span<uint16_t> halves;  // in half storage
+  Span<float> biases;
   Span<uint16_t> controls;
   Span<MlDependency> dependencies;
   Span<uint32_t> limits;

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Kernels by themselves. Dense layers against what the core could do: the peak is measured in the
+// same run, by multiply-adds that touch no memory, and `of_peak` is the share of it that a layer
+// reaches. Products of padding do not count.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include "bench/bench_support.h"
+#include "runtime/base/half.h"
+#include "simd/kernels.h"
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
+#endif
+
+namespace mien::bench {
+namespace {
+
+// Twelve sums, each of which waits for itself only, are more than a core has under way. The asm
+// hides from the compiler what they come to. Names, because it might keep an array in memory.
+#define MIEN_PEAK(name, attribute, Type, Constraint, zero, step)                                  \
+  attribute void name(size_t rounds) {                                                            \
+    Type a = (zero), b = a, c = a, d = a, e = a, f = a, g = a, h = a, i = a, j = a, k = a, l = a; \
+    for (size_t r = 0; r < rounds; ++r) {                                                         \
+      a = step(a), b = step(b), c = step(c), d = step(d), e = step(e), f = step(f);               \
+      g = step(g), h = step(h), i = step(i), j = step(j), k = step(k), l = step(l);               \
+      asm volatile("" : "+" Constraint(a), "+" Constraint(b), "+" Constraint(c));                 \
+      asm volatile("" : "+" Constraint(d), "+" Constraint(e), "+" Constraint(f));                 \
+      asm volatile("" : "+" Constraint(g), "+" Constraint(h), "+" Constraint(i));                 \
+      asm volatile("" : "+" Constraint(j), "+" Constraint(k), "+" Constraint(l));                 \
+    }                                                                                             \
+  }
+constexpr int kSums = 12;
+
+#if defined(__x86_64__)
+#define MIEN_SCALAR(s) ((s)*0.5f + 0.25f)
+#define MIEN_SSE2(s) _mm_add_ps(_mm_mul_ps(s, _mm_set1_ps(0.5f)), _mm_set1_ps(0.25f))
+#define MIEN_AVX2(s) _mm256_fmadd_ps(s, _mm256_set1_ps(0.5f), _mm256_set1_ps(0.25f))
+#define MIEN_AVX512(s) _mm512_fmadd_ps(s, _mm512_set1_ps(0.5f), _mm512_set1_ps(0.25f))
+MIEN_PEAK(scalar_peak, , float, "x", 0.5f, MIEN_SCALAR)
+MIEN_PEAK(sse2_peak, , __m128, "x", _mm_set1_ps(0.5f), MIEN_SSE2)
+MIEN_PEAK(avx2_peak, __attribute__((target("avx2,fma"))), __m256, "x", _mm256_set1_ps(0.5f),
+          MIEN_AVX2)
+MIEN_PEAK(avx512_peak, __attribute__((target("avx512f"))), __m512, "v", _mm512_set1_ps(0.5f),
+          MIEN_AVX512)
+#elif defined(__aarch64__)
+#define MIEN_SCALAR(s) ((s)*0.5f + 0.25f)
+#define MIEN_NEON(s) vfmaq_f32(vdupq_n_f32(0.25f), s, vdupq_n_f32(0.5f))
+MIEN_PEAK(scalar_peak, , float, "w", 0.5f, MIEN_SCALAR)
+MIEN_PEAK(neon_peak, , float32x4_t, "w", vdupq_n_f32(0.5f), MIEN_NEON)
+#endif
+
+/// Floating-point operations per second, the best of several tries.
+double measure_peak(Isa isa) {
+  void (*run)(size_t) = scalar_peak;
+  double width = 1;
+#if defined(__x86_64__)
+  if (isa == Isa::kSse2) run = sse2_peak, width = 4;
+  if (isa == Isa::kAvx2) run = avx2_peak, width = 8;
+  if (isa == Isa::kAvx512) run = avx512_peak, width = 16;
+#elif defined(__aarch64__)
+  if (isa == Isa::kNeon) run = neon_peak, width = 4;
+#endif
+  constexpr size_t kRounds = 200000;
+  double best = 0;
+  for (int i = 0; i < 15; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    run(kRounds);
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    best = std::max(best, 2 * kSums * width * kRounds / time.count());
+  }
+  return best;
+}
+
+double peak(Isa isa) {
+  static double peaks[kIsaCount] = {};
+  double& known = peaks[static_cast<uint32_t>(isa)];
+  if (known == 0) known = measure_peak(isa);
+  return known;
+}
+
+template <class T>
+T* aligned(std::vector<T>& storage, size_t count) {
+  storage.assign(count + 64 / sizeof(T), T());
+  const size_t past = reinterpret_cast<uintptr_t>(storage.data()) % 64 / sizeof(T);
+  return storage.data() + (past ? 64 / sizeof(T) - past : 0);
+}
+
+void dense_layer(benchmark::State& state, const KernelTable* kernels, uint32_t inputs,
+                 uint32_t outputs, bool halves) {
+  const uint32_t rows = (outputs + kBlockRows - 1) / kBlockRows * kBlockRows;
+  const size_t count = size_t{rows} * inputs;
+  std::vector<float> value_storage, bias_storage, output_storage, in(inputs);
+  std::vector<uint16_t> half_storage;
+  float* values = aligned(value_storage, halves ? 0 : count);
+  uint16_t* half_values = aligned(half_storage, halves ? count : 0);
+  for (size_t i = 0; i < count; ++i) {
+    const float value = std::sin(static_cast<float>(i));
+    if (halves) {
+      half_values[i] = half_from_float(value);
+    } else {
+      values[i] = value;
+    }
+  }
+  for (uint32_t i = 0; i < inputs; ++i) in[i] = std::cos(static_cast<float>(i));
+  DenseLayerArgs args = {};
+  args.values = values;
+  if (halves) args.values = half_values;
+  args.biases = aligned(bias_storage, rows);
+  args.inputs = in.data();
+  args.outputs = aligned(output_storage, rows);
+  args.column_count = inputs;
+  args.row_count = outputs;
+  args.halves = halves;
+  args.function = 1;
+  const double most = peak(kernels->isa);
+  const auto start = std::chrono::steady_clock::now();
+  for (auto _ : state) {
+    kernels->dense_layer(args);
+    benchmark::ClobberMemory();
+  }
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  const double operations = 2.0 * inputs * outputs * static_cast<double>(state.iterations());
+  state.counters["gflops"] = operations / time.count() / 1e9;
+  state.counters["peak"] = most / 1e9;
+  state.counters["of_peak"] = operations / time.count() / most;
+}
+
+const int kRegistered = [] {
+  // Of the networks of a head, then larger ones: what fits the first cache, the second, and none.
+  const uint32_t sizes[][2] = {{39, 49},   {49, 23},   {64, 64},   {96, 96},
+                               {128, 128}, {256, 256}, {512, 512}, {1024, 1024}};
+  for (uint32_t isa = 1; isa < kIsaCount; ++isa) {
+    const KernelTable* kernels = kernels_for(static_cast<Isa>(isa));
+    if (!kernels) continue;
+    for (const auto& size : sizes) {
+      for (bool halves : {false, true}) {
+        const std::string name = std::string("dense/") + kernels->name + "/" +
+                                 std::to_string(size[0]) + "x" + std::to_string(size[1]) +
+                                 (halves ? "/f16" : "/f32");
+        benchmark::RegisterBenchmark(name.c_str(), dense_layer, kernels, size[0], size[1], halves);
+      }
+    }
+  }
+  return 0;
+}();
+
+}  // namespace
+}  // namespace mien::bench
