@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Dense layers of neural networks; RBF distances and weights.
+// Dense layers of neural networks, and their activations.
+
+#pragma once
 
 #include "simd/joint_kernels.inl"
 
@@ -7,15 +9,18 @@ namespace mien::MIEN_KERNEL_ISA {
 namespace {
 
 // e^x for x <= 0, within 2e-7 of its value; 0 below -87. Cody-Waite reduction to |r| <= ln(2)/2,
-// then the series to the seventh power (its next term is below 6e-9 there).
+// then the series to the seventh power (its next term is below 6e-9 there), in halves that do not
+// wait for each other.
 inline Vec exp_of_negative(Vec x) {
   constexpr float kRounder = 12582912.0f;  // 1.5 * 2^23: adding it rounds to whole numbers
   const Vec bounded = at_least(x, broadcast(-87.0f));
   const Vec n = (bounded * broadcast(1.44269504f) + broadcast(kRounder)) - broadcast(kRounder);
   const Vec r = (bounded - n * broadcast(0.693359375f)) + n * broadcast(2.12194440e-4f);
-  const float terms[] = {1.0f / 720, 1.0f / 120, 1.0f / 24, 1.0f / 6, 0.5f, 1.0f, 1.0f};
-  Vec p = broadcast(1.0f / 5040);
-  for (float term : terms) p = p * r + broadcast(term);
+  const Vec r2 = r * r;
+  const Vec low = (broadcast(1.0f / 6) * r + broadcast(0.5f)) * r2 + (r + broadcast(1.0f));
+  const Vec high = (broadcast(1.0f / 5040) * r + broadcast(1.0f / 720)) * r2 +
+                   (broadcast(1.0f / 120) * r + broadcast(1.0f / 24));
+  const Vec p = high * (r2 * r2) + low;
   return select(less(x, broadcast(-87.0f)), broadcast(0.0f), p * power_of_two(n));
 }
 
@@ -109,68 +114,6 @@ void dense_layer(const DenseLayerArgs& args) {
   for (size_t r = 0; r < args.row_count; r += kWidth) {
     const Vec sum = saturate(load(args.outputs + r) + load(args.biases + r));
     store(args.outputs + r, saturate(activate(sum, args.function, alpha)));
-  }
-}
-
-// acos(x) for -1 <= x <= 1, within 2e-8 before rounding: sqrt(1 - |x|) times a polynomial
-// (Abramowitz and Stegun 4.4.46), reflected for negative x.
-inline Vec arc_cosine(Vec x) {
-  const Vec zero = broadcast(0.0f), one = broadcast(1.0f);
-  const Vec a = at_most(select(less(x, zero), zero - x, x), one);
-  const float terms[] = {0.0066700901f, -0.0170881256f, 0.0308918810f, -0.0501743046f,
-                         0.0889789874f, -0.2145988016f, 1.5707963050f};
-  Vec p = broadcast(-0.0012624911f);
-  for (float term : terms) p = p * a + broadcast(term);
-  const Vec angle = p * square_root(one - a);
-  return select(less(x, zero), broadcast(3.14159265f) - angle, angle);
-}
-
-inline Vec squared_euclidean(const RbfWeightArgs& args, size_t pose) {
-  Vec sum = broadcast(0.0f);
-  for (size_t i = 0; i < args.input_count; ++i) {
-    const Vec d = load(args.targets + i * args.pose_count + pose) - broadcast(args.inputs[i]);
-    sum = sum + d * d;
-  }
-  return sum;
-}
-
-// The angle between two rotations from the dot product of their quaternions; the sign of either
-// does not matter.
-inline Vec squared_angles(const RbfWeightArgs& args, size_t pose) {
-  const Vec one = broadcast(1.0f);
-  Vec sum = broadcast(0.0f);
-  for (size_t i = 0; i + 4 <= args.input_count; i += 4) {
-    Vec dot = broadcast(0.0f);
-    for (size_t k = i; k < i + 4; ++k) {
-      dot = dot + load(args.targets + k * args.pose_count + pose) * broadcast(args.inputs[k]);
-    }
-    const Vec u = dot * dot;
-    const Vec angle = arc_cosine((u + u) - one);
-    // u - u is 0, or hands on what is not a number, which the polynomial would hide.
-    const Vec counted = select(less(one, u), broadcast(0.0f), angle + (u - u));
-    sum = sum + counted * counted;
-  }
-  return sum;
-}
-
-void rbf_weights(const RbfWeightArgs& args) {
-  constexpr float kLargest = 3.4e38f;
-  const Vec zero = broadcast(0.0f), one = broadcast(1.0f);
-  for (size_t pose = 0; pose < args.pose_count; pose += kWidth) {
-    const Vec squared = args.angular ? squared_angles(args, pose) : squared_euclidean(args, pose);
-    const Vec x = square_root(squared) * broadcast(args.scale);
-    Vec weight;
-    if (args.function < 2) {
-      const Vec falling = exp_of_negative(select(less(x, zero), x, zero - x));
-      weight = select(less(x, zero), divide(one, falling), falling);  // a radius below zero grows
-    } else {
-      Vec power = x;
-      for (int n = 2; n < args.function; ++n) power = power * x * x;
-      weight = at_least(one - power, zero);
-    }
-    // What is not a number is less than nothing.
-    const Vec finite = select(less(weight, broadcast(kLargest)), weight, zero);
-    store(args.weights + pose, select(less(x, broadcast(kLargest)), finite, zero));
   }
 }
 

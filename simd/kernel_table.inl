@@ -5,6 +5,7 @@
 #include "simd/dense_kernels.inl"
 #include "simd/joint_kernels.inl"
 #include "simd/pose_kernels.inl"
+#include "simd/rbf_kernels.inl"
 #include "simd/rotation_kernels.inl"
 
 #define MIEN_KERNEL_STRING_OF(name) #name
@@ -15,7 +16,7 @@ namespace mien::MIEN_KERNEL_ISA {
 extern const KernelTable kTable;  // const alone would keep it inside this file
 const KernelTable kTable = {kIsa,         MIEN_KERNEL_STRING(MIEN_KERNEL_ISA),
                             joint_columns, joint_columns_fixed, finish_sums, dense_layer,
-                            joint_turns,  rbf_weights,
+                            joint_turns,  rbf_solvers,
                             joint_locals, joint_tree,
                             add_target,   skin_places,
                             face_areas,   sum_normals};

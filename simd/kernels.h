@@ -85,23 +85,40 @@ struct JointTurnArgs {
   bool halves;
 };
 
-/// Distances of an input to the poses of an RBF solver, and the weights that follow from them.
+/// An RBF solver. Its poses are lanes, in blocks of 16:
 ///
-///     targets   [input][pose], pose_count a multiple of 16, 64-byte aligned
+///     targets    0 for each pose, NaN for what fills the last block; then [input][lane]
+///     inverses   if interpolative: blocks of 16 poses, [column][lane], a column for each pose; 0
+///     for
+///                what fills the last block
 ///
 /// Distance: Euclidean, or the root of the summed squares of the angles between quaternions of four
 /// inputs each. Weight of x = distance * scale, by function: 0, 1 exp(-x); 2, 3, 4 max(0, 1 - x^n)
-/// with n = 1, 3, 5. What is not a number becomes 0. Not fused: every instruction set gives the
-/// same bits.
-struct RbfWeightArgs {
-  const float* targets;
-  const float* inputs;
-  float* weights;
-  uint32_t input_count;
-  uint32_t pose_count;
-  float scale;
+/// with n = 1, 3, 5; what is not a number weighs 0. If interpolative, the inverse times the
+/// weights, clamped to 0..1. Then all are divided by their sum, if that exceeds 1 or always.
+struct RbfSolverPlan {
+  size_t first_target, first_inverse;
+  uint32_t first_input, input_count;
+  uint32_t first_lane, pose_count;
+  float scale, threshold;
   uint8_t function;
-  bool angular;
+  bool angular, interpolative, always_normalize;
+};
+
+/// The solvers of a list. Writes results[first_lane + pose] = factor * the pose's weight times its
+/// scale, where that exceeds the threshold, else 0. Nothing is fused: every instruction set gives
+/// the same bits. `weights` is scratch. All but solvers and inputs are 64-byte aligned.
+struct RbfArgs {
+  const RbfSolverPlan* solvers;
+  const uint16_t* list;
+  uint32_t count;
+  const float* inputs;
+  const float* targets;
+  const float* inverses;
+  const float* pose_scales;   // [lane]
+  const float* pose_factors;  // [lane]
+  float* weights;             // [lane]
+  float* results;             // [lane]
 };
 
 /// Local transforms of joints, in blocks of 16, one lane each:
@@ -212,7 +229,7 @@ struct KernelTable {
   void (*finish_sums)(float* sums, const float* scales, size_t count);
   void (*dense_layer)(const DenseLayerArgs& args);
   void (*joint_turns)(const JointTurnArgs& args);
-  void (*rbf_weights)(const RbfWeightArgs& args);
+  void (*rbf_solvers)(const RbfArgs& args);
   void (*joint_locals)(const JointLocalArgs& args);
   void (*joint_tree)(const JointTreeArgs& args);
   void (*add_target)(const TargetArgs& args);

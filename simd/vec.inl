@@ -11,6 +11,7 @@
 //   broadcast       the same float in each lane
 //   + - *           rounded once each: never fused (the kernels are built without contraction)
 //   divide, square_root   correctly rounded
+//   absolute              without the sign
 //   at_least, at_most     NaN becomes the bound
 //   select(m,a,b)   a where m, else b; masks come from less(a,b)
 //   saturate        to the range of finite floats
@@ -79,6 +80,7 @@ inline Vec broadcast(float value) { return value; }
 inline Vec mul_add(Vec a, Vec b, Vec c) { return a * b + c; }  // built with -ffp-contract=off
 inline Vec square_root(Vec v) { return __builtin_sqrtf(v); }
 inline Vec divide(Vec a, Vec b) { return a / b; }
+inline Vec absolute(Vec v) { return __builtin_fabsf(v); }
 inline Vec at_least(Vec v, Vec low) { return v > low ? v : low; }    // NaN becomes `low`
 inline Vec at_most(Vec v, Vec high) { return v < high ? v : high; }  // NaN becomes `high`
 using Mask = bool;
@@ -174,6 +176,7 @@ inline Vec divide(Vec a, Vec b) { return vdivq_f32(a, b); }
 inline Vec square_root(Vec v) { return xsimd::sqrt(v); }
 inline Vec divide(Vec a, Vec b) { return a / b; }
 #endif
+inline Vec absolute(Vec v) { return xsimd::abs(v); }
 using Mask = Vec::batch_bool_type;
 inline Mask less(Vec a, Vec b) { return a < b; }
 inline Vec select(Mask m, Vec a, Vec b) { return xsimd::select(m, a, b); }

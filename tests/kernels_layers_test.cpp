@@ -219,61 +219,164 @@ TEST(JointTurns, ProductOfBlends) {
   }
 }
 
-TEST(RbfWeights, EveryDistanceAndFunctionToTheBit) {
+// Random solver data for the kernel: one solver of `inputs` inputs and `poses` poses.
+struct KernelSolver {
+  uint32_t lanes;
+  RbfSolverPlan plan = {};
+  Aligned targets, inverses, scales, factors, weights, results;
+  std::vector<float> inputs;
+
+  KernelSolver(Random& random, bool angular, uint32_t input_count, uint32_t poses)
+      : lanes((poses + kBlockRows - 1) / kBlockRows * kBlockRows),
+        targets(size_t{lanes} * (input_count + 1)), inverses(size_t{lanes} * poses), scales(lanes),
+        factors(lanes), weights(lanes), results(lanes), inputs(input_count) {
+    plan.input_count = input_count;
+    plan.pose_count = poses;
+    plan.angular = angular;
+    plan.scale = 0.4f;
+    plan.threshold = -1;
+    const auto fill = [&](const auto& at) {
+      for (uint32_t i = 0; i < input_count; i += angular ? 4 : 1) {
+        double q[4], length = 0;
+        for (double& part : q) {
+          part = random.between(-1, 1);
+          length += part * part;
+        }
+        for (uint32_t k = 0; k < (angular ? 4u : 1u); ++k) {
+          at(i + k) = static_cast<float>(angular ? q[k] / std::sqrt(length) : q[k]);
+        }
+      }
+    };
+    for (uint32_t p = 0; p < lanes; ++p) {
+      targets.data[p] = p < poses ? 0.0f : NAN;
+      if (p < poses) fill([&](uint32_t i) -> float& { return target(i, p); });
+      scales.data[p] = static_cast<float>(random.between(0.5, 2));
+      factors.data[p] = static_cast<float>(random.between(-2, 2));
+    }
+    fill([&](uint32_t i) -> float& { return inputs[i]; });
+    // Near the unit matrix, or a sum of weights might all but vanish.
+    for (uint32_t r = 0; r < poses; ++r) {
+      for (uint32_t c = 0; c < poses; ++c) {
+        inverse(r, c) = static_cast<float>((r == c) + random.between(-0.05, 0.05));
+      }
+    }
+  }
+
+  float& target(uint32_t input, uint32_t pose) const {
+    return targets.data[size_t{input + 1} * lanes + pose];
+  }
+
+  float& inverse(uint32_t row, uint32_t column) const {
+    const size_t block = size_t{row / kBlockRows} * plan.pose_count;
+    return inverses.data[(block + column) * kBlockRows + row % kBlockRows];
+  }
+
+  void run(const KernelTable& table) const {
+    const uint16_t list[] = {0};
+    table.rbf_solvers({&plan, list, 1, inputs.data(), targets.data, inverses.data, scales.data,
+                       factors.data, weights.data, results.data});
+  }
+
+  double model_weight(uint32_t p) const {
+    double squared = 0;
+    for (uint32_t i = 0; i < plan.input_count; i += plan.angular ? 4 : 1) {
+      if (!plan.angular) {
+        const double d = double{target(i, p)} - inputs[i];
+        squared += d * d;
+        continue;
+      }
+      double dot = 0;
+      for (uint32_t k = i; k < i + 4; ++k) dot += double{target(k, p)} * inputs[k];
+      const double angle = dot * dot > 1 ? 0 : std::acos(2 * dot * dot - 1);
+      squared += angle * angle;
+    }
+    const double x = std::sqrt(squared) * plan.scale;
+    if (plan.function < 2) return std::exp(-x);
+    return std::fmax(0.0, 1 - std::pow(x, 2 * plan.function - 3));
+  }
+};
+
+TEST(RbfSolvers, EveryDistanceFunctionAndCountToTheBit) {
   Random random = Random::from_seed(13, 1);
   for (bool angular : {false, true}) {
-    for (uint8_t function = 0; function <= 4; ++function) {
-      const uint32_t inputs_count = angular ? 8 : 3, poses = 3 * kBlockRows;
-      Aligned targets(size_t{inputs_count} * poses);
-      std::vector<float> inputs(inputs_count);
-      const auto fill = [&](const auto& at) {
-        for (uint32_t i = 0; i < inputs_count; i += angular ? 4 : 1) {
-          double q[4], length = 0;
-          for (double& part : q) {
-            part = random.between(-1, 1);
-            length += part * part;
-          }
-          for (uint32_t k = 0; k < (angular ? 4u : 1u); ++k) {
-            at(i + k) = static_cast<float>(angular ? q[k] / std::sqrt(length) : q[k]);
-          }
-        }
-      };
-      for (uint32_t p = 0; p < poses; ++p) {
-        fill([&](uint32_t i) -> float& { return targets.data[i * poses + p]; });
-      }
-      fill([&](uint32_t i) -> float& { return inputs[i]; });
-      targets.data[0] = NAN;
+    for (uint32_t input_count : {4u, 8u}) {
+      for (uint8_t function = 0; function <= 4; ++function) {
+        for (uint32_t poses : {1u, 5u, 8u, 13u, 16u, 17u, 40u}) {
+          for (int options = 0; options < 4; ++options) {
+            KernelSolver solver(random, angular, input_count, poses);
+            solver.plan.function = function;
+            solver.plan.interpolative = options & 1;
+            solver.plan.always_normalize = options & 2;
+            solver.target(0, 0) = NAN;
 
-      std::vector<float> first;
-      for (const KernelTable* table : present()) {
-        Aligned weights(poses);
-        table->rbf_weights({targets.data, inputs.data(), weights.data, inputs_count, poses, 0.4f,
-                            function, angular});
-        EXPECT_EQ(weights.data[0], 0.0f) << "what is not a number weighs nothing";
-        for (uint32_t p = 1; p < poses; ++p) {
-          double squared = 0;
-          for (uint32_t i = 0; i < inputs_count; i += angular ? 4 : 1) {
-            if (!angular) {
-              const double d = double{targets.data[i * poses + p]} - inputs[i];
-              squared += d * d;
-              continue;
+            std::vector<double> expected(poses);
+            for (uint32_t p = 1; p < poses; ++p) expected[p] = solver.model_weight(p);
+            if (solver.plan.interpolative) {
+              std::vector<double> mixed(poses);
+              for (uint32_t p = 0; p < poses; ++p) {
+                for (uint32_t t = 0; t < poses; ++t) {
+                  mixed[p] += expected[t] * solver.inverse(p, t);
+                }
+                mixed[p] = std::fmin(std::fmax(mixed[p], 0.0), 1.0);
+              }
+              expected = mixed;
             }
-            double dot = 0;
-            for (uint32_t k = i; k < i + 4; ++k)
-              dot += double{targets.data[k * poses + p]} * inputs[k];
-            const double angle = dot * dot > 1 ? 0 : std::acos(2 * dot * dot - 1);
-            squared += angle * angle;
+            double sum = 0;
+            for (double w : expected) sum += w;
+            const bool divides = sum > 1 || (solver.plan.always_normalize && sum > 0);
+
+            std::vector<float> first;
+            for (const KernelTable* table : present()) {
+              SCOPED_TRACE(table->name);
+              solver.run(*table);
+              EXPECT_EQ(solver.weights.data[0], 0.0f) << "what is not a number weighs nothing";
+              for (uint32_t p = 0; p < poses; ++p) {
+                const double all = double{solver.scales.data[p]} * solver.factors.data[p];
+                ASSERT_NEAR(solver.results.data[p], all * expected[p] / (divides ? sum : 1), 1e-4)
+                    << "function " << int{function} << ", angular " << angular << ", pose " << p;
+              }
+              const std::vector<float> mine(solver.results.data, solver.results.data + poses);
+              if (first.empty()) first = mine;
+              EXPECT_EQ(std::memcmp(mine.data(), first.data(), poses * sizeof(float)), 0);
+            }
           }
-          const double x = std::sqrt(squared) * double{0.4f};
-          double expected = std::exp(-x);
-          if (function >= 2) expected = std::fmax(0.0, 1 - std::pow(x, 2 * function - 3));
-          if (function == 2) expected = std::fmax(0.0, 1 - x);
-          ASSERT_NEAR(weights.data[p], expected, 1e-5)
-              << table->name << ", function " << int{function} << ", angular " << angular;
         }
-        const std::vector<float> mine(weights.data, weights.data + poses);
-        if (first.empty()) first = mine;
-        EXPECT_EQ(std::memcmp(mine.data(), first.data(), poses * sizeof(float)), 0) << table->name;
+      }
+    }
+  }
+}
+
+// What fills the last block must count for nothing, with inputs or without.
+TEST(RbfSolvers, LanesWithoutAPoseWeighNothing) {
+  Random random = Random::from_seed(15, 1);
+  for (uint32_t input_count : {0u, 3u, 4u}) {
+    for (bool angular : {false, true}) {
+      KernelSolver solver(random, angular && input_count != 3, input_count, 3);
+      solver.plan.always_normalize = true;
+      for (uint32_t p = 0; p < 3; ++p) solver.scales.data[p] = solver.factors.data[p] = 1;
+      for (const KernelTable* table : present()) {
+        solver.run(*table);
+        float sum = 0;
+        for (uint32_t p = 0; p < 3; ++p) sum += solver.results.data[p];
+        EXPECT_NEAR(sum, 1, 1e-6) << table->name << ", " << input_count << " inputs";
+        for (uint32_t p = 3; p < solver.lanes; ++p) {
+          EXPECT_EQ(solver.weights.data[p], 0) << table->name << ", " << input_count << " inputs";
+        }
+      }
+    }
+  }
+}
+
+// The function itself, before sums and threshold.
+TEST(RbfSolvers, WeightsWithinTheirBound) {
+  Random random = Random::from_seed(16, 1);
+  for (int round = 0; round < 200; ++round) {
+    KernelSolver solver(random, round % 2, 4, 40);
+    solver.plan.function = static_cast<uint8_t>(round / 2 % 5);
+    for (const KernelTable* table : present()) {
+      solver.run(*table);
+      for (uint32_t p = 0; p < 40; ++p) {
+        ASSERT_NEAR(solver.weights.data[p], solver.model_weight(p), 3e-6) << table->name;
       }
     }
   }

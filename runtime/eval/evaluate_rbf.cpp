@@ -5,12 +5,14 @@
 namespace mien {
 namespace {
 
-void fetch_inputs(const Rig& rig, const RbfSolver& solver, Instance& instance) {
-  const uint16_t* controls = rig.rbf.inputs.data + solver.first_input;
-  float* inputs = instance.rbf_inputs.data;
-  for (uint32_t i = 0; i < solver.input_count; ++i) inputs[i] = instance.controls[controls[i]];
+void fetch_inputs(const Rig& rig, uint32_t index, Instance& instance) {
+  const RbfSolver& solver = rig.rbf.solvers[index];
+  const RbfSolverPlan& plan = rig.rbf.plans[index];
+  const uint16_t* controls = rig.rbf.inputs.data + plan.first_input;
+  float* inputs = instance.rbf_inputs.data + plan.first_input;
+  for (uint32_t i = 0; i < plan.input_count; ++i) inputs[i] = instance.controls[controls[i]];
   if (solver.distance < kSwingAngle) return;
-  for (uint32_t i = 0; i + 4 <= solver.input_count; i += 4) {
+  for (uint32_t i = 0; i + 4 <= plan.input_count; i += 4) {
     float* q = inputs + i;
     const Quaternion part =
         rotation_part({q[0], q[1], q[2], q[3]}, solver.twist_axis, solver.distance == kSwingAngle);
@@ -21,76 +23,90 @@ void fetch_inputs(const Rig& rig, const RbfSolver& solver, Instance& instance) {
   }
 }
 
-float clamp01(float value) { return value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f; }
-
-/// Weight of each pose, in instance.rbf_weights.
-void weigh_poses(const Rig& rig, const RbfSolver& solver, Instance& instance) {
-  float* weights = instance.rbf_weights.data;
-  RbfWeightArgs args;
-  args.targets = rig.rbf.targets.data + solver.first_target;
+void run_solvers(const Rig& rig, Instance& instance, const uint16_t* list, uint32_t count) {
+  RbfArgs args;
+  args.solvers = rig.rbf.plans.data;
+  args.list = list;
+  args.count = count;
   args.inputs = instance.rbf_inputs.data;
-  args.input_count = solver.input_count;
-  args.pose_count = static_cast<uint32_t>(align_up(solver.pose_count, kBlockRows));
-  args.weights = solver.interpolative ? weights + args.pose_count : weights;
-  args.scale = solver.scale;
-  args.function = solver.function;
-  args.angular = solver.distance != kEuclidean;
-  rig.kernels->rbf_weights(args);
-  if (!solver.interpolative) return;
+  args.targets = rig.rbf.targets.data;
+  args.inverses = rig.rbf.inverses.data;
+  args.pose_scales = rig.rbf.pose_scales.data;
+  args.pose_factors = rig.rbf.pose_factors.data;
+  args.weights = instance.rbf_weights.data;
+  args.results = instance.rbf_results.data;
+  rig.kernels->rbf_solvers(args);
+}
 
-  // The inverse times the weights.
-  const float* inverse = rig.rbf.inverses.data + solver.first_inverse;
-  for (uint32_t p = 0; p < solver.pose_count; ++p) {
-    const float* row =
-        inverse + size_t{p / kBlockRows} * solver.pose_count * kBlockRows + p % kBlockRows;
-    float sum = 0;
-    for (uint32_t t = 0; t < solver.pose_count; ++t)
-      sum += row[size_t{t} * kBlockRows] * args.weights[t];
-    weights[p] = clamp01(sum);
+/// Every control that a pose of the solver drives.
+void clear_pose_controls(const Rig& rig, const RbfSolver& solver, uint32_t pose_count,
+                         Instance& instance) {
+  const RbfTable& rbf = rig.rbf;
+  for (uint16_t pose : rbf.poses.slice(solver.first_pose, pose_count)) {
+    for (uint32_t o = rbf.first_output[pose]; o < rbf.first_output[pose + 1]; ++o) {
+      instance.controls[rbf.pose_outputs[o]] = 0.0f;
+    }
   }
 }
 
-void drive_pose_controls(const Rig& rig, const RbfSolver& solver, Instance& instance) {
-  const RbfTable& rbf = rig.rbf;
-  const float* weights = instance.rbf_weights.data;
-  float sum = 0;
-  for (uint32_t p = 0; p < solver.pose_count; ++p) sum += weights[p];
-  const bool normalize = sum > 1.0f || (solver.always_normalize && sum > 0.0f);
-  const float scale = normalize ? 1.0f / sum : 1.0f;
+float finite(float value) {
+  constexpr float kLargest = 3.40282347e38f;
+  return value < kLargest ? (value > -kLargest ? value : -kLargest) : kLargest;
+}
 
-  for (uint32_t p = 0; p < solver.pose_count; ++p) {
+/// Poses may share controls, and multiply with others, which earlier poses may have driven.
+void add_pose_controls(const Rig& rig, const RbfSolver& solver, const float* results,
+                       uint32_t pose_count, Instance& instance) {
+  const RbfTable& rbf = rig.rbf;
+  for (uint32_t p = 0; p < pose_count; ++p) {
+    if (results[p] == 0.0f) continue;
     const uint32_t pose = rbf.poses[solver.first_pose + p];
-    const float value = weights[p] * (scale < 3.4e38f ? scale : 0.0f) * rbf.pose_scales[pose];
-    if (!(value > solver.threshold)) continue;
-    float factor = value;
+    float factor = results[p];
     for (uint32_t i = rbf.first_input[pose]; i < rbf.first_input[pose + 1]; ++i) {
-      factor *= instance.controls[rbf.pose_inputs[i]];
+      factor = finite(factor * instance.controls[rbf.pose_inputs[i]]);
     }
     for (uint32_t o = rbf.first_output[pose]; o < rbf.first_output[pose + 1]; ++o) {
-      instance.controls[rbf.pose_outputs[o]] += rbf.pose_weights[o] * factor;
+      float& control = instance.controls[rbf.pose_outputs[o]];
+      control = finite(control + finite(rbf.pose_weights[o] * factor));
     }
   }
+}
+
+void drive_pose_controls(const Rig& rig, uint32_t index, Instance& instance) {
+  const RbfTable& rbf = rig.rbf;
+  const RbfSolver& solver = rbf.solvers[index];
+  const RbfSolverPlan& plan = rbf.plans[index];
+  const float* results = instance.rbf_results.data + plan.first_lane;
+  if (!solver.direct) {
+    clear_pose_controls(rig, solver, plan.pose_count, instance);
+    add_pose_controls(rig, solver, results, plan.pose_count, instance);
+    return;
+  }
+  const uint16_t* outputs = rbf.direct_outputs.data + plan.first_lane;
+  for (uint32_t p = 0; p < plan.pose_count; ++p) instance.controls[outputs[p]] = results[p];
 }
 
 }  // namespace
 
 void solve_rbf(const Rig& rig, Instance& instance, uint32_t index) {
-  const RbfTable& rbf = rig.rbf;
-  const RbfSolver& solver = rbf.solvers[index];
-  for (uint32_t p = 0; p < solver.pose_count; ++p) {
-    const uint32_t pose = rbf.poses[solver.first_pose + p];
-    for (uint32_t o = rbf.first_output[pose]; o < rbf.first_output[pose + 1]; ++o) {
-      instance.controls[rbf.pose_outputs[o]] = 0.0f;
-    }
-  }
-  fetch_inputs(rig, solver, instance);
-  weigh_poses(rig, solver, instance);
-  drive_pose_controls(rig, solver, instance);
+  const auto listed = static_cast<uint16_t>(index);
+  // A solver may read what it drives, but not what it gave before.
+  clear_pose_controls(rig, rig.rbf.solvers[index], rig.rbf.plans[index].pose_count, instance);
+  fetch_inputs(rig, index, instance);
+  run_solvers(rig, instance, &listed, 1);
+  drive_pose_controls(rig, index, instance);
 }
 
 void evaluate_rbf(const Rig& rig, Instance& instance, uint32_t lod) {
   if (rig.rbf_count == 0) return;  // without a pose control there is nothing to drive
-  for (uint16_t solver : rig.rbf.lod_solvers.at(lod)) solve_rbf(rig, instance, solver);
+  const Span<uint16_t> solvers = rig.rbf.lod_solvers.at(lod);
+  if (!rig.rbf.independent) {
+    for (uint16_t solver : solvers) solve_rbf(rig, instance, solver);
+    return;
+  }
+  for (uint16_t solver : solvers) fetch_inputs(rig, solver, instance);
+  run_solvers(rig, instance, solvers.data, static_cast<uint32_t>(solvers.count));
+  for (uint16_t solver : solvers) drive_pose_controls(rig, solver, instance);
 }
 
 }  // namespace mien

@@ -23,8 +23,9 @@ void place_instance(const Rig& rig, Placer& placer, Instance& instance) {
   for (Span<float>& layer : instance.ml_layers) {
     layer = placer.array<float>(align_up(rig.ml.widest_layer, kBlockRows), kBlockAlignment);
   }
-  instance.rbf_inputs = placer.array<float>(rig.rbf.most_inputs, kBlockAlignment);
-  instance.rbf_weights = placer.array<float>(2 * size_t{rig.rbf.most_poses}, kBlockAlignment);
+  instance.rbf_inputs = placer.array<float>(rig.rbf.inputs.count, kBlockAlignment);
+  instance.rbf_weights = placer.array<float>(rig.rbf.pose_scales.count, kBlockAlignment);
+  instance.rbf_results = placer.array<float>(rig.rbf.pose_scales.count, kBlockAlignment);
 }
 
 void fill(const Span<float>& values, float value) {

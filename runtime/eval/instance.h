@@ -27,8 +27,9 @@ struct Instance {
   Span<float> turns;         // scratch: the quaternions of the group with most
   Span<float> ml_values;     // what the ML steps give, for each other
   Span<float> ml_layers[2];  // scratch: in and out of the widest network layer
-  Span<float> rbf_inputs;    // scratch: of the largest solver
-  Span<float> rbf_weights;   // scratch: of the largest solver, twice
+  Span<float> rbf_inputs;    // scratch: of all solvers
+  Span<float> rbf_weights;   // scratch: lanes of all solvers
+  Span<float> rbf_results;   // scratch: lanes of all solvers
 };
 
 /// Bytes of an instance of a rig.

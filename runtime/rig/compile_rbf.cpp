@@ -2,6 +2,7 @@
 // RBF solvers, twists and swings (rig-evaluation 6 and 7).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "runtime/rig/compile_rig.h"
 
@@ -21,14 +22,14 @@ bool is_interpolative(const dna::RbfSolver& solver) { return solver.solver_type 
 
 /// Distance of two targets. In single precision and in this order because files were made for it:
 /// the angle of nearly equal rotations is mostly rounding (rig-evaluation 10).
-float target_distance(const RbfTable& rbf, const RbfSolver& s, uint32_t a, uint32_t b) {
-  const float* targets = rbf.targets.data + s.first_target;
+float target_distance(const RbfTable& rbf, const RbfSolverPlan& s, uint32_t a, uint32_t b) {
   const uint32_t stride = padded(s.pose_count);
+  const float* targets = rbf.targets.data + s.first_target + stride;
   const auto at = [&](uint32_t input, uint32_t pose) {
     return targets[size_t{input} * stride + pose];
   };
   float sum = 0;
-  if (s.distance == kEuclidean) {
+  if (!s.angular) {
     for (uint32_t i = 0; i < s.input_count; ++i) {
       const float d = at(i, a) - at(i, b);
       sum += d * d;
@@ -63,7 +64,7 @@ float distance_scale(uint8_t function, double radius) {
   return static_cast<float>(scale);
 }
 
-double automatic_radius(const RbfTable& rbf, const RbfSolver& s) {
+double automatic_radius(const RbfTable& rbf, const RbfSolverPlan& s) {
   double sum = 0;
   for (uint32_t a = 0; a < s.pose_count; ++a) {
     for (uint32_t b = 0; b < a; ++b) sum += target_distance(rbf, s, a, b);
@@ -93,7 +94,7 @@ void invert(double* m, uint32_t n) {
   }
 }
 
-bool fill_inverse(RbfTable& rbf, const RbfSolver& s, Arena& scratch) {
+bool fill_inverse(RbfTable& rbf, const RbfSolverPlan& s, Arena& scratch) {
   const uint32_t n = s.pose_count;
   const size_t width = size_t{n} * 2;
   Span<double> m = scratch.array<double>(n * width);
@@ -123,25 +124,78 @@ bool fill_inverse(RbfTable& rbf, const RbfSolver& s, Arena& scratch) {
   return true;
 }
 
-void fill_targets(const dna::RbfSolver& from, RbfTable& rbf, const RbfSolver& s) {
-  float* targets = rbf.targets.data + s.first_target;
-  const uint32_t stride = padded(s.pose_count);
-  for (uint32_t p = 0; p < s.pose_count; ++p) {
+/// Floats that the targets of a solver take.
+size_t target_floats(uint32_t poses, uint32_t inputs) {
+  return size_t{padded(poses)} * (size_t{inputs} + 1);
+}
+
+void fill_targets(const dna::RbfSolver& from, const RbfSolver& solver, const RbfSolverPlan& plan,
+                  RbfTable& rbf) {
+  const uint32_t stride = padded(plan.pose_count);
+  float* targets = rbf.targets.data + plan.first_target;
+  for (uint32_t p = plan.pose_count; p < stride; ++p) {
+    targets[p] = std::numeric_limits<float>::quiet_NaN();
+  }
+  targets += stride;
+  for (uint32_t p = 0; p < plan.pose_count; ++p) {
     const auto value = [&](uint32_t i) {
-      return from.raw_control_values[size_t{p} * s.input_count + i];
+      return from.raw_control_values[size_t{p} * plan.input_count + i];
     };
-    const bool parts = s.distance == kSwingAngle || s.distance == kTwistAngle;
-    for (uint32_t i = 0; i < s.input_count; i += parts ? 4 : 1) {
+    const bool parts = solver.distance == kSwingAngle || solver.distance == kTwistAngle;
+    for (uint32_t i = 0; i < plan.input_count; i += parts ? 4 : 1) {
       if (!parts) {
         targets[size_t{i} * stride + p] = value(i);
-      } else if (i + 4 <= s.input_count) {
+      } else if (i + 4 <= plan.input_count) {
         const Quaternion q = rotation_part({value(i), value(i + 1), value(i + 2), value(i + 3)},
-                                           s.twist_axis, s.distance == kSwingAngle);
+                                           solver.twist_axis, solver.distance == kSwingAngle);
         const float out[4] = {q.x, q.y, q.z, q.w};
         for (uint32_t k = 0; k < 4; ++k) targets[size_t{i + k} * stride + p] = out[k];
       }
     }
   }
+}
+
+/// Pose controls: lists of what each pose drives.
+void fill_poses(const dna::DnaView& view, RbfTable& rbf) {
+  for (uint32_t p = 0; p < view.rbfe.poses.count; ++p) {
+    const dna::RbfPoseControls& from = view.rbfe.poses[p];
+    const uint32_t inputs = rbf.first_input[p], outputs = rbf.first_output[p];
+    copy_array(from.input_control_indices,
+               rbf.pose_inputs.slice(inputs, from.input_control_indices.count));
+    copy_array(from.output_control_indices,
+               rbf.pose_outputs.slice(outputs, from.output_control_indices.count));
+    copy_array(from.output_control_weights,
+               rbf.pose_weights.slice(outputs, from.output_control_weights.count));
+    rbf.first_input[p + 1] = inputs + from.input_control_indices.count;
+    rbf.first_output[p + 1] = outputs + from.output_control_indices.count;
+  }
+}
+
+/// Finds which solvers may write without looking, and whether all may run side by side.
+/// `writer` is zeroed scratch: [control], the last solver found to drive it, counted from 1.
+void find_direct_solvers(RbfTable& rbf, const Span<uint32_t>& writer) {
+  for (uint32_t s = 0; s < rbf.solvers.count; ++s) {
+    RbfSolver& solver = rbf.solvers[s];
+    const RbfSolverPlan& plan = rbf.plans[s];
+    solver.direct = true;
+    for (uint32_t p = 0; p < plan.pose_count; ++p) {
+      const uint32_t pose = rbf.poses[solver.first_pose + p];
+      solver.direct &= rbf.first_input[pose] == rbf.first_input[pose + 1] &&
+                       rbf.first_output[pose] + 1 == rbf.first_output[pose + 1];
+      for (uint32_t o = rbf.first_output[pose]; o < rbf.first_output[pose + 1]; ++o) {
+        uint32_t& last = writer[rbf.pose_outputs[o]];
+        solver.direct &= last != s + 1;
+        last = s + 1;
+      }
+    }
+    for (uint32_t p = 0; p < plan.pose_count && solver.direct; ++p) {
+      const uint32_t output = rbf.first_output[rbf.poses[solver.first_pose + p]];
+      rbf.direct_outputs[plan.first_lane + p] = rbf.pose_outputs[output];
+      rbf.pose_factors[plan.first_lane + p] = rbf.pose_weights[output];
+    }
+  }
+  rbf.independent = true;
+  for (uint16_t control : rbf.inputs) rbf.independent &= writer[control] == 0;
 }
 
 uint64_t input_key(const dna::Array<uint16_t>& inputs) {
@@ -155,7 +209,7 @@ uint64_t input_key(const dna::Array<uint16_t>& inputs) {
 Status place_rbf(const dna::DnaView& view, Placer& placer, Rig& rig, Error& error) {
   RbfTable& rbf = rig.rbf;
   const auto& solvers = view.rbfb.solvers;
-  size_t inputs = 0, poses = 0, targets = 0, inverses = 0;
+  size_t inputs = 0, poses = 0, lanes = 0, targets = 0, inverses = 0;
   for (uint32_t i = 0; i < solvers.count; ++i) {
     const dna::RbfSolver& solver = solvers[i];
     const uint32_t count = solver.pose_indices.count;
@@ -166,10 +220,9 @@ Status place_rbf(const dna::DnaView& view, Placer& placer, Rig& rig, Error& erro
     }
     inputs += solver.raw_control_indices.count;
     poses += count;
-    targets += align_up(size_t{padded(count)} * solver.raw_control_indices.count, kBlockRows);
+    lanes += padded(count);
+    targets += target_floats(count, solver.raw_control_indices.count);
     if (is_interpolative(solver)) inverses += size_t{padded(count)} * count;
-    rbf.most_inputs = std::max(rbf.most_inputs, solver.raw_control_indices.count);
-    rbf.most_poses = std::max(rbf.most_poses, padded(count));
   }
   if (inverses > kMostInverseFloats) {
     return fail(error, Status::kDnaLimit, kNoOffset,
@@ -183,11 +236,14 @@ Status place_rbf(const dna::DnaView& view, Placer& placer, Rig& rig, Error& erro
   }
   const size_t pose_count = view.rbfe.poses.count;
   rbf.solvers = placer.array<RbfSolver>(solvers.count);
+  rbf.plans = placer.array<RbfSolverPlan>(solvers.count);
   rbf.inputs = placer.array<uint16_t>(inputs);
   rbf.poses = placer.array<uint16_t>(poses);
   rbf.targets = placer.array<float>(targets, kBlockAlignment);
   rbf.inverses = placer.array<float>(inverses, kBlockAlignment);
-  rbf.pose_scales = placer.array<float>(pose_count);
+  rbf.pose_scales = placer.array<float>(lanes, kBlockAlignment);
+  rbf.pose_factors = placer.array<float>(lanes, kBlockAlignment);
+  rbf.direct_outputs = placer.array<uint16_t>(lanes);
   rbf.first_input = placer.array<uint32_t>(pose_count + 1);
   rbf.first_output = placer.array<uint32_t>(pose_count + 1);
   rbf.pose_inputs = placer.array<uint16_t>(pose_inputs);
@@ -199,53 +255,53 @@ Status place_rbf(const dna::DnaView& view, Placer& placer, Rig& rig, Error& erro
 
 Status fill_rbf(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error) {
   RbfTable& rbf = rig.rbf;
+  const Span<uint32_t> writer = scratch.array<uint32_t>(rig.control_count);
+  if (rig.control_count && !writer.data) {
+    return fail(error, Status::kMemory, kNoOffset, "no memory to compile RBF solvers");
+  }
   const double to_radians = view.desc.rotation_unit == 0 ? 0.017453292519943295 : 1.0;
-  uint32_t input = 0, pose = 0;
+  uint32_t input = 0, pose = 0, lane = 0;
   size_t target = 0, inverse = 0;
   for (uint32_t i = 0; i < rbf.solvers.count; ++i) {
     const dna::RbfSolver& from = view.rbfb.solvers[i];
-    RbfSolver& s = rbf.solvers[i];
-    s = {};
-    s.first_input = input;
-    s.input_count = from.raw_control_indices.count;
-    s.first_pose = pose;
-    s.pose_count = from.pose_indices.count;
-    s.first_target = target;
-    s.first_inverse = inverse;
-    s.threshold = from.weight_threshold;
-    s.distance = static_cast<uint8_t>(from.distance_method);
-    s.function = static_cast<uint8_t>(from.function_type);
-    s.twist_axis = static_cast<uint8_t>(from.twist_axis);
-    s.interpolative = is_interpolative(from);
-    s.always_normalize = from.normalize_method == 1;
-    copy_array(from.raw_control_indices, rbf.inputs.slice(input, s.input_count));
-    copy_array(from.pose_indices, rbf.poses.slice(pose, s.pose_count));
-    fill_targets(from, rbf, s);
+    RbfSolver& solver = rbf.solvers[i];
+    solver = {pose, static_cast<uint8_t>(from.distance_method),
+              static_cast<uint8_t>(from.twist_axis), false};
+    RbfSolverPlan& plan = rbf.plans[i];
+    plan = {};
+    plan.first_input = input;
+    plan.input_count = from.raw_control_indices.count;
+    plan.first_lane = lane;
+    plan.pose_count = from.pose_indices.count;
+    plan.first_target = target;
+    plan.first_inverse = inverse;
+    plan.threshold = from.weight_threshold;
+    plan.function = static_cast<uint8_t>(from.function_type);
+    plan.angular = solver.distance != kEuclidean;
+    plan.interpolative = is_interpolative(from);
+    plan.always_normalize = from.normalize_method == 1;
+    copy_array(from.raw_control_indices, rbf.inputs.slice(input, plan.input_count));
+    copy_array(from.pose_indices, rbf.poses.slice(pose, plan.pose_count));
+    for (uint32_t p = 0; p < plan.pose_count; ++p) {
+      rbf.pose_scales[lane + p] = view.rbfb.poses[from.pose_indices[p]].scale;
+      rbf.pose_factors[lane + p] = 1.0f;
+    }
+    fill_targets(from, solver, plan, rbf);
     const bool automatic = from.automatic_radius == 0;
-    s.scale = distance_scale(s.function, automatic ? automatic_radius(rbf, s)
-                                                   : static_cast<double>(from.radius) * to_radians);
-    if (s.interpolative && !fill_inverse(rbf, s, scratch)) {
+    plan.scale =
+        distance_scale(plan.function, automatic ? automatic_radius(rbf, plan)
+                                                : static_cast<double>(from.radius) * to_radians);
+    if (plan.interpolative && !fill_inverse(rbf, plan, scratch)) {
       return fail(error, Status::kMemory, kNoOffset, "no memory to compile RBF solver %u", i);
     }
-    input += s.input_count;
-    pose += s.pose_count;
-    target += align_up(size_t{padded(s.pose_count)} * s.input_count, kBlockRows);
-    if (s.interpolative) inverse += size_t{padded(s.pose_count)} * s.pose_count;
+    input += plan.input_count;
+    pose += plan.pose_count;
+    lane += padded(plan.pose_count);
+    target += target_floats(plan.pose_count, plan.input_count);
+    if (plan.interpolative) inverse += size_t{padded(plan.pose_count)} * plan.pose_count;
   }
-
-  for (uint32_t p = 0; p < view.rbfe.poses.count; ++p) {
-    const dna::RbfPoseControls& from = view.rbfe.poses[p];
-    const uint32_t inputs = rbf.first_input[p], outputs = rbf.first_output[p];
-    rbf.pose_scales[p] = view.rbfb.poses[p].scale;
-    copy_array(from.input_control_indices,
-               rbf.pose_inputs.slice(inputs, from.input_control_indices.count));
-    copy_array(from.output_control_indices,
-               rbf.pose_outputs.slice(outputs, from.output_control_indices.count));
-    copy_array(from.output_control_weights,
-               rbf.pose_weights.slice(outputs, from.output_control_weights.count));
-    rbf.first_input[p + 1] = inputs + from.input_control_indices.count;
-    rbf.first_output[p + 1] = outputs + from.output_control_indices.count;
-  }
+  fill_poses(view, rbf);
+  find_direct_solvers(rbf, writer);
   fill_lod_lists(view.rbfb.lod_solvers, rbf.lod_solvers);
   return Status::kOk;
 }

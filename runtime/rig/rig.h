@@ -151,30 +151,27 @@ struct RotationTable {
 /// How a solver measures, as files number it.
 enum RbfDistance : uint8_t { kEuclidean, kQuaternion, kSwingAngle, kTwistAngle };
 
-/// One RBF solver (rig-evaluation 6), its data in RbfTable.
+/// One RBF solver (rig-evaluation 6), beside its plan.
 struct RbfSolver {
-  uint32_t first_input, input_count;  // into inputs
-  uint32_t first_pose, pose_count;    // into poses
-  size_t first_target;                // into targets: [input][pose], poses padded to whole blocks
-  size_t first_inverse;               // into inverses, if interpolative: blocks as of a joint group
-  float scale;  // what the distance is multiplied with before the weight function
-  float threshold;
-  uint8_t distance, function, twist_axis;
-  bool interpolative, always_normalize;
+  uint32_t first_pose;  // into RbfTable::poses
+  uint8_t distance, twist_axis;
+  bool direct;  // each pose writes one control of its own, and multiplies with none
 };
 
 struct RbfTable {
   Span<RbfSolver> solvers;
-  Span<uint16_t> inputs;  // control numbers
-  Span<uint16_t> poses;   // pose numbers
+  Span<RbfSolverPlan> plans;  // beside solvers
+  bool independent = false;   // no solver reads what another one, or itself, writes
+  Span<uint16_t> inputs;      // control numbers
+  Span<uint16_t> poses;       // pose numbers
   Span<float> targets, inverses;
-  Span<float> pose_scales;      // [pose]
-  Span<uint32_t> first_input;   // [pose] into pose_inputs, one more at the end
-  Span<uint32_t> first_output;  // [pose] into pose_outputs, one more at the end
+  Span<float> pose_scales, pose_factors;  // [lane]
+  Span<uint16_t> direct_outputs;          // [lane] control that a pose of a direct solver writes
+  Span<uint32_t> first_input;             // [pose] into pose_inputs, one more at the end
+  Span<uint32_t> first_output;            // [pose] into pose_outputs, one more at the end
   Span<uint16_t> pose_inputs, pose_outputs;
   Span<float> pose_weights;  // beside pose_outputs
   LodLists lod_solvers;
-  uint32_t most_inputs = 0, most_poses = 0;  // of one solver; poses in whole blocks
 };
 
 /// One layer of a neural network, as simd/kernels.h wants it.
