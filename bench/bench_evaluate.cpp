@@ -6,6 +6,7 @@
 #include <random>
 
 #include "bench/bench_support.h"
+#include "bench/plain_rbf.h"
 #include "integrations/cli/bench_csr.h"
 
 namespace mien::bench {
@@ -86,12 +87,41 @@ void csr(benchmark::State& state, uint32_t lod) {
   }
 }
 
+/// All solvers of the file, whatever LOD they belong to; a rig whose LOD 0 has all of them
+/// compares.
+void plain_rbf(benchmark::State& state) {
+  const PlainRbf rbf = read_plain_rbf(behavior());
+  const MienRig* rig = rig_for(MIEN_ISA_SCALAR);
+  MienInstance* instance = nullptr;
+  MienError error = sized<MienError>();
+  require(mien_instance_create(rig, nullptr, &instance, &error), error);
+  MienMutableFloatView raw = {};
+  MienFloatView expected = {};
+  mien_instance_raw_controls(instance, &raw);
+  mien_instance_controls(instance, &expected);
+  activate(raw, 25);
+  mien_rig_evaluate_stages(rig, instance, 0, MIEN_STAGE_RBF);
+  std::vector<float> controls(expected.data, expected.data + expected.count);
+  for (auto _ : state) {
+    evaluate(rbf, controls);
+    benchmark::DoNotOptimize(controls.data());
+    benchmark::ClobberMemory();
+  }
+  float worst = 0;
+  for (size_t i = 0; i < expected.count; ++i) {
+    worst = std::fmax(worst, std::fabs(controls[i] - expected.data[i]));
+  }
+  state.counters["difference"] = worst;  // to what the library gives
+  mien_instance_destroy(instance);
+}
+
 const int kRegistered = [] {
   MienDnaInfo info = sized<MienDnaInfo>();
   mien_dna_info(behavior(), &info);
   for (uint32_t lod = 0; lod < info.lod_count; ++lod) {
     benchmark::RegisterBenchmark(("csr/lod" + std::to_string(lod)).c_str(), csr, lod);
   }
+  if (info.rbf_solver_count) benchmark::RegisterBenchmark("plain_rbf/lod0/25%", plain_rbf);
   const struct {
     const char* name;
     uint32_t stages;
