@@ -11,8 +11,6 @@
 namespace mien::MIEN_KERNEL_ISA {
 namespace {
 
-constexpr size_t kVecsPerBlock = kBlockRows / kWidth;
-
 struct BlockMatrix {
   const float* values;
   size_t column_count, block_count;

@@ -53,8 +53,8 @@ struct JointColumnsArgs {
 ///
 /// The even columns are summed, and the odd ones, and the two added: twice as many sums hide the
 /// wait for each other. Activation f: 0 itself, 1 max(0, v), 2 v or alpha * v below 0, 3 tanh, 4
-/// 1 / (1 + e^-v); tanh and the last are within 3e-7. What overflows saturates. Rows past row_count,
-/// up to the next 16, may be written.
+/// 1 / (1 + e^-v); tanh and the last are within 3e-7. What overflows saturates. Rows past
+/// row_count, up to the next 16, may be written.
 struct DenseLayerArgs {
   const void* values;   // floats or halves, 64-byte aligned
   const float* biases;  // one for each row, in whole blocks, 64-byte aligned
@@ -87,37 +87,46 @@ struct JointTurnArgs {
 
 /// An RBF solver. Its poses are lanes, in blocks of 16:
 ///
-///     targets    0 for each pose, NaN for what fills the last block; then [input][lane]
+///     targets    [input][lane]: NaN for what fills the last block; without inputs one row of 0
 ///     inverses   if interpolative: blocks of 16 poses, [column][lane], a column for each pose; 0
 ///     for
 ///                what fills the last block
 ///
-/// Distance: Euclidean, or the root of the summed squares of the angles between quaternions of four
-/// inputs each. Weight of x = distance * scale, by function: 0, 1 exp(-x); 2, 3, 4 max(0, 1 - x^n)
-/// with n = 1, 3, 5; what is not a number weighs 0. If interpolative, the inverse times the
-/// weights, clamped to 0..1. Then all are divided by their sum, if that exceeds 1 or always.
+/// Distance: Euclidean, or the root of the summed squares of the angles between rotations: of 4
+/// inputs each, or of the 3 or 2 numbers that the swing or the twist of one has
+/// (RbfArgs::rotations), in the order of the axes in RbfArgs. Weight of d, by function: 0, 1: 2^(d
+/// * scale); 2, 3, 4: max(0, 1 - (d * scale)^n) with n = 1, 3, 5; what is not a number weighs 0. If
+/// interpolative, the inverse times the weights, clamped to 0..1. Then all are divided by their
+/// sum, if that exceeds 1 or always.
 struct RbfSolverPlan {
   size_t first_target, first_inverse;
-  uint32_t first_input, input_count;
+  uint32_t first_input, input_count;  // whole angles; into inputs, or the lane of rotations
   uint32_t first_lane, pose_count;
   float scale, threshold;
   uint8_t function;
-  bool angular, interpolative, always_normalize;
+  uint8_t angle_inputs;  // 0: Euclidean; else 4, 3 or 2
+  bool interpolative, always_normalize;
 };
 
 /// The solvers of a list. Writes results[first_lane + pose] = factor * the pose's weight times its
 /// scale, where that exceeds the threshold, else 0. Nothing is fused: every instruction set gives
-/// the same bits. `weights` is scratch. All but solvers and inputs are 64-byte aligned.
+/// the same bits. Solvers and inputs may lie anywhere, the rest is 64-byte aligned.
+///
+/// First all rotations of the blocks named are parted, in blocks of 16 lanes: a, b, c, w, where a
+/// is the axis, and b and c follow it. A swing becomes 0, b, c, w; a twist a, 0, 0, w.
 struct RbfArgs {
   const RbfSolverPlan* solvers;
   const uint16_t* list;
   uint32_t count;
   const float* inputs;
+  float* rotations;                   // [block][4][lane]
+  const float* swings;                // [block][lane]: 1 for a swing, 0 for a twist
+  uint32_t first_block, block_count;  // of rotations
   const float* targets;
   const float* inverses;
-  const float* pose_scales;   // [lane]
+  const float* pose_scales;   // [lane], within 1e19
   const float* pose_factors;  // [lane]
-  float* weights;             // [lane]
+  float* weights;             // [lane]: scratch
   float* results;             // [lane]
 };
 

@@ -2,119 +2,213 @@
 // RBF solvers: distances, weights, interpolation, normalization. Products and sums are rounded one
 // by one, in an order that does not depend on the width.
 
-#include "simd/dense_kernels.inl"
 #include "simd/joint_kernels.inl"
 
 namespace mien::MIEN_KERNEL_ISA {
 namespace {
 
+// Two vectors at a time: neither waits for the other, and they share what is loaded for both.
+struct VecPair {
+  Vec a, b;
+};
+struct MaskPair {
+  Mask a, b;
+};
+inline VecPair operator+(VecPair x, VecPair y) { return {x.a + y.a, x.b + y.b}; }
+inline VecPair operator-(VecPair x, VecPair y) { return {x.a - y.a, x.b - y.b}; }
+inline VecPair operator*(VecPair x, VecPair y) { return {x.a * y.a, x.b * y.b}; }
+inline VecPair absolute(VecPair v) { return {absolute(v.a), absolute(v.b)}; }
+inline VecPair square_root(VecPair v) { return {square_root(v.a), square_root(v.b)}; }
+inline VecPair at_least(VecPair v, VecPair w) { return {at_least(v.a, w.a), at_least(v.b, w.b)}; }
+inline VecPair at_most(VecPair v, VecPair w) { return {at_most(v.a, w.a), at_most(v.b, w.b)}; }
+inline VecPair at_most_or_nan(VecPair v, VecPair w) {
+  return {at_most_or_nan(v.a, w.a), at_most_or_nan(v.b, w.b)};
+}
+inline MaskPair less(VecPair x, VecPair y) { return {less(x.a, y.a), less(x.b, y.b)}; }
+inline VecPair select(MaskPair m, VecPair x, VecPair y) {
+  return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};
+}
+inline VecPair keep(MaskPair m, VecPair v) { return {keep(m.a, v.a), keep(m.b, v.b)}; }
+inline VecPair round_to_whole(VecPair v, VecPair& power) {
+  return {round_to_whole(v.a, power.a), round_to_whole(v.b, power.b)};
+}
+inline void store(float* to, VecPair v) {
+  store(to, v.a);
+  store(to + kWidth, v.b);
+}
+
+// What follows is written for V, one vector or two.
+template <class V>
+struct Make;
+template <>
+struct Make<Vec> {
+  static Vec from(const float* lanes) { return load(lanes); }
+  static Vec of(float value) { return broadcast(value); }
+};
+template <>
+struct Make<VecPair> {
+  static VecPair from(const float* lanes) { return {load(lanes), load(lanes + kWidth)}; }
+  static VecPair of(float value) {
+    const Vec v = broadcast(value);
+    return {v, v};
+  }
+};
+
+// 2^y for -126 < y <= 126, within 2e-7 of its value; 0 below, and for what is not a number. The
+// polynomial for -1/2 ... 1/2 is within 1e-7 and gives 1 for 0.
+template <class V>
+inline V power_of_two_or_zero(V y) {
+  using M = Make<V>;
+  V power;
+  const V f = y - round_to_whole(y, power);
+  const V f2 = f * f;
+  const V high = (M::of(0.0013264739f) * f + M::of(0.00967151672f)) * f2 +
+                 (M::of(0.0555073358f) * f + M::of(0.240222424f));
+  const V p = high * f2 + (M::of(0.693147004f) * f + M::of(1.0f));
+  return keep(less(M::of(-126.0f), y), p * power);
+}
+
 // acos(x) for -1 <= x <= 1, within 2e-8 before rounding: sqrt(1 - |x|) times a polynomial
-// (Abramowitz and Stegun 4.4.46), reflected for negative x.
-inline Vec arc_cosine(Vec x) {
-  const Vec a = at_most(absolute(x), broadcast(1.0f));
-  const Vec a2 = a * a;
-  const Vec low = (broadcast(-0.0501743046f) * a + broadcast(0.0889789874f)) * a2 +
-                  (broadcast(-0.2145988016f) * a + broadcast(1.5707963050f));
-  const Vec high = (broadcast(-0.0012624911f) * a + broadcast(0.0066700901f)) * a2 +
-                   (broadcast(-0.0170881256f) * a + broadcast(0.0308918810f));
-  const Vec angle = (high * (a2 * a2) + low) * square_root(broadcast(1.0f) - a);
-  return select(less(x, broadcast(0.0f)), broadcast(3.14159265f) - angle, angle);
+// (Abramowitz and Stegun 4.4.46), reflected for negative x. 0 for x > 1.
+template <class V>
+inline V arc_cosine(V x) {
+  using M = Make<V>;
+  const V a = at_most_or_nan(absolute(x), M::of(1.0f));
+  const V a2 = a * a;
+  const V low = (M::of(-0.0501743046f) * a + M::of(0.0889789874f)) * a2 +
+                (M::of(-0.2145988016f) * a + M::of(1.5707963050f));
+  const V high = (M::of(-0.0012624911f) * a + M::of(0.0066700901f)) * a2 +
+                 (M::of(-0.0170881256f) * a + M::of(0.0308918810f));
+  const V angle = (high * (a2 * a2) + low) * square_root(M::of(1.0f) - a);
+  return select(less(x, M::of(0.0f)), M::of(3.14159265f) - angle, angle);
+}
+
+/// The numbers of one rotation, `step` apart; swings lack the first of four, twists the middle two.
+struct RotationInput {
+  const float* first;
+  size_t step;
+};
+
+inline RotationInput rotation_input(const RbfSolverPlan& solver, const RbfArgs& args, size_t i) {
+  if (solver.angle_inputs == 4) return {args.inputs + solver.first_input + 4 * i, 1};
+  const size_t lane = solver.first_input + i;
+  const float* a = args.rotations + lane / kBlockRows * 4 * kBlockRows + lane % kBlockRows;
+  if (solver.angle_inputs == 3) return {a + kBlockRows, kBlockRows};
+  return {a, 3 * kBlockRows};
 }
 
 // The angle between two rotations from the dot product of their quaternions; the sign of either
 // does not matter.
-inline Vec angle_between(const float* targets, const float* inputs, size_t stride, Vec start) {
-  Vec dot = start;
-  for (size_t k = 0; k < 4; ++k) dot = dot + load(targets + k * stride) * broadcast(inputs[k]);
-  const Vec u = dot * dot;
-  const Vec angle = arc_cosine((u + u) - broadcast(1.0f));
-  // u - u is 0, or hands on what is not a number, which the polynomial would hide.
-  return select(less(broadcast(1.0f), u), broadcast(0.0f), angle + (u - u));
+template <class V>
+[[gnu::always_inline]] inline V angle_between(const float* targets, size_t stride,
+                                              RotationInput input, size_t count) {
+  using M = Make<V>;
+  V dot = M::from(targets) * M::of(input.first[0]);
+  for (size_t k = 1; k < count; ++k) {
+    dot = dot + M::from(targets + k * stride) * M::of(input.first[k * input.step]);
+  }
+  const V u = dot * dot;
+  return arc_cosine((u + u) - M::of(1.0f));
 }
 
-inline Vec distance(const RbfSolverPlan& solver, const float* targets, const float* inputs,
-                    size_t stride) {
-  const Vec start = load(targets);  // 0, or NaN behind the last pose
-  targets += stride;
-  if (solver.angular && solver.input_count / 4 == 1) {
-    return angle_between(targets, inputs, stride, start);
-  }
-  Vec sum = start;
-  if (solver.angular) {
-    for (size_t i = 0; i + 4 <= solver.input_count; i += 4) {
-      const Vec angle = angle_between(targets + i * stride, inputs + i, stride, start);
-      sum = sum + angle * angle;
-    }
-  } else {
+template <class V>
+[[gnu::always_inline]] inline V distance(const RbfSolverPlan& solver, const RbfArgs& args,
+                                         const float* targets, size_t stride) {
+  using M = Make<V>;
+  if (solver.input_count == 0) return M::from(targets);
+  V sum = M::of(0.0f);
+  if (solver.angle_inputs == 0) {
+    const float* inputs = args.inputs + solver.first_input;
     for (size_t i = 0; i < solver.input_count; ++i) {
-      const Vec d = load(targets + i * stride) - broadcast(inputs[i]);
+      const V d = M::from(targets + i * stride) - M::of(inputs[i]);
       sum = sum + d * d;
     }
+    return square_root(sum);
+  }
+  const size_t count = solver.angle_inputs, rotations = solver.input_count / count;
+  if (rotations == 1) {
+    return angle_between<V>(targets, stride, rotation_input(solver, args, 0), count);
+  }
+  for (size_t i = 0; i < rotations; ++i) {
+    const V angle = angle_between<V>(targets + i * count * stride, stride,
+                                     rotation_input(solver, args, i), count);
+    sum = sum + angle * angle;
   }
   return square_root(sum);
 }
 
-inline Vec weight_of(Vec x, const RbfSolverPlan& solver) {
-  constexpr float kLargest = 3.4e38f;
-  const Vec zero = broadcast(0.0f), one = broadcast(1.0f);
-  if (solver.function >= 2) {
-    Vec power = x;
-    for (int n = 2; n < solver.function; ++n) power = power * (x * x);
-    return at_most(at_least(one - power, zero), broadcast(kLargest));
+template <class V>
+inline V weight_of(V x, const RbfSolverPlan& solver) {
+  using M = Make<V>;
+  // A radius below zero makes weights grow with the distance: up to 2^60, so that the product with
+  // the scale of a pose, at most 1e19, does not overflow.
+  constexpr float kMost = 60, kMostWeight = 1.152921505e18f;
+  if (solver.function < 2) {
+    return power_of_two_or_zero(solver.scale > 0 ? at_most_or_nan(x, M::of(kMost)) : x);
   }
-  if (!(solver.scale < 0)) {
-    return select(less(x, broadcast(kLargest)), exp_of_negative(zero - x), zero);
-  }
-  // A radius below zero makes weights grow with the distance, up to where they stop being numbers.
-  const Vec weight = divide(one, exp_of_negative(x));
-  return select(less(x, broadcast(kLargest)), at_most(weight, broadcast(kLargest)), zero);
+  V power = x;
+  for (int n = 2; n < solver.function; ++n) power = power * (x * x);
+  return at_most(at_least(M::of(1.0f) - power, M::of(0.0f)), M::of(kMostWeight));
+}
+
+template <class V>
+inline void weigh_lanes(const RbfSolverPlan& solver, const RbfArgs& args, size_t lane,
+                        size_t stride) {
+  const float* targets = args.targets + solver.first_target + lane;
+  const V x = distance<V>(solver, args, targets, stride) * Make<V>::of(solver.scale);
+  store(args.weights + solver.first_lane + lane, weight_of(x, solver));
 }
 
 void weigh_poses(const RbfSolverPlan& solver, const RbfArgs& args) {
-  const size_t stride = (solver.pose_count + kBlockRows - 1) / kBlockRows * kBlockRows;
-  const float* targets = args.targets + solver.first_target;
-  const float* inputs = args.inputs + solver.first_input;
-  float* weights = args.weights + solver.first_lane;
+  const size_t count = solver.pose_count;
+  const size_t stride = (count + kBlockRows - 1) / kBlockRows * kBlockRows;
   size_t p = 0;
-  for (; p < solver.pose_count; p += kWidth) {
-    const Vec x = distance(solver, targets + p, inputs, stride) * broadcast(solver.scale);
-    store(weights + p, weight_of(x, solver));
+  for (; p + kWidth < count; p += 2 * kWidth) weigh_lanes<VecPair>(solver, args, p, stride);
+  if (p < count) {
+    weigh_lanes<Vec>(solver, args, p, stride);
+    p += kWidth;
   }
-  for (; p < stride; p += kWidth) store(weights + p, broadcast(0.0f));
+  for (; p < stride; p += kWidth) store(args.weights + solver.first_lane + p, broadcast(0.0f));
 }
 
-/// results = the inverse times the weights. A few rows at a time keep their sums in registers.
-void interpolate(const RbfSolverPlan& solver, const RbfArgs& args) {
+template <class V>
+inline void interpolate_lanes(const RbfSolverPlan& solver, const RbfArgs& args, size_t lane) {
+  using M = Make<V>;
   const float* weights = args.weights + solver.first_lane;
-  float* results = args.results + solver.first_lane;
-  const float* inverse = args.inverses + solver.first_inverse;
   const size_t count = solver.pose_count;
-  for (size_t p = 0; p < count; p += kWidth) {
-    const float* column = inverse + p / kBlockRows * count * kBlockRows + p % kBlockRows;
-    Vec sum = broadcast(0.0f);
-    for (size_t t = 0; t < count; ++t) {
-      sum = sum + load(column + t * kBlockRows) * broadcast(weights[t]);
-    }
-    store(results + p, at_most(at_least(sum, broadcast(0.0f)), broadcast(1.0f)));
+  const float* column = args.inverses + solver.first_inverse +
+                        lane / kBlockRows * count * kBlockRows + lane % kBlockRows;
+  V sum = M::of(0.0f);
+#pragma GCC unroll 4
+  for (size_t t = 0; t < count; ++t, column += kBlockRows) {
+    sum = sum + M::from(column) * M::of(weights[t]);
   }
+  store(args.results + solver.first_lane + lane, at_most(at_least(sum, M::of(0.0f)), M::of(1.0f)));
+}
+
+/// results = the inverse times the weights. A pair of vectors must not reach into the next block.
+void interpolate(const RbfSolverPlan& solver, const RbfArgs& args) {
+  constexpr bool kPairsFit = 2 * kWidth <= kBlockRows;
+  const size_t count = solver.pose_count;
   const size_t stride = (count + kBlockRows - 1) / kBlockRows * kBlockRows;
-  for (size_t p = (count + kWidth - 1) / kWidth * kWidth; p < stride; p += kWidth) {
-    store(results + p, broadcast(0.0f));
+  size_t p = 0;
+  if constexpr (kPairsFit) {
+    for (; p + kWidth < count; p += 2 * kWidth) interpolate_lanes<VecPair>(solver, args, p);
   }
+  for (; p < count; p += kWidth) interpolate_lanes<Vec>(solver, args, p);
+  for (; p < stride; p += kWidth) store(args.results + solver.first_lane + p, broadcast(0.0f));
 }
 
 /// Of whole blocks: sixteen sums, then one half added to the other until one is left.
 inline float sum_of(const float* values, size_t count) {
-  float sums[kBlockRows];
-  for (size_t v = 0; v < kBlockRows; v += kWidth) {
-    Vec sum = load(values + v);
-    for (size_t p = kBlockRows; p < count; p += kBlockRows) sum = sum + load(values + p + v);
-    store(sums + v, sum);
+  Vec sums[kVecsPerBlock];
+  for (size_t v = 0; v < kVecsPerBlock; ++v) {
+    sums[v] = load(values + v * kWidth);
+    for (size_t p = kBlockRows; p < count; p += kBlockRows) {
+      sums[v] = sums[v] + load(values + p + v * kWidth);
+    }
   }
-  for (size_t half = kBlockRows / 2; half > 0; half /= 2) {
-    for (size_t i = 0; i < half; ++i) sums[i] += sums[i + half];
-  }
-  return sums[0];
+  return sum_of_lanes(sums);
 }
 
 void normalize(const RbfSolverPlan& solver, const RbfArgs& args) {
@@ -124,16 +218,35 @@ void normalize(const RbfSolverPlan& solver, const RbfArgs& args) {
   float scale = 1.0f;
   if (sum > 1.0f || (solver.always_normalize && sum > 0.0f)) scale = 1.0f / sum;
   if (!(scale < 3.4e38f)) scale = 0.0f;  // of weights that all but vanish
-  const Vec threshold = broadcast(solver.threshold), zero = broadcast(0.0f);
+  const Vec threshold = broadcast(solver.threshold);
   for (size_t p = 0; p < count; p += kWidth) {
     const Vec value = load(weights + p) * broadcast(scale) * load(args.pose_scales + at + p);
-    const Vec counted = select(less(threshold, value), saturate(value), zero);
-    store(args.results + at + p, saturate(counted * load(args.pose_factors + at + p)) + zero);
+    const Vec counted = keep(less(threshold, value), value);
+    store(args.results + at + p, saturate(counted * load(args.pose_factors + at + p)));
+  }
+}
+
+/// Sixteen rotations, each as its swing or its twist (rig-evaluation 6.2).
+void part_rotations(float* rotations, const float* swings) {
+  for (size_t v = 0; v < kBlockRows; v += kWidth) {
+    float* at = rotations + v;
+    const Vec zero = broadcast(0.0f), a = load(at), b = load(at + kBlockRows);
+    const Vec c = load(at + 2 * kBlockRows), w = load(at + 3 * kBlockRows);
+    const Vec length = square_root(a * a + w * w);
+    const Vec n = zero - length;
+    const Mask swing = less(zero, load(swings + v));
+    store(at, select(swing, zero, divide(a, length)));
+    store(at + kBlockRows, select(swing, divide(w * b - a * c, n), zero));
+    store(at + 2 * kBlockRows, select(swing, divide(w * c + a * b, n), zero));
+    store(at + 3 * kBlockRows, select(swing, n, divide(w, length)));
   }
 }
 
 // Step by step for all of them: what one solver waits for, another has ready.
 void rbf_solvers(const RbfArgs& args) {
+  for (size_t b = args.first_block; b < args.first_block + size_t{args.block_count}; ++b) {
+    part_rotations(args.rotations + b * 4 * kBlockRows, args.swings + b * kBlockRows);
+  }
   for (size_t i = 0; i < args.count; ++i) weigh_poses(args.solvers[args.list[i]], args);
   for (size_t i = 0; i < args.count; ++i) {
     const RbfSolverPlan& solver = args.solvers[args.list[i]];

@@ -13,10 +13,15 @@
 //   divide, square_root   correctly rounded
 //   absolute              without the sign
 //   at_least, at_most     NaN becomes the bound
+//   at_most_or_nan        NaN stays
 //   select(m,a,b)   a where m, else b; masks come from less(a,b)
+//   keep(m,a)       a where m, else 0
 //   saturate        to the range of finite floats
 //   power_of_two(n) 2^n for whole n in -126 ... 127
-//   mul_add(a,b,c)  a * b + c, rounded once where the hardware fuses (AVX2, AVX-512, NEON), else
+//   round_to_whole(v, p)  the nearest whole number n, and p = 2^n; for |v| up to 126
+//   sum_of_lanes(v) of kVecsPerBlock vectors, 16 lanes: one half added to the other until one is
+//   left mul_add(a,b,c)  a * b + c, rounded once where the hardware fuses (AVX2, AVX-512, NEON),
+//   else
 //                   rounded after each step (scalar, SSE2). By intrinsic: xsimd 8.1 leaves the
 //                   choice to the compiler on AVX-512 and NEON.
 //
@@ -60,6 +65,10 @@
 namespace mien::MIEN_KERNEL_ISA {
 namespace {
 
+// Floats near 1.5 * 2^23 are whole numbers: adding it rounds, and the lowest bits of the sum are
+// those of the number; with 127 they are what the exponent of its power of two is.
+constexpr float kWholeBias = 12582912.0f + 127.0f;
+
 #if defined(MIEN_KERNEL_SCALAR)
 
 constexpr Isa kIsa = Isa::kScalar;
@@ -83,6 +92,7 @@ inline Vec divide(Vec a, Vec b) { return a / b; }
 inline Vec absolute(Vec v) { return __builtin_fabsf(v); }
 inline Vec at_least(Vec v, Vec low) { return v > low ? v : low; }    // NaN becomes `low`
 inline Vec at_most(Vec v, Vec high) { return v < high ? v : high; }  // NaN becomes `high`
+inline Vec at_most_or_nan(Vec v, Vec high) { return high < v ? high : v; }
 using Mask = bool;
 inline Mask less(Vec a, Vec b) { return a < b; }
 inline Vec select(Mask m, Vec a, Vec b) { return m ? a : b; }
@@ -92,11 +102,20 @@ inline PieceVec load_piece(const float* from) { return *from; }
 inline PieceVec load_piece(const int16_t* from) { return *from; }
 inline PieceVec broadcast_piece(float value) { return value; }
 inline void store_piece(float* to, PieceVec value) { *to = value; }
+inline Vec keep(Mask m, Vec a) { return m ? a : 0.0f; }
 inline Vec power_of_two(Vec n) {
   const uint32_t bits = static_cast<uint32_t>(static_cast<int32_t>(n) + 127) << 23;
   float power;
   __builtin_memcpy(&power, &bits, sizeof(power));
   return power;
+}
+inline Vec round_to_whole(Vec v, Vec& power) {
+  const float sum = v + kWholeBias;
+  uint32_t bits;
+  __builtin_memcpy(&bits, &sum, sizeof(bits));
+  bits <<= 23;
+  __builtin_memcpy(&power, &bits, sizeof(power));
+  return sum - kWholeBias;
 }
 
 #else
@@ -180,20 +199,32 @@ inline Vec absolute(Vec v) { return xsimd::abs(v); }
 using Mask = Vec::batch_bool_type;
 inline Mask less(Vec a, Vec b) { return a < b; }
 inline Vec select(Mask m, Vec a, Vec b) { return xsimd::select(m, a, b); }
+#if defined(MIEN_KERNEL_SSE2)
+inline Vec keep(Mask m, Vec a) { return _mm_and_ps(m, a); }
+#elif defined(MIEN_KERNEL_AVX2)
+inline Vec keep(Mask m, Vec a) { return _mm256_and_ps(m, a); }
+#else
+inline Vec keep(Mask m, Vec a) { return select(m, a, broadcast(0.0f)); }
+#endif
 #if defined(MIEN_KERNEL_NEON)
 inline Vec at_least(Vec v, Vec low) { return select(v > low, v, low); }
 inline Vec at_most(Vec v, Vec high) { return select(v < high, v, high); }
+inline Vec at_most_or_nan(Vec v, Vec high) { return select(high < v, high, v); }
 #else
 // max and min of x86 are exactly v > low ? v : low and v < high ? v : high.
 inline Vec at_least(Vec v, Vec low) { return xsimd::max(v, low); }
 inline Vec at_most(Vec v, Vec high) { return xsimd::min(v, high); }
+inline Vec at_most_or_nan(Vec v, Vec high) { return xsimd::min(high, v); }
 #endif
+using Bits = xsimd::batch<int32_t, Vec::arch_type>;
 inline Vec power_of_two(Vec n) {
-  // The sum is exact, so its lowest bits are n + 127.
-  constexpr float kFirstOfUnitSpacing = 12582912.0f;  // 1.5 * 2^23
-  using Bits = xsimd::batch<int32_t, Vec::arch_type>;
-  const Bits sum = xsimd::bitwise_cast<Bits>(n + broadcast(kFirstOfUnitSpacing + 127.0f));
+  const Bits sum = xsimd::bitwise_cast<Bits>(n + broadcast(kWholeBias));  // exact
   return xsimd::bitwise_cast<Vec>(sum << 23);
+}
+inline Vec round_to_whole(Vec v, Vec& power) {
+  const Vec sum = v + broadcast(kWholeBias);
+  power = xsimd::bitwise_cast<Vec>(xsimd::bitwise_cast<Bits>(sum) << 23);
+  return sum - broadcast(kWholeBias);
 }
 
 #endif
@@ -322,6 +353,35 @@ inline void columns4(const Vec* m, Quad* columns) {
 
 // (a * b.yzx - a.yzx * b) is the cross product, turned by one.
 inline Quad cross4(const Quad& a, const Quad& b) { return yzx4(mul_sub4(a, yzx4(b), yzx4(a) * b)); }
+constexpr size_t kVecsPerBlock = kBlockRows / kWidth;
+
+inline float sum_of_lanes(const Vec (&vecs)[kVecsPerBlock]) {
+#if defined(MIEN_KERNEL_SCALAR)
+  float sums[8], four[4];
+  for (size_t i = 0; i < 8; ++i) sums[i] = vecs[i] + vecs[i + 8];
+  for (size_t i = 0; i < 4; ++i) four[i] = sums[i] + sums[i + 4];
+  return (four[0] + four[2]) + (four[1] + four[3]);
+#elif defined(MIEN_KERNEL_NEON)
+  const Vec four = (vecs[0] + vecs[2]) + (vecs[1] + vecs[3]);
+  const float32x2_t two = vadd_f32(vget_low_f32(four), vget_high_f32(four));
+  return vget_lane_f32(two, 0) + vget_lane_f32(two, 1);
+#else
+#if defined(MIEN_KERNEL_SSE2)
+  const __m128 four = (vecs[0] + vecs[2]) + (vecs[1] + vecs[3]);
+#else
+#if defined(MIEN_KERNEL_AVX2)
+  const __m256 eight = vecs[0] + vecs[1];
+#else
+  const __m512d all = _mm512_castps_pd(vecs[0]);
+  const __m256 eight = _mm256_add_ps(_mm256_castpd_ps(_mm512_castpd512_pd256(all)),
+                                     _mm256_castpd_ps(_mm512_extractf64x4_pd(all, 1)));
+#endif
+  const __m128 four = _mm_add_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
+#endif
+  const __m128 two = _mm_add_ps(four, _mm_movehl_ps(four, four));
+  return _mm_cvtss_f32(_mm_add_ss(two, _mm_shuffle_ps(two, two, 1)));
+#endif
+}
 
 // Sums of finite products can overflow, and infinities of both signs cancel to nothing sensible.
 // What is not a number becomes the lowest.

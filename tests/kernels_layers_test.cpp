@@ -228,12 +228,11 @@ struct KernelSolver {
 
   KernelSolver(Random& random, bool angular, uint32_t input_count, uint32_t poses)
       : lanes((poses + kBlockRows - 1) / kBlockRows * kBlockRows),
-        targets(size_t{lanes} * (input_count + 1)), inverses(size_t{lanes} * poses), scales(lanes),
-        factors(lanes), weights(lanes), results(lanes), inputs(input_count) {
+        targets(size_t{lanes} * std::max(input_count, 1u)), inverses(size_t{lanes} * poses),
+        scales(lanes), factors(lanes), weights(lanes), results(lanes), inputs(input_count) {
     plan.input_count = input_count;
     plan.pose_count = poses;
-    plan.angular = angular;
-    plan.scale = 0.4f;
+    plan.angle_inputs = angular ? 4 : 0;
     plan.threshold = -1;
     const auto fill = [&](const auto& at) {
       for (uint32_t i = 0; i < input_count; i += angular ? 4 : 1) {
@@ -248,7 +247,8 @@ struct KernelSolver {
       }
     };
     for (uint32_t p = 0; p < lanes; ++p) {
-      targets.data[p] = p < poses ? 0.0f : NAN;
+      for (uint32_t i = 0; i < std::max(input_count, 1u); ++i)
+        target(i, p) = p < poses ? 0.0f : NAN;
       if (p < poses) fill([&](uint32_t i) -> float& { return target(i, p); });
       scales.data[p] = static_cast<float>(random.between(0.5, 2));
       factors.data[p] = static_cast<float>(random.between(-2, 2));
@@ -262,8 +262,12 @@ struct KernelSolver {
     }
   }
 
+  void set_function(uint8_t function) {
+    plan.function = function;
+    plan.scale = function < 2 ? -0.4f : 0.4f;
+  }
   float& target(uint32_t input, uint32_t pose) const {
-    return targets.data[size_t{input + 1} * lanes + pose];
+    return targets.data[size_t{input} * lanes + pose];
   }
 
   float& inverse(uint32_t row, uint32_t column) const {
@@ -273,14 +277,14 @@ struct KernelSolver {
 
   void run(const KernelTable& table) const {
     const uint16_t list[] = {0};
-    table.rbf_solvers({&plan, list, 1, inputs.data(), targets.data, inverses.data, scales.data,
-                       factors.data, weights.data, results.data});
+    table.rbf_solvers({&plan, list, 1, inputs.data(), nullptr, nullptr, 0, 0, targets.data,
+                       inverses.data, scales.data, factors.data, weights.data, results.data});
   }
 
   double model_weight(uint32_t p) const {
     double squared = 0;
-    for (uint32_t i = 0; i < plan.input_count; i += plan.angular ? 4 : 1) {
-      if (!plan.angular) {
+    for (uint32_t i = 0; i < plan.input_count; i += (plan.angle_inputs != 0) ? 4 : 1) {
+      if (!(plan.angle_inputs != 0)) {
         const double d = double{target(i, p)} - inputs[i];
         squared += d * d;
         continue;
@@ -291,7 +295,7 @@ struct KernelSolver {
       squared += angle * angle;
     }
     const double x = std::sqrt(squared) * plan.scale;
-    if (plan.function < 2) return std::exp(-x);
+    if (plan.function < 2) return std::exp2(x);
     return std::fmax(0.0, 1 - std::pow(x, 2 * plan.function - 3));
   }
 };
@@ -304,7 +308,7 @@ TEST(RbfSolvers, EveryDistanceFunctionAndCountToTheBit) {
         for (uint32_t poses : {1u, 5u, 8u, 13u, 16u, 17u, 40u}) {
           for (int options = 0; options < 4; ++options) {
             KernelSolver solver(random, angular, input_count, poses);
-            solver.plan.function = function;
+            solver.set_function(function);
             solver.plan.interpolative = options & 1;
             solver.plan.always_normalize = options & 2;
             solver.target(0, 0) = NAN;
@@ -352,6 +356,7 @@ TEST(RbfSolvers, LanesWithoutAPoseWeighNothing) {
   for (uint32_t input_count : {0u, 3u, 4u}) {
     for (bool angular : {false, true}) {
       KernelSolver solver(random, angular && input_count != 3, input_count, 3);
+      solver.set_function(0);
       solver.plan.always_normalize = true;
       for (uint32_t p = 0; p < 3; ++p) solver.scales.data[p] = solver.factors.data[p] = 1;
       for (const KernelTable* table : present()) {
@@ -372,7 +377,7 @@ TEST(RbfSolvers, WeightsWithinTheirBound) {
   Random random = Random::from_seed(16, 1);
   for (int round = 0; round < 200; ++round) {
     KernelSolver solver(random, round % 2, 4, 40);
-    solver.plan.function = static_cast<uint8_t>(round / 2 % 5);
+    solver.set_function(static_cast<uint8_t>(round / 2 % 5));
     for (const KernelTable* table : present()) {
       solver.run(*table);
       for (uint32_t p = 0; p < 40; ++p) {

@@ -195,7 +195,8 @@ TEST(JointColumnsKernel, CloseToDoublePrecision) {
     const std::vector<double> exact = matrix.expected<double>(multiply_add);
     const std::vector<double> sizes = matrix.expected<double>(add_sizes);
     for (size_t i = 0; i < sums.size(); ++i) {
-      ASSERT_NEAR(sums[i], exact[i], 302 * 1.2e-7 * std::abs(sizes[i]) + 302 * 1.5e-45) << "sum " << i;
+      ASSERT_NEAR(sums[i], exact[i], 302 * 1.2e-7 * std::abs(sizes[i]) + 302 * 1.5e-45)
+          << "sum " << i;
     }
   });
 }

@@ -5,34 +5,27 @@
 namespace mien {
 namespace {
 
-void fetch_inputs(const Rig& rig, uint32_t index, Instance& instance) {
-  const RbfSolver& solver = rig.rbf.solvers[index];
-  const RbfSolverPlan& plan = rig.rbf.plans[index];
-  const uint16_t* controls = rig.rbf.inputs.data + plan.first_input;
-  float* inputs = instance.rbf_inputs.data + plan.first_input;
-  for (uint32_t i = 0; i < plan.input_count; ++i) inputs[i] = instance.controls[controls[i]];
-  if (solver.distance < kSwingAngle) return;
-  for (uint32_t i = 0; i + 4 <= plan.input_count; i += 4) {
-    float* q = inputs + i;
-    const Quaternion part =
-        rotation_part({q[0], q[1], q[2], q[3]}, solver.twist_axis, solver.distance == kSwingAngle);
-    q[0] = part.x;
-    q[1] = part.y;
-    q[2] = part.z;
-    q[3] = part.w;
-  }
+void fetch(const Instance& instance, const Span<uint16_t>& controls, float* to) {
+  const float* from = instance.controls.data;
+  for (size_t i = 0; i < controls.count; ++i) to[i] = from[controls[i]];
 }
 
-void run_solvers(const Rig& rig, Instance& instance, const uint16_t* list, uint32_t count) {
+void run_solvers(const Rig& rig, Instance& instance, const Span<uint16_t>& solvers,
+                 uint32_t first_block, uint32_t block_count) {
+  const RbfTable& rbf = rig.rbf;
   RbfArgs args;
-  args.solvers = rig.rbf.plans.data;
-  args.list = list;
-  args.count = count;
+  args.solvers = rbf.plans.data;
+  args.list = solvers.data;
+  args.count = static_cast<uint32_t>(solvers.count);
   args.inputs = instance.rbf_inputs.data;
-  args.targets = rig.rbf.targets.data;
-  args.inverses = rig.rbf.inverses.data;
-  args.pose_scales = rig.rbf.pose_scales.data;
-  args.pose_factors = rig.rbf.pose_factors.data;
+  args.rotations = instance.rbf_rotations.data;
+  args.swings = rbf.swings.data;
+  args.first_block = first_block;
+  args.block_count = block_count;
+  args.targets = rbf.targets.data;
+  args.inverses = rbf.inverses.data;
+  args.pose_scales = rbf.pose_scales.data;
+  args.pose_factors = rbf.pose_factors.data;
   args.weights = instance.rbf_weights.data;
   args.results = instance.rbf_results.data;
   rig.kernels->rbf_solvers(args);
@@ -83,29 +76,47 @@ void drive_pose_controls(const Rig& rig, uint32_t index, Instance& instance) {
     return;
   }
   const uint16_t* outputs = rbf.direct_outputs.data + plan.first_lane;
-  for (uint32_t p = 0; p < plan.pose_count; ++p) instance.controls[outputs[p]] = results[p];
+  float* controls = instance.controls.data;
+  for (uint32_t p = 0; p < plan.pose_count; ++p) controls[outputs[p]] = results[p];
 }
 
 }  // namespace
 
 void solve_rbf(const Rig& rig, Instance& instance, uint32_t index) {
-  const auto listed = static_cast<uint16_t>(index);
+  const RbfTable& rbf = rig.rbf;
+  const RbfSolverPlan& plan = rbf.plans[index];
   // A solver may read what it drives, but not what it gave before.
-  clear_pose_controls(rig, rig.rbf.solvers[index], rig.rbf.plans[index].pose_count, instance);
-  fetch_inputs(rig, index, instance);
-  run_solvers(rig, instance, &listed, 1);
+  clear_pose_controls(rig, rbf.solvers[index], plan.pose_count, instance);
+  uint32_t first_block = 0, block_count = 0;
+  if (takes_parts(plan)) {
+    const uint32_t count = plan.input_count / plan.angle_inputs;
+    first_block = plan.first_input / kBlockRows;
+    block_count = count ? (plan.first_input + count - 1) / kBlockRows + 1 - first_block : 0;
+    const size_t first = size_t{first_block} * 4 * kBlockRows;
+    fetch(instance, rbf.rotations.slice(first, size_t{block_count} * 4 * kBlockRows),
+          instance.rbf_rotations.data + first);
+  } else {
+    fetch(instance, rbf.inputs.slice(plan.first_input, plan.input_count),
+          instance.rbf_inputs.data + plan.first_input);
+  }
+  uint16_t number = static_cast<uint16_t>(index);
+  run_solvers(rig, instance, {&number, 1}, first_block, block_count);
   drive_pose_controls(rig, index, instance);
 }
 
 void evaluate_rbf(const Rig& rig, Instance& instance, uint32_t lod) {
+  const RbfTable& rbf = rig.rbf;
   if (rig.rbf_count == 0) return;  // without a pose control there is nothing to drive
-  const Span<uint16_t> solvers = rig.rbf.lod_solvers.at(lod);
-  if (!rig.rbf.independent) {
+  const Span<uint16_t> solvers = rbf.lod_solvers.at(lod);
+  if (solvers.empty()) return;
+  if (!rbf.independent) {
     for (uint16_t solver : solvers) solve_rbf(rig, instance, solver);
     return;
   }
-  for (uint16_t solver : solvers) fetch_inputs(rig, solver, instance);
-  run_solvers(rig, instance, solvers.data, static_cast<uint32_t>(solvers.count));
+  fetch(instance, rbf.inputs, instance.rbf_inputs.data);
+  fetch(instance, rbf.rotations, instance.rbf_rotations.data);
+  run_solvers(rig, instance, solvers, 0,
+              static_cast<uint32_t>(rbf.rotations.count / (4 * kBlockRows)));
   for (uint16_t solver : solvers) drive_pose_controls(rig, solver, instance);
 }
 

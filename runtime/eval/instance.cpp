@@ -24,6 +24,7 @@ void place_instance(const Rig& rig, Placer& placer, Instance& instance) {
     layer = placer.array<float>(align_up(rig.ml.widest_layer, kBlockRows), kBlockAlignment);
   }
   instance.rbf_inputs = placer.array<float>(rig.rbf.inputs.count, kBlockAlignment);
+  instance.rbf_rotations = placer.array<float>(rig.rbf.rotations.count, kBlockAlignment);
   instance.rbf_weights = placer.array<float>(rig.rbf.pose_scales.count, kBlockAlignment);
   instance.rbf_results = placer.array<float>(rig.rbf.pose_scales.count, kBlockAlignment);
 }

@@ -24,12 +24,13 @@ struct Instance {
   Span<float> channels;
   Span<float> maps;
 
-  Span<float> turns;         // scratch: the quaternions of the group with most
-  Span<float> ml_values;     // what the ML steps give, for each other
-  Span<float> ml_layers[2];  // scratch: in and out of the widest network layer
-  Span<float> rbf_inputs;    // scratch: of all solvers
-  Span<float> rbf_weights;   // scratch: lanes of all solvers
-  Span<float> rbf_results;   // scratch: lanes of all solvers
+  Span<float> turns;          // scratch: the quaternions of the group with most
+  Span<float> ml_values;      // what the ML steps give, for each other
+  Span<float> ml_layers[2];   // scratch: in and out of the widest network layer
+  Span<float> rbf_inputs;     // scratch: of all solvers
+  Span<float> rbf_rotations;  // scratch: swings and twists of all solvers
+  Span<float> rbf_weights;    // scratch: lanes of all solvers
+  Span<float> rbf_results;    // scratch: lanes of all solvers
 };
 
 /// Bytes of an instance of a rig.

@@ -13,6 +13,7 @@ namespace {
 // memory with the square of it and more, so a file must not ask for any number.
 constexpr uint32_t kMostPoses = 1024;
 constexpr size_t kMostInverseFloats = size_t{4} << 20;
+constexpr float kMostScale = 1e19f;  // of a pose, as kernels.h asks
 
 enum Function : uint16_t { kGaussian, kExponential, kLinear, kCubic, kQuintic };
 
@@ -24,21 +25,21 @@ bool is_interpolative(const dna::RbfSolver& solver) { return solver.solver_type 
 /// the angle of nearly equal rotations is mostly rounding (rig-evaluation 10).
 float target_distance(const RbfTable& rbf, const RbfSolverPlan& s, uint32_t a, uint32_t b) {
   const uint32_t stride = padded(s.pose_count);
-  const float* targets = rbf.targets.data + s.first_target + stride;
+  const float* targets = rbf.targets.data + s.first_target;
   const auto at = [&](uint32_t input, uint32_t pose) {
     return targets[size_t{input} * stride + pose];
   };
   float sum = 0;
-  if (!s.angular) {
+  if (s.angle_inputs == 0) {
     for (uint32_t i = 0; i < s.input_count; ++i) {
       const float d = at(i, a) - at(i, b);
       sum += d * d;
     }
     return std::sqrt(sum);
   }
-  for (uint32_t i = 0; i + 4 <= s.input_count; i += 4) {
+  for (uint32_t i = 0; i + s.angle_inputs <= s.input_count; i += s.angle_inputs) {
     float dot = 0;
-    for (uint32_t k = 0; k < 4; ++k) dot += at(i + k, a) * at(i + k, b);
+    for (uint32_t k = 0; k < s.angle_inputs; ++k) dot += at(i + k, a) * at(i + k, b);
     const float u = dot * dot;
     const float angle = u > 1 ? 0 : std::acos(2 * u - 1);
     sum += angle * angle;
@@ -49,19 +50,20 @@ float target_distance(const RbfTable& rbf, const RbfSolverPlan& s, uint32_t a, u
 double weight(uint8_t function, double x) {
   switch (function) {
     case kGaussian:
-    case kExponential: return std::exp(-x);
+    case kExponential: return std::exp2(x);
     case kLinear: return std::max(0.0, 1 - x);
     case kCubic: return std::max(0.0, 1 - x * x * x);
     default: return std::max(0.0, 1 - x * x * x * x * x);
   }
 }
 
-/// The weight functions take distance times this: 1/r^2, 2/r or 1/r.
-float distance_scale(uint8_t function, double radius) {
-  double scale = 1 / radius;
-  if (function == kGaussian) scale /= radius;
-  if (function == kExponential) scale *= 2;
-  return static_cast<float>(scale);
+/// What the weight functions of RbfSolverPlan take the distance times: 1/r, or what is meant by
+/// exp(-d/r^2) and exp(-2d/r).
+double distance_scale(uint8_t function, double radius) {
+  constexpr double kLog2E = 1.4426950408889634;
+  if (function == kGaussian) return -kLog2E / (radius * radius);
+  if (function == kExponential) return -2 * kLog2E / radius;
+  return 1 / radius;
 }
 
 double automatic_radius(const RbfTable& rbf, const RbfSolverPlan& s) {
@@ -124,34 +126,73 @@ bool fill_inverse(RbfTable& rbf, const RbfSolverPlan& s, Arena& scratch) {
   return true;
 }
 
-/// Floats that the targets of a solver take.
-size_t target_floats(uint32_t poses, uint32_t inputs) {
-  return size_t{padded(poses)} * (size_t{inputs} + 1);
+/// Numbers that a rotation has for a distance, 0 if it does not see rotations.
+uint32_t angle_inputs(uint16_t distance) {
+  switch (distance) {
+    case kQuaternion: return 4;
+    case kSwingAngle: return 3;
+    case kTwistAngle: return 2;
+    default: return 0;
+  }
 }
 
-void fill_targets(const dna::RbfSolver& from, const RbfSolver& solver, const RbfSolverPlan& plan,
-                  RbfTable& rbf) {
-  const uint32_t stride = padded(plan.pose_count);
+/// Rotations of which a solver takes the swing or the twist.
+uint32_t parted_rotations(const dna::RbfSolver& solver) {
+  const bool parts = solver.distance_method == kSwingAngle || solver.distance_method == kTwistAngle;
+  return parts ? solver.raw_control_indices.count / 4 : 0;
+}
+
+/// Inputs as the kernel counts them: of rotations whole ones.
+uint32_t plan_inputs(const dna::RbfSolver& solver) {
+  const uint32_t count = solver.raw_control_indices.count,
+                 width = angle_inputs(solver.distance_method);
+  return width ? count / 4 * width : count;
+}
+
+/// Floats that the targets of a solver take.
+size_t target_floats(uint32_t poses, uint32_t inputs) {
+  return size_t{padded(poses)} * std::max(inputs, 1u);
+}
+
+void fill_targets(const dna::RbfSolver& from, const RbfSolverPlan& plan, RbfTable& rbf) {
+  const uint32_t stride = padded(plan.pose_count), width = from.raw_control_indices.count;
   float* targets = rbf.targets.data + plan.first_target;
-  for (uint32_t p = plan.pose_count; p < stride; ++p) {
-    targets[p] = std::numeric_limits<float>::quiet_NaN();
+  for (size_t i = 0; i < target_floats(plan.pose_count, plan.input_count); ++i) {
+    const bool is_pose = i % stride < plan.pose_count;
+    targets[i] = is_pose ? 0.0f : std::numeric_limits<float>::quiet_NaN();
   }
-  targets += stride;
+  const uint32_t a = from.twist_axis, b = (a + 1) % 3, c = (a + 2) % 3;
   for (uint32_t p = 0; p < plan.pose_count; ++p) {
-    const auto value = [&](uint32_t i) {
-      return from.raw_control_values[size_t{p} * plan.input_count + i];
-    };
-    const bool parts = solver.distance == kSwingAngle || solver.distance == kTwistAngle;
-    for (uint32_t i = 0; i < plan.input_count; i += parts ? 4 : 1) {
-      if (!parts) {
-        targets[size_t{i} * stride + p] = value(i);
-      } else if (i + 4 <= plan.input_count) {
-        const Quaternion q = rotation_part({value(i), value(i + 1), value(i + 2), value(i + 3)},
-                                           solver.twist_axis, solver.distance == kSwingAngle);
-        const float out[4] = {q.x, q.y, q.z, q.w};
-        for (uint32_t k = 0; k < 4; ++k) targets[size_t{i + k} * stride + p] = out[k];
+    const auto value = [&](uint32_t i) { return from.raw_control_values[size_t{p} * width + i]; };
+    if (!takes_parts(plan)) {
+      for (uint32_t i = 0; i < plan.input_count; ++i) targets[size_t{i} * stride + p] = value(i);
+      continue;
+    }
+    const bool swing = plan.angle_inputs == 3;
+    for (uint32_t i = 0; i + 4 <= width; i += 4) {
+      const Quaternion q =
+          rotation_part({value(i), value(i + 1), value(i + 2), value(i + 3)}, a, swing);
+      const float xyz[3] = {q.x, q.y, q.z};
+      const float kept[3] = {swing ? xyz[b] : xyz[a], swing ? xyz[c] : q.w, q.w};
+      for (uint32_t k = 0; k < plan.angle_inputs; ++k) {
+        targets[size_t{i / 4 * plan.angle_inputs + k} * stride + p] = kept[k];
       }
     }
+  }
+}
+
+/// Controls of the rotations of a solver, with the axis first.
+void fill_rotations_of(const dna::RbfSolver& from, uint32_t first_lane, RbfTable& rbf) {
+  const uint32_t a = from.twist_axis;
+  const uint32_t order[4] = {a, (a + 1) % 3, (a + 2) % 3, 3};
+  for (uint32_t r = 0; r < parted_rotations(from); ++r) {
+    const uint32_t lane = first_lane + r;
+    const size_t block = size_t{lane / kBlockRows} * 4 * kBlockRows;
+    for (uint32_t k = 0; k < 4; ++k) {
+      rbf.rotations[block + size_t{k} * kBlockRows + lane % kBlockRows] =
+          from.raw_control_indices[r * 4 + order[k]];
+    }
+    rbf.swings[lane] = from.distance_method == kSwingAngle ? 1.0f : 0.0f;
   }
 }
 
@@ -195,7 +236,9 @@ void find_direct_solvers(RbfTable& rbf, const Span<uint32_t>& writer) {
     }
   }
   rbf.independent = true;
-  for (uint16_t control : rbf.inputs) rbf.independent &= writer[control] == 0;
+  for (const Span<uint16_t>& read : {rbf.inputs, rbf.rotations}) {
+    for (uint16_t control : read) rbf.independent &= writer[control] == 0;
+  }
 }
 
 uint64_t input_key(const dna::Array<uint16_t>& inputs) {
@@ -209,7 +252,7 @@ uint64_t input_key(const dna::Array<uint16_t>& inputs) {
 Status place_rbf(const dna::DnaView& view, Placer& placer, Rig& rig, Error& error) {
   RbfTable& rbf = rig.rbf;
   const auto& solvers = view.rbfb.solvers;
-  size_t inputs = 0, poses = 0, lanes = 0, targets = 0, inverses = 0;
+  size_t inputs = 0, rotations = 0, poses = 0, lanes = 0, targets = 0, inverses = 0;
   for (uint32_t i = 0; i < solvers.count; ++i) {
     const dna::RbfSolver& solver = solvers[i];
     const uint32_t count = solver.pose_indices.count;
@@ -218,10 +261,11 @@ Status place_rbf(const dna::DnaView& view, Placer& placer, Rig& rig, Error& erro
                   "rbfb.solvers[%u].poseIndices: %u poses; a solver may have %u", i, count,
                   kMostPoses);
     }
-    inputs += solver.raw_control_indices.count;
+    rotations += parted_rotations(solver);
+    if (parted_rotations(solver) == 0) inputs += plan_inputs(solver);
     poses += count;
     lanes += padded(count);
-    targets += target_floats(count, solver.raw_control_indices.count);
+    targets += target_floats(count, plan_inputs(solver));
     if (is_interpolative(solver)) inverses += size_t{padded(count)} * count;
   }
   if (inverses > kMostInverseFloats) {
@@ -238,6 +282,9 @@ Status place_rbf(const dna::DnaView& view, Placer& placer, Rig& rig, Error& erro
   rbf.solvers = placer.array<RbfSolver>(solvers.count);
   rbf.plans = placer.array<RbfSolverPlan>(solvers.count);
   rbf.inputs = placer.array<uint16_t>(inputs);
+  rotations = align_up(rotations, kBlockRows);
+  rbf.rotations = placer.array<uint16_t>(rotations * 4);
+  rbf.swings = placer.array<float>(rotations, kBlockAlignment);
   rbf.poses = placer.array<uint16_t>(poses);
   rbf.targets = placer.array<float>(targets, kBlockAlignment);
   rbf.inverses = placer.array<float>(inverses, kBlockAlignment);
@@ -260,45 +307,56 @@ Status fill_rbf(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error
     return fail(error, Status::kMemory, kNoOffset, "no memory to compile RBF solvers");
   }
   const double to_radians = view.desc.rotation_unit == 0 ? 0.017453292519943295 : 1.0;
-  uint32_t input = 0, pose = 0, lane = 0;
+  uint32_t input = 0, rotation = 0, pose = 0, lane = 0;
   size_t target = 0, inverse = 0;
   for (uint32_t i = 0; i < rbf.solvers.count; ++i) {
     const dna::RbfSolver& from = view.rbfb.solvers[i];
-    RbfSolver& solver = rbf.solvers[i];
-    solver = {pose, static_cast<uint8_t>(from.distance_method),
-              static_cast<uint8_t>(from.twist_axis), false};
+    rbf.solvers[i] = {pose, false};
     RbfSolverPlan& plan = rbf.plans[i];
     plan = {};
-    plan.first_input = input;
-    plan.input_count = from.raw_control_indices.count;
+    plan.angle_inputs = static_cast<uint8_t>(angle_inputs(from.distance_method));
+    plan.first_input = takes_parts(plan) ? rotation : input;
+    plan.input_count = plan_inputs(from);
     plan.first_lane = lane;
     plan.pose_count = from.pose_indices.count;
     plan.first_target = target;
     plan.first_inverse = inverse;
     plan.threshold = from.weight_threshold;
     plan.function = static_cast<uint8_t>(from.function_type);
-    plan.angular = solver.distance != kEuclidean;
     plan.interpolative = is_interpolative(from);
     plan.always_normalize = from.normalize_method == 1;
-    copy_array(from.raw_control_indices, rbf.inputs.slice(input, plan.input_count));
+    if (takes_parts(plan)) {
+      fill_rotations_of(from, rotation, rbf);
+    } else {
+      copy_array(from.raw_control_indices, rbf.inputs.slice(input, plan.input_count));
+      input += plan.input_count;
+    }
     copy_array(from.pose_indices, rbf.poses.slice(pose, plan.pose_count));
     for (uint32_t p = 0; p < plan.pose_count; ++p) {
-      rbf.pose_scales[lane + p] = view.rbfb.poses[from.pose_indices[p]].scale;
+      const float scale = view.rbfb.poses[from.pose_indices[p]].scale;
+      rbf.pose_scales[lane + p] = std::min(std::max(scale, -kMostScale), kMostScale);
       rbf.pose_factors[lane + p] = 1.0f;
     }
-    fill_targets(from, solver, plan, rbf);
+    fill_targets(from, plan, rbf);
     const bool automatic = from.automatic_radius == 0;
-    plan.scale =
-        distance_scale(plan.function, automatic ? automatic_radius(rbf, plan)
-                                                : static_cast<double>(from.radius) * to_radians);
+    const double radius =
+        automatic ? automatic_radius(rbf, plan) : static_cast<double>(from.radius) * to_radians;
+    plan.scale = static_cast<float>(distance_scale(plan.function, radius));
     if (plan.interpolative && !fill_inverse(rbf, plan, scratch)) {
       return fail(error, Status::kMemory, kNoOffset, "no memory to compile RBF solver %u", i);
     }
-    input += plan.input_count;
+    rotation += parted_rotations(from);
     pose += plan.pose_count;
     lane += padded(plan.pose_count);
     target += target_floats(plan.pose_count, plan.input_count);
     if (plan.interpolative) inverse += size_t{padded(plan.pose_count)} * plan.pose_count;
+  }
+  // Lanes behind the last rotation read what the last one reads.
+  for (uint32_t r = rotation; r < rbf.swings.count; ++r) {
+    for (uint32_t k = 0; k < 4; ++k) {
+      const size_t block = size_t{r / kBlockRows} * 4 * kBlockRows + size_t{k} * kBlockRows;
+      rbf.rotations[block + r % kBlockRows] = rbf.rotations[block + (rotation - 1) % kBlockRows];
+    }
   }
   fill_poses(view, rbf);
   find_direct_solvers(rbf, writer);

@@ -154,15 +154,21 @@ enum RbfDistance : uint8_t { kEuclidean, kQuaternion, kSwingAngle, kTwistAngle }
 /// One RBF solver (rig-evaluation 6), beside its plan.
 struct RbfSolver {
   uint32_t first_pose;  // into RbfTable::poses
-  uint8_t distance, twist_axis;
-  bool direct;  // each pose writes one control of its own, and multiplies with none
+  bool direct;          // each pose writes one control of its own, and multiplies with none
 };
+
+/// Reads swings or twists instead of inputs.
+inline bool takes_parts(const RbfSolverPlan& plan) {
+  return plan.angle_inputs == 2 || plan.angle_inputs == 3;
+}
 
 struct RbfTable {
   Span<RbfSolver> solvers;
   Span<RbfSolverPlan> plans;  // beside solvers
   bool independent = false;   // no solver reads what another one, or itself, writes
   Span<uint16_t> inputs;      // control numbers
+  Span<uint16_t> rotations;   // control numbers: [block][4][lane], as RbfArgs has them
+  Span<float> swings;         // [block][lane], as RbfArgs has them
   Span<uint16_t> poses;       // pose numbers
   Span<float> targets, inverses;
   Span<float> pose_scales, pose_factors;  // [lane]
