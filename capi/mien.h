@@ -188,6 +188,62 @@ enum MienFileAccess {
     MIEN_FILE_READ = 1 /* read it all now: for files that others may truncate meanwhile */
 };
 
+enum MienTranslationUnit { MIEN_TRANSLATION_CENTIMETERS = 0, MIEN_TRANSLATION_METERS = 1 };
+enum MienRotationUnit { MIEN_ROTATION_DEGREES = 0, MIEN_ROTATION_RADIANS = 1 };
+enum MienDirection { /* of the character */
+    MIEN_DIRECTION_LEFT = 0,
+    MIEN_DIRECTION_RIGHT = 1,
+    MIEN_DIRECTION_UP = 2,
+    MIEN_DIRECTION_DOWN = 3,
+    MIEN_DIRECTION_FRONT = 4,
+    MIEN_DIRECTION_BACK = 5
+};
+enum MienRotationSequence {
+    MIEN_ROTATION_XYZ = 0, /* x first, then y, then z, about fixed axes */
+    MIEN_ROTATION_XZY = 1,
+    MIEN_ROTATION_YXZ = 2,
+    MIEN_ROTATION_YZX = 3,
+    MIEN_ROTATION_ZXY = 4,
+    MIEN_ROTATION_ZYX = 5
+};
+/* The order in which Euler angles turn, when axes change. Joint values are sums of angles, which
+ * mean nothing in another order: only the first rule is exact for all rigs. */
+enum MienRotationRule {
+    MIEN_ROTATIONS_CARRIED = 0,   /* the file's order, about the axes as they are called now: where x
+                                     became z, xyz becomes zyx, xzy becomes zxy, and so on */
+    MIEN_ROTATIONS_EXACT = 1,     /* the order named. Neutral poses, joints represented by quaternions,
+                                     twists, swings and ML joints follow exactly as rotations, and so
+                                     do joints that turn about one axis only;
+                                     MIEN_ERROR_DNA_VALUE for a rig with others */
+    MIEN_ROTATIONS_PER_COLUMN = 2 /* the order named, each column of a joint matrix by itself: exact
+                                     while one control is 1 and all others are 0, near it for small
+                                     angles */
+};
+
+/* Where the axes of a rig point, and its units. Mirrored systems are as good as others: which hand
+ * they are of follows from the axes. */
+typedef struct MienCoordinateSystem {
+    uint32_t struct_size;
+    uint32_t axes[3];           /* MIEN_DIRECTION_... of x, y, z */
+    uint32_t translation_unit;  /* MIEN_TRANSLATION_... */
+    uint32_t rotation_unit;     /* MIEN_ROTATION_DEGREES or _RADIANS */
+    uint32_t rotation_rule;     /* MIEN_ROTATIONS_...; the next field counts unless it is _CARRIED */
+    uint32_t rotation_sequence; /* MIEN_ROTATION_XYZ ... */
+    int32_t rotation_signs[3];  /* of the angles about x, y, z: 1 turns y to z, z to x, x to y; -1 the
+                                   other way; 0: such that angles keep their numbers */
+    uint32_t face_winding;      /* as in MienDnaInfo */
+} MienCoordinateSystem;
+
+/* The system of an engine or tool: maya, unreal, unreal-mesh (whose characters look along y), unity,
+ * godot, blender, gltf, opengl, directx, houdini. Axes, units, winding and signs are those that a
+ * consumer there works in; the sequence is the one of its Euler angles, to be used by setting
+ * rotation_rule, which is MIEN_ROTATIONS_CARRIED. MIEN_ERROR_NAME for other names. `name` needs no
+ * terminator. */
+MIEN_API MienStatus mien_coordinate_system_named(const char* name, size_t name_count,
+                                                 MienCoordinateSystem* out_system);
+/* The names, from index 0 on; MIEN_ERROR_INDEX past the last. */
+MIEN_API MienStatus mien_coordinate_system_name(uint32_t index, MienStringView* out_name);
+
 typedef struct MienDnaDesc {
     uint32_t struct_size;
     uint32_t layers;         /* MIEN_LAYER_...; what is not chosen is never touched */
@@ -198,7 +254,18 @@ typedef struct MienDnaDesc {
                                 uses are dropped and the others renumbered everywhere.
                                 MIEN_ERROR_LOD if the file has none of the LODs named. */
     const MienAllocator* allocator;
+    const MienCoordinateSystem* system; /* to convert everything to; NULL keeps the file's */
 } MienDnaDesc;
+
+/* A rig in another system evaluates to the same movements: its joint values are those of the file's
+ * system, converted; as rotations where the order of turning changes. Inputs that are parts of
+ * rotations (raw controls read as quaternions by RBF solvers, twists or swings, and those named .qx
+ * .qy .qz .qw) are expected in the system of the rig. Writing gives a complete file in that system,
+ * of version 2.8 if the file's own could not state it. Changes of axes and signs are exact, so
+ * converting back gives the numbers of the file; units round once. What cannot follow is refused
+ * with MIEN_ERROR_DNA_VALUE: a corrective that reads a part of a rotation which changes its sign, or
+ * a network that moves joints and ends in tanh, when units change; and axes that do not span space.
+ * Texture coordinates and layers that Mien does not know stay as they are. */
 
 /* Opens a file of versions 2.1 to 2.8 (later 2.x: what is known of it). Checks everything that is
  * loaded, so that a rig made of it has nothing left to check. Numbers and names stay in the file;
@@ -217,25 +284,6 @@ MIEN_API void mien_dna_close(MienDna* dna);
 
 /* ---- DNA: looking into it -------------------------------------------------------------------- */
 
-enum MienTranslationUnit { MIEN_TRANSLATION_CENTIMETERS = 0, MIEN_TRANSLATION_METERS = 1 };
-enum MienRotationUnit { MIEN_ROTATION_DEGREES = 0, MIEN_ROTATION_RADIANS = 1 };
-enum MienDirection {
-    MIEN_DIRECTION_LEFT = 0,
-    MIEN_DIRECTION_RIGHT = 1,
-    MIEN_DIRECTION_UP = 2,
-    MIEN_DIRECTION_DOWN = 3,
-    MIEN_DIRECTION_FRONT = 4,
-    MIEN_DIRECTION_BACK = 5
-};
-enum MienRotationSequence {
-    MIEN_ROTATION_XYZ = 0, /* x first, then y, then z, about fixed axes */
-    MIEN_ROTATION_XZY = 1,
-    MIEN_ROTATION_YXZ = 2,
-    MIEN_ROTATION_YZX = 3,
-    MIEN_ROTATION_ZXY = 4,
-    MIEN_ROTATION_ZYX = 5
-};
-
 typedef struct MienDnaInfo {
     uint32_t struct_size;
     uint32_t generation;           /* 2 */
@@ -250,7 +298,10 @@ typedef struct MienDnaInfo {
     uint32_t axes[3];              /* MIEN_DIRECTION_... of x, y, z */
     uint32_t rotation_sequence;    /* MIEN_ROTATION_XYZ ... */
     int32_t rotation_signs[3];     /* 1 or -1, for the angles about x, y, z */
-    uint32_t face_winding;         /* 0 counter-clockwise, 1 clockwise, seen from outside */
+    uint32_t face_winding;         /* 0: of a face a b c ..., (b - a) x (c - a), the plain formula in
+                                      the numbers of the file, points outwards: counter-clockwise
+                                      seen from outside if the axes are right-handed, clockwise if
+                                      they are left-handed; 1: inwards */
     uint32_t lod_count;
     uint32_t max_lod;              /* this file's LOD 0 is LOD max_lod of its data base */
     uint32_t gui_control_count;

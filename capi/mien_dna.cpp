@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // DNA files: opening, looking into them, writing. mien.h is the manual.
 #include "capi/handles.h"
+#include "runtime/dna/coordinate_system.h"
 #include "runtime/dna/dna_path.h"
 #include "runtime/dna/dna_reader.h"
 #include "runtime/dna/dna_writer.h"
@@ -23,18 +24,55 @@ static_assert(sizeof(MienError::message) == sizeof(Error::message), "messages ar
 
 namespace {
 
+constexpr size_t kFirstDnaDescSize = offsetof(MienDnaDesc, system);  // of 0.1
+
 struct OpenArguments {
   MienDnaDesc desc;
   Allocator allocator;
   dna::ReadOptions options;
+  dna::System system;  // if options point here
 };
 
+MienStatus read_system(const MienCoordinateSystem* in, dna::System& out, MienError* error) {
+  MienCoordinateSystem known;
+  if (MienStatus status = read_struct(in, known)) {
+    return give_error(error, status,
+                      "MienCoordinateSystem.struct_size is %u, expected %zu or more with zeros",
+                      in->struct_size, sizeof(MienCoordinateSystem));
+  }
+  bool signs = true;
+  for (int i = 0; i < 3; ++i) {
+    out.axes[i] = known.axes[i];
+    out.rotation_signs[i] = known.rotation_signs[i];
+    signs &= known.rotation_signs[i] >= -1 && known.rotation_signs[i] <= 1;
+  }
+  if (!dna::spans_space(out.axes)) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienCoordinateSystem.axes %u, %u, %u do not span space: one of them is left "
+                      "or right, one up or down, one front or back",
+                      out.axes[0], out.axes[1], out.axes[2]);
+  }
+  if (!signs || known.translation_unit > MIEN_TRANSLATION_METERS ||
+      known.rotation_unit > MIEN_ROTATION_RADIANS ||
+      known.rotation_rule > MIEN_ROTATIONS_PER_COLUMN ||
+      known.rotation_sequence > MIEN_ROTATION_ZYX || known.face_winding > 1) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "a field of MienCoordinateSystem is none of its values");
+  }
+  out.translation_unit = known.translation_unit;
+  out.rotation_unit = known.rotation_unit;
+  out.rotation_rule = static_cast<dna::RotationRule>(known.rotation_rule);
+  out.rotation_sequence = known.rotation_sequence;
+  out.face_winding = known.face_winding;
+  return MIEN_OK;
+}
+
 MienStatus read_open_arguments(const MienDnaDesc* desc, OpenArguments& out, MienError* error) {
-  MienStatus status = read_struct(desc, out.desc);
+  MienStatus status = read_struct(desc, out.desc, kFirstDnaDescSize);
   if (status != MIEN_OK) {
     return give_error(error, status,
                       "MienDnaDesc.struct_size is %u, expected %zu or more with zeros",
-                      desc->struct_size, sizeof(MienDnaDesc));
+                      desc->struct_size, kFirstDnaDescSize);
   }
   if (read_allocator(out.desc.allocator, out.allocator) != MIEN_OK) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
@@ -50,7 +88,9 @@ MienStatus read_open_arguments(const MienDnaDesc* desc, OpenArguments& out, Mien
   out.options.layers = out.desc.layers ? out.desc.layers : uint32_t{dna::kLayersAll};
   out.options.keep_unknown = out.desc.unknown_layers == MIEN_UNKNOWN_LAYERS_KEEP;
   out.options.lods = out.desc.lods;
-  return MIEN_OK;
+  if (!out.desc.system) return MIEN_OK;
+  out.options.system = &out.system;
+  return read_system(out.desc.system, out.system, error);
 }
 
 /// Reads the view of a file that `dna` owns or borrows; closes `dna` on failure.
@@ -109,6 +149,40 @@ void mien_dna_close(MienDna* dna) {
   dna->tag = 0;
   dna->~MienDna();
   allocator.put(dna, sizeof(MienDna), alignof(MienDna));
+}
+
+// Coordinate systems ------------------------------------------------------------------------------
+
+MienStatus mien_coordinate_system_named(const char* name, size_t name_count,
+                                        MienCoordinateSystem* out_system) {
+  if (MienStatus status = clear_struct(out_system)) return status;
+  if (!name) return MIEN_ERROR_NULL_ARGUMENT;
+  for (const dna::NamedSystem& named : dna::kNamedSystems) {
+    if (strlen(named.name) != name_count || memcmp(named.name, name, name_count) != 0) continue;
+    const dna::System& system = named.system;
+    MienCoordinateSystem out = {};
+    for (int i = 0; i < 3; ++i) {
+      out.axes[i] = system.axes[i];
+      out.rotation_signs[i] = system.rotation_signs[i];
+    }
+    out.translation_unit = system.translation_unit;
+    out.rotation_unit = system.rotation_unit;
+    out.rotation_rule = static_cast<uint32_t>(system.rotation_rule);
+    out.rotation_sequence = system.rotation_sequence;
+    out.face_winding = system.face_winding;
+    write_struct(out_system, out);
+    return MIEN_OK;
+  }
+  return MIEN_ERROR_NAME;
+}
+
+MienStatus mien_coordinate_system_name(uint32_t index, MienStringView* out_name) {
+  if (!out_name) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_name = {};
+  if (index >= dna::kNamedSystemCount) return MIEN_ERROR_INDEX;
+  const char* name = dna::kNamedSystems[index].name;
+  *out_name = {name, strlen(name)};
+  return MIEN_OK;
 }
 
 // Looking into it ---------------------------------------------------------------------------------

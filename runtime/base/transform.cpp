@@ -36,6 +36,22 @@ Quaternion quaternion_from_euler(const RotationConvention& convention, const flo
   return q;
 }
 
+Matrix3 matrix_from_euler(const RotationConvention& convention, const float angles[3]) {
+  Matrix3 matrix = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  const double unit = convention.to_radians == 1 ? 1.0 : 0.017453292519943295;
+  for (const uint8_t axis : convention.axes) {
+    const double angle = static_cast<double>(angles[axis] * convention.signs[axis]) * unit;
+    const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+    Matrix3 turn = {};
+    turn.m[axis][axis] = 1;
+    turn.m[j][j] = turn.m[k][k] = std::cos(angle);
+    turn.m[j][k] = std::sin(angle);
+    turn.m[k][j] = -std::sin(angle);
+    matrix = matrix * turn;
+  }
+  return matrix;
+}
+
 // In double: near the poles both arguments of two of the arc tangents are small, and noise in them
 // would be noise in the angles.
 Matrix3 matrix_from_quaternion(const Quaternion& q) {

@@ -36,6 +36,8 @@ void euler_from_quaternion(const RotationConvention& convention, const Quaternio
 struct Matrix3 {
   double m[3][3];
 };
+/// From angles about x, y, z.
+Matrix3 matrix_from_euler(const RotationConvention& convention, const float angles[3]);
 /// The length of `q` does not matter; zero gives the identity.
 Matrix3 matrix_from_quaternion(const Quaternion& q);
 void euler_from_matrix(const RotationConvention& convention, const Matrix3& matrix,

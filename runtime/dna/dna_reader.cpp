@@ -9,6 +9,7 @@
 #include "runtime/dna/dna_check.h"
 #include "runtime/dna/lod_selection.h"
 #include "runtime/dna/record_size.h"
+#include "runtime/dna/system_conversion.h"
 
 namespace mien::dna {
 namespace {
@@ -280,6 +281,12 @@ class DnaReader {
     if (!check_layers(view_, sink_) || errors_ != 0) return;
     if (lods_ != 0 && !select_lods(view_, lods_, arena_)) {
       report(Status::kMemory, kNoOffset, "", "no memory to select LODs");
+      return;
+    }
+    if (!options_.system) return;
+    Error error;
+    if (convert_system(view_, *options_.system, arena_, error) != Status::kOk) {
+      report(error.status, error.byte_offset, "", "%s", error.message);
     }
   }
 

@@ -451,15 +451,30 @@ struct MlJoints {
   }
 };
 
-/// Attributes that an ML model gives per joint: 3 for a vector or Euler angles, 4 for a quaternion,
-/// 0 for what it does not give (dna-format 8.4). Keys 0, 1, 2: translation, rotation, scale.
-inline uint32_t ml_joint_attributes(const MlJoints& joints) {
-  uint32_t widths[3] = {};
+/// Values that an ML model gives per joint: 3 for a vector or Euler angles, 4 for a quaternion, 0
+/// for what it does not give (dna-format 8.4).
+struct MlJointWidths {
+  uint32_t translation = 0, rotation = 0, scale = 0;
+
+  uint32_t all() const { return translation + rotation + scale; }
+};
+
+/// Keys 0, 1, 2: translation, rotation, scale.
+inline MlJointWidths ml_joint_widths(const MlJoints& joints) {
+  MlJointWidths widths;
   for (uint32_t i = 0; i < joints.parameter_keys.count && i < joints.parameter_values.count; ++i) {
-    const uint16_t key = joints.parameter_keys[i];
-    if (key < 3) widths[key] = key == 1 && joints.parameter_values[i] == 1 ? 4 : 3;
+    switch (joints.parameter_keys[i]) {
+      case 0: widths.translation = 3; break;
+      case 1: widths.rotation = joints.parameter_values[i] == 1 ? 4 : 3; break;
+      case 2: widths.scale = 3; break;
+      default: break;
+    }
   }
-  return widths[0] + widths[1] + widths[2];
+  return widths;
+}
+
+inline uint32_t ml_joint_attributes(const MlJoints& joints) {
+  return ml_joint_widths(joints).all();
 }
 
 struct MachineLearnedBehaviorExtension {

@@ -89,7 +89,8 @@ void scatter(const Rig& rig, Instance& instance, const MlStep& step, uint32_t lo
   }
 }
 
-// ML joints may come in axes and angles of their own.
+// ML joints may come in axes and angles of their own. Scales have no direction: they keep their
+// sign.
 void convert_triple(const Rig& rig, Instance& instance, const uint16_t controls[3], bool scale) {
   float v[3] = {};
   for (int i = 0; i < 3; ++i)
@@ -97,8 +98,9 @@ void convert_triple(const Rig& rig, Instance& instance, const uint16_t controls[
   const auto& m = rig.ml.to_rig.m;
   for (int i = 0; i < 3; ++i) {
     if (controls[i] == kNoControl) continue;
-    const double turned = v[0] * m[0][i] + v[1] * m[1][i] + v[2] * m[2][i];
-    instance.controls[controls[i]] = static_cast<float>(scale ? std::fabs(turned) : turned);
+    double turned = 0;
+    for (int k = 0; k < 3; ++k) turned += v[k] * (scale ? std::fabs(m[k][i]) : m[k][i]);
+    instance.controls[controls[i]] = static_cast<float>(turned);
   }
 }
 
@@ -128,9 +130,25 @@ void convert_rotation(const Rig& rig, Instance& instance, uint16_t base) {
   x[3] = out.w;
 }
 
+void clear_joint_controls(const Rig& rig, Instance& instance) {
+  const auto clear = [&](uint32_t control) {
+    if (control < rig.raw_count || control >= rig.control_count) return;  // another's, or none
+    instance.controls[control] = rig.initial_controls[control];
+  };
+  for (const MlJoint& joint : rig.ml.joints) {
+    for (const uint16_t control : joint.translation) clear(control);
+    for (const uint16_t control : joint.scale) clear(control);
+    if (joint.rotation_control == kNoControl) continue;
+    const uint32_t parts = rig.ml.quaternion_rotations ? 4 : 3;
+    for (uint32_t i = 0; i < parts; ++i) clear(joint.rotation_control + i);
+  }
+}
+
 }  // namespace
 
 void evaluate_ml(const Rig& rig, Instance& instance, uint32_t lod) {
+  // What the last frame converted and no network writes in this one would be converted again.
+  if (rig.ml.converts) clear_joint_controls(rig, instance);
   for (const MlStep& step : rig.ml.steps) {
     if (!is_active(step.lods, lod)) continue;
     if (step.layer_count == 0) {
@@ -151,7 +169,6 @@ void evaluate_ml(const Rig& rig, Instance& instance, uint32_t lod) {
   }
   if (!rig.ml.converts) return;
   for (const MlJoint& joint : rig.ml.joints) {
-    if (!is_active(joint.lods, lod)) continue;
     convert_triple(rig, instance, joint.translation, false);
     convert_triple(rig, instance, joint.scale, true);
     if (joint.rotation_control != kNoControl)

@@ -181,19 +181,11 @@ void find_masks(const DnaView& view, Span<uint32_t> masks) {
 }
 
 /// Attribute of a joint as ML numbers it -> as files number it; w of a quaternion gives kNone.
-uint32_t file_attribute(uint32_t attribute, const uint32_t widths[3]) {
-  if (attribute < widths[0]) return attribute;
-  attribute -= widths[0];
-  if (attribute < widths[1]) return attribute < 3 ? 3 + attribute : kNone;
-  return 6 + attribute - widths[1];
-}
-
-void find_widths(const dna::MlJoints& joints, uint32_t widths[3]) {
-  widths[0] = widths[1] = widths[2] = 0;
-  for (uint32_t i = 0; i < joints.parameter_keys.count; ++i) {
-    const uint16_t key = joints.parameter_keys[i];
-    if (key < 3) widths[key] = key == 1 && joints.parameter_values[i] == 1 ? 4 : 3;
-  }
+uint32_t file_attribute(uint32_t attribute, const dna::MlJointWidths& widths) {
+  if (attribute < widths.translation) return attribute;
+  attribute -= widths.translation;
+  if (attribute < widths.rotation) return attribute < 3 ? 3 + attribute : kNone;
+  return 6 + attribute - widths.rotation;
 }
 
 /// Keys 3 to 9 describe the system of the ML joints; false unless all are there.
@@ -217,10 +209,9 @@ bool find_system(const dna::MlJoints& joints, uint32_t axes[3], int32_t signs[3]
 void fill_ml_joints(const DnaView& view, Rig& rig, Span<uint32_t> position) {
   const dna::MlJoints& from = view.mlbe.joints;
   MlTable& ml = rig.ml;
-  uint32_t widths[3];
-  find_widths(from, widths);
-  const uint32_t attributes = widths[0] + widths[1] + widths[2];
-  ml.quaternion_rotations = widths[1] == 4;
+  const dna::MlJointWidths widths = dna::ml_joint_widths(from);
+  const uint32_t attributes = widths.all();
+  ml.quaternion_rotations = widths.rotation == 4;
   std::fill(position.begin(), position.end(), kNone);
   uint32_t count = 0;
   for (uint32_t i = 0; i < from.output_indices.count && attributes; ++i) {
@@ -241,7 +232,7 @@ void fill_ml_joints(const DnaView& view, Rig& rig, Span<uint32_t> position) {
     } else if (attribute != kNone && attribute >= 6) {
       to.scale[attribute - 6] = control;
     } else if (to.rotation_control == kNoControl) {
-      const uint32_t parts = widths[1];
+      const uint32_t parts = widths.rotation;
       if (control + parts <= rig.control_count) to.rotation_control = control;
     }
   }

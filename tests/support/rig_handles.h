@@ -42,6 +42,20 @@ inline DnaHandle open_dna(const std::vector<uint8_t>& bytes, uint64_t lods = 0,
   return DnaHandle(dna);
 }
 
+/// The same in another coordinate system.
+inline DnaHandle open_in_system(const std::vector<uint8_t>& bytes,
+                                const MienCoordinateSystem& system, MienStatus expected = MIEN_OK,
+                                std::string* message = nullptr) {
+  MienDnaDesc desc = sized<MienDnaDesc>();
+  desc.system = &system;
+  MienError error = sized<MienError>();
+  MienDna* dna = nullptr;
+  EXPECT_EQ(mien_dna_open_memory(bytes.data(), bytes.size(), &desc, &dna, &error), expected)
+      << error.message;
+  if (message) *message = error.message;
+  return DnaHandle(dna);
+}
+
 inline std::vector<uint8_t> write_dna(const MienDna* dna) {
   size_t size = 0;
   EXPECT_EQ(mien_dna_write_memory(dna, nullptr, nullptr, 0, &size, nullptr), MIEN_OK);
