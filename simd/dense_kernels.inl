@@ -3,7 +3,9 @@
 
 #pragma once
 
-#include "simd/joint_kernels.inl"
+#include <utility>  // index_sequence, a mere type
+
+#include "simd/vec.inl"
 
 namespace mien::MIEN_KERNEL_ISA {
 namespace {

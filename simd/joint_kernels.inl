@@ -12,6 +12,7 @@ namespace {
 
 // A lane is a row and adds its columns in order, so no width changes a bit of the result. Sums stay
 // in the first-level cache, so what is read from afar is the pieces, one behind the other.
+//
 // All pieces are read before the first is written: they belong to different blocks, which the
 // processor cannot know.
 template <class Value, size_t... P>
