@@ -370,6 +370,9 @@ typedef struct MienDnaField {
                              of a record */
     uint64_t byte_offset; /* where the bytes of an array, of one of its elements or of a string begin
                              in the file; MIEN_NO_OFFSET for others, and for what was made here */
+    uint32_t is_array;    /* 1 for an array of numbers, whatever its count; 0 for one number, or an
+                             element of an array */
+    uint32_t reserved;
 } MienDnaField;
 
 /* `path` is terminated. MIEN_ERROR_NAME tells the part of it that is not there. */

@@ -296,6 +296,7 @@ MienStatus mien_dna_field(const MienDna* dna, const char* path, MienDnaField* ou
   MienDnaField result = {};
   result.type = static_cast<uint32_t>(field.type);
   result.count = field.count;
+  result.is_array = field.is_array;
   result.byte_offset = field.bytes ? dna->view.offset_of(field.bytes) : MIEN_NO_OFFSET;
   write_struct(out_field, result);
   return succeed(error);

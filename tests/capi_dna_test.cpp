@@ -123,6 +123,16 @@ TEST_F(CapiDna, LayersInFileOrder) {
   EXPECT_EQ(info_of(open(file, 0, MIEN_UNKNOWN_LAYERS_DROP)).layer_count, 11u);
 }
 
+TEST_F(CapiDna, AnArrayOfOneNumberIsNotANumber) {
+  const DnaHandle dna = open_dna(file);
+  EXPECT_EQ(field_of(dna, "desc.lodCount").is_array, 0u);
+  EXPECT_EQ(field_of(dna, "desc.name").is_array, 0u);
+  EXPECT_EQ(field_of(dna, "defn.jointNames").is_array, 0u);
+  EXPECT_EQ(field_of(dna, "defn.jointHierarchy").is_array, 1u);
+  EXPECT_EQ(field_of(dna, "defn.jointHierarchy[0]").is_array, 0u);
+  EXPECT_EQ(field_of(dna, "defn.neutralJointTranslations.xs").is_array, 1u);
+}
+
 TEST_F(CapiDna, LayersNameTheBitThatLoadsThem) {
   const DnaHandle dna = open_dna(file);
   const uint32_t bits[11] = {MIEN_LAYER_DESCRIPTOR,

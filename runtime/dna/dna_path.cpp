@@ -101,6 +101,7 @@ class FieldFinder {
   void resolve(const Array<T>& array) {
     if (*rest_ == 0) {
       found = {number_type<T>(), array.count, array.data};
+      found.is_array = true;
       return;
     }
     uint32_t index;

@@ -16,6 +16,7 @@ struct FieldRef {
   const uint8_t* bytes =
       nullptr;             // of a string or of big-endian numbers; null for records and lists
   uint8_t number[4] = {};  // a single number, big-endian; `bytes` is then null
+  bool is_array = false;   // of numbers, though it may hold one or none
 };
 
 /// kName if there is no such field, kIndex if an index is past the end.

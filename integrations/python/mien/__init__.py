@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: MIT
+"""Facial rigs in DNA files: opened, evaluated and written. A binding of the C library Mien.
+
+    import mien
+
+    with mien.Dna.open("head.dna") as dna:
+        rig = mien.Rig(dna)                      # shared, immutable
+    face = rig.instance()                        # one character
+    face["CTRL_expressions.jawOpen"] = 1.0
+    face.evaluate(lod=0)
+    face.joints                                  # float32 (joints, 9), no copy
+
+`Dna` -> `Rig` -> `Instance` or `Batch`. README.md has more; errors are in `mien.errors`.
+"""
+from ._api import (Direction, DnaField, DnaInfo, DnaLayer, FieldType, FileAccess, Finding, Isa, Kind,
+                   Layer, MlMasks, Output, Preset, RigInfo, RigStatistics, RotationSequence,
+                   RotationUnit, Severity, Stage, Status, TranslationUnit, UnknownLayers)
+from ._library import path as library_path, version
+from .batch import Batch
+from .dna import Dna, validate
+from .errors import (ArgumentError, BusyError, ClosedError, DnaError, Error, FileError,
+                     OutOfMemoryError, OutOfRangeError, UnknownNameError)
+from .instance import Instance
+from .rig import Rig, isa_available, isa_name
+
+__all__ = [name for name in dir() if not name.startswith("_")]

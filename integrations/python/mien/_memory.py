@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: MIT
+"""Who owns what, and arrays over the library's memory.
+
+An object of the library is released when nothing refers to it any more: neither the Python object
+that made it, nor an array that looks into its memory, nor a call that is under way in another
+thread. So `close()` gives up a reference and never pulls memory away from under somebody:
+
+    Instance ----> handle <---- buffer <---- array <---- array[3:5]
+    a call ----------^
+
+The handle alone knows the destructor. Closing makes further calls through the closed object raise;
+arrays taken before keep their last values and stay valid memory for as long as they exist.
+"""
+from __future__ import annotations
+
+import ctypes
+import os
+from array import array
+from operator import index
+from typing import Any, Optional, Tuple
+
+from . import _api
+from ._library import lib
+from ._api import Status
+from .errors import ArgumentError, ClosedError, OutOfRangeError
+
+try:
+    import numpy
+except ImportError:  # arrays are memoryviews then
+    numpy = None  # type: ignore[assignment]
+
+
+class DnaHandle(_api.MienDna):
+    def __del__(self, destroy: Any = lib.mien_dna_close) -> None:
+        if self.value:
+            destroy(self)
+
+
+class ReportHandle(_api.MienReport):
+    def __del__(self, destroy: Any = lib.mien_report_destroy) -> None:
+        if self.value:
+            destroy(self)
+
+
+class RigHandle(_api.MienRig):
+    def __del__(self, destroy: Any = lib.mien_rig_destroy) -> None:
+        if self.value:
+            destroy(self)
+
+
+class InstanceHandle(_api.MienInstance):
+    def __del__(self, destroy: Any = lib.mien_instance_destroy) -> None:
+        if self.value:
+            destroy(self)
+
+
+class Closable:
+    """close(), `with`, and the error for using what is closed."""
+
+    _handle: Optional[ctypes.c_void_p]
+
+    def close(self) -> None:
+        """Gives up the memory as soon as no array looks into it any more. May be called twice."""
+        self._handle = None
+
+    @property
+    def closed(self) -> bool:
+        """Whether close() was called."""
+        return self._handle is None
+
+    def _open(self) -> Any:
+        """The handle, if it is still there."""
+        handle = self._handle
+        if handle is None:
+            raise ClosedError(f"this {type(self).__name__} is closed", Status.HANDLE)
+        return handle
+
+    def __enter__(self) -> Any:
+        self._open()
+        return self
+
+    def __exit__(self, *exception: Any) -> None:
+        self.close()
+
+
+_CODES = {"f": ctypes.c_float, "H": ctypes.c_uint16}
+
+
+def array_over(owner: Any, address: Optional[int], count: int, code: str, writable: bool,
+               shape: Optional[Tuple[int, ...]] = None) -> Any:
+    """A NumPy array (or, without NumPy, a flat memoryview) over memory that `owner` keeps alive."""
+    kind = _CODES[code] * count
+    buffer = kind.from_address(address) if count else kind()
+    buffer.owner = owner
+    view = memoryview(buffer).cast("B")
+    if not writable:
+        view = view.toreadonly()  # the array cannot be made writable then
+    if numpy is None:
+        return view.cast(code)
+    values = numpy.frombuffer(view, code) if count else numpy.empty(0, code)
+    if not writable:
+        values.flags.writeable = False
+    return values if shape is None else values.reshape(shape)
+
+
+def new_array(code: str, count: int) -> Tuple[Any, int]:
+    """An array of Python's own, and its address."""
+    if numpy is not None:
+        values = numpy.empty(count, code)
+        return values, values.ctypes.data
+    values = array(code, bytes(array(code).itemsize * count))
+    return values, values.buffer_info()[0]
+
+
+def assign(target: Any, values: Any, what: str) -> None:
+    """target[...] = values, if they are numbers of the same shape or one number."""
+    if numpy is None:
+        if isinstance(values, (int, float)):
+            values = [values] * len(target)
+        values = array("f", values)
+        if len(values) != len(target):
+            raise ArgumentError(f"{what} takes {len(target)} values, not {len(values)}")
+        target[:] = memoryview(values)
+        return
+    given = numpy.asarray(values)
+    if given.dtype.kind not in "fiub":
+        raise TypeError(f"{what} takes numbers, not {given.dtype}")
+    if given.ndim and given.shape not in (target.shape, target.shape[1:]):
+        raise ArgumentError(f"{what} takes shape {target.shape} or one number, not shape "
+                            f"{given.shape}")
+    target[...] = given
+
+
+def as_path(path: Any) -> bytes:
+    """A path for the library."""
+    return terminated(os.fsencode(path), "a path")
+
+
+def terminated(text: bytes, what: str) -> bytes:
+    """Text that C will see all of."""
+    if b"\0" in text:
+        raise ArgumentError(f"{what} with a zero byte in it")
+    return text
+
+
+def as_bytes(data: Any) -> bytes:
+    """Bytes that nobody can change: themselves, or a copy of what somebody could."""
+    return data if type(data) is bytes else bytes(memoryview(data))
+
+
+def uint32(value: Any, what: str) -> int:
+    """A number for the library; ctypes would cut it to 32 bits silently."""
+    number = index(value)
+    if not 0 <= number < 1 << 32:
+        raise OutOfRangeError(f"{what} {number}: not in 0 ... 2**32 - 1", Status.INDEX)
+    return number

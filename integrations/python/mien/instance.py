@@ -1,0 +1,231 @@
+# SPDX-License-Identifier: MIT
+"""Instances: one character each, its controls and what its last evaluation gave."""
+from __future__ import annotations
+
+import ctypes
+from _thread import allocate_lock
+from operator import index
+from typing import Any, Callable, Dict, NoReturn, Optional
+
+from . import _api
+from ._api import MienError, Stage, Status
+from ._library import lib
+from ._memory import Closable, InstanceHandle, array_over, assign, uint32
+from .errors import BusyError, OutOfRangeError, fail
+from .rig import Rig
+
+_byref = ctypes.byref
+_evaluate = lib.mien_rig_evaluate
+_evaluate_stages = lib.mien_rig_evaluate_stages
+
+
+class Instance(Closable):
+    """One character of a rig. For one thread at a time: a second one gets a BusyError.
+
+        face["CTRL_expressions.jawOpen"] = 1.0
+        face.evaluate()
+        face.joints[3, :3]     # translation of joint 3, as a change of the neutral pose
+
+    Inputs and outputs are NumPy arrays of float32 over the character's own memory: nothing is
+    copied, each array stays the same object, and evaluation changes what it shows. Inputs are
+    written in place, or as a whole by assigning; outputs cannot be written. An array keeps the
+    memory alive: after `close()` it shows the last values, while everything else here raises
+    ClosedError. Without NumPy they are flat memoryviews.
+    """
+
+    def __init__(self, rig: Rig, _slab: Any = None, _lock: Any = None) -> None:
+        handle, error = InstanceHandle(), MienError()
+        handle.slab = _slab  # where the memory is, for characters of a batch
+        allocator = _byref(_slab.allocator) if _slab is not None else None
+        status = lib.mien_instance_create(rig._open(), allocator, _byref(handle), _byref(error))
+        if status:
+            fail(status, "cannot make an instance", error)
+        self._handle: Optional[InstanceHandle] = handle
+        self.rig = rig
+        self._lod_count = rig.lod_count
+        self._views: Dict[str, Any] = {}
+        self._lock = _lock or allocate_lock()
+
+    def close(self) -> None:
+        """Gives up the memory as soon as no array looks into it any more. May be called twice."""
+        self._handle = None
+        self._views = {}
+
+    # ---- inputs --------------------------------------------------------------------------------
+
+    def _view(self, name: str, writable: bool = False, width: int = 0) -> Any:
+        found = self._views.get(name)
+        if found is not None:
+            return found
+        handle = self._open()
+        view = _api.MienMutableFloatView() if writable else _api.MienFloatView()
+        status = getattr(lib, "mien_instance_" + name)(handle, _byref(view))
+        if status:
+            fail(status, name)
+        shape = (view.count // width, width) if width else None
+        found = array_over(handle, view.data, view.count, "f", writable, shape)
+        self._views[name] = found
+        return found
+
+    @property
+    def gui_controls(self) -> Any:
+        """float32 (GUI controls,), writable: what animators move. Only `map_gui_to_raw` reads it."""
+        return self._view("gui_controls", True)
+
+    @gui_controls.setter
+    def gui_controls(self, values: Any) -> None:
+        assign(self.gui_controls, values, "gui_controls")
+
+    @property
+    def raw_controls(self) -> Any:
+        """float32 (raw controls,), writable: usually in 0 ... 1, but not clamped."""
+        return self._view("raw_controls", True)
+
+    @raw_controls.setter
+    def raw_controls(self, values: Any) -> None:
+        assign(self.raw_controls, values, "raw_controls")
+
+    @property
+    def ml_masks(self) -> Any:
+        """float32 (regions,), writable: 0 ... 1 switches or blends learned behavior, see `MlMasks`."""
+        return self._view("ml_masks", True)
+
+    @ml_masks.setter
+    def ml_masks(self, values: Any) -> None:
+        assign(self.ml_masks, values, "ml_masks")
+
+    def __getitem__(self, name: str) -> float:
+        """Value of the raw control of this name."""
+        return float(self.raw_controls[self.rig.raw_control(name)])
+
+    def __setitem__(self, name: str, value: float) -> None:
+        self.raw_controls[self.rig.raw_control(name)] = value
+
+    # ---- outputs -------------------------------------------------------------------------------
+
+    @property
+    def controls(self) -> Any:
+        """float32 (controls,): the whole control row: raw, PSD, ML, RBF."""
+        return self._view("controls")
+
+    @property
+    def psd_controls(self) -> Any:
+        """float32 (correctives,)."""
+        return self._view("psd_controls")
+
+    @property
+    def ml_controls(self) -> Any:
+        """float32 (ML controls,): what the neural networks gave."""
+        return self._view("ml_controls")
+
+    @property
+    def rbf_controls(self) -> Any:
+        """float32 (RBF controls,): weights of the poses of the RBF solvers."""
+        return self._view("rbf_controls")
+
+    @property
+    def joints(self) -> Any:
+        """float32 (joints, 9): tx ty tz rx ry rz sx sy sz, or (joints, 10) with qx qy qz qw.
+
+        Changes of the neutral pose (`Rig.neutral_joint_values`), in the units that `Rig.info`
+        tells. Translation, angles and scale are added to it; a quaternion is its right factor:
+        neutral * delta, so that the delta turns first.
+        """
+        return self._view("joints", width=self.rig.joint_width)
+
+    @property
+    def blend_shapes(self) -> Any:
+        """float32 (channels,): one weight per blend shape channel."""
+        return self._view("blend_shapes")
+
+    @property
+    def animated_maps(self) -> Any:
+        """float32 (maps,): one weight per animated map, 0 ... 1."""
+        return self._view("animated_maps")
+
+    # ---- evaluation ----------------------------------------------------------------------------
+
+    def evaluate(self, lod: int = 0, stages: int = Stage.ALL) -> None:
+        """Computes the outputs at a LOD; outputs that the LOD does not reach are 0.
+
+        `stages` limits it to some `Stage`s; the others keep the results of the last evaluation at
+        the same LOD. Other Python threads run meanwhile.
+        """
+        if not self._lock.acquire(False):
+            self._busy()
+        try:
+            # Numbers outside the range are refused here, since ctypes would cut them to 32 bits.
+            if type(lod) is not int or not 0 <= lod < self._lod_count:
+                lod = self._lod(lod)
+            if stages is _ALL:
+                status = _evaluate(self.rig._handle, self._handle, lod)
+            else:
+                status = _evaluate_stages(self.rig._handle, self._handle, lod,
+                                          uint32(stages, "stages"))
+            if status:
+                self._fail(status, f"evaluate(lod={lod}, stages={stages!r})")
+        finally:
+            self._lock.release()
+
+    def map_gui_to_raw(self) -> None:
+        """Raw controls from GUI controls, clamped to 0 ... 1; those that no GUI control drives
+        keep what they hold."""
+        self._call(lib.mien_rig_map_gui_to_raw)
+
+    def map_raw_to_gui(self) -> None:
+        """Each GUI control's value whose mapping gives the raw controls; 0 where there is none."""
+        self._call(lib.mien_rig_map_raw_to_gui)
+
+    def evaluate_joint_group(self, group: int, lod: int = 0) -> None:
+        """Only the joint values of one joint group (`Kind.JOINT_GROUP`)."""
+        self._call(lib.mien_rig_evaluate_joint_group, self._lod(lod), uint32(group, "group"))
+
+    def evaluate_rbf_solver(self, solver: int, lod: int = 0) -> None:
+        """Only the pose controls of one RBF solver, whether the LOD lists it or not."""
+        self._call(lib.mien_rig_evaluate_rbf_solver, self._lod(lod), uint32(solver, "solver"))
+
+    def evaluate_twist_swing(self, setup: int, lod: int = 0) -> None:
+        """Only the joints of one twist and swing set-up (`Kind.TWIST_SWING`)."""
+        self._call(lib.mien_rig_evaluate_twist_swing, self._lod(lod), uint32(setup, "setup"))
+
+    def reset(self) -> None:
+        """Everything as after creation."""
+        if not self._lock.acquire(False):
+            self._busy()
+        try:
+            status = lib.mien_instance_reset(self._handle)
+            if status:
+                self._fail(status, "reset()")
+        finally:
+            self._lock.release()
+
+    def _call(self, function: Callable[..., int], *arguments: int) -> None:
+        if not self._lock.acquire(False):
+            self._busy()
+        try:
+            status = function(self.rig._handle, self._handle, *arguments)
+            if status:
+                self._fail(status, f"{function.__name__}{arguments}")
+        finally:
+            self._lock.release()
+
+    def _lod(self, lod: Any) -> int:
+        number = index(lod)
+        if not 0 <= number < self._lod_count:
+            raise OutOfRangeError(f"LOD {number} of a rig with {self._lod_count}", Status.LOD)
+        return number
+
+    def _busy(self) -> NoReturn:
+        raise BusyError("another thread is working with this instance; each thread needs its own",
+                        Status.HANDLE)
+
+    def _fail(self, status: int, what: str) -> NoReturn:
+        self._open()
+        self.rig._open()
+        fail(status, what)
+
+    def __repr__(self) -> str:
+        return f"<mien.Instance{', closed' if self.closed else ''} of {self.rig!r}>"
+
+
+_ALL = Stage.ALL
