@@ -510,7 +510,7 @@ enum MienMlMasks {
 
 /* How a rig keeps the large arrays that evaluation reads. Sums and results are 32-bit floats either
  * way. */
-enum {
+enum MienStorage {
     MIEN_STORAGE_F32 = 0,
     MIEN_STORAGE_F16 = 1 /* rounded to IEEE half precision (to nearest, ties to even; what exceeds its
                             range becomes +-65504): half the memory, about three decimal digits */

@@ -336,9 +336,7 @@ class Header:
 
     def enum(self, above):
         line = self.expect("enum").line
-        if self.peek().text == "{":
-            fail(line, "an enum without a name: bindings need one")
-        name = self.word()
+        name = None if self.peek().text == "{" else self.word()
         state = {"next": 0}
 
         def value():
@@ -356,6 +354,10 @@ class Header:
         self.expect(";")
         names = [constant for constant, _ in members]
         prefix = common_prefix(names)
+        # Bindings need a name: without one, MIEN_DARK_BLUE and MIEN_DARK_RED make a MienDark.
+        name = name or "".join(word.capitalize() for word in prefix.split("_"))
+        if name == "Mien" or name in [enum["name"] for enum in self.enums]:
+            fail(line, f"this enum needs a name, and not {name}")
         values = [{"name": constant, "value": self.values[constant],
                    "short_name": constant[len(prefix):], "documentation": documentation}
                   for constant, documentation in members]

@@ -14,7 +14,8 @@
 """
 from ._api import (Direction, DnaField, DnaInfo, DnaLayer, FieldType, FileAccess, Finding, Isa, Kind,
                    Layer, MlMasks, Output, Preset, RigInfo, RigStatistics, RotationSequence,
-                   RotationUnit, Severity, Stage, Status, TranslationUnit, UnknownLayers)
+                   RotationUnit, Severity, Stage, Status, Storage, TranslationUnit,
+                   UnknownLayers)
 from ._library import path as library_path, version
 from .batch import Batch
 from .dna import Dna, validate

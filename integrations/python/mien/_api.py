@@ -234,6 +234,17 @@ class MlMasks(IntEnum):
     BLEND = 1
 
 
+class Storage(IntEnum):
+    """How a rig keeps the large arrays that evaluation reads. Sums and results are 32-bit floats
+    either way.
+    """
+
+    F32 = 0
+    #: rounded to IEEE half precision (to nearest, ties to even; what exceeds its range becomes
+    #: +-65504): half the memory, about three decimal digits
+    F16 = 1
+
+
 class Kind(IntEnum):
     """Things with names and numbers."""
 
@@ -548,15 +559,19 @@ class MienRigDesc(Structure):
         ("rotation", c_uint32),
         ("ml_masks", c_uint32),
         ("allocator", POINTER(MienAllocator)),
+        ("storage", c_uint32),
+        ("reserved", c_uint32),
     ]
     struct_size: Any
     isa: Any
     rotation: Any
     ml_masks: Any
     allocator: Any
+    storage: Any
+    reserved: Any
 
     def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=24, **values)
+        super().__init__(struct_size=32, **values)
 
 
 class MienRigInfo(Structure):
@@ -572,7 +587,7 @@ class MienRigInfo(Structure):
         ("control_count", c_uint32),
         ("joint_value_count", c_uint32),
         ("rotation", c_uint32),
-        ("reserved", c_uint32),
+        ("storage", c_uint32),
         ("rig_bytes", c_uint64),
         ("instance_bytes", c_uint64),
     ]
@@ -587,7 +602,7 @@ class MienRigInfo(Structure):
     control_count: Any
     joint_value_count: Any
     rotation: Any
-    reserved: Any
+    storage: Any
     rig_bytes: Any
     instance_bytes: Any
 
@@ -766,6 +781,7 @@ class RigInfo(NamedTuple):
       control_count: length of a control row: raw, PSD, ML, RBF, in this order
       joint_value_count: length of a row of joint outputs: 9 or 10 per joint
       rotation: Output
+      storage: Storage
       rig_bytes: memory of the rig
       instance_bytes: memory of each instance
     """
@@ -780,6 +796,7 @@ class RigInfo(NamedTuple):
     control_count: int
     joint_value_count: int
     rotation: Output
+    storage: Storage
     rig_bytes: int
     instance_bytes: int
 
@@ -788,8 +805,8 @@ class RigInfo(NamedTuple):
         return cls(_enum(Isa, c.isa), c.lod_count, _enum(TranslationUnit, c.translation_unit),
                    _enum(RotationUnit, c.rotation_unit), tuple(_enum(Direction, v) for v in c.axes),
                    _enum(RotationSequence, c.rotation_sequence), tuple(c.rotation_signs),
-                   c.control_count, c.joint_value_count, _enum(Output, c.rotation), c.rig_bytes,
-                   c.instance_bytes)
+                   c.control_count, c.joint_value_count, _enum(Output, c.rotation), _enum(Storage,
+                   c.storage), c.rig_bytes, c.instance_bytes)
 
 
 class RigStatistics(NamedTuple):

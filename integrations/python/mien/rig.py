@@ -6,7 +6,7 @@ import ctypes
 from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional
 
 from . import _api
-from ._api import Isa, Kind, MienError, MlMasks, Output, RigInfo, RigStatistics, Status
+from ._api import Isa, Kind, MienError, MlMasks, Output, RigInfo, RigStatistics, Status, Storage
 from ._library import lib
 from ._memory import Closable, RigHandle, array_over, uint32
 from .dna import Dna
@@ -38,12 +38,14 @@ class Rig(Closable):
     isa:      `Isa`; one that is absent raises, never is another taken silently
     rotation: `Output.EULER` gives 9 values per joint, `Output.QUATERNION` 10
     ml_masks: whether masks switch or blend what was learned, see `MlMasks`
+    storage:  `Storage.F16` halves the memory of the large arrays, at three decimal digits
     """
 
     def __init__(self, dna: Dna, isa: int = Isa.BEST, rotation: int = Output.EULER,
-                 ml_masks: int = MlMasks.SWITCH) -> None:
+                 ml_masks: int = MlMasks.SWITCH, storage: int = Storage.F32) -> None:
         desc = _api.MienRigDesc(isa=uint32(isa, "isa"), rotation=uint32(rotation, "rotation"),
-                                ml_masks=uint32(ml_masks, "ml_masks"))
+                                ml_masks=uint32(ml_masks, "ml_masks"),
+                                storage=uint32(storage, "storage"))
         handle, error = RigHandle(), MienError()
         status = lib.mien_rig_create(dna._open(), _byref(desc), _byref(handle), _byref(error))
         if status:
