@@ -17,7 +17,7 @@ import ctypes
 import os
 from array import array
 from operator import index
-from typing import Any, Optional, Tuple
+from typing import Any, NoReturn, Optional, Tuple
 
 from . import _api
 from ._library import lib
@@ -30,31 +30,39 @@ except ImportError:  # arrays are memoryviews then
     numpy = None  # type: ignore[assignment]
 
 
-class DnaHandle(_api.MienDna):
+class _Address:
+    """An address means nothing in another process, and two owners would release it twice."""
+
+    def __reduce_ex__(self, protocol: Any) -> NoReturn:
+        raise TypeError(f"{type(self).__name__} objects cannot be copied, pickled or sent to other "
+                        "processes; make new ones there")
+
+
+class DnaHandle(_Address, _api.MienDna):
     def __del__(self, destroy: Any = lib.mien_dna_close) -> None:
         if self.value:
             destroy(self)
 
 
-class ReportHandle(_api.MienReport):
+class ReportHandle(_Address, _api.MienReport):
     def __del__(self, destroy: Any = lib.mien_report_destroy) -> None:
         if self.value:
             destroy(self)
 
 
-class RigHandle(_api.MienRig):
+class RigHandle(_Address, _api.MienRig):
     def __del__(self, destroy: Any = lib.mien_rig_destroy) -> None:
         if self.value:
             destroy(self)
 
 
-class InstanceHandle(_api.MienInstance):
+class InstanceHandle(_Address, _api.MienInstance):
     def __del__(self, destroy: Any = lib.mien_instance_destroy) -> None:
         if self.value:
             destroy(self)
 
 
-class Closable:
+class Closable(_Address):
     """close(), `with`, and the error for using what is closed."""
 
     _handle: Optional[ctypes.c_void_p]
@@ -94,13 +102,18 @@ def array_over(owner: Any, address: Optional[int], count: int, code: str, writab
     buffer.owner = owner
     view = memoryview(buffer).cast("B")
     if not writable:
-        view = view.toreadonly()  # the array cannot be made writable then
+        view = view.toreadonly()
     if numpy is None:
         return view.cast(code)
-    values = numpy.frombuffer(view, code) if count else numpy.empty(0, code)
-    if not writable:
-        values.flags.writeable = False
+    # frombuffer() keeps the read-only view for its base, so the array cannot be made writable.
+    values = numpy.frombuffer(view, code) if count else empty((0,), code, writable)
     return values if shape is None else values.reshape(shape)
+
+
+def empty(shape: Tuple[int, ...], code: str, writable: bool) -> Any:
+    """An array of no elements, which NumPy does not make of a buffer."""
+    return numpy.empty(shape, code) if writable else \
+        numpy.frombuffer(bytes(8), code)[:0].reshape(shape)
 
 
 def new_array(code: str, count: int) -> Tuple[Any, int]:

@@ -10,7 +10,7 @@ from typing import Any, Dict, Iterator, Optional, Sequence, Union
 from . import _api
 from ._api import Status
 from ._library import lib
-from ._memory import Closable, assign, numpy
+from ._memory import Closable, assign, empty, numpy
 from .errors import ArgumentError, BusyError, OutOfMemoryError, OutOfRangeError, fail
 from .instance import Instance
 from .rig import Rig
@@ -112,7 +112,7 @@ class Batch(Closable):
         count = views[0].count if views else 0
         shape = (len(views), count // width, width) if width else (len(views), count)
         if not views or not count:
-            found = numpy.empty(shape, "f")
+            found = empty(shape, "f", writable)
         else:
             slab = self._slab
             for i, view in enumerate(views):
@@ -120,12 +120,11 @@ class Batch(Closable):
                     raise RuntimeError("instances of a rig are laid out differently")
             buffer = (ctypes.c_char * slab.size).from_address(slab.start)
             buffer.owner = handles
-            memory = memoryview(buffer)
-            found = numpy.ndarray(shape, "f", memory if writable else memory.toreadonly(),
+            memory = memoryview(buffer).cast("B")
+            rows = numpy.frombuffer(memory if writable else memory.toreadonly(), "B")
+            found = numpy.ndarray(shape, "f", rows,
                                   views[0].data - slab.start,
                                   (slab.stride, width * 4, 4) if width else (slab.stride, 4))
-        if not writable:
-            found.flags.writeable = False
         self._views[name] = found
         return found
 

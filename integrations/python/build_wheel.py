@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Makes the wheel: the package, and the library beside it, so that no variable has to tell where
+it is. Needs the standard library of Python 3.9 only, and no network.
+
+    build_wheel.py [--library FILE] [--platform TAG] [--output DIRECTORY]
+
+It is also the build backend that pyproject.toml names (PEP 517). The library is --library, or the
+file named in MIEN_LIBRARY, or that of build/release in the source tree.
+"""
+import argparse
+import base64
+import hashlib
+import os
+import re
+import sys
+import sysconfig
+import zipfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+# A fixed date, so that the same sources give the same bytes: the first that a zip file can hold.
+DATE = (1980, 1, 1, 0, 0, 0)
+
+
+def version():
+    text = (HERE / "mien" / "_api.py").read_text(encoding="utf-8")
+    return re.search(r'^VERSION = [\'"](.+)[\'"]$', text, re.MULTILINE).group(1)
+
+
+def project(name):
+    """A value of pyproject.toml; Python 3.9 has no reader for it."""
+    text = (HERE / "pyproject.toml").read_text(encoding="utf-8")
+    return re.search(rf'^{re.escape(name)} = "(.+)"$', text, re.MULTILINE).group(1)
+
+
+def classifiers():
+    text = (HERE / "pyproject.toml").read_text(encoding="utf-8")
+    return re.findall(r'"(.+)"', re.search(r"classifiers = \[(.*?)\]", text, re.DOTALL).group(1))
+
+
+def metadata():
+    lines = ["Metadata-Version: 2.1", "Name: mien", f"Version: {version()}",
+             f"Summary: {project('description')}", "License: MIT",
+             f"Requires-Python: {project('requires-python')}", "Provides-Extra: arrays",
+             'Requires-Dist: numpy; extra == "arrays"']
+    lines += [f"Classifier: {line}" for line in classifiers()]
+    lines += ["Description-Content-Type: text/markdown", ""]
+    return "\n".join(lines) + "\n" + (HERE / "README.md").read_text(encoding="utf-8")
+
+
+def library_file(given=None):
+    found = Path(given or os.environ.get("MIEN_LIBRARY") or ROOT / "build/release/lib/libmien.so")
+    if not found.exists():
+        sys.exit(f"no library at {found}: build it (./dev build), or name it in MIEN_LIBRARY")
+    return found.resolve()
+
+
+def library_name():
+    return {"win32": "mien.dll", "darwin": "libmien.dylib"}.get(sys.platform, "libmien.so")
+
+
+def platform_tag():
+    return re.sub(r"[-.]", "_", sysconfig.get_platform())
+
+
+def write(directory, library=None, tag=None):
+    """Writes the wheel and returns its name."""
+    stem = f"mien-{version()}"
+    info = f"{stem}.dist-info"
+    tag = f"py3-none-{tag or platform_tag()}"
+    files = [(f"mien/{file.name}", file.read_bytes()) for file in sorted((HERE / "mien").iterdir())
+             if file.suffix == ".py" or file.name == "py.typed"]
+    files.append((f"mien/{library_name()}", library_file(library).read_bytes()))
+    files.append((f"{info}/METADATA", metadata().encode()))
+    files.append((f"{info}/LICENSE", (ROOT / "LICENSE").read_bytes()))
+    files.append((f"{info}/WHEEL", (
+        "Wheel-Version: 1.0\nGenerator: mien\nRoot-Is-Purelib: false\n"
+        f"Tag: {tag}\n").encode()))
+
+    record = []
+    name = f"{stem}-{tag}.whl"
+    with zipfile.ZipFile(Path(directory) / name, "w", zipfile.ZIP_DEFLATED) as wheel:
+        def add(path, data):
+            entry = zipfile.ZipInfo(path, DATE)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.external_attr = (0o100755 if path.endswith(library_name()) else 0o100644) << 16
+            wheel.writestr(entry, data)
+
+        for path, data in files:
+            digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
+            record.append(f"{path},sha256={digest},{len(data)}")
+            add(path, data)
+        record.append(f"{info}/RECORD,,")
+        add(f"{info}/RECORD", ("\n".join(record) + "\n").encode())
+    return name
+
+
+# ---- what pip calls ------------------------------------------------------------------------------
+
+def get_requires_for_build_wheel(config_settings=None):
+    return []
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    return write(wheel_directory)
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    raise NotImplementedError("the package alone cannot build the library: use the repository")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--library", help="libmien to put into it")
+    parser.add_argument("--platform", help=f"platform tag; default: {platform_tag()}")
+    parser.add_argument("--output", default=".", help="directory; default: this one")
+    args = parser.parse_args()
+    Path(args.output).mkdir(parents=True, exist_ok=True)
+    print(Path(args.output) / write(args.output, args.library, args.platform))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: MIT
+"""example.py [FILE.dna [CONTROL]]: turns a control up and tells which joint it moves most."""
+import sys
+
+import mien
+
+control = sys.argv[2] if len(sys.argv) > 2 else "CTRL_expressions.jawOpen"
+with mien.Dna.open(sys.argv[1]) if sys.argv[1:] else mien.Dna.generate(mien.Preset.LARGE) as dna:
+    rig = mien.Rig(dna)
+face = rig.instance()
+face[control] = 1  # or face.raw_controls[i], written in place
+face.evaluate(lod=0)
+most = abs(face.joints[:, :3]).max(axis=1).argmax()  # per joint tx ty tz rx ry rz sx sy sz
+d = face.joints[most]
+print("%s moves %s most: by %.3f %.3f %.3f, turning it by %.3f %.3f %.3f"
+      % (control, rig.name(mien.Kind.JOINT, most), *d[:6]))

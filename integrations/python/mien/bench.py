@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: MIT
+"""python -m mien.bench [FILE.dna] [--count N] [--lod N]: what Python adds to the time of C.
+
+C is a loop of a few lines that is compiled on the spot, if a compiler is there, and run in this
+process on the very characters that Python evaluates. Turns of C and Python alternate, and the
+median of their differences counts, so that a machine that is busy with other things disturbs both.
+"""
+from __future__ import annotations
+
+import argparse
+import ctypes
+import shutil
+import statistics
+import subprocess
+import tempfile
+from pathlib import Path
+from time import perf_counter_ns
+from typing import Any, Callable, List, Optional, Tuple
+
+import mien
+from mien._library import lib
+
+LOOPS = r"""
+#include <stddef.h>
+#include <stdint.h>
+#include <time.h>
+
+typedef int32_t One(const void* rig, void* instance, uint32_t lod);
+typedef int32_t Many(const void* rig, void* const* instances, const uint32_t* lods, uint32_t count,
+                     const void* desc);
+
+static double now(void) {
+  struct timespec time;
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return time.tv_sec * 1e9 + time.tv_nsec;
+}
+
+double one(One* evaluate, const void* rig, void* instance, uint32_t lod, uint32_t turns) {
+  const double start = now();
+  for (uint32_t i = 0; i < turns; ++i) evaluate(rig, instance, lod);
+  return now() - start;
+}
+
+double each(One* evaluate, const void* rig, void* const* instances, uint32_t lod, uint32_t count,
+            uint32_t turns) {
+  const double start = now();
+  for (uint32_t i = 0; i < turns; ++i)
+    for (uint32_t c = 0; c < count; ++c) evaluate(rig, instances[c], lod);
+  return now() - start;
+}
+
+double many(Many* evaluate, const void* rig, void* const* instances, const uint32_t* lods,
+            uint32_t count, uint32_t turns) {
+  const double start = now();
+  for (uint32_t i = 0; i < turns; ++i) evaluate(rig, instances, lods, count, NULL);
+  return now() - start;
+}
+"""
+
+
+def compile_loops(directory: str) -> Optional[ctypes.CDLL]:
+    """The loops in C; None without a compiler."""
+    compiler = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
+    if not compiler:
+        return None
+    source, library = Path(directory, "loops.c"), Path(directory, "loops.so")
+    source.write_text(LOOPS, encoding="utf-8")
+    subprocess.run([compiler, "-O2", "-shared", "-fPIC", source, "-o", library], check=True)
+    loops = ctypes.CDLL(str(library))
+    for function in (loops.one, loops.each, loops.many):
+        function.restype = ctypes.c_double
+    return loops
+
+
+def alternate(c: Callable[[int], float], python: Callable[[int], float], turns: int,
+              rounds: int) -> Tuple[float, float, float]:
+    """Nanoseconds of one turn in C, in Python, and the median of the differences."""
+    pairs = []
+    for i in range(rounds):
+        if i % 2:
+            first = c(turns)
+            pairs.append((first / turns, python(turns) / turns))
+        else:
+            second = python(turns)
+            pairs.append((c(turns) / turns, second / turns))
+    medians = [statistics.median(values) for values in zip(*pairs)]
+    return medians[0], medians[1], statistics.median(p - c for c, p in pairs)
+
+
+def timed(work: Callable[[], Any]) -> Callable[[int], float]:
+    def loop(turns: int) -> float:
+        start = perf_counter_ns()
+        for _ in range(turns):
+            work()
+        return perf_counter_ns() - start
+    return loop
+
+
+def measure(rig: mien.Rig, count: int, lod: int, loops: ctypes.CDLL) -> List[Tuple[str, Any]]:
+    """(what, (C, Python, difference) in nanoseconds)"""
+    address = ctypes.c_void_p
+    face, crowd = rig.instance(), rig.batch(count)
+    for i, character in enumerate((face, *crowd)):
+        controls = character.raw_controls
+        for j in range(len(controls)):
+            controls[j] = ((i + j * 7) % 11) / 10 if (i * 5 + j) % 4 == 0 else 0.0
+        character.evaluate(lod)
+    rig_address, face_address = address(rig._handle.value), address(face._handle.value)
+    # Enough turns for a few milliseconds, so that clocks do not matter.
+    single = timed(lambda: face.evaluate(lod))
+    turns = max(1, int(3e6 / (single(10) / 10)))
+    evaluate = ctypes.cast(lib.mien_rig_evaluate, address)
+    found = [("face.evaluate()", alternate(
+        lambda n: loops.one(evaluate, rig_address, face_address, lod, n), single, turns, 201))]
+
+    batch = timed(lambda: crowd.evaluate(lod))
+    turns = max(1, int(1e7 / batch(1)))
+    pointers, lods = crowd._pointers, (ctypes.c_uint32 * count)(*[lod] * count)
+
+    def in_c(n: int) -> float:
+        if hasattr(lib, "mien_rig_evaluate_batch"):
+            evaluate_batch = ctypes.cast(lib.mien_rig_evaluate_batch, address)
+            return loops.many(evaluate_batch, rig_address, pointers, lods, count, n)
+        return loops.each(evaluate, rig_address, pointers, lod, count, n)
+
+    found.append((f"crowd.evaluate(), {count} characters", alternate(in_c, batch, turns, 101)))
+    return found
+
+
+def show(title: str, rows: List[Tuple[str, Any]]) -> None:
+    print(f"{title:<36}{'C':>12}{'Python':>12}{'adds':>12}")
+    for what, (c, python, difference) in rows:
+        print(f"  {what:<34}{c / 1e3:>9.2f} us{python / 1e3:>9.2f} us{difference / 1e3:>9.2f} us"
+              f"{difference / c * 100:>8.1f} %")
+
+
+def main(arguments: Optional[List[str]] = None) -> None:
+    parser = argparse.ArgumentParser(prog="python -m mien.bench")
+    parser.add_argument("file", nargs="?", help="a DNA file; default: generated heads")
+    parser.add_argument("--count", type=int, default=64, help="characters of the batch")
+    parser.add_argument("--lod", type=int, default=0)
+    args = parser.parse_args(arguments)
+    print(f"mien {mien.version()}, {mien.library_path}")
+    with tempfile.TemporaryDirectory() as directory:
+        loops = compile_loops(directory)
+        if loops is None:
+            raise SystemExit("no C compiler (cc, gcc, clang) here to compare with")
+        if args.file:
+            rigs = [(args.file, mien.Rig(mien.Dna.open(args.file)))]
+        else:
+            rigs = [(f"generated, {preset.name.lower()}", mien.Rig(mien.Dna.generate(preset)))
+                    for preset in (mien.Preset.TINY, mien.Preset.LARGE)]
+        for title, rig in rigs:
+            show(f"{title} ({mien.isa_name(rig.info.isa)})", measure(rig, args.count, args.lod, loops))
+
+
+if __name__ == "__main__":
+    main()
