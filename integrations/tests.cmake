@@ -12,6 +12,10 @@ add_test(NAME api_layout
   COMMAND Python3::Interpreter ${integrations}/api/layout_test.py ${CMAKE_C_COMPILER})
 set_tests_properties(api_layout PROPERTIES LABELS abi)
 
+add_test(NAME api_bindings
+  COMMAND Python3::Interpreter ${integrations}/api/check_bindings.py)
+set_tests_properties(api_bindings PROPERTIES LABELS guard)
+
 # ---- Python -----------------------------------------------------------------------------------------
 
 add_test(NAME python_api

@@ -96,8 +96,8 @@ class Batch(Closable):
 
     # ---- arrays --------------------------------------------------------------------------------
 
-    def _view(self, name: str, writable: bool = False, width: int = 0) -> Any:
-        found = self._views.get(name)
+    def _view(self, call: Any, writable: bool = False, width: int = 0) -> Any:
+        found = self._views.get(call.__name__)
         if found is not None:
             return found
         handles = self._open()
@@ -106,9 +106,9 @@ class Batch(Closable):
         kind = _api.MienMutableFloatView if writable else _api.MienFloatView
         views = [kind() for _ in handles]
         for handle, view in zip(handles, views):
-            status = getattr(lib, "mien_instance_" + name)(handle, ctypes.byref(view))
+            status = call(handle, ctypes.byref(view))
             if status:
-                fail(status, name)
+                fail(status, call.__name__)
         count = views[0].count if views else 0
         shape = (len(views), count // width, width) if width else (len(views), count)
         if not views or not count:
@@ -125,13 +125,13 @@ class Batch(Closable):
             found = numpy.ndarray(shape, "f", rows,
                                   views[0].data - slab.start,
                                   (slab.stride, width * 4, 4) if width else (slab.stride, 4))
-        self._views[name] = found
+        self._views[call.__name__] = found
         return found
 
     @property
     def gui_controls(self) -> Any:
         """float32 (n, GUI controls), writable."""
-        return self._view("gui_controls", True)
+        return self._view(lib.mien_instance_gui_controls, True)
 
     @gui_controls.setter
     def gui_controls(self, values: Any) -> None:
@@ -140,7 +140,7 @@ class Batch(Closable):
     @property
     def raw_controls(self) -> Any:
         """float32 (n, raw controls), writable."""
-        return self._view("raw_controls", True)
+        return self._view(lib.mien_instance_raw_controls, True)
 
     @raw_controls.setter
     def raw_controls(self, values: Any) -> None:
@@ -149,7 +149,7 @@ class Batch(Closable):
     @property
     def ml_masks(self) -> Any:
         """float32 (n, regions), writable."""
-        return self._view("ml_masks", True)
+        return self._view(lib.mien_instance_ml_masks, True)
 
     @ml_masks.setter
     def ml_masks(self, values: Any) -> None:
@@ -158,22 +158,22 @@ class Batch(Closable):
     @property
     def controls(self) -> Any:
         """float32 (n, controls): raw, PSD, ML, RBF."""
-        return self._view("controls")
+        return self._view(lib.mien_instance_controls)
 
     @property
     def joints(self) -> Any:
         """float32 (n, joints, 9 or 10): see `Instance.joints`."""
-        return self._view("joints", width=self.rig.joint_width)
+        return self._view(lib.mien_instance_joints, width=self.rig.joint_width)
 
     @property
     def blend_shapes(self) -> Any:
         """float32 (n, channels)."""
-        return self._view("blend_shapes")
+        return self._view(lib.mien_instance_blend_shapes)
 
     @property
     def animated_maps(self) -> Any:
         """float32 (n, maps)."""
-        return self._view("animated_maps")
+        return self._view(lib.mien_instance_animated_maps)
 
     # ---- evaluation ----------------------------------------------------------------------------
 

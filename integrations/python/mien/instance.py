@@ -53,24 +53,24 @@ class Instance(Closable):
 
     # ---- inputs --------------------------------------------------------------------------------
 
-    def _view(self, name: str, writable: bool = False, width: int = 0) -> Any:
-        found = self._views.get(name)
+    def _view(self, call: Any, writable: bool = False, width: int = 0) -> Any:
+        found = self._views.get(call.__name__)
         if found is not None:
             return found
         handle = self._open()
         view = _api.MienMutableFloatView() if writable else _api.MienFloatView()
-        status = getattr(lib, "mien_instance_" + name)(handle, _byref(view))
+        status = call(handle, _byref(view))
         if status:
-            fail(status, name)
+            fail(status, call.__name__)
         shape = (view.count // width, width) if width else None
         found = array_over(handle, view.data, view.count, "f", writable, shape)
-        self._views[name] = found
+        self._views[call.__name__] = found
         return found
 
     @property
     def gui_controls(self) -> Any:
         """float32 (GUI controls,), writable: what animators move. Only `map_gui_to_raw` reads it."""
-        return self._view("gui_controls", True)
+        return self._view(lib.mien_instance_gui_controls, True)
 
     @gui_controls.setter
     def gui_controls(self, values: Any) -> None:
@@ -79,7 +79,7 @@ class Instance(Closable):
     @property
     def raw_controls(self) -> Any:
         """float32 (raw controls,), writable: usually in 0 ... 1, but not clamped."""
-        return self._view("raw_controls", True)
+        return self._view(lib.mien_instance_raw_controls, True)
 
     @raw_controls.setter
     def raw_controls(self, values: Any) -> None:
@@ -88,7 +88,7 @@ class Instance(Closable):
     @property
     def ml_masks(self) -> Any:
         """float32 (regions,), writable: 0 ... 1 switches or blends learned behavior, see `MlMasks`."""
-        return self._view("ml_masks", True)
+        return self._view(lib.mien_instance_ml_masks, True)
 
     @ml_masks.setter
     def ml_masks(self, values: Any) -> None:
@@ -106,22 +106,22 @@ class Instance(Closable):
     @property
     def controls(self) -> Any:
         """float32 (controls,): the whole control row: raw, PSD, ML, RBF."""
-        return self._view("controls")
+        return self._view(lib.mien_instance_controls)
 
     @property
     def psd_controls(self) -> Any:
         """float32 (correctives,)."""
-        return self._view("psd_controls")
+        return self._view(lib.mien_instance_psd_controls)
 
     @property
     def ml_controls(self) -> Any:
         """float32 (ML controls,): what the neural networks gave."""
-        return self._view("ml_controls")
+        return self._view(lib.mien_instance_ml_controls)
 
     @property
     def rbf_controls(self) -> Any:
         """float32 (RBF controls,): weights of the poses of the RBF solvers."""
-        return self._view("rbf_controls")
+        return self._view(lib.mien_instance_rbf_controls)
 
     @property
     def joints(self) -> Any:
@@ -131,17 +131,17 @@ class Instance(Closable):
         tells. Translation, angles and scale are added to it; a quaternion is its right factor:
         neutral * delta, so that the delta turns first.
         """
-        return self._view("joints", width=self.rig.joint_width)
+        return self._view(lib.mien_instance_joints, width=self.rig.joint_width)
 
     @property
     def blend_shapes(self) -> Any:
         """float32 (channels,): one weight per blend shape channel."""
-        return self._view("blend_shapes")
+        return self._view(lib.mien_instance_blend_shapes)
 
     @property
     def animated_maps(self) -> Any:
         """float32 (maps,): one weight per animated map, 0 ... 1."""
-        return self._view("animated_maps")
+        return self._view(lib.mien_instance_animated_maps)
 
     # ---- evaluation ----------------------------------------------------------------------------
 
