@@ -12,8 +12,8 @@
 
 `Dna` -> `Rig` -> `Instance` or `Batch`. README.md has more; errors are in `mien.errors`.
 """
-from ._api import (Direction, DnaField, DnaInfo, DnaLayer, FieldType, FileAccess, Finding, Isa, Kind,
-                   Layer, MlMasks, Output, Preset, RigInfo, RigStatistics, RotationSequence,
+from ._api import (Direction, DnaField, DnaInfo, DnaLayer, FieldType, FileAccess, Finding, Isa,
+                   Kind, Layer, MlMasks, Output, Preset, RigInfo, RigStatistics, RotationSequence,
                    RotationUnit, Severity, Stage, Status, Storage, TranslationUnit,
                    UnknownLayers)
 from ._library import path as library_path, version
@@ -24,4 +24,11 @@ from .errors import (ArgumentError, BusyError, ClosedError, DnaError, Error, Fil
 from .instance import Instance
 from .rig import Rig, isa_available, isa_name
 
-__all__ = [name for name in dir() if not name.startswith("_")]
+__all__ = [
+    "ArgumentError", "Batch", "BusyError", "ClosedError", "Direction", "Dna", "DnaError",
+    "DnaField", "DnaInfo", "DnaLayer", "Error", "FieldType", "FileAccess", "FileError", "Finding",
+    "Instance", "Isa", "isa_available", "isa_name", "Kind", "Layer", "library_path", "MlMasks",
+    "OutOfMemoryError", "OutOfRangeError", "Output", "Preset", "Rig", "RigInfo", "RigStatistics",
+    "RotationSequence", "RotationUnit", "Severity", "Stage", "Status", "Storage", "TranslationUnit",
+    "UnknownLayers", "UnknownNameError", "validate", "version",
+]

@@ -17,7 +17,7 @@ import ctypes
 import os
 from array import array
 from operator import index
-from typing import Any, NoReturn, Optional, Tuple
+from typing import TYPE_CHECKING, Any, Dict, NoReturn, Optional, Tuple
 
 from . import _api
 from ._library import lib
@@ -25,9 +25,18 @@ from ._api import Status
 from .errors import ArgumentError, ClosedError, OutOfRangeError
 
 try:
-    import numpy
-except ImportError:  # arrays are memoryviews then
-    numpy = None  # type: ignore[assignment]
+    import numpy as _numpy
+    numpy: Any = _numpy
+except ImportError:
+    numpy = None  # arrays are memoryviews then
+
+if TYPE_CHECKING:
+    from numpy import float32, uint16
+    from numpy.typing import NDArray
+    Floats = NDArray[float32]
+    Indices = NDArray[uint16]
+else:
+    Floats = Indices = Any
 
 
 class _Address:
@@ -39,6 +48,8 @@ class _Address:
 
 
 class DnaHandle(_Address, _api.MienDna):
+    keeps: Any  # bytes that the library reads from
+
     def __del__(self, destroy: Any = lib.mien_dna_close) -> None:
         if self.value:
             destroy(self)
@@ -57,6 +68,8 @@ class RigHandle(_Address, _api.MienRig):
 
 
 class InstanceHandle(_Address, _api.MienInstance):
+    slab: Any  # where its memory is, for characters of a batch
+
     def __del__(self, destroy: Any = lib.mien_instance_destroy) -> None:
         if self.value:
             destroy(self)
@@ -91,7 +104,7 @@ class Closable(_Address):
         self.close()
 
 
-_CODES = {"f": ctypes.c_float, "H": ctypes.c_uint16}
+_CODES: Dict[str, Any] = {"f": ctypes.c_float, "H": ctypes.c_uint16}
 
 
 def array_over(owner: Any, address: Optional[int], count: int, code: str, writable: bool,

@@ -10,14 +10,13 @@ from typing import Any, Dict, Iterator, Optional, Sequence, Union
 from . import _api
 from ._api import Status
 from ._library import lib
-from ._memory import Closable, assign, empty, numpy
+from ._memory import Closable, Floats, assign, empty, numpy
 from .errors import ArgumentError, BusyError, OutOfMemoryError, OutOfRangeError, fail
 from .instance import Instance
 from .rig import Rig
 
 _ALIGNMENT = 64
-_allocate_type = dict(_api.MienAllocator._fields_)["allocate"]
-_release_type = dict(_api.MienAllocator._fields_)["release"]
+_function: Dict[str, Any] = dict(_api.MienAllocator._fields_)
 
 
 class _Slab:
@@ -44,14 +43,16 @@ class _Slab:
             """All places are released at once, with the slab."""
 
         stride = self.stride
-        self.allocator = _api.MienAllocator(None, _allocate_type(allocate), _release_type(release))
+        self.allocator = _api.MienAllocator(None, _function["allocate"](allocate),
+                                            _function["release"](release))
 
 
 class Batch(Closable):
     """`count` new characters of one rig, evaluated together.
 
         crowd = rig.batch(64)
-        crowd.raw_controls[:, rig.raw_control("CTRL_expressions.jawOpen")] = numpy.linspace(0, 1, 64)
+        jaw = rig.raw_control("CTRL_expressions.jawOpen")
+        crowd.raw_controls[:, jaw] = numpy.linspace(0, 1, 64)
         crowd.evaluate(lod=0)
         crowd.joints                 # float32 (64, joints, 9)
 
@@ -118,7 +119,7 @@ class Batch(Closable):
             for i, view in enumerate(views):
                 if view.count != count or view.data != views[0].data + i * slab.stride:
                     raise RuntimeError("instances of a rig are laid out differently")
-            buffer = (ctypes.c_char * slab.size).from_address(slab.start)
+            buffer: Any = (ctypes.c_char * slab.size).from_address(slab.start)
             buffer.owner = handles
             memory = memoryview(buffer).cast("B")
             rows = numpy.frombuffer(memory if writable else memory.toreadonly(), "B")
@@ -129,7 +130,7 @@ class Batch(Closable):
         return found
 
     @property
-    def gui_controls(self) -> Any:
+    def gui_controls(self) -> Floats:
         """float32 (n, GUI controls), writable."""
         return self._view(lib.mien_instance_gui_controls, True)
 
@@ -138,7 +139,7 @@ class Batch(Closable):
         assign(self.gui_controls, values, "gui_controls")
 
     @property
-    def raw_controls(self) -> Any:
+    def raw_controls(self) -> Floats:
         """float32 (n, raw controls), writable."""
         return self._view(lib.mien_instance_raw_controls, True)
 
@@ -147,7 +148,7 @@ class Batch(Closable):
         assign(self.raw_controls, values, "raw_controls")
 
     @property
-    def ml_masks(self) -> Any:
+    def ml_masks(self) -> Floats:
         """float32 (n, regions), writable."""
         return self._view(lib.mien_instance_ml_masks, True)
 
@@ -156,22 +157,22 @@ class Batch(Closable):
         assign(self.ml_masks, values, "ml_masks")
 
     @property
-    def controls(self) -> Any:
+    def controls(self) -> Floats:
         """float32 (n, controls): raw, PSD, ML, RBF."""
         return self._view(lib.mien_instance_controls)
 
     @property
-    def joints(self) -> Any:
+    def joints(self) -> Floats:
         """float32 (n, joints, 9 or 10): see `Instance.joints`."""
         return self._view(lib.mien_instance_joints, width=self.rig.joint_width)
 
     @property
-    def blend_shapes(self) -> Any:
+    def blend_shapes(self) -> Floats:
         """float32 (n, channels)."""
         return self._view(lib.mien_instance_blend_shapes)
 
     @property
-    def animated_maps(self) -> Any:
+    def animated_maps(self) -> Floats:
         """float32 (n, maps)."""
         return self._view(lib.mien_instance_animated_maps)
 
@@ -208,8 +209,8 @@ class Batch(Closable):
     def _lods_of(self, lod: Any) -> Any:
         """LODs as the library takes them; of one for all, remembered."""
         count, known = len(self._instances), self.rig.lod_count
-        numbers = [index(lod)] * count if hasattr(lod, "__index__") and not hasattr(lod, "__len__") \
-            else [index(one) for one in lod]
+        many = hasattr(lod, "__len__")
+        numbers = [index(one) for one in lod] if many else [index(lod)] * count
         if len(numbers) != count:
             raise ArgumentError(f"{len(numbers)} LODs for {count} characters")
         for number in numbers:

@@ -92,7 +92,7 @@ def timed(work: Callable[[], Any]) -> Callable[[int], float]:
         start = perf_counter_ns()
         for _ in range(turns):
             work()
-        return perf_counter_ns() - start
+        return float(perf_counter_ns() - start)
     return loop
 
 
@@ -105,7 +105,7 @@ def measure(rig: mien.Rig, count: int, lod: int, loops: ctypes.CDLL) -> List[Tup
         for j in range(len(controls)):
             controls[j] = ((i + j * 7) % 11) / 10 if (i * 5 + j) % 4 == 0 else 0.0
         character.evaluate(lod)
-    rig_address, face_address = address(rig._handle.value), address(face._handle.value)
+    rig_address, face_address = address(rig._open().value), address(face._open().value)
     # Enough turns for a few milliseconds, so that clocks do not matter.
     single = timed(lambda: face.evaluate(lod))
     turns = max(1, int(3e6 / (single(10) / 10)))
@@ -120,8 +120,8 @@ def measure(rig: mien.Rig, count: int, lod: int, loops: ctypes.CDLL) -> List[Tup
     def in_c(n: int) -> float:
         if hasattr(lib, "mien_rig_evaluate_batch"):
             evaluate_batch = ctypes.cast(lib.mien_rig_evaluate_batch, address)
-            return loops.many(evaluate_batch, rig_address, pointers, lods, count, n)
-        return loops.each(evaluate, rig_address, pointers, lod, count, n)
+            return float(loops.many(evaluate_batch, rig_address, pointers, lods, count, n))
+        return float(loops.each(evaluate, rig_address, pointers, lod, count, n))
 
     found.append((f"crowd.evaluate(), {count} characters", alternate(in_c, batch, turns, 101)))
     return found
@@ -151,7 +151,8 @@ def main(arguments: Optional[List[str]] = None) -> None:
             rigs = [(f"generated, {preset.name.lower()}", mien.Rig(mien.Dna.generate(preset)))
                     for preset in (mien.Preset.TINY, mien.Preset.LARGE)]
         for title, rig in rigs:
-            show(f"{title} ({mien.isa_name(rig.info.isa)})", measure(rig, args.count, args.lod, loops))
+            show(f"{title} ({mien.isa_name(rig.info.isa)})",
+                 measure(rig, args.count, args.lod, loops))
 
 
 if __name__ == "__main__":

@@ -38,7 +38,7 @@ class Dna(Closable):
     """
 
     def __init__(self, handle: DnaHandle, keeps: Any = None) -> None:
-        handle.keeps = keeps  # bytes that the handle reads from
+        handle.keeps = keeps
         self._handle: Optional[DnaHandle] = handle
 
     @classmethod
@@ -211,8 +211,8 @@ class Dna(Closable):
         if self.closed:
             return "<mien.Dna, closed>"
         info = self.info
-        return (f"<mien.Dna {info.generation}.{info.version}: {info.raw_control_count} raw controls,"
-                f" {info.joint_count} joints, {info.lod_count} LODs>")
+        return (f"<mien.Dna {info.generation}.{info.version}: "
+                f"{info.raw_control_count} raw controls, {info.joint_count} joints, {info.lod_count} LODs>")
 
 
 def validate(file: Any) -> List[Finding]:

@@ -6,7 +6,7 @@ for such a thing: an index past the end is an IndexError, a file that cannot be 
 """
 from __future__ import annotations
 
-from typing import NoReturn, Optional, Type
+from typing import Any, NoReturn, Optional, Tuple, Type
 
 from . import _api
 from ._api import Status
@@ -31,7 +31,7 @@ class Error(Exception):
     def __str__(self) -> str:
         return self.message
 
-    def __reduce__(self) -> tuple:
+    def __reduce__(self) -> Tuple[Any, ...]:
         return type(self), (self.message, self.status, self.byte_offset)
 
 

@@ -10,7 +10,7 @@ from typing import Any, Callable, Dict, NoReturn, Optional
 from . import _api
 from ._api import MienError, Stage, Status
 from ._library import lib
-from ._memory import Closable, InstanceHandle, array_over, assign, uint32
+from ._memory import Closable, Floats, InstanceHandle, array_over, assign, uint32
 from .errors import BusyError, OutOfRangeError, fail
 from .rig import Rig
 
@@ -35,7 +35,7 @@ class Instance(Closable):
 
     def __init__(self, rig: Rig, _slab: Any = None, _lock: Any = None) -> None:
         handle, error = InstanceHandle(), MienError()
-        handle.slab = _slab  # where the memory is, for characters of a batch
+        handle.slab = _slab
         allocator = _byref(_slab.allocator) if _slab is not None else None
         status = lib.mien_instance_create(rig._open(), allocator, _byref(handle), _byref(error))
         if status:
@@ -68,8 +68,8 @@ class Instance(Closable):
         return found
 
     @property
-    def gui_controls(self) -> Any:
-        """float32 (GUI controls,), writable: what animators move. Only `map_gui_to_raw` reads it."""
+    def gui_controls(self) -> Floats:
+        """float32 (GUI controls,), writable: what animators move; read by `map_gui_to_raw`."""
         return self._view(lib.mien_instance_gui_controls, True)
 
     @gui_controls.setter
@@ -77,7 +77,7 @@ class Instance(Closable):
         assign(self.gui_controls, values, "gui_controls")
 
     @property
-    def raw_controls(self) -> Any:
+    def raw_controls(self) -> Floats:
         """float32 (raw controls,), writable: usually in 0 ... 1, but not clamped."""
         return self._view(lib.mien_instance_raw_controls, True)
 
@@ -86,8 +86,8 @@ class Instance(Closable):
         assign(self.raw_controls, values, "raw_controls")
 
     @property
-    def ml_masks(self) -> Any:
-        """float32 (regions,), writable: 0 ... 1 switches or blends learned behavior, see `MlMasks`."""
+    def ml_masks(self) -> Floats:
+        """float32 (regions,), writable: 0 ... 1 blends or switches what was learned: `MlMasks`."""
         return self._view(lib.mien_instance_ml_masks, True)
 
     @ml_masks.setter
@@ -104,27 +104,27 @@ class Instance(Closable):
     # ---- outputs -------------------------------------------------------------------------------
 
     @property
-    def controls(self) -> Any:
+    def controls(self) -> Floats:
         """float32 (controls,): the whole control row: raw, PSD, ML, RBF."""
         return self._view(lib.mien_instance_controls)
 
     @property
-    def psd_controls(self) -> Any:
+    def psd_controls(self) -> Floats:
         """float32 (correctives,)."""
         return self._view(lib.mien_instance_psd_controls)
 
     @property
-    def ml_controls(self) -> Any:
+    def ml_controls(self) -> Floats:
         """float32 (ML controls,): what the neural networks gave."""
         return self._view(lib.mien_instance_ml_controls)
 
     @property
-    def rbf_controls(self) -> Any:
+    def rbf_controls(self) -> Floats:
         """float32 (RBF controls,): weights of the poses of the RBF solvers."""
         return self._view(lib.mien_instance_rbf_controls)
 
     @property
-    def joints(self) -> Any:
+    def joints(self) -> Floats:
         """float32 (joints, 9): tx ty tz rx ry rz sx sy sz, or (joints, 10) with qx qy qz qw.
 
         Changes of the neutral pose (`Rig.neutral_joint_values`), in the units that `Rig.info`
@@ -134,12 +134,12 @@ class Instance(Closable):
         return self._view(lib.mien_instance_joints, width=self.rig.joint_width)
 
     @property
-    def blend_shapes(self) -> Any:
+    def blend_shapes(self) -> Floats:
         """float32 (channels,): one weight per blend shape channel."""
         return self._view(lib.mien_instance_blend_shapes)
 
     @property
-    def animated_maps(self) -> Any:
+    def animated_maps(self) -> Floats:
         """float32 (maps,): one weight per animated map, 0 ... 1."""
         return self._view(lib.mien_instance_animated_maps)
 

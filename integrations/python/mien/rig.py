@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional
 from . import _api
 from ._api import Isa, Kind, MienError, MlMasks, Output, RigInfo, RigStatistics, Status, Storage
 from ._library import lib
-from ._memory import Closable, RigHandle, array_over, uint32
+from ._memory import Closable, Floats, Indices, RigHandle, array_over, uint32
 from .dna import Dna
 from .errors import UnknownNameError, fail
 
@@ -26,7 +26,7 @@ def isa_available(isa: int) -> bool:
 
 def isa_name(isa: int) -> str:
     """"avx2" for Isa.AVX2."""
-    return lib.mien_isa_name(uint32(isa, "isa")).decode()
+    return str(lib.mien_isa_name(uint32(isa, "isa")).decode())
 
 
 class Rig(Closable):
@@ -102,7 +102,7 @@ class Rig(Closable):
         return list(self._names[kind])
 
     def find(self, kind: int, name: str) -> int:
-        """Index of the thing of a `Kind` with exactly this name; UnknownNameError if there is none."""
+        """Index of the thing of a `Kind` with exactly this name, or UnknownNameError."""
         encoded = name.encode("utf-8", "surrogateescape")
         found = ctypes.c_uint32()
         status = lib.mien_rig_find(self._open(), uint32(kind, "kind"), encoded, len(encoded),
@@ -130,44 +130,44 @@ class Rig(Closable):
             fail(status, what)
         return array_over(handle, view.data, view.count, code, False)
 
-    def lod_indices(self, kind: int, lod: int) -> Any:
+    def lod_indices(self, kind: int, lod: int) -> Indices:
         """uint16 (n,): which joints, channels, maps, meshes or RBF solvers exist at a LOD."""
         return self._view(lib.mien_rig_lod_indices, _api.MienIndexView(), "H",
                           f"kind {kind} at LOD {lod}", uint32(kind, "kind"), uint32(lod, "lod"))
 
-    def variable_joint_values(self, lod: int) -> Any:
+    def variable_joint_values(self, lod: int) -> Indices:
         """uint16 (n,): indices into the flat joint outputs that evaluation may change at a LOD."""
         return self._view(lib.mien_rig_variable_joint_values, _api.MienIndexView(), "H",
                           f"LOD {lod}", uint32(lod, "lod"))
 
     @property
-    def joint_parents(self) -> Any:
+    def joint_parents(self) -> Indices:
         """uint16 (joints,): parent of each joint; a root is its own parent."""
         return self._view(lib.mien_rig_joint_parents, _api.MienIndexView(), "H", "joint parents")
 
     @property
-    def neutral_joint_values(self) -> Any:
+    def neutral_joint_values(self) -> Floats:
         """float32 (joints, 9 or 10): neutral pose relative to the parent, in the layout and units
         of `Instance.joints`; scale is 1."""
         values = self._view(lib.mien_rig_neutral_joint_values, _api.MienFloatView(), "f",
                             "neutral pose")
         return values.reshape(-1, self.joint_width) if hasattr(values, "reshape") else values
 
-    def psd_inputs(self, psd: int) -> Any:
+    def psd_inputs(self, psd: int) -> Indices:
         """uint16 (n,): the controls whose product drives a corrective, as indices into the whole
         control row."""
         return self._view(lib.mien_rig_psd_inputs, _api.MienIndexView(), "H", f"corrective {psd}",
                           uint32(psd, "psd"))
 
     @property
-    def initial_raw_controls(self) -> Any:
+    def initial_raw_controls(self) -> Floats:
         """float32 (raw controls,): what each starts with: 0, or 1 for the w of a quaternion."""
         return self._view(lib.mien_rig_initial_raw_controls, _api.MienFloatView(), "f",
                           "initial controls")
 
     @property
     def joint_width(self) -> int:
-        """Values per joint: 9 (tx ty tz rx ry rz sx sy sz), or 10 (tx ty tz qx qy qz qw sx sy sz)."""
+        """Values per joint: 9, or 10 with quaternions; see `Instance.joints`."""
         return 10 if self.info.rotation == Output.QUATERNION else 9
 
     def statistics(self, lod: int) -> RigStatistics:
@@ -182,7 +182,8 @@ class Rig(Closable):
         if self.closed:
             return "<mien.Rig, closed>"
         return (f"<mien.Rig: {self.count(Kind.RAW_CONTROL)} raw controls, "
-                f"{self.count(Kind.JOINT)} joints, {self.lod_count} LODs, {isa_name(self.info.isa)}>")
+                f"{self.count(Kind.JOINT)} joints, {self.lod_count} LODs, "
+                f"{isa_name(self.info.isa)}>")
 
 
 def _kind_name(kind: int) -> str:

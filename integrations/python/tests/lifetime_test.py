@@ -32,7 +32,8 @@ class Closing(unittest.TestCase):
                     lambda: face.evaluate_joint_group(0), lambda: face.evaluate_rbf_solver(0),
                     lambda: face.evaluate_twist_swing(0), lambda: face.reset(),
                     lambda: face.raw_controls, lambda: face.joints, lambda: face.ml_masks,
-                    lambda: face[name], lambda: face.__setitem__(name, 1), lambda: face.__enter__()):
+                    lambda: face[name], lambda: face.__setitem__(name, 1),
+                    lambda: face.__enter__()):
             with self.assertRaises(mien.ClosedError):
                 use()
         with self.assertRaises(mien.ClosedError):
@@ -295,11 +296,15 @@ class Threads(unittest.TestCase):
 
     def test_eight_threads_on_one_dna(self):
         dna = mien.Dna.generate(mien.Preset.SMALL)
-        wanted = dna.read("bhvr.joints").keys(), dna.read("defn.jointNames")
+
+        def read():
+            return list(dna.read("bhvr.joints")), dna.read("defn.jointNames")
+
+        wanted = read()
 
         def work(i):
             for _ in range(20):
-                self.assertEqual((dna.read("bhvr.joints").keys(), dna.read("defn.jointNames")), wanted)
+                self.assertEqual(read(), wanted)
                 mien.Rig(dna).instance().evaluate()
 
         self.run_all(8, work)

@@ -219,7 +219,7 @@ class Files(unittest.TestCase):
 
     def test_damaged_files_tell_where(self):
         for data, status in ((self.data[:100], mien.Status.DNA_TRUNCATED),
-                             (b"no DNA at all, but long enough to be one", mien.Status.DNA_SIGNATURE),
+                             (b"no DNA, but long enough to be one", mien.Status.DNA_SIGNATURE),
                              (b"", mien.Status.DNA_SIGNATURE)):
             with self.assertRaises(mien.DnaError) as caught:
                 mien.Dna.from_bytes(data)
