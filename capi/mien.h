@@ -438,8 +438,8 @@ typedef struct MienFinding {
 } MienFinding;
 
 /* Checks a whole file and lists every finding: at most 32 for one field (of cross references
- * the last one says how many more there are), and 1000 in all. Returns MIEN_OK if the file could be examined, whatever was
- * found. `allocator` may be NULL. */
+ * the last one says how many more there are), and 1000 in all. Returns MIEN_OK if the file
+ * could be examined, whatever was found. The file is read, not mapped, so it may change meanwhile. */
 MIEN_API MienStatus mien_report_create_file(const char* path, const MienAllocator* allocator,
                                             MienReport** out_report, MienError* error);
 MIEN_API MienStatus mien_report_create_memory(const void* bytes, size_t size,

@@ -125,9 +125,10 @@ MienStatus mien_report_create_file(const char* path, const MienAllocator* alloca
   if (read_allocator(allocator, memory) != MIEN_OK) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
   }
+  // All of it is looked at anyway, and a file in memory cannot change under the checks.
   MappedFile file;
   Error detail;
-  if (open_file(path, FileAccess::kMap, memory, file, detail) != Status::kOk) {
+  if (open_file(path, FileAccess::kRead, memory, file, detail) != Status::kOk) {
     return give_error(detail, error);
   }
   const MienStatus status = examine(file.bytes, file.size, allocator, out_report, error);

@@ -57,3 +57,55 @@ foreach(name IN LISTS python_tests)
   set_tests_properties(python_${name}_test PROPERTIES
     LABELS python ENVIRONMENT "${python_environment}" TIMEOUT 600)
 endforeach()
+
+# ---- C++ --------------------------------------------------------------------------------------------
+
+# mien.hpp promises to compile in four ways, without a warning.
+set(strict_cxx -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
+  -Wnon-virtual-dtor -Wcast-qual -Werror)
+foreach(standard 17 20)
+  foreach(way plain exceptions)
+    set(name cpp_${way}_${standard}_test)
+    add_executable(${name} ${integrations}/cpp/mien_test.cpp)
+    set_target_properties(${name} PROPERTIES CXX_STANDARD ${standard})
+    target_compile_options(${name} PRIVATE ${strict_cxx})
+    target_include_directories(${name} PRIVATE ${integrations}/cpp)
+    target_link_libraries(${name} PRIVATE mien)
+    if(way STREQUAL exceptions)
+      target_compile_definitions(${name} PRIVATE MIEN_EXCEPTIONS)
+    else()
+      target_compile_options(${name} PRIVATE -fno-exceptions -fno-rtti)
+    endif()
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES LABELS abi)
+  endforeach()
+endforeach()
+
+add_executable(example_cpp ${integrations}/cpp/example.cpp)
+target_compile_options(example_cpp PRIVATE ${strict_cxx})
+target_include_directories(example_cpp PRIVATE ${integrations}/cpp)
+target_link_libraries(example_cpp PRIVATE mien)
+
+# ---- the examples -----------------------------------------------------------------------------------
+
+if(NOT MIEN_SANITIZE AND NOT CMAKE_CROSSCOMPILING)
+  find_program(MIEN_CARGO cargo)
+  add_test(NAME examples_agree
+    COMMAND Python3::Interpreter ${integrations}/examples_agree.py --python ${MIEN_PYTHON}
+      --cargo "$<$<BOOL:${MIEN_CARGO}>:${MIEN_CARGO}>"
+      $<TARGET_FILE:example_c> $<TARGET_FILE:example_cpp>)
+  set_tests_properties(examples_agree PROPERTIES LABELS abi TIMEOUT 600
+    ENVIRONMENT "${python_environment};MIEN_LIB_DIR=$<TARGET_FILE_DIR:mien>;CARGO_TARGET_DIR=${PROJECT_BINARY_DIR}/rust/target/shared")
+endif()
+
+# ---- types of the Python package --------------------------------------------------------------------
+
+find_program(MIEN_MYPY mypy)
+if(MIEN_MYPY)
+  add_test(NAME python_types
+    COMMAND ${MIEN_MYPY} --config-file ${integrations}/python/pyproject.toml
+      --cache-dir ${PROJECT_BINARY_DIR}/mypy ${integrations}/python/mien)
+  set_tests_properties(python_types PROPERTIES LABELS python)
+else()
+  message(STATUS "NOT TESTED: types of the Python package; there is no mypy")
+endif()

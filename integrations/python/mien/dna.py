@@ -43,13 +43,13 @@ class Dna(Closable):
 
     @classmethod
     def open(cls, path: Any, layers: int = Layer.ALL, lods: Optional[Iterable[int]] = None,
-             unknown_layers: int = UnknownLayers.KEEP, access: int = FileAccess.MAP) -> Dna:
+             unknown_layers: int = UnknownLayers.KEEP, access: int = FileAccess.READ) -> Dna:
         """Opens a file of versions 2.1 to 2.8 and checks everything that is loaded.
 
         layers: which `Layer`s to load, combined with |; what is not chosen is never touched
         lods:   which LODs to keep, by number; they are numbered anew from 0. None keeps all
-        access: `FileAccess.READ` for files that others may truncate or rewrite while it is open;
-                a mapped file must not be
+        access: `FileAccess.MAP` spares reading what is not chosen; but a process crashes whose
+                mapped file somebody truncates, so the default reads it all
 
         Raises FileError, or DnaError with the byte offset of what is wrong.
         """

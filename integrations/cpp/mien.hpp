@@ -1,0 +1,484 @@
+// SPDX-License-Identifier: MIT
+//
+// Mien for C++17 and later: owners, spans and results over mien.h, in one header. Nothing is added
+// to what the C interface does, and nothing hidden: get() gives the handle for all that is not
+// here.
+//
+//   Owners    Dna, Report, Rig, Instance release what they hold; they can be moved, not copied. An
+//             empty one (default, moved from) may be used like any other: calls give
+//             MIEN_ERROR_NULL_ARGUMENT, spans are empty.
+//   Results   What can fail returns a Result: test it, then take *result; or take value(). Errors
+//             carry status, byte offset and message.
+//   Spans     std::span where there is one, else one of its own with the same core. They point into
+//             the object they came from and live as long as it does.
+//   Exceptions None, and the header compiles with -fno-exceptions. With MIEN_EXCEPTIONS defined
+//   before
+//             it is included, value() of a failed Result throws mien::Exception; without, it
+//             aborts.
+//
+// Units, threads and shapes are those that mien.h tells.
+#pragma once
+
+#include <mien.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#if __has_include(<version>)
+#include <version>
+#endif
+#ifdef __cpp_lib_span
+#include <span>
+#endif
+#ifdef MIEN_EXCEPTIONS
+#include <exception>
+#endif
+
+namespace mien {
+
+// ---- Spans and descriptions
+// ------------------------------------------------------------------------
+
+#ifdef __cpp_lib_span
+template <class T>
+using Span = std::span<T>;
+#else
+template <class T>
+class Span {
+ public:
+  using value_type = std::remove_cv_t<T>;
+
+  constexpr Span() = default;
+  constexpr Span(T* data, size_t size) : data_(data), size_(size) {}
+  /// Arrays, vectors and other spans.
+  template <class Range, class = decltype(static_cast<T*>(std::declval<Range&>().data()))>
+  constexpr Span(Range&& range)  // NOLINT: implicit, as std::span is
+      : data_(range.data()), size_(range.size()) {}
+  template <size_t Count>
+  constexpr Span(T (&array)[Count]) : data_(array), size_(Count) {}  // NOLINT: as above
+
+  constexpr T* data() const { return data_; }
+  constexpr size_t size() const { return size_; }
+  constexpr bool empty() const { return size_ == 0; }
+  constexpr T& operator[](size_t i) const { return data_[i]; }
+  constexpr T* begin() const { return data_; }
+  constexpr T* end() const { return data_ + size_; }
+  constexpr Span subspan(size_t first, size_t count) const { return {data_ + first, count}; }
+
+ private:
+  T* data_ = nullptr;
+  size_t size_ = 0;
+};
+#endif
+
+/// A struct of mien.h with all fields zero and its size in place.
+template <class Struct>
+struct Sized : Struct {
+  Sized() : Struct() { this->struct_size = sizeof(Struct); }
+};
+using DnaDesc = Sized<MienDnaDesc>;
+using WriteDesc = Sized<MienWriteDesc>;
+using GenerateDesc = Sized<MienGenerateDesc>;
+using RigDesc = Sized<MienRigDesc>;
+
+inline std::string_view view(const MienStringView& text) { return {text.data, text.count}; }
+inline Span<const float> view(const MienFloatView& floats) { return {floats.data, floats.count}; }
+inline Span<float> view(const MienMutableFloatView& floats) { return {floats.data, floats.count}; }
+inline Span<const uint16_t> view(const MienIndexView& list) { return {list.data, list.count}; }
+
+inline uint32_t version() { return mien_version(); }
+inline bool is_available(MienIsa isa) { return mien_isa_available(isa) != 0; }
+inline const char* name_of(MienIsa isa) { return mien_isa_name(isa); }
+
+// ---- Errors and results
+// ----------------------------------------------------------------------------
+
+/// Why a call failed.
+class Error {
+ public:
+  Error() = default;
+  explicit Error(MienStatus status) : status_(status) {}
+  Error(MienStatus status, const MienError& detail) : status_(status) {
+    if (detail.status == MIEN_OK) return;
+    byte_offset_ = detail.byte_offset;
+    std::memcpy(message_, detail.message, sizeof(message_));
+  }
+
+  MienStatus status() const { return status_; }
+  /// "DNA_TRUNCATED"
+  const char* name() const { return mien_status_name(status_); }
+  /// What, where and what to do; the name of the status if the call has no more to say.
+  const char* message() const { return message_[0] ? message_ : name(); }
+  /// In the file; MIEN_NO_OFFSET if there is no such place.
+  uint64_t byte_offset() const { return byte_offset_; }
+
+ private:
+  MienStatus status_ = MIEN_OK;
+  uint64_t byte_offset_ = MIEN_NO_OFFSET;
+  char message_[sizeof(MienError::message)] = {};
+};
+
+#ifdef MIEN_EXCEPTIONS
+class Exception : public std::exception {
+ public:
+  explicit Exception(const Error& error) : error_(error) {}
+  const char* what() const noexcept override { return error_.message(); }
+  const Error& error() const noexcept { return error_; }
+
+ private:
+  Error error_;
+};
+[[noreturn]] inline void fail(const Error& error) { throw Exception(error); }
+#else
+[[noreturn]] inline void fail(const Error&) { std::abort(); }
+#endif
+
+/// What a call without a result returns that is made every frame: true if it went well.
+class [[nodiscard]] Status {
+ public:
+  Status(MienStatus status) : status_(status) {}  // NOLINT: it is one
+  explicit operator bool() const { return status_ == MIEN_OK; }
+  operator MienStatus() const = delete;  // it would be false for success
+  MienStatus status() const { return status_; }
+  const char* name() const { return mien_status_name(status_); }
+  Error error() const { return Error(status_); }
+  void value() const {
+    if (status_ != MIEN_OK) fail(error());
+  }
+
+ private:
+  MienStatus status_;
+};
+
+/// A value, or why there is none.
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T&& value) : value_(std::move(value)) {}  // NOLINT: a value is a result
+  Result(const Error& error) : error_(error) {}    // NOLINT: so is an error
+  Result(MienStatus status, T&& value, const MienError* detail = nullptr)
+      : value_(std::move(value)), error_(status == MIEN_OK ? Error()
+                                         : detail          ? Error(status, *detail)
+                                                           : Error(status)) {}
+
+  bool has_value() const { return error_.status() == MIEN_OK; }
+  explicit operator bool() const { return has_value(); }
+  MienStatus status() const { return error_.status(); }
+  const Error& error() const { return error_; }
+
+  /// The value; of a failure, one that is empty or zero.
+  T& operator*() & { return value_; }
+  const T& operator*() const& { return value_; }
+  T&& operator*() && { return std::move(value_); }
+  T* operator->() { return &value_; }
+  const T* operator->() const { return &value_; }
+
+  /// The value; throws or aborts if there is none.
+  const T& value() const& {
+    if (!has_value()) fail(error_);
+    return value_;
+  }
+  T value() && {
+    if (!has_value()) fail(error_);
+    return std::move(value_);
+  }
+  T value_or(T other) && { return has_value() ? std::move(value_) : std::move(other); }
+
+ private:
+  T value_{};
+  Error error_;
+};
+
+template <>
+class [[nodiscard]] Result<void> {
+ public:
+  Result(MienStatus status, const MienError& detail)
+      : error_(status == MIEN_OK ? Error() : Error(status, detail)) {}
+  explicit operator bool() const { return error_.status() == MIEN_OK; }
+  MienStatus status() const { return error_.status(); }
+  const Error& error() const { return error_; }
+  void value() const {
+    if (!*this) fail(error_);
+  }
+
+ private:
+  Error error_;
+};
+
+// ---- Owners
+// ----------------------------------------------------------------------------------------
+
+/// A handle and the duty to release it.
+template <class Handle, void (*release_handle)(Handle*)>
+class Owner {
+ public:
+  Owner() = default;
+  explicit Owner(Handle* handle) : handle_(handle) {}
+  Owner(Owner&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
+  Owner& operator=(Owner&& other) noexcept {
+    if (this != &other) reset(std::exchange(other.handle_, nullptr));
+    return *this;
+  }
+  ~Owner() { release_handle(handle_); }
+
+  Handle* get() const { return handle_; }
+  explicit operator bool() const { return handle_ != nullptr; }
+  /// Gives up the duty.
+  Handle* release() { return std::exchange(handle_, nullptr); }
+  void reset(Handle* handle = nullptr) { release_handle(std::exchange(handle_, handle)); }
+
+  using handle_type = Handle;
+
+ private:
+  Handle* handle_ = nullptr;
+};
+
+/// Calls `create(&handle, &error)` and wraps what it gives.
+template <class Object, class Create>
+Result<Object> make(Create&& create) {
+  typename Object::handle_type* handle = nullptr;
+  Sized<MienError> error;
+  const MienStatus status = create(&handle, &error);
+  return {status, Object(handle), &error};
+}
+
+/// A checked, read-only view of a DNA file. May be used by several threads at once.
+class Dna : public Owner<MienDna, mien_dna_close> {
+ public:
+  using Owner::Owner;
+
+  static Result<Dna> open(const char* path, const DnaDesc& desc = {}) {
+    return make<Dna>([&](MienDna** out, MienError* error) {
+      return mien_dna_open_file(path, &desc, out, error);
+    });
+  }
+  /// `bytes` have to outlive the Dna, unchanged.
+  static Result<Dna> open(const void* bytes, size_t size, const DnaDesc& desc = {}) {
+    return make<Dna>([&](MienDna** out, MienError* error) {
+      return mien_dna_open_memory(bytes, size, &desc, out, error);
+    });
+  }
+  static Result<Dna> generate(const GenerateDesc& desc = {}) {
+    return make<Dna>(
+        [&](MienDna** out, MienError* error) { return mien_dna_generate(&desc, out, error); });
+  }
+
+  Result<MienDnaInfo> info() const {
+    Sized<MienDnaInfo> info;
+    return {mien_dna_info(get(), &info), std::move(info)};
+  }
+  Result<MienDnaLayer> layer(uint32_t index) const {
+    Sized<MienDnaLayer> layer;
+    return {mien_dna_layer(get(), index, &layer), std::move(layer)};
+  }
+
+  /// What is at a path such as "bhvr.joints.jointGroups[7].values".
+  Result<MienDnaField> field(const char* path) const {
+    Sized<MienDnaField> field;
+    Sized<MienError> error;
+    return {mien_dna_field(get(), path, &field, &error), std::move(field), &error};
+  }
+  Result<std::string_view> field_name(const char* path, uint32_t index) const {
+    MienStringView name;
+    Sized<MienError> error;
+    const MienStatus status = mien_dna_field_name(get(), path, index, &name, &error);
+    return {status, view(name), &error};
+  }
+  Result<std::string_view> string(const char* path) const {
+    MienStringView text;
+    Sized<MienError> error;
+    const MienStatus status = mien_dna_read_string(get(), path, &text, &error);
+    return {status, view(text), &error};
+  }
+  /// Fills `out` with the elements from `first` on.
+  Result<void> read(const char* path, uint64_t first, Span<float> out) const {
+    Sized<MienError> error;
+    return {mien_dna_read_floats(get(), path, first, out.size(), out.data(), &error), error};
+  }
+  Result<void> read(const char* path, uint64_t first, Span<int64_t> out) const {
+    Sized<MienError> error;
+    return {mien_dna_read_integers(get(), path, first, out.size(), out.data(), &error), error};
+  }
+
+  Result<void> write(const char* path, const WriteDesc& desc = {}) const {
+    Sized<MienError> error;
+    return {mien_dna_write_file(get(), path, &desc, &error), error};
+  }
+  /// Writes to memory and tells how many bytes that took; with an empty buffer, would take.
+  Result<size_t> write(Span<unsigned char> buffer, const WriteDesc& desc = {}) const {
+    size_t size = 0;
+    Sized<MienError> error;
+    void* const data = buffer.empty() ? nullptr : buffer.data();
+    const MienStatus status =
+        mien_dna_write_memory(get(), &desc, data, buffer.size(), &size, &error);
+    return {status, std::move(size), &error};
+  }
+};
+
+/// All findings of a file.
+class Report : public Owner<MienReport, mien_report_destroy> {
+ public:
+  using Owner::Owner;
+
+  static Result<Report> of(const char* path, const MienAllocator* allocator = nullptr) {
+    return make<Report>([&](MienReport** out, MienError* error) {
+      return mien_report_create_file(path, allocator, out, error);
+    });
+  }
+  static Result<Report> of(const void* bytes, size_t size,
+                           const MienAllocator* allocator = nullptr) {
+    return make<Report>([&](MienReport** out, MienError* error) {
+      return mien_report_create_memory(bytes, size, allocator, out, error);
+    });
+  }
+
+  uint32_t error_count() const { return counts().first; }
+  uint32_t warning_count() const { return counts().second; }
+  /// In the order of the checks: 0 ... errors + warnings - 1.
+  Result<MienFinding> finding(uint32_t index) const {
+    Sized<MienFinding> finding;
+    return {mien_report_finding(get(), index, &finding), std::move(finding)};
+  }
+
+ private:
+  std::pair<uint32_t, uint32_t> counts() const {
+    std::pair<uint32_t, uint32_t> found(0, 0);
+    if (mien_report_counts(get(), &found.first, &found.second) != MIEN_OK) return {0, 0};
+    return found;
+  }
+};
+
+/// One character. For one thread at a time.
+class Instance : public Owner<MienInstance, mien_instance_destroy> {
+ public:
+  using Owner::Owner;
+
+  /// Inputs, to be written in place. The spans stay the same until the instance goes.
+  Span<float> gui_controls() { return span(mien_instance_gui_controls); }
+  Span<float> raw_controls() { return span(mien_instance_raw_controls); }
+  Span<float> ml_masks() { return span(mien_instance_ml_masks); }
+
+  /// Outputs of the last evaluation, as mien.h describes them. The spans stay the same.
+  Span<const float> controls() const { return span(mien_instance_controls); }
+  Span<const float> psd_controls() const { return span(mien_instance_psd_controls); }
+  Span<const float> ml_controls() const { return span(mien_instance_ml_controls); }
+  Span<const float> rbf_controls() const { return span(mien_instance_rbf_controls); }
+  Span<const float> joints() const { return span(mien_instance_joints); }
+  Span<const float> blend_shapes() const { return span(mien_instance_blend_shapes); }
+  Span<const float> animated_maps() const { return span(mien_instance_animated_maps); }
+
+  Status reset_values() { return mien_instance_reset(get()); }
+
+ private:
+  Span<float> span(MienStatus (*call)(MienInstance*, MienMutableFloatView*)) {
+    MienMutableFloatView found = {nullptr, 0};
+    return call(get(), &found) == MIEN_OK ? view(found) : Span<float>();
+  }
+  Span<const float> span(MienStatus (*call)(const MienInstance*, MienFloatView*)) const {
+    MienFloatView found = {nullptr, 0};
+    return call(get(), &found) == MIEN_OK ? view(found) : Span<const float>();
+  }
+};
+
+/// A DNA packed for evaluation. Immutable: may be used by several threads at once.
+class Rig : public Owner<MienRig, mien_rig_destroy> {
+ public:
+  using Owner::Owner;
+
+  /// The Dna may be closed afterwards.
+  static Result<Rig> create(const Dna& dna, const RigDesc& desc = {}) {
+    return make<Rig>([&](MienRig** out, MienError* error) {
+      return mien_rig_create(dna.get(), &desc, out, error);
+    });
+  }
+
+  /// A character in its initial state. May outlive the rig, but is evaluated by it only.
+  Result<Instance> instance(const MienAllocator* allocator = nullptr) const {
+    return make<Instance>([&](MienInstance** out, MienError* error) {
+      return mien_instance_create(get(), allocator, out, error);
+    });
+  }
+
+  Result<MienRigInfo> info() const {
+    Sized<MienRigInfo> info;
+    return {mien_rig_info(get(), &info), std::move(info)};
+  }
+  Result<MienRigStatistics> statistics(uint32_t lod) const {
+    Sized<MienRigStatistics> statistics;
+    return {mien_rig_statistics(get(), lod, &statistics), std::move(statistics)};
+  }
+
+  /// How many things of a kind there are; 0 of an empty rig.
+  uint32_t count(MienKind kind) const {
+    uint32_t count = 0;
+    return mien_rig_count(get(), kind, &count) == MIEN_OK ? count : 0;
+  }
+  Result<std::string_view> name(MienKind kind, uint32_t index) const {
+    MienStringView name;
+    const MienStatus status = mien_rig_name(get(), kind, index, &name);
+    return {status, view(name)};
+  }
+  Result<uint32_t> find(MienKind kind, std::string_view name) const {
+    uint32_t index = 0;
+    const MienStatus status = mien_rig_find(get(), kind, name.data(), name.size(), &index);
+    return {status, std::move(index)};
+  }
+
+  Result<Span<const uint16_t>> lod_indices(MienKind kind, uint32_t lod) const {
+    MienIndexView found;
+    const MienStatus status = mien_rig_lod_indices(get(), kind, lod, &found);
+    return {status, view(found)};
+  }
+  Result<Span<const uint16_t>> variable_joint_values(uint32_t lod) const {
+    MienIndexView found;
+    const MienStatus status = mien_rig_variable_joint_values(get(), lod, &found);
+    return {status, view(found)};
+  }
+  Result<Span<const uint16_t>> psd_inputs(uint32_t psd) const {
+    MienIndexView found;
+    const MienStatus status = mien_rig_psd_inputs(get(), psd, &found);
+    return {status, view(found)};
+  }
+  Span<const uint16_t> joint_parents() const {
+    MienIndexView found;
+    return mien_rig_joint_parents(get(), &found) == MIEN_OK ? view(found) : view(MienIndexView{});
+  }
+  Span<const float> neutral_joint_values() const {
+    MienFloatView found;
+    const MienStatus status = mien_rig_neutral_joint_values(get(), &found);
+    return status == MIEN_OK ? view(found) : view(MienFloatView{});
+  }
+  Span<const float> initial_raw_controls() const {
+    MienFloatView found;
+    const MienStatus status = mien_rig_initial_raw_controls(get(), &found);
+    return status == MIEN_OK ? view(found) : view(MienFloatView{});
+  }
+
+  Status map_gui_to_raw(Instance& instance) const {
+    return mien_rig_map_gui_to_raw(get(), instance.get());
+  }
+  Status map_raw_to_gui(Instance& instance) const {
+    return mien_rig_map_raw_to_gui(get(), instance.get());
+  }
+  Status evaluate(Instance& instance, uint32_t lod = 0) const {
+    return mien_rig_evaluate(get(), instance.get(), lod);
+  }
+  /// `stages`: MIEN_STAGE_..., combined with |.
+  Status evaluate_stages(Instance& instance, uint32_t lod, uint32_t stages) const {
+    return mien_rig_evaluate_stages(get(), instance.get(), lod, stages);
+  }
+  Status evaluate_joint_group(Instance& instance, uint32_t lod, uint32_t group) const {
+    return mien_rig_evaluate_joint_group(get(), instance.get(), lod, group);
+  }
+  Status evaluate_rbf_solver(Instance& instance, uint32_t lod, uint32_t solver) const {
+    return mien_rig_evaluate_rbf_solver(get(), instance.get(), lod, solver);
+  }
+  Status evaluate_twist_swing(Instance& instance, uint32_t lod, uint32_t setup) const {
+    return mien_rig_evaluate_twist_swing(get(), instance.get(), lod, setup);
+  }
+};
+
+}  // namespace mien

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+// mien.hpp as users build it: without exceptions and RTTI, with them, as C++17 and as C++20.
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <mien.hpp>
+#include <string>
+#include <vector>
+
+namespace {
+
+void check(bool condition, const char* text, int line) {
+  if (condition) return;
+  std::fprintf(stderr, "mien_test.cpp:%d: failed: %s\n", line, text);
+  std::exit(1);
+}
+#define CHECK(...) check(static_cast<bool>(__VA_ARGS__), #__VA_ARGS__, __LINE__)
+
+mien::Dna generated(MienPreset preset = MIEN_PRESET_SMALL) {
+  mien::GenerateDesc desc;
+  desc.preset = preset;
+  return mien::Dna::generate(desc).value();
+}
+
+void test_life() {
+  mien::Rig rig = mien::Rig::create(generated()).value();
+  mien::Instance face = rig.instance().value();
+  CHECK(rig.count(MIEN_KIND_JOINT) > 0);
+  CHECK(rig.joint_parents().size() == rig.count(MIEN_KIND_JOINT));
+  CHECK(face.raw_controls().size() == rig.count(MIEN_KIND_RAW_CONTROL));
+  for (float& control : face.raw_controls()) control = 0.5f;
+  CHECK(rig.evaluate(face));
+  CHECK(face.joints().size() == rig.info()->joint_value_count);
+  float sum = 0;
+  for (const float value : face.joints()) sum += value * value;
+  CHECK(sum > 0);
+
+  // Moving takes the object along; what is left is empty and may be used.
+  const float* const joints = face.joints().data();
+  mien::Instance moved = std::move(face);
+  CHECK(moved.joints().data() == joints);
+  CHECK(!face && face.joints().empty() && face.raw_controls().empty());  // NOLINT: on purpose
+  CHECK(rig.evaluate(face).status() == MIEN_ERROR_NULL_ARGUMENT);
+  CHECK(face.reset_values().status() == MIEN_ERROR_NULL_ARGUMENT);
+  mien::Instance& itself = moved;
+  moved = std::move(itself);
+  CHECK(moved.joints().data() == joints);
+  moved = rig.instance().value();
+  CHECK(rig.evaluate(moved, rig.info()->lod_count - 1));
+
+  // The order of destruction does not matter.
+  rig.reset();
+  CHECK(rig.evaluate(moved).status() == MIEN_ERROR_NULL_ARGUMENT);
+  CHECK(!moved.joints().empty());
+  mien_instance_destroy(moved.release());
+}
+
+void test_empty_objects() {
+  const mien::Dna dna;
+  const mien::Rig rig;
+  const mien::Report report;
+  CHECK(!dna.info() && !dna.layer(0) && !dna.field("") && !dna.string("desc.name"));
+  CHECK(!dna.field_name("", 0) && !dna.write("/nonexistent"));
+  CHECK(!rig.info() && !rig.statistics(0) && !rig.name(MIEN_KIND_JOINT, 0) && !rig.instance());
+  CHECK(rig.count(MIEN_KIND_JOINT) == 0 && rig.joint_parents().empty());
+  CHECK(rig.neutral_joint_values().empty() && rig.initial_raw_controls().empty());
+  CHECK(!rig.find(MIEN_KIND_JOINT, "x") && !rig.psd_inputs(0));
+  CHECK(!rig.lod_indices(MIEN_KIND_JOINT, 0) && !rig.variable_joint_values(0));
+  CHECK(!mien::Rig::create(dna));
+  CHECK(report.error_count() == 0 && report.warning_count() == 0 && !report.finding(0));
+}
+
+void test_errors() {
+  const auto missing = mien::Dna::open("/nonexistent/head.dna");
+  CHECK(!missing && missing.status() == MIEN_ERROR_FILE_OPEN);
+  CHECK(std::string(missing.error().message()).find("head.dna") != std::string::npos);
+  CHECK(missing.error().byte_offset() == MIEN_NO_OFFSET);
+  CHECK(std::string(missing.error().name()) == "FILE_OPEN");
+
+  const auto broken = mien::Dna::open("DNA", 3);
+  CHECK(!broken && broken.status() == MIEN_ERROR_DNA_TRUNCATED);
+  CHECK(broken.error().byte_offset() <= 3);
+
+  const mien::Rig rig = mien::Rig::create(generated()).value();
+  mien::Instance face = rig.instance().value();
+  const auto unknown = rig.find(MIEN_KIND_JOINT, "nobody");
+  CHECK(!unknown && unknown.status() == MIEN_ERROR_NAME && *unknown == 0);
+  CHECK(std::string(unknown.error().message()) == "NAME");
+  CHECK(rig.find(MIEN_KIND_JOINT, "nobody").value_or(7) == 7);
+  CHECK(rig.evaluate(face, 99).status() == MIEN_ERROR_LOD);
+  CHECK(std::string(rig.evaluate(face, 99).name()) == "LOD");
+  CHECK(rig.evaluate_joint_group(face, 0, 1u << 30).status() == MIEN_ERROR_INDEX);
+  CHECK(rig.evaluate_rbf_solver(face, 0, 1u << 30).status() == MIEN_ERROR_INDEX);
+  CHECK(rig.evaluate_twist_swing(face, 0, 1u << 30).status() == MIEN_ERROR_INDEX);
+  CHECK(rig.evaluate_stages(face, 0, MIEN_STAGE_PSD | MIEN_STAGE_JOINTS));
+  CHECK(rig.map_gui_to_raw(face) && rig.map_raw_to_gui(face));
+
+  // An error can be kept when its result is gone.
+  mien::Error error;
+  CHECK(error.status() == MIEN_OK);
+  error = mien::Dna::open("DNA", 3).error();
+  CHECK(error.status() == MIEN_ERROR_DNA_TRUNCATED && error.message()[0] != 0);
+}
+
+void test_fields_and_files() {
+  const mien::Dna dna = generated();
+  const MienDnaInfo info = dna.info().value();
+  CHECK(dna.layer(0)->code == std::string("desc"));
+  CHECK(dna.field("defn.jointNames")->count == info.joint_count);
+  CHECK(dna.field_name("defn.neutralJointTranslations", 1).value() == "ys");
+  CHECK(!dna.string("desc.name").value().empty());
+  CHECK(dna.field("defn.nothing").status() == MIEN_ERROR_NAME);
+
+  std::vector<float> xs(info.joint_count);
+  CHECK(dna.read("defn.neutralJointTranslations.xs", 0, xs));
+  std::array<int64_t, 2> parents;
+  CHECK(dna.read("defn.jointHierarchy", 0, parents) && parents[0] == 0);
+  CHECK(!dna.read("defn.neutralJointTranslations.xs", 1, xs));
+
+  std::vector<unsigned char> bytes(dna.write(mien::Span<unsigned char>()).value());
+  CHECK(dna.write(bytes).value() == bytes.size());
+  bytes.resize(bytes.size() - 1);
+  CHECK(dna.write(bytes).status() == MIEN_ERROR_INVALID_ARGUMENT);
+  bytes.resize(bytes.size() + 1);
+  CHECK(dna.write(bytes));
+  mien::DnaDesc one_lod;
+  one_lod.lods = 1;
+  const mien::Dna cut = mien::Dna::open(bytes.data(), bytes.size(), one_lod).value();
+  CHECK(cut.info()->lod_count == 1);
+
+  const mien::Report report = mien::Report::of(bytes.data(), bytes.size()).value();
+  CHECK(report.error_count() == 0);
+  const mien::Report faults = mien::Report::of("no DNA", 6).value();
+  CHECK(faults.error_count() > 0 && !mien::view(faults.finding(0)->message).empty());
+  CHECK(!mien::Report::of("/nonexistent"));
+}
+
+struct Counted {
+  size_t blocks = 0;
+};
+
+void* allocate(void* user, size_t size, size_t alignment) {
+  ++static_cast<Counted*>(user)->blocks;
+  return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+}
+
+void release(void* user, void* block, size_t, size_t) {
+  --static_cast<Counted*>(user)->blocks;
+  std::free(block);
+}
+
+void test_allocators() {
+  Counted counted;
+  const MienAllocator allocator = {&counted, allocate, release};
+  mien::RigDesc desc;
+  desc.allocator = &allocator;
+  desc.rotation = MIEN_OUTPUT_QUATERNION;
+  {
+    const mien::Rig rig = mien::Rig::create(generated(), desc).value();
+    const mien::Instance face = rig.instance(&allocator).value();
+    CHECK(counted.blocks >= 2);
+    CHECK(face.joints().size() == size_t{10} * rig.count(MIEN_KIND_JOINT));
+  }
+  CHECK(counted.blocks == 0);
+}
+
+#ifdef MIEN_EXCEPTIONS
+template <class Call>
+MienStatus thrown_by(Call&& call) {
+  try {
+    call();
+  } catch (const mien::Exception& exception) {
+    CHECK(exception.what()[0] != 0);
+    return exception.error().status();
+  }
+  return MIEN_OK;
+}
+
+void test_exceptions() {
+  const mien::Rig rig = mien::Rig::create(generated()).value();
+  mien::Instance face = rig.instance().value();
+  CHECK(thrown_by([] { mien::Dna::open("DNA", 3).value(); }) == MIEN_ERROR_DNA_TRUNCATED);
+  CHECK(thrown_by([&] { rig.evaluate(face, 99).value(); }) == MIEN_ERROR_LOD);
+  CHECK(thrown_by([&] { rig.find(MIEN_KIND_JOINT, "x").value(); }) == MIEN_ERROR_NAME);
+  CHECK(thrown_by([&] { generated().write("/nonexistent/x").value(); }) == MIEN_ERROR_FILE_WRITE);
+  const auto kept = rig.find(MIEN_KIND_JOINT, "x");
+  CHECK(thrown_by([&] { (void)kept.value(); }) == MIEN_ERROR_NAME);
+  CHECK(thrown_by([&] { rig.evaluate(face).value(); }) == MIEN_OK);
+}
+#else
+void test_exceptions() {}
+#endif
+
+}  // namespace
+
+int main() {
+  CHECK(mien::version() == MIEN_VERSION && mien::is_available(MIEN_ISA_SCALAR));
+  CHECK(std::string(mien::name_of(MIEN_ISA_SCALAR)) == "scalar");
+  test_life();
+  test_empty_objects();
+  test_errors();
+  test_fields_and_files();
+  test_allocators();
+  test_exceptions();
+  std::puts("mien.hpp: all well");
+}
