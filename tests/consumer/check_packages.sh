@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Unpacks the .deb packages into a root of their own, looks at what is in them, and uses them as
+# other projects would. lintian is asked if it is there.
+# Usage: check_packages.sh DIRECTORY WORK    (WORK is emptied)
+set -euo pipefail
+
+packages=("$1"/*.deb)
+work=$(realpath -m "$2")
+# shellcheck source=tests/consumer/use.sh
+source "$(dirname "$0")/use.sh"
+root=$work/root
+
+rm -rf "$work"
+mkdir -p "$root"
+[ ${#packages[@]} -eq 3 ] || { echo "not three packages: ${packages[*]}" >&2; exit 1; }
+for package in "${packages[@]}"; do
+  dpkg-deb --extract "$package" "$root"
+done
+libdir=$(dirname "$(find "$root" -name libmien.so)")
+soname=$(basename "$(readlink "$libdir/libmien.so")")
+
+# Each exported name has its release, and no other name has one.
+python3 "$here/../check_exports.py" "$libdir/libmien.so"
+runtime=$(printf '%s\n' "${packages[@]}" | grep "/libmien${soname##*.so.}_")
+dpkg-deb --ctrl-tarfile "$runtime" | tar -xO ./symbols >"$work/symbols"
+sed -n 's/^ \(mien_[a-z0-9_]*\)@.*/\1/p' "$work/symbols" >"$work/symbols.names"
+sed -n 's/^ *\(mien_[a-z0-9_]*\);.*/\1/p' "$here/../../capi/mien.map" | LC_ALL=C sort >"$work/map.names"
+diff "$work/map.names" "$work/symbols.names"
+
+# As for another machine: the packages' own root stands before the paths that they name.
+export PKG_CONFIG_LIBDIR=$libdir/pkgconfig PKG_CONFIG_SYSROOT_DIR=$root
+export PKG_CONFIG_ALLOW_SYSTEM_CFLAGS=1 PKG_CONFIG_ALLOW_SYSTEM_LIBS=1
+use "$root/usr" "$libdir" "$work"
+
+run "$libdir" "$root/usr/bin/mien" gen --preset tiny -o "$work/tiny.dna"
+for file in share/man/man1/mien.1.gz share/bash-completion/completions/mien; do
+  [ -s "$root/usr/$file" ] || { echo "no $file" >&2; exit 1; }
+done
+
+if command -v lintian >/dev/null; then
+  lintian --allow-root --fail-on error,warning "${packages[@]}"
+  echo "lintian has nothing to say"
+else
+  echo "NOT TESTED: what lintian says of the packages; it is not installed"
+fi
