@@ -1,0 +1,342 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The parts of the Rust crates that follow from mien.h, written from ../api/mien_api.json.
+
+    generate_api.py            write mien-sys/src/bindings.rs, mien-sys/tests/layout.rs and
+                               mien/src/generated.rs
+    generate_api.py --check    fail if one of them is not what the data says
+"""
+import argparse
+import json
+import re
+import sys
+import textwrap
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+API = HERE.parent / "api" / "mien_api.json"
+HEAD = "// SPDX-License-Identifier: MIT\n// Written by generate_api.py from mien.h. Do not edit.\n"
+
+SCALARS = {
+    "char": "c_char", "int8_t": "i8", "uint8_t": "u8", "int16_t": "i16", "uint16_t": "u16",
+    "int32_t": "i32", "uint32_t": "u32", "int64_t": "i64", "uint64_t": "u64", "size_t": "usize",
+    "float": "f32", "double": "f64",
+}
+KEYWORDS = {"type", "move", "loop", "match", "ref", "use", "where", "in", "box", "final", "override"}
+
+# Rust calls what combines flags by the plural, and the numbers of MienStatus after the type.
+NAMES = {"MienStatusCode": "Status", "MienLayer": "Layers", "MienStage": "Stages"}
+# Names that are words of Rust's own.
+FIELDS = {"type": "field_type"}
+# Numbers that are a yes or no.
+BOOLEANS = {("MienDnaInfo", "mapped"), ("MienDnaLayer", "loaded")}
+
+
+def word(name):
+    return f"r#{name}" if name in KEYWORDS else name
+
+
+def rust_name(name):
+    return NAMES.get(name, name[len("Mien"):])
+
+
+# ---- documentation -----------------------------------------------------------------------------------
+
+
+def prose(text, api=None):
+    """Names as code; with `api`, constants under their names in the safe crate."""
+    constants = {}
+    for enum in api["enums"] if api else ():
+        constants[enum["prefix"] + "..."] = rust_name(enum["name"])
+        for value in enum["values"]:
+            constants[value["name"]] = f"{rust_name(enum['name'])}::{safe_value_name(enum, value)}"
+
+    def replace(match):
+        name = match.group()
+        if re.fullmatch(r"[\[\]<>*_|]", name):
+            return "\\" + name
+        return f"`{constants.get(name, name)}`" if name[0] != "`" else name
+
+    pattern = r"`[^`]*`|\bMIEN_\w*(?:\.\.\.)?|\bmien_\w+(?:\(\))?|\b[a-z]+(?:_[a-z0-9]+)+\b|[\[\]<>*_|]"
+    return re.sub(pattern, replace, text)
+
+
+def safe_value_name(enum, value):
+    return re.sub("^ERROR_", "", value["short_name"])
+
+
+def sentence(text):
+    """Starts and ends like one, unless it starts with a name."""
+    if not text:
+        return text
+    if re.match("[a-z]+[ ,;:.]", text):
+        text = text[0].upper() + text[1:]
+    return text if text[-1] in ".:;" else text + "."
+
+
+def doc(text, indent, fallback=None, api=None):
+    """Comment lines. What is indented in the header is laid out by hand: it stays as it is."""
+    text = text or fallback
+    if not text:
+        return ""
+    blocks = []  # [laid out, lines]
+    for line in text.split("\n"):
+        laid_out = line.startswith("  ")
+        if not line:
+            blocks.append([False, []])
+        elif blocks and blocks[-1][1] and blocks[-1][0] == laid_out:
+            blocks[-1][1].append(line)
+        else:
+            blocks.append([laid_out, [line]])
+    lines = []
+    for laid_out, block in blocks:
+        if not block:
+            continue
+        lines += [""] if lines else []
+        if laid_out:
+            lines += ["```text"] + [line.rstrip() for line in textwrap.dedent("\n".join(block)).split("\n")] + ["```"]
+        else:
+            lines += textwrap.wrap(prose(" ".join(block), api), 95 - len(indent), break_on_hyphens=False)
+    return "".join(f"{indent}/// {line}".rstrip() + "\n" for line in lines)
+
+
+# ---- mien-sys ------------------------------------------------------------------------------------------
+
+
+def sys_type(type_):
+    kind = type_["kind"]
+    if kind == "scalar":
+        return SCALARS[type_["name"]]
+    if kind in ("alias", "handle", "struct", "callback"):
+        return type_["name"]
+    if kind == "void":
+        return "c_void"
+    if kind == "pointer":
+        return ("*const " if type_["const"] else "*mut ") + sys_type(type_["to"])
+    if kind == "array":
+        return f"[{sys_type(type_['of'])}; {type_['count']}]"
+    if kind == "function":
+        return f"Option<{function_pointer(type_)}>"
+    sys.exit(f"generate_api.py: no Rust for {type_}")
+
+
+def function_pointer(type_):
+    parameters = ", ".join(
+        f"{word(p['name']) if p.get('name') else '_'}: {sys_type(p['type'])}" for p in type_["parameters"])
+    return f'unsafe extern "C" fn({parameters}){returns(type_)}'
+
+
+def returns(function):
+    if function["returns"]["kind"] == "void":
+        return ""
+    return f" -> {sys_type(function['returns'])}"
+
+
+def sys_struct(struct):
+    out = doc(struct["documentation"], "")
+    out += "#[repr(C)]\n#[derive(Clone, Copy)]\n"
+    out += f"pub struct {struct['name']} {{\n"
+    for field in struct["fields"]:
+        out += doc(sentence(field["documentation"]), "    ")
+        out += f"    pub {word(field['name'])}: {sys_type(field['type'])},\n"
+    out += "}\n\n"
+    size = "        zero.struct_size = size_of::<Self>() as u32;\n" if struct["sized"] else ""
+    what = "All zero but `struct_size`: every field has its default." if size else "All zero."
+    out += f"impl Default for {struct['name']} {{\n    /// {what}\n    fn default() -> Self {{\n"
+    out += "        // SAFETY: numbers, pointers and optional functions may be zero.\n"
+    if size:
+        out += f"        let mut zero: Self = unsafe {{ zeroed() }};\n{size}        zero\n"
+    else:
+        out += "        unsafe { zeroed() }\n"
+    return out + "    }\n}\n"
+
+
+def bindings(api):
+    parts = [HEAD + "\nuse crate::{c_char, c_void, size_of, zeroed, Opaque};\n"]
+    for alias in api["aliases"]:
+        parts.append(f"{doc(alias['documentation'], '')}pub type {alias['name']} = {sys_type(alias['type'])};\n")
+    for callback in api["callbacks"]:
+        text = doc(callback["documentation"], "")
+        parts.append(f"{text}pub type {callback['name']} = Option<{function_pointer(callback)}>;\n")
+    constants = ""
+    for constant in api["constants"]:
+        type_ = "u64" if constant["value"] > 0xFFFFFFFF else "u32"
+        constants += doc(sentence(constant["documentation"]), "")
+        constants += f"pub const {constant['name']}: {type_} = {constant['value']};\n"
+    parts.append(constants)
+    for enum in api["enums"]:
+        type_ = "MienStatus" if enum["name"] == "MienStatusCode" else "u32"
+        text = f"// enum {enum['name']}\n"
+        for value in enum["values"]:
+            text += doc(sentence(value["documentation"]), "")
+            text += f"pub const {value['name']}: {type_} = {value['value']};\n"
+        parts.append(text)
+    for handle in api["handles"]:
+        text = doc(handle["documentation"], "") + "#[repr(C)]\n"
+        parts.append(f"{text}pub struct {handle['name']} {{\n    _size: [u8; 0],\n    _opaque: Opaque,\n}}\n")
+    parts += [sys_struct(struct) for struct in api["structs"]]
+    text = 'extern "C" {\n'
+    for index, function in enumerate(api["functions"]):
+        text += "\n" if index else ""
+        note = function["documentation"]
+        if not note and function["documented_with"]:
+            note = f"See `{function['documented_with']}`."
+        text += doc(note, "    ")
+        signature = ", ".join(f"{word(p['name'])}: {sys_type(p['type'])}" for p in function["parameters"])
+        text += f"    pub fn {function['name']}({signature}){returns(function)};\n"
+    parts.append(text + "}\n")
+    return "\n".join(parts)
+
+
+def layout(api):
+    out = HEAD + """//! The compiler lays out every struct as the C compiler does.
+#![cfg(target_pointer_width = "64")]
+
+use std::mem::{align_of, size_of, MaybeUninit};
+use std::ptr::addr_of;
+
+macro_rules! offset {
+    ($type:ty, $field:ident) => {{
+        let place = MaybeUninit::<$type>::uninit();
+        // SAFETY: the address of a field is taken, nothing is read.
+        unsafe { addr_of!((*place.as_ptr()).$field) as usize - place.as_ptr() as usize }
+    }};
+}
+"""
+    for struct in api["structs"]:
+        name = struct["name"]
+        test = re.sub(r"(?<!^)(?=[A-Z])", "_", name).lower()
+        out += f"\n#[test]\nfn {test}() {{\n    use mien_sys::{name} as S;\n"
+        out += f"    assert_eq!(size_of::<S>(), {struct['size']});\n"
+        out += f"    assert_eq!(align_of::<S>(), {struct['alignment']});\n"
+        for field in struct["fields"]:
+            out += f"    assert_eq!(offset!(S, {word(field['name'])}), {field['offset']});\n"
+        out += "}\n"
+    return out
+
+
+# ---- mien ----------------------------------------------------------------------------------------------
+
+
+def safe_enum(enum, api):
+    name, status = rust_name(enum["name"]), enum["name"] == "MienStatusCode"
+    type_ = "i32" if status else "u32"
+    text = sentence(enum["documentation"]) or f"What C calls `{enum['prefix']}...`."
+    if status:
+        text = "Why a call failed. The numbers are never used again for something else."
+    out = doc(text + "\n\nA later library may give numbers that have no name here.", "", api=api)
+    default = ", Default" if any(value["value"] == 0 for value in enum["values"]) else ""
+    out += f"#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash{default})]\n"
+    out += f"#[repr(transparent)]\npub struct {name}(pub {type_});\n\n"
+    out += f"impl {name} {{\n"
+    for value in enum["values"]:
+        short = safe_value_name(enum, value)
+        out += doc(sentence(value["documentation"]), "    ", f"`{value['name']}` in C.", api)
+        out += f"    pub const {short}: Self = Self({value['value']});\n"
+    names = ", ".join(f'({value["value"]}, "{safe_value_name(enum, value)}")' for value in enum["values"])
+    out += "}\n\n"
+    macro = "flags" if enum["flags"] else "numbers"
+    out += f"{macro}!({name}, {type_}, [{names}]);\n"
+    if status:
+        out += "\npub(crate) fn describe(status: Status) -> &'static str {\n    match status.0 {\n"
+        for value in enum["values"]:
+            if value["documentation"]:
+                text = value["documentation"].replace('"', '\\"').replace("\n", " ")
+                out += f'        {value["value"]} => "{text}",\n'
+        out += '        _ => "",\n    }\n}\n'
+    return out
+
+
+def is_plain(type_):
+    if type_["kind"] == "array":
+        type_ = type_["of"]
+    return type_["kind"] in ("scalar", "alias")
+
+
+def plain_outputs(api):
+    """Structs of numbers alone that functions fill in."""
+    outputs = set()
+    for function in api["functions"]:
+        for parameter in function["parameters"]:
+            type_ = parameter["type"]
+            if (parameter["name"].startswith("out_") and type_["kind"] == "pointer"
+                    and type_["to"]["kind"] == "struct"):
+                outputs.add(type_["to"]["name"])
+    for struct in api["structs"]:
+        if struct["sized"] and struct["name"] in outputs and all(is_plain(f["type"]) for f in struct["fields"]):
+            yield struct
+
+
+def safe_field(struct, field):
+    """(type, value read from `c`) of a field, or None for one that says nothing."""
+    name, type_ = field["name"], field["type"]
+    if name in ("struct_size",) or name.startswith("reserved"):
+        return None
+    value = f"c.{word(name)}"
+    if (struct["name"], name) in BOOLEANS:
+        return "bool", f"{value} != 0"
+    if "MIEN_NO_OFFSET" in field["documentation"]:
+        return "Option<u64>", f"offset({value})"
+    if field["enum"]:
+        wrapper = rust_name(field["enum"])
+        if type_["kind"] == "array":
+            return f"[{wrapper}; {type_['count']}]", f"{value}.map({wrapper})"
+        return wrapper, f"{wrapper}({value})"
+    if type_["kind"] == "array":
+        if type_["of"]["name"] == "char":
+            return "String", f"text(&{value})"
+        return f"[{SCALARS[type_['of']['name']]}; {type_['count']}]", value
+    if type_["kind"] == "scalar" and type_["name"] == "uint32_t" and name.endswith("_count"):
+        return "usize", f"{value} as usize"
+    return SCALARS[(type_ if type_["kind"] == "scalar" else type_["of"])["name"]], value
+
+
+def safe_struct(struct, api):
+    name = rust_name(struct["name"])
+    fields = [(field, safe_field(struct, field)) for field in struct["fields"]]
+    fields = [(field, safe) for field, safe in fields if safe]
+    out = doc(struct["documentation"], "", f"`{struct['name']}` in C.", api)
+    copy = "" if any(safe[0] == "String" for _, safe in fields) else ", Copy"
+    floats = any(re.search(r"\bf(32|64)\b", safe[0]) for _, safe in fields)
+    out += f"#[derive(Clone{copy}, Debug, PartialEq{'' if floats else ', Eq'})]\n#[non_exhaustive]\n"
+    out += f"pub struct {name} {{\n"
+    for field, (type_, _) in fields:
+        text = field["documentation"].replace("MIEN_NO_OFFSET", "`None`")
+        if type_ == "bool":
+            text = text.replace("1 if ", "Whether ").replace("1: read; 0: skipped", "Read; if not: skipped")
+        out += doc(sentence(text), "    ", f"{field['name'].replace('_', ' ').capitalize()}.", api)
+        out += f"    pub {FIELDS.get(field['name'], field['name'])}: {type_},\n"
+    out += f"}}\n\nimpl From<sys::{struct['name']}> for {name} {{\n"
+    out += f"    fn from(c: sys::{struct['name']}) -> Self {{\n        Self {{\n"
+    for field, (_, value) in fields:
+        out += f"            {FIELDS.get(field['name'], field['name'])}: {value},\n"
+    return out + "        }\n    }\n}\n"
+
+
+def generated(api):
+    parts = [HEAD + "\nuse crate::convert::{flags, numbers, offset, text};\nuse mien_sys as sys;\n"]
+    parts += [safe_enum(enum, api) for enum in api["enums"]]
+    parts += [safe_struct(struct, api) for struct in plain_outputs(api)]
+    return "\n".join(parts)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--check", action="store_true")
+    check = parser.parse_args().check
+    api = json.loads(API.read_text(encoding="utf-8"))
+    stale = []
+    for path, text in (("mien-sys/src/bindings.rs", bindings(api)), ("mien-sys/tests/layout.rs", layout(api)),
+                       ("mien/src/generated.rs", generated(api))):
+        file = HERE / path
+        if check:
+            if not file.exists() or file.read_text(encoding="utf-8") != text:
+                stale.append(path)
+        else:
+            file.write_text(text, encoding="utf-8")
+    if stale:
+        sys.exit(f"{', '.join(stale)}: stale; run ./dev api")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+//! Finds libmien: in `MIEN_LIB_DIR` if that is set, else by pkg-config.
+//!
+//! Crates that depend on this one directly learn from `DEP_MIEN_LIB_DIR` where it is, if that is no
+//! place where the dynamic linker looks by itself.
+
+use std::env;
+use std::path::Path;
+use std::process::{exit, Command};
+
+fn main() {
+    for variable in ["MIEN_LIB_DIR", "MIEN_STATIC", "PKG_CONFIG", "PKG_CONFIG_PATH"] {
+        println!("cargo:rerun-if-env-changed={}", variable);
+    }
+    println!("cargo:rerun-if-changed=build.rs");
+
+    // Documentation needs no library, and Miri (which links nothing) brings its own functions.
+    if env::var_os("DOCS_RS").is_some() || env::var_os("CARGO_CFG_MIRI").is_some() {
+        return;
+    }
+
+    let feature = env::var_os("CARGO_FEATURE_STATIC").is_some();
+    let statically = feature || matches!(env::var("MIEN_STATIC").as_deref(), Ok("1"));
+    match env::var("MIEN_LIB_DIR") {
+        Ok(directory) if !directory.is_empty() => link_directory(&directory, statically),
+        _ => link_by_pkg_config(statically),
+    }
+}
+
+fn link_directory(directory: &str, statically: bool) {
+    let names: &[&str] = match (statically, target("OS").as_str(), target("ENV").as_str()) {
+        (true, "windows", "msvc") => &["mien.lib"],
+        (true, ..) => &["libmien.a"],
+        (false, "windows", "msvc") => &["mien.lib"],
+        (false, "windows", _) => &["libmien.dll.a", "mien.lib"],
+        (false, "macos", _) => &["libmien.dylib"],
+        (false, ..) => &["libmien.so"],
+    };
+    if !names.iter().any(|name| Path::new(directory).join(name).exists()) {
+        fail(&format!("there is no {} in MIEN_LIB_DIR={}", names[0], directory));
+    }
+    // Relative to where cargo was called, which is not where the linker works.
+    let directory = match Path::new(directory).canonicalize() {
+        Ok(path) => path.display().to_string(),
+        Err(error) => fail(&format!("MIEN_LIB_DIR={}: {}", directory, error)),
+    };
+    println!("cargo:rustc-link-search=native={}", directory);
+    link("mien", statically);
+    println!("cargo:lib_dir={}", directory);
+}
+
+fn link_by_pkg_config(statically: bool) {
+    let program = env::var("PKG_CONFIG").unwrap_or_else(|_| "pkg-config".into());
+    let ask = |arguments: &[&str]| {
+        let output = Command::new(&program).args(arguments).arg("mien >= 0.1").output();
+        match output {
+            Ok(output) if output.status.success() => {
+                String::from_utf8_lossy(&output.stdout).trim().to_string()
+            }
+            Ok(output) => fail(String::from_utf8_lossy(&output.stderr).trim()),
+            Err(error) => fail(&format!("{} cannot be run: {}", program, error)),
+        }
+    };
+    for flag in ask(&["--libs-only-L", "--libs-only-other"]).split_whitespace() {
+        if let Some(directory) = flag.strip_prefix("-L") {
+            println!("cargo:rustc-link-search=native={}", directory);
+            println!("cargo:lib_dir={}", directory);
+        }
+    }
+    if statically {
+        // rustc looks for archives only where it is told to, in system directories too.
+        println!("cargo:rustc-link-search=native={}", ask(&["--variable=libdir"]));
+    }
+    link("mien", statically);
+}
+
+fn link(name: &str, statically: bool) {
+    if !statically {
+        println!("cargo:rustc-link-lib=dylib={}", name);
+        return;
+    }
+    println!("cargo:rustc-link-lib=static={}", name);
+    // What the library itself is written in.
+    match (target("OS").as_str(), target("ENV").as_str()) {
+        ("macos", _) => println!("cargo:rustc-link-lib=dylib=c++"),
+        (_, "msvc") => {}
+        _ => println!("cargo:rustc-link-lib=dylib=stdc++"),
+    }
+    if target("OS") == "linux" {
+        println!("cargo:rustc-link-lib=dylib=m");
+    }
+}
+
+fn target(what: &str) -> String {
+    env::var(format!("CARGO_CFG_TARGET_{}", what)).unwrap_or_default()
+}
+
+fn fail(why: &str) -> ! {
+    eprintln!("mien-sys does not find the Mien library: {}", why);
+    eprintln!(
+        "Install it where pkg-config looks, or set MIEN_LIB_DIR to the directory of libmien."
+    );
+    exit(1);
+}

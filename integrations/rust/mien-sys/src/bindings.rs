@@ -1,0 +1,900 @@
+// SPDX-License-Identifier: MIT
+// Written by generate_api.py from mien.h. Do not edit.
+
+use crate::{c_char, c_void, size_of, zeroed, Opaque};
+
+pub type MienStatus = i32;
+
+pub const MIEN_VERSION_MAJOR: u32 = 0;
+pub const MIEN_VERSION_MINOR: u32 = 1;
+pub const MIEN_VERSION_PATCH: u32 = 0;
+pub const MIEN_VERSION: u32 = 65536;
+pub const MIEN_NO_OFFSET: u64 = 18446744073709551615;
+
+// enum MienStatusCode
+pub const MIEN_OK: MienStatus = 0;
+/// A pointer that has to be given is NULL.
+pub const MIEN_ERROR_NULL_ARGUMENT: MienStatus = 1;
+/// A value outside its range; a buffer that is too small.
+pub const MIEN_ERROR_INVALID_ARGUMENT: MienStatus = 2;
+/// `struct_size` too small, or unknown fields that are not zero.
+pub const MIEN_ERROR_STRUCT_SIZE: MienStatus = 3;
+/// Not a live handle of this kind.
+pub const MIEN_ERROR_HANDLE: MienStatus = 4;
+/// An instance of another rig.
+pub const MIEN_ERROR_MISMATCH: MienStatus = 5;
+/// An index past the end.
+pub const MIEN_ERROR_INDEX: MienStatus = 6;
+/// A LOD that the rig does not have.
+pub const MIEN_ERROR_LOD: MienStatus = 7;
+/// No such name or path.
+pub const MIEN_ERROR_NAME: MienStatus = 8;
+/// This CPU (or build) lacks the instruction set.
+pub const MIEN_ERROR_ISA: MienStatus = 9;
+/// The allocator returned NULL.
+pub const MIEN_ERROR_MEMORY: MienStatus = 10;
+pub const MIEN_ERROR_FILE_OPEN: MienStatus = 20;
+pub const MIEN_ERROR_FILE_READ: MienStatus = 21;
+pub const MIEN_ERROR_FILE_WRITE: MienStatus = 22;
+/// Not a DNA file.
+pub const MIEN_ERROR_DNA_SIGNATURE: MienStatus = 30;
+/// A DNA file of another generation than 2.
+pub const MIEN_ERROR_DNA_VERSION: MienStatus = 31;
+/// The file ends before what it announces.
+pub const MIEN_ERROR_DNA_TRUNCATED: MienStatus = 32;
+/// Offsets, sizes or counts contradict each other.
+pub const MIEN_ERROR_DNA_STRUCTURE: MienStatus = 33;
+/// An index to something that is not there.
+pub const MIEN_ERROR_DNA_REFERENCE: MienStatus = 34;
+/// More of something than the format or Mien can number.
+pub const MIEN_ERROR_DNA_LIMIT: MienStatus = 35;
+/// A layer that the call needs was not loaded or not in the file.
+pub const MIEN_ERROR_DNA_LAYER: MienStatus = 36;
+/// A value that has no meaning.
+pub const MIEN_ERROR_DNA_VALUE: MienStatus = 37;
+
+// enum MienLayer
+pub const MIEN_LAYER_ALL: u32 = 0;
+pub const MIEN_LAYER_DESCRIPTOR: u32 = 1;
+pub const MIEN_LAYER_DEFINITION: u32 = 2;
+pub const MIEN_LAYER_BEHAVIOR: u32 = 4;
+pub const MIEN_LAYER_GEOMETRY: u32 = 8;
+pub const MIEN_LAYER_GEOMETRY_WITHOUT_BLEND_SHAPES: u32 = 16;
+pub const MIEN_LAYER_MACHINE_LEARNED_BEHAVIOR: u32 = 32;
+pub const MIEN_LAYER_RBF_BEHAVIOR: u32 = 64;
+pub const MIEN_LAYER_JOINT_BEHAVIOR_METADATA: u32 = 128;
+pub const MIEN_LAYER_TWIST_SWING_BEHAVIOR: u32 = 256;
+
+// enum MienUnknownLayers
+/// Carried along, written back unchanged.
+pub const MIEN_UNKNOWN_LAYERS_KEEP: u32 = 0;
+pub const MIEN_UNKNOWN_LAYERS_DROP: u32 = 1;
+
+// enum MienFileAccess
+/// Map; read into memory where the system cannot map (pipes).
+pub const MIEN_FILE_MAP: u32 = 0;
+/// Read it all now: for files that others may truncate meanwhile.
+pub const MIEN_FILE_READ: u32 = 1;
+
+// enum MienTranslationUnit
+pub const MIEN_TRANSLATION_CENTIMETERS: u32 = 0;
+pub const MIEN_TRANSLATION_METERS: u32 = 1;
+
+// enum MienRotationUnit
+pub const MIEN_ROTATION_DEGREES: u32 = 0;
+pub const MIEN_ROTATION_RADIANS: u32 = 1;
+
+// enum MienDirection
+pub const MIEN_DIRECTION_LEFT: u32 = 0;
+pub const MIEN_DIRECTION_RIGHT: u32 = 1;
+pub const MIEN_DIRECTION_UP: u32 = 2;
+pub const MIEN_DIRECTION_DOWN: u32 = 3;
+pub const MIEN_DIRECTION_FRONT: u32 = 4;
+pub const MIEN_DIRECTION_BACK: u32 = 5;
+
+// enum MienRotationSequence
+/// X first, then y, then z, about fixed axes.
+pub const MIEN_ROTATION_XYZ: u32 = 0;
+pub const MIEN_ROTATION_XZY: u32 = 1;
+pub const MIEN_ROTATION_YXZ: u32 = 2;
+pub const MIEN_ROTATION_YZX: u32 = 3;
+pub const MIEN_ROTATION_ZXY: u32 = 4;
+pub const MIEN_ROTATION_ZYX: u32 = 5;
+
+// enum MienFieldType
+/// Named fields.
+pub const MIEN_FIELD_RECORD: u32 = 0;
+/// Records, strings or arrays, each with its own path \[i\].
+pub const MIEN_FIELD_LIST: u32 = 1;
+pub const MIEN_FIELD_STRING: u32 = 2;
+/// Numbers: one, or an array of them.
+pub const MIEN_FIELD_U8: u32 = 3;
+pub const MIEN_FIELD_U16: u32 = 4;
+pub const MIEN_FIELD_U32: u32 = 5;
+pub const MIEN_FIELD_I32: u32 = 6;
+pub const MIEN_FIELD_F32: u32 = 7;
+
+// enum MienSeverity
+/// Opening or `mien_rig_create()` refuses this.
+pub const MIEN_SEVERITY_ERROR: u32 = 0;
+/// Allowed, but probably not meant.
+pub const MIEN_SEVERITY_WARNING: u32 = 1;
+
+// enum MienPreset
+/// Readable by eye.
+pub const MIEN_PRESET_TINY: u32 = 0;
+pub const MIEN_PRESET_SMALL: u32 = 1;
+pub const MIEN_PRESET_MEDIUM: u32 = 2;
+/// A production head: 870 joints, 260 raw controls, 8 LODs, a million matrix entries.
+pub const MIEN_PRESET_LARGE: u32 = 3;
+
+// enum MienIsa
+/// The environment variable `MIEN_ISA` (scalar, sse2, ...) if set, else the best that this CPU and
+/// operating system allow.
+pub const MIEN_ISA_BEST: u32 = 0;
+pub const MIEN_ISA_SCALAR: u32 = 1;
+pub const MIEN_ISA_SSE2: u32 = 2;
+/// With FMA and F16C.
+pub const MIEN_ISA_AVX2: u32 = 3;
+/// F, CD, DQ, BW, VL.
+pub const MIEN_ISA_AVX512: u32 = 4;
+pub const MIEN_ISA_NEON: u32 = 5;
+
+// enum MienOutput
+/// 9 values per joint: tx ty tz rx ry rz sx sy sz.
+pub const MIEN_OUTPUT_EULER: u32 = 0;
+/// 10 values per joint: tx ty tz qx qy qz qw sx sy sz.
+pub const MIEN_OUTPUT_QUATERNION: u32 = 1;
+
+// enum MienMlMasks
+/// 0: the networks give their default (0, or 1 for the w of a quaternion); anything else: they are
+/// evaluated. What files were made for.
+pub const MIEN_ML_MASKS_SWITCH: u32 = 0;
+/// In between, outputs are blended with the default; clamped to 0..1.
+pub const MIEN_ML_MASKS_BLEND: u32 = 1;
+
+// enum MienKind
+pub const MIEN_KIND_GUI_CONTROL: u32 = 0;
+pub const MIEN_KIND_RAW_CONTROL: u32 = 1;
+/// Correctives: DNA files do not name them; here "psd0", "psd1", ...
+pub const MIEN_KIND_PSD_CONTROL: u32 = 2;
+pub const MIEN_KIND_ML_CONTROL: u32 = 3;
+pub const MIEN_KIND_RBF_CONTROL: u32 = 4;
+pub const MIEN_KIND_JOINT: u32 = 5;
+pub const MIEN_KIND_BLEND_SHAPE_CHANNEL: u32 = 6;
+pub const MIEN_KIND_ANIMATED_MAP: u32 = 7;
+pub const MIEN_KIND_MESH: u32 = 8;
+/// One per region of a mesh; "mesh/region".
+pub const MIEN_KIND_ML_MASK: u32 = 9;
+/// The last three have no names.
+pub const MIEN_KIND_JOINT_GROUP: u32 = 10;
+pub const MIEN_KIND_RBF_SOLVER: u32 = 11;
+/// A swing with the twists of the same inputs, or a twist alone.
+pub const MIEN_KIND_TWIST_SWING: u32 = 12;
+
+// enum MienStage
+/// Neural networks.
+pub const MIEN_STAGE_ML: u32 = 1;
+pub const MIEN_STAGE_RBF: u32 = 2;
+pub const MIEN_STAGE_PSD: u32 = 4;
+/// Joint groups, then twists and swings, then joints that networks move.
+pub const MIEN_STAGE_JOINTS: u32 = 8;
+pub const MIEN_STAGE_BLEND_SHAPES: u32 = 16;
+pub const MIEN_STAGE_ANIMATED_MAPS: u32 = 32;
+pub const MIEN_STAGE_ALL: u32 = 63;
+
+#[repr(C)]
+pub struct MienDna {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
+#[repr(C)]
+pub struct MienReport {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
+#[repr(C)]
+pub struct MienRig {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
+#[repr(C)]
+pub struct MienInstance {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
+/// Detail of one failure, owned by the caller. Written by the call that fails; left alone, but for
+/// status = `MIEN_OK`, by one that succeeds.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienError {
+    pub struct_size: u32,
+    pub status: MienStatus,
+    /// In the file; `MIEN_NO_OFFSET` if there is no such place.
+    pub byte_offset: u64,
+    /// What, where and what to do; terminated, possibly cut.
+    pub message: [c_char; 240],
+}
+
+impl Default for MienError {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>() as u32;
+        zero
+    }
+}
+
+/// NULL instead of a MienAllocator means the C library's heap. `allocate` returns `size` bytes at
+/// a multiple of `alignment` (a power of two, 64 at most) or NULL; `release` gets both back.
+/// Copied by the call that takes it; the functions have to work until the object is destroyed, on
+/// every thread that creates or destroys objects with it.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienAllocator {
+    pub user: *mut c_void,
+    pub allocate: Option<unsafe extern "C" fn(user: *mut c_void, size: usize, alignment: usize) -> *mut c_void>,
+    pub release: Option<unsafe extern "C" fn(user: *mut c_void, block: *mut c_void, size: usize, alignment: usize)>,
+}
+
+impl Default for MienAllocator {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienStringView {
+    pub data: *const c_char,
+    /// Bytes, no terminator.
+    pub count: usize,
+}
+
+impl Default for MienStringView {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienFloatView {
+    pub data: *const f32,
+    pub count: usize,
+}
+
+impl Default for MienFloatView {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienMutableFloatView {
+    pub data: *mut f32,
+    pub count: usize,
+}
+
+impl Default for MienMutableFloatView {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienIndexView {
+    pub data: *const u16,
+    pub count: usize,
+}
+
+impl Default for MienIndexView {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienDnaDesc {
+    pub struct_size: u32,
+    /// `MIEN_LAYER_...`; what is not chosen is never touched.
+    pub layers: u32,
+    /// `MIEN_UNKNOWN_LAYERS_...`
+    pub unknown_layers: u32,
+    /// `MIEN_FILE_...`; of no meaning for memory.
+    pub file_access: u32,
+    /// Bit l keeps LOD l of the file; 0 keeps all. Kept LODs are numbered anew from 0, and joints,
+    /// meshes, channels and maps that no kept LOD uses are dropped and the others renumbered
+    /// everywhere. `MIEN_ERROR_LOD` if the file has none of the LODs named.
+    pub lods: u64,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienDnaDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>() as u32;
+        zero
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienDnaInfo {
+    pub struct_size: u32,
+    /// 2.
+    pub generation: u32,
+    /// 1 ... 8: the file is generation.version.
+    pub version: u32,
+    /// `MIEN_LAYER_...` that were loaded.
+    pub layers: u32,
+    /// Size of the file; 0 if generated.
+    pub file_bytes: u64,
+    /// Taken from the allocator.
+    pub memory_bytes: u64,
+    /// 1 if the file is mapped.
+    pub mapped: u32,
+    /// Entries for `mien_dna_layer()`.
+    pub layer_count: u32,
+    /// `MIEN_TRANSLATION_...`
+    pub translation_unit: u32,
+    /// `MIEN_ROTATION_DEGREES` or \_RADIANS.
+    pub rotation_unit: u32,
+    /// `MIEN_DIRECTION_...` of x, y, z.
+    pub axes: [u32; 3],
+    /// `MIEN_ROTATION_XYZ` ...
+    pub rotation_sequence: u32,
+    /// 1 or -1, for the angles about x, y, z.
+    pub rotation_signs: [i32; 3],
+    /// 0 counter-clockwise, 1 clockwise, seen from outside.
+    pub face_winding: u32,
+    pub lod_count: u32,
+    /// This file's LOD 0 is LOD `max_lod` of its data base.
+    pub max_lod: u32,
+    pub gui_control_count: u32,
+    pub raw_control_count: u32,
+    pub psd_control_count: u32,
+    pub ml_control_count: u32,
+    pub rbf_control_count: u32,
+    pub joint_count: u32,
+    pub joint_group_count: u32,
+    pub blend_shape_channel_count: u32,
+    pub animated_map_count: u32,
+    pub mesh_count: u32,
+    pub neural_network_count: u32,
+    pub rbf_solver_count: u32,
+    pub rbf_pose_count: u32,
+    pub twist_count: u32,
+    pub swing_count: u32,
+    /// Pairs: desc.metadata\[i\].key and .value.
+    pub metadata_count: u32,
+}
+
+impl Default for MienDnaInfo {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>() as u32;
+        zero
+    }
+}
+
+/// One entry of the file's table of layers, in file order. Files of version 2.1 have no such
+/// table; their sections are listed as the layers desc, defn, bhvr and geom.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienDnaLayer {
+    pub struct_size: u32,
+    /// `MIEN_LAYER_...` that loads it; 0: of a kind that Mien does not know.
+    pub layer: u32,
+    /// "bhvr", terminated.
+    pub code: [c_char; 8],
+    pub version_major: u32,
+    pub version_minor: u32,
+    pub byte_offset: u64,
+    pub byte_count: u64,
+    /// 1: read; 0: skipped, or carried along unread.
+    pub loaded: u32,
+    pub reserved: u32,
+}
+
+impl Default for MienDnaLayer {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>() as u32;
+        zero
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienDnaField {
+    pub struct_size: u32,
+    /// `MIEN_FIELD_...`
+    pub r#type: u32,
+    /// Elements of an array or list, bytes of a string, 1 for a number, fields of a record.
+    pub count: u64,
+    /// Where the bytes of an array, of one of its elements or of a string begin in the file;
+    /// `MIEN_NO_OFFSET` for others, and for what was made here.
+    pub byte_offset: u64,
+}
+
+impl Default for MienDnaField {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>() as u32;
+        zero
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienWriteDesc {
+    pub struct_size: u32,
+    /// 1 ... 8 writes 2.1 ... 2.8; 0 keeps the version. Layers that the version does not know are
+    /// carried along (2.2 and later) unless `unknown_layers` says drop; 2.1 keeps the four classic
+    /// ones only.
+    pub version: u32,
+    /// `MIEN_UNKNOWN_LAYERS_...`
+    pub unknown_layers: u32,
+    pub reserved: u32,
+}
+
+impl Default for MienWriteDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>() as u32;
+        zero
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienFinding {
+    pub struct_size: u32,
+    /// `MIEN_SEVERITY_...`
+    pub severity: u32,
+    /// What opening would return; `MIEN_OK` for a warning.
+    pub status: MienStatus,
+    pub reserved: u32,
+    /// `MIEN_NO_OFFSET` if there is no such place.
+    pub byte_offset: u64,
+    /// Path as for `mien_dna_field()`, or a layer's code.
+    pub field: MienStringView,
+    pub message: MienStringView,
+}
+
+impl Default for MienFinding {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>() as u32;
+        zero
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienGenerateDesc {
+    pub struct_size: u32,
+    /// `MIEN_PRESET_...`
+    pub preset: u32,
+    /// The same seed gives the same bytes on every machine.
+    pub seed: u64,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienGenerateDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>() as u32;
+        zero
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienRigDesc {
+    pub struct_size: u32,
+    /// `MIEN_ISA_...`; one that is absent is `MIEN_ERROR_ISA`, never replaced silently.
+    pub isa: u32,
+    /// `MIEN_OUTPUT_...`
+    pub rotation: u32,
+    /// `MIEN_ML_MASKS_...`
+    pub ml_masks: u32,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienRigDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>() as u32;
+        zero
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienRigInfo {
+    pub struct_size: u32,
+    /// `MIEN_ISA_...` in use.
+    pub isa: u32,
+    pub lod_count: u32,
+    /// `MIEN_TRANSLATION_...`
+    pub translation_unit: u32,
+    /// `MIEN_ROTATION_DEGREES` or \_RADIANS.
+    pub rotation_unit: u32,
+    /// `MIEN_DIRECTION_...` of x, y, z.
+    pub axes: [u32; 3],
+    /// `MIEN_ROTATION_XYZ` ...
+    pub rotation_sequence: u32,
+    pub rotation_signs: [i32; 3],
+    /// Length of a control row: raw, PSD, ML, RBF, in this order.
+    pub control_count: u32,
+    /// Length of a row of joint outputs: 9 or 10 per joint.
+    pub joint_value_count: u32,
+    /// `MIEN_OUTPUT_...`
+    pub rotation: u32,
+    pub reserved: u32,
+    /// Memory of the rig.
+    pub rig_bytes: u64,
+    /// Memory of each instance.
+    pub instance_bytes: u64,
+}
+
+impl Default for MienRigInfo {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>() as u32;
+        zero
+    }
+}
+
+/// What one evaluation at a LOD works through.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienRigStatistics {
+    pub struct_size: u32,
+    /// Correctives computed.
+    pub psd_count: u32,
+    /// Joints that exist at this LOD.
+    pub joint_count: u32,
+    /// Joint values computed.
+    pub joint_row_count: u32,
+    /// Channels written.
+    pub blend_shape_count: u32,
+    /// Rows of the animated map table.
+    pub animated_map_row_count: u32,
+    /// Rows x columns, over the groups.
+    pub joint_entry_count: u64,
+    /// Bytes of the joint matrix that are read.
+    pub joint_byte_count: u64,
+    /// Solvers that the LOD lists.
+    pub rbf_solver_count: u32,
+    /// Joints represented by quaternions.
+    pub turned_joint_count: u32,
+}
+
+impl Default for MienRigStatistics {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>() as u32;
+        zero
+    }
+}
+
+extern "C" {
+    /// `MIEN_VERSION` of the library that runs; the header's may be older.
+    pub fn mien_version() -> u32;
+
+    /// "DNA\_TRUNCATED" for `MIEN_ERROR_DNA_TRUNCATED`; "UNKNOWN" for other numbers. Static,
+    /// terminated.
+    pub fn mien_status_name(status: MienStatus) -> *const c_char;
+
+    /// Opens a file of versions 2.1 to 2.8 (later 2.x: what is known of it). Checks everything
+    /// that is loaded, so that a rig made of it has nothing left to check. Numbers and names stay
+    /// in the file; memory goes to lists: usually some percent of the chosen layers, and at most
+    /// 20 times their bytes for a file made of nothing but the smallest records. `path` is UTF-8.
+    /// A mapped file must not be truncated or rewritten in place while it is open (replacing it by
+    /// renaming is safe). `desc` may be NULL. Close with `mien_dna_close()`.
+    pub fn mien_dna_open_file(path: *const c_char, desc: *const MienDnaDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
+
+    /// The same from memory, which stays the caller's and has to outlive the MienDna, unchanged.
+    pub fn mien_dna_open_memory(bytes: *const c_void, size: usize, desc: *const MienDnaDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
+
+    pub fn mien_dna_close(dna: *mut MienDna);
+
+    pub fn mien_dna_info(dna: *const MienDna, out_info: *mut MienDnaInfo) -> MienStatus;
+
+    pub fn mien_dna_layer(dna: *const MienDna, index: u32, out_layer: *mut MienDnaLayer) -> MienStatus;
+
+    /// `path` is terminated. `MIEN_ERROR_NAME` tells the part of it that is not there.
+    pub fn mien_dna_field(dna: *const MienDna, path: *const c_char, out_field: *mut MienDnaField, error: *mut MienError) -> MienStatus;
+
+    /// Name of field `index` of the record at `path` ("" for the layers themselves).
+    pub fn mien_dna_field_name(dna: *const MienDna, path: *const c_char, index: u32, out_name: *mut MienStringView, error: *mut MienError) -> MienStatus;
+
+    /// Copies `count` elements from `first` on. `out` has room for them. Integers of any width
+    /// widen; reading a float field as integers (or the other way round) is
+    /// `MIEN_ERROR_INVALID_ARGUMENT`, a range past the end `MIEN_ERROR_INDEX`.
+    pub fn mien_dna_read_floats(dna: *const MienDna, path: *const c_char, first: u64, count: u64, out: *mut f32, error: *mut MienError) -> MienStatus;
+
+    /// Copies `count` elements from `first` on. `out` has room for them. Integers of any width
+    /// widen; reading a float field as integers (or the other way round) is
+    /// `MIEN_ERROR_INVALID_ARGUMENT`, a range past the end `MIEN_ERROR_INDEX`.
+    pub fn mien_dna_read_integers(dna: *const MienDna, path: *const c_char, first: u64, count: u64, out: *mut i64, error: *mut MienError) -> MienStatus;
+
+    /// Points into the file: valid until `mien_dna_close()`.
+    pub fn mien_dna_read_string(dna: *const MienDna, path: *const c_char, out_string: *mut MienStringView, error: *mut MienError) -> MienStatus;
+
+    /// Writes a canonical file: the same bytes that were read if the file was canonical and
+    /// everything was loaded; layers that were not loaded are written empty. Goes to a temporary
+    /// name first, so a failure leaves `path` as it was. RBF behavior that was opened without the
+    /// machine learned behavior of its file cannot be written (`MIEN_ERROR_DNA_LAYER`): its
+    /// controls are numbered behind those. `desc` may be NULL.
+    pub fn mien_dna_write_file(dna: *const MienDna, path: *const c_char, desc: *const MienWriteDesc, error: *mut MienError) -> MienStatus;
+
+    /// The same to memory. With buffer NULL and capacity 0 only \*`out_size` is set; a capacity
+    /// that is too small gives `MIEN_ERROR_INVALID_ARGUMENT` and the size.
+    pub fn mien_dna_write_memory(dna: *const MienDna, desc: *const MienWriteDesc, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
+
+    /// Checks a whole file and lists every finding: at most 32 for one field (of cross references
+    /// the last one says how many more there are), and 1000 in all. Returns `MIEN_OK` if the file
+    /// could be examined, whatever was found. `allocator` may be NULL.
+    pub fn mien_report_create_file(path: *const c_char, allocator: *const MienAllocator, out_report: *mut *mut MienReport, error: *mut MienError) -> MienStatus;
+
+    /// Checks a whole file and lists every finding: at most 32 for one field (of cross references
+    /// the last one says how many more there are), and 1000 in all. Returns `MIEN_OK` if the file
+    /// could be examined, whatever was found. `allocator` may be NULL.
+    pub fn mien_report_create_memory(bytes: *const c_void, size: usize, allocator: *const MienAllocator, out_report: *mut *mut MienReport, error: *mut MienError) -> MienStatus;
+
+    /// Checks a whole file and lists every finding: at most 32 for one field (of cross references
+    /// the last one says how many more there are), and 1000 in all. Returns `MIEN_OK` if the file
+    /// could be examined, whatever was found. `allocator` may be NULL.
+    pub fn mien_report_counts(report: *const MienReport, out_errors: *mut u32, out_warnings: *mut u32) -> MienStatus;
+
+    /// Findings are in the order of the checks: 0 ... errors + warnings - 1. Views live as long as
+    /// the report.
+    pub fn mien_report_finding(report: *const MienReport, index: u32, out_finding: *mut MienFinding) -> MienStatus;
+
+    pub fn mien_report_destroy(report: *mut MienReport);
+
+    /// Makes a synthetic face rig: behaviour of realistic size and sparsity, with simple geometry.
+    /// `desc` may be NULL (tiny, seed 0). Close with `mien_dna_close()`.
+    pub fn mien_dna_generate(desc: *const MienGenerateDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
+
+    /// 1 if rigs can be created for this `MIEN_ISA_...` here. `MIEN_ISA_BEST` is always available.
+    pub fn mien_isa_available(isa: u32) -> u32;
+
+    /// "avx2" for `MIEN_ISA_AVX2`, "unknown" for other numbers. Static, terminated.
+    pub fn mien_isa_name(isa: u32) -> *const c_char;
+
+    /// Packs the behavior of `dna` for evaluation. The DNA needs definition and behavior loaded,
+    /// else `MIEN_ERROR_DNA_LAYER`; correctives that depend on each other in a circle are
+    /// `MIEN_ERROR_DNA_VALUE`. `desc` may be NULL. The DNA may be closed afterwards. The rig is
+    /// one block of memory; making it takes some more for the time of the call.
+    pub fn mien_rig_create(dna: *const MienDna, desc: *const MienRigDesc, out_rig: *mut *mut MienRig, error: *mut MienError) -> MienStatus;
+
+    /// Memory is released when the last instance is gone too, so the order of destruction does not
+    /// matter; a destroyed rig cannot be evaluated any more.
+    pub fn mien_rig_destroy(rig: *mut MienRig);
+
+    pub fn mien_rig_info(rig: *const MienRig, out_info: *mut MienRigInfo) -> MienStatus;
+
+    pub fn mien_rig_count(rig: *const MienRig, kind: u32, out_count: *mut u32) -> MienStatus;
+
+    /// Kinds without names give "".
+    pub fn mien_rig_name(rig: *const MienRig, kind: u32, index: u32, out_name: *mut MienStringView) -> MienStatus;
+
+    /// Exact match, in O(log n); of equal names the first. `name` needs no terminator.
+    /// `MIEN_ERROR_NAME` if there is none.
+    pub fn mien_rig_find(rig: *const MienRig, kind: u32, name: *const c_char, name_count: usize, out_index: *mut u32) -> MienStatus;
+
+    /// Which joints, channels, maps, meshes or RBF solvers exist at a LOD, in file order. Other
+    /// kinds: `MIEN_ERROR_INVALID_ARGUMENT`.
+    pub fn mien_rig_lod_indices(rig: *const MienRig, kind: u32, lod: u32, out_indices: *mut MienIndexView) -> MienStatus;
+
+    /// Indices into the joint outputs that evaluation may change at a LOD, ascending: all others
+    /// keep their initial value (0, or 1 for the w of a quaternion).
+    pub fn mien_rig_variable_joint_values(rig: *const MienRig, lod: u32, out_indices: *mut MienIndexView) -> MienStatus;
+
+    /// Parent of each joint; a root is its own parent.
+    pub fn mien_rig_joint_parents(rig: *const MienRig, out_parents: *mut MienIndexView) -> MienStatus;
+
+    /// Neutral pose in the layout of the joint outputs, relative to the parent: translation in
+    /// translation units, rotation as angles in rotation units or as a quaternion, scale 1.
+    pub fn mien_rig_neutral_joint_values(rig: *const MienRig, out_values: *mut MienFloatView) -> MienStatus;
+
+    /// The controls whose product drives a corrective, as indices into the control row.
+    pub fn mien_rig_psd_inputs(rig: *const MienRig, psd: u32, out_controls: *mut MienIndexView) -> MienStatus;
+
+    /// Value each raw control starts with: 0, or 1 for the w of a quaternion input.
+    pub fn mien_rig_initial_raw_controls(rig: *const MienRig, out_values: *mut MienFloatView) -> MienStatus;
+
+    pub fn mien_rig_statistics(rig: *const MienRig, lod: u32, out_statistics: *mut MienRigStatistics) -> MienStatus;
+
+    /// One character in its initial state. `allocator` NULL: the heap. One allocation of
+    /// MienRigInfo.`instance_bytes`.
+    pub fn mien_instance_create(rig: *const MienRig, allocator: *const MienAllocator, out_instance: *mut *mut MienInstance, error: *mut MienError) -> MienStatus;
+
+    pub fn mien_instance_destroy(instance: *mut MienInstance);
+
+    /// Everything as after creation.
+    pub fn mien_instance_reset(instance: *mut MienInstance) -> MienStatus;
+
+    /// Inputs, to be written in place: the views stay valid and the same until the instance is
+    /// destroyed. GUI controls only matter to `mien_rig_map_gui_to_raw()`. Raw controls are
+    /// usually in 0..1 but not clamped. Masks (one per region of a mesh, 0..1, initially 1) switch
+    /// or blend learned behaviour, see `MIEN_ML_MASKS_...`.
+    pub fn mien_instance_gui_controls(instance: *mut MienInstance, out_view: *mut MienMutableFloatView) -> MienStatus;
+
+    /// Inputs, to be written in place: the views stay valid and the same until the instance is
+    /// destroyed. GUI controls only matter to `mien_rig_map_gui_to_raw()`. Raw controls are
+    /// usually in 0..1 but not clamped. Masks (one per region of a mesh, 0..1, initially 1) switch
+    /// or blend learned behaviour, see `MIEN_ML_MASKS_...`.
+    pub fn mien_instance_raw_controls(instance: *mut MienInstance, out_view: *mut MienMutableFloatView) -> MienStatus;
+
+    /// Inputs, to be written in place: the views stay valid and the same until the instance is
+    /// destroyed. GUI controls only matter to `mien_rig_map_gui_to_raw()`. Raw controls are
+    /// usually in 0..1 but not clamped. Masks (one per region of a mesh, 0..1, initially 1) switch
+    /// or blend learned behaviour, see `MIEN_ML_MASKS_...`.
+    pub fn mien_instance_ml_masks(instance: *mut MienInstance, out_view: *mut MienMutableFloatView) -> MienStatus;
+
+    /// Outputs of the last evaluation; the views stay valid, their contents change with each
+    /// evaluation.
+    ///
+    /// ```text
+    /// controls      the whole control row: raw, PSD, ML, RBF
+    /// joints        9 or 10 per joint, as MIEN_OUTPUT_... says: deltas from the neutral pose.
+    ///               Translation, angles and scale are added to it; with quaternions the rotation is
+    ///               the product neutral * delta (the delta turns first)
+    /// blend shapes  one weight per channel
+    /// animated maps one weight per map, 0..1
+    /// ```
+    pub fn mien_instance_controls(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
+
+    /// Outputs of the last evaluation; the views stay valid, their contents change with each
+    /// evaluation.
+    ///
+    /// ```text
+    /// controls      the whole control row: raw, PSD, ML, RBF
+    /// joints        9 or 10 per joint, as MIEN_OUTPUT_... says: deltas from the neutral pose.
+    ///               Translation, angles and scale are added to it; with quaternions the rotation is
+    ///               the product neutral * delta (the delta turns first)
+    /// blend shapes  one weight per channel
+    /// animated maps one weight per map, 0..1
+    /// ```
+    pub fn mien_instance_psd_controls(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
+
+    /// Outputs of the last evaluation; the views stay valid, their contents change with each
+    /// evaluation.
+    ///
+    /// ```text
+    /// controls      the whole control row: raw, PSD, ML, RBF
+    /// joints        9 or 10 per joint, as MIEN_OUTPUT_... says: deltas from the neutral pose.
+    ///               Translation, angles and scale are added to it; with quaternions the rotation is
+    ///               the product neutral * delta (the delta turns first)
+    /// blend shapes  one weight per channel
+    /// animated maps one weight per map, 0..1
+    /// ```
+    pub fn mien_instance_ml_controls(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
+
+    /// Outputs of the last evaluation; the views stay valid, their contents change with each
+    /// evaluation.
+    ///
+    /// ```text
+    /// controls      the whole control row: raw, PSD, ML, RBF
+    /// joints        9 or 10 per joint, as MIEN_OUTPUT_... says: deltas from the neutral pose.
+    ///               Translation, angles and scale are added to it; with quaternions the rotation is
+    ///               the product neutral * delta (the delta turns first)
+    /// blend shapes  one weight per channel
+    /// animated maps one weight per map, 0..1
+    /// ```
+    pub fn mien_instance_rbf_controls(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
+
+    /// Outputs of the last evaluation; the views stay valid, their contents change with each
+    /// evaluation.
+    ///
+    /// ```text
+    /// controls      the whole control row: raw, PSD, ML, RBF
+    /// joints        9 or 10 per joint, as MIEN_OUTPUT_... says: deltas from the neutral pose.
+    ///               Translation, angles and scale are added to it; with quaternions the rotation is
+    ///               the product neutral * delta (the delta turns first)
+    /// blend shapes  one weight per channel
+    /// animated maps one weight per map, 0..1
+    /// ```
+    pub fn mien_instance_joints(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
+
+    /// Outputs of the last evaluation; the views stay valid, their contents change with each
+    /// evaluation.
+    ///
+    /// ```text
+    /// controls      the whole control row: raw, PSD, ML, RBF
+    /// joints        9 or 10 per joint, as MIEN_OUTPUT_... says: deltas from the neutral pose.
+    ///               Translation, angles and scale are added to it; with quaternions the rotation is
+    ///               the product neutral * delta (the delta turns first)
+    /// blend shapes  one weight per channel
+    /// animated maps one weight per map, 0..1
+    /// ```
+    pub fn mien_instance_blend_shapes(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
+
+    /// Outputs of the last evaluation; the views stay valid, their contents change with each
+    /// evaluation.
+    ///
+    /// ```text
+    /// controls      the whole control row: raw, PSD, ML, RBF
+    /// joints        9 or 10 per joint, as MIEN_OUTPUT_... says: deltas from the neutral pose.
+    ///               Translation, angles and scale are added to it; with quaternions the rotation is
+    ///               the product neutral * delta (the delta turns first)
+    /// blend shapes  one weight per channel
+    /// animated maps one weight per map, 0..1
+    /// ```
+    pub fn mien_instance_animated_maps(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
+
+    /// Raw controls from GUI controls, and back. Forward writes only raw controls that some row of
+    /// the table drives, and clamps them to 0..1; others keep what they hold. Backward writes
+    /// every GUI control: the value whose forward mapping gives the raw controls, 0 where there is
+    /// none.
+    pub fn mien_rig_map_gui_to_raw(rig: *const MienRig, instance: *mut MienInstance) -> MienStatus;
+
+    /// Raw controls from GUI controls, and back. Forward writes only raw controls that some row of
+    /// the table drives, and clamps them to 0..1; others keep what they hold. Backward writes
+    /// every GUI control: the value whose forward mapping gives the raw controls, 0 where there is
+    /// none.
+    pub fn mien_rig_map_raw_to_gui(rig: *const MienRig, instance: *mut MienInstance) -> MienStatus;
+
+    /// Evaluates all stages at a LOD. Outputs that the LOD does not reach are 0. Changing the LOD
+    /// from call to call costs no more than clearing the outputs; raw controls are left alone.
+    /// Allocates nothing, locks nothing. Finite inputs are expected.
+    pub fn mien_rig_evaluate(rig: *const MienRig, instance: *mut MienInstance, lod: u32) -> MienStatus;
+
+    /// Only some stages, in the order above; the others keep the results of the last evaluation at
+    /// the same LOD (after a change of LOD: 0).
+    pub fn mien_rig_evaluate_stages(rig: *const MienRig, instance: *mut MienInstance, lod: u32, stages: u32) -> MienStatus;
+
+    /// Only the joint values of one joint group (`MIEN_KIND_JOINT_GROUP`).
+    pub fn mien_rig_evaluate_joint_group(rig: *const MienRig, instance: *mut MienInstance, lod: u32, group: u32) -> MienStatus;
+
+    /// Only the pose controls of one RBF solver (`MIEN_KIND_RBF_SOLVER`), whether the LOD lists it
+    /// or not.
+    pub fn mien_rig_evaluate_rbf_solver(rig: *const MienRig, instance: *mut MienInstance, lod: u32, solver: u32) -> MienStatus;
+
+    /// Only the joints of one twist and swing set-up (`MIEN_KIND_TWIST_SWING`).
+    pub fn mien_rig_evaluate_twist_swing(rig: *const MienRig, instance: *mut MienInstance, lod: u32, setup: u32) -> MienStatus;
+}

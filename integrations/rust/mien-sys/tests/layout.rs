@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// Written by generate_api.py from mien.h. Do not edit.
+//! The compiler lays out every struct as the C compiler does.
+#![cfg(target_pointer_width = "64")]
+
+use std::mem::{align_of, size_of, MaybeUninit};
+use std::ptr::addr_of;
+
+macro_rules! offset {
+    ($type:ty, $field:ident) => {{
+        let place = MaybeUninit::<$type>::uninit();
+        // SAFETY: the address of a field is taken, nothing is read.
+        unsafe { addr_of!((*place.as_ptr()).$field) as usize - place.as_ptr() as usize }
+    }};
+}
+
+#[test]
+fn mien_error() {
+    use mien_sys::MienError as S;
+    assert_eq!(size_of::<S>(), 256);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, status), 4);
+    assert_eq!(offset!(S, byte_offset), 8);
+    assert_eq!(offset!(S, message), 16);
+}
+
+#[test]
+fn mien_allocator() {
+    use mien_sys::MienAllocator as S;
+    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, user), 0);
+    assert_eq!(offset!(S, allocate), 8);
+    assert_eq!(offset!(S, release), 16);
+}
+
+#[test]
+fn mien_string_view() {
+    use mien_sys::MienStringView as S;
+    assert_eq!(size_of::<S>(), 16);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, data), 0);
+    assert_eq!(offset!(S, count), 8);
+}
+
+#[test]
+fn mien_float_view() {
+    use mien_sys::MienFloatView as S;
+    assert_eq!(size_of::<S>(), 16);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, data), 0);
+    assert_eq!(offset!(S, count), 8);
+}
+
+#[test]
+fn mien_mutable_float_view() {
+    use mien_sys::MienMutableFloatView as S;
+    assert_eq!(size_of::<S>(), 16);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, data), 0);
+    assert_eq!(offset!(S, count), 8);
+}
+
+#[test]
+fn mien_index_view() {
+    use mien_sys::MienIndexView as S;
+    assert_eq!(size_of::<S>(), 16);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, data), 0);
+    assert_eq!(offset!(S, count), 8);
+}
+
+#[test]
+fn mien_dna_desc() {
+    use mien_sys::MienDnaDesc as S;
+    assert_eq!(size_of::<S>(), 32);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, layers), 4);
+    assert_eq!(offset!(S, unknown_layers), 8);
+    assert_eq!(offset!(S, file_access), 12);
+    assert_eq!(offset!(S, lods), 16);
+    assert_eq!(offset!(S, allocator), 24);
+}
+
+#[test]
+fn mien_dna_info() {
+    use mien_sys::MienDnaInfo as S;
+    assert_eq!(size_of::<S>(), 152);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, generation), 4);
+    assert_eq!(offset!(S, version), 8);
+    assert_eq!(offset!(S, layers), 12);
+    assert_eq!(offset!(S, file_bytes), 16);
+    assert_eq!(offset!(S, memory_bytes), 24);
+    assert_eq!(offset!(S, mapped), 32);
+    assert_eq!(offset!(S, layer_count), 36);
+    assert_eq!(offset!(S, translation_unit), 40);
+    assert_eq!(offset!(S, rotation_unit), 44);
+    assert_eq!(offset!(S, axes), 48);
+    assert_eq!(offset!(S, rotation_sequence), 60);
+    assert_eq!(offset!(S, rotation_signs), 64);
+    assert_eq!(offset!(S, face_winding), 76);
+    assert_eq!(offset!(S, lod_count), 80);
+    assert_eq!(offset!(S, max_lod), 84);
+    assert_eq!(offset!(S, gui_control_count), 88);
+    assert_eq!(offset!(S, raw_control_count), 92);
+    assert_eq!(offset!(S, psd_control_count), 96);
+    assert_eq!(offset!(S, ml_control_count), 100);
+    assert_eq!(offset!(S, rbf_control_count), 104);
+    assert_eq!(offset!(S, joint_count), 108);
+    assert_eq!(offset!(S, joint_group_count), 112);
+    assert_eq!(offset!(S, blend_shape_channel_count), 116);
+    assert_eq!(offset!(S, animated_map_count), 120);
+    assert_eq!(offset!(S, mesh_count), 124);
+    assert_eq!(offset!(S, neural_network_count), 128);
+    assert_eq!(offset!(S, rbf_solver_count), 132);
+    assert_eq!(offset!(S, rbf_pose_count), 136);
+    assert_eq!(offset!(S, twist_count), 140);
+    assert_eq!(offset!(S, swing_count), 144);
+    assert_eq!(offset!(S, metadata_count), 148);
+}
+
+#[test]
+fn mien_dna_layer() {
+    use mien_sys::MienDnaLayer as S;
+    assert_eq!(size_of::<S>(), 48);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, layer), 4);
+    assert_eq!(offset!(S, code), 8);
+    assert_eq!(offset!(S, version_major), 16);
+    assert_eq!(offset!(S, version_minor), 20);
+    assert_eq!(offset!(S, byte_offset), 24);
+    assert_eq!(offset!(S, byte_count), 32);
+    assert_eq!(offset!(S, loaded), 40);
+    assert_eq!(offset!(S, reserved), 44);
+}
+
+#[test]
+fn mien_dna_field() {
+    use mien_sys::MienDnaField as S;
+    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, r#type), 4);
+    assert_eq!(offset!(S, count), 8);
+    assert_eq!(offset!(S, byte_offset), 16);
+}
+
+#[test]
+fn mien_write_desc() {
+    use mien_sys::MienWriteDesc as S;
+    assert_eq!(size_of::<S>(), 16);
+    assert_eq!(align_of::<S>(), 4);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, version), 4);
+    assert_eq!(offset!(S, unknown_layers), 8);
+    assert_eq!(offset!(S, reserved), 12);
+}
+
+#[test]
+fn mien_finding() {
+    use mien_sys::MienFinding as S;
+    assert_eq!(size_of::<S>(), 56);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, severity), 4);
+    assert_eq!(offset!(S, status), 8);
+    assert_eq!(offset!(S, reserved), 12);
+    assert_eq!(offset!(S, byte_offset), 16);
+    assert_eq!(offset!(S, field), 24);
+    assert_eq!(offset!(S, message), 40);
+}
+
+#[test]
+fn mien_generate_desc() {
+    use mien_sys::MienGenerateDesc as S;
+    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, preset), 4);
+    assert_eq!(offset!(S, seed), 8);
+    assert_eq!(offset!(S, allocator), 16);
+}
+
+#[test]
+fn mien_rig_desc() {
+    use mien_sys::MienRigDesc as S;
+    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, isa), 4);
+    assert_eq!(offset!(S, rotation), 8);
+    assert_eq!(offset!(S, ml_masks), 12);
+    assert_eq!(offset!(S, allocator), 16);
+}
+
+#[test]
+fn mien_rig_info() {
+    use mien_sys::MienRigInfo as S;
+    assert_eq!(size_of::<S>(), 80);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, isa), 4);
+    assert_eq!(offset!(S, lod_count), 8);
+    assert_eq!(offset!(S, translation_unit), 12);
+    assert_eq!(offset!(S, rotation_unit), 16);
+    assert_eq!(offset!(S, axes), 20);
+    assert_eq!(offset!(S, rotation_sequence), 32);
+    assert_eq!(offset!(S, rotation_signs), 36);
+    assert_eq!(offset!(S, control_count), 48);
+    assert_eq!(offset!(S, joint_value_count), 52);
+    assert_eq!(offset!(S, rotation), 56);
+    assert_eq!(offset!(S, reserved), 60);
+    assert_eq!(offset!(S, rig_bytes), 64);
+    assert_eq!(offset!(S, instance_bytes), 72);
+}
+
+#[test]
+fn mien_rig_statistics() {
+    use mien_sys::MienRigStatistics as S;
+    assert_eq!(size_of::<S>(), 48);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, psd_count), 4);
+    assert_eq!(offset!(S, joint_count), 8);
+    assert_eq!(offset!(S, joint_row_count), 12);
+    assert_eq!(offset!(S, blend_shape_count), 16);
+    assert_eq!(offset!(S, animated_map_row_count), 20);
+    assert_eq!(offset!(S, joint_entry_count), 24);
+    assert_eq!(offset!(S, joint_byte_count), 32);
+    assert_eq!(offset!(S, rbf_solver_count), 40);
+    assert_eq!(offset!(S, turned_joint_count), 44);
+}

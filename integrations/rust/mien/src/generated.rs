@@ -1,0 +1,682 @@
+// SPDX-License-Identifier: MIT
+// Written by generate_api.py from mien.h. Do not edit.
+
+use crate::convert::{flags, numbers, offset, text};
+use mien_sys as sys;
+
+/// Why a call failed. The numbers are never used again for something else.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Status(pub i32);
+
+impl Status {
+    /// `MIEN_OK` in C.
+    pub const OK: Self = Self(0);
+    /// A pointer that has to be given is NULL.
+    pub const NULL_ARGUMENT: Self = Self(1);
+    /// A value outside its range; a buffer that is too small.
+    pub const INVALID_ARGUMENT: Self = Self(2);
+    /// `struct_size` too small, or unknown fields that are not zero.
+    pub const STRUCT_SIZE: Self = Self(3);
+    /// Not a live handle of this kind.
+    pub const HANDLE: Self = Self(4);
+    /// An instance of another rig.
+    pub const MISMATCH: Self = Self(5);
+    /// An index past the end.
+    pub const INDEX: Self = Self(6);
+    /// A LOD that the rig does not have.
+    pub const LOD: Self = Self(7);
+    /// No such name or path.
+    pub const NAME: Self = Self(8);
+    /// This CPU (or build) lacks the instruction set.
+    pub const ISA: Self = Self(9);
+    /// The allocator returned NULL.
+    pub const MEMORY: Self = Self(10);
+    /// `MIEN_ERROR_FILE_OPEN` in C.
+    pub const FILE_OPEN: Self = Self(20);
+    /// `MIEN_ERROR_FILE_READ` in C.
+    pub const FILE_READ: Self = Self(21);
+    /// `MIEN_ERROR_FILE_WRITE` in C.
+    pub const FILE_WRITE: Self = Self(22);
+    /// Not a DNA file.
+    pub const DNA_SIGNATURE: Self = Self(30);
+    /// A DNA file of another generation than 2.
+    pub const DNA_VERSION: Self = Self(31);
+    /// The file ends before what it announces.
+    pub const DNA_TRUNCATED: Self = Self(32);
+    /// Offsets, sizes or counts contradict each other.
+    pub const DNA_STRUCTURE: Self = Self(33);
+    /// An index to something that is not there.
+    pub const DNA_REFERENCE: Self = Self(34);
+    /// More of something than the format or Mien can number.
+    pub const DNA_LIMIT: Self = Self(35);
+    /// A layer that the call needs was not loaded or not in the file.
+    pub const DNA_LAYER: Self = Self(36);
+    /// A value that has no meaning.
+    pub const DNA_VALUE: Self = Self(37);
+}
+
+numbers!(Status, i32, [(0, "OK"), (1, "NULL_ARGUMENT"), (2, "INVALID_ARGUMENT"), (3, "STRUCT_SIZE"), (4, "HANDLE"), (5, "MISMATCH"), (6, "INDEX"), (7, "LOD"), (8, "NAME"), (9, "ISA"), (10, "MEMORY"), (20, "FILE_OPEN"), (21, "FILE_READ"), (22, "FILE_WRITE"), (30, "DNA_SIGNATURE"), (31, "DNA_VERSION"), (32, "DNA_TRUNCATED"), (33, "DNA_STRUCTURE"), (34, "DNA_REFERENCE"), (35, "DNA_LIMIT"), (36, "DNA_LAYER"), (37, "DNA_VALUE")]);
+
+pub(crate) fn describe(status: Status) -> &'static str {
+    match status.0 {
+        1 => "a pointer that has to be given is NULL",
+        2 => "a value outside its range; a buffer that is too small",
+        3 => "struct_size too small, or unknown fields that are not zero",
+        4 => "not a live handle of this kind",
+        5 => "an instance of another rig",
+        6 => "an index past the end",
+        7 => "a LOD that the rig does not have",
+        8 => "no such name or path",
+        9 => "this CPU (or build) lacks the instruction set",
+        10 => "the allocator returned NULL",
+        30 => "not a DNA file",
+        31 => "a DNA file of another generation than 2",
+        32 => "the file ends before what it announces",
+        33 => "offsets, sizes or counts contradict each other",
+        34 => "an index to something that is not there",
+        35 => "more of something than the format or Mien can number",
+        36 => "a layer that the call needs was not loaded or not in the file",
+        37 => "a value that has no meaning",
+        _ => "",
+    }
+}
+
+/// Layers, to be combined with \|. A layer brings along what it needs (everything needs the
+/// definition, RBF behavior needs behavior); the descriptor is always read.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Layers(pub u32);
+
+impl Layers {
+    /// `MIEN_LAYER_ALL` in C.
+    pub const ALL: Self = Self(0);
+    /// `MIEN_LAYER_DESCRIPTOR` in C.
+    pub const DESCRIPTOR: Self = Self(1);
+    /// `MIEN_LAYER_DEFINITION` in C.
+    pub const DEFINITION: Self = Self(2);
+    /// `MIEN_LAYER_BEHAVIOR` in C.
+    pub const BEHAVIOR: Self = Self(4);
+    /// `MIEN_LAYER_GEOMETRY` in C.
+    pub const GEOMETRY: Self = Self(8);
+    /// `MIEN_LAYER_GEOMETRY_WITHOUT_BLEND_SHAPES` in C.
+    pub const GEOMETRY_WITHOUT_BLEND_SHAPES: Self = Self(16);
+    /// `MIEN_LAYER_MACHINE_LEARNED_BEHAVIOR` in C.
+    pub const MACHINE_LEARNED_BEHAVIOR: Self = Self(32);
+    /// `MIEN_LAYER_RBF_BEHAVIOR` in C.
+    pub const RBF_BEHAVIOR: Self = Self(64);
+    /// `MIEN_LAYER_JOINT_BEHAVIOR_METADATA` in C.
+    pub const JOINT_BEHAVIOR_METADATA: Self = Self(128);
+    /// `MIEN_LAYER_TWIST_SWING_BEHAVIOR` in C.
+    pub const TWIST_SWING_BEHAVIOR: Self = Self(256);
+}
+
+flags!(Layers, u32, [(0, "ALL"), (1, "DESCRIPTOR"), (2, "DEFINITION"), (4, "BEHAVIOR"), (8, "GEOMETRY"), (16, "GEOMETRY_WITHOUT_BLEND_SHAPES"), (32, "MACHINE_LEARNED_BEHAVIOR"), (64, "RBF_BEHAVIOR"), (128, "JOINT_BEHAVIOR_METADATA"), (256, "TWIST_SWING_BEHAVIOR")]);
+
+/// Layers of a kind that Mien does not know.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct UnknownLayers(pub u32);
+
+impl UnknownLayers {
+    /// Carried along, written back unchanged.
+    pub const KEEP: Self = Self(0);
+    /// `MIEN_UNKNOWN_LAYERS_DROP` in C.
+    pub const DROP: Self = Self(1);
+}
+
+numbers!(UnknownLayers, u32, [(0, "KEEP"), (1, "DROP")]);
+
+/// What C calls `MIEN_FILE_...`.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct FileAccess(pub u32);
+
+impl FileAccess {
+    /// Map; read into memory where the system cannot map (pipes).
+    pub const MAP: Self = Self(0);
+    /// Read it all now: for files that others may truncate meanwhile.
+    pub const READ: Self = Self(1);
+}
+
+numbers!(FileAccess, u32, [(0, "MAP"), (1, "READ")]);
+
+/// What C calls `MIEN_TRANSLATION_...`.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct TranslationUnit(pub u32);
+
+impl TranslationUnit {
+    /// `MIEN_TRANSLATION_CENTIMETERS` in C.
+    pub const CENTIMETERS: Self = Self(0);
+    /// `MIEN_TRANSLATION_METERS` in C.
+    pub const METERS: Self = Self(1);
+}
+
+numbers!(TranslationUnit, u32, [(0, "CENTIMETERS"), (1, "METERS")]);
+
+/// What C calls `MIEN_ROTATION_...`.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct RotationUnit(pub u32);
+
+impl RotationUnit {
+    /// `MIEN_ROTATION_DEGREES` in C.
+    pub const DEGREES: Self = Self(0);
+    /// `MIEN_ROTATION_RADIANS` in C.
+    pub const RADIANS: Self = Self(1);
+}
+
+numbers!(RotationUnit, u32, [(0, "DEGREES"), (1, "RADIANS")]);
+
+/// What C calls `MIEN_DIRECTION_...`.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Direction(pub u32);
+
+impl Direction {
+    /// `MIEN_DIRECTION_LEFT` in C.
+    pub const LEFT: Self = Self(0);
+    /// `MIEN_DIRECTION_RIGHT` in C.
+    pub const RIGHT: Self = Self(1);
+    /// `MIEN_DIRECTION_UP` in C.
+    pub const UP: Self = Self(2);
+    /// `MIEN_DIRECTION_DOWN` in C.
+    pub const DOWN: Self = Self(3);
+    /// `MIEN_DIRECTION_FRONT` in C.
+    pub const FRONT: Self = Self(4);
+    /// `MIEN_DIRECTION_BACK` in C.
+    pub const BACK: Self = Self(5);
+}
+
+numbers!(Direction, u32, [(0, "LEFT"), (1, "RIGHT"), (2, "UP"), (3, "DOWN"), (4, "FRONT"), (5, "BACK")]);
+
+/// What C calls `MIEN_ROTATION_...`.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct RotationSequence(pub u32);
+
+impl RotationSequence {
+    /// X first, then y, then z, about fixed axes.
+    pub const XYZ: Self = Self(0);
+    /// `MIEN_ROTATION_XZY` in C.
+    pub const XZY: Self = Self(1);
+    /// `MIEN_ROTATION_YXZ` in C.
+    pub const YXZ: Self = Self(2);
+    /// `MIEN_ROTATION_YZX` in C.
+    pub const YZX: Self = Self(3);
+    /// `MIEN_ROTATION_ZXY` in C.
+    pub const ZXY: Self = Self(4);
+    /// `MIEN_ROTATION_ZYX` in C.
+    pub const ZYX: Self = Self(5);
+}
+
+numbers!(RotationSequence, u32, [(0, "XYZ"), (1, "XZY"), (2, "YXZ"), (3, "YZX"), (4, "ZXY"), (5, "ZYX")]);
+
+/// Every field of every loaded layer can be read by its path: the layer's code and the field names
+/// of the DNA format, with an index after each list:
+///
+/// ```text
+/// desc.name                                 a string
+/// desc.metadata[0].key                      a string
+/// defn.jointNames                           a list of strings; defn.jointNames[3] is one
+/// defn.neutralJointTranslations.xs          floats
+/// bhvr.joints.jointGroups[7].values         floats
+/// geom.meshes[0].skinWeights[12].weights    floats
+/// mlbh.neuralNetworks[0].layers[1].biases   floats
+/// ```
+///
+/// `mien_dna_field()` tells what is at a path; the read calls copy it out in native byte order.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct FieldType(pub u32);
+
+impl FieldType {
+    /// Named fields.
+    pub const RECORD: Self = Self(0);
+    /// Records, strings or arrays, each with its own path \[i\].
+    pub const LIST: Self = Self(1);
+    /// `MIEN_FIELD_STRING` in C.
+    pub const STRING: Self = Self(2);
+    /// Numbers: one, or an array of them.
+    pub const U8: Self = Self(3);
+    /// `MIEN_FIELD_U16` in C.
+    pub const U16: Self = Self(4);
+    /// `MIEN_FIELD_U32` in C.
+    pub const U32: Self = Self(5);
+    /// `MIEN_FIELD_I32` in C.
+    pub const I32: Self = Self(6);
+    /// `MIEN_FIELD_F32` in C.
+    pub const F32: Self = Self(7);
+}
+
+numbers!(FieldType, u32, [(0, "RECORD"), (1, "LIST"), (2, "STRING"), (3, "U8"), (4, "U16"), (5, "U32"), (6, "I32"), (7, "F32")]);
+
+/// What C calls `MIEN_SEVERITY_...`.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Severity(pub u32);
+
+impl Severity {
+    /// Opening or `mien_rig_create()` refuses this.
+    pub const ERROR: Self = Self(0);
+    /// Allowed, but probably not meant.
+    pub const WARNING: Self = Self(1);
+}
+
+numbers!(Severity, u32, [(0, "ERROR"), (1, "WARNING")]);
+
+/// What C calls `MIEN_PRESET_...`.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Preset(pub u32);
+
+impl Preset {
+    /// Readable by eye.
+    pub const TINY: Self = Self(0);
+    /// `MIEN_PRESET_SMALL` in C.
+    pub const SMALL: Self = Self(1);
+    /// `MIEN_PRESET_MEDIUM` in C.
+    pub const MEDIUM: Self = Self(2);
+    /// A production head: 870 joints, 260 raw controls, 8 LODs, a million matrix entries.
+    pub const LARGE: Self = Self(3);
+}
+
+numbers!(Preset, u32, [(0, "TINY"), (1, "SMALL"), (2, "MEDIUM"), (3, "LARGE")]);
+
+/// What C calls `MIEN_ISA_...`.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Isa(pub u32);
+
+impl Isa {
+    /// The environment variable `MIEN_ISA` (scalar, sse2, ...) if set, else the best that this CPU
+    /// and operating system allow.
+    pub const BEST: Self = Self(0);
+    /// `MIEN_ISA_SCALAR` in C.
+    pub const SCALAR: Self = Self(1);
+    /// `MIEN_ISA_SSE2` in C.
+    pub const SSE2: Self = Self(2);
+    /// With FMA and F16C.
+    pub const AVX2: Self = Self(3);
+    /// F, CD, DQ, BW, VL.
+    pub const AVX512: Self = Self(4);
+    /// `MIEN_ISA_NEON` in C.
+    pub const NEON: Self = Self(5);
+}
+
+numbers!(Isa, u32, [(0, "BEST"), (1, "SCALAR"), (2, "SSE2"), (3, "AVX2"), (4, "AVX512"), (5, "NEON")]);
+
+/// How joint rotations come out.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Output(pub u32);
+
+impl Output {
+    /// 9 values per joint: tx ty tz rx ry rz sx sy sz.
+    pub const EULER: Self = Self(0);
+    /// 10 values per joint: tx ty tz qx qy qz qw sx sy sz.
+    pub const QUATERNION: Self = Self(1);
+}
+
+numbers!(Output, u32, [(0, "EULER"), (1, "QUATERNION")]);
+
+/// What a mask of a mesh region does to the networks of the region (`mien_instance_ml_masks()`).
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct MlMasks(pub u32);
+
+impl MlMasks {
+    /// 0: the networks give their default (0, or 1 for the w of a quaternion); anything else: they
+    /// are evaluated. What files were made for.
+    pub const SWITCH: Self = Self(0);
+    /// In between, outputs are blended with the default; clamped to 0..1.
+    pub const BLEND: Self = Self(1);
+}
+
+numbers!(MlMasks, u32, [(0, "SWITCH"), (1, "BLEND")]);
+
+/// Things with names and numbers.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Kind(pub u32);
+
+impl Kind {
+    /// `MIEN_KIND_GUI_CONTROL` in C.
+    pub const GUI_CONTROL: Self = Self(0);
+    /// `MIEN_KIND_RAW_CONTROL` in C.
+    pub const RAW_CONTROL: Self = Self(1);
+    /// Correctives: DNA files do not name them; here "psd0", "psd1", ...
+    pub const PSD_CONTROL: Self = Self(2);
+    /// `MIEN_KIND_ML_CONTROL` in C.
+    pub const ML_CONTROL: Self = Self(3);
+    /// `MIEN_KIND_RBF_CONTROL` in C.
+    pub const RBF_CONTROL: Self = Self(4);
+    /// `MIEN_KIND_JOINT` in C.
+    pub const JOINT: Self = Self(5);
+    /// `MIEN_KIND_BLEND_SHAPE_CHANNEL` in C.
+    pub const BLEND_SHAPE_CHANNEL: Self = Self(6);
+    /// `MIEN_KIND_ANIMATED_MAP` in C.
+    pub const ANIMATED_MAP: Self = Self(7);
+    /// `MIEN_KIND_MESH` in C.
+    pub const MESH: Self = Self(8);
+    /// One per region of a mesh; "mesh/region".
+    pub const ML_MASK: Self = Self(9);
+    /// The last three have no names.
+    pub const JOINT_GROUP: Self = Self(10);
+    /// `MIEN_KIND_RBF_SOLVER` in C.
+    pub const RBF_SOLVER: Self = Self(11);
+    /// A swing with the twists of the same inputs, or a twist alone.
+    pub const TWIST_SWING: Self = Self(12);
+}
+
+numbers!(Kind, u32, [(0, "GUI_CONTROL"), (1, "RAW_CONTROL"), (2, "PSD_CONTROL"), (3, "ML_CONTROL"), (4, "RBF_CONTROL"), (5, "JOINT"), (6, "BLEND_SHAPE_CHANNEL"), (7, "ANIMATED_MAP"), (8, "MESH"), (9, "ML_MASK"), (10, "JOINT_GROUP"), (11, "RBF_SOLVER"), (12, "TWIST_SWING")]);
+
+/// What C calls `MIEN_STAGE_...`.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(transparent)]
+pub struct Stages(pub u32);
+
+impl Stages {
+    /// Neural networks.
+    pub const ML: Self = Self(1);
+    /// `MIEN_STAGE_RBF` in C.
+    pub const RBF: Self = Self(2);
+    /// `MIEN_STAGE_PSD` in C.
+    pub const PSD: Self = Self(4);
+    /// Joint groups, then twists and swings, then joints that networks move.
+    pub const JOINTS: Self = Self(8);
+    /// `MIEN_STAGE_BLEND_SHAPES` in C.
+    pub const BLEND_SHAPES: Self = Self(16);
+    /// `MIEN_STAGE_ANIMATED_MAPS` in C.
+    pub const ANIMATED_MAPS: Self = Self(32);
+    /// `MIEN_STAGE_ALL` in C.
+    pub const ALL: Self = Self(63);
+}
+
+flags!(Stages, u32, [(1, "ML"), (2, "RBF"), (4, "PSD"), (8, "JOINTS"), (16, "BLEND_SHAPES"), (32, "ANIMATED_MAPS"), (63, "ALL")]);
+
+/// `MienDnaInfo` in C.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct DnaInfo {
+    /// 2.
+    pub generation: u32,
+    /// 1 ... 8: the file is generation.version.
+    pub version: u32,
+    /// `Layers` that were loaded.
+    pub layers: Layers,
+    /// Size of the file; 0 if generated.
+    pub file_bytes: u64,
+    /// Taken from the allocator.
+    pub memory_bytes: u64,
+    /// Whether the file is mapped.
+    pub mapped: bool,
+    /// Entries for `mien_dna_layer()`.
+    pub layer_count: usize,
+    /// `TranslationUnit`
+    pub translation_unit: TranslationUnit,
+    /// `RotationUnit::DEGREES` or \_RADIANS.
+    pub rotation_unit: RotationUnit,
+    /// `Direction` of x, y, z.
+    pub axes: [Direction; 3],
+    /// `RotationSequence::XYZ` ...
+    pub rotation_sequence: RotationSequence,
+    /// 1 or -1, for the angles about x, y, z.
+    pub rotation_signs: [i32; 3],
+    /// 0 counter-clockwise, 1 clockwise, seen from outside.
+    pub face_winding: u32,
+    /// Lod count.
+    pub lod_count: usize,
+    /// This file's LOD 0 is LOD `max_lod` of its data base.
+    pub max_lod: u32,
+    /// Gui control count.
+    pub gui_control_count: usize,
+    /// Raw control count.
+    pub raw_control_count: usize,
+    /// Psd control count.
+    pub psd_control_count: usize,
+    /// Ml control count.
+    pub ml_control_count: usize,
+    /// Rbf control count.
+    pub rbf_control_count: usize,
+    /// Joint count.
+    pub joint_count: usize,
+    /// Joint group count.
+    pub joint_group_count: usize,
+    /// Blend shape channel count.
+    pub blend_shape_channel_count: usize,
+    /// Animated map count.
+    pub animated_map_count: usize,
+    /// Mesh count.
+    pub mesh_count: usize,
+    /// Neural network count.
+    pub neural_network_count: usize,
+    /// Rbf solver count.
+    pub rbf_solver_count: usize,
+    /// Rbf pose count.
+    pub rbf_pose_count: usize,
+    /// Twist count.
+    pub twist_count: usize,
+    /// Swing count.
+    pub swing_count: usize,
+    /// Pairs: desc.metadata\[i\].key and .value.
+    pub metadata_count: usize,
+}
+
+impl From<sys::MienDnaInfo> for DnaInfo {
+    fn from(c: sys::MienDnaInfo) -> Self {
+        Self {
+            generation: c.generation,
+            version: c.version,
+            layers: Layers(c.layers),
+            file_bytes: c.file_bytes,
+            memory_bytes: c.memory_bytes,
+            mapped: c.mapped != 0,
+            layer_count: c.layer_count as usize,
+            translation_unit: TranslationUnit(c.translation_unit),
+            rotation_unit: RotationUnit(c.rotation_unit),
+            axes: c.axes.map(Direction),
+            rotation_sequence: RotationSequence(c.rotation_sequence),
+            rotation_signs: c.rotation_signs,
+            face_winding: c.face_winding,
+            lod_count: c.lod_count as usize,
+            max_lod: c.max_lod,
+            gui_control_count: c.gui_control_count as usize,
+            raw_control_count: c.raw_control_count as usize,
+            psd_control_count: c.psd_control_count as usize,
+            ml_control_count: c.ml_control_count as usize,
+            rbf_control_count: c.rbf_control_count as usize,
+            joint_count: c.joint_count as usize,
+            joint_group_count: c.joint_group_count as usize,
+            blend_shape_channel_count: c.blend_shape_channel_count as usize,
+            animated_map_count: c.animated_map_count as usize,
+            mesh_count: c.mesh_count as usize,
+            neural_network_count: c.neural_network_count as usize,
+            rbf_solver_count: c.rbf_solver_count as usize,
+            rbf_pose_count: c.rbf_pose_count as usize,
+            twist_count: c.twist_count as usize,
+            swing_count: c.swing_count as usize,
+            metadata_count: c.metadata_count as usize,
+        }
+    }
+}
+
+/// One entry of the file's table of layers, in file order. Files of version 2.1 have no such
+/// table; their sections are listed as the layers desc, defn, bhvr and geom.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct DnaLayer {
+    /// `Layers` that loads it; 0: of a kind that Mien does not know.
+    pub layer: Layers,
+    /// "bhvr", terminated.
+    pub code: String,
+    /// Version major.
+    pub version_major: u32,
+    /// Version minor.
+    pub version_minor: u32,
+    /// Byte offset.
+    pub byte_offset: u64,
+    /// Byte count.
+    pub byte_count: u64,
+    /// Read; if not: skipped, or carried along unread.
+    pub loaded: bool,
+}
+
+impl From<sys::MienDnaLayer> for DnaLayer {
+    fn from(c: sys::MienDnaLayer) -> Self {
+        Self {
+            layer: Layers(c.layer),
+            code: text(&c.code),
+            version_major: c.version_major,
+            version_minor: c.version_minor,
+            byte_offset: c.byte_offset,
+            byte_count: c.byte_count,
+            loaded: c.loaded != 0,
+        }
+    }
+}
+
+/// `MienDnaField` in C.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct DnaField {
+    /// `FieldType`
+    pub field_type: FieldType,
+    /// Elements of an array or list, bytes of a string, 1 for a number, fields of a record.
+    pub count: u64,
+    /// Where the bytes of an array, of one of its elements or of a string begin in the file;
+    /// `None` for others, and for what was made here.
+    pub byte_offset: Option<u64>,
+}
+
+impl From<sys::MienDnaField> for DnaField {
+    fn from(c: sys::MienDnaField) -> Self {
+        Self {
+            field_type: FieldType(c.r#type),
+            count: c.count,
+            byte_offset: offset(c.byte_offset),
+        }
+    }
+}
+
+/// `MienRigInfo` in C.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct RigInfo {
+    /// `Isa` in use.
+    pub isa: Isa,
+    /// Lod count.
+    pub lod_count: usize,
+    /// `TranslationUnit`
+    pub translation_unit: TranslationUnit,
+    /// `RotationUnit::DEGREES` or \_RADIANS.
+    pub rotation_unit: RotationUnit,
+    /// `Direction` of x, y, z.
+    pub axes: [Direction; 3],
+    /// `RotationSequence::XYZ` ...
+    pub rotation_sequence: RotationSequence,
+    /// Rotation signs.
+    pub rotation_signs: [i32; 3],
+    /// Length of a control row: raw, PSD, ML, RBF, in this order.
+    pub control_count: usize,
+    /// Length of a row of joint outputs: 9 or 10 per joint.
+    pub joint_value_count: usize,
+    /// `Output`
+    pub rotation: Output,
+    /// Memory of the rig.
+    pub rig_bytes: u64,
+    /// Memory of each instance.
+    pub instance_bytes: u64,
+}
+
+impl From<sys::MienRigInfo> for RigInfo {
+    fn from(c: sys::MienRigInfo) -> Self {
+        Self {
+            isa: Isa(c.isa),
+            lod_count: c.lod_count as usize,
+            translation_unit: TranslationUnit(c.translation_unit),
+            rotation_unit: RotationUnit(c.rotation_unit),
+            axes: c.axes.map(Direction),
+            rotation_sequence: RotationSequence(c.rotation_sequence),
+            rotation_signs: c.rotation_signs,
+            control_count: c.control_count as usize,
+            joint_value_count: c.joint_value_count as usize,
+            rotation: Output(c.rotation),
+            rig_bytes: c.rig_bytes,
+            instance_bytes: c.instance_bytes,
+        }
+    }
+}
+
+/// What one evaluation at a LOD works through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct RigStatistics {
+    /// Correctives computed.
+    pub psd_count: usize,
+    /// Joints that exist at this LOD.
+    pub joint_count: usize,
+    /// Joint values computed.
+    pub joint_row_count: usize,
+    /// Channels written.
+    pub blend_shape_count: usize,
+    /// Rows of the animated map table.
+    pub animated_map_row_count: usize,
+    /// Rows x columns, over the groups.
+    pub joint_entry_count: u64,
+    /// Bytes of the joint matrix that are read.
+    pub joint_byte_count: u64,
+    /// Solvers that the LOD lists.
+    pub rbf_solver_count: usize,
+    /// Joints represented by quaternions.
+    pub turned_joint_count: usize,
+}
+
+impl From<sys::MienRigStatistics> for RigStatistics {
+    fn from(c: sys::MienRigStatistics) -> Self {
+        Self {
+            psd_count: c.psd_count as usize,
+            joint_count: c.joint_count as usize,
+            joint_row_count: c.joint_row_count as usize,
+            blend_shape_count: c.blend_shape_count as usize,
+            animated_map_row_count: c.animated_map_row_count as usize,
+            joint_entry_count: c.joint_entry_count,
+            joint_byte_count: c.joint_byte_count,
+            rbf_solver_count: c.rbf_solver_count as usize,
+            turned_joint_count: c.turned_joint_count as usize,
+        }
+    }
+}

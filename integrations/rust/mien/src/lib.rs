@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+//! Facial rigs in DNA files (the format of MetaHuman characters): opened, evaluated and written.
+//!
+//! ```text
+//! DNA file -> Dna -> Rig -> Instance -> joint, channel and map values
+//! ```
+//!
+//! A [`Dna`] is a checked, read-only view of a file. A [`Rig`] is the same data packed for
+//! evaluation, shared by any number of characters and threads. An [`Instance`] is one character.
+//!
+//! ```
+//! use mien::{Dna, Kind, Preset, Rig};
+//!
+//! fn main() -> mien::Result<()> {
+//!     let dna = Dna::generate(Preset::SMALL)?; // or Dna::open("head.dna")
+//!     let rig = Rig::new(&dna)?;
+//!     let mut face = rig.instance()?;
+//!     let jaw = rig.find(Kind::RAW_CONTROL, "CTRL_expressions.jawOpen")?;
+//!     face.raw_controls_mut()[jaw] = 1.0;
+//!     face.evaluate(0)?;
+//!     println!("{:?}", &face.joints()[..9]); // tx ty tz rx ry rz sx sy sz of the first joint
+//!     Ok(())
+//! }
+//! ```
+//!
+//! # What holds everywhere
+//!
+//! * **Threads.** `Dna`, `Rig` and `Report` are immutable, `Send` and `Sync`. What changes an
+//!   `Instance` takes `&mut`; evaluate different instances of one rig on as many threads as you
+//!   like. There is no global state.
+//! * **Lifetimes.** A `Rig` is a counted reference, which each instance holds. A `Dna` of bytes in
+//!   memory borrows them; a rig borrows nothing.
+//! * **Units** are those of the file: [`RigInfo`] tells centimetres or metres, degrees or radians,
+//!   and which way the axes point. Outputs are deltas from the neutral pose.
+//! * **Errors** carry a [`Status`] for programs, a sentence for people, and the byte offset in
+//!   the file. Any bytes may be opened: what is wrong with them is an error, never a crash.
+//! * **Memory** comes from an [`Allocator`] of yours, or from the heap. Evaluation takes none.
+//! * **Numbers** such as [`Kind`] are named constants, not enums of Rust: a newer library may know
+//!   more of them.
+#![deny(missing_docs)]
+#![warn(unsafe_op_in_unsafe_fn)]
+
+mod allocator;
+mod convert;
+mod dna;
+mod error;
+mod instance;
+mod report;
+mod rig;
+
+#[rustfmt::skip]
+mod generated;
+
+pub use allocator::Allocator;
+pub use dna::{Dna, GenerateOptions, OpenOptions, WriteOptions};
+pub use error::{Error, Result};
+pub use generated::*;
+pub use instance::Instance;
+pub use report::{Finding, Report};
+pub use rig::{Rig, RigOptions};
+
+/// Major, minor and patch number of the library that runs, which may be newer than this crate.
+pub fn version() -> (u32, u32, u32) {
+    // SAFETY: takes nothing.
+    let version = unsafe { mien_sys::mien_version() };
+    (version >> 24, version >> 16 & 0xff, version & 0xffff)
+}

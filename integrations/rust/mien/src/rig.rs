@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+
+use crate::convert::{bytes, empty_string, index, slice, utf8};
+use crate::error::{check, checked};
+use crate::{Allocator, Dna, Instance, Isa, Kind, MlMasks, Output, Result, RigInfo, RigStatistics};
+use mien_sys as sys;
+use std::borrow::Cow;
+use std::ptr::{null_mut, NonNull};
+use std::sync::Arc;
+
+/// The behaviour of a face, packed for evaluation. It never changes.
+///
+/// A `Rig` is a counted reference: clones are the same rig, and each [`Instance`] holds one. So a
+/// rig lives as long as its last user, and neither lifetimes nor the order of dropping are a
+/// matter for those who store rigs and instances in an engine's components.
+///
+/// ```
+/// use mien::{Dna, Kind, Preset, Rig};
+/// let rig = Rig::new(&Dna::generate(Preset::TINY)?)?;
+/// for joint in 0..rig.count(Kind::JOINT) {
+///     println!("{}", rig.name(Kind::JOINT, joint)?);
+/// }
+/// # Ok::<(), mien::Error>(())
+/// ```
+#[derive(Clone)]
+pub struct Rig {
+    shared: Arc<Shared>,
+}
+
+struct Shared {
+    handle: NonNull<sys::MienRig>,
+    info: RigInfo,
+    // Released after the handle.
+    _allocator: Option<Allocator>,
+}
+
+// SAFETY: the handle is const for every call but destroying; const handles may be used by any
+// number of threads at the same time, and any thread may destroy it. Allocators are Send + Sync.
+unsafe impl Send for Shared {}
+unsafe impl Sync for Shared {}
+
+impl Rig {
+    /// Packs the behaviour of `dna` for the best instruction set of this machine, with Euler
+    /// angles coming out. [`RigOptions`] has other wishes.
+    pub fn new(dna: &Dna<'_>) -> Result<Self> {
+        RigOptions::new().create(dna)
+    }
+
+    /// One character in its initial state.
+    pub fn instance(&self) -> Result<Instance> {
+        Instance::new(self)
+    }
+
+    pub(crate) fn raw(&self) -> *const sys::MienRig {
+        self.shared.handle.as_ptr()
+    }
+
+    /// Units, axes, lengths of rows, memory.
+    pub fn info(&self) -> &RigInfo {
+        &self.shared.info
+    }
+
+    /// Whether both are the same rig, not merely equal ones.
+    pub fn ptr_eq(&self, other: &Rig) -> bool {
+        Arc::ptr_eq(&self.shared, &other.shared)
+    }
+
+    /// How many there are of a kind. Unknown kinds: 0.
+    pub fn count(&self, kind: Kind) -> usize {
+        let mut out = 0;
+        // SAFETY: a live handle. The only failure is a kind that the library does not know.
+        unsafe { sys::mien_rig_count(self.raw(), kind.0, &mut out) };
+        out as usize
+    }
+
+    /// Name of number `i` of a kind; `""` for kinds without names. Where it is not UTF-8,
+    /// replacement characters stand.
+    pub fn name(&self, kind: Kind, i: usize) -> Result<Cow<'_, str>> {
+        self.name_bytes(kind, i).map(utf8)
+    }
+
+    /// The name as it is in the file.
+    pub fn name_bytes(&self, kind: Kind, i: usize) -> Result<&[u8]> {
+        let mut out = empty_string();
+        // SAFETY: a live handle; the view lives as long.
+        unsafe {
+            check(sys::mien_rig_name(self.raw(), kind.0, index(i), &mut out))?;
+            Ok(bytes(out))
+        }
+    }
+
+    /// Number of the one with this very name, in O(log n); of equal names the first.
+    /// [`Status::NAME`](crate::Status::NAME) if there is none.
+    pub fn find(&self, kind: Kind, name: impl AsRef<[u8]>) -> Result<usize> {
+        let (name, mut out) = (name.as_ref(), 0);
+        // SAFETY: a live handle, and as many bytes as are told.
+        let status = unsafe {
+            sys::mien_rig_find(self.raw(), kind.0, name.as_ptr().cast(), name.len(), &mut out)
+        };
+        if status == sys::MIEN_ERROR_NAME {
+            let name = utf8(name);
+            let message = format!("no {kind:?} is named \"{name}\"");
+            return Err(crate::Error::new(crate::Status::NAME, message));
+        }
+        check(status)?;
+        Ok(out as usize)
+    }
+
+    /// Which joints, channels, maps, meshes or RBF solvers exist at a LOD, in file order.
+    pub fn lod_indices(&self, kind: Kind, lod: usize) -> Result<&[u16]> {
+        self.indices(|out| unsafe {
+            // SAFETY: a live handle.
+            sys::mien_rig_lod_indices(self.raw(), kind.0, index(lod), out)
+        })
+    }
+
+    /// Which values of [`Instance::joints`] evaluation may change at a LOD, ascending. All others
+    /// keep their initial value: 0, or 1 for the w of a quaternion.
+    pub fn variable_joint_values(&self, lod: usize) -> Result<&[u16]> {
+        // SAFETY: a live handle.
+        self.indices(|out| unsafe {
+            sys::mien_rig_variable_joint_values(self.raw(), index(lod), out)
+        })
+    }
+
+    /// Parent of each joint; a root is its own parent.
+    pub fn joint_parents(&self) -> &[u16] {
+        // SAFETY: a live handle.
+        self.indices(|out| unsafe { sys::mien_rig_joint_parents(self.raw(), out) }).unwrap_or(&[])
+    }
+
+    /// The controls whose product drives a corrective, as indices into
+    /// [`Instance::controls`].
+    pub fn psd_inputs(&self, psd: usize) -> Result<&[u16]> {
+        // SAFETY: a live handle.
+        self.indices(|out| unsafe { sys::mien_rig_psd_inputs(self.raw(), index(psd), out) })
+    }
+
+    /// Neutral pose in the layout of [`Instance::joints`], relative to the parent: translation in
+    /// translation units, rotation as angles in rotation units or as a quaternion, scale 1.
+    pub fn neutral_joint_values(&self) -> &[f32] {
+        // SAFETY: a live handle.
+        self.floats(|out| unsafe { sys::mien_rig_neutral_joint_values(self.raw(), out) })
+    }
+
+    /// Value each raw control starts with: 0, or 1 for the w of a quaternion input.
+    pub fn initial_raw_controls(&self) -> &[f32] {
+        // SAFETY: a live handle.
+        self.floats(|out| unsafe { sys::mien_rig_initial_raw_controls(self.raw(), out) })
+    }
+
+    /// What one evaluation at a LOD works through.
+    pub fn statistics(&self, lod: usize) -> Result<RigStatistics> {
+        let mut out = sys::MienRigStatistics::default();
+        // SAFETY: a live handle and a sized struct.
+        check(unsafe { sys::mien_rig_statistics(self.raw(), index(lod), &mut out) })?;
+        Ok(out.into())
+    }
+
+    fn indices(
+        &self,
+        call: impl FnOnce(*mut sys::MienIndexView) -> sys::MienStatus,
+    ) -> Result<&[u16]> {
+        let mut out = sys::MienIndexView::default();
+        check(call(&mut out))?;
+        // SAFETY: views of a rig live as long as it does, and it never changes.
+        Ok(unsafe { slice(out.data, out.count) })
+    }
+
+    /// For calls that a live handle is all they need to succeed.
+    fn floats(&self, call: impl FnOnce(*mut sys::MienFloatView) -> sys::MienStatus) -> &[f32] {
+        let mut out = sys::MienFloatView::default();
+        let status = call(&mut out);
+        debug_assert_eq!(status, sys::MIEN_OK);
+        // SAFETY: as for indices; a failure leaves an empty view.
+        unsafe { slice(out.data, out.count) }
+    }
+}
+
+impl Drop for Shared {
+    fn drop(&mut self) {
+        // SAFETY: destroyed once; instances hold a reference, so there are none any more.
+        unsafe { sys::mien_rig_destroy(self.handle.as_ptr()) }
+    }
+}
+
+impl std::fmt::Debug for Rig {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Rig").field("info", self.info()).finish_non_exhaustive()
+    }
+}
+
+/// How to pack a rig.
+///
+/// ```
+/// use mien::{Dna, Isa, Output, Preset, RigOptions};
+/// let dna = Dna::generate(Preset::TINY)?;
+/// let rig = RigOptions::new().isa(Isa::SCALAR).rotation(Output::QUATERNION).create(&dna)?;
+/// assert_eq!(rig.info().joint_value_count, 10 * dna.info().joint_count);
+/// # Ok::<(), mien::Error>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct RigOptions {
+    isa: Isa,
+    rotation: Output,
+    ml_masks: MlMasks,
+    allocator: Option<Allocator>,
+}
+
+impl RigOptions {
+    /// The best instruction set, Euler angles, masks that switch, the heap.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Instruction set. One that is absent is [`Status::ISA`](crate::Status::ISA), never
+    /// replaced silently.
+    pub fn isa(mut self, isa: Isa) -> Self {
+        self.isa = isa;
+        self
+    }
+
+    /// How joint rotations come out.
+    pub fn rotation(mut self, rotation: Output) -> Self {
+        self.rotation = rotation;
+        self
+    }
+
+    /// What masks of mesh regions do.
+    pub fn ml_masks(mut self, ml_masks: MlMasks) -> Self {
+        self.ml_masks = ml_masks;
+        self
+    }
+
+    /// Where memory comes from.
+    pub fn allocator(mut self, allocator: &Allocator) -> Self {
+        self.allocator = Some(allocator.clone());
+        self
+    }
+
+    /// Packs the behaviour of `dna`, which needs definition and behavior loaded, else
+    /// [`Status::DNA_LAYER`](crate::Status::DNA_LAYER).
+    pub fn create(&self, dna: &Dna<'_>) -> Result<Rig> {
+        let mut handle = null_mut();
+        Allocator::with(self.allocator.as_ref(), |allocator| {
+            let desc = sys::MienRigDesc {
+                isa: self.isa.0,
+                rotation: self.rotation.0,
+                ml_masks: self.ml_masks.0,
+                allocator,
+                ..Default::default()
+            };
+            // SAFETY: a live handle and a sized struct.
+            checked(|error| unsafe { sys::mien_rig_create(dna.raw(), &desc, &mut handle, error) })
+        })?;
+        let handle = NonNull::new(handle).expect("a handle after success");
+        let mut info = sys::MienRigInfo::default();
+        // SAFETY: a live handle and a sized struct.
+        let status = unsafe { sys::mien_rig_info(handle.as_ptr(), &mut info) };
+        let shared = Shared { handle, info: info.into(), _allocator: self.allocator.clone() };
+        let rig = Rig { shared: Arc::new(shared) };
+        check(status).map(|()| rig)
+    }
+}
+
+impl Isa {
+    /// Whether rigs can be created for it here.
+    pub fn is_available(self) -> bool {
+        // SAFETY: any number may be asked for.
+        unsafe { sys::mien_isa_available(self.0) != 0 }
+    }
+
+    /// `"avx2"` for [`Isa::AVX2`], `"unknown"` for other numbers.
+    pub fn name(self) -> &'static str {
+        // SAFETY: any number may be given; the result is static and terminated.
+        let name = unsafe { std::ffi::CStr::from_ptr(sys::mien_isa_name(self.0)) };
+        name.to_str().unwrap_or("unknown")
+    }
+}
