@@ -44,9 +44,13 @@ fn link_directory(directory: &str, statically: bool) {
         Ok(path) => path.display().to_string(),
         Err(error) => fail(&format!("MIEN_LIB_DIR={}: {}", directory, error)),
     };
-    println!("cargo:rustc-link-search=native={}", directory);
-    link("mien", statically);
-    println!("cargo:lib_dir={}", directory);
+    if statically {
+        link_statically(&directory);
+    } else {
+        println!("cargo:rustc-link-search=native={}", directory);
+        println!("cargo:rustc-link-lib=dylib=mien");
+        println!("cargo:lib_dir={}", directory);
+    }
 }
 
 fn link_by_pkg_config(statically: bool) {
@@ -61,25 +65,23 @@ fn link_by_pkg_config(statically: bool) {
             Err(error) => fail(&format!("{} cannot be run: {}", program, error)),
         }
     };
-    for flag in ask(&["--libs-only-L", "--libs-only-other"]).split_whitespace() {
-        if let Some(directory) = flag.strip_prefix("-L") {
-            println!("cargo:rustc-link-search=native={}", directory);
-            println!("cargo:lib_dir={}", directory);
-        }
-    }
     if statically {
-        // rustc looks for archives only where it is told to, in system directories too.
-        println!("cargo:rustc-link-search=native={}", ask(&["--variable=libdir"]));
-    }
-    link("mien", statically);
-}
-
-fn link(name: &str, statically: bool) {
-    if !statically {
-        println!("cargo:rustc-link-lib=dylib={}", name);
+        link_statically(&ask(&["--variable=libdir"]));
         return;
     }
-    println!("cargo:rustc-link-lib=static={}", name);
+    for flag in ask(&["--libs-only-L"]).split_whitespace() {
+        let directory = flag.trim_start_matches("-L");
+        println!("cargo:rustc-link-search=native={}", directory);
+        println!("cargo:lib_dir={}", directory);
+    }
+    println!("cargo:rustc-link-lib=dylib=mien");
+}
+
+fn link_statically(directory: &str) {
+    println!("cargo:rustc-link-search=native={}", directory);
+    println!("cargo:rustc-link-lib=static=mien");
+    // It becomes part of the crate, which has to follow it.
+    println!("cargo:rerun-if-changed={}/libmien.a", directory);
     // What the library itself is written in.
     match (target("OS").as_str(), target("ENV").as_str()) {
         ("macos", _) => println!("cargo:rustc-link-lib=dylib=c++"),

@@ -65,3 +65,41 @@ pub fn version() -> (u32, u32, u32) {
     let version = unsafe { mien_sys::mien_version() };
     (version >> 24, version >> 16 & 0xff, version & 0xffff)
 }
+
+/// What the compiler does not let pass.
+///
+/// ```compile_fail,E0505
+/// let file = mien::Dna::generate(mien::Preset::TINY).unwrap().to_bytes().unwrap();
+/// let dna = mien::Dna::from_bytes(&file).unwrap();
+/// drop(file);
+/// println!("{}", dna.info().joint_count);
+/// ```
+///
+/// ```compile_fail,E0502
+/// let rig = mien::Rig::new(&mien::Dna::generate(mien::Preset::TINY).unwrap()).unwrap();
+/// let mut face = rig.instance().unwrap();
+/// let joints = face.joints();
+/// face.evaluate(0).unwrap();
+/// println!("{}", joints[0]);
+/// ```
+///
+/// ```compile_fail,E0499
+/// let rig = mien::Rig::new(&mien::Dna::generate(mien::Preset::TINY).unwrap()).unwrap();
+/// let mut face = rig.instance().unwrap();
+/// let (one, two) = (face.raw_controls_mut(), face.raw_controls_mut());
+/// one[0] = two[0];
+/// ```
+///
+/// ```compile_fail,E0505
+/// let rig = mien::Rig::new(&mien::Dna::generate(mien::Preset::TINY).unwrap()).unwrap();
+/// let face = rig.instance().unwrap();
+/// let joints = face.joints();
+/// drop(face);
+/// println!("{}", joints[0]);
+/// ```
+///
+/// ```compile_fail,E0133
+/// let dna = mien::OpenOptions::new().map("head.dna");
+/// ```
+#[cfg(doctest)]
+mod misuse {}
