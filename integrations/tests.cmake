@@ -109,3 +109,10 @@ if(MIEN_MYPY)
 else()
   message(STATUS "NOT TESTED: types of the Python package; there is no mypy")
 endif()
+
+# ---- Rust -------------------------------------------------------------------------------------------
+
+# The crates themselves are tested by rust/check.sh, which ./dev test calls where there is a cargo.
+add_test(NAME rust_api
+  COMMAND Python3::Interpreter ${integrations}/rust/generate_api.py --check)
+set_tests_properties(rust_api PROPERTIES LABELS guard)

@@ -21,7 +21,8 @@ SOURCES = {
 }
 
 WITHOUT = {
-    # "mien_noun_verb": {"Rust": "why not"},
+    "mien_report_create_file": {"Rust": "a mapped file may change while it is examined, which no "
+                                        "safe call may rest on; Report::of_file reads it first"},
 }
 
 

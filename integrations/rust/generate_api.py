@@ -29,7 +29,7 @@ NAMES = {"MienStatusCode": "Status", "MienLayer": "Layers", "MienStage": "Stages
 # Names that are words of Rust's own.
 FIELDS = {"type": "field_type"}
 # Numbers that are a yes or no.
-BOOLEANS = {("MienDnaInfo", "mapped"), ("MienDnaLayer", "loaded")}
+BOOLEANS = {("MienDnaInfo", "mapped"), ("MienDnaLayer", "loaded"), ("MienDnaField", "is_array")}
 
 
 def word(name):
@@ -302,8 +302,11 @@ def safe_struct(struct, api):
     out += f"pub struct {name} {{\n"
     for field, (type_, _) in fields:
         text = field["documentation"].replace("MIEN_NO_OFFSET", "`None`")
+        if re.fullmatch(r"MIEN_\w*\.\.\.", text):
+            text = ""  # the type says so
         if type_ == "bool":
-            text = text.replace("1 if ", "Whether ").replace("1: read; 0: skipped", "Read; if not: skipped")
+            text = re.sub("^1 (if|for) ", "Whether this is " if "for" in text else "Whether ", text)
+            text = text.replace("1: read; 0: skipped", "Read; if not: skipped").replace("; 0 for ", ", not ")
         out += doc(sentence(text), "    ", f"{field['name'].replace('_', ' ').capitalize()}.", api)
         out += f"    pub {FIELDS.get(field['name'], field['name'])}: {type_},\n"
     out += f"}}\n\nimpl From<sys::{struct['name']}> for {name} {{\n"

@@ -153,6 +153,12 @@ pub const MIEN_ML_MASKS_SWITCH: u32 = 0;
 /// In between, outputs are blended with the default; clamped to 0..1.
 pub const MIEN_ML_MASKS_BLEND: u32 = 1;
 
+// enum MienStorage
+pub const MIEN_STORAGE_F32: u32 = 0;
+/// Rounded to IEEE half precision (to nearest, ties to even; what exceeds its range becomes
+/// +-65504): half the memory, about three decimal digits.
+pub const MIEN_STORAGE_F16: u32 = 1;
+
 // enum MienKind
 pub const MIEN_KIND_GUI_CONTROL: u32 = 0;
 pub const MIEN_KIND_RAW_CONTROL: u32 = 1;
@@ -440,6 +446,9 @@ pub struct MienDnaField {
     /// Where the bytes of an array, of one of its elements or of a string begin in the file;
     /// `MIEN_NO_OFFSET` for others, and for what was made here.
     pub byte_offset: u64,
+    /// 1 for an array of numbers, whatever its count; 0 for one number, or an element of an array.
+    pub is_array: u32,
+    pub reserved: u32,
 }
 
 impl Default for MienDnaField {
@@ -533,6 +542,10 @@ pub struct MienRigDesc {
     /// `MIEN_ML_MASKS_...`
     pub ml_masks: u32,
     pub allocator: *const MienAllocator,
+    /// `MIEN_STORAGE_...`
+    pub storage: u32,
+    /// 0.
+    pub reserved: u32,
 }
 
 impl Default for MienRigDesc {
@@ -567,7 +580,8 @@ pub struct MienRigInfo {
     pub joint_value_count: u32,
     /// `MIEN_OUTPUT_...`
     pub rotation: u32,
-    pub reserved: u32,
+    /// `MIEN_STORAGE_...`
+    pub storage: u32,
     /// Memory of the rig.
     pub rig_bytes: u64,
     /// Memory of each instance.

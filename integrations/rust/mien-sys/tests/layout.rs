@@ -142,12 +142,14 @@ fn mien_dna_layer() {
 #[test]
 fn mien_dna_field() {
     use mien_sys::MienDnaField as S;
-    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(size_of::<S>(), 32);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
     assert_eq!(offset!(S, r#type), 4);
     assert_eq!(offset!(S, count), 8);
     assert_eq!(offset!(S, byte_offset), 16);
+    assert_eq!(offset!(S, is_array), 24);
+    assert_eq!(offset!(S, reserved), 28);
 }
 
 #[test]
@@ -189,13 +191,15 @@ fn mien_generate_desc() {
 #[test]
 fn mien_rig_desc() {
     use mien_sys::MienRigDesc as S;
-    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(size_of::<S>(), 32);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
     assert_eq!(offset!(S, isa), 4);
     assert_eq!(offset!(S, rotation), 8);
     assert_eq!(offset!(S, ml_masks), 12);
     assert_eq!(offset!(S, allocator), 16);
+    assert_eq!(offset!(S, storage), 24);
+    assert_eq!(offset!(S, reserved), 28);
 }
 
 #[test]
@@ -214,7 +218,7 @@ fn mien_rig_info() {
     assert_eq!(offset!(S, control_count), 48);
     assert_eq!(offset!(S, joint_value_count), 52);
     assert_eq!(offset!(S, rotation), 56);
-    assert_eq!(offset!(S, reserved), 60);
+    assert_eq!(offset!(S, storage), 60);
     assert_eq!(offset!(S, rig_bytes), 64);
     assert_eq!(offset!(S, instance_bytes), 72);
 }

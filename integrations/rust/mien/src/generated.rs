@@ -364,6 +364,24 @@ impl MlMasks {
 
 numbers!(MlMasks, u32, [(0, "SWITCH"), (1, "BLEND")]);
 
+/// How a rig keeps the large arrays that evaluation reads. Sums and results are 32-bit floats
+/// either way.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Storage(pub u32);
+
+impl Storage {
+    /// `MIEN_STORAGE_F32` in C.
+    pub const F32: Self = Self(0);
+    /// Rounded to IEEE half precision (to nearest, ties to even; what exceeds its range becomes
+    /// +-65504): half the memory, about three decimal digits.
+    pub const F16: Self = Self(1);
+}
+
+numbers!(Storage, u32, [(0, "F32"), (1, "F16")]);
+
 /// Things with names and numbers.
 ///
 /// A later library may give numbers that have no name here.
@@ -446,7 +464,7 @@ pub struct DnaInfo {
     pub mapped: bool,
     /// Entries for `mien_dna_layer()`.
     pub layer_count: usize,
-    /// `TranslationUnit`
+    /// Translation unit.
     pub translation_unit: TranslationUnit,
     /// `RotationUnit::DEGREES` or \_RADIANS.
     pub rotation_unit: RotationUnit,
@@ -573,13 +591,16 @@ impl From<sys::MienDnaLayer> for DnaLayer {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct DnaField {
-    /// `FieldType`
+    /// Type.
     pub field_type: FieldType,
     /// Elements of an array or list, bytes of a string, 1 for a number, fields of a record.
     pub count: u64,
     /// Where the bytes of an array, of one of its elements or of a string begin in the file;
     /// `None` for others, and for what was made here.
     pub byte_offset: Option<u64>,
+    /// Whether this is an array of numbers, whatever its count, not one number, or an element of
+    /// an array.
+    pub is_array: bool,
 }
 
 impl From<sys::MienDnaField> for DnaField {
@@ -588,6 +609,7 @@ impl From<sys::MienDnaField> for DnaField {
             field_type: FieldType(c.r#type),
             count: c.count,
             byte_offset: offset(c.byte_offset),
+            is_array: c.is_array != 0,
         }
     }
 }
@@ -600,7 +622,7 @@ pub struct RigInfo {
     pub isa: Isa,
     /// Lod count.
     pub lod_count: usize,
-    /// `TranslationUnit`
+    /// Translation unit.
     pub translation_unit: TranslationUnit,
     /// `RotationUnit::DEGREES` or \_RADIANS.
     pub rotation_unit: RotationUnit,
@@ -614,8 +636,10 @@ pub struct RigInfo {
     pub control_count: usize,
     /// Length of a row of joint outputs: 9 or 10 per joint.
     pub joint_value_count: usize,
-    /// `Output`
+    /// Rotation.
     pub rotation: Output,
+    /// Storage.
+    pub storage: Storage,
     /// Memory of the rig.
     pub rig_bytes: u64,
     /// Memory of each instance.
@@ -635,6 +659,7 @@ impl From<sys::MienRigInfo> for RigInfo {
             control_count: c.control_count as usize,
             joint_value_count: c.joint_value_count as usize,
             rotation: Output(c.rotation),
+            storage: Storage(c.storage),
             rig_bytes: c.rig_bytes,
             instance_bytes: c.instance_bytes,
         }

@@ -2,7 +2,9 @@
 
 use crate::convert::{bytes, empty_string, index, slice, utf8};
 use crate::error::{check, checked};
-use crate::{Allocator, Dna, Instance, Isa, Kind, MlMasks, Output, Result, RigInfo, RigStatistics};
+use crate::{
+    Allocator, Dna, Instance, Isa, Kind, MlMasks, Output, Result, RigInfo, RigStatistics, Storage,
+};
 use mien_sys as sys;
 use std::borrow::Cow;
 use std::ptr::{null_mut, NonNull};
@@ -204,6 +206,7 @@ pub struct RigOptions {
     isa: Isa,
     rotation: Output,
     ml_masks: MlMasks,
+    storage: Storage,
     allocator: Option<Allocator>,
 }
 
@@ -232,6 +235,12 @@ impl RigOptions {
         self
     }
 
+    /// How the large arrays that evaluation reads are kept.
+    pub fn storage(mut self, storage: Storage) -> Self {
+        self.storage = storage;
+        self
+    }
+
     /// Where memory comes from.
     pub fn allocator(mut self, allocator: &Allocator) -> Self {
         self.allocator = Some(allocator.clone());
@@ -247,6 +256,7 @@ impl RigOptions {
                 isa: self.isa.0,
                 rotation: self.rotation.0,
                 ml_masks: self.ml_masks.0,
+                storage: self.storage.0,
                 allocator,
                 ..Default::default()
             };

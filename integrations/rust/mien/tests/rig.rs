@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //! From a DNA file to poses, as users do it; and what they may do wrong.
 
-use mien::{Dna, Instance, Isa, Kind, Output, Preset, Rig, RigOptions, Stages, Status};
+use mien::{Dna, Instance, Isa, Kind, Output, Preset, Rig, RigOptions, Stages, Status, Storage};
 use mien_sys as sys;
 use std::ptr::{null, null_mut};
 
@@ -235,6 +235,8 @@ fn options_reach_the_library() {
     assert_eq!(rig.info().rotation, Output::QUATERNION);
     let face = rig.instance().unwrap();
     assert!(face.joints().chunks_exact(10).all(|joint| joint[3..7] == [0.0, 0.0, 0.0, 1.0]));
+    let rig = RigOptions::new().storage(Storage::F16).create(&dna).unwrap();
+    assert_eq!(rig.info().storage, Storage::F16);
     let error = RigOptions::new().rotation(Output(7)).create(&dna).unwrap_err();
     assert_eq!(error.status(), Status::INVALID_ARGUMENT);
 }

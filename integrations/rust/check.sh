@@ -1,0 +1,67 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Tests the crates against the libraries of BUILD: shared, static, and found by pkg-config; and, if
+# ASAN_BUILD is given, against the library with the address sanitizer. Downloads nothing.
+# Usage: check.sh BUILD [ASAN_BUILD]    Everything that is built lies in BUILD/rust.
+set -euo pipefail
+
+build=$(realpath "$1")
+asan=${2:+$(realpath "$2")}
+cd "$(dirname "${BASH_SOURCE[0]}")"
+unset MIEN_LIB_DIR MIEN_STATIC RUSTFLAGS
+export CARGO_NET_OFFLINE=true
+target=$build/rust/target
+
+# One directory for each way to link: cargo would build everything anew at each change.
+run() {
+  local way=$1
+  shift
+  echo "-- $way: $*"
+  CARGO_TARGET_DIR=$target/$way "$@"
+}
+
+cargo --version
+rustc --version
+if cargo fmt --version >/dev/null 2>&1; then
+  cargo fmt --all --check
+else
+  echo "NOT TESTED: format; there is no rustfmt"
+fi
+
+export MIEN_LIB_DIR=$build/lib
+run shared cargo test --quiet --locked
+if cargo clippy --version >/dev/null 2>&1; then
+  # What every clippy calls wrong; of matters of taste each version has its own.
+  run shared cargo clippy --quiet --locked --all-targets -- \
+    -D clippy::correctness -D clippy::suspicious -D clippy::incompatible_msrv
+else
+  echo "NOT TESTED: lints; there is no clippy"
+fi
+RUSTDOCFLAGS="-D warnings" run shared cargo doc --quiet --locked --no-deps
+MIEN_STATIC=1 run static cargo test --quiet --locked --tests
+
+# The example prints what the one in C prints, whichever way it is linked.
+expected=$("$build/tests/example_c")
+rm -rf "$build/rust/installed"
+for component in mien_runtime mien_development; do
+  cmake --install "$build" --prefix "$build/rust/installed" --component $component >/dev/null
+done
+unset MIEN_LIB_DIR
+PKG_CONFIG_PATH=$(dirname "$(find "$build/rust/installed" -name mien.pc)")
+export PKG_CONFIG_PATH
+for features in "" mien/static; do
+  printed=$(run "pkg-config${features:+-static}" cargo run --quiet --locked \
+    --example example --features "$features" | tail -n 1)
+  echo "$printed"
+  [ "$printed" = "$expected" ] || { echo "C prints: $expected" >&2; exit 1; }
+done
+unset PKG_CONFIG_PATH
+
+if [ -n "$asan" ]; then
+  # Programs without the sanitizer have to load it before the library that needs it.
+  runtime=$(clang -print-file-name="libclang_rt.asan-$(uname -m).so")
+  host=$(rustc -vV | sed -n 's/^host: //p' | tr 'a-z-' 'A-Z_')
+  export "CARGO_TARGET_${host}_RUNNER=env LD_PRELOAD=$runtime ASAN_OPTIONS=allocator_may_return_null=1"
+  MIEN_LIB_DIR=$asan/lib RUSTFLAGS="-C link-arg=-Wl,--allow-shlib-undefined" \
+    run asan cargo test --quiet --locked --tests
+fi
