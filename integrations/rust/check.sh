@@ -40,6 +40,15 @@ fi
 RUSTDOCFLAGS="-D warnings" run shared cargo doc --quiet --locked --no-deps
 MIEN_STATIC=1 run static cargo test --quiet --locked --tests
 
+# What is written for Miri, with Miri where there is one; else at least that it compiles and runs.
+if cargo +nightly miri --version >/dev/null 2>&1; then
+  run miri cargo +nightly miri test --quiet --locked --test aliasing
+else
+  echo "NOT TESTED: the rules of pointers; there is no Miri"
+  RUSTFLAGS="--cfg miri -A unknown_lints -A explicit_builtin_cfgs_in_flags" \
+    run without-library cargo test --quiet --locked --test aliasing
+fi
+
 # The example prints what the one in C prints, whichever way it is linked.
 expected=$("$build/tests/example_c")
 rm -rf "$build/rust/installed"
