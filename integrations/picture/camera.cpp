@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/picture/camera.h"
+
+namespace mien::picture {
+
+namespace {
+
+constexpr float kDegree = 0.017453292519943295f;
+
+/// Half the width and the height of what is seen at distance 1, without the margin.
+struct Reach {
+  float x, y;
+};
+
+Reach reach_of(const View& view, int width, int height, float margin) {
+  const float half = std::tan(view.field_of_view * kDegree / 2) * (1 - 2 * margin);
+  const float shorter = float(std::min(width, height));
+  return {half * float(width) / shorter, half * float(height) / shorter};
+}
+
+/// How far in front of `p` (relative to what the camera looks at) the camera has to stand to see
+/// it.
+float distance_for(Vec3 p, const Reach& reach) {
+  return p.z + std::max(std::fabs(p.x) / reach.x, std::fabs(p.y) / reach.y);
+}
+
+/// Zooming keeps the place of the camera, as a lens does: perspective stays the same.
+Camera zoomed(Camera camera, float zoom) {
+  camera.field_of_view =
+      2 / kDegree * std::atan(std::tan(camera.field_of_view * kDegree / 2) / zoom);
+  return camera;
+}
+
+}  // namespace
+
+Camera look_at(const Stand& stand, const View& view, Vec3 centre, float distance) {
+  const float yaw = view.yaw * kDegree, pitch = view.pitch * kDegree;
+  const Vec3 around = stand.front * std::cos(yaw) + stand.left * std::sin(yaw);
+  Camera camera;
+  camera.right = stand.left * std::cos(yaw) - stand.front * std::sin(yaw);
+  camera.back = around * std::cos(pitch) + stand.up * std::sin(pitch);
+  camera.up = stand.up * std::cos(pitch) - around * std::sin(pitch);
+  camera.eye = centre + camera.back * distance;
+  camera.field_of_view = view.field_of_view;
+  camera.distance = distance;
+  return camera;
+}
+
+Camera frame_points(const Stand& stand, const View& view, const std::vector<Vec3>& points,
+                    int width, int height, float margin) {
+  const Reach reach = reach_of(view, width, height, margin);
+  Box box;
+  for (const Vec3& point : points) box.add(point);
+  Vec3 centre = box.empty() ? Vec3{} : box.centre();
+
+  // What is in the middle changes with the distance, and that with the middle; the lenses are long,
+  // so a few rounds settle it.
+  float distance = 1;
+  for (int round = 0; round < 6; ++round) {
+    const Camera camera = look_at(stand, view, centre, 0);
+    distance = 0;
+    for (const Vec3& point : points) {
+      const Vec3 p = camera.to_view(point);
+      if (is_finite(p)) distance = std::max(distance, distance_for(p, reach));
+    }
+    if (!(distance > 0)) distance = 1;
+    Box seen;
+    for (const Vec3& point : points) {
+      const Vec3 p = camera.to_view(point);
+      const float away = distance - p.z;
+      if (away > 0) seen.add({p.x / away, p.y / away, 0});
+    }
+    if (seen.empty()) break;
+    const Vec3 middle = seen.centre();
+    centre += (camera.right * middle.x + camera.up * middle.y) * distance;
+  }
+  return zoomed(look_at(stand, view, centre, distance), view.zoom);
+}
+
+Camera frame_turning(const Stand& stand, const View& view, Vec3 centre,
+                     const std::vector<Vec3>& points, int width, int height, float margin) {
+  const Reach reach = reach_of(view, width, height, margin);
+  float distance = 0;
+  for (float yaw = 0; yaw < 360; yaw += 15) {
+    View turned = view;
+    turned.yaw = yaw;
+    const Camera camera = look_at(stand, turned, centre, 0);
+    for (const Vec3& point : points) {
+      const Vec3 p = camera.to_view(point);
+      if (is_finite(p)) distance = std::max(distance, distance_for(p, reach));
+    }
+  }
+  return zoomed(look_at(stand, view, centre, distance > 0 ? distance : 1), view.zoom);
+}
+
+}  // namespace mien::picture

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Which triangle is seen where: triangles in view space -> depth and number of the nearest one at
+// every sample of every pixel.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "integrations/picture/vector.h"
+
+namespace mien::picture {
+
+/// From view space (x right, y up, z towards the viewer) to pixels (x right, y down).
+struct Lens {
+  bool perspective = true;  // else parallel, as light from far away
+  float focal = 1;          // pixels per unit, at distance 1 if perspective
+  float centre_x = 0, centre_y = 0;
+  float near = 1e-3f;  // of a perspective: what is nearer than this is cut off
+
+  /// Larger is nearer: 1 / distance, or z. Linear across the picture of a triangle in both cases.
+  float depth_of(Vec3 p) const { return perspective ? 1 / -p.z : p.z; }
+};
+
+/// Where the samples lie within a pixel, in 1/256 of its width.
+struct SamplePattern {
+  int count;
+  const int16_t (*places)[2];
+};
+
+/// 1 (the centre), 4 or 16 samples; of 4 and 16, no two share a row or a column, so that edges
+/// that are nearly horizontal or vertical come out as smooth as others.
+SamplePattern sample_pattern(int count);
+
+/// Sample `s` of pixel (x, y) is entry (y * width + x) * samples + s.
+struct Visibility {
+  int width = 0, height = 0, samples = 0;
+  std::vector<float> depth;        // 0 where nothing is
+  std::vector<uint32_t> triangle;  // 0 where nothing is
+
+  /// Everything empty.
+  void reset(int new_width, int new_height, int new_samples);
+};
+
+constexpr int kMostPixels = 8192;  // along one side
+
+/// Draws triangles of `positions`, numbered from `first_number` on. Corner k of triangle t is
+/// position `positions_of[corners[3 * t + k]]`, or `corners[3 * t + k]` if `positions_of` is null.
+/// Both sides show. Of equal depths the triangle drawn first stays. Triangles that are not finite,
+/// or name a position that is not there, are left out.
+struct TriangleList {
+  const Vec3* positions;  // in view space
+  size_t position_count;
+  const uint32_t* positions_of;
+  size_t vertex_count;
+  const uint32_t* corners;
+  size_t count;
+  uint32_t first_number;
+
+  /// False if a corner is not there.
+  bool corner_positions(size_t triangle, Vec3 (&out)[3]) const;
+};
+void draw(const TriangleList& triangles, const Lens& lens, Visibility& out);
+
+}  // namespace mien::picture
