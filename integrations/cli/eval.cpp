@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
 // mien eval: frames of controls -> joints, blend shapes and animated maps, as JSON.
-#include <cerrno>
-#include <cstring>
-
 #include "integrations/cli/fields.h"
 #include "integrations/cli/frames.h"
 #include "integrations/cli/json_writer.h"
@@ -17,24 +14,6 @@ struct EvalOptions {
   LoadOptions load;
   RigOptions evaluation;
 };
-
-std::string read_text(const std::string& path) {
-  if (path == "-") return read_standard_input();
-  FILE* stream = std::fopen(path.c_str(), "rb");
-  std::string text;
-  char block[65536];
-  size_t count;
-  while (stream && (count = std::fread(block, 1, sizeof(block), stream)) != 0)
-    text.append(block, count);
-  const bool good = stream && !std::ferror(stream);
-  const int reason = errno;
-  if (stream) std::fclose(stream);
-  if (!good) {
-    fail(kFile, "cannot read frames", path, std::strerror(reason),
-         "check the path and its permissions");
-  }
-  return text;
-}
 
 struct OutputArray {
   const char* key;
@@ -133,8 +112,7 @@ void run(const EvalOptions& options, const Session& session) {
         "count from 0, or use --lod all");
   }
   const Rig rig = create_rig(file, rig_desc);
-  const std::vector<Frame> frames =
-      parse_frames(read_text(options.input), rig.get(), shown_name(options.input));
+  const std::vector<Frame> frames = read_frames(options.input, rig.get());
   evaluate(file, rig.get(), frames, lod, all_lods ? file.info.lod_count : lod + 1, options,
            session);
 }

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/cli/frames.h"
 
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "integrations/cli/names.h"
+#include "integrations/cli/output.h"
 #include "integrations/cli/rig_file.h"
 
 namespace mien::cli {
@@ -154,6 +158,24 @@ json parse_json(const std::string& text, const std::string& shown) {
   }
 }
 
+std::string read_text(const std::string& path) {
+  if (path == "-") return read_standard_input();
+  FILE* stream = std::fopen(path.c_str(), "rb");
+  std::string text;
+  char block[65536];
+  size_t count;
+  while (stream && (count = std::fread(block, 1, sizeof(block), stream)) != 0)
+    text.append(block, count);
+  const bool good = stream && !std::ferror(stream);
+  const int reason = errno;
+  if (stream) std::fclose(stream);
+  if (!good) {
+    fail(kFile, "cannot read frames", path, std::strerror(reason),
+         "check the path and its permissions");
+  }
+  return text;
+}
+
 void assign(const std::vector<Assignment>& assignments, const MienMutableFloatView& view) {
   for (const Assignment& assignment : assignments) view.data[assignment.index] = assignment.value;
 }
@@ -172,6 +194,10 @@ std::vector<Frame> parse_frames(const std::string& text, const MienRig* rig,
     frames.push_back(parse_frame(value, rig, shown + ", " + at_index("frames", frames.size())));
   }
   return frames;
+}
+
+std::vector<Frame> read_frames(const std::string& path, const MienRig* rig) {
+  return parse_frames(read_text(path), rig, shown_name(path));
 }
 
 void apply_frame(const Frame& frame, const MienRig* rig, MienInstance* instance) {

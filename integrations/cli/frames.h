@@ -27,6 +27,9 @@ struct Frame {
 std::vector<Frame> parse_frames(const std::string& text, const MienRig* rig,
                                 const std::string& shown);
 
+/// The same from a file; "-" reads standard input.
+std::vector<Frame> read_frames(const std::string& path, const MienRig* rig);
+
 /// Brings a fresh instance to the state just before evaluation.
 void apply_frame(const Frame& frame, const MienRig* rig, MienInstance* instance);
 

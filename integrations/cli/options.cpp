@@ -30,6 +30,12 @@ const OptionWords kOptionWords[] = {
     {"--names",
      {"gui", "raw", "ml", "rbf", "joints", "channels", "maps", "meshes", "regions", "solvers",
       "poses", "all"}},
+    {"--camera",
+     {"front", "three-quarter", "three-quarter-right", "side", "side-right", "back", "above",
+      "below"}},
+    {"--background", {"dark", "light"}},
+    {"--samples", {"1", "4", "16"}},
+    {"--target", {"eyes", "mouth"}},
     {"SHELL", {"bash", "zsh", "fish"}},
 };
 
