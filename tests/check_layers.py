@@ -24,8 +24,8 @@ RANK = {layer: rank for rank, layers in enumerate(LAYERS) for layer in layers}
 
 # Sees the public header and its own files. Tests and benchmarks see everything.
 OUTSIDE = "integrations"
-# Besides, the program sees the pictures that it draws.
-ALSO_SEES = {"integrations/cli/": "integrations/picture/"}
+# Besides, the program sees the pictures that it draws and the files that it exports.
+ALSO_SEES = {"integrations/cli/": ("integrations/picture/", "integrations/gltf/")}
 
 SUFFIXES = {".h", ".hpp", ".cpp", ".c", ".inl"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

@@ -25,7 +25,7 @@ struct CompletedCommand {
 Words values_of(const std::string& command, const std::string& option) {
   Words words = option_words(option);
   if (command == "bench" && option == "--isa") words.push_back("all");
-  if (command == "eval" && option == "--lod") words.push_back("all");
+  if ((command == "eval" || command == "export") && option == "--lod") words.push_back("all");
   return words;
 }
 
@@ -45,7 +45,8 @@ CompletedCommand words_of(const CLI::App* command) {
     entry.takes_value = option->get_expected_max() > 0 && option->get_type_size() > 0;
     if (entry.takes_value) entry.values = values_of(words.name, entry.names.back());
     const std::string& last = entry.names.back();
-    entry.takes_file = last == "--output" || last == "--input" || last == "--frames";
+    entry.takes_file =
+        last == "--output" || last == "--input" || last == "--frames" || last == "--animation";
     words.options.push_back(entry);
   }
   return words;
