@@ -141,7 +141,8 @@ gltf::SceneOptions scene_options(const Face& face, const ExportOptions& options)
   if (scene.name.empty()) scene.name = "rig";
   scene.first_lod = face.first_lod;
   if (!options.influences.empty()) {
-    scene.influences = parse_word("--influences", options.influences) == 0 ? 4 : 8;
+    scene.influences =
+        4 + 4 * static_cast<uint32_t>(parse_word("--influences", options.influences));
   }
   return scene;
 }
@@ -298,7 +299,9 @@ void run(const ExportOptions& options, const Session& session) {
     output.write(bytes);
     output.commit();
   } catch (const gltf::ExportError& error) {
-    throw Failure(exit_code_of(error.status), error.what());
+    const std::string where = error.where.empty() ? "" : ", " + one_line(error.where);
+    fail(exit_code_of(error.status), kCannot, shown_name(options.rig) + where, error.what(),
+         error.what_to_do);
   }
 }
 
@@ -330,7 +333,7 @@ Command add_export_command(CLI::App& app, const Session& session) {
       ->allow_extra_args(false);
   command
       ->add_option("--influences", options->influences,
-                   "Joints per vertex: 4 or 8 (default: 8 where 4 do not do)")
+                   "Joints per vertex: 4, 8 or 12 (default: 8 where 4 do not do)")
       ->type_name("N");
   command
       ->add_option("--animation", options->animation,

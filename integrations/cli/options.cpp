@@ -28,7 +28,7 @@ const OptionWords kOptionWords[] = {
     {"--version", {"2.1", "2.2", "2.3", "2.4", "2.5", "2.6", "2.7", "2.8"}},
     {"--unknown", {"keep", "drop"}},
     {"--format", {"glb", "obj"}},
-    {"--influences", {"4", "8"}},
+    {"--influences", {"4", "8", "12"}},
     {"--names",
      {"gui", "raw", "ml", "rbf", "joints", "channels", "maps", "meshes", "regions", "solvers",
       "poses", "all"}},

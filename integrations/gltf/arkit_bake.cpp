@@ -39,7 +39,7 @@ class Face {
     MienInstance* made = nullptr;
     auto error = sized<MienError>();
     const MienStatus status = mien_instance_create(source.rig(), nullptr, &made, &error);
-    if (status != MIEN_OK) throw ExportError(status, std::string("cannot bake: ") + error.message);
+    if (status != MIEN_OK) throw ExportError(status, "", error.message, "");
     instance_.reset(made);
   }
 

@@ -144,11 +144,11 @@ ArkitControls find_arkit_controls(const RigSource& source) {
       missing += (missing.empty() ? "" : ", ") + std::string(kArkitNames[e]);
   }
   if (missing_count != 0) {
-    throw ExportError(MIEN_ERROR_NAME,
-                      "cannot bake ARKit expressions: the rig has no raw controls for " + missing +
+    throw ExportError(MIEN_ERROR_NAME, "",
+                      "the rig has no raw controls for " + missing +
                           (missing_count > 5 ? " and " + std::to_string(missing_count - 5) + " more"
-                                             : std::string()) +
-                          "; see 'mien info --names raw', or export without --bake-arkit");
+                                             : std::string()),
+                      "see 'mien info --names raw', or export without --bake-arkit");
   }
   return result;
 }

@@ -21,8 +21,6 @@ constexpr const char* kShapes[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
 /// The binary part, and what the JSON part says about it.
 class Data {
  public:
-  explicit Data(const std::string& scene) : scene_(scene) {}
-
   std::string bytes;
   json views = json::array(), accessors = json::array();
 
@@ -32,9 +30,11 @@ class Data {
   /// Views do not overlap: one begins when the last has ended.
   void begin_view() { view_begin_ = bytes.size(); }
 
-  void end_view(ViewTarget target) {
+  /// `stride` is needed where several vertex attributes share the view.
+  void end_view(ViewTarget target, size_t stride = 0) {
     json view = {{"buffer", 0}, {"byteOffset", view_begin_}};
     view["byteLength"] = bytes.size() - view_begin_;
+    if (stride != 0) view["byteStride"] = stride;
     if (target != kOtherData) view["target"] = static_cast<int>(target);
     views.push_back(std::move(view));
     align();
@@ -51,9 +51,8 @@ class Data {
 
   void put(float value) {
     if (!std::isfinite(value)) {
-      throw ExportError(MIEN_ERROR_DNA_VALUE, "cannot export " + scene_ + ", " + part_ +
-                                                  ": a value is not a finite number; see 'mien "
-                                                  "validate' or give smaller controls");
+      throw ExportError(MIEN_ERROR_DNA_VALUE, part_, "a value is not a finite number",
+                        "see 'mien validate', or give smaller controls");
     }
     uint32_t bits;
     std::memcpy(&bits, &value, sizeof(bits));
@@ -128,7 +127,7 @@ class Data {
   }
 
  private:
-  std::string scene_, part_;
+  std::string part_;
   size_t view_begin_ = 0;
 };
 
@@ -212,7 +211,7 @@ json add_targets(Data& data, const Mesh& mesh) {
       targets[i]["POSITION"] = put(target.positions, true);
       if (with_normals) targets[i]["NORMAL"] = put(target.normals, false);
     }
-    if (data.offset_in_view() != 0) data.end_view(view);
+    if (data.offset_in_view() != 0) data.end_view(view, dense ? sizeof(Float3) : 0);
   };
   add_those(false, kOtherData);
   add_those(true, kVertexData);
@@ -429,13 +428,14 @@ json material_json(const Material& material) {
 }
 
 /// Header, then chunks of whole words.
-std::string pack(std::string text, const std::string& binary, const std::string& name) {
+std::string pack(std::string text, const std::string& binary) {
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const uint64_t size = 12 + 8 + uint64_t{text.size()} + 8 + binary.size();
   if (size > UINT32_MAX) {
-    throw ExportError(MIEN_ERROR_DNA_LIMIT,
-                      "cannot export " + name + ": the file would have " + std::to_string(size) +
-                          " bytes, and GLB files end at 4 GiB; export fewer LODs or frames");
+    throw ExportError(
+        MIEN_ERROR_DNA_LIMIT, "",
+        "the file would have " + std::to_string(size) + " bytes, and GLB files end at 4 GiB",
+        "export fewer LODs or frames");
   }
   std::string bytes;
   bytes.reserve(size);
@@ -456,7 +456,7 @@ std::string pack(std::string text, const std::string& binary, const std::string&
 }  // namespace
 
 std::string write_glb(const Scene& scene) {
-  Data data(scene.name);
+  Data data;
   json root;
   root["asset"] = {{"version", "2.0"}, {"generator", "Mien " + version_text()}};
   root["scene"] = 0;
@@ -491,7 +491,7 @@ std::string write_glb(const Scene& scene) {
   root["buffers"] = {{{"byteLength", data.bytes.size()}}};
 
   // Names come from files and need not be UTF-8.
-  return pack(root.dump(-1, ' ', false, json::error_handler_t::replace), data.bytes, scene.name);
+  return pack(root.dump(-1, ' ', false, json::error_handler_t::replace), data.bytes);
 }
 
 }  // namespace mien::gltf

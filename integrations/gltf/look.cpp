@@ -94,10 +94,11 @@ std::vector<Color> position_colors(const RigSource& source, const std::string& m
     std::vector<uint8_t> bytes;
     if (!decode_base64(read_string(source, pair + ".value"), bytes) ||
         bytes.size() != 3 * position_count) {
-      throw ExportError(MIEN_ERROR_DNA_VALUE,
-                        "cannot export colours, " + pair + ": " + kColorKey + mesh_name +
-                            " is not base64 of 3 bytes for each of " +
-                            std::to_string(position_count) + " positions; correct or remove it");
+      throw ExportError(MIEN_ERROR_DNA_VALUE, pair,
+                        "the colours " + (kColorKey + mesh_name) +
+                            " are not base64 of 3 bytes for each of " +
+                            std::to_string(position_count) + " positions",
+                        "correct or remove them");
     }
     std::vector<Color> colors(position_count);
     if (!bytes.empty()) std::memcpy(colors.data(), bytes.data(), bytes.size());

@@ -23,9 +23,8 @@ void append(std::string& text, const char* tag, const Vec3& values, const std::s
   text += tag;
   for (const double value : values) {
     if (!std::isfinite(value)) {
-      throw ExportError(MIEN_ERROR_DNA_VALUE, "cannot export mesh " + mesh +
-                                                  ": a position is not a finite number; give "
-                                                  "smaller controls");
+      throw ExportError(MIEN_ERROR_DNA_VALUE, "mesh " + mesh, "a position is not a finite number",
+                        "give smaller controls");
     }
     append(text, static_cast<float>(value));
   }

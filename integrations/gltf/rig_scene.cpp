@@ -156,7 +156,7 @@ uint16_t still_joint(std::vector<Joint>& joints, size_t rig_joints) {
     joints.back().name = "still";
   }
   if (joints.size() > 65536) {
-    throw ExportError(MIEN_ERROR_DNA_LIMIT, "cannot export: the rig has more than 65535 joints");
+    throw ExportError(MIEN_ERROR_DNA_LIMIT, "", "the rig has more than 65535 joints", "");
   }
   return static_cast<uint16_t>(rig_joints);
 }
@@ -294,7 +294,7 @@ PoseHandle make_pose(const RigSource& source) {
   MienPose* made = nullptr;
   auto error = sized<MienError>();
   const MienStatus status = mien_pose_create(source.deformer(), nullptr, &made, &error);
-  if (status != MIEN_OK) throw ExportError(status, std::string("cannot pose: ") + error.message);
+  if (status != MIEN_OK) throw ExportError(status, "", error.message, "");
   PoseHandle pose(made);
   check(mien_pose_update_from_values(made, nullptr, 0, nullptr, 0), "cannot pose");
   return pose;
@@ -324,9 +324,8 @@ RigScene make_still_scene(const RigSource& source, const SceneOptions& options) 
     result.rig_meshes.push_back(m);
   }
   if (scene.meshes.empty()) {
-    throw ExportError(MIEN_ERROR_DNA_LAYER, "cannot export " + options.name +
-                                                ": no mesh has faces; see 'mien info' for what "
-                                                "the file has");
+    throw ExportError(MIEN_ERROR_DNA_LAYER, "", "no mesh has faces",
+                      "see 'mien info' for the layers and meshes that the file has");
   }
   return result;
 }

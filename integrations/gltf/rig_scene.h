@@ -15,7 +15,7 @@ namespace mien::gltf {
 struct SceneOptions {
   std::string name;         // of the scene
   uint32_t first_lod = 0;   // number to show for the first LOD that was opened
-  uint32_t influences = 0;  // per vertex, 4 or 8; 0: 8 if some position has more than 4
+  uint32_t influences = 0;  // per vertex, 4, 8 or 12; 0: 8 if some position has more than 4
 };
 
 /// What glTF has no place for.

@@ -15,7 +15,7 @@ constexpr Vec3 kDirections[] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
 
 void check(MienStatus status, const char* what) {
   if (status == MIEN_OK) return;
-  throw ExportError(status, std::string(what) + ": status " + mien_status_name(status));
+  throw ExportError(status, "", std::string(what) + ": status " + mien_status_name(status), "");
 }
 
 RigSource::RigSource(const RigHandles& handles) : handles_(handles) {
@@ -23,9 +23,8 @@ RigSource::RigSource(const RigHandles& handles) : handles_(handles) {
   for (int i = 0; i < 3; ++i) axes_[i] = kDirections[info.axes[i]];
   handedness_ = dot(axes_[0], cross(axes_[1], axes_[2]));
   if (handedness_ == 0) {
-    throw ExportError(MIEN_ERROR_DNA_VALUE,
-                      "cannot export: the axes of the file are not at right angles; correct "
-                      "desc.coordinateSystem");
+    throw ExportError(MIEN_ERROR_DNA_VALUE, "desc.coordinateSystem",
+                      "the axes are not at right angles to each other", "correct them");
   }
   metres_ = info.translation_unit == MIEN_TRANSLATION_METERS ? 1 : 0.01;
 }

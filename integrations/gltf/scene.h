@@ -17,11 +17,14 @@
 
 namespace mien::gltf {
 
-/// Why a rig cannot be exported: "what: why; what to do". The status tells the family.
+/// Why a rig cannot be exported. The status tells the family.
 struct ExportError : std::runtime_error {
-  ExportError(MienStatus family, const std::string& text)
-      : std::runtime_error(text), status(family) {}
+  ExportError(MienStatus family, const std::string& place, const std::string& why,
+              const std::string& advice)
+      : std::runtime_error(why), status(family), where(place), what_to_do(advice) {}
   MienStatus status;
+  std::string where;       // in the rig; may be empty
+  std::string what_to_do;  // may be empty
 };
 
 using Float2 = std::array<float, 2>;
@@ -54,7 +57,7 @@ struct Mesh {
   std::vector<Float3> normals;                  // may be empty; length 1
   std::vector<Float2> uvs;                      // may be empty; v points down, as in glTF
   std::vector<std::array<uint16_t, 4>> colors;  // may be empty; linear red, green, blue, alpha
-  uint32_t influences = 0;                      // per vertex: 0 (not skinned), 4 or 8
+  uint32_t influences = 0;                      // per vertex: 0 (not skinned), 4, 8 or 12
   std::vector<uint16_t> joints;                 // vertices x influences
   std::vector<float> weights;                   // the same; each vertex's sum to 1
   std::vector<uint32_t> triangles;              // three vertices each
