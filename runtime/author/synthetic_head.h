@@ -5,75 +5,17 @@
 // Frame: centimetres, x to the character's left, y up, z to the front.
 #pragma once
 
+#include "runtime/author/dna_making.h"
 #include "runtime/author/random.h"
 #include "runtime/author/synthetic_rig.h"
 
 namespace mien::synthetic {
 
-// Making things in an arena; false if memory ran out
-// -----------------------------------------------
-
-template <class T>
-bool make(Arena& arena, size_t count, dna::NewArray<T>& out) {
-  out = dna::new_array<T>(arena, count);
-  return count == 0 || out.data;
-}
-
-template <class T>
-bool make(Arena& arena, size_t count, Span<T>& out) {
-  out = arena.array<T>(count);
-  return out.count == count;
-}
-
-template <class T>
-bool make(Arena& arena, size_t count, dna::List<T>& out) {
-  Span<T> items;
-  if (!make(arena, count, items)) return false;
-  out = {items.data, static_cast<uint32_t>(count)};
-  return true;
-}
-
-/// A name in the making.
-struct Text {
-  char chars[256];
-  uint32_t count = 0;
-
-  Text& add(const char* from, size_t n) {
-    assert(n <= sizeof(chars) - count);
-    memcpy(chars + count, from, n);
-    count += static_cast<uint32_t>(n);
-    return *this;
-  }
-  Text& add(const char* terminated) { return add(terminated, strlen(terminated)); }
-  Text& add(dna::String s) { return add(s.chars(), s.count); }
-  Text& add(uint64_t number) {
-    char digits[20];
-    size_t n = sizeof(digits);
-    do digits[--n] = static_cast<char>('0' + number % 10);
-    while (number /= 10);
-    return add(digits + n, sizeof(digits) - n);
-  }
-};
-
-inline bool copy_text(Arena& arena, const Text& text, dna::String& out) {
-  uint8_t* chars = static_cast<uint8_t*>(arena.allocate(text.count, 1));
-  if (!chars) return false;
-  memcpy(chars, text.chars, text.count);
-  out = {chars, text.count};
-  return true;
-}
-
-// Space
-// ---------------------------------------------------------------------------------------------
-
-struct Vec3 {
-  double x = 0, y = 0, z = 0;
-};
-
-inline Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec3 operator*(Vec3 a, double s) { return {a.x * s, a.y * s, a.z * s}; }
-inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+using author::copy_text;
+using author::make;
+using author::make_lod_map;
+using author::Text;
+using author::Vec3;
 
 /// 1 in the middle, 0 from `radius` on, with a smooth end; takes squares to spare the root.
 inline double falloff(double squared_distance, double radius) {
@@ -212,36 +154,6 @@ struct Head {
     return falloff(dot(apart, apart), control.reach);
   }
 };
-
-/// `in_lod(lod, element)` tells which elements a LOD has. Equal neighbouring lists are stored once.
-template <class InLod>
-bool make_lod_map(Arena& arena, size_t lod_count, size_t element_count, const InLod& in_lod,
-                  dna::LodMap& out) {
-  dna::NewArray<uint16_t> lods;
-  dna::List<dna::Array<uint16_t>> lists;
-  if (!make(arena, lod_count, lods) || !make(arena, lod_count, lists)) return false;
-  uint32_t used = 0;
-  for (size_t lod = 0; lod < lod_count; ++lod) {
-    bool same = lod > 0;
-    size_t count = 0;
-    for (size_t i = 0; i < element_count; ++i) {
-      bool in = in_lod(lod, i);
-      count += in;
-      same = same && in == in_lod(lod - 1, i);
-    }
-    if (!same) {
-      dna::NewArray<uint16_t> list;
-      if (!make(arena, count, list)) return false;
-      for (size_t i = 0, n = 0; i < element_count; ++i) {
-        if (in_lod(lod, i)) list.set(n++, static_cast<uint16_t>(i));
-      }
-      lists[used++] = list;
-    }
-    lods.set(lod, static_cast<uint16_t>(used - 1));
-  }
-  out = {lods, {lists.items, used}};
-  return true;
-}
 
 /// These return false if memory ran out.
 bool make_head(SyntheticPreset preset, uint64_t seed, Arena& arena, Head& out);
