@@ -459,8 +459,14 @@ enum MienPreset {
     MIEN_PRESET_TINY = 0,   /* readable by eye */
     MIEN_PRESET_SMALL = 1,
     MIEN_PRESET_MEDIUM = 2,
-    MIEN_PRESET_LARGE = 3   /* a production head: 870 joints, 260 raw controls, 8 LODs, a million
+    MIEN_PRESET_LARGE = 3,  /* a production head: 870 joints, 260 raw controls, 8 LODs, a million
                                matrix entries */
+    MIEN_PRESET_HEAD = 4    /* a stylised person to look at: skin, eyes, teeth, tongue, hair; the 52
+                               expressions of ARKit as raw controls under their names (values 0..1),
+                               correctives, wrinkle maps, 8 LODs. Seed 0 is the one that was
+                               designed, others vary proportions and colours. Vertex colours are in
+                               the metadata: key "mien.colors.<mesh name>", value base64 of 3 bytes
+                               (sRGB) per position of the mesh. */
 };
 
 typedef struct MienGenerateDesc {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rigs that are made here. mien.h is the manual.
 #include "capi/handles.h"
+#include "runtime/author/procedural_head.h"
 #include "runtime/author/synthetic_rig.h"
 
 using namespace mien;
@@ -16,7 +17,7 @@ MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna, Mi
                       "MienGenerateDesc.struct_size is %u, expected %zu or more with zeros",
                       desc->struct_size, sizeof(MienGenerateDesc));
   }
-  if (known.preset > MIEN_PRESET_LARGE) {
+  if (known.preset > MIEN_PRESET_HEAD) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
                       "MienGenerateDesc.preset %u is no MIEN_PRESET_...", known.preset);
   }
@@ -25,8 +26,11 @@ MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna, Mi
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
   }
   MienDna* dna = new_dna(allocator);
-  if (!dna || !make_synthetic_rig(static_cast<SyntheticPreset>(known.preset), known.seed,
-                                  dna->arena, dna->view)) {
+  const bool made = dna && (known.preset == MIEN_PRESET_HEAD
+                                ? make_procedural_head(known.seed, dna->arena, allocator, dna->view)
+                                : make_synthetic_rig(static_cast<SyntheticPreset>(known.preset),
+                                                     known.seed, dna->arena, dna->view));
+  if (!made) {
     mien_dna_close(dna);
     return give_error(error, MIEN_ERROR_MEMORY, "no memory for the rig");
   }

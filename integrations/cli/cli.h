@@ -82,6 +82,7 @@ Command add_eval_command(CLI::App& app, const Session& session);
 Command add_convert_command(CLI::App& app, const Session& session);
 Command add_export_command(CLI::App& app, const Session& session);
 Command add_gen_command(CLI::App& app, const Session& session);
+Command add_demo_head_command(CLI::App& app, const Session& session);
 Command add_bench_command(CLI::App& app, const Session& session);
 Command add_render_command(CLI::App& app, const Session& session);
 Command add_completion_command(CLI::App& app);

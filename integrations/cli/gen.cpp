@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// mien gen: a synthetic rig.
+// mien gen: a synthetic rig; mien demo-head: the head in the box.
 #include "integrations/cli/options.h"
 #include "integrations/cli/write_dna.h"
 
@@ -11,9 +11,9 @@ struct GenOptions {
   std::string output, preset = "tiny", seed = "0";
 };
 
-void run(const GenOptions& options, const Session& session) {
+void run(const GenOptions& options, uint32_t preset, const Session& session) {
   auto desc = sized<MienGenerateDesc>();
-  desc.preset = MIEN_PRESET_TINY + static_cast<uint32_t>(parse_word("--preset", options.preset));
+  desc.preset = preset;
   desc.seed = parse_number("--seed", options.seed, UINT64_MAX);
   refuse_terminal(options.output, session);
 
@@ -25,27 +25,46 @@ void run(const GenOptions& options, const Session& session) {
   write_dna(made, sized<MienWriteDesc>(), options.output);
 }
 
+void add_common_options(CLI::App* command, GenOptions& options, const std::string& seed) {
+  command->add_option("-o,--output", options.output, "File to write; - is standard output")
+      ->type_name("OUT.dna")
+      ->required();
+  command->add_option("--seed", options.seed, seed)->type_name("N");
+}
+
 }  // namespace
 
 Command add_gen_command(CLI::App& app, const Session& session) {
   auto options = std::make_shared<GenOptions>();
   CLI::App* gen = app.add_subcommand("gen", "Make a synthetic rig");
-  gen->add_option("-o,--output", options->output, "File to write; - is standard output")
-      ->type_name("OUT.dna")
-      ->required();
+  add_common_options(gen, *options, "The same number gives the same bytes everywhere (default: 0)");
   gen->add_option(
          "--preset", options->preset,
          "Size: tiny (default), small, medium or large\n(large: a production head of 870 joints)")
       ->type_name("NAME");
-  gen->add_option("--seed", options->seed,
-                  "The same number gives the same bytes everywhere (default: 0)")
-      ->type_name("N");
   gen->footer(
       "Examples:\n"
       "  mien gen -o tiny.dna\n"
       "  mien gen -o head.dna --preset large --seed 7\n"
       "  mien gen -o - | mien info -");
-  return {gen, [options, &session] { run(*options, session); }};
+  return {gen, [options, &session] {
+            const size_t preset = parse_word("--preset", options->preset);
+            run(*options, MIEN_PRESET_TINY + static_cast<uint32_t>(preset), session);
+          }};
+}
+
+Command add_demo_head_command(CLI::App& app, const Session& session) {
+  auto options = std::make_shared<GenOptions>();
+  options->preset = "head";
+  CLI::App* head = app.add_subcommand("demo-head", "Make a head to look at, with 52 expressions");
+  add_common_options(head, *options, "Another person for each number (default: 0)");
+  head->footer(
+      "A stylised person: skin, eyes, teeth, tongue, hair, with vertex colours, correctives,\n"
+      "wrinkle maps and 8 LODs. Raw controls have the names of ARKit's coefficients.\n\n"
+      "Examples:\n"
+      "  mien demo-head -o head.dna\n"
+      "  mien eval head.dna --set jawOpen=0.6 --set mouthSmileLeft=1");
+  return {head, [options, &session] { run(*options, MIEN_PRESET_HEAD, session); }};
 }
 
 }  // namespace mien::cli

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/author/procedural_head.h"
+
+#include "runtime/author/procedural_head_dna.h"
+
+namespace mien {
+namespace head {
+namespace {
+
+using author::copy_text;
+using author::make;
+using author::Text;
+
+bool fill_descriptor(uint64_t seed, Arena& arena, dna::Descriptor& out) {
+  out.archetype = 5;  // other
+  out.gender = 2;     // other
+  out.age = 30;
+  out.coordinate_system = {0, 2, 4};  // left, up, front: right-handed
+  out.lod_count = kLodCount;
+  const Text keys[] = {Text().add("generator"), Text().add("seed")};
+  const Text values[] = {Text().add("mien demo-head"), Text().add(seed)};
+  if (!make(arena, 2 + kMeshCount, out.metadata)) return false;
+  for (size_t i = 0; i < 2; ++i) {
+    if (!copy_text(arena, keys[i], out.metadata[i].key)) return false;
+    if (!copy_text(arena, values[i], out.metadata[i].value)) return false;
+  }
+  return copy_text(arena, Text().add("mien_head"), out.name) &&
+         copy_text(arena, Text().add("mien_head"), out.complexity) &&
+         copy_text(arena, Text().add("mien_procedural"), out.db_name);
+}
+
+bool fill_index(Arena& arena, dna::DnaView& out) {
+  if (!make(arena, dna::kLayerIdCount, out.index)) return false;
+  for (size_t i = 0; i < dna::kLayerIdCount; ++i) {
+    out.index[i].code = dna::kLayerKinds[i].code;
+    out.index[i].layer_version = dna::kLayerKinds[i].layer_version;
+  }
+  out.loaded = dna::kLayersAll;
+  return true;
+}
+
+bool make_head(uint64_t seed, Arena& arena, const Allocator& allocator, dna::DnaView& out) {
+  Arena scratch(allocator);
+  const Form form(make_person(seed));
+  const Shapes shapes(form);
+  const Skeleton skeleton(form);
+  Head head = {form, shapes, skeleton, {}};
+  HalfMesh fitted(scratch);
+  return fill_index(arena, out) && fill_descriptor(seed, arena, out.desc) &&
+         make_part(form, Part::kHead, 1, fitted) &&
+         fit_joints(form, shapes, skeleton, fitted, scratch, head.deltas) &&
+         fill_controls(head, arena, out) && fill_joints(head, arena, scratch, out) &&
+         fill_meshes(head, arena, allocator, 2, out);
+}
+
+}  // namespace
+}  // namespace head
+
+bool make_procedural_head(uint64_t seed, Arena& arena, const Allocator& scratch,
+                          dna::DnaView& out) {
+  out = dna::DnaView();
+  if (head::make_head(seed, arena, scratch, out)) return true;
+  out = dna::DnaView();
+  return false;
+}
+
+}  // namespace mien

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The head in the box as layers of a DNA file. Each of these fills its part of `out` and returns
+// false if memory ran out.
+#pragma once
+
+#include "runtime/author/procedural_head_fit.h"
+#include "runtime/dna/dna_view.h"
+
+namespace mien::head {
+
+struct Head {
+  const Form& form;
+  const Shapes& shapes;
+  const Skeleton& skeleton;
+  JointDeltas deltas;
+};
+
+/// Control names, GUI table, correctives, animated maps.
+bool fill_controls(const Head& head, Arena& arena, dna::DnaView& out);
+/// Joint names, hierarchy, neutral pose, joint groups.
+bool fill_joints(const Head& head, Arena& arena, Arena& scratch, dna::DnaView& out);
+/// Meshes, blend shape channels, and the metadata with colours behind `metadata_used` entries.
+bool fill_meshes(const Head& head, Arena& arena, const Allocator& allocator, size_t metadata_used,
+                 dna::DnaView& out);
+
+/// Meshes: every part at every LOD, part by part within a LOD.
+constexpr uint32_t kMeshCount = kPartCount * kLodCount;
+/// LODs with blend shapes.
+constexpr uint32_t kShapeLods = 2;
+
+}  // namespace mien::head

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/author/procedural_head_fit.h"
+
+#include <algorithm>
+
+namespace mien::head {
+
+using author::exact_sine_cosine;
+using author::kPi;
+using author::make;
+
+namespace {
+
+/// a after b.
+Affine operator*(const Affine& a, const Affine& b) {
+  Affine out;
+  for (int r = 0; r < 3; ++r) {
+    out.rows[r] = b.rows[0] * a.rows[r].x + b.rows[1] * a.rows[r].y + b.rows[2] * a.rows[r].z;
+  }
+  out.shift = a(b.shift);
+  return out;
+}
+
+/// Turns about x, then y, then z (degrees), about `centre`, then shifts.
+Affine motion(const double angles[3], Vec3 centre, Vec3 shift) {
+  const auto [sx, cx] = exact_sine_cosine(angles[0] * kPi / 180);
+  const auto [sy, cy] = exact_sine_cosine(angles[1] * kPi / 180);
+  const auto [sz, cz] = exact_sine_cosine(angles[2] * kPi / 180);
+  Affine out;
+  out.rows[0] = {cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx};
+  out.rows[1] = {sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx};
+  out.rows[2] = {-sy, cy * sx, cy * cx};
+  out.shift = centre + shift -
+              Vec3{dot(out.rows[0], centre), dot(out.rows[1], centre), dot(out.rows[2], centre)};
+  return out;
+}
+
+JointDelta delta_of(Vec3 translation, Vec3 rotation) {
+  const auto as_float = [](double x) { return static_cast<float>(x); };
+  return {{as_float(translation.x), as_float(translation.y), as_float(translation.z)},
+          {as_float(rotation.x), as_float(rotation.y), as_float(rotation.z)}};
+}
+
+/// The turns that are designed: everything but skin joints.
+void set_designed(const Shapes& shapes, const Skeleton& skeleton, const JointDeltas& out) {
+  for (uint32_t s = 0; s < shapes.count(); ++s) {
+    const JointTurns left = shapes.turns(s, 1), right = shapes.turns(s, -1);
+    out.at(s, skeleton.jaw) = delta_of(left.jaw_shift, {left.jaw_open, 0, 0});
+    for (int i = 0; i < 2; ++i) {
+      const JointTurns& t = i == 0 ? left : right;
+      const double outwards = i == 0 ? t.eye_out : -t.eye_out;
+      out.at(s, skeleton.eye[i]) = delta_of({}, {-t.eye_up, outwards, 0});
+      out.at(s, skeleton.upper_lid[i]) =
+          delta_of({}, {-t.upper_lid * skeleton.upper_lid_angle, 0, 0});
+      out.at(s, skeleton.lower_lid[i]) =
+          delta_of({}, {t.lower_lid * skeleton.lower_lid_angle, 0, 0});
+    }
+    out.at(s, skeleton.tongue[0]) =
+        delta_of(Vec3{0, 0.35, 1.5} * left.tongue, {-4 * left.tongue, 0, 0});
+    out.at(s, skeleton.tongue[1]) =
+        delta_of(Vec3{0, 0.10, 1.5} * left.tongue, {10 * left.tongue, 0, 0});
+    out.at(s, skeleton.tongue[2]) =
+        delta_of(Vec3{0, 0, 1.3} * left.tongue, {26 * left.tongue, 0, 0});
+  }
+}
+
+/// Symmetric positive definite system, in place; `size` rows of `size`.
+class Cholesky {
+ public:
+  Cholesky(Span<double> matrix, uint32_t size) : m_(matrix), n_(size) {}
+
+  void factor() {
+    for (uint32_t c = 0; c < n_; ++c) {
+      for (uint32_t r = c; r < n_; ++r) {
+        double sum = at(r, c);
+        for (uint32_t k = 0; k < c; ++k) sum -= at(r, k) * at(c, k);
+        at(r, c) = r == c ? std::sqrt(sum) : sum / at(c, c);
+      }
+    }
+  }
+  void solve(Span<Vec3> x) const {
+    for (uint32_t r = 0; r < n_; ++r) {
+      for (uint32_t k = 0; k < r; ++k) x[r] = x[r] - x[k] * at(r, k);
+      x[r] = x[r] * (1 / at(r, r));
+    }
+    for (uint32_t r = n_; r-- > 0;) {
+      for (uint32_t k = r + 1; k < n_; ++k) x[r] = x[r] - x[k] * at(k, r);
+      x[r] = x[r] * (1 / at(r, r));
+    }
+  }
+
+ private:
+  double& at(uint32_t r, uint32_t c) const { return m_[size_t{r} * n_ + c]; }
+  Span<double> m_;
+  uint32_t n_;
+};
+
+Vec3 mirrored(Vec3 v) { return {-v.x, v.y, v.z}; }
+
+Vec3 skin(const Affine* pose, const Weights& weights, Vec3 p) {
+  Vec3 out;
+  for (uint32_t i = 0; i < weights.count; ++i) {
+    out = out + pose[weights.joints[i]](p) * static_cast<double>(weights.values[i]);
+  }
+  return out;
+}
+
+}  // namespace
+
+void pose_joints(const Skeleton& skeleton, const JointDeltas& deltas, const uint32_t* active,
+                 uint32_t active_count, Affine* out) {
+  for (uint32_t j = 0; j < skeleton.count; ++j) {
+    double values[6] = {};
+    for (uint32_t a = 0; a < active_count; ++a) {
+      const JointDelta& d = deltas.at(active[a], j);
+      for (int k = 0; k < 3; ++k) {
+        values[k] += d.translation[k];
+        values[3 + k] += d.rotation[k];
+      }
+    }
+    const Joint& joint = skeleton.joints[j];
+    const Affine local = motion(values + 3, joint.position, {values[0], values[1], values[2]});
+    out[j] = j == joint.parent ? local : out[joint.parent] * local;  // parents come first
+  }
+}
+
+bool fit_joints(const Form& form, const Shapes& shapes, const Skeleton& skeleton,
+                const HalfMesh& mesh, Arena& scratch, JointDeltas& out) {
+  const uint32_t joints = skeleton.count, shape_count = shapes.count();
+  out.joint_count = joints;
+  Span<Weights> weights;
+  Span<uint16_t> row_of, joint_of;  // joint -> row of the system, and back
+  Span<Affine> pose;
+  if (!make(scratch, size_t{joints} * shape_count, out.items) ||
+      !make(scratch, mesh.vertices.count(), weights) || !make(scratch, joints, row_of) ||
+      !make(scratch, joints, joint_of) || !make(scratch, joints, pose)) {
+    return false;
+  }
+  set_designed(shapes, skeleton, out);
+
+  uint32_t rows = 0;
+  for (uint32_t j = 0; j < joints; ++j) {
+    if (skeleton.joints[j].drive != Drive::kFit) continue;
+    joint_of[rows] = static_cast<uint16_t>(j);
+    row_of[j] = static_cast<uint16_t>(rows++);
+  }
+  Span<double> matrix;
+  Span<Vec3> right_side;
+  if (!make(scratch, size_t{rows} * rows, matrix) || !make(scratch, rows, right_side)) return false;
+
+  // Each vertex counts for itself and for its mirror image.
+  const auto is_fitted = [&](uint16_t j) { return skeleton.joints[j].drive == Drive::kFit; };
+  const auto twin = [&](uint16_t j) { return skeleton.joints[j].twin; };
+  for (uint32_t i = 0; i < mesh.vertices.count(); ++i) {
+    weights[i] = weigh(form, skeleton, 0, mesh.vertices[i], mesh.on_plane(i));
+    const Weights& w = weights[i];
+    for (uint32_t a = 0; a < w.count; ++a) {
+      for (uint32_t b = 0; b < w.count; ++b) {
+        if (!is_fitted(w.joints[a]) || !is_fitted(w.joints[b])) continue;
+        const double product = static_cast<double>(w.values[a]) * static_cast<double>(w.values[b]);
+        matrix[size_t{row_of[w.joints[a]]} * rows + row_of[w.joints[b]]] += product;
+        matrix[size_t{row_of[twin(w.joints[a])]} * rows + row_of[twin(w.joints[b])]] += product;
+      }
+    }
+  }
+  double trace = 0;
+  for (uint32_t r = 0; r < rows; ++r) trace += matrix[size_t{r} * rows + r];
+  for (uint32_t r = 0; r < rows; ++r) matrix[size_t{r} * rows + r] += 2e-4 * trace / rows;
+  Cholesky system(matrix, rows);
+  system.factor();
+
+  for (uint32_t s = 0; s < shape_count; ++s) {
+    const uint32_t other = shapes.twin(s);
+    if (other < s) {  // found already, mirrored
+      for (uint32_t j = 0; j < joints; ++j) {
+        if (!is_fitted(static_cast<uint16_t>(j))) continue;
+        JointDelta d = out.at(other, twin(static_cast<uint16_t>(j)));
+        d.translation[0] = -d.translation[0];
+        out.at(s, j) = d;
+      }
+      continue;
+    }
+    std::fill(right_side.begin(), right_side.end(), Vec3());
+    for (uint32_t half = 0; half < 2; ++half) {
+      const uint32_t shape = half == 0 ? s : other;
+      pose_joints(skeleton, out, &shape, 1, pose.data);
+      for (uint32_t i = 0; i < mesh.vertices.count(); ++i) {
+        const Vertex& v = mesh.vertices[i];
+        const Vec3 wanted =
+            shapes.displacement(shape, v) - (skin(pose.data, weights[i], v.position) - v.position);
+        for (uint32_t a = 0; a < weights[i].count; ++a) {
+          const uint16_t j = weights[i].joints[a];
+          if (!is_fitted(j)) continue;
+          const double w = static_cast<double>(weights[i].values[a]);
+          Vec3& sum = right_side[row_of[half == 0 ? j : twin(j)]];
+          sum = sum + (half == 0 ? wanted : mirrored(wanted)) * w;
+        }
+      }
+    }
+    system.solve(right_side);
+    const bool alone = other == s;  // symmetric in itself: made so to the last bit
+    // Below the jaw, translations are in its frame, turned by all that is open with this shape.
+    double opened = shapes.turns(s, 1).jaw_open;
+    if (s >= kExpressionCount) {
+      const Corrective& c = shapes.corrective(s - kExpressionCount);
+      opened += shapes.turns(c.first, 1).jaw_open + shapes.turns(c.second, 1).jaw_open;
+    }
+    const double back[3] = {-opened, 0, 0};
+    const Affine to_jaw = motion(back, {}, {});
+    for (uint32_t r = 0; r < rows; ++r) {
+      const uint16_t j = joint_of[r];
+      Vec3 t = right_side[r];
+      if (alone) t = (t + mirrored(right_side[row_of[twin(j)]])) * 0.5;
+      if (skeleton.joints[j].below) t = to_jaw(t);
+      if (dot(t, t) < 0.012 * 0.012) t = {};
+      out.at(s, j) = delta_of(t, {});
+    }
+  }
+  return true;
+}
+
+Vec3 residual(const Affine* pose, const Weights& weights, Vec3 p, Vec3 target) {
+  const Vec3 r = target - skin(pose, weights, p);
+  // Blend shapes are added before skinning: undo its linear part, by Cramer's rule.
+  Vec3 m[3];
+  for (uint32_t i = 0; i < weights.count; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      m[k] = m[k] + pose[weights.joints[i]].rows[k] * static_cast<double>(weights.values[i]);
+    }
+  }
+  const auto cross = [](Vec3 a, Vec3 b) {
+    return Vec3{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  };
+  const Vec3 c0 = cross(m[1], m[2]), c1 = cross(m[2], m[0]), c2 = cross(m[0], m[1]);
+  const double determinant = dot(m[0], c0);
+  if (std::abs(determinant) < 0.05) return r;
+  return (c0 * r.x + c1 * r.y + c2 * r.z) * (1 / determinant);
+}
+
+}  // namespace mien::head

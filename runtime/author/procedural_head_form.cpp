@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/author/procedural_head_form.h"
+
+#include <algorithm>
+
+#include "runtime/author/random.h"
+
+namespace mien::head {
+
+using author::clamp01;
+using author::exact_atan2;
+using author::exact_exp;
+using author::exact_pow;
+using author::exact_sine_cosine;
+using author::mix;
+using author::smooth_step;
+
+// Persons ---------------------------------------------------------------------------------------
+
+Person make_person(uint64_t seed) {
+  static constexpr Colour kSkins[] = {{236, 188, 160}, {198, 140, 106}, {140, 92, 66},
+                                      {245, 206, 184}, {222, 168, 132}, {104, 68, 50}};
+  static constexpr Colour kHairs[] = {{74, 46, 32},  {28, 24, 24}, {168, 118, 62},
+                                      {122, 58, 30}, {46, 34, 30}, {150, 146, 142}};
+  static constexpr Colour kIrises[] = {{62, 122, 138}, {98, 62, 34}, {82, 110, 66},
+                                       {86, 104, 128}, {54, 36, 26}, {120, 92, 48}};
+  static constexpr Colour kShirts[] = {{58, 92, 122}, {150, 70, 62},  {76, 110, 84},
+                                       {96, 84, 118}, {196, 150, 70}, {70, 74, 82}};
+  Person p;
+  uint32_t skin = 0, hair = 0, iris = 0, shirt = 0;
+  if (seed != 0) {
+    Random random = Random::from_seed(seed, 1);
+    const auto about_one = [&random](double spread) { return 1 + random.between(-spread, spread); };
+    p.cranium = about_one(0.03);
+    p.jaw = about_one(0.07);
+    p.chin = about_one(0.25);
+    p.nose = about_one(0.15);
+    p.nose_width = about_one(0.15);
+    p.cheek = about_one(0.3);
+    p.lips = about_one(0.2);
+    p.brow = about_one(0.3);
+    p.ear = about_one(0.1);
+    p.eye_tilt = random.between(-0.06, 0.08);
+    skin = random.below(6);
+    hair = random.below(6);
+    iris = random.below(6);
+    shirt = random.below(6);
+  }
+  p.skin = kSkins[skin];
+  p.hair = kHairs[hair];
+  p.iris = kIrises[iris];
+  p.shirt = kShirts[shirt];
+  p.brow_hair = mix(p.hair, {20, 14, 12}, 0.25);
+  p.lip = mix(mix(p.skin, {178, 62, 66}, 0.52), {90, 40, 44}, 0.06);
+  return p;
+}
+
+// Sections --------------------------------------------------------------------------------------
+
+double bump(double x, double y, double cx, double cy, double sx, double sy) {
+  const double u = (x - cx) / sx, v = (y - cy) / sy, d = u * u + v * v;
+  return d > 40 ? 0 : exact_exp(-d);
+}
+
+namespace {
+
+// y, half width, front, back, exponent
+constexpr int kKnotColumns = 5;
+constexpr double kKnots[][kKnotColumns] = {
+    {-18.4, 9.6, 3.6, -7.6, 2.3},  {-17.6, 8.7, 3.75, -7.5, 2.25}, {-16.6, 6.5, 3.6, -7.1, 2.15},
+    {-15.4, 4.75, 3.4, -6.5, 2.1}, {-14.0, 4.1, 3.5, -6.0, 2.05},  {-12.4, 3.95, 4.0, -5.8, 2.0},
+    {-11.5, 4.0, 5.0, -5.75, 2.0}, {-10.8, 4.15, 6.9, -5.8, 2.0},  {-10.2, 4.35, 8.1, -5.85, 2.0},
+    {-9.2, 4.75, 8.55, -6.0, 2.0}, {-8.0, 5.4, 8.6, -6.3, 2.05},   {-6.0, 6.2, 8.8, -6.9, 2.1},
+    {-4.0, 6.85, 9.0, -7.8, 2.15}, {-1.5, 7.4, 9.15, -8.9, 2.2},   {0.6, 7.65, 9.25, -9.6, 2.25},
+    {3.0, 7.85, 9.45, -10.0, 2.3}, {5.0, 7.85, 9.4, -10.1, 2.3},   {7.5, 7.45, 8.75, -9.7, 2.25},
+    {9.8, 6.3, 7.2, -8.5, 2.2},    {11.4, 4.6, 4.9, -6.6, 2.15},   {12.25, 2.7, 2.3, -4.0, 2.1},
+    {12.6, 0.6, -0.3, -1.5, 2.0},
+};
+constexpr int kKnotCount = sizeof(kKnots) / sizeof(kKnots[0]);
+
+/// Monotone cubic through (y, value) pairs, ascending in y, `stride` doubles apart: no overshoot
+/// between them (slopes of Fritsch and Butland). Constant beyond the ends.
+double interpolate(double y, const double* ys, const double* values, int stride, int count) {
+  const auto at = [stride](const double* of, int i) { return of[i * stride]; };
+  y = std::min(std::max(y, at(ys, 0)), at(ys, count - 1));
+  int i = 0;
+  while (i < count - 2 && y > at(ys, i + 1)) ++i;
+  const auto slope = [&](int k) {
+    return (at(values, k + 1) - at(values, k)) / (at(ys, k + 1) - at(ys, k));
+  };
+  const auto tangent = [&](int k) {
+    if (k == 0) return slope(0);
+    if (k == count - 1) return slope(count - 2);
+    const double a = slope(k - 1), b = slope(k);
+    if (a * b <= 0) return 0.0;
+    const double h0 = at(ys, k) - at(ys, k - 1), h1 = at(ys, k + 1) - at(ys, k);
+    return 3 * (h0 + h1) / ((2 * h1 + h0) / a + (h1 + 2 * h0) / b);
+  };
+  const double h = at(ys, i + 1) - at(ys, i), t = (y - at(ys, i)) / h, t2 = t * t, t3 = t2 * t;
+  return at(values, i) * (2 * t3 - 3 * t2 + 1) + at(values, i + 1) * (3 * t2 - 2 * t3) +
+         h * (tangent(i) * (t3 - 2 * t2 + t) + tangent(i + 1) * (t3 - t2));
+}
+
+template <int N>
+double interpolate(double y, const double (&table)[N][2]) {
+  return interpolate(y, &table[0][0], &table[0][1], 2, N);
+}
+
+constexpr double kCentreZ = -0.4;
+
+}  // namespace
+
+Form::Section Form::section(double y) const {
+  const auto at = [y](int column) {
+    return interpolate(y, kKnots[0], kKnots[0] + column, kKnotColumns, kKnotCount);
+  };
+  Section s = {at(1), at(2), at(3), at(4)};
+  s.half_width *= mix(1, person_.jaw, bump(0, y, 0, -8, 1, 3.2));
+  s.half_width *= mix(1, person_.cranium, smooth_step(0, 6, y));
+  return s;
+}
+
+// Relief ----------------------------------------------------------------------------------------
+
+double Form::mouth_line(double x) const {
+  const double s = std::min(std::abs(x) / kMouthHalfWidth, 1.3);
+  // A bow: down in the middle of the upper lip, up at the corners.
+  return kMouthY - 0.10 * bump(s, 0, 0, 0, 0.30, 1) + 0.16 * s * s;
+}
+
+double Form::lid_line(double x) const {
+  const double s = along_eye(x), inside = std::max(0.0, 1 - s * s);
+  return kEye.y + (0.13 + 1.5 * person_.eye_tilt) * std::min(std::max(s, -1.4), 1.4) -
+         0.42 * inside;
+}
+
+double Form::upper_opening(double x) const {
+  const double s = along_eye(x), inside = std::max(0.0, 1 - s * s);
+  return 0.70 * exact_pow(inside, 0.62) * (1 - 0.10 * s);
+}
+
+double Form::lower_opening(double x) const {
+  const double s = along_eye(x), inside = std::max(0.0, 1 - s * s);
+  return -0.25 * exact_pow(inside, 0.85) * (1 + 0.18 * s);
+}
+
+double Form::relief(double x, double y) const {
+  const Person& p = person_;
+  // Ridge of the nose, its height and its half width.
+  static constexpr double kRidge[][2] = {{-4.15, 0.0}, {-3.75, 0.30}, {-3.2, 1.65}, {-2.75, 1.98},
+                                         {-1.6, 1.55}, {0.4, 0.80},   {2.3, 0.42},  {4.4, 0.0}};
+  static constexpr double kWidth[][2] = {{-3.6, 0.90}, {-2.7, 0.98}, {-1.6, 0.78},
+                                         {0.6, 0.62},  {2.4, 0.95},  {4.0, 1.6}};
+  double z =
+      p.nose * interpolate(y, kRidge) * bump(x, 0, 0, 0, p.nose_width * interpolate(y, kWidth), 1);
+  struct Bump {
+    double amount, cx, cy, sx, sy;
+  };
+  const Bump bumps[] = {
+      {-1.15, 3.25, 0.7, 1.85, 1.25},                          // sockets
+      {-0.35, 1.75, 0.75, 0.6, 1.0},                           // inner corners of the eyes
+      {0.30, 2.9, 3.2, 2.2, 0.75},                             // brow ridge
+      {0.62 * p.nose, 1.15 * p.nose_width, -3.0, 0.46, 0.50},  // wings of the nose
+      {-0.20, 0.62, -3.62, 0.30, 0.20},                        // nostrils
+      {0.55 * p.cheek, 4.4, -1.6, 1.7, 1.3},                   // cheekbones
+      {0.25, 2.6, -2.6, 1.2, 1.2},                             // apple of the cheek
+      {-0.40 * p.cheek, 5.0, -5.4, 1.3, 1.7},                  // hollow of the cheek
+      {0.80, 0, -5.7, 2.6, 1.9},                               // muzzle
+      {0.34 * p.lips, 0.55, -5.55, 1.15, 0.40},                // upper lip
+      {0.46 * p.lips, 0.30, -6.68, 1.20, 0.46},                // lower lip
+      {-0.30, 2.75, -6.05, 0.42, 0.50},                        // corners of the mouth
+      {-0.13, 0, -4.75, 0.30, 0.55},                           // philtrum
+      {-0.46, 0, -7.75, 1.5, 0.48},                            // fold above the chin
+      {0.62 * p.chin, 0, -9.25, 1.35, 0.95},                   // chin
+      {0.20, 1.6, 5.4, 2.6, 1.6},                              // forehead
+      {-0.25, 6.4, 2.2, 1.0, 1.8},                             // temples
+  };
+  for (const Bump& b : bumps) z += b.amount * bump(std::abs(x), y, b.cx, b.cy, b.sx, b.sy);
+  return z;
+}
+
+// The face --------------------------------------------------------------------------------------
+
+Vec3 turn_lid(Vec3 p, double angle) {
+  const auto [s, c] = exact_sine_cosine(angle);
+  const double y = p.y - kEye.y, z = p.z - kEye.z;
+  return {p.x, kEye.y + c * y + s * z, kEye.z - s * y + c * z};
+}
+
+double Form::angle_of(double x, double y) const {
+  const Section at = section(y);
+  const double s = exact_pow(std::min(x / at.half_width, 1.0), at.exponent / 2);
+  return exact_atan2(s, std::sqrt(1 - s * s));
+}
+
+FacePoint Form::face(double angle, double y, Side side) const {
+  const auto [sine, cosine] = exact_sine_cosine(angle);
+  const Section at = section(y);
+  const double across = exact_pow(std::max(sine, 0.0), 2 / at.exponent);
+  const double along = exact_pow(std::abs(cosine), 2 / at.exponent);
+  const double front_mask = smooth_step(0, 0.42, cosine);
+  Vec3 p;
+  p.x = at.half_width * across;
+  p.z = cosine > 0 ? kCentreZ + (at.front - kCentreZ) * along
+                   : kCentreZ - (kCentreZ - at.back) * along;
+
+  // Rows rise towards the back around the jaw, so that its edge runs up to the ear.
+  p.y = y + 2.6 * smooth_step(0.98, -0.1, cosine) * bump(0, y, 0, -10.2, 1, 3.3) -
+        0.9 * smooth_step(0.2, -0.9, cosine) * bump(0, y, 0, -9, 1, 3);
+  // Rows of the eyes and of the mouth follow the edges of lids and lips.
+  const double s = along_eye(p.x);
+  p.y += (lid_line(p.x) - kEye.y) * bump(0, y, 0, kEye.y, 1, 1.3) *
+         smooth_step(2.2, 1.2, std::abs(s)) * front_mask;
+  p.y += (mouth_line(p.x) - kMouthY) * bump(0, y, 0, kMouthY, 1, 1.2) *
+         smooth_step(1.9, 1.1, p.x / kMouthHalfWidth) * front_mask;
+
+  p.z += front_mask * relief(p.x, p.y);
+  // Lips roll inwards at the line where they meet.
+  const double from_line = p.y - mouth_line(p.x);
+  const double roll = smooth_step(1.12, 0.80, p.x / kMouthHalfWidth);
+  p.z -= front_mask * 0.36 * bump(0, from_line, 0, 0, 1, 0.17) * (0.35 + 0.65 * roll) *
+         smooth_step(1.35, 0.9, p.x / kMouthHalfWidth);
+  // The tip of the nose hangs a little over its root.
+  p.y -= front_mask * 0.28 * person_.nose * bump(p.x, y, 0, -3.05, 0.9, 0.55);
+
+  // Around the eyes the skin lies on a ball.
+  const double dx = p.x - kEye.x, dy = p.y - kEye.y;
+  const double lid_area = (dx / 1.62) * (dx / 1.62) + (dy / 1.25) * (dy / 1.25);
+  const double on_ball = front_mask * smooth_step(2.3, 1.0, lid_area);
+  if (on_ball > 0) {
+    const double r = std::sqrt(dx * dx + dy * dy), edge = 0.93 * kLidRadius;
+    const double steep = edge / std::sqrt(kLidRadius * kLidRadius - edge * edge);
+    double z = std::sqrt(kLidRadius * kLidRadius - std::min(r * r, edge * edge));
+    if (r > edge) z -= (r - edge) * steep;
+    p.z = mix(p.z, kEye.z + z, on_ball);
+  }
+
+  FacePoint out;
+  out.closed = p;
+  if (std::abs(s) >= 1 || front_mask <= 0) return out;
+  // Lids: full turn at the edge, none from the crease on.
+  const double line = lid_line(p.x);
+  const double edge_z = std::sqrt(
+      std::max(0.04, kLidRadius * kLidRadius - dx * dx - (line - kEye.y) * (line - kEye.y)));
+  const double at_edge = exact_atan2(line - kEye.y, edge_z);
+  const double here = exact_atan2(dy, std::max(p.z - kEye.z, 0.05));
+  if (side == Side::kAbove) {
+    out.lid = upper_opening(p.x) * (1 - clamp01((here - at_edge) / 0.98));
+  } else {
+    out.lid = lower_opening(p.x) * (1 - smooth_step(0, 0.75, at_edge - here));
+  }
+  return out;
+}
+
+// Colours ---------------------------------------------------------------------------------------
+
+Colour Form::skin_colour(Vec3 p, double lid) const {
+  const Colour& skin = person_.skin;
+  const double x = std::abs(p.x);
+  const double in_front = smooth_step(2.5, 5.0, p.z);
+  const Colour blush = mix(skin, {214, 86, 84}, 0.55);
+  Colour c = skin;
+  const double red =
+      0.55 * bump(x, p.y, 4.3, -2.4, 1.9, 1.5) + 0.40 * bump(x, p.y, 0, -2.9, 1.1, 0.8) +
+      0.20 * bump(x, p.y, 0, -9.4, 1.6, 0.9) + 0.22 * bump(x, p.y, 3.2, 1.6, 1.7, 0.8);
+  c = mix(c, blush, std::min(red, 0.8) * in_front);
+  // Nostrils.
+  c = mix(c, {70, 30, 28}, 0.75 * bump(x, p.y, 0.62, -3.86, 0.30, 0.16) * in_front);
+  // Lips: between two curves that meet at the corners.
+  const double s = x / (kMouthHalfWidth * 1.03);
+  if (s < 1 && p.z > 4) {
+    const double line = mouth_line(p.x), end = 1 - s * s;
+    const double bow =
+        0.72 + 0.20 * bump(s, 0, 0.30, 0, 0.22, 1) - 0.10 * bump(s, 0, 0, 0, 0.10, 1);
+    const double top = bow * exact_pow(end, 0.75) * mix(1, person_.lips, 0.5);
+    const double bottom = 0.98 * exact_pow(end, 0.60) * mix(1, person_.lips, 0.5);
+    const double d = p.y - line;
+    const double inside = d > 0 ? smooth_step(top + 0.09, top - 0.05, d)
+                                : smooth_step(bottom + 0.12, bottom - 0.08, -d);
+    c = mix(c, person_.lip, inside * smooth_step(0, 0.12, end));
+    c = mix(c, mix(person_.lip, {60, 16, 20}, 0.55), inside * bump(0, d, 0, 0, 1, 0.10));
+  }
+  // Edges of the upper lids are dark with lashes.
+  if (lid > 0) {
+    const double open = upper_opening(p.x);
+    c = mix(c, mix(skin, {60, 30, 26}, 0.7), open > 0 ? smooth_step(0.90, 1.0, lid / open) : 0);
+  }
+  // A shirt.
+  const double collar = -15.9 + 0.09 * x * x * 0.35 + 0.5 * smooth_step(3, -5, p.z);
+  c = mix(c, person_.shirt, p.y < collar ? 1 : 0);
+  return c;
+}
+
+}  // namespace mien::head

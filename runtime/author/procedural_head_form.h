@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// The form of the head in the box: surfaces as functions of a direction and a height, so that any
+// number of rows and columns can be sampled from them.
+//
+// The face is designed with its lids CLOSED: skin lies on a ball around each eyeball and two edges
+// share one line across it. The neutral pose turns the lids open about the eye's x axis; blinking
+// turns them back, and so ends exactly where the edges meet.
+//
+// Frame: centimetres, x to the character's left, y up, z to the front. Everything is computed for
+// x >= 0 and mirrored.
+#pragma once
+
+#include "runtime/author/dna_making.h"
+#include "runtime/author/exact_math.h"
+
+namespace mien::head {
+
+using author::Vec3;
+
+/// sRGB, 0 ... 255.
+struct Colour {
+  double r = 0, g = 0, b = 0;
+};
+
+inline Colour mix(Colour a, Colour b, double t) {
+  return {author::mix(a.r, b.r, t), author::mix(a.g, b.g, t), author::mix(a.b, b.b, t)};
+}
+
+/// What differs from seed to seed. Factors are 1 for seed 0.
+struct Person {
+  double cranium = 1, jaw = 1, chin = 1, nose = 1, nose_width = 1, cheek = 1, lips = 1, brow = 1,
+         ear = 1;
+  double eye_tilt = 0;  // radians by which the outer corner is higher
+  Colour skin, lip, hair, brow_hair, iris, shirt;
+};
+Person make_person(uint64_t seed);
+
+// Landmarks -------------------------------------------------------------------------------------
+
+constexpr Vec3 kEye = {3.2, 0.6, 6.05};  // centre of the left eyeball
+constexpr double kEyeRadius = 1.58;
+constexpr double kLidRadius = 1.70;     // outside of the lids
+constexpr double kEyeHalfWidth = 1.48;  // of the opening between the lids
+constexpr double kMouthY = -6.05;
+constexpr double kMouthHalfWidth = 2.45;
+constexpr double kCrownY = 12.6;
+constexpr double kBottomY = -18.4;
+constexpr Vec3 kJawJoint = {0, -1.6, 0.4};
+constexpr double kJawOpenAngle = 22;  // degrees
+
+/// A place on the face, before the neutral pose opens the lids.
+struct FacePoint {
+  Vec3 closed;
+  double lid = 0;  // radians that the neutral pose turns it: upper lid > 0, lower lid < 0
+};
+
+enum class Side { kBelow, kAbove };  // of the slits between lids and between lips
+
+class Form {
+ public:
+  explicit Form(const Person& person) : person_(person) {}
+
+  const Person& person() const { return person_; }
+
+  /// `angle`: 0 in front, pi behind; `y`: height of the row. Beyond the ends of the lids' slit both
+  /// sides are the same.
+  FacePoint face(double angle, double y, Side side) const;
+
+  /// The angle at which the row `y` has this |x|, in front.
+  double angle_of(double x, double y) const;
+
+  /// -1 at the inner corner of the eye, 1 at the outer one.
+  static double along_eye(double x) { return (x - kEye.x) / kEyeHalfWidth; }
+  /// Height of the closed lids' edges, and of the row of the mouth, which is bent as well.
+  double lid_line(double x) const;
+  double mouth_line(double x) const;
+  /// Angle by which the neutral pose opens the edges of the lids.
+  double upper_opening(double x) const;
+  double lower_opening(double x) const;
+
+  Colour skin_colour(Vec3 closed, double lid) const;
+
+ private:
+  struct Section {
+    double half_width, front, back, exponent;
+  };
+  Section section(double y) const;
+  double relief(double x, double y) const;
+
+  Person person_;
+};
+
+/// Turns `p` about the x axis through the eye, upwards in front.
+Vec3 turn_lid(Vec3 p, double angle);
+
+/// exp(-((x - cx) / sx)^2 - ((y - cy) / sy)^2)
+double bump(double x, double y, double cx, double cy, double sx, double sy);
+
+}  // namespace mien::head

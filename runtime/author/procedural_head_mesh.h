@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// Meshes of the head in the box: sampled from the form, one for each part and LOD.
+#pragma once
+
+#include "runtime/author/procedural_head_form.h"
+
+namespace mien::head {
+
+constexpr uint32_t kLodCount = 8;
+
+enum class Part : uint8_t { kHead, kTeeth, kTongue, kEyeLeft, kEyeRight, kHair, kBrows, kLashes };
+constexpr uint32_t kPartCount = 8;
+
+/// What carries a vertex besides the joints of the face.
+enum class Carrier : uint8_t {
+  kSkin,
+  kSkull,       // head joint alone: hair
+  kUpperTeeth,  // rigid
+  kLowerTeeth,
+  kTongue,
+  kEyeball
+};
+
+struct Vertex {
+  Vec3 position;  // neutral
+  Vec3 closed;    // the same with closed lids
+  Vec3 look;      // the place on the face whose motion it follows (lips for the mouth's inside)
+  Vec3 normal;
+  double u = 0, v = 0;
+  double lid = 0;    // see FacePoint
+  double depth = 0;  // into the mouth: 0 on the face, 1 at its back
+  double along = 0;  // tongue: 0 root, 1 tip
+  Colour colour;
+  Side side = Side::kAbove;
+  Carrier carrier = Carrier::kSkin;
+};
+
+struct Face {
+  uint32_t corners[4];
+  uint32_t count;
+};
+
+/// A list that grows in an arena; when memory runs out it stays as it is and remembers that.
+template <class T>
+class Growing {
+ public:
+  explicit Growing(Arena& arena) : arena_(&arena) {}
+
+  uint32_t add(const T& item) {
+    if (count_ == items_.count && !grow()) return 0;
+    items_[count_] = item;
+    return count_++;
+  }
+  T& operator[](size_t i) const { return items_[i]; }
+  uint32_t count() const { return count_; }
+  Span<T> span() const { return items_.first(count_); }
+  bool failed() const { return failed_; }
+
+ private:
+  bool grow() {
+    const Span<T> larger = failed_ ? Span<T>() : arena_->array<T>(items_.count * 2 + 256);
+    if (larger.empty()) {
+      failed_ = true;
+      return false;
+    }
+    for (uint32_t i = 0; i < count_; ++i) larger[i] = items_[i];
+    items_ = larger;
+    return true;
+  }
+
+  Arena* arena_;
+  Span<T> items_;
+  uint32_t count_ = 0;
+  bool failed_ = false;
+};
+
+/// The half of a mesh with x >= 0, to be mirrored; or, of one eye, all of it.
+struct HalfMesh {
+  Growing<Vertex> vertices;
+  Growing<Face> faces;
+  bool mirrored = true;  // has another half at x < 0
+
+  explicit HalfMesh(Arena& arena) : vertices(arena), faces(arena) {}
+
+  void quad(uint32_t a, uint32_t b, uint32_t c, uint32_t d) { faces.add({{a, b, c, d}, 4}); }
+  void triangle(uint32_t a, uint32_t b, uint32_t c) { faces.add({{a, b, c, 0}, 3}); }
+  /// Memory ran out; what is there is of no use, but safe to touch if there is any.
+  bool failed() const { return vertices.failed() || faces.failed(); }
+  bool on_plane(uint32_t vertex) const { return mirrored && vertices[vertex].position.x == 0; }
+};
+
+/// These add to `out` and leave it failed if memory ran out; the last one sets normals.
+void add_skin(const Form& form, uint32_t lod, HalfMesh& out);
+void add_ear(const Form& form, uint32_t lod, HalfMesh& out);
+void add_teeth(const Form& form, uint32_t lod, HalfMesh& out);
+void add_tongue(const Form& form, uint32_t lod, HalfMesh& out);
+void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out);
+void add_hair(const Form& form, uint32_t lod, HalfMesh& out);
+void add_brow(const Form& form, uint32_t lod, HalfMesh& out);
+void add_lashes(const Form& form, uint32_t lod, HalfMesh& out);
+void set_normals(HalfMesh& mesh);
+
+/// All of the above for one part. Both eyes are the left one.
+bool make_part(const Form& form, Part part, uint32_t lod, HalfMesh& out);
+
+}  // namespace mien::head

@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: MIT
+// Half meshes, weights and residuals become the geometry of a DNA file: the other half is their
+// mirror image to the last bit.
+#include <algorithm>
+
+#include "runtime/author/procedural_head_dna.h"
+
+namespace mien::head {
+
+using author::copy_text;
+using author::make;
+using author::make_lod_map;
+using author::Text;
+
+namespace {
+
+constexpr const char* kPartNames[kPartCount] = {"head",     "teeth", "tongue", "eyeLeft",
+                                                "eyeRight", "hair",  "brows",  "lashes"};
+/// Smaller offsets are not stored.
+constexpr double kLeastOffset = 0.002;
+
+Vec3 mirrored(Vec3 v) { return {-v.x, v.y, v.z}; }
+
+struct NewVec3s {
+  dna::NewArray<float> xs, ys, zs;
+
+  bool allocate(Arena& arena, size_t count) {
+    return make(arena, count, xs) && make(arena, count, ys) && make(arena, count, zs);
+  }
+  void set(size_t i, Vec3 v) const {
+    xs.set(i, static_cast<float>(v.x));
+    ys.set(i, static_cast<float>(v.y));
+    zs.set(i, static_cast<float>(v.z));
+  }
+  operator dna::Vec3Array() const { return {xs, ys, zs}; }
+};
+
+Text mesh_name(Part part, uint32_t lod) {
+  return Text().add(kPartNames[static_cast<int>(part)]).add("_lod").add(uint64_t{lod}).add("_mesh");
+}
+
+class MeshMaker {
+ public:
+  MeshMaker(const Head& head, Part part, uint32_t lod, Arena& arena, Arena& scratch)
+      : head_(head), part_(part), lod_(lod), arena_(arena), scratch_(scratch), half_(scratch) {}
+
+  /// `used`: set for channels that the mesh has a target for.
+  bool make(dna::Mesh& out, Span<uint8_t> used) {
+    if (!make_part(head_.form, part_, lod_, half_)) return false;
+    flipped_ = part_ == Part::kEyeRight;
+    return number() && make_points(out) && make_layouts(out) && make_faces(out) &&
+           make_weights(out) && (lod_ >= kShapeLods || make_targets(out, used));
+  }
+  bool make_colours(dna::MetadataPair& out);
+
+ private:
+  uint32_t left_count() const { return half_.vertices.count(); }
+  bool has_twin(uint32_t i) const { return half_.mirrored && !half_.on_plane(i); }
+  Vec3 placed(Vec3 v) const { return flipped_ ? mirrored(v) : v; }
+
+  /// Vertices of the other half follow those of this one.
+  bool number() {
+    if (!author::make(scratch_, left_count(), twin_) ||
+        !author::make(scratch_, left_count(), weights_)) {
+      return false;
+    }
+    count_ = left_count();
+    for (uint32_t i = 0; i < left_count(); ++i) twin_[i] = has_twin(i) ? count_++ : i;
+    for (uint32_t i = 0; i < left_count(); ++i) {
+      weights_[i] = weigh(head_.form, head_.skeleton, lod_, half_.vertices[i], half_.on_plane(i));
+    }
+    return true;
+  }
+
+  bool make_points(dna::Mesh& out) {
+    NewVec3s positions, normals;
+    if (!positions.allocate(arena_, count_) || !normals.allocate(arena_, count_)) return false;
+    for (uint32_t i = 0; i < left_count(); ++i) {
+      const Vertex& v = half_.vertices[i];
+      positions.set(i, placed(v.position));
+      normals.set(i, placed(v.normal));
+      if (!has_twin(i)) continue;
+      positions.set(twin_[i], mirrored(v.position));
+      normals.set(twin_[i], mirrored(v.normal));
+    }
+    out.positions = positions;
+    out.normals = normals;
+    return true;
+  }
+
+  /// Texture coordinates of the other half are mirrored about u = 0.5; vertices on the plane that
+  /// lie elsewhere have a layout for each half.
+  bool make_layouts(dna::Mesh& out) {
+    if (!author::make(scratch_, left_count(), other_layout_)) return false;
+    uint32_t layouts = left_count();
+    if (half_.mirrored) {
+      for (uint32_t i = 0; i < left_count(); ++i) {
+        const bool shared = half_.on_plane(i) && half_.vertices[i].u == 0.5;
+        other_layout_[i] = shared ? i : layouts++;
+      }
+    }
+    dna::NewArray<uint32_t> positions, coordinates, normals;
+    dna::NewArray<float> us, vs;
+    if (!author::make(arena_, layouts, positions) || !author::make(arena_, layouts, coordinates) ||
+        !author::make(arena_, layouts, normals) || !author::make(arena_, layouts, us) ||
+        !author::make(arena_, layouts, vs)) {
+      return false;
+    }
+    const auto set = [&](uint32_t layout, uint32_t position, double u, double v) {
+      positions.set(layout, position);
+      coordinates.set(layout, layout);
+      normals.set(layout, position);
+      us.set(layout, static_cast<float>(u));
+      vs.set(layout, static_cast<float>(v));
+    };
+    for (uint32_t i = 0; i < left_count(); ++i) {
+      const Vertex& v = half_.vertices[i];
+      set(i, i, flipped_ ? 1 - v.u : v.u, v.v);
+      if (half_.mirrored && other_layout_[i] != i) set(other_layout_[i], twin_[i], 1 - v.u, v.v);
+    }
+    out.texture_coordinates = {us, vs};
+    out.layouts = {positions, coordinates, normals};
+    return true;
+  }
+
+  bool make_faces(dna::Mesh& out) {
+    const Span<Face> faces = half_.faces.span();
+    const uint32_t halves = half_.mirrored ? 2 : 1;
+    uint32_t corners = 0, corner = 0, face = 0;
+    for (const Face& f : faces) corners += f.count * halves;
+    dna::NewArray<uint32_t> indices;
+    if (!author::make(arena_, faces.count * halves, out.faces) ||
+        !author::make(arena_, corners, indices)) {
+      return false;
+    }
+    for (uint32_t half = 0; half < halves; ++half) {
+      const bool turned = half == 1 || flipped_;
+      for (const Face& f : faces) {
+        out.faces[face++].layout_indices = {indices.data + corner * sizeof(uint32_t), f.count};
+        for (uint32_t i = 0; i < f.count; ++i) {
+          const uint32_t from = f.corners[turned ? f.count - 1 - i : i];
+          indices.set(corner++, half == 1 ? other_layout_[from] : from);
+        }
+      }
+    }
+    return true;
+  }
+
+  bool make_weights(dna::Mesh& out) {
+    if (!author::make(arena_, count_, out.skin_weights)) return false;
+    out.maximum_influence_per_vertex = 0;
+    for (uint32_t i = 0; i < left_count(); ++i) {
+      const Weights& w = weights_[i];
+      out.maximum_influence_per_vertex =
+          std::max(out.maximum_influence_per_vertex, static_cast<uint16_t>(w.count));
+      if (!store_weights(w, flipped_, out.skin_weights[i])) return false;
+      if (has_twin(i) && !store_weights(w, true, out.skin_weights[twin_[i]])) return false;
+    }
+    return true;
+  }
+
+  bool store_weights(const Weights& w, bool turned, dna::VertexSkinWeights& out) {
+    dna::NewArray<float> values;
+    dna::NewArray<uint16_t> joints;
+    if (!author::make(arena_, w.count, values) || !author::make(arena_, w.count, joints)) {
+      return false;
+    }
+    for (uint32_t i = 0; i < w.count; ++i) {
+      values.set(i, w.values[i]);
+      joints.set(i, turned ? head_.skeleton.joints[w.joints[i]].twin : w.joints[i]);
+    }
+    out = {values, joints};
+    return true;
+  }
+
+  /// What joints leave of a shape, for the vertices of this half.
+  void find_offsets(uint32_t shape, Span<Affine> pose, Span<Vec3> out) const;
+
+  bool make_targets(dna::Mesh& out, Span<uint8_t> used) {
+    bool skin = false;
+    for (uint32_t i = 0; i < left_count(); ++i) {
+      skin = skin || half_.vertices[i].carrier == Carrier::kSkin;
+    }
+    if (!skin) return true;
+    const uint32_t shapes = head_.shapes.count();
+    Span<Affine> pose;
+    if (!author::make(scratch_, size_t{shapes} * left_count(), offsets_) ||
+        !author::make(scratch_, head_.skeleton.count, pose)) {
+      return false;
+    }
+    for (uint32_t s = 0; s < shapes; ++s) find_offsets(s, pose, offsets_of(s));
+
+    uint32_t targets = 0, target = 0;
+    for (uint32_t s = 0; s < shapes; ++s) targets += count_moved(s) > 0;
+    if (!author::make(arena_, targets, out.blend_shape_targets)) return false;
+    for (uint32_t s = 0; s < shapes; ++s) {
+      const uint32_t moved = count_moved(s);
+      if (moved == 0) continue;
+      used[s] = 1;
+      if (!store_target(s, moved, out.blend_shape_targets[target++])) return false;
+    }
+    return true;
+  }
+
+  Span<Vec3> offsets_of(uint32_t shape) const {
+    return offsets_.slice(size_t{shape} * left_count(), left_count());
+  }
+  static bool is_moved(Vec3 offset) { return dot(offset, offset) >= kLeastOffset * kLeastOffset; }
+
+  uint32_t count_moved(uint32_t shape) const {
+    uint32_t moved = 0;
+    for (const Vec3& offset : offsets_of(shape)) moved += is_moved(offset);
+    const Span<Vec3> other = offsets_of(head_.shapes.twin(shape));
+    for (uint32_t i = 0; i < left_count(); ++i) moved += has_twin(i) && is_moved(other[i]);
+    return moved;
+  }
+
+  bool store_target(uint32_t shape, uint32_t moved, dna::BlendShapeTarget& out) {
+    NewVec3s deltas;
+    dna::NewArray<uint32_t> indices;
+    if (!deltas.allocate(arena_, moved) || !author::make(arena_, moved, indices)) return false;
+    uint32_t n = 0;
+    const auto add = [&](uint32_t vertex, Vec3 offset) {
+      if (!is_moved(offset)) return;
+      indices.set(n, vertex);
+      deltas.set(n++, offset);
+    };
+    const Span<Vec3> here = offsets_of(shape), other = offsets_of(head_.shapes.twin(shape));
+    for (uint32_t i = 0; i < left_count(); ++i) add(i, here[i]);
+    for (uint32_t i = 0; i < left_count(); ++i) {
+      if (has_twin(i)) add(twin_[i], mirrored(other[i]));
+    }
+    out.deltas = deltas;
+    out.vertex_indices = indices;
+    out.channel_index = static_cast<uint16_t>(shape);
+    return true;
+  }
+
+  const Head& head_;
+  const Part part_;
+  const uint32_t lod_;
+  Arena& arena_;
+  Arena& scratch_;
+  HalfMesh half_;
+  bool flipped_ = false;
+  uint32_t count_ = 0;
+  Span<uint32_t> twin_, other_layout_;
+  Span<Weights> weights_;
+  Span<Vec3> offsets_;  // [shape * left_count() + vertex]
+};
+
+void MeshMaker::find_offsets(uint32_t shape, Span<Affine> pose, Span<Vec3> out) const {
+  const Shapes& shapes = head_.shapes;
+  // A corrective acts when its members do: it has to make up for the sum of the three.
+  uint32_t active[3] = {shape}, active_count = 1;
+  if (shape >= kExpressionCount) {
+    const Corrective& c = shapes.corrective(shape - kExpressionCount);
+    active[active_count++] = c.first;
+    active[active_count++] = c.second;
+  }
+  pose_joints(head_.skeleton, head_.deltas, active, active_count, pose.data);
+  const uint32_t twin = shapes.twin(shape);
+  for (uint32_t i = 0; i < left_count(); ++i) {
+    const Vertex& v = half_.vertices[i];
+    if (v.carrier != Carrier::kSkin) continue;
+    if (half_.on_plane(i) && twin < shape) {  // the mirror image of what was found already
+      out[i] = mirrored(offsets_of(twin)[i]);
+      continue;
+    }
+    Vec3 from = v.position, target = v.position;
+    for (uint32_t a = 0; a < active_count; ++a) {
+      target = target + shapes.displacement(active[a], v);
+      if (a > 0) from = from + offsets_of(active[a])[i];
+    }
+    Vec3 offset = residual(pose.data, weights_[i], from, target);
+    if (half_.on_plane(i) && twin == shape) offset.x = 0;
+    out[i] = is_moved(offset) ? offset : Vec3();
+  }
+}
+
+bool MeshMaker::make_colours(dna::MetadataPair& out) {
+  static constexpr char kDigits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  // Three bytes make four digits: one group for each position, no padding needed.
+  uint8_t* text = static_cast<uint8_t*>(arena_.allocate(size_t{count_} * 4, 1));
+  if (!text) return false;
+  const auto byte = [](double c) {
+    return static_cast<uint32_t>(std::min(std::max(c, 0.0), 255.0) + 0.5);
+  };
+  for (uint32_t i = 0; i < left_count(); ++i) {
+    const Colour c = half_.vertices[i].colour;
+    const uint32_t bits = byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
+    for (const uint32_t at : {i, twin_[i]}) {
+      for (uint32_t k = 0; k < 4; ++k) {
+        text[at * 4 + k] = static_cast<uint8_t>(kDigits[bits >> (18 - 6 * k) & 63]);
+      }
+    }
+  }
+  out.value = {text, count_ * 4};
+  return copy_text(
+      arena_,
+      Text().add("mien.colors.").add(mesh_name(part_, lod_).chars, mesh_name(part_, lod_).count),
+      out.key);
+}
+
+bool fill_channels(const Head& head, Span<const uint8_t> used, Arena& arena, dna::DnaView& out) {
+  const uint32_t shapes = head.shapes.count();
+  uint32_t count = 0;
+  for (uint8_t u : used) count += u;
+  dna::NewArray<uint16_t> lods, inputs, outputs;
+  if (!make(arena, count, out.defn.channel_names) || !make(arena, kLodCount, lods) ||
+      !make(arena, count, inputs) || !make(arena, count, outputs)) {
+    return false;
+  }
+  uint32_t channel = 0;
+  for (uint32_t s = 0; s < shapes; ++s) {
+    if (!used[s]) continue;
+    Text name;
+    name.add("head__");
+    if (s < kExpressionCount) {
+      name.add(kExpressions[s].name);
+    } else {
+      const Corrective& c = head.shapes.corrective(s - kExpressionCount);
+      name.add(kExpressions[c.first].name).add("_").add(kExpressions[c.second].name);
+    }
+    if (!copy_text(arena, name, out.defn.channel_names[channel])) return false;
+    inputs.set(channel, static_cast<uint16_t>(s));
+    outputs.set(channel, static_cast<uint16_t>(channel));
+    ++channel;
+  }
+  for (uint32_t lod = 0; lod < kLodCount; ++lod) {
+    lods.set(lod, static_cast<uint16_t>(lod < kShapeLods ? count : 0));
+  }
+  out.bhvr.channels = {lods, inputs, outputs};
+  const auto in_lod = [](size_t lod, size_t) { return lod < kShapeLods; };
+  return make_lod_map(arena, kLodCount, count, in_lod, out.defn.lod_channels);
+}
+
+}  // namespace
+
+bool fill_meshes(const Head& head, Arena& arena, const Allocator& allocator, size_t metadata_used,
+                 dna::DnaView& out) {
+  Arena scratch(allocator);
+  dna::List<dna::Mesh>& meshes = out.geom.meshes;
+  Span<uint8_t> used;
+  Span<uint16_t> channel_of;
+  if (!make(arena, kMeshCount, meshes) || !make(arena, kMeshCount, out.defn.mesh_names) ||
+      !make(scratch, head.shapes.count(), used) || !make(scratch, used.count, channel_of)) {
+    return false;
+  }
+  for (uint32_t m = 0; m < kMeshCount; ++m) {
+    const Part part = static_cast<Part>(m % kPartCount);
+    const uint32_t lod = m / kPartCount;
+    Arena for_mesh(allocator);
+    MeshMaker maker(head, part, lod, arena, for_mesh);
+    if (!copy_text(arena, mesh_name(part, lod), out.defn.mesh_names[m]) ||
+        !maker.make(meshes[m], used) || !maker.make_colours(out.desc.metadata[metadata_used + m])) {
+      return false;
+    }
+  }
+  const auto in_lod = [](size_t lod, size_t mesh) { return mesh / kPartCount == lod; };
+  if (!make_lod_map(arena, kLodCount, kMeshCount, in_lod, out.defn.lod_meshes) ||
+      !fill_channels(head, used, arena, out)) {
+    return false;
+  }
+
+  // Targets know their shapes so far; channels are those that are used.
+  uint16_t channel = 0;
+  for (uint32_t s = 0; s < used.count; ++s) channel_of[s] = used[s] ? channel++ : 0;
+  uint32_t count = 0, entry = 0;
+  for (const dna::Mesh& mesh : meshes) count += mesh.blend_shape_targets.count;
+  dna::NewArray<uint16_t> from, to;
+  if (!make(arena, count, from) || !make(arena, count, to)) return false;
+  for (uint32_t m = 0; m < kMeshCount; ++m) {
+    for (dna::BlendShapeTarget& target : meshes[m].blend_shape_targets) {
+      target.channel_index = channel_of[target.channel_index];
+      from.set(entry, static_cast<uint16_t>(m));
+      to.set(entry++, target.channel_index);
+    }
+  }
+  out.defn.mesh_channels = {from, to};
+  return true;
+}
+
+}  // namespace mien::head

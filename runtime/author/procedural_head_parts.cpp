@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: MIT
+// Everything but the skin: ears, eyeballs, brows, lashes, hair, teeth and tongue.
+#include <algorithm>
+
+#include "runtime/author/procedural_head_mesh.h"
+
+namespace mien::head {
+
+using author::clamp01;
+using author::exact_cosine;
+using author::exact_pow;
+using author::exact_sine;
+using author::exact_sine_cosine;
+using author::kPi;
+using author::mix;
+using author::smooth_step;
+
+namespace {
+
+/// `full` at LOD 0, a tenth or so at the last, never below `least`.
+uint32_t at_lod(uint32_t full, uint32_t least, uint32_t lod) {
+  static constexpr double kShare[kLodCount] = {1, 0.7, 0.5, 0.38, 0.27, 0.2, 0.15, 0.1};
+  return std::max(least, static_cast<uint32_t>(full * kShare[lod] + 0.5));
+}
+
+Vertex plain(Vec3 position, Colour colour, double u, double v, Carrier carrier) {
+  Vertex out;
+  out.position = out.closed = out.look = position;
+  out.colour = colour;
+  out.u = u;
+  out.v = v;
+  out.carrier = carrier;
+  return out;
+}
+
+/// Rows of equal length are joined by quads; counter-clockwise if rows go up and columns to the
+/// right as seen from outside.
+void join_rows(HalfMesh& out, uint32_t first, uint32_t rows, uint32_t columns) {
+  for (uint32_t row = 0; row + 1 < rows; ++row) {
+    for (uint32_t column = 0; column + 1 < columns; ++column) {
+      const uint32_t at = first + row * columns + column;
+      out.quad(at, at + 1, at + columns + 1, at + columns);
+    }
+  }
+}
+
+Vec3 unit(Vec3 v) { return v * (1 / std::sqrt(dot(v, v))); }
+
+}  // namespace
+
+// Ears ------------------------------------------------------------------------------------------
+
+void add_ear(const Form& form, uint32_t lod, HalfMesh& out) {
+  // Share of the outline's radius, and height above the plane of the ear: from the bowl to the rim
+  // and behind it back to the head.
+  static constexpr double kFine[][2] = {{0.00, -0.50}, {0.22, -0.46}, {0.38, -0.26}, {0.50, -0.02},
+                                        {0.60, 0.05},  {0.70, -0.05}, {0.79, -0.10}, {0.86, 0.08},
+                                        {0.93, 0.24},  {0.99, 0.20},  {1.03, 0.04},  {1.00, -0.16},
+                                        {0.88, -0.34}, {0.66, -0.75}, {0.45, -1.30}};
+  static constexpr double kPlain[][2] = {{0.00, -0.45}, {0.45, -0.15}, {0.90, 0.15},
+                                         {1.02, 0.02},  {0.80, -0.45}, {0.50, -1.20}};
+  static constexpr double kPlainest[][2] = {{0.0, -0.2}, {1.0, 0.1}, {0.5, -1.2}};
+  const double(*path)[2] = lod < 3 ? kFine : lod < 6 ? kPlain : kPlainest;
+  const uint32_t rings = lod < 3 ? 15 : lod < 6 ? 6 : 3, around = at_lod(36, 5, lod);
+  const double size = form.person().ear;
+  const double tilt = 0.50;
+  const Vec3 origin = {form.face(0.53 * kPi, 0.0, Side::kAbove).closed.x + 0.12, -0.1, -0.9};
+  const auto [sine, cosine] = exact_sine_cosine(tilt);
+  const Vec3 back = {sine, 0, -cosine}, outward = {cosine, 0, sine};
+  const Vec3 up = unit({0.10, 1, -0.16});
+
+  const Colour skin = form.person().skin, red = mix(skin, {206, 84, 80}, 0.32);
+  uint32_t before[64], here[64];
+  for (uint32_t r = 0; r < rings; ++r) {
+    for (uint32_t k = 0; k < around; ++k) {
+      const double angle = 2 * kPi * k / around;
+      const auto [s, c] = exact_sine_cosine(angle);
+      const double low = smooth_step(0.2, -1, s);
+      const double p = c * (c > 0 ? mix(1.42, 0.92, low) : mix(0.85, 0.75, low));
+      const double q = s * (s > 0 ? 2.05 : 1.85);
+      const double share = path[r][0];
+      // The rim fades towards the lobe and where the ear grows out of the head.
+      const double rim =
+          mix(1, 0.25, std::max(smooth_step(-0.3, -0.9, s), smooth_step(-0.4, -1, c)));
+      double height = path[r][1] * (path[r][1] > 0 ? rim : 1);
+      if (path[r][0] < 0.6 && r < rings / 2) height *= mix(1, 0.35, low);
+      const Vec3 at =
+          origin + back * (p * share * size) + up * (q * share * size) + outward * (height * size);
+      const double shade = path[r][1] < -0.2 && r < rings / 2 ? 1 : 0;
+      Vertex v = plain(at, mix(mix(skin, red, 0.75), {120, 52, 44}, 0.35 * shade),
+                       0.03 + 0.06 * (c * share * 0.5 + 0.5), 0.9 + 0.08 * (s * share * 0.5 + 0.5),
+                       Carrier::kSkin);
+      if (r == 0 && k > 0) {
+        here[k] = here[0];
+      } else {
+        here[k] = out.vertices.add(v);
+      }
+    }
+    for (uint32_t k = 0; r > 0 && k < around; ++k) {
+      const uint32_t next = (k + 1) % around;
+      if (r == 1) {
+        out.triangle(before[k], here[k], here[next]);
+      } else {
+        out.quad(before[k], here[k], here[next], before[next]);
+      }
+    }
+    std::copy(here, here + around, before);
+  }
+}
+
+// Eyes ------------------------------------------------------------------------------------------
+
+void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out) {
+  // Angle from the middle of the pupil.
+  static constexpr double kFine[] = {0.10, 0.20, 0.225, 0.30, 0.38, 0.45, 0.485, 0.525,
+                                     0.60, 0.75, 0.95,  1.2,  1.5,  1.9,  2.3,   2.7};
+  static constexpr double kPlain[] = {0.21, 0.24, 0.47, 0.52, 0.9, 1.5, 2.2};
+  const bool fine = lod < 3;
+  const double* angles = fine ? kFine : kPlain;
+  const uint32_t rings = fine ? 16 : 7, around = at_lod(48, 8, lod);
+  out.mirrored = false;
+  const Colour iris = form.person().iris;
+  const auto colour = [&](double angle, uint32_t k) -> Colour {
+    const Colour pupil = {14, 12, 14}, white = {244, 240, 236};
+    if (angle < 0.21) return pupil;
+    if (angle < 0.50) {
+      // Light below, as if it came through the cornea from above; streaks; a dark rim.
+      const double low = 0.5 - 0.5 * exact_sine(2 * kPi * k / around);
+      const double streak = 0.06 * exact_sine(2.0 * kPi * 9 * k / around);
+      Colour c = mix(iris, {236, 230, 200}, 0.38 * low + streak);
+      c = mix(c, {18, 18, 22}, 0.45 * (1 - low) * (1 - low));
+      c = mix(c, pupil, 0.35 * smooth_step(0.30, 0.22, angle));
+      return mix(c, {20, 22, 28}, 0.65 * smooth_step(0.40, 0.49, angle));
+    }
+    return mix(white, {214, 150, 140}, 0.8 * smooth_step(0.8, 1.4, angle));
+  };
+  const uint32_t front = out.vertices.add(
+      plain(kEye + Vec3{0, 0, kEyeRadius}, {14, 12, 14}, 0.5, 0.5, Carrier::kEyeball));
+  uint32_t before = front;
+  for (uint32_t r = 0; r < rings; ++r) {
+    const auto [s, c] = exact_sine_cosine(angles[r]);
+    const uint32_t here = out.vertices.count();
+    for (uint32_t k = 0; k < around; ++k) {
+      const auto [sk, ck] = exact_sine_cosine(2 * kPi * k / around);
+      const Vec3 at = kEye + Vec3{ck * s, sk * s, c} * kEyeRadius;
+      const double wide = 0.5 * angles[r] / kPi;
+      out.vertices.add(
+          plain(at, colour(angles[r], k), 0.5 + wide * ck, 0.5 + wide * sk, Carrier::kEyeball));
+    }
+    for (uint32_t k = 0; k < around; ++k) {
+      const uint32_t next = (k + 1) % around;
+      if (r == 0) {
+        out.triangle(front, here + k, here + next);
+      } else {
+        out.quad(before + k, here + k, here + next, before + next);
+      }
+    }
+    before = here;
+  }
+  const uint32_t pole = out.vertices.add(
+      plain(kEye + Vec3{0, 0, -kEyeRadius}, {214, 150, 140}, 0.5, 0.99, Carrier::kEyeball));
+  for (uint32_t k = 0; k < around; ++k) out.triangle(before + (k + 1) % around, before + k, pole);
+}
+
+void add_lashes(const Form& form, uint32_t lod, HalfMesh& out) {
+  const uint32_t columns = at_lod(28, 4, lod) + 1;
+  const Colour dark = mix(form.person().brow_hair, {16, 12, 12}, 0.7);
+  // A wedge along the edge of the upper lid: below, tip, above.
+  const uint32_t first = out.vertices.count();
+  for (uint32_t row = 0; row < 4; ++row) {
+    for (uint32_t k = 0; k < columns; ++k) {
+      const double s = mix(-0.97, 0.995, static_cast<double>(k) / (columns - 1));
+      const double x = kEye.x + s * kEyeHalfWidth;
+      const double full =
+          exact_pow(std::max(0.0, 1 - s * s), 0.30) * mix(0.55, 1.15, 0.5 + 0.5 * s);
+      const FacePoint edge = form.face(form.angle_of(x, kEye.y), kEye.y, Side::kAbove);
+      const double radius[] = {kLidRadius - 0.05, kLidRadius + 0.34 * full,
+                               kLidRadius + 0.10 * full, kLidRadius - 0.03};
+      const double lift[] = {-0.035, 0.10 * full, 0.085, 0.085};
+      const double line_y = form.lid_line(x) - kEye.y, dx = x - kEye.x;
+      const double z =
+          std::sqrt(std::max(0.05, kLidRadius * kLidRadius - dx * dx - line_y * line_y));
+      Vec3 at = Vec3{dx, line_y, z};
+      at = kEye + at * (radius[row] / std::sqrt(dot(at, at)));
+      at = turn_lid(at, lift[row]);
+      at.x += row == 1 ? 0.10 * s * full : 0;
+      Vertex v = plain(at, dark, static_cast<double>(k) / (columns - 1), row / 3.0, Carrier::kSkin);
+      v.look = edge.closed;
+      v.lid = form.upper_opening(x);
+      v.position = turn_lid(v.closed, v.lid);
+      out.vertices.add(v);
+    }
+  }
+  join_rows(out, first, 4, columns);
+  // Behind, and at both ends.
+  for (uint32_t k = 0; k + 1 < columns; ++k) {
+    const uint32_t low = first + k, high = first + 3 * columns + k;
+    out.quad(high, high + 1, low + 1, low);
+  }
+  out.quad(first, first + columns, first + 2 * columns, first + 3 * columns);
+  const uint32_t end = first + columns - 1;
+  out.quad(end, end + 3 * columns, end + 2 * columns, end + columns);
+}
+
+void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
+  const uint32_t columns = at_lod(26, 4, lod) + 1, rows = lod < 3 ? 7 : lod < 5 ? 5 : 3;
+  const uint32_t first = out.vertices.count();
+  for (uint32_t row = 0; row < rows; ++row) {
+    for (uint32_t k = 0; k < columns; ++k) {
+      const double t = static_cast<double>(k) / (columns - 1);
+      const double across = 2.0 * row / (rows - 1) - 1;
+      const double x = mix(1.25, 5.75, t);
+      const double arch = 2.75 + 0.72 * exact_sine(kPi * clamp01(t * 0.80 + 0.06)) - 0.28 * t;
+      const double half = 0.40 * form.person().brow * exact_pow(clamp01((1 - t) * 1.9), 0.75) *
+                          exact_pow(clamp01(t * 9 + 0.25), 0.5);
+      const double y = arch + across * (half + 0.03);
+      const FacePoint at = form.face(form.angle_of(x, y), y, Side::kAbove);
+      const Vec3 out_of_face = unit({at.closed.x * 0.55, 0.8, at.closed.z});
+      const double raise = 0.20 * (1 - across * across) * clamp01(half * 4) - 0.05;
+      Vertex v = plain(at.closed + out_of_face * raise, form.person().brow_hair, t,
+                       0.5 + 0.5 * across, Carrier::kSkin);
+      v.look = at.closed;
+      out.vertices.add(v);
+    }
+  }
+  join_rows(out, first, rows, columns);
+}
+
+// Hair ------------------------------------------------------------------------------------------
+
+void add_hair(const Form& form, uint32_t lod, HalfMesh& out) {
+  const uint32_t columns = at_lod(56, 7, lod) + 1, rows = at_lod(34, 4, lod) + 1;
+  // Height of the hair line by angle / pi: forehead, temple, in front of the ear, behind it, nape.
+  static constexpr double kLine[][2] = {{0.00, 7.3},  {0.10, 7.15}, {0.19, 6.5},  {0.27, 5.2},
+                                        {0.34, 3.9},  {0.40, 1.9},  {0.45, -0.6}, {0.48, -1.2},
+                                        {0.505, 0.2}, {0.55, 1.9},  {0.60, 0.9},  {0.66, -1.6},
+                                        {0.75, -4.2}, {0.88, -5.9}, {1.00, -6.3}};
+  const auto line_at = [](double share) {
+    int i = 0;
+    while (i < 13 && share > kLine[i + 1][0]) ++i;
+    return mix(kLine[i][1], kLine[i + 1][1],
+               smooth_step(kLine[i][0], kLine[i + 1][0], share) * 0.5 +
+                   0.5 * clamp01((share - kLine[i][0]) / (kLine[i + 1][0] - kLine[i][0])));
+  };
+  const uint32_t first = out.vertices.count();
+  for (uint32_t row = 0; row < rows; ++row) {
+    const double t = static_cast<double>(row) / rows;
+    for (uint32_t k = 0; k < columns; ++k) {
+      const double share = static_cast<double>(k) / (columns - 1), angle = share * kPi;
+      const double line = line_at(share);
+      const double y = mix(line, kCrownY, 1 - exact_pow(1 - t, 1.35));
+      const Vec3 skin = form.face(angle, y, Side::kAbove).closed;
+      const Vec3 normal = unit(
+          {skin.x / (7.8 * 7.8), (skin.y - 2.5) / (10.2 * 10.2), (skin.z + 0.4) / (9.7 * 9.7)});
+      const double front = smooth_step(0.42, 0.0, share), rise = smooth_step(0, 0.13, t);
+      // Locks: ridges that run back from the forehead and down at the sides.
+      const double phase = 15 * angle + 5.0 * t * mix(1, 0.2, share) + 1.7 * exact_sine(3 * angle);
+      const double lock = exact_sine(phase) * (0.7 + 0.3 * exact_sine(2.3 * phase + 1));
+      double thick =
+          mix(0.50, 1.25, smooth_step(0.15, 0.8, t)) + 0.75 * front * bump(t, 0, 0.2, 0, 0.22, 1);
+      thick += 0.10 * lock * smooth_step(0.02, 0.2, t) * smooth_step(1.0, 0.7, t);
+      Vec3 at = skin + normal * (mix(-0.25, thick, rise));
+      at.y += 0.5 * front * rise * bump(t, 0, 0.16, 0, 0.2, 1);
+      if (k == 0 || k == columns - 1) at.x = 0;
+      const Colour hair = form.person().hair;
+      Colour c = mix(hair, {12, 8, 8}, 0.25 - 0.25 * lock);
+      c = mix(c, mix(hair, {255, 236, 210}, 0.25), 0.5 * smooth_step(0.2, 0.9, lock));
+      out.vertices.add(plain(at, c, 0.5 + 0.5 * share, t, Carrier::kSkull));
+    }
+  }
+  join_rows(out, first, rows, columns);
+  const uint32_t crown = out.vertices.add(
+      plain({0, kCrownY + 1.22, -0.9}, form.person().hair, 0.5, 1, Carrier::kSkull));
+  for (uint32_t k = 0; k + 1 < columns; ++k) {
+    const uint32_t at = first + (rows - 1) * columns + k;
+    out.triangle(at, at + 1, crown);
+  }
+}
+
+// Mouth -----------------------------------------------------------------------------------------
+
+void add_teeth(const Form& form, uint32_t lod, HalfMesh& out) {
+  static constexpr double kWidths[] = {0.44, 0.35, 0.39, 0.35, 0.35, 0.48, 0.46};
+  // Height from the edge of the lips, offset from the arc; gum, tooth, edge, back.
+  static constexpr double kRows[][2] = {
+      {1.45, -0.12}, {0.98, 0.07},   {0.62, 0.06},   {0.56, 0.00},  {0.25, 0.07},
+      {-0.05, 0.05}, {-0.14, -0.04}, {-0.10, -0.20}, {0.55, -0.36}, {1.45, -0.46}};
+  constexpr uint32_t kRowCount = 10;
+  const uint32_t per_tooth = lod == 0 ? 6 : lod < 3 ? 4 : lod < 5 ? 2 : 1;
+  const uint32_t columns = 7 * per_tooth + 1;
+  double total = 0;
+  for (double w : kWidths) total += w;
+
+  const Vec3 lips = form.face(0, kMouthY, Side::kBelow).closed;
+  const Colour white = {240, 233, 218}, gum = {188, 92, 92}, gap = {176, 150, 128};
+  for (int lower = 0; lower < 2; ++lower) {
+    const double sign = lower ? -1 : 1;
+    const double front = lips.z - (lower ? 0.95 : 0.72), half = lower ? 2.0 : 2.2;
+    const double base = kMouthY - (lower ? 0.24 : 0.02);
+    const uint32_t first = out.vertices.count();
+    for (uint32_t row = 0; row < kRowCount; ++row) {
+      double start = 0;
+      for (uint32_t k = 0; k < columns; ++k) {
+        const uint32_t tooth = std::min(k / per_tooth, 6u);
+        if (k % per_tooth == 0 && k > 0) start += kWidths[k / per_tooth - 1];
+        const double within = k % per_tooth / static_cast<double>(per_tooth);
+        const double share = (start + (k < columns - 1 ? within * kWidths[tooth] : 0)) / total;
+        // 0 at the gap between two teeth, 1 in the middle of one.
+        const double middle = k == 0 || k == columns - 1 ? 0.0 : exact_sine(kPi * within);
+        const double round = per_tooth > 1 ? exact_pow(middle, 0.5) : 1;
+        const auto [s, c] = exact_sine_cosine(share * kPi / 2);
+        double y = kRows[row][0], offset = kRows[row][1];
+        if (row == 2 || row == 3) y += 0.12 * (round - 0.6);
+        if (row >= 3 && row <= 6) offset -= 0.09 * (1 - round);
+        if (row == 5 || row == 6) y += 0.05 * (1 - round);
+        if (tooth == 2 && row >= 5 && row <= 7) y -= 0.05 * round;
+        if (share > 0.62 && row >= 5 && row <= 7) y += 0.08;
+        Vec3 at = {(half + offset) * s, base + sign * y, front - 3.1 * (1 - c) + offset * c};
+        if (k == 0) at.x = 0;
+        Colour colour = row <= 2 || row == 9 ? gum : white;
+        if (row >= 3 && row <= 5) colour = mix(gap, colour, 0.35 + 0.65 * round);
+        colour = mix(colour, {90, 60, 54}, 0.55 * smooth_step(0.35, 1, share));
+        out.vertices.add(plain(at, colour, share, (row + 10 * lower) / 20.0,
+                               lower ? Carrier::kLowerTeeth : Carrier::kUpperTeeth));
+      }
+    }
+    for (uint32_t row = 0; row < kRowCount; ++row) {
+      const uint32_t next = (row + 1) % kRowCount;
+      for (uint32_t k = 0; k + 1 < columns; ++k) {
+        const uint32_t a = first + row * columns + k, b = first + next * columns + k;
+        if (lower) {
+          out.quad(a, a + 1, b + 1, b);
+        } else {
+          out.quad(b, b + 1, a + 1, a);
+        }
+      }
+    }
+    // The last tooth's end.
+    const uint32_t end = first + columns - 1;
+    for (uint32_t row = 1; row + 2 < kRowCount; ++row) {
+      const uint32_t a = end, b = end + row * columns, c = end + (row + 1) * columns;
+      if (lower) {
+        out.triangle(a, c, b);
+      } else {
+        out.triangle(a, b, c);
+      }
+    }
+  }
+}
+
+void add_tongue(const Form& form, uint32_t lod, HalfMesh& out) {
+  const uint32_t rows = at_lod(18, 4, lod) + 1, around = at_lod(12, 3, lod) + 1;
+  const double tip_z = form.face(0, kMouthY, Side::kBelow).closed.z - 1.75;
+  const uint32_t first = out.vertices.count();
+  for (uint32_t row = 0; row < rows; ++row) {
+    const double t = static_cast<double>(row) / rows;  // the tip is one vertex
+    const double z = mix(2.0, tip_z, t);
+    const double y =
+        kMouthY - 1.55 + 1.05 * exact_sine(kPi * clamp01(0.12 + 0.62 * t)) * (1 - 0.25 * t);
+    const double taper = exact_pow(1 - t * t * t, 0.5);
+    const double half = 1.45 * mix(1.0, 0.86, t) * taper, thick = 0.50 * mix(1.2, 0.8, t) * taper;
+    for (uint32_t k = 0; k < around; ++k) {
+      const auto [s, c] = exact_sine_cosine(kPi * (static_cast<double>(k) / (around - 1) - 0.5));
+      const double groove = 0.14 * bump(c, 0, 0, 0, 0.35, 1) * (s > 0) * (1 - t);
+      Vec3 at = {half * c, y + thick * s - groove, z};
+      if (k == 0 || k == around - 1) at.x = 0;
+      Colour colour = mix({196, 92, 96}, {120, 44, 50}, 0.8 * (1 - t));
+      colour = mix(colour, {150, 58, 66}, 0.5 * bump(c, 0, 0, 0, 0.3, 1) * (s > 0));
+      Vertex v = plain(at, colour, 0.5 + 0.5 * k / (around - 1.0), t, Carrier::kTongue);
+      v.along = t;
+      out.vertices.add(v);
+    }
+  }
+  join_rows(out, first, rows, around);
+  Vertex tip = plain({0, kMouthY - 1.55 + 1.05 * exact_sine(kPi * 0.74) * 0.75, tip_z},
+                     {196, 92, 96}, 0.5, 1, Carrier::kTongue);
+  tip.along = 1;
+  const uint32_t front = out.vertices.add(tip);
+  for (uint32_t k = 0; k + 1 < around; ++k) {
+    const uint32_t at = first + (rows - 1) * around + k;
+    out.triangle(at, at + 1, front);
+    if (k > 0) out.triangle(first, first + k + 1, first + k);
+  }
+}
+
+}  // namespace mien::head

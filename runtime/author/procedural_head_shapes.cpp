@@ -1,0 +1,415 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/author/procedural_head_shapes.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace mien::head {
+
+using author::clamp01;
+using author::exact_sine_cosine;
+using author::kPi;
+using author::mix;
+using author::smooth_step;
+
+const Shape kExpressions[kExpressionCount] = {
+    {"eyeBlinkLeft", Motion::kBlink, 1},
+    {"eyeLookDownLeft", Motion::kLookDown, 1},
+    {"eyeLookInLeft", Motion::kLookIn, 1},
+    {"eyeLookOutLeft", Motion::kLookOut, 1},
+    {"eyeLookUpLeft", Motion::kLookUp, 1},
+    {"eyeSquintLeft", Motion::kSquint, 1},
+    {"eyeWideLeft", Motion::kWide, 1},
+    {"eyeBlinkRight", Motion::kBlink, -1},
+    {"eyeLookDownRight", Motion::kLookDown, -1},
+    {"eyeLookInRight", Motion::kLookIn, -1},
+    {"eyeLookOutRight", Motion::kLookOut, -1},
+    {"eyeLookUpRight", Motion::kLookUp, -1},
+    {"eyeSquintRight", Motion::kSquint, -1},
+    {"eyeWideRight", Motion::kWide, -1},
+    {"jawForward", Motion::kJawForward, 0},
+    {"jawLeft", Motion::kJawLeft, 1},
+    {"jawRight", Motion::kJawLeft, -1},
+    {"jawOpen", Motion::kJawOpen, 0},
+    {"mouthClose", Motion::kMouthClose, 0},
+    {"mouthFunnel", Motion::kFunnel, 0},
+    {"mouthPucker", Motion::kPucker, 0},
+    {"mouthLeft", Motion::kMouthLeft, 1},
+    {"mouthRight", Motion::kMouthLeft, -1},
+    {"mouthSmileLeft", Motion::kSmile, 1},
+    {"mouthSmileRight", Motion::kSmile, -1},
+    {"mouthFrownLeft", Motion::kFrown, 1},
+    {"mouthFrownRight", Motion::kFrown, -1},
+    {"mouthDimpleLeft", Motion::kDimple, 1},
+    {"mouthDimpleRight", Motion::kDimple, -1},
+    {"mouthStretchLeft", Motion::kStretch, 1},
+    {"mouthStretchRight", Motion::kStretch, -1},
+    {"mouthRollLower", Motion::kRollLower, 0},
+    {"mouthRollUpper", Motion::kRollUpper, 0},
+    {"mouthShrugLower", Motion::kShrugLower, 0},
+    {"mouthShrugUpper", Motion::kShrugUpper, 0},
+    {"mouthPressLeft", Motion::kPress, 1},
+    {"mouthPressRight", Motion::kPress, -1},
+    {"mouthLowerDownLeft", Motion::kLowerDown, 1},
+    {"mouthLowerDownRight", Motion::kLowerDown, -1},
+    {"mouthUpperUpLeft", Motion::kUpperUp, 1},
+    {"mouthUpperUpRight", Motion::kUpperUp, -1},
+    {"browDownLeft", Motion::kBrowDown, 1},
+    {"browDownRight", Motion::kBrowDown, -1},
+    {"browInnerUp", Motion::kBrowInnerUp, 0},
+    {"browOuterUpLeft", Motion::kBrowOuterUp, 1},
+    {"browOuterUpRight", Motion::kBrowOuterUp, -1},
+    {"cheekPuff", Motion::kCheekPuff, 0},
+    {"cheekSquintLeft", Motion::kCheekSquint, 1},
+    {"cheekSquintRight", Motion::kCheekSquint, -1},
+    {"noseSneerLeft", Motion::kSneer, 1},
+    {"noseSneerRight", Motion::kSneer, -1},
+    {"tongueOut", Motion::kTongueOut, 0},
+};
+
+namespace {
+
+uint8_t find(Motion motion, int side) {
+  uint8_t i = 0;
+  while (kExpressions[i].motion != motion || kExpressions[i].side != side) ++i;
+  return i;
+}
+
+/// What a motion does to the left half's own joints.
+JointTurns turns_of(Motion motion) {
+  JointTurns t;
+  switch (motion) {
+    case Motion::kBlink: t.upper_lid = t.lower_lid = -1; break;
+    case Motion::kWide: t.upper_lid = 0.30, t.lower_lid = 0.35; break;
+    case Motion::kSquint: t.upper_lid = -0.26, t.lower_lid = -1.6; break;
+    case Motion::kLookUp: t.upper_lid = 0.20, t.lower_lid = -0.35, t.eye_up = 24; break;
+    case Motion::kLookDown: t.upper_lid = -0.46, t.lower_lid = 0.45, t.eye_up = -26; break;
+    case Motion::kLookIn: t.eye_out = -26; break;
+    case Motion::kLookOut: t.eye_out = 26; break;
+    case Motion::kSmile: t.lower_lid = -0.45; break;
+    case Motion::kCheekSquint: t.lower_lid = -1.1, t.upper_lid = -0.08; break;
+    case Motion::kSneer: t.lower_lid = -0.45, t.upper_lid = -0.06; break;
+    case Motion::kJawOpen: t.jaw_open = kJawOpenAngle; break;
+    case Motion::kJawForward: t.jaw_shift = {0, -0.08, 0.95}; break;
+    case Motion::kJawLeft: t.jaw_shift = {1.0, -0.05, -0.05}; break;
+    case Motion::kTongueOut: t.jaw_open = 7, t.tongue = 1; break;
+    default: break;
+  }
+  return t;
+}
+
+bool moves_jaw(Motion m) {
+  return m == Motion::kJawOpen || m == Motion::kJawForward || m == Motion::kJawLeft ||
+         m == Motion::kTongueOut;
+}
+
+Vec3 mirrored(Vec3 v) { return {-v.x, v.y, v.z}; }
+
+}  // namespace
+
+uint32_t list_correctives(Corrective (&out)[kMostCorrectives]) {
+  uint32_t count = 0;
+  const auto add = [&](Motion a, int side_a, Motion b, int side_b, Motion motion, int side,
+                       uint8_t undone = 0) {
+    const uint8_t first = find(a, side_a), second = find(b, side_b);
+    out[count++] = {std::min(first, second), std::max(first, second), motion,
+                    static_cast<int8_t>(side), undone};
+  };
+  add(Motion::kJawOpen, 0, Motion::kMouthClose, 0, Motion::kSeal, 0);
+  add(Motion::kJawOpen, 0, Motion::kPucker, 0, Motion::kLessRaise, 0);
+  add(Motion::kFunnel, 0, Motion::kPucker, 0, Motion::kLessPout, 0);
+  for (int side : {1, -1}) {
+    // Blinking shuts the eye whatever else moves the lids.
+    for (Motion m : {Motion::kSquint, Motion::kWide, Motion::kLookUp, Motion::kLookDown,
+                     Motion::kSmile, Motion::kCheekSquint, Motion::kSneer}) {
+      add(Motion::kBlink, side, m, side, Motion::kKeepLidsShut, side, find(m, side));
+    }
+    add(Motion::kJawOpen, 0, Motion::kSmile, side, Motion::kLessWide, side);
+  }
+  return count;
+}
+
+Shape Shapes::shape(uint32_t index) const {
+  if (index < kExpressionCount) return kExpressions[index];
+  const Corrective& c = list_[index - kExpressionCount];
+  return {"", c.motion, c.side};
+}
+
+uint32_t Shapes::twin(uint32_t index) const {
+  if (index < kExpressionCount) {
+    const Shape& s = kExpressions[index];
+    return s.side == 0 ? index : find(s.motion, -s.side);
+  }
+  const Corrective& c = list_[index - kExpressionCount];
+  if (c.side == 0) return index;
+  const auto other = [this](uint32_t expression) { return static_cast<uint8_t>(twin(expression)); };
+  for (uint32_t i = 0; i < corrective_count_; ++i) {
+    const Corrective& d = list_[i];
+    const uint8_t a = other(d.first), b = other(d.second);
+    if (std::min(a, b) == c.first && std::max(a, b) == c.second) return kExpressionCount + i;
+  }
+  return index;
+}
+
+JointTurns Shapes::turns(uint32_t index, int side) const {
+  const Shape s = shape(index);
+  if (s.motion == Motion::kKeepLidsShut) {
+    JointTurns t;
+    if (s.side != side) return t;
+    const JointTurns undone = turns_of(kExpressions[list_[index - kExpressionCount].undone].motion);
+    t.upper_lid = -undone.upper_lid;
+    t.lower_lid = -undone.lower_lid;
+    return t;
+  }
+  JointTurns t = turns_of(s.motion);
+  if (moves_jaw(s.motion)) {  // one jaw for both halves
+    if (s.side < 0) t.jaw_shift.x = -t.jaw_shift.x;
+    return t;
+  }
+  return s.side == 0 || s.side == side ? t : JointTurns();
+}
+
+// Jaw -------------------------------------------------------------------------------------------
+
+double jaw_weight(const Form& form, const Vertex& v) {
+  const Vec3 p = v.look;
+  const double s = std::abs(p.x) / kMouthHalfWidth;
+  const double by_height = smooth_step(-4.0, -8.6, p.y);
+  const double by_lip = v.side == Side::kBelow ? 1 : 0;
+  (void)form;
+  double w = mix(by_height, by_lip, std::sqrt(std::max(0.0, 1 - s * s)));
+  w *= smooth_step(-15.8, -11.2, p.y) * smooth_step(-2.5, 3.5, p.z);
+  // The back of the mouth hangs between both jaws.
+  return mix(w, 0.45, smooth_step(0.7, 1.0, v.depth));
+}
+
+Vec3 move_with_jaw(const JointTurns& turns, Vec3 p) {
+  const auto [s, c] = exact_sine_cosine(turns.jaw_open * kPi / 180);
+  const Vec3 d = p - kJawJoint;
+  return kJawJoint + turns.jaw_shift + Vec3{d.x, c * d.y - s * d.z, s * d.y + c * d.z};
+}
+
+// Windows ---------------------------------------------------------------------------------------
+
+namespace {
+
+/// 0 on the lids, which stay on their ball, 1 away from them.
+double off_lids(Vec3 look) {
+  const double dx = (std::abs(look.x) - kEye.x) / 1.62, dy = (look.y - kEye.y) / 1.25;
+  return smooth_step(0.95, 2.3, dx * dx + dy * dy);
+}
+
+/// Where the mouth opens: 1 in the middle, 0 from the corners on, round.
+double between_corners(double x) {
+  const double s = x / kMouthHalfWidth;
+  return std::sqrt(std::max(0.0, 1 - s * s));
+}
+
+struct Window {
+  Vec3 look;
+  double at(double cx, double cy, double sx, double sy) const {
+    return bump(look.x, look.y, cx, cy, sx, sy);
+  }
+};
+
+}  // namespace
+
+Vec3 Shapes::lids(Motion motion, const Vertex& v) const {
+  if (v.lid == 0) return {};
+  const JointTurns t = turns_of(motion);
+  const double share = 1 + (v.lid > 0 ? t.upper_lid : t.lower_lid);
+  return turn_lid(v.closed, v.lid * share) - v.position;
+}
+
+Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
+  const Window w = {look};
+  const double line = look.y - form_.mouth_line(look.x);  // height above the mouth
+  const double apart = between_corners(look.x);
+  const bool above = v.side == Side::kAbove;
+  Vec3 d;
+  const auto add = [&d](double amount, Vec3 way) { d = d + way * amount; };
+  switch (motion) {
+    case Motion::kBlink:
+      add(w.at(3.2, 2.9, 2.0, 0.9), {0, -0.10, 0});
+      add(w.at(3.3, -1.4, 1.6, 0.8), {0, 0.08, 0.03});
+      break;
+    case Motion::kWide: add(w.at(3.2, 3.0, 2.2, 1.0), {0, 0.16, 0}); break;
+    case Motion::kSquint:
+      add(w.at(3.4, -1.5, 1.7, 0.9), {0, 0.30, 0.16});
+      add(w.at(5.4, 0.4, 0.9, 1.2), {-0.18, 0, 0.05});
+      add(w.at(3.0, 2.8, 2.0, 0.8), {-0.04, -0.16, 0});
+      break;
+    case Motion::kCheekSquint:
+      add(w.at(3.8, -1.9, 1.7, 1.1), {0.02, 0.55, 0.32});
+      add(w.at(5.5, 0.2, 0.9, 1.2), {-0.10, 0.08, 0.05});
+      break;
+    case Motion::kLookUp: add(w.at(3.2, 3.0, 2.2, 1.0), {0, 0.10, 0}); break;
+    case Motion::kLookDown: add(w.at(3.2, 2.9, 2.2, 1.0), {0, -0.08, 0}); break;
+    case Motion::kLookIn:
+    case Motion::kLookOut: break;
+    case Motion::kSmile:
+      add(w.at(2.7, -5.95, 1.45, 1.35), {0.72, 0.92, -0.50});
+      add(w.at(1.3, -5.9, 0.9, 0.9), {0.10, 0.10, -0.08});
+      add(w.at(4.3, -2.7, 1.7, 1.5), {0.16, 0.62, 0.46});
+      add(w.at(2.35, -4.1, 0.55, 0.9), {0.10, 0.14, -0.16});  // fold from nose to mouth
+      add(w.at(1.2, -3.0, 0.5, 0.5), {0.12, 0.05, 0});
+      break;
+    case Motion::kFrown:
+      add(w.at(2.6, -6.2, 1.15, 1.15), {0.18, -0.85, -0.12});
+      add(w.at(0.0, -6.3, 1.4, 0.9), {0, 0.10, 0.06});
+      add(w.at(0.9, -8.9, 1.2, 1.0), {0, 0.22, 0.10});
+      break;
+    case Motion::kDimple:
+      add(w.at(2.7, -6.0, 1.0, 1.0), {0.42, 0.10, -0.50});
+      add(w.at(3.5, -5.9, 0.55, 0.7), {0, 0, -0.30});
+      add(w.at(4.6, -4.6, 1.2, 1.3), {0.10, 0.06, 0.16});
+      break;
+    case Motion::kStretch:
+      add(w.at(2.7, -6.1, 1.5, 1.3), {0.88, -0.26, -0.52});
+      add(w.at(1.8, -7.4, 1.4, 1.0), {0.25, -0.18, -0.08});
+      add(w.at(3.0, -12.0, 1.6, 2.0), {0.28, 0, 0.18});
+      break;
+    case Motion::kPress: {
+      const double g = bump(look.x, line, 1.3, 0, 1.3, 0.85);
+      add(g, {0.05, -0.42 * line, -0.16});
+      add(w.at(2.7, -6.0, 0.7, 0.8), {0.10, 0.05, -0.10});
+      break;
+    }
+    case Motion::kLowerDown:
+      if (above) break;
+      add(bump(look.x, line, 1.25, -0.2, 1.25, 1.3) * std::sqrt(apart), {0.08, -0.85, 0.04});
+      break;
+    case Motion::kUpperUp:
+      add(w.at(1.35, -3.4, 0.8, 0.8), {0.02, 0.22, 0.05});
+      if (!above) break;
+      add(bump(look.x, line, 1.25, 0.2, 1.25, 1.25) * std::sqrt(apart), {0.06, 0.75, 0.10});
+      break;
+    case Motion::kBrowDown:
+      add(w.at(2.5, 3.05, 2.3, 1.15), {-0.26, -0.78, 0.14});
+      add(w.at(1.2, 2.6, 0.9, 0.9), {-0.16, -0.16, 0.14});
+      break;
+    case Motion::kBrowOuterUp:
+      add(w.at(4.4, 3.2, 1.6, 1.35), {0.04, 0.95, 0});
+      add(w.at(4.2, 5.4, 1.8, 1.3), {0, 0.45, 0});
+      break;
+    case Motion::kSneer:
+      add(w.at(1.25, -3.0, 0.85, 0.95), {0.10, 0.52, 0.10});
+      add(w.at(1.05, -0.5, 0.8, 1.1), {-0.06, 0.26, 0.14});
+      add(w.at(2.6, -2.6, 1.2, 1.2), {0, 0.30, 0.20});
+      add(w.at(1.3, 2.8, 1.1, 0.9), {-0.14, -0.34, 0.06});
+      if (above) add(bump(look.x, line, 1.3, 0.5, 1.2, 1.3) * std::sqrt(apart), {0.05, 0.40, 0.08});
+      break;
+    case Motion::kMouthLeft:
+      add(bump(look.x, look.y, 0.3, kMouthY, 3.2, 2.0), {1.05, 0.02, -0.06});
+      add(w.at(3.2, -5.6, 1.3, 1.3), {0.10, 0.16, 0.06});
+      add(w.at(0, -3.0, 1.2, 0.9), {0.16, 0, 0});
+      break;
+    case Motion::kLessWide:  // an open smile is narrower and higher than the sum
+      add(w.at(2.7, -5.95, 1.35, 1.3), {-0.22, 0.10, 0.10});
+      if (!above) add(bump(look.x, line, 0.9, -0.2, 1.4, 1.2) * apart, {0, 0.18, -0.05});
+      break;
+    default: break;
+  }
+  return d * off_lids(look);
+}
+
+Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
+  const Vec3 look = v.look;
+  const Window w = {look};
+  const double line = look.y - form_.mouth_line(look.x), apart = between_corners(look.x);
+  const bool above = v.side == Side::kAbove;
+  const double lips = bump(look.x, line, 0, 0, 2.7, 1.5);
+  Vec3 d;
+  const auto add = [&d](double amount, Vec3 way) { d = d + way * amount; };
+  switch (motion) {
+    case Motion::kMouthClose:
+      add(bump(look.x, line, 0, 0, 2.4, 0.7), {0, -0.24 * line, -0.10});
+      break;
+    case Motion::kSeal: {
+      // Both lips go to a line between where the jaw has put them.
+      JointTurns jaw;
+      jaw.jaw_open = kJawOpenAngle;
+      const Vec3 gap = (move_with_jaw(jaw, look) - look) *
+                       (apart * smooth_step(-15.8, -11.2, look.y) * smooth_step(-2.5, 3.5, look.z));
+      const double near = above ? bump(0, line, 0, 0, 1, 1.5) : bump(0, line, 0, 0, 1, 2.3);
+      add(near * (above ? 0.36 : -0.64), gap);
+      // Cheeks and corners are drawn in.
+      add(w.at(3.0, -6.2, 1.0, 1.2), {-0.15, 0, -0.15});
+      break;
+    }
+    case Motion::kFunnel:
+      add(lips, {-0.24 * look.x, 0, 0.80});
+      add(lips * apart, {0, above ? 0.50 : -0.62, 0.10});
+      add(lips * bump(0, line, 0, 0, 1, 0.5) * apart, {0, 0, 0.16});
+      break;
+    case Motion::kPucker:
+      add(lips, {-0.54 * look.x, -0.10 * line, 0.88});
+      add(bump(look.x, line, 0, 0, 1.6, 0.55), {0, 0.22 * line, 0.18});
+      add(w.at(4.2, -5.2, 1.3, 1.6), {-0.25, 0, -0.12});
+      break;
+    case Motion::kLessPout: add(lips, {0.22 * look.x, 0, -0.55}); break;
+    case Motion::kLessRaise: add(lips * apart, {0, above ? -0.10 : 0.85, 0.10}); break;
+    case Motion::kRollLower:
+      if (above) break;
+      add(bump(look.x, line, 0, -0.30, 2.0, 0.50), {0, 0.30, -0.55});
+      add(bump(look.x, line, 0, -0.95, 1.9, 0.45), {0, 0.22, -0.05});
+      break;
+    case Motion::kRollUpper:
+      if (!above) break;
+      add(bump(look.x, line, 0, 0.25, 2.0, 0.45), {0, -0.24, -0.50});
+      add(bump(look.x, line, 0, 0.85, 1.9, 0.45), {0, -0.20, -0.04});
+      break;
+    case Motion::kShrugLower:
+      add(bump(look.x, line, 0, 0, 2.2, 1.1), {0, 0.42, 0.16});
+      if (!above) add(bump(look.x, line, 0, -0.55, 1.8, 0.5), {0, 0.06, 0.30});
+      add(w.at(0, -8.9, 1.8, 1.2), {0, 0.50, 0.20});
+      add(w.at(2.5, -6.2, 0.9, 0.9), {0, -0.30, 0});
+      break;
+    case Motion::kShrugUpper:
+      if (above) {
+        add(bump(look.x, line, 0, 0.25, 2.1, 1.0) * std::sqrt(apart), {0, 0.48, 0.34});
+      } else {
+        add(bump(look.x, line, 0, -0.1, 2.0, 0.9) * std::sqrt(apart), {0, 0.26, 0.12});
+      }
+      break;
+    case Motion::kBrowInnerUp:
+      add(w.at(1.15, 3.05, 1.45, 1.35), {0.06, 1.05, 0.08});
+      add(w.at(1.4, 5.4, 1.9, 1.4), {0, 0.50, 0.02});
+      break;
+    case Motion::kCheekPuff:
+      add(w.at(4.2, -5.2, 1.9, 2.0), {0.95, 0, 1.10});
+      add(w.at(1.6, -4.7, 1.2, 0.8), {0.05, 0, 0.30});
+      add(w.at(1.4, -7.6, 1.3, 0.8), {0.05, 0, 0.22});
+      add(bump(look.x, line, 0, 0, 2.2, 0.7), {-0.06 * look.x, -0.15 * line, 0.08});
+      break;
+    case Motion::kTongueOut: add(lips * apart, {0, above ? 0.16 : -0.30, 0.12}); break;
+    default: break;
+  }
+  return d * off_lids(look);
+}
+
+Vec3 Shapes::displacement(uint32_t index, const Vertex& v) const {
+  const Shape s = shape(index);
+  Vec3 d;
+  if (s.side == 0) {
+    d = both_sides(s.motion, v);
+  } else if (s.side > 0) {
+    d = one_side(s.motion, v.look, v);
+  } else {
+    d = mirrored(one_side(s.motion, mirrored(v.look), v));
+  }
+  // Inside the mouth the skin follows the lips less and less.
+  d = d * (1 - smooth_step(0.15, 0.65, v.depth));
+  if (moves_jaw(s.motion)) {
+    d = d + (move_with_jaw(turns(index, 1), v.position) - v.position) * jaw_weight(form_, v);
+  }
+  if (s.side >= 0) {
+    const bool undo = s.motion == Motion::kKeepLidsShut;
+    const Motion lid_motion =
+        undo ? kExpressions[list_[index - kExpressionCount].undone].motion : s.motion;
+    d = d + lids(lid_motion, v) * (undo ? -1.0 : 1.0);
+  }
+  return d;
+}
+
+}  // namespace mien::head

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// What the controls of the head in the box do: 52 expressions under the names of ARKit, and
+// correctives for pairs of them. Each is a motion of the skin, written as windows (where) times
+// vectors (whither), and turns of a few joints: jaw, lids, eyes, tongue.
+#pragma once
+
+#include "runtime/author/procedural_head_mesh.h"
+
+namespace mien::head {
+
+constexpr uint32_t kExpressionCount = 52;
+
+/// Motions, as the left half of the face makes them.
+enum class Motion : uint8_t {
+  kBlink,
+  kLookDown,
+  kLookIn,
+  kLookOut,
+  kLookUp,
+  kSquint,
+  kWide,
+  kJawForward,
+  kJawLeft,
+  kJawOpen,
+  kMouthClose,
+  kFunnel,
+  kPucker,
+  kMouthLeft,
+  kSmile,
+  kFrown,
+  kDimple,
+  kStretch,
+  kRollLower,
+  kRollUpper,
+  kShrugLower,
+  kShrugUpper,
+  kPress,
+  kLowerDown,
+  kUpperUp,
+  kBrowDown,
+  kBrowInnerUp,
+  kBrowOuterUp,
+  kCheekPuff,
+  kCheekSquint,
+  kSneer,
+  kTongueOut,
+  // Correctives only.
+  kSeal,
+  kKeepLidsShut,
+  kLessWide,
+  kLessPout,
+  kLessRaise
+};
+
+/// A shape: a motion of one side (1 left, -1 right) or of both (0).
+struct Shape {
+  const char* name;
+  Motion motion;
+  int8_t side;
+};
+extern const Shape kExpressions[kExpressionCount];
+
+/// Added when both members are active, by the product of their values.
+struct Corrective {
+  uint8_t first, second;  // expressions
+  Motion motion;
+  int8_t side;
+  uint8_t undone = 0;  // kKeepLidsShut: the expression whose lids it undoes
+};
+constexpr uint32_t kMostCorrectives = 32;
+/// Returns how many there are.
+uint32_t list_correctives(Corrective (&out)[kMostCorrectives]);
+
+constexpr uint32_t kMostShapes = kExpressionCount + kMostCorrectives;
+
+/// Turns of joints at full value. Angles in degrees.
+struct JointTurns {
+  double jaw_open = 0;
+  Vec3 jaw_shift;
+  double upper_lid = 0, lower_lid = 0;  // change of the share by which lids are open
+  double eye_up = 0, eye_out = 0;
+  double tongue = 0;  // out
+};
+
+/// How much the jaw carries the place.
+double jaw_weight(const Form& form, const Vertex& v);
+
+/// Where the jaw's motion takes `p`.
+Vec3 move_with_jaw(const JointTurns& turns, Vec3 p);
+
+/// All expressions, then the correctives.
+class Shapes {
+ public:
+  explicit Shapes(const Form& form) : form_(form) { corrective_count_ = list_correctives(list_); }
+
+  uint32_t corrective_count() const { return corrective_count_; }
+  uint32_t count() const { return kExpressionCount + corrective_count_; }
+  const Corrective& corrective(uint32_t i) const { return list_[i]; }
+
+  /// The turns on the left (side 1) or right half (side -1) of the face.
+  JointTurns turns(uint32_t shape, int side) const;
+
+  /// Displacement of a vertex of the skin with x >= 0. Mirrored shapes give mirrored results: that
+  /// of the right half is the mirrored one of `twin(shape)` here.
+  Vec3 displacement(uint32_t shape, const Vertex& v) const;
+
+  /// The same with left and right exchanged.
+  uint32_t twin(uint32_t shape) const;
+
+ private:
+  Shape shape(uint32_t index) const;
+  Vec3 one_side(Motion motion, Vec3 look, const Vertex& v) const;
+  Vec3 both_sides(Motion motion, const Vertex& v) const;
+  Vec3 lids(Motion motion, const Vertex& v) const;
+
+  const Form& form_;
+  Corrective list_[kMostCorrectives];
+  uint32_t corrective_count_ = 0;
+};
+
+}  // namespace mien::head
