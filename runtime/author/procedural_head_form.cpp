@@ -68,9 +68,9 @@ namespace {
 constexpr int kKnotColumns = 5;
 constexpr double kKnots[][kKnotColumns] = {
     {-18.4, 9.6, 3.6, -7.6, 2.3},  {-17.6, 8.7, 3.75, -7.5, 2.25}, {-16.6, 6.5, 3.6, -7.1, 2.15},
-    {-15.4, 4.75, 3.4, -6.5, 2.1}, {-14.0, 4.1, 3.5, -6.0, 2.05},  {-12.4, 3.95, 4.0, -5.8, 2.0},
-    {-11.5, 4.0, 5.0, -5.75, 2.0}, {-10.8, 4.15, 6.9, -5.8, 2.0},  {-10.2, 4.35, 8.1, -5.85, 2.0},
-    {-9.2, 4.75, 8.55, -6.0, 2.0}, {-8.0, 5.4, 8.6, -6.3, 2.05},   {-6.0, 6.2, 8.8, -6.9, 2.1},
+    {-15.4, 4.5, 3.35, -6.5, 2.1}, {-14.0, 3.8, 3.4, -6.0, 2.05},  {-12.4, 3.65, 4.0, -5.8, 2.0},
+    {-11.5, 3.85, 5.0, -5.75, 2.0}, {-10.8, 4.15, 6.9, -5.8, 2.0},  {-10.2, 4.4, 8.25, -5.85, 2.0},
+    {-9.2, 4.95, 8.75, -6.0, 2.0}, {-8.0, 5.6, 8.65, -6.3, 2.05},   {-6.0, 6.2, 8.8, -6.9, 2.1},
     {-4.0, 6.85, 9.0, -7.8, 2.15}, {-1.5, 7.4, 9.15, -8.9, 2.2},   {0.6, 7.65, 9.25, -9.6, 2.25},
     {3.0, 7.85, 9.45, -10.0, 2.3}, {5.0, 7.85, 9.4, -10.1, 2.3},   {7.5, 7.45, 8.75, -9.7, 2.25},
     {9.8, 6.3, 7.2, -8.5, 2.2},    {11.4, 4.6, 4.9, -6.6, 2.15},   {12.25, 2.7, 2.3, -4.0, 2.1},
@@ -108,13 +108,26 @@ double interpolate(double y, const double (&table)[N][2]) {
 
 constexpr double kCentreZ = -0.4;
 
+/// The larger one, and a little more where they meet.
+double smooth_max(double a, double b, double width) {
+  const double h = std::max(0.0, 1 - std::abs(a - b) / width);
+  return std::max(a, b) + 0.25 * width * h * h;
+}
+
+double collar_line(Vec3 p) { return -15.5 + 0.02 * p.x * p.x + 0.9 * smooth_step(3, -5, p.z); }
+
 }  // namespace
 
-Form::Section Form::section(double y) const {
+Form::Section Form::section(double y, double cosine) const {
   const auto at = [y](int column) {
     return interpolate(y, kKnots[0], kKnots[0] + column, kKnotColumns, kKnotCount);
   };
   Section s = {at(1), at(2), at(3), at(4)};
+  // The nape has no jaw.
+  static constexpr double kNape[][2] = {{-18.4, 9.6}, {-16.6, 6.7}, {-15.4, 4.8}, {-13.6, 4.0},
+                                        {-10.5, 4.2}, {-7.5, 5.1},  {-4.5, 6.35}, {-1.5, 7.25},
+                                        {0.6, 7.65}};
+  if (y < 0.6) s.half_width = mix(s.half_width, interpolate(y, kNape), smooth_step(0.15, -0.6, cosine));
   s.half_width *= mix(1, person_.jaw, bump(0, y, 0, -8, 1, 3.2));
   s.half_width *= mix(1, person_.cranium, smooth_step(0, 6, y));
   return s;
@@ -125,7 +138,7 @@ Form::Section Form::section(double y) const {
 double Form::mouth_line(double x) const {
   const double s = std::min(std::abs(x) / kMouthHalfWidth, 1.3);
   // A bow: down in the middle of the upper lip, up at the corners.
-  return kMouthY - 0.10 * bump(s, 0, 0, 0, 0.30, 1) + 0.16 * s * s;
+  return kMouthY - 0.10 * bump(s, 0, 0, 0, 0.30, 1) + 0.26 * s * s;
 }
 
 double Form::lid_line(double x) const {
@@ -147,31 +160,31 @@ double Form::lower_opening(double x) const {
 double Form::relief(double x, double y) const {
   const Person& p = person_;
   // Ridge of the nose, its height and its half width.
-  static constexpr double kRidge[][2] = {{-4.15, 0.0}, {-3.75, 0.30}, {-3.2, 1.65}, {-2.75, 1.98},
-                                         {-1.6, 1.55}, {0.4, 0.80},   {2.3, 0.42},  {4.4, 0.0}};
-  static constexpr double kWidth[][2] = {{-3.6, 0.90}, {-2.7, 0.98}, {-1.6, 0.78},
-                                         {0.6, 0.62},  {2.4, 0.95},  {4.0, 1.6}};
+  static constexpr double kRidge[][2] = {{-3.95, 0.0}, {-3.55, 0.30}, {-3.0, 1.65}, {-2.55, 2.0},
+                                         {-1.5, 1.45}, {0.4, 0.66},  {2.3, 0.32},  {4.4, 0.0}};
+  static constexpr double kWidth[][2] = {{-3.4, 0.86}, {-2.5, 0.92}, {-1.5, 0.66}, {0.4, 0.55},
+                                         {2.2, 0.95},  {4.0, 1.6}};
   double z =
       p.nose * interpolate(y, kRidge) * bump(x, 0, 0, 0, p.nose_width * interpolate(y, kWidth), 1);
   struct Bump {
     double amount, cx, cy, sx, sy;
   };
   const Bump bumps[] = {
-      {-1.15, 3.25, 0.7, 1.85, 1.25},                          // sockets
-      {-0.35, 1.75, 0.75, 0.6, 1.0},                           // inner corners of the eyes
-      {0.30, 2.9, 3.2, 2.2, 0.75},                             // brow ridge
-      {0.62 * p.nose, 1.15 * p.nose_width, -3.0, 0.46, 0.50},  // wings of the nose
-      {-0.20, 0.62, -3.62, 0.30, 0.20},                        // nostrils
+      {-1.0, 3.4, 0.4, 2.1, 1.5},                          // sockets
+      {-0.70, 1.62, 0.35, 0.55, 1.1},                           // inner corners of the eyes
+      {0.18, 2.9, 3.3, 2.2, 0.8},                             // brow ridge
+      {0.62 * p.nose, 1.10 * p.nose_width, -2.85, 0.46, 0.48},  // wings of the nose
+      {-0.20, 0.60, -3.42, 0.30, 0.20},                        // nostrils
       {0.55 * p.cheek, 4.4, -1.6, 1.7, 1.3},                   // cheekbones
       {0.25, 2.6, -2.6, 1.2, 1.2},                             // apple of the cheek
       {-0.40 * p.cheek, 5.0, -5.4, 1.3, 1.7},                  // hollow of the cheek
       {0.80, 0, -5.7, 2.6, 1.9},                               // muzzle
       {0.34 * p.lips, 0.55, -5.55, 1.15, 0.40},                // upper lip
       {0.46 * p.lips, 0.30, -6.68, 1.20, 0.46},                // lower lip
-      {-0.30, 2.75, -6.05, 0.42, 0.50},                        // corners of the mouth
+      {-0.20, 2.8, -5.95, 0.5, 0.6},                        // corners of the mouth
       {-0.13, 0, -4.75, 0.30, 0.55},                           // philtrum
       {-0.46, 0, -7.75, 1.5, 0.48},                            // fold above the chin
-      {0.62 * p.chin, 0, -9.25, 1.35, 0.95},                   // chin
+      {0.62 * p.chin, 0, -9.2, 1.5, 1.0},                   // chin
       {0.20, 1.6, 5.4, 2.6, 1.6},                              // forehead
       {-0.25, 6.4, 2.2, 1.0, 1.8},                             // temples
   };
@@ -187,15 +200,20 @@ Vec3 turn_lid(Vec3 p, double angle) {
   return {p.x, kEye.y + c * y + s * z, kEye.z - s * y + c * z};
 }
 
+double from_lids(double x, double y) {
+  const double u = (x - kEye.x) / 1.86, v = (y - kEye.y) / 1.42;
+  return u * u + v * v;
+}
+
 double Form::angle_of(double x, double y) const {
-  const Section at = section(y);
+  const Section at = section(y, 1);
   const double s = exact_pow(std::min(x / at.half_width, 1.0), at.exponent / 2);
   return exact_atan2(s, std::sqrt(1 - s * s));
 }
 
 FacePoint Form::face(double angle, double y, Side side) const {
   const auto [sine, cosine] = exact_sine_cosine(angle);
-  const Section at = section(y);
+  const Section at = section(y, cosine);
   const double across = exact_pow(std::max(sine, 0.0), 2 / at.exponent);
   const double along = exact_pow(std::abs(cosine), 2 / at.exponent);
   const double front_mask = smooth_step(0, 0.42, cosine);
@@ -205,7 +223,8 @@ FacePoint Form::face(double angle, double y, Side side) const {
                    : kCentreZ - (kCentreZ - at.back) * along;
 
   // Rows rise towards the back around the jaw, so that its edge runs up to the ear.
-  p.y = y + 2.6 * smooth_step(0.98, -0.1, cosine) * bump(0, y, 0, -10.2, 1, 3.3) -
+  p.y = y + 2.6 * smooth_step(0.98, -0.05, cosine) * smooth_step(-0.95, -0.2, cosine) *
+                  bump(0, y, 0, -10.2, 1, 3.3) -
         0.9 * smooth_step(0.2, -0.9, cosine) * bump(0, y, 0, -9, 1, 3);
   // Rows of the eyes and of the mouth follow the edges of lids and lips.
   const double s = along_eye(p.x);
@@ -220,19 +239,21 @@ FacePoint Form::face(double angle, double y, Side side) const {
   const double roll = smooth_step(1.12, 0.80, p.x / kMouthHalfWidth);
   p.z -= front_mask * 0.36 * bump(0, from_line, 0, 0, 1, 0.17) * (0.35 + 0.65 * roll) *
          smooth_step(1.35, 0.9, p.x / kMouthHalfWidth);
+  // The collar of a shirt.
+  const double cloth = 0.16 * smooth_step(-0.12, 0.10, collar_line(p) - p.y);
+  p.x += cloth * sine;
+  p.z += cloth * cosine;
   // The tip of the nose hangs a little over its root.
-  p.y -= front_mask * 0.28 * person_.nose * bump(p.x, y, 0, -3.05, 0.9, 0.55);
+  p.y -= front_mask * 0.28 * person_.nose * bump(p.x, y, 0, -2.85, 0.9, 0.55);
 
-  // Around the eyes the skin lies on a ball.
+  // Lids lie on a ball around the eye, and the face runs smoothly into it.
   const double dx = p.x - kEye.x, dy = p.y - kEye.y;
-  const double lid_area = (dx / 1.62) * (dx / 1.62) + (dy / 1.25) * (dy / 1.25);
-  const double on_ball = front_mask * smooth_step(2.3, 1.0, lid_area);
-  if (on_ball > 0) {
-    const double r = std::sqrt(dx * dx + dy * dy), edge = 0.93 * kLidRadius;
+  if (front_mask > 0 && from_lids(p.x, p.y) < 4) {
+    const double r = std::sqrt(dx * dx + dy * dy), edge = 0.95 * kLidRadius;
     const double steep = edge / std::sqrt(kLidRadius * kLidRadius - edge * edge);
-    double z = std::sqrt(kLidRadius * kLidRadius - std::min(r * r, edge * edge));
-    if (r > edge) z -= (r - edge) * steep;
-    p.z = mix(p.z, kEye.z + z, on_ball);
+    double ball = kEye.z + std::sqrt(kLidRadius * kLidRadius - std::min(r * r, edge * edge));
+    if (r > edge) ball -= (r - edge) * steep;
+    p.z = mix(p.z, smooth_max(p.z, ball, 0.55), front_mask);
   }
 
   FacePoint out;
@@ -261,11 +282,11 @@ Colour Form::skin_colour(Vec3 p, double lid) const {
   const Colour blush = mix(skin, {214, 86, 84}, 0.55);
   Colour c = skin;
   const double red =
-      0.55 * bump(x, p.y, 4.3, -2.4, 1.9, 1.5) + 0.40 * bump(x, p.y, 0, -2.9, 1.1, 0.8) +
+      0.34 * bump(x, p.y, 4.4, -2.5, 1.7, 1.3) + 0.34 * bump(x, p.y, 0, -2.7, 1.1, 0.8) +
       0.20 * bump(x, p.y, 0, -9.4, 1.6, 0.9) + 0.22 * bump(x, p.y, 3.2, 1.6, 1.7, 0.8);
   c = mix(c, blush, std::min(red, 0.8) * in_front);
   // Nostrils.
-  c = mix(c, {70, 30, 28}, 0.75 * bump(x, p.y, 0.62, -3.86, 0.30, 0.16) * in_front);
+  c = mix(c, {70, 30, 28}, 0.75 * bump(x, p.y, 0.60, -3.66, 0.30, 0.16) * in_front);
   // Lips: between two curves that meet at the corners.
   const double s = x / (kMouthHalfWidth * 1.03);
   if (s < 1 && p.z > 4) {
@@ -275,7 +296,7 @@ Colour Form::skin_colour(Vec3 p, double lid) const {
     const double top = bow * exact_pow(end, 0.75) * mix(1, person_.lips, 0.5);
     const double bottom = 0.98 * exact_pow(end, 0.60) * mix(1, person_.lips, 0.5);
     const double d = p.y - line;
-    const double inside = d > 0 ? smooth_step(top + 0.09, top - 0.05, d)
+    const double inside = d > 0 ? smooth_step(top + 0.10, top - 0.10, d)
                                 : smooth_step(bottom + 0.12, bottom - 0.08, -d);
     c = mix(c, person_.lip, inside * smooth_step(0, 0.12, end));
     c = mix(c, mix(person_.lip, {60, 16, 20}, 0.55), inside * bump(0, d, 0, 0, 1, 0.10));
@@ -286,8 +307,9 @@ Colour Form::skin_colour(Vec3 p, double lid) const {
     c = mix(c, mix(skin, {60, 30, 26}, 0.7), open > 0 ? smooth_step(0.90, 1.0, lid / open) : 0);
   }
   // A shirt.
-  const double collar = -15.9 + 0.09 * x * x * 0.35 + 0.5 * smooth_step(3, -5, p.z);
-  c = mix(c, person_.shirt, p.y < collar ? 1 : 0);
+  const double below = collar_line(p) - p.y;
+  c = mix(c, mix(person_.shirt, {16, 18, 24}, 0.35 * bump(0, below, 0, 0.55, 1, 0.12)),
+          smooth_step(-0.04, 0.10, below));
   return c;
 }
 

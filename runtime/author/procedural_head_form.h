@@ -37,11 +37,11 @@ Person make_person(uint64_t seed);
 
 // Landmarks -------------------------------------------------------------------------------------
 
-constexpr Vec3 kEye = {3.2, 0.6, 6.05};  // centre of the left eyeball
-constexpr double kEyeRadius = 1.58;
-constexpr double kLidRadius = 1.70;     // outside of the lids
-constexpr double kEyeHalfWidth = 1.48;  // of the opening between the lids
-constexpr double kMouthY = -6.05;
+constexpr Vec3 kEye = {3.3, 0.3, 6.5};  // centre of the left eyeball
+constexpr double kEyeRadius = 1.85;
+constexpr double kLidRadius = 1.98;     // outside of the lids
+constexpr double kEyeHalfWidth = 1.70;  // of the opening between the lids
+constexpr double kMouthY = -6.0;
 constexpr double kMouthHalfWidth = 2.45;
 constexpr double kCrownY = 12.6;
 constexpr double kBottomY = -18.4;
@@ -84,7 +84,8 @@ class Form {
   struct Section {
     double half_width, front, back, exponent;
   };
-  Section section(double y) const;
+  /// `cosine` of the angle.
+  Section section(double y, double cosine) const;
   double relief(double x, double y) const;
 
   Person person_;
@@ -92,6 +93,10 @@ class Form {
 
 /// Turns `p` about the x axis through the eye, upwards in front.
 Vec3 turn_lid(Vec3 p, double angle);
+
+/// How far a place of the front view lies outside the lids: 0 at the eye's middle, 1 at the end of
+/// the area that follows the ball.
+double from_lids(double x, double y);
 
 /// exp(-((x - cx) / sx)^2 - ((y - cy) / sy)^2)
 double bump(double x, double y, double cx, double cy, double sx, double sy);

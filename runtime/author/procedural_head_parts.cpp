@@ -63,8 +63,8 @@ void add_ear(const Form& form, uint32_t lod, HalfMesh& out) {
   const double(*path)[2] = lod < 3 ? kFine : lod < 6 ? kPlain : kPlainest;
   const uint32_t rings = lod < 3 ? 15 : lod < 6 ? 6 : 3, around = at_lod(36, 5, lod);
   const double size = form.person().ear;
-  const double tilt = 0.50;
-  const Vec3 origin = {form.face(0.53 * kPi, 0.0, Side::kAbove).closed.x + 0.12, -0.1, -0.9};
+  const double tilt = 0.72;
+  const Vec3 origin = {form.face(0.53 * kPi, 0.0, Side::kAbove).closed.x + 0.10, -0.6, -0.8};
   const auto [sine, cosine] = exact_sine_cosine(tilt);
   const Vec3 back = {sine, 0, -cosine}, outward = {cosine, 0, sine};
   const Vec3 up = unit({0.10, 1, -0.16});
@@ -76,8 +76,8 @@ void add_ear(const Form& form, uint32_t lod, HalfMesh& out) {
       const double angle = 2 * kPi * k / around;
       const auto [s, c] = exact_sine_cosine(angle);
       const double low = smooth_step(0.2, -1, s);
-      const double p = c * (c > 0 ? mix(1.42, 0.92, low) : mix(0.85, 0.75, low));
-      const double q = s * (s > 0 ? 2.05 : 1.85);
+      const double p = c * (c > 0 ? mix(1.65, 1.05, low) : mix(0.95, 0.80, low));
+      const double q = s * (s > 0 ? 2.4 : 2.1);
       const double share = path[r][0];
       // The rim fades towards the lobe and where the ear grows out of the head.
       const double rim =
@@ -127,7 +127,7 @@ void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out) {
       // Light below, as if it came through the cornea from above; streaks; a dark rim.
       const double low = 0.5 - 0.5 * exact_sine(2 * kPi * k / around);
       const double streak = 0.06 * exact_sine(2.0 * kPi * 9 * k / around);
-      Colour c = mix(iris, {236, 230, 200}, 0.38 * low + streak);
+      Colour c = mix(iris, {236, 230, 200}, 0.45 * low + streak);
       c = mix(c, {18, 18, 22}, 0.45 * (1 - low) * (1 - low));
       c = mix(c, pupil, 0.35 * smooth_step(0.30, 0.22, angle));
       return mix(c, {20, 22, 28}, 0.65 * smooth_step(0.40, 0.49, angle));
@@ -174,9 +174,8 @@ void add_lashes(const Form& form, uint32_t lod, HalfMesh& out) {
       const double full =
           exact_pow(std::max(0.0, 1 - s * s), 0.30) * mix(0.55, 1.15, 0.5 + 0.5 * s);
       const FacePoint edge = form.face(form.angle_of(x, kEye.y), kEye.y, Side::kAbove);
-      const double radius[] = {kLidRadius - 0.05, kLidRadius + 0.34 * full,
-                               kLidRadius + 0.10 * full, kLidRadius - 0.03};
-      const double lift[] = {-0.035, 0.10 * full, 0.085, 0.085};
+      const double radius[] = {kLidRadius - 0.05, kLidRadius + 0.30 * full, kLidRadius + 0.08 * full, kLidRadius - 0.03};
+      const double lift[] = {-0.03, 0.075 * full, 0.06, 0.06};
       const double line_y = form.lid_line(x) - kEye.y, dx = x - kEye.x;
       const double z =
           std::sqrt(std::max(0.05, kLidRadius * kLidRadius - dx * dx - line_y * line_y));
@@ -209,10 +208,10 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
     for (uint32_t k = 0; k < columns; ++k) {
       const double t = static_cast<double>(k) / (columns - 1);
       const double across = 2.0 * row / (rows - 1) - 1;
-      const double x = mix(1.25, 5.75, t);
-      const double arch = 2.75 + 0.72 * exact_sine(kPi * clamp01(t * 0.80 + 0.06)) - 0.28 * t;
-      const double half = 0.40 * form.person().brow * exact_pow(clamp01((1 - t) * 1.9), 0.75) *
-                          exact_pow(clamp01(t * 9 + 0.25), 0.5);
+      const double x = mix(1.35, 5.75, t);
+      const double arch = 2.72 + 0.80 * exact_sine(kPi * clamp01(t * 0.72 + 0.04)) - 0.10 * t;
+      const double half = 0.36 * form.person().brow * exact_pow(clamp01((1 - t) * 1.9), 0.75) *
+                          exact_pow(clamp01(t * 6 + 0.03), 0.5);
       const double y = arch + across * (half + 0.03);
       const FacePoint at = form.face(form.angle_of(x, y), y, Side::kAbove);
       const Vec3 out_of_face = unit({at.closed.x * 0.55, 0.8, at.closed.z});
@@ -229,7 +228,7 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
 // Hair ------------------------------------------------------------------------------------------
 
 void add_hair(const Form& form, uint32_t lod, HalfMesh& out) {
-  const uint32_t columns = at_lod(56, 7, lod) + 1, rows = at_lod(34, 4, lod) + 1;
+  const uint32_t columns = at_lod(84, 8, lod) + 1, rows = at_lod(36, 4, lod) + 1;
   // Height of the hair line by angle / pi: forehead, temple, in front of the ear, behind it, nape.
   static constexpr double kLine[][2] = {{0.00, 7.3},  {0.10, 7.15}, {0.19, 6.5},  {0.27, 5.2},
                                         {0.34, 3.9},  {0.40, 1.9},  {0.45, -0.6}, {0.48, -1.2},
@@ -247,24 +246,26 @@ void add_hair(const Form& form, uint32_t lod, HalfMesh& out) {
     const double t = static_cast<double>(row) / rows;
     for (uint32_t k = 0; k < columns; ++k) {
       const double share = static_cast<double>(k) / (columns - 1), angle = share * kPi;
-      const double line = line_at(share);
+      const double front = smooth_step(0.46, 0.0, share);
+      // Locks, combed back: round ridges between sharp furrows, which end in points at the hair line.
+      const double phase = 9.5 * angle + 1.1 * exact_sine(2.2 * angle) - 1.6 * t * (1 - front) + 0.8;
+      const double lock = 2 * std::sqrt(std::abs(exact_sine(phase))) - 1;
+      const double fine = exact_sine(5 * phase + 2.0 * t);
+      const double line = line_at(share) - (0.20 + 0.22 * front) * (lock - 0.3);
       const double y = mix(line, kCrownY, 1 - exact_pow(1 - t, 1.35));
       const Vec3 skin = form.face(angle, y, Side::kAbove).closed;
-      const Vec3 normal = unit(
-          {skin.x / (7.8 * 7.8), (skin.y - 2.5) / (10.2 * 10.2), (skin.z + 0.4) / (9.7 * 9.7)});
-      const double front = smooth_step(0.42, 0.0, share), rise = smooth_step(0, 0.13, t);
-      // Locks: ridges that run back from the forehead and down at the sides.
-      const double phase = 15 * angle + 5.0 * t * mix(1, 0.2, share) + 1.7 * exact_sine(3 * angle);
-      const double lock = exact_sine(phase) * (0.7 + 0.3 * exact_sine(2.3 * phase + 1));
-      double thick =
-          mix(0.50, 1.25, smooth_step(0.15, 0.8, t)) + 0.75 * front * bump(t, 0, 0.2, 0, 0.22, 1);
-      thick += 0.10 * lock * smooth_step(0.02, 0.2, t) * smooth_step(1.0, 0.7, t);
-      Vec3 at = skin + normal * (mix(-0.25, thick, rise));
-      at.y += 0.5 * front * rise * bump(t, 0, 0.16, 0, 0.2, 1);
+      const Vec3 normal =
+          unit({skin.x / (7.8 * 7.8), (skin.y - 2.5) / (10.2 * 10.2), (skin.z + 0.4) / (9.7 * 9.7)});
+      const double rise = smooth_step(0, 0.12 + 0.05 * front, t);
+      double thick = mix(0.48, 1.15, smooth_step(0.15, 0.8, t)) +
+                     1.0 * front * bump(t, 0, 0.24, 0, 0.22, 1);
+      thick += (0.16 + 0.10 * front) * lock * smooth_step(1.0, 0.6, t) + 0.02 * fine;
+      Vec3 at = skin + normal * mix(-0.30, thick, rise);
+      at.y += 0.8 * front * rise * bump(t, 0, 0.20, 0, 0.22, 1);
       if (k == 0 || k == columns - 1) at.x = 0;
       const Colour hair = form.person().hair;
-      Colour c = mix(hair, {12, 8, 8}, 0.25 - 0.25 * lock);
-      c = mix(c, mix(hair, {255, 236, 210}, 0.25), 0.5 * smooth_step(0.2, 0.9, lock));
+      Colour c = mix(hair, {14, 9, 8}, 0.55 * smooth_step(0.2, -0.9, lock) + 0.10 - 0.10 * fine);
+      c = mix(c, mix(hair, {255, 226, 190}, 0.30), 0.55 * smooth_step(0.3, 0.95, lock));
       out.vertices.add(plain(at, c, 0.5 + 0.5 * share, t, Carrier::kSkull));
     }
   }
@@ -296,7 +297,7 @@ void add_teeth(const Form& form, uint32_t lod, HalfMesh& out) {
   for (int lower = 0; lower < 2; ++lower) {
     const double sign = lower ? -1 : 1;
     const double front = lips.z - (lower ? 0.95 : 0.72), half = lower ? 2.0 : 2.2;
-    const double base = kMouthY - (lower ? 0.24 : 0.02);
+    const double base = kMouthY - (lower ? 0.30 : 0.18);
     const uint32_t first = out.vertices.count();
     for (uint32_t row = 0; row < kRowCount; ++row) {
       double start = 0;

@@ -90,6 +90,7 @@ JointTurns turns_of(Motion motion) {
     case Motion::kCheekSquint: t.lower_lid = -1.1, t.upper_lid = -0.08; break;
     case Motion::kSneer: t.lower_lid = -0.45, t.upper_lid = -0.06; break;
     case Motion::kJawOpen: t.jaw_open = kJawOpenAngle; break;
+    case Motion::kFunnel: t.jaw_open = 8; break;
     case Motion::kJawForward: t.jaw_shift = {0, -0.08, 0.95}; break;
     case Motion::kJawLeft: t.jaw_shift = {1.0, -0.05, -0.05}; break;
     case Motion::kTongueOut: t.jaw_open = 7, t.tongue = 1; break;
@@ -100,7 +101,7 @@ JointTurns turns_of(Motion motion) {
 
 bool moves_jaw(Motion m) {
   return m == Motion::kJawOpen || m == Motion::kJawForward || m == Motion::kJawLeft ||
-         m == Motion::kTongueOut;
+         m == Motion::kTongueOut || m == Motion::kFunnel;
 }
 
 Vec3 mirrored(Vec3 v) { return {-v.x, v.y, v.z}; }
@@ -178,7 +179,7 @@ double jaw_weight(const Form& form, const Vertex& v) {
   const double by_lip = v.side == Side::kBelow ? 1 : 0;
   (void)form;
   double w = mix(by_height, by_lip, std::sqrt(std::max(0.0, 1 - s * s)));
-  w *= smooth_step(-15.8, -11.2, p.y) * smooth_step(-2.5, 3.5, p.z);
+  w *= smooth_step(-15.6, -10.4, p.y) * smooth_step(-2.5, 3.5, p.z);
   // The back of the mouth hangs between both jaws.
   return mix(w, 0.45, smooth_step(0.7, 1.0, v.depth));
 }
@@ -195,8 +196,7 @@ namespace {
 
 /// 0 on the lids, which stay on their ball, 1 away from them.
 double off_lids(Vec3 look) {
-  const double dx = (std::abs(look.x) - kEye.x) / 1.62, dy = (look.y - kEye.y) / 1.25;
-  return smooth_step(0.95, 2.3, dx * dx + dy * dy);
+  return smooth_step(0.95, 2.2, from_lids(std::abs(look.x), look.y));
 }
 
 /// Where the mouth opens: 1 in the middle, 0 from the corners on, round.
@@ -248,8 +248,8 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
     case Motion::kLookIn:
     case Motion::kLookOut: break;
     case Motion::kSmile:
-      add(w.at(2.7, -5.95, 1.45, 1.35), {0.72, 0.92, -0.50});
-      add(w.at(1.3, -5.9, 0.9, 0.9), {0.10, 0.10, -0.08});
+      add(w.at(2.7, -5.95, 1.5, 1.35), {0.76, 0.74, -0.50});
+      add(w.at(1.6, -5.9, 0.95, 1.0), {0.12, 0.20, -0.10});
       add(w.at(4.3, -2.7, 1.7, 1.5), {0.16, 0.62, 0.46});
       add(w.at(2.35, -4.1, 0.55, 0.9), {0.10, 0.14, -0.16});  // fold from nose to mouth
       add(w.at(1.2, -3.0, 0.5, 0.5), {0.12, 0.05, 0});
@@ -330,7 +330,7 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       JointTurns jaw;
       jaw.jaw_open = kJawOpenAngle;
       const Vec3 gap = (move_with_jaw(jaw, look) - look) *
-                       (apart * smooth_step(-15.8, -11.2, look.y) * smooth_step(-2.5, 3.5, look.z));
+                       (apart * smooth_step(-15.6, -10.4, look.y) * smooth_step(-2.5, 3.5, look.z));
       const double near = above ? bump(0, line, 0, 0, 1, 1.5) : bump(0, line, 0, 0, 1, 2.3);
       add(near * (above ? 0.36 : -0.64), gap);
       // Cheeks and corners are drawn in.
@@ -338,13 +338,14 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       break;
     }
     case Motion::kFunnel:
-      add(lips, {-0.24 * look.x, 0, 0.80});
-      add(lips * apart, {0, above ? 0.50 : -0.62, 0.10});
+      add(lips, {-0.50 * look.x, 0, 0.75});
+      add(bump(look.x, line, 0, 0, 2.2, 0.8), {0, 0, 0.40});
+      add(lips * apart, {0, above ? 0.40 : -0.35, 0.10});
       add(lips * bump(0, line, 0, 0, 1, 0.5) * apart, {0, 0, 0.16});
       break;
     case Motion::kPucker:
-      add(lips, {-0.54 * look.x, -0.10 * line, 0.88});
-      add(bump(look.x, line, 0, 0, 1.6, 0.55), {0, 0.22 * line, 0.18});
+      add(lips, {-0.54 * look.x, -0.08 * line, 0.50});
+      add(bump(look.x, line, 0, 0, 2.0, 0.85), {0, 0.16 * line, 0.72});
       add(w.at(4.2, -5.2, 1.3, 1.6), {-0.25, 0, -0.12});
       break;
     case Motion::kLessPout: add(lips, {0.22 * look.x, 0, -0.55}); break;
@@ -399,7 +400,7 @@ Vec3 Shapes::displacement(uint32_t index, const Vertex& v) const {
     d = mirrored(one_side(s.motion, mirrored(v.look), v));
   }
   // Inside the mouth the skin follows the lips less and less.
-  d = d * (1 - smooth_step(0.15, 0.65, v.depth));
+  d = d * (1 - smooth_step(0.08, 0.42, v.depth));
   if (moves_jaw(s.motion)) {
     d = d + (move_with_jaw(turns(index, 1), v.position) - v.position) * jaw_weight(form_, v);
   }

@@ -85,7 +85,7 @@ class SkinMaker {
     const double keys[4] = {kBottomY, kMouthY, kEye.y, kCrownY};
     const auto density = [](double y) {
       return 1 + 2.6 * bump(0, y, 0, kMouthY, 1, 1.3) + 2.4 * bump(0, y, 0, kEye.y + 0.1, 1, 1.5) +
-             1.6 * bump(0, y, 0, -3.4, 1, 0.9) - 0.45 * smooth_step(-12, -15, y) -
+             1.6 * bump(0, y, 0, -3.4, 1, 0.9) + 1.2 * bump(0, y, 0, -15.2, 1, 0.7) - 0.35 * smooth_step(-12, -14, y) -
              0.35 * smooth_step(6, 9, y);
     };
     for (int k = 0; k < 3; ++k) {
@@ -218,11 +218,12 @@ class SkinMaker {
     const double rise = mix(kPath[i][1], kPath[i + 1][1], t);
     const double back = mix(kPath[i][2], kPath[i + 1][2], t);
     Vertex v = out_.vertices[from];
-    const double up = at_back ? 0 : v.side == Side::kAbove ? 1.0 : -1.12;
+    const double up = at_back ? 0 : v.side == Side::kAbove ? 1.0 : -0.85;
     const double open = std::sqrt(std::max(0.0, 1 - out * out));
     v.closed.y += up * rise * open - 0.5 * smooth_step(0.6, 1, depth);
-    v.closed.z += back * mix(1, 0.75, out * out);
-    v.closed.x *= 1 + 0.28 * smooth_step(0, 0.4, depth) * (0.4 + 0.6 * out);
+    // Cheeks curve away beside the corners: straight in there first.
+    v.closed.z += back - 0.75 * smooth_step(0, 0.35, depth) * out * out;
+    v.closed.x *= 1 + 0.22 * smooth_step(0.25, 0.7, depth);
     v.position = v.closed;
     v.depth = depth;
     v.v = kMouthV + (v.side == Side::kAbove ? 1 : -1) * 0.012 * depth;
