@@ -132,6 +132,7 @@ class RotationUnit(IntEnum):
 class Direction(IntEnum):
     """Values of enum MienDirection of the C interface."""
 
+    #: of the character
     LEFT = 0
     RIGHT = 1
     UP = 2
@@ -150,6 +151,23 @@ class RotationSequence(IntEnum):
     YZX = 3
     ZXY = 4
     ZYX = 5
+
+
+class RotationRule(IntEnum):
+    """The order in which Euler angles turn, when axes change. Joint values are sums of angles,
+    which mean nothing in another order: only the first rule is exact for all rigs.
+    """
+
+    #: the file's order, about the axes as they are called now: where x became z, xyz becomes zyx,
+    #: xzy becomes zxy, and so on
+    CARRIED = 0
+    #: the order named. Neutral poses, joints represented by quaternions, twists, swings and ML
+    #: joints follow exactly as rotations, and so do joints that turn about one axis only;
+    #: Status.DNA_VALUE for a rig with others
+    EXACT = 1
+    #: the order named, each column of a joint matrix by itself: exact while one control is 1 and
+    #: all others are 0, near it for small angles
+    PER_COLUMN = 2
 
 
 class FieldType(IntEnum):
@@ -198,6 +216,12 @@ class Preset(IntEnum):
     MEDIUM = 2
     #: a production head: 870 joints, 260 raw controls, 8 LODs, a million matrix entries
     LARGE = 3
+    #: a stylised person to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit
+    #: as raw controls under their names (values 0..1), correctives, wrinkle maps, 8 LODs. Seed 0
+    #: is the one that was designed, others vary proportions and colours. Vertex colours are in the
+    #: metadata: key "mien.colors.<mesh name>", value base64 of 3 bytes (sRGB) per position of the
+    #: mesh.
+    HEAD = 4
 
 
 class Isa(IntEnum):
@@ -282,6 +306,41 @@ class Stage(IntFlag):
     ALL = 63
 
 
+class Compose(IntEnum):
+    """How the rotation of a joint is made of the neutral one and the delta."""
+
+    #: neutral rotation * delta rotation: the delta turns first
+    PRODUCT = 0
+    #: the angles are added; needs Output.EULER. The same where the neutral rotation is zero.
+    EULER_ADD = 1
+
+
+class Weights(IntEnum):
+    """What is done about skin weights."""
+
+    AS_STORED = 0
+    #: negative weights count as 0, and the weights of a position sum to 1
+    FIX = 1
+
+
+class Normals(IntEnum):
+    """Normals that mien_pose_deform() makes, unit length. Where there is no direction to be had
+    (no area, no face) they are the neutral ones.
+    """
+
+    #: what MienDeformerDesc.normals says; there: recomputed
+    DEFAULT = 0
+    #: left as they are
+    NONE = 1
+    #: neutral normals turned as the skin is: cheap, but blend shape targets do not turn them (they
+    #: carry no normals)
+    SKINNED = 2
+    #: sum of the area vectors of the faces around the position. Where that is more than 30 degrees
+    #: off the neutral normal (a hard edge), the neutral normal is turned as the sum turned since
+    #: neutral.
+    RECOMPUTED = 3
+
+
 class MienDna(c_void_p):
     pass
 
@@ -295,6 +354,14 @@ class MienRig(c_void_p):
 
 
 class MienInstance(c_void_p):
+    pass
+
+
+class MienDeformer(c_void_p):
+    pass
+
+
+class MienPose(c_void_p):
     pass
 
 
@@ -323,6 +390,15 @@ class MienAllocator(Structure):
     user: Any
     allocate: Any
     release: Any
+
+
+class MienParallelFor(Structure):
+    _fields_ = [
+        ("user", c_void_p),
+        ("run", CFUNCTYPE(None, c_void_p, c_uint32, CFUNCTYPE(None, c_void_p, c_uint32), c_void_p)),
+    ]
+    user: Any
+    run: Any
 
 
 class MienStringView(Structure):
@@ -361,6 +437,39 @@ class MienIndexView(Structure):
     count: Any
 
 
+class MienIndex32View(Structure):
+    _fields_ = [
+        ("data", c_void_p),
+        ("count", c_size_t),
+    ]
+    data: Any
+    count: Any
+
+
+class MienCoordinateSystem(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("axes", c_uint32 * 3),
+        ("translation_unit", c_uint32),
+        ("rotation_unit", c_uint32),
+        ("rotation_rule", c_uint32),
+        ("rotation_sequence", c_uint32),
+        ("rotation_signs", c_int32 * 3),
+        ("face_winding", c_uint32),
+    ]
+    struct_size: Any
+    axes: Any
+    translation_unit: Any
+    rotation_unit: Any
+    rotation_rule: Any
+    rotation_sequence: Any
+    rotation_signs: Any
+    face_winding: Any
+
+    def __init__(self, **values: Any) -> None:
+        super().__init__(struct_size=48, **values)
+
+
 class MienDnaDesc(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
@@ -369,6 +478,7 @@ class MienDnaDesc(Structure):
         ("file_access", c_uint32),
         ("lods", c_uint64),
         ("allocator", POINTER(MienAllocator)),
+        ("system", POINTER(MienCoordinateSystem)),
     ]
     struct_size: Any
     layers: Any
@@ -376,9 +486,10 @@ class MienDnaDesc(Structure):
     file_access: Any
     lods: Any
     allocator: Any
+    system: Any
 
     def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=32, **values)
+        super().__init__(struct_size=40, **values)
 
 
 class MienDnaInfo(Structure):
@@ -639,6 +750,142 @@ class MienRigStatistics(Structure):
         super().__init__(struct_size=48, **values)
 
 
+class MienDeformerDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("isa", c_uint32),
+        ("compose", c_uint32),
+        ("weights", c_uint32),
+        ("normals", c_uint32),
+        ("reserved", c_uint32),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    isa: Any
+    compose: Any
+    weights: Any
+    normals: Any
+    reserved: Any
+    allocator: Any
+
+    def __init__(self, **values: Any) -> None:
+        super().__init__(struct_size=32, **values)
+
+
+class MienDeformerInfo(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("isa", c_uint32),
+        ("compose", c_uint32),
+        ("weights", c_uint32),
+        ("normals", c_uint32),
+        ("lod_count", c_uint32),
+        ("joint_count", c_uint32),
+        ("channel_count", c_uint32),
+        ("mesh_count", c_uint32),
+        ("reserved", c_uint32),
+        ("deformer_bytes", c_uint64),
+        ("pose_bytes", c_uint64),
+    ]
+    struct_size: Any
+    isa: Any
+    compose: Any
+    weights: Any
+    normals: Any
+    lod_count: Any
+    joint_count: Any
+    channel_count: Any
+    mesh_count: Any
+    reserved: Any
+    deformer_bytes: Any
+    pose_bytes: Any
+
+    def __init__(self, **values: Any) -> None:
+        super().__init__(struct_size=56, **values)
+
+
+class MienMesh(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("position_count", c_uint32),
+        ("vertex_count", c_uint32),
+        ("triangle_count", c_uint32),
+        ("most_influences", c_uint32),
+        ("target_count", c_uint32),
+        ("delta_count", c_uint64),
+        ("lods", c_uint64),
+        ("positions", MienFloatView),
+        ("normals", MienFloatView),
+        ("texture_coordinates", MienFloatView),
+        ("vertex_positions", MienIndex32View),
+        ("triangles", MienIndex32View),
+        ("target_channels", MienIndexView),
+    ]
+    struct_size: Any
+    position_count: Any
+    vertex_count: Any
+    triangle_count: Any
+    most_influences: Any
+    target_count: Any
+    delta_count: Any
+    lods: Any
+    positions: Any
+    normals: Any
+    texture_coordinates: Any
+    vertex_positions: Any
+    triangles: Any
+    target_channels: Any
+
+    def __init__(self, **values: Any) -> None:
+        super().__init__(struct_size=136, **values)
+
+
+class MienPoseDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("lods", c_uint64),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    reserved: Any
+    lods: Any
+    allocator: Any
+
+    def __init__(self, **values: Any) -> None:
+        super().__init__(struct_size=24, **values)
+
+
+class CoordinateSystem(NamedTuple):
+    """Where the axes of a rig point, and its units. Mirrored systems are as good as others: which
+    hand they are of follows from the axes.
+
+      axes: Direction of x, y, z
+      translation_unit: TranslationUnit
+      rotation_unit: RotationUnit.DEGREES or _RADIANS
+      rotation_rule: RotationRule; the next field counts unless it is _CARRIED
+      rotation_sequence: RotationSequence.XYZ ...
+      rotation_signs: of the angles about x, y, z: 1 turns y to z, z to x, x to y; -1 the other
+        way; 0: such that angles keep their numbers
+      face_winding: as in MienDnaInfo
+    """
+
+    axes: Tuple[Direction, Direction, Direction]
+    translation_unit: TranslationUnit
+    rotation_unit: RotationUnit
+    rotation_rule: RotationRule
+    rotation_sequence: RotationSequence
+    rotation_signs: Tuple[int, int, int]
+    face_winding: int
+
+    @classmethod
+    def _of(cls, c: MienCoordinateSystem) -> CoordinateSystem:
+        return cls(tuple(_enum(Direction, v) for v in c.axes), _enum(TranslationUnit,
+                   c.translation_unit), _enum(RotationUnit, c.rotation_unit), _enum(RotationRule,
+                   c.rotation_rule), _enum(RotationSequence, c.rotation_sequence),
+                   tuple(c.rotation_signs), c.face_winding)
+
+
 class DnaInfo(NamedTuple):
     """Copy of a MienDnaInfo.
 
@@ -654,7 +901,9 @@ class DnaInfo(NamedTuple):
       axes: Direction of x, y, z
       rotation_sequence: RotationSequence.XYZ ...
       rotation_signs: 1 or -1, for the angles about x, y, z
-      face_winding: 0 counter-clockwise, 1 clockwise, seen from outside
+      face_winding: 0: of a face a b c ..., (b - a) x (c - a), the plain formula in the numbers of
+        the file, points outwards: counter-clockwise seen from outside if the axes are right-
+        handed, clockwise if they are left-handed; 1: inwards
       max_lod: this file's LOD 0 is LOD max_lod of its data base
       metadata_count: pairs: desc.metadata[i].key and .value
     """
@@ -815,11 +1064,12 @@ class RigStatistics(NamedTuple):
 
       psd_count: correctives computed
       joint_count: joints that exist at this LOD
-      joint_row_count: joint values computed
+      joint_row_count: rows of the joint groups
       blend_shape_count: channels written
       animated_map_row_count: rows of the animated map table
-      joint_entry_count: rows x columns, over the groups
-      joint_byte_count: bytes of the joint matrix that are read
+      joint_entry_count: of the joint matrix: 8 per piece of a column, pieces of zeros not counted
+      joint_byte_count: of the joint matrix, if every control is active: those of controls that
+        are 0 are not read
       rbf_solver_count: solvers that the LOD lists
       turned_joint_count: joints represented by quaternions
     """
@@ -841,10 +1091,79 @@ class RigStatistics(NamedTuple):
                    c.rbf_solver_count, c.turned_joint_count)
 
 
+class DeformerInfo(NamedTuple):
+    """Copy of a MienDeformerInfo.
+
+      isa: Isa in use
+      compose: Compose
+      weights: Weights
+      normals: Normals, never Normals.DEFAULT
+      mesh_count: as in the rig, with its names: Kind.MESH
+      deformer_bytes: memory of the deformer
+      pose_bytes: memory of a pose with room for all meshes
+    """
+
+    isa: Isa
+    compose: Compose
+    weights: Weights
+    normals: Normals
+    lod_count: int
+    joint_count: int
+    channel_count: int
+    mesh_count: int
+    deformer_bytes: int
+    pose_bytes: int
+
+    @classmethod
+    def _of(cls, c: MienDeformerInfo) -> DeformerInfo:
+        return cls(_enum(Isa, c.isa), _enum(Compose, c.compose), _enum(Weights, c.weights),
+                   _enum(Normals, c.normals), c.lod_count, c.joint_count, c.channel_count,
+                   c.mesh_count, c.deformer_bytes, c.pose_bytes)
+
+
+class Mesh(NamedTuple):
+    """The neutral mesh. Views live as long as the deformer.
+
+      most_influences: of one position
+      target_count: blend shape targets
+      delta_count: over all targets
+      lods: bit l: LOD l shows this mesh
+      positions: x y z per position
+      normals: x y z per vertex, unit length
+      texture_coordinates: u v per vertex, as in the file
+      vertex_positions: position of each vertex
+      triangles: three vertices each, wound as in the file; faces of more corners are fans about
+        their first
+      target_channels: channel of each target, in file order
+    """
+
+    position_count: int
+    vertex_count: int
+    triangle_count: int
+    most_influences: int
+    target_count: int
+    delta_count: int
+    lods: int
+    positions: int
+    normals: int
+    texture_coordinates: int
+    vertex_positions: int
+    triangles: int
+    target_channels: int
+
+    @classmethod
+    def _of(cls, c: MienMesh) -> Mesh:
+        return cls(c.position_count, c.vertex_count, c.triangle_count, c.most_influences,
+                   c.target_count, c.delta_count, c.lods, c.positions, c.normals,
+                   c.texture_coordinates, c.vertex_positions, c.triangles, c.target_channels)
+
+
 # Name, result, parameters.
 FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_version", c_uint32, ()),
     ("mien_status_name", c_char_p, (c_int32,)),
+    ("mien_coordinate_system_named", c_int32, (c_char_p, c_size_t, POINTER(MienCoordinateSystem))),
+    ("mien_coordinate_system_name", c_int32, (c_uint32, POINTER(MienStringView))),
     ("mien_dna_open_file", c_int32, (c_char_p, POINTER(MienDnaDesc), POINTER(MienDna),
      POINTER(MienError))),
     ("mien_dna_open_memory", c_int32, (c_void_p, c_size_t, POINTER(MienDnaDesc), POINTER(MienDna),
@@ -911,6 +1230,29 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_rig_evaluate_joint_group", c_int32, (MienRig, MienInstance, c_uint32, c_uint32)),
     ("mien_rig_evaluate_rbf_solver", c_int32, (MienRig, MienInstance, c_uint32, c_uint32)),
     ("mien_rig_evaluate_twist_swing", c_int32, (MienRig, MienInstance, c_uint32, c_uint32)),
+    ("mien_deformer_create", c_int32, (MienDna, MienRig, POINTER(MienDeformerDesc),
+     POINTER(MienDeformer), POINTER(MienError))),
+    ("mien_deformer_destroy", None, (MienDeformer,)),
+    ("mien_deformer_info", c_int32, (MienDeformer, POINTER(MienDeformerInfo))),
+    ("mien_deformer_mesh", c_int32, (MienDeformer, c_uint32, POINTER(MienMesh))),
+    ("mien_deformer_influences", c_int32, (MienDeformer, c_uint32, c_uint32, POINTER(MienIndexView),
+     POINTER(MienFloatView))),
+    ("mien_deformer_target", c_int32, (MienDeformer, c_uint32, c_uint32, c_void_p, c_size_t)),
+    ("mien_deformer_bind_matrices", c_int32, (MienDeformer, POINTER(MienFloatView))),
+    ("mien_deformer_inverse_bind_matrices", c_int32, (MienDeformer, POINTER(MienFloatView))),
+    ("mien_pose_create", c_int32, (MienDeformer, POINTER(MienPoseDesc), POINTER(MienPose),
+     POINTER(MienError))),
+    ("mien_pose_destroy", None, (MienPose,)),
+    ("mien_pose_update", c_int32, (MienPose, MienInstance)),
+    ("mien_pose_update_from_values", c_int32, (MienPose, c_void_p, c_size_t, c_void_p, c_size_t)),
+    ("mien_pose_joint_matrices", c_int32, (MienPose, POINTER(MienFloatView))),
+    ("mien_pose_skin_matrices", c_int32, (MienPose, POINTER(MienFloatView))),
+    ("mien_pose_local_transforms", c_int32, (MienPose, c_void_p, c_size_t)),
+    ("mien_pose_deform", c_int32, (MienPose, c_uint32, c_uint32, POINTER(MienParallelFor))),
+    ("mien_pose_deform_batch", c_int32, (POINTER(MienPose), c_size_t, c_uint32, c_uint32,
+     POINTER(MienParallelFor))),
+    ("mien_pose_positions", c_int32, (MienPose, c_uint32, POINTER(MienFloatView))),
+    ("mien_pose_normals", c_int32, (MienPose, c_uint32, POINTER(MienFloatView))),
 )
 
 
@@ -919,6 +1261,8 @@ class Library:
 
     mien_version: Any
     mien_status_name: Any
+    mien_coordinate_system_named: Any
+    mien_coordinate_system_name: Any
     mien_dna_open_file: Any
     mien_dna_open_memory: Any
     mien_dna_close: Any
@@ -972,6 +1316,25 @@ class Library:
     mien_rig_evaluate_joint_group: Any
     mien_rig_evaluate_rbf_solver: Any
     mien_rig_evaluate_twist_swing: Any
+    mien_deformer_create: Any
+    mien_deformer_destroy: Any
+    mien_deformer_info: Any
+    mien_deformer_mesh: Any
+    mien_deformer_influences: Any
+    mien_deformer_target: Any
+    mien_deformer_bind_matrices: Any
+    mien_deformer_inverse_bind_matrices: Any
+    mien_pose_create: Any
+    mien_pose_destroy: Any
+    mien_pose_update: Any
+    mien_pose_update_from_values: Any
+    mien_pose_joint_matrices: Any
+    mien_pose_skin_matrices: Any
+    mien_pose_local_transforms: Any
+    mien_pose_deform: Any
+    mien_pose_deform_batch: Any
+    mien_pose_positions: Any
+    mien_pose_normals: Any
 
     def __init__(self, library: ctypes.CDLL) -> None:
         for name, result, parameters in FUNCTIONS:

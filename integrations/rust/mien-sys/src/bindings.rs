@@ -85,6 +85,7 @@ pub const MIEN_ROTATION_DEGREES: u32 = 0;
 pub const MIEN_ROTATION_RADIANS: u32 = 1;
 
 // enum MienDirection
+/// Of the character.
 pub const MIEN_DIRECTION_LEFT: u32 = 0;
 pub const MIEN_DIRECTION_RIGHT: u32 = 1;
 pub const MIEN_DIRECTION_UP: u32 = 2;
@@ -100,6 +101,18 @@ pub const MIEN_ROTATION_YXZ: u32 = 2;
 pub const MIEN_ROTATION_YZX: u32 = 3;
 pub const MIEN_ROTATION_ZXY: u32 = 4;
 pub const MIEN_ROTATION_ZYX: u32 = 5;
+
+// enum MienRotationRule
+/// The file's order, about the axes as they are called now: where x became z, xyz becomes zyx, xzy
+/// becomes zxy, and so on.
+pub const MIEN_ROTATIONS_CARRIED: u32 = 0;
+/// The order named. Neutral poses, joints represented by quaternions, twists, swings and ML joints
+/// follow exactly as rotations, and so do joints that turn about one axis only;
+/// `MIEN_ERROR_DNA_VALUE` for a rig with others.
+pub const MIEN_ROTATIONS_EXACT: u32 = 1;
+/// The order named, each column of a joint matrix by itself: exact while one control is 1 and all
+/// others are 0, near it for small angles.
+pub const MIEN_ROTATIONS_PER_COLUMN: u32 = 2;
 
 // enum MienFieldType
 /// Named fields.
@@ -127,6 +140,11 @@ pub const MIEN_PRESET_SMALL: u32 = 1;
 pub const MIEN_PRESET_MEDIUM: u32 = 2;
 /// A production head: 870 joints, 260 raw controls, 8 LODs, a million matrix entries.
 pub const MIEN_PRESET_LARGE: u32 = 3;
+/// A stylised person to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit as
+/// raw controls under their names (values 0..1), correctives, wrinkle maps, 8 LODs. Seed 0 is the
+/// one that was designed, others vary proportions and colours. Vertex colours are in the metadata:
+/// key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per position of the mesh.
+pub const MIEN_PRESET_HEAD: u32 = 4;
 
 // enum MienIsa
 /// The environment variable `MIEN_ISA` (scalar, sse2, ...) if set, else the best that this CPU and
@@ -189,6 +207,30 @@ pub const MIEN_STAGE_BLEND_SHAPES: u32 = 16;
 pub const MIEN_STAGE_ANIMATED_MAPS: u32 = 32;
 pub const MIEN_STAGE_ALL: u32 = 63;
 
+// enum MienCompose
+/// Neutral rotation \* delta rotation: the delta turns first.
+pub const MIEN_COMPOSE_PRODUCT: u32 = 0;
+/// The angles are added; needs `MIEN_OUTPUT_EULER`. The same where the neutral rotation is zero.
+pub const MIEN_COMPOSE_EULER_ADD: u32 = 1;
+
+// enum MienWeights
+pub const MIEN_WEIGHTS_AS_STORED: u32 = 0;
+/// Negative weights count as 0, and the weights of a position sum to 1.
+pub const MIEN_WEIGHTS_FIX: u32 = 1;
+
+// enum MienNormals
+/// What MienDeformerDesc.normals says; there: recomputed.
+pub const MIEN_NORMALS_DEFAULT: u32 = 0;
+/// Left as they are.
+pub const MIEN_NORMALS_NONE: u32 = 1;
+/// Neutral normals turned as the skin is: cheap, but blend shape targets do not turn them (they
+/// carry no normals).
+pub const MIEN_NORMALS_SKINNED: u32 = 2;
+/// Sum of the area vectors of the faces around the position. Where that is more than 30 degrees
+/// off the neutral normal (a hard edge), the neutral normal is turned as the sum turned since
+/// neutral.
+pub const MIEN_NORMALS_RECOMPUTED: u32 = 3;
+
 #[repr(C)]
 pub struct MienDna {
     _size: [u8; 0],
@@ -209,6 +251,36 @@ pub struct MienRig {
 
 #[repr(C)]
 pub struct MienInstance {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
+/// The geometry of a DNA and the hierarchy of its joints, packed once, then immutable: one block,
+/// shared by any number of characters and threads.
+///
+/// ```text
+/// local    Translate(neutral + delta) * R * Scale(1 + delta), for column vectors. R is, as
+///          MIEN_COMPOSE_... says, R(neutral) * R(delta), or the rotation of the summed angles. With
+///          quaternion outputs R(delta) is the quaternion, of any length; zero is the identity.
+/// model    model of the parent * local; a root (its own parent) starts from the origin
+/// skin     model * inverse of the model matrix of the neutral pose
+/// vertex   sum of weight * skin * (neutral position + sum of channel weight * target delta), over
+///          the joints that hold it: linear blend skinning. A vertex that no joint holds stays
+///          where its targets put it. Channel weights within 1e-5 of 0 count as 0.
+/// ```
+///
+/// Joints that a LOD lacks have no delta and pass on their parent's motion. A position is shared
+/// by all faces around it; a vertex is a position with a texture coordinate and a normal (a layout
+/// of the file), so a mesh has at least as many vertices as positions it uses.
+#[repr(C)]
+pub struct MienDeformer {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
+/// One character's joint matrices, positions and normals: one block.
+#[repr(C)]
+pub struct MienPose {
     _size: [u8; 0],
     _opaque: Opaque,
 }
@@ -249,6 +321,24 @@ pub struct MienAllocator {
 }
 
 impl Default for MienAllocator {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// Threads of the caller: the library starts none. `run` calls task(context, i) once for each i \<
+/// count, in any order and on any threads, and returns when all are done. Tasks never wait for
+/// each other, call no other function of the caller, and are worth some 10 microseconds each.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienParallelFor {
+    pub user: *mut c_void,
+    pub run: Option<unsafe extern "C" fn(user: *mut c_void, count: u32, task: Option<unsafe extern "C" fn(context: *mut c_void, index: u32)>, context: *mut c_void)>,
+}
+
+impl Default for MienParallelFor {
     /// All zero.
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
@@ -319,6 +409,54 @@ impl Default for MienIndexView {
 
 #[repr(C)]
 #[derive(Clone, Copy)]
+pub struct MienIndex32View {
+    pub data: *const u32,
+    pub count: usize,
+}
+
+impl Default for MienIndex32View {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// Where the axes of a rig point, and its units. Mirrored systems are as good as others: which
+/// hand they are of follows from the axes.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienCoordinateSystem {
+    pub struct_size: u32,
+    /// `MIEN_DIRECTION_...` of x, y, z.
+    pub axes: [u32; 3],
+    /// `MIEN_TRANSLATION_...`
+    pub translation_unit: u32,
+    /// `MIEN_ROTATION_DEGREES` or \_RADIANS.
+    pub rotation_unit: u32,
+    /// `MIEN_ROTATIONS_...`; the next field counts unless it is \_CARRIED.
+    pub rotation_rule: u32,
+    /// `MIEN_ROTATION_XYZ` ...
+    pub rotation_sequence: u32,
+    /// Of the angles about x, y, z: 1 turns y to z, z to x, x to y; -1 the other way; 0: such that
+    /// angles keep their numbers.
+    pub rotation_signs: [i32; 3],
+    /// As in MienDnaInfo.
+    pub face_winding: u32,
+}
+
+impl Default for MienCoordinateSystem {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>() as u32;
+        zero
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct MienDnaDesc {
     pub struct_size: u32,
     /// `MIEN_LAYER_...`; what is not chosen is never touched.
@@ -332,6 +470,8 @@ pub struct MienDnaDesc {
     /// everywhere. `MIEN_ERROR_LOD` if the file has none of the LODs named.
     pub lods: u64,
     pub allocator: *const MienAllocator,
+    /// To convert everything to; NULL keeps the file's.
+    pub system: *const MienCoordinateSystem,
 }
 
 impl Default for MienDnaDesc {
@@ -372,7 +512,9 @@ pub struct MienDnaInfo {
     pub rotation_sequence: u32,
     /// 1 or -1, for the angles about x, y, z.
     pub rotation_signs: [i32; 3],
-    /// 0 counter-clockwise, 1 clockwise, seen from outside.
+    /// 0: of a face a b c ..., (b - a) x (c - a), the plain formula in the numbers of the file,
+    /// points outwards: counter-clockwise seen from outside if the axes are right-handed,
+    /// clockwise if they are left-handed; 1: inwards.
     pub face_winding: u32,
     pub lod_count: u32,
     /// This file's LOD 0 is LOD `max_lod` of its data base.
@@ -607,15 +749,15 @@ pub struct MienRigStatistics {
     pub psd_count: u32,
     /// Joints that exist at this LOD.
     pub joint_count: u32,
-    /// Joint values computed.
+    /// Rows of the joint groups.
     pub joint_row_count: u32,
     /// Channels written.
     pub blend_shape_count: u32,
     /// Rows of the animated map table.
     pub animated_map_row_count: u32,
-    /// Rows x columns, over the groups.
+    /// Of the joint matrix: 8 per piece of a column, pieces of zeros not counted.
     pub joint_entry_count: u64,
-    /// Bytes of the joint matrix that are read.
+    /// Of the joint matrix, if every control is active: those of controls that are 0 are not read.
     pub joint_byte_count: u64,
     /// Solvers that the LOD lists.
     pub rbf_solver_count: u32,
@@ -633,6 +775,128 @@ impl Default for MienRigStatistics {
     }
 }
 
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienDeformerDesc {
+    pub struct_size: u32,
+    /// `MIEN_ISA_...`; here `MIEN_ISA_BEST` means that of the rig.
+    pub isa: u32,
+    /// `MIEN_COMPOSE_...`
+    pub compose: u32,
+    /// `MIEN_WEIGHTS_...`
+    pub weights: u32,
+    /// `MIEN_NORMALS_...`: of calls that leave the choice open.
+    pub normals: u32,
+    pub reserved: u32,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienDeformerDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>() as u32;
+        zero
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienDeformerInfo {
+    pub struct_size: u32,
+    /// `MIEN_ISA_...` in use.
+    pub isa: u32,
+    /// `MIEN_COMPOSE_...`
+    pub compose: u32,
+    /// `MIEN_WEIGHTS_...`
+    pub weights: u32,
+    /// `MIEN_NORMALS_...`, never `MIEN_NORMALS_DEFAULT`.
+    pub normals: u32,
+    pub lod_count: u32,
+    pub joint_count: u32,
+    pub channel_count: u32,
+    /// As in the rig, with its names: `MIEN_KIND_MESH`.
+    pub mesh_count: u32,
+    pub reserved: u32,
+    /// Memory of the deformer.
+    pub deformer_bytes: u64,
+    /// Memory of a pose with room for all meshes.
+    pub pose_bytes: u64,
+}
+
+impl Default for MienDeformerInfo {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>() as u32;
+        zero
+    }
+}
+
+/// The neutral mesh. Views live as long as the deformer.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienMesh {
+    pub struct_size: u32,
+    pub position_count: u32,
+    pub vertex_count: u32,
+    pub triangle_count: u32,
+    /// Of one position.
+    pub most_influences: u32,
+    /// Blend shape targets.
+    pub target_count: u32,
+    /// Over all targets.
+    pub delta_count: u64,
+    /// Bit l: LOD l shows this mesh.
+    pub lods: u64,
+    /// X y z per position.
+    pub positions: MienFloatView,
+    /// X y z per vertex, unit length.
+    pub normals: MienFloatView,
+    /// U v per vertex, as in the file.
+    pub texture_coordinates: MienFloatView,
+    /// Position of each vertex.
+    pub vertex_positions: MienIndex32View,
+    /// Three vertices each, wound as in the file; faces of more corners are fans about their
+    /// first.
+    pub triangles: MienIndex32View,
+    /// Channel of each target, in file order.
+    pub target_channels: MienIndexView,
+}
+
+impl Default for MienMesh {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>() as u32;
+        zero
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienPoseDesc {
+    pub struct_size: u32,
+    pub reserved: u32,
+    /// Room for the meshes that these LODs show: bit l is LOD l. 0: for all meshes. A LOD that is
+    /// not there counts for nothing.
+    pub lods: u64,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienPoseDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>() as u32;
+        zero
+    }
+}
+
 extern "C" {
     /// `MIEN_VERSION` of the library that runs; the header's may be older.
     pub fn mien_version() -> u32;
@@ -640,6 +904,16 @@ extern "C" {
     /// "DNA\_TRUNCATED" for `MIEN_ERROR_DNA_TRUNCATED`; "UNKNOWN" for other numbers. Static,
     /// terminated.
     pub fn mien_status_name(status: MienStatus) -> *const c_char;
+
+    /// The system of an engine or tool: maya, unreal, unreal-mesh (whose characters look along y),
+    /// unity, godot, blender, gltf, opengl, directx, houdini. Axes, units, winding and signs are
+    /// those that a consumer there works in; the sequence is the one of its Euler angles, to be
+    /// used by setting `rotation_rule`, which is `MIEN_ROTATIONS_CARRIED`. `MIEN_ERROR_NAME` for
+    /// other names. `name` needs no terminator.
+    pub fn mien_coordinate_system_named(name: *const c_char, name_count: usize, out_system: *mut MienCoordinateSystem) -> MienStatus;
+
+    /// The names, from index 0 on; `MIEN_ERROR_INDEX` past the last.
+    pub fn mien_coordinate_system_name(index: u32, out_name: *mut MienStringView) -> MienStatus;
 
     /// Opens a file of versions 2.1 to 2.8 (later 2.x: what is known of it). Checks everything
     /// that is loaded, so that a rig made of it has nothing left to check. Numbers and names stay
@@ -690,17 +964,20 @@ extern "C" {
 
     /// Checks a whole file and lists every finding: at most 32 for one field (of cross references
     /// the last one says how many more there are), and 1000 in all. Returns `MIEN_OK` if the file
-    /// could be examined, whatever was found. `allocator` may be NULL.
+    /// could be examined, whatever was found. The file is read, not mapped, so it may change
+    /// meanwhile.
     pub fn mien_report_create_file(path: *const c_char, allocator: *const MienAllocator, out_report: *mut *mut MienReport, error: *mut MienError) -> MienStatus;
 
     /// Checks a whole file and lists every finding: at most 32 for one field (of cross references
     /// the last one says how many more there are), and 1000 in all. Returns `MIEN_OK` if the file
-    /// could be examined, whatever was found. `allocator` may be NULL.
+    /// could be examined, whatever was found. The file is read, not mapped, so it may change
+    /// meanwhile.
     pub fn mien_report_create_memory(bytes: *const c_void, size: usize, allocator: *const MienAllocator, out_report: *mut *mut MienReport, error: *mut MienError) -> MienStatus;
 
     /// Checks a whole file and lists every finding: at most 32 for one field (of cross references
     /// the last one says how many more there are), and 1000 in all. Returns `MIEN_OK` if the file
-    /// could be examined, whatever was found. `allocator` may be NULL.
+    /// could be examined, whatever was found. The file is read, not mapped, so it may change
+    /// meanwhile.
     pub fn mien_report_counts(report: *const MienReport, out_errors: *mut u32, out_warnings: *mut u32) -> MienStatus;
 
     /// Findings are in the order of the checks: 0 ... errors + warnings - 1. Views live as long as
@@ -911,4 +1188,99 @@ extern "C" {
 
     /// Only the joints of one twist and swing set-up (`MIEN_KIND_TWIST_SWING`).
     pub fn mien_rig_evaluate_twist_swing(rig: *const MienRig, instance: *mut MienInstance, lod: u32, setup: u32) -> MienStatus;
+
+    /// Packs the geometry of `dna`, which may be closed afterwards, and keeps the rig's memory
+    /// alive (the rig may be destroyed). `dna` is the one that the rig was made of, or another
+    /// opening of the same file with the same LODs: other numbers or names of joints, channels or
+    /// meshes are `MIEN_ERROR_MISMATCH`. It needs `MIEN_LAYER_GEOMETRY` (or
+    /// ...\_WITHOUT\_BLEND\_SHAPES: then there are no targets), else `MIEN_ERROR_DNA_LAYER`. A
+    /// position may have any number of influences; those of weight 0 are dropped. Faces of fewer
+    /// than three corners are left out. Meshes without faces, weights, normals, texture
+    /// coordinates or anything at all are accepted: normals that the file lacks are recomputed
+    /// from the faces, texture coordinates are 0. `MIEN_ERROR_DNA_VALUE`: joints that descend from
+    /// themselves; positions, deltas or weights that are not finite (the message names mesh and
+    /// position). Takes some memory beyond the block for the time of the call.
+    pub fn mien_deformer_create(dna: *const MienDna, rig: *const MienRig, desc: *const MienDeformerDesc, out_deformer: *mut *mut MienDeformer, error: *mut MienError) -> MienStatus;
+
+    /// Memory is released when the last pose is gone too: poses go on working.
+    pub fn mien_deformer_destroy(deformer: *mut MienDeformer);
+
+    pub fn mien_deformer_info(deformer: *const MienDeformer, out_info: *mut MienDeformerInfo) -> MienStatus;
+
+    pub fn mien_deformer_mesh(deformer: *const MienDeformer, mesh: u32, out_mesh: *mut MienMesh) -> MienStatus;
+
+    /// Joints that hold a position and their weights, as they are used: as many as each other,
+    /// possibly none. Views live as long as the deformer.
+    pub fn mien_deformer_influences(deformer: *const MienDeformer, mesh: u32, position: u32, out_joints: *mut MienIndexView, out_weights: *mut MienFloatView) -> MienStatus;
+
+    /// Writes x y z for each position of the mesh: how far a target moves it at channel weight 1
+    /// (0 where it does not). `count` is the room in `out_deltas`, 3 \* `position_count` floats or
+    /// more.
+    pub fn mien_deformer_target(deformer: *const MienDeformer, mesh: u32, target: u32, out_deltas: *mut f32, count: usize) -> MienStatus;
+
+    /// Model matrices of the joints in the neutral pose, or their inverses: 16 floats per joint,
+    /// column by column (column vectors; the last column is the translation, the last row 0 0 0
+    /// 1). Views live as long as the deformer.
+    pub fn mien_deformer_bind_matrices(deformer: *const MienDeformer, out_matrices: *mut MienFloatView) -> MienStatus;
+
+    /// Model matrices of the joints in the neutral pose, or their inverses: 16 floats per joint,
+    /// column by column (column vectors; the last column is the translation, the last row 0 0 0
+    /// 1). Views live as long as the deformer.
+    pub fn mien_deformer_inverse_bind_matrices(deformer: *const MienDeformer, out_matrices: *mut MienFloatView) -> MienStatus;
+
+    /// A pose in neutral: matrices, positions and normals are those of the deformer. It keeps the
+    /// deformer's memory alive. One allocation.
+    pub fn mien_pose_create(deformer: *const MienDeformer, desc: *const MienPoseDesc, out_pose: *mut *mut MienPose, error: *mut MienError) -> MienStatus;
+
+    pub fn mien_pose_destroy(pose: *mut MienPose);
+
+    /// Takes over joint values and channel weights of the instance's last evaluation, and computes
+    /// the matrices of all joints; meshes follow with `mien_pose_deform()`. The instance is one of
+    /// the rig that the deformer was made with, else `MIEN_ERROR_MISMATCH`. Allocates nothing,
+    /// locks nothing. Values that are not finite give results that are not.
+    pub fn mien_pose_update(pose: *mut MienPose, instance: *const MienInstance) -> MienStatus;
+
+    /// The same from arrays: joint values as `mien_instance_joints()` gives them, and one weight
+    /// per channel. `joint_values` may be NULL, with count 0: no deltas. `channel_weights` may be
+    /// NULL, with count 0: all 0. Any other count than that of the rig is
+    /// `MIEN_ERROR_INVALID_ARGUMENT`.
+    pub fn mien_pose_update_from_values(pose: *mut MienPose, joint_values: *const f32, joint_value_count: usize, channel_weights: *const f32, channel_weight_count: usize) -> MienStatus;
+
+    /// Matrices of the last update, 16 floats per joint, laid out as
+    /// `mien_deformer_bind_matrices()` says: model matrices, and skin matrices (for skinning
+    /// elsewhere, as on a GPU). The views stay valid, their contents change with each update.
+    pub fn mien_pose_joint_matrices(pose: *const MienPose, out_matrices: *mut MienFloatView) -> MienStatus;
+
+    /// Matrices of the last update, 16 floats per joint, laid out as
+    /// `mien_deformer_bind_matrices()` says: model matrices, and skin matrices (for skinning
+    /// elsewhere, as on a GPU). The views stay valid, their contents change with each update.
+    pub fn mien_pose_skin_matrices(pose: *const MienPose, out_matrices: *mut MienFloatView) -> MienStatus;
+
+    /// Writes the local transforms of the last update, relative to the parent, 10 floats per
+    /// joint: tx ty tz qx qy qz qw sx sy sz, the quaternion of unit length. `count` is the room in
+    /// `out_transforms`.
+    pub fn mien_pose_local_transforms(pose: *const MienPose, out_transforms: *mut f32, count: usize) -> MienStatus;
+
+    /// Positions of one mesh as of the last update, and its normals (`MIEN_NORMALS_...`). On this
+    /// thread, but for meshes of 16384 positions and more in tasks of about 2048, if there is
+    /// somebody to run them: `parallel` may be NULL. The result has the same bits. Allocates
+    /// nothing, locks nothing. `MIEN_ERROR_LOD`: the pose has no room for this mesh.
+    pub fn mien_pose_deform(pose: *mut MienPose, mesh: u32, normals: u32, parallel: *const MienParallelFor) -> MienStatus;
+
+    /// The same mesh of several different poses of one deformer: the same bits as one after the
+    /// other, but each piece of the mesh is fetched once, and the size that counts is that of all
+    /// of them together; `parallel` may be NULL. A pose that comes up twice is
+    /// `MIEN_ERROR_INVALID_ARGUMENT`, one of another deformer `MIEN_ERROR_MISMATCH`; then none is
+    /// deformed.
+    pub fn mien_pose_deform_batch(poses: *const *mut MienPose, pose_count: usize, mesh: u32, normals: u32, parallel: *const MienParallelFor) -> MienStatus;
+
+    /// Results of the last `mien_pose_deform()` of the mesh: x y z per position, x y z per vertex.
+    /// The views stay valid, their contents change with each call. A mesh without room:
+    /// `MIEN_ERROR_LOD`.
+    pub fn mien_pose_positions(pose: *const MienPose, mesh: u32, out_positions: *mut MienFloatView) -> MienStatus;
+
+    /// Results of the last `mien_pose_deform()` of the mesh: x y z per position, x y z per vertex.
+    /// The views stay valid, their contents change with each call. A mesh without room:
+    /// `MIEN_ERROR_LOD`.
+    pub fn mien_pose_normals(pose: *const MienPose, mesh: u32, out_normals: *mut MienFloatView) -> MienStatus;
 }

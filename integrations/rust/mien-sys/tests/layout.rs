@@ -36,6 +36,15 @@ fn mien_allocator() {
 }
 
 #[test]
+fn mien_parallel_for() {
+    use mien_sys::MienParallelFor as S;
+    assert_eq!(size_of::<S>(), 16);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, user), 0);
+    assert_eq!(offset!(S, run), 8);
+}
+
+#[test]
 fn mien_string_view() {
     use mien_sys::MienStringView as S;
     assert_eq!(size_of::<S>(), 16);
@@ -72,9 +81,33 @@ fn mien_index_view() {
 }
 
 #[test]
+fn mien_index32_view() {
+    use mien_sys::MienIndex32View as S;
+    assert_eq!(size_of::<S>(), 16);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, data), 0);
+    assert_eq!(offset!(S, count), 8);
+}
+
+#[test]
+fn mien_coordinate_system() {
+    use mien_sys::MienCoordinateSystem as S;
+    assert_eq!(size_of::<S>(), 48);
+    assert_eq!(align_of::<S>(), 4);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, axes), 4);
+    assert_eq!(offset!(S, translation_unit), 16);
+    assert_eq!(offset!(S, rotation_unit), 20);
+    assert_eq!(offset!(S, rotation_rule), 24);
+    assert_eq!(offset!(S, rotation_sequence), 28);
+    assert_eq!(offset!(S, rotation_signs), 32);
+    assert_eq!(offset!(S, face_winding), 44);
+}
+
+#[test]
 fn mien_dna_desc() {
     use mien_sys::MienDnaDesc as S;
-    assert_eq!(size_of::<S>(), 32);
+    assert_eq!(size_of::<S>(), 40);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
     assert_eq!(offset!(S, layers), 4);
@@ -82,6 +115,7 @@ fn mien_dna_desc() {
     assert_eq!(offset!(S, file_access), 12);
     assert_eq!(offset!(S, lods), 16);
     assert_eq!(offset!(S, allocator), 24);
+    assert_eq!(offset!(S, system), 32);
 }
 
 #[test]
@@ -238,4 +272,69 @@ fn mien_rig_statistics() {
     assert_eq!(offset!(S, joint_byte_count), 32);
     assert_eq!(offset!(S, rbf_solver_count), 40);
     assert_eq!(offset!(S, turned_joint_count), 44);
+}
+
+#[test]
+fn mien_deformer_desc() {
+    use mien_sys::MienDeformerDesc as S;
+    assert_eq!(size_of::<S>(), 32);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, isa), 4);
+    assert_eq!(offset!(S, compose), 8);
+    assert_eq!(offset!(S, weights), 12);
+    assert_eq!(offset!(S, normals), 16);
+    assert_eq!(offset!(S, reserved), 20);
+    assert_eq!(offset!(S, allocator), 24);
+}
+
+#[test]
+fn mien_deformer_info() {
+    use mien_sys::MienDeformerInfo as S;
+    assert_eq!(size_of::<S>(), 56);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, isa), 4);
+    assert_eq!(offset!(S, compose), 8);
+    assert_eq!(offset!(S, weights), 12);
+    assert_eq!(offset!(S, normals), 16);
+    assert_eq!(offset!(S, lod_count), 20);
+    assert_eq!(offset!(S, joint_count), 24);
+    assert_eq!(offset!(S, channel_count), 28);
+    assert_eq!(offset!(S, mesh_count), 32);
+    assert_eq!(offset!(S, reserved), 36);
+    assert_eq!(offset!(S, deformer_bytes), 40);
+    assert_eq!(offset!(S, pose_bytes), 48);
+}
+
+#[test]
+fn mien_mesh() {
+    use mien_sys::MienMesh as S;
+    assert_eq!(size_of::<S>(), 136);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, position_count), 4);
+    assert_eq!(offset!(S, vertex_count), 8);
+    assert_eq!(offset!(S, triangle_count), 12);
+    assert_eq!(offset!(S, most_influences), 16);
+    assert_eq!(offset!(S, target_count), 20);
+    assert_eq!(offset!(S, delta_count), 24);
+    assert_eq!(offset!(S, lods), 32);
+    assert_eq!(offset!(S, positions), 40);
+    assert_eq!(offset!(S, normals), 56);
+    assert_eq!(offset!(S, texture_coordinates), 72);
+    assert_eq!(offset!(S, vertex_positions), 88);
+    assert_eq!(offset!(S, triangles), 104);
+    assert_eq!(offset!(S, target_channels), 120);
+}
+
+#[test]
+fn mien_pose_desc() {
+    use mien_sys::MienPoseDesc as S;
+    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, reserved), 4);
+    assert_eq!(offset!(S, lods), 8);
+    assert_eq!(offset!(S, allocator), 16);
 }

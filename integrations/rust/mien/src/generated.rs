@@ -189,7 +189,7 @@ numbers!(RotationUnit, u32, [(0, "DEGREES"), (1, "RADIANS")]);
 pub struct Direction(pub u32);
 
 impl Direction {
-    /// `MIEN_DIRECTION_LEFT` in C.
+    /// Of the character.
     pub const LEFT: Self = Self(0);
     /// `MIEN_DIRECTION_RIGHT` in C.
     pub const RIGHT: Self = Self(1);
@@ -228,6 +228,29 @@ impl RotationSequence {
 }
 
 numbers!(RotationSequence, u32, [(0, "XYZ"), (1, "XZY"), (2, "YXZ"), (3, "YZX"), (4, "ZXY"), (5, "ZYX")]);
+
+/// The order in which Euler angles turn, when axes change. Joint values are sums of angles, which
+/// mean nothing in another order: only the first rule is exact for all rigs.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct RotationRule(pub u32);
+
+impl RotationRule {
+    /// The file's order, about the axes as they are called now: where x became z, xyz becomes zyx,
+    /// xzy becomes zxy, and so on.
+    pub const CARRIED: Self = Self(0);
+    /// The order named. Neutral poses, joints represented by quaternions, twists, swings and ML
+    /// joints follow exactly as rotations, and so do joints that turn about one axis only;
+    /// `Status::DNA_VALUE` for a rig with others.
+    pub const EXACT: Self = Self(1);
+    /// The order named, each column of a joint matrix by itself: exact while one control is 1 and
+    /// all others are 0, near it for small angles.
+    pub const PER_COLUMN: Self = Self(2);
+}
+
+numbers!(RotationRule, u32, [(0, "CARRIED"), (1, "EXACT"), (2, "PER_COLUMN")]);
 
 /// Every field of every loaded layer can be read by its path: the layer's code and the field names
 /// of the DNA format, with an index after each list:
@@ -302,9 +325,15 @@ impl Preset {
     pub const MEDIUM: Self = Self(2);
     /// A production head: 870 joints, 260 raw controls, 8 LODs, a million matrix entries.
     pub const LARGE: Self = Self(3);
+    /// A stylised person to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit
+    /// as raw controls under their names (values 0..1), correctives, wrinkle maps, 8 LODs. Seed 0
+    /// is the one that was designed, others vary proportions and colours. Vertex colours are in
+    /// the metadata: key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per position
+    /// of the mesh.
+    pub const HEAD: Self = Self(4);
 }
 
-numbers!(Preset, u32, [(0, "TINY"), (1, "SMALL"), (2, "MEDIUM"), (3, "LARGE")]);
+numbers!(Preset, u32, [(0, "TINY"), (1, "SMALL"), (2, "MEDIUM"), (3, "LARGE"), (4, "HEAD")]);
 
 /// What C calls `MIEN_ISA_...`.
 ///
@@ -446,6 +475,98 @@ impl Stages {
 
 flags!(Stages, u32, [(1, "ML"), (2, "RBF"), (4, "PSD"), (8, "JOINTS"), (16, "BLEND_SHAPES"), (32, "ANIMATED_MAPS"), (63, "ALL")]);
 
+/// How the rotation of a joint is made of the neutral one and the delta.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Compose(pub u32);
+
+impl Compose {
+    /// Neutral rotation \* delta rotation: the delta turns first.
+    pub const PRODUCT: Self = Self(0);
+    /// The angles are added; needs `Output::EULER`. The same where the neutral rotation is zero.
+    pub const EULER_ADD: Self = Self(1);
+}
+
+numbers!(Compose, u32, [(0, "PRODUCT"), (1, "EULER_ADD")]);
+
+/// What is done about skin weights.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Weights(pub u32);
+
+impl Weights {
+    /// `MIEN_WEIGHTS_AS_STORED` in C.
+    pub const AS_STORED: Self = Self(0);
+    /// Negative weights count as 0, and the weights of a position sum to 1.
+    pub const FIX: Self = Self(1);
+}
+
+numbers!(Weights, u32, [(0, "AS_STORED"), (1, "FIX")]);
+
+/// Normals that `mien_pose_deform()` makes, unit length. Where there is no direction to be had (no
+/// area, no face) they are the neutral ones.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Normals(pub u32);
+
+impl Normals {
+    /// What MienDeformerDesc.normals says; there: recomputed.
+    pub const DEFAULT: Self = Self(0);
+    /// Left as they are.
+    pub const NONE: Self = Self(1);
+    /// Neutral normals turned as the skin is: cheap, but blend shape targets do not turn them
+    /// (they carry no normals).
+    pub const SKINNED: Self = Self(2);
+    /// Sum of the area vectors of the faces around the position. Where that is more than 30
+    /// degrees off the neutral normal (a hard edge), the neutral normal is turned as the sum
+    /// turned since neutral.
+    pub const RECOMPUTED: Self = Self(3);
+}
+
+numbers!(Normals, u32, [(0, "DEFAULT"), (1, "NONE"), (2, "SKINNED"), (3, "RECOMPUTED")]);
+
+/// Where the axes of a rig point, and its units. Mirrored systems are as good as others: which
+/// hand they are of follows from the axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct CoordinateSystem {
+    /// `Direction` of x, y, z.
+    pub axes: [Direction; 3],
+    /// Translation unit.
+    pub translation_unit: TranslationUnit,
+    /// `RotationUnit::DEGREES` or \_RADIANS.
+    pub rotation_unit: RotationUnit,
+    /// `RotationRule`; the next field counts unless it is \_CARRIED.
+    pub rotation_rule: RotationRule,
+    /// `RotationSequence::XYZ` ...
+    pub rotation_sequence: RotationSequence,
+    /// Of the angles about x, y, z: 1 turns y to z, z to x, x to y; -1 the other way; 0: such that
+    /// angles keep their numbers.
+    pub rotation_signs: [i32; 3],
+    /// As in MienDnaInfo.
+    pub face_winding: u32,
+}
+
+impl From<sys::MienCoordinateSystem> for CoordinateSystem {
+    fn from(c: sys::MienCoordinateSystem) -> Self {
+        Self {
+            axes: c.axes.map(Direction),
+            translation_unit: TranslationUnit(c.translation_unit),
+            rotation_unit: RotationUnit(c.rotation_unit),
+            rotation_rule: RotationRule(c.rotation_rule),
+            rotation_sequence: RotationSequence(c.rotation_sequence),
+            rotation_signs: c.rotation_signs,
+            face_winding: c.face_winding,
+        }
+    }
+}
+
 /// `MienDnaInfo` in C.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -474,7 +595,9 @@ pub struct DnaInfo {
     pub rotation_sequence: RotationSequence,
     /// 1 or -1, for the angles about x, y, z.
     pub rotation_signs: [i32; 3],
-    /// 0 counter-clockwise, 1 clockwise, seen from outside.
+    /// 0: of a face a b c ..., (b - a) x (c - a), the plain formula in the numbers of the file,
+    /// points outwards: counter-clockwise seen from outside if the axes are right-handed,
+    /// clockwise if they are left-handed; 1: inwards.
     pub face_winding: u32,
     /// Lod count.
     pub lod_count: usize,
@@ -674,15 +797,15 @@ pub struct RigStatistics {
     pub psd_count: usize,
     /// Joints that exist at this LOD.
     pub joint_count: usize,
-    /// Joint values computed.
+    /// Rows of the joint groups.
     pub joint_row_count: usize,
     /// Channels written.
     pub blend_shape_count: usize,
     /// Rows of the animated map table.
     pub animated_map_row_count: usize,
-    /// Rows x columns, over the groups.
+    /// Of the joint matrix: 8 per piece of a column, pieces of zeros not counted.
     pub joint_entry_count: u64,
-    /// Bytes of the joint matrix that are read.
+    /// Of the joint matrix, if every control is active: those of controls that are 0 are not read.
     pub joint_byte_count: u64,
     /// Solvers that the LOD lists.
     pub rbf_solver_count: usize,
@@ -702,6 +825,49 @@ impl From<sys::MienRigStatistics> for RigStatistics {
             joint_byte_count: c.joint_byte_count,
             rbf_solver_count: c.rbf_solver_count as usize,
             turned_joint_count: c.turned_joint_count as usize,
+        }
+    }
+}
+
+/// `MienDeformerInfo` in C.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct DeformerInfo {
+    /// `Isa` in use.
+    pub isa: Isa,
+    /// Compose.
+    pub compose: Compose,
+    /// Weights.
+    pub weights: Weights,
+    /// `Normals`, never `Normals::DEFAULT`.
+    pub normals: Normals,
+    /// Lod count.
+    pub lod_count: usize,
+    /// Joint count.
+    pub joint_count: usize,
+    /// Channel count.
+    pub channel_count: usize,
+    /// As in the rig, with its names: `Kind::MESH`.
+    pub mesh_count: usize,
+    /// Memory of the deformer.
+    pub deformer_bytes: u64,
+    /// Memory of a pose with room for all meshes.
+    pub pose_bytes: u64,
+}
+
+impl From<sys::MienDeformerInfo> for DeformerInfo {
+    fn from(c: sys::MienDeformerInfo) -> Self {
+        Self {
+            isa: Isa(c.isa),
+            compose: Compose(c.compose),
+            weights: Weights(c.weights),
+            normals: Normals(c.normals),
+            lod_count: c.lod_count as usize,
+            joint_count: c.joint_count as usize,
+            channel_count: c.channel_count as usize,
+            mesh_count: c.mesh_count as usize,
+            deformer_bytes: c.deformer_bytes,
+            pose_bytes: c.pose_bytes,
         }
     }
 }
