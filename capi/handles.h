@@ -10,6 +10,7 @@
 #include "runtime/base/status.h"
 #include "runtime/deform/pose.h"
 #include "runtime/dna/dna_view.h"
+#include "runtime/eval/batch.h"
 #include "runtime/eval/instance.h"
 
 // Tags stand first in every object, are cleared when it is destroyed, and tell kinds apart.
@@ -17,6 +18,7 @@ constexpr uint32_t kDnaTag = 0x6D44'4E41;
 constexpr uint32_t kReportTag = 0x6D52'5054;
 constexpr uint32_t kRigTag = 0x6D52'4947;
 constexpr uint32_t kInstanceTag = 0x6D49'4E53;
+constexpr uint32_t kBatchTag = 0x6D42'4154;
 constexpr uint32_t kDeformerTag = 0x6D44'4652;
 constexpr uint32_t kPoseTag = 0x6D50'4F53;
 
@@ -36,6 +38,7 @@ inline Instance* object(MienInstance* handle) { return reinterpret_cast<Instance
 inline const Instance* object(const MienInstance* handle) {
   return reinterpret_cast<const Instance*>(handle);
 }
+inline Batch* object(MienBatch* handle) { return reinterpret_cast<Batch*>(handle); }
 inline Deformer* object(MienDeformer* handle) { return reinterpret_cast<Deformer*>(handle); }
 inline const Deformer* object(const MienDeformer* handle) {
   return reinterpret_cast<const Deformer*>(handle);
@@ -54,6 +57,7 @@ inline MienStatus check(const MienDna* dna) { return check_tag(dna, kDnaTag); }
 inline MienStatus check(const MienReport* report) { return check_tag(report, kReportTag); }
 inline MienStatus check(const MienRig* rig) { return check_tag(rig, kRigTag); }
 inline MienStatus check(const MienInstance* instance) { return check_tag(instance, kInstanceTag); }
+inline MienStatus check(const MienBatch* batch) { return check_tag(batch, kBatchTag); }
 inline MienStatus check(const MienDeformer* deformer) { return check_tag(deformer, kDeformerTag); }
 inline MienStatus check(const MienPose* pose) { return check_tag(pose, kPoseTag); }
 

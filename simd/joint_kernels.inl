@@ -69,5 +69,58 @@ void finish_sums(float* sums, const float* scales, size_t count) {
   }
 }
 
+// Lanes are characters here, and a block's 8 rows are sums in registers: two vectors each where
+// there are registers for it, so that every value fetched is used twice.
+#if defined(MIEN_KERNEL_AVX512) || defined(MIEN_KERNEL_NEON)
+constexpr size_t kBatchVecs = 2;
+#else
+constexpr size_t kBatchVecs = 1;
+#endif
+constexpr size_t kBatchStep = kBatchVecs * kWidth;
+
+inline const float* piece_values(const float* values, float*) { return values; }
+inline const float* piece_values(const int16_t* values, float* made) {
+  for (size_t r = 0; r < kPieceRows; r += kPieceWidth)
+    store_piece(made + r, load_piece(values + r));
+  return made;
+}
+
+template <class Value, size_t... R>
+inline void sum_block(const JointBatchArgs& args, size_t lane, std::index_sequence<R...>) {
+  const Value* const values = static_cast<const Value*>(args.values);
+  const float* const inputs = args.inputs + lane;
+  const BatchPiece* const pieces = args.pieces;
+  const size_t piece_count = args.piece_count;
+  alignas(32) float made[kPieceRows];
+  Vec a[] = {(static_cast<void>(R), broadcast(0.0f))...};
+  Vec b[] = {(static_cast<void>(R), broadcast(0.0f))...};
+  for (size_t i = 0; i < piece_count; ++i) {
+    const float* const v = piece_values(values + size_t{pieces[i].piece} * kPieceRows, made);
+    const float* const x = inputs + size_t{pieces[i].input} * kBatchLanes;
+    const Vec xa = load(x);
+    const Vec xb = load(x + (kBatchVecs - 1) * kWidth);
+    ((a[R] = mul_add(broadcast(v[R]), xa, a[R])), ...);
+    if constexpr (kBatchVecs == 2) ((b[R] = mul_add(broadcast(v[R]), xb, b[R])), ...);
+  }
+  if (args.scales) {
+    ((a[R] = a[R] * broadcast(args.scales[R])), ...);
+    ((b[R] = b[R] * broadcast(args.scales[R])), ...);
+  }
+  float* const sums = args.sums + lane;
+  (store(sums + R * kBatchLanes, saturate(a[R])), ...);
+  if constexpr (kBatchVecs == 2) (store(sums + R * kBatchLanes + kWidth, saturate(b[R])), ...);
+}
+
+void joint_batch(const JointBatchArgs& args) {
+  for (size_t lane = 0; lane < args.lane_count; lane += kBatchStep) {
+    sum_block<float>(args, lane, std::make_index_sequence<kPieceRows>());
+  }
+}
+void joint_batch_fixed(const JointBatchArgs& args) {
+  for (size_t lane = 0; lane < args.lane_count; lane += kBatchStep) {
+    sum_block<int16_t>(args, lane, std::make_index_sequence<kPieceRows>());
+  }
+}
+
 }  // namespace
 }  // namespace mien::MIEN_KERNEL_ISA

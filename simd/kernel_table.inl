@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // All kernels of one instruction set, and their table: the only name its object file exports.
 
+#include "simd/control_kernels.inl"
 #include "simd/deform_kernels.inl"
 #include "simd/dense_kernels.inl"
 #include "simd/joint_kernels.inl"
@@ -16,6 +17,8 @@ namespace mien::MIEN_KERNEL_ISA {
 extern const KernelTable kTable;  // const alone would keep it inside this file
 const KernelTable kTable = {kIsa,          MIEN_KERNEL_STRING(MIEN_KERNEL_ISA),
                             joint_columns, joint_columns_fixed,
+                            joint_batch,   joint_batch_fixed,
+                            kBatchStep,    psd_batch,
                             finish_sums,   dense_layer,
                             joint_turns,   rbf_solvers,
                             joint_locals,  joint_tree,

@@ -46,6 +46,47 @@ struct JointColumnsArgs {
   uint32_t first_block;
 };
 
+/// Characters that a batch evaluates together, one lane each.
+constexpr uint32_t kBatchLanes = 32;
+
+/// A piece of a joint matrix and the row of inputs that it is multiplied by.
+struct BatchPiece {
+  uint32_t piece;
+  uint32_t input;
+};
+
+/// Correctives of many characters, entry after entry: in each of the 32 lanes
+///
+///     controls[32 * outputs[e]] = min(1, weights[e] * product of clamp(controls[32 * input], 0,
+///     1))
+///
+/// over inputs[first_inputs[e]] ... inputs[first_inputs[e + 1] - 1], in this order.
+struct PsdBatchArgs {
+  const uint16_t* outputs;
+  const float* weights;
+  const uint32_t* first_inputs;
+  const uint16_t* inputs;
+  float* controls;  // 64-byte aligned
+  uint32_t count;
+};
+
+/// The sums of one block for many characters: for lanes k < lane_count (those up to the next
+/// multiple of batch_step may be written as well), for i in order:
+///
+///     sums[32 * r + k] += values(pieces[i].piece, r) * inputs[32 * pieces[i].input + k]
+///
+/// starting from 0, then times scales[r] (unless scales is null), saturated. Each sum has the bits
+/// that joint_columns gives.
+struct JointBatchArgs {
+  const void* values;  // as for joint_columns
+  const BatchPiece* pieces;
+  const float* inputs;  // 64-byte aligned
+  const float* scales;  // null or 8
+  float* sums;          // 64-byte aligned
+  uint32_t piece_count;
+  uint32_t lane_count;
+};
+
 /// One dense layer of a neural network: outputs[r] = f(sum over c of values(r, c) * inputs[c] +
 /// bias), in blocks of 16 rows. Within a block the 16 values of a column are adjacent:
 ///
@@ -234,6 +275,10 @@ struct KernelTable {
   const char* name;
   void (*joint_columns)(const JointColumnsArgs& args);        // of floats
   void (*joint_columns_fixed)(const JointColumnsArgs& args);  // of 16-bit integers
+  void (*joint_batch)(const JointBatchArgs& args);
+  void (*joint_batch_fixed)(const JointBatchArgs& args);
+  uint32_t batch_step;  // lanes that these take at a time
+  void (*psd_batch)(const PsdBatchArgs& args);
   /// sums[i] = sums[i] * scales[i] (unless scales is null), saturated; count is a multiple of 8.
   void (*finish_sums)(float* sums, const float* scales, size_t count);
   void (*dense_layer)(const DenseLayerArgs& args);

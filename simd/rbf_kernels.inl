@@ -2,7 +2,7 @@
 // RBF solvers: distances, weights, interpolation, normalization. Products and sums are rounded one
 // by one, in an order that does not depend on the width.
 
-#include "simd/joint_kernels.inl"
+#include "simd/vec.inl"
 
 namespace mien::MIEN_KERNEL_ISA {
 namespace {

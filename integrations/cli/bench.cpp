@@ -120,7 +120,9 @@ struct Engine {
   Rig rig;
   MienRigInfo info;
   std::vector<Instance> instances;
+  std::vector<MienInstance*> handles;
   std::vector<MienMutableFloatView> raw;
+  Batch batch;
 };
 
 struct Row {
@@ -152,7 +154,8 @@ struct Bench {
 
 // Preparation -----------------------------------------------------------------------------------
 
-Engine make_engine(const RigFile& file, const MienRigDesc& desc) {
+Engine make_engine(const RigFile& file, MienRigDesc desc) {
+  desc.reuse = MIEN_REUSE_NOTHING;  // samples repeat the same controls
   Engine engine;
   engine.rig = create_rig(file, desc);
   engine.info = rig_info(engine.rig.get());
@@ -162,10 +165,16 @@ Engine make_engine(const RigFile& file, const MienRigDesc& desc) {
     check(mien_instance_create(engine.rig.get(), nullptr, &made, &error), &error,
           "cannot make characters", file.shown);
     engine.instances.emplace_back(made);
+    engine.handles.push_back(made);
     MienMutableFloatView raw{};
     check(mien_instance_raw_controls(made, &raw), nullptr, "cannot make characters", file.shown);
     engine.raw.push_back(raw);
   }
+  auto error = sized<MienError>();
+  MienBatch* batch = nullptr;
+  check(mien_batch_create(engine.rig.get(), kCharacters, 1, nullptr, &batch, &error), &error,
+        "cannot make a crowd", file.shown);
+  engine.batch.reset(batch);
   return engine;
 }
 
@@ -229,12 +238,12 @@ void sample_row(Row& row, const ControlSets& controls, size_t number) {
     std::copy(source, source + controls.count, engine.raw[c].data);
   }
   MienStatus failed = MIEN_OK;
+  const std::vector<uint32_t> lods(row.characters, row.lod);
   const auto crowd = [&](uint32_t stages) {
-    for (uint32_t c = 0; c < row.characters; ++c) {
-      MienInstance* instance = engine.instances[c].get();
-      failed |= stages == MIEN_STAGE_ALL ? mien_rig_evaluate(rig, instance, row.lod)
-                                         : mien_rig_evaluate_stages(rig, instance, row.lod, stages);
-    }
+    failed |= row.characters == 1
+                  ? mien_rig_evaluate_stages(rig, engine.handles[0], row.lod, stages)
+                  : mien_rig_evaluate_batch(rig, engine.batch.get(), engine.handles.data(),
+                                            lods.data(), row.characters, stages, nullptr);
   };
   const auto time = [&](uint32_t stages) { return time_per_pass([&] { crowd(stages); }); };
   crowd(MIEN_STAGE_ALL);  // clears what another LOD left behind

@@ -60,6 +60,7 @@ struct Destroy {
 using Dna = std::unique_ptr<MienDna, Destroy<MienDna, mien_dna_close>>;
 using Rig = std::unique_ptr<MienRig, Destroy<MienRig, mien_rig_destroy>>;
 using Instance = std::unique_ptr<MienInstance, Destroy<MienInstance, mien_instance_destroy>>;
+using Batch = std::unique_ptr<MienBatch, Destroy<MienBatch, mien_batch_destroy>>;
 using Report = std::unique_ptr<MienReport, Destroy<MienReport, mien_report_destroy>>;
 
 inline std::string to_string(MienStringView view) { return std::string(view.data, view.count); }

@@ -18,7 +18,7 @@ endfunction()
 
 help(overview)
 string(REGEX MATCH "Subcommands:\n(  [a-z][^\n]*\n)+" commands "${overview_plain}")
-string(REGEX MATCHALL "\n  [a-z]+" commands "${commands}")
+string(REGEX MATCHALL "\n  [a-z-]+" commands "${commands}")
 if(NOT commands)
   message(FATAL_ERROR "`${PROGRAM} help` lists no subcommands that this script can read")
 endif()

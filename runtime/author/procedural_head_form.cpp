@@ -67,13 +67,13 @@ namespace {
 // y, half width, front, back, exponent
 constexpr int kKnotColumns = 5;
 constexpr double kKnots[][kKnotColumns] = {
-    {-18.4, 9.6, 3.6, -7.6, 2.3},  {-17.6, 8.7, 3.75, -7.5, 2.25}, {-16.6, 6.5, 3.6, -7.1, 2.15},
-    {-15.4, 4.5, 3.35, -6.5, 2.1}, {-14.0, 3.8, 3.4, -6.0, 2.05},  {-12.4, 3.65, 4.0, -5.8, 2.0},
+    {-18.4, 9.6, 3.6, -7.6, 2.3},   {-17.6, 8.7, 3.75, -7.5, 2.25}, {-16.6, 6.5, 3.6, -7.1, 2.15},
+    {-15.4, 4.5, 3.35, -6.5, 2.1},  {-14.0, 3.8, 3.4, -6.0, 2.05},  {-12.4, 3.65, 4.0, -5.8, 2.0},
     {-11.5, 3.85, 5.0, -5.75, 2.0}, {-10.8, 4.15, 6.9, -5.8, 2.0},  {-10.2, 4.4, 8.25, -5.85, 2.0},
-    {-9.2, 4.95, 8.75, -6.0, 2.0}, {-8.0, 5.6, 8.65, -6.3, 2.05},   {-6.0, 6.2, 8.8, -6.9, 2.1},
-    {-4.0, 6.85, 9.0, -7.8, 2.15}, {-1.5, 7.4, 9.15, -8.9, 2.2},   {0.6, 7.65, 9.25, -9.6, 2.25},
-    {3.0, 7.85, 9.45, -10.0, 2.3}, {5.0, 7.85, 9.4, -10.1, 2.3},   {7.5, 7.45, 8.75, -9.7, 2.25},
-    {9.8, 6.3, 7.2, -8.5, 2.2},    {11.4, 4.6, 4.9, -6.6, 2.15},   {12.25, 2.7, 2.3, -4.0, 2.1},
+    {-9.2, 4.95, 8.75, -6.0, 2.0},  {-8.0, 5.6, 8.65, -6.3, 2.05},  {-6.0, 6.2, 8.8, -6.9, 2.1},
+    {-4.0, 6.85, 9.0, -7.8, 2.15},  {-1.5, 7.4, 9.15, -8.9, 2.2},   {0.6, 7.65, 9.25, -9.6, 2.25},
+    {3.0, 7.85, 9.45, -10.0, 2.3},  {5.0, 7.85, 9.4, -10.1, 2.3},   {7.5, 7.45, 8.75, -9.7, 2.25},
+    {9.8, 6.3, 7.2, -8.5, 2.2},     {11.4, 4.6, 4.9, -6.6, 2.15},   {12.25, 2.7, 2.3, -4.0, 2.1},
     {12.6, 0.6, -0.3, -1.5, 2.0},
 };
 constexpr int kKnotCount = sizeof(kKnots) / sizeof(kKnots[0]);
@@ -124,10 +124,11 @@ Form::Section Form::section(double y, double cosine) const {
   };
   Section s = {at(1), at(2), at(3), at(4)};
   // The nape has no jaw.
-  static constexpr double kNape[][2] = {{-18.4, 9.6}, {-16.6, 6.7}, {-15.4, 4.8}, {-13.6, 4.0},
-                                        {-10.5, 4.2}, {-7.5, 5.1},  {-4.5, 6.35}, {-1.5, 7.25},
-                                        {0.6, 7.65}};
-  if (y < 0.6) s.half_width = mix(s.half_width, interpolate(y, kNape), smooth_step(0.15, -0.6, cosine));
+  static constexpr double kNape[][2] = {{-18.4, 9.6}, {-16.6, 6.7}, {-15.4, 4.8},
+                                        {-13.6, 4.0}, {-10.5, 4.2}, {-7.5, 5.1},
+                                        {-4.5, 6.35}, {-1.5, 7.25}, {0.6, 7.65}};
+  if (y < 0.6)
+    s.half_width = mix(s.half_width, interpolate(y, kNape), smooth_step(0.15, -0.6, cosine));
   s.half_width *= mix(1, person_.jaw, bump(0, y, 0, -8, 1, 3.2));
   s.half_width *= mix(1, person_.cranium, smooth_step(0, 6, y));
   return s;
@@ -161,32 +162,32 @@ double Form::relief(double x, double y) const {
   const Person& p = person_;
   // Ridge of the nose, its height and its half width.
   static constexpr double kRidge[][2] = {{-3.95, 0.0}, {-3.55, 0.30}, {-3.0, 1.65}, {-2.55, 2.0},
-                                         {-1.5, 1.45}, {0.4, 0.66},  {2.3, 0.32},  {4.4, 0.0}};
-  static constexpr double kWidth[][2] = {{-3.4, 0.86}, {-2.5, 0.92}, {-1.5, 0.66}, {0.4, 0.55},
-                                         {2.2, 0.95},  {4.0, 1.6}};
+                                         {-1.5, 1.45}, {0.4, 0.66},   {2.3, 0.32},  {4.4, 0.0}};
+  static constexpr double kWidth[][2] = {{-3.4, 0.86}, {-2.5, 0.92}, {-1.5, 0.66},
+                                         {0.4, 0.55},  {2.2, 0.95},  {4.0, 1.6}};
   double z =
       p.nose * interpolate(y, kRidge) * bump(x, 0, 0, 0, p.nose_width * interpolate(y, kWidth), 1);
   struct Bump {
     double amount, cx, cy, sx, sy;
   };
   const Bump bumps[] = {
-      {-1.0, 3.4, 0.4, 2.1, 1.5},                          // sockets
+      {-1.0, 3.4, 0.4, 2.1, 1.5},                               // sockets
       {-0.70, 1.62, 0.35, 0.55, 1.1},                           // inner corners of the eyes
-      {0.18, 2.9, 3.3, 2.2, 0.8},                             // brow ridge
+      {0.18, 2.9, 3.3, 2.2, 0.8},                               // brow ridge
       {0.62 * p.nose, 1.10 * p.nose_width, -2.85, 0.46, 0.48},  // wings of the nose
-      {-0.20, 0.60, -3.42, 0.30, 0.20},                        // nostrils
-      {0.55 * p.cheek, 4.4, -1.6, 1.7, 1.3},                   // cheekbones
-      {0.25, 2.6, -2.6, 1.2, 1.2},                             // apple of the cheek
-      {-0.40 * p.cheek, 5.0, -5.4, 1.3, 1.7},                  // hollow of the cheek
-      {0.80, 0, -5.7, 2.6, 1.9},                               // muzzle
-      {0.34 * p.lips, 0.55, -5.55, 1.15, 0.40},                // upper lip
-      {0.46 * p.lips, 0.30, -6.68, 1.20, 0.46},                // lower lip
-      {-0.20, 2.8, -5.95, 0.5, 0.6},                        // corners of the mouth
-      {-0.13, 0, -4.75, 0.30, 0.55},                           // philtrum
-      {-0.46, 0, -7.75, 1.5, 0.48},                            // fold above the chin
-      {0.62 * p.chin, 0, -9.2, 1.5, 1.0},                   // chin
-      {0.20, 1.6, 5.4, 2.6, 1.6},                              // forehead
-      {-0.25, 6.4, 2.2, 1.0, 1.8},                             // temples
+      {-0.20, 0.60, -3.42, 0.30, 0.20},                         // nostrils
+      {0.55 * p.cheek, 4.4, -1.6, 1.7, 1.3},                    // cheekbones
+      {0.25, 2.6, -2.6, 1.2, 1.2},                              // apple of the cheek
+      {-0.40 * p.cheek, 5.0, -5.4, 1.3, 1.7},                   // hollow of the cheek
+      {0.80, 0, -5.7, 2.6, 1.9},                                // muzzle
+      {0.34 * p.lips, 0.55, -5.55, 1.15, 0.40},                 // upper lip
+      {0.46 * p.lips, 0.30, -6.68, 1.20, 0.46},                 // lower lip
+      {-0.20, 2.8, -5.95, 0.5, 0.6},                            // corners of the mouth
+      {-0.13, 0, -4.75, 0.30, 0.55},                            // philtrum
+      {-0.46, 0, -7.75, 1.5, 0.48},                             // fold above the chin
+      {0.62 * p.chin, 0, -9.2, 1.5, 1.0},                       // chin
+      {0.20, 1.6, 5.4, 2.6, 1.6},                               // forehead
+      {-0.25, 6.4, 2.2, 1.0, 1.8},                              // temples
   };
   for (const Bump& b : bumps) z += b.amount * bump(std::abs(x), y, b.cx, b.cy, b.sx, b.sy);
   return z;
@@ -223,8 +224,9 @@ FacePoint Form::face(double angle, double y, Side side) const {
                    : kCentreZ - (kCentreZ - at.back) * along;
 
   // Rows rise towards the back around the jaw, so that its edge runs up to the ear.
-  p.y = y + 2.6 * smooth_step(0.98, -0.05, cosine) * smooth_step(-0.95, -0.2, cosine) *
-                  bump(0, y, 0, -10.2, 1, 3.3) -
+  p.y = y +
+        2.6 * smooth_step(0.98, -0.05, cosine) * smooth_step(-0.95, -0.2, cosine) *
+            bump(0, y, 0, -10.2, 1, 3.3) -
         0.9 * smooth_step(0.2, -0.9, cosine) * bump(0, y, 0, -9, 1, 3);
   // Rows of the eyes and of the mouth follow the edges of lids and lips.
   const double s = along_eye(p.x);

@@ -174,7 +174,8 @@ void add_lashes(const Form& form, uint32_t lod, HalfMesh& out) {
       const double full =
           exact_pow(std::max(0.0, 1 - s * s), 0.30) * mix(0.55, 1.15, 0.5 + 0.5 * s);
       const FacePoint edge = form.face(form.angle_of(x, kEye.y), kEye.y, Side::kAbove);
-      const double radius[] = {kLidRadius - 0.05, kLidRadius + 0.30 * full, kLidRadius + 0.08 * full, kLidRadius - 0.03};
+      const double radius[] = {kLidRadius - 0.05, kLidRadius + 0.30 * full,
+                               kLidRadius + 0.08 * full, kLidRadius - 0.03};
       const double lift[] = {-0.03, 0.075 * full, 0.06, 0.06};
       const double line_y = form.lid_line(x) - kEye.y, dx = x - kEye.x;
       const double z =
@@ -247,18 +248,20 @@ void add_hair(const Form& form, uint32_t lod, HalfMesh& out) {
     for (uint32_t k = 0; k < columns; ++k) {
       const double share = static_cast<double>(k) / (columns - 1), angle = share * kPi;
       const double front = smooth_step(0.46, 0.0, share);
-      // Locks, combed back: round ridges between sharp furrows, which end in points at the hair line.
-      const double phase = 9.5 * angle + 1.1 * exact_sine(2.2 * angle) - 1.6 * t * (1 - front) + 0.8;
+      // Locks, combed back: round ridges between sharp furrows, which end in points at the hair
+      // line.
+      const double phase =
+          9.5 * angle + 1.1 * exact_sine(2.2 * angle) - 1.6 * t * (1 - front) + 0.8;
       const double lock = 2 * std::sqrt(std::abs(exact_sine(phase))) - 1;
       const double fine = exact_sine(5 * phase + 2.0 * t);
       const double line = line_at(share) - (0.20 + 0.22 * front) * (lock - 0.3);
       const double y = mix(line, kCrownY, 1 - exact_pow(1 - t, 1.35));
       const Vec3 skin = form.face(angle, y, Side::kAbove).closed;
-      const Vec3 normal =
-          unit({skin.x / (7.8 * 7.8), (skin.y - 2.5) / (10.2 * 10.2), (skin.z + 0.4) / (9.7 * 9.7)});
+      const Vec3 normal = unit(
+          {skin.x / (7.8 * 7.8), (skin.y - 2.5) / (10.2 * 10.2), (skin.z + 0.4) / (9.7 * 9.7)});
       const double rise = smooth_step(0, 0.12 + 0.05 * front, t);
-      double thick = mix(0.48, 1.15, smooth_step(0.15, 0.8, t)) +
-                     1.0 * front * bump(t, 0, 0.24, 0, 0.22, 1);
+      double thick =
+          mix(0.48, 1.15, smooth_step(0.15, 0.8, t)) + 1.0 * front * bump(t, 0, 0.24, 0, 0.22, 1);
       thick += (0.16 + 0.10 * front) * lock * smooth_step(1.0, 0.6, t) + 0.02 * fine;
       Vec3 at = skin + normal * mix(-0.30, thick, rise);
       at.y += 0.8 * front * rise * bump(t, 0, 0.20, 0, 0.22, 1);

@@ -195,9 +195,7 @@ Vec3 move_with_jaw(const JointTurns& turns, Vec3 p) {
 namespace {
 
 /// 0 on the lids, which stay on their ball, 1 away from them.
-double off_lids(Vec3 look) {
-  return smooth_step(0.95, 2.2, from_lids(std::abs(look.x), look.y));
-}
+double off_lids(Vec3 look) { return smooth_step(0.95, 2.2, from_lids(std::abs(look.x), look.y)); }
 
 /// Where the mouth opens: 1 in the middle, 0 from the corners on, round.
 double between_corners(double x) {

@@ -85,8 +85,8 @@ class SkinMaker {
     const double keys[4] = {kBottomY, kMouthY, kEye.y, kCrownY};
     const auto density = [](double y) {
       return 1 + 2.6 * bump(0, y, 0, kMouthY, 1, 1.3) + 2.4 * bump(0, y, 0, kEye.y + 0.1, 1, 1.5) +
-             1.6 * bump(0, y, 0, -3.4, 1, 0.9) + 1.2 * bump(0, y, 0, -15.2, 1, 0.7) - 0.35 * smooth_step(-12, -14, y) -
-             0.35 * smooth_step(6, 9, y);
+             1.6 * bump(0, y, 0, -3.4, 1, 0.9) + 1.2 * bump(0, y, 0, -15.2, 1, 0.7) -
+             0.35 * smooth_step(-12, -14, y) - 0.35 * smooth_step(6, 9, y);
     };
     for (int k = 0; k < 3; ++k) {
       spread(keys[k], keys[k + 1], grid_.rows[k], density, heights_ + rows_);

@@ -3,16 +3,10 @@
 // checked when it was made, and callers check mesh numbers and rooms.
 #pragma once
 
+#include "runtime/base/parallel_for.h"
 #include "runtime/deform/pose.h"
 
 namespace mien {
-
-/// MienParallelFor of mien.h. Without `run` all happens on this thread.
-struct ParallelFor {
-  void* user = nullptr;
-  void (*run)(void* user, uint32_t count, void (*task)(void* context, uint32_t index),
-              void* context) = nullptr;
-};
 
 /// One mesh of poses of one deformer, all different, all with room for it. `normals` is not
 /// kDefault.

@@ -2,6 +2,7 @@
 #include "runtime/eval/evaluate.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace mien {
 namespace {
@@ -18,6 +19,39 @@ void enter_lod(const Rig& rig, Instance& instance, uint32_t lod) {
             instance.controls.begin() + rig.raw_count);
   clear_outputs(instance);
 }
+
+bool same_bits(const float* a, const float* b, size_t count) {
+  return count == 0 || memcmp(a, b, count * sizeof(float)) == 0;
+}
+
+/// Whether `seen`, which becomes `now`, differed from it. Marks the chunks of the joint matrix that
+/// read the controls `first` ... that did.
+bool note_changes(const Rig& rig, Instance& instance, uint32_t first, const Span<float>& seen) {
+  const float* now = instance.controls.data + first;
+  if (same_bits(seen.data, now, seen.count)) return false;
+  for (size_t i = 0; i < seen.count; ++i) {
+    if (same_bits(&seen[i], &now[i], 1)) continue;
+    instance.stale_chunks |= rig.joints.control_chunks[first + i];
+    seen[i] = now[i];
+  }
+  return true;
+}
+
+/// Looks for what the caller changed.
+void find_changes(const Rig& rig, Instance& instance) {
+  if (rig.always_evaluate) return forget_results(instance);
+  if (note_changes(rig, instance, 0, instance.seen_inputs.first(rig.raw_count))) {
+    instance.stale_stages = kStagesAll;
+  }
+  const Span<float> seen = instance.seen_inputs.slice(rig.raw_count, rig.mask_count);
+  if (same_bits(seen.data, instance.masks.data, seen.count)) return;
+  std::copy(instance.masks.begin(), instance.masks.end(), seen.begin());
+  instance.stale_stages |= kStageMl;
+}
+
+/// Stages that read controls of networks and poses, or correctives.
+constexpr uint32_t kStagesOutputs = kStageJoints | kStageBlendShapes | kStageAnimatedMaps;
+constexpr uint32_t kStagesBehindMl = kStageRbf | kStagePsd | kStagesOutputs;
 
 // rig-evaluation 2.2, without the final clamp.
 void add_table_rows(const ControlTable& table, uint32_t row_count, const Span<float>& inputs,
@@ -38,22 +72,30 @@ void evaluate_psds(const Rig& rig, Instance& instance, uint32_t lod) {
   const PsdTable& psds = rig.psds;
   float* controls = instance.controls.data;
   const uint32_t count = psds.count_at_lod[lod];
+  uint64_t chunks = 0;
+  bool changed = false;
   for (uint32_t i = 0; i < count; ++i) {
     float product = 1.0f;
     for (uint32_t k = psds.first_input[i]; k < psds.first_input[i + 1]; ++k) {
       product *= clamp01(controls[psds.inputs[k]]);
     }
     product *= psds.weights[i];
-    controls[psds.outputs[i]] = product < 1.0f ? product : 1.0f;
+    const uint16_t output = psds.outputs[i];
+    const float value = product < 1.0f ? product : 1.0f;
+    if (value == controls[output]) continue;
+    controls[output] = value;
+    chunks |= rig.joints.control_chunks[output];
+    changed = true;
   }
+  note_changed_psds(instance, chunks, changed);
 }
 
 void evaluate_joints(const Rig& rig, Instance& instance, uint32_t lod) {
-  clear_ml_joints(rig, instance, lod);
-  evaluate_joint_rows(rig, instance, lod, kAllChunks, kAllGroups);
-  for (uint32_t g = 0; g < rig.joints.group_count; ++g) evaluate_rotations(rig, instance, lod, g);
-  for (const TwistSwing& setup : rig.twist_swing.setups) turn_setup(rig, instance, lod, setup);
-  add_ml_joints(rig, instance, lod);
+  // What networks add to joints must not be added twice.
+  const uint64_t chunks = rig.ml.joints.empty() ? instance.stale_chunks : kAllChunks;
+  begin_joints(rig, instance, lod);
+  evaluate_joint_rows(rig, instance, lod, chunks, kAllGroups);
+  finish_joints(rig, instance, lod);
 }
 
 // rig-evaluation 5.
@@ -118,30 +160,76 @@ void map_raw_to_gui(const Rig& rig, Instance& instance) {
   }
 }
 
+void note_changed_psds(Instance& instance, uint64_t chunks, bool changed) {
+  instance.stale_stages &= ~uint32_t{kStagePsd};
+  if (!changed) return;
+  instance.stale_chunks |= chunks;
+  instance.stale_stages |= kStagesOutputs;
+}
+
+void begin_joints(const Rig& rig, Instance& instance, uint32_t lod) {
+  clear_ml_joints(rig, instance, lod);
+}
+
+void finish_joints(const Rig& rig, Instance& instance, uint32_t lod) {
+  for (uint32_t g = 0; g < rig.joints.group_count; ++g) evaluate_rotations(rig, instance, lod, g);
+  for (const TwistSwing& setup : rig.twist_swing.setups) turn_setup(rig, instance, lod, setup);
+  add_ml_joints(rig, instance, lod);
+  instance.stale_chunks = 0;
+  instance.stale_stages &= ~uint32_t{kStageJoints};
+}
+
 void evaluate(const Rig& rig, Instance& instance, uint32_t lod, uint32_t stages) {
+  begin_evaluation(rig, instance, lod);
+  evaluate_stages(rig, instance, lod, stages);
+}
+
+void begin_evaluation(const Rig& rig, Instance& instance, uint32_t lod) {
   enter_lod(rig, instance, lod);
-  if (stages & kStageMl) evaluate_ml(rig, instance, lod);
-  if (stages & kStageRbf) evaluate_rbf(rig, instance, lod);
-  if (stages & kStagePsd) evaluate_psds(rig, instance, lod);
-  if (stages & kStageJoints) evaluate_joints(rig, instance, lod);
-  if (stages & kStageBlendShapes) evaluate_blend_shapes(rig, instance, lod);
-  if (stages & kStageAnimatedMaps) evaluate_animated_maps(rig, instance, lod);
+  find_changes(rig, instance);
+}
+
+void evaluate_stages(const Rig& rig, Instance& instance, uint32_t lod, uint32_t stages) {
+  const auto runs = [&](uint32_t stage) {
+    if ((stages & instance.stale_stages & stage) == 0) return false;
+    instance.stale_stages &= ~stage;
+    return true;
+  };
+  if (runs(kStageMl)) {
+    evaluate_ml(rig, instance, lod);
+    if (note_changes(rig, instance, rig.raw_count + rig.psd_count, instance.seen_behind)) {
+      instance.stale_stages |= kStagesBehindMl;
+    }
+  }
+  if (runs(kStageRbf)) {
+    evaluate_rbf(rig, instance, lod);
+    if (note_changes(rig, instance, rig.raw_count + rig.psd_count, instance.seen_behind)) {
+      instance.stale_stages |= kStagePsd | kStagesOutputs;
+    }
+  }
+  if (runs(kStagePsd)) evaluate_psds(rig, instance, lod);
+  if (runs(kStageJoints)) evaluate_joints(rig, instance, lod);
+  if (runs(kStageBlendShapes)) evaluate_blend_shapes(rig, instance, lod);
+  if (runs(kStageAnimatedMaps)) evaluate_animated_maps(rig, instance, lod);
 }
 
 void evaluate_joint_group(const Rig& rig, Instance& instance, uint32_t lod, uint32_t group) {
   enter_lod(rig, instance, lod);
   evaluate_joint_rows(rig, instance, lod, kAllChunks, group);
   evaluate_rotations(rig, instance, lod, group);
+  forget_results(instance);
 }
 
 void evaluate_rbf_solver(const Rig& rig, Instance& instance, uint32_t lod, uint32_t solver) {
   enter_lod(rig, instance, lod);
   solve_rbf(rig, instance, solver);
+  forget_results(instance);
 }
 
 void evaluate_twist_swing(const Rig& rig, Instance& instance, uint32_t lod, uint32_t setup) {
   enter_lod(rig, instance, lod);
   turn_setup(rig, instance, lod, rig.twist_swing.setups[setup]);
+  forget_results(instance);
 }
 
 }  // namespace mien

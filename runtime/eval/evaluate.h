@@ -24,6 +24,11 @@ void map_raw_to_gui(const Rig& rig, Instance& instance);
 /// The stages named, in the order above.
 void evaluate(const Rig& rig, Instance& instance, uint32_t lod, uint32_t stages);
 
+// Its two halves, for what happens in between: looking for changes, then the stages that they
+// concern.
+void begin_evaluation(const Rig& rig, Instance& instance, uint32_t lod);
+void evaluate_stages(const Rig& rig, Instance& instance, uint32_t lod, uint32_t stages);
+
 /// The joint values of one group; the others are left alone, and so are values that a later group
 /// writes instead.
 void evaluate_joint_group(const Rig& rig, Instance& instance, uint32_t lod, uint32_t group);
@@ -36,11 +41,30 @@ void evaluate_twist_swing(const Rig& rig, Instance& instance, uint32_t lod, uint
 
 // Stages in files of their own; `lod` has been entered.
 
+/// Calls f(target, number of rows) for what a LOD writes of a chunk of the joint matrix.
+template <class F>
+void for_each_target(const Rig& rig, uint32_t lod, uint32_t chunk, F&& f) {
+  const JointMatrix& joints = rig.joints;
+  const uint16_t* threes = joints.threes_at_lod.data + size_t{chunk} * rig.lod_count;
+  const uint16_t* ones = joints.ones_at_lod.data + size_t{chunk} * rig.lod_count;
+  const JointTarget* targets = joints.targets.data + joints.chunks[chunk].first_target;
+  for (uint32_t t = 0; t < threes[lod]; ++t) f(targets[t], 3);
+  targets += threes[0];
+  for (uint32_t t = 0; t < ones[lod]; ++t) f(targets[t], 1);
+}
+
 constexpr uint64_t kAllChunks = ~uint64_t{0};
 constexpr uint32_t kAllGroups = ~uint32_t{0};
 /// Rows of the chunks that are marked (bit c >> chunk_shift for chunk c).
 void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, uint64_t marks,
                          uint32_t only_group);
+/// Correctives were evaluated: whether any changed, and which chunks of the joint matrix they
+/// drive.
+void note_changed_psds(Instance& instance, uint64_t chunks, bool changed);
+
+/// The joint stage without its rows, before and after them.
+void begin_joints(const Rig& rig, Instance& instance, uint32_t lod);
+void finish_joints(const Rig& rig, Instance& instance, uint32_t lod);
 
 void evaluate_ml(const Rig& rig, Instance& instance, uint32_t lod);
 /// Starts the joints of learned behaviour from no delta; they add to what the groups write.

@@ -68,37 +68,26 @@ void sum_tile(const Rig& rig, const Instance& instance, ActiveColumns& active, T
   rig.kernels->finish_sums(tile.sums, scales, sum_count);
 }
 
-/// Calls f(target, sums, number of rows) for what a LOD writes of a chunk.
-template <class F>
-void for_each_target(const Rig& rig, uint32_t lod, const Tile& tile, uint32_t chunk, F&& f) {
-  const JointMatrix& joints = rig.joints;
-  const JointChunk& at = joints.chunks[chunk];
-  const uint32_t first_block = joints.chunks[tile.first_chunk].first_block;
-  const float* sums = tile.sums + size_t{at.first_block - first_block} * kPieceRows;
-  const uint16_t* threes = joints.threes_at_lod.data + size_t{chunk} * rig.lod_count;
-  const uint16_t* ones = joints.ones_at_lod.data + size_t{chunk} * rig.lod_count;
-  const JointTarget* targets = joints.targets.data + at.first_target;
-  for (uint32_t t = 0; t < threes[lod]; ++t) f(targets[t], sums + targets[t].slot, 3);
-  targets += threes[0];
-  for (uint32_t t = 0; t < ones[lod]; ++t) f(targets[t], sums + targets[t].slot, 1);
-}
-
 /// Rows of one group only, or of all.
 void write_tile(const Rig& rig, Instance& instance, uint32_t lod, const Tile& tile,
                 uint32_t only_group) {
+  const JointMatrix& joints = rig.joints;
+  const uint32_t first_block = joints.chunks[tile.first_chunk].first_block;
   float* out = instance.joints_and_angles.data;
-  const auto write = [out](const JointTarget& target, const float* sums, int rows) {
-    out[target.output] = sums[0];
-    if (rows == 1) return;
-    out[target.output + 1] = sums[1];
-    out[target.output + 2] = sums[2];
-  };
   for (uint32_t c = tile.first_chunk; c < tile.end_chunk; ++c) {
+    const float* sums = tile.sums + size_t{joints.chunks[c].first_block - first_block} * kPieceRows;
+    const auto write = [&](const JointTarget& target, int rows) {
+      const float* sum = sums + target.slot;
+      out[target.output] = sum[0];
+      if (rows == 1) return;
+      out[target.output + 1] = sum[1];
+      out[target.output + 2] = sum[2];
+    };
     if (only_group == kAllGroups) {
-      for_each_target(rig, lod, tile, c, write);
+      for_each_target(rig, lod, c, write);
     } else {
-      for_each_target(rig, lod, tile, c, [&](const JointTarget& target, const float* s, int rows) {
-        if (target.group == only_group) write(target, s, rows);
+      for_each_target(rig, lod, c, [&](const JointTarget& target, int rows) {
+        if (target.group == only_group) write(target, rows);
       });
     }
   }

@@ -17,6 +17,10 @@ void place_instance(const Rig& rig, Placer& placer, Instance& instance) {
   instance.joints = instance.joints_and_angles.first(rig.joint_value_count());
   instance.channels = placer.array<float>(rig.channel_count, kBlockAlignment);
   instance.maps = placer.array<float>(rig.map_count, kBlockAlignment);
+  instance.seen_inputs =
+      placer.array<float>(size_t{rig.raw_count} + rig.mask_count, kBlockAlignment);
+  instance.seen_behind =
+      placer.array<float>(rig.control_count - rig.raw_count - rig.psd_count, kBlockAlignment);
   instance.turns =
       placer.array<float>(4 * align_up(rig.rotations.most_turns, kBlockRows), kBlockAlignment);
   instance.ml_values = placer.array<float>(rig.ml.buffer_size, kBlockAlignment);
@@ -68,6 +72,7 @@ void destroy_instance(Instance* instance) {
 
 void clear_outputs(Instance& instance) {
   const Rig& rig = *instance.rig;
+  forget_results(instance);
   fill(instance.joints_and_angles, 0.0f);
   if (rig.quaternion_outputs) {
     for (uint32_t j = 0; j < rig.joint_count; ++j) {

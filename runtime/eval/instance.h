@@ -10,8 +10,9 @@
 namespace mien {
 
 struct Instance {
-  uint32_t tag = 0;  // first, for the C API to recognise its handles
-  uint32_t lod = 0;  // of the last evaluation: outputs that it does not reach are 0
+  uint32_t tag = 0;       // first, for the C API to recognise its handles
+  uint32_t lod = 0;       // of the last evaluation: outputs that it does not reach are 0
+  bool in_batch = false;  // while a batch is checked
   const Rig* rig = nullptr;
   Allocator allocator;
   size_t block_size = 0;
@@ -23,6 +24,12 @@ struct Instance {
   Span<float> joints_and_angles;  // joints; with quaternion outputs, 3 angles per joint behind them
   Span<float> channels;
   Span<float> maps;
+
+  // What the results were made of: whatever differs from this is evaluated anew.
+  Span<float> seen_inputs;    // raw controls, then masks
+  Span<float> seen_behind;    // controls behind the correctives: of networks, poses, absent layers
+  uint32_t stale_stages = 0;  // MIEN_STAGE_...
+  uint64_t stale_chunks = 0;  // of the joint matrix
 
   Span<float> turns;          // scratch: the quaternions of the group with most
   Span<float> ml_values;      // what the ML steps give, for each other
@@ -39,6 +46,12 @@ size_t instance_size(const Rig& rig);
 /// In its initial state, at LOD 0. Becomes an owner of the rig. Null if memory ran out.
 Instance* create_instance(const Rig& rig, const Allocator& allocator);
 void destroy_instance(Instance* instance);
+
+/// Everything is evaluated anew next time.
+inline void forget_results(Instance& instance) {
+  instance.stale_stages = ~uint32_t{0};
+  instance.stale_chunks = ~uint64_t{0};
+}
 
 /// Outputs as after creation.
 void clear_outputs(Instance& instance);

@@ -172,7 +172,8 @@ Status fill_psds(const dna::DnaView& view, Span<uint8_t> reach, Arena& scratch, 
   Span<uint32_t> next_use = scratch.array<uint32_t>(entries);
   Span<uint32_t> waits_for = scratch.array<uint32_t>(count);
   Span<uint32_t> order = scratch.array<uint32_t>(count);
-  if (!first.data || !last_use.data || !waits_for.data || !order.data ||
+  Span<uint32_t> depth = scratch.array<uint32_t>(count);  // of the longest chain behind it
+  if (!first.data || !last_use.data || !waits_for.data || !order.data || !depth.data ||
       (entries && (!by_psd.data || !next_use.data))) {
     return no_scratch(error);
   }
@@ -204,6 +205,7 @@ Status fill_psds(const dna::DnaView& view, Span<uint8_t> reach, Arena& scratch, 
   for (uint32_t i = 0; i < ready; ++i) {
     for (uint32_t e = last_use[order[i]]; e != kNone; e = next_use[e]) {
       const uint32_t user = table.rows[e] - first_psd;
+      depth[user] = std::max(depth[user], depth[order[i]] + 1);
       if (--waits_for[user] == 0) order[ready++] = user;
     }
   }
@@ -226,14 +228,19 @@ Status fill_psds(const dna::DnaView& view, Span<uint8_t> reach, Arena& scratch, 
     }
   }
 
-  // Those of all LODs first, those of the finest last; an input reaches as far as its user, so the
-  // order above stays right within. (Counting sort: stable, and reach is at most kMaxLods.)
-  uint32_t begin[kMaxLods + 2] = {};
-  for (uint32_t p = 0; p < count; ++p) ++begin[rig.lod_count - reach[first_psd + p] + 1];
-  for (uint32_t l = 0; l <= rig.lod_count; ++l) begin[l + 1] += begin[l];
-  for (uint32_t l = 0; l < rig.lod_count; ++l) psds.count_at_lod[l] = begin[rig.lod_count - l];
-  for (uint32_t p : order) {
-    psds.entry_of_psd[p] = static_cast<uint16_t>(begin[rig.lod_count - reach[first_psd + p]]++);
+  // Those of all LODs first, those of the finest last: an input reaches as far as its user. Among
+  // them those that depend on fewer others; then by their number of inputs, so that evaluation
+  // meets long runs of the same.
+  const auto reach_of = [&](uint32_t p) { return reach[first_psd + p]; };
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    if (reach_of(a) != reach_of(b)) return reach_of(a) > reach_of(b);
+    if (depth[a] != depth[b]) return depth[a] < depth[b];
+    const uint32_t inputs_a = first[a + 1] - first[a], inputs_b = first[b + 1] - first[b];
+    return inputs_a != inputs_b ? inputs_a < inputs_b : a < b;
+  });
+  for (uint32_t i = 0; i < count; ++i) {
+    psds.entry_of_psd[order[i]] = static_cast<uint16_t>(i);
+    for (uint32_t l = 0; l < reach_of(order[i]); ++l) psds.count_at_lod[l] = i + 1;
   }
   for (uint32_t p = 0; p < count; ++p) {
     const uint32_t entry = psds.entry_of_psd[p];

@@ -179,10 +179,43 @@ uint32_t count_controls(const DnaView& view) {
   return count;
 }
 
+/// True if a stage reads what a later one, or itself, gives: then results depend on the evaluation
+/// before, and equal inputs do not mean equal results.
+bool reads_back(const DnaView& view) {
+  const uint32_t raw_count = view.defn.raw_control_names.count;
+  const auto not_raw = [&](const auto& inputs) {
+    for (uint32_t i = 0; i < inputs.count; ++i) {
+      if (inputs[i] >= raw_count) return true;
+    }
+    return false;
+  };
+  for (const dna::NeuralNetwork& network : view.mlbh.networks) {
+    if (not_raw(network.input_indices)) return true;
+  }
+  for (const dna::MlType& type : view.mlbe.types) {
+    for (const auto& set : type.operations) {
+      for (const dna::MlOperation& operation : set) {
+        if (operation.type == uint16_t(dna::MlOperationType::kGather) &&
+            not_raw(operation.parameters)) {
+          return true;
+        }
+      }
+    }
+  }
+  for (const dna::RbfSolver& solver : view.rbfb.solvers) {
+    if (not_raw(solver.raw_control_indices)) return true;
+  }
+  for (const dna::RbfPoseControls& pose : view.rbfe.poses) {
+    if (not_raw(pose.input_control_indices)) return true;
+  }
+  return false;
+}
+
 void count_things(const DnaView& view, const CompileOptions& options, Rig& rig) {
   const dna::Definition& defn = view.defn;
   rig.quaternion_outputs = options.quaternion_outputs;
   rig.half_storage = options.half_storage;
+  rig.always_evaluate = options.always_evaluate || reads_back(view);
   if (rig.quaternion_outputs) rig.joint_attributes = kFileAttributes + 1;
   rig.lod_count = view.desc.lod_count;
   rig.gui_count = defn.gui_control_names.count;

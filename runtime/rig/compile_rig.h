@@ -14,7 +14,8 @@ struct CompileOptions {
   const KernelTable* kernels = nullptr;
   bool quaternion_outputs = false;  // joint rotations as quaternions instead of Euler angles
   bool blend_masks = false;         // ML masks blend instead of switching
-  bool half_storage = false;        // matrices and weights in half precision
+  bool half_storage = false;        // matrices and weights in 16 bits
+  bool always_evaluate = false;     // results are never kept, even if their inputs did not change
 };
 
 /// Packs a checked view (definition and behavior loaded). On success `out` is one block of

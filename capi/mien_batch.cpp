@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Many instances at once.
+#include "capi/handles.h"
+#include "runtime/eval/batch.h"
+#include "runtime/eval/evaluate.h"
+
+using namespace mien;
+using namespace mien::capi;
+
+namespace {
+
+constexpr uint32_t kMostCapacity = 1u << 20;
+
+}  // namespace
+
+MienStatus mien_batch_create(const MienRig* rig, uint32_t capacity, uint32_t tasks,
+                             const MienAllocator* given, MienBatch** out_batch, MienError* error) {
+  if (MienStatus status = clear_output(out_batch, error)) return status;
+  if (MienStatus status = check(rig)) return give_error(error, status, "not a rig");
+  Allocator allocator;
+  if (read_allocator(given, allocator) != MIEN_OK) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
+  }
+  if (tasks == 0) tasks = 1;
+  if (capacity == 0 || capacity > kMostCapacity) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "a batch has room for 1 to %u instances, not %u", kMostCapacity, capacity);
+  }
+  Batch* batch = create_batch(*object(rig), capacity, tasks, allocator);
+  if (!batch) {
+    return give_error(error, MIEN_ERROR_MEMORY, "no memory for a batch of %zu bytes",
+                      batch_size(*object(rig), capacity, tasks));
+  }
+  batch->tag = kBatchTag;
+  *out_batch = reinterpret_cast<MienBatch*>(batch);
+  return succeed(error);
+}
+
+void mien_batch_destroy(MienBatch* batch) {
+  if (check(batch) == MIEN_OK) destroy_batch(object(batch));
+}
+
+MienStatus mien_batch_bytes(const MienRig* rig, uint32_t capacity, uint32_t tasks,
+                            uint64_t* out_bytes) {
+  if (!out_bytes) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_bytes = 0;
+  if (MienStatus status = check(rig)) return status;
+  if (capacity == 0 || capacity > kMostCapacity) return MIEN_ERROR_INVALID_ARGUMENT;
+  if (tasks == 0) tasks = 1;
+  *out_bytes = batch_size(*object(rig), capacity, tasks);
+  return MIEN_OK;
+}
+
+MienStatus mien_rig_evaluate_batch(const MienRig* handle, MienBatch* batch,
+                                   MienInstance* const* instances, const uint32_t* lods,
+                                   uint32_t count, uint32_t stages,
+                                   const MienParallelFor* parallel) {
+  if (MienStatus status = check(handle)) return status;
+  if (MienStatus status = check(batch)) return status;
+  const Rig& rig = *object(handle);
+  if (object(batch)->rig != &rig) return MIEN_ERROR_MISMATCH;
+  if (stages & ~uint32_t{kStagesAll}) return MIEN_ERROR_INVALID_ARGUMENT;
+  if (parallel && !parallel->run) return MIEN_ERROR_INVALID_ARGUMENT;
+  if (count == 0) return MIEN_OK;
+  if (!instances || !lods) return MIEN_ERROR_NULL_ARGUMENT;
+  if (count > object(batch)->capacity) return MIEN_ERROR_INVALID_ARGUMENT;
+
+  MienStatus status = MIEN_OK;
+  uint32_t marked = 0;
+  for (uint32_t i = 0; i < count && status == MIEN_OK; ++i) {
+    status = check(instances[i]);
+    if (status != MIEN_OK) break;
+    Instance& instance = *object(instances[i]);
+    if (instance.rig != &rig) {
+      status = MIEN_ERROR_MISMATCH;
+    } else if (lods[i] >= rig.lod_count) {
+      status = MIEN_ERROR_LOD;
+    } else if (instance.in_batch) {
+      status = MIEN_ERROR_INVALID_ARGUMENT;
+    } else {
+      instance.in_batch = true;
+      ++marked;
+    }
+  }
+  for (uint32_t i = 0; i < marked; ++i) object(instances[i])->in_batch = false;
+  if (status != MIEN_OK) return status;
+
+  ParallelFor run;
+  if (parallel) run = {parallel->user, parallel->run};
+  evaluate_batch(*object(batch), reinterpret_cast<Instance* const*>(instances), lods, count, stages,
+                 run);
+  return MIEN_OK;
+}

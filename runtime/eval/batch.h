@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Many instances of one rig at once: the joint matrix is fetched once for up to 32 of them.
+//
+//     instances  ->  by LOD, crowds of up to 32  ->  each crowd: stages before the correctives one
+//     by one, correctives and joint rows together, the rest one by one
+#pragma once
+
+#include "runtime/base/parallel_for.h"
+#include "runtime/eval/instance.h"
+
+namespace mien {
+
+/// Scratch of one task.
+struct CrowdScratch {
+  Span<float> controls;     // [control][32]
+  Span<float> sums;         // [row of a chunk][32]
+  Span<uint32_t> starts;    // [block], one more at the end: into pieces
+  Span<BatchPiece> pieces;  // of active columns, by block
+  Span<uint16_t> active;    // columns
+};
+
+struct Batch {
+  uint32_t tag = 0;  // first, for the C API to recognise its handles
+  uint32_t capacity = 0;
+  const Rig* rig = nullptr;
+  Allocator allocator;
+  size_t block_size = 0;
+
+  // All pieces of the joint matrix by block, in order of their columns.
+  Span<uint32_t> starts;  // [block], one more at the end
+  Span<BatchPiece> pieces;
+
+  Span<CrowdScratch> tasks;
+  Span<Instance*> order;          // by LOD
+  Span<uint32_t> lods;            // beside
+  Span<uint32_t> first_of_crowd;  // into order, one more at the end
+
+  // Of the evaluation that goes on.
+  uint32_t crowd_count = 0, task_count = 0, stages = 0;
+};
+
+size_t batch_size(const Rig& rig, uint32_t capacity, uint32_t tasks);
+
+/// Becomes an owner of the rig. Null if memory ran out.
+Batch* create_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, const Allocator& allocator);
+void destroy_batch(Batch* batch);
+
+/// Stages of all instances: different ones, of the batch's rig, no more than its capacity.
+void evaluate_batch(Batch& batch, Instance* const* instances, const uint32_t* lods, uint32_t count,
+                    uint32_t stages, const ParallelFor& parallel);
+
+}  // namespace mien
