@@ -81,17 +81,13 @@ struct Crowd {
   uint32_t lod;
 };
 
-/// Controls side by side; correctives are still 0.
+/// Controls side by side, 0 in the lanes of nobody.
 void gather_controls(const Crowd& crowd) {
-  const Rig& rig = crowd.rig;
   float* controls = crowd.scratch.controls.data;
   std::fill(controls, controls + crowd.scratch.controls.count, 0.0f);
   for (uint32_t i = 0; i < crowd.count; ++i) {
     const float* from = crowd.instances[i]->controls.data;
-    for (size_t c = 0; c < rig.raw_count; ++c) controls[c * kBatchLanes + i] = from[c];
-    for (size_t c = size_t{rig.raw_count} + rig.psd_count; c < rig.control_count; ++c) {
-      controls[c * kBatchLanes + i] = from[c];
-    }
+    for (size_t c = 0; c < crowd.rig.control_count; ++c) controls[c * kBatchLanes + i] = from[c];
   }
 }
 
@@ -109,7 +105,7 @@ void evaluate_psds(const Crowd& crowd) {
     for (uint32_t e = 0; e < count; ++e) {
       const size_t output = psds.outputs[e];
       const float value = controls[output * kBatchLanes + i];
-      if (value == instance.controls[output]) continue;
+      if (same_bits(value, instance.controls[output])) continue;
       instance.controls[output] = value;
       chunks |= crowd.rig.joints.control_chunks[output];
       changed = true;
@@ -211,18 +207,17 @@ void evaluate_crowd(const Crowd& crowd, uint32_t stages) {
     evaluate_stages(crowd.rig, instance, crowd.lod, stages & (kStageMl | kStageRbf));
   });
 
-  // Those that do not change have nothing to do with the others.
+  // Those that do not change have nothing to do with the others. Whoever is to have new correctives
+  // may turn out to need new joints.
   Instance* changed[kBatchLanes];
   Crowd those = {crowd.batch, crowd.rig, crowd.scratch, changed, 0, crowd.lod};
   each(crowd, [&](Instance& instance) {
-    const uint32_t wanted = stages & (kStagePsd | kStageJoints);
-    if ((wanted & instance.stale_stages) == (kStagePsd | kStageJoints)) {
-      changed[those.count++] = &instance;
-    }
+    const bool stale = (instance.stale_stages & (kStagePsd | kStageJoints)) != 0;
+    if (stale && (stages & kStageJoints)) changed[those.count++] = &instance;
   });
   if (those.count > 1) {
     gather_controls(those);
-    evaluate_psds(those);
+    if (stages & kStagePsd) evaluate_psds(those);
     const Work work = find_active(those);
     if (together_pays(those, work)) {
       each(those, [&](Instance& i) { begin_joints(crowd.rig, i, crowd.lod); });

@@ -20,7 +20,7 @@ void enter_lod(const Rig& rig, Instance& instance, uint32_t lod) {
   clear_outputs(instance);
 }
 
-bool same_bits(const float* a, const float* b, size_t count) {
+bool same_rows(const float* a, const float* b, size_t count) {
   return count == 0 || memcmp(a, b, count * sizeof(float)) == 0;
 }
 
@@ -28,9 +28,9 @@ bool same_bits(const float* a, const float* b, size_t count) {
 /// read the controls `first` ... that did.
 bool note_changes(const Rig& rig, Instance& instance, uint32_t first, const Span<float>& seen) {
   const float* now = instance.controls.data + first;
-  if (same_bits(seen.data, now, seen.count)) return false;
+  if (same_rows(seen.data, now, seen.count)) return false;
   for (size_t i = 0; i < seen.count; ++i) {
-    if (same_bits(&seen[i], &now[i], 1)) continue;
+    if (same_bits(seen[i], now[i])) continue;
     instance.stale_chunks |= rig.joints.control_chunks[first + i];
     seen[i] = now[i];
   }
@@ -44,7 +44,7 @@ void find_changes(const Rig& rig, Instance& instance) {
     instance.stale_stages = kStagesAll;
   }
   const Span<float> seen = instance.seen_inputs.slice(rig.raw_count, rig.mask_count);
-  if (same_bits(seen.data, instance.masks.data, seen.count)) return;
+  if (same_rows(seen.data, instance.masks.data, seen.count)) return;
   std::copy(instance.masks.begin(), instance.masks.end(), seen.begin());
   instance.stale_stages |= kStageMl;
 }
@@ -82,7 +82,7 @@ void evaluate_psds(const Rig& rig, Instance& instance, uint32_t lod) {
     product *= psds.weights[i];
     const uint16_t output = psds.outputs[i];
     const float value = product < 1.0f ? product : 1.0f;
-    if (value == controls[output]) continue;
+    if (same_bits(value, controls[output])) continue;
     controls[output] = value;
     chunks |= rig.joints.control_chunks[output];
     changed = true;
@@ -91,8 +91,10 @@ void evaluate_psds(const Rig& rig, Instance& instance, uint32_t lod) {
 }
 
 void evaluate_joints(const Rig& rig, Instance& instance, uint32_t lod) {
-  // What networks add to joints must not be added twice.
-  const uint64_t chunks = rig.ml.joints.empty() ? instance.stale_chunks : kAllChunks;
+  // What networks add to joints must not be added twice, and where rows contend for an output the
+  // last one is to write last.
+  const bool all = !rig.ml.joints.empty() || rig.joints.contested;
+  const uint64_t chunks = all ? kAllChunks : instance.stale_chunks;
   begin_joints(rig, instance, lod);
   evaluate_joint_rows(rig, instance, lod, chunks, kAllGroups);
   finish_joints(rig, instance, lod);
@@ -172,7 +174,10 @@ void begin_joints(const Rig& rig, Instance& instance, uint32_t lod) {
 }
 
 void finish_joints(const Rig& rig, Instance& instance, uint32_t lod) {
-  for (uint32_t g = 0; g < rig.joints.group_count; ++g) evaluate_rotations(rig, instance, lod, g);
+  const RotationTable& rotations = rig.rotations;
+  if (!rotations.angle_joints.empty() || !rotations.turn_joints.empty()) {
+    for (uint32_t g = 0; g < rig.joints.group_count; ++g) evaluate_rotations(rig, instance, lod, g);
+  }
   for (const TwistSwing& setup : rig.twist_swing.setups) turn_setup(rig, instance, lod, setup);
   add_ml_joints(rig, instance, lod);
   instance.stale_chunks = 0;

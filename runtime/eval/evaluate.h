@@ -3,6 +3,8 @@
 // compiled, and callers check LOD and group numbers.
 #pragma once
 
+#include <cstring>
+
 #include "runtime/eval/instance.h"
 
 namespace mien {
@@ -58,6 +60,14 @@ constexpr uint32_t kAllGroups = ~uint32_t{0};
 /// Rows of the chunks that are marked (bit c >> chunk_shift for chunk c).
 void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, uint64_t marks,
                          uint32_t only_group);
+/// NaN equals itself, and 0 is not -0.
+inline bool same_bits(float a, float b) {
+  uint32_t x, y;
+  memcpy(&x, &a, sizeof(x));
+  memcpy(&y, &b, sizeof(y));
+  return x == y;
+}
+
 /// Correctives were evaluated: whether any changed, and which chunks of the joint matrix they
 /// drive.
 void note_changed_psds(Instance& instance, uint64_t chunks, bool changed);

@@ -384,6 +384,7 @@ void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach,
   }
   mark_other_rows(view, plan, rig, reach);
 
+  for (uint8_t use : plan.uses) joints.contested |= use == kContested;
   uint32_t chunk = 0;
   for_each_chunk(plan, [&](uint32_t block) { joints.chunks[chunk++].first_block = block; });
   const uint32_t chunk_count = joints.chunk_count();

@@ -106,6 +106,7 @@ struct JointMatrix {
   Span<uint16_t> threes_at_lod, ones_at_lod;  // [chunk][lod]: leading ones of either kind
 
   Span<uint16_t> group_rows_at_lod;  // [group][lod]: leading rows of the group, as in the file
+  bool contested = false;            // some output is written by rows of different chunks
   uint32_t group_count = 0;
   uint32_t chunk_shift = 0;
   uint32_t widest_group = 0;   // columns

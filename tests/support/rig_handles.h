@@ -18,7 +18,9 @@ struct CloseHandle {
   void operator()(MienDna* dna) const { mien_dna_close(dna); }
   void operator()(MienRig* rig) const { mien_rig_destroy(rig); }
   void operator()(MienInstance* instance) const { mien_instance_destroy(instance); }
+  void operator()(MienBatch* batch) const { mien_batch_destroy(batch); }
 };
+using BatchHandle = std::unique_ptr<MienBatch, CloseHandle>;
 using DnaHandle = std::unique_ptr<MienDna, CloseHandle>;
 using RigHandle = std::unique_ptr<MienRig, CloseHandle>;
 using InstanceHandle = std::unique_ptr<MienInstance, CloseHandle>;
@@ -88,6 +90,13 @@ inline RigHandle create_rig(const MienDna* dna, uint32_t isa = MIEN_ISA_BEST,
   MienError error = sized<MienError>();
   MienRig* rig = nullptr;
   EXPECT_EQ(mien_rig_create(dna, &desc, &rig, &error), expected) << error.message;
+  return RigHandle(rig);
+}
+
+inline RigHandle create_rig(const MienDna* dna, MienRigDesc desc) {
+  MienError error = sized<MienError>();
+  MienRig* rig = nullptr;
+  EXPECT_EQ(mien_rig_create(dna, &desc, &rig, &error), MIEN_OK) << error.message;
   return RigHandle(rig);
 }
 

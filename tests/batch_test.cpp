@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// Many instances at once give the bits of one after the other, however they are mixed and split.
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "tests/support/counting_allocator.h"
+#include "tests/support/many_rigs.h"
+
+namespace mien {
+namespace {
+
+BatchHandle create_batch(const RigHandle& rig, uint32_t capacity, uint32_t tasks = 1) {
+  MienBatch* batch = nullptr;
+  MienError error = sized<MienError>();
+  EXPECT_EQ(mien_batch_create(rig.get(), capacity, tasks, nullptr, &batch, &error), MIEN_OK)
+      << error.message;
+  return BatchHandle(batch);
+}
+
+/// Pairs of instances: one for the batch, one evaluated by itself, on a rig that keeps nothing.
+struct Crowd {
+  RigHandle rig, plain_rig;
+  std::vector<Character> together, alone;
+  std::vector<MienInstance*> handles;
+  std::vector<uint32_t> lods;
+
+  Crowd(const MienDna* dna, MienRigDesc desc, size_t count) : rig(create_rig(dna, desc)) {
+    desc.reuse = MIEN_REUSE_NOTHING;
+    plain_rig = create_rig(dna, desc);
+    for (size_t i = 0; i < count; ++i) {
+      together.emplace_back(rig);
+      alone.emplace_back(plain_rig);
+      handles.push_back(together.back().instance.get());
+    }
+    lods.resize(count);
+  }
+
+  /// New controls for some, the same for all if `shared`, and LODs for all.
+  void draw(Random& random, uint32_t percent, bool shared, uint32_t lod_count) {
+    const Random start = random;
+    for (size_t i = 0; i < together.size(); ++i) {
+      lods[i] = random.below(lod_count);
+      if (random.below(4) == 0) continue;
+      Random own = shared ? start : random;
+      draw_controls(own, percent, together[i].raw);
+      std::copy(together[i].raw.begin(), together[i].raw.end(), alone[i].raw.begin());
+      if (!together[i].masks.empty() && random.below(2)) {
+        together[i].masks[0] = alone[i].masks[0] = static_cast<float>(random.below(2));
+      }
+      for (uint32_t k = 0; k < 8; ++k) random.below(3);
+    }
+  }
+
+  void evaluate(MienBatch* batch, const MienParallelFor* parallel = nullptr,
+                uint32_t stages = MIEN_STAGE_ALL) {
+    ASSERT_EQ(mien_rig_evaluate_batch(rig.get(), batch, handles.data(), lods.data(),
+                                      static_cast<uint32_t>(handles.size()), stages, parallel),
+              MIEN_OK);
+    for (size_t i = 0; i < alone.size(); ++i) alone[i].evaluate(lods[i], stages);
+  }
+
+  void expect_equal() const {
+    for (size_t i = 0; i < alone.size(); ++i) {
+      ASSERT_TRUE(same_results(together[i], alone[i])) << "instance " << i << ", LOD " << lods[i];
+    }
+  }
+};
+
+TEST(Batch, HasTheBitsOfSingleEvaluation) {
+  Random random = Random::from_seed(11, 1);
+  for_each_dna(6, [&](const DnaHandle& dna) {
+    for_each_rig_desc([&](const MienRigDesc& desc) {
+      for (size_t count : {1, 3, 40}) {
+        Crowd crowd(dna.get(), desc, count);
+        const BatchHandle batch = create_batch(crowd.rig, static_cast<uint32_t>(count));
+        const uint32_t lod_count = info_of(crowd.rig).lod_count;
+        for (int frame = 0; frame < 6; ++frame) {
+          SCOPED_TRACE(std::to_string(count) + " instances, frame " + std::to_string(frame));
+          const uint32_t percents[] = {100, 5, 30, 0, 60, 100};
+          crowd.draw(random, percents[frame], frame % 2 == 0, frame < 4 ? 1 : lod_count);
+          crowd.evaluate(batch.get());
+          crowd.expect_equal();
+        }
+      }
+    });
+  });
+}
+
+// Large enough that lists of active pieces and whole blocks both come up.
+TEST(Batch, OfALargeRig) {
+  const DnaHandle dna = generate_dna(MIEN_PRESET_MEDIUM, 1);
+  Random random = Random::from_seed(12, 1);
+  for (uint32_t isa : present_isas()) {
+    MienRigDesc desc = sized<MienRigDesc>();
+    desc.isa = isa;
+    Crowd crowd(dna.get(), desc, 70);
+    const BatchHandle batch = create_batch(crowd.rig, 100, 3);
+    for (uint32_t percent : {100, 3, 40, 100}) {
+      for (bool shared : {false, true}) {
+        SCOPED_TRACE(std::string(mien_isa_name(isa)) + ", " + std::to_string(percent) + " %");
+        crowd.draw(random, percent, shared, 2);
+        crowd.evaluate(batch.get());
+        crowd.expect_equal();
+      }
+    }
+  }
+}
+
+TEST(Batch, SomeStages) {
+  const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 2);
+  Random random = Random::from_seed(13, 1);
+  Crowd crowd(dna.get(), sized<MienRigDesc>(), 20);
+  const BatchHandle batch = create_batch(crowd.rig, 20);
+  for (int frame = 0; frame < 40; ++frame) {
+    crowd.draw(random, 50, false, 1);
+    const uint32_t stages = frame % 5 == 4 ? uint32_t{MIEN_STAGE_ALL} : random.below(64);
+    SCOPED_TRACE("stages " + std::to_string(stages));
+    crowd.evaluate(batch.get(), nullptr, stages);
+    crowd.expect_equal();
+  }
+}
+
+TEST(Batch, AnySplitGivesTheSameBits) {
+  const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 2);
+  Random random = Random::from_seed(14, 1);
+  const MienParallelFor backwards = {
+      nullptr, [](void*, uint32_t count, void (*task)(void*, uint32_t), void* context) {
+        for (uint32_t i = count; i-- > 0;) task(context, i);
+      }};
+  const MienParallelFor threads = {
+      nullptr, [](void*, uint32_t count, void (*task)(void*, uint32_t), void* context) {
+        std::vector<std::thread> all;
+        for (uint32_t i = 0; i < count; ++i) all.emplace_back(task, context, i);
+        for (std::thread& thread : all) thread.join();
+      }};
+  for (uint32_t tasks : {0, 1, 2, 5, 1000}) {
+    for (const MienParallelFor* parallel : {&backwards, &threads}) {
+      Crowd crowd(dna.get(), sized<MienRigDesc>(), 150);
+      const BatchHandle batch = create_batch(crowd.rig, 150, tasks);
+      for (int frame = 0; frame < 3; ++frame) {
+        crowd.draw(random, 50, false, info_of(crowd.rig).lod_count);
+        crowd.evaluate(batch.get(), parallel);
+        crowd.expect_equal();
+      }
+    }
+  }
+}
+
+TEST(Batch, RefusesMisuse) {
+  const DnaHandle dna = generate_dna(MIEN_PRESET_TINY, 1);
+  const RigHandle rig = create_rig(dna.get()), other_rig = create_rig(dna.get());
+  const BatchHandle batch = create_batch(rig, 2);
+  Character a(rig), b(rig), other(other_rig);
+  const auto evaluate = [&](std::vector<MienInstance*> instances, std::vector<uint32_t> lods,
+                            uint32_t stages = MIEN_STAGE_ALL) {
+    return mien_rig_evaluate_batch(rig.get(), batch.get(), instances.data(), lods.data(),
+                                   static_cast<uint32_t>(instances.size()), stages, nullptr);
+  };
+  MienInstance *x = a.instance.get(), *y = b.instance.get(), *z = other.instance.get();
+  a.raw[0] = 1;
+  const std::vector<float> before = a.results();
+  EXPECT_EQ(evaluate({x, x}, {0, 0}), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(evaluate({x, z}, {0, 0}), MIEN_ERROR_MISMATCH);
+  EXPECT_EQ(evaluate({x, nullptr}, {0, 0}), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(evaluate({x, y}, {0, 99}), MIEN_ERROR_LOD);
+  EXPECT_EQ(evaluate({x, y, x}, {0, 0, 0}), MIEN_ERROR_INVALID_ARGUMENT) << "over the capacity";
+  EXPECT_EQ(evaluate({x}, {0}, 64), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(a.results(), before) << "then none is evaluated";
+  EXPECT_EQ(evaluate({}, {}), MIEN_OK);
+  EXPECT_EQ(evaluate({x, y}, {0, 0}), MIEN_OK) << "refusing leaves no mark";
+  EXPECT_NE(a.results(), before);
+
+  uint32_t lod = 0;
+  const MienParallelFor nobody = {nullptr, nullptr};
+  const MienRig* r = rig.get();
+  MienBatch* made = batch.get();
+  EXPECT_EQ(mien_rig_evaluate_batch(nullptr, made, &x, &lod, 1, 63, nullptr),
+            MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_rig_evaluate_batch(r, nullptr, &x, &lod, 1, 63, nullptr),
+            MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_rig_evaluate_batch(r, made, nullptr, &lod, 1, 63, nullptr),
+            MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_rig_evaluate_batch(r, made, &x, nullptr, 1, 63, nullptr),
+            MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_rig_evaluate_batch(r, made, &x, &lod, 1, 63, &nobody),
+            MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(mien_rig_evaluate_batch(other_rig.get(), made, &z, &lod, 1, 63, nullptr),
+            MIEN_ERROR_MISMATCH);
+  EXPECT_EQ(mien_rig_evaluate_batch(r, reinterpret_cast<MienBatch*>(x), &x, &lod, 1, 63, nullptr),
+            MIEN_ERROR_HANDLE);
+
+  MienError error = sized<MienError>();
+  EXPECT_EQ(mien_batch_create(r, 0, 1, nullptr, &made, &error), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(made, nullptr);
+  EXPECT_EQ(mien_batch_create(r, 1u << 30, 1, nullptr, &made, &error), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(mien_batch_create(nullptr, 1, 1, nullptr, &made, &error), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_batch_create(r, 1, 1, nullptr, nullptr, &error), MIEN_ERROR_NULL_ARGUMENT);
+  uint64_t bytes = 1;
+  EXPECT_EQ(mien_batch_bytes(r, 0, 1, &bytes), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(bytes, 0u);
+  EXPECT_EQ(mien_batch_bytes(nullptr, 1, 1, &bytes), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_batch_bytes(r, 1, 1, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  mien_batch_destroy(nullptr);
+}
+
+TEST(Batch, TakesOneBlockAndThenNothing) {
+  const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 1);
+  RigHandle rig = create_rig(dna.get());
+  Character a(rig), b(rig);
+  CountingAllocator allocator;
+  const MienAllocator given = allocator.get();
+  MienBatch* batch = nullptr;
+  MienError error = sized<MienError>();
+  allocator.fail_at = 1;
+  EXPECT_EQ(mien_batch_create(rig.get(), 64, 2, &given, &batch, &error), MIEN_ERROR_MEMORY);
+  EXPECT_EQ(batch, nullptr);
+  EXPECT_TRUE(allocator.clean());
+
+  allocator.fail_at = 0;
+  allocator.restart();
+  ASSERT_EQ(mien_batch_create(rig.get(), 64, 2, &given, &batch, &error), MIEN_OK);
+  uint64_t bytes = 0;
+  EXPECT_EQ(mien_batch_bytes(rig.get(), 64, 2, &bytes), MIEN_OK);
+  EXPECT_EQ(allocator.bytes, bytes);
+  MienInstance* instances[] = {a.instance.get(), b.instance.get()};
+  const uint32_t lods[] = {0, 0};
+  a.raw[0] = b.raw[1] = 1;
+  EXPECT_EQ(mien_rig_evaluate_batch(rig.get(), batch, instances, lods, 2, 63, nullptr), MIEN_OK);
+  EXPECT_EQ(allocator.requests, 1u);
+  rig.reset();
+  mien_batch_destroy(batch);
+  EXPECT_TRUE(allocator.clean());
+}
+
+}  // namespace
+}  // namespace mien
