@@ -1,80 +1,515 @@
 // SPDX-License-Identifier: MIT
-// Positions and normals against the same in double precision, on every instruction set.
+// What deformation promises beyond being right: neutral and rigid motion are exact, weights and
+// targets count as they are said to, threads and batches change nothing.
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <thread>
+
 #include "tests/support/deform_rig.h"
+#include "tests/support/tiny_rig.h"
 
 namespace mien {
 namespace {
 
-struct Deformed {
-  DnaHandle dna;
-  RigHandle rig;
-  DeformerHandle deformer;
-  PoseHandle pose;
+using namespace dna;
 
-  Deformed(const std::vector<uint8_t>& file, MienDeformerDesc desc = {},
-           uint32_t rotation = MIEN_OUTPUT_EULER)
-      : dna(open_dna(file)), rig(create_rig(dna.get(), MIEN_ISA_BEST, MIEN_OK, rotation)),
-        deformer(create_deformer(dna.get(), rig.get(), desc)), pose(create_pose(deformer.get())) {}
+/// The tiny rig, changed.
+template <class Change>
+std::vector<uint8_t> changed_rig(Change&& change) {
+  Arena arena(default_allocator());
+  DnaView view = tiny_rig(arena);
+  change(arena, view);
+  return write_view(view);
+}
 
-  void update(const DeformValues& values) {
-    EXPECT_EQ(mien_pose_update_from_values(pose.get(), values.joints.data(), values.joints.size(),
-                                           values.channels.data(), values.channels.size()),
-              MIEN_OK);
+DeformValues no_values(const MienRig* rig) {
+  DeformValues values = random_values(rig, 0);
+  std::fill(values.joints.begin(), values.joints.end(), 0.0f);
+  std::fill(values.channels.begin(), values.channels.end(), 0.0f);
+  return values;
+}
+
+/// The identity of joint j with Euler outputs; `euler` are degrees.
+void turn(DeformValues& values, uint32_t joint, float x, float y, float z) {
+  values.joints[joint * 9 + 3] = x;
+  values.joints[joint * 9 + 4] = y;
+  values.joints[joint * 9 + 5] = z;
+}
+
+// Neutral -----------------------------------------------------------------------------------------
+
+TEST(Deform, NeutralIsTheStoredMesh) {
+  for (double height : {0.0, 150.0}) {
+    DeformRigOptions options;
+    options.height = height;
+    options.rows = options.columns = 25;  // of the size of a head
+    for (uint32_t compose : {MIEN_COMPOSE_PRODUCT, MIEN_COMPOSE_EULER_ADD}) {
+      MienDeformerDesc desc = {};
+      desc.compose = compose;
+      Deformed d(random_deform_rig(5, options), desc);
+      const MienMesh mesh = mesh_of(d.deformer.get(), 0);
+      const Span<const float> stored = {mesh.positions.data, mesh.positions.count};
+      const Span<const float> normals = {mesh.normals.data, mesh.normals.count};
+      const double diagonal = PlainDeformer{d.dna->view}.diagonal(0);
+
+      // As created, without any call.
+      EXPECT_TRUE(same_bits(d.positions(0), stored));
+      EXPECT_TRUE(same_bits(d.normals(0), normals));
+
+      d.update(random_values(d.rig.get(), 1));
+      d.deform(0);
+      EXPECT_GT(largest_difference(d.positions(0), stored), 0.1);
+      d.update(no_values(d.rig.get()));
+      d.deform(0, MIEN_NORMALS_SKINNED);
+      EXPECT_LE(largest_difference(d.positions(0), stored), 1e-6 * diagonal);
+      EXPECT_LE(largest_difference(d.normals(0), normals), 1e-6);
+
+      EXPECT_EQ(mien_pose_update_from_values(d.pose.get(), nullptr, 0, nullptr, 0), MIEN_OK);
+      d.deform(0, MIEN_NORMALS_SKINNED);
+      EXPECT_LE(largest_difference(d.positions(0), stored), 1e-6 * diagonal);
+    }
   }
-  void deform(uint32_t mesh, uint32_t normals = MIEN_NORMALS_DEFAULT) {
-    EXPECT_EQ(mien_pose_deform(pose.get(), mesh, normals, nullptr), MIEN_OK);
+}
+
+TEST(Deform, NeutralSkinMatricesAreTheIdentity) {
+  DeformRigOptions options;
+  options.height = 150;
+  Deformed d(random_deform_rig(5, options));
+  d.update(no_values(d.rig.get()));
+  for (size_t i = 0; i < d.skins().count; ++i) EXPECT_EQ(d.skins()[i], i % 16 % 5 == 0 ? 1 : 0);
+}
+
+// Motion ------------------------------------------------------------------------------------------
+
+TEST(Deform, RigidMotionKeepsAllDistances) {
+  DeformRigOptions options;
+  options.one_root = true;
+  options.least_influences = 1;
+  Deformed d(random_deform_rig(8, options));
+  MienIndexView parents = {};
+  ASSERT_EQ(mien_rig_joint_parents(d.rig.get(), &parents), MIEN_OK);
+  uint32_t root = 0;
+  while (parents.data[root] != root) ++root;
+  DeformValues values = no_values(d.rig.get());
+  turn(values, root, 35, -80, 110);
+  values.joints[root * 9 + 1] = 3;
+  d.update(values);
+  d.deform(0);
+  const MienMesh mesh = mesh_of(d.deformer.get(), 0);
+  const Span<const float> was = {mesh.positions.data, mesh.positions.count};
+  const Span<const float> now = d.positions(0);
+  const auto distance = [](const Span<const float>& p, size_t a, size_t b) {
+    double sum = 0;
+    for (size_t k = 0; k < 3; ++k) sum += std::pow(double(p[a * 3 + k]) - p[b * 3 + k], 2);
+    return std::sqrt(sum);
+  };
+  for (size_t a = 0; a < mesh.position_count; ++a) {
+    for (size_t b = 0; b < a; ++b) {
+      EXPECT_NEAR(distance(was, a, b), distance(now, a, b),
+                  1e-5 * PlainDeformer{d.dna->view}.diagonal(0));
+    }
   }
-  MienFloatView positions(uint32_t mesh) const {
-    MienFloatView view = {};
-    EXPECT_EQ(mien_pose_positions(pose.get(), mesh, &view), MIEN_OK);
-    return view;
+  // All joints move as the root does, to the bit.
+  for (size_t i = 0; i < d.skins().count; ++i)
+    EXPECT_EQ(d.skins()[i], d.skins()[root * 16 + i % 16]);
+}
+
+TEST(Deform, JointsOutsideALodFollowTheirParent) {
+  const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 3);
+  const RigHandle rig = create_rig(dna.get());
+  const DeformerHandle deformer = create_deformer(dna.get(), rig.get());
+  const PoseHandle pose = create_pose(deformer.get());
+  Character character(rig);
+  for (float& control : character.raw) control = 0.7f;
+  const uint32_t last = info_of(rig).lod_count - 1;
+  character.evaluate(last);
+  ASSERT_EQ(mien_pose_update(pose.get(), character.instance.get()), MIEN_OK);
+  MienIndexView listed = {}, parents = {};
+  MienFloatView skins = {};
+  ASSERT_EQ(mien_rig_lod_indices(rig.get(), MIEN_KIND_JOINT, last, &listed), MIEN_OK);
+  ASSERT_EQ(mien_rig_joint_parents(rig.get(), &parents), MIEN_OK);
+  ASSERT_EQ(mien_pose_skin_matrices(pose.get(), &skins), MIEN_OK);
+  std::vector<bool> exists(parents.count);
+  for (size_t i = 0; i < listed.count; ++i) exists[listed.data[i]] = true;
+  size_t followers = 0, movers = 0;
+  for (size_t j = 0; j < parents.count; ++j) {
+    const bool same = memcmp(skins.data + j * 16, skins.data + parents.data[j] * 16, 64) == 0;
+    if (!exists[j]) {
+      EXPECT_TRUE(same) << "joint " << j;
+      ++followers;
+    }
+    movers += !same;
   }
-  MienFloatView normals(uint32_t mesh) const {
-    MienFloatView view = {};
-    EXPECT_EQ(mien_pose_normals(pose.get(), mesh, &view), MIEN_OK);
-    return view;
+  EXPECT_GT(followers, 0u);
+  EXPECT_GT(movers, 0u);
+}
+
+TEST(Deform, TakesWhatTheInstanceEvaluated) {
+  const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 3);
+  const RigHandle rig = create_rig(dna.get());
+  const DeformerHandle deformer = create_deformer(dna.get(), rig.get());
+  const PoseHandle a = create_pose(deformer.get()), b = create_pose(deformer.get());
+  Character character(rig);
+  for (float& control : character.raw) control = 0.4f;
+  character.evaluate(0);
+  ASSERT_EQ(mien_pose_update(a.get(), character.instance.get()), MIEN_OK);
+  ASSERT_EQ(mien_pose_update_from_values(b.get(), character.joints.data, character.joints.count,
+                                         character.channels.data, character.channels.count),
+            MIEN_OK);
+  for (MienPose* pose : {a.get(), b.get()}) {
+    ASSERT_EQ(mien_pose_deform(pose, 0, MIEN_NORMALS_DEFAULT, nullptr), MIEN_OK);
+  }
+  EXPECT_TRUE(same_bits(Deformed::positions(a.get(), 0), Deformed::positions(b.get(), 0)));
+  const PlainDeformer plain = {dna->view};
+  DeformValues values;
+  values.joints.assign(character.joints.begin(), character.joints.end());
+  values.channels.assign(character.channels.begin(), character.channels.end());
+  EXPECT_LE(largest_error(Deformed::positions(a.get(), 0), plain.positions(0, values)),
+            1e-5 * plain.diagonal(0));
+}
+
+TEST(Deform, AFrameDoesNotDependOnTheOneBefore) {
+  Deformed d(random_deform_rig(9, {}));
+  const DeformValues first = random_values(d.rig.get(), 1), second = random_values(d.rig.get(), 2);
+  d.update(first);
+  d.deform(0);
+  const std::vector<float> expected = d.results(0);
+  d.update(second);
+  d.deform(0, MIEN_NORMALS_SKINNED);
+  d.deform(1);
+  EXPECT_FALSE(same_bits(span_of(d.results(0)), span_of(expected)));
+  d.update(first);
+  d.deform(0);
+  EXPECT_TRUE(same_bits(span_of(d.results(0)), span_of(expected)));
+}
+
+// Targets -----------------------------------------------------------------------------------------
+
+TEST(Deform, ChannelsNearZeroCountAsZero) {
+  Deformed d(random_deform_rig(4, {}));
+  const DeformValues still = no_values(d.rig.get());
+  d.update(still);
+  d.deform(0);
+  const std::vector<float> neutral = d.results(0);
+  for (float weight : {0.9e-5f, -0.9e-5f}) {
+    DeformValues values = still;
+    std::fill(values.channels.begin(), values.channels.end(), weight);
+    d.update(values);
+    d.deform(0);
+    EXPECT_TRUE(same_bits(span_of(d.results(0)), span_of(neutral)));
+    std::fill(values.channels.begin(), values.channels.end(), weight * 1.2f);
+    d.update(values);
+    d.deform(0);
+    EXPECT_FALSE(same_bits(span_of(d.results(0)), span_of(neutral)));
+  }
+}
+
+TEST(Deform, TargetsOfOneChannelAddUp) {
+  const std::vector<uint8_t> file = changed_rig([](Arena& arena, DnaView& view) {
+    Mesh& mesh = view.geom.meshes[0];
+    BlendShapeTarget twice = mesh.blend_shape_targets[0];
+    // One position three times.
+    twice.vertex_indices = be<uint32_t>(arena, {4, 4, 4});
+    twice.deltas = {be<float>(arena, {1, 2, 4}), be<float>(arena, {0, 0, 0}),
+                    be<float>(arena, {0, 0, 0})};
+    mesh.blend_shape_targets =
+        list<BlendShapeTarget>(arena, {mesh.blend_shape_targets[0], twice, twice});
+  });
+  Deformed d(file);
+  DeformValues values = no_values(d.rig.get());
+  values.channels[0] = 0.5f;
+  d.update(values);
+  d.deform(0);
+  EXPECT_FLOAT_EQ(d.positions(0)[4 * 3], 7);  // two targets, half of 1 + 2 + 4 each
+  EXPECT_FLOAT_EQ(d.positions(0)[1 * 3 + 1], -0.25f);
+}
+
+// Weights -----------------------------------------------------------------------------------------
+
+TEST(Deform, AnyNumberOfInfluences) {
+  DeformRigOptions options;
+  options.joints = 60;
+  options.least_influences = options.most_influences = 40;
+  Deformed d(random_deform_rig(2, options));
+  EXPECT_GE(mesh_of(d.deformer.get(), 0).most_influences, 40u);
+  const PlainDeformer plain = {d.dna->view};
+  const DeformValues values = random_values(d.rig.get(), 6);
+  d.update(values);
+  d.deform(0);
+  EXPECT_LE(largest_error(d.positions(0), plain.positions(0, values)), 1e-5 * plain.diagonal(0));
+}
+
+TEST(Deform, PositionsWithoutInfluencesStayWhereTargetsPutThem) {
+  for (bool listed : {false, true}) {
+    const std::vector<uint8_t> file = changed_rig([&](Arena& arena, DnaView& view) {
+      auto& skin = view.geom.meshes[0].skin_weights;
+      if (!listed) {
+        skin = {};
+        return;
+      }
+      for (auto& weights : skin) weights = {be<float>(arena, {0, 0}), be<uint16_t>(arena, {0, 1})};
+    });
+    Deformed d(file);
+    EXPECT_EQ(mesh_of(d.deformer.get(), 0).most_influences, 0u);
+    DeformValues values = no_values(d.rig.get());
+    turn(values, 0, 40, 0, 0);
+    values.channels[0] = 1;
+    d.update(values);
+    d.deform(0, MIEN_NORMALS_SKINNED);
+    const MienMesh mesh = mesh_of(d.deformer.get(), 0);
+    for (size_t i = 0; i < mesh.positions.count; ++i) {
+      const float moved = i == 4 ? -0.5f : i == 7 ? -0.25f : i == 8 ? 0.125f : 0;
+      EXPECT_EQ(d.positions(0)[i], mesh.positions.data[i] + moved) << i;
+    }
+    EXPECT_TRUE(same_bits(d.normals(0), {mesh.normals.data, mesh.normals.count}));
+  }
+}
+
+TEST(Deform, WeightsAreAsStoredOrFixed) {
+  const std::vector<uint8_t> file = changed_rig([](Arena& arena, DnaView& view) {
+    auto& skin = view.geom.meshes[0].skin_weights;
+    skin[0] = {be<float>(arena, {0.5f, 0.25f}), be<uint16_t>(arena, {0, 1})};
+    skin[1] = {be<float>(arena, {1.5f, -0.5f}), be<uint16_t>(arena, {0, 1})};
+    skin[2] = {be<float>(arena, {-1}), be<uint16_t>(arena, {0})};
+    skin[3] = {be<float>(arena, {1e-9f}), be<uint16_t>(arena, {1})};
+    skin[4] = {be<float>(arena, {0.5f, 0.5f, 1}), be<uint16_t>(arena, {1, 1, 0})};
+  });
+  for (uint32_t weights : {MIEN_WEIGHTS_AS_STORED, MIEN_WEIGHTS_FIX}) {
+    MienDeformerDesc desc = {};
+    desc.weights = weights;
+    Deformed d(file, desc);
+    PlainDeformer plain = {d.dna->view};
+    plain.fix_weights = weights == MIEN_WEIGHTS_FIX;
+    MienIndexView joints = {};
+    MienFloatView values = {};
+    ASSERT_EQ(mien_deformer_influences(d.deformer.get(), 0, 0, &joints, &values), MIEN_OK);
+    ASSERT_EQ(values.count, 2u);
+    EXPECT_FLOAT_EQ(values.data[0], plain.fix_weights ? 2.0f / 3 : 0.5f);
+    ASSERT_EQ(mien_deformer_influences(d.deformer.get(), 0, 1, &joints, &values), MIEN_OK);
+    EXPECT_EQ(values.count, plain.fix_weights ? 1u : 2u);
+    EXPECT_EQ(values.data[0], plain.fix_weights ? 1.0f : 1.5f);
+    for (uint32_t p : {2u, 3u}) {
+      ASSERT_EQ(mien_deformer_influences(d.deformer.get(), 0, p, &joints, &values), MIEN_OK);
+      EXPECT_EQ(values.count, plain.fix_weights ? 0u : 1u) << p;
+    }
+    if (plain.fix_weights) continue;  // the plain one divides by the smallest of sums
+    const DeformValues pose = random_values(d.rig.get(), 3);
+    d.update(pose);
+    d.deform(0);
+    EXPECT_LE(largest_error(d.positions(0), plain.positions(0, pose)), 1e-6 * 150);
+  }
+}
+
+// Normals -----------------------------------------------------------------------------------------
+
+TEST(Deform, NormalsOfTheDescAreTheDefault) {
+  DeformRigOptions options;
+  for (uint32_t wanted : {MIEN_NORMALS_NONE, MIEN_NORMALS_SKINNED, MIEN_NORMALS_RECOMPUTED}) {
+    MienDeformerDesc desc = {};
+    desc.normals = wanted;
+    Deformed d(random_deform_rig(1, options), desc);
+    d.update(random_values(d.rig.get(), 1));
+    d.deform(0);
+    const std::vector<float> by_default = d.results(0);
+    d.deform(0, MIEN_NORMALS_SKINNED);
+    d.deform(0, MIEN_NORMALS_NONE);  // leaves them
+    const bool was_skinned = same_bits(span_of(d.results(0)), span_of(by_default));
+    EXPECT_EQ(was_skinned, wanted == MIEN_NORMALS_SKINNED);
+    d.deform(0, MIEN_NORMALS_RECOMPUTED);
+    EXPECT_EQ(same_bits(span_of(d.results(0)), span_of(by_default)),
+              wanted == MIEN_NORMALS_RECOMPUTED);
+  }
+}
+
+TEST(Deform, UniformScaleNeedsNoCofactors) {
+  // The two ways to skin normals agree where both are right.
+  Deformed d(random_deform_rig(1, {}));
+  const PlainDeformer plain = {d.dna->view};
+  for (double skew : {0.0, 1e-5, 0.05}) {
+    const DeformValues values = random_values(d.rig.get(), 4, skew);
+    DeformValues rigid = values;
+    // Blends of turns are not turns, so only positions of one influence compare exactly.
+    d.update(rigid);
+    d.deform(0, MIEN_NORMALS_SKINNED);
+    const std::vector<Vec3d> expected = plain.skinned_normals(0, values);
+    const MienMesh mesh = mesh_of(d.deformer.get(), 0);
+    size_t compared = 0;
+    for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
+      MienIndexView joints = {};
+      MienFloatView weights = {};
+      mien_deformer_influences(d.deformer.get(), 0, mesh.vertex_positions.data[v], &joints,
+                               &weights);
+      if (joints.count != 1) continue;
+      ++compared;
+      for (size_t k = 0; k < 3; ++k) EXPECT_NEAR(d.normals(0)[v * 3 + k], expected[v][k], 1e-4);
+    }
+    EXPECT_GT(compared, 5u);
+  }
+}
+
+TEST(Deform, HardEdgesKeepTheirAngle) {
+  // A flat sheet whose normals lie 45 degrees off, turned as a whole and bent in no way.
+  const std::vector<uint8_t> file = changed_rig([](Arena& arena, DnaView& view) {
+    Mesh& mesh = view.geom.meshes[0];
+    mesh.normals = {be<float>(arena, {1, 0, 0, 0, 0, 0}), be<float>(arena, {0, 0, 0.3f, 0, 0, 0}),
+                    be<float>(arena, {1, 1, 1, 1, 1, 1})};
+    for (auto& skin : mesh.skin_weights) skin = {be<float>(arena, {1}), be<uint16_t>(arena, {0})};
+  });
+  Deformed d(file);
+  DeformValues values = no_values(d.rig.get());
+  d.update(values);
+  d.deform(0);
+  const float half = std::sqrt(0.5f);
+  const auto expect_normal = [&](uint32_t v, float x, float y, float z) {
+    EXPECT_NEAR(d.normals(0)[v * 3], x, 1e-6);
+    EXPECT_NEAR(d.normals(0)[v * 3 + 1], y, 1e-6);
+    EXPECT_NEAR(d.normals(0)[v * 3 + 2], z, 1e-6);
+  };
+  expect_normal(0, half, 0, half);  // hard: as stored
+  expect_normal(2, 0, 0, 1);        // 17 degrees off: recomputed
+  turn(values, 0, 90, 0, 0);        // z to -y
+  d.update(values);
+  d.deform(0);
+  expect_normal(0, half, -half, 0);
+  expect_normal(2, 0, -1, 0);
+  turn(values, 0, 180, 0, 0);  // there is no shortest way: any that keeps the angle
+  d.update(values);
+  d.deform(0);
+  EXPECT_NEAR(d.normals(0)[2], -half, 1e-3);
+}
+
+TEST(Deform, WithoutADirectionNormalsAreNeutral) {
+  const std::vector<uint8_t> file = changed_rig([](Arena& arena, DnaView& view) {
+    Mesh& mesh = view.geom.meshes[0];
+    mesh.faces = list<Face>(arena, {{be<uint32_t>(arena, {0, 1, 4, 3})}});  // 2 and 5 have none
+    for (auto& skin : mesh.skin_weights) skin = {be<float>(arena, {1}), be<uint16_t>(arena, {0})};
+  });
+  Deformed d(file);
+  DeformValues values = no_values(d.rig.get());
+  turn(values, 0, 0, 90, 0);
+  d.update(values);
+  d.deform(0);
+  EXPECT_NEAR(d.normals(0)[0], 1, 1e-6);
+  EXPECT_EQ(d.normals(0)[2 * 3 + 2], 1);
+  for (uint32_t k = 0; k < 3; ++k) values.joints[6 + k] = -1;  // everything in one point
+  d.update(values);
+  for (uint32_t normals : {MIEN_NORMALS_SKINNED, MIEN_NORMALS_RECOMPUTED}) {
+    d.deform(0, normals);
+    for (uint32_t v = 0; v < 6; ++v) {
+      EXPECT_EQ(d.normals(0)[v * 3 + 2], 1) << "vertex " << v << " normals " << normals;
+    }
+  }
+}
+
+TEST(Deform, NormalsThatTheFileLacksAreRecomputed) {
+  for (bool clockwise : {false, true}) {
+    for (bool left_handed : {false, true}) {
+      const std::vector<uint8_t> file = changed_rig([&](Arena&, DnaView& view) {
+        Mesh& mesh = view.geom.meshes[0];
+        mesh.normals = {};
+        view.dsce.face_winding_order = clockwise;
+        if (left_handed) view.desc.coordinate_system.x_axis = 0;  // left instead of right
+      });
+      Deformed d(file);
+      const float expected = clockwise != left_handed ? -1 : 1;
+      for (uint32_t v = 0; v < 6; ++v) EXPECT_EQ(d.normals(0)[v * 3 + 2], expected);
+      d.update(no_values(d.rig.get()));
+      d.deform(0);
+      for (uint32_t v = 0; v < 6; ++v) EXPECT_EQ(d.normals(0)[v * 3 + 2], expected);
+    }
+  }
+}
+
+// Threads and batches -----------------------------------------------------------------------------
+
+struct Threads {
+  MienParallelFor interface = {this, run};
+  std::atomic<uint32_t> calls{0}, tasks{0};
+
+  static void run(void* user, uint32_t count, void (*task)(void*, uint32_t), void* context) {
+    Threads& self = *static_cast<Threads*>(user);
+    ++self.calls;
+    self.tasks += count;
+    std::atomic<uint32_t> next{0};
+    std::vector<std::thread> threads;
+    for (int t = 0; t < 4; ++t) {
+      threads.emplace_back([&] {
+        for (uint32_t i = next++; i < count; i = next++) task(context, count - 1 - i);
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
   }
 };
 
-MienDeformerDesc on(uint32_t isa) {
-  MienDeformerDesc desc = {};
-  desc.isa = isa;
-  return desc;
+DeformRigOptions large_mesh() {
+  DeformRigOptions options;
+  options.rows = 130;
+  options.columns = 131;
+  options.meshes = 1;
+  return options;
 }
 
-TEST(Deform, AgreesWithDoublePrecision) {
-  for (uint32_t seed = 0; seed < 12; ++seed) {
-    DeformRigOptions options;
-    options.rotation_sequence = seed % 6;
-    options.rotation_signs[seed % 3] = -1;
-    options.rotation_unit = seed % 2;
-    options.clockwise = seed % 4 == 1;
-    options.normals = seed % 5 != 4;
-    const std::vector<uint8_t> file = random_deform_rig(seed, options);
-    for (uint32_t rotation : {MIEN_OUTPUT_EULER, MIEN_OUTPUT_QUATERNION}) {
-      for (uint32_t compose : {MIEN_COMPOSE_PRODUCT, MIEN_COMPOSE_EULER_ADD}) {
-        if (rotation == MIEN_OUTPUT_QUATERNION && compose == MIEN_COMPOSE_EULER_ADD) continue;
-        for (uint32_t isa : present_isas()) {
-          SCOPED_TRACE(testing::Message() << "seed " << seed << " rotation " << rotation
-                                          << " compose " << compose << " " << mien_isa_name(isa));
-          MienDeformerDesc desc = on(isa);
-          desc.compose = compose;
-          Deformed d(file, desc, rotation);
-          PlainDeformer plain = {d.dna->view};
-          plain.quaternions = rotation == MIEN_OUTPUT_QUATERNION;
-          plain.add_angles = compose == MIEN_COMPOSE_EULER_ADD;
-          const DeformValues values = random_values(d.rig.get(), seed + 100);
-          d.update(values);
-          for (uint32_t m = 0; m < options.meshes; ++m) {
-            d.deform(m);
-            EXPECT_LE(largest_error(d.positions(m), plain.positions(m, values)),
-                      1e-5 * plain.diagonal(m));
-            EXPECT_LE(largest_error(d.normals(m), plain.recomputed_normals(m, values)), 1e-4);
-            if (!options.normals) continue;
-            d.deform(m, MIEN_NORMALS_SKINNED);
-            EXPECT_LE(largest_error(d.normals(m), plain.skinned_normals(m, values)), 1e-4);
-          }
-        }
+TEST(Deform, ThreadsGiveTheSameBits) {
+  const std::vector<uint8_t> file = random_deform_rig(2, large_mesh());
+  Deformed d(file);
+  const PoseHandle other = create_pose(d.deformer.get());
+  const DeformValues values = random_values(d.rig.get(), 2);
+  d.update(values);
+  Deformed::update(other.get(), values);
+  for (uint32_t normals : {MIEN_NORMALS_NONE, MIEN_NORMALS_SKINNED, MIEN_NORMALS_RECOMPUTED}) {
+    Threads threads;
+    d.deform(0, normals);
+    ASSERT_EQ(mien_pose_deform(other.get(), 0, normals, &threads.interface), MIEN_OK);
+    EXPECT_TRUE(same_bits(d.positions(0), Deformed::positions(other.get(), 0)));
+    EXPECT_TRUE(same_bits(d.normals(0), Deformed::normals(other.get(), 0)));
+    EXPECT_EQ(threads.calls, normals == MIEN_NORMALS_RECOMPUTED ? 3u : 1u);
+    EXPECT_GE(threads.tasks, 9u * threads.calls);  // of 2048
+  }
+}
+
+TEST(Deform, SmallMeshesStayOnTheThread) {
+  Deformed d(random_deform_rig(2, {}));
+  Threads threads;
+  ASSERT_EQ(mien_pose_deform(d.pose.get(), 0, MIEN_NORMALS_DEFAULT, &threads.interface), MIEN_OK);
+  EXPECT_EQ(threads.calls, 0u);
+}
+
+TEST(Deform, ABatchGivesTheSameBits) {
+  DeformRigOptions options;
+  options.rows = 60;
+  options.columns = 40;
+  const std::vector<uint8_t> file = random_deform_rig(6, options);
+  Deformed d(file);
+  std::vector<PoseHandle> alone, together;
+  std::vector<MienPose*> batch;
+  for (uint32_t i = 0; i < 11; ++i) {
+    const DeformValues values = random_values(d.rig.get(), i, i % 2 ? 0.1 : 0);
+    alone.push_back(create_pose(d.deformer.get()));
+    together.push_back(create_pose(d.deformer.get()));
+    Deformed::update(alone.back().get(), values);
+    Deformed::update(together.back().get(), values);
+    batch.push_back(together.back().get());
+  }
+  for (uint32_t normals : {MIEN_NORMALS_SKINNED, MIEN_NORMALS_RECOMPUTED}) {
+    for (bool with_threads : {false, true}) {
+      Threads threads;
+      for (PoseHandle& pose : alone) {
+        ASSERT_EQ(mien_pose_deform(pose.get(), 1, normals, nullptr), MIEN_OK);
+      }
+      ASSERT_EQ(mien_pose_deform_batch(batch.data(), batch.size(), 1, normals,
+                                       with_threads ? &threads.interface : nullptr),
+                MIEN_OK);
+      for (size_t i = 0; i < batch.size(); ++i) {
+        EXPECT_TRUE(
+            same_bits(Deformed::positions(alone[i].get(), 1), Deformed::positions(batch[i], 1)));
+        EXPECT_TRUE(
+            same_bits(Deformed::normals(alone[i].get(), 1), Deformed::normals(batch[i], 1)));
+      }
+      // Small as one mesh is, all together are worth it.
+      EXPECT_EQ(threads.calls > 0, with_threads);
+      for (PoseHandle& pose : together) {
+        ASSERT_EQ(mien_pose_deform(pose.get(), 1, MIEN_NORMALS_NONE, nullptr), MIEN_OK);
       }
     }
   }

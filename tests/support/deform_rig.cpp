@@ -114,7 +114,8 @@ Mesh random_mesh(std::mt19937& random, Arena& arena, const DeformRigOptions& opt
   for (uint32_t i = 0; i < count; ++i) {
     std::vector<float> weights;
     std::vector<uint16_t> joints;
-    const uint32_t n = below(random, options.most_influences + 1);
+    const uint32_t spread = options.most_influences - options.least_influences + 1;
+    const uint32_t n = options.least_influences + below(random, spread);
     double sum = 0;
     for (uint32_t k = 0; k < n; ++k) {
       joints.push_back(static_cast<uint16_t>(below(random, options.joints)));
@@ -334,7 +335,7 @@ std::vector<uint8_t> random_deform_rig(uint32_t seed, const DeformRigOptions& op
   std::vector<Vec3d> translations(options.joints), rotations(options.joints);
   const double to_unit = options.rotation_unit == 0 ? 1 : kPi / 180;
   for (uint32_t i = 0; i < options.joints; ++i) {
-    const bool root = i == 0 || below(random, 10) == 0;
+    const bool root = i == 0 || (!options.one_root && below(random, 10) == 0);
     parents[order[i]] = root ? order[i] : order[below(random, i)];
     translations[order[i]] = {between(random, -2, 2),
                               between(random, -2, 2) + (root ? options.height : 0),
@@ -575,7 +576,17 @@ double PlainDeformer::diagonal(uint32_t m) const {
   return std::sqrt(dot(across, across));
 }
 
-double largest_error(const MienFloatView& made, const std::vector<Vec3d>& expected) {
+double largest_difference(Span<const float> a, Span<const float> b) {
+  EXPECT_EQ(a.count, b.count);
+  double largest = 0;
+  for (size_t i = 0; i < a.count && i < b.count; ++i) {
+    const double difference = std::fabs(double(a[i]) - double(b[i]));
+    if (!(difference <= largest)) largest = difference;  // what is not a number is the largest
+  }
+  return largest;
+}
+
+double largest_error(Span<const float> made, const std::vector<Vec3d>& expected) {
   EXPECT_EQ(made.count, expected.size() * 3);
   double largest = 0;
   for (size_t i = 0; i < expected.size() && i * 3 + 2 < made.count; ++i) {

@@ -29,7 +29,8 @@ struct DeformRigOptions {
   uint32_t joints = 12;
   uint32_t meshes = 2;
   uint32_t rows = 9, columns = 11;  // of the grid that each mesh is
-  uint32_t most_influences = 14;
+  uint32_t least_influences = 0, most_influences = 14;
+  bool one_root = false;
   uint32_t channels = 5;
   uint32_t rotation_sequence = 0;
   int32_t rotation_signs[3] = {1, 1, 1};
@@ -73,7 +74,63 @@ struct PlainDeformer {
   std::vector<Vec3d> directions(uint32_t mesh, const std::vector<Vec3d>& positions) const;
 };
 
+/// A file with all that deforms it.
+struct Deformed {
+  std::vector<uint8_t> bytes;  // the DNA points into them
+  DnaHandle dna;
+  RigHandle rig;
+  DeformerHandle deformer;
+  PoseHandle pose;
+
+  explicit Deformed(std::vector<uint8_t> file, MienDeformerDesc desc = {},
+                    uint32_t rotation = MIEN_OUTPUT_EULER)
+      : bytes(std::move(file)), dna(open_dna(bytes)),
+        rig(create_rig(dna.get(), MIEN_ISA_BEST, MIEN_OK, rotation)),
+        deformer(create_deformer(dna.get(), rig.get(), desc)), pose(create_pose(deformer.get())) {}
+
+  static void update(MienPose* pose, const DeformValues& values) {
+    EXPECT_EQ(mien_pose_update_from_values(pose, values.joints.data(), values.joints.size(),
+                                           values.channels.data(), values.channels.size()),
+              MIEN_OK);
+  }
+  void update(const DeformValues& values) { update(pose.get(), values); }
+  void deform(uint32_t mesh, uint32_t normals = MIEN_NORMALS_DEFAULT) {
+    EXPECT_EQ(mien_pose_deform(pose.get(), mesh, normals, nullptr), MIEN_OK);
+  }
+  static Span<const float> positions(const MienPose* pose, uint32_t mesh) {
+    MienFloatView view = {};
+    EXPECT_EQ(mien_pose_positions(pose, mesh, &view), MIEN_OK);
+    return {view.data, view.count};
+  }
+  static Span<const float> normals(const MienPose* pose, uint32_t mesh) {
+    MienFloatView view = {};
+    EXPECT_EQ(mien_pose_normals(pose, mesh, &view), MIEN_OK);
+    return {view.data, view.count};
+  }
+  Span<const float> positions(uint32_t mesh) const { return positions(pose.get(), mesh); }
+  Span<const float> normals(uint32_t mesh) const { return normals(pose.get(), mesh); }
+  Span<const float> matrices() const {
+    MienFloatView view = {};
+    EXPECT_EQ(mien_pose_joint_matrices(pose.get(), &view), MIEN_OK);
+    return {view.data, view.count};
+  }
+  Span<const float> skins() const {
+    MienFloatView view = {};
+    EXPECT_EQ(mien_pose_skin_matrices(pose.get(), &view), MIEN_OK);
+    return {view.data, view.count};
+  }
+  /// Positions and normals, to be compared later.
+  std::vector<float> results(uint32_t mesh) const {
+    std::vector<float> all(positions(mesh).begin(), positions(mesh).end());
+    all.insert(all.end(), normals(mesh).begin(), normals(mesh).end());
+    return all;
+  }
+};
+
+/// Largest difference of two numbers at the same place.
+double largest_difference(Span<const float> a, Span<const float> b);
+
 /// Largest distance between the two.
-double largest_error(const MienFloatView& made, const std::vector<Vec3d>& expected);
+double largest_error(Span<const float> made, const std::vector<Vec3d>& expected);
 
 }  // namespace mien
