@@ -221,6 +221,58 @@ TEST_F(OutOfMemory, CreateInstance) {
   EXPECT_TRUE(counter.clean());
 }
 
+TEST_F(OutOfMemory, CreateDeformer) {
+  const Bytes tiny = tiny_file();
+  const DnaHandle handles[] = {open_dna(tiny), generate_dna(MIEN_PRESET_TINY, 1),
+                               generate_dna(MIEN_PRESET_SMALL, 1)};
+  for (const DnaHandle& dna : handles) {
+    const RigHandle rig = create_rig(dna.get());
+    auto make = [&](const MienAllocator* allocator, MienDeformer** out, MienError* error) {
+      MienDeformerDesc desc = sized<MienDeformerDesc>();
+      desc.allocator = allocator;
+      return mien_deformer_create(dna.get(), rig.get(), &desc, out, error);
+    };
+    EXPECT_GE(survive_every_failure(Maker<MienDeformer>{make, mien_deformer_destroy}), 2u);
+
+    MienDeformer* deformer = nullptr;
+    ASSERT_EQ(make(nullptr, &deformer, nullptr), MIEN_OK);
+    auto pose = [&](const MienAllocator* allocator, MienPose** out, MienError* error) {
+      MienPoseDesc desc = sized<MienPoseDesc>();
+      desc.allocator = allocator;
+      return mien_pose_create(deformer, &desc, out, error);
+    };
+    EXPECT_EQ(survive_every_failure(Maker<MienPose>{pose, mien_pose_destroy}), 1u);
+    mien_deformer_destroy(deformer);
+  }
+}
+
+// A failed deformer or pose is no owner of what it would have kept alive.
+TEST_F(OutOfMemory, FailuresKeepNothingAlive) {
+  CountingAllocator counter, broken;
+  broken.fail_at = 1;
+  broken.keep_failing = true;
+  const MienAllocator allocator = counter.get(), nothing = broken.get();
+  const Bytes tiny = tiny_file();
+  MienDna* dna = nullptr;
+  MienRig* rig = nullptr;
+  MienDeformer* deformer = nullptr;
+  MienPose* pose = nullptr;
+  ASSERT_EQ(opener(tiny).make(&allocator, &dna, nullptr), MIEN_OK);
+  ASSERT_EQ(compiler(dna).make(&allocator, &rig, nullptr), MIEN_OK);
+  MienDeformerDesc desc = sized<MienDeformerDesc>();
+  desc.allocator = &nothing;
+  EXPECT_EQ(mien_deformer_create(dna, rig, &desc, &deformer, nullptr), MIEN_ERROR_MEMORY);
+  desc.allocator = &allocator;
+  ASSERT_EQ(mien_deformer_create(dna, rig, &desc, &deformer, nullptr), MIEN_OK);
+  MienPoseDesc pose_desc = sized<MienPoseDesc>();
+  pose_desc.allocator = &nothing;
+  EXPECT_EQ(mien_pose_create(deformer, &pose_desc, &pose, nullptr), MIEN_ERROR_MEMORY);
+  mien_deformer_destroy(deformer);
+  mien_rig_destroy(rig);
+  mien_dna_close(dna);
+  EXPECT_TRUE(counter.clean()) << counter.first_wrong;
+}
+
 // Writing takes memory from the allocator of the DNA.
 TEST_F(OutOfMemory, WriteFile) {
   const Bytes tiny = tiny_file();
@@ -265,6 +317,14 @@ TEST_F(OutOfMemory, NothingElseAllocates) {
     ASSERT_EQ(opener(file).make(&allocator, &dna, nullptr), MIEN_OK);
     ASSERT_EQ(compiler(dna).make(&allocator, &rig, nullptr), MIEN_OK);
     ASSERT_EQ(mien_instance_create(rig, &allocator, &instance, nullptr), MIEN_OK);
+    MienDeformer* deformer = nullptr;
+    MienPose* pose = nullptr;
+    MienDeformerDesc deformer_desc = sized<MienDeformerDesc>();
+    deformer_desc.allocator = &allocator;
+    ASSERT_EQ(mien_deformer_create(dna, rig, &deformer_desc, &deformer, nullptr), MIEN_OK);
+    MienPoseDesc pose_desc = sized<MienPoseDesc>();
+    pose_desc.allocator = &allocator;
+    ASSERT_EQ(mien_pose_create(deformer, &pose_desc, &pose, nullptr), MIEN_OK);
     MienRigInfo info = sized<MienRigInfo>();
     ASSERT_EQ(mien_rig_info(rig, &info), MIEN_OK);
 
@@ -335,11 +395,33 @@ TEST_F(OutOfMemory, NothingElseAllocates) {
     }
     call(mien_instance_reset(instance));
 
+    // Deformer and pose
+    MienDeformerInfo deformer_info = sized<MienDeformerInfo>();
+    call(mien_deformer_info(deformer, &deformer_info));
+    call(mien_deformer_bind_matrices(deformer, &floats));
+    call(mien_deformer_inverse_bind_matrices(deformer, &floats));
+    call(mien_pose_update(pose, instance));
+    call(mien_pose_joint_matrices(pose, &floats));
+    call(mien_pose_skin_matrices(pose, &floats));
+    for (uint32_t m = 0; m < deformer_info.mesh_count; ++m) {
+      MienMesh mesh = sized<MienMesh>();
+      call(mien_deformer_mesh(deformer, m, &mesh));
+      call(mien_deformer_influences(deformer, m, 0, &indices, &floats));
+      for (uint32_t normals = 0; normals <= MIEN_NORMALS_RECOMPUTED; ++normals) {
+        call(mien_pose_deform(pose, m, normals, nullptr));
+        call(mien_pose_deform_batch(&pose, 1, m, normals, nullptr));
+      }
+      call(mien_pose_positions(pose, m, &floats));
+      call(mien_pose_normals(pose, m, &floats));
+    }
+
     EXPECT_EQ(worst, MIEN_OK);
     EXPECT_GT(calls, 40u);
     EXPECT_EQ(counter.requests, 0u);
     EXPECT_EQ(g_news, news);
     counter.fail_at = 0;
+    mien_pose_destroy(pose);
+    mien_deformer_destroy(deformer);
     mien_instance_destroy(instance);
     mien_rig_destroy(rig);
     mien_dna_close(dna);

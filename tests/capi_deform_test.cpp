@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: MIT
+// Deformers and poses called wrongly, and how long they live.
+#include "tests/support/counting_allocator.h"
+#include "tests/support/deform_rig.h"
+#include "tests/support/misuse.h"
+
+namespace mien {
+namespace {
+
+class DeformMisuse : public Misuse {
+ protected:
+  void SetUp() override {
+    Misuse::SetUp();
+    MienDeformerDesc desc = sized<MienDeformerDesc>();
+    desc.allocator = &kept.interface;
+    ASSERT_EQ(mien_deformer_create(dna, rig, &desc, &deformer, nullptr), MIEN_OK);
+    MienPoseDesc pose_desc = sized<MienPoseDesc>();
+    pose_desc.allocator = &kept.interface;
+    ASSERT_EQ(mien_pose_create(deformer, &pose_desc, &pose, nullptr), MIEN_OK);
+  }
+  void TearDown() override {
+    mien_pose_destroy(pose);
+    mien_deformer_destroy(deformer);
+    Misuse::TearDown();
+  }
+
+  MienDeformer* deformer = nullptr;
+  MienPose* pose = nullptr;
+};
+
+struct Influences {
+  MienIndexView joints;
+  MienFloatView weights;
+};
+
+std::vector<Outcome> calls_on(MienDeformer* deformer) {
+  float deltas[18];
+  Caller c;
+  c.into_struct<MienDeformerInfo>("info", [&](auto* o) { return mien_deformer_info(deformer, o); });
+  c.into_struct<MienMesh>("mesh", [&](auto* o) { return mien_deformer_mesh(deformer, 0, o); });
+  c.plain<Influences>("influences", [&](auto* o) {
+    return mien_deformer_influences(deformer, 0, 0, &o->joints, &o->weights);
+  });
+  c.nothing("target", [&] { return mien_deformer_target(deformer, 0, 0, deltas, 18); });
+  c.plain<MienFloatView>("bind", [&](auto* o) { return mien_deformer_bind_matrices(deformer, o); });
+  c.plain<MienFloatView>("inverse_bind",
+                         [&](auto* o) { return mien_deformer_inverse_bind_matrices(deformer, o); });
+  c.with_error<MienPose*>("pose_create", [&](auto* o, auto* e) {
+    const MienStatus status = mien_pose_create(deformer, nullptr, o, e);
+    mien_pose_destroy(*o);
+    return status;
+  });
+  return c.outcomes;
+}
+
+std::vector<Outcome> calls_on(MienPose* pose, const MienInstance* instance) {
+  using Floats = MienFloatView;
+  float locals[30];
+  Caller c;
+  c.nothing("update", [&] { return mien_pose_update(pose, instance); });
+  c.nothing("values", [&] { return mien_pose_update_from_values(pose, nullptr, 0, nullptr, 0); });
+  c.plain<Floats>("joints", [&](auto* o) { return mien_pose_joint_matrices(pose, o); });
+  c.plain<Floats>("skins", [&](auto* o) { return mien_pose_skin_matrices(pose, o); });
+  c.nothing("locals", [&] { return mien_pose_local_transforms(pose, locals, 30); });
+  c.nothing("deform", [&] { return mien_pose_deform(pose, 0, MIEN_NORMALS_DEFAULT, nullptr); });
+  c.nothing("batch", [&] { return mien_pose_deform_batch(&pose, 1, 0, 0, nullptr); });
+  c.plain<Floats>("positions", [&](auto* o) { return mien_pose_positions(pose, 0, o); });
+  c.plain<Floats>("normals", [&](auto* o) { return mien_pose_normals(pose, 0, o); });
+  return c.outcomes;
+}
+
+TEST_F(DeformMisuse, LiveHandlesAreAccepted) {
+  expect_all(calls_on(deformer), MIEN_OK);
+  expect_all(calls_on(pose, instance), MIEN_OK);
+}
+
+TEST_F(DeformMisuse, NullIsNoHandle) {
+  expect_all(calls_on(static_cast<MienDeformer*>(nullptr)), MIEN_ERROR_NULL_ARGUMENT);
+  expect_all(calls_on(static_cast<MienPose*>(nullptr), instance), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_pose_update(pose, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  mien_deformer_destroy(nullptr);
+  mien_pose_destroy(nullptr);
+}
+
+TEST_F(DeformMisuse, HandlesOfAnotherKindAreRefused) {
+  alignas(8) uint8_t zeros[64] = {};
+  void* const odd = reinterpret_cast<uint8_t*>(pose) + 1;
+  for (void* wrong : {static_cast<void*>(dna), static_cast<void*>(report), static_cast<void*>(rig),
+                      static_cast<void*>(instance), static_cast<void*>(deformer),
+                      static_cast<void*>(pose), static_cast<void*>(zeros), odd}) {
+    if (wrong != deformer) {
+      expect_all(calls_on(static_cast<MienDeformer*>(wrong)), MIEN_ERROR_HANDLE);
+      mien_deformer_destroy(static_cast<MienDeformer*>(wrong));
+    }
+    if (wrong != pose) {
+      expect_all(calls_on(static_cast<MienPose*>(wrong), instance), MIEN_ERROR_HANDLE);
+      mien_pose_destroy(static_cast<MienPose*>(wrong));
+    }
+    if (wrong != instance) {
+      EXPECT_EQ(mien_pose_update(pose, static_cast<MienInstance*>(wrong)), MIEN_ERROR_HANDLE);
+    }
+    MienDeformer* made = nullptr;
+    if (wrong != dna) {
+      EXPECT_EQ(mien_deformer_create(static_cast<MienDna*>(wrong), rig, nullptr, &made, nullptr),
+                MIEN_ERROR_HANDLE);
+    }
+    if (wrong != rig) {
+      EXPECT_EQ(mien_deformer_create(dna, static_cast<MienRig*>(wrong), nullptr, &made, nullptr),
+                MIEN_ERROR_HANDLE);
+    }
+  }
+}
+
+TEST_F(DeformMisuse, DestroyedHandlesAreRefused) {
+  MienDeformer* const gone = deformer;
+  mien_deformer_destroy(deformer);
+  expect_all(calls_on(gone), MIEN_ERROR_HANDLE);
+  // The pose keeps what it needs.
+  expect_all(calls_on(pose, instance), MIEN_OK);
+  MienPose* const gone_pose = pose;
+  mien_pose_destroy(pose);
+  expect_all(calls_on(gone_pose, instance), MIEN_ERROR_HANDLE);
+  mien_pose_destroy(gone_pose);
+  mien_deformer_destroy(gone);
+}
+
+TEST_F(DeformMisuse, IndicesPastTheEnd) {
+  MienMesh mesh = sized<MienMesh>();
+  Influences influences;
+  float deltas[18];
+  EXPECT_EQ(mien_deformer_mesh(deformer, 1, &mesh), MIEN_ERROR_INDEX);
+  EXPECT_EQ(mien_deformer_influences(deformer, 1, 0, &influences.joints, &influences.weights),
+            MIEN_ERROR_INDEX);
+  EXPECT_EQ(mien_deformer_influences(deformer, 0, 6, &influences.joints, &influences.weights),
+            MIEN_ERROR_INDEX);
+  EXPECT_EQ(mien_deformer_target(deformer, 1, 0, deltas, 18), MIEN_ERROR_INDEX);
+  EXPECT_EQ(mien_deformer_target(deformer, 0, 1, deltas, 18), MIEN_ERROR_INDEX);
+  EXPECT_EQ(mien_pose_deform(pose, 1, 0, nullptr), MIEN_ERROR_INDEX);
+  MienFloatView view = {};
+  EXPECT_EQ(mien_pose_positions(pose, 1, &view), MIEN_ERROR_INDEX);
+  EXPECT_EQ(mien_pose_normals(pose, ~0u, &view), MIEN_ERROR_INDEX);
+}
+
+TEST_F(DeformMisuse, OutputsThatAreNotThere) {
+  MienIndexView joints = {};
+  MienFloatView view = {};
+  EXPECT_EQ(mien_deformer_create(dna, rig, nullptr, nullptr, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_deformer_info(deformer, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_deformer_mesh(deformer, 0, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_deformer_influences(deformer, 0, 0, nullptr, &view), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_deformer_influences(deformer, 0, 0, &joints, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_deformer_target(deformer, 0, 0, nullptr, 18), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_deformer_bind_matrices(deformer, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_deformer_inverse_bind_matrices(deformer, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_pose_create(deformer, nullptr, nullptr, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_pose_joint_matrices(pose, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_pose_skin_matrices(pose, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_pose_local_transforms(pose, nullptr, 30), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_pose_positions(pose, 0, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_pose_normals(pose, 0, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_pose_deform_batch(nullptr, 1, 0, 0, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_pose_deform_batch(nullptr, 0, 0, 0, nullptr), MIEN_OK);
+}
+
+TEST_F(DeformMisuse, BuffersOfTheWrongSize) {
+  float floats[64] = {};
+  EXPECT_EQ(mien_deformer_target(deformer, 0, 0, floats, 17), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(mien_pose_local_transforms(pose, floats, 29), MIEN_ERROR_INVALID_ARGUMENT);
+  const auto update = [&](const float* joints, size_t joint_count, const float* weights,
+                          size_t weight_count) {
+    return mien_pose_update_from_values(pose, joints, joint_count, weights, weight_count);
+  };
+  EXPECT_EQ(update(floats, 27, floats, 2), MIEN_OK);
+  EXPECT_EQ(update(floats, 27, nullptr, 0), MIEN_OK);
+  EXPECT_EQ(update(nullptr, 0, floats, 2), MIEN_OK);
+  for (size_t wrong : {size_t{0}, size_t{26}, size_t{28}, size_t{30}}) {
+    EXPECT_EQ(update(floats, wrong, floats, 2), MIEN_ERROR_INVALID_ARGUMENT) << wrong;
+  }
+  EXPECT_EQ(update(floats, 27, floats, 3), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(update(nullptr, 27, floats, 2), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(update(floats, 27, nullptr, 2), MIEN_ERROR_INVALID_ARGUMENT);
+}
+
+TEST_F(DeformMisuse, DescriptionsThatAreNone) {
+  const auto create = [&](auto&& change) {
+    MienDeformerDesc desc = sized<MienDeformerDesc>();
+    change(desc);
+    MienError error = sized<MienError>();
+    MienDeformer* made = nullptr;
+    const MienStatus status = mien_deformer_create(dna, rig, &desc, &made, &error);
+    EXPECT_EQ(made, nullptr);
+    EXPECT_NE(error.message[0], 0);
+    return status;
+  };
+  using Desc = MienDeformerDesc;
+  EXPECT_EQ(create([](Desc& d) { d.struct_size = 4; }), MIEN_ERROR_STRUCT_SIZE);
+  EXPECT_EQ(create([](Desc& d) { d.isa = 6; }), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(create([](Desc& d) { d.compose = 2; }), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(create([](Desc& d) { d.weights = 2; }), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(create([](Desc& d) { d.normals = 4; }), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(create([](Desc& d) { d.reserved = 1; }), MIEN_ERROR_INVALID_ARGUMENT);
+  const MienAllocator half = {nullptr, kept.interface.allocate, nullptr};
+  EXPECT_EQ(create([&](Desc& d) { d.allocator = &half; }), MIEN_ERROR_INVALID_ARGUMENT);
+  for (uint32_t isa = MIEN_ISA_SCALAR; isa <= MIEN_ISA_NEON; ++isa) {
+    if (mien_isa_available(isa)) continue;
+    EXPECT_EQ(create([&](Desc& d) { d.isa = isa; }), MIEN_ERROR_ISA);
+  }
+  const RigHandle quaternions = create_rig(dna, 0, MIEN_OK, MIEN_OUTPUT_QUATERNION);
+  MienDeformerDesc add = sized<MienDeformerDesc>();
+  add.compose = MIEN_COMPOSE_EULER_ADD;
+  MienDeformer* made = nullptr;
+  EXPECT_EQ(mien_deformer_create(dna, quaternions.get(), &add, &made, nullptr),
+            MIEN_ERROR_INVALID_ARGUMENT);
+
+  Longer<MienDeformerDesc> longer;
+  ASSERT_EQ(mien_deformer_create(dna, rig, &longer.known, &made, nullptr), MIEN_OK);
+  mien_deformer_destroy(made);
+  longer.tail[3] = 1;
+  EXPECT_EQ(mien_deformer_create(dna, rig, &longer.known, &made, nullptr), MIEN_ERROR_STRUCT_SIZE);
+
+  MienPose* posed = nullptr;
+  MienPoseDesc desc = sized<MienPoseDesc>();
+  desc.reserved = 1;
+  EXPECT_EQ(mien_pose_create(deformer, &desc, &posed, nullptr), MIEN_ERROR_INVALID_ARGUMENT);
+  desc = sized<MienPoseDesc>();
+  desc.struct_size = 8;
+  EXPECT_EQ(mien_pose_create(deformer, &desc, &posed, nullptr), MIEN_ERROR_STRUCT_SIZE);
+  desc = sized<MienPoseDesc>();
+  desc.allocator = &half;
+  EXPECT_EQ(mien_pose_create(deformer, &desc, &posed, nullptr), MIEN_ERROR_INVALID_ARGUMENT);
+}
+
+TEST_F(DeformMisuse, LongerOutputsAreClearedBehindWhatIsKnown) {
+  Longer<MienMesh> mesh;
+  memset(mesh.tail, 0xA5, sizeof(mesh.tail));
+  ASSERT_EQ(mien_deformer_mesh(deformer, 0, &mesh.known), MIEN_OK);
+  EXPECT_TRUE(mesh.tail_is(0));
+  EXPECT_EQ(mesh.known.position_count, 6u);
+  Longer<MienDeformerInfo> info;
+  memset(info.tail, 0xA5, sizeof(info.tail));
+  ASSERT_EQ(mien_deformer_info(deformer, &info.known), MIEN_OK);
+  EXPECT_TRUE(info.tail_is(0));
+  info.known.struct_size = 40;
+  EXPECT_EQ(mien_deformer_info(deformer, &info.known), MIEN_ERROR_STRUCT_SIZE);
+}
+
+TEST_F(DeformMisuse, NormalsAndThreadsThatAreNone) {
+  EXPECT_EQ(mien_pose_deform(pose, 0, 4, nullptr), MIEN_ERROR_INVALID_ARGUMENT);
+  const MienParallelFor nobody = {nullptr, nullptr};
+  EXPECT_EQ(mien_pose_deform(pose, 0, 0, &nobody), MIEN_ERROR_INVALID_ARGUMENT);
+}
+
+TEST_F(DeformMisuse, InstancesOfAnotherRig) {
+  const Character other(create_rig(dna));
+  EXPECT_EQ(mien_pose_update(pose, other.instance.get()), MIEN_ERROR_MISMATCH);
+}
+
+TEST_F(DeformMisuse, BatchesThatDoNotFit) {
+  const DeformerHandle other = create_deformer(dna, rig);
+  const PoseHandle stranger = create_pose(other.get()), second = create_pose(deformer);
+  float moved[27] = {0, 5};
+  mien_pose_update_from_values(second.get(), moved, 27, nullptr, 0);
+  const auto deform = [&](std::vector<MienPose*> poses) {
+    return mien_pose_deform_batch(poses.data(), poses.size(), 0, 0, nullptr);
+  };
+  const std::vector<float> before(Deformed::positions(second.get(), 0).begin(),
+                                  Deformed::positions(second.get(), 0).end());
+  EXPECT_EQ(deform({second.get(), pose, second.get()}), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(deform({second.get(), stranger.get()}), MIEN_ERROR_MISMATCH);
+  EXPECT_EQ(deform({second.get(), nullptr}), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_TRUE(same_bits(Deformed::positions(second.get(), 0), span_of(before)));
+  // What was refused leaves no trace.
+  EXPECT_EQ(deform({second.get(), pose}), MIEN_OK);
+  EXPECT_FALSE(same_bits(Deformed::positions(second.get(), 0), span_of(before)));
+}
+
+// A pose with room for the meshes of some LODs.
+TEST(CapiDeform, RoomForSomeLods) {
+  const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 2);
+  const RigHandle rig = create_rig(dna.get());
+  const DeformerHandle deformer = create_deformer(dna.get(), rig.get());
+  MienDeformerInfo info = sized<MienDeformerInfo>();
+  ASSERT_EQ(mien_deformer_info(deformer.get(), &info), MIEN_OK);
+  EXPECT_EQ(info.mesh_count, count_of(rig, MIEN_KIND_MESH));
+  EXPECT_EQ(info.joint_count, count_of(rig, MIEN_KIND_JOINT));
+  EXPECT_EQ(info.channel_count, count_of(rig, MIEN_KIND_BLEND_SHAPE_CHANNEL));
+  EXPECT_EQ(info.isa, info_of(rig).isa);
+  EXPECT_EQ(info.normals, uint32_t{MIEN_NORMALS_RECOMPUTED});
+
+  CountingAllocator counter;
+  const MienAllocator allocator = counter.get();
+  for (uint64_t lods : {uint64_t{0}, uint64_t{1}, uint64_t{6}, uint64_t{1} << 63}) {
+    MienPoseDesc desc = sized<MienPoseDesc>();
+    desc.lods = lods;
+    desc.allocator = &allocator;
+    MienPose* pose = nullptr;
+    ASSERT_EQ(mien_pose_create(deformer.get(), &desc, &pose, nullptr), MIEN_OK);
+    EXPECT_EQ(counter.live, 1u);
+    EXPECT_EQ(counter.bytes == info.pose_bytes, lods == 0);
+    for (uint32_t m = 0; m < info.mesh_count; ++m) {
+      const bool room = lods == 0 || (mesh_of(deformer.get(), m).lods & lods);
+      MienFloatView view = {};
+      EXPECT_EQ(mien_pose_deform(pose, m, 0, nullptr), room ? MIEN_OK : MIEN_ERROR_LOD);
+      EXPECT_EQ(mien_pose_positions(pose, m, &view), room ? MIEN_OK : MIEN_ERROR_LOD);
+      EXPECT_EQ(mien_pose_normals(pose, m, &view), room ? MIEN_OK : MIEN_ERROR_LOD);
+    }
+    mien_pose_destroy(pose);
+    EXPECT_TRUE(counter.clean());
+  }
+}
+
+// Everything goes on living while somebody needs it, in whatever order it is let go.
+TEST(CapiDeform, TheOrderOfDestructionDoesNotMatter) {
+  CountingAllocator counter;
+  const MienAllocator allocator = counter.get();
+  for (int order = 0; order < 6; ++order) {
+    MienDna* dna = nullptr;
+    MienGenerateDesc generate = sized<MienGenerateDesc>();
+    generate.allocator = &allocator;
+    ASSERT_EQ(mien_dna_generate(&generate, &dna, nullptr), MIEN_OK);
+    MienRigDesc rig_desc = sized<MienRigDesc>();
+    rig_desc.allocator = &allocator;
+    MienRig* rig = nullptr;
+    ASSERT_EQ(mien_rig_create(dna, &rig_desc, &rig, nullptr), MIEN_OK);
+    MienDeformerDesc deformer_desc = sized<MienDeformerDesc>();
+    deformer_desc.allocator = &allocator;
+    MienDeformer* deformer = nullptr;
+    ASSERT_EQ(mien_deformer_create(dna, rig, &deformer_desc, &deformer, nullptr), MIEN_OK);
+    mien_dna_close(dna);
+    MienPoseDesc pose_desc = sized<MienPoseDesc>();
+    pose_desc.allocator = &allocator;
+    MienPose* pose = nullptr;
+    ASSERT_EQ(mien_pose_create(deformer, &pose_desc, &pose, nullptr), MIEN_OK);
+    for (int step = 0; step < 3; ++step) {
+      static constexpr int kOrders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2},
+                                            {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+      switch (kOrders[order][step]) {
+        case 0: mien_rig_destroy(rig); break;
+        case 1: mien_deformer_destroy(deformer); break;
+        case 2:
+          EXPECT_EQ(mien_pose_update_from_values(pose, nullptr, 0, nullptr, 0), MIEN_OK);
+          EXPECT_EQ(mien_pose_deform(pose, 0, 0, nullptr), MIEN_OK);
+          mien_pose_destroy(pose);
+          break;
+      }
+    }
+    EXPECT_TRUE(counter.clean()) << "order " << order << " " << counter.first_wrong;
+  }
+}
+
+}  // namespace
+}  // namespace mien
