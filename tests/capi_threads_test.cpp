@@ -6,7 +6,7 @@
 #include <functional>
 #include <thread>
 
-#include "tests/support/rig_handles.h"
+#include "tests/support/deform_rig.h"
 
 namespace mien {
 namespace {
@@ -201,6 +201,56 @@ TEST(CapiThreads, RigIsDestroyedWhileInstancesLive) {
       mine.reset();
     });
     EXPECT_EQ(counting.live_bytes, 0) << "round " << round;
+  }
+}
+
+// One deformer, a pose for each thread, and the deformer destroyed under way.
+TEST(CapiThreads, PosesOfOneDeformerDoNotDisturbEachOther) {
+  const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 5);
+  const RigHandle rig = create_rig(dna.get());
+  DeformerHandle deformer = create_deformer(dna.get(), rig.get());
+  std::vector<std::vector<float>> expected(kThreads), found(kThreads);
+  const auto play = [&](int seed, MienPose* pose, std::vector<float>& results) {
+    const DeformValues values = random_values(rig.get(), static_cast<uint32_t>(seed));
+    Deformed::update(pose, values);
+    EXPECT_EQ(mien_pose_deform(pose, 0, MIEN_NORMALS_RECOMPUTED, nullptr), MIEN_OK);
+    for (const Span<const float>& part :
+         {Deformed::positions(pose, 0), Deformed::normals(pose, 0)}) {
+      results.insert(results.end(), part.begin(), part.end());
+    }
+  };
+  std::vector<PoseHandle> poses;
+  for (int t = 0; t < kThreads; ++t) {
+    play(t, create_pose(deformer.get()).get(), expected[static_cast<size_t>(t)]);
+    poses.push_back(create_pose(deformer.get()));
+  }
+  on_threads(kThreads, [&](int t) {
+    if (t == 0) deformer.reset();
+    PoseHandle& mine = poses[static_cast<size_t>(t)];
+    play(t, mine.get(), found[static_cast<size_t>(t)]);
+    mine.reset();
+  });
+  for (size_t t = 0; t < kThreads; ++t) {
+    EXPECT_TRUE(same_bits(span_of(expected[t]), span_of(found[t]))) << "thread " << t;
+  }
+}
+
+// The tasks of one call write to places of their own.
+TEST(CapiThreads, TasksOfADeformationDoNotMeet) {
+  DeformRigOptions options;
+  options.rows = options.columns = 130;
+  options.meshes = 1;
+  const Deformed d(random_deform_rig(1, options));
+  const auto run = [](void*, uint32_t count, void (*task)(void*, uint32_t), void* context) {
+    std::atomic<uint32_t> next{0};
+    on_threads(4, [&](int) {
+      for (uint32_t i = next++; i < count; i = next++) task(context, i);
+    });
+  };
+  const MienParallelFor parallel = {nullptr, run};
+  Deformed::update(d.pose.get(), random_values(d.rig.get(), 1));
+  for (uint32_t normals : {MIEN_NORMALS_SKINNED, MIEN_NORMALS_RECOMPUTED}) {
+    EXPECT_EQ(mien_pose_deform(d.pose.get(), 0, normals, &parallel), MIEN_OK);
   }
 }
 
