@@ -286,7 +286,7 @@ inline void store3(float* to, Quad q) {
 }
 inline Quad broadcast4(float value) { return Quad(value); }
 inline Quad mul_add4(Quad a, Quad b, Quad c) { return vfmaq_f32(c, a, b); }
-inline Quad mul_sub4(Quad a, Quad b, Quad c) { return vnegq_f32(vfmsq_f32(c, a, b)); }
+inline Quad mul_sub4(Quad a, Quad b, Quad c) { return vfmaq_f32(vnegq_f32(c), a, b); }
 inline Quad divide4(Quad a, Quad b) { return vdivq_f32(a, b); }
 inline Quad square_root4(Quad a) { return vsqrtq_f32(a); }
 inline Quad yzx4(Quad a) { return vextq_f32(vextq_f32(a, a, 3), a, 2); }
