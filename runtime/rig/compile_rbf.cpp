@@ -328,7 +328,8 @@ Status fill_rbf(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error
     if (takes_parts(plan)) {
       fill_rotations_of(from, rotation, rbf);
     } else {
-      copy_array(from.raw_control_indices, rbf.inputs.slice(input, plan.input_count));
+      copy_array(from.raw_control_indices.first(plan.input_count),
+                 rbf.inputs.slice(input, plan.input_count));
       input += plan.input_count;
     }
     copy_array(from.pose_indices, rbf.poses.slice(pose, plan.pose_count));
