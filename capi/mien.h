@@ -793,12 +793,13 @@ typedef struct MienDeformerDesc {
  * file with the same LODs: other numbers or names of joints, channels or meshes are
  * MIEN_ERROR_MISMATCH. It needs MIEN_LAYER_GEOMETRY (or ..._WITHOUT_BLEND_SHAPES: then there are no
  * targets), else MIEN_ERROR_DNA_LAYER.
- * A position may have any number of influences; those of weight 0 are dropped. Faces of fewer than
- * three corners are left out. Meshes without faces, weights, normals, texture coordinates or anything
- * at all are accepted: normals that the file lacks are recomputed from the faces, texture coordinates
- * are 0. MIEN_ERROR_DNA_VALUE: joints that descend from themselves; positions, deltas or weights that
- * are not finite (the message names mesh and position). Takes some memory beyond the block for the time
- * of the call. */
+ * A position may have any number of influences up to 65535 (MIEN_ERROR_DNA_LIMIT); those of weight 0
+ * are dropped. Faces of fewer than three corners are left out. Meshes without faces, weights, normals,
+ * texture coordinates or anything at all are accepted: normals that the file lacks are recomputed from
+ * the faces, texture coordinates are 0. Which side of a face is outside the stored normals tell; without
+ * them the file's axes and winding do. MIEN_ERROR_DNA_VALUE: joints that descend from themselves;
+ * positions, deltas or weights that are not finite (the message names mesh and position). Takes some
+ * memory beyond the block for the time of the call. */
 MIEN_API MienStatus mien_deformer_create(const MienDna* dna, const MienRig* rig,
                                          const MienDeformerDesc* desc, MienDeformer** out_deformer,
                                          MienError* error);

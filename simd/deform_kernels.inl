@@ -10,7 +10,8 @@
 namespace mien::MIEN_KERNEL_ISA {
 namespace {
 
-void add_target(const TargetArgs& args) {
+void add_target(const TargetArgs& given) {
+  const TargetArgs args = given;  // a copy that no store can change
   const Quad weight = broadcast4(args.weight);
   for (size_t i = 0; i < args.count; ++i) {
     float* at = args.moved + size_t{args.places[i]} * 4;
@@ -73,31 +74,44 @@ class CornerNormals {
 
 constexpr size_t kVecsPerMatrix = 16 / kWidth;
 
+template <class Add, size_t... K>
+inline void add_each(const Add& add, std::index_sequence<K...>) {
+  (add(K + 1), ...);
+}
+
 /// The sum of weight * matrix over one row of influences. Each float of the matrix is a lane and
-/// adds the influences in order, so the width does not change a bit. The pack instead of a loop
-/// makes each sum a register of its own.
-template <size_t... V>
+/// adds the influences in order, so the width does not change a bit. The packs instead of loops
+/// make each sum a register of its own, and lay out rows of up to eight influences (kCount; 0 is
+/// any).
+template <size_t kCount, size_t... V>
 inline void blend(const float* weights, const uint16_t* joints, const float* matrices, size_t count,
                   Quad* columns, std::index_sequence<V...>) {
   const float* matrix = matrices + size_t{joints[0]} * 16;
   const Vec first = broadcast(weights[0]);
   Vec sums[] = {first * load(matrix + V * kWidth)...};
-  for (size_t k = 1; k < count; ++k) {
-    matrix = matrices + size_t{joints[k]} * 16;
+  const auto add = [&](size_t k) {
+    const float* next = matrices + size_t{joints[k]} * 16;
     const Vec weight = broadcast(weights[k]);
-    ((sums[V] = mul_add(weight, load(matrix + V * kWidth), sums[V])), ...);
+    ((sums[V] = mul_add(weight, load(next + V * kWidth), sums[V])), ...);
+  };
+  // Compilers make vectors of the plain loop, but not of what is laid out.
+  if constexpr (kCount == 0 || kWidth == 1) {
+    for (size_t k = 1; k < count; ++k) add(k);
+  } else {
+    add_each(add, std::make_index_sequence<kCount - 1>());
   }
   columns4(sums, columns);
 }
 
 template <SkinNormals kMode, size_t kInfluences>
-void skin_rows(const SkinArgs& args) {
+void skin_rows(const SkinArgs& given) {
+  const SkinArgs args = given;
   const size_t influences = kInfluences != 0 ? kInfluences : args.influences;
   CornerNormals normals(args.corners + args.first_corner[0], args.normals, args.turned_normals);
   for (size_t i = 0; i < args.count; ++i) {
     Quad c[4];
-    blend(args.weights + i * influences, args.joints + i * influences, args.matrices, influences, c,
-          std::make_index_sequence<kVecsPerMatrix>());
+    blend<kInfluences>(args.weights + i * influences, args.joints + i * influences, args.matrices,
+                       influences, c, std::make_index_sequence<kVecsPerMatrix>());
     const float* p = args.places + i * 4;
     const Quad moved =
         mul_add4(c[0], broadcast4(p[0]),
@@ -127,6 +141,9 @@ void skin_mode(const SkinArgs& args) {
     case 2: return skin_rows<kMode, 2>(args);
     case 3: return skin_rows<kMode, 3>(args);
     case 4: return skin_rows<kMode, 4>(args);
+    case 5: return skin_rows<kMode, 5>(args);
+    case 6: return skin_rows<kMode, 6>(args);
+    case 7: return skin_rows<kMode, 7>(args);
     case 8: return skin_rows<kMode, 8>(args);
     default: return skin_rows<kMode, 0>(args);
   }
@@ -142,7 +159,8 @@ void skin_places(const SkinArgs& args) {
 
 // Recomputed normals ------------------------------------------------------------------------------
 
-void face_areas(const AreaArgs& args) {
+void face_areas(const AreaArgs& given) {
+  const AreaArgs args = given;
   for (size_t i = 0; i < args.count; ++i) {
     const uint32_t* face = args.faces + i * 4;
     const auto corner = [&](size_t k) { return load4(args.positions + size_t{face[k]} * 3); };
@@ -172,7 +190,8 @@ inline Quad turned_normal(const Quad& sum, const float* neutral_direction, const
                   mul_add4(n, broadcast4(cosine), cross4(axis, n)));
 }
 
-void sum_normals(const NormalArgs& args) {
+void sum_normals(const NormalArgs& given) {
+  const NormalArgs args = given;
   CornerNormals normals(args.corners + args.first_corner[0], args.normals, args.turned_normals);
   for (size_t i = 0; i < args.count; ++i) {
     Quad sum = broadcast4(0.0f);
