@@ -143,11 +143,14 @@ struct RbfSolverPlan {
   size_t first_target, first_inverse;
   uint32_t first_input, input_count;  // whole angles; into inputs, or the lane of rotations
   uint32_t first_lane, pose_count;
+  uint32_t first_control;  // where results go instead, one behind the other, or kNoFirstControl
   float scale, threshold;
   uint8_t function;
   uint8_t angle_inputs;  // 0: Euclidean; else 4, 3 or 2
   bool interpolative, always_normalize;
 };
+
+constexpr uint32_t kNoFirstControl = ~uint32_t{0};
 
 /// The solvers of a list. Writes results[first_lane + pose] = factor * the pose's weight times its
 /// scale, where that exceeds the threshold, else 0. Nothing is fused: every instruction set gives
@@ -165,10 +168,11 @@ struct RbfArgs {
   uint32_t first_block, block_count;  // of rotations
   const float* targets;
   const float* inverses;
-  const float* pose_scales;   // [lane], within 1e19
-  const float* pose_factors;  // [lane]
+  const float* pose_scales;   // [lane], at most 1e9, so that nothing overflows
+  const float* pose_factors;  // [lane], the same
   float* weights;             // [lane]: scratch
   float* results;             // [lane]
+  float* controls;
 };
 
 /// Local transforms of joints, in blocks of 16, one lane each:

@@ -141,7 +141,7 @@ template <class V>
 inline V weight_of(V x, const RbfSolverPlan& solver) {
   using M = Make<V>;
   // A radius below zero makes weights grow with the distance: up to 2^60, so that the product with
-  // the scale of a pose, at most 1e19, does not overflow.
+  // scale and factor of a pose does not overflow.
   constexpr float kMost = 60, kMostWeight = 1.152921505e18f;
   if (solver.function < 2) {
     return power_of_two_or_zero(solver.scale > 0 ? at_most_or_nan(x, M::of(kMost)) : x);
@@ -219,10 +219,16 @@ void normalize(const RbfSolverPlan& solver, const RbfArgs& args) {
   if (sum > 1.0f || (solver.always_normalize && sum > 0.0f)) scale = 1.0f / sum;
   if (!(scale < 3.4e38f)) scale = 0.0f;  // of weights that all but vanish
   const Vec threshold = broadcast(solver.threshold);
+  float* results = args.results + at;
+  if (solver.first_control != kNoFirstControl) results = args.controls + solver.first_control;
   for (size_t p = 0; p < count; p += kWidth) {
     const Vec value = load(weights + p) * broadcast(scale) * load(args.pose_scales + at + p);
-    const Vec counted = keep(less(threshold, value), value);
-    store(args.results + at + p, saturate(counted * load(args.pose_factors + at + p)));
+    const Vec result = keep(less(threshold, value), value) * load(args.pose_factors + at + p);
+    if (p + kWidth <= count) {
+      store(results + p, result);
+    } else {
+      store_first(results + p, result, count - p);
+    }
   }
 }
 

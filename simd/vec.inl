@@ -8,6 +8,7 @@
 //   exact.
 //                   What is stored is finite: infinities and NaN need not survive
 //   store           to any address
+//   store_first     leading floats of a vector, fewer than kWidth, to any address
 //   broadcast       the same float in each lane
 //   + - *           rounded once each: never fused (the kernels are built without contraction)
 //   divide, square_root   correctly rounded
@@ -85,6 +86,7 @@ inline Vec load_half(const uint16_t* from) {
   return value * 0x1p112f;
 }
 inline void store(float* to, Vec value) { *to = value; }
+inline void store_first(float*, Vec, size_t) {}
 inline Vec broadcast(float value) { return value; }
 inline Vec mul_add(Vec a, Vec b, Vec c) { return a * b + c; }  // built with -ffp-contract=off
 inline Vec square_root(Vec v) { return __builtin_sqrtf(v); }
@@ -186,6 +188,15 @@ inline PieceVec load_piece(const int16_t* from) {
 
 inline Vec load(const float* from) { return Vec::load_aligned(from); }
 inline void store(float* to, Vec value) { value.store_unaligned(to); }
+inline void store_first(float* to, Vec value, size_t count) {
+#if defined(MIEN_KERNEL_AVX512)
+  _mm512_mask_storeu_ps(to, static_cast<__mmask16>((1u << count) - 1), value);
+#else
+  float lanes[kWidth];
+  store(lanes, value);
+  for (size_t i = 0; i < count; ++i) to[i] = lanes[i];
+#endif
+}
 inline Vec broadcast(float value) { return Vec(value); }
 #if defined(MIEN_KERNEL_NEON)
 // xsimd 8.1 refines estimates here, which does not round as these do.

@@ -234,6 +234,7 @@ struct KernelSolver {
     plan.pose_count = poses;
     plan.angle_inputs = angular ? 4 : 0;
     plan.threshold = -1;
+    plan.first_control = kNoFirstControl;
     const auto fill = [&](const auto& at) {
       for (uint32_t i = 0; i < input_count; i += angular ? 4 : 1) {
         double q[4], length = 0;
@@ -278,7 +279,8 @@ struct KernelSolver {
   void run(const KernelTable& table) const {
     const uint16_t list[] = {0};
     table.rbf_solvers({&plan, list, 1, inputs.data(), nullptr, nullptr, 0, 0, targets.data,
-                       inverses.data, scales.data, factors.data, weights.data, results.data});
+                       inverses.data, scales.data, factors.data, weights.data, results.data,
+                       nullptr});
   }
 
   double model_weight(uint32_t p) const {

@@ -7,6 +7,7 @@ namespace {
 
 void fetch(const Instance& instance, const Span<uint16_t>& controls, float* to) {
   const float* from = instance.controls.data;
+#pragma GCC unroll 4
   for (size_t i = 0; i < controls.count; ++i) to[i] = from[controls[i]];
 }
 
@@ -28,6 +29,7 @@ void run_solvers(const Rig& rig, Instance& instance, const Span<uint16_t>& solve
   args.pose_factors = rbf.pose_factors.data;
   args.weights = instance.rbf_weights.data;
   args.results = instance.rbf_results.data;
+  args.controls = instance.controls.data;
   rig.kernels->rbf_solvers(args);
 }
 
@@ -65,19 +67,14 @@ void add_pose_controls(const Rig& rig, const RbfSolver& solver, const float* res
   }
 }
 
+/// Of a solver whose results are not written where they belong already.
 void drive_pose_controls(const Rig& rig, uint32_t index, Instance& instance) {
-  const RbfTable& rbf = rig.rbf;
-  const RbfSolver& solver = rbf.solvers[index];
-  const RbfSolverPlan& plan = rbf.plans[index];
+  const RbfSolverPlan& plan = rig.rbf.plans[index];
+  if (plan.first_control != kNoFirstControl) return;
+  const RbfSolver& solver = rig.rbf.solvers[index];
   const float* results = instance.rbf_results.data + plan.first_lane;
-  if (!solver.direct) {
-    clear_pose_controls(rig, solver, plan.pose_count, instance);
-    add_pose_controls(rig, solver, results, plan.pose_count, instance);
-    return;
-  }
-  const uint16_t* outputs = rbf.direct_outputs.data + plan.first_lane;
-  float* controls = instance.controls.data;
-  for (uint32_t p = 0; p < plan.pose_count; ++p) controls[outputs[p]] = results[p];
+  clear_pose_controls(rig, solver, plan.pose_count, instance);
+  add_pose_controls(rig, solver, results, plan.pose_count, instance);
 }
 
 }  // namespace

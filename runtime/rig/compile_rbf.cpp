@@ -13,7 +13,7 @@ namespace {
 // memory with the square of it and more, so a file must not ask for any number.
 constexpr uint32_t kMostPoses = 1024;
 constexpr size_t kMostInverseFloats = size_t{4} << 20;
-constexpr float kMostScale = 1e19f;  // of a pose, as kernels.h asks
+constexpr float kMostScale = 1e9f;  // of a pose, as kernels.h asks
 
 enum Function : uint16_t { kGaussian, kExponential, kLinear, kCubic, kQuintic };
 
@@ -212,30 +212,41 @@ void fill_poses(const dna::DnaView& view, RbfTable& rbf) {
   }
 }
 
+/// True for poses that drive one control each, one behind the other, and multiply with none.
+bool drives_in_order(const RbfTable& rbf, const RbfSolver& solver, uint32_t pose_count) {
+  for (uint32_t p = 0; p < pose_count; ++p) {
+    const uint32_t pose = rbf.poses[solver.first_pose + p];
+    const uint32_t output = rbf.first_output[pose];
+    if (rbf.first_input[pose] != rbf.first_input[pose + 1]) return false;
+    if (output + 1 != rbf.first_output[pose + 1]) return false;
+    if (!(std::fabs(rbf.pose_weights[output]) <= kMostScale)) return false;
+    const uint32_t first = rbf.first_output[rbf.poses[solver.first_pose]];
+    if (rbf.pose_outputs[output] != rbf.pose_outputs[first] + p) return false;
+  }
+  return pose_count != 0;
+}
+
 /// Finds which solvers may write without looking, and whether all may run side by side.
 /// `writer` is zeroed scratch: [control], the last solver found to drive it, counted from 1.
-void find_direct_solvers(RbfTable& rbf, const Span<uint32_t>& writer) {
+void find_order(RbfTable& rbf, const Span<uint32_t>& writer) {
+  rbf.independent = true;
   for (uint32_t s = 0; s < rbf.solvers.count; ++s) {
-    RbfSolver& solver = rbf.solvers[s];
-    const RbfSolverPlan& plan = rbf.plans[s];
-    solver.direct = true;
+    const RbfSolver& solver = rbf.solvers[s];
+    RbfSolverPlan& plan = rbf.plans[s];
+    const bool in_order = drives_in_order(rbf, solver, plan.pose_count);
+    plan.first_control = kNoFirstControl;
     for (uint32_t p = 0; p < plan.pose_count; ++p) {
       const uint32_t pose = rbf.poses[solver.first_pose + p];
-      solver.direct &= rbf.first_input[pose] == rbf.first_input[pose + 1] &&
-                       rbf.first_output[pose] + 1 == rbf.first_output[pose + 1];
       for (uint32_t o = rbf.first_output[pose]; o < rbf.first_output[pose + 1]; ++o) {
         uint32_t& last = writer[rbf.pose_outputs[o]];
-        solver.direct &= last != s + 1;
+        rbf.independent &= last == 0 || last == s + 1;
         last = s + 1;
+        if (!in_order) continue;
+        if (p == 0) plan.first_control = rbf.pose_outputs[o];
+        rbf.pose_factors[plan.first_lane + p] = rbf.pose_weights[o];
       }
     }
-    for (uint32_t p = 0; p < plan.pose_count && solver.direct; ++p) {
-      const uint32_t output = rbf.first_output[rbf.poses[solver.first_pose + p]];
-      rbf.direct_outputs[plan.first_lane + p] = rbf.pose_outputs[output];
-      rbf.pose_factors[plan.first_lane + p] = rbf.pose_weights[output];
-    }
   }
-  rbf.independent = true;
   for (const Span<uint16_t>& read : {rbf.inputs, rbf.rotations}) {
     for (uint16_t control : read) rbf.independent &= writer[control] == 0;
   }
@@ -290,7 +301,6 @@ Status place_rbf(const dna::DnaView& view, Placer& placer, Rig& rig, Error& erro
   rbf.inverses = placer.array<float>(inverses, kBlockAlignment);
   rbf.pose_scales = placer.array<float>(lanes, kBlockAlignment);
   rbf.pose_factors = placer.array<float>(lanes, kBlockAlignment);
-  rbf.direct_outputs = placer.array<uint16_t>(lanes);
   rbf.first_input = placer.array<uint32_t>(pose_count + 1);
   rbf.first_output = placer.array<uint32_t>(pose_count + 1);
   rbf.pose_inputs = placer.array<uint16_t>(pose_inputs);
@@ -311,7 +321,7 @@ Status fill_rbf(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error
   size_t target = 0, inverse = 0;
   for (uint32_t i = 0; i < rbf.solvers.count; ++i) {
     const dna::RbfSolver& from = view.rbfb.solvers[i];
-    rbf.solvers[i] = {pose, false};
+    rbf.solvers[i] = {pose};
     RbfSolverPlan& plan = rbf.plans[i];
     plan = {};
     plan.angle_inputs = static_cast<uint8_t>(angle_inputs(from.distance_method));
@@ -360,7 +370,7 @@ Status fill_rbf(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error
     }
   }
   fill_poses(view, rbf);
-  find_direct_solvers(rbf, writer);
+  find_order(rbf, writer);
   fill_lod_lists(view.rbfb.lod_solvers, rbf.lod_solvers);
   return Status::kOk;
 }

@@ -155,7 +155,6 @@ enum RbfDistance : uint8_t { kEuclidean, kQuaternion, kSwingAngle, kTwistAngle }
 /// One RBF solver (rig-evaluation 6), beside its plan.
 struct RbfSolver {
   uint32_t first_pose;  // into RbfTable::poses
-  bool direct;          // each pose writes one control of its own, and multiplies with none
 };
 
 /// Reads swings or twists instead of inputs.
@@ -166,14 +165,13 @@ inline bool takes_parts(const RbfSolverPlan& plan) {
 struct RbfTable {
   Span<RbfSolver> solvers;
   Span<RbfSolverPlan> plans;  // beside solvers
-  bool independent = false;   // no solver reads what another one, or itself, writes
+  bool independent = false;   // no solver reads or writes what another one writes
   Span<uint16_t> inputs;      // control numbers
   Span<uint16_t> rotations;   // control numbers: [block][4][lane], as RbfArgs has them
   Span<float> swings;         // [block][lane], as RbfArgs has them
   Span<uint16_t> poses;       // pose numbers
   Span<float> targets, inverses;
   Span<float> pose_scales, pose_factors;  // [lane]
-  Span<uint16_t> direct_outputs;          // [lane] control that a pose of a direct solver writes
   Span<uint32_t> first_input;             // [pose] into pose_inputs, one more at the end
   Span<uint32_t> first_output;            // [pose] into pose_outputs, one more at the end
   Span<uint16_t> pose_inputs, pose_outputs;
