@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Learned behaviour of a LayerRig in double precision (rig-evaluation 8).
+#pragma once
+
+#include <vector>
+
+#include "tests/support/layer_rig.h"
+
+namespace mien {
+
+/// Values per joint, as keys 0, 1 and 2 of the ML joints give them.
+struct MlJointLayout {
+  uint32_t translation = 0, rotation = 0, scale = 0, width = 0;
+};
+MlJointLayout ml_joint_layout(const LayerRig& rig);
+
+double model_activation(uint16_t function, double v, double alpha);
+
+/// Outputs of a network.
+std::vector<double> model_network(const PlainNetwork& network, std::vector<double> inputs);
+
+/// Runs all operations, or networks, of a LOD on the controls, then converts what ML joints read.
+/// `masks` are those of the regions.
+void model_ml(const LayerRig& rig, uint32_t lod, const std::vector<double>& masks, bool blend_masks,
+              std::vector<double>& controls);
+
+}  // namespace mien
