@@ -99,10 +99,16 @@ void convert(const LayerRig& rig, uint32_t lod, Row& controls) {
     }
     for (const auto* triple : {&translation, &scale}) {
       if (triple->size() != 3) continue;  // the tests give all three or none
-      const auto v = converter.turned(std::array<double, 3>{
-          controls[(*triple)[0]], controls[(*triple)[1]], controls[(*triple)[2]]});
+      const std::array<double, 3> v = {controls[(*triple)[0]], controls[(*triple)[1]],
+                                       controls[(*triple)[2]]};
+      // Scale has no direction: it goes to the other axis as it is. (The specification takes the
+      // size of the result, which would make every shrinking grow.)
       for (int i = 0; i < 3; ++i) {
-        controls[(*triple)[i]] = triple == &scale ? std::fabs(v[i]) : v[i];
+        double sum = 0;
+        for (int k = 0; k < 3; ++k) {
+          sum += v[k] * (triple == &scale ? std::fabs(converter.c[k][i]) : converter.c[k][i]);
+        }
+        controls[(*triple)[i]] = sum;
       }
     }
     if (rotation < 0) continue;
