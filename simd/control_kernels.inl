@@ -21,7 +21,8 @@ void psd_batch(const PsdBatchArgs& args) {
         product = product * clamp01(load(input));
       }
       float* const output = args.controls + size_t{args.outputs[e]} * kBatchLanes + lane;
-      store(output, at_most(product * weight, broadcast(1.0f)));
+      const Vec value = at_most(product * weight, broadcast(1.0f));
+      store(output, at_least(value, broadcast(-3.40282347e38f)));
     }
   }
 }

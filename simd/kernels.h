@@ -60,7 +60,8 @@ struct BatchPiece {
 ///     controls[32 * outputs[e]] = min(1, weights[e] * product of clamp(controls[32 * input], 0,
 ///     1))
 ///
-/// over inputs[first_inputs[e]] ... inputs[first_inputs[e + 1] - 1], in this order.
+/// over inputs[first_inputs[e]] ... inputs[first_inputs[e + 1] - 1], in this order; at least the
+/// lowest float.
 struct PsdBatchArgs {
   const uint16_t* outputs;
   const float* weights;

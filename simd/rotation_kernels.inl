@@ -35,9 +35,10 @@ inline VecQuaternion multiply(const VecQuaternion& a, const VecQuaternion& b) {
       a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
-// Controls this large turn no joint any further, but their squares would overflow.
+// Controls this large turn no joint any further. Up to 2^24, 1 - weight is exact, so that the
+// identity blended with itself never vanishes.
 inline float bounded(float weight) {
-  constexpr float kLargest = 1e9f;
+  constexpr float kLargest = 1e7f;
   return weight > kLargest ? kLargest : weight < -kLargest ? -kLargest : weight;
 }
 

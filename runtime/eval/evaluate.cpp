@@ -81,7 +81,7 @@ void evaluate_psds(const Rig& rig, Instance& instance, uint32_t lod) {
     }
     product *= psds.weights[i];
     const uint16_t output = psds.outputs[i];
-    const float value = product < 1.0f ? product : 1.0f;
+    const float value = product < 1.0f ? std::max(product, -kLargestFloat) : 1.0f;
     if (same_bits(value, controls[output])) continue;
     controls[output] = value;
     chunks |= rig.joints.control_chunks[output];

@@ -41,6 +41,12 @@ void evaluate_rbf_solver(const Rig& rig, Instance& instance, uint32_t lod, uint3
 /// The joints of one twist or swing.
 void evaluate_twist_swing(const Rig& rig, Instance& instance, uint32_t lod, uint32_t setup);
 
+/// To the range of finite floats; what is not a number becomes the lowest.
+inline float saturated(double value) {
+  if (!(value > -kLargestFloat)) return -kLargestFloat;
+  return value < kLargestFloat ? static_cast<float>(value) : kLargestFloat;
+}
+
 // Stages in files of their own; `lod` has been entered.
 
 /// Calls f(target, number of rows) for what a LOD writes of a chunk of the joint matrix.

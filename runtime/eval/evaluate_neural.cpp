@@ -63,7 +63,7 @@ void add_weighted(const Rig& rig, Instance& instance, const MlStep& step) {
     for (uint32_t i = 0; i < step.output_count; ++i) {
       const float value = from.gathers ? instance.controls[rig.ml.controls[from.first + i]]
                                        : instance.ml_values[from.first + i];
-      sums[i] += from.weight * value;
+      sums[i] = saturated(sums[i] + saturated(from.weight * value));
     }
   }
 }
@@ -192,8 +192,12 @@ void add_ml_joints(const Rig& rig, Instance& instance, uint32_t lod) {
     float* out = instance.joints.data + size_t{joint.joint} * rig.joint_attributes;
     float* scale = out + rig.joint_attributes - 3;
     for (int i = 0; i < 3; ++i) {
-      if (joint.translation[i] != kNoControl) out[i] += instance.controls[joint.translation[i]];
-      if (joint.scale[i] != kNoControl) scale[i] += instance.controls[joint.scale[i]];
+      if (joint.translation[i] != kNoControl) {
+        out[i] = saturated(out[i] + instance.controls[joint.translation[i]]);
+      }
+      if (joint.scale[i] != kNoControl) {
+        scale[i] = saturated(scale[i] + instance.controls[joint.scale[i]]);
+      }
     }
     if (joint.rotation_control == kNoControl) continue;
     const float* x = instance.controls.data + joint.rotation_control;
@@ -204,7 +208,7 @@ void add_ml_joints(const Rig& rig, Instance& instance, uint32_t lod) {
     } else {
       float angles[3] = {x[0], x[1], x[2]};
       if (ml.quaternion_rotations) euler_from_quaternion(rig.rotation, q, angles);
-      for (int i = 0; i < 3; ++i) out[3 + i] += angles[i];
+      for (int i = 0; i < 3; ++i) out[3 + i] = saturated(out[3 + i] + angles[i]);
     }
   }
 }

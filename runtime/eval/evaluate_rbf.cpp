@@ -44,11 +44,6 @@ void clear_pose_controls(const Rig& rig, const RbfSolver& solver, uint32_t pose_
   }
 }
 
-float finite(float value) {
-  constexpr float kLargest = 3.40282347e38f;
-  return value < kLargest ? (value > -kLargest ? value : -kLargest) : kLargest;
-}
-
 /// Poses may share controls, and multiply with others, which earlier poses may have driven.
 void add_pose_controls(const Rig& rig, const RbfSolver& solver, const float* results,
                        uint32_t pose_count, Instance& instance) {
@@ -58,11 +53,11 @@ void add_pose_controls(const Rig& rig, const RbfSolver& solver, const float* res
     const uint32_t pose = rbf.poses[solver.first_pose + p];
     float factor = results[p];
     for (uint32_t i = rbf.first_input[pose]; i < rbf.first_input[pose + 1]; ++i) {
-      factor = finite(factor * instance.controls[rbf.pose_inputs[i]]);
+      factor = saturated(factor * instance.controls[rbf.pose_inputs[i]]);
     }
     for (uint32_t o = rbf.first_output[pose]; o < rbf.first_output[pose + 1]; ++o) {
       float& control = instance.controls[rbf.pose_outputs[o]];
-      control = finite(control + finite(rbf.pose_weights[o] * factor));
+      control = saturated(control + saturated(rbf.pose_weights[o] * factor));
     }
   }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rotations of joints: quaternions out of angles, joints represented by quaternions, twists and
 // swings (rig-evaluation 4.6 to 4.8, 7).
+#include <cmath>
+
 #include "runtime/eval/evaluate.h"
 
 namespace mien {
@@ -55,6 +57,15 @@ Quaternion inverse(const Quaternion& q) {
   return {c.x / squared, c.y / squared, c.z / squared, c.w / squared};
 }
 
+/// Inputs need not be unit, but squares of what is far from it would overflow, or vanish.
+Quaternion bounded(const Quaternion& q) {
+  const double x = q.x, y = q.y, z = q.z, w = q.w;
+  const double length = std::sqrt(x * x + y * y + z * z + w * w);
+  if ((length > 1e-9 && length < 1e9) || !(length > 0)) return q;
+  return {static_cast<float>(x / length), static_cast<float>(y / length),
+          static_cast<float>(z / length), static_cast<float>(w / length)};
+}
+
 }  // namespace
 
 void write_rotation(const Rig& rig, Instance& instance, uint32_t joint, const Quaternion& q) {
@@ -87,8 +98,8 @@ void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32
 void turn_setup(const Rig& rig, Instance& instance, uint32_t lod, const TwistSwing& setup) {
   const TwistSwingTable& table = rig.twist_swing;
   const float* c = instance.controls.data;
-  const Quaternion q = {c[setup.inputs[0]], c[setup.inputs[1]], c[setup.inputs[2]],
-                        c[setup.inputs[3]]};
+  const Quaternion q =
+      bounded({c[setup.inputs[0]], c[setup.inputs[1]], c[setup.inputs[2]], c[setup.inputs[3]]});
   Quaternion twist = twist_about(q, setup.axis);
   if (setup.has_swing) {
     twist = conjugate(twist);  // unit, so this is its inverse

@@ -255,7 +255,8 @@ Status fill_psds(const dna::DnaView& view, Span<uint8_t> reach, Arena& scratch, 
       weight *= table.values[by_psd[k]];
       psds.inputs[psds.first_input[i] + k - first[p]] = table.columns[by_psd[k]];
     }
-    psds.weights[i] = weight;
+    // A product too large would make nothing of an input of 0.
+    psds.weights[i] = std::min(std::max(weight, -kLargestFloat), kLargestFloat);
   }
   return Status::kOk;
 }

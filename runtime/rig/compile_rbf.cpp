@@ -13,6 +13,7 @@ namespace {
 // memory with the square of it and more, so a file must not ask for any number.
 constexpr uint32_t kMostPoses = 1024;
 constexpr size_t kMostInverseFloats = size_t{4} << 20;
+constexpr float kMostBlend = 1e9f;  // of a twist or swing: squares of rotations must not overflow
 constexpr float kMostScale = 1e9f;  // of a pose, as kernels.h asks
 
 enum Function : uint16_t { kGaussian, kExponential, kLinear, kCubic, kQuintic };
@@ -434,7 +435,8 @@ Status fill_twists_and_swings(const dna::DnaView& view, Arena& scratch, Rig& rig
   const auto add_outputs = [&](const auto& from) {
     for (uint32_t i = 0; i < from.output_joint_indices.count; ++i) {
       const uint16_t joint = from.output_joint_indices[i];
-      table.outputs[output++] = {joint_lods[joint], joint, from.blend_weights[i]};
+      const float blend = std::min(std::max(from.blend_weights[i], -kMostBlend), kMostBlend);
+      table.outputs[output++] = {joint_lods[joint], joint, blend};
     }
     return from.output_joint_indices.count;
   };

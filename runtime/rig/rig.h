@@ -20,6 +20,7 @@ namespace mien {
 constexpr uint32_t kFileAttributes = 9;  // tx ty tz rx ry rz sx sy sz, as files number them
 constexpr uint16_t kNoOutput = 0xFFFF;   // a joint row whose result goes nowhere
 constexpr uint32_t kMaxLods = 33;
+constexpr float kLargestFloat = 3.40282347e38f;
 
 /// What exists at each LOD, with LODs that are alike sharing a row.
 struct LodLists {

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tests/support/layer_rig.h"
+
+namespace mien {
+
+/// A rig with some of every layer that drives controls and rotations. If `wild`, its numbers are of
+/// any size, down to subnormal and up to the largest, and what they mean need make no sense: radii
+/// of 0, targets that are no rotations, blends far beyond 1.
+LayerRig random_layer_rig(Random& random, bool wild);
+
+/// Any finite float, all sizes equally likely; 0, 1 and the extremes often.
+float wild_float(Random& random);
+
+}  // namespace mien
