@@ -24,8 +24,6 @@ static_assert(sizeof(MienError::message) == sizeof(Error::message), "messages ar
 
 namespace {
 
-constexpr size_t kFirstDnaDescSize = offsetof(MienDnaDesc, system);  // of 0.1
-
 struct OpenArguments {
   MienDnaDesc desc;
   Allocator allocator;
@@ -68,11 +66,11 @@ MienStatus read_system(const MienCoordinateSystem* in, dna::System& out, MienErr
 }
 
 MienStatus read_open_arguments(const MienDnaDesc* desc, OpenArguments& out, MienError* error) {
-  MienStatus status = read_struct(desc, out.desc, kFirstDnaDescSize);
+  MienStatus status = read_struct(desc, out.desc);
   if (status != MIEN_OK) {
     return give_error(error, status,
                       "MienDnaDesc.struct_size is %u, expected %zu or more with zeros",
-                      desc->struct_size, kFirstDnaDescSize);
+                      desc->struct_size, sizeof(MienDnaDesc));
   }
   if (read_allocator(out.desc.allocator, out.allocator) != MIEN_OK) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");

@@ -481,6 +481,57 @@ class Convert(CliTest):
         self.assertEqual(part["frames"][0]["lods"][0]["lod"], 0)
 
 
+class Systems(CliTest):
+    def test_info_names_the_system(self):
+        self.assertEqual(self.json("info", path("tiny.dna"), "--json")["system"], "maya")
+        text = self.ok("info", path("tiny.dna")).stdout.decode()
+        self.assertIn("system        maya\n", text)
+        self.assertIn("z front: right-handed\n", text)
+        self.assertIn("counter-clockwise seen from outside\n", text)
+        text = self.ok("info", path("tiny.dna"), "--system", "unity").stdout.decode()
+        self.assertIn("x right, y up, z front: left-handed\n", text)
+        self.assertIn("units         m, degrees\n", text)
+        self.assertIn("faces         clockwise seen from outside\n", text)
+
+    def test_every_name_converts_and_is_found_again(self):
+        text = self.ok("convert", "--help").stdout.decode()
+        for name in ("maya", "unreal", "unreal-mesh", "unity", "godot", "blender", "gltf", "opengl",
+                     "directx", "houdini"):
+            self.assertIn(name, text)
+            there = path(name + "_system.dna")
+            self.ok("convert", path("small.dna"), "-o", there, "--system", name)
+            self.assertEqual(self.json("info", there, "--json")["system"], name)
+            self.assertEqual(self.json("validate", there, "--json")["errors"], 0)
+
+    def test_axes_and_signs_come_back_exactly(self):
+        self.ok("convert", path("small.dna"), "-o", path("there.dna"), "--system", "unreal")
+        self.assertNotEqual(read("there.dna"), read("small.dna"))
+        self.ok("convert", path("there.dna"), "-o", path("back.dna"), "--system", "maya")
+        self.assertEqual(read("back.dna"), read("small.dna"))
+        self.ok("convert", path("small.dna"), "-o", path("back.dna"), "--system", "maya")
+        self.assertEqual(read("back.dna"), read("small.dna"))
+
+    def test_eval_gives_numbers_of_the_system(self):
+        frame = {"raw": {"CTRL_expressions.jawOpen": 1}}
+        plain = self.evaluate_one("small.dna", frame)["joints"]
+        frames = json.dumps({"frames": [frame]}).encode()
+        turned = self.json("eval", path("small.dna"), "--input", "-", "--quiet", "--lod", "0",
+                           "--system", "blender", stdin=frames)["frames"][0]["lods"][0]["joints"]
+        for at in range(0, len(plain), 9):  # x left, y back, z up, in metres
+            expected = (plain[at] / 100, -plain[at + 2] / 100, plain[at + 1] / 100)
+            for k in range(3):
+                self.assertAlmostEqual(turned[at + k], expected[k], delta=1e-6)
+
+    def test_wrong_systems(self):
+        self.fails(USAGE, "info", path("tiny.dna"), "--system", "unitty", says='did you mean "unity"')
+        self.fails(USAGE, "info", path("tiny.dna"), "--rotation-order", "exact", says="--system")
+        self.fails(USAGE, "info", path("tiny.dna"), "--system", "unity", "--rotation-order", "bent",
+                   says="--rotation-order")
+        self.fails(INVALID, "info", path("small.dna"), "--system", "unity", "--rotation-order",
+                   "exact", says=["jointGroups", "several axes"])
+        self.ok("info", path("small.dna"), "--system", "unity", "--rotation-order", "per-column")
+
+
 class Eval(CliTest):
     def test_shape(self):
         info = self.json("info", path("small.dna"), "--json")

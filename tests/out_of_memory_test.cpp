@@ -10,6 +10,7 @@
 
 #include "tests/support/counting_allocator.h"
 #include "tests/support/dna_bytes.h"
+#include "tests/support/random_space_rig.h"
 #include "tests/support/rig_handles.h"
 #include "tests/support/tiny_rig.h"
 
@@ -86,10 +87,12 @@ size_t survive_every_failure(const Maker<Object>& maker) {
   return requests;
 }
 
-Maker<MienDna> opener(const Bytes& bytes, uint32_t layers = 0, uint64_t lods = 0) {
-  auto make = [&bytes, layers, lods](const MienAllocator* allocator, MienDna** out,
-                                     MienError* error) {
+Maker<MienDna> opener(const Bytes& bytes, uint32_t layers = 0, uint64_t lods = 0,
+                      const MienCoordinateSystem* system = nullptr) {
+  auto make = [&bytes, layers, lods, system](const MienAllocator* allocator, MienDna** out,
+                                             MienError* error) {
     MienDnaDesc desc = sized<MienDnaDesc>();
+    desc.system = system;
     desc.allocator = allocator;
     desc.layers = layers;
     desc.lods = lods;
@@ -148,6 +151,25 @@ TEST_F(OutOfMemory, Open) {
     for (uint64_t lods : {0u, 1u, 2u, 3u}) {
       survive_every_failure(opener(tiny, layers, lods));
       survive_every_failure(opener(generated, layers, lods));
+    }
+  }
+}
+
+TEST_F(OutOfMemory, OpenInAnotherSystem) {
+  Random random = Random::from_seed(8, 1);
+  const Bytes tiny = tiny_file();
+  MienCoordinateSystem system = sized<MienCoordinateSystem>();
+  for (const char* name : {"unreal", "opengl", "godot"}) {
+    ASSERT_EQ(mien_coordinate_system_named(name, strlen(name), &system), MIEN_OK);
+    survive_every_failure(opener(tiny, 0, 0, &system));
+    survive_every_failure(opener(tiny, MIEN_LAYER_GEOMETRY, 2, &system));
+    Arena arena(default_allocator());
+    dna::SpaceRigOptions options;
+    options.euler_rows = false;
+    const Bytes any = dna::written(dna::random_space_rig(random, options, arena));
+    for (uint32_t rule : {MIEN_ROTATIONS_CARRIED, MIEN_ROTATIONS_EXACT}) {
+      system.rotation_rule = rule;
+      survive_every_failure(opener(any, 0, 0, &system));
     }
   }
 }

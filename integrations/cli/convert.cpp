@@ -72,6 +72,7 @@ Command add_convert_command(CLI::App& app, const Session& session) {
       "Examples:\n"
       "  mien convert head.dna -o old.dna --version 2.2\n"
       "  mien convert head.dna -o phone.dna --max-lod 3 --layers behavior,geometry\n"
+      "  mien convert head.dna -o unity.dna --system unity\n"
       "  mien convert head.dna -o head.dna --unknown drop");
   return {convert, [options, &session] { run(*options, session); }};
 }

@@ -36,6 +36,17 @@ std::string word(const char* const (&words)[count], int64_t number) {
   return known ? words[number] : "unknown (" + std::to_string(number) + ")";
 }
 
+/// 1: x, y, z are right-handed; -1: left-handed; 0: they do not span space.
+int handedness(const MienDnaInfo& info) {
+  int hand = 1;  // of left, up, front
+  for (int i = 0; i < 3; ++i) {
+    const uint32_t line = info.axes[i] / 2, next = info.axes[(i + 1) % 3] / 2;
+    if (line > 2 || line == next) return 0;
+    if (info.axes[i] % 2 == 1) hand = -hand;
+  }
+  return (info.axes[0] / 2 + 1) % 3 == info.axes[1] / 2 ? hand : -hand;
+}
+
 /// What --names can list; "[]" in a path stands for every element.
 struct NameKind {
   const char* word;  // in the order of the words of --names
@@ -263,6 +274,13 @@ void write_json(const RigFile& file, const Summary& summary,
   json.member("y", word(kDirections, info.axes[1]));
   json.member("z", word(kDirections, info.axes[2]));
   json.end_object();
+  json.key("system");
+  const std::string system = name_of_system(info);
+  if (system.empty()) {
+    json.null();
+  } else {
+    json.value(system);
+  }
   json.member("rotation_sequence", word(kSequences, info.rotation_sequence));
   json.key("rotation_signs");
   json.begin_array();
@@ -370,13 +388,21 @@ void write_text(const RigFile& file, const Summary& summary, const Session& sess
   text += property("database", summary.database);
   text += property("units", word(kTranslationUnits, info.translation_unit) + ", " +
                                 word(kRotationUnits, info.rotation_unit));
+  text += property("system", name_of_system(info));
+  const int hand = handedness(info);
   text += property("axes", "x " + word(kDirections, info.axes[0]) + ", y " +
                                word(kDirections, info.axes[1]) + ", z " +
-                               word(kDirections, info.axes[2]));
+                               word(kDirections, info.axes[2]) +
+                               (hand > 0   ? ": right-handed"
+                                : hand < 0 ? ": left-handed"
+                                           : ": they do not span space"));
   std::string signs;
   for (const int32_t sign : info.rotation_signs) signs += sign < 0 ? " -" : " +";
   text += property("rotation", word(kSequences, info.rotation_sequence) + ", signs" + signs);
-  text += property("faces", word(kWindings, info.face_winding));
+  // Files tell the winding by the plain cross product, which left-handed axes show mirrored.
+  const uint32_t seen =
+      hand < 0 && info.face_winding < 2 ? 1 - info.face_winding : info.face_winding;
+  text += property("faces", word(kWindings, seen) + " seen from outside");
   text += property("LODs", std::to_string(info.lod_count) + ", the finest is LOD " +
                                std::to_string(info.max_lod) + " of its data base");
   if (summary.rig) {

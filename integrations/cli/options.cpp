@@ -29,6 +29,7 @@ const OptionWords kOptionWords[] = {
     {"--unknown", {"keep", "drop"}},
     {"--format", {"glb", "obj"}},
     {"--influences", {"4", "8", "12"}},
+    {"--rotation-order", {"carried", "exact", "per-column"}},
     {"--names",
      {"gui", "raw", "ml", "rbf", "joints", "channels", "maps", "meshes", "regions", "solvers",
       "poses", "all"}},
@@ -129,10 +130,67 @@ uint64_t parse_lods(const LoadOptions& options) {
   return mask;
 }
 
+MienCoordinateSystem system_named(const std::string& name) {
+  auto system = sized<MienCoordinateSystem>();
+  check(mien_coordinate_system_named(name.data(), name.size(), &system), nullptr,
+        "cannot find coordinate system " + name, "");
+  return system;
+}
+
+/// One for each name and rotation order, so that descriptions can point to them.
+const MienCoordinateSystem* find_system(const LoadOptions& options) {
+  const size_t rules = option_words("--rotation-order").size();
+  static const std::vector<MienCoordinateSystem> systems = [rules] {
+    std::vector<MienCoordinateSystem> all;
+    for (const std::string& name : system_names()) {
+      for (uint32_t rule = MIEN_ROTATIONS_CARRIED; rule < rules; ++rule) {
+        all.push_back(system_named(name));
+        all.back().rotation_rule = rule;
+      }
+    }
+    return all;
+  }();
+  const bool has_order = !options.rotation_order.empty();
+  const size_t rule = has_order ? parse_word("--rotation-order", options.rotation_order) : 0;
+  if (options.system.empty()) {
+    if (has_order) {
+      fail_usage("--rotation-order", "the order of rotations only changes with the system",
+                 "name one with --system");
+    }
+    return nullptr;
+  }
+  return &systems[parse_word("--system", options.system) * rules + rule];
+}
+
 }  // namespace
+
+const Words& system_names() {
+  static const Words names = [] {
+    Words all;
+    MienStringView name;
+    while (mien_coordinate_system_name(static_cast<uint32_t>(all.size()), &name) == MIEN_OK) {
+      all.push_back(to_string(name));
+    }
+    return all;
+  }();
+  return names;
+}
+
+std::string name_of_system(const MienDnaInfo& info) {
+  for (const std::string& name : system_names()) {
+    const MienCoordinateSystem system = system_named(name);
+    if (std::equal(info.axes, info.axes + 3, system.axes) &&
+        info.translation_unit == system.translation_unit &&
+        info.rotation_unit == system.rotation_unit && info.face_winding == system.face_winding) {
+      return name;
+    }
+  }
+  return "";
+}
 
 const Words& option_words(const std::string& option) {
   static const Words none;
+  if (option == "--system") return system_names();
   for (const OptionWords& entry : kOptionWords) {
     if (option == entry.option) return entry.words;
   }
@@ -158,6 +216,17 @@ void add_load_options(CLI::App& app, LoadOptions& options) {
                  "Only these LODs, as 0,2-4; wins over --max-lod and --min-lod.\nLoaded LODs are "
                  "numbered anew from 0")
       ->type_name("LIST")
+      ->group(group);
+  app.add_option("--system", options.system,
+                 "Convert to the axes, units and winding of:\n" + list_of(system_names(), "or") +
+                     "\n(default: as the file is)")
+      ->type_name("NAME")
+      ->group(group);
+  app.add_option(
+         "--rotation-order", options.rotation_order,
+         "Order of Euler angles with --system: carried along with the axes\n(default), exact "
+         "(the system's; refused where sums of angles\ncannot follow) or per-column")
+      ->type_name("RULE")
       ->group(group);
 }
 
@@ -210,6 +279,7 @@ MienDnaDesc parse_load_options(const LoadOptions& options, uint32_t default_laye
   auto desc = sized<MienDnaDesc>();
   desc.layers = options.layers.empty() ? default_layers : parse_layers(options.layers);
   desc.lods = parse_lods(options);
+  desc.system = find_system(options);
   return desc;
 }
 

@@ -9,9 +9,9 @@
 
 namespace mien::cli {
 
-/// --layers, --max-lod, --min-lod, --lods as they were typed.
+/// --layers, --max-lod, --min-lod, --lods, --system, --rotation-order as they were typed.
 struct LoadOptions {
-  std::string layers, max_lod, min_lod, lods;
+  std::string layers, max_lod, min_lod, lods, system, rotation_order;
 };
 
 /// --isa, --storage, --rotation, --ml-masks as they were typed.
@@ -33,6 +33,12 @@ size_t parse_word(const std::string& option, const std::string& word);
 
 /// The same for a list with commas.
 std::vector<size_t> parse_words(const std::string& option, const std::string& list);
+
+/// Coordinate systems that have names, as the library lists them.
+const Words& system_names();
+
+/// The first of them with the axes, units and winding of a file; "" if there is none.
+std::string name_of_system(const MienDnaInfo& info);
 
 /// A decimal number of `option`, at most `largest`.
 uint64_t parse_number(const std::string& option, const std::string& word, uint64_t largest);

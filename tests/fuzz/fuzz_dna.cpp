@@ -2,7 +2,9 @@
 // Any bytes as a DNA file, through its whole life (tests/support/dna_life.h). An input is a file,
 // with eight bytes behind it that choose layers, LODs and controls:
 //
-//     file | 'M' 'o' | layers, u16 | LODs, u8 | seed of controls, u8 | flags, u8 | not used, u8
+//     file | 'M' 'o' | layers, u16 | LODs, u8 | seed of controls, u8 | flags, u8 | system, u8
+//
+// A system is the seed of a random one; 0 keeps the file's.
 //
 // Without the two letters all of the input is the file, and everything is chosen.
 #include <cstdio>
@@ -29,6 +31,25 @@ enum Flags : uint8_t { kDropUnknown = 1, kDoNotValidate = 2 };
 
 bool has_tail(const uint8_t* data, size_t size) {
   return size >= kTail && data[size - kTail] == 'M' && data[size - kTail + 1] == 'o';
+}
+
+MienCoordinateSystem system_of(uint8_t seed) {
+  Random random(seed);
+  for (int i = 0; i < 4; ++i) random();  // the first numbers of near seeds are near
+  MienCoordinateSystem system = {};
+  system.struct_size = sizeof(system);
+  uint32_t lines[3] = {0, 1, 2};
+  for (uint32_t i = 3; i > 1; --i) std::swap(lines[i - 1], lines[below(random, i)]);
+  for (int i = 0; i < 3; ++i) {
+    system.axes[i] = 2 * lines[i] + below(random, 2);
+    system.rotation_signs[i] = static_cast<int32_t>(below(random, 3)) - 1;
+  }
+  system.translation_unit = below(random, 2);
+  system.rotation_unit = below(random, 2);
+  system.rotation_rule = below(random, 3);
+  system.rotation_sequence = below(random, 6);
+  system.face_winding = below(random, 2);
+  return system;
 }
 
 LifeOptions options_of(const uint8_t* data, size_t size) {
@@ -133,7 +154,7 @@ void change_tail(Random& random, uint8_t* tail) {
   tail[5] = static_cast<uint8_t>(random());
   tail[6] = static_cast<uint8_t>(below(random, 8) == 0 ? kDropUnknown : 0);
   if (!whole || below(random, 4)) tail[6] |= kDoNotValidate;
-  tail[7] = 0;
+  tail[7] = static_cast<uint8_t>(below(random, 2) ? 0 : random());
 }
 
 }  // namespace
@@ -205,14 +226,17 @@ extern "C" size_t LLVMFuzzerCustomCrossOver(const uint8_t* a, size_t a_size, con
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  const LifeOptions options = options_of(data, size);
+  LifeOptions options = options_of(data, size);
+  const uint8_t seed = has_tail(data, size) ? data[size - 1] : 0;
+  const MienCoordinateSystem system = system_of(seed);
+  if (seed != 0) options.system = &system;
   const size_t file_size = has_tail(data, size) ? size - kTail : size;
   // A block of its own, so that the address sanitizer sees the first byte past the end.
   const Bytes file(data, data + file_size);
   const Life life = live(file.data(), file.size(), options);
   if (life.broken.empty()) return 0;
-  fprintf(stderr, "broken promise (layers 0x%x, LODs 0x%llx, unknown layers %u): %s\n",
+  fprintf(stderr, "broken promise (layers 0x%x, LODs 0x%llx, unknown layers %u, system %u): %s\n",
           options.layers, static_cast<unsigned long long>(options.lods), options.unknown_layers,
-          life.broken.c_str());
+          unsigned{seed}, life.broken.c_str());
   abort();
 }

@@ -35,6 +35,7 @@ struct LifeOptions {
   uint32_t unknown_layers = MIEN_UNKNOWN_LAYERS_KEEP;
   uint32_t control_seed = 1;
   bool validate = true;
+  const MienCoordinateSystem* system = nullptr;  // to convert to; refusing is one of the answers
 };
 
 struct Life {
@@ -52,7 +53,7 @@ class DnaLife {
       : bytes_(bytes), size_(size), options_(options), allocator_(counter_.get()) {}
 
   Life run() {
-    MienDna* dna = open(bytes_, size_, options_.lods, life_.opened);
+    MienDna* dna = open(bytes_, size_, options_.lods, life_.opened, options_.system);
     life_.open_peak = counter_.peak;
     if (life_.open_peak > open_memory_bound(size_)) {
       broke("opening %zu bytes held %zu", size_, life_.open_peak);
@@ -99,12 +100,14 @@ class DnaLife {
     }
   }
 
-  MienDna* open(const uint8_t* bytes, size_t size, uint64_t lods, MienStatus& status) {
+  MienDna* open(const uint8_t* bytes, size_t size, uint64_t lods, MienStatus& status,
+                const MienCoordinateSystem* system = nullptr) {
     MienDnaDesc desc = {};
     desc.struct_size = sizeof(desc);
     desc.layers = options_.layers;
     desc.unknown_layers = options_.unknown_layers;
     desc.lods = lods;
+    desc.system = system;
     desc.allocator = &allocator_;
     MienError error = {};
     error.struct_size = sizeof(error);
@@ -403,7 +406,8 @@ class DnaLife {
       }
     }
     mien_report_destroy(report);
-    const bool whole = options_.layers == MIEN_LAYER_ALL && options_.lods == 0;
+    const bool whole =
+        options_.layers == MIEN_LAYER_ALL && options_.lods == 0 && options_.system == nullptr;
     const bool complete = errors + warnings < 1000;
     const bool refused = life_.opened != MIEN_OK || life_.compiled != MIEN_OK;
     if (whole && complete && refused != (errors != 0)) {
