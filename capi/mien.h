@@ -461,7 +461,9 @@ enum MienPreset {
     MIEN_PRESET_MEDIUM = 2,
     MIEN_PRESET_LARGE = 3,  /* a production head: 870 joints, 260 raw controls, 8 LODs, a million
                                matrix entries */
-    MIEN_PRESET_HEAD = 4    /* a stylised person to look at: skin, eyes, teeth, tongue, hair; the 52
+    MIEN_PRESET_BODY = 4,   /* a production body: 342 joints that 72 RBF solvers with 670 poses, 22
+                               twists and 16 swings move, some of them represented by quaternions */
+    MIEN_PRESET_HEAD = 5    /* a stylised person to look at: skin, eyes, teeth, tongue, hair; the 52
                                expressions of ARKit as raw controls under their names (values 0..1),
                                correctives, wrinkle maps, 8 LODs. Seed 0 is the one that was
                                designed, others vary proportions and colours. Vertex colours are in
@@ -469,15 +471,22 @@ enum MienPreset {
                                (sRGB) per position of the mesh. */
 };
 
+enum MienGenerate {
+    MIEN_GENERATE_ML = 1 /* with learned behaviour: networks by mesh region, every activation, their
+                            operations, and joints that they move (not for MIEN_PRESET_HEAD) */
+};
+
 typedef struct MienGenerateDesc {
     uint32_t struct_size;
     uint32_t preset; /* MIEN_PRESET_... */
     uint64_t seed;   /* the same seed gives the same bytes on every machine */
     const MienAllocator* allocator;
+    uint32_t flags;  /* MIEN_GENERATE_..., to be combined with | */
+    uint32_t reserved;
 } MienGenerateDesc;
 
-/* Makes a synthetic face rig: behaviour of realistic size and sparsity, with simple geometry. `desc`
- * may be NULL (tiny, seed 0). Close with mien_dna_close(). */
+/* Makes a synthetic rig: behaviour of realistic size and sparsity, with simple geometry. `desc` may be
+ * NULL (tiny, seed 0). Close with mien_dna_close(). */
 MIEN_API MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna,
                                       MienError* error);
 

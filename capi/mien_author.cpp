@@ -7,7 +7,7 @@
 using namespace mien;
 using namespace mien::capi;
 
-static_assert(MIEN_PRESET_LARGE == int(SyntheticPreset::kLarge), "the presets agree");
+static_assert(MIEN_PRESET_BODY == int(SyntheticPreset::kBody), "the presets agree");
 
 MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna, MienError* error) {
   if (MienStatus status = clear_output(out_dna, error)) return status;
@@ -21,15 +21,24 @@ MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna, Mi
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
                       "MienGenerateDesc.preset %u is no MIEN_PRESET_...", known.preset);
   }
+  if ((known.flags & ~uint32_t{MIEN_GENERATE_ML}) != 0 || known.reserved != 0) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienGenerateDesc.flags has unknown bits: 0x%x", known.flags);
+  }
+  if (known.preset == MIEN_PRESET_HEAD && known.flags != 0) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MIEN_PRESET_HEAD has no learned behaviour: MienGenerateDesc.flags is to be 0");
+  }
   Allocator allocator;
   if (read_allocator(known.allocator, allocator) != MIEN_OK) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
   }
   MienDna* dna = new_dna(allocator);
+  const bool ml = (known.flags & MIEN_GENERATE_ML) != 0;
   const bool made = dna && (known.preset == MIEN_PRESET_HEAD
                                 ? make_procedural_head(known.seed, dna->arena, allocator, dna->view)
                                 : make_synthetic_rig(static_cast<SyntheticPreset>(known.preset),
-                                                     known.seed, dna->arena, dna->view));
+                                                     known.seed, dna->arena, dna->view, ml));
   if (!made) {
     mien_dna_close(dna);
     return give_error(error, MIEN_ERROR_MEMORY, "no memory for the rig");

@@ -22,7 +22,7 @@ import time
 import unittest
 
 DONE, USAGE, INVALID, FILE, INTERNAL = range(5)
-PRESETS = ("tiny", "small", "medium", "large")
+PRESETS = ("tiny", "small", "medium", "large", "body")
 VERSIONS = ["2.%d" % i for i in range(1, 9)]
 
 mien = os.environ.get("MIEN_BIN", "")
@@ -285,6 +285,7 @@ class Info(CliTest):
             last = info["layers"][-1]
             self.assertEqual(last["offset"] + last["bytes"], info["file_bytes"])
             self.assertTrue(all(layer["known"] and layer["loaded"] for layer in info["layers"]))
+        info = self.json("info", path("large.dna"), "--json")
         self.assertEqual(info["counts"]["joints"], 870)
         self.assertEqual(info["lod_count"], 8)
 
@@ -388,6 +389,21 @@ class Generate(CliTest):
             self.assertEqual(done.stdout, read("a.dna"))
         self.assertNotEqual(read("a.dna"), read("tiny.dna"))
         self.assertEqual(self.ok("gen", "-o", "-").stdout, read("tiny.dna"))
+
+    def test_body_and_learned_behaviour(self):
+        counts = self.json("info", path("body.dna"), "--json")["counts"]
+        expected = {"raw_controls": 176, "rbf_controls": 670, "rbf_solvers": 72, "rbf_poses": 670,
+                    "twists": 22, "swings": 16, "joints": 342, "neural_networks": 0}
+        self.assertEqual({key: counts[key] for key in expected}, expected)
+        for preset in PRESETS:
+            self.ok("gen", "-o", path("ml.dna"), "--preset", preset, "--ml")
+            report = self.json("validate", path("ml.dna"), "--json")
+            self.assertEqual(report["findings"], [])
+            learned = self.json("info", path("ml.dna"), "--json")["counts"]
+            self.assertGreaterEqual(learned["neural_networks"], 4)
+            self.assertGreaterEqual(learned["ml_controls"], 20)
+        self.ok("gen", "-o", path("again.dna"), "--preset", "body", "--ml")
+        self.assertEqual(read("again.dna"), read("ml.dna"))
 
     def test_outputs_are_replaced_whole(self):
         write("old.dna", "something else")
@@ -775,6 +791,8 @@ class Completion(CliTest):
     def test_bash_completes(self):
         self.assertEqual(self.complete("va"), ["validate"])
         self.assertEqual(self.complete("gen", "--preset", "l"), ["large"])
+        self.assertEqual(self.complete("gen", "--preset", "b"), ["body"])
+        self.assertIn("unreal-mesh", self.complete("convert", "--system", "unr"))
         self.assertEqual(self.complete("bench", "--isa", "a"), ["avx2", "avx512", "all"])
         self.assertEqual(self.complete("eval", "--isa", "a"), ["avx2", "avx512"])
         self.assertEqual(self.complete("eval", "--max"), ["--max-lod"])

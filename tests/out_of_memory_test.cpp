@@ -110,10 +110,11 @@ Maker<MienRig> compiler(const MienDna* dna) {
   return {make, mien_rig_destroy};
 }
 
-Maker<MienDna> generator(uint32_t preset) {
-  auto make = [preset](const MienAllocator* allocator, MienDna** out, MienError* error) {
+Maker<MienDna> generator(uint32_t preset, uint32_t flags = 0) {
+  auto make = [preset, flags](const MienAllocator* allocator, MienDna** out, MienError* error) {
     MienGenerateDesc desc = sized<MienGenerateDesc>();
     desc.preset = preset;
+    desc.flags = flags;
     desc.allocator = allocator;
     return mien_dna_generate(&desc, out, error);
   };
@@ -163,6 +164,8 @@ TEST_F(OutOfMemory, OpenInAnotherSystem) {
     ASSERT_EQ(mien_coordinate_system_named(name, strlen(name), &system), MIEN_OK);
     survive_every_failure(opener(tiny, 0, 0, &system));
     survive_every_failure(opener(tiny, MIEN_LAYER_GEOMETRY, 2, &system));
+    const Bytes body = write_dna(generate_dna(MIEN_PRESET_BODY, 1, MIEN_GENERATE_ML).get());
+    survive_every_failure(opener(body, 0, 3, &system));
     Arena arena(default_allocator());
     dna::SpaceRigOptions options;
     options.euler_rows = false;
@@ -194,6 +197,8 @@ TEST_F(OutOfMemory, Generate) {
   for (uint32_t preset : {MIEN_PRESET_TINY, MIEN_PRESET_SMALL, MIEN_PRESET_MEDIUM}) {
     survive_every_failure(generator(preset));
   }
+  survive_every_failure(generator(MIEN_PRESET_TINY, MIEN_GENERATE_ML));
+  survive_every_failure(generator(MIEN_PRESET_BODY, MIEN_GENERATE_ML));
 }
 
 TEST_F(OutOfMemory, Report) {
@@ -218,6 +223,7 @@ TEST_F(OutOfMemory, CreateRig) {
   survive_every_failure(compiler(open_dna(tiny, 2).get()));
   survive_every_failure(compiler(generate_dna(MIEN_PRESET_TINY, 1).get()));
   survive_every_failure(compiler(generate_dna(MIEN_PRESET_MEDIUM, 1).get()));
+  survive_every_failure(compiler(generate_dna(MIEN_PRESET_BODY, 1, MIEN_GENERATE_ML).get()));
 }
 
 TEST_F(OutOfMemory, CreateInstance) {

@@ -32,8 +32,8 @@ struct Made {
   Arena arena{default_allocator()};
   DnaView view;
 
-  Made(SyntheticPreset preset, uint64_t seed) {
-    EXPECT_TRUE(make_synthetic_rig(preset, seed, arena, view));
+  Made(SyntheticPreset preset, uint64_t seed, bool learned = false) {
+    EXPECT_TRUE(make_synthetic_rig(preset, seed, arena, view, learned));
   }
 };
 
@@ -71,7 +71,11 @@ struct Hasher {
   std::enable_if_t<std::is_integral<T>::value> operator()(const char*, T value) {
     number(static_cast<uint64_t>(value));
   }
-  void operator()(const char*, float) { ADD_FAILURE() << "only RBF poses have such numbers"; }
+  void operator()(const char*, float value) {
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof(bits));
+    number(bits);
+  }
   template <class T>
   std::enable_if_t<std::is_class<T>::value> operator()(const char*, const T& record) {
     T::fields(record, *this);
@@ -452,6 +456,9 @@ TEST(SyntheticRig, IsTheSameOnEveryPlatform) {
     EXPECT_EQ(hash_of(Made(kPresets[p], 7).view), expected[p])
         << "preset " << p << ": if the generator was meant to change, record the new number";
   }
+  EXPECT_EQ(hash_of(Made(SyntheticPreset::kBody, 7).view), 0x9A60B076413D4029u);
+  EXPECT_EQ(hash_of(Made(SyntheticPreset::kBody, 7, true).view), 0x59307BA9F00B38A8u);
+  EXPECT_EQ(hash_of(Made(SyntheticPreset::kTiny, 7, true).view), 0x766992727F4A3E90u);
 }
 
 TEST(SyntheticRig, WritesAsAFileOfProductionSize) {
@@ -533,7 +540,10 @@ struct MeanAllocator {
 };
 
 TEST(SyntheticRig, ReportsThatMemoryRanOut) {
-  for (SyntheticPreset preset : kPresets) {
+  std::vector<SyntheticPreset> presets(std::begin(kPresets), std::end(kPresets));
+  presets.push_back(SyntheticPreset::kBody);
+  for (SyntheticPreset preset : presets) {
+    const bool learned = preset == SyntheticPreset::kBody;
     bool made = false;
     size_t n = 0;
     for (; !made; ++n) {
@@ -542,7 +552,7 @@ TEST(SyntheticRig, ReportsThatMemoryRanOut) {
       {
         Arena arena(mean.allocator());
         DnaView view;
-        made = make_synthetic_rig(preset, 3, arena, view);
+        made = make_synthetic_rig(preset, 3, arena, view, learned);
         EXPECT_EQ(mean.given, n);
         EXPECT_EQ(view.loaded, made ? uint32_t{dna::kLayersAll} : 0u);
         EXPECT_EQ(view.index.count, made ? dna::kLayerIdCount : 0u);
@@ -559,6 +569,7 @@ TEST(SyntheticRig, ReportsThatMemoryRanOut) {
 TEST(SyntheticRig, StopsWhereverMemoryRunsOut) {
   size_t refused = 0;
   for (size_t used = 0; used < 16 * 1024; used += 53) {
+    const bool learned = used % 2 == 1;
     bool made = false;
     for (size_t blocks = 1; !made; ++blocks) {
       MeanAllocator mean;
@@ -567,7 +578,7 @@ TEST(SyntheticRig, StopsWhereverMemoryRunsOut) {
         Arena arena(mean.allocator());
         ASSERT_NE(arena.allocate(used, 1), nullptr);
         DnaView view;
-        made = make_synthetic_rig(SyntheticPreset::kTiny, 3, arena, view);
+        made = make_synthetic_rig(SyntheticPreset::kTiny, 3, arena, view, learned);
         refused += !made;
       }
       ASSERT_EQ(mean.outstanding, 0u);

@@ -306,6 +306,19 @@ TEST(SystemConversion, GeneratedRigsMoveTheSameInEveryNamedSystem) {
   }
 }
 
+TEST(SystemConversion, AGeneratedBodyMovesTheSame) {
+  Random random = Random::from_seed(5, 6);
+  const Bytes bytes = write_dna(generate_dna(MIEN_PRESET_BODY, 3, MIEN_GENERATE_ML).get());
+  const DnaHandle original = open_dna(bytes);
+  for (const char* name : {"unreal", "unity", "blender", "opengl"}) {
+    SCOPED_TRACE(name);
+    const DnaHandle converted = open_in_system(bytes, named(name));
+    ASSERT_TRUE(converted);
+    // Distances of rotations lose half of their digits where rotations are nearly equal.
+    expect_same_movements(original.get(), converted.get(), random, 2, {1e-3, 1e-3, 2e-3});
+  }
+}
+
 constexpr const char* kGolden[] = {"tiny",      "tiny_v21", "tiny_v24", "small",
                                    "small_rot", "body",     "ml",       "ml_ext"};
 
@@ -366,6 +379,10 @@ TEST(SystemConversion, AxesAndSignsReturnExactly) {
   for (uint32_t preset = MIEN_PRESET_TINY; preset <= MIEN_PRESET_LARGE; ++preset) {
     const Bytes bytes = write_dna(generate_dna(preset, 3).get());
     for (const char* name : {"unreal", "unity", "opengl"}) expect_exact_return(bytes, named(name));
+  }
+  for (const char* name : {"unreal", "unity", "opengl"}) {
+    const DnaHandle body = generate_dna(MIEN_PRESET_BODY, 3, MIEN_GENERATE_ML);
+    expect_exact_return(write_dna(body.get()), named(name));
   }
   Random random = Random::from_seed(6, 1);
   for (uint32_t round = 0; round < 200; ++round) {

@@ -9,11 +9,13 @@ namespace {
 
 struct GenOptions {
   std::string output, preset = "tiny", seed = "0";
+  bool ml = false;
 };
 
 void run(const GenOptions& options, uint32_t preset, const Session& session) {
   auto desc = sized<MienGenerateDesc>();
   desc.preset = preset;
+  desc.flags = options.ml ? uint32_t{MIEN_GENERATE_ML} : 0;
   desc.seed = parse_number("--seed", options.seed, UINT64_MAX);
   refuse_terminal(options.output, session);
 
@@ -40,12 +42,16 @@ Command add_gen_command(CLI::App& app, const Session& session) {
   add_common_options(gen, *options, "The same number gives the same bytes everywhere (default: 0)");
   gen->add_option(
          "--preset", options->preset,
-         "Size: tiny (default), small, medium or large\n(large: a production head of 870 joints)")
+         "Heads: tiny (default), small, medium or large (870 joints), or a body\n(342 joints, RBF "
+         "solvers, twists and swings)")
       ->type_name("NAME");
+  gen->add_flag("--ml", options->ml,
+                "With learned behaviour: networks, their operations, joints they move");
   gen->footer(
       "Examples:\n"
       "  mien gen -o tiny.dna\n"
       "  mien gen -o head.dna --preset large --seed 7\n"
+      "  mien gen -o body.dna --preset body --ml\n"
       "  mien gen -o - | mien info -");
   return {gen, [options, &session] {
             const size_t preset = parse_word("--preset", options->preset);

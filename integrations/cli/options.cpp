@@ -24,7 +24,7 @@ const OptionWords kOptionWords[] = {
     {"--storage", {"f32", "f16"}},
     {"--rotation", {"euler", "quaternion"}},
     {"--ml-masks", {"switch", "blend"}},
-    {"--preset", {"tiny", "small", "medium", "large"}},
+    {"--preset", {"tiny", "small", "medium", "large", "body"}},
     {"--version", {"2.1", "2.2", "2.3", "2.4", "2.5", "2.6", "2.7", "2.8"}},
     {"--unknown", {"keep", "drop"}},
     {"--format", {"glb", "obj"}},

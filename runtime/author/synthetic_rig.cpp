@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "runtime/author/synthetic_head.h"
+#include "runtime/author/synthetic_body.h"
 
 namespace mien {
 namespace synthetic {
@@ -11,21 +11,23 @@ namespace {
 
 // Descriptor and definition ----------------------------------------------------------------------
 
-bool fill_descriptor(const Sizes& sizes, uint64_t seed, Arena& arena, dna::Descriptor& out) {
+bool fill_descriptor(const char* preset, uint32_t lod_count, uint64_t seed, bool learned,
+                     Arena& arena, dna::Descriptor& out) {
   out.archetype = 5;  // other
   out.gender = 2;     // other
   out.age = 30;
   out.coordinate_system = {0, 2, 4};  // left, up, front: right-handed
-  out.lod_count = static_cast<uint16_t>(sizes.lod_count);
-  const char* keys[] = {"generator", "preset", "seed"};
-  const Text values[] = {Text().add("mien gen"), Text().add(sizes.name), Text().add(seed)};
-  if (!make(arena, 3, out.metadata)) return false;
-  for (size_t i = 0; i < 3; ++i) {
+  out.lod_count = static_cast<uint16_t>(lod_count);
+  const char* keys[] = {"generator", "preset", "seed", "learned"};
+  const Text values[] = {Text().add("mien gen"), Text().add(preset), Text().add(seed),
+                         Text().add("yes")};
+  if (!make(arena, learned ? 4 : 3, out.metadata)) return false;
+  for (size_t i = 0; i < out.metadata.count; ++i) {
     if (!copy_text(arena, Text().add(keys[i]), out.metadata[i].key)) return false;
     if (!copy_text(arena, values[i], out.metadata[i].value)) return false;
   }
-  return copy_text(arena, Text().add("synthetic_").add(sizes.name), out.name) &&
-         copy_text(arena, Text().add("mien_").add(sizes.name), out.complexity) &&
+  return copy_text(arena, Text().add("synthetic_").add(preset), out.name) &&
+         copy_text(arena, Text().add("mien_").add(preset), out.complexity) &&
          copy_text(arena, Text().add("mien_synthetic"), out.db_name);
 }
 
@@ -368,11 +370,12 @@ bool fill_index(Arena& arena, dna::DnaView& out) {
   return true;
 }
 
-bool make_rig(SyntheticPreset preset, uint64_t seed, Arena& arena, dna::DnaView& out) {
+bool make_head_rig(SyntheticPreset preset, uint64_t seed, bool learned, Arena& arena,
+                   dna::DnaView& out) {
   Head head;
   Span<uint8_t> kept;
-  return make_head(preset, seed, arena, head) && fill_index(arena, out) &&
-         fill_descriptor(*head.sizes, seed, arena, out.desc) &&
+  return make_head(preset, seed, arena, head) &&
+         fill_descriptor(head.sizes->name, head.sizes->lod_count, seed, learned, arena, out.desc) &&
          fill_joint_definition(head, arena, out.defn) &&
          fill_control_names(head, arena, out.defn) &&
          fill_controls(head, seed, arena, out.bhvr.controls) &&
@@ -381,12 +384,28 @@ bool make_rig(SyntheticPreset preset, uint64_t seed, Arena& arena, dna::DnaView&
          make_meshes(head, seed, kept, arena, out);
 }
 
+bool make_rig(SyntheticPreset preset, uint64_t seed, bool learned, Arena& arena,
+              dna::DnaView& out) {
+  if (!fill_index(arena, out)) return false;
+  if (preset == SyntheticPreset::kBody) {
+    const uint32_t ml_count = learned ? ml_control_count_of(preset) : 0;
+    if (!fill_descriptor("body", kBodyLodCount, seed, learned, arena, out.desc) ||
+        !make_body_rig(seed, ml_count, arena, out)) {
+      return false;
+    }
+  } else if (!make_head_rig(preset, seed, learned, arena, out)) {
+    return false;
+  }
+  return !learned || add_learned_behavior(preset, seed, arena, out);
+}
+
 }  // namespace
 }  // namespace synthetic
 
-bool make_synthetic_rig(SyntheticPreset preset, uint64_t seed, Arena& arena, dna::DnaView& out) {
+bool make_synthetic_rig(SyntheticPreset preset, uint64_t seed, Arena& arena, dna::DnaView& out,
+                        bool learned) {
   out = dna::DnaView();
-  if (synthetic::make_rig(preset, seed, arena, out)) return true;
+  if (synthetic::make_rig(preset, seed, learned, arena, out)) return true;
   out = dna::DnaView();
   return false;
 }

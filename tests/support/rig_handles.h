@@ -73,8 +73,9 @@ inline std::vector<uint8_t> write_view(const dna::DnaView& view) {
   return write_dna(dna.get());
 }
 
-inline DnaHandle generate_dna(uint32_t preset, uint64_t seed) {
+inline DnaHandle generate_dna(uint32_t preset, uint64_t seed, uint32_t flags = 0) {
   MienGenerateDesc desc = sized<MienGenerateDesc>();
+  desc.flags = flags;
   desc.preset = preset;
   desc.seed = seed;
   MienDna* dna = nullptr;
