@@ -289,6 +289,30 @@ class Info(CliTest):
         self.assertEqual(info["counts"]["joints"], 870)
         self.assertEqual(info["lod_count"], 8)
 
+    def test_every_kind_of_behaviour_is_told(self):
+        self.ok("gen", "-o", path("all.dna"), "--preset", "body", "--ml")
+        info = self.json("info", path("all.dna"), "--json")
+        behavior = info["behavior"]
+        self.assertEqual(sum(behavior["joint_rotations"].values()), 342)
+        self.assertGreater(behavior["joint_rotations"]["quaternions"], 100)
+        for tally in ("rbf_types", "rbf_distances", "rbf_functions"):
+            self.assertEqual(sum(behavior[tally].values()), 72)
+            self.assertNotIn(0, behavior[tally].values())
+        self.assertEqual(behavior["following_joints"], {"twist": 66, "swing": 32})
+        self.assertEqual(behavior["ml_regions"], {"with_masks": 12})
+        self.assertNotIn(0, behavior["ml_activations"].values())
+        self.assertEqual(behavior["ml_operations"], {"unspecified": 0, "gather": 12, "scatter": 4,
+                                                     "network": 16, "weighted_sum": 4})
+        self.assertEqual(behavior["ml_joints"],
+                         {"by_euler_angles": 0, "by_quaternions": 32, "without_turning": 0})
+        self.assertEqual([lod["rbf_solvers"] for lod in info["lods"]], [72, 72, 44, 0])
+        text = self.ok("info", path("all.dna")).stdout.decode()
+        for line in ("joints follow by  66 twist, 32 swing\n", "ML moves joints   32 by quaternions\n"):
+            self.assertIn(line, text)
+        part = self.json("info", path("all.dna"), "--json", "--layers", "definition")["behavior"]
+        self.assertEqual(sum(part["rbf_types"].values()), 0)
+        self.assertEqual(part["joint_rotations"]["euler_angles"], 342)
+
     def test_names(self):
         info = self.json("info", path("small.dna"), "--json", "--names", "all")
         counts = {"gui": "gui_controls", "raw": "raw_controls", "joints": "joints", "maps": "animated_maps",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "integrations/cli/behavior.h"
 #include "integrations/cli/fields.h"
 #include "integrations/cli/json_writer.h"
 #include "integrations/cli/names.h"
@@ -122,6 +123,7 @@ struct Summary {
   std::vector<MienDnaLayer> layers;
   std::vector<Count> counts;
   std::vector<LodCounts> lods;
+  std::vector<Tally> behavior;
   std::vector<std::pair<std::string, std::string>> metadata;
   std::optional<MienRigInfo> rig;  // absent without behavior
 };
@@ -185,6 +187,7 @@ Summary gather(const RigFile& file, const MienRigDesc& rig_desc, const Session& 
     summary.layers.push_back(layer);
   }
   summary.counts = gather_counts(file);
+  summary.behavior = tally_behavior(file);
 
   const bool has_definition = (info.layers & MIEN_LAYER_DEFINITION) != 0;
   Rig rig;
@@ -213,6 +216,7 @@ Summary gather(const RigFile& file, const MienRigDesc& rig_desc, const Session& 
       at.counts.push_back({"joint_values", "joint values", statistics.joint_row_count});
       at.counts.push_back({"matrix_entries", "matrix entries", statistics.joint_entry_count});
       at.counts.push_back({"matrix_bytes", "matrix bytes", statistics.joint_byte_count});
+      at.counts.push_back({"rbf_solvers", "RBF solvers", statistics.rbf_solver_count});
     }
     summary.lods.push_back(at);
   }
@@ -293,6 +297,19 @@ void write_json(const RigFile& file, const Summary& summary,
   json.key("counts");
   json.begin_object(Layout::kLines);
   write_counts(json, summary.counts);
+  json.end_object();
+  json.key("behavior");
+  json.begin_object(Layout::kLines);
+  for (const Tally& tally : summary.behavior) {
+    json.key(tally.key);
+    json.begin_object();
+    for (const auto& [kind, count] : tally.kinds) {
+      std::string key = kind;
+      std::replace(key.begin(), key.end(), ' ', '_');
+      json.member(key, count);
+    }
+    json.end_object();
+  }
   json.end_object();
   json.key("lods");
   json.begin_array(Layout::kLines);
@@ -428,6 +445,16 @@ void write_text(const RigFile& file, const Summary& summary, const Session& sess
   for (const Count& count : summary.counts)
     rows.push_back({count.text, std::to_string(count.value)});
   text += table(rows);
+
+  text += "\n" + heading("Behaviour");
+  for (const Tally& tally : summary.behavior) {
+    if (tally.empty()) continue;
+    std::string kinds;
+    for (const auto& [kind, count] : tally.kinds) {
+      if (count != 0) kinds += (kinds.empty() ? "" : ", ") + std::to_string(count) + " " + kind;
+    }
+    text += "  " + pad(tally.label, 18) + kinds + "\n";
+  }
 
   if (!summary.lods.empty()) {
     text += "\n" + heading("Levels of detail");
