@@ -442,9 +442,15 @@ def are_flags(values):
 def direction(parameter):
     """in: read; out: written; inout: a mutable handle, or an error, or a buffer to fill."""
     kind = parameter["type"]
-    if kind["kind"] != "pointer" or kind["const"]:
+    if kind["kind"] != "pointer":
         return "in"
-    return "inout" if kind["to"]["kind"] == "handle" else "out"
+    to = kind["to"]
+    if to["kind"] == "handle" and not kind["const"]:
+        return "inout"
+    if kind["const"]:  # of handles that are not const, a list that is
+        many = to["kind"] == "pointer" and to["to"]["kind"] == "handle" and not to["const"]
+        return "inout" if many else "in"
+    return "out"
 
 
 def nullable(function, parameter, documentation):

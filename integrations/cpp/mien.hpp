@@ -4,8 +4,9 @@
 // to what the C interface does, and nothing hidden: get() gives the handle for all that is not
 // here.
 //
-//   Owners    Dna, Report, Rig, Instance release what they hold; they can be moved, not copied. An
-//             empty one (default, moved from) may be used like any other: calls give
+//   Owners    Dna, Report, Rig, Instance, Deformer, Pose release what they hold; they can be moved,
+//   not
+//             copied. An empty one (default, moved from) may be used like any other: calls give
 //             MIEN_ERROR_NULL_ARGUMENT, spans are empty.
 //   Results   What can fail returns a Result: test it, then take *result; or take value(). Errors
 //             carry status, byte offset and message.
@@ -83,11 +84,14 @@ using DnaDesc = Sized<MienDnaDesc>;
 using WriteDesc = Sized<MienWriteDesc>;
 using GenerateDesc = Sized<MienGenerateDesc>;
 using RigDesc = Sized<MienRigDesc>;
+using DeformerDesc = Sized<MienDeformerDesc>;
+using PoseDesc = Sized<MienPoseDesc>;
 
 inline std::string_view view(const MienStringView& text) { return {text.data, text.count}; }
 inline Span<const float> view(const MienFloatView& floats) { return {floats.data, floats.count}; }
 inline Span<float> view(const MienMutableFloatView& floats) { return {floats.data, floats.count}; }
 inline Span<const uint16_t> view(const MienIndexView& list) { return {list.data, list.count}; }
+inline Span<const uint32_t> view(const MienIndex32View& list) { return {list.data, list.count}; }
 
 inline uint32_t version() { return mien_version(); }
 inline bool is_available(MienIsa isa) { return mien_isa_available(isa) != 0; }
@@ -478,6 +482,103 @@ class Rig : public Owner<MienRig, mien_rig_destroy> {
   }
   Status evaluate_twist_swing(Instance& instance, uint32_t lod, uint32_t setup) const {
     return mien_rig_evaluate_twist_swing(get(), instance.get(), lod, setup);
+  }
+};
+
+/// One character's joint matrices, positions and normals. For one thread at a time.
+class Pose : public Owner<MienPose, mien_pose_destroy> {
+ public:
+  using Owner::Owner;
+
+  Status update(const Instance& instance) { return mien_pose_update(get(), instance.get()); }
+  /// The layouts of Instance::joints() and blend_shapes(); empty: no deltas, all 0.
+  Status update(Span<const float> joint_values, Span<const float> channel_weights) {
+    return mien_pose_update_from_values(get(), joint_values.data(), joint_values.size(),
+                                        channel_weights.data(), channel_weights.size());
+  }
+  Status deform(uint32_t mesh, MienNormals normals = MIEN_NORMALS_DEFAULT,
+                const MienParallelFor* parallel = nullptr) {
+    return mien_pose_deform(get(), mesh, normals, parallel);
+  }
+
+  /// x y z per position, x y z per vertex; empty for a mesh without room. The spans stay the same.
+  Span<const float> positions(uint32_t mesh) const { return span(mien_pose_positions, mesh); }
+  Span<const float> normals(uint32_t mesh) const { return span(mien_pose_normals, mesh); }
+  /// 16 floats per joint, column by column.
+  Span<const float> joint_matrices() const { return span(mien_pose_joint_matrices); }
+  Span<const float> skin_matrices() const { return span(mien_pose_skin_matrices); }
+  /// Fills 10 floats per joint: tx ty tz qx qy qz qw sx sy sz.
+  Status local_transforms(Span<float> out) const {
+    return mien_pose_local_transforms(get(), out.data(), out.size());
+  }
+
+ private:
+  template <class Call, class... Mesh>
+  Span<const float> span(Call call, Mesh... mesh) const {
+    MienFloatView found = {nullptr, 0};
+    return call(get(), mesh..., &found) == MIEN_OK ? view(found) : Span<const float>();
+  }
+};
+
+/// The same mesh of several poses of one deformer, by their handles.
+inline Status deform_batch(Span<MienPose* const> poses, uint32_t mesh,
+                           MienNormals normals = MIEN_NORMALS_DEFAULT,
+                           const MienParallelFor* parallel = nullptr) {
+  return mien_pose_deform_batch(poses.data(), poses.size(), mesh, normals, parallel);
+}
+
+/// Geometry and joint hierarchy of a DNA. Immutable: may be used by several threads at once.
+class Deformer : public Owner<MienDeformer, mien_deformer_destroy> {
+ public:
+  using Owner::Owner;
+
+  /// Both may go afterwards.
+  static Result<Deformer> create(const Dna& dna, const Rig& rig, const DeformerDesc& desc = {}) {
+    return make<Deformer>([&](MienDeformer** out, MienError* error) {
+      return mien_deformer_create(dna.get(), rig.get(), &desc, out, error);
+    });
+  }
+
+  /// A pose in neutral. May outlive the deformer.
+  Result<Pose> pose(const PoseDesc& desc = {}) const {
+    return make<Pose>([&](MienPose** out, MienError* error) {
+      return mien_pose_create(get(), &desc, out, error);
+    });
+  }
+
+  Result<MienDeformerInfo> info() const {
+    Sized<MienDeformerInfo> info;
+    return {mien_deformer_info(get(), &info), std::move(info)};
+  }
+  /// The neutral mesh; view() makes spans of its arrays.
+  Result<MienMesh> mesh(uint32_t mesh) const {
+    Sized<MienMesh> found;
+    return {mien_deformer_mesh(get(), mesh, &found), std::move(found)};
+  }
+  struct Influences {
+    Span<const uint16_t> joints;
+    Span<const float> weights;
+  };
+  Result<Influences> influences(uint32_t mesh, uint32_t position) const {
+    MienIndexView joints = {nullptr, 0};
+    MienFloatView weights = {nullptr, 0};
+    const MienStatus status = mien_deformer_influences(get(), mesh, position, &joints, &weights);
+    return {status, Influences{view(joints), view(weights)}};
+  }
+  /// Fills x y z for each position of the mesh.
+  Status target(uint32_t mesh, uint32_t target, Span<float> out) const {
+    return mien_deformer_target(get(), mesh, target, out.data(), out.size());
+  }
+  /// 16 floats per joint, column by column.
+  Span<const float> bind_matrices() const { return span(mien_deformer_bind_matrices); }
+  Span<const float> inverse_bind_matrices() const {
+    return span(mien_deformer_inverse_bind_matrices);
+  }
+
+ private:
+  Span<const float> span(MienStatus (*call)(const MienDeformer*, MienFloatView*)) const {
+    MienFloatView found = {nullptr, 0};
+    return call(get(), &found) == MIEN_OK ? view(found) : Span<const float>();
   }
 };
 

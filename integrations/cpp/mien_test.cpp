@@ -135,6 +135,71 @@ void test_fields_and_files() {
   CHECK(!mien::Report::of("/nonexistent"));
 }
 
+void run_in_order(void* user, uint32_t count, void (*task)(void*, uint32_t), void* context) {
+  ++*static_cast<int*>(user);
+  for (uint32_t i = count; i-- > 0;) task(context, i);
+}
+
+void test_deformer() {
+  const mien::Dna dna = generated(MIEN_PRESET_LARGE);
+  const mien::Rig rig = mien::Rig::create(dna).value();
+  mien::Deformer deformer = mien::Deformer::create(dna, rig).value();
+  mien::Instance face = rig.instance().value();
+  for (float& control : face.raw_controls()) control = 0.25f;
+  CHECK(rig.evaluate(face));
+
+  mien::Pose pose = deformer.pose().value();
+  const MienMesh mesh = deformer.mesh(0).value();
+  const auto neutral = mien::view(mesh.positions);
+  CHECK(neutral.size() == size_t{3} * mesh.position_count);
+  CHECK(mien::view(mesh.triangles).size() == size_t{3} * mesh.triangle_count);
+  CHECK(pose.update(face) && pose.deform(0));
+  const auto moved = pose.positions(0);
+  float most = 0;
+  for (size_t i = 0; i < moved.size(); ++i) {
+    const float by = moved[i] - neutral[i];
+    if (by * by > most) most = by * by;
+  }
+  CHECK(most > 0 && moved.size() == neutral.size());
+  CHECK(pose.normals(0).size() == size_t{3} * mesh.vertex_count);
+  CHECK(pose.joint_matrices().size() == size_t{16} * deformer.info()->joint_count);
+  CHECK(pose.skin_matrices().size() == deformer.bind_matrices().size());
+  CHECK(deformer.inverse_bind_matrices().size() == deformer.bind_matrices().size());
+
+  // From arrays, by threads, and in a batch: the same bits.
+  mien::Pose same = deformer.pose().value();
+  int runs = 0;
+  const MienParallelFor parallel = {&runs, run_in_order};
+  CHECK(same.update(face.joints(), face.blend_shapes()));
+  CHECK(same.deform(0, MIEN_NORMALS_SKINNED, &parallel) && runs > 0);
+  CHECK(std::memcmp(same.positions(0).data(), moved.data(), moved.size() * sizeof(float)) == 0);
+  MienPose* const poses[] = {pose.get(), same.get()};
+  CHECK(mien::deform_batch(poses, 0));
+  CHECK(std::memcmp(same.positions(0).data(), moved.data(), moved.size() * sizeof(float)) == 0);
+  CHECK(same.update({}, {}));
+
+  std::vector<float> transforms(size_t{10} * deformer.info()->joint_count);
+  CHECK(pose.local_transforms(transforms));
+  transforms.pop_back();
+  CHECK(!pose.local_transforms(transforms));
+  std::vector<float> deltas(neutral.size());
+  CHECK(deformer.target(0, 0, deltas) && !deformer.target(0, 1u << 30, deltas));
+  const auto held = deformer.influences(0, 0).value();
+  CHECK(held.joints.size() == held.weights.size() && !held.joints.empty());
+
+  deformer.reset();
+  CHECK(pose.deform(0) && !deformer.info() && !deformer.mesh(0) && !deformer.pose());
+  CHECK(!deformer.influences(0, 0) && deformer.bind_matrices().empty());
+  CHECK(!mien::Deformer::create(dna, mien::Rig()));
+  mien::PoseDesc last_lod;
+  last_lod.lods = uint64_t{1} << 7;
+  const mien::Deformer again = mien::Deformer::create(dna, rig).value();
+  mien::Pose small = again.pose(last_lod).value();
+  CHECK(small.deform(0).status() == MIEN_ERROR_LOD && small.positions(0).empty());
+  mien::Pose empty;
+  CHECK(!empty.update(face) && !empty.deform(0) && empty.joint_matrices().empty());
+}
+
 struct Counted {
   size_t blocks = 0;
 };
@@ -200,6 +265,7 @@ int main() {
   test_empty_objects();
   test_errors();
   test_fields_and_files();
+  test_deformer();
   test_allocators();
   test_exceptions();
   std::puts("mien.hpp: all well");

@@ -169,6 +169,12 @@ def is_text(kind):
     return kind["kind"] == "struct" and kind["name"] == "MienStringView"
 
 
+def has_views(struct):
+    """Of arrays, which need an owner: such a struct gets a class by hand."""
+    return any(field["type"]["kind"] == "struct" and not is_text(field["type"])
+               for field in struct["fields"])
+
+
 def write_record(struct):
     """The struct as what Python gives out: an immutable copy."""
     name = python_name(struct["name"])
@@ -250,7 +256,8 @@ def generate(api):
     given = {p["type"]["to"]["name"] for f in api["functions"] for p in f["parameters"]
              if p["direction"] == "out" and p["type"]["to"]["kind"] == "struct"}
     blocks += [write_record(struct) for struct in api["structs"]
-               if struct["name"] in given and struct["sized"] and struct["name"] != "MienError"]
+               if struct["name"] in given and struct["sized"] and struct["name"] != "MienError"
+               and not has_views(struct)]
     blocks.append(write_functions(api["functions"]))
     return "\n\n".join("".join(block) for block in blocks)
 

@@ -1121,43 +1121,6 @@ class DeformerInfo(NamedTuple):
                    c.mesh_count, c.deformer_bytes, c.pose_bytes)
 
 
-class Mesh(NamedTuple):
-    """The neutral mesh. Views live as long as the deformer.
-
-      most_influences: of one position
-      target_count: blend shape targets
-      delta_count: over all targets
-      lods: bit l: LOD l shows this mesh
-      positions: x y z per position
-      normals: x y z per vertex, unit length
-      texture_coordinates: u v per vertex, as in the file
-      vertex_positions: position of each vertex
-      triangles: three vertices each, wound as in the file; faces of more corners are fans about
-        their first
-      target_channels: channel of each target, in file order
-    """
-
-    position_count: int
-    vertex_count: int
-    triangle_count: int
-    most_influences: int
-    target_count: int
-    delta_count: int
-    lods: int
-    positions: int
-    normals: int
-    texture_coordinates: int
-    vertex_positions: int
-    triangles: int
-    target_channels: int
-
-    @classmethod
-    def _of(cls, c: MienMesh) -> Mesh:
-        return cls(c.position_count, c.vertex_count, c.triangle_count, c.most_influences,
-                   c.target_count, c.delta_count, c.lods, c.positions, c.normals,
-                   c.texture_coordinates, c.vertex_positions, c.triangles, c.target_channels)
-
-
 # Name, result, parameters.
 FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_version", c_uint32, ()),

@@ -17,7 +17,7 @@ import ctypes
 import os
 from array import array
 from operator import index
-from typing import TYPE_CHECKING, Any, Dict, NoReturn, Optional, Tuple
+from typing import TYPE_CHECKING, Any, Dict, Iterable, NoReturn, Optional, Tuple
 
 from . import _api
 from ._library import lib
@@ -67,6 +67,18 @@ class RigHandle(_Address, _api.MienRig):
             destroy(self)
 
 
+class DeformerHandle(_Address, _api.MienDeformer):
+    def __del__(self, destroy: Any = lib.mien_deformer_destroy) -> None:
+        if self.value:
+            destroy(self)
+
+
+class PoseHandle(_Address, _api.MienPose):
+    def __del__(self, destroy: Any = lib.mien_pose_destroy) -> None:
+        if self.value:
+            destroy(self)
+
+
 class InstanceHandle(_Address, _api.MienInstance):
     slab: Any  # where its memory is, for characters of a batch
 
@@ -104,7 +116,7 @@ class Closable(_Address):
         self.close()
 
 
-_CODES: Dict[str, Any] = {"f": ctypes.c_float, "H": ctypes.c_uint16}
+_CODES: Dict[str, Any] = {"f": ctypes.c_float, "H": ctypes.c_uint16, "I": ctypes.c_uint32}
 
 
 def array_over(owner: Any, address: Optional[int], count: int, code: str, writable: bool,
@@ -136,6 +148,31 @@ def new_array(code: str, count: int) -> Tuple[Any, int]:
         return values, values.ctypes.data
     values = array(code, bytes(array(code).itemsize * count))
     return values, values.buffer_info()[0]
+
+
+def shaped(values: Any, shape: Tuple[int, ...]) -> Any:
+    """A NumPy array of this shape; of what is not one, itself."""
+    return values.reshape(shape) if numpy is not None else values
+
+
+def floats_of(values: Any, what: str,
+              table: Tuple[Optional[int], ...] = ()) -> Tuple[Any, int, Optional[int]]:
+    """Numbers of any type and stride as floats in a row: what holds them, their count and address.
+    They are a row, or a table of this shape. None is no numbers at all."""
+    if values is None:
+        return None, 0, None
+    if numpy is None:
+        held = array("f", values)
+        return held, len(held), held.buffer_info()[0]
+    given = numpy.asarray(values)
+    if given.dtype.kind not in "fiub":
+        raise TypeError(f"{what} takes numbers, not {given.dtype}")
+    fits = len(table) == given.ndim and all(b in (None, a) for a, b in zip(given.shape, table))
+    if given.ndim != 1 and not fits:
+        raise ArgumentError(f"{what} takes shape {table} or (n,), not {given.shape}" if table else
+                            f"{what} takes shape (n,), not {given.shape}")
+    given = numpy.ascontiguousarray(given, "f")
+    return given, given.size, given.ctypes.data
 
 
 def assign(target: Any, values: Any, what: str) -> None:
@@ -172,6 +209,20 @@ def terminated(text: bytes, what: str) -> bytes:
 def as_bytes(data: Any) -> bytes:
     """Bytes that nobody can change: themselves, or a copy of what somebody could."""
     return data if type(data) is bytes else bytes(memoryview(data))
+
+
+def lod_bits(lods: Optional[Iterable[int]]) -> int:
+    """LOD numbers as bits; None, for all, is 0."""
+    if lods is None:
+        return 0
+    bits = 0
+    for lod in lods:
+        if not 0 <= lod < 64:
+            raise ArgumentError(f"LOD {lod}: LODs are numbered 0 ... 63")
+        bits |= 1 << lod
+    if not bits:
+        raise ArgumentError("lods is empty: name at least one, or give None for all")
+    return bits
 
 
 def uint32(value: Any, what: str) -> int:

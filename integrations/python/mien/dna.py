@@ -9,25 +9,11 @@ from . import _api
 from ._api import (DnaField, DnaInfo, DnaLayer, FieldType, FileAccess, Finding, Layer, MienError,
                    Preset, UnknownLayers)
 from ._library import lib
-from ._memory import (Closable, DnaHandle, ReportHandle, as_bytes, as_path, new_array, terminated,
-                      uint32)
-from .errors import ArgumentError, fail
+from ._memory import (Closable, DnaHandle, ReportHandle, as_bytes, as_path, lod_bits,
+                      new_array, terminated, uint32)
+from .errors import fail
 
 _byref = ctypes.byref
-
-
-def _lod_bits(lods: Optional[Iterable[int]]) -> int:
-    """LOD numbers as the bits of MienDnaDesc.lods."""
-    if lods is None:
-        return 0
-    bits = 0
-    for lod in lods:
-        if not 0 <= lod < 64:
-            raise ArgumentError(f"LOD {lod}: LODs are numbered 0 ... 63")
-        bits |= 1 << lod
-    if not bits:
-        raise ArgumentError("lods is empty: name at least one, or give None for all")
-    return bits
 
 
 class Dna(Closable):
@@ -53,7 +39,7 @@ class Dna(Closable):
 
         Raises FileError, or DnaError with the byte offset of what is wrong.
         """
-        desc = _api.MienDnaDesc(layers=uint32(layers, "layers"), lods=_lod_bits(lods),
+        desc = _api.MienDnaDesc(layers=uint32(layers, "layers"), lods=lod_bits(lods),
                                 unknown_layers=uint32(unknown_layers, "unknown_layers"),
                                 file_access=uint32(access, "access"))
         handle, error = DnaHandle(), MienError()
@@ -68,7 +54,7 @@ class Dna(Closable):
         """The same from memory: `bytes` are used where they are and kept alive; any other buffer
         (bytearray, memoryview, array) is copied, since it could change."""
         data = as_bytes(data)
-        desc = _api.MienDnaDesc(layers=uint32(layers, "layers"), lods=_lod_bits(lods),
+        desc = _api.MienDnaDesc(layers=uint32(layers, "layers"), lods=lod_bits(lods),
                                 unknown_layers=uint32(unknown_layers, "unknown_layers"))
         handle, error = DnaHandle(), MienError()
         status = lib.mien_dna_open_memory(data, len(data), _byref(desc), _byref(handle),
@@ -212,7 +198,8 @@ class Dna(Closable):
             return "<mien.Dna, closed>"
         info = self.info
         return (f"<mien.Dna {info.generation}.{info.version}: "
-                f"{info.raw_control_count} raw controls, {info.joint_count} joints, {info.lod_count} LODs>")
+                f"{info.raw_control_count} raw controls, {info.joint_count} joints, "
+                f"{info.lod_count} LODs>")
 
 
 def validate(file: Any) -> List[Finding]:

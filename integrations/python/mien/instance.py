@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import ctypes
 from _thread import allocate_lock
+from contextlib import contextmanager
 from operator import index
-from typing import Any, Callable, Dict, NoReturn, Optional
+from typing import Any, Callable, Dict, Iterator, NoReturn, Optional
 
 from . import _api
 from ._api import MienError, Stage, Status
@@ -196,6 +197,16 @@ class Instance(Closable):
             status = lib.mien_instance_reset(self._handle)
             if status:
                 self._fail(status, "reset()")
+        finally:
+            self._lock.release()
+
+    @contextmanager
+    def _alone(self) -> Iterator[Any]:
+        """The handle, for this thread."""
+        if not self._lock.acquire(False):
+            self._busy()
+        try:
+            yield self._open()
         finally:
             self._lock.release()
 

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: MIT
+"""Executors of Python as the threads that the library asks for."""
+from __future__ import annotations
+
+import ctypes
+from concurrent.futures import Executor
+from threading import Lock
+from time import sleep
+from typing import Any, Callable, List, Optional
+
+from . import _api
+
+_run_type: Any = dict(_api.MienParallelFor._fields_)["run"]
+
+
+class _Tasks:
+    """The tasks of one request. They look into the stack of the C call that made it, so none may
+    run, or begin, after `finish()`."""
+
+    def __init__(self, task: Any, context: Any, count: int) -> None:
+        self.task, self.context = task, context
+        self.left = list(range(count))
+        self.lock = Lock()
+        self.active = 0
+
+    def work(self) -> None:
+        """Takes tasks as long as there are any; every thread that comes may help."""
+        while True:
+            with self.lock:
+                if not self.left:
+                    return
+                i = self.left.pop()
+                self.active += 1
+            self.task(self.context, i)
+            with self.lock:
+                self.active -= 1
+
+    def finish(self) -> None:
+        self.work()
+        while self.active:
+            sleep(1e-5)
+
+
+def call_with_threads(executor: Optional[Executor], call: Callable[[Any], None]) -> None:
+    """call(parallel), where `parallel` is a MienParallelFor of the executor by reference, or None.
+
+    With an executor, the call itself is one of its jobs. Signals interrupt the main thread only, so
+    that Ctrl-C ends the waiting here and nothing in the midst of what the library relies on.
+    """
+    if executor is None:
+        call(None)
+        return
+    threads, failures = executor, []  # type: Executor, List[BaseException]
+
+    def run(user: Any, count: int, task: Any, context: Any) -> None:
+        tasks = _Tasks(task, context, count)
+        try:
+            for _ in range(min(count - 1, 64)):
+                threads.submit(tasks.work)
+        except RuntimeError as error:  # the pool was shut down meanwhile
+            failures.append(error)
+        tasks.finish()
+
+    def job() -> None:
+        call(ctypes.byref(_api.MienParallelFor(None, _run_type(run))))
+        if failures:
+            raise failures[0]
+
+    threads.submit(job).result()

@@ -1,0 +1,291 @@
+# SPDX-License-Identifier: MIT
+"""Deformers and poses: from joint values and channel weights to positions and normals."""
+from __future__ import annotations
+
+import ctypes
+from _thread import allocate_lock
+from concurrent.futures import Executor
+from contextlib import ExitStack, contextmanager
+from typing import Any, Iterable, Iterator, List, Optional, Sequence, Tuple
+
+from . import _api
+from ._api import Compose, DeformerInfo, Isa, Kind, MienError, Normals, Status, Weights
+from ._library import lib
+from ._memory import (Closable, DeformerHandle, Floats, Indices, PoseHandle, array_over, floats_of,
+                      lod_bits, new_array, shaped, uint32)
+from ._threads import call_with_threads
+from .dna import Dna
+from .errors import BusyError, fail
+from .instance import Instance
+from .rig import Rig
+
+_byref = ctypes.byref
+
+
+def _matrices(owner: Any, view: Any) -> Any:
+    """16 floats per joint, column by column, as [row, column] of NumPy."""
+    found = array_over(owner, view.data, view.count, "f", False, (-1, 4, 4))
+    return found.transpose(0, 2, 1) if hasattr(found, "transpose") else found
+
+
+class Mesh:
+    """The neutral mesh `index` of a deformer. Arrays are read-only views of the deformer's memory.
+
+      name:                of the mesh
+      lods:                LODs that show it
+      positions:           float32 (positions, 3)
+      normals:             float32 (vertices, 3), unit length
+      texture_coordinates: float32 (vertices, 2), as in the file
+      vertex_positions:    uint32 (vertices,): position of each vertex
+      triangles:           uint32 (triangles, 3): vertices, wound as in the file
+      target_channels:     uint16 (targets,): channel of each blend shape target
+      most_influences:     joints that hold the position that most of them hold
+      delta_count:         moved positions over all targets
+    """
+
+    def __init__(self, handle: DeformerHandle, index: int, name: str, mesh: Any) -> None:
+        def view(of: Any, code: str, width: int = 0) -> Any:
+            shape = (of.count // width, width) if width else None
+            return array_over(handle, of.data, of.count, code, False, shape)
+
+        self.index, self.name = index, name
+        self.lods: List[int] = [lod for lod in range(64) if mesh.lods >> lod & 1]
+        self.positions: Floats = view(mesh.positions, "f", 3)
+        self.normals: Floats = view(mesh.normals, "f", 3)
+        self.texture_coordinates: Floats = view(mesh.texture_coordinates, "f", 2)
+        self.vertex_positions: Any = view(mesh.vertex_positions, "I")
+        self.triangles: Any = view(mesh.triangles, "I", 3)
+        self.target_channels: Indices = view(mesh.target_channels, "H")
+        self.position_count: int = mesh.position_count
+        self.vertex_count: int = mesh.vertex_count
+        self.triangle_count: int = mesh.triangle_count
+        self.target_count: int = mesh.target_count
+        self.most_influences: int = mesh.most_influences
+        self.delta_count: int = mesh.delta_count
+
+    def __repr__(self) -> str:
+        return (f"<mien.Mesh {self.index} {self.name!r}: {self.position_count} positions, "
+                f"{self.vertex_count} vertices, {self.triangle_count} triangles, "
+                f"{self.target_count} targets>")
+
+
+class Deformer(Closable):
+    """The geometry of a DNA, packed once. Immutable: any number of threads may use it at once.
+
+        deformer = mien.Deformer(dna, rig)
+        pose = deformer.pose()
+        face.evaluate()
+        pose.update(face)
+        pose.deform(0)
+        pose.positions(0)      # float32 (positions, 3) of mesh 0
+
+    `dna` is the one that the rig was made of, with geometry loaded; both may be closed afterwards.
+
+    isa:     `Isa`; BEST means that of the rig
+    compose: how a joint's rotation is made of the neutral one and the delta, see `Compose`
+    weights: whether skin weights are mended, see `Weights`
+    normals: what `Pose.deform` makes if it is not told, see `Normals`
+    """
+
+    def __init__(self, dna: Dna, rig: Rig, isa: int = Isa.BEST, compose: int = Compose.PRODUCT,
+                 weights: int = Weights.AS_STORED, normals: int = Normals.DEFAULT) -> None:
+        desc = _api.MienDeformerDesc(isa=uint32(isa, "isa"), compose=uint32(compose, "compose"),
+                                     weights=uint32(weights, "weights"),
+                                     normals=uint32(normals, "normals"))
+        handle, error = DeformerHandle(), MienError()
+        status = lib.mien_deformer_create(dna._open(), rig._open(), _byref(desc), _byref(handle),
+                                          _byref(error))
+        if status:
+            fail(status, "cannot make a deformer", error)
+        self._handle: Optional[DeformerHandle] = handle
+        info = _api.MienDeformerInfo()
+        status = lib.mien_deformer_info(handle, _byref(info))
+        if status:
+            fail(status, "no info")
+        self.info: DeformerInfo = DeformerInfo._of(info)
+        self._mesh_names = rig.names(Kind.MESH)
+
+    def mesh(self, index: int) -> Mesh:
+        """The neutral mesh of this index."""
+        handle, found = self._open(), _api.MienMesh()
+        status = lib.mien_deformer_mesh(handle, uint32(index, "mesh"), _byref(found))
+        if status:
+            fail(status, f"mesh {index} of {self.info.mesh_count}")
+        return Mesh(handle, index, self._mesh_names[index], found)
+
+    @property
+    def meshes(self) -> List[Mesh]:
+        """All neutral meshes."""
+        return [self.mesh(i) for i in range(self.info.mesh_count)]
+
+    def influences(self, mesh: int, position: int) -> Tuple[Indices, Floats]:
+        """uint16 (n,) joints that hold a position, and float32 (n,) their weights."""
+        handle, joints, weights = self._open(), _api.MienIndexView(), _api.MienFloatView()
+        status = lib.mien_deformer_influences(handle, uint32(mesh, "mesh"),
+                                              uint32(position, "position"), _byref(joints),
+                                              _byref(weights))
+        if status:
+            fail(status, f"position {position} of mesh {mesh}")
+        return (array_over(handle, joints.data, joints.count, "H", False),
+                array_over(handle, weights.data, weights.count, "f", False))
+
+    def target(self, mesh: int, target: int) -> Floats:
+        """float32 (positions, 3), a copy: how far a target moves each position at weight 1."""
+        count = self.mesh(mesh).position_count * 3
+        values, address = new_array("f", count)
+        status = lib.mien_deformer_target(self._open(), uint32(mesh, "mesh"),
+                                          uint32(target, "target"), address, count)
+        if status:
+            fail(status, f"target {target} of mesh {mesh}")
+        return shaped(values, (-1, 3))
+
+    @property
+    def bind_matrices(self) -> Floats:
+        """float32 (joints, 4, 4), [row, column], for column vectors: model matrices in neutral."""
+        handle, view = self._open(), _api.MienFloatView()
+        status = lib.mien_deformer_bind_matrices(handle, _byref(view))
+        if status:
+            fail(status, "bind matrices")
+        return _matrices(handle, view)
+
+    @property
+    def inverse_bind_matrices(self) -> Floats:
+        """float32 (joints, 4, 4): the inverses of these."""
+        handle, view = self._open(), _api.MienFloatView()
+        status = lib.mien_deformer_inverse_bind_matrices(handle, _byref(view))
+        if status:
+            fail(status, "inverse bind matrices")
+        return _matrices(handle, view)
+
+    def pose(self, lods: Optional[Iterable[int]] = None) -> Pose:
+        """A new pose in neutral, with room for the meshes of these LODs; None: for all."""
+        return Pose(self, lods)
+
+    def __repr__(self) -> str:
+        if self.closed:
+            return "<mien.Deformer, closed>"
+        return f"<mien.Deformer: {self.info.mesh_count} meshes, {self.info.joint_count} joints>"
+
+
+class Pose(Closable):
+    """What a deformer makes of one character. For one thread at a time: a second gets a BusyError.
+
+    Arrays are views of the pose's own memory, as at `Instance`: each stays the same, its contents
+    change with each `update` or `deform`, and it keeps the memory alive after `close()`.
+    """
+
+    def __init__(self, deformer: Deformer, lods: Optional[Iterable[int]] = None) -> None:
+        desc = _api.MienPoseDesc(lods=lod_bits(lods))
+        handle, error = PoseHandle(), MienError()
+        status = lib.mien_pose_create(deformer._open(), _byref(desc), _byref(handle), _byref(error))
+        if status:
+            fail(status, "cannot make a pose", error)
+        self._handle: Optional[PoseHandle] = handle
+        self.deformer = deformer
+        self._lock = allocate_lock()
+
+    @contextmanager
+    def _alone(self) -> Iterator[Any]:
+        """The handle, for this thread."""
+        if not self._lock.acquire(False):
+            raise BusyError("another thread is working with this pose, or it is named twice",
+                            Status.HANDLE)
+        try:
+            yield self._open()
+        finally:
+            self._lock.release()
+
+    def update(self, instance: Instance) -> None:
+        """Takes over joints and channels of the instance's last evaluation, and computes the
+        matrices of all joints; meshes follow with `deform`."""
+        with self._alone() as handle, instance._alone() as evaluated:
+            status = lib.mien_pose_update(handle, evaluated)
+            if status:
+                fail(status, "an instance of another rig")
+
+    def update_from_values(self, joint_values: Any = None, channel_weights: Any = None) -> None:
+        """The same from arrays: joint values of the shape and units of `Instance.joints` (None: no
+        deltas) and one weight per channel (None: all 0)."""
+        shape = (self.deformer.info.joint_count, None)
+        joints, joint_count, joint_address = floats_of(joint_values, "joint_values", shape)
+        weights, weight_count, weight_address = floats_of(channel_weights, "channel_weights")
+        with self._alone() as handle:
+            status = lib.mien_pose_update_from_values(handle, joint_address, joint_count,
+                                                      weight_address, weight_count)
+            if status:
+                fail(status, f"{joint_count} joint values and {weight_count} channel weights")
+            del joints, weights  # so far they had to live
+
+    def deform(self, mesh: int, normals: int = Normals.DEFAULT,
+               threads: Optional[Executor] = None) -> None:
+        """Computes `positions(mesh)` as of the last update, and normals of a kind (`Normals`).
+
+        threads: such as a ThreadPoolExecutor, for large meshes; the result has the same bits
+        """
+        def call(parallel: Any) -> None:
+            with self._alone() as handle:
+                status = lib.mien_pose_deform(handle, uint32(mesh, "mesh"),
+                                              uint32(normals, "normals"), parallel)
+                if status:
+                    fail(status, f"mesh {mesh}")
+
+        call_with_threads(threads, call)
+
+    def _view(self, call: Any, what: str, width: int, *mesh: int) -> Any:
+        handle, view = self._open(), _api.MienFloatView()
+        status = call(handle, *mesh, _byref(view))
+        if status:
+            fail(status, what)
+        if width == 16:
+            return _matrices(handle, view)
+        return array_over(handle, view.data, view.count, "f", False, (view.count // width, width))
+
+    def positions(self, mesh: int) -> Floats:
+        """float32 (positions, 3) of the last `deform`."""
+        return self._view(lib.mien_pose_positions, f"mesh {mesh}", 3, uint32(mesh, "mesh"))
+
+    def normals(self, mesh: int) -> Floats:
+        """float32 (vertices, 3) of the last `deform` that made normals."""
+        return self._view(lib.mien_pose_normals, f"mesh {mesh}", 3, uint32(mesh, "mesh"))
+
+    @property
+    def joint_matrices(self) -> Floats:
+        """float32 (joints, 4, 4), [row, column], for column vectors: model matrices."""
+        return self._view(lib.mien_pose_joint_matrices, "joint matrices", 16)
+
+    @property
+    def skin_matrices(self) -> Floats:
+        """float32 (joints, 4, 4): model matrix * inverse bind matrix, for skinning elsewhere."""
+        return self._view(lib.mien_pose_skin_matrices, "skin matrices", 16)
+
+    @property
+    def local_transforms(self) -> Floats:
+        """float32 (joints, 10), a copy: tx ty tz qx qy qz qw sx sy sz relative to the parent."""
+        count = self.deformer.info.joint_count * 10
+        values, address = new_array("f", count)
+        with self._alone() as handle:
+            status = lib.mien_pose_local_transforms(handle, address, count)
+            if status:
+                fail(status, "local transforms")
+        return shaped(values, (-1, 10))
+
+    def __repr__(self) -> str:
+        return f"<mien.Pose{', closed' if self.closed else ''} of {self.deformer!r}>"
+
+
+def deform_batch(poses: Sequence[Pose], mesh: int, normals: int = Normals.DEFAULT,
+                 threads: Optional[Executor] = None) -> None:
+    """`Pose.deform` of the same mesh of several poses of one deformer: the same bits, but each
+    piece of the mesh is fetched once."""
+    poses = list(poses)
+
+    def call(parallel: Any) -> None:
+        with ExitStack() as stack:
+            handles = [stack.enter_context(pose._alone()) for pose in poses]
+            pointers = (_api.MienPose * len(handles))(*handles)
+            status = lib.mien_pose_deform_batch(pointers, len(handles), uint32(mesh, "mesh"),
+                                                uint32(normals, "normals"), parallel)
+            if status:
+                fail(status, f"mesh {mesh} of {len(handles)} poses")
+
+    call_with_threads(threads, call)
