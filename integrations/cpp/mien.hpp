@@ -40,8 +40,7 @@
 
 namespace mien {
 
-// ---- Spans and descriptions
-// ------------------------------------------------------------------------
+// ---- Spans and descriptions ---------------------------------------------------------------------
 
 #ifdef __cpp_lib_span
 template <class T>
@@ -86,6 +85,7 @@ using GenerateDesc = Sized<MienGenerateDesc>;
 using RigDesc = Sized<MienRigDesc>;
 using DeformerDesc = Sized<MienDeformerDesc>;
 using PoseDesc = Sized<MienPoseDesc>;
+using CoordinateSystem = Sized<MienCoordinateSystem>;
 
 inline std::string_view view(const MienStringView& text) { return {text.data, text.count}; }
 inline Span<const float> view(const MienFloatView& floats) { return {floats.data, floats.count}; }
@@ -97,8 +97,7 @@ inline uint32_t version() { return mien_version(); }
 inline bool is_available(MienIsa isa) { return mien_isa_available(isa) != 0; }
 inline const char* name_of(MienIsa isa) { return mien_isa_name(isa); }
 
-// ---- Errors and results
-// ----------------------------------------------------------------------------
+// ---- Errors and results -------------------------------------------------------------------------
 
 /// Why a call failed.
 class Error {
@@ -212,8 +211,20 @@ class [[nodiscard]] Result<void> {
   Error error_;
 };
 
-// ---- Owners
-// ----------------------------------------------------------------------------------------
+/// The system of an engine or tool, for DnaDesc::system: "unreal", "unity", "blender", ...
+inline Result<CoordinateSystem> coordinate_system(std::string_view name) {
+  CoordinateSystem system;
+  const MienStatus status = mien_coordinate_system_named(name.data(), name.size(), &system);
+  return {status, std::move(system)};
+}
+/// The names, from index 0 on; MIEN_ERROR_INDEX past the last.
+inline Result<std::string_view> coordinate_system_name(uint32_t index) {
+  MienStringView name = {nullptr, 0};
+  const MienStatus status = mien_coordinate_system_name(index, &name);
+  return {status, view(name)};
+}
+
+// ---- Owners -------------------------------------------------------------------------------------
 
 /// A handle and the duty to release it.
 template <class Handle, void (*release_handle)(Handle*)>

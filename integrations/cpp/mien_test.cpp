@@ -128,6 +128,14 @@ void test_fields_and_files() {
   const mien::Dna cut = mien::Dna::open(bytes.data(), bytes.size(), one_lod).value();
   CHECK(cut.info()->lod_count == 1);
 
+  CHECK(mien::coordinate_system_name(0) && !mien::coordinate_system_name(1000));
+  CHECK(mien::coordinate_system("nothing").status() == MIEN_ERROR_NAME);
+  const mien::CoordinateSystem unreal = mien::coordinate_system("unreal").value();
+  mien::DnaDesc converted;
+  converted.system = &unreal;
+  const mien::Dna turned = mien::Dna::open(bytes.data(), bytes.size(), converted).value();
+  CHECK(turned.info()->axes[2] == unreal.axes[2]);
+
   const mien::Report report = mien::Report::of(bytes.data(), bytes.size()).value();
   CHECK(report.error_count() == 0);
   const mien::Report faults = mien::Report::of("no DNA", 6).value();

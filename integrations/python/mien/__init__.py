@@ -12,25 +12,26 @@
 
 `Dna` -> `Rig` -> `Instance` or `Batch`. README.md has more; errors are in `mien.errors`.
 """
-from ._api import (Compose, DeformerInfo, Direction, DnaField, DnaInfo, DnaLayer, FieldType,
-                   FileAccess, Finding, Isa, Kind, Layer, MlMasks, Normals, Output, Preset, RigInfo,
-                   RigStatistics, RotationSequence, RotationUnit, Severity, Stage, Status, Storage,
-                   TranslationUnit, UnknownLayers, Weights)
+from ._api import (Compose, CoordinateSystem, DeformerInfo, Direction, DnaField, DnaInfo, DnaLayer,
+                   FieldType, FileAccess, Finding, Isa, Kind, Layer, MlMasks, Normals, Output,
+                   Preset, RigInfo, RigStatistics, RotationRule, RotationSequence, RotationUnit,
+                   Severity, Stage, Status, Storage, TranslationUnit, UnknownLayers, Weights)
 from ._library import path as library_path, version
 from .batch import Batch
 from .deformer import Deformer, Mesh, Pose, deform_batch
-from .dna import Dna, validate
+from .dna import Dna, coordinate_system, coordinate_system_names, validate
 from .errors import (ArgumentError, BusyError, ClosedError, DnaError, Error, FileError,
                      OutOfMemoryError, OutOfRangeError, UnknownNameError)
 from .instance import Instance
 from .rig import Rig, isa_available, isa_name
 
 __all__ = [
-    "ArgumentError", "Batch", "BusyError", "ClosedError", "Compose", "deform_batch", "Deformer",
-    "DeformerInfo", "Direction", "Dna", "DnaError", "DnaField", "DnaInfo", "DnaLayer", "Error",
-    "FieldType", "FileAccess", "FileError", "Finding", "Instance", "Isa", "isa_available",
-    "isa_name", "Kind", "Layer", "library_path", "Mesh", "MlMasks", "Normals", "OutOfMemoryError",
-    "OutOfRangeError", "Output", "Pose", "Preset", "Rig", "RigInfo", "RigStatistics",
+    "ArgumentError", "Batch", "BusyError", "ClosedError", "Compose", "coordinate_system",
+    "coordinate_system_names", "CoordinateSystem", "deform_batch", "Deformer", "DeformerInfo",
+    "Direction", "Dna", "DnaError", "DnaField", "DnaInfo", "DnaLayer", "Error", "FieldType",
+    "FileAccess", "FileError", "Finding", "Instance", "Isa", "isa_available", "isa_name", "Kind",
+    "Layer", "library_path", "Mesh", "MlMasks", "Normals", "OutOfMemoryError", "OutOfRangeError",
+    "Output", "Pose", "Preset", "Rig", "RigInfo", "RigStatistics", "RotationRule",
     "RotationSequence", "RotationUnit", "Severity", "Stage", "Status", "Storage", "TranslationUnit",
     "UnknownLayers", "UnknownNameError", "validate", "version", "Weights",
 ]

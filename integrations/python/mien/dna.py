@@ -3,17 +3,48 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Iterable, List, Optional
+from typing import Any, Iterable, List, Optional, Union
 
 from . import _api
-from ._api import (DnaField, DnaInfo, DnaLayer, FieldType, FileAccess, Finding, Layer, MienError,
-                   Preset, UnknownLayers)
+from ._api import (CoordinateSystem, DnaField, DnaInfo, DnaLayer, FieldType, FileAccess, Finding,
+                   Layer, MienError, Preset, UnknownLayers)
 from ._library import lib
 from ._memory import (Closable, DnaHandle, ReportHandle, as_bytes, as_path, lod_bits,
                       new_array, terminated, uint32)
 from .errors import fail
 
 _byref = ctypes.byref
+
+
+def coordinate_system(name: str) -> CoordinateSystem:
+    """The system of an engine or tool, by its name: "unreal", "unity", "blender", ... Change what
+    should differ by `._replace(rotation_rule=RotationRule.EXACT)`."""
+    encoded, found = name.encode("utf-8", "surrogateescape"), _api.MienCoordinateSystem()
+    status = lib.mien_coordinate_system_named(encoded, len(encoded), _byref(found))
+    if status:
+        fail(status, f"coordinate system {name!r}, not one of {coordinate_system_names()}")
+    return CoordinateSystem._of(found)
+
+
+def coordinate_system_names() -> List[str]:
+    """The names that `coordinate_system` knows."""
+    names: List[str] = []
+    view = _api.MienStringView()
+    while not lib.mien_coordinate_system_name(len(names), _byref(view)):
+        names.append(_api.text(view))
+    return names
+
+
+def _dna_desc(layers: int, lods: Optional[Iterable[int]], unknown_layers: int, access: int,
+              system: Union[None, str, CoordinateSystem]) -> Any:
+    desc = _api.MienDnaDesc(layers=uint32(layers, "layers"), lods=lod_bits(lods),
+                            unknown_layers=uint32(unknown_layers, "unknown_layers"),
+                            file_access=uint32(access, "access"))
+    if isinstance(system, str):
+        system = coordinate_system(system)
+    if system is not None:
+        desc.system = ctypes.pointer(_api.MienCoordinateSystem(**system._asdict()))
+    return desc
 
 
 class Dna(Closable):
@@ -29,19 +60,20 @@ class Dna(Closable):
 
     @classmethod
     def open(cls, path: Any, layers: int = Layer.ALL, lods: Optional[Iterable[int]] = None,
-             unknown_layers: int = UnknownLayers.KEEP, access: int = FileAccess.READ) -> Dna:
+             unknown_layers: int = UnknownLayers.KEEP, access: int = FileAccess.READ,
+             system: Union[None, str, CoordinateSystem] = None) -> Dna:
         """Opens a file of versions 2.1 to 2.8 and checks everything that is loaded.
 
         layers: which `Layer`s to load, combined with |; what is not chosen is never touched
         lods:   which LODs to keep, by number; they are numbered anew from 0. None keeps all
         access: `FileAccess.MAP` spares reading what is not chosen; but a process crashes whose
                 mapped file somebody truncates, so the default reads it all
+        system: to convert everything to: a name ("unreal", "blender", see
+                `coordinate_system_names`) or a `CoordinateSystem`; None keeps the file's
 
         Raises FileError, or DnaError with the byte offset of what is wrong.
         """
-        desc = _api.MienDnaDesc(layers=uint32(layers, "layers"), lods=lod_bits(lods),
-                                unknown_layers=uint32(unknown_layers, "unknown_layers"),
-                                file_access=uint32(access, "access"))
+        desc = _dna_desc(layers, lods, unknown_layers, access, system)
         handle, error = DnaHandle(), MienError()
         status = lib.mien_dna_open_file(as_path(path), _byref(desc), _byref(handle), _byref(error))
         if status:
@@ -50,12 +82,12 @@ class Dna(Closable):
 
     @classmethod
     def from_bytes(cls, data: Any, layers: int = Layer.ALL, lods: Optional[Iterable[int]] = None,
-                   unknown_layers: int = UnknownLayers.KEEP) -> Dna:
+                   unknown_layers: int = UnknownLayers.KEEP,
+                   system: Union[None, str, CoordinateSystem] = None) -> Dna:
         """The same from memory: `bytes` are used where they are and kept alive; any other buffer
         (bytearray, memoryview, array) is copied, since it could change."""
         data = as_bytes(data)
-        desc = _api.MienDnaDesc(layers=uint32(layers, "layers"), lods=lod_bits(lods),
-                                unknown_layers=uint32(unknown_layers, "unknown_layers"))
+        desc = _dna_desc(layers, lods, unknown_layers, FileAccess.READ, system)
         handle, error = DnaHandle(), MienError()
         status = lib.mien_dna_open_memory(data, len(data), _byref(desc), _byref(handle),
                                           _byref(error))

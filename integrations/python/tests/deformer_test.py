@@ -155,7 +155,8 @@ class Lifetime(unittest.TestCase):
         with self.assertRaises(mien.ClosedError):
             other.update(face)
         deformer.close()
-        for use in (lambda: deformer.mesh(0), lambda: deformer.pose(), lambda: deformer.target(0, 0),
+        for use in (lambda: deformer.mesh(0), lambda: deformer.pose(),
+                    lambda: deformer.target(0, 0),
                     lambda: deformer.bind_matrices, lambda: deformer.influences(0, 0),
                     lambda: mien.Deformer(dna, rig)):
             with self.assertRaises(mien.ClosedError):
@@ -215,7 +216,8 @@ class Misuse(unittest.TestCase):
         for use in (lambda: deformer.target(0, 10**6), lambda: deformer.influences(0, 10**9)):
             with self.assertRaises(mien.OutOfRangeError):
                 use()
-        for use in (lambda: pose.deform(0, 99), lambda: mien.Deformer(dna_of(), rig_of(), compose=9),
+        for use in (lambda: pose.deform(0, 99),
+                    lambda: mien.Deformer(dna_of(), rig_of(), compose=9),
                     lambda: mien.Deformer(dna_of(), rig_of(), weights=9), lambda: deformer.pose([]),
                     lambda: deformer.pose([64])):
             with self.assertRaises(mien.ArgumentError):

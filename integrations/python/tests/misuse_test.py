@@ -199,6 +199,40 @@ class Numbers(unittest.TestCase):
         return caught.exception
 
 
+class Systems(unittest.TestCase):
+    @needs_numpy
+    def test_a_file_in_another_system(self):
+        data = dna_of().to_bytes()
+        names = mien.coordinate_system_names()
+        self.assertIn("unreal", names)
+        for name in names:
+            system = mien.coordinate_system(name)
+            dna = mien.Dna.from_bytes(data, system=name)
+            self.assertEqual(dna.info.axes, system.axes)
+            same = mien.Dna.from_bytes(data, system=system)
+            numpy.testing.assert_array_equal(mien.Rig(dna).neutral_joint_values,
+                                             mien.Rig(same).neutral_joint_values)
+        meters = mien.coordinate_system("maya")._replace(
+            translation_unit=mien.TranslationUnit.METERS)
+        dna = mien.Dna.from_bytes(data, system=meters)
+        self.assertEqual(dna.info.translation_unit, mien.TranslationUnit.METERS)
+        numpy.testing.assert_allclose(mien.Rig(dna).neutral_joint_values[:, :3] * 100,
+                                      rig_of().neutral_joint_values[:, :3], atol=1e-4)
+
+    def test_systems_that_are_none(self):
+        data = dna_of().to_bytes()
+        for name in ("", "nothing", "Unreal", "x" * 10000, "a\0b"):
+            with self.assertRaises(mien.UnknownNameError):
+                mien.Dna.from_bytes(data, system=name)
+        flat = mien.coordinate_system("maya")._replace(axes=(0, 0, 0))
+        for wrong in (flat, flat._replace(axes=(0, 2, 99)), flat._replace(rotation_rule=99)):
+            with self.assertRaises(mien.Error):
+                mien.Dna.from_bytes(data, system=wrong)
+        for wrong in (flat._replace(axes="xyz"), flat._replace(axes=(1, 2, 3, 4)), 3, b"maya"):
+            with self.assertRaises((TypeError, ValueError, RuntimeError, AttributeError)):
+                mien.Dna.from_bytes(data, system=wrong)
+
+
 class Files(unittest.TestCase):
     def setUp(self):
         directory = tempfile.TemporaryDirectory()
