@@ -398,6 +398,12 @@ class Instance : public Owner<MienInstance, mien_instance_destroy> {
   }
 };
 
+/// Room for evaluating many instances at once. For one thread at a time.
+class Batch : public Owner<MienBatch, mien_batch_destroy> {
+ public:
+  using Owner::Owner;
+};
+
 /// A DNA packed for evaluation. Immutable: may be used by several threads at once.
 class Rig : public Owner<MienRig, mien_rig_destroy> {
  public:
@@ -484,6 +490,28 @@ class Rig : public Owner<MienRig, mien_rig_destroy> {
   /// `stages`: MIEN_STAGE_..., combined with |.
   Status evaluate_stages(Instance& instance, uint32_t lod, uint32_t stages) const {
     return mien_rig_evaluate_stages(get(), instance.get(), lod, stages);
+  }
+  /// Room for `capacity` instances per call, in up to `tasks` tasks at once.
+  Result<Batch> batch(uint32_t capacity, uint32_t tasks = 1,
+                      const MienAllocator* allocator = nullptr) const {
+    return make<Batch>([&](MienBatch** out, MienError* error) {
+      return mien_batch_create(get(), capacity, tasks, allocator, out, error);
+    });
+  }
+  Result<uint64_t> batch_bytes(uint32_t capacity, uint32_t tasks = 1) const {
+    uint64_t bytes = 0;
+    const MienStatus status = mien_batch_bytes(get(), capacity, tasks, &bytes);
+    return {status, std::move(bytes)};
+  }
+  /// Different instances by their handles, each at its own LOD: as many LODs as instances.
+  Status evaluate_batch(Batch& batch, Span<MienInstance* const> instances,
+                        Span<const uint32_t> lods, uint32_t stages = MIEN_STAGE_ALL,
+                        const MienParallelFor* parallel = nullptr) const {
+    if (lods.size() != instances.size() || instances.size() > UINT32_MAX) {
+      return MIEN_ERROR_INVALID_ARGUMENT;
+    }
+    return mien_rig_evaluate_batch(get(), batch.get(), instances.data(), lods.data(),
+                                   static_cast<uint32_t>(instances.size()), stages, parallel);
   }
   Status evaluate_joint_group(Instance& instance, uint32_t lod, uint32_t group) const {
     return mien_rig_evaluate_joint_group(get(), instance.get(), lod, group);

@@ -148,6 +148,34 @@ void run_in_order(void* user, uint32_t count, void (*task)(void*, uint32_t), voi
   for (uint32_t i = count; i-- > 0;) task(context, i);
 }
 
+void test_batch() {
+  const mien::Rig rig = mien::Rig::create(generated()).value();
+  mien::Batch batch = rig.batch(3, 2).value();
+  CHECK(rig.batch_bytes(3, 2).value() > 0 && !rig.batch(0));
+  std::vector<mien::Instance> faces;
+  std::vector<MienInstance*> handles;
+  for (int i = 0; i < 3; ++i) {
+    faces.push_back(rig.instance().value());
+    for (float& control : faces.back().raw_controls()) control = 0.25f * static_cast<float>(i);
+    handles.push_back(faces.back().get());
+  }
+  const uint32_t lods[] = {0, 1, 0};
+  CHECK(rig.evaluate_batch(batch, handles, lods));
+  mien::Instance alone = rig.instance().value();
+  for (float& control : alone.raw_controls()) control = 0.5f;
+  CHECK(rig.evaluate(alone));
+  CHECK(std::memcmp(alone.joints().data(), faces[2].joints().data(),
+                    alone.joints().size() * sizeof(float)) == 0);
+  int runs = 0;
+  const MienParallelFor parallel = {&runs, run_in_order};
+  CHECK(rig.evaluate_batch(batch, handles, lods, MIEN_STAGE_ALL, &parallel));
+  CHECK(!rig.evaluate_batch(batch, handles, mien::Span<const uint32_t>(lods, 2)));
+  handles[1] = handles[0];
+  CHECK(rig.evaluate_batch(batch, handles, lods).status() == MIEN_ERROR_INVALID_ARGUMENT);
+  mien::Batch none;
+  CHECK(!rig.evaluate_batch(none, handles, lods));
+}
+
 void test_deformer() {
   const mien::Dna dna = generated(MIEN_PRESET_LARGE);
   const mien::Rig rig = mien::Rig::create(dna).value();
@@ -273,6 +301,7 @@ int main() {
   test_empty_objects();
   test_errors();
   test_fields_and_files();
+  test_batch();
   test_deformer();
   test_allocators();
   test_exceptions();

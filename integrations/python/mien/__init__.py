@@ -14,8 +14,9 @@
 """
 from ._api import (Compose, CoordinateSystem, DeformerInfo, Direction, DnaField, DnaInfo, DnaLayer,
                    FieldType, FileAccess, Finding, Isa, Kind, Layer, MlMasks, Normals, Output,
-                   Preset, RigInfo, RigStatistics, RotationRule, RotationSequence, RotationUnit,
-                   Severity, Stage, Status, Storage, TranslationUnit, UnknownLayers, Weights)
+                   Preset, Reuse, RigInfo, RigStatistics, RotationRule, RotationSequence,
+                   RotationUnit, Severity, Stage, Status, Storage, TranslationUnit, UnknownLayers,
+                   Weights)
 from ._library import path as library_path, version
 from .batch import Batch
 from .deformer import Deformer, Mesh, Pose, deform_batch
@@ -31,7 +32,7 @@ __all__ = [
     "Direction", "Dna", "DnaError", "DnaField", "DnaInfo", "DnaLayer", "Error", "FieldType",
     "FileAccess", "FileError", "Finding", "Instance", "Isa", "isa_available", "isa_name", "Kind",
     "Layer", "library_path", "Mesh", "MlMasks", "Normals", "OutOfMemoryError", "OutOfRangeError",
-    "Output", "Pose", "Preset", "Rig", "RigInfo", "RigStatistics", "RotationRule",
+    "Output", "Pose", "Preset", "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationRule",
     "RotationSequence", "RotationUnit", "Severity", "Stage", "Status", "Storage", "TranslationUnit",
     "UnknownLayers", "UnknownNameError", "validate", "version", "Weights",
 ]

@@ -270,6 +270,16 @@ class Storage(IntEnum):
     F16 = 1
 
 
+class Reuse(IntEnum):
+    """Whether evaluation keeps results whose inputs did not change since the last one of the
+    instance. They have the same bits either way.
+    """
+
+    UNCHANGED = 0
+    #: everything is computed each time: for measuring
+    NOTHING = 1
+
+
 class Kind(IntEnum):
     """Things with names and numbers."""
 
@@ -354,6 +364,10 @@ class MienRig(c_void_p):
 
 
 class MienInstance(c_void_p):
+    pass
+
+
+class MienBatch(c_void_p):
     pass
 
 
@@ -672,7 +686,7 @@ class MienRigDesc(Structure):
         ("ml_masks", c_uint32),
         ("allocator", POINTER(MienAllocator)),
         ("storage", c_uint32),
-        ("reserved", c_uint32),
+        ("reuse", c_uint32),
     ]
     struct_size: Any
     isa: Any
@@ -680,7 +694,7 @@ class MienRigDesc(Structure):
     ml_masks: Any
     allocator: Any
     storage: Any
-    reserved: Any
+    reuse: Any
 
     def __init__(self, **values: Any) -> None:
         super().__init__(struct_size=32, **values)
@@ -1190,6 +1204,12 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_rig_map_raw_to_gui", c_int32, (MienRig, MienInstance)),
     ("mien_rig_evaluate", c_int32, (MienRig, MienInstance, c_uint32)),
     ("mien_rig_evaluate_stages", c_int32, (MienRig, MienInstance, c_uint32, c_uint32)),
+    ("mien_batch_create", c_int32, (MienRig, c_uint32, c_uint32, POINTER(MienAllocator),
+     POINTER(MienBatch), POINTER(MienError))),
+    ("mien_batch_destroy", None, (MienBatch,)),
+    ("mien_batch_bytes", c_int32, (MienRig, c_uint32, c_uint32, c_void_p)),
+    ("mien_rig_evaluate_batch", c_int32, (MienRig, MienBatch, POINTER(MienInstance), c_void_p,
+     c_uint32, c_uint32, POINTER(MienParallelFor))),
     ("mien_rig_evaluate_joint_group", c_int32, (MienRig, MienInstance, c_uint32, c_uint32)),
     ("mien_rig_evaluate_rbf_solver", c_int32, (MienRig, MienInstance, c_uint32, c_uint32)),
     ("mien_rig_evaluate_twist_swing", c_int32, (MienRig, MienInstance, c_uint32, c_uint32)),
@@ -1276,6 +1296,10 @@ class Library:
     mien_rig_map_raw_to_gui: Any
     mien_rig_evaluate: Any
     mien_rig_evaluate_stages: Any
+    mien_batch_create: Any
+    mien_batch_destroy: Any
+    mien_batch_bytes: Any
+    mien_rig_evaluate_batch: Any
     mien_rig_evaluate_joint_group: Any
     mien_rig_evaluate_rbf_solver: Any
     mien_rig_evaluate_twist_swing: Any

@@ -67,6 +67,12 @@ class RigHandle(_Address, _api.MienRig):
             destroy(self)
 
 
+class BatchHandle(_Address, _api.MienBatch):
+    def __del__(self, destroy: Any = lib.mien_batch_destroy) -> None:
+        if self.value:
+            destroy(self)
+
+
 class DeformerHandle(_Address, _api.MienDeformer):
     def __del__(self, destroy: Any = lib.mien_deformer_destroy) -> None:
         if self.value:

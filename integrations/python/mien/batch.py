@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import ctypes
 from _thread import allocate_lock
+from concurrent.futures import Executor
 from operator import index
 from typing import Any, Dict, Iterator, Optional, Sequence, Union
 
 from . import _api
-from ._api import Status
+from ._api import MienError, Stage, Status
 from ._library import lib
-from ._memory import Closable, Floats, assign, empty, numpy
+from ._memory import BatchHandle, Closable, Floats, assign, empty, numpy, uint32
+from ._threads import call_with_threads
 from .errors import ArgumentError, BusyError, OutOfMemoryError, OutOfRangeError, fail
 from .instance import Instance
 from .rig import Rig
 
+_evaluate_batch = lib.mien_rig_evaluate_batch
 _ALIGNMENT = 64
 _function: Dict[str, Any] = dict(_api.MienAllocator._fields_)
 
@@ -57,14 +60,17 @@ class Batch(Closable):
         crowd.joints                 # float32 (64, joints, 9)
 
     Row i of each array is the memory of character `crowd[i]`, an `Instance` like any other: nothing
-    is copied. Inputs are written in place or by assigning (a row for all, or one number, will do
-    too); outputs cannot be written. Arrays and closing are as at `Instance`; the arrays need NumPy.
-    A batch is for one thread at a time, with all of its characters: a second one gets a BusyError.
+    is copied, and evaluation fetches the rig's matrix once for many of them. Inputs are written in
+    place or by assigning (a row for all, or one number, will do too); outputs cannot be written.
+    Arrays and closing are as at `Instance`; the arrays need NumPy. A batch is for one thread
+    at a time, with all of its characters: a second one gets a BusyError.
+
+    tasks: in how many parts `evaluate(threads=...)` may work at once
     """
 
-    def __init__(self, rig: Rig, count: int) -> None:
-        if not 0 <= count < 1 << 24:
-            raise ArgumentError(f"a batch of {count} characters")
+    def __init__(self, rig: Rig, count: int, tasks: int = 1) -> None:
+        if not 0 <= count <= 1 << 20:
+            raise ArgumentError(f"a batch of {count} characters; there may be 2**20")
         self.rig = rig
         try:
             self._slab = _Slab(rig.info.instance_bytes, count)
@@ -74,7 +80,13 @@ class Batch(Closable):
         self._lock = allocate_lock()
         self._instances = tuple(Instance(rig, self._slab, self._lock) for _ in range(count))
         self._handle: Any = tuple(instance._open() for instance in self._instances)
+        self._batch, error = BatchHandle(), MienError()
+        status = lib.mien_batch_create(rig._open(), max(count, 1), uint32(tasks, "tasks"), None,
+                                       ctypes.byref(self._batch), ctypes.byref(error))
+        if status:
+            fail(status, "cannot make a batch", error)
         self._pointers = (_api.MienInstance * count)(*self._handle)
+        self._tasks = tasks
         self._lods: Dict[int, Any] = {}
         self._views: Dict[str, Any] = {}
 
@@ -178,9 +190,20 @@ class Batch(Closable):
 
     # ---- evaluation ----------------------------------------------------------------------------
 
-    def evaluate(self, lod: Union[int, Sequence[int]] = 0) -> None:
-        """Computes the outputs of all characters, at one LOD or at one for each. Gives the bits
-        that evaluating each by itself gives. Other Python threads run meanwhile."""
+    def evaluate(self, lod: Union[int, Sequence[int]] = 0, stages: int = Stage.ALL,
+                 threads: Optional[Executor] = None) -> None:
+        """Computes the outputs of all characters, at one LOD or at one for each: the bits that
+        evaluating each by itself gives. Other Python threads run meanwhile.
+
+        stages:  as at `Instance.evaluate`
+        threads: such as a ThreadPoolExecutor, for up to `tasks` parts at once; the same bits
+        """
+        if threads is not None:
+            call_with_threads(threads, lambda parallel: self._evaluate(lod, stages, parallel))
+        else:
+            self._evaluate(lod, stages, None)
+
+    def _evaluate(self, lod: Any, stages: int, parallel: Any) -> None:
         if not self._lock.acquire(False):
             raise BusyError("another thread is working with this batch", Status.HANDLE)
         try:
@@ -188,13 +211,23 @@ class Batch(Closable):
             lods = self._lods.get(lod) if type(lod) is int else None
             if lods is None:
                 lods = self._lods_of(lod)
-            for handle, one in zip(handles, lods):
-                status = lib.mien_rig_evaluate(self.rig._handle, handle, one)
-                if status:
-                    self.rig._open()
-                    fail(status, f"evaluate(lod={lod})")
+            status = _evaluate_batch(self.rig._handle, self._batch, self._pointers, lods,
+                                     len(handles), uint32(stages, "stages"), parallel)
+            if status:
+                self.rig._open()
+                fail(status, f"evaluate(lod={lod}, stages={stages!r})")
         finally:
             self._lock.release()
+
+    @property
+    def scratch_bytes(self) -> int:
+        """Memory that evaluating together takes, besides that of the characters."""
+        found = ctypes.c_uint64()
+        status = lib.mien_batch_bytes(self.rig._open(), max(len(self), 1), self._tasks,
+                                      ctypes.byref(found))
+        if status:
+            fail(status, "no size")
+        return found.value
 
     def map_gui_to_raw(self) -> None:
         """`Instance.map_gui_to_raw` for all."""

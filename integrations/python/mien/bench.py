@@ -26,8 +26,8 @@ LOOPS = r"""
 #include <time.h>
 
 typedef int32_t One(const void* rig, void* instance, uint32_t lod);
-typedef int32_t Many(const void* rig, void* const* instances, const uint32_t* lods, uint32_t count,
-                     const void* desc);
+typedef int32_t Many(const void* rig, void* batch, void* const* instances, const uint32_t* lods,
+                     uint32_t count, uint32_t stages, const void* parallel);
 
 static double now(void) {
   struct timespec time;
@@ -41,18 +41,11 @@ double one(One* evaluate, const void* rig, void* instance, uint32_t lod, uint32_
   return now() - start;
 }
 
-double each(One* evaluate, const void* rig, void* const* instances, uint32_t lod, uint32_t count,
-            uint32_t turns) {
+double many(Many* evaluate, const void* rig, void* batch, void* const* instances,
+            const uint32_t* lods, uint32_t count, uint32_t stages, uint32_t turns) {
   const double start = now();
   for (uint32_t i = 0; i < turns; ++i)
-    for (uint32_t c = 0; c < count; ++c) evaluate(rig, instances[c], lod);
-  return now() - start;
-}
-
-double many(Many* evaluate, const void* rig, void* const* instances, const uint32_t* lods,
-            uint32_t count, uint32_t turns) {
-  const double start = now();
-  for (uint32_t i = 0; i < turns; ++i) evaluate(rig, instances, lods, count, NULL);
+    evaluate(rig, batch, instances, lods, count, stages, NULL);
   return now() - start;
 }
 """
@@ -67,7 +60,7 @@ def compile_loops(directory: str) -> Optional[ctypes.CDLL]:
     source.write_text(LOOPS, encoding="utf-8")
     subprocess.run([compiler, "-O2", "-shared", "-fPIC", source, "-o", library], check=True)
     loops = ctypes.CDLL(str(library))
-    for function in (loops.one, loops.each, loops.many):
+    for function in (loops.one, loops.many):
         function.restype = ctypes.c_double
     return loops
 
@@ -117,11 +110,12 @@ def measure(rig: mien.Rig, count: int, lod: int, loops: ctypes.CDLL) -> List[Tup
     turns = max(1, int(1e7 / batch(1)))
     pointers, lods = crowd._pointers, (ctypes.c_uint32 * count)(*[lod] * count)
 
+    evaluate_batch = ctypes.cast(lib.mien_rig_evaluate_batch, address)
+    batch_address = address(crowd._batch.value)
+
     def in_c(n: int) -> float:
-        if hasattr(lib, "mien_rig_evaluate_batch"):
-            evaluate_batch = ctypes.cast(lib.mien_rig_evaluate_batch, address)
-            return float(loops.many(evaluate_batch, rig_address, pointers, lods, count, n))
-        return float(loops.each(evaluate, rig_address, pointers, lod, count, n))
+        return float(loops.many(evaluate_batch, rig_address, batch_address, pointers, lods, count,
+                                int(mien.Stage.ALL), n))
 
     found.append((f"crowd.evaluate(), {count} characters", alternate(in_c, batch, turns, 101)))
     return found
@@ -145,10 +139,12 @@ def main(arguments: Optional[List[str]] = None) -> None:
         loops = compile_loops(directory)
         if loops is None:
             raise SystemExit("no C compiler (cc, gcc, clang) here to compare with")
+        reuse = mien.Reuse.NOTHING  # else evaluating the same again would cost next to nothing
         if args.file:
-            rigs = [(args.file, mien.Rig(mien.Dna.open(args.file)))]
+            rigs = [(args.file, mien.Rig(mien.Dna.open(args.file), reuse=reuse))]
         else:
-            rigs = [(f"generated, {preset.name.lower()}", mien.Rig(mien.Dna.generate(preset)))
+            rigs = [(f"generated, {preset.name.lower()}",
+                     mien.Rig(mien.Dna.generate(preset), reuse=reuse))
                     for preset in (mien.Preset.TINY, mien.Preset.LARGE)]
         for title, rig in rigs:
             show(f"{title} ({mien.isa_name(rig.info.isa)})",

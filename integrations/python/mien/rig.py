@@ -6,7 +6,8 @@ import ctypes
 from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional
 
 from . import _api
-from ._api import Isa, Kind, MienError, MlMasks, Output, RigInfo, RigStatistics, Status, Storage
+from ._api import (Isa, Kind, MienError, MlMasks, Output, Reuse, RigInfo, RigStatistics, Status,
+                   Storage)
 from ._library import lib
 from ._memory import Closable, Floats, Indices, RigHandle, array_over, uint32
 from .dna import Dna
@@ -38,14 +39,16 @@ class Rig(Closable):
     isa:      `Isa`; one that is absent raises, never is another taken silently
     rotation: `Output.EULER` gives 9 values per joint, `Output.QUATERNION` 10
     ml_masks: whether masks switch or blend what was learned, see `MlMasks`
+    reuse:    `Reuse.NOTHING` computes all of it each time, even if no input changed: for measuring
     storage:  `Storage.F16` halves the memory of the large arrays, at three decimal digits
     """
 
     def __init__(self, dna: Dna, isa: int = Isa.BEST, rotation: int = Output.EULER,
-                 ml_masks: int = MlMasks.SWITCH, storage: int = Storage.F32) -> None:
+                 ml_masks: int = MlMasks.SWITCH, storage: int = Storage.F32,
+                 reuse: int = Reuse.UNCHANGED) -> None:
         desc = _api.MienRigDesc(isa=uint32(isa, "isa"), rotation=uint32(rotation, "rotation"),
                                 ml_masks=uint32(ml_masks, "ml_masks"),
-                                storage=uint32(storage, "storage"))
+                                storage=uint32(storage, "storage"), reuse=uint32(reuse, "reuse"))
         handle, error = RigHandle(), MienError()
         status = lib.mien_rig_create(dna._open(), _byref(desc), _byref(handle), _byref(error))
         if status:
@@ -70,10 +73,10 @@ class Rig(Closable):
         from .instance import Instance
         return Instance(self)
 
-    def batch(self, count: int) -> Batch:
+    def batch(self, count: int, tasks: int = 1) -> Batch:
         """`count` new characters whose values are the rows of common arrays."""
         from .batch import Batch
-        return Batch(self, count)
+        return Batch(self, count, tasks)
 
     # ---- names and numbers ---------------------------------------------------------------------
 

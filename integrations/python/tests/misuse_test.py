@@ -180,9 +180,15 @@ class Numbers(unittest.TestCase):
         absent = [isa for isa in mien.Isa if not mien.isa_available(isa)]
         for isa in absent:
             self.assertEqual(self._error(lambda: mien.Rig(dna, isa=isa)).status, mien.Status.ISA)
-        for count in (-1, 2**24, 2**64):
+        for count in (-1, 2**20 + 1, 2**64):
             with self.assertRaises(mien.ArgumentError):
                 self.rig.batch(count)
+        for tasks in (-1, 2**32):
+            with self.assertRaises(mien.OutOfRangeError):
+                self.rig.batch(1, tasks)
+        with self.assertRaises(mien.ArgumentError):
+            self.rig.batch(2).evaluate(stages=1 << 20)
+        self.assertGreater(self.rig.batch(3, tasks=2).scratch_bytes, 0)
         with self.assertRaises((TypeError, AttributeError)):
             mien.Rig("head.dna")
 

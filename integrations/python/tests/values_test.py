@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """That Python sees the numbers of C, with and without NumPy, alone and in batches."""
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 
 import mien
 from support import dna_of, needs_numpy, numpy, pattern, rig_of, run
@@ -82,12 +83,16 @@ class Values(unittest.TestCase):
     def test_a_batch_gives_the_bits_of_single_characters(self):
         for rig in (rig_of(), rig_of(rotation=mien.Output.QUATERNION), rig_of(mien.Preset.LARGE)):
             n, count = 7, rig.count(mien.Kind.RAW_CONTROL)
-            crowd, face = rig.batch(n), rig.instance()
+            crowd, in_parts, face = rig.batch(n), rig.batch(n, tasks=4), rig.instance()
             rows = numpy.array([pattern(count, i) for i in range(n)], "f")
             lods = [i % rig.lod_count for i in range(n)]
             for lod in (0, lods):
                 crowd.raw_controls = rows
                 crowd.evaluate(lod)
+                with ThreadPoolExecutor(3) as threads:
+                    in_parts.raw_controls = rows
+                    in_parts.evaluate(lod, threads=threads)
+                numpy.testing.assert_array_equal(in_parts.joints, crowd.joints)
                 for i in range(n):
                     face.raw_controls = rows[i]
                     face.evaluate(lods[i] if lod else 0)

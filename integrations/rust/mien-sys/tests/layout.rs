@@ -233,7 +233,7 @@ fn mien_rig_desc() {
     assert_eq!(offset!(S, ml_masks), 12);
     assert_eq!(offset!(S, allocator), 16);
     assert_eq!(offset!(S, storage), 24);
-    assert_eq!(offset!(S, reserved), 28);
+    assert_eq!(offset!(S, reuse), 28);
 }
 
 #[test]

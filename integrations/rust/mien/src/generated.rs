@@ -411,6 +411,23 @@ impl Storage {
 
 numbers!(Storage, u32, [(0, "F32"), (1, "F16")]);
 
+/// Whether evaluation keeps results whose inputs did not change since the last one of the
+/// instance. They have the same bits either way.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Reuse(pub u32);
+
+impl Reuse {
+    /// `MIEN_REUSE_UNCHANGED` in C.
+    pub const UNCHANGED: Self = Self(0);
+    /// Everything is computed each time: for measuring.
+    pub const NOTHING: Self = Self(1);
+}
+
+numbers!(Reuse, u32, [(0, "UNCHANGED"), (1, "NOTHING")]);
+
 /// Things with names and numbers.
 ///
 /// A later library may give numbers that have no name here.
