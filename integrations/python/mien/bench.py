@@ -2,15 +2,14 @@
 """python -m mien.bench [FILE.dna] [--count N] [--lod N]: what Python adds to the time of C.
 
 C is a loop of a few lines that is compiled on the spot, if a compiler is there, and run in this
-process on the very characters that Python evaluates. Turns of C and Python alternate, and the
-median of their differences counts, so that a machine that is busy with other things disturbs both.
+process on the very characters that Python evaluates. Rounds of C and Python alternate, and the
+best of each counts, so that a machine that is busy with other things disturbs neither.
 """
 from __future__ import annotations
 
 import argparse
 import ctypes
 import shutil
-import statistics
 import subprocess
 import tempfile
 from pathlib import Path
@@ -67,17 +66,10 @@ def compile_loops(directory: str) -> Optional[ctypes.CDLL]:
 
 def alternate(c: Callable[[int], float], python: Callable[[int], float], turns: int,
               rounds: int) -> Tuple[float, float, float]:
-    """Nanoseconds of one turn in C, in Python, and the median of the differences."""
-    pairs = []
-    for i in range(rounds):
-        if i % 2:
-            first = c(turns)
-            pairs.append((first / turns, python(turns) / turns))
-        else:
-            second = python(turns)
-            pairs.append((c(turns) / turns, second / turns))
-    medians = [statistics.median(values) for values in zip(*pairs)]
-    return medians[0], medians[1], statistics.median(p - c for c, p in pairs)
+    """Nanoseconds of one turn in C, in Python, and what Python adds."""
+    pairs = [(c(turns) / turns, python(turns) / turns) for _ in range(rounds)]
+    in_c, in_python = (min(times) for times in zip(*pairs))
+    return in_c, in_python, in_python - in_c
 
 
 def timed(work: Callable[[], Any]) -> Callable[[int], float]:
@@ -99,15 +91,15 @@ def measure(rig: mien.Rig, count: int, lod: int, loops: ctypes.CDLL) -> List[Tup
             controls[j] = ((i + j * 7) % 11) / 10 if (i * 5 + j) % 4 == 0 else 0.0
         character.evaluate(lod)
     rig_address, face_address = address(rig._open().value), address(face._open().value)
-    # Enough turns for a few milliseconds, so that clocks do not matter.
+    # Rounds short enough to be left alone now and then, long enough for the clock.
     single = timed(lambda: face.evaluate(lod))
-    turns = max(1, int(3e6 / (single(10) / 10)))
+    turns = max(1, int(2e5 / (single(100) / 100)))
     evaluate = ctypes.cast(lib.mien_rig_evaluate, address)
     found = [("face.evaluate()", alternate(
-        lambda n: loops.one(evaluate, rig_address, face_address, lod, n), single, turns, 201))]
+        lambda n: loops.one(evaluate, rig_address, face_address, lod, n), single, turns, 1001))]
 
     batch = timed(lambda: crowd.evaluate(lod))
-    turns = max(1, int(1e7 / batch(1)))
+    turns = max(1, int(2e5 / (batch(10) / 10)))
     pointers, lods = crowd._pointers, (ctypes.c_uint32 * count)(*[lod] * count)
 
     evaluate_batch = ctypes.cast(lib.mien_rig_evaluate_batch, address)
@@ -117,7 +109,7 @@ def measure(rig: mien.Rig, count: int, lod: int, loops: ctypes.CDLL) -> List[Tup
         return float(loops.many(evaluate_batch, rig_address, batch_address, pointers, lods, count,
                                 int(mien.Stage.ALL), n))
 
-    found.append((f"crowd.evaluate(), {count} characters", alternate(in_c, batch, turns, 101)))
+    found.append((f"crowd.evaluate(), {count} characters", alternate(in_c, batch, turns, 401)))
     return found
 
 
