@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-use crate::convert::{bytes, index, offset, utf8};
+use crate::convert::{bytes, index, offset, path_string, utf8};
 use crate::error::{check, checked};
-use crate::{Allocator, Error, Result, Severity, Status};
+use crate::{Allocator, Result, Severity, Status};
 use mien_sys as sys;
 use std::borrow::Cow;
 use std::path::Path;
@@ -47,35 +47,53 @@ pub struct Finding<'report> {
 }
 
 impl Report {
-    /// Reads a whole file and examines it.
+    /// Reads a whole file and examines it. Lists at most 32 findings for one field, and 1000 in
+    /// all.
     pub fn of_file(path: impl AsRef<Path>) -> Result<Self> {
-        let path = path.as_ref();
-        let file = std::fs::read(path).map_err(|error| {
-            Error::new(Status::FILE_OPEN, format!("{}: {error}", path.display()))
-        })?;
-        Self::of_bytes(&file)
+        Self::read(path.as_ref(), None)
     }
 
-    /// Examines a file that is in memory. Lists at most 32 findings for one field, and 1000 in
-    /// all.
+    /// The same, with memory of your own.
+    pub fn of_file_in(path: impl AsRef<Path>, allocator: &Allocator) -> Result<Self> {
+        Self::read(path.as_ref(), Some(allocator))
+    }
+
+    /// Examines a file that is in memory.
     pub fn of_bytes(file: &[u8]) -> Result<Self> {
-        Self::create(file, None)
+        Self::examine(file, None)
     }
 
     /// The same, with memory of your own.
     pub fn of_bytes_in(file: &[u8], allocator: &Allocator) -> Result<Self> {
-        Self::create(file, Some(allocator))
+        Self::examine(file, Some(allocator))
     }
 
-    fn create(file: &[u8], allocator: Option<&Allocator>) -> Result<Self> {
+    fn read(path: &Path, allocator: Option<&Allocator>) -> Result<Self> {
+        let path = path_string(path)?;
+        // SAFETY: a terminated path. The file is read, so nobody can change what is examined.
+        Self::create(allocator, |raw, out, error| unsafe {
+            sys::mien_report_create_file(path.as_ptr(), raw, out, error)
+        })
+    }
+
+    fn examine(file: &[u8], allocator: Option<&Allocator>) -> Result<Self> {
+        let (data, size) = (file.as_ptr().cast(), file.len());
+        // SAFETY: readable bytes, which the report does not keep.
+        Self::create(allocator, |raw, out, error| unsafe {
+            sys::mien_report_create_memory(data, size, raw, out, error)
+        })
+    }
+
+    fn create(
+        allocator: Option<&Allocator>,
+        call: impl FnOnce(
+            *const sys::MienAllocator,
+            *mut *mut sys::MienReport,
+            *mut sys::MienError,
+        ) -> sys::MienStatus,
+    ) -> Result<Self> {
         let mut handle = null_mut();
-        Allocator::with(allocator, |raw| {
-            // SAFETY: readable bytes, which the report does not keep.
-            checked(|error| unsafe {
-                let (data, size) = (file.as_ptr().cast(), file.len());
-                sys::mien_report_create_memory(data, size, raw, &mut handle, error)
-            })
-        })?;
+        Allocator::with(allocator, |raw| checked(|error| call(raw, &mut handle, error)))?;
         let handle = NonNull::new(handle).expect("a handle after success");
         let mut report = Self { handle, errors: 0, warnings: 0, _allocator: allocator.cloned() };
         let Self { errors, warnings, .. } = &mut report;
