@@ -269,6 +269,36 @@ fn what_is_not_there_is_an_error() {
 }
 
 #[test]
+fn any_number_may_be_written() {
+    // What comes out is of no use, but safe code cannot be asked to write finite numbers only.
+    for preset in [Preset::TINY, Preset::SMALL, Preset::MEDIUM] {
+        let rig = rig(preset);
+        let mut face = rig.instance().unwrap();
+        for odd in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN_POSITIVE / 2.0] {
+            for part in 1..4 {
+                let every = |values: &mut [f32]| {
+                    values.iter_mut().step_by(part).for_each(|value| *value = odd);
+                };
+                every(face.gui_controls_mut());
+                every(face.ml_masks_mut());
+                face.map_gui_to_raw().unwrap();
+                every(face.raw_controls_mut());
+                face.map_raw_to_gui().unwrap();
+                for lod in 0..rig.info().lod_count {
+                    face.evaluate(lod).unwrap();
+                }
+                face.reset().unwrap();
+            }
+        }
+        // Nothing of it stays.
+        face.evaluate(0).unwrap();
+        let mut fresh = rig.instance().unwrap();
+        fresh.evaluate(0).unwrap();
+        assert_eq!(outputs(&face), outputs(&fresh));
+    }
+}
+
+#[test]
 fn numbers_have_names() {
     assert_eq!(format!("{:?}", Kind::RAW_CONTROL), "Kind::RAW_CONTROL");
     assert_eq!(format!("{:?}", Kind(77)), "Kind(77)");
