@@ -313,7 +313,33 @@ def safe_struct(struct, api):
     out += f"    fn from(c: sys::{struct['name']}) -> Self {{\n        Self {{\n"
     for field, (_, value) in fields:
         out += f"            {FIELDS.get(field['name'], field['name'])}: {value},\n"
-    return out + "        }\n    }\n}\n"
+    out += "        }\n    }\n}\n"
+    if struct["name"] in inputs(api):
+        out += f"\nimpl From<&{name}> for sys::{struct['name']} {{\n"
+        out += f"    fn from(safe: &{name}) -> Self {{\n        Self {{\n"
+        for field, (type_, _) in fields:
+            out += f"            {word(field['name'])}: {raw_value(field, type_)},\n"
+        out += "            ..Default::default()\n        }\n    }\n}\n"
+    return out
+
+
+def inputs(api):
+    """Structs that functions are given, by themselves or by the address in another struct."""
+    types = [field["type"] for struct in api["structs"] for field in struct["fields"]]
+    types += [p["type"] for function in api["functions"] for p in function["parameters"]]
+    return {type_["to"]["name"] for type_ in types
+            if type_["kind"] == "pointer" and type_["const"] and type_["to"]["kind"] == "struct"}
+
+
+def raw_value(field, type_):
+    value = f"safe.{FIELDS.get(field['name'], field['name'])}"
+    if field["enum"]:
+        return f"{value}.map(|value| value.0)" if type_[0] == "[" else f"{value}.0"
+    if type_ in ("bool", "usize"):
+        return f"{value} as u32"
+    if type_ in ("Option<u64>", "String"):
+        sys.exit(f"generate_api.py: {field['name']} of a struct that functions are given: {type_}")
+    return value
 
 
 def generated(api):

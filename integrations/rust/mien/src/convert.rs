@@ -104,6 +104,17 @@ pub(crate) unsafe fn slice<'a, T>(data: *const T, count: usize) -> &'a [T] {
     }
 }
 
+/// Rows of `N` values each.
+///
+/// # Safety
+///
+/// As for [`slice`].
+pub(crate) unsafe fn rows<'a, T, const N: usize>(data: *const T, count: usize) -> &'a [[T; N]] {
+    debug_assert_eq!(count % N, 0);
+    // SAFETY: promised by the caller; an array has the layout of its elements.
+    unsafe { slice(data.cast(), count / N) }
+}
+
 /// # Safety
 ///
 /// As for [`slice`].

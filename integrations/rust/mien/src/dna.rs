@@ -2,13 +2,15 @@
 
 use crate::convert::{bytes, empty_string, index, path_string, terminated, utf8};
 use crate::error::{check, checked};
-use crate::{Allocator, DnaField, DnaInfo, DnaLayer, Layers, Preset, Result, UnknownLayers};
+use crate::{
+    Allocator, CoordinateSystem, DnaField, DnaInfo, DnaLayer, Layers, Preset, Result, UnknownLayers,
+};
 use mien_sys as sys;
 use std::borrow::Cow;
 use std::marker::PhantomData;
 use std::os::raw::c_void;
 use std::path::Path;
-use std::ptr::{null_mut, NonNull};
+use std::ptr::{null, null_mut, NonNull};
 
 /// A checked, read-only view of a DNA file.
 ///
@@ -219,6 +221,7 @@ pub struct OpenOptions {
     layers: Layers,
     unknown_layers: UnknownLayers,
     lods: u64,
+    system: Option<CoordinateSystem>,
     allocator: Option<Allocator>,
 }
 
@@ -248,14 +251,44 @@ impl OpenOptions {
         self
     }
 
+    /// Converts everything to another coordinate system. What cannot follow is refused with
+    /// [`Status::DNA_VALUE`](crate::Status::DNA_VALUE).
+    pub fn system(mut self, system: &CoordinateSystem) -> Self {
+        self.system = Some(system.clone());
+        self
+    }
+
     /// Where memory comes from.
     pub fn allocator(mut self, allocator: &Allocator) -> Self {
         self.allocator = Some(allocator.clone());
         self
     }
 
-    fn desc(&self, allocator: *const sys::MienAllocator, access: u32) -> sys::MienDnaDesc {
+    /// Opens by `open`, which gets the description as C takes it.
+    fn open_by(
+        &self,
+        access: u32,
+        open: impl FnOnce(
+            *const sys::MienDnaDesc,
+            *mut *mut sys::MienDna,
+            *mut sys::MienError,
+        ) -> sys::MienStatus,
+    ) -> Result<Dna<'static>> {
+        let system = self.system.as_ref().map(sys::MienCoordinateSystem::from);
+        let system = system.as_ref().map_or(null(), |system| system as *const _);
+        Dna::created(self.allocator.as_ref(), |allocator, out, error| {
+            open(&self.desc(allocator, system, access), out, error)
+        })
+    }
+
+    fn desc(
+        &self,
+        allocator: *const sys::MienAllocator,
+        system: *const sys::MienCoordinateSystem,
+        access: u32,
+    ) -> sys::MienDnaDesc {
         sys::MienDnaDesc {
+            system,
             layers: self.layers.0,
             unknown_layers: self.unknown_layers.0,
             file_access: access,
@@ -287,20 +320,18 @@ impl OpenOptions {
     /// As for [`map`](Self::map), if `access` maps.
     unsafe fn open_file(&self, path: &Path, access: u32) -> Result<Dna<'static>> {
         let path = path_string(path)?;
-        Dna::created(self.allocator.as_ref(), |allocator, out, error| {
-            let desc = self.desc(allocator, access);
+        self.open_by(access, |desc, out, error| {
             // SAFETY: a terminated path and a sized struct; the rest is the caller's.
-            unsafe { sys::mien_dna_open_file(path.as_ptr(), &desc, out, error) }
+            unsafe { sys::mien_dna_open_file(path.as_ptr(), desc, out, error) }
         })
     }
 
     /// Checks a file that is in memory, without a copy of it.
     pub fn open_bytes<'bytes>(&self, bytes: &'bytes [u8]) -> Result<Dna<'bytes>> {
-        Dna::created(self.allocator.as_ref(), |allocator, out, error| {
-            let desc = self.desc(allocator, 0);
+        self.open_by(sys::MIEN_FILE_MAP, |desc, out, error| {
             let data = bytes.as_ptr().cast();
-            // SAFETY: `Dna` borrows the bytes, so they outlive it unchanged.
-            unsafe { sys::mien_dna_open_memory(data, bytes.len(), &desc, out, error) }
+            // SAFETY: the `Dna` that is returned borrows the bytes, so they outlive it unchanged.
+            unsafe { sys::mien_dna_open_memory(data, bytes.len(), desc, out, error) }
         })
     }
 }

@@ -584,6 +584,21 @@ impl From<sys::MienCoordinateSystem> for CoordinateSystem {
     }
 }
 
+impl From<&CoordinateSystem> for sys::MienCoordinateSystem {
+    fn from(safe: &CoordinateSystem) -> Self {
+        Self {
+            axes: safe.axes.map(|value| value.0),
+            translation_unit: safe.translation_unit.0,
+            rotation_unit: safe.rotation_unit.0,
+            rotation_rule: safe.rotation_rule.0,
+            rotation_sequence: safe.rotation_sequence.0,
+            rotation_signs: safe.rotation_signs,
+            face_winding: safe.face_winding,
+            ..Default::default()
+        }
+    }
+}
+
 /// `MienDnaInfo` in C.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]

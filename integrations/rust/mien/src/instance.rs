@@ -235,6 +235,10 @@ impl Instance {
         check(unsafe { sys::mien_instance_reset(self.raw()) })
     }
 
+    pub(crate) fn raw_const(&self) -> *const sys::MienInstance {
+        self.handle.as_ptr()
+    }
+
     fn raw(&mut self) -> *mut sys::MienInstance {
         self.handle.as_ptr()
     }

@@ -3,10 +3,13 @@
 //!
 //! ```text
 //! DNA file -> Dna -> Rig -> Instance -> joint, channel and map values
+//!                \______ Deformer -> Pose -> joint matrices, positions, normals
 //! ```
 //!
 //! A [`Dna`] is a checked, read-only view of a file. A [`Rig`] is the same data packed for
 //! evaluation, shared by any number of characters and threads. An [`Instance`] is one character.
+//! A [`Deformer`] is the geometry of the file, shared like a rig; a [`Pose`] is what it makes of one
+//! character.
 //!
 //! ```
 //! use mien::{Dna, Kind, Preset, Rig};
@@ -25,10 +28,11 @@
 //!
 //! # What holds everywhere
 //!
-//! * **Threads.** `Dna`, `Rig` and `Report` are immutable, `Send` and `Sync`. What changes an
-//!   `Instance` takes `&mut`; evaluate different instances of one rig on as many threads as you
+//! * **Threads.** `Dna`, `Rig`, `Deformer` and `Report` are immutable, `Send` and `Sync`. What changes an
+//!   `Instance` or a `Pose` takes `&mut`; evaluate different instances of one rig on as many threads as you
 //!   like. There is no global state.
-//! * **Lifetimes.** A `Rig` is a counted reference, which each instance holds. A `Dna` of bytes in
+//! * **Lifetimes.** A `Rig` is a counted reference, which each instance holds; so is a `Deformer` to
+//!   its poses. A `Dna` of bytes in
 //!   memory borrows them; a rig borrows nothing.
 //! * **Units** are those of the file: [`RigInfo`] tells centimetres or metres, degrees or radians,
 //!   and which way the axes point. Outputs are deltas from the neutral pose.
@@ -42,9 +46,12 @@
 
 mod allocator;
 mod convert;
+mod coordinates;
+mod deformer;
 mod dna;
 mod error;
 mod instance;
+mod pose;
 mod report;
 mod rig;
 
@@ -52,10 +59,12 @@ mod rig;
 mod generated;
 
 pub use allocator::Allocator;
+pub use deformer::{Deformer, DeformerOptions, Mesh};
 pub use dna::{Dna, GenerateOptions, OpenOptions, WriteOptions};
 pub use error::{Error, Result};
 pub use generated::*;
 pub use instance::Instance;
+pub use pose::{Pose, PoseOptions, Work};
 pub use report::{Finding, Report};
 pub use rig::{Rig, RigOptions};
 

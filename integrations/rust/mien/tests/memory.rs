@@ -2,8 +2,8 @@
 //! Memory comes from the allocator that was given, goes back to it, and may be refused.
 
 use mien::{
-    Allocator, Dna, GenerateOptions, Instance, OpenOptions, Preset, Report, Result, RigOptions,
-    Status,
+    Allocator, DeformerOptions, Dna, GenerateOptions, Instance, Normals, OpenOptions, Pose,
+    PoseOptions, Preset, Report, Result, RigOptions, Status,
 };
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::collections::HashMap;
@@ -45,34 +45,45 @@ fn watched(allowed: usize) -> (Allocator, Arc<Mutex<Book>>) {
 }
 
 /// Everything that takes an allocator, once.
-fn live(file: &[u8], memory: &Allocator) -> Result<Instance> {
+fn live(file: &[u8], memory: &Allocator) -> Result<(Instance, Pose)> {
     GenerateOptions::new().allocator(memory).generate()?;
     Report::of_bytes_in(file, memory)?;
     let dna = OpenOptions::new().allocator(memory).open_bytes(file)?;
     let rig = RigOptions::new().allocator(memory).create(&dna)?;
     let mut face = Instance::new_in(&rig, memory)?;
     face.evaluate(0)?;
-    Ok(face)
+    let deformer = DeformerOptions::new().allocator(memory).create(&dna, &rig)?;
+    let mut pose = PoseOptions::new().allocator(memory).create(&deformer)?;
+    pose.update(&face)?;
+    pose.deform(0, Normals::RECOMPUTED)?;
+    Ok((face, pose))
 }
 
 #[test]
 fn all_of_it_is_given_back() {
     let file = Dna::generate(Preset::TINY).unwrap().to_bytes().unwrap();
     let (memory, book) = watched(usize::MAX);
-    let mut face = live(&file, &memory).unwrap();
+    let (mut face, mut pose) = live(&file, &memory).unwrap();
     // The allocator lives as long as what was made with it.
     drop(memory);
     {
         let book = book.lock().unwrap();
         let bytes: usize = book.blocks.values().map(Layout::size).sum();
         let info = face.rig().info();
-        assert_eq!(bytes as u64, info.rig_bytes + info.instance_bytes);
+        let deformer = pose.deformer().info();
+        let expected =
+            [info.rig_bytes, info.instance_bytes, deformer.deformer_bytes, deformer.pose_bytes];
+        assert_eq!(bytes as u64, expected.iter().sum::<u64>());
     }
     let requests = book.lock().unwrap().requests;
     face.evaluate(0).unwrap();
-    assert_eq!(book.lock().unwrap().requests, requests, "evaluation takes no memory");
+    pose.update(&face).unwrap();
+    pose.deform(0, Normals::SKINNED).unwrap();
+    assert_eq!(book.lock().unwrap().requests, requests, "frames take no memory");
     // On another thread, too.
-    std::thread::spawn(move || drop(face)).join().unwrap();
+    drop(face);
+    assert!(!book.lock().unwrap().blocks.is_empty(), "a pose needs its rig");
+    std::thread::spawn(move || drop(pose)).join().unwrap();
     assert!(book.lock().unwrap().blocks.is_empty());
     assert_eq!(Arc::strong_count(&book), 1, "the allocator is gone");
 }

@@ -31,6 +31,8 @@ fn types_cross_threads() {
     send_and_sync::<Dna<'static>>();
     send_and_sync::<Rig>();
     send_and_sync::<Instance>();
+    send_and_sync::<mien::Deformer>();
+    send_and_sync::<mien::Pose>();
     send_and_sync::<mien::Report>();
     send_and_sync::<mien::Allocator>();
     send_and_sync::<mien::Error>();
