@@ -254,7 +254,7 @@ impl OpenOptions {
     /// Converts everything to another coordinate system. What cannot follow is refused with
     /// [`Status::DNA_VALUE`](crate::Status::DNA_VALUE).
     pub fn system(mut self, system: &CoordinateSystem) -> Self {
-        self.system = Some(system.clone());
+        self.system = Some(*system);
         self
     }
 
