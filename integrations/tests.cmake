@@ -8,6 +8,11 @@ set(integrations ${PROJECT_SOURCE_DIR}/integrations)
 add_test(NAME api_json
   COMMAND Python3::Interpreter ${integrations}/api/dump_api.py --check)
 set_tests_properties(api_json PROPERTIES LABELS guard)
+add_test(NAME api_compatible
+  COMMAND Python3::Interpreter ${integrations}/api/check_compatible.py)
+add_test(NAME api_compatible_self_test
+  COMMAND Python3::Interpreter ${integrations}/api/check_compatible.py --self-test)
+set_tests_properties(api_compatible api_compatible_self_test PROPERTIES LABELS guard)
 add_test(NAME api_layout
   COMMAND Python3::Interpreter ${integrations}/api/layout_test.py ${CMAKE_C_COMPILER})
 set_tests_properties(api_layout PROPERTIES LABELS abi)
