@@ -239,7 +239,7 @@ impl Instance {
         self.handle.as_ptr()
     }
 
-    fn raw(&mut self) -> *mut sys::MienInstance {
+    pub(crate) fn raw(&mut self) -> *mut sys::MienInstance {
         self.handle.as_ptr()
     }
 }

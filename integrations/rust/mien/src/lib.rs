@@ -45,6 +45,7 @@
 #![warn(unsafe_op_in_unsafe_fn)]
 
 mod allocator;
+mod batch;
 mod convert;
 mod coordinates;
 mod deformer;
@@ -54,19 +55,22 @@ mod instance;
 mod pose;
 mod report;
 mod rig;
+mod threads;
 
 #[rustfmt::skip]
 mod generated;
 
 pub use allocator::Allocator;
+pub use batch::Batch;
 pub use deformer::{Deformer, DeformerOptions, Mesh};
 pub use dna::{Dna, GenerateOptions, OpenOptions, WriteOptions};
 pub use error::{Error, Result};
 pub use generated::*;
 pub use instance::Instance;
-pub use pose::{Pose, PoseOptions, Work};
+pub use pose::{Pose, PoseOptions};
 pub use report::{Finding, Report};
 pub use rig::{Rig, RigOptions};
+pub use threads::Work;
 
 /// Major, minor and patch number of the library that runs, which may be newer than this crate.
 pub fn version() -> (u32, u32, u32) {

@@ -3,7 +3,8 @@
 use crate::convert::{bytes, empty_string, index, slice, utf8};
 use crate::error::{check, checked};
 use crate::{
-    Allocator, Dna, Instance, Isa, Kind, MlMasks, Output, Result, RigInfo, RigStatistics, Storage,
+    Allocator, Dna, Instance, Isa, Kind, MlMasks, Output, Result, Reuse, RigInfo, RigStatistics,
+    Storage,
 };
 use mien_sys as sys;
 use std::borrow::Cow;
@@ -207,6 +208,7 @@ pub struct RigOptions {
     rotation: Output,
     ml_masks: MlMasks,
     storage: Storage,
+    reuse: Reuse,
     allocator: Option<Allocator>,
 }
 
@@ -241,6 +243,12 @@ impl RigOptions {
         self
     }
 
+    /// Whether evaluation keeps results whose inputs did not change. The same bits either way.
+    pub fn reuse(mut self, reuse: Reuse) -> Self {
+        self.reuse = reuse;
+        self
+    }
+
     /// Where memory comes from.
     pub fn allocator(mut self, allocator: &Allocator) -> Self {
         self.allocator = Some(allocator.clone());
@@ -257,6 +265,7 @@ impl RigOptions {
                 rotation: self.rotation.0,
                 ml_masks: self.ml_masks.0,
                 storage: self.storage.0,
+                reuse: self.reuse.0,
                 allocator,
                 ..Default::default()
             };

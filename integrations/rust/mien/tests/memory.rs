@@ -2,7 +2,7 @@
 //! Memory comes from the allocator that was given, goes back to it, and may be refused.
 
 use mien::{
-    Allocator, DeformerOptions, Dna, GenerateOptions, Instance, Normals, OpenOptions, Pose,
+    Allocator, Batch, DeformerOptions, Dna, GenerateOptions, Instance, Normals, OpenOptions, Pose,
     PoseOptions, Preset, Report, Result, RigOptions, Status,
 };
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -51,7 +51,7 @@ fn live(file: &[u8], memory: &Allocator) -> Result<(Instance, Pose)> {
     let dna = OpenOptions::new().allocator(memory).open_bytes(file)?;
     let rig = RigOptions::new().allocator(memory).create(&dna)?;
     let mut face = Instance::new_in(&rig, memory)?;
-    face.evaluate(0)?;
+    Batch::new_in(&rig, 3, 2, memory)?.evaluate([&mut face], 0)?;
     let deformer = DeformerOptions::new().allocator(memory).create(&dna, &rig)?;
     let mut pose = PoseOptions::new().allocator(memory).create(&deformer)?;
     pose.update(&face)?;

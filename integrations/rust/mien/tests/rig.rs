@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 //! From a DNA file to poses, as users do it; and what they may do wrong.
 
-use mien::{Dna, Instance, Isa, Kind, Output, Preset, Rig, RigOptions, Stages, Status, Storage};
+use mien::{
+    Batch, Dna, Instance, Isa, Kind, Output, Preset, Rig, RigOptions, Stages, Status, Storage,
+};
 use mien_sys as sys;
 use std::ptr::{null, null_mut};
 
@@ -31,6 +33,7 @@ fn types_cross_threads() {
     send_and_sync::<Dna<'static>>();
     send_and_sync::<Rig>();
     send_and_sync::<Instance>();
+    send_and_sync::<mien::Batch>();
     send_and_sync::<mien::Deformer>();
     send_and_sync::<mien::Pose>();
     send_and_sync::<mien::Report>();
@@ -205,6 +208,59 @@ fn stages_one_by_one_give_the_whole() {
     let fresh = rig.instance().unwrap();
     assert_eq!(outputs(&parts), outputs(&fresh));
     assert_eq!(bits(parts.raw_controls()), bits(rig.initial_raw_controls()));
+}
+
+#[test]
+fn batches_give_the_same_bits() {
+    let rig = rig(Preset::SMALL);
+    let lods = rig.info().lod_count;
+    let faces = || -> Vec<Instance> {
+        let mut faces: Vec<_> = (0..70).map(|_| rig.instance().unwrap()).collect();
+        faces.iter_mut().enumerate().for_each(|(i, face)| drive(face, i));
+        faces
+    };
+    let all = |faces: &[Instance]| faces.iter().map(outputs).collect::<Vec<_>>();
+
+    let mut one_by_one = faces();
+    one_by_one.iter_mut().for_each(|face| face.evaluate(1).unwrap());
+    let mut batch = Batch::new(&rig, 70).unwrap();
+    let mut together = faces();
+    batch.evaluate(&mut together, 1).unwrap();
+    assert!(all(&together) == all(&one_by_one));
+
+    for (i, face) in one_by_one.iter_mut().enumerate() {
+        face.evaluate(i % lods).unwrap();
+    }
+    let mut batch = Batch::with_tasks(&rig, 70, 4).unwrap();
+    assert!(Batch::bytes(&rig, 70, 4).unwrap() > Batch::bytes(&rig, 70, 1).unwrap());
+    let mut threaded = faces();
+    let each = threaded.iter_mut().enumerate().map(|(i, face)| (face, i % lods));
+    batch
+        .evaluate_each_on(each, Stages::ALL, |_, work| {
+            std::thread::scope(|threads| {
+                for _ in 0..4 {
+                    threads.spawn(work);
+                }
+            });
+        })
+        .unwrap();
+    assert!(all(&threaded) == all(&one_by_one));
+
+    // What is not right in one of them is done to none.
+    let before = all(&threaded);
+    let each = threaded.iter_mut().enumerate().map(|(i, face)| (face, i));
+    assert_eq!(batch.evaluate_each(each, Stages::ALL).unwrap_err().status(), Status::LOD);
+    let mut foreign = self::rig(Preset::SMALL).instance().unwrap();
+    let mixed = threaded.iter_mut().take(3).chain([&mut foreign]);
+    assert_eq!(batch.evaluate(mixed, 0).unwrap_err().status(), Status::MISMATCH);
+    let mut small = Batch::new(&rig, 2).unwrap();
+    assert_eq!(small.evaluate(&mut threaded, 0).unwrap_err().status(), Status::INVALID_ARGUMENT);
+    assert!(all(&threaded) == before);
+    assert!(Batch::new(&rig, 0).is_err());
+    assert!(Batch::new(&rig, usize::MAX).is_err());
+    small.evaluate([], 0).unwrap();
+    drop(rig);
+    small.evaluate(threaded.iter_mut().take(2), 0).unwrap();
 }
 
 #[test]
