@@ -90,7 +90,10 @@ class Face {
       desc.lods = uint64_t{1} << first_lod;
     }
     file = open_rig_file(options.rig, desc, session);
-    rig = create_rig(file, sized<MienRigDesc>());
+    // Plain C++ rounds alike on every machine, and so the files are the same.
+    auto rig_desc = sized<MienRigDesc>();
+    rig_desc.isa = MIEN_ISA_SCALAR;
+    rig = create_rig(file, rig_desc);
 
     auto error = sized<MienError>();
     MienDeformer* deformer_made = nullptr;

@@ -423,6 +423,7 @@ json material_json(const Material& material) {
   result["pbrMetallicRoughness"] = {{"baseColorFactor", material.color},
                                     {"metallicFactor", 0},
                                     {"roughnessFactor", material.roughness}};
+  if (material.color[3] < 1) result["alphaMode"] = "BLEND";
   if (material.double_sided) result["doubleSided"] = true;
   return result;
 }
