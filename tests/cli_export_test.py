@@ -564,8 +564,21 @@ class ProceduralHead(ExportTest):
             weights = dict(zip(names, glb.posed_nodes(i)[node]["weights"]))
             self.assertEqual({n: w for n, w in weights.items() if w}, frame.get("raw", {}))
         self.assertLess(self.worst(glb, self.obj(rig, "--lod", "3", "--set", "jawOpen=1"), frame=1), 5e-6)
-        posed = self.glb(rig, "--lod", "3", "--bake-arkit", "--set", "jawOpen=1")
+        posed = self.glb(rig, "--lod", "3", "--bake-arkit", "--set", "jawOpen=1", "--mouth-close", "alone")
         self.assertEqual(posed.deformed(node), glb.deformed(node, 1))
+
+
+    def test_mouth_closes_with_the_jaw(self):
+        rig = path("head.dna")
+        closed = self.obj(rig, "--lod", "3", "--set", "jawOpen=1", "--set", "mouthClose=1")
+        weights = {"jawOpen": 1, "mouthClose": 1}
+        alone = self.ok("export", rig, "-o", path("alone.glb"), "--lod", "3", "--bake-arkit")
+        self.assertIn("--mouth-close jaw", alone.stderr)
+        self.assertGreater(self.worst(Glb(read("alone.glb")), closed, weights=weights), 0.01)
+        jaw = self.ok("export", rig, "-o", path("jaw.glb"), "--lod", "3", "--bake-arkit", "--mouth-close", "jaw")
+        self.assertEqual(jaw.stderr, "")
+        self.assertLess(self.worst(Glb(read("jaw.glb")), closed, weights=weights), 5e-6)
+        self.assertLess(self.worst(Glb(read("jaw.glb")), self.obj(rig, "--lod", "3"), weights={}), 1e-6)
 
 
 class Failures(ExportTest):
@@ -595,6 +608,8 @@ class Failures(ExportTest):
         self.fails(USAGE, "export", rig, "-o", out, "--animation", frames, "--set", "a=1", says="--set")
         self.fails(USAGE, "export", "-", "-o", out, "--animation", "-", says="standard input")
         self.fails(USAGE, "export", rig, "-o", out, "--bake-arkit", "--influences", "4", says="--influences")
+        self.fails(USAGE, "export", rig, "-o", out, "--mouth-close", "jaw", says="--bake-arkit")
+        self.fails(USAGE, "export", rig, "-o", out, "--bake-arkit", "--mouth-close", "jow", says='"jaw"')
         for option in (["--bake-arkit"], ["--animation", frames], ["--influences", "4"]):
             self.fails(USAGE, "export", rig, "-o", path("no.obj"), *option, says=option[0])
         self.assertFalse(os.path.exists(out) or os.path.exists(path("no.obj")))

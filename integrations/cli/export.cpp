@@ -18,7 +18,7 @@ namespace mien::cli {
 namespace {
 
 struct ExportOptions {
-  std::string rig, output, format, lod = "0", influences, animation, rate;
+  std::string rig, output, format, lod = "0", influences, animation, rate, mouth_close;
   std::vector<std::string> settings;
   bool bake = false;
 };
@@ -27,6 +27,7 @@ enum class Format { kGlb, kObj };
 
 constexpr const char* kCannot = "cannot export";
 constexpr double kDefaultRate = 30;
+constexpr double kNotableClose = 0.005;  // of the size: a millimetre or two of a head
 
 // Options -----------------------------------------------------------------------------------------
 
@@ -68,6 +69,10 @@ void check_combination(const ExportOptions& options, Format format) {
                                                        : nullptr;
   if (format == Format::kObj && only_glb) {
     fail_usage(only_glb, "an OBJ file holds one still pose", "write a .glb file");
+  }
+  if (!options.mouth_close.empty()) {
+    parse_word("--mouth-close", options.mouth_close);
+    if (!options.bake) fail_usage("--mouth-close", "nothing is baked", "add --bake-arkit");
   }
   if (options.bake && !options.influences.empty()) {
     fail_usage("--influences " + options.influences, "a baked mesh has no skin",
@@ -213,6 +218,12 @@ void print_report(const gltf::BakeReport& report, FILE* stream) {
                report.combination_count, report.moved_positions, report.combinations.rms * 1000,
                report.combinations.most * 1000, report.combinations.rms * share,
                report.combinations.most * share);
+  std::fprintf(stream, "at most in:");
+  for (size_t e = 0; e < gltf::kArkitCount; ++e) {
+    if (report.worst[e] != 0)
+      std::fprintf(stream, " %s %.2f", gltf::kArkitNames[e], double{report.worst[e]});
+  }
+  std::fprintf(stream, "\n");
 }
 
 /// Raw controls that a baked file has no weight for.
@@ -248,7 +259,14 @@ std::string baked_glb(const Face& face, const Frame& still, const std::vector<Fr
   }
   gltf::RigScene scene = gltf::make_still_scene(*face.source, scene_options(face, options));
   note_losses(face, scene.losses, session);
-  const gltf::BakeReport report = gltf::bake_arkit(*face.source, controls, scene);
+  const auto mouth_close = static_cast<gltf::MouthClose>(
+      options.mouth_close.empty() ? 0 : parse_word("--mouth-close", options.mouth_close));
+  const gltf::BakeReport report = gltf::bake_arkit(*face.source, controls, mouth_close, scene);
+  if (options.mouth_close.empty() && report.most_close_with_jaw > kNotableClose * report.diagonal) {
+    note(session, face.file.shown +
+                      ": on this rig mouthClose is another thing when the jaw is open; for "
+                      "captured data add --mouth-close jaw");
+  }
 
   std::vector<const Frame*> posed = {&still};
   for (const Frame& frame : frames) posed.push_back(&frame);
@@ -346,6 +364,11 @@ Command add_export_command(CLI::App& app, const Session& session) {
   command->add_flag("--bake-arkit", options->bake,
                     "No skeleton: the 52 ARKit expressions as morph targets. Prints how far\n"
                     "these are off the full rig");
+  command
+      ->add_option("--mouth-close", options->mouth_close,
+                   "mouthClose as a difference to neutral: alone (default), or to an open\n"
+                   "jaw, as captured data mean it: jaw")
+      ->type_name("WAY");
   command->footer(
       "A GLB holds the skeleton, the skin and the blend shape channels as morph targets: what\n"
       "the controls drive, not what drives it. --set gives the pose it opens in, --animation\n"

@@ -145,39 +145,72 @@ double diagonal_of(const RigSource& source) {
   return std::sqrt(dot(size, size));
 }
 
+/// Positions and normals of a mesh in one pose.
+struct Shape {
+  std::vector<float> positions, normals;
+};
+
+Shape shape_of(Face& face, uint32_t rig_mesh, uint32_t lod, const Weights& weights) {
+  face.deform(rig_mesh, lod, weights, true);
+  return {face.positions(rig_mesh), face.normals(rig_mesh)};
+}
+
+std::vector<float> less(std::vector<float> a, const std::vector<float>& b) {
+  for (size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
+  return a;
+}
+
+double length_at(const RigSource& source, const std::vector<float>& moves, size_t position) {
+  const Vec3 move = source.point(moves.data() + 3 * position);
+  return std::sqrt(dot(move, move));
+}
+
 /// Targets of one mesh; also fills in what the report says of it.
 BakedMesh bake_mesh(const RigSource& source, Face& face, uint32_t rig_mesh, double diagonal,
-                    Mesh& mesh, BakeReport& report) {
+                    MouthClose mouth_close, Mesh& mesh, BakeReport& report) {
   const MienMesh from = source.mesh(rig_mesh);
   BakedMesh baked;
   baked.rig_mesh = rig_mesh;
   baked.lod = finest_lod(from);
   Weights weights(kArkitCount);
-  face.deform(rig_mesh, baked.lod, weights, true);
-  baked.neutral = face.positions(rig_mesh);
-  const std::vector<float> neutral_normals = face.normals(rig_mesh);
+  const Shape neutral = shape_of(face, rig_mesh, baked.lod, weights);
+  baked.neutral = neutral.positions;
   for (uint32_t v = 0; v < from.vertex_count; ++v) {
     const Vec3 p = source.point(baked.neutral.data() + size_t{3} * from.vertex_positions.data[v]);
     for (size_t i = 0; i < 3; ++i) mesh.positions[v][i] = static_cast<float>(p[i]);
   }
 
   baked.is_moved.resize(from.position_count);
+  Shape open;
   for (size_t e = 0; e < kArkitCount; ++e) {
+    const bool with_jaw = e == kMouthClose && mouth_close == MouthClose::kWithJaw;
     weights[e] = 1;
-    face.deform(rig_mesh, baked.lod, weights, true);
-    weights[e] = 0;
-    mesh.targets.push_back(difference(source, rig_mesh, face.pose(), baked.neutral, neutral_normals,
+    weights[kJawOpen] = with_jaw || e == kJawOpen;
+    const Shape shape = shape_of(face, rig_mesh, baked.lod, weights);
+    const Shape& base = with_jaw ? open : neutral;
+    mesh.targets.push_back(difference(source, rig_mesh, face.pose(), base.positions, base.normals,
                                       kLeastMove * diagonal));
     mesh.targets.back().name = kArkitNames[e];
-    std::vector<float>& moves = baked.moves[e] = face.positions(rig_mesh);
-    for (size_t i = 0; i < moves.size(); ++i) moves[i] -= baked.neutral[i];
+    baked.moves[e] = less(shape.positions, base.positions);
     for (size_t p = 0; p < baked.is_moved.size(); ++p) {
-      const Vec3 move = source.point(moves.data() + 3 * p);
-      const double length = std::sqrt(dot(move, move));
+      const double length = length_at(source, baked.moves[e], p);
       if (length > kLeastMove * diagonal) baked.is_moved[p] = true;
       double& most = report.expressions[e].most_move;
       most = std::max(most, length);
     }
+    if (e == kJawOpen) open = shape;
+    if (e == kMouthClose) {
+      weights[kJawOpen] = !with_jaw;
+      const Shape other = shape_of(face, rig_mesh, baked.lod, weights);
+      const Shape& other_base = with_jaw ? neutral : open;
+      const std::vector<float> apart =
+          less(less(other.positions, other_base.positions), baked.moves[e]);
+      for (size_t p = 0; p < baked.is_moved.size(); ++p) {
+        report.most_close_with_jaw =
+            std::max(report.most_close_with_jaw, length_at(source, apart, p));
+      }
+    }
+    weights[e] = weights[kJawOpen] = 0;
   }
   const auto moves_nothing = [](const MorphTarget& target) { return target.vertices.empty(); };
   if (std::all_of(mesh.targets.begin(), mesh.targets.end(), moves_nothing)) mesh.targets.clear();
@@ -186,7 +219,9 @@ BakedMesh bake_mesh(const RigSource& source, Face& face, uint32_t rig_mesh, doub
 
 }  // namespace
 
-BakeReport bake_arkit(const RigSource& source, const ArkitControls& controls, RigScene& scene) {
+BakeReport bake_arkit(const RigSource& source, const ArkitControls& controls,
+                      MouthClose mouth_close, RigScene& scene) {
+  const bool with_jaw = mouth_close == MouthClose::kWithJaw;
   BakeReport report;
   report.expressions.resize(kArkitCount);
   report.diagonal = diagonal_of(source);
@@ -195,8 +230,8 @@ BakeReport bake_arkit(const RigSource& source, const ArkitControls& controls, Ri
   Distances halfway[kArkitCount], together;
   for (size_t m = 0; m < scene.scene.meshes.size(); ++m) {
     const uint32_t rig_mesh = scene.rig_meshes[m];
-    const BakedMesh baked =
-        bake_mesh(source, face, rig_mesh, report.diagonal, scene.scene.meshes[m], report);
+    const BakedMesh baked = bake_mesh(source, face, rig_mesh, report.diagonal, mouth_close,
+                                      scene.scene.meshes[m], report);
     report.moved_positions +=
         static_cast<size_t>(std::count(baked.is_moved.begin(), baked.is_moved.end(), true));
     const auto measure = [&](const Weights& weights, Distances& distances) {
@@ -206,8 +241,9 @@ BakeReport bake_arkit(const RigSource& source, const ArkitControls& controls, Ri
     Weights weights(kArkitCount);
     for (size_t e = 0; e < kArkitCount; ++e) {
       weights[e] = 0.5;
+      if (with_jaw && e == kMouthClose) weights[kJawOpen] = 0.5;
       measure(weights, halfway[e]);
-      weights[e] = 0;
+      weights[e] = weights[kJawOpen] = 0;
     }
     Random random;
     for (uint32_t i = 0; i < kCombinations; ++i) {
@@ -216,7 +252,10 @@ BakeReport bake_arkit(const RigSource& source, const ArkitControls& controls, Ri
         const double value = random.unit();
         weight = is_on ? value : 0;
       }
+      if (with_jaw) weights[kMouthClose] = std::min(weights[kMouthClose], weights[kJawOpen]);
+      const double most = together.most;
       measure(weights, together);
+      if (together.most > most) std::copy(weights.begin(), weights.end(), report.worst.begin());
     }
   }
   const double metres = source.metres_per_unit();

@@ -12,6 +12,13 @@ struct Residual {
   double rms = 0, most = 0;  // metres
 };
 
+/// What mouthClose is a difference to.
+enum class MouthClose {
+  kAlone,    // the neutral mesh, as for all others
+  kWithJaw,  // the mesh with jawOpen at 1: captured data close the lips of an open jaw with it, to
+             // the degree that the jaw is open at most
+};
+
 struct BakeReport {
   struct Expression {
     double most_move = 0;  // of a position, metres
@@ -19,6 +26,8 @@ struct BakeReport {
   };
   std::vector<Expression> expressions;  // kArkitCount of them
   Residual combinations;                // sums of targets against the rig
+  ArkitWeights worst{};                 // the combination with the largest distance
+  double most_close_with_jaw = 0;       // by how much mouthClose differs in its two ways, metres
   uint32_t combination_count = 0;
   size_t moved_positions = 0;
   double diagonal = 0;  // of the box around all positions, metres
@@ -32,8 +41,10 @@ struct BakeReport {
 ///
 /// A target is a straight line, a rotating jaw or eye is not, and expressions together have
 /// correctives: the report measures both, the second by random combinations, the same every time:
-/// each expression is on with a chance of 1 in 8, by 0 to 1.
-BakeReport bake_arkit(const RigSource& source, const ArkitControls& controls, RigScene& scene);
+/// each expression is on with a chance of 1 in 8, by 0 to 1. With MouthClose::kWithJaw, mouthClose
+/// is measured with a jaw as open as it, and in combinations never above jawOpen.
+BakeReport bake_arkit(const RigSource& source, const ArkitControls& controls,
+                      MouthClose mouth_close, RigScene& scene);
 
 /// Weights of the expressions from raw controls named after them (ArkitControls::by_name).
 ArkitWeights arkit_weights(const ArkitControls& controls, const MienFloatView& raw);

@@ -27,6 +27,9 @@ struct ArkitControls {
   bool by_name = true;
 };
 
+// Numbers of two of them that belong together, see arkit_bake.h.
+constexpr size_t kJawOpen = 17, kMouthClose = 18;
+
 using ArkitWeights = std::array<float, kArkitCount>;
 
 /// Throws ExportError that names what the rig lacks.
