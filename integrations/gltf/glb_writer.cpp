@@ -18,6 +18,13 @@ enum ViewTarget : int { kOtherData = 0, kVertexData = 34962, kIndexData = 34963 
 
 constexpr const char* kShapes[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
 
+/// A list of one. (Compilers do not agree on what braces around one value mean.)
+json list_of(json value) {
+  json list = json::array();
+  list.push_back(std::move(value));
+  return list;
+}
+
 /// The binary part, and what the JSON part says about it.
 class Data {
  public:
@@ -95,8 +102,8 @@ class Data {
     json accessor = accessor_here(kF32, values.size(), "SCALAR");
     if (with_bounds) {
       const auto [least, most] = std::minmax_element(values.begin(), values.end());
-      accessor["min"] = {*least};
-      accessor["max"] = {*most};
+      accessor["min"] = json::array({*least});
+      accessor["max"] = json::array({*most});
     }
     for (const float value : values) put(value);
     return add_accessor(std::move(accessor));
@@ -284,7 +291,7 @@ json mesh_json(Data& data, const Mesh& mesh, size_t joint_count) {
     result["weights"] = std::move(weights);
     result["extras"]["targetNames"] = std::move(names);
   }
-  result["primitives"] = {std::move(primitive)};
+  result["primitives"] = list_of(std::move(primitive));
   return result;
 }
 
@@ -483,13 +490,13 @@ std::string write_glb(const Scene& scene) {
   root["nodes"] = std::move(nodes);
   root["materials"] = std::move(materials);
   root["meshes"] = std::move(meshes);
-  if (!scene.joints.empty()) root["skins"] = {skin_json(data, scene)};
+  if (!scene.joints.empty()) root["skins"] = list_of(skin_json(data, scene));
   if (moves_something(scene.animation)) {
-    root["animations"] = {animation_json(data, scene.animation, first_mesh_node)};
+    root["animations"] = list_of(animation_json(data, scene.animation, first_mesh_node));
   }
   root["accessors"] = std::move(data.accessors);
   root["bufferViews"] = std::move(data.views);
-  root["buffers"] = {{{"byteLength", data.bytes.size()}}};
+  root["buffers"] = list_of({{"byteLength", data.bytes.size()}});
 
   // Names come from files and need not be UTF-8.
   return pack(root.dump(-1, ' ', false, json::error_handler_t::replace), data.bytes);
