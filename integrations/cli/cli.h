@@ -86,6 +86,7 @@ Command add_gen_command(CLI::App& app, const Session& session);
 Command add_demo_head_command(CLI::App& app, const Session& session);
 Command add_bench_command(CLI::App& app, const Session& session);
 Command add_render_command(CLI::App& app, const Session& session);
+Command add_inspect_command(CLI::App& app, const Session& session);
 Command add_completion_command(CLI::App& app);
 
 }  // namespace mien::cli

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/cli/looks.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 namespace mien::cli {
 
@@ -85,7 +87,7 @@ Material mesh_material(MeshKind kind) {
     case MeshKind::kCover: return {{150, 140, 135}, 0.10f, 0.30f, 0.040f};
     case MeshKind::kSkin: break;
   }
-  return {{205, 170, 150}, 0.35f, 0.45f, 0.030f};
+  return {{205, 170, 150}, 0.35f, 0.50f, 0.028f};
 }
 
 std::vector<uint8_t> read_mesh_colours(const RigFile& file, const std::string& name,
@@ -116,13 +118,17 @@ std::vector<uint8_t> paint_eye(const float* positions, uint32_t position_count, 
     const Vec3 from_centre = picture::load3(positions, i) - box.centre();
     const float cosine = dot(picture::normalized(from_centre, -front), front);
     // Angles of a human eye: the pupil is 4 mm of 24 wide, the iris 12.
-    const Colour colour = cosine > 0.982f   ? kPupil
-                          : cosine > 0.905f ? kIris
-                          : cosine > 0.875f ? kRim
-                                            : kWhite;
-    colours[size_t{i} * 3] = colour.r;
-    colours[size_t{i} * 3 + 1] = colour.g;
-    colours[size_t{i} * 3 + 2] = colour.b;
+    const float angle = std::acos(std::clamp(cosine, -1.0f, 1.0f)) * 57.29578f;
+    Vec3 colour = to_linear(kPupil);
+    // Borders are soft, since between the positions of a coarse mesh they would be crooked.
+    for (const auto& [border, outside] :
+         {std::pair{10.0f, kIris}, std::pair{24.0f, kRim}, std::pair{28.0f, kWhite}}) {
+      colour = mix(colour, to_linear(outside), picture::saturate((angle - border) / 3 + 0.5f));
+    }
+    const Colour painted = picture::to_srgb(colour);
+    colours[size_t{i} * 3] = painted.r;
+    colours[size_t{i} * 3 + 1] = painted.g;
+    colours[size_t{i} * 3 + 2] = painted.b;
   }
   return colours;
 }

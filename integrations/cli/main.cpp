@@ -116,6 +116,7 @@ int run(int argument_count, char** arguments, Session& session) {
       add_demo_head_command(app, session),
       add_export_command(app, session),
       add_render_command(app, session),
+      add_inspect_command(app, session),
       add_bench_command(app, session),
       add_completion_command(app),
       add_help_command(app),

@@ -78,6 +78,13 @@ ShownMesh show_mesh(const Subject& subject, uint32_t mesh, const SubjectOptions&
   return shown;
 }
 
+/// Files may name meshes and leave their geometry out.
+bool has_geometry(const RigFile& file) {
+  auto field = sized<MienDnaField>();
+  const MienStatus status = mien_dna_field(file.dna.get(), "geom.meshes", &field, nullptr);
+  return status == MIEN_OK && field.count != 0;
+}
+
 void choose_meshes(Subject& subject, const SubjectOptions& options, const Session& session) {
   MienIndexView indices{};
   check(mien_rig_lod_indices(subject.rig.get(), MIEN_KIND_MESH, 0, &indices), nullptr, kCannot,
@@ -95,6 +102,7 @@ void choose_meshes(Subject& subject, const SubjectOptions& options, const Sessio
   }
   if (!subject.meshes.empty()) return;
   const std::string lod = "LOD " + std::to_string(subject.lod);
+  if (!any && options.geometry_optional) return;
   if (!any) {
     fail(kInvalid, kCannot, subject.file.shown, "no mesh of " + lod + " has faces",
          "give a rig with geometry, or another --lod; see 'mien info'");
@@ -107,12 +115,6 @@ void choose_meshes(Subject& subject, const SubjectOptions& options, const Sessio
   fail(kInvalid, kCannot, subject.file.shown,
        "no mesh of " + lod + " is named \"" + options.meshes + "\"",
        nearest.question("'mien info RIG --names meshes' lists the names"));
-}
-
-void check_geometry(const Subject& subject, const SubjectOptions& options) {
-  if (subject.file.info.mesh_count != 0) return;
-  fail(kInvalid, kCannot, options.rig == "-" ? "standard input" : options.rig,
-       "the file has no meshes", "give a rig with geometry");
 }
 
 Box box_of_joints(const Subject& subject, const std::string& pattern) {
@@ -219,19 +221,24 @@ Subject open_subject(const SubjectOptions& options, const Session& session) {
   Subject subject;
   subject.lod = static_cast<uint32_t>(lod);
   subject.file = open_rig_file(options.rig, desc, session);
-  check_geometry(subject, options);
   subject.rig = create_rig(subject.file, sized<MienRigDesc>());
   subject.stand = stand_of(subject.file.info);
 
   auto error = sized<MienError>();
-  MienDeformer* deformer = nullptr;
-  check(mien_deformer_create(subject.file.dna.get(), subject.rig.get(), nullptr, &deformer, &error),
-        &error, "cannot prepare meshes", subject.file.shown);
-  subject.deformer.reset(deformer);
   MienInstance* instance = nullptr;
   check(mien_instance_create(subject.rig.get(), nullptr, &instance, &error), &error, kCannot,
         subject.file.shown);
   subject.instance.reset(instance);
+  if (!has_geometry(subject.file)) {
+    if (options.geometry_optional) return subject;
+    fail(kInvalid, kCannot, subject.file.shown, "the file has no geometry",
+         "give a rig with meshes; see 'mien info'");
+  }
+
+  MienDeformer* deformer = nullptr;
+  check(mien_deformer_create(subject.file.dna.get(), subject.rig.get(), nullptr, &deformer, &error),
+        &error, "cannot prepare meshes", subject.file.shown);
+  subject.deformer.reset(deformer);
   MienPose* pose = nullptr;
   check(mien_pose_create(deformer, nullptr, &pose, &error), &error, kCannot, subject.file.shown);
   subject.pose.reset(pose);
@@ -246,6 +253,7 @@ void pose_subject(Subject& subject, const Frame& frame) {
   check(mien_instance_reset(instance), nullptr, kCannot, shown);
   apply_frame(frame, subject.rig.get(), instance);
   check(mien_rig_evaluate(subject.rig.get(), instance, 0), nullptr, kCannot, shown);
+  if (!pose) return;
   check(mien_pose_update(pose, instance), nullptr, kCannot, shown);
   for (const ShownMesh& mesh : subject.meshes) {
     check(mien_pose_deform(pose, mesh.mesh, MIEN_NORMALS_DEFAULT, nullptr), nullptr, kCannot,

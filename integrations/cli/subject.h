@@ -28,12 +28,13 @@ struct ShownMesh {
 struct SubjectOptions {
   std::string rig, lod = "0", meshes;
   bool wireframe = false;
+  bool geometry_optional = false;  // a rig without meshes is good too
 };
 
 struct Subject {
   RigFile file;
   Rig rig;
-  Deformer deformer;
+  Deformer deformer;  // null, as is the pose, without geometry
   Instance instance;
   Pose pose;
   uint32_t lod = 0;  // as the file counts; it is the only one that is loaded

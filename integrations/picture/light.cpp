@@ -80,8 +80,8 @@ Vec3 light(const Fragment& f, float openness, float key) {
   diffuse += mix(kSkyBelow, kSkyAbove, 0.5f + 0.5f * f.normal.y) * open;
 
   const float gloss_open = saturate(openness * 1.2f);
-  Vec3 shine = kKey.colour * (highlight(f, kKey, m) * seen * gloss_open * 2.2f);
-  shine += kFill.colour * (highlight(f, kFill, m) * gloss_open * 2.2f);
+  Vec3 shine = kKey.colour * (highlight(f, kKey, m) * seen * gloss_open * 1.5f);
+  shine += kFill.colour * (highlight(f, kFill, m) * gloss_open * 1.5f);
   for (const Lamp& rim : kRims) {
     const float edge = 1 - nv, facing = std::max(dot(f.normal, rim.direction) + 0.15f, 0.0f);
     const float strength = edge * edge * facing * gloss_open;
