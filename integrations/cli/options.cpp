@@ -39,7 +39,7 @@ const OptionWords kOptionWords[] = {
       "below"}},
     {"--background", {"dark", "light"}},
     {"--samples", {"1", "4", "16"}},
-    {"--target", {"eyes", "mouth"}},
+    {"--target", {"face", "eyes", "mouth"}},
     {"SHELL", {"bash", "zsh", "fish"}},
 };
 

@@ -19,7 +19,6 @@ using picture::Backdrop;
 using picture::Camera;
 using picture::Colour;
 using picture::Image;
-using picture::Vec3;
 using picture::View;
 
 constexpr int kLongestSide = 4096;
@@ -89,8 +88,8 @@ void add_picture_options(CLI::App& app, PictureOptions& options, const std::stri
                      "side, pitch 90 looks down (default: front)")
       ->type_name("VIEW");
   app.add_option("--target", options.target,
-                 "What to look at: eyes, mouth, or a pattern of mesh or joint\n"
-                 "names, as *lip* (default: everything)")
+                 "What to look at: face, eyes, mouth, or a pattern of mesh or\n"
+                 "joint names, as *lip* (default: everything; of sheets: the face)")
       ->type_name("NAME");
   app.add_option("--size", options.size, "Pixels of one picture, as 640x640 or 640")
       ->type_name("WxH");
@@ -153,18 +152,7 @@ picture::RenderOptions parse_render_options(const PictureOptions& options, Size 
 }
 
 Camera aim(const Subject& subject, const std::string& target, const View& view, Size size) {
-  std::vector<Vec3> points;
-  if (target.empty()) {
-    points = subject.neutral_points();
-  } else {
-    const picture::Box box = find_target(subject, target);
-    for (int corner = 0; corner < 8; ++corner) {
-      points.push_back({corner & 1 ? box.most.x : box.least.x,
-                        corner & 2 ? box.most.y : box.least.y,
-                        corner & 4 ? box.most.z : box.least.z});
-    }
-  }
-  return frame_points(subject.stand, view, points, size.width, size.height);
+  return frame_points(subject.stand, view, find_target(subject, target), size.width, size.height);
 }
 
 bool is_numbered(const std::string& output) {

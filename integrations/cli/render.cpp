@@ -50,10 +50,6 @@ Plan make_plan(const RenderCommand& command) {
     fail_usage("--set", "with --frames the frames say what the controls are",
                "leave one of them out");
   }
-  if (command.picture.output == "-" && command.subject.rig == "-" && command.frames == "-") {
-    fail_usage("--frames -", "standard input cannot be both RIG and FRAMES",
-               "put one of them in a file");
-  }
   if (command.subject.rig == "-" && command.frames == "-") {
     fail_usage("--frames -", "standard input cannot be both RIG and FRAMES",
                "put one of them in a file");
@@ -103,27 +99,16 @@ std::vector<Shot> sheet_shots(const RenderCommand& command, const Subject& subje
 
 std::vector<Shot> turntable_shots(const RenderCommand& command, const Plan& plan,
                                   const Subject& subject, const Frame& base) {
-  std::vector<picture::Vec3> points = subject.neutral_points();
-  picture::Vec3 centre = find_target(subject, command.picture.target).centre();
-  if (!command.picture.target.empty()) {
-    const picture::Camera near = aim(subject, command.picture.target, plan.view, plan.size);
-    std::vector<Shot> shots;
-    for (size_t i = 0; i < plan.turns; ++i) {
-      picture::View view = plan.view;
-      view.yaw += 360 * static_cast<float>(i) / static_cast<float>(plan.turns);
-      picture::Camera camera = look_at(subject.stand, view, centre, near.distance);
-      camera.field_of_view = near.field_of_view;
-      shots.push_back({"", base, camera});
-    }
-    return shots;
-  }
+  const std::vector<picture::Vec3> points = find_target(subject, command.picture.target);
+  picture::Box box;
+  for (const picture::Vec3& point : points) box.add(point);
   std::vector<Shot> shots;
   for (size_t i = 0; i < plan.turns; ++i) {
     picture::View view = plan.view;
     view.yaw += 360 * static_cast<float>(i) / static_cast<float>(plan.turns);
-    shots.push_back(
-        {"", base,
-         frame_turning(subject.stand, view, centre, points, plan.size.width, plan.size.height)});
+    shots.push_back({"", base,
+                     frame_turning(subject.stand, view, box.centre(), points, plan.size.width,
+                                   plan.size.height)});
   }
   return shots;
 }
@@ -132,7 +117,10 @@ std::vector<Shot> find_shots(const RenderCommand& command, const Plan& plan,
                              const Subject& subject) {
   const Frame base = parse_settings(command.settings, subject.rig.get(), subject.file.shown);
   if (plan.turns != 0) return turntable_shots(command, plan, subject, base);
-  const picture::Camera camera = aim(subject, command.picture.target, plan.view, plan.size);
+  // Tiles are small: a sheet shows the face if it can be found.
+  std::string target = command.picture.target;
+  if (target.empty() && command.sheet && has_face(subject)) target = "face";
+  const picture::Camera camera = aim(subject, target, plan.view, plan.size);
   if (command.sheet) return sheet_shots(command, subject, base, camera);
   if (command.frames.empty()) return {{"", base, camera}};
 

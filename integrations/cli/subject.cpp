@@ -143,8 +143,42 @@ Box box_of_meshes(const Subject& subject, Chosen chosen) {
   return box;
 }
 
+Box box_of_eyes(const Subject& subject) {
+  const Box box =
+      box_of_meshes(subject, [](const ShownMesh& m) { return m.kind == MeshKind::kEye; });
+  return box.empty() ? box_of_joints(subject, "*eye*") : box;
+}
+
+Box box_of_mouth(const Subject& subject) {
+  const Box box = box_of_joints(subject, "*lip*,*mouth*");
+  if (!box.empty()) return box;
+  return box_of_meshes(subject, [](const ShownMesh& m) {
+    return m.kind == MeshKind::kTeeth || m.kind == MeshKind::kTongue;
+  });
+}
+
+/// From above the brows to below an open jaw, by the distance of the eyes from the mouth.
+Box find_face(const Subject& subject) {
+  const Box eyes = box_of_eyes(subject), mouth = box_of_mouth(subject);
+  if (eyes.empty() || mouth.empty()) return {};
+  const Stand& stand = subject.stand;
+  const float apart = dot(eyes.centre() - mouth.centre(), stand.up);
+  if (!(apart > 0)) return {};
+  const float across = dot(eyes.centre(), stand.left), depth = dot(eyes.centre(), stand.front);
+  const float height = dot(eyes.centre() + mouth.centre(), stand.up) / 2;
+  Box face;
+  for (const float side : {-1.5f, 1.5f}) {
+    face.add(stand.left * (across + side * apart) + stand.up * (height - 1.75f * apart) +
+             stand.front * depth);
+    face.add(stand.left * (across + side * apart) + stand.up * (height + 1.35f * apart) +
+             stand.front * depth);
+  }
+  return face;
+}
+
 /// Larger on all sides by a share of its longest side.
 Box widened(const Box& box, float share) {
+  if (box.empty()) return box;
   const Vec3 size = box.size();
   const float by = std::max({size.x, size.y, size.z}) * share;
   Box wide = box;
@@ -267,33 +301,37 @@ void pose_subject(Subject& subject, const Frame& frame) {
   }
 }
 
-Box find_target(const Subject& subject, const std::string& target) {
-  if (target.empty()) return subject.neutral_box();
+bool has_face(const Subject& subject) { return !find_face(subject).empty(); }
+
+std::vector<Vec3> find_target(const Subject& subject, const std::string& target) {
+  if (target.empty()) return subject.neutral_points();
   Box box;
-  if (target == "eyes") {
-    box = box_of_meshes(subject, [](const ShownMesh& m) { return m.kind == MeshKind::kEye; });
-    if (box.empty()) box = box_of_joints(subject, "*eye*");
-    box = widened(box, 0.18f);
+  if (target == "face") {
+    box = find_face(subject);
+  } else if (target == "eyes") {
+    box = widened(box_of_eyes(subject), 0.18f);
   } else if (target == "mouth") {
-    box = box_of_joints(subject, "*lip*,*mouth*");
-    if (box.empty()) {
-      box = box_of_meshes(subject, [](const ShownMesh& m) {
-        return m.kind == MeshKind::kTeeth || m.kind == MeshKind::kTongue;
-      });
-    }
-    box = widened(box, 0.25f);
+    box = widened(box_of_mouth(subject), 0.25f);
   } else {
     box =
         box_of_meshes(subject, [&](const ShownMesh& m) { return matches_pattern(target, m.name); });
     if (box.empty()) box = widened(box_of_joints(subject, target), 0.25f);
   }
-  if (!box.empty() && length(box.size()) > 0) return box;
-  fail(
-      kInvalid, "cannot aim the camera", subject.file.shown,
-      target == "eyes" || target == "mouth" ? "no mesh or joint is named as " + target + " are"
-                                            : "no mesh and no two joints match \"" + target + "\"",
-      "give --target a pattern of mesh or joint names; 'mien info RIG --names meshes,joints' lists "
-      "them");
+  if (box.empty() || !(length(box.size()) > 0)) {
+    const bool part = target == "face" || target == "eyes" || target == "mouth";
+    fail(kInvalid, "cannot aim the camera", subject.file.shown,
+         part ? "no mesh or joint is named as " + (target == "face" ? "eyes and a mouth" : target) +
+                    " are"
+              : "no mesh and no two joints match \"" + target + "\"",
+         "give --target a pattern of mesh or joint names; 'mien info RIG --names meshes,joints' "
+         "lists them");
+  }
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i) {
+    corners.push_back({i & 1 ? box.most.x : box.least.x, i & 2 ? box.most.y : box.least.y,
+                       i & 4 ? box.most.z : box.least.z});
+  }
+  return corners;
 }
 
 }  // namespace mien::cli

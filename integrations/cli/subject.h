@@ -59,7 +59,11 @@ Subject open_subject(const SubjectOptions& options, const Session& session);
 /// Brings controls into the state of a frame, evaluates and deforms.
 void pose_subject(Subject& subject, const Frame& frame);
 
-/// Where the eyes, the mouth, or meshes or joints of that pattern are in neutral.
-picture::Box find_target(const Subject& subject, const std::string& target);
+/// Points around the face, the eyes, the mouth, or meshes or joints of that pattern, in neutral; of
+/// everything if `target` is empty.
+std::vector<picture::Vec3> find_target(const Subject& subject, const std::string& target);
+
+/// True if it shows where the face is: there are eyes and a mouth.
+bool has_face(const Subject& subject);
 
 }  // namespace mien::cli

@@ -140,11 +140,11 @@ float ShadowMap::light_at(Vec3 place, Vec3 normal) const {
   const float fx = x - float(left), fy = y - float(top);
   float lit = 0;
   for (int j = 0; j < kTaps; ++j) {
-    const float* row = &map_.depth[size_t(top + j) * size_t(map_.width) + size_t(left)];
+    const Seen* row = &map_.seen[size_t(top + j) * size_t(map_.width) + size_t(left)];
     float sum = 0;
     for (int i = 0; i < kTaps; ++i) {
       const float weight = i == 0 ? 1 - fx : i == kTaps - 1 ? fx : 1.0f;
-      sum += row[i] < depth ? weight : 0.0f;
+      sum += row[i].depth < depth ? weight : 0.0f;
     }
     lit += sum * (j == 0 ? 1 - fy : j == kTaps - 1 ? fy : 1.0f);
   }

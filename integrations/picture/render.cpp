@@ -41,14 +41,13 @@ class PixelPatches {
   int find(size_t pixel) {
     count_ = 0;
     const size_t n = size_t(seen_.samples);
-    const uint32_t* numbers = &seen_.triangle[pixel * n];
-    const float* depths = &seen_.depth[pixel * n];
+    const Seen* seen = &seen_.seen[pixel * n];
     int empty = 0;
     for (size_t s = 0; s < n; ++s) {
-      if (numbers[s] == 0) {
+      if (seen[s].triangle == 0) {
         ++empty;
       } else {
-        add(numbers, depths, s);
+        add(seen, s);
       }
     }
     for (int p = 1; p < count_; ++p) {
@@ -61,19 +60,19 @@ class PixelPatches {
   const Patch* end() const { return patches_ + count_; }
 
  private:
-  void add(const uint32_t* numbers, const float* depths, size_t s) {
-    const uint32_t number = numbers[s];
+  void add(const Seen* seen, size_t s) {
+    const uint32_t number = seen[s].triangle;
     for (int p = 0; p < count_; ++p) {
-      if (joins(patches_[p], number, depths[s])) {
+      if (joins(patches_[p], number, seen[s].depth)) {
         ++patches_[p].samples;
         return;
       }
     }
     Patch& patch = patches_[count_++];
-    patch = {number, 1, depths[s], 0, 0};
+    patch = {number, 1, seen[s].depth, 0, 0};
     float x = 0, y = 0, same = 0;
     for (size_t i = s; i < size_t(seen_.samples); ++i) {
-      if (numbers[i] != number) continue;
+      if (seen[i].triangle != number) continue;
       x += pattern_.places[i][0];
       y += pattern_.places[i][1];
       ++same;

@@ -97,11 +97,10 @@ void fill(const Corner (&t)[3], int64_t area, const PixelRange& range, const Sam
   for (int y = range.y0; y < range.y1; ++y) {
     const float row_depth = plane.start + plane.step_y * float(y - range.y0);
     const size_t first = (size_t(y) * size_t(out.width) + size_t(range.x0)) * size_t(pattern.count);
-    float* depth = out.depth.data() + first;
-    uint32_t* triangle = out.triangle.data() + first;
+    Seen* seen = out.seen.data() + first;
     Int p0 = r0, p1 = r1, p2 = r2;
-    for (int x = range.x0; x < range.x1; ++x, p0 += e0.step_x, p1 += e1.step_x, p2 += e2.step_x,
-             depth += pattern.count, triangle += pattern.count) {
+    for (int x = range.x0; x < range.x1;
+         ++x, p0 += e0.step_x, p1 += e1.step_x, p2 += e2.step_x, seen += pattern.count) {
       // Most pixels of the box around a small triangle are outside of it.
       if (((p0 + e0.most) | (p1 + e1.most) | (p2 + e2.most)) < 0) continue;
       const float pixel_depth = row_depth + plane.step_x * float(x - range.x0);
@@ -111,9 +110,7 @@ void fill(const Corner (&t)[3], int64_t area, const PixelRange& range, const Sam
         if (outside < 0) continue;
         const float d =
             std::min(std::max(pixel_depth + plane.at_sample[s], plane.least), plane.most);
-        if (d <= depth[s]) continue;
-        depth[s] = d;
-        triangle[s] = number;
+        if (d > seen[s].depth) seen[s] = {d, number};
       }
     }
     r0 += e0.step_y;
@@ -238,8 +235,7 @@ void Visibility::reset(int new_width, int new_height, int new_samples) {
   height = new_height;
   samples = sample_pattern(new_samples).count;
   const size_t count = size_t(width) * size_t(height) * size_t(samples);
-  depth.assign(count, 0.0f);
-  triangle.assign(count, 0);
+  seen.assign(count, Seen{});
 }
 
 bool TriangleList::corner_positions(size_t triangle, Vec3 (&out)[3]) const {

@@ -32,11 +32,20 @@ struct SamplePattern {
 /// that are nearly horizontal or vertical come out as smooth as others.
 SamplePattern sample_pattern(int count);
 
+/// What one sample sees; both are 0 where nothing is.
+struct Seen {
+  float depth = 0;
+  uint32_t triangle = 0;
+};
+
 /// Sample `s` of pixel (x, y) is entry (y * width + x) * samples + s.
 struct Visibility {
   int width = 0, height = 0, samples = 0;
-  std::vector<float> depth;        // 0 where nothing is
-  std::vector<uint32_t> triangle;  // 0 where nothing is
+  std::vector<Seen> seen;
+
+  const Seen& at(int x, int y, int sample) const {
+    return seen[(size_t(y) * size_t(width) + size_t(x)) * size_t(samples) + size_t(sample)];
+  }
 
   /// Everything empty.
   void reset(int new_width, int new_height, int new_samples);
