@@ -22,7 +22,7 @@ using picture::Image;
 using picture::View;
 
 constexpr int kLongestSide = 4096;
-constexpr uint64_t kLargestSheet = uint64_t{1} << 28;  // pixels
+constexpr uint64_t kLargestSheet = uint64_t{1} << 27;  // pixels
 
 constexpr float kField = 22;
 // In the order of the words of --camera.
@@ -83,9 +83,9 @@ NumberPlace find_number(const std::string& output) {
 void add_picture_options(CLI::App& app, PictureOptions& options, const std::string& output_text) {
   app.add_option("-o,--output", options.output, output_text)->type_name("OUT.png");
   app.add_option("--camera", options.camera,
-                 list_of(option_words("--camera"), "or") +
-                     ";\nor YAW,PITCH[,ZOOM[,FIELD]] in degrees: yaw 90 sees the left\n"
-                     "side, pitch 90 looks down (default: front)")
+                 "front (default), three-quarter, three-quarter-right, side,\n"
+                 "side-right, back, above, below; or YAW,PITCH[,ZOOM[,FIELD]] in\n"
+                 "degrees: yaw 90 sees the left side, pitch 90 looks down")
       ->type_name("VIEW");
   app.add_option("--target", options.target,
                  "What to look at: face, eyes, mouth, or a pattern of mesh or\n"
@@ -120,6 +120,10 @@ View parse_camera(const std::string& text) {
     numbers[count] =
         parse_camera_number(text, text.substr(begin, comma - begin), kCameraNumbers[count]);
     begin = comma + 1;
+  }
+  if (count < 2) {
+    fail_usage("--camera \"" + text + "\"", "one number is not enough",
+               "write YAW,PITCH[,ZOOM[,FIELD]]");
   }
   return {numbers[0], numbers[1], numbers[3], numbers[2]};
 }

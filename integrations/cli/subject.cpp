@@ -167,8 +167,8 @@ Box find_face(const Subject& subject) {
   const float across = dot(eyes.centre(), stand.left), depth = dot(eyes.centre(), stand.front);
   const float height = dot(eyes.centre() + mouth.centre(), stand.up) / 2;
   Box face;
-  for (const float side : {-1.5f, 1.5f}) {
-    face.add(stand.left * (across + side * apart) + stand.up * (height - 1.75f * apart) +
+  for (const float side : {-1.45f, 1.45f}) {
+    face.add(stand.left * (across + side * apart) + stand.up * (height - 1.55f * apart) +
              stand.front * depth);
     face.add(stand.left * (across + side * apart) + stand.up * (height + 1.35f * apart) +
              stand.front * depth);

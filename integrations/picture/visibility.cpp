@@ -168,17 +168,18 @@ class Drawing {
       : lens_(lens), pattern_(sample_pattern(out.samples)), out_(out) {}
 
   void add(const Vec3 (&view)[3], uint32_t number) {
+    if (!is_finite(view[0]) || !is_finite(view[1]) || !is_finite(view[2])) return;
     Corner corners[3];
     if (project(view[0], corners[0]) && project(view[1], corners[1]) &&
         project(view[2], corners[2])) {
       draw_corners(corners[0], corners[1], corners[2], number, pattern_, out_);
-    } else if (is_finite(view[0]) && is_finite(view[1]) && is_finite(view[2])) {
+    } else {
       cut_and_add(view, number);
     }
   }
 
  private:
-  /// False if it lies before the near plane or past the guard border, or is not finite.
+  /// False if it lies before the near plane or past the guard border.
   bool project(Vec3 p, Corner& out) const {
     float scale = lens_.focal;
     if (lens_.perspective) {

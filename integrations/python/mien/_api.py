@@ -216,12 +216,23 @@ class Preset(IntEnum):
     MEDIUM = 2
     #: a production head: 870 joints, 260 raw controls, 8 LODs, a million matrix entries
     LARGE = 3
+    #: a production body: 342 joints that 72 RBF solvers with 670 poses, 22 twists and 16 swings
+    #: move, some of them represented by quaternions
+    BODY = 4
     #: a stylised person to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit
     #: as raw controls under their names (values 0..1), correctives, wrinkle maps, 8 LODs. Seed 0
     #: is the one that was designed, others vary proportions and colours. Vertex colours are in the
     #: metadata: key "mien.colors.<mesh name>", value base64 of 3 bytes (sRGB) per position of the
     #: mesh.
-    HEAD = 4
+    HEAD = 5
+
+
+class Generate(IntEnum):
+    """Values of enum MienGenerate of the C interface."""
+
+    #: with learned behaviour: networks by mesh region, every activation, their operations, and
+    #: joints that they move (not for Preset.HEAD)
+    ML = 1
 
 
 class Isa(IntEnum):
@@ -668,14 +679,18 @@ class MienGenerateDesc(Structure):
         ("preset", c_uint32),
         ("seed", c_uint64),
         ("allocator", POINTER(MienAllocator)),
+        ("flags", c_uint32),
+        ("reserved", c_uint32),
     ]
     struct_size: Any
     preset: Any
     seed: Any
     allocator: Any
+    flags: Any
+    reserved: Any
 
     def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=24, **values)
+        super().__init__(struct_size=32, **values)
 
 
 class MienRigDesc(Structure):

@@ -140,11 +140,19 @@ pub const MIEN_PRESET_SMALL: u32 = 1;
 pub const MIEN_PRESET_MEDIUM: u32 = 2;
 /// A production head: 870 joints, 260 raw controls, 8 LODs, a million matrix entries.
 pub const MIEN_PRESET_LARGE: u32 = 3;
+/// A production body: 342 joints that 72 RBF solvers with 670 poses, 22 twists and 16 swings move,
+/// some of them represented by quaternions.
+pub const MIEN_PRESET_BODY: u32 = 4;
 /// A stylised person to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit as
 /// raw controls under their names (values 0..1), correctives, wrinkle maps, 8 LODs. Seed 0 is the
 /// one that was designed, others vary proportions and colours. Vertex colours are in the metadata:
 /// key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per position of the mesh.
-pub const MIEN_PRESET_HEAD: u32 = 4;
+pub const MIEN_PRESET_HEAD: u32 = 5;
+
+// enum MienGenerate
+/// With learned behaviour: networks by mesh region, every activation, their operations, and joints
+/// that they move (not for `MIEN_PRESET_HEAD`).
+pub const MIEN_GENERATE_ML: u32 = 1;
 
 // enum MienIsa
 /// The environment variable `MIEN_ISA` (scalar, sse2, ...) if set, else the best that this CPU and
@@ -673,6 +681,9 @@ pub struct MienGenerateDesc {
     /// The same seed gives the same bytes on every machine.
     pub seed: u64,
     pub allocator: *const MienAllocator,
+    /// `MIEN_GENERATE_...`, to be combined with \|.
+    pub flags: u32,
+    pub reserved: u32,
 }
 
 impl Default for MienGenerateDesc {
@@ -998,7 +1009,7 @@ extern "C" {
 
     pub fn mien_report_destroy(report: *mut MienReport);
 
-    /// Makes a synthetic face rig: behaviour of realistic size and sparsity, with simple geometry.
+    /// Makes a synthetic rig: behaviour of realistic size and sparsity, with simple geometry.
     /// `desc` may be NULL (tiny, seed 0). Close with `mien_dna_close()`.
     pub fn mien_dna_generate(desc: *const MienGenerateDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
 

@@ -214,12 +214,14 @@ fn mien_finding() {
 #[test]
 fn mien_generate_desc() {
     use mien_sys::MienGenerateDesc as S;
-    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(size_of::<S>(), 32);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
     assert_eq!(offset!(S, preset), 4);
     assert_eq!(offset!(S, seed), 8);
     assert_eq!(offset!(S, allocator), 16);
+    assert_eq!(offset!(S, flags), 24);
+    assert_eq!(offset!(S, reserved), 28);
 }
 
 #[test]

@@ -325,15 +325,33 @@ impl Preset {
     pub const MEDIUM: Self = Self(2);
     /// A production head: 870 joints, 260 raw controls, 8 LODs, a million matrix entries.
     pub const LARGE: Self = Self(3);
+    /// A production body: 342 joints that 72 RBF solvers with 670 poses, 22 twists and 16 swings
+    /// move, some of them represented by quaternions.
+    pub const BODY: Self = Self(4);
     /// A stylised person to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit
     /// as raw controls under their names (values 0..1), correctives, wrinkle maps, 8 LODs. Seed 0
     /// is the one that was designed, others vary proportions and colours. Vertex colours are in
     /// the metadata: key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per position
     /// of the mesh.
-    pub const HEAD: Self = Self(4);
+    pub const HEAD: Self = Self(5);
 }
 
-numbers!(Preset, u32, [(0, "TINY"), (1, "SMALL"), (2, "MEDIUM"), (3, "LARGE"), (4, "HEAD")]);
+numbers!(Preset, u32, [(0, "TINY"), (1, "SMALL"), (2, "MEDIUM"), (3, "LARGE"), (4, "BODY"), (5, "HEAD")]);
+
+/// What C calls `MIEN_GENERATE_...`.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(transparent)]
+pub struct Generate(pub u32);
+
+impl Generate {
+    /// With learned behaviour: networks by mesh region, every activation, their operations, and
+    /// joints that they move (not for `Preset::HEAD`).
+    pub const ML: Self = Self(1);
+}
+
+numbers!(Generate, u32, [(1, "ML")]);
 
 /// What C calls `MIEN_ISA_...`.
 ///

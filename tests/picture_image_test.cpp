@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// Pictures as pixels and files, and the text in them.
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include "integrations/picture/image.h"
+#include "integrations/picture/label.h"
+#include "integrations/picture/png.h"
+
+namespace mien::picture {
+namespace {
+
+Image gradient(int width, int height) {
+  Image image(width, height, {});
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      image.set(x, y, {uint8_t(x * 7), uint8_t(y * 5), uint8_t(x ^ y)});
+    }
+  }
+  return image;
+}
+
+Image decode(const std::string& bytes) {
+  png_image head{};
+  head.version = PNG_IMAGE_VERSION;
+  Image image;
+  if (!png_image_begin_read_from_memory(&head, bytes.data(), bytes.size())) return image;
+  EXPECT_EQ(head.format & PNG_FORMAT_FLAG_ALPHA, 0u);
+  head.format = PNG_FORMAT_RGB;
+  image = Image(int(head.width), int(head.height), {});
+  EXPECT_TRUE(png_image_finish_read(&head, nullptr, image.pixels.data(), 0, nullptr));
+  return image;
+}
+
+TEST(Png, ComesBackAsItWas) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {3, 200}, {640, 7}, {97, 101}}) {
+    const Image image = gradient(width, height);
+    const std::string bytes = to_png(image);
+    EXPECT_EQ(bytes.compare(1, 3, "PNG"), 0);
+    const Image back = decode(bytes);
+    EXPECT_EQ(back.width, width);
+    EXPECT_EQ(back.height, height);
+    EXPECT_EQ(back.pixels, image.pixels);
+    EXPECT_EQ(to_png(image), bytes);
+  }
+}
+
+TEST(Colour, EncodesWhatItDecodes) {
+  for (int i = 0; i < 256; ++i) {
+    const Colour colour = {uint8_t(i), uint8_t(255 - i), 128};
+    EXPECT_EQ(to_srgb(to_linear(colour)), colour) << i;
+  }
+  EXPECT_NEAR(to_linear({188, 0, 0}).x, 0.5f, 0.005f);  // half the light is 188, not 128
+  EXPECT_EQ(to_srgb({-1, 7, std::nanf("")}), (Colour{0, 255, 0}));
+}
+
+TEST(Image, PartsOutsideAreCutOff) {
+  Image image(8, 8, {1, 2, 3});
+  image.paste(gradient(6, 6), -3, 5);
+  EXPECT_EQ(image.at(0, 5), gradient(6, 6).at(3, 0));
+  EXPECT_EQ(image.at(3, 5), (Colour{1, 2, 3}));
+  image.paste(gradient(6, 6), 100, 100);
+  image.paste(gradient(6, 6), -100, 0);
+  image.fill(6, 6, 50, 50, {9, 9, 9});
+  EXPECT_EQ(image.at(7, 7), (Colour{9, 9, 9}));
+  image.blend(-1, 0, {}, 1);
+  image.blend(8, 8, {}, 1);
+  image.blend(0, 0, {255, 255, 255}, 1);
+  EXPECT_EQ(image.at(0, 0), (Colour{255, 255, 255}));
+}
+
+/// Columns from the first to the last one with ink.
+std::pair<int, int> inked(const Image& image, Colour paper) {
+  std::pair<int, int> columns = {image.width, -1};
+  for (int x = 0; x < image.width; ++x) {
+    for (int y = 0; y < image.height; ++y) {
+      if (image.at(x, y) == paper) continue;
+      columns.first = std::min(columns.first, x);
+      columns.second = x;
+    }
+  }
+  return columns;
+}
+
+TEST(Label, DrawsEveryCharacterWithinItsWidth) {
+  const Colour paper = {20, 20, 20};
+  for (char c = '!'; c <= '~'; ++c) {
+    for (const float size : {9.0f, 14.0f, 40.0f}) {
+      const std::string text(1, c);
+      Image image(80, 80, paper);
+      draw_text(image, 20, 50, text, size, {255, 255, 255});
+      const auto [left, right] = inked(image, paper);
+      ASSERT_LE(left, right) << c << " shows nothing";
+      const int slack = 1 + int(size * 0.06f + 1);
+      EXPECT_GE(left, 20 - slack) << c;
+      EXPECT_LE(right, int(20 + text_width(text, size)) + slack) << c;
+    }
+  }
+}
+
+TEST(Label, CharactersDiffer) {
+  std::vector<std::vector<uint8_t>> pictures;
+  for (char c = '!'; c <= '~'; ++c) {
+    Image image(40, 40, {});
+    draw_text(image, 8, 28, std::string(1, c), 24, {255, 255, 255});
+    for (const auto& other : pictures) EXPECT_NE(image.pixels, other) << c;
+    pictures.push_back(image.pixels);
+  }
+}
+
+TEST(Label, OtherTextShowsBoxesAndStaysInside) {
+  Image image(30, 12, {});
+  draw_text(image, -10, 4, "\xc3\xa4\xe2\x82\xac \xff\xfe\x80\t\n end of it", 20, {255, 255, 255});
+  draw_text(image, 25, 40, "gone", 20, {255, 255, 255});
+  EXPECT_FLOAT_EQ(text_width("\xc3\xa4", 20), text_width("\xe2\x82\xac", 20));
+  EXPECT_EQ(text_width("", 20), 0);
+}
+
+TEST(Label, LongNamesKeepBothEnds) {
+  const std::string name = "CTRL_expressions.mouthCornerPullLeft";
+  EXPECT_EQ(fit_text(name, 12, 1000), name);
+  const std::string fitted = fit_text(name, 12, 100);
+  EXPECT_LE(text_width(fitted, 12), 100);
+  EXPECT_GT(text_width(fitted, 12), 80);
+  EXPECT_EQ(fitted.compare(0, 3, "CTR"), 0);
+  EXPECT_EQ(fitted.substr(fitted.size() - 4), "Left");
+  EXPECT_EQ(fit_text(name, 12, 0), "..");
+  EXPECT_EQ(fit_text("", 12, 10), "");
+  // A character of several bytes is kept whole or not at all.
+  const std::string euros =
+      "\xe2\x82\xac\xe2\x82\xac\xe2\x82\xac\xe2\x82\xac\xe2\x82\xac\xe2\x82\xac";
+  const std::string cut = fit_text(euros, 12, text_width(euros, 12) * 0.7f);
+  EXPECT_EQ((cut.size() - 2) % 3, 0u);
+}
+
+}  // namespace
+}  // namespace mien::picture

@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: MIT
+// Whole pictures, compared by structural similarity with references that the test makes itself.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "integrations/picture/light.h"
+#include "integrations/picture/render.h"
+#include "integrations/picture/scene.h"
+
+namespace mien::picture {
+namespace {
+
+struct Mesh {
+  std::vector<float> positions, normals;
+  std::vector<uint32_t> triangles;
+  std::vector<uint8_t> colours;
+
+  Surface surface() const {
+    Surface s;
+    s.positions = positions.data();
+    s.position_count = s.vertex_count = positions.size() / 3;
+    s.triangles = triangles.data();
+    s.triangle_count = triangles.size() / 3;
+    if (!normals.empty()) s.normals = normals.data();
+    if (!colours.empty()) s.colours = colours.data();
+    return s;
+  }
+  std::vector<Vec3> points() const {
+    std::vector<Vec3> all;
+    for (size_t i = 0; i < positions.size() / 3; ++i) all.push_back(load3(positions.data(), i));
+    return all;
+  }
+};
+
+/// Unit sphere. `turn` turns it about the y axis.
+Mesh sphere(uint32_t rows, uint32_t columns, float turn = 0) {
+  Mesh mesh;
+  for (uint32_t r = 0; r <= rows; ++r) {
+    for (uint32_t c = 0; c <= columns; ++c) {
+      const float down = 3.14159265f * float(r) / float(rows);
+      const float around = turn + 6.2831853f * float(c) / float(columns);
+      const float p[3] = {std::sin(down) * std::sin(around), std::cos(down),
+                          std::sin(down) * std::cos(around)};
+      mesh.positions.insert(mesh.positions.end(), p, p + 3);
+      if (r < rows && c < columns) {
+        const uint32_t a = r * (columns + 1) + c, b = a + columns + 1;
+        for (const uint32_t i : {a, b, b + 1, a, b + 1, a + 1}) mesh.triangles.push_back(i);
+      }
+    }
+  }
+  mesh.normals = mesh.positions;
+  return mesh;
+}
+
+Camera camera_of(const Mesh& mesh, int size, View view = {}) {
+  return frame_points({}, view, mesh.points(), size, size, 0.12f);
+}
+
+std::vector<double> grey(const Image& image) {
+  std::vector<double> values;
+  for (size_t i = 0; i + 2 < image.pixels.size(); i += 3) {
+    values.push_back(0.299 * image.pixels[i] + 0.587 * image.pixels[i + 1] +
+                     0.114 * image.pixels[i + 2]);
+  }
+  return values;
+}
+
+/// Mean structural similarity (Wang et al. 2004) over windows of 8x8.
+double similarity(const Image& a, const Image& b) {
+  EXPECT_EQ(a.width, b.width);
+  EXPECT_EQ(a.height, b.height);
+  const std::vector<double> x = grey(a), y = grey(b);
+  constexpr int kWindow = 8;
+  constexpr double kC1 = 6.5025, kC2 = 58.5225;
+  double sum = 0;
+  int windows = 0;
+  for (int top = 0; top + kWindow <= a.height; top += 2) {
+    for (int left = 0; left + kWindow <= a.width; left += 2, ++windows) {
+      double mx = 0, my = 0, xx = 0, yy = 0, xy = 0;
+      for (int j = top; j < top + kWindow; ++j) {
+        for (int i = left; i < left + kWindow; ++i) {
+          const double u = x[size_t(j * a.width + i)], v = y[size_t(j * a.width + i)];
+          mx += u;
+          my += v;
+          xx += u * u;
+          yy += v * v;
+          xy += u * v;
+        }
+      }
+      constexpr double n = kWindow * kWindow;
+      mx /= n;
+      my /= n;
+      const double vx = xx / n - mx * mx, vy = yy / n - my * my, cov = xy / n - mx * my;
+      sum += (2 * mx * my + kC1) * (2 * cov + kC2) / ((mx * mx + my * my + kC1) * (vx + vy + kC2));
+    }
+  }
+  return sum / windows;
+}
+
+/// Every pixel is the mean light of factor x factor pixels.
+Image smaller(const Image& image, int factor) {
+  Image out(image.width / factor, image.height / factor, {});
+  for (int y = 0; y < out.height; ++y) {
+    for (int x = 0; x < out.width; ++x) {
+      Vec3 sum;
+      for (int j = 0; j < factor; ++j) {
+        for (int i = 0; i < factor; ++i) sum += to_linear(image.at(x * factor + i, y * factor + j));
+      }
+      out.set(x, y, to_srgb(sum * (1 / float(factor * factor))));
+    }
+  }
+  return out;
+}
+
+TEST(Render, SimilarityTellsPicturesApart) {
+  const Mesh mesh = sphere(24, 32);
+  RenderOptions options;
+  options.width = options.height = 96;
+  const Image a = render({mesh.surface()}, camera_of(mesh, 96), options);
+  EXPECT_DOUBLE_EQ(similarity(a, a), 1);
+  View view;
+  view.zoom = 0.9f;
+  EXPECT_LT(similarity(a, render({mesh.surface()}, camera_of(mesh, 96, view), options)), 0.97);
+}
+
+TEST(Render, FewSamplesLookLikeMany) {
+  const Mesh mesh = sphere(40, 64);
+  RenderOptions options;
+  options.width = options.height = 96;
+  const Image picture = render({mesh.surface()}, camera_of(mesh, 96), options);
+  RenderOptions large = options;
+  large.width = large.height = 768;
+  large.samples = 1;
+  const Image reference = smaller(render({mesh.surface()}, camera_of(mesh, 768), large), 8);
+  EXPECT_GE(similarity(picture, reference), 0.98);
+}
+
+TEST(Render, SphereLooksLikeOneThatIsTraced) {
+  constexpr int kSize = 96, kSub = 6;
+  const Mesh mesh = sphere(96, 128);
+  const Surface surface = mesh.surface();
+  RenderOptions options;
+  options.width = options.height = kSize;
+  const Camera camera = camera_of(mesh, kSize);
+  const Image picture = render({surface}, camera, options);
+
+  // Rays against the sphere; the background is where the picture shows it.
+  const Scene scene({surface}, camera);
+  const Vec3 centre = camera.to_view({});
+  const float focal = kSize / 2.0f / std::tan(camera.field_of_view * 0.00872664626f);
+  Image traced(kSize, kSize, {});
+  RenderOptions empty = options;
+  const Image background = render({}, camera, empty);
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      Vec3 sum;
+      for (int s = 0; s < kSub * kSub; ++s) {
+        const float px = float(x) + (float(s % kSub) + 0.5f) / kSub;
+        const float py = float(y) + (float(s / kSub) + 0.5f) / kSub;
+        const Vec3 ray =
+            normalized({(px - kSize / 2.0f) / focal, (kSize / 2.0f - py) / focal, -1}, {0, 0, -1});
+        const float along = dot(ray, centre);
+        const float under = along * along - dot(centre, centre) + 1;
+        if (under <= 0) {
+          sum += to_linear(background.at(x, y));
+          continue;
+        }
+        Fragment f{};
+        f.on = &scene.surfaces()[0];
+        f.place = ray * (along - std::sqrt(under));
+        f.normal = f.place - centre;
+        f.to_eye = -ray;
+        f.colour = to_linear(surface.material.colour);
+        const float key = dot(f.normal, key_direction()) > 0 ? 1.0f : 0.0f;
+        sum += tone(light(f, 1, key));
+      }
+      traced.set(x, y, to_srgb(sum * (1.0f / (kSub * kSub))));
+    }
+  }
+  EXPECT_GE(similarity(picture, traced), 0.98);
+}
+
+TEST(Render, TurningEverythingChangesNothing) {
+  const Mesh mesh = sphere(48, 64), turned = sphere(48, 64, 0.05f);
+  RenderOptions options;
+  options.width = options.height = 96;
+  const Image a = render({mesh.surface()}, camera_of(mesh, 96), options);
+  EXPECT_GE(similarity(a, render({turned.surface()}, camera_of(turned, 96), options)), 0.99);
+
+  // The same shape in other axes: z up, -y to the front.
+  Mesh other = mesh;
+  for (size_t i = 0; i < other.positions.size(); i += 3) {
+    for (std::vector<float>* v : {&other.positions, &other.normals}) {
+      const float y = (*v)[i + 1], z = (*v)[i + 2];
+      (*v)[i + 1] = -z;
+      (*v)[i + 2] = y;
+    }
+  }
+  const Stand stand = {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
+  const Camera camera = frame_points(stand, {}, other.points(), 96, 96, 0.12f);
+  EXPECT_GE(similarity(a, render({other.surface()}, camera, options)), 0.99);
+}
+
+TEST(Render, UnitsAndWindingDoNotMatter) {
+  const Mesh mesh = sphere(24, 32);
+  RenderOptions options;
+  options.width = options.height = 64;
+  const Image a = render({mesh.surface()}, camera_of(mesh, 64), options);
+  Mesh metres = mesh;
+  for (float& v : metres.positions) v *= 0.01f;
+  EXPECT_GE(similarity(a, render({metres.surface()}, camera_of(metres, 64), options)), 0.995);
+  Mesh wound = mesh;
+  for (size_t t = 0; t < wound.triangles.size(); t += 3)
+    std::swap(wound.triangles[t], wound.triangles[t + 1]);
+  EXPECT_GE(similarity(a, render({wound.surface()}, camera_of(wound, 64), options)), 0.995);
+  // Normals made from the triangles are those that were left out.
+  Mesh bare = mesh;
+  bare.normals.clear();
+  EXPECT_GE(similarity(a, render({bare.surface()}, camera_of(bare, 64), options)), 0.98);
+}
+
+TEST(Render, SamePictureEveryTime) {
+  const Mesh mesh = sphere(24, 32);
+  RenderOptions options;
+  options.width = 80;
+  options.height = 60;
+  const Camera camera = camera_of(mesh, 60);
+  const Image first = render({mesh.surface()}, camera, options);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(render({mesh.surface()}, camera, options).pixels, first.pixels);
+  }
+}
+
+TEST(Render, ColoursAreInterpolatedInPerspective) {
+  // A plane that leads away from the viewer, black at its near end and white at the far one.
+  Mesh plane;
+  plane.positions = {-1, -1, -2, 1, -1, -2, 1, -1, -10, -1, -1, -10};
+  plane.triangles = {0, 1, 2, 0, 2, 3};
+  plane.colours = {0, 0, 0, 0, 0, 0, 255, 255, 255, 255, 255, 255};
+  const Scene scene({plane.surface()}, Camera{});
+  for (const float distance : {2.5f, 4.0f, 6.0f, 9.0f}) {
+    // Both triangles, left and right of their common edge.
+    for (const uint32_t number : {1u, 2u}) {
+      const float share = (distance - 2) / 8;
+      const float x = number == 1 ? share * 2 - 1 + 0.1f : share * 2 - 1 - 0.1f;
+      const Fragment f = scene.fragment(number, {x / distance, -1 / distance, -1});
+      EXPECT_NEAR(-f.place.z, distance, 1e-4f * distance);
+      EXPECT_NEAR(f.colour.x, share, 1e-4f);
+      EXPECT_NEAR(f.normal.y, 1, 1e-5f);
+    }
+  }
+}
+
+TEST(Render, NearerSurfacesHideFartherOnes) {
+  Mesh front = sphere(16, 24), back = sphere(16, 24);
+  for (size_t i = 0; i < back.positions.size(); i += 3) back.positions[i + 2] -= 5;
+  Surface red = front.surface(), green = back.surface();
+  red.material.colour = {220, 30, 30};
+  green.material.colour = {30, 220, 30};
+  RenderOptions options;
+  options.width = options.height = 48;
+  const Camera camera = camera_of(front, 48);
+  for (const auto& surfaces : {std::vector<Surface>{red, green}, {green, red}}) {
+    const Colour middle = render(surfaces, camera, options).at(24, 24);
+    EXPECT_GT(middle.r, 2 * middle.g);
+  }
+}
+
+TEST(Render, HollowsAreDarker) {
+  // A plate with a deep pit: its floor gets less of the sky than the plate.
+  Mesh mesh;
+  constexpr int kGrid = 60;
+  for (int j = 0; j <= kGrid; ++j) {
+    for (int i = 0; i <= kGrid; ++i) {
+      const float x = float(i) / kGrid * 2 - 1, y = float(j) / kGrid * 2 - 1;
+      const float r = std::sqrt(x * x + y * y) / 0.12f;
+      mesh.positions.insert(mesh.positions.end(), {x, y, -0.3f * std::exp(-r * r * r * r)});
+      if (i < kGrid && j < kGrid) {
+        const auto a = uint32_t(j * (kGrid + 1) + i), b = a + kGrid + 1;
+        for (const uint32_t k : {a, a + 1, b + 1, a, b + 1, b}) mesh.triangles.push_back(k);
+      }
+    }
+  }
+  RenderOptions options;
+  options.width = options.height = 96;
+  const Image image = render({mesh.surface()}, camera_of(mesh, 96), options);
+  EXPECT_LT(image.at(48, 48).g, image.at(20, 48).g * 0.75);
+}
+
+TEST(Render, WireframesLeaveOutInnerEdges) {
+  Mesh quad;
+  quad.positions = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
+  quad.triangles = {0, 1, 2, 0, 2, 3};
+  Surface surface = quad.surface();
+  RenderOptions options;
+  options.width = options.height = 64;
+  const Camera camera = camera_of(quad, 64);
+  const auto diagonal = [&] { return render({surface}, camera, options).at(32, 31).g; };
+  const int plain = diagonal();
+  options.wireframe = true;
+  EXPECT_LT(diagonal(), plain * 0.85);
+  const uint8_t inner[] = {4, 1};
+  surface.inner_edges = inner;
+  EXPECT_EQ(diagonal(), plain);
+}
+
+TEST(Render, SurvivesBrokenSurfaces) {
+  Mesh mesh = sphere(8, 12);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  mesh.positions[3] = nan;
+  mesh.positions[40] = std::numeric_limits<float>::infinity();
+  mesh.positions[70] = 3e38f;
+  for (size_t i = 30; i < 60; ++i) mesh.normals[i] = i % 2 ? nan : 0;
+  mesh.triangles[5] = 4000000000u;
+  Surface surface = mesh.surface();
+  RenderOptions options;
+  for (const int size : {1, 2, 33}) {
+    options.width = size;
+    options.height = 1 + size / 2;
+    for (const int samples : {1, 4, 16}) {
+      options.samples = samples;
+      options.wireframe = samples == 4;
+      const Image image = render({surface, Surface{}}, camera_of(mesh, size), options);
+      EXPECT_EQ(image.pixels.size(), size_t(image.width) * size_t(image.height) * 3);
+    }
+  }
+  surface.normals = nullptr;
+  render({surface}, camera_of(mesh, 16), options);
+  render({}, Camera{}, options);
+  Camera inside;
+  inside.distance = 0;
+  render({surface}, inside, options);
+}
+
+TEST(Camera, FramesAllPointsFromAnywhere) {
+  const std::vector<Vec3> points = {{-3, 0, 1}, {2, 9, 0}, {0, -4, 5}, {1, 2, -6}};
+  for (const float yaw : {0.0f, 35.0f, 90.0f, 180.0f, -120.0f}) {
+    for (const float pitch : {-80.0f, 0.0f, 30.0f}) {
+      const Camera camera = frame_points({}, {yaw, pitch, 30, 1}, points, 400, 200, 0.05f);
+      const float half = std::tan(15 * 0.0174532925f);
+      Box seen;
+      for (const Vec3& point : points) {
+        const Vec3 p = camera.to_view(point);
+        ASSERT_LT(p.z, 0);
+        seen.add({p.x / -p.z / (2 * half), p.y / -p.z / half, 0});
+      }
+      const float most = std::max({seen.most.x, seen.most.y, -seen.least.x, -seen.least.y});
+      EXPECT_LT(most, 0.93f);
+      EXPECT_GT(most, 0.80f);
+      EXPECT_NEAR(dot(camera.right, camera.up), 0, 1e-6f);
+      EXPECT_NEAR(length(cross(camera.right, camera.up) - camera.back), 0, 1e-5f);
+    }
+  }
+  // From the front, the subject's left is on the right; from its left, its front is on the left.
+  EXPECT_GT(look_at({}, {0, 0, 22, 1}, {}, 5).to_view({1, 0, 0}).x, 0);
+  EXPECT_LT(look_at({}, {90, 0, 22, 1}, {}, 5).to_view({0, 0, 1}).x, 0);
+  // Nothing, and what is nothing, to frame.
+  EXPECT_GT(frame_points({}, {}, {}, 10, 10).distance, 0);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_GT(frame_points({}, {}, {{nan, 0, 0}, {1, 1, 1}}, 10, 10).distance, 0);
+  EXPECT_GT(frame_turning({}, {}, {}, points, 100, 100).distance, 9);
+}
+
+}  // namespace
+}  // namespace mien::picture
