@@ -51,8 +51,12 @@ Person make_person(uint64_t seed) {
   p.iris = kIrises[iris];
   p.shirt = kShirts[shirt];
   p.brow_hair = mix(p.hair, {20, 14, 12}, 0.25);
-  p.lip = mix(mix(p.skin, {178, 62, 66}, 0.52), {90, 40, 44}, 0.06);
+  p.lip = mix(redder(mix(p.skin, {0, 0, 0}, 0.10), 0.70), {176, 84, 84}, 0.16);
   return p;
+}
+
+Colour redder(Colour c, double amount) {
+  return {c.r, c.g * (1 - 0.46 * amount), c.b * (1 - 0.44 * amount)};
 }
 
 // Sections --------------------------------------------------------------------------------------
@@ -114,7 +118,7 @@ double smooth_max(double a, double b, double width) {
   return std::max(a, b) + 0.25 * width * h * h;
 }
 
-double collar_line(Vec3 p) { return -15.5 + 0.02 * p.x * p.x + 0.9 * smooth_step(3, -5, p.z); }
+constexpr double kCollarY = -15.6;
 
 }  // namespace
 
@@ -177,7 +181,7 @@ double Form::relief(double x, double y) const {
       {0.62 * p.nose, 1.10 * p.nose_width, -2.85, 0.46, 0.48},  // wings of the nose
       {-0.20, 0.60, -3.42, 0.30, 0.20},                         // nostrils
       {0.55 * p.cheek, 4.4, -1.6, 1.7, 1.3},                    // cheekbones
-      {0.25, 2.6, -2.6, 1.2, 1.2},                              // apple of the cheek
+      {0.14, 2.6, -2.6, 1.3, 1.3},                              // apple of the cheek
       {-0.40 * p.cheek, 5.0, -5.4, 1.3, 1.7},                   // hollow of the cheek
       {0.80, 0, -5.7, 2.6, 1.9},                                // muzzle
       {0.34 * p.lips, 0.55, -5.55, 1.15, 0.40},                 // upper lip
@@ -242,9 +246,11 @@ FacePoint Form::face(double angle, double y, Side side) const {
   p.z -= front_mask * 0.36 * bump(0, from_line, 0, 0, 1, 0.17) * (0.35 + 0.65 * roll) *
          smooth_step(1.35, 0.9, p.x / kMouthHalfWidth);
   // The collar of a shirt.
-  const double cloth = 0.16 * smooth_step(-0.12, 0.10, collar_line(p) - p.y);
+  const double cloth = 0.20 * smooth_step(-0.10, 0.12, kCollarY - y) *
+                       mix(0.7, 1, bump(0, y, 0, kCollarY - 0.35, 1, 0.3));
   p.x += cloth * sine;
   p.z += cloth * cosine;
+  p.y += (0.020 * p.x * p.x + 0.9 * smooth_step(3, -5, p.z)) * bump(0, y, 0, kCollarY, 1, 1.6);
   // The tip of the nose hangs a little over its root.
   p.y -= front_mask * 0.28 * person_.nose * bump(p.x, y, 0, -2.85, 0.9, 0.55);
 
@@ -277,11 +283,11 @@ FacePoint Form::face(double angle, double y, Side side) const {
 
 // Colours ---------------------------------------------------------------------------------------
 
-Colour Form::skin_colour(Vec3 p, double lid) const {
+Colour Form::skin_colour(Vec3 p, double row, double lid) const {
   const Colour& skin = person_.skin;
   const double x = std::abs(p.x);
   const double in_front = smooth_step(2.5, 5.0, p.z);
-  const Colour blush = mix(skin, {214, 86, 84}, 0.55);
+  const Colour blush = redder(skin, 0.85);
   Colour c = skin;
   const double red =
       0.34 * bump(x, p.y, 4.4, -2.5, 1.7, 1.3) + 0.34 * bump(x, p.y, 0, -2.7, 1.1, 0.8) +
@@ -309,7 +315,7 @@ Colour Form::skin_colour(Vec3 p, double lid) const {
     c = mix(c, mix(skin, {60, 30, 26}, 0.7), open > 0 ? smooth_step(0.90, 1.0, lid / open) : 0);
   }
   // A shirt.
-  const double below = collar_line(p) - p.y;
+  const double below = kCollarY - row;
   c = mix(c, mix(person_.shirt, {16, 18, 24}, 0.35 * bump(0, below, 0, 0.55, 1, 0.12)),
           smooth_step(-0.04, 0.10, below));
   return c;

@@ -26,6 +26,9 @@ inline Colour mix(Colour a, Colour b, double t) {
   return {author::mix(a.r, b.r, t), author::mix(a.g, b.g, t), author::mix(a.b, b.b, t)};
 }
 
+/// As if more blood were under the skin; keeps dark skin dark.
+Colour redder(Colour c, double amount);
+
 /// What differs from seed to seed. Factors are 1 for seed 0.
 struct Person {
   double cranium = 1, jaw = 1, chin = 1, nose = 1, nose_width = 1, cheek = 1, lips = 1, brow = 1,
@@ -78,7 +81,7 @@ class Form {
   double upper_opening(double x) const;
   double lower_opening(double x) const;
 
-  Colour skin_colour(Vec3 closed, double lid) const;
+  Colour skin_colour(Vec3 closed, double row, double lid) const;
 
  private:
   struct Section {

@@ -69,7 +69,7 @@ void add_ear(const Form& form, uint32_t lod, HalfMesh& out) {
   const Vec3 back = {sine, 0, -cosine}, outward = {cosine, 0, sine};
   const Vec3 up = unit({0.10, 1, -0.16});
 
-  const Colour skin = form.person().skin, red = mix(skin, {206, 84, 80}, 0.32);
+  const Colour skin = form.person().skin, red = redder(skin, 0.45);
   uint32_t before[64], here[64];
   for (uint32_t r = 0; r < rings; ++r) {
     for (uint32_t k = 0; k < around; ++k) {
@@ -87,9 +87,10 @@ void add_ear(const Form& form, uint32_t lod, HalfMesh& out) {
       const Vec3 at =
           origin + back * (p * share * size) + up * (q * share * size) + outward * (height * size);
       const double shade = path[r][1] < -0.2 && r < rings / 2 ? 1 : 0;
-      Vertex v = plain(at, mix(mix(skin, red, 0.75), {120, 52, 44}, 0.35 * shade),
-                       0.03 + 0.06 * (c * share * 0.5 + 0.5), 0.9 + 0.08 * (s * share * 0.5 + 0.5),
-                       Carrier::kSkin);
+      Vertex v =
+          plain(at, mix(mix(skin, red, 0.8), redder(mix(skin, {0, 0, 0}, 0.35), 0.5), 0.7 * shade),
+                0.03 + 0.06 * (c * share * 0.5 + 0.5), 0.9 + 0.08 * (s * share * 0.5 + 0.5),
+                Carrier::kSkin);
       if (r == 0 && k > 0) {
         here[k] = here[0];
       } else {
@@ -119,6 +120,9 @@ void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out) {
   const double* angles = fine ? kFine : kPlain;
   const uint32_t rings = fine ? 16 : 7, around = at_lod(48, 8, lod);
   out.mirrored = false;
+  // Flat faces of coarse lids cut into the ball that round ones lie on.
+  static constexpr double kShrunk[kLodCount] = {1, 1, 1, 0.995, 0.985, 0.97, 0.955, 0.94};
+  const double radius = kEyeRadius * kShrunk[lod];
   const Colour iris = form.person().iris;
   const auto colour = [&](double angle, uint32_t k) -> Colour {
     const Colour pupil = {14, 12, 14}, white = {244, 240, 236};
@@ -134,15 +138,15 @@ void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out) {
     }
     return mix(white, {214, 150, 140}, 0.8 * smooth_step(0.8, 1.4, angle));
   };
-  const uint32_t front = out.vertices.add(
-      plain(kEye + Vec3{0, 0, kEyeRadius}, {14, 12, 14}, 0.5, 0.5, Carrier::kEyeball));
+  const uint32_t front =
+      out.vertices.add(plain(kEye + Vec3{0, 0, radius}, {14, 12, 14}, 0.5, 0.5, Carrier::kEyeball));
   uint32_t before = front;
   for (uint32_t r = 0; r < rings; ++r) {
     const auto [s, c] = exact_sine_cosine(angles[r]);
     const uint32_t here = out.vertices.count();
     for (uint32_t k = 0; k < around; ++k) {
       const auto [sk, ck] = exact_sine_cosine(2 * kPi * k / around);
-      const Vec3 at = kEye + Vec3{ck * s, sk * s, c} * kEyeRadius;
+      const Vec3 at = kEye + Vec3{ck * s, sk * s, c} * radius;
       const double wide = 0.5 * angles[r] / kPi;
       out.vertices.add(
           plain(at, colour(angles[r], k), 0.5 + wide * ck, 0.5 + wide * sk, Carrier::kEyeball));
@@ -158,7 +162,7 @@ void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out) {
     before = here;
   }
   const uint32_t pole = out.vertices.add(
-      plain(kEye + Vec3{0, 0, -kEyeRadius}, {214, 150, 140}, 0.5, 0.99, Carrier::kEyeball));
+      plain(kEye + Vec3{0, 0, -radius}, {214, 150, 140}, 0.5, 0.99, Carrier::kEyeball));
   for (uint32_t k = 0; k < around; ++k) out.triangle(before + (k + 1) % around, before + k, pole);
 }
 
@@ -171,8 +175,8 @@ void add_lashes(const Form& form, uint32_t lod, HalfMesh& out) {
     for (uint32_t k = 0; k < columns; ++k) {
       const double s = mix(-0.97, 0.995, static_cast<double>(k) / (columns - 1));
       const double x = kEye.x + s * kEyeHalfWidth;
-      const double full =
-          exact_pow(std::max(0.0, 1 - s * s), 0.30) * mix(0.55, 1.15, 0.5 + 0.5 * s);
+      const double full = smooth_step(-1.02, -0.55, s) * exact_pow(std::max(0.0, 1 - s * s), 0.30) *
+                          mix(0.55, 1.15, 0.5 + 0.5 * s);
       const FacePoint edge = form.face(form.angle_of(x, kEye.y), kEye.y, Side::kAbove);
       const double radius[] = {kLidRadius - 0.05, kLidRadius + 0.30 * full,
                                kLidRadius + 0.08 * full, kLidRadius - 0.03};
@@ -229,55 +233,71 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
 // Hair ------------------------------------------------------------------------------------------
 
 void add_hair(const Form& form, uint32_t lod, HalfMesh& out) {
-  const uint32_t columns = at_lod(84, 8, lod) + 1, rows = at_lod(36, 4, lod) + 1;
+  out.mirrored = false;  // parted on the left
+  const uint32_t columns = 2 * at_lod(76, 7, lod), rows = at_lod(40, 4, lod) + 1;
   // Height of the hair line by angle / pi: forehead, temple, in front of the ear, behind it, nape.
-  static constexpr double kLine[][2] = {{0.00, 7.3},  {0.10, 7.15}, {0.19, 6.5},  {0.27, 5.2},
-                                        {0.34, 3.9},  {0.40, 1.9},  {0.45, -0.6}, {0.48, -1.2},
+  static constexpr double kLine[][2] = {{0.00, 6.9},  {0.10, 6.75}, {0.19, 6.2},  {0.27, 5.0},
+                                        {0.34, 3.8},  {0.40, 1.9},  {0.45, -0.6}, {0.48, -1.2},
                                         {0.505, 0.2}, {0.55, 1.9},  {0.60, 0.9},  {0.66, -1.6},
-                                        {0.75, -4.2}, {0.88, -5.9}, {1.00, -6.3}};
+                                        {0.75, -4.2}, {0.88, -5.7}, {1.00, -6.1}};
   const auto line_at = [](double share) {
     int i = 0;
     while (i < 13 && share > kLine[i + 1][0]) ++i;
-    return mix(kLine[i][1], kLine[i + 1][1],
-               smooth_step(kLine[i][0], kLine[i + 1][0], share) * 0.5 +
-                   0.5 * clamp01((share - kLine[i][0]) / (kLine[i + 1][0] - kLine[i][0])));
+    const double t = clamp01((share - kLine[i][0]) / (kLine[i + 1][0] - kLine[i][0]));
+    return mix(kLine[i][1], kLine[i + 1][1], 0.5 * t + 0.5 * t * t * (3 - 2 * t));
   };
+  constexpr double kPart = 0.42;  // angle of the parting
+  const Colour hair = form.person().hair;
   const uint32_t first = out.vertices.count();
   for (uint32_t row = 0; row < rows; ++row) {
     const double t = static_cast<double>(row) / rows;
     for (uint32_t k = 0; k < columns; ++k) {
-      const double share = static_cast<double>(k) / (columns - 1), angle = share * kPi;
-      const double front = smooth_step(0.46, 0.0, share);
-      // Locks, combed back: round ridges between sharp furrows, which end in points at the hair
-      // line.
-      const double phase =
-          9.5 * angle + 1.1 * exact_sine(2.2 * angle) - 1.6 * t * (1 - front) + 0.8;
+      const double around = mix(-kPi, kPi, static_cast<double>(k) / columns);
+      const double share = std::abs(around) / kPi, front = smooth_step(0.46, 0.0, share);
+      // Locks: round ridges between furrows, swept away from the parting in front, straight behind.
+      const double from_part = around - kPart;
+      const double sweep = 3.4 * t * front * (from_part < 0 ? 1 : -0.6);
+      const double phase = 6 * around + 0.9 * exact_sine(2 * around + 0.7) + sweep;
       const double lock = 2 * std::sqrt(std::abs(exact_sine(phase))) - 1;
-      const double fine = exact_sine(5 * phase + 2.0 * t);
-      const double line = line_at(share) - (0.20 + 0.22 * front) * (lock - 0.3);
+      const double fine = exact_sine(4 * phase + 1.3 * exact_sine(3 * around));
+      // The parting is a furrow from the hair line to near the crown.
+      const double parting = bump(from_part, 0, 0, 0, 0.10, 1) * smooth_step(0.75, 0.35, t);
+      const double line =
+          line_at(share) - 0.10 * front * (lock + 0.5 * fine) +
+          0.35 * bump(from_part, 0, 0, 0, 0.16, 1) -
+          0.30 * front * smooth_step(0.3, -0.7, from_part) * smooth_step(-1.6, -0.7, from_part);
       const double y = mix(line, kCrownY, 1 - exact_pow(1 - t, 1.35));
-      const Vec3 skin = form.face(angle, y, Side::kAbove).closed;
+      Vec3 skin = form.face(std::abs(around), y, Side::kAbove).closed;
+      if (around < 0) skin.x = -skin.x;
       const Vec3 normal = unit(
           {skin.x / (7.8 * 7.8), (skin.y - 2.5) / (10.2 * 10.2), (skin.z + 0.4) / (9.7 * 9.7)});
-      const double rise = smooth_step(0, 0.12 + 0.05 * front, t);
-      double thick =
-          mix(0.48, 1.15, smooth_step(0.15, 0.8, t)) + 1.0 * front * bump(t, 0, 0.24, 0, 0.22, 1);
-      thick += (0.16 + 0.10 * front) * lock * smooth_step(1.0, 0.6, t) + 0.02 * fine;
-      Vec3 at = skin + normal * mix(-0.30, thick, rise);
-      at.y += 0.8 * front * rise * bump(t, 0, 0.20, 0, 0.22, 1);
-      if (k == 0 || k == columns - 1) at.x = 0;
-      const Colour hair = form.person().hair;
-      Colour c = mix(hair, {14, 9, 8}, 0.55 * smooth_step(0.2, -0.9, lock) + 0.10 - 0.10 * fine);
-      c = mix(c, mix(hair, {255, 226, 190}, 0.30), 0.55 * smooth_step(0.3, 0.95, lock));
-      out.vertices.add(plain(at, c, 0.5 + 0.5 * share, t, Carrier::kSkull));
+      const double wave = bump(from_part, 0, -0.55, 0, 0.75, 1);  // the sweep over the forehead
+      double thick = mix(0.45, 1.15, smooth_step(0.15, 0.8, t));
+      thick +=
+          1.25 * wave * bump(t, 0, 0.22, 0, 0.24, 1) + 0.35 * front * bump(t, 0, 0.25, 0, 0.2, 1);
+      thick += (0.055 + 0.07 * wave) * lock * smooth_step(1.0, 0.6, t) + 0.025 * fine;
+      thick -= 0.42 * parting;
+      Vec3 at = skin + normal * mix(-0.30, thick, smooth_step(0, 0.11 + 0.05 * front, t));
+      at.y += 0.55 * wave * bump(t, 0, 0.20, 0, 0.2, 1) * smooth_step(0, 0.1, t);
+      Colour c = mix(hair, {14, 9, 8},
+                     0.45 * smooth_step(0.1, -0.9, lock) + 0.14 - 0.14 * fine + 0.3 * parting);
+      c = mix(c, mix(hair, {255, 222, 180}, 0.30), 0.45 * smooth_step(0.3, 0.95, lock));
+      // Texture coordinates as seen from above, so that no seam is needed.
+      const auto [s, cosine] = exact_sine_cosine(around);
+      out.vertices.add(
+          plain(at, c, 0.5 + 0.49 * (1 - t) * s, 0.5 - 0.49 * (1 - t) * cosine, Carrier::kSkull));
     }
   }
-  join_rows(out, first, rows, columns);
-  const uint32_t crown = out.vertices.add(
-      plain({0, kCrownY + 1.22, -0.9}, form.person().hair, 0.5, 1, Carrier::kSkull));
-  for (uint32_t k = 0; k + 1 < columns; ++k) {
-    const uint32_t at = first + (rows - 1) * columns + k;
-    out.triangle(at, at + 1, crown);
+  const uint32_t crown =
+      out.vertices.add(plain({0, kCrownY + 1.15, -0.9}, hair, 0.5, 0.5, Carrier::kSkull));
+  for (uint32_t k = 0; k < columns; ++k) {
+    const uint32_t next = (k + 1) % columns;
+    for (uint32_t row = 0; row + 1 < rows; ++row) {
+      const uint32_t low = first + row * columns, high = low + columns;
+      out.quad(low + k, low + next, high + next, high + k);
+    }
+    const uint32_t last = first + (rows - 1) * columns;
+    out.triangle(last + k, last + next, crown);
   }
 }
 
@@ -299,7 +319,7 @@ void add_teeth(const Form& form, uint32_t lod, HalfMesh& out) {
   const Colour white = {240, 233, 218}, gum = {188, 92, 92}, gap = {176, 150, 128};
   for (int lower = 0; lower < 2; ++lower) {
     const double sign = lower ? -1 : 1;
-    const double front = lips.z - (lower ? 0.95 : 0.72), half = lower ? 2.0 : 2.2;
+    const double front = lips.z - (lower ? 0.95 : 0.72), half = lower ? 1.85 : 2.05;
     const double base = kMouthY - (lower ? 0.30 : 0.18);
     const uint32_t first = out.vertices.count();
     for (uint32_t row = 0; row < kRowCount; ++row) {

@@ -7,6 +7,7 @@
 namespace mien::head {
 
 using author::clamp01;
+using author::exact_pow;
 using author::exact_sine_cosine;
 using author::kPi;
 using author::mix;
@@ -177,8 +178,9 @@ double jaw_weight(const Form& form, const Vertex& v) {
   const double s = std::abs(p.x) / kMouthHalfWidth;
   const double by_height = smooth_step(-4.0, -8.6, p.y);
   const double by_lip = v.side == Side::kBelow ? 1 : 0;
-  (void)form;
-  double w = mix(by_height, by_lip, std::sqrt(std::max(0.0, 1 - s * s)));
+  // Round at the corners of the mouth, softer away from the lips.
+  const double apart = std::min(std::abs(p.y - form.mouth_line(p.x)), 2.0);
+  double w = mix(by_height, by_lip, exact_pow(std::max(0.0, 1 - s * s), 0.5 + 0.8 * apart));
   w *= smooth_step(-15.6, -10.4, p.y) * smooth_step(-2.5, 3.5, p.z);
   // The back of the mouth hangs between both jaws.
   return mix(w, 0.45, smooth_step(0.7, 1.0, v.depth));
@@ -280,7 +282,7 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
     case Motion::kUpperUp:
       add(w.at(1.35, -3.4, 0.8, 0.8), {0.02, 0.22, 0.05});
       if (!above) break;
-      add(bump(look.x, line, 1.25, 0.2, 1.25, 1.25) * std::sqrt(apart), {0.06, 0.75, 0.10});
+      add(bump(look.x, line, 1.25, 0.2, 1.25, 1.25) * std::sqrt(apart), {0.06, 0.70, 0.10});
       break;
     case Motion::kBrowDown:
       add(w.at(2.5, 3.05, 2.3, 1.15), {-0.26, -0.78, 0.14});
@@ -308,6 +310,8 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
       break;
     default: break;
   }
+  // Left and right meet in the middle without passing it.
+  if (d.x < 0) d.x *= smooth_step(-0.1, 1.9, look.x);
   return d * off_lids(look);
 }
 
@@ -317,6 +321,7 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
   const double line = look.y - form_.mouth_line(look.x), apart = between_corners(look.x);
   const bool above = v.side == Side::kAbove;
   const double lips = bump(look.x, line, 0, 0, 2.7, 1.5);
+  const double narrow = smooth_step(5.0, 2.2, look.x) * bump(0, line, 0, 0, 1, 1.5);
   Vec3 d;
   const auto add = [&d](double amount, Vec3 way) { d = d + way * amount; };
   switch (motion) {
@@ -336,17 +341,24 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       break;
     }
     case Motion::kFunnel:
-      add(lips, {-0.50 * look.x, 0, 0.75});
+      add(narrow, {-0.34 * look.x, 0, 0});
+      add(bump(look.x, line, 2.5, 0, 0.9, 1.0), {0, 0, 0.30});
+      add(lips, {0, 0, 0.75});
       add(bump(look.x, line, 0, 0, 2.2, 0.8), {0, 0, 0.40});
       add(lips * apart, {0, above ? 0.40 : -0.35, 0.10});
       add(lips * bump(0, line, 0, 0, 1, 0.5) * apart, {0, 0, 0.16});
       break;
     case Motion::kPucker:
-      add(lips, {-0.54 * look.x, -0.08 * line, 0.50});
+      add(narrow, {-0.42 * look.x, 0, 0});
+      add(bump(look.x, line, 2.5, 0, 0.9, 1.0), {0, 0, 0.40});
+      add(lips, {0, -0.08 * line, 0.50});
       add(bump(look.x, line, 0, 0, 2.0, 0.85), {0, 0.16 * line, 0.72});
       add(w.at(4.2, -5.2, 1.3, 1.6), {-0.25, 0, -0.12});
       break;
-    case Motion::kLessPout: add(lips, {0.22 * look.x, 0, -0.55}); break;
+    case Motion::kLessPout:
+      add(narrow, {0.36 * look.x, 0, 0});
+      add(lips, {0, 0, -0.65});
+      break;
     case Motion::kLessRaise: add(lips * apart, {0, above ? -0.10 : 0.85, 0.10}); break;
     case Motion::kRollLower:
       if (above) break;
@@ -397,8 +409,9 @@ Vec3 Shapes::displacement(uint32_t index, const Vertex& v) const {
   } else {
     d = mirrored(one_side(s.motion, mirrored(v.look), v));
   }
-  // Inside the mouth the skin follows the lips less and less.
-  d = d * (1 - smooth_step(0.08, 0.42, v.depth));
+  // Windows are those of the front view: nothing moves at the back. Inside the mouth the skin
+  // follows the lips less and less.
+  d = d * smooth_step(-0.5, 3.0, v.look.z) * (1 - smooth_step(0.08, 0.42, v.depth));
   if (moves_jaw(s.motion)) {
     d = d + (move_with_jaw(turns(index, 1), v.position) - v.position) * jaw_weight(form_, v);
   }

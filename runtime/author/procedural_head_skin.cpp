@@ -25,8 +25,8 @@ struct Grid {
 constexpr Grid kGrids[kLodCount] = {
     {{10, 14, 24, 24, 16}, {42, 42, 42}, 8}, {{7, 10, 17, 16, 11}, {29, 30, 28}, 6},
     {{5, 7, 12, 12, 8}, {20, 22, 20}, 5},    {{4, 5, 9, 9, 6}, {14, 16, 14}, 4},
-    {{3, 4, 6, 6, 5}, {11, 12, 10}, 3},      {{2, 3, 5, 5, 3}, {8, 9, 7}, 3},
-    {{2, 2, 4, 4, 3}, {6, 7, 6}, 3},         {{1, 2, 3, 3, 2}, {5, 5, 4}, 2},
+    {{3, 4, 6, 6, 5}, {11, 12, 10}, 3},      {{2, 3, 5, 5, 3}, {8, 11, 8}, 3},
+    {{2, 3, 4, 4, 3}, {6, 9, 7}, 3},         {{2, 2, 4, 3, 2}, {5, 8, 6}, 2},
 };
 constexpr uint32_t kMostColumns = 96, kMostRows = 136, kMostRings = 10;
 
@@ -83,10 +83,14 @@ class SkinMaker {
 
   void place_rows() {
     const double keys[4] = {kBottomY, kMouthY, kEye.y, kCrownY};
-    const auto density = [](double y) {
-      return 1 + 2.6 * bump(0, y, 0, kMouthY, 1, 1.3) + 2.4 * bump(0, y, 0, kEye.y + 0.1, 1, 1.5) +
-             1.6 * bump(0, y, 0, -3.4, 1, 0.9) + 1.2 * bump(0, y, 0, -15.2, 1, 0.7) -
-             0.35 * smooth_step(-12, -14, y) - 0.35 * smooth_step(6, 9, y);
+    // Few rows go where they are needed most.
+    const bool few = grid_.rows[0] < 10;
+    const double lips = few ? 7 : 2.6, spread_of_lips = few ? 0.75 : 1.3, nose = few ? 3.5 : 1.6;
+    const auto density = [=](double y) {
+      return 1 + lips * bump(0, y, 0, kMouthY, 1, spread_of_lips) +
+             2.4 * bump(0, y, 0, kEye.y + 0.1, 1, 1.5) + nose * bump(0, y, 0, -3.2, 1, 0.9) +
+             1.2 * bump(0, y, 0, -15.6, 1, 0.6) - 0.35 * smooth_step(-12, -14, y) -
+             0.35 * smooth_step(6, 9, y);
     };
     for (int k = 0; k < 3; ++k) {
       spread(keys[k], keys[k + 1], grid_.rows[k], density, heights_ + rows_);
@@ -112,7 +116,7 @@ class SkinMaker {
     v.position = turn_lid(v.closed, v.lid);
     v.u = 0.5 + 0.5 * angles_[column] / kPi;
     v.v = (heights_[row] - kBottomY) / (kCrownY - kBottomY);
-    v.colour = form_.skin_colour(v.closed, v.lid);
+    v.colour = form_.skin_colour(v.closed, heights_[row], v.lid);
     return v;
   }
 
@@ -193,7 +197,13 @@ class SkinMaker {
         const bool last = column == eye_outer_;
         const uint32_t here = at(eye_row_, column, side);
         const uint32_t deep =
-            last ? outer_deep : lid_edge_vertex(here, side == Side::kAbove ? dark : pink);
+            last ? outer_deep
+                 : lid_edge_vertex(
+                       here, side == Side::kBelow
+                                 ? pink
+                                 : mix(pink, dark,
+                                       smooth_step(-0.9, -0.3,
+                                                   Form::along_eye(out_.vertices[here].closed.x))));
         if (side == Side::kBelow) {
           out_.quad(before, here, deep, before_deep);
         } else {
