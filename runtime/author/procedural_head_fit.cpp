@@ -52,6 +52,8 @@ void set_designed(const Shapes& shapes, const Skeleton& skeleton, const JointDel
       out.at(s, skeleton.eye[i]) = delta_of({}, {-t.eye_up, outwards, 0});
       out.at(s, skeleton.upper_lid[i]) =
           delta_of({}, {-t.upper_lid * skeleton.upper_lid_angle, 0, 0});
+      out.at(s, skeleton.half_lid[i]) =
+          delta_of({}, {-0.5 * t.upper_lid * skeleton.upper_lid_angle, 0, 0});
       out.at(s, skeleton.lower_lid[i]) =
           delta_of({}, {t.lower_lid * skeleton.lower_lid_angle, 0, 0});
     }
@@ -94,6 +96,9 @@ class Cholesky {
   Span<double> m_;
   uint32_t n_;
 };
+
+/// Edges of lips have to meet, even where no blend shape helps.
+double importance(const Vertex& v) { return v.edge ? 20 : 1; }
 
 Vec3 mirrored(Vec3 v) { return {-v.x, v.y, v.z}; }
 
@@ -157,7 +162,8 @@ bool fit_joints(const Form& form, const Shapes& shapes, const Skeleton& skeleton
     for (uint32_t a = 0; a < w.count; ++a) {
       for (uint32_t b = 0; b < w.count; ++b) {
         if (!is_fitted(w.joints[a]) || !is_fitted(w.joints[b])) continue;
-        const double product = static_cast<double>(w.values[a]) * static_cast<double>(w.values[b]);
+        const double product = importance(mesh.vertices[i]) * static_cast<double>(w.values[a]) *
+                               static_cast<double>(w.values[b]);
         matrix[size_t{row_of[w.joints[a]]} * rows + row_of[w.joints[b]]] += product;
         matrix[size_t{row_of[twin(w.joints[a])]} * rows + row_of[twin(w.joints[b])]] += product;
       }
@@ -193,7 +199,7 @@ bool fit_joints(const Form& form, const Shapes& shapes, const Skeleton& skeleton
           if (!is_fitted(j)) continue;
           const double w = static_cast<double>(weights[i].values[a]);
           Vec3& sum = right_side[row_of[half == 0 ? j : twin(j)]];
-          sum = sum + (half == 0 ? wanted : mirrored(wanted)) * w;
+          sum = sum + (half == 0 ? wanted : mirrored(wanted)) * (w * importance(v));
         }
       }
     }

@@ -210,6 +210,8 @@ double from_lids(double x, double y) {
   return u * u + v * v;
 }
 
+double off_lids(Vec3 look) { return smooth_step(0.95, 2.2, from_lids(std::abs(look.x), look.y)); }
+
 double Form::angle_of(double x, double y) const {
   const Section at = section(y, 1);
   const double s = exact_pow(std::min(x / at.half_width, 1.0), at.exponent / 2);
@@ -228,15 +230,17 @@ FacePoint Form::face(double angle, double y, Side side) const {
                    : kCentreZ - (kCentreZ - at.back) * along;
 
   // Rows rise towards the back around the jaw, so that its edge runs up to the ear.
-  p.y = y +
-        2.6 * smooth_step(0.98, -0.05, cosine) * smooth_step(-0.95, -0.2, cosine) *
-            bump(0, y, 0, -10.2, 1, 3.3) -
-        0.9 * smooth_step(0.2, -0.9, cosine) * bump(0, y, 0, -9, 1, 3);
+  const auto lift_at = [c = cosine](double row) {
+    return 2.6 * smooth_step(0.98, -0.05, c) * smooth_step(-0.95, -0.2, c) *
+               bump(0, row, 0, -10.2, 1, 3.3) -
+           0.9 * smooth_step(0.2, -0.9, c) * bump(0, row, 0, -9, 1, 3);
+  };
+  p.y = y + lift_at(y);
   // Rows of the eyes and of the mouth follow the edges of lids and lips.
   const double s = along_eye(p.x);
   p.y += (lid_line(p.x) - kEye.y) * bump(0, y, 0, kEye.y, 1, 1.3) *
          smooth_step(2.2, 1.2, std::abs(s)) * front_mask;
-  p.y += (mouth_line(p.x) - kMouthY) * bump(0, y, 0, kMouthY, 1, 1.2) *
+  p.y += (mouth_line(p.x) - kMouthY - lift_at(kMouthY)) * bump(0, y, 0, kMouthY, 1, 1.2) *
          smooth_step(1.9, 1.1, p.x / kMouthHalfWidth) * front_mask;
 
   p.z += front_mask * relief(p.x, p.y);

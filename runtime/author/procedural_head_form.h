@@ -101,6 +101,9 @@ Vec3 turn_lid(Vec3 p, double angle);
 /// the area that follows the ball.
 double from_lids(double x, double y);
 
+/// 0 on the lids, which stay on their ball, 1 away from them.
+double off_lids(Vec3 look);
+
 /// exp(-((x - cx) / sx)^2 - ((y - cy) / sy)^2)
 double bump(double x, double y, double cx, double cy, double sx, double sy);
 

@@ -72,7 +72,7 @@ constexpr Place kPlaces[] = {
     {"Throat", 0, -11.6, 7, kJawGroup, true},
     {"NeckSide", 3.0, -12.4, 7, kCheekGroup, false},
     {"LipCornerUpper", 2.35, -5.15, 7, kMouthGroup, false},
-    {"LipCornerLower", 2.4, -6.95, 7, kJawGroup, true},
+    {"MouthCornerLower", 2.5, -6.1, 0, kJawGroup, true},
     {"PhiltrumSide", 1.2, -4.7, 7, kMouthGroup, false},
     {"ChinFoldSide", 1.4, -7.6, 7, kJawGroup, true},
     {"CheekFront", 3.3, -5.0, 7, kMouthGroup, false},
@@ -142,9 +142,11 @@ Skeleton::Skeleton(const Form& form) {
   eye[0] = maker.add_pair("Eye", kEye, face, Drive::kGaze, 0, kLeftEyeGroup, kRightEyeGroup, false);
   upper_lid[0] = maker.add_pair("LidUpper", kEye, face, Drive::kUpperLid, 0, kLeftEyeGroup,
                                 kRightEyeGroup, false);
+  half_lid[0] = maker.add_pair("LidUpperHalf", kEye, face, Drive::kHalfLid, 0, kLeftEyeGroup,
+                               kRightEyeGroup, false);
   lower_lid[0] = maker.add_pair("LidLower", kEye, face, Drive::kLowerLid, 0, kLeftEyeGroup,
                                 kRightEyeGroup, false);
-  for (uint16_t* pair : {eye, upper_lid, lower_lid}) pair[1] = joints[pair[0]].twin;
+  for (uint16_t* pair : {eye, upper_lid, half_lid, lower_lid}) pair[1] = joints[pair[0]].twin;
 
   for (const Place& place : kPlaces) {
     const Side side = place.below ? Side::kBelow : Side::kAbove;
@@ -291,14 +293,22 @@ Weights weigh(const Form& form, const Skeleton& skeleton, uint32_t lod, const Ve
     case Carrier::kSkin: {
       const double lid = v.lid > 0 ? v.lid / (skeleton.upper_lid_angle * kPi / 180)
                                    : -v.lid / (skeleton.lower_lid_angle * kPi / 180);
-      if (v.lid != 0) weigher.add(v.lid > 0 ? skeleton.upper_lid[0] : skeleton.lower_lid[0], lid);
-      const double rest = 1 - std::min(lid, 1.0);
+      double rest = 1;
+      if (v.lid > 0) {
+        weigher.add(skeleton.upper_lid[0], 2 * lid - 1);
+        weigher.add(skeleton.half_lid[0], lid < 0.5 ? 2 * lid : 2 - 2 * lid);
+        rest = std::max(0.0, 1 - 2 * lid);
+      } else if (v.lid < 0) {
+        weigher.add(skeleton.lower_lid[0], lid);
+        rest = std::max(0.0, 1 - lid);
+      }
       const double jaw = jaw_weight(form, v) * rest;
       // The fewer joints, the farther each reaches.
       static constexpr double kReach[kLodCount] = {1, 1.05, 1.15, 1.25, 1.35, 1.5, 1.6, 1.8};
       const double near = 1.5 * kReach[lod], far = 3.6 * kReach[lod];
       double upper_rest = 0, lower_rest = 0;
-      const double outer = smooth_step(0.3, 0.75, v.depth);  // inside the mouth: jaws alone
+      // Inside the mouth jaws carry alone, on the lids nothing else does.
+      const double outer = std::max(smooth_step(0.08, 0.42, v.depth), 1 - off_lids(v.look));
       share(skeleton, lod, false, v.look, (rest - jaw) * (1 - outer), near, far, weigher,
             upper_rest);
       share(skeleton, lod, true, v.look, jaw * (1 - outer), near, far, weigher, lower_rest);

@@ -5,8 +5,9 @@
 //                                        \ jaw - skin joints of the lower face, lower teeth, tongue
 //
 // A vertex hangs on the jaw's side of this tree with exactly the weight that jaw_weight() gives it,
-// so opening the jaw needs no other joint. Lids turn about the centres of the eyeballs. Neutral
-// rotations are all zero.
+// so opening the jaw needs no other joint. Lids turn about the centres of the eyeballs; the upper
+// ones have a second joint that turns half as far, so that the skin between stays on the ball.
+// Neutral rotations are all zero.
 #pragma once
 
 #include "runtime/author/procedural_head_shapes.h"
@@ -17,7 +18,7 @@ constexpr uint32_t kMostJoints = 160;
 constexpr uint32_t kMostInfluences = 8;
 
 /// Joints that are driven by design; others follow a fit.
-enum class Drive : uint8_t { kNone, kJaw, kUpperLid, kLowerLid, kGaze, kTongue, kFit };
+enum class Drive : uint8_t { kNone, kJaw, kUpperLid, kHalfLid, kLowerLid, kGaze, kTongue, kFit };
 
 struct Joint {
   const char* name = nullptr;  // without the side
@@ -38,7 +39,7 @@ struct Skeleton {
   uint32_t count = 0;
   uint16_t root = 0, neck_low = 0, neck_high = 0, head = 0, face = 0, jaw = 0;
   uint16_t upper_teeth = 0, lower_teeth = 0, tongue[3] = {};
-  uint16_t eye[2] = {}, upper_lid[2] = {}, lower_lid[2] = {};  // left, right
+  uint16_t eye[2] = {}, upper_lid[2] = {}, half_lid[2] = {}, lower_lid[2] = {};  // left, right
   double upper_lid_angle = 0, lower_lid_angle = 0;  // degrees by which the neutral pose opens them
 
   explicit Skeleton(const Form& form);

@@ -32,6 +32,7 @@ struct Vertex {
   double along = 0;  // tongue: 0 root, 1 tip
   Colour colour;
   Side side = Side::kAbove;
+  bool edge = false;  // of a slit, where it has to meet the other side
   Carrier carrier = Carrier::kSkin;
 };
 

@@ -205,13 +205,20 @@ class MeshMaker {
   Span<Vec3> offsets_of(uint32_t shape) const {
     return offsets_.slice(size_t{shape} * left_count(), left_count());
   }
-  static bool is_moved(Vec3 offset) { return dot(offset, offset) >= kLeastOffset * kLeastOffset; }
+  /// Small offsets are not stored, but where edges have to meet.
+  bool is_moved(uint32_t vertex, Vec3 offset) const {
+    const Vertex& v = half_.vertices[vertex];
+    const double least = v.edge || v.lid != 0 ? kLeastOffset / 100 : kLeastOffset;
+    return dot(offset, offset) >= least * least;
+  }
 
   uint32_t count_moved(uint32_t shape) const {
     uint32_t moved = 0;
-    for (const Vec3& offset : offsets_of(shape)) moved += is_moved(offset);
-    const Span<Vec3> other = offsets_of(head_.shapes.twin(shape));
-    for (uint32_t i = 0; i < left_count(); ++i) moved += has_twin(i) && is_moved(other[i]);
+    const Span<Vec3> here = offsets_of(shape), other = offsets_of(head_.shapes.twin(shape));
+    for (uint32_t i = 0; i < left_count(); ++i) {
+      moved += is_moved(i, here[i]);
+      moved += has_twin(i) && is_moved(i, other[i]);
+    }
     return moved;
   }
 
@@ -220,15 +227,15 @@ class MeshMaker {
     dna::NewArray<uint32_t> indices;
     if (!deltas.allocate(arena_, moved) || !author::make(arena_, moved, indices)) return false;
     uint32_t n = 0;
-    const auto add = [&](uint32_t vertex, Vec3 offset) {
-      if (!is_moved(offset)) return;
+    const auto add = [&](uint32_t i, uint32_t vertex, Vec3 offset) {
+      if (!is_moved(i, offset)) return;
       indices.set(n, vertex);
       deltas.set(n++, offset);
     };
     const Span<Vec3> here = offsets_of(shape), other = offsets_of(head_.shapes.twin(shape));
-    for (uint32_t i = 0; i < left_count(); ++i) add(i, here[i]);
+    for (uint32_t i = 0; i < left_count(); ++i) add(i, i, here[i]);
     for (uint32_t i = 0; i < left_count(); ++i) {
-      if (has_twin(i)) add(twin_[i], mirrored(other[i]));
+      if (has_twin(i)) add(i, twin_[i], mirrored(other[i]));
     }
     out.deltas = deltas;
     out.vertex_indices = indices;
@@ -274,7 +281,7 @@ void MeshMaker::find_offsets(uint32_t shape, Span<Affine> pose, Span<Vec3> out) 
     }
     Vec3 offset = residual(pose.data, weights_[i], from, target);
     if (half_.on_plane(i) && twin == shape) offset.x = 0;
-    out[i] = is_moved(offset) ? offset : Vec3();
+    out[i] = is_moved(i, offset) ? offset : Vec3();
   }
 }
 

@@ -196,9 +196,6 @@ Vec3 move_with_jaw(const JointTurns& turns, Vec3 p) {
 
 namespace {
 
-/// 0 on the lids, which stay on their ball, 1 away from them.
-double off_lids(Vec3 look) { return smooth_step(0.95, 2.2, from_lids(std::abs(look.x), look.y)); }
-
 /// Where the mouth opens: 1 in the middle, 0 from the corners on, round.
 double between_corners(double x) {
   const double s = x / kMouthHalfWidth;
@@ -372,7 +369,7 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       break;
     case Motion::kShrugLower:
       add(bump(look.x, line, 0, 0, 2.2, 1.1), {0, 0.42, 0.16});
-      if (!above) add(bump(look.x, line, 0, -0.55, 1.8, 0.5), {0, 0.06, 0.30});
+      if (!above) add(bump(look.x, line, 0, -0.55, 1.8, 0.5) * clamp01(-4 * line), {0, 0.06, 0.30});
       add(w.at(0, -8.9, 1.8, 1.2), {0, 0.50, 0.20});
       add(w.at(2.5, -6.2, 0.9, 0.9), {0, -0.30, 0});
       break;
@@ -396,6 +393,7 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
     case Motion::kTongueOut: add(lips * apart, {0, above ? 0.16 : -0.30, 0.12}); break;
     default: break;
   }
+  d.x *= clamp01(look.x / 0.8);  // the middle stays there
   return d * off_lids(look);
 }
 

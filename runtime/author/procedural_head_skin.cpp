@@ -112,6 +112,7 @@ class SkinMaker {
     if (column == 0 || column == columns_) v.closed.x = 0;
     v.look = v.closed;
     v.lid = at.lid;
+    v.edge = in_slit(row, column);
     v.side = side_of(mouth_row_);
     v.position = turn_lid(v.closed, v.lid);
     v.u = 0.5 + 0.5 * angles_[column] / kPi;
@@ -235,6 +236,7 @@ class SkinMaker {
     v.closed.z += back - 0.75 * smooth_step(0, 0.35, depth) * out * out;
     v.closed.x *= 1 + 0.22 * smooth_step(0.25, 0.7, depth);
     v.position = v.closed;
+    v.edge = false;
     v.depth = depth;
     v.v = kMouthV + (v.side == Side::kAbove ? 1 : -1) * 0.012 * depth;
     const Colour lip = v.colour, wet = {124, 38, 42}, dark = {46, 12, 16};
