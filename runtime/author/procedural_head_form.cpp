@@ -71,7 +71,7 @@ namespace {
 // y, half width, front, back, exponent
 constexpr int kKnotColumns = 5;
 constexpr double kKnots[][kKnotColumns] = {
-    {-18.4, 9.6, 3.6, -7.6, 2.3},   {-17.6, 8.7, 3.75, -7.5, 2.25}, {-16.6, 6.5, 3.6, -7.1, 2.15},
+    {-18.4, 8.8, 3.6, -7.6, 2.3},   {-17.6, 7.9, 3.75, -7.5, 2.25}, {-16.6, 6.2, 3.6, -7.1, 2.15},
     {-15.4, 4.5, 3.35, -6.5, 2.1},  {-14.0, 3.8, 3.4, -6.0, 2.05},  {-12.4, 3.65, 4.0, -5.8, 2.0},
     {-11.5, 3.85, 5.0, -5.75, 2.0}, {-10.8, 4.15, 6.9, -5.8, 2.0},  {-10.2, 4.4, 8.25, -5.85, 2.0},
     {-9.2, 4.95, 8.75, -6.0, 2.0},  {-8.0, 5.6, 8.65, -6.3, 2.05},  {-6.0, 6.2, 8.8, -6.9, 2.1},
@@ -118,6 +118,12 @@ double smooth_max(double a, double b, double width) {
   return std::max(a, b) + 0.25 * width * h * h;
 }
 
+/// Like a bump of width 1 with a broader top.
+double round_ridge(double x) {
+  const double u = x * x;
+  return u > 40 ? 0 : exact_exp(-u * u / (u + 0.35));
+}
+
 constexpr double kCollarY = -15.6;
 
 }  // namespace
@@ -128,9 +134,9 @@ Form::Section Form::section(double y, double cosine) const {
   };
   Section s = {at(1), at(2), at(3), at(4)};
   // The nape has no jaw.
-  static constexpr double kNape[][2] = {{-18.4, 9.6}, {-16.6, 6.7}, {-15.4, 4.8},
-                                        {-13.6, 4.0}, {-10.5, 4.2}, {-7.5, 5.1},
-                                        {-4.5, 6.35}, {-1.5, 7.25}, {0.6, 7.65}};
+  static constexpr double kNape[][2] = {{-18.4, 8.8}, {-17.6, 7.9}, {-16.6, 6.3}, {-15.4, 4.8},
+                                        {-13.6, 4.0}, {-10.5, 4.2}, {-7.5, 5.1},  {-4.5, 6.35},
+                                        {-1.5, 7.25}, {0.6, 7.65}};
   if (y < 0.6)
     s.half_width = mix(s.half_width, interpolate(y, kNape), smooth_step(0.15, -0.6, cosine));
   s.half_width *= mix(1, person_.jaw, bump(0, y, 0, -8, 1, 3.2));
@@ -170,17 +176,17 @@ double Form::relief(double x, double y) const {
   static constexpr double kWidth[][2] = {{-3.4, 0.86}, {-2.5, 0.92}, {-1.5, 0.66},
                                          {0.4, 0.55},  {2.2, 0.95},  {4.0, 1.6}};
   double z =
-      p.nose * interpolate(y, kRidge) * bump(x, 0, 0, 0, p.nose_width * interpolate(y, kWidth), 1);
+      p.nose * interpolate(y, kRidge) * round_ridge(x / (p.nose_width * interpolate(y, kWidth)));
   struct Bump {
     double amount, cx, cy, sx, sy;
   };
   const Bump bumps[] = {
-      {-1.0, 3.4, 0.4, 2.1, 1.5},                               // sockets
-      {-0.70, 1.62, 0.35, 0.55, 1.1},                           // inner corners of the eyes
+      {-1.0, 3.4, 0.75, 2.1, 1.35},                             // sockets
+      {-0.55, 1.75, 0.3, 0.78, 1.25},                           // inner corners of the eyes
       {0.18, 2.9, 3.3, 2.2, 0.8},                               // brow ridge
       {0.62 * p.nose, 1.10 * p.nose_width, -2.85, 0.46, 0.48},  // wings of the nose
       {-0.20, 0.60, -3.42, 0.30, 0.20},                         // nostrils
-      {0.55 * p.cheek, 4.4, -1.6, 1.7, 1.3},                    // cheekbones
+      {0.40 * p.cheek, 4.7, -2.2, 1.7, 1.4},                    // cheekbones
       {0.14, 2.6, -2.6, 1.3, 1.3},                              // apple of the cheek
       {-0.40 * p.cheek, 5.0, -5.4, 1.3, 1.7},                   // hollow of the cheek
       {0.80, 0, -5.7, 2.6, 1.9},                                // muzzle
@@ -265,7 +271,7 @@ FacePoint Form::face(double angle, double y, Side side) const {
     const double steep = edge / std::sqrt(kLidRadius * kLidRadius - edge * edge);
     double ball = kEye.z + std::sqrt(kLidRadius * kLidRadius - std::min(r * r, edge * edge));
     if (r > edge) ball -= (r - edge) * steep;
-    p.z = mix(p.z, smooth_max(p.z, ball, 0.55), front_mask);
+    p.z = mix(p.z, smooth_max(p.z, ball, 0.8), front_mask);
   }
 
   FacePoint out;
@@ -308,8 +314,8 @@ Colour Form::skin_colour(Vec3 p, double row, double lid) const {
     const double top = bow * exact_pow(end, 0.75) * mix(1, person_.lips, 0.5);
     const double bottom = 0.98 * exact_pow(end, 0.60) * mix(1, person_.lips, 0.5);
     const double d = p.y - line;
-    const double inside = d > 0 ? smooth_step(top + 0.10, top - 0.10, d)
-                                : smooth_step(bottom + 0.12, bottom - 0.08, -d);
+    const double inside = d > 0 ? smooth_step(top + 0.13, top - 0.13, d)
+                                : smooth_step(bottom + 0.14, bottom - 0.12, -d);
     c = mix(c, person_.lip, inside * smooth_step(0, 0.12, end));
     c = mix(c, mix(person_.lip, {60, 16, 20}, 0.55), inside * bump(0, d, 0, 0, 1, 0.10));
   }

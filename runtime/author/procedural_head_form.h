@@ -47,7 +47,7 @@ constexpr double kEyeHalfWidth = 1.70;  // of the opening between the lids
 constexpr double kMouthY = -6.0;
 constexpr double kMouthHalfWidth = 2.45;
 constexpr double kCrownY = 12.6;
-constexpr double kBottomY = -18.4;
+constexpr double kBottomY = -17.5;
 constexpr Vec3 kJawJoint = {0, -1.6, 0.4};
 constexpr double kJawOpenAngle = 22;  // degrees
 

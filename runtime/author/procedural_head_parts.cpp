@@ -216,11 +216,11 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
       const double x = mix(1.35, 5.75, t);
       const double arch = 2.72 + 0.80 * exact_sine(kPi * clamp01(t * 0.72 + 0.04)) - 0.10 * t;
       const double half = 0.36 * form.person().brow * exact_pow(clamp01((1 - t) * 1.9), 0.75) *
-                          exact_pow(clamp01(t * 6 + 0.03), 0.5);
+                          exact_pow(clamp01(t * 2.6 + 0.08), 0.6);
       const double y = arch + across * (half + 0.03);
       const FacePoint at = form.face(form.angle_of(x, y), y, Side::kAbove);
       const Vec3 out_of_face = unit({at.closed.x * 0.55, 0.8, at.closed.z});
-      const double raise = 0.20 * (1 - across * across) * clamp01(half * 4) - 0.05;
+      const double raise = 0.20 * (1 - across * across) * clamp01(half * 4) - 0.10;
       Vertex v = plain(at.closed + out_of_face * raise, form.person().brow_hair, t,
                        0.5 + 0.5 * across, Carrier::kSkin);
       v.look = at.closed;
@@ -275,12 +275,12 @@ void add_hair(const Form& form, uint32_t lod, HalfMesh& out) {
       double thick = mix(0.45, 1.15, smooth_step(0.15, 0.8, t));
       thick +=
           1.25 * wave * bump(t, 0, 0.22, 0, 0.24, 1) + 0.35 * front * bump(t, 0, 0.25, 0, 0.2, 1);
-      thick += (0.055 + 0.07 * wave) * lock * smooth_step(1.0, 0.6, t) + 0.025 * fine;
+      thick += (0.055 + 0.07 * wave) * lock * smooth_step(1.0, 0.6, t) + 0.04 * fine;
       thick -= 0.42 * parting;
       Vec3 at = skin + normal * mix(-0.30, thick, smooth_step(0, 0.11 + 0.05 * front, t));
       at.y += 0.55 * wave * bump(t, 0, 0.20, 0, 0.2, 1) * smooth_step(0, 0.1, t);
       Colour c = mix(hair, {14, 9, 8},
-                     0.45 * smooth_step(0.1, -0.9, lock) + 0.14 - 0.14 * fine + 0.3 * parting);
+                     0.45 * smooth_step(0.1, -0.9, lock) + 0.20 - 0.20 * fine + 0.3 * parting);
       c = mix(c, mix(hair, {255, 222, 180}, 0.30), 0.45 * smooth_step(0.3, 0.95, lock));
       // Texture coordinates as seen from above, so that no seam is needed.
       const auto [s, cosine] = exact_sine_cosine(around);
@@ -344,6 +344,7 @@ void add_teeth(const Form& form, uint32_t lod, HalfMesh& out) {
         Colour colour = row <= 2 || row == 9 ? gum : white;
         if (row >= 3 && row <= 5) colour = mix(gap, colour, 0.35 + 0.65 * round);
         colour = mix(colour, {90, 60, 54}, 0.55 * smooth_step(0.35, 1, share));
+        if (k == columns - 1) colour = {92, 34, 36};  // its end is dark
         out.vertices.add(plain(at, colour, share, (row + 10 * lower) / 20.0,
                                lower ? Carrier::kLowerTeeth : Carrier::kUpperTeeth));
       }

@@ -257,8 +257,8 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
       add(w.at(0.9, -8.9, 1.2, 1.0), {0, 0.22, 0.10});
       break;
     case Motion::kDimple:
-      add(w.at(2.7, -6.0, 1.0, 1.0), {0.42, 0.10, -0.50});
-      add(w.at(3.5, -5.9, 0.55, 0.7), {0, 0, -0.30});
+      add(w.at(2.7, -6.0, 1.1, 1.0), {0.60, 0.16, -0.62});
+      add(w.at(3.6, -5.8, 0.55, 0.75), {0, 0, -0.42});
       add(w.at(4.6, -4.6, 1.2, 1.3), {0.10, 0.06, 0.16});
       break;
     case Motion::kStretch:
@@ -268,8 +268,8 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
       break;
     case Motion::kPress: {
       const double g = bump(look.x, line, 1.3, 0, 1.3, 0.85);
-      add(g, {0.05, -0.42 * line, -0.16});
-      add(w.at(2.7, -6.0, 0.7, 0.8), {0.10, 0.05, -0.10});
+      add(g, {0.06, -0.56 * line, -0.24});
+      add(w.at(2.7, -5.95, 0.8, 0.9), {0.16, 0.10, -0.20});
       break;
     }
     case Motion::kLowerDown:
@@ -340,6 +340,7 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
     case Motion::kFunnel:
       add(narrow, {-0.34 * look.x, 0, 0});
       add(bump(look.x, line, 2.5, 0, 0.9, 1.0), {0, 0, 0.30});
+      add(bump(look.x, line, 0, above ? 0.4 : -0.4, 1.2, 0.5), {0, 0, 0.14});
       add(lips, {0, 0, 0.75});
       add(bump(look.x, line, 0, 0, 2.2, 0.8), {0, 0, 0.40});
       add(lips * apart, {0, above ? 0.40 : -0.35, 0.10});
@@ -359,13 +360,14 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
     case Motion::kLessRaise: add(lips * apart, {0, above ? -0.10 : 0.85, 0.10}); break;
     case Motion::kRollLower:
       if (above) break;
-      add(bump(look.x, line, 0, -0.30, 2.0, 0.50), {0, 0.30, -0.55});
-      add(bump(look.x, line, 0, -0.95, 1.9, 0.45), {0, 0.22, -0.05});
+      add(bump(look.x, line, 0, -0.28, 2.1, 0.50), {0, 0.26, -0.62});
+      add(bump(look.x, line, 0, -1.0, 2.0, 0.55), {0, 0.42, -0.10});
+      add(w.at(0, -8.9, 1.6, 1.0), {0, 0.14, 0.06});
       break;
     case Motion::kRollUpper:
       if (!above) break;
-      add(bump(look.x, line, 0, 0.25, 2.0, 0.45), {0, -0.24, -0.50});
-      add(bump(look.x, line, 0, 0.85, 1.9, 0.45), {0, -0.20, -0.04});
+      add(bump(look.x, line, 0, 0.22, 2.1, 0.45), {0, -0.18, -0.56});
+      add(bump(look.x, line, 0, 0.8, 2.0, 0.50), {0, -0.36, -0.08});
       break;
     case Motion::kShrugLower:
       add(bump(look.x, line, 0, 0, 2.2, 1.1), {0, 0.42, 0.16});
