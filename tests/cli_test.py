@@ -105,7 +105,7 @@ class CliTest(unittest.TestCase):
 class General(CliTest):
     def test_help_and_version_end_well(self):
         text = self.ok("--help").stdout.decode()
-        for command in ("info", "validate", "eval", "convert", "gen", "bench", "completion"):
+        for command in ("info", "validate", "eval", "convert", "gen", "demo-head", "bench", "completion"):
             self.assertIn("\n  " + command + " ", text)
             help_text = self.ok(command, "--help").stdout
             self.assertIn(b"Examples:", help_text)
@@ -146,6 +146,9 @@ class General(CliTest):
         self.fails(USAGE, "gen", "-o", path("x"), "--seed", "-1")
         self.fails(USAGE, "gen", "-o", path("x"), "--seed", "1.5", says="1.5")
         self.fails(USAGE, "gen", "-o", path("x"), "--seed", "18446744073709551616")
+        self.fails(USAGE, "demo-head", says="--output")
+        self.fails(USAGE, "demo-head", "-o", path("x"), "--seed", "x", says="x")
+        self.fails(USAGE, "demo-head", "-o", path("x"), "--preset", "tiny", says="--preset")
         self.fails(USAGE, "completion", "csh", says='did you mean "zsh"')
         self.assertFalse(os.path.exists(path("x")))
 
@@ -406,6 +409,17 @@ class Validate(CliTest):
 
 
 class Generate(CliTest):
+    def test_the_head_in_the_box_is_valid_and_depends_on_its_seed(self):
+        for seed in ("0", "7"):
+            self.ok("demo-head", "-o", path("person%s.dna" % seed), "--seed", seed)
+            report = self.json("validate", path("person%s.dna" % seed), "--json")
+            self.assertEqual((report["valid"], report["findings"]), (True, []))
+        self.assertEqual(self.ok("demo-head", "-o", "-").stdout, read("person0.dna"))
+        self.assertNotEqual(read("person7.dna"), read("person0.dna"))
+        names = self.names("person0.dna", "raw")
+        self.assertEqual(len(names), 52)
+        self.assertIn("jawOpen", names)
+
     def test_the_same_seed_gives_the_same_bytes(self):
         for seed in ("0", "1", "18446744073709551615"):
             self.ok("gen", "-o", path("a.dna"), "--seed", seed)

@@ -66,10 +66,11 @@ Command add_demo_head_command(CLI::App& app, const Session& session) {
   add_common_options(head, *options, "Another person for each number (default: 0)");
   head->footer(
       "A stylised person: skin, eyes, teeth, tongue, hair, with vertex colours, correctives,\n"
-      "wrinkle maps and 8 LODs. Raw controls have the names of ARKit's coefficients.\n\n"
+      "wrinkle maps and 8 LODs. Raw controls have the names of ARKit's coefficients;\n"
+      "mouthClose closes the lips over a jaw that is open.\n\n"
       "Examples:\n"
       "  mien demo-head -o head.dna\n"
-      "  mien eval head.dna --set jawOpen=0.6 --set mouthSmileLeft=1");
+      "  mien render head.dna --set jawOpen=0.6 --set mouthSmileLeft=1 -o smile.png");
   return {head, [options, &session] { run(*options, MIEN_PRESET_HEAD, session); }};
 }
 

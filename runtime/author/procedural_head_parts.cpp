@@ -257,7 +257,8 @@ void add_hair(const Form& form, uint32_t lod, HalfMesh& out) {
       // Locks: round ridges between furrows, swept away from the parting in front, straight behind.
       const double from_part = around - kPart;
       const double sweep = 3.4 * t * front * (from_part < 0 ? 1 : -0.6);
-      const double phase = 6 * around + 0.9 * exact_sine(2 * around + 0.7) + sweep;
+      const double fade = smooth_step(1.0, 0.55, t);  // towards the crown, where all locks meet
+      const double phase = 1.2 * t * t + 6 * around + 0.9 * exact_sine(2 * around + 0.7) + sweep;
       const double lock = 2 * std::sqrt(std::abs(exact_sine(phase))) - 1;
       const double fine = exact_sine(4 * phase + 1.3 * exact_sine(3 * around));
       // The parting is a furrow from the hair line to near the crown.
@@ -275,13 +276,14 @@ void add_hair(const Form& form, uint32_t lod, HalfMesh& out) {
       double thick = mix(0.45, 1.15, smooth_step(0.15, 0.8, t));
       thick +=
           1.25 * wave * bump(t, 0, 0.22, 0, 0.24, 1) + 0.35 * front * bump(t, 0, 0.25, 0, 0.2, 1);
-      thick += (0.055 + 0.07 * wave) * lock * smooth_step(1.0, 0.6, t) + 0.04 * fine;
+      thick += (0.055 + 0.07 * wave) * lock * fade + 0.04 * fine * fade;
       thick -= 0.42 * parting;
       Vec3 at = skin + normal * mix(-0.30, thick, smooth_step(0, 0.11 + 0.05 * front, t));
       at.y += 0.55 * wave * bump(t, 0, 0.20, 0, 0.2, 1) * smooth_step(0, 0.1, t);
-      Colour c = mix(hair, {14, 9, 8},
-                     0.45 * smooth_step(0.1, -0.9, lock) + 0.20 - 0.20 * fine + 0.3 * parting);
-      c = mix(c, mix(hair, {255, 222, 180}, 0.30), 0.45 * smooth_step(0.3, 0.95, lock));
+      Colour c =
+          mix(hair, {14, 9, 8},
+              (0.45 * smooth_step(0.1, -0.9, lock) - 0.20 * fine) * fade + 0.20 + 0.3 * parting);
+      c = mix(c, mix(hair, {255, 222, 180}, 0.30), 0.45 * fade * smooth_step(0.3, 0.95, lock));
       // Texture coordinates as seen from above, so that no seam is needed.
       const auto [s, cosine] = exact_sine_cosine(around);
       out.vertices.add(

@@ -119,6 +119,7 @@ uint32_t list_correctives(Corrective (&out)[kMostCorrectives]) {
   };
   add(Motion::kJawOpen, 0, Motion::kMouthClose, 0, Motion::kSeal, 0);
   add(Motion::kJawOpen, 0, Motion::kPucker, 0, Motion::kLessRaise, 0);
+  add(Motion::kJawOpen, 0, Motion::kFunnel, 0, Motion::kLessRound, 0);
   add(Motion::kFunnel, 0, Motion::kPucker, 0, Motion::kLessPout, 0);
   for (int side : {1, -1}) {
     // Blinking shuts the eye whatever else moves the lids.
@@ -127,6 +128,7 @@ uint32_t list_correctives(Corrective (&out)[kMostCorrectives]) {
       add(Motion::kBlink, side, m, side, Motion::kKeepLidsShut, side, find(m, side));
     }
     add(Motion::kJawOpen, 0, Motion::kSmile, side, Motion::kLessWide, side);
+    add(Motion::kWide, side, Motion::kBrowDown, side, Motion::kBrowsApart, side);
   }
   return count;
 }
@@ -301,6 +303,9 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
       add(w.at(3.2, -5.6, 1.3, 1.3), {0.10, 0.16, 0.06});
       add(w.at(0, -3.0, 1.2, 0.9), {0.16, 0, 0});
       break;
+    case Motion::kBrowsApart:  // wide eyes leave a lowered brow less room
+      add(w.at(3.0, 3.0, 1.8, 1.0), {0.04, 0.26, 0});
+      break;
     case Motion::kLessWide:  // an open smile is narrower and higher than the sum
       add(w.at(2.7, -5.95, 1.35, 1.3), {-0.22, 0.10, 0.10});
       if (!above) add(bump(look.x, line, 0.9, -0.2, 1.4, 1.2) * apart, {0, 0.18, -0.05});
@@ -358,6 +363,9 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       add(lips, {0, 0, -0.65});
       break;
     case Motion::kLessRaise: add(lips * apart, {0, above ? -0.10 : 0.85, 0.10}); break;
+    case Motion::kLessRound:  // the jaw has opened the lips already
+      add(lips * apart, {0, above ? -0.18 : 0.42, 0.05});
+      break;
     case Motion::kRollLower:
       if (above) break;
       add(bump(look.x, line, 0, -0.28, 2.1, 0.50), {0, 0.26, -0.62});

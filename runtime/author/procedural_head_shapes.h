@@ -49,7 +49,9 @@ enum class Motion : uint8_t {
   kKeepLidsShut,
   kLessWide,
   kLessPout,
-  kLessRaise
+  kLessRaise,
+  kLessRound,
+  kBrowsApart
 };
 
 /// A shape: a motion of one side (1 left, -1 right) or of both (0).
