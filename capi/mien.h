@@ -531,6 +531,14 @@ enum MienStorage {
                             range becomes +-65504): half the memory, about three decimal digits */
 };
 
+/* Which results have the same bits on which instruction sets. */
+enum MienArithmetic {
+    MIEN_ARITHMETIC_FAST = 0,    /* those on AVX2, AVX-512 and NEON, which multiply and add in one step;
+                                    and those on scalar and SSE2 */
+    MIEN_ARITHMETIC_PORTABLE = 1 /* all: in two steps everywhere. Angles and quaternions are the same as
+                                    far as the C library's sine and arc tangent are. */
+};
+
 /* Whether evaluation keeps results whose inputs did not change since the last one of the instance. They
  * have the same bits either way. */
 enum MienReuse {
@@ -546,6 +554,8 @@ typedef struct MienRigDesc {
     const MienAllocator* allocator;
     uint32_t storage; /* MIEN_STORAGE_... */
     uint32_t reuse;   /* MIEN_REUSE_... */
+    uint32_t arithmetic; /* MIEN_ARITHMETIC_... */
+    uint32_t reserved;   /* 0 */
 } MienRigDesc;
 
 typedef struct MienRigInfo {

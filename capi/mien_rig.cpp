@@ -50,9 +50,11 @@ MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig*
                       known.isa);
   }
   if (known.rotation > MIEN_OUTPUT_QUATERNION || known.ml_masks > MIEN_ML_MASKS_BLEND ||
-      known.storage > MIEN_STORAGE_F16 || known.reuse > MIEN_REUSE_NOTHING) {
+      known.storage > MIEN_STORAGE_F16 || known.reuse > MIEN_REUSE_NOTHING ||
+      known.arithmetic > MIEN_ARITHMETIC_PORTABLE || known.reserved != 0) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienRigDesc.rotation, .ml_masks, .storage or .reuse is none of its values");
+                      "MienRigDesc.rotation, .ml_masks, .storage, .reuse or .arithmetic is none of "
+                      "its values, or .reserved is not 0");
   }
   const KernelTable* kernels = choose_kernels(static_cast<Isa>(known.isa));
   if (!kernels) {
@@ -69,9 +71,12 @@ MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig*
   }
   Rig* rig = nullptr;
   Error detail;
-  const CompileOptions options = {
-      kernels, known.rotation == MIEN_OUTPUT_QUATERNION, known.ml_masks == MIEN_ML_MASKS_BLEND,
-      known.storage == MIEN_STORAGE_F16, known.reuse == MIEN_REUSE_NOTHING};
+  const CompileOptions options = {kernels,
+                                  known.rotation == MIEN_OUTPUT_QUATERNION,
+                                  known.ml_masks == MIEN_ML_MASKS_BLEND,
+                                  known.storage == MIEN_STORAGE_F16,
+                                  known.arithmetic == MIEN_ARITHMETIC_PORTABLE,
+                                  known.reuse == MIEN_REUSE_NOTHING};
   if (compile_rig(dna->view, options, allocator, rig, detail) != Status::kOk) {
     return give_error(detail, error);
   }

@@ -58,7 +58,7 @@ inline Vec load_weights(const uint16_t* from) { return load_half(from); }
 
 /// The sums of sizeof...(K) neighbouring vectors of rows in one walk over the columns, even and odd
 /// ones apart. The pack makes each sum a register of its own.
-template <class Weight, size_t... K>
+template <class How, class Weight, size_t... K>
 inline void sum_rows(const Weight* values, const DenseLayerArgs& args, size_t first_vec,
                      std::index_sequence<K...>) {
   const size_t column_count = args.column_count, block_size = column_count * kBlockRows;
@@ -69,12 +69,12 @@ inline void sum_rows(const Weight* values, const DenseLayerArgs& args, size_t fi
   size_t c = 0;
   for (; c + 2 <= column_count; c += 2) {
     const Vec first = broadcast(args.inputs[c]), second = broadcast(args.inputs[c + 1]);
-    ((even[K] = mul_add(load_weights(rows[K] + c * kBlockRows), first, even[K])), ...);
-    ((odd[K] = mul_add(load_weights(rows[K] + (c + 1) * kBlockRows), second, odd[K])), ...);
+    ((even[K] = How::mul_add(load_weights(rows[K] + c * kBlockRows), first, even[K])), ...);
+    ((odd[K] = How::mul_add(load_weights(rows[K] + (c + 1) * kBlockRows), second, odd[K])), ...);
   }
   if (c < column_count) {
     const Vec last = broadcast(args.inputs[c]);
-    ((even[K] = mul_add(load_weights(rows[K] + c * kBlockRows), last, even[K])), ...);
+    ((even[K] = How::mul_add(load_weights(rows[K] + c * kBlockRows), last, even[K])), ...);
   }
   (store(args.outputs + (first_vec + K) * kWidth, saturate(even[K] + odd[K])), ...);
 }
@@ -86,32 +86,37 @@ constexpr size_t kMostVecs = 8;
 constexpr size_t kMostVecs = 6;
 #endif
 
-template <class Weight>
+template <class How, class Weight>
 void sum_layer(const Weight* values, const DenseLayerArgs& args) {
   const size_t vec_count = (args.row_count + kWidth - 1) / kWidth;
   size_t walks = (vec_count + kMostVecs - 1) / kMostVecs;
   for (size_t v = 0; walks != 0; --walks) {
     const size_t count = (vec_count - v + walks - 1) / walks;  // shared evenly
     switch (count) {
-      case 1: sum_rows(values, args, v, std::make_index_sequence<1>()); break;
-      case 2: sum_rows(values, args, v, std::make_index_sequence<2>()); break;
-      case 3: sum_rows(values, args, v, std::make_index_sequence<3>()); break;
-      case 4: sum_rows(values, args, v, std::make_index_sequence<4>()); break;
-      case 5: sum_rows(values, args, v, std::make_index_sequence<5>()); break;
-      case 6: sum_rows(values, args, v, std::make_index_sequence<6>()); break;
-      case 7: sum_rows(values, args, v, std::make_index_sequence<7>()); break;
-      default: sum_rows(values, args, v, std::make_index_sequence<8>()); break;
+      case 1: sum_rows<How>(values, args, v, std::make_index_sequence<1>()); break;
+      case 2: sum_rows<How>(values, args, v, std::make_index_sequence<2>()); break;
+      case 3: sum_rows<How>(values, args, v, std::make_index_sequence<3>()); break;
+      case 4: sum_rows<How>(values, args, v, std::make_index_sequence<4>()); break;
+      case 5: sum_rows<How>(values, args, v, std::make_index_sequence<5>()); break;
+      case 6: sum_rows<How>(values, args, v, std::make_index_sequence<6>()); break;
+      case 7: sum_rows<How>(values, args, v, std::make_index_sequence<7>()); break;
+      default: sum_rows<How>(values, args, v, std::make_index_sequence<8>()); break;
     }
     v += count;
   }
 }
 
-void dense_layer(const DenseLayerArgs& args) {
+template <class How>
+void sum_layer(const DenseLayerArgs& args) {
   if (args.halves) {
-    sum_layer(static_cast<const uint16_t*>(args.values), args);
+    sum_layer<How>(static_cast<const uint16_t*>(args.values), args);
   } else {
-    sum_layer(static_cast<const float*>(args.values), args);
+    sum_layer<How>(static_cast<const float*>(args.values), args);
   }
+}
+
+void dense_layer(const DenseLayerArgs& args) {
+  args.portable ? sum_layer<AsPortable>(args) : sum_layer<AsFast>(args);
   const Vec alpha = broadcast(args.alpha);
   for (size_t r = 0; r < args.row_count; r += kWidth) {
     const Vec sum = saturate(load(args.outputs + r) + load(args.biases + r));

@@ -15,23 +15,23 @@ namespace {
 //
 // All pieces are read before the first is written: they belong to different blocks, which the
 // processor cannot know.
-template <class Value, size_t... P>
+template <class How, class Value, size_t... P>
 inline void add_pieces(const Value* values, const uint16_t* blocks, PieceVec input, float* sums_in,
                        std::index_sequence<P...>) {
   float* const sums[] = {sums_in + size_t{blocks[P]} * (kPieceRows / kBlockUnit)...};
   for (size_t r = 0; r < kPieceRows; r += kPieceWidth) {
     const PieceVec added[] = {
-        mul_add(load_piece(values + P * kPieceRows + r), input, load_piece(sums[P] + r))...};
+        How::mul_add(load_piece(values + P * kPieceRows + r), input, load_piece(sums[P] + r))...};
     (store_piece(sums[P] + r, added[P]), ...);
   }
 }
 
-template <size_t kCount, class Value>
+template <size_t kCount, class How, class Value>
 inline void add_pieces(const Value* values, const uint16_t* blocks, PieceVec input, float* sums) {
-  add_pieces(values, blocks, input, sums, std::make_index_sequence<kCount>());
+  add_pieces<How>(values, blocks, input, sums, std::make_index_sequence<kCount>());
 }
 
-template <class Value>
+template <class How, class Value>
 inline void add_columns(const JointColumnsArgs& args) {
   // In names of their own: for all the compiler knows, sums could lie in `args`.
   const Value* const all_values = static_cast<const Value*>(args.values);
@@ -52,10 +52,15 @@ inline void add_columns(const JointColumnsArgs& args) {
     const uint16_t* blocks = all_blocks + first;
     size_t p = 0;
     for (; p + 4 <= count; p += 4) {
-      add_pieces<4>(values + p * kPieceRows, blocks + p, input, sums);
+      add_pieces<4, How>(values + p * kPieceRows, blocks + p, input, sums);
     }
-    for (; p < count; ++p) add_pieces<1>(values + p * kPieceRows, blocks + p, input, sums);
+    for (; p < count; ++p) add_pieces<1, How>(values + p * kPieceRows, blocks + p, input, sums);
   }
+}
+
+template <class Value>
+void add_columns(const JointColumnsArgs& args) {
+  args.portable ? add_columns<AsPortable, Value>(args) : add_columns<AsFast, Value>(args);
 }
 
 void joint_columns(const JointColumnsArgs& args) { add_columns<float>(args); }
@@ -85,7 +90,7 @@ inline const float* piece_values(const int16_t* values, float* made) {
   return made;
 }
 
-template <class Value, size_t... R>
+template <class How, class Value, size_t... R>
 inline void sum_block(const JointBatchArgs& args, size_t lane, std::index_sequence<R...>) {
   const Value* const values = static_cast<const Value*>(args.values);
   const float* const inputs = args.inputs + lane;
@@ -99,8 +104,8 @@ inline void sum_block(const JointBatchArgs& args, size_t lane, std::index_sequen
     const float* const x = inputs + size_t{pieces[i].input} * kBatchLanes;
     const Vec xa = load(x);
     const Vec xb = load(x + (kBatchVecs - 1) * kWidth);
-    ((a[R] = mul_add(broadcast(v[R]), xa, a[R])), ...);
-    if constexpr (kBatchVecs == 2) ((b[R] = mul_add(broadcast(v[R]), xb, b[R])), ...);
+    ((a[R] = How::mul_add(broadcast(v[R]), xa, a[R])), ...);
+    if constexpr (kBatchVecs == 2) ((b[R] = How::mul_add(broadcast(v[R]), xb, b[R])), ...);
   }
   if (args.scales) {
     ((a[R] = a[R] * broadcast(args.scales[R])), ...);
@@ -111,16 +116,20 @@ inline void sum_block(const JointBatchArgs& args, size_t lane, std::index_sequen
   if constexpr (kBatchVecs == 2) (store(sums + R * kBatchLanes + kWidth, saturate(b[R])), ...);
 }
 
-void joint_batch(const JointBatchArgs& args) {
+template <class How, class Value>
+inline void sum_block(const JointBatchArgs& args) {
   for (size_t lane = 0; lane < args.lane_count; lane += kBatchStep) {
-    sum_block<float>(args, lane, std::make_index_sequence<kPieceRows>());
+    sum_block<How, Value>(args, lane, std::make_index_sequence<kPieceRows>());
   }
 }
-void joint_batch_fixed(const JointBatchArgs& args) {
-  for (size_t lane = 0; lane < args.lane_count; lane += kBatchStep) {
-    sum_block<int16_t>(args, lane, std::make_index_sequence<kPieceRows>());
-  }
+
+template <class Value>
+void sum_block(const JointBatchArgs& args) {
+  args.portable ? sum_block<AsPortable, Value>(args) : sum_block<AsFast, Value>(args);
 }
+
+void joint_batch(const JointBatchArgs& args) { sum_block<float>(args); }
+void joint_batch_fixed(const JointBatchArgs& args) { sum_block<int16_t>(args); }
 
 }  // namespace
 }  // namespace mien::MIEN_KERNEL_ISA

@@ -44,6 +44,7 @@ struct JointColumnsArgs {
   size_t stride;
   uint32_t column_count;
   uint32_t first_block;
+  bool portable;  // products are rounded before they are added, on every instruction set
 };
 
 /// Characters that a batch evaluates together, one lane each.
@@ -86,6 +87,7 @@ struct JointBatchArgs {
   float* sums;          // 64-byte aligned
   uint32_t piece_count;
   uint32_t lane_count;
+  bool portable;  // as above
 };
 
 /// One dense layer of a neural network: outputs[r] = f(sum over c of values(r, c) * inputs[c] +
@@ -107,6 +109,7 @@ struct DenseLayerArgs {
   uint32_t row_count;
   uint8_t function;
   bool halves;
+  bool portable;  // products are rounded before they are added, on every instruction set
 };
 
 /// Joints represented by quaternions, in blocks of 16 joints, one lane each:

@@ -408,5 +408,20 @@ inline PieceVec saturate(PieceVec v) {
 }
 #endif
 
+// How a kernel multiplies and adds: as the hardware does best, or with the same bits on every
+// instruction set.
+struct AsFast {
+  template <class V>
+  static V mul_add(V a, V b, V c) {
+    return mien::MIEN_KERNEL_ISA::mul_add(a, b, c);
+  }
+};
+struct AsPortable {
+  template <class V>
+  static V mul_add(V a, V b, V c) {
+    return a * b + c;  // kernels are built without contraction
+  }
+};
+
 }  // namespace
 }  // namespace mien::MIEN_KERNEL_ISA

@@ -27,14 +27,22 @@ struct Side {
   RigHandle rig;
   Character character;
 
-  Side(const DnaHandle& dna, uint32_t of)
-      : isa(of), rig(create_rig(dna.get(), of)), character(rig) {}
+  Side(const DnaHandle& dna, uint32_t of, uint32_t arithmetic)
+      : isa(of), rig(create_rig(dna.get(), desc(of, arithmetic))), character(rig) {}
+
+  static MienRigDesc desc(uint32_t isa, uint32_t arithmetic) {
+    MienRigDesc made = sized<MienRigDesc>();
+    made.isa = isa;
+    made.arithmetic = arithmetic;
+    return made;
+  }
 };
 
-std::vector<Side> sides_of(const DnaHandle& dna, const std::vector<uint32_t>& isas) {
+std::vector<Side> sides_of(const DnaHandle& dna, const std::vector<uint32_t>& isas,
+                           uint32_t arithmetic = MIEN_ARITHMETIC_FAST) {
   std::vector<Side> sides;
   for (uint32_t isa : isas) {
-    if (mien_isa_available(isa)) sides.emplace_back(dna, isa);
+    if (mien_isa_available(isa)) sides.emplace_back(dna, isa, arithmetic);
   }
   return sides;
 }
@@ -56,9 +64,12 @@ void evaluate(Side& side, const std::vector<float>& raw, uint32_t lod) {
   side.character.evaluate(lod);
 }
 
-void expect_equal_families(const DnaHandle& dna, uint64_t seed) {
-  for (const std::vector<uint32_t>& family : kFamilies) {
-    std::vector<Side> sides = sides_of(dna, family);
+void expect_equal_families(const DnaHandle& dna, uint64_t seed,
+                           uint32_t arithmetic = MIEN_ARITHMETIC_FAST) {
+  const bool portable = arithmetic == MIEN_ARITHMETIC_PORTABLE;
+  for (const std::vector<uint32_t>& family :
+       portable ? std::vector<std::vector<uint32_t>>{present_isas()} : kFamilies) {
+    std::vector<Side> sides = sides_of(dna, family, arithmetic);
     if (sides.size() < 2) continue;
     Random random = Random::from_seed(seed, 1);
     const uint32_t lods = info_of(sides[0].rig).lod_count;
@@ -135,6 +146,10 @@ TEST_P(GeneratedRigs, AreEqualWithinAFamily) {
   for (uint64_t seed : {1, 2}) expect_equal_families(generate_dna(GetParam(), seed), seed);
 }
 
+TEST_P(GeneratedRigs, AreEqualEverywhereWithPortableArithmetic) {
+  expect_equal_families(generate_dna(GetParam(), 4), 5, MIEN_ARITHMETIC_PORTABLE);
+}
+
 TEST_P(GeneratedRigs, AreCloseBetweenFamilies) {
   expect_close_families(generate_dna(GetParam(), 3), 3);
 }
@@ -144,6 +159,12 @@ TEST(TinyRig, IsEqualWithinAFamily) {
   Arena arena(default_allocator());
   const std::vector<uint8_t> bytes = write_view(dna::tiny_rig(arena));
   expect_equal_families(open_dna(bytes), 4);
+}
+
+TEST(TinyRig, IsEqualEverywhereWithPortableArithmetic) {
+  Arena arena(default_allocator());
+  const std::vector<uint8_t> bytes = write_view(dna::tiny_rig(arena));
+  expect_equal_families(open_dna(bytes), 6, MIEN_ARITHMETIC_PORTABLE);
 }
 
 TEST(Rigs, ReportTheInstructionSetAskedFor) {

@@ -185,6 +185,7 @@ void evaluate_rows(const Crowd& crowd, const Work& work) {
   args.values = fixed ? static_cast<const void*>(joints.fixed_values.data) : joints.values.data;
   args.inputs = crowd.scratch.controls.data;
   args.lane_count = crowd.count;
+  args.portable = crowd.rig.portable;
   for (uint32_t c = 0; c < chunks; ++c) {
     args.sums = crowd.scratch.sums.data;
     for (uint32_t b = joints.chunks[c].first_block; b < joints.chunks[c + 1].first_block; ++b) {

@@ -59,6 +59,7 @@ void sum_tile(const Rig& rig, const Instance& instance, ActiveColumns& active, T
   args.inputs = active.inputs;
   args.sums = tile.sums;
   args.first_block = first_block;
+  args.portable = rig.portable;
   for (uint32_t k = 0; k < joints.columns.count; k += ActiveColumns::kMost) {
     active.find(joints, instance.controls.data, k);
     args.column_count = active.count;

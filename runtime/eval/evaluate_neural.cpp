@@ -38,6 +38,7 @@ void run_network(const Rig& rig, Instance& instance, const MlStep& step) {
     const bool last = l + 1 == step.layer_count;
     DenseLayerArgs args;
     args.halves = rig.half_storage;
+    args.portable = rig.portable;
     if (args.halves) {
       args.values = ml.halves.data + layer.first_value;
     } else {

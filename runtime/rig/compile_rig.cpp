@@ -215,6 +215,7 @@ void count_things(const DnaView& view, const CompileOptions& options, Rig& rig) 
   const dna::Definition& defn = view.defn;
   rig.quaternion_outputs = options.quaternion_outputs;
   rig.half_storage = options.half_storage;
+  rig.portable = options.portable;
   rig.always_evaluate = options.always_evaluate || reads_back(view);
   if (rig.quaternion_outputs) rig.joint_attributes = kFileAttributes + 1;
   rig.lod_count = view.desc.lod_count;

@@ -15,6 +15,7 @@ struct CompileOptions {
   bool quaternion_outputs = false;  // joint rotations as quaternions instead of Euler angles
   bool blend_masks = false;         // ML masks blend instead of switching
   bool half_storage = false;        // matrices and weights in 16 bits
+  bool portable = false;            // the same bits on every instruction set
   bool always_evaluate = false;     // results are never kept, even if their inputs did not change
 };
 

@@ -323,6 +323,7 @@ struct Rig {
   uint32_t joint_count = 0, channel_count = 0, map_count = 0, mesh_count = 0, mask_count = 0;
   bool quaternion_outputs = false;
   bool half_storage = false;
+  bool portable = false;         // the same bits on every instruction set
   bool always_evaluate = false;  // instead of keeping results whose inputs did not change
   uint32_t joint_attributes = kFileAttributes;  // per joint: 9, or 10 with quaternion outputs
   uint32_t joint_value_count() const { return joint_count * joint_attributes; }

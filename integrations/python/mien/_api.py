@@ -281,6 +281,17 @@ class Storage(IntEnum):
     F16 = 1
 
 
+class Arithmetic(IntEnum):
+    """Which results have the same bits on which instruction sets."""
+
+    #: those on AVX2, AVX-512 and NEON, which multiply and add in one step; and those on scalar and
+    #: SSE2
+    FAST = 0
+    #: all: in two steps everywhere. Angles and quaternions are the same as far as the C library's
+    #: sine and arc tangent are.
+    PORTABLE = 1
+
+
 class Reuse(IntEnum):
     """Whether evaluation keeps results whose inputs did not change since the last one of the
     instance. They have the same bits either way.
@@ -702,6 +713,8 @@ class MienRigDesc(Structure):
         ("allocator", POINTER(MienAllocator)),
         ("storage", c_uint32),
         ("reuse", c_uint32),
+        ("arithmetic", c_uint32),
+        ("reserved", c_uint32),
     ]
     struct_size: Any
     isa: Any
@@ -710,9 +723,11 @@ class MienRigDesc(Structure):
     allocator: Any
     storage: Any
     reuse: Any
+    arithmetic: Any
+    reserved: Any
 
     def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=32, **values)
+        super().__init__(struct_size=40, **values)
 
 
 class MienRigInfo(Structure):

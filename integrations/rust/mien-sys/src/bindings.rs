@@ -185,6 +185,14 @@ pub const MIEN_STORAGE_F32: u32 = 0;
 /// +-65504): half the memory, about three decimal digits.
 pub const MIEN_STORAGE_F16: u32 = 1;
 
+// enum MienArithmetic
+/// Those on AVX2, AVX-512 and NEON, which multiply and add in one step; and those on scalar and
+/// SSE2.
+pub const MIEN_ARITHMETIC_FAST: u32 = 0;
+/// All: in two steps everywhere. Angles and quaternions are the same as far as the C library's
+/// sine and arc tangent are.
+pub const MIEN_ARITHMETIC_PORTABLE: u32 = 1;
+
 // enum MienReuse
 pub const MIEN_REUSE_UNCHANGED: u32 = 0;
 /// Everything is computed each time: for measuring.
@@ -711,6 +719,10 @@ pub struct MienRigDesc {
     pub storage: u32,
     /// `MIEN_REUSE_...`
     pub reuse: u32,
+    /// `MIEN_ARITHMETIC_...`
+    pub arithmetic: u32,
+    /// 0.
+    pub reserved: u32,
 }
 
 impl Default for MienRigDesc {

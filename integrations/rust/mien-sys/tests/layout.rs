@@ -227,7 +227,7 @@ fn mien_generate_desc() {
 #[test]
 fn mien_rig_desc() {
     use mien_sys::MienRigDesc as S;
-    assert_eq!(size_of::<S>(), 32);
+    assert_eq!(size_of::<S>(), 40);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
     assert_eq!(offset!(S, isa), 4);
@@ -236,6 +236,8 @@ fn mien_rig_desc() {
     assert_eq!(offset!(S, allocator), 16);
     assert_eq!(offset!(S, storage), 24);
     assert_eq!(offset!(S, reuse), 28);
+    assert_eq!(offset!(S, arithmetic), 32);
+    assert_eq!(offset!(S, reserved), 36);
 }
 
 #[test]

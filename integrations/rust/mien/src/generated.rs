@@ -429,6 +429,24 @@ impl Storage {
 
 numbers!(Storage, u32, [(0, "F32"), (1, "F16")]);
 
+/// Which results have the same bits on which instruction sets.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Arithmetic(pub u32);
+
+impl Arithmetic {
+    /// Those on AVX2, AVX-512 and NEON, which multiply and add in one step; and those on scalar
+    /// and SSE2.
+    pub const FAST: Self = Self(0);
+    /// All: in two steps everywhere. Angles and quaternions are the same as far as the C library's
+    /// sine and arc tangent are.
+    pub const PORTABLE: Self = Self(1);
+}
+
+numbers!(Arithmetic, u32, [(0, "FAST"), (1, "PORTABLE")]);
+
 /// Whether evaluation keeps results whose inputs did not change since the last one of the
 /// instance. They have the same bits either way.
 ///
