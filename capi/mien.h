@@ -758,8 +758,9 @@ MIEN_API MienStatus mien_rig_evaluate_twist_swing(const MienRig* rig, MienInstan
  * shared by any number of characters and threads.
  *
  *   local    Translate(neutral + delta) * R * Scale(1 + delta), for column vectors. R is, as
- *            MIEN_COMPOSE_... says, R(neutral) * R(delta), or the rotation of the summed angles. With
- *            quaternion outputs R(delta) is the quaternion, of any length; zero is the identity.
+ *            MIEN_COMPOSE_... says, R(neutral) * R(delta), or the rotation of the summed angles.
+ *            With quaternion outputs R(delta) is the quaternion, of any length; zero is the
+ *            identity.
  *   model    model of the parent * local; a root (its own parent) starts from the origin
  *   skin     model * inverse of the model matrix of the neutral pose
  *   vertex   sum of weight * skin * (neutral position + sum of channel weight * target delta), over
@@ -767,8 +768,8 @@ MIEN_API MienStatus mien_rig_evaluate_twist_swing(const MienRig* rig, MienInstan
  *            where its targets put it. Channel weights within 1e-5 of 0 count as 0.
  *
  * Joints that a LOD lacks have no delta and pass on their parent's motion. A position is shared by
- * all faces around it; a vertex is a position with a texture coordinate and a normal (a layout of the
- * file), so a mesh has at least as many vertices as positions it uses. */
+ * all faces around it; a vertex is a position with a texture coordinate and a normal (a layout of
+ * the file), so a mesh has at least as many vertices as positions it uses. */
 typedef struct MienDeformer MienDeformer;
 
 /* How the rotation of a joint is made of the neutral one and the delta. */
@@ -789,8 +790,8 @@ enum MienWeights {
 enum MienNormals {
     MIEN_NORMALS_DEFAULT = 0,    /* what MienDeformerDesc.normals says; there: recomputed */
     MIEN_NORMALS_NONE = 1,       /* left as they are */
-    MIEN_NORMALS_SKINNED = 2,    /* neutral normals turned as the skin is: cheap, but blend shape
-                                    targets do not turn them (they carry no normals) */
+    MIEN_NORMALS_SKINNED = 2,    /* neutral normals turned as the skin is, right for any scale; but
+                                    blend shape targets do not turn them (they carry none) */
     MIEN_NORMALS_RECOMPUTED = 3  /* sum of the area vectors of the faces around the position. Where
                                     that is more than 30 degrees off the neutral normal (a hard
                                     edge), the neutral normal is turned as the sum turned since
@@ -807,18 +808,18 @@ typedef struct MienDeformerDesc {
     const MienAllocator* allocator;
 } MienDeformerDesc;
 
-/* Packs the geometry of `dna`, which may be closed afterwards, and keeps the rig's memory alive (the
- * rig may be destroyed). `dna` is the one that the rig was made of, or another opening of the same
- * file with the same LODs: other numbers or names of joints, channels or meshes are
+/* Packs the geometry of `dna`, which may be closed afterwards, and keeps the rig's memory alive
+ * (the rig may be destroyed). `dna` is the one that the rig was made of, or another opening of the
+ * same file with the same LODs: other numbers or names of joints, channels or meshes are
  * MIEN_ERROR_MISMATCH. It needs MIEN_LAYER_GEOMETRY (or ..._WITHOUT_BLEND_SHAPES: then there are no
  * targets), else MIEN_ERROR_DNA_LAYER.
- * A position may have any number of influences up to 65535 (MIEN_ERROR_DNA_LIMIT); those of weight 0
- * are dropped. Faces of fewer than three corners are left out. Meshes without faces, weights, normals,
- * texture coordinates or anything at all are accepted: normals that the file lacks are recomputed from
- * the faces, texture coordinates are 0. Which side of a face is outside the stored normals tell; without
- * them the file's axes and winding do. MIEN_ERROR_DNA_VALUE: joints that descend from themselves;
- * positions, deltas or weights that are not finite (the message names mesh and position). Takes some
- * memory beyond the block for the time of the call. */
+ * A position may have any number of influences up to 65535 (MIEN_ERROR_DNA_LIMIT); those of weight
+ * 0 are dropped. Faces of fewer than three corners are left out. Meshes without faces, weights,
+ * normals, texture coordinates or anything at all are accepted: normals that the file lacks are
+ * recomputed from the faces, texture coordinates are 0. Which side of a face is outside the stored
+ * normals tell; without them the file's axes and winding do. MIEN_ERROR_DNA_VALUE: joints that
+ * descend from themselves; positions, deltas or weights that are not finite (the message names mesh
+ * and position). Takes some memory beyond the block for the time of the call. */
 MIEN_API MienStatus mien_deformer_create(const MienDna* dna, const MienRig* rig,
                                          const MienDeformerDesc* desc, MienDeformer** out_deformer,
                                          MienError* error);
@@ -871,14 +872,14 @@ MIEN_API MienStatus mien_deformer_influences(const MienDeformer* deformer, uint3
                                              uint32_t position, MienIndexView* out_joints,
                                              MienFloatView* out_weights);
 
-/* Writes x y z for each position of the mesh: how far a target moves it at channel weight 1 (0 where it
- * does not). `count` is the room in `out_deltas`, 3 * position_count floats or more. */
+/* Writes x y z for each position of the mesh: how far a target moves it at channel weight 1 (0
+ * where it does not). `count` is the room in `out_deltas`, 3 * position_count floats or more. */
 MIEN_API MienStatus mien_deformer_target(const MienDeformer* deformer, uint32_t mesh,
                                          uint32_t target, float* out_deltas, size_t count);
 
-/* Model matrices of the joints in the neutral pose, or their inverses: 16 floats per joint, column by
- * column (column vectors; the last column is the translation, the last row 0 0 0 1). Views live as
- * long as the deformer. */
+/* Model matrices of the joints in the neutral pose, or their inverses: 16 floats per joint, column
+ * by column (column vectors; the last column is the translation, the last row 0 0 0 1). Views live
+ * as long as the deformer. */
 MIEN_API MienStatus mien_deformer_bind_matrices(const MienDeformer* deformer,
                                                 MienFloatView* out_matrices);
 MIEN_API MienStatus mien_deformer_inverse_bind_matrices(const MienDeformer* deformer,
@@ -904,9 +905,9 @@ MIEN_API MienStatus mien_pose_create(const MienDeformer* deformer, const MienPos
 MIEN_API void mien_pose_destroy(MienPose* pose);
 
 /* Takes over joint values and channel weights of the instance's last evaluation, and computes the
- * matrices of all joints; meshes follow with mien_pose_deform(). The instance is one of the rig that
- * the deformer was made with, else MIEN_ERROR_MISMATCH. Allocates nothing, locks nothing. Values that
- * are not finite give results that are not. */
+ * matrices of all joints; meshes follow with mien_pose_deform(). The instance is one of the rig
+ * that the deformer was made with, else MIEN_ERROR_MISMATCH. Allocates nothing, locks nothing.
+ * Values that are not finite give results that are not. */
 MIEN_API MienStatus mien_pose_update(MienPose* pose, const MienInstance* instance);
 
 /* The same from arrays: joint values as mien_instance_joints() gives them, and one weight per
@@ -923,27 +924,28 @@ MIEN_API MienStatus mien_pose_update_from_values(MienPose* pose, const float* jo
 MIEN_API MienStatus mien_pose_joint_matrices(const MienPose* pose, MienFloatView* out_matrices);
 MIEN_API MienStatus mien_pose_skin_matrices(const MienPose* pose, MienFloatView* out_matrices);
 
-/* Writes the local transforms of the last update, relative to the parent, 10 floats per joint: tx ty tz
- * qx qy qz qw sx sy sz, the quaternion of unit length. `count` is the room in `out_transforms`. */
+/* Writes the local transforms of the last update, relative to the parent, 10 floats per joint: tx
+ * ty tz qx qy qz qw sx sy sz, the quaternion of unit length. `count` is the room in
+ * `out_transforms`. */
 MIEN_API MienStatus mien_pose_local_transforms(const MienPose* pose, float* out_transforms,
                                                size_t count);
 
-/* Positions of one mesh as of the last update, and its normals (MIEN_NORMALS_...). On this thread, but
- * for meshes of 16384 positions and more in tasks of about 2048, if there is somebody to run them:
- * `parallel` may be NULL. The result has the same bits. Allocates nothing, locks nothing.
+/* Positions of one mesh as of the last update, and its normals (MIEN_NORMALS_...). On this thread,
+ * but for meshes of 16384 positions and more in tasks of about 2048, if there is somebody to run
+ * them: `parallel` may be NULL. The result has the same bits. Allocates nothing, locks nothing.
  * MIEN_ERROR_LOD: the pose has no room for this mesh. */
 MIEN_API MienStatus mien_pose_deform(MienPose* pose, uint32_t mesh, uint32_t normals,
                                      const MienParallelFor* parallel);
 
-/* The same mesh of several different poses of one deformer: the same bits as one after the other, but
- * each piece of the mesh is fetched once, and the size that counts is that of all of them together;
- * `parallel` may be NULL. A pose that comes up twice is MIEN_ERROR_INVALID_ARGUMENT, one of another
- * deformer MIEN_ERROR_MISMATCH; then none is deformed. */
+/* The same mesh of several different poses of one deformer: the same bits as one after the other,
+ * but each piece of the mesh is fetched once, and the size that counts is that of all of them
+ * together; `parallel` may be NULL. A pose that comes up twice is MIEN_ERROR_INVALID_ARGUMENT, one
+ * of another deformer MIEN_ERROR_MISMATCH; then none is deformed. */
 MIEN_API MienStatus mien_pose_deform_batch(MienPose* const* poses, size_t pose_count, uint32_t mesh,
                                            uint32_t normals, const MienParallelFor* parallel);
 
-/* Results of the last mien_pose_deform() of the mesh: x y z per position, x y z per vertex. The views
- * stay valid, their contents change with each call. A mesh without room: MIEN_ERROR_LOD. */
+/* Results of the last mien_pose_deform() of the mesh: x y z per position, x y z per vertex. The
+ * views stay valid, their contents change with each call. A mesh without room: MIEN_ERROR_LOD. */
 MIEN_API MienStatus mien_pose_positions(const MienPose* pose, uint32_t mesh,
                                         MienFloatView* out_positions);
 MIEN_API MienStatus mien_pose_normals(const MienPose* pose, uint32_t mesh,
