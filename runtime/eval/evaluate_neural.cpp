@@ -93,42 +93,35 @@ void scatter(const Rig& rig, Instance& instance, const MlStep& step, uint32_t lo
 // ML joints may come in axes and angles of their own. Scales have no direction: they keep their
 // sign.
 void convert_triple(const Rig& rig, Instance& instance, const uint16_t controls[3], bool scale) {
+  const dna::SystemChange& change = rig.ml.change;
   float v[3] = {};
   for (int i = 0; i < 3; ++i)
     v[i] = controls[i] == kNoControl ? 0.0f : instance.controls[controls[i]];
-  const auto& m = rig.ml.to_rig.m;
   for (int i = 0; i < 3; ++i) {
     if (controls[i] == kNoControl) continue;
-    double turned = 0;
-    for (int k = 0; k < 3; ++k) turned += v[k] * (scale ? std::fabs(m[k][i]) : m[k][i]);
-    instance.controls[controls[i]] = static_cast<float>(turned);
+    instance.controls[controls[i]] = v[change.from[i]] * (scale ? 1.0f : change.normal[i]);
   }
 }
 
 void convert_rotation(const Rig& rig, Instance& instance, uint16_t base) {
   const MlTable& ml = rig.ml;
   float* x = instance.controls.data + base;
-  const Quaternion q = ml.quaternion_rotations ? normalized({x[0], x[1], x[2], x[3]})
-                                               : quaternion_from_euler(ml.rotation, x);
-  // A quaternion is read in the angles of its own system, as everything else there is.
-  Quaternion plain = q;
   if (ml.quaternion_rotations) {
-    float own[3];
-    euler_from_quaternion(ml.rotation, q, own);
-    plain = quaternion_from_euler(ml.rotation, own);
-  }
-  const Matrix3 turned = transposed(ml.to_rig) * matrix_from_quaternion(plain) * ml.to_rig;
-  float angles[3];
-  euler_from_matrix(rig.rotation, turned, angles);
-  if (!ml.quaternion_rotations) {
-    std::copy(angles, angles + 3, x);
+    const Quaternion q = normalized({x[0], x[1], x[2], x[3]});
+    const float v[3] = {q.x, q.y, q.z};
+    for (int i = 0; i < 3; ++i) x[i] = v[ml.change.from[i]] * ml.change.turn[i];
+    x[3] = q.w;
     return;
   }
-  const Quaternion out = quaternion_from_euler(rig.rotation, angles);
-  x[0] = out.x;
-  x[1] = out.y;
-  x[2] = out.z;
-  x[3] = out.w;
+  const float angles[3] = {x[0], x[1], x[2]};
+  if (ml.change.carries_angles) {  // so that sums of angles stay sums
+    for (int i = 0; i < 3; ++i) {
+      x[i] = angles[ml.change.from[i]] * static_cast<float>(ml.change.angle[i]);
+    }
+    return;
+  }
+  const Matrix3 turned = transposed(ml.to_rig) * matrix_from_euler(ml.rotation, angles) * ml.to_rig;
+  euler_from_matrix(rig.rotation, turned, x);
 }
 
 void clear_joint_controls(const Rig& rig, Instance& instance) {

@@ -189,19 +189,18 @@ uint32_t file_attribute(uint32_t attribute, const dna::MlJointWidths& widths) {
 }
 
 /// Keys 3 to 9 describe the system of the ML joints; false unless all are there.
-bool find_system(const dna::MlJoints& joints, uint32_t axes[3], int32_t signs[3],
-                 uint32_t& sequence) {
+bool find_system(const dna::MlJoints& joints, dna::System& system) {
   uint32_t seen = 0;
   for (uint32_t i = 0; i < joints.parameter_keys.count; ++i) {
     const uint16_t key = joints.parameter_keys[i], value = joints.parameter_values[i];
     if (key < 3 || key > 9) continue;
     seen |= 1u << key;
     if (key < 6)
-      axes[key - 3] = value;
+      system.axes[key - 3] = value;
     else if (key < 9)
-      signs[key - 6] = value == 1 ? 1 : -1;
+      system.rotation_signs[key - 6] = value == 1 ? 1 : -1;
     else
-      sequence = value;
+      system.rotation_sequence = value;
   }
   return seen == 0x3F8;
 }
@@ -249,17 +248,19 @@ void fill_ml_joints(const DnaView& view, Rig& rig, Span<uint32_t> position) {
     }
   }
 
-  uint32_t axes[3] = {}, sequence = 0;
-  int32_t signs[3] = {1, 1, 1};
-  if (!find_system(from, axes, signs, sequence)) return;
-  bool own_axes = true;  // of the rig: directions that there are
-  for (uint32_t axis : rig.units.axes) own_axes &= axis < 6;
-  ml.converts = own_axes && (!std::equal(axes, axes + 3, rig.units.axes) ||
-                             !std::equal(signs, signs + 3, rig.units.rotation_signs) ||
-                             sequence != rig.units.rotation_sequence);
+  dna::System own, rigs;
+  if (!find_system(from, own)) return;
+  std::copy(rig.units.axes, rig.units.axes + 3, rigs.axes);
+  std::copy(rig.units.rotation_signs, rig.units.rotation_signs + 3, rigs.rotation_signs);
+  rigs.rotation_sequence = rig.units.rotation_sequence;
+  ml.converts = dna::spans_space(own.axes) && dna::spans_space(rigs.axes) &&
+                (!std::equal(own.axes, own.axes + 3, rigs.axes) ||
+                 !std::equal(own.rotation_signs, own.rotation_signs + 3, rigs.rotation_signs) ||
+                 own.rotation_sequence != rigs.rotation_sequence);
   if (!ml.converts) return;
-  ml.rotation = rotation_convention(sequence, signs, rig.units.rotation);
-  ml.to_rig = change_of_axes(axes, rig.units.axes);
+  ml.change = dna::change_system(own, rigs);
+  ml.rotation = rotation_convention(own.rotation_sequence, own.rotation_signs, rig.units.rotation);
+  ml.to_rig = change_of_axes(own.axes, rigs.axes);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "runtime/base/allocator.h"
 #include "runtime/base/span.h"
 #include "runtime/base/transform.h"
+#include "runtime/dna/coordinate_system.h"
 #include "simd/kernels.h"
 
 namespace mien {
@@ -241,8 +242,9 @@ struct MlTable {
   bool blend_masks = false;           // else a mask is on or off
   bool quaternion_rotations = false;  // of the ML joints
   bool converts = false;              // ML joints come in a system of their own:
+  dna::SystemChange change = {};      // from it to the rig's
   RotationConvention rotation;        // its angles
-  Matrix3 to_rig;                     // its axes to the rig's, for row vectors
+  Matrix3 to_rig;                     // the change of axes, for row vectors
 };
 
 /// Joints that follow a quaternion input: what swings with it, what twists with it (rig-evaluation

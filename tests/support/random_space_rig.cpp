@@ -257,7 +257,7 @@ struct Builder {
     std::vector<float> weights;
     for (uint32_t r = 0; r < count; ++r) {
       const bool angle = rotation == 0 && r % each >= 3 && r % each < 6;
-      const double most = angle ? 0.2 * unit() : 0.5;
+      const double most = angle ? 1.5 * unit() : 0.5;  // beyond a quarter turn too
       for (uint32_t c = 0; c < 5; ++c) weights.push_back(between(-most, most));
     }
     last.biases = floats(count, -0.2, 0.2);
