@@ -3,7 +3,8 @@
 use crate::convert::{bytes, empty_string, index, path_string, terminated, utf8};
 use crate::error::{check, checked};
 use crate::{
-    Allocator, CoordinateSystem, DnaField, DnaInfo, DnaLayer, Layers, Preset, Result, UnknownLayers,
+    Allocator, CoordinateSystem, DnaField, DnaInfo, DnaLayer, Generate, Layers, Preset, Result,
+    UnknownLayers,
 };
 use mien_sys as sys;
 use std::borrow::Cow;
@@ -404,6 +405,7 @@ impl WriteOptions {
 pub struct GenerateOptions {
     preset: Preset,
     seed: u64,
+    flags: u32,
     allocator: Option<Allocator>,
 }
 
@@ -425,6 +427,12 @@ impl GenerateOptions {
         self
     }
 
+    /// What it has beyond that: [`Generate::ML`] is learned behaviour.
+    pub fn with(mut self, extra: Generate) -> Self {
+        self.flags |= extra.0;
+        self
+    }
+
     /// Where memory comes from.
     pub fn allocator(mut self, allocator: &Allocator) -> Self {
         self.allocator = Some(allocator.clone());
@@ -437,6 +445,7 @@ impl GenerateOptions {
             let desc = sys::MienGenerateDesc {
                 preset: self.preset.0,
                 seed: self.seed,
+                flags: self.flags,
                 allocator,
                 ..Default::default()
             };

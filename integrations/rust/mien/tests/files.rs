@@ -2,7 +2,8 @@
 //! DNA files in memory and on disk: opened whole and in part, written, malformed.
 
 use mien::{
-    Dna, FieldType, Layers, OpenOptions, Preset, Report, Rig, Severity, Status, WriteOptions,
+    Dna, FieldType, Generate, GenerateOptions, Layers, OpenOptions, Preset, Report, Rig, Severity,
+    Status, WriteOptions,
 };
 use std::path::PathBuf;
 
@@ -90,6 +91,13 @@ fn fields_are_read_by_path() {
     assert_eq!(dna.read_floats_into(path, 0, &mut many).unwrap_err().status(), Status::INDEX);
     assert!(dna.read_floats_into(path, u64::MAX, &mut many).is_err());
     assert!(dna.layer(usize::MAX).is_err());
+}
+
+#[test]
+fn learned_behaviour_is_generated_if_asked_for() {
+    let ml = GenerateOptions::new().preset(Preset::SMALL).with(Generate::ML).generate().unwrap();
+    assert!(ml.info().neural_network_count > 0);
+    assert_eq!(Dna::generate(Preset::SMALL).unwrap().info().neural_network_count, 0);
 }
 
 #[test]
