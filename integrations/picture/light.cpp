@@ -64,7 +64,7 @@ Vec3 bounced(float openness, Vec3 colour) {
 Vec3 key_direction() { return kKey.direction; }
 
 Vec3 light(const Fragment& f, float openness, float key) {
-  const Material& m = f.on->surface->material;
+  const Material& m = f.on->surface.material;
   const Vec3 open = bounced(openness, f.colour);
   const float soft = m.softness, nv = saturate(dot(f.normal, f.to_eye));
 

@@ -5,7 +5,7 @@ namespace mien::picture {
 
 namespace {
 
-constexpr int kProbes = 12;
+constexpr int kProbes = 8;
 constexpr int kTile = 4;  // pixels of a tile probe in different directions; a blur evens them out
 
 struct Probes {
@@ -55,39 +55,50 @@ float probe_pixel(const PixelLayer& layer, const Lens& lens, float radius, int x
   return std::max(1 - 2.2f * blocked / kProbes, 0.0f);
 }
 
+/// Means of as many pixels as a tile is wide, along rows or columns; those apart in depth are left
+/// out.
+void blur(const PixelLayer& layer, const std::vector<float>& from, std::vector<float>& to,
+          float depth, bool along_rows) {
+  const size_t step = along_rows ? 1 : size_t(layer.width);
+  const int count = along_rows ? layer.width : layer.height;
+  size_t at = 0;
+  for (int y = 0; y < layer.height; ++y) {
+    for (int x = 0; x < layer.width; ++x, ++at) {
+      const float distance = layer.distance[at];
+      to[at] = 1;
+      if (distance == 0) continue;
+      const int place = along_rows ? x : y;
+      const int first = std::max(place - kTile / 2, 0), end = std::min(place + kTile / 2, count);
+      size_t near = at - size_t(place - first) * step;
+      float sum = 0, weight = 0;
+      for (int i = first; i < end; ++i, near += step) {
+        const float w = std::fabs(layer.distance[near] - distance) < depth ? 1.0f : 0.0f;
+        sum += w * from[near];
+        weight += w;
+      }
+      to[at] = sum / weight;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<float> find_openness(const PixelLayer& layer, const Lens& lens, float radius) {
   static const Probes probes;
-  std::vector<float> raw(layer.distance.size(), 1.0f), smooth(layer.distance.size(), 1.0f);
+  std::vector<float> openness(layer.distance.size(), 1.0f), row_wise(layer.distance.size());
   for (int y = 0; y < layer.height; ++y) {
     for (int x = 0; x < layer.width; ++x) {
       const size_t at = layer.index(x, y);
       if (layer.distance[at] == 0) continue;
       const int turn = y % kTile * kTile + x % kTile;
-      raw[at] = probe_pixel(layer, lens, radius, x, y, probes.x[turn], probes.y[turn]);
+      openness[at] = probe_pixel(layer, lens, radius, x, y, probes.x[turn], probes.y[turn]);
     }
   }
   // Any window of the size of a tile holds each direction once.
-  for (int y = 0; y < layer.height; ++y) {
-    for (int x = 0; x < layer.width; ++x) {
-      const size_t at = layer.index(x, y);
-      const float distance = layer.distance[at];
-      if (distance == 0) continue;
-      float sum = 0, weight = 0;
-      for (int j = std::max(y - 2, 0); j < std::min(y + 2, layer.height); ++j) {
-        for (int i = std::max(x - 2, 0); i < std::min(x + 2, layer.width); ++i) {
-          const size_t near = layer.index(i, j);
-          const float apart = std::fabs(layer.distance[near] - distance);
-          const float w = apart < radius * 0.3f ? 1.0f : 0.0f;
-          sum += w * raw[near];
-          weight += w;
-        }
-      }
-      smooth[at] = sum / weight;
-    }
-  }
-  return smooth;
+  const float depth = radius * 0.3f;
+  blur(layer, openness, row_wise, depth, true);
+  blur(layer, row_wise, openness, depth, false);
+  return openness;
 }
 
 ShadowMap::ShadowMap(const Scene& scene, Vec3 to_light, int size) {

@@ -42,6 +42,9 @@ class PixelPatches {
     count_ = 0;
     const size_t n = size_t(seen_.samples);
     const Seen* seen = &seen_.seen[pixel * n];
+    uint32_t any = 0;
+    for (size_t s = 0; s < n; ++s) any |= seen[s].triangle;
+    if (any == 0) return seen_.samples;
     int empty = 0;
     for (size_t s = 0; s < n; ++s) {
       if (seen[s].triangle == 0) {
@@ -120,7 +123,7 @@ class BackdropLight {
 float wire_cover(const Fragment& f, const Lens& lens, float px, float py) {
   Vec3 p[3];
   f.on->triangles().corner_positions(f.triangle, p);
-  const uint8_t inner = f.on->surface->inner_edges ? f.on->surface->inner_edges[f.triangle] : 0;
+  const uint8_t inner = f.on->surface.inner_edges ? f.on->surface.inner_edges[f.triangle] : 0;
   float x[3], y[3];
   for (int k = 0; k < 3; ++k) {
     if (p[k].z > -lens.near) return 0;
@@ -193,6 +196,10 @@ Image render(const std::vector<Surface>& surfaces, const Camera& camera,
     for (int x = 0; x < options.width; ++x) {
       const size_t pixel = layer.index(x, y);
       const int empty = patches.find(pixel);
+      if (empty == seen.samples) {
+        image.set(x, y, to_srgb(backdrop.at(x, y)));
+        continue;
+      }
       Vec3 sum;
       if (empty > 0) sum = backdrop.at(x, y) * float(empty);
       for (const Patch& patch : patches) {

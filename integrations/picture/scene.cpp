@@ -33,19 +33,19 @@ std::vector<Vec3> make_normals(const Surface& s, const std::vector<Vec3>& positi
 }  // namespace
 
 TriangleList PlacedSurface::triangles() const {
-  return list_triangles(*surface, places.data(), first_number);
+  return list_triangles(surface, places.data(), first_number);
 }
 
 Vec3 PlacedSurface::normal(size_t vertex) const {
-  if (surface->normals) return load3(surface->normals, vertex);
-  return own_normals[surface->vertex_positions ? surface->vertex_positions[vertex] : vertex];
+  if (surface.normals) return load3(surface.normals, vertex);
+  return own_normals[surface.vertex_positions ? surface.vertex_positions[vertex] : vertex];
 }
 
 Scene::Scene(const std::vector<Surface>& surfaces, const Camera& camera) : camera_(camera) {
   Box box;
   uint32_t number = 1;
   for (const Surface& s : surfaces) {
-    PlacedSurface placed{&s, {}, {}, {}, to_linear(s.material.colour), 1, number};
+    PlacedSurface placed{s, {}, {}, {}, to_linear(s.material.colour), 1, number};
     number += uint32_t(s.triangle_count);
     placed.places.resize(s.position_count);
     std::vector<Vec3> positions;
@@ -103,7 +103,7 @@ Fragment Scene::fragment(uint32_t number, Vec3 ray) const {
   const bool good = sum > 0 && std::isfinite(sum);
   for (int k = 0; k < 3; ++k) w[k] = good ? w[k] / sum : 1 / 3.0f;
 
-  const Surface& s = *on.surface;
+  const Surface& s = on.surface;
   const uint32_t* corners = s.triangles + 3 * size_t{f.triangle};
   Vec3 normal;
   for (int k = 0; k < 3; ++k) {

@@ -10,7 +10,7 @@
 namespace mien::picture {
 
 struct PlacedSurface {
-  const Surface* surface;
+  Surface surface;
   std::vector<Vec3> places;       // positions in view space
   std::vector<Vec3> own_normals;  // of each position, in model space, if the surface has none
   std::vector<Vec3> colours;      // linear, of each position; empty: one for all

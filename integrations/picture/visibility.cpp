@@ -68,8 +68,9 @@ struct DepthPlane {
   void set(const Corner& a, const Corner& b, const Corner& c, int64_t area, int32_t first_x,
            int32_t first_y, const SamplePattern& pattern) {
     const double ab = double(b.depth) - a.depth, ac = double(c.depth) - a.depth;
-    const double gx = (ab * (c.y - a.y) - ac * (b.y - a.y)) / double(area);
-    const double gy = (ac * (b.x - a.x) - ab * (c.x - a.x)) / double(area);
+    const double share = 1 / double(area);
+    const double gx = (ab * (c.y - a.y) - ac * (b.y - a.y)) * share;
+    const double gy = (ac * (b.x - a.x) - ab * (c.x - a.x)) * share;
     start = float(a.depth + gx * (first_x - a.x) + gy * (first_y - a.y));
     step_x = float(gx * kSubpixels);
     step_y = float(gy * kSubpixels);
@@ -164,21 +165,35 @@ struct Polygon {
 
 class Drawing {
  public:
-  Drawing(const Lens& lens, Visibility& out)
-      : lens_(lens), pattern_(sample_pattern(out.samples)), out_(out) {}
-
-  void add(const Vec3 (&view)[3], uint32_t number) {
-    if (!is_finite(view[0]) || !is_finite(view[1]) || !is_finite(view[2])) return;
-    Corner corners[3];
-    if (project(view[0], corners[0]) && project(view[1], corners[1]) &&
-        project(view[2], corners[2])) {
-      draw_corners(corners[0], corners[1], corners[2], number, pattern_, out_);
-    } else {
-      cut_and_add(view, number);
+  Drawing(const TriangleList& triangles, const Lens& lens, Visibility& out)
+      : triangles_(triangles), lens_(lens), pattern_(sample_pattern(out.samples)), out_(out),
+        projected_(triangles.position_count) {
+    for (size_t i = 0; i < projected_.size(); ++i) {
+      const Vec3 p = triangles.positions[i];
+      projected_[i].good = is_finite(p) && project(p, projected_[i].corner);
     }
   }
 
+  void add(size_t triangle) {
+    size_t at[3];
+    if (!triangles_.corner_indices(triangle, at)) return;
+    const Projected &a = projected_[at[0]], &b = projected_[at[1]], &c = projected_[at[2]];
+    const uint32_t number = triangles_.first_number + uint32_t(triangle);
+    if (a.good && b.good && c.good) {
+      draw_corners(a.corner, b.corner, c.corner, number, pattern_, out_);
+      return;
+    }
+    const Vec3* p = triangles_.positions;
+    const Vec3 view[3] = {p[at[0]], p[at[1]], p[at[2]]};
+    if (is_finite(view[0]) && is_finite(view[1]) && is_finite(view[2])) cut_and_add(view, number);
+  }
+
  private:
+  struct Projected {
+    Corner corner;
+    bool good;
+  };
+
   /// False if it lies before the near plane or past the guard border.
   bool project(Vec3 p, Corner& out) const {
     float scale = lens_.focal;
@@ -215,9 +230,11 @@ class Drawing {
     }
   }
 
+  const TriangleList& triangles_;
   const Lens& lens_;
   SamplePattern pattern_;
   Visibility& out_;
+  std::vector<Projected> projected_;  // of each position: most are corners of six triangles
 };
 
 }  // namespace
@@ -239,7 +256,7 @@ void Visibility::reset(int new_width, int new_height, int new_samples) {
   seen.assign(count, Seen{});
 }
 
-bool TriangleList::corner_positions(size_t triangle, Vec3 (&out)[3]) const {
+bool TriangleList::corner_indices(size_t triangle, size_t (&out)[3]) const {
   for (size_t k = 0; k < 3; ++k) {
     size_t at = corners[3 * triangle + k];
     if (positions_of) {
@@ -247,19 +264,21 @@ bool TriangleList::corner_positions(size_t triangle, Vec3 (&out)[3]) const {
       at = positions_of[at];
     }
     if (at >= position_count) return false;
-    out[k] = positions[at];
+    out[k] = at;
   }
   return true;
 }
 
+bool TriangleList::corner_positions(size_t triangle, Vec3 (&out)[3]) const {
+  size_t at[3];
+  if (!corner_indices(triangle, at)) return false;
+  for (size_t k = 0; k < 3; ++k) out[k] = positions[at[k]];
+  return true;
+}
+
 void draw(const TriangleList& triangles, const Lens& lens, Visibility& out) {
-  Drawing drawing(lens, out);
-  Vec3 corners[3];
-  for (size_t t = 0; t < triangles.count; ++t) {
-    if (triangles.corner_positions(t, corners)) {
-      drawing.add(corners, triangles.first_number + uint32_t(t));
-    }
-  }
+  Drawing drawing(triangles, lens, out);
+  for (size_t t = 0; t < triangles.count; ++t) drawing.add(t);
 }
 
 }  // namespace mien::picture

@@ -66,7 +66,8 @@ struct TriangleList {
   size_t count;
   uint32_t first_number;
 
-  /// False if a corner is not there.
+  /// Numbers of the positions at its corners. False if one is not there.
+  bool corner_indices(size_t triangle, size_t (&out)[3]) const;
   bool corner_positions(size_t triangle, Vec3 (&out)[3]) const;
 };
 void draw(const TriangleList& triangles, const Lens& lens, Visibility& out);
