@@ -15,7 +15,7 @@ using picture::Vec3;
 constexpr size_t kValues = 9;
 
 // Shares of the largest movement, and of the size of the rig, that count as none.
-constexpr float kStill = 1e-3f, kStillOfSize = 1e-6f;
+constexpr float kStill = 1e-2f, kStillOfSize = 1e-6f;
 
 std::vector<float> copy(MienStatus (*view)(const MienInstance*, MienFloatView*),
                         const Subject& subject) {

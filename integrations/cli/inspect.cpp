@@ -360,8 +360,9 @@ Command add_inspect_command(CLI::App& app, const Session& session) {
   inspect->footer(
       "Compares the rig at rest with the rig with this control on: joints (length of the\n"
       "translation, largest angle, largest change of scale), channels, maps, and the positions\n"
-      "of the meshes. Correctives are listed with their other inputs; for each, all inputs are\n"
-      "set, and what that moves beyond the sum of the inputs alone is measured.\n\n"
+      "of the meshes (those that go at least a hundredth of the furthest). Correctives are\n"
+      "listed with their other inputs; for each, all inputs are set, and what that moves beyond\n"
+      "the sum of the inputs alone is measured.\n\n"
       "Examples:\n"
       "  mien inspect head.dna jawOpen\n"
       "  mien inspect head.dna CTRL_C_jaw.ty --value 0.5 --json\n"
