@@ -238,7 +238,7 @@ uint64_t hash_of(const std::vector<uint8_t>& bytes) {
 }
 
 TEST(ProceduralHead, HasTheSameBytesOnEveryPlatform) {
-  const uint64_t expected[] = {0, 0};
+  const uint64_t expected[] = {6734271257750444573u, 15761264876894793171u};
   for (uint64_t seed = 0; seed < 2; ++seed) {
     EXPECT_EQ(hash_of(write_dna(generate_dna(MIEN_PRESET_HEAD, seed).get())), expected[seed])
         << "seed " << seed << ": if the head was meant to change, record the new number";
