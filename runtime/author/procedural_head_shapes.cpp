@@ -348,7 +348,7 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       add(bump(look.x, line, 0, above ? 0.4 : -0.4, 1.2, 0.5), {0, 0, 0.14});
       add(lips, {0, 0, 0.75});
       add(bump(look.x, line, 0, 0, 2.2, 0.8), {0, 0, 0.40});
-      add(lips * apart, {0, above ? 0.40 : -0.35, 0.10});
+      add(lips * apart, {0, above ? 0.20 : -0.30, 0.14});
       add(lips * bump(0, line, 0, 0, 1, 0.5) * apart, {0, 0, 0.16});
       break;
     case Motion::kPucker:
