@@ -364,8 +364,8 @@ class Normals(IntEnum):
     DEFAULT = 0
     #: left as they are
     NONE = 1
-    #: neutral normals turned as the skin is: cheap, but blend shape targets do not turn them (they
-    #: carry no normals)
+    #: neutral normals turned as the skin is, right for any scale; but blend shape targets do not
+    #: turn them (they carry none)
     SKINNED = 2
     #: sum of the area vectors of the faces around the position. Where that is more than 30 degrees
     #: off the neutral normal (a hard edge), the neutral normal is turned as the sum turned since

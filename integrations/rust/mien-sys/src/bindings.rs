@@ -244,8 +244,8 @@ pub const MIEN_WEIGHTS_FIX: u32 = 1;
 pub const MIEN_NORMALS_DEFAULT: u32 = 0;
 /// Left as they are.
 pub const MIEN_NORMALS_NONE: u32 = 1;
-/// Neutral normals turned as the skin is: cheap, but blend shape targets do not turn them (they
-/// carry no normals).
+/// Neutral normals turned as the skin is, right for any scale; but blend shape targets do not turn
+/// them (they carry none).
 pub const MIEN_NORMALS_SKINNED: u32 = 2;
 /// Sum of the area vectors of the faces around the position. Where that is more than 30 degrees
 /// off the neutral normal (a hard edge), the neutral normal is turned as the sum turned since
@@ -288,8 +288,9 @@ pub struct MienBatch {
 ///
 /// ```text
 /// local    Translate(neutral + delta) * R * Scale(1 + delta), for column vectors. R is, as
-///          MIEN_COMPOSE_... says, R(neutral) * R(delta), or the rotation of the summed angles. With
-///          quaternion outputs R(delta) is the quaternion, of any length; zero is the identity.
+///          MIEN_COMPOSE_... says, R(neutral) * R(delta), or the rotation of the summed angles.
+///          With quaternion outputs R(delta) is the quaternion, of any length; zero is the
+///          identity.
 /// model    model of the parent * local; a root (its own parent) starts from the origin
 /// skin     model * inverse of the model matrix of the neutral pose
 /// vertex   sum of weight * skin * (neutral position + sum of channel weight * target delta), over

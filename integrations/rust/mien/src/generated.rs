@@ -573,8 +573,8 @@ impl Normals {
     pub const DEFAULT: Self = Self(0);
     /// Left as they are.
     pub const NONE: Self = Self(1);
-    /// Neutral normals turned as the skin is: cheap, but blend shape targets do not turn them
-    /// (they carry no normals).
+    /// Neutral normals turned as the skin is, right for any scale; but blend shape targets do not
+    /// turn them (they carry none).
     pub const SKINNED: Self = Self(2);
     /// Sum of the area vectors of the faces around the position. Where that is more than 30
     /// degrees off the neutral normal (a hard edge), the neutral normal is turned as the sum
