@@ -172,8 +172,8 @@ struct Half {
   Arena arena{default_allocator()};
   head::HalfMesh mesh{arena};
 
-  explicit Half(uint32_t lod, Part part = Part::kHead) {
-    EXPECT_TRUE(head::make_part(head::Form(head::make_person(0)), part, lod, mesh));
+  explicit Half(uint32_t lod, uint64_t seed = 0) {
+    EXPECT_TRUE(head::make_part(head::Form(head::make_person(seed)), Part::kHead, lod, mesh));
   }
 
   /// Vertices of a slit's two edges: the same place before lids are opened, on different sides.
@@ -607,6 +607,29 @@ TEST(ProceduralHead, TeethAndTongueStayInTheClosedMouth) {
         }
         EXPECT_EQ(outside, 0u) << name << " LOD " << lod;
       }
+    }
+  }
+}
+
+/// Proportions differ from seed to seed; what has to fit still fits.
+TEST(ProceduralHead, OtherPersonsCloseEyesAndLipsToo) {
+  for (uint64_t seed = 1; seed <= 6; ++seed) {
+    Head head(seed);
+    const Half half(0, seed);
+    const Points skin = head.pose(Part::kHead, 0, {{"eyeBlinkLeft", 1}});
+    EXPECT_LT(widest(skin, half.edges(true)), 1e-4) << seed;
+    EXPECT_LT(widest(skin, half.edges(false)), 2e-6) << seed;
+    std::vector<Triangle> front;
+    for (const Triangle& t : head.triangles_of(Part::kHead, 0)) {
+      if (skin[t[0]].z > 0) front.push_back(t);
+    }
+    for (const Vec3& p : head.pose(Part::kEyeLeft, 0)) {
+      if (p.z > kEye.z) {
+        EXPECT_GT(front_at(skin, front, p.x, p.y), p.z) << seed;
+      }
+    }
+    for (const Vec3& p : head.pose(Part::kTeeth, 0)) {
+      EXPECT_GT(front_at(skin, front, p.x, p.y), p.z) << seed;
     }
   }
 }

@@ -48,7 +48,7 @@ struct Affine {
 void pose_joints(const Skeleton& skeleton, const JointDeltas& deltas, const uint32_t* active,
                  uint32_t active_count, Affine* out);
 
-/// The offset in neutral space that brings `p`, with blend shapes `already` added, to `target`.
+/// The offset to add to `p` before skinning so that it ends at `target`.
 Vec3 residual(const Affine* pose, const Weights& weights, Vec3 p, Vec3 target);
 
 }  // namespace mien::head

@@ -62,7 +62,8 @@ struct Shape {
 };
 extern const Shape kExpressions[kExpressionCount];
 
-/// Added when both members are active, by the product of their values.
+/// Added when both members are active, by the product of their values. So mouthClose seals the lips
+/// however far the jaw is open, and blinking shuts the eye whatever else moves its lids.
 struct Corrective {
   uint8_t first, second;  // expressions
   Motion motion;
