@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Evaluation by instruction set, LOD and share of active controls; stages; and the yardstick, a
-// plain evaluation of the same joint matrix in compressed rows, so that numbers of two machines
-// compare.
+// Evaluation by instruction set, LOD and share of active controls; stages by themselves; and
+// yardsticks, so that numbers of two machines compare: the joint matrix in compressed rows, and RBF
+// solvers as anyone would write them. For the stages of a body, or of a head with networks:
+//
+//     MIEN_BENCH_RIG=body.dna build/release/bench/bench_evaluate --benchmark_filter='/lod0/25%'
 #include <cmath>
 #include <random>
 
@@ -38,6 +40,20 @@ void activate(MienMutableFloatView raw, int percent) {
   }
 }
 
+// Beside the stages of mien.h: what stands before them, and a part of the joints.
+constexpr uint32_t kGuiToRaw = 1u << 30, kTwistSwing = 1u << 31;
+
+void run(const MienRig* rig, MienInstance* instance, uint32_t lod, uint32_t stages,
+         uint32_t set_ups) {
+  if (stages == kGuiToRaw) {
+    mien_rig_map_gui_to_raw(rig, instance);
+  } else if (stages == kTwistSwing) {
+    for (uint32_t s = 0; s < set_ups; ++s) mien_rig_evaluate_twist_swing(rig, instance, lod, s);
+  } else {
+    mien_rig_evaluate_stages(rig, instance, lod, stages);
+  }
+}
+
 void evaluate(benchmark::State& state, uint32_t isa, uint32_t lod, int percent, uint32_t stages) {
   const MienRig* rig = rig_for(isa);
   MienInstance* instance = nullptr;
@@ -47,8 +63,10 @@ void evaluate(benchmark::State& state, uint32_t isa, uint32_t lod, int percent, 
   mien_instance_raw_controls(instance, &raw);
   activate(raw, percent);
   mien_rig_evaluate(rig, instance, lod);
+  uint32_t set_ups = 0;
+  mien_rig_count(rig, MIEN_KIND_TWIST_SWING, &set_ups);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(mien_rig_evaluate_stages(rig, instance, lod, stages));
+    run(rig, instance, lod, stages, set_ups);
     benchmark::ClobberMemory();
   }
   MienRigStatistics statistics = sized<MienRigStatistics>();
@@ -125,9 +143,14 @@ const int kRegistered = [] {
   const struct {
     const char* name;
     uint32_t stages;
-  } stages[] = {{"all", MIEN_STAGE_ALL},           {"ml", MIEN_STAGE_ML},
-                {"rbf", MIEN_STAGE_RBF},           {"psd", MIEN_STAGE_PSD},
-                {"joints", MIEN_STAGE_JOINTS},     {"channels", MIEN_STAGE_BLEND_SHAPES},
+  } stages[] = {{"all", MIEN_STAGE_ALL},
+                {"controls", kGuiToRaw},
+                {"ml", MIEN_STAGE_ML},
+                {"rbf", MIEN_STAGE_RBF},
+                {"psd", MIEN_STAGE_PSD},
+                {"joints", MIEN_STAGE_JOINTS},  // with twists and swings
+                {"twist_swing", kTwistSwing},
+                {"channels", MIEN_STAGE_BLEND_SHAPES},
                 {"maps", MIEN_STAGE_ANIMATED_MAPS}};
   for (uint32_t isa = MIEN_ISA_SCALAR; isa <= MIEN_ISA_NEON; ++isa) {
     if (!mien_isa_available(isa)) continue;

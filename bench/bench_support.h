@@ -61,6 +61,7 @@ inline MienDna* open_rig(uint32_t layers, uint64_t lods) {
 inline MienRig* create_rig(const MienDna* dna, uint32_t isa) {
   MienRigDesc desc = sized<MienRigDesc>();
   desc.isa = isa;
+  desc.reuse = MIEN_REUSE_NOTHING;  // benchmarks repeat the same controls
   MienError error = sized<MienError>();
   MienRig* rig = nullptr;
   require(mien_rig_create(dna, &desc, &rig, &error), error);

@@ -48,7 +48,7 @@ TEST_F(Misuse, ValuesOutsideTheirRange) {
 
   c.with_error<MienDna*>("preset", [&](auto* o, auto* e) {
     MienGenerateDesc desc = sized<MienGenerateDesc>();
-    desc.preset = MIEN_PRESET_BODY + 1;
+    desc.preset = MIEN_PRESET_HEAD + 1;
     return mien_dna_generate(&desc, o, e);
   });
   c.with_error<MienDna*>("generate flags", [&](auto* o, auto* e) {
@@ -81,9 +81,9 @@ TEST_F(Misuse, ValuesOutsideTheirRange) {
     desc.storage = MIEN_STORAGE_F16 + 1;
     return mien_rig_create(dna, &desc, o, e);
   });
-  c.with_error<MienRig*>("reserved", [&](auto* o, auto* e) {
+  c.with_error<MienRig*>("reuse", [&](auto* o, auto* e) {
     MienRigDesc desc = sized<MienRigDesc>();
-    desc.reserved = 1;
+    desc.reuse = MIEN_REUSE_NOTHING + 1;
     return mien_rig_create(dna, &desc, o, e);
   });
   c.with_error<MienRig*>("rig without allocate", [&](auto* o, auto* e) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "runtime/author/random.h"
+#include "tests/support/random_layer_rig.h"
 #include "tests/support/rig_handles.h"
 #include "tests/support/tiny_rig.h"
 
@@ -165,6 +166,35 @@ TEST(TinyRig, IsEqualEverywhereWithPortableArithmetic) {
   Arena arena(default_allocator());
   const std::vector<uint8_t> bytes = write_view(dna::tiny_rig(arena));
   expect_equal_families(open_dna(bytes), 6, MIEN_ARITHMETIC_PORTABLE);
+}
+
+// All layers in any combination.
+TEST(RandomRigs, AreEqualWithinAFamily) {
+  for (uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random = Random::from_seed(51, seed);
+    expect_equal_families(LayerFile(random_layer_rig(random, false)).dna, seed);
+  }
+}
+
+// What is neither fused nor comes from networks is equal on all: RBF solvers, above all.
+TEST(RandomRigs, PoseControlsAreEqualOnAllInstructionSets) {
+  for (uint64_t seed = 0; seed < 60; ++seed) {
+    Random random = Random::from_seed(52, seed);
+    const LayerRig rig = random_layer_rig(random, seed % 2);
+    const LayerFile file(rig);
+    std::vector<float> first;
+    for (uint32_t isa : present_isas()) {
+      Character character(create_rig(file.dna.get(), isa));
+      Random inputs = Random::from_seed(53, seed);
+      const std::vector<float> raw = random_raw(rig, {4, 8}, inputs);
+      std::copy(raw.begin(), raw.end(), character.raw.begin());
+      character.evaluate(0, MIEN_STAGE_RBF);
+      const std::vector<float> mine(character.rbf.begin(), character.rbf.end());
+      if (first.empty()) first = mine;
+      EXPECT_TRUE(same_bits(span_of(mine), span_of(first))) << mien_isa_name(isa) << ", " << seed;
+    }
+  }
 }
 
 TEST(Rigs, ReportTheInstructionSetAskedFor) {
