@@ -10,6 +10,7 @@
 
 #include "tests/support/counting_allocator.h"
 #include "tests/support/dna_bytes.h"
+#include "tests/support/random_layer_rig.h"
 #include "tests/support/random_space_rig.h"
 #include "tests/support/rig_handles.h"
 #include "tests/support/tiny_rig.h"
@@ -101,10 +102,13 @@ Maker<MienDna> opener(const Bytes& bytes, uint32_t layers = 0, uint64_t lods = 0
   return {make, mien_dna_close};
 }
 
-Maker<MienRig> compiler(const MienDna* dna) {
-  auto make = [dna](const MienAllocator* allocator, MienRig** out, MienError* error) {
+Maker<MienRig> compiler(const MienDna* dna, uint32_t storage = MIEN_STORAGE_F32,
+                        uint32_t rotation = MIEN_OUTPUT_EULER) {
+  auto make = [=](const MienAllocator* allocator, MienRig** out, MienError* error) {
     MienRigDesc desc = sized<MienRigDesc>();
     desc.allocator = allocator;
+    desc.storage = storage;
+    desc.rotation = rotation;
     return mien_rig_create(dna, &desc, out, error);
   };
   return {make, mien_rig_destroy};
@@ -221,6 +225,12 @@ TEST_F(OutOfMemory, CreateRig) {
   const Bytes tiny = tiny_file();
   EXPECT_GE(survive_every_failure(compiler(open_dna(tiny).get())), 1u);
   survive_every_failure(compiler(open_dna(tiny, 2).get()));
+  // Every layer, in the other storage and form.
+  for (uint64_t seed : {1, 2, 3}) {
+    Random random = Random::from_seed(61, seed);
+    const LayerFile file(random_layer_rig(random, false));
+    survive_every_failure(compiler(file.dna.get(), MIEN_STORAGE_F16, MIEN_OUTPUT_QUATERNION));
+  }
   survive_every_failure(compiler(generate_dna(MIEN_PRESET_TINY, 1).get()));
   survive_every_failure(compiler(generate_dna(MIEN_PRESET_MEDIUM, 1).get()));
   survive_every_failure(compiler(generate_dna(MIEN_PRESET_BODY, 1, MIEN_GENERATE_ML).get()));
