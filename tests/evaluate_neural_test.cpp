@@ -257,6 +257,16 @@ TEST(DoBetter3, MlJointsInEveryCombination) {
   }
 }
 
+// The default of the w of a quaternion joint is 1: a mask blends towards no rotation, not to none.
+TEST(DoBetter12, MaskedQuaternionJointsComeToRest) {
+  Random random = Random::from_seed(33, 10);
+  for (bool scales : {false, true}) {
+    LayerRig rig = ml_joint_rig(true, true, scales, random);
+    rig.regions = {{0}};
+    expect_model(rig, random, 20, 1e-4);
+  }
+}
+
 TEST(DoBetter3, EulerOntoEulerAddsTheAngles) {
   LayerRig rig;
   rig.base.raw_count = kRaw;
