@@ -60,7 +60,7 @@ TEST(DenseLayer, EveryActivationAndSize) {
         }
         for (const KernelTable* table : present()) {
           table->dense_layer({values.data, biases.data, inputs.data(), outputs.data, 0.1f, columns,
-                              row_count, function, false});
+                              row_count, function, false, false});
           for (uint32_t r = 0; r < row_count; ++r) {
             double sum = biases.data[r], size = std::fabs(sum);
             for (uint32_t c = 0; c < columns; ++c) {
@@ -87,8 +87,8 @@ TEST(DenseLayer, WhatOverflowsSaturates) {
   const float input = 3e38f;
   for (const KernelTable* table : present()) {
     for (uint8_t function = 0; function <= 4; ++function) {
-      table->dense_layer(
-          {values.data, biases.data, &input, outputs.data, 0.5f, 1, kBlockRows, function, false});
+      table->dense_layer({values.data, biases.data, &input, outputs.data, 0.5f, 1, kBlockRows,
+                          function, false, false});
       for (uint32_t r = 0; r < kBlockRows; ++r) EXPECT_TRUE(std::isfinite(outputs.data[r]));
     }
   }
@@ -118,7 +118,7 @@ TEST(DenseLayer, EveryFiniteHalfIsReadExactly) {
   std::copy(all.begin(), all.end(), halves.data);
   const float one = 1;
   for (const KernelTable* table : present()) {
-    table->dense_layer({halves.data, biases.data, &one, outputs.data, 0, 1, count, 0, true});
+    table->dense_layer({halves.data, biases.data, &one, outputs.data, 0, 1, count, 0, true, false});
     for (uint32_t i = 0; i < count; ++i) {
       ASSERT_EQ(outputs.data[i], float_from_half(all[i])) << table->name << ", " << all[i];
     }
@@ -142,7 +142,7 @@ TEST(DenseLayer, HalvesGiveWhatTheirFloatsGive) {
       }
       for (const KernelTable* table : present()) {
         DenseLayerArgs args = {values.data, biases.data, inputs.data(), expected.data, 0, columns,
-                               row_count,   3,           false};
+                               row_count,   3,           false,         false};
         table->dense_layer(args);
         args.values = halves.data;
         args.outputs = outputs.data;
