@@ -121,11 +121,11 @@ TEST(RbfSolvers, EveryCombination) {
   }
 }
 
-// As many poses as fill one block of the kernels, one less, one more, and many.
+// As many poses as fill one block of the kernels, one less, one more, many, and none at all.
 TEST(RbfSolvers, EveryCountOfPoses) {
   Random random = Random::from_seed(31, 2);
   RbfRig made(random);
-  for (uint16_t count : {1, 2, 7, 8, 9, 15, 16, 17, 31, 32, 33, 48, 100}) {
+  for (uint16_t count : {1, 2, 7, 8, 9, 15, 16, 17, 31, 32, 33, 48, 100, 0}) {
     for (uint16_t distance : {0, 1, 2, 3}) {
       PlainRbfSolver solver;
       solver.distance = distance;
@@ -135,6 +135,19 @@ TEST(RbfSolvers, EveryCountOfPoses) {
     }
   }
   expect_model(made.rig, random, 1e-3, 10);
+}
+
+// Nothing to weigh, and nothing behind it in memory: for the address sanitizer.
+TEST(RbfSolvers, WithoutPosesDriveNothing) {
+  for (uint16_t type : {0, 1}) {
+    Random random = Random::from_seed(31, 7);
+    RbfRig made(random);
+    PlainRbfSolver solver;
+    solver.type = type;
+    made.add(solver, 0);
+    made.rig.rbf_count = 1;
+    expect_model(made.rig, random, 0, 2);
+  }
 }
 
 // Poses that share a control, drive several, none, in any order, or multiply with controls, those
