@@ -687,6 +687,21 @@ MIEN_API MienStatus mien_instance_joints(const MienInstance* instance, MienFloat
 MIEN_API MienStatus mien_instance_blend_shapes(const MienInstance* instance, MienFloatView* out_view);
 MIEN_API MienStatus mien_instance_animated_maps(const MienInstance* instance, MienFloatView* out_view);
 
+/* What the joint stage fetches for the control row as it is, at the LOD of the last evaluation (before
+ * the first: LOD 0), if it keeps no results. Bytes count once, whatever the caches do. */
+typedef struct MienInstanceStatistics {
+    uint32_t struct_size;
+    uint32_t lod;                  /* of the last evaluation */
+    uint32_t active_control_count; /* of the control row: raw, PSD, ML and RBF controls that are not 0 */
+    uint32_t joint_column_count;   /* columns of the joint matrix that they drive at this LOD */
+    uint64_t joint_entry_count;    /* of these columns; 8 per piece, as in MienRigStatistics */
+    uint64_t joint_byte_count;     /* of these entries: at most MienRigStatistics.joint_byte_count */
+} MienInstanceStatistics;
+
+/* For tools that relate times to memory. Looks at each control, so it is not for every frame. */
+MIEN_API MienStatus mien_instance_statistics(const MienInstance* instance,
+                                             MienInstanceStatistics* out_statistics);
+
 /* ---- Evaluation ------------------------------------------------------------------------------ */
 
 /* Raw controls from GUI controls, and back. Forward writes only raw controls that some row of the

@@ -266,12 +266,9 @@ MienStatus mien_rig_statistics(const MienRig* handle, uint32_t lod,
   const JointMatrix& joints = rig.joints;
   const uint32_t chunks = joints.chunks_at_lod[lod];
   uint64_t pieces = 0;
-  for (size_t k = 0; k < joints.columns.count; ++k) {
-    pieces += joints.chunk_pieces[k * joints.chunks.count + chunks];
-  }
-  const size_t value_size = joints.values.empty() ? sizeof(int16_t) : sizeof(float);
+  for (size_t k = 0; k < joints.columns.count; ++k) pieces += joints.pieces_before(k, chunks);
   statistics.joint_entry_count = pieces * kPieceRows;
-  statistics.joint_byte_count = pieces * (kPieceRows * value_size + sizeof(uint16_t));
+  statistics.joint_byte_count = pieces * joints.piece_bytes();
   for (size_t g = 0; g < joints.group_count; ++g) {
     const uint32_t rows = joints.group_rows_at_lod[g * rig.lod_count + lod];
     statistics.joint_row_count += rows;
@@ -377,6 +374,29 @@ MienStatus mien_instance_blend_shapes(const MienInstance* instance, MienFloatVie
 
 MienStatus mien_instance_animated_maps(const MienInstance* instance, MienFloatView* out_view) {
   return give_view(instance, out_view, [](const Instance& i) { return i.maps; });
+}
+
+MienStatus mien_instance_statistics(const MienInstance* handle,
+                                    MienInstanceStatistics* out_statistics) {
+  if (MienStatus status = clear_struct(out_statistics)) return status;
+  if (MienStatus status = check(handle)) return status;
+  const Instance& instance = *object(handle);
+  const JointMatrix& joints = instance.rig->joints;
+  MienInstanceStatistics statistics = {};
+  statistics.lod = instance.lod;
+  for (float control : instance.controls) statistics.active_control_count += control != 0.0f;
+  const uint32_t chunks = instance.rig->lod_count ? joints.chunks_at_lod[instance.lod] : 0;
+  uint64_t pieces = 0;
+  for (size_t k = 0; k < joints.columns.count; ++k) {
+    if (instance.controls[joints.columns[k]] == 0.0f) continue;
+    const uint32_t of_column = joints.pieces_before(k, chunks);
+    statistics.joint_column_count += of_column != 0;
+    pieces += of_column;
+  }
+  statistics.joint_entry_count = pieces * kPieceRows;
+  statistics.joint_byte_count = pieces * joints.piece_bytes();
+  write_struct(out_statistics, statistics);
+  return MIEN_OK;
 }
 
 // Evaluation

@@ -218,6 +218,7 @@ TEST_F(Misuse, NullOutputs) {
   EXPECT_EQ(mien_instance_raw_controls(instance, nullptr), null);
   EXPECT_EQ(mien_instance_ml_masks(instance, nullptr), null);
   EXPECT_EQ(mien_instance_controls(instance, nullptr), null);
+  EXPECT_EQ(mien_instance_statistics(instance, nullptr), null);
   EXPECT_EQ(mien_instance_psd_controls(instance, nullptr), null);
   EXPECT_EQ(mien_instance_ml_controls(instance, nullptr), null);
   EXPECT_EQ(mien_instance_rbf_controls(instance, nullptr), null);
@@ -400,6 +401,8 @@ TEST_F(Misuse, OutputStructs) {
   check_output_struct<MienRigInfo>([&](auto* out) { return mien_rig_info(rig, out); });
   check_output_struct<MienRigStatistics>(
       [&](auto* out) { return mien_rig_statistics(rig, 0, out); });
+  check_output_struct<MienInstanceStatistics>(
+      [&](auto* out) { return mien_instance_statistics(instance, out); });
   MienReport* findings = nullptr;
   ASSERT_EQ(mien_report_create_memory("nothing", 7, nullptr, &findings, nullptr), MIEN_OK);
   check_output_struct<MienFinding>(

@@ -199,6 +199,46 @@ TEST(Lods, Statistics) {
   EXPECT_EQ(mien_rig_statistics(rig.get(), 3, &s), MIEN_ERROR_LOD);
 }
 
+// An instance tells what its controls make evaluation fetch.
+TEST(Lods, InstanceStatistics) {
+  const RigHandle rig = make_rig(lod_rig());
+  Character character(rig);
+  const auto statistics_of = [&] {
+    MienInstanceStatistics s = sized<MienInstanceStatistics>();
+    EXPECT_EQ(mien_instance_statistics(character.instance.get(), &s), MIEN_OK);
+    return s;
+  };
+  EXPECT_EQ(statistics_of().active_control_count, 0u);
+  EXPECT_EQ(statistics_of().joint_byte_count, 0u);
+  for (uint32_t lod = 0; lod < 3; ++lod) {
+    MienRigStatistics all = sized<MienRigStatistics>();
+    ASSERT_EQ(mien_rig_statistics(rig.get(), lod, &all), MIEN_OK);
+    // A control for itself fetches its part; all of them fetch all that there is.
+    uint64_t sum = 0;
+    MienFloatView row = {};
+    ASSERT_EQ(mien_instance_controls(character.instance.get(), &row), MIEN_OK);
+    const Span<float> controls = {const_cast<float*>(row.data), row.count};
+    for (float& control : controls) {
+      std::fill(controls.begin(), controls.end(), 0.0f);
+      character.evaluate(lod);
+      std::fill(controls.begin(), controls.end(), 0.0f);
+      control = 0.5f;
+      const MienInstanceStatistics s = statistics_of();
+      EXPECT_EQ(s.lod, lod);
+      EXPECT_EQ(s.active_control_count, 1u);
+      EXPECT_LE(s.joint_column_count, 1u);
+      EXPECT_EQ(s.joint_column_count == 0, s.joint_byte_count == 0);
+      EXPECT_EQ(s.joint_byte_count, s.joint_entry_count / 8 * (8 * sizeof(float) + 2));
+      sum += s.joint_byte_count;
+    }
+    EXPECT_EQ(sum, all.joint_byte_count) << "LOD " << lod;
+    std::fill(controls.begin(), controls.end(), -1.0f);
+    EXPECT_EQ(statistics_of().active_control_count, controls.count);
+    EXPECT_EQ(statistics_of().joint_byte_count, all.joint_byte_count);
+    EXPECT_EQ(statistics_of().joint_entry_count, all.joint_entry_count);
+  }
+}
+
 TEST(Lods, NumbersPastTheEndAreRefusedAndChangeNothing) {
   Character character(make_rig(lod_rig()));
   pose(character, {0.5f, 0.75f}, 1);

@@ -385,6 +385,12 @@ class Instance : public Owner<MienInstance, mien_instance_destroy> {
   Span<const float> blend_shapes() const { return span(mien_instance_blend_shapes); }
   Span<const float> animated_maps() const { return span(mien_instance_animated_maps); }
 
+  /// What the joint stage fetches for the controls as they are.
+  Result<MienInstanceStatistics> statistics() const {
+    Sized<MienInstanceStatistics> statistics;
+    return {mien_instance_statistics(get(), &statistics), std::move(statistics)};
+  }
+
   Status reset_values() { return mien_instance_reset(get()); }
 
  private:

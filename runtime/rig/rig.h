@@ -115,6 +115,14 @@ struct JointMatrix {
   uint32_t tallest_group = 0;  // rows
 
   uint32_t chunk_count() const { return static_cast<uint32_t>(chunks.count - 1); }
+  /// Pieces of a column that stand in the first `chunk_end` chunks.
+  uint32_t pieces_before(size_t column, uint32_t chunk_end) const {
+    return chunk_pieces[column * chunks.count + chunk_end];
+  }
+  /// What reading a piece fetches: its values and its block number.
+  size_t piece_bytes() const {
+    return kPieceRows * (values.empty() ? sizeof(int16_t) : sizeof(float)) + sizeof(uint16_t);
+  }
 };
 constexpr uint32_t kMostChunkBlocks = 256;
 

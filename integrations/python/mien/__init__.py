@@ -13,10 +13,10 @@
 `Dna` -> `Rig` -> `Instance` or `Batch`. README.md has more; errors are in `mien.errors`.
 """
 from ._api import (Compose, CoordinateSystem, DeformerInfo, Direction, DnaField, DnaInfo, DnaLayer,
-                   FieldType, FileAccess, Finding, Isa, Kind, Layer, MlMasks, Normals, Output,
-                   Preset, Reuse, RigInfo, RigStatistics, RotationRule, RotationSequence,
-                   RotationUnit, Severity, Stage, Status, Storage, TranslationUnit, UnknownLayers,
-                   Weights)
+                   FieldType, FileAccess, Finding, InstanceStatistics, Isa, Kind, Layer, MlMasks,
+                   Normals, Output, Preset, Reuse, RigInfo, RigStatistics, RotationRule,
+                   RotationSequence, RotationUnit, Severity, Stage, Status, Storage,
+                   TranslationUnit, UnknownLayers, Weights)
 from ._library import path as library_path, version
 from .batch import Batch
 from .deformer import Deformer, Mesh, Pose, deform_batch
@@ -30,8 +30,8 @@ __all__ = [
     "ArgumentError", "Batch", "BusyError", "ClosedError", "Compose", "coordinate_system",
     "coordinate_system_names", "CoordinateSystem", "deform_batch", "Deformer", "DeformerInfo",
     "Direction", "Dna", "DnaError", "DnaField", "DnaInfo", "DnaLayer", "Error", "FieldType",
-    "FileAccess", "FileError", "Finding", "Instance", "Isa", "isa_available", "isa_name", "Kind",
-    "Layer", "library_path", "Mesh", "MlMasks", "Normals", "OutOfMemoryError", "OutOfRangeError",
+    "FileAccess", "FileError", "Finding", "Instance", "InstanceStatistics", "Isa",
+    "isa_available", "isa_name", "Kind", "Layer", "library_path", "Mesh", "MlMasks", "Normals", "OutOfMemoryError", "OutOfRangeError",
     "Output", "Pose", "Preset", "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationRule",
     "RotationSequence", "RotationUnit", "Severity", "Stage", "Status", "Storage", "TranslationUnit",
     "UnknownLayers", "UnknownNameError", "validate", "version", "Weights",

@@ -794,6 +794,26 @@ class MienRigStatistics(Structure):
         super().__init__(struct_size=48, **values)
 
 
+class MienInstanceStatistics(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("lod", c_uint32),
+        ("active_control_count", c_uint32),
+        ("joint_column_count", c_uint32),
+        ("joint_entry_count", c_uint64),
+        ("joint_byte_count", c_uint64),
+    ]
+    struct_size: Any
+    lod: Any
+    active_control_count: Any
+    joint_column_count: Any
+    joint_entry_count: Any
+    joint_byte_count: Any
+
+    def __init__(self, **values: Any) -> None:
+        super().__init__(struct_size=32, **values)
+
+
 class MienDeformerDesc(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
@@ -1135,6 +1155,29 @@ class RigStatistics(NamedTuple):
                    c.rbf_solver_count, c.turned_joint_count)
 
 
+class InstanceStatistics(NamedTuple):
+    """What the joint stage fetches for the control row as it is, at the LOD of the last evaluation
+    (before the first: LOD 0), if it keeps no results. Bytes count once, whatever the caches do.
+
+      lod: of the last evaluation
+      active_control_count: of the control row: raw, PSD, ML and RBF controls that are not 0
+      joint_column_count: columns of the joint matrix that they drive at this LOD
+      joint_entry_count: of these columns; 8 per piece, as in MienRigStatistics
+      joint_byte_count: of these entries: at most MienRigStatistics.joint_byte_count
+    """
+
+    lod: int
+    active_control_count: int
+    joint_column_count: int
+    joint_entry_count: int
+    joint_byte_count: int
+
+    @classmethod
+    def _of(cls, c: MienInstanceStatistics) -> InstanceStatistics:
+        return cls(c.lod, c.active_control_count, c.joint_column_count, c.joint_entry_count,
+                   c.joint_byte_count)
+
+
 class DeformerInfo(NamedTuple):
     """Copy of a MienDeformerInfo.
 
@@ -1230,6 +1273,7 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_instance_joints", c_int32, (MienInstance, POINTER(MienFloatView))),
     ("mien_instance_blend_shapes", c_int32, (MienInstance, POINTER(MienFloatView))),
     ("mien_instance_animated_maps", c_int32, (MienInstance, POINTER(MienFloatView))),
+    ("mien_instance_statistics", c_int32, (MienInstance, POINTER(MienInstanceStatistics))),
     ("mien_rig_map_gui_to_raw", c_int32, (MienRig, MienInstance)),
     ("mien_rig_map_raw_to_gui", c_int32, (MienRig, MienInstance)),
     ("mien_rig_evaluate", c_int32, (MienRig, MienInstance, c_uint32)),
@@ -1322,6 +1366,7 @@ class Library:
     mien_instance_joints: Any
     mien_instance_blend_shapes: Any
     mien_instance_animated_maps: Any
+    mien_instance_statistics: Any
     mien_rig_map_gui_to_raw: Any
     mien_rig_map_raw_to_gui: Any
     mien_rig_evaluate: Any

@@ -9,7 +9,7 @@ from operator import index
 from typing import Any, Callable, Dict, Iterator, NoReturn, Optional
 
 from . import _api
-from ._api import MienError, Stage, Status
+from ._api import InstanceStatistics, MienError, Stage, Status
 from ._library import lib
 from ._memory import Closable, Floats, InstanceHandle, array_over, assign, uint32
 from .errors import BusyError, OutOfRangeError, fail
@@ -143,6 +143,14 @@ class Instance(Closable):
     def animated_maps(self) -> Floats:
         """float32 (maps,): one weight per animated map, 0 ... 1."""
         return self._view(lib.mien_instance_animated_maps)
+
+    def statistics(self) -> InstanceStatistics:
+        """What the joint stage fetches for the controls as they are."""
+        found = _api.MienInstanceStatistics()
+        status = lib.mien_instance_statistics(self._open(), _byref(found))
+        if status:
+            fail(status, "statistics")
+        return InstanceStatistics._of(found)
 
     # ---- evaluation ----------------------------------------------------------------------------
 

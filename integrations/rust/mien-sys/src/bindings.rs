@@ -811,6 +811,34 @@ impl Default for MienRigStatistics {
     }
 }
 
+/// What the joint stage fetches for the control row as it is, at the LOD of the last evaluation
+/// (before the first: LOD 0), if it keeps no results. Bytes count once, whatever the caches do.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienInstanceStatistics {
+    pub struct_size: u32,
+    /// Of the last evaluation.
+    pub lod: u32,
+    /// Of the control row: raw, PSD, ML and RBF controls that are not 0.
+    pub active_control_count: u32,
+    /// Columns of the joint matrix that they drive at this LOD.
+    pub joint_column_count: u32,
+    /// Of these columns; 8 per piece, as in MienRigStatistics.
+    pub joint_entry_count: u64,
+    /// Of these entries: at most MienRigStatistics.`joint_byte_count`.
+    pub joint_byte_count: u64,
+}
+
+impl Default for MienInstanceStatistics {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>() as u32;
+        zero
+    }
+}
+
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienDeformerDesc {
@@ -1193,6 +1221,9 @@ extern "C" {
     /// animated maps one weight per map, 0..1
     /// ```
     pub fn mien_instance_animated_maps(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
+
+    /// For tools that relate times to memory. Looks at each control, so it is not for every frame.
+    pub fn mien_instance_statistics(instance: *const MienInstance, out_statistics: *mut MienInstanceStatistics) -> MienStatus;
 
     /// Raw controls from GUI controls, and back. Forward writes only raw controls that some row of
     /// the table drives, and clamps them to 0..1; others keep what they hold. Backward writes

@@ -279,6 +279,19 @@ fn mien_rig_statistics() {
 }
 
 #[test]
+fn mien_instance_statistics() {
+    use mien_sys::MienInstanceStatistics as S;
+    assert_eq!(size_of::<S>(), 32);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, lod), 4);
+    assert_eq!(offset!(S, active_control_count), 8);
+    assert_eq!(offset!(S, joint_column_count), 12);
+    assert_eq!(offset!(S, joint_entry_count), 16);
+    assert_eq!(offset!(S, joint_byte_count), 24);
+}
+
+#[test]
 fn mien_deformer_desc() {
     use mien_sys::MienDeformerDesc as S;
     assert_eq!(size_of::<S>(), 32);

@@ -897,6 +897,35 @@ impl From<sys::MienRigStatistics> for RigStatistics {
     }
 }
 
+/// What the joint stage fetches for the control row as it is, at the LOD of the last evaluation
+/// (before the first: LOD 0), if it keeps no results. Bytes count once, whatever the caches do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct InstanceStatistics {
+    /// Of the last evaluation.
+    pub lod: u32,
+    /// Of the control row: raw, PSD, ML and RBF controls that are not 0.
+    pub active_control_count: usize,
+    /// Columns of the joint matrix that they drive at this LOD.
+    pub joint_column_count: usize,
+    /// Of these columns; 8 per piece, as in MienRigStatistics.
+    pub joint_entry_count: u64,
+    /// Of these entries: at most MienRigStatistics.`joint_byte_count`.
+    pub joint_byte_count: u64,
+}
+
+impl From<sys::MienInstanceStatistics> for InstanceStatistics {
+    fn from(c: sys::MienInstanceStatistics) -> Self {
+        Self {
+            lod: c.lod,
+            active_control_count: c.active_control_count as usize,
+            joint_column_count: c.joint_column_count as usize,
+            joint_entry_count: c.joint_entry_count,
+            joint_byte_count: c.joint_byte_count,
+        }
+    }
+}
+
 /// `MienDeformerInfo` in C.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]

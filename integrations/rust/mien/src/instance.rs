@@ -2,7 +2,7 @@
 
 use crate::convert::{index, slice};
 use crate::error::{check, checked};
-use crate::{Allocator, Result, Rig, Stages};
+use crate::{Allocator, InstanceStatistics, Result, Rig, Stages};
 use mien_sys as sys;
 use std::ptr::{null_mut, NonNull};
 use std::slice::from_raw_parts_mut;
@@ -49,7 +49,7 @@ type Inputs = sys::MienMutableFloatView;
 type Outputs = sys::MienFloatView;
 
 // SAFETY: an instance may be used by any thread, by one at a time if it is changed, which takes
-// `&mut self` here. All that `&self` does is to read values; the library is not called.
+// `&mut self` here. All that `&self` does is to read values, and so does what the library does for it.
 unsafe impl Send for Instance {}
 unsafe impl Sync for Instance {}
 
@@ -228,6 +228,14 @@ impl Instance {
     /// controls, 0 where there is none.
     pub fn map_raw_to_gui(&mut self) -> Result<()> {
         check(unsafe { sys::mien_rig_map_raw_to_gui(self.rig.raw(), self.raw()) })
+    }
+
+    /// What the joint stage fetches for the controls as they are.
+    pub fn statistics(&self) -> Result<InstanceStatistics> {
+        let mut out = sys::MienInstanceStatistics::default();
+        // SAFETY: a live handle, which is only read, and a sized struct.
+        check(unsafe { sys::mien_instance_statistics(self.raw_const(), &mut out) })?;
+        Ok(out.into())
     }
 
     /// Everything as after creation.
