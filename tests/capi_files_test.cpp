@@ -146,6 +146,35 @@ TEST_F(Files, MemoryIsBounded) {
   }
 }
 
+/// Of LOD 0 alone, against the values of the pieces that are not all zeros (8 floats each).
+double rig_bytes_per_stored_byte(const Bytes& file) {
+  const RigHandle rig = create_rig(open_dna(file, 1).get());
+  MienRigStatistics statistics = sized<MienRigStatistics>();
+  EXPECT_EQ(mien_rig_statistics(rig.get(), 0, &statistics), MIEN_OK);
+  const double stored = static_cast<double>(statistics.joint_entry_count) * sizeof(float);
+  const double ratio = static_cast<double>(info_of(rig).rig_bytes) / stored;
+  printf("rig of %llu bytes: %.3f times the stored pieces\n",
+         static_cast<unsigned long long>(info_of(rig).rig_bytes), ratio);
+  return ratio;
+}
+
+// rig bytes <= 1.1 * (1.1 * values of the stored pieces): a tenth for their block numbers and the
+// tables of columns, and a tenth of it all for tables, correctives, names and the neutral pose.
+constexpr double kMostPerStoredByte = 1.1 * 1.1;
+
+TEST_F(Files, ALargeRigIsLittleMoreThanItsMatrix) {
+  EXPECT_LE(rig_bytes_per_stored_byte(write_dna(generate_dna(MIEN_PRESET_LARGE, 1).get())),
+            kMostPerStoredByte);
+}
+
+TEST_F(Files, AHeadIsLittleMoreThanItsMatrix) {
+  const std::string shared = golden::shared_folder();
+  if (shared.empty()) GTEST_SKIP() << golden::no_golden_files("the memory of a head");
+  const Bytes file = golden::read_bytes(shared + "/golden/head.dna");
+  EXPECT_LE(rig_bytes_per_stored_byte(file), kMostPerStoredByte);
+  EXPECT_LE(info_of(create_rig(open_dna(file).get())).instance_bytes, 40u * 1024);
+}
+
 TEST_F(Files, FilesThatCannotBeOpened) {
   write_all(path("a.dna"), bytes);
   write_all(path("empty.dna"), {});

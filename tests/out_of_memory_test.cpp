@@ -10,6 +10,7 @@
 
 #include "tests/support/counting_allocator.h"
 #include "tests/support/dna_bytes.h"
+#include "tests/support/golden.h"
 #include "tests/support/random_layer_rig.h"
 #include "tests/support/random_space_rig.h"
 #include "tests/support/rig_handles.h"
@@ -422,7 +423,9 @@ TEST_F(OutOfMemory, NothingElseAllocates) {
     }
     for (uint32_t lod = 0; lod < info.lod_count; ++lod) {
       MienRigStatistics statistics = sized<MienRigStatistics>();
+      MienInstanceStatistics fetched = sized<MienInstanceStatistics>();
       call(mien_rig_statistics(rig, lod, &statistics));
+      call(mien_instance_statistics(instance, &fetched));
       call(mien_rig_variable_joint_values(rig, lod, &indices));
       call(mien_rig_lod_indices(rig, MIEN_KIND_JOINT, lod, &indices));
       call(mien_rig_map_gui_to_raw(rig, instance));
@@ -486,14 +489,35 @@ TEST_F(OutOfMemory, FewRequestsForALargeRig) {
       "bytes at most, %llu for the rig\n",
       file.size(), open_requests, open_peak, create_requests, create_peak,
       static_cast<unsigned long long>(info.rig_bytes));
-  EXPECT_LE(open_requests, 12u);
-  EXPECT_LE(create_requests, 6u);
+  EXPECT_LE(open_requests, 8u);
+  EXPECT_LE(create_requests, 2u) << "the rig, and scratch memory";
   EXPECT_LE(open_peak, file.size());
   EXPECT_LE(create_peak, file.size());
   EXPECT_LE(create_peak, info.rig_bytes + info.rig_bytes / 4) << "scratch memory";
   mien_dna_close(dna);
   mien_rig_destroy(rig);
   EXPECT_TRUE(counter.clean()) << counter.first_wrong;
+}
+
+// A head's behavior, opened and compiled.
+TEST_F(OutOfMemory, EightRequestsForAHead) {
+  const std::string shared = golden::shared_folder();
+  if (shared.empty()) {
+    GTEST_SKIP() << golden::no_golden_files("how many requests a head takes");
+  }
+  const Bytes file = golden::read_bytes(shared + "/golden/head.dna");
+  for (uint64_t lods : {0u, 1u, 2u}) {
+    CountingAllocator counter;
+    const MienAllocator allocator = counter.get();
+    MienDna* dna = nullptr;
+    MienRig* rig = nullptr;
+    ASSERT_EQ(opener(file, MIEN_LAYER_BEHAVIOR, lods).make(&allocator, &dna, nullptr), MIEN_OK);
+    ASSERT_EQ(compiler(dna).make(&allocator, &rig, nullptr), MIEN_OK);
+    printf("LODs %llu: %zu requests\n", static_cast<unsigned long long>(lods), counter.requests);
+    EXPECT_LE(counter.requests, 8u);
+    mien_dna_close(dna);
+    mien_rig_destroy(rig);
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <new>
 #include <type_traits>
 
@@ -29,6 +30,10 @@ class Arena {
   ~Arena() { clear(); }
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;
+
+  /// Bytes that will be needed as far as one can tell, to take them in one request. A wrong guess
+  /// costs a request more or memory that stays untouched.
+  void expect(size_t size) { expected_ = size; }
 
   /// Null when the allocator gives nothing.
   void* allocate(size_t size, size_t alignment) {
@@ -75,10 +80,12 @@ class Arena {
   // end of the last one stays a fraction of the whole.
   bool grow(size_t size) {
     if (size > SIZE_MAX / 2) return false;
-    size_t wanted = align_up(size + sizeof(Chunk) + kBlockAlignment, kBlockAlignment);
-    size_t step =
-        reserved_ / 2 < kSmallestChunk ? kSmallestChunk : align_up(reserved_ / 2, kBlockAlignment);
-    if (wanted < step) wanted = step;
+    size_t wanted = size + sizeof(Chunk) + kBlockAlignment;
+    for (size_t step : {kSmallestChunk, reserved_ / 2, expected_}) {
+      if (wanted < step) wanted = step;
+    }
+    wanted = align_up(wanted, kBlockAlignment);
+    expected_ = 0;
     void* memory = allocator_.get(wanted, kBlockAlignment);
     if (!memory) return false;
     chunk_ = new (memory) Chunk{chunk_, wanted};
@@ -93,6 +100,7 @@ class Arena {
   Chunk* chunk_ = nullptr;
   size_t used_ = 0;
   size_t reserved_ = 0;
+  size_t expected_ = 0;
 };
 
 /// Run the same placing code twice: over null to learn the size, then over the block.
@@ -104,11 +112,18 @@ class Placer {
   /// Zeroed when placed.
   template <class T>
   Span<T> array(size_t count, size_t alignment = alignof(T)) {
+    const Span<T> items = unwritten_array<T>(count, alignment);
+    if (items.data && count) memset(static_cast<void*>(items.data), 0, count * sizeof(T));
+    return items;
+  }
+
+  /// As the allocator left it: for large arrays of which every element will be written.
+  template <class T>
+  Span<T> unwritten_array(size_t count, size_t alignment = alignof(T)) {
     static_assert(std::is_trivially_destructible<T>::value, "a block destroys nothing");
     used_ = align_up(used_, alignment);
     uint8_t* at = base_ ? base_ + used_ : nullptr;
     used_ += count * sizeof(T);
-    if (at && count) memset(static_cast<void*>(at), 0, count * sizeof(T));
     return {reinterpret_cast<T*>(at), count};
   }
 

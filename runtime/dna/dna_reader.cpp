@@ -264,6 +264,7 @@ class DnaReader {
   void run() {
     if (!read_header()) return;
     if (!(view_.version == 1 ? read_sections() : read_index())) return;
+    expect_lists();
 
     // The descriptor and the definition say how to read and select everything else.
     for (LayerId id : {LayerId::kDesc, LayerId::kDsce, LayerId::kDefn}) load(id);
@@ -511,6 +512,19 @@ class DnaReader {
     if (!entries.data) return report(Status::kMemory, kNoOffset, "", "no memory for the index");
     view_.index = {entries.data, count};
     return true;
+  }
+
+  // Lists of names take about as much as the names; other layers are mostly numbers, which stay in
+  // the file.
+  void expect_lists() {
+    size_t bytes = 0;
+    for (size_t i = 0; i < kLayerIdCount; ++i) {
+      const LayerKind& kind = kLayerKinds[i];
+      const IndexEntry* entry = find_entry(kind.id);
+      if (!entry || !view_.has(kind.loaded_by)) continue;
+      bytes += kind.id == LayerId::kDefn ? entry->size : entry->size / 64;
+    }
+    arena_.expect(bytes);
   }
 
   const IndexEntry* find_entry(LayerId id) const {

@@ -38,12 +38,18 @@ const uint8_t* row_values(const dna::JointGroup& group, uint32_t row) {
   return group.values.data + size_t{row} * group.input_indices.count * sizeof(float);
 }
 
+// Scans go by strips of columns: a count that the compiler knows, so that it makes vector code.
+constexpr uint32_t kStrip = 32;
+
 bool is_zero(const dna::JointGroup& group, uint32_t row) {
   const uint8_t* values = row_values(group, row);
-  for (uint32_t c = 0; c < group.input_indices.count; ++c) {
-    if (magnitude_bits(values + size_t{c} * sizeof(float)) != 0) return false;
+  const uint32_t columns = group.input_indices.count;
+  uint32_t c = 0, any = 0;
+  for (; c + kStrip <= columns && any == 0; c += kStrip) {
+    for (uint32_t i = 0; i < kStrip; ++i) any |= magnitude_bits(values + size_t{c + i} * 4);
   }
-  return true;
+  for (; c < columns && any == 0; ++c) any |= magnitude_bits(values + size_t{c} * 4);
+  return any == 0;
 }
 
 Status no_scratch(Error& error) {
@@ -176,54 +182,138 @@ void for_each_chunk(const JointPlan& plan, F&& f) {
 
 // Pieces ----------------------------------------------------------------------------------------
 
-/// Calls f(block number, block, column of the group, first) for every piece that is not all zeros,
+/// Where the rows of a block stand in the file.
+struct BlockRows {
+  const uint8_t* at[kPieceRows];
+  uint32_t count;
+
+  BlockRows(const dna::JointGroup& group, const PlannedBlock& block) : count(block.row_count) {
+    for (uint32_t k = 0; k < count; ++k) at[k] = row_values(group, block.rows[k]);
+  }
+  const uint8_t* value(uint32_t row, uint32_t column) const {
+    return at[row] + size_t{column} * sizeof(float);
+  }
+};
+
+constexpr uint32_t kWordBits = 64;
+
+uint32_t words_of(const dna::JointGroup& group) {
+  return (group.input_indices.count + kWordBits - 1) / kWordBits;
+}
+
+/// Bit c: some row of the block is not zero in column `first` + c, of `count` columns.
+uint64_t columns_used(const BlockRows& rows, uint32_t first, uint32_t count) {
+  uint32_t used[kWordBits] = {};
+  for (uint32_t k = 0; k < rows.count; ++k) {
+    const uint8_t* row = rows.value(k, first);
+    uint32_t c = 0;
+    for (; c + kStrip <= count; c += kStrip) {
+      for (uint32_t i = 0; i < kStrip; ++i) used[c + i] |= magnitude_bits(row + size_t{c + i} * 4);
+    }
+    for (; c < count; ++c) used[c] |= magnitude_bits(row + size_t{c} * 4);
+  }
+  uint8_t flags[kWordBits];
+  for (uint32_t c = 0; c < kWordBits; ++c) flags[c] = used[c] != 0;
+  uint64_t bits = 0;
+  for (uint32_t c = 0; c < kWordBits; c += 8) {
+    // The product brings byte i, which is 0 or 1, to bit 56 + i.
+    uint64_t bytes = 0;
+    for (uint32_t i = 0; i < 8; ++i) bytes |= uint64_t{flags[c + i]} << 8 * i;
+    bits |= (bytes * 0x0102040810204080u >> 56) << c;
+  }
+  return bits;
+}
+
+/// Which pieces are not all zeros: the one pass over the numbers that planning takes.
+Status find_pieces(const dna::DnaView& view, Arena& scratch, JointPlan& plan, Error& error) {
+  size_t words = 0;
+  for (const PlannedBlock& block : plan.blocks) {
+    words += words_of(view.bhvr.joints.groups[block.group]);
+  }
+  plan.pieces = scratch.array<uint64_t>(words);
+  if (words && !plan.pieces.data) return no_scratch(error);
+  uint64_t* word = plan.pieces.data;
+  for (const PlannedBlock& block : plan.blocks) {
+    const dna::JointGroup& group = view.bhvr.joints.groups[block.group];
+    const BlockRows rows(group, block);
+    const uint32_t columns = group.input_indices.count;
+    for (uint32_t c = 0; c < columns; c += kWordBits) {
+      *word++ = columns_used(rows, c, std::min(columns - c, kWordBits));
+    }
+  }
+  return Status::kOk;
+}
+
+uint32_t lowest_bit(uint64_t bits) {
+#if defined(__GNUC__)
+  return static_cast<uint32_t>(__builtin_ctzll(bits));
+#else
+  uint32_t at = 0;
+  while (!(bits >> at & 1)) ++at;
+  return at;
+#endif
+}
+
+/// Calls f(block number, rows, column of the group, first) for every piece that is not all zeros,
 /// by ascending blocks. `first` is false if the group lists the control once more: those pieces are
-/// one. Needs plan.used and plan.last_block.
+/// one. Needs plan.pieces and plan.last_block.
 template <class F>
 void for_each_piece(const dna::DnaView& view, const JointPlan& plan, F&& f) {
   std::fill(plan.last_block.begin(), plan.last_block.end(), 0u);
+  const uint64_t* word = plan.pieces.data;
   for (uint32_t b = 0; b < plan.blocks.count; ++b) {
     const PlannedBlock& block = plan.blocks[b];
     const dna::JointGroup& group = view.bhvr.joints.groups[block.group];
-    const uint32_t columns = group.input_indices.count;
-    uint32_t* used = plan.used.data;
-    std::fill(used, used + columns, 0u);
-    for (uint32_t k = 0; k < block.row_count; ++k) {
-      const uint8_t* row = row_values(group, block.rows[k]);
-      for (uint32_t c = 0; c < columns; ++c) used[c] |= magnitude_bits(row + size_t{c} * 4);
+    const BlockRows rows(group, block);
+    for (uint32_t from = 0; from < group.input_indices.count; from += kWordBits) {
+      for (uint64_t bits = *word++; bits != 0; bits &= bits - 1) {
+        const uint32_t c = from + lowest_bit(bits);
+        uint32_t& last_block = plan.last_block[group.input_indices[c]];
+        f(b, rows, c, last_block != b + 1);
+        last_block = b + 1;
+      }
     }
-    for (uint32_t c = 0; c < columns; ++c) {
-      if (used[c] == 0) continue;
-      uint32_t& last_block = plan.last_block[group.input_indices[c]];
-      f(b, block, c, last_block != b + 1);
-      last_block = b + 1;
-    }
+  }
+}
+
+/// Rows of a block whose sums go to neighbouring values: three, or one.
+struct Target {
+  uint32_t row;  // of the block
+  uint32_t output;
+  uint32_t row_count;
+};
+
+/// Calls f(target) for all targets of a block, in order of their rows.
+template <class F>
+void for_each_target(const dna::DnaView& view, const Rig& rig, const PlannedBlock& block, F&& f) {
+  const dna::JointGroup& group = view.bhvr.joints.groups[block.group];
+  uint32_t outputs[kPieceRows];
+  for (uint32_t k = 0; k < block.row_count; ++k) {
+    outputs[k] = output_of(view, rig, group.output_indices[block.rows[k]]);
+  }
+  for (uint32_t k = 0; k < block.row_count;) {
+    const bool three = k + 2 < block.row_count && outputs[k + 1] == outputs[k] + 1 &&
+                       outputs[k + 2] == outputs[k] + 2 && block.reaches[k + 2] == block.reaches[k];
+    const Target target = {k, outputs[k], three ? 3u : 1u};
+    f(target);
+    k += target.row_count;
   }
 }
 
 /// Calls f(target, number of rows, reach) for all targets of a chunk, in order of their slots.
 template <class F>
-void for_each_target(const dna::DnaView& view, const JointPlan& plan, const Rig& rig,
-                     uint32_t chunk, F&& f) {
+void for_each_target_of_chunk(const dna::DnaView& view, const JointPlan& plan, const Rig& rig,
+                              uint32_t chunk, F&& f) {
   const uint32_t first = rig.joints.chunks[chunk].first_block;
   const uint32_t end = rig.joints.chunks[chunk + 1].first_block;
   for (uint32_t b = first; b < end; ++b) {
     const PlannedBlock& block = plan.blocks[b];
-    const dna::JointGroup& group = view.bhvr.joints.groups[block.group];
-    uint32_t outputs[kPieceRows];
-    for (uint32_t k = 0; k < block.row_count; ++k) {
-      outputs[k] = output_of(view, rig, group.output_indices[block.rows[k]]);
-    }
-    for (uint32_t k = 0; k < block.row_count;) {
-      const bool three = k + 2 < block.row_count && outputs[k + 1] == outputs[k] + 1 &&
-                         outputs[k + 2] == outputs[k] + 2 &&
-                         block.reaches[k + 2] == block.reaches[k];
-      const JointTarget target = {static_cast<uint16_t>((b - first) * kPieceRows + k),
-                                  static_cast<uint16_t>(outputs[k]),
-                                  static_cast<uint16_t>(block.group)};
-      f(target, three ? 3 : 1, block.reaches[k]);
-      k += three ? 3 : 1;
-    }
+    for_each_target(view, rig, block, [&](const Target& target) {
+      const JointTarget joint_target = {
+          static_cast<uint16_t>((b - first) * kPieceRows + target.row),
+          static_cast<uint16_t>(target.output), static_cast<uint16_t>(block.group)};
+      f(joint_target, target.row_count, block.reaches[target.row]);
+    });
   }
 }
 
@@ -231,9 +321,10 @@ void fill_targets(const dna::DnaView& view, const JointPlan& plan, uint32_t chun
   JointMatrix& joints = rig.joints;
   // Where targets of each kind and reach begin, the farthest first.
   uint32_t begin[2][kMaxLods + 2] = {};
-  for_each_target(view, plan, rig, chunk, [&](const JointTarget&, int rows, uint8_t reach) {
-    ++begin[rows == 1][rig.lod_count - reach + 1];
-  });
+  for_each_target_of_chunk(view, plan, rig, chunk,
+                           [&](const JointTarget&, uint32_t rows, uint8_t reach) {
+                             ++begin[rows == 1][rig.lod_count - reach + 1];
+                           });
   uint32_t count = 0;
   for (int one = 0; one < 2; ++one) {
     uint32_t* kind = begin[one];
@@ -248,9 +339,10 @@ void fill_targets(const dna::DnaView& view, const JointPlan& plan, uint32_t chun
   }
   const uint32_t first = joints.chunks[chunk].first_target;
   joints.chunks[chunk + 1].first_target = first + count;
-  for_each_target(view, plan, rig, chunk, [&](const JointTarget& target, int rows, uint8_t reach) {
-    joints.targets[first + begin[rows == 1][rig.lod_count - reach]++] = target;
-  });
+  for_each_target_of_chunk(
+      view, plan, rig, chunk, [&](const JointTarget& target, uint32_t rows, uint8_t reach) {
+        joints.targets[first + begin[rows == 1][rig.lod_count - reach]++] = target;
+      });
 }
 
 /// The largest number of a row becomes the largest of 16 bits.
@@ -277,6 +369,35 @@ int16_t add_fixed(int16_t to, float value, float scale) {
                                                 : (steps > -32767.0f ? steps : -32767.0f));
 }
 
+/// A piece comes into memory that nobody has written yet.
+void add_piece(const BlockRows& rows, uint32_t column, bool first, float* piece) {
+  if (first && rows.count == kPieceRows) {
+    for (uint32_t k = 0; k < kPieceRows; ++k) {
+      piece[k] = load_big_endian<float>(rows.value(k, column));
+    }
+    return;
+  }
+  if (first) std::fill(piece, piece + kPieceRows, 0.0f);
+  for (uint32_t k = 0; k < rows.count; ++k) {
+    piece[k] += load_big_endian<float>(rows.value(k, column));
+  }
+}
+
+void add_fixed_piece(const BlockRows& rows, uint32_t column, const float* scales, int16_t* piece) {
+  for (uint32_t k = 0; k < rows.count; ++k) {
+    const float value = load_big_endian<float>(rows.value(k, column));
+    piece[k] = add_fixed(piece[k], value, scales[k]);
+  }
+}
+
+/// The first of the rows that is not zero reaches farthest.
+void mark_reach(const PlannedBlock& block, const BlockRows& rows, uint32_t column,
+                uint8_t& control_reach) {
+  for (uint32_t k = 0; k < rows.count && block.reaches[k] > control_reach; ++k) {
+    if (magnitude_bits(rows.value(k, column)) != 0) control_reach = block.reaches[k];
+  }
+}
+
 /// Rows that are not in the matrix (they turn joints, or are overridden) mark what they read, too.
 void mark_other_rows(const dna::DnaView& view, const JointPlan& plan, const Rig& rig,
                      Span<uint8_t> reach) {
@@ -284,6 +405,7 @@ void mark_other_rows(const dna::DnaView& view, const JointPlan& plan, const Rig&
   for (const dna::JointGroup& group : view.bhvr.joints.groups) {
     for (uint32_t r = 0; r < group.output_indices.count; ++r) {
       if (plan.uses[at++] != kUnused) continue;
+      if (is_zero(group, r)) continue;
       const uint8_t row_reach = lod_reach(group.lods, rig.lod_count, r);
       const uint8_t* values = row_values(group, r);
       for (uint32_t c = 0; c < group.input_indices.count; ++c) {
@@ -319,25 +441,24 @@ void place_variable_values(const dna::DnaView& view, Placer& placer, Rig& rig) {
 Status plan_joints(const dna::DnaView& view, const Rig& rig, Arena& scratch, JointPlan& plan,
                    Error& error) {
   const auto& groups = view.bhvr.joints.groups;
-  uint32_t widest = 0;
-  for (const dna::JointGroup& group : groups) widest = std::max(widest, group.input_indices.count);
   Status status = choose_rows(view, rig, scratch, plan.uses, error);
   if (status == Status::kOk) status = plan_blocks(view, rig, plan.uses, scratch, plan, error);
+  if (status == Status::kOk) status = find_pieces(view, scratch, plan, error);
   if (status != Status::kOk) return status;
 
-  plan.used = scratch.array<uint32_t>(widest);
   plan.last_block = scratch.array<uint32_t>(rig.control_count);
   plan.pieces_of_control = scratch.array<uint32_t>(rig.control_count);
-  if ((widest && !plan.used.data) ||
-      (rig.control_count && (!plan.last_block.data || !plan.pieces_of_control.data))) {
+  if (rig.control_count && (!plan.last_block.data || !plan.pieces_of_control.data)) {
     return no_scratch(error);
   }
-  for_each_piece(view, plan, [&](uint32_t, const PlannedBlock& block, uint32_t column, bool first) {
-    plan.pieces_of_control[groups[block.group].input_indices[column]] += first;
+  for_each_piece(view, plan, [&](uint32_t b, const BlockRows&, uint32_t column, bool first) {
+    plan.pieces_of_control[groups[plan.blocks[b].group].input_indices[column]] += first;
     plan.piece_count += first;
   });
   for (uint32_t count : plan.pieces_of_control) plan.column_count += count != 0;
-  for (const PlannedBlock& block : plan.blocks) plan.row_count += block.row_count;
+  for (const PlannedBlock& block : plan.blocks) {
+    for_each_target(view, rig, block, [&](const Target&) { ++plan.target_count; });
+  }
   plan.chunk_size = chunk_size(plan.blocks.count, plan.piece_count, plan.column_count);
   for_each_chunk(plan, [&](uint32_t) { ++plan.chunk_ends; });
   return Status::kOk;
@@ -350,7 +471,7 @@ void place_joints(const dna::DnaView& view, const JointPlan& plan, Placer& place
     joints.fixed_values = placer.array<int16_t>(values, kBlockAlignment);
     joints.scales = placer.array<float>(plan.blocks.count * kPieceRows, kBlockAlignment);
   } else {
-    joints.values = placer.array<float>(values, kBlockAlignment);
+    joints.values = placer.unwritten_array<float>(values, kBlockAlignment);
   }
   joints.blocks = placer.array<uint16_t>(plan.piece_count);
   joints.columns = placer.array<uint16_t>(plan.column_count);
@@ -359,7 +480,7 @@ void place_joints(const dna::DnaView& view, const JointPlan& plan, Placer& place
   joints.chunks = placer.array<JointChunk>(plan.chunk_ends);
   joints.chunks_at_lod = placer.array<uint32_t>(rig.lod_count);
   joints.control_chunks = placer.array<uint64_t>(rig.control_count);
-  joints.targets = placer.array<JointTarget>(plan.row_count);
+  joints.targets = placer.array<JointTarget>(plan.target_count);
   joints.threes_at_lod = placer.array<uint16_t>((plan.chunk_ends - 1) * rig.lod_count);
   joints.ones_at_lod = placer.array<uint16_t>((plan.chunk_ends - 1) * rig.lod_count);
 
@@ -406,22 +527,18 @@ void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach,
     piece += count;
     joints.first_piece[++column] = piece;
   }
-  for_each_piece(view, plan, [&](uint32_t b, const PlannedBlock& block, uint32_t c, bool first) {
-    const dna::JointGroup& group = groups[block.group];
-    const uint32_t control = group.input_indices[c];
+  for_each_piece(view, plan, [&](uint32_t b, const BlockRows& rows, uint32_t c, bool first) {
+    const PlannedBlock& block = plan.blocks[b];
+    const uint32_t control = groups[block.group].input_indices[c];
     const size_t at = plan.pieces_of_control[control] - !first;
     plan.pieces_of_control[control] += first;
     joints.blocks[at] = static_cast<uint16_t>(b * kBlockUnit);
-    for (uint32_t k = 0; k < block.row_count; ++k) {
-      const float value =
-          load_big_endian<float>(row_values(group, block.rows[k]) + size_t{c} * sizeof(float));
-      if (value != 0.0f) reach[control] = std::max(reach[control], block.reaches[k]);
-      if (rig.half_storage) {
-        int16_t& to = joints.fixed_values[at * kPieceRows + k];
-        to = add_fixed(to, value, joints.scales[size_t{b} * kPieceRows + k]);
-      } else {
-        joints.values[at * kPieceRows + k] += value;
-      }
+    mark_reach(block, rows, c, reach[control]);
+    if (rig.half_storage) {
+      add_fixed_piece(rows, c, joints.scales.data + size_t{b} * kPieceRows,
+                      joints.fixed_values.data + at * kPieceRows);
+    } else {
+      add_piece(rows, c, first, joints.values.data + at * kPieceRows);
     }
   });
 

@@ -287,6 +287,18 @@ Status fill_all(const DnaView& view, JointPlan& joints, Span<uint8_t> reach, Are
   return Status::kOk;
 }
 
+/// About what compiling takes for its own use.
+size_t scratch_bytes(const DnaView& view, const Rig& rig) {
+  size_t bytes = size_t{rig.joint_value_count()} * 8 + size_t{rig.control_count} * 16 +
+                 size_t{view.bhvr.controls.conditionals.input_indices.count} * 4 +
+                 size_t{view.bhvr.controls.psds.rows.count} * 8 + size_t{rig.psd_count} * 24;
+  for (const dna::JointGroup& group : view.bhvr.joints.groups) {
+    const size_t rows = group.output_indices.count, blocks = rows / kPieceRows + 2;
+    bytes += rows + blocks * (sizeof(PlannedBlock) + group.input_indices.count / 8 + 8);
+  }
+  return bytes;
+}
+
 }  // namespace
 
 void mark_joint_lods(const DnaView& view, Span<uint64_t> lods) {
@@ -340,6 +352,7 @@ Status compile_rig(const DnaView& view, const CompileOptions& options, const All
         mask_name_bytes, kMostMaskNameBytes);
   }
   Arena scratch(allocator);
+  scratch.expect(scratch_bytes(view, measured));
   JointPlan joints;
   Status status = plan_joints(view, measured, scratch, joints, error);
   if (status != Status::kOk) return status;

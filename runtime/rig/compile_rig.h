@@ -45,11 +45,11 @@ struct PlannedBlock {
 struct JointPlan {
   Span<uint8_t> uses;         // of all rows of all groups
   Span<PlannedBlock> blocks;  // those that more LODs reach first
-  size_t piece_count = 0, column_count = 0, row_count = 0;
+  size_t piece_count = 0, column_count = 0, target_count = 0;
   uint32_t chunk_size = 0;  // blocks
   size_t chunk_ends = 0;    // chunks, and one more
   Span<uint32_t> pieces_of_control;
-  Span<uint32_t> used;        // for the columns of the widest group
+  Span<uint64_t> pieces;      // by block, a bit for each column of its group: not all zeros
   Span<uint32_t> last_block;  // [control]
 };
 
