@@ -779,6 +779,7 @@ class Bench(CliTest):
         expected = {(isa, lod, activity, *crowd) for isa in isas for lod in range(lods)
                     for activity in (0.05, 0.08, 0.25, 0.5, 1.0)
                     for crowd in ((1, False), (64, False), (64, True))}
+        expected |= {(isa, 0, 0.08, 512, False) for isa in isas}
         keys = [(row["isa"], row["lod"], row["activity"], row["characters"], row["shared_controls"])
                 for row in result["rows"]]
         self.assertEqual(len(keys), len(set(keys)))
@@ -790,11 +791,22 @@ class Bench(CliTest):
             self.assertGreater(row["joints_ns"], 0)
             self.assertGreaterEqual(row["bytes_touched"], 0)
             self.assertTrue(math.isfinite(row["evaluate_ns"] + row["joints_ns"]))
+        # Active controls decide which part of the matrix is touched, on each instruction set the same.
+        touched = {}
+        for row in result["rows"]:
+            if row["characters"] == 1:
+                touched.setdefault((row["lod"], row["activity"]), set()).add(row["bytes_touched"])
+        self.assertTrue(all(len(of_all) == 1 for of_all in touched.values()))
+        for lod in range(lods):
+            by_activity = [min(touched[lod, activity]) for activity in (0.05, 0.08, 0.25, 0.5, 1.0)]
+            self.assertLess(by_activity[0], by_activity[-1])
+            self.assertEqual(max(by_activity), by_activity[-1])
+        self.assertGreater(max(max(of_all) for of_all in touched.values()), 0)
 
     def test_one_instruction_set_and_one_lod(self):
         result = self.json("bench", path("tiny.dna"), "--quick", "--json", "--isa", "scalar", "--lods", "0")
         self.assertEqual({row["isa"] for row in result["rows"]}, {"scalar"})
-        self.assertEqual(len(result["rows"]), 15)
+        self.assertEqual(len(result["rows"]), 16)
         result = self.json("bench", path("tiny.dna"), "--quick", "--json", "--lods", "0",
                            env={"MIEN_ISA": "scalar"})
         self.assertEqual({row["isa"] for row in result["rows"]}, {"scalar"})
@@ -802,7 +814,7 @@ class Bench(CliTest):
     def test_text(self):
         text = self.ok("bench", path("tiny.dna"), "--quick", "--lods", "0", "--isa", "scalar").stdout.decode()
         self.assertIn("x CSR", text)
-        self.assertEqual(len([line for line in text.splitlines() if line.startswith("scalar")]), 5)
+        self.assertEqual(len([line for line in text.splitlines() if line.startswith("scalar")]), 6)
         self.fails(USAGE, "bench", path("tiny.dna"), "--layers", "definition")
 
 

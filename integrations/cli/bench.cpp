@@ -3,6 +3,8 @@
 //
 //     rows (isa, LOD, activity, characters) and the yardsticks  ->  rounds over all of them,
 //     a few samples each per round  ->  medians
+//
+// Samples repeat their controls, so the rigs keep no results: bench_evaluate times those that do.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -31,6 +33,10 @@ struct BenchOptions {
 constexpr double kActivities[] = {0.05, 0.08, 0.25, 0.5, 1.0};
 constexpr size_t kActivityCount = std::size(kActivities);
 constexpr uint32_t kCharacters = 64;
+
+// A crowd in the distance, speaking: at the finest LOD and this activity only.
+constexpr uint32_t kThrong = 512;
+constexpr size_t kSpeech = 1;  // of kActivities
 
 // Asking the clock takes some hundred nanoseconds: a sample repeats its work until it takes at
 // least this long.
@@ -90,9 +96,10 @@ struct ControlSets {
   }
 };
 
-/// Exactly `activity` of the controls are not zero. `shared`: the same ones for all characters.
+/// Exactly `activity` of the controls are not zero. `shared`: the same ones for all characters, of
+/// which there are kCharacters; `own` has kThrong.
 ControlSets draw_controls(size_t count, double activity, std::mt19937& random) {
-  ControlSets sets = {count, std::vector<float>(count * kCharacters),
+  ControlSets sets = {count, std::vector<float>(count * kThrong),
                       std::vector<float>(count * kCharacters)};
   const auto active = static_cast<size_t>(std::lround(activity * static_cast<double>(count)));
   std::vector<size_t> order(count);
@@ -108,7 +115,7 @@ ControlSets draw_controls(size_t count, double activity, std::mt19937& random) {
   };
   shuffle();
   for (size_t c = 0; c < kCharacters; ++c) draw(sets.shared.data() + c * count);
-  for (size_t c = 0; c < kCharacters; ++c) {
+  for (size_t c = 0; c < kThrong; ++c) {
     shuffle();
     draw(sets.own.data() + c * count);
   }
@@ -131,7 +138,7 @@ struct Row {
   size_t activity;
   uint32_t characters;
   bool shared;
-  uint64_t bytes_touched;
+  uint64_t bytes_touched;  // of the joint matrix, by one character: the mean of all
   std::vector<double> evaluate_samples, joints_samples;
   double evaluate_ns = 0, joints_ns = 0;
 };
@@ -159,7 +166,7 @@ Engine make_engine(const RigFile& file, MienRigDesc desc) {
   Engine engine;
   engine.rig = create_rig(file, desc);
   engine.info = rig_info(engine.rig.get());
-  for (uint32_t c = 0; c < kCharacters; ++c) {
+  for (uint32_t c = 0; c < kThrong; ++c) {
     auto error = sized<MienError>();
     MienInstance* made = nullptr;
     check(mien_instance_create(engine.rig.get(), nullptr, &made, &error), &error,
@@ -172,7 +179,7 @@ Engine make_engine(const RigFile& file, MienRigDesc desc) {
   }
   auto error = sized<MienError>();
   MienBatch* batch = nullptr;
-  check(mien_batch_create(engine.rig.get(), kCharacters, 1, nullptr, &batch, &error), &error,
+  check(mien_batch_create(engine.rig.get(), kThrong, 1, nullptr, &batch, &error), &error,
         "cannot make a crowd", file.shown);
   engine.batch.reset(batch);
   return engine;
@@ -201,6 +208,32 @@ void prepare_csr(Bench& bench, const RigFile& file, std::mt19937& random) {
   for (float& x : bench.csr_x) x = static_cast<float>(random() >> 8) / 16777216.0f;
 }
 
+void set_controls(const Engine& engine, uint32_t characters, const ControlSets& controls,
+                  bool shared, size_t from) {
+  for (uint32_t c = 0; c < characters; ++c) {
+    const size_t sets = std::max(characters, kCharacters);
+    const float* source = controls.of(shared, (c + from) % sets);
+    std::copy(source, source + controls.count, engine.raw[c].data);
+  }
+}
+
+/// Bytes of the joint matrix that one character's evaluation reads: the mean of kCharacters.
+uint64_t bytes_touched(const Engine& engine, uint32_t lod, const ControlSets& controls,
+                       bool shared) {
+  set_controls(engine, kCharacters, controls, shared, 0);
+  const std::vector<uint32_t> lods(kCharacters, lod);
+  check(mien_rig_evaluate_batch(engine.rig.get(), engine.batch.get(), engine.handles.data(),
+                                lods.data(), kCharacters, MIEN_STAGE_ALL, nullptr),
+        nullptr, "cannot evaluate", "");
+  uint64_t sum = 0;
+  for (uint32_t c = 0; c < kCharacters; ++c) {
+    auto statistics = sized<MienInstanceStatistics>();
+    check(mien_instance_statistics(engine.handles[c], &statistics), nullptr, "cannot examine", "");
+    sum += statistics.joint_byte_count;
+  }
+  return sum / kCharacters;
+}
+
 Bench prepare(const RigFile& file, const std::vector<MienRigDesc>& rigs) {
   Bench bench;
   std::mt19937 random(20240229);
@@ -210,18 +243,27 @@ Bench prepare(const RigFile& file, const std::vector<MienRigDesc>& rigs) {
     bench.controls.push_back(
         draw_controls(rig_count(first, MIEN_KIND_RAW_CONTROL), activity, random));
   }
-  for (const Engine& engine : bench.engines) {
-    for (uint32_t lod = 0; lod < engine.info.lod_count; ++lod) {
-      auto statistics = sized<MienRigStatistics>();
-      check(mien_rig_statistics(engine.rig.get(), lod, &statistics), nullptr, "cannot examine rig",
-            file.shown);
-      for (size_t activity = 0; activity < kActivityCount; ++activity) {
-        const uint64_t bytes = statistics.joint_byte_count;
-        bench.rows.push_back({&engine, lod, activity, 1, false, bytes, {}, {}});
-        bench.rows.push_back({&engine, lod, activity, kCharacters, false, bytes, {}, {}});
-        bench.rows.push_back({&engine, lod, activity, kCharacters, true, bytes, {}, {}});
+  const uint32_t lod_count = bench.engines[0].info.lod_count;
+  std::vector<uint64_t> bytes;  // [lod][activity][shared]: the same for each instruction set
+  for (uint32_t lod = 0; lod < lod_count; ++lod) {
+    for (const ControlSets& controls : bench.controls) {
+      for (const bool shared : {false, true}) {
+        bytes.push_back(bytes_touched(bench.engines[0], lod, controls, shared));
       }
     }
+  }
+  for (const Engine& engine : bench.engines) {
+    for (uint32_t lod = 0; lod < lod_count; ++lod) {
+      for (size_t activity = 0; activity < kActivityCount; ++activity) {
+        const uint64_t* of_row = &bytes[(lod * kActivityCount + activity) * 2];
+        bench.rows.push_back({&engine, lod, activity, 1, false, of_row[0], {}, {}});
+        bench.rows.push_back({&engine, lod, activity, kCharacters, false, of_row[0], {}, {}});
+        bench.rows.push_back({&engine, lod, activity, kCharacters, true, of_row[1], {}, {}});
+      }
+    }
+  }
+  for (const Engine& engine : bench.engines) {
+    bench.rows.push_back({&engine, 0, kSpeech, kThrong, false, bytes[2 * kSpeech], {}, {}});
   }
   prepare_csr(bench, file, random);
   return bench;
@@ -233,10 +275,7 @@ void sample_row(Row& row, const ControlSets& controls, size_t number) {
   const Engine& engine = *row.engine;
   const MienRig* rig = engine.rig.get();
   // A single character has other controls in every sample.
-  for (uint32_t c = 0; c < row.characters; ++c) {
-    const float* source = controls.of(row.shared, (c + number) % kCharacters);
-    std::copy(source, source + controls.count, engine.raw[c].data);
-  }
+  set_controls(engine, row.characters, controls, row.shared, number);
   MienStatus failed = MIEN_OK;
   const std::vector<uint32_t> lods(row.characters, row.lod);
   const auto crowd = [&](uint32_t stages) {
@@ -384,15 +423,24 @@ void write_text(const Bench& bench, const std::string& name, const Session& sess
     std::snprintf(line, sizeof(line), "%-6s %3u %6s  %10s %10.2f %7.1f\n", "CSR", lod, "all", "",
                   csr_ns / 1000, 1.0);
     output.write(line);
-    // Three rows in a line, as prepare() made them.
+    // Three rows in a line, as prepare() made them; those of the throng stand behind.
     for (size_t i = 0; i + 2 < bench.rows.size(); i += 3) {
       const Row* row = &bench.rows[i];
+      if (row->characters == kThrong) break;
       if (row->lod != lod) continue;
       std::snprintf(line, sizeof(line), "%-6s %3u %4.0f %%", mien_isa_name(row->engine->info.isa),
                     lod, 100 * kActivities[row->activity]);
       output.write(line + times_text(row[0], csr_ns) + times_text(row[1], csr_ns) +
                    times_text(row[2], csr_ns) + "\n");
     }
+  }
+  std::snprintf(line, sizeof(line), "\n%u characters with controls of their own\n", kThrong);
+  output.write(paint(line, Style::kBold, colours));
+  for (const Row& row : bench.rows) {
+    if (row.characters != kThrong) continue;
+    std::snprintf(line, sizeof(line), "%-6s %3u %4.0f %%", mien_isa_name(row.engine->info.isa),
+                  row.lod, 100 * kActivities[row.activity]);
+    output.write(line + times_text(row, bench.csr[row.lod].joints_ns) + "\n");
   }
   output.commit();
 }
