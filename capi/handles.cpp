@@ -23,4 +23,18 @@ MienDna* new_dna(const Allocator& allocator) {
   return new (memory) MienDna{kDnaTag, allocator, {}, Arena(allocator), {}};
 }
 
+MienStatus find_kernels(uint32_t isa, const KernelTable*& out, MienError* error) {
+  if (isa >= kIsaCount) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "isa %u is no MIEN_ISA_...", isa);
+  }
+  out = choose_kernels(static_cast<Isa>(isa));
+  if (out) return MIEN_OK;
+  return isa == MIEN_ISA_BEST
+             ? give_error(error, MIEN_ERROR_ISA,
+                          "the environment variable MIEN_ISA names an instruction "
+                          "set that is not to be had here; unset it or use scalar")
+             : give_error(error, MIEN_ERROR_ISA, "this CPU or build lacks %s; use MIEN_ISA_BEST",
+                          mien_isa_name(isa));
+}
+
 }  // namespace mien::capi

@@ -136,6 +136,9 @@ inline MienStatus read_allocator(const MienAllocator* in, Allocator& out) {
   return MIEN_OK;
 }
 
+/// The kernels of a MIEN_ISA_..., or why there are none.
+MienStatus find_kernels(uint32_t isa, const KernelTable*& out, MienError* error);
+
 /// An empty MienDna in the allocator's memory; null if there is none.
 MienDna* new_dna(const Allocator& allocator);
 

@@ -95,7 +95,12 @@ enum MienStatusCode {
     MIEN_ERROR_DNA_REFERENCE = 34, /* an index to something that is not there */
     MIEN_ERROR_DNA_LIMIT = 35,     /* more of something than the format or Mien can number */
     MIEN_ERROR_DNA_LAYER = 36,     /* a layer that the call needs was not loaded or not in the file */
-    MIEN_ERROR_DNA_VALUE = 37      /* a value that has no meaning */
+    MIEN_ERROR_DNA_VALUE = 37,     /* a value that has no meaning */
+    MIEN_ERROR_IMAGE_SIGNATURE = 50, /* not an image of a rig */
+    MIEN_ERROR_IMAGE_VERSION = 51,   /* an image of another version or kind of machine: bake again */
+    MIEN_ERROR_IMAGE_TRUNCATED = 52, /* the image ends before what it announces */
+    MIEN_ERROR_IMAGE_STRUCTURE = 53, /* sizes, counts or indices contradict each other */
+    MIEN_ERROR_IMAGE_CHECKSUM = 54   /* not the bytes that were written */
 };
 
 /* "DNA_TRUNCATED" for MIEN_ERROR_DNA_TRUNCATED; "UNKNOWN" for other numbers. Static, terminated. */
@@ -571,7 +576,7 @@ typedef struct MienRigInfo {
     uint32_t joint_value_count; /* length of a row of joint outputs: 9 or 10 per joint */
     uint32_t rotation;          /* MIEN_OUTPUT_... */
     uint32_t storage;           /* MIEN_STORAGE_... */
-    uint64_t rig_bytes;         /* memory of the rig */
+    uint64_t rig_bytes;         /* memory of the rig; with its file if it was opened from one */
     uint64_t instance_bytes;    /* memory of each instance */
 } MienRigInfo;
 
@@ -585,6 +590,47 @@ MIEN_API MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc,
 /* Memory is released when the last instance is gone too, so the order of destruction does not
  * matter; a destroyed rig cannot be evaluated any more. */
 MIEN_API void mien_rig_destroy(MienRig* rig);
+
+/* Baked rigs: a rig as it is in memory, to be opened where it lies. An image holds all that was chosen
+ * when the rig was created but the instruction set and MienReuse, so that one file serves all machines
+ * of a byte order and pointer size. The same rig gives the same bytes. A later version of the library
+ * may refuse it with MIEN_ERROR_IMAGE_VERSION: keep the DNA. */
+MIEN_API MienStatus mien_rig_save_file(const MienRig* rig, const char* path, MienError* error);
+
+/* The same to memory. With buffer NULL and capacity 0 only *out_size is set; a capacity that is too
+ * small gives MIEN_ERROR_INVALID_ARGUMENT and the size. */
+MIEN_API MienStatus mien_rig_save_memory(const MienRig* rig, void* buffer, size_t capacity,
+                                         size_t* out_size, MienError* error);
+
+enum MienImageCheck {
+    MIEN_IMAGE_CHECK_SAFE = 0, /* every size, count and index: whatever the bytes are, nothing is read
+                                  or written outside of the rig and its instances. Numbers are not
+                                  looked at, so their pages stay on disk until they are needed. */
+    MIEN_IMAGE_CHECK_FULL = 1  /* also that all bytes are those that were written: reads them all */
+};
+
+typedef struct MienRigImageDesc {
+    uint32_t struct_size;
+    uint32_t isa;         /* MIEN_ISA_..., as in MienRigDesc */
+    uint32_t file_access; /* MIEN_FILE_...; of no meaning for memory */
+    uint32_t check;       /* MIEN_IMAGE_CHECK_... */
+    const MienAllocator* allocator;
+    uint32_t reuse;       /* MIEN_REUSE_... */
+    uint32_t reserved;    /* 0 */
+} MienRigImageDesc;
+
+/* Opens an image, which is mapped and used in place: one allocation for the rig. All processes that
+ * open the file share its pages, which are never written to. A mapped file must not be truncated or
+ * rewritten in place until the rig and all its instances are gone (replacing it by renaming is safe;
+ * MIEN_FILE_READ takes a copy). `path` is UTF-8, `desc` may be NULL. The rig is like one that was
+ * created; destroy it with mien_rig_destroy(). */
+MIEN_API MienStatus mien_rig_open_file(const char* path, const MienRigImageDesc* desc,
+                                       MienRig** out_rig, MienError* error);
+
+/* The same from memory, which stays the caller's and has to stay unchanged until the rig and all its
+ * instances, batches and deformers are gone. Bytes that are not at a multiple of 64 are copied, once. */
+MIEN_API MienStatus mien_rig_open_memory(const void* bytes, size_t size, const MienRigImageDesc* desc,
+                                         MienRig** out_rig, MienError* error);
 
 MIEN_API MienStatus mien_rig_info(const MienRig* rig, MienRigInfo* out_info);
 

@@ -45,10 +45,6 @@ MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig*
   if (read_allocator(known.allocator, allocator) != MIEN_OK) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
   }
-  if (known.isa >= kIsaCount) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "MienRigDesc.isa %u is no MIEN_ISA_...",
-                      known.isa);
-  }
   if (known.rotation > MIEN_OUTPUT_QUATERNION || known.ml_masks > MIEN_ML_MASKS_BLEND ||
       known.storage > MIEN_STORAGE_F16 || known.reuse > MIEN_REUSE_NOTHING ||
       known.arithmetic > MIEN_ARITHMETIC_PORTABLE || known.reserved != 0) {
@@ -56,15 +52,8 @@ MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig*
                       "MienRigDesc.rotation, .ml_masks, .storage, .reuse or .arithmetic is none of "
                       "its values, or .reserved is not 0");
   }
-  const KernelTable* kernels = choose_kernels(static_cast<Isa>(known.isa));
-  if (!kernels) {
-    return known.isa == MIEN_ISA_BEST
-               ? give_error(error, MIEN_ERROR_ISA,
-                            "the environment variable MIEN_ISA names an instruction "
-                            "set that is not to be had here; unset it or use scalar")
-               : give_error(error, MIEN_ERROR_ISA, "this CPU or build lacks %s; use MIEN_ISA_BEST",
-                            mien_isa_name(known.isa));
-  }
+  const KernelTable* kernels = nullptr;
+  if (MienStatus status = find_kernels(known.isa, kernels, error)) return status;
   if (!dna->view.has(dna::kLayerBehavior)) {
     return give_error(error, MIEN_ERROR_DNA_LAYER,
                       "the DNA was opened without its behavior; open it with MIEN_LAYER_BEHAVIOR");
@@ -108,7 +97,7 @@ MienStatus mien_rig_info(const MienRig* handle, MienRigInfo* out_info) {
   info.joint_value_count = rig.joint_value_count();
   info.rotation = rig.quaternion_outputs ? MIEN_OUTPUT_QUATERNION : MIEN_OUTPUT_EULER;
   info.storage = rig.half_storage ? MIEN_STORAGE_F16 : MIEN_STORAGE_F32;
-  info.rig_bytes = rig.block_size;
+  info.rig_bytes = rig.block_size + rig.image.size;
   info.instance_bytes = rig.instance_size;
   write_struct(out_info, info);
   return MIEN_OK;

@@ -213,7 +213,7 @@ inline float sum_of(const float* values, size_t count) {
 
 void normalize(const RbfSolverPlan& solver, const RbfArgs& args) {
   const size_t at = solver.first_lane, count = solver.pose_count;
-  if (count == 0) return;
+  if (count == 0) return;  // there is no block to sum
   const float* weights = (solver.interpolative ? args.results : args.weights) + at;
   const float sum = sum_of(weights, count);
   float scale = 1.0f;

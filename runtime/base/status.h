@@ -42,6 +42,12 @@ enum class Status : int32_t {
   kDnaLimit = 35,
   kDnaLayer = 36,
   kDnaValue = 37,
+  // images of rigs
+  kImageSignature = 50,
+  kImageVersion = 51,
+  kImageTruncated = 52,
+  kImageStructure = 53,
+  kImageChecksum = 54,
 };
 
 /// Name of a status as it stands in mien.h, without the MIEN_ prefix of the enum ("DNA_TRUNCATED").

@@ -134,7 +134,6 @@ Status plan_blocks(const dna::DnaView& view, const Rig& rig, const Span<uint8_t>
     ++block_count;
     ++begin[rig.lod_count - lod_reach(view.bhvr.joints.groups[g].lods, rig.lod_count, rows[0]) + 1];
   });
-  constexpr uint32_t kMostBlocks = 0x10000 / kBlockUnit;
   if (block_count > kMostBlocks) {
     return fail(error, Status::kDnaLimit, kNoOffset,
                 "bhvr.joints.jointGroups: rows make up %zu blocks of %u; %u are allowed",

@@ -15,11 +15,6 @@ using dna::MlOperation;
 using dna::MlOperationType;
 using dna::MlType;
 
-// Operations cost a file few bytes and may all run the same large network, so their number alone
-// bounds neither memory nor time.
-constexpr size_t kMostBufferFloats = size_t{4} << 20;
-constexpr size_t kMostMultiplications = size_t{256} << 20;
-
 MlOperationType type_of(const MlOperation& operation) {
   return static_cast<MlOperationType>(operation.type);
 }
@@ -401,9 +396,9 @@ Status fill_ml(const DnaView& view, Arena& scratch, Rig& rig, Error& error) {
       MlDependency& to = ml.dependencies[dependency_number++];
       to = {};
       if (from != kNone) {
-        to = {ml.steps[from].first_output, ml.steps[from].output_count, 0, false};
+        to = {ml.steps[from].first_output, ml.steps[from].output_count, 0, false, {}};
       } else if (type_of(dependency(visit, d)) == MlOperationType::kGather) {
-        to = {gathered, dependency(visit, d).parameters.count, 0, true};
+        to = {gathered, dependency(visit, d).parameters.count, 0, true, {}};
         gathered += to.count;
       }
       if (visit.network == kNone)

@@ -436,7 +436,7 @@ Status fill_twists_and_swings(const dna::DnaView& view, Arena& scratch, Rig& rig
     for (uint32_t i = 0; i < from.output_joint_indices.count; ++i) {
       const uint16_t joint = from.output_joint_indices[i];
       const float blend = std::min(std::max(from.blend_weights[i], -kMostBlend), kMostBlend);
-      table.outputs[output++] = {joint_lods[joint], joint, blend};
+      table.outputs[output++] = {joint_lods[joint], blend, joint, 0};
     }
     return from.output_joint_indices.count;
   };

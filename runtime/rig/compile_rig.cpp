@@ -216,7 +216,8 @@ void count_things(const DnaView& view, const CompileOptions& options, Rig& rig) 
   rig.quaternion_outputs = options.quaternion_outputs;
   rig.half_storage = options.half_storage;
   rig.portable = options.portable;
-  rig.always_evaluate = options.always_evaluate || reads_back(view);
+  rig.reads_back = reads_back(view);
+  rig.always_evaluate = options.always_evaluate || rig.reads_back;
   if (rig.quaternion_outputs) rig.joint_attributes = kFileAttributes + 1;
   rig.lod_count = view.desc.lod_count;
   rig.gui_count = defn.gui_control_names.count;
@@ -395,8 +396,10 @@ void release_rig(const Rig* rig) {
   const Allocator allocator = last->allocator;
   const size_t size = last->block_size;
   last->tag = 0;
+  MappedFile image = last->image;
   last->~Rig();
   allocator.put(last, size, kBlockAlignment);
+  if (image.bytes) close_file(image);
 }
 
 }  // namespace mien

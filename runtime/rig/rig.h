@@ -4,6 +4,9 @@
 //
 //     | Rig | tables | correctives | joint matrix | neutral pose | LOD lists | names |
 //
+// Elements of arrays have no padding: what would be is a field of zeros, so that a rig has one
+// image (rig_image.h).
+//
 // A LOD never needs a list of what to evaluate: tables, correctives and joint rows are ordered so
 // that each LOD uses a prefix of what the LOD before it uses.
 #pragma once
@@ -11,6 +14,7 @@
 #include <atomic>
 
 #include "runtime/base/allocator.h"
+#include "runtime/base/mapped_file.h"
 #include "runtime/base/span.h"
 #include "runtime/base/transform.h"
 #include "runtime/dna/coordinate_system.h"
@@ -125,6 +129,7 @@ struct JointMatrix {
   }
 };
 constexpr uint32_t kMostChunkBlocks = 256;
+constexpr uint32_t kMostBlocks = 0x10000 / kBlockUnit;  // of the whole matrix
 
 /// A joint that a group turns, and the first of the group's rows that does: it turns at the LODs
 /// that reach this row.
@@ -197,6 +202,7 @@ struct NetworkLayer {
   uint32_t output_count;
   float alpha;
   uint8_t function;
+  uint8_t zeros[7];
 };
 
 /// Values that an operation takes from another one: `count` floats at `first` of the instance's ML
@@ -205,6 +211,7 @@ struct MlDependency {
   uint32_t first, count;
   float weight;
   bool gathers;
+  uint8_t zeros[3];
 };
 
 /// A step of the learned behaviour (rig-evaluation 8): a network that runs, or a weighted sum. What
@@ -221,6 +228,11 @@ struct MlStep {
   uint32_t mask;  // or kNoMask
 };
 constexpr uint32_t kNoMask = ~uint32_t{0};
+
+// Operations cost a file few bytes and may all run the same large network, so their number alone
+// bounds neither memory nor time.
+constexpr size_t kMostBufferFloats = size_t{4} << 20;
+constexpr size_t kMostMultiplications = size_t{256} << 20;
 
 /// A joint that learned behaviour moves (rig-evaluation 8.6). Controls of what it does not give are
 /// kNoControl; a rotation takes three or four controls from rotation_control on.
@@ -261,14 +273,16 @@ struct TwistSwing {
   uint16_t inputs[4];  // control numbers of x y z w
   uint8_t axis;        // of the swing if there is one
   bool has_swing;
+  uint8_t zeros[2];
   uint32_t first_swing, swing_count;  // into TwistSwingTable::outputs
   uint32_t first_twist, twist_count;
 };
 
 struct TwistSwingOutput {
   uint64_t lods;  // bit l: the joint exists at LOD l
-  uint16_t joint;
   float blend;
+  uint16_t joint;
+  uint16_t zero;
 };
 
 struct TwistSwingTable {
@@ -320,6 +334,7 @@ struct Rig {
   uint32_t tag = 0;  // first, for the C API to recognise its handles
   Allocator allocator;
   size_t block_size = 0;
+  MappedFile image;  // of a rig that was opened from a file, or a copy of one: the arrays are there
   size_t instance_size = 0;
   mutable std::atomic<uint32_t> owners{1};  // the creator and every instance
 
@@ -334,6 +349,7 @@ struct Rig {
   bool quaternion_outputs = false;
   bool half_storage = false;
   bool portable = false;         // the same bits on every instruction set
+  bool reads_back = false;       // stages read what later ones give: results must not be kept
   bool always_evaluate = false;  // instead of keeping results whose inputs did not change
   uint32_t joint_attributes = kFileAttributes;  // per joint: 9, or 10 with quaternion outputs
   uint32_t joint_value_count() const { return joint_count * joint_attributes; }

@@ -1,0 +1,551 @@
+// SPDX-License-Identifier: MIT
+// Whether the tables of a rig that came from outside keep evaluation within its arrays. What
+// compilation lays out one behind the other has to lie so here: then nothing is counted twice, and
+// work and memory are bounded by the size of the image.
+#include <algorithm>
+#include <cstring>
+
+#include "runtime/rig/rig_image.h"
+
+namespace mien {
+namespace {
+
+struct Checker {
+  const Rig& rig;
+  Error& error;
+
+  bool ok(bool good, const char* what) const {
+    if (good) return true;
+    fail(error, Status::kImageStructure, kNoOffset,
+         "%s: counts or indices contradict each other, the image is damaged; bake the rig again",
+         what);
+    return false;
+  }
+};
+
+uint64_t padded(uint64_t count) { return (count + kBlockRows - 1) / kBlockRows * kBlockRows; }
+
+/// All of them; without a branch inside, for many at a time.
+template <class T>
+bool below(const Span<T>& values, uint64_t limit) {
+  T most = 0;
+  for (const T value : values) most = value > most ? value : most;
+  return values.empty() || most < limit;
+}
+
+/// Where each of `count` runs begins, and where the last one ends.
+bool is_runs(const Span<uint32_t>& first, size_t count, size_t limit) {
+  if (first.count <= count || first[0] != 0) return false;
+  bool rises = true;
+  for (size_t i = 0; i < count; ++i) rises &= first[i] <= first[i + 1];
+  return rises && first[count] <= limit;
+}
+
+/// `count` elements from `first` on, of `limit`.
+bool fits(uint64_t first, uint64_t count, uint64_t limit) {
+  return first <= limit && count <= limit - first;
+}
+
+/// A truth value out of a file may be any byte, which the compiler must not see as one.
+bool is_flag(const bool& flag) {
+  uint8_t byte;
+  memcpy(&byte, &flag, 1);
+  return byte <= 1;
+}
+
+bool is_order(const uint8_t axes[3]) {
+  return axes[0] < 3 && axes[1] < 3 && axes[2] < 3 && axes[0] != axes[1] && axes[1] != axes[2] &&
+         axes[0] != axes[2];
+}
+
+bool check_counts(const Checker& c) {
+  const Rig& rig = c.rig;
+  const uint64_t parts =
+      uint64_t{rig.raw_count} + rig.psd_count + rig.ml_count + uint64_t{rig.rbf_count};
+  return c.ok(rig.lod_count <= kMaxLods, "LODs") &&
+         c.ok(parts <= rig.control_count && rig.control_count <= 0x10000 &&
+                  rig.initial_controls.count == rig.control_count,
+              "controls") &&
+         c.ok(rig.joint_attributes == kFileAttributes + rig.quaternion_outputs &&
+                  rig.joint_count <= 0x10000 &&
+                  rig.neutral_joints.count == rig.joint_value_count() &&
+                  rig.joint_parents.count == rig.joint_count &&
+                  below(rig.joint_parents, rig.joint_count),
+              "joints") &&
+         c.ok(rig.units.rotation_sequence <= 5 && is_order(rig.rotation.axes) &&
+                  is_order(rig.ml.rotation.axes),
+              "rotation order");
+}
+
+// Names
+// --------------------------------------------------------------------------------------------
+
+bool is_sorted(const NameList& names) {
+  for (size_t i = 1; i < names.sorted.count; ++i) {
+    const uint32_t x = names.sorted[i - 1], y = names.sorted[i];
+    const Span<char> a = names[x], b = names[y];
+    const size_t common = std::min(a.count, b.count);
+    const int order = common ? memcmp(a.data, b.data, common) : 0;
+    if (order > 0) return false;
+    if (order == 0 && (a.count != b.count ? a.count > b.count : x >= y)) return false;
+  }
+  return true;
+}
+
+bool check_names(const Checker& c, bool full) {
+  const Rig& rig = c.rig;
+  const uint32_t counts[kKindsWithNames] = {
+      rig.gui_count,   rig.raw_count,     rig.psd_count, rig.ml_count,   rig.rbf_count,
+      rig.joint_count, rig.channel_count, rig.map_count, rig.mesh_count, rig.mask_count};
+  for (size_t k = 0; k < kKindsWithNames; ++k) {
+    const NameList& names = rig.names[k];
+    // Controls of networks may be there though their layer, with the names, is not.
+    const bool may_lack = k == size_t(Kind::kMlControl) && names.count() == 0;
+    if (!c.ok((names.count() == counts[k] || may_lack) &&
+                  is_runs(names.first, names.count(), names.chars.count) &&
+                  names.first.count == names.count() + size_t{1} &&
+                  names.sorted.count == names.count() && below(names.sorted, names.count()) &&
+                  (!full || is_sorted(names)),
+              "names")) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool check_lists(const Checker& c, const LodLists& lists, uint32_t limit, const char* what) {
+  if (lists.first.empty()) return c.ok(false, what);
+  const size_t rows = lists.first.count - 1;
+  return c.ok(lists.row_of_lod.count <= c.rig.lod_count && below(lists.row_of_lod, rows) &&
+                  is_runs(lists.first, rows, lists.indices.count) && below(lists.indices, limit),
+              what);
+}
+
+// Controls
+// -----------------------------------------------------------------------------------------
+
+bool check_table(const Checker& c, const ControlTable& table, uint32_t inputs, uint32_t outputs,
+                 const char* what) {
+  const size_t rows = table.inputs.count;
+  bool advances = table.run_ends.count == rows;
+  for (size_t r = 0; advances && r < rows; ++r) {
+    advances = table.run_ends[r] > r && table.run_ends[r] <= rows;
+  }
+  return c.ok(advances && table.outputs.count == rows && table.from.count == rows &&
+                  table.to.count == rows && table.slope.count == rows && table.cut.count == rows &&
+                  below(table.inputs, inputs) && below(table.outputs, outputs),
+              what);
+}
+
+bool check_leading(const Checker& c, const Span<uint32_t>& at_lod, size_t most, const char* what) {
+  return c.ok(at_lod.count == c.rig.lod_count && below(at_lod, uint64_t{most} + 1), what);
+}
+
+bool check_controls(const Checker& c) {
+  const Rig& rig = c.rig;
+  const ReverseTable& reverse = rig.raw_to_gui;
+  const ChannelTable& channels = rig.channels;
+  if (!check_table(c, rig.gui_to_raw, rig.gui_count, rig.raw_count, "GUI to raw controls") ||
+      !c.ok(below(rig.driven_raw, rig.raw_count), "driven raw controls") ||
+      !check_table(c, rig.maps, rig.control_count, rig.map_count, "animated maps") ||
+      !check_leading(c, rig.map_rows_at_lod, rig.maps.inputs.count, "animated maps")) {
+    return false;
+  }
+  const size_t groups = reverse.first_row.empty() ? 0 : reverse.first_row.count - 1;
+  return c.ok(!reverse.first_row.empty() &&
+                  reverse.first_group.count == size_t{rig.gui_count} + 1 &&
+                  is_runs(reverse.first_group, rig.gui_count, groups) &&
+                  is_runs(reverse.first_row, reverse.first_group[rig.gui_count],
+                          reverse.rows.count) &&
+                  below(reverse.rows, rig.gui_to_raw.inputs.count),
+              "raw to GUI controls") &&
+         c.ok(channels.inputs.count == channels.outputs.count &&
+                  below(channels.inputs, rig.control_count) &&
+                  below(channels.outputs, rig.channel_count),
+              "blend shape channels") &&
+         check_leading(c, channels.count_at_lod, channels.inputs.count, "blend shape channels");
+}
+
+bool check_psds(const Checker& c) {
+  const Rig& rig = c.rig;
+  const PsdTable& psds = rig.psds;
+  const uint32_t count = rig.psd_count, first_psd = rig.raw_count;
+  if (!c.ok(psds.outputs.count == count && psds.weights.count == count &&
+                psds.entry_of_psd.count == count && psds.first_input.count == size_t{count} + 1 &&
+                is_runs(psds.first_input, count, psds.inputs.count) &&
+                below(psds.inputs, rig.control_count) && below(psds.entry_of_psd, count),
+            "correctives") ||
+      !check_leading(c, psds.count_at_lod, count, "correctives")) {
+    return false;
+  }
+  const auto entry_of = [&](uint32_t control) -> uint32_t {
+    return control - first_psd < count ? psds.entry_of_psd[control - first_psd] : 0;
+  };
+  bool ordered = true;
+  for (uint32_t e = 0; e < count; ++e) {
+    const uint32_t output = psds.outputs[e];
+    ordered &= output - first_psd < count && entry_of(output) == e;
+    for (uint32_t k = psds.first_input[e]; k < psds.first_input[e + 1]; ++k) {
+      const uint32_t input = psds.inputs[k];
+      ordered &= input - first_psd >= count || entry_of(input) < e;
+    }
+  }
+  return c.ok(ordered, "order of correctives");
+}
+
+// Joint matrix
+// -------------------------------------------------------------------------------------
+
+bool check_chunks(const Checker& c) {
+  const Rig& rig = c.rig;
+  const JointMatrix& joints = rig.joints;
+  const Span<JointChunk>& chunks = joints.chunks;
+  bool good = chunks[0].first_block == 0 && chunks[0].first_target == 0;
+  for (size_t i = 0; i + 1 < chunks.count; ++i) {
+    const uint32_t blocks = chunks[i + 1].first_block - chunks[i].first_block;
+    good &= chunks[i].first_block < chunks[i + 1].first_block && blocks <= kMostChunkBlocks;
+    good &= chunks[i].first_target <= chunks[i + 1].first_target;
+  }
+  const uint32_t count = joints.chunk_count();
+  return c.ok(good && chunks[count].first_block <= kMostBlocks &&
+                  chunks[count].first_target <= joints.targets.count,
+              "chunks of the joint matrix") &&
+         c.ok(joints.chunk_shift < 32 && count <= uint64_t{64} << joints.chunk_shift,
+              "marks of the joint matrix") &&
+         check_leading(c, joints.chunks_at_lod, count, "LODs of the joint matrix");
+}
+
+bool check_targets(const Checker& c) {
+  const Rig& rig = c.rig;
+  const JointMatrix& joints = rig.joints;
+  const uint32_t lods = rig.lod_count;
+  const size_t tables = size_t{joints.chunk_count()} * lods;
+  if (!c.ok(joints.threes_at_lod.count == tables && joints.ones_at_lod.count == tables,
+            "targets of the joint matrix")) {
+    return false;
+  }
+  const uint32_t outputs =
+      rig.joint_value_count() + (rig.quaternion_outputs ? rig.joint_count * 3 : 0);
+  bool good = true;
+  for (uint32_t chunk = 0; good && lods != 0 && chunk < joints.chunk_count(); ++chunk) {
+    const Span<uint16_t> threes = joints.threes_at_lod.slice(size_t{chunk} * lods, lods);
+    const Span<uint16_t> ones = joints.ones_at_lod.slice(size_t{chunk} * lods, lods);
+    const JointChunk &at = joints.chunks[chunk], &next = joints.chunks[chunk + 1];
+    const uint32_t count = next.first_target - at.first_target;
+    const uint32_t slots = (next.first_block - at.first_block) * kPieceRows;
+    good = below(threes, threes[0] + uint64_t{1}) && below(ones, ones[0] + uint64_t{1}) &&
+           uint32_t{threes[0]} + ones[0] <= count;
+    for (uint32_t t = 0; good && t < count; ++t) {
+      const JointTarget& target = joints.targets[at.first_target + t];
+      const uint32_t rows = t < threes[0] ? 3 : 1;
+      good = target.slot + rows <= slots && target.output + rows <= outputs &&
+             target.group < joints.group_count;
+    }
+  }
+  return c.ok(good, "targets of the joint matrix");
+}
+
+/// Pieces ascend in each column, and each entry of chunk_pieces stands where the first block of its
+/// chunk would be: so the pieces between two entries add to blocks of that chunk.
+bool check_pieces(const Checker& c) {
+  const JointMatrix& joints = c.rig.joints;
+  const size_t pieces = joints.blocks.count, ends = joints.chunks.count;
+  if (!c.ok(joints.first_piece.count == joints.columns.count + 1 &&
+                is_runs(joints.first_piece, joints.columns.count, pieces) &&
+                joints.first_piece[joints.columns.count] == pieces &&
+                joints.chunk_pieces.count == joints.columns.count * ends &&
+                below(joints.columns, c.rig.control_count),
+            "columns of the joint matrix")) {
+    return false;
+  }
+  const uint16_t* blocks = joints.blocks.data;
+  uint32_t odd = 0, bad = 0;
+  for (size_t p = 0; p < pieces; ++p) odd |= blocks[p] % kBlockUnit;
+  for (size_t k = 0; k < joints.columns.count; ++k) {
+    const uint16_t* own = blocks + joints.first_piece[k];
+    const uint32_t count = joints.first_piece[k + 1] - joints.first_piece[k];
+    if (count == 0) {
+      bad |= !below(joints.chunk_pieces.slice(k * ends, ends), 1);
+      continue;
+    }
+    uint16_t falls = 0;
+    for (uint32_t p = 1; p < count; ++p) falls |= static_cast<uint16_t>(own[p - 1] >= own[p]);
+    bad |= falls;
+    const uint16_t* begins = joints.chunk_pieces.data + k * ends;
+    for (size_t i = 0; i < ends; ++i) {
+      const uint32_t begin = begins[i], limit = joints.chunks[i].first_block * kBlockUnit;
+      if (begin > count) return c.ok(false, "chunks of a column of the joint matrix");
+      bad |= static_cast<uint32_t>(begin > 0) & (own[begin - (begin > 0)] >= limit);
+      bad |= static_cast<uint32_t>(begin < count) & (own[begin - (begin == count)] < limit);
+    }
+    bad |= begins[ends - 1] != count;
+  }
+  return c.ok(odd == 0 && bad == 0, "pieces of the joint matrix");
+}
+
+bool check_joints(const Checker& c) {
+  const Rig& rig = c.rig;
+  const JointMatrix& joints = rig.joints;
+  if (!c.ok(joints.chunks.count >= 1 && joints.chunks.count <= kMostBlocks + size_t{1},
+            "chunks of the joint matrix") ||
+      !check_chunks(c)) {
+    return false;
+  }
+  // Values tell by their absence that they are 16-bit ones, with scales.
+  const size_t values = joints.blocks.count * kPieceRows;
+  const size_t sums = size_t{joints.chunks[joints.chunk_count()].first_block} * kPieceRows;
+  const bool stored = rig.half_storage
+                          ? joints.values.empty() && joints.fixed_values.count == values &&
+                                joints.scales.count == sums
+                          : joints.values.count == values && joints.fixed_values.empty() &&
+                                joints.scales.empty() && (values != 0 || sums == 0);
+  return c.ok(stored, "values of the joint matrix") &&
+         c.ok(joints.control_chunks.count == rig.control_count &&
+                  joints.group_rows_at_lod.count == uint64_t{joints.group_count} * rig.lod_count,
+              "joint groups") &&
+         check_targets(c) && check_pieces(c);
+}
+
+// Rotations
+// ----------------------------------------------------------------------------------------
+
+bool check_turned(const Span<TurnedJoint>& joints, uint32_t joint_count) {
+  bool good = true;
+  for (const TurnedJoint& turned : joints) good &= turned.joint < joint_count;
+  return good;
+}
+
+bool check_rotations(const Checker& c) {
+  const Rig& rig = c.rig;
+  const RotationTable& table = rig.rotations;
+  const size_t values = rig.half_storage ? table.halves.count : table.values.count;
+  if (!c.ok(table.groups.count == rig.joints.group_count &&
+                table.columns_at_lod.count == table.groups.count * rig.lod_count &&
+                table.most_turns <= table.turn_joints.count &&
+                below(table.columns, rig.control_count) &&
+                check_turned(table.angle_joints, rig.joint_count) &&
+                check_turned(table.turn_joints, rig.joint_count) &&
+                (rig.quaternion_outputs || table.angle_joints.empty()),
+            "rotations of joint groups")) {
+    return false;
+  }
+  uint64_t angles = 0, turns = 0, columns = 0, value = 0;
+  for (size_t g = 0; g < table.groups.count; ++g) {
+    const GroupRotations& group = table.groups[g];
+    const bool in_order = group.first_angle_joint == angles && group.first_turn_joint == turns &&
+                          group.first_column == columns && group.first_value == value;
+    const Span<uint32_t> at_lod = table.columns_at_lod.slice(g * rig.lod_count, rig.lod_count);
+    angles += group.angle_joint_count;
+    turns += group.turn_joint_count;
+    columns += group.column_count;
+    if (!c.ok(in_order && group.turn_joint_count <= table.most_turns &&
+                  below(at_lod, uint64_t{group.column_count} + 1) &&
+                  angles <= table.angle_joints.count && turns <= table.turn_joints.count &&
+                  columns <= table.columns.count,
+              "rotations of joint groups")) {
+      return false;
+    }
+    value += padded(group.turn_joint_count) * 4 * group.column_count;
+    if (!c.ok(value <= values, "rotations of joint groups")) return false;
+  }
+  return true;
+}
+
+bool check_twists(const Checker& c) {
+  const Rig& rig = c.rig;
+  const TwistSwingTable& table = rig.twist_swing;
+  bool good = true;
+  for (const TwistSwingOutput& output : table.outputs) good &= output.joint < rig.joint_count;
+  uint64_t at = 0;
+  for (const TwistSwing& setup : table.setups) {
+    for (const uint16_t input : setup.inputs) good &= input < rig.control_count;
+    good &= setup.axis < 3 && is_flag(setup.has_swing);
+    good &= setup.swing_count == 0 || setup.first_swing == at;
+    at += setup.swing_count;
+    good &= setup.first_twist == at;
+    at += setup.twist_count;
+    good &= setup.first_swing <= table.outputs.count && at <= table.outputs.count;
+    if (!good) break;
+  }
+  return c.ok(good, "twists and swings");
+}
+
+// RBF solvers
+// --------------------------------------------------------------------------------------
+
+bool check_solvers(const Checker& c) {
+  const Rig& rig = c.rig;
+  const RbfTable& rbf = rig.rbf;
+  uint64_t inputs = 0, rotations = 0, poses = 0, lanes = 0, targets = 0, inverses = 0;
+  for (size_t i = 0; i < rbf.plans.count; ++i) {
+    const RbfSolverPlan& plan = rbf.plans[i];
+    const uint32_t width = plan.angle_inputs;
+    const bool parts = width == 2 || width == 3;
+    if (!c.ok((width == 0 || width == 4 || parts) && is_flag(plan.interpolative) &&
+                  is_flag(plan.always_normalize) && plan.function <= 4 &&
+                  (width == 0 || plan.input_count % width == 0) &&
+                  plan.first_input == (parts ? rotations : inputs) &&
+                  rbf.solvers[i].first_pose == poses && plan.first_lane == lanes &&
+                  plan.first_target == targets && plan.first_inverse == inverses,
+              "RBF solvers")) {
+      return false;
+    }
+    (parts ? rotations : inputs) += parts ? plan.input_count / width : plan.input_count;
+    poses += plan.pose_count;
+    lanes += padded(plan.pose_count);
+    if (!c.ok(inputs <= rbf.inputs.count && rotations <= rbf.swings.count &&
+                  poses <= rbf.poses.count && lanes <= rbf.pose_scales.count &&
+                  (plan.first_control == kNoFirstControl ||
+                   fits(plan.first_control, plan.pose_count, rig.control_count)),
+              "RBF solvers")) {
+      return false;
+    }
+    targets += padded(plan.pose_count) * std::max(plan.input_count, 1u);
+    if (plan.interpolative) inverses += padded(plan.pose_count) * plan.pose_count;
+    if (!c.ok(targets <= rbf.targets.count && inverses <= rbf.inverses.count, "RBF solvers")) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool check_rbf(const Checker& c) {
+  const Rig& rig = c.rig;
+  const RbfTable& rbf = rig.rbf;
+  if (!c.ok(rbf.solvers.count == rbf.plans.count && rbf.rotations.count % (4 * kBlockRows) == 0 &&
+                rbf.swings.count * 4 == rbf.rotations.count &&
+                rbf.pose_factors.count == rbf.pose_scales.count &&
+                below(rbf.inputs, rig.control_count) && below(rbf.rotations, rig.control_count),
+            "RBF solvers") ||
+      !c.ok(!rbf.first_input.empty() && rbf.first_input.count == rbf.first_output.count,
+            "RBF poses")) {
+    return false;
+  }
+  const size_t poses = rbf.first_input.count - 1;
+  return c.ok(is_runs(rbf.first_input, poses, rbf.pose_inputs.count) &&
+                  is_runs(rbf.first_output, poses, rbf.pose_outputs.count) &&
+                  rbf.pose_weights.count == rbf.pose_outputs.count && below(rbf.poses, poses) &&
+                  below(rbf.pose_inputs, rig.control_count) &&
+                  below(rbf.pose_outputs, rig.control_count),
+              "RBF poses") &&
+         check_solvers(c) &&
+         check_lists(c, rbf.lod_solvers, static_cast<uint32_t>(rbf.solvers.count),
+                     "LODs of RBF solvers");
+}
+
+// Learned behaviour
+// --------------------------------------------------------------------------------
+
+bool check_layers(const Checker& c) {
+  const MlTable& ml = c.rig.ml;
+  const size_t values = c.rig.half_storage ? ml.halves.count : ml.values.count;
+  uint64_t value = 0, bias = 0;
+  for (const NetworkLayer& layer : ml.layers) {
+    const bool in_order = layer.first_value == value && layer.first_bias == bias;
+    bias += padded(layer.output_count);
+    if (!c.ok(in_order && bias <= ml.biases.count && layer.function <= 4 &&
+                  padded(layer.output_count) <= padded(ml.widest_layer) &&
+                  layer.input_count <= ml.widest_layer,
+              "network layers")) {
+      return false;
+    }
+    value += padded(layer.output_count) * layer.input_count;
+    if (!c.ok(value <= values, "network layers")) return false;
+  }
+  return true;
+}
+
+/// What a step takes lies in the buffer or in the list of controls, and what it makes of it fits.
+bool check_step_inputs(const Checker& c, const MlStep& step) {
+  const MlTable& ml = c.rig.ml;
+  bool good = fits(step.first_dependency, step.dependency_count, ml.dependencies.count) &&
+              fits(step.first_gather, step.gather_count, ml.controls.count) &&
+              step.gather_count <= ml.widest_layer;
+  uint64_t taken = 0;
+  for (uint32_t d = 0; good && d < step.dependency_count; ++d) {
+    const MlDependency& from = ml.dependencies[step.first_dependency + d];
+    good = is_flag(from.gathers);
+    if (!good) break;
+    if (step.layer_count == 0) {
+      const size_t limit = from.gathers ? ml.controls.count : ml.buffer_size;
+      good = fits(from.first, step.output_count, limit);
+    } else if (step.gather_count == 0) {
+      taken += from.count;
+      good = fits(from.first, from.count, ml.buffer_size) && taken <= ml.widest_layer;
+    }
+  }
+  return good;
+}
+
+bool check_steps(const Checker& c) {
+  const Rig& rig = c.rig;
+  const MlTable& ml = rig.ml;
+  uint64_t outputs = 0, multiplications = 0, gathered = 0, dependencies = 0;
+  for (const MlStep& step : ml.steps) {
+    const bool runs = step.layer_count != 0;
+    bool good = fits(step.first_layer, step.layer_count, ml.layers.count) &&
+                step.first_output == outputs && check_step_inputs(c, step) &&
+                (step.mask == kNoMask || step.mask < rig.mask_count);
+    gathered += step.gather_count;
+    dependencies += step.dependency_count;
+    outputs += padded(step.output_count);
+    good = good && outputs <= ml.buffer_size && dependencies <= ml.dependencies.count &&
+           gathered <= ml.controls.count;
+    if (good && runs) {
+      for (uint32_t l = 0; l < step.layer_count; ++l) {
+        const NetworkLayer& layer = ml.layers[step.first_layer + l];
+        multiplications += padded(layer.output_count) * layer.input_count;
+        if (multiplications > kMostMultiplications) break;
+      }
+      good = ml.layers[step.first_layer + step.layer_count - 1].output_count == step.output_count &&
+             fits(step.first_limit, rig.lod_count, ml.limits.count) &&
+             fits(step.first_scatter, step.scatter_count, ml.controls.count) &&
+             multiplications <= kMostMultiplications;
+    }
+    if (!c.ok(good, "steps of learned behaviour")) return false;
+  }
+  return true;
+}
+
+bool check_ml(const Checker& c) {
+  const Rig& rig = c.rig;
+  const MlTable& ml = rig.ml;
+  const uint32_t parts = ml.quaternion_rotations ? 4 : 3;
+  bool joints = true;
+  for (const MlJoint& joint : ml.joints) {
+    joints &= joint.joint < rig.joint_count;
+    for (int i = 0; i < 3; ++i) {
+      for (const uint16_t control : {joint.translation[i], joint.scale[i]}) {
+        joints &= control == kNoControl || control < rig.control_count;
+      }
+    }
+    joints &=
+        joint.rotation_control == kNoControl || joint.rotation_control + parts <= rig.control_count;
+  }
+  return c.ok(joints, "joints of learned behaviour") &&
+         c.ok(ml.buffer_size <= kMostBufferFloats && below(ml.controls, rig.control_count) &&
+                  (ml.steps.empty() || ml.default_is_one.count == rig.control_count),
+              "controls of learned behaviour") &&
+         c.ok(ml.widest_layer <= std::max({kMostBufferFloats, ml.values.count, ml.halves.count}),
+              "network layers") &&
+         c.ok(!ml.converts || (is_order(ml.change.from) && is_order(ml.change.to)),
+              "system of learned behaviour") &&
+         check_layers(c) && check_steps(c);
+}
+
+}  // namespace
+
+Status check_rig(const Rig& rig, bool full, Error& error) {
+  const Checker c = {rig, error};
+  const bool good =
+      check_counts(c) && check_names(c, full) && check_controls(c) && check_psds(c) &&
+      check_joints(c) && check_rotations(c) && check_twists(c) && check_rbf(c) && check_ml(c) &&
+      check_lists(c, rig.lod_joints, rig.joint_count, "LODs of joints") &&
+      check_lists(c, rig.lod_channels, rig.channel_count, "LODs of blend shape channels") &&
+      check_lists(c, rig.lod_maps, rig.map_count, "LODs of animated maps") &&
+      check_lists(c, rig.lod_meshes, rig.mesh_count, "LODs of meshes") &&
+      check_lists(c, rig.variable_joint_values, rig.joint_value_count(), "variable joint values");
+  return good ? Status::kOk : error.status;
+}
+
+}  // namespace mien
