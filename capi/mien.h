@@ -532,8 +532,10 @@ enum MienMlMasks {
  * way. */
 enum MienStorage {
     MIEN_STORAGE_F32 = 0,
-    MIEN_STORAGE_F16 = 1 /* rounded to IEEE half precision (to nearest, ties to even; what exceeds its
-                            range becomes +-65504): half the memory, about three decimal digits */
+    MIEN_STORAGE_F16 = 1 /* 16 bits: network weights and columns of quaternion joints in IEEE half
+                            precision (to nearest, ties to even; what exceeds its range becomes
+                            +-65504); the joint matrix as 16-bit fixed point, in units of the largest
+                            entry of the row / 32767. Half the memory. */
 };
 
 /* Which results have the same bits on which instruction sets. */

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Baked rigs: what is opened is what was saved, and whatever else is opened does no harm.
+#include "runtime/rig/rig_image.h"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 
-#include "runtime/rig/rig_image.h"
 #include "tests/support/image_life.h"
 #include "tests/support/many_rigs.h"
 #include "tests/support/misuse.h"
@@ -22,8 +23,7 @@ Bytes save(const MienRig* rig) {
   return bytes;
 }
 
-MienRigImageDesc image_desc(uint32_t isa = MIEN_ISA_BEST,
-                            uint32_t check = MIEN_IMAGE_CHECK_FULL) {
+MienRigImageDesc image_desc(uint32_t isa = MIEN_ISA_BEST, uint32_t check = MIEN_IMAGE_CHECK_FULL) {
   MienRigImageDesc desc = sized<MienRigImageDesc>();
   desc.isa = isa;
   desc.check = check;
@@ -109,8 +109,7 @@ TEST(RigImage, EvaluatesAsTheRigThatWasSaved) {
 TEST(RigImage, NetworksBodiesAndOtherSystems) {
   const DnaHandle rigs[] = {generate_dna(MIEN_PRESET_TINY, 1, MIEN_GENERATE_ML),
                             generate_dna(MIEN_PRESET_BODY, 1, MIEN_GENERATE_ML),
-                            generate_dna(MIEN_PRESET_HEAD, 0),
-                            generate_dna(MIEN_PRESET_LARGE, 2)};
+                            generate_dna(MIEN_PRESET_HEAD, 0), generate_dna(MIEN_PRESET_LARGE, 2)};
   for (const DnaHandle& dna : rigs) {
     for (uint32_t rotation : {MIEN_OUTPUT_EULER, MIEN_OUTPUT_QUATERNION}) {
       MienRigDesc desc = sized<MienRigDesc>();
@@ -146,7 +145,8 @@ TEST(RigImage, CannotBeTurnedOffByReuse) {
   EXPECT_TRUE(save(rig.get()) == tiny_image());
 }
 
-// Files --------------------------------------------------------------------------------------------
+// Files
+// --------------------------------------------------------------------------------------------
 
 struct TemporaryFile {
   std::string path = testing::TempDir() + "rig_image_test_" + std::to_string(getpid());
@@ -214,9 +214,9 @@ TEST(RigImage, EveryFailureOfMemoryIsSurvived) {
       MienError error = sized<MienError>();
       MienRig* opened = nullptr;
       const MienStatus status =
-          from_file ? mien_rig_open_file(file.path.c_str(), &desc, &opened, &error)
-                    : mien_rig_open_memory(shifted.data() + off, bytes.size(), &desc, &opened,
-                                           &error);
+          from_file
+              ? mien_rig_open_file(file.path.c_str(), &desc, &opened, &error)
+              : mien_rig_open_memory(shifted.data() + off, bytes.size(), &desc, &opened, &error);
       EXPECT_EQ(status, MIEN_ERROR_MEMORY);
       EXPECT_EQ(opened, nullptr);
       EXPECT_NE(error.message[0], 0);
@@ -225,7 +225,8 @@ TEST(RigImage, EveryFailureOfMemoryIsSurvived) {
   }
 }
 
-// Misuse -------------------------------------------------------------------------------------------
+// Misuse
+// -------------------------------------------------------------------------------------------
 
 TEST(RigImage, ArgumentsAreChecked) {
   const AlignedBytes image(tiny_image());
@@ -239,8 +240,7 @@ TEST(RigImage, ArgumentsAreChecked) {
             MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(mien_rig_save_memory(rig.get(), nullptr, 8, &size, nullptr), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(mien_rig_save_memory(nullptr, nullptr, 0, &size, nullptr), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_rig_save_memory(rig.get(), small, 8, &size, nullptr),
-            MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(mien_rig_save_memory(rig.get(), small, 8, &size, nullptr), MIEN_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(size, image.size());
   EXPECT_EQ(mien_rig_open_file(nullptr, nullptr, &out, nullptr), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(mien_rig_open_file("x", nullptr, nullptr, nullptr), MIEN_ERROR_NULL_ARGUMENT);
@@ -266,7 +266,8 @@ TEST(RigImage, ArgumentsAreChecked) {
   refused(MIEN_ERROR_INVALID_ARGUMENT, [&](MienRigImageDesc& d) { d.allocator = &half; });
 }
 
-// Foreign and damaged images -----------------------------------------------------------------------
+// Foreign and damaged images
+// -----------------------------------------------------------------------
 
 /// Status of an image with a number of its header, or anything else, changed.
 template <class T>
@@ -330,8 +331,7 @@ TEST(RigImage, EveryTruncationIsRefused) {
     for (size_t size = 0; size < whole.size(); size += 64) {
       const AlignedBytes image(Bytes(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(size)));
       const ImageLife life = live_image(image.data(), image.size());
-      EXPECT_EQ(life.opened,
-                size == 0 ? MIEN_ERROR_IMAGE_SIGNATURE : MIEN_ERROR_IMAGE_TRUNCATED);
+      EXPECT_EQ(life.opened, size == 0 ? MIEN_ERROR_IMAGE_SIGNATURE : MIEN_ERROR_IMAGE_TRUNCATED);
       EXPECT_EQ(life.broken, "");
     }
     const AlignedBytes image(whole);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The whole life of an image of a rig, whatever its bytes are: opened, asked, evaluated alone and in
-// a crowd, saved. Used by tests and by the fuzzer, so without GoogleTest.
+// The whole life of an image of a rig, whatever its bytes are: opened, asked, evaluated alone and
+// in a crowd, saved. Used by tests and by the fuzzer, so without GoogleTest.
 #pragma once
 
 #include <cstring>
@@ -54,8 +54,8 @@ class ImageLifeRun {
       if (life.message.empty()) broke("refused without a word");
       if (error.status != life.opened) broke("two statuses");
       if (error.byte_offset != MIEN_NO_OFFSET && error.byte_offset > size) broke("a place outside");
-      const bool expected = life.opened >= MIEN_ERROR_IMAGE_SIGNATURE &&
-                            life.opened <= MIEN_ERROR_IMAGE_CHECKSUM;
+      const bool expected =
+          life.opened >= MIEN_ERROR_IMAGE_SIGNATURE && life.opened <= MIEN_ERROR_IMAGE_CHECKSUM;
       if (!expected) broke("refused with another family's status");
     } else {
       if (counter_.requests != 1) broke("opening took more than one block");

@@ -79,6 +79,16 @@ class Status(IntEnum):
     DNA_LAYER = 36
     #: a value that has no meaning
     DNA_VALUE = 37
+    #: not an image of a rig
+    IMAGE_SIGNATURE = 50
+    #: an image of another version or kind of machine: bake again
+    IMAGE_VERSION = 51
+    #: the image ends before what it announces
+    IMAGE_TRUNCATED = 52
+    #: sizes, counts or indices contradict each other
+    IMAGE_STRUCTURE = 53
+    #: not the bytes that were written
+    IMAGE_CHECKSUM = 54
 
 
 class Layer(IntFlag):
@@ -276,8 +286,9 @@ class Storage(IntEnum):
     """
 
     F32 = 0
-    #: rounded to IEEE half precision (to nearest, ties to even; what exceeds its range becomes
-    #: +-65504): half the memory, about three decimal digits
+    #: 16 bits: network weights and columns of quaternion joints in IEEE half precision (to
+    #: nearest, ties to even; what exceeds its range becomes +-65504); the joint matrix as 16-bit
+    #: fixed point, in units of the largest entry of the row / 32767. Half the memory.
     F16 = 1
 
 
@@ -300,6 +311,17 @@ class Reuse(IntEnum):
     UNCHANGED = 0
     #: everything is computed each time: for measuring
     NOTHING = 1
+
+
+class ImageCheck(IntEnum):
+    """Values of enum MienImageCheck of the C interface."""
+
+    #: every size, count and index: whatever the bytes are, nothing is read or written outside of
+    #: the rig and its instances. Numbers are not looked at, so their pages stay on disk until they
+    #: are needed.
+    SAFE = 0
+    #: also that all bytes are those that were written: reads them all
+    FULL = 1
 
 
 class Kind(IntEnum):
@@ -766,6 +788,28 @@ class MienRigInfo(Structure):
         super().__init__(struct_size=80, **values)
 
 
+class MienRigImageDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("isa", c_uint32),
+        ("file_access", c_uint32),
+        ("check", c_uint32),
+        ("allocator", POINTER(MienAllocator)),
+        ("reuse", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    struct_size: Any
+    isa: Any
+    file_access: Any
+    check: Any
+    allocator: Any
+    reuse: Any
+    reserved: Any
+
+    def __init__(self, **values: Any) -> None:
+        super().__init__(struct_size=32, **values)
+
+
 class MienRigStatistics(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
@@ -1096,7 +1140,7 @@ class RigInfo(NamedTuple):
       joint_value_count: length of a row of joint outputs: 9 or 10 per joint
       rotation: Output
       storage: Storage
-      rig_bytes: memory of the rig
+      rig_bytes: memory of the rig; with its file if it was opened from one
       instance_bytes: memory of each instance
     """
 
@@ -1248,6 +1292,12 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_rig_create", c_int32, (MienDna, POINTER(MienRigDesc), POINTER(MienRig),
      POINTER(MienError))),
     ("mien_rig_destroy", None, (MienRig,)),
+    ("mien_rig_save_file", c_int32, (MienRig, c_char_p, POINTER(MienError))),
+    ("mien_rig_save_memory", c_int32, (MienRig, c_void_p, c_size_t, c_void_p, POINTER(MienError))),
+    ("mien_rig_open_file", c_int32, (c_char_p, POINTER(MienRigImageDesc), POINTER(MienRig),
+     POINTER(MienError))),
+    ("mien_rig_open_memory", c_int32, (c_void_p, c_size_t, POINTER(MienRigImageDesc),
+     POINTER(MienRig), POINTER(MienError))),
     ("mien_rig_info", c_int32, (MienRig, POINTER(MienRigInfo))),
     ("mien_rig_count", c_int32, (MienRig, c_uint32, c_void_p)),
     ("mien_rig_name", c_int32, (MienRig, c_uint32, c_uint32, POINTER(MienStringView))),
@@ -1342,6 +1392,10 @@ class Library:
     mien_isa_name: Any
     mien_rig_create: Any
     mien_rig_destroy: Any
+    mien_rig_save_file: Any
+    mien_rig_save_memory: Any
+    mien_rig_open_file: Any
+    mien_rig_open_memory: Any
     mien_rig_info: Any
     mien_rig_count: Any
     mien_rig_name: Any

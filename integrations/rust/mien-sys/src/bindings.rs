@@ -52,6 +52,16 @@ pub const MIEN_ERROR_DNA_LIMIT: MienStatus = 35;
 pub const MIEN_ERROR_DNA_LAYER: MienStatus = 36;
 /// A value that has no meaning.
 pub const MIEN_ERROR_DNA_VALUE: MienStatus = 37;
+/// Not an image of a rig.
+pub const MIEN_ERROR_IMAGE_SIGNATURE: MienStatus = 50;
+/// An image of another version or kind of machine: bake again.
+pub const MIEN_ERROR_IMAGE_VERSION: MienStatus = 51;
+/// The image ends before what it announces.
+pub const MIEN_ERROR_IMAGE_TRUNCATED: MienStatus = 52;
+/// Sizes, counts or indices contradict each other.
+pub const MIEN_ERROR_IMAGE_STRUCTURE: MienStatus = 53;
+/// Not the bytes that were written.
+pub const MIEN_ERROR_IMAGE_CHECKSUM: MienStatus = 54;
 
 // enum MienLayer
 pub const MIEN_LAYER_ALL: u32 = 0;
@@ -181,8 +191,9 @@ pub const MIEN_ML_MASKS_BLEND: u32 = 1;
 
 // enum MienStorage
 pub const MIEN_STORAGE_F32: u32 = 0;
-/// Rounded to IEEE half precision (to nearest, ties to even; what exceeds its range becomes
-/// +-65504): half the memory, about three decimal digits.
+/// 16 bits: network weights and columns of quaternion joints in IEEE half precision (to nearest,
+/// ties to even; what exceeds its range becomes +-65504); the joint matrix as 16-bit fixed point,
+/// in units of the largest entry of the row / 32767. Half the memory.
 pub const MIEN_STORAGE_F16: u32 = 1;
 
 // enum MienArithmetic
@@ -197,6 +208,14 @@ pub const MIEN_ARITHMETIC_PORTABLE: u32 = 1;
 pub const MIEN_REUSE_UNCHANGED: u32 = 0;
 /// Everything is computed each time: for measuring.
 pub const MIEN_REUSE_NOTHING: u32 = 1;
+
+// enum MienImageCheck
+/// Every size, count and index: whatever the bytes are, nothing is read or written outside of the
+/// rig and its instances. Numbers are not looked at, so their pages stay on disk until they are
+/// needed.
+pub const MIEN_IMAGE_CHECK_SAFE: u32 = 0;
+/// Also that all bytes are those that were written: reads them all.
+pub const MIEN_IMAGE_CHECK_FULL: u32 = 1;
 
 // enum MienKind
 pub const MIEN_KIND_GUI_CONTROL: u32 = 0;
@@ -760,13 +779,40 @@ pub struct MienRigInfo {
     pub rotation: u32,
     /// `MIEN_STORAGE_...`
     pub storage: u32,
-    /// Memory of the rig.
+    /// Memory of the rig; with its file if it was opened from one.
     pub rig_bytes: u64,
     /// Memory of each instance.
     pub instance_bytes: u64,
 }
 
 impl Default for MienRigInfo {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>() as u32;
+        zero
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienRigImageDesc {
+    pub struct_size: u32,
+    /// `MIEN_ISA_...`, as in MienRigDesc.
+    pub isa: u32,
+    /// `MIEN_FILE_...`; of no meaning for memory.
+    pub file_access: u32,
+    /// `MIEN_IMAGE_CHECK_...`
+    pub check: u32,
+    pub allocator: *const MienAllocator,
+    /// `MIEN_REUSE_...`
+    pub reuse: u32,
+    /// 0.
+    pub reserved: u32,
+}
+
+impl Default for MienRigImageDesc {
     /// All zero but `struct_size`: every field has its default.
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
@@ -1069,6 +1115,28 @@ extern "C" {
     /// Memory is released when the last instance is gone too, so the order of destruction does not
     /// matter; a destroyed rig cannot be evaluated any more.
     pub fn mien_rig_destroy(rig: *mut MienRig);
+
+    /// Baked rigs: a rig as it is in memory, to be opened where it lies. An image holds all that
+    /// was chosen when the rig was created but the instruction set and MienReuse, so that one file
+    /// serves all machines of a byte order and pointer size. The same rig gives the same bytes. A
+    /// later version of the library may refuse it with `MIEN_ERROR_IMAGE_VERSION`: keep the DNA.
+    pub fn mien_rig_save_file(rig: *const MienRig, path: *const c_char, error: *mut MienError) -> MienStatus;
+
+    /// The same to memory. With buffer NULL and capacity 0 only \*`out_size` is set; a capacity
+    /// that is too small gives `MIEN_ERROR_INVALID_ARGUMENT` and the size.
+    pub fn mien_rig_save_memory(rig: *const MienRig, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
+
+    /// Opens an image, which is mapped and used in place: one allocation for the rig. All
+    /// processes that open the file share its pages, which are never written to. A mapped file
+    /// must not be truncated or rewritten in place until the rig and all its instances are gone
+    /// (replacing it by renaming is safe; `MIEN_FILE_READ` takes a copy). `path` is UTF-8, `desc`
+    /// may be NULL. The rig is like one that was created; destroy it with `mien_rig_destroy()`.
+    pub fn mien_rig_open_file(path: *const c_char, desc: *const MienRigImageDesc, out_rig: *mut *mut MienRig, error: *mut MienError) -> MienStatus;
+
+    /// The same from memory, which stays the caller's and has to stay unchanged until the rig and
+    /// all its instances, batches and deformers are gone. Bytes that are not at a multiple of 64
+    /// are copied, once.
+    pub fn mien_rig_open_memory(bytes: *const c_void, size: usize, desc: *const MienRigImageDesc, out_rig: *mut *mut MienRig, error: *mut MienError) -> MienStatus;
 
     pub fn mien_rig_info(rig: *const MienRig, out_info: *mut MienRigInfo) -> MienStatus;
 

@@ -262,6 +262,20 @@ fn mien_rig_info() {
 }
 
 #[test]
+fn mien_rig_image_desc() {
+    use mien_sys::MienRigImageDesc as S;
+    assert_eq!(size_of::<S>(), 32);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, isa), 4);
+    assert_eq!(offset!(S, file_access), 8);
+    assert_eq!(offset!(S, check), 12);
+    assert_eq!(offset!(S, allocator), 16);
+    assert_eq!(offset!(S, reuse), 24);
+    assert_eq!(offset!(S, reserved), 28);
+}
+
+#[test]
 fn mien_rig_statistics() {
     use mien_sys::MienRigStatistics as S;
     assert_eq!(size_of::<S>(), 48);

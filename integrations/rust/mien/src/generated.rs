@@ -56,9 +56,19 @@ impl Status {
     pub const DNA_LAYER: Self = Self(36);
     /// A value that has no meaning.
     pub const DNA_VALUE: Self = Self(37);
+    /// Not an image of a rig.
+    pub const IMAGE_SIGNATURE: Self = Self(50);
+    /// An image of another version or kind of machine: bake again.
+    pub const IMAGE_VERSION: Self = Self(51);
+    /// The image ends before what it announces.
+    pub const IMAGE_TRUNCATED: Self = Self(52);
+    /// Sizes, counts or indices contradict each other.
+    pub const IMAGE_STRUCTURE: Self = Self(53);
+    /// Not the bytes that were written.
+    pub const IMAGE_CHECKSUM: Self = Self(54);
 }
 
-numbers!(Status, i32, [(0, "OK"), (1, "NULL_ARGUMENT"), (2, "INVALID_ARGUMENT"), (3, "STRUCT_SIZE"), (4, "HANDLE"), (5, "MISMATCH"), (6, "INDEX"), (7, "LOD"), (8, "NAME"), (9, "ISA"), (10, "MEMORY"), (20, "FILE_OPEN"), (21, "FILE_READ"), (22, "FILE_WRITE"), (30, "DNA_SIGNATURE"), (31, "DNA_VERSION"), (32, "DNA_TRUNCATED"), (33, "DNA_STRUCTURE"), (34, "DNA_REFERENCE"), (35, "DNA_LIMIT"), (36, "DNA_LAYER"), (37, "DNA_VALUE")]);
+numbers!(Status, i32, [(0, "OK"), (1, "NULL_ARGUMENT"), (2, "INVALID_ARGUMENT"), (3, "STRUCT_SIZE"), (4, "HANDLE"), (5, "MISMATCH"), (6, "INDEX"), (7, "LOD"), (8, "NAME"), (9, "ISA"), (10, "MEMORY"), (20, "FILE_OPEN"), (21, "FILE_READ"), (22, "FILE_WRITE"), (30, "DNA_SIGNATURE"), (31, "DNA_VERSION"), (32, "DNA_TRUNCATED"), (33, "DNA_STRUCTURE"), (34, "DNA_REFERENCE"), (35, "DNA_LIMIT"), (36, "DNA_LAYER"), (37, "DNA_VALUE"), (50, "IMAGE_SIGNATURE"), (51, "IMAGE_VERSION"), (52, "IMAGE_TRUNCATED"), (53, "IMAGE_STRUCTURE"), (54, "IMAGE_CHECKSUM")]);
 
 pub(crate) fn describe(status: Status) -> &'static str {
     match status.0 {
@@ -80,6 +90,11 @@ pub(crate) fn describe(status: Status) -> &'static str {
         35 => "more of something than the format or Mien can number",
         36 => "a layer that the call needs was not loaded or not in the file",
         37 => "a value that has no meaning",
+        50 => "not an image of a rig",
+        51 => "an image of another version or kind of machine: bake again",
+        52 => "the image ends before what it announces",
+        53 => "sizes, counts or indices contradict each other",
+        54 => "not the bytes that were written",
         _ => "",
     }
 }
@@ -422,8 +437,9 @@ pub struct Storage(pub u32);
 impl Storage {
     /// `MIEN_STORAGE_F32` in C.
     pub const F32: Self = Self(0);
-    /// Rounded to IEEE half precision (to nearest, ties to even; what exceeds its range becomes
-    /// +-65504): half the memory, about three decimal digits.
+    /// 16 bits: network weights and columns of quaternion joints in IEEE half precision (to
+    /// nearest, ties to even; what exceeds its range becomes +-65504); the joint matrix as 16-bit
+    /// fixed point, in units of the largest entry of the row / 32767. Half the memory.
     pub const F16: Self = Self(1);
 }
 
@@ -463,6 +479,24 @@ impl Reuse {
 }
 
 numbers!(Reuse, u32, [(0, "UNCHANGED"), (1, "NOTHING")]);
+
+/// What C calls `MIEN_IMAGE_CHECK_...`.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct ImageCheck(pub u32);
+
+impl ImageCheck {
+    /// Every size, count and index: whatever the bytes are, nothing is read or written outside of
+    /// the rig and its instances. Numbers are not looked at, so their pages stay on disk until
+    /// they are needed.
+    pub const SAFE: Self = Self(0);
+    /// Also that all bytes are those that were written: reads them all.
+    pub const FULL: Self = Self(1);
+}
+
+numbers!(ImageCheck, u32, [(0, "SAFE"), (1, "FULL")]);
 
 /// Things with names and numbers.
 ///
@@ -831,7 +865,7 @@ pub struct RigInfo {
     pub rotation: Output,
     /// Storage.
     pub storage: Storage,
-    /// Memory of the rig.
+    /// Memory of the rig; with its file if it was opened from one.
     pub rig_bytes: u64,
     /// Memory of each instance.
     pub instance_bytes: u64,
