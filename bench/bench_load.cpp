@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Opening and compiling, by layers and LODs. The file is in memory, so the disk does not count.
+#include <unistd.h>
+
 #include "bench/bench_support.h"
 
 namespace mien::bench {
@@ -28,6 +30,51 @@ void compile(benchmark::State& state, uint64_t lods) {
   mien_dna_close(dna);
 }
 
+/// The image of the rig in a file that is gone with the program.
+struct ImageFile {
+  std::string path = "/tmp/mien_bench_" + std::to_string(getpid()) + ".rig";
+  ImageFile() {
+    MienDna* dna = open_rig(kBehaviorLayers, 0);
+    MienRig* rig = create_rig(dna, MIEN_ISA_BEST);
+    MienError error = sized<MienError>();
+    require(mien_rig_save_file(rig, path.c_str(), &error), error);
+    mien_rig_destroy(rig);
+    mien_dna_close(dna);
+  }
+  ~ImageFile() { remove(path.c_str()); }
+};
+
+struct Requests {
+  size_t count = 0;
+  static void* allocate(void* user, size_t size, size_t alignment) {
+    ++static_cast<Requests*>(user)->count;
+    return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  }
+  static void release(void*, void* block, size_t, size_t) { std::free(block); }
+};
+
+// The file is in the page cache, mapped anew each time.
+void open_image(benchmark::State& state, uint32_t access, uint32_t check) {
+  static const ImageFile file;
+  Requests requests;
+  const MienAllocator allocator = {&requests, Requests::allocate, Requests::release};
+  MienRigImageDesc desc = sized<MienRigImageDesc>();
+  desc.file_access = access;
+  desc.check = check;
+  desc.allocator = &allocator;
+  MienRigInfo info = sized<MienRigInfo>();
+  MienError error = sized<MienError>();
+  for (auto _ : state) {
+    MienRig* rig = nullptr;
+    require(mien_rig_open_file(file.path.c_str(), &desc, &rig, &error), error);
+    mien_rig_info(rig, &info);
+    mien_rig_destroy(rig);
+  }
+  state.counters["rig_bytes"] = static_cast<double>(info.rig_bytes);
+  state.counters["allocations"] =
+      static_cast<double>(requests.count) / static_cast<double>(state.iterations());
+}
+
 const int kRegistered = [] {
   const struct {
     const char* name;
@@ -46,6 +93,9 @@ const int kRegistered = [] {
   for (const auto& o : openings) {
     benchmark::RegisterBenchmark((std::string("open/") + o.name).c_str(), open, o.layers, o.lods);
   }
+  benchmark::RegisterBenchmark("image/map", open_image, MIEN_FILE_MAP, MIEN_IMAGE_CHECK_SAFE);
+  benchmark::RegisterBenchmark("image/map/full", open_image, MIEN_FILE_MAP, MIEN_IMAGE_CHECK_FULL);
+  benchmark::RegisterBenchmark("image/read", open_image, MIEN_FILE_READ, MIEN_IMAGE_CHECK_SAFE);
   benchmark::RegisterBenchmark("compile/all_lods", compile, 0);
   benchmark::RegisterBenchmark("compile/lod0", compile, 1);
   return 0;

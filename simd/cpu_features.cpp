@@ -42,11 +42,12 @@ CpuFeatures detect_cpu_features() {
   features.sse2 = true;  // part of x86-64
 
   uint32_t eax, ebx, ecx, edx;
-  if (!__get_cpuid(1, &eax, &ebx, &ecx, &edx)) return features;
+  if (__get_cpuid_max(0, nullptr) < 7) return features;
+  __cpuid(1, eax, ebx, ecx, edx);
   if (!has_all(ecx, kLeaf1Xsave | kLeaf1Avx2)) return features;
   const uint32_t xcr0 = read_xcr0();
 
-  if (!__get_cpuid_count(7, 0, &eax, &ebx, &ecx, &edx)) return features;
+  __cpuid_count(7, 0, eax, ebx, ecx, edx);
   features.avx2 = has_all(ebx, kLeaf7Avx2) && has_all(xcr0, kXcr0Avx);
   features.avx512 = features.avx2 && has_all(ebx, kLeaf7Avx512) && has_all(xcr0, kXcr0Avx512);
   return features;

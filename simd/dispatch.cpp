@@ -26,17 +26,11 @@ extern const KernelTable kTable;
 }
 
 namespace {
-constexpr Isa kBestFirst[] = {Isa::kAvx512, Isa::kAvx2, Isa::kNeon, Isa::kSse2};
-}
 
-const KernelTable* kernels_for(Isa isa) {
-  [[maybe_unused]] const CpuFeatures cpu = detect_cpu_features();
+constexpr Isa kBestFirst[] = {Isa::kAvx512, Isa::kAvx2, Isa::kNeon, Isa::kSse2};
+
+const KernelTable* kernels_for(Isa isa, [[maybe_unused]] const CpuFeatures& cpu) {
   switch (isa) {
-    case Isa::kBest:
-      for (Isa better : kBestFirst) {
-        if (const KernelTable* kernels = kernels_for(better)) return kernels;
-      }
-      return &scalar::kTable;
     case Isa::kScalar: return &scalar::kTable;
 #if defined(MIEN_BUILT_SSE2)
     case Isa::kSse2: return cpu.sse2 ? &sse2::kTable : nullptr;
@@ -52,6 +46,18 @@ const KernelTable* kernels_for(Isa isa) {
 #endif
     default: return nullptr;
   }
+}
+
+}  // namespace
+
+// Features are asked for once: under a hypervisor each question takes microseconds.
+const KernelTable* kernels_for(Isa isa) {
+  const CpuFeatures cpu = detect_cpu_features();
+  if (isa != Isa::kBest) return kernels_for(isa, cpu);
+  for (Isa better : kBestFirst) {
+    if (const KernelTable* kernels = kernels_for(better, cpu)) return kernels;
+  }
+  return &scalar::kTable;
 }
 
 const KernelTable* choose_kernels(Isa isa) {

@@ -245,42 +245,52 @@ bool check_targets(const Checker& c) {
   return c.ok(good, "targets of the joint matrix");
 }
 
-/// Pieces ascend in each column, and each entry of chunk_pieces stands where the first block of its
-/// chunk would be: so the pieces between two entries add to blocks of that chunk.
+/// The blocks of a column ascend, and each entry of chunk_pieces stands where the first block of
+/// its chunk would be: so the pieces between two entries add to blocks of that chunk.
+[[gnu::noinline]] bool is_column(const Span<uint16_t>& blocks, const uint16_t* begins,
+                                 const Span<JointChunk>& chunks) {
+  const auto count = static_cast<uint32_t>(blocks.count);
+  const uint16_t* own = blocks.data;
+  uint32_t falls = 0;
+  for (uint32_t p = 1; p < count; ++p) falls |= static_cast<uint32_t>(own[p - 1] >= own[p]);
+
+  // Entries before the first piece and behind the last one, then all others without a branch.
+  const auto limit_of = [&](size_t chunk) { return chunks.data[chunk].first_block * kBlockUnit; };
+  size_t i = 0, end = chunks.count;
+  while (i < end && begins[i] == 0) ++i;
+  while (end > i && begins[end - 1] == count) --end;
+  if (falls != 0 || i == 0 || own[0] < limit_of(i - 1)) return false;
+  if (end == chunks.count || own[count - 1] >= limit_of(end)) return false;
+  uint32_t wrong = 0;  // its highest bit: some difference is negative
+  for (; i < end; ++i) {
+    const uint32_t begin = begins[i], limit = limit_of(i);
+    if (begin - 1 >= count - 1) return false;
+    wrong |= (limit - 1 - own[begin - 1]) | (own[begin] - limit);
+  }
+  return wrong >> 31 == 0;
+}
+
 bool check_pieces(const Checker& c) {
   const JointMatrix& joints = c.rig.joints;
-  const size_t pieces = joints.blocks.count, ends = joints.chunks.count;
-  if (!c.ok(joints.first_piece.count == joints.columns.count + 1 &&
-                is_runs(joints.first_piece, joints.columns.count, pieces) &&
-                joints.first_piece[joints.columns.count] == pieces &&
-                joints.chunk_pieces.count == joints.columns.count * ends &&
+  const size_t pieces = joints.blocks.count, columns = joints.columns.count;
+  const size_t ends = joints.chunks.count;
+  if (!c.ok(joints.first_piece.count == columns + 1 &&
+                is_runs(joints.first_piece, columns, pieces) &&
+                joints.first_piece[columns] == pieces &&
+                joints.chunk_pieces.count == columns * ends &&
                 below(joints.columns, c.rig.control_count),
             "columns of the joint matrix")) {
     return false;
   }
-  const uint16_t* blocks = joints.blocks.data;
-  uint32_t odd = 0, bad = 0;
-  for (size_t p = 0; p < pieces; ++p) odd |= blocks[p] % kBlockUnit;
-  for (size_t k = 0; k < joints.columns.count; ++k) {
-    const uint16_t* own = blocks + joints.first_piece[k];
-    const uint32_t count = joints.first_piece[k + 1] - joints.first_piece[k];
-    if (count == 0) {
-      bad |= !below(joints.chunk_pieces.slice(k * ends, ends), 1);
-      continue;
-    }
-    uint16_t falls = 0;
-    for (uint32_t p = 1; p < count; ++p) falls |= static_cast<uint16_t>(own[p - 1] >= own[p]);
-    bad |= falls;
+  uint16_t bits = 0;
+  for (const uint16_t block : joints.blocks) bits |= block;
+  bool good = bits % kBlockUnit == 0;
+  for (size_t k = 0; good && k < columns; ++k) {
+    const uint32_t first = joints.first_piece[k], count = joints.first_piece[k + 1] - first;
     const uint16_t* begins = joints.chunk_pieces.data + k * ends;
-    for (size_t i = 0; i < ends; ++i) {
-      const uint32_t begin = begins[i], limit = joints.chunks[i].first_block * kBlockUnit;
-      if (begin > count) return c.ok(false, "chunks of a column of the joint matrix");
-      bad |= static_cast<uint32_t>(begin > 0) & (own[begin - (begin > 0)] >= limit);
-      bad |= static_cast<uint32_t>(begin < count) & (own[begin - (begin == count)] < limit);
-    }
-    bad |= begins[ends - 1] != count;
+    good = count != 0 && is_column(joints.blocks.slice(first, count), begins, joints.chunks);
   }
-  return c.ok(odd == 0 && bad == 0, "pieces of the joint matrix");
+  return c.ok(good, "pieces of the joint matrix");
 }
 
 bool check_joints(const Checker& c) {
