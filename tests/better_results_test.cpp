@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Where results are better than those of the runtime that files were made for, item by item of
-// rig-evaluation 12. Tests of the other items stand with their subject, under the same name:
+// rig-evaluation 12. Tests of the other items stand with their subject, most of them under the
+// same name:
 //
-//     DoBetter3, 10, 12    evaluate_neural_test.cpp      DoBetter9   evaluate_rbf_test.cpp,
-//     finite_test.cpp DoBetter4, 5, 6, 8, 13  evaluate_rotations_test.cpp
-//
-// Item 2, saved rigs: there are none.
+//     DoBetter2                rig_image_test.cpp
+//     DoBetter3, 10, 12        evaluate_neural_test.cpp
+//     DoBetter4, 5, 6, 8, 13   evaluate_rotations_test.cpp
+//     DoBetter9                evaluate_rbf_test.cpp, finite_test.cpp
 #include <gtest/gtest.h>
 
 #include <algorithm>
