@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// Frames of a character that keeps what did not change (MIEN_REUSE_UNCHANGED), beside the same
+// frames evaluated in full: nothing moves, the mouth moves, everything moves. And a crowd that
+// speaks.
+//
+// Counters: `frame` is the time of a frame in seconds (an iteration is 64 frames), `of_full` that
+// time by the one of a full evaluation in the same run, `moving` the number of raw controls that
+// change from frame to frame, `per_character` a crowd's time by its number.
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "bench/bench_support.h"
+
+namespace mien::bench {
+namespace {
+
+enum class Moving { kNothing, kMouth, kEverything };
+
+const MienDna* behavior() {
+  static const MienDna* dna = open_rig(kBehaviorLayers, 0);
+  return dna;
+}
+
+struct Destroy {
+  void operator()(MienRig* rig) const { mien_rig_destroy(rig); }
+  void operator()(MienInstance* instance) const { mien_instance_destroy(instance); }
+  void operator()(MienBatch* batch) const { mien_batch_destroy(batch); }
+};
+
+std::unique_ptr<MienRig, Destroy> rig_of(uint32_t isa, uint32_t reuse) {
+  MienRigDesc desc = sized<MienRigDesc>();
+  desc.isa = isa;
+  desc.reuse = reuse;
+  MienError error = sized<MienError>();
+  MienRig* rig = nullptr;
+  require(mien_rig_create(behavior(), &desc, &rig, &error), error);
+  return std::unique_ptr<MienRig, Destroy>(rig);
+}
+
+std::unique_ptr<MienInstance, Destroy> instance_of(const MienRig* rig) {
+  MienError error = sized<MienError>();
+  MienInstance* instance = nullptr;
+  require(mien_instance_create(rig, nullptr, &instance, &error), error);
+  return std::unique_ptr<MienInstance, Destroy>(instance);
+}
+
+MienMutableFloatView raw_of(MienInstance* instance) {
+  MienMutableFloatView raw = {};
+  mien_instance_raw_controls(instance, &raw);
+  return raw;
+}
+
+/// A share of the controls, drawn anew for each character: values in (0, 1].
+std::vector<float> draw(size_t count, double activity, std::mt19937& random) {
+  std::vector<float> values(count);
+  std::vector<size_t> order(count);
+  for (size_t i = 0; i < count; ++i) order[i] = i;
+  for (size_t i = 0; i + 1 < count; ++i) {
+    std::swap(order[i], order[i + random() % (count - i)]);
+  }
+  const auto active = static_cast<size_t>(std::lround(activity * static_cast<double>(count)));
+  for (size_t i = 0; i < active; ++i) {
+    values[order[i]] = static_cast<float>((random() >> 8) + 1) / 16777216.0f;
+  }
+  return values;
+}
+
+bool of_the_mouth(std::string name) {
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const char* part : {"mouth", "jaw", "lip"}) {
+    if (name.find(part) != std::string::npos) return true;
+  }
+  return false;
+}
+
+/// Raw controls of the mouth by their names; the first tenth of all where names say nothing.
+std::vector<uint32_t> mouth_controls(const MienRig* rig) {
+  uint32_t count = 0;
+  mien_rig_count(rig, MIEN_KIND_RAW_CONTROL, &count);
+  std::vector<uint32_t> found;
+  for (uint32_t i = 0; i < count; ++i) {
+    MienStringView name = {};
+    mien_rig_name(rig, MIEN_KIND_RAW_CONTROL, i, &name);
+    if (of_the_mouth(std::string(name.data, name.count))) found.push_back(i);
+  }
+  if (found.empty()) {
+    for (uint32_t i = 0; i < (count + 9) / 10; ++i) found.push_back(i);
+  }
+  return found;
+}
+
+/// Two frames that follow each other over and over.
+struct Clip {
+  std::vector<float> frames[2];
+  size_t moving = 0;
+};
+
+Clip make_clip(const MienRig* rig, size_t count, Moving moving) {
+  std::mt19937 random(7);
+  Clip clip;
+  clip.frames[0] = clip.frames[1] = draw(count, 0.25, random);
+  if (moving == Moving::kNothing) return clip;
+  std::vector<uint32_t> controls = mouth_controls(rig);
+  if (moving == Moving::kEverything) {
+    controls.clear();
+    for (size_t i = 0; i < count; ++i) controls.push_back(static_cast<uint32_t>(i));
+  }
+  for (uint32_t i : controls) clip.frames[1][i] *= 0.9f;
+  for (size_t i = 0; i < count; ++i) clip.moving += clip.frames[0][i] != clip.frames[1][i];
+  return clip;
+}
+
+void play(const Clip& clip, size_t frame, const MienRig* rig, MienInstance* instance) {
+  const std::vector<float>& values = clip.frames[frame & 1];
+  std::copy(values.begin(), values.end(), raw_of(instance).data);
+  benchmark::DoNotOptimize(mien_rig_evaluate(rig, instance, 0));
+  benchmark::ClobberMemory();
+}
+
+void frames(benchmark::State& state, uint32_t isa, Moving moving) {
+  const auto keeping_rig = rig_of(isa, MIEN_REUSE_UNCHANGED);
+  const auto full_rig = rig_of(isa, MIEN_REUSE_NOTHING);
+  const auto keeping = instance_of(keeping_rig.get()), full = instance_of(full_rig.get());
+  const Clip clip = make_clip(keeping_rig.get(), raw_of(keeping.get()).count, moving);
+  // Turns of both, so that a slow moment hits them alike.
+  constexpr size_t kTurn = 64, kFullTurn = 8;
+  using Clock = std::chrono::steady_clock;
+  double kept_seconds = 0, full_seconds = 0;
+  size_t turns = 0;
+  play(clip, 1, keeping_rig.get(), keeping.get());
+  for (auto _ : state) {
+    const auto start = Clock::now();
+    for (size_t i = 0; i < kTurn; ++i) play(clip, i, keeping_rig.get(), keeping.get());
+    const auto middle = Clock::now();
+    for (size_t i = 0; i < kFullTurn; ++i) play(clip, i, full_rig.get(), full.get());
+    full_seconds += std::chrono::duration<double>(Clock::now() - middle).count();
+    const double kept = std::chrono::duration<double>(middle - start).count();
+    kept_seconds += kept;
+    ++turns;
+    state.SetIterationTime(kept);
+  }
+  const double frame = kept_seconds / static_cast<double>(turns * kTurn);
+  const double full_frame = full_seconds / static_cast<double>(turns * kFullTurn);
+  state.counters["frame"] = frame;
+  state.counters["of_full"] = frame / full_frame;
+  state.counters["moving"] = static_cast<double>(clip.moving);
+}
+
+/// Characters with controls of their own, in one call.
+void crowd(benchmark::State& state, uint32_t isa, uint32_t count, double activity) {
+  const auto rig = rig_of(isa, MIEN_REUSE_NOTHING);
+  std::mt19937 random(7);
+  std::vector<std::unique_ptr<MienInstance, Destroy>> owners;
+  std::vector<MienInstance*> instances;
+  for (uint32_t i = 0; i < count; ++i) {
+    owners.push_back(instance_of(rig.get()));
+    instances.push_back(owners.back().get());
+    const MienMutableFloatView raw = raw_of(instances.back());
+    const std::vector<float> values = draw(raw.count, activity, random);
+    std::copy(values.begin(), values.end(), raw.data);
+  }
+  MienError error = sized<MienError>();
+  MienBatch* made = nullptr;
+  require(mien_batch_create(rig.get(), count, 1, nullptr, &made, &error), error);
+  const std::unique_ptr<MienBatch, Destroy> batch(made);
+  const std::vector<uint32_t> lods(count, 0);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(mien_rig_evaluate_batch(rig.get(), batch.get(), instances.data(),
+                                                     lods.data(), count, MIEN_STAGE_ALL, nullptr));
+    benchmark::ClobberMemory();
+  }
+  using benchmark::Counter;
+  state.counters["per_character"] =
+      Counter(count, Counter::kIsIterationInvariantRate | Counter::kInvert);
+}
+
+const int kRegistered = [] {
+  const struct {
+    const char* name;
+    Moving moving;
+  } clips[] = {{"unchanged", Moving::kNothing},
+               {"mouth", Moving::kMouth},
+               {"everything", Moving::kEverything}};
+  for (uint32_t isa = MIEN_ISA_SCALAR; isa <= MIEN_ISA_NEON; ++isa) {
+    if (!mien_isa_available(isa)) continue;
+    const std::string at = std::string("/") + mien_isa_name(isa) + "/lod0/";
+    for (const auto& clip : clips) {
+      benchmark::RegisterBenchmark((clip.name + at + "25%").c_str(), frames, isa, clip.moving)
+          ->UseManualTime();
+    }
+    for (uint32_t count : {1u, 64u, 512u}) {
+      benchmark::RegisterBenchmark(("crowd_of_" + std::to_string(count) + at + "8%").c_str(), crowd,
+                                   isa, count, 0.08);
+    }
+  }
+  return 0;
+}();
+
+}  // namespace
+}  // namespace mien::bench
