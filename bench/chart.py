@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Turns what `mien bench --json` printed into the table and the chart of README.md.
+
+    chart.py record BENCH.json...   keeps LOD 0 of these runs (one file for each storage) in
+                                    bench/results/CPU.json, then does what readme does
+    chart.py readme                 writes the table between the marks of README.md, and the charts
+    chart.py check                  fails if README.md or a chart is not what the results give
+"""
+import html
+import json
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+RESULTS = ROOT / "bench" / "results"
+README = ROOT / "README.md"
+BEGIN, END = "<!-- bench:begin -->", "<!-- bench:end -->"
+
+# Heading, activity, characters, the same controls active in all.
+COLUMNS = [("5 %", 0.05, 1, False), ("8 %", 0.08, 1, False), ("25 %", 0.25, 1, False),
+           ("50 %", 0.5, 1, False), ("100 %", 1.0, 1, False),
+           ("64 characters, 25 %", 0.25, 64, False), ("64 alike, 25 %", 0.25, 64, True),
+           ("512 speaking, 8 %", 0.08, 512, False)]
+# For bars on light and on dark pages.
+COLOURS = {"scalar": "#8b949e", "sse2": "#bf8700", "avx2": "#2f81f7", "avx512": "#8957e5",
+           "neon": "#2da44e"}
+
+
+def trimmed(run):
+    """LOD 0 is what the README shows; the rest need not be kept."""
+    return {key: [row for row in value if row["lod"] == 0] if key in ("csr", "rows") else value
+            for key, value in run.items()}
+
+
+def series(result):
+    """[(label, instruction set, {column: (nanoseconds, times as fast as the yardstick)})]"""
+    found = []
+    for run in result["runs"]:
+        csr = run["csr"][0]["joints_ns"]
+        for key in dict.fromkeys((row["isa"], row["storage"]) for row in run["rows"]):
+            values = {}
+            for name, *wanted in COLUMNS:
+                for row in run["rows"]:
+                    if (row["isa"], row["storage"]) == key and wanted == [
+                            row["activity"], row["characters"], row["shared_controls"]]:
+                        values[name] = (row["evaluate_ns"], csr / row["evaluate_ns"])
+            isa, storage = key
+            found.append((isa if storage == "f32" else f"{isa}, 16 bits", isa, values))
+    return found
+
+
+def table(result):
+    run = result["runs"][0]
+    lines = [f"{run['cpu']}, {run['compiler']}, one core: LOD 0 of \"{run['rig']}\", all stages, "
+             "microseconds per character by the",
+             "share of raw controls that are active; behind them, how many times as fast as the "
+             "joint matrix in compressed",
+             f"sparse rows ({run['csr'][0]['joints_ns'] / 1000:.0f} us).", "",
+             "| |" + "|".join(f" {name} " for name, *_ in COLUMNS) + "|",
+             "|---|" + "---|" * len(COLUMNS)]
+    for label, _, values in series(result):
+        cells = [f" {values[name][0] / 1000:.1f} ({values[name][1]:.1f}x) "
+                 if name in values else " " for name, *_ in COLUMNS]
+        lines.append(f"| {label} |" + "|".join(cells) + "|")
+    return lines
+
+
+def chart(result):
+    rows = series(result)
+    names = [name for name, *_ in COLUMNS if any(name in values for _, _, values in rows)]
+    most = max((v[1] for _, _, values in rows for v in values.values()), default=1.0)
+    left, bar, gap, wide = 180, 14, 14, 460
+    height = 40 + len(names) * (len(rows) * bar + gap)
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="760" height="{height}" '
+           f'viewBox="0 0 760 {height}" font-family="sans-serif" font-size="12">',
+           "<style>text{fill:#57606a}@media(prefers-color-scheme:dark){text{fill:#adbac7}}</style>",
+           '<text x="8" y="20">Whole evaluation, times as fast as compressed sparse rows</text>']
+    y = 36
+    for name in names:
+        out.append(f'<text x="8" y="{y + len(rows) * bar / 2 + 4:.0f}">{html.escape(name)}</text>')
+        for label, isa, values in rows:
+            if name in values:
+                times = values[name][1]
+                width = wide * times / most
+                out.append(f'<rect x="{left}" y="{y}" width="{width:.1f}" height="{bar - 2}" '
+                           f'fill="{COLOURS.get(isa, "#8b949e")}"/>')
+                out.append(f'<text x="{left + width + 5:.1f}" y="{y + 10}" font-size="10">'
+                           f'{times:.1f} {html.escape(label)}</text>')
+            y += bar
+        y += gap
+    return "\n".join(out + ["</svg>", ""])
+
+
+def results():
+    return [(path, json.loads(path.read_text(encoding="utf-8")))
+            for path in sorted(RESULTS.glob("*.json"))]
+
+
+def block():
+    lines = [BEGIN]
+    for path, result in results():
+        picture = path.with_suffix(".svg").relative_to(ROOT).as_posix()
+        lines += table(result) + ["", f"![Times as fast as compressed sparse rows]({picture})", ""]
+    return "\n".join(lines + [END])
+
+
+def readme_with_block(text):
+    if text.count(BEGIN) != 1 or text.count(END) != 1:
+        sys.exit(f"chart.py: README.md needs {BEGIN} and {END} once each")
+    head, rest = text.split(BEGIN)
+    return head + block() + rest.split(END)[1]
+
+
+def write_all():
+    for path, result in results():
+        path.with_suffix(".svg").write_text(chart(result), encoding="utf-8")
+    text = README.read_text(encoding="utf-8")
+    README.write_text(readme_with_block(text), encoding="utf-8")
+
+
+def record(files):
+    runs = [trimmed(json.loads(Path(file).read_text(encoding="utf-8"))) for file in files]
+    name = re.sub(r"[^a-z0-9]+", "-", runs[0]["cpu"].lower()).strip("-") or "unknown"
+    RESULTS.mkdir(exist_ok=True)
+    (RESULTS / f"{name}.json").write_text(json.dumps({"runs": runs}, indent=1) + "\n",
+                                          encoding="utf-8")
+    write_all()
+    print(f"wrote bench/results/{name}.json, its chart and README.md")
+
+
+def check():
+    text = README.read_text(encoding="utf-8")
+    wrong = [] if readme_with_block(text) == text else ["README.md"]
+    for path, result in results():
+        picture = path.with_suffix(".svg")
+        if not picture.exists() or picture.read_text(encoding="utf-8") != chart(result):
+            wrong.append(picture.name)
+    if not results():
+        wrong.append("bench/results, which is empty")
+    if wrong:
+        sys.exit("chart.py: not what the results give: " + ", ".join(wrong) +
+                 "; run bench/chart.py readme")
+
+
+def main(arguments):
+    if len(arguments) > 1 and arguments[0] == "record":
+        record(arguments[1:])
+    elif arguments == ["readme"]:
+        write_all()
+    elif arguments == ["check"]:
+        check()
+    else:
+        sys.exit(__doc__)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
