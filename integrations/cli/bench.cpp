@@ -11,10 +11,12 @@
 #include <cstdio>
 #include <ctime>
 #include <fstream>
+#include <optional>
 #include <random>
 
 #include "integrations/cli/bench_csr.h"
 #include "integrations/cli/fields.h"
+#include "integrations/cli/image_file.h"
 #include "integrations/cli/json_writer.h"
 #include "integrations/cli/options.h"
 #include "integrations/cli/text.h"
@@ -161,10 +163,26 @@ struct Bench {
 
 // Preparation -----------------------------------------------------------------------------------
 
-Engine make_engine(const RigFile& file, MienRigDesc desc) {
-  desc.reuse = MIEN_REUSE_NOTHING;  // samples repeat the same controls
+/// A DNA file, or a baked rig: that has no plain matrix to be the yardstick.
+struct Source {
+  std::string shown;
+  std::optional<RigFile> dna;
+  std::string image;  // path, if there is no DNA
+  const BenchOptions& options;
+
+  // Samples repeat the same controls, so nothing is reused.
+  Rig make_rig(MienRigDesc desc) const {
+    desc.reuse = MIEN_REUSE_NOTHING;
+    if (dna) return create_rig(*dna, desc);
+    RigOptions evaluation = options.evaluation;
+    evaluation.isa = desc.isa == MIEN_ISA_BEST ? "" : mien_isa_name(desc.isa);
+    return open_image(image, options.load, evaluation, desc.reuse).rig;
+  }
+};
+
+Engine make_engine(const Source& file, const MienRigDesc& desc) {
   Engine engine;
-  engine.rig = create_rig(file, desc);
+  engine.rig = file.make_rig(desc);
   engine.info = rig_info(engine.rig.get());
   for (uint32_t c = 0; c < kThrong; ++c) {
     auto error = sized<MienError>();
@@ -234,7 +252,7 @@ uint64_t bytes_touched(const Engine& engine, uint32_t lod, const ControlSets& co
   return sum / kCharacters;
 }
 
-Bench prepare(const RigFile& file, const std::vector<MienRigDesc>& rigs) {
+Bench prepare(const Source& file, const std::vector<MienRigDesc>& rigs) {
   Bench bench;
   std::mt19937 random(20240229);
   for (const MienRigDesc& desc : rigs) bench.engines.push_back(make_engine(file, desc));
@@ -265,7 +283,7 @@ Bench prepare(const RigFile& file, const std::vector<MienRigDesc>& rigs) {
   for (const Engine& engine : bench.engines) {
     bench.rows.push_back({&engine, 0, kSpeech, kThrong, false, bytes[2 * kSpeech], {}, {}});
   }
-  prepare_csr(bench, file, random);
+  if (file.dna) prepare_csr(bench, *file.dna, random);
   return bench;
 }
 
@@ -392,12 +410,13 @@ void write_json(const Bench& bench, const std::string& name) {
   output.commit();
 }
 
-/// "12.3" microseconds and "24.1" times as fast as the yardstick, in columns.
+/// "12.3" microseconds and "24.1" times as fast as the yardstick, if there is one, in columns.
 std::string times_text(const Row& row, double csr_ns) {
   char text[64];
   const double ratio = row.joints_ns > 0 ? csr_ns / row.joints_ns : 0.0;
-  std::snprintf(text, sizeof(text), "  %10.2f %10.2f %7.1f", row.evaluate_ns / 1000,
-                row.joints_ns / 1000, ratio);
+  std::snprintf(text, sizeof(text),
+                csr_ns > 0 ? "  %10.2f %10.2f %7.1f" : "  %10.2f %10.2f       -",
+                row.evaluate_ns / 1000, row.joints_ns / 1000, ratio);
   return text;
 }
 
@@ -419,10 +438,10 @@ void write_text(const Bench& bench, const std::string& name, const Session& sess
 
   const uint32_t lod_count = bench.engines[0].info.lod_count;
   for (uint32_t lod = 0; lod < lod_count; ++lod) {
-    const double csr_ns = bench.csr[lod].joints_ns;
+    const double csr_ns = bench.csr.empty() ? 0.0 : bench.csr[lod].joints_ns;
     std::snprintf(line, sizeof(line), "%-6s %3u %6s  %10s %10.2f %7.1f\n", "CSR", lod, "all", "",
                   csr_ns / 1000, 1.0);
-    output.write(line);
+    if (!bench.csr.empty()) output.write(line);
     // Three rows in a line, as prepare() made them; those of the throng stand behind.
     for (size_t i = 0; i + 2 < bench.rows.size(); i += 3) {
       const Row* row = &bench.rows[i];
@@ -460,10 +479,18 @@ void run(BenchOptions options, const Session& session) {
   const MienDnaDesc desc = parse_load_options(options.load, kEvaluationLayers);
   require_behavior(desc);
   const std::vector<MienRigDesc> rigs = choose_rigs(options.evaluation);
-  const RigFile file = open_rig_file(options.rig, desc, session);
+  Source file = {shown_name(options.rig), std::nullopt, "", options};
+  if (!is_image(options.rig)) {
+    file.dna = open_rig_file(options.rig, desc, session);
+  } else if (options.rig == "-") {
+    fail_usage("RIG -", "a baked rig is opened once for each instruction set", "put it in a file");
+  } else {
+    file.image = options.rig;
+    note(session, file.shown + ": a baked rig has no plain matrix to compare with (CSR)");
+  }
   Bench bench = prepare(file, rigs);
   measure(bench, options.quick ? kQuickPlan : kFullPlan, session);
-  const std::string name = read_string(file, "desc.name");
+  const std::string name = file.dna ? read_string(*file.dna, "desc.name") : file.shown;
   if (options.json) {
     write_json(bench, name);
   } else {
@@ -476,7 +503,7 @@ void run(BenchOptions options, const Session& session) {
 Command add_bench_command(CLI::App& app, const Session& session) {
   auto options = std::make_shared<BenchOptions>();
   CLI::App* bench = app.add_subcommand("bench", "Measure evaluation times");
-  bench->add_option("RIG", options->rig, "DNA file; - reads standard input")
+  bench->add_option("RIG", options->rig, "DNA file or baked rig; - reads standard input")
       ->type_name("")
       ->required();
   bench->add_flag("--json", options->json, "JSON, for other programs");

@@ -80,6 +80,7 @@ struct Command {
 Command add_info_command(CLI::App& app, const Session& session);
 Command add_validate_command(CLI::App& app, const Session& session);
 Command add_eval_command(CLI::App& app, const Session& session);
+Command add_bake_command(CLI::App& app, const Session& session);
 Command add_convert_command(CLI::App& app, const Session& session);
 Command add_export_command(CLI::App& app, const Session& session);
 Command add_gen_command(CLI::App& app, const Session& session);

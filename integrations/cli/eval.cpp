@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // mien eval: frames of controls -> joints, blend shapes and animated maps, as JSON.
+#include <optional>
+
 #include "integrations/cli/fields.h"
 #include "integrations/cli/frames.h"
+#include "integrations/cli/image_file.h"
 #include "integrations/cli/json_writer.h"
 #include "integrations/cli/options.h"
 
@@ -51,7 +54,13 @@ void write_lod(JsonWriter& json, const MienRig* rig, MienInstance* instance, uin
   json.end_object();
 }
 
-void evaluate(const RigFile& file, const MienRig* rig, const std::vector<Frame>& frames,
+/// What stands above the frames; a baked rig does not know its name and version.
+struct Heading {
+  std::string shown, name, version;
+  bool baked = false;
+};
+
+void evaluate(const Heading& file, const MienRig* rig, const std::vector<Frame>& frames,
               uint32_t first_lod, uint32_t lod_end, const EvalOptions& options,
               const Session& session) {
   auto error = sized<MienError>();
@@ -63,11 +72,18 @@ void evaluate(const RigFile& file, const MienRig* rig, const std::vector<Frame>&
   JsonWriter json(output);
   using Layout = JsonWriter::Layout;
   json.begin_object(Layout::kLines);
-  json.member("rig", read_string(file, "desc.name"));
-  json.member("version",
-              std::to_string(file.info.generation) + "." + std::to_string(file.info.version));
-  json.member("lod_count", file.info.lod_count);
-  json.member("rotation", options.evaluation.rotation);
+  const MienRigInfo info = rig_info(rig);
+  for (const auto& [key, text] :
+       {std::pair<const char*, const std::string&>{"rig", file.name}, {"version", file.version}}) {
+    json.key(key);
+    if (file.baked) {
+      json.null();
+    } else {
+      json.value(text);
+    }
+  }
+  json.member("lod_count", info.lod_count);
+  json.member("rotation", info.rotation == MIEN_OUTPUT_QUATERNION ? "quaternion" : "euler");
   json.key("frames");
   json.begin_array(Layout::kLines);
   Progress progress(session, "frame", frames.size());
@@ -104,17 +120,32 @@ void run(const EvalOptions& options, const Session& session) {
                "put one of them in a file");
   }
 
-  const RigFile file = open_rig_file(options.rig, desc, session);
-  if (!all_lods && lod >= file.info.lod_count) {
-    fail(
-        kInvalid, "cannot evaluate", file.shown,
-        "LOD " + options.lod + " is out of range: there are " + std::to_string(file.info.lod_count),
-        "count from 0, or use --lod all");
+  // Whatever is opened has to stay so: rigs may point into it.
+  std::optional<RigFile> dna;
+  std::optional<ImageFile> image;
+  Rig made;
+  Heading heading;
+  const MienRig* rig = nullptr;
+  if (is_image(options.rig)) {
+    image = open_image(options.rig, options.load, options.evaluation);
+    heading = {image->shown, "", "", true};
+    rig = image->rig.get();
+  } else {
+    dna = open_rig_file(options.rig, desc, session);
+    made = create_rig(*dna, rig_desc);
+    heading = {dna->shown, read_string(*dna, "desc.name"),
+               std::to_string(dna->info.generation) + "." + std::to_string(dna->info.version),
+               false};
+    rig = made.get();
   }
-  const Rig rig = create_rig(file, rig_desc);
-  const std::vector<Frame> frames = read_frames(options.input, rig.get());
-  evaluate(file, rig.get(), frames, lod, all_lods ? file.info.lod_count : lod + 1, options,
-           session);
+  const uint32_t lod_count = rig_info(rig).lod_count;
+  if (!all_lods && lod >= lod_count) {
+    fail(kInvalid, "cannot evaluate", heading.shown,
+         "LOD " + options.lod + " is out of range: there are " + std::to_string(lod_count),
+         "count from 0, or use --lod all");
+  }
+  const std::vector<Frame> frames = read_frames(options.input, rig);
+  evaluate(heading, rig, frames, lod, all_lods ? lod_count : lod + 1, options, session);
 }
 
 }  // namespace
@@ -122,7 +153,7 @@ void run(const EvalOptions& options, const Session& session) {
 Command add_eval_command(CLI::App& app, const Session& session) {
   auto options = std::make_shared<EvalOptions>();
   CLI::App* eval = app.add_subcommand("eval", "Evaluate frames of controls");
-  eval->add_option("RIG", options->rig, "DNA file; - reads standard input")
+  eval->add_option("RIG", options->rig, "DNA file or baked rig; - reads standard input")
       ->type_name("")
       ->required();
   eval->add_option("-i,--input", options->input, "JSON with the controls; - reads standard input")

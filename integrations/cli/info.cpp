@@ -5,6 +5,7 @@
 
 #include "integrations/cli/behavior.h"
 #include "integrations/cli/fields.h"
+#include "integrations/cli/info_image.h"
 #include "integrations/cli/json_writer.h"
 #include "integrations/cli/names.h"
 #include "integrations/cli/options.h"
@@ -500,6 +501,14 @@ void run(const InfoOptions& options, const Session& session) {
   std::vector<const NameKind*> kinds;
   if (!options.names.empty()) kinds = parse_names(options.names);
 
+  if (is_image(options.rig)) {
+    if (!kinds.empty()) {
+      fail_usage("--names", "a baked rig is described by its counts alone",
+                 "give the DNA file that it was baked from");
+    }
+    const ImageFile image = open_image(options.rig, options.load, options.evaluation);
+    return write_image_info(image, options.json, session);
+  }
   const RigFile file = open_rig_file(options.rig, desc, session);
   if (!kinds.empty() && !options.json) return write_names(file, kinds, session);
   const Summary summary = gather(file, rig_desc, session);
@@ -515,7 +524,7 @@ void run(const InfoOptions& options, const Session& session) {
 Command add_info_command(CLI::App& app, const Session& session) {
   auto options = std::make_shared<InfoOptions>();
   CLI::App* info = app.add_subcommand("info", "Show what a rig holds");
-  info->add_option("RIG", options->rig, "DNA file; - reads standard input")
+  info->add_option("RIG", options->rig, "DNA file or baked rig; - reads standard input")
       ->type_name("")
       ->required();
   info->add_flag("--json", options->json, "JSON, for other programs");

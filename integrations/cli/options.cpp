@@ -231,13 +231,15 @@ void add_load_options(CLI::App& app, LoadOptions& options) {
       ->group(group);
 }
 
-void add_rig_options(CLI::App& app, RigOptions& options) {
+void add_rig_options(CLI::App& app, RigOptions& options, bool with_isa) {
   const std::string group = "How to evaluate";
-  app.add_option("--isa", options.isa,
-                 "Instruction set: " + list_of(option_words("--isa"), "or") +
-                     "\n(default: $MIEN_ISA, else the best of this machine)")
-      ->type_name("NAME")
-      ->group(group);
+  if (with_isa) {
+    app.add_option("--isa", options.isa,
+                   "Instruction set: " + list_of(option_words("--isa"), "or") +
+                       "\n(default: $MIEN_ISA, else the best of this machine)")
+        ->type_name("NAME")
+        ->group(group);
+  }
   app.add_option("--storage", options.storage,
                  "Matrices and weights: f32, or f16 (half the memory, 3 digits)")
       ->type_name("TYPE")

@@ -20,7 +20,8 @@ struct RigOptions {
 };
 
 void add_load_options(CLI::App& app, LoadOptions& options);
-void add_rig_options(CLI::App& app, RigOptions& options);
+/// Without --isa for what serves all of them.
+void add_rig_options(CLI::App& app, RigOptions& options, bool with_isa = true);
 
 using Words = std::vector<std::string>;
 

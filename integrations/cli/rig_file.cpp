@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/cli/rig_file.h"
 
+#include "integrations/cli/image_file.h"
 #include "integrations/cli/names.h"
 #include "integrations/cli/options.h"
 #include "integrations/cli/output.h"
@@ -20,6 +21,11 @@ RigFile open_rig_file(const std::string& path, const MienDnaDesc& desc, const Se
     status = mien_dna_open_memory(file.bytes.data(), file.bytes.size(), &desc, &dna, &error);
   } else {
     status = mien_dna_open_file(path.c_str(), &desc, &dna, &error);
+  }
+  if (status == MIEN_ERROR_DNA_SIGNATURE &&
+      (path == "-" ? is_image_bytes(file.bytes) : is_image(path))) {
+    fail(kInvalid, "cannot open rig", file.shown, "it is a baked rig, and this needs the DNA file",
+         "give the file that it was baked from");
   }
   check(status, &error, "cannot open rig", file.shown);
   file.dna.reset(dna);

@@ -7,9 +7,10 @@
 
 namespace mien::cli {
 
-void refuse_terminal(const std::string& path, const Session& session) {
+void refuse_terminal(const std::string& path, const Session& session, const char* what) {
   if (path != "-" || !session.terminal.out_is_terminal) return;
-  fail_usage("-o -", "a DNA file is not for a terminal", "name a file, or pipe the output");
+  fail_usage("-o -", std::string(what) + " is not for a terminal",
+             "name a file, or pipe the output");
 }
 
 void write_dna(const MienDna* dna, const MienWriteDesc& desc, const std::string& path) {

@@ -83,6 +83,7 @@ using DnaDesc = Sized<MienDnaDesc>;
 using WriteDesc = Sized<MienWriteDesc>;
 using GenerateDesc = Sized<MienGenerateDesc>;
 using RigDesc = Sized<MienRigDesc>;
+using RigImageDesc = Sized<MienRigImageDesc>;
 using DeformerDesc = Sized<MienDeformerDesc>;
 using PoseDesc = Sized<MienPoseDesc>;
 using CoordinateSystem = Sized<MienCoordinateSystem>;
@@ -420,6 +421,31 @@ class Rig : public Owner<MienRig, mien_rig_destroy> {
     return make<Rig>([&](MienRig** out, MienError* error) {
       return mien_rig_create(dna.get(), &desc, out, error);
     });
+  }
+
+  /// A baked rig: a file that save() or `mien bake` wrote.
+  static Result<Rig> open(const char* path, const RigImageDesc& desc = {}) {
+    return make<Rig>([&](MienRig** out, MienError* error) {
+      return mien_rig_open_file(path, &desc, out, error);
+    });
+  }
+  /// `bytes` have to outlive the Rig and all that is made of it, unchanged.
+  static Result<Rig> open(const void* bytes, size_t size, const RigImageDesc& desc = {}) {
+    return make<Rig>([&](MienRig** out, MienError* error) {
+      return mien_rig_open_memory(bytes, size, &desc, out, error);
+    });
+  }
+  Result<void> save(const char* path) const {
+    Sized<MienError> error;
+    return {mien_rig_save_file(get(), path, &error), error};
+  }
+  /// Saves to memory and tells how many bytes that took; with an empty buffer, would take.
+  Result<size_t> save(Span<unsigned char> buffer) const {
+    size_t size = 0;
+    Sized<MienError> error;
+    void* const data = buffer.empty() ? nullptr : buffer.data();
+    const MienStatus status = mien_rig_save_memory(get(), data, buffer.size(), &size, &error);
+    return {status, std::move(size), &error};
   }
 
   /// A character in its initial state. May outlive the rig, but is evaluated by it only.

@@ -22,6 +22,18 @@ mien::Dna generated(MienPreset preset = MIEN_PRESET_SMALL) {
   return mien::Dna::generate(desc).value();
 }
 
+void test_images() {
+  const mien::Rig rig = mien::Rig::create(generated()).value();
+  std::vector<unsigned char> bytes(rig.save(mien::Span<unsigned char>()).value());
+  CHECK(rig.save(mien::Span<unsigned char>(bytes.data(), bytes.size())));
+  const mien::Rig opened = mien::Rig::open(bytes.data(), bytes.size()).value();
+  CHECK(opened.count(MIEN_KIND_JOINT) == rig.count(MIEN_KIND_JOINT));
+  CHECK(rig.save("/dev/null"));
+#ifndef MIEN_EXCEPTIONS
+  CHECK(mien::Rig::open("/dev/null").error().status() == MIEN_ERROR_IMAGE_SIGNATURE);
+#endif
+}
+
 void test_life() {
   mien::Rig rig = mien::Rig::create(generated()).value();
   mien::Instance face = rig.instance().value();
@@ -298,6 +310,7 @@ int main() {
   CHECK(mien::version() == MIEN_VERSION && mien::is_available(MIEN_ISA_SCALAR));
   CHECK(std::string(mien::name_of(MIEN_ISA_SCALAR)) == "scalar");
   test_life();
+  test_images();
   test_empty_objects();
   test_errors();
   test_fields_and_files();

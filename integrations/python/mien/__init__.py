@@ -13,8 +13,8 @@
 `Dna` -> `Rig` -> `Instance` or `Batch`. README.md has more; errors are in `mien.errors`.
 """
 from ._api import (Compose, CoordinateSystem, DeformerInfo, Direction, DnaField, DnaInfo, DnaLayer,
-                   FieldType, FileAccess, Finding, InstanceStatistics, Isa, Kind, Layer, MlMasks,
-                   Normals, Output, Preset, Reuse, RigInfo, RigStatistics, RotationRule,
+                   FieldType, FileAccess, Finding, ImageCheck, InstanceStatistics, Isa, Kind, Layer,
+                   MlMasks, Normals, Output, Preset, Reuse, RigInfo, RigStatistics, RotationRule,
                    RotationSequence, RotationUnit, Severity, Stage, Status, Storage,
                    TranslationUnit, UnknownLayers, Weights)
 from ._library import path as library_path, version
@@ -30,8 +30,9 @@ __all__ = [
     "ArgumentError", "Batch", "BusyError", "ClosedError", "Compose", "coordinate_system",
     "coordinate_system_names", "CoordinateSystem", "deform_batch", "Deformer", "DeformerInfo",
     "Direction", "Dna", "DnaError", "DnaField", "DnaInfo", "DnaLayer", "Error", "FieldType",
-    "FileAccess", "FileError", "Finding", "Instance", "InstanceStatistics", "Isa",
-    "isa_available", "isa_name", "Kind", "Layer", "library_path", "Mesh", "MlMasks", "Normals", "OutOfMemoryError", "OutOfRangeError",
+    "FileAccess", "FileError", "Finding", "ImageCheck", "Instance", "InstanceStatistics", "Isa",
+    "isa_available", "isa_name", "Kind", "Layer", "library_path", "Mesh", "MlMasks", "Normals",
+    "OutOfMemoryError", "OutOfRangeError",
     "Output", "Pose", "Preset", "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationRule",
     "RotationSequence", "RotationUnit", "Severity", "Stage", "Status", "Storage", "TranslationUnit",
     "UnknownLayers", "UnknownNameError", "validate", "version", "Weights",

@@ -62,6 +62,8 @@ class ReportHandle(_Address, _api.MienReport):
 
 
 class RigHandle(_Address, _api.MienRig):
+    image: Optional[bytes] = None  # of a rig that was opened from memory
+
     def __del__(self, destroy: Any = lib.mien_rig_destroy) -> None:
         if self.value:
             destroy(self)

@@ -64,7 +64,8 @@ class FileError(Error, OSError):
 
 
 class DnaError(Error, ValueError):
-    """A DNA file is damaged, of another kind, or lacks something. `byte_offset` tells where."""
+    """A DNA file or a baked rig is damaged, of another kind, or lacks something. `byte_offset`
+    tells where."""
 
 
 _KINDS = {

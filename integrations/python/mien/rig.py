@@ -6,10 +6,11 @@ import ctypes
 from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional
 
 from . import _api
-from ._api import (Isa, Kind, MienError, MlMasks, Output, Reuse, RigInfo, RigStatistics, Status,
-                   Storage)
+from ._api import (FileAccess, ImageCheck, Isa, Kind, MienError, MlMasks, Output, Reuse, RigInfo,
+                   RigStatistics, Status, Storage)
 from ._library import lib
-from ._memory import Closable, Floats, Indices, RigHandle, array_over, uint32
+from ._memory import (Closable, Floats, Indices, RigHandle, array_over, as_bytes, as_path,
+                      uint32)
 from .dna import Dna
 from .errors import UnknownNameError, fail
 
@@ -54,6 +55,69 @@ class Rig(Closable):
         if status:
             fail(status, "cannot make a rig", error)
         self._take(handle)
+
+    @classmethod
+    def open(cls, path: Any, isa: int = Isa.BEST, access: int = FileAccess.READ,
+             check: int = ImageCheck.SAFE, reuse: int = Reuse.UNCHANGED) -> Rig:
+        """Opens a baked rig: a file that `save` or `mien bake` wrote.
+
+        access: `FileAccess.MAP` shares the file's pages with other processes and reads what is
+                needed; but a process crashes whose mapped file somebody truncates, so the default
+                reads it all
+        check:  `ImageCheck.FULL` also finds changed numbers
+        """
+        desc = cls._image_desc(isa, access, check, reuse)
+        handle, error = RigHandle(), MienError()
+        status = lib.mien_rig_open_file(as_path(path), _byref(desc), _byref(handle), _byref(error))
+        if status:
+            fail(status, f"cannot open {path}", error)
+        return cls._of(handle)
+
+    @classmethod
+    def from_bytes(cls, data: Any, isa: int = Isa.BEST, check: int = ImageCheck.SAFE,
+                   reuse: int = Reuse.UNCHANGED) -> Rig:
+        """The same from memory, which is kept alive."""
+        data = as_bytes(data)
+        desc = cls._image_desc(isa, FileAccess.READ, check, reuse)
+        handle, error = RigHandle(), MienError()
+        status = lib.mien_rig_open_memory(data, len(data), _byref(desc), _byref(handle),
+                                          _byref(error))
+        if status:
+            fail(status, "cannot open the bytes", error)
+        handle.image = data  # whatever evaluates has the handle
+        return cls._of(handle)
+
+    @staticmethod
+    def _image_desc(isa: int, access: int, check: int, reuse: int) -> Any:
+        return _api.MienRigImageDesc(isa=uint32(isa, "isa"), file_access=uint32(access, "access"),
+                                     check=uint32(check, "check"), reuse=uint32(reuse, "reuse"))
+
+    @classmethod
+    def _of(cls, handle: RigHandle) -> Rig:
+        rig = cls.__new__(cls)
+        rig._take(handle)
+        return rig
+
+    def save(self, path: Any) -> None:
+        """Bakes the rig into a file that `open` uses as it is; a failure leaves `path` as it
+        was."""
+        error = MienError()
+        status = lib.mien_rig_save_file(self._open(), as_path(path), _byref(error))
+        if status:
+            fail(status, f"cannot write {path}", error)
+
+    def to_bytes(self) -> bytes:
+        """The same to memory."""
+        handle = self._open()
+        size, error = ctypes.c_size_t(), MienError()
+        status = lib.mien_rig_save_memory(handle, None, 0, _byref(size), _byref(error))
+        if not status:
+            buffer = ctypes.create_string_buffer(size.value)
+            status = lib.mien_rig_save_memory(handle, buffer, size.value, _byref(size),
+                                              _byref(error))
+        if status:
+            fail(status, "cannot write", error)
+        return buffer.raw
 
     def _take(self, handle: RigHandle) -> None:
         self._handle: Optional[RigHandle] = handle

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """That Python sees the numbers of C, with and without NumPy, alone and in batches."""
+import os
+import tempfile
 import unittest
 from concurrent.futures import ThreadPoolExecutor
 
@@ -23,6 +25,23 @@ class Values(unittest.TestCase):
             self.assertEqual(len(rig.names(kind)), rig.count(kind))
         self.assertEqual(rig.find(mien.Kind.JOINT, names[5]), 5)
         self.assertEqual(rig.name(mien.Kind.JOINT_GROUP, 0), "")
+
+    def test_a_baked_rig_is_the_rig(self):
+        rig = rig_of()
+        data = rig.to_bytes()
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "face.rig")
+            rig.save(path)
+            with open(path, "rb") as file:
+                self.assertEqual(file.read(), data)
+            rigs = [mien.Rig.open(path, check=mien.ImageCheck.FULL),
+                    mien.Rig.open(path, access=mien.FileAccess.MAP), mien.Rig.from_bytes(data)]
+            for again in rigs:
+                self.assertEqual(again.to_bytes(), data)
+                self.assertEqual(again.names(mien.Kind.JOINT), rig.names(mien.Kind.JOINT))
+                again.close()
+        with self.assertRaises(mien.DnaError):
+            mien.Rig.from_bytes(b"DNA")
 
     def test_a_control_by_name(self):
         rig = rig_of()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-use crate::convert::{bytes, empty_string, index, slice, utf8};
+use crate::convert::{bytes, empty_string, index, path_string, slice, utf8};
 use crate::error::{check, checked};
 use crate::{
     Allocator, Dna, Instance, Isa, Kind, MlMasks, Output, Result, Reuse, RigInfo, RigStatistics,
@@ -8,6 +8,8 @@ use crate::{
 };
 use mien_sys as sys;
 use std::borrow::Cow;
+use std::os::raw::c_void;
+use std::path::Path;
 use std::ptr::{null_mut, NonNull};
 use std::sync::Arc;
 
@@ -47,6 +49,37 @@ impl Rig {
     /// angles coming out. [`RigOptions`] has other wishes.
     pub fn new(dna: &Dna<'_>) -> Result<Self> {
         RigOptions::new().create(dna)
+    }
+
+    /// Opens a baked rig; see [`RigOptions::open`].
+    pub fn open(path: impl AsRef<Path>) -> Result<Self> {
+        RigOptions::new().open(path)
+    }
+
+    /// Bakes the rig into a file that [`Rig::open`] uses in place. A failure leaves `path` as it
+    /// was.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
+        let path = path_string(path.as_ref())?;
+        // SAFETY: a live handle and a terminated path.
+        checked(|error| unsafe { sys::mien_rig_save_file(self.raw(), path.as_ptr(), error) })
+    }
+
+    /// The same bytes, to memory.
+    pub fn to_bytes(&self) -> Result<Vec<u8>> {
+        let save = |buffer: *mut c_void, capacity, size: &mut usize| {
+            // SAFETY: a live handle and room for `capacity` bytes.
+            checked(|error| unsafe {
+                sys::mien_rig_save_memory(self.raw(), buffer, capacity, size, error)
+            })
+        };
+        let mut size = 0;
+        save(null_mut(), 0, &mut size)?;
+        let mut bytes = Vec::<u8>::with_capacity(size);
+        save(bytes.as_mut_ptr().cast(), bytes.capacity(), &mut size)?;
+        assert!(size <= bytes.capacity());
+        // SAFETY: the call succeeded, so it has written all of them.
+        unsafe { bytes.set_len(size) };
+        Ok(bytes)
     }
 
     /// One character in its initial state.
@@ -272,6 +305,67 @@ impl RigOptions {
             // SAFETY: a live handle and a sized struct.
             checked(|error| unsafe { sys::mien_rig_create(dna.raw(), &desc, &mut handle, error) })
         })?;
+        self.adopt(handle)
+    }
+
+    /// Opens a baked rig: a file that [`Rig::save`] or `mien bake` wrote. What was chosen when it
+    /// was created stays; of the options instruction set, reuse and allocator count. The file is
+    /// read whole: see [`RigOptions::map`].
+    pub fn open(&self, path: impl AsRef<Path>) -> Result<Rig> {
+        self.open_file(path.as_ref(), sys::MIEN_FILE_READ)
+    }
+
+    /// The same, but the file is mapped and used in place: processes share its pages.
+    ///
+    /// # Safety
+    ///
+    /// Nobody may truncate the file or write to it in place until the rig and its instances are
+    /// gone; replacing it by renaming is safe.
+    pub unsafe fn map(&self, path: impl AsRef<Path>) -> Result<Rig> {
+        self.open_file(path.as_ref(), sys::MIEN_FILE_MAP)
+    }
+
+    fn open_file(&self, path: &Path, access: u32) -> Result<Rig> {
+        let path = path_string(path)?;
+        self.open_by(access, |desc, out, error| {
+            // SAFETY: a terminated path and a sized struct; the rest is the caller's.
+            unsafe { sys::mien_rig_open_file(path.as_ptr(), desc, out, error) }
+        })
+    }
+
+    /// The same from memory that never goes away, such as `include_bytes!`.
+    pub fn open_bytes(&self, bytes: &'static [u8]) -> Result<Rig> {
+        self.open_by(sys::MIEN_FILE_MAP, |desc, out, error| {
+            let data = bytes.as_ptr().cast();
+            // SAFETY: the bytes are static, so they outlive the rig unchanged.
+            unsafe { sys::mien_rig_open_memory(data, bytes.len(), desc, out, error) }
+        })
+    }
+
+    fn open_by(
+        &self,
+        access: u32,
+        open: impl FnOnce(
+            *const sys::MienRigImageDesc,
+            *mut *mut sys::MienRig,
+            *mut sys::MienError,
+        ) -> sys::MienStatus,
+    ) -> Result<Rig> {
+        let mut handle = null_mut();
+        Allocator::with(self.allocator.as_ref(), |allocator| {
+            let desc = sys::MienRigImageDesc {
+                isa: self.isa.0,
+                file_access: access,
+                reuse: self.reuse.0,
+                allocator,
+                ..Default::default()
+            };
+            checked(|error| open(&desc, &mut handle, error))
+        })?;
+        self.adopt(handle)
+    }
+
+    fn adopt(&self, handle: *mut sys::MienRig) -> Result<Rig> {
         let handle = NonNull::new(handle).expect("a handle after success");
         let mut info = sys::MienRigInfo::default();
         // SAFETY: a live handle and a sized struct.

@@ -2,8 +2,8 @@
 //! DNA files in memory and on disk: opened whole and in part, written, malformed.
 
 use mien::{
-    Dna, FieldType, Generate, GenerateOptions, Layers, OpenOptions, Preset, Report, Rig, Severity,
-    Status, WriteOptions,
+    Dna, FieldType, Generate, GenerateOptions, Layers, OpenOptions, Preset, Report, Rig, RigOptions,
+    Severity, Status, WriteOptions,
 };
 use std::path::PathBuf;
 
@@ -24,6 +24,24 @@ impl Drop for TemporaryFile {
     fn drop(&mut self) {
         let _ = std::fs::remove_file(&self.0);
     }
+}
+
+#[test]
+fn a_baked_rig_is_the_rig() {
+    let file = TemporaryFile::new("baked");
+    let rig = Rig::new(&Dna::generate(Preset::TINY).unwrap()).unwrap();
+    rig.save(&file.0).unwrap();
+    let bytes = std::fs::read(&file.0).unwrap();
+    assert_eq!(bytes, rig.to_bytes().unwrap());
+    let opened = Rig::open(&file.0).unwrap();
+    // SAFETY: nobody else knows of the file.
+    let mapped = unsafe { RigOptions::new().map(&file.0) }.unwrap();
+    let leaked = RigOptions::new().open_bytes(Box::leak(bytes.clone().into_boxed_slice())).unwrap();
+    for again in [opened, mapped, leaked] {
+        assert_eq!(again.to_bytes().unwrap(), bytes);
+        assert_eq!(again.info().joint_value_count, rig.info().joint_value_count);
+    }
+    assert_eq!(RigOptions::new().open_bytes(b"DNA").err().unwrap().status(), Status::IMAGE_SIGNATURE);
 }
 
 #[test]
