@@ -436,9 +436,13 @@ void write_text(const Bench& bench, const std::string& name, const Session& sess
   output.write(paint(line + std::string(columns) + columns + columns, Style::kBold, colours) +
                "\n");
 
+  // A baked rig has none.
+  const auto yardstick = [&](uint32_t lod) {
+    return bench.csr.empty() ? 0.0 : bench.csr[lod].joints_ns;
+  };
   const uint32_t lod_count = bench.engines[0].info.lod_count;
   for (uint32_t lod = 0; lod < lod_count; ++lod) {
-    const double csr_ns = bench.csr.empty() ? 0.0 : bench.csr[lod].joints_ns;
+    const double csr_ns = yardstick(lod);
     std::snprintf(line, sizeof(line), "%-6s %3u %6s  %10s %10.2f %7.1f\n", "CSR", lod, "all", "",
                   csr_ns / 1000, 1.0);
     if (!bench.csr.empty()) output.write(line);
@@ -459,7 +463,7 @@ void write_text(const Bench& bench, const std::string& name, const Session& sess
     if (row.characters != kThrong) continue;
     std::snprintf(line, sizeof(line), "%-6s %3u %4.0f %%", mien_isa_name(row.engine->info.isa),
                   row.lod, 100 * kActivities[row.activity]);
-    output.write(line + times_text(row, bench.csr[row.lod].joints_ns) + "\n");
+    output.write(line + times_text(row, yardstick(row.lod)) + "\n");
   }
   output.commit();
 }
