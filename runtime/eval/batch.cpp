@@ -143,7 +143,7 @@ Work find_active(const Crowd& crowd) {
 bool together_pays(const Crowd& crowd, const Work& work) {
   const uint32_t step = crowd.rig.kernels->batch_step;
   const uint64_t passes = (crowd.count + step - 1) / step;
-  return work.together * (15 + 45 * passes) < work.apart * 14;
+  return work.together * (15 + 45 * passes) < work.apart * 18;
 }
 
 void write_chunk(const Crowd& crowd, uint32_t chunk) {
