@@ -2,8 +2,8 @@
 //! DNA files in memory and on disk: opened whole and in part, written, malformed.
 
 use mien::{
-    Dna, FieldType, Generate, GenerateOptions, Layers, OpenOptions, Preset, Report, Rig, RigOptions,
-    Severity, Status, WriteOptions,
+    Dna, FieldType, Generate, GenerateOptions, Layers, OpenOptions, Preset, Report, Rig,
+    RigOptions, Severity, Status, WriteOptions,
 };
 use std::path::PathBuf;
 
@@ -41,7 +41,10 @@ fn a_baked_rig_is_the_rig() {
         assert_eq!(again.to_bytes().unwrap(), bytes);
         assert_eq!(again.info().joint_value_count, rig.info().joint_value_count);
     }
-    assert_eq!(RigOptions::new().open_bytes(b"DNA").err().unwrap().status(), Status::IMAGE_SIGNATURE);
+    assert_eq!(
+        RigOptions::new().open_bytes(b"DNA").err().unwrap().status(),
+        Status::IMAGE_SIGNATURE
+    );
 }
 
 #[test]
