@@ -803,7 +803,8 @@ MIEN_API MienStatus mien_rig_evaluate_batch(const MienRig* rig, MienBatch* batch
                                             uint32_t count, uint32_t stages,
                                             const MienParallelFor* parallel);
 
-/* Only the joint values of one joint group (MIEN_KIND_JOINT_GROUP). */
+/* Only the joint values of one joint group (MIEN_KIND_JOINT_GROUP); not those that a later group
+ * overrides wherever this one gives them. */
 MIEN_API MienStatus mien_rig_evaluate_joint_group(const MienRig* rig, MienInstance* instance,
                                                   uint32_t lod, uint32_t group);
 

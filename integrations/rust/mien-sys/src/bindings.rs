@@ -1334,7 +1334,8 @@ extern "C" {
     /// `capacity`.
     pub fn mien_rig_evaluate_batch(rig: *const MienRig, batch: *mut MienBatch, instances: *const *mut MienInstance, lods: *const u32, count: u32, stages: u32, parallel: *const MienParallelFor) -> MienStatus;
 
-    /// Only the joint values of one joint group (`MIEN_KIND_JOINT_GROUP`).
+    /// Only the joint values of one joint group (`MIEN_KIND_JOINT_GROUP`); not those that a later
+    /// group overrides wherever this one gives them.
     pub fn mien_rig_evaluate_joint_group(rig: *const MienRig, instance: *mut MienInstance, lod: u32, group: u32) -> MienStatus;
 
     /// Only the pose controls of one RBF solver (`MIEN_KIND_RBF_SOLVER`), whether the LOD lists it
