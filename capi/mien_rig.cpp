@@ -254,10 +254,10 @@ MienStatus mien_rig_statistics(const MienRig* handle, uint32_t lod,
   statistics.rbf_solver_count = static_cast<uint32_t>(rig.rbf.lod_solvers.at(lod).count);
   const JointMatrix& joints = rig.joints;
   const uint32_t chunks = joints.chunks_at_lod[lod];
-  uint64_t pieces = 0;
-  for (size_t k = 0; k < joints.columns.count; ++k) pieces += joints.pieces_before(k, chunks);
-  statistics.joint_entry_count = pieces * kPieceRows;
-  statistics.joint_byte_count = pieces * joints.piece_bytes();
+  for (size_t k = 0; k < joints.columns.count; ++k) {
+    statistics.joint_entry_count += uint64_t{joints.pieces_before(k, chunks)} * kPieceRows;
+    statistics.joint_byte_count += joints.bytes_before(k, chunks);
+  }
   for (size_t g = 0; g < joints.group_count; ++g) {
     const uint32_t rows = joints.group_rows_at_lod[g * rig.lod_count + lod];
     statistics.joint_row_count += rows;
@@ -375,15 +375,13 @@ MienStatus mien_instance_statistics(const MienInstance* handle,
   statistics.lod = instance.lod;
   for (float control : instance.controls) statistics.active_control_count += control != 0.0f;
   const uint32_t chunks = instance.rig->lod_count ? joints.chunks_at_lod[instance.lod] : 0;
-  uint64_t pieces = 0;
   for (size_t k = 0; k < joints.columns.count; ++k) {
     if (instance.controls[joints.columns[k]] == 0.0f) continue;
-    const uint32_t of_column = joints.pieces_before(k, chunks);
-    statistics.joint_column_count += of_column != 0;
-    pieces += of_column;
+    const uint32_t pieces = joints.pieces_before(k, chunks);
+    statistics.joint_column_count += pieces != 0;
+    statistics.joint_entry_count += uint64_t{pieces} * kPieceRows;
+    statistics.joint_byte_count += joints.bytes_before(k, chunks);
   }
-  statistics.joint_entry_count = pieces * kPieceRows;
-  statistics.joint_byte_count = pieces * joints.piece_bytes();
   write_struct(out_statistics, statistics);
   return MIEN_OK;
 }

@@ -11,14 +11,33 @@ namespace mien::MIEN_KERNEL_ISA {
 namespace {
 
 // A lane is a row and adds its columns in order, so no width changes a bit of the result. Sums stay
-// in the first-level cache, so what is read from afar is the pieces, one behind the other.
+// in the first-level cache, so what is read from afar is the values, one behind the other.
 //
-// All pieces are read before the first is written: they belong to different blocks, which the
-// processor cannot know.
+// The time goes into reads and writes of the first-level cache, of three per piece: values, sums
+// and sums again. So block numbers are fetched four at a time, and a pair is one vector where
+// vectors are that wide. All sums are read before the first is written: they belong to different
+// blocks, which the processor cannot know.
+
+/// The sums of a block.
+inline float* sums_of(float* sums, size_t number) {
+  return sums + number * (kPieceRows / kBlockUnit);
+}
+
+/// Four block numbers in one read.
+struct FourBlocks {
+  uint64_t numbers;
+  explicit FourBlocks(const uint16_t* from) { __builtin_memcpy(&numbers, from, sizeof(numbers)); }
+  size_t operator[](size_t i) const {
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+    i = 3 - i;
+#endif
+    return numbers >> 16 * i & 0xFFFF;
+  }
+};
+
 template <class How, class Value, size_t... P>
-inline void add_pieces(const Value* values, const uint16_t* blocks, PieceVec input, float* sums_in,
+inline void add_pieces(const Value* values, float* const* sums, PieceVec input,
                        std::index_sequence<P...>) {
-  float* const sums[] = {sums_in + size_t{blocks[P]} * (kPieceRows / kBlockUnit)...};
   for (size_t r = 0; r < kPieceRows; r += kPieceWidth) {
     const PieceVec added[] = {
         How::mul_add(load_piece(values + P * kPieceRows + r), input, load_piece(sums[P] + r))...};
@@ -26,35 +45,94 @@ inline void add_pieces(const Value* values, const uint16_t* blocks, PieceVec inp
   }
 }
 
-template <size_t kCount, class How, class Value>
-inline void add_pieces(const Value* values, const uint16_t* blocks, PieceVec input, float* sums) {
-  add_pieces<How>(values, blocks, input, sums, std::make_index_sequence<kCount>());
+template <class How, class Value>
+inline void add_singles(const Value* values, const uint16_t* blocks, size_t count, float* sums,
+                        PieceVec input) {
+  size_t i = 0;
+  for (; i + 4 <= count; i += 4) {
+    const FourBlocks b(blocks + i);
+    float* const four[] = {sums_of(sums, b[0]), sums_of(sums, b[1]), sums_of(sums, b[2]),
+                           sums_of(sums, b[3])};
+    add_pieces<How>(values + i * kPieceRows, four, input, std::make_index_sequence<4>());
+  }
+  for (; i < count; ++i) {
+    float* const one[] = {sums_of(sums, blocks[i])};
+    add_pieces<How>(values + i * kPieceRows, one, input, std::make_index_sequence<1>());
+  }
+}
+
+#if defined(MIEN_KERNEL_AVX512)
+
+template <class How, class Value, size_t... P>
+inline void add_pairs(const Value* values, float* const* sums, Vec input,
+                      std::index_sequence<P...>) {
+  const Vec added[] = {
+      How::mul_add(load_pair(values + P * 2 * kPieceRows), input, load(sums[P]))...};
+  (store(sums[P], added[P]), ...);
+}
+
+template <class How, class Value>
+inline void add_pairs(const Value* values, const uint16_t* blocks, size_t count, float* sums,
+                      float input_value) {
+  const Vec input = broadcast(input_value);
+  size_t i = 0;
+  for (; i + 4 <= count; i += 4) {
+    const FourBlocks b(blocks + i);
+    float* const four[] = {sums_of(sums, b[0]), sums_of(sums, b[1]), sums_of(sums, b[2]),
+                           sums_of(sums, b[3])};
+    add_pairs<How>(values + i * 2 * kPieceRows, four, input, std::make_index_sequence<4>());
+  }
+  for (; i < count; ++i) {
+    float* const one[] = {sums_of(sums, blocks[i])};
+    add_pairs<How>(values + i * 2 * kPieceRows, one, input, std::make_index_sequence<1>());
+  }
+}
+
+#else
+
+template <class How, class Value>
+inline void add_pairs(const Value* values, const uint16_t* blocks, size_t count, float* sums,
+                      float input_value) {
+  const PieceVec input = broadcast_piece(input_value);
+  size_t i = 0;
+  for (; i + 2 <= count; i += 2) {
+    float *const a = sums_of(sums, blocks[i]), *const b = sums_of(sums, blocks[i + 1]);
+    float* const four[] = {a, a + kPieceRows, b, b + kPieceRows};
+    add_pieces<How>(values + i * 2 * kPieceRows, four, input, std::make_index_sequence<4>());
+  }
+  if (i < count) {
+    float* const a = sums_of(sums, blocks[i]);
+    float* const two[] = {a, a + kPieceRows};
+    add_pieces<How>(values + i * 2 * kPieceRows, two, input, std::make_index_sequence<2>());
+  }
+}
+
+#endif
+
+/// What comes behind is fetched by the processor, who sees where a run leads; not where the next
+/// one begins.
+template <class Value>
+inline void expect(const Value* values, const uint16_t* blocks, const JointRun& run) {
+  constexpr size_t kLine = 64 / sizeof(Value), kLines = 4;
+  const Value* const pairs = values + size_t{run.first_pair} * kPieceRows;
+  for (size_t i = 0; i < kLines; ++i) __builtin_prefetch(pairs + i * kLine);
+  __builtin_prefetch(values + size_t{run.first_single} * kPieceRows);
+  __builtin_prefetch(blocks + run.pair_entry);
 }
 
 template <class How, class Value>
 inline void add_columns(const JointColumnsArgs& args) {
   // In names of their own: for all the compiler knows, sums could lie in `args`.
-  const Value* const all_values = static_cast<const Value*>(args.values);
-  const uint16_t* const all_blocks = args.blocks;
-  const uint32_t* const first_pieces = args.first_pieces;
-  const uint16_t *const begins = args.begins, *const ends = args.ends;
-  const uint16_t* const columns = args.columns;
-  const float* const inputs = args.inputs;
-  const size_t stride = args.stride, column_count = args.column_count;
-  float* const sums = args.sums - size_t{args.first_block} * kPieceRows;
-
-  for (size_t i = 0; i < column_count; ++i) {
-    const size_t k = columns[i];
-    const PieceVec input = broadcast_piece(inputs[i]);
-    const size_t first = first_pieces[k] + size_t{begins[k * stride]};
-    const size_t count = first_pieces[k] + size_t{ends[k * stride]} - first;
-    const Value* values = all_values + first * kPieceRows;
-    const uint16_t* blocks = all_blocks + first;
-    size_t p = 0;
-    for (; p + 4 <= count; p += 4) {
-      add_pieces<4, How>(values + p * kPieceRows, blocks + p, input, sums);
-    }
-    for (; p < count; ++p) add_pieces<1, How>(values + p * kPieceRows, blocks + p, input, sums);
+  const Value* const values = static_cast<const Value*>(args.values);
+  const uint16_t* const blocks = args.blocks;
+  float* const sums = args.sums;
+  const JointRun* const end = args.runs + args.run_count;
+  for (const JointRun* run = args.runs; run < end; ++run) {
+    expect(values, blocks, run[run + 1 < end]);
+    add_pairs<How>(values + size_t{run->first_pair} * kPieceRows, blocks + run->pair_entry,
+                   run->pair_count, sums, run->input);
+    add_singles<How>(values + size_t{run->first_single} * kPieceRows, blocks + run->single_entry,
+                     run->single_count, sums, broadcast_piece(run->input));
   }
 }
 
@@ -66,32 +144,38 @@ void add_columns(const JointColumnsArgs& args) {
 void joint_columns(const JointColumnsArgs& args) { add_columns<float>(args); }
 void joint_columns_fixed(const JointColumnsArgs& args) { add_columns<int16_t>(args); }
 
+// What became -0 is made 0: in a batch, who takes no part in a column adds 0 times its value.
 void finish_sums(float* sums, const float* scales, size_t count) {
   for (size_t i = 0; i < count; i += kPieceWidth) {
     PieceVec sum = load_piece(sums + i);
     if (scales) sum = sum * load_piece(scales + i);
-    store_piece(sums + i, saturate(sum));
+    store_piece(sums + i, saturate(sum) + broadcast_piece(0.0f));
   }
 }
 
-// Lanes are characters here, and a block's 8 rows are sums in registers: two vectors each where
-// there are registers for it, so that every value fetched is used twice.
+// Lanes are characters here, and a block's 8 rows are sums in registers. With 32 registers they are
+// two vectors each; with 16 only four rows fit twice, and are done before the other four.
 #if defined(MIEN_KERNEL_AVX512) || defined(MIEN_KERNEL_NEON)
-constexpr size_t kBatchVecs = 2;
+constexpr size_t kBatchVecs = 2, kBatchRows = kPieceRows;
+#elif defined(MIEN_KERNEL_SCALAR)
+constexpr size_t kBatchVecs = 1, kBatchRows = kPieceRows;
 #else
-constexpr size_t kBatchVecs = 1;
+constexpr size_t kBatchVecs = 2, kBatchRows = kPieceRows / 2;
 #endif
 constexpr size_t kBatchStep = kBatchVecs * kWidth;
 
 inline const float* piece_values(const float* values, float*) { return values; }
 inline const float* piece_values(const int16_t* values, float* made) {
-  for (size_t r = 0; r < kPieceRows; r += kPieceWidth)
+  for (size_t r = 0; r < kPieceRows; r += kPieceWidth) {
     store_piece(made + r, load_piece(values + r));
+  }
   return made;
 }
 
+/// Rows `first` ... of lanes `lane` ...: R counts rows.
 template <class How, class Value, size_t... R>
-inline void sum_block(const JointBatchArgs& args, size_t lane, std::index_sequence<R...>) {
+inline void sum_block(const JointBatchArgs& args, size_t first, size_t lane, float* sums,
+                      std::index_sequence<R...>) {
   const Value* const values = static_cast<const Value*>(args.values);
   const float* const inputs = args.inputs + lane;
   const BatchPiece* const pieces = args.pieces;
@@ -100,26 +184,48 @@ inline void sum_block(const JointBatchArgs& args, size_t lane, std::index_sequen
   Vec a[] = {(static_cast<void>(R), broadcast(0.0f))...};
   Vec b[] = {(static_cast<void>(R), broadcast(0.0f))...};
   for (size_t i = 0; i < piece_count; ++i) {
-    const float* const v = piece_values(values + size_t{pieces[i].piece} * kPieceRows, made);
+    __builtin_prefetch(values + size_t{pieces[i + kBatchAhead].piece} * kPieceRows);
+    const float* const v =
+        piece_values(values + size_t{pieces[i].piece} * kPieceRows, made) + first;
     const float* const x = inputs + size_t{pieces[i].input} * kBatchLanes;
-    const Vec xa = load(x);
-    const Vec xb = load(x + (kBatchVecs - 1) * kWidth);
-    ((a[R] = How::mul_add(broadcast(v[R]), xa, a[R])), ...);
-    if constexpr (kBatchVecs == 2) ((b[R] = How::mul_add(broadcast(v[R]), xb, b[R])), ...);
+    const Vec xa = load(x), xb = load(x + (kBatchVecs - 1) * kWidth);
+    const Vec row[] = {broadcast(v[R])...};
+    ((a[R] = How::mul_add(row[R], xa, a[R])), ...);
+    if constexpr (kBatchVecs == 2) ((b[R] = How::mul_add(row[R], xb, b[R])), ...);
   }
-  if (args.scales) {
-    ((a[R] = a[R] * broadcast(args.scales[R])), ...);
-    ((b[R] = b[R] * broadcast(args.scales[R])), ...);
-  }
-  float* const sums = args.sums + lane;
-  (store(sums + R * kBatchLanes, saturate(a[R])), ...);
-  if constexpr (kBatchVecs == 2) (store(sums + R * kBatchLanes + kWidth, saturate(b[R])), ...);
+  // [row][lane]
+  (store(sums + R * kBatchStep, a[R]), ...);
+  if constexpr (kBatchVecs == 2) (store(sums + R * kBatchStep + kWidth, b[R]), ...);
 }
 
 template <class How, class Value>
 inline void sum_block(const JointBatchArgs& args) {
-  for (size_t lane = 0; lane < args.lane_count; lane += kBatchStep) {
-    sum_block<How, Value>(args, lane, std::make_index_sequence<kPieceRows>());
+  alignas(64) float rows[kPieceRows * kBatchStep];
+  const size_t stride = args.stride, lane_count = args.lane_count;
+  for (size_t lane = 0; lane < lane_count; lane += kBatchStep) {
+    for (size_t r = 0; r < kPieceRows; r += kBatchRows) {
+      sum_block<How, Value>(args, r, lane, rows + r * kBatchStep,
+                            std::make_index_sequence<kBatchRows>());
+    }
+    // Rows become those of a character.
+    float* const sums = args.sums + lane * stride;
+    if constexpr (kBatchStep == 1) {
+      for (size_t r = 0; r < kPieceRows; ++r) sums[r] = rows[r];
+    } else {
+      for (size_t k = 0; k < kBatchStep; k += 4) {
+        for (size_t r = 0; r < kPieceRows; r += 4) {
+          const float* const from = rows + r * kBatchStep + k;
+          Quad q0 = load4(from), q1 = load4(from + kBatchStep), q2 = load4(from + 2 * kBatchStep),
+               q3 = load4(from + 3 * kBatchStep);
+          transpose4(q0, q1, q2, q3);
+          float* const to = sums + k * stride + r;
+          store4(to, q0);
+          store4(to + stride, q1);
+          store4(to + 2 * stride, q2);
+          store4(to + 3 * stride, q3);
+        }
+      }
+    }
   }
 }
 

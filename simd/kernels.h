@@ -22,28 +22,37 @@ constexpr uint32_t kPieceRows = 8;
 /// Blocks are named by multiples of this, which are addresses with the least work.
 constexpr uint32_t kBlockUnit = 4;
 
+/// How many pairs and how many single pieces of a column stand before some block.
+struct ColumnPart {
+  uint16_t pairs, singles;
+};
+
+/// What of a column of a joint matrix is multiplied by its input, and where it stands.
+struct JointRun {
+  uint32_t first_pair, pair_entry, pair_count;  // pieces; entries in `blocks`
+  uint32_t first_single, single_entry, single_count;
+  float input;
+};
+
 /// Columns of a joint matrix times their inputs, added to sums. A column is a run of pieces of 8
-/// values, each of which belongs to a block of 8 sums:
+/// values, each of which belongs to a block of 8 sums. Pieces of blocks 2i and 2i + 1 are a pair;
+/// pairs come first, then pieces without their other half:
 ///
-///     values  piece 0: r0 ... r7 | piece 1: r0 ... r7 | ...      (aligned to the size of a piece)
-///     blocks  where each piece is added; those of a column differ
+///     values  pair 0: r0 ... r15 | pair 1: r0 ... r15 | ... | piece: r0 ... r7 | ...
+///     blocks  the even block of each pair | the block of each piece
 ///
-/// For i in order, with k = columns[i], for p in order from first_pieces[k] + begins[k * stride] to
-/// first_pieces[k] + ends[k * stride]:
+/// Pairs are aligned to their size, and so are other pieces; no block comes twice in a run. For all
+/// runs in order:
 ///
-///     sums[8 * (blocks[p] / kBlockUnit - first_block) + r] += values(p, r) * inputs[i]
+///     sums[8 * (block / kBlockUnit) + r] += values(r) * input
+///
+/// Sums may begin with those of a later block; `sums` is where block 0 would be.
 struct JointColumnsArgs {
   const void* values;  // float, or int16_t
   const uint16_t* blocks;
-  const uint32_t* first_pieces;
-  const uint16_t* begins;
-  const uint16_t* ends;
-  const uint16_t* columns;
-  const float* inputs;
+  const JointRun* runs;
   float* sums;  // 64-byte aligned
-  size_t stride;
-  uint32_t column_count;
-  uint32_t first_block;
+  uint32_t run_count;
   bool portable;  // products are rounded before they are added, on every instruction set
 };
 
@@ -56,39 +65,57 @@ struct BatchPiece {
   uint32_t input;
 };
 
-/// Correctives of many characters, entry after entry: in each of the 32 lanes
+/// Correctives, entry after entry:
 ///
-///     controls[32 * outputs[e]] = min(1, weights[e] * product of clamp(controls[32 * input], 0,
-///     1))
+///     controls[outputs[e]] = min(1, weights[e] * product of clamp(controls[input], 0, 1))
 ///
 /// over inputs[first_inputs[e]] ... inputs[first_inputs[e + 1] - 1], in this order; at least the
-/// lowest float.
+/// lowest float. Without branches that depend on numbers: nobody foresees which are active.
+struct PsdArgs {
+  const uint16_t* outputs;
+  const float* weights;
+  const uint32_t* first_inputs;
+  const uint16_t* inputs;
+  const uint64_t* marks;  // [control]
+  float* controls;
+  uint32_t count;
+};
+/// Whether the bits of any output changed, and the marks of all that did.
+struct PsdChanges {
+  uint64_t marks;
+  bool any;
+};
+
+/// The same for many characters, each in a lane: controls[32 * c + lane] for controls[c]. Bit k of
+/// changed[e] tells whether the bits of lane k did.
 struct PsdBatchArgs {
   const uint16_t* outputs;
   const float* weights;
   const uint32_t* first_inputs;
   const uint16_t* inputs;
   float* controls;  // 64-byte aligned
+  uint32_t* changed;
   uint32_t count;
 };
 
 /// The sums of one block for many characters: for lanes k < lane_count (those up to the next
-/// multiple of batch_step may be written as well), for i in order:
+/// multiple of batch_step are written as well), for i in order:
 ///
-///     sums[32 * r + k] += values(pieces[i].piece, r) * inputs[32 * pieces[i].input + k]
+///     sums[k * stride + r] += values(pieces[i].piece, r) * inputs[32 * pieces[i].input + k]
 ///
-/// starting from 0, then times scales[r] (unless scales is null), saturated. Each sum has the bits
-/// that joint_columns gives.
+/// starting from 0: as joint_columns does, with the same bits.
 struct JointBatchArgs {
   const void* values;  // as for joint_columns
   const BatchPiece* pieces;
   const float* inputs;  // 64-byte aligned
-  const float* scales;  // null or 8
-  float* sums;          // 64-byte aligned
+  float* sums;          // 32-byte aligned
+  size_t stride;        // a multiple of 8
   uint32_t piece_count;
   uint32_t lane_count;
   bool portable;  // as above
 };
+/// Pieces behind the last one that joint_batch may fetch ahead, as a hint: their numbers are read.
+constexpr uint32_t kBatchAhead = 16;
 
 /// One dense layer of a neural network: outputs[r] = f(sum over c of values(r, c) * inputs[c] +
 /// bias), in blocks of 16 rows. Within a block the 16 values of a column are adjacent:
@@ -286,8 +313,10 @@ struct KernelTable {
   void (*joint_batch)(const JointBatchArgs& args);
   void (*joint_batch_fixed)(const JointBatchArgs& args);
   uint32_t batch_step;  // lanes that these take at a time
+  PsdChanges (*psds)(const PsdArgs& args);
   void (*psd_batch)(const PsdBatchArgs& args);
-  /// sums[i] = sums[i] * scales[i] (unless scales is null), saturated; count is a multiple of 8.
+  /// sums[i] = sums[i] * scales[i] (unless scales is null), saturated, plus 0; count is a multiple
+  /// of 8.
   void (*finish_sums)(float* sums, const float* scales, size_t count);
   void (*dense_layer)(const DenseLayerArgs& args);
   void (*joint_turns)(const JointTurnArgs& args);

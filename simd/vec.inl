@@ -31,6 +31,10 @@
 //   PieceVec        kPieceWidth floats, at most kPieceRows: Vec, or half of it
 //   load_piece      kPieceWidth floats, aligned; or as many 16-bit integers made floats
 //   store_piece, broadcast_piece, mul_add   as above
+//   load_pair       a Vec of two pieces, on AVX-512
+//
+//   different_lanes(a,b)   bit k: the bits of lane k differ
+//   higher_of, lower_of, bits_of   of a single float
 //
 // Quads are four floats on every instruction set: a column of a matrix, a point and one float that
 // nobody looks at. Names as above, with a 4: load4 and store4 take any address, store3 writes the
@@ -186,6 +190,14 @@ inline PieceVec load_piece(const int16_t* from) {
 }
 #endif
 
+#if defined(MIEN_KERNEL_AVX512)
+inline Vec load_pair(const float* from) { return Vec::load_aligned(from); }
+inline Vec load_pair(const int16_t* from) {
+  const __m256i narrow = _mm256_load_si256(reinterpret_cast<const __m256i*>(from));
+  return _mm512_cvtepi32_ps(_mm512_cvtepi16_epi32(narrow));
+}
+#endif
+
 inline Vec load(const float* from) { return Vec::load_aligned(from); }
 inline void store(float* to, Vec value) { value.store_unaligned(to); }
 inline void store_first(float* to, Vec value, size_t count) {
@@ -239,6 +251,49 @@ inline Vec round_to_whole(Vec v, Vec& power) {
 }
 
 #endif
+
+// Single floats -----------------------------------------------------------------------------------
+
+/// NaN gives the bound. By instruction where there is one: compilers make branches of the other
+/// way.
+#if defined(MIEN_KERNEL_SSE2) || defined(MIEN_KERNEL_AVX2) || defined(MIEN_KERNEL_AVX512)
+inline float higher_of(float value, float bound) {
+  return _mm_cvtss_f32(_mm_max_ss(_mm_set_ss(value), _mm_set_ss(bound)));
+}
+inline float lower_of(float value, float bound) {
+  return _mm_cvtss_f32(_mm_min_ss(_mm_set_ss(value), _mm_set_ss(bound)));
+}
+#else
+inline float higher_of(float value, float bound) { return value > bound ? value : bound; }
+inline float lower_of(float value, float bound) { return value < bound ? value : bound; }
+#endif
+inline uint32_t bits_of(float value) {
+  uint32_t bits;
+  __builtin_memcpy(&bits, &value, sizeof(bits));
+  return bits;
+}
+
+/// Bit k: the bits of lane k differ.
+inline uint32_t different_lanes(Vec a, Vec b) {
+#if defined(MIEN_KERNEL_AVX512)
+  return _mm512_cmpneq_epi32_mask(_mm512_castps_si512(a), _mm512_castps_si512(b));
+#elif defined(MIEN_KERNEL_AVX2)
+  const __m256i same = _mm256_cmpeq_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b));
+  return ~static_cast<uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(same))) & 0xFF;
+#elif defined(MIEN_KERNEL_SSE2)
+  const __m128i same = _mm_cmpeq_epi32(_mm_castps_si128(a), _mm_castps_si128(b));
+  return ~static_cast<uint32_t>(_mm_movemask_ps(_mm_castsi128_ps(same))) & 0xF;
+#else
+  float lanes[2][kWidth];
+  store(lanes[0], a);
+  store(lanes[1], b);
+  uint32_t different = 0;
+  for (size_t i = 0; i < kWidth; ++i) {
+    different |= uint32_t{bits_of(lanes[0][i]) != bits_of(lanes[1][i])} << i;
+  }
+  return different;
+#endif
+}
 
 // Quads -------------------------------------------------------------------------------------------
 

@@ -42,30 +42,41 @@ uint32_t bits_of(float value) {
 }
 
 /// A joint matrix with awkward numbers; the same for the same counts. Every column holds some of
-/// the blocks; the kernel works on those in the middle, as if the others were other chunks.
+/// the blocks, which begin at kFirstBlock; of some columns only a part is evaluated.
 class JointMatrix {
  public:
-  static constexpr uint32_t kFirstBlock = 3;
+  static constexpr uint32_t kFirstBlock = 4;
   static constexpr uint32_t kUnknown = 2;  // columns that are not evaluated, between the others
 
   JointMatrix(uint32_t column_count, uint32_t block_count, bool fixed)
       : fixed_(fixed), block_count_(block_count), state_(column_count * 131 + block_count + 1) {
-    for (uint32_t k = 0; k < column_count * kUnknown + 1; ++k) {
-      first_pieces_.push_back(static_cast<uint32_t>(blocks_.size()));
-      uint16_t counts[3] = {};  // pieces before, within and behind the chunk
-      for (uint32_t b = 0; b < kFirstBlock + block_count + 2; ++b) {
-        if (random() % 3 == 0) continue;
-        blocks_.push_back(static_cast<uint16_t>(b * kBlockUnit));
-        ++counts[b < kFirstBlock ? 0 : (b < kFirstBlock + block_count ? 1 : 2)];
+    uint32_t piece = 0;
+    for (uint32_t k = 0; k < column_count * kUnknown; ++k) {
+      std::vector<uint16_t> pairs, singles;
+      for (uint32_t b = 0; b < block_count; b += 2) {
+        const uint32_t kind = random() % 4;
+        const bool first = kind & 1, second = (kind & 2) && b + 1 < block_count;
+        const uint32_t number = kFirstBlock + b;
+        if (first && second) pairs.push_back(static_cast<uint16_t>(number * kBlockUnit));
+        if (first && !second) singles.push_back(static_cast<uint16_t>(number * kBlockUnit));
+        if (!first && second) singles.push_back(static_cast<uint16_t>((number + 1) * kBlockUnit));
       }
-      ends_.push_back(counts[0]);
-      ends_.push_back(static_cast<uint16_t>(counts[0] + counts[1]));
+      const auto entry = static_cast<uint32_t>(blocks_.size());
+      blocks_.insert(blocks_.end(), pairs.begin(), pairs.end());
+      blocks_.insert(blocks_.end(), singles.begin(), singles.end());
+      const auto pair_count = static_cast<uint32_t>(pairs.size());
+      const auto single_count = static_cast<uint32_t>(singles.size());
+      if (k % kUnknown == 0) {
+        const uint32_t skipped_pairs = pair_count ? random() % 2 : 0;
+        const uint32_t skipped_singles = single_count ? random() % 2 : 0;
+        runs_.push_back({piece + 2 * skipped_pairs, entry + skipped_pairs,
+                         pair_count - skipped_pairs, piece + 2 * pair_count + skipped_singles,
+                         entry + pair_count + skipped_singles, single_count - skipped_singles,
+                         awkward_number()});
+      }
+      piece += 2 * pair_count + single_count + single_count % 2;
     }
-    for (uint32_t i = 0; i < column_count; ++i) {
-      columns_.push_back(static_cast<uint16_t>(i * kUnknown));
-      inputs_.push_back(awkward_number());
-    }
-    const size_t value_count = blocks_.size() * kPieceRows;
+    const size_t value_count = size_t{piece} * kPieceRows;
     floats_.resize(value_count + 16);
     integers_.resize(value_count + 32);
     for (size_t i = 0; i < value_count; ++i) {
@@ -75,24 +86,18 @@ class JointMatrix {
     for (size_t i = 0; i < sum_count(); ++i) initial_.push_back(awkward_number());
   }
 
-  /// Sums by one instruction set; only those of the chunk are written.
+  /// Sums by one instruction set; only those of the blocks are written.
   std::vector<float> run(const KernelTable& kernels) {
     const float untouched = 12345.0f;
     std::vector<float> storage(16 + kGuard + sum_count() + kGuard, untouched);
     float* sums = aligned(storage.data()) + kGuard;
     std::copy(initial_.begin(), initial_.end(), sums);
     JointColumnsArgs args = {};
-    args.values = fixed_ ? static_cast<const void*>(integer_values()) : float_values();
+    args.values = values();
     args.blocks = blocks_.data();
-    args.first_pieces = first_pieces_.data();
-    args.begins = ends_.data();
-    args.ends = ends_.data() + 1;
-    args.stride = 2;
-    args.columns = columns_.data();
-    args.inputs = inputs_.data();
-    args.sums = sums;
-    args.column_count = static_cast<uint32_t>(columns_.size());
-    args.first_block = kFirstBlock;
+    args.runs = runs_.data();
+    args.run_count = static_cast<uint32_t>(runs_.size());
+    args.sums = sums - size_t{kFirstBlock} * kPieceRows;
     (fixed_ ? kernels.joint_columns_fixed : kernels.joint_columns)(args);
     for (size_t i = 0; i < kGuard; ++i) {
       EXPECT_EQ(sums[-1 - static_cast<ptrdiff_t>(i)], untouched);
@@ -101,20 +106,58 @@ class JointMatrix {
     return {sums, sums + sum_count()};
   }
 
+  /// Sums of `lane_count` characters with inputs of their own, block after block, from 0:
+  /// [character][sum]. What stands beside them is not touched.
+  std::vector<float> run_batch(const KernelTable& kernels, uint32_t lane_count) {
+    const size_t stride = sum_count() + kPieceRows;
+    std::vector<float> storage(16 + kBatchLanes * stride), inputs(16 + runs_.size() * kBatchLanes);
+    float* const sums = aligned(storage.data());
+    float* const lanes = aligned(inputs.data());
+    for (size_t i = 0; i < runs_.size(); ++i) {
+      for (uint32_t k = 0; k < lane_count; ++k) lanes[i * kBatchLanes + k] = input_of(i, k);
+    }
+    JointBatchArgs args = {};
+    args.values = values();
+    args.inputs = lanes;
+    args.stride = stride;
+    args.lane_count = lane_count;
+    for (uint32_t b = 0; b < block_count_; ++b) {
+      std::vector<BatchPiece> pieces;
+      for_each_piece([&](size_t i, size_t piece, size_t block) {
+        if (block == b) {
+          pieces.push_back({static_cast<uint32_t>(piece), static_cast<uint32_t>(i)});
+        }
+      });
+      args.piece_count = static_cast<uint32_t>(pieces.size());
+      pieces.resize(pieces.size() + kBatchAhead);
+      args.pieces = pieces.data();
+      args.sums = sums + size_t{b} * kPieceRows;
+      (fixed_ ? kernels.joint_batch_fixed : kernels.joint_batch)(args);
+    }
+    std::vector<float> result;
+    for (uint32_t k = 0; k < lane_count; ++k) {
+      result.insert(result.end(), sums + k * stride, sums + k * stride + sum_count());
+      for (size_t i = 0; i < kPieceRows; ++i) EXPECT_EQ(sums[k * stride + sum_count() + i], 0.0f);
+    }
+    return result;
+  }
+
+  /// Starts from 0, with the inputs of one of the characters above.
+  void become(uint32_t character) {
+    std::fill(initial_.begin(), initial_.end(), 0.0f);
+    for (size_t i = 0; i < runs_.size(); ++i) runs_[i].input = input_of(i, character);
+  }
+
   /// The same sums by a plain loop with the given multiply-add.
   template <class Number, class MulAdd>
   std::vector<Number> expected(MulAdd mul_add) {
     std::vector<Number> sums(initial_.begin(), initial_.end());
-    for (size_t i = 0; i < columns_.size(); ++i) {
-      const size_t k = columns_[i];
-      for (size_t p = ends_[2 * k]; p < ends_[2 * k + 1]; ++p) {
-        const size_t piece = first_pieces_[k] + p;
-        for (size_t r = 0; r < kPieceRows; ++r) {
-          Number& sum = sums[(blocks_[piece] / kBlockUnit - kFirstBlock) * kPieceRows + r];
-          sum = mul_add(Number{float_values()[piece * kPieceRows + r]}, Number{inputs_[i]}, sum);
-        }
+    for_each_piece([&](size_t i, size_t piece, size_t block) {
+      for (size_t r = 0; r < kPieceRows; ++r) {
+        Number& sum = sums[block * kPieceRows + r];
+        sum = mul_add(Number{float_values()[piece * kPieceRows + r]}, Number{runs_[i].input}, sum);
       }
-    }
+    });
     return sums;
   }
 
@@ -123,6 +166,26 @@ class JointMatrix {
  private:
   static constexpr size_t kGuard = 16;
 
+  /// Calls f(run, piece, block counted from the first).
+  template <class F>
+  void for_each_piece(F f) {
+    for (size_t i = 0; i < runs_.size(); ++i) {
+      const JointRun& run = runs_[i];
+      for (uint32_t p = 0; p < run.pair_count; ++p) {
+        const size_t block = blocks_[run.pair_entry + p] / kBlockUnit - kFirstBlock;
+        f(i, run.first_pair + 2 * p, block);
+        f(i, run.first_pair + 2 * p + 1, block + 1);
+      }
+      for (uint32_t p = 0; p < run.single_count; ++p) {
+        f(i, run.first_single + p, blocks_[run.single_entry + p] / kBlockUnit - kFirstBlock);
+      }
+    }
+  }
+
+  static float input_of(size_t run, uint32_t character) {
+    return static_cast<float>((run * 37 + character * 11) % 23) * 0.0437f;
+  }
+
   template <class T>
   static T* aligned(T* storage) {
     const uintptr_t address = reinterpret_cast<uintptr_t>(storage);
@@ -130,6 +193,9 @@ class JointMatrix {
   }
   float* float_values() { return aligned(floats_.data()); }
   int16_t* integer_values() { return aligned(integers_.data()); }
+  const void* values() {
+    return fixed_ ? static_cast<const void*>(integer_values()) : float_values();
+  }
 
   uint32_t random() {
     state_ = state_ * 1664525u + 1013904223u;
@@ -150,9 +216,9 @@ class JointMatrix {
 
   bool fixed_;
   uint32_t block_count_, state_;
-  std::vector<uint32_t> first_pieces_;
-  std::vector<uint16_t> blocks_, ends_, columns_;
-  std::vector<float> inputs_, floats_, initial_;
+  std::vector<JointRun> runs_;
+  std::vector<uint16_t> blocks_;
+  std::vector<float> floats_, initial_;
   std::vector<int16_t> integers_;
 };
 
@@ -206,6 +272,111 @@ TEST(JointColumnsKernel, TestDataTellsTheFamiliesApart) {
   EXPECT_NE(matrix.expected<float>(fused), matrix.expected<float>(rounded_twice));
 }
 
+TEST(JointBatchKernel, BitEqualToColumns) {
+  for_each_matrix([](JointMatrix& matrix, const KernelTable& kernels) {
+    for (uint32_t lane_count : {1u, 5u, kBatchLanes}) {
+      const std::vector<float> together = matrix.run_batch(kernels, lane_count);
+      for (uint32_t k = 0; k < lane_count; ++k) {
+        matrix.become(k);
+        const std::vector<float> alone = matrix.run(kernels);
+        for (size_t i = 0; i < alone.size(); ++i) {
+          // Inputs of 0 take part: what is -0 alone may be 0 here, until the sums are finished.
+          ASSERT_EQ(bits_of(together[k * alone.size() + i] + 0.0f), bits_of(alone[i] + 0.0f))
+              << "character " << k << ", sum " << i;
+        }
+      }
+    }
+  });
+}
+
+/// Correctives with awkward inputs; some read what others give.
+struct Correctives {
+  std::vector<uint16_t> outputs, inputs;
+  std::vector<float> weights;
+  std::vector<uint32_t> first_inputs = {0};
+  std::vector<uint64_t> marks;
+  uint32_t control_count = 40;
+
+  Correctives() {
+    for (uint32_t e = 0; e < 20; ++e) {
+      outputs.push_back(static_cast<uint16_t>(20 + e));
+      for (uint32_t i = 0; i < e % 4; ++i) {
+        inputs.push_back(static_cast<uint16_t>((e * 7 + i * 5) % (20 + e)));
+      }
+      first_inputs.push_back(static_cast<uint32_t>(inputs.size()));
+      weights.push_back(e % 5 == 0 ? -3.0f : 0.5f + static_cast<float>(e) * 0.1f);
+    }
+    for (uint32_t c = 0; c < control_count; ++c) marks.push_back(uint64_t{1} << c);
+  }
+
+  static float input_of(uint32_t control, uint32_t character) {
+    if (control == 3) return std::numeric_limits<float>::quiet_NaN();
+    if (control == 4) return -std::numeric_limits<float>::infinity();
+    return static_cast<float>((control * 13 + character * 7) % 19) * 0.1f - 0.3f;
+  }
+
+  /// Controls of a character: inputs, and what its correctives were before.
+  std::vector<float> controls(uint32_t character) const {
+    std::vector<float> values(control_count, 0.25f);
+    for (uint32_t c = 0; c < 20; ++c) values[c] = input_of(c, character);
+    return values;
+  }
+
+  /// By plain loops; tells which outputs changed.
+  std::vector<float> expected(std::vector<float> values, uint64_t& changed) const {
+    changed = 0;
+    for (size_t e = 0; e < outputs.size(); ++e) {
+      float product = 1.0f;
+      for (uint32_t i = first_inputs[e]; i < first_inputs[e + 1]; ++i) {
+        const float input = values[inputs[i]];
+        product *= input > 0.0f ? (input < 1.0f ? input : 1.0f) : 0.0f;
+      }
+      product *= weights[e];
+      const float value = product < 1.0f ? product : 1.0f;
+      if (bits_of(value) != bits_of(values[outputs[e]])) changed |= uint64_t{1} << outputs[e];
+      values[outputs[e]] = value;
+    }
+    return values;
+  }
+};
+
+TEST(PsdKernels, BitEqualToPlainLoopsAndTellChanges) {
+  const Correctives c;
+  for (const KernelTable* kernels : present_kernels()) {
+    SCOPED_TRACE(kernels->name);
+    alignas(64) float lanes[40 * kBatchLanes];
+    for (uint32_t k = 0; k < kBatchLanes; ++k) {
+      const std::vector<float> values = c.controls(k);
+      for (uint32_t i = 0; i < c.control_count; ++i) lanes[i * kBatchLanes + k] = values[i];
+    }
+    uint32_t changed_lanes[20] = {};
+    kernels->psd_batch({c.outputs.data(), c.weights.data(), c.first_inputs.data(), c.inputs.data(),
+                        lanes, changed_lanes, 20});
+    for (uint32_t k = 0; k < kBatchLanes; ++k) {
+      std::vector<float> values = c.controls(k);
+      uint64_t changed = 0;
+      const std::vector<float> expected = c.expected(values, changed);
+      const PsdChanges changes =
+          kernels->psds({c.outputs.data(), c.weights.data(), c.first_inputs.data(), c.inputs.data(),
+                         c.marks.data(), values.data(), 20});
+      EXPECT_EQ(changes.marks, changed);
+      EXPECT_TRUE(changes.any);
+      for (uint32_t i = 0; i < c.control_count; ++i) {
+        EXPECT_EQ(bits_of(values[i]), bits_of(expected[i])) << "control " << i;
+        EXPECT_EQ(bits_of(lanes[i * kBatchLanes + k]), bits_of(expected[i])) << "control " << i;
+      }
+      for (uint32_t e = 0; e < 20; ++e) {
+        EXPECT_EQ(changed_lanes[e] >> k & 1, changed >> c.outputs[e] & 1) << "corrective " << e;
+      }
+      // Once more: nothing changes.
+      EXPECT_FALSE(kernels
+                       ->psds({c.outputs.data(), c.weights.data(), c.first_inputs.data(),
+                               c.inputs.data(), c.marks.data(), values.data(), 20})
+                       .any);
+    }
+  }
+}
+
 TEST(FinishSumsKernel, ScalesAndSaturates) {
   constexpr float kLargest = std::numeric_limits<float>::max();
   const float infinity = std::numeric_limits<float>::infinity();
@@ -218,6 +389,9 @@ TEST(FinishSumsKernel, ScalesAndSaturates) {
     kernels->finish_sums(sums, scales, 8);
     kernels->finish_sums(sums + 8, nullptr, 8);
     const float scaled[] = {2, 1, -3, kLargest, -kLargest, kLargest, 0, -6};
+    alignas(64) float zeros[8] = {-0.0f, 0.0f, 1, 1, 1, 1, 1, 1};
+    kernels->finish_sums(zeros, nullptr, 8);
+    EXPECT_EQ(bits_of(zeros[0]), bits_of(0.0f));
     const float plain[] = {1, 2, -3, -kLargest, -kLargest, kLargest, 5, 6};
     for (size_t i = 0; i < 8; ++i) {
       EXPECT_EQ(sums[i], scaled[i]) << i;

@@ -2,6 +2,7 @@
 #include "runtime/eval/batch.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "runtime/eval/evaluate.h"
 
@@ -9,9 +10,6 @@ namespace mien {
 namespace {
 
 // Making, measuring -------------------------------------------------------------------------------
-
-/// Lists of active pieces are made as long as those are fewer than this share; else all are taken.
-constexpr size_t kListedShare = 2;
 
 uint32_t block_count(const JointMatrix& joints) {
   return joints.chunks[joints.chunk_count()].first_block;
@@ -24,47 +22,46 @@ size_t most_crowds(const Rig& rig, uint32_t capacity) {
 
 void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& placer, Batch& batch) {
   const JointMatrix& joints = rig.joints;
+  size_t piece_count = kBatchAhead;
+  for (size_t k = 0; k < joints.columns.count; ++k) {
+    piece_count += joints.pieces_before(k, joints.chunk_count());
+  }
   placer.array<Batch>(1);
   batch.starts = placer.array<uint32_t>(size_t{block_count(joints)} + 1);
-  batch.pieces = placer.array<BatchPiece>(joints.blocks.count);
+  batch.pieces = placer.array<BatchPiece>(piece_count);
   batch.order = placer.array<Instance*>(capacity);
   batch.lods = placer.array<uint32_t>(capacity);
   batch.first_of_crowd = placer.array<uint32_t>(most_crowds(rig, capacity) + 1);
   batch.tasks = placer.array<CrowdScratch>(std::min<size_t>(tasks, most_crowds(rig, capacity)));
-  uint32_t chunk_blocks = 0;
-  for (uint32_t c = 0; c < joints.chunk_count(); ++c) {
-    const uint32_t blocks = joints.chunks[c + 1].first_block - joints.chunks[c].first_block;
-    chunk_blocks = std::max(chunk_blocks, blocks);
-  }
+  const size_t tile_blocks = std::min(block_count(joints), JointTile::kMostBlocks);
   for (size_t i = 0; i < batch.tasks.count; ++i) {
     CrowdScratch scratch;
     scratch.controls =
         placer.array<float>(size_t{rig.control_count} * kBatchLanes, kBlockAlignment);
-    scratch.sums =
-        placer.array<float>(size_t{chunk_blocks} * kPieceRows * kBatchLanes, kBlockAlignment);
-    scratch.starts = placer.array<uint32_t>(size_t{block_count(joints)} + 1);
-    scratch.pieces = placer.array<BatchPiece>(joints.blocks.count / kListedShare);
-    scratch.active = placer.array<uint16_t>(joints.columns.count);
+    scratch.changed = placer.array<uint32_t>(rig.psds.outputs.count);
+    scratch.users = placer.array<uint8_t>(joints.columns.count);
+    scratch.sums = placer.array<float>(tile_blocks * kPieceRows * kBatchLanes, kBlockAlignment);
+    scratch.ends = placer.array<uint32_t>(block_count(joints));
+    scratch.pieces = placer.array<BatchPiece>(piece_count);
     if (!placer.measuring()) batch.tasks[i] = scratch;
   }
 }
 
-/// Sorts the pieces of columns by block; of one block they stay in order of their columns.
-template <class ForEachColumn>
-void list_pieces(const JointMatrix& joints, ForEachColumn&& for_each_column, uint32_t blocks,
-                 uint32_t* starts, BatchPiece* pieces) {
-  std::fill(starts, starts + blocks + 1, 0u);
-  for_each_column([&](uint32_t, uint32_t first, uint32_t end) {
-    for (uint32_t p = first; p < end; ++p) ++starts[joints.blocks[p] / kBlockUnit + 1];
-  });
+/// All pieces by block; of one block in order of their columns.
+void list_pieces(const JointMatrix& joints, Batch& batch) {
+  const uint32_t blocks = block_count(joints), chunks = joints.chunk_count();
+  uint32_t* starts = batch.starts.data;
+  for (size_t k = 0; k < joints.columns.count; ++k) {
+    joints.for_each_piece(k, chunks, [&](uint32_t, uint32_t block) { ++starts[block + 1]; });
+  }
   for (uint32_t b = 0; b < blocks; ++b) starts[b + 1] += starts[b];
   // Filling moves each start to that of the next block: back again afterwards.
-  for_each_column([&](uint32_t column, uint32_t first, uint32_t end) {
-    const uint32_t control = joints.columns[column];
-    for (uint32_t p = first; p < end; ++p) {
-      pieces[starts[joints.blocks[p] / kBlockUnit]++] = {p, control};
-    }
-  });
+  for (size_t k = 0; k < joints.columns.count; ++k) {
+    const uint32_t control = joints.columns[k];
+    joints.for_each_piece(k, chunks, [&](uint32_t piece, uint32_t block) {
+      batch.pieces[starts[block]++] = {piece, control};
+    });
+  }
   for (uint32_t b = blocks; b > 0; --b) starts[b] = starts[b - 1];
   starts[0] = 0;
 }
@@ -83,11 +80,12 @@ struct Crowd {
 
 /// Controls side by side, 0 in the lanes of nobody.
 void gather_controls(const Crowd& crowd) {
-  float* controls = crowd.scratch.controls.data;
-  std::fill(controls, controls + crowd.scratch.controls.count, 0.0f);
-  for (uint32_t i = 0; i < crowd.count; ++i) {
-    const float* from = crowd.instances[i]->controls.data;
-    for (size_t c = 0; c < crowd.rig.control_count; ++c) controls[c * kBatchLanes + i] = from[c];
+  const float* from[kBatchLanes];
+  for (uint32_t i = 0; i < crowd.count; ++i) from[i] = crowd.instances[i]->controls.data;
+  float* lanes = crowd.scratch.controls.data;
+  for (size_t c = 0; c < crowd.rig.control_count; ++c, lanes += kBatchLanes) {
+    for (uint32_t i = 0; i < crowd.count; ++i) lanes[i] = from[i][c];
+    for (uint32_t i = crowd.count; i < kBatchLanes; ++i) lanes[i] = 0.0f;
   }
 }
 
@@ -95,88 +93,97 @@ void gather_controls(const Crowd& crowd) {
 void evaluate_psds(const Crowd& crowd) {
   const PsdTable& psds = crowd.rig.psds;
   const uint32_t count = crowd.rig.psd_count ? psds.count_at_lod[crowd.lod] : 0;
-  float* controls = crowd.scratch.controls.data;
+  uint32_t* changed = crowd.scratch.changed.data;
   crowd.rig.kernels->psd_batch({psds.outputs.data, psds.weights.data, psds.first_input.data,
-                                psds.inputs.data, controls, count});
-  for (uint32_t i = 0; i < crowd.count; ++i) {
-    Instance& instance = *crowd.instances[i];
-    uint64_t chunks = 0;
-    bool changed = false;
-    for (uint32_t e = 0; e < count; ++e) {
-      const size_t output = psds.outputs[e];
-      const float value = controls[output * kBatchLanes + i];
-      if (same_bits(value, instance.controls[output])) continue;
-      instance.controls[output] = value;
-      chunks |= crowd.rig.joints.control_chunks[output];
-      changed = true;
+                                psds.inputs.data, crowd.scratch.controls.data, changed, count});
+  uint64_t marks[kBatchLanes] = {};
+  const uint32_t all = ~uint32_t{0} >> (kBatchLanes - crowd.count);
+  uint32_t any = 0;
+  for (uint32_t e = 0; e < count; ++e) {
+    const size_t output = psds.outputs[e];
+    const float* lanes = crowd.scratch.controls.data + output * kBatchLanes;
+    any |= changed[e];
+    for (uint32_t i = 0, bits = changed[e] & all; bits != 0; ++i, bits >>= 1) {
+      if ((bits & 1) == 0) continue;
+      crowd.instances[i]->controls[output] = lanes[i];
+      marks[i] |= crowd.rig.joints.control_chunks[output];
     }
-    note_changed_psds(instance, chunks, changed);
+  }
+  for (uint32_t i = 0; i < crowd.count; ++i) {
+    note_changed_psds(*crowd.instances[i], marks[i], any >> i & 1);
   }
 }
 
-/// Pieces of the columns that any of the crowd uses, and how many the instances would read one by
-/// one.
-struct Work {
-  uint32_t column_count = 0;
-  uint64_t together = 0, apart = 0;
+/// Lanes that are not zero.
+uint32_t count_users(const float* lanes) {
+  uint32_t bits[kBatchLanes], users = 0;
+  memcpy(bits, lanes, sizeof(bits));
+  for (uint32_t i = 0; i < kBatchLanes; ++i) users += bits[i] << 1 != 0;
+  return users;
+}
+
+/// The columns before `column_end` are summed for all at once. Those that somebody uses have
+/// `pieces` of the `all` pieces there are.
+struct Together {
+  uint32_t column_end = 0;
+  size_t pieces = 0, all = 0;
 };
 
-Work find_active(const Crowd& crowd) {
+/// Together a piece costs a place in a list, and all lanes whoever uses it; apart it is fetched by
+/// everybody who uses it. Columns stay in order, so there is one place where the ways part: between
+/// controls that many move and correctives that few reach. Fifths of a cycle, as measured on a
+/// production head.
+Together find_together(const Crowd& crowd) {
+  constexpr int64_t kListed = 12, kPass = 45, kFetched = 12;
   const JointMatrix& joints = crowd.rig.joints;
   const uint32_t chunks = joints.chunks_at_lod[crowd.lod];
-  Work work;
+  const uint32_t step = crowd.rig.kernels->batch_step;
+  const int64_t passes = (crowd.count + step - 1) / step;
+  Together together, best;
+  int64_t saved = 0, most = kPass * passes * joints.chunks[chunks].first_block;
   for (uint32_t k = 0; k < joints.columns.count; ++k) {
     const float* lanes = crowd.scratch.controls.data + size_t{joints.columns[k]} * kBatchLanes;
-    int users = 0;
-    for (uint32_t i = 0; i < kBatchLanes; ++i) users += lanes[i] != 0.0f;
+    const int64_t users = count_users(lanes);
+    crowd.scratch.users[k] = static_cast<uint8_t>(users);
+    const uint32_t pieces = joints.pieces_before(k, chunks);
+    together.all += pieces;
     if (users == 0) continue;
-    const uint32_t pieces = joints.chunk_pieces[size_t{k} * joints.chunks.count + chunks];
-    work.together += pieces;
-    work.apart += uint64_t{pieces} * static_cast<uint32_t>(users);
-    crowd.scratch.active[work.column_count++] = static_cast<uint16_t>(k);
+    together.pieces += pieces;
+    saved += pieces * (users * kFetched - kListed - kPass * passes);
+    if (saved <= most) continue;
+    most = saved;
+    best = together;
+    best.column_end = k + 1;
   }
-  return work;
+  return best;
 }
 
-/// Together each piece costs a place in a list, and all lanes whoever uses it; apart it is fetched
-/// by everybody who uses it. Fifths of a cycle, as measured on a production head.
-bool together_pays(const Crowd& crowd, const Work& work) {
-  const uint32_t step = crowd.rig.kernels->batch_step;
-  const uint64_t passes = (crowd.count + step - 1) / step;
-  return work.together * (15 + 45 * passes) < work.apart * 18;
-}
-
-void write_chunk(const Crowd& crowd, uint32_t chunk) {
-  for (uint32_t i = 0; i < crowd.count; ++i) {
-    const float* sums = crowd.scratch.sums.data + i;
-    float* out = crowd.instances[i]->joints_and_angles.data;
-    for_each_target(crowd.rig, crowd.lod, chunk, [&](const JointTarget& target, int rows) {
-      const float* sum = sums + size_t{target.slot} * kBatchLanes;
-      out[target.output] = sum[0];
-      if (rows == 1) return;
-      out[target.output + 1] = sum[kBatchLanes];
-      out[target.output + 2] = sum[2 * kBatchLanes];
+/// Where the pieces of each block end that are summed together.
+void list_together(const Crowd& crowd, const Together& together) {
+  const JointMatrix& joints = crowd.rig.joints;
+  const uint32_t chunks = joints.chunks_at_lod[crowd.lod];
+  const Batch& batch = crowd.batch;
+  uint32_t* ends = crowd.scratch.ends.data;
+  std::copy(batch.starts.data, batch.starts.data + joints.chunks[chunks].first_block, ends);
+  BatchPiece* pieces = crowd.scratch.pieces.data;
+  for (uint32_t k = 0; k < together.column_end; ++k) {
+    if (crowd.scratch.users[k] == 0) continue;
+    const uint32_t control = joints.columns[k];
+    joints.for_each_piece(k, chunks, [&](uint32_t piece, uint32_t block) {
+      pieces[ends[block]++] = {piece, control};
     });
   }
 }
 
-void evaluate_rows(const Crowd& crowd, const Work& work) {
+void evaluate_rows(const Crowd& crowd, const Together& together) {
   const JointMatrix& joints = crowd.rig.joints;
-  const uint32_t chunks = joints.chunks_at_lod[crowd.lod];
-  const uint32_t* starts = crowd.batch.starts.data;
-  const BatchPiece* pieces = crowd.batch.pieces.data;
-  if (work.together < joints.blocks.count / kListedShare) {
-    const auto for_each_active = [&](auto&& f) {
-      for (uint32_t a = 0; a < work.column_count; ++a) {
-        const uint32_t k = crowd.scratch.active[a], first = joints.first_piece[k];
-        f(k, first, first + joints.chunk_pieces[size_t{k} * joints.chunks.count + chunks]);
-      }
-    };
-    list_pieces(joints, for_each_active, joints.chunks[chunks].first_block,
-                crowd.scratch.starts.data, crowd.scratch.pieces.data);
-    starts = crowd.scratch.starts.data;
-    pieces = crowd.scratch.pieces.data;
-  }
+  const uint32_t chunk_end = joints.chunks_at_lod[crowd.lod];
+  // Pieces that nobody uses are summed as well, unless a list without them is shorter by much.
+  const bool listed = together.pieces < together.all / 2;
+  const bool whole = together.column_end == joints.columns.count;
+  if (listed) list_together(crowd, together);
+  const BatchPiece* pieces = listed ? crowd.scratch.pieces.data : crowd.batch.pieces.data;
+  const uint32_t end_control = whole ? 0 : joints.columns[together.column_end];
 
   const bool fixed = joints.values.empty();
   const auto sum_block =
@@ -186,16 +193,31 @@ void evaluate_rows(const Crowd& crowd, const Work& work) {
   args.inputs = crowd.scratch.controls.data;
   args.lane_count = crowd.count;
   args.portable = crowd.rig.portable;
-  for (uint32_t c = 0; c < chunks; ++c) {
+  for (uint32_t c = 0; c < chunk_end;) {
+    JointTile tile = tile_from(joints, c, chunk_end, nullptr);
+    c = tile.end_chunk;
+    const uint32_t first = joints.chunks[tile.first_chunk].first_block;
+    const uint32_t end = joints.chunks[tile.end_chunk].first_block;
     args.sums = crowd.scratch.sums.data;
-    for (uint32_t b = joints.chunks[c].first_block; b < joints.chunks[c + 1].first_block; ++b) {
-      args.pieces = pieces + starts[b];
-      args.piece_count = starts[b + 1] - starts[b];
-      args.scales = fixed ? joints.scales.data + size_t{b} * kPieceRows : nullptr;
+    args.stride = size_t{end - first} * kPieceRows;
+    for (uint32_t b = first; b < end; ++b) {
+      const uint32_t start = crowd.batch.starts[b], start_of_next = crowd.batch.starts[b + 1];
+      args.pieces = pieces + start;
+      const BatchPiece* stop = pieces + start_of_next;
+      if (listed) {
+        stop = pieces + crowd.scratch.ends[b];
+      } else if (!whole) {
+        stop = std::partition_point(
+            args.pieces, stop, [&](const BatchPiece& piece) { return piece.input < end_control; });
+      }
+      args.piece_count = static_cast<uint32_t>(stop - args.pieces);
       sum_block(args);
-      args.sums += kPieceRows * kBatchLanes;
+      args.sums += kPieceRows;
     }
-    write_chunk(crowd, c);
+    for (uint32_t i = 0; i < crowd.count; ++i) {
+      tile.sums = crowd.scratch.sums.data + i * args.stride;
+      finish_tile(crowd.rig, *crowd.instances[i], crowd.lod, tile, together.column_end, kAllGroups);
+    }
   }
 }
 
@@ -219,10 +241,10 @@ void evaluate_crowd(const Crowd& crowd, uint32_t stages) {
   if (those.count > 1) {
     gather_controls(those);
     if (stages & kStagePsd) evaluate_psds(those);
-    const Work work = find_active(those);
-    if (together_pays(those, work)) {
+    const Together together = find_together(those);
+    if (together.column_end != 0) {
       each(those, [&](Instance& i) { begin_joints(crowd.rig, i, crowd.lod); });
-      evaluate_rows(those, work);
+      evaluate_rows(those, together);
       each(those, [&](Instance& i) { finish_joints(crowd.rig, i, crowd.lod); });
     }
   }
@@ -254,13 +276,7 @@ Batch* create_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, const All
   batch->block_size = size;
   rig.owners.fetch_add(1, std::memory_order_relaxed);
 
-  const JointMatrix& joints = rig.joints;
-  const auto for_each_column = [&](auto&& f) {
-    for (uint32_t k = 0; k < joints.columns.count; ++k) {
-      f(k, joints.first_piece[k], joints.first_piece[k + 1]);
-    }
-  };
-  list_pieces(joints, for_each_column, block_count(joints), batch->starts.data, batch->pieces.data);
+  list_pieces(rig.joints, *batch);
   return batch;
 }
 

@@ -2,7 +2,8 @@
 // Many instances of one rig at once: the joint matrix is fetched once for up to 32 of them.
 //
 //     instances  ->  by LOD, crowds of up to 32  ->  each crowd: stages before the correctives one
-//     by one, correctives and joint rows together, the rest one by one
+//     by one, correctives together, columns that many use together, those that few use and all
+//     other stages one by one
 #pragma once
 
 #include "runtime/base/parallel_for.h"
@@ -13,10 +14,11 @@ namespace mien {
 /// Scratch of one task.
 struct CrowdScratch {
   Span<float> controls;     // [control][32]
-  Span<float> sums;         // [row of a chunk][32]
-  Span<uint32_t> starts;    // [block], one more at the end: into pieces
-  Span<BatchPiece> pieces;  // of active columns, by block
-  Span<uint16_t> active;    // columns
+  Span<uint32_t> changed;   // [corrective] a bit for each of the 32
+  Span<uint8_t> users;      // [column] how many of them use it
+  Span<float> sums;         // [32][row of a tile]
+  Span<uint32_t> ends;      // [block] into pieces
+  Span<BatchPiece> pieces;  // of active columns: in each block they begin where those of all do
 };
 
 struct Batch {
@@ -26,7 +28,8 @@ struct Batch {
   Allocator allocator;
   size_t block_size = 0;
 
-  // All pieces of the joint matrix by block, in order of their columns.
+  // All pieces of the joint matrix by block, in order of their columns; kBatchAhead more at the
+  // end.
   Span<uint32_t> starts;  // [block], one more at the end
   Span<BatchPiece> pieces;
 

@@ -70,24 +70,10 @@ void add_table_rows(const ControlTable& table, uint32_t row_count, const Span<fl
 // rig-evaluation 3.3, in dependency order.
 void evaluate_psds(const Rig& rig, Instance& instance, uint32_t lod) {
   const PsdTable& psds = rig.psds;
-  float* controls = instance.controls.data;
-  const uint32_t count = psds.count_at_lod[lod];
-  uint64_t chunks = 0;
-  bool changed = false;
-  for (uint32_t i = 0; i < count; ++i) {
-    float product = 1.0f;
-    for (uint32_t k = psds.first_input[i]; k < psds.first_input[i + 1]; ++k) {
-      product *= clamp01(controls[psds.inputs[k]]);
-    }
-    product *= psds.weights[i];
-    const uint16_t output = psds.outputs[i];
-    const float value = product < 1.0f ? std::max(product, -kLargestFloat) : 1.0f;
-    if (same_bits(value, controls[output])) continue;
-    controls[output] = value;
-    chunks |= rig.joints.control_chunks[output];
-    changed = true;
-  }
-  note_changed_psds(instance, chunks, changed);
+  const PsdChanges changes = rig.kernels->psds(
+      {psds.outputs.data, psds.weights.data, psds.first_input.data, psds.inputs.data,
+       rig.joints.control_chunks.data, instance.controls.data, psds.count_at_lod[lod]});
+  note_changed_psds(instance, changes.marks, changes.any);
 }
 
 void evaluate_joints(const Rig& rig, Instance& instance, uint32_t lod) {

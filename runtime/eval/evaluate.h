@@ -49,20 +49,25 @@ inline float saturated(double value) {
 
 // Stages in files of their own; `lod` has been entered.
 
-/// Calls f(target, number of rows) for what a LOD writes of a chunk of the joint matrix.
-template <class F>
-void for_each_target(const Rig& rig, uint32_t lod, uint32_t chunk, F&& f) {
-  const JointMatrix& joints = rig.joints;
-  const uint16_t* threes = joints.threes_at_lod.data + size_t{chunk} * rig.lod_count;
-  const uint16_t* ones = joints.ones_at_lod.data + size_t{chunk} * rig.lod_count;
-  const JointTarget* targets = joints.targets.data + joints.chunks[chunk].first_target;
-  for (uint32_t t = 0; t < threes[lod]; ++t) f(targets[t], 3);
-  targets += threes[0];
-  for (uint32_t t = 0; t < ones[lod]; ++t) f(targets[t], 1);
-}
-
 constexpr uint64_t kAllChunks = ~uint64_t{0};
 constexpr uint32_t kAllGroups = ~uint32_t{0};
+
+/// Neighbouring chunks of the joint matrix and their sums, which start from 0: all chunks of a
+/// face, so that each column is read in one go.
+struct JointTile {
+  static constexpr uint32_t kMostBlocks = 1024;
+  uint32_t first_chunk, end_chunk;
+  float* sums;  // [block of the tile][8], 64-byte aligned
+};
+static_assert(JointTile::kMostBlocks >= kMostChunkBlocks, "a chunk fits");
+
+/// The tile that begins with a chunk and has as many of those before `end_chunk` as fit.
+JointTile tile_from(const JointMatrix& joints, uint32_t first_chunk, uint32_t end_chunk,
+                    float* sums);
+/// Adds columns `first_column` and on, scales and saturates, and writes what the LOD has of a group
+/// or of all.
+void finish_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTile& tile,
+                 uint32_t first_column, uint32_t only_group);
 /// Rows of the chunks that are marked (bit c >> chunk_shift for chunk c).
 void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, uint64_t marks,
                          uint32_t only_group);

@@ -3,91 +3,96 @@
 //
 //     controls  ->  those that are not zero  ->  sums, a tile of chunks at a time  ->  joint values
 #include <algorithm>
+#include <cstring>
+#include <type_traits>
 
 #include "runtime/eval/evaluate.h"
 
 namespace mien {
 namespace {
 
-/// Columns whose controls are not zero: a part of them, if a rig has very many.
-struct ActiveColumns {
-  static constexpr uint32_t kMost = 1024;
-  uint16_t columns[kMost];
-  float inputs[kMost];
-  uint32_t count;
-  uint32_t first = ~uint32_t{0};  // of the columns that were looked at
+/// What columns first, first + 1, ... have for a tile, of controls that are not zero: some of them,
+/// if a rig has very many.
+struct ActiveRuns {
+  static constexpr uint32_t kMost = 256;
+  JointRun runs[kMost];
+  uint32_t count = 0;
 
-  void find(const JointMatrix& joints, const float* controls, uint32_t from) {
-    if (first == from) return;
-    first = from;
+  /// Returns the first column it did not look at.
+  uint32_t find(const JointMatrix& joints, const float* controls, const JointTile& tile,
+                uint32_t first) {
     const auto all = static_cast<uint32_t>(joints.columns.count);
-    const uint32_t end = all - from < kMost ? all : from + kMost;
+    const uint32_t end = all - first < kMost ? all : first + kMost;
+    uint16_t active[kMost];
     count = 0;
-    for (uint32_t k = from; k < end; ++k) {
-      const float input = controls[joints.columns[k]];
-      columns[count] = static_cast<uint16_t>(k);
-      inputs[count] = input;
-      count += input != 0.0f;
+    for (uint32_t k = first; k < end; ++k) {
+      active[count] = static_cast<uint16_t>(k);
+      count += controls[joints.columns[k]] != 0.0f;
     }
+    const size_t stride = joints.chunks.count;
+    for (uint32_t i = 0; i < count; ++i) {
+      const size_t k = active[i];
+      const ColumnPart* parts = joints.parts.data + k * stride;
+      const ColumnPart from = parts[tile.first_chunk], to = parts[tile.end_chunk];
+      const uint32_t pairs = parts[stride - 1].pairs;
+      const uint32_t piece = joints.first_piece[k], entry = joints.first_entry[k];
+      runs[i] = {piece + 2 * from.pairs,
+                 entry + from.pairs,
+                 static_cast<uint32_t>(to.pairs - from.pairs),
+                 piece + 2 * pairs + from.singles,
+                 entry + pairs + from.singles,
+                 static_cast<uint32_t>(to.singles - from.singles),
+                 controls[joints.columns[k]]};
+    }
+    return end;
   }
 };
 
-/// Sums of neighbouring chunks: of all chunks of a face, so that each column is read in one go.
-/// (32 KiB of stack, the most that evaluation takes, beside 6 KiB for the columns.)
-struct Tile {
-  static constexpr uint32_t kMostBlocks = 1024;
-  uint32_t first_chunk, end_chunk;
-  alignas(kBlockAlignment) float sums[kMostBlocks * kPieceRows];
-};
-static_assert(Tile::kMostBlocks >= kMostChunkBlocks, "a chunk fits");
-
-void sum_tile(const Rig& rig, const Instance& instance, ActiveColumns& active, Tile& tile) {
+void add_columns(const Rig& rig, const Instance& instance, const JointTile& tile,
+                 uint32_t first_column) {
   const JointMatrix& joints = rig.joints;
-  const uint32_t first_block = joints.chunks[tile.first_chunk].first_block;
-  const uint32_t sum_count = (joints.chunks[tile.end_chunk].first_block - first_block) * kPieceRows;
-  std::fill(tile.sums, tile.sums + sum_count, 0.0f);
-
-  JointColumnsArgs args;
   const bool fixed = joints.values.empty();
+  ActiveRuns active;
+  JointColumnsArgs args;
   args.values = fixed ? static_cast<const void*>(joints.fixed_values.data) : joints.values.data;
   args.blocks = joints.blocks.data;
-  args.first_pieces = joints.first_piece.data;
-  args.begins = joints.chunk_pieces.data + tile.first_chunk;
-  args.ends = joints.chunk_pieces.data + tile.end_chunk;
-  args.stride = joints.chunks.count;
-  args.columns = active.columns;
-  args.inputs = active.inputs;
-  args.sums = tile.sums;
-  args.first_block = first_block;
+  args.runs = active.runs;
+  args.sums = tile.sums - size_t{joints.chunks[tile.first_chunk].first_block} * kPieceRows;
   args.portable = rig.portable;
-  for (uint32_t k = 0; k < joints.columns.count; k += ActiveColumns::kMost) {
-    active.find(joints, instance.controls.data, k);
-    args.column_count = active.count;
+  for (uint32_t k = first_column; k < joints.columns.count;) {
+    k = active.find(joints, instance.controls.data, tile, k);
+    args.run_count = active.count;
     (fixed ? rig.kernels->joint_columns_fixed : rig.kernels->joint_columns)(args);
   }
-  const float* scales = fixed ? joints.scales.data + size_t{first_block} * kPieceRows : nullptr;
-  rig.kernels->finish_sums(tile.sums, scales, sum_count);
+}
+
+/// Calls f(target, number of rows as a constant) for what a LOD writes of a chunk.
+template <class F>
+void for_each_target(const Rig& rig, uint32_t lod, uint32_t chunk, F&& f) {
+  const JointMatrix& joints = rig.joints;
+  const uint16_t* threes = joints.threes_at_lod.data + size_t{chunk} * rig.lod_count;
+  const uint16_t* ones = joints.ones_at_lod.data + size_t{chunk} * rig.lod_count;
+  const JointTarget* targets = joints.targets.data + joints.chunks[chunk].first_target;
+  for (uint32_t t = 0; t < threes[lod]; ++t) f(targets[t], std::integral_constant<size_t, 3>());
+  targets += threes[0];
+  for (uint32_t t = 0; t < ones[lod]; ++t) f(targets[t], std::integral_constant<size_t, 1>());
 }
 
 /// Rows of one group only, or of all.
-void write_tile(const Rig& rig, Instance& instance, uint32_t lod, const Tile& tile,
+void write_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTile& tile,
                 uint32_t only_group) {
   const JointMatrix& joints = rig.joints;
   const uint32_t first_block = joints.chunks[tile.first_chunk].first_block;
   float* out = instance.joints_and_angles.data;
   for (uint32_t c = tile.first_chunk; c < tile.end_chunk; ++c) {
     const float* sums = tile.sums + size_t{joints.chunks[c].first_block - first_block} * kPieceRows;
-    const auto write = [&](const JointTarget& target, int rows) {
-      const float* sum = sums + target.slot;
-      out[target.output] = sum[0];
-      if (rows == 1) return;
-      out[target.output + 1] = sum[1];
-      out[target.output + 2] = sum[2];
+    const auto write = [&](const JointTarget& target, auto rows) {
+      memcpy(out + target.output, sums + target.slot, rows() * sizeof(float));
     };
     if (only_group == kAllGroups) {
       for_each_target(rig, lod, c, write);
     } else {
-      for_each_target(rig, lod, c, [&](const JointTarget& target, int rows) {
+      for_each_target(rig, lod, c, [&](const JointTarget& target, auto rows) {
         if (target.group == only_group) write(target, rows);
       });
     }
@@ -104,6 +109,25 @@ bool holds_group(const JointMatrix& joints, uint32_t chunk, uint32_t group) {
 
 }  // namespace
 
+JointTile tile_from(const JointMatrix& joints, uint32_t first_chunk, uint32_t end_chunk,
+                    float* sums) {
+  const uint32_t end_block = joints.chunks[first_chunk].first_block + JointTile::kMostBlocks;
+  uint32_t c = first_chunk + 1;
+  while (c < end_chunk && joints.chunks[c + 1].first_block <= end_block) ++c;
+  return {first_chunk, c, sums};
+}
+
+void finish_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTile& tile,
+                 uint32_t first_column, uint32_t only_group) {
+  add_columns(rig, instance, tile, first_column);
+  const JointMatrix& joints = rig.joints;
+  const size_t first_sum = size_t{joints.chunks[tile.first_chunk].first_block} * kPieceRows;
+  const size_t end_sum = size_t{joints.chunks[tile.end_chunk].first_block} * kPieceRows;
+  const float* scales = joints.scales.empty() ? nullptr : joints.scales.data + first_sum;
+  rig.kernels->finish_sums(tile.sums, scales, end_sum - first_sum);
+  write_tile(rig, instance, lod, tile, only_group);
+}
+
 void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, uint64_t marks,
                          uint32_t only_group) {
   const JointMatrix& joints = rig.joints;
@@ -112,20 +136,21 @@ void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, uint6
     return (marks >> (chunk >> joints.chunk_shift) & 1) != 0 &&
            (only_group == kAllGroups || holds_group(joints, chunk, only_group));
   };
-  ActiveColumns active;
-  Tile tile;
+  // The most stack that evaluation takes, beside 8 KiB for the columns.
+  alignas(kBlockAlignment) float sums[JointTile::kMostBlocks * kPieceRows];
   for (uint32_t c = 0; c < chunk_count;) {
     if (!wanted(c)) {
       ++c;
       continue;
     }
-    tile.first_chunk = c;
-    const uint32_t end_block = joints.chunks[c].first_block + Tile::kMostBlocks;
-    do ++c;
-    while (c < chunk_count && wanted(c) && joints.chunks[c + 1].first_block <= end_block);
-    tile.end_chunk = c;
-    sum_tile(rig, instance, active, tile);
-    write_tile(rig, instance, lod, tile, only_group);
+    uint32_t end = c + 1;
+    while (end < chunk_count && wanted(end)) ++end;
+    const JointTile tile = tile_from(joints, c, end, sums);
+    c = tile.end_chunk;
+    const uint32_t blocks =
+        joints.chunks[c].first_block - joints.chunks[tile.first_chunk].first_block;
+    std::fill(sums, sums + size_t{blocks} * kPieceRows, 0.0f);
+    finish_tile(rig, instance, lod, tile, 0, only_group);
   }
 }
 

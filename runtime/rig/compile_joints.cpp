@@ -2,6 +2,9 @@
 // Joint groups -> columns of pieces (rig-evaluation 4.3, 4.4).
 //
 //     rows of the groups  ->  rows that count  ->  blocks of 8  ->  chunks  ->  pieces by column
+//
+// Blocks 2i and 2i + 1 are neighbours for good: pieces that a column has in both are read at once.
+// So blocks of one group come in twos, and those left over are matched by what their groups read.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -50,6 +53,28 @@ bool is_zero(const dna::JointGroup& group, uint32_t row) {
   }
   for (; c < columns && any == 0; ++c) any |= magnitude_bits(values + size_t{c} * 4);
   return any == 0;
+}
+
+constexpr uint32_t kWordBits = 64;
+
+uint32_t lowest_bit(uint64_t bits) {
+#if defined(__GNUC__)
+  return static_cast<uint32_t>(__builtin_ctzll(bits));
+#else
+  uint32_t at = 0;
+  while (!(bits >> at & 1)) ++at;
+  return at;
+#endif
+}
+
+uint32_t bit_count(uint64_t bits) {
+#if defined(__GNUC__)
+  return static_cast<uint32_t>(__builtin_popcountll(bits));
+#else
+  uint32_t count = 0;
+  for (; bits != 0; bits &= bits - 1) ++count;
+  return count;
+#endif
 }
 
 Status no_scratch(Error& error) {
@@ -101,11 +126,40 @@ Status choose_rows(const dna::DnaView& view, const Rig& rig, Arena& scratch, Spa
 
 // Blocks and chunks -----------------------------------------------------------------------------
 
-/// Calls f(group number, rows, row count) for every block, in file order: neighbouring rows that
-/// count, of one group. A contested row is alone in its block, so that blocks in order of their
-/// reach write in the right order.
+/// The rows of each group one behind the other: those that the same LODs reach by their outputs, so
+/// that what moves one joint stands together, and is zero together.
+Status order_rows(const dna::DnaView& view, const Rig& rig, Arena& scratch, Span<uint16_t>& order,
+                  Error& error) {
+  const auto& groups = view.bhvr.joints.groups;
+  size_t row_count = 0;
+  for (const dna::JointGroup& group : groups) row_count += group.output_indices.count;
+  order = scratch.array<uint16_t>(row_count);
+  if (row_count && !order.data) return no_scratch(error);
+  uint16_t* rows = order.data;
+  for (const dna::JointGroup& group : groups) {
+    const uint32_t count = group.output_indices.count;
+    for (uint32_t r = 0; r < count; ++r) rows[r] = static_cast<uint16_t>(r);
+    for (uint32_t begin = 0, end; begin < count; begin = end) {
+      const uint8_t reach = lod_reach(group.lods, rig.lod_count, begin);
+      for (end = begin + 1; end < count; ++end) {
+        if (lod_reach(group.lods, rig.lod_count, end) != reach) break;
+      }
+      std::sort(rows + begin, rows + end, [&](uint16_t a, uint16_t b) {
+        const uint32_t of_a = group.output_indices[a], of_b = group.output_indices[b];
+        return of_a != of_b ? of_a < of_b : a < b;
+      });
+    }
+    rows += count;
+  }
+  return Status::kOk;
+}
+
+/// Calls f(group number, rows, row count, contested) for what shares a block, group by group:
+/// neighbours of one group that count. A contested row is alone in its block, so that blocks in
+/// order of their reach write in the right order.
 template <class F>
-void for_each_block(const dna::DnaView& view, const Span<uint8_t>& uses, F&& f) {
+void for_each_rows(const dna::DnaView& view, const Span<uint8_t>& uses, const Span<uint16_t>& order,
+                   F&& f) {
   size_t first_row = 0;
   const auto& groups = view.bhvr.joints.groups;
   for (uint32_t g = 0; g < groups.count; ++g) {
@@ -113,45 +167,181 @@ void for_each_block(const dna::DnaView& view, const Span<uint8_t>& uses, F&& f) 
     uint32_t count = 0;
     const uint32_t row_count = groups[g].output_indices.count;
     for (uint32_t r = 0; r < row_count; ++r) {
-      const uint8_t use = uses[first_row + r];
-      const auto row = static_cast<uint16_t>(r);
-      if (use == kContested) f(g, &row, 1u);
+      const uint16_t row = order[first_row + r];
+      const uint8_t use = uses[first_row + row];
+      if (use == kContested) f(g, &row, 1u, true);
       if (use != kUsed) continue;
       rows[count++] = row;
-      if (count == kPieceRows) f(g, rows, count);
+      if (count == kPieceRows) f(g, rows, count, false);
       count %= kPieceRows;
     }
-    if (count != 0) f(g, rows, count);
+    if (count != 0) f(g, rows, count, false);
     first_row += row_count;
   }
 }
 
-Status plan_blocks(const dna::DnaView& view, const Rig& rig, const Span<uint8_t>& uses,
-                   Arena& scratch, JointPlan& plan, Error& error) {
-  size_t block_count = 0;
-  uint32_t begin[kMaxLods + 2] = {};  // blocks by reach, the farthest first
-  for_each_block(view, uses, [&](uint32_t g, const uint16_t* rows, uint32_t) {
-    ++block_count;
-    ++begin[rig.lod_count - lod_reach(view.bhvr.joints.groups[g].lods, rig.lod_count, rows[0]) + 1];
-  });
-  if (block_count > kMostBlocks) {
-    return fail(error, Status::kDnaLimit, kNoOffset,
-                "bhvr.joints.jointGroups: rows make up %zu blocks of %u; %u are allowed",
-                block_count, kPieceRows, kMostBlocks);
+/// What a group reads: bit c % 1024 for control c.
+struct GroupSignature {
+  uint64_t words[16];
+
+  uint32_t overlap(const GroupSignature& other) const {
+    uint32_t bits = 0;
+    for (size_t w = 0; w < 16; ++w) bits += bit_count(words[w] & other.words[w]);
+    return bits;
   }
-  plan.blocks = scratch.array<PlannedBlock>(block_count);
-  if (block_count && !plan.blocks.data) return no_scratch(error);
-  for (uint32_t l = 0; l <= rig.lod_count; ++l) begin[l + 1] += begin[l];
-  for_each_block(view, uses, [&](uint32_t g, const uint16_t* rows, uint32_t count) {
-    const uint8_t reach = lod_reach(view.bhvr.joints.groups[g].lods, rig.lod_count, rows[0]);
-    PlannedBlock& block = plan.blocks[begin[rig.lod_count - reach]++];
-    block.group = g;
-    block.row_count = static_cast<uint8_t>(count);
-    std::copy(rows, rows + count, block.rows);
-    for (uint32_t k = 0; k < count; ++k) {
-      block.reaches[k] = lod_reach(view.bhvr.joints.groups[g].lods, rig.lod_count, rows[k]);
+};
+
+/// A block before it has its number.
+struct BlockDraft {
+  uint32_t group;    // of its first rows
+  uint32_t partner;  // or kAlone
+  uint32_t number;
+};
+constexpr uint32_t kAlone = ~uint32_t{0};
+
+/// Gives the rows of one reach their blocks: rows that do not fill one share it with those of other
+/// groups. Appends to `drafts`; of one group two that follow each other become partners.
+void draft_blocks(Span<PlannedRows> tier, Span<BlockDraft>& drafts) {
+  uint32_t open[kPieceRows + 1];  // [free slots] a block that has them
+  std::fill(open, open + kPieceRows + 1, kAlone);
+  uint32_t waiting = kAlone;  // for a partner of its group
+  for (PlannedRows& rows : tier) {
+    uint32_t room = rows.contested ? kPieceRows + 1 : rows.row_count;
+    while (room <= kPieceRows && open[room] == kAlone) ++room;
+    uint32_t block;
+    if (room <= kPieceRows) {
+      block = open[room];
+      open[room] = kAlone;
+    } else {
+      room = kPieceRows;
+      block = static_cast<uint32_t>(drafts.count++);
+      drafts[block] = {rows.group, kAlone, 0};
+      const bool matches = waiting != kAlone && drafts[waiting].group == rows.group;
+      if (matches) {
+        drafts[block].partner = waiting;
+        drafts[waiting].partner = block;
+      }
+      waiting = matches ? kAlone : block;
     }
+    rows.block = block;
+    rows.first_slot = static_cast<uint8_t>(kPieceRows - room);
+    const uint32_t left = rows.contested ? 0 : room - rows.row_count;
+    if (left != 0) open[left] = block;
+  }
+}
+
+/// Matches blocks that have no partner yet with one of the next few, whose group reads most of the
+/// same controls.
+void match_blocks(const Span<GroupSignature>& signatures, Span<BlockDraft> tier, uint32_t first) {
+  constexpr int kLook = 64;
+  for (size_t a = 0; a < tier.count; ++a) {
+    if (tier[a].partner != kAlone) continue;
+    size_t best = a;
+    uint32_t most = 0;
+    int looked = 0;
+    for (size_t b = a + 1; b < tier.count && looked < kLook; ++b) {
+      if (tier[b].partner != kAlone) continue;
+      ++looked;
+      const uint32_t same = signatures[tier[a].group].overlap(signatures[tier[b].group]);
+      if (best != a && same <= most) continue;
+      best = b;
+      most = same;
+    }
+    if (best == a) break;
+    tier[a].partner = first + static_cast<uint32_t>(best);
+    tier[best].partner = first + static_cast<uint32_t>(a);
+  }
+}
+
+/// Numbers the blocks of a tier, partners side by side; returns the next number, an even one.
+uint32_t number_blocks(Span<BlockDraft>& drafts, size_t first, uint32_t next) {
+  for (size_t d = first; d < drafts.count; ++d) {
+    BlockDraft& draft = drafts[d];
+    if (draft.partner != kAlone && draft.partner < d) continue;
+    draft.number = next;
+    if (draft.partner != kAlone) drafts[draft.partner].number = next + 1;
+    next += 2;
+  }
+  return next;
+}
+
+Status plan_blocks(const dna::DnaView& view, const Rig& rig, Arena& scratch, JointPlan& plan,
+                   Error& error) {
+  const auto& groups = view.bhvr.joints.groups;
+  size_t count = 0;
+  uint32_t begin[kMaxLods + 2] = {};  // rows by reach, the farthest first
+  const auto reach_of = [&](uint32_t g, uint32_t row) {
+    return lod_reach(groups[g].lods, rig.lod_count, row);
+  };
+  Span<uint16_t> order;
+  if (Status status = order_rows(view, rig, scratch, order, error); status != Status::kOk) {
+    return status;
+  }
+  for_each_rows(view, plan.uses, order, [&](uint32_t g, const uint16_t* rows, uint32_t, bool) {
+    ++count;
+    ++begin[rig.lod_count - reach_of(g, rows[0]) + 1];
   });
+  Span<PlannedRows> drafted = scratch.array<PlannedRows>(count);
+  Span<BlockDraft> drafts = scratch.array<BlockDraft>(count);
+  Span<GroupSignature> signatures = scratch.array<GroupSignature>(groups.count);
+  if ((count && (!drafted.data || !drafts.data)) || (groups.count && !signatures.data)) {
+    return no_scratch(error);
+  }
+  for (uint32_t l = 0; l <= rig.lod_count; ++l) begin[l + 1] += begin[l];
+  for_each_rows(view, plan.uses, order,
+                [&](uint32_t g, const uint16_t* from, uint32_t n, bool contested) {
+                  PlannedRows& rows = drafted[begin[rig.lod_count - reach_of(g, from[0])]++];
+                  rows.group = g;
+                  rows.row_count = static_cast<uint8_t>(n);
+                  rows.contested = contested;
+                  std::copy(from, from + n, rows.rows);
+                  for (uint32_t k = 0; k < n; ++k) rows.reaches[k] = reach_of(g, from[k]);
+                });
+  for (uint32_t g = 0; g < groups.count; ++g) {
+    for (uint32_t c = 0; c < groups[g].input_indices.count; ++c) {
+      const uint32_t bit = groups[g].input_indices[c] % 1024;
+      signatures[g].words[bit / kWordBits] |= uint64_t{1} << bit % kWordBits;
+    }
+  }
+
+  // By now each begin[] is where the rows of that reach end.
+  drafts.count = 0;
+  uint32_t tier_ends[kMaxLods + 1] = {}, next = 0;
+  for (uint32_t l = 0, first_row = 0; l <= rig.lod_count; first_row = begin[l++]) {
+    const auto first = static_cast<uint32_t>(drafts.count);
+    draft_blocks(drafted.slice(first_row, begin[l] - first_row), drafts);
+    match_blocks(signatures, drafts.slice(first, drafts.count - first), first);
+    next = number_blocks(drafts, first, next);
+    tier_ends[l] = next;
+  }
+  if (next > kMostBlocks) {
+    return fail(error, Status::kDnaLimit, kNoOffset,
+                "bhvr.joints.jointGroups: rows make up %u blocks of %u; %u are allowed", next,
+                kPieceRows, kMostBlocks);
+  }
+
+  plan.block_reaches = scratch.array<uint8_t>(next);
+  plan.first_rows = scratch.array<uint32_t>(size_t{next} + 1);
+  plan.rows = scratch.array<PlannedRows>(count);
+  if ((next && !plan.block_reaches.data) || !plan.first_rows.data || (count && !plan.rows.data)) {
+    return no_scratch(error);
+  }
+  for (uint32_t l = 0, b = 0; l <= rig.lod_count; ++l) {
+    for (; b < tier_ends[l]; ++b) {
+      plan.block_reaches[b] = static_cast<uint8_t>(rig.lod_count - l);
+    }
+  }
+  // Sorted by block; those of one block stay in order. Filling moves each first to that of the next
+  // block: back again afterwards.
+  Span<uint32_t>& firsts = plan.first_rows;
+  for (PlannedRows& rows : drafted) {
+    rows.block = drafts[rows.block].number;
+    ++firsts[rows.block + 1];
+  }
+  for (uint32_t b = 0; b < next; ++b) firsts[b + 1] += firsts[b];
+  for (const PlannedRows& rows : drafted) plan.rows[firsts[rows.block]++] = rows;
+  for (uint32_t b = next; b > 0; --b) firsts[b] = firsts[b - 1];
+  firsts[0] = 0;
   return Status::kOk;
 }
 
@@ -159,18 +349,18 @@ Status plan_blocks(const dna::DnaView& view, const Rig& rig, const Span<uint8_t>
 /// for each column, though, and shall stay small beside the pieces.
 uint32_t chunk_size(size_t block_count, size_t piece_count, size_t column_count) {
   constexpr size_t kMarks = 48;  // of the 64 bits of a set of chunks: LODs divide some once more
-  const size_t affordable = column_count ? std::max<size_t>(piece_count / column_count / 2, 1) : 1;
+  const size_t affordable = column_count ? std::max<size_t>(piece_count / column_count / 4, 1) : 1;
   const size_t count = std::min(kMarks, affordable);
-  return static_cast<uint32_t>(
-      std::clamp<size_t>((block_count + count - 1) / count, 1, kMostChunkBlocks));
+  const size_t size = (block_count + count - 1) / count;
+  return static_cast<uint32_t>(std::clamp<size_t>(size + size % 2, 2, kMostChunkBlocks));
 }
 
 /// Calls f(first block) for each chunk, and once more for the end.
 template <class F>
 void for_each_chunk(const JointPlan& plan, F&& f) {
-  const auto block_count = static_cast<uint32_t>(plan.blocks.count);
+  const uint32_t block_count = plan.block_count();
   for (uint32_t b = 0, first = 0; b < block_count; ++b) {
-    const bool begins = b == 0 || plan.blocks[b].reach() != plan.blocks[b - 1].reach() ||
+    const bool begins = b == 0 || plan.block_reaches[b] != plan.block_reaches[b - 1] ||
                         b - first == plan.chunk_size;
     if (!begins) continue;
     first = b;
@@ -181,27 +371,25 @@ void for_each_chunk(const JointPlan& plan, F&& f) {
 
 // Pieces ----------------------------------------------------------------------------------------
 
-/// Where the rows of a block stand in the file.
-struct BlockRows {
+/// Where rows stand in the file.
+struct FileRows {
   const uint8_t* at[kPieceRows];
   uint32_t count;
 
-  BlockRows(const dna::JointGroup& group, const PlannedBlock& block) : count(block.row_count) {
-    for (uint32_t k = 0; k < count; ++k) at[k] = row_values(group, block.rows[k]);
+  FileRows(const dna::JointGroup& group, const PlannedRows& rows) : count(rows.row_count) {
+    for (uint32_t k = 0; k < count; ++k) at[k] = row_values(group, rows.rows[k]);
   }
   const uint8_t* value(uint32_t row, uint32_t column) const {
     return at[row] + size_t{column} * sizeof(float);
   }
 };
 
-constexpr uint32_t kWordBits = 64;
-
 uint32_t words_of(const dna::JointGroup& group) {
   return (group.input_indices.count + kWordBits - 1) / kWordBits;
 }
 
-/// Bit c: some row of the block is not zero in column `first` + c, of `count` columns.
-uint64_t columns_used(const BlockRows& rows, uint32_t first, uint32_t count) {
+/// Bit c: some of the rows is not zero in column `first` + c, of `count` columns.
+uint64_t columns_used(const FileRows& rows, uint32_t first, uint32_t count) {
   uint32_t used[kWordBits] = {};
   for (uint32_t k = 0; k < rows.count; ++k) {
     const uint8_t* row = rows.value(k, first);
@@ -226,104 +414,136 @@ uint64_t columns_used(const BlockRows& rows, uint32_t first, uint32_t count) {
 /// Which pieces are not all zeros: the one pass over the numbers that planning takes.
 Status find_pieces(const dna::DnaView& view, Arena& scratch, JointPlan& plan, Error& error) {
   size_t words = 0;
-  for (const PlannedBlock& block : plan.blocks) {
-    words += words_of(view.bhvr.joints.groups[block.group]);
-  }
+  for (const PlannedRows& rows : plan.rows) words += words_of(view.bhvr.joints.groups[rows.group]);
   plan.pieces = scratch.array<uint64_t>(words);
   if (words && !plan.pieces.data) return no_scratch(error);
   uint64_t* word = plan.pieces.data;
-  for (const PlannedBlock& block : plan.blocks) {
-    const dna::JointGroup& group = view.bhvr.joints.groups[block.group];
-    const BlockRows rows(group, block);
+  for (const PlannedRows& rows : plan.rows) {
+    const dna::JointGroup& group = view.bhvr.joints.groups[rows.group];
+    const FileRows file(group, rows);
     const uint32_t columns = group.input_indices.count;
     for (uint32_t c = 0; c < columns; c += kWordBits) {
-      *word++ = columns_used(rows, c, std::min(columns - c, kWordBits));
+      *word++ = columns_used(file, c, std::min(columns - c, kWordBits));
     }
   }
   return Status::kOk;
 }
 
-uint32_t lowest_bit(uint64_t bits) {
-#if defined(__GNUC__)
-  return static_cast<uint32_t>(__builtin_ctzll(bits));
-#else
-  uint32_t at = 0;
-  while (!(bits >> at & 1)) ++at;
-  return at;
-#endif
-}
-
-/// Calls f(block number, rows, column of the group, first) for every piece that is not all zeros,
-/// by ascending blocks. `first` is false if the group lists the control once more: those pieces are
-/// one. Needs plan.pieces and plan.last_block.
+/// Calls f(rows, where they stand, column of their group, control's column, first) for everything
+/// that is not all zeros, by ascending blocks. `first` is false if the block has a piece of the
+/// control already: other rows, or the same ones if the group lists the control once more. Needs
+/// plan.pieces; end_block of a control tells what came before.
 template <class F>
 void for_each_piece(const dna::DnaView& view, const JointPlan& plan, F&& f) {
-  std::fill(plan.last_block.begin(), plan.last_block.end(), 0u);
+  for (PlannedColumn& column : plan.columns) column.end_block = 0;
   const uint64_t* word = plan.pieces.data;
-  for (uint32_t b = 0; b < plan.blocks.count; ++b) {
-    const PlannedBlock& block = plan.blocks[b];
-    const dna::JointGroup& group = view.bhvr.joints.groups[block.group];
-    const BlockRows rows(group, block);
+  for (const PlannedRows& rows : plan.rows) {
+    const dna::JointGroup& group = view.bhvr.joints.groups[rows.group];
+    const FileRows file(group, rows);
     for (uint32_t from = 0; from < group.input_indices.count; from += kWordBits) {
       for (uint64_t bits = *word++; bits != 0; bits &= bits - 1) {
         const uint32_t c = from + lowest_bit(bits);
-        uint32_t& last_block = plan.last_block[group.input_indices[c]];
-        f(b, rows, c, last_block != b + 1);
-        last_block = b + 1;
+        PlannedColumn& column = plan.columns[group.input_indices[c]];
+        f(rows, file, c, column, column.end_block != rows.block + 1);
+        column.end_block = rows.block + 1;
       }
     }
   }
 }
 
-/// Rows of a block whose sums go to neighbouring values: three, or one.
-struct Target {
-  uint32_t row;  // of the block
-  uint32_t output;
-  uint32_t row_count;
-};
-
-/// Calls f(target) for all targets of a block, in order of their rows.
-template <class F>
-void for_each_target(const dna::DnaView& view, const Rig& rig, const PlannedBlock& block, F&& f) {
-  const dna::JointGroup& group = view.bhvr.joints.groups[block.group];
-  uint32_t outputs[kPieceRows];
-  for (uint32_t k = 0; k < block.row_count; ++k) {
-    outputs[k] = output_of(view, rig, group.output_indices[block.rows[k]]);
+/// Finds the pieces that make pairs, and counts both kinds.
+Status count_pieces(const dna::DnaView& view, Arena& scratch, JointPlan& plan, Error& error) {
+  size_t most = 0;
+  for (uint64_t word : plan.pieces) most += bit_count(word);
+  plan.paired = scratch.array<uint64_t>((most + kWordBits - 1) / kWordBits);
+  if (most && !plan.paired.data) return no_scratch(error);
+  uint32_t piece = 0;
+  for_each_piece(
+      view, plan,
+      [&](const PlannedRows& rows, const FileRows&, uint32_t, PlannedColumn& column, bool first) {
+        if (!first) return;
+        if (rows.block % 2 != 0 && column.end_block == rows.block) {
+          ++column.pairs;
+          --column.singles;
+          for (uint32_t half : {piece, column.piece}) {
+            plan.paired[half / kWordBits] |= uint64_t{1} << half % kWordBits;
+          }
+        } else {
+          ++column.singles;
+        }
+        column.piece = piece++;
+      });
+  for (const PlannedColumn& column : plan.columns) {
+    plan.column_count += column.pairs + column.singles != 0;
+    plan.entry_count += column.pairs + column.singles;
+    plan.piece_count += size_t{2} * (column.pairs + (column.singles + 1) / 2);
   }
-  for (uint32_t k = 0; k < block.row_count;) {
-    const bool three = k + 2 < block.row_count && outputs[k + 1] == outputs[k] + 1 &&
-                       outputs[k + 2] == outputs[k] + 2 && block.reaches[k + 2] == block.reaches[k];
-    const Target target = {k, outputs[k], three ? 3u : 1u};
-    f(target);
-    k += target.row_count;
+  return Status::kOk;
+}
+
+/// Calls f(slot counted from first_block, output, group, reach) for the rows of blocks, in order.
+template <class F>
+void for_each_slot(const dna::DnaView& view, const JointPlan& plan, const Rig& rig,
+                   uint32_t first_block, uint32_t end_block, F&& f) {
+  for (uint32_t i = plan.first_rows[first_block]; i < plan.first_rows[end_block]; ++i) {
+    const PlannedRows& rows = plan.rows[i];
+    const dna::JointGroup& group = view.bhvr.joints.groups[rows.group];
+    const uint32_t first_slot = (rows.block - first_block) * kPieceRows + rows.first_slot;
+    for (uint32_t k = 0; k < rows.row_count; ++k) {
+      const uint32_t output = output_of(view, rig, group.output_indices[rows.rows[k]]);
+      f(first_slot + k, output, rows.group, rows.reaches[k]);
+    }
   }
 }
 
-/// Calls f(target, number of rows, reach) for all targets of a chunk, in order of their slots.
+/// Calls f(target, number of rows, reach) for all targets of a chunk, in order of their slots:
+/// three neighbouring rows whose sums go to neighbouring values, or one.
 template <class F>
-void for_each_target_of_chunk(const dna::DnaView& view, const JointPlan& plan, const Rig& rig,
-                              uint32_t chunk, F&& f) {
-  const uint32_t first = rig.joints.chunks[chunk].first_block;
-  const uint32_t end = rig.joints.chunks[chunk + 1].first_block;
-  for (uint32_t b = first; b < end; ++b) {
-    const PlannedBlock& block = plan.blocks[b];
-    for_each_target(view, rig, block, [&](const Target& target) {
-      const JointTarget joint_target = {
-          static_cast<uint16_t>((b - first) * kPieceRows + target.row),
-          static_cast<uint16_t>(target.output), static_cast<uint16_t>(block.group)};
-      f(joint_target, target.row_count, block.reaches[target.row]);
-    });
-  }
+void for_each_target(const dna::DnaView& view, const JointPlan& plan, const Rig& rig,
+                     uint32_t first_block, uint32_t end_block, F&& f) {
+  struct Row {
+    uint32_t slot, output, group;
+    uint8_t reach;
+
+    bool comes_before(const Row& next) const {
+      return slot + 1 == next.slot && output + 1 == next.output && group == next.group &&
+             reach == next.reach;
+    }
+  };
+  Row waiting[2];
+  int count = 0;
+  const auto target = [](const Row& row) -> JointTarget {
+    return {static_cast<uint16_t>(row.slot), static_cast<uint16_t>(row.output),
+            static_cast<uint16_t>(row.group)};
+  };
+  const auto pass = [&] {
+    for (int i = 0; i < count; ++i) f(target(waiting[i]), 1u, waiting[i].reach);
+    count = 0;
+  };
+  for_each_slot(view, plan, rig, first_block, end_block,
+                [&](uint32_t slot, uint32_t output, uint32_t group, uint8_t reach) {
+                  const Row row = {slot, output, group, reach};
+                  if (count != 0 && !waiting[count - 1].comes_before(row)) pass();
+                  if (count == 2) {
+                    f(target(waiting[0]), 3u, reach);
+                    count = 0;
+                  } else {
+                    waiting[count++] = row;
+                  }
+                });
+  pass();
 }
 
 void fill_targets(const dna::DnaView& view, const JointPlan& plan, uint32_t chunk, Rig& rig) {
   JointMatrix& joints = rig.joints;
   // Where targets of each kind and reach begin, the farthest first.
   uint32_t begin[2][kMaxLods + 2] = {};
-  for_each_target_of_chunk(view, plan, rig, chunk,
-                           [&](const JointTarget&, uint32_t rows, uint8_t reach) {
-                             ++begin[rows == 1][rig.lod_count - reach + 1];
-                           });
+  const uint32_t first_block = joints.chunks[chunk].first_block;
+  const uint32_t end_block = joints.chunks[chunk + 1].first_block;
+  for_each_target(view, plan, rig, first_block, end_block,
+                  [&](const JointTarget&, uint32_t rows, uint8_t reach) {
+                    ++begin[rows == 1][rig.lod_count - reach + 1];
+                  });
   uint32_t count = 0;
   for (int one = 0; one < 2; ++one) {
     uint32_t* kind = begin[one];
@@ -338,25 +558,25 @@ void fill_targets(const dna::DnaView& view, const JointPlan& plan, uint32_t chun
   }
   const uint32_t first = joints.chunks[chunk].first_target;
   joints.chunks[chunk + 1].first_target = first + count;
-  for_each_target_of_chunk(
-      view, plan, rig, chunk, [&](const JointTarget& target, uint32_t rows, uint8_t reach) {
-        joints.targets[first + begin[rows == 1][rig.lod_count - reach]++] = target;
-      });
+  for_each_target(view, plan, rig, first_block, end_block,
+                  [&](const JointTarget& target, uint32_t rows, uint8_t reach) {
+                    joints.targets[first + begin[rows == 1][rig.lod_count - reach]++] = target;
+                  });
 }
 
 /// The largest number of a row becomes the largest of 16 bits.
 void fill_scales(const dna::DnaView& view, const JointPlan& plan, JointMatrix& joints) {
-  for (uint32_t b = 0; b < plan.blocks.count; ++b) {
-    const PlannedBlock& block = plan.blocks[b];
-    const dna::JointGroup& group = view.bhvr.joints.groups[block.group];
-    for (uint32_t k = 0; k < block.row_count; ++k) {
-      const uint8_t* row = row_values(group, block.rows[k]);
+  for (const PlannedRows& rows : plan.rows) {
+    const dna::JointGroup& group = view.bhvr.joints.groups[rows.group];
+    float* scales = joints.scales.data + size_t{rows.block} * kPieceRows + rows.first_slot;
+    for (uint32_t k = 0; k < rows.row_count; ++k) {
+      const uint8_t* row = row_values(group, rows.rows[k]);
       float largest = 0.0f;
       for (uint32_t c = 0; c < group.input_indices.count; ++c) {
         const float size = std::fabs(load_big_endian<float>(row + size_t{c} * sizeof(float)));
         if (size <= 3.4e38f) largest = std::max(largest, size);
       }
-      joints.scales[size_t{b} * kPieceRows + k] = largest / 32767.0f;
+      scales[k] = largest / 32767.0f;
     }
   }
 }
@@ -369,31 +589,35 @@ int16_t add_fixed(int16_t to, float value, float scale) {
 }
 
 /// A piece comes into memory that nobody has written yet.
-void add_piece(const BlockRows& rows, uint32_t column, bool first, float* piece) {
-  if (first && rows.count == kPieceRows) {
+void add_piece(const PlannedRows& rows, const FileRows& file, uint32_t column, bool first,
+               float* piece) {
+  if (first && file.count == kPieceRows) {
     for (uint32_t k = 0; k < kPieceRows; ++k) {
-      piece[k] = load_big_endian<float>(rows.value(k, column));
+      piece[k] = load_big_endian<float>(file.value(k, column));
     }
     return;
   }
   if (first) std::fill(piece, piece + kPieceRows, 0.0f);
-  for (uint32_t k = 0; k < rows.count; ++k) {
-    piece[k] += load_big_endian<float>(rows.value(k, column));
+  piece += rows.first_slot;
+  for (uint32_t k = 0; k < file.count; ++k) {
+    piece[k] += load_big_endian<float>(file.value(k, column));
   }
 }
 
-void add_fixed_piece(const BlockRows& rows, uint32_t column, const float* scales, int16_t* piece) {
-  for (uint32_t k = 0; k < rows.count; ++k) {
-    const float value = load_big_endian<float>(rows.value(k, column));
-    piece[k] = add_fixed(piece[k], value, scales[k]);
+void add_fixed_piece(const PlannedRows& rows, const FileRows& file, uint32_t column,
+                     const float* block_scales, int16_t* piece) {
+  piece += rows.first_slot;
+  const float* scales = block_scales + rows.first_slot;
+  for (uint32_t k = 0; k < file.count; ++k) {
+    piece[k] = add_fixed(piece[k], load_big_endian<float>(file.value(k, column)), scales[k]);
   }
 }
 
 /// The first of the rows that is not zero reaches farthest.
-void mark_reach(const PlannedBlock& block, const BlockRows& rows, uint32_t column,
+void mark_reach(const PlannedRows& rows, const FileRows& file, uint32_t column,
                 uint8_t& control_reach) {
-  for (uint32_t k = 0; k < rows.count && block.reaches[k] > control_reach; ++k) {
-    if (magnitude_bits(rows.value(k, column)) != 0) control_reach = block.reaches[k];
+  for (uint32_t k = 0; k < file.count && rows.reaches[k] > control_reach; ++k) {
+    if (magnitude_bits(file.value(k, column)) != 0) control_reach = rows.reaches[k];
   }
 }
 
@@ -414,6 +638,51 @@ void mark_other_rows(const dna::DnaView& view, const JointPlan& plan, const Rig&
       }
     }
   }
+}
+
+/// Where the columns begin; turns the counts of the plan into places.
+void place_columns(JointPlan& plan, JointMatrix& joints) {
+  uint32_t k = 0, piece = 0, entry = 0;
+  for (uint32_t control = 0; control < plan.columns.count; ++control) {
+    PlannedColumn& column = plan.columns[control];
+    const uint32_t pairs = column.pairs, singles = column.singles;
+    if (pairs + singles == 0) continue;
+    joints.columns[k] = static_cast<uint16_t>(control);
+    column.pairs = piece;
+    column.singles = piece + 2 * pairs;
+    column.pair_entries = entry;
+    column.single_entries = entry + pairs;
+    piece += 2 * pairs + singles;
+    entry += pairs + singles;
+    if (singles % 2 != 0) {
+      if (!joints.values.empty()) {
+        float* end = joints.values.data + size_t{piece} * kPieceRows;
+        std::fill(end, end + kPieceRows, 0.0f);
+      }
+      ++piece;
+    }
+    joints.first_piece[++k] = piece;
+    joints.first_entry[k] = entry;
+  }
+}
+
+/// Where the chunks begin in a column, whose single pieces begin at `first_single`.
+void fill_parts(size_t k, uint32_t first_single, JointMatrix& joints) {
+  const uint32_t chunk_count = joints.chunk_count();
+  ColumnPart* parts = joints.parts.data + k * joints.chunks.count;
+  uint64_t& marks = joints.control_chunks[joints.columns[k]];
+  const uint32_t first = joints.first_entry[k], end = joints.first_entry[k + 1];
+  uint32_t pair = first, single = first_single;
+  for (uint32_t c = 0; c < chunk_count; ++c) {
+    parts[c] = {static_cast<uint16_t>(pair - first), static_cast<uint16_t>(single - first_single)};
+    const uint32_t before = pair + single;
+    const uint32_t end_block = joints.chunks[c + 1].first_block * kBlockUnit;
+    while (pair < first_single && joints.blocks[pair] < end_block) ++pair;
+    while (single < end && joints.blocks[single] < end_block) ++single;
+    if (pair + single != before) marks |= uint64_t{1} << (c >> joints.chunk_shift);
+  }
+  parts[chunk_count] = {static_cast<uint16_t>(pair - first),
+                        static_cast<uint16_t>(single - first_single)};
 }
 
 void place_variable_values(const dna::DnaView& view, Placer& placer, Rig& rig) {
@@ -439,27 +708,22 @@ void place_variable_values(const dna::DnaView& view, Placer& placer, Rig& rig) {
 
 Status plan_joints(const dna::DnaView& view, const Rig& rig, Arena& scratch, JointPlan& plan,
                    Error& error) {
-  const auto& groups = view.bhvr.joints.groups;
+  plan.columns = scratch.array<PlannedColumn>(rig.control_count);
+  if (rig.control_count && !plan.columns.data) return no_scratch(error);
   Status status = choose_rows(view, rig, scratch, plan.uses, error);
-  if (status == Status::kOk) status = plan_blocks(view, rig, plan.uses, scratch, plan, error);
+  if (status == Status::kOk) status = plan_blocks(view, rig, scratch, plan, error);
   if (status == Status::kOk) status = find_pieces(view, scratch, plan, error);
+  if (status == Status::kOk) status = count_pieces(view, scratch, plan, error);
   if (status != Status::kOk) return status;
 
-  plan.last_block = scratch.array<uint32_t>(rig.control_count);
-  plan.pieces_of_control = scratch.array<uint32_t>(rig.control_count);
-  if (rig.control_count && (!plan.last_block.data || !plan.pieces_of_control.data)) {
-    return no_scratch(error);
-  }
-  for_each_piece(view, plan, [&](uint32_t b, const BlockRows&, uint32_t column, bool first) {
-    plan.pieces_of_control[groups[plan.blocks[b].group].input_indices[column]] += first;
-    plan.piece_count += first;
+  plan.chunk_size = chunk_size(plan.block_count(), plan.piece_count, plan.column_count);
+  uint32_t last = 0;
+  for_each_chunk(plan, [&](uint32_t block) {
+    ++plan.chunk_ends;
+    for_each_target(view, plan, rig, last, block,
+                    [&](const JointTarget&, uint32_t, uint8_t) { ++plan.target_count; });
+    last = block;
   });
-  for (uint32_t count : plan.pieces_of_control) plan.column_count += count != 0;
-  for (const PlannedBlock& block : plan.blocks) {
-    for_each_target(view, rig, block, [&](const Target&) { ++plan.target_count; });
-  }
-  plan.chunk_size = chunk_size(plan.blocks.count, plan.piece_count, plan.column_count);
-  for_each_chunk(plan, [&](uint32_t) { ++plan.chunk_ends; });
   return Status::kOk;
 }
 
@@ -468,14 +732,15 @@ void place_joints(const dna::DnaView& view, const JointPlan& plan, Placer& place
   const size_t values = plan.piece_count * kPieceRows;
   if (rig.half_storage) {
     joints.fixed_values = placer.array<int16_t>(values, kBlockAlignment);
-    joints.scales = placer.array<float>(plan.blocks.count * kPieceRows, kBlockAlignment);
+    joints.scales = placer.array<float>(plan.block_count() * kPieceRows, kBlockAlignment);
   } else {
     joints.values = placer.unwritten_array<float>(values, kBlockAlignment);
   }
-  joints.blocks = placer.array<uint16_t>(plan.piece_count);
+  joints.blocks = placer.array<uint16_t>(plan.entry_count);
   joints.columns = placer.array<uint16_t>(plan.column_count);
   joints.first_piece = placer.array<uint32_t>(plan.column_count + 1);
-  joints.chunk_pieces = placer.array<uint16_t>(plan.column_count * plan.chunk_ends);
+  joints.first_entry = placer.array<uint32_t>(plan.column_count + 1);
+  joints.parts = placer.array<ColumnPart>(plan.column_count * plan.chunk_ends);
   joints.chunks = placer.array<JointChunk>(plan.chunk_ends);
   joints.chunks_at_lod = placer.array<uint32_t>(rig.lod_count);
   joints.control_chunks = placer.array<uint64_t>(rig.control_count);
@@ -511,50 +776,36 @@ void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach,
   while (chunk_count > uint64_t{64} << joints.chunk_shift) ++joints.chunk_shift;
   for (uint32_t c = 0; c < chunk_count; ++c) {
     fill_targets(view, plan, c, rig);
-    const uint8_t chunk_reach = plan.blocks[joints.chunks[c].first_block].reach();
+    const uint8_t chunk_reach = plan.block_reaches[joints.chunks[c].first_block];
     for (uint32_t l = 0; l < chunk_reach; ++l) joints.chunks_at_lod[l] = c + 1;
   }
   if (rig.half_storage) fill_scales(view, plan, joints);
 
-  // From here on: where the next piece of a control goes.
-  uint32_t column = 0, piece = 0;
-  for (uint32_t control = 0; control < rig.control_count; ++control) {
-    const uint32_t count = plan.pieces_of_control[control];
-    plan.pieces_of_control[control] = piece;
-    if (count == 0) continue;
-    joints.columns[column] = static_cast<uint16_t>(control);
-    piece += count;
-    joints.first_piece[++column] = piece;
-  }
-  for_each_piece(view, plan, [&](uint32_t b, const BlockRows& rows, uint32_t c, bool first) {
-    const PlannedBlock& block = plan.blocks[b];
-    const uint32_t control = groups[block.group].input_indices[c];
-    const size_t at = plan.pieces_of_control[control] - !first;
-    plan.pieces_of_control[control] += first;
-    joints.blocks[at] = static_cast<uint16_t>(b * kBlockUnit);
-    mark_reach(block, rows, c, reach[control]);
-    if (rig.half_storage) {
-      add_fixed_piece(rows, c, joints.scales.data + size_t{b} * kPieceRows,
-                      joints.fixed_values.data + at * kPieceRows);
-    } else {
-      add_piece(rows, c, first, joints.values.data + at * kPieceRows);
-    }
-  });
-
-  // Where the chunks begin in each column.
-  for (uint32_t k = 0; k < joints.columns.count; ++k) {
-    const uint32_t first = joints.first_piece[k], end = joints.first_piece[k + 1];
-    uint16_t* begins = joints.chunk_pieces.data + size_t{k} * joints.chunks.count;
-    uint64_t& marks = joints.control_chunks[joints.columns[k]];
-    uint32_t p = first;
-    for (uint32_t c = 0; c <= chunk_count; ++c) {
-      begins[c] = static_cast<uint16_t>(p - first);
-      if (c == chunk_count) break;
-      if (p < end && joints.blocks[p] / kBlockUnit < joints.chunks[c + 1].first_block) {
-        marks |= uint64_t{1} << (c >> joints.chunk_shift);
-      }
-      while (p < end && joints.blocks[p] / kBlockUnit < joints.chunks[c + 1].first_block) ++p;
-    }
+  place_columns(plan, joints);
+  uint32_t piece = 0;
+  for_each_piece(
+      view, plan,
+      [&](const PlannedRows& rows, const FileRows& file, uint32_t c, PlannedColumn& column,
+          bool first) {
+        if (first) {
+          const bool paired = plan.paired[piece / kWordBits] >> piece % kWordBits & 1;
+          ++piece;
+          if (rows.block % 2 == 0 || !paired) {
+            uint32_t& entry = paired ? column.pair_entries : column.single_entries;
+            joints.blocks[entry++] = static_cast<uint16_t>(rows.block * kBlockUnit);
+          }
+          column.piece = paired ? column.pairs++ : column.singles++;
+        }
+        mark_reach(rows, file, c, reach[groups[rows.group].input_indices[c]]);
+        if (rig.half_storage) {
+          add_fixed_piece(rows, file, c, joints.scales.data + size_t{rows.block} * kPieceRows,
+                          joints.fixed_values.data + size_t{column.piece} * kPieceRows);
+        } else {
+          add_piece(rows, file, c, first, joints.values.data + size_t{column.piece} * kPieceRows);
+        }
+      });
+  for (size_t k = 0; k < joints.columns.count; ++k) {
+    fill_parts(k, plan.columns[joints.columns[k]].pair_entries, joints);
   }
 }
 

@@ -290,12 +290,13 @@ Status fill_all(const DnaView& view, JointPlan& joints, Span<uint8_t> reach, Are
 
 /// About what compiling takes for its own use.
 size_t scratch_bytes(const DnaView& view, const Rig& rig) {
-  size_t bytes = size_t{rig.joint_value_count()} * 8 + size_t{rig.control_count} * 16 +
+  size_t bytes = size_t{rig.joint_value_count()} * 8 + size_t{rig.control_count} * 32 +
                  size_t{view.bhvr.controls.conditionals.input_indices.count} * 4 +
                  size_t{view.bhvr.controls.psds.rows.count} * 8 + size_t{rig.psd_count} * 24;
   for (const dna::JointGroup& group : view.bhvr.joints.groups) {
     const size_t rows = group.output_indices.count, blocks = rows / kPieceRows + 2;
-    bytes += rows + blocks * (sizeof(PlannedBlock) + group.input_indices.count / 8 + 8);
+    bytes +=
+        rows * 3 + blocks * (2 * sizeof(PlannedRows) + group.input_indices.count / 4 + 32) + 128;
   }
   return bytes;
 }

@@ -31,26 +31,41 @@ void place_controls(const dna::DnaView& view, Placer& placer, Rig& rig);
 /// kMemory (scratch), or kDnaValue for correctives that depend on each other in a circle.
 Status fill_controls(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
 
-/// Neighbouring rows of one joint group that are computed together.
-struct PlannedBlock {
+/// Rows of one joint group that are computed in one block: what lies between them writes nothing.
+struct PlannedRows {
   uint32_t group;
+  uint32_t block;
   uint16_t rows[kPieceRows];
   uint8_t reaches[kPieceRows];  // how many LODs, counted from 0, reach a row
   uint8_t row_count;
+  uint8_t first_slot;  // of the block; behind it rows of other groups may follow
+  bool contested;
 
   uint8_t reach() const { return reaches[0]; }  // of the whole: rows are in order
 };
 
+/// The pieces of a control: first how many there are, then where the next of each kind goes.
+struct PlannedColumn {
+  uint32_t pairs, singles;                // pieces
+  uint32_t pair_entries, single_entries;  // into JointMatrix::blocks
+  uint32_t end_block;                     // behind the last one seen
+  uint32_t piece;                         // the last one seen
+};
+
 /// What becomes of the joint groups, in scratch memory: found out once, before anything is placed.
 struct JointPlan {
-  Span<uint8_t> uses;         // of all rows of all groups
-  Span<PlannedBlock> blocks;  // those that more LODs reach first
-  size_t piece_count = 0, column_count = 0, target_count = 0;
-  uint32_t chunk_size = 0;  // blocks
-  size_t chunk_ends = 0;    // chunks, and one more
-  Span<uint32_t> pieces_of_control;
-  Span<uint64_t> pieces;      // by block, a bit for each column of its group: not all zeros
-  Span<uint32_t> last_block;  // [control]
+  Span<uint8_t> uses;           // of all rows of all groups
+  Span<PlannedRows> rows;       // by block
+  Span<uint32_t> first_rows;    // [block] into rows, one more at the end
+  Span<uint8_t> block_reaches;  // never rises
+  size_t piece_count = 0, entry_count = 0, column_count = 0, target_count = 0;
+  uint32_t chunk_size = 0;      // blocks
+  size_t chunk_ends = 0;        // chunks, and one more
+  Span<PlannedColumn> columns;  // [control]
+  Span<uint64_t> pieces;        // by rows, a bit for each column of their group: not all zeros
+  Span<uint64_t> paired;        // a bit for each piece in the order of a scan: half of a pair
+
+  uint32_t block_count() const { return static_cast<uint32_t>(block_reaches.count); }
 };
 
 /// kMemory (scratch), or kDnaLimit for more blocks or pieces than can be numbered.

@@ -86,25 +86,27 @@ struct JointTarget {
 /// left out, so that evaluating touches the pieces of those controls that are not zero, one after
 /// the other, and no others.
 ///
-///     slot    a row that is computed: slots 8b ... 8b + 7 are block b, rows of one joint group
+///     slot    a row that is computed: slots 8b ... 8b + 7 are block b
 ///     piece   the 8 values of a column in a block
-///     chunk   a run of blocks
+///     pair    pieces of blocks 2i and 2i + 1, side by side
+///     chunk   a run of blocks, of an even number
 ///
-///     values  | column 0: piece piece piece ... | column 1: piece piece ... | ...
-///               of ascending blocks
+///     values  | column 0: pair pair ... piece piece ... | column 1: pair pair ... piece ... | ...
+///                         of ascending blocks           8 zeros if the pieces' number is odd
 ///
 /// Blocks that more LODs reach come first, so a LOD is a prefix of the chunks.
 struct JointMatrix {
-  Span<float> values;             // [piece][8], or
-  Span<int16_t> fixed_values;     // the same in units of the slot's scale
-  Span<float> scales;             // [slot], beside fixed_values
-  Span<uint16_t> blocks;          // [piece]
-  Span<uint16_t> columns;         // [column] control, ascending
-  Span<uint32_t> first_piece;     // [column], one more at the end
-  Span<uint16_t> chunk_pieces;    // [column][chunk], one more at the end of each column: pieces of
-                                  // the column before the chunk
-  Span<JointChunk> chunks;        // one more at the end
-  Span<uint32_t> chunks_at_lod;   // leading chunks
+  Span<float> values;            // [piece][8], or
+  Span<int16_t> fixed_values;    // the same in units of the slot's scale
+  Span<float> scales;            // [slot], beside fixed_values
+  Span<uint16_t> blocks;         // [entry] of each pair the even one, of each other piece its own
+  Span<uint16_t> columns;        // [column] control, ascending
+  Span<uint32_t> first_piece;    // [column], one more at the end
+  Span<uint32_t> first_entry;    // [column] into blocks, one more at the end
+  Span<ColumnPart> parts;        // [column][chunk], one more at the end of each column: what of the
+                                 // column stands before the chunk
+  Span<JointChunk> chunks;       // one more at the end
+  Span<uint32_t> chunks_at_lod;  // leading chunks
   Span<uint64_t> control_chunks;  // [control] bit c >> chunk_shift: has pieces in chunk c
 
   // By chunk: those of three rows, then those of one; of each, those that more LODs reach first.
@@ -119,13 +121,36 @@ struct JointMatrix {
   uint32_t tallest_group = 0;  // rows
 
   uint32_t chunk_count() const { return static_cast<uint32_t>(chunks.count - 1); }
-  /// Pieces of a column that stand in the first `chunk_end` chunks.
-  uint32_t pieces_before(size_t column, uint32_t chunk_end) const {
-    return chunk_pieces[column * chunks.count + chunk_end];
+  /// What of a column stands in the first `chunk_end` chunks.
+  const ColumnPart& part(size_t column, uint32_t chunk_end) const {
+    return parts[column * chunks.count + chunk_end];
   }
-  /// What reading a piece fetches: its values and its block number.
-  size_t piece_bytes() const {
-    return kPieceRows * (values.empty() ? sizeof(int16_t) : sizeof(float)) + sizeof(uint16_t);
+  uint32_t pieces_before(size_t column, uint32_t chunk_end) const {
+    const ColumnPart& before = part(column, chunk_end);
+    return 2 * uint32_t{before.pairs} + before.singles;
+  }
+  /// What reading the first `chunk_end` chunks of a column fetches: values and block numbers.
+  size_t bytes_before(size_t column, uint32_t chunk_end) const {
+    const ColumnPart& before = part(column, chunk_end);
+    const size_t value_size = values.empty() ? sizeof(int16_t) : sizeof(float);
+    return pieces_before(column, chunk_end) * kPieceRows * value_size +
+           (size_t{before.pairs} + before.singles) * sizeof(uint16_t);
+  }
+  /// Calls f(piece, block) for what of a column stands in the first `chunk_end` chunks.
+  template <class F>
+  void for_each_piece(size_t column, uint32_t chunk_end, F&& f) const {
+    const ColumnPart& before = part(column, chunk_end);
+    const uint32_t pairs = part(column, chunk_count()).pairs;
+    const uint16_t* entry = blocks.data + first_entry[column];
+    uint32_t piece = first_piece[column];
+    for (uint32_t i = 0; i < before.pairs; ++i) {
+      const uint32_t block = entry[i] / kBlockUnit;
+      f(piece + 2 * i, block);
+      f(piece + 2 * i + 1, block + 1);
+    }
+    entry += pairs;
+    piece += 2 * pairs;
+    for (uint32_t i = 0; i < before.singles; ++i) f(piece + i, entry[i] / kBlockUnit);
   }
 };
 constexpr uint32_t kMostChunkBlocks = 256;

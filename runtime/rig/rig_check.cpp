@@ -204,6 +204,7 @@ bool check_chunks(const Checker& c) {
   for (size_t i = 0; i + 1 < chunks.count; ++i) {
     const uint32_t blocks = chunks[i + 1].first_block - chunks[i].first_block;
     good &= chunks[i].first_block < chunks[i + 1].first_block && blocks <= kMostChunkBlocks;
+    good &= blocks % 2 == 0;
     good &= chunks[i].first_target <= chunks[i + 1].first_target;
   }
   const uint32_t count = joints.chunk_count();
@@ -245,50 +246,62 @@ bool check_targets(const Checker& c) {
   return c.ok(good, "targets of the joint matrix");
 }
 
-/// The blocks of a column ascend, and each entry of chunk_pieces stands where the first block of
-/// its chunk would be: so the pieces between two entries add to blocks of that chunk.
-[[gnu::noinline]] bool is_column(const Span<uint16_t>& blocks, const uint16_t* begins,
-                                 const Span<JointChunk>& chunks) {
+/// The blocks of a kind of pieces ascend, and each of the parts stands where the first block of its
+/// chunk would be: so the pieces between two parts add to blocks of that chunk.
+[[gnu::noinline]] bool is_run(const Span<uint16_t>& blocks, const ColumnPart* parts,
+                              uint16_t ColumnPart::*kind, const Span<JointChunk>& chunks) {
   const auto count = static_cast<uint32_t>(blocks.count);
   const uint16_t* own = blocks.data;
   uint32_t falls = 0;
   for (uint32_t p = 1; p < count; ++p) falls |= static_cast<uint32_t>(own[p - 1] >= own[p]);
 
-  // Entries before the first piece and behind the last one, then all others without a branch.
+  // Parts before the first piece and behind the last one, then all others without a branch.
   const auto limit_of = [&](size_t chunk) { return chunks.data[chunk].first_block * kBlockUnit; };
   size_t i = 0, end = chunks.count;
-  while (i < end && begins[i] == 0) ++i;
-  while (end > i && begins[end - 1] == count) --end;
+  while (i < end && parts[i].*kind == 0) ++i;
+  if (count == 0) return i == end;
+  while (end > i && parts[end - 1].*kind == count) --end;
   if (falls != 0 || i == 0 || own[0] < limit_of(i - 1)) return false;
   if (end == chunks.count || own[count - 1] >= limit_of(end)) return false;
   uint32_t wrong = 0;  // its highest bit: some difference is negative
   for (; i < end; ++i) {
-    const uint32_t begin = begins[i], limit = limit_of(i);
+    const uint32_t begin = parts[i].*kind, limit = limit_of(i);
     if (begin - 1 >= count - 1) return false;
     wrong |= (limit - 1 - own[begin - 1]) | (own[begin] - limit);
   }
   return wrong >> 31 == 0;
 }
 
-bool check_pieces(const Checker& c) {
+bool check_pieces(const Checker& c, size_t pieces) {
   const JointMatrix& joints = c.rig.joints;
-  const size_t pieces = joints.blocks.count, columns = joints.columns.count;
+  const size_t entries = joints.blocks.count, columns = joints.columns.count;
   const size_t ends = joints.chunks.count;
-  if (!c.ok(joints.first_piece.count == columns + 1 &&
+  if (!c.ok(joints.first_piece.count == columns + 1 && joints.first_entry.count == columns + 1 &&
                 is_runs(joints.first_piece, columns, pieces) &&
                 joints.first_piece[columns] == pieces &&
-                joints.chunk_pieces.count == columns * ends &&
+                is_runs(joints.first_entry, columns, entries) &&
+                joints.first_entry[columns] == entries && joints.parts.count == columns * ends &&
                 below(joints.columns, c.rig.control_count),
             "columns of the joint matrix")) {
     return false;
   }
-  uint16_t bits = 0;
-  for (const uint16_t block : joints.blocks) bits |= block;
-  bool good = bits % kBlockUnit == 0;
+  bool good = true;
   for (size_t k = 0; good && k < columns; ++k) {
-    const uint32_t first = joints.first_piece[k], count = joints.first_piece[k + 1] - first;
-    const uint16_t* begins = joints.chunk_pieces.data + k * ends;
-    good = count != 0 && is_column(joints.blocks.slice(first, count), begins, joints.chunks);
+    const ColumnPart* parts = joints.parts.data + k * ends;
+    const uint32_t pairs = parts[ends - 1].pairs, singles = parts[ends - 1].singles;
+    const uint32_t first = joints.first_entry[k], count = joints.first_entry[k + 1] - first;
+    const uint32_t first_piece = joints.first_piece[k];
+    good = count != 0 && pairs + singles == count && first_piece % 2 == 0 &&
+           joints.first_piece[k + 1] - first_piece == 2 * (pairs + (singles + 1) / 2);
+    if (!good) break;
+    const Span<uint16_t> of_pairs = joints.blocks.slice(first, pairs);
+    const Span<uint16_t> of_singles = joints.blocks.slice(first + pairs, singles);
+    uint32_t pair_bits = 0, single_bits = 0;
+    for (const uint16_t block : of_pairs) pair_bits |= block;
+    for (const uint16_t block : of_singles) single_bits |= block;
+    good = pair_bits % (2 * kBlockUnit) == 0 && single_bits % kBlockUnit == 0 &&
+           is_run(of_pairs, parts, &ColumnPart::pairs, joints.chunks) &&
+           is_run(of_singles, parts, &ColumnPart::singles, joints.chunks);
   }
   return c.ok(good, "pieces of the joint matrix");
 }
@@ -302,18 +315,16 @@ bool check_joints(const Checker& c) {
     return false;
   }
   // Values tell by their absence that they are 16-bit ones, with scales.
-  const size_t values = joints.blocks.count * kPieceRows;
+  const size_t values = joints.values.count + joints.fixed_values.count;
   const size_t sums = size_t{joints.chunks[joints.chunk_count()].first_block} * kPieceRows;
-  const bool stored = rig.half_storage
-                          ? joints.values.empty() && joints.fixed_values.count == values &&
-                                joints.scales.count == sums
-                          : joints.values.count == values && joints.fixed_values.empty() &&
-                                joints.scales.empty() && (values != 0 || sums == 0);
-  return c.ok(stored, "values of the joint matrix") &&
+  const bool stored = rig.half_storage ? joints.values.empty() && joints.scales.count == sums
+                                       : joints.fixed_values.empty() && joints.scales.empty() &&
+                                             (values != 0 || sums == 0);
+  return c.ok(stored && values % kPieceRows == 0, "values of the joint matrix") &&
          c.ok(joints.control_chunks.count == rig.control_count &&
                   joints.group_rows_at_lod.count == uint64_t{joints.group_count} * rig.lod_count,
               "joint groups") &&
-         check_targets(c) && check_pieces(c);
+         check_targets(c) && check_pieces(c, values / kPieceRows);
 }
 
 // Rotations

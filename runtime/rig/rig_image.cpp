@@ -80,9 +80,9 @@ void for_each_span(AnyRig& rig, F&& f) {
   }
   each(rig.joint_parents);
   for (auto& names : rig.names) each(names.first, names.sorted);
-  each(joints.columns, joints.first_piece, joints.chunks, joints.chunks_at_lod, joints.targets);
-  each(joints.threes_at_lod, joints.ones_at_lod, joints.group_rows_at_lod);
-  each(joints.chunk_pieces, joints.blocks);
+  each(joints.columns, joints.first_piece, joints.first_entry, joints.chunks, joints.targets);
+  each(joints.chunks_at_lod, joints.threes_at_lod, joints.ones_at_lod, joints.group_rows_at_lod);
+  each(joints.parts, joints.blocks);
 
   // What can do no harm.
   for (auto& names : rig.names) each(names.chars);
@@ -102,7 +102,9 @@ constexpr uint32_t element_size(const Span<T>&) {
 }
 
 // Sums of their fields: an element that hides padding would make two images of one rig.
-static_assert(sizeof(JointChunk) == 8 && sizeof(JointTarget) == 6 && sizeof(TurnedJoint) == 4, "");
+static_assert(sizeof(ColumnPart) == 4 && sizeof(JointChunk) == 8 && sizeof(JointTarget) == 6 &&
+                  sizeof(TurnedJoint) == 4,
+              "");
 static_assert(sizeof(GroupRotations) == 24 + sizeof(size_t) && sizeof(RbfSolver) == 4, "");
 static_assert(sizeof(RbfSolverPlan) == 32 + 2 * sizeof(size_t), "");
 static_assert(sizeof(NetworkLayer) == 24 + sizeof(size_t) && sizeof(MlDependency) == 16, "");

@@ -18,7 +18,7 @@
 namespace mien {
 
 /// To be raised whenever the list of scalars or spans, or the meaning of one, changes.
-constexpr uint32_t kImageVersion = 1;
+constexpr uint32_t kImageVersion = 2;
 constexpr uint32_t kImageByteOrder = 0x0102'0304;
 constexpr char kImageMagic[8] = {'M', 'I', 'E', 'N', 'R', 'I', 'G', '\n'};
 
