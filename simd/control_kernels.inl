@@ -12,23 +12,48 @@ constexpr float kLowest = -3.40282347e38f;
 
 PsdChanges psds(const PsdArgs& args) {
   float* const controls = args.controls;
-  uint64_t marks = 0;
-  uint32_t any = 0;
-  for (size_t e = 0; e < args.count; ++e) {
-    const size_t first = args.first_inputs[e], end = args.first_inputs[e + 1];
-    float product = 1.0f;
-    for (size_t i = first; i < end; ++i) {
-      const float input = controls[args.inputs[i]];
-      product *= lower_of(higher_of(input, 0.0f), 1.0f);
+  const uint64_t* const marks = args.marks;
+  const uint16_t* const outputs = args.outputs;
+  PsdChanges changes = {};
+  const auto note = [&](size_t entry, uint32_t differs) {
+    changes.marks |= marks[outputs[entry]] & (uint64_t{0} - uint64_t{differs});
+  };
+  const Quad zero = broadcast4(0.0f), one = broadcast4(1.0f), lowest = broadcast4(kLowest);
+  uint32_t different = 0;
+  for (size_t e = 0; e < args.count;) {
+    const size_t length = args.run_lengths[e];
+    const size_t end = e + length < args.count ? e + length : args.count;
+    const uint16_t* inputs = args.inputs + args.first_inputs[e];
+    const size_t n = args.first_inputs[e + 1] - args.first_inputs[e];
+    for (; e + 4 <= end; e += 4, inputs += 4 * n) {
+      Quad product = one;
+      for (size_t i = 0; i < n; ++i) {
+        product = product * lower4(higher4(gather4(controls, inputs + i, n), zero), one);
+      }
+      const Quad values = higher4(lower4(product * load4(args.weights + e), one), lowest);
+      const uint32_t lanes = different_lanes4(values, gather4(controls, outputs + e, 1));
+      scatter4(controls, outputs + e, values);
+      note(e, lanes & 1);
+      note(e + 1, lanes >> 1 & 1);
+      note(e + 2, lanes >> 2 & 1);
+      note(e + 3, lanes >> 3);
+      different |= lanes;
     }
-    const float value = higher_of(lower_of(product * args.weights[e], 1.0f), kLowest);
-    const size_t output = args.outputs[e];
-    const uint32_t difference = bits_of(value) ^ bits_of(controls[output]);
-    controls[output] = value;
-    marks |= args.marks[output] & (uint64_t{0} - uint64_t{difference != 0});
-    any |= difference;
+    for (; e < end; ++e, inputs += n) {
+      float product = 1.0f;
+      for (size_t i = 0; i < n; ++i) {
+        product *= lower_of(higher_of(controls[inputs[i]], 0.0f), 1.0f);
+      }
+      const float value = higher_of(lower_of(product * args.weights[e], 1.0f), kLowest);
+      float& output = controls[outputs[e]];
+      const uint32_t differs = bits_of(value) != bits_of(output);
+      output = value;
+      note(e, differs);
+      different |= differs;
+    }
   }
-  return {marks, any != 0};
+  changes.any = different != 0;
+  return changes;
 }
 
 inline Vec clamp01(Vec v) { return at_most(at_least(v, broadcast(0.0f)), broadcast(1.0f)); }

@@ -70,12 +70,14 @@ struct BatchPiece {
 ///     controls[outputs[e]] = min(1, weights[e] * product of clamp(controls[input], 0, 1))
 ///
 /// over inputs[first_inputs[e]] ... inputs[first_inputs[e + 1] - 1], in this order; at least the
-/// lowest float. Without branches that depend on numbers: nobody foresees which are active.
+/// lowest float. The run_lengths[e] entries from e on have the same number of inputs and do not
+/// read each other. Without branches that depend on numbers: nobody foresees which are active.
 struct PsdArgs {
   const uint16_t* outputs;
   const float* weights;
   const uint32_t* first_inputs;
   const uint16_t* inputs;
+  const uint16_t* run_lengths;
   const uint64_t* marks;  // [control]
   float* controls;
   uint32_t count;

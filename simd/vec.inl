@@ -40,6 +40,9 @@
 // nobody looks at. Names as above, with a 4: load4 and store4 take any address, store3 writes the
 // first three.
 //
+//   higher4, lower4   NaN in the first becomes the second
+//   gather4, scatter4 lane i from or to place at[i], or at[i * stride]
+//   different_lanes4  as below
 //   cross4(a,b)     the cross product of the first three
 //   transpose4      four quads, rows to columns
 //   columns4(m,q)   the four columns of a matrix of 16 floats in 16 / kWidth Vecs
@@ -273,28 +276,6 @@ inline uint32_t bits_of(float value) {
   return bits;
 }
 
-/// Bit k: the bits of lane k differ.
-inline uint32_t different_lanes(Vec a, Vec b) {
-#if defined(MIEN_KERNEL_AVX512)
-  return _mm512_cmpneq_epi32_mask(_mm512_castps_si512(a), _mm512_castps_si512(b));
-#elif defined(MIEN_KERNEL_AVX2)
-  const __m256i same = _mm256_cmpeq_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b));
-  return ~static_cast<uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(same))) & 0xFF;
-#elif defined(MIEN_KERNEL_SSE2)
-  const __m128i same = _mm_cmpeq_epi32(_mm_castps_si128(a), _mm_castps_si128(b));
-  return ~static_cast<uint32_t>(_mm_movemask_ps(_mm_castsi128_ps(same))) & 0xF;
-#else
-  float lanes[2][kWidth];
-  store(lanes[0], a);
-  store(lanes[1], b);
-  uint32_t different = 0;
-  for (size_t i = 0; i < kWidth; ++i) {
-    different |= uint32_t{bits_of(lanes[0][i]) != bits_of(lanes[1][i])} << i;
-  }
-  return different;
-#endif
-}
-
 // Quads -------------------------------------------------------------------------------------------
 
 #if defined(MIEN_KERNEL_SCALAR)
@@ -332,6 +313,23 @@ inline Quad square_root4(const Quad& a) {
   return lanes4([&](int i) { return __builtin_sqrtf(a.v[i]); });
 }
 inline Quad yzx4(const Quad& a) { return {{a.v[1], a.v[2], a.v[0], a.v[3]}}; }
+inline Quad higher4(const Quad& a, const Quad& b) {
+  return lanes4([&](int i) { return higher_of(a.v[i], b.v[i]); });
+}
+inline Quad lower4(const Quad& a, const Quad& b) {
+  return lanes4([&](int i) { return lower_of(a.v[i], b.v[i]); });
+}
+inline Quad gather4(const float* from, const uint16_t* at, size_t stride) {
+  return lanes4([&](size_t i) { return from[at[i * stride]]; });
+}
+inline void scatter4(float* to, const uint16_t* at, const Quad& q) {
+  for (size_t i = 0; i < 4; ++i) to[at[i]] = q.v[i];
+}
+inline uint32_t different_lanes4(const Quad& a, const Quad& b) {
+  uint32_t different = 0;
+  for (size_t i = 0; i < 4; ++i) different |= uint32_t{bits_of(a.v[i]) != bits_of(b.v[i])} << i;
+  return different;
+}
 inline void transpose4(Quad& a, Quad& b, Quad& c, Quad& d) {
   const Quad rows[4] = {a, b, c, d};
   Quad* const columns[4] = {&a, &b, &c, &d};
@@ -356,6 +354,25 @@ inline Quad mul_sub4(Quad a, Quad b, Quad c) { return vfmaq_f32(vnegq_f32(c), a,
 inline Quad divide4(Quad a, Quad b) { return vdivq_f32(a, b); }
 inline Quad square_root4(Quad a) { return vsqrtq_f32(a); }
 inline Quad yzx4(Quad a) { return vextq_f32(vextq_f32(a, a, 3), a, 2); }
+inline Quad higher4(Quad a, Quad b) { return vbslq_f32(vcgtq_f32(a, b), a, b); }
+inline Quad lower4(Quad a, Quad b) { return vbslq_f32(vcltq_f32(a, b), a, b); }
+inline Quad gather4(const float* from, const uint16_t* at, size_t stride) {
+  Quad q = Quad(vld1q_dup_f32(from + at[0]));
+  q = vld1q_lane_f32(from + at[stride], q, 1);
+  q = vld1q_lane_f32(from + at[2 * stride], q, 2);
+  return vld1q_lane_f32(from + at[3 * stride], q, 3);
+}
+inline void scatter4(float* to, const uint16_t* at, Quad q) {
+  vst1q_lane_f32(to + at[0], q, 0);
+  vst1q_lane_f32(to + at[1], q, 1);
+  vst1q_lane_f32(to + at[2], q, 2);
+  vst1q_lane_f32(to + at[3], q, 3);
+}
+inline uint32_t different_lanes4(Quad a, Quad b) {
+  const uint32_t bits[] = {1, 2, 4, 8};
+  const uint32x4_t same = vceqq_u32(vreinterpretq_u32_f32(a), vreinterpretq_u32_f32(b));
+  return vaddvq_u32(vbicq_u32(vld1q_u32(bits), same));
+}
 inline void transpose4(Quad& a, Quad& b, Quad& c, Quad& d) {
   const float32x4x2_t ab = vtrnq_f32(a, b), cd = vtrnq_f32(c, d);
   a = vcombine_f32(vget_low_f32(ab.val[0]), vget_low_f32(cd.val[0]));
@@ -387,6 +404,22 @@ inline Quad mul_sub4(Quad a, Quad b, Quad c) { return _mm_fmsub_ps(a, b, c); }
 inline Quad divide4(Quad a, Quad b) { return _mm_div_ps(a, b); }
 inline Quad square_root4(Quad a) { return _mm_sqrt_ps(a); }
 inline Quad yzx4(Quad a) { return _mm_shuffle_ps(a, a, _MM_SHUFFLE(3, 0, 2, 1)); }
+inline Quad higher4(Quad a, Quad b) { return _mm_max_ps(a, b); }
+inline Quad lower4(Quad a, Quad b) { return _mm_min_ps(a, b); }
+inline Quad gather4(const float* from, const uint16_t* at, size_t stride) {
+  return _mm_setr_ps(from[at[0]], from[at[stride]], from[at[2 * stride]], from[at[3 * stride]]);
+}
+inline void scatter4(float* to, const uint16_t* at, Quad q) {
+  const __m128 upper = _mm_movehl_ps(q, q);
+  _mm_store_ss(to + at[0], q);
+  _mm_store_ss(to + at[1], _mm_shuffle_ps(q, q, 1));
+  _mm_store_ss(to + at[2], upper);
+  _mm_store_ss(to + at[3], _mm_shuffle_ps(upper, upper, 1));
+}
+inline uint32_t different_lanes4(Quad a, Quad b) {
+  const __m128i same = _mm_cmpeq_epi32(_mm_castps_si128(a), _mm_castps_si128(b));
+  return ~static_cast<uint32_t>(_mm_movemask_ps(_mm_castsi128_ps(same))) & 0xF;
+}
 inline void transpose4(Quad& a, Quad& b, Quad& c, Quad& d) {
   const __m128 ab = _mm_unpacklo_ps(a, b), cd = _mm_unpacklo_ps(c, d);
   const __m128 ab_high = _mm_unpackhi_ps(a, b), cd_high = _mm_unpackhi_ps(c, d);
@@ -415,6 +448,22 @@ inline void columns4(const Vec* m, Quad* columns) {
 }
 #endif
 
+#endif
+
+// Bit k: the bits of lane k differ.
+#if defined(MIEN_KERNEL_SCALAR)
+inline uint32_t different_lanes(Vec a, Vec b) { return bits_of(a) != bits_of(b); }
+#elif defined(MIEN_KERNEL_AVX512)
+inline uint32_t different_lanes(Vec a, Vec b) {
+  return _mm512_cmpneq_epi32_mask(_mm512_castps_si512(a), _mm512_castps_si512(b));
+}
+#elif defined(MIEN_KERNEL_AVX2)
+inline uint32_t different_lanes(Vec a, Vec b) {
+  const __m256i same = _mm256_cmpeq_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b));
+  return ~static_cast<uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(same))) & 0xFF;
+}
+#else
+inline uint32_t different_lanes(Vec a, Vec b) { return different_lanes4(a, b); }
 #endif
 
 // (a * b.yzx - a.yzx * b) is the cross product, turned by one.

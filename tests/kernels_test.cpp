@@ -291,17 +291,20 @@ TEST(JointBatchKernel, BitEqualToColumns) {
 
 /// Correctives with awkward inputs; some read what others give.
 struct Correctives {
-  std::vector<uint16_t> outputs, inputs;
+  std::vector<uint16_t> outputs, inputs, run_lengths;
   std::vector<float> weights;
   std::vector<uint32_t> first_inputs = {0};
   std::vector<uint64_t> marks;
   uint32_t control_count = 40;
 
   Correctives() {
-    for (uint32_t e = 0; e < 20; ++e) {
+    // Runs of 6, 6, 6 and 2 entries, with 1, 2, 3 and 4 inputs that come before the run.
+    for (uint32_t e = 0, run = 0; e < 20; ++e) {
       outputs.push_back(static_cast<uint16_t>(20 + e));
-      for (uint32_t i = 0; i < e % 4; ++i) {
-        inputs.push_back(static_cast<uint16_t>((e * 7 + i * 5) % (20 + e)));
+      run_lengths.push_back(static_cast<uint16_t>(e < 18 ? 6 - e % 6 : 20 - e));
+      if (run_lengths.back() == 6 || e == 18) run = e;
+      for (uint32_t i = 0; i < run / 6 + 1; ++i) {
+        inputs.push_back(static_cast<uint16_t>((e * 7 + i * 5) % (20 + run)));
       }
       first_inputs.push_back(static_cast<uint32_t>(inputs.size()));
       weights.push_back(e % 5 == 0 ? -3.0f : 0.5f + static_cast<float>(e) * 0.1f);
@@ -358,7 +361,7 @@ TEST(PsdKernels, BitEqualToPlainLoopsAndTellChanges) {
       const std::vector<float> expected = c.expected(values, changed);
       const PsdChanges changes =
           kernels->psds({c.outputs.data(), c.weights.data(), c.first_inputs.data(), c.inputs.data(),
-                         c.marks.data(), values.data(), 20});
+                         c.run_lengths.data(), c.marks.data(), values.data(), 20});
       EXPECT_EQ(changes.marks, changed);
       EXPECT_TRUE(changes.any);
       for (uint32_t i = 0; i < c.control_count; ++i) {
@@ -369,10 +372,11 @@ TEST(PsdKernels, BitEqualToPlainLoopsAndTellChanges) {
         EXPECT_EQ(changed_lanes[e] >> k & 1, changed >> c.outputs[e] & 1) << "corrective " << e;
       }
       // Once more: nothing changes.
-      EXPECT_FALSE(kernels
-                       ->psds({c.outputs.data(), c.weights.data(), c.first_inputs.data(),
-                               c.inputs.data(), c.marks.data(), values.data(), 20})
-                       .any);
+      EXPECT_FALSE(
+          kernels
+              ->psds({c.outputs.data(), c.weights.data(), c.first_inputs.data(), c.inputs.data(),
+                      c.run_lengths.data(), c.marks.data(), values.data(), 20})
+              .any);
     }
   }
 }

@@ -70,9 +70,10 @@ void add_table_rows(const ControlTable& table, uint32_t row_count, const Span<fl
 // rig-evaluation 3.3, in dependency order.
 void evaluate_psds(const Rig& rig, Instance& instance, uint32_t lod) {
   const PsdTable& psds = rig.psds;
-  const PsdChanges changes = rig.kernels->psds(
-      {psds.outputs.data, psds.weights.data, psds.first_input.data, psds.inputs.data,
-       rig.joints.control_chunks.data, instance.controls.data, psds.count_at_lod[lod]});
+  const PsdChanges changes =
+      rig.kernels->psds({psds.outputs.data, psds.weights.data, psds.first_input.data,
+                         psds.inputs.data, psds.run_lengths.data, rig.joints.control_chunks.data,
+                         instance.controls.data, psds.count_at_lod[lod]});
   note_changed_psds(instance, changes.marks, changes.any);
 }
 

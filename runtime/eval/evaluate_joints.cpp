@@ -70,12 +70,17 @@ void add_columns(const Rig& rig, const Instance& instance, const JointTile& tile
 template <class F>
 void for_each_target(const Rig& rig, uint32_t lod, uint32_t chunk, F&& f) {
   const JointMatrix& joints = rig.joints;
-  const uint16_t* threes = joints.threes_at_lod.data + size_t{chunk} * rig.lod_count;
-  const uint16_t* ones = joints.ones_at_lod.data + size_t{chunk} * rig.lod_count;
+  const uint16_t* at_lod =
+      joints.targets_at_lod.data + size_t{chunk} * kTargetKinds * rig.lod_count;
   const JointTarget* targets = joints.targets.data + joints.chunks[chunk].first_target;
-  for (uint32_t t = 0; t < threes[lod]; ++t) f(targets[t], std::integral_constant<size_t, 3>());
-  targets += threes[0];
-  for (uint32_t t = 0; t < ones[lod]; ++t) f(targets[t], std::integral_constant<size_t, 1>());
+  const auto each = [&](auto rows) {
+    for (uint32_t t = 0; t < at_lod[lod]; ++t) f(targets[t], rows);
+    targets += at_lod[0];
+    at_lod += rig.lod_count;
+  };
+  each(std::integral_constant<size_t, kTargetRows[0]>());
+  each(std::integral_constant<size_t, kTargetRows[1]>());
+  each(std::integral_constant<size_t, kTargetRows[2]>());
 }
 
 /// Rows of one group only, or of all.

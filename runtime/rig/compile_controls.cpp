@@ -116,6 +116,7 @@ void place_controls(const dna::DnaView& view, Placer& placer, Rig& rig) {
   rig.psds.outputs = placer.array<uint16_t>(rig.psd_count);
   rig.psds.weights = placer.array<float>(rig.psd_count);
   rig.psds.first_input = placer.array<uint32_t>(size_t{rig.psd_count} + 1);
+  rig.psds.run_lengths = placer.array<uint16_t>(rig.psd_count);
   rig.psds.inputs = placer.array<uint16_t>(controls.psds.columns.count);
   rig.psds.count_at_lod = placer.array<uint32_t>(rig.lod_count);
   rig.psds.entry_of_psd = placer.array<uint16_t>(rig.psd_count);
@@ -241,6 +242,15 @@ Status fill_psds(const dna::DnaView& view, Span<uint8_t> reach, Arena& scratch, 
   for (uint32_t i = 0; i < count; ++i) {
     psds.entry_of_psd[order[i]] = static_cast<uint16_t>(i);
     for (uint32_t l = 0; l < reach_of(order[i]); ++l) psds.count_at_lod[l] = i + 1;
+  }
+  for (uint32_t i = count; i-- > 0;) {
+    const uint32_t p = order[i];
+    const auto follows = [&](uint32_t next) {
+      return reach_of(next) == reach_of(p) && depth[next] == depth[p] &&
+             first[next + 1] - first[next] == first[p + 1] - first[p];
+    };
+    const bool runs_on = i + 1 < count && follows(order[i + 1]);
+    psds.run_lengths[i] = static_cast<uint16_t>(runs_on ? psds.run_lengths[i + 1] + 1 : 1);
   }
   for (uint32_t p = 0; p < count; ++p) {
     const uint32_t entry = psds.entry_of_psd[p];

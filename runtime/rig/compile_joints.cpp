@@ -496,40 +496,36 @@ void for_each_slot(const dna::DnaView& view, const JointPlan& plan, const Rig& r
   }
 }
 
-/// Calls f(target, number of rows, reach) for all targets of a chunk, in order of their slots:
-/// three neighbouring rows whose sums go to neighbouring values, or one.
+/// Calls f(target, kind, reach) for all targets of these blocks, in order of their slots.
 template <class F>
 void for_each_target(const dna::DnaView& view, const JointPlan& plan, const Rig& rig,
                      uint32_t first_block, uint32_t end_block, F&& f) {
-  struct Row {
-    uint32_t slot, output, group;
-    uint8_t reach;
-
-    bool comes_before(const Row& next) const {
-      return slot + 1 == next.slot && output + 1 == next.output && group == next.group &&
-             reach == next.reach;
+  // The run that is growing: rows side by side whose sums go side by side.
+  uint32_t slot = 0, output = 0, group = 0, count = 0;
+  uint8_t reach = 0;
+  const auto pass = [&] {
+    for (uint32_t kind = 0; kind < kTargetKinds; ++kind) {
+      for (; count >= kTargetRows[kind]; count -= kTargetRows[kind]) {
+        const JointTarget target = {static_cast<uint16_t>(slot), static_cast<uint16_t>(output),
+                                    static_cast<uint16_t>(group)};
+        f(target, kind, reach);
+        slot += kTargetRows[kind];
+        output += kTargetRows[kind];
+      }
     }
   };
-  Row waiting[2];
-  int count = 0;
-  const auto target = [](const Row& row) -> JointTarget {
-    return {static_cast<uint16_t>(row.slot), static_cast<uint16_t>(row.output),
-            static_cast<uint16_t>(row.group)};
-  };
-  const auto pass = [&] {
-    for (int i = 0; i < count; ++i) f(target(waiting[i]), 1u, waiting[i].reach);
-    count = 0;
-  };
   for_each_slot(view, plan, rig, first_block, end_block,
-                [&](uint32_t slot, uint32_t output, uint32_t group, uint8_t reach) {
-                  const Row row = {slot, output, group, reach};
-                  if (count != 0 && !waiting[count - 1].comes_before(row)) pass();
-                  if (count == 2) {
-                    f(target(waiting[0]), 3u, reach);
-                    count = 0;
-                  } else {
-                    waiting[count++] = row;
+                [&](uint32_t next_slot, uint32_t next_output, uint32_t next_group, uint8_t next) {
+                  const bool grows = next_slot == slot + count && next_output == output + count &&
+                                     next_group == group && next == reach;
+                  if (!grows) {
+                    pass();
+                    slot = next_slot;
+                    output = next_output;
+                    group = next_group;
+                    reach = next;
                   }
+                  ++count;
                 });
   pass();
 }
@@ -537,30 +533,28 @@ void for_each_target(const dna::DnaView& view, const JointPlan& plan, const Rig&
 void fill_targets(const dna::DnaView& view, const JointPlan& plan, uint32_t chunk, Rig& rig) {
   JointMatrix& joints = rig.joints;
   // Where targets of each kind and reach begin, the farthest first.
-  uint32_t begin[2][kMaxLods + 2] = {};
+  uint32_t begin[kTargetKinds][kMaxLods + 2] = {};
   const uint32_t first_block = joints.chunks[chunk].first_block;
   const uint32_t end_block = joints.chunks[chunk + 1].first_block;
   for_each_target(view, plan, rig, first_block, end_block,
-                  [&](const JointTarget&, uint32_t rows, uint8_t reach) {
-                    ++begin[rows == 1][rig.lod_count - reach + 1];
+                  [&](const JointTarget&, uint32_t kind, uint8_t reach) {
+                    ++begin[kind][rig.lod_count - reach + 1];
                   });
-  uint32_t count = 0;
-  for (int one = 0; one < 2; ++one) {
-    uint32_t* kind = begin[one];
+  uint32_t next = joints.chunks[chunk].first_target;
+  uint16_t* at_lod = joints.targets_at_lod.data + size_t{chunk} * kTargetKinds * rig.lod_count;
+  for (auto& kind : begin) {
     for (uint32_t l = 0; l <= rig.lod_count; ++l) kind[l + 1] += kind[l];
-    Span<uint16_t>& at_lod = one ? joints.ones_at_lod : joints.threes_at_lod;
     for (uint32_t l = 0; l < rig.lod_count; ++l) {
-      at_lod[size_t{chunk} * rig.lod_count + l] = static_cast<uint16_t>(kind[rig.lod_count - l]);
+      *at_lod++ = static_cast<uint16_t>(kind[rig.lod_count - l]);
     }
     const uint32_t of_kind = kind[rig.lod_count];
-    for (uint32_t l = 0; l <= rig.lod_count; ++l) kind[l] += count;
-    count += of_kind;
+    for (uint32_t l = 0; l <= rig.lod_count; ++l) kind[l] += next;
+    next += of_kind;
   }
-  const uint32_t first = joints.chunks[chunk].first_target;
-  joints.chunks[chunk + 1].first_target = first + count;
+  joints.chunks[chunk + 1].first_target = next;
   for_each_target(view, plan, rig, first_block, end_block,
-                  [&](const JointTarget& target, uint32_t rows, uint8_t reach) {
-                    joints.targets[first + begin[rows == 1][rig.lod_count - reach]++] = target;
+                  [&](const JointTarget& target, uint32_t kind, uint8_t reach) {
+                    joints.targets[begin[kind][rig.lod_count - reach]++] = target;
                   });
 }
 
@@ -745,8 +739,8 @@ void place_joints(const dna::DnaView& view, const JointPlan& plan, Placer& place
   joints.chunks_at_lod = placer.array<uint32_t>(rig.lod_count);
   joints.control_chunks = placer.array<uint64_t>(rig.control_count);
   joints.targets = placer.array<JointTarget>(plan.target_count);
-  joints.threes_at_lod = placer.array<uint16_t>((plan.chunk_ends - 1) * rig.lod_count);
-  joints.ones_at_lod = placer.array<uint16_t>((plan.chunk_ends - 1) * rig.lod_count);
+  joints.targets_at_lod =
+      placer.array<uint16_t>((plan.chunk_ends - 1) * kTargetKinds * rig.lod_count);
 
   const auto& groups = view.bhvr.joints.groups;
   joints.group_rows_at_lod = placer.array<uint16_t>(size_t{groups.count} * rig.lod_count);

@@ -65,6 +65,8 @@ struct PsdTable {
   Span<float> weights;         // [entry]
   Span<uint32_t> first_input;  // [entry], one more at the end
   Span<uint16_t> inputs;       // control numbers
+  Span<uint16_t> run_lengths;  // [entry] so many from here on have the same number of inputs and do
+                               // not read each other
   Span<uint32_t> count_at_lod;
   Span<uint16_t> entry_of_psd;  // where corrective p stands
 };
@@ -75,12 +77,16 @@ struct JointChunk {
   uint32_t first_target;  // into JointMatrix::targets
 };
 
-/// Where sums go: one, or three neighbouring ones.
+/// Where neighbouring sums go: six, three, or one.
 struct JointTarget {
   uint16_t slot;    // counted from the chunk's first
   uint16_t output;  // joint value
   uint16_t group;   // joint group that the rows are from
 };
+
+/// Rows of the kinds of targets.
+constexpr uint32_t kTargetRows[] = {6, 3, 1};
+constexpr uint32_t kTargetKinds = 3;
 
 /// The joint matrix (rig-evaluation 4), one column per control that it reads. Nothing but zeros is
 /// left out, so that evaluating touches the pieces of those controls that are not zero, one after
@@ -109,9 +115,9 @@ struct JointMatrix {
   Span<uint32_t> chunks_at_lod;  // leading chunks
   Span<uint64_t> control_chunks;  // [control] bit c >> chunk_shift: has pieces in chunk c
 
-  // By chunk: those of three rows, then those of one; of each, those that more LODs reach first.
+  // By chunk: those of six rows, of three, of one; of each kind those that more LODs reach first.
   Span<JointTarget> targets;
-  Span<uint16_t> threes_at_lod, ones_at_lod;  // [chunk][lod]: leading ones of either kind
+  Span<uint16_t> targets_at_lod;  // [chunk][kind][lod]: leading ones of the kind
 
   Span<uint16_t> group_rows_at_lod;  // [group][lod]: leading rows of the group, as in the file
   bool contested = false;            // some output is written by rows of different chunks

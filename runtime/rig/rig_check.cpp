@@ -171,7 +171,8 @@ bool check_psds(const Checker& c) {
   const PsdTable& psds = rig.psds;
   const uint32_t count = rig.psd_count, first_psd = rig.raw_count;
   if (!c.ok(psds.outputs.count == count && psds.weights.count == count &&
-                psds.entry_of_psd.count == count && psds.first_input.count == size_t{count} + 1 &&
+                psds.entry_of_psd.count == count && psds.run_lengths.count == count &&
+                psds.first_input.count == size_t{count} + 1 &&
                 is_runs(psds.first_input, count, psds.inputs.count) &&
                 below(psds.inputs, rig.control_count) && below(psds.entry_of_psd, count),
             "correctives") ||
@@ -182,12 +183,21 @@ bool check_psds(const Checker& c) {
     return control - first_psd < count ? psds.entry_of_psd[control - first_psd] : 0;
   };
   bool ordered = true;
+  uint32_t run = 0, run_end = 0, run_inputs = 0;
   for (uint32_t e = 0; e < count; ++e) {
+    const uint32_t inputs = psds.first_input[e + 1] - psds.first_input[e];
+    if (e == run_end) {
+      run = e;
+      run_inputs = inputs;
+      run_end = e + psds.run_lengths[e];
+    }
+    ordered &= psds.run_lengths[e] != 0 && e + psds.run_lengths[e] == run_end && run_end <= count &&
+               inputs == run_inputs;
     const uint32_t output = psds.outputs[e];
     ordered &= output - first_psd < count && entry_of(output) == e;
     for (uint32_t k = psds.first_input[e]; k < psds.first_input[e + 1]; ++k) {
       const uint32_t input = psds.inputs[k];
-      ordered &= input - first_psd >= count || entry_of(input) < e;
+      ordered &= input - first_psd >= count || entry_of(input) < run;
     }
   }
   return c.ok(ordered, "order of correctives");
@@ -220,8 +230,7 @@ bool check_targets(const Checker& c) {
   const Rig& rig = c.rig;
   const JointMatrix& joints = rig.joints;
   const uint32_t lods = rig.lod_count;
-  const size_t tables = size_t{joints.chunk_count()} * lods;
-  if (!c.ok(joints.threes_at_lod.count == tables && joints.ones_at_lod.count == tables,
+  if (!c.ok(joints.targets_at_lod.count == size_t{joints.chunk_count()} * kTargetKinds * lods,
             "targets of the joint matrix")) {
     return false;
   }
@@ -229,18 +238,19 @@ bool check_targets(const Checker& c) {
       rig.joint_value_count() + (rig.quaternion_outputs ? rig.joint_count * 3 : 0);
   bool good = true;
   for (uint32_t chunk = 0; good && lods != 0 && chunk < joints.chunk_count(); ++chunk) {
-    const Span<uint16_t> threes = joints.threes_at_lod.slice(size_t{chunk} * lods, lods);
-    const Span<uint16_t> ones = joints.ones_at_lod.slice(size_t{chunk} * lods, lods);
     const JointChunk &at = joints.chunks[chunk], &next = joints.chunks[chunk + 1];
-    const uint32_t count = next.first_target - at.first_target;
     const uint32_t slots = (next.first_block - at.first_block) * kPieceRows;
-    good = below(threes, threes[0] + uint64_t{1}) && below(ones, ones[0] + uint64_t{1}) &&
-           uint32_t{threes[0]} + ones[0] <= count;
-    for (uint32_t t = 0; good && t < count; ++t) {
-      const JointTarget& target = joints.targets[at.first_target + t];
-      const uint32_t rows = t < threes[0] ? 3 : 1;
-      good = target.slot + rows <= slots && target.output + rows <= outputs &&
-             target.group < joints.group_count;
+    uint32_t target = at.first_target;
+    for (uint32_t kind = 0; good && kind < kTargetKinds; ++kind) {
+      const Span<uint16_t> at_lod =
+          joints.targets_at_lod.slice((size_t{chunk} * kTargetKinds + kind) * lods, lods);
+      const uint32_t rows = kTargetRows[kind], count = at_lod[0];
+      good = below(at_lod, count + uint64_t{1}) && count <= next.first_target - target;
+      for (uint32_t end = good ? target + count : target; target < end; ++target) {
+        const JointTarget& t = joints.targets[target];
+        good &=
+            t.slot + rows <= slots && t.output + rows <= outputs && t.group < joints.group_count;
+      }
     }
   }
   return c.ok(good, "targets of the joint matrix");

@@ -66,7 +66,7 @@ void for_each_span(AnyRig& rig, F&& f) {
   each(rig.driven_raw, rig.map_rows_at_lod);
   each(rig.raw_to_gui.first_group, rig.raw_to_gui.first_row, rig.raw_to_gui.rows);
   each(rig.psds.outputs, rig.psds.first_input, rig.psds.inputs, rig.psds.count_at_lod);
-  each(rig.psds.entry_of_psd);
+  each(rig.psds.run_lengths, rig.psds.entry_of_psd);
   each(rig.channels.inputs, rig.channels.outputs, rig.channels.count_at_lod);
   each(rotations.groups, rotations.angle_joints, rotations.turn_joints, rotations.columns);
   each(rotations.columns_at_lod);
@@ -81,7 +81,7 @@ void for_each_span(AnyRig& rig, F&& f) {
   each(rig.joint_parents);
   for (auto& names : rig.names) each(names.first, names.sorted);
   each(joints.columns, joints.first_piece, joints.first_entry, joints.chunks, joints.targets);
-  each(joints.chunks_at_lod, joints.threes_at_lod, joints.ones_at_lod, joints.group_rows_at_lod);
+  each(joints.chunks_at_lod, joints.targets_at_lod, joints.group_rows_at_lod);
   each(joints.parts, joints.blocks);
 
   // What can do no harm.
