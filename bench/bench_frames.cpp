@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Frames of a character that keeps what did not change (MIEN_REUSE_UNCHANGED), beside the same
-// frames evaluated in full: nothing moves, the mouth moves, everything moves. And a crowd that
-// speaks.
+// frames evaluated in full: nothing moves, one control of the mouth, all of it, everything. And
+// crowds, in one call and one by one.
 //
 // Counters: `frame` is the time of a frame in seconds (an iteration is 64 frames), `of_full` that
 // time by the one of a full evaluation in the same run, `moving` the number of raw controls that
-// change from frame to frame, `per_character` a crowd's time by its number.
+// change from frame to frame, `touched` the share of the joint rows whose groups read a control or
+// a corrective that changes, `per_character` a crowd's time by its number.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -18,7 +19,7 @@
 namespace mien::bench {
 namespace {
 
-enum class Moving { kNothing, kMouth, kEverything };
+enum class Moving { kNothing, kOne, kMouth, kEverything };
 
 const MienDna* behavior() {
   static const MienDna* dna = open_rig(kBehaviorLayers, 0);
@@ -109,7 +110,12 @@ Clip make_clip(const MienRig* rig, size_t count, Moving moving) {
     controls.clear();
     for (size_t i = 0; i < count; ++i) controls.push_back(static_cast<uint32_t>(i));
   }
-  for (uint32_t i : controls) clip.frames[1][i] *= 0.9f;
+  for (uint32_t i : controls) {
+    if (moving == Moving::kOne && clip.moving != 0) break;
+    clip.frames[1][i] *= 0.9f;
+    clip.moving += clip.frames[0][i] != clip.frames[1][i];
+  }
+  clip.moving = 0;
   for (size_t i = 0; i < count; ++i) clip.moving += clip.frames[0][i] != clip.frames[1][i];
   return clip;
 }
@@ -126,6 +132,42 @@ double work_seconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
+}
+
+std::vector<int64_t> read_numbers(const std::string& path) {
+  MienDnaField field = sized<MienDnaField>();
+  MienError error = sized<MienError>();
+  require(mien_dna_field(behavior(), path.c_str(), &field, &error), error);
+  std::vector<int64_t> values(static_cast<size_t>(field.count));
+  require(mien_dna_read_integers(behavior(), path.c_str(), 0, field.count, values.data(), &error),
+          error);
+  return values;
+}
+
+/// The share of the joint rows whose groups read what changes between the frames of a clip.
+double touched_share(const Clip& clip, const MienRig* rig, MienInstance* instance) {
+  std::vector<float> controls[2];
+  for (size_t frame = 0; frame < 2; ++frame) {
+    play(clip, frame, rig, instance);
+    MienFloatView view = {};
+    mien_instance_controls(instance, &view);
+    controls[frame].assign(view.data, view.data + view.count);
+  }
+  MienDnaInfo info = sized<MienDnaInfo>();
+  mien_dna_info(behavior(), &info);
+  size_t rows = 0, touched = 0;
+  for (uint32_t g = 0; g < info.joint_group_count; ++g) {
+    const std::string at = "bhvr.joints.jointGroups[" + std::to_string(g) + "].";
+    const size_t of_group = read_numbers(at + "outputIndices").size();
+    bool any = false;
+    for (const int64_t input : read_numbers(at + "inputIndices")) {
+      const auto i = static_cast<size_t>(input);
+      any |= controls[0][i] != controls[1][i];
+    }
+    rows += of_group;
+    touched += any ? of_group : 0;
+  }
+  return rows ? static_cast<double>(touched) / static_cast<double>(rows) : 0.0;
 }
 
 void frames(benchmark::State& state, uint32_t isa, Moving moving) {
@@ -154,10 +196,11 @@ void frames(benchmark::State& state, uint32_t isa, Moving moving) {
   state.counters["frame"] = frame;
   state.counters["of_full"] = frame / full_frame;
   state.counters["moving"] = static_cast<double>(clip.moving);
+  state.counters["touched"] = touched_share(clip, full_rig.get(), full.get());
 }
 
-/// Characters with controls of their own, in one call.
-void crowd(benchmark::State& state, uint32_t isa, uint32_t count, double activity) {
+/// Characters with controls of their own, in one call or in one for each.
+void crowd(benchmark::State& state, uint32_t isa, uint32_t count, double activity, bool together) {
   const auto rig = rig_of(isa, MIEN_REUSE_NOTHING);
   std::mt19937 random(7);
   std::vector<std::unique_ptr<MienInstance, Destroy>> owners;
@@ -175,8 +218,14 @@ void crowd(benchmark::State& state, uint32_t isa, uint32_t count, double activit
   const std::unique_ptr<MienBatch, Destroy> batch(made);
   const std::vector<uint32_t> lods(count, 0);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(mien_rig_evaluate_batch(rig.get(), batch.get(), instances.data(),
-                                                     lods.data(), count, MIEN_STAGE_ALL, nullptr));
+    if (together) {
+      benchmark::DoNotOptimize(mien_rig_evaluate_batch(
+          rig.get(), batch.get(), instances.data(), lods.data(), count, MIEN_STAGE_ALL, nullptr));
+    } else {
+      for (MienInstance* one : instances) {
+        benchmark::DoNotOptimize(mien_rig_evaluate(rig.get(), one, 0));
+      }
+    }
     benchmark::ClobberMemory();
   }
   using benchmark::Counter;
@@ -189,6 +238,7 @@ const int kRegistered = [] {
     const char* name;
     Moving moving;
   } clips[] = {{"unchanged", Moving::kNothing},
+               {"one_control", Moving::kOne},
                {"mouth", Moving::kMouth},
                {"everything", Moving::kEverything}};
   for (uint32_t isa = MIEN_ISA_SCALAR; isa <= MIEN_ISA_NEON; ++isa) {
@@ -198,9 +248,14 @@ const int kRegistered = [] {
       benchmark::RegisterBenchmark((clip.name + at + "25%").c_str(), frames, isa, clip.moving)
           ->UseManualTime();
     }
-    for (uint32_t count : {1u, 64u, 512u}) {
-      benchmark::RegisterBenchmark(("crowd_of_" + std::to_string(count) + at + "8%").c_str(), crowd,
-                                   isa, count, 0.08);
+    for (int percent : {8, 25}) {
+      for (uint32_t count : {1u, 64u, 512u}) {
+        const std::string which = std::to_string(count) + at + std::to_string(percent) + "%";
+        benchmark::RegisterBenchmark(("crowd_of_" + which).c_str(), crowd, isa, count,
+                                     percent / 100.0, true);
+        benchmark::RegisterBenchmark(("one_by_one_" + which).c_str(), crowd, isa, count,
+                                     percent / 100.0, false);
+      }
     }
   }
   return 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Correctives.
+// Controls and correctives.
 
 #pragma once
 
@@ -9,6 +9,23 @@ namespace mien::MIEN_KERNEL_ISA {
 namespace {
 
 constexpr float kLowest = -3.40282347e38f;
+
+void nonzero(const NonzeroArgs& args) {
+  const float* const values = args.values;
+  const size_t count = args.count;
+  const Vec zero = broadcast(0.0f);
+  for (size_t first = 0; first < count; first += 64) {
+    const size_t left = count - first;
+    uint64_t word = 0;
+    size_t i = 0;
+    for (; i + kWidth <= (left < 64 ? left : 64); i += kWidth) {
+      const uint64_t lanes = different_lanes(absolute(load(values + first + i)), zero);
+      word |= lanes << i;
+    }
+    for (; i < 64 && i < left; ++i) word |= uint64_t{values[first + i] != 0.0f} << i;
+    args.words[first / 64] = word;
+  }
+}
 
 PsdChanges psds(const PsdArgs& args) {
   float* const controls = args.controls;

@@ -65,6 +65,13 @@ struct BatchPiece {
   uint32_t input;
 };
 
+/// Which values are not 0: bit i % 64 of words[i / 64]. Bits past the last value are 0.
+struct NonzeroArgs {
+  const float* values;  // 64-byte aligned
+  uint64_t* words;
+  uint32_t count;
+};
+
 /// Correctives, entry after entry:
 ///
 ///     controls[outputs[e]] = min(1, weights[e] * product of clamp(controls[input], 0, 1))
@@ -315,6 +322,7 @@ struct KernelTable {
   void (*joint_batch)(const JointBatchArgs& args);
   void (*joint_batch_fixed)(const JointBatchArgs& args);
   uint32_t batch_step;  // lanes that these take at a time
+  void (*nonzero)(const NonzeroArgs& args);
   PsdChanges (*psds)(const PsdArgs& args);
   void (*psd_batch)(const PsdBatchArgs& args);
   /// sums[i] = sums[i] * scales[i] (unless scales is null), saturated, plus 0; count is a multiple

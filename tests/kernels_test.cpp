@@ -381,6 +381,25 @@ TEST(PsdKernels, BitEqualToPlainLoopsAndTellChanges) {
   }
 }
 
+TEST(NonzeroKernel, FindsWhatIsNotZero) {
+  for (const KernelTable* kernels : present_kernels()) {
+    for (uint32_t count : {0u, 1u, 15u, 64u, 65u, 200u}) {
+      SCOPED_TRACE(std::string(kernels->name) + ", " + std::to_string(count));
+      alignas(64) float values[200];
+      for (uint32_t i = 0; i < 200; ++i) {
+        const float awkward[] = {0.0f, -0.0f, 1e-45f, -2.0f, std::nanf(""), 0.0f};
+        values[i] = awkward[i * i % 6];
+      }
+      uint64_t words[4] = {};
+      kernels->nonzero({values, words, count});
+      for (uint32_t i = 0; i < (count + 63) / 64 * 64; ++i) {
+        const bool expected = i < count && values[i] != 0.0f;
+        EXPECT_EQ(words[i / 64] >> i % 64 & 1, expected) << i;
+      }
+    }
+  }
+}
+
 TEST(FinishSumsKernel, ScalesAndSaturates) {
   constexpr float kLargest = std::numeric_limits<float>::max();
   const float infinity = std::numeric_limits<float>::infinity();

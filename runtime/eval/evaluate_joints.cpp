@@ -6,64 +6,63 @@
 #include <cstring>
 #include <type_traits>
 
+#include "runtime/base/bits.h"
 #include "runtime/eval/evaluate.h"
 
 namespace mien {
 namespace {
 
-/// What columns first, first + 1, ... have for a tile, of controls that are not zero: some of them,
-/// if a rig has very many.
-struct ActiveRuns {
-  static constexpr uint32_t kMost = 256;
-  JointRun runs[kMost];
-  uint32_t count = 0;
+/// What a column has for a tile.
+JointRun run_of(const JointMatrix& joints, const JointTile& tile, uint32_t column, float input) {
+  const ColumnPart* parts = joints.parts.data + size_t{column} * joints.chunks.count;
+  const ColumnPart from = parts[tile.first_chunk], to = parts[tile.end_chunk];
+  const uint32_t pairs = parts[joints.chunk_count()].pairs;
+  const uint32_t piece = joints.first_piece[column], entry = joints.first_entry[column];
+  return {piece + 2 * from.pairs,
+          entry + from.pairs,
+          static_cast<uint32_t>(to.pairs - from.pairs),
+          piece + 2 * pairs + from.singles,
+          entry + pairs + from.singles,
+          static_cast<uint32_t>(to.singles - from.singles),
+          input};
+}
 
-  /// Returns the first column it did not look at.
-  uint32_t find(const JointMatrix& joints, const float* controls, const JointTile& tile,
-                uint32_t first) {
-    const auto all = static_cast<uint32_t>(joints.columns.count);
-    const uint32_t end = all - first < kMost ? all : first + kMost;
-    uint16_t active[kMost];
-    count = 0;
-    for (uint32_t k = first; k < end; ++k) {
-      active[count] = static_cast<uint16_t>(k);
-      count += controls[joints.columns[k]] != 0.0f;
-    }
-    const size_t stride = joints.chunks.count;
-    for (uint32_t i = 0; i < count; ++i) {
-      const size_t k = active[i];
-      const ColumnPart* parts = joints.parts.data + k * stride;
-      const ColumnPart from = parts[tile.first_chunk], to = parts[tile.end_chunk];
-      const uint32_t pairs = parts[stride - 1].pairs;
-      const uint32_t piece = joints.first_piece[k], entry = joints.first_entry[k];
-      runs[i] = {piece + 2 * from.pairs,
-                 entry + from.pairs,
-                 static_cast<uint32_t>(to.pairs - from.pairs),
-                 piece + 2 * pairs + from.singles,
-                 entry + pairs + from.singles,
-                 static_cast<uint32_t>(to.singles - from.singles),
-                 controls[joints.columns[k]]};
-    }
-    return end;
-  }
-};
-
+/// Adds the columns from `first_column` on whose controls are not 0, in order.
 void add_columns(const Rig& rig, const Instance& instance, const JointTile& tile,
                  uint32_t first_column) {
+  constexpr uint32_t kMostRuns = 256, kWords = 16;  // at a time
   const JointMatrix& joints = rig.joints;
+  if (first_column >= joints.columns.count) return;
+  JointRun runs[kMostRuns];
   const bool fixed = joints.values.empty();
-  ActiveRuns active;
+  const auto kernel = fixed ? rig.kernels->joint_columns_fixed : rig.kernels->joint_columns;
   JointColumnsArgs args;
   args.values = fixed ? static_cast<const void*>(joints.fixed_values.data) : joints.values.data;
   args.blocks = joints.blocks.data;
-  args.runs = active.runs;
+  args.runs = runs;
   args.sums = tile.sums - size_t{joints.chunks[tile.first_chunk].first_block} * kPieceRows;
+  args.run_count = 0;
   args.portable = rig.portable;
-  for (uint32_t k = first_column; k < joints.columns.count;) {
-    k = active.find(joints, instance.controls.data, tile, k);
-    args.run_count = active.count;
-    (fixed ? rig.kernels->joint_columns_fixed : rig.kernels->joint_columns)(args);
+  const uint32_t first_control = joints.columns[first_column];
+  const float* controls = instance.controls.data;
+  for (uint32_t first = first_control / 64 * 64; first < rig.control_count; first += 64 * kWords) {
+    uint64_t words[kWords];
+    const uint32_t count = std::min(rig.control_count - first, 64 * kWords);
+    rig.kernels->nonzero({controls + first, words, count});
+    if (first < first_control) words[0] &= ~uint64_t{0} << (first_control - first);
+    for (uint32_t w = 0; w * 64 < count; ++w) {
+      for (uint64_t bits = words[w]; bits != 0; bits &= bits - 1) {
+        const uint32_t control = first + w * 64 + lowest_bit(bits);
+        const uint32_t column = joints.column_of_control[control];
+        if (column == kNoColumn) continue;
+        runs[args.run_count++] = run_of(joints, tile, column, controls[control]);
+        if (args.run_count < kMostRuns) continue;
+        kernel(args);
+        args.run_count = 0;
+      }
+    }
   }
+  kernel(args);
 }
 
 /// Calls f(target, number of rows as a constant) for what a LOD writes of a chunk.
@@ -141,6 +140,8 @@ void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, uint6
     return (marks >> (chunk >> joints.chunk_shift) & 1) != 0 &&
            (only_group == kAllGroups || holds_group(joints, chunk, only_group));
   };
+  // To begin anew with every column costs more than some chunks that need not be.
+  constexpr uint32_t kBridge = 4;
   // The most stack that evaluation takes, beside 8 KiB for the columns.
   alignas(kBlockAlignment) float sums[JointTile::kMostBlocks * kPieceRows];
   for (uint32_t c = 0; c < chunk_count;) {
@@ -149,7 +150,9 @@ void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, uint6
       continue;
     }
     uint32_t end = c + 1;
-    while (end < chunk_count && wanted(end)) ++end;
+    for (uint32_t n = end; n < chunk_count && n < end + kBridge; ++n) {
+      if (wanted(n)) end = n + 1;
+    }
     const JointTile tile = tile_from(joints, c, end, sums);
     c = tile.end_chunk;
     const uint32_t blocks =

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "runtime/base/bits.h"
 #include "runtime/dna/turn_columns.h"
 #include "runtime/rig/compile_rig.h"
 
@@ -56,26 +57,6 @@ bool is_zero(const dna::JointGroup& group, uint32_t row) {
 }
 
 constexpr uint32_t kWordBits = 64;
-
-uint32_t lowest_bit(uint64_t bits) {
-#if defined(__GNUC__)
-  return static_cast<uint32_t>(__builtin_ctzll(bits));
-#else
-  uint32_t at = 0;
-  while (!(bits >> at & 1)) ++at;
-  return at;
-#endif
-}
-
-uint32_t bit_count(uint64_t bits) {
-#if defined(__GNUC__)
-  return static_cast<uint32_t>(__builtin_popcountll(bits));
-#else
-  uint32_t count = 0;
-  for (; bits != 0; bits &= bits - 1) ++count;
-  return count;
-#endif
-}
 
 Status no_scratch(Error& error) {
   return fail(error, Status::kMemory, kNoOffset, "no memory to compile the joint groups");
@@ -637,11 +618,13 @@ void mark_other_rows(const dna::DnaView& view, const JointPlan& plan, const Rig&
 /// Where the columns begin; turns the counts of the plan into places.
 void place_columns(JointPlan& plan, JointMatrix& joints) {
   uint32_t k = 0, piece = 0, entry = 0;
+  std::fill(joints.column_of_control.begin(), joints.column_of_control.end(), kNoColumn);
   for (uint32_t control = 0; control < plan.columns.count; ++control) {
     PlannedColumn& column = plan.columns[control];
     const uint32_t pairs = column.pairs, singles = column.singles;
     if (pairs + singles == 0) continue;
     joints.columns[k] = static_cast<uint16_t>(control);
+    joints.column_of_control[control] = k;
     column.pairs = piece;
     column.singles = piece + 2 * pairs;
     column.pair_entries = entry;
@@ -732,6 +715,7 @@ void place_joints(const dna::DnaView& view, const JointPlan& plan, Placer& place
   }
   joints.blocks = placer.array<uint16_t>(plan.entry_count);
   joints.columns = placer.array<uint16_t>(plan.column_count);
+  joints.column_of_control = placer.array<uint32_t>(rig.control_count);
   joints.first_piece = placer.array<uint32_t>(plan.column_count + 1);
   joints.first_entry = placer.array<uint32_t>(plan.column_count + 1);
   joints.parts = placer.array<ColumnPart>(plan.column_count * plan.chunk_ends);

@@ -102,13 +102,14 @@ constexpr uint32_t kTargetKinds = 3;
 ///
 /// Blocks that more LODs reach come first, so a LOD is a prefix of the chunks.
 struct JointMatrix {
-  Span<float> values;            // [piece][8], or
-  Span<int16_t> fixed_values;    // the same in units of the slot's scale
-  Span<float> scales;            // [slot], beside fixed_values
-  Span<uint16_t> blocks;         // [entry] of each pair the even one, of each other piece its own
-  Span<uint16_t> columns;        // [column] control, ascending
-  Span<uint32_t> first_piece;    // [column], one more at the end
-  Span<uint32_t> first_entry;    // [column] into blocks, one more at the end
+  Span<float> values;          // [piece][8], or
+  Span<int16_t> fixed_values;  // the same in units of the slot's scale
+  Span<float> scales;          // [slot], beside fixed_values
+  Span<uint16_t> blocks;       // [entry] of each pair the even one, of each other piece its own
+  Span<uint16_t> columns;      // [column] control, ascending
+  Span<uint32_t> column_of_control;  // [control] or kNoColumn
+  Span<uint32_t> first_piece;        // [column], one more at the end
+  Span<uint32_t> first_entry;        // [column] into blocks, one more at the end
   Span<ColumnPart> parts;        // [column][chunk], one more at the end of each column: what of the
                                  // column stands before the chunk
   Span<JointChunk> chunks;       // one more at the end
@@ -159,6 +160,7 @@ struct JointMatrix {
     for (uint32_t i = 0; i < before.singles; ++i) f(piece + i, entry[i] / kBlockUnit);
   }
 };
+constexpr uint32_t kNoColumn = ~uint32_t{0};
 constexpr uint32_t kMostChunkBlocks = 256;
 constexpr uint32_t kMostBlocks = 0x10000 / kBlockUnit;  // of the whole matrix
 

@@ -295,7 +295,13 @@ bool check_pieces(const Checker& c, size_t pieces) {
             "columns of the joint matrix")) {
     return false;
   }
-  bool good = true;
+  // Each column belongs to its control, and each other control to none.
+  bool good = joints.column_of_control.count == c.rig.control_count;
+  for (size_t k = 1; k < columns; ++k) good &= joints.columns[k - 1] < joints.columns[k];
+  for (size_t i = 0, k = 0; good && i < joints.column_of_control.count; ++i) {
+    const bool has_column = k < columns && joints.columns[k] == i;
+    good = joints.column_of_control[i] == (has_column ? k++ : kNoColumn);
+  }
   for (size_t k = 0; good && k < columns; ++k) {
     const ColumnPart* parts = joints.parts.data + k * ends;
     const uint32_t pairs = parts[ends - 1].pairs, singles = parts[ends - 1].singles;

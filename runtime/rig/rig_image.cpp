@@ -80,7 +80,8 @@ void for_each_span(AnyRig& rig, F&& f) {
   }
   each(rig.joint_parents);
   for (auto& names : rig.names) each(names.first, names.sorted);
-  each(joints.columns, joints.first_piece, joints.first_entry, joints.chunks, joints.targets);
+  each(joints.columns, joints.column_of_control, joints.first_piece, joints.first_entry,
+       joints.chunks, joints.targets);
   each(joints.chunks_at_lod, joints.targets_at_lod, joints.group_rows_at_lod);
   each(joints.parts, joints.blocks);
 

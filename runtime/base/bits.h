@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Sets of bits.
+#pragma once
+
+#include <cstdint>
+
+namespace mien {
+
+/// The number of the lowest bit that is set; there must be one.
+inline uint32_t lowest_bit(uint64_t bits) {
+#if defined(__GNUC__)
+  return static_cast<uint32_t>(__builtin_ctzll(bits));
+#else
+  uint32_t at = 0;
+  while (!(bits >> at & 1)) ++at;
+  return at;
+#endif
+}
+
+inline uint32_t bit_count(uint64_t bits) {
+#if defined(__GNUC__)
+  return static_cast<uint32_t>(__builtin_popcountll(bits));
+#else
+  uint32_t count = 0;
+  for (; bits != 0; bits &= bits - 1) ++count;
+  return count;
+#endif
+}
+
+}  // namespace mien
