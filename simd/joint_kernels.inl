@@ -95,6 +95,16 @@ inline void add_pairs(const Value* values, const uint16_t* blocks, size_t count,
                       float input_value) {
   const PieceVec input = broadcast_piece(input_value);
   size_t i = 0;
+  for (; i + 4 <= count; i += 4) {
+    const FourBlocks n(blocks + i);
+    float *const a = sums_of(sums, n[0]), *const b = sums_of(sums, n[1]);
+    float* const four[] = {a, a + kPieceRows, b, b + kPieceRows};
+    add_pieces<How>(values + i * 2 * kPieceRows, four, input, std::make_index_sequence<4>());
+    float *const c = sums_of(sums, n[2]), *const d = sums_of(sums, n[3]);
+    float* const others[] = {c, c + kPieceRows, d, d + kPieceRows};
+    add_pieces<How>(values + (i + 2) * 2 * kPieceRows, others, input,
+                    std::make_index_sequence<4>());
+  }
   for (; i + 2 <= count; i += 2) {
     float *const a = sums_of(sums, blocks[i]), *const b = sums_of(sums, blocks[i + 1]);
     float* const four[] = {a, a + kPieceRows, b, b + kPieceRows};
