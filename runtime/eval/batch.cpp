@@ -33,7 +33,7 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
   batch.lods = placer.array<uint32_t>(capacity);
   batch.first_of_crowd = placer.array<uint32_t>(most_crowds(rig, capacity) + 1);
   batch.tasks = placer.array<CrowdScratch>(std::min<size_t>(tasks, most_crowds(rig, capacity)));
-  const size_t tile_blocks = std::min(block_count(joints), JointTile::kMostBlocks);
+  const size_t tile_blocks = std::min(block_count(joints), kMostTileBlocks);
   for (size_t i = 0; i < batch.tasks.count; ++i) {
     CrowdScratch scratch;
     scratch.controls =

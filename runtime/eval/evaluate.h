@@ -55,11 +55,9 @@ constexpr uint32_t kAllGroups = ~uint32_t{0};
 /// Neighbouring chunks of the joint matrix and their sums, which start from 0: all chunks of a
 /// face, so that each column is read in one go.
 struct JointTile {
-  static constexpr uint32_t kMostBlocks = 1024;
   uint32_t first_chunk, end_chunk;
   float* sums;  // [block of the tile][8], 64-byte aligned
 };
-static_assert(JointTile::kMostBlocks >= kMostChunkBlocks, "a chunk fits");
 
 /// The tile that begins with a chunk and has as many of those before `end_chunk` as fit.
 JointTile tile_from(const JointMatrix& joints, uint32_t first_chunk, uint32_t end_chunk,

@@ -65,7 +65,8 @@ void add_columns(const Rig& rig, const Instance& instance, const JointTile& tile
   kernel(args);
 }
 
-/// Calls f(target, number of rows as a constant) for what a LOD writes of a chunk.
+/// Calls f(target, number of rows as a constant) for what a LOD writes of a chunk, or, with the
+/// number behind the last chunk, of all of them.
 template <class F>
 void for_each_target(const Rig& rig, uint32_t lod, uint32_t chunk, F&& f) {
   const JointMatrix& joints = rig.joints;
@@ -82,24 +83,27 @@ void for_each_target(const Rig& rig, uint32_t lod, uint32_t chunk, F&& f) {
   each(std::integral_constant<size_t, kTargetRows[2]>());
 }
 
-/// Rows of one group only, or of all.
+/// Rows of one group only, or of all. What a LOD has as a whole is written in order of the joint
+/// values, which memory likes best: in a crowd they are far away.
 void write_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTile& tile,
                 uint32_t only_group) {
   const JointMatrix& joints = rig.joints;
-  const uint32_t first_block = joints.chunks[tile.first_chunk].first_block;
   float* out = instance.joints_and_angles.data;
-  for (uint32_t c = tile.first_chunk; c < tile.end_chunk; ++c) {
-    const float* sums = tile.sums + size_t{joints.chunks[c].first_block - first_block} * kPieceRows;
-    const auto write = [&](const JointTarget& target, auto rows) {
+  const uint32_t first_block = joints.chunks[tile.first_chunk].first_block;
+  const auto write = [&](uint32_t chunk, uint32_t from_block) {
+    const float* sums = tile.sums + size_t{from_block - first_block} * kPieceRows;
+    const auto copy = [out, sums](const JointTarget& target, auto rows) {
       memcpy(out + target.output, sums + target.slot, rows() * sizeof(float));
     };
-    if (only_group == kAllGroups) {
-      for_each_target(rig, lod, c, write);
-    } else {
-      for_each_target(rig, lod, c, [&](const JointTarget& target, auto rows) {
-        if (target.group == only_group) write(target, rows);
-      });
-    }
+    if (only_group == kAllGroups) return for_each_target(rig, lod, chunk, copy);
+    for_each_target(rig, lod, chunk, [&](const JointTarget& target, auto rows) {
+      if (target.group == only_group) copy(target, rows);
+    });
+  };
+  const bool whole = tile.first_chunk == 0 && tile.end_chunk == joints.chunks_at_lod[lod];
+  if (whole && joints.fits_tile()) return write(joints.chunk_count(), 0);
+  for (uint32_t c = tile.first_chunk; c < tile.end_chunk; ++c) {
+    write(c, joints.chunks[c].first_block);
   }
 }
 
@@ -115,7 +119,7 @@ bool holds_group(const JointMatrix& joints, uint32_t chunk, uint32_t group) {
 
 JointTile tile_from(const JointMatrix& joints, uint32_t first_chunk, uint32_t end_chunk,
                     float* sums) {
-  const uint32_t end_block = joints.chunks[first_chunk].first_block + JointTile::kMostBlocks;
+  const uint32_t end_block = joints.chunks[first_chunk].first_block + kMostTileBlocks;
   uint32_t c = first_chunk + 1;
   while (c < end_chunk && joints.chunks[c + 1].first_block <= end_block) ++c;
   return {first_chunk, c, sums};
@@ -143,7 +147,7 @@ void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, uint6
   // To begin anew with every column costs more than some chunks that need not be.
   constexpr uint32_t kBridge = 4;
   // The most stack that evaluation takes, beside 8 KiB for the columns.
-  alignas(kBlockAlignment) float sums[JointTile::kMostBlocks * kPieceRows];
+  alignas(kBlockAlignment) float sums[kMostTileBlocks * kPieceRows];
   for (uint32_t c = 0; c < chunk_count;) {
     if (!wanted(c)) {
       ++c;

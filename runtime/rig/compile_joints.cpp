@@ -511,12 +511,14 @@ void for_each_target(const dna::DnaView& view, const JointPlan& plan, const Rig&
   pass();
 }
 
-void fill_targets(const dna::DnaView& view, const JointPlan& plan, uint32_t chunk, Rig& rig) {
+/// Of a chunk, or with the number behind the last one of all chunks. Returns where they end.
+uint32_t fill_targets(const dna::DnaView& view, const JointPlan& plan, uint32_t chunk, Rig& rig) {
   JointMatrix& joints = rig.joints;
   // Where targets of each kind and reach begin, the farthest first.
   uint32_t begin[kTargetKinds][kMaxLods + 2] = {};
-  const uint32_t first_block = joints.chunks[chunk].first_block;
-  const uint32_t end_block = joints.chunks[chunk + 1].first_block;
+  const bool all = chunk == joints.chunk_count();
+  const uint32_t first_block = all ? 0 : joints.chunks[chunk].first_block;
+  const uint32_t end_block = joints.chunks[all ? chunk : chunk + 1].first_block;
   for_each_target(view, plan, rig, first_block, end_block,
                   [&](const JointTarget&, uint32_t kind, uint8_t reach) {
                     ++begin[kind][rig.lod_count - reach + 1];
@@ -532,11 +534,23 @@ void fill_targets(const dna::DnaView& view, const JointPlan& plan, uint32_t chun
     for (uint32_t l = 0; l <= rig.lod_count; ++l) kind[l] += next;
     next += of_kind;
   }
-  joints.chunks[chunk + 1].first_target = next;
   for_each_target(view, plan, rig, first_block, end_block,
                   [&](const JointTarget& target, uint32_t kind, uint8_t reach) {
                     joints.targets[begin[kind][rig.lod_count - reach]++] = target;
                   });
+  if (!all) return next;
+  // By now each begin[] is where the targets of that reach end.
+  JointTarget* from = joints.targets.data + joints.chunks[chunk].first_target;
+  for (const auto& kind : begin) {
+    for (uint32_t l = 0; l <= rig.lod_count; ++l) {
+      JointTarget* to = joints.targets.data + kind[l];
+      std::sort(from, to, [](const JointTarget& a, const JointTarget& b) {
+        return a.output != b.output ? a.output < b.output : a.slot < b.slot;
+      });
+      from = to;
+    }
+  }
+  return next;
 }
 
 /// The largest number of a row becomes the largest of 16 bits.
@@ -701,6 +715,10 @@ Status plan_joints(const dna::DnaView& view, const Rig& rig, Arena& scratch, Joi
                     [&](const JointTarget&, uint32_t, uint8_t) { ++plan.target_count; });
     last = block;
   });
+  if (plan.block_count() <= kMostTileBlocks) {
+    for_each_target(view, plan, rig, 0, plan.block_count(),
+                    [&](const JointTarget&, uint32_t, uint8_t) { ++plan.target_count; });
+  }
   return Status::kOk;
 }
 
@@ -723,8 +741,7 @@ void place_joints(const dna::DnaView& view, const JointPlan& plan, Placer& place
   joints.chunks_at_lod = placer.array<uint32_t>(rig.lod_count);
   joints.control_chunks = placer.array<uint64_t>(rig.control_count);
   joints.targets = placer.array<JointTarget>(plan.target_count);
-  joints.targets_at_lod =
-      placer.array<uint16_t>((plan.chunk_ends - 1) * kTargetKinds * rig.lod_count);
+  joints.targets_at_lod = placer.array<uint16_t>(plan.chunk_ends * kTargetKinds * rig.lod_count);
 
   const auto& groups = view.bhvr.joints.groups;
   joints.group_rows_at_lod = placer.array<uint16_t>(size_t{groups.count} * rig.lod_count);
@@ -753,10 +770,11 @@ void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach,
   const uint32_t chunk_count = joints.chunk_count();
   while (chunk_count > uint64_t{64} << joints.chunk_shift) ++joints.chunk_shift;
   for (uint32_t c = 0; c < chunk_count; ++c) {
-    fill_targets(view, plan, c, rig);
+    joints.chunks[c + 1].first_target = fill_targets(view, plan, c, rig);
     const uint8_t chunk_reach = plan.block_reaches[joints.chunks[c].first_block];
     for (uint32_t l = 0; l < chunk_reach; ++l) joints.chunks_at_lod[l] = c + 1;
   }
+  if (joints.fits_tile()) fill_targets(view, plan, chunk_count, rig);
   if (rig.half_storage) fill_scales(view, plan, joints);
 
   place_columns(plan, joints);

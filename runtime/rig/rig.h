@@ -117,8 +117,10 @@ struct JointMatrix {
   Span<uint64_t> control_chunks;  // [control] bit c >> chunk_shift: has pieces in chunk c
 
   // By chunk: those of six rows, of three, of one; of each kind those that more LODs reach first.
+  // Behind the last chunk once more those of all chunks, in order of their outputs, with slots
+  // counted from the first block: if that fits_tile().
   Span<JointTarget> targets;
-  Span<uint16_t> targets_at_lod;  // [chunk][kind][lod]: leading ones of the kind
+  Span<uint16_t> targets_at_lod;  // [chunk, or all][kind][lod]: leading ones of the kind
 
   Span<uint16_t> group_rows_at_lod;  // [group][lod]: leading rows of the group, as in the file
   bool contested = false;            // some output is written by rows of different chunks
@@ -128,6 +130,7 @@ struct JointMatrix {
   uint32_t tallest_group = 0;  // rows
 
   uint32_t chunk_count() const { return static_cast<uint32_t>(chunks.count - 1); }
+  bool fits_tile() const;
   /// What of a column stands in the first `chunk_end` chunks.
   const ColumnPart& part(size_t column, uint32_t chunk_end) const {
     return parts[column * chunks.count + chunk_end];
@@ -162,7 +165,12 @@ struct JointMatrix {
 };
 constexpr uint32_t kNoColumn = ~uint32_t{0};
 constexpr uint32_t kMostChunkBlocks = 256;
+constexpr uint32_t kMostTileBlocks = 1024;              // that are summed at a time
 constexpr uint32_t kMostBlocks = 0x10000 / kBlockUnit;  // of the whole matrix
+
+inline bool JointMatrix::fits_tile() const {
+  return chunks[chunk_count()].first_block <= kMostTileBlocks;
+}
 
 /// A joint that a group turns, and the first of the group's rows that does: it turns at the LODs
 /// that reach this row.

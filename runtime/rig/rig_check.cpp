@@ -230,15 +230,20 @@ bool check_targets(const Checker& c) {
   const Rig& rig = c.rig;
   const JointMatrix& joints = rig.joints;
   const uint32_t lods = rig.lod_count;
-  if (!c.ok(joints.targets_at_lod.count == size_t{joints.chunk_count()} * kTargetKinds * lods,
+  if (!c.ok(joints.targets_at_lod.count == joints.chunks.count * kTargetKinds * lods,
             "targets of the joint matrix")) {
     return false;
   }
   const uint32_t outputs =
       rig.joint_value_count() + (rig.quaternion_outputs ? rig.joint_count * 3 : 0);
   bool good = true;
-  for (uint32_t chunk = 0; good && lods != 0 && chunk < joints.chunk_count(); ++chunk) {
-    const JointChunk &at = joints.chunks[chunk], &next = joints.chunks[chunk + 1];
+  const JointChunk all_from = {0, joints.chunks[joints.chunk_count()].first_target};
+  const JointChunk all_to = {joints.chunks[joints.chunk_count()].first_block,
+                             static_cast<uint32_t>(joints.targets.count)};
+  for (uint32_t chunk = 0; good && lods != 0 && chunk <= joints.chunk_count(); ++chunk) {
+    const bool all = chunk == joints.chunk_count();
+    const JointChunk& at = all ? all_from : joints.chunks[chunk];
+    const JointChunk& next = all ? all_to : joints.chunks[chunk + 1];
     const uint32_t slots = (next.first_block - at.first_block) * kPieceRows;
     uint32_t target = at.first_target;
     for (uint32_t kind = 0; good && kind < kTargetKinds; ++kind) {
