@@ -50,9 +50,10 @@ const KernelTable* kernels_for(Isa isa, [[maybe_unused]] const CpuFeatures& cpu)
 
 }  // namespace
 
-// Features are asked for once: under a hypervisor each question takes microseconds.
+// Features are asked for once in the life of a process: under a hypervisor each question takes
+// microseconds, as many as opening the rest of a baked rig.
 const KernelTable* kernels_for(Isa isa) {
-  const CpuFeatures cpu = detect_cpu_features();
+  static const CpuFeatures cpu = detect_cpu_features();
   if (isa != Isa::kBest) return kernels_for(isa, cpu);
   for (Isa better : kBestFirst) {
     if (const KernelTable* kernels = kernels_for(better, cpu)) return kernels;
