@@ -792,10 +792,11 @@ MIEN_API void mien_batch_destroy(MienBatch* batch);
 MIEN_API MienStatus mien_batch_bytes(const MienRig* rig, uint32_t capacity, uint32_t tasks,
                                      uint64_t* out_bytes);
 
-/* Evaluates stages (MIEN_STAGE_..., usually all) of `count` different instances of the batch's rig, each at its own LOD: the same
- * bits as mien_rig_evaluate_stages() of each, but the joint matrix is fetched once for up to 32 of them. Results
- * are in the instances. On this thread, or in the batch's tasks on threads of `parallel`, which may be
- * NULL: any split gives the same bits. Allocates nothing, locks nothing, takes 48 KiB of stack.
+/* Evaluates stages (MIEN_STAGE_..., usually all) of `count` different instances of the batch's rig, each
+ * at its own LOD: the same bits as mien_rig_evaluate_stages() of each, but columns of the joint matrix
+ * that many of them use are fetched once for up to 32. Results are in the instances. On this thread, or
+ * in the batch's tasks on threads of `parallel`, which may be NULL: any split gives the same bits.
+ * Allocates nothing, locks nothing, takes 48 KiB of stack.
  * If any instance or LOD is not valid, none is evaluated: MIEN_ERROR_MISMATCH for an instance of another
  * rig, MIEN_ERROR_INVALID_ARGUMENT for one that comes up twice or more than `capacity`. */
 MIEN_API MienStatus mien_rig_evaluate_batch(const MienRig* rig, MienBatch* batch,

@@ -1326,12 +1326,12 @@ extern "C" {
 
     /// Evaluates stages (`MIEN_STAGE_...`, usually all) of `count` different instances of the
     /// batch's rig, each at its own LOD: the same bits as `mien_rig_evaluate_stages()` of each,
-    /// but the joint matrix is fetched once for up to 32 of them. Results are in the instances. On
-    /// this thread, or in the batch's tasks on threads of `parallel`, which may be NULL: any split
-    /// gives the same bits. Allocates nothing, locks nothing, takes 48 KiB of stack. If any
-    /// instance or LOD is not valid, none is evaluated: `MIEN_ERROR_MISMATCH` for an instance of
-    /// another rig, `MIEN_ERROR_INVALID_ARGUMENT` for one that comes up twice or more than
-    /// `capacity`.
+    /// but columns of the joint matrix that many of them use are fetched once for up to 32.
+    /// Results are in the instances. On this thread, or in the batch's tasks on threads of
+    /// `parallel`, which may be NULL: any split gives the same bits. Allocates nothing, locks
+    /// nothing, takes 48 KiB of stack. If any instance or LOD is not valid, none is evaluated:
+    /// `MIEN_ERROR_MISMATCH` for an instance of another rig, `MIEN_ERROR_INVALID_ARGUMENT` for one
+    /// that comes up twice or more than `capacity`.
     pub fn mien_rig_evaluate_batch(rig: *const MienRig, batch: *mut MienBatch, instances: *const *mut MienInstance, lods: *const u32, count: u32, stages: u32, parallel: *const MienParallelFor) -> MienStatus;
 
     /// Only the joint values of one joint group (`MIEN_KIND_JOINT_GROUP`); not those that a later
