@@ -28,6 +28,7 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
   }
   placer.array<Batch>(1);
   batch.starts = placer.array<uint32_t>(size_t{block_count(joints)} + 1);
+  batch.middles = placer.array<uint32_t>(block_count(joints));
   batch.pieces = placer.array<BatchPiece>(piece_count);
   batch.order = placer.array<Instance*>(capacity);
   batch.lods = placer.array<uint32_t>(capacity);
@@ -58,9 +59,17 @@ void list_pieces(const JointMatrix& joints, Batch& batch) {
   // Filling moves each start to that of the next block: back again afterwards.
   for (size_t k = 0; k < joints.columns.count; ++k) {
     const uint32_t control = joints.columns[k];
+    if (control < batch.rig->raw_count) {
+      ++batch.raw_columns;
+    } else if (k == batch.raw_columns) {
+      std::copy(starts, starts + blocks, batch.middles.data);
+    }
     joints.for_each_piece(k, chunks, [&](uint32_t piece, uint32_t block) {
       batch.pieces[starts[block]++] = {piece, control};
     });
+  }
+  if (batch.raw_columns == joints.columns.count) {
+    std::copy(starts, starts + blocks, batch.middles.data);
   }
   for (uint32_t b = blocks; b > 0; --b) starts[b] = starts[b - 1];
   starts[0] = 0;
@@ -122,17 +131,17 @@ uint32_t count_users(const float* lanes) {
   return users;
 }
 
-/// The columns before `column_end` are summed for all at once. Those that somebody uses have
-/// `pieces` of the `all` pieces there are.
+/// The columns before `column_end` are summed for all at once: none, those of raw controls, or all.
+/// Those that somebody uses have `pieces` of the `all` pieces there are.
 struct Together {
   uint32_t column_end = 0;
   size_t pieces = 0, all = 0;
 };
 
 /// Together a piece costs a place in a list, and all lanes whoever uses it; apart it is fetched by
-/// everybody who uses it. Columns stay in order, so there is one place where the ways part: between
-/// controls that many move and correctives that few reach. Fifths of a cycle, as measured on a
-/// production head.
+/// everybody who uses it. Columns stay in order, so the ways part once: where controls that many
+/// move end, and correctives begin that few reach. Fifths of a cycle, as measured on a production
+/// head.
 Together find_together(const Crowd& crowd) {
   constexpr int64_t kListed = 12, kPass = 45, kFetched = 12;
   const JointMatrix& joints = crowd.rig.joints;
@@ -140,20 +149,22 @@ Together find_together(const Crowd& crowd) {
   const uint32_t step = crowd.rig.kernels->batch_step;
   const int64_t passes = (crowd.count + step - 1) / step;
   Together together, best;
-  int64_t saved = 0, most = kPass * passes * joints.chunks[chunks].first_block;
-  for (uint32_t k = 0; k < joints.columns.count; ++k) {
+  int64_t saved = -kPass * passes * joints.chunks[chunks].first_block, most = 0;
+  for (uint32_t k = 0; k < joints.columns.count;) {
     const float* lanes = crowd.scratch.controls.data + size_t{joints.columns[k]} * kBatchLanes;
     const int64_t users = count_users(lanes);
     crowd.scratch.users[k] = static_cast<uint8_t>(users);
     const uint32_t pieces = joints.pieces_before(k, chunks);
+    together.column_end = ++k;
     together.all += pieces;
-    if (users == 0) continue;
-    together.pieces += pieces;
-    saved += pieces * (users * kFetched - kListed - kPass * passes);
+    if (users != 0) {
+      together.pieces += pieces;
+      saved += pieces * (users * kFetched - kListed - kPass * passes);
+    }
+    if (k != crowd.batch.raw_columns && k != joints.columns.count) continue;
     if (saved <= most) continue;
     most = saved;
     best = together;
-    best.column_end = k + 1;
   }
   return best;
 }
@@ -180,10 +191,11 @@ void evaluate_rows(const Crowd& crowd, const Together& together) {
   const uint32_t chunk_end = joints.chunks_at_lod[crowd.lod];
   // Pieces that nobody uses are summed as well, unless a list without them is shorter by much.
   const bool listed = together.pieces < together.all / 2;
-  const bool whole = together.column_end == joints.columns.count;
   if (listed) list_together(crowd, together);
   const BatchPiece* pieces = listed ? crowd.scratch.pieces.data : crowd.batch.pieces.data;
-  const uint32_t end_control = whole ? 0 : joints.columns[together.column_end];
+  const uint32_t* ends = crowd.batch.starts.data + 1;
+  if (together.column_end == crowd.batch.raw_columns) ends = crowd.batch.middles.data;
+  if (listed) ends = crowd.scratch.ends.data;
 
   const bool fixed = joints.values.empty();
   const auto sum_block =
@@ -201,16 +213,9 @@ void evaluate_rows(const Crowd& crowd, const Together& together) {
     args.sums = crowd.scratch.sums.data;
     args.stride = size_t{end - first} * kPieceRows;
     for (uint32_t b = first; b < end; ++b) {
-      const uint32_t start = crowd.batch.starts[b], start_of_next = crowd.batch.starts[b + 1];
+      const uint32_t start = crowd.batch.starts[b];
       args.pieces = pieces + start;
-      const BatchPiece* stop = pieces + start_of_next;
-      if (listed) {
-        stop = pieces + crowd.scratch.ends[b];
-      } else if (!whole) {
-        stop = std::partition_point(
-            args.pieces, stop, [&](const BatchPiece& piece) { return piece.input < end_control; });
-      }
-      args.piece_count = static_cast<uint32_t>(stop - args.pieces);
+      args.piece_count = ends[b] - start;
       sum_block(args);
       args.sums += kPieceRows;
     }

@@ -30,8 +30,10 @@ struct Batch {
 
   // All pieces of the joint matrix by block, in order of their columns; kBatchAhead more at the
   // end.
-  Span<uint32_t> starts;  // [block], one more at the end
+  Span<uint32_t> starts;   // [block], one more at the end
+  Span<uint32_t> middles;  // [block] where the columns of raw controls end
   Span<BatchPiece> pieces;
+  uint32_t raw_columns = 0;  // columns of raw controls
 
   Span<CrowdScratch> tasks;
   Span<Instance*> order;          // by LOD
