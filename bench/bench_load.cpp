@@ -89,6 +89,7 @@ const int kRegistered = [] {
       {"geometry_without_blend_shapes", MIEN_LAYER_GEOMETRY_WITHOUT_BLEND_SHAPES, 0},
       {"all", MIEN_LAYER_ALL, 0},
       {"all/lod0", MIEN_LAYER_ALL, 1},
+      {"all/last_lods", MIEN_LAYER_ALL, ~uint64_t{0} << 2},
   };
   for (const auto& o : openings) {
     benchmark::RegisterBenchmark((std::string("open/") + o.name).c_str(), open, o.layers, o.lods);

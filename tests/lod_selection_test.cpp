@@ -331,6 +331,91 @@ TEST(LodSelection, LooseJointsStay) {
             (std::vector<std::string>{"head", "jaw", "tongue"}));
 }
 
+// Lists may lack what the rows of their LOD write.
+TEST(LodSelection, WhatRemainingRowsWriteStays) {
+  Arena arena(default_allocator());
+  using Strings = std::vector<std::string>;
+  const std::pair<Array<uint16_t>, Strings> lists[] = {
+      {dna::be<uint16_t>(arena, {0}), {"head", "jaw"}}, {{}, {"jaw"}}};
+  for (const auto& [listed, joints] : lists) {
+    dna::DnaView view = dna::tiny_rig(arena);
+    view.defn.lod_joints.indices[1] = listed;
+    view.defn.lod_channels.indices[1] = {};
+    const DnaHandle cut = open_dna(write_view(view), 2);
+    EXPECT_EQ(strings_of(cut->view.defn.joint_names), joints);
+    EXPECT_EQ(strings_of(cut->view.defn.channel_names), Strings{"jawOpen"});
+    const Array<uint16_t> outputs = cut->view.bhvr.joints.groups[0].output_indices;
+    ASSERT_EQ(outputs.count, 1u);
+    EXPECT_EQ(outputs[0], 9 * (joints.size() - 1) + 3) << "the jaw's rx";
+  }
+}
+
+// As long as a list of all, but not one.
+TEST(LodSelection, ListsThatRepeatElements) {
+  Arena arena(default_allocator());
+  dna::DnaView view = dna::tiny_rig(arena);
+  view.defn.lod_channels.indices[0] = dna::be<uint16_t>(arena, {1, 1});
+  view.bhvr.channels.lods = dna::be<uint16_t>(arena, {0, 0});
+  const DnaHandle cut = open_dna(write_view(view), 1);
+  EXPECT_EQ(strings_of(cut->view.defn.channel_names), std::vector<std::string>{"smile"});
+}
+
+TEST(LodSelection, VerticesWithoutInfluencesFollowTheRoot) {
+  Arena arena(default_allocator());
+  dna::DnaView view = dna::tiny_rig(arena);
+  view.geom.meshes[0].skin_weights[3] = {};
+  const Bytes bytes = write_view(view);
+  for (uint64_t mask : {1, 2}) {
+    const DnaHandle cut = open_dna(bytes, mask);
+    const dna::VertexSkinWeights& vertex = cut->view.geom.meshes[0].skin_weights[3];
+    ASSERT_EQ(vertex.weights.count, 1u) << mask;
+    EXPECT_EQ(vertex.weights[0], 1.0f);
+    EXPECT_EQ(vertex.joint_indices[0], 0);
+  }
+}
+
+// Each kind of damage refuses a file, unless no kept LOD uses what is damaged.
+TEST(LodSelection, WhatOnlyDroppedLodsUseIsNotLookedAt) {
+  Arena arena(default_allocator());
+  const auto expect = [&](const char* what, auto&& damage, uint64_t good_mask) {
+    SCOPED_TRACE(what);
+    dna::DnaView view = dna::tiny_rig(arena);
+    const Bytes sound = write_view(view);
+    damage(view);
+    const Bytes bytes = write_view(view);
+    for (uint64_t mask : {0, 1, 2, 3}) {
+      SCOPED_TRACE(mask);
+      MienError error = sized<MienError>();
+      MienDnaDesc desc = sized<MienDnaDesc>();
+      desc.lods = mask;
+      MienDna* dna = nullptr;
+      const MienStatus status =
+          mien_dna_open_memory(bytes.data(), bytes.size(), &desc, &dna, &error);
+      const DnaHandle opened(dna);
+      EXPECT_EQ(status == MIEN_OK, mask != 0 && mask == good_mask) << error.message;
+      if (opened) {
+        EXPECT_TRUE(write_dna(dna) == write_dna(open_dna(sound, mask).get()));
+      }
+    }
+  };
+  const Array<uint16_t> past_the_end = dna::be<uint16_t>(arena, {0, 7});
+  const Array<uint16_t> too_many = dna::be<uint16_t>(arena, {1, 9});
+  const Array<uint16_t> too_many_first = dna::be<uint16_t>(arena, {9, 1});
+  expect(
+      "channels of LOD 0", [&](DnaView& v) { v.defn.lod_channels.indices[0] = past_the_end; }, 0);
+  expect(
+      "channels of LOD 1", [&](DnaView& v) { v.defn.lod_channels.indices[1] = past_the_end; }, 1);
+  expect(
+      "joints of LOD 1", [&](DnaView& v) { v.defn.lod_joints.indices[1] = past_the_end; }, 1);
+  // LOD 0 tells which joints belong to LODs at all.
+  expect(
+      "joints of LOD 0", [&](DnaView& v) { v.defn.lod_joints.indices[0] = past_the_end; }, 0);
+  expect(
+      "rows of LOD 1", [&](DnaView& v) { v.bhvr.maps.lods = too_many; }, 1);
+  expect(
+      "rows of LOD 0", [&](DnaView& v) { v.bhvr.joints.groups[0].lods = too_many_first; }, 2);
+}
+
 // A second network, the only one of LOD 1, with operations and row limits of its own.
 TEST(LodSelection, NetworksOperationsAndRowLimits) {
   Arena arena(default_allocator());

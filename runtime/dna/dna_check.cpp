@@ -3,6 +3,7 @@
 #include "runtime/dna/dna_check.h"
 
 #include <cmath>
+#include <optional>
 
 #include "runtime/dna/dna_checker.h"
 
@@ -128,6 +129,12 @@ void check_hierarchy(Checker& c, const Field& defn) {
   c.has_length(field, parents, count, "joints");
   c.indices_below(field, parents, count, "joints");
   if (parents.count != count || count > kMostJoints) return;
+  // Where no parent comes behind its child no line of parents turns back.
+  uint16_t later = 0;
+  for (uint32_t j = 0; j < count; ++j) {
+    later |= static_cast<uint16_t>(parents[j] > static_cast<uint16_t>(j));
+  }
+  if (!c.thorough && later == 0) return;
 
   Marks seen;
   uint32_t roots = 0;
@@ -246,7 +253,11 @@ void check_controls(Checker& c, const Field& bhvr) {
   c.finite(Field{&table, "values"}, psds.values);
 
   const uint32_t first = c.view.first_psd(), end = c.view.first_ml();
-  for (uint32_t i = 0; i < psds.rows.count && !c.stopped(); ++i) {
+  uint32_t bad = 0;
+  for (uint32_t i = 0; i < psds.rows.count; ++i) {
+    bad |= static_cast<uint32_t>(psds.rows[i] - first >= end - first);
+  }
+  for (uint32_t i = 0; bad != 0 && i < psds.rows.count && !c.stopped(); ++i) {
     const uint32_t row = psds.rows[i];
     if (row >= first && row < end) continue;
     c.error(Field{&table, "rows"}, Status::kDnaReference, c.offset(psds.rows, i),
@@ -258,7 +269,6 @@ void check_controls(Checker& c, const Field& bhvr) {
 
 // Evaluation assigns, so a row that comes up again replaces what was there.
 void mark_written(Checker& c, const Field& field, const Array<uint16_t>& outputs, Marks& written) {
-  if (!c.thorough) return;
   for (uint32_t i = 0; i < outputs.count && !c.stopped(); ++i) {
     if (written.has(outputs[i])) {
       c.warning(field, c.offset(outputs, i), "element %u writes %u, which is written before", i,
@@ -291,7 +301,8 @@ void check_joints(Checker& c, const Field& bhvr) {
   }
   c.numbered(Field{&field, "jointGroups"}, joints.groups.count);
 
-  Marks written;
+  std::optional<Marks> written;
+  if (c.thorough) written.emplace();
   uint32_t columns = 0;
   for (uint32_t g = 0; g < joints.groups.count && !c.stopped(); ++g) {
     const JointGroup& group = joints.groups[g];
@@ -307,7 +318,7 @@ void check_joints(Checker& c, const Field& bhvr) {
     c.indices_below(Field{&at, "jointIndices"}, group.joint_indices, joint_count, "joints");
     c.finite(Field{&at, "values"}, group.values);
     c.unique(Field{&at, "inputIndices"}, group.input_indices);
-    mark_written(c, Field{&at, "outputIndices"}, group.output_indices, written);
+    if (written) mark_written(c, Field{&at, "outputIndices"}, group.output_indices, *written);
     check_touched_joints(c, Field{&at, "jointIndices"}, group);
     for (uint32_t i = 0; c.thorough && i < group.input_indices.count; ++i) {
       if (group.input_indices[i] >= columns) columns = group.input_indices[i] + 1u;
@@ -463,16 +474,16 @@ void check_control_count(Checker& c) {
 
 }  // namespace
 
-bool check_definition(const DnaView& view, const FindingSink& sink) {
-  Checker c(view, sink);
+bool check_definition(const DnaView& view, const FindingSink& sink, uint64_t lods) {
+  Checker c(view, sink, lods);
   check_descriptor(c);
   check_descriptor_extension(c);
   if (view.has(kLayerDefinition)) check_definition_layer(c);
   return c.finish();
 }
 
-bool check_layers(const DnaView& view, const FindingSink& sink) {
-  Checker c(view, sink);
+bool check_layers(const DnaView& view, const FindingSink& sink, uint64_t lods) {
+  Checker c(view, sink, lods);
   check_control_count(c);
   // What is not loaded is empty, so these find nothing there.
   check_behavior(c);

@@ -8,12 +8,14 @@
 
 namespace mien::dna {
 
+// `lods` (bit l for LOD l, 0 for all) will be selected: what only others use need not be right.
+
 /// Descriptor, dsce and definition: all that LOD selection and the other layers rely on.
 /// False if the sink ended the examination.
-bool check_definition(const DnaView& view, const FindingSink& sink);
+bool check_definition(const DnaView& view, const FindingSink& sink, uint64_t lods = 0);
 
 /// All other loaded layers. Expects that check_definition found no error.
 /// False if the sink ended the examination.
-bool check_layers(const DnaView& view, const FindingSink& sink);
+bool check_layers(const DnaView& view, const FindingSink& sink, uint64_t lods = 0);
 
 }  // namespace mien::dna

@@ -36,10 +36,24 @@ uint32_t find_control_limit(const DnaView& view) {
   return counted ? view.control_count() : 65536;
 }
 
+uint32_t find_first_lod(uint64_t lods) {
+  uint32_t first = 0;
+  while (lods != 0 && !(lods >> first & 1)) ++first;
+  return first;
+}
+
+uint32_t find_end_lod(uint64_t lods) {
+  if (lods == 0) return kAllLods;
+  uint32_t end = 64;
+  while (!(lods >> (end - 1) & 1)) --end;
+  return end;
+}
+
 }  // namespace
 
-Checker::Checker(const DnaView& dna, const FindingSink& sink)
-    : view(dna), thorough(sink.thorough), control_limit(find_control_limit(dna)), sink_(sink) {}
+Checker::Checker(const DnaView& dna, const FindingSink& sink, uint64_t lods)
+    : view(dna), thorough(sink.thorough), control_limit(find_control_limit(dna)),
+      first_lod(find_first_lod(lods)), end_lod(find_end_lod(lods)), sink_(sink) {}
 
 // Findings --------------------------------------------------------------------------------------
 
@@ -97,8 +111,10 @@ Checker::Tally& Checker::tally_of(const Field& field) {
     if (tallies_[i].pattern == pattern) return tallies_[i];
   }
   if (tally_count_ == kTallies) return tallies_[kTallies - 1];  // the rest share the last one
-  tallies_[tally_count_].pattern = pattern;
-  return tallies_[tally_count_++];
+  Tally& tally = tallies_[tally_count_++];
+  tally = {};
+  tally.pattern = pattern;
+  return tally;
 }
 
 bool Checker::finish() {
@@ -204,11 +220,19 @@ void Checker::lod_map(const Field& field, const LodMap& map, uint32_t limit, con
     warning(lods, offset(map.lods), "has %u entries for %u LODs", map.lods.count,
             unsigned{view.desc.lod_count});
   }
-  for (uint32_t i = 0; i < map.indices.count && !stopped_; ++i) {
+  const auto check_row = [&](uint32_t i) {
+    if (i >= map.indices.count || stopped_) return;
     const Field row{&field, "indices", i};
     indices_below(row, map.indices[i], limit, of);
     unique(row, map.indices[i]);
+  };
+  if (end_lod == kAllLods) {
+    for (uint32_t i = 0; i < map.indices.count; ++i) check_row(i);
+    return;
   }
+  // LOD 0 tells which joints are of some LOD at all.
+  if (first_lod != 0 && map.lods.count != 0) check_row(map.lods[0]);
+  for (uint32_t l = first_lod; l < map.lods.count && l < end_lod; ++l) check_row(map.lods[l]);
 }
 
 void Checker::row_counts(const Field& field, const Array<uint16_t>& lods, uint32_t rows) {
@@ -219,7 +243,13 @@ void Checker::row_counts(const Field& field, const Array<uint16_t>& lods, uint32
   } else if (lods.count != lod_count && lods.count != 0) {
     warning(field, offset(lods), "has %u entries for %u LODs", lods.count, lod_count);
   }
-  for (uint32_t l = 0; l < lods.count && !stopped_; ++l) {
+  const uint32_t end = lods.count < end_lod ? lods.count : end_lod;
+  bool bad = false;
+  for (uint32_t l = first_lod, limit = rows; l < end; ++l) {
+    bad |= lods[l] > limit;
+    limit = lods[l];
+  }
+  for (uint32_t l = first_lod; bad && l < end && !stopped_; ++l) {
     const unsigned used = lods[l];
     if (used > rows) {
       error(field, Status::kDnaStructure, offset(lods, l), "LOD %u uses %u rows, but there are %u",

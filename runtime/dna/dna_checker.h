@@ -46,13 +46,17 @@ struct Marks {
   }
 };
 
+constexpr uint32_t kAllLods = ~uint32_t{0};
+
 class Checker {
  public:
-  Checker(const DnaView& dna, const FindingSink& sink);
+  /// `lods` are those that will be selected (bit l for LOD l); 0: all.
+  Checker(const DnaView& dna, const FindingSink& sink, uint64_t lods);
 
   const DnaView& view;
   const bool thorough;
-  const uint32_t control_limit;  // first number that no control can have
+  const uint32_t control_limit;       // first number that no control can have
+  const uint32_t first_lod, end_lod;  // the others are not looked at; end_lod may be kAllLods
 
   /// The sink wants no more.
   bool stopped() const { return stopped_; }
@@ -102,8 +106,9 @@ class Checker {
   template <class T>
   void indices_below(const Field& field, const Array<T>& indices, uint32_t limit, const char* of) {
     if (limit > static_cast<T>(~T{0})) return;
-    uint32_t bad = 0;
-    for (uint32_t i = 0; i < indices.count; ++i) bad += indices[i] >= limit;
+    const auto end = static_cast<T>(limit);
+    T bad = 0;  // of the width of the numbers, which vectors like
+    for (uint32_t i = 0; i < indices.count; ++i) bad |= static_cast<T>(indices[i] >= end);
     if (bad == 0) return;
     for (uint32_t i = 0; i < indices.count && !stopped_; ++i) {
       if (indices[i] < limit) continue;
@@ -141,12 +146,12 @@ class Checker {
   // A field of a list counts once for the whole list here, so that a million broken vertices do not
   // make a million findings.
   struct Tally {
-    uint32_t pattern = 0;  // hash of the path without its numbers
-    uint64_t count = 0;
-    Status held_status = Status::kOk;  // error if any of those held back is one
-    uint64_t held_offset = kNoOffset;  // of the first held back
-    char held_field[104] = {};
-    char held_message[120] = {};
+    uint32_t pattern;  // hash of the path without its numbers
+    uint64_t count;
+    Status held_status;    // error if any of those held back is one
+    uint64_t held_offset;  // of the first held back
+    char held_field[104];
+    char held_message[120];
   };
   static constexpr uint64_t kMostFindings = 32;  // per tally, with the summary
   static constexpr size_t kTallies = 96;
@@ -161,7 +166,7 @@ class Checker {
   const FindingSink& sink_;
   bool stopped_ = false;
   size_t tally_count_ = 0;
-  Tally tallies_[kTallies];
+  Tally tallies_[kTallies];  // unwritten past the count: a good file needs none of them
 };
 
 /// jbmd, twsw, rbfb and rbfe, mlbh and mlbe: the layers whose numbers refer to controls and joints

@@ -268,7 +268,10 @@ class DnaReader {
 
     // The descriptor and the definition say how to read and select everything else.
     for (LayerId id : {LayerId::kDesc, LayerId::kDsce, LayerId::kDefn}) load(id);
-    if (errors_ == 0 && !ended_ && check_definition(view_, sink_) && errors_ == 0) choose_lods();
+    choose_lods();
+    if (errors_ == 0 && !ended_ && check_definition(view_, sink_, lods_) && errors_ == 0) {
+      choose_meshes();
+    }
     const bool definition_is_good = errors_ == 0;
     if (ended_) return;
 
@@ -279,7 +282,7 @@ class DnaReader {
     }
     if (view_.version == 1 && view_.has(kLayerGeometry) && errors_ == 0) check_end_marker();
     if (!definition_is_good || !count_ml_controls() || !synthesize_rbf_extension()) return;
-    if (!check_layers(view_, sink_) || errors_ != 0) return;
+    if (!check_layers(view_, sink_, lods_) || errors_ != 0) return;
     if (lods_ != 0 && !select_lods(view_, lods_, arena_)) {
       report(Status::kMemory, kNoOffset, "", "no memory to select LODs");
       return;
@@ -570,20 +573,24 @@ class DnaReader {
     part("animatedMaps", kSMaps, b.maps);
   }
 
-  // From here on a mesh that no chosen LOD shows is not read.
+  // Nothing is selected if all are chosen.
   void choose_lods() {
-    if (options_.lods == 0) return;
     const unsigned lod_count = view_.desc.lod_count;
+    if (options_.lods == 0 || lod_count >= 64) return;  // the latter is refused later on
     const uint64_t existing = (uint64_t{1} << lod_count) - 1;
     lods_ = options_.lods & existing;
-    if (lods_ == 0) {
+    none_exists_ = lods_ == 0;
+    if (lods_ == existing) lods_ = 0;
+  }
+
+  // From here on a mesh that no chosen LOD shows is not read.
+  void choose_meshes() {
+    if (none_exists_) {
       report(Status::kLod, kNoOffset, "desc.lodCount",
              "none of the chosen LODs exists: the file has %u, "
              "numbered from 0",
-             lod_count);
-    } else if (lods_ == existing) {
-      lods_ = 0;  // nothing to select
-    } else if (view_.defn.mesh_names.count != 0) {
+             unsigned{view_.desc.lod_count});
+    } else if (lods_ != 0 && view_.defn.mesh_names.count != 0) {
       kept_meshes_ = arena_.array<uint8_t>(view_.defn.mesh_names.count);
       if (!kept_meshes_.data) {
         report(Status::kMemory, kNoOffset, "", "no memory to select LODs");
@@ -647,7 +654,8 @@ class DnaReader {
   bool ended_ = false;
   size_t sections_[kSectionCount] = {};
   size_t geometry_end_ = 0;
-  uint64_t lods_ = 0;
+  uint64_t lods_ = 0;         // chosen; 0 for all
+  bool none_exists_ = false;  // of those that were asked for
   Span<uint8_t> kept_meshes_;
 };
 

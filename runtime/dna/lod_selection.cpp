@@ -1,17 +1,35 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/dna/lod_selection.h"
 
+#include <algorithm>
+#include <cstring>
+
 #include "runtime/dna/turn_columns.h"
 
 namespace mien::dna {
 namespace {
 
-/// Old number -> new number, or kGone.
-using Numbers = Span<uint32_t>;
 constexpr uint32_t kGone = ~uint32_t{0};
 
-uint32_t new_number(const Numbers& numbers, uint32_t old) {
-  return old < numbers.count ? numbers[old] : kGone;
+/// Old number -> new number, or kGone. Has no lists if all elements stay, as they mostly do where
+/// LOD 0 is kept.
+struct Numbers {
+  uint32_t count = 0;  // of old numbers
+  bool all_stay = true;
+  Span<uint32_t> new_of;     // [old], if any survive
+  Span<uint32_t> survivors;  // [new] its old number
+
+  bool none_stays() const { return !all_stay && survivors.empty(); }
+  uint32_t operator[](uint32_t old) const {
+    if (old >= count || none_stays()) return kGone;
+    return all_stay ? old : new_of[old];
+  }
+};
+
+void mark(const Array<uint16_t>& elements, const Span<uint8_t>& marks) {
+  const Array<uint16_t> from = elements;  // in names of their own: a byte may be anybody's
+  uint8_t* const to = marks.data;
+  for (uint32_t i = 0; i < from.count; ++i) to[from[i]] = 1;
 }
 
 class LodSelector {
@@ -20,6 +38,7 @@ class LodSelector {
       : view_(view), lods_(lods), arena_(arena) {
     while (!(lods >> first_ & 1)) ++first_;
     for (uint64_t rest = lods; rest; rest &= rest - 1) ++count_;
+    neighbours_ = lods >> first_ == (uint64_t{1} << count_) - 1;
   }
 
   bool run() {
@@ -63,11 +82,23 @@ class LodSelector {
 
   // Survivors ---------------------------------------------------------------------------------
 
-  Numbers number(Span<uint8_t> kept) {
-    Numbers numbers = make<uint32_t>(kept.count);
+  static Numbers all_stay(uint32_t count) { return {count, true, {}, {}}; }
+
+  Numbers number(const Span<uint8_t>& kept) {
+    const auto count = static_cast<uint32_t>(kept.count);
+    uint32_t left = 0;
+    for (uint32_t i = 0; i < count; ++i) left += kept.data[i];
+    if (left == count) return all_stay(count);
+    if (left == 0) return {count, false, {}, {}};
+    const Span<uint32_t> new_of = make<uint32_t>(count), survivors = make<uint32_t>(count);
+    if (out_of_memory_) return {};
     uint32_t next = 0;
-    for (size_t i = 0; i < numbers.count; ++i) numbers[i] = kept[i] ? next++ : kGone;
-    return numbers;
+    for (uint32_t i = 0; i < count; ++i) {
+      survivors[next] = i;
+      new_of[i] = kept[i] ? next : kGone;
+      next += kept[i];
+    }
+    return {count, false, new_of, survivors.first(left)};
   }
 
   Span<uint8_t> marked(const LodMap& map, size_t count) {
@@ -76,78 +107,144 @@ class LodSelector {
     return marks;
   }
 
-  uint32_t rows_left(Array<uint16_t> lods) const { return first_ < lods.count ? lods[first_] : 0; }
+  uint32_t rows_left(const Array<uint16_t>& lods) const {
+    return first_ < lods.count ? lods[first_] : 0;
+  }
+  /// What the remaining rows write.
+  Array<uint16_t> kept_rows(const Array<uint16_t>& outputs, const Array<uint16_t>& lods) const {
+    return outputs.first(rows_left(lods));
+  }
 
   void number_survivors() {
     const Definition& defn = view_.defn;
-    const Behavior& bhvr = view_.bhvr;
-
-    Span<uint8_t> joints = marked(defn.lod_joints, defn.joint_names.count);
-    Span<uint8_t> channels = marked(defn.lod_channels, defn.channel_names.count);
-    Span<uint8_t> maps = marked(defn.lod_maps, defn.map_names.count);
-    Span<uint8_t> meshes = marked(defn.lod_meshes, defn.mesh_names.count);
-    Span<uint8_t> fine = make<uint8_t>(defn.joint_names.count);
-    if (out_of_memory_) return;
-
-    // Joints in no list of LOD 0 belong to no LOD in particular: they stay.
-    mark_lod_elements(defn.lod_joints, 1, fine);
-    for (size_t j = 0; j < joints.count; ++j) joints[j] |= !fine[j];
-
-    // What the remaining rows write.
-    for (const JointGroup& group : bhvr.joints.groups) {
-      const uint32_t rows = rows_left(group.lods);
-      for (uint32_t r = 0; r < rows; ++r) joints[group.output_indices[r] / 9] = 1;
+    const BlendShapeChannels& channels = view_.bhvr.channels;
+    const AnimatedMaps& maps = view_.bhvr.maps;
+    // Rows hardly ever write what no list has; then it stays all the same.
+    joints_ = number_joints(false);
+    if (!renumber_outputs()) {
+      joints_ = number_joints(true);
+      renumber_outputs();
     }
-    const uint32_t channel_rows = rows_left(bhvr.channels.lods);
-    for (uint32_t r = 0; r < channel_rows; ++r) channels[bhvr.channels.output_indices[r]] = 1;
-    const uint32_t map_rows = rows_left(bhvr.maps.lods);
-    for (uint32_t r = 0; r < map_rows; ++r) maps[bhvr.maps.conditionals.output_indices[r]] = 1;
-
-    joints_ = number(joints);
-    channels_ = number(channels);
-    maps_ = number(maps);
-    meshes_ = number(meshes);
+    channels_ = number_listed(defn.lod_channels, defn.channel_names.count,
+                              kept_rows(channels.output_indices, channels.lods));
+    maps_ = number_listed(defn.lod_maps, defn.map_names.count,
+                          kept_rows(maps.conditionals.output_indices, maps.lods));
+    meshes_ = number_listed(defn.lod_meshes, defn.mesh_names.count, {});
+    if (out_of_memory_) return;
     for (uint32_t j = 0; j < defn.joint_hierarchy.count; ++j) {
       if (defn.joint_hierarchy[j] == j) {
-        root_ = new_number(joints_, j);
+        root_ = joints_[j];
         break;
       }
     }
     if (root_ == kGone) root_ = 0;
   }
 
+  /// Elements that kept LODs list, or that what is kept writes.
+  Numbers number_listed(const LodMap& map, uint32_t count, const Array<uint16_t>& written) {
+    if (is_every(map.at(first_), count)) return all_stay(count);
+    Span<uint8_t> marks = marked(map, count);
+    if (out_of_memory_) return {};
+    mark(written, marks);
+    return number(marks);
+  }
+
+  /// 0, 1, 2 ... as LODs list what they drop nothing of.
+  static bool is_every(const Array<uint16_t>& list, uint32_t count) {
+    if (list.count != count) return false;
+    uint16_t others = 0;
+    for (uint32_t i = 0; i < count; ++i) others |= list[i] ^ static_cast<uint16_t>(i);
+    return others == 0;
+  }
+
+  /// Joints that LOD 0 does not list belong to no LOD in particular: they stay. So all do if LOD 0
+  /// does.
+  Numbers number_joints(bool with_written) {
+    const Definition& defn = view_.defn;
+    const uint32_t count = defn.joint_names.count;
+    if (lods_ & 1) return all_stay(count);
+    Span<uint8_t> marks = make<uint8_t>(count);
+    if (out_of_memory_) return {};
+    uint8_t* const joints = marks.data;
+    std::fill(marks.begin(), marks.end(), uint8_t{1});
+    const Array<uint16_t> finest = defn.lod_joints.at(0);
+    for (uint32_t i = 0; i < finest.count; ++i) joints[finest[i]] = 0;
+    mark_lod_elements(defn.lod_joints, lods_, marks);
+    if (!with_written) return number(marks);
+    for (const JointGroup& group : view_.bhvr.joints.groups) {
+      const Array<uint16_t> rows = kept_rows(group.output_indices, group.lods);
+      for (uint32_t r = 0; r < rows.count; ++r) joints[rows[r] / 9] = 1;
+    }
+    return number(marks);
+  }
+
+  /// Joint values of joints that survive, as files number them: 9 * joint + attribute. False if one
+  /// is of a joint that does not.
+  bool renumber_outputs() {
+    if (joints_.all_stay) return true;
+    const List<JointGroup>& groups = view_.bhvr.joints.groups;
+    new_outputs_ = make<Array<uint16_t>>(groups.count);
+    if (out_of_memory_) return true;
+    uint32_t all = 0;  // bits of new numbers, which are small, and of kGone, which is not
+    for (uint32_t g = 0; g < groups.count; ++g) {
+      const Array<uint16_t> old = kept_rows(groups[g].output_indices, groups[g].lods);
+      if (old.count == 0) continue;
+      if (joints_.none_stays()) return false;
+      const NewArray<uint16_t> array = make_array<uint16_t>(old.count);
+      const Span<uint32_t> new_of = joints_.new_of;
+      for (uint32_t r = 0; r < array.count; ++r) {
+        const uint32_t output = old[r], joint = output / 9, new_joint = new_of[joint];
+        array.set(r, static_cast<uint16_t>(output + (new_joint - joint) * 9));
+        all |= new_joint;
+      }
+      new_outputs_[g] = array;
+    }
+    return all <= 0xFFFF;
+  }
+
   // Pieces ------------------------------------------------------------------------------------
 
   /// Numbers of survivors only, renewed.
   Array<uint16_t> renumbered(Array<uint16_t> old, const Numbers& numbers) {
-    NewArray<uint16_t> array = make_array<uint16_t>(old.count);
+    if (numbers.all_stay) return old;
+    if (numbers.none_stays()) return {};
+    const NewArray<uint16_t> array = make_array<uint16_t>(old.count);
+    const Span<uint32_t> new_of = numbers.new_of;  // in a name of its own: bytes may be anybody's
     uint32_t kept = 0;
     for (uint32_t i = 0; i < array.count; ++i) {
-      const uint32_t n = new_number(numbers, old[i]);
-      if (n != kGone) array.set(kept++, static_cast<uint16_t>(n));
+      const uint32_t n = new_of[old[i]];
+      array.set(kept, static_cast<uint16_t>(n));
+      kept += n != kGone;
     }
     return Array<uint16_t>(array).first(kept);
+  }
+
+  /// How many survivors are among the first `count` elements.
+  static uint32_t survivors_of(const Numbers& numbers, uint32_t count) {
+    if (numbers.all_stay) return count < numbers.count ? count : numbers.count;
+    const Span<uint32_t>& all = numbers.survivors;
+    return static_cast<uint32_t>(std::lower_bound(all.begin(), all.end(), count) - all.begin());
   }
 
   /// Elements whose own number survives.
   template <class T>
   Array<T> survivors(Array<T> old, const Numbers& numbers) {
-    NewArray<T> array = make_array<T>(old.count);
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < array.count; ++i) {
-      if (new_number(numbers, i) != kGone) array.set(kept++, old[i]);
+    const uint32_t kept = survivors_of(numbers, old.count);
+    if (numbers.all_stay) return old.first(kept);
+    const NewArray<T> array = make_array<T>(kept);
+    const Span<uint32_t> survivors = numbers.survivors;
+    for (uint32_t k = 0; k < array.count; ++k) {
+      memcpy(array.data + k * sizeof(T), old.data + survivors[k] * sizeof(T), sizeof(T));
     }
-    return Array<T>(array).first(kept);
+    return array;
   }
 
   /// The same for lists, in place: the list lies in our arena.
   template <class T>
   void keep_survivors(List<T>& list, const Numbers& numbers) {
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < list.count; ++i) {
-      if (new_number(numbers, i) != kGone) list[kept++] = list[i];
-    }
-    list.count = kept;
+    list.count = survivors_of(numbers, list.count);
+    if (numbers.all_stay) return;
+    for (uint32_t k = 0; k < list.count; ++k) list[k] = list.items[numbers.survivors[k]];
   }
 
   Vec3Array survivors(const Vec3Array& old, const Numbers& numbers) {
@@ -155,6 +252,11 @@ class LodSelector {
   }
 
   Array<uint16_t> kept_lods(Array<uint16_t> lods) {
+    if (neighbours_) {
+      const uint32_t from = first_ < lods.count ? first_ : lods.count;
+      const uint32_t left = lods.count - from;
+      return {lods.data + from * sizeof(uint16_t), count_ < left ? count_ : left};
+    }
     NewArray<uint16_t> array = make_array<uint16_t>(lods.count);
     uint32_t kept = 0;
     for (uint32_t l = 0; l < array.count && l < 64; ++l) {
@@ -193,7 +295,7 @@ class LodSelector {
     NewArray<uint16_t> new_to = make_array<uint16_t>(to.count);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < new_from.count && i < new_to.count; ++i) {
-      const uint32_t mesh = new_number(meshes_, from[i]), channel = new_number(channels_, to[i]);
+      const uint32_t mesh = meshes_[from[i]], channel = channels_[to[i]];
       if (mesh == kGone || channel == kGone) continue;
       new_from.set(kept, static_cast<uint16_t>(mesh));
       new_to.set(kept++, static_cast<uint16_t>(channel));
@@ -201,13 +303,15 @@ class LodSelector {
     defn.mesh_channels = {Array<uint16_t>(new_from).first(kept),
                           Array<uint16_t>(new_to).first(kept)};
 
-    Array<uint16_t> parents = survivors(defn.joint_hierarchy, joints_);
-    NewArray<uint16_t> hierarchy = make_array<uint16_t>(parents.count);
-    for (uint32_t j = 0; j < hierarchy.count; ++j) {
-      const uint32_t parent = new_number(joints_, parents[j]);
-      hierarchy.set(j, static_cast<uint16_t>(parent == kGone ? 0 : parent));
+    if (!joints_.all_stay) {
+      const Array<uint16_t> parents = survivors(defn.joint_hierarchy, joints_);
+      NewArray<uint16_t> hierarchy = make_array<uint16_t>(parents.count);
+      for (uint32_t j = 0; j < hierarchy.count; ++j) {
+        const uint32_t parent = joints_[parents[j]];
+        hierarchy.set(j, static_cast<uint16_t>(parent == kGone ? 0 : parent));
+      }
+      defn.joint_hierarchy = hierarchy;
     }
-    defn.joint_hierarchy = hierarchy;
     defn.neutral_translations = survivors(defn.neutral_translations, joints_);
     defn.neutral_rotations = survivors(defn.neutral_rotations, joints_);
   }
@@ -217,12 +321,13 @@ class LodSelector {
   // group of their own then, behind the others, with the columns in the order of the whole file: it
   // stays.
   void keep_turn_order() {
+    if (view_.jbmd.joints.count == 0) return;
     List<JointGroup>& groups = view_.bhvr.joints.groups;
     uint32_t widest = 0;
     for (const JointGroup& group : groups) {
       if (group.input_indices.count > widest) widest = group.input_indices.count;
     }
-    if (view_.jbmd.joints.count == 0 || widest == 0) return;
+    if (widest == 0) return;
     Span<uint32_t> first_rows = make<uint32_t>(widest), order = make<uint32_t>(widest);
     Span<JointGroup> all = make<JointGroup>(size_t{groups.count} * 2);
     if (out_of_memory_) return;
@@ -278,14 +383,11 @@ class LodSelector {
 
   void select_behavior() {
     Behavior& bhvr = view_.bhvr;
-    for (JointGroup& group : bhvr.joints.groups) {
+    for (uint32_t g = 0; g < bhvr.joints.groups.count; ++g) {
+      JointGroup& group = bhvr.joints.groups[g];
       const uint32_t rows = rows_left(group.lods), columns = group.input_indices.count;
-      NewArray<uint16_t> outputs = make_array<uint16_t>(rows);
-      for (uint32_t r = 0; r < outputs.count; ++r) {
-        const uint32_t old = group.output_indices[r];
-        outputs.set(r, static_cast<uint16_t>(joints_[old / 9] * 9 + old % 9));
-      }
-      group.output_indices = outputs;
+      group.output_indices =
+          joints_.all_stay ? kept_rows(group.output_indices, group.lods) : new_outputs_[g];
       group.values = group.values.first(size_t{rows} * columns);
       if (rows == 0) group.input_indices = {};
       group.joint_indices = renumbered(group.joint_indices, joints_);
@@ -317,13 +419,15 @@ class LodSelector {
     for (Mesh& mesh : view_.geom.meshes) {
       uint32_t kept = 0;
       for (BlendShapeTarget& target : mesh.blend_shape_targets) {
-        const uint32_t channel = new_number(channels_, target.channel_index);
+        const uint32_t channel = channels_[target.channel_index];
         if (channel == kGone) continue;
         target.channel_index = static_cast<uint16_t>(channel);
         mesh.blend_shape_targets[kept++] = target;
       }
       mesh.blend_shape_targets.count = kept;
-      for (VertexSkinWeights& vertex : mesh.skin_weights) select_influences(vertex);
+      for (VertexSkinWeights& vertex : mesh.skin_weights) {
+        if (!joints_.all_stay || vertex.weights.count == 0) select_influences(vertex);
+      }
     }
   }
 
@@ -334,7 +438,7 @@ class LodSelector {
     float dropped = 0, left = 0;
     uint32_t kept = 0;
     for (uint32_t i = 0; i < count; ++i) {
-      const bool gone = new_number(joints_, vertex.joint_indices[i]) == kGone;
+      const bool gone = joints_[vertex.joint_indices[i]] == kGone;
       (gone ? dropped : left) += vertex.weights[i];
       kept += !gone;
     }
@@ -353,7 +457,7 @@ class LodSelector {
       const float scale = 1.0f / (dropped < 1.0f ? 1.0f - dropped : left);
       uint32_t k = 0;
       for (uint32_t i = 0; i < count; ++i) {
-        const uint32_t joint = new_number(joints_, vertex.joint_indices[i]);
+        const uint32_t joint = joints_[vertex.joint_indices[i]];
         if (joint == kGone) continue;
         weights.set(k, vertex.weights[i] * scale);
         joints.set(k++, static_cast<uint16_t>(joint));
@@ -470,7 +574,7 @@ class LodSelector {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < outputs.count && i < inputs.count; ++i) {
       const uint32_t old = joints.output_indices[i];
-      const uint32_t joint = new_number(joints_, old / attributes);
+      const uint32_t joint = joints_[old / attributes];
       if (joint == kGone) continue;
       inputs.set(kept, joints.input_indices[i]);
       outputs.set(kept++, static_cast<uint16_t>(joint * attributes + old % attributes));
@@ -497,7 +601,7 @@ class LodSelector {
       NewArray<float> weights = make_array<float>(joints.count);
       uint32_t k = 0;
       for (uint32_t i = 0; i < weights.count; ++i) {
-        if (new_number(joints_, joints[i]) != kGone) weights.set(k++, setup.blend_weights[i]);
+        if (joints_[joints[i]] != kGone) weights.set(k++, setup.blend_weights[i]);
       }
       if (k == 0) continue;
       setup.blend_weights = Array<float>(weights).first(k);
@@ -516,7 +620,10 @@ class LodSelector {
   uint64_t lods_;
   Arena& arena_;
   uint32_t first_ = 0, count_ = 0;  // finest kept LOD, number of kept LODs
+  bool neighbours_;                 // no LOD between them is dropped
   Numbers joints_, channels_, maps_, meshes_, networks_;
+  Span<Array<uint16_t>>
+      new_outputs_;  // [joint group] of the rows that are left, unless all joints stay
   Span<Span<Span<uint8_t>>> operations_;  // [type][set][operation]: stays
   uint32_t root_ = kGone;
   bool out_of_memory_ = false;
@@ -526,9 +633,7 @@ class LodSelector {
 
 void mark_lod_elements(const LodMap& map, uint64_t lods, Span<uint8_t> marks) {
   for (uint32_t l = 0; l < map.lods.count && l < 64; ++l) {
-    if (!(lods >> l & 1)) continue;
-    const Array<uint16_t>& row = map.indices[map.lods[l]];
-    for (uint32_t i = 0; i < row.count; ++i) marks[row[i]] = 1;
+    if (lods >> l & 1) mark(map.indices[map.lods[l]], marks);
   }
 }
 
