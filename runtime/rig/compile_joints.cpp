@@ -214,7 +214,7 @@ void draft_blocks(Span<PlannedRows> tier, Span<BlockDraft>& drafts) {
 /// Matches blocks that have no partner yet with one of the next few, whose group reads most of the
 /// same controls.
 void match_blocks(const Span<GroupSignature>& signatures, Span<BlockDraft> tier, uint32_t first) {
-  constexpr int kLook = 64;
+  constexpr int kLook = 16;
   for (size_t a = 0; a < tier.count; ++a) {
     if (tier[a].partner != kAlone) continue;
     size_t best = a;
@@ -443,21 +443,20 @@ Status count_pieces(const dna::DnaView& view, Arena& scratch, JointPlan& plan, E
       view, plan,
       [&](const PlannedRows& rows, const FileRows&, uint32_t, PlannedColumn& column, bool first) {
         if (!first) return;
-        if (rows.block % 2 != 0 && column.end_block == rows.block) {
-          ++column.pairs;
-          --column.singles;
-          for (uint32_t half : {piece, column.piece}) {
-            plan.paired[half / kWordBits] |= uint64_t{1} << half % kWordBits;
-          }
-        } else {
-          ++column.singles;
+        // Without branches: nobody foresees what is a pair.
+        const uint32_t pair = rows.block % 2 & uint32_t{column.end_block == rows.block};
+        column.pieces[0] += 1 - 2 * pair;
+        column.pieces[1] += 2 * pair;
+        for (uint32_t half : {piece, column.piece}) {
+          plan.paired[half / kWordBits] |= uint64_t{pair} << half % kWordBits;
         }
         column.piece = piece++;
       });
   for (const PlannedColumn& column : plan.columns) {
-    plan.column_count += column.pairs + column.singles != 0;
-    plan.entry_count += column.pairs + column.singles;
-    plan.piece_count += size_t{2} * (column.pairs + (column.singles + 1) / 2);
+    const uint32_t pairs = column.pairs(), singles = column.singles();
+    plan.column_count += pairs + singles != 0;
+    plan.entry_count += pairs + singles;
+    plan.piece_count += size_t{2} * (pairs + (singles + 1) / 2);
   }
   return Status::kOk;
 }
@@ -586,11 +585,16 @@ void add_piece(const PlannedRows& rows, const FileRows& file, uint32_t column, b
     }
     return;
   }
-  if (first) std::fill(piece, piece + kPieceRows, 0.0f);
-  piece += rows.first_slot;
-  for (uint32_t k = 0; k < file.count; ++k) {
-    piece[k] += load_big_endian<float>(file.value(k, column));
+  float* const own = piece + rows.first_slot;
+  if (!first) {
+    for (uint32_t k = 0; k < file.count; ++k) {
+      own[k] += load_big_endian<float>(file.value(k, column));
+    }
+    return;
   }
+  std::fill(piece, own, 0.0f);
+  for (uint32_t k = 0; k < file.count; ++k) own[k] = load_big_endian<float>(file.value(k, column));
+  std::fill(own + file.count, piece + kPieceRows, 0.0f);
 }
 
 void add_fixed_piece(const PlannedRows& rows, const FileRows& file, uint32_t column,
@@ -635,14 +639,14 @@ void place_columns(JointPlan& plan, JointMatrix& joints) {
   std::fill(joints.column_of_control.begin(), joints.column_of_control.end(), kNoColumn);
   for (uint32_t control = 0; control < plan.columns.count; ++control) {
     PlannedColumn& column = plan.columns[control];
-    const uint32_t pairs = column.pairs, singles = column.singles;
+    const uint32_t pairs = column.pairs(), singles = column.singles();
     if (pairs + singles == 0) continue;
     joints.columns[k] = static_cast<uint16_t>(control);
     joints.column_of_control[control] = k;
-    column.pairs = piece;
-    column.singles = piece + 2 * pairs;
-    column.pair_entries = entry;
-    column.single_entries = entry + pairs;
+    column.pieces[1] = piece;
+    column.pieces[0] = piece + 2 * pairs;
+    column.entries[1] = entry;
+    column.entries[0] = entry + pairs;
     piece += 2 * pairs + singles;
     entry += pairs + singles;
     if (singles % 2 != 0) {
@@ -784,13 +788,14 @@ void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach,
       [&](const PlannedRows& rows, const FileRows& file, uint32_t c, PlannedColumn& column,
           bool first) {
         if (first) {
-          const bool paired = plan.paired[piece / kWordBits] >> piece % kWordBits & 1;
+          // The second half of a pair writes what the first one did: no branches, as above.
+          const uint32_t paired = plan.paired[piece / kWordBits] >> piece % kWordBits & 1;
+          const uint32_t second = rows.block % 2 & paired;
+          uint32_t& entry = column.entries[paired];
+          joints.blocks[entry - second] = static_cast<uint16_t>((rows.block - second) * kBlockUnit);
+          entry += 1 - second;
+          column.piece = column.pieces[paired]++;
           ++piece;
-          if (rows.block % 2 == 0 || !paired) {
-            uint32_t& entry = paired ? column.pair_entries : column.single_entries;
-            joints.blocks[entry++] = static_cast<uint16_t>(rows.block * kBlockUnit);
-          }
-          column.piece = paired ? column.pairs++ : column.singles++;
         }
         mark_reach(rows, file, c, reach[groups[rows.group].input_indices[c]]);
         if (rig.half_storage) {
@@ -801,7 +806,7 @@ void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach,
         }
       });
   for (size_t k = 0; k < joints.columns.count; ++k) {
-    fill_parts(k, plan.columns[joints.columns[k]].pair_entries, joints);
+    fill_parts(k, plan.columns[joints.columns[k]].entries[1], joints);
   }
 }
 

@@ -44,12 +44,16 @@ struct PlannedRows {
   uint8_t reach() const { return reaches[0]; }  // of the whole: rows are in order
 };
 
-/// The pieces of a control: first how many there are, then where the next of each kind goes.
+/// The pieces of a control, single ones and halves of pairs: first how many there are, then where
+/// the next of either kind goes.
 struct PlannedColumn {
-  uint32_t pairs, singles;                // pieces
-  uint32_t pair_entries, single_entries;  // into JointMatrix::blocks
-  uint32_t end_block;                     // behind the last one seen
-  uint32_t piece;                         // the last one seen
+  uint32_t pieces[2];   // [is half of a pair]
+  uint32_t entries[2];  // into JointMatrix::blocks
+  uint32_t end_block;   // behind the last one seen
+  uint32_t piece;       // the last one seen
+
+  uint32_t pairs() const { return pieces[1] / 2; }
+  uint32_t singles() const { return pieces[0]; }
 };
 
 /// What becomes of the joint groups, in scratch memory: found out once, before anything is placed.
