@@ -27,6 +27,11 @@ inline float* sums_of(float* sums, size_t number) {
 struct FourBlocks {
   uint64_t numbers;
   explicit FourBlocks(const uint16_t* from) { __builtin_memcpy(&numbers, from, sizeof(numbers)); }
+  static FourBlocks of_pairs(const uint16_t* from) {
+    FourBlocks four(from);
+    four.numbers &= kPairBlocks * uint64_t{0x0001'0001'0001'0001};
+    return four;
+  }
   size_t operator[](size_t i) const {
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
     i = 3 - i;
@@ -77,13 +82,13 @@ inline void add_pairs(const Value* values, const uint16_t* blocks, size_t count,
   const Vec input = broadcast(input_value);
   size_t i = 0;
   for (; i + 4 <= count; i += 4) {
-    const FourBlocks b(blocks + i);
+    const FourBlocks b = FourBlocks::of_pairs(blocks + i);
     float* const four[] = {sums_of(sums, b[0]), sums_of(sums, b[1]), sums_of(sums, b[2]),
                            sums_of(sums, b[3])};
     add_pairs<How>(values + i * 2 * kPieceRows, four, input, std::make_index_sequence<4>());
   }
   for (; i < count; ++i) {
-    float* const one[] = {sums_of(sums, blocks[i])};
+    float* const one[] = {sums_of(sums, blocks[i] & kPairBlocks)};
     add_pairs<How>(values + i * 2 * kPieceRows, one, input, std::make_index_sequence<1>());
   }
 }
@@ -96,7 +101,7 @@ inline void add_pairs(const Value* values, const uint16_t* blocks, size_t count,
   const PieceVec input = broadcast_piece(input_value);
   size_t i = 0;
   for (; i + 4 <= count; i += 4) {
-    const FourBlocks n(blocks + i);
+    const FourBlocks n = FourBlocks::of_pairs(blocks + i);
     float *const a = sums_of(sums, n[0]), *const b = sums_of(sums, n[1]);
     float* const four[] = {a, a + kPieceRows, b, b + kPieceRows};
     add_pieces<How>(values + i * 2 * kPieceRows, four, input, std::make_index_sequence<4>());
@@ -106,12 +111,13 @@ inline void add_pairs(const Value* values, const uint16_t* blocks, size_t count,
                     std::make_index_sequence<4>());
   }
   for (; i + 2 <= count; i += 2) {
-    float *const a = sums_of(sums, blocks[i]), *const b = sums_of(sums, blocks[i + 1]);
+    float *const a = sums_of(sums, blocks[i] & kPairBlocks), *const b = sums_of(
+                                                                 sums, blocks[i + 1] & kPairBlocks);
     float* const four[] = {a, a + kPieceRows, b, b + kPieceRows};
     add_pieces<How>(values + i * 2 * kPieceRows, four, input, std::make_index_sequence<4>());
   }
   if (i < count) {
-    float* const a = sums_of(sums, blocks[i]);
+    float* const a = sums_of(sums, blocks[i] & kPairBlocks);
     float* const two[] = {a, a + kPieceRows};
     add_pieces<How>(values + i * 2 * kPieceRows, two, input, std::make_index_sequence<2>());
   }

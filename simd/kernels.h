@@ -21,6 +21,8 @@ constexpr uint32_t kBlockRows = 16;
 constexpr uint32_t kPieceRows = 8;
 /// Blocks are named by multiples of this, which are addresses with the least work.
 constexpr uint32_t kBlockUnit = 4;
+/// Bits of the number of an even block: of a pair's number no others are looked at.
+constexpr uint32_t kPairBlocks = 0x10000 - 2 * kBlockUnit;
 
 /// How many pairs and how many single pieces of a column stand before some block.
 struct ColumnPart {

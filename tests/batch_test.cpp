@@ -107,6 +107,19 @@ TEST(Batch, OfALargeRig) {
   }
 }
 
+TEST(Batch, OfSeveralTiles) {
+  Arena arena(default_allocator());
+  const std::vector<uint8_t> bytes = write_view(to_view(tall_rig(), arena));
+  Crowd crowd(open_dna(bytes).get(), sized<MienRigDesc>(), 40);
+  const BatchHandle batch = create_batch(crowd.rig, 40);
+  Random random = Random::from_seed(14, 1);
+  for (uint32_t percent : {100, 3, 40}) {
+    crowd.draw(random, percent, true, 2);
+    crowd.evaluate(batch.get());
+    crowd.expect_equal();
+  }
+}
+
 TEST(Batch, SomeStages) {
   const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 2);
   Random random = Random::from_seed(13, 1);

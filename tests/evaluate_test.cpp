@@ -106,6 +106,28 @@ TEST(JointGroups, EveryCountOfRowsAndColumns) {
   }
 }
 
+// All of it, then what one control after the other changes.
+TEST(JointGroups, OfSeveralTiles) {
+  const PlainRig plain = tall_rig();
+  for (uint32_t isa : present_isas()) {
+    SCOPED_TRACE(mien_isa_name(isa));
+    const RigHandle rig = make_rig(plain, isa);
+    const JointMatrix& joints = reinterpret_cast<const Rig*>(rig.get())->joints;
+    ASSERT_LT(joints.tile_end(joints.tile_end(0)), joints.chunk_count()) << "three tiles";
+    Character character(rig);
+    Floats raw(plain.raw_count, 1.0f);
+    for (uint32_t frame = 0; frame < 40; ++frame) {
+      const uint32_t lod = frame < 30 ? 0 : 1;
+      pose(character, raw, lod);
+      const std::vector<double> expected = evaluate_plain(plain, raw, lod).joints;
+      ASSERT_TRUE(std::equal(expected.begin(), expected.end(), character.joints.begin(),
+                             character.joints.end()))
+          << "frame " << frame;
+      raw[frame * 17 % plain.raw_count] = static_cast<float>(frame % 3);
+    }
+  }
+}
+
 // LODs ------------------------------------------------------------------------------------------
 
 /// Three LODs. Corrective p (control 2 + p) is raw 0 times raw 1 for every p, and read by:

@@ -57,7 +57,9 @@ class JointMatrix {
         const uint32_t kind = random() % 4;
         const bool first = kind & 1, second = (kind & 2) && b + 1 < block_count;
         const uint32_t number = kFirstBlock + b;
-        if (first && second) pairs.push_back(static_cast<uint16_t>(number * kBlockUnit));
+        // Whether the number of a pair is even is nobody's concern.
+        const uint32_t odd = random() % 2;
+        if (first && second) pairs.push_back(static_cast<uint16_t>((number + odd) * kBlockUnit));
         if (first && !second) singles.push_back(static_cast<uint16_t>(number * kBlockUnit));
         if (!first && second) singles.push_back(static_cast<uint16_t>((number + 1) * kBlockUnit));
       }
@@ -172,7 +174,8 @@ class JointMatrix {
     for (size_t i = 0; i < runs_.size(); ++i) {
       const JointRun& run = runs_[i];
       for (uint32_t p = 0; p < run.pair_count; ++p) {
-        const size_t block = blocks_[run.pair_entry + p] / kBlockUnit - kFirstBlock;
+        const size_t number = blocks_[run.pair_entry + p] & kPairBlocks;
+        const size_t block = number / kBlockUnit - kFirstBlock;
         f(i, run.first_pair + 2 * p, block);
         f(i, run.first_pair + 2 * p + 1, block + 1);
       }

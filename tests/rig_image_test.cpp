@@ -362,5 +362,236 @@ TEST(RigImage, AnyChangeIsRefusedOrDoesNoHarm) {
   EXPECT_GT(survived, 0u);
 }
 
+// Damage where it would hurt --------------------------------------------------------------------
+
+/// An image, and where in it the arrays of the rig are.
+struct OpenImage {
+  AlignedBytes bytes;
+  RigHandle rig;
+
+  explicit OpenImage(const Bytes& image) : bytes(image), rig(open_image(bytes)) {}
+  const Rig& arrays() const { return *reinterpret_cast<const Rig*>(rig.get()); }
+
+  /// Opened, and used if it could be, with `value` instead; the change is undone.
+  template <class T>
+  MienStatus status_with(const Span<T>& array, size_t i, uint32_t value,
+                         uint32_t isa = MIEN_ISA_BEST) {
+    const T kept = array[i];
+    array[i] = static_cast<T>(value);
+    const ImageLife life = live_image(bytes.data(), bytes.size(), isa);
+    array[i] = kept;
+    EXPECT_EQ(life.broken, "") << i << " is " << value;
+    return life.opened;
+  }
+};
+
+TEST(RigImage, PiecesStayInTheirTiles) {
+  OpenImage tiny(tiny_image()), tall(save(make_rig(tall_rig()).get()));
+  for (OpenImage* image : {&tiny, &tall}) {
+    const JointMatrix& joints = image->arrays().joints;
+    const uint32_t chunks = joints.chunk_count();
+    const uint32_t blocks = joints.chunks[chunks].first_block;
+    for (size_t p : {size_t{0}, joints.blocks.count / 2, joints.blocks.count - 1}) {
+      for (uint32_t value :
+           {joints.blocks[p] + 1u, joints.blocks[p] + 2u, blocks * kBlockUnit, 0xFFFCu}) {
+        EXPECT_EQ(image->status_with(joints.blocks, p, value), MIEN_ERROR_IMAGE_STRUCTURE);
+      }
+    }
+
+    // What of a column stands before a chunk.
+    const size_t column = joints.columns.count / 2 * joints.chunks.count;
+    for (uint16_t ColumnPart::*kind : {&ColumnPart::pairs, &ColumnPart::singles}) {
+      const auto refused = [&](size_t chunk, uint32_t value) {
+        EXPECT_EQ(
+            image->status_with(Span<uint16_t>{&(joints.parts[column + chunk].*kind), 1}, 0, value),
+            MIEN_ERROR_IMAGE_STRUCTURE)
+            << "chunk " << chunk << ": " << value;
+      };
+      const uint32_t count = joints.parts[column + chunks].*kind;
+      refused(0, 1);
+      for (uint32_t value : {count - 1, count + 1, 0xFFFFu}) refused(chunks, value);
+      for (uint32_t chunk = 1; chunk < chunks; ++chunk) {
+        refused(chunk, count + 1);
+        const uint32_t before = joints.parts[column + chunk - 1].*kind;
+        if (before != 0) refused(chunk, before - 1);
+      }
+    }
+  }
+
+  // Another block of the tile gives nonsense and does no harm; one of another tile would.
+  const JointMatrix& joints = tall.arrays().joints;
+  uint32_t last_tile = 0;
+  while (joints.tile_end(last_tile) < joints.chunk_count()) last_tile = joints.tile_end(last_tile);
+  const uint32_t end_of_first = joints.chunks[joints.tile_end(0)].first_block;
+  const uint32_t first_of_last = joints.chunks[last_tile].first_block;
+  const uint32_t last = joints.chunks[joints.chunk_count()].first_block - 1;
+  const size_t early = 0, late = joints.first_entry[1] - 1;  // of the first column
+  ASSERT_LT(joints.blocks[early], end_of_first * kBlockUnit);
+  ASSERT_GE(joints.blocks[late], first_of_last * kBlockUnit);
+  const auto status_with = [&](size_t piece, uint32_t block) {
+    return tall.status_with(joints.blocks, piece, block * kBlockUnit);
+  };
+  for (uint32_t block : {0u, end_of_first - 1}) EXPECT_EQ(status_with(early, block), MIEN_OK);
+  for (uint32_t block : {first_of_last, last}) EXPECT_EQ(status_with(late, block), MIEN_OK);
+  EXPECT_EQ(status_with(early, end_of_first), MIEN_ERROR_IMAGE_STRUCTURE);
+  EXPECT_EQ(status_with(late, first_of_last - 1), MIEN_ERROR_IMAGE_STRUCTURE);
+}
+
+/// What a crowd gives, and what each of it gives alone.
+struct Results {
+  std::vector<std::vector<float>> together, alone;
+};
+
+/// Everybody moves the first `common` controls, and hardly anybody one of the last ones: columns of
+/// those are summed together, of these apart.
+Results results_of(const RigHandle& rig, uint32_t lod, uint32_t common) {
+  constexpr uint32_t kCount = 32, kLast = 15;
+  MienBatch* made = nullptr;
+  EXPECT_EQ(mien_batch_create(rig.get(), kCount, 1, nullptr, &made, nullptr), MIEN_OK);
+  const BatchHandle batch(made);
+  Random random = Random::from_seed(15, common);
+  std::vector<Character> together, alone;
+  std::vector<MienInstance*> handles;
+  for (uint32_t i = 0; i < kCount; ++i) {
+    together.emplace_back(rig);
+    alone.emplace_back(rig);
+    handles.push_back(together.back().instance.get());
+    const Span<float>& raw = alone.back().raw;
+    for (size_t c = 0; c < raw.count; ++c) {
+      const bool moves = c < common || (c + kLast >= raw.count && (c + i) % 16 == 0);
+      raw[c] = moves ? static_cast<float>(1 + random.below(8)) : 0;
+    }
+    std::copy(alone.back().raw.begin(), alone.back().raw.end(), together.back().raw.begin());
+  }
+  const std::vector<uint32_t> lods(kCount, lod);
+  EXPECT_EQ(mien_rig_evaluate_batch(rig.get(), made, handles.data(), lods.data(), kCount,
+                                    MIEN_STAGE_ALL, nullptr),
+            MIEN_OK);
+  Results results;
+  for (uint32_t i = 0; i < kCount; ++i) {
+    alone[i].evaluate(lod);
+    results.together.push_back(together[i].results());
+    results.alone.push_back(alone[i].results());
+  }
+  return results;
+}
+
+// What is said to be of a LOD, but adds to blocks that it does not have, is lost: it reaches
+// neither another character nor what is behind.
+TEST(RigImage, SumsOutsideOfTheLodReachNobody) {
+  OpenImage image(save(make_rig(tall_rig()).get()));
+  const JointMatrix& joints = image.arrays().joints;
+  const uint32_t chunks = joints.chunks_at_lod[1];
+  const uint32_t first = joints.chunks[chunks].first_block;
+  const uint32_t end = joints.chunks[joints.tile_end(0)].first_block;
+  ASSERT_LT(first + 2, end);
+  size_t moved = 0;
+  for (size_t k = 0; k < joints.columns.count; ++k) {
+    const uint32_t pairs = joints.part(k, chunks).pairs;
+    if (pairs == 0) continue;
+    const uint32_t block = first + (k % 2 ? 0 : (end - first) / 4 * 2);
+    joints.blocks[joints.first_entry[k] + pairs - 1] = static_cast<uint16_t>(block * kBlockUnit);
+    ++moved;
+  }
+  ASSERT_GT(moved, 10u);
+  ASSERT_EQ(live_image(image.bytes.data(), image.bytes.size()).opened, MIEN_OK);
+  for (uint32_t common : {12, 40, 60}) {
+    const Results results = results_of(image.rig, 1, common);
+    EXPECT_TRUE(results.together == results.alone) << common;
+  }
+}
+
+// A pair stands in an even block and the next one, whichever of them is named.
+TEST(RigImage, PairsBeginWithEvenBlocks) {
+  OpenImage image(save(make_rig(tall_rig()).get()));
+  const JointMatrix& joints = image.arrays().joints;
+  const Results before = results_of(image.rig, 0, 12);
+  for (size_t k = 0; k < joints.columns.count; ++k) {
+    const uint32_t pairs = joints.part(k, joints.chunk_count()).pairs;
+    for (uint32_t i = 0; i < pairs; ++i) joints.blocks[joints.first_entry[k] + i] += kBlockUnit;
+  }
+  for (uint32_t isa : present_isas()) {
+    const ImageLife life = live_image(image.bytes.data(), image.bytes.size(), isa);
+    EXPECT_EQ(life.opened, MIEN_OK);
+    EXPECT_EQ(life.broken, "");
+  }
+  const Results after = results_of(image.rig, 0, 12);
+  EXPECT_TRUE(after.alone == before.alone);
+  EXPECT_TRUE(after.together == before.together);
+}
+
+TEST(RigImage, TargetsStayInTheirChunks) {
+  OpenImage image(save(make_rig(tall_rig()).get()));
+  const Rig& rig = image.arrays();
+  const JointMatrix& joints = rig.joints;
+  for (uint32_t chunk : {0u, joints.chunk_count() - 1}) {
+    const JointChunk &at = joints.chunks[chunk], &next = joints.chunks[chunk + 1];
+    const uint32_t slots = (next.first_block - at.first_block) * kPieceRows;
+    uint32_t end = at.first_target;
+    for (uint32_t kind = 0; kind < kTargetKinds; ++kind) {
+      const uint32_t first = end, rows = kTargetRows[kind];
+      end += joints.targets_at_lod[(size_t{chunk} * kTargetKinds + kind) * rig.lod_count];
+      if (first == end) continue;
+      for (uint32_t t : {first, end - 1}) {
+        JointTarget& target = joints.targets[t];
+        const Span<uint16_t> fields[] = {
+            {&target.slot, 1}, {&target.output, 1}, {&target.group, 1}};
+        const uint32_t most[] = {slots - rows, rig.joint_value_count() - rows,
+                                 joints.group_count - 1};
+        for (size_t f = 0; f < 3; ++f) {
+          EXPECT_EQ(image.status_with(fields[f], 0, most[f]), MIEN_OK);
+          EXPECT_EQ(image.status_with(fields[f], 0, most[f] + 1), MIEN_ERROR_IMAGE_STRUCTURE);
+        }
+      }
+    }
+    EXPECT_EQ(end, next.first_target);
+  }
+}
+
+TEST(RigImage, RunsOfCorrectivesStayInTheirTable) {
+  OpenImage image(save(create_rig(generate_dna(MIEN_PRESET_SMALL, 3).get()).get()));
+  const PsdTable& psds = image.arrays().psds;
+  const auto count = static_cast<uint32_t>(psds.run_lengths.count);
+  ASSERT_GT(count, 2u);
+  for (uint32_t e : {0u, count / 2, count - 1}) {
+    for (uint32_t length : {0u, count - e + 1, 0xFFFFu}) {
+      EXPECT_EQ(image.status_with(psds.run_lengths, e, length), MIEN_ERROR_IMAGE_STRUCTURE);
+    }
+    EXPECT_EQ(image.status_with(psds.run_lengths, e, 1), MIEN_OK);
+  }
+  // As many as are left, taken to have as many inputs each as the one with the most.
+  uint32_t widest = 0;
+  for (uint32_t e = 0; e < count; ++e) {
+    const auto inputs = [&](uint32_t i) { return psds.first_input[i + 1] - psds.first_input[i]; };
+    if (inputs(e) > inputs(widest)) widest = e;
+  }
+  const uint64_t last =
+      psds.first_input[widest] +
+      uint64_t{count - widest} * (psds.first_input[widest + 1] - psds.first_input[widest]);
+  ASSERT_GT(last, psds.inputs.count);
+  EXPECT_EQ(image.status_with(psds.run_lengths, widest, count - widest),
+            MIEN_ERROR_IMAGE_STRUCTURE);
+}
+
+// Wrong, but harmless: only those who ask for all checks are told, and only if the checksum does
+// not tell them first.
+TEST(RigImage, FullCheckKnowsTheOrderOfCorrectives) {
+  OpenImage image(tiny_image());
+  const PsdTable& psds = image.arrays().psds;
+  ASSERT_EQ(psds.outputs.count, 2u);
+  psds.inputs[0] = psds.outputs[1];
+  EXPECT_EQ(live_image(image.bytes.data(), image.bytes.size()).broken, "");
+  open_image(image.bytes, image_desc(MIEN_ISA_BEST, MIEN_IMAGE_CHECK_SAFE));
+  const uint64_t checksum = image_checksum(image.bytes.data(), image.bytes.size());
+  memcpy(image.bytes.data() + offsetof(ImageHeader, checksum), &checksum, sizeof(checksum));
+  open_image(image.bytes, image_desc(), MIEN_ERROR_IMAGE_STRUCTURE);
+
+  psds.inputs[0] = 0;
+  EXPECT_EQ(image.status_with(psds.outputs, 0, psds.outputs[0] - 1u), MIEN_ERROR_IMAGE_STRUCTURE)
+      << "a raw control";
+  EXPECT_EQ(image.status_with(psds.outputs, 1, psds.outputs[1] + 1u), MIEN_ERROR_IMAGE_STRUCTURE)
+      << "a control of the next kind";
+}
+
 }  // namespace
 }  // namespace mien

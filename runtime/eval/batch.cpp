@@ -175,7 +175,7 @@ void list_together(const Crowd& crowd, const Together& together) {
   const uint32_t chunks = joints.chunks_at_lod[crowd.lod];
   const Batch& batch = crowd.batch;
   uint32_t* ends = crowd.scratch.ends.data;
-  std::copy(batch.starts.data, batch.starts.data + joints.chunks[chunks].first_block, ends);
+  std::copy(batch.starts.data, batch.starts.data + block_count(joints), ends);
   BatchPiece* pieces = crowd.scratch.pieces.data;
   for (uint32_t k = 0; k < together.column_end; ++k) {
     if (crowd.scratch.users[k] == 0) continue;
@@ -206,12 +206,13 @@ void evaluate_rows(const Crowd& crowd, const Together& together) {
   args.lane_count = crowd.count;
   args.portable = crowd.rig.portable;
   for (uint32_t c = 0; c < chunk_end;) {
-    JointTile tile = tile_from(joints, c, chunk_end, nullptr);
+    const uint32_t tile_end = joints.tile_end(c);
+    const uint32_t first = joints.chunks[c].first_block;
+    JointTile tile = {first, c, std::min(tile_end, chunk_end), nullptr};
     c = tile.end_chunk;
-    const uint32_t first = joints.chunks[tile.first_chunk].first_block;
-    const uint32_t end = joints.chunks[tile.end_chunk].first_block;
+    const uint32_t end = joints.chunks[c].first_block;
     args.sums = crowd.scratch.sums.data;
-    args.stride = size_t{end - first} * kPieceRows;
+    args.stride = size_t{joints.chunks[tile_end].first_block - first} * kPieceRows;
     for (uint32_t b = first; b < end; ++b) {
       const uint32_t start = crowd.batch.starts[b];
       args.pieces = pieces + start;

@@ -52,16 +52,19 @@ inline float saturated(double value) {
 constexpr uint64_t kAllChunks = ~uint64_t{0};
 constexpr uint32_t kAllGroups = ~uint32_t{0};
 
-/// Neighbouring chunks of the joint matrix and their sums, which start from 0: all chunks of a
-/// face, so that each column is read in one go.
+/// Neighbouring chunks of a tile of the joint matrix, and the sums of the tile, of which those of
+/// the chunks start from 0. There is room for the whole tile: what an image is checked for is that
+/// pieces of a tile add to blocks of the tile, whichever of its chunks they are said to be of.
 struct JointTile {
+  uint32_t first_block;  // of the tile
   uint32_t first_chunk, end_chunk;
   float* sums;  // [block of the tile][8], 64-byte aligned
+
+  float* of_chunk(const JointMatrix& joints, uint32_t chunk) const {
+    return sums + size_t{joints.chunks[chunk].first_block - first_block} * kPieceRows;
+  }
 };
 
-/// The tile that begins with a chunk and has as many of those before `end_chunk` as fit.
-JointTile tile_from(const JointMatrix& joints, uint32_t first_chunk, uint32_t end_chunk,
-                    float* sums);
 /// Adds columns `first_column` and on, scales and saturates, and writes what the LOD has of a group
 /// or of all.
 void finish_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTile& tile,

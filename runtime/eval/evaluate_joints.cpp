@@ -40,7 +40,7 @@ void add_columns(const Rig& rig, const Instance& instance, const JointTile& tile
   args.values = fixed ? static_cast<const void*>(joints.fixed_values.data) : joints.values.data;
   args.blocks = joints.blocks.data;
   args.runs = runs;
-  args.sums = tile.sums - size_t{joints.chunks[tile.first_chunk].first_block} * kPieceRows;
+  args.sums = tile.sums - size_t{tile.first_block} * kPieceRows;
   args.run_count = 0;
   args.portable = rig.portable;
   const uint32_t first_control = joints.columns[first_column];
@@ -89,9 +89,7 @@ void write_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTil
                 uint32_t only_group) {
   const JointMatrix& joints = rig.joints;
   float* out = instance.joints_and_angles.data;
-  const uint32_t first_block = joints.chunks[tile.first_chunk].first_block;
-  const auto write = [&](uint32_t chunk, uint32_t from_block) {
-    const float* sums = tile.sums + size_t{from_block - first_block} * kPieceRows;
+  const auto write = [&](uint32_t chunk, const float* sums) {
     const auto copy = [out, sums](const JointTarget& target, auto rows) {
       memcpy(out + target.output, sums + target.slot, rows() * sizeof(float));
     };
@@ -101,9 +99,9 @@ void write_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTil
     });
   };
   const bool whole = tile.first_chunk == 0 && tile.end_chunk == joints.chunks_at_lod[lod];
-  if (whole && joints.fits_tile()) return write(joints.chunk_count(), 0);
+  if (whole && joints.fits_tile()) return write(joints.chunk_count(), tile.sums);
   for (uint32_t c = tile.first_chunk; c < tile.end_chunk; ++c) {
-    write(c, joints.chunks[c].first_block);
+    write(c, tile.of_chunk(joints, c));
   }
 }
 
@@ -117,22 +115,15 @@ bool holds_group(const JointMatrix& joints, uint32_t chunk, uint32_t group) {
 
 }  // namespace
 
-JointTile tile_from(const JointMatrix& joints, uint32_t first_chunk, uint32_t end_chunk,
-                    float* sums) {
-  const uint32_t end_block = joints.chunks[first_chunk].first_block + kMostTileBlocks;
-  uint32_t c = first_chunk + 1;
-  while (c < end_chunk && joints.chunks[c + 1].first_block <= end_block) ++c;
-  return {first_chunk, c, sums};
-}
-
 void finish_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTile& tile,
                  uint32_t first_column, uint32_t only_group) {
   add_columns(rig, instance, tile, first_column);
   const JointMatrix& joints = rig.joints;
-  const size_t first_sum = size_t{joints.chunks[tile.first_chunk].first_block} * kPieceRows;
-  const size_t end_sum = size_t{joints.chunks[tile.end_chunk].first_block} * kPieceRows;
-  const float* scales = joints.scales.empty() ? nullptr : joints.scales.data + first_sum;
-  rig.kernels->finish_sums(tile.sums, scales, end_sum - first_sum);
+  float* const sums = tile.of_chunk(joints, tile.first_chunk);
+  float* const end = tile.of_chunk(joints, tile.end_chunk);
+  const size_t first_slot = size_t{joints.chunks[tile.first_chunk].first_block} * kPieceRows;
+  const float* scales = joints.scales.empty() ? nullptr : joints.scales.data + first_slot;
+  rig.kernels->finish_sums(sums, scales, static_cast<size_t>(end - sums));
   write_tile(rig, instance, lod, tile, only_group);
 }
 
@@ -148,20 +139,20 @@ void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, uint6
   constexpr uint32_t kBridge = 4;
   // The most stack that evaluation takes, beside 8 KiB for the columns.
   alignas(kBlockAlignment) float sums[kMostTileBlocks * kPieceRows];
+  JointTile tile = {0, 0, 0, sums};
   for (uint32_t c = 0; c < chunk_count;) {
+    if (!joints.in_tile(tile.first_block, c)) tile.first_block = joints.chunks[c].first_block;
     if (!wanted(c)) {
       ++c;
       continue;
     }
-    uint32_t end = c + 1;
-    for (uint32_t n = end; n < chunk_count && n < end + kBridge; ++n) {
-      if (wanted(n)) end = n + 1;
+    tile.first_chunk = c++;
+    for (uint32_t n = c; n < chunk_count && n < c + kBridge; ++n) {
+      if (!joints.in_tile(tile.first_block, n)) break;
+      if (wanted(n)) c = n + 1;
     }
-    const JointTile tile = tile_from(joints, c, end, sums);
-    c = tile.end_chunk;
-    const uint32_t blocks =
-        joints.chunks[c].first_block - joints.chunks[tile.first_chunk].first_block;
-    std::fill(sums, sums + size_t{blocks} * kPieceRows, 0.0f);
+    tile.end_chunk = c;
+    std::fill(tile.of_chunk(joints, tile.first_chunk), tile.of_chunk(joints, c), 0.0f);
     finish_tile(rig, instance, lod, tile, 0, only_group);
   }
 }

@@ -84,6 +84,12 @@ struct JointTarget {
   uint16_t group;   // joint group that the rows are from
 };
 
+constexpr uint32_t kNoColumn = ~uint32_t{0};
+constexpr uint32_t kMostChunkBlocks = 256;
+constexpr uint32_t kMostTileBlocks = 1024;              // that are summed at a time
+constexpr uint32_t kMostBlocks = 0x10000 / kBlockUnit;  // of the whole matrix
+static_assert(kMostTileBlocks >= kMostChunkBlocks, "a chunk fits");
+
 /// Rows of the kinds of targets.
 constexpr uint32_t kTargetRows[] = {6, 3, 1};
 constexpr uint32_t kTargetKinds = 3;
@@ -96,6 +102,7 @@ constexpr uint32_t kTargetKinds = 3;
 ///     piece   the 8 values of a column in a block
 ///     pair    pieces of blocks 2i and 2i + 1, side by side
 ///     chunk   a run of blocks, of an even number
+///     tile    a run of chunks whose sums fit into kMostTileBlocks blocks: all chunks of a face
 ///
 ///     values  | column 0: pair pair ... piece piece ... | column 1: pair pair ... piece ... | ...
 ///                         of ascending blocks           8 zeros if the pieces' number is odd
@@ -130,7 +137,18 @@ struct JointMatrix {
   uint32_t tallest_group = 0;  // rows
 
   uint32_t chunk_count() const { return static_cast<uint32_t>(chunks.count - 1); }
-  bool fits_tile() const;
+  /// Whether a tile that begins with block `first_block` can take chunk `chunk` in.
+  bool in_tile(uint32_t first_block, uint32_t chunk) const {
+    return chunks[chunk + 1].first_block <= first_block + kMostTileBlocks;
+  }
+  /// Where the tile ends that begins with chunk `chunk`.
+  uint32_t tile_end(uint32_t chunk) const {
+    const uint32_t first_block = chunks[chunk].first_block;
+    do ++chunk;
+    while (chunk < chunk_count() && in_tile(first_block, chunk));
+    return chunk;
+  }
+  bool fits_tile() const { return chunks[chunk_count()].first_block <= kMostTileBlocks; }
   /// What of a column stands in the first `chunk_end` chunks.
   const ColumnPart& part(size_t column, uint32_t chunk_end) const {
     return parts[column * chunks.count + chunk_end];
@@ -154,7 +172,7 @@ struct JointMatrix {
     const uint16_t* entry = blocks.data + first_entry[column];
     uint32_t piece = first_piece[column];
     for (uint32_t i = 0; i < before.pairs; ++i) {
-      const uint32_t block = entry[i] / kBlockUnit;
+      const uint32_t block = (entry[i] & kPairBlocks) / kBlockUnit;
       f(piece + 2 * i, block);
       f(piece + 2 * i + 1, block + 1);
     }
@@ -163,14 +181,6 @@ struct JointMatrix {
     for (uint32_t i = 0; i < before.singles; ++i) f(piece + i, entry[i] / kBlockUnit);
   }
 };
-constexpr uint32_t kNoColumn = ~uint32_t{0};
-constexpr uint32_t kMostChunkBlocks = 256;
-constexpr uint32_t kMostTileBlocks = 1024;              // that are summed at a time
-constexpr uint32_t kMostBlocks = 0x10000 / kBlockUnit;  // of the whole matrix
-
-inline bool JointMatrix::fits_tile() const {
-  return chunks[chunk_count()].first_block <= kMostTileBlocks;
-}
 
 /// A joint that a group turns, and the first of the group's rows that does: it turns at the LODs
 /// that reach this row.

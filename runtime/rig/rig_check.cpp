@@ -25,20 +25,54 @@ struct Checker {
 
 uint64_t padded(uint64_t count) { return (count + kBlockRows - 1) / kBlockRows * kBlockRows; }
 
-/// All of them; without a branch inside, for many at a time.
+/// The largest of some numbers, and the bits that any of them has.
+template <class T>
+struct Extent {
+  T most = 0, bits = 0;
+
+  void add(T number) {
+    most = number > most ? number : most;
+    bits |= number;
+  }
+};
+
+/// Of all numbers, counted from `zero`. Many are taken in strips: their length, which the compiler
+/// knows, lets it make vector code that has several sums at work.
+template <class T>
+Extent<T> extent_of(const Span<T>& values, T zero = 0) {
+  constexpr size_t kStrip = 64 / sizeof(T);
+  Extent<T> extent;
+  const T* at = values.begin();
+  if (values.count >= kStrip) {
+    T most[kStrip] = {}, bits[kStrip] = {};
+    for (; static_cast<size_t>(values.end() - at) >= kStrip; at += kStrip) {
+      for (size_t i = 0; i < kStrip; ++i) {
+        const auto number = static_cast<T>(at[i] - zero);
+        most[i] = number > most[i] ? number : most[i];
+        bits[i] |= number;
+      }
+    }
+    for (size_t i = 0; i < kStrip; ++i) {
+      extent.add(most[i]);
+      extent.bits |= bits[i];
+    }
+  }
+  for (; at != values.end(); ++at) extent.add(static_cast<T>(*at - zero));
+  return extent;
+}
+
 template <class T>
 bool below(const Span<T>& values, uint64_t limit) {
-  T most = 0;
-  for (const T value : values) most = value > most ? value : most;
-  return values.empty() || most < limit;
+  return values.empty() || extent_of(values).most < limit;
 }
 
 /// Where each of `count` runs begins, and where the last one ends.
 bool is_runs(const Span<uint32_t>& first, size_t count, size_t limit) {
   if (first.count <= count || first[0] != 0) return false;
-  bool rises = true;
-  for (size_t i = 0; i < count; ++i) rises &= first[i] <= first[i + 1];
-  return rises && first[count] <= limit;
+  const uint32_t* at = first.data;
+  uint32_t falls = 0;
+  for (size_t i = 0; i < count; ++i) falls |= static_cast<uint32_t>(at[i] > at[i + 1]);
+  return falls == 0 && first[count] <= limit;
 }
 
 /// `count` elements from `first` on, of `limit`.
@@ -166,22 +200,11 @@ bool check_controls(const Checker& c) {
          check_leading(c, channels.count_at_lod, channels.inputs.count, "blend shape channels");
 }
 
-bool check_psds(const Checker& c) {
-  const Rig& rig = c.rig;
+/// Runs are what they are said to be, each corrective stands where it is looked for, and behind all
+/// that it reads.
+bool is_ordered(const Rig& rig) {
   const PsdTable& psds = rig.psds;
   const uint32_t count = rig.psd_count, first_psd = rig.raw_count;
-  if (!c.ok(psds.outputs.count == count && psds.weights.count == count &&
-                psds.entry_of_psd.count == count && psds.run_lengths.count == count &&
-                psds.first_input.count == size_t{count} + 1 &&
-                is_runs(psds.first_input, count, psds.inputs.count) &&
-                below(psds.inputs, rig.control_count) && below(psds.entry_of_psd, count),
-            "correctives") ||
-      !check_leading(c, psds.count_at_lod, count, "correctives")) {
-    return false;
-  }
-  const auto entry_of = [&](uint32_t control) -> uint32_t {
-    return control - first_psd < count ? psds.entry_of_psd[control - first_psd] : 0;
-  };
   bool ordered = true;
   uint32_t run = 0, run_end = 0, run_inputs = 0;
   for (uint32_t e = 0; e < count; ++e) {
@@ -191,16 +214,40 @@ bool check_psds(const Checker& c) {
       run_inputs = inputs;
       run_end = e + psds.run_lengths[e];
     }
-    ordered &= psds.run_lengths[e] != 0 && e + psds.run_lengths[e] == run_end && run_end <= count &&
-               inputs == run_inputs;
-    const uint32_t output = psds.outputs[e];
-    ordered &= output - first_psd < count && entry_of(output) == e;
+    ordered &= e + psds.run_lengths[e] == run_end && inputs == run_inputs;
+    ordered &= psds.entry_of_psd[psds.outputs[e] - first_psd] == e;
     for (uint32_t k = psds.first_input[e]; k < psds.first_input[e + 1]; ++k) {
-      const uint32_t input = psds.inputs[k];
-      ordered &= input - first_psd >= count || entry_of(input) < run;
+      const uint32_t psd = psds.inputs[k] - first_psd;
+      ordered &= psd >= count || psds.entry_of_psd[psd] < run;
     }
   }
-  return c.ok(ordered, "order of correctives");
+  return ordered;
+}
+
+bool check_psds(const Checker& c, bool full) {
+  const Rig& rig = c.rig;
+  const PsdTable& psds = rig.psds;
+  const uint32_t count = rig.psd_count;
+  if (!c.ok(psds.outputs.count == count && psds.weights.count == count &&
+                psds.entry_of_psd.count == count && psds.run_lengths.count == count &&
+                psds.first_input.count == size_t{count} + 1 &&
+                is_runs(psds.first_input, count, psds.inputs.count) &&
+                below(psds.inputs, rig.control_count) && below(psds.entry_of_psd, count) &&
+                (count == 0 ||
+                 extent_of(psds.outputs, static_cast<uint16_t>(rig.raw_count)).most < count),
+            "correctives") ||
+      !check_leading(c, psds.count_at_lod, count, "correctives")) {
+    return false;
+  }
+  // The first of a run tells for all of them how many inputs they have.
+  bool good = true;
+  for (uint32_t e = 0; e < count; ++e) {
+    const uint32_t first = psds.first_input[e], inputs = psds.first_input[e + 1] - first;
+    const uint32_t length = psds.run_lengths[e];
+    good &= length - 1 < count - e && first + uint64_t{inputs} * length <= psds.inputs.count;
+  }
+  return c.ok(good, "runs of correctives") &&
+         c.ok(!full || is_ordered(rig), "order of correctives");
 }
 
 // Joint matrix
@@ -251,40 +298,62 @@ bool check_targets(const Checker& c) {
           joints.targets_at_lod.slice((size_t{chunk} * kTargetKinds + kind) * lods, lods);
       const uint32_t rows = kTargetRows[kind], count = at_lod[0];
       good = below(at_lod, count + uint64_t{1}) && count <= next.first_target - target;
+      Extent<uint32_t> slot, output, group;
       for (uint32_t end = good ? target + count : target; target < end; ++target) {
         const JointTarget& t = joints.targets[target];
-        good &=
-            t.slot + rows <= slots && t.output + rows <= outputs && t.group < joints.group_count;
+        slot.add(t.slot);
+        output.add(t.output);
+        group.add(t.group);
       }
+      good = good && (count == 0 || (slot.most + rows <= slots && output.most + rows <= outputs &&
+                                     group.most < joints.group_count));
     }
   }
   return c.ok(good, "targets of the joint matrix");
 }
 
-/// The blocks of a kind of pieces ascend, and each of the parts stands where the first block of its
-/// chunk would be: so the pieces between two parts add to blocks of that chunk.
-[[gnu::noinline]] bool is_run(const Span<uint16_t>& blocks, const ColumnPart* parts,
-                              uint16_t ColumnPart::*kind, const Span<JointChunk>& chunks) {
-  const auto count = static_cast<uint32_t>(blocks.count);
-  const uint16_t* own = blocks.data;
-  uint32_t falls = 0;
-  for (uint32_t p = 1; p < count; ++p) falls |= static_cast<uint32_t>(own[p - 1] >= own[p]);
-
-  // Parts before the first piece and behind the last one, then all others without a branch.
-  const auto limit_of = [&](size_t chunk) { return chunks.data[chunk].first_block * kBlockUnit; };
-  size_t i = 0, end = chunks.count;
-  while (i < end && parts[i].*kind == 0) ++i;
-  if (count == 0) return i == end;
-  while (end > i && parts[end - 1].*kind == count) --end;
-  if (falls != 0 || i == 0 || own[0] < limit_of(i - 1)) return false;
-  if (end == chunks.count || own[count - 1] >= limit_of(end)) return false;
-  uint32_t wrong = 0;  // its highest bit: some difference is negative
-  for (; i < end; ++i) {
-    const uint32_t begin = parts[i].*kind, limit = limit_of(i);
-    if (begin - 1 >= count - 1) return false;
-    wrong |= (limit - 1 - own[begin - 1]) | (own[begin] - limit);
+/// How often pairs or singles are more than in the part behind.
+size_t count_falls(const Span<ColumnPart>& parts) {
+  constexpr size_t kStrip = 0x4000;  // as many as sums of 16 bits can count
+  size_t falls = 0;
+  for (size_t first = 1; first < parts.count; first += kStrip) {
+    const size_t count = std::min(parts.count - first, kStrip);
+    const ColumnPart* at = parts.data + first;
+    uint16_t pairs = 0, singles = 0;
+    for (size_t i = 0; i < count; ++i) {
+      pairs += static_cast<uint16_t>(at[i - 1].pairs > at[i].pairs);
+      singles += static_cast<uint16_t>(at[i - 1].singles > at[i].singles);
+    }
+    falls += size_t{pairs} + singles;
   }
-  return wrong >> 31 == 0;
+  return falls;
+}
+
+/// What columns have for a tile adds to blocks of the tile. (A pair adds to the even block it is in
+/// and the next one: tiles end with an odd one.)
+bool check_tiles(const JointMatrix& joints) {
+  const auto fit = [](const Span<uint16_t>& blocks, uint32_t first, uint32_t end) {
+    const Extent<uint16_t> extent = extent_of(blocks, static_cast<uint16_t>(first * kBlockUnit));
+    return blocks.empty() ||
+           (extent.most < (end - first) * kBlockUnit && extent.bits % kBlockUnit == 0);
+  };
+  bool good = true;
+  for (uint32_t chunk = 0, end; good && chunk < joints.chunk_count(); chunk = end) {
+    end = joints.tile_end(chunk);
+    const uint32_t first_block = joints.chunks[chunk].first_block;
+    const uint32_t end_block = joints.chunks[end].first_block;
+    if (chunk == 0 && end == joints.chunk_count()) return fit(joints.blocks, 0, end_block);
+    for (size_t k = 0; k < joints.columns.count; ++k) {
+      const ColumnPart from = joints.part(k, chunk), to = joints.part(k, end);
+      const size_t pairs = joints.first_entry[k];
+      const size_t singles = pairs + joints.part(k, joints.chunk_count()).pairs;
+      for (const auto& [first, last] : {std::pair(pairs + from.pairs, pairs + to.pairs),
+                                        std::pair(singles + from.singles, singles + to.singles)}) {
+        good &= fit(joints.blocks.slice(first, last - first), first_block, end_block);
+      }
+    }
+  }
+  return good;
 }
 
 bool check_pieces(const Checker& c, size_t pieces) {
@@ -300,31 +369,27 @@ bool check_pieces(const Checker& c, size_t pieces) {
             "columns of the joint matrix")) {
     return false;
   }
-  // Each column belongs to its control, and each other control to none.
+  // Each column belongs to its control, and each other control to none. Parts rise from none to all
+  // of the column: so they fall between columns, and nowhere else.
   bool good = joints.column_of_control.count == c.rig.control_count;
   for (size_t k = 1; k < columns; ++k) good &= joints.columns[k - 1] < joints.columns[k];
   for (size_t i = 0, k = 0; good && i < joints.column_of_control.count; ++i) {
     const bool has_column = k < columns && joints.columns[k] == i;
     good = joints.column_of_control[i] == (has_column ? k++ : kNoColumn);
   }
-  for (size_t k = 0; good && k < columns; ++k) {
+  size_t falls = 0;
+  for (size_t k = 0; k < columns; ++k) {
     const ColumnPart* parts = joints.parts.data + k * ends;
     const uint32_t pairs = parts[ends - 1].pairs, singles = parts[ends - 1].singles;
-    const uint32_t first = joints.first_entry[k], count = joints.first_entry[k + 1] - first;
+    const uint32_t count = joints.first_entry[k + 1] - joints.first_entry[k];
     const uint32_t first_piece = joints.first_piece[k];
-    good = count != 0 && pairs + singles == count && first_piece % 2 == 0 &&
-           joints.first_piece[k + 1] - first_piece == 2 * (pairs + (singles + 1) / 2);
-    if (!good) break;
-    const Span<uint16_t> of_pairs = joints.blocks.slice(first, pairs);
-    const Span<uint16_t> of_singles = joints.blocks.slice(first + pairs, singles);
-    uint32_t pair_bits = 0, single_bits = 0;
-    for (const uint16_t block : of_pairs) pair_bits |= block;
-    for (const uint16_t block : of_singles) single_bits |= block;
-    good = pair_bits % (2 * kBlockUnit) == 0 && single_bits % kBlockUnit == 0 &&
-           is_run(of_pairs, parts, &ColumnPart::pairs, joints.chunks) &&
-           is_run(of_singles, parts, &ColumnPart::singles, joints.chunks);
+    good &= count != 0 && pairs + singles == count && (parts[0].pairs | parts[0].singles) == 0;
+    good &= first_piece % 2 == 0 &&
+            joints.first_piece[k + 1] - first_piece == 2 * (pairs + (singles + 1) / 2);
+    if (k + 1 < columns) falls += size_t{pairs != 0} + (singles != 0);
   }
-  return c.ok(good, "pieces of the joint matrix");
+  return c.ok(good && count_falls(joints.parts) == falls && check_tiles(joints),
+              "pieces of the joint matrix");
 }
 
 bool check_joints(const Checker& c) {
@@ -580,7 +645,7 @@ bool check_ml(const Checker& c) {
 Status check_rig(const Rig& rig, bool full, Error& error) {
   const Checker c = {rig, error};
   const bool good =
-      check_counts(c) && check_names(c, full) && check_controls(c) && check_psds(c) &&
+      check_counts(c) && check_names(c, full) && check_controls(c) && check_psds(c, full) &&
       check_joints(c) && check_rotations(c) && check_twists(c) && check_rbf(c) && check_ml(c) &&
       check_lists(c, rig.lod_joints, rig.joint_count, "LODs of joints") &&
       check_lists(c, rig.lod_channels, rig.channel_count, "LODs of blend shape channels") &&

@@ -59,7 +59,7 @@ Status read_image(const uint8_t* bytes, size_t size, ImageCheck check, Rig& rig,
 
 /// Every count and every index in the tables: evaluation, batches, names and statistics stay within
 /// the arrays, whatever the floats are. Costs time for the tables only. `full` also proves the
-/// order of names. kImageStructure.
+/// order of names and of correctives. kImageStructure.
 Status check_rig(const Rig& rig, bool full, Error& error);
 
 }  // namespace mien

@@ -371,4 +371,26 @@ PlainRig random_rig(Random& random) {
   return plain;
 }
 
+PlainRig tall_rig() {
+  constexpr uint16_t kControls = 60, kJoints = 2000, kRows = 9;
+  PlainRig plain;
+  plain.lod_count = 2;
+  plain.raw_count = kControls;
+  plain.joint_count = kJoints;
+  for (uint16_t j = 0; j < kJoints; ++j) {
+    PlainGroup group;
+    group.lods = {kRows, static_cast<uint16_t>(j % 4 == 0 ? kRows : 0)};
+    const uint32_t own = uint32_t{j} * kControls / kJoints;  // neighbours move together
+    for (uint32_t input : {own, (own + 7) % kControls, (own + 30) % kControls}) {
+      group.inputs.push_back(static_cast<uint16_t>(input));
+    }
+    for (uint16_t r = 0; r < kRows; ++r) {
+      group.outputs.push_back(static_cast<uint16_t>(j * kRows + r));
+      for (uint16_t c = 0; c < 3; ++c) group.values.push_back(static_cast<float>(j % 50 + r + c));
+    }
+    plain.groups.push_back(group);
+  }
+  return plain;
+}
+
 }  // namespace mien
