@@ -341,7 +341,8 @@ TEST(LodSelection, WhatRemainingRowsWriteStays) {
     dna::DnaView view = dna::tiny_rig(arena);
     view.defn.lod_joints.indices[1] = listed;
     view.defn.lod_channels.indices[1] = {};
-    const DnaHandle cut = open_dna(write_view(view), 2);
+    const Bytes bytes = write_view(view);
+    const DnaHandle cut = open_dna(bytes, 2);
     EXPECT_EQ(strings_of(cut->view.defn.joint_names), joints);
     EXPECT_EQ(strings_of(cut->view.defn.channel_names), Strings{"jawOpen"});
     const Array<uint16_t> outputs = cut->view.bhvr.joints.groups[0].output_indices;
@@ -356,7 +357,8 @@ TEST(LodSelection, ListsThatRepeatElements) {
   dna::DnaView view = dna::tiny_rig(arena);
   view.defn.lod_channels.indices[0] = dna::be<uint16_t>(arena, {1, 1});
   view.bhvr.channels.lods = dna::be<uint16_t>(arena, {0, 0});
-  const DnaHandle cut = open_dna(write_view(view), 1);
+  const Bytes bytes = write_view(view);
+  const DnaHandle cut = open_dna(bytes, 1);
   EXPECT_EQ(strings_of(cut->view.defn.channel_names), std::vector<std::string>{"smile"});
 }
 

@@ -316,13 +316,13 @@ bool check_targets(const Checker& c) {
 size_t count_falls(const Span<ColumnPart>& parts) {
   constexpr size_t kStrip = 0x4000;  // as many as sums of 16 bits can count
   size_t falls = 0;
-  for (size_t first = 1; first < parts.count; first += kStrip) {
-    const size_t count = std::min(parts.count - first, kStrip);
+  for (size_t first = 0; first + 1 < parts.count; first += kStrip) {
+    const size_t count = std::min(parts.count - first - 1, kStrip);
     const ColumnPart* at = parts.data + first;
     uint16_t pairs = 0, singles = 0;
     for (size_t i = 0; i < count; ++i) {
-      pairs += static_cast<uint16_t>(at[i - 1].pairs > at[i].pairs);
-      singles += static_cast<uint16_t>(at[i - 1].singles > at[i].singles);
+      pairs += static_cast<uint16_t>(at[i].pairs > at[i + 1].pairs);
+      singles += static_cast<uint16_t>(at[i].singles > at[i + 1].singles);
     }
     falls += size_t{pairs} + singles;
   }
