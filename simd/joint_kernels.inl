@@ -162,10 +162,10 @@ void joint_columns_fixed(const JointColumnsArgs& args) { add_columns<int16_t>(ar
 
 // What became -0 is made 0: in a batch, who takes no part in a column adds 0 times its value.
 void finish_sums(float* sums, const float* scales, size_t count) {
-  for (size_t i = 0; i < count; i += kPieceWidth) {
-    PieceVec sum = load_piece(sums + i);
-    if (scales) sum = sum * load_piece(scales + i);
-    store_piece(sums + i, saturate(sum) + broadcast_piece(0.0f));
+  for (size_t i = 0; i < count; i += kWidth) {
+    Vec sum = load(sums + i);
+    if (scales) sum = sum * load(scales + i);
+    store(sums + i, saturate(sum) + broadcast(0.0f));
   }
 }
 

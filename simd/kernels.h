@@ -328,7 +328,7 @@ struct KernelTable {
   PsdChanges (*psds)(const PsdArgs& args);
   void (*psd_batch)(const PsdBatchArgs& args);
   /// sums[i] = sums[i] * scales[i] (unless scales is null), saturated, plus 0; count is a multiple
-  /// of 8.
+  /// of 16, both are 64-byte aligned.
   void (*finish_sums)(float* sums, const float* scales, size_t count);
   void (*dense_layer)(const DenseLayerArgs& args);
   void (*joint_turns)(const JointTurnArgs& args);

@@ -504,13 +504,6 @@ inline Vec saturate(Vec v) {
   constexpr float kLargest = 3.40282347e38f;
   return at_most(at_least(v, broadcast(-kLargest)), broadcast(kLargest));
 }
-#if defined(MIEN_KERNEL_AVX512)
-inline PieceVec saturate(PieceVec v) {
-  const PieceVec largest(3.40282347e38f), lowest(-3.40282347e38f);
-  const PieceVec bounded = xsimd::select(v > lowest, v, lowest);
-  return xsimd::select(bounded < largest, bounded, largest);
-}
-#endif
 
 // How a kernel multiplies and adds: as the hardware does best, or with the same bits on every
 // instruction set.

@@ -406,22 +406,21 @@ TEST(NonzeroKernel, FindsWhatIsNotZero) {
 TEST(FinishSumsKernel, ScalesAndSaturates) {
   constexpr float kLargest = std::numeric_limits<float>::max();
   const float infinity = std::numeric_limits<float>::infinity();
-  alignas(64) const float scales[8] = {2, 0.5f, 1, 1, 1, 4, 0, -1};
+  alignas(64) const float scales[16] = {2, 0.5f, 1, 1, 1, 4, 0, -1, 1, 1, 1, 1, 1, 1, 1, 1};
   for (const KernelTable* kernels : present_kernels()) {
     SCOPED_TRACE(kernels->name);
-    alignas(64) float sums[16] = {1, 2, -3, infinity, -infinity, kLargest, 5, 6};
-    std::copy(sums, sums + 8, sums + 8);
-    sums[8 + 3] = std::numeric_limits<float>::quiet_NaN();
-    kernels->finish_sums(sums, scales, 8);
-    kernels->finish_sums(sums + 8, nullptr, 8);
-    const float scaled[] = {2, 1, -3, kLargest, -kLargest, kLargest, 0, -6};
-    alignas(64) float zeros[8] = {-0.0f, 0.0f, 1, 1, 1, 1, 1, 1};
-    kernels->finish_sums(zeros, nullptr, 8);
-    EXPECT_EQ(bits_of(zeros[0]), bits_of(0.0f));
-    const float plain[] = {1, 2, -3, -kLargest, -kLargest, kLargest, 5, 6};
+    alignas(64) float scaled[16] = {1, 2, -3, infinity, -infinity, kLargest, 5, 6, -0.0f};
+    alignas(64) float plain[16];
+    std::copy(scaled, scaled + 16, plain);
+    plain[3] = std::numeric_limits<float>::quiet_NaN();
+    kernels->finish_sums(scaled, scales, 16);
+    kernels->finish_sums(plain, nullptr, 16);
+    const float expected_scaled[] = {2, 1, -3, kLargest, -kLargest, kLargest, 0, -6};
+    const float expected_plain[] = {1, 2, -3, -kLargest, -kLargest, kLargest, 5, 6};
     for (size_t i = 0; i < 8; ++i) {
-      EXPECT_EQ(sums[i], scaled[i]) << i;
-      EXPECT_EQ(sums[8 + i], plain[i]) << i;
+      EXPECT_EQ(scaled[i], expected_scaled[i]) << i;
+      EXPECT_EQ(plain[i], expected_plain[i]) << i;
+      EXPECT_EQ(bits_of(plain[8 + i]), 0u) << "-0 becomes 0";
     }
   }
 }
