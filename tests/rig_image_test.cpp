@@ -548,6 +548,33 @@ TEST(RigImage, TargetsStayInTheirChunks) {
   }
 }
 
+// Those of all chunks at once: a LOD must not write what it did not sum.
+TEST(RigImage, TargetsOfALodHaveSums) {
+  OpenImage image(save(create_rig(generate_dna(MIEN_PRESET_SMALL, 3).get()).get()));
+  const Rig& rig = image.arrays();
+  const JointMatrix& joints = rig.joints;
+  ASSERT_TRUE(joints.fits_tile());
+  uint32_t first = joints.chunks[joints.chunk_count()].first_target;
+  size_t found = 0;
+  for (uint32_t kind = 0; kind < kTargetKinds; ++kind) {
+    const uint16_t* at_lod =
+        &joints
+             .targets_at_lod[(size_t{joints.chunk_count()} * kTargetKinds + kind) * rig.lod_count];
+    const uint32_t rows = kTargetRows[kind];
+    for (uint32_t lod = 0; lod < rig.lod_count; ++lod) {
+      const uint32_t coarser = lod + 1 < rig.lod_count ? at_lod[lod + 1] : 0;
+      if (at_lod[lod] == coarser) continue;
+      const uint32_t slots = joints.chunks[joints.chunks_at_lod[lod]].first_block * kPieceRows;
+      const Span<uint16_t> slot = {&joints.targets[first + at_lod[lod] - 1].slot, 1};
+      EXPECT_EQ(image.status_with(slot, 0, slots - rows), MIEN_OK);
+      EXPECT_EQ(image.status_with(slot, 0, slots - rows + 1), MIEN_ERROR_IMAGE_STRUCTURE);
+      ++found;
+    }
+    first += at_lod[0];
+  }
+  EXPECT_GT(found, rig.lod_count);
+}
+
 TEST(RigImage, RunsOfCorrectivesStayInTheirTable) {
   OpenImage image(save(create_rig(generate_dna(MIEN_PRESET_SMALL, 3).get()).get()));
   const PsdTable& psds = image.arrays().psds;

@@ -273,6 +273,19 @@ bool check_chunks(const Checker& c) {
          check_leading(c, joints.chunks_at_lod, count, "LODs of the joint matrix");
 }
 
+/// What a LOD writes of all chunks at once is of chunks that it sums: of the others there is in
+/// memory whatever was there before.
+bool are_summed(const JointMatrix& joints, const JointTarget* targets, uint32_t rows,
+                const Span<uint16_t>& at_lod) {
+  bool good = true;
+  uint32_t t = 0, end = 0;
+  for (size_t l = at_lod.count; l-- > 0;) {  // each LOD has those of the next one, and more
+    for (; t < at_lod[l]; ++t) end = std::max(end, targets[t].slot + rows);
+    good &= end <= joints.chunks[joints.chunks_at_lod[l]].first_block * kPieceRows;
+  }
+  return good;
+}
+
 bool check_targets(const Checker& c) {
   const Rig& rig = c.rig;
   const JointMatrix& joints = rig.joints;
@@ -307,6 +320,8 @@ bool check_targets(const Checker& c) {
       }
       good = good && (count == 0 || (slot.most + rows <= slots && output.most + rows <= outputs &&
                                      group.most < joints.group_count));
+      good =
+          good && (!all || are_summed(joints, joints.targets.data + target - count, rows, at_lod));
     }
   }
   return c.ok(good, "targets of the joint matrix");
