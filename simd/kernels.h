@@ -24,11 +24,6 @@ constexpr uint32_t kBlockUnit = 4;
 /// Bits of the number of an even block: of a pair's number no others are looked at.
 constexpr uint32_t kPairBlocks = 0x10000 - 2 * kBlockUnit;
 
-/// How many pairs and how many single pieces of a column stand before some block.
-struct ColumnPart {
-  uint16_t pairs, singles;
-};
-
 /// What of a column of a joint matrix is multiplied by its input, and where it stands.
 struct JointRun {
   uint32_t first_pair, pair_entry, pair_count;  // pieces; entries in `blocks`

@@ -90,6 +90,11 @@ constexpr uint32_t kMostTileBlocks = 1024;              // that are summed at a 
 constexpr uint32_t kMostBlocks = 0x10000 / kBlockUnit;  // of the whole matrix
 static_assert(kMostTileBlocks >= kMostChunkBlocks, "a chunk fits");
 
+/// How many pairs and how many single pieces of a column stand before some block.
+struct ColumnPart {
+  uint16_t pairs, singles;
+};
+
 /// Rows of the kinds of targets.
 constexpr uint32_t kTargetRows[] = {6, 3, 1};
 constexpr uint32_t kTargetKinds = 3;
