@@ -79,17 +79,17 @@ const MienDeformer* deformer_for(uint32_t isa) {
 /// A character in some pose: small turns and shifts of all joints, and `channels` percent of the
 /// channels at work.
 struct Character {
-  MienPose* pose = nullptr;
+  MienDeformerInstance* pose = nullptr;
   std::vector<float> joints, weights;
 
   Character(uint32_t isa, uint32_t seed, uint32_t channels) {
     const MienDeformer* deformer = deformer_for(isa);
     MienDeformerInfo info = sized<MienDeformerInfo>();
     mien_deformer_info(deformer, &info);
-    MienPoseDesc desc = sized<MienPoseDesc>();
+    MienDeformerInstanceDesc desc = sized<MienDeformerInstanceDesc>();
     desc.lods = 1;
     MienError error = sized<MienError>();
-    require(mien_pose_create(deformer, &desc, &pose, &error), error);
+    require(mien_deformer_instance_create(deformer, &desc, &pose, &error), error);
     std::mt19937 random(seed);
     const auto next = [&] { return static_cast<float>(random() >> 8) / 16777216.0f - 0.5f; };
     for (uint32_t j = 0; j < info.joint_count; ++j) {
@@ -101,12 +101,12 @@ struct Character {
     for (float& weight : weights) weight = random() % 100 < channels ? next() + 0.6f : 0;
     update();
   }
-  ~Character() { mien_pose_destroy(pose); }
+  ~Character() { mien_deformer_instance_destroy(pose); }
   Character(const Character&) = delete;
 
   void update() {
-    mien_pose_update_from_values(pose, joints.data(), joints.size(), weights.data(),
-                                 weights.size());
+    mien_deformer_instance_update_from_values(pose, joints.data(), joints.size(), weights.data(),
+                                              weights.size());
   }
 };
 
@@ -130,7 +130,7 @@ void joints(benchmark::State& state, uint32_t isa) {
 
 void deform(benchmark::State& state, uint32_t isa, uint32_t normals, uint32_t channels) {
   Character character(isa, 1, channels);
-  for (auto _ : state) mien_pose_deform(character.pose, 0, normals, nullptr);
+  for (auto _ : state) mien_deformer_instance_deform(character.pose, 0, normals, nullptr);
   count_vertices(state);
 }
 
@@ -139,26 +139,28 @@ void frame(benchmark::State& state, uint32_t isa, uint32_t channels,
   Character character(isa, 1, channels);
   for (auto _ : state) {
     character.update();
-    mien_pose_deform(character.pose, 0, MIEN_NORMALS_RECOMPUTED, parallel);
+    mien_deformer_instance_deform(character.pose, 0, MIEN_NORMALS_RECOMPUTED, parallel);
   }
   count_vertices(state);
 }
 
 /// Eight characters: one after the other, or together.
-void crowd(benchmark::State& state, uint32_t isa, bool together) {
+void packet(benchmark::State& state, uint32_t isa, bool together) {
   constexpr uint32_t kCharacters = 8;
   std::vector<std::unique_ptr<Character>> characters;
-  std::vector<MienPose*> poses;
+  std::vector<MienDeformerInstance*> poses;
   for (uint32_t i = 0; i < kCharacters; ++i) {
     characters.push_back(std::make_unique<Character>(isa, i, 10));
     poses.push_back(characters.back()->pose);
   }
   for (auto _ : state) {
     if (together) {
-      mien_pose_deform_batch(poses.data(), poses.size(), 0, MIEN_NORMALS_SKINNED, nullptr);
+      mien_deformer_instance_deform_batch(poses.data(), poses.size(), 0, MIEN_NORMALS_SKINNED,
+                                          nullptr);
       continue;
     }
-    for (MienPose* pose : poses) mien_pose_deform(pose, 0, MIEN_NORMALS_SKINNED, nullptr);
+    for (MienDeformerInstance* pose : poses)
+      mien_deformer_instance_deform(pose, 0, MIEN_NORMALS_SKINNED, nullptr);
   }
   count_vertices(state, kCharacters);
 }
@@ -243,8 +245,8 @@ int registered = [] {
     add("frame", frame, isa, 100u, nullptr);
     add("frame_few_channels", frame, isa, 8u, nullptr);
     add("frame_two_threads", threaded_frame, isa, 2u);
-    add("eight_characters_one_by_one", crowd, isa, false);
-    add("eight_characters_together", crowd, isa, true);
+    add("eight_characters_one_by_one", packet, isa, false);
+    add("eight_characters_together", packet, isa, true);
   }
   return 0;
 }();

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Frames of a character that keeps what did not change (MIEN_REUSE_UNCHANGED), beside the same
 // frames evaluated in full: nothing moves, one control of the mouth, all of it, everything. And
-// crowds, in one call and one by one.
+// packets, in one call and one by one.
 //
 // Counters: `frame` is the time of a frame in seconds (an iteration is 64 frames), `of_full` that
 // time by the one of a full evaluation in the same run, `moving` the number of raw controls that
 // change from frame to frame, `touched` the share of the joint rows whose groups read a control or
-// a corrective that changes, `per_character` a crowd's time by its number.
+// a corrective that changes, `per_character` a packet's time by its number.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -200,7 +200,7 @@ void frames(benchmark::State& state, uint32_t isa, Moving moving) {
 }
 
 /// Characters with controls of their own, in one call or in one for each.
-void crowd(benchmark::State& state, uint32_t isa, uint32_t count, double activity, bool together) {
+void packet(benchmark::State& state, uint32_t isa, uint32_t count, double activity, bool together) {
   const auto rig = rig_of(isa, MIEN_REUSE_NOTHING);
   std::mt19937 random(7);
   std::vector<std::unique_ptr<MienInstance, Destroy>> owners;
@@ -251,9 +251,9 @@ const int kRegistered = [] {
     for (int percent : {8, 25}) {
       for (uint32_t count : {1u, 64u, 512u}) {
         const std::string which = std::to_string(count) + at + std::to_string(percent) + "%";
-        benchmark::RegisterBenchmark(("crowd_of_" + which).c_str(), crowd, isa, count,
+        benchmark::RegisterBenchmark(("crowd_of_" + which).c_str(), packet, isa, count,
                                      percent / 100.0, true);
-        benchmark::RegisterBenchmark(("one_by_one_" + which).c_str(), crowd, isa, count,
+        benchmark::RegisterBenchmark(("one_by_one_" + which).c_str(), packet, isa, count,
                                      percent / 100.0, false);
       }
     }

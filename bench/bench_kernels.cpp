@@ -92,7 +92,7 @@ T* aligned(std::vector<T>& storage, size_t count) {
 
 void dense_layer(benchmark::State& state, const KernelTable* kernels, uint32_t inputs,
                  uint32_t outputs, bool halves) {
-  const uint32_t rows = (outputs + kBlockRows - 1) / kBlockRows * kBlockRows;
+  const uint32_t rows = (outputs + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
   const size_t count = size_t{rows} * inputs;
   std::vector<float> value_storage, bias_storage, output_storage, in(inputs);
   std::vector<uint16_t> half_storage;

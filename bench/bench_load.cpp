@@ -58,7 +58,7 @@ void open_image(benchmark::State& state, uint32_t access, uint32_t check) {
   static const ImageFile file;
   Requests requests;
   const MienAllocator allocator = {&requests, Requests::allocate, Requests::release};
-  MienRigImageDesc desc = sized<MienRigImageDesc>();
+  MienBakedDesc desc = sized<MienBakedDesc>();
   desc.file_access = access;
   desc.check = check;
   desc.allocator = &allocator;
@@ -94,9 +94,9 @@ const int kRegistered = [] {
   for (const auto& o : openings) {
     benchmark::RegisterBenchmark((std::string("open/") + o.name).c_str(), open, o.layers, o.lods);
   }
-  benchmark::RegisterBenchmark("image/map", open_image, MIEN_FILE_MAP, MIEN_IMAGE_CHECK_SAFE);
-  benchmark::RegisterBenchmark("image/map/full", open_image, MIEN_FILE_MAP, MIEN_IMAGE_CHECK_FULL);
-  benchmark::RegisterBenchmark("image/read", open_image, MIEN_FILE_READ, MIEN_IMAGE_CHECK_SAFE);
+  benchmark::RegisterBenchmark("image/map", open_image, MIEN_FILE_MAP, MIEN_BAKED_CHECK_SAFE);
+  benchmark::RegisterBenchmark("image/map/full", open_image, MIEN_FILE_MAP, MIEN_BAKED_CHECK_FULL);
+  benchmark::RegisterBenchmark("image/read", open_image, MIEN_FILE_READ, MIEN_BAKED_CHECK_SAFE);
   benchmark::RegisterBenchmark("compile/all_lods", compile, 0);
   benchmark::RegisterBenchmark("compile/lod0", compile, 1);
   return 0;

@@ -8,8 +8,8 @@
 #include "runtime/base/arena.h"
 #include "runtime/base/mapped_file.h"
 #include "runtime/base/status.h"
-#include "runtime/deform/pose.h"
-#include "runtime/dna/dna_view.h"
+#include "runtime/deform/deformer_instance.h"
+#include "runtime/dna/format/dna_view.h"
 #include "runtime/eval/batch.h"
 #include "runtime/eval/instance.h"
 
@@ -43,8 +43,12 @@ inline Deformer* object(MienDeformer* handle) { return reinterpret_cast<Deformer
 inline const Deformer* object(const MienDeformer* handle) {
   return reinterpret_cast<const Deformer*>(handle);
 }
-inline Pose* object(MienPose* handle) { return reinterpret_cast<Pose*>(handle); }
-inline const Pose* object(const MienPose* handle) { return reinterpret_cast<const Pose*>(handle); }
+inline DeformerInstance* object(MienDeformerInstance* handle) {
+  return reinterpret_cast<DeformerInstance*>(handle);
+}
+inline const DeformerInstance* object(const MienDeformerInstance* handle) {
+  return reinterpret_cast<const DeformerInstance*>(handle);
+}
 
 inline MienStatus check_tag(const void* handle, uint32_t tag) {
   if (!handle) return MIEN_ERROR_NULL_ARGUMENT;
@@ -59,7 +63,7 @@ inline MienStatus check(const MienRig* rig) { return check_tag(rig, kRigTag); }
 inline MienStatus check(const MienInstance* instance) { return check_tag(instance, kInstanceTag); }
 inline MienStatus check(const MienBatch* batch) { return check_tag(batch, kBatchTag); }
 inline MienStatus check(const MienDeformer* deformer) { return check_tag(deformer, kDeformerTag); }
-inline MienStatus check(const MienPose* pose) { return check_tag(pose, kPoseTag); }
+inline MienStatus check(const MienDeformerInstance* pose) { return check_tag(pose, kPoseTag); }
 
 /// Reads a caller's description into `out`, which is zero where the caller's is shorter or NULL.
 /// `first_size` is the size in the release that introduced the struct.

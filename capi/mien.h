@@ -3,12 +3,12 @@
  * Mien: facial rigs in DNA files, opened, evaluated and written.
  *
  *     DNA file -> MienDna -> MienRig -> MienInstance -> joint, channel and map values
- *                    \______ MienDeformer -> MienPose -> joint matrices, positions, normals
+ *                    \______ MienDeformer -> MienDeformerInstance -> joint matrices, positions, normals
  *
  * A MienDna is a checked, read-only view of a file. A MienRig is the same data packed for
  * evaluation; it keeps its own copy of all it needs, so the MienDna may be closed at once. A
  * MienInstance is one character: its controls, and the outputs of its last evaluation. A MienDeformer
- * is the geometry of the file packed for deformation, shared like a rig; a MienPose is what it makes
+ * is the geometry of the file packed for deformation, shared like a rig; a MienDeformerInstance is what it makes
  * of one character.
  *
  * Rules that hold for every function, unless it says otherwise
@@ -31,7 +31,7 @@
  *             fixed width, since a C enum is not.
  *   Misuse    NULL, a wrong index, a handle of the wrong kind and (as far as a tag can tell) a
  *             handle used after it was destroyed return a status. Nothing aborts or prints.
- *   Units     Those of the file: mien_rig_info() tells centimetres or metres, degrees or radians,
+ *   Units     Those of the file: mien_rig_info() tells centimeters or meters, degrees or radians,
  *             and which way the axes point. Outputs are deltas from the neutral pose.
  *   Numbers   32-bit floats. See README.md for which results are equal bit for bit.
  */
@@ -96,11 +96,11 @@ enum MienStatusCode {
     MIEN_ERROR_DNA_LIMIT = 35,     /* more of something than the format or Mien can number */
     MIEN_ERROR_DNA_LAYER = 36,     /* a layer that the call needs was not loaded or not in the file */
     MIEN_ERROR_DNA_VALUE = 37,     /* a value that has no meaning */
-    MIEN_ERROR_IMAGE_SIGNATURE = 50, /* not an image of a rig */
-    MIEN_ERROR_IMAGE_VERSION = 51,   /* an image of another version or kind of machine: bake again */
-    MIEN_ERROR_IMAGE_TRUNCATED = 52, /* the image ends before what it announces */
-    MIEN_ERROR_IMAGE_STRUCTURE = 53, /* sizes, counts or indices contradict each other */
-    MIEN_ERROR_IMAGE_CHECKSUM = 54   /* not the bytes that were written */
+    MIEN_ERROR_BAKED_SIGNATURE = 50, /* not an image of a rig */
+    MIEN_ERROR_BAKED_VERSION = 51,   /* an image of another version or kind of machine: bake again */
+    MIEN_ERROR_BAKED_TRUNCATED = 52, /* the image ends before what it announces */
+    MIEN_ERROR_BAKED_STRUCTURE = 53, /* sizes, counts or indices contradict each other */
+    MIEN_ERROR_BAKED_CHECKSUM = 54   /* not the bytes that were written */
 };
 
 /* "DNA_TRUNCATED" for MIEN_ERROR_DNA_TRUNCATED; "UNKNOWN" for other numbers. Static, terminated. */
@@ -468,16 +468,16 @@ enum MienPreset {
                                matrix entries */
     MIEN_PRESET_BODY = 4,   /* a production body: 342 joints that 72 RBF solvers with 670 poses, 22
                                twists and 16 swings move, some of them represented by quaternions */
-    MIEN_PRESET_HEAD = 5    /* a stylised person to look at: skin, eyes, teeth, tongue, hair; the 52
+    MIEN_PRESET_HEAD = 5    /* a stylized person to look at: skin, eyes, teeth, tongue, hair; the 52
                                expressions of ARKit as raw controls under their names (values 0..1),
                                correctives, wrinkle maps, 8 LODs. Seed 0 is the one that was
-                               designed, others vary proportions and colours. Vertex colours are in
+                               designed, others vary proportions and colors. Vertex colors are in
                                the metadata: key "mien.colors.<mesh name>", value base64 of 3 bytes
                                (sRGB) per position of the mesh. */
 };
 
 enum MienGenerate {
-    MIEN_GENERATE_ML = 1 /* with learned behaviour: networks by mesh region, every activation, their
+    MIEN_GENERATE_ML = 1 /* with learned behavior: networks by mesh region, every activation, their
                             operations, and joints that they move (not for MIEN_PRESET_HEAD) */
 };
 
@@ -490,7 +490,7 @@ typedef struct MienGenerateDesc {
     uint32_t reserved;
 } MienGenerateDesc;
 
-/* Makes a synthetic rig: behaviour of realistic size and sparsity, with simple geometry. `desc` may be
+/* Makes a synthetic rig: behavior of realistic size and sparsity, with simple geometry. `desc` may be
  * NULL (tiny, seed 0). Close with mien_dna_close(). */
 MIEN_API MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna,
                                       MienError* error);
@@ -596,7 +596,7 @@ MIEN_API void mien_rig_destroy(MienRig* rig);
 /* Baked rigs: a rig as it is in memory, to be opened where it lies. An image holds all that was chosen
  * when the rig was created but the instruction set and MienReuse, so that one file serves all machines
  * of a byte order and pointer size. The same rig gives the same bytes. A later version of the library
- * may refuse it with MIEN_ERROR_IMAGE_VERSION: keep the DNA. */
+ * may refuse it with MIEN_ERROR_BAKED_VERSION: keep the DNA. */
 MIEN_API MienStatus mien_rig_save_file(const MienRig* rig, const char* path, MienError* error);
 
 /* The same to memory. With buffer NULL and capacity 0 only *out_size is set; a capacity that is too
@@ -604,34 +604,34 @@ MIEN_API MienStatus mien_rig_save_file(const MienRig* rig, const char* path, Mie
 MIEN_API MienStatus mien_rig_save_memory(const MienRig* rig, void* buffer, size_t capacity,
                                          size_t* out_size, MienError* error);
 
-enum MienImageCheck {
-    MIEN_IMAGE_CHECK_SAFE = 0, /* every size, count and index: whatever the bytes are, nothing is read
+enum MienBakedCheck {
+    MIEN_BAKED_CHECK_SAFE = 0, /* every size, count and index: whatever the bytes are, nothing is read
                                   or written outside of the rig and its instances. Numbers are not
                                   looked at, so their pages stay on disk until they are needed. */
-    MIEN_IMAGE_CHECK_FULL = 1  /* also that all bytes are those that were written: reads them all */
+    MIEN_BAKED_CHECK_FULL = 1  /* also that all bytes are those that were written: reads them all */
 };
 
-typedef struct MienRigImageDesc {
+typedef struct MienBakedDesc {
     uint32_t struct_size;
     uint32_t isa;         /* MIEN_ISA_..., as in MienRigDesc */
     uint32_t file_access; /* MIEN_FILE_...; of no meaning for memory */
-    uint32_t check;       /* MIEN_IMAGE_CHECK_... */
+    uint32_t check;       /* MIEN_BAKED_CHECK_... */
     const MienAllocator* allocator;
     uint32_t reuse;       /* MIEN_REUSE_... */
     uint32_t reserved;    /* 0 */
-} MienRigImageDesc;
+} MienBakedDesc;
 
 /* Opens an image, which is mapped and used in place: one allocation for the rig. All processes that
  * open the file share its pages, which are never written to. A mapped file must not be truncated or
  * rewritten in place until the rig and all its instances are gone (replacing it by renaming is safe;
  * MIEN_FILE_READ takes a copy). `path` is UTF-8, `desc` may be NULL. The rig is like one that was
  * created; destroy it with mien_rig_destroy(). */
-MIEN_API MienStatus mien_rig_open_file(const char* path, const MienRigImageDesc* desc,
+MIEN_API MienStatus mien_rig_open_file(const char* path, const MienBakedDesc* desc,
                                        MienRig** out_rig, MienError* error);
 
 /* The same from memory, which stays the caller's and has to stay unchanged until the rig and all its
  * instances, batches and deformers are gone. Bytes that are not at a multiple of 64 are copied, once. */
-MIEN_API MienStatus mien_rig_open_memory(const void* bytes, size_t size, const MienRigImageDesc* desc,
+MIEN_API MienStatus mien_rig_open_memory(const void* bytes, size_t size, const MienBakedDesc* desc,
                                          MienRig** out_rig, MienError* error);
 
 MIEN_API MienStatus mien_rig_info(const MienRig* rig, MienRigInfo* out_info);
@@ -693,7 +693,7 @@ typedef struct MienRigStatistics {
     uint64_t joint_byte_count;        /* of the joint matrix, if every control is active: those of
                                          controls that are 0 are not read */
     uint32_t rbf_solver_count;        /* solvers that the LOD lists */
-    uint32_t turned_joint_count;      /* joints represented by quaternions */
+    uint32_t quaternion_joint_count;      /* joints represented by quaternions */
 } MienRigStatistics;
 
 MIEN_API MienStatus mien_rig_statistics(const MienRig* rig, uint32_t lod,
@@ -714,7 +714,7 @@ MIEN_API MienStatus mien_instance_reset(MienInstance* instance);
 
 /* Inputs, to be written in place: the views stay valid and the same until the instance is destroyed.
  * GUI controls only matter to mien_rig_map_gui_to_raw(). Raw controls are usually in 0..1 but not
- * clamped. Masks (one per region of a mesh, 0..1, initially 1) switch or blend learned behaviour, see
+ * clamped. Masks (one per region of a mesh, 0..1, initially 1) switch or blend learned behavior, see
  * MIEN_ML_MASKS_.... */
 MIEN_API MienStatus mien_instance_gui_controls(MienInstance* instance, MienMutableFloatView* out_view);
 MIEN_API MienStatus mien_instance_raw_controls(MienInstance* instance, MienMutableFloatView* out_view);
@@ -850,7 +850,7 @@ enum MienWeights {
     MIEN_WEIGHTS_FIX = 1 /* negative weights count as 0, and the weights of a position sum to 1 */
 };
 
-/* Normals that mien_pose_deform() makes, unit length. Where there is no direction to be had (no
+/* Normals that mien_deformer_instance_deform() makes, unit length. Where there is no direction to be had (no
  * area, no face) they are the neutral ones. */
 enum MienNormals {
     MIEN_NORMALS_DEFAULT = 0,    /* what MienDeformerDesc.normals says; there: recomputed */
@@ -915,14 +915,14 @@ typedef struct MienMesh {
     uint32_t position_count;
     uint32_t vertex_count;
     uint32_t triangle_count;
-    uint32_t most_influences;            /* of one position */
+    uint32_t max_influences;            /* of one position */
     uint32_t target_count;               /* blend shape targets */
     uint64_t delta_count;                /* over all targets */
     uint64_t lods;                       /* bit l: LOD l shows this mesh */
     MienFloatView positions;             /* x y z per position */
     MienFloatView normals;               /* x y z per vertex, unit length */
     MienFloatView texture_coordinates;   /* u v per vertex, as in the file */
-    MienIndex32View vertex_positions;    /* position of each vertex */
+    MienIndex32View vertex_position_indices;    /* position of each vertex */
     MienIndex32View triangles;           /* three vertices each, wound as in the file; faces of more
                                             corners are fans about their first */
     MienIndexView target_channels;       /* channel of each target, in file order */
@@ -950,35 +950,35 @@ MIEN_API MienStatus mien_deformer_bind_matrices(const MienDeformer* deformer,
 MIEN_API MienStatus mien_deformer_inverse_bind_matrices(const MienDeformer* deformer,
                                                         MienFloatView* out_matrices);
 
-/* ---- Pose ------------------------------------------------------------------------------------ */
+/* ---- DeformerInstance ------------------------------------------------------------------------------------ */
 
 /* One character's joint matrices, positions and normals: one block. */
-typedef struct MienPose MienPose;
+typedef struct MienDeformerInstance MienDeformerInstance;
 
-typedef struct MienPoseDesc {
+typedef struct MienDeformerInstanceDesc {
     uint32_t struct_size;
     uint32_t reserved;
     uint64_t lods; /* room for the meshes that these LODs show: bit l is LOD l. 0: for all meshes. A
                       LOD that is not there counts for nothing. */
     const MienAllocator* allocator;
-} MienPoseDesc;
+} MienDeformerInstanceDesc;
 
 /* A pose in neutral: matrices, positions and normals are those of the deformer. It keeps the
  * deformer's memory alive. One allocation. */
-MIEN_API MienStatus mien_pose_create(const MienDeformer* deformer, const MienPoseDesc* desc,
-                                     MienPose** out_pose, MienError* error);
-MIEN_API void mien_pose_destroy(MienPose* pose);
+MIEN_API MienStatus mien_deformer_instance_create(const MienDeformer* deformer, const MienDeformerInstanceDesc* desc,
+                                     MienDeformerInstance** out_pose, MienError* error);
+MIEN_API void mien_deformer_instance_destroy(MienDeformerInstance* pose);
 
 /* Takes over joint values and channel weights of the instance's last evaluation, and computes the
- * matrices of all joints; meshes follow with mien_pose_deform(). The instance is one of the rig
+ * matrices of all joints; meshes follow with mien_deformer_instance_deform(). The instance is one of the rig
  * that the deformer was made with, else MIEN_ERROR_MISMATCH. Allocates nothing, locks nothing.
  * Values that are not finite give results that are not. */
-MIEN_API MienStatus mien_pose_update(MienPose* pose, const MienInstance* instance);
+MIEN_API MienStatus mien_deformer_instance_update(MienDeformerInstance* pose, const MienInstance* instance);
 
 /* The same from arrays: joint values as mien_instance_joints() gives them, and one weight per
  * channel. `joint_values` may be NULL, with count 0: no deltas. `channel_weights` may be NULL, with
  * count 0: all 0. Any other count than that of the rig is MIEN_ERROR_INVALID_ARGUMENT. */
-MIEN_API MienStatus mien_pose_update_from_values(MienPose* pose, const float* joint_values,
+MIEN_API MienStatus mien_deformer_instance_update_from_values(MienDeformerInstance* pose, const float* joint_values,
                                                  size_t joint_value_count,
                                                  const float* channel_weights,
                                                  size_t channel_weight_count);
@@ -986,34 +986,34 @@ MIEN_API MienStatus mien_pose_update_from_values(MienPose* pose, const float* jo
 /* Matrices of the last update, 16 floats per joint, laid out as mien_deformer_bind_matrices() says:
  * model matrices, and skin matrices (for skinning elsewhere, as on a GPU). The views stay valid,
  * their contents change with each update. */
-MIEN_API MienStatus mien_pose_joint_matrices(const MienPose* pose, MienFloatView* out_matrices);
-MIEN_API MienStatus mien_pose_skin_matrices(const MienPose* pose, MienFloatView* out_matrices);
+MIEN_API MienStatus mien_deformer_instance_joint_matrices(const MienDeformerInstance* pose, MienFloatView* out_matrices);
+MIEN_API MienStatus mien_deformer_instance_skin_matrices(const MienDeformerInstance* pose, MienFloatView* out_matrices);
 
 /* Writes the local transforms of the last update, relative to the parent, 10 floats per joint: tx
  * ty tz qx qy qz qw sx sy sz, the quaternion of unit length. `count` is the room in
  * `out_transforms`. */
-MIEN_API MienStatus mien_pose_local_transforms(const MienPose* pose, float* out_transforms,
+MIEN_API MienStatus mien_deformer_instance_local_transforms(const MienDeformerInstance* pose, float* out_transforms,
                                                size_t count);
 
 /* Positions of one mesh as of the last update, and its normals (MIEN_NORMALS_...). On this thread,
  * but for meshes of 16384 positions and more in tasks of about 2048, if there is somebody to run
  * them: `parallel` may be NULL. The result has the same bits. Allocates nothing, locks nothing.
  * MIEN_ERROR_LOD: the pose has no room for this mesh. */
-MIEN_API MienStatus mien_pose_deform(MienPose* pose, uint32_t mesh, uint32_t normals,
+MIEN_API MienStatus mien_deformer_instance_deform(MienDeformerInstance* pose, uint32_t mesh, uint32_t normals,
                                      const MienParallelFor* parallel);
 
 /* The same mesh of several different poses of one deformer: the same bits as one after the other,
  * but each piece of the mesh is fetched once, and the size that counts is that of all of them
  * together; `parallel` may be NULL. A pose that comes up twice is MIEN_ERROR_INVALID_ARGUMENT, one
  * of another deformer MIEN_ERROR_MISMATCH; then none is deformed. */
-MIEN_API MienStatus mien_pose_deform_batch(MienPose* const* poses, size_t pose_count, uint32_t mesh,
+MIEN_API MienStatus mien_deformer_instance_deform_batch(MienDeformerInstance* const* poses, size_t pose_count, uint32_t mesh,
                                            uint32_t normals, const MienParallelFor* parallel);
 
-/* Results of the last mien_pose_deform() of the mesh: x y z per position, x y z per vertex. The
+/* Results of the last mien_deformer_instance_deform() of the mesh: x y z per position, x y z per vertex. The
  * views stay valid, their contents change with each call. A mesh without room: MIEN_ERROR_LOD. */
-MIEN_API MienStatus mien_pose_positions(const MienPose* pose, uint32_t mesh,
+MIEN_API MienStatus mien_deformer_instance_positions(const MienDeformerInstance* pose, uint32_t mesh,
                                         MienFloatView* out_positions);
-MIEN_API MienStatus mien_pose_normals(const MienPose* pose, uint32_t mesh,
+MIEN_API MienStatus mien_deformer_instance_normals(const MienDeformerInstance* pose, uint32_t mesh,
                                       MienFloatView* out_normals);
 
 #ifdef __cplusplus

@@ -28,7 +28,7 @@ MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna, Mi
   if (known.preset == MIEN_PRESET_HEAD && known.flags != 0) {
     return give_error(
         error, MIEN_ERROR_INVALID_ARGUMENT,
-        "MIEN_PRESET_HEAD has no learned behaviour: MienGenerateDesc.flags is to be 0");
+        "MIEN_PRESET_HEAD has no learned behavior: MienGenerateDesc.flags is to be 0");
   }
   Allocator allocator;
   if (read_allocator(known.allocator, allocator) != MIEN_OK) {

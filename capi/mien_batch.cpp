@@ -9,7 +9,7 @@ using namespace mien::capi;
 
 namespace {
 
-constexpr uint32_t kMostCapacity = 1u << 20;
+constexpr uint32_t kMaxCapacity = 1u << 20;
 
 }  // namespace
 
@@ -22,9 +22,9 @@ MienStatus mien_batch_create(const MienRig* rig, uint32_t capacity, uint32_t tas
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
   }
   if (tasks == 0) tasks = 1;
-  if (capacity == 0 || capacity > kMostCapacity) {
+  if (capacity == 0 || capacity > kMaxCapacity) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "a batch has room for 1 to %u instances, not %u", kMostCapacity, capacity);
+                      "a batch has room for 1 to %u instances, not %u", kMaxCapacity, capacity);
   }
   Batch* batch = create_batch(*object(rig), capacity, tasks, allocator);
   if (!batch) {
@@ -45,7 +45,7 @@ MienStatus mien_batch_bytes(const MienRig* rig, uint32_t capacity, uint32_t task
   if (!out_bytes) return MIEN_ERROR_NULL_ARGUMENT;
   *out_bytes = 0;
   if (MienStatus status = check(rig)) return status;
-  if (capacity == 0 || capacity > kMostCapacity) return MIEN_ERROR_INVALID_ARGUMENT;
+  if (capacity == 0 || capacity > kMaxCapacity) return MIEN_ERROR_INVALID_ARGUMENT;
   if (tasks == 0) tasks = 1;
   *out_bytes = batch_size(*object(rig), capacity, tasks);
   return MIEN_OK;

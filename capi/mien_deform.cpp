@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "capi/handles.h"
-#include "runtime/deform/compile_deformer.h"
+#include "runtime/compile/compile_deformer.h"
 #include "runtime/deform/deform.h"
 
 using namespace mien;
@@ -130,7 +130,7 @@ MienStatus mien_deformer_info(const MienDeformer* handle, MienDeformerInfo* out_
   info.channel_count = deformer.rig->channel_count;
   info.mesh_count = static_cast<uint32_t>(deformer.meshes.count);
   info.deformer_bytes = deformer.block_size;
-  info.pose_bytes = pose_size(deformer, 0);
+  info.pose_bytes = deformer_instance_size(deformer, 0);
   write_struct(out_info, info);
   return MIEN_OK;
 }
@@ -144,14 +144,14 @@ MienStatus mien_deformer_mesh(const MienDeformer* handle, uint32_t m, MienMesh* 
   told.position_count = mesh.position_count;
   told.vertex_count = mesh.vertex_count;
   told.triangle_count = mesh.triangle_count;
-  told.most_influences = mesh.most_influences;
+  told.max_influences = mesh.max_influences;
   told.target_count = mesh.target_count;
   told.delta_count = mesh.delta_count;
   told.lods = mesh.lods;
   told.positions = {mesh.positions.data, size_t{mesh.position_count} * 3};
   told.normals = {mesh.normals.data, size_t{mesh.vertex_count} * 3};
   told.texture_coordinates = view_of(mesh.texture_coordinates);
-  told.vertex_positions = view_of(mesh.vertex_positions);
+  told.vertex_position_indices = view_of(mesh.vertex_position_indices);
   told.triangles = view_of(mesh.triangles);
   told.target_channels = view_of(mesh.target_channels);
   write_struct(out_mesh, told);
@@ -206,60 +206,65 @@ MienStatus mien_deformer_inverse_bind_matrices(const MienDeformer* deformer,
 
 // Pose --------------------------------------------------------------------------------------------
 
-MienStatus mien_pose_create(const MienDeformer* deformer, const MienPoseDesc* desc,
-                            MienPose** out_pose, MienError* error) {
+MienStatus mien_deformer_instance_create(const MienDeformer* deformer,
+                                         const MienDeformerInstanceDesc* desc,
+                                         MienDeformerInstance** out_pose, MienError* error) {
   if (MienStatus status = clear_output(out_pose, error)) return status;
   if (MienStatus status = check(deformer)) return give_error(error, status, "not a deformer");
-  MienPoseDesc known;
+  MienDeformerInstanceDesc known;
   if (MienStatus status = read_struct(desc, known)) {
     return give_error(error, status,
-                      "MienPoseDesc.struct_size is %u, expected %zu or more with zeros",
-                      desc->struct_size, sizeof(MienPoseDesc));
+                      "MienDeformerInstanceDesc.struct_size is %u, expected %zu or more with zeros",
+                      desc->struct_size, sizeof(MienDeformerInstanceDesc));
   }
   Allocator allocator;
   if (read_allocator(known.allocator, allocator) != MIEN_OK) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
   }
   if (known.reserved != 0) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "MienPoseDesc.reserved is not 0");
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienDeformerInstanceDesc.reserved is not 0");
   }
-  Pose* pose = create_pose(*object(deformer), known.lods, allocator);
+  DeformerInstance* pose = create_deformer_instance(*object(deformer), known.lods, allocator);
   if (!pose) {
     return give_error(error, MIEN_ERROR_MEMORY, "no memory for a pose of %zu bytes",
-                      pose_size(*object(deformer), known.lods));
+                      deformer_instance_size(*object(deformer), known.lods));
   }
   pose->tag = kPoseTag;
-  *out_pose = reinterpret_cast<MienPose*>(pose);
+  *out_pose = reinterpret_cast<MienDeformerInstance*>(pose);
   return succeed(error);
 }
 
-void mien_pose_destroy(MienPose* pose) {
-  if (check(pose) == MIEN_OK) destroy_pose(object(pose));
+void mien_deformer_instance_destroy(MienDeformerInstance* pose) {
+  if (check(pose) == MIEN_OK) destroy_deformer_instance(object(pose));
 }
 
-MienStatus mien_pose_update(MienPose* pose, const MienInstance* instance) {
+MienStatus mien_deformer_instance_update(MienDeformerInstance* pose, const MienInstance* instance) {
   if (MienStatus status = check(pose)) return status;
   if (MienStatus status = check(instance)) return status;
   const Instance& source = *object(instance);
   if (source.rig != object(pose)->deformer->rig) return MIEN_ERROR_MISMATCH;
-  update_pose(*object(pose), source.joints.data, source.channels.data);
+  update_deformer_instance(*object(pose), source.joints.data, source.channels.data);
   return MIEN_OK;
 }
 
-MienStatus mien_pose_update_from_values(MienPose* handle, const float* joint_values,
-                                        size_t joint_value_count, const float* channel_weights,
-                                        size_t channel_weight_count) {
+MienStatus mien_deformer_instance_update_from_values(MienDeformerInstance* handle,
+                                                     const float* joint_values,
+                                                     size_t joint_value_count,
+                                                     const float* channel_weights,
+                                                     size_t channel_weight_count) {
   if (MienStatus status = check(handle)) return status;
-  Pose& pose = *object(handle);
+  DeformerInstance& pose = *object(handle);
   if (joint_value_count != (joint_values ? pose.deformer->skeleton.value_count() : 0) ||
       channel_weight_count != (channel_weights ? pose.channels.count : 0)) {
     return MIEN_ERROR_INVALID_ARGUMENT;
   }
-  update_pose(pose, joint_values, channel_weights);
+  update_deformer_instance(pose, joint_values, channel_weights);
   return MIEN_OK;
 }
 
-MienStatus mien_pose_joint_matrices(const MienPose* pose, MienFloatView* out_matrices) {
+MienStatus mien_deformer_instance_joint_matrices(const MienDeformerInstance* pose,
+                                                 MienFloatView* out_matrices) {
   if (!out_matrices) return MIEN_ERROR_NULL_ARGUMENT;
   *out_matrices = {nullptr, 0};
   if (MienStatus status = check(pose)) return status;
@@ -267,7 +272,8 @@ MienStatus mien_pose_joint_matrices(const MienPose* pose, MienFloatView* out_mat
   return MIEN_OK;
 }
 
-MienStatus mien_pose_skin_matrices(const MienPose* pose, MienFloatView* out_matrices) {
+MienStatus mien_deformer_instance_skin_matrices(const MienDeformerInstance* pose,
+                                                MienFloatView* out_matrices) {
   if (!out_matrices) return MIEN_ERROR_NULL_ARGUMENT;
   *out_matrices = {nullptr, 0};
   if (MienStatus status = check(pose)) return status;
@@ -275,7 +281,8 @@ MienStatus mien_pose_skin_matrices(const MienPose* pose, MienFloatView* out_matr
   return MIEN_OK;
 }
 
-MienStatus mien_pose_local_transforms(const MienPose* pose, float* out_transforms, size_t count) {
+MienStatus mien_deformer_instance_local_transforms(const MienDeformerInstance* pose,
+                                                   float* out_transforms, size_t count) {
   if (MienStatus status = check(pose)) return status;
   if (!out_transforms) return MIEN_ERROR_NULL_ARGUMENT;
   const Skeleton& skeleton = object(pose)->deformer->skeleton;
@@ -284,13 +291,14 @@ MienStatus mien_pose_local_transforms(const MienPose* pose, float* out_transform
   return MIEN_OK;
 }
 
-MienStatus mien_pose_deform(MienPose* pose, uint32_t mesh, uint32_t normals,
-                            const MienParallelFor* parallel) {
-  return mien_pose_deform_batch(&pose, 1, mesh, normals, parallel);
+MienStatus mien_deformer_instance_deform(MienDeformerInstance* pose, uint32_t mesh,
+                                         uint32_t normals, const MienParallelFor* parallel) {
+  return mien_deformer_instance_deform_batch(&pose, 1, mesh, normals, parallel);
 }
 
-MienStatus mien_pose_deform_batch(MienPose* const* handles, size_t pose_count, uint32_t mesh,
-                                  uint32_t normals, const MienParallelFor* parallel) {
+MienStatus mien_deformer_instance_deform_batch(MienDeformerInstance* const* handles,
+                                               size_t pose_count, uint32_t mesh, uint32_t normals,
+                                               const MienParallelFor* parallel) {
   if (pose_count == 0) return MIEN_OK;
   if (!handles) return MIEN_ERROR_NULL_ARGUMENT;
   for (size_t i = 0; i < pose_count; ++i) {
@@ -303,7 +311,7 @@ MienStatus mien_pose_deform_batch(MienPose* const* handles, size_t pose_count, u
   MienStatus status = MIEN_OK;
   size_t marked = 0;
   for (; marked < pose_count && status == MIEN_OK; ++marked) {
-    Pose& pose = *object(handles[marked]);
+    DeformerInstance& pose = *object(handles[marked]);
     if (pose.deformer != &deformer) {
       status = MIEN_ERROR_MISMATCH;
     } else if (!pose.meshes[mesh].present) {
@@ -321,19 +329,20 @@ MienStatus mien_pose_deform_batch(MienPose* const* handles, size_t pose_count, u
   if (parallel) run = {parallel->user, parallel->run};
   const Normals wanted =
       normals == MIEN_NORMALS_DEFAULT ? deformer.normals : static_cast<Normals>(normals);
-  deform(deformer, {reinterpret_cast<Pose* const*>(handles), pose_count}, mesh, wanted, run);
+  deform(deformer, {reinterpret_cast<DeformerInstance* const*>(handles), pose_count}, mesh, wanted,
+         run);
   return MIEN_OK;
 }
 
 namespace {
 
 template <class Count>
-MienStatus view_mesh(const MienPose* handle, uint32_t m, MienFloatView* out, Count&& count,
-                     Span<float> PosedMesh::*values) {
+MienStatus view_mesh(const MienDeformerInstance* handle, uint32_t m, MienFloatView* out,
+                     Count&& count, Span<float> DeformedMesh::*values) {
   if (!out) return MIEN_ERROR_NULL_ARGUMENT;
   *out = {nullptr, 0};
   if (MienStatus status = check(handle)) return status;
-  const Pose& pose = *object(handle);
+  const DeformerInstance& pose = *object(handle);
   if (m >= pose.meshes.count) return MIEN_ERROR_INDEX;
   if (!pose.meshes[m].present) return MIEN_ERROR_LOD;
   *out = {(pose.meshes[m].*values).data, size_t{count(pose.deformer->meshes[m])} * 3};
@@ -342,14 +351,16 @@ MienStatus view_mesh(const MienPose* handle, uint32_t m, MienFloatView* out, Cou
 
 }  // namespace
 
-MienStatus mien_pose_positions(const MienPose* pose, uint32_t mesh, MienFloatView* out_positions) {
+MienStatus mien_deformer_instance_positions(const MienDeformerInstance* pose, uint32_t mesh,
+                                            MienFloatView* out_positions) {
   return view_mesh(
       pose, mesh, out_positions, [](const DeformMesh& m) { return m.position_count; },
-      &PosedMesh::positions);
+      &DeformedMesh::positions);
 }
 
-MienStatus mien_pose_normals(const MienPose* pose, uint32_t mesh, MienFloatView* out_normals) {
+MienStatus mien_deformer_instance_normals(const MienDeformerInstance* pose, uint32_t mesh,
+                                          MienFloatView* out_normals) {
   return view_mesh(
       pose, mesh, out_normals, [](const DeformMesh& m) { return m.vertex_count; },
-      &PosedMesh::normals);
+      &DeformedMesh::normals);
 }

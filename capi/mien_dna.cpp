@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // DNA files: opening, looking into them, writing. mien.h is the manual.
 #include "capi/handles.h"
-#include "runtime/dna/coordinate_system.h"
-#include "runtime/dna/dna_path.h"
+#include "runtime/base/coordinate_system.h"
 #include "runtime/dna/dna_reader.h"
-#include "runtime/dna/dna_writer.h"
+#include "runtime/dna/format/dna_path.h"
+#include "runtime/dna/format/dna_writer.h"
 
 using namespace mien;
 using namespace mien::capi;
@@ -28,10 +28,10 @@ struct OpenArguments {
   MienDnaDesc desc;
   Allocator allocator;
   dna::ReadOptions options;
-  dna::System system;  // if options point here
+  CoordinateSystem system;  // if options point here
 };
 
-MienStatus read_system(const MienCoordinateSystem* in, dna::System& out, MienError* error) {
+MienStatus read_system(const MienCoordinateSystem* in, CoordinateSystem& out, MienError* error) {
   MienCoordinateSystem known;
   if (MienStatus status = read_struct(in, known)) {
     return give_error(error, status,
@@ -44,7 +44,7 @@ MienStatus read_system(const MienCoordinateSystem* in, dna::System& out, MienErr
     out.rotation_signs[i] = known.rotation_signs[i];
     signs &= known.rotation_signs[i] >= -1 && known.rotation_signs[i] <= 1;
   }
-  if (!dna::spans_space(out.axes)) {
+  if (!spans_space(out.axes)) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
                       "MienCoordinateSystem.axes %u, %u, %u do not span space: one of them is left "
                       "or right, one up or down, one front or back",
@@ -59,7 +59,7 @@ MienStatus read_system(const MienCoordinateSystem* in, dna::System& out, MienErr
   }
   out.translation_unit = known.translation_unit;
   out.rotation_unit = known.rotation_unit;
-  out.rotation_rule = static_cast<dna::RotationRule>(known.rotation_rule);
+  out.rotation_rule = static_cast<RotationRule>(known.rotation_rule);
   out.rotation_sequence = known.rotation_sequence;
   out.face_winding = known.face_winding;
   return MIEN_OK;
@@ -155,9 +155,9 @@ MienStatus mien_coordinate_system_named(const char* name, size_t name_count,
                                         MienCoordinateSystem* out_system) {
   if (MienStatus status = clear_struct(out_system)) return status;
   if (!name) return MIEN_ERROR_NULL_ARGUMENT;
-  for (const dna::NamedSystem& named : dna::kNamedSystems) {
+  for (const NamedSystem& named : kNamedSystems) {
     if (strlen(named.name) != name_count || memcmp(named.name, name, name_count) != 0) continue;
-    const dna::System& system = named.system;
+    const CoordinateSystem& system = named.system;
     MienCoordinateSystem out = {};
     for (int i = 0; i < 3; ++i) {
       out.axes[i] = system.axes[i];
@@ -177,8 +177,8 @@ MienStatus mien_coordinate_system_named(const char* name, size_t name_count,
 MienStatus mien_coordinate_system_name(uint32_t index, MienStringView* out_name) {
   if (!out_name) return MIEN_ERROR_NULL_ARGUMENT;
   *out_name = {};
-  if (index >= dna::kNamedSystemCount) return MIEN_ERROR_INDEX;
-  const char* name = dna::kNamedSystems[index].name;
+  if (index >= kNamedSystemCount) return MIEN_ERROR_INDEX;
+  const char* name = kNamedSystems[index].name;
   *out_name = {name, strlen(name)};
   return MIEN_OK;
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Validation: every finding about a file, kept for the caller. mien.h is the manual.
 #include "capi/handles.h"
+#include "runtime/compile/compile_rig.h"
 #include "runtime/dna/dna_reader.h"
-#include "runtime/rig/compile_rig.h"
 
 using namespace mien;
 using namespace mien::capi;
 
 namespace {
 
-constexpr uint32_t kMostFindings = 1000;
+constexpr uint32_t kMaxFindings = 1000;
 
 struct StoredFinding {
   Status status;
@@ -26,7 +26,7 @@ struct MienReport {
   bool out_of_memory;
   Allocator allocator;
   Arena arena;
-  Span<StoredFinding> findings;  // room for kMostFindings
+  Span<StoredFinding> findings;  // room for kMaxFindings
 
   bool copy(const char* text, dna::String& out) {
     const size_t length = strlen(text);
@@ -40,12 +40,12 @@ struct MienReport {
   // The last place is for the remark that there may be more. If there is no error until then, the
   // examination goes on: the first error takes that place, for no flood of warnings may hide it.
   bool add(const dna::Finding& finding) {
-    const bool full = count == kMostFindings;
+    const bool full = count == kMaxFindings;
     const bool error = finding.status != Status::kOk;
     if (full && (errors != 0 || !error)) return errors == 0;
 
     dna::Finding kept = finding;
-    if (count + 1 == kMostFindings) {
+    if (count + 1 == kMaxFindings) {
       kept.field = "";
       kept.message = "there may be more findings, but no more are listed";
     }
@@ -58,7 +58,7 @@ struct MienReport {
     }
     errors += error;
     count += !full;
-    return count < kMostFindings || errors == 0;
+    return count < kMaxFindings || errors == 0;
   }
 };
 
@@ -94,7 +94,7 @@ MienStatus examine(const uint8_t* bytes, size_t size, const MienAllocator* given
   if (!memory) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a report");
   MienReport* report =
       new (memory) MienReport{kReportTag, 0, 0, false, allocator, Arena(allocator), {}};
-  report->findings = report->arena.array<StoredFinding>(kMostFindings);
+  report->findings = report->arena.array<StoredFinding>(kMaxFindings);
   report->out_of_memory = !report->findings.data;
   if (!report->out_of_memory) {
     Arena arena(allocator);

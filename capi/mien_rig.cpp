@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "capi/handles.h"
+#include "runtime/compile/compile_rig.h"
 #include "runtime/eval/evaluate.h"
-#include "runtime/rig/compile_rig.h"
 
 using namespace mien;
 using namespace mien::capi;
@@ -253,18 +253,18 @@ MienStatus mien_rig_statistics(const MienRig* handle, uint32_t lod,
   statistics.animated_map_row_count = rig.map_rows_at_lod[lod];
   statistics.rbf_solver_count = static_cast<uint32_t>(rig.rbf.lod_solvers.at(lod).count);
   const JointMatrix& joints = rig.joints;
-  const uint32_t chunks = joints.chunks_at_lod[lod];
+  const uint32_t panels = joints.panels_at_lod[lod];
   for (size_t k = 0; k < joints.columns.count; ++k) {
-    statistics.joint_entry_count += uint64_t{joints.pieces_before(k, chunks)} * kPieceRows;
-    statistics.joint_byte_count += joints.bytes_before(k, chunks);
+    statistics.joint_entry_count += uint64_t{joints.blocks_before(k, panels)} * kJointBlockRows;
+    statistics.joint_byte_count += joints.bytes_before(k, panels);
   }
   for (size_t g = 0; g < joints.group_count; ++g) {
     const uint32_t rows = joints.group_rows_at_lod[g * rig.lod_count + lod];
     statistics.joint_row_count += rows;
     const GroupRotations& rotations = rig.rotations.groups[g];
-    for (const TurnedJoint& turned :
-         rig.rotations.turn_joints.slice(rotations.first_turn_joint, rotations.turn_joint_count)) {
-      statistics.turned_joint_count += turned.first_row < rows;
+    for (const QuaternionJoint& turned : rig.rotations.quaternion_joints.slice(
+             rotations.first_quaternion_joint, rotations.quaternion_joint_count)) {
+      statistics.quaternion_joint_count += turned.first_row < rows;
     }
   }
   write_struct(out_statistics, statistics);
@@ -374,13 +374,13 @@ MienStatus mien_instance_statistics(const MienInstance* handle,
   MienInstanceStatistics statistics = {};
   statistics.lod = instance.lod;
   for (float control : instance.controls) statistics.active_control_count += control != 0.0f;
-  const uint32_t chunks = instance.rig->lod_count ? joints.chunks_at_lod[instance.lod] : 0;
+  const uint32_t panels = instance.rig->lod_count ? joints.panels_at_lod[instance.lod] : 0;
   for (size_t k = 0; k < joints.columns.count; ++k) {
     if (instance.controls[joints.columns[k]] == 0.0f) continue;
-    const uint32_t pieces = joints.pieces_before(k, chunks);
-    statistics.joint_column_count += pieces != 0;
-    statistics.joint_entry_count += uint64_t{pieces} * kPieceRows;
-    statistics.joint_byte_count += joints.bytes_before(k, chunks);
+    const uint32_t blocks = joints.blocks_before(k, panels);
+    statistics.joint_column_count += blocks != 0;
+    statistics.joint_entry_count += uint64_t{blocks} * kJointBlockRows;
+    statistics.joint_byte_count += joints.bytes_before(k, panels);
   }
   write_struct(out_statistics, statistics);
   return MIEN_OK;

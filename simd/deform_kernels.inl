@@ -30,7 +30,7 @@ class CornerNormals {
 
   void add(const Quad& v) {
     store4(vectors_ + 4 * count_, v);
-    if (++count_ == kMost) flush();
+    if (++count_ == kMax) flush();
   }
   void flush() {
     for (size_t i = 0; i < count_; i += 4) {
@@ -62,8 +62,8 @@ class CornerNormals {
     store3(normals_ + at, has_direction ? unit : load4(neutral_ + at));
   }
 
-  static constexpr size_t kMost = 64;
-  alignas(16) float vectors_[kMost * 4] = {};
+  static constexpr size_t kMax = 64;
+  alignas(16) float vectors_[kMax * 4] = {};
   size_t count_ = 0;
   const uint32_t* corners_;
   const float* neutral_;
@@ -107,7 +107,7 @@ template <SkinNormals kMode, size_t kInfluences>
 void skin_rows(const SkinArgs& given) {
   const SkinArgs args = given;
   const size_t influences = kInfluences != 0 ? kInfluences : args.influences;
-  CornerNormals normals(args.corners + args.first_corner[0], args.normals, args.turned_normals);
+  CornerNormals normals(args.corners + args.first_corner[0], args.normals, args.out_normals);
   for (size_t i = 0; i < args.count; ++i) {
     Quad c[4];
     blend<kInfluences>(args.weights + i * influences, args.joints + i * influences, args.matrices,
@@ -174,7 +174,7 @@ inline float dot3(const float* a, const float* b) {
 
 /// The shortest turn that takes the neutral direction to that of `sum`, applied to a normal; zero
 /// if the sum has no direction.
-inline Quad turned_normal(const Quad& sum, const float* neutral_direction, const float* normal) {
+inline Quad out_normal(const Quad& sum, const float* neutral_direction, const float* normal) {
   float now[4];
   store4(now, sum);
   const float squared = dot3(now, now);
@@ -192,7 +192,7 @@ inline Quad turned_normal(const Quad& sum, const float* neutral_direction, const
 
 void sum_normals(const NormalArgs& given) {
   const NormalArgs args = given;
-  CornerNormals normals(args.corners + args.first_corner[0], args.normals, args.turned_normals);
+  CornerNormals normals(args.corners + args.first_corner[0], args.normals, args.out_normals);
   for (size_t i = 0; i < args.count; ++i) {
     Quad sum = broadcast4(0.0f);
     for (size_t k = args.first_touching[i]; k < args.first_touching[i + 1]; ++k) {
@@ -204,7 +204,7 @@ void sum_normals(const NormalArgs& given) {
         continue;
       }
       const float* n = args.normals + size_t{args.corners[k] & ~kHardCorner} * 3;
-      normals.add(turned_normal(sum, args.neutral_directions + i * 4, n));
+      normals.add(out_normal(sum, args.neutral_directions + i * 4, n));
     }
   }
   normals.flush();

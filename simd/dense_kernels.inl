@@ -56,12 +56,12 @@ inline Vec activate(Vec v, uint8_t function, Vec alpha) {
 inline Vec load_weights(const float* from) { return load(from); }
 inline Vec load_weights(const uint16_t* from) { return load_half(from); }
 
-/// The sums of sizeof...(K) neighbouring vectors of rows in one walk over the columns, even and odd
+/// The sums of sizeof...(K) neighboring vectors of rows in one walk over the columns, even and odd
 /// ones apart. The pack makes each sum a register of its own.
 template <class How, class Weight, size_t... K>
 inline void sum_rows(const Weight* values, const DenseLayerArgs& args, size_t first_vec,
                      std::index_sequence<K...>) {
-  const size_t column_count = args.column_count, block_size = column_count * kBlockRows;
+  const size_t column_count = args.column_count, block_size = column_count * kBlockLanes;
   const Weight* const rows[] = {values + (first_vec + K) / kVecsPerBlock * block_size +
                                 (first_vec + K) % kVecsPerBlock * kWidth...};
   Vec even[] = {(static_cast<void>(K), broadcast(0.0f))...};
@@ -69,27 +69,27 @@ inline void sum_rows(const Weight* values, const DenseLayerArgs& args, size_t fi
   size_t c = 0;
   for (; c + 2 <= column_count; c += 2) {
     const Vec first = broadcast(args.inputs[c]), second = broadcast(args.inputs[c + 1]);
-    ((even[K] = How::mul_add(load_weights(rows[K] + c * kBlockRows), first, even[K])), ...);
-    ((odd[K] = How::mul_add(load_weights(rows[K] + (c + 1) * kBlockRows), second, odd[K])), ...);
+    ((even[K] = How::mul_add(load_weights(rows[K] + c * kBlockLanes), first, even[K])), ...);
+    ((odd[K] = How::mul_add(load_weights(rows[K] + (c + 1) * kBlockLanes), second, odd[K])), ...);
   }
   if (c < column_count) {
     const Vec last = broadcast(args.inputs[c]);
-    ((even[K] = How::mul_add(load_weights(rows[K] + c * kBlockRows), last, even[K])), ...);
+    ((even[K] = How::mul_add(load_weights(rows[K] + c * kBlockLanes), last, even[K])), ...);
   }
   (store(args.outputs + (first_vec + K) * kWidth, saturate(even[K] + odd[K])), ...);
 }
 
 // Two sums each, and two inputs, have to fit the registers.
 #if defined(MIEN_KERNEL_AVX512) || defined(MIEN_KERNEL_NEON)
-constexpr size_t kMostVecs = 8;
+constexpr size_t kMaxVecs = 8;
 #else
-constexpr size_t kMostVecs = 6;
+constexpr size_t kMaxVecs = 6;
 #endif
 
 template <class How, class Weight>
 void sum_layer(const Weight* values, const DenseLayerArgs& args) {
   const size_t vec_count = (args.row_count + kWidth - 1) / kWidth;
-  size_t walks = (vec_count + kMostVecs - 1) / kMostVecs;
+  size_t walks = (vec_count + kMaxVecs - 1) / kMaxVecs;
   for (size_t v = 0; walks != 0; --walks) {
     const size_t count = (vec_count - v + walks - 1) / walks;  // shared evenly
     switch (count) {

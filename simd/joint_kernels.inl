@@ -13,23 +13,25 @@ namespace {
 // A lane is a row and adds its columns in order, so no width changes a bit of the result. Sums stay
 // in the first-level cache, so what is read from afar is the values, one behind the other.
 //
-// The time goes into reads and writes of the first-level cache, of three per piece: values, sums
-// and sums again. So block numbers are fetched four at a time, and a pair is one vector where
+// The time goes into reads and writes of the first-level cache, of three per block: values, sums
+// and sums again. So block row numbers are fetched four at a time, and a pair is one vector where
 // vectors are that wide. All sums are read before the first is written: they belong to different
-// blocks, which the processor cannot know.
+// block rows, which the processor cannot know.
 
-/// The sums of a block.
+/// The sums of a block row.
 inline float* sums_of(float* sums, size_t number) {
-  return sums + number * (kPieceRows / kBlockUnit);
+  return sums + number * (kJointBlockRows / kBlockRowUnit);
 }
 
-/// Four block numbers in one read.
-struct FourBlocks {
+/// Four block row numbers in one read.
+struct FourBlockRows {
   uint64_t numbers;
-  explicit FourBlocks(const uint16_t* from) { __builtin_memcpy(&numbers, from, sizeof(numbers)); }
-  static FourBlocks of_pairs(const uint16_t* from) {
-    FourBlocks four(from);
-    four.numbers &= kPairBlocks * uint64_t{0x0001'0001'0001'0001};
+  explicit FourBlockRows(const uint16_t* from) {
+    __builtin_memcpy(&numbers, from, sizeof(numbers));
+  }
+  static FourBlockRows of_pairs(const uint16_t* from) {
+    FourBlockRows four(from);
+    four.numbers &= kPairBlockRows * uint64_t{0x0001'0001'0001'0001};
     return four;
   }
   size_t operator[](size_t i) const {
@@ -41,28 +43,28 @@ struct FourBlocks {
 };
 
 template <class How, class Value, size_t... P>
-inline void add_pieces(const Value* values, float* const* sums, PieceVec input,
+inline void add_blocks(const Value* values, float* const* sums, BlockVec input,
                        std::index_sequence<P...>) {
-  for (size_t r = 0; r < kPieceRows; r += kPieceWidth) {
-    const PieceVec added[] = {
-        How::mul_add(load_piece(values + P * kPieceRows + r), input, load_piece(sums[P] + r))...};
-    (store_piece(sums[P] + r, added[P]), ...);
+  for (size_t r = 0; r < kJointBlockRows; r += kBlockWidth) {
+    const BlockVec added[] = {How::mul_add(load_block(values + P * kJointBlockRows + r), input,
+                                           load_block(sums[P] + r))...};
+    (store_block(sums[P] + r, added[P]), ...);
   }
 }
 
 template <class How, class Value>
-inline void add_singles(const Value* values, const uint16_t* blocks, size_t count, float* sums,
-                        PieceVec input) {
+inline void add_singles(const Value* values, const uint16_t* block_rows, size_t count, float* sums,
+                        BlockVec input) {
   size_t i = 0;
   for (; i + 4 <= count; i += 4) {
-    const FourBlocks b(blocks + i);
+    const FourBlockRows b(block_rows + i);
     float* const four[] = {sums_of(sums, b[0]), sums_of(sums, b[1]), sums_of(sums, b[2]),
                            sums_of(sums, b[3])};
-    add_pieces<How>(values + i * kPieceRows, four, input, std::make_index_sequence<4>());
+    add_blocks<How>(values + i * kJointBlockRows, four, input, std::make_index_sequence<4>());
   }
   for (; i < count; ++i) {
-    float* const one[] = {sums_of(sums, blocks[i])};
-    add_pieces<How>(values + i * kPieceRows, one, input, std::make_index_sequence<1>());
+    float* const one[] = {sums_of(sums, block_rows[i])};
+    add_blocks<How>(values + i * kJointBlockRows, one, input, std::make_index_sequence<1>());
   }
 }
 
@@ -72,54 +74,55 @@ template <class How, class Value, size_t... P>
 inline void add_pairs(const Value* values, float* const* sums, Vec input,
                       std::index_sequence<P...>) {
   const Vec added[] = {
-      How::mul_add(load_pair(values + P * 2 * kPieceRows), input, load(sums[P]))...};
+      How::mul_add(load_pair(values + P * 2 * kJointBlockRows), input, load(sums[P]))...};
   (store(sums[P], added[P]), ...);
 }
 
 template <class How, class Value>
-inline void add_pairs(const Value* values, const uint16_t* blocks, size_t count, float* sums,
+inline void add_pairs(const Value* values, const uint16_t* block_rows, size_t count, float* sums,
                       float input_value) {
   const Vec input = broadcast(input_value);
   size_t i = 0;
   for (; i + 4 <= count; i += 4) {
-    const FourBlocks b = FourBlocks::of_pairs(blocks + i);
+    const FourBlockRows b = FourBlockRows::of_pairs(block_rows + i);
     float* const four[] = {sums_of(sums, b[0]), sums_of(sums, b[1]), sums_of(sums, b[2]),
                            sums_of(sums, b[3])};
-    add_pairs<How>(values + i * 2 * kPieceRows, four, input, std::make_index_sequence<4>());
+    add_pairs<How>(values + i * 2 * kJointBlockRows, four, input, std::make_index_sequence<4>());
   }
   for (; i < count; ++i) {
-    float* const one[] = {sums_of(sums, blocks[i] & kPairBlocks)};
-    add_pairs<How>(values + i * 2 * kPieceRows, one, input, std::make_index_sequence<1>());
+    float* const one[] = {sums_of(sums, block_rows[i] & kPairBlockRows)};
+    add_pairs<How>(values + i * 2 * kJointBlockRows, one, input, std::make_index_sequence<1>());
   }
 }
 
 #else
 
 template <class How, class Value>
-inline void add_pairs(const Value* values, const uint16_t* blocks, size_t count, float* sums,
+inline void add_pairs(const Value* values, const uint16_t* block_rows, size_t count, float* sums,
                       float input_value) {
-  const PieceVec input = broadcast_piece(input_value);
+  const BlockVec input = broadcast_block(input_value);
   size_t i = 0;
   for (; i + 4 <= count; i += 4) {
-    const FourBlocks n = FourBlocks::of_pairs(blocks + i);
+    const FourBlockRows n = FourBlockRows::of_pairs(block_rows + i);
     float *const a = sums_of(sums, n[0]), *const b = sums_of(sums, n[1]);
-    float* const four[] = {a, a + kPieceRows, b, b + kPieceRows};
-    add_pieces<How>(values + i * 2 * kPieceRows, four, input, std::make_index_sequence<4>());
+    float* const four[] = {a, a + kJointBlockRows, b, b + kJointBlockRows};
+    add_blocks<How>(values + i * 2 * kJointBlockRows, four, input, std::make_index_sequence<4>());
     float *const c = sums_of(sums, n[2]), *const d = sums_of(sums, n[3]);
-    float* const others[] = {c, c + kPieceRows, d, d + kPieceRows};
-    add_pieces<How>(values + (i + 2) * 2 * kPieceRows, others, input,
+    float* const others[] = {c, c + kJointBlockRows, d, d + kJointBlockRows};
+    add_blocks<How>(values + (i + 2) * 2 * kJointBlockRows, others, input,
                     std::make_index_sequence<4>());
   }
   for (; i + 2 <= count; i += 2) {
-    float *const a = sums_of(sums, blocks[i] & kPairBlocks), *const b = sums_of(
-                                                                 sums, blocks[i + 1] & kPairBlocks);
-    float* const four[] = {a, a + kPieceRows, b, b + kPieceRows};
-    add_pieces<How>(values + i * 2 * kPieceRows, four, input, std::make_index_sequence<4>());
+    float *const a = sums_of(sums, block_rows[i] & kPairBlockRows), *const b = sums_of(
+                                                                        sums, block_rows[i + 1] &
+                                                                                  kPairBlockRows);
+    float* const four[] = {a, a + kJointBlockRows, b, b + kJointBlockRows};
+    add_blocks<How>(values + i * 2 * kJointBlockRows, four, input, std::make_index_sequence<4>());
   }
   if (i < count) {
-    float* const a = sums_of(sums, blocks[i] & kPairBlocks);
-    float* const two[] = {a, a + kPieceRows};
-    add_pieces<How>(values + i * 2 * kPieceRows, two, input, std::make_index_sequence<2>());
+    float* const a = sums_of(sums, block_rows[i] & kPairBlockRows);
+    float* const two[] = {a, a + kJointBlockRows};
+    add_blocks<How>(values + i * 2 * kJointBlockRows, two, input, std::make_index_sequence<2>());
   }
 }
 
@@ -128,27 +131,28 @@ inline void add_pairs(const Value* values, const uint16_t* blocks, size_t count,
 /// What comes behind is fetched by the processor, who sees where a run leads; not where the next
 /// one begins.
 template <class Value>
-inline void expect(const Value* values, const uint16_t* blocks, const JointRun& run) {
+inline void expect(const Value* values, const uint16_t* block_rows, const JointRun& run) {
   constexpr size_t kLine = 64 / sizeof(Value), kLines = 4;
-  const Value* const pairs = values + size_t{run.first_pair} * kPieceRows;
+  const Value* const pairs = values + size_t{run.first_pair} * kJointBlockRows;
   for (size_t i = 0; i < kLines; ++i) __builtin_prefetch(pairs + i * kLine);
-  __builtin_prefetch(values + size_t{run.first_single} * kPieceRows);
-  __builtin_prefetch(blocks + run.pair_entry);
+  __builtin_prefetch(values + size_t{run.first_single} * kJointBlockRows);
+  __builtin_prefetch(block_rows + run.pair_entry);
 }
 
 template <class How, class Value>
 inline void add_columns(const JointColumnsArgs& args) {
   // In names of their own: for all the compiler knows, sums could lie in `args`.
   const Value* const values = static_cast<const Value*>(args.values);
-  const uint16_t* const blocks = args.blocks;
+  const uint16_t* const block_rows = args.block_rows;
   float* const sums = args.sums;
   const JointRun* const end = args.runs + args.run_count;
   for (const JointRun* run = args.runs; run < end; ++run) {
-    expect(values, blocks, run[run + 1 < end]);
-    add_pairs<How>(values + size_t{run->first_pair} * kPieceRows, blocks + run->pair_entry,
+    expect(values, block_rows, run[run + 1 < end]);
+    add_pairs<How>(values + size_t{run->first_pair} * kJointBlockRows, block_rows + run->pair_entry,
                    run->pair_count, sums, run->input);
-    add_singles<How>(values + size_t{run->first_single} * kPieceRows, blocks + run->single_entry,
-                     run->single_count, sums, broadcast_piece(run->input));
+    add_singles<How>(values + size_t{run->first_single} * kJointBlockRows,
+                     block_rows + run->single_entry, run->single_count, sums,
+                     broadcast_block(run->input));
   }
 }
 
@@ -169,41 +173,41 @@ void finish_sums(float* sums, const float* scales, size_t count) {
   }
 }
 
-// Lanes are characters here, and a block's 8 rows are sums in registers. With 32 registers they are
-// two vectors each; with 16 only four rows fit twice, and are done before the other four.
+// Lanes are characters here, and a block row's 8 rows are sums in registers. With 32 registers they
+// are two vectors each; with 16 only four rows fit twice, and are done before the other four.
 #if defined(MIEN_KERNEL_AVX512) || defined(MIEN_KERNEL_NEON)
-constexpr size_t kBatchVecs = 2, kBatchRows = kPieceRows;
+constexpr size_t kBatchVecs = 2, kBatchRows = kJointBlockRows;
 #elif defined(MIEN_KERNEL_SCALAR)
-constexpr size_t kBatchVecs = 1, kBatchRows = kPieceRows;
+constexpr size_t kBatchVecs = 1, kBatchRows = kJointBlockRows;
 #else
-constexpr size_t kBatchVecs = 2, kBatchRows = kPieceRows / 2;
+constexpr size_t kBatchVecs = 2, kBatchRows = kJointBlockRows / 2;
 #endif
 constexpr size_t kBatchStep = kBatchVecs * kWidth;
 
-inline const float* piece_values(const float* values, float*) { return values; }
-inline const float* piece_values(const int16_t* values, float* made) {
-  for (size_t r = 0; r < kPieceRows; r += kPieceWidth) {
-    store_piece(made + r, load_piece(values + r));
+inline const float* block_values(const float* values, float*) { return values; }
+inline const float* block_values(const int16_t* values, float* made) {
+  for (size_t r = 0; r < kJointBlockRows; r += kBlockWidth) {
+    store_block(made + r, load_block(values + r));
   }
   return made;
 }
 
 /// Rows `first` ... of lanes `lane` ...: R counts rows.
 template <class How, class Value, size_t... R>
-inline void sum_block(const JointBatchArgs& args, size_t first, size_t lane, float* sums,
-                      std::index_sequence<R...>) {
+inline void sum_block_row(const JointBatchArgs& args, size_t first, size_t lane, float* sums,
+                          std::index_sequence<R...>) {
   const Value* const values = static_cast<const Value*>(args.values);
   const float* const inputs = args.inputs + lane;
-  const BatchPiece* const pieces = args.pieces;
-  const size_t piece_count = args.piece_count;
-  alignas(32) float made[kPieceRows];
+  const BatchBlock* const blocks = args.blocks;
+  const size_t block_count = args.block_count;
+  alignas(32) float made[kJointBlockRows];
   Vec a[] = {(static_cast<void>(R), broadcast(0.0f))...};
   Vec b[] = {(static_cast<void>(R), broadcast(0.0f))...};
-  for (size_t i = 0; i < piece_count; ++i) {
-    __builtin_prefetch(values + size_t{pieces[i + kBatchAhead].piece} * kPieceRows);
+  for (size_t i = 0; i < block_count; ++i) {
+    __builtin_prefetch(values + size_t{blocks[i + kBatchAhead].block} * kJointBlockRows);
     const float* const v =
-        piece_values(values + size_t{pieces[i].piece} * kPieceRows, made) + first;
-    const float* const x = inputs + size_t{pieces[i].input} * kBatchLanes;
+        block_values(values + size_t{blocks[i].block} * kJointBlockRows, made) + first;
+    const float* const x = inputs + size_t{blocks[i].input} * kBatchLanes;
     const Vec xa = load(x), xb = load(x + (kBatchVecs - 1) * kWidth);
     const Vec row[] = {broadcast(v[R])...};
     ((a[R] = How::mul_add(row[R], xa, a[R])), ...);
@@ -215,21 +219,21 @@ inline void sum_block(const JointBatchArgs& args, size_t first, size_t lane, flo
 }
 
 template <class How, class Value>
-inline void sum_block(const JointBatchArgs& args) {
-  alignas(64) float rows[kPieceRows * kBatchStep];
+inline void sum_block_row(const JointBatchArgs& args) {
+  alignas(64) float rows[kJointBlockRows * kBatchStep];
   const size_t stride = args.stride, lane_count = args.lane_count;
   for (size_t lane = 0; lane < lane_count; lane += kBatchStep) {
-    for (size_t r = 0; r < kPieceRows; r += kBatchRows) {
-      sum_block<How, Value>(args, r, lane, rows + r * kBatchStep,
-                            std::make_index_sequence<kBatchRows>());
+    for (size_t r = 0; r < kJointBlockRows; r += kBatchRows) {
+      sum_block_row<How, Value>(args, r, lane, rows + r * kBatchStep,
+                                std::make_index_sequence<kBatchRows>());
     }
     // Rows become those of a character.
     float* const sums = args.sums + lane * stride;
     if constexpr (kBatchStep == 1) {
-      for (size_t r = 0; r < kPieceRows; ++r) sums[r] = rows[r];
+      for (size_t r = 0; r < kJointBlockRows; ++r) sums[r] = rows[r];
     } else {
       for (size_t k = 0; k < kBatchStep; k += 4) {
-        for (size_t r = 0; r < kPieceRows; r += 4) {
+        for (size_t r = 0; r < kJointBlockRows; r += 4) {
           const float* const from = rows + r * kBatchStep + k;
           Quad q0 = load4(from), q1 = load4(from + kBatchStep), q2 = load4(from + 2 * kBatchStep),
                q3 = load4(from + 3 * kBatchStep);
@@ -246,12 +250,12 @@ inline void sum_block(const JointBatchArgs& args) {
 }
 
 template <class Value>
-void sum_block(const JointBatchArgs& args) {
-  args.portable ? sum_block<AsPortable, Value>(args) : sum_block<AsFast, Value>(args);
+void sum_block_row(const JointBatchArgs& args) {
+  args.portable ? sum_block_row<AsPortable, Value>(args) : sum_block_row<AsFast, Value>(args);
 }
 
-void joint_batch(const JointBatchArgs& args) { sum_block<float>(args); }
-void joint_batch_fixed(const JointBatchArgs& args) { sum_block<int16_t>(args); }
+void joint_batch(const JointBatchArgs& args) { sum_block_row<float>(args); }
+void joint_batch_fixed(const JointBatchArgs& args) { sum_block_row<int16_t>(args); }
 
 }  // namespace
 }  // namespace mien::MIEN_KERNEL_ISA

@@ -15,15 +15,25 @@
 namespace mien::MIEN_KERNEL_ISA {
 
 extern const KernelTable kTable;  // const alone would keep it inside this file
-const KernelTable kTable = {kIsa,          MIEN_KERNEL_STRING(MIEN_KERNEL_ISA),
-                            joint_columns, joint_columns_fixed,
-                            joint_batch,   joint_batch_fixed,
-                            kBatchStep,    nonzero,
-                            psds,          psd_batch,
-                            finish_sums,   dense_layer,
-                            joint_turns,   rbf_solvers,
-                            joint_locals,  joint_tree,
-                            add_target,    skin_places,
-                            face_areas,    sum_normals};
+const KernelTable kTable = {kIsa,
+                            MIEN_KERNEL_STRING(MIEN_KERNEL_ISA),
+                            joint_columns,
+                            joint_columns_fixed,
+                            joint_batch,
+                            joint_batch_fixed,
+                            kBatchStep,
+                            nonzero,
+                            psds,
+                            psd_batch,
+                            finish_sums,
+                            dense_layer,
+                            quaternion_joints,
+                            rbf_solvers,
+                            joint_locals,
+                            joint_tree,
+                            add_target,
+                            skin_places,
+                            face_areas,
+                            sum_normals};
 
 }  // namespace mien::MIEN_KERNEL_ISA

@@ -15,38 +15,38 @@ constexpr uint32_t kIsaCount = 6;
 
 /// Rows per block of a dense layer and of other arrays in lanes, the same for every instruction
 /// set.
-constexpr uint32_t kBlockRows = 16;
+constexpr uint32_t kBlockLanes = 16;
 
-/// Rows per piece of a joint matrix.
-constexpr uint32_t kPieceRows = 8;
-/// Blocks are named by multiples of this, which are addresses with the least work.
-constexpr uint32_t kBlockUnit = 4;
-/// Bits of the number of an even block: of a pair's number no others are looked at.
-constexpr uint32_t kPairBlocks = 0x10000 - 2 * kBlockUnit;
+/// Rows per block of a joint matrix.
+constexpr uint32_t kJointBlockRows = 8;
+/// Block rows are named by multiples of this, which are addresses with the least work.
+constexpr uint32_t kBlockRowUnit = 4;
+/// Bits of the number of an even block row: of a pair's number no others are looked at.
+constexpr uint32_t kPairBlockRows = 0x10000 - 2 * kBlockRowUnit;
 
 /// What of a column of a joint matrix is multiplied by its input, and where it stands.
 struct JointRun {
-  uint32_t first_pair, pair_entry, pair_count;  // pieces; entries in `blocks`
+  uint32_t first_pair, pair_entry, pair_count;  // blocks; entries in `block_rows`
   uint32_t first_single, single_entry, single_count;
   float input;
 };
 
-/// Columns of a joint matrix times their inputs, added to sums. A column is a run of pieces of 8
-/// values, each of which belongs to a block of 8 sums. Pieces of blocks 2i and 2i + 1 are a pair;
-/// pairs come first, then pieces without their other half:
+/// Columns of a joint matrix times their inputs, added to sums. A column is a run of blocks of 8
+/// values, each of which belongs to a block row of 8 sums. Blocks of block rows 2i and 2i + 1 are a
+/// pair; pairs come first, then blocks without their other half:
 ///
-///     values  pair 0: r0 ... r15 | pair 1: r0 ... r15 | ... | piece: r0 ... r7 | ...
-///     blocks  the even block of each pair | the block of each piece
+///     values  pair 0: r0 ... r15 | pair 1: r0 ... r15 | ... | block: r0 ... r7 | ...
+///     block rows  the even block row of each pair | the block row of each block
 ///
-/// Pairs are aligned to their size, and so are other pieces; no block comes twice in a run. For all
-/// runs in order:
+/// Pairs are aligned to their size, and so are other blocks; no block row comes twice in a run. For
+/// all runs in order:
 ///
-///     sums[8 * (block / kBlockUnit) + r] += values(r) * input
+///     sums[8 * (block row / kBlockRowUnit) + r] += values(r) * input
 ///
-/// Sums may begin with those of a later block; `sums` is where block 0 would be.
+/// Sums may begin with those of a later block row; `sums` is where block row 0 would be.
 struct JointColumnsArgs {
   const void* values;  // float, or int16_t
-  const uint16_t* blocks;
+  const uint16_t* block_rows;
   const JointRun* runs;
   float* sums;  // 64-byte aligned
   uint32_t run_count;
@@ -56,9 +56,9 @@ struct JointColumnsArgs {
 /// Characters that a batch evaluates together, one lane each.
 constexpr uint32_t kBatchLanes = 32;
 
-/// A piece of a joint matrix and the row of inputs that it is multiplied by.
-struct BatchPiece {
-  uint32_t piece;
+/// A block of a joint matrix and the row of inputs that it is multiplied by.
+struct BatchBlock {
+  uint32_t block;
   uint32_t input;
 };
 
@@ -107,20 +107,20 @@ struct PsdBatchArgs {
 /// The sums of one block for many characters: for lanes k < lane_count (those up to the next
 /// multiple of batch_step are written as well), for i in order:
 ///
-///     sums[k * stride + r] += values(pieces[i].piece, r) * inputs[32 * pieces[i].input + k]
+///     sums[k * stride + r] += values(blocks[i].block, r) * inputs[32 * blocks[i].input + k]
 ///
 /// starting from 0: as joint_columns does, with the same bits.
 struct JointBatchArgs {
   const void* values;  // as for joint_columns
-  const BatchPiece* pieces;
+  const BatchBlock* blocks;
   const float* inputs;  // 64-byte aligned
   float* sums;          // 32-byte aligned
   size_t stride;        // a multiple of 8
-  uint32_t piece_count;
+  uint32_t block_count;
   uint32_t lane_count;
   bool portable;  // as above
 };
-/// Pieces behind the last one that joint_batch may fetch ahead, as a hint: their numbers are read.
+/// Blocks behind the last one that joint_batch may fetch ahead, as a hint: their numbers are read.
 constexpr uint32_t kBatchAhead = 16;
 
 /// One dense layer of a neural network: outputs[r] = f(sum over c of values(r, c) * inputs[c] +
@@ -152,7 +152,7 @@ struct DenseLayerArgs {
 /// For each joint: the product, over the columns in order, of the quaternion of the column blended
 /// with the identity by the column's control; later columns turn last. All w are >= 0. Writes
 /// rotations[4 * 16 * b + 16 * k + j] for k = x, y, z, w.
-struct JointTurnArgs {
+struct QuaternionJointArgs {
   const void* values;  // floats or halves, 64-byte aligned
   const uint16_t* columns;
   const float* controls;
@@ -267,7 +267,7 @@ enum class SkinNormals : uint32_t { kNone, kMatrix, kCofactors };
 ///
 /// Writes positions[3 * position_at[i] ...]. Corners first_corner[i] ... first_corner[i + 1] are
 /// vertices at place i (their highest bit is a mark): normals[3 * vertex ...] is turned and written
-/// to turned_normals, unit; where there is no direction it is copied. Reads a float beyond each
+/// to out_normals, unit; where there is no direction it is copied. Reads a float beyond each
 /// normal.
 struct SkinArgs {
   const float* places;
@@ -279,7 +279,7 @@ struct SkinArgs {
   const uint32_t* first_corner;
   const uint32_t* corners;
   const float* normals;
-  float* turned_normals;
+  float* out_normals;
   uint32_t count;
   uint32_t influences;
   SkinNormals mode;
@@ -306,7 +306,7 @@ struct NormalArgs {
   const uint32_t* corners;
   const float* normals;             // [vertex] x y z, neutral
   const float* neutral_directions;  // [place] x y z *
-  float* turned_normals;
+  float* out_normals;
   uint32_t count;
 };
 constexpr uint32_t kHardCorner = 0x8000'0000;
@@ -326,7 +326,7 @@ struct KernelTable {
   /// of 16, both are 64-byte aligned.
   void (*finish_sums)(float* sums, const float* scales, size_t count);
   void (*dense_layer)(const DenseLayerArgs& args);
-  void (*joint_turns)(const JointTurnArgs& args);
+  void (*quaternion_joints)(const QuaternionJointArgs& args);
   void (*rbf_solvers)(const RbfArgs& args);
   void (*joint_locals)(const JointLocalArgs& args);
   void (*joint_tree)(const JointTreeArgs& args);

@@ -33,7 +33,7 @@ inline VecQuaternion turns(const float* half_angles, const uint8_t* axes) {
   Vec q[4] = {broadcast(0.0f), broadcast(0.0f), broadcast(0.0f), broadcast(1.0f)};
   for (int i = 0; i < 3; ++i) {
     const size_t a = axes[i], b = (a + 1) % 3, c = (a + 2) % 3;
-    const Vec half = load(half_angles + a * kBlockRows);
+    const Vec half = load(half_angles + a * kBlockLanes);
     const Vec s = sine(half), k = cosine(half);
     const Vec qa = q[a], qb = q[b], qc = q[c], qw = q[3];
     q[a] = k * qa + s * qw;
@@ -59,14 +59,14 @@ inline VecQuaternion unit(const VecQuaternion& q) {
 void joint_locals(const JointLocalArgs& args) {
   const Vec one = broadcast(1.0f);
   for (size_t block = 0; block < args.block_count; ++block) {
-    for (size_t lane = 0; lane < kBlockRows; lane += kWidth) {
-      const float* neutral = args.neutral + block * kNeutralRows * kBlockRows + lane;
-      const float* delta = args.deltas + block * kDeltaRows * kBlockRows + lane;
-      float* out = args.locals + block * kLocalRows * kBlockRows + lane;
-      const float* turn = delta + 3 * kBlockRows;
+    for (size_t lane = 0; lane < kBlockLanes; lane += kWidth) {
+      const float* neutral = args.neutral + block * kNeutralRows * kBlockLanes + lane;
+      const float* delta = args.deltas + block * kDeltaRows * kBlockLanes + lane;
+      float* out = args.locals + block * kLocalRows * kBlockLanes + lane;
+      const float* turn = delta + 3 * kBlockLanes;
       const VecQuaternion own =
           args.quaternions ? unit(load_quaternion(turn)) : turns(turn, args.axes);
-      const VecQuaternion q = unit(multiply(load_quaternion(neutral + 3 * kBlockRows), own));
+      const VecQuaternion q = unit(multiply(load_quaternion(neutral + 3 * kBlockLanes), own));
 
       const Vec x2 = q.x + q.x, y2 = q.y + q.y, z2 = q.z + q.z;
       const Vec xx = q.x * x2, yy = q.y * y2, zz = q.z * z2;
@@ -76,15 +76,15 @@ void joint_locals(const JointLocalArgs& args) {
                               {xy - wz, one - (xx + zz), yz + wx},
                               {xz + wy, yz - wx, one - (xx + yy)}};
       for (size_t c = 0; c < 3; ++c) {
-        const Vec scale = one + load(delta + (7 + c) * kBlockRows);
-        for (size_t r = 0; r < 3; ++r) store(out + (3 * c + r) * kBlockRows, axes[c][r] * scale);
-        store(out + (9 + c) * kBlockRows,
-              load(neutral + c * kBlockRows) + load(delta + c * kBlockRows));
+        const Vec scale = one + load(delta + (7 + c) * kBlockLanes);
+        for (size_t r = 0; r < 3; ++r) store(out + (3 * c + r) * kBlockLanes, axes[c][r] * scale);
+        store(out + (9 + c) * kBlockLanes,
+              load(neutral + c * kBlockLanes) + load(delta + c * kBlockLanes));
       }
-      store(out + 12 * kBlockRows, q.x);
-      store(out + 13 * kBlockRows, q.y);
-      store(out + 14 * kBlockRows, q.z);
-      store(out + 15 * kBlockRows, q.w);
+      store(out + 12 * kBlockLanes, q.x);
+      store(out + 13 * kBlockLanes, q.y);
+      store(out + 14 * kBlockLanes, q.z);
+      store(out + 15 * kBlockLanes, q.w);
     }
   }
 }
@@ -120,9 +120,9 @@ void joint_tree(const JointTreeArgs& args) {
   for (size_t i = 0; i < args.joint_count; ++i) {
     const size_t joint = args.order[i], parent = args.parents[joint];
     const bool root = parent == joint;
-    const float* local = args.locals + i / kBlockRows * kLocalRows * kBlockRows + i % kBlockRows;
+    const float* local = args.locals + i / kBlockLanes * kLocalRows * kBlockLanes + i % kBlockLanes;
     const Columns above = load_columns(root ? kIdentity : args.model + parent * 16);
-    const Columns model = product(above, local, 3 * kBlockRows, kBlockRows);
+    const Columns model = product(above, local, 3 * kBlockLanes, kBlockLanes);
     store_columns(args.model + joint * 16, model);
     const Columns skin = !args.still[i] ? product(model, args.inverse_bind + joint * 16, 4, 1)
                          : root         ? load_columns(kIdentity)

@@ -92,9 +92,9 @@ struct RotationInput {
 inline RotationInput rotation_input(const RbfSolverPlan& solver, const RbfArgs& args, size_t i) {
   if (solver.angle_inputs == 4) return {args.inputs + solver.first_input + 4 * i, 1};
   const size_t lane = solver.first_input + i;
-  const float* a = args.rotations + lane / kBlockRows * 4 * kBlockRows + lane % kBlockRows;
-  if (solver.angle_inputs == 3) return {a + kBlockRows, kBlockRows};
-  return {a, 3 * kBlockRows};
+  const float* a = args.rotations + lane / kBlockLanes * 4 * kBlockLanes + lane % kBlockLanes;
+  if (solver.angle_inputs == 3) return {a + kBlockLanes, kBlockLanes};
+  return {a, 3 * kBlockLanes};
 }
 
 // The angle between two rotations from the dot product of their quaternions; the sign of either
@@ -142,13 +142,13 @@ inline V weight_of(V x, const RbfSolverPlan& solver) {
   using M = Make<V>;
   // A radius below zero makes weights grow with the distance: up to 2^60, so that the product with
   // scale and factor of a pose does not overflow.
-  constexpr float kMost = 60, kMostWeight = 1.152921505e18f;
+  constexpr float kMax = 60, kMaxWeight = 1.152921505e18f;
   if (solver.function < 2) {
-    return power_of_two_or_zero(solver.scale > 0 ? at_most_or_nan(x, M::of(kMost)) : x);
+    return power_of_two_or_zero(solver.scale > 0 ? at_most_or_nan(x, M::of(kMax)) : x);
   }
   V power = x;
   for (int n = 2; n < solver.function; ++n) power = power * (x * x);
-  return at_most(at_least(M::of(1.0f) - power, M::of(0.0f)), M::of(kMostWeight));
+  return at_most(at_least(M::of(1.0f) - power, M::of(0.0f)), M::of(kMaxWeight));
 }
 
 template <class V>
@@ -161,7 +161,7 @@ inline void weigh_lanes(const RbfSolverPlan& solver, const RbfArgs& args, size_t
 
 void weigh_poses(const RbfSolverPlan& solver, const RbfArgs& args) {
   const size_t count = solver.pose_count;
-  const size_t stride = (count + kBlockRows - 1) / kBlockRows * kBlockRows;
+  const size_t stride = (count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
   size_t p = 0;
   for (; p + kWidth < count; p += 2 * kWidth) weigh_lanes<VecPair>(solver, args, p, stride);
   if (p < count) {
@@ -177,10 +177,10 @@ inline void interpolate_lanes(const RbfSolverPlan& solver, const RbfArgs& args, 
   const float* weights = args.weights + solver.first_lane;
   const size_t count = solver.pose_count;
   const float* column = args.inverses + solver.first_inverse +
-                        lane / kBlockRows * count * kBlockRows + lane % kBlockRows;
+                        lane / kBlockLanes * count * kBlockLanes + lane % kBlockLanes;
   V sum = M::of(0.0f);
 #pragma GCC unroll 4
-  for (size_t t = 0; t < count; ++t, column += kBlockRows) {
+  for (size_t t = 0; t < count; ++t, column += kBlockLanes) {
     sum = sum + M::from(column) * M::of(weights[t]);
   }
   store(args.results + solver.first_lane + lane, at_most(at_least(sum, M::of(0.0f)), M::of(1.0f)));
@@ -188,9 +188,9 @@ inline void interpolate_lanes(const RbfSolverPlan& solver, const RbfArgs& args, 
 
 /// results = the inverse times the weights. A pair of vectors must not reach into the next block.
 void interpolate(const RbfSolverPlan& solver, const RbfArgs& args) {
-  constexpr bool kPairsFit = 2 * kWidth <= kBlockRows;
+  constexpr bool kPairsFit = 2 * kWidth <= kBlockLanes;
   const size_t count = solver.pose_count;
-  const size_t stride = (count + kBlockRows - 1) / kBlockRows * kBlockRows;
+  const size_t stride = (count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
   size_t p = 0;
   if constexpr (kPairsFit) {
     for (; p + kWidth < count; p += 2 * kWidth) interpolate_lanes<VecPair>(solver, args, p);
@@ -204,7 +204,7 @@ inline float sum_of(const float* values, size_t count) {
   Vec sums[kVecsPerBlock];
   for (size_t v = 0; v < kVecsPerBlock; ++v) {
     sums[v] = load(values + v * kWidth);
-    for (size_t p = kBlockRows; p < count; p += kBlockRows) {
+    for (size_t p = kBlockLanes; p < count; p += kBlockLanes) {
       sums[v] = sums[v] + load(values + p + v * kWidth);
     }
   }
@@ -235,24 +235,24 @@ void normalize(const RbfSolverPlan& solver, const RbfArgs& args) {
 
 /// Sixteen rotations, each as its swing or its twist (rig-evaluation 6.2).
 void part_rotations(float* rotations, const float* swings) {
-  for (size_t v = 0; v < kBlockRows; v += kWidth) {
+  for (size_t v = 0; v < kBlockLanes; v += kWidth) {
     float* at = rotations + v;
-    const Vec zero = broadcast(0.0f), a = load(at), b = load(at + kBlockRows);
-    const Vec c = load(at + 2 * kBlockRows), w = load(at + 3 * kBlockRows);
+    const Vec zero = broadcast(0.0f), a = load(at), b = load(at + kBlockLanes);
+    const Vec c = load(at + 2 * kBlockLanes), w = load(at + 3 * kBlockLanes);
     const Vec length = square_root(a * a + w * w);
     const Vec n = zero - length;
     const Mask swing = less(zero, load(swings + v));
     store(at, select(swing, zero, divide(a, length)));
-    store(at + kBlockRows, select(swing, divide(w * b - a * c, n), zero));
-    store(at + 2 * kBlockRows, select(swing, divide(w * c + a * b, n), zero));
-    store(at + 3 * kBlockRows, select(swing, n, divide(w, length)));
+    store(at + kBlockLanes, select(swing, divide(w * b - a * c, n), zero));
+    store(at + 2 * kBlockLanes, select(swing, divide(w * c + a * b, n), zero));
+    store(at + 3 * kBlockLanes, select(swing, n, divide(w, length)));
   }
 }
 
 // Step by step for all of them: what one solver waits for, another has ready.
 void rbf_solvers(const RbfArgs& args) {
   for (size_t b = args.first_block; b < args.first_block + size_t{args.block_count}; ++b) {
-    part_rotations(args.rotations + b * 4 * kBlockRows, args.swings + b * kBlockRows);
+    part_rotations(args.rotations + b * 4 * kBlockLanes, args.swings + b * kBlockLanes);
   }
   for (size_t i = 0; i < args.count; ++i) weigh_poses(args.solvers[args.list[i]], args);
   for (size_t i = 0; i < args.count; ++i) {

@@ -13,11 +13,11 @@ struct VecQuaternion {
 };
 
 inline VecQuaternion load_quaternion(const float* at) {
-  return {load(at), load(at + kBlockRows), load(at + 2 * kBlockRows), load(at + 3 * kBlockRows)};
+  return {load(at), load(at + kBlockLanes), load(at + 2 * kBlockLanes), load(at + 3 * kBlockLanes)};
 }
 inline VecQuaternion load_quaternion(const uint16_t* at) {
-  return {load_half(at), load_half(at + kBlockRows), load_half(at + 2 * kBlockRows),
-          load_half(at + 3 * kBlockRows)};
+  return {load_half(at), load_half(at + kBlockLanes), load_half(at + 2 * kBlockLanes),
+          load_half(at + 3 * kBlockLanes)};
 }
 
 // The blend is made unit by a true root and division: estimates would bend the joints.
@@ -43,11 +43,11 @@ inline float bounded(float weight) {
 }
 
 template <class Value>
-void turn(const Value* all_values, const JointTurnArgs& args) {
-  constexpr size_t kColumnFloats = 4 * kBlockRows;
+void turn(const Value* all_values, const QuaternionJointArgs& args) {
+  constexpr size_t kColumnFloats = 4 * kBlockLanes;
   for (size_t block = 0; block < args.block_count; ++block) {
     const Value* values = all_values + block * args.column_stride * kColumnFloats;
-    for (size_t lane = 0; lane < kBlockRows; lane += kWidth) {
+    for (size_t lane = 0; lane < kBlockLanes; lane += kWidth) {
       VecQuaternion product = {broadcast(0.0f), broadcast(0.0f), broadcast(0.0f), broadcast(1.0f)};
       for (size_t c = 0; c < args.column_count; ++c) {
         const float weight = bounded(args.controls[args.columns[c]]);
@@ -57,14 +57,14 @@ void turn(const Value* all_values, const JointTurnArgs& args) {
       }
       float* out = args.rotations + block * kColumnFloats + lane;
       store(out, product.x);
-      store(out + kBlockRows, product.y);
-      store(out + 2 * kBlockRows, product.z);
-      store(out + 3 * kBlockRows, product.w);
+      store(out + kBlockLanes, product.y);
+      store(out + 2 * kBlockLanes, product.z);
+      store(out + 3 * kBlockLanes, product.w);
     }
   }
 }
 
-void joint_turns(const JointTurnArgs& args) {
+void quaternion_joints(const QuaternionJointArgs& args) {
   if (args.halves) {
     turn(static_cast<const uint16_t*>(args.values), args);
   } else {

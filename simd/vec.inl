@@ -26,12 +26,12 @@
 //                   rounded after each step (scalar, SSE2). By intrinsic: xsimd 8.1 leaves the
 //                   choice to the compiler on AVX-512 and NEON.
 //
-// A piece of a joint matrix is narrower than the widest vectors:
+// A block of a joint matrix is narrower than the widest vectors:
 //
-//   PieceVec        kPieceWidth floats, at most kPieceRows: Vec, or half of it
-//   load_piece      kPieceWidth floats, aligned; or as many 16-bit integers made floats
-//   store_piece, broadcast_piece, mul_add   as above
-//   load_pair       a Vec of two pieces, on AVX-512
+//   BlockVec        kBlockWidth floats, at most kJointBlockRows: Vec, or half of it
+//   load_block      kBlockWidth floats, aligned; or as many 16-bit integers made floats
+//   store_block, broadcast_block, mul_add   as above
+//   load_pair       a Vec of two blocks, on AVX-512
 //
 //   different_lanes(a,b)   bit k: the bits of lane k differ
 //   higher_of, lower_of, bits_of   of a single float
@@ -105,12 +105,12 @@ inline Vec at_most_or_nan(Vec v, Vec high) { return high < v ? high : v; }
 using Mask = bool;
 inline Mask less(Vec a, Vec b) { return a < b; }
 inline Vec select(Mask m, Vec a, Vec b) { return m ? a : b; }
-using PieceVec = Vec;
-constexpr size_t kPieceWidth = 1;
-inline PieceVec load_piece(const float* from) { return *from; }
-inline PieceVec load_piece(const int16_t* from) { return *from; }
-inline PieceVec broadcast_piece(float value) { return value; }
-inline void store_piece(float* to, PieceVec value) { *to = value; }
+using BlockVec = Vec;
+constexpr size_t kBlockWidth = 1;
+inline BlockVec load_block(const float* from) { return *from; }
+inline BlockVec load_block(const int16_t* from) { return *from; }
+inline BlockVec broadcast_block(float value) { return value; }
+inline void store_block(float* to, BlockVec value) { *to = value; }
 inline Vec keep(Mask m, Vec a) { return m ? a : 0.0f; }
 inline Vec power_of_two(Vec n) {
   const uint32_t bits = static_cast<uint32_t>(static_cast<int32_t>(n) + 127) << 23;
@@ -170,24 +170,24 @@ inline Vec load_half(const uint16_t* from) {
 constexpr size_t kWidth = Vec::size;
 
 #if defined(MIEN_KERNEL_AVX512)
-using PieceVec = xsimd::batch<float, xsimd::fma3<xsimd::avx2>>;
-inline PieceVec mul_add(PieceVec a, PieceVec b, PieceVec c) { return _mm256_fmadd_ps(a, b, c); }
+using BlockVec = xsimd::batch<float, xsimd::fma3<xsimd::avx2>>;
+inline BlockVec mul_add(BlockVec a, BlockVec b, BlockVec c) { return _mm256_fmadd_ps(a, b, c); }
 #else
-using PieceVec = Vec;
+using BlockVec = Vec;
 #endif
-constexpr size_t kPieceWidth = PieceVec::size;
-inline PieceVec load_piece(const float* from) { return PieceVec::load_aligned(from); }
-inline PieceVec broadcast_piece(float value) { return PieceVec(value); }
-inline void store_piece(float* to, PieceVec value) { value.store_aligned(to); }
+constexpr size_t kBlockWidth = BlockVec::size;
+inline BlockVec load_block(const float* from) { return BlockVec::load_aligned(from); }
+inline BlockVec broadcast_block(float value) { return BlockVec(value); }
+inline void store_block(float* to, BlockVec value) { value.store_aligned(to); }
 #if defined(MIEN_KERNEL_SSE2)
-inline PieceVec load_piece(const int16_t* from) {
+inline BlockVec load_block(const int16_t* from) {
   const __m128i narrow = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
   return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(narrow, narrow), 16));
 }
 #elif defined(MIEN_KERNEL_NEON)
-inline PieceVec load_piece(const int16_t* from) { return vcvtq_f32_s32(vmovl_s16(vld1_s16(from))); }
+inline BlockVec load_block(const int16_t* from) { return vcvtq_f32_s32(vmovl_s16(vld1_s16(from))); }
 #else
-inline PieceVec load_piece(const int16_t* from) {
+inline BlockVec load_block(const int16_t* from) {
   const __m128i narrow = _mm_load_si128(reinterpret_cast<const __m128i*>(from));
   return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(narrow));
 }
@@ -468,7 +468,7 @@ inline uint32_t different_lanes(Vec a, Vec b) { return different_lanes4(a, b); }
 
 // (a * b.yzx - a.yzx * b) is the cross product, turned by one.
 inline Quad cross4(const Quad& a, const Quad& b) { return yzx4(mul_sub4(a, yzx4(b), yzx4(a) * b)); }
-constexpr size_t kVecsPerBlock = kBlockRows / kWidth;
+constexpr size_t kVecsPerBlock = kBlockLanes / kWidth;
 
 inline float sum_of_lanes(const Vec (&vecs)[kVecsPerBlock]) {
 #if defined(MIEN_KERNEL_SCALAR)

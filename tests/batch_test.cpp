@@ -19,13 +19,13 @@ BatchHandle create_batch(const RigHandle& rig, uint32_t capacity, uint32_t tasks
 }
 
 /// Pairs of instances: one for the batch, one evaluated by itself, on a rig that keeps nothing.
-struct Crowd {
+struct InstancePacket {
   RigHandle rig, plain_rig;
   std::vector<Character> together, alone;
   std::vector<MienInstance*> handles;
   std::vector<uint32_t> lods;
 
-  Crowd(const MienDna* dna, MienRigDesc desc, size_t count) : rig(create_rig(dna, desc)) {
+  InstancePacket(const MienDna* dna, MienRigDesc desc, size_t count) : rig(create_rig(dna, desc)) {
     desc.reuse = MIEN_REUSE_NOTHING;
     plain_rig = create_rig(dna, desc);
     for (size_t i = 0; i < count; ++i) {
@@ -72,15 +72,15 @@ TEST(Batch, HasTheBitsOfSingleEvaluation) {
   for_each_dna(6, [&](const DnaHandle& dna) {
     for_each_rig_desc([&](const MienRigDesc& desc) {
       for (size_t count : {1, 3, 40}) {
-        Crowd crowd(dna.get(), desc, count);
-        const BatchHandle batch = create_batch(crowd.rig, static_cast<uint32_t>(count));
-        const uint32_t lod_count = info_of(crowd.rig).lod_count;
+        InstancePacket packet(dna.get(), desc, count);
+        const BatchHandle batch = create_batch(packet.rig, static_cast<uint32_t>(count));
+        const uint32_t lod_count = info_of(packet.rig).lod_count;
         for (int frame = 0; frame < 6; ++frame) {
           SCOPED_TRACE(std::to_string(count) + " instances, frame " + std::to_string(frame));
           const uint32_t percents[] = {100, 5, 30, 0, 60, 100};
-          crowd.draw(random, percents[frame], frame % 2 == 0, frame < 4 ? 1 : lod_count);
-          crowd.evaluate(batch.get());
-          crowd.expect_equal();
+          packet.draw(random, percents[frame], frame % 2 == 0, frame < 4 ? 1 : lod_count);
+          packet.evaluate(batch.get());
+          packet.expect_equal();
         }
       }
     });
@@ -94,14 +94,14 @@ TEST(Batch, OfALargeRig) {
   for (uint32_t isa : present_isas()) {
     MienRigDesc desc = sized<MienRigDesc>();
     desc.isa = isa;
-    Crowd crowd(dna.get(), desc, 70);
-    const BatchHandle batch = create_batch(crowd.rig, 100, 3);
+    InstancePacket packet(dna.get(), desc, 70);
+    const BatchHandle batch = create_batch(packet.rig, 100, 3);
     for (uint32_t percent : {100, 3, 40, 100}) {
       for (bool shared : {false, true}) {
         SCOPED_TRACE(std::string(mien_isa_name(isa)) + ", " + std::to_string(percent) + " %");
-        crowd.draw(random, percent, shared, 2);
-        crowd.evaluate(batch.get());
-        crowd.expect_equal();
+        packet.draw(random, percent, shared, 2);
+        packet.evaluate(batch.get());
+        packet.expect_equal();
       }
     }
   }
@@ -110,27 +110,27 @@ TEST(Batch, OfALargeRig) {
 TEST(Batch, OfSeveralTiles) {
   Arena arena(default_allocator());
   const std::vector<uint8_t> bytes = write_view(to_view(tall_rig(), arena));
-  Crowd crowd(open_dna(bytes).get(), sized<MienRigDesc>(), 40);
-  const BatchHandle batch = create_batch(crowd.rig, 40);
+  InstancePacket packet(open_dna(bytes).get(), sized<MienRigDesc>(), 40);
+  const BatchHandle batch = create_batch(packet.rig, 40);
   Random random = Random::from_seed(14, 1);
   for (uint32_t percent : {100, 3, 40}) {
-    crowd.draw(random, percent, true, 2);
-    crowd.evaluate(batch.get());
-    crowd.expect_equal();
+    packet.draw(random, percent, true, 2);
+    packet.evaluate(batch.get());
+    packet.expect_equal();
   }
 }
 
 TEST(Batch, SomeStages) {
   const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 2);
   Random random = Random::from_seed(13, 1);
-  Crowd crowd(dna.get(), sized<MienRigDesc>(), 20);
-  const BatchHandle batch = create_batch(crowd.rig, 20);
+  InstancePacket packet(dna.get(), sized<MienRigDesc>(), 20);
+  const BatchHandle batch = create_batch(packet.rig, 20);
   for (int frame = 0; frame < 40; ++frame) {
-    crowd.draw(random, 50, false, 1);
+    packet.draw(random, 50, false, 1);
     const uint32_t stages = frame % 5 == 4 ? uint32_t{MIEN_STAGE_ALL} : random.below(64);
     SCOPED_TRACE("stages " + std::to_string(stages));
-    crowd.evaluate(batch.get(), nullptr, stages);
-    crowd.expect_equal();
+    packet.evaluate(batch.get(), nullptr, stages);
+    packet.expect_equal();
   }
 }
 
@@ -149,12 +149,12 @@ TEST(Batch, AnySplitGivesTheSameBits) {
       }};
   for (uint32_t tasks : {0, 1, 2, 5, 1000}) {
     for (const MienParallelFor* parallel : {&backwards, &threads}) {
-      Crowd crowd(dna.get(), sized<MienRigDesc>(), 150);
-      const BatchHandle batch = create_batch(crowd.rig, 150, tasks);
+      InstancePacket packet(dna.get(), sized<MienRigDesc>(), 150);
+      const BatchHandle batch = create_batch(packet.rig, 150, tasks);
       for (int frame = 0; frame < 3; ++frame) {
-        crowd.draw(random, 50, false, info_of(crowd.rig).lod_count);
-        crowd.evaluate(batch.get(), parallel);
-        crowd.expect_equal();
+        packet.draw(random, 50, false, info_of(packet.rig).lod_count);
+        packet.evaluate(batch.get(), parallel);
+        packet.expect_equal();
       }
     }
   }

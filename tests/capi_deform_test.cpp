@@ -14,18 +14,18 @@ class DeformMisuse : public Misuse {
     MienDeformerDesc desc = sized<MienDeformerDesc>();
     desc.allocator = &kept.interface;
     ASSERT_EQ(mien_deformer_create(dna, rig, &desc, &deformer, nullptr), MIEN_OK);
-    MienPoseDesc pose_desc = sized<MienPoseDesc>();
+    MienDeformerInstanceDesc pose_desc = sized<MienDeformerInstanceDesc>();
     pose_desc.allocator = &kept.interface;
-    ASSERT_EQ(mien_pose_create(deformer, &pose_desc, &pose, nullptr), MIEN_OK);
+    ASSERT_EQ(mien_deformer_instance_create(deformer, &pose_desc, &pose, nullptr), MIEN_OK);
   }
   void TearDown() override {
-    mien_pose_destroy(pose);
+    mien_deformer_instance_destroy(pose);
     mien_deformer_destroy(deformer);
     Misuse::TearDown();
   }
 
   MienDeformer* deformer = nullptr;
-  MienPose* pose = nullptr;
+  MienDeformerInstance* pose = nullptr;
 };
 
 struct Influences {
@@ -45,27 +45,32 @@ std::vector<Outcome> calls_on(MienDeformer* deformer) {
   c.plain<MienFloatView>("bind", [&](auto* o) { return mien_deformer_bind_matrices(deformer, o); });
   c.plain<MienFloatView>("inverse_bind",
                          [&](auto* o) { return mien_deformer_inverse_bind_matrices(deformer, o); });
-  c.with_error<MienPose*>("pose_create", [&](auto* o, auto* e) {
-    const MienStatus status = mien_pose_create(deformer, nullptr, o, e);
-    mien_pose_destroy(*o);
+  c.with_error<MienDeformerInstance*>("pose_create", [&](auto* o, auto* e) {
+    const MienStatus status = mien_deformer_instance_create(deformer, nullptr, o, e);
+    mien_deformer_instance_destroy(*o);
     return status;
   });
   return c.outcomes;
 }
 
-std::vector<Outcome> calls_on(MienPose* pose, const MienInstance* instance) {
+std::vector<Outcome> calls_on(MienDeformerInstance* pose, const MienInstance* instance) {
   using Floats = MienFloatView;
   float locals[30];
   Caller c;
-  c.nothing("update", [&] { return mien_pose_update(pose, instance); });
-  c.nothing("values", [&] { return mien_pose_update_from_values(pose, nullptr, 0, nullptr, 0); });
-  c.plain<Floats>("joints", [&](auto* o) { return mien_pose_joint_matrices(pose, o); });
-  c.plain<Floats>("skins", [&](auto* o) { return mien_pose_skin_matrices(pose, o); });
-  c.nothing("locals", [&] { return mien_pose_local_transforms(pose, locals, 30); });
-  c.nothing("deform", [&] { return mien_pose_deform(pose, 0, MIEN_NORMALS_DEFAULT, nullptr); });
-  c.nothing("batch", [&] { return mien_pose_deform_batch(&pose, 1, 0, 0, nullptr); });
-  c.plain<Floats>("positions", [&](auto* o) { return mien_pose_positions(pose, 0, o); });
-  c.plain<Floats>("normals", [&](auto* o) { return mien_pose_normals(pose, 0, o); });
+  c.nothing("update", [&] { return mien_deformer_instance_update(pose, instance); });
+  c.nothing("values", [&] {
+    return mien_deformer_instance_update_from_values(pose, nullptr, 0, nullptr, 0);
+  });
+  c.plain<Floats>("joints",
+                  [&](auto* o) { return mien_deformer_instance_joint_matrices(pose, o); });
+  c.plain<Floats>("skins", [&](auto* o) { return mien_deformer_instance_skin_matrices(pose, o); });
+  c.nothing("locals", [&] { return mien_deformer_instance_local_transforms(pose, locals, 30); });
+  c.nothing("deform",
+            [&] { return mien_deformer_instance_deform(pose, 0, MIEN_NORMALS_DEFAULT, nullptr); });
+  c.nothing("batch", [&] { return mien_deformer_instance_deform_batch(&pose, 1, 0, 0, nullptr); });
+  c.plain<Floats>("positions",
+                  [&](auto* o) { return mien_deformer_instance_positions(pose, 0, o); });
+  c.plain<Floats>("normals", [&](auto* o) { return mien_deformer_instance_normals(pose, 0, o); });
   return c.outcomes;
 }
 
@@ -76,10 +81,11 @@ TEST_F(DeformMisuse, LiveHandlesAreAccepted) {
 
 TEST_F(DeformMisuse, NullIsNoHandle) {
   expect_all(calls_on(static_cast<MienDeformer*>(nullptr)), MIEN_ERROR_NULL_ARGUMENT);
-  expect_all(calls_on(static_cast<MienPose*>(nullptr), instance), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_pose_update(pose, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  expect_all(calls_on(static_cast<MienDeformerInstance*>(nullptr), instance),
+             MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_deformer_instance_update(pose, nullptr), MIEN_ERROR_NULL_ARGUMENT);
   mien_deformer_destroy(nullptr);
-  mien_pose_destroy(nullptr);
+  mien_deformer_instance_destroy(nullptr);
 }
 
 TEST_F(DeformMisuse, HandlesOfAnotherKindAreRefused) {
@@ -93,11 +99,12 @@ TEST_F(DeformMisuse, HandlesOfAnotherKindAreRefused) {
       mien_deformer_destroy(static_cast<MienDeformer*>(wrong));
     }
     if (wrong != pose) {
-      expect_all(calls_on(static_cast<MienPose*>(wrong), instance), MIEN_ERROR_HANDLE);
-      mien_pose_destroy(static_cast<MienPose*>(wrong));
+      expect_all(calls_on(static_cast<MienDeformerInstance*>(wrong), instance), MIEN_ERROR_HANDLE);
+      mien_deformer_instance_destroy(static_cast<MienDeformerInstance*>(wrong));
     }
     if (wrong != instance) {
-      EXPECT_EQ(mien_pose_update(pose, static_cast<MienInstance*>(wrong)), MIEN_ERROR_HANDLE);
+      EXPECT_EQ(mien_deformer_instance_update(pose, static_cast<MienInstance*>(wrong)),
+                MIEN_ERROR_HANDLE);
     }
     MienDeformer* made = nullptr;
     if (wrong != dna) {
@@ -117,10 +124,10 @@ TEST_F(DeformMisuse, DestroyedHandlesAreRefused) {
   expect_all(calls_on(gone), MIEN_ERROR_HANDLE);
   // The pose keeps what it needs.
   expect_all(calls_on(pose, instance), MIEN_OK);
-  MienPose* const gone_pose = pose;
-  mien_pose_destroy(pose);
+  MienDeformerInstance* const gone_pose = pose;
+  mien_deformer_instance_destroy(pose);
   expect_all(calls_on(gone_pose, instance), MIEN_ERROR_HANDLE);
-  mien_pose_destroy(gone_pose);
+  mien_deformer_instance_destroy(gone_pose);
   mien_deformer_destroy(gone);
 }
 
@@ -135,10 +142,10 @@ TEST_F(DeformMisuse, IndicesPastTheEnd) {
             MIEN_ERROR_INDEX);
   EXPECT_EQ(mien_deformer_target(deformer, 1, 0, deltas, 18), MIEN_ERROR_INDEX);
   EXPECT_EQ(mien_deformer_target(deformer, 0, 1, deltas, 18), MIEN_ERROR_INDEX);
-  EXPECT_EQ(mien_pose_deform(pose, 1, 0, nullptr), MIEN_ERROR_INDEX);
+  EXPECT_EQ(mien_deformer_instance_deform(pose, 1, 0, nullptr), MIEN_ERROR_INDEX);
   MienFloatView view = {};
-  EXPECT_EQ(mien_pose_positions(pose, 1, &view), MIEN_ERROR_INDEX);
-  EXPECT_EQ(mien_pose_normals(pose, ~0u, &view), MIEN_ERROR_INDEX);
+  EXPECT_EQ(mien_deformer_instance_positions(pose, 1, &view), MIEN_ERROR_INDEX);
+  EXPECT_EQ(mien_deformer_instance_normals(pose, ~0u, &view), MIEN_ERROR_INDEX);
 }
 
 TEST_F(DeformMisuse, OutputsThatAreNotThere) {
@@ -152,23 +159,26 @@ TEST_F(DeformMisuse, OutputsThatAreNotThere) {
   EXPECT_EQ(mien_deformer_target(deformer, 0, 0, nullptr, 18), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(mien_deformer_bind_matrices(deformer, nullptr), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(mien_deformer_inverse_bind_matrices(deformer, nullptr), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_pose_create(deformer, nullptr, nullptr, nullptr), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_pose_joint_matrices(pose, nullptr), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_pose_skin_matrices(pose, nullptr), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_pose_local_transforms(pose, nullptr, 30), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_pose_positions(pose, 0, nullptr), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_pose_normals(pose, 0, nullptr), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_pose_deform_batch(nullptr, 1, 0, 0, nullptr), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_pose_deform_batch(nullptr, 0, 0, 0, nullptr), MIEN_OK);
+  EXPECT_EQ(mien_deformer_instance_create(deformer, nullptr, nullptr, nullptr),
+            MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_deformer_instance_joint_matrices(pose, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_deformer_instance_skin_matrices(pose, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_deformer_instance_local_transforms(pose, nullptr, 30), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_deformer_instance_positions(pose, 0, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_deformer_instance_normals(pose, 0, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_deformer_instance_deform_batch(nullptr, 1, 0, 0, nullptr),
+            MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_deformer_instance_deform_batch(nullptr, 0, 0, 0, nullptr), MIEN_OK);
 }
 
 TEST_F(DeformMisuse, BuffersOfTheWrongSize) {
   float floats[64] = {};
   EXPECT_EQ(mien_deformer_target(deformer, 0, 0, floats, 17), MIEN_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(mien_pose_local_transforms(pose, floats, 29), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(mien_deformer_instance_local_transforms(pose, floats, 29), MIEN_ERROR_INVALID_ARGUMENT);
   const auto update = [&](const float* joints, size_t joint_count, const float* weights,
                           size_t weight_count) {
-    return mien_pose_update_from_values(pose, joints, joint_count, weights, weight_count);
+    return mien_deformer_instance_update_from_values(pose, joints, joint_count, weights,
+                                                     weight_count);
   };
   EXPECT_EQ(update(floats, 27, floats, 2), MIEN_OK);
   EXPECT_EQ(update(floats, 27, nullptr, 0), MIEN_OK);
@@ -218,16 +228,19 @@ TEST_F(DeformMisuse, DescriptionsThatAreNone) {
   longer.tail[3] = 1;
   EXPECT_EQ(mien_deformer_create(dna, rig, &longer.known, &made, nullptr), MIEN_ERROR_STRUCT_SIZE);
 
-  MienPose* posed = nullptr;
-  MienPoseDesc desc = sized<MienPoseDesc>();
+  MienDeformerInstance* posed = nullptr;
+  MienDeformerInstanceDesc desc = sized<MienDeformerInstanceDesc>();
   desc.reserved = 1;
-  EXPECT_EQ(mien_pose_create(deformer, &desc, &posed, nullptr), MIEN_ERROR_INVALID_ARGUMENT);
-  desc = sized<MienPoseDesc>();
+  EXPECT_EQ(mien_deformer_instance_create(deformer, &desc, &posed, nullptr),
+            MIEN_ERROR_INVALID_ARGUMENT);
+  desc = sized<MienDeformerInstanceDesc>();
   desc.struct_size = 8;
-  EXPECT_EQ(mien_pose_create(deformer, &desc, &posed, nullptr), MIEN_ERROR_STRUCT_SIZE);
-  desc = sized<MienPoseDesc>();
+  EXPECT_EQ(mien_deformer_instance_create(deformer, &desc, &posed, nullptr),
+            MIEN_ERROR_STRUCT_SIZE);
+  desc = sized<MienDeformerInstanceDesc>();
   desc.allocator = &half;
-  EXPECT_EQ(mien_pose_create(deformer, &desc, &posed, nullptr), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(mien_deformer_instance_create(deformer, &desc, &posed, nullptr),
+            MIEN_ERROR_INVALID_ARGUMENT);
 }
 
 TEST_F(DeformMisuse, LongerOutputsAreClearedBehindWhatIsKnown) {
@@ -245,23 +258,24 @@ TEST_F(DeformMisuse, LongerOutputsAreClearedBehindWhatIsKnown) {
 }
 
 TEST_F(DeformMisuse, NormalsAndThreadsThatAreNone) {
-  EXPECT_EQ(mien_pose_deform(pose, 0, 4, nullptr), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(mien_deformer_instance_deform(pose, 0, 4, nullptr), MIEN_ERROR_INVALID_ARGUMENT);
   const MienParallelFor nobody = {nullptr, nullptr};
-  EXPECT_EQ(mien_pose_deform(pose, 0, 0, &nobody), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(mien_deformer_instance_deform(pose, 0, 0, &nobody), MIEN_ERROR_INVALID_ARGUMENT);
 }
 
 TEST_F(DeformMisuse, InstancesOfAnotherRig) {
   const Character other(create_rig(dna));
-  EXPECT_EQ(mien_pose_update(pose, other.instance.get()), MIEN_ERROR_MISMATCH);
+  EXPECT_EQ(mien_deformer_instance_update(pose, other.instance.get()), MIEN_ERROR_MISMATCH);
 }
 
 TEST_F(DeformMisuse, BatchesThatDoNotFit) {
   const DeformerHandle other = create_deformer(dna, rig);
-  const PoseHandle stranger = create_pose(other.get()), second = create_pose(deformer);
+  const PoseHandle stranger = create_deformer_instance(other.get()),
+                   second = create_deformer_instance(deformer);
   float moved[27] = {0, 5};
-  mien_pose_update_from_values(second.get(), moved, 27, nullptr, 0);
-  const auto deform = [&](std::vector<MienPose*> poses) {
-    return mien_pose_deform_batch(poses.data(), poses.size(), 0, 0, nullptr);
+  mien_deformer_instance_update_from_values(second.get(), moved, 27, nullptr, 0);
+  const auto deform = [&](std::vector<MienDeformerInstance*> poses) {
+    return mien_deformer_instance_deform_batch(poses.data(), poses.size(), 0, 0, nullptr);
   };
   const std::vector<float> before(Deformed::positions(second.get(), 0).begin(),
                                   Deformed::positions(second.get(), 0).end());
@@ -290,21 +304,22 @@ TEST(CapiDeform, RoomForSomeLods) {
   CountingAllocator counter;
   const MienAllocator allocator = counter.get();
   for (uint64_t lods : {uint64_t{0}, uint64_t{1}, uint64_t{6}, uint64_t{1} << 63}) {
-    MienPoseDesc desc = sized<MienPoseDesc>();
+    MienDeformerInstanceDesc desc = sized<MienDeformerInstanceDesc>();
     desc.lods = lods;
     desc.allocator = &allocator;
-    MienPose* pose = nullptr;
-    ASSERT_EQ(mien_pose_create(deformer.get(), &desc, &pose, nullptr), MIEN_OK);
+    MienDeformerInstance* pose = nullptr;
+    ASSERT_EQ(mien_deformer_instance_create(deformer.get(), &desc, &pose, nullptr), MIEN_OK);
     EXPECT_EQ(counter.live, 1u);
     EXPECT_EQ(counter.bytes == info.pose_bytes, lods == 0);
     for (uint32_t m = 0; m < info.mesh_count; ++m) {
       const bool room = lods == 0 || (mesh_of(deformer.get(), m).lods & lods);
       MienFloatView view = {};
-      EXPECT_EQ(mien_pose_deform(pose, m, 0, nullptr), room ? MIEN_OK : MIEN_ERROR_LOD);
-      EXPECT_EQ(mien_pose_positions(pose, m, &view), room ? MIEN_OK : MIEN_ERROR_LOD);
-      EXPECT_EQ(mien_pose_normals(pose, m, &view), room ? MIEN_OK : MIEN_ERROR_LOD);
+      EXPECT_EQ(mien_deformer_instance_deform(pose, m, 0, nullptr),
+                room ? MIEN_OK : MIEN_ERROR_LOD);
+      EXPECT_EQ(mien_deformer_instance_positions(pose, m, &view), room ? MIEN_OK : MIEN_ERROR_LOD);
+      EXPECT_EQ(mien_deformer_instance_normals(pose, m, &view), room ? MIEN_OK : MIEN_ERROR_LOD);
     }
-    mien_pose_destroy(pose);
+    mien_deformer_instance_destroy(pose);
     EXPECT_TRUE(counter.clean());
   }
 }
@@ -327,10 +342,10 @@ TEST(CapiDeform, TheOrderOfDestructionDoesNotMatter) {
     MienDeformer* deformer = nullptr;
     ASSERT_EQ(mien_deformer_create(dna, rig, &deformer_desc, &deformer, nullptr), MIEN_OK);
     mien_dna_close(dna);
-    MienPoseDesc pose_desc = sized<MienPoseDesc>();
+    MienDeformerInstanceDesc pose_desc = sized<MienDeformerInstanceDesc>();
     pose_desc.allocator = &allocator;
-    MienPose* pose = nullptr;
-    ASSERT_EQ(mien_pose_create(deformer, &pose_desc, &pose, nullptr), MIEN_OK);
+    MienDeformerInstance* pose = nullptr;
+    ASSERT_EQ(mien_deformer_instance_create(deformer, &pose_desc, &pose, nullptr), MIEN_OK);
     for (int step = 0; step < 3; ++step) {
       static constexpr int kOrders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2},
                                             {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
@@ -338,9 +353,10 @@ TEST(CapiDeform, TheOrderOfDestructionDoesNotMatter) {
         case 0: mien_rig_destroy(rig); break;
         case 1: mien_deformer_destroy(deformer); break;
         case 2:
-          EXPECT_EQ(mien_pose_update_from_values(pose, nullptr, 0, nullptr, 0), MIEN_OK);
-          EXPECT_EQ(mien_pose_deform(pose, 0, 0, nullptr), MIEN_OK);
-          mien_pose_destroy(pose);
+          EXPECT_EQ(mien_deformer_instance_update_from_values(pose, nullptr, 0, nullptr, 0),
+                    MIEN_OK);
+          EXPECT_EQ(mien_deformer_instance_deform(pose, 0, 0, nullptr), MIEN_OK);
+          mien_deformer_instance_destroy(pose);
           break;
       }
     }

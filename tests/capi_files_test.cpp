@@ -160,18 +160,18 @@ double rig_bytes_per_stored_byte(const Bytes& file) {
 
 // rig bytes <= 1.1 * (1.1 * values of the stored pieces): a tenth for their block numbers and the
 // tables of columns, and a tenth of it all for tables, correctives, names and the neutral pose.
-constexpr double kMostPerStoredByte = 1.1 * 1.1;
+constexpr double kMaxPerStoredByte = 1.1 * 1.1;
 
 TEST_F(Files, ALargeRigIsLittleMoreThanItsMatrix) {
   EXPECT_LE(rig_bytes_per_stored_byte(write_dna(generate_dna(MIEN_PRESET_LARGE, 1).get())),
-            kMostPerStoredByte);
+            kMaxPerStoredByte);
 }
 
 TEST_F(Files, AHeadIsLittleMoreThanItsMatrix) {
   const std::string shared = golden::shared_folder();
   if (shared.empty()) GTEST_SKIP() << golden::no_golden_files("the memory of a head");
   const Bytes file = golden::read_bytes(shared + "/golden/head.dna");
-  EXPECT_LE(rig_bytes_per_stored_byte(file), kMostPerStoredByte);
+  EXPECT_LE(rig_bytes_per_stored_byte(file), kMaxPerStoredByte);
   EXPECT_LE(info_of(create_rig(open_dna(file).get())).instance_bytes, 40u * 1024);
 }
 

@@ -537,7 +537,7 @@ static void test_deformer(const MienDna* dna, const MienRig* rig) {
   MienDeformerInfo info;
   MienMesh mesh;
   MienDeformer* deformer = NULL;
-  MienPose *pose = NULL, *other = NULL, *both[2];
+  MienDeformerInstance *pose = NULL, *other = NULL, *both[2];
   MienInstance* instance = NULL;
   MienMutableFloatView raw;
   MienFloatView before, after, matrices, weights;
@@ -554,17 +554,17 @@ static void test_deformer(const MienDna* dna, const MienRig* rig) {
   CHECK_OK(mien_deformer_info(deformer, &info));
   CHECK(info.mesh_count > 0 && info.weights == MIEN_WEIGHTS_FIX);
   CHECK(info.normals == MIEN_NORMALS_RECOMPUTED && info.pose_bytes > 0);
-  CHECK_OK(mien_pose_create(deformer, NULL, &pose, NULL));
-  CHECK_OK(mien_pose_create(deformer, NULL, &other, NULL));
+  CHECK_OK(mien_deformer_instance_create(deformer, NULL, &pose, NULL));
+  CHECK_OK(mien_deformer_instance_create(deformer, NULL, &other, NULL));
   CHECK_OK(mien_instance_create(rig, NULL, &instance, NULL));
   CHECK_OK(mien_instance_raw_controls(instance, &raw));
   fill(raw, 0.5f);
   CHECK_OK(mien_rig_evaluate(rig, instance, 0));
-  CHECK_OK(mien_pose_update(pose, instance));
-  CHECK_OK(mien_pose_update(other, instance));
-  CHECK_OK(mien_pose_joint_matrices(pose, &matrices));
+  CHECK_OK(mien_deformer_instance_update(pose, instance));
+  CHECK_OK(mien_deformer_instance_update(other, instance));
+  CHECK_OK(mien_deformer_instance_joint_matrices(pose, &matrices));
   CHECK(matrices.count == 16 * (size_t)info.joint_count && matrices.data[15] == 1);
-  CHECK_OK(mien_pose_skin_matrices(pose, &matrices));
+  CHECK_OK(mien_deformer_instance_skin_matrices(pose, &matrices));
   CHECK_OK(mien_deformer_bind_matrices(deformer, &matrices));
   CHECK_OK(mien_deformer_inverse_bind_matrices(deformer, &matrices));
 
@@ -574,23 +574,23 @@ static void test_deformer(const MienDna* dna, const MienRig* rig) {
     PREPARE(mesh);
     CHECK_OK(mien_deformer_mesh(deformer, m, &mesh));
     CHECK_OK(mien_deformer_influences(deformer, m, 0, &joints, &weights));
-    CHECK(joints.count == weights.count && joints.count <= mesh.most_influences);
-    CHECK_OK(mien_pose_deform_batch(both, 2, m, MIEN_NORMALS_SKINNED, &parallel));
-    CHECK_OK(mien_pose_deform(pose, m, MIEN_NORMALS_DEFAULT, NULL));
-    CHECK_OK(mien_pose_normals(pose, m, &after));
+    CHECK(joints.count == weights.count && joints.count <= mesh.max_influences);
+    CHECK_OK(mien_deformer_instance_deform_batch(both, 2, m, MIEN_NORMALS_SKINNED, &parallel));
+    CHECK_OK(mien_deformer_instance_deform(pose, m, MIEN_NORMALS_DEFAULT, NULL));
+    CHECK_OK(mien_deformer_instance_normals(pose, m, &after));
     CHECK(after.count == mesh.normals.count);
-    CHECK_OK(mien_pose_positions(pose, m, &before));
-    CHECK_OK(mien_pose_positions(other, m, &after));
+    CHECK_OK(mien_deformer_instance_positions(pose, m, &before));
+    CHECK_OK(mien_deformer_instance_positions(other, m, &after));
     CHECK(before.count == mesh.positions.count && after.count == before.count);
     CHECK(memcmp(before.data, after.data, before.count * sizeof(float)) == 0);
     for (i = 0; i < before.count; ++i) moved += before.data[i] != mesh.positions.data[i];
   }
   CHECK(moved > 0);
   mien_deformer_destroy(deformer);
-  CHECK_OK(mien_pose_update_from_values(pose, NULL, 0, NULL, 0));
-  CHECK_OK(mien_pose_deform(pose, 0, MIEN_NORMALS_NONE, NULL));
-  mien_pose_destroy(pose);
-  mien_pose_destroy(other);
+  CHECK_OK(mien_deformer_instance_update_from_values(pose, NULL, 0, NULL, 0));
+  CHECK_OK(mien_deformer_instance_deform(pose, 0, MIEN_NORMALS_NONE, NULL));
+  mien_deformer_instance_destroy(pose);
+  mien_deformer_instance_destroy(other);
   mien_instance_destroy(instance);
 }
 

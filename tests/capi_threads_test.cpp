@@ -210,10 +210,10 @@ TEST(CapiThreads, PosesOfOneDeformerDoNotDisturbEachOther) {
   const RigHandle rig = create_rig(dna.get());
   DeformerHandle deformer = create_deformer(dna.get(), rig.get());
   std::vector<std::vector<float>> expected(kThreads), found(kThreads);
-  const auto play = [&](int seed, MienPose* pose, std::vector<float>& results) {
+  const auto play = [&](int seed, MienDeformerInstance* pose, std::vector<float>& results) {
     const DeformValues values = random_values(rig.get(), static_cast<uint32_t>(seed));
     Deformed::update(pose, values);
-    EXPECT_EQ(mien_pose_deform(pose, 0, MIEN_NORMALS_RECOMPUTED, nullptr), MIEN_OK);
+    EXPECT_EQ(mien_deformer_instance_deform(pose, 0, MIEN_NORMALS_RECOMPUTED, nullptr), MIEN_OK);
     for (const Span<const float>& part :
          {Deformed::positions(pose, 0), Deformed::normals(pose, 0)}) {
       results.insert(results.end(), part.begin(), part.end());
@@ -221,8 +221,8 @@ TEST(CapiThreads, PosesOfOneDeformerDoNotDisturbEachOther) {
   };
   std::vector<PoseHandle> poses;
   for (int t = 0; t < kThreads; ++t) {
-    play(t, create_pose(deformer.get()).get(), expected[static_cast<size_t>(t)]);
-    poses.push_back(create_pose(deformer.get()));
+    play(t, create_deformer_instance(deformer.get()).get(), expected[static_cast<size_t>(t)]);
+    poses.push_back(create_deformer_instance(deformer.get()));
   }
   on_threads(kThreads, [&](int t) {
     if (t == 0) deformer.reset();
@@ -250,7 +250,7 @@ TEST(CapiThreads, TasksOfADeformationDoNotMeet) {
   const MienParallelFor parallel = {nullptr, run};
   Deformed::update(d.pose.get(), random_values(d.rig.get(), 1));
   for (uint32_t normals : {MIEN_NORMALS_SKINNED, MIEN_NORMALS_RECOMPUTED}) {
-    EXPECT_EQ(mien_pose_deform(d.pose.get(), 0, normals, &parallel), MIEN_OK);
+    EXPECT_EQ(mien_deformer_instance_deform(d.pose.get(), 0, normals, &parallel), MIEN_OK);
   }
 }
 

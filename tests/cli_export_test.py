@@ -241,7 +241,7 @@ class Deformation(ExportTest):
         self.assertLess(self.worst(glb, self.obj(rig, "--set", gui + "=0.7"), frame=0), 3e-6)
 
     def test_units_and_axes(self):
-        """Whatever the axes are called, the deformed shape is the deformer's, in metres, and its
+        """Whatever the axes are called, the deformed shape is the deformer's, in meters, and its
         triangles face outwards."""
         left, right, up, down, front, back = range(6)
         rig = path("tiny.dna")
@@ -410,7 +410,7 @@ class Contents(ExportTest):
         self.assertFalse(any("COLOR_0" in m["primitives"][0]["attributes"] for m in others))
         for value in (b"", b"AAA", b"AAAA", b"!" * len(metadata[0][1]), metadata[0][1] + b"AAAA"):
             dna = write("colored.dna", with_descriptor(read("tiny.dna"), metadata=[(metadata[0][0], value)]))
-            self.fails(INVALID, "export", dna, "-o", path("x.glb"), says=("colours", name))
+            self.fails(INVALID, "export", dna, "-o", path("x.glb"), says=("colors", name))
 
     def test_obj_keeps_quads(self):
         obj = self.obj(path("small.dna"))
@@ -520,7 +520,7 @@ class Baking(ExportTest):
 
 
 class ProceduralHead(ExportTest):
-    """Its controls are the ARKit expressions, its vertices have colours."""
+    """Its controls are the ARKit expressions, its vertices have colors."""
 
     @classmethod
     def setUpClass(cls):

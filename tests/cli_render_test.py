@@ -231,8 +231,8 @@ class Render(RenderTest):
         self.fails(USAGE, *no, "--background", "blue", says="--background")
 
     def test_colours_of_the_file(self):
-        colours = self.with_colours("head_lod0_mesh", lambda n: bytes([20, 40, 220]) * n)
-        blue = Picture(self.ok("render", colours, "-o", "-", "--size", "64").stdout).at(32, 30)
+        colors = self.with_colours("head_lod0_mesh", lambda n: bytes([20, 40, 220]) * n)
+        blue = Picture(self.ok("render", colors, "-o", "-", "--size", "64").stdout).at(32, 30)
         self.assertGreater(blue[2], blue[0] + 60)
         # What does not fit is not used, and said.
         plain = self.ok("render", path("tiny.dna"), "-o", "-", "--size", "64").stdout
@@ -267,7 +267,7 @@ class Render(RenderTest):
             layer[2] += len(added) if layer[2] > desc[2] else 0
         desc[3] += len(added)
         head = data[:11] + b"".join(struct.pack(">4sIII", *layer) for layer in table)
-        return write("coloured.dna", head + data[len(head):at] + struct.pack(">I", pairs + 1) + added +
+        return write("colored.dna", head + data[len(head):at] + struct.pack(">I", pairs + 1) + added +
                      data[at + 4:])
 
     def test_output(self):
@@ -460,10 +460,10 @@ class Inspect(RenderTest):
         self.assertGreater(head["moved"], 0)
         self.assertLess(head["moved"], head["positions"])
         for k in range(3):
-            self.assertLessEqual(head["box_least"][k], head["centre"][k])
-            self.assertLessEqual(head["centre"][k], head["box_most"][k])
+            self.assertLessEqual(head["box_least"][k], head["center"][k])
+            self.assertLessEqual(head["center"][k], head["box_most"][k])
         # x points to the left of the character.
-        self.assertGreater(head["centre"][0], right["meshes"][0]["centre"][0])
+        self.assertGreater(head["center"][0], right["meshes"][0]["center"][0])
         still = self.inspect("tiny", "mouthCornerPullL", "--value", "0")
         self.assertEqual(still["joints"], [])
         self.assertEqual([m["moved"] for m in still["meshes"]], [0] * len(still["meshes"]))

@@ -571,7 +571,7 @@ class Systems(CliTest):
         frames = json.dumps({"frames": [frame]}).encode()
         turned = self.json("eval", path("small.dna"), "--input", "-", "--quiet", "--lod", "0",
                            "--system", "blender", stdin=frames)["frames"][0]["lods"][0]["joints"]
-        for at in range(0, len(plain), 9):  # x left, y back, z up, in metres
+        for at in range(0, len(plain), 9):  # x left, y back, z up, in meters
             expected = (plain[at] / 100, -plain[at + 2] / 100, plain[at + 1] / 100)
             for k in range(3):
                 self.assertAlmostEqual(turned[at + k], expected[k], delta=1e-6)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Packing: what is told of a mesh is what the file says, and what cannot be packed is refused with
 // its place.
-#include "runtime/deform/compile_deformer.h"
+#include "runtime/compile/compile_deformer.h"
 
 #include <cmath>
 
@@ -58,7 +58,7 @@ TEST(CompileDeformer, TellsTheMeshAsTheFileHasIt) {
       ASSERT_EQ(mesh.positions.count, mesh.position_count * 3);
       ASSERT_EQ(mesh.normals.count, mesh.vertex_count * 3);
       ASSERT_EQ(mesh.texture_coordinates.count, mesh.vertex_count * 2);
-      ASSERT_EQ(mesh.vertex_positions.count, mesh.vertex_count);
+      ASSERT_EQ(mesh.vertex_position_indices.count, mesh.vertex_count);
       ASSERT_EQ(mesh.triangles.count, mesh.triangle_count * 3);
       EXPECT_EQ(mesh.lods, 1u);
       for (uint32_t p = 0; p < mesh.position_count; ++p) {
@@ -67,7 +67,7 @@ TEST(CompileDeformer, TellsTheMeshAsTheFileHasIt) {
         EXPECT_EQ(mesh.positions.data[p * 3 + 2], source.positions.zs[p]);
       }
       for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
-        EXPECT_EQ(mesh.vertex_positions.data[v], source.layouts.positions[v]);
+        EXPECT_EQ(mesh.vertex_position_indices.data[v], source.layouts.positions[v]);
         const uint32_t uv = source.layouts.texture_coordinates[v];
         EXPECT_EQ(mesh.texture_coordinates.data[v * 2], source.texture_coordinates.us[uv]);
         EXPECT_EQ(mesh.texture_coordinates.data[v * 2 + 1], source.texture_coordinates.vs[uv]);
@@ -108,7 +108,7 @@ TEST(CompileDeformer, TellsInfluencesWithoutThoseOfNoWeight) {
     EXPECT_EQ(at, weights.count);
     most = std::max(most, static_cast<uint32_t>(at));
   }
-  EXPECT_EQ(mesh_of(d.deformer.get(), 0).most_influences, most);
+  EXPECT_EQ(mesh_of(d.deformer.get(), 0).max_influences, most);
 }
 
 TEST(CompileDeformer, TellsTargets) {
@@ -155,7 +155,7 @@ TEST(CompileDeformer, TellsWhichLodsShowAMesh) {
   }
 }
 
-// Neighbours in the order of work need the same code, then the same matrix.
+// Neighbors in the order of work need the same code, then the same matrix.
 TEST(CompileDeformer, PlacesAreInRunsOfEqualInfluences) {
   Deformed d(random_deform_rig(1, {}));
   const DeformMesh& mesh = capi::object(d.deformer.get())->meshes[0];
@@ -194,11 +194,11 @@ TEST(CompileDeformer, MeshesMayLackAnything) {
       }
     });
     const DeformerHandle deformer = create_deformer(changed.dna.get(), changed.rig.get());
-    const PoseHandle pose = create_pose(deformer.get());
+    const PoseHandle pose = create_deformer_instance(deformer.get());
     const DeformValues values = random_values(changed.rig.get(), 1);
     Deformed::update(pose.get(), values);
     for (uint32_t normals : {MIEN_NORMALS_SKINNED, MIEN_NORMALS_RECOMPUTED}) {
-      ASSERT_EQ(mien_pose_deform(pose.get(), 0, normals, nullptr), MIEN_OK);
+      ASSERT_EQ(mien_deformer_instance_deform(pose.get(), 0, normals, nullptr), MIEN_OK);
     }
     const MienMesh mesh = mesh_of(deformer.get(), 0);
     const bool empty = lacking == 0 || lacking == 5;

@@ -65,7 +65,8 @@ TEST(Deform, NeutralIsTheStoredMesh) {
       EXPECT_LE(largest_difference(d.positions(0), stored), 1e-6 * diagonal);
       EXPECT_LE(largest_difference(d.normals(0), normals), 1e-6);
 
-      EXPECT_EQ(mien_pose_update_from_values(d.pose.get(), nullptr, 0, nullptr, 0), MIEN_OK);
+      EXPECT_EQ(mien_deformer_instance_update_from_values(d.pose.get(), nullptr, 0, nullptr, 0),
+                MIEN_OK);
       d.deform(0, MIEN_NORMALS_SKINNED);
       EXPECT_LE(largest_difference(d.positions(0), stored), 1e-6 * diagonal);
     }
@@ -119,17 +120,17 @@ TEST(Deform, JointsOutsideALodFollowTheirParent) {
   const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 3);
   const RigHandle rig = create_rig(dna.get());
   const DeformerHandle deformer = create_deformer(dna.get(), rig.get());
-  const PoseHandle pose = create_pose(deformer.get());
+  const PoseHandle pose = create_deformer_instance(deformer.get());
   Character character(rig);
   for (float& control : character.raw) control = 0.7f;
   const uint32_t last = info_of(rig).lod_count - 1;
   character.evaluate(last);
-  ASSERT_EQ(mien_pose_update(pose.get(), character.instance.get()), MIEN_OK);
+  ASSERT_EQ(mien_deformer_instance_update(pose.get(), character.instance.get()), MIEN_OK);
   MienIndexView listed = {}, parents = {};
   MienFloatView skins = {};
   ASSERT_EQ(mien_rig_lod_indices(rig.get(), MIEN_KIND_JOINT, last, &listed), MIEN_OK);
   ASSERT_EQ(mien_rig_joint_parents(rig.get(), &parents), MIEN_OK);
-  ASSERT_EQ(mien_pose_skin_matrices(pose.get(), &skins), MIEN_OK);
+  ASSERT_EQ(mien_deformer_instance_skin_matrices(pose.get(), &skins), MIEN_OK);
   std::vector<bool> exists(parents.count);
   for (size_t i = 0; i < listed.count; ++i) exists[listed.data[i]] = true;
   size_t followers = 0, movers = 0;
@@ -149,16 +150,18 @@ TEST(Deform, TakesWhatTheInstanceEvaluated) {
   const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 3);
   const RigHandle rig = create_rig(dna.get());
   const DeformerHandle deformer = create_deformer(dna.get(), rig.get());
-  const PoseHandle a = create_pose(deformer.get()), b = create_pose(deformer.get());
+  const PoseHandle a = create_deformer_instance(deformer.get()),
+                   b = create_deformer_instance(deformer.get());
   Character character(rig);
   for (float& control : character.raw) control = 0.4f;
   character.evaluate(0);
-  ASSERT_EQ(mien_pose_update(a.get(), character.instance.get()), MIEN_OK);
-  ASSERT_EQ(mien_pose_update_from_values(b.get(), character.joints.data, character.joints.count,
-                                         character.channels.data, character.channels.count),
+  ASSERT_EQ(mien_deformer_instance_update(a.get(), character.instance.get()), MIEN_OK);
+  ASSERT_EQ(mien_deformer_instance_update_from_values(
+                b.get(), character.joints.data, character.joints.count, character.channels.data,
+                character.channels.count),
             MIEN_OK);
-  for (MienPose* pose : {a.get(), b.get()}) {
-    ASSERT_EQ(mien_pose_deform(pose, 0, MIEN_NORMALS_DEFAULT, nullptr), MIEN_OK);
+  for (MienDeformerInstance* pose : {a.get(), b.get()}) {
+    ASSERT_EQ(mien_deformer_instance_deform(pose, 0, MIEN_NORMALS_DEFAULT, nullptr), MIEN_OK);
   }
   EXPECT_TRUE(same_bits(Deformed::positions(a.get(), 0), Deformed::positions(b.get(), 0)));
   const PlainDeformer plain = {dna->view};
@@ -230,9 +233,9 @@ TEST(Deform, TargetsOfOneChannelAddUp) {
 TEST(Deform, AnyNumberOfInfluences) {
   DeformRigOptions options;
   options.joints = 60;
-  options.least_influences = options.most_influences = 40;
+  options.least_influences = options.max_influences = 40;
   Deformed d(random_deform_rig(2, options));
-  EXPECT_GE(mesh_of(d.deformer.get(), 0).most_influences, 40u);
+  EXPECT_GE(mesh_of(d.deformer.get(), 0).max_influences, 40u);
   const PlainDeformer plain = {d.dna->view};
   const DeformValues values = random_values(d.rig.get(), 6);
   d.update(values);
@@ -251,7 +254,7 @@ TEST(Deform, PositionsWithoutInfluencesStayWhereTargetsPutThem) {
       for (auto& weights : skin) weights = {be<float>(arena, {0, 0}), be<uint16_t>(arena, {0, 1})};
     });
     Deformed d(file);
-    EXPECT_EQ(mesh_of(d.deformer.get(), 0).most_influences, 0u);
+    EXPECT_EQ(mesh_of(d.deformer.get(), 0).max_influences, 0u);
     DeformValues values = no_values(d.rig.get());
     turn(values, 0, 40, 0, 0);
     values.channels[0] = 1;
@@ -338,7 +341,7 @@ TEST(Deform, UniformScaleNeedsNoCofactors) {
     for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
       MienIndexView joints = {};
       MienFloatView weights = {};
-      mien_deformer_influences(d.deformer.get(), 0, mesh.vertex_positions.data[v], &joints,
+      mien_deformer_influences(d.deformer.get(), 0, mesh.vertex_position_indices.data[v], &joints,
                                &weights);
       if (joints.count != 1) continue;
       ++compared;
@@ -453,14 +456,14 @@ DeformRigOptions large_mesh() {
 TEST(Deform, ThreadsGiveTheSameBits) {
   const std::vector<uint8_t> file = random_deform_rig(2, large_mesh());
   Deformed d(file);
-  const PoseHandle other = create_pose(d.deformer.get());
+  const PoseHandle other = create_deformer_instance(d.deformer.get());
   const DeformValues values = random_values(d.rig.get(), 2);
   d.update(values);
   Deformed::update(other.get(), values);
   for (uint32_t normals : {MIEN_NORMALS_NONE, MIEN_NORMALS_SKINNED, MIEN_NORMALS_RECOMPUTED}) {
     Threads threads;
     d.deform(0, normals);
-    ASSERT_EQ(mien_pose_deform(other.get(), 0, normals, &threads.interface), MIEN_OK);
+    ASSERT_EQ(mien_deformer_instance_deform(other.get(), 0, normals, &threads.interface), MIEN_OK);
     EXPECT_TRUE(same_bits(d.positions(0), Deformed::positions(other.get(), 0)));
     EXPECT_TRUE(same_bits(d.normals(0), Deformed::normals(other.get(), 0)));
     EXPECT_EQ(threads.calls, normals == MIEN_NORMALS_RECOMPUTED ? 3u : 1u);
@@ -471,7 +474,9 @@ TEST(Deform, ThreadsGiveTheSameBits) {
 TEST(Deform, SmallMeshesStayOnTheThread) {
   Deformed d(random_deform_rig(2, {}));
   Threads threads;
-  ASSERT_EQ(mien_pose_deform(d.pose.get(), 0, MIEN_NORMALS_DEFAULT, &threads.interface), MIEN_OK);
+  ASSERT_EQ(
+      mien_deformer_instance_deform(d.pose.get(), 0, MIEN_NORMALS_DEFAULT, &threads.interface),
+      MIEN_OK);
   EXPECT_EQ(threads.calls, 0u);
 }
 
@@ -482,11 +487,11 @@ TEST(Deform, ABatchGivesTheSameBits) {
   const std::vector<uint8_t> file = random_deform_rig(6, options);
   Deformed d(file);
   std::vector<PoseHandle> alone, together;
-  std::vector<MienPose*> batch;
+  std::vector<MienDeformerInstance*> batch;
   for (uint32_t i = 0; i < 11; ++i) {
     const DeformValues values = random_values(d.rig.get(), i, i % 2 ? 0.1 : 0);
-    alone.push_back(create_pose(d.deformer.get()));
-    together.push_back(create_pose(d.deformer.get()));
+    alone.push_back(create_deformer_instance(d.deformer.get()));
+    together.push_back(create_deformer_instance(d.deformer.get()));
     Deformed::update(alone.back().get(), values);
     Deformed::update(together.back().get(), values);
     batch.push_back(together.back().get());
@@ -495,10 +500,10 @@ TEST(Deform, ABatchGivesTheSameBits) {
     for (bool with_threads : {false, true}) {
       Threads threads;
       for (PoseHandle& pose : alone) {
-        ASSERT_EQ(mien_pose_deform(pose.get(), 1, normals, nullptr), MIEN_OK);
+        ASSERT_EQ(mien_deformer_instance_deform(pose.get(), 1, normals, nullptr), MIEN_OK);
       }
-      ASSERT_EQ(mien_pose_deform_batch(batch.data(), batch.size(), 1, normals,
-                                       with_threads ? &threads.interface : nullptr),
+      ASSERT_EQ(mien_deformer_instance_deform_batch(batch.data(), batch.size(), 1, normals,
+                                                    with_threads ? &threads.interface : nullptr),
                 MIEN_OK);
       for (size_t i = 0; i < batch.size(); ++i) {
         EXPECT_TRUE(
@@ -509,7 +514,8 @@ TEST(Deform, ABatchGivesTheSameBits) {
       // Small as one mesh is, all together are worth it.
       EXPECT_EQ(threads.calls > 0, with_threads);
       for (PoseHandle& pose : together) {
-        ASSERT_EQ(mien_pose_deform(pose.get(), 1, MIEN_NORMALS_NONE, nullptr), MIEN_OK);
+        ASSERT_EQ(mien_deformer_instance_deform(pose.get(), 1, MIEN_NORMALS_NONE, nullptr),
+                  MIEN_OK);
       }
     }
   }

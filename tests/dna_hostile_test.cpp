@@ -6,7 +6,7 @@
 #include <ctime>
 
 #include "tests/support/dna_bytes.h"
-#include "tests/support/dna_life.h"
+#include "tests/support/exercise_dna.h"
 #include "tests/support/tiny_rig.h"
 
 namespace mien {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Files from outside: cut off, flipped, contradicting themselves. Whatever the bytes are, opening
-// gives a known status and a sentence, what opens can be used to the end (dna_life.h tells how),
-// and memory stays in proportion to the file. dna_hostile_test.cpp has files made with more
+// gives a known status and a sentence, what opens can be used to the end (exercise_dna.h tells
+// how), and memory stays in proportion to the file. dna_hostile_test.cpp has files made with more
 // thought.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -11,9 +11,9 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "runtime/dna/dna_view.h"
+#include "runtime/dna/format/dna_view.h"
 #include "tests/support/dna_bytes.h"
-#include "tests/support/dna_life.h"
+#include "tests/support/exercise_dna.h"
 #include "tests/support/rig_handles.h"
 #include "tests/support/tiny_rig.h"
 

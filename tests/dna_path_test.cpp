@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fields by name: every field of every layer under the name that the format gives it, and nothing
 // under any other.
-#include "runtime/dna/dna_path.h"
+#include "runtime/dna/format/dna_path.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <set>
 
 #include "runtime/dna/dna_reader.h"
-#include "runtime/dna/record_size.h"
+#include "runtime/dna/format/record_size.h"
 #include "tests/support/dna_bytes.h"
 #include "tests/support/tiny_rig.h"
 

@@ -8,7 +8,7 @@
 
 #include "runtime/author/synthetic_rig.h"
 #include "runtime/dna/dna_reader.h"
-#include "runtime/dna/dna_writer.h"
+#include "runtime/dna/format/dna_writer.h"
 #include "tests/support/dna_bytes.h"
 #include "tests/support/golden.h"
 #include "tests/support/tiny_rig.h"

@@ -16,14 +16,14 @@ constexpr double kUlp = 1.0 / (1 << 23);
 
 // A sum of n products in float, in any order, is within n units of the last place of the sum of
 // their absolute values; factors that are correctives bring a few more.
-constexpr double kMostUlps = 64;
+constexpr double kMaxUlps = 64;
 
 /// Compares each value with the model's; `scales` says what the units of the last place are of.
 void expect_close(const char* what, Span<const float> mine, const std::vector<double>& expected,
                   const std::vector<double>& scales) {
   ASSERT_EQ(mine.count, expected.size());
   for (size_t i = 0; i < mine.count; ++i) {
-    EXPECT_LE(std::fabs(mine[i] - expected[i]), kMostUlps * kUlp * std::fabs(scales[i]))
+    EXPECT_LE(std::fabs(mine[i] - expected[i]), kMaxUlps * kUlp * std::fabs(scales[i]))
         << what << " " << i << ": " << mine[i] << ", expected " << expected[i];
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Learned behaviour against a plain model (tests/support/ml_model.h): networks, operations, masks,
+// Learned behavior against a plain model (tests/support/ml_model.h): networks, operations, masks,
 // and the joints that follow, on every instruction set.
 #include <gtest/gtest.h>
 

@@ -113,7 +113,7 @@ TEST(JointGroups, OfSeveralTiles) {
     SCOPED_TRACE(mien_isa_name(isa));
     const RigHandle rig = make_rig(plain, isa);
     const JointMatrix& joints = reinterpret_cast<const Rig*>(rig.get())->joints;
-    ASSERT_LT(joints.tile_end(joints.tile_end(0)), joints.chunk_count()) << "three tiles";
+    ASSERT_LT(joints.tile_end(joints.tile_end(0)), joints.panel_count()) << "three tiles";
     Character character(rig);
     Floats raw(plain.raw_count, 1.0f);
     for (uint32_t frame = 0; frame < 40; ++frame) {

@@ -155,7 +155,7 @@ TEST_P(GeneratedRigs, AreCloseBetweenFamilies) {
   expect_close_families(generate_dna(GetParam(), 3), 3);
 }
 
-// All kinds of behaviour in one small rig.
+// All kinds of behavior in one small rig.
 TEST(TinyRig, IsEqualWithinAFamily) {
   Arena arena(default_allocator());
   const std::vector<uint8_t> bytes = write_view(dna::tiny_rig(arena));

@@ -120,7 +120,9 @@ TEST(JointPose, LocalTransformsMakeTheMatrices) {
     joints.update(values);
     const uint32_t count = count_of(joints.rig, MIEN_KIND_JOINT);
     std::vector<float> locals(count * 10 + 1, -7.0f);
-    ASSERT_EQ(mien_pose_local_transforms(joints.pose.get(), locals.data(), locals.size()), MIEN_OK);
+    ASSERT_EQ(
+        mien_deformer_instance_local_transforms(joints.pose.get(), locals.data(), locals.size()),
+        MIEN_OK);
     EXPECT_EQ(locals.back(), -7);
     MienIndexView parents = {};
     ASSERT_EQ(mien_rig_joint_parents(joints.rig.get(), &parents), MIEN_OK);

@@ -15,7 +15,7 @@ namespace {
 constexpr uint32_t kJoints = 40;
 constexpr uint32_t kPlaces = 61;
 constexpr uint32_t kFaces = 53;
-constexpr uint32_t kMostInfluences = 13;
+constexpr uint32_t kMaxInfluences = 13;
 
 /// -1 ... 1 in steps of 2^-23.
 class Numbers {
@@ -75,10 +75,10 @@ bool fuses(const KernelTable* table) {
 
 uint64_t joint_bits(const KernelTable& kernels, uint32_t seed, bool quaternions) {
   Numbers numbers(seed);
-  constexpr uint32_t kBlocks = (kJoints + kBlockRows - 1) / kBlockRows;
-  Aligned neutral(kBlocks * kNeutralRows * kBlockRows, &numbers);
-  Aligned deltas(kBlocks * kDeltaRows * kBlockRows, &numbers);
-  Aligned locals(kBlocks * kLocalRows * kBlockRows, nullptr);
+  constexpr uint32_t kBlocks = (kJoints + kBlockLanes - 1) / kBlockLanes;
+  Aligned neutral(kBlocks * kNeutralRows * kBlockLanes, &numbers);
+  Aligned deltas(kBlocks * kDeltaRows * kBlockLanes, &numbers);
+  Aligned locals(kBlocks * kLocalRows * kBlockLanes, nullptr);
   Aligned inverse(kJoints * 16, &numbers), model(kJoints * 16, nullptr),
       skin(kJoints * 16, nullptr);
   JointLocalArgs local = {neutral.data, deltas.data, locals.data, kBlocks, {2, 0, 1}, quaternions};
@@ -131,10 +131,10 @@ struct Piece {
                                      touching;
 
   explicit Piece(uint32_t seed)
-      : numbers(seed), places(kPlaces * 4, &numbers), weights(kPlaces * kMostInfluences, &numbers),
+      : numbers(seed), places(kPlaces * 4, &numbers), weights(kPlaces * kMaxInfluences, &numbers),
         matrices(kJoints * 16, &numbers), normals(kPlaces * 3 * 3 + 1, &numbers),
         directions(kPlaces * 4, &numbers) {
-    for (uint32_t i = 0; i < kPlaces * kMostInfluences; ++i) {
+    for (uint32_t i = 0; i < kPlaces * kMaxInfluences; ++i) {
       joints.push_back(static_cast<uint16_t>(numbers.below(kJoints)));
     }
     for (uint32_t i = 0; i < kPlaces; ++i) {
@@ -210,7 +210,7 @@ TEST(KernelsDeform, MeshesHaveTheSameBitsWithinAFamily) {
     SCOPED_TRACE(kernels->name);
     Piece piece(3);
     Bits skin, normals, targets;
-    for (uint32_t influences = 1; influences <= kMostInfluences; ++influences) {
+    for (uint32_t influences = 1; influences <= kMaxInfluences; ++influences) {
       for (SkinNormals mode : {SkinNormals::kNone, SkinNormals::kMatrix, SkinNormals::kCofactors}) {
         const std::vector<float> made = piece.skinned(*kernels, kPlaces, influences, mode);
         skin.add(made.data(), made.size());

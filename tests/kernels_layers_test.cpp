@@ -48,7 +48,7 @@ TEST(DenseLayer, EveryActivationAndSize) {
   for (uint8_t function = 0; function <= 4; ++function) {
     for (uint32_t columns : {0u, 1u, 3u, 64u, 129u}) {
       for (uint32_t row_count : {1u, 16u, 29u, 49u, 80u, 141u, 400u}) {
-        const uint32_t rows = (row_count + kBlockRows - 1) / kBlockRows * kBlockRows;
+        const uint32_t rows = (row_count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
         Aligned values(size_t{rows} * columns), biases(rows), outputs(rows);
         std::vector<float> inputs(columns);
         for (size_t i = 0; i < size_t{rows} * columns; ++i) {
@@ -65,7 +65,7 @@ TEST(DenseLayer, EveryActivationAndSize) {
             double sum = biases.data[r], size = std::fabs(sum);
             for (uint32_t c = 0; c < columns; ++c) {
               const size_t at =
-                  (size_t{r / kBlockRows} * columns + c) * kBlockRows + r % kBlockRows;
+                  (size_t{r / kBlockLanes} * columns + c) * kBlockLanes + r % kBlockLanes;
               const double product = double{values.data[at]} * inputs[c];
               sum += product;
               size += std::fabs(product);
@@ -82,14 +82,14 @@ TEST(DenseLayer, EveryActivationAndSize) {
 }
 
 TEST(DenseLayer, WhatOverflowsSaturates) {
-  Aligned values(kBlockRows), biases(kBlockRows), outputs(kBlockRows);
-  for (uint32_t r = 0; r < kBlockRows; ++r) values.data[r] = r % 2 ? 3e38f : -3e38f;
+  Aligned values(kBlockLanes), biases(kBlockLanes), outputs(kBlockLanes);
+  for (uint32_t r = 0; r < kBlockLanes; ++r) values.data[r] = r % 2 ? 3e38f : -3e38f;
   const float input = 3e38f;
   for (const KernelTable* table : present()) {
     for (uint8_t function = 0; function <= 4; ++function) {
-      table->dense_layer({values.data, biases.data, &input, outputs.data, 0.5f, 1, kBlockRows,
+      table->dense_layer({values.data, biases.data, &input, outputs.data, 0.5f, 1, kBlockLanes,
                           function, false, false});
-      for (uint32_t r = 0; r < kBlockRows; ++r) EXPECT_TRUE(std::isfinite(outputs.data[r]));
+      for (uint32_t r = 0; r < kBlockLanes; ++r) EXPECT_TRUE(std::isfinite(outputs.data[r]));
     }
   }
 }
@@ -112,7 +112,7 @@ TEST(DenseLayer, EveryFiniteHalfIsReadExactly) {
     if ((half & 0x7C00) != 0x7C00) all.push_back(static_cast<uint16_t>(half));
   }
   const auto count = static_cast<uint32_t>(all.size());
-  ASSERT_EQ(count % kBlockRows, 0u);
+  ASSERT_EQ(count % kBlockLanes, 0u);
   Aligned biases(count), outputs(count);
   AlignedHalves halves(biases.data, count);
   std::copy(all.begin(), all.end(), halves.data);
@@ -129,7 +129,7 @@ TEST(DenseLayer, HalvesGiveWhatTheirFloatsGive) {
   Random random = Random::from_seed(14, 1);
   for (uint32_t columns : {1u, 2u, 57u}) {
     for (uint32_t row_count : {3u, 16u, 100u}) {
-      const uint32_t rows = (row_count + kBlockRows - 1) / kBlockRows * kBlockRows;
+      const uint32_t rows = (row_count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
       Aligned values(size_t{rows} * columns), biases(rows), outputs(rows), expected(rows);
       std::vector<float> inputs(columns);
       for (float& x : inputs) x = static_cast<float>(random.between(-2, 2));
@@ -159,7 +159,7 @@ TEST(JointTurns, ProductOfBlends) {
   Random random = Random::from_seed(12, 1);
   for (uint32_t columns : {0u, 1u, 2u, 17u}) {
     for (uint32_t blocks : {1u, 3u}) {
-      constexpr uint32_t kFloats = 4 * kBlockRows;
+      constexpr uint32_t kFloats = 4 * kBlockLanes;
       Aligned values(size_t{blocks} * (columns + 1) * kFloats), rotations(blocks * kFloats);
       std::vector<uint16_t> controls_of(columns);
       std::vector<float> controls(columns + 3);
@@ -169,13 +169,13 @@ TEST(JointTurns, ProductOfBlends) {
       // One column more is stored than evaluated, as at a coarse LOD.
       for (uint32_t b = 0; b < blocks; ++b) {
         for (uint32_t c = 0; c <= columns; ++c) {
-          for (uint32_t j = 0; j < kBlockRows; ++j) {
+          for (uint32_t j = 0; j < kBlockLanes; ++j) {
             double q[4], length = 0;
             for (double& part : q) part = random.between(-1, 1);
             q[3] = std::fabs(q[3]) + 0.2;
             for (double part : q) length += part * part;
             for (uint32_t k = 0; k < 4; ++k) {
-              values.data[(size_t{b} * (columns + 1) + c) * kFloats + k * kBlockRows + j] =
+              values.data[(size_t{b} * (columns + 1) + c) * kFloats + k * kBlockLanes + j] =
                   float_from_half(half_from_float(static_cast<float>(q[k] / std::sqrt(length))));
             }
           }
@@ -183,22 +183,23 @@ TEST(JointTurns, ProductOfBlends) {
       }
       const AlignedHalves halves(values.data, size_t{blocks} * (columns + 1) * kFloats);
       for (const KernelTable* table : present()) {
-        JointTurnArgs args = {halves.data, controls_of.data(), controls.data(), rotations.data,
-                              columns,     columns + 1,        blocks,          true};
-        table->joint_turns(args);
+        QuaternionJointArgs args = {
+            halves.data, controls_of.data(), controls.data(), rotations.data,
+            columns,     columns + 1,        blocks,          true};
+        table->quaternion_joints(args);
         const std::vector<float> from_halves(rotations.data, rotations.data + blocks * kFloats);
         args.values = values.data;
         args.halves = false;
-        table->joint_turns(args);
+        table->quaternion_joints(args);
         EXPECT_TRUE(std::equal(from_halves.begin(), from_halves.end(), rotations.data));
         for (uint32_t b = 0; b < blocks; ++b) {
-          for (uint32_t j = 0; j < kBlockRows; ++j) {
+          for (uint32_t j = 0; j < kBlockLanes; ++j) {
             double a[4] = {0, 0, 0, 1};
             for (uint32_t c = 0; c < columns; ++c) {
               const float* q = values.data + (size_t{b} * (columns + 1) + c) * kFloats + j;
               const double w = controls[controls_of[c]];
               double l[4], length = 0;
-              for (uint32_t k = 0; k < 4; ++k) l[k] = w * q[k * kBlockRows];
+              for (uint32_t k = 0; k < 4; ++k) l[k] = w * q[k * kBlockLanes];
               l[3] += 1 - w;
               for (double part : l) length += part * part;
               for (double& part : l) part /= std::sqrt(length);
@@ -209,7 +210,7 @@ TEST(JointTurns, ProductOfBlends) {
               std::memcpy(a, p, sizeof(a));
             }
             for (uint32_t k = 0; k < 4; ++k) {
-              ASSERT_NEAR(rotations.data[b * kFloats + k * kBlockRows + j], a[k], 4e-6)
+              ASSERT_NEAR(rotations.data[b * kFloats + k * kBlockLanes + j], a[k], 4e-6)
                   << table->name << ", " << columns << " columns, joint " << j;
             }
           }
@@ -227,7 +228,7 @@ struct KernelSolver {
   std::vector<float> inputs;
 
   KernelSolver(Random& random, bool angular, uint32_t input_count, uint32_t poses)
-      : lanes((poses + kBlockRows - 1) / kBlockRows * kBlockRows),
+      : lanes((poses + kBlockLanes - 1) / kBlockLanes * kBlockLanes),
         targets(size_t{lanes} * std::max(input_count, 1u)), inverses(size_t{lanes} * poses),
         scales(lanes), factors(lanes), weights(lanes), results(lanes), inputs(input_count) {
     plan.input_count = input_count;
@@ -272,8 +273,8 @@ struct KernelSolver {
   }
 
   float& inverse(uint32_t row, uint32_t column) const {
-    const size_t block = size_t{row / kBlockRows} * plan.pose_count;
-    return inverses.data[(block + column) * kBlockRows + row % kBlockRows];
+    const size_t block = size_t{row / kBlockLanes} * plan.pose_count;
+    return inverses.data[(block + column) * kBlockLanes + row % kBlockLanes];
   }
 
   void run(const KernelTable& table) const {

@@ -42,43 +42,45 @@ uint32_t bits_of(float value) {
 }
 
 /// A joint matrix with awkward numbers; the same for the same counts. Every column holds some of
-/// the blocks, which begin at kFirstBlock; of some columns only a part is evaluated.
+/// the block rows, which begin at kFirstBlockRow; of some columns only a part is evaluated.
 class JointMatrix {
  public:
-  static constexpr uint32_t kFirstBlock = 4;
+  static constexpr uint32_t kFirstBlockRow = 4;
   static constexpr uint32_t kUnknown = 2;  // columns that are not evaluated, between the others
 
-  JointMatrix(uint32_t column_count, uint32_t block_count, bool fixed)
-      : fixed_(fixed), block_count_(block_count), state_(column_count * 131 + block_count + 1) {
-    uint32_t piece = 0;
+  JointMatrix(uint32_t column_count, uint32_t block_row_count, bool fixed)
+      : fixed_(fixed), block_row_count_(block_row_count),
+        state_(column_count * 131 + block_row_count + 1) {
+    uint32_t block = 0;
     for (uint32_t k = 0; k < column_count * kUnknown; ++k) {
       std::vector<uint16_t> pairs, singles;
-      for (uint32_t b = 0; b < block_count; b += 2) {
+      for (uint32_t b = 0; b < block_row_count; b += 2) {
         const uint32_t kind = random() % 4;
-        const bool first = kind & 1, second = (kind & 2) && b + 1 < block_count;
-        const uint32_t number = kFirstBlock + b;
+        const bool first = kind & 1, second = (kind & 2) && b + 1 < block_row_count;
+        const uint32_t number = kFirstBlockRow + b;
         // Whether the number of a pair is even is nobody's concern.
         const uint32_t odd = random() % 2;
-        if (first && second) pairs.push_back(static_cast<uint16_t>((number + odd) * kBlockUnit));
-        if (first && !second) singles.push_back(static_cast<uint16_t>(number * kBlockUnit));
-        if (!first && second) singles.push_back(static_cast<uint16_t>((number + 1) * kBlockUnit));
+        if (first && second) pairs.push_back(static_cast<uint16_t>((number + odd) * kBlockRowUnit));
+        if (first && !second) singles.push_back(static_cast<uint16_t>(number * kBlockRowUnit));
+        if (!first && second)
+          singles.push_back(static_cast<uint16_t>((number + 1) * kBlockRowUnit));
       }
-      const auto entry = static_cast<uint32_t>(blocks_.size());
-      blocks_.insert(blocks_.end(), pairs.begin(), pairs.end());
-      blocks_.insert(blocks_.end(), singles.begin(), singles.end());
+      const auto entry = static_cast<uint32_t>(block_rows_.size());
+      block_rows_.insert(block_rows_.end(), pairs.begin(), pairs.end());
+      block_rows_.insert(block_rows_.end(), singles.begin(), singles.end());
       const auto pair_count = static_cast<uint32_t>(pairs.size());
       const auto single_count = static_cast<uint32_t>(singles.size());
       if (k % kUnknown == 0) {
         const uint32_t skipped_pairs = pair_count ? random() % 2 : 0;
         const uint32_t skipped_singles = single_count ? random() % 2 : 0;
-        runs_.push_back({piece + 2 * skipped_pairs, entry + skipped_pairs,
-                         pair_count - skipped_pairs, piece + 2 * pair_count + skipped_singles,
+        runs_.push_back({block + 2 * skipped_pairs, entry + skipped_pairs,
+                         pair_count - skipped_pairs, block + 2 * pair_count + skipped_singles,
                          entry + pair_count + skipped_singles, single_count - skipped_singles,
                          awkward_number()});
       }
-      piece += 2 * pair_count + single_count + single_count % 2;
+      block += 2 * pair_count + single_count + single_count % 2;
     }
-    const size_t value_count = size_t{piece} * kPieceRows;
+    const size_t value_count = size_t{block} * kJointBlockRows;
     floats_.resize(value_count + 16);
     integers_.resize(value_count + 32);
     for (size_t i = 0; i < value_count; ++i) {
@@ -88,7 +90,7 @@ class JointMatrix {
     for (size_t i = 0; i < sum_count(); ++i) initial_.push_back(awkward_number());
   }
 
-  /// Sums by one instruction set; only those of the blocks are written.
+  /// Sums by one instruction set; only those of the block rows are written.
   std::vector<float> run(const KernelTable& kernels) {
     const float untouched = 12345.0f;
     std::vector<float> storage(16 + kGuard + sum_count() + kGuard, untouched);
@@ -96,10 +98,10 @@ class JointMatrix {
     std::copy(initial_.begin(), initial_.end(), sums);
     JointColumnsArgs args = {};
     args.values = values();
-    args.blocks = blocks_.data();
+    args.block_rows = block_rows_.data();
     args.runs = runs_.data();
     args.run_count = static_cast<uint32_t>(runs_.size());
-    args.sums = sums - size_t{kFirstBlock} * kPieceRows;
+    args.sums = sums - size_t{kFirstBlockRow} * kJointBlockRows;
     (fixed_ ? kernels.joint_columns_fixed : kernels.joint_columns)(args);
     for (size_t i = 0; i < kGuard; ++i) {
       EXPECT_EQ(sums[-1 - static_cast<ptrdiff_t>(i)], untouched);
@@ -108,10 +110,10 @@ class JointMatrix {
     return {sums, sums + sum_count()};
   }
 
-  /// Sums of `lane_count` characters with inputs of their own, block after block, from 0:
+  /// Sums of `lane_count` characters with inputs of their own, block row after block row, from 0:
   /// [character][sum]. What stands beside them is not touched.
   std::vector<float> run_batch(const KernelTable& kernels, uint32_t lane_count) {
-    const size_t stride = sum_count() + kPieceRows;
+    const size_t stride = sum_count() + kJointBlockRows;
     std::vector<float> storage(16 + kBatchLanes * stride), inputs(16 + runs_.size() * kBatchLanes);
     float* const sums = aligned(storage.data());
     float* const lanes = aligned(inputs.data());
@@ -123,23 +125,24 @@ class JointMatrix {
     args.inputs = lanes;
     args.stride = stride;
     args.lane_count = lane_count;
-    for (uint32_t b = 0; b < block_count_; ++b) {
-      std::vector<BatchPiece> pieces;
-      for_each_piece([&](size_t i, size_t piece, size_t block) {
-        if (block == b) {
-          pieces.push_back({static_cast<uint32_t>(piece), static_cast<uint32_t>(i)});
+    for (uint32_t b = 0; b < block_row_count_; ++b) {
+      std::vector<BatchBlock> blocks;
+      for_each_block([&](size_t i, size_t block, size_t block_row) {
+        if (block_row == b) {
+          blocks.push_back({static_cast<uint32_t>(block), static_cast<uint32_t>(i)});
         }
       });
-      args.piece_count = static_cast<uint32_t>(pieces.size());
-      pieces.resize(pieces.size() + kBatchAhead);
-      args.pieces = pieces.data();
-      args.sums = sums + size_t{b} * kPieceRows;
+      args.block_count = static_cast<uint32_t>(blocks.size());
+      blocks.resize(blocks.size() + kBatchAhead);
+      args.blocks = blocks.data();
+      args.sums = sums + size_t{b} * kJointBlockRows;
       (fixed_ ? kernels.joint_batch_fixed : kernels.joint_batch)(args);
     }
     std::vector<float> result;
     for (uint32_t k = 0; k < lane_count; ++k) {
       result.insert(result.end(), sums + k * stride, sums + k * stride + sum_count());
-      for (size_t i = 0; i < kPieceRows; ++i) EXPECT_EQ(sums[k * stride + sum_count() + i], 0.0f);
+      for (size_t i = 0; i < kJointBlockRows; ++i)
+        EXPECT_EQ(sums[k * stride + sum_count() + i], 0.0f);
     }
     return result;
   }
@@ -154,33 +157,35 @@ class JointMatrix {
   template <class Number, class MulAdd>
   std::vector<Number> expected(MulAdd mul_add) {
     std::vector<Number> sums(initial_.begin(), initial_.end());
-    for_each_piece([&](size_t i, size_t piece, size_t block) {
-      for (size_t r = 0; r < kPieceRows; ++r) {
-        Number& sum = sums[block * kPieceRows + r];
-        sum = mul_add(Number{float_values()[piece * kPieceRows + r]}, Number{runs_[i].input}, sum);
+    for_each_block([&](size_t i, size_t block, size_t block_row) {
+      for (size_t r = 0; r < kJointBlockRows; ++r) {
+        Number& sum = sums[block_row * kJointBlockRows + r];
+        sum = mul_add(Number{float_values()[block * kJointBlockRows + r]}, Number{runs_[i].input},
+                      sum);
       }
     });
     return sums;
   }
 
-  size_t sum_count() const { return size_t{block_count_} * kPieceRows; }
+  size_t sum_count() const { return size_t{block_row_count_} * kJointBlockRows; }
 
  private:
   static constexpr size_t kGuard = 16;
 
-  /// Calls f(run, piece, block counted from the first).
+  /// Calls f(run, block, block row counted from the first).
   template <class F>
-  void for_each_piece(F f) {
+  void for_each_block(F f) {
     for (size_t i = 0; i < runs_.size(); ++i) {
       const JointRun& run = runs_[i];
       for (uint32_t p = 0; p < run.pair_count; ++p) {
-        const size_t number = blocks_[run.pair_entry + p] & kPairBlocks;
-        const size_t block = number / kBlockUnit - kFirstBlock;
-        f(i, run.first_pair + 2 * p, block);
-        f(i, run.first_pair + 2 * p + 1, block + 1);
+        const size_t number = block_rows_[run.pair_entry + p] & kPairBlockRows;
+        const size_t block_row = number / kBlockRowUnit - kFirstBlockRow;
+        f(i, run.first_pair + 2 * p, block_row);
+        f(i, run.first_pair + 2 * p + 1, block_row + 1);
       }
       for (uint32_t p = 0; p < run.single_count; ++p) {
-        f(i, run.first_single + p, blocks_[run.single_entry + p] / kBlockUnit - kFirstBlock);
+        f(i, run.first_single + p,
+          block_rows_[run.single_entry + p] / kBlockRowUnit - kFirstBlockRow);
       }
     }
   }
@@ -218,9 +223,9 @@ class JointMatrix {
   }
 
   bool fixed_;
-  uint32_t block_count_, state_;
+  uint32_t block_row_count_, state_;
   std::vector<JointRun> runs_;
-  std::vector<uint16_t> blocks_;
+  std::vector<uint16_t> block_rows_;
   std::vector<float> floats_, initial_;
   std::vector<int16_t> integers_;
 };
@@ -230,11 +235,12 @@ template <class Check>
 void for_each_matrix(Check check) {
   for (const KernelTable* kernels : present_kernels()) {
     for (uint32_t column_count : {0u, 1u, 2u, 17u, 300u}) {
-      for (uint32_t block_count : {0u, 1u, 2u, 3u, 7u, 40u}) {
+      for (uint32_t block_row_count : {0u, 1u, 2u, 3u, 7u, 40u}) {
         for (bool fixed : {false, true}) {
           SCOPED_TRACE(std::string(kernels->name) + ", columns " + std::to_string(column_count) +
-                       ", blocks " + std::to_string(block_count) + (fixed ? ", fixed" : ""));
-          JointMatrix matrix(column_count, block_count, fixed);
+                       ", block_rows " + std::to_string(block_row_count) +
+                       (fixed ? ", fixed" : ""));
+          JointMatrix matrix(column_count, block_row_count, fixed);
           check(matrix, *kernels);
         }
       }

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "runtime/author/random.h"
-#include "runtime/dna/lod_selection.h"
+#include "runtime/dna/convert/lod_selection.h"
 #include "tests/support/lod_cuts.h"
 
 namespace mien {

@@ -275,12 +275,14 @@ TEST_F(OutOfMemory, CreateDeformer) {
 
     MienDeformer* deformer = nullptr;
     ASSERT_EQ(make(nullptr, &deformer, nullptr), MIEN_OK);
-    auto pose = [&](const MienAllocator* allocator, MienPose** out, MienError* error) {
-      MienPoseDesc desc = sized<MienPoseDesc>();
+    auto pose = [&](const MienAllocator* allocator, MienDeformerInstance** out, MienError* error) {
+      MienDeformerInstanceDesc desc = sized<MienDeformerInstanceDesc>();
       desc.allocator = allocator;
-      return mien_pose_create(deformer, &desc, out, error);
+      return mien_deformer_instance_create(deformer, &desc, out, error);
     };
-    EXPECT_EQ(survive_every_failure(Maker<MienPose>{pose, mien_pose_destroy}), 1u);
+    EXPECT_EQ(
+        survive_every_failure(Maker<MienDeformerInstance>{pose, mien_deformer_instance_destroy}),
+        1u);
     mien_deformer_destroy(deformer);
   }
 }
@@ -295,7 +297,7 @@ TEST_F(OutOfMemory, FailuresKeepNothingAlive) {
   MienDna* dna = nullptr;
   MienRig* rig = nullptr;
   MienDeformer* deformer = nullptr;
-  MienPose* pose = nullptr;
+  MienDeformerInstance* pose = nullptr;
   ASSERT_EQ(opener(tiny).make(&allocator, &dna, nullptr), MIEN_OK);
   ASSERT_EQ(compiler(dna).make(&allocator, &rig, nullptr), MIEN_OK);
   MienDeformerDesc desc = sized<MienDeformerDesc>();
@@ -303,9 +305,9 @@ TEST_F(OutOfMemory, FailuresKeepNothingAlive) {
   EXPECT_EQ(mien_deformer_create(dna, rig, &desc, &deformer, nullptr), MIEN_ERROR_MEMORY);
   desc.allocator = &allocator;
   ASSERT_EQ(mien_deformer_create(dna, rig, &desc, &deformer, nullptr), MIEN_OK);
-  MienPoseDesc pose_desc = sized<MienPoseDesc>();
+  MienDeformerInstanceDesc pose_desc = sized<MienDeformerInstanceDesc>();
   pose_desc.allocator = &nothing;
-  EXPECT_EQ(mien_pose_create(deformer, &pose_desc, &pose, nullptr), MIEN_ERROR_MEMORY);
+  EXPECT_EQ(mien_deformer_instance_create(deformer, &pose_desc, &pose, nullptr), MIEN_ERROR_MEMORY);
   mien_deformer_destroy(deformer);
   mien_rig_destroy(rig);
   mien_dna_close(dna);
@@ -357,13 +359,13 @@ TEST_F(OutOfMemory, NothingElseAllocates) {
     ASSERT_EQ(compiler(dna).make(&allocator, &rig, nullptr), MIEN_OK);
     ASSERT_EQ(mien_instance_create(rig, &allocator, &instance, nullptr), MIEN_OK);
     MienDeformer* deformer = nullptr;
-    MienPose* pose = nullptr;
+    MienDeformerInstance* pose = nullptr;
     MienDeformerDesc deformer_desc = sized<MienDeformerDesc>();
     deformer_desc.allocator = &allocator;
     ASSERT_EQ(mien_deformer_create(dna, rig, &deformer_desc, &deformer, nullptr), MIEN_OK);
-    MienPoseDesc pose_desc = sized<MienPoseDesc>();
+    MienDeformerInstanceDesc pose_desc = sized<MienDeformerInstanceDesc>();
     pose_desc.allocator = &allocator;
-    ASSERT_EQ(mien_pose_create(deformer, &pose_desc, &pose, nullptr), MIEN_OK);
+    ASSERT_EQ(mien_deformer_instance_create(deformer, &pose_desc, &pose, nullptr), MIEN_OK);
     MienRigInfo info = sized<MienRigInfo>();
     ASSERT_EQ(mien_rig_info(rig, &info), MIEN_OK);
 
@@ -441,19 +443,19 @@ TEST_F(OutOfMemory, NothingElseAllocates) {
     call(mien_deformer_info(deformer, &deformer_info));
     call(mien_deformer_bind_matrices(deformer, &floats));
     call(mien_deformer_inverse_bind_matrices(deformer, &floats));
-    call(mien_pose_update(pose, instance));
-    call(mien_pose_joint_matrices(pose, &floats));
-    call(mien_pose_skin_matrices(pose, &floats));
+    call(mien_deformer_instance_update(pose, instance));
+    call(mien_deformer_instance_joint_matrices(pose, &floats));
+    call(mien_deformer_instance_skin_matrices(pose, &floats));
     for (uint32_t m = 0; m < deformer_info.mesh_count; ++m) {
       MienMesh mesh = sized<MienMesh>();
       call(mien_deformer_mesh(deformer, m, &mesh));
       call(mien_deformer_influences(deformer, m, 0, &indices, &floats));
       for (uint32_t normals = 0; normals <= MIEN_NORMALS_RECOMPUTED; ++normals) {
-        call(mien_pose_deform(pose, m, normals, nullptr));
-        call(mien_pose_deform_batch(&pose, 1, m, normals, nullptr));
+        call(mien_deformer_instance_deform(pose, m, normals, nullptr));
+        call(mien_deformer_instance_deform_batch(&pose, 1, m, normals, nullptr));
       }
-      call(mien_pose_positions(pose, m, &floats));
-      call(mien_pose_normals(pose, m, &floats));
+      call(mien_deformer_instance_positions(pose, m, &floats));
+      call(mien_deformer_instance_normals(pose, m, &floats));
     }
 
     EXPECT_EQ(worst, MIEN_OK);
@@ -461,7 +463,7 @@ TEST_F(OutOfMemory, NothingElseAllocates) {
     EXPECT_EQ(counter.requests, 0u);
     EXPECT_EQ(g_news, news);
     counter.fail_at = 0;
-    mien_pose_destroy(pose);
+    mien_deformer_instance_destroy(pose);
     mien_deformer_destroy(deformer);
     mien_instance_destroy(instance);
     mien_rig_destroy(rig);

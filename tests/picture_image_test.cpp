@@ -45,32 +45,32 @@ TEST(Png, ComesBackAsItWas) {
   }
 }
 
-TEST(Colour, EncodesWhatItDecodes) {
+TEST(Color, EncodesWhatItDecodes) {
   for (int i = 0; i < 256; ++i) {
-    const Colour colour = {uint8_t(i), uint8_t(255 - i), 128};
-    EXPECT_EQ(to_srgb(to_linear(colour)), colour) << i;
+    const Color color = {uint8_t(i), uint8_t(255 - i), 128};
+    EXPECT_EQ(to_srgb(to_linear(color)), color) << i;
   }
   EXPECT_NEAR(to_linear({188, 0, 0}).x, 0.5f, 0.005f);  // half the light is 188, not 128
-  EXPECT_EQ(to_srgb({-1, 7, std::nanf("")}), (Colour{0, 255, 0}));
+  EXPECT_EQ(to_srgb({-1, 7, std::nanf("")}), (Color{0, 255, 0}));
 }
 
 TEST(Image, PartsOutsideAreCutOff) {
   Image image(8, 8, {1, 2, 3});
   image.paste(gradient(6, 6), -3, 5);
   EXPECT_EQ(image.at(0, 5), gradient(6, 6).at(3, 0));
-  EXPECT_EQ(image.at(3, 5), (Colour{1, 2, 3}));
+  EXPECT_EQ(image.at(3, 5), (Color{1, 2, 3}));
   image.paste(gradient(6, 6), 100, 100);
   image.paste(gradient(6, 6), -100, 0);
   image.fill(6, 6, 50, 50, {9, 9, 9});
-  EXPECT_EQ(image.at(7, 7), (Colour{9, 9, 9}));
+  EXPECT_EQ(image.at(7, 7), (Color{9, 9, 9}));
   image.blend(-1, 0, {}, 1);
   image.blend(8, 8, {}, 1);
   image.blend(0, 0, {255, 255, 255}, 1);
-  EXPECT_EQ(image.at(0, 0), (Colour{255, 255, 255}));
+  EXPECT_EQ(image.at(0, 0), (Color{255, 255, 255}));
 }
 
 /// Columns from the first to the last one with ink.
-std::pair<int, int> inked(const Image& image, Colour paper) {
+std::pair<int, int> inked(const Image& image, Color paper) {
   std::pair<int, int> columns = {image.width, -1};
   for (int x = 0; x < image.width; ++x) {
     for (int y = 0; y < image.height; ++y) {
@@ -83,7 +83,7 @@ std::pair<int, int> inked(const Image& image, Colour paper) {
 }
 
 TEST(Label, DrawsEveryCharacterWithinItsWidth) {
-  const Colour paper = {20, 20, 20};
+  const Color paper = {20, 20, 20};
   for (char c = '!'; c <= '~'; ++c) {
     for (const float size : {9.0f, 14.0f, 40.0f}) {
       const std::string text(1, c);

@@ -15,7 +15,7 @@ namespace {
 struct Mesh {
   std::vector<float> positions, normals;
   std::vector<uint32_t> triangles;
-  std::vector<uint8_t> colours;
+  std::vector<uint8_t> colors;
 
   Surface surface() const {
     Surface s;
@@ -24,7 +24,7 @@ struct Mesh {
     s.triangles = triangles.data();
     s.triangle_count = triangles.size() / 3;
     if (!normals.empty()) s.normals = normals.data();
-    if (!colours.empty()) s.colours = colours.data();
+    if (!colors.empty()) s.colors = colors.data();
     return s;
   }
   std::vector<Vec3> points() const {
@@ -58,7 +58,7 @@ Camera camera_of(const Mesh& mesh, int size, View view = {}) {
   return frame_points({}, view, mesh.points(), size, size, 0.12f);
 }
 
-std::vector<double> grey(const Image& image) {
+std::vector<double> gray(const Image& image) {
   std::vector<double> values;
   for (size_t i = 0; i + 2 < image.pixels.size(); i += 3) {
     values.push_back(0.299 * image.pixels[i] + 0.587 * image.pixels[i + 1] +
@@ -71,7 +71,7 @@ std::vector<double> grey(const Image& image) {
 double similarity(const Image& a, const Image& b) {
   EXPECT_EQ(a.width, b.width);
   EXPECT_EQ(a.height, b.height);
-  const std::vector<double> x = grey(a), y = grey(b);
+  const std::vector<double> x = gray(a), y = gray(b);
   constexpr int kWindow = 8;
   constexpr double kC1 = 6.5025, kC2 = 58.5225;
   double sum = 0;
@@ -148,7 +148,7 @@ TEST(Render, SphereLooksLikeOneThatIsTraced) {
 
   // Rays against the sphere; the background is where the picture shows it.
   const Scene scene({surface}, camera);
-  const Vec3 centre = camera.to_view({});
+  const Vec3 center = camera.to_view({});
   const float focal = kSize / 2.0f / std::tan(camera.field_of_view * 0.00872664626f);
   Image traced(kSize, kSize, {});
   RenderOptions empty = options;
@@ -161,8 +161,8 @@ TEST(Render, SphereLooksLikeOneThatIsTraced) {
         const float py = float(y) + (float(s / kSub) + 0.5f) / kSub;
         const Vec3 ray =
             normalized({(px - kSize / 2.0f) / focal, (kSize / 2.0f - py) / focal, -1}, {0, 0, -1});
-        const float along = dot(ray, centre);
-        const float under = along * along - dot(centre, centre) + 1;
+        const float along = dot(ray, center);
+        const float under = along * along - dot(center, center) + 1;
         if (under <= 0) {
           sum += to_linear(background.at(x, y));
           continue;
@@ -170,9 +170,9 @@ TEST(Render, SphereLooksLikeOneThatIsTraced) {
         Fragment f{};
         f.on = &scene.surfaces()[0];
         f.place = ray * (along - std::sqrt(under));
-        f.normal = f.place - centre;
+        f.normal = f.place - center;
         f.to_eye = -ray;
-        f.colour = to_linear(surface.material.colour);
+        f.color = to_linear(surface.material.color);
         const float key = dot(f.normal, key_direction()) > 0 ? 1.0f : 0.0f;
         sum += tone(light(f, 1, key));
       }
@@ -208,9 +208,9 @@ TEST(Render, UnitsAndWindingDoNotMatter) {
   RenderOptions options;
   options.width = options.height = 64;
   const Image a = render({mesh.surface()}, camera_of(mesh, 64), options);
-  Mesh metres = mesh;
-  for (float& v : metres.positions) v *= 0.01f;
-  EXPECT_GE(similarity(a, render({metres.surface()}, camera_of(metres, 64), options)), 0.995);
+  Mesh meters = mesh;
+  for (float& v : meters.positions) v *= 0.01f;
+  EXPECT_GE(similarity(a, render({meters.surface()}, camera_of(meters, 64), options)), 0.995);
   Mesh wound = mesh;
   for (size_t t = 0; t < wound.triangles.size(); t += 3)
     std::swap(wound.triangles[t], wound.triangles[t + 1]);
@@ -233,12 +233,12 @@ TEST(Render, SamePictureEveryTime) {
   }
 }
 
-TEST(Render, ColoursAreInterpolatedInPerspective) {
+TEST(Render, ColorsAreInterpolatedInPerspective) {
   // A plane that leads away from the viewer, black at its near end and white at the far one.
   Mesh plane;
   plane.positions = {-1, -1, -2, 1, -1, -2, 1, -1, -10, -1, -1, -10};
   plane.triangles = {0, 1, 2, 0, 2, 3};
-  plane.colours = {0, 0, 0, 0, 0, 0, 255, 255, 255, 255, 255, 255};
+  plane.colors = {0, 0, 0, 0, 0, 0, 255, 255, 255, 255, 255, 255};
   const Scene scene({plane.surface()}, Camera{});
   for (const float distance : {2.5f, 4.0f, 6.0f, 9.0f}) {
     // Both triangles, left and right of their common edge.
@@ -247,7 +247,7 @@ TEST(Render, ColoursAreInterpolatedInPerspective) {
       const float x = number == 1 ? share * 2 - 1 + 0.1f : share * 2 - 1 - 0.1f;
       const Fragment f = scene.fragment(number, {x / distance, -1 / distance, -1});
       EXPECT_NEAR(-f.place.z, distance, 1e-4f * distance);
-      EXPECT_NEAR(f.colour.x, share, 1e-4f);
+      EXPECT_NEAR(f.color.x, share, 1e-4f);
       EXPECT_NEAR(f.normal.y, 1, 1e-5f);
     }
   }
@@ -257,13 +257,13 @@ TEST(Render, NearerSurfacesHideFartherOnes) {
   Mesh front = sphere(16, 24), back = sphere(16, 24);
   for (size_t i = 0; i < back.positions.size(); i += 3) back.positions[i + 2] -= 5;
   Surface red = front.surface(), green = back.surface();
-  red.material.colour = {220, 30, 30};
-  green.material.colour = {30, 220, 30};
+  red.material.color = {220, 30, 30};
+  green.material.color = {30, 220, 30};
   RenderOptions options;
   options.width = options.height = 48;
   const Camera camera = camera_of(front, 48);
   for (const auto& surfaces : {std::vector<Surface>{red, green}, {green, red}}) {
-    const Colour middle = render(surfaces, camera, options).at(24, 24);
+    const Color middle = render(surfaces, camera, options).at(24, 24);
     EXPECT_GT(middle.r, 2 * middle.g);
   }
 }

@@ -83,7 +83,7 @@ TEST(Visibility, CoversWhatGeometrySays) {
   }
 }
 
-TEST(Visibility, NeighboursShareEverySampleOfTheirEdge) {
+TEST(Visibility, NeighborsShareEverySampleOfTheirEdge) {
   constexpr int kSize = 48;
   std::mt19937 random(11);
   std::uniform_real_distribution<float> place(8, 40);

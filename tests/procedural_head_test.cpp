@@ -292,7 +292,7 @@ TEST(ProceduralHead, GuiControlsReachEveryExpressionAlone) {
   EXPECT_EQ(reached.size(), 52u);
 }
 
-TEST(ProceduralHead, ColoursAreInTheMetadata) {
+TEST(ProceduralHead, ColorsAreInTheMetadata) {
   const DnaView& view = the_head().view;
   std::map<std::string, std::string> metadata;
   for (const dna::MetadataPair& pair : view.desc.metadata)

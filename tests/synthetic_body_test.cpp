@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The generated body, and learned behaviour of any generated rig: what is in them, and that all of
+// The generated body, and learned behavior of any generated rig: what is in them, and that all of
 // it moves something.
 #include "runtime/author/synthetic_body.h"
 

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "runtime/author/random.h"
-#include "runtime/dna/dna_check.h"
-#include "runtime/dna/dna_writer.h"
+#include "runtime/dna/check/dna_check.h"
+#include "runtime/dna/format/dna_writer.h"
 
 namespace mien {
 namespace {

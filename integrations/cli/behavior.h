@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What kinds of behaviour a rig has beyond its counts: how joints turn, solvers by kind, networks
+// What kinds of behavior a rig has beyond its counts: how joints turn, solvers by kind, networks
 // by activation and operation.
 #pragma once
 

@@ -46,7 +46,7 @@ constexpr double kSampleNs = 50000.0;
 
 /// Rounds go on until both the fewest are done and the time is used up, or the most are done.
 struct Plan {
-  size_t fewest_rounds, most_rounds;
+  size_t fewest_rounds, max_rounds;
   double seconds;
 };
 constexpr Plan kFullPlan = {15, 500, 20.0};
@@ -322,7 +322,7 @@ void measure(Bench& bench, const Plan& plan, const Session& session) {
   const size_t work = bench.rows.size() + bench.csr.size();
   const double start = work_ns();
   Progress progress(session, "round 1, row", work);
-  for (size_t round = 0; round < plan.most_rounds; ++round) {
+  for (size_t round = 0; round < plan.max_rounds; ++round) {
     if (round >= plan.fewest_rounds && work_ns() - start > plan.seconds * 1e9) break;
     size_t done = 0;
     for (CsrRow& row : bench.csr) {
@@ -422,19 +422,18 @@ std::string times_text(const Row& row, double csr_ns) {
 
 void write_text(const Bench& bench, const std::string& name, const Session& session) {
   Output output("-");
-  const bool colours = session.terminal.out_colours;
-  output.write(paint(one_line(name), Style::kBold, colours) + " on " + one_line(cpu_name()) + ", " +
+  const bool colors = session.terminal.out_colours;
+  output.write(paint(one_line(name), Style::kBold, colors) + " on " + one_line(cpu_name()) + ", " +
                compiler_name() + "\nmicroseconds per character, medians of " +
                std::to_string(bench.rows.empty() ? 0 : bench.rows[0].joints_samples.size()) +
                "; x CSR: times as fast as the joint matrix in compressed rows\n\n");
   char line[160];
   std::snprintf(line, sizeof(line), "%-6s %3s %6s  %29s  %29s  %29s\n", "", "", "",
                 "1 character       ", "64, own controls     ", "64, shared controls   ");
-  output.write(paint(line, Style::kBold, colours));
+  output.write(paint(line, Style::kBold, colors));
   const char* columns = "    evaluate     joints   x CSR";
   std::snprintf(line, sizeof(line), "%-6s %3s %6s", "isa", "LOD", "active");
-  output.write(paint(line + std::string(columns) + columns + columns, Style::kBold, colours) +
-               "\n");
+  output.write(paint(line + std::string(columns) + columns + columns, Style::kBold, colors) + "\n");
 
   // A baked rig has none.
   const auto yardstick = [&](uint32_t lod) {
@@ -458,7 +457,7 @@ void write_text(const Bench& bench, const std::string& name, const Session& sess
     }
   }
   std::snprintf(line, sizeof(line), "\n%u characters with controls of their own\n", kThrong);
-  output.write(paint(line, Style::kBold, colours));
+  output.write(paint(line, Style::kBold, colors));
   for (const Row& row : bench.rows) {
     if (row.characters != kThrong) continue;
     std::snprintf(line, sizeof(line), "%-6s %3u %4.0f %%", mien_isa_name(row.engine->info.isa),

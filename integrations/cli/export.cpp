@@ -27,7 +27,7 @@ enum class Format { kGlb, kObj };
 
 constexpr const char* kCannot = "cannot export";
 constexpr double kDefaultRate = 30;
-constexpr double kNotableClose = 0.005;  // of the size: a millimetre or two of a head
+constexpr double kNotableClose = 0.005;  // of the size: a millimeter or two of a head
 
 // Options -----------------------------------------------------------------------------------------
 
@@ -119,7 +119,7 @@ class Face {
     check(mien_instance_reset(instance.get()), nullptr, kCannot, file.shown);
     apply_frame(frame, rig.get(), instance.get());
     check(mien_rig_evaluate(rig.get(), instance.get(), 0), nullptr, kCannot, file.shown);
-    check(mien_pose_update(pose.get(), instance.get()), nullptr, kCannot, file.shown);
+    check(mien_deformer_instance_update(pose.get(), instance.get()), nullptr, kCannot, file.shown);
   }
 
   MienFloatView channel_weights() const {
@@ -167,13 +167,13 @@ void note_losses(const Face& face, const gltf::Losses& losses, const Session& se
     note(session, shown + ": " + std::to_string(losses.cut_positions) +
                       " positions follow more than " + std::to_string(losses.places) +
                       " joints; the lightest were dropped, up to " +
-                      percent(losses.most_weight_cut) + " of a position's weight");
+                      percent(losses.max_weight_cut) + " of a position's weight");
   }
   if (losses.corrected_positions != 0) {
     note(session, shown + ": skin weights of " + std::to_string(losses.corrected_positions) +
                       " positions do not sum to 1 or are negative, which glTF forbids; they were "
                       "corrected, by up to " +
-                      percent(losses.most_correction));
+                      percent(losses.max_correction));
   }
   for (const std::string& mesh : losses.empty_meshes) {
     note(session, shown + ": mesh " + one_line(mesh) + " has no faces: left out");
@@ -208,7 +208,7 @@ void print_report(const gltf::BakeReport& report, FILE* stream) {
   for (size_t e = 0; e < gltf::kArkitCount; ++e) {
     const gltf::BakeReport::Expression& expression = report.expressions[e];
     std::fprintf(stream, "%-20s %14.3f %12.4f %13.4f\n", gltf::kArkitNames[e],
-                 expression.most_move * 1000, expression.halfway.rms * 1000,
+                 expression.max_move * 1000, expression.halfway.rms * 1000,
                  expression.halfway.most * 1000);
   }
   const double share = report.diagonal > 0 ? 100 / report.diagonal : 0;
@@ -262,7 +262,7 @@ std::string baked_glb(const Face& face, const Frame& still, const std::vector<Fr
   const auto mouth_close = static_cast<gltf::MouthClose>(
       options.mouth_close.empty() ? 0 : parse_word("--mouth-close", options.mouth_close));
   const gltf::BakeReport report = gltf::bake_arkit(*face.source, controls, mouth_close, scene);
-  if (options.mouth_close.empty() && report.most_close_with_jaw > kNotableClose * report.diagonal) {
+  if (options.mouth_close.empty() && report.max_close_with_jaw > kNotableClose * report.diagonal) {
     note(session, face.file.shown +
                       ": on this rig mouthClose is another thing when the jaw is open; for "
                       "captured data add --mouth-close jaw");
@@ -372,7 +372,7 @@ Command add_export_command(CLI::App& app, const Session& session) {
   command->footer(
       "A GLB holds the skeleton, the skin and the blend shape channels as morph targets: what\n"
       "the controls drive, not what drives it. --set gives the pose it opens in, --animation\n"
-      "one that moves. Metres, y up, the face to the front of z. Materials go by mesh names.\n"
+      "one that moves. Meters, y up, the face to the front of z. Materials go by mesh names.\n"
       "--lod all puts each LOD in a scene of its own; viewers show the first one.\n\n"
       "Examples:\n"
       "  mien export head.dna -o head.glb\n"

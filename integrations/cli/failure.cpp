@@ -34,11 +34,11 @@ ExitCode exit_code_of(MienStatus status) {
     case MIEN_ERROR_DNA_LIMIT:
     case MIEN_ERROR_DNA_LAYER:
     case MIEN_ERROR_DNA_VALUE:
-    case MIEN_ERROR_IMAGE_SIGNATURE:
-    case MIEN_ERROR_IMAGE_VERSION:
-    case MIEN_ERROR_IMAGE_TRUNCATED:
-    case MIEN_ERROR_IMAGE_STRUCTURE:
-    case MIEN_ERROR_IMAGE_CHECKSUM: return kInvalid;
+    case MIEN_ERROR_BAKED_SIGNATURE:
+    case MIEN_ERROR_BAKED_VERSION:
+    case MIEN_ERROR_BAKED_TRUNCATED:
+    case MIEN_ERROR_BAKED_STRUCTURE:
+    case MIEN_ERROR_BAKED_CHECKSUM: return kInvalid;
 
     case MIEN_ERROR_FILE_OPEN:
     case MIEN_ERROR_FILE_READ:
@@ -65,11 +65,11 @@ std::string what_to_do_about(MienStatus status, const std::string& file) {
     case MIEN_ERROR_DNA_VERSION: return "export the rig as DNA 2.1 to 2.8";
     case MIEN_ERROR_DNA_TRUNCATED: return "fetch or export the file again";
     case MIEN_ERROR_DNA_LAYER: return "see 'mien info' for the layers that the file has";
-    case MIEN_ERROR_IMAGE_SIGNATURE:
-    case MIEN_ERROR_IMAGE_VERSION:
-    case MIEN_ERROR_IMAGE_TRUNCATED:
-    case MIEN_ERROR_IMAGE_STRUCTURE:
-    case MIEN_ERROR_IMAGE_CHECKSUM: return "";  // the message says it: bake again
+    case MIEN_ERROR_BAKED_SIGNATURE:
+    case MIEN_ERROR_BAKED_VERSION:
+    case MIEN_ERROR_BAKED_TRUNCATED:
+    case MIEN_ERROR_BAKED_STRUCTURE:
+    case MIEN_ERROR_BAKED_CHECKSUM: return "";  // the message says it: bake again
     case MIEN_ERROR_LOD: return "see 'mien info' for the LODs that the file has";
     default: return "see 'mien validate " + file + "' for all that is wrong";
   }

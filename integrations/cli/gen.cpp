@@ -46,7 +46,7 @@ Command add_gen_command(CLI::App& app, const Session& session) {
          "solvers, twists and swings)")
       ->type_name("NAME");
   gen->add_flag("--ml", options->ml,
-                "With learned behaviour: networks, their operations, joints they move");
+                "With learned behavior: networks, their operations, joints they move");
   gen->footer(
       "Examples:\n"
       "  mien gen -o tiny.dna\n"
@@ -65,7 +65,7 @@ Command add_demo_head_command(CLI::App& app, const Session& session) {
   CLI::App* head = app.add_subcommand("demo-head", "Make a head to look at, with 52 expressions");
   add_common_options(head, *options, "Another person for each number (default: 0)");
   head->footer(
-      "A stylised person: skin, eyes, teeth, tongue, hair, with vertex colours, correctives,\n"
+      "A stylized person: skin, eyes, teeth, tongue, hair, with vertex colors, correctives,\n"
       "wrinkle maps and 8 LODs. Raw controls have the names of ARKit's coefficients;\n"
       "mouthClose closes the lips over a jaw that is open.\n\n"
       "Examples:\n"

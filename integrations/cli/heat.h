@@ -7,8 +7,8 @@
 
 namespace mien::cli {
 
-/// Side by side: the shape at rest, coloured by how far each place moves, and the shape with the
-/// control on; below them the scale of the colours. The subject is in the pose of the control.
+/// Side by side: the shape at rest, colored by how far each place moves, and the shape with the
+/// control on; below them the scale of the colors. The subject is in the pose of the control.
 picture::Image draw_heat(Subject& subject, const Influence& influence,
                          const PictureOptions& options);
 

@@ -50,7 +50,7 @@ ImageFile open_image(const std::string& path, const LoadOptions& load, const Rig
     if (!value.empty()) fail_settled(option);
   }
   const MienRigDesc wanted = parse_rig_options(evaluation);
-  auto desc = sized<MienRigImageDesc>();
+  auto desc = sized<MienBakedDesc>();
   desc.isa = wanted.isa;
   desc.reuse = reuse;
 

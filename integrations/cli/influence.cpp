@@ -129,7 +129,7 @@ MeshMotion find_motion(const ShownMesh& mesh, const std::vector<float>& rest,
     motion.distances[i] = distance;
     if (distance <= motion.most) continue;
     motion.most = distance;
-    motion.most_position = static_cast<uint32_t>(i);
+    motion.max_position = static_cast<uint32_t>(i);
   }
   const float least = std::max(still, motion.most * kStill);
   float weight = 0;
@@ -139,7 +139,7 @@ MeshMotion find_motion(const ShownMesh& mesh, const std::vector<float>& rest,
     const Vec3 neutral = picture::load3(mesh.neutral.positions.data, i);
     ++motion.moved;
     motion.box.add(neutral);
-    motion.centre += neutral * distance;
+    motion.center += neutral * distance;
     motion.mean += picture::load3(on.data(), i) - picture::load3(rest.data(), i);
     weight += distance;
   }
@@ -147,7 +147,7 @@ MeshMotion find_motion(const ShownMesh& mesh, const std::vector<float>& rest,
     motion.most = 0;
     return motion;
   }
-  motion.centre = motion.centre * (1 / weight);
+  motion.center = motion.center * (1 / weight);
   motion.mean = motion.mean * (1 / static_cast<float>(motion.moved));
   return motion;
 }

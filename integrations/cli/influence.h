@@ -40,10 +40,10 @@ struct MeshMotion {
   std::vector<float> distances;  // of each position
   uint32_t moved = 0;
   picture::Box box;      // of what moves, in neutral
-  picture::Vec3 centre;  // of what moves, in neutral, by how far it moves
+  picture::Vec3 center;  // of what moves, in neutral, by how far it moves
   picture::Vec3 mean;    // movement of what moves
   float most = 0;
-  uint32_t most_position = 0;
+  uint32_t max_position = 0;
 };
 
 struct Influence {

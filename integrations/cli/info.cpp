@@ -447,7 +447,7 @@ void write_text(const RigFile& file, const Summary& summary, const Session& sess
     rows.push_back({count.text, std::to_string(count.value)});
   text += table(rows);
 
-  text += "\n" + heading("Behaviour");
+  text += "\n" + heading("Behavior");
   for (const Tally& tally : summary.behavior) {
     if (tally.empty()) continue;
     std::string kinds;

@@ -64,12 +64,12 @@ std::string direction_words(Vec3 along) {
 std::string place_words(const Subject& subject, Vec3 place) {
   const picture::Box box = subject.neutral_box();
   const Vec3 half = box.size() * 0.5f;
-  const Vec3 from_centre = in_stand(subject, place - box.centre());
+  const Vec3 from_centre = in_stand(subject, place - box.center());
   const Vec3 extent = in_stand(subject, half);
   const auto share = [](float x, float of) { return of != 0 ? x / std::fabs(of) : 0.0f; };
   const float across = share(from_centre.x, extent.x), height = share(from_centre.y, extent.y);
   const char* third = height > 1 / 3.0f ? "upper" : height < -1 / 3.0f ? "lower" : "middle";
-  const char* side = across > 0.08f ? "left" : across < -0.08f ? "right" : "centre";
+  const char* side = across > 0.08f ? "left" : across < -0.08f ? "right" : "center";
   return std::string(side) + ", " + third + " third";
 }
 
@@ -94,11 +94,11 @@ std::string rotation_unit(const Subject& subject) {
 class Text {
  public:
   Text(const Subject& subject, const Session& session, Output& output)
-      : subject_(subject), colours_(session.terminal.out_colours), output_(output) {}
+      : subject_(subject), colors_(session.terminal.out_colours), output_(output) {}
 
   void write(const Influence& influence) {
     const bool gui = influence.control.kind == MIEN_KIND_GUI_CONTROL;
-    line(paint(one_line(influence.control.name), Style::kBold, colours_) +
+    line(paint(one_line(influence.control.name), Style::kBold, colors_) +
          (gui ? ": GUI control " : ": raw control ") + std::to_string(influence.control.index) +
          ", at " + number(influence.value) + ", LOD " + std::to_string(subject_.lod) + " of " +
          one_line(subject_.file.shown));
@@ -117,7 +117,7 @@ class Text {
 
   void title(const std::string& name, size_t count, const std::string& what) {
     line("");
-    line(paint(name, Style::kBold, colours_) + "  " + (count == 0 ? "none" : what));
+    line(paint(name, Style::kBold, colors_) + "  " + (count == 0 ? "none" : what));
   }
 
   void rest(size_t count) {
@@ -196,7 +196,7 @@ class Text {
       const Vec3 size = motion.box.size();
       line(name + number(share) + "% of its positions, up to " + number(motion.most) + unit +
            ", mostly " + direction_words(in_stand(subject_, motion.mean)));
-      line("  " + padded("", 36) + " around " + place_words(subject_, motion.centre) + "; box " +
+      line("  " + padded("", 36) + " around " + place_words(subject_, motion.center) + "; box " +
            number(size.x) + " x " + number(size.y) + " x " + number(size.z) + unit + " at (" +
            number(motion.box.least.x) + ", " + number(motion.box.least.y) + ", " +
            number(motion.box.least.z) + ")");
@@ -204,7 +204,7 @@ class Text {
   }
 
   const Subject& subject_;
-  bool colours_;
+  bool colors_;
   Output& output_;
 };
 
@@ -265,11 +265,11 @@ void write_meshes(JsonWriter& json, const Influence& influence, const Subject& s
     json.member("moved", motion.moved);
     if (motion.moved != 0) {
       write_float(json, "most", motion.most);
-      json.member("most_position", motion.most_position);
+      json.member("max_position", motion.max_position);
       write_vector(json, "mean", motion.mean);
       json.member("direction", direction_words(in_stand(subject, motion.mean)));
-      json.member("place", place_words(subject, motion.centre));
-      write_vector(json, "centre", motion.centre);
+      json.member("place", place_words(subject, motion.center));
+      write_vector(json, "center", motion.center);
       write_vector(json, "box_least", motion.box.least);
       write_vector(json, "box_most", motion.box.most);
     }

@@ -10,7 +10,7 @@ namespace mien::cli {
 
 namespace {
 
-using picture::Colour;
+using picture::Color;
 using picture::Material;
 using picture::Vec3;
 
@@ -96,11 +96,11 @@ std::vector<uint8_t> read_mesh_colours(const RigFile& file, const std::string& n
   for (uint32_t i = 0; i < file.info.metadata_count; ++i) {
     const std::string entry = "desc.metadata[" + std::to_string(i) + "]";
     if (to_string(read_text_field(file, entry + ".key")) != wanted) continue;
-    std::vector<uint8_t> colours;
-    const bool good = decode_base64(read_text_field(file, entry + ".value"), colours);
-    if (good && colours.size() == size_t{position_count} * 3) return colours;
+    std::vector<uint8_t> colors;
+    const bool good = decode_base64(read_text_field(file, entry + ".value"), colors);
+    if (good && colors.size() == size_t{position_count} * 3) return colors;
     note(session, file.shown + ", metadata " + wanted + ": " +
-                      (good ? std::to_string(colours.size()) + " bytes are not three for each of " +
+                      (good ? std::to_string(colors.size()) + " bytes are not three for each of " +
                                   std::to_string(position_count) + " positions"
                             : "this is not base64") +
                       "; the mesh is drawn without them");
@@ -109,28 +109,28 @@ std::vector<uint8_t> read_mesh_colours(const RigFile& file, const std::string& n
 }
 
 std::vector<uint8_t> paint_eye(const float* positions, uint32_t position_count, Vec3 front) {
-  constexpr Colour kWhite = {232, 228, 222}, kIris = {92, 112, 116}, kRim = {40, 50, 54},
-                   kPupil = {14, 13, 14};
+  constexpr Color kWhite = {232, 228, 222}, kIris = {92, 112, 116}, kRim = {40, 50, 54},
+                  kPupil = {14, 13, 14};
   picture::Box box;
   for (uint32_t i = 0; i < position_count; ++i) box.add(picture::load3(positions, i));
-  std::vector<uint8_t> colours(size_t{position_count} * 3);
+  std::vector<uint8_t> colors(size_t{position_count} * 3);
   for (uint32_t i = 0; i < position_count; ++i) {
-    const Vec3 from_centre = picture::load3(positions, i) - box.centre();
+    const Vec3 from_centre = picture::load3(positions, i) - box.center();
     const float cosine = dot(picture::normalized(from_centre, -front), front);
     // Angles of a human eye: the pupil is 4 mm of 24 wide, the iris 12.
     const float angle = std::acos(std::clamp(cosine, -1.0f, 1.0f)) * 57.29578f;
-    Vec3 colour = to_linear(kPupil);
+    Vec3 color = to_linear(kPupil);
     // Borders are soft, since between the positions of a coarse mesh they would be crooked.
     for (const auto& [border, outside] :
          {std::pair{10.0f, kIris}, std::pair{24.0f, kRim}, std::pair{28.0f, kWhite}}) {
-      colour = mix(colour, to_linear(outside), picture::saturate((angle - border) / 3 + 0.5f));
+      color = mix(color, to_linear(outside), picture::saturate((angle - border) / 3 + 0.5f));
     }
-    const Colour painted = picture::to_srgb(colour);
-    colours[size_t{i} * 3] = painted.r;
-    colours[size_t{i} * 3 + 1] = painted.g;
-    colours[size_t{i} * 3 + 2] = painted.b;
+    const Color painted = picture::to_srgb(color);
+    colors[size_t{i} * 3] = painted.r;
+    colors[size_t{i} * 3 + 1] = painted.g;
+    colors[size_t{i} * 3 + 2] = painted.b;
   }
-  return colours;
+  return colors;
 }
 
 }  // namespace mien::cli

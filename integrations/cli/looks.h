@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the meshes of a rig are made to look like: by the colours that the file brings, else by what
+// What the meshes of a rig are made to look like: by the colors that the file brings, else by what
 // their names say they are.
 #pragma once
 
@@ -26,7 +26,7 @@ enum class MeshKind {
 MeshKind mesh_kind(const std::string& name);
 picture::Material mesh_material(MeshKind kind);
 
-/// Colours of a mesh from the metadata "mien.colors.NAME" of the file: base64 of r g b for each
+/// Colors of a mesh from the metadata "mien.colors.NAME" of the file: base64 of r g b for each
 /// position. Empty if there is none; if it does not fit, a note says so.
 std::vector<uint8_t> read_mesh_colours(const RigFile& file, const std::string& name,
                                        uint32_t position_count, const Session& session);

@@ -17,7 +17,7 @@ namespace {
 
 using picture::Backdrop;
 using picture::Camera;
-using picture::Colour;
+using picture::Color;
 using picture::Image;
 using picture::View;
 
@@ -197,8 +197,8 @@ Sheet::Sheet(size_t count, size_t columns, Size tile, const Backdrop& backdrop, 
   }
   // The page is a little darker than the darkest of the tiles, or as light as the lightest.
   const bool dark = backdrop.edge.g < 128;
-  const Colour page = dark ? Colour{24, 26, 29} : Colour{255, 255, 255};
-  text_ = dark ? Colour{214, 216, 218} : Colour{40, 42, 46};
+  const Color page = dark ? Color{24, 26, 29} : Color{255, 255, 255};
+  text_ = dark ? Color{214, 216, 218} : Color{40, 42, 46};
   image_ = Image(static_cast<int>(width), static_cast<int>(height), page);
 }
 

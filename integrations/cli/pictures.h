@@ -59,7 +59,7 @@ class Sheet {
   Size tile_;
   float text_size_;
   int label_height_;
-  picture::Colour text_;
+  picture::Color text_;
   picture::Image image_;
 };
 

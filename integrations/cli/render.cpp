@@ -107,7 +107,7 @@ std::vector<Shot> turntable_shots(const RenderCommand& command, const Plan& plan
     picture::View view = plan.view;
     view.yaw += 360 * static_cast<float>(i) / static_cast<float>(plan.turns);
     shots.push_back({"", base,
-                     frame_turning(subject.stand, view, box.centre(), points, plan.size.width,
+                     frame_turning(subject.stand, view, box.center(), points, plan.size.width,
                                    plan.size.height)});
   }
   return shots;
@@ -213,7 +213,7 @@ Command add_render_command(CLI::App& app, const Session& session) {
   render->add_flag("--wireframe", command->subject.wireframe, "Edges of the faces on top");
   render->footer(
       "A picture is 640x640 pixels, one of several on a sheet 256x256, if --size does not say\n"
-      "otherwise. The light moves with the camera. Meshes are coloured by the metadata\n"
+      "otherwise. The light moves with the camera. Meshes are colored by the metadata\n"
       "mien.colors.MESH of the file (base64 of r g b per position), else by what their names say\n"
       "they are.\n\n"
       "Examples:\n"

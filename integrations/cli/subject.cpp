@@ -66,11 +66,11 @@ ShownMesh show_mesh(const Subject& subject, uint32_t mesh, const SubjectOptions&
   check(mien_deformer_mesh(subject.deformer.get(), mesh, &shown.neutral), nullptr, kCannot,
         subject.file.shown);
   const uint32_t positions = shown.neutral.position_count;
-  shown.colours = read_mesh_colours(subject.file, shown.name, positions, session);
-  if (shown.colours.empty() && shown.kind == MeshKind::kEye) {
-    shown.colours = paint_eye(shown.neutral.positions.data, positions, subject.stand.front);
-  } else if (!shown.colours.empty() && shown.kind == MeshKind::kCover) {
-    shown.kind = MeshKind::kHair;  // who gives it colours wants it seen
+  shown.colors = read_mesh_colours(subject.file, shown.name, positions, session);
+  if (shown.colors.empty() && shown.kind == MeshKind::kEye) {
+    shown.colors = paint_eye(shown.neutral.positions.data, positions, subject.stand.front);
+  } else if (!shown.colors.empty() && shown.kind == MeshKind::kCover) {
+    shown.kind = MeshKind::kHair;  // who gives it colors wants it seen
   }
   if (options.wireframe) {
     shown.inner_edges = find_inner_edges(subject.file, mesh, shown.neutral.triangle_count);
@@ -162,10 +162,10 @@ Box find_face(const Subject& subject) {
   const Box eyes = box_of_eyes(subject), mouth = box_of_mouth(subject);
   if (eyes.empty() || mouth.empty()) return {};
   const Stand& stand = subject.stand;
-  const float apart = dot(eyes.centre() - mouth.centre(), stand.up);
+  const float apart = dot(eyes.center() - mouth.center(), stand.up);
   if (!(apart > 0)) return {};
-  const float across = dot(eyes.centre(), stand.left), depth = dot(eyes.centre(), stand.front);
-  const float height = dot(eyes.centre() + mouth.centre(), stand.up) / 2;
+  const float across = dot(eyes.center(), stand.left), depth = dot(eyes.center(), stand.front);
+  const float height = dot(eyes.center() + mouth.center(), stand.up) / 2;
   Box face;
   for (const float side : {-1.45f, 1.45f}) {
     face.add(stand.left * (across + side * apart) + stand.up * (height - 1.55f * apart) +
@@ -195,7 +195,8 @@ std::string Subject::unit() const {
 
 const float* Subject::positions(const ShownMesh& mesh) const {
   MienFloatView view{};
-  check(mien_pose_positions(pose.get(), mesh.mesh, &view), nullptr, kCannot, file.shown);
+  check(mien_deformer_instance_positions(pose.get(), mesh.mesh, &view), nullptr, kCannot,
+        file.shown);
   return view.data;
 }
 
@@ -203,16 +204,17 @@ std::vector<picture::Surface> Subject::surfaces() const {
   std::vector<picture::Surface> surfaces;
   for (const ShownMesh& mesh : meshes) {
     MienFloatView normals{};
-    check(mien_pose_normals(pose.get(), mesh.mesh, &normals), nullptr, kCannot, file.shown);
+    check(mien_deformer_instance_normals(pose.get(), mesh.mesh, &normals), nullptr, kCannot,
+          file.shown);
     picture::Surface surface;
     surface.positions = positions(mesh);
     surface.position_count = mesh.neutral.position_count;
     surface.normals = normals.data;
-    surface.vertex_positions = mesh.neutral.vertex_positions.data;
+    surface.vertex_position_indices = mesh.neutral.vertex_position_indices.data;
     surface.vertex_count = mesh.neutral.vertex_count;
     surface.triangles = mesh.neutral.triangles.data;
     surface.triangle_count = mesh.neutral.triangle_count;
-    if (!mesh.colours.empty()) surface.colours = mesh.colours.data();
+    if (!mesh.colors.empty()) surface.colors = mesh.colors.data();
     if (!mesh.inner_edges.empty()) surface.inner_edges = mesh.inner_edges.data();
     surface.material = mesh_material(mesh.kind);
     surfaces.push_back(surface);
@@ -273,8 +275,9 @@ Subject open_subject(const SubjectOptions& options, const Session& session) {
   check(mien_deformer_create(subject.file.dna.get(), subject.rig.get(), nullptr, &deformer, &error),
         &error, "cannot prepare meshes", subject.file.shown);
   subject.deformer.reset(deformer);
-  MienPose* pose = nullptr;
-  check(mien_pose_create(deformer, nullptr, &pose, &error), &error, kCannot, subject.file.shown);
+  MienDeformerInstance* pose = nullptr;
+  check(mien_deformer_instance_create(deformer, nullptr, &pose, &error), &error, kCannot,
+        subject.file.shown);
   subject.pose.reset(pose);
   choose_meshes(subject, options, session);
   return subject;
@@ -282,16 +285,16 @@ Subject open_subject(const SubjectOptions& options, const Session& session) {
 
 void pose_subject(Subject& subject, const Frame& frame) {
   MienInstance* instance = subject.instance.get();
-  MienPose* pose = subject.pose.get();
+  MienDeformerInstance* pose = subject.pose.get();
   const std::string& shown = subject.file.shown;
   check(mien_instance_reset(instance), nullptr, kCannot, shown);
   apply_frame(frame, subject.rig.get(), instance);
   check(mien_rig_evaluate(subject.rig.get(), instance, 0), nullptr, kCannot, shown);
   if (!pose) return;
-  check(mien_pose_update(pose, instance), nullptr, kCannot, shown);
+  check(mien_deformer_instance_update(pose, instance), nullptr, kCannot, shown);
   for (const ShownMesh& mesh : subject.meshes) {
-    check(mien_pose_deform(pose, mesh.mesh, MIEN_NORMALS_DEFAULT, nullptr), nullptr, kCannot,
-          shown);
+    check(mien_deformer_instance_deform(pose, mesh.mesh, MIEN_NORMALS_DEFAULT, nullptr), nullptr,
+          kCannot, shown);
     const float* positions = subject.positions(mesh);
     for (size_t i = 0; i < size_t{mesh.neutral.position_count} * 3; ++i) {
       if (std::isfinite(positions[i])) continue;

@@ -14,14 +14,15 @@
 namespace mien::cli {
 
 using Deformer = std::unique_ptr<MienDeformer, Destroy<MienDeformer, mien_deformer_destroy>>;
-using Pose = std::unique_ptr<MienPose, Destroy<MienPose, mien_pose_destroy>>;
+using Pose = std::unique_ptr<MienDeformerInstance,
+                             Destroy<MienDeformerInstance, mien_deformer_instance_destroy>>;
 
 struct ShownMesh {
   uint32_t mesh;
   std::string name;
   MeshKind kind;
   MienMesh neutral;
-  std::vector<uint8_t> colours;      // r g b of each position; or none
+  std::vector<uint8_t> colors;       // r g b of each position; or none
   std::vector<uint8_t> inner_edges;  // of each triangle, for wireframes
 };
 

@@ -39,8 +39,8 @@ Terminal find_terminal() {
   return terminal;
 }
 
-std::string paint(const std::string& text, Style style, bool colours) {
-  if (!colours) return text;
+std::string paint(const std::string& text, Style style, bool colors) {
+  if (!colors) return text;
   switch (style) {
     case Style::kPlain: break;
     case Style::kBold: return "\033[1m" + text + "\033[0m";
@@ -53,14 +53,14 @@ std::string paint(const std::string& text, Style style, bool colours) {
 
 void note(const Session& session, const std::string& text) {
   if (session.quiet) return;
-  const bool colours = session.terminal.error_colours;
-  std::fprintf(stderr, "%s %s\n", paint("mien: note:", Style::kYellow, colours).c_str(),
+  const bool colors = session.terminal.error_colours;
+  std::fprintf(stderr, "%s %s\n", paint("mien: note:", Style::kYellow, colors).c_str(),
                one_line(text).c_str());
 }
 
 void print_failure(const Session& session, const std::string& text) {
-  const bool colours = session.terminal.error_colours;
-  std::fprintf(stderr, "%s %s\n", paint("mien:", Style::kRed, colours).c_str(),
+  const bool colors = session.terminal.error_colours;
+  std::fprintf(stderr, "%s %s\n", paint("mien:", Style::kRed, colors).c_str(),
                one_line(text).c_str());
 }
 

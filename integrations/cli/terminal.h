@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Colours, notes and progress: only where a person looks.
+// Colors, notes and progress: only where a person looks.
 #pragma once
 
 #include <chrono>
@@ -19,11 +19,11 @@ struct Terminal {
   bool error_colours = false;
 };
 
-/// Asks the system; honours NO_COLOR and TERM=dumb.
+/// Asks the system; honors NO_COLOR and TERM=dumb.
 Terminal find_terminal();
 
-/// `text` in that style if `colours` are wanted.
-std::string paint(const std::string& text, Style style, bool colours);
+/// `text` in that style if `colors` are wanted.
+std::string paint(const std::string& text, Style style, bool colors);
 
 /// "mien: note: text" on standard error, unless --quiet.
 void note(const Session& session, const std::string& text);

@@ -66,12 +66,12 @@ void write_json(const std::string& shown, const std::vector<MienFinding>& findin
 
 void write_text(const std::string& shown, const std::vector<MienFinding>& findings,
                 uint32_t warnings, bool valid, const Session& session) {
-  const bool colours = session.terminal.out_colours;
+  const bool colors = session.terminal.out_colours;
   Output output("-");
   for (const MienFinding& finding : findings) {
     const bool warning = finding.severity == MIEN_SEVERITY_WARNING;
     std::string line =
-        paint(severity_word(finding), warning ? Style::kYellow : Style::kRed, colours);
+        paint(severity_word(finding), warning ? Style::kYellow : Style::kRed, colors);
     if (finding.field.count != 0) line += " " + one_line(to_string(finding.field));
     if (finding.byte_offset != MIEN_NO_OFFSET)
       line += ", byte " + std::to_string(finding.byte_offset);
@@ -79,7 +79,7 @@ void write_text(const std::string& shown, const std::vector<MienFinding>& findin
   }
   if (valid && !session.quiet) {
     const std::string verdict = warnings ? "valid, " + count_text(warnings, "warning") : "valid";
-    output.write(one_line(shown) + ": " + paint(verdict, Style::kGreen, colours) + "\n");
+    output.write(one_line(shown) + ": " + paint(verdict, Style::kGreen, colors) + "\n");
   }
   output.commit();
 }

@@ -4,8 +4,8 @@
 // to what the C interface does, and nothing hidden: get() gives the handle for all that is not
 // here.
 //
-//   Owners    Dna, Report, Rig, Instance, Deformer, Pose release what they hold; they can be moved,
-//   not
+//   Owners    Dna, Report, Rig, Instance, Deformer, DeformerInstance release what they hold; they
+//   can be moved, not
 //             copied. An empty one (default, moved from) may be used like any other: calls give
 //             MIEN_ERROR_NULL_ARGUMENT, spans are empty.
 //   Results   What can fail returns a Result: test it, then take *result; or take value(). Errors
@@ -83,9 +83,9 @@ using DnaDesc = Sized<MienDnaDesc>;
 using WriteDesc = Sized<MienWriteDesc>;
 using GenerateDesc = Sized<MienGenerateDesc>;
 using RigDesc = Sized<MienRigDesc>;
-using RigImageDesc = Sized<MienRigImageDesc>;
+using BakedDesc = Sized<MienBakedDesc>;
 using DeformerDesc = Sized<MienDeformerDesc>;
-using PoseDesc = Sized<MienPoseDesc>;
+using DeformerInstanceDesc = Sized<MienDeformerInstanceDesc>;
 using CoordinateSystem = Sized<MienCoordinateSystem>;
 
 inline std::string_view view(const MienStringView& text) { return {text.data, text.count}; }
@@ -424,13 +424,13 @@ class Rig : public Owner<MienRig, mien_rig_destroy> {
   }
 
   /// A baked rig: a file that save() or `mien bake` wrote.
-  static Result<Rig> open(const char* path, const RigImageDesc& desc = {}) {
+  static Result<Rig> open(const char* path, const BakedDesc& desc = {}) {
     return make<Rig>([&](MienRig** out, MienError* error) {
       return mien_rig_open_file(path, &desc, out, error);
     });
   }
   /// `bytes` have to outlive the Rig and all that is made of it, unchanged.
-  static Result<Rig> open(const void* bytes, size_t size, const RigImageDesc& desc = {}) {
+  static Result<Rig> open(const void* bytes, size_t size, const BakedDesc& desc = {}) {
     return make<Rig>([&](MienRig** out, MienError* error) {
       return mien_rig_open_memory(bytes, size, &desc, out, error);
     });
@@ -557,30 +557,37 @@ class Rig : public Owner<MienRig, mien_rig_destroy> {
 };
 
 /// One character's joint matrices, positions and normals. For one thread at a time.
-class Pose : public Owner<MienPose, mien_pose_destroy> {
+class DeformerInstance : public Owner<MienDeformerInstance, mien_deformer_instance_destroy> {
  public:
   using Owner::Owner;
 
-  Status update(const Instance& instance) { return mien_pose_update(get(), instance.get()); }
+  Status update(const Instance& instance) {
+    return mien_deformer_instance_update(get(), instance.get());
+  }
   /// The layouts of Instance::joints() and blend_shapes(); empty: no deltas, all 0.
   Status update(Span<const float> joint_values, Span<const float> channel_weights) {
-    return mien_pose_update_from_values(get(), joint_values.data(), joint_values.size(),
-                                        channel_weights.data(), channel_weights.size());
+    return mien_deformer_instance_update_from_values(get(), joint_values.data(),
+                                                     joint_values.size(), channel_weights.data(),
+                                                     channel_weights.size());
   }
   Status deform(uint32_t mesh, MienNormals normals = MIEN_NORMALS_DEFAULT,
                 const MienParallelFor* parallel = nullptr) {
-    return mien_pose_deform(get(), mesh, normals, parallel);
+    return mien_deformer_instance_deform(get(), mesh, normals, parallel);
   }
 
   /// x y z per position, x y z per vertex; empty for a mesh without room. The spans stay the same.
-  Span<const float> positions(uint32_t mesh) const { return span(mien_pose_positions, mesh); }
-  Span<const float> normals(uint32_t mesh) const { return span(mien_pose_normals, mesh); }
+  Span<const float> positions(uint32_t mesh) const {
+    return span(mien_deformer_instance_positions, mesh);
+  }
+  Span<const float> normals(uint32_t mesh) const {
+    return span(mien_deformer_instance_normals, mesh);
+  }
   /// 16 floats per joint, column by column.
-  Span<const float> joint_matrices() const { return span(mien_pose_joint_matrices); }
-  Span<const float> skin_matrices() const { return span(mien_pose_skin_matrices); }
+  Span<const float> joint_matrices() const { return span(mien_deformer_instance_joint_matrices); }
+  Span<const float> skin_matrices() const { return span(mien_deformer_instance_skin_matrices); }
   /// Fills 10 floats per joint: tx ty tz qx qy qz qw sx sy sz.
   Status local_transforms(Span<float> out) const {
-    return mien_pose_local_transforms(get(), out.data(), out.size());
+    return mien_deformer_instance_local_transforms(get(), out.data(), out.size());
   }
 
  private:
@@ -592,10 +599,10 @@ class Pose : public Owner<MienPose, mien_pose_destroy> {
 };
 
 /// The same mesh of several poses of one deformer, by their handles.
-inline Status deform_batch(Span<MienPose* const> poses, uint32_t mesh,
+inline Status deform_batch(Span<MienDeformerInstance* const> poses, uint32_t mesh,
                            MienNormals normals = MIEN_NORMALS_DEFAULT,
                            const MienParallelFor* parallel = nullptr) {
-  return mien_pose_deform_batch(poses.data(), poses.size(), mesh, normals, parallel);
+  return mien_deformer_instance_deform_batch(poses.data(), poses.size(), mesh, normals, parallel);
 }
 
 /// Geometry and joint hierarchy of a DNA. Immutable: may be used by several threads at once.
@@ -611,9 +618,9 @@ class Deformer : public Owner<MienDeformer, mien_deformer_destroy> {
   }
 
   /// A pose in neutral. May outlive the deformer.
-  Result<Pose> pose(const PoseDesc& desc = {}) const {
-    return make<Pose>([&](MienPose** out, MienError* error) {
-      return mien_pose_create(get(), &desc, out, error);
+  Result<DeformerInstance> instance(const DeformerInstanceDesc& desc = {}) const {
+    return make<DeformerInstance>([&](MienDeformerInstance** out, MienError* error) {
+      return mien_deformer_instance_create(get(), &desc, out, error);
     });
   }
 

@@ -30,7 +30,7 @@ void test_images() {
   CHECK(opened.count(MIEN_KIND_JOINT) == rig.count(MIEN_KIND_JOINT));
   CHECK(rig.save("/dev/null"));
 #ifndef MIEN_EXCEPTIONS
-  CHECK(mien::Rig::open("/dev/null").error().status() == MIEN_ERROR_IMAGE_SIGNATURE);
+  CHECK(mien::Rig::open("/dev/null").error().status() == MIEN_ERROR_BAKED_SIGNATURE);
 #endif
 }
 
@@ -196,7 +196,7 @@ void test_deformer() {
   for (float& control : face.raw_controls()) control = 0.25f;
   CHECK(rig.evaluate(face));
 
-  mien::Pose pose = deformer.pose().value();
+  mien::DeformerInstance pose = deformer.instance().value();
   const MienMesh mesh = deformer.mesh(0).value();
   const auto neutral = mien::view(mesh.positions);
   CHECK(neutral.size() == size_t{3} * mesh.position_count);
@@ -215,13 +215,13 @@ void test_deformer() {
   CHECK(deformer.inverse_bind_matrices().size() == deformer.bind_matrices().size());
 
   // From arrays, by threads, and in a batch: the same bits.
-  mien::Pose same = deformer.pose().value();
+  mien::DeformerInstance same = deformer.instance().value();
   int runs = 0;
   const MienParallelFor parallel = {&runs, run_in_order};
   CHECK(same.update(face.joints(), face.blend_shapes()));
   CHECK(same.deform(0, MIEN_NORMALS_SKINNED, &parallel) && runs > 0);
   CHECK(std::memcmp(same.positions(0).data(), moved.data(), moved.size() * sizeof(float)) == 0);
-  MienPose* const poses[] = {pose.get(), same.get()};
+  MienDeformerInstance* const poses[] = {pose.get(), same.get()};
   CHECK(mien::deform_batch(poses, 0));
   CHECK(std::memcmp(same.positions(0).data(), moved.data(), moved.size() * sizeof(float)) == 0);
   CHECK(same.update({}, {}));
@@ -236,15 +236,15 @@ void test_deformer() {
   CHECK(held.joints.size() == held.weights.size() && !held.joints.empty());
 
   deformer.reset();
-  CHECK(pose.deform(0) && !deformer.info() && !deformer.mesh(0) && !deformer.pose());
+  CHECK(pose.deform(0) && !deformer.info() && !deformer.mesh(0) && !deformer.instance());
   CHECK(!deformer.influences(0, 0) && deformer.bind_matrices().empty());
   CHECK(!mien::Deformer::create(dna, mien::Rig()));
-  mien::PoseDesc last_lod;
+  mien::DeformerInstanceDesc last_lod;
   last_lod.lods = uint64_t{1} << 7;
   const mien::Deformer again = mien::Deformer::create(dna, rig).value();
-  mien::Pose small = again.pose(last_lod).value();
+  mien::DeformerInstance small = again.instance(last_lod).value();
   CHECK(small.deform(0).status() == MIEN_ERROR_LOD && small.positions(0).empty());
-  mien::Pose empty;
+  mien::DeformerInstance empty;
   CHECK(!empty.update(face) && !empty.deform(0) && empty.joint_matrices().empty());
 }
 

@@ -56,23 +56,24 @@ class Face {
       }
     }
     check(mien_rig_evaluate(source_.rig(), instance_.get(), lod), "cannot bake");
-    check(mien_pose_update(pose_.get(), instance_.get()), "cannot bake");
-    check(mien_pose_deform(pose_.get(), rig_mesh,
-                           with_normals ? MIEN_NORMALS_RECOMPUTED : MIEN_NORMALS_NONE, nullptr),
+    check(mien_deformer_instance_update(pose_.get(), instance_.get()), "cannot bake");
+    check(mien_deformer_instance_deform(pose_.get(), rig_mesh,
+                                        with_normals ? MIEN_NORMALS_RECOMPUTED : MIEN_NORMALS_NONE,
+                                        nullptr),
           "cannot bake");
   }
 
-  const MienPose* pose() const { return pose_.get(); }
+  const MienDeformerInstance* pose() const { return pose_.get(); }
 
   std::vector<float> positions(uint32_t rig_mesh) const {
     MienFloatView view{};
-    check(mien_pose_positions(pose_.get(), rig_mesh, &view), "cannot bake");
+    check(mien_deformer_instance_positions(pose_.get(), rig_mesh, &view), "cannot bake");
     return std::vector<float>(view.data, view.data + view.count);
   }
 
   std::vector<float> normals(uint32_t rig_mesh) const {
     MienFloatView view{};
-    check(mien_pose_normals(pose_.get(), rig_mesh, &view), "cannot bake");
+    check(mien_deformer_instance_normals(pose_.get(), rig_mesh, &view), "cannot bake");
     return std::vector<float>(view.data, view.data + view.count);
   }
 
@@ -176,7 +177,8 @@ BakedMesh bake_mesh(const RigSource& source, Face& face, uint32_t rig_mesh, doub
   const Shape neutral = shape_of(face, rig_mesh, baked.lod, weights);
   baked.neutral = neutral.positions;
   for (uint32_t v = 0; v < from.vertex_count; ++v) {
-    const Vec3 p = source.point(baked.neutral.data() + size_t{3} * from.vertex_positions.data[v]);
+    const Vec3 p =
+        source.point(baked.neutral.data() + size_t{3} * from.vertex_position_indices.data[v]);
     for (size_t i = 0; i < 3; ++i) mesh.positions[v][i] = static_cast<float>(p[i]);
   }
 
@@ -195,7 +197,7 @@ BakedMesh bake_mesh(const RigSource& source, Face& face, uint32_t rig_mesh, doub
     for (size_t p = 0; p < baked.is_moved.size(); ++p) {
       const double length = length_at(source, baked.moves[e], p);
       if (length > kLeastMove * diagonal) baked.is_moved[p] = true;
-      double& most = report.expressions[e].most_move;
+      double& most = report.expressions[e].max_move;
       most = std::max(most, length);
     }
     if (e == kJawOpen) open = shape;
@@ -206,8 +208,8 @@ BakedMesh bake_mesh(const RigSource& source, Face& face, uint32_t rig_mesh, doub
       const std::vector<float> apart =
           less(less(other.positions, other_base.positions), baked.moves[e]);
       for (size_t p = 0; p < baked.is_moved.size(); ++p) {
-        report.most_close_with_jaw =
-            std::max(report.most_close_with_jaw, length_at(source, apart, p));
+        report.max_close_with_jaw =
+            std::max(report.max_close_with_jaw, length_at(source, apart, p));
       }
     }
     weights[e] = weights[kJawOpen] = 0;
@@ -258,11 +260,11 @@ BakeReport bake_arkit(const RigSource& source, const ArkitControls& controls,
       if (together.most > most) std::copy(weights.begin(), weights.end(), report.worst.begin());
     }
   }
-  const double metres = source.metres_per_unit();
+  const double meters = source.metres_per_unit();
   for (size_t e = 0; e < kArkitCount; ++e) {
-    report.expressions[e].halfway = halfway[e].residual(metres);
+    report.expressions[e].halfway = halfway[e].residual(meters);
   }
-  report.combinations = together.residual(metres);
+  report.combinations = together.residual(meters);
   return report;
 }
 

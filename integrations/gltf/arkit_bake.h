@@ -9,7 +9,7 @@ namespace mien::gltf {
 
 /// Distances between two shapes of the same positions, over those that some expression moves.
 struct Residual {
-  double rms = 0, most = 0;  // metres
+  double rms = 0, most = 0;  // meters
 };
 
 /// What mouthClose is a difference to.
@@ -21,16 +21,16 @@ enum class MouthClose {
 
 struct BakeReport {
   struct Expression {
-    double most_move = 0;  // of a position, metres
-    Residual halfway;      // half the target against the rig at half the controls
+    double max_move = 0;  // of a position, meters
+    Residual halfway;     // half the target against the rig at half the controls
   };
   std::vector<Expression> expressions;  // kArkitCount of them
   Residual combinations;                // sums of targets against the rig
   ArkitWeights worst{};                 // the combination with the largest distance
-  double most_close_with_jaw = 0;       // by how much mouthClose differs in its two ways, metres
+  double max_close_with_jaw = 0;        // by how much mouthClose differs in its two ways, meters
   uint32_t combination_count = 0;
   size_t moved_positions = 0;
-  double diagonal = 0;  // of the box around all positions, metres
+  double diagonal = 0;  // of the box around all positions, meters
 };
 
 /// Adds to each mesh of a still scene a target per expression: the mesh as the rig deforms it with

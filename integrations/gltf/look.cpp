@@ -79,7 +79,7 @@ Material material_for(const std::string& mesh_name, bool has_vertex_colors) {
   });
   Material material = found == std::end(kLooks) ? kSkin : found->material;
   if (has_vertex_colors) {
-    material.name += " (vertex colours)";
+    material.name += " (vertex colors)";
     material.color = {1, 1, 1, material.color[3]};
   }
   return material;
@@ -95,7 +95,7 @@ std::vector<Color> position_colors(const RigSource& source, const std::string& m
     if (!decode_base64(read_string(source, pair + ".value"), bytes) ||
         bytes.size() != 3 * position_count) {
       throw ExportError(MIEN_ERROR_DNA_VALUE, pair,
-                        "the colours " + (kColorKey + mesh_name) +
+                        "the colors " + (kColorKey + mesh_name) +
                             " are not base64 of 3 bytes for each of " +
                             std::to_string(position_count) + " positions",
                         "correct or remove them");

@@ -73,13 +73,13 @@ struct Base {
   uint64_t position = 1, vertex = 1;
 };
 
-void write_mesh(const RigSource& source, uint32_t number, const MienPose* pose, Base& base,
-                std::string& text) {
+void write_mesh(const RigSource& source, uint32_t number, const MienDeformerInstance* pose,
+                Base& base, std::string& text) {
   const MienMesh mesh = source.mesh(number);
   const std::string name = source.name(MIEN_KIND_MESH, number);
   MienFloatView positions{}, normals{};
-  check(mien_pose_positions(pose, number, &positions), "cannot deform");
-  check(mien_pose_normals(pose, number, &normals), "cannot deform");
+  check(mien_deformer_instance_positions(pose, number, &positions), "cannot deform");
+  check(mien_deformer_instance_normals(pose, number, &normals), "cannot deform");
   const std::vector<Color> colors = position_colors(source, name, mesh.position_count);
 
   text += "\no " + word_of(name) + "\ng " + word_of(name) + "\n";
@@ -114,7 +114,7 @@ void write_mesh(const RigSource& source, uint32_t number, const MienPose* pose, 
     for (const int64_t corner : corners) {
       const auto vertex = static_cast<size_t>(corner);
       const std::string shared = std::to_string(base.vertex + vertex);
-      text += ' ' + std::to_string(base.position + mesh.vertex_positions.data[vertex]);
+      text += ' ' + std::to_string(base.position + mesh.vertex_position_indices.data[vertex]);
       text += '/' + (has_uvs ? shared : "") + '/' + shared;
     }
     text += '\n';
@@ -125,13 +125,14 @@ void write_mesh(const RigSource& source, uint32_t number, const MienPose* pose, 
 
 }  // namespace
 
-std::string write_obj(const RigSource& source, MienPose* pose) {
-  std::string text = "# metres, y up, z to the front\n";
+std::string write_obj(const RigSource& source, MienDeformerInstance* pose) {
+  std::string text = "# meters, y up, z to the front\n";
   Base base;
   for (uint32_t m = 0; m < source.count(MIEN_KIND_MESH); ++m) {
     const MienMesh mesh = source.mesh(m);
     if (mesh.vertex_count == 0 || mesh.triangle_count == 0) continue;
-    check(mien_pose_deform(pose, m, MIEN_NORMALS_RECOMPUTED, nullptr), "cannot deform");
+    check(mien_deformer_instance_deform(pose, m, MIEN_NORMALS_RECOMPUTED, nullptr),
+          "cannot deform");
     write_mesh(source, m, pose, base, text);
   }
   return text;

@@ -9,8 +9,8 @@
 namespace mien::gltf {
 
 /// All meshes as `pose` deforms them, with recomputed normals: one group per mesh, faces with the
-/// corners of the file, texture coordinates where there are some, colours of positions (after x y
-/// z, as many programs read them) where the file has some. Metres, y up, z to the front.
-std::string write_obj(const RigSource& source, MienPose* pose);
+/// corners of the file, texture coordinates where there are some, colors of positions (after x y
+/// z, as many programs read them) where the file has some. Meters, y up, z to the front.
+std::string write_obj(const RigSource& source, MienDeformerInstance* pose);
 
 }  // namespace mien::gltf

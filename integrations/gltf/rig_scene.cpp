@@ -37,7 +37,7 @@ Mesh make_mesh(const RigSource& source, uint32_t number, const MienMesh& from) {
   mesh.name = source.name(MIEN_KIND_MESH, number);
   const std::vector<Color> colors = position_colors(source, mesh.name, from.position_count);
   for (uint32_t v = 0; v < from.vertex_count; ++v) {
-    const uint32_t position = from.vertex_positions.data[v];
+    const uint32_t position = from.vertex_position_indices.data[v];
     mesh.positions.push_back(floats(source.point(from.positions.data + size_t{3} * position)));
     const Vec3 normal = source.direction(from.normals.data + size_t{3} * v);
     mesh.normals.push_back(floats(normalized(normal, {0, 1, 0})));
@@ -64,9 +64,10 @@ uint32_t add_material(std::vector<Material>& materials, const Material& material
 
 // Skeleton ----------------------------------------------------------------------------------------
 
-std::vector<Transform> local_transforms(const RigSource& source, const MienPose* pose) {
+std::vector<Transform> local_transforms(const RigSource& source, const MienDeformerInstance* pose) {
   std::vector<float> values(size_t{10} * source.count(MIEN_KIND_JOINT));
-  check(mien_pose_local_transforms(pose, values.data(), values.size()), "cannot read pose");
+  check(mien_deformer_instance_local_transforms(pose, values.data(), values.size()),
+        "cannot read pose");
   std::vector<Transform> transforms;
   for (size_t i = 0; i < values.size(); i += 10) {
     transforms.push_back(source.transform(values.data() + i));
@@ -74,7 +75,7 @@ std::vector<Transform> local_transforms(const RigSource& source, const MienPose*
   return transforms;
 }
 
-std::vector<Joint> make_joints(const RigSource& source, const MienPose* neutral) {
+std::vector<Joint> make_joints(const RigSource& source, const MienDeformerInstance* neutral) {
   MienIndexView parents{};
   check(mien_rig_joint_parents(source.rig(), &parents), "cannot examine rig");
   const std::vector<Transform> locals = local_transforms(source, neutral);
@@ -131,14 +132,14 @@ void make_exact(std::vector<Influence>& influences, size_t most, Losses& losses)
   const double correction = std::max(std::abs(1 - stored), positive - stored);
   if (correction > kRoundedSum) {
     ++losses.corrected_positions;
-    losses.most_correction = std::max(losses.most_correction, correction);
+    losses.max_correction = std::max(losses.max_correction, correction);
   }
   if (influences.size() > most) {
     double kept = 0;
     influences.resize(most);
     for (const Influence& influence : influences) kept += influence.weight;
     ++losses.cut_positions;
-    losses.most_weight_cut = std::max(losses.most_weight_cut, 1 - kept / positive);
+    losses.max_weight_cut = std::max(losses.max_weight_cut, 1 - kept / positive);
     positive = kept;
   }
   double rest = 1;
@@ -163,7 +164,7 @@ uint16_t still_joint(std::vector<Joint>& joints, size_t rig_joints) {
 
 void add_skin(const RigSource& source, uint32_t rig_mesh, const MienMesh& from,
               uint32_t influences_per_vertex, RigScene& result, Mesh& mesh) {
-  if (from.most_influences == 0 || result.scene.joints.empty()) return;
+  if (from.max_influences == 0 || result.scene.joints.empty()) return;
   const size_t most = influences_per_vertex, rig_joints = source.count(MIEN_KIND_JOINT);
   std::vector<std::vector<Influence>> of_position(from.position_count);
   for (uint32_t p = 0; p < from.position_count; ++p) {
@@ -176,7 +177,7 @@ void add_skin(const RigSource& source, uint32_t rig_mesh, const MienMesh& from,
   mesh.joints.assign(mesh.positions.size() * most, 0);
   mesh.weights.assign(mesh.positions.size() * most, 0);
   for (size_t v = 0; v < mesh.positions.size(); ++v) {
-    const std::vector<Influence>& influences = of_position[from.vertex_positions.data[v]];
+    const std::vector<Influence>& influences = of_position[from.vertex_position_indices.data[v]];
     for (size_t k = 0; k < influences.size(); ++k) {
       mesh.joints[v * most + k] = influences[k].joint;
       mesh.weights[v * most + k] = static_cast<float>(influences[k].weight);
@@ -186,7 +187,7 @@ void add_skin(const RigSource& source, uint32_t rig_mesh, const MienMesh& from,
 
 uint32_t influences_needed(const RigSource& source) {
   for (uint32_t m = 0; m < source.count(MIEN_KIND_MESH); ++m) {
-    if (source.mesh(m).most_influences > 4) return 8;
+    if (source.mesh(m).max_influences > 4) return 8;
   }
   return 4;
 }
@@ -211,16 +212,17 @@ std::vector<float> copied(const MienFloatView& view) {
 }
 
 /// Positions and recomputed normals of the mesh with these channel weights and no joint moved.
-void deform(MienPose* pose, uint32_t mesh, const std::vector<float>& channel_weights,
+void deform(MienDeformerInstance* pose, uint32_t mesh, const std::vector<float>& channel_weights,
             std::vector<float>& positions, std::vector<float>& normals) {
   MienFloatView view{};
-  check(mien_pose_update_from_values(pose, nullptr, 0, channel_weights.data(),
-                                     channel_weights.size()),
+  check(mien_deformer_instance_update_from_values(pose, nullptr, 0, channel_weights.data(),
+                                                  channel_weights.size()),
         "cannot pose");
-  check(mien_pose_deform(pose, mesh, MIEN_NORMALS_RECOMPUTED, nullptr), "cannot deform");
-  check(mien_pose_positions(pose, mesh, &view), "cannot deform");
+  check(mien_deformer_instance_deform(pose, mesh, MIEN_NORMALS_RECOMPUTED, nullptr),
+        "cannot deform");
+  check(mien_deformer_instance_positions(pose, mesh, &view), "cannot deform");
   positions = copied(view);
-  check(mien_pose_normals(pose, mesh, &view), "cannot deform");
+  check(mien_deformer_instance_normals(pose, mesh, &view), "cannot deform");
   normals = copied(view);
 }
 
@@ -246,7 +248,7 @@ MorphTarget make_target(const RigSource& source, const MienMesh& mesh,
                         const std::vector<float>& neutral_normals, double least) {
   MorphTarget target;
   for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
-    const size_t n = size_t{3} * v, p = size_t{3} * mesh.vertex_positions.data[v];
+    const size_t n = size_t{3} * v, p = size_t{3} * mesh.vertex_position_indices.data[v];
     const float turn[3] = {normals[n] - neutral_normals[n], normals[n + 1] - neutral_normals[n + 1],
                            normals[n + 2] - neutral_normals[n + 2]};
     const Vec3 move = source.point(deltas.data() + p), bend = source.direction(turn);
@@ -258,8 +260,8 @@ MorphTarget make_target(const RigSource& source, const MienMesh& mesh,
   return target;
 }
 
-void add_targets(const RigSource& source, uint32_t rig_mesh, const MienMesh& from, MienPose* pose,
-                 RigScene& result, Mesh& mesh) {
+void add_targets(const RigSource& source, uint32_t rig_mesh, const MienMesh& from,
+                 MienDeformerInstance* pose, RigScene& result, Mesh& mesh) {
   std::vector<uint16_t>& channels = result.channels.back();
   const std::vector<bool> driven = driven_channels(source, from.lods);
   for (size_t t = 0; t < from.target_channels.count; ++t) {
@@ -291,12 +293,13 @@ float used_weight(const MienFloatView& channel_weights, uint16_t channel) {
 }  // namespace
 
 PoseHandle make_pose(const RigSource& source) {
-  MienPose* made = nullptr;
+  MienDeformerInstance* made = nullptr;
   auto error = sized<MienError>();
-  const MienStatus status = mien_pose_create(source.deformer(), nullptr, &made, &error);
+  const MienStatus status =
+      mien_deformer_instance_create(source.deformer(), nullptr, &made, &error);
   if (status != MIEN_OK) throw ExportError(status, "", error.message, "");
   PoseHandle pose(made);
-  check(mien_pose_update_from_values(made, nullptr, 0, nullptr, 0), "cannot pose");
+  check(mien_deformer_instance_update_from_values(made, nullptr, 0, nullptr, 0), "cannot pose");
   return pose;
 }
 
@@ -347,7 +350,7 @@ RigScene make_rig_scene(const RigSource& source, const SceneOptions& options) {
   return result;
 }
 
-void set_pose(RigScene& scene, const RigSource& source, const MienPose* pose,
+void set_pose(RigScene& scene, const RigSource& source, const MienDeformerInstance* pose,
               const MienFloatView& channel_weights) {
   const std::vector<Transform> locals = local_transforms(source, pose);
   for (size_t j = 0; j < locals.size(); ++j) scene.scene.joints[j].pose = locals[j];
@@ -359,12 +362,12 @@ void set_pose(RigScene& scene, const RigSource& source, const MienPose* pose,
   }
 }
 
-MorphTarget difference(const RigSource& source, uint32_t rig_mesh, const MienPose* pose,
+MorphTarget difference(const RigSource& source, uint32_t rig_mesh, const MienDeformerInstance* pose,
                        const std::vector<float>& neutral_positions,
                        const std::vector<float>& neutral_normals, double least) {
   MienFloatView positions{}, normals{};
-  check(mien_pose_positions(pose, rig_mesh, &positions), "cannot deform");
-  check(mien_pose_normals(pose, rig_mesh, &normals), "cannot deform");
+  check(mien_deformer_instance_positions(pose, rig_mesh, &positions), "cannot deform");
+  check(mien_deformer_instance_normals(pose, rig_mesh, &normals), "cannot deform");
   std::vector<float> deltas = copied(positions);
   for (size_t i = 0; i < deltas.size(); ++i) deltas[i] -= neutral_positions[i];
   return make_target(source, source.mesh(rig_mesh), deltas, copied(normals), neutral_normals,
@@ -386,7 +389,8 @@ AnimationRecorder::AnimationRecorder(const RigScene& scene, const RigSource& sou
   }
 }
 
-void AnimationRecorder::add_frame(const MienPose* pose, const MienFloatView& channel_weights) {
+void AnimationRecorder::add_frame(const MienDeformerInstance* pose,
+                                  const MienFloatView& channel_weights) {
   animation_.times.push_back(static_cast<float>(animation_.times.size() / rate_));
   const std::vector<Transform> locals = local_transforms(source_, pose);
   for (JointTrack& track : animation_.joints) {

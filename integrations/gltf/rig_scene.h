@@ -22,9 +22,9 @@ struct SceneOptions {
 struct Losses {
   uint32_t places = 0;                    // for influences, per vertex
   size_t cut_positions = 0;               // with more influences than that
-  double most_weight_cut = 0;             // share of a position's weight, 0..1
+  double max_weight_cut = 0;              // share of a position's weight, 0..1
   size_t corrected_positions = 0;         // with negative weights, or weights that do not sum to 1
-  double most_correction = 0;             // largest change of a sum
+  double max_correction = 0;              // largest change of a sum
   std::vector<std::string> empty_meshes;  // left out
 };
 
@@ -36,7 +36,7 @@ struct RigScene {
   Losses losses;
 };
 
-/// Meshes without skin and targets: neutral positions and normals, texture coordinates, colours,
+/// Meshes without skin and targets: neutral positions and normals, texture coordinates, colors,
 /// materials, LODs.
 RigScene make_still_scene(const RigSource& source, const SceneOptions& options);
 
@@ -45,7 +45,7 @@ RigScene make_still_scene(const RigSource& source, const SceneOptions& options);
 RigScene make_rig_scene(const RigSource& source, const SceneOptions& options);
 
 /// Opens in this pose: `pose` was updated from these channel weights.
-void set_pose(RigScene& scene, const RigSource& source, const MienPose* pose,
+void set_pose(RigScene& scene, const RigSource& source, const MienDeformerInstance* pose,
               const MienFloatView& channel_weights);
 
 /// Frames of a rig scene, one after the other, as tracks.
@@ -54,7 +54,7 @@ class AnimationRecorder {
   AnimationRecorder(const RigScene& scene, const RigSource& source, std::string name, double rate);
 
   /// `pose` was updated from these channel weights.
-  void add_frame(const MienPose* pose, const MienFloatView& channel_weights);
+  void add_frame(const MienDeformerInstance* pose, const MienFloatView& channel_weights);
 
   /// Only what moves: a joint's values that all frames leave at the pose of the scene have no
   /// track.
@@ -69,15 +69,15 @@ class AnimationRecorder {
 
 /// `pose` in neutral.
 struct DestroyPose {
-  void operator()(MienPose* pose) const { mien_pose_destroy(pose); }
+  void operator()(MienDeformerInstance* pose) const { mien_deformer_instance_destroy(pose); }
 };
-using PoseHandle = std::unique_ptr<MienPose, DestroyPose>;
+using PoseHandle = std::unique_ptr<MienDeformerInstance, DestroyPose>;
 PoseHandle make_pose(const RigSource& source);
 
 /// How far each vertex of a mesh moves: `positions` and `normals` as of the pose less those given,
-/// in the axes of glTF. Vertices that move less than `least` (metres) and turn less than 1e-3 are
+/// in the axes of glTF. Vertices that move less than `least` (meters) and turn less than 1e-3 are
 /// left out.
-MorphTarget difference(const RigSource& source, uint32_t rig_mesh, const MienPose* pose,
+MorphTarget difference(const RigSource& source, uint32_t rig_mesh, const MienDeformerInstance* pose,
                        const std::vector<float>& neutral_positions,
                        const std::vector<float>& neutral_normals, double least);
 

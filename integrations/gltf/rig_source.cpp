@@ -77,7 +77,7 @@ Transform RigSource::transform(const float* values) const {
 bool RigSource::has_inward_triangles(const MienMesh& mesh) const {
   double outward = 0;
   const auto position = [&](uint32_t vertex) {
-    return point(mesh.positions.data + size_t{3} * mesh.vertex_positions.data[vertex]);
+    return point(mesh.positions.data + size_t{3} * mesh.vertex_position_indices.data[vertex]);
   };
   for (size_t t = 0; t < mesh.triangle_count; ++t) {
     const uint32_t* corner = mesh.triangles.data + 3 * t;

@@ -38,11 +38,11 @@ class RigSource {
   MienMesh mesh(uint32_t index) const;
   MienDnaInfo info() const;
 
-  /// From the axes and units of the file to metres, x left, y up, z front.
+  /// From the axes and units of the file to meters, x left, y up, z front.
   Vec3 point(const float* xyz) const;
   /// Without the unit.
   Vec3 direction(const float* xyz) const;
-  /// Ten floats, as mien_pose_local_transforms() gives them.
+  /// Ten floats, as mien_deformer_instance_local_transforms() gives them.
   Transform transform(const float* values) const;
   double metres_per_unit() const { return metres_; }
 

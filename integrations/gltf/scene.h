@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a file of a face holds, in plain structs: joints, skinned meshes with morph targets,
-// materials, an animation. Everything is in the axes and units of glTF: metres, y up, z to the
+// materials, an animation. Everything is in the axes and units of glTF: meters, y up, z to the
 // front of the face, x to the left of the character, triangles counter-clockwise from outside.
 //
 //     Mien handles -> (rig_scene, arkit_bake) -> Scene -> (glb_writer, obj_writer) -> bytes

@@ -33,14 +33,14 @@ Camera zoomed(Camera camera, float zoom) {
 
 }  // namespace
 
-Camera look_at(const Stand& stand, const View& view, Vec3 centre, float distance) {
+Camera look_at(const Stand& stand, const View& view, Vec3 center, float distance) {
   const float yaw = view.yaw * kDegree, pitch = view.pitch * kDegree;
   const Vec3 around = stand.front * std::cos(yaw) + stand.left * std::sin(yaw);
   Camera camera;
   camera.right = stand.left * std::cos(yaw) - stand.front * std::sin(yaw);
   camera.back = around * std::cos(pitch) + stand.up * std::sin(pitch);
   camera.up = stand.up * std::cos(pitch) - around * std::sin(pitch);
-  camera.eye = centre + camera.back * distance;
+  camera.eye = center + camera.back * distance;
   camera.field_of_view = view.field_of_view;
   camera.distance = distance;
   return camera;
@@ -51,13 +51,13 @@ Camera frame_points(const Stand& stand, const View& view, const std::vector<Vec3
   const Reach reach = reach_of(view, width, height, margin);
   Box box;
   for (const Vec3& point : points) box.add(point);
-  Vec3 centre = box.empty() ? Vec3{} : box.centre();
+  Vec3 center = box.empty() ? Vec3{} : box.center();
 
   // What is in the middle changes with the distance, and that with the middle; the lenses are long,
   // so a few rounds settle it.
   float distance = 1;
   for (int round = 0; round < 6; ++round) {
-    const Camera camera = look_at(stand, view, centre, 0);
+    const Camera camera = look_at(stand, view, center, 0);
     distance = 0;
     for (const Vec3& point : points) {
       const Vec3 p = camera.to_view(point);
@@ -71,26 +71,26 @@ Camera frame_points(const Stand& stand, const View& view, const std::vector<Vec3
       if (away > 0) seen.add({p.x / away, p.y / away, 0});
     }
     if (seen.empty()) break;
-    const Vec3 middle = seen.centre();
-    centre += (camera.right * middle.x + camera.up * middle.y) * distance;
+    const Vec3 middle = seen.center();
+    center += (camera.right * middle.x + camera.up * middle.y) * distance;
   }
-  return zoomed(look_at(stand, view, centre, distance), view.zoom);
+  return zoomed(look_at(stand, view, center, distance), view.zoom);
 }
 
-Camera frame_turning(const Stand& stand, const View& view, Vec3 centre,
+Camera frame_turning(const Stand& stand, const View& view, Vec3 center,
                      const std::vector<Vec3>& points, int width, int height, float margin) {
   const Reach reach = reach_of(view, width, height, margin);
   float distance = 0;
   for (float yaw = 0; yaw < 360; yaw += 15) {
     View turned = view;
     turned.yaw = yaw;
-    const Camera camera = look_at(stand, turned, centre, 0);
+    const Camera camera = look_at(stand, turned, center, 0);
     for (const Vec3& point : points) {
       const Vec3 p = camera.to_view(point);
       if (is_finite(p)) distance = std::max(distance, distance_for(p, reach));
     }
   }
-  return zoomed(look_at(stand, view, centre, distance > 0 ? distance : 1), view.zoom);
+  return zoomed(look_at(stand, view, center, distance > 0 ? distance : 1), view.zoom);
 }
 
 }  // namespace mien::picture

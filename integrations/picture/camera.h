@@ -32,17 +32,17 @@ struct View {
   float zoom = 1;            // 2 shows everything twice as large
 };
 
-/// Looks at `centre` from that far away.
-Camera look_at(const Stand& stand, const View& view, Vec3 centre, float distance);
+/// Looks at `center` from that far away.
+Camera look_at(const Stand& stand, const View& view, Vec3 center, float distance);
 
 /// Looks at the points from where they just fit the picture, in its middle, with `margin` of its
 /// size left free on each side.
 Camera frame_points(const Stand& stand, const View& view, const std::vector<Vec3>& points,
                     int width, int height, float margin = 0.05f);
 
-/// Looks at `centre` from where the points fit the picture whatever the yaw: the camera of one
+/// Looks at `center` from where the points fit the picture whatever the yaw: the camera of one
 /// picture of a turntable.
-Camera frame_turning(const Stand& stand, const View& view, Vec3 centre,
+Camera frame_turning(const Stand& stand, const View& view, Vec3 center,
                      const std::vector<Vec3>& points, int width, int height, float margin = 0.05f);
 
 }  // namespace mien::picture

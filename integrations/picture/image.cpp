@@ -36,12 +36,12 @@ const Curves& curves() {
 
 }  // namespace
 
-Vec3 to_linear(Colour colour) {
+Vec3 to_linear(Color color) {
   const auto& linear = curves().linear;
-  return {linear[colour.r], linear[colour.g], linear[colour.b]};
+  return {linear[color.r], linear[color.g], linear[color.b]};
 }
 
-Colour to_srgb(Vec3 linear) {
+Color to_srgb(Vec3 linear) {
   const Curves& all = curves();
   const auto encode = [&](float x) {
     // Written so that a number that is none becomes 0.
@@ -50,14 +50,14 @@ Colour to_srgb(Vec3 linear) {
   return {encode(linear.x), encode(linear.y), encode(linear.z)};
 }
 
-Image::Image(int w, int h, Colour colour) : width(w), height(h) {
+Image::Image(int w, int h, Color color) : width(w), height(h) {
   pixels.resize(size_t(w) * size_t(h) * 3);
-  fill(0, 0, w, h, colour);
+  fill(0, 0, w, h, color);
 }
 
-void Image::blend(int x, int y, Colour colour, float cover) {
+void Image::blend(int x, int y, Color color, float cover) {
   if (x < 0 || y < 0 || x >= width || y >= height) return;
-  set(x, y, to_srgb(mix(to_linear(at(x, y)), to_linear(colour), saturate(cover))));
+  set(x, y, to_srgb(mix(to_linear(at(x, y)), to_linear(color), saturate(cover))));
 }
 
 void Image::paste(const Image& other, int x, int y) {
@@ -70,10 +70,10 @@ void Image::paste(const Image& other, int x, int y) {
   }
 }
 
-void Image::fill(int x, int y, int w, int h, Colour colour) {
+void Image::fill(int x, int y, int w, int h, Color color) {
   for (int row = std::max(y, 0); row < std::min(y + h, height); ++row) {
     for (int column = std::max(x, 0); column < std::min(x + w, width); ++column) {
-      set(column, row, colour);
+      set(column, row, color);
     }
   }
 }

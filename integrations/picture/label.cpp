@@ -182,7 +182,7 @@ const Glyph& take_glyph(std::string_view& text) {
 }
 
 void draw_glyph(Image& image, float x, float baseline, const Glyph& glyph, float size,
-                Colour colour) {
+                Color color) {
   const float unit = size * kUnit, pen = std::max(size * kPen, 1.0f) / 2;
   auto strokes = strokes_of(glyph);
   for (auto& stroke : strokes) {
@@ -202,7 +202,7 @@ void draw_glyph(Image& image, float x, float baseline, const Glyph& glyph, float
         }
       }
       const float cover = saturate(pen + 0.5f - nearest);
-      if (cover > 0) image.blend(px, py, colour, cover);
+      if (cover > 0) image.blend(px, py, color, cover);
     }
   }
 }
@@ -231,10 +231,10 @@ float text_width(std::string_view text, float size) {
 }
 
 void draw_text(Image& image, float x, float baseline, std::string_view text, float size,
-               Colour colour) {
+               Color color) {
   while (!text.empty()) {
     const Glyph& glyph = take_glyph(text);
-    draw_glyph(image, x, baseline, glyph, size, colour);
+    draw_glyph(image, x, baseline, glyph, size, color);
     x += (float(glyph.width) + kSpacing) * size * kUnit;
   }
 }

@@ -15,7 +15,7 @@ namespace mien::picture {
 float text_width(std::string_view text, float size);
 
 void draw_text(Image& image, float x, float baseline, std::string_view text, float size,
-               Colour colour);
+               Color color);
 
 /// `text`, or as much of its beginning and end as fits into `width`, with ".." between.
 std::string fit_text(std::string_view text, float size, float width);

@@ -6,7 +6,7 @@ namespace mien::picture {
 namespace {
 
 struct Lamp {
-  Vec3 direction, colour;
+  Vec3 direction, color;
 };
 
 const Lamp kKey = {normalized({-0.52f, 0.58f, 0.74f}, {}), {1.16f, 1.07f, 0.97f}};
@@ -48,15 +48,15 @@ float highlight(const Fragment& f, const Lamp& lamp, const Material& material) {
   return strength * glint(f.normal, half, light_half, material.roughness) * cosine;
 }
 
-/// Light that comes back from the walls of a hollow takes on their colour (Jimenez et al. 2016,
+/// Light that comes back from the walls of a hollow takes on their color (Jimenez et al. 2016,
 /// "Practical realtime strategies for accurate indirect occlusion", the cubic fit there).
-Vec3 bounced(float openness, Vec3 colour) {
+Vec3 bounced(float openness, Vec3 color) {
   const auto one = [&](float albedo) {
     const float a = 2.0404f * albedo - 0.3324f, b = -4.7951f * albedo + 0.6417f;
     const float c = 2.7552f * albedo + 0.6903f;
     return std::max(openness, ((openness * a + b) * openness + c) * openness);
   };
-  return {one(colour.x), one(colour.y), one(colour.z)};
+  return {one(color.x), one(color.y), one(color.z)};
 }
 
 }  // namespace
@@ -65,33 +65,33 @@ Vec3 key_direction() { return kKey.direction; }
 
 Vec3 light(const Fragment& f, float openness, float key) {
   const Material& m = f.on->surface.material;
-  const Vec3 open = bounced(openness, f.colour);
+  const Vec3 open = bounced(openness, f.color);
   const float soft = m.softness, nv = saturate(dot(f.normal, f.to_eye));
 
-  // Red light goes furthest through skin: it reaches around more, and colours the terminator.
+  // Red light goes furthest through skin: it reaches around more, and colors the terminator.
   const float cosine = dot(f.normal, kKey.direction);
   // Where a surface turns away it shades itself; there the cosine decides, not the map.
   const float seen = std::max(key, 1 - smooth_step(-soft, 0.2f, cosine));
   const float bleed = 0.5f * soft * seen * (1 - seen);
   const Vec3 around = {wrap(cosine, soft) * (seen + bleed), wrap(cosine, soft * 0.55f) * seen,
                        wrap(cosine, soft * 0.42f) * (seen - 0.3f * bleed)};
-  Vec3 diffuse = kKey.colour * around * mix(open, {1, 1, 1}, 0.6f);
-  diffuse += kFill.colour * open * wrap(dot(f.normal, kFill.direction), 0.5f);
+  Vec3 diffuse = kKey.color * around * mix(open, {1, 1, 1}, 0.6f);
+  diffuse += kFill.color * open * wrap(dot(f.normal, kFill.direction), 0.5f);
   diffuse += mix(kSkyBelow, kSkyAbove, 0.5f + 0.5f * f.normal.y) * open;
 
   const float gloss_open = saturate(openness * 1.2f);
-  Vec3 shine = kKey.colour * (highlight(f, kKey, m) * seen * gloss_open * 1.5f);
-  shine += kFill.colour * (highlight(f, kFill, m) * gloss_open * 1.5f);
+  Vec3 shine = kKey.color * (highlight(f, kKey, m) * seen * gloss_open * 1.5f);
+  shine += kFill.color * (highlight(f, kFill, m) * gloss_open * 1.5f);
   for (const Lamp& rim : kRims) {
     const float edge = 1 - nv, facing = std::max(dot(f.normal, rim.direction) + 0.15f, 0.0f);
     const float strength = edge * edge * facing * gloss_open;
-    diffuse += rim.colour * (strength * 0.75f);
-    shine += rim.colour * (strength * edge * 0.10f);
+    diffuse += rim.color * (strength * 0.75f);
+    shine += rim.color * (strength * edge * 0.10f);
   }
   // The sky in a wet surface.
   shine += kSkyAbove * ((m.reflectance + (1 - m.reflectance) * fresnel(nv)) * (1 - m.roughness) *
                         gloss_open * (0.35f + 0.65f * saturate(f.normal.y)));
-  return f.colour * diffuse + shine;
+  return f.color * diffuse + shine;
 }
 
 Vec3 tone(Vec3 linear) {

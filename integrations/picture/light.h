@@ -11,7 +11,7 @@ namespace mien::picture {
 /// Towards the key light, in view space.
 Vec3 key_direction();
 
-/// Linear colour of a fragment that is `openness` open to the sky and gets `key` of the key light.
+/// Linear color of a fragment that is `openness` open to the sky and gets `key` of the key light.
 Vec3 light(const Fragment& fragment, float openness, float key);
 
 /// A soft shoulder instead of a cut above 1.

@@ -14,7 +14,7 @@ struct Probes {
   Probes() {
     constexpr float kGoldenAngle = 2.399963f;
     for (int turn = 0; turn < kTile * kTile; ++turn) {
-      // Neighbours in a tile are far from each other in turn.
+      // Neighbors in a tile are far from each other in turn.
       const float start = float(turn * 7 % 16) / 16 * 6.2831853f;
       for (int i = 0; i < kProbes; ++i) {
         const float share = (float(i) + 0.5f) / kProbes;
@@ -125,8 +125,8 @@ ShadowMap::ShadowMap(const Scene& scene, Vec3 to_light, int size) {
   texel_ = extent / (float(size) - 2 * kBorder);
   lens_.perspective = false;
   lens_.focal = 1 / texel_;
-  lens_.centre_x = float(size) / 2 - box.centre().x / texel_;
-  lens_.centre_y = float(size) / 2 + box.centre().y / texel_;
+  lens_.centre_x = float(size) / 2 - box.center().x / texel_;
+  lens_.centre_y = float(size) / 2 + box.center().y / texel_;
   depth_zero_ = box.least.z - std::max(box.size().z, extent);
   for (size_t s = 0; s < turned.size(); ++s) {
     for (Vec3& p : turned[s]) p.z -= depth_zero_;

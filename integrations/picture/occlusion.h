@@ -13,7 +13,7 @@ namespace mien::picture {
 struct PixelLayer {
   int width = 0, height = 0;
   std::vector<float> distance;  // from the viewer's plane; 0 where nothing is
-  std::vector<Vec3> normal, colour;
+  std::vector<Vec3> normal, color;
 
   size_t index(int x, int y) const { return size_t(y) * size_t(width) + size_t(x); }
 };

@@ -87,7 +87,7 @@ class PixelPatches {
   bool joins(const Patch& patch, uint32_t number, float depth) const {
     if (patch.number == number) return true;
     if (each_triangle_) return false;
-    // Neighbours on a smooth surface; depths are inverse distances, so the tolerance is a share.
+    // Neighbors on a smooth surface; depths are inverse distances, so the tolerance is a share.
     return std::fabs(depth - patch.depth) < 0.002f * patch.depth &&
            &scene_.surface_of(number) == &scene_.surface_of(patch.number);
   }
@@ -104,7 +104,7 @@ class PixelPatches {
 class BackdropLight {
  public:
   BackdropLight(const Backdrop& backdrop, int width, int height)
-      : centre_(to_linear(backdrop.centre)), edge_(to_linear(backdrop.edge)), width_(width),
+      : centre_(to_linear(backdrop.center)), edge_(to_linear(backdrop.edge)), width_(width),
         height_(height) {}
 
   Vec3 at(int x, int y) const {
@@ -152,7 +152,7 @@ Fragment layer_fragment(const Scene& scene, const PixelLayer& layer, size_t pixe
           place,
           layer.normal[pixel],
           normalized(-place, {0, 0, 1}),
-          layer.colour[pixel]};
+          layer.color[pixel]};
 }
 
 }  // namespace
@@ -174,7 +174,7 @@ Image render(const std::vector<Surface>& surfaces, const Camera& camera,
   PixelLayer layer{options.width, options.height, {}, {}, {}};
   layer.distance.resize(size_t(options.width) * size_t(options.height));
   layer.normal.resize(layer.distance.size());
-  layer.colour.resize(layer.distance.size());
+  layer.color.resize(layer.distance.size());
   PixelPatches patches(scene, seen, options.wireframe);
   for (int y = 0; y < options.height; ++y) {
     for (int x = 0; x < options.width; ++x) {
@@ -185,7 +185,7 @@ Image render(const std::vector<Surface>& surfaces, const Camera& camera,
           scene.fragment(patch.number, ray_at(float(x) + patch.x, float(y) + patch.y));
       layer.distance[pixel] = -f.place.z;
       layer.normal[pixel] = f.normal;
-      layer.colour[pixel] = f.colour;
+      layer.color[pixel] = f.color;
     }
   }
   const std::vector<float> openness = find_openness(layer, lens, scale * 0.055f);
@@ -208,9 +208,9 @@ Image render(const std::vector<Surface>& surfaces, const Camera& camera,
         const bool known = &patch == patches.begin();
         const Fragment f = known ? layer_fragment(scene, layer, pixel, patch.number, ray)
                                  : scene.fragment(patch.number, ray);
-        Vec3 colour = tone(light(f, openness[pixel], shadow.light_at(f.place, f.normal)));
-        if (options.wireframe) colour = mix(colour, kWire, wire_cover(f, lens, px, py));
-        sum += colour * float(patch.samples);
+        Vec3 color = tone(light(f, openness[pixel], shadow.light_at(f.place, f.normal)));
+        if (options.wireframe) color = mix(color, kWire, wire_cover(f, lens, px, py));
+        sum += color * float(patch.samples);
       }
       image.set(x, y, to_srgb(sum * (1 / float(seen.samples))));
     }

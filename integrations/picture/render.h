@@ -19,7 +19,7 @@ namespace mien::picture {
 
 /// How a surface takes light.
 struct Material {
-  Colour colour = {205, 170, 150};
+  Color color = {205, 170, 150};
   float softness = 0.35f;   // how far light reaches around into shadow, as in skin
   float roughness = 0.45f;  // 0.05 is wet, 0.6 chalk
   float reflectance = 0.03f;
@@ -30,11 +30,11 @@ struct Surface {
   const float* positions = nullptr;  // x y z each
   size_t position_count = 0;
   const float* normals = nullptr;  // x y z of each vertex; null: made from the triangles
-  const uint32_t* vertex_positions = nullptr;  // null: vertex i is position i
+  const uint32_t* vertex_position_indices = nullptr;  // null: vertex i is position i
   size_t vertex_count = 0;
   const uint32_t* triangles = nullptr;  // three vertices each
   size_t triangle_count = 0;
-  const uint8_t* colours = nullptr;  // sRGB of each position; null: the colour of the material
+  const uint8_t* colors = nullptr;  // sRGB of each position; null: the color of the material
   // Bit k of a triangle: a wireframe leaves out the edge from corner k to the next. Null: it has
   // all.
   const uint8_t* inner_edges = nullptr;
@@ -42,8 +42,8 @@ struct Surface {
 };
 
 struct Backdrop {
-  Colour centre = {92, 97, 104};
-  Colour edge = {38, 41, 46};
+  Color center = {92, 97, 104};
+  Color edge = {38, 41, 46};
 };
 
 struct RenderOptions {

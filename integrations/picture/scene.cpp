@@ -8,8 +8,9 @@ namespace {
 constexpr Vec3 kTowardsViewer = {0, 0, 1};
 
 TriangleList list_triangles(const Surface& s, const Vec3* positions, uint32_t first_number) {
-  return {positions,   s.position_count, s.vertex_positions, s.vertex_count,
-          s.triangles, s.triangle_count, first_number};
+  return {positions,      s.position_count, s.vertex_position_indices,
+          s.vertex_count, s.triangles,      s.triangle_count,
+          first_number};
 }
 
 /// Sum of the area vectors around each position.
@@ -23,7 +24,7 @@ std::vector<Vec3> make_normals(const Surface& s, const std::vector<Vec3>& positi
     if (!is_finite(area)) continue;
     for (size_t k = 0; k < 3; ++k) {
       const uint32_t vertex = s.triangles[3 * t + k];
-      normals[s.vertex_positions ? s.vertex_positions[vertex] : vertex] += area;
+      normals[s.vertex_position_indices ? s.vertex_position_indices[vertex] : vertex] += area;
     }
   }
   for (Vec3& normal : normals) normal = normalized(normal, {});
@@ -38,14 +39,15 @@ TriangleList PlacedSurface::triangles() const {
 
 Vec3 PlacedSurface::normal(size_t vertex) const {
   if (surface.normals) return load3(surface.normals, vertex);
-  return own_normals[surface.vertex_positions ? surface.vertex_positions[vertex] : vertex];
+  return own_normals[surface.vertex_position_indices ? surface.vertex_position_indices[vertex]
+                                                     : vertex];
 }
 
 Scene::Scene(const std::vector<Surface>& surfaces, const Camera& camera) : camera_(camera) {
   Box box;
   uint32_t number = 1;
   for (const Surface& s : surfaces) {
-    PlacedSurface placed{s, {}, {}, {}, to_linear(s.material.colour), 1, number};
+    PlacedSurface placed{s, {}, {}, {}, to_linear(s.material.color), 1, number};
     number += uint32_t(s.triangle_count);
     placed.places.resize(s.position_count);
     std::vector<Vec3> positions;
@@ -57,11 +59,10 @@ Scene::Scene(const std::vector<Surface>& surfaces, const Camera& camera) : camer
       placed.places[i] = camera.to_view(p);
     }
     if (!s.normals) placed.own_normals = make_normals(s, positions);
-    if (s.colours) {
-      placed.colours.resize(s.position_count);
+    if (s.colors) {
+      placed.colors.resize(s.position_count);
       for (size_t i = 0; i < s.position_count; ++i) {
-        placed.colours[i] =
-            to_linear({s.colours[3 * i], s.colours[3 * i + 1], s.colours[3 * i + 2]});
+        placed.colors[i] = to_linear({s.colors[3 * i], s.colors[3 * i + 1], s.colors[3 * i + 2]});
       }
     }
 
@@ -120,12 +121,13 @@ Fragment Scene::fragment(uint32_t number, Vec3 ray) const {
   if (away < 0.02f) normal = normalized(normal + f.to_eye * (0.02f - away), f.to_eye);
   f.normal = normal;
 
-  f.colour = on.colour;
-  if (!on.colours.empty()) {
-    f.colour = {};
+  f.color = on.color;
+  if (!on.colors.empty()) {
+    f.color = {};
     for (int k = 0; k < 3; ++k) {
-      const uint32_t position = s.vertex_positions ? s.vertex_positions[corners[k]] : corners[k];
-      f.colour += on.colours[position] * w[k];
+      const uint32_t position =
+          s.vertex_position_indices ? s.vertex_position_indices[corners[k]] : corners[k];
+      f.color += on.colors[position] * w[k];
     }
   }
   return f;

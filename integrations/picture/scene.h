@@ -13,8 +13,8 @@ struct PlacedSurface {
   Surface surface;
   std::vector<Vec3> places;       // positions in view space
   std::vector<Vec3> own_normals;  // of each position, in model space, if the surface has none
-  std::vector<Vec3> colours;      // linear, of each position; empty: one for all
-  Vec3 colour;
+  std::vector<Vec3> colors;       // linear, of each position; empty: one for all
+  Vec3 color;
   float facing;  // 1 or -1: times the winding's normal it is on the side of the normals
   uint32_t first_number;
 
@@ -26,7 +26,7 @@ struct PlacedSurface {
 struct Fragment {
   const PlacedSurface* on;
   uint32_t triangle;
-  Vec3 place, normal, to_eye, colour;
+  Vec3 place, normal, to_eye, color;
 };
 
 class Scene {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Three numbers: a place, a direction or a linear colour.
+// Three numbers: a place, a direction or a linear color.
 #pragma once
 
 #include <algorithm>
@@ -47,7 +47,7 @@ struct Box {
     most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
   }
   bool empty() const { return !(least.x <= most.x); }
-  Vec3 centre() const { return least * 0.5f + most * 0.5f; }
+  Vec3 center() const { return least * 0.5f + most * 0.5f; }
   Vec3 size() const { return most - least; }
 };
 

@@ -12,7 +12,7 @@ namespace {
 constexpr int kSubpixels = 256;
 
 // What leaves this border around the picture is cut before it is rounded, so that integers hold it.
-constexpr float kGuard = 2.0f * kMostPixels;
+constexpr float kGuard = 2.0f * kMaxPixels;
 
 constexpr int16_t kOne[1][2] = {{128, 128}};
 // A square turned until its corners have rows and columns of their own.
@@ -248,7 +248,7 @@ SamplePattern sample_pattern(int count) {
 }
 
 void Visibility::reset(int new_width, int new_height, int new_samples) {
-  assert(new_width > 0 && new_height > 0 && new_width <= kMostPixels && new_height <= kMostPixels);
+  assert(new_width > 0 && new_height > 0 && new_width <= kMaxPixels && new_height <= kMaxPixels);
   width = new_width;
   height = new_height;
   samples = sample_pattern(new_samples).count;

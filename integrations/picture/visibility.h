@@ -28,7 +28,7 @@ struct SamplePattern {
   const int16_t (*places)[2];
 };
 
-/// 1 (the centre), 4 or 16 samples; of 4 and 16, no two share a row or a column, so that edges
+/// 1 (the center), 4 or 16 samples; of 4 and 16, no two share a row or a column, so that edges
 /// that are nearly horizontal or vertical come out as smooth as others.
 SamplePattern sample_pattern(int count);
 
@@ -51,7 +51,7 @@ struct Visibility {
   void reset(int new_width, int new_height, int new_samples);
 };
 
-constexpr int kMostPixels = 8192;  // along one side
+constexpr int kMaxPixels = 8192;  // along one side
 
 /// Draws triangles of `positions`, numbered from `first_number` on. Corner k of triangle t is
 /// position `positions_of[corners[3 * t + k]]`, or `corners[3 * t + k]` if `positions_of` is null.

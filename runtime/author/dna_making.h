@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "runtime/base/arena.h"
-#include "runtime/dna/dna_schema.h"
+#include "runtime/dna/format/dna_schema.h"
 
 namespace mien::author {
 
@@ -61,7 +61,7 @@ inline bool copy_text(Arena& arena, const Text& text, dna::String& out) {
   return true;
 }
 
-/// `in_lod(lod, element)` tells which elements a LOD has. Equal neighbouring lists are stored once.
+/// `in_lod(lod, element)` tells which elements a LOD has. Equal neighboring lists are stored once.
 template <class InLod>
 bool make_lod_map(Arena& arena, size_t lod_count, size_t element_count, const InLod& in_lod,
                   dna::LodMap& out) {

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The head in the box: a stylised person with 52 expressions, correctives, wrinkle maps and 8 LODs,
+// The head in the box: a stylized person with 52 expressions, correctives, wrinkle maps and 8 LODs,
 // made from formulas, so that it belongs to whoever runs them.
 //
-// Colours have no field in DNA files. They are in the descriptor's metadata, under the key
+// Colors have no field in DNA files. They are in the descriptor's metadata, under the key
 // "mien.colors.<mesh name>": base64 (RFC 4648, padded) of three bytes per position, sRGB.
 #pragma once
 
 #include "runtime/base/arena.h"
-#include "runtime/dna/dna_view.h"
+#include "runtime/dna/format/dna_view.h"
 
 namespace mien {
 
 /// A 2.8 file with all layers loaded, like make_synthetic_rig(). The same seed gives the same bytes
 /// wherever doubles are those of IEEE 754; seed 0 is the person that was designed, others vary
-/// proportions and colours. `scratch` gives some 30 MB for the time of the call. False if memory
+/// proportions and colors. `scratch` gives some 30 MB for the time of the call. False if memory
 /// ran out.
 bool make_procedural_head(uint64_t seed, Arena& arena, const Allocator& scratch, dna::DnaView& out);
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "runtime/author/procedural_head_fit.h"
-#include "runtime/dna/dna_view.h"
+#include "runtime/dna/format/dna_view.h"
 
 namespace mien::head {
 
@@ -19,7 +19,7 @@ struct Head {
 bool fill_controls(const Head& head, Arena& arena, dna::DnaView& out);
 /// Joint names, hierarchy, neutral pose, joint groups.
 bool fill_joints(const Head& head, Arena& arena, Arena& scratch, dna::DnaView& out);
-/// Meshes, blend shape channels, and the metadata with colours behind `metadata_used` entries.
+/// Meshes, blend shape channels, and the metadata with colors behind `metadata_used` entries.
 bool fill_meshes(const Head& head, Arena& arena, const Allocator& allocator, size_t metadata_used,
                  dna::DnaView& out);
 

@@ -21,8 +21,8 @@ Affine operator*(const Affine& a, const Affine& b) {
   return out;
 }
 
-/// Turns about x, then y, then z (degrees), about `centre`, then shifts.
-Affine motion(const double angles[3], Vec3 centre, Vec3 shift) {
+/// Turns about x, then y, then z (degrees), about `center`, then shifts.
+Affine motion(const double angles[3], Vec3 center, Vec3 shift) {
   const auto [sx, cx] = exact_sine_cosine(angles[0] * kPi / 180);
   const auto [sy, cy] = exact_sine_cosine(angles[1] * kPi / 180);
   const auto [sz, cz] = exact_sine_cosine(angles[2] * kPi / 180);
@@ -30,8 +30,8 @@ Affine motion(const double angles[3], Vec3 centre, Vec3 shift) {
   out.rows[0] = {cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx};
   out.rows[1] = {sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx};
   out.rows[2] = {-sy, cy * sx, cy * cx};
-  out.shift = centre + shift -
-              Vec3{dot(out.rows[0], centre), dot(out.rows[1], centre), dot(out.rows[2], centre)};
+  out.shift = center + shift -
+              Vec3{dot(out.rows[0], center), dot(out.rows[1], center), dot(out.rows[2], center)};
   return out;
 }
 

@@ -7,7 +7,7 @@
 
 namespace mien::head {
 
-/// Delta of a joint at full value: centimetres, degrees.
+/// Delta of a joint at full value: centimeters, degrees.
 struct JointDelta {
   float translation[3] = {};
   float rotation[3] = {};

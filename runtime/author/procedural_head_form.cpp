@@ -18,14 +18,14 @@ using author::smooth_step;
 // Persons ---------------------------------------------------------------------------------------
 
 Person make_person(uint64_t seed) {
-  static constexpr Colour kSkins[] = {{236, 188, 160}, {198, 140, 106}, {140, 92, 66},
-                                      {245, 206, 184}, {222, 168, 132}, {104, 68, 50}};
-  static constexpr Colour kHairs[] = {{74, 46, 32},  {28, 24, 24}, {168, 118, 62},
-                                      {122, 58, 30}, {46, 34, 30}, {150, 146, 142}};
-  static constexpr Colour kIrises[] = {{62, 122, 138}, {98, 62, 34}, {82, 110, 66},
-                                       {86, 104, 128}, {54, 36, 26}, {120, 92, 48}};
-  static constexpr Colour kShirts[] = {{58, 92, 122}, {150, 70, 62},  {76, 110, 84},
-                                       {96, 84, 118}, {196, 150, 70}, {70, 74, 82}};
+  static constexpr Color kSkins[] = {{236, 188, 160}, {198, 140, 106}, {140, 92, 66},
+                                     {245, 206, 184}, {222, 168, 132}, {104, 68, 50}};
+  static constexpr Color kHairs[] = {{74, 46, 32},  {28, 24, 24}, {168, 118, 62},
+                                     {122, 58, 30}, {46, 34, 30}, {150, 146, 142}};
+  static constexpr Color kIrises[] = {{62, 122, 138}, {98, 62, 34}, {82, 110, 66},
+                                      {86, 104, 128}, {54, 36, 26}, {120, 92, 48}};
+  static constexpr Color kShirts[] = {{58, 92, 122}, {150, 70, 62},  {76, 110, 84},
+                                      {96, 84, 118}, {196, 150, 70}, {70, 74, 82}};
   Person p;
   uint32_t skin = 0, hair = 0, iris = 0, shirt = 0;
   if (seed != 0) {
@@ -55,7 +55,7 @@ Person make_person(uint64_t seed) {
   return p;
 }
 
-Colour redder(Colour c, double amount) {
+Color redder(Color c, double amount) {
   return {c.r, c.g * (1 - 0.46 * amount), c.b * (1 - 0.44 * amount)};
 }
 
@@ -291,14 +291,14 @@ FacePoint Form::face(double angle, double y, Side side) const {
   return out;
 }
 
-// Colours ---------------------------------------------------------------------------------------
+// Colors ---------------------------------------------------------------------------------------
 
-Colour Form::skin_colour(Vec3 p, double row, double lid) const {
-  const Colour& skin = person_.skin;
+Color Form::skin_colour(Vec3 p, double row, double lid) const {
+  const Color& skin = person_.skin;
   const double x = std::abs(p.x);
   const double in_front = smooth_step(2.5, 5.0, p.z);
-  const Colour blush = redder(skin, 0.85);
-  Colour c = skin;
+  const Color blush = redder(skin, 0.85);
+  Color c = skin;
   const double red =
       0.34 * bump(x, p.y, 4.4, -2.5, 1.7, 1.3) + 0.34 * bump(x, p.y, 0, -2.7, 1.1, 0.8) +
       0.20 * bump(x, p.y, 0, -9.4, 1.6, 0.9) + 0.22 * bump(x, p.y, 3.2, 1.6, 1.7, 0.8);

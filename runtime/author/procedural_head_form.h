@@ -6,7 +6,7 @@
 // share one line across it. The neutral pose turns the lids open about the eye's x axis; blinking
 // turns them back, and so ends exactly where the edges meet.
 //
-// Frame: centimetres, x to the character's left, y up, z to the front. Everything is computed for
+// Frame: centimeters, x to the character's left, y up, z to the front. Everything is computed for
 // x >= 0 and mirrored.
 #pragma once
 
@@ -18,29 +18,29 @@ namespace mien::head {
 using author::Vec3;
 
 /// sRGB, 0 ... 255.
-struct Colour {
+struct Color {
   double r = 0, g = 0, b = 0;
 };
 
-inline Colour mix(Colour a, Colour b, double t) {
+inline Color mix(Color a, Color b, double t) {
   return {author::mix(a.r, b.r, t), author::mix(a.g, b.g, t), author::mix(a.b, b.b, t)};
 }
 
 /// As if more blood were under the skin; keeps dark skin dark.
-Colour redder(Colour c, double amount);
+Color redder(Color c, double amount);
 
 /// What differs from seed to seed. Factors are 1 for seed 0.
 struct Person {
   double cranium = 1, jaw = 1, chin = 1, nose = 1, nose_width = 1, cheek = 1, lips = 1, brow = 1,
          ear = 1;
   double eye_tilt = 0;  // radians by which the outer corner is higher
-  Colour skin, lip, hair, brow_hair, iris, shirt;
+  Color skin, lip, hair, brow_hair, iris, shirt;
 };
 Person make_person(uint64_t seed);
 
 // Landmarks -------------------------------------------------------------------------------------
 
-constexpr Vec3 kEye = {3.3, 0.3, 6.5};  // centre of the left eyeball
+constexpr Vec3 kEye = {3.3, 0.3, 6.5};  // center of the left eyeball
 constexpr double kEyeRadius = 1.85;
 constexpr double kLidRadius = 1.98;     // outside of the lids
 constexpr double kEyeHalfWidth = 1.70;  // of the opening between the lids
@@ -81,7 +81,7 @@ class Form {
   double upper_opening(double x) const;
   double lower_opening(double x) const;
 
-  Colour skin_colour(Vec3 closed, double row, double lid) const;
+  Color skin_colour(Vec3 closed, double row, double lid) const;
 
  private:
   struct Section {

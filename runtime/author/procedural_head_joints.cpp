@@ -204,9 +204,9 @@ class Weigher {
       return values_[a] > values_[b] || (values_[a] == values_[b] && joints_[a] < joints_[b]);
     });
     uint32_t kept = 0;
-    while (kept < std::min(count_, kMostInfluences) && values_[order[kept]] >= 2e-4) ++kept;
+    while (kept < std::min(count_, kMaxInfluences) && values_[order[kept]] >= 2e-4) ++kept;
     // A pair is not torn apart.
-    if (symmetric && kept == kMostInfluences && kept < count_) {
+    if (symmetric && kept == kMaxInfluences && kept < count_) {
       const uint16_t twin = skeleton.joints[joints_[order[kept - 1]]].twin;
       if (joints_[order[kept]] == twin && twin != joints_[order[kept - 1]]) --kept;
     }

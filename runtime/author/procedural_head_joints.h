@@ -5,7 +5,7 @@
 //                                        \ jaw - skin joints of the lower face, lower teeth, tongue
 //
 // A vertex hangs on the jaw's side of this tree with exactly the weight that jaw_weight() gives it,
-// so opening the jaw needs no other joint. Lids turn about the centres of the eyeballs; the upper
+// so opening the jaw needs no other joint. Lids turn about the centers of the eyeballs; the upper
 // ones have a second joint that turns half as far, so that the skin between stays on the ball.
 // Neutral rotations are all zero.
 #pragma once
@@ -14,8 +14,8 @@
 
 namespace mien::head {
 
-constexpr uint32_t kMostJoints = 160;
-constexpr uint32_t kMostInfluences = 8;
+constexpr uint32_t kMaxJoints = 160;
+constexpr uint32_t kMaxInfluences = 8;
 
 /// Joints that are driven by design; others follow a fit.
 enum class Drive : uint8_t { kNone, kJaw, kUpperLid, kHalfLid, kLowerLid, kGaze, kTongue, kFit };
@@ -35,7 +35,7 @@ struct Joint {
 constexpr uint32_t kJointGroupCount = 6;
 
 struct Skeleton {
-  Joint joints[kMostJoints];
+  Joint joints[kMaxJoints];
   uint32_t count = 0;
   uint16_t root = 0, neck_low = 0, neck_high = 0, head = 0, face = 0, jaw = 0;
   uint16_t upper_teeth = 0, lower_teeth = 0, tongue[3] = {};
@@ -47,8 +47,8 @@ struct Skeleton {
 };
 
 struct Weights {
-  uint16_t joints[kMostInfluences];
-  float values[kMostInfluences];
+  uint16_t joints[kMaxInfluences];
+  float values[kMaxInfluences];
   uint32_t count = 0;
 };
 

@@ -30,7 +30,7 @@ struct Vertex {
   double lid = 0;    // see FacePoint
   double depth = 0;  // into the mouth: 0 on the face, 1 at its back
   double along = 0;  // tongue: 0 root, 1 tip
-  Colour colour;
+  Color color;
   Side side = Side::kAbove;
   bool edge = false;  // of a slit, where it has to meet the other side
   Carrier carrier = Carrier::kSkin;

@@ -295,7 +295,7 @@ bool MeshMaker::make_colours(dna::MetadataPair& out) {
     return static_cast<uint32_t>(std::min(std::max(c, 0.0), 255.0) + 0.5);
   };
   for (uint32_t i = 0; i < left_count(); ++i) {
-    const Colour c = half_.vertices[i].colour;
+    const Color c = half_.vertices[i].color;
     const uint32_t bits = byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
     for (const uint32_t at : {i, twin_[i]}) {
       for (uint32_t k = 0; k < 4; ++k) {

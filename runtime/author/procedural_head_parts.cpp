@@ -23,10 +23,10 @@ uint32_t at_lod(uint32_t full, uint32_t least, uint32_t lod) {
   return std::max(least, static_cast<uint32_t>(full * kShare[lod] + 0.5));
 }
 
-Vertex plain(Vec3 position, Colour colour, double u, double v, Carrier carrier) {
+Vertex plain(Vec3 position, Color color, double u, double v, Carrier carrier) {
   Vertex out;
   out.position = out.closed = out.look = position;
-  out.colour = colour;
+  out.color = color;
   out.u = u;
   out.v = v;
   out.carrier = carrier;
@@ -69,7 +69,7 @@ void add_ear(const Form& form, uint32_t lod, HalfMesh& out) {
   const Vec3 back = {sine, 0, -cosine}, outward = {cosine, 0, sine};
   const Vec3 up = unit({0.10, 1, -0.16});
 
-  const Colour skin = form.person().skin, red = redder(skin, 0.45);
+  const Color skin = form.person().skin, red = redder(skin, 0.45);
   uint32_t before[64], here[64];
   for (uint32_t r = 0; r < rings; ++r) {
     for (uint32_t k = 0; k < around; ++k) {
@@ -123,15 +123,15 @@ void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out) {
   // Flat faces of coarse lids cut into the ball that round ones lie on.
   static constexpr double kShrunk[kLodCount] = {1, 1, 1, 0.995, 0.985, 0.97, 0.955, 0.94};
   const double radius = kEyeRadius * kShrunk[lod];
-  const Colour iris = form.person().iris;
-  const auto colour = [&](double angle, uint32_t k) -> Colour {
-    const Colour pupil = {14, 12, 14}, white = {244, 240, 236};
+  const Color iris = form.person().iris;
+  const auto color = [&](double angle, uint32_t k) -> Color {
+    const Color pupil = {14, 12, 14}, white = {244, 240, 236};
     if (angle < 0.21) return pupil;
     if (angle < 0.50) {
       // Light below, as if it came through the cornea from above; streaks; a dark rim.
       const double low = 0.5 - 0.5 * exact_sine(2 * kPi * k / around);
       const double streak = 0.06 * exact_sine(2.0 * kPi * 9 * k / around);
-      Colour c = mix(iris, {236, 230, 200}, 0.45 * low + streak);
+      Color c = mix(iris, {236, 230, 200}, 0.45 * low + streak);
       c = mix(c, {18, 18, 22}, 0.45 * (1 - low) * (1 - low));
       c = mix(c, pupil, 0.35 * smooth_step(0.30, 0.22, angle));
       return mix(c, {20, 22, 28}, 0.65 * smooth_step(0.40, 0.49, angle));
@@ -149,7 +149,7 @@ void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out) {
       const Vec3 at = kEye + Vec3{ck * s, sk * s, c} * radius;
       const double wide = 0.5 * angles[r] / kPi;
       out.vertices.add(
-          plain(at, colour(angles[r], k), 0.5 + wide * ck, 0.5 + wide * sk, Carrier::kEyeball));
+          plain(at, color(angles[r], k), 0.5 + wide * ck, 0.5 + wide * sk, Carrier::kEyeball));
     }
     for (uint32_t k = 0; k < around; ++k) {
       const uint32_t next = (k + 1) % around;
@@ -168,7 +168,7 @@ void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out) {
 
 void add_lashes(const Form& form, uint32_t lod, HalfMesh& out) {
   const uint32_t columns = at_lod(28, 4, lod) + 1;
-  const Colour dark = mix(form.person().brow_hair, {16, 12, 12}, 0.7);
+  const Color dark = mix(form.person().brow_hair, {16, 12, 12}, 0.7);
   // A wedge along the edge of the upper lid: below, tip, above.
   const uint32_t first = out.vertices.count();
   for (uint32_t row = 0; row < 4; ++row) {
@@ -247,7 +247,7 @@ void add_hair(const Form& form, uint32_t lod, HalfMesh& out) {
     return mix(kLine[i][1], kLine[i + 1][1], 0.5 * t + 0.5 * t * t * (3 - 2 * t));
   };
   constexpr double kPart = 0.42;  // angle of the parting
-  const Colour hair = form.person().hair;
+  const Color hair = form.person().hair;
   const uint32_t first = out.vertices.count();
   for (uint32_t row = 0; row < rows; ++row) {
     const double t = static_cast<double>(row) / rows;
@@ -280,7 +280,7 @@ void add_hair(const Form& form, uint32_t lod, HalfMesh& out) {
       thick -= 0.42 * parting;
       Vec3 at = skin + normal * mix(-0.30, thick, smooth_step(0, 0.11 + 0.05 * front, t));
       at.y += 0.55 * wave * bump(t, 0, 0.20, 0, 0.2, 1) * smooth_step(0, 0.1, t);
-      Colour c =
+      Color c =
           mix(hair, {14, 9, 8},
               (0.45 * smooth_step(0.1, -0.9, lock) - 0.20 * fine) * fade + 0.20 + 0.3 * parting);
       c = mix(c, mix(hair, {255, 222, 180}, 0.30), 0.45 * fade * smooth_step(0.3, 0.95, lock));
@@ -318,7 +318,7 @@ void add_teeth(const Form& form, uint32_t lod, HalfMesh& out) {
   for (double w : kWidths) total += w;
 
   const Vec3 lips = form.face(0, kMouthY, Side::kBelow).closed;
-  const Colour white = {240, 233, 218}, gum = {188, 92, 92}, gap = {176, 150, 128};
+  const Color white = {240, 233, 218}, gum = {188, 92, 92}, gap = {176, 150, 128};
   for (int lower = 0; lower < 2; ++lower) {
     const double sign = lower ? -1 : 1;
     const double front = lips.z - (lower ? 0.95 : 0.72), half = lower ? 1.85 : 2.05;
@@ -343,11 +343,11 @@ void add_teeth(const Form& form, uint32_t lod, HalfMesh& out) {
         if (share > 0.62 && row >= 5 && row <= 7) y += 0.08;
         Vec3 at = {(half + offset) * s, base + sign * y, front - 3.1 * (1 - c) + offset * c};
         if (k == 0) at.x = 0;
-        Colour colour = row <= 2 || row == 9 ? gum : white;
-        if (row >= 3 && row <= 5) colour = mix(gap, colour, 0.35 + 0.65 * round);
-        colour = mix(colour, {90, 60, 54}, 0.55 * smooth_step(0.35, 1, share));
-        if (k == columns - 1) colour = {92, 34, 36};  // its end is dark
-        out.vertices.add(plain(at, colour, share, (row + 10 * lower) / 20.0,
+        Color color = row <= 2 || row == 9 ? gum : white;
+        if (row >= 3 && row <= 5) color = mix(gap, color, 0.35 + 0.65 * round);
+        color = mix(color, {90, 60, 54}, 0.55 * smooth_step(0.35, 1, share));
+        if (k == columns - 1) color = {92, 34, 36};  // its end is dark
+        out.vertices.add(plain(at, color, share, (row + 10 * lower) / 20.0,
                                lower ? Carrier::kLowerTeeth : Carrier::kUpperTeeth));
       }
     }
@@ -391,9 +391,9 @@ void add_tongue(const Form& form, uint32_t lod, HalfMesh& out) {
       const double groove = 0.14 * bump(c, 0, 0, 0, 0.35, 1) * (s > 0) * (1 - t);
       Vec3 at = {half * c, y + thick * s - groove, z};
       if (k == 0 || k == around - 1) at.x = 0;
-      Colour colour = mix({196, 92, 96}, {120, 44, 50}, 0.8 * (1 - t));
-      colour = mix(colour, {150, 58, 66}, 0.5 * bump(c, 0, 0, 0, 0.3, 1) * (s > 0));
-      Vertex v = plain(at, colour, 0.5 + 0.5 * k / (around - 1.0), t, Carrier::kTongue);
+      Color color = mix({196, 92, 96}, {120, 44, 50}, 0.8 * (1 - t));
+      color = mix(color, {150, 58, 66}, 0.5 * bump(c, 0, 0, 0, 0.3, 1) * (s > 0));
+      Vertex v = plain(at, color, 0.5 + 0.5 * k / (around - 1.0), t, Carrier::kTongue);
       v.along = t;
       out.vertices.add(v);
     }

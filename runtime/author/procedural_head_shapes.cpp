@@ -109,7 +109,7 @@ Vec3 mirrored(Vec3 v) { return {-v.x, v.y, v.z}; }
 
 }  // namespace
 
-uint32_t list_correctives(Corrective (&out)[kMostCorrectives]) {
+uint32_t list_correctives(Corrective (&out)[kMaxCorrectives]) {
   uint32_t count = 0;
   const auto add = [&](Motion a, int side_a, Motion b, int side_b, Motion motion, int side,
                        uint8_t undone = 0) {

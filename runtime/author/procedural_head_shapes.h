@@ -70,11 +70,11 @@ struct Corrective {
   int8_t side;
   uint8_t undone = 0;  // kKeepLidsShut: the expression whose lids it undoes
 };
-constexpr uint32_t kMostCorrectives = 32;
+constexpr uint32_t kMaxCorrectives = 32;
 /// Returns how many there are.
-uint32_t list_correctives(Corrective (&out)[kMostCorrectives]);
+uint32_t list_correctives(Corrective (&out)[kMaxCorrectives]);
 
-constexpr uint32_t kMostShapes = kExpressionCount + kMostCorrectives;
+constexpr uint32_t kMaxShapes = kExpressionCount + kMaxCorrectives;
 
 /// Turns of joints at full value. Angles in degrees.
 struct JointTurns {
@@ -117,7 +117,7 @@ class Shapes {
   Vec3 lids(Motion motion, const Vertex& v) const;
 
   const Form& form_;
-  Corrective list_[kMostCorrectives];
+  Corrective list_[kMaxCorrectives];
   uint32_t corrective_count_ = 0;
 };
 

@@ -28,7 +28,7 @@ constexpr Grid kGrids[kLodCount] = {
     {{3, 4, 6, 6, 5}, {11, 12, 10}, 3},      {{2, 3, 5, 5, 3}, {8, 11, 8}, 3},
     {{2, 3, 4, 4, 3}, {6, 9, 7}, 3},         {{2, 2, 4, 3, 2}, {5, 8, 6}, 2},
 };
-constexpr uint32_t kMostColumns = 96, kMostRows = 136, kMostRings = 10;
+constexpr uint32_t kMaxColumns = 96, kMaxRows = 136, kMaxRings = 10;
 
 /// `count` steps from `from` to `to`, closer where `density` is high.
 template <class Density>
@@ -117,7 +117,7 @@ class SkinMaker {
     v.position = turn_lid(v.closed, v.lid);
     v.u = 0.5 + 0.5 * angles_[column] / kPi;
     v.v = (heights_[row] - kBottomY) / (kCrownY - kBottomY);
-    v.colour = form_.skin_colour(v.closed, heights_[row], v.lid);
+    v.color = form_.skin_colour(v.closed, heights_[row], v.lid);
     return v;
   }
 
@@ -174,20 +174,20 @@ class SkinMaker {
   }
 
   /// From the edge of a lid inwards, until behind the surface of the eyeball.
-  uint32_t lid_edge_vertex(uint32_t from, Colour colour) {
+  uint32_t lid_edge_vertex(uint32_t from, Color color) {
     Vertex v = out_.vertices[from];
     const Vec3 out = v.closed - kEye;
     const double length = std::sqrt(dot(out, out));
     v.closed = kEye + out * ((kEyeRadius - 0.12) / std::max(length, kEyeRadius));
     v.position = turn_lid(v.closed, v.lid);
-    v.colour = colour;
+    v.color = color;
     v.v += v.lid < 0 ? 0.004 : -0.004;
     return out_.vertices.add(v);
   }
 
   void make_lid_edges() {
-    const Colour pink = mix(form_.person().skin, {196, 96, 92}, 0.5);
-    const Colour dark = mix(form_.person().skin, {50, 26, 24}, 0.75);
+    const Color pink = mix(form_.person().skin, {196, 96, 92}, 0.5);
+    const Color dark = mix(form_.person().skin, {50, 26, 24}, 0.75);
     const uint32_t inner = at(eye_row_, eye_inner_, Side::kBelow);
     const uint32_t outer = at(eye_row_, eye_outer_, Side::kBelow);
     const uint32_t inner_deep = lid_edge_vertex(inner, pink);
@@ -239,8 +239,8 @@ class SkinMaker {
     v.edge = false;
     v.depth = depth;
     v.v = kMouthV + (v.side == Side::kAbove ? 1 : -1) * 0.012 * depth;
-    const Colour lip = v.colour, wet = {124, 38, 42}, dark = {46, 12, 16};
-    v.colour =
+    const Color lip = v.color, wet = {124, 38, 42}, dark = {46, 12, 16};
+    v.color =
         mix(mix(lip, wet, smooth_step(0.05, 0.25, depth)), dark, smooth_step(0.35, 0.9, depth));
     return out_.vertices.add(v);
   }
@@ -248,17 +248,17 @@ class SkinMaker {
   void make_mouth() {
     const uint32_t rings = grid_.rings;
     const uint32_t corner = at(mouth_row_, mouth_corner_, Side::kBelow);
-    uint32_t corner_chain[kMostRings + 1], back[kMostColumns + 1];
+    uint32_t corner_chain[kMaxRings + 1], back[kMaxColumns + 1];
     corner_chain[0] = corner;
     for (uint32_t k = 1; k <= rings; ++k) {
       corner_chain[k] = mouth_vertex(corner, 1, depth_of(k), k == rings);
     }
     back[mouth_corner_] = corner_chain[rings];
     for (Side side : {Side::kBelow, Side::kAbove}) {
-      uint32_t before[kMostRings + 1];
+      uint32_t before[kMaxRings + 1];
       for (uint32_t column = 0; column <= mouth_corner_; ++column) {
         const double out = static_cast<double>(column) / mouth_corner_;
-        uint32_t chain[kMostRings + 1];
+        uint32_t chain[kMaxRings + 1];
         chain[0] = at(mouth_row_, column, side);
         for (uint32_t k = 1; k <= rings; ++k) {
           if (column == mouth_corner_) {
@@ -292,7 +292,7 @@ class SkinMaker {
   const Form& form_;
   const Grid grid_;
   HalfMesh& out_;
-  double angles_[kMostColumns + 1], heights_[kMostRows + 1];
+  double angles_[kMaxColumns + 1], heights_[kMaxRows + 1];
   uint32_t columns_ = 0, rows_ = 0;
   uint32_t eye_inner_ = 0, mouth_corner_ = 0, eye_outer_ = 0, mouth_row_ = 0, eye_row_ = 0;
   uint32_t first_ = 0, upper_lip_ = 0, upper_lid_ = 0, crown_ = 0, bottom_ = 0;

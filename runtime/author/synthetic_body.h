@@ -3,7 +3,7 @@
 // rotations of driver joints are its inputs; RBF solvers compare them with poses, whose controls
 // move corrective joints; twist and swing joints follow them directly.
 //
-// Frame: centimetres, x to the character's left, y up, z to the front; it stands with its arms out.
+// Frame: centimeters, x to the character's left, y up, z to the front; it stands with its arms out.
 #pragma once
 
 #include "runtime/author/synthetic_head.h"
@@ -44,11 +44,11 @@ bool make_body(Arena& arena, Body& out);
 /// One mesh per LOD: a tube around each limb. Fills geom, and mesh names and LODs of defn.
 bool make_body_meshes(const Body& body, Arena& arena, dna::DnaView& out);
 
-/// Definition, behaviour, RBF, joint metadata, twist and swing, geometry. Controls of poses are
+/// Definition, behavior, RBF, joint metadata, twist and swing, geometry. Controls of poses are
 /// numbered behind `ml_control_count` others.
 bool make_body_rig(uint64_t seed, uint32_t ml_control_count, Arena& arena, dna::DnaView& out);
 
-/// Learned behaviour for a rig of a preset: how many controls it adds, and what fills them.
+/// Learned behavior for a rig of a preset: how many controls it adds, and what fills them.
 uint32_t ml_control_count_of(SyntheticPreset preset);
 bool add_learned_behavior(SyntheticPreset preset, uint64_t seed, Arena& arena, dna::DnaView& out);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The body as definition and behaviour.
+// The body as definition and behavior.
 #include <cmath>
 
 #include "runtime/author/synthetic_body.h"
@@ -9,7 +9,7 @@ namespace {
 
 // A solver for each driver, and a second one for the first ones: production bodies have as many.
 constexpr uint32_t kSolverCount = 72, kPoseCount = 670;
-constexpr uint32_t kMostJoints = 8;  // corrective joints of a driver
+constexpr uint32_t kMaxJoints = 8;  // corrective joints of a driver
 
 enum BodyStream : uint64_t { kPoseStream = 2000, kRowStream, kBlendStream };
 
@@ -105,9 +105,9 @@ struct BodyRigMaker {
   // Joint groups ------------------------------------------------------------------------------
 
   /// Corrective joints of a group, those of the coarsest LODs first.
-  uint32_t find_joints(uint32_t group, uint16_t (&joints)[kMostJoints]) const {
+  uint32_t find_joints(uint32_t group, uint16_t (&joints)[kMaxJoints]) const {
     uint32_t count = 0;
-    for (uint16_t ordinal = 0; ordinal < kMostJoints; ++ordinal) {
+    for (uint16_t ordinal = 0; ordinal < kMaxJoints; ++ordinal) {
       for (size_t j = body.base_count; j < body.joints.count; ++j) {
         const BodyJoint& joint = body.joints[j];
         if (joint.kind != BodyJointKind::kCorrective || joint.ordinal != ordinal) continue;
@@ -118,8 +118,8 @@ struct BodyRigMaker {
   }
 
   bool fill_group(uint32_t number, Random& random, dna::JointGroup& group) {
-    uint16_t joints[kMostJoints];
-    uint16_t attributes[kMostJoints];
+    uint16_t joints[kMaxJoints];
+    uint16_t attributes[kMaxJoints];
     const uint32_t joint_count = find_joints(number, joints);
     uint32_t rows = 0;
     for (uint32_t j = 0; j < joint_count; ++j) {

@@ -117,7 +117,7 @@ void place_control(const Regions& regions, const Family& family, int side, Rando
                    Control& control) {
   uint8_t home = regions.find(family.home, side);
   const Region& region = regions.items[home];
-  control.home = region.centre;
+  control.home = region.center;
   if (region.side == 0) control.home.x += side * 0.5 * region.spread.x;
   control.home.x += random.between(-0.3, 0.3) * region.spread.x;
   control.home.y += random.between(-0.3, 0.3) * region.spread.y;
@@ -128,7 +128,7 @@ void place_control(const Regions& regions, const Family& family, int side, Rando
   };
   Near nearest[kRegionCount];
   for (uint8_t r = 0; r < kRegionCount; ++r) {
-    Vec3 apart = regions.items[r].centre - region.centre;
+    Vec3 apart = regions.items[r].center - region.center;
     nearest[r] = {dot(apart, apart), r};
   }
   std::sort(nearest, nearest + kRegionCount, [](const Near& a, const Near& b) {
@@ -145,7 +145,7 @@ void place_control(const Regions& regions, const Family& family, int side, Rando
   for (uint32_t i = 0; i < count; ++i) {
     const Region& owned = regions.items[nearest[i].region];
     control.regions |= 1u << nearest[i].region;
-    Vec3 apart = owned.centre - control.home;
+    Vec3 apart = owned.center - control.home;
     double size = std::sqrt(dot(owned.spread, owned.spread));
     farthest = std::max(farthest, std::sqrt(dot(apart, apart)) + size);
   }

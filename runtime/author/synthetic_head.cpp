@@ -25,7 +25,7 @@ struct KindOfRegion {
   bool inside;    // at its own depth; else on the skin
   bool on_jaw;    // moved by the jaw joint
   uint8_t zone;   // groups of the tiny preset, which has fewer groups than regions
-  Vec3 centre;    // of the left one
+  Vec3 center;    // of the left one
   Vec3 spread;
   uint8_t units[4];  // per preset; a unit is a mirrored pair of joints or one in the middle
 };
@@ -35,7 +35,7 @@ constexpr KindOfRegion kKinds[kRegionKindCount] = {
     {"Brow", true, false, false, 0, {3.0, 3.0, 0}, {2.2, 0.7, 0}, {0, 4, 12, 31}},
     {"UpperLid", true, false, false, 0, {3.2, 1.6, 0}, {1.5, 0.35, 0}, {1, 5, 14, 40}},
     {"LowerLid", true, false, false, 0, {3.2, 0.4, 0}, {1.5, 0.35, 0}, {1, 4, 12, 36}},
-    {"Eye", true, true, false, 0, kLeftEye.centre, {0.5, 0.5, 0.5}, {1, 1, 3, 10}},
+    {"Eye", true, true, false, 0, kLeftEye.center, {0.5, 0.5, 0.5}, {1, 1, 3, 10}},
     {"Nose", false, false, false, 1, {0, -1.5, 0}, {1.4, 2.2, 0}, {0, 4, 14, 44}},
     {"Cheek", true, false, false, 1, {4.8, -2.0, 0}, {1.6, 1.8, 0}, {0, 5, 16, 38}},
     {"UpperLip", false, false, false, 1, {0, -5.2, 0}, {2.2, 0.6, 0}, {0, 5, 16, 60}},
@@ -50,10 +50,10 @@ constexpr KindOfRegion kKinds[kRegionKindCount] = {
 
 /// Depth of the skull's front at this place; a little below the skin, where bones are.
 double front_depth(double x, double y) {
-  double across = (x - kSkull.centre.x) / kSkull.radii.x;
-  double up = (y - kSkull.centre.y) / kSkull.radii.y;
+  double across = (x - kSkull.center.x) / kSkull.radii.x;
+  double up = (y - kSkull.center.y) / kSkull.radii.y;
   double rest = std::max(1.0 - across * across - up * up, 0.01);
-  return kSkull.centre.z + 0.97 * kSkull.radii.z * std::sqrt(rest);
+  return kSkull.center.z + 0.97 * kSkull.radii.z * std::sqrt(rest);
 }
 
 // Rotations -------------------------------------------------------------------------------------
@@ -150,7 +150,7 @@ uint16_t draw_attributes(Random& random) {
 bool make_unit(const Unit& unit, const Regions& regions, uint16_t (&roots)[kRegionCount],
                Random& random, Arena& arena, Head& head) {
   const KindOfRegion& kind = kKinds[unit.kind];
-  Vec3 place = kind.centre;
+  Vec3 place = kind.center;
   if (unit.ordinal > 0) {
     double low = kind.mirrored ? -1.0 : 0.15;  // a pair over the middle keeps apart
     place.x += random.between(low, 1) * kind.spread.x;
@@ -286,12 +286,12 @@ Regions::Regions() {
   for (uint8_t k = 0; k < kRegionKindCount; ++k) {
     const KindOfRegion& kind = kKinds[k];
     first[k] = n;
-    Vec3 centre = kind.centre;
-    if (!kind.inside) centre.z = front_depth(centre.x, centre.y);
-    items[n++] = {static_cast<RegionKind>(k), kind.mirrored ? 1 : 0, centre, kind.spread};
+    Vec3 center = kind.center;
+    if (!kind.inside) center.z = front_depth(center.x, center.y);
+    items[n++] = {static_cast<RegionKind>(k), kind.mirrored ? 1 : 0, center, kind.spread};
     if (!kind.mirrored) continue;
-    centre.x = -centre.x;
-    items[n++] = {static_cast<RegionKind>(k), -1, centre, kind.spread};
+    center.x = -center.x;
+    items[n++] = {static_cast<RegionKind>(k), -1, center, kind.spread};
   }
   assert(n == kRegionCount);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The head behind a synthetic rig: where its joints and controls sit and which of them meet.
-// synthetic_rig.cpp writes it as definition and behaviour, synthetic_mesh.cpp puts skin around it.
+// synthetic_rig.cpp writes it as definition and behavior, synthetic_mesh.cpp puts skin around it.
 //
-// Frame: centimetres, x to the character's left, y up, z to the front.
+// Frame: centimeters, x to the character's left, y up, z to the front.
 #pragma once
 
 #include "runtime/author/dna_making.h"
@@ -25,7 +25,7 @@ inline double falloff(double squared_distance, double radius) {
 
 /// The skull, and the eyeballs.
 struct Ellipsoid {
-  Vec3 centre, radii;
+  Vec3 center, radii;
 };
 constexpr Ellipsoid kSkull = {{0, -3.5, 0}, {7.6, 15.5, 9.6}};
 constexpr Ellipsoid kLeftEye = {{3.2, 1.0, 7.1}, {1.22, 1.22, 1.22}};
@@ -71,7 +71,7 @@ enum RegionKind : uint8_t {
 struct Region {
   RegionKind kind;
   int side = 0;  // 1 left, -1 right, 0 in the middle
-  Vec3 centre, spread;
+  Vec3 center, spread;
 };
 
 constexpr uint32_t kRegionCount = 22;

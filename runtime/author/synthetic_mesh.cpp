@@ -70,7 +70,7 @@ bool make_surface(const Ellipsoid& shape, Grid grid, Arena& arena, dna::Mesh& ou
 
   auto set_point = [&](uint32_t i, Vec3 unit) {
     Vec3 r = shape.radii;
-    positions.set(i, shape.centre + Vec3{unit.x * r.x, unit.y * r.y, unit.z * r.z});
+    positions.set(i, shape.center + Vec3{unit.x * r.x, unit.y * r.y, unit.z * r.z});
     Vec3 across = {unit.x / r.x, unit.y / r.y, unit.z / r.z};
     normals.set(i, across * (1 / std::sqrt(dot(across, across))));
   };
@@ -130,8 +130,8 @@ bool make_faces(Grid grid, Arena& arena, dna::Mesh& out) {
 
 // Skin ------------------------------------------------------------------------------------------
 
-constexpr uint32_t kMostInfluences = 8;
-constexpr uint32_t kMostBones = kMostInfluences - 2;  // neck and head come on top
+constexpr uint32_t kMaxInfluences = 8;
+constexpr uint32_t kMaxBones = kMaxInfluences - 2;  // neck and head come on top
 
 struct Weight {
   double value;
@@ -152,8 +152,8 @@ struct Bone {
 /// next bone would come in, fading into head and neck away from the bones. `bones` ascend in
 /// height.
 uint32_t weigh_vertex(Vec3 vertex, Span<const Bone> bones, double spacing,
-                      Weight (&out)[kMostInfluences]) {
-  Weight nearest[kMostBones + 1];  // by squared distance, ascending
+                      Weight (&out)[kMaxInfluences]) {
+  Weight nearest[kMaxBones + 1];  // by squared distance, ascending
   uint32_t found = 0;
   auto is_below = [](const Bone& bone, double y) { return bone.place.y < y; };
   const Bone* above = std::lower_bound(bones.begin(), bones.end(), vertex.y, is_below);
@@ -162,18 +162,18 @@ uint32_t weigh_vertex(Vec3 vertex, Span<const Bone> bones, double spacing,
     double up = above != bones.end() ? above->place.y - vertex.y : 1e30;
     double down = below != bones.begin() ? vertex.y - below[-1].place.y : 1e30;
     double step = std::min(up, down);
-    if (found > kMostBones && step * step >= nearest[kMostBones].value) break;
+    if (found > kMaxBones && step * step >= nearest[kMaxBones].value) break;
     const Bone& bone = up <= down ? *above++ : *--below;
     Vec3 apart = bone.place - vertex;
     double squared = dot(apart, apart);
-    if (found > kMostBones && squared >= nearest[kMostBones].value) continue;
-    uint32_t at = found > kMostBones ? kMostBones : found++;
+    if (found > kMaxBones && squared >= nearest[kMaxBones].value) continue;
+    uint32_t at = found > kMaxBones ? kMaxBones : found++;
     for (; at > 0 && nearest[at - 1].value > squared; --at) nearest[at] = nearest[at - 1];
     nearest[at] = {squared, bone.joint};
   }
 
-  uint32_t count = std::min(found, kMostBones);
-  double end = std::sqrt(nearest[found - 1].value) * (found > kMostBones ? 1.0001 : 2.0) + 0.1;
+  uint32_t count = std::min(found, kMaxBones);
+  double end = std::sqrt(nearest[found - 1].value) * (found > kMaxBones ? 1.0001 : 2.0) + 0.1;
   double sum = 0;
   for (uint32_t i = 0; i < count; ++i) {
     double distance = std::sqrt(nearest[i].value) + 0.1;  // a bone may lie on the vertex
@@ -238,7 +238,7 @@ bool make_skin(const Head& head, uint32_t lod, Arena& arena, dna::Mesh& out) {
   double spacing = std::sqrt(500.0 / static_cast<double>(count));  // the mask has about 500 cm2
   out.maximum_influence_per_vertex = 0;
   for (uint32_t v = 0; v < out.skin_weights.count; ++v) {
-    Weight weights[kMostInfluences];
+    Weight weights[kMaxInfluences];
     uint32_t used = weigh_vertex(point_at(out.positions, v), bones, spacing, weights);
     if (!store_weights(weights, used, arena, out.skin_weights[v])) return false;
     out.maximum_influence_per_vertex =
@@ -287,8 +287,8 @@ bool make_target(const Head& head, const Control& control, Random& random, uint3
     nearest = v;
     least = squared;
   });
-  Vec3 centre = point_at(mesh.positions, nearest);
-  visit_near(mesh, columns, centre, limit, [&](uint32_t v, double) { moved[count++] = v; });
+  Vec3 center = point_at(mesh.positions, nearest);
+  visit_near(mesh, columns, center, limit, [&](uint32_t v, double) { moved[count++] = v; });
 
   NewVec3s deltas;
   dna::NewArray<uint32_t> vertices;
@@ -298,7 +298,7 @@ bool make_target(const Head& head, const Control& control, Random& random, uint3
   way.y = random.normal() * 0.1;
   way.z = random.normal() * 0.1;
   for (uint32_t i = 0; i < count; ++i) {
-    Vec3 apart = point_at(mesh.positions, moved[i]) - centre;
+    Vec3 apart = point_at(mesh.positions, moved[i]) - center;
     deltas.set(i, way * falloff(dot(apart, apart), radius));
     vertices.set(i, moved[i]);
   }
@@ -366,13 +366,13 @@ bool make_meshes(const Head& head, uint64_t seed, Span<const uint8_t> kept, Aren
     if (lod < 2 && !make_targets(head, seed, lod, grid.columns, kept, arena, mesh)) return false;
   }
 
-  // The first joint of each eye region is the centre of the eyeball.
+  // The first joint of each eye region is the center of the eyeball.
   Regions regions;
   Grid grid = kGrids[std::min(sizes.first_grid + 4, kGridCount - 1)];
   for (uint32_t i = 0; i < 2; ++i) {
     dna::Mesh& mesh = meshes[lod_count + i];
     Ellipsoid eye = kLeftEye;
-    if (i == 1) eye.centre.x = -eye.centre.x;
+    if (i == 1) eye.center.x = -eye.center.x;
     uint8_t region = regions.find(kEye, i == 0 ? 1 : -1);
     uint16_t joint = 0;
     while (head.joints[joint].region != region) ++joint;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Learned behaviour of a synthetic rig, in the shape of produced ones:
+// Learned behavior of a synthetic rig, in the shape of produced ones:
 //
 //     gather -> encoders, one per region -> weighted sums -> decoders -> scatter -> joints
 //
@@ -43,7 +43,7 @@ struct MlMaker {
   uint32_t raw_count() const { return out.defn.raw_control_names.count; }
   uint32_t inputs() const { return sizes.inputs < raw_count() ? sizes.inputs : raw_count(); }
 
-  /// Controls of an encoder: a run of neighbours, which begins further on for each.
+  /// Controls of an encoder: a run of neighbors, which begins further on for each.
   uint32_t input_of(uint32_t encoder, uint32_t i) const {
     return (encoder * raw_count() / sizes.encoders + i) % raw_count();
   }

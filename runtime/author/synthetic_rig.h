@@ -3,19 +3,19 @@
 //
 // The preset decides all sizes, the seed all numbers; the same pair gives the same bytes wherever
 // doubles are those of IEEE 754. The rigs behave like produced ones. Heads: controls move
-// neighbouring regions of a head, correctives live where their members overlap, and LODs drop
+// neighboring regions of a head, correctives live where their members overlap, and LODs drop
 // joints from the finest on. The body: rotations of joints are compared with poses by RBF solvers,
 // whose controls move corrective joints; others twist and swing with them.
 #pragma once
 
 #include "runtime/base/arena.h"
-#include "runtime/dna/dna_view.h"
+#include "runtime/dna/format/dna_view.h"
 
 namespace mien {
 
 enum class SyntheticPreset : uint32_t { kTiny = 0, kSmall = 1, kMedium = 2, kLarge = 3, kBody = 4 };
 
-/// A 2.8 file with all layers loaded. Heads have no RBF behaviour and no twists and swings;
+/// A 2.8 file with all layers loaded. Heads have no RBF behavior and no twists and swings;
 /// networks are there if `learned`. Its arrays and lists lie in `arena`. Returns false if memory
 /// ran out; `out` is then empty and the arena holds what had been made.
 bool make_synthetic_rig(SyntheticPreset preset, uint64_t seed, Arena& arena, dna::DnaView& out,

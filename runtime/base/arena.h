@@ -46,7 +46,7 @@ class Arena {
     return reinterpret_cast<uint8_t*>(chunk_) + at;
   }
 
-  /// `count` value-initialised elements; data is null if memory ran out (or count is 0).
+  /// `count` value-initialized elements; data is null if memory ran out (or count is 0).
   template <class T>
   Span<T> array(size_t count) {
     static_assert(std::is_trivially_destructible<T>::value, "an arena destroys nothing");

@@ -30,11 +30,11 @@ const char* status_name(Status status) {
     case Status::kDnaLimit: return "DNA_LIMIT";
     case Status::kDnaLayer: return "DNA_LAYER";
     case Status::kDnaValue: return "DNA_VALUE";
-    case Status::kImageSignature: return "IMAGE_SIGNATURE";
-    case Status::kImageVersion: return "IMAGE_VERSION";
-    case Status::kImageTruncated: return "IMAGE_TRUNCATED";
-    case Status::kImageStructure: return "IMAGE_STRUCTURE";
-    case Status::kImageChecksum: return "IMAGE_CHECKSUM";
+    case Status::kBakedSignature: return "BAKED_SIGNATURE";
+    case Status::kBakedVersion: return "BAKED_VERSION";
+    case Status::kBakedTruncated: return "BAKED_TRUNCATED";
+    case Status::kBakedStructure: return "BAKED_STRUCTURE";
+    case Status::kBakedChecksum: return "BAKED_CHECKSUM";
   }
   return "UNKNOWN";
 }

@@ -43,11 +43,11 @@ enum class Status : int32_t {
   kDnaLayer = 36,
   kDnaValue = 37,
   // images of rigs
-  kImageSignature = 50,
-  kImageVersion = 51,
-  kImageTruncated = 52,
-  kImageStructure = 53,
-  kImageChecksum = 54,
+  kBakedSignature = 50,
+  kBakedVersion = 51,
+  kBakedTruncated = 52,
+  kBakedStructure = 53,
+  kBakedChecksum = 54,
 };
 
 /// Name of a status as it stands in mien.h, without the MIEN_ prefix of the enum ("DNA_TRUNCATED").

@@ -20,7 +20,7 @@ uint32_t divide_up(size_t a, size_t b) { return static_cast<uint32_t>((a + b - 1
 struct Job {
   const Deformer& deformer;
   const DeformMesh& mesh;
-  Span<Pose* const> poses;
+  Span<DeformerInstance* const> poses;
   uint32_t mesh_number;
   Normals normals;
   uint32_t pose_parts = 1;
@@ -32,7 +32,8 @@ struct Job {
 
 /// Neutral places of a block with its targets added to them, or the neutral ones themselves if no
 /// target of the block is active.
-const float* move_block(const Job& job, const Pose& pose, uint32_t block, float* moved) {
+const float* move_block(const Job& job, const DeformerInstance& pose, uint32_t block,
+                        float* moved) {
   const DeformMesh& mesh = job.mesh;
   const uint32_t first = block * kBlockPlaces;
   const float* neutral = mesh.neutral.data + size_t{first} * 4;
@@ -59,7 +60,7 @@ const float* move_block(const Job& job, const Pose& pose, uint32_t block, float*
 
 /// Places that no joint holds.
 void leave_places(const Job& job, const float* places, uint32_t first, uint32_t count,
-                  PosedMesh& out) {
+                  DeformedMesh& out) {
   const DeformMesh& mesh = job.mesh;
   for (uint32_t i = 0; i < count; ++i) {
     float* position = out.positions.data + size_t{mesh.position_at[first + i]} * 3;
@@ -72,10 +73,10 @@ void leave_places(const Job& job, const float* places, uint32_t first, uint32_t 
   }
 }
 
-void skin_block(const Job& job, Pose& pose, uint32_t block) {
+void skin_block(const Job& job, DeformerInstance& pose, uint32_t block) {
   alignas(kBlockAlignment) float moved[kBlockPlaces * 4];
   const DeformMesh& mesh = job.mesh;
-  PosedMesh& out = pose.meshes[job.mesh_number];
+  DeformedMesh& out = pose.meshes[job.mesh_number];
   const uint32_t first = block * kBlockPlaces;
   const uint32_t end = std::min(first + kBlockPlaces, mesh.position_count);
   const float* places = move_block(job, pose, block, moved);
@@ -99,7 +100,7 @@ void skin_block(const Job& job, Pose& pose, uint32_t block) {
     args.first_corner = mesh.first_corner.data + from;
     args.corners = mesh.corners.data;
     args.normals = mesh.normals.data;
-    args.turned_normals = out.normals.data;
+    args.out_normals = out.normals.data;
     args.count = to - from;
     args.influences = run->influences;
     args.mode = job.normals != Normals::kSkinned ? SkinNormals::kNone
@@ -127,7 +128,7 @@ void skin_task(void* context, uint32_t index) {
 void area_task(void* context, uint32_t index) {
   const Job& job = *static_cast<const Job*>(context);
   const uint32_t tasks = divide_up(job.mesh.face_count(), kTaskPlaces);
-  Pose& pose = *job.poses[index / tasks];
+  DeformerInstance& pose = *job.poses[index / tasks];
   const uint32_t first = index % tasks * kTaskPlaces;
   AreaArgs args;
   args.positions = pose.meshes[job.mesh_number].positions.data;
@@ -141,7 +142,7 @@ void normal_task(void* context, uint32_t index) {
   const Job& job = *static_cast<const Job*>(context);
   const DeformMesh& mesh = job.mesh;
   const uint32_t tasks = divide_up(mesh.position_count, kTaskPlaces);
-  Pose& pose = *job.poses[index / tasks];
+  DeformerInstance& pose = *job.poses[index / tasks];
   const uint32_t first = index % tasks * kTaskPlaces;
   NormalArgs args;
   args.areas = pose.areas.data;
@@ -151,7 +152,7 @@ void normal_task(void* context, uint32_t index) {
   args.corners = mesh.corners.data;
   args.normals = mesh.normals.data;
   args.neutral_directions = mesh.neutral_directions.data + size_t{first} * 4;
-  args.turned_normals = pose.meshes[job.mesh_number].normals.data;
+  args.out_normals = pose.meshes[job.mesh_number].normals.data;
   args.count = std::min(kTaskPlaces, mesh.position_count - first);
   job.kernels().sum_normals(args);
 }
@@ -163,7 +164,7 @@ void run_all(const ParallelFor& parallel, uint32_t count, void (*task)(void*, ui
 
 }  // namespace
 
-void deform(const Deformer& deformer, Span<Pose* const> poses, uint32_t mesh_number,
+void deform(const Deformer& deformer, Span<DeformerInstance* const> poses, uint32_t mesh_number,
             Normals normals, const ParallelFor& given) {
   const DeformMesh& mesh = deformer.meshes[mesh_number];
   const bool large = size_t{mesh.position_count} * poses.count >= kLeastParallelPositions;

@@ -4,13 +4,13 @@
 #pragma once
 
 #include "runtime/base/parallel_for.h"
-#include "runtime/deform/pose.h"
+#include "runtime/deform/deformer_instance.h"
 
 namespace mien {
 
 /// One mesh of poses of one deformer, all different, all with room for it. `normals` is not
 /// kDefault.
-void deform(const Deformer& deformer, Span<Pose* const> poses, uint32_t mesh, Normals normals,
-            const ParallelFor& parallel);
+void deform(const Deformer& deformer, Span<DeformerInstance* const> poses, uint32_t mesh,
+            Normals normals, const ParallelFor& parallel);
 
 }  // namespace mien

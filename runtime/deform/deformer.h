@@ -6,7 +6,7 @@
 //     |
 //
 // Positions are worked on in an order of their own, "places": by number of influences, then by the
-// joint that holds them most, so that neighbours need the same code and the same matrices.
+// joint that holds them most, so that neighbors need the same code and the same matrices.
 #pragma once
 
 #include "runtime/pose/skeleton.h"
@@ -36,15 +36,15 @@ struct TargetPiece {
 
 struct DeformMesh {
   uint32_t position_count = 0, vertex_count = 0, triangle_count = 0;
-  uint32_t most_influences = 0, target_count = 0;
+  uint32_t max_influences = 0, target_count = 0;
   size_t delta_count = 0;
   uint64_t lods = 0;
 
   // As the file has it, for the caller.
-  Span<float> positions;            // [position] x y z, and one float more
-  Span<float> normals;              // [vertex] x y z, unit, and one float more
-  Span<float> texture_coordinates;  // [vertex] u v
-  Span<uint32_t> vertex_positions;  // [vertex]
+  Span<float> positions;                   // [position] x y z, and one float more
+  Span<float> normals;                     // [vertex] x y z, unit, and one float more
+  Span<float> texture_coordinates;         // [vertex] u v
+  Span<uint32_t> vertex_position_indices;  // [vertex]
   Span<uint32_t> triangles;
   Span<uint16_t> target_channels;  // [target]
 
@@ -77,7 +77,7 @@ struct DeformMesh {
 };
 
 struct Deformer {
-  uint32_t tag = 0;  // first, for the C API to recognise its handles
+  uint32_t tag = 0;  // first, for the C API to recognize its handles
   Allocator allocator;
   size_t block_size = 0;
   mutable std::atomic<uint32_t> owners{1};  // the creator and every pose

@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <cstring>
 
-#include "runtime/dna/dna_check.h"
-#include "runtime/dna/lod_selection.h"
-#include "runtime/dna/record_size.h"
-#include "runtime/dna/system_conversion.h"
+#include "runtime/dna/check/dna_check.h"
+#include "runtime/dna/convert/convert_coordinates.h"
+#include "runtime/dna/convert/lod_selection.h"
+#include "runtime/dna/format/record_size.h"
 
 namespace mien::dna {
 namespace {
@@ -81,7 +81,7 @@ class FieldReader {
  private:
   static constexpr uint32_t kNoIndex = ~uint32_t{0};
   static constexpr int kDepth = 16;
-  static constexpr uint32_t kMostWarnings = 32;
+  static constexpr uint32_t kMaxWarnings = 32;
   struct Step {
     const char* name;
     uint32_t index;
@@ -229,7 +229,7 @@ class FieldReader {
 
   MIEN_PRINTF(3, 4)
   void warn(size_t offset, const char* format, ...) {
-    if (++warnings_ > kMostWarnings) return;  // a file of small blocks could have millions
+    if (++warnings_ > kMaxWarnings) return;  // a file of small blocks could have millions
     va_list arguments;
     va_start(arguments, format);
     send(Status::kOk, offset, format, arguments);
@@ -289,7 +289,7 @@ class DnaReader {
     }
     if (!options_.system) return;
     Error error;
-    if (convert_system(view_, *options_.system, arena_, error) != Status::kOk) {
+    if (convert_coordinates(view_, *options_.system, arena_, error) != Status::kOk) {
       report(error.status, error.byte_offset, "", "%s", error.message);
     }
   }

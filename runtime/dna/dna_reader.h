@@ -3,17 +3,17 @@
 // used; every cross reference is checked before it is followed.
 #pragma once
 
-#include "runtime/dna/coordinate_system.h"
-#include "runtime/dna/dna_view.h"
-#include "runtime/dna/findings.h"
+#include "runtime/base/coordinate_system.h"
+#include "runtime/dna/format/dna_view.h"
+#include "runtime/dna/format/findings.h"
 
 namespace mien::dna {
 
 struct ReadOptions {
-  uint32_t layers = kLayersAll;    // LayerMask; what it needs is added
-  bool keep_unknown = true;        // layers of unknown kind stay in the index
-  uint64_t lods = 0;               // bit l keeps LOD l; 0 keeps all
-  const System* system = nullptr;  // to convert to; null keeps the file's
+  uint32_t layers = kLayersAll;              // LayerMask; what it needs is added
+  bool keep_unknown = true;                  // layers of unknown kind stay in the index
+  uint64_t lods = 0;                         // bit l keeps LOD l; 0 keeps all
+  const CoordinateSystem* system = nullptr;  // to convert to; null keeps the file's
 };
 
 /// Fills `out` with views into `bytes`, which have to outlive it, and into `arena`. Touches only

@@ -24,14 +24,14 @@ bool same_rows(const float* a, const float* b, size_t count) {
   return count == 0 || memcmp(a, b, count * sizeof(float)) == 0;
 }
 
-/// Whether `seen`, which becomes `now`, differed from it. Marks the chunks of the joint matrix that
+/// Whether `seen`, which becomes `now`, differed from it. Marks the panels of the joint matrix that
 /// read the controls `first` ... that did.
 bool note_changes(const Rig& rig, Instance& instance, uint32_t first, const Span<float>& seen) {
   const float* now = instance.controls.data + first;
   if (same_rows(seen.data, now, seen.count)) return false;
   for (size_t i = 0; i < seen.count; ++i) {
     if (same_bits(seen[i], now[i])) continue;
-    instance.stale_chunks |= rig.joints.control_chunks[first + i];
+    instance.stale_panels |= rig.joints.control_panels[first + i];
     seen[i] = now[i];
   }
   return true;
@@ -40,10 +40,10 @@ bool note_changes(const Rig& rig, Instance& instance, uint32_t first, const Span
 /// Looks for what the caller changed.
 void find_changes(const Rig& rig, Instance& instance) {
   if (rig.always_evaluate) return forget_results(instance);
-  if (note_changes(rig, instance, 0, instance.seen_inputs.first(rig.raw_count))) {
+  if (note_changes(rig, instance, 0, instance.previous_inputs.first(rig.raw_count))) {
     instance.stale_stages = kStagesAll;
   }
-  const Span<float> seen = instance.seen_inputs.slice(rig.raw_count, rig.mask_count);
+  const Span<float> seen = instance.previous_inputs.slice(rig.raw_count, rig.mask_count);
   if (same_rows(seen.data, instance.masks.data, seen.count)) return;
   std::copy(instance.masks.begin(), instance.masks.end(), seen.begin());
   instance.stale_stages |= kStageMl;
@@ -51,7 +51,7 @@ void find_changes(const Rig& rig, Instance& instance) {
 
 /// Stages that read controls of networks and poses, or correctives.
 constexpr uint32_t kStagesOutputs = kStageJoints | kStageBlendShapes | kStageAnimatedMaps;
-constexpr uint32_t kStagesBehindMl = kStageRbf | kStagePsd | kStagesOutputs;
+constexpr uint32_t kStagesAfterMl = kStageRbf | kStagePsd | kStagesOutputs;
 
 // rig-evaluation 2.2, without the final clamp.
 void add_table_rows(const ControlTable& table, uint32_t row_count, const Span<float>& inputs,
@@ -72,7 +72,7 @@ void evaluate_psds(const Rig& rig, Instance& instance, uint32_t lod) {
   const PsdTable& psds = rig.psds;
   const PsdChanges changes =
       rig.kernels->psds({psds.outputs.data, psds.weights.data, psds.first_input.data,
-                         psds.inputs.data, psds.run_lengths.data, rig.joints.control_chunks.data,
+                         psds.inputs.data, psds.run_lengths.data, rig.joints.control_panels.data,
                          instance.controls.data, psds.count_at_lod[lod]});
   note_changed_psds(instance, changes.marks, changes.any);
 }
@@ -81,9 +81,9 @@ void evaluate_joints(const Rig& rig, Instance& instance, uint32_t lod) {
   // What networks add to joints must not be added twice, and where rows contend for an output the
   // last one is to write last.
   const bool all = !rig.ml.joints.empty() || rig.joints.contested;
-  const uint64_t chunks = all ? kAllChunks : instance.stale_chunks;
+  const uint64_t panels = all ? kAllPanels : instance.stale_panels;
   begin_joints(rig, instance, lod);
-  evaluate_joint_rows(rig, instance, lod, chunks, kAllGroups);
+  evaluate_joint_rows(rig, instance, lod, panels, kAllGroups);
   finish_joints(rig, instance, lod);
 }
 
@@ -149,10 +149,10 @@ void map_raw_to_gui(const Rig& rig, Instance& instance) {
   }
 }
 
-void note_changed_psds(Instance& instance, uint64_t chunks, bool changed) {
+void note_changed_psds(Instance& instance, uint64_t panels, bool changed) {
   instance.stale_stages &= ~uint32_t{kStagePsd};
   if (!changed) return;
-  instance.stale_chunks |= chunks;
+  instance.stale_panels |= panels;
   instance.stale_stages |= kStagesOutputs;
 }
 
@@ -162,12 +162,13 @@ void begin_joints(const Rig& rig, Instance& instance, uint32_t lod) {
 
 void finish_joints(const Rig& rig, Instance& instance, uint32_t lod) {
   const RotationTable& rotations = rig.rotations;
-  if (!rotations.angle_joints.empty() || !rotations.turn_joints.empty()) {
+  if (!rotations.angle_joints.empty() || !rotations.quaternion_joints.empty()) {
     for (uint32_t g = 0; g < rig.joints.group_count; ++g) evaluate_rotations(rig, instance, lod, g);
   }
-  for (const TwistSwing& setup : rig.twist_swing.setups) turn_setup(rig, instance, lod, setup);
+  for (const TwistSwing& setup : rig.twist_swing.setups)
+    apply_twist_swing(rig, instance, lod, setup);
   add_ml_joints(rig, instance, lod);
-  instance.stale_chunks = 0;
+  instance.stale_panels = 0;
   instance.stale_stages &= ~uint32_t{kStageJoints};
 }
 
@@ -189,13 +190,13 @@ void evaluate_stages(const Rig& rig, Instance& instance, uint32_t lod, uint32_t 
   };
   if (runs(kStageMl)) {
     evaluate_ml(rig, instance, lod);
-    if (note_changes(rig, instance, rig.raw_count + rig.psd_count, instance.seen_behind)) {
-      instance.stale_stages |= kStagesBehindMl;
+    if (note_changes(rig, instance, rig.raw_count + rig.psd_count, instance.previous_after_psds)) {
+      instance.stale_stages |= kStagesAfterMl;
     }
   }
   if (runs(kStageRbf)) {
     evaluate_rbf(rig, instance, lod);
-    if (note_changes(rig, instance, rig.raw_count + rig.psd_count, instance.seen_behind)) {
+    if (note_changes(rig, instance, rig.raw_count + rig.psd_count, instance.previous_after_psds)) {
       instance.stale_stages |= kStagePsd | kStagesOutputs;
     }
   }
@@ -207,7 +208,7 @@ void evaluate_stages(const Rig& rig, Instance& instance, uint32_t lod, uint32_t 
 
 void evaluate_joint_group(const Rig& rig, Instance& instance, uint32_t lod, uint32_t group) {
   enter_lod(rig, instance, lod);
-  evaluate_joint_rows(rig, instance, lod, kAllChunks, group);
+  evaluate_joint_rows(rig, instance, lod, kAllPanels, group);
   evaluate_rotations(rig, instance, lod, group);
   forget_results(instance);
 }
@@ -220,7 +221,7 @@ void evaluate_rbf_solver(const Rig& rig, Instance& instance, uint32_t lod, uint3
 
 void evaluate_twist_swing(const Rig& rig, Instance& instance, uint32_t lod, uint32_t setup) {
   enter_lod(rig, instance, lod);
-  turn_setup(rig, instance, lod, rig.twist_swing.setups[setup]);
+  apply_twist_swing(rig, instance, lod, rig.twist_swing.setups[setup]);
   forget_results(instance);
 }
 

@@ -14,7 +14,7 @@ enum Stages : uint32_t {
   kStageMl = 1,
   kStageRbf = 2,
   kStagePsd = 4,
-  kStageJoints = 8,  // groups, then twists and swings, then joints of learned behaviour
+  kStageJoints = 8,  // groups, then twists and swings, then joints of learned behavior
   kStageBlendShapes = 16,
   kStageAnimatedMaps = 32,
   kStagesAll = 63,
@@ -49,19 +49,19 @@ inline float saturated(double value) {
 
 // Stages in files of their own; `lod` has been entered.
 
-constexpr uint64_t kAllChunks = ~uint64_t{0};
+constexpr uint64_t kAllPanels = ~uint64_t{0};
 constexpr uint32_t kAllGroups = ~uint32_t{0};
 
-/// Neighbouring chunks of a tile of the joint matrix, and the sums of the tile, of which those of
-/// the chunks start from 0. There is room for the whole tile: what an image is checked for is that
-/// pieces of a tile add to blocks of the tile, whichever of its chunks they are said to be of.
+/// Neighboring panels of a tile of the joint matrix, and the sums of the tile, of which those of
+/// the panels start from 0. There is room for the whole tile: what an image is checked for is that
+/// blocks of a tile add to block rows of the tile, whichever of its panels they are said to be of.
 struct JointTile {
-  uint32_t first_block;  // of the tile
-  uint32_t first_chunk, end_chunk;
-  float* sums;  // [block of the tile][8], 64-byte aligned
+  uint32_t first_block_row;  // of the tile
+  uint32_t first_panel, end_panel;
+  float* sums;  // [block row of the tile][8], 64-byte aligned
 
-  float* of_chunk(const JointMatrix& joints, uint32_t chunk) const {
-    return sums + size_t{joints.chunks[chunk].first_block - first_block} * kPieceRows;
+  float* of_panel(const JointMatrix& joints, uint32_t panel) const {
+    return sums + size_t{joints.panels[panel].first_block_row - first_block_row} * kJointBlockRows;
   }
 };
 
@@ -69,7 +69,7 @@ struct JointTile {
 /// or of all.
 void finish_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTile& tile,
                  uint32_t first_column, uint32_t only_group);
-/// Rows of the chunks that are marked (bit c >> chunk_shift for chunk c).
+/// Rows of the panels that are marked (bit c >> panel_shift for panel c).
 void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, uint64_t marks,
                          uint32_t only_group);
 /// NaN equals itself, and 0 is not -0.
@@ -80,16 +80,16 @@ inline bool same_bits(float a, float b) {
   return x == y;
 }
 
-/// Correctives were evaluated: whether any changed, and which chunks of the joint matrix they
+/// Correctives were evaluated: whether any changed, and which panels of the joint matrix they
 /// drive.
-void note_changed_psds(Instance& instance, uint64_t chunks, bool changed);
+void note_changed_psds(Instance& instance, uint64_t panels, bool changed);
 
 /// The joint stage without its rows, before and after them.
 void begin_joints(const Rig& rig, Instance& instance, uint32_t lod);
 void finish_joints(const Rig& rig, Instance& instance, uint32_t lod);
 
 void evaluate_ml(const Rig& rig, Instance& instance, uint32_t lod);
-/// Starts the joints of learned behaviour from no delta; they add to what the groups write.
+/// Starts the joints of learned behavior from no delta; they add to what the groups write.
 void clear_ml_joints(const Rig& rig, Instance& instance, uint32_t lod);
 void add_ml_joints(const Rig& rig, Instance& instance, uint32_t lod);
 
@@ -101,6 +101,6 @@ void write_rotation(const Rig& rig, Instance& instance, uint32_t joint, const Qu
 
 /// What a joint group turns, once its rows are written.
 void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32_t group);
-void turn_setup(const Rig& rig, Instance& instance, uint32_t lod, const TwistSwing& setup);
+void apply_twist_swing(const Rig& rig, Instance& instance, uint32_t lod, const TwistSwing& setup);
 
 }  // namespace mien

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Learned behaviour: networks, what they give to controls, and the joints that follow
+// Learned behavior: networks, what they give to controls, and the joints that follow
 // (rig-evaluation 8).
 #include <algorithm>
 #include <cmath>
@@ -93,7 +93,7 @@ void scatter(const Rig& rig, Instance& instance, const MlStep& step, uint32_t lo
 // ML joints may come in axes and angles of their own. Scales have no direction: they keep their
 // sign.
 void convert_triple(const Rig& rig, Instance& instance, const uint16_t controls[3], bool scale) {
-  const dna::SystemChange& change = rig.ml.change;
+  const CoordinateChange& change = rig.ml.change;
   float v[3] = {};
   for (int i = 0; i < 3; ++i)
     v[i] = controls[i] == kNoControl ? 0.0f : instance.controls[controls[i]];

@@ -82,10 +82,10 @@ void solve_rbf(const Rig& rig, Instance& instance, uint32_t index) {
   uint32_t first_block = 0, block_count = 0;
   if (takes_parts(plan)) {
     const uint32_t count = plan.input_count / plan.angle_inputs;
-    first_block = plan.first_input / kBlockRows;
-    block_count = count ? (plan.first_input + count - 1) / kBlockRows + 1 - first_block : 0;
-    const size_t first = size_t{first_block} * 4 * kBlockRows;
-    fetch(instance, rbf.rotations.slice(first, size_t{block_count} * 4 * kBlockRows),
+    first_block = plan.first_input / kBlockLanes;
+    block_count = count ? (plan.first_input + count - 1) / kBlockLanes + 1 - first_block : 0;
+    const size_t first = size_t{first_block} * 4 * kBlockLanes;
+    fetch(instance, rbf.rotations.slice(first, size_t{block_count} * 4 * kBlockLanes),
           instance.rbf_rotations.data + first);
   } else {
     fetch(instance, rbf.inputs.slice(plan.first_input, plan.input_count),
@@ -108,7 +108,7 @@ void evaluate_rbf(const Rig& rig, Instance& instance, uint32_t lod) {
   fetch(instance, rbf.inputs, instance.rbf_inputs.data);
   fetch(instance, rbf.rotations, instance.rbf_rotations.data);
   run_solvers(rig, instance, solvers, 0,
-              static_cast<uint32_t>(rbf.rotations.count / (4 * kBlockRows)));
+              static_cast<uint32_t>(rbf.rotations.count / (4 * kBlockLanes)));
   for (uint16_t solver : solvers) drive_pose_controls(rig, solver, instance);
 }
 

@@ -9,17 +9,17 @@ namespace mien {
 namespace {
 
 /// Joints of a list whose first row a LOD reaches: they are in order of it.
-uint32_t reached(const Span<TurnedJoint>& joints, uint32_t rows) {
+uint32_t reached(const Span<QuaternionJoint>& joints, uint32_t rows) {
   uint32_t count = 0;
   while (count < joints.count && joints[count].first_row < rows) ++count;
   return count;
 }
 
-void turn_joints(const Rig& rig, Instance& instance, uint32_t lod, uint32_t group,
-                 const Span<TurnedJoint>& joints) {
+void quaternion_joints(const Rig& rig, Instance& instance, uint32_t lod, uint32_t group,
+                       const Span<QuaternionJoint>& joints) {
   const RotationTable& table = rig.rotations;
   const GroupRotations& rotations = table.groups[group];
-  JointTurnArgs args;
+  QuaternionJointArgs args;
   args.halves = rig.half_storage;
   if (args.halves) {
     args.values = table.halves.data + rotations.first_value;
@@ -31,12 +31,12 @@ void turn_joints(const Rig& rig, Instance& instance, uint32_t lod, uint32_t grou
   args.rotations = instance.turns.data;
   args.column_count = table.columns_at_lod[size_t{group} * rig.lod_count + lod];
   args.column_stride = rotations.column_count;
-  args.block_count = static_cast<uint32_t>((joints.count + kBlockRows - 1) / kBlockRows);
-  rig.kernels->joint_turns(args);
+  args.block_count = static_cast<uint32_t>((joints.count + kBlockLanes - 1) / kBlockLanes);
+  rig.kernels->quaternion_joints(args);
   for (uint32_t j = 0; j < joints.count; ++j) {
-    const float* lane = args.rotations + j / kBlockRows * 4 * kBlockRows + j % kBlockRows;
+    const float* lane = args.rotations + j / kBlockLanes * 4 * kBlockLanes + j % kBlockLanes;
     write_rotation(rig, instance, joints[j].joint,
-                   {lane[0], lane[kBlockRows], lane[2 * kBlockRows], lane[3 * kBlockRows]});
+                   {lane[0], lane[kBlockLanes], lane[2 * kBlockLanes], lane[3 * kBlockLanes]});
   }
 }
 
@@ -82,20 +82,21 @@ void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32
   const GroupRotations& rotations = table.groups[group];
   const uint32_t rows = rig.joints.group_rows_at_lod[size_t{group} * rig.lod_count + lod];
 
-  Span<TurnedJoint> joints =
+  Span<QuaternionJoint> joints =
       table.angle_joints.slice(rotations.first_angle_joint, rotations.angle_joint_count);
-  for (const TurnedJoint& turned : joints.first(reached(joints, rows))) {
+  for (const QuaternionJoint& turned : joints.first(reached(joints, rows))) {
     const float* angles =
         instance.joints_and_angles.data + rig.joint_value_count() + size_t{turned.joint} * 3;
     write_rotation(rig, instance, turned.joint, quaternion_from_euler(rig.rotation, angles));
   }
 
-  joints = table.turn_joints.slice(rotations.first_turn_joint, rotations.turn_joint_count);
+  joints = table.quaternion_joints.slice(rotations.first_quaternion_joint,
+                                         rotations.quaternion_joint_count);
   joints = joints.first(reached(joints, rows));
-  if (!joints.empty()) turn_joints(rig, instance, lod, group, joints);
+  if (!joints.empty()) quaternion_joints(rig, instance, lod, group, joints);
 }
 
-void turn_setup(const Rig& rig, Instance& instance, uint32_t lod, const TwistSwing& setup) {
+void apply_twist_swing(const Rig& rig, Instance& instance, uint32_t lod, const TwistSwing& setup) {
   const TwistSwingTable& table = rig.twist_swing;
   const float* c = instance.controls.data;
   const Quaternion q =

@@ -17,15 +17,15 @@ void place_instance(const Rig& rig, Placer& placer, Instance& instance) {
   instance.joints = instance.joints_and_angles.first(rig.joint_value_count());
   instance.channels = placer.array<float>(rig.channel_count, kBlockAlignment);
   instance.maps = placer.array<float>(rig.map_count, kBlockAlignment);
-  instance.seen_inputs =
+  instance.previous_inputs =
       placer.array<float>(size_t{rig.raw_count} + rig.mask_count, kBlockAlignment);
-  instance.seen_behind =
+  instance.previous_after_psds =
       placer.array<float>(rig.control_count - rig.raw_count - rig.psd_count, kBlockAlignment);
-  instance.turns =
-      placer.array<float>(4 * align_up(rig.rotations.most_turns, kBlockRows), kBlockAlignment);
+  instance.turns = placer.array<float>(
+      4 * align_up(rig.rotations.max_quaternion_joints, kBlockLanes), kBlockAlignment);
   instance.ml_values = placer.array<float>(rig.ml.buffer_size, kBlockAlignment);
   for (Span<float>& layer : instance.ml_layers) {
-    layer = placer.array<float>(align_up(rig.ml.widest_layer, kBlockRows), kBlockAlignment);
+    layer = placer.array<float>(align_up(rig.ml.widest_layer, kBlockLanes), kBlockAlignment);
   }
   instance.rbf_inputs = placer.array<float>(rig.rbf.inputs.count, kBlockAlignment);
   instance.rbf_rotations = placer.array<float>(rig.rbf.rotations.count, kBlockAlignment);

@@ -10,7 +10,7 @@
 namespace mien {
 
 struct Instance {
-  uint32_t tag = 0;       // first, for the C API to recognise its handles
+  uint32_t tag = 0;       // first, for the C API to recognize its handles
   uint32_t lod = 0;       // of the last evaluation: outputs that it does not reach are 0
   bool in_batch = false;  // while a batch is checked
   const Rig* rig = nullptr;
@@ -26,10 +26,11 @@ struct Instance {
   Span<float> maps;
 
   // What the results were made of: whatever differs from this is evaluated anew.
-  Span<float> seen_inputs;    // raw controls, then masks
-  Span<float> seen_behind;    // controls behind the correctives: of networks, poses, absent layers
+  Span<float> previous_inputs;  // raw controls, then masks
+  Span<float>
+      previous_after_psds;    // controls behind the correctives: of networks, poses, absent layers
   uint32_t stale_stages = 0;  // MIEN_STAGE_...
-  uint64_t stale_chunks = 0;  // of the joint matrix
+  uint64_t stale_panels = 0;  // of the joint matrix
 
   Span<float> turns;          // scratch: the quaternions of the group with most
   Span<float> ml_values;      // what the ML steps give, for each other
@@ -50,7 +51,7 @@ void destroy_instance(Instance* instance);
 /// Everything is evaluated anew next time.
 inline void forget_results(Instance& instance) {
   instance.stale_stages = ~uint32_t{0};
-  instance.stale_chunks = ~uint64_t{0};
+  instance.stale_panels = ~uint64_t{0};
 }
 
 /// Outputs as after creation.

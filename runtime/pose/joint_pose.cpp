@@ -11,7 +11,7 @@ constexpr float kUniformScale = 1e-4f;
 constexpr float kHalfTurn = 3.14159265f;
 
 float* lane(const Span<float>& rows, uint32_t row_count, uint32_t i) {
-  return rows.data + size_t{i / kBlockRows} * row_count * kBlockRows + i % kBlockRows;
+  return rows.data + size_t{i / kBlockLanes} * row_count * kBlockLanes + i % kBlockLanes;
 }
 
 bool is_skewed(const float* scale) {
@@ -43,10 +43,10 @@ void spread_euler(const Skeleton& skeleton, const float* values, JointPose& pose
     pose.skewed |= is_skewed(from + 6);
     const float* added = skeleton.added_angles.data + size_t{i} * 3;
     for (int k = 0; k < 3; ++k) {
-      to[k * int{kBlockRows}] = from[k];
+      to[k * int{kBlockLanes}] = from[k];
       const float angle = add ? added[k] + from[3 + k] : from[3 + k];
-      to[(3 + k) * int{kBlockRows}] = half_angle(skeleton.rotation, angle, k);
-      to[(7 + k) * int{kBlockRows}] = from[6 + k];
+      to[(3 + k) * int{kBlockLanes}] = half_angle(skeleton.rotation, angle, k);
+      to[(7 + k) * int{kBlockLanes}] = from[6 + k];
     }
   }
 }
@@ -58,7 +58,7 @@ void spread_quaternions(const Skeleton& skeleton, const float* values, JointPose
     float* to = lane(pose.deltas, kDeltaRows, i);
     bool still = true;
     for (uint32_t a = 0; a < kAttributes; ++a) {
-      to[a * kBlockRows] = from[a];
+      to[a * kBlockLanes] = from[a];
       still &= a == 6 || from[a] == 0;  // w may be anything: only its sign would be left
     }
     pose.still[i] = still;
@@ -71,7 +71,7 @@ void clear_deltas(const Skeleton& skeleton, JointPose& pose) {
   if (skeleton.compose == Compose::kEulerAdd) {
     for (uint32_t i = 0; i < skeleton.joint_count; ++i) {
       for (int k = 0; k < 3; ++k) {
-        lane(pose.deltas, kDeltaRows, i)[(3 + k) * int{kBlockRows}] = half_angle(
+        lane(pose.deltas, kDeltaRows, i)[(3 + k) * int{kBlockLanes}] = half_angle(
             skeleton.rotation, skeleton.added_angles[size_t{i} * 3 + static_cast<size_t>(k)], k);
       }
     }
@@ -83,7 +83,7 @@ void clear_deltas(const Skeleton& skeleton, JointPose& pose) {
 
 void place_joint_pose(const Skeleton& skeleton, Placer& placer, JointPose& pose) {
   const size_t count = skeleton.joint_count;
-  const size_t lanes = size_t{skeleton.block_count()} * kBlockRows;
+  const size_t lanes = size_t{skeleton.block_count()} * kBlockLanes;
   pose.model = placer.array<float>(count * kMatrixFloats, kBlockAlignment);
   pose.skin = placer.array<float>(count * kMatrixFloats, kBlockAlignment);
   pose.deltas = placer.array<float>(lanes * kDeltaRows, kBlockAlignment);
@@ -127,9 +127,9 @@ void write_local_transforms(const Skeleton& skeleton, const JointPose& pose, flo
     const float* local = lane(pose.locals, kLocalRows, i);
     const float* delta = lane(pose.deltas, kDeltaRows, i);
     float* to = out + size_t{skeleton.order[i]} * kLocalTransformFloats;
-    for (uint32_t k = 0; k < 3; ++k) to[k] = local[(9 + k) * kBlockRows];
-    for (uint32_t k = 0; k < 4; ++k) to[3 + k] = local[(12 + k) * kBlockRows];
-    for (uint32_t k = 0; k < 3; ++k) to[7 + k] = 1.0f + delta[(7 + k) * kBlockRows];
+    for (uint32_t k = 0; k < 3; ++k) to[k] = local[(9 + k) * kBlockLanes];
+    for (uint32_t k = 0; k < 4; ++k) to[3 + k] = local[(12 + k) * kBlockLanes];
+    for (uint32_t k = 0; k < 3; ++k) to[7 + k] = 1.0f + delta[(7 + k) * kBlockLanes];
   }
 }
 

@@ -91,23 +91,23 @@ void store(const Frame& frame, float* columns) {
 
 void fill_neutral(const Rig& rig, Skeleton& skeleton) {
   // Lanes without a joint are the identity, and their results go nowhere.
-  for (uint32_t i = 0; i < skeleton.block_count() * kBlockRows; ++i) {
+  for (uint32_t i = 0; i < skeleton.block_count() * kBlockLanes; ++i) {
     float* lane =
-        skeleton.neutral.data + i / kBlockRows * kNeutralRows * kBlockRows + i % kBlockRows;
-    lane[6 * kBlockRows] = 1;
+        skeleton.neutral.data + i / kBlockLanes * kNeutralRows * kBlockLanes + i % kBlockLanes;
+    lane[6 * kBlockLanes] = 1;
     if (i >= skeleton.joint_count) continue;
     const uint32_t joint = skeleton.order[i];
     const float* values = rig.neutral_joints.data + size_t{joint} * rig.joint_attributes;
-    for (int k = 0; k < 3; ++k) lane[k * kBlockRows] = values[k];
+    for (int k = 0; k < 3; ++k) lane[k * kBlockLanes] = values[k];
     if (skeleton.compose == Compose::kEulerAdd) {
       std::copy(values + 3, values + 6, skeleton.added_angles.data + size_t{i} * 3);
       continue;
     }
     const Quaternion q = neutral_rotation(rig, joint);
-    lane[3 * kBlockRows] = q.x;
-    lane[4 * kBlockRows] = q.y;
-    lane[5 * kBlockRows] = q.z;
-    lane[6 * kBlockRows] = q.w;
+    lane[3 * kBlockLanes] = q.x;
+    lane[4 * kBlockLanes] = q.y;
+    lane[5 * kBlockLanes] = q.z;
+    lane[6 * kBlockLanes] = q.w;
   }
 }
 
@@ -120,8 +120,8 @@ void place_skeleton(const Rig& rig, Placer& placer, Skeleton& skeleton) {
   skeleton.rotation = rig.rotation;
   skeleton.order = placer.array<uint16_t>(count);
   skeleton.parents = placer.array<uint16_t>(count);
-  skeleton.neutral = placer.array<float>(size_t{skeleton.block_count()} * kNeutralRows * kBlockRows,
-                                         kBlockAlignment);
+  skeleton.neutral = placer.array<float>(
+      size_t{skeleton.block_count()} * kNeutralRows * kBlockLanes, kBlockAlignment);
   skeleton.added_angles = placer.array<float>(count * 3);
   skeleton.bind = placer.array<float>(count * kMatrixFloats, kBlockAlignment);
   skeleton.inverse_bind = placer.array<float>(count * kMatrixFloats, kBlockAlignment);

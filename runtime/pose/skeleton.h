@@ -29,7 +29,7 @@ struct Skeleton {
   Span<float> inverse_bind;  // [joint]
 
   uint32_t value_count() const { return joint_count * joint_attributes; }
-  uint32_t block_count() const { return (joint_count + kBlockRows - 1) / kBlockRows; }
+  uint32_t block_count() const { return (joint_count + kBlockLanes - 1) / kBlockLanes; }
   bool quaternions() const { return joint_attributes != kFileAttributes; }
 };
 

@@ -5,7 +5,7 @@
 //     | Rig | tables | correctives | joint matrix | neutral pose | LOD lists | names |
 //
 // Elements of arrays have no padding: what would be is a field of zeros, so that a rig has one
-// image (rig_image.h).
+// image (baked_rig.h).
 //
 // A LOD never needs a list of what to evaluate: tables, correctives and joint rows are ordered so
 // that each LOD uses a prefix of what the LOD before it uses.
@@ -14,10 +14,10 @@
 #include <atomic>
 
 #include "runtime/base/allocator.h"
+#include "runtime/base/coordinate_system.h"
 #include "runtime/base/mapped_file.h"
 #include "runtime/base/span.h"
 #include "runtime/base/transform.h"
-#include "runtime/dna/coordinate_system.h"
 #include "simd/kernels.h"
 
 namespace mien {
@@ -41,8 +41,8 @@ struct LodLists {
 };
 
 /// Piecewise-linear map (rig-evaluation 2): row r fires when from <= input <= to and then adds
-/// slope * input + cut to its output. Of neighbouring rows with the same input and output only the
-/// first that fires counts: `run_ends[r]` is the first row behind the neighbours of r.
+/// slope * input + cut to its output. Of neighboring rows with the same input and output only the
+/// first that fires counts: `run_ends[r]` is the first row behind the neighbors of r.
 struct ControlTable {
   Span<uint16_t> inputs, outputs;
   Span<float> from, to, slope, cut;
@@ -71,26 +71,26 @@ struct PsdTable {
   Span<uint16_t> entry_of_psd;  // where corrective p stands
 };
 
-/// A run of blocks of the joint matrix that reach the same LODs.
-struct JointChunk {
-  uint32_t first_block;
+/// A run of block rows of the joint matrix that reach the same LODs.
+struct JointPanel {
+  uint32_t first_block_row;
   uint32_t first_target;  // into JointMatrix::targets
 };
 
-/// Where neighbouring sums go: six, three, or one.
+/// Where neighboring sums go: six, three, or one.
 struct JointTarget {
-  uint16_t slot;    // counted from the chunk's first
+  uint16_t slot;    // counted from the panel's first
   uint16_t output;  // joint value
   uint16_t group;   // joint group that the rows are from
 };
 
 constexpr uint32_t kNoColumn = ~uint32_t{0};
-constexpr uint32_t kMostChunkBlocks = 256;
-constexpr uint32_t kMostTileBlocks = 1024;              // that are summed at a time
-constexpr uint32_t kMostBlocks = 0x10000 / kBlockUnit;  // of the whole matrix
-static_assert(kMostTileBlocks >= kMostChunkBlocks, "a chunk fits");
+constexpr uint32_t kMaxPanelBlockRows = 256;
+constexpr uint32_t kMaxTileBlockRows = 1024;                 // that are summed at a time
+constexpr uint32_t kMaxBlockRows = 0x10000 / kBlockRowUnit;  // of the whole matrix
+static_assert(kMaxTileBlockRows >= kMaxPanelBlockRows, "a panel fits");
 
-/// How many pairs and how many single pieces of a column stand before some block.
+/// How many pairs and how many single blocks of a column stand before some block row.
 struct ColumnPart {
   uint16_t pairs, singles;
 };
@@ -100,96 +100,97 @@ constexpr uint32_t kTargetRows[] = {6, 3, 1};
 constexpr uint32_t kTargetKinds = 3;
 
 /// The joint matrix (rig-evaluation 4), one column per control that it reads. Nothing but zeros is
-/// left out, so that evaluating touches the pieces of those controls that are not zero, one after
+/// left out, so that evaluating touches the blocks of those controls that are not zero, one after
 /// the other, and no others.
 ///
-///     slot    a row that is computed: slots 8b ... 8b + 7 are block b
-///     piece   the 8 values of a column in a block
-///     pair    pieces of blocks 2i and 2i + 1, side by side
-///     chunk   a run of blocks, of an even number
-///     tile    a run of chunks whose sums fit into kMostTileBlocks blocks: all chunks of a face
+///     slot    a row that is computed: slots 8b ... 8b + 7 are block row b
+///     block   the 8 values of a column in a block row
+///     pair    blocks of block rows 2i and 2i + 1, side by side
+///     panel   a run of block rows, of an even number
+///     tile    a run of panels whose sums fit into kMaxTileBlockRows block rows: all panels of a
+///     face
 ///
-///     values  | column 0: pair pair ... piece piece ... | column 1: pair pair ... piece ... | ...
-///                         of ascending blocks           8 zeros if the pieces' number is odd
+///     values  | column 0: pair pair ... block block ... | column 1: pair pair ... block ... | ...
+///                         of ascending block rows           8 zeros if the blocks' number is odd
 ///
-/// Blocks that more LODs reach come first, so a LOD is a prefix of the chunks.
+/// Block rows that more LODs reach come first, so a LOD is a prefix of the panels.
 struct JointMatrix {
-  Span<float> values;          // [piece][8], or
+  Span<float> values;          // [block][8], or
   Span<int16_t> fixed_values;  // the same in units of the slot's scale
   Span<float> scales;          // [slot], beside fixed_values
-  Span<uint16_t> blocks;       // [entry] of each pair the even one, of each other piece its own
+  Span<uint16_t> block_rows;   // [entry] of each pair the even one, of each other block its own
   Span<uint16_t> columns;      // [column] control, ascending
   Span<uint32_t> column_of_control;  // [control] or kNoColumn
-  Span<uint32_t> first_piece;        // [column], one more at the end
-  Span<uint32_t> first_entry;        // [column] into blocks, one more at the end
-  Span<ColumnPart> parts;        // [column][chunk], one more at the end of each column: what of the
-                                 // column stands before the chunk
-  Span<JointChunk> chunks;       // one more at the end
-  Span<uint32_t> chunks_at_lod;  // leading chunks
-  Span<uint64_t> control_chunks;  // [control] bit c >> chunk_shift: has pieces in chunk c
+  Span<uint32_t> first_block;        // [column], one more at the end
+  Span<uint32_t> first_entry;        // [column] into block rows, one more at the end
+  Span<ColumnPart> parts;        // [column][panel], one more at the end of each column: what of the
+                                 // column stands before the panel
+  Span<JointPanel> panels;       // one more at the end
+  Span<uint32_t> panels_at_lod;  // leading panels
+  Span<uint64_t> control_panels;  // [control] bit c >> panel_shift: has blocks in panel c
 
-  // By chunk: those of six rows, of three, of one; of each kind those that more LODs reach first.
-  // Behind the last chunk once more those of all chunks, in order of their outputs, with slots
-  // counted from the first block: if that fits_tile().
+  // By panel: those of six rows, of three, of one; of each kind those that more LODs reach first.
+  // Behind the last panel once more those of all panels, in order of their outputs, with slots
+  // counted from the first block row: if that fits_tile().
   Span<JointTarget> targets;
-  Span<uint16_t> targets_at_lod;  // [chunk, or all][kind][lod]: leading ones of the kind
+  Span<uint16_t> targets_at_lod;  // [panel, or all][kind][lod]: leading ones of the kind
 
   Span<uint16_t> group_rows_at_lod;  // [group][lod]: leading rows of the group, as in the file
-  bool contested = false;            // some output is written by rows of different chunks
+  bool contested = false;            // some output is written by rows of different panels
   uint32_t group_count = 0;
-  uint32_t chunk_shift = 0;
+  uint32_t panel_shift = 0;
   uint32_t widest_group = 0;   // columns
   uint32_t tallest_group = 0;  // rows
 
-  uint32_t chunk_count() const { return static_cast<uint32_t>(chunks.count - 1); }
-  /// Whether a tile that begins with block `first_block` can take chunk `chunk` in.
-  bool in_tile(uint32_t first_block, uint32_t chunk) const {
-    return chunks[chunk + 1].first_block <= first_block + kMostTileBlocks;
+  uint32_t panel_count() const { return static_cast<uint32_t>(panels.count - 1); }
+  /// Whether a tile that begins with block row `first_block_row` can take panel `panel` in.
+  bool in_tile(uint32_t first_block_row, uint32_t panel) const {
+    return panels[panel + 1].first_block_row <= first_block_row + kMaxTileBlockRows;
   }
-  /// Where the tile ends that begins with chunk `chunk`.
-  uint32_t tile_end(uint32_t chunk) const {
-    const uint32_t first_block = chunks[chunk].first_block;
-    do ++chunk;
-    while (chunk < chunk_count() && in_tile(first_block, chunk));
-    return chunk;
+  /// Where the tile ends that begins with panel `panel`.
+  uint32_t tile_end(uint32_t panel) const {
+    const uint32_t first_block_row = panels[panel].first_block_row;
+    do ++panel;
+    while (panel < panel_count() && in_tile(first_block_row, panel));
+    return panel;
   }
-  bool fits_tile() const { return chunks[chunk_count()].first_block <= kMostTileBlocks; }
-  /// What of a column stands in the first `chunk_end` chunks.
-  const ColumnPart& part(size_t column, uint32_t chunk_end) const {
-    return parts[column * chunks.count + chunk_end];
+  bool fits_tile() const { return panels[panel_count()].first_block_row <= kMaxTileBlockRows; }
+  /// What of a column stands in the first `panel_end` panels.
+  const ColumnPart& part(size_t column, uint32_t panel_end) const {
+    return parts[column * panels.count + panel_end];
   }
-  uint32_t pieces_before(size_t column, uint32_t chunk_end) const {
-    const ColumnPart& before = part(column, chunk_end);
+  uint32_t blocks_before(size_t column, uint32_t panel_end) const {
+    const ColumnPart& before = part(column, panel_end);
     return 2 * uint32_t{before.pairs} + before.singles;
   }
-  /// What reading the first `chunk_end` chunks of a column fetches: values and block numbers.
-  size_t bytes_before(size_t column, uint32_t chunk_end) const {
-    const ColumnPart& before = part(column, chunk_end);
+  /// What reading the first `panel_end` panels of a column fetches: values and block row numbers.
+  size_t bytes_before(size_t column, uint32_t panel_end) const {
+    const ColumnPart& before = part(column, panel_end);
     const size_t value_size = values.empty() ? sizeof(int16_t) : sizeof(float);
-    return pieces_before(column, chunk_end) * kPieceRows * value_size +
+    return blocks_before(column, panel_end) * kJointBlockRows * value_size +
            (size_t{before.pairs} + before.singles) * sizeof(uint16_t);
   }
-  /// Calls f(piece, block) for what of a column stands in the first `chunk_end` chunks.
+  /// Calls f(block, block row) for what of a column stands in the first `panel_end` panels.
   template <class F>
-  void for_each_piece(size_t column, uint32_t chunk_end, F&& f) const {
-    const ColumnPart& before = part(column, chunk_end);
-    const uint32_t pairs = part(column, chunk_count()).pairs;
-    const uint16_t* entry = blocks.data + first_entry[column];
-    uint32_t piece = first_piece[column];
+  void for_each_block(size_t column, uint32_t panel_end, F&& f) const {
+    const ColumnPart& before = part(column, panel_end);
+    const uint32_t pairs = part(column, panel_count()).pairs;
+    const uint16_t* entry = block_rows.data + first_entry[column];
+    uint32_t block = first_block[column];
     for (uint32_t i = 0; i < before.pairs; ++i) {
-      const uint32_t block = (entry[i] & kPairBlocks) / kBlockUnit;
-      f(piece + 2 * i, block);
-      f(piece + 2 * i + 1, block + 1);
+      const uint32_t block_row = (entry[i] & kPairBlockRows) / kBlockRowUnit;
+      f(block + 2 * i, block_row);
+      f(block + 2 * i + 1, block_row + 1);
     }
     entry += pairs;
-    piece += 2 * pairs;
-    for (uint32_t i = 0; i < before.singles; ++i) f(piece + i, entry[i] / kBlockUnit);
+    block += 2 * pairs;
+    for (uint32_t i = 0; i < before.singles; ++i) f(block + i, entry[i] / kBlockRowUnit);
   }
 };
 
 /// A joint that a group turns, and the first of the group's rows that does: it turns at the LODs
 /// that reach this row.
-struct TurnedJoint {
+struct QuaternionJoint {
   uint16_t joint;
   uint16_t first_row;
 };
@@ -201,23 +202,23 @@ struct TurnedJoint {
 ///
 /// Turns: joints represented by quaternions (rig-evaluation 4.8). Per column there is one
 /// quaternion per joint; the rotation is the product, over the columns, of each blended with the
-/// identity by its control. In blocks of kBlockRows joints, as simd/kernels.h draws them.
+/// identity by its control. In blocks of kBlockLanes joints, as simd/kernels.h draws them.
 struct GroupRotations {
-  uint32_t first_angle_joint, angle_joint_count;  // into RotationTable::angle_joints
-  uint32_t first_turn_joint, turn_joint_count;    // into RotationTable::turn_joints
-  uint32_t first_column, column_count;            // into RotationTable::columns
-  size_t first_value;                             // into RotationTable::values
+  uint32_t first_angle_joint, angle_joint_count;            // into RotationTable::angle_joints
+  uint32_t first_quaternion_joint, quaternion_joint_count;  // into RotationTable::quaternion_joints
+  uint32_t first_column, column_count;                      // into RotationTable::columns
+  size_t first_value;                                       // into RotationTable::values
 };
 
 struct RotationTable {
   Span<GroupRotations> groups;  // one for each joint group
-  Span<TurnedJoint> angle_joints;
-  Span<TurnedJoint> turn_joints;
-  Span<uint16_t> columns;         // control that a column reads
-  Span<uint32_t> columns_at_lod;  // [group][lod]: leading columns
-  Span<float> values;             // or
-  Span<uint16_t> halves;          // in half storage
-  uint32_t most_turns = 0;        // of one group
+  Span<QuaternionJoint> angle_joints;
+  Span<QuaternionJoint> quaternion_joints;
+  Span<uint16_t> columns;              // control that a column reads
+  Span<uint32_t> columns_at_lod;       // [group][lod]: leading columns
+  Span<float> values;                  // or
+  Span<uint16_t> halves;               // in half storage
+  uint32_t max_quaternion_joints = 0;  // of one group
 };
 
 /// How a solver measures, as files number it.
@@ -270,7 +271,7 @@ struct MlDependency {
   uint8_t zeros[3];
 };
 
-/// A step of the learned behaviour (rig-evaluation 8): a network that runs, or a weighted sum. What
+/// A step of the learned behavior (rig-evaluation 8): a network that runs, or a weighted sum. What
 /// gathers and scatters has become lists of controls. Its values go to `first_output` of the
 /// instance's ML buffer, and on to the controls of its scatter list.
 struct MlStep {
@@ -287,10 +288,10 @@ constexpr uint32_t kNoMask = ~uint32_t{0};
 
 // Operations cost a file few bytes and may all run the same large network, so their number alone
 // bounds neither memory nor time.
-constexpr size_t kMostBufferFloats = size_t{4} << 20;
-constexpr size_t kMostMultiplications = size_t{256} << 20;
+constexpr size_t kMaxBufferFloats = size_t{4} << 20;
+constexpr size_t kMaxMultiplications = size_t{256} << 20;
 
-/// A joint that learned behaviour moves (rig-evaluation 8.6). Controls of what it does not give are
+/// A joint that learned behavior moves (rig-evaluation 8.6). Controls of what it does not give are
 /// kNoControl; a rotation takes three or four controls from rotation_control on.
 struct MlJoint {
   uint64_t lods;  // bit l: exists at LOD l
@@ -318,7 +319,7 @@ struct MlTable {
   bool blend_masks = false;           // else a mask is on or off
   bool quaternion_rotations = false;  // of the ML joints
   bool converts = false;              // ML joints come in a system of their own:
-  dna::SystemChange change = {};      // from it to the rig's
+  CoordinateChange change = {};       // from it to the rig's
   RotationConvention rotation;        // its angles
   Matrix3 to_rig;                     // the change of axes, for row vectors
 };
@@ -387,7 +388,7 @@ struct Units {
 };
 
 struct Rig {
-  uint32_t tag = 0;  // first, for the C API to recognise its handles
+  uint32_t tag = 0;  // first, for the C API to recognize its handles
   Allocator allocator;
   size_t block_size = 0;
   MappedFile image;  // of a rig that was opened from a file, or a copy of one: the arrays are there

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any bytes as a DNA file, through its whole life (tests/support/dna_life.h). An input is a file,
-// with eight bytes behind it that choose layers, LODs and controls:
+// Any bytes as a DNA file, through its whole life (tests/support/exercise_dna.h). An input is a
+// file, with eight bytes behind it that choose layers, LODs and controls:
 //
 //     file | 'M' 'o' | layers, u16 | LODs, u8 | seed of controls, u8 | flags, u8 | system, u8
 //
@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "runtime/dna/dna_reader.h"
-#include "runtime/dna/dna_writer.h"
+#include "runtime/dna/format/dna_writer.h"
 #include "tests/fuzz/view_mutator.h"
-#include "tests/support/dna_life.h"
+#include "tests/support/exercise_dna.h"
 #include "tests/support/tiny_rig.h"
 
 extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);

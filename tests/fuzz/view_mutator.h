@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-#include "runtime/dna/dna_view.h"
+#include "runtime/dna/format/dna_view.h"
 
 namespace mien::dna {
 

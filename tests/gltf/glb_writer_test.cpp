@@ -65,7 +65,7 @@ Scene scene_of(Mesh mesh) {
   Scene scene;
   scene.name = "scene";
   scene.materials.emplace_back();
-  scene.materials[0].name = "grey";
+  scene.materials[0].name = "gray";
   scene.meshes.push_back(std::move(mesh));
   scene.lod_names = {"LOD 0"};
   scene.lods = {{0}};

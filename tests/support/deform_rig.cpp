@@ -114,7 +114,7 @@ Mesh random_mesh(std::mt19937& random, Arena& arena, const DeformRigOptions& opt
   for (uint32_t i = 0; i < count; ++i) {
     std::vector<float> weights;
     std::vector<uint16_t> joints;
-    const uint32_t spread = options.most_influences - options.least_influences + 1;
+    const uint32_t spread = options.max_influences - options.least_influences + 1;
     const uint32_t n = options.least_influences + below(random, spread);
     double sum = 0;
     for (uint32_t k = 0; k < n; ++k) {
@@ -152,7 +152,7 @@ Mesh random_mesh(std::mt19937& random, Arena& arena, const DeformRigOptions& opt
   if (options.normals) mesh.normals = vectors_of(arena, normals);
   mesh.layouts = {array_of(arena, of_position), array_of(arena, of_uv), array_of(arena, of_normal)};
   mesh.faces = list_of(arena, faces);
-  mesh.maximum_influence_per_vertex = static_cast<uint16_t>(options.most_influences + 1);
+  mesh.maximum_influence_per_vertex = static_cast<uint16_t>(options.max_influences + 1);
   mesh.skin_weights = list_of(arena, skin);
   mesh.blend_shape_targets = list_of(arena, targets);
   return mesh;
@@ -283,11 +283,11 @@ DeformerHandle create_deformer(const MienDna* dna, const MienRig* rig, MienDefor
   return DeformerHandle(made);
 }
 
-PoseHandle create_pose(const MienDeformer* deformer, uint64_t lods) {
-  MienPoseDesc desc = sized<MienPoseDesc>();
+PoseHandle create_deformer_instance(const MienDeformer* deformer, uint64_t lods) {
+  MienDeformerInstanceDesc desc = sized<MienDeformerInstanceDesc>();
   desc.lods = lods;
-  MienPose* made = nullptr;
-  EXPECT_EQ(mien_pose_create(deformer, &desc, &made, nullptr), MIEN_OK);
+  MienDeformerInstance* made = nullptr;
+  EXPECT_EQ(mien_deformer_instance_create(deformer, &desc, &made, nullptr), MIEN_OK);
   return PoseHandle(made);
 }
 

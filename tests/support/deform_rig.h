@@ -7,21 +7,21 @@
 #include <random>
 #include <vector>
 
-#include "runtime/dna/dna_view.h"
+#include "runtime/dna/format/dna_view.h"
 #include "tests/support/rig_handles.h"
 
 namespace mien {
 
 struct CloseDeform {
   void operator()(MienDeformer* deformer) const { mien_deformer_destroy(deformer); }
-  void operator()(MienPose* pose) const { mien_pose_destroy(pose); }
+  void operator()(MienDeformerInstance* pose) const { mien_deformer_instance_destroy(pose); }
 };
 using DeformerHandle = std::unique_ptr<MienDeformer, CloseDeform>;
-using PoseHandle = std::unique_ptr<MienPose, CloseDeform>;
+using PoseHandle = std::unique_ptr<MienDeformerInstance, CloseDeform>;
 
 DeformerHandle create_deformer(const MienDna* dna, const MienRig* rig, MienDeformerDesc desc = {},
                                MienStatus expected = MIEN_OK);
-PoseHandle create_pose(const MienDeformer* deformer, uint64_t lods = 0);
+PoseHandle create_deformer_instance(const MienDeformer* deformer, uint64_t lods = 0);
 MienMesh mesh_of(const MienDeformer* deformer, uint32_t mesh);
 
 /// What a random rig is like.
@@ -29,7 +29,7 @@ struct DeformRigOptions {
   uint32_t joints = 12;
   uint32_t meshes = 2;
   uint32_t rows = 9, columns = 11;  // of the grid that each mesh is
-  uint32_t least_influences = 0, most_influences = 14;
+  uint32_t least_influences = 0, max_influences = 14;
   bool one_root = false;
   uint32_t channels = 5;
   uint32_t rotation_sequence = 0;
@@ -42,7 +42,7 @@ struct DeformRigOptions {
 };
 
 /// The bytes of a file: one LOD of everything. Joints stand in any order; positions have from 0 to
-/// `most_influences` influences, faces three to six corners, every third mesh column a seam.
+/// `max_influences` influences, faces three to six corners, every third mesh column a seam.
 std::vector<uint8_t> random_deform_rig(uint32_t seed, const DeformRigOptions& options);
 
 /// Deltas for all joints and weights for all channels.
@@ -86,37 +86,39 @@ struct Deformed {
                     uint32_t rotation = MIEN_OUTPUT_EULER)
       : bytes(std::move(file)), dna(open_dna(bytes)),
         rig(create_rig(dna.get(), MIEN_ISA_BEST, MIEN_OK, rotation)),
-        deformer(create_deformer(dna.get(), rig.get(), desc)), pose(create_pose(deformer.get())) {}
+        deformer(create_deformer(dna.get(), rig.get(), desc)),
+        pose(create_deformer_instance(deformer.get())) {}
 
-  static void update(MienPose* pose, const DeformValues& values) {
-    EXPECT_EQ(mien_pose_update_from_values(pose, values.joints.data(), values.joints.size(),
-                                           values.channels.data(), values.channels.size()),
-              MIEN_OK);
+  static void update(MienDeformerInstance* pose, const DeformValues& values) {
+    EXPECT_EQ(
+        mien_deformer_instance_update_from_values(pose, values.joints.data(), values.joints.size(),
+                                                  values.channels.data(), values.channels.size()),
+        MIEN_OK);
   }
   void update(const DeformValues& values) { update(pose.get(), values); }
   void deform(uint32_t mesh, uint32_t normals = MIEN_NORMALS_DEFAULT) {
-    EXPECT_EQ(mien_pose_deform(pose.get(), mesh, normals, nullptr), MIEN_OK);
+    EXPECT_EQ(mien_deformer_instance_deform(pose.get(), mesh, normals, nullptr), MIEN_OK);
   }
-  static Span<const float> positions(const MienPose* pose, uint32_t mesh) {
+  static Span<const float> positions(const MienDeformerInstance* pose, uint32_t mesh) {
     MienFloatView view = {};
-    EXPECT_EQ(mien_pose_positions(pose, mesh, &view), MIEN_OK);
+    EXPECT_EQ(mien_deformer_instance_positions(pose, mesh, &view), MIEN_OK);
     return {view.data, view.count};
   }
-  static Span<const float> normals(const MienPose* pose, uint32_t mesh) {
+  static Span<const float> normals(const MienDeformerInstance* pose, uint32_t mesh) {
     MienFloatView view = {};
-    EXPECT_EQ(mien_pose_normals(pose, mesh, &view), MIEN_OK);
+    EXPECT_EQ(mien_deformer_instance_normals(pose, mesh, &view), MIEN_OK);
     return {view.data, view.count};
   }
   Span<const float> positions(uint32_t mesh) const { return positions(pose.get(), mesh); }
   Span<const float> normals(uint32_t mesh) const { return normals(pose.get(), mesh); }
   Span<const float> matrices() const {
     MienFloatView view = {};
-    EXPECT_EQ(mien_pose_joint_matrices(pose.get(), &view), MIEN_OK);
+    EXPECT_EQ(mien_deformer_instance_joint_matrices(pose.get(), &view), MIEN_OK);
     return {view.data, view.count};
   }
   Span<const float> skins() const {
     MienFloatView view = {};
-    EXPECT_EQ(mien_pose_skin_matrices(pose.get(), &view), MIEN_OK);
+    EXPECT_EQ(mien_deformer_instance_skin_matrices(pose.get(), &view), MIEN_OK);
     return {view.data, view.count};
   }
   /// Positions and normals, to be compared later.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/dna/dna_check.h"
+#include "runtime/dna/check/dna_check.h"
 
 namespace mien::dna {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Learned behaviour of a LayerRig in double precision (rig-evaluation 8).
+// Learned behavior of a LayerRig in double precision (rig-evaluation 8).
 #pragma once
 
 #include <vector>

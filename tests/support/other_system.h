@@ -36,7 +36,7 @@ inline Mat3 transposed(const Mat3& a) {
 /// A rig's system as mien_dna_info() tells it.
 struct Space {
   uint32_t axes[3];
-  double centimetres, radians;  // in one unit
+  double centimeters, radians;  // in one unit
   uint32_t sequence;
   int32_t signs[3];
   uint32_t winding;
@@ -48,7 +48,7 @@ struct Space {
       axes[i] = info.axes[i];
       signs[i] = info.rotation_signs[i];
     }
-    centimetres = info.translation_unit == MIEN_TRANSLATION_METERS ? 100 : 1;
+    centimeters = info.translation_unit == MIEN_TRANSLATION_METERS ? 100 : 1;
     radians = info.rotation_unit == MIEN_ROTATION_RADIANS ? 1 : std::acos(-1.0) / 180;
     sequence = info.rotation_sequence;
     winding = info.face_winding;
@@ -116,7 +116,7 @@ struct SpaceChange {
     for (int c = 0; c < 3; ++c) {
       out[c] = 0;
       for (int r = 0; r < 3; ++r) out[c] += in[r] * change.m[r][c];
-      out[c] *= from.centimetres / to.centimetres;
+      out[c] *= from.centimeters / to.centimeters;
     }
   }
   Mat3 rotation(const Mat3& r) const { return mien::transposed(change) * r * change; }

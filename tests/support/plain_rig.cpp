@@ -380,7 +380,7 @@ PlainRig tall_rig() {
   for (uint16_t j = 0; j < kJoints; ++j) {
     PlainGroup group;
     group.lods = {kRows, static_cast<uint16_t>(j % 4 == 0 ? kRows : 0)};
-    const uint32_t own = uint32_t{j} * kControls / kJoints;  // neighbours move together
+    const uint32_t own = uint32_t{j} * kControls / kJoints;  // neighbors move together
     for (uint32_t input : {own, (own + 7) % kControls, (own + 30) % kControls}) {
       group.inputs.push_back(static_cast<uint16_t>(input));
     }

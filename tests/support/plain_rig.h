@@ -75,8 +75,8 @@ std::vector<uint8_t> needed_psds(const PlainRig& plain, uint32_t lod);
 /// intervals that touch, overlap, or are the wrong way round.
 PlainRig random_rig(Random& random);
 
-/// A joint matrix of more than kMostTileBlocks blocks, at two LODs. Its numbers are small integers,
-/// so that sums of controls that are integers are exact.
+/// A joint matrix of more than kMaxTileBlockRows blocks, at two LODs. Its numbers are small
+/// integers, so that sums of controls that are integers are exact.
 PlainRig tall_rig();
 
 }  // namespace mien

@@ -168,11 +168,11 @@ struct Builder {
 }  // namespace
 
 float wild_float(Random& random) {
-  constexpr float kMost = std::numeric_limits<float>::max();
-  const float often[] = {0, -0.0f, 1, -1, kMost, -kMost, 1e-45f, -1e-45f, 1.17549435e-38f, 1e19f};
+  constexpr float kMax = std::numeric_limits<float>::max();
+  const float often[] = {0, -0.0f, 1, -1, kMax, -kMax, 1e-45f, -1e-45f, 1.17549435e-38f, 1e19f};
   if (random.chance(0.3)) return often[random.below(10)];
   const double size = std::ldexp(random.between(1, 2), static_cast<int>(random.below(276)) - 149);
-  const double bounded = std::fmin(size, kMost);
+  const double bounded = std::fmin(size, kMax);
   return static_cast<float>(random.chance(0.5) ? bounded : -bounded);
 }
 

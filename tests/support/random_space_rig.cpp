@@ -66,7 +66,7 @@ struct Builder {
   double unit() const { return view.desc.rotation_unit == 0 ? 57.29577951308232 : 1.0; }
 
   void make_descriptor() {
-    const System system = random_system(random);
+    const CoordinateSystem system = random_system(random);
     view.loaded = kLayersAll;
     std::vector<IndexEntry> index;
     for (const LayerKind& kind : kLayerKinds) {
@@ -280,7 +280,7 @@ struct Builder {
     MlJoints& to = view.mlbe.joints;
     std::vector<uint16_t> keys = {0, 1, 2}, values = {0, static_cast<uint16_t>(rotation), 0};
     if (random.chance(0.5)) {  // in a system of their own
-      const System own = random_system(random);
+      const CoordinateSystem own = random_system(random);
       for (uint16_t i = 0; i < 3; ++i) {
         keys.push_back(3 + i);
         values.push_back(static_cast<uint16_t>(own.axes[i]));
@@ -341,8 +341,8 @@ struct Builder {
 
 }  // namespace
 
-System random_system(Random& random) {
-  System system;
+CoordinateSystem random_system(Random& random) {
+  CoordinateSystem system;
   uint32_t lines[3] = {0, 1, 2};
   for (uint32_t i = 3; i > 1; --i) std::swap(lines[i - 1], lines[random.below(i)]);
   for (int i = 0; i < 3; ++i) {

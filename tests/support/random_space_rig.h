@@ -5,8 +5,8 @@
 #pragma once
 
 #include "runtime/author/random.h"
-#include "runtime/dna/coordinate_system.h"
-#include "runtime/dna/dna_view.h"
+#include "runtime/base/coordinate_system.h"
+#include "runtime/dna/format/dna_view.h"
 
 namespace mien::dna {
 
@@ -20,7 +20,7 @@ struct SpaceRigOptions {
 DnaView random_space_rig(Random& random, const SpaceRigOptions& options, Arena& arena);
 
 /// Axes, units, sequence, signs, winding, all equally likely.
-System random_system(Random& random);
+CoordinateSystem random_system(Random& random);
 
 constexpr uint32_t kSpaceRigPlainControls = 8;
 constexpr uint32_t kSpaceRigQuaternions = 3;

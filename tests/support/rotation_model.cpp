@@ -88,8 +88,8 @@ void add_rows(const std::vector<double>& controls, uint32_t lod, Outputs& out) {
 }
 
 // 4.3, 4.8: as literally as it is told there.
-void turn_joints(const PlainGroup& group, const std::vector<double>& controls, uint32_t lod,
-                 Outputs& out) {
+void quaternion_joints(const PlainGroup& group, const std::vector<double>& controls, uint32_t lod,
+                       Outputs& out) {
   const LayerRig& rig = out.rig;
   const size_t columns = group.inputs.size();
   struct Row {
@@ -278,7 +278,7 @@ std::vector<ModelJoint> model_joints(const LayerRig& rig, const std::vector<doub
   out.joints.resize(rig.base.joint_count);
   out.angles.resize(rig.base.joint_count);
   add_rows(controls, lod, out);
-  for (const PlainGroup& group : rig.base.groups) turn_joints(group, controls, lod, out);
+  for (const PlainGroup& group : rig.base.groups) quaternion_joints(group, controls, lod, out);
   twist_and_swing(controls, lod, out);
   add_learned(controls, lod, out);
   for (size_t j = 0; j < out.joints.size() && !quaternion_outputs; ++j) {

@@ -13,13 +13,13 @@
 `Dna` -> `Rig` -> `Instance` or `Batch`. README.md has more; errors are in `mien.errors`.
 """
 from ._api import (Compose, CoordinateSystem, DeformerInfo, Direction, DnaField, DnaInfo, DnaLayer,
-                   FieldType, FileAccess, Finding, ImageCheck, InstanceStatistics, Isa, Kind, Layer,
+                   FieldType, FileAccess, Finding, BakedCheck, InstanceStatistics, Isa, Kind, Layer,
                    MlMasks, Normals, Output, Preset, Reuse, RigInfo, RigStatistics, RotationRule,
                    RotationSequence, RotationUnit, Severity, Stage, Status, Storage,
                    TranslationUnit, UnknownLayers, Weights)
 from ._library import path as library_path, version
 from .batch import Batch
-from .deformer import Deformer, Mesh, Pose, deform_batch
+from .deformer import Deformer, Mesh, DeformerInstance, deform_batch
 from .dna import Dna, coordinate_system, coordinate_system_names, validate
 from .errors import (ArgumentError, BusyError, ClosedError, DnaError, Error, FileError,
                      OutOfMemoryError, OutOfRangeError, UnknownNameError)
@@ -30,10 +30,10 @@ __all__ = [
     "ArgumentError", "Batch", "BusyError", "ClosedError", "Compose", "coordinate_system",
     "coordinate_system_names", "CoordinateSystem", "deform_batch", "Deformer", "DeformerInfo",
     "Direction", "Dna", "DnaError", "DnaField", "DnaInfo", "DnaLayer", "Error", "FieldType",
-    "FileAccess", "FileError", "Finding", "ImageCheck", "Instance", "InstanceStatistics", "Isa",
+    "FileAccess", "FileError", "Finding", "BakedCheck", "Instance", "InstanceStatistics", "Isa",
     "isa_available", "isa_name", "Kind", "Layer", "library_path", "Mesh", "MlMasks", "Normals",
     "OutOfMemoryError", "OutOfRangeError",
-    "Output", "Pose", "Preset", "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationRule",
+    "Output", "DeformerInstance", "Preset", "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationRule",
     "RotationSequence", "RotationUnit", "Severity", "Stage", "Status", "Storage", "TranslationUnit",
     "UnknownLayers", "UnknownNameError", "validate", "version", "Weights",
 ]

@@ -80,15 +80,15 @@ class Status(IntEnum):
     #: a value that has no meaning
     DNA_VALUE = 37
     #: not an image of a rig
-    IMAGE_SIGNATURE = 50
+    BAKED_SIGNATURE = 50
     #: an image of another version or kind of machine: bake again
-    IMAGE_VERSION = 51
+    BAKED_VERSION = 51
     #: the image ends before what it announces
-    IMAGE_TRUNCATED = 52
+    BAKED_TRUNCATED = 52
     #: sizes, counts or indices contradict each other
-    IMAGE_STRUCTURE = 53
+    BAKED_STRUCTURE = 53
     #: not the bytes that were written
-    IMAGE_CHECKSUM = 54
+    BAKED_CHECKSUM = 54
 
 
 class Layer(IntFlag):
@@ -229,9 +229,9 @@ class Preset(IntEnum):
     #: a production body: 342 joints that 72 RBF solvers with 670 poses, 22 twists and 16 swings
     #: move, some of them represented by quaternions
     BODY = 4
-    #: a stylised person to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit
+    #: a stylized person to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit
     #: as raw controls under their names (values 0..1), correctives, wrinkle maps, 8 LODs. Seed 0
-    #: is the one that was designed, others vary proportions and colours. Vertex colours are in the
+    #: is the one that was designed, others vary proportions and colors. Vertex colors are in the
     #: metadata: key "mien.colors.<mesh name>", value base64 of 3 bytes (sRGB) per position of the
     #: mesh.
     HEAD = 5
@@ -240,7 +240,7 @@ class Preset(IntEnum):
 class Generate(IntEnum):
     """Values of enum MienGenerate of the C interface."""
 
-    #: with learned behaviour: networks by mesh region, every activation, their operations, and
+    #: with learned behavior: networks by mesh region, every activation, their operations, and
     #: joints that they move (not for Preset.HEAD)
     ML = 1
 
@@ -313,8 +313,8 @@ class Reuse(IntEnum):
     NOTHING = 1
 
 
-class ImageCheck(IntEnum):
-    """Values of enum MienImageCheck of the C interface."""
+class BakedCheck(IntEnum):
+    """Values of enum MienBakedCheck of the C interface."""
 
     #: every size, count and index: whatever the bytes are, nothing is read or written outside of
     #: the rig and its instances. Numbers are not looked at, so their pages stay on disk until they
@@ -378,8 +378,8 @@ class Weights(IntEnum):
 
 
 class Normals(IntEnum):
-    """Normals that mien_pose_deform() makes, unit length. Where there is no direction to be had
-    (no area, no face) they are the neutral ones.
+    """Normals that mien_deformer_instance_deform() makes, unit length. Where there is no direction
+    to be had (no area, no face) they are the neutral ones.
     """
 
     #: what MienDeformerDesc.normals says; there: recomputed
@@ -419,7 +419,7 @@ class MienDeformer(c_void_p):
     pass
 
 
-class MienPose(c_void_p):
+class MienDeformerInstance(c_void_p):
     pass
 
 
@@ -788,7 +788,7 @@ class MienRigInfo(Structure):
         super().__init__(struct_size=80, **values)
 
 
-class MienRigImageDesc(Structure):
+class MienBakedDesc(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
         ("isa", c_uint32),
@@ -821,7 +821,7 @@ class MienRigStatistics(Structure):
         ("joint_entry_count", c_uint64),
         ("joint_byte_count", c_uint64),
         ("rbf_solver_count", c_uint32),
-        ("turned_joint_count", c_uint32),
+        ("quaternion_joint_count", c_uint32),
     ]
     struct_size: Any
     psd_count: Any
@@ -832,7 +832,7 @@ class MienRigStatistics(Structure):
     joint_entry_count: Any
     joint_byte_count: Any
     rbf_solver_count: Any
-    turned_joint_count: Any
+    quaternion_joint_count: Any
 
     def __init__(self, **values: Any) -> None:
         super().__init__(struct_size=48, **values)
@@ -918,14 +918,14 @@ class MienMesh(Structure):
         ("position_count", c_uint32),
         ("vertex_count", c_uint32),
         ("triangle_count", c_uint32),
-        ("most_influences", c_uint32),
+        ("max_influences", c_uint32),
         ("target_count", c_uint32),
         ("delta_count", c_uint64),
         ("lods", c_uint64),
         ("positions", MienFloatView),
         ("normals", MienFloatView),
         ("texture_coordinates", MienFloatView),
-        ("vertex_positions", MienIndex32View),
+        ("vertex_position_indices", MienIndex32View),
         ("triangles", MienIndex32View),
         ("target_channels", MienIndexView),
     ]
@@ -933,14 +933,14 @@ class MienMesh(Structure):
     position_count: Any
     vertex_count: Any
     triangle_count: Any
-    most_influences: Any
+    max_influences: Any
     target_count: Any
     delta_count: Any
     lods: Any
     positions: Any
     normals: Any
     texture_coordinates: Any
-    vertex_positions: Any
+    vertex_position_indices: Any
     triangles: Any
     target_channels: Any
 
@@ -948,7 +948,7 @@ class MienMesh(Structure):
         super().__init__(struct_size=136, **values)
 
 
-class MienPoseDesc(Structure):
+class MienDeformerInstanceDesc(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -1179,7 +1179,7 @@ class RigStatistics(NamedTuple):
       joint_byte_count: of the joint matrix, if every control is active: those of controls that
         are 0 are not read
       rbf_solver_count: solvers that the LOD lists
-      turned_joint_count: joints represented by quaternions
+      quaternion_joint_count: joints represented by quaternions
     """
 
     psd_count: int
@@ -1190,13 +1190,13 @@ class RigStatistics(NamedTuple):
     joint_entry_count: int
     joint_byte_count: int
     rbf_solver_count: int
-    turned_joint_count: int
+    quaternion_joint_count: int
 
     @classmethod
     def _of(cls, c: MienRigStatistics) -> RigStatistics:
         return cls(c.psd_count, c.joint_count, c.joint_row_count, c.blend_shape_count,
                    c.animated_map_row_count, c.joint_entry_count, c.joint_byte_count,
-                   c.rbf_solver_count, c.turned_joint_count)
+                   c.rbf_solver_count, c.quaternion_joint_count)
 
 
 class InstanceStatistics(NamedTuple):
@@ -1294,10 +1294,10 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_rig_destroy", None, (MienRig,)),
     ("mien_rig_save_file", c_int32, (MienRig, c_char_p, POINTER(MienError))),
     ("mien_rig_save_memory", c_int32, (MienRig, c_void_p, c_size_t, c_void_p, POINTER(MienError))),
-    ("mien_rig_open_file", c_int32, (c_char_p, POINTER(MienRigImageDesc), POINTER(MienRig),
+    ("mien_rig_open_file", c_int32, (c_char_p, POINTER(MienBakedDesc), POINTER(MienRig),
      POINTER(MienError))),
-    ("mien_rig_open_memory", c_int32, (c_void_p, c_size_t, POINTER(MienRigImageDesc),
-     POINTER(MienRig), POINTER(MienError))),
+    ("mien_rig_open_memory", c_int32, (c_void_p, c_size_t, POINTER(MienBakedDesc), POINTER(MienRig),
+     POINTER(MienError))),
     ("mien_rig_info", c_int32, (MienRig, POINTER(MienRigInfo))),
     ("mien_rig_count", c_int32, (MienRig, c_uint32, c_void_p)),
     ("mien_rig_name", c_int32, (MienRig, c_uint32, c_uint32, POINTER(MienStringView))),
@@ -1347,19 +1347,26 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_deformer_target", c_int32, (MienDeformer, c_uint32, c_uint32, c_void_p, c_size_t)),
     ("mien_deformer_bind_matrices", c_int32, (MienDeformer, POINTER(MienFloatView))),
     ("mien_deformer_inverse_bind_matrices", c_int32, (MienDeformer, POINTER(MienFloatView))),
-    ("mien_pose_create", c_int32, (MienDeformer, POINTER(MienPoseDesc), POINTER(MienPose),
-     POINTER(MienError))),
-    ("mien_pose_destroy", None, (MienPose,)),
-    ("mien_pose_update", c_int32, (MienPose, MienInstance)),
-    ("mien_pose_update_from_values", c_int32, (MienPose, c_void_p, c_size_t, c_void_p, c_size_t)),
-    ("mien_pose_joint_matrices", c_int32, (MienPose, POINTER(MienFloatView))),
-    ("mien_pose_skin_matrices", c_int32, (MienPose, POINTER(MienFloatView))),
-    ("mien_pose_local_transforms", c_int32, (MienPose, c_void_p, c_size_t)),
-    ("mien_pose_deform", c_int32, (MienPose, c_uint32, c_uint32, POINTER(MienParallelFor))),
-    ("mien_pose_deform_batch", c_int32, (POINTER(MienPose), c_size_t, c_uint32, c_uint32,
+    ("mien_deformer_instance_create", c_int32, (MienDeformer, POINTER(MienDeformerInstanceDesc),
+     POINTER(MienDeformerInstance), POINTER(MienError))),
+    ("mien_deformer_instance_destroy", None, (MienDeformerInstance,)),
+    ("mien_deformer_instance_update", c_int32, (MienDeformerInstance, MienInstance)),
+    ("mien_deformer_instance_update_from_values", c_int32, (MienDeformerInstance, c_void_p,
+     c_size_t, c_void_p, c_size_t)),
+    ("mien_deformer_instance_joint_matrices", c_int32, (MienDeformerInstance,
+     POINTER(MienFloatView))),
+    ("mien_deformer_instance_skin_matrices", c_int32, (MienDeformerInstance,
+     POINTER(MienFloatView))),
+    ("mien_deformer_instance_local_transforms", c_int32, (MienDeformerInstance, c_void_p,
+     c_size_t)),
+    ("mien_deformer_instance_deform", c_int32, (MienDeformerInstance, c_uint32, c_uint32,
      POINTER(MienParallelFor))),
-    ("mien_pose_positions", c_int32, (MienPose, c_uint32, POINTER(MienFloatView))),
-    ("mien_pose_normals", c_int32, (MienPose, c_uint32, POINTER(MienFloatView))),
+    ("mien_deformer_instance_deform_batch", c_int32, (POINTER(MienDeformerInstance), c_size_t,
+     c_uint32, c_uint32, POINTER(MienParallelFor))),
+    ("mien_deformer_instance_positions", c_int32, (MienDeformerInstance, c_uint32,
+     POINTER(MienFloatView))),
+    ("mien_deformer_instance_normals", c_int32, (MienDeformerInstance, c_uint32,
+     POINTER(MienFloatView))),
 )
 
 
@@ -1440,17 +1447,17 @@ class Library:
     mien_deformer_target: Any
     mien_deformer_bind_matrices: Any
     mien_deformer_inverse_bind_matrices: Any
-    mien_pose_create: Any
-    mien_pose_destroy: Any
-    mien_pose_update: Any
-    mien_pose_update_from_values: Any
-    mien_pose_joint_matrices: Any
-    mien_pose_skin_matrices: Any
-    mien_pose_local_transforms: Any
-    mien_pose_deform: Any
-    mien_pose_deform_batch: Any
-    mien_pose_positions: Any
-    mien_pose_normals: Any
+    mien_deformer_instance_create: Any
+    mien_deformer_instance_destroy: Any
+    mien_deformer_instance_update: Any
+    mien_deformer_instance_update_from_values: Any
+    mien_deformer_instance_joint_matrices: Any
+    mien_deformer_instance_skin_matrices: Any
+    mien_deformer_instance_local_transforms: Any
+    mien_deformer_instance_deform: Any
+    mien_deformer_instance_deform_batch: Any
+    mien_deformer_instance_positions: Any
+    mien_deformer_instance_normals: Any
 
     def __init__(self, library: ctypes.CDLL) -> None:
         for name, result, parameters in FUNCTIONS:

@@ -81,8 +81,8 @@ class DeformerHandle(_Address, _api.MienDeformer):
             destroy(self)
 
 
-class PoseHandle(_Address, _api.MienPose):
-    def __del__(self, destroy: Any = lib.mien_pose_destroy) -> None:
+class PoseHandle(_Address, _api.MienDeformerInstance):
+    def __del__(self, destroy: Any = lib.mien_deformer_instance_destroy) -> None:
         if self.value:
             destroy(self)
 

@@ -36,10 +36,10 @@ class Mesh:
       positions:           float32 (positions, 3)
       normals:             float32 (vertices, 3), unit length
       texture_coordinates: float32 (vertices, 2), as in the file
-      vertex_positions:    uint32 (vertices,): position of each vertex
+      vertex_position_indices:    uint32 (vertices,): position of each vertex
       triangles:           uint32 (triangles, 3): vertices, wound as in the file
       target_channels:     uint16 (targets,): channel of each blend shape target
-      most_influences:     joints that hold the position that most of them hold
+      max_influences:     joints that hold the position that most of them hold
       delta_count:         moved positions over all targets
     """
 
@@ -53,14 +53,14 @@ class Mesh:
         self.positions: Floats = view(mesh.positions, "f", 3)
         self.normals: Floats = view(mesh.normals, "f", 3)
         self.texture_coordinates: Floats = view(mesh.texture_coordinates, "f", 2)
-        self.vertex_positions: Any = view(mesh.vertex_positions, "I")
+        self.vertex_position_indices: Any = view(mesh.vertex_position_indices, "I")
         self.triangles: Any = view(mesh.triangles, "I", 3)
         self.target_channels: Indices = view(mesh.target_channels, "H")
         self.position_count: int = mesh.position_count
         self.vertex_count: int = mesh.vertex_count
         self.triangle_count: int = mesh.triangle_count
         self.target_count: int = mesh.target_count
-        self.most_influences: int = mesh.most_influences
+        self.max_influences: int = mesh.max_influences
         self.delta_count: int = mesh.delta_count
 
     def __repr__(self) -> str:
@@ -73,7 +73,7 @@ class Deformer(Closable):
     """The geometry of a DNA, packed once. Immutable: any number of threads may use it at once.
 
         deformer = mien.Deformer(dna, rig)
-        pose = deformer.pose()
+        pose = deformer.instance()
         face.evaluate()
         pose.update(face)
         pose.deform(0)
@@ -84,7 +84,7 @@ class Deformer(Closable):
     isa:     `Isa`; BEST means that of the rig
     compose: how a joint's rotation is made of the neutral one and the delta, see `Compose`
     weights: whether skin weights are mended, see `Weights`
-    normals: what `Pose.deform` makes if it is not told, see `Normals`
+    normals: what `DeformerInstance.deform` makes if it is not told, see `Normals`
     """
 
     def __init__(self, dna: Dna, rig: Rig, isa: int = Isa.BEST, compose: int = Compose.PRODUCT,
@@ -157,9 +157,9 @@ class Deformer(Closable):
             fail(status, "inverse bind matrices")
         return _matrices(handle, view)
 
-    def pose(self, lods: Optional[Iterable[int]] = None) -> Pose:
+    def instance(self, lods: Optional[Iterable[int]] = None) -> DeformerInstance:
         """A new pose in neutral, with room for the meshes of these LODs; None: for all."""
-        return Pose(self, lods)
+        return DeformerInstance(self, lods)
 
     def __repr__(self) -> str:
         if self.closed:
@@ -167,7 +167,7 @@ class Deformer(Closable):
         return f"<mien.Deformer: {self.info.mesh_count} meshes, {self.info.joint_count} joints>"
 
 
-class Pose(Closable):
+class DeformerInstance(Closable):
     """What a deformer makes of one character. For one thread at a time: a second gets a BusyError.
 
     Arrays are views of the pose's own memory, as at `Instance`: each stays the same, its contents
@@ -175,9 +175,9 @@ class Pose(Closable):
     """
 
     def __init__(self, deformer: Deformer, lods: Optional[Iterable[int]] = None) -> None:
-        desc = _api.MienPoseDesc(lods=lod_bits(lods))
+        desc = _api.MienDeformerInstanceDesc(lods=lod_bits(lods))
         handle, error = PoseHandle(), MienError()
-        status = lib.mien_pose_create(deformer._open(), _byref(desc), _byref(handle), _byref(error))
+        status = lib.mien_deformer_instance_create(deformer._open(), _byref(desc), _byref(handle), _byref(error))
         if status:
             fail(status, "cannot make a pose", error)
         self._handle: Optional[PoseHandle] = handle
@@ -199,7 +199,7 @@ class Pose(Closable):
         """Takes over joints and channels of the instance's last evaluation, and computes the
         matrices of all joints; meshes follow with `deform`."""
         with self._alone() as handle, instance._alone() as evaluated:
-            status = lib.mien_pose_update(handle, evaluated)
+            status = lib.mien_deformer_instance_update(handle, evaluated)
             if status:
                 fail(status, "an instance of another rig")
 
@@ -210,7 +210,7 @@ class Pose(Closable):
         joints, joint_count, joint_address = floats_of(joint_values, "joint_values", shape)
         weights, weight_count, weight_address = floats_of(channel_weights, "channel_weights")
         with self._alone() as handle:
-            status = lib.mien_pose_update_from_values(handle, joint_address, joint_count,
+            status = lib.mien_deformer_instance_update_from_values(handle, joint_address, joint_count,
                                                       weight_address, weight_count)
             if status:
                 fail(status, f"{joint_count} joint values and {weight_count} channel weights")
@@ -224,7 +224,7 @@ class Pose(Closable):
         """
         def call(parallel: Any) -> None:
             with self._alone() as handle:
-                status = lib.mien_pose_deform(handle, uint32(mesh, "mesh"),
+                status = lib.mien_deformer_instance_deform(handle, uint32(mesh, "mesh"),
                                               uint32(normals, "normals"), parallel)
                 if status:
                     fail(status, f"mesh {mesh}")
@@ -242,21 +242,21 @@ class Pose(Closable):
 
     def positions(self, mesh: int) -> Floats:
         """float32 (positions, 3) of the last `deform`."""
-        return self._view(lib.mien_pose_positions, f"mesh {mesh}", 3, uint32(mesh, "mesh"))
+        return self._view(lib.mien_deformer_instance_positions, f"mesh {mesh}", 3, uint32(mesh, "mesh"))
 
     def normals(self, mesh: int) -> Floats:
         """float32 (vertices, 3) of the last `deform` that made normals."""
-        return self._view(lib.mien_pose_normals, f"mesh {mesh}", 3, uint32(mesh, "mesh"))
+        return self._view(lib.mien_deformer_instance_normals, f"mesh {mesh}", 3, uint32(mesh, "mesh"))
 
     @property
     def joint_matrices(self) -> Floats:
         """float32 (joints, 4, 4), [row, column], for column vectors: model matrices."""
-        return self._view(lib.mien_pose_joint_matrices, "joint matrices", 16)
+        return self._view(lib.mien_deformer_instance_joint_matrices, "joint matrices", 16)
 
     @property
     def skin_matrices(self) -> Floats:
         """float32 (joints, 4, 4): model matrix * inverse bind matrix, for skinning elsewhere."""
-        return self._view(lib.mien_pose_skin_matrices, "skin matrices", 16)
+        return self._view(lib.mien_deformer_instance_skin_matrices, "skin matrices", 16)
 
     @property
     def local_transforms(self) -> Floats:
@@ -264,26 +264,26 @@ class Pose(Closable):
         count = self.deformer.info.joint_count * 10
         values, address = new_array("f", count)
         with self._alone() as handle:
-            status = lib.mien_pose_local_transforms(handle, address, count)
+            status = lib.mien_deformer_instance_local_transforms(handle, address, count)
             if status:
                 fail(status, "local transforms")
         return shaped(values, (-1, 10))
 
     def __repr__(self) -> str:
-        return f"<mien.Pose{', closed' if self.closed else ''} of {self.deformer!r}>"
+        return f"<mien.DeformerInstance{', closed' if self.closed else ''} of {self.deformer!r}>"
 
 
-def deform_batch(poses: Sequence[Pose], mesh: int, normals: int = Normals.DEFAULT,
+def deform_batch(poses: Sequence[DeformerInstance], mesh: int, normals: int = Normals.DEFAULT,
                  threads: Optional[Executor] = None) -> None:
-    """`Pose.deform` of the same mesh of several poses of one deformer: the same bits, but each
+    """`DeformerInstance.deform` of the same mesh of several poses of one deformer: the same bits, but each
     piece of the mesh is fetched once."""
     poses = list(poses)
 
     def call(parallel: Any) -> None:
         with ExitStack() as stack:
             handles = [stack.enter_context(pose._alone()) for pose in poses]
-            pointers = (_api.MienPose * len(handles))(*handles)
-            status = lib.mien_pose_deform_batch(pointers, len(handles), uint32(mesh, "mesh"),
+            pointers = (_api.MienDeformerInstance * len(handles))(*handles)
+            status = lib.mien_deformer_instance_deform_batch(pointers, len(handles), uint32(mesh, "mesh"),
                                                 uint32(normals, "normals"), parallel)
             if status:
                 fail(status, f"mesh {mesh} of {len(handles)} poses")

@@ -6,7 +6,7 @@ import ctypes
 from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional
 
 from . import _api
-from ._api import (FileAccess, ImageCheck, Isa, Kind, MienError, MlMasks, Output, Reuse, RigInfo,
+from ._api import (FileAccess, BakedCheck, Isa, Kind, MienError, MlMasks, Output, Reuse, RigInfo,
                    RigStatistics, Status, Storage)
 from ._library import lib
 from ._memory import (Closable, Floats, Indices, RigHandle, array_over, as_bytes, as_path,
@@ -58,13 +58,13 @@ class Rig(Closable):
 
     @classmethod
     def open(cls, path: Any, isa: int = Isa.BEST, access: int = FileAccess.READ,
-             check: int = ImageCheck.SAFE, reuse: int = Reuse.UNCHANGED) -> Rig:
+             check: int = BakedCheck.SAFE, reuse: int = Reuse.UNCHANGED) -> Rig:
         """Opens a baked rig: a file that `save` or `mien bake` wrote.
 
         access: `FileAccess.MAP` shares the file's pages with other processes and reads what is
                 needed; but a process crashes whose mapped file somebody truncates, so the default
                 reads it all
-        check:  `ImageCheck.FULL` also finds changed numbers
+        check:  `BakedCheck.FULL` also finds changed numbers
         """
         desc = cls._image_desc(isa, access, check, reuse)
         handle, error = RigHandle(), MienError()
@@ -74,7 +74,7 @@ class Rig(Closable):
         return cls._of(handle)
 
     @classmethod
-    def from_bytes(cls, data: Any, isa: int = Isa.BEST, check: int = ImageCheck.SAFE,
+    def from_bytes(cls, data: Any, isa: int = Isa.BEST, check: int = BakedCheck.SAFE,
                    reuse: int = Reuse.UNCHANGED) -> Rig:
         """The same from memory, which is kept alive."""
         data = as_bytes(data)
@@ -89,7 +89,7 @@ class Rig(Closable):
 
     @staticmethod
     def _image_desc(isa: int, access: int, check: int, reuse: int) -> Any:
-        return _api.MienRigImageDesc(isa=uint32(isa, "isa"), file_access=uint32(access, "access"),
+        return _api.MienBakedDesc(isa=uint32(isa, "isa"), file_access=uint32(access, "access"),
                                      check=uint32(check, "check"), reuse=uint32(reuse, "reuse"))
 
     @classmethod

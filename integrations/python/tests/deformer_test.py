@@ -23,7 +23,7 @@ def posed(preset=mien.Preset.SMALL, phase=0):
     face = rig_of(preset).instance()
     face.raw_controls = pattern(len(face.raw_controls), phase)
     face.evaluate()
-    pose = deformer_of(preset).pose()
+    pose = deformer_of(preset).instance()
     pose.update(face)
     return face, pose
 
@@ -41,10 +41,10 @@ class Values(unittest.TestCase):
             self.assertEqual(mesh.positions.shape, (mesh.position_count, 3))
             self.assertEqual(mesh.normals.shape, (mesh.vertex_count, 3))
             self.assertEqual(mesh.texture_coordinates.shape, (mesh.vertex_count, 2))
-            self.assertEqual(mesh.vertex_positions.shape, (mesh.vertex_count,))
+            self.assertEqual(mesh.vertex_position_indices.shape, (mesh.vertex_count,))
             self.assertEqual(mesh.triangles.shape, (mesh.triangle_count, 3))
             self.assertEqual(mesh.target_channels.shape, (mesh.target_count,))
-            self.assertLess(mesh.vertex_positions.max(), mesh.position_count)
+            self.assertLess(mesh.vertex_position_indices.max(), mesh.position_count)
             self.assertLess(mesh.triangles.max(), mesh.vertex_count)
             pose.deform(mesh.index)
             self.assertEqual(pose.positions(mesh.index).shape, mesh.positions.shape)
@@ -75,7 +75,7 @@ class Values(unittest.TestCase):
             pose.deform(0)
             wanted, normals = pose.positions(0).copy(), pose.normals(0).copy()
             self.assertTrue((wanted != pose.deformer.mesh(0).positions).any())
-            others = [pose.deformer.pose([0]) for _ in range(3)]
+            others = [pose.deformer.instance([0]) for _ in range(3)]
             wide = numpy.zeros((len(face.joints), 18))
             wide[:, ::2] = face.joints
             others[0].update_from_values(wide[:, ::2], face.blend_shapes.astype(">f8"))
@@ -99,7 +99,7 @@ import mien
 dna = mien.Dna.generate(mien.Preset.SMALL)
 rig = mien.Rig(dna)
 deformer = mien.Deformer(dna, rig)
-face, pose = rig.instance(), deformer.pose()
+face, pose = rig.instance(), deformer.instance()
 face.raw_controls = 0.5
 face.evaluate()
 pose.update(face)
@@ -119,7 +119,7 @@ class Lifetime(unittest.TestCase):
         with mien.Dna.generate(mien.Preset.SMALL) as dna:
             rig = mien.Rig(dna)
             deformer = mien.Deformer(dna, rig)
-        face, pose = rig.instance(), deformer.pose()
+        face, pose = rig.instance(), deformer.instance()
         face.raw_controls = 0.5
         face.evaluate()
         pose.update(face)
@@ -142,7 +142,7 @@ class Lifetime(unittest.TestCase):
         with mien.Dna.generate() as dna:
             rig = mien.Rig(dna)
             deformer = mien.Deformer(dna, rig)
-        face, pose, other = rig.instance(), deformer.pose(), deformer.pose()
+        face, pose, other = rig.instance(), deformer.instance(), deformer.instance()
         pose.close()
         for use in (lambda: pose.update(face), lambda: pose.update_from_values(),
                     lambda: pose.deform(0), lambda: pose.positions(0), lambda: pose.normals(0),
@@ -155,7 +155,7 @@ class Lifetime(unittest.TestCase):
         with self.assertRaises(mien.ClosedError):
             other.update(face)
         deformer.close()
-        for use in (lambda: deformer.mesh(0), lambda: deformer.pose(),
+        for use in (lambda: deformer.mesh(0), lambda: deformer.instance(),
                     lambda: deformer.target(0, 0),
                     lambda: deformer.bind_matrices, lambda: deformer.influences(0, 0),
                     lambda: mien.Deformer(dna, rig)):
@@ -166,7 +166,7 @@ class Lifetime(unittest.TestCase):
     def test_memory_is_released_at_once(self):
         with mien.Dna.generate() as dna:
             deformer = mien.Deformer(dna, mien.Rig(dna))
-        pose = deformer.pose()
+        pose = deformer.instance()
         handles = weakref.ref(pose._handle), weakref.ref(deformer._handle)
         array = pose.positions(0)
         pose.close()
@@ -176,7 +176,7 @@ class Lifetime(unittest.TestCase):
         self.assertIsNone(handles[0]())
 
     def test_addresses_do_not_travel(self):
-        for thing in (deformer_of(), deformer_of().pose()):
+        for thing in (deformer_of(), deformer_of().instance()):
             for travel in (pickle.dumps, copy.copy, copy.deepcopy):
                 with self.assertRaises(TypeError):
                     travel(thing)
@@ -218,18 +218,18 @@ class Misuse(unittest.TestCase):
                 use()
         for use in (lambda: pose.deform(0, 99),
                     lambda: mien.Deformer(dna_of(), rig_of(), compose=9),
-                    lambda: mien.Deformer(dna_of(), rig_of(), weights=9), lambda: deformer.pose([]),
-                    lambda: deformer.pose([64])):
+                    lambda: mien.Deformer(dna_of(), rig_of(), weights=9), lambda: deformer.instance([]),
+                    lambda: deformer.instance([64])):
             with self.assertRaises(mien.ArgumentError):
                 use()
         mien.deform_batch([], 0)
 
     def test_strangers(self):
         stranger = fresh_rig()
-        pose = deformer_of().pose()
+        pose = deformer_of().instance()
         for use in (lambda: pose.update(stranger.instance()),
                     lambda: mien.Deformer(dna_of(), stranger),
-                    lambda: mien.deform_batch([pose, mien.Deformer(dna_of(), rig_of()).pose()], 0)):
+                    lambda: mien.deform_batch([pose, mien.Deformer(dna_of(), rig_of()).instance()], 0)):
             with self.assertRaises(mien.ArgumentError) as caught:
                 use()
             self.assertEqual(caught.exception.status, mien.Status.MISMATCH)
@@ -240,7 +240,7 @@ class Misuse(unittest.TestCase):
         with self.assertRaises(mien.DnaError) as caught:
             mien.Deformer(bare, mien.Rig(bare))
         self.assertEqual(caught.exception.status, mien.Status.DNA_LAYER)
-        small = deformer_of(mien.Preset.LARGE).pose([7])
+        small = deformer_of(mien.Preset.LARGE).instance([7])
         with self.assertRaises(mien.OutOfRangeError):
             small.deform(0)
 
@@ -273,7 +273,7 @@ class Interrupting(ThreadPoolExecutor):
         return super().submit(job)
 dna = mien.Dna.generate(mien.Preset.LARGE)
 deformer = mien.Deformer(dna, mien.Rig(dna))
-pose = deformer.pose()
+pose = deformer.instance()
 pool = Interrupting(3)
 for _ in range(2):
     try:

@@ -34,7 +34,7 @@ class Values(unittest.TestCase):
             rig.save(path)
             with open(path, "rb") as file:
                 self.assertEqual(file.read(), data)
-            rigs = [mien.Rig.open(path, check=mien.ImageCheck.FULL),
+            rigs = [mien.Rig.open(path, check=mien.BakedCheck.FULL),
                     mien.Rig.open(path, access=mien.FileAccess.MAP), mien.Rig.from_bytes(data)]
             for again in rigs:
                 self.assertEqual(again.to_bytes(), data)

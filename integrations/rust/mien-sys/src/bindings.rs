@@ -53,15 +53,15 @@ pub const MIEN_ERROR_DNA_LAYER: MienStatus = 36;
 /// A value that has no meaning.
 pub const MIEN_ERROR_DNA_VALUE: MienStatus = 37;
 /// Not an image of a rig.
-pub const MIEN_ERROR_IMAGE_SIGNATURE: MienStatus = 50;
+pub const MIEN_ERROR_BAKED_SIGNATURE: MienStatus = 50;
 /// An image of another version or kind of machine: bake again.
-pub const MIEN_ERROR_IMAGE_VERSION: MienStatus = 51;
+pub const MIEN_ERROR_BAKED_VERSION: MienStatus = 51;
 /// The image ends before what it announces.
-pub const MIEN_ERROR_IMAGE_TRUNCATED: MienStatus = 52;
+pub const MIEN_ERROR_BAKED_TRUNCATED: MienStatus = 52;
 /// Sizes, counts or indices contradict each other.
-pub const MIEN_ERROR_IMAGE_STRUCTURE: MienStatus = 53;
+pub const MIEN_ERROR_BAKED_STRUCTURE: MienStatus = 53;
 /// Not the bytes that were written.
-pub const MIEN_ERROR_IMAGE_CHECKSUM: MienStatus = 54;
+pub const MIEN_ERROR_BAKED_CHECKSUM: MienStatus = 54;
 
 // enum MienLayer
 pub const MIEN_LAYER_ALL: u32 = 0;
@@ -153,14 +153,14 @@ pub const MIEN_PRESET_LARGE: u32 = 3;
 /// A production body: 342 joints that 72 RBF solvers with 670 poses, 22 twists and 16 swings move,
 /// some of them represented by quaternions.
 pub const MIEN_PRESET_BODY: u32 = 4;
-/// A stylised person to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit as
+/// A stylized person to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit as
 /// raw controls under their names (values 0..1), correctives, wrinkle maps, 8 LODs. Seed 0 is the
-/// one that was designed, others vary proportions and colours. Vertex colours are in the metadata:
+/// one that was designed, others vary proportions and colors. Vertex colors are in the metadata:
 /// key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per position of the mesh.
 pub const MIEN_PRESET_HEAD: u32 = 5;
 
 // enum MienGenerate
-/// With learned behaviour: networks by mesh region, every activation, their operations, and joints
+/// With learned behavior: networks by mesh region, every activation, their operations, and joints
 /// that they move (not for `MIEN_PRESET_HEAD`).
 pub const MIEN_GENERATE_ML: u32 = 1;
 
@@ -209,13 +209,13 @@ pub const MIEN_REUSE_UNCHANGED: u32 = 0;
 /// Everything is computed each time: for measuring.
 pub const MIEN_REUSE_NOTHING: u32 = 1;
 
-// enum MienImageCheck
+// enum MienBakedCheck
 /// Every size, count and index: whatever the bytes are, nothing is read or written outside of the
 /// rig and its instances. Numbers are not looked at, so their pages stay on disk until they are
 /// needed.
-pub const MIEN_IMAGE_CHECK_SAFE: u32 = 0;
+pub const MIEN_BAKED_CHECK_SAFE: u32 = 0;
 /// Also that all bytes are those that were written: reads them all.
-pub const MIEN_IMAGE_CHECK_FULL: u32 = 1;
+pub const MIEN_BAKED_CHECK_FULL: u32 = 1;
 
 // enum MienKind
 pub const MIEN_KIND_GUI_CONTROL: u32 = 0;
@@ -328,7 +328,7 @@ pub struct MienDeformer {
 
 /// One character's joint matrices, positions and normals: one block.
 #[repr(C)]
-pub struct MienPose {
+pub struct MienDeformerInstance {
     _size: [u8; 0],
     _opaque: Opaque,
 }
@@ -797,13 +797,13 @@ impl Default for MienRigInfo {
 
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub struct MienRigImageDesc {
+pub struct MienBakedDesc {
     pub struct_size: u32,
     /// `MIEN_ISA_...`, as in MienRigDesc.
     pub isa: u32,
     /// `MIEN_FILE_...`; of no meaning for memory.
     pub file_access: u32,
-    /// `MIEN_IMAGE_CHECK_...`
+    /// `MIEN_BAKED_CHECK_...`
     pub check: u32,
     pub allocator: *const MienAllocator,
     /// `MIEN_REUSE_...`
@@ -812,7 +812,7 @@ pub struct MienRigImageDesc {
     pub reserved: u32,
 }
 
-impl Default for MienRigImageDesc {
+impl Default for MienBakedDesc {
     /// All zero but `struct_size`: every field has its default.
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
@@ -844,7 +844,7 @@ pub struct MienRigStatistics {
     /// Solvers that the LOD lists.
     pub rbf_solver_count: u32,
     /// Joints represented by quaternions.
-    pub turned_joint_count: u32,
+    pub quaternion_joint_count: u32,
 }
 
 impl Default for MienRigStatistics {
@@ -954,7 +954,7 @@ pub struct MienMesh {
     pub vertex_count: u32,
     pub triangle_count: u32,
     /// Of one position.
-    pub most_influences: u32,
+    pub max_influences: u32,
     /// Blend shape targets.
     pub target_count: u32,
     /// Over all targets.
@@ -968,7 +968,7 @@ pub struct MienMesh {
     /// U v per vertex, as in the file.
     pub texture_coordinates: MienFloatView,
     /// Position of each vertex.
-    pub vertex_positions: MienIndex32View,
+    pub vertex_position_indices: MienIndex32View,
     /// Three vertices each, wound as in the file; faces of more corners are fans about their
     /// first.
     pub triangles: MienIndex32View,
@@ -988,7 +988,7 @@ impl Default for MienMesh {
 
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub struct MienPoseDesc {
+pub struct MienDeformerInstanceDesc {
     pub struct_size: u32,
     pub reserved: u32,
     /// Room for the meshes that these LODs show: bit l is LOD l. 0: for all meshes. A LOD that is
@@ -997,7 +997,7 @@ pub struct MienPoseDesc {
     pub allocator: *const MienAllocator,
 }
 
-impl Default for MienPoseDesc {
+impl Default for MienDeformerInstanceDesc {
     /// All zero but `struct_size`: every field has its default.
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
@@ -1096,7 +1096,7 @@ extern "C" {
 
     pub fn mien_report_destroy(report: *mut MienReport);
 
-    /// Makes a synthetic rig: behaviour of realistic size and sparsity, with simple geometry.
+    /// Makes a synthetic rig: behavior of realistic size and sparsity, with simple geometry.
     /// `desc` may be NULL (tiny, seed 0). Close with `mien_dna_close()`.
     pub fn mien_dna_generate(desc: *const MienGenerateDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
 
@@ -1119,7 +1119,7 @@ extern "C" {
     /// Baked rigs: a rig as it is in memory, to be opened where it lies. An image holds all that
     /// was chosen when the rig was created but the instruction set and MienReuse, so that one file
     /// serves all machines of a byte order and pointer size. The same rig gives the same bytes. A
-    /// later version of the library may refuse it with `MIEN_ERROR_IMAGE_VERSION`: keep the DNA.
+    /// later version of the library may refuse it with `MIEN_ERROR_BAKED_VERSION`: keep the DNA.
     pub fn mien_rig_save_file(rig: *const MienRig, path: *const c_char, error: *mut MienError) -> MienStatus;
 
     /// The same to memory. With buffer NULL and capacity 0 only \*`out_size` is set; a capacity
@@ -1131,12 +1131,12 @@ extern "C" {
     /// must not be truncated or rewritten in place until the rig and all its instances are gone
     /// (replacing it by renaming is safe; `MIEN_FILE_READ` takes a copy). `path` is UTF-8, `desc`
     /// may be NULL. The rig is like one that was created; destroy it with `mien_rig_destroy()`.
-    pub fn mien_rig_open_file(path: *const c_char, desc: *const MienRigImageDesc, out_rig: *mut *mut MienRig, error: *mut MienError) -> MienStatus;
+    pub fn mien_rig_open_file(path: *const c_char, desc: *const MienBakedDesc, out_rig: *mut *mut MienRig, error: *mut MienError) -> MienStatus;
 
     /// The same from memory, which stays the caller's and has to stay unchanged until the rig and
     /// all its instances, batches and deformers are gone. Bytes that are not at a multiple of 64
     /// are copied, once.
-    pub fn mien_rig_open_memory(bytes: *const c_void, size: usize, desc: *const MienRigImageDesc, out_rig: *mut *mut MienRig, error: *mut MienError) -> MienStatus;
+    pub fn mien_rig_open_memory(bytes: *const c_void, size: usize, desc: *const MienBakedDesc, out_rig: *mut *mut MienRig, error: *mut MienError) -> MienStatus;
 
     pub fn mien_rig_info(rig: *const MienRig, out_info: *mut MienRigInfo) -> MienStatus;
 
@@ -1184,19 +1184,19 @@ extern "C" {
     /// Inputs, to be written in place: the views stay valid and the same until the instance is
     /// destroyed. GUI controls only matter to `mien_rig_map_gui_to_raw()`. Raw controls are
     /// usually in 0..1 but not clamped. Masks (one per region of a mesh, 0..1, initially 1) switch
-    /// or blend learned behaviour, see `MIEN_ML_MASKS_...`.
+    /// or blend learned behavior, see `MIEN_ML_MASKS_...`.
     pub fn mien_instance_gui_controls(instance: *mut MienInstance, out_view: *mut MienMutableFloatView) -> MienStatus;
 
     /// Inputs, to be written in place: the views stay valid and the same until the instance is
     /// destroyed. GUI controls only matter to `mien_rig_map_gui_to_raw()`. Raw controls are
     /// usually in 0..1 but not clamped. Masks (one per region of a mesh, 0..1, initially 1) switch
-    /// or blend learned behaviour, see `MIEN_ML_MASKS_...`.
+    /// or blend learned behavior, see `MIEN_ML_MASKS_...`.
     pub fn mien_instance_raw_controls(instance: *mut MienInstance, out_view: *mut MienMutableFloatView) -> MienStatus;
 
     /// Inputs, to be written in place: the views stay valid and the same until the instance is
     /// destroyed. GUI controls only matter to `mien_rig_map_gui_to_raw()`. Raw controls are
     /// usually in 0..1 but not clamped. Masks (one per region of a mesh, 0..1, initially 1) switch
-    /// or blend learned behaviour, see `MIEN_ML_MASKS_...`.
+    /// or blend learned behavior, see `MIEN_ML_MASKS_...`.
     pub fn mien_instance_ml_masks(instance: *mut MienInstance, out_view: *mut MienMutableFloatView) -> MienStatus;
 
     /// Outputs of the last evaluation; the views stay valid, their contents change with each
@@ -1388,57 +1388,57 @@ extern "C" {
 
     /// A pose in neutral: matrices, positions and normals are those of the deformer. It keeps the
     /// deformer's memory alive. One allocation.
-    pub fn mien_pose_create(deformer: *const MienDeformer, desc: *const MienPoseDesc, out_pose: *mut *mut MienPose, error: *mut MienError) -> MienStatus;
+    pub fn mien_deformer_instance_create(deformer: *const MienDeformer, desc: *const MienDeformerInstanceDesc, out_pose: *mut *mut MienDeformerInstance, error: *mut MienError) -> MienStatus;
 
-    pub fn mien_pose_destroy(pose: *mut MienPose);
+    pub fn mien_deformer_instance_destroy(pose: *mut MienDeformerInstance);
 
     /// Takes over joint values and channel weights of the instance's last evaluation, and computes
-    /// the matrices of all joints; meshes follow with `mien_pose_deform()`. The instance is one of
-    /// the rig that the deformer was made with, else `MIEN_ERROR_MISMATCH`. Allocates nothing,
-    /// locks nothing. Values that are not finite give results that are not.
-    pub fn mien_pose_update(pose: *mut MienPose, instance: *const MienInstance) -> MienStatus;
+    /// the matrices of all joints; meshes follow with `mien_deformer_instance_deform()`. The
+    /// instance is one of the rig that the deformer was made with, else `MIEN_ERROR_MISMATCH`.
+    /// Allocates nothing, locks nothing. Values that are not finite give results that are not.
+    pub fn mien_deformer_instance_update(pose: *mut MienDeformerInstance, instance: *const MienInstance) -> MienStatus;
 
     /// The same from arrays: joint values as `mien_instance_joints()` gives them, and one weight
     /// per channel. `joint_values` may be NULL, with count 0: no deltas. `channel_weights` may be
     /// NULL, with count 0: all 0. Any other count than that of the rig is
     /// `MIEN_ERROR_INVALID_ARGUMENT`.
-    pub fn mien_pose_update_from_values(pose: *mut MienPose, joint_values: *const f32, joint_value_count: usize, channel_weights: *const f32, channel_weight_count: usize) -> MienStatus;
+    pub fn mien_deformer_instance_update_from_values(pose: *mut MienDeformerInstance, joint_values: *const f32, joint_value_count: usize, channel_weights: *const f32, channel_weight_count: usize) -> MienStatus;
 
     /// Matrices of the last update, 16 floats per joint, laid out as
     /// `mien_deformer_bind_matrices()` says: model matrices, and skin matrices (for skinning
     /// elsewhere, as on a GPU). The views stay valid, their contents change with each update.
-    pub fn mien_pose_joint_matrices(pose: *const MienPose, out_matrices: *mut MienFloatView) -> MienStatus;
+    pub fn mien_deformer_instance_joint_matrices(pose: *const MienDeformerInstance, out_matrices: *mut MienFloatView) -> MienStatus;
 
     /// Matrices of the last update, 16 floats per joint, laid out as
     /// `mien_deformer_bind_matrices()` says: model matrices, and skin matrices (for skinning
     /// elsewhere, as on a GPU). The views stay valid, their contents change with each update.
-    pub fn mien_pose_skin_matrices(pose: *const MienPose, out_matrices: *mut MienFloatView) -> MienStatus;
+    pub fn mien_deformer_instance_skin_matrices(pose: *const MienDeformerInstance, out_matrices: *mut MienFloatView) -> MienStatus;
 
     /// Writes the local transforms of the last update, relative to the parent, 10 floats per
     /// joint: tx ty tz qx qy qz qw sx sy sz, the quaternion of unit length. `count` is the room in
     /// `out_transforms`.
-    pub fn mien_pose_local_transforms(pose: *const MienPose, out_transforms: *mut f32, count: usize) -> MienStatus;
+    pub fn mien_deformer_instance_local_transforms(pose: *const MienDeformerInstance, out_transforms: *mut f32, count: usize) -> MienStatus;
 
     /// Positions of one mesh as of the last update, and its normals (`MIEN_NORMALS_...`). On this
     /// thread, but for meshes of 16384 positions and more in tasks of about 2048, if there is
     /// somebody to run them: `parallel` may be NULL. The result has the same bits. Allocates
     /// nothing, locks nothing. `MIEN_ERROR_LOD`: the pose has no room for this mesh.
-    pub fn mien_pose_deform(pose: *mut MienPose, mesh: u32, normals: u32, parallel: *const MienParallelFor) -> MienStatus;
+    pub fn mien_deformer_instance_deform(pose: *mut MienDeformerInstance, mesh: u32, normals: u32, parallel: *const MienParallelFor) -> MienStatus;
 
     /// The same mesh of several different poses of one deformer: the same bits as one after the
     /// other, but each piece of the mesh is fetched once, and the size that counts is that of all
     /// of them together; `parallel` may be NULL. A pose that comes up twice is
     /// `MIEN_ERROR_INVALID_ARGUMENT`, one of another deformer `MIEN_ERROR_MISMATCH`; then none is
     /// deformed.
-    pub fn mien_pose_deform_batch(poses: *const *mut MienPose, pose_count: usize, mesh: u32, normals: u32, parallel: *const MienParallelFor) -> MienStatus;
+    pub fn mien_deformer_instance_deform_batch(poses: *const *mut MienDeformerInstance, pose_count: usize, mesh: u32, normals: u32, parallel: *const MienParallelFor) -> MienStatus;
 
-    /// Results of the last `mien_pose_deform()` of the mesh: x y z per position, x y z per vertex.
-    /// The views stay valid, their contents change with each call. A mesh without room:
-    /// `MIEN_ERROR_LOD`.
-    pub fn mien_pose_positions(pose: *const MienPose, mesh: u32, out_positions: *mut MienFloatView) -> MienStatus;
+    /// Results of the last `mien_deformer_instance_deform()` of the mesh: x y z per position, x y
+    /// z per vertex. The views stay valid, their contents change with each call. A mesh without
+    /// room: `MIEN_ERROR_LOD`.
+    pub fn mien_deformer_instance_positions(pose: *const MienDeformerInstance, mesh: u32, out_positions: *mut MienFloatView) -> MienStatus;
 
-    /// Results of the last `mien_pose_deform()` of the mesh: x y z per position, x y z per vertex.
-    /// The views stay valid, their contents change with each call. A mesh without room:
-    /// `MIEN_ERROR_LOD`.
-    pub fn mien_pose_normals(pose: *const MienPose, mesh: u32, out_normals: *mut MienFloatView) -> MienStatus;
+    /// Results of the last `mien_deformer_instance_deform()` of the mesh: x y z per position, x y
+    /// z per vertex. The views stay valid, their contents change with each call. A mesh without
+    /// room: `MIEN_ERROR_LOD`.
+    pub fn mien_deformer_instance_normals(pose: *const MienDeformerInstance, mesh: u32, out_normals: *mut MienFloatView) -> MienStatus;
 }

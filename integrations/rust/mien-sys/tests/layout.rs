@@ -262,8 +262,8 @@ fn mien_rig_info() {
 }
 
 #[test]
-fn mien_rig_image_desc() {
-    use mien_sys::MienRigImageDesc as S;
+fn mien_baked_desc() {
+    use mien_sys::MienBakedDesc as S;
     assert_eq!(size_of::<S>(), 32);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
@@ -289,7 +289,7 @@ fn mien_rig_statistics() {
     assert_eq!(offset!(S, joint_entry_count), 24);
     assert_eq!(offset!(S, joint_byte_count), 32);
     assert_eq!(offset!(S, rbf_solver_count), 40);
-    assert_eq!(offset!(S, turned_joint_count), 44);
+    assert_eq!(offset!(S, quaternion_joint_count), 44);
 }
 
 #[test]
@@ -347,21 +347,21 @@ fn mien_mesh() {
     assert_eq!(offset!(S, position_count), 4);
     assert_eq!(offset!(S, vertex_count), 8);
     assert_eq!(offset!(S, triangle_count), 12);
-    assert_eq!(offset!(S, most_influences), 16);
+    assert_eq!(offset!(S, max_influences), 16);
     assert_eq!(offset!(S, target_count), 20);
     assert_eq!(offset!(S, delta_count), 24);
     assert_eq!(offset!(S, lods), 32);
     assert_eq!(offset!(S, positions), 40);
     assert_eq!(offset!(S, normals), 56);
     assert_eq!(offset!(S, texture_coordinates), 72);
-    assert_eq!(offset!(S, vertex_positions), 88);
+    assert_eq!(offset!(S, vertex_position_indices), 88);
     assert_eq!(offset!(S, triangles), 104);
     assert_eq!(offset!(S, target_channels), 120);
 }
 
 #[test]
-fn mien_pose_desc() {
-    use mien_sys::MienPoseDesc as S;
+fn mien_deformer_instance_desc() {
+    use mien_sys::MienDeformerInstanceDesc as S;
     assert_eq!(size_of::<S>(), 24);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);

@@ -112,7 +112,7 @@ impl Batch {
     }
 
     /// The same by threads of yours: `run` gets the number of tasks and the work; what it leaves is
-    /// done on this thread. [`Pose::deform_on`](crate::Pose::deform_on) has an example.
+    /// done on this thread. [`DeformerInstance::deform_on`](crate::DeformerInstance::deform_on) has an example.
     pub fn evaluate_each_on<'faces>(
         &mut self,
         instances: impl IntoIterator<Item = (&'faces mut Instance, usize)>,

@@ -94,7 +94,7 @@ pub(crate) fn terminated(text: &str) -> Result<CString> {
 ///
 /// # Safety
 ///
-/// If `count` is not 0, the values have to be readable, initialised and unchanged for `'a`.
+/// If `count` is not 0, the values have to be readable, initialized and unchanged for `'a`.
 pub(crate) unsafe fn slice<'a, T>(data: *const T, count: usize) -> &'a [T] {
     if count == 0 {
         &[]

@@ -2,14 +2,14 @@
 
 use crate::convert::{index, rows, slice};
 use crate::error::{check, checked};
-use crate::{Allocator, Compose, DeformerInfo, Dna, Isa, Normals, Pose, Result, Rig, Weights};
+use crate::{Allocator, Compose, DeformerInfo, Dna, Isa, Normals, DeformerInstance, Result, Rig, Weights};
 use mien_sys as sys;
 use std::ptr::{null_mut, NonNull};
 use std::sync::Arc;
 
 /// The geometry of a DNA and the hierarchy of its joints, packed once. It never changes.
 ///
-/// Like a [`Rig`], a counted reference: clones are the same deformer, and each [`Pose`] holds one.
+/// Like a [`Rig`], a counted reference: clones are the same deformer, and each [`DeformerInstance`] holds one.
 /// Blend shape targets, then linear blend skinning; `mien.h` has the formulas.
 ///
 /// ```
@@ -20,7 +20,7 @@ use std::sync::Arc;
 /// drop(dna);
 ///
 /// let mut face = rig.instance()?;
-/// let mut pose = deformer.pose()?;
+/// let mut pose = deformer.instance()?;
 /// face.raw_controls_mut()[rig.find(Kind::RAW_CONTROL, "CTRL_expressions.jawOpen")?] = 1.0;
 /// face.evaluate(0)?;
 /// pose.update(&face)?;
@@ -56,7 +56,7 @@ unsafe impl Sync for Shared {}
 #[non_exhaustive]
 pub struct Mesh<'deformer> {
     /// Influences of the position that has most.
-    pub most_influences: usize,
+    pub max_influences: usize,
     /// Deltas over all blend shape targets.
     pub delta_count: u64,
     /// Bit l: LOD l shows this mesh.
@@ -68,7 +68,7 @@ pub struct Mesh<'deformer> {
     /// u v per vertex, as in the file.
     pub texture_coordinates: &'deformer [[f32; 2]],
     /// Position of each vertex.
-    pub vertex_positions: &'deformer [u32],
+    pub vertex_position_indices: &'deformer [u32],
     /// Three vertices each, wound as in the file; faces of more corners are fans about their first.
     pub triangles: &'deformer [[u32; 3]],
     /// Channel of each blend shape target, in file order.
@@ -82,10 +82,10 @@ impl Deformer {
         DeformerOptions::new().create(dna, rig)
     }
 
-    /// A pose in neutral, with room for all meshes. [`PoseOptions`](crate::PoseOptions) leaves out
+    /// A pose in neutral, with room for all meshes. [`DeformerInstanceOptions`](crate::DeformerInstanceOptions) leaves out
     /// some.
-    pub fn pose(&self) -> Result<Pose> {
-        Pose::new(self)
+    pub fn instance(&self) -> Result<DeformerInstance> {
+        DeformerInstance::new(self)
     }
 
     pub(crate) fn raw(&self) -> *const sys::MienDeformer {
@@ -111,13 +111,13 @@ impl Deformer {
             check(sys::mien_deformer_mesh(self.raw(), index(mesh), &mut out))?;
             let (uvs, triangles) = (out.texture_coordinates, out.triangles);
             Ok(Mesh {
-                most_influences: out.most_influences as usize,
+                max_influences: out.max_influences as usize,
                 delta_count: out.delta_count,
                 lods: out.lods,
                 positions: rows(out.positions.data, out.positions.count),
                 normals: rows(out.normals.data, out.normals.count),
                 texture_coordinates: rows(uvs.data, uvs.count),
-                vertex_positions: slice(out.vertex_positions.data, out.vertex_positions.count),
+                vertex_position_indices: slice(out.vertex_position_indices.data, out.vertex_position_indices.count),
                 triangles: rows(triangles.data, triangles.count),
                 target_channels: slice(out.target_channels.data, out.target_channels.count),
             })

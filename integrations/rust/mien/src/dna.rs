@@ -427,7 +427,7 @@ impl GenerateOptions {
         self
     }
 
-    /// What it has beyond that: [`Generate::ML`] is learned behaviour.
+    /// What it has beyond that: [`Generate::ML`] is learned behavior.
     pub fn with(mut self, extra: Generate) -> Self {
         self.flags |= extra.0;
         self

@@ -57,18 +57,18 @@ impl Status {
     /// A value that has no meaning.
     pub const DNA_VALUE: Self = Self(37);
     /// Not an image of a rig.
-    pub const IMAGE_SIGNATURE: Self = Self(50);
+    pub const BAKED_SIGNATURE: Self = Self(50);
     /// An image of another version or kind of machine: bake again.
-    pub const IMAGE_VERSION: Self = Self(51);
+    pub const BAKED_VERSION: Self = Self(51);
     /// The image ends before what it announces.
-    pub const IMAGE_TRUNCATED: Self = Self(52);
+    pub const BAKED_TRUNCATED: Self = Self(52);
     /// Sizes, counts or indices contradict each other.
-    pub const IMAGE_STRUCTURE: Self = Self(53);
+    pub const BAKED_STRUCTURE: Self = Self(53);
     /// Not the bytes that were written.
-    pub const IMAGE_CHECKSUM: Self = Self(54);
+    pub const BAKED_CHECKSUM: Self = Self(54);
 }
 
-numbers!(Status, i32, [(0, "OK"), (1, "NULL_ARGUMENT"), (2, "INVALID_ARGUMENT"), (3, "STRUCT_SIZE"), (4, "HANDLE"), (5, "MISMATCH"), (6, "INDEX"), (7, "LOD"), (8, "NAME"), (9, "ISA"), (10, "MEMORY"), (20, "FILE_OPEN"), (21, "FILE_READ"), (22, "FILE_WRITE"), (30, "DNA_SIGNATURE"), (31, "DNA_VERSION"), (32, "DNA_TRUNCATED"), (33, "DNA_STRUCTURE"), (34, "DNA_REFERENCE"), (35, "DNA_LIMIT"), (36, "DNA_LAYER"), (37, "DNA_VALUE"), (50, "IMAGE_SIGNATURE"), (51, "IMAGE_VERSION"), (52, "IMAGE_TRUNCATED"), (53, "IMAGE_STRUCTURE"), (54, "IMAGE_CHECKSUM")]);
+numbers!(Status, i32, [(0, "OK"), (1, "NULL_ARGUMENT"), (2, "INVALID_ARGUMENT"), (3, "STRUCT_SIZE"), (4, "HANDLE"), (5, "MISMATCH"), (6, "INDEX"), (7, "LOD"), (8, "NAME"), (9, "ISA"), (10, "MEMORY"), (20, "FILE_OPEN"), (21, "FILE_READ"), (22, "FILE_WRITE"), (30, "DNA_SIGNATURE"), (31, "DNA_VERSION"), (32, "DNA_TRUNCATED"), (33, "DNA_STRUCTURE"), (34, "DNA_REFERENCE"), (35, "DNA_LIMIT"), (36, "DNA_LAYER"), (37, "DNA_VALUE"), (50, "BAKED_SIGNATURE"), (51, "BAKED_VERSION"), (52, "BAKED_TRUNCATED"), (53, "BAKED_STRUCTURE"), (54, "BAKED_CHECKSUM")]);
 
 pub(crate) fn describe(status: Status) -> &'static str {
     match status.0 {
@@ -343,11 +343,11 @@ impl Preset {
     /// A production body: 342 joints that 72 RBF solvers with 670 poses, 22 twists and 16 swings
     /// move, some of them represented by quaternions.
     pub const BODY: Self = Self(4);
-    /// A stylised person to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit
+    /// A stylized person to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit
     /// as raw controls under their names (values 0..1), correctives, wrinkle maps, 8 LODs. Seed 0
-    /// is the one that was designed, others vary proportions and colours. Vertex colours are in
-    /// the metadata: key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per position
-    /// of the mesh.
+    /// is the one that was designed, others vary proportions and colors. Vertex colors are in the
+    /// metadata: key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per position of
+    /// the mesh.
     pub const HEAD: Self = Self(5);
 }
 
@@ -361,7 +361,7 @@ numbers!(Preset, u32, [(0, "TINY"), (1, "SMALL"), (2, "MEDIUM"), (3, "LARGE"), (
 pub struct Generate(pub u32);
 
 impl Generate {
-    /// With learned behaviour: networks by mesh region, every activation, their operations, and
+    /// With learned behavior: networks by mesh region, every activation, their operations, and
     /// joints that they move (not for `Preset::HEAD`).
     pub const ML: Self = Self(1);
 }
@@ -480,14 +480,14 @@ impl Reuse {
 
 numbers!(Reuse, u32, [(0, "UNCHANGED"), (1, "NOTHING")]);
 
-/// What C calls `MIEN_IMAGE_CHECK_...`.
+/// What C calls `MIEN_BAKED_CHECK_...`.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 #[repr(transparent)]
-pub struct ImageCheck(pub u32);
+pub struct BakedCheck(pub u32);
 
-impl ImageCheck {
+impl BakedCheck {
     /// Every size, count and index: whatever the bytes are, nothing is read or written outside of
     /// the rig and its instances. Numbers are not looked at, so their pages stay on disk until
     /// they are needed.
@@ -496,7 +496,7 @@ impl ImageCheck {
     pub const FULL: Self = Self(1);
 }
 
-numbers!(ImageCheck, u32, [(0, "SAFE"), (1, "FULL")]);
+numbers!(BakedCheck, u32, [(0, "SAFE"), (1, "FULL")]);
 
 /// Things with names and numbers.
 ///
@@ -594,8 +594,8 @@ impl Weights {
 
 numbers!(Weights, u32, [(0, "AS_STORED"), (1, "FIX")]);
 
-/// Normals that `mien_pose_deform()` makes, unit length. Where there is no direction to be had (no
-/// area, no face) they are the neutral ones.
+/// Normals that `mien_deformer_instance_deform()` makes, unit length. Where there is no direction
+/// to be had (no area, no face) they are the neutral ones.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -912,7 +912,7 @@ pub struct RigStatistics {
     /// Solvers that the LOD lists.
     pub rbf_solver_count: usize,
     /// Joints represented by quaternions.
-    pub turned_joint_count: usize,
+    pub quaternion_joint_count: usize,
 }
 
 impl From<sys::MienRigStatistics> for RigStatistics {
@@ -926,7 +926,7 @@ impl From<sys::MienRigStatistics> for RigStatistics {
             joint_entry_count: c.joint_entry_count,
             joint_byte_count: c.joint_byte_count,
             rbf_solver_count: c.rbf_solver_count as usize,
-            turned_joint_count: c.turned_joint_count as usize,
+            quaternion_joint_count: c.quaternion_joint_count as usize,
         }
     }
 }

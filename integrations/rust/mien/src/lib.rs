@@ -3,12 +3,12 @@
 //!
 //! ```text
 //! DNA file -> Dna -> Rig -> Instance -> joint, channel and map values
-//!                \______ Deformer -> Pose -> joint matrices, positions, normals
+//!                \______ Deformer -> DeformerInstance -> joint matrices, positions, normals
 //! ```
 //!
 //! A [`Dna`] is a checked, read-only view of a file. A [`Rig`] is the same data packed for
 //! evaluation, shared by any number of characters and threads. An [`Instance`] is one character.
-//! A [`Deformer`] is the geometry of the file, shared like a rig; a [`Pose`] is what it makes of one
+//! A [`Deformer`] is the geometry of the file, shared like a rig; a [`DeformerInstance`] is what it makes of one
 //! character.
 //!
 //! ```
@@ -29,12 +29,12 @@
 //! # What holds everywhere
 //!
 //! * **Threads.** `Dna`, `Rig`, `Deformer` and `Report` are immutable, `Send` and `Sync`. What changes an
-//!   `Instance` or a `Pose` takes `&mut`; evaluate different instances of one rig on as many threads as you
+//!   `Instance` or a `DeformerInstance` takes `&mut`; evaluate different instances of one rig on as many threads as you
 //!   like. There is no global state.
 //! * **Lifetimes.** A `Rig` is a counted reference, which each instance holds; so is a `Deformer` to
 //!   its poses. A `Dna` of bytes in
 //!   memory borrows them; a rig borrows nothing.
-//! * **Units** are those of the file: [`RigInfo`] tells centimetres or metres, degrees or radians,
+//! * **Units** are those of the file: [`RigInfo`] tells centimeters or meters, degrees or radians,
 //!   and which way the axes point. Outputs are deltas from the neutral pose.
 //! * **Errors** carry a [`Status`] for programs, a sentence for people, and the byte offset in
 //!   the file. Any bytes may be opened: what is wrong with them is an error, never a crash.
@@ -52,7 +52,7 @@ mod deformer;
 mod dna;
 mod error;
 mod instance;
-mod pose;
+mod deformer_instance;
 mod report;
 mod rig;
 mod threads;
@@ -67,7 +67,7 @@ pub use dna::{Dna, GenerateOptions, OpenOptions, WriteOptions};
 pub use error::{Error, Result};
 pub use generated::*;
 pub use instance::Instance;
-pub use pose::{Pose, PoseOptions};
+pub use deformer_instance::{DeformerInstance, DeformerInstanceOptions};
 pub use report::{Finding, Report};
 pub use rig::{Rig, RigOptions};
 pub use threads::Work;

@@ -13,7 +13,7 @@ use std::path::Path;
 use std::ptr::{null_mut, NonNull};
 use std::sync::Arc;
 
-/// The behaviour of a face, packed for evaluation. It never changes.
+/// The behavior of a face, packed for evaluation. It never changes.
 ///
 /// A `Rig` is a counted reference: clones are the same rig, and each [`Instance`] holds one. So a
 /// rig lives as long as its last user, and neither lifetimes nor the order of dropping are a
@@ -45,7 +45,7 @@ unsafe impl Send for Shared {}
 unsafe impl Sync for Shared {}
 
 impl Rig {
-    /// Packs the behaviour of `dna` for the best instruction set of this machine, with Euler
+    /// Packs the behavior of `dna` for the best instruction set of this machine, with Euler
     /// angles coming out. [`RigOptions`] has other wishes.
     pub fn new(dna: &Dna<'_>) -> Result<Self> {
         RigOptions::new().create(dna)
@@ -288,7 +288,7 @@ impl RigOptions {
         self
     }
 
-    /// Packs the behaviour of `dna`, which needs definition and behavior loaded, else
+    /// Packs the behavior of `dna`, which needs definition and behavior loaded, else
     /// [`Status::DNA_LAYER`](crate::Status::DNA_LAYER).
     pub fn create(&self, dna: &Dna<'_>) -> Result<Rig> {
         let mut handle = null_mut();
@@ -346,14 +346,14 @@ impl RigOptions {
         &self,
         access: u32,
         open: impl FnOnce(
-            *const sys::MienRigImageDesc,
+            *const sys::MienBakedDesc,
             *mut *mut sys::MienRig,
             *mut sys::MienError,
         ) -> sys::MienStatus,
     ) -> Result<Rig> {
         let mut handle = null_mut();
         Allocator::with(self.allocator.as_ref(), |allocator| {
-            let desc = sys::MienRigImageDesc {
+            let desc = sys::MienBakedDesc {
                 isa: self.isa.0,
                 file_access: access,
                 reuse: self.reuse.0,

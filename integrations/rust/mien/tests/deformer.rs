@@ -3,7 +3,7 @@
 
 use mien::{
     CoordinateSystem, Deformer, DeformerOptions, Dna, Instance, Kind, Layers, Normals, OpenOptions,
-    Pose, PoseOptions, Preset, Rig, Status, Weights,
+    DeformerInstance, DeformerInstanceOptions, Preset, Rig, Status, Weights,
 };
 
 struct Face {
@@ -28,7 +28,7 @@ fn bits(rows: &[[f32; 3]]) -> Vec<u32> {
 }
 
 /// Positions and normals of a mesh.
-fn mesh_bits(pose: &Pose, mesh: usize) -> (Vec<u32>, Vec<u32>) {
+fn mesh_bits(pose: &DeformerInstance, mesh: usize) -> (Vec<u32>, Vec<u32>) {
     (bits(pose.positions(mesh).unwrap()), bits(pose.normals(mesh).unwrap()))
 }
 
@@ -44,15 +44,15 @@ fn meshes_have_the_shapes_that_their_types_say() {
     }
     for m in 0..info.mesh_count {
         let mesh = deformer.mesh(m).unwrap();
-        let (positions, vertices) = (mesh.positions.len(), mesh.vertex_positions.len());
+        let (positions, vertices) = (mesh.positions.len(), mesh.vertex_position_indices.len());
         assert!(positions > 0);
         assert_eq!(mesh.normals.len(), vertices);
         assert_eq!(mesh.texture_coordinates.len(), vertices);
-        assert!(mesh.vertex_positions.iter().all(|p| (*p as usize) < positions));
+        assert!(mesh.vertex_position_indices.iter().all(|p| (*p as usize) < positions));
         assert!(mesh.triangles.iter().flatten().all(|v| (*v as usize) < vertices));
         let (joints, weights) = deformer.influences(m, positions - 1).unwrap();
         assert_eq!(joints.len(), weights.len());
-        assert!(joints.len() <= mesh.most_influences);
+        assert!(joints.len() <= mesh.max_influences);
         for target in 0..mesh.target_channels.len() {
             assert_eq!(deformer.target(m, target).unwrap().len(), positions);
         }
@@ -68,7 +68,7 @@ fn meshes_have_the_shapes_that_their_types_say() {
 #[test]
 fn poses_follow_their_instance() {
     let Face { deformer, instance } = face(Preset::SMALL);
-    let mut pose = deformer.pose().unwrap();
+    let mut pose = deformer.instance().unwrap();
     let neutral = deformer.mesh(0).unwrap();
     pose.deform(0, Normals::RECOMPUTED).unwrap();
     for (p, n) in pose.positions(0).unwrap().iter().zip(neutral.positions) {
@@ -82,7 +82,7 @@ fn poses_follow_their_instance() {
     assert_eq!(pose.skin_matrices().len(), deformer.info().joint_count);
 
     // From arrays: the same.
-    let mut other = deformer.pose().unwrap();
+    let mut other = deformer.instance().unwrap();
     other.update_from_values(instance.joints(), instance.blend_shapes()).unwrap();
     other.deform(0, Normals::RECOMPUTED).unwrap();
     assert_eq!(mesh_bits(&other, 0), moved);
@@ -105,10 +105,10 @@ fn poses_follow_their_instance() {
 #[test]
 fn a_pose_is_of_one_rig() {
     let (one, other) = (face(Preset::TINY), face(Preset::TINY));
-    let mut pose = one.deformer.pose().unwrap();
+    let mut pose = one.deformer.instance().unwrap();
     assert_eq!(pose.update(&other.instance).unwrap_err().status(), Status::MISMATCH);
-    let mut foreign = other.deformer.pose().unwrap();
-    let error = Pose::deform_batch([&mut pose, &mut foreign], 0, Normals::NONE).unwrap_err();
+    let mut foreign = other.deformer.instance().unwrap();
+    let error = DeformerInstance::deform_batch([&mut pose, &mut foreign], 0, Normals::NONE).unwrap_err();
     assert_eq!(error.status(), Status::MISMATCH);
 
     let dna = Dna::generate(Preset::SMALL).unwrap();
@@ -132,7 +132,7 @@ fn options_reach_the_library() {
     assert_eq!(deformer.info().weights, Weights::FIX);
     assert_eq!(deformer.info().normals, Normals::SKINNED);
     let last = rig.info().lod_count - 1;
-    let mut pose = PoseOptions::new().lods(1 << last).create(&deformer).unwrap();
+    let mut pose = DeformerInstanceOptions::new().lods(1 << last).create(&deformer).unwrap();
     let shown = |m: usize| deformer.mesh(m).unwrap().lods >> last & 1 == 1;
     for m in 0..deformer.info().mesh_count {
         match pose.deform(m, Normals::DEFAULT) {
@@ -147,10 +147,10 @@ fn options_reach_the_library() {
 }
 
 /// Many poses of a mesh, so that there are pieces.
-fn batch(face: &Face) -> Vec<Pose> {
+fn batch(face: &Face) -> Vec<DeformerInstance> {
     let positions = face.deformer.mesh(0).unwrap().positions.len();
     let mut poses: Vec<_> = (0..40_000 / positions + 2)
-        .map(|_| PoseOptions::new().lods(1).create(&face.deformer).unwrap())
+        .map(|_| DeformerInstanceOptions::new().lods(1).create(&face.deformer).unwrap())
         .collect();
     for (i, pose) in poses.iter_mut().enumerate() {
         let joints: Vec<_> = face.instance.joints().iter().map(|v| v * i as f32).collect();
@@ -167,10 +167,10 @@ fn batches_and_threads_give_the_same_bits() {
         pose.deform(0, Normals::RECOMPUTED).unwrap();
     }
     let expected: Vec<_> = poses.iter().map(|pose| mesh_bits(pose, 0)).collect();
-    let results = |poses: &[Pose]| poses.iter().map(|pose| mesh_bits(pose, 0)).collect::<Vec<_>>();
+    let results = |poses: &[DeformerInstance]| poses.iter().map(|pose| mesh_bits(pose, 0)).collect::<Vec<_>>();
 
     let mut poses = batch(&face);
-    Pose::deform_batch(&mut poses, 0, Normals::RECOMPUTED).unwrap();
+    DeformerInstance::deform_batch(&mut poses, 0, Normals::RECOMPUTED).unwrap();
     assert!(results(&poses) == expected);
 
     // Whatever the caller's threads do with the work: each piece is done once.
@@ -185,7 +185,7 @@ fn batches_and_threads_give_the_same_bits() {
         }];
     for way in ways {
         let mut poses = batch(&face);
-        Pose::deform_batch_on(&mut poses, 0, Normals::RECOMPUTED, |pieces, work| {
+        DeformerInstance::deform_batch_on(&mut poses, 0, Normals::RECOMPUTED, |pieces, work| {
             most = most.max(pieces);
             way(work);
         })
@@ -203,11 +203,11 @@ fn a_panic_passes_by_c() {
     let face = face(Preset::SMALL);
     let mut poses = batch(&face);
     let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
-        Pose::deform_batch_on(&mut poses, 0, Normals::NONE, |_, _| panic!("of the caller"))
+        DeformerInstance::deform_batch_on(&mut poses, 0, Normals::NONE, |_, _| panic!("of the caller"))
     }));
     assert_eq!(*result.unwrap_err().downcast::<&str>().unwrap(), "of the caller");
     // All is as after any other call.
-    Pose::deform_batch(&mut poses, 0, Normals::NONE).unwrap();
+    DeformerInstance::deform_batch(&mut poses, 0, Normals::NONE).unwrap();
 }
 
 #[test]

@@ -48,7 +48,7 @@ fn a_baked_rig_is_the_rig() {
     }
     assert_eq!(
         RigOptions::new().open_bytes(b"DNA").err().unwrap().status(),
-        Status::IMAGE_SIGNATURE
+        Status::BAKED_SIGNATURE
     );
 }
 

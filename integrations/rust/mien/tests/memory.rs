@@ -2,8 +2,8 @@
 //! Memory comes from the allocator that was given, goes back to it, and may be refused.
 
 use mien::{
-    Allocator, Batch, DeformerOptions, Dna, GenerateOptions, Instance, Normals, OpenOptions, Pose,
-    PoseOptions, Preset, Report, Result, RigOptions, Status,
+    Allocator, Batch, DeformerOptions, Dna, GenerateOptions, Instance, Normals, OpenOptions, DeformerInstance,
+    DeformerInstanceOptions, Preset, Report, Result, RigOptions, Status,
 };
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::collections::HashMap;
@@ -45,7 +45,7 @@ fn watched(allowed: usize) -> (Allocator, Arc<Mutex<Book>>) {
 }
 
 /// Everything that takes an allocator, once.
-fn live(file: &[u8], memory: &Allocator) -> Result<(Instance, Pose)> {
+fn live(file: &[u8], memory: &Allocator) -> Result<(Instance, DeformerInstance)> {
     GenerateOptions::new().allocator(memory).generate()?;
     Report::of_bytes_in(file, memory)?;
     let dna = OpenOptions::new().allocator(memory).open_bytes(file)?;
@@ -53,7 +53,7 @@ fn live(file: &[u8], memory: &Allocator) -> Result<(Instance, Pose)> {
     let mut face = Instance::new_in(&rig, memory)?;
     Batch::new_in(&rig, 3, 2, memory)?.evaluate([&mut face], 0)?;
     let deformer = DeformerOptions::new().allocator(memory).create(&dna, &rig)?;
-    let mut pose = PoseOptions::new().allocator(memory).create(&deformer)?;
+    let mut pose = DeformerInstanceOptions::new().allocator(memory).create(&deformer)?;
     pose.update(&face)?;
     pose.deform(0, Normals::RECOMPUTED)?;
     Ok((face, pose))

@@ -35,7 +35,7 @@ fn types_cross_threads() {
     send_and_sync::<Instance>();
     send_and_sync::<mien::Batch>();
     send_and_sync::<mien::Deformer>();
-    send_and_sync::<mien::Pose>();
+    send_and_sync::<mien::DeformerInstance>();
     send_and_sync::<mien::Report>();
     send_and_sync::<mien::Allocator>();
     send_and_sync::<mien::Error>();

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// Baked rigs. mien.h is the manual.
+#include "capi/handles.h"
+#include "runtime/baked/baked_rig.h"
+
+using namespace mien;
+using namespace mien::capi;
+
+static_assert(MIEN_ERROR_BAKED_SIGNATURE == int(Status::kBakedSignature) &&
+                  MIEN_ERROR_BAKED_CHECKSUM == int(Status::kBakedChecksum),
+              "status.h and mien.h number the same statuses");
+static_assert(MIEN_BAKED_CHECK_FULL == int(ImageCheck::kFull),
+              "baked_rig.h and mien.h number the same checks");
+
+// Saving
+// -------------------------------------------------------------------------------------------
+
+MienStatus mien_rig_save_file(const MienRig* handle, const char* path, MienError* error) {
+  if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
+  if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
+  if (MienStatus status = check(handle)) return give_error(error, status, "not a rig");
+  const Rig& rig = *object(handle);
+  const size_t size = image_size(rig);
+  uint8_t* bytes = static_cast<uint8_t*>(rig.allocator.get(size, kBlockAlignment));
+  if (!bytes) {
+    return give_error(error, MIEN_ERROR_MEMORY, "no memory for an image of %zu bytes", size);
+  }
+  write_image(rig, bytes);
+  Error detail;
+  const Status status = write_file(path, bytes, size, rig.allocator, detail);
+  rig.allocator.put(bytes, size, kBlockAlignment);
+  return status == Status::kOk ? succeed(error) : give_error(detail, error);
+}
+
+MienStatus mien_rig_save_memory(const MienRig* handle, void* buffer, size_t capacity,
+                                size_t* out_size, MienError* error) {
+  if (MienStatus status = clear_output(out_size, error)) return status;
+  if (!buffer && capacity != 0) {
+    return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "buffer is NULL");
+  }
+  if (MienStatus status = check(handle)) return give_error(error, status, "not a rig");
+  const Rig& rig = *object(handle);
+  const size_t size = image_size(rig);
+  *out_size = size;
+  if (!buffer) return succeed(error);
+  if (capacity < size) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "the image takes %zu bytes, the buffer has %zu", size, capacity);
+  }
+  write_image(rig, static_cast<uint8_t*>(buffer));
+  return succeed(error);
+}
+
+// Opening
+// ------------------------------------------------------------------------------------------
+
+namespace {
+
+struct OpenArguments {
+  MienBakedDesc desc;
+  Allocator allocator;
+  const KernelTable* kernels = nullptr;
+};
+
+/// Takes over `file`, which is empty if the bytes are the caller's.
+MienStatus open_image(const uint8_t* bytes, size_t size, MappedFile& file,
+                      const OpenArguments& arguments, MienRig** out_rig, MienError* error) {
+  const auto close = [&] {
+    if (file.bytes) close_file(file);
+  };
+  const size_t block_size = align_up(sizeof(Rig), kBlockAlignment);
+  void* block = arguments.allocator.get(block_size, kBlockAlignment);
+  if (!block) {
+    close();
+    return give_error(error, MIEN_ERROR_MEMORY, "no memory for a rig of %zu bytes", block_size);
+  }
+  Rig* rig = new (block) Rig;
+  Error detail;
+  const Status status =
+      read_image(bytes, size, static_cast<ImageCheck>(arguments.desc.check), *rig, detail);
+  if (status != Status::kOk) {
+    rig->~Rig();
+    arguments.allocator.put(block, block_size, kBlockAlignment);
+    close();
+    return give_error(detail, error);
+  }
+  rig->allocator = arguments.allocator;
+  rig->block_size = block_size;
+  rig->image = file;
+  rig->kernels = arguments.kernels;
+  rig->always_evaluate = rig->reads_back || arguments.desc.reuse == MIEN_REUSE_NOTHING;
+  rig->instance_size = instance_size(*rig);
+  rig->tag = kRigTag;
+  *out_rig = reinterpret_cast<MienRig*>(rig);
+  return succeed(error);
+}
+
+MienStatus read_open_arguments(const MienBakedDesc* desc, OpenArguments& out, MienError* error) {
+  if (MienStatus status = read_struct(desc, out.desc)) {
+    return give_error(error, status,
+                      "MienBakedDesc.struct_size is %u, expected %zu or more with zeros",
+                      desc->struct_size, sizeof(MienBakedDesc));
+  }
+  if (read_allocator(out.desc.allocator, out.allocator) != MIEN_OK) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
+  }
+  if (out.desc.file_access > MIEN_FILE_READ || out.desc.check > MIEN_BAKED_CHECK_FULL ||
+      out.desc.reuse > MIEN_REUSE_NOTHING || out.desc.reserved != 0) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienBakedDesc.file_access, .check or .reuse is none of its values, or "
+                      ".reserved is not 0");
+  }
+  return find_kernels(out.desc.isa, out.kernels, error);
+}
+
+/// Memory whose beginning is no place for vectors.
+MienStatus copy_image(const void* bytes, size_t size, const Allocator& allocator, MappedFile& file,
+                      MienError* error) {
+  uint8_t* copy = static_cast<uint8_t*>(allocator.get(size, kBlockAlignment));
+  if (!copy) {
+    return give_error(error, MIEN_ERROR_MEMORY, "no memory for an image of %zu bytes", size);
+  }
+  memcpy(copy, bytes, size);
+  file.bytes = copy;
+  file.size = file.capacity = size;
+  file.allocator = allocator;
+  return MIEN_OK;
+}
+
+}  // namespace
+
+MienStatus mien_rig_open_file(const char* path, const MienBakedDesc* desc, MienRig** out_rig,
+                              MienError* error) {
+  if (MienStatus status = clear_output(out_rig, error)) return status;
+  if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
+  OpenArguments arguments;
+  if (MienStatus status = read_open_arguments(desc, arguments, error)) return status;
+  MappedFile file;
+  Error detail;
+  const Status status = open_file(path, static_cast<FileAccess>(arguments.desc.file_access),
+                                  arguments.allocator, file, detail);
+  if (status != Status::kOk) return give_error(detail, error);
+  return open_image(file.bytes, file.size, file, arguments, out_rig, error);
+}
+
+MienStatus mien_rig_open_memory(const void* bytes, size_t size, const MienBakedDesc* desc,
+                                MienRig** out_rig, MienError* error) {
+  if (MienStatus status = clear_output(out_rig, error)) return status;
+  if (!bytes && size != 0) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "bytes is NULL");
+  OpenArguments arguments;
+  if (MienStatus status = read_open_arguments(desc, arguments, error)) return status;
+  MappedFile file;
+  if (size != 0 && reinterpret_cast<uintptr_t>(bytes) % kBlockAlignment != 0) {
+    if (MienStatus status = copy_image(bytes, size, arguments.allocator, file, error)) {
+      return status;
+    }
+    bytes = file.bytes;
+  }
+  return open_image(static_cast<const uint8_t*>(bytes), size, file, arguments, out_rig, error);
+}

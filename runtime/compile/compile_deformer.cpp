@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/compile/compile_deformer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mien {
+namespace {
+
+using dna::Array;
+using dna::DnaView;
+using dna::Mesh;
+
+const Mesh kNoMesh;
+
+/// Meshes of the definition that the geometry lacks are empty.
+const Mesh& mesh_at(const DnaView& view, uint32_t m) {
+  return m < view.geom.meshes.count ? view.geom.meshes[m] : kNoMesh;
+}
+
+/// The first number of three arrays that is not finite; kNoItem if all are.
+constexpr uint32_t kNoItem = ~uint32_t{0};
+uint32_t first_not_finite(const dna::Vec3Array& vectors) {
+  for (uint32_t i = 0; i < vectors.xs.count; ++i) {
+    if (!std::isfinite(vectors.xs[i]) || !std::isfinite(vectors.ys[i]) ||
+        !std::isfinite(vectors.zs[i])) {
+      return i;
+    }
+  }
+  return kNoItem;
+}
+
+Status plan_mesh(const MeshSource& source, MeshPlan& plan) {
+  const uint32_t bad = first_not_finite(source.mesh.positions);
+  if (bad != kNoItem) {
+    return fail(source.error, Status::kDnaValue,
+                source.view.offset_of(source.mesh.positions.xs.data + bad * sizeof(float)),
+                "geom.meshes[%u].positions: position %u is not finite", source.number, bad);
+  }
+  Status status = plan_skin(source, plan);
+  if (status == Status::kOk) status = plan_targets(source, plan);
+  if (status == Status::kOk) plan_surface(source, plan);
+  return status;
+}
+
+void place_mesh(const Mesh& source, const MeshPlan& plan, Placer& placer, DeformMesh& mesh) {
+  mesh.position_count = source.positions.xs.count;
+  mesh.vertex_count = source.layouts.positions.count;
+  mesh.target_count = source.blend_shape_targets.count;
+  mesh.triangle_count = static_cast<uint32_t>(plan.triangle_count);
+  mesh.max_influences = plan.max_influences;
+  mesh.delta_count = plan.delta_count;
+  place_skin(plan, placer, mesh);
+  place_targets(plan, placer, mesh);
+  place_surface(plan, placer, mesh);
+}
+
+Status fill_mesh(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh) {
+  const DnaView& view = source.view;
+  for (uint32_t l = 0; l < view.desc.lod_count; ++l) {
+    const Array<uint16_t> row = view.defn.lod_meshes.at(l);
+    for (uint32_t i = 0; i < row.count; ++i) {
+      if (row[i] == source.number) mesh.lods |= uint64_t{1} << l;
+    }
+  }
+  fill_skin(source, plan, mesh);
+  const Status status = fill_targets(source, mesh);
+  return status == Status::kOk ? fill_surface(source, mesh) : status;
+}
+
+void place_all(const DnaView& view, const Rig& rig, Span<const MeshPlan> plans, Placer& placer,
+               Deformer& deformer) {
+  placer.array<Deformer>(1);
+  place_skeleton(rig, placer, deformer.skeleton);
+  deformer.meshes = placer.array<DeformMesh>(rig.mesh_count);
+  for (uint32_t m = 0; m < rig.mesh_count; ++m) {
+    DeformMesh measured;
+    DeformMesh& mesh = placer.measuring() ? measured : *new (&deformer.meshes[m]) DeformMesh;
+    place_mesh(mesh_at(view, m), plans[m], placer, mesh);
+  }
+}
+
+}  // namespace
+
+Status MeshSource::no_memory() const {
+  return fail(error, Status::kMemory, kNoOffset, "no memory to pack mesh %u", number);
+}
+
+Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions& options,
+                        const Allocator& allocator, Deformer*& out, Error& error) {
+  out = nullptr;
+  Arena scratch(allocator);
+  const Span<MeshPlan> plans = scratch.array<MeshPlan>(rig.mesh_count);
+  if (!plans.data && rig.mesh_count != 0) {
+    return fail(error, Status::kMemory, kNoOffset, "no memory to pack %u meshes", rig.mesh_count);
+  }
+  const auto source = [&](uint32_t m) {
+    return MeshSource{view, mesh_at(view, m), m, options.fix_weights, scratch, error};
+  };
+  Status status = Status::kOk;
+  for (uint32_t m = 0; m < rig.mesh_count; ++m) {
+    status = plan_mesh(source(m), plans[m]);
+    if (status != Status::kOk) return status;
+  }
+
+  Deformer measured;
+  Placer measure(nullptr);
+  place_all(view, rig, plans, measure, measured);
+  void* block = allocator.get(measure.size(), kBlockAlignment);
+  if (!block) {
+    return fail(error, Status::kMemory, kNoOffset, "no memory for a deformer of %zu bytes",
+                measure.size());
+  }
+  Placer placer(block);
+  Deformer placed;
+  place_all(view, rig, plans, placer, placed);
+  Deformer* deformer = new (block) Deformer;
+  deformer->allocator = allocator;
+  deformer->block_size = measure.size();
+  deformer->kernels = options.kernels;
+  deformer->rig = &rig;
+  deformer->normals = options.normals;
+  deformer->fix_weights = options.fix_weights;
+  deformer->skeleton = placed.skeleton;
+  deformer->meshes = placed.meshes;
+  rig.owners.fetch_add(1, std::memory_order_relaxed);
+
+  status = fill_skeleton(rig, options.kernels, options.compose, scratch, deformer->skeleton, error);
+  for (uint32_t m = 0; m < rig.mesh_count && status == Status::kOk; ++m) {
+    status = fill_mesh(source(m), plans[m], deformer->meshes[m]);
+  }
+  if (status != Status::kOk) {
+    release_deformer(deformer);
+    return status;
+  }
+  out = deformer;
+  return Status::kOk;
+}
+
+}  // namespace mien

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// View -> rig: the blocks of compilation. compile_rig() measures, allocates once, and lets each
+// block fill its arrays.
+#pragma once
+
+#include "runtime/base/arena.h"
+#include "runtime/base/status.h"
+#include "runtime/dna/format/dna_view.h"
+#include "runtime/rig/rig.h"
+
+namespace mien {
+
+struct CompileOptions {
+  const KernelTable* kernels = nullptr;
+  bool quaternion_outputs = false;  // joint rotations as quaternions instead of Euler angles
+  bool blend_masks = false;         // ML masks blend instead of switching
+  bool half_storage = false;        // matrices and weights in 16 bits
+  bool portable = false;            // the same bits on every instruction set
+  bool always_evaluate = false;     // results are never kept, even if their inputs did not change
+};
+
+/// Packs a checked view (definition and behavior loaded). On success `out` is one block of
+/// `allocator`, to be given back by release_rig(); the view is no longer needed.
+Status compile_rig(const dna::DnaView& view, const CompileOptions& options,
+                   const Allocator& allocator, Rig*& out, Error& error);
+
+// The blocks. place_...() says how much memory a block takes (its spans get their counts, and their
+// data when the block row is there); fill_...() writes it. `scratch` is for the time of
+// compilation.
+
+void place_controls(const dna::DnaView& view, Placer& placer, Rig& rig);
+/// kMemory (scratch), or kDnaValue for correctives that depend on each other in a circle.
+Status fill_controls(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
+
+/// Rows of one joint group that are computed in one block: what lies between them writes nothing.
+struct PlannedRows {
+  uint32_t group;
+  uint32_t block_row;
+  uint16_t rows[kJointBlockRows];
+  uint8_t reaches[kJointBlockRows];  // how many LODs, counted from 0, reach a row
+  uint8_t row_count;
+  uint8_t first_slot;  // of the block row; behind it rows of other groups may follow
+  bool contested;
+
+  uint8_t reach() const { return reaches[0]; }  // of the whole: rows are in order
+};
+
+/// The blocks of a control, single ones and halves of pairs: first how many there are, then where
+/// the next of either kind goes.
+struct PlannedColumn {
+  uint32_t blocks[2];      // [is half of a pair]
+  uint32_t entries[2];     // into JointMatrix::block rows
+  uint32_t end_block_row;  // behind the last one seen
+  uint32_t block;          // the last one seen
+
+  uint32_t pairs() const { return blocks[1] / 2; }
+  uint32_t singles() const { return blocks[0]; }
+};
+
+/// What becomes of the joint groups, in scratch memory: found out once, before anything is placed.
+struct JointPlan {
+  Span<uint8_t> uses;               // of all rows of all groups
+  Span<PlannedRows> rows;           // by block row
+  Span<uint32_t> first_rows;        // [block row] into rows, one more at the end
+  Span<uint8_t> block_row_reaches;  // never rises
+  size_t block_count = 0, entry_count = 0, column_count = 0, target_count = 0;
+  uint32_t panel_size = 0;      // block rows
+  size_t panel_ends = 0;        // panels, and one more
+  Span<PlannedColumn> columns;  // [control]
+  Span<uint64_t> blocks;        // by rows, a bit for each column of their group: not all zeros
+  Span<uint64_t> paired;        // a bit for each block in the order of a scan: half of a pair
+
+  uint32_t block_row_count() const { return static_cast<uint32_t>(block_row_reaches.count); }
+};
+
+/// kMemory (scratch), or kDnaLimit for more block rows or blocks than can be numbered.
+Status plan_joints(const dna::DnaView& view, const Rig& rig, Arena& scratch, JointPlan& plan,
+                   Error& error);
+void place_joints(const dna::DnaView& view, const JointPlan& plan, Placer& placer, Rig& rig);
+/// Also marks in `reach` how many LODs, counted from 0, read each control through a joint group.
+/// Uses the plan up.
+void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach, Rig& rig);
+
+/// After joints, twists and swings, and before the neutral pose.
+void fill_variable_joint_values(const dna::DnaView& view, Rig& rig);
+
+/// After fill_joints(), which knows the largest group.
+void place_rotations(const dna::DnaView& view, Placer& placer, Rig& rig);
+Status fill_rotations(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
+
+/// kDnaLimit for a solver too large to be made.
+Status place_rbf(const dna::DnaView& view, Placer& placer, Rig& rig, Error& error);
+Status fill_rbf(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
+
+/// kDnaLimit for operations that repeat networks beyond measure.
+Status place_ml(const dna::DnaView& view, Placer& placer, Rig& rig, Error& error);
+Status fill_ml(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
+/// How many LODs, counted from 0, read a control to move a joint.
+void mark_ml_joint_inputs(const dna::DnaView& view, uint32_t lod_count, Span<uint8_t> reach);
+
+void place_twists_and_swings(const dna::DnaView& view, Placer& placer, Rig& rig);
+Status fill_twists_and_swings(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
+
+/// [joint]: bit l is set if LOD l lists it; all are if no LOD does.
+void mark_joint_lods(const dna::DnaView& view, Span<uint64_t> lods);
+
+void place_lod_lists(const dna::LodMap& map, uint32_t lod_count, Placer& placer, LodLists& lists);
+void fill_lod_lists(const dna::LodMap& map, LodLists& lists);
+
+/// Correctives, once every reader of a control has marked its reach.
+Status fill_psds(const dna::DnaView& view, Span<uint8_t> reach, Arena& scratch, Rig& rig,
+                 Error& error);
+
+/// Leading rows of a table at a LOD; 0 past the end of the list.
+inline uint32_t rows_at_lod(const dna::Array<uint16_t>& lods, uint32_t lod) {
+  return lod < lods.count ? lods[lod] : 0;
+}
+
+/// How many LODs, counted from 0, reach a row.
+inline uint8_t lod_reach(const dna::Array<uint16_t>& lods, uint32_t lod_count, uint32_t row) {
+  uint32_t reach = lod_count;
+  while (reach > 0 && rows_at_lod(lods, reach - 1) <= row) --reach;
+  return static_cast<uint8_t>(reach);
+}
+
+/// Big-endian array -> native array of at least its length.
+template <class T, class U>
+void copy_array(const dna::Array<T>& from, const Span<U>& to) {
+  for (uint32_t i = 0; i < from.count; ++i) to[i] = static_cast<U>(from[i]);
+}
+
+}  // namespace mien

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Verify, then trust: every cross reference of a view, before anything follows it
+// (dna-format section 13). The reader has already checked that arrays lie within the file.
+#pragma once
+
+#include "runtime/dna/format/dna_view.h"
+#include "runtime/dna/format/findings.h"
+
+namespace mien::dna {
+
+// `lods` (bit l for LOD l, 0 for all) will be selected: what only others use need not be right.
+
+/// Descriptor, dsce and definition: all that LOD selection and the other layers rely on.
+/// False if the sink ended the examination.
+bool check_definition(const DnaView& view, const FindingSink& sink, uint64_t lods = 0);
+
+/// All other loaded layers. Expects that check_definition found no error.
+/// False if the sink ended the examination.
+bool check_layers(const DnaView& view, const FindingSink& sink, uint64_t lods = 0);
+
+}  // namespace mien::dna

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Arrays with other numbers in them, for passes that change a view. What stays the same is not
+// copied: it still lies in the file.
+#pragma once
+
+#include <cfloat>
+#include <cmath>
+
+#include "runtime/base/coordinate_system.h"
+#include "runtime/base/status.h"
+#include "runtime/dna/format/dna_schema.h"
+
+namespace mien::dna {
+
+/// value * factor, rounded once; what would overflow is the largest number there is. A factor of 1
+/// or -1 keeps all bits but the sign.
+inline float scaled(float value, double factor) {
+  if (factor == 1) return value;
+  if (factor == -1) return -value;
+  const double product = value * factor;
+  if (std::isfinite(value) && std::fabs(product) > double{FLT_MAX}) {
+    return product < 0 ? -FLT_MAX : FLT_MAX;
+  }
+  return static_cast<float>(product);
+}
+
+/// New arrays are empty once memory has run out.
+class ConvertedArrays {
+ public:
+  explicit ConvertedArrays(Arena& arena) : arena_(arena) {}
+
+  bool out_of_memory() const { return out_of_memory_; }
+  /// Notes it; whoever runs the pass reports it.
+  Status run_out() {
+    out_of_memory_ = true;
+    return Status::kOk;
+  }
+
+  /// `data` is null if memory ran out or count is 0.
+  template <class T>
+  NewArray<T> room(size_t count) {
+    const NewArray<T> array = new_array<T>(arena_, count);
+    if (count == 0 || array.data) return array;
+    out_of_memory_ = true;
+    return {};
+  }
+
+  /// f(i) for each i.
+  template <class T, class F>
+  Array<T> make(size_t count, F&& f) {
+    const NewArray<T> array = room<T>(count);
+    for (uint32_t i = 0; i < array.count; ++i) array.set(i, f(i));
+    return array;
+  }
+
+  /// f(number) for each number.
+  template <class T, class F>
+  Array<T> map(const Array<T>& old, F&& f) {
+    return make<T>(old.count, [&](uint32_t i) { return f(old[i]); });
+  }
+
+  /// The same, but `old` itself if all numbers stay.
+  template <class T, class F>
+  Array<T> map_if_new(const Array<T>& old, F&& f) {
+    for (uint32_t i = 0; i < old.count; ++i) {
+      if (f(old[i]) != old[i]) return map(old, f);
+    }
+    return old;
+  }
+
+  Array<float> times(const Array<float>& old, double factor) {
+    if (factor == 1) return old;
+    return map(old, [factor](float value) { return scaled(value, factor); });
+  }
+
+  /// Positions, translations and deltas.
+  Vec3Array vectors(const Vec3Array& old, const CoordinateChange& change) {
+    const Array<float>* parts[3] = {&old.xs, &old.ys, &old.zs};
+    return {times(*parts[change.from[0]], change.vector[0]),
+            times(*parts[change.from[1]], change.vector[1]),
+            times(*parts[change.from[2]], change.vector[2])};
+  }
+
+  /// Normals: no unit.
+  Vec3Array directions(const Vec3Array& old, const CoordinateChange& change) {
+    CoordinateChange turn = change;
+    for (int d = 0; d < 3; ++d) turn.vector[d] = static_cast<double>(change.normal[d]);
+    return vectors(old, turn);
+  }
+
+ private:
+  Arena& arena_;
+  bool out_of_memory_ = false;
+};
+
+}  // namespace mien::dna

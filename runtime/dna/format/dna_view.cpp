@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/dna/format/dna_view.h"
+
+#include "runtime/base/status.h"
+
+namespace mien::dna {
+
+const LayerKind* find_layer_kind(uint32_t code, uint32_t layer_version) {
+  for (const LayerKind& kind : kLayerKinds) {
+    if (kind.code == code && kind.layer_version == layer_version) return &kind;
+  }
+  return nullptr;
+}
+
+uint32_t close_layer_mask(uint32_t layers) {
+  if (layers == 0) return kLayersAll;
+  if (layers & kLayerRbf) layers |= kLayerBehavior;
+  if (layers & ~uint32_t{kLayerDescriptor}) layers |= kLayerDefinition;
+  return layers | kLayerDescriptor;
+}
+
+uint64_t DnaView::offset_of(const void* address) const {
+  const uintptr_t at = reinterpret_cast<uintptr_t>(address);
+  const uintptr_t begin = reinterpret_cast<uintptr_t>(file);
+  return file && at >= begin && at - begin <= file_size ? at - begin : kNoOffset;
+}
+
+}  // namespace mien::dna

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/dna/format/dna_writer.h"
+
+#include "runtime/dna/format/record_size.h"
+
+namespace mien::dna {
+namespace {
+
+/// Appends fields to a buffer, or only counts bytes if there is none.
+class FieldWriter {
+ public:
+  FieldWriter(uint8_t* out, uint16_t version) : out_(out), version_(version) {}
+
+  bool has_face_winding() const { return version_has_face_winding(version_); }
+  uint64_t position() const { return at_; }
+
+  template <class T>
+  void operator()(const char*, const T& member) {
+    write(member);
+  }
+
+  template <class T, std::enable_if_t<std::is_arithmetic<T>::value, int> = 0>
+  void write(T value) {
+    if (out_) store_big_endian(out_ + at_, value);
+    at_ += sizeof(T);
+  }
+
+  void write(const String& string) {
+    write(string.count);
+    copy(string.data, string.count);
+  }
+
+  template <class T>
+  void write(const Array<T>& array) {
+    write(array.count);
+    copy(array.data, array.byte_count());
+  }
+
+  template <class T>
+  void write(const List<T>& list) {
+    write(list.count);
+    for (const T& element : list) write(element);
+  }
+
+  template <class Record, std::enable_if_t<std::is_class<Record>::value, int> = 0>
+  void write(const Record& record) {
+    if (!IsBlock<Record>::value) return Record::fields(record, *this);
+    // From 2.2 on the size of what follows stands in front, in 2.1 the offset of its end.
+    const uint64_t front = at_;
+    at_ += 4;
+    Record::fields(record, *this);
+    put(front, static_cast<uint32_t>(version_ == 1 ? at_ : at_ - front - 4));
+  }
+
+  void copy(const uint8_t* bytes, size_t count) {
+    if (out_ && count) memcpy(out_ + at_, bytes, count);
+    at_ += count;
+  }
+
+  /// Overwrites a number that was left open.
+  void put(uint64_t at, uint32_t value) {
+    if (out_) store_big_endian(out_ + at, value);
+  }
+
+ private:
+  uint8_t* out_;
+  uint16_t version_;
+  uint64_t at_ = 0;
+};
+
+bool version_knows(uint16_t version, const LayerKind& kind) {
+  return version < 1 || version > 8 || kind.since <= version;
+}
+
+bool is_written(const DnaView& view, const WriteOptions& options, const IndexEntry& entry) {
+  const LayerKind* kind = find_layer_kind(entry.code, entry.layer_version);
+  if (options.keep_unknown) return true;
+  return kind && version_knows(view.version, *kind) && version_knows(options.version, *kind);
+}
+
+const IndexEntry* find_entry(const DnaView& view, const LayerKind& kind) {
+  for (const IndexEntry& entry : view.index) {
+    if (entry.code == kind.code && entry.layer_version == kind.layer_version) return &entry;
+  }
+  return nullptr;
+}
+
+/// A layer of the file: of a known kind, or bytes that are carried along.
+struct LayerToWrite {
+  uint32_t code, layer_version;
+  const LayerKind* kind;    // null: write `entry` as it is
+  const IndexEntry* entry;  // null: the index lacks it
+  bool empty;               // what the source had was dropped
+};
+
+/// Calls f(layer) for each layer of the file, in order: those of the index, then those that the
+/// version knows and the index lacks or lost.
+template <class F>
+void for_each_layer(const DnaView& view, const WriteOptions& options, F&& f) {
+  for (const IndexEntry& entry : view.index) {
+    if (!is_written(view, options, entry)) continue;
+    const LayerKind* kind = find_layer_kind(entry.code, entry.layer_version);
+    f(LayerToWrite{entry.code, entry.layer_version, kind, &entry, false});
+  }
+  for (const LayerKind& kind : kLayerKinds) {
+    if (!version_knows(options.version, kind)) continue;
+    const IndexEntry* entry = find_entry(view, kind);
+    if (entry && is_written(view, options, *entry)) continue;
+    // An extension that was made for poses goes where they go.
+    const LayerKind& origin = kind.id == LayerId::kRbfe && !entry ? kLayerKinds[5] : kind;
+    const IndexEntry* lost = find_entry(view, origin);
+    const bool empty = lost && !is_written(view, options, *lost);
+    f(LayerToWrite{kind.code, kind.layer_version, &kind, nullptr, empty});
+  }
+}
+
+void write_layer(const DnaView& view, const LayerToWrite& layer, FieldWriter& writer) {
+  if (!layer.kind) return writer.copy(layer.entry->data, layer.entry->size);
+  with_layer(view, layer.kind->id, [&](const auto& record) {
+    using Record = std::decay_t<decltype(record)>;
+    writer.write(layer.empty ? Record{} : record);
+  });
+}
+
+void write_header(const DnaView& view, const WriteOptions& options, FieldWriter& writer) {
+  writer.copy(reinterpret_cast<const uint8_t*>("DNA"), 3);
+  writer.write(view.generation);
+  writer.write(options.version);
+}
+
+// Header | eight section offsets | sections | "AND"
+void write_sections(const DnaView& view, FieldWriter& writer) {
+  uint64_t slot = writer.position();
+  for (int s = 0; s < 8; ++s) writer.write(uint32_t{0});
+  auto begin_section = [&] {
+    writer.put(slot, static_cast<uint32_t>(writer.position()));
+    slot += 4;
+  };
+  begin_section();
+  writer.write(view.desc);
+  begin_section();
+  writer.write(view.defn);
+  begin_section();  // "behavior": its four parts are the next sections
+  begin_section();
+  writer.write(view.bhvr.controls);
+  begin_section();
+  writer.write(view.bhvr.joints);
+  begin_section();
+  writer.write(view.bhvr.channels);
+  begin_section();
+  writer.write(view.bhvr.maps);
+  begin_section();
+  writer.write(view.geom);
+  writer.copy(reinterpret_cast<const uint8_t*>("AND"), 3);
+}
+
+// Header | layer count | {code, layer version, offset, size} of each | layers
+void write_layers(const DnaView& view, const WriteOptions& options, FieldWriter& writer) {
+  uint32_t count = 0;
+  for_each_layer(view, options, [&](const LayerToWrite&) { ++count; });
+  writer.write(count);
+  uint64_t slot = writer.position();
+  for (uint64_t i = 0; i < 4 * uint64_t{count}; ++i) writer.write(uint32_t{0});
+
+  for_each_layer(view, options, [&](const LayerToWrite& layer) {
+    const uint64_t begin = writer.position();
+    write_layer(view, layer, writer);
+    const uint64_t numbers[] = {layer.code, layer.layer_version, begin, writer.position() - begin};
+    for (uint64_t number : numbers) {
+      writer.put(slot, static_cast<uint32_t>(number));
+      slot += 4;
+    }
+  });
+}
+
+uint64_t write_file_bytes(const DnaView& view, const WriteOptions& options, uint8_t* out) {
+  FieldWriter writer(out, options.version);
+  write_header(view, options, writer);
+  if (options.version == 1) {
+    write_sections(view, writer);
+  } else {
+    write_layers(view, options, writer);
+  }
+  return writer.position();
+}
+
+}  // namespace
+
+uint64_t encoded_size(const DnaView& view, const WriteOptions& options) {
+  return write_file_bytes(view, options, nullptr);
+}
+
+void encode(const DnaView& view, const WriteOptions& options, uint8_t* out) {
+  write_file_bytes(view, options, out);
+}
+
+}  // namespace mien::dna

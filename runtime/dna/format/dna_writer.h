@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// View -> canonical file bytes (dna-format section 14), through the same field descriptions that
+// the reader walks.
+#pragma once
+
+#include "runtime/dna/format/dna_view.h"
+
+namespace mien::dna {
+
+struct WriteOptions {
+  uint16_t version = 8;      // 2.version
+  bool keep_unknown = true;  // also layers that the version does not know yet
+};
+
+/// Bytes of the file. The format numbers them with 32 bits: a caller refuses more.
+uint64_t encoded_size(const DnaView& view, const WriteOptions& options);
+
+/// Writes exactly encoded_size() bytes.
+void encode(const DnaView& view, const WriteOptions& options, uint8_t* out);
+
+}  // namespace mien::dna

@@ -1,0 +1,627 @@
+// SPDX-License-Identifier: MIT
+// Baked rigs: what is opened is what was saved, and whatever else is opened does no harm.
+#include "runtime/baked/baked_rig.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "tests/support/exercise_baked.h"
+#include "tests/support/many_rigs.h"
+#include "tests/support/misuse.h"
+
+namespace mien {
+namespace {
+
+Bytes save(const MienRig* rig) {
+  size_t size = 0;
+  EXPECT_EQ(mien_rig_save_memory(rig, nullptr, 0, &size, nullptr), MIEN_OK);
+  Bytes bytes(size);
+  EXPECT_EQ(mien_rig_save_memory(rig, bytes.data(), size, &size, nullptr), MIEN_OK);
+  return bytes;
+}
+
+MienBakedDesc image_desc(uint32_t isa = MIEN_ISA_BEST, uint32_t check = MIEN_BAKED_CHECK_FULL) {
+  MienBakedDesc desc = sized<MienBakedDesc>();
+  desc.isa = isa;
+  desc.check = check;
+  return desc;
+}
+
+RigHandle open_image(const AlignedBytes& bytes, const MienBakedDesc& desc = image_desc(),
+                     MienStatus expected = MIEN_OK) {
+  MienError error = sized<MienError>();
+  MienRig* rig = nullptr;
+  EXPECT_EQ(mien_rig_open_memory(bytes.data(), bytes.size(), &desc, &rig, &error), expected)
+      << error.message;
+  return RigHandle(rig);
+}
+
+RigHandle tiny() {
+  Arena arena(default_allocator());
+  const Bytes bytes = write_view(dna::tiny_rig(arena));
+  return create_rig(open_dna(bytes).get());
+}
+
+// The tiny rig, with every layer, and networks.
+Bytes tiny_image() { return save(tiny().get()); }
+Bytes ml_image() {
+  return save(create_rig(generate_dna(MIEN_PRESET_TINY, 1, MIEN_GENERATE_ML).get()).get());
+}
+
+// What is opened is what was saved ---------------------------------------------------------------
+
+void expect_same(const MienDna* dna, const MienRigDesc& desc) {
+  RigHandle rig = create_rig(dna, desc);
+  const Bytes bytes = save(rig.get());
+  const AlignedBytes image(bytes);
+  RigHandle opened = open_image(image, image_desc(desc.isa));
+  ASSERT_TRUE(opened);
+  EXPECT_TRUE(save(opened.get()) == bytes) << "saved again, but with other bytes";
+
+  MienRigInfo info = info_of(rig), again = info_of(opened);
+  EXPECT_EQ(info.instance_bytes, again.instance_bytes);
+  info.rig_bytes = again.rig_bytes = 0;
+  EXPECT_EQ(memcmp(&info, &again, sizeof(info)), 0);
+  for (uint32_t kind = 0; kind <= MIEN_KIND_TWIST_SWING; ++kind) {
+    EXPECT_EQ(names_of(rig, kind), names_of(opened, kind));
+  }
+
+  Character a(rig), b(opened);
+  Random random = Random::from_seed(5, 1);
+  for (uint32_t lod = 0; lod < info.lod_count; ++lod) {
+    for (uint32_t percent : {0u, 20u, 100u}) {
+      draw_controls(random, percent, a.raw);
+      std::copy(a.raw.begin(), a.raw.end(), b.raw.begin());
+      for (size_t m = 0; m < a.masks.count; ++m) {
+        a.masks[m] = b.masks[m] = static_cast<float>(random.below(5)) / 4;
+      }
+      a.evaluate(lod);
+      b.evaluate(lod);
+      EXPECT_TRUE(same_results(a, b)) << "LOD " << lod;
+    }
+    for (size_t i = 0; i < a.gui.count; ++i) {
+      a.gui[i] = b.gui[i] = static_cast<float>(random.below(100)) / 50 - 1;
+    }
+    a.map_gui_to_raw();
+    b.map_gui_to_raw();
+    EXPECT_TRUE(same_bits(a.controls, b.controls));
+    a.map_raw_to_gui();
+    b.map_raw_to_gui();
+    EXPECT_TRUE(same_bits(a.gui, b.gui));
+  }
+}
+
+TEST(RigImage, EvaluatesAsTheRigThatWasSaved) {
+  for_each_dna(8, [](const DnaHandle& dna) {
+    for_each_rig_desc([&](MienRigDesc desc) {
+      for (uint32_t masks : {MIEN_ML_MASKS_SWITCH, MIEN_ML_MASKS_BLEND}) {
+        desc.ml_masks = masks;
+        desc.arithmetic = masks;  // each of them once
+        expect_same(dna.get(), desc);
+      }
+    });
+  });
+}
+
+TEST(RigImage, NetworksBodiesAndOtherSystems) {
+  const DnaHandle rigs[] = {generate_dna(MIEN_PRESET_TINY, 1, MIEN_GENERATE_ML),
+                            generate_dna(MIEN_PRESET_BODY, 1, MIEN_GENERATE_ML),
+                            generate_dna(MIEN_PRESET_HEAD, 0), generate_dna(MIEN_PRESET_LARGE, 2)};
+  for (const DnaHandle& dna : rigs) {
+    for (uint32_t rotation : {MIEN_OUTPUT_EULER, MIEN_OUTPUT_QUATERNION}) {
+      MienRigDesc desc = sized<MienRigDesc>();
+      desc.rotation = desc.storage = rotation;
+      expect_same(dna.get(), desc);
+    }
+  }
+  MienCoordinateSystem system = sized<MienCoordinateSystem>();
+  ASSERT_EQ(mien_coordinate_system_named("unreal", 6, &system), MIEN_OK);
+  const Bytes bytes = write_dna(rigs[0].get());
+  MienDnaDesc desc = sized<MienDnaDesc>();
+  desc.system = &system;
+  MienDna* dna = nullptr;
+  ASSERT_EQ(mien_dna_open_memory(bytes.data(), bytes.size(), &desc, &dna, nullptr), MIEN_OK);
+  const DnaHandle turned(dna);
+  expect_same(turned.get(), sized<MienRigDesc>());
+}
+
+TEST(RigImage, DoesNotDependOnTheInstructionSet) {
+  const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 3);
+  const Bytes expected = save(create_rig(dna.get()).get());
+  for (uint32_t isa : present_isas()) {
+    EXPECT_TRUE(save(create_rig(dna.get(), isa).get()) == expected) << mien_isa_name(isa);
+  }
+}
+
+TEST(RigImage, CannotBeTurnedOffByReuse) {
+  const AlignedBytes image(tiny_image());
+  MienBakedDesc desc = image_desc();
+  desc.reuse = MIEN_REUSE_NOTHING;
+  const RigHandle rig = open_image(image, desc);
+  EXPECT_TRUE(reinterpret_cast<const Rig*>(rig.get())->always_evaluate);
+  EXPECT_TRUE(save(rig.get()) == tiny_image());
+}
+
+// Files
+// --------------------------------------------------------------------------------------------
+
+struct TemporaryFile {
+  std::string path = testing::TempDir() + "baked_rig_test_" + std::to_string(getpid());
+  ~TemporaryFile() { remove(path.c_str()); }
+};
+
+TEST(RigImage, FilesAreMappedOrReadWithFewAllocations) {
+  const TemporaryFile file;
+  const RigHandle rig = tiny();
+  MienError error = sized<MienError>();
+  ASSERT_EQ(mien_rig_save_file(rig.get(), file.path.c_str(), &error), MIEN_OK) << error.message;
+  for (uint32_t access : {MIEN_FILE_MAP, MIEN_FILE_READ}) {
+    CountingAllocator counter;
+    const MienAllocator allocator = counter.get();
+    MienBakedDesc desc = image_desc();
+    desc.file_access = access;
+    desc.allocator = &allocator;
+    MienRig* opened = nullptr;
+    ASSERT_EQ(mien_rig_open_file(file.path.c_str(), &desc, &opened, &error), MIEN_OK)
+        << error.message;
+    EXPECT_EQ(counter.requests, access == MIEN_FILE_MAP ? 1u : 2u);
+    EXPECT_TRUE(save(opened) == save(rig.get()));
+    MienInstance* instance = nullptr;
+    ASSERT_EQ(mien_instance_create(opened, nullptr, &instance, nullptr), MIEN_OK);
+    mien_rig_destroy(opened);
+    EXPECT_NE(counter.live, 0u) << "the instance needs the rig";
+    mien_instance_destroy(instance);
+    EXPECT_TRUE(counter.clean()) << counter.first_wrong;
+  }
+  MienRig* none = nullptr;
+  EXPECT_EQ(mien_rig_open_file("/nonexistent/rig", nullptr, &none, &error), MIEN_ERROR_FILE_OPEN);
+  EXPECT_EQ(mien_rig_save_file(rig.get(), "/nonexistent/rig", &error), MIEN_ERROR_FILE_WRITE);
+}
+
+TEST(RigImage, MemoryThatIsNotAlignedIsCopied) {
+  const Bytes bytes = tiny_image();
+  Bytes shifted(bytes.size() + 128);
+  const size_t off = 64 - reinterpret_cast<uintptr_t>(shifted.data()) % 64 + 1;
+  std::copy(bytes.begin(), bytes.end(), shifted.begin() + static_cast<ptrdiff_t>(off));
+  MienRig* rig = nullptr;
+  ASSERT_EQ(mien_rig_open_memory(shifted.data() + off, bytes.size(), nullptr, &rig, nullptr),
+            MIEN_OK);
+  const RigHandle opened(rig);
+  std::fill(shifted.begin(), shifted.end(), uint8_t{0xA5});
+  EXPECT_TRUE(save(rig) == bytes);
+}
+
+TEST(RigImage, EveryFailureOfMemoryIsSurvived) {
+  const TemporaryFile file;
+  const Bytes bytes = tiny_image();
+  const RigHandle rig = tiny();
+  ASSERT_EQ(mien_rig_save_file(rig.get(), file.path.c_str(), nullptr), MIEN_OK);
+  Bytes shifted(bytes.size() + 64);
+  const size_t off = 64 - reinterpret_cast<uintptr_t>(shifted.data()) % 64 + 1;
+  shifted.resize(bytes.size() + off);
+  std::copy(bytes.begin(), bytes.end(), shifted.begin() + static_cast<ptrdiff_t>(off));
+  for (bool from_file : {true, false}) {
+    for (size_t k = 1; k <= 2; ++k) {
+      CountingAllocator counter;
+      counter.fail_at = k;
+      const MienAllocator allocator = counter.get();
+      MienBakedDesc desc = image_desc();
+      desc.file_access = MIEN_FILE_READ;
+      desc.allocator = &allocator;
+      MienError error = sized<MienError>();
+      MienRig* opened = nullptr;
+      const MienStatus status =
+          from_file
+              ? mien_rig_open_file(file.path.c_str(), &desc, &opened, &error)
+              : mien_rig_open_memory(shifted.data() + off, bytes.size(), &desc, &opened, &error);
+      EXPECT_EQ(status, MIEN_ERROR_MEMORY);
+      EXPECT_EQ(opened, nullptr);
+      EXPECT_NE(error.message[0], 0);
+      EXPECT_TRUE(counter.clean()) << counter.first_wrong;
+    }
+  }
+}
+
+// Misuse
+// -------------------------------------------------------------------------------------------
+
+TEST(RigImage, ArgumentsAreChecked) {
+  const AlignedBytes image(tiny_image());
+  const RigHandle rig = tiny();
+  MienRig* out = nullptr;
+  size_t size = 0;
+  uint8_t small[8];
+  EXPECT_EQ(mien_rig_save_file(nullptr, "x", nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_rig_save_file(rig.get(), nullptr, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_rig_save_memory(rig.get(), nullptr, 0, nullptr, nullptr),
+            MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_rig_save_memory(rig.get(), nullptr, 8, &size, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_rig_save_memory(nullptr, nullptr, 0, &size, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_rig_save_memory(rig.get(), small, 8, &size, nullptr), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(size, image.size());
+  EXPECT_EQ(mien_rig_open_file(nullptr, nullptr, &out, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_rig_open_file("x", nullptr, nullptr, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_rig_open_memory(nullptr, 64, nullptr, &out, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_rig_open_memory(nullptr, 0, nullptr, &out, nullptr), MIEN_ERROR_BAKED_SIGNATURE);
+
+  const auto refused = [&](MienStatus expected, auto&& change) {
+    MienBakedDesc desc = image_desc();
+    change(desc);
+    out = reinterpret_cast<MienRig*>(&desc);
+    MienError error = sized<MienError>();
+    EXPECT_EQ(mien_rig_open_memory(image.data(), image.size(), &desc, &out, &error), expected);
+    EXPECT_EQ(out, nullptr);
+    EXPECT_NE(error.message[0], 0);
+  };
+  refused(MIEN_ERROR_STRUCT_SIZE, [](MienBakedDesc& d) { d.struct_size = 8; });
+  refused(MIEN_ERROR_INVALID_ARGUMENT, [](MienBakedDesc& d) { d.isa = 99; });
+  refused(MIEN_ERROR_INVALID_ARGUMENT, [](MienBakedDesc& d) { d.file_access = 2; });
+  refused(MIEN_ERROR_INVALID_ARGUMENT, [](MienBakedDesc& d) { d.check = 2; });
+  refused(MIEN_ERROR_INVALID_ARGUMENT, [](MienBakedDesc& d) { d.reuse = 2; });
+  refused(MIEN_ERROR_INVALID_ARGUMENT, [](MienBakedDesc& d) { d.reserved = 1; });
+  const MienAllocator half = {nullptr, nullptr, nullptr};
+  refused(MIEN_ERROR_INVALID_ARGUMENT, [&](MienBakedDesc& d) { d.allocator = &half; });
+}
+
+// Foreign and damaged images
+// -----------------------------------------------------------------------
+
+/// Status of an image with a number of its header, or anything else, changed.
+template <class T>
+MienStatus status_with(size_t offset, T value, uint32_t check = MIEN_BAKED_CHECK_SAFE) {
+  const AlignedBytes image(tiny_image());
+  memcpy(image.data() + offset, &value, sizeof(value));
+  const MienBakedDesc desc = image_desc(MIEN_ISA_BEST, check);
+  MienRig* rig = nullptr;
+  const MienStatus status = mien_rig_open_memory(image.data(), image.size(), &desc, &rig, nullptr);
+  mien_rig_destroy(rig);
+  return status;
+}
+
+TEST(RigImage, ForeignImagesAreRefused) {
+  EXPECT_EQ(status_with(0, 'X'), MIEN_ERROR_BAKED_SIGNATURE);
+  EXPECT_EQ(status_with(offsetof(ImageHeader, byte_order), uint32_t{0x04030201}),
+            MIEN_ERROR_BAKED_VERSION);
+  EXPECT_EQ(status_with(offsetof(ImageHeader, version), kBakedVersion + 1),
+            MIEN_ERROR_BAKED_VERSION);
+  EXPECT_EQ(status_with(offsetof(ImageHeader, file_size), uint64_t{1} << 40),
+            MIEN_ERROR_BAKED_TRUNCATED);
+  EXPECT_EQ(status_with(offsetof(ImageHeader, file_size), uint64_t{64}),
+            MIEN_ERROR_BAKED_STRUCTURE);
+  EXPECT_EQ(status_with(offsetof(ImageHeader, span_count), uint32_t{1}),
+            MIEN_ERROR_BAKED_STRUCTURE);
+  const ImageHeader header = [] {
+    ImageHeader h;
+    memcpy(&h, tiny_image().data(), sizeof(h));
+    return h;
+  }();
+  const size_t first_span = sizeof(ImageHeader) + header.scalar_count * sizeof(uint64_t);
+  EXPECT_EQ(status_with(first_span + offsetof(ImageSpan, element_size), uint32_t{3}),
+            MIEN_ERROR_BAKED_VERSION);
+  EXPECT_EQ(status_with(first_span + offsetof(ImageSpan, offset), uint64_t{0}),
+            MIEN_ERROR_BAKED_STRUCTURE);
+  EXPECT_EQ(status_with(first_span + offsetof(ImageSpan, count), ~uint64_t{0}),
+            MIEN_ERROR_BAKED_STRUCTURE);
+}
+
+TEST(RigImage, DnaIsNoImageAndImagesAreNoDna) {
+  Arena arena(default_allocator());
+  const AlignedBytes dna(write_view(dna::tiny_rig(arena)));
+  open_image(dna, image_desc(), MIEN_ERROR_BAKED_SIGNATURE);
+  open_dna(tiny_image(), 0, MIEN_ERROR_DNA_SIGNATURE);
+}
+
+TEST(RigImage, FullCheckFindsEveryChangedByte) {
+  const Bytes bytes = tiny_image();
+  for (size_t at = offsetof(ImageHeader, checksum); at < bytes.size(); ++at) {
+    const MienStatus status =
+        status_with(at, static_cast<uint8_t>(bytes[at] ^ 0x10), MIEN_BAKED_CHECK_FULL);
+    EXPECT_TRUE(status == MIEN_ERROR_BAKED_CHECKSUM || status == MIEN_ERROR_BAKED_STRUCTURE ||
+                status == MIEN_ERROR_BAKED_VERSION)
+        << "byte " << at << ": " << mien_status_name(status);
+    if (HasFailure()) break;
+  }
+}
+
+TEST(RigImage, EveryTruncationIsRefused) {
+  for (const Bytes& whole : {tiny_image(), ml_image()}) {
+    for (size_t size = 0; size < whole.size(); size += 64) {
+      const AlignedBytes image(Bytes(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(size)));
+      const ExerciseBaked life = live_image(image.data(), image.size());
+      EXPECT_EQ(life.opened, size == 0 ? MIEN_ERROR_BAKED_SIGNATURE : MIEN_ERROR_BAKED_TRUNCATED);
+      EXPECT_EQ(life.broken, "");
+    }
+    const AlignedBytes image(whole);
+    const ExerciseBaked life = live_image(image.data(), image.size());
+    EXPECT_EQ(life.opened, MIEN_OK) << life.message;
+    EXPECT_EQ(life.broken, "");
+  }
+}
+
+// Each byte of what is not mere numbers: one bit of it, all of it, and the largest value.
+TEST(RigImage, AnyChangeIsRefusedOrDoesNoHarm) {
+  size_t refused = 0, survived = 0;
+  for (const Bytes& whole : {tiny_image(), ml_image()}) {
+    const AlignedBytes image(whole);
+    for (size_t at = 0; at < whole.size(); ++at) {
+      for (const int change : {1 << at % 8, 0xFF, -1}) {
+        const auto byte = static_cast<uint8_t>(change < 0 ? 0xFF : whole[at] ^ change);
+        image.data()[at] = byte;
+        const ExerciseBaked life = live_image(image.data(), image.size());
+        ++(life.opened == MIEN_OK ? survived : refused);
+        EXPECT_EQ(life.broken, "") << "byte " << at << " is " << unsigned{byte};
+      }
+      image.data()[at] = whole[at];
+      if (HasFailure()) return;
+    }
+  }
+  EXPECT_GT(refused, survived / 4);
+  EXPECT_GT(survived, 0u);
+}
+
+// Damage where it would hurt --------------------------------------------------------------------
+
+/// An image, and where in it the arrays of the rig are.
+struct OpenImage {
+  AlignedBytes bytes;
+  RigHandle rig;
+
+  explicit OpenImage(const Bytes& image) : bytes(image), rig(open_image(bytes)) {}
+  const Rig& arrays() const { return *reinterpret_cast<const Rig*>(rig.get()); }
+
+  /// Opened, and used if it could be, with `value` instead; the change is undone.
+  template <class T>
+  MienStatus status_with(const Span<T>& array, size_t i, uint32_t value,
+                         uint32_t isa = MIEN_ISA_BEST) {
+    const T kept = array[i];
+    array[i] = static_cast<T>(value);
+    const ExerciseBaked life = live_image(bytes.data(), bytes.size(), isa);
+    array[i] = kept;
+    EXPECT_EQ(life.broken, "") << i << " is " << value;
+    return life.opened;
+  }
+};
+
+TEST(RigImage, PiecesStayInTheirTiles) {
+  OpenImage tiny(tiny_image()), tall(save(make_rig(tall_rig()).get()));
+  for (OpenImage* image : {&tiny, &tall}) {
+    const JointMatrix& joints = image->arrays().joints;
+    const uint32_t panels = joints.panel_count();
+    const uint32_t blocks = joints.panels[panels].first_block_row;
+    for (size_t p : {size_t{0}, joints.block_rows.count / 2, joints.block_rows.count - 1}) {
+      for (uint32_t value : {joints.block_rows[p] + 1u, joints.block_rows[p] + 2u,
+                             blocks * kBlockRowUnit, 0xFFFCu}) {
+        EXPECT_EQ(image->status_with(joints.block_rows, p, value), MIEN_ERROR_BAKED_STRUCTURE);
+      }
+    }
+
+    // What of a column stands before a panel.
+    const size_t column = joints.columns.count / 2 * joints.panels.count;
+    for (uint16_t ColumnPart::*kind : {&ColumnPart::pairs, &ColumnPart::singles}) {
+      const auto refused = [&](size_t panel, uint32_t value) {
+        EXPECT_EQ(
+            image->status_with(Span<uint16_t>{&(joints.parts[column + panel].*kind), 1}, 0, value),
+            MIEN_ERROR_BAKED_STRUCTURE)
+            << "panel " << panel << ": " << value;
+      };
+      const uint32_t count = joints.parts[column + panels].*kind;
+      refused(0, 1);
+      for (uint32_t value : {count - 1, count + 1, 0xFFFFu}) refused(panels, value);
+      for (uint32_t panel = 1; panel < panels; ++panel) {
+        refused(panel, count + 1);
+        const uint32_t before = joints.parts[column + panel - 1].*kind;
+        if (before != 0) refused(panel, before - 1);
+      }
+    }
+  }
+
+  // Another block of the tile gives nonsense and does no harm; one of another tile would.
+  const JointMatrix& joints = tall.arrays().joints;
+  uint32_t last_tile = 0;
+  while (joints.tile_end(last_tile) < joints.panel_count()) last_tile = joints.tile_end(last_tile);
+  const uint32_t end_of_first = joints.panels[joints.tile_end(0)].first_block_row;
+  const uint32_t first_of_last = joints.panels[last_tile].first_block_row;
+  const uint32_t last = joints.panels[joints.panel_count()].first_block_row - 1;
+  const size_t early = 0, late = joints.first_entry[1] - 1;  // of the first column
+  ASSERT_LT(joints.block_rows[early], end_of_first * kBlockRowUnit);
+  ASSERT_GE(joints.block_rows[late], first_of_last * kBlockRowUnit);
+  const auto status_with = [&](size_t piece, uint32_t block) {
+    return tall.status_with(joints.block_rows, piece, block * kBlockRowUnit);
+  };
+  for (uint32_t block : {0u, end_of_first - 1}) EXPECT_EQ(status_with(early, block), MIEN_OK);
+  for (uint32_t block : {first_of_last, last}) EXPECT_EQ(status_with(late, block), MIEN_OK);
+  EXPECT_EQ(status_with(early, end_of_first), MIEN_ERROR_BAKED_STRUCTURE);
+  EXPECT_EQ(status_with(late, first_of_last - 1), MIEN_ERROR_BAKED_STRUCTURE);
+}
+
+/// What a packet gives, and what each of it gives alone.
+struct Results {
+  std::vector<std::vector<float>> together, alone;
+};
+
+/// Everybody moves the first `common` controls, and hardly anybody one of the last ones: columns of
+/// those are summed together, of these apart.
+Results results_of(const RigHandle& rig, uint32_t lod, uint32_t common) {
+  constexpr uint32_t kCount = 32, kLast = 15;
+  MienBatch* made = nullptr;
+  EXPECT_EQ(mien_batch_create(rig.get(), kCount, 1, nullptr, &made, nullptr), MIEN_OK);
+  const BatchHandle batch(made);
+  Random random = Random::from_seed(15, common);
+  std::vector<Character> together, alone;
+  std::vector<MienInstance*> handles;
+  for (uint32_t i = 0; i < kCount; ++i) {
+    together.emplace_back(rig);
+    alone.emplace_back(rig);
+    handles.push_back(together.back().instance.get());
+    const Span<float>& raw = alone.back().raw;
+    for (size_t c = 0; c < raw.count; ++c) {
+      const bool moves = c < common || (c + kLast >= raw.count && (c + i) % 16 == 0);
+      raw[c] = moves ? static_cast<float>(1 + random.below(8)) : 0;
+    }
+    std::copy(alone.back().raw.begin(), alone.back().raw.end(), together.back().raw.begin());
+  }
+  const std::vector<uint32_t> lods(kCount, lod);
+  EXPECT_EQ(mien_rig_evaluate_batch(rig.get(), made, handles.data(), lods.data(), kCount,
+                                    MIEN_STAGE_ALL, nullptr),
+            MIEN_OK);
+  Results results;
+  for (uint32_t i = 0; i < kCount; ++i) {
+    alone[i].evaluate(lod);
+    results.together.push_back(together[i].results());
+    results.alone.push_back(alone[i].results());
+  }
+  return results;
+}
+
+// What is said to be of a LOD, but adds to blocks that it does not have, is lost: it reaches
+// neither another character nor what is behind.
+TEST(RigImage, SumsOutsideOfTheLodReachNobody) {
+  OpenImage image(save(make_rig(tall_rig()).get()));
+  const JointMatrix& joints = image.arrays().joints;
+  const uint32_t panels = joints.panels_at_lod[1];
+  const uint32_t first = joints.panels[panels].first_block_row;
+  const uint32_t end = joints.panels[joints.tile_end(0)].first_block_row;
+  ASSERT_LT(first + 2, end);
+  size_t moved = 0;
+  for (size_t k = 0; k < joints.columns.count; ++k) {
+    const uint32_t pairs = joints.part(k, panels).pairs;
+    if (pairs == 0) continue;
+    const uint32_t block = first + (k % 2 ? 0 : (end - first) / 4 * 2);
+    joints.block_rows[joints.first_entry[k] + pairs - 1] =
+        static_cast<uint16_t>(block * kBlockRowUnit);
+    ++moved;
+  }
+  ASSERT_GT(moved, 10u);
+  ASSERT_EQ(live_image(image.bytes.data(), image.bytes.size()).opened, MIEN_OK);
+  for (uint32_t common : {12, 40, 60}) {
+    const Results results = results_of(image.rig, 1, common);
+    EXPECT_TRUE(results.together == results.alone) << common;
+  }
+}
+
+// A pair stands in an even block and the next one, whichever of them is named.
+TEST(RigImage, PairsBeginWithEvenBlocks) {
+  OpenImage image(save(make_rig(tall_rig()).get()));
+  const JointMatrix& joints = image.arrays().joints;
+  const Results before = results_of(image.rig, 0, 12);
+  for (size_t k = 0; k < joints.columns.count; ++k) {
+    const uint32_t pairs = joints.part(k, joints.panel_count()).pairs;
+    for (uint32_t i = 0; i < pairs; ++i)
+      joints.block_rows[joints.first_entry[k] + i] += kBlockRowUnit;
+  }
+  for (uint32_t isa : present_isas()) {
+    const ExerciseBaked life = live_image(image.bytes.data(), image.bytes.size(), isa);
+    EXPECT_EQ(life.opened, MIEN_OK);
+    EXPECT_EQ(life.broken, "");
+  }
+  const Results after = results_of(image.rig, 0, 12);
+  EXPECT_TRUE(after.alone == before.alone);
+  EXPECT_TRUE(after.together == before.together);
+}
+
+TEST(RigImage, TargetsStayInTheirPanels) {
+  OpenImage image(save(make_rig(tall_rig()).get()));
+  const Rig& rig = image.arrays();
+  const JointMatrix& joints = rig.joints;
+  for (uint32_t panel : {0u, joints.panel_count() - 1}) {
+    const JointPanel &at = joints.panels[panel], &next = joints.panels[panel + 1];
+    const uint32_t slots = (next.first_block_row - at.first_block_row) * kJointBlockRows;
+    uint32_t end = at.first_target;
+    for (uint32_t kind = 0; kind < kTargetKinds; ++kind) {
+      const uint32_t first = end, rows = kTargetRows[kind];
+      end += joints.targets_at_lod[(size_t{panel} * kTargetKinds + kind) * rig.lod_count];
+      if (first == end) continue;
+      for (uint32_t t : {first, end - 1}) {
+        JointTarget& target = joints.targets[t];
+        const Span<uint16_t> fields[] = {
+            {&target.slot, 1}, {&target.output, 1}, {&target.group, 1}};
+        const uint32_t most[] = {slots - rows, rig.joint_value_count() - rows,
+                                 joints.group_count - 1};
+        for (size_t f = 0; f < 3; ++f) {
+          EXPECT_EQ(image.status_with(fields[f], 0, most[f]), MIEN_OK);
+          EXPECT_EQ(image.status_with(fields[f], 0, most[f] + 1), MIEN_ERROR_BAKED_STRUCTURE);
+        }
+      }
+    }
+    EXPECT_EQ(end, next.first_target);
+  }
+}
+
+// Those of all panels at once: a LOD must not write what it did not sum.
+TEST(RigImage, TargetsOfALodHaveSums) {
+  OpenImage image(save(create_rig(generate_dna(MIEN_PRESET_SMALL, 3).get()).get()));
+  const Rig& rig = image.arrays();
+  const JointMatrix& joints = rig.joints;
+  ASSERT_TRUE(joints.fits_tile());
+  uint32_t first = joints.panels[joints.panel_count()].first_target;
+  size_t found = 0;
+  for (uint32_t kind = 0; kind < kTargetKinds; ++kind) {
+    const uint16_t* at_lod =
+        &joints
+             .targets_at_lod[(size_t{joints.panel_count()} * kTargetKinds + kind) * rig.lod_count];
+    const uint32_t rows = kTargetRows[kind];
+    for (uint32_t lod = 0; lod < rig.lod_count; ++lod) {
+      const uint32_t coarser = lod + 1 < rig.lod_count ? at_lod[lod + 1] : 0;
+      if (at_lod[lod] == coarser) continue;
+      const uint32_t slots =
+          joints.panels[joints.panels_at_lod[lod]].first_block_row * kJointBlockRows;
+      const Span<uint16_t> slot = {&joints.targets[first + at_lod[lod] - 1].slot, 1};
+      EXPECT_EQ(image.status_with(slot, 0, slots - rows), MIEN_OK);
+      EXPECT_EQ(image.status_with(slot, 0, slots - rows + 1), MIEN_ERROR_BAKED_STRUCTURE);
+      ++found;
+    }
+    first += at_lod[0];
+  }
+  EXPECT_GT(found, rig.lod_count);
+}
+
+TEST(RigImage, RunsOfCorrectivesStayInTheirTable) {
+  OpenImage image(save(create_rig(generate_dna(MIEN_PRESET_SMALL, 3).get()).get()));
+  const PsdTable& psds = image.arrays().psds;
+  const auto count = static_cast<uint32_t>(psds.run_lengths.count);
+  ASSERT_GT(count, 2u);
+  for (uint32_t e : {0u, count / 2, count - 1}) {
+    for (uint32_t length : {0u, count - e + 1, 0xFFFFu}) {
+      EXPECT_EQ(image.status_with(psds.run_lengths, e, length), MIEN_ERROR_BAKED_STRUCTURE);
+    }
+    EXPECT_EQ(image.status_with(psds.run_lengths, e, 1), MIEN_OK);
+  }
+  // As many as are left, taken to have as many inputs each as the one with the most.
+  uint32_t widest = 0;
+  for (uint32_t e = 0; e < count; ++e) {
+    const auto inputs = [&](uint32_t i) { return psds.first_input[i + 1] - psds.first_input[i]; };
+    if (inputs(e) > inputs(widest)) widest = e;
+  }
+  const uint64_t last =
+      psds.first_input[widest] +
+      uint64_t{count - widest} * (psds.first_input[widest + 1] - psds.first_input[widest]);
+  ASSERT_GT(last, psds.inputs.count);
+  EXPECT_EQ(image.status_with(psds.run_lengths, widest, count - widest),
+            MIEN_ERROR_BAKED_STRUCTURE);
+}
+
+// Wrong, but harmless: only those who ask for all checks are told, and only if the checksum does
+// not tell them first.
+TEST(RigImage, FullCheckKnowsTheOrderOfCorrectives) {
+  OpenImage image(tiny_image());
+  const PsdTable& psds = image.arrays().psds;
+  ASSERT_EQ(psds.outputs.count, 2u);
+  psds.inputs[0] = psds.outputs[1];
+  EXPECT_EQ(live_image(image.bytes.data(), image.bytes.size()).broken, "");
+  open_image(image.bytes, image_desc(MIEN_ISA_BEST, MIEN_BAKED_CHECK_SAFE));
+  const uint64_t checksum = image_checksum(image.bytes.data(), image.bytes.size());
+  memcpy(image.bytes.data() + offsetof(ImageHeader, checksum), &checksum, sizeof(checksum));
+  open_image(image.bytes, image_desc(), MIEN_ERROR_BAKED_STRUCTURE);
+
+  psds.inputs[0] = 0;
+  EXPECT_EQ(image.status_with(psds.outputs, 0, psds.outputs[0] - 1u), MIEN_ERROR_BAKED_STRUCTURE)
+      << "a raw control";
+  EXPECT_EQ(image.status_with(psds.outputs, 1, psds.outputs[1] + 1u), MIEN_ERROR_BAKED_STRUCTURE)
+      << "a control of the next kind";
+}
+
+}  // namespace
+}  // namespace mien

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// Any bytes as an image of a rig, through its whole life (tests/support/exercise_baked.h). An input
+// is an image. Those to start from are made here; mutations change numbers of their tables.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+#include <vector>
+
+#include "runtime/baked/baked_rig.h"
+#include "runtime/dna/format/dna_writer.h"
+#include "tests/support/exercise_baked.h"
+#include "tests/support/tiny_rig.h"
+
+extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
+
+namespace {
+
+using namespace mien;
+using Bytes = std::vector<uint8_t>;
+using Random = std::minstd_rand;
+
+uint32_t below(Random& random, size_t end) { return static_cast<uint32_t>(random() % end); }
+
+std::vector<Bytes>& seeds() {
+  static std::vector<Bytes> images;
+  return images;
+}
+
+void add_seeds(const MienDna* dna) {
+  for (uint32_t kind = 0; kind < 4; ++kind) {
+    MienRigDesc desc = {};
+    desc.struct_size = sizeof(desc);
+    desc.rotation = kind & 1;
+    desc.storage = kind >> 1;
+    desc.ml_masks = kind & 1;
+    MienRig* rig = nullptr;
+    if (mien_rig_create(dna, &desc, &rig, nullptr) != MIEN_OK) abort();
+    size_t size = 0;
+    mien_rig_save_memory(rig, nullptr, 0, &size, nullptr);
+    Bytes bytes(size);
+    mien_rig_save_memory(rig, bytes.data(), size, &size, nullptr);
+    mien_rig_destroy(rig);
+    seeds().push_back(bytes);
+  }
+}
+
+void make_seeds() {
+  Arena arena(default_allocator());
+  const dna::DnaView view = dna::tiny_rig(arena);
+  const dna::WriteOptions options = {0, true};
+  Bytes bytes(dna::encoded_size(view, options));
+  dna::encode(view, options, bytes.data());
+  MienDna* dna = nullptr;
+  if (mien_dna_open_memory(bytes.data(), bytes.size(), nullptr, &dna, nullptr) != MIEN_OK) abort();
+  add_seeds(dna);
+  mien_dna_close(dna);
+  for (uint32_t flags : {0u, uint32_t{MIEN_GENERATE_ML}}) {
+    MienGenerateDesc desc = {};
+    desc.struct_size = sizeof(desc);
+    desc.flags = flags;
+    if (mien_dna_generate(&desc, &dna, nullptr) != MIEN_OK) abort();
+    add_seeds(dna);
+    mien_dna_close(dna);
+  }
+}
+
+/// A number of 1, 2, 4 or 8 bytes, at a multiple of its size.
+template <class T>
+void change_number(Random& random, uint8_t* data, size_t begin, size_t end) {
+  const size_t first = (begin + sizeof(T) - 1) / sizeof(T);
+  if (first >= end / sizeof(T)) return;
+  const size_t at = (first + below(random, end / sizeof(T) - first)) * sizeof(T);
+  T old;
+  memcpy(&old, data + at, sizeof(T));
+  const T values[] = {0,
+                      1,
+                      static_cast<T>(old + 1),
+                      static_cast<T>(old - 1),
+                      static_cast<T>(~T{0}),
+                      static_cast<T>(old ^ (T{1} << below(random, 8 * sizeof(T)))),
+                      static_cast<T>(old * 2),
+                      static_cast<T>(old / 2),
+                      static_cast<T>(old + 16),
+                      static_cast<T>(old - 16),
+                      static_cast<T>(random()),
+                      static_cast<T>(below(random, 64))};
+  const T value = values[below(random, std::size(values))];
+  memcpy(data + at, &value, sizeof(T));
+}
+
+void change(Random& random, uint8_t* data, size_t size) {
+  size_t begin = sizeof(ImageHeader), end = size;
+  // A table of its own, or the scalars.
+  ImageHeader header;
+  if (size < sizeof(header)) return;
+  memcpy(&header, data, sizeof(header));
+  const size_t table = begin + size_t{header.scalar_count} * sizeof(uint64_t);
+  if (table < size && header.span_count != 0 && below(random, 4) != 0) {
+    const size_t at = table + below(random, header.span_count) * sizeof(ImageSpan);
+    ImageSpan span;
+    if (at > size - std::min(size, sizeof(span))) return;
+    memcpy(&span, data + at, sizeof(span));
+    if (span.offset < size && span.element_size != 0 &&
+        span.count <= (size - span.offset) / span.element_size) {
+      begin = span.offset;
+      end = span.offset + span.count * span.element_size;
+    }
+  } else if (table < size) {
+    end = below(random, 8) ? table : size;
+  }
+  switch (below(random, 4)) {
+    case 0: change_number<uint8_t>(random, data, begin, end); break;
+    case 1: change_number<uint16_t>(random, data, begin, end); break;
+    case 2: change_number<uint32_t>(random, data, begin, end); break;
+    default: change_number<uint64_t>(random, data, begin, end); break;
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
+  static char max_len[] = "-max_len=100000", len_control[] = "-len_control=0";
+  static std::vector<char*> arguments(*argv, *argv + *argc);
+  arguments.insert(arguments.begin() + 1, {max_len, len_control});
+  arguments.push_back(nullptr);
+  *argc += 2;
+  *argv = arguments.data();
+  make_seeds();
+  return 0;
+}
+
+extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max_size,
+                                          unsigned int seed) {
+  Random random(seed);
+  for (int i = 0; i < 4; ++i) random();  // the first numbers of near seeds are near
+  const bool is_image = size >= sizeof(ImageHeader) && memcmp(data, kImageMagic, 8) == 0;
+  if (!is_image || below(random, 50) == 0) {
+    const Bytes& start = seeds()[below(random, seeds().size())];
+    if (start.size() <= max_size) {
+      memcpy(data, start.data(), start.size());
+      size = start.size();
+    }
+  }
+  if (below(random, 40) == 0) return LLVMFuzzerMutate(data, size, max_size);
+  for (uint32_t changes = 1 + below(random, 3); changes != 0; --changes) {
+    change(random, data, size);
+  }
+  return size;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const AlignedBytes image(Bytes(data, data + size));
+  const ExerciseBaked life = live_image(image.data(), image.size());
+  if (life.broken.empty()) return 0;
+  fprintf(stderr, "broken promise: %s (%s)\n", life.broken.c_str(), life.message.c_str());
+  abort();
+}
