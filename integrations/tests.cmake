@@ -86,7 +86,7 @@ foreach(standard 17 20)
   endforeach()
 endforeach()
 
-add_executable(example_cpp ${integrations}/cpp/example.cpp)
+add_executable(example_cpp ${PROJECT_SOURCE_DIR}/examples/evaluate.cpp)
 target_compile_options(example_cpp PRIVATE ${strict_cxx})
 target_include_directories(example_cpp PRIVATE ${integrations}/cpp)
 target_link_libraries(example_cpp PRIVATE mien)
@@ -96,7 +96,7 @@ target_link_libraries(example_cpp PRIVATE mien)
 if(NOT MIEN_SANITIZE AND NOT CMAKE_CROSSCOMPILING)
   find_program(MIEN_CARGO cargo)
   add_test(NAME examples_agree
-    COMMAND Python3::Interpreter ${integrations}/examples_agree.py --python ${MIEN_PYTHON}
+    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/examples/examples_agree.py --python ${MIEN_PYTHON}
       --cargo "$<$<BOOL:${MIEN_CARGO}>:${MIEN_CARGO}>"
       $<TARGET_FILE:example_c> $<TARGET_FILE:example_cpp>)
   set_tests_properties(examples_agree PROPERTIES LABELS abi TIMEOUT 600

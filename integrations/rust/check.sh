@@ -60,7 +60,7 @@ PKG_CONFIG_PATH=$(dirname "$(find "$build/rust/installed" -name mien.pc)")
 export PKG_CONFIG_PATH
 for features in "" mien/static; do
   printed=$(run "pkg-config${features:+-static}" cargo run --quiet --locked \
-    --example example --features "$features" | tail -n 1)
+    --example evaluate --features "$features" | tail -n 1)
   echo "$printed"
   [ "$printed" = "$expected" ] || { echo "C prints: $expected" >&2; exit 1; }
 done

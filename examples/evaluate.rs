@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! example [FILE.dna [CONTROL]]: turns a control up and tells which joint it moves most.
+//! evaluate [FILE.dna [CONTROL]]: turns a control up and tells which joint it moves most.
 use mien::{Dna, Kind, Preset, Rig};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -36,13 +36,13 @@ def main():
     if subprocess.run([args.python, "-c", "import numpy"], stderr=subprocess.DEVNULL).returncode:
         print(f"NOT TESTED: the example in Python; {args.python} has no NumPy")
     else:
-        programs["Python"] = [args.python, HERE / "python" / "example.py"]
-    manifest = HERE / "rust" / "mien" / "Cargo.toml"
+        programs["Python"] = [args.python, HERE / "evaluate.py"]
+    manifest = HERE.parent / "integrations" / "rust" / "mien" / "Cargo.toml"
     if not args.cargo or not manifest.exists():
         print("NOT TESTED: the example in Rust; there is no " + ("crate" if args.cargo else "cargo"))
     else:
         programs["Rust"] = [args.cargo, "run", "--quiet", "--offline", "--manifest-path", manifest,
-                            "--example", "example", "--"]
+                            "--example", "evaluate", "--"]
 
     failures = 0
     with tempfile.TemporaryDirectory() as directory:

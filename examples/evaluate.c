@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* example [FILE.dna [CONTROL]]: turns a control up and tells which joint it moves most. */
+/* evaluate [FILE.dna [CONTROL]]: turns a control up and tells which joint it moves most. */
 int main(int argc, char** argv) {
   const char* control = argc > 2 ? argv[2] : "CTRL_expressions.jawOpen";
   MienGenerateDesc large = {.struct_size = sizeof large, .preset = MIEN_PRESET_LARGE};

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <mien.hpp>
 
-/* example [FILE.dna [CONTROL]]: turns a control up and tells which joint it moves most. */
+/* evaluate [FILE.dna [CONTROL]]: turns a control up and tells which joint it moves most. */
 int main(int argc, char** argv) try {
   const char* control = argc > 2 ? argv[2] : "CTRL_expressions.jawOpen";
   mien::GenerateDesc large;

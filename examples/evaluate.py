@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""example.py [FILE.dna [CONTROL]]: turns a control up and tells which joint it moves most."""
+"""evaluate.py [FILE.dna [CONTROL]]: turns a control up and tells which joint it moves most."""
 import sys
 
 import mien
