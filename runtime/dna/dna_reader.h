@@ -17,15 +17,15 @@ struct ReadOptions {
 };
 
 /// Fills `out` with views into `bytes`, which have to outlive it, and into `arena`. Touches only
-/// the header, the index, and the bytes of the chosen layers and meshes; numbers in arrays are not
-/// touched unless they are indices. Takes from the arena at most about five times the bytes of the
-/// lists that it reads. On failure `out` is not to be used.
+/// the header, the index, and the bytes of the chosen layers and meshes; of arrays only those with
+/// indices. Takes at most about five times the bytes of the lists it reads from the arena. On failure
+/// `out` must not be used.
 Status read_dna(const uint8_t* bytes, size_t size, const ReadOptions& options, Arena& arena,
                 DnaView& out, Error& error);
 
-/// Reads everything and reports all that is wrong or odd to `sink`. An error in one layer does not
-/// keep the others from being examined. `out` holds what could be read, for looking only.
-/// False if the sink ended it.
+/// Reads everything and reports every error and warning to `sink`. An error in one layer does not
+/// stop the checks of the others. `out` holds what could be read, for inspection only. False if the
+/// sink ended the checks.
 bool examine_dna(const uint8_t* bytes, size_t size, Arena& arena, DnaView& out,
                  const FindingSink& sink);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the checks of all layers share: spelling of paths, flood control, and the comparisons that
-// come up again and again. The way through a good file is a tight loop over each array; everything
-// else happens only once something is found.
+// Shared by the checks of all layers: paths in messages, a limit on repeated findings, and common
+// comparisons. A valid file costs one tight loop per array; everything else runs only after a finding.
 #pragma once
 
 #include <cstdarg>
@@ -12,7 +11,7 @@
 
 namespace mien::dna {
 
-/// A place in a view. Chains live on the stack and cost nothing until they are spelled:
+/// A field of a view. Chains live on the stack and cost nothing until the path is written out:
 ///
 ///     const Field group{&joints, "jointGroups", 3};
 ///     Field{&group, "values"}                        bhvr.joints.jointGroups[3].values

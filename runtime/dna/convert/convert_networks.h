@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Networks in another coordinate system: their weights take up what becomes of the controls that
-// they read and write.
+// Neural networks in another coordinate system: the changes of the controls that they read and
+// write are folded into their weights.
 #pragma once
 
 #include "runtime/dna/convert/converted_arrays.h"
@@ -9,9 +9,9 @@
 
 namespace mien::dna {
 
-/// Signs of inputs go into the first layer, units of outputs into the last one, which has to let
-/// factors through: linear, ReLU or leaky ReLU. MIEN_ERROR_DNA_VALUE if it does not, or if a
-/// network serves operations that need different weights.
+/// Input signs go into the first layer, output units into the last. The last layer must commute with
+/// a positive factor: linear, ReLU or leaky ReLU. MIEN_ERROR_DNA_VALUE if it does not, or if a network
+/// is used by operations that need different weights.
 Status convert_networks(DnaView& view, const RotationControls& controls, ConvertedArrays& arrays,
                         Arena& arena, Error& error);
 

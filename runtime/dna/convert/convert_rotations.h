@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Euler angles in another coordinate system. If the order of turning is carried along with the
-// axes, angles only change places, signs and unit. In another order each triple of angles is
-// converted as the rotation that it describes.
+// Euler angles in another coordinate system. If the rotation sequence follows the axes, angles only
+// swap places and change sign and unit. With another sequence each triple of angles is converted as
+// the rotation it describes.
 #pragma once
 
 #include "runtime/dna/convert/converted_arrays.h"
@@ -16,11 +16,10 @@ Vec3Array convert_neutral_rotations(const Vec3Array& old, const CoordinateSystem
                                     const CoordinateSystem& to, const CoordinateChange& change,
                                     ConvertedArrays& arrays);
 
-/// Rotation rows of all joint groups, where the order of turning changes: the three angles that a
-/// column gives a joint become three others, and rows that were missing are added behind the first
-/// one of the joint. Exact for joints represented by quaternions, and for angles about one axis
-/// only; `to.rotation_rule` says what becomes of others. Other rows stay as they are.
-/// MIEN_ERROR_DNA_VALUE if it cannot be done.
+/// Converts the rotation rows of all joint groups to another sequence. The three angles of a column
+/// become three others; missing rows are added after the first one of the joint. Exact for
+/// quaternion joints and for angles about a single axis; `to.rotation_rule` decides about others.
+/// MIEN_ERROR_DNA_VALUE if the rule cannot be met.
 Status convert_rotation_rows(DnaView& view, const CoordinateSystem& from,
                              const CoordinateSystem& to, const CoordinateChange& change,
                              ConvertedArrays& arrays, Arena& arena, Error& error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Arrays with other numbers in them, for passes that change a view. What stays the same is not
-// copied: it still lies in the file.
+// Copies of arrays with new numbers, for passes that change a view. Unchanged arrays are not copied:
+// they stay in the file.
 #pragma once
 
 #include <cfloat>
@@ -30,7 +30,7 @@ class ConvertedArrays {
   explicit ConvertedArrays(Arena& arena) : arena_(arena) {}
 
   bool out_of_memory() const { return out_of_memory_; }
-  /// Notes it; whoever runs the pass reports it.
+  /// Records that memory ran out; the pass reports it at its end.
   Status run_out() {
     out_of_memory_ = true;
     return Status::kOk;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Controls whose values belong to a coordinate system, and how they are read in another.
+// Controls whose values depend on the coordinate system, and how to read them in another.
 //
 // Most controls are plain numbers. But twists, swings and RBF solvers read the rotation of a joint
-// from four controls, a quaternion x y z w. If they are raw controls, whoever sets them sets them
-// in the rig's system. If they are ML controls that move a joint, evaluation converts them to the
-// rig's system once the networks have run (rig-evaluation 8.6). Everything else that reads such a
-// control has to read another one, or with another sign, when the system changes.
+// from four controls, a quaternion x y z w. The caller sets raw controls in the rig's system. ML
+// controls that move a joint are converted to the rig's system after the networks have run
+// (rig-evaluation 8.6). Anything else that reads such a control must read another one, or negate it,
+// when the system changes.
 #pragma once
 
 #include "runtime/base/coordinate_system.h"
@@ -14,8 +14,8 @@
 
 namespace mien::dna {
 
-/// What stands for a control after the change: its old value is sign * the value of `control`.
-/// Sign 0: nothing does.
+/// How to read an old control after the change: its value is sign * the value of `control`.
+/// Sign 0: it has no equivalent.
 struct Reading {
   uint16_t control = 0;
   int8_t sign = 1;

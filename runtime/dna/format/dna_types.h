@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What the fields of a DNA view are made of.
 //
-//     Array<T>   numbers, big-endian and unaligned, where they stand in the file
+//     Array<T>   numbers in the file, big-endian and unaligned
 //     String     bytes in the file
 //     List<T>    records, arrays or strings, one view each, in the arena of the DNA
 //
-// So a view costs memory for its lists only, and reading an array is done where it is used. Since
-// arrays keep their address in the file, every one can tell its byte offset.
+// So only lists cost memory, and numbers are decoded where they are used. Arrays keep their address
+// in the file, so each can tell its byte offset.
 #pragma once
 
 #include <cstdint>

@@ -5,8 +5,8 @@
 //       version, index            what the container said, in file order
 //       desc dsce defn bhvr ...   the layers; empty if not loaded
 //
-// A view is plain data. Its arrays point into the file (or into the arena, where they were made or
-// changed); its lists lie in the arena. Whoever fills one owns both: see dna_reader.h.
+// A view is plain data. Its arrays point into the file, or into the arena if they were created or
+// changed. Its lists are in the arena. The caller of read_dna() owns both.
 #pragma once
 
 #include "runtime/dna/format/dna_schema.h"

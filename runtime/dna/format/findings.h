@@ -19,7 +19,7 @@ struct FindingSink {
   void* user = nullptr;
   bool (*report)(void* user, const Finding& finding) = nullptr;
 
-  /// Opening asks only for errors that a rig or a caller would trip over; validation also for
+  /// Opening asks only for errors that evaluation or the caller depend on. Validation also asks for
   /// warnings and for the checks that read every number (NaN, weights).
   bool thorough = false;
 };
