@@ -65,7 +65,7 @@ inline MienStatus check(const MienBatch* batch) { return check_tag(batch, kBatch
 inline MienStatus check(const MienDeformer* deformer) { return check_tag(deformer, kDeformerTag); }
 inline MienStatus check(const MienDeformerInstance* pose) { return check_tag(pose, kPoseTag); }
 
-/// Reads a caller's description into `out`, which is zero where the caller's is shorter or NULL.
+/// Reads a caller's desc into `out`, which is zero where the caller's is shorter or NULL.
 /// `first_size` is the size in the release that introduced the struct.
 template <class T>
 MienStatus read_struct(const T* in, T& out, size_t first_size = sizeof(T)) {
@@ -81,7 +81,7 @@ MienStatus read_struct(const T* in, T& out, size_t first_size = sizeof(T)) {
   return MIEN_OK;
 }
 
-/// Clears a caller's output struct but for its size, so that a failure leaves it zero.
+/// Clears a caller's output struct except its size, so that a failure leaves it zero.
 template <class T>
 MienStatus clear_struct(T* out, size_t first_size = sizeof(T)) {
   if (!out) return MIEN_ERROR_NULL_ARGUMENT;
@@ -104,7 +104,7 @@ inline MienStatus check_error(const MienError* error) {
   return error && error->struct_size < sizeof(MienError) ? MIEN_ERROR_STRUCT_SIZE : MIEN_OK;
 }
 
-/// Hands an error to the caller, if he wants it.
+/// Copies an error to the caller's struct, if there is one.
 inline MienStatus give_error(const Error& from, MienError* to) {
   if (to) {
     to->status = static_cast<MienStatus>(from.status);
@@ -118,7 +118,7 @@ inline MienStatus give_error(const Error& from, MienError* to) {
 MIEN_PRINTF(3, 4)
 MienStatus give_error(MienError* to, MienStatus status, const char* format, ...);
 
-/// The beginning of a call with an output and an error: clears the one, if the caller gave it.
+/// Starts a call with an output and an error: clears the output if there is one.
 template <class T>
 MienStatus clear_output(T* out, MienError* error) {
   if (out) *out = {};
@@ -140,7 +140,7 @@ inline MienStatus read_allocator(const MienAllocator* in, Allocator& out) {
   return MIEN_OK;
 }
 
-/// The kernels of a MIEN_ISA_..., or why there are none.
+/// The kernels of a MIEN_ISA_..., or the reason why there are none.
 MienStatus find_kernels(uint32_t isa, const KernelTable*& out, MienError* error);
 
 /// An empty MienDna in the allocator's memory; null if there is none.

@@ -12,8 +12,7 @@ static_assert(MIEN_ERROR_BAKED_SIGNATURE == int(Status::kBakedSignature) &&
 static_assert(MIEN_BAKED_CHECK_FULL == int(ImageCheck::kFull),
               "baked_rig.h and mien.h number the same checks");
 
-// Saving
-// -------------------------------------------------------------------------------------------
+// Saving ------------------------------------------------------------------------------------------
 
 MienStatus mien_rig_save_file(const MienRig* handle, const char* path, MienError* error) {
   if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
@@ -51,8 +50,7 @@ MienStatus mien_rig_save_memory(const MienRig* handle, void* buffer, size_t capa
   return succeed(error);
 }
 
-// Opening
-// ------------------------------------------------------------------------------------------
+// Opening -----------------------------------------------------------------------------------------
 
 namespace {
 

@@ -103,8 +103,7 @@ MienStatus mien_rig_info(const MienRig* handle, MienRigInfo* out_info) {
   return MIEN_OK;
 }
 
-// Names and lists
-// -----------------------------------------------------------------------------------
+// Names and lists ---------------------------------------------------------------------------------
 
 namespace {
 
@@ -271,8 +270,7 @@ MienStatus mien_rig_statistics(const MienRig* handle, uint32_t lod,
   return MIEN_OK;
 }
 
-// Instance
-// ------------------------------------------------------------------------------------------
+// Instance ----------------------------------------------------------------------------------------
 
 MienStatus mien_instance_create(const MienRig* rig, const MienAllocator* given,
                                 MienInstance** out_instance, MienError* error) {
@@ -386,8 +384,7 @@ MienStatus mien_instance_statistics(const MienInstance* handle,
   return MIEN_OK;
 }
 
-// Evaluation
-// ----------------------------------------------------------------------------------------
+// Evaluation --------------------------------------------------------------------------------------
 
 namespace {
 

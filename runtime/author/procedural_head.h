@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The head in the box: a stylized person with 52 expressions, correctives, wrinkle maps and 8 LODs,
-// made from formulas, so that it belongs to whoever runs them.
+// The procedural head: a stylized person with 52 expressions, correctives, wrinkle maps and 8 LODs,
+// generated from formulas, so that it is free of anyone's rights.
 //
 // Colors have no field in DNA files. They are in the descriptor's metadata, under the key
 // "mien.colors.<mesh name>": base64 (RFC 4648, padded) of three bytes per position, sRGB.
@@ -12,9 +12,8 @@
 namespace mien {
 
 /// A 2.8 file with all layers loaded, like make_synthetic_rig(). The same seed gives the same bytes
-/// wherever doubles are those of IEEE 754; seed 0 is the person that was designed, others vary
-/// proportions and colors. `scratch` gives some 30 MB for the time of the call. False if memory
-/// ran out.
+/// wherever doubles are those of IEEE 754. Seed 0 is the designed person; others vary proportions and
+/// colors. Takes about 30 MB from `scratch` during the call. False if memory ran out.
 bool make_procedural_head(uint64_t seed, Arena& arena, const Allocator& scratch, dna::DnaView& out);
 
 }  // namespace mien

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The head in the box as layers of a DNA file. Each of these fills its part of `out` and returns
+// The procedural head as layers of a DNA file. Each of these fills its part of `out` and returns
 // false if memory ran out.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The form of the head in the box: surfaces as functions of a direction and a height, so that any
+// The form of the procedural head: surfaces as functions of a direction and a height, so that any
 // number of rows and columns can be sampled from them.
 //
 // The face is designed with its lids CLOSED: skin lies on a ball around each eyeball and two edges

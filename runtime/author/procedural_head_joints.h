@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Joints of the head in the box, and how they carry vertices.
+// Joints of the procedural head, and how they carry vertices.
 //
 //     root - neck01 - neck02 - head - face - skin joints, lids, eyes, upper teeth
 //                                        \ jaw - skin joints of the lower face, lower teeth, tongue

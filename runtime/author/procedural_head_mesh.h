@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes of the head in the box: sampled from the form, one for each part and LOD.
+// Meshes of the procedural head: sampled from the form, one for each part and LOD.
 #pragma once
 
 #include "runtime/author/procedural_head_form.h"

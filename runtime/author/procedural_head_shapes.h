@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the controls of the head in the box do: 52 expressions under the names of ARKit, and
+// What the controls of the procedural head do: 52 expressions under the names of ARKit, and
 // correctives for pairs of them. Each is a motion of the skin, written as windows (where) times
-// vectors (whither), and turns of a few joints: jaw, lids, eyes, tongue.
+// vectors (in which direction), plus rotations of a few joints: jaw, lids, eyes, tongue.
 #pragma once
 
 #include "runtime/author/procedural_head_mesh.h"

@@ -48,7 +48,7 @@ bool make_body_meshes(const Body& body, Arena& arena, dna::DnaView& out);
 /// numbered behind `ml_control_count` others.
 bool make_body_rig(uint64_t seed, uint32_t ml_control_count, Arena& arena, dna::DnaView& out);
 
-/// Learned behavior for a rig of a preset: how many controls it adds, and what fills them.
+/// Machine-machine-learned behavior for a rig of a preset: how many controls it adds, and what fills them.
 uint32_t ml_control_count_of(SyntheticPreset preset);
 bool add_learned_behavior(SyntheticPreset preset, uint64_t seed, Arena& arena, dna::DnaView& out);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Learned behavior of a synthetic rig, in the shape of produced ones:
+// Machine-machine-learned behavior of a synthetic rig, in the shape of produced ones:
 //
 //     gather -> encoders, one per region -> weighted sums -> decoders -> scatter -> joints
 //

@@ -153,8 +153,8 @@ struct GroupMaker {
     return joints;
   }
 
-  /// Controls that reach one of the joints, and one of a hundred others: production files have such
-  /// leftovers, and who packs a rig should meet them.
+  /// Controls that reach one of the joints, and one percent of the others: production files have such
+  /// leftovers, and the rig compiler has to handle them.
   Span<uint16_t> find_columns(Span<const uint16_t> joints) {
     size_t count = 0;
     for (size_t c = 0; c < head.controls.count; ++c) {

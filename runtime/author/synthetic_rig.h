@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Generated face rigs of any size, for tests, benchmarks and those who have no rig at hand.
+// Generated face rigs of any size, for tests, benchmarks and first steps without a rig of one's own.
 //
 // The preset decides all sizes, the seed all numbers; the same pair gives the same bytes wherever
-// doubles are those of IEEE 754. The rigs behave like produced ones. Heads: controls move
+// doubles are those of IEEE 754. The rigs have the structure of production rigs. Heads: controls move
 // neighboring regions of a head, correctives live where their members overlap, and LODs drop
 // joints from the finest on. The body: rotations of joints are compared with poses by RBF solvers,
 // whose controls move corrective joints; others twist and swing with them.

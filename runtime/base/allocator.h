@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory comes from the caller, per object. The library never calls malloc behind his back.
+// Memory comes from the caller, per object. The library itself never calls malloc.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Two ways to put many arrays into few allocations.
 //
-//   Arena   grows by chunks; for data whose size shows only while a file is read.
-//   Placer  measures, then places; for objects of known shape (rig, instance): one block each.
+//   Arena   grows in chunks, for data whose size is not known before a file is read.
+//   Placer  measures, then places, for objects of known shape (rig, instance): one block each.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ inline size_t align_up(size_t value, size_t alignment) {
   return (value + alignment - 1) & ~(alignment - 1);
 }
 
-/// Memory that is only ever added to and released all at once. Nothing placed in it is destroyed,
-/// so it takes trivially destructible types only.
+/// Memory that only grows and is released all at once. Destructors do not run, so it takes trivially
+/// destructible types only.
 class Arena {
  public:
   explicit Arena(const Allocator& allocator) : allocator_(allocator) {}
@@ -31,11 +31,11 @@ class Arena {
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;
 
-  /// Bytes that will be needed as far as one can tell, to take them in one request. A wrong guess
-  /// costs a request more or memory that stays untouched.
+  /// An estimate of the bytes that will be needed, so that one request serves them. A wrong estimate
+  /// costs another request, or memory that stays unused.
   void expect(size_t size) { expected_ = size; }
 
-  /// Null when the allocator gives nothing.
+  /// Null if memory ran out.
   void* allocate(size_t size, size_t alignment) {
     size_t at = align_up(used_, alignment);
     if (!chunk_ || at > chunk_->size || size > chunk_->size - at) {
@@ -76,8 +76,8 @@ class Arena {
     size_t size;  // with this header
   };
 
-  // Chunks grow with what is already there, so that a large file needs few of them, and the unused
-  // end of the last one stays a fraction of the whole.
+  // Chunks grow with the memory already taken: a large file needs few of them, and the unused end
+  // of the last one stays a fraction of the total.
   bool grow(size_t size) {
     if (size > SIZE_MAX / 2) return false;
     size_t wanted = size + sizeof(Chunk) + kBlockAlignment;

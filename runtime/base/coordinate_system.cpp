@@ -20,7 +20,7 @@ uint32_t line_of(uint32_t direction) { return direction / 2; }
 /// 1 or -1 along left, up and front.
 int sense_of(uint32_t direction) { return direction % 2 == 0 ? 1 : -1; }
 
-/// The same order of turning, told in axes to[...].
+/// The same rotation sequence in terms of the axes to[...].
 uint32_t carried_sequence(uint32_t sequence, const uint8_t to[3]) {
   constexpr int32_t kPlain[3] = {1, 1, 1};
   const RotationConvention old = rotation_convention(sequence, kPlain, kRadians);

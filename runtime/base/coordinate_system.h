@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Coordinate systems that a rig may be asked for, and what becomes of numbers on the way from one
-// system to another (dna-format 11).
+// Coordinate systems, and the change of numbers from one to another (dna-format 11).
 //
-// An axis points left, right, up, down, to the front or to the back of the character. So the axes
-// of any two systems lie along each other, and a change of axes moves and negates numbers but never
-// mixes them.
+// An axis points left, right, up, down, to the front or to the back of the character. So the axes of
+// any two systems are parallel, and a change of axes permutes and negates numbers but never mixes
+// them.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +11,11 @@
 
 namespace mien {
 
-/// What becomes of the order in which Euler angles turn, and of their signs.
+/// How the rotation sequence of Euler angles is converted; numbers of MienRotationRule in mien.h.
 enum class RotationRule : uint32_t {
-  kCarried,    // the file's order, about the axes as they are now called: always exact
-  kExact,      // the order named; refused where sums of angles cannot follow
-  kPerColumn,  // the order named, for each column of a joint matrix by itself
+  kCarried,    // the file's sequence about the renamed axes: always exact
+  kExact,      // the requested sequence; refused where sums of angles have no equivalent
+  kPerColumn,  // the requested sequence, for each column of a joint matrix on its own
 };
 
 /// The numbers are those of the format (dna-format 7.1).
@@ -32,24 +31,23 @@ struct CoordinateSystem {
 /// True if the axes are directions that span space.
 bool spans_space(const uint32_t axes[3]);
 
-/// From one system to another: what is called axis d now was axis from[d], and the other way round
-/// to[from[d]] is d.
+/// From one system to another: new axis d is old axis from[d], and to[from[d]] is d.
 struct CoordinateChange {
   uint8_t from[3], to[3];
   double vector[3];  // factors by new axis: of positions, translations, deltas
   float normal[3];   // of directions: their signs alone
-  float turn[3];     // of x, y, z of quaternions: signs, the same for all if handedness changes
-  double angle[3];   // of Euler angles, if the order is carried or there is only one
+  float turn[3];     // of x, y, z of quaternions: signs; all flip if handedness changes
+  double angle[3];   // of Euler angles, if the sequence is carried or there is only one angle
   double length_unit, angle_unit;
-  bool moves_axes;      // axes are not what they were
-  bool carries_angles;  // angles only move and change signs and unit
+  bool moves_axes;      // some axis differs
+  bool carries_angles;  // angles only swap places, signs and unit
   bool reverses_faces;
 };
 
-/// `wanted` with the sequence and the signs that the rig will have.
+/// `wanted` with the sequence and the signs that the converted rig has.
 CoordinateSystem resolve_system(const CoordinateSystem& from, const CoordinateSystem& wanted);
 
-/// The axes of both systems span space, and all their numbers have a meaning. `to` is settled.
+/// Expects axes that span space, enumerations in range, and `to` from resolve_system().
 CoordinateChange coordinate_change(const CoordinateSystem& from, const CoordinateSystem& to);
 
 /// Systems of engines and tools.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Half precision (IEEE binary16) as a way to store floats.
+// Half precision (IEEE binary16) for storage.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@ namespace mien {
 
 constexpr float kLargestHalf = 65504;
 
-/// The nearest half, ties to even. What exceeds the range becomes the largest; NaN becomes 0. Rig
-/// compilation stores no infinities, so that kernels need not know them.
+/// The nearest half, ties to even. Values out of range become the largest half, NaN becomes 0: a
+/// compiled rig holds no infinities, so kernels need not handle them.
 inline uint16_t half_from_float(float value) {
   uint32_t bits;
   memcpy(&bits, &value, sizeof(bits));

@@ -19,8 +19,8 @@ namespace {
 
 constexpr size_t kCopyAlignment = 64;
 
-// Reads to the end, whatever the size turns out to be (a pipe does not say). Grows by half, so the
-// memory taken stays within a small multiple of what was read.
+// Reads to the end of a file of unknown size, such as a pipe. Grows by half, so the memory taken stays
+// within a small multiple of the bytes read.
 Status read_stream(FILE* stream, const char* path, size_t expected, const Allocator& allocator,
                    MappedFile& out, Error& error) {
   size_t capacity = expected + 1;  // one more, so that the end is seen without growing
@@ -156,7 +156,7 @@ Status write_file(const char* path, const uint8_t* bytes, size_t size, const All
 #else
   const int process = static_cast<int>(getpid());
 #endif
-  // Unique among processes by the number, among threads by the address of something on the stack.
+  // Unique among processes by the process number, among threads by a stack address.
   snprintf(temporary, capacity, "%s.tmp%d-%zx", path, process, reinterpret_cast<size_t>(&path));
 
   FILE* stream = fopen(temporary, "wbx");

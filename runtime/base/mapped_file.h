@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A file as read-only bytes: mapped, or read into memory where mapping is not to be had.
+// A file as read-only bytes: mapped, or read into memory where it cannot be mapped.
 #pragma once
 
 #include <cstdint>

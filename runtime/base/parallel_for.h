@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Threads of the caller: this library starts none.
+// The caller's threads: the library starts none.
 #pragma once
 
 #include <cstdint>
 
 namespace mien {
 
-/// `run` calls task(context, i) for each i < count, on threads of its choice, and returns when all
-/// are done. Null: the calling thread does it.
+/// `run` calls task(context, i) for each i < count, on any threads, and returns when all are done.
+/// Null: the calling thread runs them.
 struct ParallelFor {
   void* user = nullptr;
   void (*run)(void* user, uint32_t count, void (*task)(void* context, uint32_t index),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pointer and count: a run of elements that somebody else owns.
+// Pointer and count: elements owned elsewhere.
 #pragma once
 
 #include <cassert>

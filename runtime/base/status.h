@@ -42,7 +42,7 @@ enum class Status : int32_t {
   kDnaLimit = 35,
   kDnaLayer = 36,
   kDnaValue = 37,
-  // images of rigs
+  // baked files
   kBakedSignature = 50,
   kBakedVersion = 51,
   kBakedTruncated = 52,
@@ -50,13 +50,13 @@ enum class Status : int32_t {
   kBakedChecksum = 54,
 };
 
-/// Name of a status as it stands in mien.h, without the MIEN_ prefix of the enum ("DNA_TRUNCATED").
+/// Name of a status as in mien.h, without its prefix ("DNA_TRUNCATED").
 /// Static storage; "UNKNOWN" for a number that is no status.
 const char* status_name(Status status);
 
 constexpr uint64_t kNoOffset = ~uint64_t{0};
 
-/// What went wrong, and where in the file if there is a where.
+/// What went wrong, and where in the file if that applies.
 struct Error {
   Status status = Status::kOk;
   uint64_t byte_offset = kNoOffset;

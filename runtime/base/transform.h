@@ -13,7 +13,7 @@ struct Quaternion {
 
 Quaternion operator*(const Quaternion& a, const Quaternion& b);
 
-/// Which axis turns first, which way, and in what unit.
+/// Rotation sequence, signs and unit of Euler angles.
 struct RotationConvention {
   uint8_t axes[3] = {0, 1, 2};  // first, second, third axis to turn about
   float signs[3] = {1, 1, 1};   // of the angles about x, y, z
@@ -27,8 +27,8 @@ RotationConvention rotation_convention(uint32_t sequence, const int32_t signs[3]
 /// From angles about x, y, z.
 Quaternion quaternion_from_euler(const RotationConvention& convention, const float angles[3]);
 
-/// To angles about x, y, z, which always describe the rotation, at the poles too; there the angle
-/// that the conventions leave open is 0. The length of `q` does not matter; zero reads as identity.
+/// To angles about x, y, z. In gimbal lock the angle that is left open is 0. `q` may have any length;
+/// zero means the identity.
 void euler_from_quaternion(const RotationConvention& convention, const Quaternion& q,
                            float angles[3]);
 
