@@ -94,6 +94,29 @@ TEST(Rotations, EverySequenceSignUnitFormAndRepresentation) {
 
 // More joints than one block of the kernel has, and columns that LODs leave out: their order
 // counts.
+// Rows of zeros, and rows that no LOD reaches: they neither turn a joint nor undo what another group
+// turned.
+TEST(Rotations, RowsThatCountForNothingTurnNoQuaternionJoint) {
+  Random random = Random::from_seed(32, 10);
+  LayerRig rig = joint_rig(3);
+  rig.base.lod_count = 2;
+  rig.rotations = {1, 1, 1};
+  const PlainGroup turned = {{6, 6},
+                             {0, 1},
+                             {3, 4, 5, 12, 13, 14},
+                             {5, 9, -7, 3, 2, 8,  //
+                              4, 1, 6, -2, 9, 5}};
+  const PlainGroup zeros = {{3, 3}, {2}, {3, 4, 5}, {0, 0, 0}};
+  const PlainGroup zero_first = {
+      {6, 4}, {0, 3}, {21, 12, 13, 14, 22, 23}, {0, 0, 3, 4, 5, 6, 7, 8, 20, 1, 30, 2}};
+  const PlainGroup no_lod = {{2, 1}, {1}, {21, 22, 23}, {15, 12, 90}};
+  for (const std::vector<PlainGroup>& groups :
+       {std::vector<PlainGroup>{turned, zeros}, {turned, zero_first}, {no_lod}}) {
+    rig.base.groups = groups;
+    expect_model(rig, random, 5);
+  }
+}
+
 TEST(Rotations, QuaternionJointsOfEveryLod) {
   Random random = Random::from_seed(32, 2);
   for (int round = 0; round < 20; ++round) {

@@ -4,8 +4,7 @@
 #include <algorithm>
 
 #include "runtime/base/half.h"
-#include "runtime/compile/compile_rig.h"
-#include "runtime/dna/format/quaternion_columns.h"
+#include "runtime/compile/plan_block_rows.h"
 
 namespace mien {
 namespace {
@@ -42,14 +41,16 @@ struct Scratch {
   Span<uint32_t> rotation_rows;  // [turned joint][axis]: its row, or kNone
 };
 
-/// Lists the joints of a kind in order of their first row; returns how many. `position` is all
-/// kNone, before and after.
+/// Lists the joints of a kind in order of their first row; returns how many. Of quaternion joints,
+/// rows of zeros and rows that no LOD reaches do not count: they must not undo what another group
+/// turned. `position` is all kNone, before and after.
 uint32_t list_joints(const dna::DnaView& view, const dna::JointGroup& group, RowKind kind,
                      bool quaternion_outputs, const Scratch& scratch, QuaternionJoint* out) {
   uint32_t count = 0;
   for (uint32_t r = 0; r < group.output_indices.count; ++r) {
     const uint32_t output = group.output_indices[r];
     if (kind_of(view, quaternion_outputs, output) != kind) continue;
+    if (kind == RowKind::kTurn && (r >= rows_at_lod(group.lods, 0) || is_zero(group, r))) continue;
     uint32_t& position = scratch.position[output / kFileAttributes];
     if (position == kNone) {
       position = count;
