@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The `mien` program from outside: every command, every family of failures.
 
-    cli_test.py path/to/mien [unittest options]      (or MIEN_BIN=path/to/mien)
+    commands_test.py path/to/mien [unittest options]      (or MIEN_BIN=path/to/mien)
 
 All rigs come from `mien gen`; nothing else is needed but Python 3.
 """
@@ -855,6 +855,6 @@ if __name__ == "__main__":
     if len(sys.argv) > 1 and not sys.argv[1].startswith("-") and os.path.exists(sys.argv[1]):
         mien = sys.argv.pop(1)
     if not mien:
-        sys.exit("usage: cli_test.py path/to/mien (or MIEN_BIN)")
+        sys.exit("usage: commands_test.py path/to/mien (or MIEN_BIN)")
     mien = os.path.abspath(mien)
     unittest.main()

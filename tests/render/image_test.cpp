@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Pictures as pixels and files, and the text in them.
+#include "integrations/picture/image.h"
+
 #include <gtest/gtest.h>
 #include <png.h>
 
-#include "integrations/picture/image.h"
 #include "integrations/picture/label.h"
 #include "integrations/picture/png.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Every call of mien.h with handles, pointers and structs that are wrong: each returns the status
 // that the header names, clears its outputs, and says what is wrong.
-#include <functional>
-
 #include "tests/support/misuse.h"
+
+#include <functional>
 
 namespace mien {
 namespace {

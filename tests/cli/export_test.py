@@ -19,14 +19,14 @@ import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "support"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 from glb import Glb, Obj  # noqa: E402
 
 DONE, USAGE, INVALID, FILE, INTERNAL = range(5)
 PRESETS = ("tiny", "small", "medium", "large")
 
 here = os.path.dirname(os.path.abspath(__file__))
-project = os.path.dirname(here)
+project = os.path.dirname(os.path.dirname(here))
 golden = os.path.join(os.environ.get("MIEN_SHARED") or os.path.join(project, "..", "shared"), "golden")
 validator = os.environ.get("MIEN_GLTF_VALIDATOR") or os.path.join(project, "build", "gltf_validator")
 mien = os.environ.get("MIEN_BIN", "")
@@ -688,7 +688,7 @@ class Readers(ExportTest):
         if not node or not os.path.isdir(os.path.join(packages, "gltf-validator")):
             skip("GLB files by the Khronos validator; Node.js or %s/gltf-validator is missing" % packages)
         names = self.files()
-        done = subprocess.run([node, os.path.join(here, "gltf_validator", "validate.js"),
+        done = subprocess.run([node, os.path.join(here, "..", "gltf", "validator", "validate.js"),
                                *[path(name + ".glb") for name in names]], capture_output=True,
                               timeout=800, env={**os.environ, "NODE_PATH": packages})
         self.assertEqual(done.returncode, 0, done.stderr.decode())
@@ -708,7 +708,7 @@ class Readers(ExportTest):
         broken = bytearray(read("tiny.glb"))
         at = broken.index(b'"JOINTS_0"')
         broken[at:at + 10] = b'"JOINTS_7"'
-        done = subprocess.run([node, os.path.join(here, "gltf_validator", "validate.js"),
+        done = subprocess.run([node, os.path.join(here, "..", "gltf", "validator", "validate.js"),
                                write("broken.glb", bytes(broken))], capture_output=True,
                               env={**os.environ, "NODE_PATH": packages})
         self.assertGreater(json.loads(done.stdout)["numErrors"], 0)

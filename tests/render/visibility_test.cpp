@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Which triangle is seen where, against plain geometry in double precision.
+#include "integrations/picture/visibility.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <limits>
 #include <random>
-
-#include "integrations/picture/visibility.h"
 
 namespace mien::picture {
 namespace {

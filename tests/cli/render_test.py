@@ -295,7 +295,7 @@ class Render(RenderTest):
         self.fails(INVALID, "render", cut, "-o", path("no.png"), says="cut.dna")
 
     def test_rigs_with_known_results(self):
-        shared = Path(os.environ.get("MIEN_SHARED", Path(__file__).parent / "../../shared")) / "golden"
+        shared = Path(os.environ.get("MIEN_SHARED", Path(__file__).parent / "../../../shared")) / "golden"
         rigs = sorted(shared.glob("*.dna"))
         if not rigs:
             self.skipTest("NOT TESTED: no rigs in %s" % shared)

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Whole pictures, compared by structural similarity with references that the test makes itself.
+#include "integrations/picture/render.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
 #include "integrations/picture/light.h"
-#include "integrations/picture/render.h"
 #include "integrations/picture/scene.h"
 
 namespace mien::picture {

@@ -21,7 +21,7 @@ TOLERANCES = ("psd", "ml", "rbf", "joints.euler", "joints.quat", "blendShapes", 
 OUTPUTS = {"raw": "raw", "psd": "psd", "ml": "ml", "rbf": "rbf", "joints": "joints.euler",
            "blend_shapes": "blendShapes", "animated_maps": "animatedMaps"}
 
-project = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+project = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 golden = os.path.join(os.environ.get("MIEN_SHARED") or os.path.join(project, "..", "shared"), "golden")
 mien = os.environ.get("MIEN_BIN", "")
 

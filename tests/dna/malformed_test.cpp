@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Files from outside: cut off, flipped, contradicting themselves. Whatever the bytes are, opening
 // gives a known status and a sentence, what opens can be used to the end (exercise_dna.h tells
-// how), and memory stays in proportion to the file. dna_hostile_test.cpp has files made with more
+// how), and memory stays in proportion to the file. hostile_test.cpp has files made with more
 // thought.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
