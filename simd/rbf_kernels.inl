@@ -233,7 +233,8 @@ void normalize(const RbfSolverPlan& solver, const RbfArgs& args) {
   }
 }
 
-/// Sixteen rotations, each as its swing or its twist (rig-evaluation 6.2).
+/// Sixteen rotations, each as its swing or its twist (docs/rig-evaluation.md, 6.2 "Preparation of
+/// inputs and targets").
 void part_rotations(float* rotations, const float* swings) {
   for (size_t v = 0; v < kBlockLanes; v += kWidth) {
     float* at = rotations + v;

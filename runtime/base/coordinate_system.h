@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Coordinate systems, and the change of numbers from one to another (dna-format 11).
+// Coordinate systems, and the change of numbers from one to another (docs/dna-format.md, 11
+// "Coordinate systems").
 //
 // An axis points left, right, up, down, to the front or to the back of the character. So the axes of
 // any two systems are parallel, and a change of axes permutes and negates numbers but never mixes
@@ -18,7 +19,7 @@ enum class RotationRule : uint32_t {
   kPerColumn,  // the requested sequence, for each column of a joint matrix on its own
 };
 
-/// The numbers are those of the format (dna-format 7.1).
+/// The numbers are those of the format (docs/dna-format.md, 7.1 "Descriptor").
 struct CoordinateSystem {
   uint32_t axes[3] = {0, 2, 4};
   uint32_t translation_unit = 0, rotation_unit = 0;

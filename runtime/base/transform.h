@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rotations: quaternions (x, y, z, w) and Euler angles in the conventions of DNA files
-// (rig-evaluation 4.6). a * b rotates by b first.
+// (docs/rig-evaluation.md, 4.6 "Euler angles and quaternions"). a * b rotates by b first.
 #pragma once
 
 #include <cstdint>
@@ -46,14 +46,15 @@ Matrix3 operator*(const Matrix3& a, const Matrix3& b);
 Matrix3 transposed(const Matrix3& a);
 
 /// From the axes `from` to the axes `to`, for row vectors; an axis is a direction 0 ... 5: left,
-/// right, up, down, front, back (dna-format 7.1, 11).
+/// right, up, down, front, back (docs/dna-format.md, 7.1 "Descriptor" and 11 "Coordinate systems").
 Matrix3 change_of_axes(const uint32_t from[3], const uint32_t to[3]);
 
 /// Unit length; identity if there is no direction.
 Quaternion normalized(const Quaternion& q);
 
 /// The part of a rotation about an axis (0, 1, 2: x, y, z), or what is left without it: how RBF
-/// solvers see it (rig-evaluation 6.2). Not a number if `q` has no such part.
+/// solvers see it (docs/rig-evaluation.md, 6.2 "Preparation of inputs and targets"). Not a number
+/// if `q` has no such part.
 Quaternion rotation_part(const Quaternion& q, uint32_t axis, bool swing);
 
 /// From `q` (t = 0) to the identity (t = 1) and beyond, the short way.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Conditional tables and correctives (rig-evaluation 2 and 3).
+// Conditional tables and correctives (docs/rig-evaluation.md, 2 "Conditional tables" and 3
+// "Correctives").
 #include <algorithm>
 #include <cstring>
 #include <utility>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Joint groups -> columns of blocks (rig-evaluation 4.3, 4.4).
+// Joint groups -> columns of blocks (docs/rig-evaluation.md, 4.3 "Rows, columns and LODs" and 4.4
+// "Sums").
 //
 //     block rows of rows (plan_block_rows.cpp)  ->  panels  ->  blocks by column
 #include <algorithm>

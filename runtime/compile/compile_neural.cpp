@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Learned behavior: operations -> steps (rig-evaluation 8).
+// Learned behavior: operations -> steps (docs/rig-evaluation.md, 8 "Machine-learned behavior").
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// RBF solvers, twists and swings (rig-evaluation 6 and 7).
+// RBF solvers, twists and swings (docs/rig-evaluation.md, 6 "RBF solvers" and 7 "Twist and swing").
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,7 +23,8 @@ uint32_t padded(uint32_t count) { return static_cast<uint32_t>(align_up(count, k
 bool is_interpolative(const dna::RbfSolver& solver) { return solver.solver_type == 1; }
 
 /// Distance of two targets. In single precision and in this order because files were made for it:
-/// the angle of nearly equal rotations is mostly rounding (rig-evaluation 10).
+/// the angle of nearly equal rotations is mostly rounding (docs/rig-evaluation.md, 10 "Numerical
+/// facts").
 float target_distance(const RbfTable& rbf, const RbfSolverPlan& s, uint32_t a, uint32_t b) {
   const uint32_t stride = padded(s.pose_count);
   const float* targets = rbf.targets.data + s.first_target;
@@ -76,8 +77,8 @@ double automatic_radius(const RbfTable& rbf, const RbfSolverPlan& s) {
   return pairs > 0 ? sum / pairs : 0;
 }
 
-/// Gauss-Jordan with partial pivoting, in place: `m` is n x 2n, the identity on the right.
-/// A column without a pivot gets a tiny one, as the reference does.
+/// Gauss-Jordan with partial pivoting, in place: `m` is n x 2n, the identity on the right. A column
+/// without a pivot gets a tiny one.
 void invert(double* m, uint32_t n) {
   const size_t width = size_t{n} * 2;
   for (uint32_t c = 0; c < n; ++c) {

@@ -126,7 +126,7 @@ void fill_pose(const DnaView& view, Rig& rig) {
     }
   }
 
-  // The w of a quaternion input starts at 1 (rig-evaluation 1.2).
+  // The w of a quaternion input starts at 1 (docs/rig-evaluation.md, 1.2 "Initial values").
   const auto start_w = [&](const Array<uint16_t>& inputs) {
     for (uint32_t i = 0; i < inputs.count; ++i) {
       const uint32_t control = inputs[i];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What joint groups do to rotations: angles that become quaternions, and joints represented by
-// quaternions (rig-evaluation 4.3, 4.7, 4.8).
+// quaternions (docs/rig-evaluation.md, 4.3, 4.7, 4.8).
 #include <algorithm>
 
 #include "runtime/base/half.h"

@@ -618,7 +618,8 @@ class DnaReader {
     return true;
   }
 
-  // Poses of files older than 2.5: one pose control each, of the same name (dna-format 6.7).
+  // Poses of files older than 2.5: one pose control each, of the same name (docs/dna-format.md, 6.7
+  // "rbfe 1.0: RBF behavior extension").
   bool synthesize_rbf_extension() {
     const List<RbfPose>& poses = view_.rbfb.poses;
     RbfBehaviorExtension& rbfe = view_.rbfe;

@@ -53,7 +53,7 @@ void find_changes(const Rig& rig, Instance& instance) {
 constexpr uint32_t kStagesOutputs = kStageJoints | kStageBlendShapes | kStageAnimatedMaps;
 constexpr uint32_t kStagesAfterMl = kStageRbf | kStagePsd | kStagesOutputs;
 
-// rig-evaluation 2.2, without the final clamp.
+// docs/rig-evaluation.md, 2.2 "Forward", without the final clamp.
 void add_table_rows(const ControlTable& table, uint32_t row_count, const Span<float>& inputs,
                     const Span<float>& outputs) {
   for (uint32_t r = 0; r < row_count;) {
@@ -67,7 +67,7 @@ void add_table_rows(const ControlTable& table, uint32_t row_count, const Span<fl
   }
 }
 
-// rig-evaluation 3.3, in dependency order.
+// docs/rig-evaluation.md, 3.3 "Value", in dependency order.
 void evaluate_psds(const Rig& rig, Instance& instance, uint32_t lod) {
   const PsdTable& psds = rig.psds;
   const PsdChanges changes =
@@ -87,7 +87,7 @@ void evaluate_joints(const Rig& rig, Instance& instance, uint32_t lod) {
   finish_joints(rig, instance, lod);
 }
 
-// rig-evaluation 5.
+// docs/rig-evaluation.md, 5 "Blend shapes and animated maps".
 void evaluate_blend_shapes(const Rig& rig, Instance& instance, uint32_t lod) {
   const uint32_t count = rig.channels.count_at_lod[lod];
   for (uint32_t i = 0; i < count; ++i) {
@@ -110,8 +110,8 @@ void map_gui_to_raw(const Rig& rig, Instance& instance) {
   for (uint16_t raw : rig.driven_raw) instance.controls[raw] = clamp01(instance.controls[raw]);
 }
 
-// rig-evaluation 2.4: of the groups of rows with equal intervals the one that explains the most raw
-// controls tells the value.
+// docs/rig-evaluation.md, 2.4 "Raw controls to GUI controls": of the groups of rows with equal
+// intervals the one that explains the most raw controls tells the value.
 void map_raw_to_gui(const Rig& rig, Instance& instance) {
   const ControlTable& table = rig.gui_to_raw;
   const ReverseTable& reverse = rig.raw_to_gui;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Joint groups: controls -> joint values (rig-evaluation 4.4).
+// Joint groups: controls -> joint values (docs/rig-evaluation.md, 4.4 "Sums").
 //
 //     controls  ->  those that are not zero  ->  sums, a tile of panels at a time  ->  joint values
 #include <algorithm>

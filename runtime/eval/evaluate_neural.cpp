@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Learned behavior: networks, what they give to controls, and the joints that follow
-// (rig-evaluation 8).
+// (docs/rig-evaluation.md, 8 "Machine-learned behavior").
 #include <algorithm>
 #include <cmath>
 #include <utility>

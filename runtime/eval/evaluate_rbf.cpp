@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// RBF solvers: raw controls -> pose controls (rig-evaluation 6).
+// RBF solvers: raw controls -> pose controls (docs/rig-evaluation.md, 6 "RBF solvers").
 #include "runtime/eval/evaluate.h"
 
 namespace mien {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rotations of joints: quaternions out of angles, joints represented by quaternions, twists and
-// swings (rig-evaluation 4.6 to 4.8, 7).
+// swings (docs/rig-evaluation.md, 4.6 to 4.8, 7).
 #include <cmath>
 
 #include "runtime/eval/evaluate.h"

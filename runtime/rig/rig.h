@@ -40,17 +40,18 @@ struct LodLists {
   }
 };
 
-/// Piecewise-linear map (rig-evaluation 2): row r fires when from <= input <= to and then adds
-/// slope * input + cut to its output. Of neighboring rows with the same input and output only the
-/// first that fires counts: `run_ends[r]` is the first row behind the neighbors of r.
+/// Piecewise-linear map (docs/rig-evaluation.md, 2 "Conditional tables"): row r fires when from <=
+/// input <= to and then adds slope * input + cut to its output. Of neighboring rows with the same
+/// input and output only the first that fires counts: `run_ends[r]` is the first row behind the
+/// neighbors of r.
 struct ControlTable {
   Span<uint16_t> inputs, outputs;
   Span<float> from, to, slope, cut;
   Span<uint32_t> run_ends;
 };
 
-/// The same table read backwards (rig-evaluation 2.4): for each input its rows, in groups of equal
-/// [from, to], groups in order of first appearance.
+/// The same table read backwards (docs/rig-evaluation.md, 2.4 "Raw controls to GUI controls"): for
+/// each input its rows, in groups of equal [from, to], groups in order of first appearance.
 struct ReverseTable {
   Span<uint32_t> first_group;  // [input], one more at the end
   Span<uint32_t> first_row;    // [group], one more at the end
@@ -99,9 +100,9 @@ struct ColumnPart {
 constexpr uint32_t kTargetRows[] = {6, 3, 1};
 constexpr uint32_t kTargetKinds = 3;
 
-/// The joint matrix (rig-evaluation 4), one column per control that it reads. Nothing but zeros is
-/// left out, so that evaluating touches the blocks of those controls that are not zero, one after
-/// the other, and no others.
+/// The joint matrix (docs/rig-evaluation.md, 4 "Joint groups"), one column per control that it
+/// reads. Nothing but zeros is left out, so that evaluating touches the blocks of those controls
+/// that are not zero, one after the other, and no others.
 ///
 ///     slot    a row that is computed: slots 8b ... 8b + 7 are block row b
 ///     block   the 8 values of a column in a block row
@@ -200,9 +201,10 @@ struct QuaternionJoint {
 /// Angles: with quaternion outputs, rotation rows write their angles behind the joint outputs, at
 /// 3 * joint, and the group's `angle_joints` are then made into quaternions.
 ///
-/// Turns: joints represented by quaternions (rig-evaluation 4.8). Per column there is one
-/// quaternion per joint; the rotation is the product, over the columns, of each blended with the
-/// identity by its control. In blocks of kBlockLanes joints, as simd/kernels.h draws them.
+/// Turns: joints represented by quaternions (docs/rig-evaluation.md, 4.8 "Joints represented by
+/// quaternions"). Per column there is one quaternion per joint; the rotation is the product, over
+/// the columns, of each blended with the identity by its control. In blocks of kBlockLanes joints,
+/// as simd/kernels.h draws them.
 struct GroupRotations {
   uint32_t first_angle_joint, angle_joint_count;            // into RotationTable::angle_joints
   uint32_t first_quaternion_joint, quaternion_joint_count;  // into RotationTable::quaternion_joints
@@ -224,7 +226,7 @@ struct RotationTable {
 /// How a solver measures, as files number it.
 enum RbfDistance : uint8_t { kEuclidean, kQuaternion, kSwingAngle, kTwistAngle };
 
-/// One RBF solver (rig-evaluation 6), beside its plan.
+/// One RBF solver (docs/rig-evaluation.md, 6 "RBF solvers"), beside its plan.
 struct RbfSolver {
   uint32_t first_pose;  // into RbfTable::poses
 };
@@ -271,9 +273,9 @@ struct MlDependency {
   uint8_t zeros[3];
 };
 
-/// A step of the learned behavior (rig-evaluation 8): a network that runs, or a weighted sum. What
-/// gathers and scatters has become lists of controls. Its values go to `first_output` of the
-/// instance's ML buffer, and on to the controls of its scatter list.
+/// A step of the learned behavior (docs/rig-evaluation.md, 8 "Machine-learned behavior"): a network
+/// that runs, or a weighted sum. What gathers and scatters has become lists of controls. Its values
+/// go to `first_output` of the instance's ML buffer, and on to the controls of its scatter list.
 struct MlStep {
   uint64_t lods;                                // bit l: runs at LOD l
   uint32_t first_layer, layer_count;            // none: a weighted sum
@@ -291,8 +293,9 @@ constexpr uint32_t kNoMask = ~uint32_t{0};
 constexpr size_t kMaxBufferFloats = size_t{4} << 20;
 constexpr size_t kMaxMultiplications = size_t{256} << 20;
 
-/// A joint that learned behavior moves (rig-evaluation 8.6). Controls of what it does not give are
-/// kNoControl; a rotation takes three or four controls from rotation_control on.
+/// A joint that learned behavior moves (docs/rig-evaluation.md, 8.6 "ML joints"). Controls of what
+/// it does not give are kNoControl; a rotation takes three or four controls from rotation_control
+/// on.
 struct MlJoint {
   uint64_t lods;  // bit l: exists at LOD l
   uint16_t joint;
@@ -324,8 +327,8 @@ struct MlTable {
   Matrix3 to_rig;                     // the change of axes, for row vectors
 };
 
-/// Joints that follow a quaternion input: what swings with it, what twists with it (rig-evaluation
-/// 7). A twist alone has no swing outputs.
+/// Joints that follow a quaternion input: what swings with it, what twists with it
+/// (docs/rig-evaluation.md, 7 "Twist and swing"). A twist alone has no swing outputs.
 struct TwistSwing {
   uint16_t inputs[4];  // control numbers of x y z w
   uint8_t axis;        // of the swing if there is one

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checks every cross reference of a view before anything follows it (dna-format section 13). The
-// reader has already checked that arrays lie within the file.
+// Checks every cross reference of a view before anything follows it (docs/dna-format.md, 13 "What
+// is checked"). The reader has already checked that arrays lie within the file.
 #pragma once
 
 #include "runtime/dna/format/dna_view.h"

@@ -12,7 +12,7 @@
 namespace mien::dna {
 namespace {
 
-// Keys of mlbJoints (dna-format 7.4).
+// Keys of mlbJoints (docs/dna-format.md, 7.4 "Machine learning").
 constexpr uint16_t kFirstSystemKey = 3, kLastSystemKey = 9, kSystemKeyCount = 7;
 
 bool same_system(const CoordinateSystem& a, const CoordinateSystem& b) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A view in one coordinate system -> the same rig in another (dna-format 11).
+// A view in one coordinate system -> the same rig in another (docs/dna-format.md, 11 "Coordinate
+// systems").
 //
 // The converted rig evaluates to the converted results of the original: the same joint transforms,
 // expressed in other axes, units and angles. Axes and signs are exact, so converting back gives the

@@ -106,7 +106,7 @@ class NetworkConverter {
 
   void note_operations(const MlType& type) {
     // How much of its outputs each operation has scattered: several scatters go on where the last
-    // one ended (rig-evaluation 8.2).
+    // one ended (docs/rig-evaluation.md, 8.2 "MLP").
     Span<Span<uint32_t>> scattered = arena_.array<Span<uint32_t>>(type.operations.count);
     for (uint32_t s = 0; s < scattered.count; ++s) {
       scattered[s] = arena_.array<uint32_t>(type.operations[s].count);

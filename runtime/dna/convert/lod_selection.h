@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Chosen LODs -> a smaller view. Everything that no kept LOD uses is dropped; the rest is renumbered
-// everywhere (dna-format section 10).
+// Chosen LODs -> a smaller view. Everything that no kept LOD uses is dropped; the rest is
+// renumbered everywhere (docs/dna-format.md, 10 "Choosing LODs").
 //
 //   - All references are renumbered, including outputs of blend shape channels and animated maps,
 //     channels of blend shape targets, networks, and row limits of ML operations.

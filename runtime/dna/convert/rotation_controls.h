@@ -4,8 +4,8 @@
 // Most controls are plain numbers. But twists, swings and RBF solvers read the rotation of a joint
 // from four controls, a quaternion x y z w. The caller sets raw controls in the rig's system. ML
 // controls that move a joint are converted to the rig's system after the networks have run
-// (rig-evaluation 8.6). Anything else that reads such a control must read another one, or negate it,
-// when the system changes.
+// (docs/rig-evaluation.md, 8.6 "ML joints"). Anything else that reads such a control must read
+// another one, or negate it, when the system changes.
 #pragma once
 
 #include "runtime/base/coordinate_system.h"

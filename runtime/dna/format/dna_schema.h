@@ -2,9 +2,10 @@
 // The fields of every layer of the DNA format, once. Reader, writer, path look-up and size
 // computation all walk these descriptions, so they cannot disagree.
 //
-// A record lists its members in `fields`, in file order, under the names of the format (dna-format
-// section 6). The visitor is called as visit(name, member) for each. A record with kIsBlock is
-// stored with its size in front (or, in 2.1, the offset of its end), so that it can be skipped.
+// A record lists its members in `fields`, in file order, under the names of the format
+// (docs/dna-format.md, 6 "Layers, field by field"). The visitor is called as visit(name, member)
+// for each. A record with kIsBlock is stored with its size in front (or, in 2.1, the offset of its
+// end), so that it can be skipped.
 #pragma once
 
 #include "runtime/dna/format/dna_types.h"
@@ -452,7 +453,7 @@ struct MlJoints {
 };
 
 /// Values that an ML model gives per joint: 3 for a vector or Euler angles, 4 for a quaternion, 0
-/// for what it does not give (dna-format 8.4).
+/// for what it does not give (docs/dna-format.md, 8.4 "ML operations").
 struct MlJointWidths {
   uint32_t translation = 0, rotation = 0, scale = 0;
 

@@ -123,7 +123,8 @@ struct DnaView {
   /// Byte offset of an address within the file, else kNoOffset.
   uint64_t offset_of(const void* address) const;
 
-  /// Number of the first PSD, ML and RBF control (spec: control numbering), and of all controls.
+  /// Number of the first PSD, ML and RBF control (docs/dna-format.md, 8.3 "Control numbers"), and
+  /// of all controls.
   uint32_t first_psd() const { return defn.raw_control_names.count; }
   uint32_t first_ml() const { return first_psd() + bhvr.controls.psd_count; }
   uint32_t first_rbf() const { return first_ml() + ml_control_count; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// View -> canonical file bytes (dna-format section 14), through the same field descriptions that
-// the reader walks.
+// View -> canonical file bytes (docs/dna-format.md, 14 "Writing a canonical file"), through the
+// same field descriptions that the reader walks.
 #pragma once
 
 #include "runtime/dna/format/dna_view.h"

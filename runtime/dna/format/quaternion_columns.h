@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The columns of a joint group rotate its quaternion joints one after another, so the order of the
-// columns matters. It depends on the LODs of the file (rig-evaluation 4.3). The rig compiler and LOD
-// selection both need it.
+// columns matters. It depends on the LODs of the file (docs/rig-evaluation.md, 4.3 "Rows, columns
+// and LODs"). The rig compiler and LOD selection both need it.
 #pragma once
 
 #include "runtime/dna/format/dna_view.h"
