@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Conditional tables and correctives: each rule of the specification (rig-evaluation 2, 3) on the
-// smallest table that shows it, then random tables against the same rules in double precision.
+// Conditional tables and correctives: each rule of docs/rig-evaluation.md, 2 "Conditional tables"
+// and 3 "Correctives" on the smallest table that shows it, then random tables against the same
+// rules in double precision.
 #include <gtest/gtest.h>
 
 #include <cmath>

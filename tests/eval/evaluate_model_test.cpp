@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random rigs against the formulas of the specification in double precision
+// Random rigs against the formulas of docs/rig-evaluation.md in double precision
 // (tests/support/plain_rig.h). The rules one by one: evaluate_test.cpp, evaluate_controls_test.cpp.
 #include <gtest/gtest.h>
 

@@ -136,8 +136,9 @@ TEST(Networks, OfEachLod) {
   expect_model(rig, random, 5);
 }
 
-// rig-evaluation 12.12: 0 and 1 switch as ever; in between the output blends with its default.
-TEST(DoBetter12, MasksSwitchOrBlend) {
+// docs/rig-evaluation.md, 12.12 "Masks may blend": 0 and 1 switch as ever; in between the output
+// blends with its default.
+TEST(RegionMasks, SwitchOrBlend) {
   Random random = Random::from_seed(33, 3);
   std::vector<PlainNetwork> networks;
   for (int i = 0; i < 5; ++i) networks.push_back(random_network(6, {9, 5}, 3, random));
@@ -237,9 +238,9 @@ LayerRig ml_joint_rig(bool quaternions, bool translations, bool scales, Random& 
   return rig;
 }
 
-// rig-evaluation 12.3: all four combinations of what networks give and what comes out, Euler angles
-// on both sides and rotations alone among them.
-TEST(DoBetter3, MlJointsInEveryCombination) {
+// docs/rig-evaluation.md, 12.3 "ML joints in every combination": all four combinations of what
+// networks give and what comes out, Euler angles on both sides and rotations alone among them.
+TEST(MlJoints, InEveryCombination) {
   Random random = Random::from_seed(33, 5);
   for (bool quaternions : {false, true}) {
     for (bool translations : {false, true}) {
@@ -258,7 +259,7 @@ TEST(DoBetter3, MlJointsInEveryCombination) {
 }
 
 // The default of the w of a quaternion joint is 1: a mask blends towards no rotation, not to none.
-TEST(DoBetter12, MaskedQuaternionJointsComeToRest) {
+TEST(RegionMasks, BringQuaternionJointsToRest) {
   Random random = Random::from_seed(33, 10);
   for (bool scales : {false, true}) {
     LayerRig rig = ml_joint_rig(true, true, scales, random);
@@ -267,7 +268,7 @@ TEST(DoBetter12, MaskedQuaternionJointsComeToRest) {
   }
 }
 
-TEST(DoBetter3, EulerOntoEulerAddsTheAngles) {
+TEST(MlJoints, EulerOntoEulerAddsTheAngles) {
   LayerRig rig;
   rig.base.raw_count = kRaw;
   rig.base.joint_count = 1;
@@ -317,8 +318,8 @@ TEST(MlJoints, ConvertFromASystemOfTheirOwn) {
   }
 }
 
-// rig-evaluation 12.10
-TEST(DoBetter10, LeakyReluWithoutParameterLeaksAHundredth) {
+// docs/rig-evaluation.md, 12.10 "What is missing has a default"
+TEST(Networks, LeakyReluWithoutParameterLeaksAHundredth) {
   LayerRig rig;
   rig.base.raw_count = kRaw;
   rig.base.joint_count = 1;

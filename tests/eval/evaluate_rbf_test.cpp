@@ -217,8 +217,8 @@ TEST(RbfSolvers, OneSolverAlone) {
   }
 }
 
-// rig-evaluation 12.9
-TEST(DoBetter9, AlwaysNormalizeOfVanishingWeightsGivesZeros) {
+// docs/rig-evaluation.md, 12.9 "Finite inputs give finite outputs"
+TEST(RbfSolvers, AlwaysNormalizeOfVanishingWeightsGivesZeros) {
   Random random = Random::from_seed(31, 6);
   for (uint16_t function = 0; function < 5; ++function) {
     RbfRig made(random);

@@ -160,8 +160,9 @@ TEST(Twists, EveryAxisBlendAndLod) {
   }
 }
 
-// rig-evaluation 12.4: at the poles the angles describe the rotation, whatever leads there.
-TEST(DoBetter4, AnglesDescribeTheRotationNearAndAtThePoles) {
+// docs/rig-evaluation.md, 12.4 "Angles at the poles": at the poles the angles describe the
+// rotation, whatever leads there.
+TEST(EulerAngles, DescribeTheRotationNearAndAtThePoles) {
   Random random = Random::from_seed(32, 4);
   constexpr double kOffsets[] = {0, 1e-9, 1e-8, 1e-7, 3e-7, 1e-6, 1e-5, 1e-4, 1e-3, 0.1};
   for (uint16_t sequence = 0; sequence < 6; ++sequence) {
@@ -205,8 +206,9 @@ TEST(DoBetter4, AnglesDescribeTheRotationNearAndAtThePoles) {
   }
 }
 
-// rig-evaluation 12.5: an estimate of the root would let the length drift by 1e-4 per column.
-TEST(DoBetter5, QuaternionJointsStayUnitOnEveryInstructionSet) {
+// docs/rig-evaluation.md, 12.5 "Quaternion joints keep unit length": an estimate of the root would
+// let the length drift by 1e-4 per column.
+TEST(QuaternionJoints, StayUnitOnEveryInstructionSet) {
   Random random = Random::from_seed(32, 5);
   LayerRig rig = joint_rig(16);
   rig.base.raw_count = 64;
@@ -235,8 +237,8 @@ TEST(DoBetter5, QuaternionJointsStayUnitOnEveryInstructionSet) {
   }
 }
 
-// rig-evaluation 12.6
-TEST(DoBetter6, RotationRowsInAnyOrderAndSpreadOverGroups) {
+// docs/rig-evaluation.md, 12.6 "Rotation rows in any order"
+TEST(Rotations, RowsInAnyOrderAndSpreadOverGroups) {
   Random random = Random::from_seed(32, 6);
   for (int round = 0; round < 30; ++round) {
     LayerRig rig = joint_rig(3);
@@ -257,7 +259,7 @@ TEST(DoBetter6, RotationRowsInAnyOrderAndSpreadOverGroups) {
   }
 }
 
-TEST(DoBetter6, EvaluatingAGroupTwiceChangesNothing) {
+TEST(Rotations, EvaluatingAGroupTwiceChangesNothing) {
   Random random = Random::from_seed(32, 7);
   LayerRig rig = joint_rig(3);
   rig.rotations = {0, 1, 0};
@@ -278,8 +280,8 @@ TEST(DoBetter6, EvaluatingAGroupTwiceChangesNothing) {
   }
 }
 
-// rig-evaluation 12.8
-TEST(DoBetter8, TwistsOfOneSwingKeepTheirOwnWeights) {
+// docs/rig-evaluation.md, 12.8 "Several twists of one swing"
+TEST(Twists, OfOneSwingKeepTheirOwnWeights) {
   Random random = Random::from_seed(32, 8);
   LayerRig rig = joint_rig(6);
   rig.swings = {{1, {4, 5, 6, 7}, {0, 1}, {0.25f, 0.5f}}};
@@ -289,8 +291,8 @@ TEST(DoBetter8, TwistsOfOneSwingKeepTheirOwnWeights) {
   expect_model(rig, random, 50);
 }
 
-// rig-evaluation 12.13
-TEST(DoBetter13, TwistsAndSwingsObeyLodsAndRunAlone) {
+// docs/rig-evaluation.md, 12.13 "Twists and swings obey LODs"
+TEST(Twists, AndSwingsObeyLodsAndRunAlone) {
   LayerRig rig = joint_rig(4);
   rig.base.lod_count = 2;
   rig.lod_joints = {{0, 1, 2, 3}, {0, 2}};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// rig-evaluation 12.9: whatever finite numbers come in, no result is infinite or not a number. Some
-// seconds of it; MIEN_LONG=1 in the environment makes it a million frames.
+// docs/rig-evaluation.md, 12.9 "Finite inputs give finite outputs": whatever finite numbers come
+// in, no result is infinite or not a number. Some seconds of it; MIEN_LONG=1 in the environment
+// makes it a million frames.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -81,9 +82,9 @@ void run_frames(bool wild_rigs, uint64_t seed) {
   std::printf("  %zu frames\n", frames);
 }
 
-TEST(DoBetter9, FiniteInputsGiveFiniteOutputs) { run_frames(false, 1); }
+TEST(FiniteInputs, GiveFiniteOutputs) { run_frames(false, 1); }
 
-TEST(DoBetter9, EvenWithFilesOfWildNumbers) { run_frames(true, 2); }
+TEST(FiniteInputs, GiveThemEvenWithFilesOfWildNumbers) { run_frames(true, 2); }
 
 }  // namespace
 }  // namespace mien

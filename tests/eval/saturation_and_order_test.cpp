@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where results are better than those of the runtime that files were made for, item by item of
-// rig-evaluation 12. Tests of the other items stand with their subject, most of them under the
-// same name:
-//
-//     DoBetter2                baked_rig_test.cpp
-//     DoBetter3, 10, 12        evaluate_neural_test.cpp
-//     DoBetter4, 5, 6, 8, 13   evaluate_rotations_test.cpp
-//     DoBetter9                evaluate_rbf_test.cpp, finite_test.cpp
+// Some rules of docs/rig-evaluation.md, 12 "Rules that keep results meaningful". The others are
+// tested beside their subject.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +18,7 @@ LayerRig one_joint(uint16_t raw_count) {
   return rig;
 }
 
-TEST(DoBetter1, CorrectivesOfCorrectivesAreRightInTheSameFrame) {
+TEST(CorrectiveChains, AreRightInTheSameFrame) {
   LayerRig rig = one_joint(1);
   rig.base.psd_count = 3;
   // The last reads the first, which reads the one between: three frames late, if evaluated in
@@ -43,7 +37,7 @@ TEST(DoBetter1, CorrectivesOfCorrectivesAreRightInTheSameFrame) {
   }
 }
 
-TEST(DoBetter1, ACircleOfCorrectivesIsRefused) {
+TEST(CorrectiveChains, CirclesAreRefused) {
   LayerRig rig = one_joint(1);
   rig.base.psd_count = 2;
   rig.base.psds = {{1, 2, 1}, {2, 1, 1}};
@@ -52,7 +46,7 @@ TEST(DoBetter1, ACircleOfCorrectivesIsRefused) {
   EXPECT_EQ(create_rig(file.dna.get(), MIEN_ISA_BEST, MIEN_ERROR_DNA_VALUE), nullptr);
 }
 
-TEST(DoBetter7, QuaternionControlsOfTheUserStayAsTheyAre) {
+TEST(QuaternionControls, OfTheUserStayAsTheyAre) {
   LayerRig rig = one_joint(6);
   rig.base.lod_count = 2;
   rig.base.gui_count = 1;
@@ -75,7 +69,7 @@ TEST(DoBetter7, QuaternionControlsOfTheUserStayAsTheyAre) {
   EXPECT_TRUE(std::equal(input, input + 4, character.raw.begin() + 2));
 }
 
-TEST(DoBetter10, GuiControlsWithoutRowsAreZero) {
+TEST(GuiControls, WithoutRowsAreZero) {
   LayerRig rig = one_joint(2);
   rig.base.gui_count = 3;
   for (bool empty : {false, true}) {
@@ -93,7 +87,7 @@ TEST(DoBetter10, GuiControlsWithoutRowsAreZero) {
 }
 
 // Each with a number that is one too large.
-TEST(DoBetter11, IndicesPastTheEndAreRefused) {
+TEST(Indices, PastTheEndAreRefused) {
   using dna::be;
   Arena arena(default_allocator());
   const auto refused = [&](const char* what, auto change) {

@@ -36,7 +36,7 @@ class Golden : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
     if (shared_folder().empty()) {
-      GTEST_SKIP() << no_golden_files("evaluation against the reference's results");
+      GTEST_SKIP() << no_golden_files("evaluation against known results");
     }
     const std::string base = shared_folder() + "/golden/" + GetParam();
     ASSERT_EQ(parse(read_bytes(base + ".golden.bin"), file), "");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A rig of the layers that drive controls and rotations, as plain vectors: written as a DNA file
 // for the library, and evaluated a second time by rbf_model, ml_model and rotation_model, in double
-// precision and as literally as the formulas of the specification read.
+// precision and as literally as the formulas of docs/rig-evaluation.md read.
 #pragma once
 
 #include <array>
@@ -96,7 +96,7 @@ struct LayerFile {
   DnaHandle dna;
 };
 
-/// The controls of a new instance (rig-evaluation 1.2).
+/// The controls of a new instance (docs/rig-evaluation.md, 1.2 "Initial values").
 std::vector<double> initial_controls(const LayerRig& rig);
 
 /// A row of random raw controls, with every quaternion of `quaternions` (first control) of

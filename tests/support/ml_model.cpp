@@ -31,7 +31,8 @@ double default_of(const LayerRig& rig, uint32_t control) {
   return 0;
 }
 
-/// What a network's mask leaves of it (rig-evaluation 8.5, 12.12).
+/// What a network's mask leaves of it (docs/rig-evaluation.md, 8.5 "Region masks" and 12.12 "Masks
+/// may blend").
 double mask_of(const LayerRig& rig, uint32_t network, const Row& masks, bool blend) {
   for (size_t r = 0; r < rig.regions.size(); ++r) {
     const auto& region = rig.regions[r];
@@ -101,8 +102,7 @@ void convert(const LayerRig& rig, uint32_t lod, Row& controls) {
       if (triple->size() != 3) continue;  // the tests give all three or none
       const std::array<double, 3> v = {controls[(*triple)[0]], controls[(*triple)[1]],
                                        controls[(*triple)[2]]};
-      // Scale has no direction: it goes to the other axis as it is. (The specification takes the
-      // size of the result, which would make every shrinking grow.)
+      // Scale has no direction: it goes to the other axis as it is, with its sign.
       for (int i = 0; i < 3; ++i) {
         double sum = 0;
         for (int k = 0; k < 3; ++k) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Learned behavior of a LayerRig in double precision (rig-evaluation 8).
+// Learned behavior of a LayerRig in double precision (docs/rig-evaluation.md, 8 "Machine-learned
+// behavior").
 #pragma once
 
 #include <vector>

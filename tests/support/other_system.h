@@ -98,7 +98,7 @@ inline Mat3 rotation_of_quaternion(const float q[4]) {
   return r;
 }
 
-/// From one system to another, for row vectors: the change of the spec's section 11.
+/// From one system to another, for row vectors: docs/dna-format.md, 11 "Coordinate systems".
 struct SpaceChange {
   Space from, to;
   Mat3 change;

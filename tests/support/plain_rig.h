@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A rig as plain vectors: written as a DNA file for the library, and evaluated here a second time,
-// in double precision, as slowly and literally as the formulas of the specification read. The two
-// share no code but the numbers of the rig.
+// in double precision, as slowly and literally as the formulas of docs/rig-evaluation.md read. The
+// two share no code but the numbers of the rig.
 #pragma once
 
 #include <cstdint>
@@ -63,8 +63,8 @@ PlainResults evaluate_plain(const PlainRig& plain, const std::vector<float>& raw
 std::vector<double> forward_plain(const PlainTable& table, size_t row_count,
                                   const std::vector<double>& inputs, size_t output_count);
 
-/// GUI controls that explain raw controls. In float, as the specification has it: whether a value
-/// lies within an interval depends on it.
+/// GUI controls that explain raw controls. In float: whether a value lies within an interval
+/// depends on it.
 std::vector<float> backward_plain(const PlainTable& table, const std::vector<float>& raw,
                                   size_t gui_count);
 

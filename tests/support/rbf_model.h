@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// RBF solvers of a LayerRig in double precision (rig-evaluation 6).
+// RBF solvers of a LayerRig in double precision (docs/rig-evaluation.md, 6 "RBF solvers").
 #pragma once
 
 #include <vector>

@@ -29,7 +29,7 @@ ModelQuaternion inverse(const ModelQuaternion& q) {
   return {c.x / s, c.y / s, c.z / s, c.w / s};
 }
 
-/// rig-evaluation 7.
+/// docs/rig-evaluation.md, 7 "Twist and swing".
 ModelQuaternion twist_of(const ModelQuaternion& q, int axis) {
   ModelQuaternion part = {0, 0, 0, q.w};
   (axis == 0 ? part.x : axis == 1 ? part.y : part.z) = axis == 0 ? q.x : axis == 1 ? q.y : q.z;

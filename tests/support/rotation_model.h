@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Joints of a LayerRig in double precision (rig-evaluation 4.3 to 4.8, 7, 8.6), from the formulas
-// of the specification and nothing else.
+// Joints of a LayerRig in double precision (docs/rig-evaluation.md, 4.3 to 4.8, 7, 8.6), from the
+// formulas alone.
 #pragma once
 
 #include <array>

@@ -64,7 +64,7 @@ std::vector<std::string> names_of_marked(const std::vector<uint8_t>& marks,
   return found;
 }
 
-/// dna-format 10.2, and what the kept LODs still write.
+/// docs/dna-format.md, 10.2 "Definition", and what the kept LODs still write.
 void expect_survivors(const DnaView& whole, uint64_t mask, const DnaView& cut) {
   const dna::Definition& d = whole.defn;
   const uint32_t finest = lods_of(mask)[0];

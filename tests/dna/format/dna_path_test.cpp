@@ -38,7 +38,8 @@ class DnaPath : public testing::Test {
 
 // By the book -------------------------------------------------------------------------------------
 
-// dna-format section 6, with what the tiny rig has there. Numbers: u8 u16 u32 i32 f32.
+// docs/dna-format.md, 6 "Layers, field by field", with what the tiny rig has there. Numbers: u8 u16
+// u32 i32 f32.
 constexpr struct {
   const char* path;
   const char* type;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Files that are read and written again: the same bytes for the same version, and for others what
-// the format says stays, goes, or is added (dna-format 4 to 6, 9, 14 and 15).
+// the format says stays, goes, or is added (docs/dna-format.md, 4 to 6, 9, 14 and 15).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -472,7 +472,7 @@ TEST(DnaRoundtrip, GapsInTheOldestVersion) {
 
 constexpr uint32_t kWorkedSizes[11] = {87, 794, 1350, 1080, 762, 327, 228, 58, 200, 448, 17};
 
-// The descriptor of the example of dna-format 15.
+// The descriptor of the example of docs/dna-format.md, 15 "Worked example".
 DnaView worked_example(Arena& arena) {
   DnaView view;
   view.desc.name = text("test");
@@ -580,7 +580,7 @@ TEST(DnaWorkedExample, MeshBlocks) {
             Bytes(layer.begin() + 8, layer.end()));
 }
 
-// Files of the reference --------------------------------------------------------------------------
+// Golden files ------------------------------------------------------------------------------------
 
 TEST(DnaGolden, FilesConvertToThemselves) {
   const std::string shared = golden::shared_folder();
