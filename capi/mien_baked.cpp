@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Baked rigs. mien.h is the manual.
 #include "capi/handles.h"
-#include "runtime/baked/baked_rig.h"
+#include "runtime/baked/baked_objects.h"
 
 using namespace mien;
 using namespace mien::capi;
@@ -9,8 +9,8 @@ using namespace mien::capi;
 static_assert(MIEN_ERROR_BAKED_SIGNATURE == int(Status::kBakedSignature) &&
                   MIEN_ERROR_BAKED_CHECKSUM == int(Status::kBakedChecksum),
               "status.h and mien.h number the same statuses");
-static_assert(MIEN_BAKED_CHECK_FULL == int(ImageCheck::kFull),
-              "baked_rig.h and mien.h number the same checks");
+static_assert(MIEN_BAKED_CHECK_FULL == int(BakedCheck::kFull),
+              "baked_file.h and mien.h number the same checks");
 
 // Saving ------------------------------------------------------------------------------------------
 
@@ -19,12 +19,12 @@ MienStatus mien_rig_save_file(const MienRig* handle, const char* path, MienError
   if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
   if (MienStatus status = check(handle)) return give_error(error, status, "not a rig");
   const Rig& rig = *object(handle);
-  const size_t size = image_size(rig);
+  const size_t size = baked_size(rig, nullptr);
   uint8_t* bytes = static_cast<uint8_t*>(rig.allocator.get(size, kBlockAlignment));
   if (!bytes) {
     return give_error(error, MIEN_ERROR_MEMORY, "no memory for an image of %zu bytes", size);
   }
-  write_image(rig, bytes);
+  bake(rig, nullptr, bytes);
   Error detail;
   const Status status = write_file(path, bytes, size, rig.allocator, detail);
   rig.allocator.put(bytes, size, kBlockAlignment);
@@ -39,14 +39,14 @@ MienStatus mien_rig_save_memory(const MienRig* handle, void* buffer, size_t capa
   }
   if (MienStatus status = check(handle)) return give_error(error, status, "not a rig");
   const Rig& rig = *object(handle);
-  const size_t size = image_size(rig);
+  const size_t size = baked_size(rig, nullptr);
   *out_size = size;
   if (!buffer) return succeed(error);
   if (capacity < size) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
                       "the image takes %zu bytes, the buffer has %zu", size, capacity);
   }
-  write_image(rig, static_cast<uint8_t*>(buffer));
+  bake(rig, nullptr, static_cast<uint8_t*>(buffer));
   return succeed(error);
 }
 
@@ -60,33 +60,34 @@ struct OpenArguments {
   const KernelTable* kernels = nullptr;
 };
 
-/// Takes over `file`, which is empty if the bytes are the caller's.
-MienStatus open_image(const uint8_t* bytes, size_t size, MappedFile& file,
+/// Takes over `file`, which is empty if the bytes belong to the caller.
+MienStatus open_baked(const void* bytes, size_t size, MappedFile& file,
                       const OpenArguments& arguments, MienRig** out_rig, MienError* error) {
-  const auto close = [&] {
-    if (file.bytes) close_file(file);
-  };
-  const size_t block_size = align_up(sizeof(Rig), kBlockAlignment);
+  const size_t block_size = align_up(sizeof(Baked), kBlockAlignment);
   void* block = arguments.allocator.get(block_size, kBlockAlignment);
   if (!block) {
-    close();
-    return give_error(error, MIEN_ERROR_MEMORY, "no memory for a rig of %zu bytes", block_size);
+    if (file.bytes) close_file(file);
+    return give_error(error, MIEN_ERROR_MEMORY, "no memory for a baked file");
   }
-  Rig* rig = new (block) Rig;
+  Baked* baked = new (block) Baked;
+  baked->bytes.allocator = arguments.allocator;
+  baked->bytes.block_size = block_size;
+  baked->bytes.file = file;
+  baked->bytes.data = static_cast<const uint8_t*>(bytes);
+  baked->bytes.size = size;
+  baked->check = static_cast<BakedCheck>(arguments.desc.check);
   Error detail;
-  const Status status =
-      read_image(bytes, size, static_cast<ImageCheck>(arguments.desc.check), *rig, detail);
-  if (status != Status::kOk) {
-    rig->~Rig();
-    arguments.allocator.put(block, block_size, kBlockAlignment);
-    close();
-    return give_error(detail, error);
+  Rig* rig = nullptr;
+  Status status = read_baked(*baked, detail);
+  if (status == Status::kOk && !baked->rig) {
+    status = fail(detail, Status::kBakedStructure, kNoOffset, "the baked file has no rig");
   }
-  rig->allocator = arguments.allocator;
-  rig->block_size = block_size;
-  rig->image = file;
-  rig->kernels = arguments.kernels;
-  rig->always_evaluate = rig->reads_back || arguments.desc.reuse == MIEN_REUSE_NOTHING;
+  if (status == Status::kOk) {
+    status = open_baked_rig(*baked, arguments.kernels, arguments.allocator, rig, detail);
+  }
+  release_bytes(&baked->bytes);
+  if (status != Status::kOk) return give_error(detail, error);
+  rig->always_evaluate |= arguments.desc.reuse == MIEN_REUSE_NOTHING;
   rig->instance_size = instance_size(*rig);
   rig->tag = kRigTag;
   *out_rig = reinterpret_cast<MienRig*>(rig);
@@ -138,7 +139,7 @@ MienStatus mien_rig_open_file(const char* path, const MienBakedDesc* desc, MienR
   const Status status = open_file(path, static_cast<FileAccess>(arguments.desc.file_access),
                                   arguments.allocator, file, detail);
   if (status != Status::kOk) return give_error(detail, error);
-  return open_image(file.bytes, file.size, file, arguments, out_rig, error);
+  return open_baked(file.bytes, file.size, file, arguments, out_rig, error);
 }
 
 MienStatus mien_rig_open_memory(const void* bytes, size_t size, const MienBakedDesc* desc,
@@ -154,5 +155,5 @@ MienStatus mien_rig_open_memory(const void* bytes, size_t size, const MienBakedD
     }
     bytes = file.bytes;
   }
-  return open_image(static_cast<const uint8_t*>(bytes), size, file, arguments, out_rig, error);
+  return open_baked(bytes, size, file, arguments, out_rig, error);
 }

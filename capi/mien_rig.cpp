@@ -97,7 +97,7 @@ MienStatus mien_rig_info(const MienRig* handle, MienRigInfo* out_info) {
   info.joint_value_count = rig.joint_value_count();
   info.rotation = rig.quaternion_outputs ? MIEN_OUTPUT_QUATERNION : MIEN_OUTPUT_EULER;
   info.storage = rig.half_storage ? MIEN_STORAGE_F16 : MIEN_STORAGE_F32;
-  info.rig_bytes = rig.block_size + rig.image.size;
+  info.rig_bytes = rig.block_size + rig.baked_size;
   info.instance_bytes = rig.instance_size;
   write_struct(out_info, info);
   return MIEN_OK;

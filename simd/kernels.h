@@ -177,7 +177,7 @@ struct QuaternionJointArgs {
 /// interpolative, the inverse times the weights, clamped to 0..1. Then all are divided by their
 /// sum, if that exceeds 1 or always.
 struct RbfSolverPlan {
-  size_t first_target, first_inverse;
+  uint64_t first_target, first_inverse;
   uint32_t first_input, input_count;  // whole angles; into inputs, or the lane of rotations
   uint32_t first_lane, pose_count;
   uint32_t first_control;  // where results go instead, one behind the other, or kNoFirstControl

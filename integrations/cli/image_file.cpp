@@ -14,7 +14,7 @@ namespace mien::cli {
 
 namespace {
 
-constexpr char kMagic[] = "MIENRIG\n";
+constexpr char kMagic[] = "MIENBAKE";
 constexpr size_t kMagicSize = sizeof(kMagic) - 1;
 
 [[noreturn]] void fail_settled(const std::string& option) {

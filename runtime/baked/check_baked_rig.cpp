@@ -1,98 +1,26 @@
 // SPDX-License-Identifier: MIT
 // Whether the tables of a rig that came from outside keep evaluation within its arrays. What
 // compilation lays out one behind the other has to lie so here: then nothing is counted twice, and
-// work and memory are bounded by the size of the image.
+// work and memory are bounded by the size of the file.
 #include <algorithm>
 #include <cstring>
 
-#include "runtime/baked/baked_rig.h"
+#include "runtime/baked/baked_objects.h"
+#include "runtime/baked/part_check.h"
 
 namespace mien {
 namespace {
 
-struct Checker {
+struct RigChecker : Checker {
   const Rig& rig;
-  Error& error;
-
-  bool ok(bool good, const char* what) const {
-    if (good) return true;
-    fail(error, Status::kBakedStructure, kNoOffset,
-         "%s: counts or indices contradict each other, the image is damaged; bake the rig again",
-         what);
-    return false;
-  }
 };
-
-uint64_t padded(uint64_t count) { return (count + kBlockLanes - 1) / kBlockLanes * kBlockLanes; }
-
-/// The largest of some numbers, and the bits that any of them has.
-template <class T>
-struct Extent {
-  T most = 0, bits = 0;
-
-  void add(T number) {
-    most = number > most ? number : most;
-    bits |= number;
-  }
-};
-
-/// Of all numbers, counted from `zero`. Many are taken in strips: their length, which the compiler
-/// knows, lets it make vector code that has several sums at work.
-template <class T>
-Extent<T> extent_of(const Span<T>& values, T zero = 0) {
-  constexpr size_t kStrip = 64 / sizeof(T);
-  Extent<T> extent;
-  const T* at = values.begin();
-  if (values.count >= kStrip) {
-    T most[kStrip] = {}, bits[kStrip] = {};
-    for (; static_cast<size_t>(values.end() - at) >= kStrip; at += kStrip) {
-      for (size_t i = 0; i < kStrip; ++i) {
-        const auto number = static_cast<T>(at[i] - zero);
-        most[i] = number > most[i] ? number : most[i];
-        bits[i] |= number;
-      }
-    }
-    for (size_t i = 0; i < kStrip; ++i) {
-      extent.add(most[i]);
-      extent.bits |= bits[i];
-    }
-  }
-  for (; at != values.end(); ++at) extent.add(static_cast<T>(*at - zero));
-  return extent;
-}
-
-template <class T>
-bool below(const Span<T>& values, uint64_t limit) {
-  return values.empty() || extent_of(values).most < limit;
-}
-
-/// Where each of `count` runs begins, and where the last one ends.
-bool is_runs(const Span<uint32_t>& first, size_t count, size_t limit) {
-  if (first.count <= count || first[0] != 0) return false;
-  const uint32_t* at = first.data;
-  uint32_t falls = 0;
-  for (size_t i = 0; i < count; ++i) falls |= static_cast<uint32_t>(at[i] > at[i + 1]);
-  return falls == 0 && first[count] <= limit;
-}
-
-/// `count` elements from `first` on, of `limit`.
-bool fits(uint64_t first, uint64_t count, uint64_t limit) {
-  return first <= limit && count <= limit - first;
-}
-
-/// A truth value out of a file may be any byte, which the compiler must not see as one.
-bool is_flag(const bool& flag) {
-  uint8_t byte;
-  memcpy(&byte, &flag, 1);
-  return byte <= 1;
-}
 
 bool is_order(const uint8_t axes[3]) {
   return axes[0] < 3 && axes[1] < 3 && axes[2] < 3 && axes[0] != axes[1] && axes[1] != axes[2] &&
          axes[0] != axes[2];
 }
 
-bool check_counts(const Checker& c) {
+bool check_counts(const RigChecker& c) {
   const Rig& rig = c.rig;
   const uint64_t parts =
       uint64_t{rig.raw_count} + rig.psd_count + rig.ml_count + uint64_t{rig.rbf_count};
@@ -126,7 +54,7 @@ bool is_sorted(const NameList& names) {
   return true;
 }
 
-bool check_names(const Checker& c, bool full) {
+bool check_names(const RigChecker& c, bool full) {
   const Rig& rig = c.rig;
   const uint32_t counts[kKindsWithNames] = {
       rig.gui_count,   rig.raw_count,     rig.psd_count, rig.ml_count,   rig.rbf_count,
@@ -147,7 +75,7 @@ bool check_names(const Checker& c, bool full) {
   return true;
 }
 
-bool check_lists(const Checker& c, const LodLists& lists, uint32_t limit, const char* what) {
+bool check_lists(const RigChecker& c, const LodLists& lists, uint32_t limit, const char* what) {
   if (lists.first.empty()) return c.ok(false, what);
   const size_t rows = lists.first.count - 1;
   return c.ok(lists.row_of_lod.count <= c.rig.lod_count && below(lists.row_of_lod, rows) &&
@@ -158,7 +86,7 @@ bool check_lists(const Checker& c, const LodLists& lists, uint32_t limit, const 
 // Controls
 // -----------------------------------------------------------------------------------------
 
-bool check_table(const Checker& c, const ControlTable& table, uint32_t inputs, uint32_t outputs,
+bool check_table(const RigChecker& c, const ControlTable& table, uint32_t inputs, uint32_t outputs,
                  const char* what) {
   const size_t rows = table.inputs.count;
   bool advances = table.run_ends.count == rows;
@@ -171,11 +99,12 @@ bool check_table(const Checker& c, const ControlTable& table, uint32_t inputs, u
               what);
 }
 
-bool check_leading(const Checker& c, const Span<uint32_t>& at_lod, size_t most, const char* what) {
+bool check_leading(const RigChecker& c, const Span<uint32_t>& at_lod, size_t most,
+                   const char* what) {
   return c.ok(at_lod.count == c.rig.lod_count && below(at_lod, uint64_t{most} + 1), what);
 }
 
-bool check_controls(const Checker& c) {
+bool check_controls(const RigChecker& c) {
   const Rig& rig = c.rig;
   const ReverseTable& reverse = rig.raw_to_gui;
   const ChannelTable& channels = rig.channels;
@@ -224,7 +153,7 @@ bool is_ordered(const Rig& rig) {
   return ordered;
 }
 
-bool check_psds(const Checker& c, bool full) {
+bool check_psds(const RigChecker& c, bool full) {
   const Rig& rig = c.rig;
   const PsdTable& psds = rig.psds;
   const uint32_t count = rig.psd_count;
@@ -234,7 +163,7 @@ bool check_psds(const Checker& c, bool full) {
                 is_runs(psds.first_input, count, psds.inputs.count) &&
                 below(psds.inputs, rig.control_count) && below(psds.entry_of_psd, count) &&
                 (count == 0 ||
-                 extent_of(psds.outputs, static_cast<uint16_t>(rig.raw_count)).most < count),
+                 extent_of(psds.outputs, static_cast<uint16_t>(rig.raw_count)).max < count),
             "correctives") ||
       !check_leading(c, psds.count_at_lod, count, "correctives")) {
     return false;
@@ -253,7 +182,7 @@ bool check_psds(const Checker& c, bool full) {
 // Joint matrix
 // -------------------------------------------------------------------------------------
 
-bool check_panels(const Checker& c) {
+bool check_panels(const RigChecker& c) {
   const Rig& rig = c.rig;
   const JointMatrix& joints = rig.joints;
   const Span<JointPanel>& panels = joints.panels;
@@ -287,7 +216,7 @@ bool are_summed(const JointMatrix& joints, const JointTarget* targets, uint32_t 
   return good;
 }
 
-bool check_targets(const Checker& c) {
+bool check_targets(const RigChecker& c) {
   const Rig& rig = c.rig;
   const JointMatrix& joints = rig.joints;
   const uint32_t lods = rig.lod_count;
@@ -319,8 +248,8 @@ bool check_targets(const Checker& c) {
         output.add(t.output);
         group.add(t.group);
       }
-      good = good && (count == 0 || (slot.most + rows <= slots && output.most + rows <= outputs &&
-                                     group.most < joints.group_count));
+      good = good && (count == 0 || (slot.max + rows <= slots && output.max + rows <= outputs &&
+                                     group.max < joints.group_count));
       good =
           good && (!all || are_summed(joints, joints.targets.data + target - count, rows, at_lod));
     }
@@ -352,7 +281,7 @@ bool check_tiles(const JointMatrix& joints) {
     const Extent<uint16_t> extent =
         extent_of(block_rows, static_cast<uint16_t>(first * kBlockRowUnit));
     return block_rows.empty() ||
-           (extent.most < (end - first) * kBlockRowUnit && extent.bits % kBlockRowUnit == 0);
+           (extent.max < (end - first) * kBlockRowUnit && extent.bits % kBlockRowUnit == 0);
   };
   bool good = true;
   for (uint32_t panel = 0, end; good && panel < joints.panel_count(); panel = end) {
@@ -373,7 +302,7 @@ bool check_tiles(const JointMatrix& joints) {
   return good;
 }
 
-bool check_blocks(const Checker& c, size_t blocks) {
+bool check_blocks(const RigChecker& c, size_t blocks) {
   const JointMatrix& joints = c.rig.joints;
   const size_t entries = joints.block_rows.count, columns = joints.columns.count;
   const size_t ends = joints.panels.count;
@@ -409,7 +338,7 @@ bool check_blocks(const Checker& c, size_t blocks) {
               "blocks of the joint matrix");
 }
 
-bool check_joints(const Checker& c) {
+bool check_joints(const RigChecker& c) {
   const Rig& rig = c.rig;
   const JointMatrix& joints = rig.joints;
   if (!c.ok(joints.panels.count >= 1 && joints.panels.count <= kMaxBlockRows + size_t{1},
@@ -439,7 +368,7 @@ bool check_turned(const Span<QuaternionJoint>& joints, uint32_t joint_count) {
   return good;
 }
 
-bool check_rotations(const Checker& c) {
+bool check_rotations(const RigChecker& c) {
   const Rig& rig = c.rig;
   const RotationTable& table = rig.rotations;
   const size_t values = rig.half_storage ? table.halves.count : table.values.count;
@@ -476,7 +405,7 @@ bool check_rotations(const Checker& c) {
   return true;
 }
 
-bool check_twists(const Checker& c) {
+bool check_twists(const RigChecker& c) {
   const Rig& rig = c.rig;
   const TwistSwingTable& table = rig.twist_swing;
   bool good = true;
@@ -498,7 +427,7 @@ bool check_twists(const Checker& c) {
 // RBF solvers
 // --------------------------------------------------------------------------------------
 
-bool check_solvers(const Checker& c) {
+bool check_solvers(const RigChecker& c) {
   const Rig& rig = c.rig;
   const RbfTable& rbf = rig.rbf;
   uint64_t inputs = 0, rotations = 0, poses = 0, lanes = 0, targets = 0, inverses = 0;
@@ -534,7 +463,7 @@ bool check_solvers(const Checker& c) {
   return true;
 }
 
-bool check_rbf(const Checker& c) {
+bool check_rbf(const RigChecker& c) {
   const Rig& rig = c.rig;
   const RbfTable& rbf = rig.rbf;
   if (!c.ok(rbf.solvers.count == rbf.plans.count && rbf.rotations.count % (4 * kBlockLanes) == 0 &&
@@ -561,7 +490,7 @@ bool check_rbf(const Checker& c) {
 // Learned behavior
 // --------------------------------------------------------------------------------
 
-bool check_layers(const Checker& c) {
+bool check_layers(const RigChecker& c) {
   const MlTable& ml = c.rig.ml;
   const size_t values = c.rig.half_storage ? ml.halves.count : ml.values.count;
   uint64_t value = 0, bias = 0;
@@ -581,7 +510,7 @@ bool check_layers(const Checker& c) {
 }
 
 /// What a step takes lies in the buffer or in the list of controls, and what it makes of it fits.
-bool check_step_inputs(const Checker& c, const MlStep& step) {
+bool check_step_inputs(const RigChecker& c, const MlStep& step) {
   const MlTable& ml = c.rig.ml;
   bool good = fits(step.first_dependency, step.dependency_count, ml.dependencies.count) &&
               fits(step.first_gather, step.gather_count, ml.controls.count) &&
@@ -602,7 +531,7 @@ bool check_step_inputs(const Checker& c, const MlStep& step) {
   return good;
 }
 
-bool check_steps(const Checker& c) {
+bool check_steps(const RigChecker& c) {
   const Rig& rig = c.rig;
   const MlTable& ml = rig.ml;
   uint64_t outputs = 0, multiplications = 0, gathered = 0, dependencies = 0;
@@ -632,7 +561,7 @@ bool check_steps(const Checker& c) {
   return true;
 }
 
-bool check_ml(const Checker& c) {
+bool check_ml(const RigChecker& c) {
   const Rig& rig = c.rig;
   const MlTable& ml = rig.ml;
   const uint32_t parts = ml.quaternion_rotations ? 4 : 3;
@@ -661,7 +590,7 @@ bool check_ml(const Checker& c) {
 }  // namespace
 
 Status check_rig(const Rig& rig, bool full, Error& error) {
-  const Checker c = {rig, error};
+  const RigChecker c = {{error}, rig};
   const bool good =
       check_counts(c) && check_names(c, full) && check_controls(c) && check_psds(c, full) &&
       check_joints(c) && check_rotations(c) && check_twists(c) && check_rbf(c) && check_ml(c) &&

@@ -2,6 +2,7 @@
 // View and rig -> deformer: plan each mesh in scratch memory, allocate once, fill.
 #pragma once
 
+#include "runtime/base/status.h"
 #include "runtime/deform/deformer.h"
 #include "runtime/dna/format/dna_view.h"
 
@@ -42,6 +43,13 @@ struct MeshSource {
 
   Status no_memory() const;
 };
+
+// The skeleton, of the rig alone.
+
+void place_skeleton(const Rig& rig, Placer& placer, Skeleton& skeleton);
+/// kDnaValue if joints descend from themselves; kMemory for `scratch`.
+Status fill_skeleton(const Rig& rig, const KernelTable* kernels, Compose compose, Arena& scratch,
+                     Skeleton& skeleton, Error& error);
 
 // The pieces of packing. plan_...() also finds what cannot be packed; after it only scratch memory
 // can fail.

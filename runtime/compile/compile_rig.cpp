@@ -391,16 +391,4 @@ Status compile_rig(const DnaView& view, const CompileOptions& options, const All
   return Status::kOk;
 }
 
-void release_rig(const Rig* rig) {
-  if (rig->owners.fetch_sub(1, std::memory_order_acq_rel) != 1) return;
-  Rig* last = const_cast<Rig*>(rig);
-  const Allocator allocator = last->allocator;
-  const size_t size = last->block_size;
-  last->tag = 0;
-  MappedFile image = last->image;
-  last->~Rig();
-  allocator.put(last, size, kBlockAlignment);
-  if (image.bytes) close_file(image);
-}
-
 }  // namespace mien

@@ -111,7 +111,7 @@ void fill_skin(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh)
     at[1] = positions.ys[p];
     at[2] = positions.zs[p];
     if (place == 0 || mesh.runs[run - 1].influences != influences) {
-      mesh.runs[run++] = {place, 0, influences, weight};
+      mesh.runs[run++] = {weight, place, 0, influences, 0};
     }
     ++mesh.runs[run - 1].count;
     for_each_influence(source, p, [&](uint16_t joint, float value) {

@@ -22,9 +22,10 @@ constexpr uint32_t kBlockPlaces = 512;
 /// Places with the same number of influences. Row r of the run has its weights and joints at
 /// first_weight + r * influences.
 struct SkinRun {
+  uint64_t first_weight;
   uint32_t first, count;
   uint32_t influences;
-  size_t first_weight;
+  uint32_t zero;
 };
 
 /// What one target does to the places of one block.
@@ -37,7 +38,7 @@ struct TargetPiece {
 struct DeformMesh {
   uint32_t position_count = 0, vertex_count = 0, triangle_count = 0;
   uint32_t max_influences = 0, target_count = 0;
-  size_t delta_count = 0;
+  uint64_t delta_count = 0;
   uint64_t lods = 0;
 
   // As the file has it, for the caller.
@@ -80,6 +81,7 @@ struct Deformer {
   uint32_t tag = 0;  // first, for the C API to recognize its handles
   Allocator allocator;
   size_t block_size = 0;
+  size_t baked_size = 0;                    // of its part of a baked file, if its arrays are there
   mutable std::atomic<uint32_t> owners{1};  // the creator and every pose
 
   const KernelTable* kernels = nullptr;

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "runtime/base/arena.h"
-#include "runtime/base/status.h"
 #include "runtime/rig/rig.h"
 
 namespace mien {
@@ -32,11 +31,5 @@ struct Skeleton {
   uint32_t block_count() const { return (joint_count + kBlockLanes - 1) / kBlockLanes; }
   bool quaternions() const { return joint_attributes != kFileAttributes; }
 };
-
-void place_skeleton(const Rig& rig, Placer& placer, Skeleton& skeleton);
-
-/// kDnaValue if joints descend from themselves; kMemory for `scratch`.
-Status fill_skeleton(const Rig& rig, const KernelTable* kernels, Compose compose, Arena& scratch,
-                     Skeleton& skeleton, Error& error);
 
 }  // namespace mien

@@ -15,7 +15,7 @@
 
 #include "runtime/base/allocator.h"
 #include "runtime/base/coordinate_system.h"
-#include "runtime/base/mapped_file.h"
+#include "runtime/base/shared_bytes.h"
 #include "runtime/base/span.h"
 #include "runtime/base/transform.h"
 #include "simd/kernels.h"
@@ -209,7 +209,7 @@ struct GroupRotations {
   uint32_t first_angle_joint, angle_joint_count;            // into RotationTable::angle_joints
   uint32_t first_quaternion_joint, quaternion_joint_count;  // into RotationTable::quaternion_joints
   uint32_t first_column, column_count;                      // into RotationTable::columns
-  size_t first_value;                                       // into RotationTable::values
+  uint64_t first_value;                                     // into RotationTable::values
 };
 
 struct RotationTable {
@@ -255,8 +255,8 @@ struct RbfTable {
 
 /// One layer of a neural network, as simd/kernels.h wants it.
 struct NetworkLayer {
-  size_t first_value;   // into MlTable::values
-  uint32_t first_bias;  // into MlTable::biases
+  uint64_t first_value;  // into MlTable::values
+  uint32_t first_bias;   // into MlTable::biases
   uint32_t input_count;
   uint32_t output_count;
   float alpha;
@@ -394,7 +394,8 @@ struct Rig {
   uint32_t tag = 0;  // first, for the C API to recognize its handles
   Allocator allocator;
   size_t block_size = 0;
-  MappedFile image;  // of a rig that was opened from a file, or a copy of one: the arrays are there
+  const SharedBytes* bytes = nullptr;  // of a baked rig: where its arrays are; owned with others
+  size_t baked_size = 0;               // of its part of these bytes
   size_t instance_size = 0;
   mutable std::atomic<uint32_t> owners{1};  // the creator and every instance
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Baked rigs: what is opened is what was saved, and whatever else is opened does no harm.
-#include "runtime/baked/baked_rig.h"
-
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 
+#include "runtime/baked/baked_objects.h"
 #include "tests/support/exercise_baked.h"
 #include "tests/support/many_rigs.h"
 #include "tests/support/misuse.h"
@@ -167,7 +166,7 @@ TEST(RigImage, FilesAreMappedOrReadWithFewAllocations) {
     MienRig* opened = nullptr;
     ASSERT_EQ(mien_rig_open_file(file.path.c_str(), &desc, &opened, &error), MIEN_OK)
         << error.message;
-    EXPECT_EQ(counter.requests, access == MIEN_FILE_MAP ? 1u : 2u);
+    EXPECT_EQ(counter.requests, access == MIEN_FILE_MAP ? 2u : 3u);
     EXPECT_TRUE(save(opened) == save(rig.get()));
     MienInstance* instance = nullptr;
     ASSERT_EQ(mien_instance_create(opened, nullptr, &instance, nullptr), MIEN_OK);
@@ -204,7 +203,7 @@ TEST(RigImage, EveryFailureOfMemoryIsSurvived) {
   shifted.resize(bytes.size() + off);
   std::copy(bytes.begin(), bytes.end(), shifted.begin() + static_cast<ptrdiff_t>(off));
   for (bool from_file : {true, false}) {
-    for (size_t k = 1; k <= 2; ++k) {
+    for (size_t k = 1; k <= 3; ++k) {
       CountingAllocator counter;
       counter.fail_at = k;
       const MienAllocator allocator = counter.get();
@@ -283,27 +282,38 @@ MienStatus status_with(size_t offset, T value, uint32_t check = MIEN_BAKED_CHECK
 
 TEST(RigImage, ForeignImagesAreRefused) {
   EXPECT_EQ(status_with(0, 'X'), MIEN_ERROR_BAKED_SIGNATURE);
-  EXPECT_EQ(status_with(offsetof(ImageHeader, byte_order), uint32_t{0x04030201}),
+  EXPECT_EQ(status_with(offsetof(BakedHeader, byte_order), uint32_t{0x04030201}),
             MIEN_ERROR_BAKED_VERSION);
-  EXPECT_EQ(status_with(offsetof(ImageHeader, version), kBakedVersion + 1),
+  EXPECT_EQ(status_with(offsetof(BakedHeader, version), kBakedVersion + 1),
             MIEN_ERROR_BAKED_VERSION);
-  EXPECT_EQ(status_with(offsetof(ImageHeader, file_size), uint64_t{1} << 40),
+  EXPECT_EQ(status_with(offsetof(BakedHeader, file_size), uint64_t{1} << 40),
             MIEN_ERROR_BAKED_TRUNCATED);
-  EXPECT_EQ(status_with(offsetof(ImageHeader, file_size), uint64_t{64}),
+  EXPECT_EQ(status_with(offsetof(BakedHeader, file_size), uint64_t{64}),
             MIEN_ERROR_BAKED_STRUCTURE);
-  EXPECT_EQ(status_with(offsetof(ImageHeader, span_count), uint32_t{1}),
+  EXPECT_EQ(status_with(offsetof(BakedHeader, part_count), uint32_t{0}),
             MIEN_ERROR_BAKED_STRUCTURE);
-  const ImageHeader header = [] {
-    ImageHeader h;
-    memcpy(&h, tiny_image().data(), sizeof(h));
-    return h;
-  }();
-  const size_t first_span = sizeof(ImageHeader) + header.scalar_count * sizeof(uint64_t);
-  EXPECT_EQ(status_with(first_span + offsetof(ImageSpan, element_size), uint32_t{3}),
+  EXPECT_EQ(status_with(offsetof(BakedHeader, part_count), ~uint32_t{0}),
+            MIEN_ERROR_BAKED_STRUCTURE);
+  constexpr size_t kPart = sizeof(BakedHeader);
+  EXPECT_EQ(status_with(kPart + offsetof(BakedPart, kind), uint32_t{99}),
+            MIEN_ERROR_BAKED_STRUCTURE);
+  EXPECT_EQ(status_with(kPart + offsetof(BakedPart, version), uint32_t{99}),
             MIEN_ERROR_BAKED_VERSION);
-  EXPECT_EQ(status_with(first_span + offsetof(ImageSpan, offset), uint64_t{0}),
+  for (const size_t field : {offsetof(BakedPart, offset), offsetof(BakedPart, size)}) {
+    for (const uint64_t value : {uint64_t{0}, uint64_t{64}, uint64_t{1} << 40, ~uint64_t{63}}) {
+      EXPECT_EQ(status_with(kPart + field, value), MIEN_ERROR_BAKED_STRUCTURE);
+    }
+  }
+  EXPECT_EQ(status_with(kPart + offsetof(BakedPart, array_count), uint32_t{1}),
             MIEN_ERROR_BAKED_STRUCTURE);
-  EXPECT_EQ(status_with(first_span + offsetof(ImageSpan, count), ~uint64_t{0}),
+  BakedPart part;
+  memcpy(&part, tiny_image().data() + kPart, sizeof(part));
+  const size_t first_array = part.offset + part.number_count * sizeof(uint64_t);
+  EXPECT_EQ(status_with(first_array + offsetof(BakedArray, element_size), uint32_t{3}),
+            MIEN_ERROR_BAKED_VERSION);
+  EXPECT_EQ(status_with(first_array + offsetof(BakedArray, offset), uint64_t{0}),
+            MIEN_ERROR_BAKED_STRUCTURE);
+  EXPECT_EQ(status_with(first_array + offsetof(BakedArray, count), ~uint64_t{0}),
             MIEN_ERROR_BAKED_STRUCTURE);
 }
 
@@ -316,7 +326,7 @@ TEST(RigImage, DnaIsNoImageAndImagesAreNoDna) {
 
 TEST(RigImage, FullCheckFindsEveryChangedByte) {
   const Bytes bytes = tiny_image();
-  for (size_t at = offsetof(ImageHeader, checksum); at < bytes.size(); ++at) {
+  for (size_t at = offsetof(BakedHeader, checksum); at < bytes.size(); ++at) {
     const MienStatus status =
         status_with(at, static_cast<uint8_t>(bytes[at] ^ 0x10), MIEN_BAKED_CHECK_FULL);
     EXPECT_TRUE(status == MIEN_ERROR_BAKED_CHECKSUM || status == MIEN_ERROR_BAKED_STRUCTURE ||
@@ -612,8 +622,8 @@ TEST(RigImage, FullCheckKnowsTheOrderOfCorrectives) {
   psds.inputs[0] = psds.outputs[1];
   EXPECT_EQ(live_image(image.bytes.data(), image.bytes.size()).broken, "");
   open_image(image.bytes, image_desc(MIEN_ISA_BEST, MIEN_BAKED_CHECK_SAFE));
-  const uint64_t checksum = image_checksum(image.bytes.data(), image.bytes.size());
-  memcpy(image.bytes.data() + offsetof(ImageHeader, checksum), &checksum, sizeof(checksum));
+  const uint64_t checksum = baked_checksum(image.bytes.data(), image.bytes.size());
+  memcpy(image.bytes.data() + offsetof(BakedHeader, checksum), &checksum, sizeof(checksum));
   open_image(image.bytes, image_desc(), MIEN_ERROR_BAKED_STRUCTURE);
 
   psds.inputs[0] = 0;

@@ -129,7 +129,7 @@ class Bake(unittest.TestCase):
                 ("version", whole[:12] + b"\x63" + whole[13:], "version"),
                 ("order", whole[:8] + whole[8:12][::-1] + whole[12:], "byte order"),
                 ("table", whole[:-64 * (len(whole) // 128)][:4096].ljust(len(whole), b"\xff"),
-                 "image")):
+                 "baked file is damaged")):
             with open(path(name + ".rig"), "wb") as file:
                 file.write(content)
             for command in ("info", "eval"):

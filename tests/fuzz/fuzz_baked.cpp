@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "runtime/baked/baked_rig.h"
+#include "runtime/baked/baked_objects.h"
 #include "runtime/dna/format/dna_writer.h"
 #include "tests/support/exercise_baked.h"
 #include "tests/support/tiny_rig.h"
@@ -90,24 +90,30 @@ void change_number(Random& random, uint8_t* data, size_t begin, size_t end) {
 }
 
 void change(Random& random, uint8_t* data, size_t size) {
-  size_t begin = sizeof(ImageHeader), end = size;
-  // A table of its own, or the scalars.
-  ImageHeader header;
-  if (size < sizeof(header)) return;
+  if (size < sizeof(BakedHeader) + sizeof(BakedPart)) return;
+  BakedHeader header;
   memcpy(&header, data, sizeof(header));
-  const size_t table = begin + size_t{header.scalar_count} * sizeof(uint64_t);
-  if (table < size && header.span_count != 0 && below(random, 4) != 0) {
-    const size_t at = table + below(random, header.span_count) * sizeof(ImageSpan);
-    ImageSpan span;
-    if (at > size - std::min(size, sizeof(span))) return;
-    memcpy(&span, data + at, sizeof(span));
-    if (span.offset < size && span.element_size != 0 &&
-        span.count <= (size - span.offset) / span.element_size) {
-      begin = span.offset;
-      end = span.offset + span.count * span.element_size;
+  const size_t parts =
+      std::min<size_t>(header.part_count, (size - sizeof(header)) / sizeof(BakedPart));
+  // The header and the table of parts, rarely; else the numbers, the table or an array of a part.
+  size_t begin = 0, end = sizeof(header) + parts * sizeof(BakedPart);
+  if (parts != 0 && below(random, 16) != 0) {
+    BakedPart part;
+    memcpy(&part, data + sizeof(header) + below(random, parts) * sizeof(part), sizeof(part));
+    const uint64_t table = part.offset + uint64_t{part.number_count} * sizeof(uint64_t);
+    const uint64_t tables_end = table + uint64_t{part.array_count} * sizeof(BakedArray);
+    if (part.offset > size || tables_end > size || part.array_count == 0) return;
+    begin = part.offset;
+    end = below(random, 4) ? table : tables_end;
+    if (below(random, 4) != 0) {
+      BakedArray array;
+      memcpy(&array, data + table + below(random, part.array_count) * sizeof(array), sizeof(array));
+      if (array.offset < size - part.offset && array.element_size != 0 &&
+          array.count <= (size - part.offset - array.offset) / array.element_size) {
+        begin = part.offset + array.offset;
+        end = begin + array.count * array.element_size;
+      }
     }
-  } else if (table < size) {
-    end = below(random, 8) ? table : size;
   }
   switch (below(random, 4)) {
     case 0: change_number<uint8_t>(random, data, begin, end); break;
@@ -134,7 +140,7 @@ extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max
                                           unsigned int seed) {
   Random random(seed);
   for (int i = 0; i < 4; ++i) random();  // the first numbers of near seeds are near
-  const bool is_image = size >= sizeof(ImageHeader) && memcmp(data, kImageMagic, 8) == 0;
+  const bool is_image = size >= sizeof(BakedHeader) && memcmp(data, kBakedMagic, 8) == 0;
   if (!is_image || below(random, 50) == 0) {
     const Bytes& start = seeds()[below(random, seeds().size())];
     if (start.size() <= max_size) {

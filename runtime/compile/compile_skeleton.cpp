@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/pose/skeleton.h"
-
+// Rig -> skeleton: the order of joints, the neutral pose in lanes, bind matrices and their inverses.
 #include <algorithm>
+
+#include "runtime/compile/compile_deformer.h"
 
 namespace mien {
 namespace {

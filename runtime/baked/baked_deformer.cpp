@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// The deformer as a part of a baked file. Joints, channels and meshes are those of the rig, which
+// the file holds too.
+#include <new>
+
+#include "runtime/baked/baked_objects.h"
+
+namespace mien {
+namespace {
+
+/// To be raised whenever the list of numbers or arrays, or the meaning of one, changes.
+constexpr uint32_t kDeformerPartVersion = 1;
+
+static_assert(sizeof(SkinRun) == 24 && sizeof(TargetPiece) == 16, "no padding");
+
+/// Indices and counts first, which are checked when the deformer is opened; then values, of which
+/// any are safe.
+template <class AnyDeformer, class Visitor>
+void visit(AnyDeformer& deformer, Visitor& visitor) {
+  const auto numbers = [&](auto&... fields) { (visitor.number(fields), ...); };
+  const auto arrays = [&](auto&... spans) { (visitor.array(spans), ...); };
+  auto& skeleton = deformer.skeleton;
+  numbers(skeleton.compose, deformer.normals, deformer.fix_weights);
+  arrays(skeleton.order);
+  for (auto& mesh : deformer.meshes) {
+    numbers(mesh.position_count, mesh.vertex_count, mesh.triangle_count, mesh.max_influences,
+            mesh.target_count, mesh.delta_count, mesh.lods);
+    arrays(mesh.vertex_position_indices, mesh.triangles, mesh.target_channels, mesh.position_at,
+           mesh.place_of, mesh.runs, mesh.joints, mesh.first_piece, mesh.pieces, mesh.delta_places,
+           mesh.faces, mesh.first_touching, mesh.touching, mesh.first_corner, mesh.corners);
+  }
+  arrays(skeleton.neutral, skeleton.added_angles, skeleton.bind, skeleton.inverse_bind);
+  for (auto& mesh : deformer.meshes) {
+    arrays(mesh.positions, mesh.normals, mesh.texture_coordinates, mesh.neutral, mesh.weights,
+           mesh.deltas, mesh.neutral_directions);
+  }
+}
+
+}  // namespace
+
+PartMeasure measure_part(const Deformer& deformer) {
+  PartMeasure measure;
+  visit(deformer, measure);
+  return measure;
+}
+
+BakedPart write_part(const Deformer& deformer, uint8_t* bytes) {
+  const PartMeasure measure = measure_part(deformer);
+  PartWriter writer(measure, bytes);
+  visit(deformer, writer);
+  return measure.entry(PartKind::kDeformer, kDeformerPartVersion);
+}
+
+Status open_baked_deformer(const Baked& baked, const Rig& rig, const KernelTable* kernels,
+                           const Allocator& allocator, Deformer*& out, Error& error) {
+  out = nullptr;
+  // The tables alone take more for each mesh, so memory is bounded by the file.
+  if (rig.mesh_count > baked.deformer->size / sizeof(DeformMesh)) {
+    return fail(error, Status::kBakedStructure, baked.deformer->offset,
+                "the deformer has fewer meshes than its rig: the baked file is damaged; bake it "
+                "again");
+  }
+  Placer measure(nullptr);
+  measure.array<Deformer>(1);
+  measure.array<DeformMesh>(rig.mesh_count);
+  void* block = allocator.get(measure.size(), kBlockAlignment);
+  if (!block) {
+    return fail(error, Status::kMemory, kNoOffset, "no memory for a deformer of %zu bytes",
+                measure.size());
+  }
+  Placer placer(block);
+  placer.array<Deformer>(1);
+  Deformer* deformer = new (block) Deformer;
+  deformer->meshes = placer.array<DeformMesh>(rig.mesh_count);
+  for (DeformMesh& mesh : deformer->meshes) new (&mesh) DeformMesh;
+  deformer->allocator = allocator;
+  deformer->block_size = measure.size();
+  deformer->rig = &rig;
+  rig.owners.fetch_add(1, std::memory_order_relaxed);
+
+  Skeleton& skeleton = deformer->skeleton;
+  skeleton.joint_count = rig.joint_count;
+  skeleton.joint_attributes = rig.joint_attributes;
+  skeleton.rotation = rig.rotation;
+  skeleton.parents = rig.joint_parents;
+  PartReader reader(baked, *baked.deformer, kDeformerPartVersion, measure_part(*deformer), error);
+  visit(*deformer, reader);
+  Status status = reader.finish();
+  if (status == Status::kOk) {
+    status = check_deformer(*deformer, baked.check == BakedCheck::kFull, error);
+  }
+  if (status != Status::kOk) {
+    release_deformer(deformer);
+    return status;
+  }
+  deformer->baked_size = static_cast<size_t>(baked.deformer->size);
+  deformer->kernels = skeleton.kernels = kernels;
+  out = deformer;
+  return Status::kOk;
+}
+
+}  // namespace mien

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// The baked file: compiled objects as they are in memory, used where they lie.
+//
+//     | header, 64 bytes | table of parts, 64 bytes each | part | part | ...
+//
+//     part:  | numbers, 8 bytes each | arrays: offset, count, element size | array | array | ...
+//
+// Parts begin at multiples of 64, in the order of the table, and so do their arrays; what is
+// between is zero. So an object has one image, and its offsets, which count from the beginning of
+// the part, do not depend on what else the file holds. A reader skips parts of a kind that it does
+// not know. Nothing in a file depends on the instruction set, on the size of a pointer, or on where
+// the file lies. Numbers are in the byte order of the machine that wrote them; a file of the other
+// order is refused.
+#pragma once
+
+#include "runtime/base/arena.h"
+#include "runtime/base/shared_bytes.h"
+#include "runtime/base/status.h"
+
+namespace mien {
+
+constexpr uint32_t kBakedVersion = 3;  // of the header and the table; each part has its own
+constexpr uint32_t kBakedByteOrder = 0x0102'0304;
+constexpr char kBakedMagic[8] = {'M', 'I', 'E', 'N', 'B', 'A', 'K', 'E'};
+
+enum class PartKind : uint32_t { kRig = 1, kDeformer = 2 };
+
+struct BakedHeader {
+  char magic[8];
+  uint32_t byte_order;
+  uint32_t version;
+  uint64_t file_size;
+  uint64_t checksum;  // of all that follows this field
+  uint32_t part_count;
+  uint8_t zeros[28];
+};
+static_assert(sizeof(BakedHeader) == kBlockAlignment, "no padding");
+
+struct BakedPart {
+  uint32_t kind;
+  uint32_t version;
+  uint64_t offset;  // from the beginning of the file
+  uint64_t size;    // a multiple of 64
+  uint32_t number_count;
+  uint32_t array_count;
+  uint8_t zeros[32];
+};
+static_assert(sizeof(BakedPart) == kBlockAlignment, "no padding");
+
+struct BakedArray {
+  uint64_t offset;  // from the beginning of the part
+  uint64_t count;
+  uint32_t element_size;
+  uint32_t zero;
+};
+static_assert(sizeof(BakedArray) == 24, "no padding");
+
+enum class BakedCheck : uint32_t {
+  kSafe = 0,  // whatever the bytes are, evaluation and deformation stay within the arrays
+  kFull = 1,  // and the bytes are those that were written
+};
+
+/// A file whose header and table are in order. Parts are checked when objects are made of them.
+struct Baked {
+  SharedBytes bytes;
+  BakedCheck check = BakedCheck::kSafe;
+  const BakedPart* rig = nullptr;       // in the file; null if it has none
+  const BakedPart* deformer = nullptr;  // the same
+};
+
+/// The checksum that belongs into the header.
+uint64_t baked_checksum(const uint8_t* bytes, size_t size);
+
+/// Checks the header, the table and, for kFull, the checksum of `baked.bytes`, which are at a
+/// multiple of 64, and finds the parts.
+Status read_baked(Baked& baked, Error& error);
+
+}  // namespace mien

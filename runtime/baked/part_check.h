@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// What the checks of parts have in common. Index arrays are long, so each is looked through in one
+// pass that compilers turn into vector code.
+#pragma once
+
+#include <cstring>
+
+#include "runtime/base/span.h"
+#include "runtime/base/status.h"
+#include "simd/kernels.h"
+
+namespace mien {
+
+struct Checker {
+  Error& error;
+
+  bool ok(bool good, const char* what) const {
+    if (good) return true;
+    fail(error, Status::kBakedStructure, kNoOffset,
+         "%s: counts or indices contradict each other, the baked file is damaged; bake it again",
+         what);
+    return false;
+  }
+};
+
+inline uint64_t padded(uint64_t count) {
+  return (count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
+}
+
+/// The largest of some numbers, and the bits that any of them has.
+template <class T>
+struct Extent {
+  T max = 0, bits = 0;
+
+  void add(T number) {
+    max = number > max ? number : max;
+    bits |= number;
+  }
+};
+
+/// Of all numbers, counted from `zero`. Most are taken in strips: their length, which the compiler
+/// knows, lets it make vector code with several sums.
+template <class T>
+Extent<T> extent_of(const Span<T>& values, T zero = 0) {
+  constexpr size_t kStrip = 64 / sizeof(T);
+  Extent<T> extent;
+  const T* at = values.begin();
+  if (values.count >= kStrip) {
+    T max[kStrip] = {}, bits[kStrip] = {};
+    for (; static_cast<size_t>(values.end() - at) >= kStrip; at += kStrip) {
+      for (size_t i = 0; i < kStrip; ++i) {
+        const auto number = static_cast<T>(at[i] - zero);
+        max[i] = number > max[i] ? number : max[i];
+        bits[i] |= number;
+      }
+    }
+    for (size_t i = 0; i < kStrip; ++i) {
+      extent.add(max[i]);
+      extent.bits |= bits[i];
+    }
+  }
+  for (; at != values.end(); ++at) extent.add(static_cast<T>(*at - zero));
+  return extent;
+}
+
+template <class T>
+bool below(const Span<T>& values, uint64_t limit) {
+  return values.empty() || extent_of(values).max < limit;
+}
+
+/// `first` tells where each of `count` runs begins, and then where the last one ends.
+inline bool is_runs(const Span<uint32_t>& first, size_t count, size_t limit) {
+  if (first.count <= count || first[0] != 0) return false;
+  const uint32_t* at = first.data;
+  uint32_t falls = 0;
+  for (size_t i = 0; i < count; ++i) falls |= static_cast<uint32_t>(at[i] > at[i + 1]);
+  return falls == 0 && first[count] <= limit;
+}
+
+/// `count` elements from `first` on, of `limit`.
+inline bool fits(uint64_t first, uint64_t count, uint64_t limit) {
+  return first <= limit && count <= limit - first;
+}
+
+/// A bool out of a file may be any byte, and then must not be read as a bool.
+inline bool is_flag(const bool& flag) {
+  uint8_t byte;
+  memcpy(&byte, &flag, 1);
+  return byte <= 1;
+}
+
+}  // namespace mien
