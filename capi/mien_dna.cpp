@@ -241,7 +241,7 @@ MienStatus mien_dna_layer(const MienDna* dna, uint32_t index, MienDnaLayer* out_
   layer.layer = kind ? kind->loaded_by & ~uint32_t{dna::kLayerGeometryWithoutBlendShapes} : 0;
   layer.version_major = entry.layer_version >> 16;
   layer.version_minor = entry.layer_version & 0xFFFF;
-  layer.byte_offset = entry.data ? view.offset_of(entry.data) : 0;
+  layer.byte_offset = entry.offset;
   layer.byte_count = entry.size;
   layer.loaded = kind && view.has(kind->loaded_by);
   write_struct(out_layer, layer);

@@ -32,7 +32,7 @@ enum Section {
 };
 constexpr size_t kSectionTableEnd = kHeaderBytes + 4 * kSectionCount;
 
-/// Reads the fields of one record after another within [at, limit).
+/// Reads the fields of one record after another within [at, limit), which are offsets in the file.
 class FieldReader {
  public:
   FieldReader(const DnaView& view, const FindingSink& sink, Arena& arena)
@@ -44,11 +44,11 @@ class FieldReader {
 
   bool has_face_winding() const { return version_has_face_winding(view_.version); }
 
-  /// False if the record could not be read; the finding has been reported.
+  /// `data` are the bytes from offset `from` to offset `to`. False if the record could not be read;
+  /// the finding has been reported.
   template <class Record>
-  bool read_record(const char* layer, size_t from, size_t to, Record& record) {
-    at_ = from;
-    limit_ = to;
+  bool read_record(const char* layer, const uint8_t* data, size_t from, size_t to, Record& record) {
+    begin(data, from, to);
     depth_ = 0;
     good_ = true;
     path_[depth_++] = {layer, kNoIndex};
@@ -58,9 +58,9 @@ class FieldReader {
 
   /// Same layer, another place: the parts of the behavior layer in version 2.1.
   template <class Record>
-  bool read_part(const char* layer, const char* part, size_t from, size_t to, Record& record) {
-    at_ = from;
-    limit_ = to;
+  bool read_part(const char* layer, const char* part, const uint8_t* data, size_t from, size_t to,
+                 Record& record) {
+    begin(data, from, to);
     depth_ = 0;
     good_ = true;
     path_[depth_++] = {layer, kNoIndex};
@@ -88,17 +88,24 @@ class FieldReader {
     uint32_t inner_index = kNoIndex;  // lists of lists have two
   };
 
+  void begin(const uint8_t* data, size_t from, size_t to) {
+    data_ = data;
+    data_begin_ = at_ = from;
+    limit_ = to;
+  }
+  const uint8_t* here() const { return data_ + (at_ - data_begin_); }
+
   template <class T, std::enable_if_t<std::is_arithmetic<T>::value, int> = 0>
   void read(T& value) {
     if (!need(sizeof(T))) return;
-    value = load_big_endian<T>(view_.file + at_);
+    value = load_big_endian<T>(here());
     at_ += sizeof(T);
   }
 
   void read(String& string) {
     uint32_t count;
     if (!read_count(1, count)) return;
-    string.data = view_.file + at_;
+    string.data = here();
     string.count = count;
     at_ += count;
   }
@@ -107,7 +114,7 @@ class FieldReader {
   void read(Array<T>& array) {
     uint32_t count;
     if (!read_count(sizeof(T), count)) return;
-    array.data = view_.file + at_;
+    array.data = here();
     array.count = count;
     at_ += size_t{count} * sizeof(T);
   }
@@ -169,7 +176,7 @@ class FieldReader {
 
   bool read_count(size_t element_bytes, uint32_t& count) {
     if (!need(4)) return false;
-    count = load_big_endian<uint32_t>(view_.file + at_);
+    count = load_big_endian<uint32_t>(here());
     if (count > (limit_ - at_ - 4) / element_bytes) {
       report(Status::kDnaTruncated, at_,
              "announces %u elements of %zu bytes or more, but only %zu "
@@ -184,7 +191,7 @@ class FieldReader {
   // From 2.2 on a block starts with its size, in 2.1 with the offset of its end.
   bool read_block_end(size_t& end) {
     if (!need(4)) return false;
-    const uint32_t value = load_big_endian<uint32_t>(view_.file + at_);
+    const uint32_t value = load_big_endian<uint32_t>(here());
     at_ += 4;
     const bool fits = view_.version == 1 ? value >= at_ && value <= limit_ : value <= limit_ - at_;
     if (!fits) {
@@ -239,7 +246,8 @@ class FieldReader {
   const DnaView& view_;
   const FindingSink& sink_;
   Arena& arena_;
-  size_t at_ = 0, limit_ = 0;
+  const uint8_t* data_ = nullptr;
+  size_t data_begin_ = 0, at_ = 0, limit_ = 0;
   bool good_ = true;
   uint32_t warnings_ = 0;
   int depth_ = 0;
@@ -249,9 +257,10 @@ class FieldReader {
 /// One pass over a file: container, definition, then the other layers.
 class DnaReader {
  public:
-  DnaReader(const uint8_t* bytes, size_t size, const ReadOptions& options, Arena& arena,
-            DnaView& view, const FindingSink& sink)
-      : size_(size), options_(options), arena_(arena), view_(view),
+  /// `bytes` is null if the file is to be read from `stream`.
+  DnaReader(const uint8_t* bytes, size_t size, const Stream& stream, const ReadOptions& options,
+            Arena& arena, DnaView& view, const FindingSink& sink)
+      : size_(size), stream_(stream), options_(options), arena_(arena), view_(view),
         outer_sink_(sink), sink_{this, count_and_forward, sink.thorough},
         fields_(view, sink_, arena) {
     view_ = {};
@@ -317,8 +326,32 @@ class DnaReader {
     return status == Status::kOk && go_on;
   }
 
+  /// The bytes from `offset` on, which lie within the file; of a stream they are read into the arena.
+  /// Null if that failed; the finding has been reported.
+  const uint8_t* fetch(uint64_t offset, size_t size) {
+    if (!stream_.read) return view_.file + offset;
+    const Span<FileSegment> segment = arena_.array<FileSegment>(1);
+    // A byte more keeps the end of one segment and the beginning of the next apart.
+    void* data = segment.data ? arena_.allocate(size + 1, 1) : nullptr;
+    if (!data) {
+      report(Status::kMemory, offset, "", "no memory for %zu bytes of the file", size);
+      return nullptr;
+    }
+    if (size != 0 && stream_.read(stream_.user, offset, data, size) != size) {
+      report(Status::kFileRead, offset, "", "the stream did not give %zu bytes", size);
+      return nullptr;
+    }
+    segment[0] = {static_cast<const uint8_t*>(data), offset, size, view_.segments};
+    view_.segments = segment.data;
+    return segment[0].data;
+  }
+
   bool read_header() {
-    if (size_ < 3 || memcmp(view_.file, "DNA", 3) != 0) {
+    if (size_ != 0) {
+      header_ = fetch(0, std::min(size_, kSectionTableEnd));
+      if (!header_) return false;
+    }
+    if (size_ < 3 || memcmp(header_, "DNA", 3) != 0) {
       return report(Status::kDnaSignature, 0, "",
                     size_ == 0 ? "the file is empty"
                                : "the file does not start with \"DNA\": it is no DNA file");
@@ -326,8 +359,8 @@ class DnaReader {
     if (size_ < kHeaderBytes) {
       return report(Status::kDnaTruncated, size_, "", "the file ends within its header");
     }
-    view_.generation = load_big_endian<uint16_t>(view_.file + 3);
-    view_.version = load_big_endian<uint16_t>(view_.file + 5);
+    view_.generation = load_big_endian<uint16_t>(header_ + 3);
+    view_.version = load_big_endian<uint16_t>(header_ + 5);
     if (view_.generation != 2) {
       return report(Status::kDnaVersion, 3, "", "version %u.%u: only 2.x can be read",
                     unsigned{view_.generation}, unsigned{view_.version});
@@ -343,7 +376,7 @@ class DnaReader {
     if (size_ < kHeaderBytes + 4) {
       return report(Status::kDnaTruncated, size_, "", "the file ends before its index");
     }
-    const uint32_t count = load_big_endian<uint32_t>(view_.file + kHeaderBytes);
+    const uint32_t count = load_big_endian<uint32_t>(header_ + kHeaderBytes);
     const size_t first = kHeaderBytes + 4;
     if (count > (size_ - first) / kIndexEntryBytes) {
       return report(Status::kDnaTruncated, kHeaderBytes, "",
@@ -353,9 +386,11 @@ class DnaReader {
     }
     if (!allocate_index(count)) return false;
     const size_t data_begin = first + kIndexEntryBytes * count;
+    const uint8_t* entries = fetch(first, data_begin - first);
+    if (!entries) return false;
     for (uint32_t i = 0; i < count; ++i) {
       const size_t at = first + kIndexEntryBytes * i;
-      const uint8_t* entry = view_.file + at;
+      const uint8_t* entry = entries + kIndexEntryBytes * i;
       const uint32_t offset = load_big_endian<uint32_t>(entry + 8);
       const uint32_t bytes = load_big_endian<uint32_t>(entry + 12);
       if (uint64_t{offset} + bytes > size_) {
@@ -371,9 +406,9 @@ class DnaReader {
                       i, entry, offset);
       }
       view_.index[i] = {load_big_endian<uint32_t>(entry), load_big_endian<uint32_t>(entry + 4),
-                        view_.file + offset, bytes};
+                        nullptr, bytes, offset};
     }
-    return check_index(data_begin) && drop_unknown();
+    return check_index(data_begin) && drop_unknown() && fetch_layers();
   }
 
   // No two entries of the same kind, none that share bytes; gaps are allowed.
@@ -401,31 +436,27 @@ class DnaReader {
     }
 
     std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-      if (index[a].data != index[b].data) return index[a].data < index[b].data;
+      if (index[a].offset != index[b].offset) return index[a].offset < index[b].offset;
       if (index[a].size != index[b].size) return index[a].size < index[b].size;
       return a < b;
     });
-    const uint8_t* end = view_.file + data_begin;
+    size_t end = data_begin;
     bool go_on = true;
     for (uint32_t i : order) {
       if (index[i].size == 0) continue;
-      if (index[i].data < end) {
+      if (index[i].offset < end) {
         return report(Status::kDnaStructure, entry_at(i) + 8, "", "layer %u begins within another",
                       i);
       }
-      if (sink_.thorough && index[i].data > end) {
-        go_on &= report(Status::kOk, view_.offset_of(end), "",
-                        "%zu bytes before layer %u belong to no "
-                        "layer",
-                        static_cast<size_t>(index[i].data - end), i);
+      if (sink_.thorough && index[i].offset > end) {
+        go_on &= report(Status::kOk, end, "", "%zu bytes before layer %u belong to no layer",
+                        index[i].offset - end, i);
       }
-      end = index[i].data + index[i].size;
+      end = size_t{index[i].offset} + index[i].size;
     }
-    if (sink_.thorough && end < view_.file + size_) {
-      go_on &= report(Status::kOk, view_.offset_of(end), "",
-                      "%zu bytes after the last layer belong to "
-                      "no layer",
-                      static_cast<size_t>(view_.file + size_ - end));
+    if (sink_.thorough && end < size_) {
+      go_on &= report(Status::kOk, end, "", "%zu bytes after the last layer belong to no layer",
+                      size_ - end);
     }
     return go_on;
   }
@@ -439,12 +470,26 @@ class DnaReader {
     return true;
   }
 
+  /// Of a stream only what was chosen: known layers, and unknown ones that are carried along.
+  bool fetch_layers() {
+    for (IndexEntry& entry : view_.index) {
+      const LayerKind* kind = find_layer_kind(entry.code, entry.layer_version);
+      const bool needed = kind ? view_.has(kind->loaded_by) : options_.keep_unknown;
+      // In version 2.1 behavior is four sections, each fetched when it is read.
+      const bool in_sections = view_.version == 1 && kind && kind->id == LayerId::kBhvr;
+      if (stream_.read && (!needed || in_sections)) continue;
+      entry.data = fetch(entry.offset, entry.size);
+      if (!entry.data) return false;
+    }
+    return true;
+  }
+
   bool read_sections() {
     if (size_ < kSectionTableEnd) {
       return report(Status::kDnaTruncated, size_, "", "the file ends within its section table");
     }
     for (int s = 0; s < kSectionCount; ++s) {
-      sections_[s] = load_big_endian<uint32_t>(view_.file + kHeaderBytes + 4 * s);
+      sections_[s] = load_big_endian<uint32_t>(header_ + kHeaderBytes + 4 * s);
       if (sections_[s] < kSectionTableEnd || sections_[s] > size_) {
         const Status status = sections_[s] > size_ ? Status::kDnaTruncated : Status::kDnaStructure;
         return report(
@@ -481,10 +526,11 @@ class DnaReader {
       const LayerKind& kind = kLayerKinds[static_cast<size_t>(layer.id)];
       size_t begin = sections_[layer.first], end = section_end(layer.last);
       if (end < begin) end = begin;
-      view_.index[static_cast<size_t>(layer.id)] = {
-          kind.code, kind.layer_version, view_.file + begin, static_cast<uint32_t>(end - begin)};
+      view_.index[static_cast<size_t>(layer.id)] = {kind.code, kind.layer_version, nullptr,
+                                                    static_cast<uint32_t>(end - begin),
+                                                    static_cast<uint32_t>(begin)};
     }
-    return true;
+    return fetch_layers();
   }
 
   // A section ends where the next one in the file begins; the last one before the end marker.
@@ -500,7 +546,9 @@ class DnaReader {
 
   void check_end_marker() {
     const size_t at = geometry_end_;
-    if (size_ - at < 3 || memcmp(view_.file + at, "AND", 3) != 0) {
+    const uint8_t* marker = size_ - at < 3 ? nullptr : fetch(at, 3);
+    if (size_ - at >= 3 && !marker) return;
+    if (!marker || memcmp(marker, "AND", 3) != 0) {
       report(Status::kDnaStructure, at, "",
              "the end marker \"AND\" is missing: the file is cut off or "
              "damaged");
@@ -550,10 +598,9 @@ class DnaReader {
     fields_.skip_blend_shape_targets = !view_.has(kLayerGeometry);
     fields_.kept_meshes = kept_meshes_.data;
     fields_.mesh_count = kept_meshes_.count;
-    const size_t begin = static_cast<size_t>(entry->data - view_.file);
-    const size_t end = begin + entry->size;
+    const size_t begin = entry->offset, end = begin + entry->size;
     const bool good = with_layer(view_, id, [&](auto& record) {
-      return fields_.read_record(kind.name, begin, end, record);
+      return fields_.read_record(kind.name, entry->data, begin, end, record);
     });
     if (id == LayerId::kGeom) geometry_end_ = fields_.position();
     if (good && sink_.thorough && fields_.position() != end) {
@@ -565,7 +612,10 @@ class DnaReader {
   void load_behavior_sections() {
     Behavior& b = view_.bhvr;
     auto part = [&](const char* name, Section s, auto& record) {
-      fields_.read_part("bhvr", name, sections_[s], section_end(s), record);
+      if (ended_) return;
+      const size_t begin = sections_[s], end = section_end(s);
+      const uint8_t* data = fetch(begin, end - begin);
+      if (data) fields_.read_part("bhvr", name, data, begin, end, record);
     };
     part("controls", kSControls, b.controls);
     part("joints", kSJoints, b.joints);
@@ -606,13 +656,12 @@ class DnaReader {
     view_.ml_control_count = view_.mlbh.control_names.count;
     const IndexEntry* entry = find_entry(LayerId::kMlbh);
     if (view_.has(kLayerMachineLearned) || !view_.has(kLayerRbf) || !entry) return true;
-    const uint64_t offset = view_.offset_of(entry->data);
-    const uint32_t count = entry->size < 4 ? 0 : load_big_endian<uint32_t>(entry->data);
-    if (entry->size < 4 || count > (entry->size - 4) / 4) {
-      return report(Status::kDnaTruncated, offset, "mlbh.mlControlNames",
-                    "announces %u names, but the "
-                    "layer has %u bytes",
-                    count, entry->size);
+    const uint8_t* first = entry->size < 4 ? nullptr : fetch(entry->offset, 4);
+    if (entry->size >= 4 && !first) return false;
+    const uint32_t count = first ? load_big_endian<uint32_t>(first) : 0;
+    if (!first || count > (entry->size - 4) / 4) {
+      return report(Status::kDnaTruncated, entry->offset, "mlbh.mlControlNames",
+                    "announces %u names, but the layer has %u bytes", count, entry->size);
     }
     view_.ml_control_count = count;
     return true;
@@ -645,6 +694,8 @@ class DnaReader {
   }
 
   size_t size_;
+  Stream stream_;                    // `read` is null if the file lies in memory
+  const uint8_t* header_ = nullptr;  // the first bytes of the file
   const ReadOptions& options_;
   Arena& arena_;
   DnaView& view_;
@@ -673,21 +724,36 @@ bool keep_first_error(void* user, const Finding& finding) {
 
 }  // namespace
 
-Status read_dna(const uint8_t* bytes, size_t size, const ReadOptions& options, Arena& arena,
-                DnaView& out, Error& error) {
+namespace {
+
+Status read(const uint8_t* bytes, size_t size, const Stream& stream, const ReadOptions& options,
+            Arena& arena, DnaView& out, Error& error) {
   Error first;
   const FindingSink sink{&first, keep_first_error, false};
-  DnaReader reader(bytes, size, options, arena, out, sink);
+  DnaReader reader(bytes, size, stream, options, arena, out, sink);
   reader.run();
   if (reader.good()) return Status::kOk;
   error = first;
   return error.status;
 }
 
+}  // namespace
+
+Status read_dna(const uint8_t* bytes, size_t size, const ReadOptions& options, Arena& arena,
+                DnaView& out, Error& error) {
+  return read(bytes, size, {}, options, arena, out, error);
+}
+
+Status read_dna(const Stream& stream, const ReadOptions& options, Arena& arena, DnaView& out,
+                Error& error) {
+  const size_t size = static_cast<size_t>(std::min<uint64_t>(stream.size, SIZE_MAX));
+  return read(nullptr, size, stream, options, arena, out, error);
+}
+
 bool examine_dna(const uint8_t* bytes, size_t size, Arena& arena, DnaView& out,
                  const FindingSink& sink) {
   const ReadOptions options;
-  DnaReader reader(bytes, size, options, arena, out, sink);
+  DnaReader reader(bytes, size, {}, options, arena, out, sink);
   reader.run();
   return !reader.ended();
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "runtime/base/coordinate_system.h"
+#include "runtime/base/stream.h"
 #include "runtime/dna/format/dna_view.h"
 #include "runtime/dna/format/findings.h"
 
@@ -22,6 +23,11 @@ struct ReadOptions {
 /// `out` must not be used.
 Status read_dna(const uint8_t* bytes, size_t size, const ReadOptions& options, Arena& arena,
                 DnaView& out, Error& error);
+
+/// The same from a stream. Reads the header, the index and the chosen layers into the arena, each
+/// layer at once; the stream is not needed afterwards. kFileRead if it fails.
+Status read_dna(const Stream& stream, const ReadOptions& options, Arena& arena, DnaView& out,
+                Error& error);
 
 /// Reads everything and reports every error and warning to `sink`. An error in one layer does not
 /// stop the checks of the others. `out` holds what could be read, for inspection only. False if the

@@ -12,7 +12,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "runtime/dna/dna_reader.h"
 #include "tests/support/dna_bytes.h"
+#include "tests/support/memory_stream.h"
 #include "tests/support/rig_handles.h"
 #include "tests/support/tiny_rig.h"
 
@@ -170,6 +172,45 @@ TEST(LoadOnly, ChosenLayers) {
     const RigHandle rig = create_rig(dna.get());
     file.forbid_all();  // a rig has its own copy of all that it needs
     evaluate_all_lods(rig);
+  }
+}
+
+// A stream is asked for the header, the index and the chosen layers, each byte at most once.
+TEST(LoadOnly, ChosenLayersOfAStream) {
+  const SpreadFile spread;
+  const MemoryStream stream(spread.bytes);
+  const size_t index_end = 11 + 16 * spread.places.size();
+  for (uint32_t layers = 0; layers < 512; ++layers) {
+    SCOPED_TRACE("layers " + std::to_string(layers));
+    const std::string codes = codes_read(layers);
+    Arena arena(default_allocator());
+    DnaView view;
+    Error error;
+    dna::ReadOptions options;
+    options.layers = layers;
+    options.keep_unknown = false;
+    stream.ranges.clear();
+    ASSERT_EQ(dna::read_dna(stream.get(), options, arena, view, error), Status::kOk)
+        << error.message;
+    size_t read = 0;
+    for (const auto& [offset, size] : stream.ranges) {
+      if (offset + size <= index_end) continue;
+      read += size;
+      const auto holds = [&, begin = offset](const SpreadFile::Place& place) {
+        return place.begin <= begin && begin < place.end;
+      };
+      const auto place = std::find_if(spread.places.begin(), spread.places.end(), holds);
+      ASSERT_NE(place, spread.places.end()) << offset;
+      EXPECT_NE(codes.find(place->code), std::string::npos) << place->code;
+      EXPECT_LE(offset + size, place->end);
+    }
+    size_t chosen = 0;
+    for (uint32_t i = 0; i < view.index.count; ++i) {
+      if (view.index[i].data) chosen += view.index[i].size;
+    }
+    const bool counts_ml = (layers & MIEN_LAYER_RBF_BEHAVIOR) != 0 &&
+                           (layers & MIEN_LAYER_MACHINE_LEARNED_BEHAVIOR) == 0;
+    EXPECT_EQ(read, chosen + (counts_ml ? 4 : 0));
   }
 }
 

@@ -71,7 +71,7 @@ uint64_t descriptor_extension_offset(const DnaView& view) {
   const LayerKind& kind = kLayerKinds[static_cast<size_t>(LayerId::kDsce)];
   for (const IndexEntry& entry : view.index) {
     if (entry.code == kind.code && entry.layer_version == kind.layer_version) {
-      return view.offset_of(entry.data);
+      return entry.data ? entry.offset : kNoOffset;
     }
   }
   return kNoOffset;

@@ -21,8 +21,16 @@ uint32_t close_layer_mask(uint32_t layers) {
 
 uint64_t DnaView::offset_of(const void* address) const {
   const uintptr_t at = reinterpret_cast<uintptr_t>(address);
-  const uintptr_t begin = reinterpret_cast<uintptr_t>(file);
-  return file && at >= begin && at - begin <= file_size ? at - begin : kNoOffset;
+  const auto within = [&](const uint8_t* data, size_t size) {
+    const uintptr_t begin = reinterpret_cast<uintptr_t>(data);
+    return data && at >= begin && at - begin <= size;
+  };
+  const auto from = [&](const uint8_t* data) { return at - reinterpret_cast<uintptr_t>(data); };
+  if (within(file, file_size)) return from(file);
+  for (const FileSegment* segment = segments; segment; segment = segment->next) {
+    if (within(segment->data, segment->size)) return segment->offset + from(segment->data);
+  }
+  return kNoOffset;
 }
 
 }  // namespace mien::dna

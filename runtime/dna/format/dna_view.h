@@ -85,9 +85,18 @@ constexpr bool version_has_face_winding(uint16_t version) { return version < 1 |
 struct IndexEntry {
   uint32_t code = 0;
   uint32_t layer_version = 0;
-  const uint8_t* data =
-      nullptr;  // the layer's bytes in the file; unknown layers are written from here
+  const uint8_t* data = nullptr;  // its bytes; null if a stream was not asked for them. Unknown
+                                  // layers are written from here.
   uint32_t size = 0;
+  uint32_t offset = 0;  // in the file
+};
+
+/// A part of a file that was read from a stream into the arena.
+struct FileSegment {
+  const uint8_t* data = nullptr;
+  uint64_t offset = 0;
+  size_t size = 0;
+  const FileSegment* next = nullptr;
 };
 
 struct DnaView {
@@ -114,8 +123,10 @@ struct DnaView {
   /// is (whose control numbers start behind them).
   uint32_t ml_control_count = 0;
 
-  /// The file, to turn addresses into offsets. Null if the view was made here.
+  /// The file, to turn addresses into offsets: whole, or what was read of a stream. Both are null if
+  /// the view was made here.
   const uint8_t* file = nullptr;
+  const FileSegment* segments = nullptr;
   size_t file_size = 0;
 
   bool has(uint32_t layers) const { return (loaded & layers) != 0; }

@@ -36,7 +36,8 @@ TEST(DnaCheckerTest, OffsetsOfSingleNumbers) {
   std::vector<uint8_t> file(100);
   view.file = file.data();
   view.file_size = file.size();
-  view.index[10].data = &file[70];  // dsce: rotationSequence, then the signs
+  view.index[10].data = &file[70];
+  view.index[10].offset = 70;  // dsce: rotationSequence, then the signs
   view.dsce.rotation_sign.z = 7;
   view.desc.complexity.data = &file[30];  // preceded by lodCount, maxLOD, its own count
   view.desc.lod_count = 34;
