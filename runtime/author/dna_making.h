@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What all makers of rigs need: arrays, lists and names made in an arena, LOD maps, and vectors.
+// Shared by the generators: arrays, lists and names in an arena, and LOD maps.
 #pragma once
 
 #include <cstring>
 
 #include "runtime/base/arena.h"
+#include "runtime/base/vector.h"
 #include "runtime/dna/format/dna_schema.h"
 
 namespace mien::author {
@@ -90,16 +91,5 @@ bool make_lod_map(Arena& arena, size_t lod_count, size_t element_count, const In
   out = {lods, {lists.items, used}};
   return true;
 }
-
-// Space ------------------------------------------------------------------------------------------
-
-struct Vec3 {
-  double x = 0, y = 0, z = 0;
-};
-
-inline Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec3 operator*(Vec3 a, double s) { return {a.x * s, a.y * s, a.z * s}; }
-inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 }  // namespace mien::author

@@ -15,8 +15,6 @@
 
 namespace mien::head {
 
-using author::Vec3;
-
 /// sRGB, 0 ... 255.
 struct Color {
   double r = 0, g = 0, b = 0;

@@ -44,8 +44,6 @@ void join_rows(HalfMesh& out, uint32_t first, uint32_t rows, uint32_t columns) {
   }
 }
 
-Vec3 unit(Vec3 v) { return v * (1 / std::sqrt(dot(v, v))); }
-
 }  // namespace
 
 // Ears ------------------------------------------------------------------------------------------

@@ -177,8 +177,7 @@ class SkinMaker {
   uint32_t lid_edge_vertex(uint32_t from, Color color) {
     Vertex v = out_.vertices[from];
     const Vec3 out = v.closed - kEye;
-    const double length = std::sqrt(dot(out, out));
-    v.closed = kEye + out * ((kEyeRadius - 0.12) / std::max(length, kEyeRadius));
+    v.closed = kEye + out * ((kEyeRadius - 0.12) / std::max(length(out), kEyeRadius));
     v.position = turn_lid(v.closed, v.lid);
     v.color = color;
     v.v += v.lid < 0 ? 0.004 : -0.004;
@@ -308,7 +307,7 @@ void set_normals(HalfMesh& mesh) {
     const auto at = [&](int i) { return mesh.vertices[f.corners[i]].position; };
     const Vec3 a = f.count == 4 ? at(2) - at(0) : at(1) - at(0);
     const Vec3 b = f.count == 4 ? at(3) - at(1) : at(2) - at(0);
-    const Vec3 n = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    const Vec3 n = cross(a, b);
     for (uint32_t i = 0; i < f.count; ++i) {
       Vertex& v = mesh.vertices[f.corners[i]];
       v.normal = v.normal + n;
@@ -317,8 +316,7 @@ void set_normals(HalfMesh& mesh) {
   for (uint32_t i = 0; i < mesh.vertices.count(); ++i) {
     Vertex& v = mesh.vertices[i];
     if (mesh.on_plane(i)) v.normal.x = 0;
-    const double length = std::sqrt(dot(v.normal, v.normal));
-    v.normal = length > 0 ? v.normal * (1 / length) : Vec3{0, 1, 0};
+    v.normal = length(v.normal) > 0 ? unit(v.normal) : Vec3{0, 1, 0};
   }
 }
 

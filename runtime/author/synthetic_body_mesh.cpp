@@ -17,11 +17,6 @@ constexpr double kHalf = 0.70710678118654752;
 constexpr double kCircle[8][2] = {{1, 0},  {kHalf, kHalf},   {0, 1},  {-kHalf, kHalf},
                                   {-1, 0}, {-kHalf, -kHalf}, {0, -1}, {kHalf, -kHalf}};
 
-Vec3 cross(Vec3 a, Vec3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-Vec3 unit(Vec3 a) { return a * (1 / std::sqrt(dot(a, a))); }
-
 struct TubeMaker {
   TubeMaker(const Body& of, Arena& memory, TubeGrid sizes) : body(of), arena(memory), grid(sizes) {}
 
@@ -69,8 +64,8 @@ struct TubeMaker {
     const BodyJoint& end = body.joints[joint];
     const Vec3 from = body.joints[end.parent].position;
     const Vec3 way = end.position - from;
-    const double length = std::sqrt(dot(way, way));
-    const double radius = 0.5 + 0.12 * length;
+    const double size = length(way);
+    const double radius = 0.5 + 0.12 * size;
     const Vec3 along = unit(way);
     // Any direction that is not along the tube will do.
     const Vec3 helper = along.y * along.y < 0.5 ? Vec3{0, 1, 0} : Vec3{0, 0, 1};

@@ -146,8 +146,8 @@ void place_control(const Regions& regions, const Family& family, int side, Rando
     const Region& owned = regions.items[nearest[i].region];
     control.regions |= 1u << nearest[i].region;
     Vec3 apart = owned.center - control.home;
-    double size = std::sqrt(dot(owned.spread, owned.spread));
-    farthest = std::max(farthest, std::sqrt(dot(apart, apart)) + size);
+    double size = length(owned.spread);
+    farthest = std::max(farthest, length(apart) + size);
   }
   control.reach = farthest;
 }

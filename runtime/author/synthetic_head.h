@@ -15,7 +15,6 @@ using author::copy_text;
 using author::make;
 using author::make_lod_map;
 using author::Text;
-using author::Vec3;
 
 /// 1 in the middle, 0 from `radius` on, with a smooth end; takes squares to spare the root.
 inline double falloff(double squared_distance, double radius) {

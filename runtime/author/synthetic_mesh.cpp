@@ -68,11 +68,11 @@ bool make_surface(const Ellipsoid& shape, Grid grid, Arena& arena, dna::Mesh& ou
     return false;
   }
 
-  auto set_point = [&](uint32_t i, Vec3 unit) {
+  auto set_point = [&](uint32_t i, Vec3 on_sphere) {
     Vec3 r = shape.radii;
-    positions.set(i, shape.center + Vec3{unit.x * r.x, unit.y * r.y, unit.z * r.z});
-    Vec3 across = {unit.x / r.x, unit.y / r.y, unit.z / r.z};
-    normals.set(i, across * (1 / std::sqrt(dot(across, across))));
+    positions.set(i, shape.center + Vec3{on_sphere.x * r.x, on_sphere.y * r.y, on_sphere.z * r.z});
+    Vec3 across = {on_sphere.x / r.x, on_sphere.y / r.y, on_sphere.z / r.z};
+    normals.set(i, unit(across));
   };
   auto set_corner = [&](uint32_t i, uint32_t point, double u, double v) {
     us.set(i, static_cast<float>(u));

@@ -22,17 +22,12 @@
 namespace mien {
 namespace {
 
-using author::Vec3;
 using dna::DnaView;
 using head::kEye;
 using head::kLodCount;
 using head::kPartCount;
 using head::Part;
 
-double length(Vec3 v) { return std::sqrt(dot(v, v)); }
-Vec3 cross(Vec3 a, Vec3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 Vec3 mirrored(Vec3 v) { return {-v.x, v.y, v.z}; }
 Vec3 point(const dna::Vec3Array& v, size_t i) { return {v.xs[i], v.ys[i], v.zs[i]}; }
 std::string text(const dna::String& s) { return {s.chars(), s.count}; }
