@@ -167,9 +167,9 @@ MienStatus mien_deformer_influences(const MienDeformer* handle, uint32_t m, uint
   if (m >= object(handle)->meshes.count) return MIEN_ERROR_INDEX;
   const DeformMesh& mesh = object(handle)->meshes[m];
   if (position >= mesh.position_count) return MIEN_ERROR_INDEX;
-  const uint32_t place = mesh.place_of[position];
-  const SkinRun* run = run_of(mesh, place);
-  const size_t row = run->first_weight + size_t{place - run->first} * run->influences;
+  const uint32_t sorted_index = mesh.sorted_indices[position];
+  const SkinRun* run = skin_run_of(mesh, sorted_index);
+  const size_t row = run->first_weight + size_t{sorted_index - run->first} * run->influences;
   *out_joints = view_of(mesh.joints.slice(row, run->influences));
   *out_weights = view_of(mesh.weights.slice(row, run->influences));
   return MIEN_OK;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Blend shape targets, linear blend skinning, normals.
+// Blend shape targets, linear blend skinning, normals. docs/deformation.md.
 
 #pragma once
 
@@ -11,22 +11,22 @@ namespace mien::MIEN_KERNEL_ISA {
 namespace {
 
 void add_target(const TargetArgs& given) {
-  const TargetArgs args = given;  // a copy that no store can change
+  const TargetArgs args = given;  // a local copy: no store can alias it
   const Quad weight = broadcast4(args.weight);
   for (size_t i = 0; i < args.count; ++i) {
-    float* at = args.moved + size_t{args.places[i]} * 4;
+    float* at = args.positions + size_t{args.indices[i]} * 4;
     store4(at, mul_add4(weight, load4(args.deltas + i * 3), load4(at)));
   }
 }
 
 // Normals -----------------------------------------------------------------------------------------
 
-/// Takes one vector for each corner of a list, in its order, and writes them as unit vectors to the
-/// vertices that the corners name: some at a time, for roots and divisions take long alone.
-class CornerNormals {
+/// Takes one vector for each of `vertices`, in this order, and writes them normalized. It collects
+/// 64 before it writes, so that square roots and divisions overlap.
+class VertexNormals {
  public:
-  CornerNormals(const uint32_t* corners, const float* neutral, float* normals)
-      : corners_(corners), neutral_(neutral), normals_(normals) {}
+  VertexNormals(const uint32_t* vertices, const float* neutral, float* normals)
+      : vertices_(vertices), neutral_(neutral), normals_(normals) {}
 
   void add(const Quad& v) {
     store4(vectors_ + 4 * count_, v);
@@ -46,18 +46,18 @@ class CornerNormals {
       float lengths[4];
       store4(lengths, squared);
       const size_t rest = count_ - i;
-      put(x, lengths[0], corners_[i]);
-      if (rest > 1) put(y, lengths[1], corners_[i + 1]);
-      if (rest > 2) put(z, lengths[2], corners_[i + 2]);
-      if (rest > 3) put(w, lengths[3], corners_[i + 3]);
+      put(x, lengths[0], vertices_[i]);
+      if (rest > 1) put(y, lengths[1], vertices_[i + 1]);
+      if (rest > 2) put(z, lengths[2], vertices_[i + 2]);
+      if (rest > 3) put(w, lengths[3], vertices_[i + 3]);
     }
-    corners_ += count_;
+    vertices_ += count_;
     count_ = 0;
   }
 
  private:
-  void put(const Quad& unit, float squared, uint32_t corner) {
-    const size_t at = size_t{corner & ~kHardCorner} * 3;
+  void put(const Quad& unit, float squared, uint32_t vertex) {
+    const size_t at = size_t{vertex & ~kHardEdge} * 3;
     const bool has_direction = squared > 1e-36f && squared < 3.4e38f;
     store3(normals_ + at, has_direction ? unit : load4(neutral_ + at));
   }
@@ -65,7 +65,7 @@ class CornerNormals {
   static constexpr size_t kMax = 64;
   alignas(16) float vectors_[kMax * 4] = {};
   size_t count_ = 0;
-  const uint32_t* corners_;
+  const uint32_t* vertices_;
   const float* neutral_;
   float* normals_;
 };
@@ -79,10 +79,10 @@ inline void add_each(const Add& add, std::index_sequence<K...>) {
   (add(K + 1), ...);
 }
 
-/// The sum of weight * matrix over one row of influences. Each float of the matrix is a lane and
-/// adds the influences in order, so the width does not change a bit. The packs instead of loops
-/// make each sum a register of its own, and lay out rows of up to eight influences (kCount; 0 is
-/// any).
+/// The sum of weight * matrix over the influences of a position. Each float of the matrix is a lane
+/// that adds the influences in order, so all vector widths give the same bits. Parameter packs
+/// instead of loops keep each sum in a register, and unroll up to eight influences (kCount; 0 means
+/// any number).
 template <size_t kCount, size_t... V>
 inline void blend(const float* weights, const uint16_t* joints, const float* matrices, size_t count,
                   Quad* columns, std::index_sequence<V...>) {
@@ -94,7 +94,7 @@ inline void blend(const float* weights, const uint16_t* joints, const float* mat
     const Vec weight = broadcast(weights[k]);
     ((sums[V] = mul_add(weight, load(next + V * kWidth), sums[V])), ...);
   };
-  // Compilers make vectors of the plain loop, but not of what is laid out.
+  // Compilers vectorize the loop of the scalar kernels, but not the unrolled form.
   if constexpr (kCount == 0 || kWidth == 1) {
     for (size_t k = 1; k < count; ++k) add(k);
   } else {
@@ -107,16 +107,16 @@ template <SkinNormals kMode, size_t kInfluences>
 void skin_rows(const SkinArgs& given) {
   const SkinArgs args = given;
   const size_t influences = kInfluences != 0 ? kInfluences : args.influences;
-  CornerNormals normals(args.corners + args.first_corner[0], args.normals, args.out_normals);
+  VertexNormals normals(args.vertices + args.first_vertex[0], args.normals, args.out_normals);
   for (size_t i = 0; i < args.count; ++i) {
     Quad c[4];
     blend<kInfluences>(args.weights + i * influences, args.joints + i * influences, args.matrices,
                        influences, c, std::make_index_sequence<kVecsPerMatrix>());
-    const float* p = args.places + i * 4;
-    const Quad moved =
+    const float* p = args.positions + i * 4;
+    const Quad skinned =
         mul_add4(c[0], broadcast4(p[0]),
                  mul_add4(c[1], broadcast4(p[1]), mul_add4(c[2], broadcast4(p[2]), c[3])));
-    store3(args.positions + size_t{args.position_at[i]} * 3, moved);
+    store3(args.out_positions + size_t{args.position_indices[i]} * 3, skinned);
     if constexpr (kMode != SkinNormals::kNone) {
       if constexpr (kMode == SkinNormals::kCofactors) {
         const Quad x = c[0], y = c[1], z = c[2];
@@ -124,8 +124,8 @@ void skin_rows(const SkinArgs& given) {
         c[1] = cross4(z, x);
         c[2] = cross4(x, y);
       }
-      for (size_t k = args.first_corner[i]; k < args.first_corner[i + 1]; ++k) {
-        const float* n = args.normals + size_t{args.corners[k] & ~kHardCorner} * 3;
+      for (size_t k = args.first_vertex[i]; k < args.first_vertex[i + 1]; ++k) {
+        const float* n = args.normals + size_t{args.vertices[k] & ~kHardEdge} * 3;
         normals.add(mul_add4(c[0], broadcast4(n[0]),
                              mul_add4(c[1], broadcast4(n[1]), c[2] * broadcast4(n[2]))));
       }
@@ -149,7 +149,7 @@ void skin_mode(const SkinArgs& args) {
   }
 }
 
-void skin_places(const SkinArgs& args) {
+void skin_positions(const SkinArgs& args) {
   switch (args.mode) {
     case SkinNormals::kNone: return skin_mode<SkinNormals::kNone>(args);
     case SkinNormals::kMatrix: return skin_mode<SkinNormals::kMatrix>(args);
@@ -163,8 +163,8 @@ void face_areas(const AreaArgs& given) {
   const AreaArgs args = given;
   for (size_t i = 0; i < args.count; ++i) {
     const uint32_t* face = args.faces + i * 4;
-    const auto corner = [&](size_t k) { return load4(args.positions + size_t{face[k]} * 3); };
-    store4(args.areas + i * 4, cross4(corner(2) - corner(0), corner(3) - corner(1)));
+    const auto position = [&](size_t k) { return load4(args.positions + size_t{face[k]} * 3); };
+    store4(args.areas + i * 4, cross4(position(2) - position(0), position(3) - position(1)));
   }
 }
 
@@ -172,9 +172,9 @@ inline float dot3(const float* a, const float* b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// The shortest turn that takes the neutral direction to that of `sum`, applied to a normal; zero
-/// if the sum has no direction.
-inline Quad out_normal(const Quad& sum, const float* neutral_direction, const float* normal) {
+/// Rotates a normal by the shortest rotation from the neutral direction to that of `sum`. Zero if
+/// the sum has no direction.
+inline Quad rotated_normal(const Quad& sum, const float* neutral_direction, const float* normal) {
   float now[4];
   store4(now, sum);
   const float squared = dot3(now, now);
@@ -192,19 +192,19 @@ inline Quad out_normal(const Quad& sum, const float* neutral_direction, const fl
 
 void sum_normals(const NormalArgs& given) {
   const NormalArgs args = given;
-  CornerNormals normals(args.corners + args.first_corner[0], args.normals, args.out_normals);
+  VertexNormals normals(args.vertices + args.first_vertex[0], args.normals, args.out_normals);
   for (size_t i = 0; i < args.count; ++i) {
     Quad sum = broadcast4(0.0f);
-    for (size_t k = args.first_touching[i]; k < args.first_touching[i + 1]; ++k) {
-      sum = sum + load4(args.areas + size_t{args.touching[k]} * 4);
+    for (size_t k = args.first_adjacent_face[i]; k < args.first_adjacent_face[i + 1]; ++k) {
+      sum = sum + load4(args.areas + size_t{args.adjacent_faces[k]} * 4);
     }
-    for (size_t k = args.first_corner[i]; k < args.first_corner[i + 1]; ++k) {
-      if ((args.corners[k] & kHardCorner) == 0) {
+    for (size_t k = args.first_vertex[i]; k < args.first_vertex[i + 1]; ++k) {
+      if ((args.vertices[k] & kHardEdge) == 0) {
         normals.add(sum);
         continue;
       }
-      const float* n = args.normals + size_t{args.corners[k] & ~kHardCorner} * 3;
-      normals.add(out_normal(sum, args.neutral_directions + i * 4, n));
+      const float* n = args.normals + size_t{args.vertices[k] & ~kHardEdge} * 3;
+      normals.add(rotated_normal(sum, args.neutral_directions + i * 4, n));
     }
   }
   normals.flush();

@@ -32,7 +32,7 @@ const KernelTable kTable = {kIsa,
                             joint_locals,
                             joint_tree,
                             add_target,
-                            skin_places,
+                            skin_positions,
                             face_areas,
                             sum_normals};
 

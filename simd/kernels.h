@@ -212,72 +212,78 @@ struct RbfArgs {
   float* controls;
 };
 
-/// Local transforms of joints, in blocks of 16, one lane each:
+/// Local transforms of joints, in blocks of 16 joints, one lane each:
 ///
 ///     neutral   block 0: tx0..tx15 ty tz qx qy qz qw | block 1: ...
-///     deltas    block 0: tx0..tx15 ty tz, half angles about x y z in radians within a quarter turn
-///               or qx qy qz qw (any length; zero is the identity), sx sy sz | block 1: ...
+///     deltas    block 0: tx0..tx15 ty tz, then the half angles about x y z in radians, at most a
+///               quarter turn, or qx qy qz qw (any length; zero is the identity), then sx sy sz |
+///               block 1: ...
 ///     locals    block 0: x axis (xyz), y axis, z axis, translation, qx qy qz qw | block 1: ...
 ///
-/// Translation: the sum. Rotation: neutral * delta, unit. Axes: those of the rotation, scaled by
-/// 1 + delta. Not fused: every instruction set gives the same bits. All 64-byte aligned.
+/// Translation: neutral + delta. Rotation: neutral * delta, normalized. The axes are those of the
+/// rotation, scaled by 1 + delta. Nothing is fused: all instruction sets give the same bits. All
+/// arrays are 64-byte aligned.
 struct JointLocalArgs {
   const float* neutral;
   const float* deltas;
   float* locals;
   uint32_t block_count;
-  uint8_t axes[3];   // first, second, third to turn about
+  uint8_t axes[3];   // of the first, second and third rotation
   bool quaternions;  // in the deltas
 };
 constexpr uint32_t kNeutralRows = 7, kDeltaRows = 10, kLocalRows = 16;
 
-/// Model and skin matrices out of local transforms, parents before children; joint order[i] has
-/// lane i. A joint that is `still` skins exactly as its parent does, a root not at all. Matrices:
-/// four columns of four floats, 64-byte aligned, the last row is 0 0 0 1. Not fused, as above.
+/// Local transforms -> model and skin matrices, parents before children; joint order[i] has lane i.
+/// A joint without a delta takes the skin matrix of its parent as it is, a root the identity, so
+/// that its vertices keep their bits. A matrix is four columns of four floats, 64-byte aligned; its
+/// last row is 0 0 0 1. Nothing is fused, as above.
 struct JointTreeArgs {
   const uint16_t* order;
-  const uint16_t* parents;  // [joint]; a root is its own
+  const uint16_t* parents;  // [joint]; a root is its own parent
   const float* locals;
-  const uint8_t* still;  // [lane]
+  const uint8_t* has_no_delta;  // [lane]
   const float* inverse_bind;
   float* model;
   float* skin;
   uint32_t joint_count;
 };
 
-/// moved[4 * places[i] + k] += weight * deltas[3 * i + k]; a fourth float follows the last delta.
-/// The fourth float of a place is left with no meaning.
+/// positions[4 * indices[i] + k] += weight * deltas[3 * i + k] for k = 0, 1, 2. Reads one float past
+/// the last delta; the fourth float of a position becomes meaningless.
 struct TargetArgs {
   const float* deltas;
-  const uint16_t* places;
-  float* moved;
+  const uint16_t* indices;
+  float* positions;
   float weight;
   uint32_t count;
 };
 
-/// What becomes of normals while places are skinned: turned by the blended matrix, or as area
-/// vectors are (its cofactors): right for any scale.
+/// How skinning transforms normals: by the blended matrix, or by its cofactor matrix, which is right
+/// for any scale.
 enum class SkinNormals : uint32_t { kNone, kMatrix, kCofactors };
 
-/// Linear blend skinning of `count` places with the same number of influences, at least one:
+/// In a vertex index of SkinArgs and NormalArgs: the vertex lies on a hard edge.
+constexpr uint32_t kHardEdge = 0x8000'0000;
+
+/// Linear blend skinning of `count` positions with the same number of influences, at least one:
 ///
-///     places    x y z * of each place
-///     weights   row by row, `influences` each; joints beside them
-///     matrices  skin matrices by joint, 64-byte aligned
+///     positions   x y z * of each
+///     weights     `influences` for each position; joints likewise
+///     matrices    skin matrices by joint, 64-byte aligned
 ///
-/// Writes positions[3 * position_at[i] ...]. Corners first_corner[i] ... first_corner[i + 1] are
-/// vertices at place i (their highest bit is a mark): normals[3 * vertex ...] is turned and written
-/// to out_normals, unit; where there is no direction it is copied. Reads a float beyond each
-/// normal.
+/// Writes position i to out_positions[3 * position_indices[i]]. Its vertices are vertices[k] for
+/// first_vertex[i] <= k < first_vertex[i + 1]; their normals are transformed, normalized, and
+/// written to out_normals[3 * vertex]. A normal that loses its direction is copied instead. Reads
+/// one float past each normal.
 struct SkinArgs {
-  const float* places;
+  const float* positions;
   const float* weights;
   const uint16_t* joints;
   const float* matrices;
-  const uint32_t* position_at;
-  float* positions;
-  const uint32_t* first_corner;
-  const uint32_t* corners;
+  const uint32_t* position_indices;
+  float* out_positions;
+  const uint32_t* first_vertex;
+  const uint32_t* vertices;
   const float* normals;
   float* out_normals;
   uint32_t count;
@@ -285,8 +291,8 @@ struct SkinArgs {
   SkinNormals mode;
 };
 
-/// areas[4 * i ...] = (p2 - p0) x (p3 - p1) for the four positions of each face. Reads a float
-/// beyond each position.
+/// areas[4 * i ...] = (p2 - p0) x (p3 - p1) for the four positions of each face: twice the area
+/// vector. Reads one float past each position.
 struct AreaArgs {
   const float* positions;
   const uint32_t* faces;
@@ -294,22 +300,20 @@ struct AreaArgs {
   uint32_t count;
 };
 
-/// Normals of the corners of `count` places from the area vectors of the faces that touch them. A
-/// corner with its highest bit set is a hard edge: its neutral normal is turned as the sum of the
-/// areas turned away from the neutral direction of the place. Unit; where there is no direction the
-/// neutral normal is copied.
+/// Normals of the vertices of `count` positions: the normalized sum of the area vectors of the
+/// adjacent faces. On a hard edge the neutral normal is rotated instead, by the shortest rotation
+/// from the neutral direction to that sum. Without a direction the neutral normal is copied.
 struct NormalArgs {
   const float* areas;
-  const uint32_t* first_touching;  // [place], one more at the end
-  const uint32_t* touching;
-  const uint32_t* first_corner;  // [place], one more at the end
-  const uint32_t* corners;
+  const uint32_t* first_adjacent_face;  // [position], + 1
+  const uint32_t* adjacent_faces;
+  const uint32_t* first_vertex;  // [position], + 1
+  const uint32_t* vertices;
   const float* normals;             // [vertex] x y z, neutral
-  const float* neutral_directions;  // [place] x y z *
+  const float* neutral_directions;  // [position] x y z *
   float* out_normals;
   uint32_t count;
 };
-constexpr uint32_t kHardCorner = 0x8000'0000;
 
 struct KernelTable {
   Isa isa;
@@ -331,7 +335,7 @@ struct KernelTable {
   void (*joint_locals)(const JointLocalArgs& args);
   void (*joint_tree)(const JointTreeArgs& args);
   void (*add_target)(const TargetArgs& args);
-  void (*skin_places)(const SkinArgs& args);
+  void (*skin_positions)(const SkinArgs& args);
   void (*face_areas)(const AreaArgs& args);
   void (*sum_normals)(const NormalArgs& args);
 };

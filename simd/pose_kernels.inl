@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Joint values -> local transforms -> model and skin matrices. Products and sums are not fused
-// here: all that follows is sensitive to these matrices, so they are the same on every instruction
-// set.
+// Joint values -> local transforms -> model and skin matrices. Nothing is fused here, so that all
+// instruction sets give the same matrices: small differences would grow down the hierarchy.
 
 #pragma once
 
@@ -28,8 +27,8 @@ inline Vec cosine(Vec x) {
   return p * xx + broadcast(1.0f);
 }
 
-/// Turns by three half angles about the axes, one after the other.
-inline VecQuaternion turns(const float* half_angles, const uint8_t* axes) {
+/// The product of the rotations about three axes, given their half angles.
+inline VecQuaternion from_half_angles(const float* half_angles, const uint8_t* axes) {
   Vec q[4] = {broadcast(0.0f), broadcast(0.0f), broadcast(0.0f), broadcast(1.0f)};
   for (int i = 0; i < 3; ++i) {
     const size_t a = axes[i], b = (a + 1) % 3, c = (a + 2) % 3;
@@ -44,7 +43,7 @@ inline VecQuaternion turns(const float* half_angles, const uint8_t* axes) {
   return {q[0], q[1], q[2], q[3]};
 }
 
-/// Unit length; the identity if there is no direction to be had.
+/// Unit length; the identity for a quaternion without direction.
 inline VecQuaternion unit(const VecQuaternion& q) {
   const Vec zero = broadcast(0.0f), one = broadcast(1.0f);
   const Vec squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
@@ -63,9 +62,9 @@ void joint_locals(const JointLocalArgs& args) {
       const float* neutral = args.neutral + block * kNeutralRows * kBlockLanes + lane;
       const float* delta = args.deltas + block * kDeltaRows * kBlockLanes + lane;
       float* out = args.locals + block * kLocalRows * kBlockLanes + lane;
-      const float* turn = delta + 3 * kBlockLanes;
-      const VecQuaternion own =
-          args.quaternions ? unit(load_quaternion(turn)) : turns(turn, args.axes);
+      const float* rotation = delta + 3 * kBlockLanes;
+      const VecQuaternion own = args.quaternions ? unit(load_quaternion(rotation))
+                                                 : from_half_angles(rotation, args.axes);
       const VecQuaternion q = unit(multiply(load_quaternion(neutral + 3 * kBlockLanes), own));
 
       const Vec x2 = q.x + q.x, y2 = q.y + q.y, z2 = q.z + q.z;
@@ -90,7 +89,7 @@ void joint_locals(const JointLocalArgs& args) {
 }
 
 struct Columns {
-  Quad x, y, z, at;
+  Quad x, y, z, origin;
 };
 inline Columns load_columns(const float* from) {
   return {load4(from), load4(from + 4), load4(from + 8), load4(from + 12)};
@@ -99,19 +98,19 @@ inline void store_columns(float* to, const Columns& m) {
   store4(to, m.x);
   store4(to + 4, m.y);
   store4(to + 8, m.z);
-  store4(to + 12, m.at);
+  store4(to + 12, m.origin);
 }
 
-/// m * (column whose three numbers are `stride` apart).
-inline Quad turned(const Columns& m, const float* column, size_t stride) {
+/// The linear part of m times a column whose three floats are `stride` apart.
+inline Quad transform(const Columns& m, const float* column, size_t stride) {
   return m.x * broadcast4(column[0]) + m.y * broadcast4(column[stride]) +
          m.z * broadcast4(column[2 * stride]);
 }
 
-/// m * (matrix of four columns, `column` floats apart, of three numbers, `row` floats apart).
+/// m times a matrix whose four columns are `column` floats apart, its three rows `row` floats.
 inline Columns product(const Columns& m, const float* of, size_t column, size_t row) {
-  return {turned(m, of, row), turned(m, of + column, row), turned(m, of + 2 * column, row),
-          turned(m, of + 3 * column, row) + m.at};
+  return {transform(m, of, row), transform(m, of + column, row), transform(m, of + 2 * column, row),
+          transform(m, of + 3 * column, row) + m.origin};
 }
 
 void joint_tree(const JointTreeArgs& args) {
@@ -121,12 +120,13 @@ void joint_tree(const JointTreeArgs& args) {
     const size_t joint = args.order[i], parent = args.parents[joint];
     const bool root = parent == joint;
     const float* local = args.locals + i / kBlockLanes * kLocalRows * kBlockLanes + i % kBlockLanes;
-    const Columns above = load_columns(root ? kIdentity : args.model + parent * 16);
-    const Columns model = product(above, local, 3 * kBlockLanes, kBlockLanes);
+    const Columns parent_model = load_columns(root ? kIdentity : args.model + parent * 16);
+    const Columns model = product(parent_model, local, 3 * kBlockLanes, kBlockLanes);
     store_columns(args.model + joint * 16, model);
-    const Columns skin = !args.still[i] ? product(model, args.inverse_bind + joint * 16, 4, 1)
-                         : root         ? load_columns(kIdentity)
-                                        : load_columns(args.skin + parent * 16);
+    const Columns skin = !args.has_no_delta[i]
+                             ? product(model, args.inverse_bind + joint * 16, 4, 1)
+                         : root ? load_columns(kIdentity)
+                                : load_columns(args.skin + parent * 16);
     store_columns(args.skin + joint * 16, skin);
   }
 }

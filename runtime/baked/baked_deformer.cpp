@@ -11,7 +11,7 @@ namespace {
 /// To be raised whenever the list of numbers or arrays, or the meaning of one, changes.
 constexpr uint32_t kDeformerPartVersion = 1;
 
-static_assert(sizeof(SkinRun) == 24 && sizeof(TargetPiece) == 16, "no padding");
+static_assert(sizeof(SkinRun) == 24 && sizeof(TargetRun) == 16, "no padding");
 
 /// Indices and counts first, which are checked when the deformer is opened; then values, of which
 /// any are safe.
@@ -25,14 +25,15 @@ void visit(AnyDeformer& deformer, Visitor& visitor) {
   for (auto& mesh : deformer.meshes) {
     numbers(mesh.position_count, mesh.vertex_count, mesh.triangle_count, mesh.max_influences,
             mesh.target_count, mesh.delta_count, mesh.lods);
-    arrays(mesh.vertex_position_indices, mesh.triangles, mesh.target_channels, mesh.position_at,
-           mesh.place_of, mesh.runs, mesh.joints, mesh.first_piece, mesh.pieces, mesh.delta_places,
-           mesh.faces, mesh.first_touching, mesh.touching, mesh.first_corner, mesh.corners);
+    arrays(mesh.vertex_position_indices, mesh.triangles, mesh.target_channels,
+           mesh.position_indices, mesh.sorted_indices, mesh.skin_runs, mesh.joints,
+           mesh.first_target_run, mesh.target_runs, mesh.delta_indices, mesh.faces,
+           mesh.first_adjacent_face, mesh.adjacent_faces, mesh.first_vertex, mesh.vertices);
   }
-  arrays(skeleton.neutral, skeleton.added_angles, skeleton.bind, skeleton.inverse_bind);
+  arrays(skeleton.neutral, skeleton.neutral_angles, skeleton.bind, skeleton.inverse_bind);
   for (auto& mesh : deformer.meshes) {
-    arrays(mesh.positions, mesh.normals, mesh.texture_coordinates, mesh.neutral, mesh.weights,
-           mesh.deltas, mesh.neutral_directions);
+    arrays(mesh.positions, mesh.normals, mesh.texture_coordinates, mesh.sorted_positions,
+           mesh.weights, mesh.deltas, mesh.neutral_directions);
   }
 }
 

@@ -33,7 +33,7 @@ bool check_skeleton(const DeformerChecker& c, bool full) {
   const size_t lanes = size_t{skeleton.block_count()} * kBlockLanes;
   return c.ok(skeleton.order.count == joints && below(skeleton.order, joints) &&
                   skeleton.neutral.count == lanes * kNeutralRows &&
-                  skeleton.added_angles.count == joints * 3 &&
+                  skeleton.neutral_angles.count == joints * 3 &&
                   skeleton.bind.count == joints * kMatrixFloats &&
                   skeleton.inverse_bind.count == joints * kMatrixFloats,
               "skeleton") &&
@@ -46,7 +46,7 @@ bool check_skeleton(const DeformerChecker& c, bool full) {
 /// What callers see, in the order of the file.
 bool check_mesh_arrays(const DeformerChecker& c, const DeformMesh& mesh) {
   const uint64_t positions = mesh.position_count, vertices = mesh.vertex_count;
-  return c.ok(positions < kHardCorner && vertices < kHardCorner &&
+  return c.ok(positions < kHardEdge && vertices < kHardEdge &&
                   mesh.positions.count == positions * 3 + 1 &&
                   mesh.normals.count == vertices * 3 + 1 &&
                   mesh.texture_coordinates.count == vertices * 2 &&
@@ -63,46 +63,46 @@ bool check_mesh_arrays(const DeformerChecker& c, const DeformMesh& mesh) {
 /// Runs follow each other, and their rows of weights too.
 bool check_skin(const DeformerChecker& c, const DeformMesh& mesh) {
   const uint64_t positions = mesh.position_count;
-  if (!c.ok(mesh.position_at.count == positions && mesh.place_of.count == positions &&
-                mesh.neutral.count == positions * 4 &&
+  if (!c.ok(mesh.position_indices.count == positions && mesh.sorted_indices.count == positions &&
+                mesh.sorted_positions.count == positions * 4 &&
                 mesh.neutral_directions.count == positions * 4 &&
                 mesh.joints.count == mesh.weights.count && below(mesh.joints, c.rig.joint_count),
             "skin weights")) {
     return false;
   }
-  uint64_t place = 0, weight = 0;
+  uint64_t next = 0, weight = 0;
   uint32_t max_influences = 0;
-  for (const SkinRun& run : mesh.runs) {
-    const bool good = run.first == place && run.count != 0 && run.first_weight == weight &&
+  for (const SkinRun& run : mesh.skin_runs) {
+    const bool good = run.first == next && run.count != 0 && run.first_weight == weight &&
                       run.influences <= 0xFFFF && run.zero == 0;
-    place += run.count;
+    next += run.count;
     weight += uint64_t{run.count} * run.influences;
     max_influences = std::max(max_influences, run.influences);
-    if (!c.ok(good && place <= positions && weight <= mesh.weights.count, "runs of skin weights")) {
+    if (!c.ok(good && next <= positions && weight <= mesh.weights.count, "runs of skin weights")) {
       return false;
     }
   }
-  if (!c.ok(place == positions && weight == mesh.weights.count &&
+  if (!c.ok(next == positions && weight == mesh.weights.count &&
                 max_influences == mesh.max_influences,
             "runs of skin weights")) {
     return false;
   }
-  // Each undoes the other: so each position has one place.
+  // The two are inverse to each other, so each position has one sorted index.
   bool good = true;
   for (uint32_t p = 0; good && p < mesh.position_count; ++p) {
-    const uint32_t position = mesh.position_at[p];
-    good = position < positions && mesh.place_of[position] == p;
+    const uint32_t position = mesh.position_indices[p];
+    good = position < positions && mesh.sorted_indices[position] == p;
   }
   return c.ok(good, "order of positions");
 }
 
-/// Block by block, pieces of ascending targets, with deltas one behind the other.
+/// In each block, runs of ascending targets, whose deltas follow each other.
 bool check_targets(const DeformerChecker& c, const DeformMesh& mesh) {
   const uint32_t blocks = mesh.block_count();
-  if (!c.ok(is_runs(mesh.first_piece, blocks, mesh.pieces.count) &&
-                mesh.first_piece.count == size_t{blocks} + 1 &&
-                mesh.first_piece[blocks] == mesh.pieces.count &&
-                mesh.delta_places.count == mesh.delta_count &&
+  if (!c.ok(is_runs(mesh.first_target_run, blocks, mesh.target_runs.count) &&
+                mesh.first_target_run.count == size_t{blocks} + 1 &&
+                mesh.first_target_run[blocks] == mesh.target_runs.count &&
+                mesh.delta_indices.count == mesh.delta_count &&
                 mesh.deltas.count == mesh.delta_count * 3 + 1,
             "blend shape targets")) {
     return false;
@@ -111,17 +111,16 @@ bool check_targets(const DeformerChecker& c, const DeformMesh& mesh) {
   for (uint32_t b = 0; b < blocks; ++b) {
     const uint64_t first_delta = delta;
     uint64_t next_target = 0;
-    for (uint32_t i = mesh.first_piece[b]; i < mesh.first_piece[b + 1]; ++i) {
-      const TargetPiece& piece = mesh.pieces[i];
-      const bool good = piece.target >= next_target && piece.target < mesh.target_count &&
-                        piece.channel == mesh.target_channels[piece.target] &&
-                        piece.first_delta == delta;
-      next_target = uint64_t{piece.target} + 1;
-      delta += piece.count;
-      if (!c.ok(good && delta <= mesh.delta_count, "pieces of blend shape targets")) return false;
+    for (uint32_t i = mesh.first_target_run[b]; i < mesh.first_target_run[b + 1]; ++i) {
+      const TargetRun& run = mesh.target_runs[i];
+      const bool good = run.target >= next_target && run.target < mesh.target_count &&
+                        run.channel == mesh.target_channels[run.target] && run.first_delta == delta;
+      next_target = uint64_t{run.target} + 1;
+      delta += run.count;
+      if (!c.ok(good && delta <= mesh.delta_count, "runs of blend shape targets")) return false;
     }
-    const uint32_t places = std::min(kBlockPlaces, mesh.position_count - b * kBlockPlaces);
-    if (!c.ok(below(mesh.delta_places.slice(first_delta, delta - first_delta), places),
+    const uint32_t count = std::min(kBlockPositions, mesh.position_count - b * kBlockPositions);
+    if (!c.ok(below(mesh.delta_indices.slice(first_delta, delta - first_delta), count),
               "positions of blend shape targets")) {
       return false;
     }
@@ -129,14 +128,14 @@ bool check_targets(const DeformerChecker& c, const DeformMesh& mesh) {
   return c.ok(delta == mesh.delta_count, "blend shape targets");
 }
 
-/// Corners of a place are vertices at its position, ascending: so each vertex is one corner.
-bool check_corners(const DeformMesh& mesh) {
+/// Each position lists its own vertices in ascending order, so each vertex is listed once.
+bool check_vertex_lists(const DeformMesh& mesh) {
   for (uint32_t p = 0; p < mesh.position_count; ++p) {
     uint64_t next_vertex = 0;
-    for (uint32_t i = mesh.first_corner[p]; i < mesh.first_corner[p + 1]; ++i) {
-      const uint32_t vertex = mesh.corners[i] & ~kHardCorner;
+    for (uint32_t i = mesh.first_vertex[p]; i < mesh.first_vertex[p + 1]; ++i) {
+      const uint32_t vertex = mesh.vertices[i] & ~kHardEdge;
       if (vertex < next_vertex || vertex >= mesh.vertex_count ||
-          mesh.vertex_position_indices[vertex] != mesh.position_at[p]) {
+          mesh.vertex_position_indices[vertex] != mesh.position_indices[p]) {
         return false;
       }
       next_vertex = uint64_t{vertex} + 1;
@@ -148,14 +147,15 @@ bool check_corners(const DeformMesh& mesh) {
 bool check_surface(const DeformerChecker& c, const DeformMesh& mesh) {
   const size_t positions = mesh.position_count;
   return c.ok(mesh.faces.count % 4 == 0 && mesh.faces.count / 4 <= ~uint32_t{0} &&
-                  below(mesh.faces, positions) && mesh.first_touching.count == positions + 1 &&
-                  is_runs(mesh.first_touching, positions, mesh.touching.count) &&
-                  below(mesh.touching, mesh.face_count()),
+                  below(mesh.faces, positions) && mesh.first_adjacent_face.count == positions + 1 &&
+                  is_runs(mesh.first_adjacent_face, positions, mesh.adjacent_faces.count) &&
+                  below(mesh.adjacent_faces, mesh.face_count()),
               "faces") &&
-         c.ok(mesh.corners.count == mesh.vertex_count && mesh.first_corner.count == positions + 1 &&
-                  is_runs(mesh.first_corner, positions, mesh.corners.count) &&
-                  mesh.first_corner[positions] == mesh.vertex_count && check_corners(mesh),
-              "corners");
+         c.ok(mesh.vertices.count == mesh.vertex_count &&
+                  mesh.first_vertex.count == positions + 1 &&
+                  is_runs(mesh.first_vertex, positions, mesh.vertices.count) &&
+                  mesh.first_vertex[positions] == mesh.vertex_count && check_vertex_lists(mesh),
+              "vertices of positions");
 }
 
 }  // namespace

@@ -13,12 +13,12 @@ using dna::Mesh;
 
 const Mesh kNoMesh;
 
-/// Meshes of the definition that the geometry lacks are empty.
+/// Meshes that the geometry lacks are empty.
 const Mesh& mesh_at(const DnaView& view, uint32_t m) {
   return m < view.geom.meshes.count ? view.geom.meshes[m] : kNoMesh;
 }
 
-/// The first number of three arrays that is not finite; kNoItem if all are.
+/// Index of the first vector that is not finite; kNoItem if all are.
 constexpr uint32_t kNoItem = ~uint32_t{0};
 uint32_t first_not_finite(const dna::Vec3Array& vectors) {
   for (uint32_t i = 0; i < vectors.xs.count; ++i) {
@@ -35,7 +35,7 @@ Status plan_mesh(const MeshSource& source, MeshPlan& plan) {
   if (bad != kNoItem) {
     return fail(source.error, Status::kDnaValue,
                 source.view.offset_of(source.mesh.positions.xs.data + bad * sizeof(float)),
-                "geom.meshes[%u].positions: position %u is not finite", source.number, bad);
+                "geom.meshes[%u].positions: position %u is not finite", source.index, bad);
   }
   Status status = plan_skin(source, plan);
   if (status == Status::kOk) status = plan_targets(source, plan);
@@ -60,7 +60,7 @@ Status fill_mesh(const MeshSource& source, const MeshPlan& plan, DeformMesh& mes
   for (uint32_t l = 0; l < view.desc.lod_count; ++l) {
     const Array<uint16_t> row = view.defn.lod_meshes.at(l);
     for (uint32_t i = 0; i < row.count; ++i) {
-      if (row[i] == source.number) mesh.lods |= uint64_t{1} << l;
+      if (row[i] == source.index) mesh.lods |= uint64_t{1} << l;
     }
   }
   fill_skin(source, plan, mesh);
@@ -83,7 +83,7 @@ void place_all(const DnaView& view, const Rig& rig, Span<const MeshPlan> plans, 
 }  // namespace
 
 Status MeshSource::no_memory() const {
-  return fail(error, Status::kMemory, kNoOffset, "no memory to pack mesh %u", number);
+  return fail(error, Status::kMemory, kNoOffset, "no memory to compile mesh %u", index);
 }
 
 Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions& options,
@@ -92,7 +92,8 @@ Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions
   Arena scratch(allocator);
   const Span<MeshPlan> plans = scratch.array<MeshPlan>(rig.mesh_count);
   if (!plans.data && rig.mesh_count != 0) {
-    return fail(error, Status::kMemory, kNoOffset, "no memory to pack %u meshes", rig.mesh_count);
+    return fail(error, Status::kMemory, kNoOffset, "no memory to compile %u meshes",
+                rig.mesh_count);
   }
   const auto source = [&](uint32_t m) {
     return MeshSource{view, mesh_at(view, m), m, options.fix_weights, scratch, error};

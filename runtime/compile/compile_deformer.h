@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// View and rig -> deformer: plan each mesh in scratch memory, allocate once, fill.
+// DNA view and rig -> deformer: plan each mesh in scratch memory, allocate one block, fill it.
 #pragma once
 
 #include "runtime/base/status.h"
@@ -15,28 +15,30 @@ struct DeformOptions {
   bool fix_weights = false;
 };
 
-/// Packs the geometry of a checked view, which has the joints, channels and meshes of `rig`. On
-/// success `out` is one block of `allocator`, to be given back by release_deformer(), and an owner
-/// of the rig.
+/// Compiles the geometry of a checked view that has the same joints, channels and meshes as `rig`.
+/// On success `out` is one block of `allocator`, which release_deformer() frees, and shares the
+/// rig. kDnaValue: a joint is its own ancestor, or a position, delta or weight is not finite.
+/// kDnaLimit: a position has more than 65535 influences. kMemory.
 Status compile_deformer(const dna::DnaView& view, const Rig& rig, const DeformOptions& options,
                         const Allocator& allocator, Deformer*& out, Error& error);
 
-/// What has to be known of a mesh before its memory can be measured. Lies in the scratch arena.
+/// The sorted order and the counts of a mesh, in scratch memory.
 struct MeshPlan {
-  Span<uint64_t> order;     // [place] influences << 48 | joint that holds most << 32 | position
-  Span<uint32_t> place_of;  // [position]
-  uint32_t run_count = 0;
+  Span<uint64_t>
+      order;  // [sorted index] influences << 48 | joint of largest weight << 32 | position
+  Span<uint32_t> sorted_indices;  // [position]
+  uint32_t skin_run_count = 0;
   size_t weight_count = 0;
   uint32_t max_influences = 0;
-  size_t piece_count = 0, delta_count = 0;
+  size_t target_run_count = 0, delta_count = 0;
   size_t triangle_count = 0, face_count = 0;
 };
 
-/// The mesh being packed.
+/// A mesh of the DNA, and what its compilation needs.
 struct MeshSource {
   const dna::DnaView& view;
   const dna::Mesh& mesh;
-  uint32_t number;
+  uint32_t index;
   bool fix_weights;
   Arena& scratch;
   Error& error;
@@ -44,15 +46,16 @@ struct MeshSource {
   Status no_memory() const;
 };
 
-// The skeleton, of the rig alone.
+// The skeleton needs nothing but the rig.
 
 void place_skeleton(const Rig& rig, Placer& placer, Skeleton& skeleton);
-/// kDnaValue if joints descend from themselves; kMemory for `scratch`.
+/// kDnaValue if a joint is its own ancestor; kMemory if `scratch` runs out.
 Status fill_skeleton(const Rig& rig, const KernelTable* kernels, Compose compose, Arena& scratch,
                      Skeleton& skeleton, Error& error);
 
-// The pieces of packing. plan_...() also finds what cannot be packed; after it only scratch memory
-// can fail.
+// The parts of a mesh, one file each: pack_skin.cpp, pack_targets.cpp, pack_surface.cpp.
+// plan_...() counts, and refuses what cannot be compiled; place_...() lays out the memory;
+// fill_...() writes it, and fails only if scratch memory runs out.
 
 Status plan_skin(const MeshSource& source, MeshPlan& plan);
 void place_skin(const MeshPlan& plan, Placer& placer, DeformMesh& mesh);

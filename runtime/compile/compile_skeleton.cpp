@@ -7,37 +7,38 @@
 namespace mien {
 namespace {
 
-/// Joints in file order, each after its parent; parents that stand later are fetched first.
+/// Sets `order`: file order, except that parents which the file lists later come first.
 Status sort_joints(Skeleton& skeleton, Arena& scratch, Error& error) {
   const uint32_t count = skeleton.joint_count;
-  const Span<uint8_t> placed = scratch.array<uint8_t>(count);
-  const Span<uint16_t> line = scratch.array<uint16_t>(count);
-  if (count != 0 && (!placed.data || !line.data)) {
+  const Span<uint8_t> done = scratch.array<uint8_t>(count);
+  const Span<uint16_t> chain = scratch.array<uint16_t>(count);  // a joint and its ancestors
+  if (count != 0 && (!done.data || !chain.data)) {
     return fail(error, Status::kMemory, kNoOffset, "no memory to sort %u joints", count);
   }
   uint32_t sorted = 0;
   for (uint32_t j = 0; j < count; ++j) {
-    uint32_t at = j, length = 0;
-    while (!placed[at]) {
-      if (length == count) {
+    uint32_t at = j, depth = 0;
+    while (!done[at]) {
+      if (depth == count) {
         return fail(error, Status::kDnaValue, kNoOffset,
-                    "joint %u is its own ancestor: its line of parents never ends", j);
+                    "joint %u is its own ancestor: the chain of its parents never ends", j);
       }
-      line[length++] = static_cast<uint16_t>(at);
+      chain[depth++] = static_cast<uint16_t>(at);
       if (skeleton.parents[at] == at) break;
       at = skeleton.parents[at];
     }
-    while (length != 0) {
-      skeleton.order[sorted++] = line[--length];
-      placed[line[length]] = 1;
+    while (depth != 0) {
+      skeleton.order[sorted++] = chain[--depth];
+      done[chain[depth]] = 1;
     }
   }
   return Status::kOk;
 }
 
+/// A rigid transform, for row vectors: v * rotation + origin.
 struct Frame {
-  double turn[3][3];  // for column vectors
-  double at[3];
+  Matrix3 rotation;
+  double origin[3];
 };
 
 Quaternion neutral_rotation(const Rig& rig, uint32_t joint) {
@@ -48,50 +49,38 @@ Quaternion neutral_rotation(const Rig& rig, uint32_t joint) {
 
 Frame neutral_frame(const Rig& rig, uint32_t joint) {
   const float* values = rig.neutral_joints.data + size_t{joint} * rig.joint_attributes;
-  const Matrix3 rows = matrix_from_quaternion(neutral_rotation(rig, joint));
-  Frame frame;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) frame.turn[r][c] = rows.m[c][r];
-    frame.at[r] = values[r];
-  }
-  return frame;
+  return {matrix_from_quaternion(neutral_rotation(rig, joint)), {values[0], values[1], values[2]}};
 }
 
-Frame operator*(const Frame& a, const Frame& b) {
-  Frame product;
-  for (int r = 0; r < 3; ++r) {
-    product.at[r] = a.at[r];
-    for (int k = 0; k < 3; ++k) product.at[r] += a.turn[r][k] * b.at[k];
-    for (int c = 0; c < 3; ++c) {
-      product.turn[r][c] = 0;
-      for (int k = 0; k < 3; ++k) product.turn[r][c] += a.turn[r][k] * b.turn[k][c];
-    }
+/// `child` is relative to `parent`.
+Frame to_model(const Frame& child, const Frame& parent) {
+  Frame model = {child.rotation * parent.rotation, {}};
+  for (int c = 0; c < 3; ++c) {
+    model.origin[c] = parent.origin[c];
+    for (int k = 0; k < 3; ++k) model.origin[c] += child.origin[k] * parent.rotation.m[k][c];
   }
-  return product;
+  return model;
 }
 
-Frame inverse(const Frame& a) {
-  Frame result;
-  for (int r = 0; r < 3; ++r) {
-    result.at[r] = 0;
-    for (int k = 0; k < 3; ++k) {
-      result.turn[r][k] = a.turn[k][r];
-      result.at[r] -= a.turn[k][r] * a.at[k];
-    }
+Frame inverse(const Frame& frame) {
+  Frame result = {transposed(frame.rotation), {}};
+  for (int c = 0; c < 3; ++c) {
+    for (int k = 0; k < 3; ++k) result.origin[c] -= frame.origin[k] * frame.rotation.m[c][k];
   }
   return result;
 }
 
+/// As a matrix for column vectors, column by column: the rows of the frame.
 void store(const Frame& frame, float* columns) {
   for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) columns[c * 4 + r] = static_cast<float>(frame.turn[r][c]);
-    columns[12 + r] = static_cast<float>(frame.at[r]);
+    for (int c = 0; c < 3; ++c) columns[r * 4 + c] = static_cast<float>(frame.rotation.m[r][c]);
+    columns[12 + r] = static_cast<float>(frame.origin[r]);
   }
   columns[15] = 1;
 }
 
 void fill_neutral(const Rig& rig, Skeleton& skeleton) {
-  // Lanes without a joint are the identity, and their results go nowhere.
+  // Lanes past the last joint hold the identity; nothing reads their results.
   for (uint32_t i = 0; i < skeleton.block_count() * kBlockLanes; ++i) {
     float* lane =
         skeleton.neutral.data + i / kBlockLanes * kNeutralRows * kBlockLanes + i % kBlockLanes;
@@ -101,7 +90,7 @@ void fill_neutral(const Rig& rig, Skeleton& skeleton) {
     const float* values = rig.neutral_joints.data + size_t{joint} * rig.joint_attributes;
     for (int k = 0; k < 3; ++k) lane[k * kBlockLanes] = values[k];
     if (skeleton.compose == Compose::kEulerAdd) {
-      std::copy(values + 3, values + 6, skeleton.added_angles.data + size_t{i} * 3);
+      std::copy(values + 3, values + 6, skeleton.neutral_angles.data + size_t{i} * 3);
       continue;
     }
     const Quaternion q = neutral_rotation(rig, joint);
@@ -123,7 +112,7 @@ void place_skeleton(const Rig& rig, Placer& placer, Skeleton& skeleton) {
   skeleton.parents = placer.array<uint16_t>(count);
   skeleton.neutral = placer.array<float>(
       size_t{skeleton.block_count()} * kNeutralRows * kBlockLanes, kBlockAlignment);
-  skeleton.added_angles = placer.array<float>(count * 3);
+  skeleton.neutral_angles = placer.array<float>(count * 3);
   skeleton.bind = placer.array<float>(count * kMatrixFloats, kBlockAlignment);
   skeleton.inverse_bind = placer.array<float>(count * kMatrixFloats, kBlockAlignment);
 }
@@ -137,7 +126,7 @@ Status fill_skeleton(const Rig& rig, const KernelTable* kernels, Compose compose
   if (status != Status::kOk) return status;
   fill_neutral(rig, skeleton);
 
-  // In double: the inverses have to undo the matrices far from the origin too.
+  // In double, so that matrix * inverse is the identity far from the origin too.
   const Span<Frame> frames = scratch.array<Frame>(skeleton.joint_count);
   if (!frames.data && skeleton.joint_count != 0) {
     return fail(error, Status::kMemory, kNoOffset, "no memory for %u joints", skeleton.joint_count);
@@ -145,7 +134,7 @@ Status fill_skeleton(const Rig& rig, const KernelTable* kernels, Compose compose
   for (uint16_t j : skeleton.order) {
     const Frame local = neutral_frame(rig, j);
     const uint16_t parent = skeleton.parents[j];
-    frames[j] = parent == j ? local : frames[parent] * local;
+    frames[j] = parent == j ? local : to_model(local, frames[parent]);
     store(frames[j], skeleton.bind.data + j * kMatrixFloats);
     store(inverse(frames[j]), skeleton.inverse_bind.data + j * kMatrixFloats);
   }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Vertices, triangles, and what normals are recomputed from.
+// Vertices, triangles, and the faces that normals are recomputed from.
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/base/vector.h"
 #include "runtime/compile/compile_deformer.h"
 
 namespace mien {
@@ -13,31 +14,17 @@ using dna::Mesh;
 
 constexpr double kHardEdgeCosine = 0.8660254037844386;  // of 30 degrees
 
-struct Vec3 {
-  double x = 0, y = 0, z = 0;
-};
-Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec3 cross(Vec3 a, Vec3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-/// Zero if there is no direction.
-Vec3 unit(Vec3 v) {
-  const double length = std::sqrt(dot(v, v));
-  if (!(length > 0) || !std::isfinite(length)) return {};
-  return {v.x / length, v.y / length, v.z / length};
-}
-bool is_zero(Vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
-void put(Vec3 v, float* out) {
+void store(Vec3 v, float* out) {
   out[0] = static_cast<float>(v.x);
   out[1] = static_cast<float>(v.y);
   out[2] = static_cast<float>(v.z);
 }
-Vec3 get(const float* from) { return {from[0], from[1], from[2]}; }
+Vec3 load(const float* from) { return {from[0], from[1], from[2]}; }
 
 size_t faces_for(size_t corners) { return corners < 3 ? 0 : (corners - 1) / 2; }
 
-/// Cuts a face of any size into a fan of faces of three or four positions.
+/// Splits a polygon of the file into a fan of quads, the last of which may be a triangle, and calls
+/// f(positions of its four corners).
 template <class F>
 void for_each_face(const Mesh& mesh, F&& f) {
   for (const dna::Face& face : mesh.faces) {
@@ -58,14 +45,14 @@ bool repeats(const uint32_t* corners, int i) {
   return false;
 }
 
-/// True if faces are to be turned round so that their area vectors point out of the mesh. The
-/// stored normals decide; without them, what the file says of its faces and axes.
-bool faces_point_inwards(const MeshSource& source, const DeformMesh& mesh,
-                         Span<const Vec3> directions) {
+/// True if the area vectors of the faces, as the file winds them, point into the mesh. The stored
+/// normals decide; without them, the winding order and the axes of the file.
+bool faces_point_inward(const MeshSource& source, const DeformMesh& mesh,
+                        Span<const Vec3> directions) {
   double sum = 0;
   for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
     const double along =
-        dot(get(mesh.normals.data + size_t{v} * 3), directions[mesh.vertex_position_indices[v]]);
+        dot(load(mesh.normals.data + size_t{v} * 3), directions[mesh.vertex_position_indices[v]]);
     if (std::isfinite(along)) sum += along;
   }
   if (sum != 0) return sum < 0;
@@ -73,12 +60,14 @@ bool faces_point_inwards(const MeshSource& source, const DeformMesh& mesh,
   const dna::FileCoordinateSystem& axes = source.view.desc.coordinate_system;
   const uint32_t named[3] = {axes.x_axis, axes.y_axis, axes.z_axis};
   static constexpr uint32_t kRightUpFront[3] = {1, 2, 4};
-  // Directions only inform elsewhere, so a file may have any numbers there.
+  // Nothing else reads the axes, so a file may have any numbers there.
   for (uint32_t direction : named) {
     if (direction > 5) return clockwise;
   }
-  const Matrix3 change = change_of_axes(named, kRightUpFront);
-  const auto row = [&](int r) { return Vec3{change.m[r][0], change.m[r][1], change.m[r][2]}; };
+  const Matrix3 axes_to_canonical = change_of_axes(named, kRightUpFront);
+  const auto row = [&](int r) {
+    return Vec3{axes_to_canonical.m[r][0], axes_to_canonical.m[r][1], axes_to_canonical.m[r][2]};
+  };
   return (dot(cross(row(0), row(1)), row(2)) < 0) != clockwise;
 }
 
@@ -99,8 +88,8 @@ void fill_vertices(const Mesh& source, DeformMesh& mesh) {
     }
     if (source.normals.xs.count != 0) {
       const uint32_t n = source.layouts.normals[v];
-      put(unit({source.normals.xs[n], source.normals.ys[n], source.normals.zs[n]}),
-          mesh.normals.data + size_t{v} * 3);
+      store(normalized(Vec3{source.normals.xs[n], source.normals.ys[n], source.normals.zs[n]}),
+            mesh.normals.data + size_t{v} * 3);
     }
   }
   size_t corner = 0;
@@ -114,50 +103,49 @@ void fill_vertices(const Mesh& source, DeformMesh& mesh) {
   }
 }
 
-/// Faces, and for each place those that touch it.
+/// Starts of a counting sort: turns the counts of list[i], in first[i + 1], into their start. Adding
+/// 1 for each item written then leaves the end of list i, which is the start of list i + 1.
+void starts_from_counts(const Span<uint32_t>& first) {
+  uint32_t total = 0;
+  for (size_t i = 1; i < first.count; ++i) {
+    const uint32_t count = first[i];
+    first[i] = total;
+    total += count;
+  }
+}
+
+/// The faces, and those adjacent to each position.
 void fill_faces(const Mesh& source, DeformMesh& mesh) {
   size_t face = 0;
   for_each_face(source, [&](const uint32_t* corners) {
     std::copy(corners, corners + 4, mesh.faces.data + face++ * 4);
   });
-  // Counting sort: first_touching[place + 1] counts, then begins, then ends what touches a place.
-  const Span<uint32_t>& first = mesh.first_touching;
-  const auto for_each_touch = [&](auto&& f) {
+  const Span<uint32_t>& first = mesh.first_adjacent_face;
+  const auto for_each_corner = [&](auto&& f) {
     for (uint32_t i = 0; i < mesh.face_count(); ++i) {
       const uint32_t* corners = mesh.faces.data + size_t{i} * 4;
       for (int k = 0; k < 4; ++k) {
-        if (!repeats(corners, k)) f(mesh.place_of[corners[k]], i);
+        if (!repeats(corners, k)) f(first[size_t{mesh.sorted_indices[corners[k]]} + 1], i);
       }
     }
   };
-  for_each_touch([&](uint32_t place, uint32_t) { ++first[size_t{place} + 1]; });
-  uint32_t total = 0;
-  for (uint32_t place = 0; place < mesh.position_count; ++place) {
-    const uint32_t count = first[size_t{place} + 1];
-    first[size_t{place} + 1] = total;
-    total += count;
-  }
-  for_each_touch(
-      [&](uint32_t place, uint32_t i) { mesh.touching[first[size_t{place} + 1]++] = i; });
+  for_each_corner([](uint32_t& count, uint32_t) { ++count; });
+  starts_from_counts(first);
+  for_each_corner([&](uint32_t& next, uint32_t i) { mesh.adjacent_faces[next++] = i; });
 }
 
-void fill_corners(DeformMesh& mesh) {
-  const Span<uint32_t>& first = mesh.first_corner;
+/// The vertices of each position.
+void fill_vertex_lists(DeformMesh& mesh) {
   const auto next = [&](uint32_t v) -> uint32_t& {
-    return first[size_t{mesh.place_of[mesh.vertex_position_indices[v]]} + 1];
+    return mesh.first_vertex[size_t{mesh.sorted_indices[mesh.vertex_position_indices[v]]} + 1];
   };
   for (uint32_t v = 0; v < mesh.vertex_count; ++v) ++next(v);
-  uint32_t total = 0;
-  for (uint32_t place = 0; place < mesh.position_count; ++place) {
-    const uint32_t count = first[size_t{place} + 1];
-    first[size_t{place} + 1] = total;
-    total += count;
-  }
-  for (uint32_t v = 0; v < mesh.vertex_count; ++v) mesh.corners[next(v)++] = v;
+  starts_from_counts(mesh.first_vertex);
+  for (uint32_t v = 0; v < mesh.vertex_count; ++v) mesh.vertices[next(v)++] = v;
 }
 
 Vec3 area_vector(const DeformMesh& mesh, const uint32_t* corners) {
-  const auto at = [&](int i) { return get(mesh.positions.data + size_t{corners[i]} * 3); };
+  const auto at = [&](int i) { return load(mesh.positions.data + size_t{corners[i]} * 3); };
   return cross(at(2) - at(0), at(3) - at(1));
 }
 
@@ -179,10 +167,10 @@ void place_surface(const MeshPlan& plan, Placer& placer, DeformMesh& mesh) {
   mesh.vertex_position_indices = placer.array<uint32_t>(vertices, kBlockAlignment);
   mesh.triangles = placer.array<uint32_t>(plan.triangle_count * 3, kBlockAlignment);
   mesh.faces = placer.array<uint32_t>(plan.face_count * 4, kBlockAlignment);
-  mesh.first_touching = placer.array<uint32_t>(positions + 1, kBlockAlignment);
-  mesh.touching = placer.array<uint32_t>(plan.face_count * 4, kBlockAlignment);
-  mesh.first_corner = placer.array<uint32_t>(positions + 1, kBlockAlignment);
-  mesh.corners = placer.array<uint32_t>(vertices, kBlockAlignment);
+  mesh.first_adjacent_face = placer.array<uint32_t>(positions + 1, kBlockAlignment);
+  mesh.adjacent_faces = placer.array<uint32_t>(plan.face_count * 4, kBlockAlignment);
+  mesh.first_vertex = placer.array<uint32_t>(positions + 1, kBlockAlignment);
+  mesh.vertices = placer.array<uint32_t>(vertices, kBlockAlignment);
   mesh.neutral_directions = placer.array<float>(positions * 4, kBlockAlignment);
 }
 
@@ -191,32 +179,31 @@ Status fill_surface(const MeshSource& source, DeformMesh& mesh) {
   if (mesh.position_count != 0 && !directions.data) return source.no_memory();
   fill_vertices(source.mesh, mesh);
   fill_faces(source.mesh, mesh);
-  fill_corners(mesh);
+  fill_vertex_lists(mesh);
 
   for (uint32_t f = 0; f < mesh.face_count(); ++f) {
     const uint32_t* corners = mesh.faces.data + size_t{f} * 4;
     const Vec3 area = area_vector(mesh, corners);
     for (int k = 0; k < 4; ++k) {
       if (repeats(corners, k)) continue;
-      Vec3& sum = directions[corners[k]];
-      sum = {sum.x + area.x, sum.y + area.y, sum.z + area.z};
+      directions[corners[k]] = directions[corners[k]] + area;
     }
   }
-  for (Vec3& direction : directions) direction = unit(direction);
-  if (faces_point_inwards(source, mesh, directions)) {
-    for (Vec3& d : directions) d = Vec3{} - d;
+  for (Vec3& direction : directions) direction = normalized(direction);
+  if (faces_point_inward(source, mesh, directions)) {
+    for (Vec3& direction : directions) direction = Vec3{} - direction;
     for (uint32_t f = 0; f < mesh.face_count(); ++f) {
       std::swap(mesh.faces[size_t{f} * 4 + 1], mesh.faces[size_t{f} * 4 + 3]);
     }
   }
   for (uint32_t p = 0; p < mesh.position_count; ++p) {
-    put(directions[p], mesh.neutral_directions.data + size_t{mesh.place_of[p]} * 4);
+    store(directions[p], mesh.neutral_directions.data + size_t{mesh.sorted_indices[p]} * 4);
   }
-  for (uint32_t& corner : mesh.corners) {
-    const Vec3 recomputed = directions[mesh.vertex_position_indices[corner]];
-    float* stored = mesh.normals.data + size_t{corner} * 3;
-    if (is_zero(get(stored))) put(recomputed, stored);
-    if (dot(get(stored), recomputed) < kHardEdgeCosine) corner |= kHardCorner;
+  for (uint32_t& vertex : mesh.vertices) {
+    const Vec3 recomputed = directions[mesh.vertex_position_indices[vertex]];
+    float* stored = mesh.normals.data + size_t{vertex} * 3;
+    if (is_zero(load(stored))) store(recomputed, stored);
+    if (dot(load(stored), recomputed) < kHardEdgeCosine) vertex |= kHardEdge;
   }
   return Status::kOk;
 }

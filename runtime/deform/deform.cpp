@@ -8,118 +8,119 @@
 namespace mien {
 namespace {
 
-constexpr float kLeastChannelWeight = 1e-5f;
-constexpr uint32_t kLeastParallelPositions = 16384;
-constexpr uint32_t kTaskPlaces = 2048;  // and faces
-constexpr uint32_t kTaskBlocks = kTaskPlaces / kBlockPlaces;
-constexpr uint32_t kEnoughTasks = 64;
+constexpr float kMinChannelWeight = 1e-5f;
+constexpr uint32_t kMinParallelPositions = 16384;
+constexpr uint32_t kTaskPositions = 2048;  // or faces
+constexpr uint32_t kTaskBlocks = kTaskPositions / kBlockPositions;
+constexpr uint32_t kMinTasks = 64;  // that skinning is cut into, if there are enough instances
 
 uint32_t divide_up(size_t a, size_t b) { return static_cast<uint32_t>((a + b - 1) / b); }
 
-/// One mesh of some poses, and how it is cut into tasks.
+/// One mesh of some instances.
 struct Job {
   const Deformer& deformer;
   const DeformMesh& mesh;
-  Span<DeformerInstance* const> poses;
-  uint32_t mesh_number;
+  Span<DeformerInstance* const> instances;
+  uint32_t mesh_index;
   Normals normals;
-  uint32_t pose_parts = 1;
+  uint32_t instance_groups = 1;  // that skinning splits the instances into
 
   const KernelTable& kernels() const { return *deformer.kernels; }
 };
 
 // Targets and skin --------------------------------------------------------------------------------
 
-/// Neutral places of a block with its targets added to them, or the neutral ones themselves if no
-/// target of the block is active.
-const float* move_block(const Job& job, const DeformerInstance& pose, uint32_t block,
-                        float* moved) {
+/// The neutral positions of a block plus its active targets. Uses `scratch` only if a target is
+/// active, so most blocks are not copied.
+const float* add_targets(const Job& job, const DeformerInstance& instance, uint32_t block,
+                         float* scratch) {
   const DeformMesh& mesh = job.mesh;
-  const uint32_t first = block * kBlockPlaces;
-  const float* neutral = mesh.neutral.data + size_t{first} * 4;
-  const float* places = neutral;
-  for (uint32_t i = mesh.first_piece[block]; i < mesh.first_piece[block + 1]; ++i) {
-    const TargetPiece& piece = mesh.pieces[i];
-    const float weight = pose.channels[piece.channel];
-    if (std::fabs(weight) < kLeastChannelWeight) continue;
-    if (places == neutral) {
-      const size_t count = std::min(kBlockPlaces, mesh.position_count - first);
-      memcpy(moved, neutral, count * 4 * sizeof(float));
-      places = moved;
+  const uint32_t first = block * kBlockPositions;
+  const float* neutral = mesh.sorted_positions.data + size_t{first} * 4;
+  const float* positions = neutral;
+  for (uint32_t i = mesh.first_target_run[block]; i < mesh.first_target_run[block + 1]; ++i) {
+    const TargetRun& run = mesh.target_runs[i];
+    const float weight = instance.channels[run.channel];
+    if (std::fabs(weight) < kMinChannelWeight) continue;
+    if (positions == neutral) {
+      const size_t count = std::min(kBlockPositions, mesh.position_count - first);
+      memcpy(scratch, neutral, count * 4 * sizeof(float));
+      positions = scratch;
     }
     TargetArgs args;
-    args.deltas = mesh.deltas.data + size_t{piece.first_delta} * 3;
-    args.places = mesh.delta_places.data + piece.first_delta;
-    args.moved = moved;
+    args.deltas = mesh.deltas.data + size_t{run.first_delta} * 3;
+    args.indices = mesh.delta_indices.data + run.first_delta;
+    args.positions = scratch;
     args.weight = weight;
-    args.count = piece.count;
+    args.count = run.count;
     job.kernels().add_target(args);
   }
-  return places;
+  return positions;
 }
 
-/// Places that no joint holds.
-void leave_places(const Job& job, const float* places, uint32_t first, uint32_t count,
-                  DeformedMesh& out) {
+/// Positions without influences.
+void copy_unskinned(const Job& job, const float* positions, uint32_t first, uint32_t count,
+                    DeformedMesh& out) {
   const DeformMesh& mesh = job.mesh;
   for (uint32_t i = 0; i < count; ++i) {
-    float* position = out.positions.data + size_t{mesh.position_at[first + i]} * 3;
-    memcpy(position, places + size_t{i} * 4, 3 * sizeof(float));
+    float* position = out.positions.data + size_t{mesh.position_indices[first + i]} * 3;
+    memcpy(position, positions + size_t{i} * 4, 3 * sizeof(float));
   }
   if (job.normals != Normals::kSkinned) return;
-  for (uint32_t c = mesh.first_corner[first]; c < mesh.first_corner[first + count]; ++c) {
-    const size_t at = size_t{mesh.corners[c] & ~kHardCorner} * 3;
+  for (uint32_t i = mesh.first_vertex[first]; i < mesh.first_vertex[first + count]; ++i) {
+    const size_t at = size_t{mesh.vertices[i] & ~kHardEdge} * 3;
     memcpy(out.normals.data + at, mesh.normals.data + at, 3 * sizeof(float));
   }
 }
 
-void skin_block(const Job& job, DeformerInstance& pose, uint32_t block) {
-  alignas(kBlockAlignment) float moved[kBlockPlaces * 4];
+void skin_block(const Job& job, DeformerInstance& instance, uint32_t block) {
+  alignas(kBlockAlignment) float scratch[kBlockPositions * 4];
   const DeformMesh& mesh = job.mesh;
-  DeformedMesh& out = pose.meshes[job.mesh_number];
-  const uint32_t first = block * kBlockPlaces;
-  const uint32_t end = std::min(first + kBlockPlaces, mesh.position_count);
-  const float* places = move_block(job, pose, block, moved);
+  DeformedMesh& out = instance.meshes[job.mesh_index];
+  const uint32_t first = block * kBlockPositions;
+  const uint32_t end = std::min(first + kBlockPositions, mesh.position_count);
+  const float* positions = add_targets(job, instance, block, scratch);
 
-  for (const SkinRun* run = run_of(mesh, first); run != mesh.runs.end() && run->first < end;
-       ++run) {
+  for (const SkinRun* run = skin_run_of(mesh, first);
+       run != mesh.skin_runs.end() && run->first < end; ++run) {
     const uint32_t from = std::max(run->first, first);
     const uint32_t to = std::min(run->first + run->count, end);
     if (run->influences == 0) {
-      leave_places(job, places + size_t{from - first} * 4, from, to - from, out);
+      copy_unskinned(job, positions + size_t{from - first} * 4, from, to - from, out);
       continue;
     }
     const size_t weight = run->first_weight + size_t{from - run->first} * run->influences;
     SkinArgs args;
-    args.places = places + size_t{from - first} * 4;
+    args.positions = positions + size_t{from - first} * 4;
     args.weights = mesh.weights.data + weight;
     args.joints = mesh.joints.data + weight;
-    args.matrices = pose.joints.skin.data;
-    args.position_at = mesh.position_at.data + from;
-    args.positions = out.positions.data;
-    args.first_corner = mesh.first_corner.data + from;
-    args.corners = mesh.corners.data;
+    args.matrices = instance.joints.skin.data;
+    args.position_indices = mesh.position_indices.data + from;
+    args.out_positions = out.positions.data;
+    args.first_vertex = mesh.first_vertex.data + from;
+    args.vertices = mesh.vertices.data;
     args.normals = mesh.normals.data;
     args.out_normals = out.normals.data;
     args.count = to - from;
     args.influences = run->influences;
-    args.mode = job.normals != Normals::kSkinned ? SkinNormals::kNone
-                : pose.joints.skewed             ? SkinNormals::kCofactors
-                                                 : SkinNormals::kMatrix;
-    job.kernels().skin_places(args);
+    args.mode = job.normals != Normals::kSkinned    ? SkinNormals::kNone
+                : instance.joints.non_uniform_scale ? SkinNormals::kCofactors
+                                                    : SkinNormals::kMatrix;
+    job.kernels().skin_positions(args);
   }
 }
 
-/// Block by block, all poses of a part: what one block needs of the mesh is fetched once.
+/// Some blocks of a group of instances. Block by block, so that the mesh data of a block is loaded
+/// once for all of them.
 void skin_task(void* context, uint32_t index) {
   const Job& job = *static_cast<const Job*>(context);
-  const uint32_t first = index / job.pose_parts * kTaskBlocks;
+  const uint32_t first = index / job.instance_groups * kTaskBlocks;
   const uint32_t end = std::min(first + kTaskBlocks, job.mesh.block_count());
-  const size_t part = index % job.pose_parts;
-  const size_t from = job.poses.count * part / job.pose_parts;
-  const size_t to = job.poses.count * (part + 1) / job.pose_parts;
+  const size_t group = index % job.instance_groups;
+  const size_t from = job.instances.count * group / job.instance_groups;
+  const size_t to = job.instances.count * (group + 1) / job.instance_groups;
   for (uint32_t block = first; block < end; ++block) {
-    for (size_t p = from; p < to; ++p) skin_block(job, *job.poses[p], block);
+    for (size_t i = from; i < to; ++i) skin_block(job, *job.instances[i], block);
   }
 }
 
@@ -127,33 +128,33 @@ void skin_task(void* context, uint32_t index) {
 
 void area_task(void* context, uint32_t index) {
   const Job& job = *static_cast<const Job*>(context);
-  const uint32_t tasks = divide_up(job.mesh.face_count(), kTaskPlaces);
-  DeformerInstance& pose = *job.poses[index / tasks];
-  const uint32_t first = index % tasks * kTaskPlaces;
+  const uint32_t tasks = divide_up(job.mesh.face_count(), kTaskPositions);
+  DeformerInstance& instance = *job.instances[index / tasks];
+  const uint32_t first = index % tasks * kTaskPositions;
   AreaArgs args;
-  args.positions = pose.meshes[job.mesh_number].positions.data;
+  args.positions = instance.meshes[job.mesh_index].positions.data;
   args.faces = job.mesh.faces.data + size_t{first} * 4;
-  args.areas = pose.areas.data + size_t{first} * 4;
-  args.count = std::min(kTaskPlaces, job.mesh.face_count() - first);
+  args.areas = instance.face_areas.data + size_t{first} * 4;
+  args.count = std::min(kTaskPositions, job.mesh.face_count() - first);
   job.kernels().face_areas(args);
 }
 
 void normal_task(void* context, uint32_t index) {
   const Job& job = *static_cast<const Job*>(context);
   const DeformMesh& mesh = job.mesh;
-  const uint32_t tasks = divide_up(mesh.position_count, kTaskPlaces);
-  DeformerInstance& pose = *job.poses[index / tasks];
-  const uint32_t first = index % tasks * kTaskPlaces;
+  const uint32_t tasks = divide_up(mesh.position_count, kTaskPositions);
+  DeformerInstance& instance = *job.instances[index / tasks];
+  const uint32_t first = index % tasks * kTaskPositions;
   NormalArgs args;
-  args.areas = pose.areas.data;
-  args.first_touching = mesh.first_touching.data + first;
-  args.touching = mesh.touching.data;
-  args.first_corner = mesh.first_corner.data + first;
-  args.corners = mesh.corners.data;
+  args.areas = instance.face_areas.data;
+  args.first_adjacent_face = mesh.first_adjacent_face.data + first;
+  args.adjacent_faces = mesh.adjacent_faces.data;
+  args.first_vertex = mesh.first_vertex.data + first;
+  args.vertices = mesh.vertices.data;
   args.normals = mesh.normals.data;
   args.neutral_directions = mesh.neutral_directions.data + size_t{first} * 4;
-  args.out_normals = pose.meshes[job.mesh_number].normals.data;
-  args.count = std::min(kTaskPlaces, mesh.position_count - first);
+  args.out_normals = instance.meshes[job.mesh_index].normals.data;
+  args.count = std::min(kTaskPositions, mesh.position_count - first);
   job.kernels().sum_normals(args);
 }
 
@@ -164,23 +165,23 @@ void run_all(const ParallelFor& parallel, uint32_t count, void (*task)(void*, ui
 
 }  // namespace
 
-void deform(const Deformer& deformer, Span<DeformerInstance* const> poses, uint32_t mesh_number,
+void deform(const Deformer& deformer, Span<DeformerInstance* const> instances, uint32_t mesh_index,
             Normals normals, const ParallelFor& given) {
-  const DeformMesh& mesh = deformer.meshes[mesh_number];
-  const bool large = size_t{mesh.position_count} * poses.count >= kLeastParallelPositions;
+  const DeformMesh& mesh = deformer.meshes[mesh_index];
+  const bool large = size_t{mesh.position_count} * instances.count >= kMinParallelPositions;
   const ParallelFor parallel = large ? given : ParallelFor{};
-  Job job = {deformer, mesh, poses, mesh_number, normals};
+  Job job = {deformer, mesh, instances, mesh_index, normals};
 
-  const uint32_t groups = divide_up(mesh.block_count(), kTaskBlocks);
-  if (parallel.run && groups != 0) {
-    const size_t parts = std::min<size_t>(poses.count, divide_up(kEnoughTasks, groups));
-    job.pose_parts = static_cast<uint32_t>(parts);
+  const uint32_t block_tasks = divide_up(mesh.block_count(), kTaskBlocks);
+  if (parallel.run && block_tasks != 0) {
+    const size_t groups = std::min<size_t>(instances.count, divide_up(kMinTasks, block_tasks));
+    job.instance_groups = static_cast<uint32_t>(groups);
   }
-  run_all(parallel, groups * job.pose_parts, skin_task, job);
+  run_all(parallel, block_tasks * job.instance_groups, skin_task, job);
   if (normals != Normals::kRecomputed) return;
-  const uint32_t pose_count = static_cast<uint32_t>(poses.count);
-  run_all(parallel, divide_up(mesh.face_count(), kTaskPlaces) * pose_count, area_task, job);
-  run_all(parallel, divide_up(mesh.position_count, kTaskPlaces) * pose_count, normal_task, job);
+  const uint32_t count = static_cast<uint32_t>(instances.count);
+  run_all(parallel, divide_up(mesh.face_count(), kTaskPositions) * count, area_task, job);
+  run_all(parallel, divide_up(mesh.position_count, kTaskPositions) * count, normal_task, job);
 }
 
 }  // namespace mien

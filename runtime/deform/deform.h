@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pose -> positions and normals of a mesh. Nothing here allocates, locks or fails: the deformer was
-// checked when it was made, and callers check mesh numbers and rooms.
+// Joint matrices and channel weights -> positions and normals of a mesh. Nothing here allocates,
+// locks or fails: the compiler has checked the deformer, and the caller checks its arguments.
 #pragma once
 
 #include "runtime/base/parallel_for.h"
@@ -8,9 +8,9 @@
 
 namespace mien {
 
-/// One mesh of poses of one deformer, all different, all with room for it. `normals` is not
-/// kDefault.
-void deform(const Deformer& deformer, Span<DeformerInstance* const> poses, uint32_t mesh,
+/// Deforms one mesh of several instances, all of them different, of this deformer, and with memory
+/// for the mesh. `normals` is not kDefault.
+void deform(const Deformer& deformer, Span<DeformerInstance* const> instances, uint32_t mesh,
             Normals normals, const ParallelFor& parallel);
 
 }  // namespace mien

@@ -5,22 +5,24 @@
 
 namespace mien {
 
-const SkinRun* run_of(const DeformMesh& mesh, uint32_t place) {
-  const auto begins_behind = [](uint32_t p, const SkinRun& run) { return p < run.first; };
-  return std::upper_bound(mesh.runs.begin(), mesh.runs.end(), place, begins_behind) - 1;
+const SkinRun* skin_run_of(const DeformMesh& mesh, uint32_t sorted_index) {
+  const auto starts_after = [](uint32_t index, const SkinRun& run) { return index < run.first; };
+  return std::upper_bound(mesh.skin_runs.begin(), mesh.skin_runs.end(), sorted_index,
+                          starts_after) -
+         1;
 }
 
 void write_target(const DeformMesh& mesh, uint32_t target, float* out) {
   std::fill(out, out + size_t{mesh.position_count} * 3, 0.0f);
-  const auto comes_before = [](const TargetPiece& piece, uint32_t t) { return piece.target < t; };
+  const auto is_before = [](const TargetRun& run, uint32_t t) { return run.target < t; };
   for (uint32_t block = 0; block < mesh.block_count(); ++block) {
-    const TargetPiece* const begin = mesh.pieces.data + mesh.first_piece[block];
-    const TargetPiece* const end = mesh.pieces.data + mesh.first_piece[block + 1];
-    for (const TargetPiece* piece = std::lower_bound(begin, end, target, comes_before);
-         piece != end && piece->target == target; ++piece) {
-      for (size_t d = piece->first_delta; d < size_t{piece->first_delta} + piece->count; ++d) {
-        const uint32_t place = block * kBlockPlaces + mesh.delta_places[d];
-        float* at = out + size_t{mesh.position_at[place]} * 3;
+    const TargetRun* const begin = mesh.target_runs.data + mesh.first_target_run[block];
+    const TargetRun* const end = mesh.target_runs.data + mesh.first_target_run[block + 1];
+    for (const TargetRun* run = std::lower_bound(begin, end, target, is_before);
+         run != end && run->target == target; ++run) {
+      for (size_t d = run->first_delta; d < size_t{run->first_delta} + run->count; ++d) {
+        const uint32_t sorted_index = block * kBlockPositions + mesh.delta_indices[d];
+        float* at = out + size_t{mesh.position_indices[sorted_index]} * 3;
         for (size_t k = 0; k < 3; ++k) at[k] += mesh.deltas[d * 3 + k];
       }
     }

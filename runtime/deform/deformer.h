@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT
-// The deformer: all meshes packed for deformation, in one block of memory, never changed after it
-// was made.
+// The deformer: the geometry of a rig packed for deformation, in one block of memory, immutable
+// once compiled.
 //
-//     | Deformer | skeleton | meshes | mesh 0: neutral, skin, targets, faces, corners | mesh 1 ...
-//     |
+//     | Deformer | skeleton | DeformMesh 0 ... n-1 | arrays of mesh 0 | arrays of mesh 1 | ...
 //
-// Positions are worked on in an order of their own, "places": by number of influences, then by the
-// joint that holds them most, so that neighbors need the same code and the same matrices.
+// A mesh deforms its positions in a sorted order: by number of influences, then by the joint with
+// the largest weight. So neighbors run the same code and read the same matrices. A *sorted index*
+// is an index into this order; every other position index is that of the file.
 #pragma once
 
 #include "runtime/pose/skeleton.h"
 
 namespace mien {
 
-/// Numbers of MIEN_NORMALS_... in mien.h.
+/// Same numbers as MIEN_NORMALS_... in mien.h.
 enum class Normals : uint32_t { kDefault = 0, kNone = 1, kSkinned = 2, kRecomputed = 3 };
 
-/// Positions that are worked on together: their scratch stays in the nearest cache.
-constexpr uint32_t kBlockPlaces = 512;
+/// Sorted positions per block. The scratch of a block stays in the first-level cache.
+constexpr uint32_t kBlockPositions = 512;
 
-/// Places with the same number of influences. Row r of the run has its weights and joints at
-/// first_weight + r * influences.
+/// A run of sorted positions with the same number of influences. The weights and joints of its
+/// position r start at first_weight + r * influences.
 struct SkinRun {
   uint64_t first_weight;
   uint32_t first, count;
@@ -28,74 +28,74 @@ struct SkinRun {
   uint32_t zero;
 };
 
-/// What one target does to the places of one block.
-struct TargetPiece {
+/// A run of deltas: those of one blend shape target in one block.
+struct TargetRun {
   uint32_t target;
   uint32_t channel;
   uint32_t first_delta, count;
 };
 
+/// Kernels load four floats where three are meant, so arrays of x y z end with one more float.
 struct DeformMesh {
   uint32_t position_count = 0, vertex_count = 0, triangle_count = 0;
   uint32_t max_influences = 0, target_count = 0;
   uint64_t delta_count = 0;
-  uint64_t lods = 0;
+  uint64_t lods = 0;  // bit l: LOD l shows the mesh
 
-  // As the file has it, for the caller.
-  Span<float> positions;                   // [position] x y z, and one float more
-  Span<float> normals;                     // [vertex] x y z, unit, and one float more
+  // The neutral mesh, in the order of the file.
+  Span<float> positions;                   // [position] x y z, + 1
+  Span<float> normals;                     // [vertex] x y z, unit, + 1
   Span<float> texture_coordinates;         // [vertex] u v
   Span<uint32_t> vertex_position_indices;  // [vertex]
-  Span<uint32_t> triangles;
-  Span<uint16_t> target_channels;  // [target]
+  Span<uint32_t> triangles;                // [triangle][3] vertices
+  Span<uint16_t> target_channels;          // [target]
 
-  // Skin.
-  Span<uint32_t> position_at;  // [place]
-  Span<uint32_t> place_of;     // [position]
-  Span<float> neutral;         // [place] x y z 0
-  Span<SkinRun> runs;
+  // Skin weights.
+  Span<uint32_t> position_indices;  // [sorted index] position
+  Span<uint32_t> sorted_indices;    // [position] sorted index
+  Span<float> sorted_positions;     // [sorted index] x y z 0
+  Span<SkinRun> skin_runs;
   Span<float> weights;
   Span<uint16_t> joints;
 
-  // Blend shape targets, by block, then by target: deltas x y z (and one float more), and the
-  // places that they move, counted from the first of the block.
-  Span<uint32_t> first_piece;  // [block], one more at the end
-  Span<TargetPiece> pieces;
-  Span<float> deltas;
-  Span<uint16_t> delta_places;
+  // Blend shape targets, by block, then by target.
+  Span<uint32_t> first_target_run;  // [block], + 1
+  Span<TargetRun> target_runs;
+  Span<float> deltas;            // [delta] x y z, + 1
+  Span<uint16_t> delta_indices;  // [delta] sorted index, minus that of the block
 
-  // Normals. A face is four positions (a triangle has its last one twice); its area vector is
-  // (p2 - p0) x (p3 - p1) / 2, pointing out of the mesh.
-  Span<uint32_t> faces;            // [face][4]
-  Span<uint32_t> first_touching;   // [place], one more at the end
-  Span<uint32_t> touching;         // faces around the place
-  Span<uint32_t> first_corner;     // [place], one more at the end
-  Span<uint32_t> corners;          // vertex, with kHardCorner or without
-  Span<float> neutral_directions;  // [place] x y z 0, unit, recomputed
+  // Normals. A face has four positions; a triangle repeats the last. Its area vector
+  // (p2 - p0) x (p3 - p1) / 2 points out of the mesh.
+  Span<uint32_t> faces;                // [face][4] positions
+  Span<uint32_t> first_adjacent_face;  // [sorted index], + 1
+  Span<uint32_t> adjacent_faces;       // faces around each position
+  Span<uint32_t> first_vertex;         // [sorted index], + 1
+  Span<uint32_t> vertices;             // vertices of each position, some with kHardEdge
+  Span<float> neutral_directions;      // [sorted index] x y z 0: recomputed neutral normal
 
-  uint32_t block_count() const { return (position_count + kBlockPlaces - 1) / kBlockPlaces; }
+  uint32_t block_count() const { return (position_count + kBlockPositions - 1) / kBlockPositions; }
   uint32_t face_count() const { return static_cast<uint32_t>(faces.count / 4); }
 };
 
 struct Deformer {
-  uint32_t tag = 0;  // first, for the C API to recognize its handles
+  uint32_t tag = 0;  // first, so that the C API recognizes its handles
   Allocator allocator;
   size_t block_size = 0;
   size_t baked_size = 0;                    // of its part of a baked file, if its arrays are there
-  mutable std::atomic<uint32_t> owners{1};  // the creator and every pose
+  mutable std::atomic<uint32_t> owners{1};  // the creator and every deformer instance
 
   const KernelTable* kernels = nullptr;
-  const Rig* rig = nullptr;                // owned with others
-  Normals normals = Normals::kRecomputed;  // of calls that leave the choice open
+  const Rig* rig = nullptr;                // shared
+  Normals normals = Normals::kRecomputed;  // what Normals::kDefault means
   bool fix_weights = false;
   Skeleton skeleton;
   Span<DeformMesh> meshes;
 };
 
-/// The run that a place belongs to.
-const SkinRun* run_of(const DeformMesh& mesh, uint32_t place);
+/// The run that contains a sorted index.
+const SkinRun* skin_run_of(const DeformMesh& mesh, uint32_t sorted_index);
 
-/// x y z for each position: how far a target moves it at weight 1.
+/// Writes x y z per position: the delta of a target at weight 1, in file order.
 void write_target(const DeformMesh& mesh, uint32_t target, float* out);
 
 /// Drops one owner; the last one releases the block.

@@ -6,34 +6,34 @@
 namespace mien {
 namespace {
 
-bool has_room(const DeformMesh& mesh, uint64_t lods) { return lods == 0 || (mesh.lods & lods); }
+bool is_shown(const DeformMesh& mesh, uint64_t lods) { return lods == 0 || (mesh.lods & lods); }
 
 void place_deformer_instance(const Deformer& deformer, uint64_t lods, Placer& placer,
-                             DeformerInstance& pose) {
+                             DeformerInstance& instance) {
   placer.array<DeformerInstance>(1);
-  place_joint_pose(deformer.skeleton, placer, pose.joints);
-  pose.channels = placer.array<float>(deformer.rig->channel_count, kBlockAlignment);
-  pose.meshes = placer.array<DeformedMesh>(deformer.meshes.count);
+  place_joint_pose(deformer.skeleton, placer, instance.joints);
+  instance.channels = placer.array<float>(deformer.rig->channel_count, kBlockAlignment);
+  instance.meshes = placer.array<DeformedMesh>(deformer.meshes.count);
   size_t max_faces = 0;
   for (size_t m = 0; m < deformer.meshes.count; ++m) {
     const DeformMesh& mesh = deformer.meshes[m];
-    if (!has_room(mesh, lods)) continue;
-    DeformedMesh posed;
-    posed.present = true;
-    posed.positions = placer.array<float>(mesh.positions.count, kBlockAlignment);
-    posed.normals = placer.array<float>(mesh.normals.count, kBlockAlignment);
-    if (!placer.measuring()) pose.meshes[m] = posed;
+    if (!is_shown(mesh, lods)) continue;
+    DeformedMesh deformed;
+    deformed.present = true;
+    deformed.positions = placer.array<float>(mesh.positions.count, kBlockAlignment);
+    deformed.normals = placer.array<float>(mesh.normals.count, kBlockAlignment);
+    if (!placer.measuring()) instance.meshes[m] = deformed;
     max_faces = std::max(max_faces, size_t{mesh.face_count()});
   }
-  pose.areas = placer.array<float>(max_faces * 4, kBlockAlignment);
+  instance.face_areas = placer.array<float>(max_faces * 4, kBlockAlignment);
 }
 
 }  // namespace
 
 size_t deformer_instance_size(const Deformer& deformer, uint64_t lods) {
-  DeformerInstance pose;
+  DeformerInstance measured;
   Placer placer(nullptr);
-  place_deformer_instance(deformer, lods, placer, pose);
+  place_deformer_instance(deformer, lods, placer, measured);
   return placer.size();
 }
 
@@ -45,37 +45,39 @@ DeformerInstance* create_deformer_instance(const Deformer& deformer, uint64_t lo
   DeformerInstance placed;
   Placer placer(block);
   place_deformer_instance(deformer, lods, placer, placed);
-  DeformerInstance* pose = new (block) DeformerInstance(placed);
-  pose->allocator = allocator;
-  pose->block_size = size;
-  pose->deformer = &deformer;
+  DeformerInstance* instance = new (block) DeformerInstance(placed);
+  instance->allocator = allocator;
+  instance->block_size = size;
+  instance->deformer = &deformer;
   deformer.owners.fetch_add(1, std::memory_order_relaxed);
-  update_deformer_instance(*pose, nullptr, nullptr);
-  for (size_t m = 0; m < pose->meshes.count; ++m) {
-    if (!pose->meshes[m].present) continue;
+  update_deformer_instance(*instance, nullptr, nullptr);
+  for (size_t m = 0; m < instance->meshes.count; ++m) {
+    DeformedMesh& deformed = instance->meshes[m];
+    if (!deformed.present) continue;
     const DeformMesh& mesh = deformer.meshes[m];
-    std::copy(mesh.positions.begin(), mesh.positions.end(), pose->meshes[m].positions.begin());
-    std::copy(mesh.normals.begin(), mesh.normals.end(), pose->meshes[m].normals.begin());
+    std::copy(mesh.positions.begin(), mesh.positions.end(), deformed.positions.begin());
+    std::copy(mesh.normals.begin(), mesh.normals.end(), deformed.normals.begin());
   }
-  return pose;
+  return instance;
 }
 
-void destroy_deformer_instance(DeformerInstance* pose) {
-  const Deformer* deformer = pose->deformer;
-  const Allocator allocator = pose->allocator;
-  const size_t size = pose->block_size;
-  pose->tag = 0;
-  allocator.put(pose, size, kBlockAlignment);
+void destroy_deformer_instance(DeformerInstance* instance) {
+  const Deformer* deformer = instance->deformer;
+  const Allocator allocator = instance->allocator;
+  const size_t size = instance->block_size;
+  instance->tag = 0;
+  allocator.put(instance, size, kBlockAlignment);
   release_deformer(deformer);
 }
 
-void update_deformer_instance(DeformerInstance& pose, const float* joint_values,
+void update_deformer_instance(DeformerInstance& instance, const float* joint_values,
                               const float* channel_weights) {
-  pose_joints(pose.deformer->skeleton, joint_values, pose.joints);
+  pose_joints(instance.deformer->skeleton, joint_values, instance.joints);
   if (channel_weights) {
-    std::copy(channel_weights, channel_weights + pose.channels.count, pose.channels.begin());
+    std::copy(channel_weights, channel_weights + instance.channels.count,
+              instance.channels.begin());
   } else {
-    std::fill(pose.channels.begin(), pose.channels.end(), 0.0f);
+    std::fill(instance.channels.begin(), instance.channels.end(), 0.0f);
   }
 }
 

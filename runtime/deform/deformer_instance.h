@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// One character as deformed: joint matrices, channel weights, and the positions and normals of its
-// meshes, in one block of memory.
+// One character in one pose: joint matrices, channel weights, and the deformed positions and normals
+// of its meshes, in one block of memory.
 //
-//     | Pose | joints | channel weights | meshes | positions and normals of mesh 0 | mesh 1 ... |
-//     areas |
+//     | DeformerInstance | joints | channels | DeformedMesh 0 ... n-1
+//     | positions, normals of mesh 0 | positions, normals of mesh 1 | ... | face areas
 #pragma once
 
 #include "runtime/deform/deformer.h"
@@ -12,34 +12,35 @@
 namespace mien {
 
 struct DeformedMesh {
-  bool present = false;
-  Span<float> positions;  // [position] x y z, and one float more
-  Span<float> normals;    // [vertex] x y z, and one float more
+  bool present = false;   // the instance has memory for this mesh
+  Span<float> positions;  // [position] x y z, + 1
+  Span<float> normals;    // [vertex] x y z, + 1
 };
 
 struct DeformerInstance {
-  uint32_t tag = 0;  // first, for the C API to recognize its handles
+  uint32_t tag = 0;  // first, so that the C API recognizes its handles
   bool in_batch = false;
   Allocator allocator;
   size_t block_size = 0;
   const Deformer* deformer = nullptr;
 
   JointPose joints;
-  Span<float> channels;
+  Span<float> channels;  // [channel] weight
   Span<DeformedMesh> meshes;
-  Span<float> areas;  // scratch: area vectors of the faces of the largest mesh, x y z and one more
+  Span<float> face_areas;  // scratch, [face] x y z 0, for the largest mesh
 };
 
-/// Bytes of a pose with room for the meshes of `lods` (bits; 0: of all meshes).
+/// Bytes of an instance with memory for the meshes of some LODs: bit l is LOD l; 0 means all meshes.
 size_t deformer_instance_size(const Deformer& deformer, uint64_t lods);
 
-/// In neutral. Becomes an owner of the deformer. Null if memory ran out.
+/// In the neutral pose. The instance owns the deformer with others. Null if memory ran out.
 DeformerInstance* create_deformer_instance(const Deformer& deformer, uint64_t lods,
                                            const Allocator& allocator);
-void destroy_deformer_instance(DeformerInstance* pose);
+void destroy_deformer_instance(DeformerInstance* instance);
 
-/// Null: no deltas, no weights.
-void update_deformer_instance(DeformerInstance& pose, const float* joint_values,
+/// Joint values and channel weights as evaluation returns them -> joint matrices. Null joint values
+/// mean no deltas; null channel weights mean all 0.
+void update_deformer_instance(DeformerInstance& instance, const float* joint_values,
                               const float* channel_weights);
 
 }  // namespace mien

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Joints as poses need them: parents before children, the neutral pose, its model matrices and
-// their inverses. Placed in the block of whoever owns it, then immutable.
+// The joint hierarchy of a rig, sorted parents first, with its neutral pose and bind matrices. Part
+// of the deformer's block of memory; immutable once filled.
 #pragma once
 
 #include "runtime/base/arena.h"
@@ -8,10 +8,10 @@
 
 namespace mien {
 
-/// Numbers of MIEN_COMPOSE_... in mien.h.
+/// Same numbers as MIEN_COMPOSE_... in mien.h.
 enum class Compose : uint32_t { kProduct = 0, kEulerAdd = 1 };
 
-constexpr size_t kMatrixFloats = 16;  // four columns; the last row is 0 0 0 1
+constexpr size_t kMatrixFloats = 16;  // four columns of four; the last row is 0 0 0 1
 
 struct Skeleton {
   const KernelTable* kernels = nullptr;
@@ -20,12 +20,12 @@ struct Skeleton {
   Compose compose = Compose::kProduct;
   RotationConvention rotation;
 
-  Span<uint16_t> order;      // joints, parents before children; order[i] has lane i
-  Span<uint16_t> parents;    // [joint]; a root is its own
-  Span<float> neutral;       // blocks of lanes: kNeutralRows as simd/kernels.h draws them
-  Span<float> added_angles;  // [lane] about x y z, in the file's unit: what Euler angles add up to
-  Span<float> bind;          // [joint] model matrix in neutral
-  Span<float> inverse_bind;  // [joint]
+  Span<uint16_t> order;        // joints, parents before children; order[i] has lane i
+  Span<uint16_t> parents;      // [joint]; a root is its own parent
+  Span<float> neutral;         // kNeutralRows rows of lanes per block: JointLocalArgs
+  Span<float> neutral_angles;  // [lane] x y z in the file's unit; only for Compose::kEulerAdd
+  Span<float> bind;            // [joint] model matrix of the neutral pose
+  Span<float> inverse_bind;    // [joint]
 
   uint32_t value_count() const { return joint_count * joint_attributes; }
   uint32_t block_count() const { return (joint_count + kBlockLanes - 1) / kBlockLanes; }

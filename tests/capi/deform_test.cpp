@@ -270,8 +270,8 @@ TEST_F(DeformMisuse, InstancesOfAnotherRig) {
 
 TEST_F(DeformMisuse, BatchesThatDoNotFit) {
   const DeformerHandle other = create_deformer(dna, rig);
-  const PoseHandle stranger = create_deformer_instance(other.get()),
-                   second = create_deformer_instance(deformer);
+  const DeformerInstanceHandle stranger = create_deformer_instance(other.get()),
+                               second = create_deformer_instance(deformer);
   float moved[27] = {0, 5};
   mien_deformer_instance_update_from_values(second.get(), moved, 27, nullptr, 0);
   const auto deform = [&](std::vector<MienDeformerInstance*> poses) {

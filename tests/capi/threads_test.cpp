@@ -219,14 +219,14 @@ TEST(CapiThreads, PosesOfOneDeformerDoNotDisturbEachOther) {
       results.insert(results.end(), part.begin(), part.end());
     }
   };
-  std::vector<PoseHandle> poses;
+  std::vector<DeformerInstanceHandle> poses;
   for (int t = 0; t < kThreads; ++t) {
     play(t, create_deformer_instance(deformer.get()).get(), expected[static_cast<size_t>(t)]);
     poses.push_back(create_deformer_instance(deformer.get()));
   }
   on_threads(kThreads, [&](int t) {
     if (t == 0) deformer.reset();
-    PoseHandle& mine = poses[static_cast<size_t>(t)];
+    DeformerInstanceHandle& mine = poses[static_cast<size_t>(t)];
     play(t, mine.get(), found[static_cast<size_t>(t)]);
     mine.reset();
   });
@@ -248,9 +248,9 @@ TEST(CapiThreads, TasksOfADeformationDoNotMeet) {
     });
   };
   const MienParallelFor parallel = {nullptr, run};
-  Deformed::update(d.pose.get(), random_values(d.rig.get(), 1));
+  Deformed::update(d.instance.get(), random_values(d.rig.get(), 1));
   for (uint32_t normals : {MIEN_NORMALS_SKINNED, MIEN_NORMALS_RECOMPUTED}) {
-    EXPECT_EQ(mien_deformer_instance_deform(d.pose.get(), 0, normals, &parallel), MIEN_OK);
+    EXPECT_EQ(mien_deformer_instance_deform(d.instance.get(), 0, normals, &parallel), MIEN_OK);
   }
 }
 

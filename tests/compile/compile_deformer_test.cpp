@@ -155,21 +155,21 @@ TEST(CompileDeformer, TellsWhichLodsShowAMesh) {
   }
 }
 
-// Neighbors in the order of work need the same code, then the same matrix.
-TEST(CompileDeformer, PlacesAreInRunsOfEqualInfluences) {
+// Neighbors run the same code, and mostly read the same matrices.
+TEST(CompileDeformer, SortedPositionsAreInRunsOfEqualInfluences) {
   Deformed d(random_deform_rig(1, {}));
   const DeformMesh& mesh = capi::object(d.deformer.get())->meshes[0];
-  uint32_t place = 0, influences = 0;
-  for (const SkinRun& run : mesh.runs) {
-    EXPECT_EQ(run.first, place);
+  uint32_t next = 0, influences = 0;
+  for (const SkinRun& run : mesh.skin_runs) {
+    EXPECT_EQ(run.first, next);
     EXPECT_GT(run.count, 0u);
-    EXPECT_TRUE(place == 0 || run.influences > influences);
+    EXPECT_TRUE(next == 0 || run.influences > influences);
     influences = run.influences;
-    place += run.count;
+    next += run.count;
   }
-  EXPECT_EQ(place, mesh.position_count);
+  EXPECT_EQ(next, mesh.position_count);
   for (uint32_t p = 0; p < mesh.position_count; ++p) {
-    EXPECT_EQ(mesh.position_at[mesh.place_of[p]], p);
+    EXPECT_EQ(mesh.position_indices[mesh.sorted_indices[p]], p);
   }
 }
 
@@ -194,19 +194,19 @@ TEST(CompileDeformer, MeshesMayLackAnything) {
       }
     });
     const DeformerHandle deformer = create_deformer(changed.dna.get(), changed.rig.get());
-    const PoseHandle pose = create_deformer_instance(deformer.get());
+    const DeformerInstanceHandle instance = create_deformer_instance(deformer.get());
     const DeformValues values = random_values(changed.rig.get(), 1);
-    Deformed::update(pose.get(), values);
+    Deformed::update(instance.get(), values);
     for (uint32_t normals : {MIEN_NORMALS_SKINNED, MIEN_NORMALS_RECOMPUTED}) {
-      ASSERT_EQ(mien_deformer_instance_deform(pose.get(), 0, normals, nullptr), MIEN_OK);
+      ASSERT_EQ(mien_deformer_instance_deform(instance.get(), 0, normals, nullptr), MIEN_OK);
     }
     const MienMesh mesh = mesh_of(deformer.get(), 0);
     const bool empty = lacking == 0 || lacking == 5;
     EXPECT_EQ(mesh.position_count, empty ? 0u : 6u);
     EXPECT_EQ(mesh.vertex_count, empty || lacking == 6 ? 0u : 6u);
     EXPECT_EQ(mesh.triangle_count, empty || lacking == 1 || lacking == 6 ? 0u : 4u);
-    EXPECT_EQ(Deformed::positions(pose.get(), 0).count, mesh.positions.count);
-    EXPECT_EQ(Deformed::normals(pose.get(), 0).count, mesh.normals.count);
+    EXPECT_EQ(Deformed::positions(instance.get(), 0).count, mesh.positions.count);
+    EXPECT_EQ(Deformed::normals(instance.get(), 0).count, mesh.normals.count);
     if (lacking == 4) {
       for (size_t i = 0; i < mesh.texture_coordinates.count; ++i) {
         EXPECT_EQ(mesh.texture_coordinates.data[i], 0);
@@ -214,10 +214,12 @@ TEST(CompileDeformer, MeshesMayLackAnything) {
     }
     if (empty) continue;
     const PlainDeformer plain = {changed.dna->view};
-    EXPECT_LE(largest_error(Deformed::positions(pose.get(), 0), plain.positions(0, values)), 1e-4);
+    EXPECT_LE(largest_error(Deformed::positions(instance.get(), 0), plain.positions(0, values)),
+              1e-4);
     if (lacking == 0 || lacking == 1 || lacking == 6) continue;
-    EXPECT_LE(largest_error(Deformed::normals(pose.get(), 0), plain.recomputed_normals(0, values)),
-              1e-3);
+    EXPECT_LE(
+        largest_error(Deformed::normals(instance.get(), 0), plain.recomputed_normals(0, values)),
+        1e-3);
   }
 }
 

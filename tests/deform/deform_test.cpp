@@ -65,7 +65,7 @@ TEST(Deform, NeutralIsTheStoredMesh) {
       EXPECT_LE(largest_difference(d.positions(0), stored), 1e-6 * diagonal);
       EXPECT_LE(largest_difference(d.normals(0), normals), 1e-6);
 
-      EXPECT_EQ(mien_deformer_instance_update_from_values(d.pose.get(), nullptr, 0, nullptr, 0),
+      EXPECT_EQ(mien_deformer_instance_update_from_values(d.instance.get(), nullptr, 0, nullptr, 0),
                 MIEN_OK);
       d.deform(0, MIEN_NORMALS_SKINNED);
       EXPECT_LE(largest_difference(d.positions(0), stored), 1e-6 * diagonal);
@@ -120,17 +120,17 @@ TEST(Deform, JointsOutsideALodFollowTheirParent) {
   const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 3);
   const RigHandle rig = create_rig(dna.get());
   const DeformerHandle deformer = create_deformer(dna.get(), rig.get());
-  const PoseHandle pose = create_deformer_instance(deformer.get());
+  const DeformerInstanceHandle instance = create_deformer_instance(deformer.get());
   Character character(rig);
   for (float& control : character.raw) control = 0.7f;
   const uint32_t last = info_of(rig).lod_count - 1;
   character.evaluate(last);
-  ASSERT_EQ(mien_deformer_instance_update(pose.get(), character.instance.get()), MIEN_OK);
+  ASSERT_EQ(mien_deformer_instance_update(instance.get(), character.instance.get()), MIEN_OK);
   MienIndexView listed = {}, parents = {};
   MienFloatView skins = {};
   ASSERT_EQ(mien_rig_lod_indices(rig.get(), MIEN_KIND_JOINT, last, &listed), MIEN_OK);
   ASSERT_EQ(mien_rig_joint_parents(rig.get(), &parents), MIEN_OK);
-  ASSERT_EQ(mien_deformer_instance_skin_matrices(pose.get(), &skins), MIEN_OK);
+  ASSERT_EQ(mien_deformer_instance_skin_matrices(instance.get(), &skins), MIEN_OK);
   std::vector<bool> exists(parents.count);
   for (size_t i = 0; i < listed.count; ++i) exists[listed.data[i]] = true;
   size_t followers = 0, movers = 0;
@@ -150,8 +150,8 @@ TEST(Deform, TakesWhatTheInstanceEvaluated) {
   const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 3);
   const RigHandle rig = create_rig(dna.get());
   const DeformerHandle deformer = create_deformer(dna.get(), rig.get());
-  const PoseHandle a = create_deformer_instance(deformer.get()),
-                   b = create_deformer_instance(deformer.get());
+  const DeformerInstanceHandle a = create_deformer_instance(deformer.get()),
+                               b = create_deformer_instance(deformer.get());
   Character character(rig);
   for (float& control : character.raw) control = 0.4f;
   character.evaluate(0);
@@ -160,8 +160,8 @@ TEST(Deform, TakesWhatTheInstanceEvaluated) {
                 b.get(), character.joints.data, character.joints.count, character.channels.data,
                 character.channels.count),
             MIEN_OK);
-  for (MienDeformerInstance* pose : {a.get(), b.get()}) {
-    ASSERT_EQ(mien_deformer_instance_deform(pose, 0, MIEN_NORMALS_DEFAULT, nullptr), MIEN_OK);
+  for (MienDeformerInstance* instance : {a.get(), b.get()}) {
+    ASSERT_EQ(mien_deformer_instance_deform(instance, 0, MIEN_NORMALS_DEFAULT, nullptr), MIEN_OK);
   }
   EXPECT_TRUE(same_bits(Deformed::positions(a.get(), 0), Deformed::positions(b.get(), 0)));
   const PlainDeformer plain = {dna->view};
@@ -296,11 +296,11 @@ TEST(Deform, WeightsAreAsStoredOrFixed) {
       ASSERT_EQ(mien_deformer_influences(d.deformer.get(), 0, p, &joints, &values), MIEN_OK);
       EXPECT_EQ(values.count, plain.fix_weights ? 0u : 1u) << p;
     }
-    if (plain.fix_weights) continue;  // the plain one divides by the smallest of sums
-    const DeformValues pose = random_values(d.rig.get(), 3);
-    d.update(pose);
+    if (plain.fix_weights) continue;  // the model divides by sums of any size
+    const DeformValues moved = random_values(d.rig.get(), 3);
+    d.update(moved);
     d.deform(0);
-    EXPECT_LE(largest_error(d.positions(0), plain.positions(0, pose)), 1e-6 * 150);
+    EXPECT_LE(largest_error(d.positions(0), plain.positions(0, moved)), 1e-6 * 150);
   }
 }
 
@@ -456,7 +456,7 @@ DeformRigOptions large_mesh() {
 TEST(Deform, ThreadsGiveTheSameBits) {
   const std::vector<uint8_t> file = random_deform_rig(2, large_mesh());
   Deformed d(file);
-  const PoseHandle other = create_deformer_instance(d.deformer.get());
+  const DeformerInstanceHandle other = create_deformer_instance(d.deformer.get());
   const DeformValues values = random_values(d.rig.get(), 2);
   d.update(values);
   Deformed::update(other.get(), values);
@@ -475,7 +475,7 @@ TEST(Deform, SmallMeshesStayOnTheThread) {
   Deformed d(random_deform_rig(2, {}));
   Threads threads;
   ASSERT_EQ(
-      mien_deformer_instance_deform(d.pose.get(), 0, MIEN_NORMALS_DEFAULT, &threads.interface),
+      mien_deformer_instance_deform(d.instance.get(), 0, MIEN_NORMALS_DEFAULT, &threads.interface),
       MIEN_OK);
   EXPECT_EQ(threads.calls, 0u);
 }
@@ -486,7 +486,7 @@ TEST(Deform, ABatchGivesTheSameBits) {
   options.columns = 40;
   const std::vector<uint8_t> file = random_deform_rig(6, options);
   Deformed d(file);
-  std::vector<PoseHandle> alone, together;
+  std::vector<DeformerInstanceHandle> alone, together;
   std::vector<MienDeformerInstance*> batch;
   for (uint32_t i = 0; i < 11; ++i) {
     const DeformValues values = random_values(d.rig.get(), i, i % 2 ? 0.1 : 0);
@@ -499,8 +499,8 @@ TEST(Deform, ABatchGivesTheSameBits) {
   for (uint32_t normals : {MIEN_NORMALS_SKINNED, MIEN_NORMALS_RECOMPUTED}) {
     for (bool with_threads : {false, true}) {
       Threads threads;
-      for (PoseHandle& pose : alone) {
-        ASSERT_EQ(mien_deformer_instance_deform(pose.get(), 1, normals, nullptr), MIEN_OK);
+      for (DeformerInstanceHandle& instance : alone) {
+        ASSERT_EQ(mien_deformer_instance_deform(instance.get(), 1, normals, nullptr), MIEN_OK);
       }
       ASSERT_EQ(mien_deformer_instance_deform_batch(batch.data(), batch.size(), 1, normals,
                                                     with_threads ? &threads.interface : nullptr),
@@ -513,8 +513,8 @@ TEST(Deform, ABatchGivesTheSameBits) {
       }
       // Small as one mesh is, all together are worth it.
       EXPECT_EQ(threads.calls > 0, with_threads);
-      for (PoseHandle& pose : together) {
-        ASSERT_EQ(mien_deformer_instance_deform(pose.get(), 1, MIEN_NORMALS_NONE, nullptr),
+      for (DeformerInstanceHandle& instance : together) {
+        ASSERT_EQ(mien_deformer_instance_deform(instance.get(), 1, MIEN_NORMALS_NONE, nullptr),
                   MIEN_OK);
       }
     }

@@ -79,7 +79,7 @@ TEST(JointPose, BindMatricesAndTheirInverses) {
       values.joints[i] = joints.plain.quaternions && i % 10 == 6 ? 1 : 0;
     }
     EXPECT_LE(difference({bind.data, bind.count}, joints.plain.models(values.joints)), 3e-6);
-    // A pose that nobody has updated is in neutral.
+    // An instance is created in the neutral pose.
     EXPECT_LE(largest_difference(joints.matrices(), {bind.data, bind.count}), 5e-6);
     for (size_t j = 0; j < bind.count; j += 16) {
       for (size_t r = 0; r < 4; ++r) {
@@ -120,9 +120,9 @@ TEST(JointPose, LocalTransformsMakeTheMatrices) {
     joints.update(values);
     const uint32_t count = count_of(joints.rig, MIEN_KIND_JOINT);
     std::vector<float> locals(count * 10 + 1, -7.0f);
-    ASSERT_EQ(
-        mien_deformer_instance_local_transforms(joints.pose.get(), locals.data(), locals.size()),
-        MIEN_OK);
+    ASSERT_EQ(mien_deformer_instance_local_transforms(joints.instance.get(), locals.data(),
+                                                      locals.size()),
+              MIEN_OK);
     EXPECT_EQ(locals.back(), -7);
     MienIndexView parents = {};
     ASSERT_EQ(mien_rig_joint_parents(joints.rig.get(), &parents), MIEN_OK);

@@ -13,7 +13,7 @@ namespace mien {
 namespace {
 
 constexpr uint32_t kJoints = 40;
-constexpr uint32_t kPlaces = 61;
+constexpr uint32_t kPositions = 61;
 constexpr uint32_t kFaces = 53;
 constexpr uint32_t kMaxInfluences = 13;
 
@@ -84,14 +84,14 @@ uint64_t joint_bits(const KernelTable& kernels, uint32_t seed, bool quaternions)
   JointLocalArgs local = {neutral.data, deltas.data, locals.data, kBlocks, {2, 0, 1}, quaternions};
   kernels.joint_locals(local);
   uint16_t order[kJoints], parents[kJoints];
-  uint8_t still[kJoints];
+  uint8_t has_no_delta[kJoints];
   for (uint16_t j = 0; j < kJoints; ++j) {
     order[j] = j;
     parents[j] = static_cast<uint16_t>(j % 7 == 0 ? j : numbers.below(j));
-    still[j] = numbers.below(3) == 0;
+    has_no_delta[j] = numbers.below(3) == 0;
     for (int k = 3; k < 16; k += 4) inverse.data[j * 16 + k] = k == 15;
   }
-  JointTreeArgs tree = {order,        parents,    locals.data, still,
+  JointTreeArgs tree = {order,        parents,    locals.data, has_no_delta,
                         inverse.data, model.data, skin.data,   kJoints};
   kernels.joint_tree(tree);
   Bits bits;
@@ -103,7 +103,7 @@ uint64_t joint_bits(const KernelTable& kernels, uint32_t seed, bool quaternions)
       EXPECT_EQ(model.data[j * 16 + k], k == 15);
       EXPECT_EQ(skin.data[j * 16 + k], k == 15);
     }
-    if (still[j]) {
+    if (has_no_delta[j]) {
       const float* above = skin.data + parents[j] * 16;
       EXPECT_TRUE(parents[j] == j || memcmp(skin.data + j * 16, above, 64) == 0);
     }
@@ -121,79 +121,83 @@ TEST(KernelsDeform, JointsHaveTheSameBitsEverywhere) {
 
 // Meshes ------------------------------------------------------------------------------------------
 
-/// Positions of a piece of mesh, its corners and faces; one corner in five is a hard edge, one face
-/// in eight has no area.
-struct Piece {
+/// A random part of a mesh: one vertex in five lies on a hard edge, one face in eight has no area.
+struct MeshPart {
   Numbers numbers;
-  Aligned places, weights, matrices, normals, directions;
+  Aligned positions, weights, matrices, normals, directions;
   std::vector<uint16_t> joints;
-  std::vector<uint32_t> position_at, first_corner = {0}, corners, faces, first_touching = {0},
-                                     touching;
+  std::vector<uint32_t> position_indices, first_vertex = {0}, vertices, faces,
+                                          first_adjacent_face = {0}, adjacent_faces;
 
-  explicit Piece(uint32_t seed)
-      : numbers(seed), places(kPlaces * 4, &numbers), weights(kPlaces * kMaxInfluences, &numbers),
-        matrices(kJoints * 16, &numbers), normals(kPlaces * 3 * 3 + 1, &numbers),
-        directions(kPlaces * 4, &numbers) {
-    for (uint32_t i = 0; i < kPlaces * kMaxInfluences; ++i) {
+  explicit MeshPart(uint32_t seed)
+      : numbers(seed), positions(kPositions * 4, &numbers),
+        weights(kPositions * kMaxInfluences, &numbers), matrices(kJoints * 16, &numbers),
+        normals(kPositions * 3 * 3 + 1, &numbers), directions(kPositions * 4, &numbers) {
+    for (uint32_t i = 0; i < kPositions * kMaxInfluences; ++i) {
       joints.push_back(static_cast<uint16_t>(numbers.below(kJoints)));
     }
-    for (uint32_t i = 0; i < kPlaces; ++i) {
-      position_at.push_back((i * 17 + 5) % kPlaces);
+    for (uint32_t i = 0; i < kPositions; ++i) {
+      position_indices.push_back((i * 17 + 5) % kPositions);
       for (uint32_t n = numbers.below(3); n != 0; --n) {
-        const uint32_t vertex = static_cast<uint32_t>(corners.size());
-        corners.push_back(numbers.below(5) == 0 ? vertex | kHardCorner : vertex);
+        const uint32_t vertex = static_cast<uint32_t>(vertices.size());
+        vertices.push_back(numbers.below(5) == 0 ? vertex | kHardEdge : vertex);
       }
-      first_corner.push_back(static_cast<uint32_t>(corners.size()));
-      for (uint32_t n = numbers.below(5); n != 0; --n) touching.push_back(numbers.below(kFaces));
-      first_touching.push_back(static_cast<uint32_t>(touching.size()));
+      first_vertex.push_back(static_cast<uint32_t>(vertices.size()));
+      for (uint32_t n = numbers.below(5); n != 0; --n)
+        adjacent_faces.push_back(numbers.below(kFaces));
+      first_adjacent_face.push_back(static_cast<uint32_t>(adjacent_faces.size()));
     }
     for (uint32_t f = 0; f < kFaces; ++f) {
-      for (int k = 0; k < 4; ++k) faces.push_back(numbers.below(kPlaces));
+      for (int k = 0; k < 4; ++k) faces.push_back(numbers.below(kPositions));
       if (f % 8 == 0) faces[f * 4 + 2] = faces[f * 4];
     }
   }
 
-  /// Positions and normals of the first `count` places.
+  /// Skinned positions and normals; only the first `count` are written.
   std::vector<float> skinned(const KernelTable& kernels, uint32_t count, uint32_t influences,
                              SkinNormals mode) {
-    std::vector<float> positions(kPlaces * 3, -9), turned(corners.size() * 3, -9);
-    const SkinArgs args = {places.data,
-                           weights.data,
-                           joints.data(),
-                           matrices.data,
-                           position_at.data(),
-                           positions.data(),
-                           first_corner.data(),
-                           corners.data(),
-                           normals.data,
-                           turned.data(),
-                           count,
-                           influences,
-                           mode};
-    kernels.skin_places(args);
-    positions.insert(positions.end(), turned.begin(), turned.end());
-    return positions;
+    std::vector<float> out(kPositions * 3, -9), out_normals(vertices.size() * 3, -9);
+    SkinArgs args;
+    args.positions = positions.data;
+    args.weights = weights.data;
+    args.joints = joints.data();
+    args.matrices = matrices.data;
+    args.position_indices = position_indices.data();
+    args.out_positions = out.data();
+    args.first_vertex = first_vertex.data();
+    args.vertices = vertices.data();
+    args.normals = normals.data;
+    args.out_normals = out_normals.data();
+    args.count = count;
+    args.influences = influences;
+    args.mode = mode;
+    kernels.skin_positions(args);
+    out.insert(out.end(), out_normals.begin(), out_normals.end());
+    return out;
   }
   std::vector<float> recomputed(const KernelTable& kernels, uint32_t count) {
-    Aligned positions(kPlaces * 3 + 1, nullptr), areas(kFaces * 4, nullptr);
-    for (uint32_t i = 0; i < kPlaces * 3; ++i) positions.data[i] = places.data[i / 3 * 4 + i % 3];
-    kernels.face_areas({positions.data, faces.data(), areas.data, kFaces});
-    std::vector<float> result(corners.size() * 3, -9);
-    kernels.sum_normals({areas.data, first_touching.data(), touching.data(), first_corner.data(),
-                         corners.data(), normals.data, directions.data, result.data(), count});
+    Aligned points(kPositions * 3 + 1, nullptr), areas(kFaces * 4, nullptr);
+    for (uint32_t i = 0; i < kPositions * 3; ++i) {
+      points.data[i] = positions.data[i / 3 * 4 + i % 3];
+    }
+    kernels.face_areas({points.data, faces.data(), areas.data, kFaces});
+    std::vector<float> result(vertices.size() * 3, -9);
+    kernels.sum_normals({areas.data, first_adjacent_face.data(), adjacent_faces.data(),
+                         first_vertex.data(), vertices.data(), normals.data, directions.data,
+                         result.data(), count});
     for (uint32_t f = 0; f < kFaces; ++f) {
       result.insert(result.end(), areas.data + f * 4, areas.data + f * 4 + 3);
     }
     return result;
   }
-  std::vector<float> moved(const KernelTable& kernels, uint32_t count) {
+  std::vector<float> with_target(const KernelTable& kernels, uint32_t count) {
     std::vector<uint16_t> at;
-    for (uint32_t i = 0; i < count; ++i) at.push_back(static_cast<uint16_t>(i * 7 % kPlaces));
-    Aligned result(kPlaces * 4, nullptr);
-    std::copy(places.data, places.data + kPlaces * 4, result.data);
+    for (uint32_t i = 0; i < count; ++i) at.push_back(static_cast<uint16_t>(i * 7 % kPositions));
+    Aligned result(kPositions * 4, nullptr);
+    std::copy(positions.data, positions.data + kPositions * 4, result.data);
     kernels.add_target({normals.data, at.data(), result.data, 0.7f, count});
     std::vector<float> points;
-    for (uint32_t i = 0; i < kPlaces; ++i) {
+    for (uint32_t i = 0; i < kPositions; ++i) {
       points.insert(points.end(), result.data + i * 4, result.data + i * 4 + 3);
     }
     return points;
@@ -208,37 +212,37 @@ void expect_near(const std::vector<float>& a, const std::vector<float>& b, float
 TEST(KernelsDeform, MeshesHaveTheSameBitsWithinAFamily) {
   for (const KernelTable* kernels : present()) {
     SCOPED_TRACE(kernels->name);
-    Piece piece(3);
+    MeshPart part(3);
     Bits skin, normals, targets;
     for (uint32_t influences = 1; influences <= kMaxInfluences; ++influences) {
       for (SkinNormals mode : {SkinNormals::kNone, SkinNormals::kMatrix, SkinNormals::kCofactors}) {
-        const std::vector<float> made = piece.skinned(*kernels, kPlaces, influences, mode);
+        const std::vector<float> made = part.skinned(*kernels, kPositions, influences, mode);
         skin.add(made.data(), made.size());
       }
     }
-    const std::vector<float> recomputed = piece.recomputed(*kernels, kPlaces);
+    const std::vector<float> recomputed = part.recomputed(*kernels, kPositions);
     normals.add(recomputed.data(), recomputed.size());
-    const std::vector<float> moved = piece.moved(*kernels, 100);
-    targets.add(moved.data(), moved.size());
+    const std::vector<float> shaped = part.with_target(*kernels, 100);
+    targets.add(shaped.data(), shaped.size());
     EXPECT_EQ(skin.get(), fuses(kernels) ? 17742793177837106399u : 9399108170116113246u);
     EXPECT_EQ(normals.get(), fuses(kernels) ? 5545892496385476698u : 8158691836059751701u);
     EXPECT_EQ(targets.get(), fuses(kernels) ? 17416380660912958779u : 8313780558851541007u);
   }
 }
 
-// Whatever the count, places beyond it are left alone and those before it come out as ever.
+// Whatever the count, positions beyond it are left alone and those before it come out as ever.
 TEST(KernelsDeform, AnyCount) {
   const KernelTable& scalar = *kernels_for(Isa::kScalar);
   for (const KernelTable* kernels : present()) {
     SCOPED_TRACE(kernels->name);
-    Piece piece(4);
-    for (uint32_t count = 0; count <= kPlaces; ++count) {
+    MeshPart part(4);
+    for (uint32_t count = 0; count <= kPositions; ++count) {
       for (SkinNormals mode : {SkinNormals::kNone, SkinNormals::kMatrix}) {
-        expect_near(piece.skinned(*kernels, count, 5, mode), piece.skinned(scalar, count, 5, mode),
+        expect_near(part.skinned(*kernels, count, 5, mode), part.skinned(scalar, count, 5, mode),
                     1e-4f);
       }
-      expect_near(piece.recomputed(*kernels, count), piece.recomputed(scalar, count), 1e-4f);
-      expect_near(piece.moved(*kernels, count), piece.moved(scalar, count), 1e-6f);
+      expect_near(part.recomputed(*kernels, count), part.recomputed(scalar, count), 1e-4f);
+      expect_near(part.with_target(*kernels, count), part.with_target(scalar, count), 1e-6f);
     }
   }
 }

@@ -283,12 +283,12 @@ DeformerHandle create_deformer(const MienDna* dna, const MienRig* rig, MienDefor
   return DeformerHandle(made);
 }
 
-PoseHandle create_deformer_instance(const MienDeformer* deformer, uint64_t lods) {
+DeformerInstanceHandle create_deformer_instance(const MienDeformer* deformer, uint64_t lods) {
   MienDeformerInstanceDesc desc = sized<MienDeformerInstanceDesc>();
   desc.lods = lods;
   MienDeformerInstance* made = nullptr;
   EXPECT_EQ(mien_deformer_instance_create(deformer, &desc, &made, nullptr), MIEN_OK);
-  return PoseHandle(made);
+  return DeformerInstanceHandle(made);
 }
 
 MienMesh mesh_of(const MienDeformer* deformer, uint32_t mesh) {

@@ -12,16 +12,18 @@
 
 namespace mien {
 
-struct CloseDeform {
+struct DestroyDeform {
   void operator()(MienDeformer* deformer) const { mien_deformer_destroy(deformer); }
-  void operator()(MienDeformerInstance* pose) const { mien_deformer_instance_destroy(pose); }
+  void operator()(MienDeformerInstance* instance) const {
+    mien_deformer_instance_destroy(instance);
+  }
 };
-using DeformerHandle = std::unique_ptr<MienDeformer, CloseDeform>;
-using PoseHandle = std::unique_ptr<MienDeformerInstance, CloseDeform>;
+using DeformerHandle = std::unique_ptr<MienDeformer, DestroyDeform>;
+using DeformerInstanceHandle = std::unique_ptr<MienDeformerInstance, DestroyDeform>;
 
 DeformerHandle create_deformer(const MienDna* dna, const MienRig* rig, MienDeformerDesc desc = {},
                                MienStatus expected = MIEN_OK);
-PoseHandle create_deformer_instance(const MienDeformer* deformer, uint64_t lods = 0);
+DeformerInstanceHandle create_deformer_instance(const MienDeformer* deformer, uint64_t lods = 0);
 MienMesh mesh_of(const MienDeformer* deformer, uint32_t mesh);
 
 /// What a random rig is like.
@@ -80,45 +82,45 @@ struct Deformed {
   DnaHandle dna;
   RigHandle rig;
   DeformerHandle deformer;
-  PoseHandle pose;
+  DeformerInstanceHandle instance;
 
   explicit Deformed(std::vector<uint8_t> file, MienDeformerDesc desc = {},
                     uint32_t rotation = MIEN_OUTPUT_EULER)
       : bytes(std::move(file)), dna(open_dna(bytes)),
         rig(create_rig(dna.get(), MIEN_ISA_BEST, MIEN_OK, rotation)),
         deformer(create_deformer(dna.get(), rig.get(), desc)),
-        pose(create_deformer_instance(deformer.get())) {}
+        instance(create_deformer_instance(deformer.get())) {}
 
-  static void update(MienDeformerInstance* pose, const DeformValues& values) {
-    EXPECT_EQ(
-        mien_deformer_instance_update_from_values(pose, values.joints.data(), values.joints.size(),
-                                                  values.channels.data(), values.channels.size()),
-        MIEN_OK);
+  static void update(MienDeformerInstance* instance, const DeformValues& values) {
+    EXPECT_EQ(mien_deformer_instance_update_from_values(
+                  instance, values.joints.data(), values.joints.size(), values.channels.data(),
+                  values.channels.size()),
+              MIEN_OK);
   }
-  void update(const DeformValues& values) { update(pose.get(), values); }
+  void update(const DeformValues& values) { update(instance.get(), values); }
   void deform(uint32_t mesh, uint32_t normals = MIEN_NORMALS_DEFAULT) {
-    EXPECT_EQ(mien_deformer_instance_deform(pose.get(), mesh, normals, nullptr), MIEN_OK);
+    EXPECT_EQ(mien_deformer_instance_deform(instance.get(), mesh, normals, nullptr), MIEN_OK);
   }
-  static Span<const float> positions(const MienDeformerInstance* pose, uint32_t mesh) {
+  static Span<const float> positions(const MienDeformerInstance* instance, uint32_t mesh) {
     MienFloatView view = {};
-    EXPECT_EQ(mien_deformer_instance_positions(pose, mesh, &view), MIEN_OK);
+    EXPECT_EQ(mien_deformer_instance_positions(instance, mesh, &view), MIEN_OK);
     return {view.data, view.count};
   }
-  static Span<const float> normals(const MienDeformerInstance* pose, uint32_t mesh) {
+  static Span<const float> normals(const MienDeformerInstance* instance, uint32_t mesh) {
     MienFloatView view = {};
-    EXPECT_EQ(mien_deformer_instance_normals(pose, mesh, &view), MIEN_OK);
+    EXPECT_EQ(mien_deformer_instance_normals(instance, mesh, &view), MIEN_OK);
     return {view.data, view.count};
   }
-  Span<const float> positions(uint32_t mesh) const { return positions(pose.get(), mesh); }
-  Span<const float> normals(uint32_t mesh) const { return normals(pose.get(), mesh); }
+  Span<const float> positions(uint32_t mesh) const { return positions(instance.get(), mesh); }
+  Span<const float> normals(uint32_t mesh) const { return normals(instance.get(), mesh); }
   Span<const float> matrices() const {
     MienFloatView view = {};
-    EXPECT_EQ(mien_deformer_instance_joint_matrices(pose.get(), &view), MIEN_OK);
+    EXPECT_EQ(mien_deformer_instance_joint_matrices(instance.get(), &view), MIEN_OK);
     return {view.data, view.count};
   }
   Span<const float> skins() const {
     MienFloatView view = {};
-    EXPECT_EQ(mien_deformer_instance_skin_matrices(pose.get(), &view), MIEN_OK);
+    EXPECT_EQ(mien_deformer_instance_skin_matrices(instance.get(), &view), MIEN_OK);
     return {view.data, view.count};
   }
   /// Positions and normals, to be compared later.
