@@ -17,7 +17,7 @@ import ctypes
 import os
 from array import array
 from operator import index
-from typing import TYPE_CHECKING, Any, Dict, Iterable, NoReturn, Optional, Tuple
+from typing import TYPE_CHECKING, Any, Dict, Iterable, NoReturn, Optional, Tuple, TypeVar
 
 from . import _api
 from ._library import lib
@@ -39,8 +39,13 @@ else:
     Floats = Indices = Any
 
 
+Self = TypeVar("Self", bound="Closable")
+
+
 class _Address:
     """An address means nothing in another process, and two owners would release it twice."""
+
+    __slots__ = ()
 
     def __reduce_ex__(self, protocol: Any) -> NoReturn:
         raise TypeError(f"{type(self).__name__} objects cannot be copied, pickled or sent to other "
@@ -96,9 +101,10 @@ class InstanceHandle(_Address, _api.MienInstance):
 
 
 class Closable(_Address):
-    """close(), `with`, and the error for using what is closed."""
+    """close(), `with`, and the error for using a closed object."""
 
-    _handle: Optional[ctypes.c_void_p]
+    __slots__ = ("_handle", "__weakref__")
+    _handle: Any
 
     def close(self) -> None:
         """Gives up the memory as soon as no array looks into it any more. May be called twice."""
@@ -116,7 +122,7 @@ class Closable(_Address):
             raise ClosedError(f"this {type(self).__name__} is closed", Status.HANDLE)
         return handle
 
-    def __enter__(self) -> Any:
+    def __enter__(self: Self) -> Self:
         self._open()
         return self
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from concurrent.futures import Executor
-from threading import Lock
+from threading import Lock, current_thread, main_thread
 from time import sleep
 from typing import Any, Callable, List, Optional
 
@@ -14,8 +14,8 @@ _run_type: Any = dict(_api.MienParallelFor._fields_)["run"]
 
 
 class _Tasks:
-    """The tasks of one request. They look into the stack of the C call that made it, so none may
-    run, or begin, after `finish()`."""
+    """The tasks of one request. They use the stack of the C call that made it, so none may run or
+    start after `finish()`."""
 
     def __init__(self, task: Any, context: Any, count: int) -> None:
         self.task, self.context = task, context
@@ -24,7 +24,7 @@ class _Tasks:
         self.active = 0
 
     def work(self) -> None:
-        """Takes tasks as long as there are any; every thread that comes may help."""
+        """Runs tasks until none are left. Any number of threads may call it."""
         while True:
             with self.lock:
                 if not self.left:
@@ -44,8 +44,10 @@ class _Tasks:
 def call_with_threads(executor: Optional[Executor], call: Callable[[Any], None]) -> None:
     """call(parallel), where `parallel` is a MienParallelFor of the executor by reference, or None.
 
-    With an executor, the call itself is one of its jobs. Signals interrupt the main thread only, so
-    that Ctrl-C ends the waiting here and nothing in the midst of what the library relies on.
+    On the main thread the call itself becomes a job of the executor: signals interrupt the main
+    thread only, so Ctrl-C ends the waiting here and not a call of the library. On other threads,
+    which may be the executor's own, the call runs at once: a job must not wait for another job of
+    the same executor.
     """
     if executor is None:
         call(None)
@@ -66,4 +68,7 @@ def call_with_threads(executor: Optional[Executor], call: Callable[[Any], None])
         if failures:
             raise failures[0]
 
-    threads.submit(job).result()
+    if current_thread() is main_thread():
+        threads.submit(job).result()
+    else:
+        job()

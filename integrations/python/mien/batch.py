@@ -68,6 +68,9 @@ class Batch(Closable):
     tasks: in how many parts `evaluate(threads=...)` may work at once
     """
 
+    __slots__ = ("rig", "_slab", "_lock", "_instances", "_batch", "_pointers", "_tasks", "_lods",
+                 "_views")
+
     def __init__(self, rig: Rig, count: int, tasks: int = 1) -> None:
         if not 0 <= count <= 1 << 20:
             raise ArgumentError(f"a batch of {count} characters; there may be 2**20")
@@ -172,6 +175,21 @@ class Batch(Closable):
     def controls(self) -> Floats:
         """float32 (n, controls): raw, PSD, ML, RBF."""
         return self._view(lib.mien_instance_controls)
+
+    @property
+    def psd_controls(self) -> Floats:
+        """float32 (n, correctives)."""
+        return self._view(lib.mien_instance_psd_controls)
+
+    @property
+    def ml_controls(self) -> Floats:
+        """float32 (n, ML controls): outputs of the neural networks."""
+        return self._view(lib.mien_instance_ml_controls)
+
+    @property
+    def rbf_controls(self) -> Floats:
+        """float32 (n, RBF controls): weights of the poses of the RBF solvers."""
+        return self._view(lib.mien_instance_rbf_controls)
 
     @property
     def joints(self) -> Floats:

@@ -87,6 +87,8 @@ class Deformer(Closable):
     normals: what `DeformerInstance.deform` makes if it is not told, see `Normals`
     """
 
+    __slots__ = ("info", "_mesh_names")
+
     def __init__(self, dna: Dna, rig: Rig, isa: int = Isa.BEST, compose: int = Compose.PRODUCT,
                  weights: int = Weights.AS_STORED, normals: int = Normals.DEFAULT) -> None:
         desc = _api.MienDeformerDesc(isa=uint32(isa, "isa"), compose=uint32(compose, "compose"),
@@ -97,7 +99,7 @@ class Deformer(Closable):
                                           _byref(error))
         if status:
             fail(status, "cannot make a deformer", error)
-        self._handle: Optional[DeformerHandle] = handle
+        self._handle = handle
         info = _api.MienDeformerInfo()
         status = lib.mien_deformer_info(handle, _byref(info))
         if status:
@@ -174,13 +176,15 @@ class DeformerInstance(Closable):
     change with each `update` or `deform`, and it keeps the memory alive after `close()`.
     """
 
+    __slots__ = ("deformer", "_lock")
+
     def __init__(self, deformer: Deformer, lods: Optional[Iterable[int]] = None) -> None:
         desc = _api.MienDeformerInstanceDesc(lods=lod_bits(lods))
         handle, error = PoseHandle(), MienError()
         status = lib.mien_deformer_instance_create(deformer._open(), _byref(desc), _byref(handle), _byref(error))
         if status:
             fail(status, "cannot make a pose", error)
-        self._handle: Optional[PoseHandle] = handle
+        self._handle = handle
         self.deformer = deformer
         self._lock = allocate_lock()
 

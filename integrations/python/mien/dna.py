@@ -54,9 +54,11 @@ class Dna(Closable):
     A `Rig` keeps its own copy of what it needs, so the DNA may be closed once the rig is made.
     """
 
+    __slots__ = ()
+
     def __init__(self, handle: DnaHandle, keeps: Any = None) -> None:
         handle.keeps = keeps
-        self._handle: Optional[DnaHandle] = handle
+        self._handle = handle
 
     @classmethod
     def open(cls, path: Any, layers: int = Layer.ALL, lods: Optional[Iterable[int]] = None,
@@ -77,7 +79,7 @@ class Dna(Closable):
         handle, error = DnaHandle(), MienError()
         status = lib.mien_dna_open_file(as_path(path), _byref(desc), _byref(handle), _byref(error))
         if status:
-            fail(status, f"cannot open {path}", error)
+            fail(status, f"cannot open {path}", error, path)
         return cls(handle)
 
     @classmethod
@@ -210,7 +212,7 @@ class Dna(Closable):
         status = lib.mien_dna_write_file(self._open(), as_path(path),
                                          self._write_desc(version, unknown_layers), _byref(error))
         if status:
-            fail(status, f"cannot write {path}", error)
+            fail(status, f"cannot write {path}", error, path)
 
     def to_bytes(self, version: int = 0, unknown_layers: int = UnknownLayers.KEEP) -> bytes:
         """The same to memory."""

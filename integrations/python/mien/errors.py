@@ -6,7 +6,9 @@ for such a thing: an index past the end is an IndexError, a file that cannot be 
 """
 from __future__ import annotations
 
-from typing import Any, NoReturn, Optional, Tuple, Type
+import errno
+import os
+from typing import Any, Dict, NoReturn, Optional, Tuple, Type
 
 from . import _api
 from ._api import Status
@@ -60,7 +62,42 @@ class OutOfMemoryError(Error, MemoryError):
 
 
 class FileError(Error, OSError):
-    """A file could not be opened, read or written."""
+    """A file could not be opened, read or written. `filename` and, if known, `errno` are set. A
+    missing file is also a FileNotFoundError, one without permission a PermissionError."""
+
+    def __init__(self, message: str, status: int = Status.FILE_OPEN,
+                 byte_offset: Optional[int] = None, filename: Optional[str] = None) -> None:
+        super().__init__(message, status, byte_offset)
+        self.filename = filename
+        self.errno = _errno_of(filename)
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return type(self), (self.message, self.status, self.byte_offset, self.filename)
+
+
+class MissingFileError(FileError, FileNotFoundError):
+    """There is no such file."""
+
+
+class ForbiddenFileError(FileError, PermissionError):
+    """The file may not be read or written by this process."""
+
+
+def _errno_of(filename: Optional[str]) -> Optional[int]:
+    """Why the system refuses to read a file, as errno; None if it does not, or is not asked."""
+    if filename is None:
+        return None
+    try:
+        os.close(os.open(filename, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0)))
+    except OSError as error:
+        return error.errno
+    return None
+
+
+_FILE_KINDS: Dict[Optional[int], Type[FileError]] = {
+    errno.ENOENT: MissingFileError, errno.EACCES: ForbiddenFileError,
+    errno.EPERM: ForbiddenFileError,
+}
 
 
 class DnaError(Error, ValueError):
@@ -87,9 +124,10 @@ def kind_of(status: int) -> Type[Error]:
     return Error
 
 
-def fail(status: int, what: str, detail: Optional[_api.MienError] = None) -> NoReturn:
-    """Raises the exception for a status that is not OK; `what` serves where the library says
-    nothing more."""
+def fail(status: int, what: str, detail: Optional[_api.MienError] = None,
+         filename: Any = None) -> NoReturn:
+    """Raises the exception for a status that is not OK. `what` is the message if the library gives
+    none; `filename` is the file that the call was about."""
     offset = None
     if detail is not None and detail.status:
         what = detail.message.decode("utf-8", "replace")
@@ -97,4 +135,8 @@ def fail(status: int, what: str, detail: Optional[_api.MienError] = None) -> NoR
             offset = detail.byte_offset
     else:
         what = f"{what}: {lib.mien_status_name(status).decode()}"
-    raise kind_of(status)(what, status, offset)
+    kind = kind_of(status)
+    if kind is FileError:
+        name = None if filename is None else os.fsdecode(filename)
+        raise _FILE_KINDS.get(_errno_of(name), FileError)(what, status, offset, name)
+    raise kind(what, status, offset)

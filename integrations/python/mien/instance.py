@@ -6,13 +6,13 @@ import ctypes
 from _thread import allocate_lock
 from contextlib import contextmanager
 from operator import index
-from typing import Any, Callable, Dict, Iterator, NoReturn, Optional
+from typing import Any, Callable, Dict, Iterator, List, Mapping, NoReturn, Optional
 
 from . import _api
-from ._api import InstanceStatistics, MienError, Stage, Status
+from ._api import InstanceStatistics, Kind, MienError, Stage, Status
 from ._library import lib
 from ._memory import Closable, Floats, InstanceHandle, array_over, assign, uint32
-from .errors import BusyError, OutOfRangeError, fail
+from .errors import BusyError, OutOfRangeError, UnknownNameError, fail
 from .rig import Rig
 
 _byref = ctypes.byref
@@ -34,6 +34,8 @@ class Instance(Closable):
     ClosedError. Without NumPy they are flat memoryviews.
     """
 
+    __slots__ = ("rig", "_lod_count", "_views", "_lock")
+
     def __init__(self, rig: Rig, _slab: Any = None, _lock: Any = None) -> None:
         handle, error = InstanceHandle(), MienError()
         handle.slab = _slab
@@ -41,7 +43,7 @@ class Instance(Closable):
         status = lib.mien_instance_create(rig._open(), allocator, _byref(handle), _byref(error))
         if status:
             fail(status, "cannot make an instance", error)
-        self._handle: Optional[InstanceHandle] = handle
+        self._handle = handle
         self.rig = rig
         self._lod_count = rig.lod_count
         self._views: Dict[str, Any] = {}
@@ -95,12 +97,42 @@ class Instance(Closable):
     def ml_masks(self, values: Any) -> None:
         assign(self.ml_masks, values, "ml_masks")
 
+    # The raw controls by name, as a mapping: face["jawOpen"], "jawOpen" in face, dict(face).
+
     def __getitem__(self, name: str) -> float:
         """Value of the raw control of this name."""
         return float(self.raw_controls[self.rig.raw_control(name)])
 
     def __setitem__(self, name: str, value: float) -> None:
+        if value is None or isinstance(value, str):
+            raise TypeError(f"{name} takes a number, not {value!r}")
         self.raw_controls[self.rig.raw_control(name)] = value
+
+    def __contains__(self, name: object) -> bool:
+        if not isinstance(name, str):
+            return False
+        try:
+            self.rig.raw_control(name)
+        except UnknownNameError:
+            return False
+        return True
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.keys())
+
+    def __len__(self) -> int:
+        return len(self.raw_controls)
+
+    def keys(self) -> List[str]:
+        """Names of the raw controls, by index."""
+        return self.rig.names(Kind.RAW_CONTROL)
+
+    def update(self, values: Mapping[str, float]) -> None:
+        """Sets several raw controls by name; all or, if a name or value is wrong, none."""
+        numbers = [(self.rig.raw_control(name), float(value)) for name, value in values.items()]
+        controls = self.raw_controls
+        for i, number in numbers:
+            controls[i] = number
 
     # ---- outputs -------------------------------------------------------------------------------
 

@@ -44,12 +44,17 @@ class Rig(Closable):
     storage:  `Storage.F16` halves the memory of the large arrays, at three decimal digits
     """
 
+    __slots__ = ("info", "lod_count", "_names", "_raw_controls")
+
     def __init__(self, dna: Dna, isa: int = Isa.BEST, rotation: int = Output.EULER,
                  ml_masks: int = MlMasks.SWITCH, storage: int = Storage.F32,
                  reuse: int = Reuse.UNCHANGED) -> None:
         desc = _api.MienRigDesc(isa=uint32(isa, "isa"), rotation=uint32(rotation, "rotation"),
                                 ml_masks=uint32(ml_masks, "ml_masks"),
                                 storage=uint32(storage, "storage"), reuse=uint32(reuse, "reuse"))
+        if not isinstance(dna, Dna):
+            raise TypeError(f"Rig takes a Dna, not {type(dna).__name__}: Rig(Dna.open(path)), or "
+                            "Rig.open(path) for a baked file")
         handle, error = RigHandle(), MienError()
         status = lib.mien_rig_create(dna._open(), _byref(desc), _byref(handle), _byref(error))
         if status:
@@ -70,7 +75,7 @@ class Rig(Closable):
         handle, error = RigHandle(), MienError()
         status = lib.mien_rig_open_file(as_path(path), _byref(desc), _byref(handle), _byref(error))
         if status:
-            fail(status, f"cannot open {path}", error)
+            fail(status, f"cannot open {path}", error, path)
         return cls._of(handle)
 
     @classmethod
@@ -104,7 +109,7 @@ class Rig(Closable):
         error = MienError()
         status = lib.mien_rig_save_file(self._open(), as_path(path), _byref(error))
         if status:
-            fail(status, f"cannot write {path}", error)
+            fail(status, f"cannot write {path}", error, path)
 
     def to_bytes(self) -> bytes:
         """The same to memory."""
@@ -120,7 +125,7 @@ class Rig(Closable):
         return buffer.raw
 
     def _take(self, handle: RigHandle) -> None:
-        self._handle: Optional[RigHandle] = handle
+        self._handle = handle
         info = _api.MienRigInfo()
         status = lib.mien_rig_info(handle, _byref(info))
         if status:
