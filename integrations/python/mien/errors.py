@@ -69,7 +69,7 @@ class FileError(Error, OSError):
                  byte_offset: Optional[int] = None, filename: Optional[str] = None) -> None:
         super().__init__(message, status, byte_offset)
         self.filename = filename
-        self.errno = _errno_of(filename)
+        self.errno = _errno_of(filename)  # type: ignore[assignment]
 
     def __reduce__(self) -> Tuple[Any, ...]:
         return type(self), (self.message, self.status, self.byte_offset, self.filename)
