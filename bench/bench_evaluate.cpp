@@ -8,8 +8,8 @@
 #include <random>
 
 #include "bench/bench_support.h"
+#include "bench/csr_matrix.h"
 #include "bench/plain_rbf.h"
-#include "integrations/cli/bench_csr.h"
 
 namespace mien::bench {
 namespace {
@@ -88,7 +88,7 @@ std::vector<T> read_field(const std::string& path, Read read) {
 void csr(benchmark::State& state, uint32_t lod) {
   MienDnaInfo info = sized<MienDnaInfo>();
   mien_dna_info(behavior(), &info);
-  std::vector<cli::DenseGroup> groups(info.joint_group_count);
+  std::vector<bench::DenseGroup> groups(info.joint_group_count);
   for (size_t g = 0; g < groups.size(); ++g) {
     const std::string at = "bhvr.joints.jointGroups[" + std::to_string(g) + "].";
     groups[g].lods = read_field<int64_t>(at + "lods", mien_dna_read_integers);
@@ -96,10 +96,10 @@ void csr(benchmark::State& state, uint32_t lod) {
     groups[g].outputs = read_field<int64_t>(at + "outputIndices", mien_dna_read_integers);
     groups[g].values = read_field<float>(at + "values", mien_dna_read_floats);
   }
-  const cli::CsrMatrix matrix = cli::make_csr(groups, lod, size_t{info.joint_count} * 9);
+  const bench::CsrMatrix matrix = bench::make_csr(groups, lod, size_t{info.joint_count} * 9);
   std::vector<float> x(65536, 0.5f), y(size_t{info.joint_count} * 9);
   for (auto _ : state) {
-    cli::multiply(matrix, x.data(), y.data());
+    bench::multiply(matrix, x.data(), y.data());
     benchmark::DoNotOptimize(y.data());
     benchmark::ClobberMemory();
   }

@@ -36,10 +36,21 @@ GRAPH = {
              "runtime/deform", "runtime/baked", "runtime/compile", "runtime/author"],
 }
 
-# Sees the public header and its own files. Tests and benchmarks see everything.
+# The rooms of the program: the same, and no room sees the library but through mien.h.
+PROGRAM = "integrations/cli"
+PROGRAM_GRAPH = {
+    "math": [],
+    "render": ["math"],                           # meshes -> images: knows nothing of rigs
+    "io": ["mien.h", "math"],                     # files, frames, JSON, output
+    "gltf": ["mien.h", "math", "io"],             # rigs -> GLB, OBJ
+    "scene": ["mien.h", "math", "io", "render"],  # a rig in a pose
+    "commands": ["mien.h", "math", "io", "render", "gltf", "scene", "bench/csr_matrix.h"],
+    "": ["mien.h", "io", "commands"],             # main.cpp
+}
+
+# Everything else outside sees the public header and its own files. Tests and benchmarks see
+# everything.
 OUTSIDE = "integrations"
-# Besides, the program sees the pictures that it draws and the files that it exports.
-ALSO_SEES = {"integrations/cli/": ("integrations/picture/", "integrations/gltf/")}
 
 SUFFIXES = {".h", ".hpp", ".cpp", ".c", ".inl"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -77,6 +88,25 @@ def is_kernel(path):
     return path.startswith("simd/") and (name.endswith(".inl") or name.startswith("kernels_"))
 
 
+def program_room(path):
+    """The room of a file of the program, or None."""
+    if not path.startswith(PROGRAM + "/"):
+        return None
+    return path[len(PROGRAM) + 1:].rpartition("/")[0]
+
+
+def check_program_include(path, resolved):
+    """Why a file of the program may not include this one, or None."""
+    own, other = program_room(path), program_room(resolved)
+    if own not in PROGRAM_GRAPH:
+        return "a room that this check does not know"
+    if other is None:
+        other = "mien.h" if resolved == "capi/mien.h" else resolved
+    if other == own or other in PROGRAM_GRAPH[own]:
+        return None
+    return f"{own or 'main'} knows nothing of {other}: see PROGRAM_GRAPH"
+
+
 def check_include(path, quoted, target, resolved):
     """Why a file may not include this, or None."""
     if resolved is None:
@@ -91,12 +121,10 @@ def check_include(path, quoted, target, resolved):
         return None
 
     own = layer_of(path)
+    if own is None and path.startswith(PROGRAM + "/"):
+        return check_program_include(path, resolved)
     if own is None:
         own_directory = "/".join(path.split("/")[:2]) + "/"
-        if resolved.startswith(ALSO_SEES.get(own_directory, own_directory)):
-            return None
-        if own_directory == "integrations/picture/" and resolved == "capi/mien.h":
-            return "pictures know nothing of rigs"
         if resolved != "capi/mien.h" and not resolved.startswith(own_directory):
             return "integrations include mien.h and their own files only"
         return None
@@ -123,13 +151,14 @@ def check_include(path, quoted, target, resolved):
 def find_circles():
     """Problems of the graph itself: each directory may only see those above it in GRAPH or others
     that do not lead back."""
-    def reaches(start, goal, seen):
-        for other in GRAPH[start]:
-            if other == goal or (other not in seen and reaches(other, goal, seen | {other})):
+    def reaches(graph, start, goal, seen):
+        for other in graph.get(start, ()):
+            if other == goal or (other not in seen and reaches(graph, other, goal, seen | {other})):
                 return True
         return False
-    return [f"GRAPH: {name} includes itself through others" for name in GRAPH
-            if reaches(name, name, set())]
+    return [f"GRAPH: {name or 'main'} includes itself through others"
+            for graph in (GRAPH, PROGRAM_GRAPH) for name in graph
+            if reaches(graph, name, name, set())]
 
 
 def sources(root):

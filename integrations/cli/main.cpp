@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-// mien: command line tool for facial rigs in DNA files. The contract is in the help texts.
-#include <algorithm>
+// mien: a command line tool for facial rigs in DNA files.
 #include <new>
 
-#include "integrations/cli/cli.h"
-#include "integrations/cli/names.h"
-#include "integrations/cli/options.h"
-#include "integrations/cli/output.h"
+#include "integrations/cli/commands/commands.h"
+#include "integrations/cli/commands/options.h"
+#include "integrations/cli/io/nearest_name.h"
 
 namespace mien::cli {
 
@@ -18,26 +16,18 @@ std::string version_text() {
          std::to_string(version & 0xffff);
 }
 
-/// Stands before the command and after it; both mean the session's.
+/// May stand before the command or after it.
 void add_quiet_option(CLI::App& app, Session& session) {
-  app.add_flag("-q,--quiet", session.quiet, "No notes and no progress");
+  app.add_flag("-q,--quiet", session.quiet, "Print no notes and no progress");
 }
 
-/// An option that is given an empty value (an unset variable in a script) is a mistake.
+/// An empty value (from an unset variable in a script, say) is an error.
 void refuse_empty_values(CLI::App* command) {
   for (CLI::Option* option : command->get_options()) {
     if (option->get_expected_max() == 0 || option->get_type_size() == 0) continue;
     option->check(
         [](const std::string& value) { return value.empty() ? "the value is empty" : ""; });
   }
-}
-
-Words command_names(const CLI::App& app) {
-  Words names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    names.push_back(command->get_name());
-  }
-  return names;
 }
 
 Words option_names(const CLI::App& command) {
@@ -48,7 +38,7 @@ Words option_names(const CLI::App& command) {
   return names;
 }
 
-/// What the parser says, as a failure of ours.
+/// An error of the parser, in our words.
 [[noreturn]] void fail_parse(const CLI::App& app, const CLI::ParseError& error) {
   const auto parsed = app.get_subcommands();
   const CLI::App& command = parsed.empty() ? app : *parsed[0];
@@ -56,56 +46,37 @@ Words option_names(const CLI::App& command) {
   const std::string help = "see 'mien " + where + (parsed.empty() ? "" : " ") + "--help'";
   const std::string what = "wrong usage";
 
-  // A mistyped option is the cause if something else is missing.
+  // If an option is mistyped, other errors follow from that.
   const std::vector<std::string> extras = app.remaining(true);
   for (const std::string& extra : extras) {
     if (extra.size() < 2 || extra[0] != '-') continue;
-    fail(kUsage, what, where, "there is no option " + extra,
+    fail(kUsage, what, where, "unknown option " + extra,
          nearest_question(extra, option_names(command), help));
   }
   if (parsed.empty() && !extras.empty()) {
-    fail(kUsage, what, where, "there is no command " + extras[0],
+    fail(kUsage, what, where, "unknown command " + extras[0],
          nearest_question(extras[0], command_names(app), help));
   }
   if (parsed.empty()) fail(kUsage, what, where, "no command is given", help);
   if (!extras.empty()) {
-    fail(kUsage, what, where, "\"" + extras[0] + "\" is one argument too many", help);
+    fail(kUsage, what, where, "unexpected argument \"" + extras[0] + "\"", help);
   }
   fail(kUsage, what, where, error.what(), help);
 }
 
-/// `mien help` and `mien help COMMAND`, as in other programs.
-Command add_help_command(CLI::App& app) {
-  auto name = std::make_shared<std::string>();
-  CLI::App* help = app.add_subcommand("help", "Show the help of a command");
-  help->add_option("COMMAND", *name, "One of the commands")->type_name("");
-  return {help, [name, &app] {
-            const Words commands = command_names(app);
-            if (!name->empty() &&
-                std::find(commands.begin(), commands.end(), *name) == commands.end()) {
-              fail_usage("help " + *name, "there is no such command",
-                         nearest_question(*name, commands, "see 'mien --help'"));
-            }
-            Output output("-");
-            output.write(name->empty() ? app.get_formatter()->make_help(&app, "mien",
-                                                                        CLI::AppFormatMode::Normal)
-                                       : app.get_subcommand(*name)->help("mien"));
-            output.commit();
-          }};
-}
-
 int run(int argument_count, char** arguments, Session& session) {
-  CLI::App app("Facial rigs in DNA files: show, check, evaluate, convert, generate, measure.",
-               "mien");
+  CLI::App app(
+      "A tool for facial rigs in DNA files: inspect, check, evaluate, convert, render, export.",
+      "mien");
   app.get_formatter()->column_width(26);
   app.set_help_flag("-h,--help", "Show this help");
   app.set_version_flag("--version", version_text(), "Show the version");
   add_quiet_option(app, session);
   app.require_subcommand(1);
   app.footer(
-      "See 'mien COMMAND --help' for each of them.\n\n"
-      "Exit codes: 0 done, 1 wrong usage, 2 the input is not valid, 3 a file cannot be read or\n"
-      "written, 4 out of memory or internal error.");
+      "'mien help COMMAND' shows the options of a command, with examples.\n\n"
+      "Exit codes: 0 success, 1 wrong usage, 2 invalid input, 3 a file cannot be read or written,\n"
+      "4 out of memory or internal error.");
 
   const std::vector<Command> commands = {
       add_info_command(app, session),
@@ -130,7 +101,7 @@ int run(int argument_count, char** arguments, Session& session) {
   try {
     app.parse(argument_count, arguments);
   } catch (const CLI::ParseError& error) {
-    // Help and version come this way too.
+    // --help and --version end here too.
     if (error.get_exit_code() == 0) return app.exit(error) == 0 ? kDone : kInternal;
     fail_parse(app, error);
   }
@@ -154,7 +125,8 @@ int main(int argument_count, char** arguments) {
     print_failure(session, failure.what());
     return failure.exit_code;
   } catch (const std::bad_alloc&) {
-    print_failure(session, "out of memory; free some, or load less with --layers and --lods");
+    print_failure(session,
+                  "out of memory; free some memory, or load less with --layers and --lods");
   } catch (const std::exception& error) {
     print_failure(session, std::string("internal error: ") + error.what() + "; please report it");
   }

@@ -82,7 +82,7 @@ class Bake(unittest.TestCase):
                               ("--ml-masks", "blend"), ("--lods", "0"), ("--system", "unity"),
                               ("--layers", "behavior")):
             self.refused(USAGE, "eval", path("small.rig"), "--input", path("frames.json"), option,
-                         value, says="settled when the rig was baked")
+                         value, says="decided when the file was baked")
 
     def test_the_same_bytes_by_any_way(self):
         done = run("bake", "-", "-o", "-", stdin=read("small.dna"))
@@ -101,7 +101,7 @@ class Bake(unittest.TestCase):
             self.assertEqual(rig["lods"][0][key], dna["lods"][0][key], key)
         text = run("info", path("small.rig"))
         self.assertEqual(text.returncode, DONE)
-        self.assertIn(b"a baked rig", text.stdout)
+        self.assertIn(b"a baked file", text.stdout)
         self.refused(USAGE, "info", path("small.rig"), "--names", "raw", says="DNA file")
 
     def test_bench(self):
@@ -111,16 +111,16 @@ class Bake(unittest.TestCase):
         self.assertEqual(result["csr"], [])
         self.assertTrue(all(row["evaluate_ns"] > 0 for row in result["rows"]))
         self.assertEqual(run("bench", path("ml.rig"), "--quick").returncode, DONE)
-        self.refused(USAGE, "bench", "-", says="put it in a file", stdin=read("ml.rig"))
+        self.refused(USAGE, "bench", "-", says="give its path", stdin=read("ml.rig"))
 
     def test_what_needs_the_dna_says_so(self):
         for command in (["convert", path("small.rig"), "-o", path("out.dna")],
                         ["bake", path("small.rig"), "-o", path("out.rig")],
                         ["render", path("small.rig"), "-o", path("out.png")]):
-            self.refused(INVALID, *command, says="it is a baked rig, and this needs the DNA file")
+            self.refused(INVALID, *command, says="this is a baked file, and the command needs a DNA file")
             self.assertFalse(os.path.exists(command[-1]))
         self.refused(INVALID, "convert", "-", "-o", path("out.dna"), stdin=read("small.rig"),
-                     says="it is a baked rig")
+                     says="this is a baked file")
 
     def test_damage(self):
         whole = read("small.rig")

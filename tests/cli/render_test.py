@@ -230,21 +230,21 @@ class Render(RenderTest):
         self.fails(USAGE, *no, "--samples", "2", says="--samples")
         self.fails(USAGE, *no, "--background", "blue", says="--background")
 
-    def test_colours_of_the_file(self):
-        colors = self.with_colours("head_lod0_mesh", lambda n: bytes([20, 40, 220]) * n)
+    def test_vertex_colors(self):
+        colors = self.with_colors("head_lod0_mesh", lambda n: bytes([20, 40, 220]) * n)
         blue = Picture(self.ok("render", colors, "-o", "-", "--size", "64").stdout).at(32, 30)
         self.assertGreater(blue[2], blue[0] + 60)
-        # What does not fit is not used, and said.
+        # Colors that do not fit are not used; a note says so.
         plain = self.ok("render", path("tiny.dna"), "-o", "-", "--size", "64").stdout
-        for content in (lambda n: b"\1\2\3" * (n - 1), lambda n: b""):
-            done = self.ok("render", self.with_colours("head_lod0_mesh", content), "-o", "-", "--size", "64")
+        for content in (lambda n: b"\1\2\3" * (n - 1), lambda n: b"\1" * (3 * n + 1), lambda n: b""):
+            done = self.ok("render", self.with_colors("head_lod0_mesh", content), "-o", "-", "--size", "64")
             self.assertIn("mien.colors.head_lod0_mesh", done.stderr)
             self.assertEqual(done.stdout, plain)
-            done = self.ok("render", "-q", self.with_colours("head_lod0_mesh", content), "-o", "-",
+            done = self.ok("render", "-q", self.with_colors("head_lod0_mesh", content), "-o", "-",
                            "--size", "64")
             self.assertEqual(done.stderr, "")
 
-    def with_colours(self, mesh, content):
+    def with_colors(self, mesh, content):
         """tiny.dna in version 2.2, with one more pair in the metadata of its descriptor."""
         self.ok("convert", path("tiny.dna"), "-o", path("v22.dna"), "--version", "2.2")
         data = Path(path("v22.dna")).read_bytes()
@@ -394,8 +394,8 @@ class Several(RenderTest):
         self.fails(INVALID, *no, "--frames", "-", says="large",
                    stdin=b'{"frames": [{"raw": {"CTRL_expressions.mouthCornerPullL": 1e99}}]}')
         self.fails(USAGE, "render", "-", "-o", path("no.png"), "--frames", "-", says="standard input")
-        self.fails(USAGE, *no, "--frames", "x", "--sheet", says="only one")
-        self.fails(USAGE, *no, "--turntable", "3", "--sheet", says="only one")
+        self.fails(USAGE, *no, "--frames", "x", "--sheet", says="exclude each other")
+        self.fails(USAGE, *no, "--turntable", "3", "--sheet", says="exclude each other")
         self.fails(USAGE, *no, "--frames", "x", "--set", "a=1", says="--set")
         for name in ("%s.png", "%d-%d.png", "%", "%100d.png", "100%.png"):
             self.fails(USAGE, "render", path("tiny.dna"), "--sheet", "-o", path(name), says="%04d")
@@ -444,9 +444,9 @@ class Inspect(RenderTest):
             for corrective in self.inspect("small", control)["correctives"]:
                 inputs = [control] + corrective["with"]
                 pose = self.evaluate("small", {name: 1 for name in inputs})
-                self.assertEqual(pose["psd"][corrective["index"]], corrective["together"])
+                self.assertEqual(pose["psd"][corrective["index"]], corrective["value_together"])
                 alone = self.evaluate("small", {control: 1})
-                self.assertEqual(alone["psd"][corrective["index"]], corrective["alone"])
+                self.assertEqual(alone["psd"][corrective["index"]], corrective["value_alone"])
                 self.assertGreaterEqual(corrective["beyond_sum"], 0)
                 some += corrective["beyond_sum"] > 0.001
         self.assertGreater(some, 3)
@@ -456,12 +456,12 @@ class Inspect(RenderTest):
         right = self.inspect("tiny", "mouthCornerPullR")
         head = left["meshes"][0]
         self.assertEqual(head["name"], "head_lod0_mesh")
-        self.assertGreater(head["most"], 0)
+        self.assertGreater(head["max_distance"], 0)
         self.assertGreater(head["moved"], 0)
         self.assertLess(head["moved"], head["positions"])
         for k in range(3):
-            self.assertLessEqual(head["box_least"][k], head["center"][k])
-            self.assertLessEqual(head["center"][k], head["box_most"][k])
+            self.assertLessEqual(head["box_min"][k], head["center"][k])
+            self.assertLessEqual(head["center"][k], head["box_max"][k])
         # x points to the left of the character.
         self.assertGreater(head["center"][0], right["meshes"][0]["center"][0])
         still = self.inspect("tiny", "mouthCornerPullL", "--value", "0")

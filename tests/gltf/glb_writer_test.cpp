@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The GLB writer on scenes made by hand: what rigs that Mien generates do not have.
-#include "integrations/gltf/glb_writer.h"
+#include "integrations/cli/gltf/glb_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -72,7 +72,7 @@ Scene scene_of(Mesh mesh) {
   return scene;
 }
 
-Joint joint_at(const char* name, uint32_t parent, Vec3 place) {
+Joint joint_at(const char* name, uint32_t parent, math::Vec3d place) {
   Joint joint;
   joint.name = name;
   joint.parent = parent;

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Pictures as pixels and files, and the text in them.
-#include "integrations/picture/image.h"
+#include "integrations/cli/render/image.h"
 
 #include <gtest/gtest.h>
 #include <png.h>
 
-#include "integrations/picture/label.h"
-#include "integrations/picture/png.h"
+#include "integrations/cli/render/label.h"
+#include "integrations/cli/render/png.h"
 
-namespace mien::picture {
+namespace mien::render {
 namespace {
+
+using namespace math;
 
 Image gradient(int width, int height) {
   Image image(width, height, {});
@@ -135,4 +137,4 @@ TEST(Label, LongNamesKeepBothEnds) {
 }
 
 }  // namespace
-}  // namespace mien::picture
+}  // namespace mien::render

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Whole pictures, compared by structural similarity with references that the test makes itself.
-#include "integrations/picture/render.h"
+#include "integrations/cli/render/render.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "integrations/picture/light.h"
-#include "integrations/picture/scene.h"
+#include "integrations/cli/render/light.h"
+#include "integrations/cli/render/scene.h"
 
-namespace mien::picture {
+namespace mien::render {
 namespace {
+
+using namespace math;
 
 struct Mesh {
   std::vector<float> positions, normals;
@@ -119,22 +121,23 @@ TEST(Render, SimilarityTellsPicturesApart) {
   const Mesh mesh = sphere(24, 32);
   RenderOptions options;
   options.width = options.height = 96;
-  const Image a = render({mesh.surface()}, camera_of(mesh, 96), options);
+  const Image a = render_image({mesh.surface()}, camera_of(mesh, 96), options);
   EXPECT_DOUBLE_EQ(similarity(a, a), 1);
   View view;
   view.zoom = 0.9f;
-  EXPECT_LT(similarity(a, render({mesh.surface()}, camera_of(mesh, 96, view), options)), 0.97);
+  EXPECT_LT(similarity(a, render_image({mesh.surface()}, camera_of(mesh, 96, view), options)),
+            0.97);
 }
 
 TEST(Render, FewSamplesLookLikeMany) {
   const Mesh mesh = sphere(40, 64);
   RenderOptions options;
   options.width = options.height = 96;
-  const Image picture = render({mesh.surface()}, camera_of(mesh, 96), options);
+  const Image picture = render_image({mesh.surface()}, camera_of(mesh, 96), options);
   RenderOptions large = options;
   large.width = large.height = 768;
   large.samples = 1;
-  const Image reference = smaller(render({mesh.surface()}, camera_of(mesh, 768), large), 8);
+  const Image reference = smaller(render_image({mesh.surface()}, camera_of(mesh, 768), large), 8);
   EXPECT_GE(similarity(picture, reference), 0.98);
 }
 
@@ -145,7 +148,7 @@ TEST(Render, SphereLooksLikeOneThatIsTraced) {
   RenderOptions options;
   options.width = options.height = kSize;
   const Camera camera = camera_of(mesh, kSize);
-  const Image picture = render({surface}, camera, options);
+  const Image picture = render_image({surface}, camera, options);
 
   // Rays against the sphere; the background is where the picture shows it.
   const Scene scene({surface}, camera);
@@ -153,15 +156,15 @@ TEST(Render, SphereLooksLikeOneThatIsTraced) {
   const float focal = kSize / 2.0f / std::tan(camera.field_of_view * 0.00872664626f);
   Image traced(kSize, kSize, {});
   RenderOptions empty = options;
-  const Image background = render({}, camera, empty);
+  const Image background = render_image({}, camera, empty);
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
       Vec3 sum;
       for (int s = 0; s < kSub * kSub; ++s) {
         const float px = float(x) + (float(s % kSub) + 0.5f) / kSub;
         const float py = float(y) + (float(s / kSub) + 0.5f) / kSub;
-        const Vec3 ray =
-            normalized({(px - kSize / 2.0f) / focal, (kSize / 2.0f - py) / focal, -1}, {0, 0, -1});
+        const Vec3 ray = normalized(
+            Vec3{(px - kSize / 2.0f) / focal, (kSize / 2.0f - py) / focal, -1}, {0, 0, -1});
         const float along = dot(ray, center);
         const float under = along * along - dot(center, center) + 1;
         if (under <= 0) {
@@ -187,8 +190,8 @@ TEST(Render, TurningEverythingChangesNothing) {
   const Mesh mesh = sphere(48, 64), turned = sphere(48, 64, 0.05f);
   RenderOptions options;
   options.width = options.height = 96;
-  const Image a = render({mesh.surface()}, camera_of(mesh, 96), options);
-  EXPECT_GE(similarity(a, render({turned.surface()}, camera_of(turned, 96), options)), 0.99);
+  const Image a = render_image({mesh.surface()}, camera_of(mesh, 96), options);
+  EXPECT_GE(similarity(a, render_image({turned.surface()}, camera_of(turned, 96), options)), 0.99);
 
   // The same shape in other axes: z up, -y to the front.
   Mesh other = mesh;
@@ -199,27 +202,27 @@ TEST(Render, TurningEverythingChangesNothing) {
       (*v)[i + 2] = y;
     }
   }
-  const Stand stand = {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
+  const Axes stand = {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
   const Camera camera = frame_points(stand, {}, other.points(), 96, 96, 0.12f);
-  EXPECT_GE(similarity(a, render({other.surface()}, camera, options)), 0.99);
+  EXPECT_GE(similarity(a, render_image({other.surface()}, camera, options)), 0.99);
 }
 
 TEST(Render, UnitsAndWindingDoNotMatter) {
   const Mesh mesh = sphere(24, 32);
   RenderOptions options;
   options.width = options.height = 64;
-  const Image a = render({mesh.surface()}, camera_of(mesh, 64), options);
+  const Image a = render_image({mesh.surface()}, camera_of(mesh, 64), options);
   Mesh meters = mesh;
   for (float& v : meters.positions) v *= 0.01f;
-  EXPECT_GE(similarity(a, render({meters.surface()}, camera_of(meters, 64), options)), 0.995);
+  EXPECT_GE(similarity(a, render_image({meters.surface()}, camera_of(meters, 64), options)), 0.995);
   Mesh wound = mesh;
   for (size_t t = 0; t < wound.triangles.size(); t += 3)
     std::swap(wound.triangles[t], wound.triangles[t + 1]);
-  EXPECT_GE(similarity(a, render({wound.surface()}, camera_of(wound, 64), options)), 0.995);
+  EXPECT_GE(similarity(a, render_image({wound.surface()}, camera_of(wound, 64), options)), 0.995);
   // Normals made from the triangles are those that were left out.
   Mesh bare = mesh;
   bare.normals.clear();
-  EXPECT_GE(similarity(a, render({bare.surface()}, camera_of(bare, 64), options)), 0.98);
+  EXPECT_GE(similarity(a, render_image({bare.surface()}, camera_of(bare, 64), options)), 0.98);
 }
 
 TEST(Render, SamePictureEveryTime) {
@@ -228,9 +231,9 @@ TEST(Render, SamePictureEveryTime) {
   options.width = 80;
   options.height = 60;
   const Camera camera = camera_of(mesh, 60);
-  const Image first = render({mesh.surface()}, camera, options);
+  const Image first = render_image({mesh.surface()}, camera, options);
   for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(render({mesh.surface()}, camera, options).pixels, first.pixels);
+    EXPECT_EQ(render_image({mesh.surface()}, camera, options).pixels, first.pixels);
   }
 }
 
@@ -264,7 +267,7 @@ TEST(Render, NearerSurfacesHideFartherOnes) {
   options.width = options.height = 48;
   const Camera camera = camera_of(front, 48);
   for (const auto& surfaces : {std::vector<Surface>{red, green}, {green, red}}) {
-    const Color middle = render(surfaces, camera, options).at(24, 24);
+    const Color middle = render_image(surfaces, camera, options).at(24, 24);
     EXPECT_GT(middle.r, 2 * middle.g);
   }
 }
@@ -286,7 +289,7 @@ TEST(Render, HollowsAreDarker) {
   }
   RenderOptions options;
   options.width = options.height = 96;
-  const Image image = render({mesh.surface()}, camera_of(mesh, 96), options);
+  const Image image = render_image({mesh.surface()}, camera_of(mesh, 96), options);
   EXPECT_LT(image.at(48, 48).g, image.at(20, 48).g * 0.75);
 }
 
@@ -298,7 +301,7 @@ TEST(Render, WireframesLeaveOutInnerEdges) {
   RenderOptions options;
   options.width = options.height = 64;
   const Camera camera = camera_of(quad, 64);
-  const auto diagonal = [&] { return render({surface}, camera, options).at(32, 31).g; };
+  const auto diagonal = [&] { return render_image({surface}, camera, options).at(32, 31).g; };
   const int plain = diagonal();
   options.wireframe = true;
   EXPECT_LT(diagonal(), plain * 0.85);
@@ -323,16 +326,16 @@ TEST(Render, SurvivesBrokenSurfaces) {
     for (const int samples : {1, 4, 16}) {
       options.samples = samples;
       options.wireframe = samples == 4;
-      const Image image = render({surface, Surface{}}, camera_of(mesh, size), options);
+      const Image image = render_image({surface, Surface{}}, camera_of(mesh, size), options);
       EXPECT_EQ(image.pixels.size(), size_t(image.width) * size_t(image.height) * 3);
     }
   }
   surface.normals = nullptr;
-  render({surface}, camera_of(mesh, 16), options);
-  render({}, Camera{}, options);
+  render_image({surface}, camera_of(mesh, 16), options);
+  render_image({}, Camera{}, options);
   Camera inside;
   inside.distance = 0;
-  render({surface}, inside, options);
+  render_image({surface}, inside, options);
 }
 
 TEST(Camera, FramesAllPointsFromAnywhere) {
@@ -347,7 +350,7 @@ TEST(Camera, FramesAllPointsFromAnywhere) {
         ASSERT_LT(p.z, 0);
         seen.add({p.x / -p.z / (2 * half), p.y / -p.z / half, 0});
       }
-      const float most = std::max({seen.most.x, seen.most.y, -seen.least.x, -seen.least.y});
+      const float most = std::max({seen.max.x, seen.max.y, -seen.min.x, -seen.min.y});
       EXPECT_LT(most, 0.93f);
       EXPECT_GT(most, 0.80f);
       EXPECT_NEAR(dot(camera.right, camera.up), 0, 1e-6f);
@@ -365,4 +368,4 @@ TEST(Camera, FramesAllPointsFromAnywhere) {
 }
 
 }  // namespace
-}  // namespace mien::picture
+}  // namespace mien::render

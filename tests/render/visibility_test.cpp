@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which triangle is seen where, against plain geometry in double precision.
-#include "integrations/picture/visibility.h"
+#include "integrations/cli/render/visibility.h"
 
 #include <gtest/gtest.h>
 
@@ -9,21 +9,23 @@
 #include <limits>
 #include <random>
 
-namespace mien::picture {
+namespace mien::render {
 namespace {
+
+using namespace math;
 
 /// One unit is one pixel, x right, y up from the lower left corner.
 Lens flat_lens(int height) {
   Lens lens;
   lens.perspective = false;
-  lens.centre_y = float(height);
+  lens.center_y = float(height);
   return lens;
 }
 
 Lens wide_lens(int size) {
   Lens lens;
   lens.focal = float(size) / 2;
-  lens.centre_x = lens.centre_y = float(size) / 2;
+  lens.center_x = lens.center_y = float(size) / 2;
   lens.near = 0.1f;
   return lens;
 }
@@ -172,8 +174,8 @@ TEST(Visibility, PerspectiveIsThatOfRaysEvenThroughTheNearPlane) {
     const Visibility seen = draw_one(t, lens, kSize, 1);
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
-        const double dx = (x + 0.5 - lens.centre_x) / lens.focal;
-        const double dy = (lens.centre_y - y - 0.5) / lens.focal;
+        const double dx = (x + 0.5 - lens.center_x) / lens.focal;
+        const double dy = (lens.center_y - y - 0.5) / lens.focal;
         const double inside = meet(t, dx, dy, 0.03), around = meet(t, dx, dy, -0.03);
         const Seen& at = seen.at(x, y, 0);
         if (inside > lens.near * 1.05) {
@@ -201,7 +203,7 @@ TEST(Visibility, DepthIsPerspectiveCorrect) {
   for (int y = 0; y < kSize; ++y) {
     const Seen& at = seen.at(kSize / 2, y, 0);
     if (at.triangle == 0) continue;
-    const float slope = (float(y) + 0.5f - lens.centre_y) / lens.focal;
+    const float slope = (float(y) + 0.5f - lens.center_y) / lens.focal;
     EXPECT_NEAR(1 / at.depth, 1 / slope, 0.01f / slope);
     ++rows;
   }
@@ -255,4 +257,4 @@ TEST(Visibility, LeavesOutWhatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace mien::picture
+}  // namespace mien::render

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// mien bench: evaluation times per LOD and instruction set, compared with a plain sparse matrix.
+#include <cstdio>
+#include <fstream>
+#include <optional>
+
+#include "integrations/cli/commands/baked_rig.h"
+#include "integrations/cli/commands/bench_measurement.h"
+#include "integrations/cli/io/dna_fields.h"
+#include "integrations/cli/io/json_writer.h"
+#include "integrations/cli/io/text.h"
+
+namespace mien::cli {
+
+namespace {
+
+struct BenchOptions {
+  std::string rig;
+  bool json = false, quick = false;
+  LoadOptions load;
+  RigOptions evaluation;
+};
+
+std::string cpu_name() {
+  std::ifstream file("/proc/cpuinfo");
+  std::string line;
+  while (std::getline(file, line)) {
+    if (line.compare(0, 10, "model name") != 0) continue;
+    const size_t colon = line.find(": ");
+    if (colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "unknown";
+}
+
+std::string compiler_name() {
+#if defined(__clang__)
+  return __VERSION__;
+#elif defined(__GNUC__)
+  return "GCC " __VERSION__;
+#else
+  return "unknown";
+#endif
+}
+
+void write_json(const Measurement& measured, const std::string& name) {
+  Output output("-");
+  JsonWriter json(output);
+  using Layout = JsonWriter::Layout;
+  json.begin_object(Layout::kLines);
+  json.member("rig", name);
+  json.member("cpu", cpu_name());
+  json.member("compiler", compiler_name());
+  json.key("csr");
+  json.begin_array(Layout::kLines);
+  for (const CsrRow& row : measured.csr) {
+    json.begin_object();
+    json.member("lod", row.lod);
+    json.key("joints_ns");
+    json.fixed(row.joints_ns, 1);
+    json.end_object();
+  }
+  json.end_array();
+  json.key("rows");
+  json.begin_array(Layout::kLines);
+  for (const BenchRow& row : measured.rows) {
+    json.begin_object();
+    json.member("isa", mien_isa_name(row.engine->info.isa));
+    json.member("storage", row.engine->info.storage == MIEN_STORAGE_F16 ? "f16" : "f32");
+    json.member("rotation",
+                row.engine->info.rotation == MIEN_OUTPUT_QUATERNION ? "quaternion" : "euler");
+    json.member("lod", row.lod);
+    json.key("activity");
+    json.shortest(kActivities[row.activity]);
+    json.member("shared_controls", row.shared);
+    json.member("characters", row.instances);
+    json.key("evaluate_ns");
+    json.fixed(row.evaluate_ns, 1);
+    json.key("joints_ns");
+    json.fixed(row.joints_ns, 1);
+    json.member("bytes_touched", row.bytes_touched);
+    json.end_object();
+  }
+  json.end_array();
+  json.end_object();
+  json.finish();
+  output.commit();
+}
+
+/// Three columns: microseconds of the evaluation and of the joints, and how many times as fast as the
+/// CSR row the joints are, if there is one.
+std::string times_text(const BenchRow& row, double csr_ns) {
+  char text[64];
+  const double ratio = row.joints_ns > 0 ? csr_ns / row.joints_ns : 0.0;
+  std::snprintf(text, sizeof(text),
+                csr_ns > 0 ? "  %10.2f %10.2f %7.1f" : "  %10.2f %10.2f       -",
+                row.evaluate_ns / 1000, row.joints_ns / 1000, ratio);
+  return text;
+}
+
+void write_text(const Measurement& measured, const std::string& name, const Session& session) {
+  Output output("-");
+  const bool colors = session.terminal.out_colors;
+  const size_t samples = measured.rows.empty() ? 0 : measured.rows[0].joints_samples.size();
+  output.write(paint(one_line(name), Style::kBold, colors) + " on " + one_line(cpu_name()) + ", " +
+               compiler_name() + "\nMicroseconds per instance, medians of " +
+               std::to_string(samples) +
+               ". x CSR: speed of the joints relative to compressed sparse rows.\n\n");
+  char line[160];
+  std::snprintf(line, sizeof(line), "%-6s %3s %6s  %29s  %29s  %29s\n", "", "", "",
+                "1 instance         ", "64 instances        ", "64, same active controls ");
+  output.write(paint(line, Style::kBold, colors));
+  const char* columns = "    evaluate     joints   x CSR";
+  std::snprintf(line, sizeof(line), "%-6s %3s %6s", "isa", "LOD", "active");
+  output.write(paint(line + std::string(columns) + columns + columns, Style::kBold, colors) + "\n");
+
+  // A baked file has no CSR rows.
+  const auto csr_ns_at = [&](uint32_t lod) {
+    return measured.csr.empty() ? 0.0 : measured.csr[lod].joints_ns;
+  };
+  const uint32_t lod_count = measured.engines[0].info.lod_count;
+  for (uint32_t lod = 0; lod < lod_count; ++lod) {
+    const double csr_ns = csr_ns_at(lod);
+    std::snprintf(line, sizeof(line), "%-6s %3u %6s  %10s %10.2f %7.1f\n", "CSR", lod, "all", "",
+                  csr_ns / 1000, 1.0);
+    if (!measured.csr.empty()) output.write(line);
+    // One line for the three rows of an engine, LOD and activity.
+    for (size_t i = 0; i + 2 < measured.rows.size(); i += 3) {
+      const BenchRow* row = &measured.rows[i];
+      if (row->instances == kManyInstances) break;
+      if (row->lod != lod) continue;
+      std::snprintf(line, sizeof(line), "%-6s %3u %4.0f %%", mien_isa_name(row->engine->info.isa),
+                    lod, 100 * kActivities[row->activity]);
+      output.write(line + times_text(row[0], csr_ns) + times_text(row[1], csr_ns) +
+                   times_text(row[2], csr_ns) + "\n");
+    }
+  }
+  std::snprintf(line, sizeof(line), "\n%u instances, %.0f %% active\n", kManyInstances,
+                100 * kActivities[kManyActivity]);
+  output.write(paint(line, Style::kBold, colors));
+  for (const BenchRow& row : measured.rows) {
+    if (row.instances != kManyInstances) continue;
+    std::snprintf(line, sizeof(line), "%-6s %3u %4.0f %%", mien_isa_name(row.engine->info.isa),
+                  row.lod, 100 * kActivities[row.activity]);
+    output.write(line + times_text(row, csr_ns_at(row.lod)) + "\n");
+  }
+  output.commit();
+}
+
+std::vector<MienRigDesc> choose_rigs(RigOptions& options) {
+  if (options.isa != "all") return {parse_rig_options(options)};
+  options.isa.clear();
+  MienRigDesc desc = parse_rig_options(options);
+  std::vector<MienRigDesc> descs;
+  for (desc.isa = MIEN_ISA_SCALAR; desc.isa <= MIEN_ISA_NEON; ++desc.isa) {
+    if (mien_isa_available(desc.isa)) descs.push_back(desc);
+  }
+  return descs;
+}
+
+void run(BenchOptions options, const Session& session) {
+  const MienDnaDesc desc = parse_load_options(options.load, kEvaluationLayers);
+  require_behavior(desc);
+  const std::vector<MienRigDesc> descs = choose_rigs(options.evaluation);
+
+  std::optional<RigFile> dna;
+  BenchSource source;
+  source.shown = shown_name(options.rig);
+  if (!is_baked_file(options.rig)) {
+    dna = open_rig_file(options.rig, desc, session);
+    source.dna = &*dna;
+  } else if (options.rig == "-") {
+    fail_usage("RIG -", "a baked file is opened once for each instruction set", "give its path");
+  } else {
+    note(session, source.shown + ": a baked file has no plain matrix to compare with (CSR)");
+  }
+  // Samples repeat the same controls, so nothing may be reused.
+  source.make_rig = [&](MienRigDesc rig_desc) {
+    rig_desc.reuse = MIEN_REUSE_NOTHING;
+    if (dna) return create_rig(*dna, rig_desc);
+    RigOptions evaluation = options.evaluation;
+    evaluation.isa = rig_desc.isa == MIEN_ISA_BEST ? "" : mien_isa_name(rig_desc.isa);
+    return open_baked_rig(options.rig, options.load, evaluation, rig_desc.reuse).rig;
+  };
+  Measurement measured = prepare_measurement(source, descs);
+  measure(measured, options.quick ? kQuickPlan : kFullPlan, session);
+  const std::string name = dna ? read_string(*dna, "desc.name") : source.shown;
+  if (options.json) {
+    write_json(measured, name);
+  } else {
+    write_text(measured, name, session);
+  }
+}
+
+}  // namespace
+
+Command add_bench_command(CLI::App& app, const Session& session) {
+  auto options = std::make_shared<BenchOptions>();
+  CLI::App* bench = app.add_subcommand("bench", "Measure evaluation times");
+  bench->add_option("RIG", options->rig, "DNA file or baked rig; - reads standard input")
+      ->type_name("")
+      ->required();
+  bench->add_flag("--json", options->json, "Print JSON");
+  bench->add_flag("--quick", options->quick, "Take a few seconds instead of half a minute or more");
+  add_load_options(*bench, options->load);
+  add_rig_options(*bench, options->evaluation);
+  bench->get_option("--isa")->description(
+      "Instruction set, or all that this machine has\n(default: $MIEN_ISA, else the best)");
+  bench->footer(
+      "Measures the processor time of a single thread. CSR is the joint matrix of the LOD in\n"
+      "compressed sparse rows, one scalar dot product per row, measured in the same run.\n\n"
+      "Examples:\n"
+      "  mien bench head.dna --quick\n"
+      "  mien bench head.dna --isa all --json > times.json\n"
+      "  mien bench head.dna --isa avx2 --lods 0");
+  return {bench, [options, &session] { run(*options, session); }};
+}
+
+}  // namespace mien::cli

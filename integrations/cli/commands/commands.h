@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The commands of `mien`: each adds itself to the parser and says what to run.
+//
+//     command line -> commands/ -> io/ (files, frames, JSON) -> mien.h
+//                              \-> scene/ (a rig in a pose) -> render/ -> PNG
+//                              \-> gltf/ -> GLB, OBJ
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "integrations/cli/io/failure.h"
+#include "integrations/cli/io/handles.h"
+#include "integrations/cli/io/terminal.h"
+
+namespace mien::cli {
+
+/// Its options are parsed by `app`, then it is run.
+struct Command {
+  CLI::App* app;
+  std::function<void()> run;
+};
+
+Command add_info_command(CLI::App& app, const Session& session);
+Command add_validate_command(CLI::App& app, const Session& session);
+Command add_eval_command(CLI::App& app, const Session& session);
+Command add_bake_command(CLI::App& app, const Session& session);
+Command add_convert_command(CLI::App& app, const Session& session);
+Command add_export_command(CLI::App& app, const Session& session);
+Command add_gen_command(CLI::App& app, const Session& session);
+Command add_demo_head_command(CLI::App& app, const Session& session);
+Command add_bench_command(CLI::App& app, const Session& session);
+Command add_render_command(CLI::App& app, const Session& session);
+Command add_inspect_command(CLI::App& app, const Session& session);
+Command add_completion_command(CLI::App& app);
+Command add_help_command(CLI::App& app);
+
+}  // namespace mien::cli

@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: MIT
+// mien export: a rig with its geometry, as a GLB or OBJ file.
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "integrations/cli/commands/options.h"
+#include "integrations/cli/gltf/arkit_bake.h"
+#include "integrations/cli/gltf/glb_writer.h"
+#include "integrations/cli/gltf/obj_writer.h"
+#include "integrations/cli/io/controls.h"
+#include "integrations/cli/io/dna_fields.h"
+#include "integrations/cli/io/output.h"
+#include "integrations/cli/io/text.h"
+
+namespace mien::cli {
+
+namespace {
+
+struct ExportOptions {
+  std::string rig, output, format, lod = "0", influences, animation, rate, mouth_close;
+  std::vector<std::string> settings;
+  bool bake = false;
+};
+
+enum class Format { kGlb, kObj };
+
+constexpr const char* kCannot = "cannot export";
+constexpr double kDefaultRate = 30;
+constexpr double kNotableClose = 0.005;  // of the size: a millimeter or two of a head
+
+// Options -----------------------------------------------------------------------------------------
+
+Format parse_format(const ExportOptions& options) {
+  if (!options.format.empty()) return static_cast<Format>(parse_word("--format", options.format));
+  if (options.output == "-") return Format::kGlb;
+  const size_t dot = options.output.rfind('.');
+  const std::string ending = dot == std::string::npos ? "" : options.output.substr(dot + 1);
+  for (size_t i = 0; i < option_words("--format").size(); ++i) {
+    if (ending == option_words("--format")[i]) return static_cast<Format>(i);
+  }
+  fail_usage("-o " + options.output, "the name tells no format",
+             "let it end in .glb or .obj, or add --format");
+}
+
+double parse_rate(const ExportOptions& options) {
+  if (options.rate.empty()) return kDefaultRate;
+  if (options.animation.empty()) {
+    fail_usage("--fps " + options.rate, "there is no animation", "add --animation FRAMES");
+  }
+  double rate = 0;
+  const char* end = options.rate.data() + options.rate.size();
+  const auto [stop, error] = std::from_chars(options.rate.data(), end, rate);
+  if (error == std::errc() && stop == end && rate > 0 && rate <= 1e6) return rate;
+  fail_usage("--fps \"" + options.rate + "\"", "not a number above 0", "write it as 30 or 29.97");
+}
+
+void check_combination(const ExportOptions& options, Format format) {
+  if (options.rig == "-" && options.animation == "-") {
+    fail_usage("--animation -", "standard input cannot be both RIG and FRAMES",
+               "put one of them in a file");
+  }
+  if (!options.animation.empty() && !options.settings.empty()) {
+    fail_usage("--set", "the animation sets the controls", "leave out --set or --animation");
+  }
+  const char* only_glb = options.bake                  ? "--bake-arkit"
+                         : !options.animation.empty()  ? "--animation"
+                         : !options.influences.empty() ? "--influences"
+                                                       : nullptr;
+  if (format == Format::kObj && only_glb) {
+    fail_usage(only_glb, "an OBJ file holds one still pose", "write a .glb file");
+  }
+  if (!options.mouth_close.empty()) {
+    parse_word("--mouth-close", options.mouth_close);
+    if (!options.bake) fail_usage("--mouth-close", "nothing is baked", "add --bake-arkit");
+  }
+  if (options.bake && !options.influences.empty()) {
+    fail_usage("--influences " + options.influences, "a baked mesh has no skin",
+               "leave out --influences or --bake-arkit");
+  }
+}
+
+// Rig ---------------------------------------------------------------------------------------------
+
+/// A rig, opened with the LODs to export, and the character that is posed.
+class Face {
+ public:
+  Face(const ExportOptions& options, const Session& session) {
+    auto desc = sized<MienDnaDesc>();
+    desc.layers = kEvaluationLayers | MIEN_LAYER_GEOMETRY;
+    if (options.lod != "all") {
+      first_lod = static_cast<uint32_t>(parse_number("--lod", options.lod, kLastMaskLod));
+      desc.lods = uint64_t{1} << first_lod;
+    }
+    file = open_rig_file(options.rig, desc, session);
+    // Plain C++ rounds alike on every machine, and so the files are the same.
+    auto rig_desc = sized<MienRigDesc>();
+    rig_desc.isa = MIEN_ISA_SCALAR;
+    rig = create_rig(file, rig_desc);
+
+    auto error = sized<MienError>();
+    MienDeformer* deformer_made = nullptr;
+    check(mien_deformer_create(file.dna.get(), rig.get(), nullptr, &deformer_made, &error), &error,
+          "cannot prepare geometry", file.shown);
+    deformer.reset(deformer_made);
+    MienInstance* instance_made = nullptr;
+    check(mien_instance_create(rig.get(), nullptr, &instance_made, &error), &error,
+          "cannot prepare rig", file.shown);
+    instance.reset(instance_made);
+    source = std::make_unique<gltf::RigSource>(
+        gltf::RigHandles{file.dna.get(), rig.get(), deformer.get()});
+    pose = gltf::make_deformer_instance(*source);
+  }
+
+  /// Evaluates a frame at the finest LOD, and the pose with it.
+  void apply(const Frame& frame) const {
+    check(mien_instance_reset(instance.get()), nullptr, kCannot, file.shown);
+    apply_frame(frame, rig.get(), instance.get());
+    check(mien_rig_evaluate(rig.get(), instance.get(), 0), nullptr, kCannot, file.shown);
+    check(mien_deformer_instance_update(pose.get(), instance.get()), nullptr, kCannot, file.shown);
+  }
+
+  MienFloatView channel_weights() const {
+    MienFloatView view{};
+    check(mien_instance_blend_shapes(instance.get(), &view), nullptr, kCannot, file.shown);
+    return view;
+  }
+
+  MienFloatView raw_controls() const {
+    MienFloatView view{};
+    check(mien_instance_controls(instance.get(), &view), nullptr, kCannot, file.shown);
+    return view;
+  }
+
+  uint32_t first_lod = 0;
+  RigFile file;
+  Rig rig;
+  Deformer deformer;
+  Instance instance;
+  std::unique_ptr<gltf::RigSource> source;
+  DeformerInstance pose;
+};
+
+gltf::SceneOptions scene_options(const Face& face, const ExportOptions& options) {
+  gltf::SceneOptions scene;
+  scene.name = read_string(face.file, "desc.name");
+  if (scene.name.empty()) scene.name = "rig";
+  scene.first_lod = face.first_lod;
+  if (!options.influences.empty()) {
+    scene.influences =
+        4 + 4 * static_cast<uint32_t>(parse_word("--influences", options.influences));
+  }
+  return scene;
+}
+
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.2g %%", share * 100);
+  return text;
+}
+
+void note_losses(const Face& face, const gltf::Losses& losses, const Session& session) {
+  const std::string& shown = face.file.shown;
+  if (losses.cut_positions != 0) {
+    note(session, shown + ": " + std::to_string(losses.cut_positions) +
+                      " positions follow more than " + std::to_string(losses.places) +
+                      " joints; the lightest were dropped, up to " +
+                      percent(losses.max_weight_cut) + " of a position's weight");
+  }
+  if (losses.corrected_positions != 0) {
+    note(session, shown + ": skin weights of " + std::to_string(losses.corrected_positions) +
+                      " positions do not sum to 1 or are negative, which glTF forbids; they were "
+                      "corrected, by up to " +
+                      percent(losses.max_correction));
+  }
+  for (const std::string& mesh : losses.empty_meshes) {
+    note(session, shown + ": mesh " + one_line(mesh) + " has no faces: left out");
+  }
+}
+
+// GLB ---------------------------------------------------------------------------------------------
+
+std::string rig_glb(const Face& face, const Frame& still, const std::vector<Frame>& frames,
+                    double rate, const ExportOptions& options, const Session& session) {
+  gltf::RigScene scene = gltf::make_rig_scene(*face.source, scene_options(face, options));
+  note_losses(face, scene.losses, session);
+  face.apply(still);
+  gltf::set_pose(scene, *face.source, face.pose.get(), face.channel_weights());
+  if (!frames.empty()) {
+    gltf::AnimationRecorder recorder(scene, *face.source, "frames", rate);
+    Progress progress(session, "frame", frames.size());
+    for (size_t f = 0; f < frames.size(); ++f) {
+      progress.at(f);
+      face.apply(frames[f]);
+      recorder.add_frame(face.pose.get(), face.channel_weights());
+    }
+    scene.scene.animation = recorder.finish();
+  }
+  return gltf::write_glb(scene.scene);
+}
+
+/// What baking loses, for people: on standard output, unless that is the file.
+void print_report(const gltf::BakeReport& report, FILE* stream) {
+  std::fprintf(stream, "%-20s %14s %26s\n%-20s %14s %12s %13s\n", "expression", "largest move",
+               "off at one half", "", "mm", "rms mm", "max mm");
+  for (size_t e = 0; e < gltf::kArkitCount; ++e) {
+    const gltf::BakeReport::Expression& expression = report.expressions[e];
+    std::fprintf(stream, "%-20s %14.3f %12.4f %13.4f\n", gltf::kArkitNames[e],
+                 expression.max_move * 1000, expression.halfway.rms * 1000,
+                 expression.halfway.max * 1000);
+  }
+  const double share = report.diagonal > 0 ? 100 / report.diagonal : 0;
+  std::fprintf(stream,
+               "%u random combinations against the full rig, %zu positions that move:\n"
+               "off by %.4f mm rms, %.4f mm at most (%.3g %% and %.3g %% of the size)\n",
+               report.combination_count, report.moved_positions, report.combinations.rms * 1000,
+               report.combinations.max * 1000, report.combinations.rms * share,
+               report.combinations.max * share);
+  std::fprintf(stream, "at most in:");
+  for (size_t e = 0; e < gltf::kArkitCount; ++e) {
+    if (report.worst[e] != 0)
+      std::fprintf(stream, " %s %.2f", gltf::kArkitNames[e], double{report.worst[e]});
+  }
+  std::fprintf(stream, "\n");
+}
+
+/// Raw controls that a baked file has no weight for.
+void note_lost_controls(const Face& face, const gltf::ArkitControls& controls,
+                        const std::vector<const Frame*>& frames, const Session& session) {
+  std::vector<bool> is_known(rig_count(face.rig.get(), MIEN_KIND_RAW_CONTROL));
+  for (const auto& expression : controls.controls) is_known[expression[0].control] = true;
+  MienFloatView initial{};
+  check(mien_rig_initial_raw_controls(face.rig.get(), &initial), nullptr, kCannot, face.file.shown);
+  std::vector<bool> is_lost(is_known.size());
+  for (const Frame* frame : frames) {
+    face.apply(*frame);
+    const MienFloatView raw = face.raw_controls();
+    for (size_t i = 0; i < is_known.size(); ++i) {
+      if (!is_known[i] && raw.data[i] != initial.data[i]) is_lost[i] = true;
+    }
+  }
+  const auto lost = std::count(is_lost.begin(), is_lost.end(), true);
+  if (lost == 0) return;
+  note(session, face.file.shown + ": " + std::to_string(lost) +
+                    " controls that were set are no ARKit expressions: a baked file has no place "
+                    "for them");
+}
+
+std::string baked_glb(const Face& face, const Frame& still, const std::vector<Frame>& frames,
+                      double rate, const ExportOptions& options, const Session& session) {
+  const gltf::ArkitControls controls = gltf::find_arkit_controls(*face.source);
+  const bool is_posed = !options.settings.empty() || !frames.empty();
+  if (is_posed && !controls.by_name) {
+    fail(kInvalid, kCannot, face.file.shown,
+         "not all ARKit expressions are controls of the rig, so controls are no weights of them",
+         "leave out --bake-arkit, or --set and --animation");
+  }
+  gltf::RigScene scene = gltf::make_still_scene(*face.source, scene_options(face, options));
+  note_losses(face, scene.losses, session);
+  const auto mouth_close = static_cast<gltf::MouthClose>(
+      options.mouth_close.empty() ? 0 : parse_word("--mouth-close", options.mouth_close));
+  const gltf::BakeReport report = gltf::bake_arkit(*face.source, controls, mouth_close, scene);
+  if (options.mouth_close.empty() && report.max_close_with_jaw > kNotableClose * report.diagonal) {
+    note(session, face.file.shown +
+                      ": on this rig mouthClose is another thing when the jaw is open; for "
+                      "captured data add --mouth-close jaw");
+  }
+
+  std::vector<const Frame*> posed = {&still};
+  for (const Frame& frame : frames) posed.push_back(&frame);
+  if (is_posed) {
+    note_lost_controls(face, controls, posed, session);
+    std::vector<gltf::ArkitWeights> weights;
+    for (const Frame* frame : posed) {
+      face.apply(*frame);
+      weights.push_back(gltf::arkit_weights(controls, face.raw_controls()));
+    }
+    gltf::set_baked_pose(scene, weights[0]);
+    weights.erase(weights.begin());
+    scene.scene.animation = gltf::baked_animation(scene, weights, "frames", rate);
+  }
+  const std::string bytes = gltf::write_glb(scene.scene);
+  if (!session.quiet) print_report(report, options.output == "-" ? stderr : stdout);
+  return bytes;
+}
+
+// -------------------------------------------------------------------------------------------------
+
+void run(const ExportOptions& options, const Session& session) {
+  const Format format = parse_format(options);
+  const double rate = parse_rate(options);
+  check_combination(options, format);
+  if (!options.influences.empty()) parse_word("--influences", options.influences);
+  if (format == Format::kGlb && options.output == "-" && session.terminal.out_is_terminal) {
+    fail_usage("-o -", "a GLB file is not for a terminal", "name a file, or pipe the output");
+  }
+  try {
+    const Face face(options, session);
+    for (const std::string& problem : face.source->color_problems()) {
+      note(session, face.file.shown + ": " + problem + "; exporting without these colors");
+    }
+    const Frame still = parse_settings(options.settings, face.rig.get(), face.file.shown);
+    std::vector<Frame> frames;
+    if (!options.animation.empty()) {
+      frames = read_frames(options.animation, face.rig.get());
+      if (frames.empty()) {
+        fail(kInvalid, "cannot use frames", shown_name(options.animation), "there are none",
+             "give at least one frame");
+      }
+    }
+    std::string bytes;
+    if (format == Format::kObj) {
+      face.apply(still);
+      bytes = gltf::write_obj(*face.source, face.pose.get());
+    } else if (options.bake) {
+      bytes = baked_glb(face, still, frames, rate, options, session);
+    } else {
+      bytes = rig_glb(face, still, frames, rate, options, session);
+    }
+    Output output(options.output);
+    output.write(bytes);
+    output.commit();
+  } catch (const gltf::ExportError& error) {
+    const std::string where = error.where.empty() ? "" : ", " + one_line(error.where);
+    fail(exit_code_of(error.status), kCannot, shown_name(options.rig) + where, error.what(),
+         error.what_to_do);
+  }
+}
+
+}  // namespace
+
+Command add_export_command(CLI::App& app, const Session& session) {
+  auto options = std::make_shared<ExportOptions>();
+  CLI::App* command =
+      app.add_subcommand("export", "Write a rig's face as GLB (glTF 2.0) or OBJ, posed or moving");
+  command->add_option("RIG", options->rig, "DNA file with geometry; - reads standard input")
+      ->type_name("")
+      ->required();
+  command
+      ->add_option("-o,--output", options->output,
+                   "File to write, .glb or .obj; - is standard output")
+      ->type_name("OUT")
+      ->required();
+  command->add_option("--format", options->format, "glb or obj, where the name does not tell")
+      ->type_name("NAME");
+  command
+      ->add_option("--lod", options->lod,
+                   "LOD to export (default: 0), or all; a GLB has a scene for each")
+      ->type_name("N");
+  command
+      ->add_option("--set", options->settings,
+                   "Set a control, by its name or what follows the last dot of it:\n"
+                   "jawOpen=0.6; again for others")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--influences", options->influences,
+                   "Joints per vertex: 4, 8 or 12 (default: 8 where 4 do not do)")
+      ->type_name("N");
+  command
+      ->add_option("--animation", options->animation,
+                   "Frames as for 'mien eval', as an animation; - reads standard input")
+      ->type_name("FRAMES");
+  command->add_option("--fps", options->rate, "Frames per second (default: 30)")->type_name("N");
+  command->add_flag("--bake-arkit", options->bake,
+                    "No skeleton: the 52 ARKit expressions as morph targets. Prints how far\n"
+                    "these are off the full rig");
+  command
+      ->add_option("--mouth-close", options->mouth_close,
+                   "mouthClose as a difference to neutral: alone (default), or to an open\n"
+                   "jaw, as captured data mean it: jaw")
+      ->type_name("WAY");
+  command->footer(
+      "A GLB holds the skeleton, the skin and the blend shape channels as morph targets: what\n"
+      "the controls drive, not what drives it. --set gives the pose it opens in, --animation\n"
+      "one that moves. Meters, y up, the face to the front of z. Materials go by mesh names.\n"
+      "--lod all puts each LOD in a scene of its own; viewers show the first one.\n\n"
+      "Examples:\n"
+      "  mien export head.dna -o head.glb\n"
+      "  mien export head.dna -o smile.obj --set mouthSmileLeft=1 --set mouthSmileRight=1\n"
+      "  mien export head.dna -o talk.glb --animation frames.json --fps 60\n"
+      "  mien export head.dna -o arkit.glb --bake-arkit --lod 2");
+  return {command, [options, &session] { run(*options, session); }};
+}
+
+}  // namespace mien::cli

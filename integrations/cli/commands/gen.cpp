@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// mien gen: a synthetic rig; mien demo-head: the head in the box.
+#include "integrations/cli/commands/options.h"
+#include "integrations/cli/io/output.h"
+#include "integrations/cli/io/write_dna.h"
+
+namespace mien::cli {
+
+namespace {
+
+struct GenOptions {
+  std::string output, preset = "tiny", seed = "0";
+  bool ml = false;
+};
+
+void run(const GenOptions& options, uint32_t preset, const Session& session) {
+  auto desc = sized<MienGenerateDesc>();
+  desc.preset = preset;
+  desc.flags = options.ml ? uint32_t{MIEN_GENERATE_ML} : 0;
+  desc.seed = parse_number("--seed", options.seed, UINT64_MAX);
+  refuse_terminal(options.output, session, "a DNA file");
+
+  MienDna* made = nullptr;
+  auto error = sized<MienError>();
+  check(mien_dna_generate(&desc, &made, &error), &error, "cannot generate",
+        "preset " + options.preset);
+  const Dna dna(made);
+  write_dna(made, sized<MienWriteDesc>(), options.output);
+}
+
+void add_common_options(CLI::App* command, GenOptions& options, const std::string& seed) {
+  command->add_option("-o,--output", options.output, "File to write; - is standard output")
+      ->type_name("OUT.dna")
+      ->required();
+  command->add_option("--seed", options.seed, seed)->type_name("N");
+}
+
+}  // namespace
+
+Command add_gen_command(CLI::App& app, const Session& session) {
+  auto options = std::make_shared<GenOptions>();
+  CLI::App* gen = app.add_subcommand("gen", "Make a synthetic rig");
+  add_common_options(gen, *options, "The same number gives the same bytes everywhere (default: 0)");
+  gen->add_option(
+         "--preset", options->preset,
+         "Heads: tiny (default), small, medium or large (870 joints), or a body\n(342 joints, RBF "
+         "solvers, twists and swings)")
+      ->type_name("NAME");
+  gen->add_flag("--ml", options->ml,
+                "With learned behavior: networks, their operations, joints they move");
+  gen->footer(
+      "Examples:\n"
+      "  mien gen -o tiny.dna\n"
+      "  mien gen -o head.dna --preset large --seed 7\n"
+      "  mien gen -o body.dna --preset body --ml\n"
+      "  mien gen -o - | mien info -");
+  return {gen, [options, &session] {
+            const size_t preset = parse_word("--preset", options->preset);
+            run(*options, MIEN_PRESET_TINY + static_cast<uint32_t>(preset), session);
+          }};
+}
+
+Command add_demo_head_command(CLI::App& app, const Session& session) {
+  auto options = std::make_shared<GenOptions>();
+  options->preset = "head";
+  CLI::App* head = app.add_subcommand("demo-head", "Make a head to look at, with 52 expressions");
+  add_common_options(head, *options, "Another person for each number (default: 0)");
+  head->footer(
+      "A stylized person: skin, eyes, teeth, tongue, hair, with vertex colors, correctives,\n"
+      "wrinkle maps and 8 LODs. Raw controls have the names of ARKit's coefficients;\n"
+      "mouthClose closes the lips over a jaw that is open.\n\n"
+      "Examples:\n"
+      "  mien demo-head -o head.dna\n"
+      "  mien render head.dna --set jawOpen=0.6 --set mouthSmileLeft=1 -o smile.png");
+  return {head, [options, &session] { run(*options, MIEN_PRESET_HEAD, session); }};
+}
+
+}  // namespace mien::cli

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/cli/commands/options.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "integrations/cli/io/nearest_name.h"
+
+namespace mien::cli {
+
+namespace {
+
+struct OptionWords {
+  const char* option;
+  Words words;
+};
+
+// The order counts: the enums of mien.h follow it, and so do tables of the commands.
+const OptionWords kOptionWords[] = {
+    {"--layers",
+     {"descriptor", "definition", "behavior", "geometry", "geometry-without-blend-shapes", "ml",
+      "rbf", "joint-metadata", "twist-swing", "all"}},
+    {"--isa", {"scalar", "sse2", "avx2", "avx512", "neon"}},
+    {"--storage", {"f32", "f16"}},
+    {"--rotation", {"euler", "quaternion"}},
+    {"--ml-masks", {"switch", "blend"}},
+    {"--preset", {"tiny", "small", "medium", "large", "body"}},
+    {"--version", {"2.1", "2.2", "2.3", "2.4", "2.5", "2.6", "2.7", "2.8"}},
+    {"--unknown", {"keep", "drop"}},
+    {"--format", {"glb", "obj"}},
+    {"--mouth-close", {"alone", "jaw"}},
+    {"--influences", {"4", "8", "12"}},
+    {"--rotation-order", {"carried", "exact", "per-column"}},
+    {"--names",
+     {"gui", "raw", "ml", "rbf", "joints", "channels", "maps", "meshes", "regions", "solvers",
+      "poses", "all"}},
+    {"--camera",
+     {"front", "three-quarter", "three-quarter-right", "side", "side-right", "back", "above",
+      "below"}},
+    {"--background", {"dark", "light"}},
+    {"--samples", {"1", "4", "16"}},
+    {"--target", {"face", "eyes", "mouth"}},
+    {"SHELL", {"bash", "zsh", "fish"}},
+};
+
+// In the order of the words of --layers.
+constexpr uint32_t kLayerBits[] = {
+    MIEN_LAYER_DESCRIPTOR,
+    MIEN_LAYER_DEFINITION,
+    MIEN_LAYER_BEHAVIOR,
+    MIEN_LAYER_GEOMETRY,
+    MIEN_LAYER_GEOMETRY_WITHOUT_BLEND_SHAPES,
+    MIEN_LAYER_MACHINE_LEARNED_BEHAVIOR,
+    MIEN_LAYER_RBF_BEHAVIOR,
+    MIEN_LAYER_JOINT_BEHAVIOR_METADATA,
+    MIEN_LAYER_TWIST_SWING_BEHAVIOR,
+    MIEN_LAYER_ALL,
+};
+
+Words split(const std::string& list) {
+  Words words;
+  size_t begin = 0;
+  while (true) {
+    const size_t comma = list.find(',', begin);
+    words.push_back(list.substr(begin, comma - begin));
+    if (comma == std::string::npos) return words;
+    begin = comma + 1;
+  }
+}
+
+uint32_t parse_layers(const std::string& list) {
+  uint32_t layers = 0;
+  bool all = false;
+  for (const size_t word : parse_words("--layers", list)) {
+    layers |= kLayerBits[word];
+    all |= kLayerBits[word] == MIEN_LAYER_ALL;
+  }
+  const bool without_shapes = (layers & MIEN_LAYER_GEOMETRY_WITHOUT_BLEND_SHAPES) != 0;
+  if (without_shapes && (all || (layers & MIEN_LAYER_GEOMETRY))) {
+    fail_usage("--layers " + list, "asks for geometry both with and without blend shapes",
+               "name one of the two");
+  }
+  return all ? uint32_t{MIEN_LAYER_ALL} : layers;
+}
+
+/// Bits first ... last. Numbers past the mask are of LODs that no file has.
+uint64_t lod_range(uint64_t first, uint64_t last) {
+  uint64_t mask = 0;
+  for (uint64_t lod = first; lod <= std::min(last, kLastMaskLod); ++lod) mask |= uint64_t{1} << lod;
+  return mask;
+}
+
+/// "0,2-4": bits 0, 2, 3 and 4.
+uint64_t parse_lod_list(const std::string& list) {
+  uint64_t mask = 0;
+  for (const std::string& word : split(list)) {
+    const size_t dash = word.find('-', 1);
+    const uint64_t first = parse_number("--lods", word.substr(0, dash), 65535);
+    const uint64_t last =
+        dash == std::string::npos ? first : parse_number("--lods", word.substr(dash + 1), 65535);
+    if (last < first) {
+      fail_usage("--lods " + list, "a range goes from the finest LOD, the smaller number, up",
+                 "write " + std::to_string(last) + "-" + std::to_string(first));
+    }
+    mask |= lod_range(first, last);
+  }
+  return mask;
+}
+
+uint64_t parse_lods(const LoadOptions& options) {
+  uint64_t mask = 0;
+  if (!options.lods.empty()) {
+    mask = parse_lod_list(options.lods);
+  } else if (!options.max_lod.empty() || !options.min_lod.empty()) {
+    const uint64_t finest =
+        options.max_lod.empty() ? 0 : parse_number("--max-lod", options.max_lod, 65535);
+    const uint64_t coarsest =
+        options.min_lod.empty() ? 65535 : parse_number("--min-lod", options.min_lod, 65535);
+    if (coarsest < finest) {
+      fail_usage("--max-lod " + options.max_lod + " --min-lod " + options.min_lod,
+                 "nothing is between them", "--max-lod is the finest LOD, the smaller number");
+    }
+    mask = lod_range(finest, coarsest);
+  } else {
+    return 0;
+  }
+  if (mask == 0) {
+    fail(kInvalid, "cannot select LODs", "", "no DNA file has LODs from 64 on",
+         "see 'mien info' for the LODs that the file has");
+  }
+  return mask;
+}
+
+MienCoordinateSystem system_named(const std::string& name) {
+  auto system = sized<MienCoordinateSystem>();
+  check(mien_coordinate_system_named(name.data(), name.size(), &system), nullptr,
+        "cannot find coordinate system " + name, "");
+  return system;
+}
+
+/// One for each name and rotation order, so that descriptions can point to them.
+const MienCoordinateSystem* find_system(const LoadOptions& options) {
+  const size_t rules = option_words("--rotation-order").size();
+  static const std::vector<MienCoordinateSystem> systems = [rules] {
+    std::vector<MienCoordinateSystem> all;
+    for (const std::string& name : system_names()) {
+      for (uint32_t rule = MIEN_ROTATIONS_CARRIED; rule < rules; ++rule) {
+        all.push_back(system_named(name));
+        all.back().rotation_rule = rule;
+      }
+    }
+    return all;
+  }();
+  const bool has_order = !options.rotation_order.empty();
+  const size_t rule = has_order ? parse_word("--rotation-order", options.rotation_order) : 0;
+  if (options.system.empty()) {
+    if (has_order) {
+      fail_usage("--rotation-order", "the order of rotations only changes with the system",
+                 "name one with --system");
+    }
+    return nullptr;
+  }
+  return &systems[parse_word("--system", options.system) * rules + rule];
+}
+
+}  // namespace
+
+const Words& system_names() {
+  static const Words names = [] {
+    Words all;
+    MienStringView name;
+    while (mien_coordinate_system_name(static_cast<uint32_t>(all.size()), &name) == MIEN_OK) {
+      all.push_back(to_string(name));
+    }
+    return all;
+  }();
+  return names;
+}
+
+std::string name_of_system(const MienDnaInfo& info) {
+  for (const std::string& name : system_names()) {
+    const MienCoordinateSystem system = system_named(name);
+    if (std::equal(info.axes, info.axes + 3, system.axes) &&
+        info.translation_unit == system.translation_unit &&
+        info.rotation_unit == system.rotation_unit && info.face_winding == system.face_winding) {
+      return name;
+    }
+  }
+  return "";
+}
+
+Words command_names(const CLI::App& app) {
+  Words names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
+
+const Words& option_words(const std::string& option) {
+  static const Words none;
+  if (option == "--system") return system_names();
+  for (const OptionWords& entry : kOptionWords) {
+    if (option == entry.option) return entry.words;
+  }
+  return none;
+}
+
+void add_load_options(CLI::App& app, LoadOptions& options) {
+  const std::string group = "What to load";
+  app.add_option("--layers", options.layers,
+                 "Only these, with commas between; what they need comes along:\n"
+                 "descriptor, definition, behavior, geometry,\n"
+                 "geometry-without-blend-shapes, ml, rbf, joint-metadata,\n"
+                 "twist-swing or all")
+      ->type_name("LIST")
+      ->group(group);
+  app.add_option("--max-lod", options.max_lod, "Finest LOD to load: the smaller number")
+      ->type_name("N")
+      ->group(group);
+  app.add_option("--min-lod", options.min_lod, "Coarsest LOD to load: the larger number")
+      ->type_name("N")
+      ->group(group);
+  app.add_option("--lods", options.lods,
+                 "Only these LODs, as 0,2-4; wins over --max-lod and --min-lod.\nLoaded LODs are "
+                 "numbered anew from 0")
+      ->type_name("LIST")
+      ->group(group);
+  app.add_option("--system", options.system,
+                 "Convert to the axes, units and winding of:\n" + list_of(system_names(), "or") +
+                     "\n(default: as the file is)")
+      ->type_name("NAME")
+      ->group(group);
+  app.add_option(
+         "--rotation-order", options.rotation_order,
+         "Order of Euler angles with --system: carried along with the axes\n(default), exact "
+         "(the system's; refused where sums of angles\ncannot follow) or per-column")
+      ->type_name("RULE")
+      ->group(group);
+}
+
+void add_rig_options(CLI::App& app, RigOptions& options, bool with_isa) {
+  const std::string group = "How to evaluate";
+  if (with_isa) {
+    app.add_option("--isa", options.isa,
+                   "Instruction set: " + list_of(option_words("--isa"), "or") +
+                       "\n(default: $MIEN_ISA, else the best of this machine)")
+        ->type_name("NAME")
+        ->group(group);
+  }
+  app.add_option("--storage", options.storage,
+                 "Matrices and weights: f32, or f16 (half the memory, 3 digits)")
+      ->type_name("TYPE")
+      ->group(group);
+  app.add_option("--rotation", options.rotation,
+                 "Rotations of joints: euler (9 values per joint) or quaternion (10)")
+      ->type_name("TYPE")
+      ->group(group);
+  app.add_option("--ml-masks", options.ml_masks,
+                 "Masks of learned behavior: switch (0 is off) or blend (0 to 1)")
+      ->type_name("TYPE")
+      ->group(group);
+}
+
+size_t parse_word(const std::string& option, const std::string& word) {
+  const Words& words = option_words(option);
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found != words.end()) return static_cast<size_t>(found - words.begin());
+  fail_usage(option + " \"" + word + "\"", "not one of " + list_of(words, "and"),
+             nearest_question(word, words, "choose one of them"));
+}
+
+std::vector<size_t> parse_words(const std::string& option, const std::string& list) {
+  std::vector<size_t> indices;
+  for (const std::string& word : split(list)) indices.push_back(parse_word(option, word));
+  return indices;
+}
+
+uint64_t parse_number(const std::string& option, const std::string& word, uint64_t largest) {
+  uint64_t number = 0;
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, number);
+  if (error == std::errc() && stop == end && number <= largest) return number;
+  fail_usage(option + " \"" + word + "\"",
+             "not a whole number from 0 to " + std::to_string(largest),
+             "give one in decimal digits");
+}
+
+MienDnaDesc parse_load_options(const LoadOptions& options, uint32_t default_layers) {
+  auto desc = sized<MienDnaDesc>();
+  desc.layers = options.layers.empty() ? default_layers : parse_layers(options.layers);
+  desc.lods = parse_lods(options);
+  desc.system = find_system(options);
+  return desc;
+}
+
+void require_behavior(const MienDnaDesc& desc) {
+  const uint32_t brings_behavior = MIEN_LAYER_BEHAVIOR | MIEN_LAYER_RBF_BEHAVIOR;
+  if (desc.layers == MIEN_LAYER_ALL || (desc.layers & brings_behavior)) return;
+  fail_usage("--layers", "without behavior there is nothing to evaluate",
+             "add behavior to the list");
+}
+
+MienRigDesc parse_rig_options(const RigOptions& options) {
+  auto desc = sized<MienRigDesc>();
+  desc.rotation = static_cast<uint32_t>(parse_word("--rotation", options.rotation));
+  desc.ml_masks = static_cast<uint32_t>(parse_word("--ml-masks", options.ml_masks));
+  desc.storage = static_cast<uint32_t>(parse_word("--storage", options.storage));
+  if (options.isa.empty()) return desc;
+  desc.isa = MIEN_ISA_SCALAR + static_cast<uint32_t>(parse_word("--isa", options.isa));
+  if (!mien_isa_available(desc.isa)) {
+    fail_usage("--isa " + options.isa, "this machine, or this build, does not have it",
+               "choose another, or leave it out for the best one");
+  }
+  return desc;
+}
+
+}  // namespace mien::cli

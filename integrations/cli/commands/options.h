@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Options that several commands have, and the words that options take.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "integrations/cli/commands/commands.h"
+#include "integrations/cli/io/rig_file.h"
+
+namespace mien::cli {
+
+/// --layers, --max-lod, --min-lod, --lods, --system, --rotation-order as they were typed.
+struct LoadOptions {
+  std::string layers, max_lod, min_lod, lods, system, rotation_order;
+};
+
+/// --isa, --storage, --rotation, --ml-masks as they were typed.
+struct RigOptions {
+  std::string isa, storage = "f32", rotation = "euler", ml_masks = "switch";
+};
+
+void add_load_options(CLI::App& app, LoadOptions& options);
+/// `with_isa`: with --isa. Baked files serve all instruction sets.
+void add_rig_options(CLI::App& app, RigOptions& options, bool with_isa = true);
+
+using Words = std::vector<std::string>;
+
+/// Of all subcommands.
+Words command_names(const CLI::App& app);
+
+/// The words that an option takes: parsing accepts and completion offers these. Empty for options
+/// that take something else.
+const Words& option_words(const std::string& option);
+
+/// Index of `word` among the words of `option`. Wrong usage if there is none, with the nearest word.
+size_t parse_word(const std::string& option, const std::string& word);
+
+/// The same for a list separated by commas.
+std::vector<size_t> parse_words(const std::string& option, const std::string& list);
+
+/// Names of coordinate systems, as the library lists them.
+const Words& system_names();
+
+/// The first of them that has the axes, units and winding of a file; "" if none has.
+std::string name_of_system(const MienDnaInfo& info);
+
+/// A decimal number, at most `largest`. `option` is for the message.
+uint64_t parse_number(const std::string& option, const std::string& word, uint64_t largest);
+
+/// `default_layers` apply if no layers were named.
+MienDnaDesc parse_load_options(const LoadOptions& options, uint32_t default_layers);
+
+/// Wrong usage if the layers to load leave out behavior.
+void require_behavior(const MienDnaDesc& desc);
+
+/// Wrong usage if this machine does not have the instruction set.
+MienRigDesc parse_rig_options(const RigOptions& options);
+
+}  // namespace mien::cli

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/cli/gltf/obj_writer.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "integrations/cli/gltf/rig_source.h"
+
+namespace mien::gltf {
+
+namespace {
+
+/// The fewest digits that give the same float back.
+void append(std::string& text, float value) {
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof(digits), value).ptr;
+  text += ' ';
+  text.append(digits, end);
+}
+
+void append(std::string& text, const char* tag, const math::Vec3d& values,
+            const std::string& mesh) {
+  text += tag;
+  for (const double value : {values.x, values.y, values.z}) {
+    if (!std::isfinite(value)) {
+      throw ExportError(MIEN_ERROR_DNA_VALUE, "mesh " + mesh, "a position is not a finite number",
+                        "give smaller controls");
+    }
+    append(text, static_cast<float>(value));
+  }
+}
+
+/// Line breaks and spaces would end a name.
+std::string word_of(std::string name) {
+  for (char& c : name) {
+    if (static_cast<unsigned char>(c) <= ' ') c = '_';
+  }
+  return name.empty() ? "mesh" : name;
+}
+
+/// Corners of the faces as the file has them, each face as `count` vertices.
+class Faces {
+ public:
+  Faces(const MienDna* dna, uint32_t mesh)
+      : dna_(dna), path_("geom.meshes[" + std::to_string(mesh) + "].faces") {
+    count_ = field_count(path_);
+  }
+
+  uint64_t count() const { return count_; }
+
+  void read(uint64_t face, std::vector<int64_t>& corners) const {
+    const std::string path = path_ + "[" + std::to_string(face) + "].layoutIndices";
+    corners.resize(field_count(path));
+    if (corners.empty()) return;
+    check(mien_dna_read_integers(dna_, path.c_str(), 0, corners.size(), corners.data(), nullptr),
+          "cannot read faces");
+  }
+
+ private:
+  uint64_t field_count(const std::string& path) const {
+    auto field = sized<MienDnaField>();
+    check(mien_dna_field(dna_, path.c_str(), &field, nullptr), "cannot read faces");
+    return field.count;
+  }
+
+  const MienDna* dna_;
+  std::string path_;
+  uint64_t count_;
+};
+
+/// Numbers of OBJ count from 1 through the whole file.
+struct Base {
+  uint64_t position = 1, vertex = 1;
+};
+
+void write_mesh(const RigSource& source, uint32_t number, const MienDeformerInstance* pose,
+                Base& base, std::string& text) {
+  const MienMesh mesh = source.mesh(number);
+  const std::string name = source.name(MIEN_KIND_MESH, number);
+  MienFloatView positions{}, normals{};
+  check(mien_deformer_instance_positions(pose, number, &positions), "cannot deform");
+  check(mien_deformer_instance_normals(pose, number, &normals), "cannot deform");
+  const std::vector<uint8_t>& colors = source.colors(number);
+
+  text += "\no " + word_of(name) + "\ng " + word_of(name) + "\n";
+  for (size_t p = 0; p < mesh.position_count; ++p) {
+    append(text, "v", source.point(positions.data + 3 * p), name);
+    if (!colors.empty()) {
+      for (size_t i = 3 * p; i < 3 * p + 3; ++i) append(text, static_cast<float>(colors[i]) / 255);
+    }
+    text += '\n';
+  }
+  const float* uvs = mesh.texture_coordinates.data;
+  const bool has_uvs = std::any_of(uvs, uvs + mesh.texture_coordinates.count,
+                                   [](float value) { return value != 0; });
+  for (size_t v = 0; has_uvs && v < mesh.vertex_count; ++v) {
+    text += "vt";
+    append(text, uvs[2 * v]);
+    append(text, uvs[2 * v + 1]);
+    text += '\n';
+  }
+  for (size_t v = 0; v < mesh.vertex_count; ++v) {
+    append(text, "vn", source.direction(normals.data + 3 * v), name);
+    text += '\n';
+  }
+  const Faces faces(source.dna(), number);
+  const bool turn = source.has_inward_triangles(mesh);
+  std::vector<int64_t> corners;
+  for (uint64_t f = 0; f < faces.count(); ++f) {
+    faces.read(f, corners);
+    if (corners.size() < 3) continue;
+    if (turn) std::reverse(corners.begin(), corners.end());
+    text += 'f';
+    for (const int64_t corner : corners) {
+      const auto vertex = static_cast<size_t>(corner);
+      const std::string shared = std::to_string(base.vertex + vertex);
+      text += ' ' + std::to_string(base.position + mesh.vertex_position_indices.data[vertex]);
+      text += '/' + (has_uvs ? shared : "") + '/' + shared;
+    }
+    text += '\n';
+  }
+  base.position += mesh.position_count;
+  base.vertex += mesh.vertex_count;
+}
+
+}  // namespace
+
+std::string write_obj(const RigSource& source, MienDeformerInstance* pose) {
+  std::string text = "# meters, y up, z to the front\n";
+  Base base;
+  for (uint32_t m = 0; m < source.count(MIEN_KIND_MESH); ++m) {
+    const MienMesh mesh = source.mesh(m);
+    if (mesh.vertex_count == 0 || mesh.triangle_count == 0) continue;
+    check(mien_deformer_instance_deform(pose, m, MIEN_NORMALS_RECOMPUTED, nullptr),
+          "cannot deform");
+    write_mesh(source, m, pose, base, text);
+  }
+  return text;
+}
+
+}  // namespace mien::gltf

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Rig -> Scene: its skeleton, its skinned meshes, its blend shape channels as morph targets.
+//
+// What the file then holds is Mien's own deformation: joints with translation, rotation and scale
+// relative to their parents, targets added before linear skinning. What drives joints and channels
+// (controls, correctives, networks) has no place in glTF; poses and animations are results.
+#pragma once
+
+#include "integrations/cli/gltf/rig_source.h"
+
+namespace mien::gltf {
+
+struct SceneOptions {
+  std::string name;         // of the scene
+  uint32_t first_lod = 0;   // number to show for the first LOD that was opened
+  uint32_t influences = 0;  // per vertex, 4, 8 or 12; 0: 8 if some position has more than 4
+};
+
+/// What glTF has no place for.
+struct Losses {
+  uint32_t places = 0;                    // for influences, per vertex
+  size_t cut_positions = 0;               // with more influences than that
+  double max_weight_cut = 0;              // share of a position's weight, 0..1
+  size_t corrected_positions = 0;         // with negative weights, or weights that do not sum to 1
+  double max_correction = 0;              // largest change of a sum
+  std::vector<std::string> empty_meshes;  // left out
+};
+
+/// A scene, and where its parts come from.
+struct RigScene {
+  Scene scene;
+  std::vector<uint32_t> rig_meshes;             // of each mesh
+  std::vector<std::vector<uint16_t>> channels;  // of each mesh's targets; empty if baked
+  Losses losses;
+};
+
+/// Meshes without skin and targets: neutral positions and normals, texture coordinates, colors,
+/// materials, LODs.
+RigScene make_still_scene(const RigSource& source, const SceneOptions& options);
+
+/// The same with skeleton, skin, and a morph target for each channel that a LOD of the mesh drives.
+/// Targets turn normals by what the recomputed ones change.
+RigScene make_rig_scene(const RigSource& source, const SceneOptions& options);
+
+/// Opens in this pose: `pose` was updated from these channel weights.
+void set_pose(RigScene& scene, const RigSource& source, const MienDeformerInstance* pose,
+              const MienFloatView& channel_weights);
+
+/// Frames of a rig scene, one after the other, as tracks.
+class AnimationRecorder {
+ public:
+  AnimationRecorder(const RigScene& scene, const RigSource& source, std::string name, double rate);
+
+  /// `pose` was updated from these channel weights.
+  void add_frame(const MienDeformerInstance* pose, const MienFloatView& channel_weights);
+
+  /// Only what moves: a joint's values that all frames leave at the pose of the scene have no
+  /// track.
+  Animation finish();
+
+ private:
+  const RigScene& scene_;
+  const RigSource& source_;
+  double rate_;
+  Animation animation_;
+};
+
+/// In the neutral pose.
+cli::DeformerInstance make_deformer_instance(const RigSource& source);
+
+/// How far each vertex of a mesh moves: `positions` and `normals` as of the pose less those given,
+/// in the axes of glTF. Vertices that move less than `least` (meters) and turn less than 1e-3 are
+/// left out.
+MorphTarget difference(const RigSource& source, uint32_t rig_mesh, const MienDeformerInstance* pose,
+                       const std::vector<float>& neutral_positions,
+                       const std::vector<float>& neutral_normals, double least);
+
+}  // namespace mien::gltf

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Controls named on the command line, and names chosen by patterns.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "integrations/cli/io/frames.h"
+
+namespace mien::cli {
+
+struct Control {
+  uint32_t kind;  // MIEN_KIND_RAW_CONTROL or MIEN_KIND_GUI_CONTROL
+  uint32_t index;
+  std::string name;
+};
+
+/// A name without its prefix, which ends with the last dot: "jawOpen" of "CTRL_expressions.jawOpen".
+std::string_view short_name(std::string_view name);
+
+/// A raw or GUI control by its name, or by its short name if only one control has it; raw controls
+/// come first. Fails with the nearest name and exit code 2.
+Control find_control(const MienRig* rig, const std::string& name, const std::string& what,
+                     const std::string& where);
+
+/// Settings such as "jawOpen=0.5" as a frame: GUI controls are mapped first, then raw ones are set.
+Frame parse_settings(const std::vector<std::string>& settings, const MienRig* rig,
+                     const std::string& shown);
+
+/// `pattern` is a list of names with commas between; * stands for any characters and ? for one. Case
+/// does not matter, and a pattern may match the name or the short name.
+bool matches_pattern(std::string_view pattern, std::string_view name);
+
+}  // namespace mien::cli

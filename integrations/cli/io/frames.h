@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// FRAMES of `mien eval`: JSON text -> values for the inputs of an instance.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "capi/mien.h"
+
+namespace mien::cli {
+
+struct Assignment {
+  uint32_t index;
+  float value;
+};
+
+/// Applied in this order: masks, GUI controls, the mapping to raw controls, raw controls.
+struct Frame {
+  std::vector<Assignment> masks;
+  std::vector<Assignment> gui;
+  bool maps_gui = false;
+  std::vector<Assignment> raw;
+};
+
+/// Checks names, counts and numbers against the rig. `shown` names the input in messages.
+std::vector<Frame> parse_frames(const std::string& text, const MienRig* rig,
+                                const std::string& shown);
+
+/// The same from a file; "-" reads standard input.
+std::vector<Frame> read_frames(const std::string& path, const MienRig* rig);
+
+/// Writes a frame into a fresh instance, which is then ready to be evaluated.
+void apply_frame(const Frame& frame, const MienRig* rig, MienInstance* instance);
+
+}  // namespace mien::cli

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/cli/io/nearest_name.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace mien::cli {
+
+namespace {
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
+}
+
+/// Insertions, deletions, replacements and exchanges of neighbors that turn `a` into `b`.
+size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<size_t> before_last, last(b.size() + 1), row(b.size() + 1);
+  for (size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t replaced = last[j - 1] + (a[i - 1] != b[j - 1]);
+      row[j] = std::min({replaced, last[j] + 1, row[j - 1] + 1});
+      const bool exchanged = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (exchanged) row[j] = std::min(row[j], before_last[j - 2] + 1);
+    }
+    before_last = last;
+    std::swap(last, row);
+  }
+  return last[b.size()];
+}
+
+}  // namespace
+
+NearestName::NearestName(std::string_view name)
+    : name_(lower_case(name)), best_distance_(std::min<size_t>(name.size() / 4, 5) + 2) {}
+
+void NearestName::offer(std::string_view candidate) {
+  const std::string lower = lower_case(candidate);
+  const size_t dot = lower.find('.');
+  size_t distance = edit_distance(name_, lower);
+  if (dot != std::string::npos && name_.find('.') == std::string::npos) {
+    distance = std::min(distance, edit_distance(name_, std::string_view(lower).substr(dot + 1)));
+  }
+  if (distance >= best_distance_) return;
+  best_distance_ = distance;
+  best_ = candidate;
+}
+
+std::string NearestName::question(const std::string& otherwise) const {
+  return best_.empty() ? otherwise : "did you mean \"" + best_ + "\"?";
+}
+
+std::string nearest_question(std::string_view name, const std::vector<std::string>& candidates,
+                             const std::string& otherwise) {
+  NearestName nearest(name);
+  for (const std::string& candidate : candidates) nearest.offer(candidate);
+  return nearest.question(otherwise);
+}
+
+std::string list_of(const std::vector<std::string>& names, const std::string& last_word) {
+  std::string list;
+  for (size_t i = 0; i < names.size(); ++i) {
+    if (i != 0) list += i + 1 == names.size() ? " " + last_word + " " : ", ";
+    list += names[i];
+  }
+  return list;
+}
+
+}  // namespace mien::cli

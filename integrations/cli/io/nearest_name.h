@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// "Did you mean ...?": the candidate nearest to a name.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mien::cli {
+
+/// Finds the candidate nearest to a name by edit distance. Case does not matter, and the prefix of a
+/// candidate may be left out: "jawOpen" matches "CTRL_expressions.jawOpen".
+class NearestName {
+ public:
+  explicit NearestName(std::string_view name);
+
+  void offer(std::string_view candidate);
+
+  /// `did you mean "..."?`, or `otherwise` if none was near.
+  std::string question(const std::string& otherwise) const;
+
+ private:
+  std::string name_;
+  std::string best_;
+  size_t best_distance_;
+};
+
+std::string nearest_question(std::string_view name, const std::vector<std::string>& candidates,
+                             const std::string& otherwise);
+
+/// "a, b or c"
+std::string list_of(const std::vector<std::string>& names, const std::string& last_word);
+
+}  // namespace mien::cli

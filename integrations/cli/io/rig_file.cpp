@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/cli/io/rig_file.h"
+
+#include "integrations/cli/io/baked_file.h"
+#include "integrations/cli/io/output.h"
+
+namespace mien::cli {
+
+std::string shown_name(const std::string& path) { return path == "-" ? "standard input" : path; }
+
+RigFile open_rig_file(const std::string& path, const MienDnaDesc& desc, const Session& session) {
+  RigFile file;
+  file.shown = shown_name(path);
+  MienDna* dna = nullptr;
+  auto error = sized<MienError>();
+  MienStatus status;
+  if (path == "-") {
+    file.bytes = read_standard_input();
+    status = mien_dna_open_memory(file.bytes.data(), file.bytes.size(), &desc, &dna, &error);
+  } else {
+    status = mien_dna_open_file(path.c_str(), &desc, &dna, &error);
+  }
+  if (status == MIEN_ERROR_DNA_SIGNATURE &&
+      (path == "-" ? is_baked_bytes(file.bytes) : is_baked_file(path))) {
+    fail(kInvalid, "cannot open rig", file.shown,
+         "this is a baked file, and the command needs a DNA file",
+         "give the DNA file that it was baked from");
+  }
+  check(status, &error, "cannot open rig", file.shown);
+  file.dna.reset(dna);
+  file.info = sized<MienDnaInfo>();
+  check(mien_dna_info(dna, &file.info), nullptr, "cannot read rig", file.shown);
+
+  uint64_t named = 0;
+  for (uint64_t mask = desc.lods; mask != 0; mask &= mask - 1) ++named;
+  // A range may reach past the last LOD, and its default does; a list means what it names.
+  const bool range = (desc.lods & (uint64_t{1} << kLastMaskLod)) != 0;
+  if (!range && named > file.info.lod_count) {
+    note(session, file.shown + ": only " + std::to_string(file.info.lod_count) + " of the " +
+                      std::to_string(named) + " requested LODs exist");
+  }
+  return file;
+}
+
+Rig create_rig(const RigFile& file, const MienRigDesc& desc) {
+  auto error = sized<MienError>();
+  MienRig* rig = nullptr;
+  check(mien_rig_create(file.dna.get(), &desc, &rig, &error), &error, "cannot compile rig",
+        file.shown);
+  return Rig(rig);
+}
+
+MienRigInfo rig_info(const MienRig* rig) {
+  auto info = sized<MienRigInfo>();
+  check(mien_rig_info(rig, &info), nullptr, "cannot read rig", "");
+  return info;
+}
+
+uint32_t rig_count(const MienRig* rig, uint32_t kind) {
+  uint32_t count = 0;
+  check(mien_rig_count(rig, kind, &count), nullptr, "cannot read rig", "");
+  return count;
+}
+
+std::string rig_name(const MienRig* rig, uint32_t kind, uint32_t index) {
+  MienStringView name{};
+  check(mien_rig_name(rig, kind, index, &name), nullptr, "cannot list names", "");
+  return to_string(name);
+}
+
+}  // namespace mien::cli

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/cli/io/write_dna.h"
+
+#include <vector>
+
+#include "integrations/cli/io/failure.h"
+#include "integrations/cli/io/handles.h"
+#include "integrations/cli/io/output.h"
+
+namespace mien::cli {
+
+void write_dna(const MienDna* dna, const MienWriteDesc& desc, const std::string& path) {
+  // Through memory, so that Output writes files, devices and standard output alike and cleans up
+  // after an interrupt.
+  const std::string shown = path == "-" ? "standard output" : path;
+  auto error = sized<MienError>();
+  size_t size = 0;
+  check(mien_dna_write_memory(dna, &desc, nullptr, 0, &size, &error), &error, "cannot write DNA",
+        shown);
+  std::vector<char> bytes(size);
+  check(mien_dna_write_memory(dna, &desc, bytes.data(), bytes.size(), &size, &error), &error,
+        "cannot write DNA", shown);
+  Output output(path);
+  output.write(bytes.data(), size);
+  output.commit();
+}
+
+}  // namespace mien::cli

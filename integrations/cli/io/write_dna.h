@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// OUT of the commands that write DNA files.
+#pragma once
+
+#include <string>
+
+#include "capi/mien.h"
+
+namespace mien::cli {
+
+/// Writes to a file, a device, or with "-" to standard output.
+void write_dna(const MienDna* dna, const MienWriteDesc& desc, const std::string& path);
+
+}  // namespace mien::cli

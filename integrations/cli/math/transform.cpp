@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/cli/math/transform.h"
+
+namespace mien::math {
+
+Quaternion normalized(const Quaternion& q) {
+  const double length = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+  if (!(length > 0) || !std::isfinite(length)) return {};
+  return {q.x / length, q.y / length, q.z / length, q.w / length};
+}
+
+Matrix matrix_of(const Transform& transform) {
+  const auto [x, y, z, w] = transform.rotation;
+  const double rotation[3][3] = {
+      {1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
+      {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
+      {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
+  Matrix matrix;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) matrix.m[r][c] = rotation[r][c] * transform.scale[c];
+    matrix.m[r][3] = transform.translation[r];
+  }
+  return matrix;
+}
+
+Matrix operator*(const Matrix& a, const Matrix& b) {
+  Matrix product;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 4; ++c) {
+      product.m[r][c] = c == 3 ? a.m[r][3] : 0;
+      for (int k = 0; k < 3; ++k) product.m[r][c] += a.m[r][k] * b.m[k][c];
+    }
+  }
+  return product;
+}
+
+Matrix inverse(const Matrix& a) {
+  const Vec3d rows[3] = {{a.m[0][0], a.m[0][1], a.m[0][2]},
+                         {a.m[1][0], a.m[1][1], a.m[1][2]},
+                         {a.m[2][0], a.m[2][1], a.m[2][2]}};
+  const double determinant = dot(rows[0], cross(rows[1], rows[2]));
+  Matrix result;
+  if (!std::isnormal(determinant)) return result;
+  for (int c = 0; c < 3; ++c) {
+    const Vec3d column = cross(rows[(c + 1) % 3], rows[(c + 2) % 3]) * (1 / determinant);
+    for (int r = 0; r < 3; ++r) result.m[r][c] = column[r];
+  }
+  for (int r = 0; r < 3; ++r) {
+    result.m[r][3] = 0;
+    for (int k = 0; k < 3; ++k) result.m[r][3] -= result.m[r][k] * a.m[k][3];
+  }
+  return result;
+}
+
+}  // namespace mien::math

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/cli/render/light.h"
+
+namespace mien::render {
+
+using namespace math;
+
+namespace {
+
+struct Lamp {
+  Vec3 direction, color;
+};
+
+const Lamp kKey = {normalized(Vec3{-0.52f, 0.58f, 0.74f}, {}), {1.16f, 1.07f, 0.97f}};
+const Lamp kFill = {normalized(Vec3{0.85f, 0.05f, 0.62f}, {}), {0.13f, 0.155f, 0.19f}};
+const Lamp kRims[] = {{normalized(Vec3{0.82f, 0.42f, -0.62f}, {}), {0.95f, 1.08f, 1.25f}},
+                      {normalized(Vec3{-0.80f, 0.30f, -0.75f}, {}), {0.42f, 0.46f, 0.52f}}};
+constexpr Vec3 kSkyAbove = {0.27f, 0.30f, 0.345f};
+constexpr Vec3 kSkyBelow = {0.13f, 0.105f, 0.092f};
+
+float smooth_step(float from, float to, float x) {
+  const float t = saturate((x - from) / (to - from));
+  return t * t * (3 - 2 * t);
+}
+
+/// Lambert's cosine, reaching `around` past the terminator, with the same light in all.
+float wrap(float cosine, float around) {
+  const float t = saturate((cosine + around) / (1 + around));
+  return t * t * (1 - around) + t * around * 0.9f + (1 - around) * std::max(cosine, 0.0f) * (1 - t);
+}
+
+float fresnel(float cosine) {
+  const float x = 1 - saturate(cosine), squared = x * x;
+  return squared * squared * x;
+}
+
+/// GGX distribution over four times its visibility, in the form with the half vector only.
+float glint(Vec3 normal, Vec3 half, float light_half, float roughness) {
+  const float a = roughness * roughness, nh = saturate(dot(normal, half));
+  const float d = nh * nh * (a * a - 1) + 1;
+  return a * a / (d * d * std::max(0.1f, light_half * light_half) * (4 * roughness + 2));
+}
+
+float highlight(const Fragment& f, const Lamp& lamp, const Material& material) {
+  const float cosine = dot(f.normal, lamp.direction);
+  if (cosine <= 0) return 0;
+  const Vec3 half = normalized(lamp.direction + f.to_eye, f.normal);
+  const float light_half = saturate(dot(lamp.direction, half));
+  const float strength = material.reflectance + (1 - material.reflectance) * fresnel(light_half);
+  return strength * glint(f.normal, half, light_half, material.roughness) * cosine;
+}
+
+/// Light that comes back from the walls of a hollow takes on their color (Jimenez et al. 2016,
+/// "Practical realtime strategies for accurate indirect occlusion", the cubic fit there).
+Vec3 bounced(float openness, Vec3 color) {
+  const auto one = [&](float albedo) {
+    const float a = 2.0404f * albedo - 0.3324f, b = -4.7951f * albedo + 0.6417f;
+    const float c = 2.7552f * albedo + 0.6903f;
+    return std::max(openness, ((openness * a + b) * openness + c) * openness);
+  };
+  return {one(color.x), one(color.y), one(color.z)};
+}
+
+}  // namespace
+
+Vec3 key_direction() { return kKey.direction; }
+
+Vec3 light(const Fragment& f, float openness, float key) {
+  const Material& m = f.on->surface.material;
+  const Vec3 open = bounced(openness, f.color);
+  const float soft = m.softness, nv = saturate(dot(f.normal, f.to_eye));
+
+  // Red light goes furthest through skin: it reaches around more, and colors the terminator.
+  const float cosine = dot(f.normal, kKey.direction);
+  // Where a surface turns away it shades itself; there the cosine decides, not the map.
+  const float seen = std::max(key, 1 - smooth_step(-soft, 0.2f, cosine));
+  const float bleed = 0.5f * soft * seen * (1 - seen);
+  const Vec3 around = {wrap(cosine, soft) * (seen + bleed), wrap(cosine, soft * 0.55f) * seen,
+                       wrap(cosine, soft * 0.42f) * (seen - 0.3f * bleed)};
+  Vec3 diffuse = kKey.color * around * mix(open, {1, 1, 1}, 0.6f);
+  diffuse += kFill.color * open * wrap(dot(f.normal, kFill.direction), 0.5f);
+  diffuse += mix(kSkyBelow, kSkyAbove, 0.5f + 0.5f * f.normal.y) * open;
+
+  const float gloss_open = saturate(openness * 1.2f);
+  Vec3 shine = kKey.color * (highlight(f, kKey, m) * seen * gloss_open * 1.5f);
+  shine += kFill.color * (highlight(f, kFill, m) * gloss_open * 1.5f);
+  for (const Lamp& rim : kRims) {
+    const float edge = 1 - nv, facing = std::max(dot(f.normal, rim.direction) + 0.15f, 0.0f);
+    const float strength = edge * edge * facing * gloss_open;
+    diffuse += rim.color * (strength * 0.75f);
+    shine += rim.color * (strength * edge * 0.10f);
+  }
+  // The sky in a wet surface.
+  shine += kSkyAbove * ((m.reflectance + (1 - m.reflectance) * fresnel(nv)) * (1 - m.roughness) *
+                        gloss_open * (0.35f + 0.65f * saturate(f.normal.y)));
+  return f.color * diffuse + shine;
+}
+
+Vec3 tone(Vec3 linear) {
+  constexpr float kStart = 0.6f;
+  const auto one = [](float x) {
+    if (!(x > kStart)) return x;
+    const float over = (x - kStart) / (1 - kStart);
+    return kStart + (1 - kStart) * over / (1 + over);
+  };
+  return {one(linear.x), one(linear.y), one(linear.z)};
+}
+
+}  // namespace mien::render

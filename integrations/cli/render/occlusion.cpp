@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/cli/render/occlusion.h"
+
+namespace mien::render {
+
+using namespace math;
+
+namespace {
+
+constexpr int kProbes = 8;
+constexpr int kTile = 4;  // pixels of a tile probe in different directions; a blur evens them out
+
+struct Probes {
+  float x[kTile * kTile][kProbes], y[kTile * kTile][kProbes];
+
+  Probes() {
+    constexpr float kGoldenAngle = 2.399963f;
+    for (int turn = 0; turn < kTile * kTile; ++turn) {
+      // Neighbors in a tile are far from each other in turn.
+      const float start = float(turn * 7 % 16) / 16 * 6.2831853f;
+      for (int i = 0; i < kProbes; ++i) {
+        const float share = (float(i) + 0.5f) / kProbes;
+        const float reach = share * std::sqrt(share);  // denser near the pixel
+        const float angle = start + kGoldenAngle * float(i);
+        x[turn][i] = reach * std::cos(angle);
+        y[turn][i] = reach * std::sin(angle);
+      }
+    }
+  }
+};
+
+float probe_pixel(const PixelLayer& layer, const Lens& lens, float radius, int x, int y,
+                  const float* dx, const float* dy) {
+  const float per_pixel = 1 / lens.focal;
+  const auto place = [&](int px, int py, float distance) {
+    return Vec3{(float(px) + 0.5f - lens.center_x) * per_pixel * distance,
+                (lens.center_y - float(py) - 0.5f) * per_pixel * distance, -distance};
+  };
+  const size_t at = layer.index(x, y);
+  const float distance = layer.distance[at];
+  const Vec3 here = place(x, y, distance), normal = layer.normal[at];
+  const float reach = std::min(radius * lens.focal / distance, float(layer.width));
+  const float start_x = float(x) + 0.5f, start_y = float(y) + 0.5f;
+  float blocked = 0;
+  for (int i = 0; i < kProbes; ++i) {
+    const int px = int(start_x + dx[i] * reach), py = int(start_y + dy[i] * reach);
+    if (px < 0 || py < 0 || px >= layer.width || py >= layer.height) continue;
+    const float there = layer.distance[layer.index(px, py)];
+    if (there == 0) continue;
+    const Vec3 step = place(px, py, there) - here;
+    const float squared = dot(step, step);
+    const float fade = 1 - squared / (radius * radius);
+    if (fade <= 0 || squared == 0) continue;
+    const float rise = dot(step, normal) / std::sqrt(squared);
+    blocked += std::max(rise - 0.08f, 0.0f) * fade;
+  }
+  return std::max(1 - 2.2f * blocked / kProbes, 0.0f);
+}
+
+/// Means of as many pixels as a tile is wide, along rows or columns; those apart in depth are left
+/// out.
+void blur(const PixelLayer& layer, const std::vector<float>& from, std::vector<float>& to,
+          float depth, bool along_rows) {
+  const size_t step = along_rows ? 1 : size_t(layer.width);
+  const int count = along_rows ? layer.width : layer.height;
+  size_t at = 0;
+  for (int y = 0; y < layer.height; ++y) {
+    for (int x = 0; x < layer.width; ++x, ++at) {
+      const float distance = layer.distance[at];
+      to[at] = 1;
+      if (distance == 0) continue;
+      const int place = along_rows ? x : y;
+      const int first = std::max(place - kTile / 2, 0), end = std::min(place + kTile / 2, count);
+      size_t near = at - size_t(place - first) * step;
+      float sum = 0, weight = 0;
+      for (int i = first; i < end; ++i, near += step) {
+        const float w = std::fabs(layer.distance[near] - distance) < depth ? 1.0f : 0.0f;
+        sum += w * from[near];
+        weight += w;
+      }
+      to[at] = sum / weight;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<float> find_openness(const PixelLayer& layer, const Lens& lens, float radius) {
+  static const Probes probes;
+  std::vector<float> openness(layer.distance.size(), 1.0f), row_wise(layer.distance.size());
+  for (int y = 0; y < layer.height; ++y) {
+    for (int x = 0; x < layer.width; ++x) {
+      const size_t at = layer.index(x, y);
+      if (layer.distance[at] == 0) continue;
+      const int turn = y % kTile * kTile + x % kTile;
+      openness[at] = probe_pixel(layer, lens, radius, x, y, probes.x[turn], probes.y[turn]);
+    }
+  }
+  // Any window of the size of a tile holds each direction once.
+  const float depth = radius * 0.3f;
+  blur(layer, openness, row_wise, depth, true);
+  blur(layer, row_wise, openness, depth, false);
+  return openness;
+}
+
+ShadowMap::ShadowMap(const Scene& scene, Vec3 to_light, int size) {
+  back_ = to_light;
+  right_ = normalized(cross({0, 1, 0}, back_), {1, 0, 0});
+  up_ = cross(back_, right_);
+  Box box;
+  std::vector<std::vector<Vec3>> turned;
+  for (const PlacedSurface& surface : scene.surfaces()) {
+    std::vector<Vec3> places(surface.places.size());
+    for (size_t i = 0; i < places.size(); ++i) {
+      const Vec3 p = surface.places[i];
+      places[i] = {dot(p, right_), dot(p, up_), dot(p, back_)};
+      box.add(places[i]);
+    }
+    turned.push_back(std::move(places));
+  }
+  map_.reset(size, size, 1);
+  if (box.empty()) return;
+
+  // A border of some texels stays empty, so that places outside are in the light.
+  constexpr float kBorder = 8;
+  const float extent = std::max({box.size().x, box.size().y, 1e-20f});
+  texel_ = extent / (float(size) - 2 * kBorder);
+  lens_.perspective = false;
+  lens_.focal = 1 / texel_;
+  lens_.center_x = float(size) / 2 - box.center().x / texel_;
+  lens_.center_y = float(size) / 2 + box.center().y / texel_;
+  depth_zero_ = box.min.z - std::max(box.size().z, extent);
+  for (size_t s = 0; s < turned.size(); ++s) {
+    for (Vec3& p : turned[s]) p.z -= depth_zero_;
+    TriangleList list = scene.surfaces()[s].triangles();
+    list.positions = turned[s].data();
+    draw(list, lens_, map_);
+  }
+}
+
+float ShadowMap::light_at(Vec3 place, Vec3 normal) const {
+  if (texel_ == 0) return 1;
+  // Stepping off the surface, further where the light grazes, keeps it from shading itself.
+  const float slope = 1 - std::max(dot(normal, back_), 0.0f);
+  const Vec3 p = place + normal * (texel_ * (2 + 4 * slope));
+  constexpr int kTaps = 7;  // a box of 6 texels, moved smoothly
+  const float x = lens_.center_x + dot(p, right_) / texel_ - 0.5f - kTaps / 2 + 0.5f;
+  const float y = lens_.center_y - dot(p, up_) / texel_ - 0.5f - kTaps / 2 + 0.5f;
+  const float depth = dot(p, back_) - depth_zero_ + texel_;
+  if (!(x >= 0 && y >= 0 && x < float(map_.width - kTaps) && y < float(map_.height - kTaps)))
+    return 1;
+  const int left = int(x), top = int(y);
+  const float fx = x - float(left), fy = y - float(top);
+  float lit = 0;
+  for (int j = 0; j < kTaps; ++j) {
+    const Seen* row = &map_.seen[size_t(top + j) * size_t(map_.width) + size_t(left)];
+    float sum = 0;
+    for (int i = 0; i < kTaps; ++i) {
+      const float weight = i == 0 ? 1 - fx : i == kTaps - 1 ? fx : 1.0f;
+      sum += row[i].depth < depth ? weight : 0.0f;
+    }
+    lit += sum * (j == 0 ? 1 - fy : j == kTaps - 1 ? fy : 1.0f);
+  }
+  return lit / ((kTaps - 1) * (kTaps - 1));
+}
+
+}  // namespace mien::render

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Surfaces, a camera and the light of a small studio -> a picture. One thread, no randomness: the
+// same scene gives the same picture.
+//
+//     positions -> visibility (depth and triangle per sample)
+//               -> pixel layer (place and normal per pixel) -> occlusion
+//     light's view -> shadow map                                        \ -> light -> picture
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "integrations/cli/math/vector.h"
+#include "integrations/cli/render/camera.h"
+#include "integrations/cli/render/image.h"
+
+namespace mien::render {
+
+/// How a surface takes light.
+struct Material {
+  Color color = {205, 170, 150};
+  float softness = 0.35f;   // how far light reaches around into shadow, as in skin
+  float roughness = 0.45f;  // 0.05 is wet, 0.6 chalk
+  float reflectance = 0.03f;
+};
+
+/// Triangles as a deformer gives them. The arrays stay the caller's.
+struct Surface {
+  const float* positions = nullptr;  // x y z each
+  size_t position_count = 0;
+  const float* normals = nullptr;  // x y z of each vertex; null: made from the triangles
+  const uint32_t* vertex_position_indices = nullptr;  // null: vertex i is position i
+  size_t vertex_count = 0;
+  const uint32_t* triangles = nullptr;  // three vertices each
+  size_t triangle_count = 0;
+  const uint8_t* colors = nullptr;  // sRGB of each position; null: the color of the material
+  // Bit k of a triangle: a wireframe leaves out the edge from corner k to the next. Null: it has
+  // all.
+  const uint8_t* inner_edges = nullptr;
+  Material material;
+};
+
+struct Backdrop {
+  Color center = {92, 97, 104};
+  Color edge = {38, 41, 46};
+};
+
+struct RenderOptions {
+  int width = 640, height = 640;
+  int samples = 4;  // per pixel: 1, 4 or 16
+  bool wireframe = false;
+  Backdrop backdrop;
+  // Size of the subject, which hollows and the softness of shadows are measured by; 0: that of the
+  // box around all surfaces.
+  float scale = 0;
+};
+
+/// Corners that are not finite, degenerate triangles and indices past the end are left out. Width
+/// and height are 1 to 8192. Throws std::bad_alloc.
+Image render_image(const std::vector<Surface>& surfaces, const Camera& camera,
+                   const RenderOptions& options);
+
+}  // namespace mien::render

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Surfaces as the stages of one picture see them: in view space, numbered through, nothing missing.
+#pragma once
+
+#include <vector>
+
+#include "integrations/cli/render/render.h"
+#include "integrations/cli/render/visibility.h"
+
+namespace mien::render {
+
+struct PlacedSurface {
+  Surface surface;
+  std::vector<math::Vec3> places;       // positions in view space
+  std::vector<math::Vec3> own_normals;  // of each position, in model space, if the surface has none
+  std::vector<math::Vec3> colors;       // linear, of each position; empty: one for all
+  math::Vec3 color;
+  float facing;  // 1 or -1: times the winding's normal it is on the side of the normals
+  uint32_t first_number;
+
+  TriangleList triangles() const;
+  math::Vec3 normal(size_t vertex) const;
+};
+
+/// One place of a surface, in view space.
+struct Fragment {
+  const PlacedSurface* on;
+  uint32_t triangle;
+  math::Vec3 place, normal, to_eye, color;
+};
+
+class Scene {
+ public:
+  Scene(const std::vector<Surface>& surfaces, const Camera& camera);
+
+  const std::vector<PlacedSurface>& surfaces() const { return surfaces_; }
+  /// Triangles are numbered from 1 on.
+  const PlacedSurface& surface_of(uint32_t number) const;
+  /// Where the line of sight along `ray` (z is -1) meets the plane of a triangle.
+  Fragment fragment(uint32_t number, math::Vec3 ray) const;
+
+  float scale() const { return scale_; }  // diagonal of the box around everything
+
+ private:
+  Camera camera_;
+  std::vector<PlacedSurface> surfaces_;
+  float scale_ = 1;
+};
+
+}  // namespace mien::render

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/cli/scene/posed_scene.h"
+
+#include <cmath>
+
+#include "integrations/cli/io/controls.h"
+#include "integrations/cli/io/dna_fields.h"
+#include "integrations/cli/io/nearest_name.h"
+#include "integrations/cli/scene/mesh_material.h"
+
+namespace mien::cli {
+
+namespace {
+
+using math::Vec3;
+using render::Axes;
+
+constexpr const char* kCannot = "cannot draw";
+
+/// Left, up and front in the axes of the file; the usual ones if two axes of the file have the same
+/// direction.
+Axes axes_of(const MienDnaInfo& info) {
+  constexpr Vec3 kUnit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  Axes axes;
+  bool left = false, up = false, front = false;
+  for (int i = 0; i < 3; ++i) {
+    switch (info.axes[i]) {
+      case MIEN_DIRECTION_LEFT: axes.left = kUnit[i], left = true; break;
+      case MIEN_DIRECTION_RIGHT: axes.left = -kUnit[i], left = true; break;
+      case MIEN_DIRECTION_UP: axes.up = kUnit[i], up = true; break;
+      case MIEN_DIRECTION_DOWN: axes.up = -kUnit[i], up = true; break;
+      case MIEN_DIRECTION_FRONT: axes.front = kUnit[i], front = true; break;
+      case MIEN_DIRECTION_BACK: axes.front = -kUnit[i], front = true; break;
+      default: break;
+    }
+  }
+  return left && up && front ? axes : Axes{};
+}
+
+/// Which edges of the triangles are not edges of faces. The deformer makes each face a fan about its
+/// first corner, in file order; faces of fewer than three corners have no triangles.
+std::vector<uint8_t> find_inner_edges(const RigFile& file, uint32_t mesh, size_t triangle_count) {
+  const std::string faces = element("geom.meshes", mesh, ".faces");
+  const uint64_t face_count = field_count(file, faces);
+  std::vector<uint8_t> inner;
+  inner.reserve(triangle_count);
+  for (uint64_t face = 0; face < face_count; ++face) {
+    const uint64_t corners = field_count(file, element(faces, face, ".layoutIndices"));
+    for (uint64_t k = 2; k < corners; ++k) {
+      // Edge 0 leaves the first corner, edge 2 comes back to it.
+      inner.push_back(static_cast<uint8_t>((k > 2 ? 1 : 0) | (k + 1 < corners ? 4 : 0)));
+    }
+  }
+  inner.resize(triangle_count);
+  return inner;
+}
+
+SceneMesh make_mesh(const PosedScene& scene, uint32_t mesh, const std::string& name,
+                    const PosedSceneOptions& options, const Session& session) {
+  SceneMesh made{};
+  made.mesh = mesh;
+  made.name = name;
+  made.mesh_class = mesh_class(name);
+  made.neutral = sized<MienMesh>();
+  check(mien_deformer_mesh(scene.deformer.get(), mesh, &made.neutral), nullptr, kCannot,
+        scene.file.shown);
+  const uint32_t positions = made.neutral.position_count;
+  VertexColors colors = read_vertex_colors(scene.file.dna.get(), name, positions);
+  if (!colors.problem.empty()) {
+    note(session, scene.file.shown + ": " + colors.problem + "; drawing without these colors");
+  }
+  made.colors = std::move(colors.rgb);
+  if (made.colors.empty() && made.mesh_class == MeshClass::kEye) {
+    made.colors = paint_eye(made.neutral.positions.data, positions, scene.axes.front);
+  }
+  if (options.wireframe) {
+    made.inner_edges = find_inner_edges(scene.file, mesh, made.neutral.triangle_count);
+  }
+  return made;
+}
+
+/// Files may name meshes and leave their geometry out.
+bool has_geometry(const RigFile& file) {
+  auto field = sized<MienDnaField>();
+  const MienStatus status = mien_dna_field(file.dna.get(), "geom.meshes", &field, nullptr);
+  return status == MIEN_OK && field.count != 0;
+}
+
+void choose_meshes(PosedScene& scene, const PosedSceneOptions& options, const Session& session) {
+  MienIndexView indices{};
+  check(mien_rig_lod_indices(scene.rig.get(), MIEN_KIND_MESH, 0, &indices), nullptr, kCannot,
+        scene.file.shown);
+  NearestName nearest(options.meshes);
+  bool any = false;
+  for (size_t i = 0; i < indices.count; ++i) {
+    const uint32_t index = indices.data[i];
+    const std::string name = rig_name(scene.rig.get(), MIEN_KIND_MESH, index);
+    const SceneMesh mesh = make_mesh(scene, index, name, options, session);
+    if (mesh.neutral.triangle_count == 0) continue;
+    any = true;
+    nearest.offer(name);
+    const bool chosen = options.meshes.empty()
+                            ? !mesh.colors.empty() || !needs_textures(mesh.mesh_class)
+                            : matches_pattern(options.meshes, name);
+    if (chosen) scene.meshes.push_back(mesh);
+  }
+  if (!scene.meshes.empty()) return;
+  const std::string lod = "LOD " + std::to_string(scene.lod);
+  if (!any && options.geometry_optional) return;
+  if (!any) {
+    fail(kInvalid, kCannot, scene.file.shown, "no mesh of " + lod + " has faces",
+         "give a rig with geometry, or another --lod; see 'mien info'");
+  }
+  if (options.meshes.empty()) {
+    fail(kInvalid, kCannot, scene.file.shown,
+         "all meshes of " + lod + " need textures, such as shells of eyes",
+         "choose some with --meshes");
+  }
+  fail(kInvalid, kCannot, scene.file.shown,
+       "no mesh of " + lod + " matches \"" + options.meshes + "\"",
+       nearest.question("'mien info RIG --names meshes' lists the names"));
+}
+
+}  // namespace
+
+std::string PosedScene::unit() const {
+  return file.info.translation_unit == MIEN_TRANSLATION_METERS ? "m" : "cm";
+}
+
+const float* PosedScene::positions(const SceneMesh& mesh) const {
+  MienFloatView view{};
+  check(mien_deformer_instance_positions(pose.get(), mesh.mesh, &view), nullptr, kCannot,
+        file.shown);
+  return view.data;
+}
+
+std::vector<render::Surface> PosedScene::surfaces() const {
+  std::vector<render::Surface> surfaces;
+  for (const SceneMesh& mesh : meshes) {
+    MienFloatView normals{};
+    check(mien_deformer_instance_normals(pose.get(), mesh.mesh, &normals), nullptr, kCannot,
+          file.shown);
+    render::Surface surface;
+    surface.positions = positions(mesh);
+    surface.position_count = mesh.neutral.position_count;
+    surface.normals = normals.data;
+    surface.vertex_position_indices = mesh.neutral.vertex_position_indices.data;
+    surface.vertex_count = mesh.neutral.vertex_count;
+    surface.triangles = mesh.neutral.triangles.data;
+    surface.triangle_count = mesh.neutral.triangle_count;
+    if (!mesh.colors.empty()) surface.colors = mesh.colors.data();
+    if (!mesh.inner_edges.empty()) surface.inner_edges = mesh.inner_edges.data();
+    surface.material = mesh_material(mesh.mesh_class);
+    surfaces.push_back(surface);
+  }
+  return surfaces;
+}
+
+std::vector<Vec3> PosedScene::neutral_points() const {
+  std::vector<Vec3> points;
+  for (const SceneMesh& mesh : meshes) {
+    for (uint32_t i = 0; i < mesh.neutral.position_count; ++i) {
+      points.push_back(math::load3(mesh.neutral.positions.data, i));
+    }
+  }
+  return points;
+}
+
+math::Box PosedScene::neutral_box() const {
+  math::Box box;
+  for (const SceneMesh& mesh : meshes) {
+    for (uint32_t i = 0; i < mesh.neutral.position_count; ++i) {
+      box.add(math::load3(mesh.neutral.positions.data, i));
+    }
+  }
+  return box;
+}
+
+PosedScene open_scene(const PosedSceneOptions& options, const Session& session) {
+  auto desc = sized<MienDnaDesc>();
+  desc.layers = kEvaluationLayers | MIEN_LAYER_GEOMETRY;
+  desc.lods = uint64_t{1} << options.lod;  // nothing of the other LODs is read
+
+  PosedScene scene;
+  scene.lod = options.lod;
+  scene.file = open_rig_file(options.rig, desc, session);
+  scene.rig = create_rig(scene.file, sized<MienRigDesc>());
+  scene.axes = axes_of(scene.file.info);
+
+  auto error = sized<MienError>();
+  MienInstance* instance = nullptr;
+  check(mien_instance_create(scene.rig.get(), nullptr, &instance, &error), &error, kCannot,
+        scene.file.shown);
+  scene.instance.reset(instance);
+  if (!has_geometry(scene.file)) {
+    if (options.geometry_optional) return scene;
+    fail(kInvalid, kCannot, scene.file.shown, "the file has no geometry",
+         "give a rig with meshes; see 'mien info'");
+  }
+
+  MienDeformer* deformer = nullptr;
+  check(mien_deformer_create(scene.file.dna.get(), scene.rig.get(), nullptr, &deformer, &error),
+        &error, "cannot compile geometry", scene.file.shown);
+  scene.deformer.reset(deformer);
+  MienDeformerInstance* pose = nullptr;
+  check(mien_deformer_instance_create(deformer, nullptr, &pose, &error), &error, kCannot,
+        scene.file.shown);
+  scene.pose.reset(pose);
+  choose_meshes(scene, options, session);
+  return scene;
+}
+
+void pose_scene(PosedScene& scene, const Frame& frame) {
+  MienInstance* instance = scene.instance.get();
+  MienDeformerInstance* pose = scene.pose.get();
+  const std::string& shown = scene.file.shown;
+  check(mien_instance_reset(instance), nullptr, kCannot, shown);
+  apply_frame(frame, scene.rig.get(), instance);
+  check(mien_rig_evaluate(scene.rig.get(), instance, 0), nullptr, kCannot, shown);
+  if (!pose) return;
+  check(mien_deformer_instance_update(pose, instance), nullptr, kCannot, shown);
+  for (const SceneMesh& mesh : scene.meshes) {
+    check(mien_deformer_instance_deform(pose, mesh.mesh, MIEN_NORMALS_DEFAULT, nullptr), nullptr,
+          kCannot, shown);
+    const float* positions = scene.positions(mesh);
+    for (size_t i = 0; i < size_t{mesh.neutral.position_count} * 3; ++i) {
+      if (std::isfinite(positions[i])) continue;
+      fail(kInvalid, kCannot, shown + ", " + mesh.name + ", position " + std::to_string(i / 3),
+           "the result is not a finite number", "give smaller controls; they are usually in 0..1");
+    }
+  }
+}
+
+}  // namespace mien::cli

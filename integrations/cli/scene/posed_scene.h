@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// A rig in a pose: the meshes of one LOD, deformed, with what the renderer needs to draw them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "integrations/cli/io/frames.h"
+#include "integrations/cli/io/mesh_appearance.h"
+#include "integrations/cli/io/rig_file.h"
+#include "integrations/cli/math/vector.h"
+#include "integrations/cli/render/camera.h"
+#include "integrations/cli/render/render.h"
+
+namespace mien::cli {
+
+struct SceneMesh {
+  uint32_t mesh;  // in the rig
+  std::string name;
+  MeshClass mesh_class;
+  MienMesh neutral;
+  std::vector<uint8_t> colors;       // r g b of each position, or empty
+  std::vector<uint8_t> inner_edges;  // of each triangle, for wireframes
+};
+
+struct PosedSceneOptions {
+  std::string rig;     // path, or "-"
+  uint32_t lod = 0;    // 0..kLastMaskLod
+  std::string meshes;  // pattern; empty: all meshes that look right without textures
+  bool wireframe = false;
+  bool geometry_optional = false;  // accept a rig without meshes
+};
+
+struct PosedScene {
+  RigFile file;
+  Rig rig;
+  Instance instance;
+  Deformer deformer;  // null without geometry, as is the next
+  DeformerInstance pose;
+  uint32_t lod = 0;  // as the file counts; no other LOD is loaded
+  std::vector<SceneMesh> meshes;
+  render::Axes axes;
+
+  std::string unit() const;
+  /// Positions of a mesh in the current pose.
+  const float* positions(const SceneMesh& mesh) const;
+  std::vector<render::Surface> surfaces() const;
+  std::vector<math::Vec3> neutral_points() const;
+  math::Box neutral_box() const;
+};
+
+/// Opens the rig, loads one LOD of it and chooses its meshes. Fails if there are none, unless
+/// geometry is optional.
+PosedScene open_scene(const PosedSceneOptions& options, const Session& session);
+
+/// Sets the controls of a frame, evaluates and deforms.
+void pose_scene(PosedScene& scene, const Frame& frame);
+
+}  // namespace mien::cli
