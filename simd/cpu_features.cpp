@@ -59,6 +59,8 @@ CpuFeatures detect_cpu_features() {
   CpuFeatures features = {};
 #if defined(__aarch64__)
   features.neon = true;  // part of AArch64
+#elif defined(__EMSCRIPTEN__)
+  features.sse2 = true;  // a module with vectors does not load where there are none
 #endif
   return features;
 }

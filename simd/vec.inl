@@ -407,7 +407,12 @@ inline Quad yzx4(Quad a) { return _mm_shuffle_ps(a, a, _MM_SHUFFLE(3, 0, 2, 1));
 inline Quad higher4(Quad a, Quad b) { return _mm_max_ps(a, b); }
 inline Quad lower4(Quad a, Quad b) { return _mm_min_ps(a, b); }
 inline Quad gather4(const float* from, const uint16_t* at, size_t stride) {
-  return _mm_setr_ps(from[at[0]], from[at[stride]], from[at[2 * stride]], from[at[3 * stride]]);
+  float first = from[at[0]];
+#if defined(__wasm__)
+  // Clang 14 would otherwise move this load behind stores that follow.
+  __asm__("" : "+r"(first));
+#endif
+  return _mm_setr_ps(first, from[at[stride]], from[at[2 * stride]], from[at[3 * stride]]);
 }
 inline void scatter4(float* to, const uint16_t* at, Quad q) {
   const __m128 upper = _mm_movehl_ps(q, q);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/base/allocator.h"
 
+#include <cstddef>
 #include <cstdlib>
 
 #if defined(_WIN32)
@@ -14,7 +15,9 @@ void* heap_allocate(void*, size_t size, size_t alignment) {
 #if defined(_WIN32)
   return _aligned_malloc(size, alignment);
 #else
-  // aligned_alloc wants a size that is a multiple of the alignment.
+  // aligned_alloc wants a size that is a multiple of the alignment, and in some C libraries an
+  // alignment that is no less than that of a pointer.
+  if (alignment <= alignof(std::max_align_t)) return malloc(size);
   if (size > SIZE_MAX - alignment) return nullptr;
   return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
 #endif
