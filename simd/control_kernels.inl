@@ -27,16 +27,15 @@ void nonzero(const NonzeroArgs& args) {
   }
 }
 
-PsdChanges psds(const PsdArgs& args) {
+uint64_t psds(const PsdArgs& args) {
   float* const controls = args.controls;
   const uint64_t* const marks = args.marks;
   const uint16_t* const outputs = args.outputs;
-  PsdChanges changes = {};
+  uint64_t changed = 0;
   const auto note = [&](size_t entry, uint32_t differs) {
-    changes.marks |= marks[outputs[entry]] & (uint64_t{0} - uint64_t{differs});
+    changed |= marks[outputs[entry]] & (uint64_t{0} - uint64_t{differs});
   };
   const Quad zero = broadcast4(0.0f), one = broadcast4(1.0f), lowest = broadcast4(kLowest);
-  uint32_t different = 0;
   for (size_t e = 0; e < args.count;) {
     const size_t length = args.run_lengths[e];
     const size_t end = e + length < args.count ? e + length : args.count;
@@ -54,7 +53,6 @@ PsdChanges psds(const PsdArgs& args) {
       note(e + 1, lanes >> 1 & 1);
       note(e + 2, lanes >> 2 & 1);
       note(e + 3, lanes >> 3);
-      different |= lanes;
     }
     for (; e < end; ++e, inputs += n) {
       float product = 1.0f;
@@ -66,11 +64,9 @@ PsdChanges psds(const PsdArgs& args) {
       const uint32_t differs = bits_of(value) != bits_of(output);
       output = value;
       note(e, differs);
-      different |= differs;
     }
   }
-  changes.any = different != 0;
-  return changes;
+  return changed;
 }
 
 inline Vec clamp01(Vec v) { return at_most(at_least(v, broadcast(0.0f)), broadcast(1.0f)); }

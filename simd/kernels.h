@@ -74,7 +74,7 @@ struct NonzeroArgs {
 ///     controls[outputs[e]] = min(1, weights[e] * product of clamp(controls[input], 0, 1))
 ///
 /// over inputs[first_inputs[e]] ... inputs[first_inputs[e + 1] - 1], in this order; at least the
-/// lowest float. The run_lengths[e] entries from e on have the same number of inputs and do not
+/// lowest float. Returns the union of `marks` of the outputs whose bits changed. The run_lengths[e] entries from e on have the same number of inputs and do not
 /// read each other. Without branches that depend on numbers: nobody foresees which are active.
 struct PsdArgs {
   const uint16_t* outputs;
@@ -85,11 +85,6 @@ struct PsdArgs {
   const uint64_t* marks;  // [control]
   float* controls;
   uint32_t count;
-};
-/// Whether the bits of any output changed, and the marks of all that did.
-struct PsdChanges {
-  uint64_t marks;
-  bool any;
 };
 
 /// The same for many characters, each in a lane: controls[32 * c + lane] for controls[c]. Bit k of
@@ -324,7 +319,7 @@ struct KernelTable {
   void (*joint_batch_fixed)(const JointBatchArgs& args);
   uint32_t batch_step;  // lanes that these take at a time
   void (*nonzero)(const NonzeroArgs& args);
-  PsdChanges (*psds)(const PsdArgs& args);
+  uint64_t (*psds)(const PsdArgs& args);
   void (*psd_batch)(const PsdBatchArgs& args);
   /// sums[i] = sums[i] * scales[i] (unless scales is null), saturated, plus 0; count is a multiple
   /// of 16, both are 64-byte aligned.

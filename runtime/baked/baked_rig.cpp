@@ -9,7 +9,7 @@ namespace mien {
 namespace {
 
 /// To be raised whenever the list of numbers or arrays, or the meaning of one, changes.
-constexpr uint32_t kRigPartVersion = 1;
+constexpr uint32_t kRigPartVersion = 2;
 
 template <class AnyRig, class Visitor>
 void visit_numbers(AnyRig& rig, Visitor& visitor) {
@@ -18,7 +18,7 @@ void visit_numbers(AnyRig& rig, Visitor& visitor) {
     for (auto& field : fields) visitor.number(field);
   };
   // The settings come first, where a hex dump shows them.
-  each(rig.quaternion_outputs, rig.half_storage, rig.ml.blend_masks, rig.portable, rig.reads_back);
+  each(rig.quaternion_outputs, rig.half_storage, rig.ml.blend_masks, rig.portable);
   each(rig.lod_count, rig.units.translation, rig.units.rotation, rig.units.rotation_sequence);
   all(rig.units.axes);
   all(rig.units.rotation_signs);
@@ -28,6 +28,8 @@ void visit_numbers(AnyRig& rig, Visitor& visitor) {
   each(rig.joints.contested, rig.joints.group_count, rig.joints.panel_shift);
   each(rig.joints.widest_group, rig.joints.tallest_group);
   each(rig.rotations.max_quaternion_joints, rig.rbf.independent);
+  for (auto* range : {&rig.ml_writes, &rig.rbf_writes}) each(range->first, range->end);
+  each(rig.feedback_stages);
 
   auto& ml = rig.ml;
   each(ml.buffer_size, ml.widest_layer, ml.quaternion_rotations, ml.converts);
@@ -86,7 +88,7 @@ void visit_arrays(AnyRig& rig, Visitor& visitor) {
 
   // Any values of these are safe.
   for (auto& names : rig.names) each(names.chars);
-  each(joints.control_panels, rig.initial_controls, rig.neutral_joints);
+  each(rig.control_uses, rig.initial_controls, rig.neutral_joints);
   for (auto* table : {&rig.gui_to_raw, &rig.maps}) {
     each(table->from, table->to, table->slope, table->cut);
   }

@@ -20,14 +20,22 @@ bool is_order(const uint8_t axes[3]) {
          axes[0] != axes[2];
 }
 
+bool is_range(const ControlRange& range, uint32_t control_count) {
+  return range.first <= range.end && range.end <= control_count;
+}
+
 bool check_counts(const RigChecker& c) {
   const Rig& rig = c.rig;
   const uint64_t parts =
       uint64_t{rig.raw_count} + rig.psd_count + rig.ml_count + uint64_t{rig.rbf_count};
   return c.ok(rig.lod_count <= kMaxLods, "LODs") &&
          c.ok(parts <= rig.control_count && rig.control_count <= 0x10000 &&
-                  rig.initial_controls.count == rig.control_count,
+                  rig.initial_controls.count == rig.control_count &&
+                  rig.control_uses.count == rig.control_count,
               "controls") &&
+         c.ok(is_range(rig.ml_writes, rig.control_count) &&
+                  is_range(rig.rbf_writes, rig.control_count),
+              "controls that stages write") &&
          c.ok(rig.joint_attributes == kFileAttributes + rig.quaternion_outputs &&
                   rig.joint_count <= 0x10000 &&
                   rig.neutral_joints.count == rig.joint_value_count() &&
@@ -198,7 +206,7 @@ bool check_panels(const RigChecker& c) {
   return c.ok(good && panels[count].first_block_row <= kMaxBlockRows &&
                   panels[count].first_target <= joints.targets.count,
               "panels of the joint matrix") &&
-         c.ok(joints.panel_shift < 32 && count <= uint64_t{64} << joints.panel_shift,
+         c.ok(joints.panel_shift < 32 && count <= uint64_t{kPanelBits} << joints.panel_shift,
               "marks of the joint matrix") &&
          check_leading(c, joints.panels_at_lod, count, "LODs of the joint matrix");
 }
@@ -210,7 +218,7 @@ bool are_summed(const JointMatrix& joints, const JointTarget* targets, uint32_t 
   bool good = true;
   uint32_t t = 0, end = 0;
   for (size_t l = at_lod.count; l-- > 0;) {  // each LOD has those of the next one, and more
-    for (; t < at_lod[l]; ++t) end = std::max(end, targets[t].slot + rows);
+    for (; t < at_lod[l]; ++t) end = std::max(end, targets[t].packed_row + rows);
     good &= end <= joints.panels[joints.panels_at_lod[l]].first_block_row * kJointBlockRows;
   }
   return good;
@@ -234,22 +242,23 @@ bool check_targets(const RigChecker& c) {
     const bool all = panel == joints.panel_count();
     const JointPanel& at = all ? all_from : joints.panels[panel];
     const JointPanel& next = all ? all_to : joints.panels[panel + 1];
-    const uint32_t slots = (next.first_block_row - at.first_block_row) * kJointBlockRows;
+    const uint32_t packed_rows = (next.first_block_row - at.first_block_row) * kJointBlockRows;
     uint32_t target = at.first_target;
     for (uint32_t kind = 0; good && kind < kTargetKinds; ++kind) {
       const Span<uint16_t> at_lod =
           joints.targets_at_lod.slice((size_t{panel} * kTargetKinds + kind) * lods, lods);
       const uint32_t rows = kTargetRows[kind], count = at_lod[0];
       good = below(at_lod, count + uint64_t{1}) && count <= next.first_target - target;
-      Extent<uint32_t> slot, output, group;
+      Extent<uint32_t> packed_row, output, group;
       for (uint32_t end = good ? target + count : target; target < end; ++target) {
         const JointTarget& t = joints.targets[target];
-        slot.add(t.slot);
+        packed_row.add(t.packed_row);
         output.add(t.output);
         group.add(t.group);
       }
-      good = good && (count == 0 || (slot.max + rows <= slots && output.max + rows <= outputs &&
-                                     group.max < joints.group_count));
+      good =
+          good && (count == 0 || (packed_row.max + rows <= packed_rows &&
+                                  output.max + rows <= outputs && group.max < joints.group_count));
       good =
           good && (!all || are_summed(joints, joints.targets.data + target - count, rows, at_lod));
     }
@@ -353,8 +362,7 @@ bool check_joints(const RigChecker& c) {
                                        : joints.fixed_values.empty() && joints.scales.empty() &&
                                              (values != 0 || sums == 0);
   return c.ok(stored && values % kJointBlockRows == 0, "values of the joint matrix") &&
-         c.ok(joints.control_panels.count == rig.control_count &&
-                  joints.group_rows_at_lod.count == uint64_t{joints.group_count} * rig.lod_count,
+         c.ok(joints.group_rows_at_lod.count == uint64_t{joints.group_count} * rig.lod_count,
               "joint groups") &&
          check_targets(c) && check_blocks(c, values / kJointBlockRows);
 }

@@ -17,7 +17,7 @@ namespace {
 /// How many block rows a panel has at most. Small panels tell changes apart; their table has an
 /// entry for each column, though, and shall stay small beside the blocks.
 uint32_t panel_size(size_t block_row_count, size_t block_count, size_t column_count) {
-  constexpr size_t kMarks = 48;  // of the 64 bits of a set of panels: LODs divide some once more
+  constexpr size_t kMarks = 48;  // of kPanelBits: LODs divide some panels once more
   const size_t affordable = column_count ? std::max<size_t>(block_count / column_count / 4, 1) : 1;
   const size_t count = std::min(kMarks, affordable);
   const size_t size = (block_row_count + count - 1) / count;
@@ -149,54 +149,55 @@ Status count_blocks(const dna::DnaView& view, Arena& scratch, JointPlan& plan, E
   return Status::kOk;
 }
 
-/// Calls f(slot counted from first_block_row, output, group, reach) for the rows of block rows, in
+/// Calls f(packed row counted from first_block_row, output, group, reach) for the rows of block rows, in
 /// order.
 template <class F>
-void for_each_slot(const dna::DnaView& view, const JointPlan& plan, const Rig& rig,
-                   uint32_t first_block_row, uint32_t end_block_row, F&& f) {
+void for_each_packed_row(const dna::DnaView& view, const JointPlan& plan, const Rig& rig,
+                         uint32_t first_block_row, uint32_t end_block_row, F&& f) {
   for (uint32_t i = plan.first_rows[first_block_row]; i < plan.first_rows[end_block_row]; ++i) {
     const PlannedRows& rows = plan.rows[i];
     const dna::JointGroup& group = view.bhvr.joints.groups[rows.group];
-    const uint32_t first_slot =
-        (rows.block_row - first_block_row) * kJointBlockRows + rows.first_slot;
+    const uint32_t first_packed_row =
+        (rows.block_row - first_block_row) * kJointBlockRows + rows.first_in_block;
     for (uint32_t k = 0; k < rows.row_count; ++k) {
       const uint32_t output = output_of(view, rig, group.output_indices[rows.rows[k]]);
-      f(first_slot + k, output, rows.group, rows.reaches[k]);
+      f(first_packed_row + k, output, rows.group, rows.reaches[k]);
     }
   }
 }
 
-/// Calls f(target, kind, reach) for all targets of these block rows, in order of their slots.
+/// Calls f(target, kind, reach) for all targets of these block rows, in order of their packed rows.
 template <class F>
 void for_each_target(const dna::DnaView& view, const JointPlan& plan, const Rig& rig,
                      uint32_t first_block_row, uint32_t end_block_row, F&& f) {
   // The run that is growing: rows side by side whose sums go side by side.
-  uint32_t slot = 0, output = 0, group = 0, count = 0;
+  uint32_t packed_row = 0, output = 0, group = 0, count = 0;
   uint8_t reach = 0;
   const auto pass = [&] {
     for (uint32_t kind = 0; kind < kTargetKinds; ++kind) {
       for (; count >= kTargetRows[kind]; count -= kTargetRows[kind]) {
-        const JointTarget target = {static_cast<uint16_t>(slot), static_cast<uint16_t>(output),
-                                    static_cast<uint16_t>(group)};
+        const JointTarget target = {static_cast<uint16_t>(packed_row),
+                                    static_cast<uint16_t>(output), static_cast<uint16_t>(group)};
         f(target, kind, reach);
-        slot += kTargetRows[kind];
+        packed_row += kTargetRows[kind];
         output += kTargetRows[kind];
       }
     }
   };
-  for_each_slot(view, plan, rig, first_block_row, end_block_row,
-                [&](uint32_t next_slot, uint32_t next_output, uint32_t next_group, uint8_t next) {
-                  const bool grows = next_slot == slot + count && next_output == output + count &&
-                                     next_group == group && next == reach;
-                  if (!grows) {
-                    pass();
-                    slot = next_slot;
-                    output = next_output;
-                    group = next_group;
-                    reach = next;
-                  }
-                  ++count;
-                });
+  for_each_packed_row(
+      view, plan, rig, first_block_row, end_block_row,
+      [&](uint32_t next_row, uint32_t next_output, uint32_t next_group, uint8_t next) {
+        const bool grows = next_row == packed_row + count && next_output == output + count &&
+                           next_group == group && next == reach;
+        if (!grows) {
+          pass();
+          packed_row = next_row;
+          output = next_output;
+          group = next_group;
+          reach = next;
+        }
+        ++count;
+      });
   pass();
 }
 
@@ -234,7 +235,7 @@ uint32_t fill_targets(const dna::DnaView& view, const JointPlan& plan, uint32_t 
     for (uint32_t l = 0; l <= rig.lod_count; ++l) {
       JointTarget* to = joints.targets.data + kind[l];
       std::sort(from, to, [](const JointTarget& a, const JointTarget& b) {
-        return a.output != b.output ? a.output < b.output : a.slot < b.slot;
+        return a.output != b.output ? a.output < b.output : a.packed_row < b.packed_row;
       });
       from = to;
     }
@@ -246,7 +247,8 @@ uint32_t fill_targets(const dna::DnaView& view, const JointPlan& plan, uint32_t 
 void fill_scales(const dna::DnaView& view, const JointPlan& plan, JointMatrix& joints) {
   for (const PlannedRows& rows : plan.rows) {
     const dna::JointGroup& group = view.bhvr.joints.groups[rows.group];
-    float* scales = joints.scales.data + size_t{rows.block_row} * kJointBlockRows + rows.first_slot;
+    float* scales =
+        joints.scales.data + size_t{rows.block_row} * kJointBlockRows + rows.first_in_block;
     for (uint32_t k = 0; k < rows.row_count; ++k) {
       const uint8_t* row = row_values(group, rows.rows[k]);
       float largest = 0.0f;
@@ -285,7 +287,7 @@ void add_block(const PlannedRows& rows, const FileRows& file, uint32_t column, b
     }
     return;
   }
-  float* const own = block + rows.first_slot;
+  float* const own = block + rows.first_in_block;
   if (!first) {
     for (uint32_t k = 0; k < file.count; ++k) {
       own[k] += load_big_endian<float>(file.value(k, column));
@@ -299,8 +301,8 @@ void add_block(const PlannedRows& rows, const FileRows& file, uint32_t column, b
 
 void add_fixed_block(const PlannedRows& rows, const FileRows& file, uint32_t column,
                      const float* block_row_scales, int16_t* block) {
-  block += rows.first_slot;
-  const float* scales = block_row_scales + rows.first_slot;
+  block += rows.first_in_block;
+  const float* scales = block_row_scales + rows.first_in_block;
   for (uint32_t k = 0; k < file.count; ++k) {
     block[k] = add_fixed(block[k], load_big_endian<float>(file.value(k, column)), scales[k]);
   }
@@ -365,16 +367,13 @@ void place_columns(JointPlan& plan, JointMatrix& joints) {
 void fill_parts(size_t k, uint32_t first_single, JointMatrix& joints) {
   const uint32_t panel_count = joints.panel_count();
   ColumnPart* parts = joints.parts.data + k * joints.panels.count;
-  uint64_t& marks = joints.control_panels[joints.columns[k]];
   const uint32_t first = joints.first_entry[k], end = joints.first_entry[k + 1];
   uint32_t pair = first, single = first_single;
   for (uint32_t c = 0; c < panel_count; ++c) {
     parts[c] = {static_cast<uint16_t>(pair - first), static_cast<uint16_t>(single - first_single)};
-    const uint32_t before = pair + single;
     const uint32_t end_block_row = joints.panels[c + 1].first_block_row * kBlockRowUnit;
     while (pair < first_single && joints.block_rows[pair] < end_block_row) ++pair;
     while (single < end && joints.block_rows[single] < end_block_row) ++single;
-    if (pair + single != before) marks |= uint64_t{1} << (c >> joints.panel_shift);
   }
   parts[panel_count] = {static_cast<uint16_t>(pair - first),
                         static_cast<uint16_t>(single - first_single)};
@@ -442,7 +441,6 @@ void place_joints(const dna::DnaView& view, const JointPlan& plan, Placer& place
   joints.parts = placer.array<ColumnPart>(plan.column_count * plan.panel_ends);
   joints.panels = placer.array<JointPanel>(plan.panel_ends);
   joints.panels_at_lod = placer.array<uint32_t>(rig.lod_count);
-  joints.control_panels = placer.array<uint64_t>(rig.control_count);
   joints.targets = placer.array<JointTarget>(plan.target_count);
   joints.targets_at_lod = placer.array<uint16_t>(plan.panel_ends * kTargetKinds * rig.lod_count);
 
@@ -472,7 +470,7 @@ void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach,
   for_each_panel(plan,
                  [&](uint32_t block_row) { joints.panels[panel++].first_block_row = block_row; });
   const uint32_t panel_count = joints.panel_count();
-  while (panel_count > uint64_t{64} << joints.panel_shift) ++joints.panel_shift;
+  while (panel_count > uint64_t{kPanelBits} << joints.panel_shift) ++joints.panel_shift;
   for (uint32_t c = 0; c < panel_count; ++c) {
     joints.panels[c + 1].first_target = fill_targets(view, plan, c, rig);
     const uint8_t panel_reach = plan.block_row_reaches[joints.panels[c].first_block_row];

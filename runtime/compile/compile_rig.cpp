@@ -92,10 +92,11 @@ void fill_names(const DnaView& view, Rig& rig) {
 
 // Neutral pose, hierarchy, initial controls -------------------------------------------------------
 
-void place_deformer_instance(const DnaView& view, Placer& placer, Rig& rig) {
+void place_pose(const DnaView& view, Placer& placer, Rig& rig) {
   rig.neutral_joints = placer.array<float>(rig.joint_value_count(), kBlockAlignment);
   rig.joint_parents = placer.array<uint16_t>(view.defn.joint_hierarchy.count);
   rig.initial_controls = placer.array<float>(rig.control_count, kBlockAlignment);
+  rig.control_uses = placer.array<Uses>(rig.control_count);
 }
 
 bool ends_in_w(const String& name) {
@@ -179,45 +180,12 @@ uint32_t count_controls(const DnaView& view) {
   return count;
 }
 
-/// True if a stage reads what a later one, or itself, gives: then results depend on the evaluation
-/// before, and equal inputs do not mean equal results.
-bool reads_back(const DnaView& view) {
-  const uint32_t raw_count = view.defn.raw_control_names.count;
-  const auto not_raw = [&](const auto& inputs) {
-    for (uint32_t i = 0; i < inputs.count; ++i) {
-      if (inputs[i] >= raw_count) return true;
-    }
-    return false;
-  };
-  for (const dna::NeuralNetwork& network : view.mlbh.networks) {
-    if (not_raw(network.input_indices)) return true;
-  }
-  for (const dna::MlType& type : view.mlbe.types) {
-    for (const auto& set : type.operations) {
-      for (const dna::MlOperation& operation : set) {
-        if (operation.type == uint16_t(dna::MlOperationType::kGather) &&
-            not_raw(operation.parameters)) {
-          return true;
-        }
-      }
-    }
-  }
-  for (const dna::RbfSolver& solver : view.rbfb.solvers) {
-    if (not_raw(solver.raw_control_indices)) return true;
-  }
-  for (const dna::RbfPoseControls& pose : view.rbfe.poses) {
-    if (not_raw(pose.input_control_indices)) return true;
-  }
-  return false;
-}
-
 void count_things(const DnaView& view, const CompileOptions& options, Rig& rig) {
   const dna::Definition& defn = view.defn;
   rig.quaternion_outputs = options.quaternion_outputs;
   rig.half_storage = options.half_storage;
   rig.portable = options.portable;
-  rig.reads_back = reads_back(view);
-  rig.always_evaluate = options.always_evaluate || rig.reads_back;
+  rig.always_evaluate = options.always_evaluate;
   if (rig.quaternion_outputs) rig.joint_attributes = kFileAttributes + 1;
   rig.lod_count = view.desc.lod_count;
   rig.gui_count = defn.gui_control_names.count;
@@ -254,7 +222,7 @@ Status place_all(const DnaView& view, const JointPlan& joints, Placer& placer, R
   place_rotations(view, placer, rig);
   place_controls(view, placer, rig);
   place_twists_and_swings(view, placer, rig);
-  place_deformer_instance(view, placer, rig);
+  place_pose(view, placer, rig);
   place_lod_lists(view.defn.lod_joints, rig.lod_count, placer, rig.lod_joints);
   place_lod_lists(view.defn.lod_channels, rig.lod_count, placer, rig.lod_channels);
   place_lod_lists(view.defn.lod_maps, rig.lod_count, placer, rig.lod_maps);
@@ -285,6 +253,7 @@ Status fill_all(const DnaView& view, JointPlan& joints, Span<uint8_t> reach, Are
   fill_lod_lists(view.defn.lod_maps, rig.lod_maps);
   fill_lod_lists(view.defn.lod_meshes, rig.lod_meshes);
   fill_names(view, rig);
+  fill_stage_access(rig);
   return Status::kOk;
 }
 

@@ -39,7 +39,7 @@ struct PlannedRows {
   uint16_t rows[kJointBlockRows];
   uint8_t reaches[kJointBlockRows];  // how many LODs, counted from 0, reach a row
   uint8_t row_count;
-  uint8_t first_slot;  // of the block row; behind it rows of other groups may follow
+  uint8_t first_in_block;  // packed row of the block row; rows of other groups may follow
   bool contested;
 
   uint8_t reach() const { return reaches[0]; }  // of the whole: rows are in order

@@ -129,7 +129,7 @@ constexpr uint32_t kAlone = ~uint32_t{0};
 /// Gives the rows of one reach their block rows: rows that do not fill one share it with those of
 /// other groups. Appends to `drafts`; of one group two that follow each other become partners.
 void draft_block_rows(Span<PlannedRows> tier, Span<BlockRowDraft>& drafts) {
-  uint32_t open[kJointBlockRows + 1];  // [free slots] a block row that has them
+  uint32_t open[kJointBlockRows + 1];  // [free rows] a block row that has them
   std::fill(open, open + kJointBlockRows + 1, kAlone);
   uint32_t waiting = kAlone;  // for a partner of its group
   for (PlannedRows& rows : tier) {
@@ -151,7 +151,7 @@ void draft_block_rows(Span<PlannedRows> tier, Span<BlockRowDraft>& drafts) {
       waiting = matches ? kAlone : block_row;
     }
     rows.block_row = block_row;
-    rows.first_slot = static_cast<uint8_t>(kJointBlockRows - room);
+    rows.first_in_block = static_cast<uint8_t>(kJointBlockRows - room);
     const uint32_t left = rows.contested ? 0 : room - rows.row_count;
     if (left != 0) open[left] = block_row;
   }

@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Many instances of one rig at once: the joint matrix is fetched once for up to 32 of them.
+// Many instances of one rig at once.
 //
-//     instances  ->  by LOD, packets of up to 32  ->  each packet: stages before the correctives
-//     one by one, correctives together, columns that many use together, those that few use and all
-//     other stages one by one
+//     instances -> sorted by LOD -> instance packets of up to 32 -> tasks, each with its own scratch
 #pragma once
 
 #include "runtime/base/parallel_for.h"
-#include "runtime/eval/instance.h"
+#include "runtime/eval/instance_packet.h"
 
 namespace mien {
-
-/// Scratch of one task.
-struct PacketScratch {
-  Span<float> controls;     // [control][32]
-  Span<uint32_t> changed;   // [corrective] a bit for each of the 32
-  Span<uint8_t> users;      // [column] how many of them use it
-  Span<float> sums;         // [32][row of a tile]
-  Span<uint32_t> ends;      // [block row] into blocks
-  Span<BatchBlock> blocks;  // of active columns: in each block row they begin where those of all do
-};
 
 struct Batch {
   uint32_t tag = 0;  // first, for the C API to recognize its handles
@@ -28,19 +16,13 @@ struct Batch {
   Allocator allocator;
   size_t block_size = 0;
 
-  // All blocks of the joint matrix by block row, in order of their columns; kBatchAhead more at the
-  // end.
-  Span<uint32_t> starts;   // [block row], one more at the end
-  Span<uint32_t> middles;  // [block row] where the columns of raw controls end
-  Span<BatchBlock> blocks;
-  uint32_t raw_columns = 0;  // columns of raw controls
-
+  BlockList block_list;
   Span<PacketScratch> tasks;
-  Span<Instance*> order;           // by LOD
-  Span<uint32_t> lods;             // beside
-  Span<uint32_t> first_of_packet;  // into order, one more at the end
 
-  // Of the evaluation that goes on.
+  // Of the current evaluation.
+  Span<Instance*> order;           // by LOD
+  Span<uint32_t> lods;             // beside order
+  Span<uint32_t> first_of_packet;  // into order, one more at the end
   uint32_t packet_count = 0, task_count = 0, stages = 0;
 };
 
@@ -50,7 +32,8 @@ size_t batch_size(const Rig& rig, uint32_t capacity, uint32_t tasks);
 Batch* create_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, const Allocator& allocator);
 void destroy_batch(Batch* batch);
 
-/// Stages of all instances: different ones, of the batch's rig, no more than its capacity.
+/// Stages of all instances, with the bits of evaluate() of each. They differ, are of the batch's rig,
+/// and are no more than its capacity.
 void evaluate_batch(Batch& batch, Instance* const* instances, const uint32_t* lods, uint32_t count,
                     uint32_t stages, const ParallelFor& parallel);
 

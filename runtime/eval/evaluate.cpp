@@ -1,228 +1,149 @@
 // SPDX-License-Identifier: MIT
+// The pipeline: which stages run, in which order, and on what.
 #include "runtime/eval/evaluate.h"
 
 #include <algorithm>
 #include <cstring>
 
+#include "runtime/eval/instance_packet.h"
+#include "runtime/eval/stages.h"
+
 namespace mien {
 namespace {
 
-/// NaN becomes 0.
-float clamp01(float value) { return value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f; }
+// What changed ------------------------------------------------------------------------------------
 
-// Outputs that a LOD does not write stay 0 from here on, so evaluation needs to clear nothing.
-// Raw controls belong to the caller.
+constexpr uint32_t kNoStage = 0;
+
+/// NaN equals itself, and 0 is not -0.
+bool same_bits(float a, float b) {
+  uint32_t x, y;
+  memcpy(&x, &a, sizeof(x));
+  memcpy(&y, &b, sizeof(y));
+  return x == y;
+}
+bool same_bits(const float* a, const float* b, size_t count) {
+  return count == 0 || memcmp(a, b, count * sizeof(float)) == 0;
+}
+
+/// The rule of stage_access.h: compares a range of the control row with what it was, and marks what
+/// becomes stale if the range was written by a stage (or by somebody else: kNoStage).
+void note_changes(const Rig& rig, Instance& instance, const ControlRange& range, uint32_t writer) {
+  const float* now = instance.controls.data;
+  float* previous = instance.previous_controls.data;
+  if (same_bits(previous + range.first, now + range.first, range.end - range.first)) return;
+  Uses uses = 0;
+  for (uint32_t c = range.first; c < range.end; ++c) {
+    if (same_bits(previous[c], now[c])) continue;
+    uses |= rig.control_uses[c];
+    previous[c] = now[c];
+  }
+  instance.stale |= uses & ~Uses{writer & ~rig.feedback_stages};
+}
+
+/// Before a stage writes a range of controls.
+void remember_controls(Instance& instance, const ControlRange& range) {
+  const float* now = instance.controls.data;
+  std::copy(now + range.first, now + range.end, instance.previous_controls.data + range.first);
+}
+
+// Results that a LOD does not write stay 0 from here on, so stages clear nothing. Raw controls
+// belong to the caller.
 void enter_lod(const Rig& rig, Instance& instance, uint32_t lod) {
   if (instance.lod == lod) return;
   instance.lod = lod;
   std::copy(rig.initial_controls.begin() + rig.raw_count, rig.initial_controls.end(),
             instance.controls.begin() + rig.raw_count);
-  clear_outputs(instance);
+  clear_results(instance);
 }
 
-bool same_rows(const float* a, const float* b, size_t count) {
-  return count == 0 || memcmp(a, b, count * sizeof(float)) == 0;
+/// Enters the LOD and looks for what the caller changed.
+void begin_evaluation(const Rig& rig, Instance& instance, uint32_t lod) {
+  enter_lod(rig, instance, lod);
+  if (rig.always_evaluate) instance.stale = kAllUses;
+  note_changes(rig, instance, {0, rig.raw_count}, kNoStage);
+  const Span<float>& masks = instance.masks;
+  if (same_bits(instance.previous_masks.data, masks.data, masks.count)) return;
+  std::copy(masks.begin(), masks.end(), instance.previous_masks.begin());
+  instance.stale |= kStageMl;
 }
 
-/// Whether `seen`, which becomes `now`, differed from it. Marks the panels of the joint matrix that
-/// read the controls `first` ... that did.
-bool note_changes(const Rig& rig, Instance& instance, uint32_t first, const Span<float>& seen) {
-  const float* now = instance.controls.data + first;
-  if (same_rows(seen.data, now, seen.count)) return false;
-  for (size_t i = 0; i < seen.count; ++i) {
-    if (same_bits(seen[i], now[i])) continue;
-    instance.stale_panels |= rig.joints.control_panels[first + i];
-    seen[i] = now[i];
-  }
-  return true;
-}
+// Stages ------------------------------------------------------------------------------------------
 
-/// Looks for what the caller changed.
-void find_changes(const Rig& rig, Instance& instance) {
-  if (rig.always_evaluate) return forget_results(instance);
-  if (note_changes(rig, instance, 0, instance.previous_inputs.first(rig.raw_count))) {
-    instance.stale_stages = kStagesAll;
-  }
-  const Span<float> seen = instance.previous_inputs.slice(rig.raw_count, rig.mask_count);
-  if (same_rows(seen.data, instance.masks.data, seen.count)) return;
-  std::copy(instance.masks.begin(), instance.masks.end(), seen.begin());
-  instance.stale_stages |= kStageMl;
-}
+using Evaluate = void(const Rig& rig, Instance& instance, uint32_t lod);
 
-/// Stages that read controls of networks and poses, or correctives.
-constexpr uint32_t kStagesOutputs = kStageJoints | kStageBlendShapes | kStageAnimatedMaps;
-constexpr uint32_t kStagesAfterMl = kStageRbf | kStagePsd | kStagesOutputs;
-
-// docs/rig-evaluation.md, 2.2 "Forward", without the final clamp.
-void add_table_rows(const ControlTable& table, uint32_t row_count, const Span<float>& inputs,
-                    const Span<float>& outputs) {
-  for (uint32_t r = 0; r < row_count;) {
-    const float input = inputs[table.inputs[r]];
-    if (table.from[r] <= input && input <= table.to[r]) {
-      outputs[table.outputs[r]] += table.slope[r] * input + table.cut[r];
-      r = table.run_ends[r];
-    } else {
-      ++r;
-    }
+/// A stage of those instances for which it was asked for and is stale. `writes` holds all controls
+/// that the stage writes, unless it notes changes itself.
+void run(const InstancePacket& packet, uint32_t stage, Evaluate* evaluate_stage,
+         const ControlRange& writes = {}) {
+  if (stage == 0) return;
+  for (uint32_t i = 0; i < packet.count; ++i) {
+    Instance& instance = *packet.instances[i];
+    if ((instance.stale & stage) == 0) continue;
+    instance.stale &= ~Uses{stage};
+    remember_controls(instance, writes);
+    evaluate_stage(packet.rig, instance, packet.lod);
+    note_changes(packet.rig, instance, writes, stage);
   }
 }
 
-// docs/rig-evaluation.md, 3.3 "Value", in dependency order.
-void evaluate_psds(const Rig& rig, Instance& instance, uint32_t lod) {
-  const PsdTable& psds = rig.psds;
-  const PsdChanges changes =
-      rig.kernels->psds({psds.outputs.data, psds.weights.data, psds.first_input.data,
-                         psds.inputs.data, psds.run_lengths.data, rig.joints.control_panels.data,
-                         instance.controls.data, psds.count_at_lod[lod]});
-  note_changed_psds(instance, changes.marks, changes.any);
-}
-
-void evaluate_joints(const Rig& rig, Instance& instance, uint32_t lod) {
-  // What networks add to joints must not be added twice, and where rows contend for an output the
-  // last one is to write last.
-  const bool all = !rig.ml.joints.empty() || rig.joints.contested;
-  const uint64_t panels = all ? kAllPanels : instance.stale_panels;
-  begin_joints(rig, instance, lod);
-  evaluate_joint_rows(rig, instance, lod, panels, kAllGroups);
-  finish_joints(rig, instance, lod);
-}
-
-// docs/rig-evaluation.md, 5 "Blend shapes and animated maps".
-void evaluate_blend_shapes(const Rig& rig, Instance& instance, uint32_t lod) {
-  const uint32_t count = rig.channels.count_at_lod[lod];
-  for (uint32_t i = 0; i < count; ++i) {
-    instance.channels[rig.channels.outputs[i]] = instance.controls[rig.channels.inputs[i]];
+/// Correctives and joints of the instances that need either: it is not known before which of them
+/// new correctives will move. One alone is left to the stages themselves.
+void run_together(const InstancePacket& packet, uint32_t stages) {
+  Instance* changed[kBatchLanes];
+  InstancePacket those = packet;
+  those.instances = changed;
+  those.count = 0;
+  for (uint32_t i = 0; i < packet.count; ++i) {
+    if (packet.instances[i]->stale & stages) changed[those.count++] = packet.instances[i];
   }
-}
-
-void evaluate_animated_maps(const Rig& rig, Instance& instance, uint32_t lod) {
-  std::fill(instance.maps.begin(), instance.maps.end(), 0.0f);
-  add_table_rows(rig.maps, rig.map_rows_at_lod[lod], instance.controls, instance.maps);
-  for (float& value : instance.maps) value = clamp01(value);
+  if (those.count < 2) return;
+  gather_controls(those);
+  if (stages & kStagePsd) evaluate_psds_together(those);
+  if (stages & kStageJoints) evaluate_joints_together(those);
 }
 
 }  // namespace
 
-void map_gui_to_raw(const Rig& rig, Instance& instance) {
-  for (uint16_t raw : rig.driven_raw) instance.controls[raw] = 0.0f;
-  add_table_rows(rig.gui_to_raw, static_cast<uint32_t>(rig.gui_to_raw.inputs.count), instance.gui,
-                 instance.controls);
-  for (uint16_t raw : rig.driven_raw) instance.controls[raw] = clamp01(instance.controls[raw]);
-}
-
-// docs/rig-evaluation.md, 2.4 "Raw controls to GUI controls": of the groups of rows with equal
-// intervals the one that explains the most raw controls tells the value.
-void map_raw_to_gui(const Rig& rig, Instance& instance) {
-  const ControlTable& table = rig.gui_to_raw;
-  const ReverseTable& reverse = rig.raw_to_gui;
-  const auto solve = [&](uint32_t row) {
-    return (instance.controls[table.outputs[row]] - table.cut[row]) / table.slope[row];
-  };
-  // A flat row explains nothing, even if its interval is unbounded.
-  const auto within = [&](uint32_t row, float value) {
-    return table.slope[row] != 0.0f && table.from[row] <= value && value <= table.to[row];
-  };
-
-  for (uint32_t i = 0; i < rig.gui_count; ++i) {
-    instance.gui[i] = 0.0f;
-    const uint32_t begin = reverse.first_group[i], end = reverse.first_group[i + 1];
-    uint32_t best = begin, most = 0;
-    for (uint32_t g = begin; g < end; ++g) {
-      uint32_t consistent = 0;
-      for (uint32_t k = reverse.first_row[g]; k < reverse.first_row[g + 1]; ++k) {
-        const uint32_t row = reverse.rows[k];
-        consistent += instance.controls[table.outputs[row]] != 0.0f && within(row, solve(row));
-      }
-      if (consistent > most) {
-        most = consistent;
-        best = g;
-      }
-    }
-    if (begin == end) continue;
-    for (uint32_t k = reverse.first_row[best]; k < reverse.first_row[best + 1]; ++k) {
-      const uint32_t row = reverse.rows[k];
-      const float value = solve(row);
-      if (!within(row, value)) continue;
-      instance.gui[i] = value;
-      break;
-    }
+void evaluate_packet(const InstancePacket& packet, uint32_t stages) {
+  const Rig& rig = packet.rig;
+  for (uint32_t i = 0; i < packet.count; ++i) {
+    begin_evaluation(rig, *packet.instances[i], packet.lod);
   }
-}
-
-void note_changed_psds(Instance& instance, uint64_t panels, bool changed) {
-  instance.stale_stages &= ~uint32_t{kStagePsd};
-  if (!changed) return;
-  instance.stale_panels |= panels;
-  instance.stale_stages |= kStagesOutputs;
-}
-
-void begin_joints(const Rig& rig, Instance& instance, uint32_t lod) {
-  clear_ml_joints(rig, instance, lod);
-}
-
-void finish_joints(const Rig& rig, Instance& instance, uint32_t lod) {
-  const RotationTable& rotations = rig.rotations;
-  if (!rotations.angle_joints.empty() || !rotations.quaternion_joints.empty()) {
-    for (uint32_t g = 0; g < rig.joints.group_count; ++g) evaluate_rotations(rig, instance, lod, g);
-  }
-  for (const TwistSwing& setup : rig.twist_swing.setups)
-    apply_twist_swing(rig, instance, lod, setup);
-  add_ml_joints(rig, instance, lod);
-  instance.stale_panels = 0;
-  instance.stale_stages &= ~uint32_t{kStageJoints};
+  run(packet, stages & kStageMl, evaluate_ml, rig.ml_writes);
+  run(packet, stages & kStageRbf, evaluate_rbf, rig.rbf_writes);
+  if (packet.scratch) run_together(packet, stages & (kStagePsd | kStageJoints));
+  run(packet, stages & kStagePsd, evaluate_psds);
+  run(packet, stages & kStageJoints, evaluate_joints);
+  run(packet, stages & kStageBlendShapes, evaluate_blend_shapes);
+  run(packet, stages & kStageAnimatedMaps, evaluate_animated_maps);
 }
 
 void evaluate(const Rig& rig, Instance& instance, uint32_t lod, uint32_t stages) {
-  begin_evaluation(rig, instance, lod);
-  evaluate_stages(rig, instance, lod, stages);
+  Instance* const one = &instance;
+  evaluate_packet({rig, lod, &one, 1, nullptr, nullptr}, stages);
 }
 
-void begin_evaluation(const Rig& rig, Instance& instance, uint32_t lod) {
-  enter_lod(rig, instance, lod);
-  find_changes(rig, instance);
-}
-
-void evaluate_stages(const Rig& rig, Instance& instance, uint32_t lod, uint32_t stages) {
-  const auto runs = [&](uint32_t stage) {
-    if ((stages & instance.stale_stages & stage) == 0) return false;
-    instance.stale_stages &= ~stage;
-    return true;
-  };
-  if (runs(kStageMl)) {
-    evaluate_ml(rig, instance, lod);
-    if (note_changes(rig, instance, rig.raw_count + rig.psd_count, instance.previous_after_psds)) {
-      instance.stale_stages |= kStagesAfterMl;
-    }
-  }
-  if (runs(kStageRbf)) {
-    evaluate_rbf(rig, instance, lod);
-    if (note_changes(rig, instance, rig.raw_count + rig.psd_count, instance.previous_after_psds)) {
-      instance.stale_stages |= kStagePsd | kStagesOutputs;
-    }
-  }
-  if (runs(kStagePsd)) evaluate_psds(rig, instance, lod);
-  if (runs(kStageJoints)) evaluate_joints(rig, instance, lod);
-  if (runs(kStageBlendShapes)) evaluate_blend_shapes(rig, instance, lod);
-  if (runs(kStageAnimatedMaps)) evaluate_animated_maps(rig, instance, lod);
-}
+// Parts of a stage leave the rest of it as it was: the whole stage is stale afterwards. ------------
 
 void evaluate_joint_group(const Rig& rig, Instance& instance, uint32_t lod, uint32_t group) {
   enter_lod(rig, instance, lod);
   evaluate_joint_rows(rig, instance, lod, kAllPanels, group);
   evaluate_rotations(rig, instance, lod, group);
-  forget_results(instance);
+  instance.stale |= kStageJoints | kAllPanels;
 }
 
 void evaluate_rbf_solver(const Rig& rig, Instance& instance, uint32_t lod, uint32_t solver) {
-  enter_lod(rig, instance, lod);
+  begin_evaluation(rig, instance, lod);
+  remember_controls(instance, rig.rbf_writes);
   solve_rbf(rig, instance, solver);
-  forget_results(instance);
+  note_changes(rig, instance, rig.rbf_writes, kNoStage);
 }
 
 void evaluate_twist_swing(const Rig& rig, Instance& instance, uint32_t lod, uint32_t setup) {
   enter_lod(rig, instance, lod);
   apply_twist_swing(rig, instance, lod, rig.twist_swing.setups[setup]);
-  forget_results(instance);
+  instance.stale |= kStageJoints | kAllPanels;
 }
 
 }  // namespace mien

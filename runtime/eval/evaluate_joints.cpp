@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Joint groups: controls -> joint values (docs/rig-evaluation.md, 4.4 "Sums").
+// The joint stage: controls -> joint values (docs/rig-evaluation.md, 4.4 "Sums" and 4.5 "Order of
+// the joint stage").
 //
-//     controls  ->  those that are not zero  ->  sums, a tile of panels at a time  ->  joint values
+//     controls -> those that are not 0 -> sums, one accumulator tile at a time -> joint values
+//     -> rotations -> twists and swings -> ML joints
 #include <algorithm>
 #include <cstring>
 #include <type_traits>
 
 #include "runtime/base/bits.h"
-#include "runtime/eval/evaluate.h"
+#include "runtime/eval/stages.h"
 
 namespace mien {
 namespace {
 
-/// What a column has for a tile.
+/// The part of a column that lies in panels of a tile.
 JointRun run_of(const JointMatrix& joints, const JointTile& tile, uint32_t column, float input) {
   const ColumnPart* parts = joints.parts.data + size_t{column} * joints.panels.count;
   const ColumnPart from = parts[tile.first_panel], to = parts[tile.end_panel];
@@ -65,8 +67,8 @@ void add_columns(const Rig& rig, const Instance& instance, const JointTile& tile
   kernel(args);
 }
 
-/// Calls f(target, number of rows as a constant) for what a LOD writes of a panel, or, with the
-/// number behind the last panel, of all of them.
+/// Calls f(target, number of rows as a constant) for the targets of a panel that a LOD writes; with
+/// the number of panels instead, for those of all panels.
 template <class F>
 void for_each_target(const Rig& rig, uint32_t lod, uint32_t panel, F&& f) {
   const JointMatrix& joints = rig.joints;
@@ -83,15 +85,15 @@ void for_each_target(const Rig& rig, uint32_t lod, uint32_t panel, F&& f) {
   each(std::integral_constant<size_t, kTargetRows[2]>());
 }
 
-/// Rows of one group only, or of all. What a LOD has as a whole is written in order of the joint
-/// values, which memory likes best: in a packet they are far away.
+/// Writes the rows of one group, or of all. Where the tile has all panels of the LOD, it is written in
+/// the order of the joint values: in a batch they are not in the cache, and this order is the fastest.
 void write_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTile& tile,
                 uint32_t only_group) {
   const JointMatrix& joints = rig.joints;
   float* out = instance.joints_and_angles.data;
   const auto write = [&](uint32_t panel, const float* sums) {
     const auto copy = [out, sums](const JointTarget& target, auto rows) {
-      memcpy(out + target.output, sums + target.slot, rows() * sizeof(float));
+      memcpy(out + target.output, sums + target.packed_row, rows() * sizeof(float));
     };
     if (only_group == kAllGroups) return for_each_target(rig, lod, panel, copy);
     for_each_target(rig, lod, panel, [&](const JointTarget& target, auto rows) {
@@ -121,24 +123,24 @@ void finish_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTi
   const JointMatrix& joints = rig.joints;
   float* const sums = tile.of_panel(joints, tile.first_panel);
   float* const end = tile.of_panel(joints, tile.end_panel);
-  const size_t first_slot =
+  const size_t first_row =
       size_t{joints.panels[tile.first_panel].first_block_row} * kJointBlockRows;
-  const float* scales = joints.scales.empty() ? nullptr : joints.scales.data + first_slot;
+  const float* scales = joints.scales.empty() ? nullptr : joints.scales.data + first_row;
   rig.kernels->finish_sums(sums, scales, static_cast<size_t>(end - sums));
   write_tile(rig, instance, lod, tile, only_group);
 }
 
-void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, uint64_t marks,
+void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, Uses panels,
                          uint32_t only_group) {
   const JointMatrix& joints = rig.joints;
   const uint32_t panel_count = joints.panels_at_lod[lod];
   const auto wanted = [&](uint32_t panel) {
-    return (marks >> (panel >> joints.panel_shift) & 1) != 0 &&
+    return (panels >> panel_bit(joints, panel) & 1) != 0 &&
            (only_group == kAllGroups || holds_group(joints, panel, only_group));
   };
-  // To begin anew with every column costs more than some panels that need not be.
+  // Each run of panels goes over all columns: a few panels more cost less than another run.
   constexpr uint32_t kBridge = 4;
-  // The most stack that evaluation takes, beside 8 KiB for the columns.
+  // 32 KiB: with 8 KiB for the runs of columns, the largest stack use of evaluation.
   alignas(kBlockAlignment) float sums[kMaxTileBlockRows * kJointBlockRows];
   JointTile tile = {0, 0, 0, sums};
   for (uint32_t c = 0; c < panel_count;) {
@@ -157,6 +159,32 @@ void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, uint6
     std::fill(tile.of_panel(joints, tile.first_panel), tile.of_panel(joints, c), 0.0f);
     finish_tile(rig, instance, lod, tile, 0, only_group);
   }
+}
+
+void begin_joints(const Rig& rig, Instance& instance, uint32_t lod) {
+  clear_ml_joints(rig, instance, lod);
+}
+
+void finish_joints(const Rig& rig, Instance& instance, uint32_t lod) {
+  const RotationTable& rotations = rig.rotations;
+  if (!rotations.angle_joints.empty() || !rotations.quaternion_joints.empty()) {
+    for (uint32_t g = 0; g < rig.joints.group_count; ++g) evaluate_rotations(rig, instance, lod, g);
+  }
+  for (const TwistSwing& setup : rig.twist_swing.setups) {
+    apply_twist_swing(rig, instance, lod, setup);
+  }
+  add_ml_joints(rig, instance, lod);
+  instance.stale &= ~(Uses{kStageJoints} | kAllPanels);
+}
+
+void evaluate_joints(const Rig& rig, Instance& instance, uint32_t lod) {
+  // ML joints must not be added twice to the same rows. Where rows of several panels write the same
+  // value, the last one has to write last.
+  const bool all = !rig.ml.joints.empty() || rig.joints.contested;
+  const Uses panels = all ? kAllPanels : instance.stale & kAllPanels;
+  begin_joints(rig, instance, lod);
+  evaluate_joint_rows(rig, instance, lod, panels, kAllGroups);
+  finish_joints(rig, instance, lod);
 }
 
 }  // namespace mien

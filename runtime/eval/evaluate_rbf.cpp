@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // RBF solvers: raw controls -> pose controls (docs/rig-evaluation.md, 6 "RBF solvers").
-#include "runtime/eval/evaluate.h"
+#include "runtime/eval/stages.h"
 
 namespace mien {
 namespace {

@@ -3,7 +3,7 @@
 // swings (docs/rig-evaluation.md, 4.6 to 4.8, 7).
 #include <cmath>
 
-#include "runtime/eval/evaluate.h"
+#include "runtime/eval/stages.h"
 
 namespace mien {
 namespace {
@@ -28,7 +28,7 @@ void quaternion_joints(const Rig& rig, Instance& instance, uint32_t lod, uint32_
   }
   args.columns = table.columns.data + rotations.first_column;
   args.controls = instance.controls.data;
-  args.rotations = instance.turns.data;
+  args.rotations = instance.rotations.data;
   args.column_count = table.columns_at_lod[size_t{group} * rig.lod_count + lod];
   args.column_stride = rotations.column_count;
   args.block_count = static_cast<uint32_t>((joints.count + kBlockLanes - 1) / kBlockLanes);

@@ -17,11 +17,9 @@ void place_instance(const Rig& rig, Placer& placer, Instance& instance) {
   instance.joints = instance.joints_and_angles.first(rig.joint_value_count());
   instance.channels = placer.array<float>(rig.channel_count, kBlockAlignment);
   instance.maps = placer.array<float>(rig.map_count, kBlockAlignment);
-  instance.previous_inputs =
-      placer.array<float>(size_t{rig.raw_count} + rig.mask_count, kBlockAlignment);
-  instance.previous_after_psds =
-      placer.array<float>(rig.control_count - rig.raw_count - rig.psd_count, kBlockAlignment);
-  instance.turns = placer.array<float>(
+  instance.previous_controls = placer.array<float>(rig.control_count, kBlockAlignment);
+  instance.previous_masks = placer.array<float>(rig.mask_count, kBlockAlignment);
+  instance.rotations = placer.array<float>(
       4 * align_up(rig.rotations.max_quaternion_joints, kBlockLanes), kBlockAlignment);
   instance.ml_values = placer.array<float>(rig.ml.buffer_size, kBlockAlignment);
   for (Span<float>& layer : instance.ml_layers) {
@@ -70,9 +68,9 @@ void destroy_instance(Instance* instance) {
   release_rig(rig);
 }
 
-void clear_outputs(Instance& instance) {
+void clear_results(Instance& instance) {
   const Rig& rig = *instance.rig;
-  forget_results(instance);
+  instance.stale = kAllUses;
   fill(instance.joints_and_angles, 0.0f);
   if (rig.quaternion_outputs) {
     for (uint32_t j = 0; j < rig.joint_count; ++j) {
@@ -81,6 +79,7 @@ void clear_outputs(Instance& instance) {
   }
   fill(instance.channels, 0.0f);
   fill(instance.maps, 0.0f);
+  fill(instance.ml_values, 0.0f);
 }
 
 void reset_instance(Instance& instance) {
@@ -88,7 +87,7 @@ void reset_instance(Instance& instance) {
   std::copy(rig.initial_controls.begin(), rig.initial_controls.end(), instance.controls.begin());
   fill(instance.gui, 0.0f);
   fill(instance.masks, 1.0f);
-  clear_outputs(instance);
+  clear_results(instance);
   instance.lod = 0;
 }
 

@@ -25,15 +25,13 @@ struct Instance {
   Span<float> channels;
   Span<float> maps;
 
-  // What the results were made of: whatever differs from this is evaluated anew.
-  Span<float> previous_inputs;  // raw controls, then masks
-  Span<float>
-      previous_after_psds;    // controls behind the correctives: of networks, poses, absent layers
-  uint32_t stale_stages = 0;  // MIEN_STAGE_...
-  uint64_t stale_panels = 0;  // of the joint matrix
+  // Reuse (runtime/rig/stage_access.h).
+  Span<float> previous_controls;  // raw: when the last evaluation began; others: before a stage
+  Span<float> previous_masks;     // when the last evaluation began
+  Uses stale = 0;                 // stages and row panels that must be evaluated
 
-  Span<float> turns;          // scratch: the quaternions of the group with most
-  Span<float> ml_values;      // what the ML steps give, for each other
+  Span<float> rotations;      // scratch: of the largest group of quaternion joints
+  Span<float> ml_values;      // outputs of the ML steps, for later steps
   Span<float> ml_layers[2];   // scratch: in and out of the widest network layer
   Span<float> rbf_inputs;     // scratch: of all solvers
   Span<float> rbf_rotations;  // scratch: swings and twists of all solvers
@@ -48,14 +46,8 @@ size_t instance_size(const Rig& rig);
 Instance* create_instance(const Rig& rig, const Allocator& allocator);
 void destroy_instance(Instance* instance);
 
-/// Everything is evaluated anew next time.
-inline void forget_results(Instance& instance) {
-  instance.stale_stages = ~uint32_t{0};
-  instance.stale_panels = ~uint64_t{0};
-}
-
-/// Outputs as after creation.
-void clear_outputs(Instance& instance);
+/// Outputs and intermediate results but controls as after creation: everything is stale.
+void clear_results(Instance& instance);
 
 /// Inputs and outputs as after creation.
 void reset_instance(Instance& instance);

@@ -18,6 +18,8 @@
 #include "runtime/base/shared_bytes.h"
 #include "runtime/base/span.h"
 #include "runtime/base/transform.h"
+#include "runtime/rig/joint_matrix.h"
+#include "runtime/rig/stage_access.h"
 #include "simd/kernels.h"
 
 namespace mien {
@@ -70,123 +72,6 @@ struct PsdTable {
                                // not read each other
   Span<uint32_t> count_at_lod;
   Span<uint16_t> entry_of_psd;  // where corrective p stands
-};
-
-/// A run of block rows of the joint matrix that reach the same LODs.
-struct JointPanel {
-  uint32_t first_block_row;
-  uint32_t first_target;  // into JointMatrix::targets
-};
-
-/// Where neighboring sums go: six, three, or one.
-struct JointTarget {
-  uint16_t slot;    // counted from the panel's first
-  uint16_t output;  // joint value
-  uint16_t group;   // joint group that the rows are from
-};
-
-constexpr uint32_t kNoColumn = ~uint32_t{0};
-constexpr uint32_t kMaxPanelBlockRows = 256;
-constexpr uint32_t kMaxTileBlockRows = 1024;                 // that are summed at a time
-constexpr uint32_t kMaxBlockRows = 0x10000 / kBlockRowUnit;  // of the whole matrix
-static_assert(kMaxTileBlockRows >= kMaxPanelBlockRows, "a panel fits");
-
-/// How many pairs and how many single blocks of a column stand before some block row.
-struct ColumnPart {
-  uint16_t pairs, singles;
-};
-
-/// Rows of the kinds of targets.
-constexpr uint32_t kTargetRows[] = {6, 3, 1};
-constexpr uint32_t kTargetKinds = 3;
-
-/// The joint matrix (docs/rig-evaluation.md, 4 "Joint groups"), one column per control that it
-/// reads. Nothing but zeros is left out, so that evaluating touches the blocks of those controls
-/// that are not zero, one after the other, and no others.
-///
-///     slot    a row that is computed: slots 8b ... 8b + 7 are block row b
-///     block   the 8 values of a column in a block row
-///     pair    blocks of block rows 2i and 2i + 1, side by side
-///     panel   a run of block rows, of an even number
-///     tile    a run of panels whose sums fit into kMaxTileBlockRows block rows: all panels of a
-///     face
-///
-///     values  | column 0: pair pair ... block block ... | column 1: pair pair ... block ... | ...
-///                         of ascending block rows           8 zeros if the blocks' number is odd
-///
-/// Block rows that more LODs reach come first, so a LOD is a prefix of the panels.
-struct JointMatrix {
-  Span<float> values;          // [block][8], or
-  Span<int16_t> fixed_values;  // the same in units of the slot's scale
-  Span<float> scales;          // [slot], beside fixed_values
-  Span<uint16_t> block_rows;   // [entry] of each pair the even one, of each other block its own
-  Span<uint16_t> columns;      // [column] control, ascending
-  Span<uint32_t> column_of_control;  // [control] or kNoColumn
-  Span<uint32_t> first_block;        // [column], one more at the end
-  Span<uint32_t> first_entry;        // [column] into block rows, one more at the end
-  Span<ColumnPart> parts;        // [column][panel], one more at the end of each column: what of the
-                                 // column stands before the panel
-  Span<JointPanel> panels;       // one more at the end
-  Span<uint32_t> panels_at_lod;  // leading panels
-  Span<uint64_t> control_panels;  // [control] bit c >> panel_shift: has blocks in panel c
-
-  // By panel: those of six rows, of three, of one; of each kind those that more LODs reach first.
-  // Behind the last panel once more those of all panels, in order of their outputs, with slots
-  // counted from the first block row: if that fits_tile().
-  Span<JointTarget> targets;
-  Span<uint16_t> targets_at_lod;  // [panel, or all][kind][lod]: leading ones of the kind
-
-  Span<uint16_t> group_rows_at_lod;  // [group][lod]: leading rows of the group, as in the file
-  bool contested = false;            // some output is written by rows of different panels
-  uint32_t group_count = 0;
-  uint32_t panel_shift = 0;
-  uint32_t widest_group = 0;   // columns
-  uint32_t tallest_group = 0;  // rows
-
-  uint32_t panel_count() const { return static_cast<uint32_t>(panels.count - 1); }
-  /// Whether a tile that begins with block row `first_block_row` can take panel `panel` in.
-  bool in_tile(uint32_t first_block_row, uint32_t panel) const {
-    return panels[panel + 1].first_block_row <= first_block_row + kMaxTileBlockRows;
-  }
-  /// Where the tile ends that begins with panel `panel`.
-  uint32_t tile_end(uint32_t panel) const {
-    const uint32_t first_block_row = panels[panel].first_block_row;
-    do ++panel;
-    while (panel < panel_count() && in_tile(first_block_row, panel));
-    return panel;
-  }
-  bool fits_tile() const { return panels[panel_count()].first_block_row <= kMaxTileBlockRows; }
-  /// What of a column stands in the first `panel_end` panels.
-  const ColumnPart& part(size_t column, uint32_t panel_end) const {
-    return parts[column * panels.count + panel_end];
-  }
-  uint32_t blocks_before(size_t column, uint32_t panel_end) const {
-    const ColumnPart& before = part(column, panel_end);
-    return 2 * uint32_t{before.pairs} + before.singles;
-  }
-  /// What reading the first `panel_end` panels of a column fetches: values and block row numbers.
-  size_t bytes_before(size_t column, uint32_t panel_end) const {
-    const ColumnPart& before = part(column, panel_end);
-    const size_t value_size = values.empty() ? sizeof(int16_t) : sizeof(float);
-    return blocks_before(column, panel_end) * kJointBlockRows * value_size +
-           (size_t{before.pairs} + before.singles) * sizeof(uint16_t);
-  }
-  /// Calls f(block, block row) for what of a column stands in the first `panel_end` panels.
-  template <class F>
-  void for_each_block(size_t column, uint32_t panel_end, F&& f) const {
-    const ColumnPart& before = part(column, panel_end);
-    const uint32_t pairs = part(column, panel_count()).pairs;
-    const uint16_t* entry = block_rows.data + first_entry[column];
-    uint32_t block = first_block[column];
-    for (uint32_t i = 0; i < before.pairs; ++i) {
-      const uint32_t block_row = (entry[i] & kPairBlockRows) / kBlockRowUnit;
-      f(block + 2 * i, block_row);
-      f(block + 2 * i + 1, block_row + 1);
-    }
-    entry += pairs;
-    block += 2 * pairs;
-    for (uint32_t i = 0; i < before.singles; ++i) f(block + i, entry[i] / kBlockRowUnit);
-  }
 };
 
 /// A joint that a group turns, and the first of the group's rows that does: it turns at the LODs
@@ -410,7 +295,6 @@ struct Rig {
   bool quaternion_outputs = false;
   bool half_storage = false;
   bool portable = false;         // the same bits on every instruction set
-  bool reads_back = false;       // stages read what later ones give: results must not be kept
   bool always_evaluate = false;  // instead of keeping results whose inputs did not change
   uint32_t joint_attributes = kFileAttributes;  // per joint: 9, or 10 with quaternion outputs
   uint32_t joint_value_count() const { return joint_count * joint_attributes; }
@@ -428,6 +312,10 @@ struct Rig {
   ChannelTable channels;
   ControlTable maps;
   Span<uint32_t> map_rows_at_lod;
+
+  Span<Uses> control_uses;             // [control] what reads or writes it (stage_access.h)
+  ControlRange ml_writes, rbf_writes;  // hold all controls that the stage writes
+  uint32_t feedback_stages = 0;        // ML, RBF: stages that read what they write themselves
 
   Span<float> initial_controls;  // [raw | PSD | ML | RBF]
   Span<float> neutral_joints;    // joint values

@@ -538,7 +538,7 @@ TEST(RigImage, TargetsStayInTheirPanels) {
   const JointMatrix& joints = rig.joints;
   for (uint32_t panel : {0u, joints.panel_count() - 1}) {
     const JointPanel &at = joints.panels[panel], &next = joints.panels[panel + 1];
-    const uint32_t slots = (next.first_block_row - at.first_block_row) * kJointBlockRows;
+    const uint32_t packed_rows = (next.first_block_row - at.first_block_row) * kJointBlockRows;
     uint32_t end = at.first_target;
     for (uint32_t kind = 0; kind < kTargetKinds; ++kind) {
       const uint32_t first = end, rows = kTargetRows[kind];
@@ -547,8 +547,8 @@ TEST(RigImage, TargetsStayInTheirPanels) {
       for (uint32_t t : {first, end - 1}) {
         JointTarget& target = joints.targets[t];
         const Span<uint16_t> fields[] = {
-            {&target.slot, 1}, {&target.output, 1}, {&target.group, 1}};
-        const uint32_t most[] = {slots - rows, rig.joint_value_count() - rows,
+            {&target.packed_row, 1}, {&target.output, 1}, {&target.group, 1}};
+        const uint32_t most[] = {packed_rows - rows, rig.joint_value_count() - rows,
                                  joints.group_count - 1};
         for (size_t f = 0; f < 3; ++f) {
           EXPECT_EQ(image.status_with(fields[f], 0, most[f]), MIEN_OK);
@@ -576,11 +576,12 @@ TEST(RigImage, TargetsOfALodHaveSums) {
     for (uint32_t lod = 0; lod < rig.lod_count; ++lod) {
       const uint32_t coarser = lod + 1 < rig.lod_count ? at_lod[lod + 1] : 0;
       if (at_lod[lod] == coarser) continue;
-      const uint32_t slots =
+      const uint32_t packed_rows =
           joints.panels[joints.panels_at_lod[lod]].first_block_row * kJointBlockRows;
-      const Span<uint16_t> slot = {&joints.targets[first + at_lod[lod] - 1].slot, 1};
-      EXPECT_EQ(image.status_with(slot, 0, slots - rows), MIEN_OK);
-      EXPECT_EQ(image.status_with(slot, 0, slots - rows + 1), MIEN_ERROR_BAKED_STRUCTURE);
+      const Span<uint16_t> packed_row = {&joints.targets[first + at_lod[lod] - 1].packed_row, 1};
+      EXPECT_EQ(image.status_with(packed_row, 0, packed_rows - rows), MIEN_OK);
+      EXPECT_EQ(image.status_with(packed_row, 0, packed_rows - rows + 1),
+                MIEN_ERROR_BAKED_STRUCTURE);
       ++found;
     }
     first += at_lod[0];

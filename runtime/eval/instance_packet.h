@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Instances of one LOD that are evaluated together: 1 in a single evaluation, up to 32 in a batch.
+// Both run the same stages in the same order. In a batch the correctives and the joint matrix are
+// computed for the whole packet, where that is faster; the bits are the same either way.
+//
+//     each instance:       what changed, ML, RBF
+//     the packet (batch):  PSD; of the joint matrix the columns that many instances use
+//     each instance:       PSD, joints, blend shapes, animated maps: what is left
+#pragma once
+
+#include "runtime/eval/instance.h"
+
+namespace mien {
+
+/// All blocks of the joint matrix by block row, each block row in order of its columns.
+struct BlockList {
+  Span<uint32_t> starts;     // [block row] into blocks, one more at the end
+  Span<uint32_t> raw_ends;   // [block row] where the columns of raw controls end
+  Span<BatchBlock> blocks;   // kBatchAhead more at the end
+  uint32_t raw_columns = 0;  // columns of raw controls
+};
+
+/// Scratch memory of a packet.
+struct PacketScratch {
+  Span<float> controls;     // [control][32]
+  Span<uint32_t> changed;   // [corrective] a bit for each of the 32
+  Span<uint8_t> users;      // [column] how many of them use it
+  Span<float> sums;         // [32][packed row of a tile]
+  Span<uint32_t> ends;      // [block row] into blocks
+  Span<BatchBlock> blocks;  // of used columns; those of a block row begin at BlockList::starts
+};
+
+struct InstancePacket {
+  const Rig& rig;
+  uint32_t lod;
+  Instance* const* instances;  // different ones
+  uint32_t count;              // up to kBatchLanes
+  // Null in a single evaluation.
+  const BlockList* block_list;
+  const PacketScratch* scratch;
+};
+
+/// The pipeline. Stages as for evaluate().
+void evaluate_packet(const InstancePacket& packet, uint32_t stages);
+
+// For the pipeline: the PSD stage of all instances of a packet, and their joint stage. The latter is
+// left undone if summing each instance by itself is faster. gather_controls() comes first.
+void gather_controls(const InstancePacket& packet);
+void evaluate_psds_together(const InstancePacket& packet);
+void evaluate_joints_together(const InstancePacket& packet);
+
+}  // namespace mien
