@@ -87,7 +87,7 @@ MienStatus open_baked(const void* bytes, size_t size, MappedFile& file,
   }
   release_bytes(&baked->bytes);
   if (status != Status::kOk) return give_error(detail, error);
-  rig->always_evaluate |= arguments.desc.reuse == MIEN_REUSE_NOTHING;
+  rig->always_evaluate = arguments.desc.reuse == MIEN_REUSE_NOTHING;
   rig->instance_size = instance_size(*rig);
   rig->tag = kRigTag;
   *out_rig = reinterpret_cast<MienRig*>(rig);

@@ -154,7 +154,6 @@ Status open_baked_rig(const Baked& baked, const KernelTable* kernels, const Allo
   rig->bytes = &baked.bytes;
   rig->baked_size = static_cast<size_t>(baked.rig->size);
   rig->kernels = kernels;
-  rig->always_evaluate = rig->reads_back;
   out = rig;
   return Status::kOk;
 }

@@ -243,7 +243,7 @@ uint32_t fill_targets(const dna::DnaView& view, const JointPlan& plan, uint32_t 
   return next;
 }
 
-/// The largest number of a row becomes the largest of 16 bits.
+/// The largest entry of a row becomes the largest 16-bit number.
 void fill_scales(const dna::DnaView& view, const JointPlan& plan, JointMatrix& joints) {
   for (const PlannedRows& rows : plan.rows) {
     const dna::JointGroup& group = view.bhvr.joints.groups[rows.group];
@@ -268,8 +268,7 @@ int16_t add_fixed(int16_t to, float value, float scale) {
                                                 : (steps > -32767.0f ? steps : -32767.0f));
 }
 
-/// Fetches what a column is to be written to next: there are too many columns for the processor to
-/// foresee it.
+/// Prefetches the next place of a column: there are too many columns for the processor to do it.
 void expect(const float* to) {
 #if defined(__GNUC__)
   __builtin_prefetch(to, 1);
@@ -278,24 +277,34 @@ void expect(const float* to) {
 #endif
 }
 
-/// A block comes into memory that nobody has written yet.
+/// Infinities become the largest float of their sign, NaN the lowest: 0 times an entry has to be 0,
+/// as a batch multiplies where a single evaluation skips.
+float finite(float value) {
+  const float low = value > -kLargestFloat ? value : -kLargestFloat;
+  return low < kLargestFloat ? low : kLargestFloat;
+}
+float entry_of(const FileRows& file, uint32_t row, uint32_t column) {
+  return finite(load_big_endian<float>(file.value(row, column)));
+}
+
+/// The memory of a block is not initialized.
 void add_block(const PlannedRows& rows, const FileRows& file, uint32_t column, bool first,
                float* block) {
   if (first && file.count == kJointBlockRows) {
     for (uint32_t k = 0; k < kJointBlockRows; ++k) {
-      block[k] = load_big_endian<float>(file.value(k, column));
+      block[k] = entry_of(file, k, column);
     }
     return;
   }
   float* const own = block + rows.first_in_block;
   if (!first) {
     for (uint32_t k = 0; k < file.count; ++k) {
-      own[k] += load_big_endian<float>(file.value(k, column));
+      own[k] = finite(own[k] + entry_of(file, k, column));
     }
     return;
   }
   std::fill(block, own, 0.0f);
-  for (uint32_t k = 0; k < file.count; ++k) own[k] = load_big_endian<float>(file.value(k, column));
+  for (uint32_t k = 0; k < file.count; ++k) own[k] = entry_of(file, k, column);
   std::fill(own + file.count, block + kJointBlockRows, 0.0f);
 }
 

@@ -26,25 +26,34 @@ bool same_bits(const float* a, const float* b, size_t count) {
   return count == 0 || memcmp(a, b, count * sizeof(float)) == 0;
 }
 
-/// The rule of stage_access.h: compares a range of the control row with what it was, and marks what
-/// becomes stale if the range was written by a stage (or by somebody else: kNoStage).
-void note_changes(const Rig& rig, Instance& instance, const ControlRange& range, uint32_t writer) {
-  const float* now = instance.controls.data;
-  float* previous = instance.previous_controls.data;
-  if (same_bits(previous + range.first, now + range.first, range.end - range.first)) return;
+/// The rule of stage_access.h, for a range of controls that were written by a stage, or otherwise
+/// (kNoStage). `previous` has their values from before, and then those from now.
+void note_changes(const Rig& rig, Instance& instance, const ControlRange& range, float* previous,
+                  uint32_t writer) {
+  const float* now = instance.controls.data + range.first;
+  const uint32_t count = range.end - range.first;
+  if (same_bits(previous, now, count)) return;
   Uses uses = 0;
-  for (uint32_t c = range.first; c < range.end; ++c) {
-    if (same_bits(previous[c], now[c])) continue;
-    uses |= rig.control_uses[c];
-    previous[c] = now[c];
+  for (uint32_t i = 0; i < count; ++i) {
+    if (same_bits(previous[i], now[i])) continue;
+    uses |= rig.control_uses[range.first + i];
+    previous[i] = now[i];
   }
   instance.stale |= uses & ~Uses{writer & ~rig.feedback_stages};
 }
 
-/// Before a stage writes a range of controls.
-void remember_controls(Instance& instance, const ControlRange& range) {
-  const float* now = instance.controls.data;
-  std::copy(now + range.first, now + range.end, instance.previous_controls.data + range.first);
+/// Runs write(), which writes controls of a range only.
+template <class Write>
+void write_controls(const Rig& rig, Instance& instance, const ControlRange& range, uint32_t writer,
+                    Write&& write) {
+  const float* controls = instance.controls.data;
+  float* before = instance.before_writing.data;
+  std::copy(controls + range.first, controls + range.end, before);
+  write();
+  note_changes(rig, instance, range, before, writer);
+  // Raw controls among them were not changed by the caller.
+  const uint32_t raw_end = std::min(range.end, rig.raw_count);
+  for (uint32_t c = range.first; c < raw_end; ++c) instance.previous_raw[c] = controls[c];
 }
 
 // Results that a LOD does not write stay 0 from here on, so stages clear nothing. Raw controls
@@ -61,7 +70,7 @@ void enter_lod(const Rig& rig, Instance& instance, uint32_t lod) {
 void begin_evaluation(const Rig& rig, Instance& instance, uint32_t lod) {
   enter_lod(rig, instance, lod);
   if (rig.always_evaluate) instance.stale = kAllUses;
-  note_changes(rig, instance, {0, rig.raw_count}, kNoStage);
+  note_changes(rig, instance, {0, rig.raw_count}, instance.previous_raw.data, kNoStage);
   const Span<float>& masks = instance.masks;
   if (same_bits(instance.previous_masks.data, masks.data, masks.count)) return;
   std::copy(masks.begin(), masks.end(), instance.previous_masks.begin());
@@ -81,9 +90,8 @@ void run(const InstancePacket& packet, uint32_t stage, Evaluate* evaluate_stage,
     Instance& instance = *packet.instances[i];
     if ((instance.stale & stage) == 0) continue;
     instance.stale &= ~Uses{stage};
-    remember_controls(instance, writes);
-    evaluate_stage(packet.rig, instance, packet.lod);
-    note_changes(packet.rig, instance, writes, stage);
+    write_controls(packet.rig, instance, writes, stage,
+                   [&] { evaluate_stage(packet.rig, instance, packet.lod); });
   }
 }
 
@@ -107,9 +115,12 @@ void run_together(const InstancePacket& packet, uint32_t stages) {
 
 void evaluate_packet(const InstancePacket& packet, uint32_t stages) {
   const Rig& rig = packet.rig;
+  Uses stale = 0;
   for (uint32_t i = 0; i < packet.count; ++i) {
     begin_evaluation(rig, *packet.instances[i], packet.lod);
+    stale |= packet.instances[i]->stale;
   }
+  if ((stale & stages) == 0) return;
   run(packet, stages & kStageMl, evaluate_ml, rig.ml_writes);
   run(packet, stages & kStageRbf, evaluate_rbf, rig.rbf_writes);
   if (packet.scratch) run_together(packet, stages & (kStagePsd | kStageJoints));
@@ -135,9 +146,8 @@ void evaluate_joint_group(const Rig& rig, Instance& instance, uint32_t lod, uint
 
 void evaluate_rbf_solver(const Rig& rig, Instance& instance, uint32_t lod, uint32_t solver) {
   begin_evaluation(rig, instance, lod);
-  remember_controls(instance, rig.rbf_writes);
-  solve_rbf(rig, instance, solver);
-  note_changes(rig, instance, rig.rbf_writes, kNoStage);
+  write_controls(rig, instance, rig.rbf_writes, kNoStage,
+                 [&] { solve_rbf(rig, instance, solver); });
 }
 
 void evaluate_twist_swing(const Rig& rig, Instance& instance, uint32_t lod, uint32_t setup) {

@@ -17,8 +17,11 @@ void place_instance(const Rig& rig, Placer& placer, Instance& instance) {
   instance.joints = instance.joints_and_angles.first(rig.joint_value_count());
   instance.channels = placer.array<float>(rig.channel_count, kBlockAlignment);
   instance.maps = placer.array<float>(rig.map_count, kBlockAlignment);
-  instance.previous_controls = placer.array<float>(rig.control_count, kBlockAlignment);
+  instance.previous_raw = placer.array<float>(rig.raw_count, kBlockAlignment);
   instance.previous_masks = placer.array<float>(rig.mask_count, kBlockAlignment);
+  const ControlRange &ml = rig.ml_writes, &rbf = rig.rbf_writes;
+  instance.before_writing =
+      placer.array<float>(std::max(ml.end - ml.first, rbf.end - rbf.first), kBlockAlignment);
   instance.rotations = placer.array<float>(
       4 * align_up(rig.rotations.max_quaternion_joints, kBlockLanes), kBlockAlignment);
   instance.ml_values = placer.array<float>(rig.ml.buffer_size, kBlockAlignment);

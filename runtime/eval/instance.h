@@ -26,9 +26,9 @@ struct Instance {
   Span<float> maps;
 
   // Reuse (runtime/rig/stage_access.h).
-  Span<float> previous_controls;  // raw: when the last evaluation began; others: before a stage
-  Span<float> previous_masks;     // when the last evaluation began
-  Uses stale = 0;                 // stages and row panels that must be evaluated
+  Span<float> previous_raw, previous_masks;  // when the last evaluation began
+  Span<float> before_writing;                // scratch: controls that a stage writes
+  Uses stale = 0;                            // stages and row panels that must be evaluated
 
   Span<float> rotations;      // scratch: of the largest group of quaternion joints
   Span<float> ml_values;      // outputs of the ML steps, for later steps

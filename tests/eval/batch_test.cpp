@@ -2,6 +2,8 @@
 // Many instances at once give the bits of one after the other, however they are mixed and split.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <thread>
 
 #include "tests/support/counting_allocator.h"
@@ -118,6 +120,40 @@ TEST(Batch, OfSeveralTiles) {
     packet.evaluate(batch.get());
     packet.expect_equal();
   }
+}
+
+// 0 times such an entry is not 0, and a batch multiplies where a single evaluation skips.
+TEST(Batch, OfEntriesThatAreNotFinite) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  PlainRig plain;
+  plain.raw_count = 4;
+  plain.joint_count = 3;
+  PlainGroup group;
+  group.lods = {20};
+  group.inputs = {0, 1, 2, 3, 0};  // one control twice: its entries are added
+  const float awkward[] = {1, kInfinity, -kInfinity, std::nanf(""), kLargest, -2, 0.5f};
+  for (uint16_t row = 0; row < 20; ++row) {
+    group.outputs.push_back(row);
+    for (uint32_t c = 0; c < 5; ++c) group.values.push_back(awkward[(row + 3 * c + row * c) % 7]);
+  }
+  plain.groups = {group};
+  Arena arena(default_allocator());
+  const std::vector<uint8_t> bytes = write_view(to_view(plain, arena));
+  const DnaHandle dna = open_dna(bytes);
+  Random random = Random::from_seed(15, 1);
+  for_each_rig_desc([&](const MienRigDesc& desc) {
+    InstancePacket packet(dna.get(), desc, 32);
+    const BatchHandle batch = create_batch(packet.rig, 32);
+    for (uint32_t percent : {100, 20, 70}) {
+      packet.draw(random, percent, false, 1);
+      packet.evaluate(batch.get());
+      packet.expect_equal();
+      for (const Character& character : packet.alone) {
+        for (float value : character.joints) ASSERT_TRUE(std::isfinite(value));
+      }
+    }
+  });
 }
 
 TEST(Batch, SomeStages) {

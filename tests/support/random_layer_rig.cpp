@@ -163,6 +163,47 @@ struct Builder {
       }
     }
   }
+
+  /// About half of a list becomes any controls.
+  void tangle(std::vector<uint16_t>& controls) {
+    for (uint16_t& control : controls) {
+      if (random.chance(0.5)) control = below(rig.control_count());
+    }
+  }
+  LodIndices some_at_each_lod(size_t count) {
+    LodIndices lists(rig.base.lod_count);
+    for (std::vector<uint16_t>& list : lists) {
+      for (size_t i = 0; i < count; ++i) {
+        if (random.chance(0.7)) list.push_back(static_cast<uint16_t>(i));
+      }
+    }
+    return lists;
+  }
+  void tangle_all() {
+    for (PlainNetwork& network : rig.networks) {
+      tangle(network.inputs);
+      tangle(network.outputs);
+    }
+    for (PlainOperationSet& set : rig.operations) {
+      for (PlainOperation& operation : set) {
+        const bool controls = operation.type == MlOperationType::kGather ||
+                              operation.type == MlOperationType::kScatter;
+        for (uint32_t& parameter : operation.parameters) {
+          if (controls && random.chance(0.5)) parameter = below(rig.control_count());
+        }
+      }
+    }
+    for (PlainRbfSolver& solver : rig.solvers) tangle(solver.inputs);
+    for (PlainRbfPose& pose : rig.poses) {
+      if (random.chance(0.3)) pose.inputs = any_of(2, rig.control_count());
+      tangle(pose.outputs);
+    }
+    for (auto& [control, attribute] : rig.ml_joints) {
+      if (random.chance(0.2)) control = below(rig.control_count() - 4);
+    }
+    rig.lod_solvers = some_at_each_lod(rig.solvers.size());
+    if (rig.operations.empty()) rig.lod_networks = some_at_each_lod(rig.networks.size());
+  }
 };
 
 }  // namespace
@@ -176,7 +217,7 @@ float wild_float(Random& random) {
   return static_cast<float>(random.chance(0.5) ? bounded : -bounded);
 }
 
-LayerRig random_layer_rig(Random& random, bool wild) {
+LayerRig random_layer_rig(Random& random, bool wild, bool tangled) {
   Builder make = {random, wild};
   LayerRig& rig = make.rig;
   rig.base.lod_count = 2;
@@ -196,6 +237,7 @@ LayerRig random_layer_rig(Random& random, bool wild) {
   make.make_networks();
   make.make_joints();
   make.make_tables();
+  if (tangled) make.tangle_all();
   return rig;
 }
 
