@@ -40,6 +40,28 @@ void remember_pending_file(const std::string& path) {
 #endif
 }
 
+/// Signals that end the program wait while this lives: between creating a file and remembering its
+/// name, one of them would leave the file behind.
+class HeldSignals {
+ public:
+#if defined(_WIN32)
+  HeldSignals() {}
+#else
+  HeldSignals() {
+    sigset_t set;
+    sigemptyset(&set);
+    for (int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, number);
+    sigprocmask(SIG_BLOCK, &set, &before_);
+  }
+  ~HeldSignals() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+
+ private:
+  sigset_t before_;
+#endif
+};
+
 int process_id() {
 #if defined(_WIN32)
   return _getpid();
@@ -79,6 +101,7 @@ Output::Output(const std::string& path) : path_(path) {
   // A link stays a link: the file that it points to is replaced.
   const fs::path target = fs::exists(status) ? fs::canonical(path, ignored) : fs::path(path);
   target_ = target.string();
+  const HeldSignals held;
   // Process ids repeat, and a process that was killed may have left a file of that name.
   for (int attempt = 0; attempt < 100 && !stream_; ++attempt) {
     const std::string name =
