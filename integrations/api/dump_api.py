@@ -20,7 +20,7 @@ HERE = Path(__file__).resolve().parent
 HEADER = HERE.parent.parent / "capi" / "mien.h"
 OUTPUT = HERE / "mien_api.json"
 
-# Sizes of the LP64 model: Linux and macOS on 64-bit machines. tests/api_layout_test.py asks the
+# Sizes of the LP64 model: Linux and macOS on 64-bit machines. layout_test.py asks the
 # compiler whether they hold.
 SCALARS = {
     "char": 1, "int8_t": 1, "uint8_t": 1, "int16_t": 2, "uint16_t": 2, "int32_t": 4, "uint32_t": 4,

@@ -134,10 +134,7 @@ TEST_F(Files, MemoryIsCounted) {
 // itself takes.
 TEST_F(Files, MemoryIsBounded) {
   std::vector<Bytes> files = {bytes, write_dna(generate_dna(MIEN_PRESET_SMALL, 1).get())};
-  const std::string shared = golden::shared_folder();
-  for (const char* name : {"tiny", "body", "head", "ml_ext"}) {
-    if (!shared.empty()) files.push_back(golden::read_bytes(shared + "/golden/" + name + ".dna"));
-  }
+  for (const std::string& name : golden::present_names()) files.push_back(golden::read_rig(name));
   for (const Bytes& file : files) {
     MienDna* opened = nullptr;
     ASSERT_EQ(mien_dna_open_memory(file.data(), file.size(), nullptr, &opened, nullptr), MIEN_OK);
@@ -168,9 +165,8 @@ TEST_F(Files, ALargeRigIsLittleMoreThanItsMatrix) {
 }
 
 TEST_F(Files, AHeadIsLittleMoreThanItsMatrix) {
-  const std::string shared = golden::shared_folder();
-  if (shared.empty()) GTEST_SKIP() << golden::no_golden_files("the memory of a head");
-  const Bytes file = golden::read_bytes(shared + "/golden/head.dna");
+  if (!golden::has_head()) GTEST_SKIP() << golden::no_head("the memory of a production rig");
+  const Bytes file = golden::read_rig(golden::kHead);
   EXPECT_LE(rig_bytes_per_stored_byte(file), kMaxPerStoredByte);
   EXPECT_LE(info_of(create_rig(open_dna(file).get())).instance_bytes, 40u * 1024);
 }

@@ -503,11 +503,10 @@ TEST_F(OutOfMemory, FewRequestsForALargeRig) {
 
 // A head's behavior, opened and compiled.
 TEST_F(OutOfMemory, EightRequestsForAHead) {
-  const std::string shared = golden::shared_folder();
-  if (shared.empty()) {
-    GTEST_SKIP() << golden::no_golden_files("how many requests a head takes");
+  if (!golden::has_head()) {
+    GTEST_SKIP() << golden::no_head("how many requests for memory a production rig takes");
   }
-  const Bytes file = golden::read_bytes(shared + "/golden/head.dna");
+  const Bytes file = golden::read_rig(golden::kHead);
   for (uint64_t lods : {0u, 1u, 2u}) {
     CountingAllocator counter;
     const MienAllocator allocator = counter.get();

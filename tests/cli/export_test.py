@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: MIT
 """`mien export`: what GLB and OBJ files hold, that a viewer deforms them as Mien does, and failures.
 
-    cli_export_test.py path/to/mien [unittest options]      (or MIEN_BIN=path/to/mien)
+    export_test.py path/to/mien [unittest options]      (or MIEN_BIN=path/to/mien)
 
-Rigs come from `mien gen`, and from $MIEN_SHARED/golden if it is there. The Khronos validator runs
-where Node.js is and its package is in $MIEN_GLTF_VALIDATOR/node_modules (default:
-build/gltf_validator, filled by `./dev test`), Blender where it is installed.
+Rigs come from `mien gen` and from tests/golden. The Khronos validator runs where Node.js is installed
+and its package is in $MIEN_GLTF_VALIDATOR/node_modules (default: build/gltf_validator, which
+`./dev test` fills); Blender runs where it is installed.
 """
 import json
 import math
@@ -20,6 +20,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+import golden_rigs  # noqa: E402
 from glb import Glb, Obj  # noqa: E402
 
 DONE, USAGE, INVALID, FILE, INTERNAL = range(5)
@@ -27,7 +28,6 @@ PRESETS = ("tiny", "small", "medium", "large")
 
 here = os.path.dirname(os.path.abspath(__file__))
 project = os.path.dirname(os.path.dirname(here))
-golden = os.path.join(os.environ.get("MIEN_SHARED") or os.path.join(project, "..", "shared"), "golden")
 validator = os.environ.get("MIEN_GLTF_VALIDATOR") or os.path.join(project, "build", "gltf_validator")
 mien = os.environ.get("MIEN_BIN", "")
 folder = ""
@@ -292,15 +292,10 @@ class Deformation(ExportTest):
         self.assertLess(worst, 0.02)
         self.assertLess(self.worst(self.glb(rig, "--influences", "8", *settings), self.obj(rig, *settings)), 3e-6)
 
-    def test_known_rigs(self):
+    def test_golden_rigs(self):
         """Files by another writer: more than 8 influences, weights that do not sum to 1, neutral
         rotations, radians, other orders of rotation, networks."""
-        if not os.path.isdir(golden):
-            skip("known rigs; there is no %s" % golden)
-        for name in sorted(os.listdir(golden)):
-            if not name.endswith(".dna"):
-                continue
-            rig = os.path.join(golden, name)
+        for name, rig in golden_rigs.rigs().items():
             settings, _ = self.random_pose(rig, 5, 0.2)
             if self.info(rig)["counts"]["raw_controls"] > 400:
                 settings = settings[:400]
@@ -676,10 +671,8 @@ class Readers(ExportTest):
             self.ok("demo-head", "-o", path("head.dna"))
             jobs["head"] = [path("head.dna")]
             jobs["head_baked"] = [path("head.dna"), "--bake-arkit", "--lod", "4"]
-        if os.path.isdir(golden):
-            for name in os.listdir(golden):
-                if name.endswith(".dna"):
-                    jobs["known_" + name[:-4]] = [os.path.join(golden, name), "--lod", "all"]
+        for name, rig in golden_rigs.rigs().items():
+            jobs["golden_" + name] = [rig, "--lod", "all"]
         for name, arguments in jobs.items():
             self.ok("export", *arguments, "-o", path(name + ".glb"), "--quiet")
         self.made.extend(jobs)
@@ -763,6 +756,6 @@ if __name__ == "__main__":
     if len(sys.argv) > 1 and not sys.argv[1].startswith("-") and os.path.exists(sys.argv[1]):
         mien = sys.argv.pop(1)
     if not mien:
-        sys.exit("usage: cli_export_test.py path/to/mien (or MIEN_BIN)")
+        sys.exit("usage: export_test.py path/to/mien (or MIEN_BIN)")
     mien = os.path.abspath(mien)
     unittest.main()

@@ -3,10 +3,9 @@
 """`mien render` and `mien inspect` from outside: pictures, sheets, frames, heat maps, and every way to
 ask for them wrongly.
 
-    cli_render_test.py path/to/mien [unittest options]      (or MIEN_BIN=path/to/mien)
+    render_test.py path/to/mien [unittest options]      (or MIEN_BIN=path/to/mien)
 
-All rigs come from `mien gen`; nothing else is needed but Python 3. With $MIEN_SHARED (default:
-../shared) its rigs are drawn as well.
+Rigs come from `mien gen` and from tests/golden.
 """
 import base64
 import json
@@ -19,6 +18,9 @@ import tempfile
 import unittest
 import zlib
 from pathlib import Path
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+import golden_rigs  # noqa: E402
 
 DONE, USAGE, INVALID, FILE, INTERNAL = range(5)
 GAP = 6
@@ -294,13 +296,9 @@ class Render(RenderTest):
         cut = write("cut.dna", data[:len(data) // 2])
         self.fails(INVALID, "render", cut, "-o", path("no.png"), says="cut.dna")
 
-    def test_rigs_with_known_results(self):
-        shared = Path(os.environ.get("MIEN_SHARED", Path(__file__).parent / "../../../shared")) / "golden"
-        rigs = sorted(shared.glob("*.dna"))
-        if not rigs:
-            self.skipTest("NOT TESTED: no rigs in %s" % shared)
-        for rig in rigs:
-            picture = Picture(self.ok("render", str(rig), "-o", "-", "--size", "48").stdout)
+    def test_golden_rigs(self):
+        for rig in golden_rigs.rigs().values():
+            picture = Picture(self.ok("render", rig, "-o", "-", "--size", "48").stdout)
             self.assertEqual((picture.width, picture.height), (48, 48))
 
 

@@ -84,12 +84,10 @@ TEST(JointStorage, IsWithinHalfAUnitOfEachRow) {
 }
 
 TEST(JointStorage, OfAProductionHead) {
-  const std::string path = golden::shared_folder() + "/golden/head.dna";
-  MienDna* opened = nullptr;
-  if (mien_dna_open_file(path.c_str(), nullptr, &opened, nullptr) != MIEN_OK) {
-    GTEST_SKIP() << golden::no_golden_files("16-bit storage of a production head");
-  }
-  const DnaHandle dna(opened);
+  if (!golden::has_head()) GTEST_SKIP() << golden::no_head("16-bit storage of a production rig");
+  const std::vector<uint8_t> bytes = golden::read_rig(golden::kHead);
+  const DnaHandle dna = open_dna(bytes);
+  ASSERT_TRUE(dna);
   const Errors errors = compare(dna.get(), MIEN_ISA_BEST);
   std::printf("16-bit joint matrix: root mean square %.3g, largest %.3g (cm or degrees)\n",
               std::sqrt(errors.squares / static_cast<double>(errors.count)), errors.largest);

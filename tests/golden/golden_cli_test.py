@@ -4,9 +4,7 @@
 
     golden_cli_test.py path/to/mien [unittest options]      (or MIEN_BIN=path/to/mien)
 
-The rigs are $MIEN_SHARED/golden/NAME.dna, the results NAME.golden.bin beside them (default:
-../shared relative to the project); README.md there tells the format and how to compare. Nothing is
-left out.
+README.md beside this file describes the rigs, the results, and how they are compared.
 """
 import array
 import json
@@ -21,8 +19,9 @@ TOLERANCES = ("psd", "ml", "rbf", "joints.euler", "joints.quat", "blendShapes", 
 OUTPUTS = {"raw": "raw", "psd": "psd", "ml": "ml", "rbf": "rbf", "joints": "joints.euler",
            "blend_shapes": "blendShapes", "animated_maps": "animatedMaps"}
 
-project = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-golden = os.path.join(os.environ.get("MIEN_SHARED") or os.path.join(project, "..", "shared"), "golden")
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+import golden_rigs  # noqa: E402
+
 mien = os.environ.get("MIEN_BIN", "")
 
 
@@ -62,9 +61,9 @@ def read_records(path):
 
 
 class Rig:
-    def __init__(self, name):
-        self.path = os.path.join(golden, name + ".dna")
-        self.records = read_records(os.path.join(golden, name + ".golden.bin"))
+    def __init__(self, path):
+        self.path = path
+        self.records = read_records(path[:-len(".dna")] + ".golden.bin")
         counts = self.records["meta.counts"][1]
         self.lods, self.frames = counts[2], counts[12]
         self.counts = dict(zip(("gui", "raw", "psd", "ml", "rbf"), counts[3:8]))
@@ -137,8 +136,8 @@ class Golden(unittest.TestCase):
         self.assertLessEqual(worst[0], 1.0, (isa, worst[1]))
         return compared
 
-    def check(self, name):
-        rig = Rig(name)
+    def check(self, name, path):
+        rig = Rig(path)
         frames = rig.input()
         for isa in available:
             for rotation in ("euler", "quaternion"):
@@ -154,19 +153,15 @@ class Golden(unittest.TestCase):
 
 
 def add_tests():
-    """One test for each rig that is there."""
+    """One test for each rig."""
     global available
-    names = sorted(name[:-4] for name in os.listdir(golden) if name.endswith(".dna")) if os.path.isdir(golden) else []
-    if not names:
-        say("SKIPPED: no golden rigs at %s; set MIEN_SHARED" % golden)
-        Golden.test_nothing = unittest.skip("no golden rigs")(lambda self: None)
-        return
-    probe = os.path.join(golden, names[0] + ".dna")
+    rigs = golden_rigs.rigs()
     available = [isa for isa in ISAS
-                 if subprocess.run([mien, "info", probe, "--isa", isa], capture_output=True).returncode == 0]
-    say("SKIPPED instruction sets, not available here: %s" % ", ".join(set(ISAS) - set(available)))
-    for name in names:
-        setattr(Golden, "test_" + name, lambda self, name=name: self.check(name))
+                 if subprocess.run([mien, "info", rigs["tiny"], "--isa", isa], capture_output=True).returncode == 0]
+    assert "scalar" in available, "the program does not open %s" % rigs["tiny"]
+    say("Not available on this CPU: %s" % ", ".join(isa for isa in ISAS if isa not in available))
+    for name, path in rigs.items():
+        setattr(Golden, "test_" + name, lambda self, name=name, path=path: self.check(name, path))
 
 
 if __name__ == "__main__":

@@ -64,22 +64,45 @@ bool read_record(Reader& in, File& out) {
 
 }  // namespace
 
-std::string shared_folder() {
-  const char* chosen = std::getenv("MIEN_SHARED");
-  std::filesystem::path folder;
-  if (chosen && *chosen) {
-    folder = chosen;
-  } else {  // <project>/tests/support/golden.cpp -> <project>/../shared
-    const auto project = std::filesystem::path(__FILE__).parent_path() / ".." / "..";
-    folder = project / ".." / "shared";
-  }
-  std::error_code error;
-  return std::filesystem::is_directory(folder / "golden", error) ? folder.string() : std::string();
+namespace {
+
+/// MIEN_GOLDEN_FOLDER is tests/golden of the source tree; the build defines it.
+std::filesystem::path head_folder() {
+  const char* shared = std::getenv("MIEN_SHARED");
+  if (shared && *shared) return std::filesystem::path(shared) / "golden";
+  return std::filesystem::path(MIEN_GOLDEN_FOLDER) / "../../../shared/golden";
 }
 
-std::string no_golden_files(const char* what_is_not_tested) {
-  return std::string("NOT TESTED: ") + what_is_not_tested +
-         ". There is no golden/ in the shared folder; name the folder in MIEN_SHARED.";
+}  // namespace
+
+bool has_head() {
+  std::error_code error;
+  return std::filesystem::is_regular_file(head_folder() / "head.dna", error);
+}
+
+std::string no_head(const char* what_is_not_tested) {
+  return std::string("NOT TESTED: ") + what_is_not_tested + ". There is no " +
+         (head_folder() / "head.dna").lexically_normal().string() +
+         "; MIEN_SHARED names another folder.";
+}
+
+std::vector<std::string> present_names() {
+  std::vector<std::string> names(std::begin(kNames), std::end(kNames));
+  if (has_head()) names.push_back(kHead);
+  return names;
+}
+
+std::string folder() { return MIEN_GOLDEN_FOLDER; }
+
+std::string path_of(const std::string& name, const char* suffix) {
+  const auto in = name == kHead ? head_folder() : std::filesystem::path(MIEN_GOLDEN_FOLDER);
+  return (in / (name + suffix)).string();
+}
+
+std::vector<uint8_t> read_rig(const std::string& name) {
+  std::vector<uint8_t> bytes = read_bytes(path_of(name));
+  EXPECT_FALSE(bytes.empty()) << "no golden rig " << path_of(name);
+  return bytes;
 }
 
 Span<const float> Record::row(uint32_t i) const {

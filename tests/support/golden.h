@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files of inputs and expected outputs, computed by OpenRigLogic 13.2.5 in scalar float. They lie
-// in golden/ of the shared folder beside the project; golden/README.md there is their manual.
+// Golden rigs: rigs with inputs and expected outputs. tests/golden/README.md describes the files.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,12 +13,30 @@
 
 namespace mien::golden {
 
-/// The shared folder: the environment variable MIEN_SHARED, else ../shared beside the source tree.
-/// Empty if it has no golden files.
-std::string shared_folder();
+/// The golden rigs of the repository, tests/golden/. A test that misses one of them fails.
+constexpr const char* kNames[] = {"tiny",     "tiny_v21", "tiny_v22", "tiny_v23", "tiny_v24",
+                                  "tiny_v25", "tiny_v26", "tiny_v27", "small",    "small_rot",
+                                  "body",     "ml",       "ml_ext"};
 
-/// What a test says when it cannot run. Used as GTEST_SKIP() << no_golden_files("...").
-std::string no_golden_files(const char* what_is_not_tested);
+/// One more of production size, too large for the repository: golden/head.dna in the folder that
+/// the environment variable MIEN_SHARED names, by default ../shared beside the source tree.
+constexpr const char* kHead = "head";
+bool has_head();
+
+/// Skips a test that needs the head: GTEST_SKIP() << no_head("what is not tested").
+std::string no_head(const char* what_is_not_tested);
+
+/// The names above; the head only if it is there.
+std::vector<std::string> present_names();
+
+/// tests/golden
+std::string folder();
+
+/// Path of the file NAME.dna or NAME.golden.bin.
+std::string path_of(const std::string& name, const char* suffix = ".dna");
+
+/// Bytes of NAME.dna. Fails the test if there are none.
+std::vector<uint8_t> read_rig(const std::string& name);
 
 /// One array, row-major.
 struct Record {
@@ -55,7 +72,7 @@ enum class Rotations {
   kQuaternions,  // 10 per joint; 3 to 6 are a quaternion, compared up to its sign
 };
 
-/// The rule of the README: |mine - golden| <= absolute + relative * max(|golden|).
+/// The rule of the README, "Comparison": |mine - golden| <= absolute + relative * max(|golden|).
 struct Rule {
   double absolute = 0;
   double relative = 0;

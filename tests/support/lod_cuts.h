@@ -35,10 +35,8 @@ inline std::vector<Source> generated_sources() {
 
 inline std::vector<Source> golden_sources() {
   std::vector<Source> sources;
-  for (const char* name :
-       {"tiny", "tiny_v21", "tiny_v24", "small", "small_rot", "head", "body", "ml", "ml_ext"}) {
-    sources.push_back(
-        {name, golden::read_bytes(golden::shared_folder() + "/golden/" + name + ".dna")});
+  for (const std::string& name : golden::present_names()) {
+    sources.push_back({name, golden::read_rig(name)});
   }
   return sources;
 }

@@ -323,13 +323,10 @@ constexpr const char* kGolden[] = {"tiny",      "tiny_v21", "tiny_v24", "small",
                                    "small_rot", "body",     "ml",       "ml_ext"};
 
 TEST(SystemConversion, GoldenRigsMoveTheSame) {
-  if (golden::shared_folder().empty()) {
-    GTEST_SKIP() << golden::no_golden_files("golden rigs in other coordinate systems");
-  }
   Random random = Random::from_seed(5, 5);
   for (const char* file : kGolden) {
     SCOPED_TRACE(file);
-    const Bytes bytes = golden::read_bytes(golden::shared_folder() + "/golden/" + file + ".dna");
+    const Bytes bytes = golden::read_rig(file);
     const DnaHandle original = open_dna(bytes);
     ASSERT_TRUE(original);
     for (const char* name : {"unreal", "unity", "blender", "opengl"}) {
@@ -396,12 +393,9 @@ TEST(SystemConversion, AxesAndSignsReturnExactly) {
 }
 
 TEST(SystemConversion, GoldenRigsReturnExactly) {
-  if (golden::shared_folder().empty()) {
-    GTEST_SKIP() << golden::no_golden_files("golden rigs converted there and back");
-  }
   for (const char* file : kGolden) {
     SCOPED_TRACE(file);
-    const Bytes bytes = golden::read_bytes(golden::shared_folder() + "/golden/" + file + ".dna");
+    const Bytes bytes = golden::read_rig(file);
     for (const char* name : all_names()) {
       SCOPED_TRACE(name);
       expect_exact_return(bytes, named(name));

@@ -123,21 +123,13 @@ void expect_writing(const MienDna&, uint64_t, const MienDna& cut) { expect_round
 
 TEST(LodSelectionResults, OfGeneratedRigs) { for_each_cut(generated_sources(), expect_evaluation); }
 
-TEST(LodSelectionResults, OfGoldenFiles) {
-  if (golden::shared_folder().empty()) {
-    GTEST_SKIP() << golden::no_golden_files("results of golden files with some of their LODs");
-  }
-  for_each_cut(golden_sources(), expect_evaluation);
-}
+TEST(LodSelectionResults, OfGoldenFiles) { for_each_cut(golden_sources(), expect_evaluation); }
 
 TEST(LodSelectionResults, GeneratedRigsCanBeWritten) {
   for_each_cut(generated_sources(), expect_writing);
 }
 
 TEST(LodSelectionResults, GoldenFilesCanBeWritten) {
-  if (golden::shared_folder().empty()) {
-    GTEST_SKIP() << golden::no_golden_files("writing of golden files with some of their LODs");
-  }
   for_each_cut(golden_sources(), expect_writing);
 }
 

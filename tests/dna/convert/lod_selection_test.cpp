@@ -255,12 +255,7 @@ void expect_numbers(const MienDna& whole, uint64_t mask, const MienDna& cut) {
 TEST(LodSelection, GeneratedRigsKeepTheirNumbers) {
   for_each_cut(generated_sources(), expect_numbers);
 }
-TEST(LodSelection, GoldenFilesKeepTheirNumbers) {
-  if (golden::shared_folder().empty()) {
-    GTEST_SKIP() << golden::no_golden_files("LOD selection of golden files: numbers");
-  }
-  for_each_cut(golden_sources(), expect_numbers);
-}
+TEST(LodSelection, GoldenFilesKeepTheirNumbers) { for_each_cut(golden_sources(), expect_numbers); }
 void expect_all_lods_change_nothing(const std::vector<Source>& sources) {
   for (const Source& source : sources) {
     SCOPED_TRACE(source.name);
@@ -282,9 +277,6 @@ TEST(LodSelection, AllLodsChangeNothing) {
 }
 
 TEST(LodSelection, AllLodsOfGoldenFilesChangeNothing) {
-  if (golden::shared_folder().empty()) {
-    GTEST_SKIP() << golden::no_golden_files("golden files with all of their LODs");
-  }
   expect_all_lods_change_nothing(golden_sources());
 }
 
