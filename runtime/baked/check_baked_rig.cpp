@@ -24,6 +24,14 @@ bool is_range(const ControlRange& range, uint32_t control_count) {
   return range.first <= range.end && range.end <= control_count;
 }
 
+/// Enumerations of the C interface.
+bool are_known(const Units& units) {
+  bool known = units.translation <= 1 && units.rotation <= 1;
+  for (const uint32_t axis : units.axes) known &= axis <= 5;
+  for (const int32_t sign : units.rotation_signs) known &= sign == 1 || sign == -1;
+  return known;
+}
+
 bool check_counts(const RigChecker& c) {
   const Rig& rig = c.rig;
   const uint64_t parts =
@@ -44,7 +52,8 @@ bool check_counts(const RigChecker& c) {
               "joints") &&
          c.ok(rig.units.rotation_sequence <= 5 && is_order(rig.rotation.axes) &&
                   is_order(rig.ml.rotation.axes),
-              "rotation order");
+              "rotation order") &&
+         c.ok(are_known(rig.units), "units and axes");
 }
 
 // Names

@@ -589,6 +589,32 @@ TEST(RigImage, TargetsOfALodHaveSums) {
   EXPECT_GT(found, rig.lod_count);
 }
 
+// They cross the C interface as enumerations, which hosts index arrays with.
+TEST(RigImage, UnitsAndAxesAreInRange) {
+  const Bytes image = tiny_image();
+  const MienRigInfo info = info_of(tiny());
+  // Each number has a slot of eight bytes.
+  const uint32_t values[] = {info.translation_unit,
+                             info.rotation_unit,
+                             info.rotation_sequence,
+                             info.axes[0],
+                             info.axes[1],
+                             info.axes[2],
+                             static_cast<uint32_t>(info.rotation_signs[0]),
+                             static_cast<uint32_t>(info.rotation_signs[1]),
+                             static_cast<uint32_t>(info.rotation_signs[2])};
+  uint32_t pairs[2 * std::size(values)] = {};
+  for (size_t i = 0; i < std::size(values); ++i) pairs[2 * i] = values[i];
+  const auto* slots = reinterpret_cast<const uint8_t*>(pairs);
+  const auto found = std::search(image.begin(), image.end(), slots, slots + sizeof(pairs));
+  ASSERT_NE(found, image.end());
+  for (size_t i = 0; i < std::size(values); ++i) {
+    AlignedBytes bad(image);
+    bad.data()[static_cast<size_t>(found - image.begin()) + 8 * i] = 0x80;
+    open_image(bad, image_desc(MIEN_ISA_BEST, MIEN_BAKED_CHECK_SAFE), MIEN_ERROR_BAKED_STRUCTURE);
+  }
+}
+
 TEST(RigImage, RunsOfCorrectivesStayInTheirTable) {
   OpenImage image(save(create_rig(generate_dna(MIEN_PRESET_SMALL, 3).get()).get()));
   const PsdTable& psds = image.arrays().psds;

@@ -167,7 +167,7 @@ TEST_F(ReportTest, SeveralFindingsInSeveralLayers) {
   view.twsw.twists[0].output_joint_indices = be<uint16_t>(arena, {9});
   view.mlbh.networks[0].layers[1].weights = be<float>(arena, {1, 2, 3});
   view.geom.meshes[0].positions.xs = be<float>(arena, {0, 1, 2, 3, 4, std::stof("nan")});
-  view.desc.coordinate_system.x_axis = 9;
+  view.desc.archetype = 9;
   const Bytes file = written(view);
   const Report report(file);
   for (const char* field :
@@ -180,7 +180,7 @@ TEST_F(ReportTest, SeveralFindingsInSeveralLayers) {
     // The place is the field's, to the byte of the element.
     EXPECT_NE(found.byte_offset, MIEN_NO_OFFSET) << field;
   }
-  EXPECT_TRUE(report.has(MIEN_OK, "desc.coordinateSystem.xAxis"));
+  EXPECT_TRUE(report.has(MIEN_OK, "desc.archetype"));
   ASSERT_TRUE(report.has(MIEN_OK, "geom.meshes[0].positions.xs"));
   const uint64_t nan = report.of("geom.meshes[0].positions.xs")[0].byte_offset;
   EXPECT_EQ(number32(file, nan) & 0x7F800000, 0x7F800000u) << "the offset is that of the NaN";
@@ -189,6 +189,70 @@ TEST_F(ReportTest, SeveralFindingsInSeveralLayers) {
 }
 
 // A layer that cannot be read does not keep the others from being examined.
+// Whatever crosses the interface as an enumeration is one: files with other values do not open.
+TEST_F(ReportTest, EnumerationsOfTheDescriptorAreInRange) {
+  constexpr uint16_t kBad = 0x80;
+  const struct {
+    const char* field;
+    void (*damage)(DnaView& view);
+    size_t bytes;
+    uint16_t since;  // version
+  } cases[] = {
+      {"desc.translationUnit", [](DnaView& v) { v.desc.translation_unit = kBad; }, 2, 1},
+      {"desc.rotationUnit", [](DnaView& v) { v.desc.rotation_unit = kBad; }, 2, 1},
+      {"desc.coordinateSystem.xAxis", [](DnaView& v) { v.desc.coordinate_system.x_axis = kBad; }, 2,
+       1},
+      {"desc.coordinateSystem.yAxis", [](DnaView& v) { v.desc.coordinate_system.y_axis = kBad; }, 2,
+       1},
+      {"desc.coordinateSystem.zAxis", [](DnaView& v) { v.desc.coordinate_system.z_axis = kBad; }, 2,
+       1},
+      {"dsce.rotationSequence", [](DnaView& v) { v.dsce.rotation_sequence = kBad; }, 4, 7},
+      {"dsce.rotationSign.x", [](DnaView& v) { v.dsce.rotation_sign.x = kBad; }, 4, 7},
+      {"dsce.rotationSign.y", [](DnaView& v) { v.dsce.rotation_sign.y = kBad; }, 4, 7},
+      {"dsce.rotationSign.z", [](DnaView& v) { v.dsce.rotation_sign.z = kBad; }, 4, 7},
+      {"dsce.faceWindingOrder", [](DnaView& v) { v.dsce.face_winding_order = kBad; }, 1, 8},
+  };
+  for (const auto& c : cases) {
+    for (const uint16_t version : {1, 2, 7, 8}) {
+      if (version < c.since) continue;
+      DnaView damaged = view;
+      c.damage(damaged);
+      const Bytes file = written(damaged, version);
+      const Report report(file);
+      ASSERT_EQ(report.errors, 1u) << c.field << ", 2." << version << ": " << report.text();
+      const std::vector<Found> found = report.of(c.field);
+      ASSERT_EQ(found.size(), 1u) << report.text();
+      EXPECT_EQ(found[0].status, MIEN_ERROR_DNA_VALUE);
+      ASSERT_LE(found[0].byte_offset + c.bytes, file.size()) << c.field;
+      uint32_t stored = 0;  // big-endian
+      for (size_t i = 0; i < c.bytes; ++i) stored = stored << 8 | file[found[0].byte_offset + i];
+      EXPECT_EQ(stored, kBad) << c.field << " is not at byte " << found[0].byte_offset;
+
+      const Refusal refusal(file);
+      EXPECT_FALSE(refusal.opened) << c.field;
+      EXPECT_EQ(refusal.error.status, MIEN_ERROR_DNA_VALUE);
+      EXPECT_EQ(refusal.error.byte_offset, found[0].byte_offset);
+      EXPECT_NE(std::string(refusal.error.message).find(c.field), std::string::npos)
+          << refusal.error.message;
+    }
+  }
+}
+
+// Archetype and gender describe the character; no other number depends on them.
+TEST_F(ReportTest, UnknownArchetypeAndGenderAreKept) {
+  view.desc.archetype = 6;
+  view.desc.gender = 3;
+  const Bytes file = written(view);
+  const Report report(file);
+  EXPECT_EQ(report.errors, 0u) << report.text();
+  for (const auto& [field, value] : {std::pair{"desc.archetype", 6}, {"desc.gender", 3}}) {
+    const std::vector<Found> found = report.of(field);
+    ASSERT_EQ(found.size(), 1u) << report.text();
+    EXPECT_EQ(file[found[0].byte_offset + 1], value) << field;
+  }
+  EXPECT_FALSE(Refusal(file).refused());
+}
+
 TEST_F(ReportTest, DamageInOneLayerLeavesTheOthers) {
   view.bhvr.joints.groups[0].output_indices = be<uint16_t>(arena, {12, 10, 27});
   std::vector<Layer> layers = layers_of(written(view));

@@ -34,34 +34,38 @@ void check_metadata(Checker& c, const Field& desc) {
   }
 }
 
+// Units and axes cross the C interface as enumerations, so they have to be ones that exist.
 void check_descriptor(Checker& c) {
   const Descriptor& d = c.view.desc;
   const Field desc{nullptr, "desc"};
+  // The fields between metadata and complexity have fixed sizes; the count of complexity is the last
+  // of them.
+  const uint64_t complexity = c.view.offset_of(d.complexity.data);
+  const auto before_complexity = [&](unsigned bytes) {
+    return complexity == kNoOffset ? kNoOffset : complexity - bytes;
+  };
+  c.enumeration(Field{&desc, "translationUnit"}, before_complexity(18), d.translation_unit, 1);
+  c.enumeration(Field{&desc, "rotationUnit"}, before_complexity(16), d.rotation_unit, 1);
+  const FileCoordinateSystem& axes = d.coordinate_system;
+  const Field system{&desc, "coordinateSystem"};
+  c.enumeration(Field{&system, "xAxis"}, before_complexity(14), axes.x_axis, 5);
+  c.enumeration(Field{&system, "yAxis"}, before_complexity(12), axes.y_axis, 5);
+  c.enumeration(Field{&system, "zAxis"}, before_complexity(10), axes.z_axis, 5);
   if (d.lod_count > kMaxLods) {
-    constexpr size_t kBytesBeforeComplexity = 8;  // lodCount, maxLOD, count of complexity
-    const uint64_t after = c.view.offset_of(d.complexity.data);
-    c.error(Field{&desc, "lodCount"}, Status::kDnaLimit,
-            after == kNoOffset ? kNoOffset : after - kBytesBeforeComplexity,
+    c.error(Field{&desc, "lodCount"}, Status::kDnaLimit, before_complexity(8),
             "is %u; a file can have %u LODs", unsigned{d.lod_count}, kMaxLods);
   }
   if (!c.thorough) return;
 
   const uint64_t archetype = c.offset_after(d.name);
   c.informative_enumeration(Field{&desc, "archetype"}, archetype, d.archetype, 5);
-  c.informative_enumeration(Field{&desc, "gender"}, kNoOffset, d.gender, 2);
-  c.informative_enumeration(Field{&desc, "translationUnit"}, kNoOffset, d.translation_unit, 1);
-  c.informative_enumeration(Field{&desc, "rotationUnit"}, kNoOffset, d.rotation_unit, 1);
-
-  const FileCoordinateSystem& axes = d.coordinate_system;
-  const Field system{&desc, "coordinateSystem"};
-  c.informative_enumeration(Field{&system, "xAxis"}, kNoOffset, axes.x_axis, 5);
-  c.informative_enumeration(Field{&system, "yAxis"}, kNoOffset, axes.y_axis, 5);
-  c.informative_enumeration(Field{&system, "zAxis"}, kNoOffset, axes.z_axis, 5);
+  c.informative_enumeration(Field{&desc, "gender"},
+                            archetype == kNoOffset ? kNoOffset : archetype + 2, d.gender, 2);
   // Directions 2 n and 2 n + 1 lie on the same line.
   const int x = axes.x_axis / 2, y = axes.y_axis / 2, z = axes.z_axis / 2;
   if (x == y || y == z || z == x) {
-    c.warning(system, kNoOffset, "the axes %u, %u, %u do not span space", unsigned{axes.x_axis},
-              unsigned{axes.y_axis}, unsigned{axes.z_axis});
+    c.warning(system, before_complexity(14), "the axes %u, %u, %u do not span space",
+              unsigned{axes.x_axis}, unsigned{axes.y_axis}, unsigned{axes.z_axis});
   }
   check_metadata(c, desc);
 }
@@ -96,7 +100,7 @@ void check_descriptor_extension(Checker& c) {
     c.error(Field{&signs, axis.name}, Status::kDnaValue, at(axis.byte), "is %d instead of 1 or -1",
             axis.sign);
   }
-  c.informative_enumeration(Field{&dsce, "faceWindingOrder"}, at(16), e.face_winding_order, 1);
+  c.enumeration(Field{&dsce, "faceWindingOrder"}, at(16), e.face_winding_order, 1);
 }
 
 // Definition ------------------------------------------------------------------------------------

@@ -169,12 +169,12 @@ void Checker::names(const Field& field, const List<String>& list) {
 
 void Checker::enumeration(const Field& field, uint64_t offset, unsigned value, unsigned last) {
   if (value <= last) return;
-  error(field, Status::kDnaValue, offset, "is %u; only 0 to %u have a meaning", value, last);
+  error(field, Status::kDnaValue, offset, "is %u; valid values are 0 to %u", value, last);
 }
 
 void Checker::informative_enumeration(const Field& field, uint64_t offset, unsigned value,
                                       unsigned last) {
-  if (value > last) warning(field, offset, "is %u; only 0 to %u are known", value, last);
+  if (value > last) warning(field, offset, "is %u; known values are 0 to %u", value, last);
 }
 
 void Checker::finite(const Field& field, const Array<float>& values) {

@@ -526,11 +526,6 @@ Status convert_coordinates(DnaView& view, const CoordinateSystem& to, Arena& are
                 "converted to another system",
                 from.axes[0], from.axes[1], from.axes[2]);
   }
-  if (from.translation_unit > 1 || from.rotation_unit > 1 || from.face_winding > 1) {
-    return fail(error, Status::kDnaValue, kNoOffset,
-                "desc: a unit or the face winding of the file is not known: the rig cannot be "
-                "converted to another system");
-  }
   return CoordinateConverter(view, from, to, arena, error).run();
 }
 

@@ -647,11 +647,6 @@ TEST_F(Refused, TheFilesAxesDoNotSpanSpace) {
   expect(mirrored, "do not span space");
 }
 
-TEST_F(Refused, AUnitIsUnknown) {
-  tiny.desc.translation_unit = 7;
-  expect(mirrored, "is not known");
-}
-
 TEST_F(Refused, AControlIsTwoPartsOfARotation) {
   tiny.twsw.twists[0].input_control_indices = dna::be<uint16_t>(arena, {0, 1, 2, 0});
   expect(mirrored, "is part of two rotations");
