@@ -25,7 +25,7 @@ std::vector<float> joint_positions(const MienDna* dna) {
   MienDeformer* deformer = nullptr;
   require(mien_deformer_create(dna, rig, nullptr, &deformer, &error), error);
   MienFloatView matrices = {};
-  mien_deformer_bind_matrices(deformer, &matrices);
+  require(mien_deformer_bind_matrices(deformer, &matrices));
   std::vector<float> positions;
   for (size_t i = 0; i < matrices.count; i += 16) {
     positions.insert(positions.end(), matrices.data + i + 12, matrices.data + i + 15);
@@ -85,7 +85,7 @@ struct Character {
   Character(uint32_t isa, uint32_t seed, uint32_t channels) {
     const MienDeformer* deformer = deformer_for(isa);
     MienDeformerInfo info = sized<MienDeformerInfo>();
-    mien_deformer_info(deformer, &info);
+    require(mien_deformer_info(deformer, &info));
     MienDeformerInstanceDesc desc = sized<MienDeformerInstanceDesc>();
     desc.lods = 1;
     MienError error = sized<MienError>();
@@ -105,14 +105,14 @@ struct Character {
   Character(const Character&) = delete;
 
   void update() {
-    mien_deformer_instance_update_from_values(pose, joints.data(), joints.size(), weights.data(),
-                                              weights.size());
+    require(mien_deformer_instance_update_from_values(pose, joints.data(), joints.size(),
+                                                      weights.data(), weights.size()));
   }
 };
 
 double position_count() {
   MienMesh mesh = sized<MienMesh>();
-  mien_deformer_mesh(deformer_for(MIEN_ISA_SCALAR), 0, &mesh);
+  require(mien_deformer_mesh(deformer_for(MIEN_ISA_SCALAR), 0, &mesh));
   return static_cast<double>(mesh.position_count);
 }
 
@@ -130,7 +130,7 @@ void joints(benchmark::State& state, uint32_t isa) {
 
 void deform(benchmark::State& state, uint32_t isa, uint32_t normals, uint32_t channels) {
   Character character(isa, 1, channels);
-  for (auto _ : state) mien_deformer_instance_deform(character.pose, 0, normals, nullptr);
+  for (auto _ : state) require(mien_deformer_instance_deform(character.pose, 0, normals, nullptr));
   count_vertices(state);
 }
 
@@ -139,7 +139,7 @@ void frame(benchmark::State& state, uint32_t isa, uint32_t channels,
   Character character(isa, 1, channels);
   for (auto _ : state) {
     character.update();
-    mien_deformer_instance_deform(character.pose, 0, MIEN_NORMALS_RECOMPUTED, parallel);
+    require(mien_deformer_instance_deform(character.pose, 0, MIEN_NORMALS_RECOMPUTED, parallel));
   }
   count_vertices(state);
 }
@@ -155,12 +155,12 @@ void packet(benchmark::State& state, uint32_t isa, bool together) {
   }
   for (auto _ : state) {
     if (together) {
-      mien_deformer_instance_deform_batch(poses.data(), poses.size(), 0, MIEN_NORMALS_SKINNED,
-                                          nullptr);
+      require(mien_deformer_instance_deform_batch(poses.data(), poses.size(), 0,
+                                                  MIEN_NORMALS_SKINNED, nullptr));
       continue;
     }
     for (MienDeformerInstance* pose : poses)
-      mien_deformer_instance_deform(pose, 0, MIEN_NORMALS_SKINNED, nullptr);
+      require(mien_deformer_instance_deform(pose, 0, MIEN_NORMALS_SKINNED, nullptr));
   }
   count_vertices(state, kCharacters);
 }

@@ -46,11 +46,12 @@ constexpr uint32_t kGuiToRaw = 1u << 30, kTwistSwing = 1u << 31;
 void run(const MienRig* rig, MienInstance* instance, uint32_t lod, uint32_t stages,
          uint32_t set_ups) {
   if (stages == kGuiToRaw) {
-    mien_rig_map_gui_to_raw(rig, instance);
+    require(mien_rig_map_gui_to_raw(rig, instance));
   } else if (stages == kTwistSwing) {
-    for (uint32_t s = 0; s < set_ups; ++s) mien_rig_evaluate_twist_swing(rig, instance, lod, s);
+    for (uint32_t s = 0; s < set_ups; ++s)
+      require(mien_rig_evaluate_twist_swing(rig, instance, lod, s));
   } else {
-    mien_rig_evaluate_stages(rig, instance, lod, stages);
+    require(mien_rig_evaluate_stages(rig, instance, lod, stages));
   }
 }
 
@@ -60,17 +61,17 @@ void evaluate(benchmark::State& state, uint32_t isa, uint32_t lod, int percent, 
   MienError error = sized<MienError>();
   require(mien_instance_create(rig, nullptr, &instance, &error), error);
   MienMutableFloatView raw = {};
-  mien_instance_raw_controls(instance, &raw);
+  require(mien_instance_raw_controls(instance, &raw));
   activate(raw, percent);
-  mien_rig_evaluate(rig, instance, lod);
+  require(mien_rig_evaluate(rig, instance, lod));
   uint32_t set_ups = 0;
-  mien_rig_count(rig, MIEN_KIND_TWIST_SWING, &set_ups);
+  require(mien_rig_count(rig, MIEN_KIND_TWIST_SWING, &set_ups));
   for (auto _ : state) {
     run(rig, instance, lod, stages, set_ups);
     benchmark::ClobberMemory();
   }
   MienRigStatistics statistics = sized<MienRigStatistics>();
-  mien_rig_statistics(rig, lod, &statistics);
+  require(mien_rig_statistics(rig, lod, &statistics));
   state.counters["matrix_bytes"] = static_cast<double>(statistics.joint_byte_count);
   mien_instance_destroy(instance);
 }
@@ -87,7 +88,7 @@ std::vector<T> read_field(const std::string& path, Read read) {
 
 void csr(benchmark::State& state, uint32_t lod) {
   MienDnaInfo info = sized<MienDnaInfo>();
-  mien_dna_info(behavior(), &info);
+  require(mien_dna_info(behavior(), &info));
   std::vector<bench::DenseGroup> groups(info.joint_group_count);
   for (size_t g = 0; g < groups.size(); ++g) {
     const std::string at = "bhvr.joints.jointGroups[" + std::to_string(g) + "].";
@@ -115,10 +116,10 @@ void plain_rbf(benchmark::State& state) {
   require(mien_instance_create(rig, nullptr, &instance, &error), error);
   MienMutableFloatView raw = {};
   MienFloatView expected = {};
-  mien_instance_raw_controls(instance, &raw);
-  mien_instance_controls(instance, &expected);
+  require(mien_instance_raw_controls(instance, &raw));
+  require(mien_instance_controls(instance, &expected));
   activate(raw, 25);
-  mien_rig_evaluate_stages(rig, instance, 0, MIEN_STAGE_RBF);
+  require(mien_rig_evaluate_stages(rig, instance, 0, MIEN_STAGE_RBF));
   std::vector<float> controls(expected.data, expected.data + expected.count);
   for (auto _ : state) {
     evaluate(rbf, controls);
@@ -135,7 +136,7 @@ void plain_rbf(benchmark::State& state) {
 
 const int kRegistered = [] {
   MienDnaInfo info = sized<MienDnaInfo>();
-  mien_dna_info(behavior(), &info);
+  require(mien_dna_info(behavior(), &info));
   for (uint32_t lod = 0; lod < info.lod_count; ++lod) {
     benchmark::RegisterBenchmark(("csr/lod" + std::to_string(lod)).c_str(), csr, lod);
   }

@@ -51,7 +51,7 @@ std::unique_ptr<MienInstance, Destroy> instance_of(const MienRig* rig) {
 
 MienMutableFloatView raw_of(MienInstance* instance) {
   MienMutableFloatView raw = {};
-  mien_instance_raw_controls(instance, &raw);
+  require(mien_instance_raw_controls(instance, &raw));
   return raw;
 }
 
@@ -81,11 +81,11 @@ bool of_the_mouth(std::string name) {
 /// Raw controls of the mouth by their names; the first tenth of all where names say nothing.
 std::vector<uint32_t> mouth_controls(const MienRig* rig) {
   uint32_t count = 0;
-  mien_rig_count(rig, MIEN_KIND_RAW_CONTROL, &count);
+  require(mien_rig_count(rig, MIEN_KIND_RAW_CONTROL, &count));
   std::vector<uint32_t> found;
   for (uint32_t i = 0; i < count; ++i) {
     MienStringView name = {};
-    mien_rig_name(rig, MIEN_KIND_RAW_CONTROL, i, &name);
+    require(mien_rig_name(rig, MIEN_KIND_RAW_CONTROL, i, &name));
     if (of_the_mouth(std::string(name.data, name.count))) found.push_back(i);
   }
   if (found.empty()) {
@@ -150,11 +150,11 @@ double touched_share(const Clip& clip, const MienRig* rig, MienInstance* instanc
   for (size_t frame = 0; frame < 2; ++frame) {
     play(clip, frame, rig, instance);
     MienFloatView view = {};
-    mien_instance_controls(instance, &view);
+    require(mien_instance_controls(instance, &view));
     controls[frame].assign(view.data, view.data + view.count);
   }
   MienDnaInfo info = sized<MienDnaInfo>();
-  mien_dna_info(behavior(), &info);
+  require(mien_dna_info(behavior(), &info));
   size_t rows = 0, touched = 0;
   for (uint32_t g = 0; g < info.joint_group_count; ++g) {
     const std::string at = "bhvr.joints.jointGroups[" + std::to_string(g) + "].";
@@ -214,7 +214,9 @@ void packet(benchmark::State& state, uint32_t isa, uint32_t count, double activi
   }
   MienError error = sized<MienError>();
   MienBatch* made = nullptr;
-  require(mien_batch_create(rig.get(), count, 1, nullptr, &made, &error), error);
+  MienBatchDesc desc = mien_batch_desc_default();
+  desc.capacity = count;
+  require(mien_batch_create(rig.get(), &desc, &made, &error), error);
   const std::unique_ptr<MienBatch, Destroy> batch(made);
   const std::vector<uint32_t> lods(count, 0);
   for (auto _ : state) {

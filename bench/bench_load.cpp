@@ -7,11 +7,11 @@
 namespace mien::bench {
 namespace {
 
-void open(benchmark::State& state, uint32_t layers, uint64_t lods) {
+void open(benchmark::State& state, uint32_t layers, uint64_t lods, bool skip_targets) {
   MienDnaInfo info = sized<MienDnaInfo>();
   for (auto _ : state) {
-    MienDna* dna = open_rig(layers, lods);
-    mien_dna_info(dna, &info);
+    MienDna* dna = open_rig(layers, lods, skip_targets);
+    require(mien_dna_info(dna, &info));
     mien_dna_close(dna);
   }
   state.counters["memory_bytes"] = static_cast<double>(info.memory_bytes);
@@ -21,8 +21,8 @@ void compile(benchmark::State& state, uint64_t lods) {
   MienDna* dna = open_rig(kBehaviorLayers, lods);
   MienRigInfo info = sized<MienRigInfo>();
   for (auto _ : state) {
-    MienRig* rig = create_rig(dna, MIEN_ISA_BEST);
-    mien_rig_info(rig, &info);
+    MienRig* rig = create_rig(dna, MIEN_ISA_ENVIRONMENT);
+    require(mien_rig_info(rig, &info));
     mien_rig_destroy(rig);
   }
   state.counters["rig_bytes"] = static_cast<double>(info.rig_bytes);
@@ -35,7 +35,7 @@ struct ImageFile {
   std::string path = "/tmp/mien_bench_" + std::to_string(getpid()) + ".rig";
   ImageFile() {
     MienDna* dna = open_rig(kBehaviorLayers, 0);
-    MienRig* rig = create_rig(dna, MIEN_ISA_BEST);
+    MienRig* rig = create_rig(dna, MIEN_ISA_ENVIRONMENT);
     MienError error = sized<MienError>();
     require(mien_rig_save_file(rig, path.c_str(), &error), error);
     mien_rig_destroy(rig);
@@ -67,7 +67,7 @@ void open_image(benchmark::State& state, uint32_t access, uint32_t check) {
   for (auto _ : state) {
     MienRig* rig = nullptr;
     require(mien_rig_open_file(file.path.c_str(), &desc, &rig, &error), error);
-    mien_rig_info(rig, &info);
+    require(mien_rig_info(rig, &info));
     mien_rig_destroy(rig);
   }
   state.counters["rig_bytes"] = static_cast<double>(info.rig_bytes);
@@ -80,19 +80,21 @@ const int kRegistered = [] {
     const char* name;
     uint32_t layers;
     uint64_t lods;
+    bool skip_targets = false;
   } openings[] = {
       {"descriptor", MIEN_LAYER_DESCRIPTOR, 0},
       {"definition", MIEN_LAYER_DEFINITION, 0},
       {"behavior", MIEN_LAYER_BEHAVIOR, 0},
       {"behavior/lod0", MIEN_LAYER_BEHAVIOR, 1},
       {"behavior/last_lods", MIEN_LAYER_BEHAVIOR, ~uint64_t{0} << 2},
-      {"geometry_without_blend_shapes", MIEN_LAYER_GEOMETRY_WITHOUT_BLEND_SHAPES, 0},
+      {"geometry_without_blend_shapes", MIEN_LAYER_GEOMETRY, 0, true},
       {"all", MIEN_LAYER_ALL, 0},
       {"all/lod0", MIEN_LAYER_ALL, 1},
       {"all/last_lods", MIEN_LAYER_ALL, ~uint64_t{0} << 2},
   };
   for (const auto& o : openings) {
-    benchmark::RegisterBenchmark((std::string("open/") + o.name).c_str(), open, o.layers, o.lods);
+    benchmark::RegisterBenchmark((std::string("open/") + o.name).c_str(), open, o.layers, o.lods,
+                                 o.skip_targets);
   }
   benchmark::RegisterBenchmark("image/map", open_image, MIEN_FILE_MAP, MIEN_BAKED_CHECK_SAFE);
   benchmark::RegisterBenchmark("image/map/full", open_image, MIEN_FILE_MAP, MIEN_BAKED_CHECK_FULL);

@@ -27,6 +27,12 @@ inline void require(MienStatus status, const MienError& error) {
   std::exit(1);
 }
 
+inline void require(MienStatus status) {
+  if (status == MIEN_OK) return;
+  std::fprintf(stderr, "%s\n", mien_status_name(status));
+  std::exit(1);
+}
+
 /// The bytes of the file.
 inline const std::vector<char>& rig_bytes() {
   static const std::vector<char> bytes = [] {
@@ -48,10 +54,11 @@ inline const std::vector<char>& rig_bytes() {
   return bytes;
 }
 
-inline MienDna* open_rig(uint32_t layers, uint64_t lods) {
+inline MienDna* open_rig(uint32_t layers, uint64_t lods, bool skip_targets = false) {
   MienDnaDesc desc = sized<MienDnaDesc>();
   desc.layers = layers;
   desc.lods = lods;
+  desc.skip_blend_shape_targets = skip_targets;
   MienError error = sized<MienError>();
   MienDna* dna = nullptr;
   require(mien_dna_open_memory(rig_bytes().data(), rig_bytes().size(), &desc, &dna, &error), error);

@@ -124,7 +124,7 @@ float mean_distance(const PlainSolver& solver) {
 PlainRbf read_plain_rbf(const MienDna* dna) {
   PlainRbf rbf;
   MienDnaInfo info = sized<MienDnaInfo>();
-  mien_dna_info(dna, &info);
+  require(mien_dna_info(dna, &info));
   for (uint32_t p = 0; p < info.rbf_pose_count; ++p) {
     const std::string number = "[" + std::to_string(p) + "].";
     const std::string controls = "rbfe.poses" + number;
@@ -150,7 +150,7 @@ PlainRbf read_plain_rbf(const MienDna* dna) {
     }
     const bool automatic = indices(dna, at + "automaticRadius")[0] == 0;
     solver.radius = floats(dna, at + "radius")[0];
-    if (info.rotation_unit == MIEN_ROTATION_DEGREES) solver.radius *= 0.0174532925f;
+    if (info.rotation_unit == MIEN_ROTATION_UNIT_DEGREES) solver.radius *= 0.0174532925f;
     if (automatic) solver.radius = mean_distance(solver);
     if (solver.interpolative) solver.inverse = inverse_of(solver);
     rbf.solvers.push_back(solver);

@@ -3,6 +3,7 @@
 
 #include <cstdarg>
 #include <cstdio>
+#include <cstdlib>
 
 namespace mien::capi {
 
@@ -24,17 +25,22 @@ MienDna* new_dna(const Allocator& allocator) {
 }
 
 MienStatus find_kernels(uint32_t isa, const KernelTable*& out, MienError* error) {
-  if (isa >= kIsaCount) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "isa %u is no MIEN_ISA_...", isa);
+  if (isa == MIEN_ISA_ENVIRONMENT) {
+    out = kernels_from_environment();
+    if (out) return MIEN_OK;
+    const char* wanted = getenv("MIEN_ISA");
+    return give_error(error, MIEN_ERROR_ISA,
+                      "the environment variable MIEN_ISA is \"%.40s\", which is not an instruction "
+                      "set of this CPU and build; unset it or use scalar",
+                      wanted ? wanted : "");
   }
-  out = choose_kernels(static_cast<Isa>(isa));
+  if (isa >= kIsaCount) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "isa %u is not a MIEN_ISA_...", isa);
+  }
+  out = kernels_for(static_cast<Isa>(isa));
   if (out) return MIEN_OK;
-  return isa == MIEN_ISA_BEST
-             ? give_error(error, MIEN_ERROR_ISA,
-                          "the environment variable MIEN_ISA names an instruction "
-                          "set that is not to be had here; unset it or use scalar")
-             : give_error(error, MIEN_ERROR_ISA, "this CPU or build lacks %s; use MIEN_ISA_BEST",
-                          mien_isa_name(isa));
+  return give_error(error, MIEN_ERROR_ISA, "this CPU or build lacks %s; use MIEN_ISA_BEST",
+                    mien_isa_name(isa));
 }
 
 }  // namespace mien::capi

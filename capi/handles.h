@@ -65,6 +65,9 @@ inline MienStatus check(const MienBatch* batch) { return check_tag(batch, kBatch
 inline MienStatus check(const MienDeformer* deformer) { return check_tag(deformer, kDeformerTag); }
 inline MienStatus check(const MienDeformerInstance* pose) { return check_tag(pose, kPoseTag); }
 
+/// No struct grows beyond this: larger numbers were never set.
+constexpr size_t kMaxStructSize = 4096;
+
 /// Reads a caller's desc into `out`, which is zero where the caller's is shorter or NULL.
 /// `first_size` is the size in the release that introduced the struct.
 template <class T>
@@ -72,7 +75,7 @@ MienStatus read_struct(const T* in, T& out, size_t first_size = sizeof(T)) {
   memset(static_cast<void*>(&out), 0, sizeof(T));
   if (!in) return MIEN_OK;
   const size_t size = in->struct_size;
-  if (size < first_size) return MIEN_ERROR_STRUCT_SIZE;
+  if (size < first_size || size > kMaxStructSize) return MIEN_ERROR_STRUCT_SIZE;
   const uint8_t* bytes = reinterpret_cast<const uint8_t*>(in);
   for (size_t i = sizeof(T); i < size; ++i) {
     if (bytes[i] != 0) return MIEN_ERROR_STRUCT_SIZE;
@@ -85,8 +88,8 @@ MienStatus read_struct(const T* in, T& out, size_t first_size = sizeof(T)) {
 template <class T>
 MienStatus clear_struct(T* out, size_t first_size = sizeof(T)) {
   if (!out) return MIEN_ERROR_NULL_ARGUMENT;
-  const uint32_t size = out->struct_size;
-  if (size < first_size) return MIEN_ERROR_STRUCT_SIZE;
+  const size_t size = out->struct_size;
+  if (size < first_size || size > kMaxStructSize) return MIEN_ERROR_STRUCT_SIZE;
   memset(static_cast<void*>(out), 0, size);
   out->struct_size = size;
   return MIEN_OK;
@@ -101,7 +104,9 @@ void write_struct(T* out, T value) {
 }
 
 inline MienStatus check_error(const MienError* error) {
-  return error && error->struct_size < sizeof(MienError) ? MIEN_ERROR_STRUCT_SIZE : MIEN_OK;
+  return error && (error->struct_size < sizeof(MienError) || error->struct_size > kMaxStructSize)
+             ? MIEN_ERROR_STRUCT_SIZE
+             : MIEN_OK;
 }
 
 /// Copies an error to the caller's struct, if there is one.
@@ -132,12 +137,26 @@ inline MienStatus succeed(MienError* error) {
 }
 
 /// The caller's allocator, or the heap for NULL.
-inline MienStatus read_allocator(const MienAllocator* in, Allocator& out) {
+inline MienStatus read_allocator(const MienAllocator* in, Allocator& out, MienError* error) {
   out = default_allocator();
   if (!in) return MIEN_OK;
-  if (!in->allocate || !in->release) return MIEN_ERROR_INVALID_ARGUMENT;
+  if (!in->allocate || !in->release) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "the allocator lacks a function: MienAllocator.allocate or .release is NULL");
+  }
   out = {in->user, in->allocate, in->release};
   return MIEN_OK;
+}
+
+/// A caller's desc, which may be NULL; `name` is that of its type.
+template <class T>
+MienStatus read_desc(const T* in, T& out, const char* name, MienError* error) {
+  const MienStatus status = read_struct(in, out);
+  if (status == MIEN_OK) return MIEN_OK;
+  return give_error(error, status,
+                    "%s.struct_size is %zu, expected %zu (or more with zeros behind): set it to "
+                    "sizeof(%s) or begin with the default",
+                    name, in->struct_size, sizeof(T), name);
 }
 
 /// The kernels of a MIEN_ISA_..., or the reason why there are none.

@@ -55,6 +55,36 @@
 #define MIEN_API
 #endif
 
+/* Functions whose status must not be ignored: compilers warn where the language lets them. */
+#if defined(__cplusplus) && __cplusplus >= 201703L
+#define MIEN_CHECKED [[nodiscard]] MIEN_API
+#elif defined(__STDC_VERSION__) && __STDC_VERSION__ >= 202311L
+#define MIEN_CHECKED [[nodiscard]] MIEN_API
+#else
+#define MIEN_CHECKED MIEN_API
+#endif
+
+/* Calling convention of every callback. */
+#if defined(_WIN32) && !defined(_WIN64)
+#define MIEN_CALLBACK __cdecl
+#else
+#define MIEN_CALLBACK
+#endif
+
+/* Defines `function`, which returns a `Type` with struct_size set and every other field 0: the
+ * default of all of them. C11 and C++17 take it without a warning. */
+#ifdef __cplusplus
+#define MIEN_ZERO {}
+#else
+#define MIEN_ZERO {0}
+#endif
+#define MIEN_DEFAULT(Type, function)      \
+    static inline Type function(void) {   \
+        Type value = MIEN_ZERO;           \
+        value.struct_size = sizeof(Type); \
+        return value;                     \
+    }
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -111,11 +141,12 @@ MIEN_API const char* mien_status_name(MienStatus status);
 /* Detail of one failure, owned by the caller. Written by the call that fails; left alone, but for
  * status = MIEN_OK, by one that succeeds. */
 typedef struct MienError {
-    uint32_t struct_size;
-    MienStatus status;
+    size_t struct_size;
     uint64_t byte_offset; /* in the file; MIEN_NO_OFFSET if there is no such place */
-    char message[240];    /* what, where and what to do; terminated, possibly cut */
+    MienStatus status;
+    char message[236];    /* what, where and what to do; terminated, possibly cut */
 } MienError;
+MIEN_DEFAULT(MienError, mien_error_default)
 
 /* ---- Memory and views ------------------------------------------------------------------------ */
 
@@ -125,17 +156,19 @@ typedef struct MienError {
  * that creates or destroys objects with it. */
 typedef struct MienAllocator {
     void* user;
-    void* (*allocate)(void* user, size_t size, size_t alignment);
-    void (*release)(void* user, void* block, size_t size, size_t alignment);
+    void*(MIEN_CALLBACK* allocate)(void* user, size_t size, size_t alignment);
+    void(MIEN_CALLBACK* release)(void* user, void* block, size_t size, size_t alignment);
 } MienAllocator;
+
+/* One piece of work of a MienParallelFor. */
+typedef void(MIEN_CALLBACK* MienTask)(void* context, uint32_t index);
 
 /* Threads of the caller: the library starts none. `run` calls task(context, i) once for each
  * i < count, in any order and on any threads, and returns when all are done. Tasks never wait for
  * each other, call no other function of the caller, and are worth some 10 microseconds each. */
 typedef struct MienParallelFor {
     void* user;
-    void (*run)(void* user, uint32_t count, void (*task)(void* context, uint32_t index),
-                void* context);
+    void(MIEN_CALLBACK* run)(void* user, uint32_t count, MienTask task, void* context);
 } MienParallelFor;
 
 typedef struct MienStringView {
@@ -153,10 +186,10 @@ typedef struct MienMutableFloatView {
     size_t count;
 } MienMutableFloatView;
 
-typedef struct MienIndexView {
+typedef struct MienIndex16View {
     const uint16_t* data;
     size_t count;
-} MienIndexView;
+} MienIndex16View;
 
 typedef struct MienIndex32View {
     const uint32_t* data;
@@ -170,16 +203,16 @@ typedef struct MienDna MienDna;
 /* Layers, to be combined with |. A layer brings along what it needs (everything needs the
  * definition, RBF behavior needs behavior); the descriptor is always read. */
 enum MienLayer {
-    MIEN_LAYER_ALL = 0,
+    MIEN_LAYER_UNKNOWN = 0, /* only in MienDnaLayer.layer */
     MIEN_LAYER_DESCRIPTOR = 1,
     MIEN_LAYER_DEFINITION = 2,
     MIEN_LAYER_BEHAVIOR = 4,
     MIEN_LAYER_GEOMETRY = 8,
-    MIEN_LAYER_GEOMETRY_WITHOUT_BLEND_SHAPES = 16,
-    MIEN_LAYER_MACHINE_LEARNED_BEHAVIOR = 32,
-    MIEN_LAYER_RBF_BEHAVIOR = 64,
-    MIEN_LAYER_JOINT_BEHAVIOR_METADATA = 128,
-    MIEN_LAYER_TWIST_SWING_BEHAVIOR = 256
+    MIEN_LAYER_MACHINE_LEARNED_BEHAVIOR = 16,
+    MIEN_LAYER_RBF_BEHAVIOR = 32,
+    MIEN_LAYER_JOINT_BEHAVIOR_METADATA = 64,
+    MIEN_LAYER_TWIST_SWING_BEHAVIOR = 128,
+    MIEN_LAYER_ALL = 255
 };
 
 /* Layers of a kind that Mien does not know. */
@@ -193,8 +226,8 @@ enum MienFileAccess {
     MIEN_FILE_READ = 1 /* read it all now: for files that others may truncate meanwhile */
 };
 
-enum MienTranslationUnit { MIEN_TRANSLATION_CENTIMETERS = 0, MIEN_TRANSLATION_METERS = 1 };
-enum MienRotationUnit { MIEN_ROTATION_DEGREES = 0, MIEN_ROTATION_RADIANS = 1 };
+enum MienTranslationUnit { MIEN_TRANSLATION_UNIT_CENTIMETERS = 0, MIEN_TRANSLATION_UNIT_METERS = 1 };
+enum MienRotationUnit { MIEN_ROTATION_UNIT_DEGREES = 0, MIEN_ROTATION_UNIT_RADIANS = 1 };
 enum MienDirection { /* of the character */
     MIEN_DIRECTION_LEFT = 0,
     MIEN_DIRECTION_RIGHT = 1,
@@ -204,23 +237,30 @@ enum MienDirection { /* of the character */
     MIEN_DIRECTION_BACK = 5
 };
 enum MienRotationSequence {
-    MIEN_ROTATION_XYZ = 0, /* x first, then y, then z, about fixed axes */
-    MIEN_ROTATION_XZY = 1,
-    MIEN_ROTATION_YXZ = 2,
-    MIEN_ROTATION_YZX = 3,
-    MIEN_ROTATION_ZXY = 4,
-    MIEN_ROTATION_ZYX = 5
+    MIEN_ROTATION_SEQUENCE_XYZ = 0, /* x first, then y, then z, about fixed axes */
+    MIEN_ROTATION_SEQUENCE_XZY = 1,
+    MIEN_ROTATION_SEQUENCE_YXZ = 2,
+    MIEN_ROTATION_SEQUENCE_YZX = 3,
+    MIEN_ROTATION_SEQUENCE_ZXY = 4,
+    MIEN_ROTATION_SEQUENCE_ZYX = 5
+};
+/* The side of a face a b c ... that (b - a) x (c - a) points to, computed with the numbers of the
+ * file whichever way its axes point. */
+enum MienFaceWinding {
+    MIEN_FACE_WINDING_OUTWARD = 0, /* seen from outside counter-clockwise if the axes are
+                                      right-handed, clockwise if they are left-handed */
+    MIEN_FACE_WINDING_INWARD = 1
 };
 /* The order in which Euler angles turn, when axes change. Joint values are sums of angles, which
  * mean nothing in another order: only the first rule is exact for all rigs. */
 enum MienRotationRule {
-    MIEN_ROTATIONS_CARRIED = 0,   /* the file's order, about the axes as they are called now: where x
+    MIEN_ROTATION_RULE_CARRIED = 0,   /* the file's order, about the axes as they are called now: where x
                                      became z, xyz becomes zyx, xzy becomes zxy, and so on */
-    MIEN_ROTATIONS_EXACT = 1,     /* the order named. Neutral poses, joints represented by quaternions,
+    MIEN_ROTATION_RULE_EXACT = 1,     /* the order named. Neutral poses, joints represented by quaternions,
                                      twists, swings and ML joints follow exactly as rotations, and so
                                      do joints that turn about one axis only;
                                      MIEN_ERROR_DNA_VALUE for a rig with others */
-    MIEN_ROTATIONS_PER_COLUMN = 2 /* the order named, each column of a joint matrix by itself: exact
+    MIEN_ROTATION_RULE_PER_COLUMN = 2 /* the order named, each column of a joint matrix by itself: exact
                                      while one control is 1 and all others are 0, near it for small
                                      angles */
 };
@@ -228,39 +268,45 @@ enum MienRotationRule {
 /* Where the axes of a rig point, and its units. Mirrored systems are as good as others: which hand
  * they are of follows from the axes. */
 typedef struct MienCoordinateSystem {
-    uint32_t struct_size;
+    size_t struct_size;
     uint32_t axes[3];           /* MIEN_DIRECTION_... of x, y, z */
-    uint32_t translation_unit;  /* MIEN_TRANSLATION_... */
-    uint32_t rotation_unit;     /* MIEN_ROTATION_DEGREES or _RADIANS */
-    uint32_t rotation_rule;     /* MIEN_ROTATIONS_...; the next field counts unless it is _CARRIED */
-    uint32_t rotation_sequence; /* MIEN_ROTATION_XYZ ... */
+    uint32_t translation_unit;  /* MIEN_TRANSLATION_UNIT_... */
+    uint32_t rotation_unit;     /* MIEN_ROTATION_UNIT_DEGREES or _RADIANS */
+    uint32_t rotation_rule;     /* MIEN_ROTATION_RULE_...; the next field counts unless it is _CARRIED */
+    uint32_t rotation_sequence; /* MIEN_ROTATION_SEQUENCE_XYZ ... */
     int32_t rotation_signs[3];  /* of the angles about x, y, z: 1 turns y to z, z to x, x to y; -1 the
                                    other way; 0: such that angles keep their numbers */
-    uint32_t face_winding;      /* as in MienDnaInfo */
+    uint32_t face_winding;      /* MIEN_FACE_WINDING_... */
+    uint32_t reserved;          /* 0 */
 } MienCoordinateSystem;
+MIEN_DEFAULT(MienCoordinateSystem, mien_coordinate_system_default)
 
 /* The system of an engine or tool: maya, unreal, unreal-mesh (whose characters look along y), unity,
  * godot, blender, gltf, opengl, directx, houdini. Axes, units, winding and signs are those that a
  * consumer there works in; the sequence is the one of its Euler angles, to be used by setting
- * rotation_rule, which is MIEN_ROTATIONS_CARRIED. MIEN_ERROR_NAME for other names. `name` needs no
- * terminator. */
-MIEN_API MienStatus mien_coordinate_system_named(const char* name, size_t name_count,
-                                                 MienCoordinateSystem* out_system);
+ * rotation_rule, which is MIEN_ROTATION_RULE_CARRIED. MIEN_ERROR_NAME for other names. */
+MIEN_CHECKED MienStatus mien_coordinate_system_find(const char* name,
+                                                    MienCoordinateSystem* out_system);
+MIEN_CHECKED MienStatus mien_coordinate_system_find_n(const char* name, size_t name_count,
+                                                      MienCoordinateSystem* out_system);
 /* The names, from index 0 on; MIEN_ERROR_INDEX past the last. */
-MIEN_API MienStatus mien_coordinate_system_name(uint32_t index, MienStringView* out_name);
+MIEN_CHECKED MienStatus mien_coordinate_system_name(uint32_t index, MienStringView* out_name);
 
 typedef struct MienDnaDesc {
-    uint32_t struct_size;
-    uint32_t layers;         /* MIEN_LAYER_...; what is not chosen is never touched */
+    size_t struct_size;
+    uint32_t layers;         /* MIEN_LAYER_..., combined with |; 0 is all. What is not chosen is never
+                                touched. */
+    uint32_t skip_blend_shape_targets; /* boolean: load the geometry without its blend shape targets */
     uint32_t unknown_layers; /* MIEN_UNKNOWN_LAYERS_... */
     uint32_t file_access;    /* MIEN_FILE_...; of no meaning for memory */
     uint64_t lods;           /* bit l keeps LOD l of the file; 0 keeps all. Kept LODs are numbered
                                 anew from 0, and joints, meshes, channels and maps that no kept LOD
                                 uses are dropped and the others renumbered everywhere.
                                 MIEN_ERROR_LOD if the file has none of the LODs named. */
-    const MienAllocator* allocator;
     const MienCoordinateSystem* system; /* to convert everything to; NULL keeps the file's */
+    const MienAllocator* allocator;
 } MienDnaDesc;
+MIEN_DEFAULT(MienDnaDesc, mien_dna_desc_default)
 
 /* A rig in another system evaluates to the same movements: its joint values are those of the file's
  * system, converted; as rotations where the order of turning changes. Inputs that are parts of
@@ -278,11 +324,11 @@ typedef struct MienDnaDesc {
  * for a file made of nothing but the smallest records. `path` is UTF-8. A mapped file must not be truncated or rewritten in
  * place while it is open (replacing it by renaming is safe).
  * `desc` may be NULL. Close with mien_dna_close(). */
-MIEN_API MienStatus mien_dna_open_file(const char* path, const MienDnaDesc* desc, MienDna** out_dna,
+MIEN_CHECKED MienStatus mien_dna_open_file(const char* path, const MienDnaDesc* desc, MienDna** out_dna,
                                        MienError* error);
 
 /* The same from memory, which stays the caller's and has to outlive the MienDna, unchanged. */
-MIEN_API MienStatus mien_dna_open_memory(const void* bytes, size_t size, const MienDnaDesc* desc,
+MIEN_CHECKED MienStatus mien_dna_open_memory(const void* bytes, size_t size, const MienDnaDesc* desc,
                                          MienDna** out_dna, MienError* error);
 
 MIEN_API void mien_dna_close(MienDna* dna);
@@ -290,23 +336,21 @@ MIEN_API void mien_dna_close(MienDna* dna);
 /* ---- DNA: looking into it -------------------------------------------------------------------- */
 
 typedef struct MienDnaInfo {
-    uint32_t struct_size;
+    size_t struct_size;
     uint32_t generation;           /* 2 */
     uint32_t version;              /* 1 ... 8: the file is generation.version */
     uint32_t layers;               /* MIEN_LAYER_... that were loaded */
+    uint32_t has_blend_shape_targets; /* boolean: the geometry was loaded with its targets */
     uint64_t file_bytes;           /* size of the file; 0 if generated */
     uint64_t memory_bytes;         /* taken from the allocator */
-    uint32_t mapped;               /* 1 if the file is mapped */
+    uint32_t is_mapped;            /* boolean: the file is mapped */
     uint32_t layer_count;          /* entries for mien_dna_layer() */
-    uint32_t translation_unit;     /* MIEN_TRANSLATION_... */
-    uint32_t rotation_unit;        /* MIEN_ROTATION_DEGREES or _RADIANS */
+    uint32_t translation_unit;     /* MIEN_TRANSLATION_UNIT_... */
+    uint32_t rotation_unit;        /* MIEN_ROTATION_UNIT_DEGREES or _RADIANS */
     uint32_t axes[3];              /* MIEN_DIRECTION_... of x, y, z */
-    uint32_t rotation_sequence;    /* MIEN_ROTATION_XYZ ... */
+    uint32_t rotation_sequence;    /* MIEN_ROTATION_SEQUENCE_XYZ ... */
     int32_t rotation_signs[3];     /* 1 or -1, for the angles about x, y, z */
-    uint32_t face_winding;         /* 0: of a face a b c ..., (b - a) x (c - a), the plain formula in
-                                      the numbers of the file, points outwards: counter-clockwise
-                                      seen from outside if the axes are right-handed, clockwise if
-                                      they are left-handed; 1: inwards */
+    uint32_t face_winding;         /* MIEN_FACE_WINDING_... */
     uint32_t lod_count;
     uint32_t max_lod;              /* this file's LOD 0 is LOD max_lod of its data base */
     uint32_t gui_control_count;
@@ -326,24 +370,25 @@ typedef struct MienDnaInfo {
     uint32_t swing_count;
     uint32_t metadata_count;       /* pairs: desc.metadata[i].key and .value */
 } MienDnaInfo;
+MIEN_DEFAULT(MienDnaInfo, mien_dna_info_default)
 
-MIEN_API MienStatus mien_dna_info(const MienDna* dna, MienDnaInfo* out_info);
+MIEN_CHECKED MienStatus mien_dna_info(const MienDna* dna, MienDnaInfo* out_info);
 
 /* One entry of the file's table of layers, in file order. Files of version 2.1 have no such table;
  * their sections are listed as the layers desc, defn, bhvr and geom. */
 typedef struct MienDnaLayer {
-    uint32_t struct_size;
-    uint32_t layer;         /* MIEN_LAYER_... that loads it; 0: of a kind that Mien does not know */
-    char code[8];           /* "bhvr", terminated */
+    size_t struct_size;
+    uint32_t layer;         /* MIEN_LAYER_... that loads it; MIEN_LAYER_UNKNOWN for other kinds */
     uint32_t version_major;
     uint32_t version_minor;
+    uint32_t is_loaded;     /* boolean: it was read, not skipped or kept unread */
     uint64_t byte_offset;
     uint64_t byte_count;
-    uint32_t loaded;        /* 1: read; 0: skipped, or carried along unread */
-    uint32_t reserved;
+    char code[8];           /* "bhvr", terminated */
 } MienDnaLayer;
+MIEN_DEFAULT(MienDnaLayer, mien_dna_layer_default)
 
-MIEN_API MienStatus mien_dna_layer(const MienDna* dna, uint32_t index, MienDnaLayer* out_layer);
+MIEN_CHECKED MienStatus mien_dna_layer(const MienDna* dna, uint32_t index, MienDnaLayer* out_layer);
 
 /* Every field of every loaded layer can be read by its path: the layer's code and the field names
  * of the DNA format, with an index after each list:
@@ -369,58 +414,72 @@ enum MienFieldType {
 };
 
 typedef struct MienDnaField {
-    uint32_t struct_size;
+    size_t struct_size;
     uint32_t type;        /* MIEN_FIELD_... */
+    uint32_t is_array;    /* boolean: an array of numbers, whatever its count; not one number, or an
+                             element of an array */
     uint64_t count;       /* elements of an array or list, bytes of a string, 1 for a number, fields
                              of a record */
     uint64_t byte_offset; /* where the bytes of an array, of one of its elements or of a string begin
                              in the file; MIEN_NO_OFFSET for others, and for what was made here */
-    uint32_t is_array;    /* 1 for an array of numbers, whatever its count; 0 for one number, or an
-                             element of an array */
-    uint32_t reserved;
 } MienDnaField;
+MIEN_DEFAULT(MienDnaField, mien_dna_field_default)
 
-/* `path` is terminated. MIEN_ERROR_NAME tells the part of it that is not there. */
-MIEN_API MienStatus mien_dna_field(const MienDna* dna, const char* path, MienDnaField* out_field,
-                                   MienError* error);
+/* MIEN_ERROR_NAME tells the part of the path that is not there. */
+MIEN_CHECKED MienStatus mien_dna_field(const MienDna* dna, const char* path, MienDnaField* out_field,
+                                       MienError* error);
+MIEN_CHECKED MienStatus mien_dna_field_n(const MienDna* dna, const char* path, size_t path_count,
+                                         MienDnaField* out_field, MienError* error);
 
 /* Name of field `index` of the record at `path` ("" for the layers themselves). */
-MIEN_API MienStatus mien_dna_field_name(const MienDna* dna, const char* path, uint32_t index,
-                                        MienStringView* out_name, MienError* error);
+MIEN_CHECKED MienStatus mien_dna_child_name(const MienDna* dna, const char* path, uint32_t index,
+                                            MienStringView* out_name, MienError* error);
+MIEN_CHECKED MienStatus mien_dna_child_name_n(const MienDna* dna, const char* path,
+                                              size_t path_count, uint32_t index,
+                                              MienStringView* out_name, MienError* error);
 
 /* Copies `count` elements from `first` on. `out` has room for them. Integers of any width widen;
  * reading a float field as integers (or the other way round) is MIEN_ERROR_INVALID_ARGUMENT, a range
  * past the end MIEN_ERROR_INDEX. */
-MIEN_API MienStatus mien_dna_read_floats(const MienDna* dna, const char* path, uint64_t first,
-                                         uint64_t count, float* out, MienError* error);
-MIEN_API MienStatus mien_dna_read_integers(const MienDna* dna, const char* path, uint64_t first,
-                                           uint64_t count, int64_t* out, MienError* error);
+MIEN_CHECKED MienStatus mien_dna_read_floats(const MienDna* dna, const char* path, uint64_t first,
+                                             uint64_t count, float* out, MienError* error);
+MIEN_CHECKED MienStatus mien_dna_read_floats_n(const MienDna* dna, const char* path,
+                                               size_t path_count, uint64_t first, uint64_t count,
+                                               float* out, MienError* error);
+MIEN_CHECKED MienStatus mien_dna_read_integers(const MienDna* dna, const char* path, uint64_t first,
+                                               uint64_t count, int64_t* out, MienError* error);
+MIEN_CHECKED MienStatus mien_dna_read_integers_n(const MienDna* dna, const char* path,
+                                                 size_t path_count, uint64_t first, uint64_t count,
+                                                 int64_t* out, MienError* error);
 /* Points into the file: valid until mien_dna_close(). */
-MIEN_API MienStatus mien_dna_read_string(const MienDna* dna, const char* path,
-                                         MienStringView* out_string, MienError* error);
+MIEN_CHECKED MienStatus mien_dna_read_string(const MienDna* dna, const char* path,
+                                             MienStringView* out_string, MienError* error);
+MIEN_CHECKED MienStatus mien_dna_read_string_n(const MienDna* dna, const char* path,
+                                               size_t path_count, MienStringView* out_string,
+                                               MienError* error);
 
 /* ---- DNA: writing ---------------------------------------------------------------------------- */
 
 typedef struct MienWriteDesc {
-    uint32_t struct_size;
+    size_t struct_size;
     uint32_t version;        /* 1 ... 8 writes 2.1 ... 2.8; 0 keeps the version. Layers that the
                                 version does not know are carried along (2.2 and later) unless
                                 unknown_layers says drop; 2.1 keeps the four classic ones only. */
     uint32_t unknown_layers; /* MIEN_UNKNOWN_LAYERS_... */
-    uint32_t reserved;
 } MienWriteDesc;
+MIEN_DEFAULT(MienWriteDesc, mien_write_desc_default)
 
 /* Writes a canonical file: the same bytes that were read if the file was canonical and everything
  * was loaded; layers that were not loaded are written empty. Goes to a temporary name first, so a
  * failure leaves `path` as it was. RBF behavior that was opened without the machine learned behavior
  * of its file cannot be written (MIEN_ERROR_DNA_LAYER): its controls are numbered behind those.
  * `desc` may be NULL. */
-MIEN_API MienStatus mien_dna_write_file(const MienDna* dna, const char* path,
+MIEN_CHECKED MienStatus mien_dna_write_file(const MienDna* dna, const char* path,
                                         const MienWriteDesc* desc, MienError* error);
 
 /* The same to memory. With buffer NULL and capacity 0 only *out_size is set; a capacity that is too
  * small gives MIEN_ERROR_INVALID_ARGUMENT and the size. */
-MIEN_API MienStatus mien_dna_write_memory(const MienDna* dna, const MienWriteDesc* desc, void* buffer,
+MIEN_CHECKED MienStatus mien_dna_write_memory(const MienDna* dna, const MienWriteDesc* desc, void* buffer,
                                           size_t capacity, size_t* out_size, MienError* error);
 
 /* ---- DNA: validating ------------------------------------------------------------------------- */
@@ -433,28 +492,34 @@ enum MienSeverity {
 };
 
 typedef struct MienFinding {
-    uint32_t struct_size;
+    size_t struct_size;
     uint32_t severity;       /* MIEN_SEVERITY_... */
     MienStatus status;       /* what opening would return; MIEN_OK for a warning */
-    uint32_t reserved;
     uint64_t byte_offset;    /* MIEN_NO_OFFSET if there is no such place */
     MienStringView field;    /* path as for mien_dna_field(), or a layer's code */
     MienStringView message;
 } MienFinding;
+MIEN_DEFAULT(MienFinding, mien_finding_default)
+
+typedef struct MienValidateDesc {
+    size_t struct_size;
+    const MienAllocator* allocator;
+} MienValidateDesc;
+MIEN_DEFAULT(MienValidateDesc, mien_validate_desc_default)
 
 /* Checks a whole file and lists every finding: at most 32 for one field (of cross references
  * the last one says how many more there are), and 1000 in all. Returns MIEN_OK if the file
  * could be examined, whatever was found. The file is read, not mapped, so it may change meanwhile. */
-MIEN_API MienStatus mien_report_create_file(const char* path, const MienAllocator* allocator,
-                                            MienReport** out_report, MienError* error);
-MIEN_API MienStatus mien_report_create_memory(const void* bytes, size_t size,
-                                              const MienAllocator* allocator, MienReport** out_report,
-                                              MienError* error);
-MIEN_API MienStatus mien_report_counts(const MienReport* report, uint32_t* out_errors,
+MIEN_CHECKED MienStatus mien_dna_validate_file(const char* path, const MienValidateDesc* desc,
+                                               MienReport** out_report, MienError* error);
+MIEN_CHECKED MienStatus mien_dna_validate_memory(const void* bytes, size_t size,
+                                                 const MienValidateDesc* desc,
+                                                 MienReport** out_report, MienError* error);
+MIEN_CHECKED MienStatus mien_report_counts(const MienReport* report, uint32_t* out_errors,
                                        uint32_t* out_warnings);
 /* Findings are in the order of the checks: 0 ... errors + warnings - 1. Views live as long as the
  * report. */
-MIEN_API MienStatus mien_report_finding(const MienReport* report, uint32_t index,
+MIEN_CHECKED MienStatus mien_report_finding(const MienReport* report, uint32_t index,
                                         MienFinding* out_finding);
 MIEN_API void mien_report_destroy(MienReport* report);
 
@@ -482,17 +547,17 @@ enum MienGenerate {
 };
 
 typedef struct MienGenerateDesc {
-    uint32_t struct_size;
+    size_t struct_size;
     uint32_t preset; /* MIEN_PRESET_... */
+    uint32_t flags;  /* MIEN_GENERATE_..., combined with | */
     uint64_t seed;   /* the same seed gives the same bytes on every machine */
     const MienAllocator* allocator;
-    uint32_t flags;  /* MIEN_GENERATE_..., to be combined with | */
-    uint32_t reserved;
 } MienGenerateDesc;
+MIEN_DEFAULT(MienGenerateDesc, mien_generate_desc_default)
 
 /* Makes a synthetic rig: behavior of realistic size and sparsity, with simple geometry. `desc` may be
  * NULL (tiny, seed 0). Close with mien_dna_close(). */
-MIEN_API MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna,
+MIEN_CHECKED MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna,
                                       MienError* error);
 
 /* ---- Rig ------------------------------------------------------------------------------------- */
@@ -500,13 +565,14 @@ MIEN_API MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** ou
 typedef struct MienRig MienRig;
 
 enum MienIsa {
-    MIEN_ISA_BEST = 0, /* the environment variable MIEN_ISA (scalar, sse2, ...) if set, else the best
-                          that this CPU and operating system allow */
+    MIEN_ISA_BEST = 0, /* the best that this CPU and operating system allow */
     MIEN_ISA_SCALAR = 1,
     MIEN_ISA_SSE2 = 2,
     MIEN_ISA_AVX2 = 3, /* with FMA and F16C */
     MIEN_ISA_AVX512 = 4, /* F, CD, DQ, BW, VL */
-    MIEN_ISA_NEON = 5
+    MIEN_ISA_NEON = 5,
+    MIEN_ISA_ENVIRONMENT = 1000 /* the one that the environment variable MIEN_ISA names ("scalar",
+                                   "sse2", ...); the best if it is unset or empty */
 };
 
 /* 1 if rigs can be created for this MIEN_ISA_... here. MIEN_ISA_BEST is always available. */
@@ -515,9 +581,9 @@ MIEN_API uint32_t mien_isa_available(uint32_t isa);
 MIEN_API const char* mien_isa_name(uint32_t isa);
 
 /* How joint rotations come out. */
-enum MienOutput {
-    MIEN_OUTPUT_EULER = 0,      /* 9 values per joint: tx ty tz rx ry rz sx sy sz */
-    MIEN_OUTPUT_QUATERNION = 1  /* 10 values per joint: tx ty tz qx qy qz qw sx sy sz */
+enum MienRotationOutput {
+    MIEN_ROTATION_OUTPUT_EULER = 0,      /* 9 values per joint: tx ty tz rx ry rz sx sy sz */
+    MIEN_ROTATION_OUTPUT_QUATERNION = 1  /* 10 values per joint: tx ty tz qx qy qz qw sx sy sz */
 };
 
 /* What a mask of a mesh region does to the networks of the region (mien_instance_ml_masks()). */
@@ -531,8 +597,8 @@ enum MienMlMasks {
 /* How a rig keeps the large arrays that evaluation reads. Sums and results are 32-bit floats either
  * way. */
 enum MienStorage {
-    MIEN_STORAGE_F32 = 0,
-    MIEN_STORAGE_F16 = 1 /* 16 bits: network weights and columns of quaternion joints in IEEE half
+    MIEN_STORAGE_32_BIT = 0,
+    MIEN_STORAGE_16_BIT = 1 /* 16 bits: network weights and columns of quaternion joints in IEEE half
                             precision (to nearest, ties to even; what exceeds its range becomes
                             +-65504); the joint matrix as 16-bit fixed point, in units of the largest
                             entry of the row / 32767. Half the memory. */
@@ -554,39 +620,41 @@ enum MienReuse {
 };
 
 typedef struct MienRigDesc {
-    uint32_t struct_size;
+    size_t struct_size;
     uint32_t isa; /* MIEN_ISA_...; one that is absent is MIEN_ERROR_ISA, never replaced silently */
-    uint32_t rotation; /* MIEN_OUTPUT_... */
-    uint32_t ml_masks; /* MIEN_ML_MASKS_... */
+    uint32_t rotation_output; /* MIEN_ROTATION_OUTPUT_... */
+    uint32_t ml_masks;        /* MIEN_ML_MASKS_... */
+    uint32_t storage;         /* MIEN_STORAGE_... */
+    uint32_t reuse;           /* MIEN_REUSE_... */
+    uint32_t arithmetic;      /* MIEN_ARITHMETIC_... */
     const MienAllocator* allocator;
-    uint32_t storage; /* MIEN_STORAGE_... */
-    uint32_t reuse;   /* MIEN_REUSE_... */
-    uint32_t arithmetic; /* MIEN_ARITHMETIC_... */
-    uint32_t reserved;   /* 0 */
 } MienRigDesc;
+MIEN_DEFAULT(MienRigDesc, mien_rig_desc_default)
 
 typedef struct MienRigInfo {
-    uint32_t struct_size;
+    size_t struct_size;
     uint32_t isa;               /* MIEN_ISA_... in use */
     uint32_t lod_count;
-    uint32_t translation_unit;  /* MIEN_TRANSLATION_... */
-    uint32_t rotation_unit;     /* MIEN_ROTATION_DEGREES or _RADIANS */
+    uint32_t translation_unit;  /* MIEN_TRANSLATION_UNIT_... */
+    uint32_t rotation_unit;     /* MIEN_ROTATION_UNIT_DEGREES or _RADIANS */
     uint32_t axes[3];           /* MIEN_DIRECTION_... of x, y, z */
-    uint32_t rotation_sequence; /* MIEN_ROTATION_XYZ ... */
+    uint32_t rotation_sequence; /* MIEN_ROTATION_SEQUENCE_XYZ ... */
     int32_t rotation_signs[3];
     uint32_t control_count;     /* length of a control row: raw, PSD, ML, RBF, in this order */
     uint32_t joint_value_count; /* length of a row of joint outputs: 9 or 10 per joint */
-    uint32_t rotation;          /* MIEN_OUTPUT_... */
+    uint32_t rotation_output;   /* MIEN_ROTATION_OUTPUT_... */
     uint32_t storage;           /* MIEN_STORAGE_... */
+    uint32_t arithmetic;        /* MIEN_ARITHMETIC_... */
     uint64_t rig_bytes;         /* memory of the rig; with its file if it was opened from one */
     uint64_t instance_bytes;    /* memory of each instance */
 } MienRigInfo;
+MIEN_DEFAULT(MienRigInfo, mien_rig_info_default)
 
 /* Packs the behavior of `dna` for evaluation. The DNA needs definition and behavior loaded, else
  * MIEN_ERROR_DNA_LAYER; correctives that depend on each other in a circle are MIEN_ERROR_DNA_VALUE.
  * `desc` may be NULL. The DNA may be closed afterwards. The rig is one block of memory; making it
  * takes some more for the time of the call. */
-MIEN_API MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig** out_rig,
+MIEN_CHECKED MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig** out_rig,
                                     MienError* error);
 
 /* Memory is released when the last instance is gone too, so the order of destruction does not
@@ -597,11 +665,11 @@ MIEN_API void mien_rig_destroy(MienRig* rig);
  * when the rig was created but the instruction set and MienReuse, so that one file serves all machines
  * of a byte order and pointer size. The same rig gives the same bytes. A later version of the library
  * may refuse it with MIEN_ERROR_BAKED_VERSION: keep the DNA. */
-MIEN_API MienStatus mien_rig_save_file(const MienRig* rig, const char* path, MienError* error);
+MIEN_CHECKED MienStatus mien_rig_save_file(const MienRig* rig, const char* path, MienError* error);
 
 /* The same to memory. With buffer NULL and capacity 0 only *out_size is set; a capacity that is too
  * small gives MIEN_ERROR_INVALID_ARGUMENT and the size. */
-MIEN_API MienStatus mien_rig_save_memory(const MienRig* rig, void* buffer, size_t capacity,
+MIEN_CHECKED MienStatus mien_rig_save_memory(const MienRig* rig, void* buffer, size_t capacity,
                                          size_t* out_size, MienError* error);
 
 enum MienBakedCheck {
@@ -612,29 +680,29 @@ enum MienBakedCheck {
 };
 
 typedef struct MienBakedDesc {
-    uint32_t struct_size;
+    size_t struct_size;
     uint32_t isa;         /* MIEN_ISA_..., as in MienRigDesc */
     uint32_t file_access; /* MIEN_FILE_...; of no meaning for memory */
     uint32_t check;       /* MIEN_BAKED_CHECK_... */
-    const MienAllocator* allocator;
     uint32_t reuse;       /* MIEN_REUSE_... */
-    uint32_t reserved;    /* 0 */
+    const MienAllocator* allocator;
 } MienBakedDesc;
+MIEN_DEFAULT(MienBakedDesc, mien_baked_desc_default)
 
 /* Opens an image, which is mapped and used in place: one allocation for the rig. All processes that
  * open the file share its pages, which are never written to. A mapped file must not be truncated or
  * rewritten in place until the rig and all its instances are gone (replacing it by renaming is safe;
  * MIEN_FILE_READ takes a copy). `path` is UTF-8, `desc` may be NULL. The rig is like one that was
  * created; destroy it with mien_rig_destroy(). */
-MIEN_API MienStatus mien_rig_open_file(const char* path, const MienBakedDesc* desc,
+MIEN_CHECKED MienStatus mien_rig_open_file(const char* path, const MienBakedDesc* desc,
                                        MienRig** out_rig, MienError* error);
 
 /* The same from memory, which stays the caller's and has to stay unchanged until the rig and all its
  * instances, batches and deformers are gone. Bytes that are not at a multiple of 64 are copied, once. */
-MIEN_API MienStatus mien_rig_open_memory(const void* bytes, size_t size, const MienBakedDesc* desc,
+MIEN_CHECKED MienStatus mien_rig_open_memory(const void* bytes, size_t size, const MienBakedDesc* desc,
                                          MienRig** out_rig, MienError* error);
 
-MIEN_API MienStatus mien_rig_info(const MienRig* rig, MienRigInfo* out_info);
+MIEN_CHECKED MienStatus mien_rig_info(const MienRig* rig, MienRigInfo* out_info);
 
 /* Things with names and numbers. */
 enum MienKind {
@@ -653,115 +721,133 @@ enum MienKind {
     MIEN_KIND_TWIST_SWING = 12  /* a swing with the twists of the same inputs, or a twist alone */
 };
 
-MIEN_API MienStatus mien_rig_count(const MienRig* rig, uint32_t kind, uint32_t* out_count);
+MIEN_CHECKED MienStatus mien_rig_count(const MienRig* rig, uint32_t kind, uint32_t* out_count);
 /* Kinds without names give "". */
-MIEN_API MienStatus mien_rig_name(const MienRig* rig, uint32_t kind, uint32_t index,
+MIEN_CHECKED MienStatus mien_rig_name(const MienRig* rig, uint32_t kind, uint32_t index,
                                   MienStringView* out_name);
-/* Exact match, in O(log n); of equal names the first. `name` needs no terminator.
- * MIEN_ERROR_NAME if there is none. */
-MIEN_API MienStatus mien_rig_find(const MienRig* rig, uint32_t kind, const char* name,
-                                  size_t name_count, uint32_t* out_index);
+/* Exact match, in O(log n); of equal names the first. MIEN_ERROR_NAME if there is none. */
+MIEN_CHECKED MienStatus mien_rig_find(const MienRig* rig, uint32_t kind, const char* name,
+                                      uint32_t* out_index);
+MIEN_CHECKED MienStatus mien_rig_find_n(const MienRig* rig, uint32_t kind, const char* name,
+                                        size_t name_count, uint32_t* out_index);
 
 /* Which joints, channels, maps, meshes or RBF solvers exist at a LOD, in file order. Other kinds:
  * MIEN_ERROR_INVALID_ARGUMENT. */
-MIEN_API MienStatus mien_rig_lod_indices(const MienRig* rig, uint32_t kind, uint32_t lod,
-                                         MienIndexView* out_indices);
+MIEN_CHECKED MienStatus mien_rig_lod_indices(const MienRig* rig, uint32_t kind, uint32_t lod,
+                                         MienIndex16View* out_indices);
 /* Indices into the joint outputs that evaluation may change at a LOD, ascending: all others keep their
  * initial value (0, or 1 for the w of a quaternion). */
-MIEN_API MienStatus mien_rig_variable_joint_values(const MienRig* rig, uint32_t lod,
-                                                   MienIndexView* out_indices);
+MIEN_CHECKED MienStatus mien_rig_variable_joint_values(const MienRig* rig, uint32_t lod,
+                                                   MienIndex16View* out_indices);
 /* Parent of each joint; a root is its own parent. */
-MIEN_API MienStatus mien_rig_joint_parents(const MienRig* rig, MienIndexView* out_parents);
+MIEN_CHECKED MienStatus mien_rig_joint_parents(const MienRig* rig, MienIndex16View* out_parents);
 /* Neutral pose in the layout of the joint outputs, relative to the parent: translation in translation
  * units, rotation as angles in rotation units or as a quaternion, scale 1. */
-MIEN_API MienStatus mien_rig_neutral_joint_values(const MienRig* rig, MienFloatView* out_values);
+MIEN_CHECKED MienStatus mien_rig_neutral_joint_values(const MienRig* rig, MienFloatView* out_values);
 /* The controls whose product drives a corrective, as indices into the control row. */
-MIEN_API MienStatus mien_rig_psd_inputs(const MienRig* rig, uint32_t psd, MienIndexView* out_controls);
+MIEN_CHECKED MienStatus mien_rig_psd_inputs(const MienRig* rig, uint32_t psd, MienIndex16View* out_controls);
 /* Value each raw control starts with: 0, or 1 for the w of a quaternion input. */
-MIEN_API MienStatus mien_rig_initial_raw_controls(const MienRig* rig, MienFloatView* out_values);
+MIEN_CHECKED MienStatus mien_rig_initial_raw_controls(const MienRig* rig, MienFloatView* out_values);
+
+#ifdef MIEN_EXPERIMENTAL
 
 /* What one evaluation at a LOD works through. */
 typedef struct MienRigStatistics {
-    uint32_t struct_size;
+    size_t struct_size;
+    uint32_t lod;
     uint32_t psd_count;               /* correctives computed */
     uint32_t joint_count;             /* joints that exist at this LOD */
     uint32_t joint_row_count;         /* rows of the joint groups */
     uint32_t blend_shape_count;       /* channels written */
     uint32_t animated_map_row_count;  /* rows of the animated map table */
-    uint64_t joint_entry_count;       /* of the joint matrix: 8 per piece of a column, pieces of
-                                         zeros not counted */
+    uint32_t rbf_solver_count;        /* solvers that the LOD lists */
+    uint32_t quaternion_joint_count;  /* joints represented by quaternions */
+    uint64_t joint_entry_count;       /* of the joint matrix: 8 per block, blocks of zeros not
+                                         counted */
     uint64_t joint_byte_count;        /* of the joint matrix, if every control is active: those of
                                          controls that are 0 are not read */
-    uint32_t rbf_solver_count;        /* solvers that the LOD lists */
-    uint32_t quaternion_joint_count;      /* joints represented by quaternions */
 } MienRigStatistics;
+MIEN_DEFAULT(MienRigStatistics, mien_rig_statistics_default)
 
-MIEN_API MienStatus mien_rig_statistics(const MienRig* rig, uint32_t lod,
-                                        MienRigStatistics* out_statistics);
+MIEN_CHECKED MienStatus mien_rig_statistics(const MienRig* rig, uint32_t lod,
+                                            MienRigStatistics* out_statistics);
+
+#endif /* MIEN_EXPERIMENTAL */
 
 /* ---- Instance -------------------------------------------------------------------------------- */
 
 typedef struct MienInstance MienInstance;
 
-/* One character in its initial state. `allocator` NULL: the heap. One allocation of
- * MienRigInfo.instance_bytes. */
-MIEN_API MienStatus mien_instance_create(const MienRig* rig, const MienAllocator* allocator,
-                                         MienInstance** out_instance, MienError* error);
+typedef struct MienInstanceDesc {
+    size_t struct_size;
+    const MienAllocator* allocator;
+} MienInstanceDesc;
+MIEN_DEFAULT(MienInstanceDesc, mien_instance_desc_default)
+
+/* One character in its initial state. One allocation of MienRigInfo.instance_bytes. */
+MIEN_CHECKED MienStatus mien_instance_create(const MienRig* rig, const MienInstanceDesc* desc,
+                                             MienInstance** out_instance, MienError* error);
 MIEN_API void mien_instance_destroy(MienInstance* instance);
 
 /* Everything as after creation. */
-MIEN_API MienStatus mien_instance_reset(MienInstance* instance);
+MIEN_CHECKED MienStatus mien_instance_reset(MienInstance* instance);
 
 /* Inputs, to be written in place: the views stay valid and the same until the instance is destroyed.
  * GUI controls only matter to mien_rig_map_gui_to_raw(). Raw controls are usually in 0..1 but not
  * clamped. Masks (one per region of a mesh, 0..1, initially 1) switch or blend learned behavior, see
  * MIEN_ML_MASKS_.... */
-MIEN_API MienStatus mien_instance_gui_controls(MienInstance* instance, MienMutableFloatView* out_view);
-MIEN_API MienStatus mien_instance_raw_controls(MienInstance* instance, MienMutableFloatView* out_view);
-MIEN_API MienStatus mien_instance_ml_masks(MienInstance* instance, MienMutableFloatView* out_view);
+MIEN_CHECKED MienStatus mien_instance_gui_controls(MienInstance* instance, MienMutableFloatView* out_view);
+MIEN_CHECKED MienStatus mien_instance_raw_controls(MienInstance* instance, MienMutableFloatView* out_view);
+MIEN_CHECKED MienStatus mien_instance_ml_masks(MienInstance* instance, MienMutableFloatView* out_view);
 
 /* Outputs of the last evaluation; the views stay valid, their contents change with each evaluation.
  *   controls      the whole control row: raw, PSD, ML, RBF
- *   joints        9 or 10 per joint, as MIEN_OUTPUT_... says: deltas from the neutral pose.
+ *   joints        9 or 10 per joint, as MIEN_ROTATION_OUTPUT_... says: deltas from the neutral pose.
  *                 Translation, angles and scale are added to it; with quaternions the rotation is
  *                 the product neutral * delta (the delta turns first)
  *   blend shapes  one weight per channel
  *   animated maps one weight per map, 0..1 */
-MIEN_API MienStatus mien_instance_controls(const MienInstance* instance, MienFloatView* out_view);
-MIEN_API MienStatus mien_instance_psd_controls(const MienInstance* instance, MienFloatView* out_view);
-MIEN_API MienStatus mien_instance_ml_controls(const MienInstance* instance, MienFloatView* out_view);
-MIEN_API MienStatus mien_instance_rbf_controls(const MienInstance* instance, MienFloatView* out_view);
-MIEN_API MienStatus mien_instance_joints(const MienInstance* instance, MienFloatView* out_view);
-MIEN_API MienStatus mien_instance_blend_shapes(const MienInstance* instance, MienFloatView* out_view);
-MIEN_API MienStatus mien_instance_animated_maps(const MienInstance* instance, MienFloatView* out_view);
+MIEN_CHECKED MienStatus mien_instance_controls(const MienInstance* instance, MienFloatView* out_view);
+MIEN_CHECKED MienStatus mien_instance_psd_controls(const MienInstance* instance, MienFloatView* out_view);
+MIEN_CHECKED MienStatus mien_instance_ml_controls(const MienInstance* instance, MienFloatView* out_view);
+MIEN_CHECKED MienStatus mien_instance_rbf_controls(const MienInstance* instance, MienFloatView* out_view);
+MIEN_CHECKED MienStatus mien_instance_joints(const MienInstance* instance, MienFloatView* out_view);
+MIEN_CHECKED MienStatus mien_instance_blend_shapes(const MienInstance* instance, MienFloatView* out_view);
+MIEN_CHECKED MienStatus mien_instance_animated_maps(const MienInstance* instance, MienFloatView* out_view);
+
+#ifdef MIEN_EXPERIMENTAL
 
 /* What the joint stage fetches for the control row as it is, at the LOD of the last evaluation (before
  * the first: LOD 0), if it keeps no results. Bytes count once, whatever the caches do. */
 typedef struct MienInstanceStatistics {
-    uint32_t struct_size;
+    size_t struct_size;
     uint32_t lod;                  /* of the last evaluation */
-    uint32_t active_control_count; /* of the control row: raw, PSD, ML and RBF controls that are not 0 */
+    uint32_t control_count;        /* of the control row: raw, PSD, ML and RBF controls */
+    uint32_t active_control_count; /* controls that are not 0 */
     uint32_t joint_column_count;   /* columns of the joint matrix that they drive at this LOD */
-    uint64_t joint_entry_count;    /* of these columns; 8 per piece, as in MienRigStatistics */
+    uint64_t joint_entry_count;    /* of these columns; 8 per block, as in MienRigStatistics */
     uint64_t joint_byte_count;     /* of these entries: at most MienRigStatistics.joint_byte_count */
 } MienInstanceStatistics;
+MIEN_DEFAULT(MienInstanceStatistics, mien_instance_statistics_default)
 
 /* For tools that relate times to memory. Looks at each control, so it is not for every frame. */
-MIEN_API MienStatus mien_instance_statistics(const MienInstance* instance,
-                                             MienInstanceStatistics* out_statistics);
+MIEN_CHECKED MienStatus mien_instance_statistics(const MienInstance* instance,
+                                                 MienInstanceStatistics* out_statistics);
+
+#endif /* MIEN_EXPERIMENTAL */
 
 /* ---- Evaluation ------------------------------------------------------------------------------ */
 
 /* Raw controls from GUI controls, and back. Forward writes only raw controls that some row of the
  * table drives, and clamps them to 0..1; others keep what they hold. Backward writes every GUI
  * control: the value whose forward mapping gives the raw controls, 0 where there is none. */
-MIEN_API MienStatus mien_rig_map_gui_to_raw(const MienRig* rig, MienInstance* instance);
-MIEN_API MienStatus mien_rig_map_raw_to_gui(const MienRig* rig, MienInstance* instance);
+MIEN_CHECKED MienStatus mien_rig_map_gui_to_raw(const MienRig* rig, MienInstance* instance);
+MIEN_CHECKED MienStatus mien_rig_map_raw_to_gui(const MienRig* rig, MienInstance* instance);
 
 /* Evaluates all stages at a LOD. Outputs that the LOD does not reach are 0. Changing the LOD from
  * call to call costs no more than clearing the outputs; raw controls are left alone. Allocates
  * nothing, locks nothing. Finite inputs are expected. */
-MIEN_API MienStatus mien_rig_evaluate(const MienRig* rig, MienInstance* instance, uint32_t lod);
+MIEN_CHECKED MienStatus mien_rig_evaluate(const MienRig* rig, MienInstance* instance, uint32_t lod);
 
 enum MienStage {
     MIEN_STAGE_ML = 1,      /* neural networks */
@@ -775,22 +861,28 @@ enum MienStage {
 
 /* Only some stages, in the order above; the others keep the results of the last evaluation at the
  * same LOD (after a change of LOD: 0). */
-MIEN_API MienStatus mien_rig_evaluate_stages(const MienRig* rig, MienInstance* instance, uint32_t lod,
+MIEN_CHECKED MienStatus mien_rig_evaluate_stages(const MienRig* rig, MienInstance* instance, uint32_t lod,
                                              uint32_t stages);
 
 /* Room for evaluating many instances of a rig at once. */
 typedef struct MienBatch MienBatch;
 
-/* For up to `capacity` instances per call (1 to 2^20), in up to `tasks` tasks at once (0 means 1: for
- * calls without threads); each task takes scratch memory of its own. One allocation; the rig may be
- * destroyed before the batch. */
-MIEN_API MienStatus mien_batch_create(const MienRig* rig, uint32_t capacity, uint32_t tasks,
-                                      const MienAllocator* allocator, MienBatch** out_batch,
-                                      MienError* error);
+typedef struct MienBatchDesc {
+    size_t struct_size;
+    uint32_t capacity; /* instances per call: 1 to 2^20; 0 means 32 */
+    uint32_t tasks;    /* at once, each with scratch memory of its own; 0 means 1: for calls without
+                          threads */
+    const MienAllocator* allocator;
+} MienBatchDesc;
+MIEN_DEFAULT(MienBatchDesc, mien_batch_desc_default)
+
+/* One allocation; the rig may be destroyed before the batch. */
+MIEN_CHECKED MienStatus mien_batch_create(const MienRig* rig, const MienBatchDesc* desc,
+                                          MienBatch** out_batch, MienError* error);
 MIEN_API void mien_batch_destroy(MienBatch* batch);
 /* Bytes of such a batch, asked before it is made. */
-MIEN_API MienStatus mien_batch_bytes(const MienRig* rig, uint32_t capacity, uint32_t tasks,
-                                     uint64_t* out_bytes);
+MIEN_CHECKED MienStatus mien_batch_bytes(const MienRig* rig, const MienBatchDesc* desc,
+                                         uint64_t* out_bytes);
 
 /* Evaluates stages (MIEN_STAGE_..., usually all) of `count` different instances of the batch's rig, each
  * at its own LOD: the same bits as mien_rig_evaluate_stages() of each, but columns of the joint matrix
@@ -799,22 +891,22 @@ MIEN_API MienStatus mien_batch_bytes(const MienRig* rig, uint32_t capacity, uint
  * Allocates nothing, locks nothing, takes 48 KiB of stack.
  * If any instance or LOD is not valid, none is evaluated: MIEN_ERROR_MISMATCH for an instance of another
  * rig, MIEN_ERROR_INVALID_ARGUMENT for one that comes up twice or more than `capacity`. */
-MIEN_API MienStatus mien_rig_evaluate_batch(const MienRig* rig, MienBatch* batch,
+MIEN_CHECKED MienStatus mien_rig_evaluate_batch(const MienRig* rig, MienBatch* batch,
                                             MienInstance* const* instances, const uint32_t* lods,
                                             uint32_t count, uint32_t stages,
                                             const MienParallelFor* parallel);
 
 /* Only the joint values of one joint group (MIEN_KIND_JOINT_GROUP); not those that a later group
  * overrides wherever this one gives them. */
-MIEN_API MienStatus mien_rig_evaluate_joint_group(const MienRig* rig, MienInstance* instance,
+MIEN_CHECKED MienStatus mien_rig_evaluate_joint_group(const MienRig* rig, MienInstance* instance,
                                                   uint32_t lod, uint32_t group);
 
 /* Only the pose controls of one RBF solver (MIEN_KIND_RBF_SOLVER), whether the LOD lists it or not. */
-MIEN_API MienStatus mien_rig_evaluate_rbf_solver(const MienRig* rig, MienInstance* instance,
+MIEN_CHECKED MienStatus mien_rig_evaluate_rbf_solver(const MienRig* rig, MienInstance* instance,
                                                  uint32_t lod, uint32_t solver);
 
 /* Only the joints of one twist and swing set-up (MIEN_KIND_TWIST_SWING). */
-MIEN_API MienStatus mien_rig_evaluate_twist_swing(const MienRig* rig, MienInstance* instance,
+MIEN_CHECKED MienStatus mien_rig_evaluate_twist_swing(const MienRig* rig, MienInstance* instance,
                                                   uint32_t lod, uint32_t setup);
 
 /* ---- Deformer -------------------------------------------------------------------------------- */
@@ -840,7 +932,7 @@ typedef struct MienDeformer MienDeformer;
 /* How the rotation of a joint is made of the neutral one and the delta. */
 enum MienCompose {
     MIEN_COMPOSE_PRODUCT = 0,  /* neutral rotation * delta rotation: the delta turns first */
-    MIEN_COMPOSE_EULER_ADD = 1 /* the angles are added; needs MIEN_OUTPUT_EULER. The same where the
+    MIEN_COMPOSE_EULER_ADD = 1 /* the angles are added; needs MIEN_ROTATION_OUTPUT_EULER. The same where the
                                   neutral rotation is zero. */
 };
 
@@ -864,20 +956,19 @@ enum MienNormals {
 };
 
 typedef struct MienDeformerDesc {
-    uint32_t struct_size;
+    size_t struct_size;
     uint32_t isa;     /* MIEN_ISA_...; here MIEN_ISA_BEST means that of the rig */
     uint32_t compose; /* MIEN_COMPOSE_... */
     uint32_t weights; /* MIEN_WEIGHTS_... */
     uint32_t normals; /* MIEN_NORMALS_...: of calls that leave the choice open */
-    uint32_t reserved;
     const MienAllocator* allocator;
 } MienDeformerDesc;
+MIEN_DEFAULT(MienDeformerDesc, mien_deformer_desc_default)
 
 /* Packs the geometry of `dna`, which may be closed afterwards, and keeps the rig's memory alive
  * (the rig may be destroyed). `dna` is the one that the rig was made of, or another opening of the
  * same file with the same LODs: other numbers or names of joints, channels or meshes are
- * MIEN_ERROR_MISMATCH. It needs MIEN_LAYER_GEOMETRY (or ..._WITHOUT_BLEND_SHAPES: then there are no
- * targets), else MIEN_ERROR_DNA_LAYER.
+ * MIEN_ERROR_MISMATCH. It needs MIEN_LAYER_GEOMETRY, else MIEN_ERROR_DNA_LAYER.
  * A position may have any number of influences up to 65535 (MIEN_ERROR_DNA_LIMIT); those of weight
  * 0 are dropped. Faces of fewer than three corners are left out. Meshes without faces, weights,
  * normals, texture coordinates or anything at all are accepted: normals that the file lacks are
@@ -885,7 +976,7 @@ typedef struct MienDeformerDesc {
  * normals tell; without them the file's axes and winding do. MIEN_ERROR_DNA_VALUE: joints that
  * descend from themselves; positions, deltas or weights that are not finite (the message names mesh
  * and position). Takes some memory beyond the block for the time of the call. */
-MIEN_API MienStatus mien_deformer_create(const MienDna* dna, const MienRig* rig,
+MIEN_CHECKED MienStatus mien_deformer_create(const MienDna* dna, const MienRig* rig,
                                          const MienDeformerDesc* desc, MienDeformer** out_deformer,
                                          MienError* error);
 
@@ -893,7 +984,7 @@ MIEN_API MienStatus mien_deformer_create(const MienDna* dna, const MienRig* rig,
 MIEN_API void mien_deformer_destroy(MienDeformer* deformer);
 
 typedef struct MienDeformerInfo {
-    uint32_t struct_size;
+    size_t struct_size;
     uint32_t isa;            /* MIEN_ISA_... in use */
     uint32_t compose;        /* MIEN_COMPOSE_... */
     uint32_t weights;        /* MIEN_WEIGHTS_... */
@@ -902,22 +993,22 @@ typedef struct MienDeformerInfo {
     uint32_t joint_count;
     uint32_t channel_count;
     uint32_t mesh_count;     /* as in the rig, with its names: MIEN_KIND_MESH */
-    uint32_t reserved;
     uint64_t deformer_bytes; /* memory of the deformer */
-    uint64_t pose_bytes;     /* memory of a pose with room for all meshes */
+    uint64_t instance_bytes; /* memory of a deformer instance with room for all meshes */
 } MienDeformerInfo;
+MIEN_DEFAULT(MienDeformerInfo, mien_deformer_info_default)
 
-MIEN_API MienStatus mien_deformer_info(const MienDeformer* deformer, MienDeformerInfo* out_info);
+MIEN_CHECKED MienStatus mien_deformer_info(const MienDeformer* deformer, MienDeformerInfo* out_info);
 
 /* The neutral mesh. Views live as long as the deformer. */
 typedef struct MienMesh {
-    uint32_t struct_size;
+    size_t struct_size;
     uint32_t position_count;
     uint32_t vertex_count;
     uint32_t triangle_count;
     uint32_t max_influences;            /* of one position */
     uint32_t target_count;               /* blend shape targets */
-    uint64_t delta_count;                /* over all targets */
+    uint32_t delta_count;                /* over all targets */
     uint64_t lods;                       /* bit l: LOD l shows this mesh */
     MienFloatView positions;             /* x y z per position */
     MienFloatView normals;               /* x y z per vertex, unit length */
@@ -925,29 +1016,30 @@ typedef struct MienMesh {
     MienIndex32View vertex_position_indices;    /* position of each vertex */
     MienIndex32View triangles;           /* three vertices each, wound as in the file; faces of more
                                             corners are fans about their first */
-    MienIndexView target_channels;       /* channel of each target, in file order */
+    MienIndex16View target_channels;       /* channel of each target, in file order */
 } MienMesh;
+MIEN_DEFAULT(MienMesh, mien_mesh_default)
 
-MIEN_API MienStatus mien_deformer_mesh(const MienDeformer* deformer, uint32_t mesh,
+MIEN_CHECKED MienStatus mien_deformer_mesh(const MienDeformer* deformer, uint32_t mesh,
                                        MienMesh* out_mesh);
 
 /* Joints that hold a position and their weights, as they are used: as many as each other, possibly
  * none. Views live as long as the deformer. */
-MIEN_API MienStatus mien_deformer_influences(const MienDeformer* deformer, uint32_t mesh,
-                                             uint32_t position, MienIndexView* out_joints,
+MIEN_CHECKED MienStatus mien_deformer_influences(const MienDeformer* deformer, uint32_t mesh,
+                                             uint32_t position, MienIndex16View* out_joints,
                                              MienFloatView* out_weights);
 
 /* Writes x y z for each position of the mesh: how far a target moves it at channel weight 1 (0
  * where it does not). `count` is the room in `out_deltas`, 3 * position_count floats or more. */
-MIEN_API MienStatus mien_deformer_target(const MienDeformer* deformer, uint32_t mesh,
+MIEN_CHECKED MienStatus mien_deformer_target(const MienDeformer* deformer, uint32_t mesh,
                                          uint32_t target, float* out_deltas, size_t count);
 
 /* Model matrices of the joints in the neutral pose, or their inverses: 16 floats per joint, column
  * by column (column vectors; the last column is the translation, the last row 0 0 0 1). Views live
  * as long as the deformer. */
-MIEN_API MienStatus mien_deformer_bind_matrices(const MienDeformer* deformer,
+MIEN_CHECKED MienStatus mien_deformer_bind_matrices(const MienDeformer* deformer,
                                                 MienFloatView* out_matrices);
-MIEN_API MienStatus mien_deformer_inverse_bind_matrices(const MienDeformer* deformer,
+MIEN_CHECKED MienStatus mien_deformer_inverse_bind_matrices(const MienDeformer* deformer,
                                                         MienFloatView* out_matrices);
 
 /* ---- DeformerInstance ------------------------------------------------------------------------------------ */
@@ -956,29 +1048,29 @@ MIEN_API MienStatus mien_deformer_inverse_bind_matrices(const MienDeformer* defo
 typedef struct MienDeformerInstance MienDeformerInstance;
 
 typedef struct MienDeformerInstanceDesc {
-    uint32_t struct_size;
-    uint32_t reserved;
+    size_t struct_size;
     uint64_t lods; /* room for the meshes that these LODs show: bit l is LOD l. 0: for all meshes. A
                       LOD that is not there counts for nothing. */
     const MienAllocator* allocator;
 } MienDeformerInstanceDesc;
+MIEN_DEFAULT(MienDeformerInstanceDesc, mien_deformer_instance_desc_default)
 
 /* A pose in neutral: matrices, positions and normals are those of the deformer. It keeps the
  * deformer's memory alive. One allocation. */
-MIEN_API MienStatus mien_deformer_instance_create(const MienDeformer* deformer, const MienDeformerInstanceDesc* desc,
-                                     MienDeformerInstance** out_pose, MienError* error);
-MIEN_API void mien_deformer_instance_destroy(MienDeformerInstance* pose);
+MIEN_CHECKED MienStatus mien_deformer_instance_create(const MienDeformer* deformer, const MienDeformerInstanceDesc* desc,
+                                     MienDeformerInstance** out_deformer_instance, MienError* error);
+MIEN_API void mien_deformer_instance_destroy(MienDeformerInstance* deformer_instance);
 
 /* Takes over joint values and channel weights of the instance's last evaluation, and computes the
  * matrices of all joints; meshes follow with mien_deformer_instance_deform(). The instance is one of the rig
  * that the deformer was made with, else MIEN_ERROR_MISMATCH. Allocates nothing, locks nothing.
  * Values that are not finite give results that are not. */
-MIEN_API MienStatus mien_deformer_instance_update(MienDeformerInstance* pose, const MienInstance* instance);
+MIEN_CHECKED MienStatus mien_deformer_instance_update(MienDeformerInstance* deformer_instance, const MienInstance* instance);
 
 /* The same from arrays: joint values as mien_instance_joints() gives them, and one weight per
  * channel. `joint_values` may be NULL, with count 0: no deltas. `channel_weights` may be NULL, with
  * count 0: all 0. Any other count than that of the rig is MIEN_ERROR_INVALID_ARGUMENT. */
-MIEN_API MienStatus mien_deformer_instance_update_from_values(MienDeformerInstance* pose, const float* joint_values,
+MIEN_CHECKED MienStatus mien_deformer_instance_update_from_values(MienDeformerInstance* deformer_instance, const float* joint_values,
                                                  size_t joint_value_count,
                                                  const float* channel_weights,
                                                  size_t channel_weight_count);
@@ -986,34 +1078,34 @@ MIEN_API MienStatus mien_deformer_instance_update_from_values(MienDeformerInstan
 /* Matrices of the last update, 16 floats per joint, laid out as mien_deformer_bind_matrices() says:
  * model matrices, and skin matrices (for skinning elsewhere, as on a GPU). The views stay valid,
  * their contents change with each update. */
-MIEN_API MienStatus mien_deformer_instance_joint_matrices(const MienDeformerInstance* pose, MienFloatView* out_matrices);
-MIEN_API MienStatus mien_deformer_instance_skin_matrices(const MienDeformerInstance* pose, MienFloatView* out_matrices);
+MIEN_CHECKED MienStatus mien_deformer_instance_joint_matrices(const MienDeformerInstance* deformer_instance, MienFloatView* out_matrices);
+MIEN_CHECKED MienStatus mien_deformer_instance_skin_matrices(const MienDeformerInstance* deformer_instance, MienFloatView* out_matrices);
 
 /* Writes the local transforms of the last update, relative to the parent, 10 floats per joint: tx
  * ty tz qx qy qz qw sx sy sz, the quaternion of unit length. `count` is the room in
  * `out_transforms`. */
-MIEN_API MienStatus mien_deformer_instance_local_transforms(const MienDeformerInstance* pose, float* out_transforms,
+MIEN_CHECKED MienStatus mien_deformer_instance_local_transforms(const MienDeformerInstance* deformer_instance, float* out_transforms,
                                                size_t count);
 
 /* Positions of one mesh as of the last update, and its normals (MIEN_NORMALS_...). On this thread,
  * but for meshes of 16384 positions and more in tasks of about 2048, if there is somebody to run
  * them: `parallel` may be NULL. The result has the same bits. Allocates nothing, locks nothing.
  * MIEN_ERROR_LOD: the pose has no room for this mesh. */
-MIEN_API MienStatus mien_deformer_instance_deform(MienDeformerInstance* pose, uint32_t mesh, uint32_t normals,
+MIEN_CHECKED MienStatus mien_deformer_instance_deform(MienDeformerInstance* deformer_instance, uint32_t mesh, uint32_t normals,
                                      const MienParallelFor* parallel);
 
 /* The same mesh of several different poses of one deformer: the same bits as one after the other,
  * but each piece of the mesh is fetched once, and the size that counts is that of all of them
  * together; `parallel` may be NULL. A pose that comes up twice is MIEN_ERROR_INVALID_ARGUMENT, one
  * of another deformer MIEN_ERROR_MISMATCH; then none is deformed. */
-MIEN_API MienStatus mien_deformer_instance_deform_batch(MienDeformerInstance* const* poses, size_t pose_count, uint32_t mesh,
+MIEN_CHECKED MienStatus mien_deformer_instance_deform_batch(MienDeformerInstance* const* deformer_instances, size_t count, uint32_t mesh,
                                            uint32_t normals, const MienParallelFor* parallel);
 
 /* Results of the last mien_deformer_instance_deform() of the mesh: x y z per position, x y z per vertex. The
  * views stay valid, their contents change with each call. A mesh without room: MIEN_ERROR_LOD. */
-MIEN_API MienStatus mien_deformer_instance_positions(const MienDeformerInstance* pose, uint32_t mesh,
+MIEN_CHECKED MienStatus mien_deformer_instance_positions(const MienDeformerInstance* deformer_instance, uint32_t mesh,
                                         MienFloatView* out_positions);
-MIEN_API MienStatus mien_deformer_instance_normals(const MienDeformerInstance* pose, uint32_t mesh,
+MIEN_CHECKED MienStatus mien_deformer_instance_normals(const MienDeformerInstance* deformer_instance, uint32_t mesh,
                                       MienFloatView* out_normals);
 
 #ifdef __cplusplus

@@ -12,16 +12,12 @@ static_assert(MIEN_PRESET_BODY == int(SyntheticPreset::kBody), "the presets agre
 MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna, MienError* error) {
   if (MienStatus status = clear_output(out_dna, error)) return status;
   MienGenerateDesc known;
-  if (MienStatus status = read_struct(desc, known)) {
-    return give_error(error, status,
-                      "MienGenerateDesc.struct_size is %u, expected %zu or more with zeros",
-                      desc->struct_size, sizeof(MienGenerateDesc));
-  }
+  if (MienStatus status = read_desc(desc, known, "MienGenerateDesc", error)) return status;
   if (known.preset > MIEN_PRESET_HEAD) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
                       "MienGenerateDesc.preset %u is no MIEN_PRESET_...", known.preset);
   }
-  if ((known.flags & ~uint32_t{MIEN_GENERATE_ML}) != 0 || known.reserved != 0) {
+  if ((known.flags & ~uint32_t{MIEN_GENERATE_ML}) != 0) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
                       "MienGenerateDesc.flags has unknown bits: 0x%x", known.flags);
   }
@@ -31,9 +27,7 @@ MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna, Mi
         "MIEN_PRESET_HEAD has no learned behavior: MienGenerateDesc.flags is to be 0");
   }
   Allocator allocator;
-  if (read_allocator(known.allocator, allocator) != MIEN_OK) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
-  }
+  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
   MienDna* dna = new_dna(allocator);
   const bool ml = (known.flags & MIEN_GENERATE_ML) != 0;
   const bool made = dna && (known.preset == MIEN_PRESET_HEAD

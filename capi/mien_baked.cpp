@@ -95,19 +95,12 @@ MienStatus open_baked(const void* bytes, size_t size, MappedFile& file,
 }
 
 MienStatus read_open_arguments(const MienBakedDesc* desc, OpenArguments& out, MienError* error) {
-  if (MienStatus status = read_struct(desc, out.desc)) {
-    return give_error(error, status,
-                      "MienBakedDesc.struct_size is %u, expected %zu or more with zeros",
-                      desc->struct_size, sizeof(MienBakedDesc));
-  }
-  if (read_allocator(out.desc.allocator, out.allocator) != MIEN_OK) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
-  }
+  if (MienStatus status = read_desc(desc, out.desc, "MienBakedDesc", error)) return status;
+  if (MienStatus status = read_allocator(out.desc.allocator, out.allocator, error)) return status;
   if (out.desc.file_access > MIEN_FILE_READ || out.desc.check > MIEN_BAKED_CHECK_FULL ||
-      out.desc.reuse > MIEN_REUSE_NOTHING || out.desc.reserved != 0) {
+      out.desc.reuse > MIEN_REUSE_NOTHING) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienBakedDesc.file_access, .check or .reuse is none of its values, or "
-                      ".reserved is not 0");
+                      "MienBakedDesc.file_access, .check or .reuse is none of its values");
   }
   return find_kernels(out.desc.isa, out.kernels, error);
 }

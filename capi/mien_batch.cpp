@@ -9,27 +9,35 @@ using namespace mien::capi;
 
 namespace {
 
+constexpr uint32_t kDefaultCapacity = 32;
 constexpr uint32_t kMaxCapacity = 1u << 20;
+
+MienStatus read_batch_desc(const MienBatchDesc* desc, MienBatchDesc& out, MienError* error) {
+  if (MienStatus status = read_desc(desc, out, "MienBatchDesc", error)) return status;
+  if (out.capacity == 0) out.capacity = kDefaultCapacity;
+  if (out.tasks == 0) out.tasks = 1;
+  if (out.capacity > kMaxCapacity) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienBatchDesc.capacity is %u, a batch takes %u instances at most",
+                      out.capacity, kMaxCapacity);
+  }
+  return MIEN_OK;
+}
 
 }  // namespace
 
-MienStatus mien_batch_create(const MienRig* rig, uint32_t capacity, uint32_t tasks,
-                             const MienAllocator* given, MienBatch** out_batch, MienError* error) {
+MienStatus mien_batch_create(const MienRig* rig, const MienBatchDesc* desc, MienBatch** out_batch,
+                             MienError* error) {
   if (MienStatus status = clear_output(out_batch, error)) return status;
   if (MienStatus status = check(rig)) return give_error(error, status, "not a rig");
+  MienBatchDesc known;
+  if (MienStatus status = read_batch_desc(desc, known, error)) return status;
   Allocator allocator;
-  if (read_allocator(given, allocator) != MIEN_OK) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
-  }
-  if (tasks == 0) tasks = 1;
-  if (capacity == 0 || capacity > kMaxCapacity) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "a batch has room for 1 to %u instances, not %u", kMaxCapacity, capacity);
-  }
-  Batch* batch = create_batch(*object(rig), capacity, tasks, allocator);
+  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
+  Batch* batch = create_batch(*object(rig), known.capacity, known.tasks, allocator);
   if (!batch) {
     return give_error(error, MIEN_ERROR_MEMORY, "no memory for a batch of %zu bytes",
-                      batch_size(*object(rig), capacity, tasks));
+                      batch_size(*object(rig), known.capacity, known.tasks));
   }
   batch->tag = kBatchTag;
   *out_batch = reinterpret_cast<MienBatch*>(batch);
@@ -40,14 +48,13 @@ void mien_batch_destroy(MienBatch* batch) {
   if (check(batch) == MIEN_OK) destroy_batch(object(batch));
 }
 
-MienStatus mien_batch_bytes(const MienRig* rig, uint32_t capacity, uint32_t tasks,
-                            uint64_t* out_bytes) {
+MienStatus mien_batch_bytes(const MienRig* rig, const MienBatchDesc* desc, uint64_t* out_bytes) {
   if (!out_bytes) return MIEN_ERROR_NULL_ARGUMENT;
   *out_bytes = 0;
   if (MienStatus status = check(rig)) return status;
-  if (capacity == 0 || capacity > kMaxCapacity) return MIEN_ERROR_INVALID_ARGUMENT;
-  if (tasks == 0) tasks = 1;
-  *out_bytes = batch_size(*object(rig), capacity, tasks);
+  MienBatchDesc known;
+  if (MienStatus status = read_batch_desc(desc, known, nullptr)) return status;
+  *out_bytes = batch_size(*object(rig), known.capacity, known.tasks);
   return MIEN_OK;
 }
 

@@ -16,7 +16,7 @@ static_assert(MIEN_NORMALS_RECOMPUTED == int(Normals::kRecomputed) &&
 
 namespace {
 
-MienIndexView view_of(const Span<uint16_t>& span) { return {span.data, span.count}; }
+MienIndex16View view_of(const Span<uint16_t>& span) { return {span.data, span.count}; }
 MienIndex32View view_of(const Span<uint32_t>& span) { return {span.data, span.count}; }
 MienFloatView view_of(const Span<float>& span) { return {span.data, span.count}; }
 
@@ -62,34 +62,24 @@ MienStatus mien_deformer_create(const MienDna* dna, const MienRig* handle,
   if (MienStatus status = check(dna)) return give_error(error, status, "not an open DNA");
   if (MienStatus status = check(handle)) return give_error(error, status, "not a rig");
   MienDeformerDesc known;
-  if (MienStatus status = read_struct(desc, known)) {
-    return give_error(error, status,
-                      "MienDeformerDesc.struct_size is %u, expected %zu or more with zeros",
-                      desc->struct_size, sizeof(MienDeformerDesc));
-  }
+  if (MienStatus status = read_desc(desc, known, "MienDeformerDesc", error)) return status;
   Allocator allocator;
-  if (read_allocator(known.allocator, allocator) != MIEN_OK) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
-  }
-  if (known.isa >= kIsaCount || known.compose > MIEN_COMPOSE_EULER_ADD ||
-      known.weights > MIEN_WEIGHTS_FIX || known.normals > MIEN_NORMALS_RECOMPUTED ||
-      known.reserved != 0) {
+  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
+  if (known.compose > MIEN_COMPOSE_EULER_ADD || known.weights > MIEN_WEIGHTS_FIX ||
+      known.normals > MIEN_NORMALS_RECOMPUTED) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienDeformerDesc.isa, .compose, .weights, .normals or .reserved is none of "
-                      "its values");
+                      "MienDeformerDesc.compose, .weights or .normals is none of its values");
   }
   const Rig& rig = *object(handle);
-  const KernelTable* kernels =
-      known.isa == MIEN_ISA_BEST ? rig.kernels : kernels_for(static_cast<Isa>(known.isa));
-  if (!kernels) {
-    return give_error(error, MIEN_ERROR_ISA, "this CPU or build lacks %s; use MIEN_ISA_BEST",
-                      mien_isa_name(known.isa));
+  const KernelTable* kernels = rig.kernels;
+  if (known.isa != MIEN_ISA_BEST) {
+    if (MienStatus status = find_kernels(known.isa, kernels, error)) return status;
   }
   if (known.compose == MIEN_COMPOSE_EULER_ADD && rig.quaternion_outputs) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MIEN_COMPOSE_EULER_ADD needs a rig with MIEN_OUTPUT_EULER");
+                      "MIEN_COMPOSE_EULER_ADD needs a rig with MIEN_ROTATION_OUTPUT_EULER");
   }
-  if (!dna->view.has(dna::kAnyGeometry)) {
+  if (!dna->view.has(dna::kLayerGeometry)) {
     return give_error(error, MIEN_ERROR_DNA_LAYER,
                       "the DNA was opened without its geometry; open it with MIEN_LAYER_GEOMETRY");
   }
@@ -130,7 +120,7 @@ MienStatus mien_deformer_info(const MienDeformer* handle, MienDeformerInfo* out_
   info.channel_count = deformer.rig->channel_count;
   info.mesh_count = static_cast<uint32_t>(deformer.meshes.count);
   info.deformer_bytes = deformer.block_size;
-  info.pose_bytes = deformer_instance_size(deformer, 0);
+  info.instance_bytes = deformer_instance_size(deformer, 0);
   write_struct(out_info, info);
   return MIEN_OK;
 }
@@ -146,7 +136,7 @@ MienStatus mien_deformer_mesh(const MienDeformer* handle, uint32_t m, MienMesh* 
   told.triangle_count = mesh.triangle_count;
   told.max_influences = mesh.max_influences;
   told.target_count = mesh.target_count;
-  told.delta_count = mesh.delta_count;
+  told.delta_count = static_cast<uint32_t>(mesh.delta_count);
   told.lods = mesh.lods;
   told.positions = {mesh.positions.data, size_t{mesh.position_count} * 3};
   told.normals = {mesh.normals.data, size_t{mesh.vertex_count} * 3};
@@ -159,7 +149,7 @@ MienStatus mien_deformer_mesh(const MienDeformer* handle, uint32_t m, MienMesh* 
 }
 
 MienStatus mien_deformer_influences(const MienDeformer* handle, uint32_t m, uint32_t position,
-                                    MienIndexView* out_joints, MienFloatView* out_weights) {
+                                    MienIndex16View* out_joints, MienFloatView* out_weights) {
   if (out_joints) *out_joints = {nullptr, 0};
   if (out_weights) *out_weights = {nullptr, 0};
   if (!out_joints || !out_weights) return MIEN_ERROR_NULL_ARGUMENT;
@@ -212,19 +202,9 @@ MienStatus mien_deformer_instance_create(const MienDeformer* deformer,
   if (MienStatus status = clear_output(out_pose, error)) return status;
   if (MienStatus status = check(deformer)) return give_error(error, status, "not a deformer");
   MienDeformerInstanceDesc known;
-  if (MienStatus status = read_struct(desc, known)) {
-    return give_error(error, status,
-                      "MienDeformerInstanceDesc.struct_size is %u, expected %zu or more with zeros",
-                      desc->struct_size, sizeof(MienDeformerInstanceDesc));
-  }
+  if (MienStatus status = read_desc(desc, known, "MienDeformerInstanceDesc", error)) return status;
   Allocator allocator;
-  if (read_allocator(known.allocator, allocator) != MIEN_OK) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
-  }
-  if (known.reserved != 0) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienDeformerInstanceDesc.reserved is not 0");
-  }
+  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
   DeformerInstance* pose = create_deformer_instance(*object(deformer), known.lods, allocator);
   if (!pose) {
     return give_error(error, MIEN_ERROR_MEMORY, "no memory for a pose of %zu bytes",

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // DNA files: opening, looking into them, writing. mien.h is the manual.
+#include <algorithm>
+
 #include "capi/handles.h"
 #include "runtime/base/coordinate_system.h"
 #include "runtime/dna/dna_reader.h"
@@ -33,11 +35,7 @@ struct OpenArguments {
 
 MienStatus read_system(const MienCoordinateSystem* in, CoordinateSystem& out, MienError* error) {
   MienCoordinateSystem known;
-  if (MienStatus status = read_struct(in, known)) {
-    return give_error(error, status,
-                      "MienCoordinateSystem.struct_size is %u, expected %zu or more with zeros",
-                      in->struct_size, sizeof(MienCoordinateSystem));
-  }
+  if (MienStatus status = read_desc(in, known, "MienCoordinateSystem", error)) return status;
   bool signs = true;
   for (int i = 0; i < 3; ++i) {
     out.axes[i] = known.axes[i];
@@ -50,12 +48,15 @@ MienStatus read_system(const MienCoordinateSystem* in, CoordinateSystem& out, Mi
                       "or right, one up or down, one front or back",
                       out.axes[0], out.axes[1], out.axes[2]);
   }
-  if (!signs || known.translation_unit > MIEN_TRANSLATION_METERS ||
-      known.rotation_unit > MIEN_ROTATION_RADIANS ||
-      known.rotation_rule > MIEN_ROTATIONS_PER_COLUMN ||
-      known.rotation_sequence > MIEN_ROTATION_ZYX || known.face_winding > 1) {
+  if (!signs || known.translation_unit > MIEN_TRANSLATION_UNIT_METERS ||
+      known.rotation_unit > MIEN_ROTATION_UNIT_RADIANS ||
+      known.rotation_rule > MIEN_ROTATION_RULE_PER_COLUMN ||
+      known.rotation_sequence > MIEN_ROTATION_SEQUENCE_ZYX ||
+      known.face_winding > MIEN_FACE_WINDING_INWARD || known.reserved != 0) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "a field of MienCoordinateSystem is none of its values");
+                      "MienCoordinateSystem.translation_unit, .rotation_unit, .rotation_rule, "
+                      ".rotation_sequence, .rotation_signs or .face_winding is none of its values, "
+                      "or .reserved is not 0");
   }
   out.translation_unit = known.translation_unit;
   out.rotation_unit = known.rotation_unit;
@@ -66,24 +67,20 @@ MienStatus read_system(const MienCoordinateSystem* in, CoordinateSystem& out, Mi
 }
 
 MienStatus read_open_arguments(const MienDnaDesc* desc, OpenArguments& out, MienError* error) {
-  MienStatus status = read_struct(desc, out.desc);
-  if (status != MIEN_OK) {
-    return give_error(error, status,
-                      "MienDnaDesc.struct_size is %u, expected %zu or more with zeros",
-                      desc->struct_size, sizeof(MienDnaDesc));
-  }
-  if (read_allocator(out.desc.allocator, out.allocator) != MIEN_OK) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
-  }
+  if (MienStatus status = read_desc(desc, out.desc, "MienDnaDesc", error)) return status;
+  if (MienStatus status = read_allocator(out.desc.allocator, out.allocator, error)) return status;
   if (out.desc.layers & ~uint32_t{dna::kLayersAll}) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
                       "MienDnaDesc.layers has unknown bits: 0x%x", out.desc.layers);
   }
-  if (out.desc.unknown_layers > MIEN_UNKNOWN_LAYERS_DROP || out.desc.file_access > MIEN_FILE_READ) {
+  if (out.desc.unknown_layers > MIEN_UNKNOWN_LAYERS_DROP || out.desc.file_access > MIEN_FILE_READ ||
+      out.desc.skip_blend_shape_targets > 1) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienDnaDesc.unknown_layers or .file_access is none of its values");
+                      "MienDnaDesc.unknown_layers, .file_access or .skip_blend_shape_targets is "
+                      "none of its values");
   }
   out.options.layers = out.desc.layers ? out.desc.layers : uint32_t{dna::kLayersAll};
+  out.options.skip_blend_shape_targets = out.desc.skip_blend_shape_targets != 0;
   out.options.keep_unknown = out.desc.unknown_layers == MIEN_UNKNOWN_LAYERS_KEEP;
   out.options.lods = out.desc.lods;
   if (!out.desc.system) return MIEN_OK;
@@ -151,8 +148,12 @@ void mien_dna_close(MienDna* dna) {
 
 // Coordinate systems ------------------------------------------------------------------------------
 
-MienStatus mien_coordinate_system_named(const char* name, size_t name_count,
-                                        MienCoordinateSystem* out_system) {
+MienStatus mien_coordinate_system_find(const char* name, MienCoordinateSystem* out_system) {
+  return mien_coordinate_system_find_n(name, name ? strlen(name) : 0, out_system);
+}
+
+MienStatus mien_coordinate_system_find_n(const char* name, size_t name_count,
+                                         MienCoordinateSystem* out_system) {
   if (MienStatus status = clear_struct(out_system)) return status;
   if (!name) return MIEN_ERROR_NULL_ARGUMENT;
   for (const NamedSystem& named : kNamedSystems) {
@@ -195,7 +196,8 @@ MienStatus mien_dna_info(const MienDna* dna, MienDnaInfo* out_info) {
   info.layers = view.loaded;
   info.file_bytes = view.file_size;
   info.memory_bytes = sizeof(MienDna) + dna->arena.reserved() + dna->file.capacity;
-  info.mapped = dna->file.mapped;
+  info.has_blend_shape_targets = view.has(dna::kLayerGeometry) && !view.lacks_blend_shape_targets;
+  info.is_mapped = dna->file.mapped;
   info.layer_count = view.index.count;
   info.translation_unit = view.desc.translation_unit;
   info.rotation_unit = view.desc.rotation_unit;
@@ -238,23 +240,44 @@ MienStatus mien_dna_layer(const MienDna* dna, uint32_t index, MienDnaLayer* out_
   const dna::LayerKind* kind = dna::find_layer_kind(entry.code, entry.layer_version);
   MienDnaLayer layer = {};
   store_big_endian(reinterpret_cast<uint8_t*>(layer.code), entry.code);
-  layer.layer = kind ? kind->loaded_by & ~uint32_t{dna::kLayerGeometryWithoutBlendShapes} : 0;
+  layer.layer = kind ? kind->loaded_by : uint32_t{MIEN_LAYER_UNKNOWN};
   layer.version_major = entry.layer_version >> 16;
   layer.version_minor = entry.layer_version & 0xFFFF;
   layer.byte_offset = entry.offset;
   layer.byte_count = entry.size;
-  layer.loaded = kind && view.has(kind->loaded_by);
+  layer.is_loaded = kind && view.has(kind->loaded_by);
   write_struct(out_layer, layer);
   return MIEN_OK;
 }
 
 namespace {
 
-MienStatus find(const MienDna* dna, const char* path, dna::FieldRef& field, MienError* error) {
+/// Paths of fields are shorter: a record is at most five levels down, and an index has ten digits.
+constexpr size_t kMaxPath = 255;
+
+size_t length_of(const char* text) { return text ? strlen(text) : 0; }
+
+/// A terminated copy of `path` in `out`.
+MienStatus copy_path(const MienDna* dna, const char* path, size_t count, char (&out)[kMaxPath + 1],
+                     MienError* error) {
   if (MienStatus status = check(dna)) return give_error(error, status, "not an open DNA");
   if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
+  if (count > kMaxPath || memchr(path, 0, count)) {
+    return give_error(error, MIEN_ERROR_NAME,
+                      "\"%.*s...\" is no field: its path of %zu bytes is longer than %zu or has a "
+                      "zero byte",
+                      static_cast<int>(std::min<size_t>(count, 60)), path, count, kMaxPath);
+  }
+  memcpy(out, path, count);
+  out[count] = 0;
+  return MIEN_OK;
+}
+
+MienStatus find(const MienDna* dna, const char* path, size_t count, char (&copy)[kMaxPath + 1],
+                dna::FieldRef& field, MienError* error) {
+  if (MienStatus status = copy_path(dna, path, count, copy, error)) return status;
   Error detail;
-  if (dna::find_field(dna->view, path, field, detail) != Status::kOk)
+  if (dna::find_field(dna->view, copy, field, detail) != Status::kOk)
     return give_error(detail, error);
   return MIEN_OK;
 }
@@ -284,13 +307,19 @@ MienStatus check_range(const dna::FieldRef& field, const char* path, uint64_t fi
 
 MienStatus mien_dna_field(const MienDna* dna, const char* path, MienDnaField* out_field,
                           MienError* error) {
+  return mien_dna_field_n(dna, path, length_of(path), out_field, error);
+}
+
+MienStatus mien_dna_field_n(const MienDna* dna, const char* given, size_t path_count,
+                            MienDnaField* out_field, MienError* error) {
   const MienStatus cleared = clear_struct(out_field);
   if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
   if (cleared != MIEN_OK) {
     return give_error(error, cleared, "out_field is NULL or its struct_size too small");
   }
+  char path[kMaxPath + 1];
   dna::FieldRef field;
-  if (MienStatus status = find(dna, path, field, error)) return status;
+  if (MienStatus status = find(dna, given, path_count, path, field, error)) return status;
   MienDnaField result = {};
   result.type = static_cast<uint32_t>(field.type);
   result.count = field.count;
@@ -300,11 +329,16 @@ MienStatus mien_dna_field(const MienDna* dna, const char* path, MienDnaField* ou
   return succeed(error);
 }
 
-MienStatus mien_dna_field_name(const MienDna* dna, const char* path, uint32_t index,
+MienStatus mien_dna_child_name(const MienDna* dna, const char* path, uint32_t index,
                                MienStringView* out_name, MienError* error) {
+  return mien_dna_child_name_n(dna, path, length_of(path), index, out_name, error);
+}
+
+MienStatus mien_dna_child_name_n(const MienDna* dna, const char* given, size_t path_count,
+                                 uint32_t index, MienStringView* out_name, MienError* error) {
   if (MienStatus status = clear_output(out_name, error)) return status;
-  if (MienStatus status = check(dna)) return give_error(error, status, "not an open DNA");
-  if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
+  char path[kMaxPath + 1];
+  if (MienStatus status = copy_path(dna, given, path_count, path, error)) return status;
   const char* name = nullptr;
   Error detail;
   if (dna::find_field_name(dna->view, path, index, name, detail) != Status::kOk) {
@@ -316,9 +350,15 @@ MienStatus mien_dna_field_name(const MienDna* dna, const char* path, uint32_t in
 
 MienStatus mien_dna_read_floats(const MienDna* dna, const char* path, uint64_t first,
                                 uint64_t count, float* out, MienError* error) {
+  return mien_dna_read_floats_n(dna, path, length_of(path), first, count, out, error);
+}
+
+MienStatus mien_dna_read_floats_n(const MienDna* dna, const char* given, size_t path_count,
+                                  uint64_t first, uint64_t count, float* out, MienError* error) {
   if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
+  char path[kMaxPath + 1];
   dna::FieldRef field;
-  if (MienStatus status = find(dna, path, field, error)) return status;
+  if (MienStatus status = find(dna, given, path_count, path, field, error)) return status;
   if (field.type != dna::FieldType::kF32) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "%.160s does not hold floats", path);
   }
@@ -329,9 +369,16 @@ MienStatus mien_dna_read_floats(const MienDna* dna, const char* path, uint64_t f
 
 MienStatus mien_dna_read_integers(const MienDna* dna, const char* path, uint64_t first,
                                   uint64_t count, int64_t* out, MienError* error) {
+  return mien_dna_read_integers_n(dna, path, length_of(path), first, count, out, error);
+}
+
+MienStatus mien_dna_read_integers_n(const MienDna* dna, const char* given, size_t path_count,
+                                    uint64_t first, uint64_t count, int64_t* out,
+                                    MienError* error) {
   if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
+  char path[kMaxPath + 1];
   dna::FieldRef field;
-  if (MienStatus status = find(dna, path, field, error)) return status;
+  if (MienStatus status = find(dna, given, path_count, path, field, error)) return status;
   const bool integer = field.type == dna::FieldType::kU8 || field.type == dna::FieldType::kU16 ||
                        field.type == dna::FieldType::kU32 || field.type == dna::FieldType::kI32;
   if (!integer) {
@@ -349,9 +396,15 @@ MienStatus mien_dna_read_integers(const MienDna* dna, const char* path, uint64_t
 
 MienStatus mien_dna_read_string(const MienDna* dna, const char* path, MienStringView* out_string,
                                 MienError* error) {
+  return mien_dna_read_string_n(dna, path, length_of(path), out_string, error);
+}
+
+MienStatus mien_dna_read_string_n(const MienDna* dna, const char* given, size_t path_count,
+                                  MienStringView* out_string, MienError* error) {
   if (MienStatus status = clear_output(out_string, error)) return status;
+  char path[kMaxPath + 1];
   dna::FieldRef field;
-  if (MienStatus status = find(dna, path, field, error)) return status;
+  if (MienStatus status = find(dna, given, path_count, path, field, error)) return status;
   if (field.type != dna::FieldType::kString) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "%.160s is not a string", path);
   }
@@ -375,14 +428,11 @@ MienStatus plan_write(const MienDna* dna, const MienWriteDesc* desc, dna::WriteO
         "before its own: open both to write the file");
   }
   MienWriteDesc known;
-  if (MienStatus status = read_struct(desc, known)) {
-    return give_error(error, status,
-                      "MienWriteDesc.struct_size is %u, expected %zu or more with zeros",
-                      desc->struct_size, sizeof(MienWriteDesc));
-  }
-  if (known.version > 8 || known.unknown_layers > MIEN_UNKNOWN_LAYERS_DROP || known.reserved != 0) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienWriteDesc: version is 0 or 1 to 8, unknown_layers 0 or 1, reserved 0");
+  if (MienStatus status = read_desc(desc, known, "MienWriteDesc", error)) return status;
+  if (known.version > 8 || known.unknown_layers > MIEN_UNKNOWN_LAYERS_DROP) {
+    return give_error(
+        error, MIEN_ERROR_INVALID_ARGUMENT,
+        "MienWriteDesc.version is 0 or 1 to 8, .unknown_layers a MIEN_UNKNOWN_LAYERS_...");
   }
   options.version = known.version ? static_cast<uint16_t>(known.version) : dna->view.version;
   options.keep_unknown = known.unknown_layers == MIEN_UNKNOWN_LAYERS_KEEP;

@@ -84,12 +84,15 @@ void try_to_compile(const dna::DnaView& view, MienReport* report) {
   }
 }
 
-MienStatus examine(const uint8_t* bytes, size_t size, const MienAllocator* given,
+MienStatus read_validate_desc(const MienValidateDesc* desc, Allocator& allocator,
+                              MienError* error) {
+  MienValidateDesc known;
+  if (MienStatus status = read_desc(desc, known, "MienValidateDesc", error)) return status;
+  return read_allocator(known.allocator, allocator, error);
+}
+
+MienStatus examine(const uint8_t* bytes, size_t size, const Allocator& allocator,
                    MienReport** out_report, MienError* error) {
-  Allocator allocator;
-  if (read_allocator(given, allocator) != MIEN_OK) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
-  }
   void* memory = allocator.get(sizeof(MienReport), alignof(MienReport));
   if (!memory) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a report");
   MienReport* report =
@@ -117,18 +120,16 @@ MienStringView view_of(const dna::String& string) { return {string.chars(), stri
 
 }  // namespace
 
-MienStatus mien_report_create_file(const char* path, const MienAllocator* allocator,
-                                   MienReport** out_report, MienError* error) {
+MienStatus mien_dna_validate_file(const char* path, const MienValidateDesc* desc,
+                                  MienReport** out_report, MienError* error) {
   if (MienStatus status = clear_output(out_report, error)) return status;
   if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
-  Allocator memory;
-  if (read_allocator(allocator, memory) != MIEN_OK) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
-  }
+  Allocator allocator;
+  if (MienStatus status = read_validate_desc(desc, allocator, error)) return status;
   // All of it is looked at anyway, and a file in memory cannot change under the checks.
   MappedFile file;
   Error detail;
-  if (open_file(path, FileAccess::kRead, memory, file, detail) != Status::kOk) {
+  if (open_file(path, FileAccess::kRead, allocator, file, detail) != Status::kOk) {
     return give_error(detail, error);
   }
   const MienStatus status = examine(file.bytes, file.size, allocator, out_report, error);
@@ -136,10 +137,12 @@ MienStatus mien_report_create_file(const char* path, const MienAllocator* alloca
   return status;
 }
 
-MienStatus mien_report_create_memory(const void* bytes, size_t size, const MienAllocator* allocator,
-                                     MienReport** out_report, MienError* error) {
+MienStatus mien_dna_validate_memory(const void* bytes, size_t size, const MienValidateDesc* desc,
+                                    MienReport** out_report, MienError* error) {
   if (MienStatus status = clear_output(out_report, error)) return status;
   if (!bytes && size != 0) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "bytes is NULL");
+  Allocator allocator;
+  if (MienStatus status = read_validate_desc(desc, allocator, error)) return status;
   return examine(static_cast<const uint8_t*>(bytes), size, allocator, out_report, error);
 }
 

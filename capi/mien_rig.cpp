@@ -24,10 +24,13 @@ uint32_t mien_version(void) { return MIEN_VERSION; }
 const char* mien_status_name(MienStatus status) { return status_name(static_cast<Status>(status)); }
 
 uint32_t mien_isa_available(uint32_t isa) {
-  return isa == MIEN_ISA_BEST || (isa < kIsaCount && kernels_for(static_cast<Isa>(isa)));
+  if (isa == MIEN_ISA_ENVIRONMENT) return kernels_from_environment() != nullptr;
+  return isa < kIsaCount && kernels_for(static_cast<Isa>(isa)) != nullptr;
 }
 
-const char* mien_isa_name(uint32_t isa) { return isa_name(static_cast<Isa>(isa)); }
+const char* mien_isa_name(uint32_t isa) {
+  return isa == MIEN_ISA_ENVIRONMENT ? "environment" : isa_name(static_cast<Isa>(isa));
+}
 
 // Rig ---------------------------------------------------------------------------------------------
 
@@ -36,21 +39,15 @@ MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig*
   if (MienStatus status = clear_output(out_rig, error)) return status;
   if (MienStatus status = check(dna)) return give_error(error, status, "not an open DNA");
   MienRigDesc known;
-  if (MienStatus status = read_struct(desc, known)) {
-    return give_error(error, status,
-                      "MienRigDesc.struct_size is %u, expected %zu or more with zeros",
-                      desc->struct_size, sizeof(MienRigDesc));
-  }
+  if (MienStatus status = read_desc(desc, known, "MienRigDesc", error)) return status;
   Allocator allocator;
-  if (read_allocator(known.allocator, allocator) != MIEN_OK) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
-  }
-  if (known.rotation > MIEN_OUTPUT_QUATERNION || known.ml_masks > MIEN_ML_MASKS_BLEND ||
-      known.storage > MIEN_STORAGE_F16 || known.reuse > MIEN_REUSE_NOTHING ||
-      known.arithmetic > MIEN_ARITHMETIC_PORTABLE || known.reserved != 0) {
+  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
+  if (known.rotation_output > MIEN_ROTATION_OUTPUT_QUATERNION ||
+      known.ml_masks > MIEN_ML_MASKS_BLEND || known.storage > MIEN_STORAGE_16_BIT ||
+      known.reuse > MIEN_REUSE_NOTHING || known.arithmetic > MIEN_ARITHMETIC_PORTABLE) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienRigDesc.rotation, .ml_masks, .storage, .reuse or .arithmetic is none of "
-                      "its values, or .reserved is not 0");
+                      "MienRigDesc.rotation_output, .ml_masks, .storage, .reuse or .arithmetic is "
+                      "none of its values");
   }
   const KernelTable* kernels = nullptr;
   if (MienStatus status = find_kernels(known.isa, kernels, error)) return status;
@@ -61,9 +58,9 @@ MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig*
   Rig* rig = nullptr;
   Error detail;
   const CompileOptions options = {kernels,
-                                  known.rotation == MIEN_OUTPUT_QUATERNION,
+                                  known.rotation_output == MIEN_ROTATION_OUTPUT_QUATERNION,
                                   known.ml_masks == MIEN_ML_MASKS_BLEND,
-                                  known.storage == MIEN_STORAGE_F16,
+                                  known.storage == MIEN_STORAGE_16_BIT,
                                   known.arithmetic == MIEN_ARITHMETIC_PORTABLE,
                                   known.reuse == MIEN_REUSE_NOTHING};
   if (compile_rig(dna->view, options, allocator, rig, detail) != Status::kOk) {
@@ -95,8 +92,9 @@ MienStatus mien_rig_info(const MienRig* handle, MienRigInfo* out_info) {
   std::copy(rig.units.rotation_signs, rig.units.rotation_signs + 3, info.rotation_signs);
   info.control_count = rig.control_count;
   info.joint_value_count = rig.joint_value_count();
-  info.rotation = rig.quaternion_outputs ? MIEN_OUTPUT_QUATERNION : MIEN_OUTPUT_EULER;
-  info.storage = rig.half_storage ? MIEN_STORAGE_F16 : MIEN_STORAGE_F32;
+  info.rotation_output = rig.quaternion_outputs ? MIEN_ROTATION_OUTPUT_QUATERNION : MIEN_ROTATION_OUTPUT_EULER;
+  info.storage = rig.half_storage ? MIEN_STORAGE_16_BIT : MIEN_STORAGE_32_BIT;
+  info.arithmetic = rig.portable ? MIEN_ARITHMETIC_PORTABLE : MIEN_ARITHMETIC_FAST;
   info.rig_bytes = rig.block_size + rig.baked_size;
   info.instance_bytes = rig.instance_size;
   write_struct(out_info, info);
@@ -122,7 +120,7 @@ MienStatus count_of(const Rig& rig, uint32_t kind, uint32_t& count) {
   return MIEN_OK;
 }
 
-MienIndexView view_of(const Span<uint16_t>& span) { return {span.data, span.count}; }
+MienIndex16View view_of(const Span<uint16_t>& span) { return {span.data, span.count}; }
 
 /// Sign of a comparison of bytes: shorter strings come before longer ones that they begin.
 int compare(const Span<char>& a, const char* b, size_t b_count) {
@@ -156,8 +154,14 @@ MienStatus mien_rig_name(const MienRig* rig, uint32_t kind, uint32_t index,
   return MIEN_OK;
 }
 
-MienStatus mien_rig_find(const MienRig* rig, uint32_t kind, const char* name, size_t name_count,
-                         uint32_t* out_index) {
+MienStatus mien_rig_find(const MienRig* rig, uint32_t kind, const char* name, uint32_t* out_index) {
+  if (out_index) *out_index = 0;
+  if (!name) return MIEN_ERROR_NULL_ARGUMENT;
+  return mien_rig_find_n(rig, kind, name, strlen(name), out_index);
+}
+
+MienStatus mien_rig_find_n(const MienRig* rig, uint32_t kind, const char* name, size_t name_count,
+                           uint32_t* out_index) {
   if (!out_index) return MIEN_ERROR_NULL_ARGUMENT;
   *out_index = 0;
   if (MienStatus status = check(rig)) return status;
@@ -174,7 +178,7 @@ MienStatus mien_rig_find(const MienRig* rig, uint32_t kind, const char* name, si
 }
 
 MienStatus mien_rig_lod_indices(const MienRig* handle, uint32_t kind, uint32_t lod,
-                                MienIndexView* out_indices) {
+                                MienIndex16View* out_indices) {
   if (!out_indices) return MIEN_ERROR_NULL_ARGUMENT;
   *out_indices = {nullptr, 0};
   if (MienStatus status = check(handle)) return status;
@@ -194,7 +198,7 @@ MienStatus mien_rig_lod_indices(const MienRig* handle, uint32_t kind, uint32_t l
 }
 
 MienStatus mien_rig_variable_joint_values(const MienRig* rig, uint32_t lod,
-                                          MienIndexView* out_indices) {
+                                          MienIndex16View* out_indices) {
   if (!out_indices) return MIEN_ERROR_NULL_ARGUMENT;
   *out_indices = {nullptr, 0};
   if (MienStatus status = check(rig)) return status;
@@ -203,7 +207,7 @@ MienStatus mien_rig_variable_joint_values(const MienRig* rig, uint32_t lod,
   return MIEN_OK;
 }
 
-MienStatus mien_rig_joint_parents(const MienRig* rig, MienIndexView* out_parents) {
+MienStatus mien_rig_joint_parents(const MienRig* rig, MienIndex16View* out_parents) {
   if (!out_parents) return MIEN_ERROR_NULL_ARGUMENT;
   *out_parents = {nullptr, 0};
   if (MienStatus status = check(rig)) return status;
@@ -219,7 +223,7 @@ MienStatus mien_rig_neutral_joint_values(const MienRig* rig, MienFloatView* out_
   return MIEN_OK;
 }
 
-MienStatus mien_rig_psd_inputs(const MienRig* rig, uint32_t psd, MienIndexView* out_controls) {
+MienStatus mien_rig_psd_inputs(const MienRig* rig, uint32_t psd, MienIndex16View* out_controls) {
   if (!out_controls) return MIEN_ERROR_NULL_ARGUMENT;
   *out_controls = {nullptr, 0};
   if (MienStatus status = check(rig)) return status;
@@ -247,6 +251,7 @@ MienStatus mien_rig_statistics(const MienRig* handle, uint32_t lod,
   if (lod >= rig.lod_count) return MIEN_ERROR_LOD;
   MienRigStatistics statistics = {};
   if (rig.psd_count) statistics.psd_count = rig.psds.count_at_lod[lod];
+  statistics.lod = lod;
   statistics.joint_count = static_cast<uint32_t>(rig.lod_joints.at(lod).count);
   statistics.blend_shape_count = rig.channels.count_at_lod[lod];
   statistics.animated_map_row_count = rig.map_rows_at_lod[lod];
@@ -272,14 +277,14 @@ MienStatus mien_rig_statistics(const MienRig* handle, uint32_t lod,
 
 // Instance ----------------------------------------------------------------------------------------
 
-MienStatus mien_instance_create(const MienRig* rig, const MienAllocator* given,
+MienStatus mien_instance_create(const MienRig* rig, const MienInstanceDesc* desc,
                                 MienInstance** out_instance, MienError* error) {
   if (MienStatus status = clear_output(out_instance, error)) return status;
   if (MienStatus status = check(rig)) return give_error(error, status, "not a rig");
+  MienInstanceDesc known;
+  if (MienStatus status = read_desc(desc, known, "MienInstanceDesc", error)) return status;
   Allocator allocator;
-  if (read_allocator(given, allocator) != MIEN_OK) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "the allocator lacks a function");
-  }
+  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
   Instance* instance = create_instance(*object(rig), allocator);
   if (!instance) {
     return give_error(error, MIEN_ERROR_MEMORY, "no memory for an instance of %zu bytes",
@@ -371,6 +376,7 @@ MienStatus mien_instance_statistics(const MienInstance* handle,
   const JointMatrix& joints = instance.rig->joints;
   MienInstanceStatistics statistics = {};
   statistics.lod = instance.lod;
+  statistics.control_count = static_cast<uint32_t>(instance.controls.count);
   for (float control : instance.controls) statistics.active_control_count += control != 0.0f;
   const uint32_t panels = instance.rig->lod_count ? joints.panels_at_lod[instance.lod] : 0;
   for (size_t k = 0; k < joints.columns.count; ++k) {

@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
                                : mien_dna_generate(&large, &dna, &error);
   if (!status) status = mien_rig_create(dna, NULL, &rig, &error);
   if (!status) status = mien_instance_create(rig, NULL, &face, &error);
-  if (!status) status = mien_rig_find(rig, MIEN_KIND_RAW_CONTROL, control, strlen(control), &index);
+  if (!status) status = mien_rig_find(rig, MIEN_KIND_RAW_CONTROL, control, &index);
   if (!status) status = mien_instance_raw_controls(face, &inputs);
   if (!status) inputs.data[index] = 1; /* written in place */
   if (!status) status = mien_rig_evaluate(rig, face, 0);

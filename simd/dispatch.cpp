@@ -61,8 +61,7 @@ const KernelTable* kernels_for(Isa isa) {
   return &scalar::kTable;
 }
 
-const KernelTable* choose_kernels(Isa isa) {
-  if (isa != Isa::kBest) return kernels_for(isa);
+const KernelTable* kernels_from_environment() {
   const char* wanted = getenv("MIEN_ISA");
   if (!wanted || !*wanted) return kernels_for(Isa::kBest);
   for (uint32_t i = 0; i < kIsaCount; ++i) {

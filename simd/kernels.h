@@ -339,9 +339,9 @@ struct KernelTable {
 /// present, and never null.
 const KernelTable* kernels_for(Isa isa);
 
-/// kernels_for(isa), but kBest looks at the environment variable MIEN_ISA first (empty counts as
-/// unset). Null if the one asked for, by argument or by environment, is not to be had.
-const KernelTable* choose_kernels(Isa isa);
+/// The table that the environment variable MIEN_ISA names, by isa_name(); the best if it is unset or
+/// empty. Null if the name is unknown or this CPU or build lacks it.
+const KernelTable* kernels_from_environment();
 
 /// "avx2" for Isa::kAvx2; "unknown" for numbers that are none.
 const char* isa_name(Isa isa);

@@ -28,6 +28,9 @@ SCALARS = {
 }
 POINTER_SIZE = 8
 
+# Macros for compilers, not for bindings.
+MACROS = ("MIEN_H", "MIEN_API", "MIEN_CHECKED", "MIEN_CALLBACK", "MIEN_ZERO")
+
 TOKEN = re.compile(
     r"(?P<comment>/\*.*?\*/)|(?P<directive>^[ \t]*\#(?:[^\n\\]|\\.|\\\n)*)|(?P<space>\s+)"
     r"|(?P<string>\"[^\"]*\")|(?P<word>\w+)|(?P<sign><<|>>|[-+*/|&~(){}\[\];,=:.?<>!])",
@@ -79,6 +82,7 @@ class Header:
         self.handles, self.aliases, self.callbacks = {}, {}, {}
         self.constants, self.enums, self.structs, self.functions = [], [], {}, []
         self.values = {}  # of constants and macros, for expressions
+        self.experimental = False  # between #ifdef MIEN_EXPERIMENTAL and its #endif
         self.read()
 
     # ---- tokens --------------------------------------------------------------------------------
@@ -149,8 +153,10 @@ class Header:
                 self.typedef(above or "")
             elif token.text == "enum":
                 self.enum(above or "")
-            elif token.text == "MIEN_API":
+            elif token.text in ("MIEN_API", "MIEN_CHECKED"):
                 self.function(above or "")
+            elif token.text == "MIEN_DEFAULT":
+                self.default()
             elif token.text == "extern" or token.text == "}":
                 while self.next().kind != "string" and token.text == "extern":
                     pass
@@ -162,15 +168,22 @@ class Header:
             if token.kind != "directive":
                 group_end = self.tokens[self.position - 1].line
 
+    def where(self, above):
+        """What every entry has."""
+        return {"section": self.section, "documentation": above, "experimental": self.experimental}
+
     def directive(self, token, above):
-        match = re.fullmatch(r"\s*#\s*define\s+(MIEN_\w+)\s+(\S.*)", token.text, re.DOTALL)
-        if not match or match.group(1) in ("MIEN_H", "MIEN_API"):
+        if re.fullmatch(r"#\s*ifdef\s+MIEN_EXPERIMENTAL\s*", token.text):
+            self.experimental = True
+        elif re.match(r"#\s*endif", token.text):
+            self.experimental = False
+        match = re.fullmatch(r"\s*#\s*define\s+(MIEN_\w+)[ \t]+(\S.*)", token.text, re.DOTALL)
+        if not match or match.group(1) in MACROS:
             return
         name, text = match.groups()
         value = self.evaluate(text, token.line)
         self.values[name] = value
-        self.constants.append({"name": name, "value": value, "section": self.section,
-                               "documentation": above})
+        self.constants.append({"name": name, "value": value, **self.where(above)})
 
     def evaluate(self, text, line):
         """An integer expression of literals and constants that were declared before."""
@@ -212,8 +225,9 @@ class Header:
         return kind
 
     def declarator(self, kind):
-        """What follows a type: NAME, NAME[COUNT] or (*NAME)(PARAMETERS)."""
+        """What follows a type: NAME, NAME[COUNT] or (MIEN_CALLBACK* NAME)(PARAMETERS)."""
         if self.take("("):
+            self.expect("MIEN_CALLBACK")
             self.expect("*")
             name = self.word()
             self.expect(")")
@@ -250,7 +264,7 @@ class Header:
     def typedef(self, above):
         self.expect("typedef")
         line = self.peek().line
-        where = {"section": self.section, "documentation": above}
+        where = self.where(above)
         if self.peek().text == "enum":
             fail(line, "enums are plain, without typedef: their values travel as fixed-width numbers")
         if self.peek().text == "struct":
@@ -313,13 +327,14 @@ class Header:
             size, align = self.layout(kind)
             offset = -(-offset // align) * align
             fields.append({"name": field_name, "type": kind, "offset": offset, "size": size,
-                           "enum": None, "documentation": documentation})
+                           "enum": None, "boolean": documentation.startswith("boolean"),
+                           "documentation": re.sub("^boolean:? ?", "", documentation)})
             offset, alignment = offset + size, max(alignment, align)
         self.expect(name)
         self.expect(";")
         self.structs[name] = {
             "name": name, "size": -(-offset // alignment) * alignment, "alignment": alignment,
-            "sized": fields[0]["name"] == "struct_size", "fields": fields, **where}
+            "sized": fields[0]["name"] == "struct_size", "default": None, "fields": fields, **where}
 
     def layout(self, kind):
         """(size, alignment) of a type."""
@@ -333,6 +348,19 @@ class Header:
         if kind["kind"] == "struct":
             return self.structs[kind["name"]]["size"], self.structs[kind["name"]]["alignment"]
         return SCALARS[kind["name"]], SCALARS[kind["name"]]
+
+    def default(self):
+        """MIEN_DEFAULT(MienRigDesc, mien_rig_desc_default)"""
+        line = self.expect("MIEN_DEFAULT").line
+        self.expect("(")
+        name = self.word()
+        self.expect(",")
+        function = self.word()
+        self.expect(")")
+        wanted = re.sub(r"(?<!^)([A-Z])", r"_\1", name).lower() + "_default"
+        if name not in self.structs or not self.structs[name]["sized"] or function != wanted:
+            fail(line, f"MIEN_DEFAULT is for sized structs: MIEN_DEFAULT({name}, {wanted})")
+        self.structs[name]["default"] = function
 
     def enum(self, above):
         line = self.expect("enum").line
@@ -359,15 +387,19 @@ class Header:
         if name == "Mien" or name in [enum["name"] for enum in self.enums]:
             fail(line, f"this enum needs a name, and not {name}")
         values = [{"name": constant, "value": self.values[constant],
-                   "short_name": constant[len(prefix):], "documentation": documentation}
+                   "short_name": short_name(constant[len(prefix):]),
+                   "documentation": documentation}
                   for constant, documentation in members]
         self.enums.append({"name": name, "prefix": prefix, "flags": are_flags(values),
-                           "values": values, "section": self.section, "documentation": above})
+                           "values": values, **self.where(above)})
 
     def function(self, above):
-        self.expect("MIEN_API")
+        checked = self.next()
         returns = self.base_type()
         name = self.word()
+        has_status = returns.get("name") == "MienStatus"
+        if has_status != (checked.text == "MIEN_CHECKED"):
+            fail(checked.line, f"{name}: MIEN_CHECKED is for what returns a MienStatus")
         self.expect("(")
         parameters = self.parameters()
         self.expect(";")
@@ -379,7 +411,7 @@ class Header:
         if shared and re.search(r"_(destroy|close)$", name):
             shared, above = False, ""
         self.functions.append({"name": name, "returns": returns, "parameters": parameters,
-                               "section": self.section, "documentation": above,
+                               **self.where(above),
                                "documented_with": self.owner if shared else None})
         self.owner = self.owner or name
 
@@ -400,6 +432,9 @@ class Header:
                 if mention:
                     constant = mention.group(1).rstrip("_")
                     field["enum"] = enum_of.get(constant) or by_prefix.get(constant + "_")
+        for struct in self.structs.values():
+            if struct["sized"] and not struct["default"]:
+                sys.exit(f"mien.h: {struct['name']} has no MIEN_DEFAULT")
         for handle in self.handles.values():
             enders = [f["name"] for f in self.functions
                       if re.search(r"_(destroy|close)$", f["name"]) and len(f["parameters"]) == 1
@@ -420,6 +455,11 @@ class Header:
             "enums": self.enums, "structs": list(self.structs.values()),
             "functions": self.functions,
         }
+
+
+def short_name(rest):
+    """A name by itself in any language: 32_BIT is BIT_32."""
+    return re.sub(r"^(\d+)_(\w+)$", r"\2_\1", rest)
 
 
 def common_prefix(names):

@@ -29,9 +29,9 @@ def claims(api):
             yield f"offsetof({name}, {field['name']})", field["offset"]
             yield f"sizeof((({name}*)0)->{field['name']})", field["size"]
             # The header promises structs without holes.
-            yield str(end), field["offset"]
+            yield f"/* end of what stands before {name}.{field['name']} */ {end}", field["offset"]
             end = field["offset"] + field["size"]
-        yield str(end), struct["size"]
+        yield f"/* end of the last field of {name} */ {end}", struct["size"]
 
 
 def main():
@@ -42,7 +42,7 @@ def main():
     with tempfile.TemporaryDirectory() as directory:
         source = Path(directory) / "layout.c"
         source.write_text("\n".join(lines) + "\n", encoding="utf-8")
-        command = sys.argv[1:] + ["-std=c11", "-fsyntax-only", f"-I{HERE.parent.parent / 'capi'}"]
+        command = sys.argv[1:] + ["-std=c11", "-DMIEN_EXPERIMENTAL", "-fsyntax-only", f"-I{HERE.parent.parent / 'capi'}"]
         if subprocess.run(command + [source]).returncode:
             sys.exit("mien_api.json has other sizes, offsets or values than the compiler")
     print(f"the compiler agrees with {len(lines) - 1} sizes, offsets and values")

@@ -86,12 +86,15 @@ using RigDesc = Sized<MienRigDesc>;
 using BakedDesc = Sized<MienBakedDesc>;
 using DeformerDesc = Sized<MienDeformerDesc>;
 using DeformerInstanceDesc = Sized<MienDeformerInstanceDesc>;
+using InstanceDesc = Sized<MienInstanceDesc>;
+using BatchDesc = Sized<MienBatchDesc>;
+using ValidateDesc = Sized<MienValidateDesc>;
 using CoordinateSystem = Sized<MienCoordinateSystem>;
 
 inline std::string_view view(const MienStringView& text) { return {text.data, text.count}; }
 inline Span<const float> view(const MienFloatView& floats) { return {floats.data, floats.count}; }
 inline Span<float> view(const MienMutableFloatView& floats) { return {floats.data, floats.count}; }
-inline Span<const uint16_t> view(const MienIndexView& list) { return {list.data, list.count}; }
+inline Span<const uint16_t> view(const MienIndex16View& list) { return {list.data, list.count}; }
 inline Span<const uint32_t> view(const MienIndex32View& list) { return {list.data, list.count}; }
 
 inline uint32_t version() { return mien_version(); }
@@ -215,7 +218,7 @@ class [[nodiscard]] Result<void> {
 /// The system of an engine or tool, for DnaDesc::system: "unreal", "unity", "blender", ...
 inline Result<CoordinateSystem> coordinate_system(std::string_view name) {
   CoordinateSystem system;
-  const MienStatus status = mien_coordinate_system_named(name.data(), name.size(), &system);
+  const MienStatus status = mien_coordinate_system_find_n(name.data(), name.size(), &system);
   return {status, std::move(system)};
 }
 /// The names, from index 0 on; MIEN_ERROR_INDEX past the last.
@@ -300,7 +303,7 @@ class Dna : public Owner<MienDna, mien_dna_close> {
   Result<std::string_view> field_name(const char* path, uint32_t index) const {
     MienStringView name;
     Sized<MienError> error;
-    const MienStatus status = mien_dna_field_name(get(), path, index, &name, &error);
+    const MienStatus status = mien_dna_child_name(get(), path, index, &name, &error);
     return {status, view(name), &error};
   }
   Result<std::string_view> string(const char* path) const {
@@ -339,15 +342,14 @@ class Report : public Owner<MienReport, mien_report_destroy> {
  public:
   using Owner::Owner;
 
-  static Result<Report> of(const char* path, const MienAllocator* allocator = nullptr) {
+  static Result<Report> of(const char* path, const ValidateDesc& desc = {}) {
     return make<Report>([&](MienReport** out, MienError* error) {
-      return mien_report_create_file(path, allocator, out, error);
+      return mien_dna_validate_file(path, &desc, out, error);
     });
   }
-  static Result<Report> of(const void* bytes, size_t size,
-                           const MienAllocator* allocator = nullptr) {
+  static Result<Report> of(const void* bytes, size_t size, const ValidateDesc& desc = {}) {
     return make<Report>([&](MienReport** out, MienError* error) {
-      return mien_report_create_memory(bytes, size, allocator, out, error);
+      return mien_dna_validate_memory(bytes, size, &desc, out, error);
     });
   }
 
@@ -386,11 +388,13 @@ class Instance : public Owner<MienInstance, mien_instance_destroy> {
   Span<const float> blend_shapes() const { return span(mien_instance_blend_shapes); }
   Span<const float> animated_maps() const { return span(mien_instance_animated_maps); }
 
+#ifdef MIEN_EXPERIMENTAL
   /// What the joint stage fetches for the controls as they are.
   Result<MienInstanceStatistics> statistics() const {
     Sized<MienInstanceStatistics> statistics;
     return {mien_instance_statistics(get(), &statistics), std::move(statistics)};
   }
+#endif
 
   Status reset_values() { return mien_instance_reset(get()); }
 
@@ -449,9 +453,9 @@ class Rig : public Owner<MienRig, mien_rig_destroy> {
   }
 
   /// A character in its initial state. May outlive the rig, but is evaluated by it only.
-  Result<Instance> instance(const MienAllocator* allocator = nullptr) const {
+  Result<Instance> instance(const InstanceDesc& desc = {}) const {
     return make<Instance>([&](MienInstance** out, MienError* error) {
-      return mien_instance_create(get(), allocator, out, error);
+      return mien_instance_create(get(), &desc, out, error);
     });
   }
 
@@ -459,10 +463,12 @@ class Rig : public Owner<MienRig, mien_rig_destroy> {
     Sized<MienRigInfo> info;
     return {mien_rig_info(get(), &info), std::move(info)};
   }
+#ifdef MIEN_EXPERIMENTAL
   Result<MienRigStatistics> statistics(uint32_t lod) const {
     Sized<MienRigStatistics> statistics;
     return {mien_rig_statistics(get(), lod, &statistics), std::move(statistics)};
   }
+#endif
 
   /// How many things of a kind there are; 0 of an empty rig.
   uint32_t count(MienKind kind) const {
@@ -476,28 +482,28 @@ class Rig : public Owner<MienRig, mien_rig_destroy> {
   }
   Result<uint32_t> find(MienKind kind, std::string_view name) const {
     uint32_t index = 0;
-    const MienStatus status = mien_rig_find(get(), kind, name.data(), name.size(), &index);
+    const MienStatus status = mien_rig_find_n(get(), kind, name.data(), name.size(), &index);
     return {status, std::move(index)};
   }
 
   Result<Span<const uint16_t>> lod_indices(MienKind kind, uint32_t lod) const {
-    MienIndexView found;
+    MienIndex16View found;
     const MienStatus status = mien_rig_lod_indices(get(), kind, lod, &found);
     return {status, view(found)};
   }
   Result<Span<const uint16_t>> variable_joint_values(uint32_t lod) const {
-    MienIndexView found;
+    MienIndex16View found;
     const MienStatus status = mien_rig_variable_joint_values(get(), lod, &found);
     return {status, view(found)};
   }
   Result<Span<const uint16_t>> psd_inputs(uint32_t psd) const {
-    MienIndexView found;
+    MienIndex16View found;
     const MienStatus status = mien_rig_psd_inputs(get(), psd, &found);
     return {status, view(found)};
   }
   Span<const uint16_t> joint_parents() const {
-    MienIndexView found;
-    return mien_rig_joint_parents(get(), &found) == MIEN_OK ? view(found) : view(MienIndexView{});
+    MienIndex16View found;
+    return mien_rig_joint_parents(get(), &found) == MIEN_OK ? view(found) : view(MienIndex16View{});
   }
   Span<const float> neutral_joint_values() const {
     MienFloatView found;
@@ -523,16 +529,14 @@ class Rig : public Owner<MienRig, mien_rig_destroy> {
   Status evaluate_stages(Instance& instance, uint32_t lod, uint32_t stages) const {
     return mien_rig_evaluate_stages(get(), instance.get(), lod, stages);
   }
-  /// Room for `capacity` instances per call, in up to `tasks` tasks at once.
-  Result<Batch> batch(uint32_t capacity, uint32_t tasks = 1,
-                      const MienAllocator* allocator = nullptr) const {
+  Result<Batch> batch(const BatchDesc& desc = {}) const {
     return make<Batch>([&](MienBatch** out, MienError* error) {
-      return mien_batch_create(get(), capacity, tasks, allocator, out, error);
+      return mien_batch_create(get(), &desc, out, error);
     });
   }
-  Result<uint64_t> batch_bytes(uint32_t capacity, uint32_t tasks = 1) const {
+  Result<uint64_t> batch_bytes(const BatchDesc& desc = {}) const {
     uint64_t bytes = 0;
-    const MienStatus status = mien_batch_bytes(get(), capacity, tasks, &bytes);
+    const MienStatus status = mien_batch_bytes(get(), &desc, &bytes);
     return {status, std::move(bytes)};
   }
   /// Different instances by their handles, each at its own LOD: as many LODs as instances.
@@ -638,7 +642,7 @@ class Deformer : public Owner<MienDeformer, mien_deformer_destroy> {
     Span<const float> weights;
   };
   Result<Influences> influences(uint32_t mesh, uint32_t position) const {
-    MienIndexView joints = {nullptr, 0};
+    MienIndex16View joints = {nullptr, 0};
     MienFloatView weights = {nullptr, 0};
     const MienStatus status = mien_deformer_influences(get(), mesh, position, &joints, &weights);
     return {status, Influences{view(joints), view(weights)}};

@@ -162,8 +162,13 @@ void run_in_order(void* user, uint32_t count, void (*task)(void*, uint32_t), voi
 
 void test_batch() {
   const mien::Rig rig = mien::Rig::create(generated()).value();
-  mien::Batch batch = rig.batch(3, 2).value();
-  CHECK(rig.batch_bytes(3, 2).value() > 0 && !rig.batch(0));
+  mien::BatchDesc desc;
+  desc.capacity = 3;
+  desc.tasks = 2;
+  mien::Batch batch = rig.batch(desc).value();
+  CHECK(rig.batch_bytes(desc).value() > 0);
+  desc.capacity = ~0u;
+  CHECK(!rig.batch(desc));
   std::vector<mien::Instance> faces;
   std::vector<MienInstance*> handles;
   for (int i = 0; i < 3; ++i) {
@@ -267,10 +272,12 @@ void test_allocators() {
   const MienAllocator allocator = {&counted, allocate, release};
   mien::RigDesc desc;
   desc.allocator = &allocator;
-  desc.rotation = MIEN_OUTPUT_QUATERNION;
+  desc.rotation_output = MIEN_ROTATION_OUTPUT_QUATERNION;
+  mien::InstanceDesc instance_desc;
+  instance_desc.allocator = &allocator;
   {
     const mien::Rig rig = mien::Rig::create(generated(), desc).value();
-    const mien::Instance face = rig.instance(&allocator).value();
+    const mien::Instance face = rig.instance(instance_desc).value();
     CHECK(counted.blocks >= 2);
     CHECK(face.joints().size() == size_t{10} * rig.count(MIEN_KIND_JOINT));
   }

@@ -205,6 +205,8 @@ def write_record(struct):
         elif field["name"] == "byte_offset":
             annotation = "Optional[int]"
             value = f"None if {value} == MIEN_NO_OFFSET else {value}"
+        elif field["boolean"]:
+            annotation, value = "bool", f"bool({value})"
         elif enum:
             annotation, value = enum, f"_enum({enum}, {value})"
         else:

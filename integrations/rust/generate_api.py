@@ -28,8 +28,6 @@ KEYWORDS = {"type", "move", "loop", "match", "ref", "use", "where", "in", "box",
 NAMES = {"MienStatusCode": "Status", "MienLayer": "Layers", "MienStage": "Stages"}
 # Names that are words of Rust's own.
 FIELDS = {"type": "field_type"}
-# Numbers that are a yes or no.
-BOOLEANS = {("MienDnaInfo", "mapped"), ("MienDnaLayer", "loaded"), ("MienDnaField", "is_array")}
 
 
 def word(name):
@@ -140,7 +138,7 @@ def sys_struct(struct):
         out += doc(sentence(field["documentation"]), "    ")
         out += f"    pub {word(field['name'])}: {sys_type(field['type'])},\n"
     out += "}\n\n"
-    size = "        zero.struct_size = size_of::<Self>() as u32;\n" if struct["sized"] else ""
+    size = "        zero.struct_size = size_of::<Self>();\n" if struct["sized"] else ""
     what = "All zero but `struct_size`: every field has its default." if size else "All zero."
     out += f"impl Default for {struct['name']} {{\n    /// {what}\n    fn default() -> Self {{\n"
     out += "        // SAFETY: numbers, pointers and optional functions may be zero.\n"
@@ -273,7 +271,7 @@ def safe_field(struct, field):
     if name in ("struct_size",) or name.startswith("reserved"):
         return None
     value = f"c.{word(name)}"
-    if (struct["name"], name) in BOOLEANS:
+    if field["boolean"]:
         return "bool", f"{value} != 0"
     if "MIEN_NO_OFFSET" in field["documentation"]:
         return "Option<u64>", f"offset({value})"
@@ -304,9 +302,6 @@ def safe_struct(struct, api):
         text = field["documentation"].replace("MIEN_NO_OFFSET", "`None`")
         if re.fullmatch(r"MIEN_\w*\.\.\.", text):
             text = ""  # the type says so
-        if type_ == "bool":
-            text = re.sub("^1 (if|for) ", "Whether this is " if "for" in text else "Whether ", text)
-            text = text.replace("1: read; 0: skipped", "Read; if not: skipped").replace("; 0 for ", ", not ")
         out += doc(sentence(text), "    ", f"{field['name'].replace('_', ' ').capitalize()}.", api)
         out += f"    pub {FIELDS.get(field['name'], field['name'])}: {type_},\n"
     out += f"}}\n\nimpl From<sys::{struct['name']}> for {name} {{\n"

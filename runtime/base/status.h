@@ -60,7 +60,7 @@ constexpr uint64_t kNoOffset = ~uint64_t{0};
 struct Error {
   Status status = Status::kOk;
   uint64_t byte_offset = kNoOffset;
-  char message[240] = {};
+  char message[236] = {};
 };
 
 /// Writes the error and returns its status, so that a check reads `return fail(error, ...)`.

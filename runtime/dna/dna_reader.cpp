@@ -267,6 +267,7 @@ class DnaReader {
     view_.file = bytes;
     view_.file_size = size;
     view_.loaded = close_layer_mask(options.layers);
+    view_.lacks_blend_shape_targets = options.skip_blend_shape_targets;
   }
 
   /// Stops where the sink ended the examination or the rest depends on what is wrong.
@@ -289,7 +290,10 @@ class DnaReader {
       load(id);
       if (ended_) return;
     }
-    if (view_.version == 1 && view_.has(kLayerGeometry) && errors_ == 0) check_end_marker();
+    if (view_.version == 1 && view_.has(kLayerGeometry) && !view_.lacks_blend_shape_targets &&
+        errors_ == 0) {
+      check_end_marker();
+    }
     if (!definition_is_good || !count_ml_controls() || !synthesize_rbf_extension()) return;
     if (!check_layers(view_, sink_, lods_) || errors_ != 0) return;
     if (lods_ != 0 && !select_lods(view_, lods_, arena_)) {
@@ -595,7 +599,7 @@ class DnaReader {
       load_behavior_sections();
       return;
     }
-    fields_.skip_blend_shape_targets = !view_.has(kLayerGeometry);
+    fields_.skip_blend_shape_targets = view_.lacks_blend_shape_targets;
     fields_.kept_meshes = kept_meshes_.data;
     fields_.mesh_count = kept_meshes_.count;
     const size_t begin = entry->offset, end = begin + entry->size;

@@ -12,6 +12,7 @@ namespace mien::dna {
 
 struct ReadOptions {
   uint32_t layers = kLayersAll;              // LayerMask; what it needs is added
+  bool skip_blend_shape_targets = false;     // of the geometry
   bool keep_unknown = true;                  // layers of unknown kind stay in the index
   uint64_t lods = 0;                         // bit l keeps LOD l; 0 keeps all
   const CoordinateSystem* system = nullptr;  // to convert to; null keeps the file's

@@ -213,7 +213,7 @@ TEST(ProceduralHead, IsAValidFileWithoutFindings) {
   for (uint64_t seed : {0, 1, 2}) {
     const std::vector<uint8_t> bytes = write_dna(generate_dna(MIEN_PRESET_HEAD, seed).get());
     MienReport* report = nullptr;
-    ASSERT_EQ(mien_report_create_memory(bytes.data(), bytes.size(), nullptr, &report, nullptr),
+    ASSERT_EQ(mien_dna_validate_memory(bytes.data(), bytes.size(), nullptr, &report, nullptr),
               MIEN_OK);
     uint32_t errors = 0, warnings = 0;
     EXPECT_EQ(mien_report_counts(report, &errors, &warnings), MIEN_OK);

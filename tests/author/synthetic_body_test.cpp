@@ -22,7 +22,7 @@ Bytes body_file(uint64_t seed, uint32_t flags = 0) {
 
 std::string findings_of(const Bytes& bytes) {
   MienReport* report = nullptr;
-  EXPECT_EQ(mien_report_create_memory(bytes.data(), bytes.size(), nullptr, &report, nullptr),
+  EXPECT_EQ(mien_dna_validate_memory(bytes.data(), bytes.size(), nullptr, &report, nullptr),
             MIEN_OK);
   uint32_t errors = 0, warnings = 0;
   EXPECT_EQ(mien_report_counts(report, &errors, &warnings), MIEN_OK);
@@ -168,7 +168,7 @@ TEST(SyntheticBody, EverythingMovesAtItsLods) {
   for (uint32_t lod = 0; lod < 4; ++lod) {
     SCOPED_TRACE(lod);
     const std::vector<bool> moved = moved_values(rig, dna.get(), lod, 200);
-    MienIndexView variable;
+    MienIndex16View variable;
     ASSERT_EQ(mien_rig_variable_joint_values(rig.get(), lod, &variable), MIEN_OK);
     size_t still = 0;
     for (size_t i = 0; i < variable.count; ++i) still += !moved[variable.data[i]];

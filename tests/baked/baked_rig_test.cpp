@@ -22,7 +22,8 @@ Bytes save(const MienRig* rig) {
   return bytes;
 }
 
-MienBakedDesc image_desc(uint32_t isa = MIEN_ISA_BEST, uint32_t check = MIEN_BAKED_CHECK_FULL) {
+MienBakedDesc image_desc(uint32_t isa = MIEN_ISA_ENVIRONMENT,
+                         uint32_t check = MIEN_BAKED_CHECK_FULL) {
   MienBakedDesc desc = sized<MienBakedDesc>();
   desc.isa = isa;
   desc.check = check;
@@ -110,14 +111,14 @@ TEST(RigImage, NetworksBodiesAndOtherSystems) {
                             generate_dna(MIEN_PRESET_BODY, 1, MIEN_GENERATE_ML),
                             generate_dna(MIEN_PRESET_HEAD, 0), generate_dna(MIEN_PRESET_LARGE, 2)};
   for (const DnaHandle& dna : rigs) {
-    for (uint32_t rotation : {MIEN_OUTPUT_EULER, MIEN_OUTPUT_QUATERNION}) {
+    for (uint32_t rotation : {MIEN_ROTATION_OUTPUT_EULER, MIEN_ROTATION_OUTPUT_QUATERNION}) {
       MienRigDesc desc = sized<MienRigDesc>();
-      desc.rotation = desc.storage = rotation;
+      desc.rotation_output = desc.storage = rotation;
       expect_same(dna.get(), desc);
     }
   }
   MienCoordinateSystem system = sized<MienCoordinateSystem>();
-  ASSERT_EQ(mien_coordinate_system_named("unreal", 6, &system), MIEN_OK);
+  ASSERT_EQ(mien_coordinate_system_find("unreal", &system), MIEN_OK);
   const Bytes bytes = write_dna(rigs[0].get());
   MienDnaDesc desc = sized<MienDnaDesc>();
   desc.system = &system;
@@ -260,7 +261,6 @@ TEST(RigImage, ArgumentsAreChecked) {
   refused(MIEN_ERROR_INVALID_ARGUMENT, [](MienBakedDesc& d) { d.file_access = 2; });
   refused(MIEN_ERROR_INVALID_ARGUMENT, [](MienBakedDesc& d) { d.check = 2; });
   refused(MIEN_ERROR_INVALID_ARGUMENT, [](MienBakedDesc& d) { d.reuse = 2; });
-  refused(MIEN_ERROR_INVALID_ARGUMENT, [](MienBakedDesc& d) { d.reserved = 1; });
   const MienAllocator half = {nullptr, nullptr, nullptr};
   refused(MIEN_ERROR_INVALID_ARGUMENT, [&](MienBakedDesc& d) { d.allocator = &half; });
 }
@@ -273,7 +273,7 @@ template <class T>
 MienStatus status_with(size_t offset, T value, uint32_t check = MIEN_BAKED_CHECK_SAFE) {
   const AlignedBytes image(tiny_image());
   memcpy(image.data() + offset, &value, sizeof(value));
-  const MienBakedDesc desc = image_desc(MIEN_ISA_BEST, check);
+  const MienBakedDesc desc = image_desc(MIEN_ISA_ENVIRONMENT, check);
   MienRig* rig = nullptr;
   const MienStatus status = mien_rig_open_memory(image.data(), image.size(), &desc, &rig, nullptr);
   mien_rig_destroy(rig);
@@ -385,7 +385,7 @@ struct OpenImage {
   /// Opened, and used if it could be, with `value` instead; the change is undone.
   template <class T>
   MienStatus status_with(const Span<T>& array, size_t i, uint32_t value,
-                         uint32_t isa = MIEN_ISA_BEST) {
+                         uint32_t isa = MIEN_ISA_ENVIRONMENT) {
     const T kept = array[i];
     array[i] = static_cast<T>(value);
     const ExerciseBaked life = live_image(bytes.data(), bytes.size(), isa);
@@ -457,7 +457,8 @@ struct Results {
 Results results_of(const RigHandle& rig, uint32_t lod, uint32_t common) {
   constexpr uint32_t kCount = 32, kLast = 15;
   MienBatch* made = nullptr;
-  EXPECT_EQ(mien_batch_create(rig.get(), kCount, 1, nullptr, &made, nullptr), MIEN_OK);
+  const MienBatchDesc desc = batch_desc(kCount);
+  EXPECT_EQ(mien_batch_create(rig.get(), &desc, &made, nullptr), MIEN_OK);
   const BatchHandle batch(made);
   Random random = Random::from_seed(15, common);
   std::vector<Character> together, alone;

@@ -128,7 +128,7 @@ static void test_generate(void) {
 
   PREPARE(info);
   CHECK_OK(mien_dna_info(dna, &info));
-  CHECK(info.file_bytes == 0 && info.mapped == 0);
+  CHECK(info.file_bytes == 0 && info.is_mapped == 0);
   CHECK(info.memory_bytes > 0);
   free(a.data);
   free(b.data);
@@ -157,9 +157,9 @@ static void test_fields(const MienDna* dna) {
   CHECK_OK(mien_dna_info(dna, &info));
   CHECK_OK(mien_dna_field(dna, "", &field, NULL));
   CHECK(field.type == MIEN_FIELD_RECORD && field.count > 4);
-  CHECK_OK(mien_dna_field_name(dna, "", 0, &name, NULL));
+  CHECK_OK(mien_dna_child_name(dna, "", 0, &name, NULL));
   CHECK(is_text(name, "desc"));
-  CHECK_OK(mien_dna_field_name(dna, "defn.neutralJointTranslations", 2, &name, NULL));
+  CHECK_OK(mien_dna_child_name(dna, "defn.neutralJointTranslations", 2, &name, NULL));
   CHECK(is_text(name, "zs"));
 
   CHECK_OK(mien_dna_field(dna, "defn.jointNames", &field, NULL));
@@ -218,7 +218,7 @@ static void test_file(const MienDna* dna, const char* path) {
     PREPARE(info);
     CHECK_OK(mien_dna_info(opened, &info));
     CHECK(info.generation == 2 && info.version == 8 && info.file_bytes == bytes.count);
-    CHECK(i == 0 || info.mapped == 0);
+    CHECK(i == 0 || info.is_mapped == 0);
     CHECK(info.layers == 511 && info.layer_count == 11);
     test_fields(opened);
     again = write_memory(opened, NULL);
@@ -231,7 +231,7 @@ static void test_file(const MienDna* dna, const char* path) {
   for (i = 0; i < info.layer_count; ++i) {
     PREPARE(layer);
     CHECK_OK(mien_dna_layer(opened, i, &layer));
-    CHECK(layer.loaded == 1 && layer.layer != 0);
+    CHECK(layer.is_loaded == 1 && layer.layer != 0);
     CHECK(i != 0 || strcmp(layer.code, "desc") == 0);
     CHECK(i != 0 || (layer.version_major == 1 && layer.version_minor == 1));
     CHECK(i != 0 || layer.byte_offset == 11 + 16 * (uint64_t)info.layer_count);
@@ -270,13 +270,13 @@ static void test_report(const MienDna* dna) {
   MienDna* refused = NULL;
   uint32_t errors = 1, warnings = 1;
 
-  CHECK_OK(mien_report_create_memory(bytes.data, bytes.count, NULL, &report, NULL));
+  CHECK_OK(mien_dna_validate_memory(bytes.data, bytes.count, NULL, &report, NULL));
   CHECK_OK(mien_report_counts(report, &errors, &warnings));
   CHECK(errors == 0 && warnings == 0);
   mien_report_destroy(report);
   mien_report_destroy(NULL);
 
-  CHECK_OK(mien_report_create_memory(bytes.data, bytes.count - 1, NULL, &report, NULL));
+  CHECK_OK(mien_dna_validate_memory(bytes.data, bytes.count - 1, NULL, &report, NULL));
   CHECK_OK(mien_report_counts(report, &errors, &warnings));
   CHECK(errors == 1);
   PREPARE(finding);
@@ -303,11 +303,11 @@ static void test_names(const MienRig* rig) {
     CHECK_OK(mien_rig_count(rig, kind, &count));
     for (i = 0; i < count; ++i) {
       CHECK_OK(mien_rig_name(rig, kind, i, &name));
-      CHECK_OK(mien_rig_find(rig, kind, name.data, name.count, &found));
+      CHECK_OK(mien_rig_find_n(rig, kind, name.data, name.count, &found));
       CHECK(found == i);
     }
     CHECK(mien_rig_name(rig, kind, count, &name) == MIEN_ERROR_INDEX && name.data == NULL);
-    CHECK(mien_rig_find(rig, kind, "not there", 9, &found) == MIEN_ERROR_NAME && found == 0);
+    CHECK(mien_rig_find_n(rig, kind, "not there", 9, &found) == MIEN_ERROR_NAME && found == 0);
   }
   CHECK_OK(mien_rig_name(rig, MIEN_KIND_PSD_CONTROL, 1, &name));
   CHECK(is_text(name, "psd1"));
@@ -322,7 +322,7 @@ static void test_rig(const MienRig* rig) {
                                        MIEN_KIND_ANIMATED_MAP, MIEN_KIND_MESH};
   MienRigInfo info;
   MienRigStatistics statistics;
-  MienIndexView indices, parents;
+  MienIndex16View indices, parents;
   MienFloatView floats;
   uint32_t lod, count, joints, psds, i;
   size_t k;
@@ -333,7 +333,7 @@ static void test_rig(const MienRig* rig) {
   CHECK(info.joint_value_count == 9 * joints);
   CHECK(info.isa != MIEN_ISA_BEST && mien_isa_available(info.isa) == 1);
   CHECK(info.rig_bytes > 0 && info.instance_bytes > 0);
-  CHECK(info.rotation == MIEN_OUTPUT_EULER);
+  CHECK(info.rotation_output == MIEN_ROTATION_OUTPUT_EULER);
   for (count = 0, i = MIEN_KIND_RAW_CONTROL; i <= MIEN_KIND_RBF_CONTROL; ++i) {
     uint32_t more;
     CHECK_OK(mien_rig_count(rig, i, &more));
@@ -504,14 +504,15 @@ static void test_quaternions(const MienDna* dna, const MienRig* euler) {
   uint32_t i, count;
 
   PREPARE(desc);
-  desc.rotation = MIEN_OUTPUT_QUATERNION;
+  desc.rotation_output = MIEN_ROTATION_OUTPUT_QUATERNION;
   CHECK_OK(mien_rig_create(dna, &desc, &rig, NULL));
   PREPARE(info);
   PREPARE(euler_info);
   CHECK_OK(mien_rig_info(rig, &info));
   CHECK_OK(mien_rig_info(euler, &euler_info));
   CHECK_OK(mien_rig_count(rig, MIEN_KIND_JOINT, &count));
-  CHECK(info.rotation == MIEN_OUTPUT_QUATERNION && info.joint_value_count == 10 * count);
+  CHECK(info.rotation_output == MIEN_ROTATION_OUTPUT_QUATERNION &&
+        info.joint_value_count == 10 * count);
   CHECK(euler_info.joint_value_count == 9 * count);
 
   CHECK_OK(mien_instance_create(rig, NULL, &instance, NULL));
@@ -541,7 +542,7 @@ static void test_deformer(const MienDna* dna, const MienRig* rig) {
   MienInstance* instance = NULL;
   MienMutableFloatView raw;
   MienFloatView before, after, matrices, weights;
-  MienIndexView joints;
+  MienIndex16View joints;
   uint32_t tasks = 0, moved = 0, m, i;
   MienParallelFor parallel;
   parallel.user = &tasks;
@@ -553,7 +554,7 @@ static void test_deformer(const MienDna* dna, const MienRig* rig) {
   PREPARE(info);
   CHECK_OK(mien_deformer_info(deformer, &info));
   CHECK(info.mesh_count > 0 && info.weights == MIEN_WEIGHTS_FIX);
-  CHECK(info.normals == MIEN_NORMALS_RECOMPUTED && info.pose_bytes > 0);
+  CHECK(info.normals == MIEN_NORMALS_RECOMPUTED && info.instance_bytes > 0);
   CHECK_OK(mien_deformer_instance_create(deformer, NULL, &pose, NULL));
   CHECK_OK(mien_deformer_instance_create(deformer, NULL, &other, NULL));
   CHECK_OK(mien_instance_create(rig, NULL, &instance, NULL));

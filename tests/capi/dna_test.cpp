@@ -52,10 +52,10 @@ MienDnaField field_of(const DnaHandle& dna, const char* path) {
 }
 
 TEST_F(CapiDna, Info) {
-  view.desc.translation_unit = MIEN_TRANSLATION_METERS;
-  view.desc.rotation_unit = MIEN_ROTATION_RADIANS;
+  view.desc.translation_unit = MIEN_TRANSLATION_UNIT_METERS;
+  view.desc.rotation_unit = MIEN_ROTATION_UNIT_RADIANS;
   view.desc.max_lod = 3;
-  view.dsce = {MIEN_ROTATION_ZXY, {1, -1, 1}, 1};
+  view.dsce = {MIEN_ROTATION_SEQUENCE_ZXY, {1, -1, 1}, 1};
   file = dna::written(view);
   const DnaHandle dna = open_dna(file);
   const MienDnaInfo info = info_of(dna);
@@ -63,14 +63,14 @@ TEST_F(CapiDna, Info) {
   EXPECT_EQ(info.version, 8u);
   EXPECT_EQ(info.layers, 511u);
   EXPECT_EQ(info.file_bytes, file.size());
-  EXPECT_EQ(info.mapped, 0u);
+  EXPECT_EQ(info.is_mapped, 0u);
   EXPECT_EQ(info.layer_count, 11u);
-  EXPECT_EQ(info.translation_unit, uint32_t{MIEN_TRANSLATION_METERS});
-  EXPECT_EQ(info.rotation_unit, uint32_t{MIEN_ROTATION_RADIANS});
+  EXPECT_EQ(info.translation_unit, uint32_t{MIEN_TRANSLATION_UNIT_METERS});
+  EXPECT_EQ(info.rotation_unit, uint32_t{MIEN_ROTATION_UNIT_RADIANS});
   EXPECT_EQ(info.axes[0], uint32_t{MIEN_DIRECTION_RIGHT});
   EXPECT_EQ(info.axes[1], uint32_t{MIEN_DIRECTION_UP});
   EXPECT_EQ(info.axes[2], uint32_t{MIEN_DIRECTION_FRONT});
-  EXPECT_EQ(info.rotation_sequence, uint32_t{MIEN_ROTATION_ZXY});
+  EXPECT_EQ(info.rotation_sequence, uint32_t{MIEN_ROTATION_SEQUENCE_ZXY});
   EXPECT_EQ(info.rotation_signs[0], 1);
   EXPECT_EQ(info.rotation_signs[1], -1);
   EXPECT_EQ(info.rotation_signs[2], 1);
@@ -115,7 +115,7 @@ TEST_F(CapiDna, LayersInFileOrder) {
       EXPECT_EQ(found.byte_count, layers[i].bytes.size());
       EXPECT_EQ(found.layer == 0, found.version_major == 3) << "only one is of no known kind";
       const uint32_t loaded = chosen == MIEN_LAYER_ALL ? ~0u : all | chosen;
-      EXPECT_EQ(found.loaded, (found.layer & loaded) != 0) << found.code;
+      EXPECT_EQ(found.is_loaded, (found.layer & loaded) != 0) << found.code;
       end += found.byte_count;
     }
     EXPECT_EQ(end, file.size());
@@ -154,14 +154,15 @@ TEST_F(CapiDna, ChosenLayers) {
   const uint32_t d = MIEN_LAYER_DESCRIPTOR, defn = d | MIEN_LAYER_DEFINITION;
   const struct {
     uint32_t chosen, loaded;
-  } cases[] = {{MIEN_LAYER_ALL, 511},
+  } cases[] = {{0, MIEN_LAYER_ALL},
+               {MIEN_LAYER_ALL, MIEN_LAYER_ALL},
                {d, d},
                {MIEN_LAYER_DEFINITION, defn},
                {MIEN_LAYER_BEHAVIOR, defn | MIEN_LAYER_BEHAVIOR},
                {MIEN_LAYER_GEOMETRY, defn | MIEN_LAYER_GEOMETRY},
                {MIEN_LAYER_RBF_BEHAVIOR, defn | MIEN_LAYER_BEHAVIOR | MIEN_LAYER_RBF_BEHAVIOR},
                {MIEN_LAYER_TWIST_SWING_BEHAVIOR, defn | MIEN_LAYER_TWIST_SWING_BEHAVIOR},
-               {511, 511}};
+               {MIEN_LAYER_UNKNOWN, MIEN_LAYER_ALL}};
   for (const auto& c : cases) EXPECT_EQ(info_of(open(file, c.chosen)).layers, c.loaded);
 }
 
@@ -191,7 +192,7 @@ TEST_F(CapiDna, OldestVersionHasFourLayers) {
     const MienDnaLayer found = layer_of(dna, i);
     EXPECT_STREQ(found.code, codes[i]);
     EXPECT_EQ(found.byte_offset, end);
-    EXPECT_EQ(found.loaded, 1u);
+    EXPECT_EQ(found.is_loaded, 1u);
     end += found.byte_count;
   }
   EXPECT_EQ(end, file.size() - 3);

@@ -81,8 +81,8 @@ class Files : public testing::Test {
 TEST_F(Files, MappedOrRead) {
   write_all(path("a.dna"), bytes);
   const DnaHandle mapped = open(path("a.dna")), read = open(path("a.dna"), MIEN_FILE_READ);
-  EXPECT_EQ(info_of(mapped).mapped, 1u);
-  EXPECT_EQ(info_of(read).mapped, 0u);
+  EXPECT_EQ(info_of(mapped).is_mapped, 1u);
+  EXPECT_EQ(info_of(read).is_mapped, 0u);
   EXPECT_EQ(info_of(mapped).file_bytes, bytes.size());
   EXPECT_EQ(info_of(read).file_bytes, bytes.size());
   EXPECT_GE(info_of(read).memory_bytes, info_of(mapped).memory_bytes + bytes.size());
@@ -121,7 +121,8 @@ TEST_F(Files, MemoryIsCounted) {
     const RigHandle made(rig);
     EXPECT_EQ(info_of(made).rig_bytes, kept.live_bytes - before);
     const size_t blocks = kept.blocks.size(), with_rig = kept.live_bytes;
-    ASSERT_EQ(mien_instance_create(rig, &kept.interface, &instance, nullptr), MIEN_OK);
+    const auto instance_desc = desc_with<MienInstanceDesc>(&kept.interface);
+    ASSERT_EQ(mien_instance_create(rig, &instance_desc, &instance, nullptr), MIEN_OK);
     const InstanceHandle character(instance);
     EXPECT_EQ(kept.blocks.size(), blocks + 1);
     EXPECT_EQ(info_of(made).instance_bytes, kept.live_bytes - with_rig);
@@ -199,7 +200,7 @@ TEST_F(Files, FilesThatCannotBeOpened) {
     // A report says the same, or tells it as a finding.
     MienReport* report = nullptr;
     MienError error = sized<MienError>();
-    const MienStatus status = mien_report_create_file(c.path.c_str(), nullptr, &report, &error);
+    const MienStatus status = mien_dna_validate_file(c.path.c_str(), nullptr, &report, &error);
     EXPECT_EQ(error.status, status);
     if (c.status == MIEN_ERROR_DNA_SIGNATURE) {
       MienFinding finding = sized<MienFinding>();
@@ -222,7 +223,7 @@ TEST_F(Files, PipesAreReadToTheirEnd) {
     std::thread writer([&] { write_all(path("pipe"), sent); });
     const DnaHandle read = open(path("pipe"));
     writer.join();
-    EXPECT_EQ(info_of(read).mapped, 0u);
+    EXPECT_EQ(info_of(read).is_mapped, 0u);
     EXPECT_EQ(info_of(read).file_bytes, sent.size());
     EXPECT_EQ(write_dna(read.get()), sent);
   }
@@ -282,7 +283,7 @@ TEST_F(Files, FailureLeavesTheOldFile) {
 TEST_F(Files, WritingOverTheOpenFile) {
   EXPECT_EQ(write(path("a.dna")), MIEN_OK);
   const DnaHandle opened = open(path("a.dna"));
-  ASSERT_EQ(info_of(opened).mapped, 1u);
+  ASSERT_EQ(info_of(opened).is_mapped, 1u);
 
   MienWriteDesc desc = sized<MienWriteDesc>();
   desc.version = 1;

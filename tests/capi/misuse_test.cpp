@@ -19,7 +19,7 @@ std::vector<Outcome> calls_on(MienDna* dna) {
   c.into_struct<MienDnaField>(
       "field", [&](auto* o) { return mien_dna_field(dna, "desc.name", o, nullptr); });
   c.with_error<MienStringView>(
-      "field_name", [&](auto* o, auto* e) { return mien_dna_field_name(dna, "desc", 0, o, e); });
+      "field_name", [&](auto* o, auto* e) { return mien_dna_child_name(dna, "desc", 0, o, e); });
   c.only_error("read_floats", [&](auto* e) {
     return mien_dna_read_floats(dna, "defn.neutralJointTranslations.xs", 0, 1, &number, e);
   });
@@ -58,15 +58,16 @@ std::vector<Outcome> calls_on(MienRig* rig, MienInstance* instance) {
   c.plain<uint32_t>("count", [&](auto* o) { return mien_rig_count(rig, MIEN_KIND_JOINT, o); });
   c.plain<MienStringView>("name",
                           [&](auto* o) { return mien_rig_name(rig, MIEN_KIND_PSD_CONTROL, 0, o); });
-  c.plain<uint32_t>(
-      "find", [&](auto* o) { return mien_rig_find(rig, MIEN_KIND_PSD_CONTROL, "psd0", 4, o); });
-  c.plain<MienIndexView>("lod_indices",
-                         [&](auto* o) { return mien_rig_lod_indices(rig, MIEN_KIND_JOINT, 0, o); });
-  c.plain<MienIndexView>("variable_joint_values",
-                         [&](auto* o) { return mien_rig_variable_joint_values(rig, 0, o); });
-  c.plain<MienIndexView>("joint_parents", [&](auto* o) { return mien_rig_joint_parents(rig, o); });
+  c.plain<uint32_t>("find",
+                    [&](auto* o) { return mien_rig_find(rig, MIEN_KIND_PSD_CONTROL, "psd0", o); });
+  c.plain<MienIndex16View>(
+      "lod_indices", [&](auto* o) { return mien_rig_lod_indices(rig, MIEN_KIND_JOINT, 0, o); });
+  c.plain<MienIndex16View>("variable_joint_values",
+                           [&](auto* o) { return mien_rig_variable_joint_values(rig, 0, o); });
+  c.plain<MienIndex16View>("joint_parents",
+                           [&](auto* o) { return mien_rig_joint_parents(rig, o); });
   c.plain<MienFloatView>("neutral", [&](auto* o) { return mien_rig_neutral_joint_values(rig, o); });
-  c.plain<MienIndexView>("psd_inputs", [&](auto* o) { return mien_rig_psd_inputs(rig, 0, o); });
+  c.plain<MienIndex16View>("psd_inputs", [&](auto* o) { return mien_rig_psd_inputs(rig, 0, o); });
   c.plain<MienFloatView>("initial", [&](auto* o) { return mien_rig_initial_raw_controls(rig, o); });
   c.into_struct<MienRigStatistics>("statistics",
                                    [&](auto* o) { return mien_rig_statistics(rig, 0, o); });
@@ -145,35 +146,13 @@ TEST_F(Misuse, HandlesOfAnotherKindAreRefused) {
   }
 }
 
-TEST_F(Misuse, DestroyedHandlesAreRefused) {
-  MienFinding finding = sized<MienFinding>();
-  mien_report_destroy(report);
-  expect_all(calls_on(report), MIEN_ERROR_HANDLE);
-  EXPECT_EQ(mien_report_finding(report, 0, &finding), MIEN_ERROR_HANDLE);
-  mien_report_destroy(report);
-
-  mien_instance_destroy(instance);
-  expect_all(calls_on(instance, rig), MIEN_ERROR_HANDLE);
-  mien_instance_destroy(instance);
-
+// An instance keeps what it needs of its rig.
+TEST_F(Misuse, InstancesOutliveTheirRig) {
   mien_rig_destroy(rig);
-  expect_all(calls_on(rig, instance), MIEN_ERROR_HANDLE);
-  mien_rig_destroy(rig);
-
-  mien_dna_close(dna);
-  expect_all(calls_on(dna), MIEN_ERROR_HANDLE);
-  mien_dna_close(dna);
-  EXPECT_EQ(kept.live_bytes, 0u);
-}
-
-TEST_F(Misuse, DestroyedRigWithLiveInstancesIsRefused) {
-  mien_rig_destroy(rig);
+  rig = nullptr;
   EXPECT_GT(kept.live_bytes, 0u);
-  expect_all(calls_on(rig, instance), MIEN_ERROR_HANDLE);
   MienFloatView joints;
   EXPECT_EQ(mien_instance_joints(instance, &joints), MIEN_OK);
-  EXPECT_EQ(mien_instance_reset(instance), MIEN_OK);
-  mien_rig_destroy(rig);  // does not take the rig from the instance
   EXPECT_EQ(mien_instance_reset(instance), MIEN_OK);
 }
 
@@ -206,7 +185,7 @@ TEST_F(Misuse, NullOutputs) {
   EXPECT_EQ(mien_rig_info(rig, nullptr), null);
   EXPECT_EQ(mien_rig_count(rig, MIEN_KIND_JOINT, nullptr), null);
   EXPECT_EQ(mien_rig_name(rig, MIEN_KIND_JOINT, 0, nullptr), null);
-  EXPECT_EQ(mien_rig_find(rig, MIEN_KIND_JOINT, "a", 1, nullptr), null);
+  EXPECT_EQ(mien_rig_find(rig, MIEN_KIND_JOINT, "a", nullptr), null);
   EXPECT_EQ(mien_rig_lod_indices(rig, MIEN_KIND_JOINT, 0, nullptr), null);
   EXPECT_EQ(mien_rig_variable_joint_values(rig, 0, nullptr), null);
   EXPECT_EQ(mien_rig_joint_parents(rig, nullptr), null);
@@ -243,7 +222,7 @@ TEST_F(Misuse, NullOutputsAreToldInTheError) {
   c.only_error("generate", [&](auto* e) { return mien_dna_generate(nullptr, nullptr, e); });
   c.only_error("field", [&](auto* e) { return mien_dna_field(dna, "desc", nullptr, e); });
   c.only_error("field_name",
-               [&](auto* e) { return mien_dna_field_name(dna, "desc", 0, nullptr, e); });
+               [&](auto* e) { return mien_dna_child_name(dna, "desc", 0, nullptr, e); });
   c.only_error("read_floats", [&](auto* e) {
     return mien_dna_read_floats(dna, "defn.neutralJointTranslations.xs", 0, 1, nullptr, e);
   });
@@ -256,9 +235,9 @@ TEST_F(Misuse, NullOutputsAreToldInTheError) {
     return mien_dna_write_memory(dna, nullptr, nullptr, 0, nullptr, e);
   });
   c.only_error("report_file",
-               [&](auto* e) { return mien_report_create_file("x", nullptr, nullptr, e); });
+               [&](auto* e) { return mien_dna_validate_file("x", nullptr, nullptr, e); });
   c.only_error("report_memory", [&](auto* e) {
-    return mien_report_create_memory(bytes.data(), bytes.size(), nullptr, nullptr, e);
+    return mien_dna_validate_memory(bytes.data(), bytes.size(), nullptr, nullptr, e);
   });
   c.only_error("rig", [&](auto* e) { return mien_rig_create(dna, nullptr, nullptr, e); });
   c.only_error("instance", [&](auto* e) { return mien_instance_create(rig, nullptr, nullptr, e); });
@@ -273,13 +252,13 @@ TEST_F(Misuse, NullInputs) {
     return mien_dna_open_memory(nullptr, 100, nullptr, o, e);
   });
   c.with_error<MienReport*>("report_file", [&](auto* o, auto* e) {
-    return mien_report_create_file(nullptr, nullptr, o, e);
+    return mien_dna_validate_file(nullptr, nullptr, o, e);
   });
   c.with_error<MienReport*>("report_memory", [&](auto* o, auto* e) {
-    return mien_report_create_memory(nullptr, 100, nullptr, o, e);
+    return mien_dna_validate_memory(nullptr, 100, nullptr, o, e);
   });
   c.with_error<MienStringView>(
-      "field_name", [&](auto* o, auto* e) { return mien_dna_field_name(dna, nullptr, 0, o, e); });
+      "field_name", [&](auto* o, auto* e) { return mien_dna_child_name(dna, nullptr, 0, o, e); });
   c.into_struct<MienDnaField>("field",
                               [&](auto* o) { return mien_dna_field(dna, nullptr, o, nullptr); });
   c.with_error<MienStringView>(
@@ -294,13 +273,13 @@ TEST_F(Misuse, NullInputs) {
     return mien_dna_write_memory(dna, nullptr, nullptr, 100, o, e);
   });
   c.plain<uint32_t>("find",
-                    [&](auto* o) { return mien_rig_find(rig, MIEN_KIND_JOINT, nullptr, 1, o); });
+                    [&](auto* o) { return mien_rig_find_n(rig, MIEN_KIND_JOINT, nullptr, 1, o); });
   expect_all(c.outcomes, MIEN_ERROR_NULL_ARGUMENT);
 
   // Nothing is asked for, so nothing has to be given.
   uint32_t index = 7;
   MienDna* none = nullptr;
-  EXPECT_EQ(mien_rig_find(rig, MIEN_KIND_JOINT, nullptr, 0, &index), MIEN_ERROR_NAME);
+  EXPECT_EQ(mien_rig_find_n(rig, MIEN_KIND_JOINT, nullptr, 0, &index), MIEN_ERROR_NAME);
   EXPECT_EQ(mien_dna_open_memory(nullptr, 0, nullptr, &none, nullptr), MIEN_ERROR_DNA_SIGNATURE);
   EXPECT_EQ(mien_dna_read_integers(dna, "desc.lodCount", 1, 0, nullptr, nullptr), MIEN_OK);
 }
@@ -404,7 +383,7 @@ TEST_F(Misuse, OutputStructs) {
   check_output_struct<MienInstanceStatistics>(
       [&](auto* out) { return mien_instance_statistics(instance, out); });
   MienReport* findings = nullptr;
-  ASSERT_EQ(mien_report_create_memory("nothing", 7, nullptr, &findings, nullptr), MIEN_OK);
+  ASSERT_EQ(mien_dna_validate_memory("nothing", 7, nullptr, &findings, nullptr), MIEN_OK);
   check_output_struct<MienFinding>(
       [&](auto* out) { return mien_report_finding(findings, 0, out); });
   mien_report_destroy(findings);
@@ -428,14 +407,14 @@ TEST_F(Misuse, ErrorsOfTheWrongSizeEndTheCall) {
   const std::vector<Failing> calls = {
       [&](MienError* e) { return mien_dna_open_file("/dev/null", nullptr, &opened, e); },
       [&](MienError* e) { return mien_dna_field(dna, "desc.name", &field, e); },
-      [&](MienError* e) { return mien_dna_field_name(dna, "desc", 0, &text, e); },
+      [&](MienError* e) { return mien_dna_child_name(dna, "desc", 0, &text, e); },
       [&](MienError* e) {
         return mien_dna_read_floats(dna, "defn.neutralJointTranslations.xs", 0, 1, &number, e);
       },
       [&](MienError* e) { return mien_dna_read_integers(dna, "desc.lodCount", 0, 1, &integer, e); },
       [&](MienError* e) { return mien_dna_write_file(dna, path.c_str(), nullptr, e); },
       [&](MienError* e) { return mien_dna_write_memory(dna, nullptr, nullptr, 0, &size, e); },
-      [&](MienError* e) { return mien_report_create_file("/dev/null", nullptr, &made_report, e); },
+      [&](MienError* e) { return mien_dna_validate_file("/dev/null", nullptr, &made_report, e); },
       [&](MienError* e) { return mien_rig_create(dna, nullptr, &made_rig, e); },
       [&](MienError* e) { return mien_instance_create(rig, nullptr, &made, e); },
   };
@@ -471,7 +450,7 @@ TEST_F(Misuse, ErrorsOfTheWrongSizeEndTheCall) {
   EXPECT_EQ(mien_dna_read_string(dna, "desc.name", &text, &error), MIEN_ERROR_STRUCT_SIZE);
   EXPECT_EQ(text.data, nullptr);
   made_report = report;
-  EXPECT_EQ(mien_report_create_memory(bytes.data(), bytes.size(), nullptr, &made_report, &error),
+  EXPECT_EQ(mien_dna_validate_memory(bytes.data(), bytes.size(), nullptr, &made_report, &error),
             MIEN_ERROR_STRUCT_SIZE);
   EXPECT_EQ(made_report, nullptr);
 }

@@ -103,13 +103,13 @@ Maker<MienDna> opener(const Bytes& bytes, uint32_t layers = 0, uint64_t lods = 0
   return {make, mien_dna_close};
 }
 
-Maker<MienRig> compiler(const MienDna* dna, uint32_t storage = MIEN_STORAGE_F32,
-                        uint32_t rotation = MIEN_OUTPUT_EULER) {
+Maker<MienRig> compiler(const MienDna* dna, uint32_t storage = MIEN_STORAGE_32_BIT,
+                        uint32_t rotation = MIEN_ROTATION_OUTPUT_EULER) {
   auto make = [=](const MienAllocator* allocator, MienRig** out, MienError* error) {
     MienRigDesc desc = sized<MienRigDesc>();
     desc.allocator = allocator;
     desc.storage = storage;
-    desc.rotation = rotation;
+    desc.rotation_output = rotation;
     return mien_rig_create(dna, &desc, out, error);
   };
   return {make, mien_rig_destroy};
@@ -128,7 +128,8 @@ Maker<MienDna> generator(uint32_t preset, uint32_t flags = 0) {
 
 Maker<MienReport> examiner(const Bytes& bytes) {
   auto make = [&bytes](const MienAllocator* allocator, MienReport** out, MienError* error) {
-    return mien_report_create_memory(bytes.data(), bytes.size(), allocator, out, error);
+    const auto desc = desc_with<MienValidateDesc>(allocator);
+    return mien_dna_validate_memory(bytes.data(), bytes.size(), &desc, out, error);
   };
   return {make, mien_report_destroy};
 }
@@ -166,7 +167,7 @@ TEST_F(OutOfMemory, OpenInAnotherSystem) {
   const Bytes tiny = tiny_file();
   MienCoordinateSystem system = sized<MienCoordinateSystem>();
   for (const char* name : {"unreal", "opengl", "godot"}) {
-    ASSERT_EQ(mien_coordinate_system_named(name, strlen(name), &system), MIEN_OK);
+    ASSERT_EQ(mien_coordinate_system_find(name, &system), MIEN_OK);
     survive_every_failure(opener(tiny, 0, 0, &system));
     survive_every_failure(opener(tiny, MIEN_LAYER_GEOMETRY, 2, &system));
     const Bytes body = write_dna(generate_dna(MIEN_PRESET_BODY, 1, MIEN_GENERATE_ML).get());
@@ -175,7 +176,7 @@ TEST_F(OutOfMemory, OpenInAnotherSystem) {
     dna::SpaceRigOptions options;
     options.euler_rows = false;
     const Bytes any = dna::written(dna::random_space_rig(random, options, arena));
-    for (uint32_t rule : {MIEN_ROTATIONS_CARRIED, MIEN_ROTATIONS_EXACT}) {
+    for (uint32_t rule : {MIEN_ROTATION_RULE_CARRIED, MIEN_ROTATION_RULE_EXACT}) {
       system.rotation_rule = rule;
       survive_every_failure(opener(any, 0, 0, &system));
     }
@@ -217,7 +218,8 @@ TEST_F(OutOfMemory, Report) {
 
   ASSERT_EQ(mien_dna_write_file(open_dna(tiny).get(), path().c_str(), nullptr, nullptr), MIEN_OK);
   auto make = [&](const MienAllocator* allocator, MienReport** out, MienError* error) {
-    return mien_report_create_file(path().c_str(), allocator, out, error);
+    const auto desc = desc_with<MienValidateDesc>(allocator);
+    return mien_dna_validate_file(path().c_str(), &desc, out, error);
   };
   survive_every_failure(Maker<MienReport>{make, mien_report_destroy});
 }
@@ -230,7 +232,8 @@ TEST_F(OutOfMemory, CreateRig) {
   for (uint64_t seed : {1, 2, 3}) {
     Random random = Random::from_seed(61, seed);
     const LayerFile file(random_layer_rig(random, false));
-    survive_every_failure(compiler(file.dna.get(), MIEN_STORAGE_F16, MIEN_OUTPUT_QUATERNION));
+    survive_every_failure(
+        compiler(file.dna.get(), MIEN_STORAGE_16_BIT, MIEN_ROTATION_OUTPUT_QUATERNION));
   }
   survive_every_failure(compiler(generate_dna(MIEN_PRESET_TINY, 1).get()));
   survive_every_failure(compiler(generate_dna(MIEN_PRESET_MEDIUM, 1).get()));
@@ -240,7 +243,8 @@ TEST_F(OutOfMemory, CreateRig) {
 TEST_F(OutOfMemory, CreateInstance) {
   const RigHandle rig = create_rig(generate_dna(MIEN_PRESET_TINY, 1).get());
   auto make = [&](const MienAllocator* allocator, MienInstance** out, MienError* error) {
-    return mien_instance_create(rig.get(), allocator, out, error);
+    const auto desc = desc_with<MienInstanceDesc>(allocator);
+    return mien_instance_create(rig.get(), &desc, out, error);
   };
   const size_t requests = survive_every_failure(Maker<MienInstance>{make, mien_instance_destroy});
   EXPECT_EQ(requests, 1u);
@@ -255,7 +259,8 @@ TEST_F(OutOfMemory, CreateInstance) {
   broken.fail_at = 1;
   const MienAllocator nothing = broken.get();
   MienInstance* instance = nullptr;
-  EXPECT_EQ(mien_instance_create(counted, &nothing, &instance, nullptr), MIEN_ERROR_MEMORY);
+  const auto desc = desc_with<MienInstanceDesc>(&nothing);
+  EXPECT_EQ(mien_instance_create(counted, &desc, &instance, nullptr), MIEN_ERROR_MEMORY);
   mien_rig_destroy(counted);
   EXPECT_TRUE(counter.clean());
 }
@@ -357,7 +362,8 @@ TEST_F(OutOfMemory, NothingElseAllocates) {
     MienInstance* instance = nullptr;
     ASSERT_EQ(opener(file).make(&allocator, &dna, nullptr), MIEN_OK);
     ASSERT_EQ(compiler(dna).make(&allocator, &rig, nullptr), MIEN_OK);
-    ASSERT_EQ(mien_instance_create(rig, &allocator, &instance, nullptr), MIEN_OK);
+    const auto instance_desc = desc_with<MienInstanceDesc>(&allocator);
+    ASSERT_EQ(mien_instance_create(rig, &instance_desc, &instance, nullptr), MIEN_OK);
     MienDeformer* deformer = nullptr;
     MienDeformerInstance* pose = nullptr;
     MienDeformerDesc deformer_desc = sized<MienDeformerDesc>();
@@ -391,7 +397,7 @@ TEST_F(OutOfMemory, NothingElseAllocates) {
     call(mien_dna_info(dna, &dna_info));
     call(mien_dna_layer(dna, 0, &layer));
     call(mien_dna_field(dna, "bhvr.joints.jointGroups[0].values", &field, &error));
-    call(mien_dna_field_name(dna, "bhvr.joints", 0, &string, &error));
+    call(mien_dna_child_name(dna, "bhvr.joints", 0, &string, &error));
     call(mien_dna_read_floats(dna, "bhvr.joints.jointGroups[0].values", 0, 1, &number, &error));
     call(mien_dna_read_integers(dna, "desc.lodCount", 0, 1, &integer, &error));
     call(mien_dna_read_string(dna, "desc.name", &string, &error));
@@ -403,10 +409,10 @@ TEST_F(OutOfMemory, NothingElseAllocates) {
       if (count == 0) continue;
       call(mien_rig_name(rig, kind, count - 1, &string));
       if (kind != MIEN_KIND_JOINT_GROUP) {
-        call(mien_rig_find(rig, kind, string.data, string.count, &found));
+        call(mien_rig_find_n(rig, kind, string.data, string.count, &found));
       }
     }
-    MienIndexView indices;
+    MienIndex16View indices;
     MienFloatView floats;
     MienMutableFloatView inputs;
     call(mien_rig_joint_parents(rig, &indices));

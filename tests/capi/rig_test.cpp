@@ -22,7 +22,7 @@ class CapiRig : public testing::Test {
 };
 
 MienStatus find(const RigHandle& rig, uint32_t kind, const std::string& name, uint32_t* index) {
-  return mien_rig_find(rig.get(), kind, name.data(), name.size(), index);
+  return mien_rig_find_n(rig.get(), kind, name.data(), name.size(), index);
 }
 
 TEST_F(CapiRig, NamesOfEveryKind) {
@@ -81,22 +81,22 @@ TEST_F(CapiRig, FindsExactlyTheFirst) {
   // "`name` needs no terminator"
   uint32_t index = 77;
   const char unterminated[] = {'a', 'b'};
-  EXPECT_EQ(mien_rig_find(made.get(), MIEN_KIND_RAW_CONTROL, unterminated, 2, &index), MIEN_OK);
+  EXPECT_EQ(mien_rig_find_n(made.get(), MIEN_KIND_RAW_CONTROL, unterminated, 2, &index), MIEN_OK);
   EXPECT_EQ(index, 1u);
 }
 
 TEST_F(CapiRig, Info) {
-  view.desc.translation_unit = MIEN_TRANSLATION_METERS;
-  view.desc.rotation_unit = MIEN_ROTATION_RADIANS;
-  view.dsce = {MIEN_ROTATION_YZX, {-1, 1, 1}, 0};
+  view.desc.translation_unit = MIEN_TRANSLATION_UNIT_METERS;
+  view.desc.rotation_unit = MIEN_ROTATION_UNIT_RADIANS;
+  view.dsce = {MIEN_ROTATION_SEQUENCE_YZX, {-1, 1, 1}, 0};
   const RigHandle made = rig();
   const MienRigInfo info = info_of(made);
   EXPECT_EQ(info.lod_count, 2u);
-  EXPECT_EQ(info.translation_unit, uint32_t{MIEN_TRANSLATION_METERS});
-  EXPECT_EQ(info.rotation_unit, uint32_t{MIEN_ROTATION_RADIANS});
+  EXPECT_EQ(info.translation_unit, uint32_t{MIEN_TRANSLATION_UNIT_METERS});
+  EXPECT_EQ(info.rotation_unit, uint32_t{MIEN_ROTATION_UNIT_RADIANS});
   EXPECT_EQ(info.axes[0], uint32_t{MIEN_DIRECTION_RIGHT});
   EXPECT_EQ(info.axes[2], uint32_t{MIEN_DIRECTION_FRONT});
-  EXPECT_EQ(info.rotation_sequence, uint32_t{MIEN_ROTATION_YZX});
+  EXPECT_EQ(info.rotation_sequence, uint32_t{MIEN_ROTATION_SEQUENCE_YZX});
   EXPECT_EQ(info.rotation_signs[0], -1);
   EXPECT_EQ(info.control_count, 11u);
   EXPECT_EQ(info.joint_value_count, 27u);
@@ -104,7 +104,7 @@ TEST_F(CapiRig, Info) {
 
 TEST_F(CapiRig, PoseAndHierarchy) {
   const RigHandle made = rig();
-  MienIndexView parents = {};
+  MienIndex16View parents = {};
   MienFloatView neutral = {};
   ASSERT_EQ(mien_rig_joint_parents(made.get(), &parents), MIEN_OK);
   ASSERT_EQ(mien_rig_neutral_joint_values(made.get(), &neutral), MIEN_OK);
@@ -122,11 +122,11 @@ TEST_F(CapiRig, QuaternionOutputs) {
   view.defn.neutral_rotations.ys = dna::be<float>(arena, {0, 0, 0});
   const std::vector<uint8_t> file = write_view(view);
   MienRigDesc desc = sized<MienRigDesc>();
-  desc.rotation = MIEN_OUTPUT_QUATERNION;
+  desc.rotation_output = MIEN_ROTATION_OUTPUT_QUATERNION;
   MienRig* quaternions = nullptr;
   ASSERT_EQ(mien_rig_create(open_dna(file).get(), &desc, &quaternions, nullptr), MIEN_OK);
   const RigHandle made(quaternions);
-  EXPECT_EQ(info_of(made).rotation, uint32_t{MIEN_OUTPUT_QUATERNION});
+  EXPECT_EQ(info_of(made).rotation_output, uint32_t{MIEN_ROTATION_OUTPUT_QUATERNION});
   EXPECT_EQ(info_of(made).joint_value_count, 30u);
   MienFloatView neutral = {};
   ASSERT_EQ(mien_rig_neutral_joint_values(made.get(), &neutral), MIEN_OK);
@@ -158,7 +158,7 @@ TEST_F(CapiRig, LodLists) {
                {MIEN_KIND_RBF_SOLVER, 0, {0}},
                {MIEN_KIND_RBF_SOLVER, 1, {}}};
   for (const auto& c : cases) {
-    MienIndexView found = {};
+    MienIndex16View found = {};
     ASSERT_EQ(mien_rig_lod_indices(made.get(), c.kind, c.lod, &found), MIEN_OK);
     EXPECT_EQ(std::vector<uint16_t>(found.data, found.data + found.count), c.indices)
         << "kind " << c.kind << ", LOD " << c.lod;
@@ -182,7 +182,7 @@ TEST_F(CapiRig, ControlRow) {
   EXPECT_EQ(character.masks.count, 1u);
   EXPECT_EQ(character.masks[0], 1.0f) << "initially 1";
 
-  MienIndexView inputs = {};
+  MienIndex16View inputs = {};
   ASSERT_EQ(mien_rig_psd_inputs(made.get(), 1, &inputs), MIEN_OK);
   EXPECT_EQ(std::vector<uint16_t>(inputs.data, inputs.data + inputs.count),
             std::vector<uint16_t>({0, 2}));

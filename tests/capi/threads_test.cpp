@@ -71,7 +71,7 @@ TEST(CapiThreads, RigsAreLookedIntoByAll) {
     for (uint32_t i = 0; i < joints.size(); ++i) {
       uint32_t found = 0;
       EXPECT_EQ(
-          mien_rig_find(rig.get(), MIEN_KIND_JOINT, joints[i].data(), joints[i].size(), &found),
+          mien_rig_find_n(rig.get(), MIEN_KIND_JOINT, joints[i].data(), joints[i].size(), &found),
           MIEN_OK);
       EXPECT_EQ(found, i);
     }
@@ -80,7 +80,7 @@ TEST(CapiThreads, RigsAreLookedIntoByAll) {
     for (uint32_t lod = 0; lod < info.lod_count; ++lod) {
       MienRigStatistics statistics = sized<MienRigStatistics>();
       EXPECT_EQ(mien_rig_statistics(rig.get(), lod, &statistics), MIEN_OK);
-      MienIndexView indices = {};
+      MienIndex16View indices = {};
       EXPECT_EQ(mien_rig_variable_joint_values(rig.get(), lod, &indices), MIEN_OK);
       EXPECT_EQ(mien_rig_lod_indices(rig.get(), MIEN_KIND_JOINT, lod, &indices), MIEN_OK);
       EXPECT_EQ(indices.count, statistics.joint_count);
@@ -152,7 +152,8 @@ TEST(CapiThreads, InstancesComeAndGo) {
     on_threads(kThreads, [&](int t) {
       for (int i = 0; i < 50; ++i) {
         MienInstance* made = nullptr;
-        EXPECT_EQ(mien_instance_create(rig.get(), &counting.interface, &made, nullptr), MIEN_OK);
+        const auto desc = desc_with<MienInstanceDesc>(&counting.interface);
+        EXPECT_EQ(mien_instance_create(rig.get(), &desc, &made, nullptr), MIEN_OK);
         EXPECT_EQ(mien_rig_evaluate(rig.get(), made, static_cast<uint32_t>(t % 2)), MIEN_OK);
         mien_instance_destroy(made);
       }
@@ -185,7 +186,8 @@ TEST(CapiThreads, RigIsDestroyedWhileInstancesLive) {
     std::vector<InstanceHandle> instances;
     for (int t = 1; t < kThreads; ++t) {
       MienInstance* made = nullptr;
-      ASSERT_EQ(mien_instance_create(rig.get(), &counting.interface, &made, nullptr), MIEN_OK);
+      const auto desc = desc_with<MienInstanceDesc>(&counting.interface);
+      ASSERT_EQ(mien_instance_create(rig.get(), &desc, &made, nullptr), MIEN_OK);
       ASSERT_EQ(mien_rig_evaluate(rig.get(), made, 0), MIEN_OK);
       instances.emplace_back(made);
     }

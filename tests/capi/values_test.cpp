@@ -27,7 +27,8 @@ TEST_F(Misuse, ValuesOutsideTheirRange) {
   auto open = [&](const char* name, auto change) {
     c.only_error(name, [&](MienError* e) { return open_with(bytes, e, change); });
   };
-  open("layers", [](auto& d) { d.layers = 512; });
+  open("layers", [](auto& d) { d.layers = 256; });
+  open("skip targets", [](auto& d) { d.skip_blend_shape_targets = 2; });
   open("all bits", [](auto& d) { d.layers = ~0u; });
   open("unknown layers", [](auto& d) { d.unknown_layers = 2; });
   open("file access", [](auto& d) { d.file_access = 2; });
@@ -44,7 +45,6 @@ TEST_F(Misuse, ValuesOutsideTheirRange) {
   write("version", [](auto& d) { d.version = 9; });
   write("version 65537", [](auto& d) { d.version = 65537; });
   write("unknown layers", [](auto& d) { d.unknown_layers = 2; });
-  write("reserved", [](auto& d) { d.reserved = 1; });
 
   c.with_error<MienDna*>("preset", [&](auto* o, auto* e) {
     MienGenerateDesc desc = sized<MienGenerateDesc>();
@@ -68,7 +68,7 @@ TEST_F(Misuse, ValuesOutsideTheirRange) {
   });
   c.with_error<MienRig*>("rotation", [&](auto* o, auto* e) {
     MienRigDesc desc = sized<MienRigDesc>();
-    desc.rotation = MIEN_OUTPUT_QUATERNION + 1;
+    desc.rotation_output = MIEN_ROTATION_OUTPUT_QUATERNION + 1;
     return mien_rig_create(dna, &desc, o, e);
   });
   c.with_error<MienRig*>("masks", [&](auto* o, auto* e) {
@@ -78,7 +78,7 @@ TEST_F(Misuse, ValuesOutsideTheirRange) {
   });
   c.with_error<MienRig*>("storage", [&](auto* o, auto* e) {
     MienRigDesc desc = sized<MienRigDesc>();
-    desc.storage = MIEN_STORAGE_F16 + 1;
+    desc.storage = MIEN_STORAGE_16_BIT + 1;
     return mien_rig_create(dna, &desc, o, e);
   });
   c.with_error<MienRig*>("reuse", [&](auto* o, auto* e) {
@@ -92,27 +92,30 @@ TEST_F(Misuse, ValuesOutsideTheirRange) {
     return mien_rig_create(dna, &desc, o, e);
   });
   c.with_error<MienInstance*>("instance without allocate", [&](auto* o, auto* e) {
-    return mien_instance_create(rig, &no_allocate, o, e);
+    const auto desc = desc_with<MienInstanceDesc>(&no_allocate);
+    return mien_instance_create(rig, &desc, o, e);
   });
   c.with_error<MienReport*>("report without release", [&](auto* o, auto* e) {
-    return mien_report_create_memory(bytes.data(), bytes.size(), &no_release, o, e);
+    const auto desc = desc_with<MienValidateDesc>(&no_release);
+    return mien_dna_validate_memory(bytes.data(), bytes.size(), &desc, o, e);
   });
   c.with_error<MienReport*>("report of a file without release", [&](auto* o, auto* e) {
-    return mien_report_create_file("/dev/null", &no_release, o, e);
+    const auto desc = desc_with<MienValidateDesc>(&no_release);
+    return mien_dna_validate_file("/dev/null", &desc, o, e);
   });
 
   c.plain<uint32_t>("count", [&](auto* o) { return mien_rig_count(rig, 13, o); });
   c.plain<MienStringView>("name", [&](auto* o) { return mien_rig_name(rig, 13, 0, o); });
-  c.plain<uint32_t>("find", [&](auto* o) { return mien_rig_find(rig, 13, "a", 1, o); });
+  c.plain<uint32_t>("find", [&](auto* o) { return mien_rig_find(rig, 13, "a", o); });
   for (uint32_t kind = MIEN_KIND_JOINT_GROUP; kind <= MIEN_KIND_TWIST_SWING; ++kind) {
-    c.plain<uint32_t>("find nameless", [&](auto* o) { return mien_rig_find(rig, kind, "", 0, o); });
+    c.plain<uint32_t>("find nameless", [&](auto* o) { return mien_rig_find(rig, kind, "", o); });
   }
   for (uint32_t kind : std::initializer_list<uint32_t>{
            MIEN_KIND_GUI_CONTROL, MIEN_KIND_RAW_CONTROL, MIEN_KIND_PSD_CONTROL,
            MIEN_KIND_ML_CONTROL, MIEN_KIND_RBF_CONTROL, MIEN_KIND_ML_MASK, MIEN_KIND_JOINT_GROUP,
            MIEN_KIND_TWIST_SWING, MIEN_KIND_TWIST_SWING + 1}) {
-    c.plain<MienIndexView>("lod_indices",
-                           [&](auto* o) { return mien_rig_lod_indices(rig, kind, 0, o); });
+    c.plain<MienIndex16View>("lod_indices",
+                             [&](auto* o) { return mien_rig_lod_indices(rig, kind, 0, o); });
   }
   c.nothing("stages", [&] { return mien_rig_evaluate_stages(rig, instance, 0, 64); });
   c.nothing("stages", [&] { return mien_rig_evaluate_stages(rig, instance, 0, ~0u); });
@@ -125,10 +128,10 @@ TEST_F(Misuse, LodsThatAreNotThere) {
   ASSERT_EQ(mien_rig_info(rig, &info), MIEN_OK);
   for (uint32_t lod : {info.lod_count, info.lod_count + 1, 33u, 64u, UINT32_MAX}) {
     Caller c;
-    c.plain<MienIndexView>(
+    c.plain<MienIndex16View>(
         "lod_indices", [&](auto* o) { return mien_rig_lod_indices(rig, MIEN_KIND_MESH, lod, o); });
-    c.plain<MienIndexView>("variable_joint_values",
-                           [&](auto* o) { return mien_rig_variable_joint_values(rig, lod, o); });
+    c.plain<MienIndex16View>("variable_joint_values",
+                             [&](auto* o) { return mien_rig_variable_joint_values(rig, lod, o); });
     c.into_struct<MienRigStatistics>("statistics",
                                      [&](auto* o) { return mien_rig_statistics(rig, lod, o); });
     c.nothing("evaluate", [&] { return mien_rig_evaluate(rig, instance, lod); });
@@ -179,7 +182,7 @@ TEST_F(Misuse, IndicesPastTheEnd) {
               [&] { return mien_rig_evaluate_twist_swing(rig, instance, 0, setups + more); });
   }
   for (uint32_t past : {dna_info.psd_control_count, UINT32_MAX}) {
-    c.plain<MienIndexView>("psd", [&](auto* o) { return mien_rig_psd_inputs(rig, past, o); });
+    c.plain<MienIndex16View>("psd", [&](auto* o) { return mien_rig_psd_inputs(rig, past, o); });
   }
 
   float number = 7;
@@ -204,9 +207,9 @@ TEST_F(Misuse, IndicesPastTheEnd) {
     return mien_dna_read_integers(dna, "desc.lodCount", 0, 2, &integer, e);
   });
   c.with_error<MienStringView>(
-      "field name", [&](auto* o, auto* e) { return mien_dna_field_name(dna, "desc", 12, o, e); });
+      "field name", [&](auto* o, auto* e) { return mien_dna_child_name(dna, "desc", 12, o, e); });
   c.with_error<MienStringView>("layer name", [&](auto* o, auto* e) {
-    return mien_dna_field_name(dna, "", UINT32_MAX, o, e);
+    return mien_dna_child_name(dna, "", UINT32_MAX, o, e);
   });
   expect_all(c.outcomes, MIEN_ERROR_INDEX);
   EXPECT_EQ(number, 7);
@@ -272,7 +275,7 @@ TEST_F(Misuse, PathsThatLeadNowhere) {
     EXPECT_EQ(mien_dna_read_string(dna, path.c_str(), &text, nullptr), expected);
     EXPECT_EQ(text.data, nullptr);
     text = {"x", 1};
-    EXPECT_EQ(mien_dna_field_name(dna, path.c_str(), 0, &text, nullptr), expected) << path;
+    EXPECT_EQ(mien_dna_child_name(dna, path.c_str(), 0, &text, nullptr), expected) << path;
     EXPECT_EQ(text.data, nullptr);
   };
   for (const char* path : names) check(path, MIEN_ERROR_NAME);
@@ -282,7 +285,7 @@ TEST_F(Misuse, PathsThatLeadNowhere) {
 
   MienError error = sized<MienError>();
   MienDnaField field = sized<MienDnaField>();
-  mien_dna_field(dna, "bhvr.joints.jointGroup[7].values", &field, &error);
+  (void)mien_dna_field(dna, "bhvr.joints.jointGroup[7].values", &field, &error);
   EXPECT_NE(std::string(error.message).find("jointGroup[7].values\" is no field"),
             std::string::npos)
       << error.message;
@@ -307,7 +310,7 @@ TEST_F(Misuse, FieldsOfAnotherType) {
   }
   for (const char* path : {"desc.name", "desc.lodCount", "defn.jointNames"}) {
     c.with_error<MienStringView>(
-        path, [&](auto* o, auto* e) { return mien_dna_field_name(dna, path, 0, o, e); });
+        path, [&](auto* o, auto* e) { return mien_dna_child_name(dna, path, 0, o, e); });
   }
   expect_all(c.outcomes, MIEN_ERROR_INVALID_ARGUMENT);
 }
@@ -399,10 +402,13 @@ TEST_F(IsaChoice, NeverReplacedSilently) {
     EXPECT_EQ(create(wanted, &isa), expected) << name;
     EXPECT_TRUE(expected != MIEN_OK || isa == wanted) << name;
 
-    // The environment decides what the best is, and nothing else.
+    // The environment counts for those who ask for it, and for nobody else.
     setenv("MIEN_ISA", name, 1);
-    EXPECT_EQ(create(MIEN_ISA_BEST, &isa), expected) << name;
+    EXPECT_EQ(create(MIEN_ISA_ENVIRONMENT, &isa), expected) << name;
     EXPECT_TRUE(expected != MIEN_OK || isa == wanted) << name;
+    EXPECT_EQ(mien_isa_available(MIEN_ISA_ENVIRONMENT), mien_isa_available(wanted));
+    EXPECT_EQ(create(MIEN_ISA_BEST, &isa), MIEN_OK);
+    EXPECT_EQ(isa, best);
     EXPECT_EQ(create(MIEN_ISA_SCALAR, &isa), MIEN_OK);
     EXPECT_EQ(isa, uint32_t{MIEN_ISA_SCALAR});
     EXPECT_EQ(mien_isa_available(MIEN_ISA_BEST), 1u);
@@ -416,10 +422,12 @@ TEST_F(IsaChoice, EnvironmentThatNamesNothing) {
   ASSERT_EQ(create(MIEN_ISA_BEST, &best), MIEN_OK);
   for (const char* wrong : {"AVX2", "avx3", "1", " scalar", "scalar ", "unknown"}) {
     setenv("MIEN_ISA", wrong, 1);
-    EXPECT_EQ(create(MIEN_ISA_BEST, &isa), MIEN_ERROR_ISA) << wrong;
+    EXPECT_EQ(create(MIEN_ISA_ENVIRONMENT, &isa), MIEN_ERROR_ISA) << wrong;
+    EXPECT_EQ(mien_isa_available(MIEN_ISA_ENVIRONMENT), 0u) << wrong;
+    EXPECT_EQ(create(MIEN_ISA_BEST, &isa), MIEN_OK) << wrong;
   }
   setenv("MIEN_ISA", "", 1);
-  EXPECT_EQ(create(MIEN_ISA_BEST, &isa), MIEN_OK);
+  EXPECT_EQ(create(MIEN_ISA_ENVIRONMENT, &isa), MIEN_OK);
   EXPECT_EQ(isa, best);
 }
 

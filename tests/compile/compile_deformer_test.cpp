@@ -93,7 +93,7 @@ TEST(CompileDeformer, TellsInfluencesWithoutThoseOfNoWeight) {
   const Mesh& source = d.dna->view.geom.meshes[0];
   uint32_t most = 0;
   for (uint32_t p = 0; p < source.positions.xs.count; ++p) {
-    MienIndexView joints = {};
+    MienIndex16View joints = {};
     MienFloatView weights = {};
     ASSERT_EQ(mien_deformer_influences(d.deformer.get(), 0, p, &joints, &weights), MIEN_OK);
     size_t at = 0;
@@ -145,7 +145,7 @@ TEST(CompileDeformer, TellsWhichLodsShowAMesh) {
   for (uint32_t m = 0; m < count_of(rig, MIEN_KIND_MESH); ++m) {
     uint64_t expected = 0;
     for (uint32_t lod = 0; lod < info_of(rig).lod_count; ++lod) {
-      MienIndexView meshes = {};
+      MienIndex16View meshes = {};
       ASSERT_EQ(mien_rig_lod_indices(rig.get(), MIEN_KIND_MESH, lod, &meshes), MIEN_OK);
       for (size_t i = 0; i < meshes.count; ++i) {
         if (meshes.data[i] == m) expected |= uint64_t{1} << lod;
@@ -226,7 +226,8 @@ TEST(CompileDeformer, MeshesMayLackAnything) {
 TEST(CompileDeformer, TargetsMayBeLeftOut) {
   const Changed changed;
   MienDnaDesc desc = sized<MienDnaDesc>();
-  desc.layers = MIEN_LAYER_BEHAVIOR | MIEN_LAYER_GEOMETRY_WITHOUT_BLEND_SHAPES;
+  desc.layers = MIEN_LAYER_BEHAVIOR | MIEN_LAYER_GEOMETRY;
+  desc.skip_blend_shape_targets = 1;
   MienDna* opened = nullptr;
   ASSERT_EQ(
       mien_dna_open_memory(changed.bytes.data(), changed.bytes.size(), &desc, &opened, nullptr),

@@ -88,7 +88,7 @@ TEST(Deform, RigidMotionKeepsAllDistances) {
   options.one_root = true;
   options.least_influences = 1;
   Deformed d(random_deform_rig(8, options));
-  MienIndexView parents = {};
+  MienIndex16View parents = {};
   ASSERT_EQ(mien_rig_joint_parents(d.rig.get(), &parents), MIEN_OK);
   uint32_t root = 0;
   while (parents.data[root] != root) ++root;
@@ -126,7 +126,7 @@ TEST(Deform, JointsOutsideALodFollowTheirParent) {
   const uint32_t last = info_of(rig).lod_count - 1;
   character.evaluate(last);
   ASSERT_EQ(mien_deformer_instance_update(instance.get(), character.instance.get()), MIEN_OK);
-  MienIndexView listed = {}, parents = {};
+  MienIndex16View listed = {}, parents = {};
   MienFloatView skins = {};
   ASSERT_EQ(mien_rig_lod_indices(rig.get(), MIEN_KIND_JOINT, last, &listed), MIEN_OK);
   ASSERT_EQ(mien_rig_joint_parents(rig.get(), &parents), MIEN_OK);
@@ -284,7 +284,7 @@ TEST(Deform, WeightsAreAsStoredOrFixed) {
     Deformed d(file, desc);
     PlainDeformer plain = {d.dna->view};
     plain.fix_weights = weights == MIEN_WEIGHTS_FIX;
-    MienIndexView joints = {};
+    MienIndex16View joints = {};
     MienFloatView values = {};
     ASSERT_EQ(mien_deformer_influences(d.deformer.get(), 0, 0, &joints, &values), MIEN_OK);
     ASSERT_EQ(values.count, 2u);
@@ -339,10 +339,11 @@ TEST(Deform, UniformScaleNeedsNoCofactors) {
     const MienMesh mesh = mesh_of(d.deformer.get(), 0);
     size_t compared = 0;
     for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
-      MienIndexView joints = {};
+      MienIndex16View joints = {};
       MienFloatView weights = {};
-      mien_deformer_influences(d.deformer.get(), 0, mesh.vertex_position_indices.data[v], &joints,
-                               &weights);
+      EXPECT_EQ(mien_deformer_influences(d.deformer.get(), 0, mesh.vertex_position_indices.data[v],
+                                         &joints, &weights),
+                MIEN_OK);
       if (joints.count != 1) continue;
       ++compared;
       for (size_t k = 0; k < 3; ++k) EXPECT_NEAR(d.normals(0)[v * 3 + k], expected[v][k], 1e-4);

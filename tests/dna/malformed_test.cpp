@@ -451,8 +451,8 @@ class Paths : public testing::Test {
       EXPECT_TRUE(counter.clean()) << counter.first_wrong;
 
       MienReport* report = nullptr;
-      const MienStatus examined =
-          mien_report_create_file(path.c_str(), &allocator, &report, &error);
+      const auto validate = desc_with<MienValidateDesc>(&allocator);
+      const MienStatus examined = mien_dna_validate_file(path.c_str(), &validate, &report, &error);
       const bool is_file = expected >= MIEN_ERROR_DNA_SIGNATURE;
       EXPECT_EQ(examined, is_file ? MIEN_OK : expected) << error.message;
       EXPECT_EQ(report != nullptr, is_file);

@@ -15,8 +15,8 @@ namespace {
 BatchHandle create_batch(const RigHandle& rig, uint32_t capacity, uint32_t tasks = 1) {
   MienBatch* batch = nullptr;
   MienError error = sized<MienError>();
-  EXPECT_EQ(mien_batch_create(rig.get(), capacity, tasks, nullptr, &batch, &error), MIEN_OK)
-      << error.message;
+  const MienBatchDesc desc = batch_desc(capacity, tasks);
+  EXPECT_EQ(mien_batch_create(rig.get(), &desc, &batch, &error), MIEN_OK) << error.message;
   return BatchHandle(batch);
 }
 
@@ -240,16 +240,20 @@ TEST(Batch, RefusesMisuse) {
             MIEN_ERROR_HANDLE);
 
   MienError error = sized<MienError>();
-  EXPECT_EQ(mien_batch_create(r, 0, 1, nullptr, &made, &error), MIEN_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(made, nullptr);
-  EXPECT_EQ(mien_batch_create(r, 1u << 30, 1, nullptr, &made, &error), MIEN_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(mien_batch_create(nullptr, 1, 1, nullptr, &made, &error), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_batch_create(r, 1, 1, nullptr, nullptr, &error), MIEN_ERROR_NULL_ARGUMENT);
+  MienBatchDesc desc = batch_desc((1u << 20) + 1);
   uint64_t bytes = 1;
-  EXPECT_EQ(mien_batch_bytes(r, 0, 1, &bytes), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(mien_batch_create(r, &desc, &made, &error), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(mien_batch_bytes(r, &desc, &bytes), MIEN_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(bytes, 0u);
-  EXPECT_EQ(mien_batch_bytes(nullptr, 1, 1, &bytes), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_batch_bytes(r, 1, 1, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(made, nullptr);
+  desc = batch_desc(1);
+  EXPECT_EQ(mien_batch_create(nullptr, &desc, &made, &error), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_batch_create(r, &desc, nullptr, &error), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_batch_bytes(nullptr, &desc, &bytes), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_batch_bytes(r, &desc, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  desc.struct_size = 4;
+  EXPECT_EQ(mien_batch_create(r, &desc, &made, &error), MIEN_ERROR_STRUCT_SIZE);
+  EXPECT_EQ(mien_batch_bytes(r, &desc, &bytes), MIEN_ERROR_STRUCT_SIZE);
   mien_batch_destroy(nullptr);
 }
 
@@ -262,15 +266,16 @@ TEST(Batch, TakesOneBlockAndThenNothing) {
   MienBatch* batch = nullptr;
   MienError error = sized<MienError>();
   allocator.fail_at = 1;
-  EXPECT_EQ(mien_batch_create(rig.get(), 64, 2, &given, &batch, &error), MIEN_ERROR_MEMORY);
+  const MienBatchDesc desc = batch_desc(64, 2, &given);
+  EXPECT_EQ(mien_batch_create(rig.get(), &desc, &batch, &error), MIEN_ERROR_MEMORY);
   EXPECT_EQ(batch, nullptr);
   EXPECT_TRUE(allocator.clean());
 
   allocator.fail_at = 0;
   allocator.restart();
-  ASSERT_EQ(mien_batch_create(rig.get(), 64, 2, &given, &batch, &error), MIEN_OK);
+  ASSERT_EQ(mien_batch_create(rig.get(), &desc, &batch, &error), MIEN_OK);
   uint64_t bytes = 0;
-  EXPECT_EQ(mien_batch_bytes(rig.get(), 64, 2, &bytes), MIEN_OK);
+  EXPECT_EQ(mien_batch_bytes(rig.get(), &desc, &bytes), MIEN_OK);
   EXPECT_EQ(allocator.bytes, bytes);
   MienInstance* instances[] = {a.instance.get(), b.instance.get()};
   const uint32_t lods[] = {0, 0};

@@ -301,7 +301,7 @@ TEST(Correctives, CirclesAreRefused) {
     plain.raw_count = 1;
     plain.psd_count = 3;
     plain.psds = psds;
-    EXPECT_FALSE(make_rig(plain, MIEN_ISA_BEST, MIEN_ERROR_DNA_VALUE));
+    EXPECT_FALSE(make_rig(plain, MIEN_ISA_ENVIRONMENT, MIEN_ERROR_DNA_VALUE));
   };
   refuse({{1, 1, 1}});
   refuse({{1, 2, 1}, {2, 1, 1}});
@@ -317,7 +317,7 @@ TEST(Correctives, InputsCanBeAskedFor) {
   const RigHandle rig = make_rig(plain);
   const std::vector<uint16_t> expected[] = {{2, 0, 2}, {}, {3, 1}};
   for (uint32_t psd = 0; psd < 3; ++psd) {
-    MienIndexView inputs;
+    MienIndex16View inputs;
     ASSERT_EQ(mien_rig_psd_inputs(rig.get(), psd, &inputs), MIEN_OK);
     EXPECT_EQ(std::vector<uint16_t>(inputs.data, inputs.data + inputs.count), expected[psd]);
   }

@@ -17,18 +17,19 @@ using dna::MlOperationType;
 
 constexpr uint16_t kRaw = 12;  // four plain controls, two quaternions
 
-const uint32_t kOutputs[] = {MIEN_OUTPUT_EULER, MIEN_OUTPUT_QUATERNION};
+const uint32_t kOutputs[] = {MIEN_ROTATION_OUTPUT_EULER, MIEN_ROTATION_OUTPUT_QUATERNION};
 
 struct Options {
-  uint32_t isa = MIEN_ISA_BEST, masks = MIEN_ML_MASKS_SWITCH, output = MIEN_OUTPUT_EULER;
-  uint32_t storage = MIEN_STORAGE_F32;
+  uint32_t isa = MIEN_ISA_ENVIRONMENT, masks = MIEN_ML_MASKS_SWITCH,
+           output = MIEN_ROTATION_OUTPUT_EULER;
+  uint32_t storage = MIEN_STORAGE_32_BIT;
 };
 
 RigHandle make_rig(const LayerFile& file, const Options& options) {
   MienRigDesc desc = sized<MienRigDesc>();
   desc.isa = options.isa;
   desc.ml_masks = options.masks;
-  desc.rotation = options.output;
+  desc.rotation_output = options.output;
   desc.storage = options.storage;
   MienError error = sized<MienError>();
   MienRig* rig = nullptr;
@@ -96,7 +97,7 @@ void expect_model(const LayerRig& rig, Random& random, int frames, double tolera
             std::copy(raw.begin(), raw.end(), expected.begin());
             model_ml(rig, lod, mask_values, masks == MIEN_ML_MASKS_BLEND, expected);
             character.evaluate(lod);
-            const bool quaternions = output == MIEN_OUTPUT_QUATERNION;
+            const bool quaternions = output == MIEN_ROTATION_OUTPUT_QUATERNION;
             const bool converts = rig.ml_parameters.size() > 3;
             for (size_t i = 0; i < expected.size() && !converts; ++i) {
               ASSERT_NEAR(character.controls[i], expected[i], tolerance)
@@ -353,10 +354,10 @@ TEST(HalfStorage, NetworksWithinTheirBoundAndFamiliesEqual) {
   std::vector<std::vector<float>> fused, plain;
   for (uint32_t isa : present_isas()) {
     Options halves = {isa};
-    halves.storage = MIEN_STORAGE_F16;
+    halves.storage = MIEN_STORAGE_16_BIT;
     const RigHandle whole = make_rig(file, {isa}), half = make_rig(file, halves);
     MienRigInfo info = info_of(half);
-    EXPECT_EQ(info.storage, uint32_t{MIEN_STORAGE_F16});
+    EXPECT_EQ(info.storage, uint32_t{MIEN_STORAGE_16_BIT});
     EXPECT_LT(info.rig_bytes, info_of(whole).rig_bytes * 3 / 4);
     Character a(whole), b(half);
     Random inputs = Random::from_seed(33, 8);
@@ -403,9 +404,10 @@ TEST(HalfStorage, QuaternionJointsWithinTheirBound) {
   const LayerFile file(rig);
   double worst = 0;
   for (uint32_t isa : present_isas()) {
-    Options halves = {isa, MIEN_ML_MASKS_SWITCH, MIEN_OUTPUT_QUATERNION, MIEN_STORAGE_F16};
+    Options halves = {isa, MIEN_ML_MASKS_SWITCH, MIEN_ROTATION_OUTPUT_QUATERNION,
+                      MIEN_STORAGE_16_BIT};
     Character b(make_rig(file, halves));
-    halves.storage = MIEN_STORAGE_F32;
+    halves.storage = MIEN_STORAGE_32_BIT;
     Character a(make_rig(file, halves));
     for (size_t i = 0; i < a.raw.count; ++i) {
       a.raw[i] = b.raw[i] = static_cast<float>(random.between(0, 1));

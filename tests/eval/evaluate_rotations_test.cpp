@@ -15,7 +15,7 @@ constexpr double kPi = 3.14159265358979323846;
 // Raw controls: four plain ones, then two quaternions.
 constexpr uint16_t kRaw = 12;
 
-const uint32_t kOutputs[] = {MIEN_OUTPUT_EULER, MIEN_OUTPUT_QUATERNION};
+const uint32_t kOutputs[] = {MIEN_ROTATION_OUTPUT_EULER, MIEN_ROTATION_OUTPUT_QUATERNION};
 
 /// Every joint of the rig, at every LOD, in both forms, on every instruction set.
 void expect_model(const LayerRig& rig, Random& random, int frames, double radians = 2e-6) {
@@ -31,7 +31,7 @@ void expect_model(const LayerRig& rig, Random& random, int frames, double radian
         for (uint32_t lod = 0; lod < rig.base.lod_count; ++lod) {
           character.evaluate(lod);
           const std::vector<double> controls(character.controls.begin(), character.controls.end());
-          const bool quaternions = output == MIEN_OUTPUT_QUATERNION;
+          const bool quaternions = output == MIEN_ROTATION_OUTPUT_QUATERNION;
           ASSERT_TRUE(same_joints(joints_of(rig, character.joints, quaternions),
                                   model_joints(rig, controls, lod, quaternions), radians, 5e-5))
               << mien_isa_name(isa) << ", LOD " << lod << ", output form " << output;
@@ -174,8 +174,8 @@ TEST(EulerAngles, DescribeTheRotationNearAndAtThePoles) {
       rig.swings = {{0, {4, 5, 6, 7}, {0}, {0}}};
       const LayerFile file(rig);
       const RigHandle euler = create_rig(file.dna.get());
-      const RigHandle quaternion =
-          create_rig(file.dna.get(), MIEN_ISA_BEST, MIEN_OK, MIEN_OUTPUT_QUATERNION);
+      const RigHandle quaternion = create_rig(file.dna.get(), MIEN_ISA_ENVIRONMENT, MIEN_OK,
+                                              MIEN_ROTATION_OUTPUT_QUATERNION);
       Character a(euler), b(quaternion);
       const ModelConvention convention = convention_of(rig);
       const int second[6] = {1, 2, 0, 2, 0, 1};
@@ -225,7 +225,7 @@ TEST(QuaternionJoints, StayUnitOnEveryInstructionSet) {
   rig.base.groups = {group};
   const LayerFile file(rig);
   for (uint32_t isa : present_isas()) {
-    Character character(create_rig(file.dna.get(), isa, MIEN_OK, MIEN_OUTPUT_QUATERNION));
+    Character character(create_rig(file.dna.get(), isa, MIEN_OK, MIEN_ROTATION_OUTPUT_QUATERNION));
     for (float& value : character.raw) value = static_cast<float>(random.between(0.2, 0.9));
     character.evaluate(0);
     for (size_t j = 0; j < 16; ++j) {
@@ -268,7 +268,7 @@ TEST(Rotations, EvaluatingAGroupTwiceChangesNothing) {
   rig.base.groups = {group};
   const LayerFile file(rig);
   for (uint32_t output : kOutputs) {
-    Character character(create_rig(file.dna.get(), MIEN_ISA_BEST, MIEN_OK, output));
+    Character character(create_rig(file.dna.get(), MIEN_ISA_ENVIRONMENT, MIEN_OK, output));
     for (float& value : character.raw) value = 0.7f;
     character.evaluate(0);
     const std::vector<float> before(character.joints.begin(), character.joints.end());

@@ -193,11 +193,11 @@ TEST(Lods, VariableJointValues) {
   const RigHandle rig = make_rig(lod_rig());
   const std::vector<uint16_t> expected[] = {{1, 3, 10}, {1, 10}, {1}};
   for (uint32_t lod = 0; lod < 3; ++lod) {
-    MienIndexView indices;
+    MienIndex16View indices;
     ASSERT_EQ(mien_rig_variable_joint_values(rig.get(), lod, &indices), MIEN_OK);
     EXPECT_EQ(std::vector<uint16_t>(indices.data, indices.data + indices.count), expected[lod]);
   }
-  MienIndexView indices;
+  MienIndex16View indices;
   EXPECT_EQ(mien_rig_variable_joint_values(rig.get(), 3, &indices), MIEN_ERROR_LOD);
   EXPECT_EQ(indices.count, 0u);
 }

@@ -59,7 +59,7 @@ void run_frames(bool wild_rigs, uint64_t seed) {
     ASSERT_TRUE(file.dna);
     MienRigDesc desc = sized<MienRigDesc>();
     desc.isa = isas[rig_number % isas.size()];
-    desc.rotation = rig_number / 2 % 2;
+    desc.rotation_output = rig_number / 2 % 2;
     desc.ml_masks = rig_number / 4 % 2;
     desc.storage = rig_number / 8 % 2;
     MienRig* made = nullptr;
@@ -75,7 +75,7 @@ void run_frames(bool wild_rigs, uint64_t seed) {
       if (random.chance(0.2)) character.map_raw_to_gui();
       ASSERT_TRUE(all_finite(character))
           << mien_isa_name(desc.isa) << ", rig " << rig_number << ", frame " << f
-          << ", output form " << desc.rotation << ", masks " << desc.ml_masks << ", storage "
+          << ", output form " << desc.rotation_output << ", masks " << desc.ml_masks << ", storage "
           << desc.storage;
     }
   }

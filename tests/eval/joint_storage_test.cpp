@@ -12,7 +12,8 @@
 namespace mien {
 namespace {
 
-RigHandle rig_with_storage(const MienDna* dna, uint32_t storage, uint32_t isa = MIEN_ISA_BEST) {
+RigHandle rig_with_storage(const MienDna* dna, uint32_t storage,
+                           uint32_t isa = MIEN_ISA_ENVIRONMENT) {
   MienRigDesc desc = sized<MienRigDesc>();
   desc.storage = storage;
   desc.isa = isa;
@@ -48,10 +49,10 @@ struct Errors {
 
 /// Evaluates both with random controls at LOD 0 and compares the joints.
 Errors compare(const MienDna* dna, uint32_t isa) {
-  const RigHandle floats = rig_with_storage(dna, MIEN_STORAGE_F32, isa);
-  const RigHandle fixed = rig_with_storage(dna, MIEN_STORAGE_F16, isa);
+  const RigHandle floats = rig_with_storage(dna, MIEN_STORAGE_32_BIT, isa);
+  const RigHandle fixed = rig_with_storage(dna, MIEN_STORAGE_16_BIT, isa);
   EXPECT_LT(info_of(fixed).rig_bytes, info_of(floats).rig_bytes);
-  EXPECT_EQ(info_of(fixed).storage, uint32_t{MIEN_STORAGE_F16});
+  EXPECT_EQ(info_of(fixed).storage, uint32_t{MIEN_STORAGE_16_BIT});
   Character a(floats), b(fixed);
   Random random = Random::from_seed(31, 1);
   Errors errors;
@@ -88,7 +89,7 @@ TEST(JointStorage, OfAProductionHead) {
   const std::vector<uint8_t> bytes = golden::read_rig(golden::kHead);
   const DnaHandle dna = open_dna(bytes);
   ASSERT_TRUE(dna);
-  const Errors errors = compare(dna.get(), MIEN_ISA_BEST);
+  const Errors errors = compare(dna.get(), MIEN_ISA_ENVIRONMENT);
   std::printf("16-bit joint matrix: root mean square %.3g, largest %.3g (cm or degrees)\n",
               std::sqrt(errors.squares / static_cast<double>(errors.count)), errors.largest);
 }

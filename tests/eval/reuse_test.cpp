@@ -204,9 +204,9 @@ MienRigDesc random_desc(Random& random) {
   const std::vector<uint32_t> isas = present_isas();
   MienRigDesc desc = sized<MienRigDesc>();
   desc.isa = isas[random.below(static_cast<uint32_t>(isas.size()))];
-  desc.rotation = random.below(2) ? MIEN_OUTPUT_QUATERNION : MIEN_OUTPUT_EULER;
+  desc.rotation = random.below(2) ? MIEN_ROTATION_OUTPUT_QUATERNION : MIEN_ROTATION_OUTPUT_EULER;
   desc.ml_masks = random.below(2) ? MIEN_ML_MASKS_BLEND : MIEN_ML_MASKS_SWITCH;
-  desc.storage = random.below(4) ? MIEN_STORAGE_F32 : MIEN_STORAGE_F16;
+  desc.storage = random.below(4) ? MIEN_STORAGE_32_BIT : MIEN_STORAGE_16_BIT;
   desc.arithmetic = random.below(4) ? MIEN_ARITHMETIC_FAST : MIEN_ARITHMETIC_PORTABLE;
   return desc;
 }
@@ -412,7 +412,7 @@ TEST(Reuse, KeepsWhatDidNotChange) {
     Character c(rig);
     std::fill(c.raw.begin(), c.raw.end(), 0.5f);
     c.evaluate(0);
-    MienIndexView variable;
+    MienIndex16View variable;
     ASSERT_EQ(mien_rig_variable_joint_values(rig.get(), 0, &variable), MIEN_OK);
     const float before = c.joints[variable.data[0]];
     const_cast<float&>(c.joints[variable.data[0]]) = 12345.0f;

@@ -43,7 +43,7 @@ TEST(CorrectiveChains, CirclesAreRefused) {
   rig.base.psds = {{1, 2, 1}, {2, 1, 1}};
   rig.base.groups = {{{1}, {1}, {0}, {1}}};
   const LayerFile file(rig);
-  EXPECT_EQ(create_rig(file.dna.get(), MIEN_ISA_BEST, MIEN_ERROR_DNA_VALUE), nullptr);
+  EXPECT_EQ(create_rig(file.dna.get(), MIEN_ISA_ENVIRONMENT, MIEN_ERROR_DNA_VALUE), nullptr);
 }
 
 TEST(QuaternionControls, OfTheUserStayAsTheyAre) {

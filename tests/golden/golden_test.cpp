@@ -95,13 +95,13 @@ class Golden : public testing::TestWithParam<const char*> {
     check("psd", character.psd, tolerance[kPsdTolerance], of_largest);
     check("ml", character.ml, tolerance[kMlTolerance], of_largest);
     check("rbf", character.rbf, tolerance[kRbfTolerance], of_largest);
-    if (info.rotation == MIEN_OUTPUT_QUATERNION) {
+    if (info.rotation_output == MIEN_ROTATION_OUTPUT_QUATERNION) {
       check("joints.quat", character.joints, tolerance[kQuaternionTolerance], of_largest,
             Rotations::kQuaternions);
     } else {
       check(
           "joints.euler", character.joints, tolerance[kEulerTolerance], of_largest,
-          info.rotation_unit == MIEN_ROTATION_DEGREES ? Rotations::kDegrees : Rotations::kRadians);
+          info.rotation_unit == MIEN_ROTATION_UNIT_DEGREES ? Rotations::kDegrees : Rotations::kRadians);
     }
     check("blendShapes", character.channels, tolerance[kChannelTolerance], of_largest);
     check("animatedMaps", character.maps, tolerance[kMapTolerance], of_largest);
@@ -151,7 +151,7 @@ TEST_P(Golden, DnaIsTheOneThatWasEvaluated) {
 
 TEST_P(Golden, FreshInstancesGiveTheExpectedOutputs) {
   for (uint32_t isa : present_isas()) {
-    for (uint32_t rotation : {MIEN_OUTPUT_EULER, MIEN_OUTPUT_QUATERNION}) {
+    for (uint32_t rotation : {MIEN_ROTATION_OUTPUT_EULER, MIEN_ROTATION_OUTPUT_QUATERNION}) {
       SCOPED_TRACE(mien_isa_name(isa));
       const RigHandle rig = create_rig(dna.get(), isa, MIEN_OK, rotation);
       ASSERT_TRUE(rig);
@@ -170,12 +170,12 @@ TEST_P(Golden, FreshInstancesGiveTheExpectedOutputs) {
 
 TEST_P(Golden, SixteenBitStorageIsClose) {
   for (uint32_t isa : present_isas()) {
-    for (uint32_t rotation : {MIEN_OUTPUT_EULER, MIEN_OUTPUT_QUATERNION}) {
+    for (uint32_t rotation : {MIEN_ROTATION_OUTPUT_EULER, MIEN_ROTATION_OUTPUT_QUATERNION}) {
       SCOPED_TRACE(mien_isa_name(isa));
       MienRigDesc desc = sized<MienRigDesc>();
       desc.isa = isa;
-      desc.rotation = rotation;
-      desc.storage = MIEN_STORAGE_F16;
+      desc.rotation_output = rotation;
+      desc.storage = MIEN_STORAGE_16_BIT;
       const RigHandle rig = create_rig(dna.get(), desc);
       ASSERT_TRUE(rig);
       const MienRigInfo info = info_of(rig);
@@ -195,7 +195,8 @@ TEST_P(Golden, SixteenBitStorageIsClose) {
 TEST_P(Golden, OneInstanceGivesTheBitsOfFreshOnes) {
   for (uint32_t isa : present_isas()) {
     SCOPED_TRACE(mien_isa_name(isa));
-    const uint32_t rotation = isa % 2 ? MIEN_OUTPUT_QUATERNION : MIEN_OUTPUT_EULER;
+    const uint32_t rotation =
+        isa % 2 ? MIEN_ROTATION_OUTPUT_QUATERNION : MIEN_ROTATION_OUTPUT_EULER;
     const RigHandle rig = create_rig(dna.get(), isa, MIEN_OK, rotation);
     ASSERT_TRUE(rig);
     // All frames of a LOD, then a change of LOD with every frame.
@@ -218,11 +219,11 @@ TEST_P(Golden, OneInstanceGivesTheBitsOfFreshOnes) {
 }
 
 TEST_P(Golden, NeutralPose) {
-  for (uint32_t rotation : {MIEN_OUTPUT_EULER, MIEN_OUTPUT_QUATERNION}) {
-    const RigHandle rig = create_rig(dna.get(), MIEN_ISA_BEST, MIEN_OK, rotation);
+  for (uint32_t rotation : {MIEN_ROTATION_OUTPUT_EULER, MIEN_ROTATION_OUTPUT_QUATERNION}) {
+    const RigHandle rig = create_rig(dna.get(), MIEN_ISA_ENVIRONMENT, MIEN_OK, rotation);
     MienFloatView neutral;
     ASSERT_EQ(mien_rig_neutral_joint_values(rig.get(), &neutral), MIEN_OK);
-    const bool quaternions = rotation == MIEN_OUTPUT_QUATERNION;
+    const bool quaternions = rotation == MIEN_ROTATION_OUTPUT_QUATERNION;
     const Record& expected = record(quaternions ? "neutral.quat" : "neutral.euler");
     const Rule rule = {quaternions ? 1e-6 : 0, 0,
                        quaternions ? Rotations::kQuaternions : Rotations::kNone};

@@ -27,16 +27,16 @@ double difference(Span<const float> made, const std::vector<Matrix4d>& expected)
 struct Case {
   uint32_t rotation, compose;
 };
-constexpr Case kCases[] = {{MIEN_OUTPUT_EULER, MIEN_COMPOSE_PRODUCT},
-                           {MIEN_OUTPUT_EULER, MIEN_COMPOSE_EULER_ADD},
-                           {MIEN_OUTPUT_QUATERNION, MIEN_COMPOSE_PRODUCT}};
+constexpr Case kCases[] = {{MIEN_ROTATION_OUTPUT_EULER, MIEN_COMPOSE_PRODUCT},
+                           {MIEN_ROTATION_OUTPUT_EULER, MIEN_COMPOSE_EULER_ADD},
+                           {MIEN_ROTATION_OUTPUT_QUATERNION, MIEN_COMPOSE_PRODUCT}};
 
 struct Joints : Deformed {
   PlainDeformer plain;
 
   Joints(const std::vector<uint8_t>& file, const Case& c)
       : Deformed(file, desc(c), c.rotation), plain{dna->view} {
-    plain.quaternions = c.rotation == MIEN_OUTPUT_QUATERNION;
+    plain.quaternions = c.rotation == MIEN_ROTATION_OUTPUT_QUATERNION;
     plain.add_angles = c.compose == MIEN_COMPOSE_EULER_ADD;
   }
   static MienDeformerDesc desc(const Case& c) {
@@ -124,7 +124,7 @@ TEST(JointPose, LocalTransformsMakeTheMatrices) {
                                                       locals.size()),
               MIEN_OK);
     EXPECT_EQ(locals.back(), -7);
-    MienIndexView parents = {};
+    MienIndex16View parents = {};
     ASSERT_EQ(mien_rig_joint_parents(joints.rig.get(), &parents), MIEN_OK);
     for (uint32_t j = 0; j < count; ++j) {
       const float* l = locals.data() + j * 10;

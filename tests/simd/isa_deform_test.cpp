@@ -22,9 +22,10 @@ TEST(IsaDeform, AgreesWithDoublePrecision) {
     options.clockwise = seed % 4 == 1;
     options.normals = seed % 5 != 4;
     const std::vector<uint8_t> file = random_deform_rig(seed, options);
-    for (uint32_t rotation : {MIEN_OUTPUT_EULER, MIEN_OUTPUT_QUATERNION}) {
+    for (uint32_t rotation : {MIEN_ROTATION_OUTPUT_EULER, MIEN_ROTATION_OUTPUT_QUATERNION}) {
       for (uint32_t compose : {MIEN_COMPOSE_PRODUCT, MIEN_COMPOSE_EULER_ADD}) {
-        if (rotation == MIEN_OUTPUT_QUATERNION && compose == MIEN_COMPOSE_EULER_ADD) continue;
+        if (rotation == MIEN_ROTATION_OUTPUT_QUATERNION && compose == MIEN_COMPOSE_EULER_ADD)
+          continue;
         for (uint32_t isa : present_isas()) {
           SCOPED_TRACE(testing::Message() << "seed " << seed << " rotation " << rotation
                                           << " compose " << compose << " " << mien_isa_name(isa));
@@ -32,7 +33,7 @@ TEST(IsaDeform, AgreesWithDoublePrecision) {
           desc.compose = compose;
           Deformed d(file, desc, rotation);
           PlainDeformer plain = {d.dna->view};
-          plain.quaternions = rotation == MIEN_OUTPUT_QUATERNION;
+          plain.quaternions = rotation == MIEN_ROTATION_OUTPUT_QUATERNION;
           plain.add_angles = compose == MIEN_COMPOSE_EULER_ADD;
           const DeformValues values = random_values(d.rig.get(), seed + 100);
           d.update(values);

@@ -362,8 +362,8 @@ DeformValues random_values(const MienRig* rig, uint32_t seed, double scale_skew)
   uint32_t joints = 0, channels = 0;
   EXPECT_EQ(mien_rig_count(rig, MIEN_KIND_JOINT, &joints), MIEN_OK);
   EXPECT_EQ(mien_rig_count(rig, MIEN_KIND_BLEND_SHAPE_CHANNEL, &channels), MIEN_OK);
-  const bool quaternions = info.rotation == MIEN_OUTPUT_QUATERNION;
-  const double to_unit = info.rotation_unit == MIEN_ROTATION_DEGREES ? 1 : kPi / 180;
+  const bool quaternions = info.rotation_output == MIEN_ROTATION_OUTPUT_QUATERNION;
+  const double to_unit = info.rotation_unit == MIEN_ROTATION_UNIT_DEGREES ? 1 : kPi / 180;
   DeformValues values;
   for (uint32_t j = 0; j < joints; ++j) {
     const bool still = below(random, 4) == 0;

@@ -85,9 +85,9 @@ struct Deformed {
   DeformerInstanceHandle instance;
 
   explicit Deformed(std::vector<uint8_t> file, MienDeformerDesc desc = {},
-                    uint32_t rotation = MIEN_OUTPUT_EULER)
+                    uint32_t rotation = MIEN_ROTATION_OUTPUT_EULER)
       : bytes(std::move(file)), dna(open_dna(bytes)),
-        rig(create_rig(dna.get(), MIEN_ISA_BEST, MIEN_OK, rotation)),
+        rig(create_rig(dna.get(), MIEN_ISA_ENVIRONMENT, MIEN_OK, rotation)),
         deformer(create_deformer(dna.get(), rig.get(), desc)),
         instance(create_deformer_instance(deformer.get())) {}
 

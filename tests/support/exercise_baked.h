@@ -10,6 +10,7 @@
 
 #include "capi/mien.h"
 #include "tests/support/counting_allocator.h"
+#include "tests/support/descs.h"
 
 namespace mien {
 
@@ -83,7 +84,7 @@ class ExerciseBakedRun {
         if (mien_rig_name(rig, kind, i, &name) != MIEN_OK) broke("no name");
         for (size_t k = 0; k < name.count; ++k) sink_ = sink_ + static_cast<float>(name.data[k]);
         if (kind <= MIEN_KIND_ML_MASK && i < 8) {
-          mien_rig_find(rig, kind, name.data, name.count, &index);
+          (void)mien_rig_find_n(rig, kind, name.data, name.count, &index);
         }
       }
     }
@@ -96,27 +97,27 @@ class ExerciseBakedRun {
       for (uint32_t kind : {MIEN_KIND_JOINT, MIEN_KIND_BLEND_SHAPE_CHANNEL, MIEN_KIND_ANIMATED_MAP,
                             MIEN_KIND_MESH, MIEN_KIND_RBF_SOLVER}) {
         uint32_t count = 0;
-        MienIndexView list = {};
-        mien_rig_count(rig, kind, &count);
+        MienIndex16View list = {};
+        (void)mien_rig_count(rig, kind, &count);
         if (mien_rig_lod_indices(rig, kind, lod, &list) != MIEN_OK) broke("no LOD list");
         for (size_t i = 0; i < list.count; ++i) {
           if (list.data[i] >= count) broke("an index past the end");
         }
       }
-      MienIndexView values = {};
+      MienIndex16View values = {};
       if (mien_rig_variable_joint_values(rig, lod, &values) != MIEN_OK) broke("no values");
       for (size_t i = 0; i < values.count; ++i) {
         if (values.data[i] >= info_.joint_value_count) broke("a joint value past the end");
       }
     }
     MienFloatView floats = {};
-    MienIndexView indices = {};
+    MienIndex16View indices = {};
     if (mien_rig_neutral_joint_values(rig, &floats) != MIEN_OK) broke("no neutral pose");
     for (size_t i = 0; i < floats.count; ++i) sink_ = sink_ + floats.data[i];
     if (mien_rig_initial_raw_controls(rig, &floats) != MIEN_OK) broke("no initial controls");
     for (size_t i = 0; i < floats.count; ++i) sink_ = sink_ + floats.data[i];
     uint32_t count = 0;
-    mien_rig_count(rig, MIEN_KIND_PSD_CONTROL, &count);
+    (void)mien_rig_count(rig, MIEN_KIND_PSD_CONTROL, &count);
     for (uint32_t i = 0; i < count; ++i) {
       if (mien_rig_psd_inputs(rig, i, &indices) != MIEN_OK) broke("no inputs of a corrective");
       for (size_t k = 0; k < indices.count; ++k) {
@@ -136,9 +137,11 @@ class ExerciseBakedRun {
     constexpr uint32_t kCrowd = 5;
     MienInstance* packet[kCrowd] = {};
     MienBatch* batch = nullptr;
-    bool made = mien_batch_create(rig, kCrowd, 1, &allocator_, &batch, nullptr) == MIEN_OK;
+    const auto desc = batch_desc(kCrowd, 1, &allocator_);
+    const auto instance_desc = desc_with<MienInstanceDesc>(&allocator_);
+    bool made = mien_batch_create(rig, &desc, &batch, nullptr) == MIEN_OK;
     for (MienInstance*& instance : packet) {
-      made &= mien_instance_create(rig, &allocator_, &instance, nullptr) == MIEN_OK;
+      made &= mien_instance_create(rig, &instance_desc, &instance, nullptr) == MIEN_OK;
     }
     if (!made) broke("no memory for a packet");
     const size_t requests = counter_.requests;
@@ -146,13 +149,13 @@ class ExerciseBakedRun {
       uint32_t lods[kCrowd];
       for (uint32_t i = 0; i < kCrowd; ++i) {
         MienMutableFloatView raw = {}, gui = {};
-        mien_instance_gui_controls(packet[i], &gui);
-        mien_instance_raw_controls(packet[i], &raw);
+        (void)mien_instance_gui_controls(packet[i], &gui);
+        (void)mien_instance_raw_controls(packet[i], &raw);
         for (size_t k = 0; k < gui.count; ++k) gui.data[k] = next_control();
         for (size_t k = 0; k < raw.count; ++k) raw.data[k] = next_control();
         if (i == 0) {
-          mien_rig_map_gui_to_raw(rig, packet[i]);
-          mien_rig_map_raw_to_gui(rig, packet[i]);
+          (void)mien_rig_map_gui_to_raw(rig, packet[i]);
+          (void)mien_rig_map_raw_to_gui(rig, packet[i]);
         }
         if (i < 2 && mien_rig_evaluate(rig, packet[i], lod) != MIEN_OK) broke("not evaluated");
         lods[i] = (lod + i) % info_.lod_count;
@@ -171,17 +174,17 @@ class ExerciseBakedRun {
 
   void evaluate_parts(const MienRig* rig, MienInstance* instance, uint32_t lod) {
     uint32_t count = 0;
-    mien_rig_count(rig, MIEN_KIND_JOINT_GROUP, &count);
+    (void)mien_rig_count(rig, MIEN_KIND_JOINT_GROUP, &count);
     for (uint32_t i = 0; i < count && i < 8; ++i) {
-      mien_rig_evaluate_joint_group(rig, instance, lod, i);
+      (void)mien_rig_evaluate_joint_group(rig, instance, lod, i);
     }
-    mien_rig_count(rig, MIEN_KIND_RBF_SOLVER, &count);
+    (void)mien_rig_count(rig, MIEN_KIND_RBF_SOLVER, &count);
     for (uint32_t i = 0; i < count && i < 8; ++i) {
-      mien_rig_evaluate_rbf_solver(rig, instance, lod, i);
+      (void)mien_rig_evaluate_rbf_solver(rig, instance, lod, i);
     }
-    mien_rig_count(rig, MIEN_KIND_TWIST_SWING, &count);
+    (void)mien_rig_count(rig, MIEN_KIND_TWIST_SWING, &count);
     for (uint32_t i = 0; i < count && i < 8; ++i) {
-      mien_rig_evaluate_twist_swing(rig, instance, lod, i);
+      (void)mien_rig_evaluate_twist_swing(rig, instance, lod, i);
     }
   }
 
@@ -217,7 +220,8 @@ class ExerciseBakedRun {
 };
 
 /// `bytes` is at a multiple of 64.
-inline ExerciseBaked live_image(const uint8_t* bytes, size_t size, uint32_t isa = MIEN_ISA_BEST) {
+inline ExerciseBaked live_image(const uint8_t* bytes, size_t size,
+                                uint32_t isa = MIEN_ISA_ENVIRONMENT) {
   return ExerciseBakedRun(bytes, size, isa).life;
 }
 

@@ -14,6 +14,7 @@
 
 #include "capi/mien.h"
 #include "tests/support/counting_allocator.h"
+#include "tests/support/descs.h"
 
 namespace mien {
 
@@ -30,7 +31,7 @@ constexpr size_t deformer_memory_bound(size_t file_size) { return 40 * file_size
 constexpr size_t rig_memory_bound(size_t file_size) { return 40 * file_size + 8 * 1024 * 1024; }
 
 struct LifeOptions {
-  uint32_t layers = MIEN_LAYER_ALL;
+  uint32_t layers = 0;  // all
   uint64_t lods = 0;
   uint32_t unknown_layers = MIEN_UNKNOWN_LAYERS_KEEP;
   uint32_t control_seed = 1;
@@ -184,10 +185,9 @@ class ExerciseDna {
     if ((life_.packed == MIEN_OK) != (deformer != nullptr)) broke("a deformer or none");
     if (!deformer) {
       check_failure("packing", life_.packed, error, size_);
-      const uint32_t geometry = MIEN_LAYER_GEOMETRY | MIEN_LAYER_GEOMETRY_WITHOUT_BLEND_SHAPES;
-      const bool expected = layers_ & geometry ? life_.packed == MIEN_ERROR_DNA_VALUE ||
-                                                     life_.packed == MIEN_ERROR_DNA_LIMIT
-                                               : life_.packed == MIEN_ERROR_DNA_LAYER;
+      const bool expected = layers_ & MIEN_LAYER_GEOMETRY ? life_.packed == MIEN_ERROR_DNA_VALUE ||
+                                                                life_.packed == MIEN_ERROR_DNA_LIMIT
+                                                          : life_.packed == MIEN_ERROR_DNA_LAYER;
       if (!expected) broke("packing gave %d: %s", life_.packed, error.message);
       if (counter_.bytes != before) broke("a failed deformer kept memory");
       return;
@@ -195,7 +195,10 @@ class ExerciseDna {
     read_meshes(deformer);
     MienInstance* instance = nullptr;
     MienDeformerInstance* pose = nullptr;
-    if (mien_instance_create(rig, &allocator_, &instance, nullptr) != MIEN_OK) broke("no instance");
+    const auto instance_desc = desc_with<MienInstanceDesc>(&allocator_);
+    if (mien_instance_create(rig, &instance_desc, &instance, nullptr) != MIEN_OK) {
+      broke("no instance");
+    }
     MienDeformerInstanceDesc pose_desc = {};
     pose_desc.struct_size = sizeof(pose_desc);
     pose_desc.allocator = &allocator_;
@@ -236,7 +239,7 @@ class ExerciseDna {
           broke("mesh %u: a position", m);
       }
       for (uint32_t p = 0; p < mesh.position_count; ++p) {
-        MienIndexView joints;
+        MienIndex16View joints;
         MienFloatView weights;
         if (mien_deformer_influences(deformer, m, p, &joints, &weights) != MIEN_OK ||
             joints.count != weights.count || joints.count > mesh.max_influences) {
@@ -258,11 +261,11 @@ class ExerciseDna {
   void pose_meshes(const MienRig* rig, MienInstance* instance, MienDeformerInstance* pose) {
     MienRigInfo info = {};
     info.struct_size = sizeof(info);
-    mien_rig_info(rig, &info);
+    (void)mien_rig_info(rig, &info);
     uint32_t meshes = 0;
-    mien_rig_count(rig, MIEN_KIND_MESH, &meshes);
+    (void)mien_rig_count(rig, MIEN_KIND_MESH, &meshes);
     MienMutableFloatView raw = {};
-    mien_instance_raw_controls(instance, &raw);
+    (void)mien_instance_raw_controls(instance, &raw);
     const size_t requests = counter_.requests;
     for (uint32_t lod = 0; lod < info.lod_count; lod += 1 + info.lod_count / 3) {
       for (size_t i = 0; i < raw.count; ++i) raw.data[i] = next_control();
@@ -301,7 +304,8 @@ class ExerciseDna {
     info.struct_size = sizeof(info);
     if (mien_rig_info(rig, &info) != MIEN_OK) broke("no rig info");
     MienInstance* instance = nullptr;
-    if (mien_instance_create(rig, &allocator_, &instance, nullptr) != MIEN_OK) {
+    const auto desc = desc_with<MienInstanceDesc>(&allocator_);
+    if (mien_instance_create(rig, &desc, &instance, nullptr) != MIEN_OK) {
       return broke("no instance");
     }
     const size_t requests = counter_.requests;
@@ -393,8 +397,8 @@ class ExerciseDna {
     MienReport* report = nullptr;
     const size_t before = counter_.bytes;
     counter_.restart();
-    const MienStatus status =
-        mien_report_create_memory(bytes_, size_, &allocator_, &report, &error);
+    const auto desc = desc_with<MienValidateDesc>(&allocator_);
+    const MienStatus status = mien_dna_validate_memory(bytes_, size_, &desc, &report, &error);
     life_.report_peak = counter_.peak - before;
     if (status != MIEN_OK) return broke("no report: %d %s", status, error.message);
     uint32_t errors = 0, warnings = 0;
@@ -410,8 +414,7 @@ class ExerciseDna {
       }
     }
     mien_report_destroy(report);
-    const bool whole =
-        options_.layers == MIEN_LAYER_ALL && options_.lods == 0 && options_.system == nullptr;
+    const bool whole = options_.layers == 0 && options_.lods == 0 && options_.system == nullptr;
     const bool complete = errors + warnings < 1000;
     const bool refused = life_.opened != MIEN_OK || life_.compiled != MIEN_OK;
     if (whole && complete && refused != (errors != 0)) {

@@ -36,14 +36,14 @@ void for_each_dna(uint32_t random_rigs, F&& f) {
 template <class F>
 void for_each_rig_desc(F&& f) {
   for (uint32_t isa : present_isas()) {
-    for (uint32_t storage : {MIEN_STORAGE_F32, MIEN_STORAGE_F16}) {
-      for (uint32_t rotation : {MIEN_OUTPUT_EULER, MIEN_OUTPUT_QUATERNION}) {
+    for (uint32_t storage : {MIEN_STORAGE_32_BIT, MIEN_STORAGE_16_BIT}) {
+      for (uint32_t rotation : {MIEN_ROTATION_OUTPUT_EULER, MIEN_ROTATION_OUTPUT_QUATERNION}) {
         SCOPED_TRACE(std::string(mien_isa_name(isa)) + ", storage " + std::to_string(storage) +
                      ", rotation " + std::to_string(rotation));
         MienRigDesc desc = sized<MienRigDesc>();
         desc.isa = isa;
         desc.storage = storage;
-        desc.rotation = rotation;
+        desc.rotation_output = rotation;
         f(desc);
       }
     }

@@ -15,7 +15,7 @@ namespace mien {
 
 using Bytes = std::vector<uint8_t>;
 
-/// Keeps what is released, so that a handle's tag may be looked at after its destruction.
+/// Counts what is live, and never uses a block again.
 struct KeepingAllocator {
   std::list<std::vector<uint8_t>> blocks;
   size_t live_bytes = 0;
@@ -66,7 +66,7 @@ T dirty_struct() {
 template <class T>
 bool is_cleared(const T& value, bool has_size) {
   const uint8_t* bytes = reinterpret_cast<const uint8_t*>(&value);
-  for (size_t i = has_size ? sizeof(uint32_t) : 0; i < sizeof(T); ++i) {
+  for (size_t i = has_size ? sizeof(size_t) : 0; i < sizeof(T); ++i) {
     if (bytes[i] != 0) return false;
   }
   return true;
@@ -83,10 +83,11 @@ class Misuse : public testing::Test {
     MienRigDesc desc = sized<MienRigDesc>();
     desc.allocator = &kept.interface;
     ASSERT_EQ(mien_rig_create(dna, &desc, &rig, nullptr), MIEN_OK);
-    ASSERT_EQ(mien_instance_create(rig, &kept.interface, &instance, nullptr), MIEN_OK);
-    ASSERT_EQ(
-        mien_report_create_memory(bytes.data(), bytes.size(), &kept.interface, &report, nullptr),
-        MIEN_OK);
+    const auto plain = desc_with<MienInstanceDesc>(&kept.interface);
+    ASSERT_EQ(mien_instance_create(rig, &plain, &instance, nullptr), MIEN_OK);
+    const auto validate = desc_with<MienValidateDesc>(&kept.interface);
+    ASSERT_EQ(mien_dna_validate_memory(bytes.data(), bytes.size(), &validate, &report, nullptr),
+              MIEN_OK);
   }
   void TearDown() override {
     mien_report_destroy(report);

@@ -48,8 +48,8 @@ struct Space {
       axes[i] = info.axes[i];
       signs[i] = info.rotation_signs[i];
     }
-    centimeters = info.translation_unit == MIEN_TRANSLATION_METERS ? 100 : 1;
-    radians = info.rotation_unit == MIEN_ROTATION_RADIANS ? 1 : std::acos(-1.0) / 180;
+    centimeters = info.translation_unit == MIEN_TRANSLATION_UNIT_METERS ? 100 : 1;
+    radians = info.rotation_unit == MIEN_ROTATION_UNIT_RADIANS ? 1 : std::acos(-1.0) / 180;
     sequence = info.rotation_sequence;
     winding = info.face_winding;
   }

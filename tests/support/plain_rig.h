@@ -46,7 +46,7 @@ struct PlainRig {
 dna::DnaView to_view(const PlainRig& plain, Arena& arena);
 
 /// Written, opened with all checks, and compiled.
-RigHandle make_rig(const PlainRig& plain, uint32_t isa = MIEN_ISA_BEST,
+RigHandle make_rig(const PlainRig& plain, uint32_t isa = MIEN_ISA_ENVIRONMENT,
                    MienStatus expected = MIEN_OK);
 
 /// What evaluation gives, and how much it may be off: the sum of the absolute products of each

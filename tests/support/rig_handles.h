@@ -11,6 +11,7 @@
 
 #include "capi/handles.h"
 #include "capi/mien.h"
+#include "tests/support/descs.h"
 
 namespace mien {
 
@@ -24,14 +25,6 @@ using BatchHandle = std::unique_ptr<MienBatch, CloseHandle>;
 using DnaHandle = std::unique_ptr<MienDna, CloseHandle>;
 using RigHandle = std::unique_ptr<MienRig, CloseHandle>;
 using InstanceHandle = std::unique_ptr<MienInstance, CloseHandle>;
-
-/// A struct of the C interface, ready to be passed.
-template <class T>
-T sized() {
-  T object = {};
-  object.struct_size = sizeof(T);
-  return object;
-}
 
 inline DnaHandle open_dna(const std::vector<uint8_t>& bytes, uint64_t lods = 0,
                           MienStatus expected = MIEN_OK) {
@@ -83,11 +76,12 @@ inline DnaHandle generate_dna(uint32_t preset, uint64_t seed, uint32_t flags = 0
   return DnaHandle(dna);
 }
 
-inline RigHandle create_rig(const MienDna* dna, uint32_t isa = MIEN_ISA_BEST,
-                            MienStatus expected = MIEN_OK, uint32_t rotation = MIEN_OUTPUT_EULER) {
+inline RigHandle create_rig(const MienDna* dna, uint32_t isa = MIEN_ISA_ENVIRONMENT,
+                            MienStatus expected = MIEN_OK,
+                            uint32_t rotation = MIEN_ROTATION_OUTPUT_EULER) {
   MienRigDesc desc = sized<MienRigDesc>();
   desc.isa = isa;
-  desc.rotation = rotation;
+  desc.rotation_output = rotation;
   MienError error = sized<MienError>();
   MienRig* rig = nullptr;
   EXPECT_EQ(mien_rig_create(dna, &desc, &rig, &error), expected) << error.message;

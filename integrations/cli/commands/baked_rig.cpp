@@ -34,10 +34,10 @@ BakedFile open_baked_rig(const std::string& path, const LoadOptions& load,
   BakedFile file = open_baked_file(path, desc);
 
   const MienRigInfo info = rig_info(file.rig.get());
-  if (wanted.rotation != MIEN_OUTPUT_EULER && wanted.rotation != info.rotation) {
+  if (wanted.rotation != MIEN_ROTATION_OUTPUT_EULER && wanted.rotation != info.rotation) {
     fail_baked("--rotation " + evaluation.rotation);
   }
-  if (wanted.storage != MIEN_STORAGE_F32 && wanted.storage != info.storage) {
+  if (wanted.storage != MIEN_STORAGE_32_BIT && wanted.storage != info.storage) {
     fail_baked("--storage " + evaluation.storage);
   }
   if (wanted.ml_masks != MIEN_ML_MASKS_SWITCH) fail_baked("--ml-masks " + evaluation.ml_masks);

@@ -65,9 +65,9 @@ void write_json(const Measurement& measured, const std::string& name) {
   for (const BenchRow& row : measured.rows) {
     json.begin_object();
     json.member("isa", mien_isa_name(row.engine->info.isa));
-    json.member("storage", row.engine->info.storage == MIEN_STORAGE_F16 ? "f16" : "f32");
+    json.member("storage", row.engine->info.storage == MIEN_STORAGE_16_BIT ? "f16" : "f32");
     json.member("rotation",
-                row.engine->info.rotation == MIEN_OUTPUT_QUATERNION ? "quaternion" : "euler");
+                row.engine->info.rotation == MIEN_ROTATION_OUTPUT_QUATERNION ? "quaternion" : "euler");
     json.member("lod", row.lod);
     json.key("activity");
     json.shortest(kActivities[row.activity]);

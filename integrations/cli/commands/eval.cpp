@@ -83,7 +83,8 @@ void evaluate(const Heading& file, const MienRig* rig, const std::vector<Frame>&
     }
   }
   json.member("lod_count", info.lod_count);
-  json.member("rotation", info.rotation == MIEN_OUTPUT_QUATERNION ? "quaternion" : "euler");
+  json.member("rotation",
+              info.rotation_output == MIEN_ROTATION_OUTPUT_QUATERNION ? "quaternion" : "euler");
   json.key("frames");
   json.begin_array(Layout::kLines);
   Progress progress(session, "frame", frames.size());

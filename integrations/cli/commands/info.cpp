@@ -155,7 +155,7 @@ std::vector<Count> gather_counts(const RigFile& file) {
       {"twists", "twists", info.twist_count},
       {"swings", "swings", info.swing_count},
   };
-  if (info.layers & (MIEN_LAYER_GEOMETRY | MIEN_LAYER_GEOMETRY_WITHOUT_BLEND_SHAPES)) {
+  if (info.layers & MIEN_LAYER_GEOMETRY) {
     uint64_t vertices = 0, faces = 0, targets = 0;
     const uint64_t meshes = field_count(file, "geom.meshes");
     for (uint64_t i = 0; i < meshes; ++i) {
@@ -247,7 +247,7 @@ void write_json(const RigFile& file, const Summary& summary,
   json.member("version", version_text(info));
   json.member("file_bytes", info.file_bytes);
   json.member("memory_bytes", info.memory_bytes);
-  json.member("mapped", info.mapped != 0);
+  json.member("mapped", info.is_mapped != 0);
 
   json.key("layers");
   json.begin_array(Layout::kLines);
@@ -259,7 +259,7 @@ void write_json(const RigFile& file, const Summary& summary,
     json.member("offset", layer.byte_offset);
     json.member("bytes", layer.byte_count);
     json.member("known", layer.layer != 0);
-    json.member("loaded", layer.loaded != 0);
+    json.member("loaded", layer.is_loaded != 0);
     json.end_object();
   }
   json.end_array();
@@ -399,7 +399,7 @@ void write_text(const RigFile& file, const Summary& summary, const Session& sess
   text += property("name", summary.name);
   text += property("version", version_text(info));
   text += property("bytes", std::to_string(info.file_bytes) +
-                                (info.mapped ? ", mapped; " : ", read; ") +
+                                (info.is_mapped ? ", mapped; " : ", read; ") +
                                 std::to_string(info.memory_bytes) + " of memory");
   text += property("character", summary.archetype + ", " + summary.gender + ", " +
                                     std::to_string(summary.age) + " years");
@@ -436,9 +436,9 @@ void write_text(const RigFile& file, const Summary& summary, const Session& sess
     rows.push_back({one_line(layer.code),
                     std::to_string(layer.version_major) + "." + std::to_string(layer.version_minor),
                     std::to_string(layer.byte_offset), std::to_string(layer.byte_count),
-                    layer.layer == 0 ? "unknown"
-                    : layer.loaded   ? ""
-                                     : "not loaded"});
+                    layer.layer == 0  ? "unknown"
+                    : layer.is_loaded ? ""
+                                      : "not loaded"});
   }
   text += table(rows);
 

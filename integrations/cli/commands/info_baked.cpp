@@ -48,10 +48,10 @@ Numbers numbers_at(const MienRig* rig, uint32_t lod) {
 }
 
 const char* rotation_word(const MienRigInfo& info) {
-  return info.rotation == MIEN_OUTPUT_QUATERNION ? "quaternion" : "euler";
+  return info.rotation_output == MIEN_ROTATION_OUTPUT_QUATERNION ? "quaternion" : "euler";
 }
 const char* storage_word(const MienRigInfo& info) {
-  return info.storage == MIEN_STORAGE_F16 ? "f16" : "f32";
+  return info.storage == MIEN_STORAGE_16_BIT ? "f16" : "f32";
 }
 
 void write_json(const BakedFile& file, const MienRigInfo& info, Output& output) {

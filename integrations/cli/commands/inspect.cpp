@@ -88,7 +88,7 @@ std::string padded(std::string text, size_t width) {
 }
 
 std::string rotation_unit(const PosedScene& scene) {
-  return scene.file.info.rotation_unit == MIEN_ROTATION_RADIANS ? "rad" : "deg";
+  return scene.file.info.rotation_unit == MIEN_ROTATION_UNIT_RADIANS ? "rad" : "deg";
 }
 
 class Text {

@@ -43,13 +43,16 @@ const OptionWords kOptionWords[] = {
     {"SHELL", {"bash", "zsh", "fish"}},
 };
 
+// Geometry whose blend shape targets stay in the file. No bit of the library's.
+constexpr uint32_t kGeometryWithoutTargets = 1u << 31;
+
 // In the order of the words of --layers.
 constexpr uint32_t kLayerBits[] = {
     MIEN_LAYER_DESCRIPTOR,
     MIEN_LAYER_DEFINITION,
     MIEN_LAYER_BEHAVIOR,
     MIEN_LAYER_GEOMETRY,
-    MIEN_LAYER_GEOMETRY_WITHOUT_BLEND_SHAPES,
+    kGeometryWithoutTargets,
     MIEN_LAYER_MACHINE_LEARNED_BEHAVIOR,
     MIEN_LAYER_RBF_BEHAVIOR,
     MIEN_LAYER_JOINT_BEHAVIOR_METADATA,
@@ -68,19 +71,16 @@ Words split(const std::string& list) {
   }
 }
 
-uint32_t parse_layers(const std::string& list) {
-  uint32_t layers = 0;
-  bool all = false;
-  for (const size_t word : parse_words("--layers", list)) {
-    layers |= kLayerBits[word];
-    all |= kLayerBits[word] == MIEN_LAYER_ALL;
-  }
-  const bool without_shapes = (layers & MIEN_LAYER_GEOMETRY_WITHOUT_BLEND_SHAPES) != 0;
-  if (without_shapes && (all || (layers & MIEN_LAYER_GEOMETRY))) {
+/// Sets the fields of `desc` that --layers is about.
+void parse_layers(const std::string& list, MienDnaDesc& desc) {
+  for (const size_t word : parse_words("--layers", list)) desc.layers |= kLayerBits[word];
+  if (!(desc.layers & kGeometryWithoutTargets)) return;
+  if (desc.layers & MIEN_LAYER_GEOMETRY) {
     fail_usage("--layers " + list, "asks for geometry both with and without blend shapes",
                "name one of the two");
   }
-  return all ? uint32_t{MIEN_LAYER_ALL} : layers;
+  desc.layers ^= kGeometryWithoutTargets | MIEN_LAYER_GEOMETRY;
+  desc.skip_blend_shape_targets = 1;
 }
 
 /// Bits first ... last. Numbers past the mask are of LODs that no file has.
@@ -133,7 +133,7 @@ uint64_t parse_lods(const LoadOptions& options) {
 
 MienCoordinateSystem system_named(const std::string& name) {
   auto system = sized<MienCoordinateSystem>();
-  check(mien_coordinate_system_named(name.data(), name.size(), &system), nullptr,
+  check(mien_coordinate_system_find(name.c_str(), &system), nullptr,
         "cannot find coordinate system " + name, "");
   return system;
 }
@@ -144,7 +144,7 @@ const MienCoordinateSystem* find_system(const LoadOptions& options) {
   static const std::vector<MienCoordinateSystem> systems = [rules] {
     std::vector<MienCoordinateSystem> all;
     for (const std::string& name : system_names()) {
-      for (uint32_t rule = MIEN_ROTATIONS_CARRIED; rule < rules; ++rule) {
+      for (uint32_t rule = MIEN_ROTATION_RULE_CARRIED; rule < rules; ++rule) {
         all.push_back(system_named(name));
         all.back().rotation_rule = rule;
       }
@@ -288,7 +288,8 @@ uint64_t parse_number(const std::string& option, const std::string& word, uint64
 
 MienDnaDesc parse_load_options(const LoadOptions& options, uint32_t default_layers) {
   auto desc = sized<MienDnaDesc>();
-  desc.layers = options.layers.empty() ? default_layers : parse_layers(options.layers);
+  desc.layers = options.layers.empty() ? default_layers : 0;
+  if (!options.layers.empty()) parse_layers(options.layers, desc);
   desc.lods = parse_lods(options);
   desc.system = find_system(options);
   return desc;
@@ -303,9 +304,10 @@ void require_behavior(const MienDnaDesc& desc) {
 
 MienRigDesc parse_rig_options(const RigOptions& options) {
   auto desc = sized<MienRigDesc>();
-  desc.rotation = static_cast<uint32_t>(parse_word("--rotation", options.rotation));
+  desc.rotation_output = static_cast<uint32_t>(parse_word("--rotation", options.rotation));
   desc.ml_masks = static_cast<uint32_t>(parse_word("--ml-masks", options.ml_masks));
   desc.storage = static_cast<uint32_t>(parse_word("--storage", options.storage));
+  desc.isa = MIEN_ISA_ENVIRONMENT;
   if (options.isa.empty()) return desc;
   desc.isa = MIEN_ISA_SCALAR + static_cast<uint32_t>(parse_word("--isa", options.isa));
   if (!mien_isa_available(desc.isa)) {

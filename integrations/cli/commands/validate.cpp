@@ -93,9 +93,9 @@ void run(const ValidateOptions& options, const Session& session) {
   MienStatus status;
   if (options.rig == "-") {
     bytes = read_standard_input();
-    status = mien_report_create_memory(bytes.data(), bytes.size(), nullptr, &made, &error);
+    status = mien_dna_validate_memory(bytes.data(), bytes.size(), nullptr, &made, &error);
   } else {
-    status = mien_report_create_file(options.rig.c_str(), nullptr, &made, &error);
+    status = mien_dna_validate_file(options.rig.c_str(), nullptr, &made, &error);
   }
   check(status, &error, "cannot validate", shown);
   const Report report(made);

@@ -79,7 +79,7 @@ std::vector<Transform> local_transforms(const RigSource& source, const MienDefor
 }
 
 std::vector<Joint> make_joints(const RigSource& source, const MienDeformerInstance* neutral) {
-  MienIndexView parents{};
+  MienIndex16View parents{};
   check(mien_rig_joint_parents(source.rig(), &parents), "cannot read rig");
   const std::vector<Transform> locals = local_transforms(source, neutral);
   std::vector<Joint> joints(locals.size());
@@ -102,7 +102,7 @@ struct Influence {
 /// sum may be anything.
 std::vector<Influence> influences_of(const RigSource& source, uint32_t rig_mesh,
                                      uint32_t position) {
-  MienIndexView joints{};
+  MienIndex16View joints{};
   MienFloatView weights{};
   check(mien_deformer_influences(source.deformer(), rig_mesh, position, &joints, &weights),
         "cannot read skin weights");
@@ -202,7 +202,7 @@ std::vector<bool> driven_channels(const RigSource& source, uint64_t lods) {
   std::vector<bool> driven(source.count(MIEN_KIND_BLEND_SHAPE_CHANNEL));
   for (uint32_t lod = 0; lod < 64; ++lod) {
     if (!(lods >> lod & 1)) continue;
-    MienIndexView channels{};
+    MienIndex16View channels{};
     check(mien_rig_lod_indices(source.rig(), MIEN_KIND_BLEND_SHAPE_CHANNEL, lod, &channels),
           "cannot read rig");
     for (size_t i = 0; i < channels.count; ++i) driven[channels.data[i]] = true;

@@ -33,7 +33,7 @@ RigSource::RigSource(const RigHandles& handles) : handles_(handles) {
     colors_.push_back(
         cli::read_vertex_colors(dna(), name(MIEN_KIND_MESH, m), mesh(m).position_count));
   }
-  meters_ = info.translation_unit == MIEN_TRANSLATION_METERS ? 1 : 0.01;
+  meters_ = info.translation_unit == MIEN_TRANSLATION_UNIT_METERS ? 1 : 0.01;
 }
 
 uint32_t RigSource::count(uint32_t kind) const {

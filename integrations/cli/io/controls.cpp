@@ -67,7 +67,7 @@ Control find_control(const MienRig* rig, const std::string& name, const std::str
                      const std::string& where) {
   for (const uint32_t kind : kControlKinds) {
     uint32_t index = 0;
-    if (mien_rig_find(rig, kind, name.data(), name.size(), &index) == MIEN_OK)
+    if (mien_rig_find_n(rig, kind, name.data(), name.size(), &index) == MIEN_OK)
       return {kind, index, name};
   }
   NearestName nearest(name);

@@ -54,7 +54,7 @@ float parse_value(const json& value, const std::string& where) {
 uint32_t find_control(const MienRig* rig, const Target& target, const std::string& name,
                       const std::string& where) {
   uint32_t index = 0;
-  if (mien_rig_find(rig, target.kind, name.data(), name.size(), &index) == MIEN_OK) return index;
+  if (mien_rig_find_n(rig, target.kind, name.data(), name.size(), &index) == MIEN_OK) return index;
   const uint32_t count = rig_count(rig, target.kind);
 
   const char* end = name.data() + name.size();

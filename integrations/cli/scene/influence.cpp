@@ -233,7 +233,7 @@ std::vector<Corrective> find_correctives(PosedScene& scene, const State& rest, c
   Progress progress(session, "corrective", row.psd);
   for (uint32_t psd = 0; psd < row.psd; ++psd) {
     progress.at(psd);
-    MienIndexView view{};
+    MienIndex16View view{};
     check(mien_rig_psd_inputs(rig, psd, &view), nullptr, "cannot examine rig", "");
     const std::vector<uint32_t> inputs(view.data, view.data + view.count);
     Corrective corrective{psd, {}, on.controls[row.raw + psd], true, 0, 0};

@@ -87,7 +87,7 @@ bool has_geometry(const RigFile& file) {
 }
 
 void choose_meshes(PosedScene& scene, const PosedSceneOptions& options, const Session& session) {
-  MienIndexView indices{};
+  MienIndex16View indices{};
   check(mien_rig_lod_indices(scene.rig.get(), MIEN_KIND_MESH, 0, &indices), nullptr, kCannot,
         scene.file.shown);
   NearestName nearest(options.meshes);
@@ -124,7 +124,7 @@ void choose_meshes(PosedScene& scene, const PosedSceneOptions& options, const Se
 }  // namespace
 
 std::string PosedScene::unit() const {
-  return file.info.translation_unit == MIEN_TRANSLATION_METERS ? "m" : "cm";
+  return file.info.translation_unit == MIEN_TRANSLATION_UNIT_METERS ? "m" : "cm";
 }
 
 const float* PosedScene::positions(const SceneMesh& mesh) const {

@@ -13,9 +13,10 @@
 `Dna` -> `Rig` -> `Instance` or `Batch`. README.md has more; errors are in `mien.errors`.
 """
 from ._api import (Compose, CoordinateSystem, DeformerInfo, Direction, DnaField, DnaInfo, DnaLayer,
+                   FaceWinding,
                    FieldType, FileAccess, Finding, BakedCheck, InstanceStatistics, Isa, Kind, Layer,
-                   MlMasks, Normals, Output, Preset, Reuse, RigInfo, RigStatistics, RotationRule,
-                   RotationSequence, RotationUnit, Severity, Stage, Status, Storage,
+                   MlMasks, Normals, Preset, Reuse, RigInfo, RigStatistics, RotationOutput,
+                   RotationRule, RotationSequence, RotationUnit, Severity, Stage, Status, Storage,
                    TranslationUnit, UnknownLayers, Weights)
 from ._library import path as library_path, version
 from .batch import Batch
@@ -29,11 +30,11 @@ from .rig import Rig, isa_available, isa_name
 __all__ = [
     "ArgumentError", "Batch", "BusyError", "ClosedError", "Compose", "coordinate_system",
     "coordinate_system_names", "CoordinateSystem", "deform_batch", "Deformer", "DeformerInfo",
-    "Direction", "Dna", "DnaError", "DnaField", "DnaInfo", "DnaLayer", "Error", "FieldType",
+    "Direction", "Dna", "DnaError", "DnaField", "DnaInfo", "DnaLayer", "Error", "FaceWinding", "FieldType",
     "FileAccess", "FileError", "Finding", "BakedCheck", "Instance", "InstanceStatistics", "Isa",
     "isa_available", "isa_name", "Kind", "Layer", "library_path", "Mesh", "MlMasks", "Normals",
     "OutOfMemoryError", "OutOfRangeError",
-    "Output", "DeformerInstance", "Preset", "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationRule",
+    "DeformerInstance", "Preset", "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationOutput", "RotationRule",
     "RotationSequence", "RotationUnit", "Severity", "Stage", "Status", "Storage", "TranslationUnit",
     "UnknownLayers", "UnknownNameError", "validate", "version", "Weights",
 ]

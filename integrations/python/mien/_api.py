@@ -96,16 +96,17 @@ class Layer(IntFlag):
     definition, RBF behavior needs behavior); the descriptor is always read.
     """
 
-    ALL = 0
+    #: only in MienDnaLayer.layer
+    UNKNOWN = 0
     DESCRIPTOR = 1
     DEFINITION = 2
     BEHAVIOR = 4
     GEOMETRY = 8
-    GEOMETRY_WITHOUT_BLEND_SHAPES = 16
-    MACHINE_LEARNED_BEHAVIOR = 32
-    RBF_BEHAVIOR = 64
-    JOINT_BEHAVIOR_METADATA = 128
-    TWIST_SWING_BEHAVIOR = 256
+    MACHINE_LEARNED_BEHAVIOR = 16
+    RBF_BEHAVIOR = 32
+    JOINT_BEHAVIOR_METADATA = 64
+    TWIST_SWING_BEHAVIOR = 128
+    ALL = 255
 
 
 class UnknownLayers(IntEnum):
@@ -161,6 +162,17 @@ class RotationSequence(IntEnum):
     YZX = 3
     ZXY = 4
     ZYX = 5
+
+
+class FaceWinding(IntEnum):
+    """The side of a face a b c ... that (b - a) x (c - a) points to, computed with the numbers of
+    the file whichever way its axes point.
+    """
+
+    #: seen from outside counter-clockwise if the axes are right-handed, clockwise if they are
+    #: left-handed
+    OUTWARD = 0
+    INWARD = 1
 
 
 class RotationRule(IntEnum):
@@ -248,8 +260,7 @@ class Generate(IntEnum):
 class Isa(IntEnum):
     """Values of enum MienIsa of the C interface."""
 
-    #: the environment variable MIEN_ISA (scalar, sse2, ...) if set, else the best that this CPU
-    #: and operating system allow
+    #: the best that this CPU and operating system allow
     BEST = 0
     SCALAR = 1
     SSE2 = 2
@@ -258,9 +269,12 @@ class Isa(IntEnum):
     #: F, CD, DQ, BW, VL
     AVX512 = 4
     NEON = 5
+    #: the one that the environment variable MIEN_ISA names ("scalar", "sse2", ...); the best if it
+    #: is unset or empty
+    ENVIRONMENT = 1000
 
 
-class Output(IntEnum):
+class RotationOutput(IntEnum):
     """How joint rotations come out."""
 
     #: 9 values per joint: tx ty tz rx ry rz sx sy sz
@@ -285,11 +299,11 @@ class Storage(IntEnum):
     either way.
     """
 
-    F32 = 0
+    BIT_32 = 0
     #: 16 bits: network weights and columns of quaternion joints in IEEE half precision (to
     #: nearest, ties to even; what exceeds its range becomes +-65504); the joint matrix as 16-bit
     #: fixed point, in units of the largest entry of the row / 32767. Half the memory.
-    F16 = 1
+    BIT_16 = 1
 
 
 class Arithmetic(IntEnum):
@@ -365,7 +379,8 @@ class Compose(IntEnum):
 
     #: neutral rotation * delta rotation: the delta turns first
     PRODUCT = 0
-    #: the angles are added; needs Output.EULER. The same where the neutral rotation is zero.
+    #: the angles are added; needs RotationOutput.EULER. The same where the neutral rotation is
+    #: zero.
     EULER_ADD = 1
 
 
@@ -423,16 +438,19 @@ class MienDeformerInstance(c_void_p):
     pass
 
 
+MienTask = CFUNCTYPE(None, c_void_p, c_uint32)
+
+
 class MienError(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
-        ("status", c_int32),
+        ("struct_size", c_size_t),
         ("byte_offset", c_uint64),
-        ("message", c_char * 240),
+        ("status", c_int32),
+        ("message", c_char * 236),
     ]
     struct_size: Any
-    status: Any
     byte_offset: Any
+    status: Any
     message: Any
 
     def __init__(self, **values: Any) -> None:
@@ -453,7 +471,7 @@ class MienAllocator(Structure):
 class MienParallelFor(Structure):
     _fields_ = [
         ("user", c_void_p),
-        ("run", CFUNCTYPE(None, c_void_p, c_uint32, CFUNCTYPE(None, c_void_p, c_uint32), c_void_p)),
+        ("run", CFUNCTYPE(None, c_void_p, c_uint32, MienTask, c_void_p)),
     ]
     user: Any
     run: Any
@@ -486,7 +504,7 @@ class MienMutableFloatView(Structure):
     count: Any
 
 
-class MienIndexView(Structure):
+class MienIndex16View(Structure):
     _fields_ = [
         ("data", c_void_p),
         ("count", c_size_t),
@@ -506,7 +524,7 @@ class MienIndex32View(Structure):
 
 class MienCoordinateSystem(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
+        ("struct_size", c_size_t),
         ("axes", c_uint32 * 3),
         ("translation_unit", c_uint32),
         ("rotation_unit", c_uint32),
@@ -514,6 +532,7 @@ class MienCoordinateSystem(Structure):
         ("rotation_sequence", c_uint32),
         ("rotation_signs", c_int32 * 3),
         ("face_winding", c_uint32),
+        ("reserved", c_uint32),
     ]
     struct_size: Any
     axes: Any
@@ -523,42 +542,46 @@ class MienCoordinateSystem(Structure):
     rotation_sequence: Any
     rotation_signs: Any
     face_winding: Any
+    reserved: Any
+
+    def __init__(self, **values: Any) -> None:
+        super().__init__(struct_size=56, **values)
+
+
+class MienDnaDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("layers", c_uint32),
+        ("skip_blend_shape_targets", c_uint32),
+        ("unknown_layers", c_uint32),
+        ("file_access", c_uint32),
+        ("lods", c_uint64),
+        ("system", POINTER(MienCoordinateSystem)),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    layers: Any
+    skip_blend_shape_targets: Any
+    unknown_layers: Any
+    file_access: Any
+    lods: Any
+    system: Any
+    allocator: Any
 
     def __init__(self, **values: Any) -> None:
         super().__init__(struct_size=48, **values)
 
 
-class MienDnaDesc(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("layers", c_uint32),
-        ("unknown_layers", c_uint32),
-        ("file_access", c_uint32),
-        ("lods", c_uint64),
-        ("allocator", POINTER(MienAllocator)),
-        ("system", POINTER(MienCoordinateSystem)),
-    ]
-    struct_size: Any
-    layers: Any
-    unknown_layers: Any
-    file_access: Any
-    lods: Any
-    allocator: Any
-    system: Any
-
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=40, **values)
-
-
 class MienDnaInfo(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
+        ("struct_size", c_size_t),
         ("generation", c_uint32),
         ("version", c_uint32),
         ("layers", c_uint32),
+        ("has_blend_shape_targets", c_uint32),
         ("file_bytes", c_uint64),
         ("memory_bytes", c_uint64),
-        ("mapped", c_uint32),
+        ("is_mapped", c_uint32),
         ("layer_count", c_uint32),
         ("translation_unit", c_uint32),
         ("rotation_unit", c_uint32),
@@ -589,9 +612,10 @@ class MienDnaInfo(Structure):
     generation: Any
     version: Any
     layers: Any
+    has_blend_shape_targets: Any
     file_bytes: Any
     memory_bytes: Any
-    mapped: Any
+    is_mapped: Any
     layer_count: Any
     translation_unit: Any
     rotation_unit: Any
@@ -619,30 +643,28 @@ class MienDnaInfo(Structure):
     metadata_count: Any
 
     def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=152, **values)
+        super().__init__(struct_size=160, **values)
 
 
 class MienDnaLayer(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
+        ("struct_size", c_size_t),
         ("layer", c_uint32),
-        ("code", c_char * 8),
         ("version_major", c_uint32),
         ("version_minor", c_uint32),
+        ("is_loaded", c_uint32),
         ("byte_offset", c_uint64),
         ("byte_count", c_uint64),
-        ("loaded", c_uint32),
-        ("reserved", c_uint32),
+        ("code", c_char * 8),
     ]
     struct_size: Any
     layer: Any
-    code: Any
     version_major: Any
     version_minor: Any
+    is_loaded: Any
     byte_offset: Any
     byte_count: Any
-    loaded: Any
-    reserved: Any
+    code: Any
 
     def __init__(self, **values: Any) -> None:
         super().__init__(struct_size=48, **values)
@@ -650,19 +672,17 @@ class MienDnaLayer(Structure):
 
 class MienDnaField(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
+        ("struct_size", c_size_t),
         ("type", c_uint32),
+        ("is_array", c_uint32),
         ("count", c_uint64),
         ("byte_offset", c_uint64),
-        ("is_array", c_uint32),
-        ("reserved", c_uint32),
     ]
     struct_size: Any
     type: Any
+    is_array: Any
     count: Any
     byte_offset: Any
-    is_array: Any
-    reserved: Any
 
     def __init__(self, **values: Any) -> None:
         super().__init__(struct_size=32, **values)
@@ -670,15 +690,13 @@ class MienDnaField(Structure):
 
 class MienWriteDesc(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
+        ("struct_size", c_size_t),
         ("version", c_uint32),
         ("unknown_layers", c_uint32),
-        ("reserved", c_uint32),
     ]
     struct_size: Any
     version: Any
     unknown_layers: Any
-    reserved: Any
 
     def __init__(self, **values: Any) -> None:
         super().__init__(struct_size=16, **values)
@@ -686,10 +704,9 @@ class MienWriteDesc(Structure):
 
 class MienFinding(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
+        ("struct_size", c_size_t),
         ("severity", c_uint32),
         ("status", c_int32),
-        ("reserved", c_uint32),
         ("byte_offset", c_uint64),
         ("field", MienStringView),
         ("message", MienStringView),
@@ -697,7 +714,6 @@ class MienFinding(Structure):
     struct_size: Any
     severity: Any
     status: Any
-    reserved: Any
     byte_offset: Any
     field: Any
     message: Any
@@ -706,21 +722,31 @@ class MienFinding(Structure):
         super().__init__(struct_size=56, **values)
 
 
+class MienValidateDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    allocator: Any
+
+    def __init__(self, **values: Any) -> None:
+        super().__init__(struct_size=16, **values)
+
+
 class MienGenerateDesc(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
+        ("struct_size", c_size_t),
         ("preset", c_uint32),
+        ("flags", c_uint32),
         ("seed", c_uint64),
         ("allocator", POINTER(MienAllocator)),
-        ("flags", c_uint32),
-        ("reserved", c_uint32),
     ]
     struct_size: Any
     preset: Any
+    flags: Any
     seed: Any
     allocator: Any
-    flags: Any
-    reserved: Any
 
     def __init__(self, **values: Any) -> None:
         super().__init__(struct_size=32, **values)
@@ -728,25 +754,23 @@ class MienGenerateDesc(Structure):
 
 class MienRigDesc(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
+        ("struct_size", c_size_t),
         ("isa", c_uint32),
-        ("rotation", c_uint32),
+        ("rotation_output", c_uint32),
         ("ml_masks", c_uint32),
-        ("allocator", POINTER(MienAllocator)),
         ("storage", c_uint32),
         ("reuse", c_uint32),
         ("arithmetic", c_uint32),
-        ("reserved", c_uint32),
+        ("allocator", POINTER(MienAllocator)),
     ]
     struct_size: Any
     isa: Any
-    rotation: Any
+    rotation_output: Any
     ml_masks: Any
-    allocator: Any
     storage: Any
     reuse: Any
     arithmetic: Any
-    reserved: Any
+    allocator: Any
 
     def __init__(self, **values: Any) -> None:
         super().__init__(struct_size=40, **values)
@@ -754,7 +778,7 @@ class MienRigDesc(Structure):
 
 class MienRigInfo(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
+        ("struct_size", c_size_t),
         ("isa", c_uint32),
         ("lod_count", c_uint32),
         ("translation_unit", c_uint32),
@@ -764,8 +788,9 @@ class MienRigInfo(Structure):
         ("rotation_signs", c_int32 * 3),
         ("control_count", c_uint32),
         ("joint_value_count", c_uint32),
-        ("rotation", c_uint32),
+        ("rotation_output", c_uint32),
         ("storage", c_uint32),
+        ("arithmetic", c_uint32),
         ("rig_bytes", c_uint64),
         ("instance_bytes", c_uint64),
     ]
@@ -779,32 +804,31 @@ class MienRigInfo(Structure):
     rotation_signs: Any
     control_count: Any
     joint_value_count: Any
-    rotation: Any
+    rotation_output: Any
     storage: Any
+    arithmetic: Any
     rig_bytes: Any
     instance_bytes: Any
 
     def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=80, **values)
+        super().__init__(struct_size=88, **values)
 
 
 class MienBakedDesc(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
+        ("struct_size", c_size_t),
         ("isa", c_uint32),
         ("file_access", c_uint32),
         ("check", c_uint32),
-        ("allocator", POINTER(MienAllocator)),
         ("reuse", c_uint32),
-        ("reserved", c_uint32),
+        ("allocator", POINTER(MienAllocator)),
     ]
     struct_size: Any
     isa: Any
     file_access: Any
     check: Any
-    allocator: Any
     reuse: Any
-    reserved: Any
+    allocator: Any
 
     def __init__(self, **values: Any) -> None:
         super().__init__(struct_size=32, **values)
@@ -812,36 +836,51 @@ class MienBakedDesc(Structure):
 
 class MienRigStatistics(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
+        ("struct_size", c_size_t),
+        ("lod", c_uint32),
         ("psd_count", c_uint32),
         ("joint_count", c_uint32),
         ("joint_row_count", c_uint32),
         ("blend_shape_count", c_uint32),
         ("animated_map_row_count", c_uint32),
-        ("joint_entry_count", c_uint64),
-        ("joint_byte_count", c_uint64),
         ("rbf_solver_count", c_uint32),
         ("quaternion_joint_count", c_uint32),
+        ("joint_entry_count", c_uint64),
+        ("joint_byte_count", c_uint64),
     ]
     struct_size: Any
+    lod: Any
     psd_count: Any
     joint_count: Any
     joint_row_count: Any
     blend_shape_count: Any
     animated_map_row_count: Any
-    joint_entry_count: Any
-    joint_byte_count: Any
     rbf_solver_count: Any
     quaternion_joint_count: Any
+    joint_entry_count: Any
+    joint_byte_count: Any
 
     def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=48, **values)
+        super().__init__(struct_size=56, **values)
+
+
+class MienInstanceDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    allocator: Any
+
+    def __init__(self, **values: Any) -> None:
+        super().__init__(struct_size=16, **values)
 
 
 class MienInstanceStatistics(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
+        ("struct_size", c_size_t),
         ("lod", c_uint32),
+        ("control_count", c_uint32),
         ("active_control_count", c_uint32),
         ("joint_column_count", c_uint32),
         ("joint_entry_count", c_uint64),
@@ -849,23 +888,39 @@ class MienInstanceStatistics(Structure):
     ]
     struct_size: Any
     lod: Any
+    control_count: Any
     active_control_count: Any
     joint_column_count: Any
     joint_entry_count: Any
     joint_byte_count: Any
 
     def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=32, **values)
+        super().__init__(struct_size=40, **values)
+
+
+class MienBatchDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("capacity", c_uint32),
+        ("tasks", c_uint32),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    capacity: Any
+    tasks: Any
+    allocator: Any
+
+    def __init__(self, **values: Any) -> None:
+        super().__init__(struct_size=24, **values)
 
 
 class MienDeformerDesc(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
+        ("struct_size", c_size_t),
         ("isa", c_uint32),
         ("compose", c_uint32),
         ("weights", c_uint32),
         ("normals", c_uint32),
-        ("reserved", c_uint32),
         ("allocator", POINTER(MienAllocator)),
     ]
     struct_size: Any
@@ -873,7 +928,6 @@ class MienDeformerDesc(Structure):
     compose: Any
     weights: Any
     normals: Any
-    reserved: Any
     allocator: Any
 
     def __init__(self, **values: Any) -> None:
@@ -882,7 +936,7 @@ class MienDeformerDesc(Structure):
 
 class MienDeformerInfo(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
+        ("struct_size", c_size_t),
         ("isa", c_uint32),
         ("compose", c_uint32),
         ("weights", c_uint32),
@@ -891,9 +945,8 @@ class MienDeformerInfo(Structure):
         ("joint_count", c_uint32),
         ("channel_count", c_uint32),
         ("mesh_count", c_uint32),
-        ("reserved", c_uint32),
         ("deformer_bytes", c_uint64),
-        ("pose_bytes", c_uint64),
+        ("instance_bytes", c_uint64),
     ]
     struct_size: Any
     isa: Any
@@ -904,9 +957,8 @@ class MienDeformerInfo(Structure):
     joint_count: Any
     channel_count: Any
     mesh_count: Any
-    reserved: Any
     deformer_bytes: Any
-    pose_bytes: Any
+    instance_bytes: Any
 
     def __init__(self, **values: Any) -> None:
         super().__init__(struct_size=56, **values)
@@ -914,20 +966,20 @@ class MienDeformerInfo(Structure):
 
 class MienMesh(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
+        ("struct_size", c_size_t),
         ("position_count", c_uint32),
         ("vertex_count", c_uint32),
         ("triangle_count", c_uint32),
         ("max_influences", c_uint32),
         ("target_count", c_uint32),
-        ("delta_count", c_uint64),
+        ("delta_count", c_uint32),
         ("lods", c_uint64),
         ("positions", MienFloatView),
         ("normals", MienFloatView),
         ("texture_coordinates", MienFloatView),
         ("vertex_position_indices", MienIndex32View),
         ("triangles", MienIndex32View),
-        ("target_channels", MienIndexView),
+        ("target_channels", MienIndex16View),
     ]
     struct_size: Any
     position_count: Any
@@ -950,13 +1002,11 @@ class MienMesh(Structure):
 
 class MienDeformerInstanceDesc(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
+        ("struct_size", c_size_t),
         ("lods", c_uint64),
         ("allocator", POINTER(MienAllocator)),
     ]
     struct_size: Any
-    reserved: Any
     lods: Any
     allocator: Any
 
@@ -975,7 +1025,7 @@ class CoordinateSystem(NamedTuple):
       rotation_sequence: RotationSequence.XYZ ...
       rotation_signs: of the angles about x, y, z: 1 turns y to z, z to x, x to y; -1 the other
         way; 0: such that angles keep their numbers
-      face_winding: as in MienDnaInfo
+      face_winding: FaceWinding
     """
 
     axes: Tuple[Direction, Direction, Direction]
@@ -984,14 +1034,14 @@ class CoordinateSystem(NamedTuple):
     rotation_rule: RotationRule
     rotation_sequence: RotationSequence
     rotation_signs: Tuple[int, int, int]
-    face_winding: int
+    face_winding: FaceWinding
 
     @classmethod
     def _of(cls, c: MienCoordinateSystem) -> CoordinateSystem:
         return cls(tuple(_enum(Direction, v) for v in c.axes), _enum(TranslationUnit,
                    c.translation_unit), _enum(RotationUnit, c.rotation_unit), _enum(RotationRule,
                    c.rotation_rule), _enum(RotationSequence, c.rotation_sequence),
-                   tuple(c.rotation_signs), c.face_winding)
+                   tuple(c.rotation_signs), _enum(FaceWinding, c.face_winding))
 
 
 class DnaInfo(NamedTuple):
@@ -1000,18 +1050,17 @@ class DnaInfo(NamedTuple):
       generation: 2
       version: 1 ... 8: the file is generation.version
       layers: Layer that were loaded
+      has_blend_shape_targets: the geometry was loaded with its targets
       file_bytes: size of the file; 0 if generated
       memory_bytes: taken from the allocator
-      mapped: 1 if the file is mapped
+      is_mapped: the file is mapped
       layer_count: entries for mien_dna_layer()
       translation_unit: TranslationUnit
       rotation_unit: RotationUnit.DEGREES or _RADIANS
       axes: Direction of x, y, z
       rotation_sequence: RotationSequence.XYZ ...
       rotation_signs: 1 or -1, for the angles about x, y, z
-      face_winding: 0: of a face a b c ..., (b - a) x (c - a), the plain formula in the numbers of
-        the file, points outwards: counter-clockwise seen from outside if the axes are right-
-        handed, clockwise if they are left-handed; 1: inwards
+      face_winding: FaceWinding
       max_lod: this file's LOD 0 is LOD max_lod of its data base
       metadata_count: pairs: desc.metadata[i].key and .value
     """
@@ -1019,16 +1068,17 @@ class DnaInfo(NamedTuple):
     generation: int
     version: int
     layers: Layer
+    has_blend_shape_targets: bool
     file_bytes: int
     memory_bytes: int
-    mapped: int
+    is_mapped: bool
     layer_count: int
     translation_unit: TranslationUnit
     rotation_unit: RotationUnit
     axes: Tuple[Direction, Direction, Direction]
     rotation_sequence: RotationSequence
     rotation_signs: Tuple[int, int, int]
-    face_winding: int
+    face_winding: FaceWinding
     lod_count: int
     max_lod: int
     gui_control_count: int
@@ -1050,61 +1100,62 @@ class DnaInfo(NamedTuple):
 
     @classmethod
     def _of(cls, c: MienDnaInfo) -> DnaInfo:
-        return cls(c.generation, c.version, _enum(Layer, c.layers), c.file_bytes, c.memory_bytes,
-                   c.mapped, c.layer_count, _enum(TranslationUnit, c.translation_unit),
-                   _enum(RotationUnit, c.rotation_unit), tuple(_enum(Direction, v) for v in c.axes),
-                   _enum(RotationSequence, c.rotation_sequence), tuple(c.rotation_signs),
-                   c.face_winding, c.lod_count, c.max_lod, c.gui_control_count, c.raw_control_count,
-                   c.psd_control_count, c.ml_control_count, c.rbf_control_count, c.joint_count,
-                   c.joint_group_count, c.blend_shape_channel_count, c.animated_map_count,
-                   c.mesh_count, c.neural_network_count, c.rbf_solver_count, c.rbf_pose_count,
-                   c.twist_count, c.swing_count, c.metadata_count)
+        return cls(c.generation, c.version, _enum(Layer, c.layers), bool(c.has_blend_shape_targets),
+                   c.file_bytes, c.memory_bytes, bool(c.is_mapped), c.layer_count,
+                   _enum(TranslationUnit, c.translation_unit), _enum(RotationUnit, c.rotation_unit),
+                   tuple(_enum(Direction, v) for v in c.axes), _enum(RotationSequence,
+                   c.rotation_sequence), tuple(c.rotation_signs), _enum(FaceWinding,
+                   c.face_winding), c.lod_count, c.max_lod, c.gui_control_count,
+                   c.raw_control_count, c.psd_control_count, c.ml_control_count,
+                   c.rbf_control_count, c.joint_count, c.joint_group_count,
+                   c.blend_shape_channel_count, c.animated_map_count, c.mesh_count,
+                   c.neural_network_count, c.rbf_solver_count, c.rbf_pose_count, c.twist_count,
+                   c.swing_count, c.metadata_count)
 
 
 class DnaLayer(NamedTuple):
     """One entry of the file's table of layers, in file order. Files of version 2.1 have no such
     table; their sections are listed as the layers desc, defn, bhvr and geom.
 
-      layer: Layer that loads it; 0: of a kind that Mien does not know
+      layer: Layer that loads it; Layer.UNKNOWN for other kinds
+      is_loaded: it was read, not skipped or kept unread
       code: "bhvr", terminated
-      loaded: 1: read; 0: skipped, or carried along unread
     """
 
     layer: Layer
-    code: str
     version_major: int
     version_minor: int
+    is_loaded: bool
     byte_offset: Optional[int]
     byte_count: int
-    loaded: int
+    code: str
 
     @classmethod
     def _of(cls, c: MienDnaLayer) -> DnaLayer:
-        return cls(_enum(Layer, c.layer), c.code.decode('ascii', 'replace'), c.version_major,
-                   c.version_minor, None if c.byte_offset == MIEN_NO_OFFSET else c.byte_offset,
-                   c.byte_count, c.loaded)
+        return cls(_enum(Layer, c.layer), c.version_major, c.version_minor, bool(c.is_loaded), None
+                   if c.byte_offset == MIEN_NO_OFFSET else c.byte_offset, c.byte_count,
+                   c.code.decode('ascii', 'replace'))
 
 
 class DnaField(NamedTuple):
     """Copy of a MienDnaField.
 
       type: FieldType
+      is_array: an array of numbers, whatever its count; not one number, or an element of an array
       count: elements of an array or list, bytes of a string, 1 for a number, fields of a record
       byte_offset: where the bytes of an array, of one of its elements or of a string begin in the
         file; None for others, and for what was made here
-      is_array: 1 for an array of numbers, whatever its count; 0 for one number, or an element of
-        an array
     """
 
     type: FieldType
+    is_array: bool
     count: int
     byte_offset: Optional[int]
-    is_array: int
 
     @classmethod
     def _of(cls, c: MienDnaField) -> DnaField:
-        return cls(_enum(FieldType, c.type), c.count, None if c.byte_offset == MIEN_NO_OFFSET else
-                   c.byte_offset, c.is_array)
+        return cls(_enum(FieldType, c.type), bool(c.is_array), c.count, None if c.byte_offset ==
+                   MIEN_NO_OFFSET else c.byte_offset)
 
 
 class Finding(NamedTuple):
@@ -1138,8 +1189,9 @@ class RigInfo(NamedTuple):
       rotation_sequence: RotationSequence.XYZ ...
       control_count: length of a control row: raw, PSD, ML, RBF, in this order
       joint_value_count: length of a row of joint outputs: 9 or 10 per joint
-      rotation: Output
+      rotation_output: RotationOutput
       storage: Storage
+      arithmetic: Arithmetic
       rig_bytes: memory of the rig; with its file if it was opened from one
       instance_bytes: memory of each instance
     """
@@ -1153,8 +1205,9 @@ class RigInfo(NamedTuple):
     rotation_signs: Tuple[int, int, int]
     control_count: int
     joint_value_count: int
-    rotation: Output
+    rotation_output: RotationOutput
     storage: Storage
+    arithmetic: Arithmetic
     rig_bytes: int
     instance_bytes: int
 
@@ -1163,8 +1216,9 @@ class RigInfo(NamedTuple):
         return cls(_enum(Isa, c.isa), c.lod_count, _enum(TranslationUnit, c.translation_unit),
                    _enum(RotationUnit, c.rotation_unit), tuple(_enum(Direction, v) for v in c.axes),
                    _enum(RotationSequence, c.rotation_sequence), tuple(c.rotation_signs),
-                   c.control_count, c.joint_value_count, _enum(Output, c.rotation), _enum(Storage,
-                   c.storage), c.rig_bytes, c.instance_bytes)
+                   c.control_count, c.joint_value_count, _enum(RotationOutput, c.rotation_output),
+                   _enum(Storage, c.storage), _enum(Arithmetic, c.arithmetic), c.rig_bytes,
+                   c.instance_bytes)
 
 
 class RigStatistics(NamedTuple):
@@ -1175,28 +1229,29 @@ class RigStatistics(NamedTuple):
       joint_row_count: rows of the joint groups
       blend_shape_count: channels written
       animated_map_row_count: rows of the animated map table
-      joint_entry_count: of the joint matrix: 8 per piece of a column, pieces of zeros not counted
-      joint_byte_count: of the joint matrix, if every control is active: those of controls that
-        are 0 are not read
       rbf_solver_count: solvers that the LOD lists
       quaternion_joint_count: joints represented by quaternions
+      joint_entry_count: of the joint matrix: 8 per block, blocks of zeros not counted
+      joint_byte_count: of the joint matrix, if every control is active: those of controls that
+        are 0 are not read
     """
 
+    lod: int
     psd_count: int
     joint_count: int
     joint_row_count: int
     blend_shape_count: int
     animated_map_row_count: int
-    joint_entry_count: int
-    joint_byte_count: int
     rbf_solver_count: int
     quaternion_joint_count: int
+    joint_entry_count: int
+    joint_byte_count: int
 
     @classmethod
     def _of(cls, c: MienRigStatistics) -> RigStatistics:
-        return cls(c.psd_count, c.joint_count, c.joint_row_count, c.blend_shape_count,
-                   c.animated_map_row_count, c.joint_entry_count, c.joint_byte_count,
-                   c.rbf_solver_count, c.quaternion_joint_count)
+        return cls(c.lod, c.psd_count, c.joint_count, c.joint_row_count, c.blend_shape_count,
+                   c.animated_map_row_count, c.rbf_solver_count, c.quaternion_joint_count,
+                   c.joint_entry_count, c.joint_byte_count)
 
 
 class InstanceStatistics(NamedTuple):
@@ -1204,13 +1259,15 @@ class InstanceStatistics(NamedTuple):
     (before the first: LOD 0), if it keeps no results. Bytes count once, whatever the caches do.
 
       lod: of the last evaluation
-      active_control_count: of the control row: raw, PSD, ML and RBF controls that are not 0
+      control_count: of the control row: raw, PSD, ML and RBF controls
+      active_control_count: controls that are not 0
       joint_column_count: columns of the joint matrix that they drive at this LOD
-      joint_entry_count: of these columns; 8 per piece, as in MienRigStatistics
+      joint_entry_count: of these columns; 8 per block, as in MienRigStatistics
       joint_byte_count: of these entries: at most MienRigStatistics.joint_byte_count
     """
 
     lod: int
+    control_count: int
     active_control_count: int
     joint_column_count: int
     joint_entry_count: int
@@ -1218,8 +1275,8 @@ class InstanceStatistics(NamedTuple):
 
     @classmethod
     def _of(cls, c: MienInstanceStatistics) -> InstanceStatistics:
-        return cls(c.lod, c.active_control_count, c.joint_column_count, c.joint_entry_count,
-                   c.joint_byte_count)
+        return cls(c.lod, c.control_count, c.active_control_count, c.joint_column_count,
+                   c.joint_entry_count, c.joint_byte_count)
 
 
 class DeformerInfo(NamedTuple):
@@ -1231,7 +1288,7 @@ class DeformerInfo(NamedTuple):
       normals: Normals, never Normals.DEFAULT
       mesh_count: as in the rig, with its names: Kind.MESH
       deformer_bytes: memory of the deformer
-      pose_bytes: memory of a pose with room for all meshes
+      instance_bytes: memory of a deformer instance with room for all meshes
     """
 
     isa: Isa
@@ -1243,20 +1300,21 @@ class DeformerInfo(NamedTuple):
     channel_count: int
     mesh_count: int
     deformer_bytes: int
-    pose_bytes: int
+    instance_bytes: int
 
     @classmethod
     def _of(cls, c: MienDeformerInfo) -> DeformerInfo:
         return cls(_enum(Isa, c.isa), _enum(Compose, c.compose), _enum(Weights, c.weights),
                    _enum(Normals, c.normals), c.lod_count, c.joint_count, c.channel_count,
-                   c.mesh_count, c.deformer_bytes, c.pose_bytes)
+                   c.mesh_count, c.deformer_bytes, c.instance_bytes)
 
 
 # Name, result, parameters.
 FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_version", c_uint32, ()),
     ("mien_status_name", c_char_p, (c_int32,)),
-    ("mien_coordinate_system_named", c_int32, (c_char_p, c_size_t, POINTER(MienCoordinateSystem))),
+    ("mien_coordinate_system_find", c_int32, (c_char_p, POINTER(MienCoordinateSystem))),
+    ("mien_coordinate_system_find_n", c_int32, (c_char_p, c_size_t, POINTER(MienCoordinateSystem))),
     ("mien_coordinate_system_name", c_int32, (c_uint32, POINTER(MienStringView))),
     ("mien_dna_open_file", c_int32, (c_char_p, POINTER(MienDnaDesc), POINTER(MienDna),
      POINTER(MienError))),
@@ -1266,21 +1324,31 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_dna_info", c_int32, (MienDna, POINTER(MienDnaInfo))),
     ("mien_dna_layer", c_int32, (MienDna, c_uint32, POINTER(MienDnaLayer))),
     ("mien_dna_field", c_int32, (MienDna, c_char_p, POINTER(MienDnaField), POINTER(MienError))),
-    ("mien_dna_field_name", c_int32, (MienDna, c_char_p, c_uint32, POINTER(MienStringView),
+    ("mien_dna_field_n", c_int32, (MienDna, c_char_p, c_size_t, POINTER(MienDnaField),
      POINTER(MienError))),
+    ("mien_dna_child_name", c_int32, (MienDna, c_char_p, c_uint32, POINTER(MienStringView),
+     POINTER(MienError))),
+    ("mien_dna_child_name_n", c_int32, (MienDna, c_char_p, c_size_t, c_uint32,
+     POINTER(MienStringView), POINTER(MienError))),
     ("mien_dna_read_floats", c_int32, (MienDna, c_char_p, c_uint64, c_uint64, c_void_p,
+     POINTER(MienError))),
+    ("mien_dna_read_floats_n", c_int32, (MienDna, c_char_p, c_size_t, c_uint64, c_uint64, c_void_p,
      POINTER(MienError))),
     ("mien_dna_read_integers", c_int32, (MienDna, c_char_p, c_uint64, c_uint64, c_void_p,
      POINTER(MienError))),
+    ("mien_dna_read_integers_n", c_int32, (MienDna, c_char_p, c_size_t, c_uint64, c_uint64,
+     c_void_p, POINTER(MienError))),
     ("mien_dna_read_string", c_int32, (MienDna, c_char_p, POINTER(MienStringView),
+     POINTER(MienError))),
+    ("mien_dna_read_string_n", c_int32, (MienDna, c_char_p, c_size_t, POINTER(MienStringView),
      POINTER(MienError))),
     ("mien_dna_write_file", c_int32, (MienDna, c_char_p, POINTER(MienWriteDesc),
      POINTER(MienError))),
     ("mien_dna_write_memory", c_int32, (MienDna, POINTER(MienWriteDesc), c_void_p, c_size_t,
      c_void_p, POINTER(MienError))),
-    ("mien_report_create_file", c_int32, (c_char_p, POINTER(MienAllocator), POINTER(MienReport),
+    ("mien_dna_validate_file", c_int32, (c_char_p, POINTER(MienValidateDesc), POINTER(MienReport),
      POINTER(MienError))),
-    ("mien_report_create_memory", c_int32, (c_void_p, c_size_t, POINTER(MienAllocator),
+    ("mien_dna_validate_memory", c_int32, (c_void_p, c_size_t, POINTER(MienValidateDesc),
      POINTER(MienReport), POINTER(MienError))),
     ("mien_report_counts", c_int32, (MienReport, c_void_p, c_void_p)),
     ("mien_report_finding", c_int32, (MienReport, c_uint32, POINTER(MienFinding))),
@@ -1301,15 +1369,16 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_rig_info", c_int32, (MienRig, POINTER(MienRigInfo))),
     ("mien_rig_count", c_int32, (MienRig, c_uint32, c_void_p)),
     ("mien_rig_name", c_int32, (MienRig, c_uint32, c_uint32, POINTER(MienStringView))),
-    ("mien_rig_find", c_int32, (MienRig, c_uint32, c_char_p, c_size_t, c_void_p)),
-    ("mien_rig_lod_indices", c_int32, (MienRig, c_uint32, c_uint32, POINTER(MienIndexView))),
-    ("mien_rig_variable_joint_values", c_int32, (MienRig, c_uint32, POINTER(MienIndexView))),
-    ("mien_rig_joint_parents", c_int32, (MienRig, POINTER(MienIndexView))),
+    ("mien_rig_find", c_int32, (MienRig, c_uint32, c_char_p, c_void_p)),
+    ("mien_rig_find_n", c_int32, (MienRig, c_uint32, c_char_p, c_size_t, c_void_p)),
+    ("mien_rig_lod_indices", c_int32, (MienRig, c_uint32, c_uint32, POINTER(MienIndex16View))),
+    ("mien_rig_variable_joint_values", c_int32, (MienRig, c_uint32, POINTER(MienIndex16View))),
+    ("mien_rig_joint_parents", c_int32, (MienRig, POINTER(MienIndex16View))),
     ("mien_rig_neutral_joint_values", c_int32, (MienRig, POINTER(MienFloatView))),
-    ("mien_rig_psd_inputs", c_int32, (MienRig, c_uint32, POINTER(MienIndexView))),
+    ("mien_rig_psd_inputs", c_int32, (MienRig, c_uint32, POINTER(MienIndex16View))),
     ("mien_rig_initial_raw_controls", c_int32, (MienRig, POINTER(MienFloatView))),
     ("mien_rig_statistics", c_int32, (MienRig, c_uint32, POINTER(MienRigStatistics))),
-    ("mien_instance_create", c_int32, (MienRig, POINTER(MienAllocator), POINTER(MienInstance),
+    ("mien_instance_create", c_int32, (MienRig, POINTER(MienInstanceDesc), POINTER(MienInstance),
      POINTER(MienError))),
     ("mien_instance_destroy", None, (MienInstance,)),
     ("mien_instance_reset", c_int32, (MienInstance,)),
@@ -1328,10 +1397,10 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_rig_map_raw_to_gui", c_int32, (MienRig, MienInstance)),
     ("mien_rig_evaluate", c_int32, (MienRig, MienInstance, c_uint32)),
     ("mien_rig_evaluate_stages", c_int32, (MienRig, MienInstance, c_uint32, c_uint32)),
-    ("mien_batch_create", c_int32, (MienRig, c_uint32, c_uint32, POINTER(MienAllocator),
-     POINTER(MienBatch), POINTER(MienError))),
+    ("mien_batch_create", c_int32, (MienRig, POINTER(MienBatchDesc), POINTER(MienBatch),
+     POINTER(MienError))),
     ("mien_batch_destroy", None, (MienBatch,)),
-    ("mien_batch_bytes", c_int32, (MienRig, c_uint32, c_uint32, c_void_p)),
+    ("mien_batch_bytes", c_int32, (MienRig, POINTER(MienBatchDesc), c_void_p)),
     ("mien_rig_evaluate_batch", c_int32, (MienRig, MienBatch, POINTER(MienInstance), c_void_p,
      c_uint32, c_uint32, POINTER(MienParallelFor))),
     ("mien_rig_evaluate_joint_group", c_int32, (MienRig, MienInstance, c_uint32, c_uint32)),
@@ -1342,8 +1411,8 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_deformer_destroy", None, (MienDeformer,)),
     ("mien_deformer_info", c_int32, (MienDeformer, POINTER(MienDeformerInfo))),
     ("mien_deformer_mesh", c_int32, (MienDeformer, c_uint32, POINTER(MienMesh))),
-    ("mien_deformer_influences", c_int32, (MienDeformer, c_uint32, c_uint32, POINTER(MienIndexView),
-     POINTER(MienFloatView))),
+    ("mien_deformer_influences", c_int32, (MienDeformer, c_uint32, c_uint32,
+     POINTER(MienIndex16View), POINTER(MienFloatView))),
     ("mien_deformer_target", c_int32, (MienDeformer, c_uint32, c_uint32, c_void_p, c_size_t)),
     ("mien_deformer_bind_matrices", c_int32, (MienDeformer, POINTER(MienFloatView))),
     ("mien_deformer_inverse_bind_matrices", c_int32, (MienDeformer, POINTER(MienFloatView))),
@@ -1375,7 +1444,8 @@ class Library:
 
     mien_version: Any
     mien_status_name: Any
-    mien_coordinate_system_named: Any
+    mien_coordinate_system_find: Any
+    mien_coordinate_system_find_n: Any
     mien_coordinate_system_name: Any
     mien_dna_open_file: Any
     mien_dna_open_memory: Any
@@ -1383,14 +1453,19 @@ class Library:
     mien_dna_info: Any
     mien_dna_layer: Any
     mien_dna_field: Any
-    mien_dna_field_name: Any
+    mien_dna_field_n: Any
+    mien_dna_child_name: Any
+    mien_dna_child_name_n: Any
     mien_dna_read_floats: Any
+    mien_dna_read_floats_n: Any
     mien_dna_read_integers: Any
+    mien_dna_read_integers_n: Any
     mien_dna_read_string: Any
+    mien_dna_read_string_n: Any
     mien_dna_write_file: Any
     mien_dna_write_memory: Any
-    mien_report_create_file: Any
-    mien_report_create_memory: Any
+    mien_dna_validate_file: Any
+    mien_dna_validate_memory: Any
     mien_report_counts: Any
     mien_report_finding: Any
     mien_report_destroy: Any
@@ -1407,6 +1482,7 @@ class Library:
     mien_rig_count: Any
     mien_rig_name: Any
     mien_rig_find: Any
+    mien_rig_find_n: Any
     mien_rig_lod_indices: Any
     mien_rig_variable_joint_values: Any
     mien_rig_joint_parents: Any

@@ -84,12 +84,12 @@ class Batch(Closable):
         self._instances = tuple(Instance(rig, self._slab, self._lock) for _ in range(count))
         self._handle: Any = tuple(instance._open() for instance in self._instances)
         self._batch, error = BatchHandle(), MienError()
-        status = lib.mien_batch_create(rig._open(), max(count, 1), uint32(tasks, "tasks"), None,
+        self._desc = _api.MienBatchDesc(capacity=max(count, 1), tasks=uint32(tasks, "tasks"))
+        status = lib.mien_batch_create(rig._open(), ctypes.byref(self._desc),
                                        ctypes.byref(self._batch), ctypes.byref(error))
         if status:
             fail(status, "cannot make a batch", error)
         self._pointers = (_api.MienInstance * count)(*self._handle)
-        self._tasks = tasks
         self._lods: Dict[int, Any] = {}
         self._views: Dict[str, Any] = {}
 
@@ -241,7 +241,7 @@ class Batch(Closable):
     def scratch_bytes(self) -> int:
         """Memory that evaluating together takes, besides that of the characters."""
         found = ctypes.c_uint64()
-        status = lib.mien_batch_bytes(self.rig._open(), max(len(self), 1), self._tasks,
+        status = lib.mien_batch_bytes(self.rig._open(), ctypes.byref(self._desc),
                                       ctypes.byref(found))
         if status:
             fail(status, "no size")

@@ -122,7 +122,7 @@ class Deformer(Closable):
 
     def influences(self, mesh: int, position: int) -> Tuple[Indices, Floats]:
         """uint16 (n,) joints that hold a position, and float32 (n,) their weights."""
-        handle, joints, weights = self._open(), _api.MienIndexView(), _api.MienFloatView()
+        handle, joints, weights = self._open(), _api.MienIndex16View(), _api.MienFloatView()
         status = lib.mien_deformer_influences(handle, uint32(mesh, "mesh"),
                                               uint32(position, "position"), _byref(joints),
                                               _byref(weights))

@@ -20,7 +20,7 @@ def coordinate_system(name: str) -> CoordinateSystem:
     """The system of an engine or tool, by its name: "unreal", "unity", "blender", ... Change what
     should differ by `._replace(rotation_rule=RotationRule.EXACT)`."""
     encoded, found = name.encode("utf-8", "surrogateescape"), _api.MienCoordinateSystem()
-    status = lib.mien_coordinate_system_named(encoded, len(encoded), _byref(found))
+    status = lib.mien_coordinate_system_find_n(encoded, len(encoded), _byref(found))
     if status:
         fail(status, f"coordinate system {name!r}, not one of {coordinate_system_names()}")
     return CoordinateSystem._of(found)
@@ -156,7 +156,7 @@ class Dna(Closable):
         names, error = [], MienError()
         for i in range(self._field(handle, path).count):
             name = _api.MienStringView()
-            status = lib.mien_dna_field_name(handle, path, i, _byref(name), _byref(error))
+            status = lib.mien_dna_child_name(handle, path, i, _byref(name), _byref(error))
             if status:
                 fail(status, "no field names", error)
             names.append(_api.text(name))
@@ -245,9 +245,9 @@ def validate(file: Any) -> List[Finding]:
     handle, error = ReportHandle(), MienError()
     if isinstance(file, (bytes, bytearray, memoryview)):
         data = as_bytes(file)
-        status = lib.mien_report_create_memory(data, len(data), None, _byref(handle), _byref(error))
+        status = lib.mien_dna_validate_memory(data, len(data), None, _byref(handle), _byref(error))
     else:
-        status = lib.mien_report_create_file(as_path(file), None, _byref(handle), _byref(error))
+        status = lib.mien_dna_validate_file(as_path(file), None, _byref(handle), _byref(error))
     if status:
         fail(status, "cannot validate", error)
     errors, warnings = ctypes.c_uint32(), ctypes.c_uint32()

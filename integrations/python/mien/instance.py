@@ -39,8 +39,10 @@ class Instance(Closable):
     def __init__(self, rig: Rig, _slab: Any = None, _lock: Any = None) -> None:
         handle, error = InstanceHandle(), MienError()
         handle.slab = _slab
-        allocator = _byref(_slab.allocator) if _slab is not None else None
-        status = lib.mien_instance_create(rig._open(), allocator, _byref(handle), _byref(error))
+        desc = _api.MienInstanceDesc()
+        if _slab is not None:
+            desc.allocator = ctypes.pointer(_slab.allocator)
+        status = lib.mien_instance_create(rig._open(), _byref(desc), _byref(handle), _byref(error))
         if status:
             fail(status, "cannot make an instance", error)
         self._handle = handle

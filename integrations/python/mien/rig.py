@@ -6,8 +6,8 @@ import ctypes
 from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional
 
 from . import _api
-from ._api import (FileAccess, BakedCheck, Isa, Kind, MienError, MlMasks, Output, Reuse, RigInfo,
-                   RigStatistics, Status, Storage)
+from ._api import (FileAccess, BakedCheck, Isa, Kind, MienError, MlMasks, Reuse, RigInfo,
+                   RigStatistics, RotationOutput, Status, Storage)
 from ._library import lib
 from ._memory import (Closable, Floats, Indices, RigHandle, array_over, as_bytes, as_path,
                       uint32)
@@ -38,18 +38,19 @@ class Rig(Closable):
         face = rig.instance()
 
     isa:      `Isa`; one that is absent raises, never is another taken silently
-    rotation: `Output.EULER` gives 9 values per joint, `Output.QUATERNION` 10
+    rotation: `RotationOutput.EULER` gives 9 values per joint, `RotationOutput.QUATERNION` 10
     ml_masks: whether masks switch or blend what was learned, see `MlMasks`
     reuse:    `Reuse.NOTHING` computes all of it each time, even if no input changed: for measuring
-    storage:  `Storage.F16` halves the memory of the large arrays, at three decimal digits
+    storage:  `Storage.BIT_16` halves the memory of the large arrays, at three decimal digits
     """
 
     __slots__ = ("info", "lod_count", "_names", "_raw_controls")
 
-    def __init__(self, dna: Dna, isa: int = Isa.BEST, rotation: int = Output.EULER,
-                 ml_masks: int = MlMasks.SWITCH, storage: int = Storage.F32,
+    def __init__(self, dna: Dna, isa: int = Isa.BEST, rotation: int = RotationOutput.EULER,
+                 ml_masks: int = MlMasks.SWITCH, storage: int = Storage.BIT_32,
                  reuse: int = Reuse.UNCHANGED) -> None:
-        desc = _api.MienRigDesc(isa=uint32(isa, "isa"), rotation=uint32(rotation, "rotation"),
+        desc = _api.MienRigDesc(isa=uint32(isa, "isa"),
+                                rotation_output=uint32(rotation, "rotation"),
                                 ml_masks=uint32(ml_masks, "ml_masks"),
                                 storage=uint32(storage, "storage"), reuse=uint32(reuse, "reuse"))
         if not isinstance(dna, Dna):
@@ -177,8 +178,8 @@ class Rig(Closable):
         """Index of the thing of a `Kind` with exactly this name, or UnknownNameError."""
         encoded = name.encode("utf-8", "surrogateescape")
         found = ctypes.c_uint32()
-        status = lib.mien_rig_find(self._open(), uint32(kind, "kind"), encoded, len(encoded),
-                                   _byref(found))
+        status = lib.mien_rig_find_n(self._open(), uint32(kind, "kind"), encoded, len(encoded),
+                                     _byref(found))
         if status == Status.NAME:
             raise UnknownNameError(f"the rig has no {_kind_name(kind)} {name!r}", status)
         if status:
@@ -204,18 +205,18 @@ class Rig(Closable):
 
     def lod_indices(self, kind: int, lod: int) -> Indices:
         """uint16 (n,): which joints, channels, maps, meshes or RBF solvers exist at a LOD."""
-        return self._view(lib.mien_rig_lod_indices, _api.MienIndexView(), "H",
+        return self._view(lib.mien_rig_lod_indices, _api.MienIndex16View(), "H",
                           f"kind {kind} at LOD {lod}", uint32(kind, "kind"), uint32(lod, "lod"))
 
     def variable_joint_values(self, lod: int) -> Indices:
         """uint16 (n,): indices into the flat joint outputs that evaluation may change at a LOD."""
-        return self._view(lib.mien_rig_variable_joint_values, _api.MienIndexView(), "H",
+        return self._view(lib.mien_rig_variable_joint_values, _api.MienIndex16View(), "H",
                           f"LOD {lod}", uint32(lod, "lod"))
 
     @property
     def joint_parents(self) -> Indices:
         """uint16 (joints,): parent of each joint; a root is its own parent."""
-        return self._view(lib.mien_rig_joint_parents, _api.MienIndexView(), "H", "joint parents")
+        return self._view(lib.mien_rig_joint_parents, _api.MienIndex16View(), "H", "joint parents")
 
     @property
     def neutral_joint_values(self) -> Floats:
@@ -228,7 +229,7 @@ class Rig(Closable):
     def psd_inputs(self, psd: int) -> Indices:
         """uint16 (n,): the controls whose product drives a corrective, as indices into the whole
         control row."""
-        return self._view(lib.mien_rig_psd_inputs, _api.MienIndexView(), "H", f"corrective {psd}",
+        return self._view(lib.mien_rig_psd_inputs, _api.MienIndex16View(), "H", f"corrective {psd}",
                           uint32(psd, "psd"))
 
     @property
@@ -240,7 +241,7 @@ class Rig(Closable):
     @property
     def joint_width(self) -> int:
         """Values per joint: 9, or 10 with quaternions; see `Instance.joints`."""
-        return 10 if self.info.rotation == Output.QUATERNION else 9
+        return 10 if self.info.rotation_output == RotationOutput.QUATERNION else 9
 
     def statistics(self, lod: int) -> RigStatistics:
         """What one evaluation at a LOD works through."""

@@ -301,8 +301,8 @@ class Files(unittest.TestCase):
             with mien.Dna.open(source) as dna:
                 self.assertEqual(dna.to_bytes(), self.data)
         self.assertEqual(mien.Dna.from_bytes(memoryview(self.data)).to_bytes(), self.data)
-        self.assertEqual(mien.Dna.open(path).info.mapped, 0)
-        self.assertEqual(mien.Dna.open(path, access=mien.FileAccess.MAP).info.mapped, 1)
+        self.assertFalse(mien.Dna.open(path).info.is_mapped)
+        self.assertTrue(mien.Dna.open(path, access=mien.FileAccess.MAP).info.is_mapped)
         self.assertEqual(mien.Dna.from_bytes(dna_of().to_bytes(version=1)).info.version, 1)
         findings = mien.validate(path)
         self.assertEqual([f for f in findings if f.severity == mien.Severity.ERROR], [])

@@ -53,7 +53,7 @@ class Values(unittest.TestCase):
     @needs_numpy
     def test_shapes(self):
         rig = rig_of()
-        turned = rig_of(rotation=mien.Output.QUATERNION)
+        turned = rig_of(rotation=mien.RotationOutput.QUATERNION)
         face, crowd = rig.instance(), rig.batch(3)
         joints = rig.count(mien.Kind.JOINT)
         self.assertEqual(face.joints.shape, (joints, 9))
@@ -100,7 +100,7 @@ class Values(unittest.TestCase):
 
     @needs_numpy
     def test_a_batch_gives_the_bits_of_single_characters(self):
-        for rig in (rig_of(), rig_of(rotation=mien.Output.QUATERNION), rig_of(mien.Preset.LARGE)):
+        for rig in (rig_of(), rig_of(rotation=mien.RotationOutput.QUATERNION), rig_of(mien.Preset.LARGE)):
             n, count = 7, rig.count(mien.Kind.RAW_CONTROL)
             crowd, in_parts, face = rig.batch(n), rig.batch(n, tasks=4), rig.instance()
             rows = numpy.array([pattern(count, i) for i in range(n)], "f")

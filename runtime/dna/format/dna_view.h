@@ -19,12 +19,11 @@ enum LayerMask : uint32_t {
   kLayerDefinition = 2,
   kLayerBehavior = 4,
   kLayerGeometry = 8,
-  kLayerGeometryWithoutBlendShapes = 16,
-  kLayerMachineLearned = 32,
-  kLayerRbf = 64,
-  kLayerJointMetadata = 128,
-  kLayerTwistSwing = 256,
-  kLayersAll = 511,
+  kLayerMachineLearned = 16,
+  kLayerRbf = 32,
+  kLayerJointMetadata = 64,
+  kLayerTwistSwing = 128,
+  kLayersAll = 255,
 };
 
 /// The known layers, in the order in which a writer appends those that an index lacks.
@@ -57,13 +56,11 @@ struct LayerKind {
   uint32_t loaded_by;      // any of these bits loads it
 };
 
-constexpr uint32_t kAnyGeometry = kLayerGeometry | kLayerGeometryWithoutBlendShapes;
-
 constexpr LayerKind kLayerKinds[kLayerIdCount] = {
     {LayerId::kDesc, "desc", layer_code("desc"), 0x10001, 1, kLayerDescriptor},
     {LayerId::kDefn, "defn", layer_code("defn"), 0x10001, 1, kLayerDefinition},
     {LayerId::kBhvr, "bhvr", layer_code("bhvr"), 0x10001, 1, kLayerBehavior},
-    {LayerId::kGeom, "geom", layer_code("geom"), 0x10001, 1, kAnyGeometry},
+    {LayerId::kGeom, "geom", layer_code("geom"), 0x10001, 1, kLayerGeometry},
     {LayerId::kMlbh, "mlbh", layer_code("mlbh"), 0x10000, 3, kLayerMachineLearned},
     {LayerId::kRbfb, "rbfb", layer_code("rbfb"), 0x10000, 4, kLayerRbf},
     {LayerId::kRbfe, "rbfe", layer_code("rbfe"), 0x10000, 5, kLayerRbf},
@@ -102,7 +99,8 @@ struct FileSegment {
 struct DnaView {
   uint16_t generation = 2;
   uint16_t version = 8;
-  uint32_t loaded = 0;  // LayerMask
+  uint32_t loaded = 0;                     // LayerMask
+  bool lacks_blend_shape_targets = false;  // the geometry was loaded without them
 
   /// File order. The sections of a 2.1 file are listed as desc, defn, bhvr and geom.
   List<IndexEntry> index;

@@ -19,7 +19,7 @@ using Bytes = std::vector<uint8_t>;
 
 MienCoordinateSystem named(const char* name) {
   MienCoordinateSystem system = sized<MienCoordinateSystem>();
-  EXPECT_EQ(mien_coordinate_system_named(name, strlen(name), &system), MIEN_OK) << name;
+  EXPECT_EQ(mien_coordinate_system_find(name, &system), MIEN_OK) << name;
   return system;
 }
 
@@ -77,9 +77,11 @@ class Pair {
  public:
   Pair(const MienDna* original, const MienDna* converted, uint32_t rotation)
       : change_(original, converted),
-        view_(original->view), rigs_{create_rig(original, MIEN_ISA_BEST, MIEN_OK, rotation),
-                                     create_rig(converted, MIEN_ISA_BEST, MIEN_OK, rotation)},
-        quaternions_(rotation == MIEN_OUTPUT_QUATERNION), inputs_(quaternion_inputs(view_)) {}
+        view_(original->view), rigs_{create_rig(original, MIEN_ISA_ENVIRONMENT, MIEN_OK, rotation),
+                                     create_rig(converted, MIEN_ISA_ENVIRONMENT, MIEN_OK,
+                                                rotation)},
+        quaternions_(rotation == MIEN_ROTATION_OUTPUT_QUATERNION),
+        inputs_(quaternion_inputs(view_)) {}
 
   bool made() const { return rigs_[0] && rigs_[1]; }
 
@@ -190,8 +192,8 @@ class Pair {
 void expect_same_movements(const MienDna* original, const MienDna* converted, Random& random,
                            uint32_t frames, const Tolerance& tolerance = {},
                            bool sums_follow = true) {
-  for (uint32_t rotation : {MIEN_OUTPUT_EULER, MIEN_OUTPUT_QUATERNION}) {
-    SCOPED_TRACE(rotation == MIEN_OUTPUT_EULER ? "Euler angles" : "quaternions");
+  for (uint32_t rotation : {MIEN_ROTATION_OUTPUT_EULER, MIEN_ROTATION_OUTPUT_QUATERNION}) {
+    SCOPED_TRACE(rotation == MIEN_ROTATION_OUTPUT_EULER ? "Euler angles" : "quaternions");
     Pair pair(original, converted, rotation);
     ASSERT_TRUE(pair.made());
     for (uint32_t frame = 0; frame < frames; ++frame) {
@@ -268,7 +270,7 @@ TEST(SystemConversion, ColumnsFollowIntoAnyOrder) {
     target.rotation_rule = RotationRule::kPerColumn;
     const DnaHandle converted = open_in_system(bytes, to_public(target));
     ASSERT_TRUE(converted);
-    for (uint32_t rotation : {MIEN_OUTPUT_EULER, MIEN_OUTPUT_QUATERNION}) {
+    for (uint32_t rotation : {MIEN_ROTATION_OUTPUT_EULER, MIEN_ROTATION_OUTPUT_QUATERNION}) {
       Pair pair(original.get(), converted.get(), rotation);
       ASSERT_TRUE(pair.made());
       for (uint32_t control = 0; control < dna::kSpaceRigPlainControls; ++control) {
@@ -443,14 +445,14 @@ TEST(SystemConversion, TheOwnSystemChangesNothing) {
     const DnaHandle original = open_dna(bytes);
     MienCoordinateSystem own = system_of(original.get());
     for (uint32_t rule :
-         {MIEN_ROTATIONS_CARRIED, MIEN_ROTATIONS_EXACT, MIEN_ROTATIONS_PER_COLUMN}) {
+         {MIEN_ROTATION_RULE_CARRIED, MIEN_ROTATION_RULE_EXACT, MIEN_ROTATION_RULE_PER_COLUMN}) {
       own.rotation_rule = rule;
       const DnaHandle same = open_in_system(bytes, own);
       ASSERT_TRUE(same);
       expect_same_bytes(write_dna(same.get()), bytes);
       MienDnaInfo infos[2] = {sized<MienDnaInfo>(), sized<MienDnaInfo>()};
-      mien_dna_info(original.get(), &infos[0]);
-      mien_dna_info(same.get(), &infos[1]);
+      EXPECT_EQ(mien_dna_info(original.get(), &infos[0]), MIEN_OK);
+      EXPECT_EQ(mien_dna_info(same.get(), &infos[1]), MIEN_OK);
       EXPECT_EQ(infos[0].memory_bytes, infos[1].memory_bytes);
     }
   }
@@ -465,7 +467,7 @@ TEST(SystemConversion, WrittenFilesAreValidAndStateTheSystem) {
     const MienCoordinateSystem target = to_public(dna::random_system(random));
     const Bytes written = write_dna(open_in_system(bytes, target).get());
     MienReport* report = nullptr;
-    ASSERT_EQ(mien_report_create_memory(written.data(), written.size(), nullptr, &report, nullptr),
+    ASSERT_EQ(mien_dna_validate_memory(written.data(), written.size(), nullptr, &report, nullptr),
               MIEN_OK);
     uint32_t errors = 1, warnings = 0;
     EXPECT_EQ(mien_report_counts(report, &errors, &warnings), MIEN_OK);
@@ -497,7 +499,7 @@ TEST(SystemConversion, TheVersionIsRaisedOnlyIfItHasTo) {
     size_t size = 0;
     ASSERT_EQ(mien_dna_write_memory(dna.get(), &desc, nullptr, 0, &size, nullptr), MIEN_OK);
     Bytes bytes(size);
-    mien_dna_write_memory(dna.get(), &desc, bytes.data(), size, &size, nullptr);
+    EXPECT_EQ(mien_dna_write_memory(dna.get(), &desc, bytes.data(), size, &size, nullptr), MIEN_OK);
     const auto version_in = [&](const MienCoordinateSystem& system) {
       MienDnaInfo info = sized<MienDnaInfo>();
       const Bytes written = write_dna(open_in_system(bytes, system).get());
@@ -529,13 +531,15 @@ TEST(SystemConversion, NamedSystems) {
     EXPECT_EQ(hand < 0, left_handed.count(name) == 1);
   }
   MienCoordinateSystem system = sized<MienCoordinateSystem>();
-  EXPECT_EQ(mien_coordinate_system_named("softimage", 9, &system), MIEN_ERROR_NAME);
+  EXPECT_EQ(mien_coordinate_system_find("softimage", &system), MIEN_ERROR_NAME);
   EXPECT_EQ(system.axes[1], 0u);
-  EXPECT_EQ(mien_coordinate_system_named("unity", 4, &system), MIEN_ERROR_NAME);
-  EXPECT_EQ(mien_coordinate_system_named(nullptr, 0, &system), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_coordinate_system_named("unity", 5, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_coordinate_system_find_n("unity", 4, &system), MIEN_ERROR_NAME);
+  EXPECT_EQ(mien_coordinate_system_find_n("unity5", 5, &system), MIEN_OK);
+  EXPECT_EQ(mien_coordinate_system_find(nullptr, &system), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_coordinate_system_find_n(nullptr, 0, &system), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_coordinate_system_find("unity", nullptr), MIEN_ERROR_NULL_ARGUMENT);
   system.struct_size = 8;
-  EXPECT_EQ(mien_coordinate_system_named("unity", 5, &system), MIEN_ERROR_STRUCT_SIZE);
+  EXPECT_EQ(mien_coordinate_system_find("unity", &system), MIEN_ERROR_STRUCT_SIZE);
   EXPECT_EQ(mien_coordinate_system_name(0, nullptr), MIEN_ERROR_NULL_ARGUMENT);
   MienStringView name;
   EXPECT_EQ(mien_coordinate_system_name(1000, &name), MIEN_ERROR_INDEX);
@@ -675,13 +679,13 @@ TEST_F(Refused, ATwistReadsARotationThatIsComputed) {
 TEST_F(Refused, AnglesInAnotherOrder) {
   // The jaw turns about one axis only and follows; one more axis, and it does not.
   MienCoordinateSystem reordered = named("maya");
-  reordered.rotation_rule = MIEN_ROTATIONS_EXACT;
-  reordered.rotation_sequence = MIEN_ROTATION_ZXY;
+  reordered.rotation_rule = MIEN_ROTATION_RULE_EXACT;
+  reordered.rotation_sequence = MIEN_ROTATION_SEQUENCE_ZXY;
   const Bytes bytes = write_view(tiny);
   EXPECT_TRUE(open_in_system(bytes, reordered));
   tiny.bhvr.joints.groups[0].output_indices = dna::be<uint16_t>(arena, {12, 13, 11});
   expect(reordered, "joint jaw adds Euler angles about several axes");
-  reordered.rotation_rule = MIEN_ROTATIONS_PER_COLUMN;
+  reordered.rotation_rule = MIEN_ROTATION_RULE_PER_COLUMN;
   expect(reordered, "keeps only some of its angles at a LOD");
 }
 
@@ -691,7 +695,7 @@ TEST_F(Refused, ATanhHasNoUnit) {
   tiny.mlbh.networks[0].layers[1].function_id = 3;
   const Bytes bytes = write_view(tiny);
   MienCoordinateSystem meters = system_of(open_dna(bytes).get());
-  meters.translation_unit = MIEN_TRANSLATION_METERS;
+  meters.translation_unit = MIEN_TRANSLATION_UNIT_METERS;
   expect(meters, "ends in tanh or sigmoid");
   tiny.mlbh.networks[0].layers[1].function_id = 1;
   const Bytes rectified = write_view(tiny);

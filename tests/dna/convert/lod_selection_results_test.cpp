@@ -57,7 +57,7 @@ void expect_same(const RigHandle& whole, const RigHandle& cut, uint32_t kind,
                  Span<const float> expected, Span<const float> mine, size_t width,
                  const std::set<std::string>& turned = {}) {
   const double full_turn =
-      info_of(whole).rotation_unit == MIEN_ROTATION_DEGREES ? 360 : 6.283185307179586476925;
+      info_of(whole).rotation_unit == MIEN_ROTATION_UNIT_DEGREES ? 360 : 6.283185307179586476925;
   const auto old = by_name(whole, kind, expected, width);
   const auto left = by_name(cut, kind, mine, width);
   for (const auto& [name, values] : left) {
@@ -101,7 +101,7 @@ void expect_same_results(const MienDna& whole_dna, const std::vector<uint32_t>& 
 void expect_round_trip(const MienDna& cut) {
   const Bytes bytes = write_dna(&cut);
   MienReport* report = nullptr;
-  ASSERT_EQ(mien_report_create_memory(bytes.data(), bytes.size(), nullptr, &report, nullptr),
+  ASSERT_EQ(mien_dna_validate_memory(bytes.data(), bytes.size(), nullptr, &report, nullptr),
             MIEN_OK);
   uint32_t errors = 0, warnings = 0;
   EXPECT_EQ(mien_report_counts(report, &errors, &warnings), MIEN_OK);

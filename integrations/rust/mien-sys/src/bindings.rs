@@ -5,6 +5,9 @@ use crate::{c_char, c_void, size_of, zeroed, Opaque};
 
 pub type MienStatus = i32;
 
+/// One piece of work of a MienParallelFor.
+pub type MienTask = Option<unsafe extern "C" fn(context: *mut c_void, index: u32)>;
+
 pub const MIEN_VERSION_MAJOR: u32 = 0;
 pub const MIEN_VERSION_MINOR: u32 = 1;
 pub const MIEN_VERSION_PATCH: u32 = 0;
@@ -64,16 +67,17 @@ pub const MIEN_ERROR_BAKED_STRUCTURE: MienStatus = 53;
 pub const MIEN_ERROR_BAKED_CHECKSUM: MienStatus = 54;
 
 // enum MienLayer
-pub const MIEN_LAYER_ALL: u32 = 0;
+/// Only in MienDnaLayer.layer.
+pub const MIEN_LAYER_UNKNOWN: u32 = 0;
 pub const MIEN_LAYER_DESCRIPTOR: u32 = 1;
 pub const MIEN_LAYER_DEFINITION: u32 = 2;
 pub const MIEN_LAYER_BEHAVIOR: u32 = 4;
 pub const MIEN_LAYER_GEOMETRY: u32 = 8;
-pub const MIEN_LAYER_GEOMETRY_WITHOUT_BLEND_SHAPES: u32 = 16;
-pub const MIEN_LAYER_MACHINE_LEARNED_BEHAVIOR: u32 = 32;
-pub const MIEN_LAYER_RBF_BEHAVIOR: u32 = 64;
-pub const MIEN_LAYER_JOINT_BEHAVIOR_METADATA: u32 = 128;
-pub const MIEN_LAYER_TWIST_SWING_BEHAVIOR: u32 = 256;
+pub const MIEN_LAYER_MACHINE_LEARNED_BEHAVIOR: u32 = 16;
+pub const MIEN_LAYER_RBF_BEHAVIOR: u32 = 32;
+pub const MIEN_LAYER_JOINT_BEHAVIOR_METADATA: u32 = 64;
+pub const MIEN_LAYER_TWIST_SWING_BEHAVIOR: u32 = 128;
+pub const MIEN_LAYER_ALL: u32 = 255;
 
 // enum MienUnknownLayers
 /// Carried along, written back unchanged.
@@ -87,12 +91,12 @@ pub const MIEN_FILE_MAP: u32 = 0;
 pub const MIEN_FILE_READ: u32 = 1;
 
 // enum MienTranslationUnit
-pub const MIEN_TRANSLATION_CENTIMETERS: u32 = 0;
-pub const MIEN_TRANSLATION_METERS: u32 = 1;
+pub const MIEN_TRANSLATION_UNIT_CENTIMETERS: u32 = 0;
+pub const MIEN_TRANSLATION_UNIT_METERS: u32 = 1;
 
 // enum MienRotationUnit
-pub const MIEN_ROTATION_DEGREES: u32 = 0;
-pub const MIEN_ROTATION_RADIANS: u32 = 1;
+pub const MIEN_ROTATION_UNIT_DEGREES: u32 = 0;
+pub const MIEN_ROTATION_UNIT_RADIANS: u32 = 1;
 
 // enum MienDirection
 /// Of the character.
@@ -105,24 +109,30 @@ pub const MIEN_DIRECTION_BACK: u32 = 5;
 
 // enum MienRotationSequence
 /// X first, then y, then z, about fixed axes.
-pub const MIEN_ROTATION_XYZ: u32 = 0;
-pub const MIEN_ROTATION_XZY: u32 = 1;
-pub const MIEN_ROTATION_YXZ: u32 = 2;
-pub const MIEN_ROTATION_YZX: u32 = 3;
-pub const MIEN_ROTATION_ZXY: u32 = 4;
-pub const MIEN_ROTATION_ZYX: u32 = 5;
+pub const MIEN_ROTATION_SEQUENCE_XYZ: u32 = 0;
+pub const MIEN_ROTATION_SEQUENCE_XZY: u32 = 1;
+pub const MIEN_ROTATION_SEQUENCE_YXZ: u32 = 2;
+pub const MIEN_ROTATION_SEQUENCE_YZX: u32 = 3;
+pub const MIEN_ROTATION_SEQUENCE_ZXY: u32 = 4;
+pub const MIEN_ROTATION_SEQUENCE_ZYX: u32 = 5;
+
+// enum MienFaceWinding
+/// Seen from outside counter-clockwise if the axes are right-handed, clockwise if they are
+/// left-handed.
+pub const MIEN_FACE_WINDING_OUTWARD: u32 = 0;
+pub const MIEN_FACE_WINDING_INWARD: u32 = 1;
 
 // enum MienRotationRule
 /// The file's order, about the axes as they are called now: where x became z, xyz becomes zyx, xzy
 /// becomes zxy, and so on.
-pub const MIEN_ROTATIONS_CARRIED: u32 = 0;
+pub const MIEN_ROTATION_RULE_CARRIED: u32 = 0;
 /// The order named. Neutral poses, joints represented by quaternions, twists, swings and ML joints
 /// follow exactly as rotations, and so do joints that turn about one axis only;
 /// `MIEN_ERROR_DNA_VALUE` for a rig with others.
-pub const MIEN_ROTATIONS_EXACT: u32 = 1;
+pub const MIEN_ROTATION_RULE_EXACT: u32 = 1;
 /// The order named, each column of a joint matrix by itself: exact while one control is 1 and all
 /// others are 0, near it for small angles.
-pub const MIEN_ROTATIONS_PER_COLUMN: u32 = 2;
+pub const MIEN_ROTATION_RULE_PER_COLUMN: u32 = 2;
 
 // enum MienFieldType
 /// Named fields.
@@ -165,8 +175,7 @@ pub const MIEN_PRESET_HEAD: u32 = 5;
 pub const MIEN_GENERATE_ML: u32 = 1;
 
 // enum MienIsa
-/// The environment variable `MIEN_ISA` (scalar, sse2, ...) if set, else the best that this CPU and
-/// operating system allow.
+/// The best that this CPU and operating system allow.
 pub const MIEN_ISA_BEST: u32 = 0;
 pub const MIEN_ISA_SCALAR: u32 = 1;
 pub const MIEN_ISA_SSE2: u32 = 2;
@@ -175,12 +184,15 @@ pub const MIEN_ISA_AVX2: u32 = 3;
 /// F, CD, DQ, BW, VL.
 pub const MIEN_ISA_AVX512: u32 = 4;
 pub const MIEN_ISA_NEON: u32 = 5;
+/// The one that the environment variable `MIEN_ISA` names ("scalar", "sse2", ...); the best if it
+/// is unset or empty.
+pub const MIEN_ISA_ENVIRONMENT: u32 = 1000;
 
-// enum MienOutput
+// enum MienRotationOutput
 /// 9 values per joint: tx ty tz rx ry rz sx sy sz.
-pub const MIEN_OUTPUT_EULER: u32 = 0;
+pub const MIEN_ROTATION_OUTPUT_EULER: u32 = 0;
 /// 10 values per joint: tx ty tz qx qy qz qw sx sy sz.
-pub const MIEN_OUTPUT_QUATERNION: u32 = 1;
+pub const MIEN_ROTATION_OUTPUT_QUATERNION: u32 = 1;
 
 // enum MienMlMasks
 /// 0: the networks give their default (0, or 1 for the w of a quaternion); anything else: they are
@@ -190,11 +202,11 @@ pub const MIEN_ML_MASKS_SWITCH: u32 = 0;
 pub const MIEN_ML_MASKS_BLEND: u32 = 1;
 
 // enum MienStorage
-pub const MIEN_STORAGE_F32: u32 = 0;
+pub const MIEN_STORAGE_32_BIT: u32 = 0;
 /// 16 bits: network weights and columns of quaternion joints in IEEE half precision (to nearest,
 /// ties to even; what exceeds its range becomes +-65504); the joint matrix as 16-bit fixed point,
 /// in units of the largest entry of the row / 32767. Half the memory.
-pub const MIEN_STORAGE_F16: u32 = 1;
+pub const MIEN_STORAGE_16_BIT: u32 = 1;
 
 // enum MienArithmetic
 /// Those on AVX2, AVX-512 and NEON, which multiply and add in one step; and those on scalar and
@@ -250,7 +262,8 @@ pub const MIEN_STAGE_ALL: u32 = 63;
 // enum MienCompose
 /// Neutral rotation \* delta rotation: the delta turns first.
 pub const MIEN_COMPOSE_PRODUCT: u32 = 0;
-/// The angles are added; needs `MIEN_OUTPUT_EULER`. The same where the neutral rotation is zero.
+/// The angles are added; needs `MIEN_ROTATION_OUTPUT_EULER`. The same where the neutral rotation
+/// is zero.
 pub const MIEN_COMPOSE_EULER_ADD: u32 = 1;
 
 // enum MienWeights
@@ -338,12 +351,12 @@ pub struct MienDeformerInstance {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienError {
-    pub struct_size: u32,
-    pub status: MienStatus,
+    pub struct_size: usize,
     /// In the file; `MIEN_NO_OFFSET` if there is no such place.
     pub byte_offset: u64,
+    pub status: MienStatus,
     /// What, where and what to do; terminated, possibly cut.
-    pub message: [c_char; 240],
+    pub message: [c_char; 236],
 }
 
 impl Default for MienError {
@@ -351,7 +364,7 @@ impl Default for MienError {
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
         let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>() as u32;
+        zero.struct_size = size_of::<Self>();
         zero
     }
 }
@@ -383,7 +396,7 @@ impl Default for MienAllocator {
 #[derive(Clone, Copy)]
 pub struct MienParallelFor {
     pub user: *mut c_void,
-    pub run: Option<unsafe extern "C" fn(user: *mut c_void, count: u32, task: Option<unsafe extern "C" fn(context: *mut c_void, index: u32)>, context: *mut c_void)>,
+    pub run: Option<unsafe extern "C" fn(user: *mut c_void, count: u32, task: MienTask, context: *mut c_void)>,
 }
 
 impl Default for MienParallelFor {
@@ -442,12 +455,12 @@ impl Default for MienMutableFloatView {
 
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub struct MienIndexView {
+pub struct MienIndex16View {
     pub data: *const u16,
     pub count: usize,
 }
 
-impl Default for MienIndexView {
+impl Default for MienIndex16View {
     /// All zero.
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
@@ -475,22 +488,24 @@ impl Default for MienIndex32View {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienCoordinateSystem {
-    pub struct_size: u32,
+    pub struct_size: usize,
     /// `MIEN_DIRECTION_...` of x, y, z.
     pub axes: [u32; 3],
-    /// `MIEN_TRANSLATION_...`
+    /// `MIEN_TRANSLATION_UNIT_...`
     pub translation_unit: u32,
-    /// `MIEN_ROTATION_DEGREES` or \_RADIANS.
+    /// `MIEN_ROTATION_UNIT_DEGREES` or \_RADIANS.
     pub rotation_unit: u32,
-    /// `MIEN_ROTATIONS_...`; the next field counts unless it is \_CARRIED.
+    /// `MIEN_ROTATION_RULE_...`; the next field counts unless it is \_CARRIED.
     pub rotation_rule: u32,
-    /// `MIEN_ROTATION_XYZ` ...
+    /// `MIEN_ROTATION_SEQUENCE_XYZ` ...
     pub rotation_sequence: u32,
     /// Of the angles about x, y, z: 1 turns y to z, z to x, x to y; -1 the other way; 0: such that
     /// angles keep their numbers.
     pub rotation_signs: [i32; 3],
-    /// As in MienDnaInfo.
+    /// `MIEN_FACE_WINDING_...`
     pub face_winding: u32,
+    /// 0.
+    pub reserved: u32,
 }
 
 impl Default for MienCoordinateSystem {
@@ -498,7 +513,7 @@ impl Default for MienCoordinateSystem {
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
         let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>() as u32;
+        zero.struct_size = size_of::<Self>();
         zero
     }
 }
@@ -506,9 +521,11 @@ impl Default for MienCoordinateSystem {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienDnaDesc {
-    pub struct_size: u32,
-    /// `MIEN_LAYER_...`; what is not chosen is never touched.
+    pub struct_size: usize,
+    /// `MIEN_LAYER_...`, combined with \|; 0 is all. What is not chosen is never touched.
     pub layers: u32,
+    /// Load the geometry without its blend shape targets.
+    pub skip_blend_shape_targets: u32,
     /// `MIEN_UNKNOWN_LAYERS_...`
     pub unknown_layers: u32,
     /// `MIEN_FILE_...`; of no meaning for memory.
@@ -517,9 +534,9 @@ pub struct MienDnaDesc {
     /// meshes, channels and maps that no kept LOD uses are dropped and the others renumbered
     /// everywhere. `MIEN_ERROR_LOD` if the file has none of the LODs named.
     pub lods: u64,
-    pub allocator: *const MienAllocator,
     /// To convert everything to; NULL keeps the file's.
     pub system: *const MienCoordinateSystem,
+    pub allocator: *const MienAllocator,
 }
 
 impl Default for MienDnaDesc {
@@ -527,7 +544,7 @@ impl Default for MienDnaDesc {
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
         let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>() as u32;
+        zero.struct_size = size_of::<Self>();
         zero
     }
 }
@@ -535,34 +552,34 @@ impl Default for MienDnaDesc {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienDnaInfo {
-    pub struct_size: u32,
+    pub struct_size: usize,
     /// 2.
     pub generation: u32,
     /// 1 ... 8: the file is generation.version.
     pub version: u32,
     /// `MIEN_LAYER_...` that were loaded.
     pub layers: u32,
+    /// The geometry was loaded with its targets.
+    pub has_blend_shape_targets: u32,
     /// Size of the file; 0 if generated.
     pub file_bytes: u64,
     /// Taken from the allocator.
     pub memory_bytes: u64,
-    /// 1 if the file is mapped.
-    pub mapped: u32,
+    /// The file is mapped.
+    pub is_mapped: u32,
     /// Entries for `mien_dna_layer()`.
     pub layer_count: u32,
-    /// `MIEN_TRANSLATION_...`
+    /// `MIEN_TRANSLATION_UNIT_...`
     pub translation_unit: u32,
-    /// `MIEN_ROTATION_DEGREES` or \_RADIANS.
+    /// `MIEN_ROTATION_UNIT_DEGREES` or \_RADIANS.
     pub rotation_unit: u32,
     /// `MIEN_DIRECTION_...` of x, y, z.
     pub axes: [u32; 3],
-    /// `MIEN_ROTATION_XYZ` ...
+    /// `MIEN_ROTATION_SEQUENCE_XYZ` ...
     pub rotation_sequence: u32,
     /// 1 or -1, for the angles about x, y, z.
     pub rotation_signs: [i32; 3],
-    /// 0: of a face a b c ..., (b - a) x (c - a), the plain formula in the numbers of the file,
-    /// points outwards: counter-clockwise seen from outside if the axes are right-handed,
-    /// clockwise if they are left-handed; 1: inwards.
+    /// `MIEN_FACE_WINDING_...`
     pub face_winding: u32,
     pub lod_count: u32,
     /// This file's LOD 0 is LOD `max_lod` of its data base.
@@ -591,7 +608,7 @@ impl Default for MienDnaInfo {
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
         let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>() as u32;
+        zero.struct_size = size_of::<Self>();
         zero
     }
 }
@@ -601,18 +618,17 @@ impl Default for MienDnaInfo {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienDnaLayer {
-    pub struct_size: u32,
-    /// `MIEN_LAYER_...` that loads it; 0: of a kind that Mien does not know.
+    pub struct_size: usize,
+    /// `MIEN_LAYER_...` that loads it; `MIEN_LAYER_UNKNOWN` for other kinds.
     pub layer: u32,
-    /// "bhvr", terminated.
-    pub code: [c_char; 8],
     pub version_major: u32,
     pub version_minor: u32,
+    /// It was read, not skipped or kept unread.
+    pub is_loaded: u32,
     pub byte_offset: u64,
     pub byte_count: u64,
-    /// 1: read; 0: skipped, or carried along unread.
-    pub loaded: u32,
-    pub reserved: u32,
+    /// "bhvr", terminated.
+    pub code: [c_char; 8],
 }
 
 impl Default for MienDnaLayer {
@@ -620,7 +636,7 @@ impl Default for MienDnaLayer {
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
         let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>() as u32;
+        zero.struct_size = size_of::<Self>();
         zero
     }
 }
@@ -628,17 +644,16 @@ impl Default for MienDnaLayer {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienDnaField {
-    pub struct_size: u32,
+    pub struct_size: usize,
     /// `MIEN_FIELD_...`
     pub r#type: u32,
+    /// An array of numbers, whatever its count; not one number, or an element of an array.
+    pub is_array: u32,
     /// Elements of an array or list, bytes of a string, 1 for a number, fields of a record.
     pub count: u64,
     /// Where the bytes of an array, of one of its elements or of a string begin in the file;
     /// `MIEN_NO_OFFSET` for others, and for what was made here.
     pub byte_offset: u64,
-    /// 1 for an array of numbers, whatever its count; 0 for one number, or an element of an array.
-    pub is_array: u32,
-    pub reserved: u32,
 }
 
 impl Default for MienDnaField {
@@ -646,7 +661,7 @@ impl Default for MienDnaField {
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
         let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>() as u32;
+        zero.struct_size = size_of::<Self>();
         zero
     }
 }
@@ -654,14 +669,13 @@ impl Default for MienDnaField {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienWriteDesc {
-    pub struct_size: u32,
+    pub struct_size: usize,
     /// 1 ... 8 writes 2.1 ... 2.8; 0 keeps the version. Layers that the version does not know are
     /// carried along (2.2 and later) unless `unknown_layers` says drop; 2.1 keeps the four classic
     /// ones only.
     pub version: u32,
     /// `MIEN_UNKNOWN_LAYERS_...`
     pub unknown_layers: u32,
-    pub reserved: u32,
 }
 
 impl Default for MienWriteDesc {
@@ -669,7 +683,7 @@ impl Default for MienWriteDesc {
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
         let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>() as u32;
+        zero.struct_size = size_of::<Self>();
         zero
     }
 }
@@ -677,12 +691,11 @@ impl Default for MienWriteDesc {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienFinding {
-    pub struct_size: u32,
+    pub struct_size: usize,
     /// `MIEN_SEVERITY_...`
     pub severity: u32,
     /// What opening would return; `MIEN_OK` for a warning.
     pub status: MienStatus,
-    pub reserved: u32,
     /// `MIEN_NO_OFFSET` if there is no such place.
     pub byte_offset: u64,
     /// Path as for `mien_dna_field()`, or a layer's code.
@@ -695,7 +708,24 @@ impl Default for MienFinding {
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
         let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>() as u32;
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienValidateDesc {
+    pub struct_size: usize,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienValidateDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
         zero
     }
 }
@@ -703,15 +733,14 @@ impl Default for MienFinding {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienGenerateDesc {
-    pub struct_size: u32,
+    pub struct_size: usize,
     /// `MIEN_PRESET_...`
     pub preset: u32,
+    /// `MIEN_GENERATE_...`, combined with \|.
+    pub flags: u32,
     /// The same seed gives the same bytes on every machine.
     pub seed: u64,
     pub allocator: *const MienAllocator,
-    /// `MIEN_GENERATE_...`, to be combined with \|.
-    pub flags: u32,
-    pub reserved: u32,
 }
 
 impl Default for MienGenerateDesc {
@@ -719,7 +748,7 @@ impl Default for MienGenerateDesc {
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
         let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>() as u32;
+        zero.struct_size = size_of::<Self>();
         zero
     }
 }
@@ -727,22 +756,20 @@ impl Default for MienGenerateDesc {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienRigDesc {
-    pub struct_size: u32,
+    pub struct_size: usize,
     /// `MIEN_ISA_...`; one that is absent is `MIEN_ERROR_ISA`, never replaced silently.
     pub isa: u32,
-    /// `MIEN_OUTPUT_...`
-    pub rotation: u32,
+    /// `MIEN_ROTATION_OUTPUT_...`
+    pub rotation_output: u32,
     /// `MIEN_ML_MASKS_...`
     pub ml_masks: u32,
-    pub allocator: *const MienAllocator,
     /// `MIEN_STORAGE_...`
     pub storage: u32,
     /// `MIEN_REUSE_...`
     pub reuse: u32,
     /// `MIEN_ARITHMETIC_...`
     pub arithmetic: u32,
-    /// 0.
-    pub reserved: u32,
+    pub allocator: *const MienAllocator,
 }
 
 impl Default for MienRigDesc {
@@ -750,7 +777,7 @@ impl Default for MienRigDesc {
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
         let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>() as u32;
+        zero.struct_size = size_of::<Self>();
         zero
     }
 }
@@ -758,27 +785,29 @@ impl Default for MienRigDesc {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienRigInfo {
-    pub struct_size: u32,
+    pub struct_size: usize,
     /// `MIEN_ISA_...` in use.
     pub isa: u32,
     pub lod_count: u32,
-    /// `MIEN_TRANSLATION_...`
+    /// `MIEN_TRANSLATION_UNIT_...`
     pub translation_unit: u32,
-    /// `MIEN_ROTATION_DEGREES` or \_RADIANS.
+    /// `MIEN_ROTATION_UNIT_DEGREES` or \_RADIANS.
     pub rotation_unit: u32,
     /// `MIEN_DIRECTION_...` of x, y, z.
     pub axes: [u32; 3],
-    /// `MIEN_ROTATION_XYZ` ...
+    /// `MIEN_ROTATION_SEQUENCE_XYZ` ...
     pub rotation_sequence: u32,
     pub rotation_signs: [i32; 3],
     /// Length of a control row: raw, PSD, ML, RBF, in this order.
     pub control_count: u32,
     /// Length of a row of joint outputs: 9 or 10 per joint.
     pub joint_value_count: u32,
-    /// `MIEN_OUTPUT_...`
-    pub rotation: u32,
+    /// `MIEN_ROTATION_OUTPUT_...`
+    pub rotation_output: u32,
     /// `MIEN_STORAGE_...`
     pub storage: u32,
+    /// `MIEN_ARITHMETIC_...`
+    pub arithmetic: u32,
     /// Memory of the rig; with its file if it was opened from one.
     pub rig_bytes: u64,
     /// Memory of each instance.
@@ -790,7 +819,7 @@ impl Default for MienRigInfo {
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
         let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>() as u32;
+        zero.struct_size = size_of::<Self>();
         zero
     }
 }
@@ -798,18 +827,16 @@ impl Default for MienRigInfo {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienBakedDesc {
-    pub struct_size: u32,
+    pub struct_size: usize,
     /// `MIEN_ISA_...`, as in MienRigDesc.
     pub isa: u32,
     /// `MIEN_FILE_...`; of no meaning for memory.
     pub file_access: u32,
     /// `MIEN_BAKED_CHECK_...`
     pub check: u32,
-    pub allocator: *const MienAllocator,
     /// `MIEN_REUSE_...`
     pub reuse: u32,
-    /// 0.
-    pub reserved: u32,
+    pub allocator: *const MienAllocator,
 }
 
 impl Default for MienBakedDesc {
@@ -817,7 +844,7 @@ impl Default for MienBakedDesc {
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
         let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>() as u32;
+        zero.struct_size = size_of::<Self>();
         zero
     }
 }
@@ -826,7 +853,8 @@ impl Default for MienBakedDesc {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienRigStatistics {
-    pub struct_size: u32,
+    pub struct_size: usize,
+    pub lod: u32,
     /// Correctives computed.
     pub psd_count: u32,
     /// Joints that exist at this LOD.
@@ -837,14 +865,14 @@ pub struct MienRigStatistics {
     pub blend_shape_count: u32,
     /// Rows of the animated map table.
     pub animated_map_row_count: u32,
-    /// Of the joint matrix: 8 per piece of a column, pieces of zeros not counted.
-    pub joint_entry_count: u64,
-    /// Of the joint matrix, if every control is active: those of controls that are 0 are not read.
-    pub joint_byte_count: u64,
     /// Solvers that the LOD lists.
     pub rbf_solver_count: u32,
     /// Joints represented by quaternions.
     pub quaternion_joint_count: u32,
+    /// Of the joint matrix: 8 per block, blocks of zeros not counted.
+    pub joint_entry_count: u64,
+    /// Of the joint matrix, if every control is active: those of controls that are 0 are not read.
+    pub joint_byte_count: u64,
 }
 
 impl Default for MienRigStatistics {
@@ -852,7 +880,24 @@ impl Default for MienRigStatistics {
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
         let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>() as u32;
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienInstanceDesc {
+    pub struct_size: usize,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienInstanceDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
         zero
     }
 }
@@ -862,14 +907,16 @@ impl Default for MienRigStatistics {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienInstanceStatistics {
-    pub struct_size: u32,
+    pub struct_size: usize,
     /// Of the last evaluation.
     pub lod: u32,
-    /// Of the control row: raw, PSD, ML and RBF controls that are not 0.
+    /// Of the control row: raw, PSD, ML and RBF controls.
+    pub control_count: u32,
+    /// Controls that are not 0.
     pub active_control_count: u32,
     /// Columns of the joint matrix that they drive at this LOD.
     pub joint_column_count: u32,
-    /// Of these columns; 8 per piece, as in MienRigStatistics.
+    /// Of these columns; 8 per block, as in MienRigStatistics.
     pub joint_entry_count: u64,
     /// Of these entries: at most MienRigStatistics.`joint_byte_count`.
     pub joint_byte_count: u64,
@@ -880,7 +927,28 @@ impl Default for MienInstanceStatistics {
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
         let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>() as u32;
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienBatchDesc {
+    pub struct_size: usize,
+    /// Instances per call: 1 to 2^20; 0 means 32.
+    pub capacity: u32,
+    /// At once, each with scratch memory of its own; 0 means 1: for calls without threads.
+    pub tasks: u32,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienBatchDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
         zero
     }
 }
@@ -888,7 +956,7 @@ impl Default for MienInstanceStatistics {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienDeformerDesc {
-    pub struct_size: u32,
+    pub struct_size: usize,
     /// `MIEN_ISA_...`; here `MIEN_ISA_BEST` means that of the rig.
     pub isa: u32,
     /// `MIEN_COMPOSE_...`
@@ -897,7 +965,6 @@ pub struct MienDeformerDesc {
     pub weights: u32,
     /// `MIEN_NORMALS_...`: of calls that leave the choice open.
     pub normals: u32,
-    pub reserved: u32,
     pub allocator: *const MienAllocator,
 }
 
@@ -906,7 +973,7 @@ impl Default for MienDeformerDesc {
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
         let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>() as u32;
+        zero.struct_size = size_of::<Self>();
         zero
     }
 }
@@ -914,7 +981,7 @@ impl Default for MienDeformerDesc {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienDeformerInfo {
-    pub struct_size: u32,
+    pub struct_size: usize,
     /// `MIEN_ISA_...` in use.
     pub isa: u32,
     /// `MIEN_COMPOSE_...`
@@ -928,11 +995,10 @@ pub struct MienDeformerInfo {
     pub channel_count: u32,
     /// As in the rig, with its names: `MIEN_KIND_MESH`.
     pub mesh_count: u32,
-    pub reserved: u32,
     /// Memory of the deformer.
     pub deformer_bytes: u64,
-    /// Memory of a pose with room for all meshes.
-    pub pose_bytes: u64,
+    /// Memory of a deformer instance with room for all meshes.
+    pub instance_bytes: u64,
 }
 
 impl Default for MienDeformerInfo {
@@ -940,7 +1006,7 @@ impl Default for MienDeformerInfo {
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
         let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>() as u32;
+        zero.struct_size = size_of::<Self>();
         zero
     }
 }
@@ -949,7 +1015,7 @@ impl Default for MienDeformerInfo {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienMesh {
-    pub struct_size: u32,
+    pub struct_size: usize,
     pub position_count: u32,
     pub vertex_count: u32,
     pub triangle_count: u32,
@@ -958,7 +1024,7 @@ pub struct MienMesh {
     /// Blend shape targets.
     pub target_count: u32,
     /// Over all targets.
-    pub delta_count: u64,
+    pub delta_count: u32,
     /// Bit l: LOD l shows this mesh.
     pub lods: u64,
     /// X y z per position.
@@ -973,7 +1039,7 @@ pub struct MienMesh {
     /// first.
     pub triangles: MienIndex32View,
     /// Channel of each target, in file order.
-    pub target_channels: MienIndexView,
+    pub target_channels: MienIndex16View,
 }
 
 impl Default for MienMesh {
@@ -981,7 +1047,7 @@ impl Default for MienMesh {
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
         let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>() as u32;
+        zero.struct_size = size_of::<Self>();
         zero
     }
 }
@@ -989,8 +1055,7 @@ impl Default for MienMesh {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienDeformerInstanceDesc {
-    pub struct_size: u32,
-    pub reserved: u32,
+    pub struct_size: usize,
     /// Room for the meshes that these LODs show: bit l is LOD l. 0: for all meshes. A LOD that is
     /// not there counts for nothing.
     pub lods: u64,
@@ -1002,7 +1067,7 @@ impl Default for MienDeformerInstanceDesc {
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
         let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>() as u32;
+        zero.struct_size = size_of::<Self>();
         zero
     }
 }
@@ -1018,9 +1083,16 @@ extern "C" {
     /// The system of an engine or tool: maya, unreal, unreal-mesh (whose characters look along y),
     /// unity, godot, blender, gltf, opengl, directx, houdini. Axes, units, winding and signs are
     /// those that a consumer there works in; the sequence is the one of its Euler angles, to be
-    /// used by setting `rotation_rule`, which is `MIEN_ROTATIONS_CARRIED`. `MIEN_ERROR_NAME` for
-    /// other names. `name` needs no terminator.
-    pub fn mien_coordinate_system_named(name: *const c_char, name_count: usize, out_system: *mut MienCoordinateSystem) -> MienStatus;
+    /// used by setting `rotation_rule`, which is `MIEN_ROTATION_RULE_CARRIED`. `MIEN_ERROR_NAME`
+    /// for other names.
+    pub fn mien_coordinate_system_find(name: *const c_char, out_system: *mut MienCoordinateSystem) -> MienStatus;
+
+    /// The system of an engine or tool: maya, unreal, unreal-mesh (whose characters look along y),
+    /// unity, godot, blender, gltf, opengl, directx, houdini. Axes, units, winding and signs are
+    /// those that a consumer there works in; the sequence is the one of its Euler angles, to be
+    /// used by setting `rotation_rule`, which is `MIEN_ROTATION_RULE_CARRIED`. `MIEN_ERROR_NAME`
+    /// for other names.
+    pub fn mien_coordinate_system_find_n(name: *const c_char, name_count: usize, out_system: *mut MienCoordinateSystem) -> MienStatus;
 
     /// The names, from index 0 on; `MIEN_ERROR_INDEX` past the last.
     pub fn mien_coordinate_system_name(index: u32, out_name: *mut MienStringView) -> MienStatus;
@@ -1042,11 +1114,17 @@ extern "C" {
 
     pub fn mien_dna_layer(dna: *const MienDna, index: u32, out_layer: *mut MienDnaLayer) -> MienStatus;
 
-    /// `path` is terminated. `MIEN_ERROR_NAME` tells the part of it that is not there.
+    /// `MIEN_ERROR_NAME` tells the part of the path that is not there.
     pub fn mien_dna_field(dna: *const MienDna, path: *const c_char, out_field: *mut MienDnaField, error: *mut MienError) -> MienStatus;
 
+    /// `MIEN_ERROR_NAME` tells the part of the path that is not there.
+    pub fn mien_dna_field_n(dna: *const MienDna, path: *const c_char, path_count: usize, out_field: *mut MienDnaField, error: *mut MienError) -> MienStatus;
+
     /// Name of field `index` of the record at `path` ("" for the layers themselves).
-    pub fn mien_dna_field_name(dna: *const MienDna, path: *const c_char, index: u32, out_name: *mut MienStringView, error: *mut MienError) -> MienStatus;
+    pub fn mien_dna_child_name(dna: *const MienDna, path: *const c_char, index: u32, out_name: *mut MienStringView, error: *mut MienError) -> MienStatus;
+
+    /// Name of field `index` of the record at `path` ("" for the layers themselves).
+    pub fn mien_dna_child_name_n(dna: *const MienDna, path: *const c_char, path_count: usize, index: u32, out_name: *mut MienStringView, error: *mut MienError) -> MienStatus;
 
     /// Copies `count` elements from `first` on. `out` has room for them. Integers of any width
     /// widen; reading a float field as integers (or the other way round) is
@@ -1056,10 +1134,23 @@ extern "C" {
     /// Copies `count` elements from `first` on. `out` has room for them. Integers of any width
     /// widen; reading a float field as integers (or the other way round) is
     /// `MIEN_ERROR_INVALID_ARGUMENT`, a range past the end `MIEN_ERROR_INDEX`.
+    pub fn mien_dna_read_floats_n(dna: *const MienDna, path: *const c_char, path_count: usize, first: u64, count: u64, out: *mut f32, error: *mut MienError) -> MienStatus;
+
+    /// Copies `count` elements from `first` on. `out` has room for them. Integers of any width
+    /// widen; reading a float field as integers (or the other way round) is
+    /// `MIEN_ERROR_INVALID_ARGUMENT`, a range past the end `MIEN_ERROR_INDEX`.
     pub fn mien_dna_read_integers(dna: *const MienDna, path: *const c_char, first: u64, count: u64, out: *mut i64, error: *mut MienError) -> MienStatus;
+
+    /// Copies `count` elements from `first` on. `out` has room for them. Integers of any width
+    /// widen; reading a float field as integers (or the other way round) is
+    /// `MIEN_ERROR_INVALID_ARGUMENT`, a range past the end `MIEN_ERROR_INDEX`.
+    pub fn mien_dna_read_integers_n(dna: *const MienDna, path: *const c_char, path_count: usize, first: u64, count: u64, out: *mut i64, error: *mut MienError) -> MienStatus;
 
     /// Points into the file: valid until `mien_dna_close()`.
     pub fn mien_dna_read_string(dna: *const MienDna, path: *const c_char, out_string: *mut MienStringView, error: *mut MienError) -> MienStatus;
+
+    /// Points into the file: valid until `mien_dna_close()`.
+    pub fn mien_dna_read_string_n(dna: *const MienDna, path: *const c_char, path_count: usize, out_string: *mut MienStringView, error: *mut MienError) -> MienStatus;
 
     /// Writes a canonical file: the same bytes that were read if the file was canonical and
     /// everything was loaded; layers that were not loaded are written empty. Goes to a temporary
@@ -1076,13 +1167,13 @@ extern "C" {
     /// the last one says how many more there are), and 1000 in all. Returns `MIEN_OK` if the file
     /// could be examined, whatever was found. The file is read, not mapped, so it may change
     /// meanwhile.
-    pub fn mien_report_create_file(path: *const c_char, allocator: *const MienAllocator, out_report: *mut *mut MienReport, error: *mut MienError) -> MienStatus;
+    pub fn mien_dna_validate_file(path: *const c_char, desc: *const MienValidateDesc, out_report: *mut *mut MienReport, error: *mut MienError) -> MienStatus;
 
     /// Checks a whole file and lists every finding: at most 32 for one field (of cross references
     /// the last one says how many more there are), and 1000 in all. Returns `MIEN_OK` if the file
     /// could be examined, whatever was found. The file is read, not mapped, so it may change
     /// meanwhile.
-    pub fn mien_report_create_memory(bytes: *const c_void, size: usize, allocator: *const MienAllocator, out_report: *mut *mut MienReport, error: *mut MienError) -> MienStatus;
+    pub fn mien_dna_validate_memory(bytes: *const c_void, size: usize, desc: *const MienValidateDesc, out_report: *mut *mut MienReport, error: *mut MienError) -> MienStatus;
 
     /// Checks a whole file and lists every finding: at most 32 for one field (of cross references
     /// the last one says how many more there are), and 1000 in all. Returns `MIEN_OK` if the file
@@ -1145,36 +1236,37 @@ extern "C" {
     /// Kinds without names give "".
     pub fn mien_rig_name(rig: *const MienRig, kind: u32, index: u32, out_name: *mut MienStringView) -> MienStatus;
 
-    /// Exact match, in O(log n); of equal names the first. `name` needs no terminator.
-    /// `MIEN_ERROR_NAME` if there is none.
-    pub fn mien_rig_find(rig: *const MienRig, kind: u32, name: *const c_char, name_count: usize, out_index: *mut u32) -> MienStatus;
+    /// Exact match, in O(log n); of equal names the first. `MIEN_ERROR_NAME` if there is none.
+    pub fn mien_rig_find(rig: *const MienRig, kind: u32, name: *const c_char, out_index: *mut u32) -> MienStatus;
+
+    /// Exact match, in O(log n); of equal names the first. `MIEN_ERROR_NAME` if there is none.
+    pub fn mien_rig_find_n(rig: *const MienRig, kind: u32, name: *const c_char, name_count: usize, out_index: *mut u32) -> MienStatus;
 
     /// Which joints, channels, maps, meshes or RBF solvers exist at a LOD, in file order. Other
     /// kinds: `MIEN_ERROR_INVALID_ARGUMENT`.
-    pub fn mien_rig_lod_indices(rig: *const MienRig, kind: u32, lod: u32, out_indices: *mut MienIndexView) -> MienStatus;
+    pub fn mien_rig_lod_indices(rig: *const MienRig, kind: u32, lod: u32, out_indices: *mut MienIndex16View) -> MienStatus;
 
     /// Indices into the joint outputs that evaluation may change at a LOD, ascending: all others
     /// keep their initial value (0, or 1 for the w of a quaternion).
-    pub fn mien_rig_variable_joint_values(rig: *const MienRig, lod: u32, out_indices: *mut MienIndexView) -> MienStatus;
+    pub fn mien_rig_variable_joint_values(rig: *const MienRig, lod: u32, out_indices: *mut MienIndex16View) -> MienStatus;
 
     /// Parent of each joint; a root is its own parent.
-    pub fn mien_rig_joint_parents(rig: *const MienRig, out_parents: *mut MienIndexView) -> MienStatus;
+    pub fn mien_rig_joint_parents(rig: *const MienRig, out_parents: *mut MienIndex16View) -> MienStatus;
 
     /// Neutral pose in the layout of the joint outputs, relative to the parent: translation in
     /// translation units, rotation as angles in rotation units or as a quaternion, scale 1.
     pub fn mien_rig_neutral_joint_values(rig: *const MienRig, out_values: *mut MienFloatView) -> MienStatus;
 
     /// The controls whose product drives a corrective, as indices into the control row.
-    pub fn mien_rig_psd_inputs(rig: *const MienRig, psd: u32, out_controls: *mut MienIndexView) -> MienStatus;
+    pub fn mien_rig_psd_inputs(rig: *const MienRig, psd: u32, out_controls: *mut MienIndex16View) -> MienStatus;
 
     /// Value each raw control starts with: 0, or 1 for the w of a quaternion input.
     pub fn mien_rig_initial_raw_controls(rig: *const MienRig, out_values: *mut MienFloatView) -> MienStatus;
 
     pub fn mien_rig_statistics(rig: *const MienRig, lod: u32, out_statistics: *mut MienRigStatistics) -> MienStatus;
 
-    /// One character in its initial state. `allocator` NULL: the heap. One allocation of
-    /// MienRigInfo.`instance_bytes`.
-    pub fn mien_instance_create(rig: *const MienRig, allocator: *const MienAllocator, out_instance: *mut *mut MienInstance, error: *mut MienError) -> MienStatus;
+    /// One character in its initial state. One allocation of MienRigInfo.`instance_bytes`.
+    pub fn mien_instance_create(rig: *const MienRig, desc: *const MienInstanceDesc, out_instance: *mut *mut MienInstance, error: *mut MienError) -> MienStatus;
 
     pub fn mien_instance_destroy(instance: *mut MienInstance);
 
@@ -1204,7 +1296,7 @@ extern "C" {
     ///
     /// ```text
     /// controls      the whole control row: raw, PSD, ML, RBF
-    /// joints        9 or 10 per joint, as MIEN_OUTPUT_... says: deltas from the neutral pose.
+    /// joints        9 or 10 per joint, as MIEN_ROTATION_OUTPUT_... says: deltas from the neutral pose.
     ///               Translation, angles and scale are added to it; with quaternions the rotation is
     ///               the product neutral * delta (the delta turns first)
     /// blend shapes  one weight per channel
@@ -1217,7 +1309,7 @@ extern "C" {
     ///
     /// ```text
     /// controls      the whole control row: raw, PSD, ML, RBF
-    /// joints        9 or 10 per joint, as MIEN_OUTPUT_... says: deltas from the neutral pose.
+    /// joints        9 or 10 per joint, as MIEN_ROTATION_OUTPUT_... says: deltas from the neutral pose.
     ///               Translation, angles and scale are added to it; with quaternions the rotation is
     ///               the product neutral * delta (the delta turns first)
     /// blend shapes  one weight per channel
@@ -1230,7 +1322,7 @@ extern "C" {
     ///
     /// ```text
     /// controls      the whole control row: raw, PSD, ML, RBF
-    /// joints        9 or 10 per joint, as MIEN_OUTPUT_... says: deltas from the neutral pose.
+    /// joints        9 or 10 per joint, as MIEN_ROTATION_OUTPUT_... says: deltas from the neutral pose.
     ///               Translation, angles and scale are added to it; with quaternions the rotation is
     ///               the product neutral * delta (the delta turns first)
     /// blend shapes  one weight per channel
@@ -1243,7 +1335,7 @@ extern "C" {
     ///
     /// ```text
     /// controls      the whole control row: raw, PSD, ML, RBF
-    /// joints        9 or 10 per joint, as MIEN_OUTPUT_... says: deltas from the neutral pose.
+    /// joints        9 or 10 per joint, as MIEN_ROTATION_OUTPUT_... says: deltas from the neutral pose.
     ///               Translation, angles and scale are added to it; with quaternions the rotation is
     ///               the product neutral * delta (the delta turns first)
     /// blend shapes  one weight per channel
@@ -1256,7 +1348,7 @@ extern "C" {
     ///
     /// ```text
     /// controls      the whole control row: raw, PSD, ML, RBF
-    /// joints        9 or 10 per joint, as MIEN_OUTPUT_... says: deltas from the neutral pose.
+    /// joints        9 or 10 per joint, as MIEN_ROTATION_OUTPUT_... says: deltas from the neutral pose.
     ///               Translation, angles and scale are added to it; with quaternions the rotation is
     ///               the product neutral * delta (the delta turns first)
     /// blend shapes  one weight per channel
@@ -1269,7 +1361,7 @@ extern "C" {
     ///
     /// ```text
     /// controls      the whole control row: raw, PSD, ML, RBF
-    /// joints        9 or 10 per joint, as MIEN_OUTPUT_... says: deltas from the neutral pose.
+    /// joints        9 or 10 per joint, as MIEN_ROTATION_OUTPUT_... says: deltas from the neutral pose.
     ///               Translation, angles and scale are added to it; with quaternions the rotation is
     ///               the product neutral * delta (the delta turns first)
     /// blend shapes  one weight per channel
@@ -1282,7 +1374,7 @@ extern "C" {
     ///
     /// ```text
     /// controls      the whole control row: raw, PSD, ML, RBF
-    /// joints        9 or 10 per joint, as MIEN_OUTPUT_... says: deltas from the neutral pose.
+    /// joints        9 or 10 per joint, as MIEN_ROTATION_OUTPUT_... says: deltas from the neutral pose.
     ///               Translation, angles and scale are added to it; with quaternions the rotation is
     ///               the product neutral * delta (the delta turns first)
     /// blend shapes  one weight per channel
@@ -1314,15 +1406,13 @@ extern "C" {
     /// the same LOD (after a change of LOD: 0).
     pub fn mien_rig_evaluate_stages(rig: *const MienRig, instance: *mut MienInstance, lod: u32, stages: u32) -> MienStatus;
 
-    /// For up to `capacity` instances per call (1 to 2^20), in up to `tasks` tasks at once (0
-    /// means 1: for calls without threads); each task takes scratch memory of its own. One
-    /// allocation; the rig may be destroyed before the batch.
-    pub fn mien_batch_create(rig: *const MienRig, capacity: u32, tasks: u32, allocator: *const MienAllocator, out_batch: *mut *mut MienBatch, error: *mut MienError) -> MienStatus;
+    /// One allocation; the rig may be destroyed before the batch.
+    pub fn mien_batch_create(rig: *const MienRig, desc: *const MienBatchDesc, out_batch: *mut *mut MienBatch, error: *mut MienError) -> MienStatus;
 
     pub fn mien_batch_destroy(batch: *mut MienBatch);
 
     /// Bytes of such a batch, asked before it is made.
-    pub fn mien_batch_bytes(rig: *const MienRig, capacity: u32, tasks: u32, out_bytes: *mut u64) -> MienStatus;
+    pub fn mien_batch_bytes(rig: *const MienRig, desc: *const MienBatchDesc, out_bytes: *mut u64) -> MienStatus;
 
     /// Evaluates stages (`MIEN_STAGE_...`, usually all) of `count` different instances of the
     /// batch's rig, each at its own LOD: the same bits as `mien_rig_evaluate_stages()` of each,
@@ -1348,16 +1438,15 @@ extern "C" {
     /// Packs the geometry of `dna`, which may be closed afterwards, and keeps the rig's memory
     /// alive (the rig may be destroyed). `dna` is the one that the rig was made of, or another
     /// opening of the same file with the same LODs: other numbers or names of joints, channels or
-    /// meshes are `MIEN_ERROR_MISMATCH`. It needs `MIEN_LAYER_GEOMETRY` (or
-    /// ...\_WITHOUT\_BLEND\_SHAPES: then there are no targets), else `MIEN_ERROR_DNA_LAYER`. A
-    /// position may have any number of influences up to 65535 (`MIEN_ERROR_DNA_LIMIT`); those of
-    /// weight 0 are dropped. Faces of fewer than three corners are left out. Meshes without faces,
-    /// weights, normals, texture coordinates or anything at all are accepted: normals that the
-    /// file lacks are recomputed from the faces, texture coordinates are 0. Which side of a face
-    /// is outside the stored normals tell; without them the file's axes and winding do.
-    /// `MIEN_ERROR_DNA_VALUE`: joints that descend from themselves; positions, deltas or weights
-    /// that are not finite (the message names mesh and position). Takes some memory beyond the
-    /// block for the time of the call.
+    /// meshes are `MIEN_ERROR_MISMATCH`. It needs `MIEN_LAYER_GEOMETRY`, else
+    /// `MIEN_ERROR_DNA_LAYER`. A position may have any number of influences up to 65535
+    /// (`MIEN_ERROR_DNA_LIMIT`); those of weight 0 are dropped. Faces of fewer than three corners
+    /// are left out. Meshes without faces, weights, normals, texture coordinates or anything at
+    /// all are accepted: normals that the file lacks are recomputed from the faces, texture
+    /// coordinates are 0. Which side of a face is outside the stored normals tell; without them
+    /// the file's axes and winding do. `MIEN_ERROR_DNA_VALUE`: joints that descend from
+    /// themselves; positions, deltas or weights that are not finite (the message names mesh and
+    /// position). Takes some memory beyond the block for the time of the call.
     pub fn mien_deformer_create(dna: *const MienDna, rig: *const MienRig, desc: *const MienDeformerDesc, out_deformer: *mut *mut MienDeformer, error: *mut MienError) -> MienStatus;
 
     /// Memory is released when the last pose is gone too: poses go on working.
@@ -1369,7 +1458,7 @@ extern "C" {
 
     /// Joints that hold a position and their weights, as they are used: as many as each other,
     /// possibly none. Views live as long as the deformer.
-    pub fn mien_deformer_influences(deformer: *const MienDeformer, mesh: u32, position: u32, out_joints: *mut MienIndexView, out_weights: *mut MienFloatView) -> MienStatus;
+    pub fn mien_deformer_influences(deformer: *const MienDeformer, mesh: u32, position: u32, out_joints: *mut MienIndex16View, out_weights: *mut MienFloatView) -> MienStatus;
 
     /// Writes x y z for each position of the mesh: how far a target moves it at channel weight 1
     /// (0 where it does not). `count` is the room in `out_deltas`, 3 \* `position_count` floats or
@@ -1388,57 +1477,57 @@ extern "C" {
 
     /// A pose in neutral: matrices, positions and normals are those of the deformer. It keeps the
     /// deformer's memory alive. One allocation.
-    pub fn mien_deformer_instance_create(deformer: *const MienDeformer, desc: *const MienDeformerInstanceDesc, out_pose: *mut *mut MienDeformerInstance, error: *mut MienError) -> MienStatus;
+    pub fn mien_deformer_instance_create(deformer: *const MienDeformer, desc: *const MienDeformerInstanceDesc, out_deformer_instance: *mut *mut MienDeformerInstance, error: *mut MienError) -> MienStatus;
 
-    pub fn mien_deformer_instance_destroy(pose: *mut MienDeformerInstance);
+    pub fn mien_deformer_instance_destroy(deformer_instance: *mut MienDeformerInstance);
 
     /// Takes over joint values and channel weights of the instance's last evaluation, and computes
     /// the matrices of all joints; meshes follow with `mien_deformer_instance_deform()`. The
     /// instance is one of the rig that the deformer was made with, else `MIEN_ERROR_MISMATCH`.
     /// Allocates nothing, locks nothing. Values that are not finite give results that are not.
-    pub fn mien_deformer_instance_update(pose: *mut MienDeformerInstance, instance: *const MienInstance) -> MienStatus;
+    pub fn mien_deformer_instance_update(deformer_instance: *mut MienDeformerInstance, instance: *const MienInstance) -> MienStatus;
 
     /// The same from arrays: joint values as `mien_instance_joints()` gives them, and one weight
     /// per channel. `joint_values` may be NULL, with count 0: no deltas. `channel_weights` may be
     /// NULL, with count 0: all 0. Any other count than that of the rig is
     /// `MIEN_ERROR_INVALID_ARGUMENT`.
-    pub fn mien_deformer_instance_update_from_values(pose: *mut MienDeformerInstance, joint_values: *const f32, joint_value_count: usize, channel_weights: *const f32, channel_weight_count: usize) -> MienStatus;
+    pub fn mien_deformer_instance_update_from_values(deformer_instance: *mut MienDeformerInstance, joint_values: *const f32, joint_value_count: usize, channel_weights: *const f32, channel_weight_count: usize) -> MienStatus;
 
     /// Matrices of the last update, 16 floats per joint, laid out as
     /// `mien_deformer_bind_matrices()` says: model matrices, and skin matrices (for skinning
     /// elsewhere, as on a GPU). The views stay valid, their contents change with each update.
-    pub fn mien_deformer_instance_joint_matrices(pose: *const MienDeformerInstance, out_matrices: *mut MienFloatView) -> MienStatus;
+    pub fn mien_deformer_instance_joint_matrices(deformer_instance: *const MienDeformerInstance, out_matrices: *mut MienFloatView) -> MienStatus;
 
     /// Matrices of the last update, 16 floats per joint, laid out as
     /// `mien_deformer_bind_matrices()` says: model matrices, and skin matrices (for skinning
     /// elsewhere, as on a GPU). The views stay valid, their contents change with each update.
-    pub fn mien_deformer_instance_skin_matrices(pose: *const MienDeformerInstance, out_matrices: *mut MienFloatView) -> MienStatus;
+    pub fn mien_deformer_instance_skin_matrices(deformer_instance: *const MienDeformerInstance, out_matrices: *mut MienFloatView) -> MienStatus;
 
     /// Writes the local transforms of the last update, relative to the parent, 10 floats per
     /// joint: tx ty tz qx qy qz qw sx sy sz, the quaternion of unit length. `count` is the room in
     /// `out_transforms`.
-    pub fn mien_deformer_instance_local_transforms(pose: *const MienDeformerInstance, out_transforms: *mut f32, count: usize) -> MienStatus;
+    pub fn mien_deformer_instance_local_transforms(deformer_instance: *const MienDeformerInstance, out_transforms: *mut f32, count: usize) -> MienStatus;
 
     /// Positions of one mesh as of the last update, and its normals (`MIEN_NORMALS_...`). On this
     /// thread, but for meshes of 16384 positions and more in tasks of about 2048, if there is
     /// somebody to run them: `parallel` may be NULL. The result has the same bits. Allocates
     /// nothing, locks nothing. `MIEN_ERROR_LOD`: the pose has no room for this mesh.
-    pub fn mien_deformer_instance_deform(pose: *mut MienDeformerInstance, mesh: u32, normals: u32, parallel: *const MienParallelFor) -> MienStatus;
+    pub fn mien_deformer_instance_deform(deformer_instance: *mut MienDeformerInstance, mesh: u32, normals: u32, parallel: *const MienParallelFor) -> MienStatus;
 
     /// The same mesh of several different poses of one deformer: the same bits as one after the
     /// other, but each piece of the mesh is fetched once, and the size that counts is that of all
     /// of them together; `parallel` may be NULL. A pose that comes up twice is
     /// `MIEN_ERROR_INVALID_ARGUMENT`, one of another deformer `MIEN_ERROR_MISMATCH`; then none is
     /// deformed.
-    pub fn mien_deformer_instance_deform_batch(poses: *const *mut MienDeformerInstance, pose_count: usize, mesh: u32, normals: u32, parallel: *const MienParallelFor) -> MienStatus;
+    pub fn mien_deformer_instance_deform_batch(deformer_instances: *const *mut MienDeformerInstance, count: usize, mesh: u32, normals: u32, parallel: *const MienParallelFor) -> MienStatus;
 
     /// Results of the last `mien_deformer_instance_deform()` of the mesh: x y z per position, x y
     /// z per vertex. The views stay valid, their contents change with each call. A mesh without
     /// room: `MIEN_ERROR_LOD`.
-    pub fn mien_deformer_instance_positions(pose: *const MienDeformerInstance, mesh: u32, out_positions: *mut MienFloatView) -> MienStatus;
+    pub fn mien_deformer_instance_positions(deformer_instance: *const MienDeformerInstance, mesh: u32, out_positions: *mut MienFloatView) -> MienStatus;
 
     /// Results of the last `mien_deformer_instance_deform()` of the mesh: x y z per position, x y
     /// z per vertex. The views stay valid, their contents change with each call. A mesh without
     /// room: `MIEN_ERROR_LOD`.
-    pub fn mien_deformer_instance_normals(pose: *const MienDeformerInstance, mesh: u32, out_normals: *mut MienFloatView) -> MienStatus;
+    pub fn mien_deformer_instance_normals(deformer_instance: *const MienDeformerInstance, mesh: u32, out_normals: *mut MienFloatView) -> MienStatus;
 }

@@ -20,9 +20,9 @@ fn mien_error() {
     assert_eq!(size_of::<S>(), 256);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, status), 4);
     assert_eq!(offset!(S, byte_offset), 8);
-    assert_eq!(offset!(S, message), 16);
+    assert_eq!(offset!(S, status), 16);
+    assert_eq!(offset!(S, message), 20);
 }
 
 #[test]
@@ -72,8 +72,8 @@ fn mien_mutable_float_view() {
 }
 
 #[test]
-fn mien_index_view() {
-    use mien_sys::MienIndexView as S;
+fn mien_index16_view() {
+    use mien_sys::MienIndex16View as S;
     assert_eq!(size_of::<S>(), 16);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, data), 0);
@@ -92,69 +92,72 @@ fn mien_index32_view() {
 #[test]
 fn mien_coordinate_system() {
     use mien_sys::MienCoordinateSystem as S;
-    assert_eq!(size_of::<S>(), 48);
-    assert_eq!(align_of::<S>(), 4);
+    assert_eq!(size_of::<S>(), 56);
+    assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, axes), 4);
-    assert_eq!(offset!(S, translation_unit), 16);
-    assert_eq!(offset!(S, rotation_unit), 20);
-    assert_eq!(offset!(S, rotation_rule), 24);
-    assert_eq!(offset!(S, rotation_sequence), 28);
-    assert_eq!(offset!(S, rotation_signs), 32);
-    assert_eq!(offset!(S, face_winding), 44);
+    assert_eq!(offset!(S, axes), 8);
+    assert_eq!(offset!(S, translation_unit), 20);
+    assert_eq!(offset!(S, rotation_unit), 24);
+    assert_eq!(offset!(S, rotation_rule), 28);
+    assert_eq!(offset!(S, rotation_sequence), 32);
+    assert_eq!(offset!(S, rotation_signs), 36);
+    assert_eq!(offset!(S, face_winding), 48);
+    assert_eq!(offset!(S, reserved), 52);
 }
 
 #[test]
 fn mien_dna_desc() {
     use mien_sys::MienDnaDesc as S;
-    assert_eq!(size_of::<S>(), 40);
+    assert_eq!(size_of::<S>(), 48);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, layers), 4);
-    assert_eq!(offset!(S, unknown_layers), 8);
-    assert_eq!(offset!(S, file_access), 12);
-    assert_eq!(offset!(S, lods), 16);
-    assert_eq!(offset!(S, allocator), 24);
+    assert_eq!(offset!(S, layers), 8);
+    assert_eq!(offset!(S, skip_blend_shape_targets), 12);
+    assert_eq!(offset!(S, unknown_layers), 16);
+    assert_eq!(offset!(S, file_access), 20);
+    assert_eq!(offset!(S, lods), 24);
     assert_eq!(offset!(S, system), 32);
+    assert_eq!(offset!(S, allocator), 40);
 }
 
 #[test]
 fn mien_dna_info() {
     use mien_sys::MienDnaInfo as S;
-    assert_eq!(size_of::<S>(), 152);
+    assert_eq!(size_of::<S>(), 160);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, generation), 4);
-    assert_eq!(offset!(S, version), 8);
-    assert_eq!(offset!(S, layers), 12);
-    assert_eq!(offset!(S, file_bytes), 16);
-    assert_eq!(offset!(S, memory_bytes), 24);
-    assert_eq!(offset!(S, mapped), 32);
-    assert_eq!(offset!(S, layer_count), 36);
-    assert_eq!(offset!(S, translation_unit), 40);
-    assert_eq!(offset!(S, rotation_unit), 44);
-    assert_eq!(offset!(S, axes), 48);
-    assert_eq!(offset!(S, rotation_sequence), 60);
-    assert_eq!(offset!(S, rotation_signs), 64);
-    assert_eq!(offset!(S, face_winding), 76);
-    assert_eq!(offset!(S, lod_count), 80);
-    assert_eq!(offset!(S, max_lod), 84);
-    assert_eq!(offset!(S, gui_control_count), 88);
-    assert_eq!(offset!(S, raw_control_count), 92);
-    assert_eq!(offset!(S, psd_control_count), 96);
-    assert_eq!(offset!(S, ml_control_count), 100);
-    assert_eq!(offset!(S, rbf_control_count), 104);
-    assert_eq!(offset!(S, joint_count), 108);
-    assert_eq!(offset!(S, joint_group_count), 112);
-    assert_eq!(offset!(S, blend_shape_channel_count), 116);
-    assert_eq!(offset!(S, animated_map_count), 120);
-    assert_eq!(offset!(S, mesh_count), 124);
-    assert_eq!(offset!(S, neural_network_count), 128);
-    assert_eq!(offset!(S, rbf_solver_count), 132);
-    assert_eq!(offset!(S, rbf_pose_count), 136);
-    assert_eq!(offset!(S, twist_count), 140);
-    assert_eq!(offset!(S, swing_count), 144);
-    assert_eq!(offset!(S, metadata_count), 148);
+    assert_eq!(offset!(S, generation), 8);
+    assert_eq!(offset!(S, version), 12);
+    assert_eq!(offset!(S, layers), 16);
+    assert_eq!(offset!(S, has_blend_shape_targets), 20);
+    assert_eq!(offset!(S, file_bytes), 24);
+    assert_eq!(offset!(S, memory_bytes), 32);
+    assert_eq!(offset!(S, is_mapped), 40);
+    assert_eq!(offset!(S, layer_count), 44);
+    assert_eq!(offset!(S, translation_unit), 48);
+    assert_eq!(offset!(S, rotation_unit), 52);
+    assert_eq!(offset!(S, axes), 56);
+    assert_eq!(offset!(S, rotation_sequence), 68);
+    assert_eq!(offset!(S, rotation_signs), 72);
+    assert_eq!(offset!(S, face_winding), 84);
+    assert_eq!(offset!(S, lod_count), 88);
+    assert_eq!(offset!(S, max_lod), 92);
+    assert_eq!(offset!(S, gui_control_count), 96);
+    assert_eq!(offset!(S, raw_control_count), 100);
+    assert_eq!(offset!(S, psd_control_count), 104);
+    assert_eq!(offset!(S, ml_control_count), 108);
+    assert_eq!(offset!(S, rbf_control_count), 112);
+    assert_eq!(offset!(S, joint_count), 116);
+    assert_eq!(offset!(S, joint_group_count), 120);
+    assert_eq!(offset!(S, blend_shape_channel_count), 124);
+    assert_eq!(offset!(S, animated_map_count), 128);
+    assert_eq!(offset!(S, mesh_count), 132);
+    assert_eq!(offset!(S, neural_network_count), 136);
+    assert_eq!(offset!(S, rbf_solver_count), 140);
+    assert_eq!(offset!(S, rbf_pose_count), 144);
+    assert_eq!(offset!(S, twist_count), 148);
+    assert_eq!(offset!(S, swing_count), 152);
+    assert_eq!(offset!(S, metadata_count), 156);
 }
 
 #[test]
@@ -163,14 +166,13 @@ fn mien_dna_layer() {
     assert_eq!(size_of::<S>(), 48);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, layer), 4);
-    assert_eq!(offset!(S, code), 8);
-    assert_eq!(offset!(S, version_major), 16);
-    assert_eq!(offset!(S, version_minor), 20);
+    assert_eq!(offset!(S, layer), 8);
+    assert_eq!(offset!(S, version_major), 12);
+    assert_eq!(offset!(S, version_minor), 16);
+    assert_eq!(offset!(S, is_loaded), 20);
     assert_eq!(offset!(S, byte_offset), 24);
     assert_eq!(offset!(S, byte_count), 32);
-    assert_eq!(offset!(S, loaded), 40);
-    assert_eq!(offset!(S, reserved), 44);
+    assert_eq!(offset!(S, code), 40);
 }
 
 #[test]
@@ -179,22 +181,20 @@ fn mien_dna_field() {
     assert_eq!(size_of::<S>(), 32);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, r#type), 4);
-    assert_eq!(offset!(S, count), 8);
-    assert_eq!(offset!(S, byte_offset), 16);
-    assert_eq!(offset!(S, is_array), 24);
-    assert_eq!(offset!(S, reserved), 28);
+    assert_eq!(offset!(S, r#type), 8);
+    assert_eq!(offset!(S, is_array), 12);
+    assert_eq!(offset!(S, count), 16);
+    assert_eq!(offset!(S, byte_offset), 24);
 }
 
 #[test]
 fn mien_write_desc() {
     use mien_sys::MienWriteDesc as S;
     assert_eq!(size_of::<S>(), 16);
-    assert_eq!(align_of::<S>(), 4);
+    assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, version), 4);
-    assert_eq!(offset!(S, unknown_layers), 8);
-    assert_eq!(offset!(S, reserved), 12);
+    assert_eq!(offset!(S, version), 8);
+    assert_eq!(offset!(S, unknown_layers), 12);
 }
 
 #[test]
@@ -203,12 +203,20 @@ fn mien_finding() {
     assert_eq!(size_of::<S>(), 56);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, severity), 4);
-    assert_eq!(offset!(S, status), 8);
-    assert_eq!(offset!(S, reserved), 12);
+    assert_eq!(offset!(S, severity), 8);
+    assert_eq!(offset!(S, status), 12);
     assert_eq!(offset!(S, byte_offset), 16);
     assert_eq!(offset!(S, field), 24);
     assert_eq!(offset!(S, message), 40);
+}
+
+#[test]
+fn mien_validate_desc() {
+    use mien_sys::MienValidateDesc as S;
+    assert_eq!(size_of::<S>(), 16);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, allocator), 8);
 }
 
 #[test]
@@ -217,11 +225,10 @@ fn mien_generate_desc() {
     assert_eq!(size_of::<S>(), 32);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, preset), 4);
-    assert_eq!(offset!(S, seed), 8);
-    assert_eq!(offset!(S, allocator), 16);
-    assert_eq!(offset!(S, flags), 24);
-    assert_eq!(offset!(S, reserved), 28);
+    assert_eq!(offset!(S, preset), 8);
+    assert_eq!(offset!(S, flags), 12);
+    assert_eq!(offset!(S, seed), 16);
+    assert_eq!(offset!(S, allocator), 24);
 }
 
 #[test]
@@ -230,35 +237,35 @@ fn mien_rig_desc() {
     assert_eq!(size_of::<S>(), 40);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, isa), 4);
-    assert_eq!(offset!(S, rotation), 8);
-    assert_eq!(offset!(S, ml_masks), 12);
-    assert_eq!(offset!(S, allocator), 16);
-    assert_eq!(offset!(S, storage), 24);
-    assert_eq!(offset!(S, reuse), 28);
-    assert_eq!(offset!(S, arithmetic), 32);
-    assert_eq!(offset!(S, reserved), 36);
+    assert_eq!(offset!(S, isa), 8);
+    assert_eq!(offset!(S, rotation_output), 12);
+    assert_eq!(offset!(S, ml_masks), 16);
+    assert_eq!(offset!(S, storage), 20);
+    assert_eq!(offset!(S, reuse), 24);
+    assert_eq!(offset!(S, arithmetic), 28);
+    assert_eq!(offset!(S, allocator), 32);
 }
 
 #[test]
 fn mien_rig_info() {
     use mien_sys::MienRigInfo as S;
-    assert_eq!(size_of::<S>(), 80);
+    assert_eq!(size_of::<S>(), 88);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, isa), 4);
-    assert_eq!(offset!(S, lod_count), 8);
-    assert_eq!(offset!(S, translation_unit), 12);
-    assert_eq!(offset!(S, rotation_unit), 16);
-    assert_eq!(offset!(S, axes), 20);
-    assert_eq!(offset!(S, rotation_sequence), 32);
-    assert_eq!(offset!(S, rotation_signs), 36);
-    assert_eq!(offset!(S, control_count), 48);
-    assert_eq!(offset!(S, joint_value_count), 52);
-    assert_eq!(offset!(S, rotation), 56);
-    assert_eq!(offset!(S, storage), 60);
-    assert_eq!(offset!(S, rig_bytes), 64);
-    assert_eq!(offset!(S, instance_bytes), 72);
+    assert_eq!(offset!(S, isa), 8);
+    assert_eq!(offset!(S, lod_count), 12);
+    assert_eq!(offset!(S, translation_unit), 16);
+    assert_eq!(offset!(S, rotation_unit), 20);
+    assert_eq!(offset!(S, axes), 24);
+    assert_eq!(offset!(S, rotation_sequence), 36);
+    assert_eq!(offset!(S, rotation_signs), 40);
+    assert_eq!(offset!(S, control_count), 52);
+    assert_eq!(offset!(S, joint_value_count), 56);
+    assert_eq!(offset!(S, rotation_output), 60);
+    assert_eq!(offset!(S, storage), 64);
+    assert_eq!(offset!(S, arithmetic), 68);
+    assert_eq!(offset!(S, rig_bytes), 72);
+    assert_eq!(offset!(S, instance_bytes), 80);
 }
 
 #[test]
@@ -267,42 +274,63 @@ fn mien_baked_desc() {
     assert_eq!(size_of::<S>(), 32);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, isa), 4);
-    assert_eq!(offset!(S, file_access), 8);
-    assert_eq!(offset!(S, check), 12);
-    assert_eq!(offset!(S, allocator), 16);
-    assert_eq!(offset!(S, reuse), 24);
-    assert_eq!(offset!(S, reserved), 28);
+    assert_eq!(offset!(S, isa), 8);
+    assert_eq!(offset!(S, file_access), 12);
+    assert_eq!(offset!(S, check), 16);
+    assert_eq!(offset!(S, reuse), 20);
+    assert_eq!(offset!(S, allocator), 24);
 }
 
 #[test]
 fn mien_rig_statistics() {
     use mien_sys::MienRigStatistics as S;
-    assert_eq!(size_of::<S>(), 48);
+    assert_eq!(size_of::<S>(), 56);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, psd_count), 4);
-    assert_eq!(offset!(S, joint_count), 8);
-    assert_eq!(offset!(S, joint_row_count), 12);
-    assert_eq!(offset!(S, blend_shape_count), 16);
-    assert_eq!(offset!(S, animated_map_row_count), 20);
-    assert_eq!(offset!(S, joint_entry_count), 24);
-    assert_eq!(offset!(S, joint_byte_count), 32);
-    assert_eq!(offset!(S, rbf_solver_count), 40);
-    assert_eq!(offset!(S, quaternion_joint_count), 44);
+    assert_eq!(offset!(S, lod), 8);
+    assert_eq!(offset!(S, psd_count), 12);
+    assert_eq!(offset!(S, joint_count), 16);
+    assert_eq!(offset!(S, joint_row_count), 20);
+    assert_eq!(offset!(S, blend_shape_count), 24);
+    assert_eq!(offset!(S, animated_map_row_count), 28);
+    assert_eq!(offset!(S, rbf_solver_count), 32);
+    assert_eq!(offset!(S, quaternion_joint_count), 36);
+    assert_eq!(offset!(S, joint_entry_count), 40);
+    assert_eq!(offset!(S, joint_byte_count), 48);
+}
+
+#[test]
+fn mien_instance_desc() {
+    use mien_sys::MienInstanceDesc as S;
+    assert_eq!(size_of::<S>(), 16);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, allocator), 8);
 }
 
 #[test]
 fn mien_instance_statistics() {
     use mien_sys::MienInstanceStatistics as S;
-    assert_eq!(size_of::<S>(), 32);
+    assert_eq!(size_of::<S>(), 40);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, lod), 4);
-    assert_eq!(offset!(S, active_control_count), 8);
-    assert_eq!(offset!(S, joint_column_count), 12);
-    assert_eq!(offset!(S, joint_entry_count), 16);
-    assert_eq!(offset!(S, joint_byte_count), 24);
+    assert_eq!(offset!(S, lod), 8);
+    assert_eq!(offset!(S, control_count), 12);
+    assert_eq!(offset!(S, active_control_count), 16);
+    assert_eq!(offset!(S, joint_column_count), 20);
+    assert_eq!(offset!(S, joint_entry_count), 24);
+    assert_eq!(offset!(S, joint_byte_count), 32);
+}
+
+#[test]
+fn mien_batch_desc() {
+    use mien_sys::MienBatchDesc as S;
+    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, capacity), 8);
+    assert_eq!(offset!(S, tasks), 12);
+    assert_eq!(offset!(S, allocator), 16);
 }
 
 #[test]
@@ -311,11 +339,10 @@ fn mien_deformer_desc() {
     assert_eq!(size_of::<S>(), 32);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, isa), 4);
-    assert_eq!(offset!(S, compose), 8);
-    assert_eq!(offset!(S, weights), 12);
-    assert_eq!(offset!(S, normals), 16);
-    assert_eq!(offset!(S, reserved), 20);
+    assert_eq!(offset!(S, isa), 8);
+    assert_eq!(offset!(S, compose), 12);
+    assert_eq!(offset!(S, weights), 16);
+    assert_eq!(offset!(S, normals), 20);
     assert_eq!(offset!(S, allocator), 24);
 }
 
@@ -325,17 +352,16 @@ fn mien_deformer_info() {
     assert_eq!(size_of::<S>(), 56);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, isa), 4);
-    assert_eq!(offset!(S, compose), 8);
-    assert_eq!(offset!(S, weights), 12);
-    assert_eq!(offset!(S, normals), 16);
-    assert_eq!(offset!(S, lod_count), 20);
-    assert_eq!(offset!(S, joint_count), 24);
-    assert_eq!(offset!(S, channel_count), 28);
-    assert_eq!(offset!(S, mesh_count), 32);
-    assert_eq!(offset!(S, reserved), 36);
+    assert_eq!(offset!(S, isa), 8);
+    assert_eq!(offset!(S, compose), 12);
+    assert_eq!(offset!(S, weights), 16);
+    assert_eq!(offset!(S, normals), 20);
+    assert_eq!(offset!(S, lod_count), 24);
+    assert_eq!(offset!(S, joint_count), 28);
+    assert_eq!(offset!(S, channel_count), 32);
+    assert_eq!(offset!(S, mesh_count), 36);
     assert_eq!(offset!(S, deformer_bytes), 40);
-    assert_eq!(offset!(S, pose_bytes), 48);
+    assert_eq!(offset!(S, instance_bytes), 48);
 }
 
 #[test]
@@ -344,12 +370,12 @@ fn mien_mesh() {
     assert_eq!(size_of::<S>(), 136);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, position_count), 4);
-    assert_eq!(offset!(S, vertex_count), 8);
-    assert_eq!(offset!(S, triangle_count), 12);
-    assert_eq!(offset!(S, max_influences), 16);
-    assert_eq!(offset!(S, target_count), 20);
-    assert_eq!(offset!(S, delta_count), 24);
+    assert_eq!(offset!(S, position_count), 8);
+    assert_eq!(offset!(S, vertex_count), 12);
+    assert_eq!(offset!(S, triangle_count), 16);
+    assert_eq!(offset!(S, max_influences), 20);
+    assert_eq!(offset!(S, target_count), 24);
+    assert_eq!(offset!(S, delta_count), 28);
     assert_eq!(offset!(S, lods), 32);
     assert_eq!(offset!(S, positions), 40);
     assert_eq!(offset!(S, normals), 56);
@@ -365,7 +391,6 @@ fn mien_deformer_instance_desc() {
     assert_eq!(size_of::<S>(), 24);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, reserved), 4);
     assert_eq!(offset!(S, lods), 8);
     assert_eq!(offset!(S, allocator), 16);
 }

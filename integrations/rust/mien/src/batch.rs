@@ -58,11 +58,11 @@ impl Batch {
         allocator: Option<&Allocator>,
     ) -> Result<Self> {
         let mut handle = null_mut();
-        let (count, tasks) = (index(capacity), index(tasks));
         Allocator::with(allocator, |raw| {
-            // SAFETY: a live handle.
+            let desc = Self::desc(capacity, tasks, raw);
+            // SAFETY: a live handle and a sized struct.
             checked(|error| unsafe {
-                sys::mien_batch_create(rig.raw(), count, tasks, raw, &mut handle, error)
+                sys::mien_batch_create(rig.raw(), &desc, &mut handle, error)
             })
         })?;
         Ok(Self {
@@ -77,11 +77,20 @@ impl Batch {
     /// Bytes that such a batch takes from its allocator.
     pub fn bytes(rig: &Rig, capacity: usize, tasks: usize) -> Result<u64> {
         let mut out = 0;
-        // SAFETY: a live handle.
-        check(unsafe {
-            sys::mien_batch_bytes(rig.raw(), index(capacity), index(tasks), &mut out)
-        })?;
+        let desc = Self::desc(capacity, tasks, null());
+        // SAFETY: a live handle and a sized struct.
+        check(unsafe { sys::mien_batch_bytes(rig.raw(), &desc, &mut out) })?;
         Ok(out)
+    }
+
+    fn desc(
+        capacity: usize,
+        tasks: usize,
+        allocator: *const sys::MienAllocator,
+    ) -> sys::MienBatchDesc {
+        // 0 would be the default of C.
+        let capacity = index(capacity.max(1));
+        sys::MienBatchDesc { capacity, tasks: index(tasks), allocator, ..Default::default() }
     }
 
     /// The rig whose instances it evaluates.

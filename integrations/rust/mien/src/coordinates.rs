@@ -21,7 +21,7 @@ impl CoordinateSystem {
         let mut out = sys::MienCoordinateSystem::default();
         // SAFETY: as many bytes as are told, and a sized struct.
         let status = unsafe {
-            sys::mien_coordinate_system_named(name.as_ptr().cast(), name.len(), &mut out)
+            sys::mien_coordinate_system_find_n(name.as_ptr().cast(), name.len(), &mut out)
         };
         if status == sys::MIEN_ERROR_NAME {
             let message = format!("no coordinate system is named \"{name}\"");

@@ -127,7 +127,7 @@ impl Deformer {
     /// Joints that hold a position, and their weights, as they are used: as many as each other,
     /// possibly none.
     pub fn influences(&self, mesh: usize, position: usize) -> Result<(&[u16], &[f32])> {
-        let mut joints = sys::MienIndexView::default();
+        let mut joints = sys::MienIndex16View::default();
         let mut weights = sys::MienFloatView::default();
         let (mesh, position) = (index(mesh), index(position));
         // SAFETY: a live handle; views live as long as the deformer.

@@ -116,7 +116,7 @@ impl<'bytes> Dna<'bytes> {
         let mut out = empty_string();
         checked(|error| unsafe {
             // SAFETY: a live handle and a terminated path.
-            sys::mien_dna_field_name(self.raw(), path.as_ptr(), index(field), &mut out, error)
+            sys::mien_dna_child_name(self.raw(), path.as_ptr(), index(field), &mut out, error)
         })?;
         // SAFETY: the view lives as long as the handle.
         Ok(utf8(unsafe { bytes(out) }))

@@ -108,8 +108,8 @@ pub(crate) fn describe(status: Status) -> &'static str {
 pub struct Layers(pub u32);
 
 impl Layers {
-    /// `MIEN_LAYER_ALL` in C.
-    pub const ALL: Self = Self(0);
+    /// Only in MienDnaLayer.layer.
+    pub const UNKNOWN: Self = Self(0);
     /// `MIEN_LAYER_DESCRIPTOR` in C.
     pub const DESCRIPTOR: Self = Self(1);
     /// `MIEN_LAYER_DEFINITION` in C.
@@ -118,19 +118,19 @@ impl Layers {
     pub const BEHAVIOR: Self = Self(4);
     /// `MIEN_LAYER_GEOMETRY` in C.
     pub const GEOMETRY: Self = Self(8);
-    /// `MIEN_LAYER_GEOMETRY_WITHOUT_BLEND_SHAPES` in C.
-    pub const GEOMETRY_WITHOUT_BLEND_SHAPES: Self = Self(16);
     /// `MIEN_LAYER_MACHINE_LEARNED_BEHAVIOR` in C.
-    pub const MACHINE_LEARNED_BEHAVIOR: Self = Self(32);
+    pub const MACHINE_LEARNED_BEHAVIOR: Self = Self(16);
     /// `MIEN_LAYER_RBF_BEHAVIOR` in C.
-    pub const RBF_BEHAVIOR: Self = Self(64);
+    pub const RBF_BEHAVIOR: Self = Self(32);
     /// `MIEN_LAYER_JOINT_BEHAVIOR_METADATA` in C.
-    pub const JOINT_BEHAVIOR_METADATA: Self = Self(128);
+    pub const JOINT_BEHAVIOR_METADATA: Self = Self(64);
     /// `MIEN_LAYER_TWIST_SWING_BEHAVIOR` in C.
-    pub const TWIST_SWING_BEHAVIOR: Self = Self(256);
+    pub const TWIST_SWING_BEHAVIOR: Self = Self(128);
+    /// `MIEN_LAYER_ALL` in C.
+    pub const ALL: Self = Self(255);
 }
 
-flags!(Layers, u32, [(0, "ALL"), (1, "DESCRIPTOR"), (2, "DEFINITION"), (4, "BEHAVIOR"), (8, "GEOMETRY"), (16, "GEOMETRY_WITHOUT_BLEND_SHAPES"), (32, "MACHINE_LEARNED_BEHAVIOR"), (64, "RBF_BEHAVIOR"), (128, "JOINT_BEHAVIOR_METADATA"), (256, "TWIST_SWING_BEHAVIOR")]);
+flags!(Layers, u32, [(0, "UNKNOWN"), (1, "DESCRIPTOR"), (2, "DEFINITION"), (4, "BEHAVIOR"), (8, "GEOMETRY"), (16, "MACHINE_LEARNED_BEHAVIOR"), (32, "RBF_BEHAVIOR"), (64, "JOINT_BEHAVIOR_METADATA"), (128, "TWIST_SWING_BEHAVIOR"), (255, "ALL")]);
 
 /// Layers of a kind that Mien does not know.
 ///
@@ -164,7 +164,7 @@ impl FileAccess {
 
 numbers!(FileAccess, u32, [(0, "MAP"), (1, "READ")]);
 
-/// What C calls `MIEN_TRANSLATION_...`.
+/// What C calls `MIEN_TRANSLATION_UNIT_...`.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -172,15 +172,15 @@ numbers!(FileAccess, u32, [(0, "MAP"), (1, "READ")]);
 pub struct TranslationUnit(pub u32);
 
 impl TranslationUnit {
-    /// `MIEN_TRANSLATION_CENTIMETERS` in C.
+    /// `MIEN_TRANSLATION_UNIT_CENTIMETERS` in C.
     pub const CENTIMETERS: Self = Self(0);
-    /// `MIEN_TRANSLATION_METERS` in C.
+    /// `MIEN_TRANSLATION_UNIT_METERS` in C.
     pub const METERS: Self = Self(1);
 }
 
 numbers!(TranslationUnit, u32, [(0, "CENTIMETERS"), (1, "METERS")]);
 
-/// What C calls `MIEN_ROTATION_...`.
+/// What C calls `MIEN_ROTATION_UNIT_...`.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -188,9 +188,9 @@ numbers!(TranslationUnit, u32, [(0, "CENTIMETERS"), (1, "METERS")]);
 pub struct RotationUnit(pub u32);
 
 impl RotationUnit {
-    /// `MIEN_ROTATION_DEGREES` in C.
+    /// `MIEN_ROTATION_UNIT_DEGREES` in C.
     pub const DEGREES: Self = Self(0);
-    /// `MIEN_ROTATION_RADIANS` in C.
+    /// `MIEN_ROTATION_UNIT_RADIANS` in C.
     pub const RADIANS: Self = Self(1);
 }
 
@@ -220,7 +220,7 @@ impl Direction {
 
 numbers!(Direction, u32, [(0, "LEFT"), (1, "RIGHT"), (2, "UP"), (3, "DOWN"), (4, "FRONT"), (5, "BACK")]);
 
-/// What C calls `MIEN_ROTATION_...`.
+/// What C calls `MIEN_ROTATION_SEQUENCE_...`.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -230,19 +230,37 @@ pub struct RotationSequence(pub u32);
 impl RotationSequence {
     /// X first, then y, then z, about fixed axes.
     pub const XYZ: Self = Self(0);
-    /// `MIEN_ROTATION_XZY` in C.
+    /// `MIEN_ROTATION_SEQUENCE_XZY` in C.
     pub const XZY: Self = Self(1);
-    /// `MIEN_ROTATION_YXZ` in C.
+    /// `MIEN_ROTATION_SEQUENCE_YXZ` in C.
     pub const YXZ: Self = Self(2);
-    /// `MIEN_ROTATION_YZX` in C.
+    /// `MIEN_ROTATION_SEQUENCE_YZX` in C.
     pub const YZX: Self = Self(3);
-    /// `MIEN_ROTATION_ZXY` in C.
+    /// `MIEN_ROTATION_SEQUENCE_ZXY` in C.
     pub const ZXY: Self = Self(4);
-    /// `MIEN_ROTATION_ZYX` in C.
+    /// `MIEN_ROTATION_SEQUENCE_ZYX` in C.
     pub const ZYX: Self = Self(5);
 }
 
 numbers!(RotationSequence, u32, [(0, "XYZ"), (1, "XZY"), (2, "YXZ"), (3, "YZX"), (4, "ZXY"), (5, "ZYX")]);
+
+/// The side of a face a b c ... that (b - a) x (c - a) points to, computed with the numbers of the
+/// file whichever way its axes point.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct FaceWinding(pub u32);
+
+impl FaceWinding {
+    /// Seen from outside counter-clockwise if the axes are right-handed, clockwise if they are
+    /// left-handed.
+    pub const OUTWARD: Self = Self(0);
+    /// `MIEN_FACE_WINDING_INWARD` in C.
+    pub const INWARD: Self = Self(1);
+}
+
+numbers!(FaceWinding, u32, [(0, "OUTWARD"), (1, "INWARD")]);
 
 /// The order in which Euler angles turn, when axes change. Joint values are sums of angles, which
 /// mean nothing in another order: only the first rule is exact for all rigs.
@@ -376,8 +394,7 @@ numbers!(Generate, u32, [(1, "ML")]);
 pub struct Isa(pub u32);
 
 impl Isa {
-    /// The environment variable `MIEN_ISA` (scalar, sse2, ...) if set, else the best that this CPU
-    /// and operating system allow.
+    /// The best that this CPU and operating system allow.
     pub const BEST: Self = Self(0);
     /// `MIEN_ISA_SCALAR` in C.
     pub const SCALAR: Self = Self(1);
@@ -389,25 +406,28 @@ impl Isa {
     pub const AVX512: Self = Self(4);
     /// `MIEN_ISA_NEON` in C.
     pub const NEON: Self = Self(5);
+    /// The one that the environment variable `MIEN_ISA` names ("scalar", "sse2", ...); the best if
+    /// it is unset or empty.
+    pub const ENVIRONMENT: Self = Self(1000);
 }
 
-numbers!(Isa, u32, [(0, "BEST"), (1, "SCALAR"), (2, "SSE2"), (3, "AVX2"), (4, "AVX512"), (5, "NEON")]);
+numbers!(Isa, u32, [(0, "BEST"), (1, "SCALAR"), (2, "SSE2"), (3, "AVX2"), (4, "AVX512"), (5, "NEON"), (1000, "ENVIRONMENT")]);
 
 /// How joint rotations come out.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 #[repr(transparent)]
-pub struct Output(pub u32);
+pub struct RotationOutput(pub u32);
 
-impl Output {
+impl RotationOutput {
     /// 9 values per joint: tx ty tz rx ry rz sx sy sz.
     pub const EULER: Self = Self(0);
     /// 10 values per joint: tx ty tz qx qy qz qw sx sy sz.
     pub const QUATERNION: Self = Self(1);
 }
 
-numbers!(Output, u32, [(0, "EULER"), (1, "QUATERNION")]);
+numbers!(RotationOutput, u32, [(0, "EULER"), (1, "QUATERNION")]);
 
 /// What a mask of a mesh region does to the networks of the region (`mien_instance_ml_masks()`).
 ///
@@ -435,15 +455,15 @@ numbers!(MlMasks, u32, [(0, "SWITCH"), (1, "BLEND")]);
 pub struct Storage(pub u32);
 
 impl Storage {
-    /// `MIEN_STORAGE_F32` in C.
-    pub const F32: Self = Self(0);
+    /// `MIEN_STORAGE_32_BIT` in C.
+    pub const BIT_32: Self = Self(0);
     /// 16 bits: network weights and columns of quaternion joints in IEEE half precision (to
     /// nearest, ties to even; what exceeds its range becomes +-65504); the joint matrix as 16-bit
     /// fixed point, in units of the largest entry of the row / 32767. Half the memory.
-    pub const F16: Self = Self(1);
+    pub const BIT_16: Self = Self(1);
 }
 
-numbers!(Storage, u32, [(0, "F32"), (1, "F16")]);
+numbers!(Storage, u32, [(0, "BIT_32"), (1, "BIT_16")]);
 
 /// Which results have the same bits on which instruction sets.
 ///
@@ -572,7 +592,8 @@ pub struct Compose(pub u32);
 impl Compose {
     /// Neutral rotation \* delta rotation: the delta turns first.
     pub const PRODUCT: Self = Self(0);
-    /// The angles are added; needs `Output::EULER`. The same where the neutral rotation is zero.
+    /// The angles are added; needs `RotationOutput::EULER`. The same where the neutral rotation is
+    /// zero.
     pub const EULER_ADD: Self = Self(1);
 }
 
@@ -636,8 +657,8 @@ pub struct CoordinateSystem {
     /// Of the angles about x, y, z: 1 turns y to z, z to x, x to y; -1 the other way; 0: such that
     /// angles keep their numbers.
     pub rotation_signs: [i32; 3],
-    /// As in MienDnaInfo.
-    pub face_winding: u32,
+    /// Face winding.
+    pub face_winding: FaceWinding,
 }
 
 impl From<sys::MienCoordinateSystem> for CoordinateSystem {
@@ -649,7 +670,7 @@ impl From<sys::MienCoordinateSystem> for CoordinateSystem {
             rotation_rule: RotationRule(c.rotation_rule),
             rotation_sequence: RotationSequence(c.rotation_sequence),
             rotation_signs: c.rotation_signs,
-            face_winding: c.face_winding,
+            face_winding: FaceWinding(c.face_winding),
         }
     }
 }
@@ -663,7 +684,7 @@ impl From<&CoordinateSystem> for sys::MienCoordinateSystem {
             rotation_rule: safe.rotation_rule.0,
             rotation_sequence: safe.rotation_sequence.0,
             rotation_signs: safe.rotation_signs,
-            face_winding: safe.face_winding,
+            face_winding: safe.face_winding.0,
             ..Default::default()
         }
     }
@@ -679,12 +700,14 @@ pub struct DnaInfo {
     pub version: u32,
     /// `Layers` that were loaded.
     pub layers: Layers,
+    /// The geometry was loaded with its targets.
+    pub has_blend_shape_targets: bool,
     /// Size of the file; 0 if generated.
     pub file_bytes: u64,
     /// Taken from the allocator.
     pub memory_bytes: u64,
-    /// Whether the file is mapped.
-    pub mapped: bool,
+    /// The file is mapped.
+    pub is_mapped: bool,
     /// Entries for `mien_dna_layer()`.
     pub layer_count: usize,
     /// Translation unit.
@@ -697,10 +720,8 @@ pub struct DnaInfo {
     pub rotation_sequence: RotationSequence,
     /// 1 or -1, for the angles about x, y, z.
     pub rotation_signs: [i32; 3],
-    /// 0: of a face a b c ..., (b - a) x (c - a), the plain formula in the numbers of the file,
-    /// points outwards: counter-clockwise seen from outside if the axes are right-handed,
-    /// clockwise if they are left-handed; 1: inwards.
-    pub face_winding: u32,
+    /// Face winding.
+    pub face_winding: FaceWinding,
     /// Lod count.
     pub lod_count: usize,
     /// This file's LOD 0 is LOD `max_lod` of its data base.
@@ -745,16 +766,17 @@ impl From<sys::MienDnaInfo> for DnaInfo {
             generation: c.generation,
             version: c.version,
             layers: Layers(c.layers),
+            has_blend_shape_targets: c.has_blend_shape_targets != 0,
             file_bytes: c.file_bytes,
             memory_bytes: c.memory_bytes,
-            mapped: c.mapped != 0,
+            is_mapped: c.is_mapped != 0,
             layer_count: c.layer_count as usize,
             translation_unit: TranslationUnit(c.translation_unit),
             rotation_unit: RotationUnit(c.rotation_unit),
             axes: c.axes.map(Direction),
             rotation_sequence: RotationSequence(c.rotation_sequence),
             rotation_signs: c.rotation_signs,
-            face_winding: c.face_winding,
+            face_winding: FaceWinding(c.face_winding),
             lod_count: c.lod_count as usize,
             max_lod: c.max_lod,
             gui_control_count: c.gui_control_count as usize,
@@ -782,32 +804,32 @@ impl From<sys::MienDnaInfo> for DnaInfo {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct DnaLayer {
-    /// `Layers` that loads it; 0: of a kind that Mien does not know.
+    /// `Layers` that loads it; `Layers::UNKNOWN` for other kinds.
     pub layer: Layers,
-    /// "bhvr", terminated.
-    pub code: String,
     /// Version major.
     pub version_major: u32,
     /// Version minor.
     pub version_minor: u32,
+    /// It was read, not skipped or kept unread.
+    pub is_loaded: bool,
     /// Byte offset.
     pub byte_offset: u64,
     /// Byte count.
     pub byte_count: u64,
-    /// Read; if not: skipped, or carried along unread.
-    pub loaded: bool,
+    /// "bhvr", terminated.
+    pub code: String,
 }
 
 impl From<sys::MienDnaLayer> for DnaLayer {
     fn from(c: sys::MienDnaLayer) -> Self {
         Self {
             layer: Layers(c.layer),
-            code: text(&c.code),
             version_major: c.version_major,
             version_minor: c.version_minor,
+            is_loaded: c.is_loaded != 0,
             byte_offset: c.byte_offset,
             byte_count: c.byte_count,
-            loaded: c.loaded != 0,
+            code: text(&c.code),
         }
     }
 }
@@ -818,23 +840,22 @@ impl From<sys::MienDnaLayer> for DnaLayer {
 pub struct DnaField {
     /// Type.
     pub field_type: FieldType,
+    /// An array of numbers, whatever its count; not one number, or an element of an array.
+    pub is_array: bool,
     /// Elements of an array or list, bytes of a string, 1 for a number, fields of a record.
     pub count: u64,
     /// Where the bytes of an array, of one of its elements or of a string begin in the file;
     /// `None` for others, and for what was made here.
     pub byte_offset: Option<u64>,
-    /// Whether this is an array of numbers, whatever its count, not one number, or an element of
-    /// an array.
-    pub is_array: bool,
 }
 
 impl From<sys::MienDnaField> for DnaField {
     fn from(c: sys::MienDnaField) -> Self {
         Self {
             field_type: FieldType(c.r#type),
+            is_array: c.is_array != 0,
             count: c.count,
             byte_offset: offset(c.byte_offset),
-            is_array: c.is_array != 0,
         }
     }
 }
@@ -861,10 +882,12 @@ pub struct RigInfo {
     pub control_count: usize,
     /// Length of a row of joint outputs: 9 or 10 per joint.
     pub joint_value_count: usize,
-    /// Rotation.
-    pub rotation: Output,
+    /// Rotation output.
+    pub rotation_output: RotationOutput,
     /// Storage.
     pub storage: Storage,
+    /// Arithmetic.
+    pub arithmetic: Arithmetic,
     /// Memory of the rig; with its file if it was opened from one.
     pub rig_bytes: u64,
     /// Memory of each instance.
@@ -883,8 +906,9 @@ impl From<sys::MienRigInfo> for RigInfo {
             rotation_signs: c.rotation_signs,
             control_count: c.control_count as usize,
             joint_value_count: c.joint_value_count as usize,
-            rotation: Output(c.rotation),
+            rotation_output: RotationOutput(c.rotation_output),
             storage: Storage(c.storage),
+            arithmetic: Arithmetic(c.arithmetic),
             rig_bytes: c.rig_bytes,
             instance_bytes: c.instance_bytes,
         }
@@ -895,6 +919,8 @@ impl From<sys::MienRigInfo> for RigInfo {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct RigStatistics {
+    /// Lod.
+    pub lod: u32,
     /// Correctives computed.
     pub psd_count: usize,
     /// Joints that exist at this LOD.
@@ -905,28 +931,29 @@ pub struct RigStatistics {
     pub blend_shape_count: usize,
     /// Rows of the animated map table.
     pub animated_map_row_count: usize,
-    /// Of the joint matrix: 8 per piece of a column, pieces of zeros not counted.
-    pub joint_entry_count: u64,
-    /// Of the joint matrix, if every control is active: those of controls that are 0 are not read.
-    pub joint_byte_count: u64,
     /// Solvers that the LOD lists.
     pub rbf_solver_count: usize,
     /// Joints represented by quaternions.
     pub quaternion_joint_count: usize,
+    /// Of the joint matrix: 8 per block, blocks of zeros not counted.
+    pub joint_entry_count: u64,
+    /// Of the joint matrix, if every control is active: those of controls that are 0 are not read.
+    pub joint_byte_count: u64,
 }
 
 impl From<sys::MienRigStatistics> for RigStatistics {
     fn from(c: sys::MienRigStatistics) -> Self {
         Self {
+            lod: c.lod,
             psd_count: c.psd_count as usize,
             joint_count: c.joint_count as usize,
             joint_row_count: c.joint_row_count as usize,
             blend_shape_count: c.blend_shape_count as usize,
             animated_map_row_count: c.animated_map_row_count as usize,
-            joint_entry_count: c.joint_entry_count,
-            joint_byte_count: c.joint_byte_count,
             rbf_solver_count: c.rbf_solver_count as usize,
             quaternion_joint_count: c.quaternion_joint_count as usize,
+            joint_entry_count: c.joint_entry_count,
+            joint_byte_count: c.joint_byte_count,
         }
     }
 }
@@ -938,11 +965,13 @@ impl From<sys::MienRigStatistics> for RigStatistics {
 pub struct InstanceStatistics {
     /// Of the last evaluation.
     pub lod: u32,
-    /// Of the control row: raw, PSD, ML and RBF controls that are not 0.
+    /// Of the control row: raw, PSD, ML and RBF controls.
+    pub control_count: usize,
+    /// Controls that are not 0.
     pub active_control_count: usize,
     /// Columns of the joint matrix that they drive at this LOD.
     pub joint_column_count: usize,
-    /// Of these columns; 8 per piece, as in MienRigStatistics.
+    /// Of these columns; 8 per block, as in MienRigStatistics.
     pub joint_entry_count: u64,
     /// Of these entries: at most MienRigStatistics.`joint_byte_count`.
     pub joint_byte_count: u64,
@@ -952,6 +981,7 @@ impl From<sys::MienInstanceStatistics> for InstanceStatistics {
     fn from(c: sys::MienInstanceStatistics) -> Self {
         Self {
             lod: c.lod,
+            control_count: c.control_count as usize,
             active_control_count: c.active_control_count as usize,
             joint_column_count: c.joint_column_count as usize,
             joint_entry_count: c.joint_entry_count,
@@ -982,8 +1012,8 @@ pub struct DeformerInfo {
     pub mesh_count: usize,
     /// Memory of the deformer.
     pub deformer_bytes: u64,
-    /// Memory of a pose with room for all meshes.
-    pub pose_bytes: u64,
+    /// Memory of a deformer instance with room for all meshes.
+    pub instance_bytes: u64,
 }
 
 impl From<sys::MienDeformerInfo> for DeformerInfo {
@@ -998,7 +1028,7 @@ impl From<sys::MienDeformerInfo> for DeformerInfo {
             channel_count: c.channel_count as usize,
             mesh_count: c.mesh_count as usize,
             deformer_bytes: c.deformer_bytes,
-            pose_bytes: c.pose_bytes,
+            instance_bytes: c.instance_bytes,
         }
     }
 }

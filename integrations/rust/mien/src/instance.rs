@@ -138,10 +138,11 @@ impl Instance {
 
     fn create(rig: &Rig, allocator: Option<&Allocator>) -> Result<Self> {
         let mut handle = null_mut();
-        Allocator::with(allocator, |raw| {
-            // SAFETY: a live handle.
+        Allocator::with(allocator, |allocator| {
+            let desc = sys::MienInstanceDesc { allocator, ..Default::default() };
+            // SAFETY: a live handle and a sized struct.
             checked(|error| unsafe {
-                sys::mien_instance_create(rig.raw(), raw, &mut handle, error)
+                sys::mien_instance_create(rig.raw(), &desc, &mut handle, error)
             })
         })?;
         let mut instance = Self {

@@ -71,29 +71,32 @@ impl Report {
     fn read(path: &Path, allocator: Option<&Allocator>) -> Result<Self> {
         let path = path_string(path)?;
         // SAFETY: a terminated path. The file is read, so nobody can change what is examined.
-        Self::create(allocator, |raw, out, error| unsafe {
-            sys::mien_report_create_file(path.as_ptr(), raw, out, error)
+        Self::create(allocator, |desc, out, error| unsafe {
+            sys::mien_dna_validate_file(path.as_ptr(), desc, out, error)
         })
     }
 
     fn examine(file: &[u8], allocator: Option<&Allocator>) -> Result<Self> {
         let (data, size) = (file.as_ptr().cast(), file.len());
         // SAFETY: readable bytes, which the report does not keep.
-        Self::create(allocator, |raw, out, error| unsafe {
-            sys::mien_report_create_memory(data, size, raw, out, error)
+        Self::create(allocator, |desc, out, error| unsafe {
+            sys::mien_dna_validate_memory(data, size, desc, out, error)
         })
     }
 
     fn create(
         allocator: Option<&Allocator>,
         call: impl FnOnce(
-            *const sys::MienAllocator,
+            *const sys::MienValidateDesc,
             *mut *mut sys::MienReport,
             *mut sys::MienError,
         ) -> sys::MienStatus,
     ) -> Result<Self> {
         let mut handle = null_mut();
-        Allocator::with(allocator, |raw| checked(|error| call(raw, &mut handle, error)))?;
+        Allocator::with(allocator, |allocator| {
+            let desc = sys::MienValidateDesc { allocator, ..Default::default() };
+            checked(|error| call(&desc, &mut handle, error))
+        })?;
         let handle = NonNull::new(handle).expect("a handle after success");
         let mut report = Self { handle, errors: 0, warnings: 0, _allocator: allocator.cloned() };
         let Self { errors, warnings, .. } = &mut report;

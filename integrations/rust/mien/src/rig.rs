@@ -3,7 +3,7 @@
 use crate::convert::{bytes, empty_string, index, path_string, slice, utf8};
 use crate::error::{check, checked};
 use crate::{
-    Allocator, Dna, Instance, Isa, Kind, MlMasks, Output, Result, Reuse, RigInfo, RigStatistics,
+    Allocator, Dna, Instance, Isa, Kind, MlMasks, Result, Reuse, RigInfo, RigStatistics, RotationOutput,
     Storage,
 };
 use mien_sys as sys;
@@ -131,7 +131,7 @@ impl Rig {
         let (name, mut out) = (name.as_ref(), 0);
         // SAFETY: a live handle, and as many bytes as are told.
         let status = unsafe {
-            sys::mien_rig_find(self.raw(), kind.0, name.as_ptr().cast(), name.len(), &mut out)
+            sys::mien_rig_find_n(self.raw(), kind.0, name.as_ptr().cast(), name.len(), &mut out)
         };
         if status == sys::MIEN_ERROR_NAME {
             let name = utf8(name);
@@ -195,9 +195,9 @@ impl Rig {
 
     fn indices(
         &self,
-        call: impl FnOnce(*mut sys::MienIndexView) -> sys::MienStatus,
+        call: impl FnOnce(*mut sys::MienIndex16View) -> sys::MienStatus,
     ) -> Result<&[u16]> {
-        let mut out = sys::MienIndexView::default();
+        let mut out = sys::MienIndex16View::default();
         check(call(&mut out))?;
         // SAFETY: views of a rig live as long as it does, and it never changes.
         Ok(unsafe { slice(out.data, out.count) })
@@ -229,16 +229,16 @@ impl std::fmt::Debug for Rig {
 /// How to pack a rig.
 ///
 /// ```
-/// use mien::{Dna, Isa, Output, Preset, RigOptions};
+/// use mien::{Dna, Isa, Preset, RigOptions, RotationOutput};
 /// let dna = Dna::generate(Preset::TINY)?;
-/// let rig = RigOptions::new().isa(Isa::SCALAR).rotation(Output::QUATERNION).create(&dna)?;
+/// let rig = RigOptions::new().isa(Isa::SCALAR).rotation(RotationOutput::QUATERNION).create(&dna)?;
 /// assert_eq!(rig.info().joint_value_count, 10 * dna.info().joint_count);
 /// # Ok::<(), mien::Error>(())
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct RigOptions {
     isa: Isa,
-    rotation: Output,
+    rotation: RotationOutput,
     ml_masks: MlMasks,
     storage: Storage,
     reuse: Reuse,
@@ -259,7 +259,7 @@ impl RigOptions {
     }
 
     /// How joint rotations come out.
-    pub fn rotation(mut self, rotation: Output) -> Self {
+    pub fn rotation(mut self, rotation: RotationOutput) -> Self {
         self.rotation = rotation;
         self
     }
@@ -295,7 +295,7 @@ impl RigOptions {
         Allocator::with(self.allocator.as_ref(), |allocator| {
             let desc = sys::MienRigDesc {
                 isa: self.isa.0,
-                rotation: self.rotation.0,
+                rotation_output: self.rotation.0,
                 ml_masks: self.ml_masks.0,
                 storage: self.storage.0,
                 reuse: self.reuse.0,

@@ -63,8 +63,8 @@ fn what_is_written_is_read() {
     let read = Dna::open(&file.0).unwrap();
     // SAFETY: nobody else knows of the file.
     let mapped = unsafe { OpenOptions::new().map(&file.0) }.unwrap();
-    assert!(!read.info().mapped);
-    assert_eq!(mapped.info().mapped, cfg!(unix));
+    assert!(!read.info().is_mapped);
+    assert_eq!(mapped.info().is_mapped, cfg!(unix));
     let borrowed = Dna::from_bytes(&bytes).unwrap();
     for dna in [&read, &mapped, &borrowed] {
         assert_eq!(dna.to_bytes().unwrap(), bytes);

