@@ -92,7 +92,8 @@ MienStatus mien_rig_info(const MienRig* handle, MienRigInfo* out_info) {
   std::copy(rig.units.rotation_signs, rig.units.rotation_signs + 3, info.rotation_signs);
   info.control_count = rig.control_count;
   info.joint_value_count = rig.joint_value_count();
-  info.rotation_output = rig.quaternion_outputs ? MIEN_ROTATION_OUTPUT_QUATERNION : MIEN_ROTATION_OUTPUT_EULER;
+  info.rotation_output =
+      rig.quaternion_outputs ? MIEN_ROTATION_OUTPUT_QUATERNION : MIEN_ROTATION_OUTPUT_EULER;
   info.storage = rig.half_storage ? MIEN_STORAGE_16_BIT : MIEN_STORAGE_32_BIT;
   info.arithmetic = rig.portable ? MIEN_ARITHMETIC_PORTABLE : MIEN_ARITHMETIC_FAST;
   info.rig_bytes = rig.block_size + rig.baked_size;

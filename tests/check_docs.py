@@ -88,7 +88,9 @@ class Checker:
         self.tests = {f"{suite}.{name}" for f, text in self.sources.items()
                       if f.name.endswith("_test.cpp") for suite, name in TEST.findall(text)}
         header = root / "capi" / "mien.h"
-        self.functions = set(FUNCTION.findall(self.sources.get(header, "")))
+        text = self.sources.get(header, "")
+        self.functions = set(FUNCTION.findall(text))
+        self.functions.update(re.findall(r"^MIEN_DEFAULT\(\w+, (\w+)\)$", text, re.MULTILINE))
         self.names = set(CONSTANT.findall("\n".join(self.sources.values())))
         self.citations = self.links = 0
         self.problems = []

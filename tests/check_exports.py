@@ -18,10 +18,10 @@ def without_comments(text):
 
 
 def declared(header):
-    """Functions marked MIEN_API."""
-    text = re.sub(r"^[ \t]*#.*$", "", without_comments(header), flags=re.MULTILINE)
-    names = re.findall(r"\bMIEN_API\b[^;()]*?\b(\w+)\s*\(", text)
-    if len(names) != len(re.findall(r"\bMIEN_API\b", text)):
+    """Functions marked MIEN_API or MIEN_CHECKED."""
+    text = re.sub(r"^[ \t]*#(.*\\\n)*.*$", "", without_comments(header), flags=re.MULTILINE)
+    names = re.findall(r"\bMIEN_(?:API|CHECKED)\b[^;()]*?\b(\w+)\s*\(", text)
+    if len(names) != len(re.findall(r"\bMIEN_(?:API|CHECKED)\b", text)):
         sys.exit("mien.h: a MIEN_API that is no function, or that this check cannot read")
     return names
 

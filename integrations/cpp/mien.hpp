@@ -388,14 +388,6 @@ class Instance : public Owner<MienInstance, mien_instance_destroy> {
   Span<const float> blend_shapes() const { return span(mien_instance_blend_shapes); }
   Span<const float> animated_maps() const { return span(mien_instance_animated_maps); }
 
-#ifdef MIEN_EXPERIMENTAL
-  /// What the joint stage fetches for the controls as they are.
-  Result<MienInstanceStatistics> statistics() const {
-    Sized<MienInstanceStatistics> statistics;
-    return {mien_instance_statistics(get(), &statistics), std::move(statistics)};
-  }
-#endif
-
   Status reset_values() { return mien_instance_reset(get()); }
 
  private:
@@ -463,12 +455,6 @@ class Rig : public Owner<MienRig, mien_rig_destroy> {
     Sized<MienRigInfo> info;
     return {mien_rig_info(get(), &info), std::move(info)};
   }
-#ifdef MIEN_EXPERIMENTAL
-  Result<MienRigStatistics> statistics(uint32_t lod) const {
-    Sized<MienRigStatistics> statistics;
-    return {mien_rig_statistics(get(), lod, &statistics), std::move(statistics)};
-  }
-#endif
 
   /// How many things of a kind there are; 0 of an empty rig.
   uint32_t count(MienKind kind) const {
@@ -663,5 +649,20 @@ class Deformer : public Owner<MienDeformer, mien_deformer_destroy> {
     return call(get(), &found) == MIEN_OK ? view(found) : Span<const float>();
   }
 };
+
+// ---- Experimental -------------------------------------------------------------------------------
+
+#ifdef MIEN_EXPERIMENTAL
+/// What one evaluation of the rig at a LOD works through.
+inline Result<MienRigStatistics> statistics(const Rig& rig, uint32_t lod) {
+  Sized<MienRigStatistics> statistics;
+  return {mien_rig_statistics(rig.get(), lod, &statistics), std::move(statistics)};
+}
+/// What the joint stage reads for the controls as they are.
+inline Result<MienInstanceStatistics> statistics(const Instance& instance) {
+  Sized<MienInstanceStatistics> statistics;
+  return {mien_instance_statistics(instance.get(), &statistics), std::move(statistics)};
+}
+#endif
 
 }  // namespace mien

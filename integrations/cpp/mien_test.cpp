@@ -73,7 +73,8 @@ void test_empty_objects() {
   const mien::Report report;
   CHECK(!dna.info() && !dna.layer(0) && !dna.field("") && !dna.string("desc.name"));
   CHECK(!dna.field_name("", 0) && !dna.write("/nonexistent"));
-  CHECK(!rig.info() && !rig.statistics(0) && !rig.name(MIEN_KIND_JOINT, 0) && !rig.instance());
+  CHECK(!rig.info() && !mien::statistics(rig, 0) && !mien::statistics(mien::Instance()) &&
+        !rig.name(MIEN_KIND_JOINT, 0) && !rig.instance());
   CHECK(rig.count(MIEN_KIND_JOINT) == 0 && rig.joint_parents().empty());
   CHECK(rig.neutral_joint_values().empty() && rig.initial_raw_controls().empty());
   CHECK(!rig.find(MIEN_KIND_JOINT, "x") && !rig.psd_inputs(0));

@@ -649,7 +649,7 @@ TEST(RigImage, FullCheckKnowsTheOrderOfCorrectives) {
   ASSERT_EQ(psds.outputs.count, 2u);
   psds.inputs[0] = psds.outputs[1];
   EXPECT_EQ(live_image(image.bytes.data(), image.bytes.size()).broken, "");
-  open_image(image.bytes, image_desc(MIEN_ISA_BEST, MIEN_BAKED_CHECK_SAFE));
+  open_image(image.bytes, image_desc(MIEN_ISA_ENVIRONMENT, MIEN_BAKED_CHECK_SAFE));
   const uint64_t checksum = baked_checksum(image.bytes.data(), image.bytes.size());
   memcpy(image.bytes.data() + offsetof(BakedHeader, checksum), &checksum, sizeof(checksum));
   open_image(image.bytes, image_desc(), MIEN_ERROR_BAKED_STRUCTURE);

@@ -75,6 +75,7 @@ static void test_library(void) {
   for (i = 0; i < sizeof isas / sizeof isas[0]; ++i) {
     CHECK(strcmp(mien_isa_name((uint32_t)i), isas[i]) == 0);
   }
+  CHECK(strcmp(mien_isa_name(MIEN_ISA_ENVIRONMENT), "environment") == 0);
   CHECK(strcmp(mien_isa_name(6), "unknown") == 0);
   CHECK(strcmp(mien_isa_name(UINT32_MAX), "unknown") == 0);
   CHECK(mien_isa_available(MIEN_ISA_BEST) == 1);
@@ -149,6 +150,7 @@ static void test_fields(const MienDna* dna) {
   MienDnaField field;
   MienStringView name, again;
   float values[3], all[1024];
+  char endless[600];
   int64_t numbers[2];
   uint32_t i;
 
@@ -194,6 +196,21 @@ static void test_fields(const MienDna* dna) {
   CHECK_OK(mien_dna_read_integers(dna, "defn.jointHierarchy", 0, 2, numbers, NULL));
   CHECK(numbers[0] == 0 && numbers[1] < (int64_t)info.joint_count);
   CHECK(mien_dna_field(dna, "defn.jointNmaes", &field, NULL) == MIEN_ERROR_NAME);
+
+  /* By length: the first bytes of a longer text, and no zero byte among them. */
+  memset(endless, 'x', sizeof endless);
+  CHECK_OK(mien_dna_field_n(dna, "desc.lodCount[0]", 13, &field, NULL));
+  CHECK(field.type == MIEN_FIELD_U16);
+  CHECK_OK(mien_dna_child_name_n(dna, "desc", 0, 0, &name, NULL));
+  CHECK(name.count == 4 && memcmp(name.data, "desc", 4) == 0);
+  CHECK_OK(mien_dna_read_integers_n(dna, "desc.lodCount[0]", 13, 0, 1, numbers, NULL));
+  CHECK_OK(mien_dna_read_string_n(dna, "desc.name.", 9, &name, NULL));
+  CHECK_OK(
+      mien_dna_read_floats_n(dna, "defn.neutralJointTranslations.xs!", 32, 1, 3, values, NULL));
+  CHECK(memcmp(values, all + 1, sizeof values) == 0);
+  CHECK(mien_dna_field_n(dna, "desc.lodCount", 14, &field, NULL) == MIEN_ERROR_NAME);
+  CHECK(mien_dna_field_n(dna, endless, sizeof endless, &field, NULL) == MIEN_ERROR_NAME);
+  CHECK(mien_dna_field_n(dna, NULL, 0, &field, NULL) == MIEN_ERROR_NULL_ARGUMENT);
 }
 
 static void test_file(const MienDna* dna, const char* path) {
@@ -219,7 +236,7 @@ static void test_file(const MienDna* dna, const char* path) {
     CHECK_OK(mien_dna_info(opened, &info));
     CHECK(info.generation == 2 && info.version == 8 && info.file_bytes == bytes.count);
     CHECK(i == 0 || info.is_mapped == 0);
-    CHECK(info.layers == 511 && info.layer_count == 11);
+    CHECK(info.layers == MIEN_LAYER_ALL && info.layer_count == 11);
     test_fields(opened);
     again = write_memory(opened, NULL);
     CHECK(again.count == bytes.count && memcmp(again.data, bytes.data, bytes.count) == 0);
@@ -296,6 +313,23 @@ static void test_report(const MienDna* dna) {
 
 /* ---- Rig ------------------------------------------------------------------------------------- */
 
+/* By a terminated name and by as many bytes of a longer one. */
+static void test_find(const MienRig* rig) {
+  MienCoordinateSystem system = mien_coordinate_system_default();
+  uint32_t found = 1;
+  CHECK_OK(mien_rig_find(rig, MIEN_KIND_PSD_CONTROL, "psd0", &found));
+  CHECK(found == 0);
+  CHECK_OK(mien_rig_find_n(rig, MIEN_KIND_PSD_CONTROL, "psd01", 4, &found));
+  CHECK(found == 0);
+  CHECK(mien_rig_find(rig, MIEN_KIND_PSD_CONTROL, "psd", &found) == MIEN_ERROR_NAME);
+  CHECK(mien_rig_find_n(rig, MIEN_KIND_PSD_CONTROL, "psd0", 5, &found) == MIEN_ERROR_NAME);
+  CHECK(mien_rig_find(rig, MIEN_KIND_PSD_CONTROL, NULL, &found) == MIEN_ERROR_NULL_ARGUMENT);
+  CHECK_OK(mien_coordinate_system_find("unity", &system));
+  CHECK(system.axes[1] == MIEN_DIRECTION_UP && system.translation_unit == 1);
+  CHECK_OK(mien_coordinate_system_find_n("unity3d", 5, &system));
+  CHECK(mien_coordinate_system_find_n("unity3d", 7, &system) == MIEN_ERROR_NAME);
+}
+
 static void test_names(const MienRig* rig) {
   uint32_t kind, count, i, found;
   MienStringView name;
@@ -309,6 +343,7 @@ static void test_names(const MienRig* rig) {
     CHECK(mien_rig_name(rig, kind, count, &name) == MIEN_ERROR_INDEX && name.data == NULL);
     CHECK(mien_rig_find_n(rig, kind, "not there", 9, &found) == MIEN_ERROR_NAME && found == 0);
   }
+  test_find(rig);
   CHECK_OK(mien_rig_name(rig, MIEN_KIND_PSD_CONTROL, 1, &name));
   CHECK(is_text(name, "psd1"));
   CHECK_OK(mien_rig_count(rig, MIEN_KIND_JOINT_GROUP, &count));

@@ -61,7 +61,7 @@ TEST_F(CapiDna, Info) {
   const MienDnaInfo info = info_of(dna);
   EXPECT_EQ(info.generation, 2u);
   EXPECT_EQ(info.version, 8u);
-  EXPECT_EQ(info.layers, 511u);
+  EXPECT_EQ(info.layers, uint32_t{MIEN_LAYER_ALL});
   EXPECT_EQ(info.file_bytes, file.size());
   EXPECT_EQ(info.is_mapped, 0u);
   EXPECT_EQ(info.layer_count, 11u);

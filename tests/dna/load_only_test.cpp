@@ -146,7 +146,7 @@ struct SpreadFile {
 /// The codes of the layers that a selection reads: what it names, and what that needs.
 std::string codes_read(uint32_t layers) {
   std::string codes = "desc dsce";
-  if (layers == MIEN_LAYER_ALL) return codes + " defn bhvr geom mlbh mlbe rbfb rbfe jbmd twsw";
+  if (layers == 0) return codes + " defn bhvr geom mlbh mlbe rbfb rbfe jbmd twsw";
   if (layers & ~uint32_t{MIEN_LAYER_DESCRIPTOR}) codes += " defn";
   if (layers & (MIEN_LAYER_BEHAVIOR | MIEN_LAYER_RBF_BEHAVIOR)) codes += " bhvr";
   if (layers & MIEN_LAYER_GEOMETRY) codes += " geom";
@@ -159,7 +159,7 @@ std::string codes_read(uint32_t layers) {
 
 TEST(LoadOnly, ChosenLayers) {
   const SpreadFile spread;
-  for (uint32_t layers = 0; layers < 512; ++layers) {
+  for (uint32_t layers = 0; layers <= MIEN_LAYER_ALL; ++layers) {
     SCOPED_TRACE("layers " + std::to_string(layers));
     GuardedFile file(spread.bytes);
     const std::string codes = codes_read(layers);
@@ -181,7 +181,7 @@ TEST(LoadOnly, ChosenLayersOfAStream) {
   const SpreadFile spread;
   const MemoryStream stream(spread.bytes);
   const size_t index_end = 11 + 16 * spread.places.size();
-  for (uint32_t layers = 0; layers < 512; ++layers) {
+  for (uint32_t layers = 0; layers <= MIEN_LAYER_ALL; ++layers) {
     SCOPED_TRACE("layers " + std::to_string(layers));
     const std::string codes = codes_read(layers);
     Arena arena(default_allocator());

@@ -2,7 +2,8 @@
 // Any bytes as a DNA file, through its whole life (tests/support/exercise_dna.h). An input is a
 // file, with eight bytes behind it that choose layers, LODs and controls:
 //
-//     file | 'M' 'o' | layers, u16 | LODs, u8 | seed of controls, u8 | flags, u8 | system, u8
+//     file | 'M' 'o' | 1: no targets, u8 | layers, u8 | LODs, u8 | seed of controls, u8 |
+//     flags, u8 | system, u8
 //
 // A system is the seed of a random one; 0 keeps the file's.
 //
@@ -56,7 +57,8 @@ LifeOptions options_of(const uint8_t* data, size_t size) {
   LifeOptions options;
   if (!has_tail(data, size)) return options;
   const uint8_t* tail = data + size - kTail;
-  options.layers = load_big_endian<uint16_t>(tail + 2) & kLayersAll;
+  options.layers = tail[3];
+  options.skip_targets = tail[2] & 1;
   options.lods = tail[4];
   options.control_seed = tail[5];
   if (tail[6] & kDropUnknown) options.unknown_layers = MIEN_UNKNOWN_LAYERS_DROP;
@@ -149,7 +151,7 @@ void change_tail(Random& random, uint8_t* tail) {
   tail[0] = 'M';
   tail[1] = 'o';
   const bool whole = below(random, 2) != 0;
-  store_big_endian(tail + 2, static_cast<uint16_t>(whole ? 0 : random() & kLayersAll));
+  store_big_endian(tail + 2, static_cast<uint16_t>(whole ? 0 : random() & 0x1FF));
   tail[4] = static_cast<uint8_t>(below(random, 3) ? 0 : below(random, 16));
   tail[5] = static_cast<uint8_t>(random());
   tail[6] = static_cast<uint8_t>(below(random, 8) == 0 ? kDropUnknown : 0);

@@ -32,6 +32,7 @@ constexpr size_t rig_memory_bound(size_t file_size) { return 40 * file_size + 8 
 
 struct LifeOptions {
   uint32_t layers = 0;  // all
+  bool skip_targets = false;
   uint64_t lods = 0;
   uint32_t unknown_layers = MIEN_UNKNOWN_LAYERS_KEEP;
   uint32_t control_seed = 1;
@@ -106,6 +107,7 @@ class ExerciseDna {
     MienDnaDesc desc = {};
     desc.struct_size = sizeof(desc);
     desc.layers = options_.layers;
+    desc.skip_blend_shape_targets = options_.skip_targets;
     desc.unknown_layers = options_.unknown_layers;
     desc.lods = lods;
     desc.system = system;
@@ -414,7 +416,8 @@ class ExerciseDna {
       }
     }
     mien_report_destroy(report);
-    const bool whole = options_.layers == 0 && options_.lods == 0 && options_.system == nullptr;
+    const bool whole = options_.layers == 0 && !options_.skip_targets && options_.lods == 0 &&
+                       options_.system == nullptr;
     const bool complete = errors + warnings < 1000;
     const bool refused = life_.opened != MIEN_OK || life_.compiled != MIEN_OK;
     if (whole && complete && refused != (errors != 0)) {

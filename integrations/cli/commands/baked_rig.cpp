@@ -34,7 +34,8 @@ BakedFile open_baked_rig(const std::string& path, const LoadOptions& load,
   BakedFile file = open_baked_file(path, desc);
 
   const MienRigInfo info = rig_info(file.rig.get());
-  if (wanted.rotation != MIEN_ROTATION_OUTPUT_EULER && wanted.rotation != info.rotation) {
+  if (wanted.rotation_output != MIEN_ROTATION_OUTPUT_EULER &&
+      wanted.rotation_output != info.rotation_output) {
     fail_baked("--rotation " + evaluation.rotation);
   }
   if (wanted.storage != MIEN_STORAGE_32_BIT && wanted.storage != info.storage) {

@@ -66,8 +66,9 @@ void write_json(const Measurement& measured, const std::string& name) {
     json.begin_object();
     json.member("isa", mien_isa_name(row.engine->info.isa));
     json.member("storage", row.engine->info.storage == MIEN_STORAGE_16_BIT ? "f16" : "f32");
-    json.member("rotation",
-                row.engine->info.rotation == MIEN_ROTATION_OUTPUT_QUATERNION ? "quaternion" : "euler");
+    json.member("rotation", row.engine->info.rotation_output == MIEN_ROTATION_OUTPUT_QUATERNION
+                                ? "quaternion"
+                                : "euler");
     json.member("lod", row.lod);
     json.key("activity");
     json.shortest(kActivities[row.activity]);
@@ -178,7 +179,7 @@ void run(BenchOptions options, const Session& session) {
     rig_desc.reuse = MIEN_REUSE_NOTHING;
     if (dna) return create_rig(*dna, rig_desc);
     RigOptions evaluation = options.evaluation;
-    evaluation.isa = rig_desc.isa == MIEN_ISA_BEST ? "" : mien_isa_name(rig_desc.isa);
+    evaluation.isa = rig_desc.isa == MIEN_ISA_ENVIRONMENT ? "" : mien_isa_name(rig_desc.isa);
     return open_baked_rig(options.rig, options.load, evaluation, rig_desc.reuse).rig;
   };
   Measurement measured = prepare_measurement(source, descs);

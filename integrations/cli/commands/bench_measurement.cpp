@@ -95,7 +95,9 @@ Engine make_engine(const BenchSource& source, const MienRigDesc& desc) {
   }
   auto error = sized<MienError>();
   MienBatch* batch = nullptr;
-  check(mien_batch_create(engine.rig.get(), kManyInstances, 1, nullptr, &batch, &error), &error,
+  MienBatchDesc batch_desc = mien_batch_desc_default();
+  batch_desc.capacity = kManyInstances;
+  check(mien_batch_create(engine.rig.get(), &batch_desc, &batch, &error), &error,
         "cannot create a batch", source.shown);
   engine.batch.reset(batch);
   return engine;

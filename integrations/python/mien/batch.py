@@ -68,7 +68,7 @@ class Batch(Closable):
     tasks: in how many parts `evaluate(threads=...)` may work at once
     """
 
-    __slots__ = ("rig", "_slab", "_lock", "_instances", "_batch", "_pointers", "_tasks", "_lods",
+    __slots__ = ("rig", "_slab", "_lock", "_instances", "_batch", "_pointers", "_desc", "_lods",
                  "_views")
 
     def __init__(self, rig: Rig, count: int, tasks: int = 1) -> None:

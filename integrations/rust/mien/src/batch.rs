@@ -61,9 +61,7 @@ impl Batch {
         Allocator::with(allocator, |raw| {
             let desc = Self::desc(capacity, tasks, raw);
             // SAFETY: a live handle and a sized struct.
-            checked(|error| unsafe {
-                sys::mien_batch_create(rig.raw(), &desc, &mut handle, error)
-            })
+            checked(|error| unsafe { sys::mien_batch_create(rig.raw(), &desc, &mut handle, error) })
         })?;
         Ok(Self {
             handle: NonNull::new(handle).expect("a handle after success"),

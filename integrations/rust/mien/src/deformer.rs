@@ -2,7 +2,9 @@
 
 use crate::convert::{index, rows, slice};
 use crate::error::{check, checked};
-use crate::{Allocator, Compose, DeformerInfo, Dna, Isa, Normals, DeformerInstance, Result, Rig, Weights};
+use crate::{
+    Allocator, Compose, DeformerInfo, DeformerInstance, Dna, Isa, Normals, Result, Rig, Weights,
+};
 use mien_sys as sys;
 use std::ptr::{null_mut, NonNull};
 use std::sync::Arc;
@@ -58,7 +60,7 @@ pub struct Mesh<'deformer> {
     /// Influences of the position that has most.
     pub max_influences: usize,
     /// Deltas over all blend shape targets.
-    pub delta_count: u64,
+    pub delta_count: usize,
     /// Bit l: LOD l shows this mesh.
     pub lods: u64,
     /// x y z, in translation units.
@@ -112,12 +114,15 @@ impl Deformer {
             let (uvs, triangles) = (out.texture_coordinates, out.triangles);
             Ok(Mesh {
                 max_influences: out.max_influences as usize,
-                delta_count: out.delta_count,
+                delta_count: out.delta_count as usize,
                 lods: out.lods,
                 positions: rows(out.positions.data, out.positions.count),
                 normals: rows(out.normals.data, out.normals.count),
                 texture_coordinates: rows(uvs.data, uvs.count),
-                vertex_position_indices: slice(out.vertex_position_indices.data, out.vertex_position_indices.count),
+                vertex_position_indices: slice(
+                    out.vertex_position_indices.data,
+                    out.vertex_position_indices.count,
+                ),
                 triangles: rows(triangles.data, triangles.count),
                 target_channels: slice(out.target_channels.data, out.target_channels.count),
             })

@@ -81,7 +81,9 @@ impl DeformerInstance {
     pub fn local_transforms(&self, out: &mut [[f32; 10]]) -> Result<()> {
         let (data, count) = (out.as_mut_ptr().cast(), 10 * out.len());
         // SAFETY: a live handle, and room for as many floats as are told.
-        check(unsafe { sys::mien_deformer_instance_local_transforms(self.raw_const(), data, count) })
+        check(unsafe {
+            sys::mien_deformer_instance_local_transforms(self.raw_const(), data, count)
+        })
     }
 
     /// Positions of one mesh as of the last update, and its normals, on this thread. Allocates
@@ -89,7 +91,9 @@ impl DeformerInstance {
     /// mesh.
     pub fn deform(&mut self, mesh: usize, normals: Normals) -> Result<()> {
         // SAFETY: a live handle.
-        check(unsafe { sys::mien_deformer_instance_deform(self.raw(), index(mesh), normals.0, null()) })
+        check(unsafe {
+            sys::mien_deformer_instance_deform(self.raw(), index(mesh), normals.0, null())
+        })
     }
 
     /// The same by threads of yours, for meshes of 16384 positions and more, with the same bits.
@@ -149,7 +153,13 @@ impl DeformerInstance {
         let (mesh, count) = (index(mesh), poses.len());
         // SAFETY: as above, and a runner that keeps its promises.
         with_runner(run, |parallel| unsafe {
-            sys::mien_deformer_instance_deform_batch(poses.as_ptr(), count, mesh, normals.0, parallel)
+            sys::mien_deformer_instance_deform_batch(
+                poses.as_ptr(),
+                count,
+                mesh,
+                normals.0,
+                parallel,
+            )
         })
     }
 
@@ -224,7 +234,8 @@ impl DeformerInstanceOptions {
     pub fn create(&self, deformer: &Deformer) -> Result<DeformerInstance> {
         let mut handle = null_mut();
         Allocator::with(self.allocator.as_ref(), |allocator| {
-            let desc = sys::MienDeformerInstanceDesc { lods: self.lods, allocator, ..Default::default() };
+            let desc =
+                sys::MienDeformerInstanceDesc { lods: self.lods, allocator, ..Default::default() };
             // SAFETY: a live handle and a sized struct.
             checked(|error| unsafe {
                 sys::mien_deformer_instance_create(deformer.raw(), &desc, &mut handle, error)

@@ -3,8 +3,8 @@
 use crate::convert::{bytes, empty_string, index, path_string, slice, utf8};
 use crate::error::{check, checked};
 use crate::{
-    Allocator, Dna, Instance, Isa, Kind, MlMasks, Result, Reuse, RigInfo, RigStatistics, RotationOutput,
-    Storage,
+    Allocator, Dna, Instance, Isa, Kind, MlMasks, Result, Reuse, RigInfo, RigStatistics,
+    RotationOutput, Storage,
 };
 use mien_sys as sys;
 use std::borrow::Cow;

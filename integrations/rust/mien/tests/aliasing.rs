@@ -94,9 +94,9 @@ exported! {
     }
     fn mien_rig_destroy(rig: *mut MienRig) { destroy(rig.cast()) }
 
-    fn mien_instance_create(_rig: *const MienRig, allocator: *const MienAllocator,
+    fn mien_instance_create(_rig: *const MienRig, desc: *const MienInstanceDesc,
             out: *mut *mut MienInstance, _error: *mut MienError) -> MienStatus {
-        *out = create(allocator, std::ptr::null()).cast();
+        *out = create((*desc).allocator, std::ptr::null()).cast();
         MIEN_OK
     }
     fn mien_instance_destroy(instance: *mut MienInstance) { destroy(instance.cast()) }

@@ -2,8 +2,8 @@
 //! From a pose of joints to meshes, and between coordinate systems.
 
 use mien::{
-    CoordinateSystem, Deformer, DeformerOptions, Dna, Instance, Kind, Layers, Normals, OpenOptions,
-    DeformerInstance, DeformerInstanceOptions, Preset, Rig, Status, Weights,
+    CoordinateSystem, Deformer, DeformerInstance, DeformerInstanceOptions, DeformerOptions, Dna,
+    Instance, Kind, Layers, Normals, OpenOptions, Preset, Rig, Status, Weights,
 };
 
 struct Face {
@@ -108,7 +108,8 @@ fn a_pose_is_of_one_rig() {
     let mut pose = one.deformer.instance().unwrap();
     assert_eq!(pose.update(&other.instance).unwrap_err().status(), Status::MISMATCH);
     let mut foreign = other.deformer.instance().unwrap();
-    let error = DeformerInstance::deform_batch([&mut pose, &mut foreign], 0, Normals::NONE).unwrap_err();
+    let error =
+        DeformerInstance::deform_batch([&mut pose, &mut foreign], 0, Normals::NONE).unwrap_err();
     assert_eq!(error.status(), Status::MISMATCH);
 
     let dna = Dna::generate(Preset::SMALL).unwrap();
@@ -167,7 +168,9 @@ fn batches_and_threads_give_the_same_bits() {
         pose.deform(0, Normals::RECOMPUTED).unwrap();
     }
     let expected: Vec<_> = poses.iter().map(|pose| mesh_bits(pose, 0)).collect();
-    let results = |poses: &[DeformerInstance]| poses.iter().map(|pose| mesh_bits(pose, 0)).collect::<Vec<_>>();
+    let results = |poses: &[DeformerInstance]| {
+        poses.iter().map(|pose| mesh_bits(pose, 0)).collect::<Vec<_>>()
+    };
 
     let mut poses = batch(&face);
     DeformerInstance::deform_batch(&mut poses, 0, Normals::RECOMPUTED).unwrap();
@@ -203,7 +206,9 @@ fn a_panic_passes_by_c() {
     let face = face(Preset::SMALL);
     let mut poses = batch(&face);
     let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
-        DeformerInstance::deform_batch_on(&mut poses, 0, Normals::NONE, |_, _| panic!("of the caller"))
+        DeformerInstance::deform_batch_on(&mut poses, 0, Normals::NONE, |_, _| {
+            panic!("of the caller")
+        })
     }));
     assert_eq!(*result.unwrap_err().downcast::<&str>().unwrap(), "of the caller");
     // All is as after any other call.

@@ -2,8 +2,8 @@
 //! Memory comes from the allocator that was given, goes back to it, and may be refused.
 
 use mien::{
-    Allocator, Batch, DeformerOptions, Dna, GenerateOptions, Instance, Normals, OpenOptions, DeformerInstance,
-    DeformerInstanceOptions, Preset, Report, Result, RigOptions, Status,
+    Allocator, Batch, DeformerInstance, DeformerInstanceOptions, DeformerOptions, Dna,
+    GenerateOptions, Instance, Normals, OpenOptions, Preset, Report, Result, RigOptions, Status,
 };
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::collections::HashMap;
@@ -72,7 +72,7 @@ fn all_of_it_is_given_back() {
         let info = face.rig().info();
         let deformer = pose.deformer().info();
         let expected =
-            [info.rig_bytes, info.instance_bytes, deformer.deformer_bytes, deformer.pose_bytes];
+            [info.rig_bytes, info.instance_bytes, deformer.deformer_bytes, deformer.instance_bytes];
         assert_eq!(bytes as u64, expected.iter().sum::<u64>());
     }
     let requests = book.lock().unwrap().requests;

@@ -2,7 +2,8 @@
 //! From a DNA file to poses, as users do it; and what they may do wrong.
 
 use mien::{
-    Batch, Dna, Instance, Isa, Kind, Preset, Rig, RigOptions, RotationOutput, Stages, Status, Storage,
+    Batch, Dna, Instance, Isa, Kind, Preset, Rig, RigOptions, RotationOutput, Stages, Status,
+    Storage,
 };
 use mien_sys as sys;
 use std::ptr::{null, null_mut};

@@ -24,10 +24,10 @@ static void check(const void* object, size_t size, const char* name) {
   }
 }
 
-#define CHECK_DEFAULT(Type, function)     \
-  do {                                    \
-    const Type value = function();        \
-    check(&value, sizeof value, #Type);   \
+#define CHECK_DEFAULT(Type, function)   \
+  do {                                  \
+    const Type value = function();      \
+    check(&value, sizeof value, #Type); \
   } while (0)
 
 int main(void) {
