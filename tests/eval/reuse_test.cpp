@@ -35,7 +35,8 @@ class TwinRun {
     for (uint32_t i = 0; i < kPairs; ++i)
       pairs_.push_back({Character(kept_rig_), Character(plain_rig_)});
     MienBatch* batch = nullptr;
-    EXPECT_EQ(mien_batch_create(kept_rig_.get(), kPairs, 1, nullptr, &batch, nullptr), MIEN_OK);
+    const MienBatchDesc batch_description = batch_desc(kPairs);
+    EXPECT_EQ(mien_batch_create(kept_rig_.get(), &batch_description, &batch, nullptr), MIEN_OK);
     batch_.reset(batch);
     lod_count_ = info_of(kept_rig_).lod_count;
     groups_ = count_of(kept_rig_, MIEN_KIND_JOINT_GROUP);
@@ -204,7 +205,8 @@ MienRigDesc random_desc(Random& random) {
   const std::vector<uint32_t> isas = present_isas();
   MienRigDesc desc = sized<MienRigDesc>();
   desc.isa = isas[random.below(static_cast<uint32_t>(isas.size()))];
-  desc.rotation = random.below(2) ? MIEN_ROTATION_OUTPUT_QUATERNION : MIEN_ROTATION_OUTPUT_EULER;
+  desc.rotation_output =
+      random.below(2) ? MIEN_ROTATION_OUTPUT_QUATERNION : MIEN_ROTATION_OUTPUT_EULER;
   desc.ml_masks = random.below(2) ? MIEN_ML_MASKS_BLEND : MIEN_ML_MASKS_SWITCH;
   desc.storage = random.below(4) ? MIEN_STORAGE_32_BIT : MIEN_STORAGE_16_BIT;
   desc.arithmetic = random.below(4) ? MIEN_ARITHMETIC_FAST : MIEN_ARITHMETIC_PORTABLE;
@@ -244,10 +246,6 @@ std::vector<uint8_t> layer_file(Random& random, bool wild, bool tangled) {
   return LayerFile(random_layer_rig(random, wild, tangled)).bytes;
 }
 
-std::vector<uint8_t> golden_file(const char* name) {
-  return golden::read_bytes(golden::shared_folder() + "/golden/" + name + ".dna");
-}
-
 TEST(Reuse, TwinsOfRigsWithAllLayers) {
   run_twins(100, 0.3, 3000,
             [](Random& random, uint64_t) { return layer_file(random, false, false); });
@@ -279,12 +277,9 @@ TEST(Reuse, TwinsOfGeneratedFaces) {
 }
 
 TEST(Reuse, TwinsOfGoldenRigs) {
-  if (golden::shared_folder().empty()) GTEST_SKIP() << golden::no_golden_files("reuse on them");
-  constexpr const char* kNames[] = {"tiny",     "tiny_v21", "tiny_v22", "tiny_v23", "tiny_v24",
-                                    "tiny_v25", "tiny_v26", "tiny_v27", "small",    "small_rot",
-                                    "body",     "ml",       "ml_ext",   "head"};
-  run_twins(600, 0.15, 64 * 14,
-            [&](Random&, uint64_t run) { return golden_file(kNames[run % 14]); });
+  const std::vector<std::string> names = golden::present_names();
+  run_twins(600, 0.15, 64 * names.size(),
+            [&](Random&, uint64_t run) { return golden::read_rig(names[run % names.size()]); });
 }
 
 // Calls that once kept what they should not ------------------------------------------------------
@@ -324,10 +319,9 @@ TEST(Reuse, SomeStagesAfterAResetOrAnotherLodDoNoHarm) {
     const std::vector<uint8_t> bytes = layer_file(random, false, false);
     expect_joints_before_controls_do_no_harm(create_rig(open_dna(bytes).get()));
   }
-  if (golden::shared_folder().empty()) GTEST_SKIP() << golden::no_golden_files("reuse on them");
   for (const char* name : {"tiny", "ml", "ml_ext"}) {
     SCOPED_TRACE(name);
-    const std::vector<uint8_t> bytes = golden_file(name);
+    const std::vector<uint8_t> bytes = golden::read_rig(name);
     expect_joints_before_controls_do_no_harm(create_rig(open_dna(bytes).get()));
   }
 }

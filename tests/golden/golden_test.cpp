@@ -99,9 +99,9 @@ class Golden : public testing::TestWithParam<const char*> {
       check("joints.quat", character.joints, tolerance[kQuaternionTolerance], of_largest,
             Rotations::kQuaternions);
     } else {
-      check(
-          "joints.euler", character.joints, tolerance[kEulerTolerance], of_largest,
-          info.rotation_unit == MIEN_ROTATION_UNIT_DEGREES ? Rotations::kDegrees : Rotations::kRadians);
+      check("joints.euler", character.joints, tolerance[kEulerTolerance], of_largest,
+            info.rotation_unit == MIEN_ROTATION_UNIT_DEGREES ? Rotations::kDegrees
+                                                             : Rotations::kRadians);
     }
     check("blendShapes", character.channels, tolerance[kChannelTolerance], of_largest);
     check("animatedMaps", character.maps, tolerance[kMapTolerance], of_largest);
