@@ -4,20 +4,19 @@
 // to what the C interface does, and nothing hidden: get() gives the handle for all that is not
 // here.
 //
-//   Owners    Dna, Report, Rig, Instance, Deformer, DeformerInstance release what they hold; they
-//   can be moved, not
-//             copied. An empty one (default, moved from) may be used like any other: calls give
-//             MIEN_ERROR_NULL_ARGUMENT, spans are empty.
-//   Results   What can fail returns a Result: test it, then take *result; or take value(). Errors
-//             carry status, byte offset and message.
-//   Spans     std::span where there is one, else one of its own with the same core. They point into
-//             the object they came from and live as long as it does.
-//   Exceptions None, and the header compiles with -fno-exceptions. With MIEN_EXCEPTIONS defined
-//   before
-//             it is included, value() of a failed Result throws mien::Exception; without, it
-//             aborts.
+//   Owners      Dna, Report, Rig, Instance, Batch, Deformer and DeformerInstance release what they
+//               hold. They can be moved, not copied. Calls on an empty one (default, moved from)
+//               return MIEN_ERROR_NULL_ARGUMENT; its spans are empty.
+//   Results     A call that can fail returns a Result: test it, then use *result; or use value().
+//               Errors carry status, byte offset and message.
+//   Spans       std::span where the standard library has it, else a Span with the same core. They
+//               point into the object they came from and live as long as it does.
+//   Exceptions  None; the header compiles with -fno-exceptions. With MIEN_EXCEPTIONS defined before it
+//               is included, value() of a failed Result throws mien::Exception. Without, it aborts.
+//   Linking     Files of one program may differ in MIEN_EXCEPTIONS and in the C++ standard: each
+//               combination has an inline namespace of its own. Types of one do not convert to another.
 //
-// Units, threads and shapes are those that mien.h tells.
+// Units, threads and shapes: see mien.h.
 #pragma once
 
 #include <mien.h>
@@ -38,9 +37,20 @@
 #include <exception>
 #endif
 
-namespace mien {
+#if defined(MIEN_EXCEPTIONS) && defined(__cpp_lib_span)
+#define MIEN_CPP_NAMESPACE exceptions_std_span
+#elif defined(MIEN_EXCEPTIONS)
+#define MIEN_CPP_NAMESPACE exceptions_own_span
+#elif defined(__cpp_lib_span)
+#define MIEN_CPP_NAMESPACE plain_std_span
+#else
+#define MIEN_CPP_NAMESPACE plain_own_span
+#endif
 
-// ---- Spans and descriptions ---------------------------------------------------------------------
+namespace mien {
+inline namespace MIEN_CPP_NAMESPACE {
+
+// ---- Spans and descs ---------------------------------------------------------------------
 
 #ifdef __cpp_lib_span
 template <class T>
@@ -255,7 +265,16 @@ class Owner {
   Handle* handle_ = nullptr;
 };
 
-/// Calls `create(&handle, &error)` and wraps what it gives.
+/// The handles of neighboring owners: an owner is its handle and nothing else.
+template <class Object>
+typename Object::handle_type* const* handles_of(Span<Object> objects) {
+  static_assert(std::is_standard_layout<Object>::value &&
+                    sizeof(Object) == sizeof(typename Object::handle_type*),
+                "an owner is one pointer");
+  return reinterpret_cast<typename Object::handle_type* const*>(objects.data());
+}
+
+/// Calls `create(&handle, &error)` and wraps the result.
 template <class Object, class Create>
 Result<Object> make(Create&& create) {
   typename Object::handle_type* handle = nullptr;
@@ -525,14 +544,14 @@ class Rig : public Owner<MienRig, mien_rig_destroy> {
     const MienStatus status = mien_batch_bytes(get(), &desc, &bytes);
     return {status, std::move(bytes)};
   }
-  /// Different instances by their handles, each at its own LOD: as many LODs as instances.
-  Status evaluate_batch(Batch& batch, Span<MienInstance* const> instances,
-                        Span<const uint32_t> lods, uint32_t stages = MIEN_STAGE_ALL,
+  /// Different instances of this rig, each at its own LOD: as many LODs as instances.
+  Status evaluate_batch(Batch& batch, Span<Instance> instances, Span<const uint32_t> lods,
+                        uint32_t stages = MIEN_STAGE_ALL,
                         const MienParallelFor* parallel = nullptr) const {
     if (lods.size() != instances.size() || instances.size() > UINT32_MAX) {
       return MIEN_ERROR_INVALID_ARGUMENT;
     }
-    return mien_rig_evaluate_batch(get(), batch.get(), instances.data(), lods.data(),
+    return mien_rig_evaluate_batch(get(), batch.get(), handles_of(instances), lods.data(),
                                    static_cast<uint32_t>(instances.size()), stages, parallel);
   }
   Status evaluate_joint_group(Instance& instance, uint32_t lod, uint32_t group) const {
@@ -588,11 +607,12 @@ class DeformerInstance : public Owner<MienDeformerInstance, mien_deformer_instan
   }
 };
 
-/// The same mesh of several poses of one deformer, by their handles.
-inline Status deform_batch(Span<MienDeformerInstance* const> poses, uint32_t mesh,
+/// One mesh of several instances of a deformer.
+inline Status deform_batch(Span<DeformerInstance> instances, uint32_t mesh,
                            MienNormals normals = MIEN_NORMALS_DEFAULT,
                            const MienParallelFor* parallel = nullptr) {
-  return mien_deformer_instance_deform_batch(poses.data(), poses.size(), mesh, normals, parallel);
+  return mien_deformer_instance_deform_batch(handles_of(instances), instances.size(), mesh, normals,
+                                             parallel);
 }
 
 /// Geometry and joint hierarchy of a DNA. Immutable: may be used by several threads at once.
@@ -665,4 +685,7 @@ inline Result<MienInstanceStatistics> statistics(const Instance& instance) {
 }
 #endif
 
+}  // namespace MIEN_CPP_NAMESPACE
 }  // namespace mien
+
+#undef MIEN_CPP_NAMESPACE

@@ -171,14 +171,12 @@ void test_batch() {
   desc.capacity = ~0u;
   CHECK(!rig.batch(desc));
   std::vector<mien::Instance> faces;
-  std::vector<MienInstance*> handles;
   for (int i = 0; i < 3; ++i) {
     faces.push_back(rig.instance().value());
     for (float& control : faces.back().raw_controls()) control = 0.25f * static_cast<float>(i);
-    handles.push_back(faces.back().get());
   }
   const uint32_t lods[] = {0, 1, 0};
-  CHECK(rig.evaluate_batch(batch, handles, lods));
+  CHECK(rig.evaluate_batch(batch, faces, lods));
   mien::Instance alone = rig.instance().value();
   for (float& control : alone.raw_controls()) control = 0.5f;
   CHECK(rig.evaluate(alone));
@@ -186,12 +184,14 @@ void test_batch() {
                     alone.joints().size() * sizeof(float)) == 0);
   int runs = 0;
   const MienParallelFor parallel = {&runs, run_in_order};
-  CHECK(rig.evaluate_batch(batch, handles, lods, MIEN_STAGE_ALL, &parallel));
-  CHECK(!rig.evaluate_batch(batch, handles, mien::Span<const uint32_t>(lods, 2)));
-  handles[1] = handles[0];
-  CHECK(rig.evaluate_batch(batch, handles, lods).status() == MIEN_ERROR_INVALID_ARGUMENT);
+  CHECK(rig.evaluate_batch(batch, faces, lods, MIEN_STAGE_ALL, &parallel));
+  CHECK(!rig.evaluate_batch(batch, faces, mien::Span<const uint32_t>(lods, 2)));
+  // An empty owner is refused, and nothing is evaluated.
+  mien::Instance second = std::move(faces[1]);
+  CHECK(rig.evaluate_batch(batch, faces, lods).status() == MIEN_ERROR_NULL_ARGUMENT);
+  faces[1] = std::move(second);
   mien::Batch none;
-  CHECK(!rig.evaluate_batch(none, handles, lods));
+  CHECK(!rig.evaluate_batch(none, faces, lods));
 }
 
 void test_deformer() {
@@ -227,8 +227,10 @@ void test_deformer() {
   CHECK(same.update(face.joints(), face.blend_shapes()));
   CHECK(same.deform(0, MIEN_NORMALS_SKINNED, &parallel) && runs > 0);
   CHECK(std::memcmp(same.positions(0).data(), moved.data(), moved.size() * sizeof(float)) == 0);
-  MienDeformerInstance* const poses[] = {pose.get(), same.get()};
-  CHECK(mien::deform_batch(poses, 0));
+  mien::DeformerInstance both[] = {std::move(pose), std::move(same)};
+  CHECK(mien::deform_batch(both, 0));
+  pose = std::move(both[0]);
+  same = std::move(both[1]);
   CHECK(std::memcmp(same.positions(0).data(), moved.data(), moved.size() * sizeof(float)) == 0);
   CHECK(same.update({}, {}));
 

@@ -13,6 +13,8 @@ import base64
 import hashlib
 import os
 import re
+import shutil
+import subprocess
 import sys
 import sysconfig
 import zipfile
@@ -61,15 +63,33 @@ def library_name():
     return {"win32": "mien.dll", "darwin": "libmien.dylib"}.get(sys.platform, "libmien.so")
 
 
-def platform_tag():
-    return re.sub(r"[-.]", "_", sysconfig.get_platform())
+# The first C library with which each version of the C++ library was released: those of the
+# manylinux policies (PEP 600).
+CXX_NEEDS = [((3, 4, 19), 17), ((3, 4, 22), 24), ((3, 4, 24), 27), ((3, 4, 28), 31),
+             ((3, 4, 29), 34), ((3, 4, 30), 35), ((3, 4, 32), 38)]
+
+
+def platform_tag(library=None):
+    """The tag of this platform; on Linux with glibc, the manylinux tag that the library's symbols
+    allow, so that pip installs it on every system that can run it."""
+    plain = re.sub(r"[-.]", "_", sysconfig.get_platform())
+    if not plain.startswith("linux_") or library is None or not shutil.which("objdump"):
+        return plain
+    symbols = subprocess.run(["objdump", "-p", library], capture_output=True, text=True).stdout
+    c = [int(minor) for minor in re.findall(r"\bGLIBC_2\.(\d+)", symbols)]
+    cxx = max([tuple(map(int, found.split("."))) for found in
+               re.findall(r"\bGLIBCXX_([\d.]+)", symbols)], default=(0, 0, 0))
+    needed = [minor for version, minor in CXX_NEEDS if version >= cxx]
+    if not c or not needed:  # another C library, or a newer C++ library than the table knows
+        return plain
+    return f"manylinux_2_{max(c + needed[:1])}_{plain[len('linux_'):]}"
 
 
 def write(directory, library=None, tag=None):
     """Writes the wheel and returns its name."""
     stem = f"mien-{version()}"
     info = f"{stem}.dist-info"
-    tag = f"py3-none-{tag or platform_tag()}"
+    tag = f"py3-none-{tag or platform_tag(library_file(library))}"
     files = [(f"mien/{file.name}", file.read_bytes()) for file in sorted((HERE / "mien").iterdir())
              if file.suffix == ".py" or file.name == "py.typed"]
     files.append((f"mien/{library_name()}", library_file(library).read_bytes()))
@@ -114,7 +134,7 @@ def build_sdist(sdist_directory, config_settings=None):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--library", help="libmien to put into it")
-    parser.add_argument("--platform", help=f"platform tag; default: {platform_tag()}")
+    parser.add_argument("--platform", help="platform tag; default: that of the library")
     parser.add_argument("--output", default=".", help="directory; default: this one")
     args = parser.parse_args()
     Path(args.output).mkdir(parents=True, exist_ok=True)

@@ -12,12 +12,12 @@
 
 `Dna` -> `Rig` -> `Instance` or `Batch`. README.md has more; errors are in `mien.errors`.
 """
-from ._api import (Compose, CoordinateSystem, DeformerInfo, Direction, DnaField, DnaInfo, DnaLayer,
-                   FaceWinding,
-                   FieldType, FileAccess, Finding, BakedCheck, InstanceStatistics, Isa, Kind, Layer,
-                   MlMasks, Normals, Preset, Reuse, RigInfo, RigStatistics, RotationOutput,
-                   RotationRule, RotationSequence, RotationUnit, Severity, Stage, Status, Storage,
-                   TranslationUnit, UnknownLayers, Weights)
+from ._api import (BakedCheck, Compose, CoordinateSystem, DeformerInfo, Direction, DnaField,
+                   DnaInfo, DnaLayer, FaceWinding, FieldType, FileAccess, Finding,
+                   InstanceStatistics, Isa, Kind, Layer, MlMasks, Normals, Preset, Reuse, RigInfo,
+                   RigStatistics, RotationOutput, RotationRule, RotationSequence, RotationUnit,
+                   Severity, Stage, Status, Storage, TranslationUnit, UnknownLayers, Weights)
+from ._api import VERSION as _VERSION
 from ._library import path as library_path, version
 from .batch import Batch
 from .deformer import Deformer, Mesh, DeformerInstance, deform_batch
@@ -25,16 +25,19 @@ from .dna import Dna, coordinate_system, coordinate_system_names, validate
 from .errors import (ArgumentError, BusyError, ClosedError, DnaError, Error, FileError,
                      OutOfMemoryError, OutOfRangeError, UnknownNameError)
 from .instance import Instance
-from .rig import Rig, isa_available, isa_name
+from .rig import Rig
+from .rig_view import isa_available, isa_name
+
+__version__ = _VERSION
 
 __all__ = [
-    "ArgumentError", "Batch", "BusyError", "ClosedError", "Compose", "coordinate_system",
-    "coordinate_system_names", "CoordinateSystem", "deform_batch", "Deformer", "DeformerInfo",
-    "Direction", "Dna", "DnaError", "DnaField", "DnaInfo", "DnaLayer", "Error", "FaceWinding", "FieldType",
-    "FileAccess", "FileError", "Finding", "BakedCheck", "Instance", "InstanceStatistics", "Isa",
-    "isa_available", "isa_name", "Kind", "Layer", "library_path", "Mesh", "MlMasks", "Normals",
-    "OutOfMemoryError", "OutOfRangeError",
-    "DeformerInstance", "Preset", "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationOutput", "RotationRule",
-    "RotationSequence", "RotationUnit", "Severity", "Stage", "Status", "Storage", "TranslationUnit",
-    "UnknownLayers", "UnknownNameError", "validate", "version", "Weights",
+    "__version__", "ArgumentError", "BakedCheck", "Batch", "BusyError", "ClosedError", "Compose",
+    "coordinate_system", "coordinate_system_names", "CoordinateSystem", "deform_batch", "Deformer",
+    "DeformerInfo", "DeformerInstance", "Direction", "Dna", "DnaError", "DnaField", "DnaInfo",
+    "DnaLayer", "Error", "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding",
+    "Instance", "InstanceStatistics", "Isa", "isa_available", "isa_name", "Kind", "Layer",
+    "library_path", "Mesh", "MlMasks", "Normals", "OutOfMemoryError", "OutOfRangeError", "Preset",
+    "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationOutput", "RotationRule",
+    "RotationSequence", "RotationUnit", "Severity", "Stage", "Status", "Storage",
+    "TranslationUnit", "UnknownLayers", "UnknownNameError", "validate", "version", "Weights",
 ]

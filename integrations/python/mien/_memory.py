@@ -47,7 +47,7 @@ class _Address:
 
     __slots__ = ()
 
-    def __reduce_ex__(self, protocol: Any) -> NoReturn:
+    def __reduce_ex__(self, protocol: Any) -> Any:
         raise TypeError(f"{type(self).__name__} objects cannot be copied, pickled or sent to other "
                         "processes; make new ones there")
 

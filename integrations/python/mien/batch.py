@@ -15,7 +15,7 @@ from ._memory import BatchHandle, Closable, Floats, assign, empty, numpy, uint32
 from ._threads import call_with_threads
 from .errors import ArgumentError, BusyError, OutOfMemoryError, OutOfRangeError, fail
 from .instance import Instance
-from .rig import Rig
+from .rig_view import RigView
 
 _evaluate_batch = lib.mien_rig_evaluate_batch
 _ALIGNMENT = 64
@@ -53,13 +53,13 @@ class _Slab:
 class Batch(Closable):
     """`count` new characters of one rig, evaluated together.
 
-        crowd = rig.batch(64)
+        batch = rig.batch(64)
         jaw = rig.raw_control("CTRL_expressions.jawOpen")
-        crowd.raw_controls[:, jaw] = numpy.linspace(0, 1, 64)
-        crowd.evaluate(lod=0)
-        crowd.joints                 # float32 (64, joints, 9)
+        batch.raw_controls[:, jaw] = numpy.linspace(0, 1, 64)
+        batch.evaluate(lod=0)
+        batch.joints                 # float32 (64, joints, 9)
 
-    Row i of each array is the memory of character `crowd[i]`, an `Instance` like any other: nothing
+    Row i of each array is the memory of character `batch[i]`, an `Instance` like any other: nothing
     is copied, and evaluation fetches the rig's matrix once for many of them. Inputs are written in
     place or by assigning (a row for all, or one number, will do too); outputs cannot be written.
     Arrays and closing are as at `Instance`; the arrays need NumPy. A batch is for one thread
@@ -71,7 +71,7 @@ class Batch(Closable):
     __slots__ = ("rig", "_slab", "_lock", "_instances", "_batch", "_pointers", "_desc", "_lods",
                  "_views")
 
-    def __init__(self, rig: Rig, count: int, tasks: int = 1) -> None:
+    def __init__(self, rig: RigView, count: int, tasks: int = 1) -> None:
         if not 0 <= count <= 1 << 20:
             raise ArgumentError(f"a batch of {count} characters; there may be 2**20")
         self.rig = rig

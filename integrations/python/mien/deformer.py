@@ -6,7 +6,7 @@ import ctypes
 from _thread import allocate_lock
 from concurrent.futures import Executor
 from contextlib import ExitStack, contextmanager
-from typing import Any, Iterable, Iterator, List, Optional, Sequence, Tuple
+from typing import Any, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
 
 from . import _api
 from ._api import Compose, DeformerInfo, Isa, Kind, MienError, Normals, Status, Weights
@@ -15,7 +15,7 @@ from ._memory import (Closable, DeformerHandle, Floats, Indices, PoseHandle, arr
                       lod_bits, new_array, shaped, uint32)
 from ._threads import call_with_threads
 from .dna import Dna
-from .errors import BusyError, fail
+from .errors import BusyError, UnknownNameError, fail
 from .instance import Instance
 from .rig import Rig
 
@@ -107,9 +107,13 @@ class Deformer(Closable):
         self.info: DeformerInfo = DeformerInfo._of(info)
         self._mesh_names = rig.names(Kind.MESH)
 
-    def mesh(self, index: int) -> Mesh:
-        """The neutral mesh of this index."""
-        handle, found = self._open(), _api.MienMesh()
+    def mesh(self, mesh: Union[int, str]) -> Mesh:
+        """A neutral mesh, by index or by name."""
+        if isinstance(mesh, str):
+            if mesh not in self._mesh_names:
+                raise UnknownNameError(f"there is no mesh {mesh!r}", Status.NAME)
+            mesh = self._mesh_names.index(mesh)
+        index, handle, found = mesh, self._open(), _api.MienMesh()
         status = lib.mien_deformer_mesh(handle, uint32(index, "mesh"), _byref(found))
         if status:
             fail(status, f"mesh {index} of {self.info.mesh_count}")

@@ -13,7 +13,7 @@ from ._api import InstanceStatistics, Kind, MienError, Stage, Status
 from ._library import lib
 from ._memory import Closable, Floats, InstanceHandle, array_over, assign, uint32
 from .errors import BusyError, OutOfRangeError, UnknownNameError, fail
-from .rig import Rig
+from .rig_view import RigView
 
 _byref = ctypes.byref
 _evaluate = lib.mien_rig_evaluate
@@ -36,7 +36,7 @@ class Instance(Closable):
 
     __slots__ = ("rig", "_lod_count", "_views", "_lock")
 
-    def __init__(self, rig: Rig, _slab: Any = None, _lock: Any = None) -> None:
+    def __init__(self, rig: RigView, _slab: Any = None, _lock: Any = None) -> None:
         handle, error = InstanceHandle(), MienError()
         handle.slab = _slab
         desc = _api.MienInstanceDesc()

@@ -161,10 +161,20 @@ class Closing(unittest.TestCase):
         dna = mien.Dna.generate()
         rig = mien.Rig(dna)
         face = rig.instance()
-        for thing in (dna, rig, face, rig.batch(2), face._handle, rig._handle, dna._handle):
+        for thing in (dna, face, rig.batch(2), face._handle, rig._handle, dna._handle):
             for travel in (pickle.dumps, copy.copy, copy.deepcopy):
                 with self.assertRaises(TypeError):
                     travel(thing)
+
+    def test_rigs_travel_as_baked_bytes(self):
+        rig = mien.Rig(mien.Dna.generate(mien.Preset.SMALL))
+        other = pickle.loads(pickle.dumps(rig))
+        self.assertEqual(other.to_bytes(), rig.to_bytes())
+        self.assertIs(copy.copy(rig), rig)
+        self.assertIs(copy.deepcopy(rig), rig)
+        face = other.instance()
+        rig.close()
+        face.evaluate()
 
     def test_end_of_the_process_with_everything_open(self):
         run("""
