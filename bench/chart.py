@@ -18,13 +18,13 @@ RESULTS = ROOT / "bench" / "results"
 README = ROOT / "README.md"
 BEGIN, END = "<!-- bench:begin -->", "<!-- bench:end -->"
 
-# Heading, activity, characters, the same controls active in all.
+# Heading, activity, instances, whether all have the same active controls.
 COLUMNS = [("5 %", 0.05, 1, False), ("8 %", 0.08, 1, False), ("25 %", 0.25, 1, False),
            ("50 %", 0.5, 1, False), ("100 %", 1.0, 1, False),
-           ("64 characters, 25 %", 0.25, 64, False), ("64 alike, 25 %", 0.25, 64, True),
-           ("512 speaking, 8 %", 0.08, 512, False)]
+           ("64 instances, 25 %", 0.25, 64, False), ("64 instances, same controls, 25 %", 0.25, 64, True),
+           ("512 instances, 8 %", 0.08, 512, False)]
 # For bars on light and on dark pages.
-COLOURS = {"scalar": "#8b949e", "sse2": "#bf8700", "avx2": "#2f81f7", "avx512": "#8957e5",
+COLORS = {"scalar": "#8b949e", "sse2": "#bf8700", "avx2": "#2f81f7", "avx512": "#8957e5",
            "neon": "#2da44e"}
 
 
@@ -85,7 +85,7 @@ def chart(result):
                 times = values[name][1]
                 width = wide * times / most
                 out.append(f'<rect x="{left}" y="{y}" width="{width:.1f}" height="{bar - 2}" '
-                           f'fill="{COLOURS.get(isa, "#8b949e")}"/>')
+                           f'fill="{COLORS.get(isa, "#8b949e")}"/>')
                 out.append(f'<text x="{left + width + 5:.1f}" y="{y + 10}" font-size="10">'
                            f'{times:.1f} {html.escape(label)}</text>')
             y += bar
