@@ -37,7 +37,8 @@ if cargo clippy --version >/dev/null 2>&1; then
 else
   echo "NOT TESTED: lints; there is no clippy"
 fi
-RUSTDOCFLAGS="-D warnings" run shared cargo doc --quiet --locked --no-deps
+# Without any library, as docs.rs does.
+(unset MIEN_LIB_DIR; MIEN_DOCS=1 RUSTDOCFLAGS="-D warnings" run docs cargo doc --quiet --locked --no-deps)
 MIEN_STATIC=1 run static cargo test --quiet --locked --tests
 
 # What is written for Miri, with Miri where there is one; else at least that it compiles and runs.

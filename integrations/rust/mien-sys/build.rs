@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-//! Finds libmien: in `MIEN_LIB_DIR` if that is set, else by pkg-config.
+//! Finds libmien: built here with the feature `vendored`, else in `MIEN_LIB_DIR` if that is set, else by
+//! pkg-config. Documentation is made without it.
 //!
 //! Crates that depend on this one directly learn from `DEP_MIEN_LIB_DIR` where it is, if that is no
 //! place where the dynamic linker looks by itself.
@@ -14,8 +15,16 @@ fn main() {
     }
     println!("cargo:rerun-if-changed=build.rs");
 
-    // Documentation needs no library, and Miri (which links nothing) brings its own functions.
-    if env::var_os("DOCS_RS").is_some() || env::var_os("CARGO_CFG_MIRI").is_some() {
+    // Documentation needs no library, and Miri (which links nothing) brings its own functions. cargo does
+    // not tell build scripts that it only documents, so MIEN_DOCS=1 does.
+    println!("cargo:rerun-if-env-changed=MIEN_DOCS");
+    for variable in ["DOCS_RS", "MIEN_DOCS", "CARGO_CFG_MIRI"] {
+        if env::var_os(variable).is_some() {
+            return;
+        }
+    }
+    if env::var_os("CARGO_FEATURE_VENDORED").is_some() {
+        link_statically(&build_vendored());
         return;
     }
 
@@ -25,6 +34,36 @@ fn main() {
         Ok(directory) if !directory.is_empty() => link_directory(&directory, statically),
         _ => link_by_pkg_config(statically),
     }
+}
+
+/// Builds the static library with CMake in cargo's output directory; returns where it is.
+fn build_vendored() -> String {
+    let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..");
+    if !sources.join("capi/mien.h").exists() {
+        fail("the feature `vendored` needs the sources of the repository around the crate");
+    }
+    let build = format!("{}/mien", env::var("OUT_DIR").expect("cargo sets it"));
+    let run = |arguments: &[&str]| match Command::new("cmake").args(arguments).status() {
+        Ok(status) if status.success() => {}
+        Ok(status) => fail(&format!("cmake {}: {}", arguments.join(" "), status)),
+        Err(error) => fail(&format!("cmake cannot be run: {}", error)),
+    };
+    let sources = sources.display().to_string();
+    run(&[
+        "-S",
+        &sources,
+        "-B",
+        &build,
+        "-DCMAKE_BUILD_TYPE=Release",
+        "-DMIEN_BUILD_CLI=OFF",
+        "-DMIEN_BUILD_TESTS=OFF",
+        "-DMIEN_BUILD_BENCH=OFF",
+    ]);
+    run(&["--build", &build, "--parallel", "--target", "mien_static"]);
+    for room in ["capi", "runtime", "simd"] {
+        println!("cargo:rerun-if-changed={}/{}", sources, room);
+    }
+    format!("{}/lib", build)
 }
 
 fn link_directory(directory: &str, statically: bool) {
@@ -100,7 +139,8 @@ fn target(what: &str) -> String {
 fn fail(why: &str) -> ! {
     eprintln!("mien-sys does not find the Mien library: {}", why);
     eprintln!(
-        "Install it where pkg-config looks, or set MIEN_LIB_DIR to the directory of libmien."
+        "Install it where pkg-config looks, set MIEN_LIB_DIR to the directory of libmien, or use the \
+         feature `vendored`."
     );
     exit(1);
 }

@@ -37,16 +37,28 @@ unsafe impl Sync for Batch {}
 
 impl Batch {
     /// For up to `capacity` instances per call, without threads.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn new(rig: &Rig, capacity: usize) -> Result<Self> {
         Self::create(rig, capacity, 1, None)
     }
 
     /// The same in up to `tasks` tasks at once, each of which takes scratch memory of its own.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn with_tasks(rig: &Rig, capacity: usize, tasks: usize) -> Result<Self> {
         Self::create(rig, capacity, tasks, None)
     }
 
     /// The same in memory of your own: one block of [`bytes`](Self::bytes).
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn new_in(rig: &Rig, capacity: usize, tasks: usize, allocator: &Allocator) -> Result<Self> {
         Self::create(rig, capacity, tasks, Some(allocator))
     }
@@ -73,6 +85,10 @@ impl Batch {
     }
 
     /// Bytes that such a batch takes from its allocator.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_batch_bytes()` in `mien.h`.
     pub fn bytes(rig: &Rig, capacity: usize, tasks: usize) -> Result<u64> {
         let mut out = 0;
         let desc = Self::desc(capacity, tasks, null());
@@ -92,6 +108,7 @@ impl Batch {
     }
 
     /// The rig whose instances it evaluates.
+    #[must_use]
     pub fn rig(&self) -> &Rig {
         &self.rig
     }
@@ -99,6 +116,10 @@ impl Batch {
     /// Evaluates all stages of the instances at a LOD, on this thread. Allocates nothing. If one of
     /// them is of another rig ([`Status::MISMATCH`](crate::Status::MISMATCH)), or there are more
     /// than there is room for, none is evaluated.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn evaluate<'faces>(
         &mut self,
         instances: impl IntoIterator<Item = &'faces mut Instance>,
@@ -108,6 +129,10 @@ impl Batch {
     }
 
     /// Evaluates stages of the instances, each at its own LOD.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn evaluate_each<'faces>(
         &mut self,
         instances: impl IntoIterator<Item = (&'faces mut Instance, usize)>,
@@ -120,6 +145,10 @@ impl Batch {
 
     /// The same by threads of yours: `run` gets the number of tasks and the work; what it leaves is
     /// done on this thread. [`DeformerInstance::deform_on`](crate::DeformerInstance::deform_on) has an example.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn evaluate_each_on<'faces>(
         &mut self,
         instances: impl IntoIterator<Item = (&'faces mut Instance, usize)>,

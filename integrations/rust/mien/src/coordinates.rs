@@ -17,6 +17,10 @@ use mien_sys as sys;
 impl CoordinateSystem {
     /// The system of an engine or tool, as one of [`names`](Self::names). Its fields may be changed
     /// afterwards; angles turn by its own order once `rotation_rule` says so.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_coordinate_system_find_n()` in `mien.h`.
     pub fn named(name: &str) -> Result<Self> {
         let mut out = sys::MienCoordinateSystem::default();
         // SAFETY: as many bytes as are told, and a sized struct.

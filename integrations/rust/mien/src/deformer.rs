@@ -80,12 +80,20 @@ pub struct Mesh<'deformer> {
 impl Deformer {
     /// Packs the geometry of `dna`, the one that `rig` was made of. [`DeformerOptions`] has other
     /// wishes.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`DeformerOptions::create`](crate::DeformerOptions::create).
     pub fn new(dna: &Dna<'_>, rig: &Rig) -> Result<Self> {
         DeformerOptions::new().create(dna, rig)
     }
 
     /// A pose in neutral, with room for all meshes. [`DeformerInstanceOptions`](crate::DeformerInstanceOptions) leaves out
     /// some.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn instance(&self) -> Result<DeformerInstance> {
         DeformerInstance::new(self)
     }
@@ -95,17 +103,23 @@ impl Deformer {
     }
 
     /// The rig that it was made for.
+    #[must_use]
     pub fn rig(&self) -> &Rig {
         &self.shared.rig
     }
 
     /// Counts, choices, memory. Names of meshes are those of the rig
     /// ([`Kind::MESH`](crate::Kind::MESH)).
+    #[must_use]
     pub fn info(&self) -> &DeformerInfo {
         &self.shared.info
     }
 
     /// A neutral mesh.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_deformer_mesh()` in `mien.h`.
     pub fn mesh(&self, mesh: usize) -> Result<Mesh<'_>> {
         let mut out = sys::MienMesh::default();
         // SAFETY: a live handle and a sized struct; views live as long as the deformer.
@@ -131,6 +145,10 @@ impl Deformer {
 
     /// Joints that hold a position, and their weights, as they are used: as many as each other,
     /// possibly none.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_deformer_influences()` in `mien.h`.
     pub fn influences(&self, mesh: usize, position: usize) -> Result<(&[u16], &[f32])> {
         let mut joints = sys::MienIndex16View::default();
         let mut weights = sys::MienFloatView::default();
@@ -150,6 +168,10 @@ impl Deformer {
     }
 
     /// How far a blend shape target moves each position of the mesh at channel weight 1.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_deformer_target()` in `mien.h`.
     pub fn target(&self, mesh: usize, target: usize) -> Result<Vec<[f32; 3]>> {
         let mut out = vec![[0.0; 3]; self.mesh(mesh)?.positions.len()];
         let (mesh, target) = (index(mesh), index(target));
@@ -163,12 +185,14 @@ impl Deformer {
 
     /// Model matrices of the joints in the neutral pose: column by column, for column vectors, so
     /// the last four floats are the translation and 1.
+    #[must_use]
     pub fn bind_matrices(&self) -> &[[f32; 16]] {
         // SAFETY: a live handle.
         self.matrices(|out| unsafe { sys::mien_deformer_bind_matrices(self.raw(), out) })
     }
 
     /// Their inverses.
+    #[must_use]
     pub fn inverse_bind_matrices(&self) -> &[[f32; 16]] {
         // SAFETY: a live handle.
         self.matrices(|out| unsafe { sys::mien_deformer_inverse_bind_matrices(self.raw(), out) })
@@ -201,6 +225,7 @@ impl std::fmt::Debug for Deformer {
 
 /// How to pack a deformer.
 #[derive(Clone, Debug, Default)]
+#[must_use = "options do nothing until they are used"]
 pub struct DeformerOptions {
     isa: Isa,
     compose: Compose,
@@ -249,6 +274,10 @@ impl DeformerOptions {
     /// [`Status::DNA_LAYER`](crate::Status::DNA_LAYER). It is the one that `rig` was made of, or
     /// another opening of the same file with the same LODs, else
     /// [`Status::MISMATCH`](crate::Status::MISMATCH).
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_deformer_create()` in `mien.h`.
     pub fn create(&self, dna: &Dna<'_>, rig: &Rig) -> Result<Deformer> {
         let mut handle = null_mut();
         Allocator::with(self.allocator.as_ref(), |allocator| {

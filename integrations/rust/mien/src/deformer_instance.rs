@@ -26,11 +26,16 @@ unsafe impl Sync for DeformerInstance {}
 
 impl DeformerInstance {
     /// A pose in neutral, with room for all meshes, in memory of the heap.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`DeformerInstanceOptions::create`](crate::DeformerInstanceOptions::create).
     pub fn new(deformer: &Deformer) -> Result<Self> {
         DeformerInstanceOptions::new().create(deformer)
     }
 
     /// The deformer that makes it.
+    #[must_use]
     pub fn deformer(&self) -> &Deformer {
         &self.deformer
     }
@@ -38,6 +43,10 @@ impl DeformerInstance {
     /// Takes over joint values and channel weights of the last evaluation of an instance of the
     /// same rig, and computes the matrices of all joints; meshes follow with
     /// [`deform`](Self::deform). Allocates nothing, locks nothing.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_deformer_instance_update()` in `mien.h`.
     pub fn update(&mut self, instance: &Instance) -> Result<()> {
         // SAFETY: live handles, and `&mut self` for the one that changes.
         check(unsafe { sys::mien_deformer_instance_update(self.raw(), instance.raw_const()) })
@@ -45,6 +54,10 @@ impl DeformerInstance {
 
     /// The same from arrays: values as [`Instance::joints`] gives them, and one weight per channel.
     /// Empty ones: no deltas, no weights.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_deformer_instance_update_from_values()` in `mien.h`.
     pub fn update_from_values(&mut self, joints: &[f32], channel_weights: &[f32]) -> Result<()> {
         let pointer = |values: &[f32]| if values.is_empty() { null() } else { values.as_ptr() };
         let (values, weights) = (pointer(joints), pointer(channel_weights));
@@ -64,6 +77,7 @@ impl DeformerInstance {
     /// Model matrices of the joints as of the last update, laid out as
     /// [`Deformer::bind_matrices`].
     #[inline]
+    #[must_use]
     pub fn joint_matrices(&self) -> &[[f32; 16]] {
         // SAFETY: valid as long as `self`; what writes to it takes `&mut self`.
         unsafe { rows(self.joint_matrices.data, self.joint_matrices.count) }
@@ -71,6 +85,7 @@ impl DeformerInstance {
 
     /// Matrices for skinning elsewhere, as on a GPU: model matrices times inverse bind matrices.
     #[inline]
+    #[must_use]
     pub fn skin_matrices(&self) -> &[[f32; 16]] {
         // SAFETY: as above.
         unsafe { rows(self.skin_matrices.data, self.skin_matrices.count) }
@@ -78,6 +93,10 @@ impl DeformerInstance {
 
     /// Writes the transforms of the last update, relative to the parent, one row per joint: tx ty
     /// tz qx qy qz qw sx sy sz, the quaternion of unit length.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_deformer_instance_local_transforms()` in `mien.h`.
     pub fn local_transforms(&self, out: &mut [[f32; 10]]) -> Result<()> {
         let (data, count) = (out.as_mut_ptr().cast(), 10 * out.len());
         // SAFETY: a live handle, and room for as many floats as are told.
@@ -89,6 +108,10 @@ impl DeformerInstance {
     /// Positions of one mesh as of the last update, and its normals, on this thread. Allocates
     /// nothing, locks nothing. [`Status::LOD`](crate::Status::LOD): the pose has no room for this
     /// mesh.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_deformer_instance_deform()` in `mien.h`.
     pub fn deform(&mut self, mesh: usize, normals: Normals) -> Result<()> {
         // SAFETY: a live handle.
         check(unsafe {
@@ -112,6 +135,10 @@ impl DeformerInstance {
     /// })?;
     /// # Ok::<(), mien::Error>(())
     /// ```
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_deformer_instance_deform()` in `mien.h`.
     pub fn deform_on(
         &mut self,
         mesh: usize,
@@ -128,6 +155,10 @@ impl DeformerInstance {
     /// One mesh of several poses of one deformer, on this thread: the same bits as one after the
     /// other, but each piece of the mesh is fetched once. Poses of another deformer are
     /// [`Status::MISMATCH`](crate::Status::MISMATCH); then none is deformed.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_deformer_instance_deform_batch()` in `mien.h`.
     pub fn deform_batch<'poses>(
         poses: impl IntoIterator<Item = &'poses mut DeformerInstance>,
         mesh: usize,
@@ -143,6 +174,10 @@ impl DeformerInstance {
 
     /// The same by threads of yours, as in [`deform_on`](Self::deform_on); all poses together count
     /// for how large it is.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_deformer_instance_deform_batch()` in `mien.h`.
     pub fn deform_batch_on<'poses>(
         poses: impl IntoIterator<Item = &'poses mut DeformerInstance>,
         mesh: usize,
@@ -164,6 +199,10 @@ impl DeformerInstance {
     }
 
     /// x y z of the positions of a mesh, as it was deformed last.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_deformer_instance_positions()` in `mien.h`.
     pub fn positions(&self, mesh: usize) -> Result<&[[f32; 3]]> {
         let mut out = sys::MienFloatView::default();
         // SAFETY: a live handle; the view stays valid, and what writes to it takes `&mut self`.
@@ -174,6 +213,10 @@ impl DeformerInstance {
     }
 
     /// x y z of the normals of a mesh, per vertex, unit length.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_deformer_instance_normals()` in `mien.h`.
     pub fn normals(&self, mesh: usize) -> Result<&[[f32; 3]]> {
         let mut out = sys::MienFloatView::default();
         // SAFETY: as above.
@@ -207,6 +250,7 @@ impl std::fmt::Debug for DeformerInstance {
 
 /// How to make a pose.
 #[derive(Clone, Debug, Default)]
+#[must_use = "options do nothing until they are used"]
 pub struct DeformerInstanceOptions {
     lods: u64,
     allocator: Option<Allocator>,
@@ -231,6 +275,10 @@ impl DeformerInstanceOptions {
     }
 
     /// Makes a pose in neutral.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_deformer_instance_create()` in `mien.h`.
     pub fn create(&self, deformer: &Deformer) -> Result<DeformerInstance> {
         let mut handle = null_mut();
         Allocator::with(self.allocator.as_ref(), |allocator| {

@@ -38,11 +38,19 @@ unsafe impl Sync for Dna<'_> {}
 
 impl Dna<'static> {
     /// Reads a whole file and checks it. [`OpenOptions`] loads parts, or maps the file.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`OpenOptions::open`](crate::OpenOptions::open).
     pub fn open(path: impl AsRef<Path>) -> Result<Self> {
         OpenOptions::new().open(path)
     }
 
     /// Makes a synthetic face rig. [`GenerateOptions`] has a seed, too.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`GenerateOptions::preset`](crate::GenerateOptions::preset).
     pub fn generate(preset: Preset) -> Result<Self> {
         GenerateOptions::new().preset(preset).generate()
     }
@@ -50,6 +58,10 @@ impl Dna<'static> {
 
 impl<'bytes> Dna<'bytes> {
     /// Checks a file that is in memory, without a copy of it.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`OpenOptions::open_bytes`](crate::OpenOptions::open_bytes).
     pub fn from_bytes(bytes: &'bytes [u8]) -> Result<Self> {
         OpenOptions::new().open_bytes(bytes)
     }
@@ -74,11 +86,16 @@ impl<'bytes> Dna<'bytes> {
     }
 
     /// What the file holds: counts, units, axes, LODs.
+    #[must_use]
     pub fn info(&self) -> &DnaInfo {
         &self.info
     }
 
     /// Entry `index` of the file's table of layers, of `info().layer_count`.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_dna_layer()` in `mien.h`.
     pub fn layer(&self, layer: usize) -> Result<DnaLayer> {
         let mut out = sys::MienDnaLayer::default();
         // SAFETY: a live handle and a sized struct.
@@ -100,6 +117,10 @@ impl<'bytes> Dna<'bytes> {
     /// # assert!(!name.is_empty());
     /// # Ok::<(), mien::Error>(())
     /// ```
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_dna_field()` in `mien.h`.
     pub fn field(&self, path: &str) -> Result<DnaField> {
         let path = terminated(path)?;
         let mut out = sys::MienDnaField::default();
@@ -111,6 +132,10 @@ impl<'bytes> Dna<'bytes> {
     }
 
     /// Name of field `field` of the record at `path` (`""` for the layers themselves).
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_dna_child_name()` in `mien.h`.
     pub fn field_name(&self, path: &str, field: usize) -> Result<Cow<'_, str>> {
         let path = terminated(path)?;
         let mut out = empty_string();
@@ -123,6 +148,10 @@ impl<'bytes> Dna<'bytes> {
     }
 
     /// All elements of a float field.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn read_floats(&self, path: &str) -> Result<Vec<f32>> {
         let mut out = vec![0.0; self.length(path)?];
         self.read_floats_into(path, 0, &mut out)?;
@@ -130,6 +159,10 @@ impl<'bytes> Dna<'bytes> {
     }
 
     /// Fills `out` with elements of a float field, from element `first` on.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_dna_read_floats()` in `mien.h`.
     pub fn read_floats_into(&self, path: &str, first: u64, out: &mut [f32]) -> Result<()> {
         let (path, count) = (terminated(path)?, out.len() as u64);
         // SAFETY: a live handle, a terminated path, and room for `count` values.
@@ -140,6 +173,10 @@ impl<'bytes> Dna<'bytes> {
     }
 
     /// All elements of an integer field, whatever their width.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn read_integers(&self, path: &str) -> Result<Vec<i64>> {
         let mut out = vec![0; self.length(path)?];
         self.read_integers_into(path, 0, &mut out)?;
@@ -147,6 +184,10 @@ impl<'bytes> Dna<'bytes> {
     }
 
     /// Fills `out` with elements of an integer field, from element `first` on.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_dna_read_integers()` in `mien.h`.
     pub fn read_integers_into(&self, path: &str, first: u64, out: &mut [i64]) -> Result<()> {
         let (path, count) = (terminated(path)?, out.len() as u64);
         // SAFETY: as for floats.
@@ -166,11 +207,19 @@ impl<'bytes> Dna<'bytes> {
     }
 
     /// The text at a path. Where it is not UTF-8, replacement characters stand.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn read_string(&self, path: &str) -> Result<Cow<'_, str>> {
         self.read_string_bytes(path).map(utf8)
     }
 
     /// The text at a path as it is in the file.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_dna_read_string()` in `mien.h`.
     pub fn read_string_bytes(&self, path: &str) -> Result<&[u8]> {
         let path = terminated(path)?;
         let mut out = empty_string();
@@ -184,11 +233,19 @@ impl<'bytes> Dna<'bytes> {
 
     /// Writes a canonical file; [`WriteOptions`] converts to other versions. Goes to a temporary
     /// name first, so a failure leaves `path` as it was.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`WriteOptions::write`](crate::WriteOptions::write).
     pub fn write(&self, path: impl AsRef<Path>) -> Result<()> {
         WriteOptions::new().write(self, path)
     }
 
     /// The same to memory.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`WriteOptions::to_bytes`](crate::WriteOptions::to_bytes).
     pub fn to_bytes(&self) -> Result<Vec<u8>> {
         WriteOptions::new().to_bytes(self)
     }
@@ -218,6 +275,7 @@ impl std::fmt::Debug for Dna<'_> {
 /// # Ok::<(), mien::Error>(())
 /// ```
 #[derive(Clone, Debug, Default)]
+#[must_use = "options do nothing until they are used"]
 pub struct OpenOptions {
     layers: Layers,
     unknown_layers: UnknownLayers,
@@ -300,6 +358,10 @@ impl OpenOptions {
     }
 
     /// Reads the whole file into memory, then checks what was chosen of it.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn open(&self, path: impl AsRef<Path>) -> Result<Dna<'static>> {
         // SAFETY: once it is read, nobody can change it.
         unsafe { self.open_file(path.as_ref(), sys::MIEN_FILE_READ) }
@@ -311,6 +373,10 @@ impl OpenOptions {
     ///
     /// While the `Dna` lives, nobody may truncate the file or rewrite it in place: it is checked
     /// once, and then believed. Replacing it by renaming another one over it is fine.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub unsafe fn map(&self, path: impl AsRef<Path>) -> Result<Dna<'static>> {
         // SAFETY: the caller sees to it that the file stays as it is.
         unsafe { self.open_file(path.as_ref(), sys::MIEN_FILE_MAP) }
@@ -328,6 +394,10 @@ impl OpenOptions {
     }
 
     /// Checks a file that is in memory, without a copy of it.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_dna_open_memory()` in `mien.h`.
     pub fn open_bytes<'bytes>(&self, bytes: &'bytes [u8]) -> Result<Dna<'bytes>> {
         self.open_by(sys::MIEN_FILE_MAP, |desc, out, error| {
             let data = bytes.as_ptr().cast();
@@ -339,6 +409,7 @@ impl OpenOptions {
 
 /// How to write a file.
 #[derive(Clone, Debug, Default)]
+#[must_use = "options do nothing until they are used"]
 pub struct WriteOptions {
     version: u32,
     unknown_layers: UnknownLayers,
@@ -371,6 +442,10 @@ impl WriteOptions {
     }
 
     /// Writes `dna` to a temporary name first, so a failure leaves `path` as it was.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_dna_write_file()` in `mien.h`.
     pub fn write(&self, dna: &Dna<'_>, path: impl AsRef<Path>) -> Result<()> {
         let path = path_string(path.as_ref())?;
         // SAFETY: a live handle, a terminated path, a sized struct.
@@ -380,6 +455,10 @@ impl WriteOptions {
     }
 
     /// The same bytes, to memory.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_dna_write_memory()` in `mien.h`.
     pub fn to_bytes(&self, dna: &Dna<'_>) -> Result<Vec<u8>> {
         let write = |buffer: *mut c_void, capacity, size: &mut usize| {
             // SAFETY: a live handle, a sized struct, and room for `capacity` bytes.
@@ -402,6 +481,7 @@ impl WriteOptions {
 ///
 /// The same seed gives the same bytes on every machine.
 #[derive(Clone, Debug, Default)]
+#[must_use = "options do nothing until they are used"]
 pub struct GenerateOptions {
     preset: Preset,
     seed: u64,
@@ -440,6 +520,10 @@ impl GenerateOptions {
     }
 
     /// Makes it.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_dna_generate()` in `mien.h`.
     pub fn generate(&self) -> Result<Dna<'static>> {
         Dna::created(self.allocator.as_ref(), |allocator, out, error| {
             let desc = sys::MienGenerateDesc {

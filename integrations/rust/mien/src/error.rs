@@ -32,16 +32,19 @@ impl Error {
     }
 
     /// Which kind of failure this is, for programs to act on.
+    #[must_use]
     pub fn status(&self) -> Status {
         self.status
     }
 
     /// Where in the file the cause is, if there is such a place.
+    #[must_use]
     pub fn byte_offset(&self) -> Option<u64> {
         self.byte_offset
     }
 
     /// What, where and what to do about it, for people.
+    #[must_use]
     pub fn message(&self) -> &str {
         &self.message
     }
@@ -62,8 +65,26 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
+/// For functions that return [`std::io::Result`]: damaged files are
+/// [`InvalidData`](std::io::ErrorKind::InvalidData), wrong arguments
+/// [`InvalidInput`](std::io::ErrorKind::InvalidInput). The error stays available by
+/// [`get_ref`](std::io::Error::get_ref).
+impl From<Error> for std::io::Error {
+    fn from(error: Error) -> Self {
+        use std::io::ErrorKind;
+        let kind = match error.status().0 {
+            1..=9 => ErrorKind::InvalidInput,
+            10..=19 => ErrorKind::OutOfMemory,
+            30..=59 => ErrorKind::InvalidData,
+            _ => ErrorKind::Other,
+        };
+        std::io::Error::new(kind, error)
+    }
+}
+
 impl Status {
     /// The name without `MIEN_ERROR_`: `"DNA_TRUNCATED"`; `"UNKNOWN"` for other numbers.
+    #[must_use]
     pub fn name(self) -> &'static str {
         // SAFETY: any number may be given; the result is static and terminated.
         let name = unsafe { CStr::from_ptr(sys::mien_status_name(self.0)) };

@@ -127,11 +127,19 @@ impl Instance {
 
 impl Instance {
     /// One character of `rig` in its initial state, in memory of the heap.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn new(rig: &Rig) -> Result<Self> {
         Self::create(rig, None)
     }
 
     /// The same in memory of your own: one block of `RigInfo::instance_bytes`.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn new_in(rig: &Rig, allocator: &Allocator) -> Result<Self> {
         Self::create(rig, Some(allocator))
     }
@@ -177,12 +185,17 @@ impl Instance {
     }
 
     /// The rig that it is an instance of.
+    #[must_use]
     pub fn rig(&self) -> &Rig {
         &self.rig
     }
 
     /// Evaluates all stages at a LOD. Outputs that the LOD does not reach are 0. Allocates
     /// nothing, locks nothing; the only failure is [`Status::LOD`](crate::Status::LOD).
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_rig_evaluate()` in `mien.h`.
     #[inline]
     pub fn evaluate(&mut self, lod: usize) -> Result<()> {
         // SAFETY: live handles, and `&mut self` for the one that changes; the same below.
@@ -191,6 +204,10 @@ impl Instance {
 
     /// Evaluates some stages; the others keep the results of the last evaluation at the same LOD
     /// (after a change of LOD: 0).
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_rig_evaluate_stages()` in `mien.h`.
     #[inline]
     pub fn evaluate_stages(&mut self, lod: usize, stages: Stages) -> Result<()> {
         check(unsafe {
@@ -200,6 +217,10 @@ impl Instance {
 
     /// Only the joint values of one joint group
     /// ([`Kind::JOINT_GROUP`](crate::Kind::JOINT_GROUP)).
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_rig_evaluate_joint_group()` in `mien.h`.
     pub fn evaluate_joint_group(&mut self, lod: usize, group: usize) -> Result<()> {
         let (lod, group) = (index(lod), index(group));
         check(unsafe { sys::mien_rig_evaluate_joint_group(self.rig.raw(), self.raw(), lod, group) })
@@ -207,6 +228,10 @@ impl Instance {
 
     /// Only the pose controls of one RBF solver
     /// ([`Kind::RBF_SOLVER`](crate::Kind::RBF_SOLVER)), whether the LOD lists it or not.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_rig_evaluate_rbf_solver()` in `mien.h`.
     pub fn evaluate_rbf_solver(&mut self, lod: usize, solver: usize) -> Result<()> {
         let (lod, solver) = (index(lod), index(solver));
         check(unsafe { sys::mien_rig_evaluate_rbf_solver(self.rig.raw(), self.raw(), lod, solver) })
@@ -214,6 +239,10 @@ impl Instance {
 
     /// Only the joints of one twist and swing set-up
     /// ([`Kind::TWIST_SWING`](crate::Kind::TWIST_SWING)).
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_rig_evaluate_twist_swing()` in `mien.h`.
     pub fn evaluate_twist_swing(&mut self, lod: usize, setup: usize) -> Result<()> {
         let (lod, setup) = (index(lod), index(setup));
         check(unsafe { sys::mien_rig_evaluate_twist_swing(self.rig.raw(), self.raw(), lod, setup) })
@@ -221,17 +250,29 @@ impl Instance {
 
     /// Raw controls from GUI controls. Writes only raw controls that some row of the table
     /// drives, and clamps them to 0..1; others keep what they hold.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_rig_map_gui_to_raw()` in `mien.h`.
     pub fn map_gui_to_raw(&mut self) -> Result<()> {
         check(unsafe { sys::mien_rig_map_gui_to_raw(self.rig.raw(), self.raw()) })
     }
 
     /// GUI controls from raw controls: of each the value whose forward mapping gives the raw
     /// controls, 0 where there is none.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_rig_map_raw_to_gui()` in `mien.h`.
     pub fn map_raw_to_gui(&mut self) -> Result<()> {
         check(unsafe { sys::mien_rig_map_raw_to_gui(self.rig.raw(), self.raw()) })
     }
 
     /// What the joint stage fetches for the controls as they are.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_instance_statistics()` in `mien.h`.
     pub fn statistics(&self) -> Result<InstanceStatistics> {
         let mut out = sys::MienInstanceStatistics::default();
         // SAFETY: a live handle, which is only read, and a sized struct.
@@ -240,6 +281,10 @@ impl Instance {
     }
 
     /// Everything as after creation.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_instance_reset()` in `mien.h`.
     pub fn reset(&mut self) -> Result<()> {
         check(unsafe { sys::mien_instance_reset(self.raw()) })
     }

@@ -49,21 +49,37 @@ pub struct Finding<'report> {
 impl Report {
     /// Reads a whole file and examines it. Lists at most 32 findings for one field, and 1000 in
     /// all.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn of_file(path: impl AsRef<Path>) -> Result<Self> {
         Self::read(path.as_ref(), None)
     }
 
     /// The same, with memory of your own.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn of_file_in(path: impl AsRef<Path>, allocator: &Allocator) -> Result<Self> {
         Self::read(path.as_ref(), Some(allocator))
     }
 
     /// Examines a file that is in memory.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn of_bytes(file: &[u8]) -> Result<Self> {
         Self::examine(file, None)
     }
 
     /// The same, with memory of your own.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn of_bytes_in(file: &[u8], allocator: &Allocator) -> Result<Self> {
         Self::examine(file, Some(allocator))
     }
@@ -106,21 +122,28 @@ impl Report {
     }
 
     /// Findings for which the file is refused.
+    #[must_use]
     pub fn errors(&self) -> usize {
         self.errors as usize
     }
 
     /// Findings that are allowed, but probably not meant.
+    #[must_use]
     pub fn warnings(&self) -> usize {
         self.warnings as usize
     }
 
     /// All findings, in the order of the checks.
+    #[must_use]
     pub fn findings(&self) -> impl Iterator<Item = Finding<'_>> + '_ {
         (0..self.errors() + self.warnings()).filter_map(|i| self.finding(i).ok())
     }
 
     /// Finding `finding` of `errors() + warnings()`.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_report_finding()` in `mien.h`.
     pub fn finding(&self, finding: usize) -> Result<Finding<'_>> {
         let mut out = sys::MienFinding::default();
         // SAFETY: a live handle and a sized struct; views live as long as the report.

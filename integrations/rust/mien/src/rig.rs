@@ -3,8 +3,8 @@
 use crate::convert::{bytes, empty_string, index, path_string, slice, utf8};
 use crate::error::{check, checked};
 use crate::{
-    Allocator, Dna, Instance, Isa, Kind, MlMasks, Result, Reuse, RigInfo, RigStatistics,
-    RotationOutput, Storage,
+    Allocator, Arithmetic, BakedCheck, Dna, Instance, Isa, Kind, MlMasks, Result, Reuse, RigInfo,
+    RigStatistics, RotationOutput, Storage,
 };
 use mien_sys as sys;
 use std::borrow::Cow;
@@ -47,17 +47,29 @@ unsafe impl Sync for Shared {}
 impl Rig {
     /// Packs the behavior of `dna` for the best instruction set of this machine, with Euler
     /// angles coming out. [`RigOptions`] has other wishes.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`RigOptions::create`](crate::RigOptions::create).
     pub fn new(dna: &Dna<'_>) -> Result<Self> {
         RigOptions::new().create(dna)
     }
 
     /// Opens a baked rig; see [`RigOptions::open`].
+    ///
+    /// # Errors
+    ///
+    /// Those of [`RigOptions::open`](crate::RigOptions::open).
     pub fn open(path: impl AsRef<Path>) -> Result<Self> {
         RigOptions::new().open(path)
     }
 
     /// Bakes the rig into a file that [`Rig::open`] uses in place. A failure leaves `path` as it
     /// was.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_rig_save_file()` in `mien.h`.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path_string(path.as_ref())?;
         // SAFETY: a live handle and a terminated path.
@@ -65,6 +77,10 @@ impl Rig {
     }
 
     /// The same bytes, to memory.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_rig_save_memory()` in `mien.h`.
     pub fn to_bytes(&self) -> Result<Vec<u8>> {
         let save = |buffer: *mut c_void, capacity, size: &mut usize| {
             // SAFETY: a live handle and room for `capacity` bytes.
@@ -83,6 +99,10 @@ impl Rig {
     }
 
     /// One character in its initial state.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn instance(&self) -> Result<Instance> {
         Instance::new(self)
     }
@@ -92,16 +112,19 @@ impl Rig {
     }
 
     /// Units, axes, lengths of rows, memory.
+    #[must_use]
     pub fn info(&self) -> &RigInfo {
         &self.shared.info
     }
 
     /// Whether both are the same rig, not merely equal ones.
+    #[must_use]
     pub fn ptr_eq(&self, other: &Rig) -> bool {
         Arc::ptr_eq(&self.shared, &other.shared)
     }
 
     /// How many there are of a kind. Unknown kinds: 0.
+    #[must_use]
     pub fn count(&self, kind: Kind) -> usize {
         let mut out = 0;
         // SAFETY: a live handle. The only failure is a kind that the library does not know.
@@ -111,11 +134,25 @@ impl Rig {
 
     /// Name of number `i` of a kind; `""` for kinds without names. Where it is not UTF-8,
     /// replacement characters stand.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn name(&self, kind: Kind, i: usize) -> Result<Cow<'_, str>> {
         self.name_bytes(kind, i).map(utf8)
     }
 
+    /// All names of a kind, by index.
+    #[must_use]
+    pub fn names(&self, kind: Kind) -> impl Iterator<Item = Cow<'_, str>> + '_ {
+        (0..self.count(kind)).map(move |i| self.name(kind, i).unwrap_or_default())
+    }
+
     /// The name as it is in the file.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_rig_name()` in `mien.h`.
     pub fn name_bytes(&self, kind: Kind, i: usize) -> Result<&[u8]> {
         let mut out = empty_string();
         // SAFETY: a live handle; the view lives as long.
@@ -127,6 +164,10 @@ impl Rig {
 
     /// Number of the one with this very name, in O(log n); of equal names the first.
     /// [`Status::NAME`](crate::Status::NAME) if there is none.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_rig_find_n()` in `mien.h`.
     pub fn find(&self, kind: Kind, name: impl AsRef<[u8]>) -> Result<usize> {
         let (name, mut out) = (name.as_ref(), 0);
         // SAFETY: a live handle, and as many bytes as are told.
@@ -143,6 +184,10 @@ impl Rig {
     }
 
     /// Which joints, channels, maps, meshes or RBF solvers exist at a LOD, in file order.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_rig_lod_indices()` in `mien.h`.
     pub fn lod_indices(&self, kind: Kind, lod: usize) -> Result<&[u16]> {
         self.indices(|out| unsafe {
             // SAFETY: a live handle.
@@ -152,6 +197,10 @@ impl Rig {
 
     /// Which values of [`Instance::joints`] evaluation may change at a LOD, ascending. All others
     /// keep their initial value: 0, or 1 for the w of a quaternion.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_rig_variable_joint_values()` in `mien.h`.
     pub fn variable_joint_values(&self, lod: usize) -> Result<&[u16]> {
         // SAFETY: a live handle.
         self.indices(|out| unsafe {
@@ -160,6 +209,7 @@ impl Rig {
     }
 
     /// Parent of each joint; a root is its own parent.
+    #[must_use]
     pub fn joint_parents(&self) -> &[u16] {
         // SAFETY: a live handle.
         self.indices(|out| unsafe { sys::mien_rig_joint_parents(self.raw(), out) }).unwrap_or(&[])
@@ -167,6 +217,10 @@ impl Rig {
 
     /// The controls whose product drives a corrective, as indices into
     /// [`Instance::controls`].
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_rig_psd_inputs()` in `mien.h`.
     pub fn psd_inputs(&self, psd: usize) -> Result<&[u16]> {
         // SAFETY: a live handle.
         self.indices(|out| unsafe { sys::mien_rig_psd_inputs(self.raw(), index(psd), out) })
@@ -174,18 +228,24 @@ impl Rig {
 
     /// Neutral pose in the layout of [`Instance::joints`], relative to the parent: translation in
     /// translation units, rotation as angles in rotation units or as a quaternion, scale 1.
+    #[must_use]
     pub fn neutral_joint_values(&self) -> &[f32] {
         // SAFETY: a live handle.
         self.floats(|out| unsafe { sys::mien_rig_neutral_joint_values(self.raw(), out) })
     }
 
     /// Value each raw control starts with: 0, or 1 for the w of a quaternion input.
+    #[must_use]
     pub fn initial_raw_controls(&self) -> &[f32] {
         // SAFETY: a live handle.
         self.floats(|out| unsafe { sys::mien_rig_initial_raw_controls(self.raw(), out) })
     }
 
     /// What one evaluation at a LOD works through.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_rig_statistics()` in `mien.h`.
     pub fn statistics(&self, lod: usize) -> Result<RigStatistics> {
         let mut out = sys::MienRigStatistics::default();
         // SAFETY: a live handle and a sized struct.
@@ -236,17 +296,21 @@ impl std::fmt::Debug for Rig {
 /// # Ok::<(), mien::Error>(())
 /// ```
 #[derive(Clone, Debug, Default)]
+#[must_use = "options do nothing until they are used"]
 pub struct RigOptions {
     isa: Isa,
     rotation: RotationOutput,
     ml_masks: MlMasks,
     storage: Storage,
+    arithmetic: Arithmetic,
     reuse: Reuse,
+    check: BakedCheck,
     allocator: Option<Allocator>,
 }
 
 impl RigOptions {
     /// The best instruction set, Euler angles, masks that switch, the heap.
+    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
@@ -276,6 +340,18 @@ impl RigOptions {
         self
     }
 
+    /// Which instruction sets give the same bits.
+    pub fn arithmetic(mut self, arithmetic: Arithmetic) -> Self {
+        self.arithmetic = arithmetic;
+        self
+    }
+
+    /// How thoroughly a baked file is checked when it is opened.
+    pub fn check(mut self, check: BakedCheck) -> Self {
+        self.check = check;
+        self
+    }
+
     /// Whether evaluation keeps results whose inputs did not change. The same bits either way.
     pub fn reuse(mut self, reuse: Reuse) -> Self {
         self.reuse = reuse;
@@ -290,6 +366,10 @@ impl RigOptions {
 
     /// Packs the behavior of `dna`, which needs definition and behavior loaded, else
     /// [`Status::DNA_LAYER`](crate::Status::DNA_LAYER).
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_rig_create()` in `mien.h`.
     pub fn create(&self, dna: &Dna<'_>) -> Result<Rig> {
         let mut handle = null_mut();
         Allocator::with(self.allocator.as_ref(), |allocator| {
@@ -298,6 +378,7 @@ impl RigOptions {
                 rotation_output: self.rotation.0,
                 ml_masks: self.ml_masks.0,
                 storage: self.storage.0,
+                arithmetic: self.arithmetic.0,
                 reuse: self.reuse.0,
                 allocator,
                 ..Default::default()
@@ -311,6 +392,10 @@ impl RigOptions {
     /// Opens a baked rig: a file that [`Rig::save`] or `mien bake` wrote. What was chosen when it
     /// was created stays; of the options instruction set, reuse and allocator count. The file is
     /// read whole: see [`RigOptions::map`].
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub fn open(&self, path: impl AsRef<Path>) -> Result<Rig> {
         self.open_file(path.as_ref(), sys::MIEN_FILE_READ)
     }
@@ -321,6 +406,10 @@ impl RigOptions {
     ///
     /// Nobody may truncate the file or write to it in place until the rig and its instances are
     /// gone; replacing it by renaming is safe.
+    ///
+    /// # Errors
+    ///
+    /// What the library refuses, by [`Status`](crate::Status).
     pub unsafe fn map(&self, path: impl AsRef<Path>) -> Result<Rig> {
         self.open_file(path.as_ref(), sys::MIEN_FILE_MAP)
     }
@@ -334,6 +423,10 @@ impl RigOptions {
     }
 
     /// The same from memory that never goes away, such as `include_bytes!`.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_rig_open_memory()` in `mien.h`.
     pub fn open_bytes(&self, bytes: &'static [u8]) -> Result<Rig> {
         self.open_by(sys::MIEN_FILE_MAP, |desc, out, error| {
             let data = bytes.as_ptr().cast();
@@ -356,6 +449,7 @@ impl RigOptions {
             let desc = sys::MienBakedDesc {
                 isa: self.isa.0,
                 file_access: access,
+                check: self.check.0,
                 reuse: self.reuse.0,
                 allocator,
                 ..Default::default()
@@ -378,12 +472,14 @@ impl RigOptions {
 
 impl Isa {
     /// Whether rigs can be created for it here.
+    #[must_use]
     pub fn is_available(self) -> bool {
         // SAFETY: any number may be asked for.
         unsafe { sys::mien_isa_available(self.0) != 0 }
     }
 
     /// `"avx2"` for [`Isa::AVX2`], `"unknown"` for other numbers.
+    #[must_use]
     pub fn name(self) -> &'static str {
         // SAFETY: any number may be given; the result is static and terminated.
         let name = unsafe { std::ffi::CStr::from_ptr(sys::mien_isa_name(self.0)) };

@@ -368,3 +368,37 @@ fn numbers_have_names() {
     assert_eq!(Status(12345).name(), "UNKNOWN");
     assert_eq!(mien::version().0, sys::MIEN_VERSION_MAJOR);
 }
+
+#[test]
+fn options_that_reach_the_library() {
+    let dna = Dna::generate(Preset::TINY).unwrap();
+    let rig = RigOptions::new().arithmetic(mien::Arithmetic::PORTABLE).create(&dna).unwrap();
+    let bytes: &'static [u8] = Box::leak(rig.to_bytes().unwrap().into_boxed_slice());
+    let full = RigOptions::new().check(mien::BakedCheck::FULL);
+    assert!(full.open_bytes(bytes).is_ok());
+
+    // A changed number at the end: only the full check reads it.
+    let mut damaged = bytes.to_vec();
+    let last = damaged.len() - 1;
+    damaged[last] ^= 1;
+    let damaged: &'static [u8] = Box::leak(damaged.into_boxed_slice());
+    assert_eq!(full.open_bytes(damaged).unwrap_err().status(), mien::Status::BAKED_CHECKSUM);
+}
+
+#[test]
+fn names_of_a_kind_in_order() {
+    let rig = Rig::new(&Dna::generate(Preset::TINY).unwrap()).unwrap();
+    let names: Vec<_> = rig.names(Kind::JOINT).collect();
+    assert_eq!(names.len(), rig.count(Kind::JOINT));
+    for (i, name) in names.iter().enumerate() {
+        assert_eq!(rig.find(Kind::JOINT, name.as_bytes()).unwrap(), i);
+    }
+}
+
+#[test]
+fn errors_as_io_errors() {
+    let error = Dna::from_bytes(b"not a rig").unwrap_err();
+    let io = std::io::Error::from(error.clone());
+    assert_eq!(io.kind(), std::io::ErrorKind::InvalidData);
+    assert_eq!(io.get_ref().unwrap().downcast_ref::<mien::Error>(), Some(&error));
+}
