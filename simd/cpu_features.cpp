@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "simd/cpu_features.h"
 
-#include <stdint.h>
-
 #if defined(__x86_64__)
 #include <cpuid.h>
 #endif
 
 namespace mien {
-
-#if defined(__x86_64__)
 
 namespace {
 
@@ -29,28 +25,36 @@ constexpr uint32_t kLeaf7Avx512 = bit(16) | bit(17) | bit(28) | bit(30) | bit(31
 constexpr uint32_t kXcr0Avx = bit(1) | bit(2);                         // XMM, YMM
 constexpr uint32_t kXcr0Avx512 = kXcr0Avx | bit(5) | bit(6) | bit(7);  // masks, ZMM, ZMM16-31
 
-uint32_t read_xcr0() {
-  uint32_t low, high;
-  __asm__ volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(0));  // _xgetbv would need -mxsave
-  return low;
-}
-
 }  // namespace
 
-CpuFeatures detect_cpu_features() {
+CpuFeatures features_of(const X86Registers& registers) {
   CpuFeatures features = {};
   features.sse2 = true;  // part of x86-64
-
-  uint32_t eax, ebx, ecx, edx;
-  if (__get_cpuid_max(0, nullptr) < 7) return features;
-  __cpuid(1, eax, ebx, ecx, edx);
-  if (!has_all(ecx, kLeaf1Xsave | kLeaf1Avx2)) return features;
-  const uint32_t xcr0 = read_xcr0();
-
-  __cpuid_count(7, 0, eax, ebx, ecx, edx);
-  features.avx2 = has_all(ebx, kLeaf7Avx2) && has_all(xcr0, kXcr0Avx);
-  features.avx512 = features.avx2 && has_all(ebx, kLeaf7Avx512) && has_all(xcr0, kXcr0Avx512);
+  if (registers.last_leaf < 7 || !has_all(registers.leaf1_ecx, kLeaf1Xsave | kLeaf1Avx2)) {
+    return features;
+  }
+  features.avx2 = has_all(registers.leaf7_ebx, kLeaf7Avx2) && has_all(registers.xcr0, kXcr0Avx);
+  features.avx512 = features.avx2 && has_all(registers.leaf7_ebx, kLeaf7Avx512) &&
+                    has_all(registers.xcr0, kXcr0Avx512);
   return features;
+}
+
+#if defined(__x86_64__)
+
+CpuFeatures detect_cpu_features() {
+  X86Registers registers = {};
+  uint32_t eax, ebx, ecx, edx;
+  registers.last_leaf = __get_cpuid_max(0, nullptr);
+  if (registers.last_leaf < 7) return features_of(registers);
+  __cpuid(1, eax, ebx, ecx, edx);
+  registers.leaf1_ecx = ecx;
+  __cpuid_count(7, 0, eax, ebx, ecx, edx);
+  registers.leaf7_ebx = ebx;
+  if (has_all(registers.leaf1_ecx, kLeaf1Xsave)) {
+    // _xgetbv would need -mxsave.
+    __asm__ volatile("xgetbv" : "=a"(registers.xcr0), "=d"(edx) : "c"(0));
+  }
+  return features_of(registers);
 }
 
 #else

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <stdint.h>
+
 namespace mien {
 
 /// What the CPU has and the operating system lets programs use, by instruction set of kernels.h.
@@ -11,6 +13,15 @@ struct CpuFeatures {
   bool avx512;  // F, CD, DQ, BW, VL, and all of avx2
   bool neon;
 };
+
+/// What an x86-64 CPU and the operating system tell.
+struct X86Registers {
+  uint32_t last_leaf;  // of CPUID
+  uint32_t leaf1_ecx;
+  uint32_t leaf7_ebx;
+  uint32_t xcr0;  // registers that the system saves; unknown, so 0, where it does not turn XSAVE on
+};
+CpuFeatures features_of(const X86Registers& registers);
 
 /// Asks the CPU anew at each call: microseconds, so not for the hot path.
 CpuFeatures detect_cpu_features();

@@ -178,7 +178,8 @@ TEST_F(CapiDna, LayersNotChosenAreNotLookedAt) {
   const DnaHandle dna = open(file, MIEN_LAYER_BEHAVIOR);
   create_rig(dna.get());
   MienDna* none = nullptr;
-  EXPECT_NE(mien_dna_open_memory(file.data(), file.size(), nullptr, &none, nullptr), MIEN_OK);
+  EXPECT_EQ(mien_dna_open_memory(file.data(), file.size(), nullptr, &none, nullptr),
+            MIEN_ERROR_DNA_TRUNCATED);
 }
 
 TEST_F(CapiDna, OldestVersionHasFourLayers) {

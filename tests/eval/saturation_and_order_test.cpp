@@ -90,15 +90,15 @@ TEST(GuiControls, WithoutRowsAreZero) {
 TEST(Indices, PastTheEndAreRefused) {
   using dna::be;
   Arena arena(default_allocator());
-  const auto refused = [&](const char* what, auto change) {
+  const auto refused = [&](const char* expected, auto change) {
     dna::DnaView view = dna::tiny_rig(arena);
     change(view);
     const std::vector<uint8_t> bytes = write_view(view);
     MienDna* dna = nullptr;
     MienError error = sized<MienError>();
-    EXPECT_NE(mien_dna_open_memory(bytes.data(), bytes.size(), nullptr, &dna, &error), MIEN_OK)
-        << what;
-    EXPECT_NE(error.message[0], 0) << what;
+    EXPECT_EQ(mien_dna_open_memory(bytes.data(), bytes.size(), nullptr, &dna, &error),
+              MIEN_ERROR_DNA_REFERENCE);
+    EXPECT_STREQ(error.message, expected);
     mien_dna_close(dna);
   };
   refused("solver's pose", [&](dna::DnaView& v) {

@@ -111,12 +111,53 @@ TEST(Label, CharactersDiffer) {
   }
 }
 
-TEST(Label, OtherTextShowsBoxesAndStaysInside) {
-  Image image(30, 12, {});
-  draw_text(image, -10, 4, "\xc3\xa4\xe2\x82\xac \xff\xfe\x80\t\n end of it", 20, {255, 255, 255});
-  draw_text(image, 25, 40, "gone", 20, {255, 255, 255});
-  EXPECT_FLOAT_EQ(text_width("\xc3\xa4", 20), text_width("\xe2\x82\xac", 20));
+// A box is 4 by 10 units of 0.07 of the size: 28 by 70 pixels at size 100.
+TEST(Label, CharactersWithoutAGlyphAreBoxes) {
+  const Color paper = {}, ink = {255, 255, 255};
+  const auto drawn = [&](const char* text) {
+    Image image(80, 90, paper);
+    draw_text(image, 10, 80, text, 100, ink);
+    return image;
+  };
+  const Image box = drawn("\xc3\xa4");
+  for (int x = 10; x <= 38; x += 7) {
+    EXPECT_EQ(box.at(x, 80), ink) << x;
+    EXPECT_EQ(box.at(x, 10), ink) << x;
+  }
+  for (int y = 10; y <= 80; y += 10) {
+    EXPECT_EQ(box.at(10, y), ink) << y;
+    EXPECT_EQ(box.at(38, y), ink) << y;
+  }
+  for (int y = 20; y <= 70; y += 10) {
+    for (int x = 17; x <= 31; x += 7) EXPECT_EQ(box.at(x, y), paper) << x << ", " << y;
+    EXPECT_EQ(box.at(50, y), paper) << y;
+  }
+  // One for each character and for each byte that is none.
+  for (const char* text :
+       {"\xe2\x82\xac", "\xf0\x9f\x98\x80", "\xff", "\x80", "\t", "\n", "\x7f"}) {
+    EXPECT_EQ(drawn(text).pixels, box.pixels) << text;
+  }
+  for (const char* text : {"\xc3\xa4\xe2\x82\xac", "\xff\xfe", "\t\n"}) {
+    EXPECT_FLOAT_EQ(text_width(text, 100), (4 + 2.5f + 4) * 7) << text;
+  }
   EXPECT_EQ(text_width("", 20), 0);
+}
+
+TEST(Label, TextIsCutOffAtTheEdges) {
+  const Color paper = {1, 2, 3}, ink = {255, 255, 255};
+  Image image(30, 12, paper);
+  draw_text(image, 25, 40, "below", 20, ink);
+  draw_text(image, 31.5f, 8, "right", 20, ink);
+  draw_text(image, -200, 8, "left", 20, ink);
+  EXPECT_EQ(image.pixels, Image(30, 12, paper).pixels);
+
+  // What is inside is the same as in the middle of a larger image.
+  Image larger(230, 112, paper);
+  draw_text(larger, 90, 54, "\xc3\xa4 across all edges", 20, ink);
+  draw_text(image, -10, 4, "\xc3\xa4 across all edges", 20, ink);
+  for (int y = 0; y < 12; ++y) {
+    for (int x = 0; x < 30; ++x) EXPECT_EQ(image.at(x, y), larger.at(x + 100, y + 50));
+  }
 }
 
 TEST(Label, LongNamesKeepBothEnds) {

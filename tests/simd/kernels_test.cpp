@@ -429,10 +429,12 @@ TEST(FinishSumsKernel, ScalesAndSaturates) {
 
 TEST(KernelsFor, TablesKnowTheirNames) {
   std::printf("present:");
-  for (const KernelTable* kernels : present_kernels()) {
+  for (uint32_t i = 1; i < kIsaCount; ++i) {
+    const KernelTable* kernels = kernels_for(static_cast<Isa>(i));
+    if (!kernels) continue;
     std::printf(" %s", kernels->name);
+    EXPECT_EQ(kernels->isa, static_cast<Isa>(i));
     EXPECT_STREQ(kernels->name, isa_name(kernels->isa));
-    EXPECT_EQ(kernels_for(kernels->isa), kernels);
   }
   std::printf("\n");
   ASSERT_NE(kernels_for(Isa::kScalar), nullptr);
@@ -471,11 +473,36 @@ TEST(KernelsFor, AgreesWithCompilersDetection) {
 #endif
 }
 
-TEST(CpuFeatures, WiderImpliesNarrower) {
-  const CpuFeatures cpu = detect_cpu_features();
-  EXPECT_TRUE(cpu.avx2 || !cpu.avx512);
-  EXPECT_TRUE(cpu.sse2 || !cpu.avx2);
-  EXPECT_FALSE(cpu.sse2 && cpu.neon);
+TEST(CpuFeatures, EachInstructionSetNeedsAllOfItsBits) {
+  // A server with AVX-512: CPUID leaf 1 ECX, leaf 7 EBX, XCR0.
+  const X86Registers server = {0x16, 0xfffa3203, 0xd19f27eb, 0xe7};
+  const auto narrowest = [](X86Registers registers) {
+    const CpuFeatures cpu = features_of(registers);
+    EXPECT_TRUE(cpu.sse2);
+    EXPECT_FALSE(cpu.neon);
+    EXPECT_TRUE(cpu.avx2 || !cpu.avx512);
+    return cpu.avx512 ? "avx512" : cpu.avx2 ? "avx2" : "sse2";
+  };
+  EXPECT_STREQ(narrowest(server), "avx512");
+  const auto without = [&](uint32_t X86Registers::*where, uint32_t bit) {
+    X86Registers less = server;
+    less.*where &= ~(uint32_t{1} << bit);
+    return narrowest(less);
+  };
+  // SSE3, SSSE3, FMA, SSE4.1, SSE4.2, POPCNT, XSAVE, OSXSAVE, AVX, F16C
+  for (uint32_t bit : {0, 9, 12, 19, 20, 23, 26, 27, 28, 29}) {
+    EXPECT_STREQ(without(&X86Registers::leaf1_ecx, bit), "sse2") << bit;
+  }
+  EXPECT_STREQ(without(&X86Registers::leaf7_ebx, 5), "sse2") << "AVX2";
+  for (uint32_t bit : {16, 17, 28, 30, 31}) {  // F, DQ, CD, BW, VL
+    EXPECT_STREQ(without(&X86Registers::leaf7_ebx, bit), "avx2") << bit;
+  }
+  // What the system does not save when it switches threads.
+  for (uint32_t bit : {1, 2}) EXPECT_STREQ(without(&X86Registers::xcr0, bit), "sse2") << bit;
+  for (uint32_t bit : {5, 6, 7}) EXPECT_STREQ(without(&X86Registers::xcr0, bit), "avx2") << bit;
+  // CPUID repeats the last leaf for those that do not exist: its bits mean something else.
+  EXPECT_STREQ(narrowest({6, server.leaf1_ecx, server.leaf7_ebx, server.xcr0}), "sse2");
+  EXPECT_STREQ(narrowest({}), "sse2");
 }
 
 /// MIEN_ISA for the time of one test.
