@@ -25,7 +25,7 @@ rustc --version
 if cargo fmt --version >/dev/null 2>&1; then
   cargo fmt --all --check
 else
-  echo "NOT TESTED: format; there is no rustfmt"
+  echo "NOT TESTED: format of the Rust crates; there is no rustfmt"
 fi
 
 export MIEN_LIB_DIR=$build/lib
@@ -35,7 +35,7 @@ if cargo clippy --version >/dev/null 2>&1; then
   run shared cargo clippy --quiet --locked --all-targets -- \
     -D clippy::correctness -D clippy::suspicious -D clippy::incompatible_msrv
 else
-  echo "NOT TESTED: lints; there is no clippy"
+  echo "NOT TESTED: the Rust crates by clippy; it is not installed"
 fi
 # Without any library, as docs.rs does.
 (unset MIEN_LIB_DIR; MIEN_DOCS=1 RUSTDOCFLAGS="-D warnings" run docs cargo doc --quiet --locked --no-deps)
@@ -45,7 +45,7 @@ MIEN_STATIC=1 run static cargo test --quiet --locked --tests
 if cargo +nightly miri --version >/dev/null 2>&1; then
   run miri cargo +nightly miri test --quiet --locked --test aliasing
 else
-  echo "NOT TESTED: the rules of pointers; there is no Miri"
+  echo "NOT TESTED: pointer rules of the Rust crates; there is no Miri"
   RUSTFLAGS="--cfg miri --cap-lints allow" \
     run without-library cargo test --quiet --locked --test aliasing
 fi

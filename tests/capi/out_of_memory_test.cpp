@@ -509,9 +509,7 @@ TEST_F(OutOfMemory, FewRequestsForALargeRig) {
 
 // A head's behavior, opened and compiled.
 TEST_F(OutOfMemory, EightRequestsForAHead) {
-  if (!golden::has_head()) {
-    GTEST_SKIP() << golden::no_head("how many requests for memory a production rig takes");
-  }
+  if (!golden::has_head()) GTEST_SKIP() << golden::no_head();
   const Bytes file = golden::read_rig(golden::kHead);
   for (uint64_t lods : {0u, 1u, 2u}) {
     CountingAllocator counter;

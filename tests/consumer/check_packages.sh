@@ -42,5 +42,5 @@ if command -v lintian >/dev/null; then
   lintian --allow-root --fail-on error,warning "${packages[@]}"
   echo "lintian has nothing to say"
 else
-  echo "NOT TESTED: what lintian says of the packages; it is not installed"
+  echo "NOT TESTED: the Debian packages by lintian; it is not installed"
 fi

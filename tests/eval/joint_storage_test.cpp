@@ -85,7 +85,7 @@ TEST(JointStorage, IsWithinHalfAUnitOfEachRow) {
 }
 
 TEST(JointStorage, OfAProductionHead) {
-  if (!golden::has_head()) GTEST_SKIP() << golden::no_head("16-bit storage of a production rig");
+  if (!golden::has_head()) GTEST_SKIP() << golden::no_head();
   const std::vector<uint8_t> bytes = golden::read_rig(golden::kHead);
   const DnaHandle dna = open_dna(bytes);
   ASSERT_TRUE(dna);

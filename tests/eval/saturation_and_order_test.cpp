@@ -90,45 +90,59 @@ TEST(GuiControls, WithoutRowsAreZero) {
 TEST(Indices, PastTheEndAreRefused) {
   using dna::be;
   Arena arena(default_allocator());
-  const auto refused = [&](const char* expected, auto change) {
+  const auto refused = [&](const char* expected, auto change,
+                           MienStatus status = MIEN_ERROR_DNA_REFERENCE) {
     dna::DnaView view = dna::tiny_rig(arena);
     change(view);
     const std::vector<uint8_t> bytes = write_view(view);
     MienDna* dna = nullptr;
     MienError error = sized<MienError>();
-    EXPECT_EQ(mien_dna_open_memory(bytes.data(), bytes.size(), nullptr, &dna, &error),
-              MIEN_ERROR_DNA_REFERENCE);
+    EXPECT_EQ(mien_dna_open_memory(bytes.data(), bytes.size(), nullptr, &dna, &error), status);
     EXPECT_STREQ(error.message, expected);
     mien_dna_close(dna);
   };
-  refused("solver's pose", [&](dna::DnaView& v) {
-    v.rbfb.solvers[0].pose_indices = be<uint16_t>(arena, {0, 2});
-  });
-  refused("pose's control", [&](dna::DnaView& v) {
-    v.rbfe.poses[0].output_control_indices = be<uint16_t>(arena, {11});
-  });
-  refused("twist's joint", [&](dna::DnaView& v) {
-    v.twsw.twists[0].output_joint_indices = be<uint16_t>(arena, {3});
-  });
-  refused("swing's control", [&](dna::DnaView& v) {
-    v.twsw.swings[0].input_control_indices = be<uint16_t>(arena, {0, 1, 2, 11});
-  });
-  refused("network's output", [&](dna::DnaView& v) {
-    v.mlbh.networks[0].output_indices = be<uint16_t>(arena, {5, 6, 7, 11});
-  });
-  refused("operation's network", [&](dna::DnaView& v) {
-    v.mlbe.types[0].operations[1][0].parameters = be<uint32_t>(arena, {1, 3, 3, 4, 4});
-  });
-  refused("operation's dependency", [&](dna::DnaView& v) {
-    v.mlbe.types[0].operations[2][0].operation_dependencies = be<uint16_t>(arena, {1});
-  });
-  refused("dependency on a later set", [&](dna::DnaView& v) {
-    v.mlbe.types[0].operations[1][0].set_dependencies = be<uint16_t>(arena, {2});
-  });
-  refused("ML joint", [&](dna::DnaView& v) {
-    v.mlbe.joints.output_indices = be<uint16_t>(arena, {23, 24, 25, 30});
-  });
-  refused("region's network",
+  refused("rbfb.solvers[0].poseIndices: element 1 is 2, but there are 2 poses",
+          [&](dna::DnaView& v) {
+            v.rbfb.solvers[0].pose_indices = be<uint16_t>(arena, {0, 2});
+          });
+  refused(
+      "rbfe.poses[0].outputControlIndices: element 0 is 11, but there are 11 controls",
+      [&](dna::DnaView& v) { v.rbfe.poses[0].output_control_indices = be<uint16_t>(arena, {11}); });
+  refused(
+      "twsw.twists[0].twistOutputJointIndices: element 0 is 3, but there are 3 joints",
+      [&](dna::DnaView& v) { v.twsw.twists[0].output_joint_indices = be<uint16_t>(arena, {3}); });
+  refused("twsw.swings[0].swingInputControlIndices: element 3 is 11, but there are 11 controls",
+          [&](dna::DnaView& v) {
+            v.twsw.swings[0].input_control_indices = be<uint16_t>(arena, {0, 1, 2, 11});
+          });
+  refused("mlbh.neuralNetworks[0].outputIndices: element 3 is 11, but there are 11 controls",
+          [&](dna::DnaView& v) {
+            v.mlbh.networks[0].output_indices = be<uint16_t>(arena, {5, 6, 7, 11});
+          });
+  refused(
+      "mlbe.mlbTypeData[0].operations[1][0].parameters: "
+      "element 0 is 1, but there are 1 networks",
+      [&](dna::DnaView& v) {
+        v.mlbe.types[0].operations[1][0].parameters = be<uint32_t>(arena, {1, 3, 3, 4, 4});
+      });
+  refused(
+      "mlbe.mlbTypeData[0].operations[2][0].mlOperationDependencyIndices: "
+      "element 0 is 1, but set 1 has 1 operations",
+      [&](dna::DnaView& v) {
+        v.mlbe.types[0].operations[2][0].operation_dependencies = be<uint16_t>(arena, {1});
+      });
+  refused(
+      "mlbe.mlbTypeData[0].operations[1][0].mlOperationSetDependencyIndices: "
+      "element 0 is 2, but an operation of set 1 can only depend on earlier sets",
+      [&](dna::DnaView& v) {
+        v.mlbe.types[0].operations[1][0].set_dependencies = be<uint16_t>(arena, {2});
+      },
+      MIEN_ERROR_DNA_VALUE);
+  refused("mlbe.mlbJoints.outputIndices: element 3 is 30, but there are 30 joint values",
+          [&](dna::DnaView& v) {
+            v.mlbe.joints.output_indices = be<uint16_t>(arena, {23, 24, 25, 30});
+          });
+  refused("mlbh.neuralNetworkToMeshRegion.indices[0][0]: element 0 is 1, but there are 1 networks",
           [&](dna::DnaView& v) { v.mlbh.mesh_regions.indices[0][0] = be<uint16_t>(arena, {1}); });
 }
 

@@ -80,10 +80,9 @@ bool has_head() {
   return std::filesystem::is_regular_file(head_folder() / "head.dna", error);
 }
 
-std::string no_head(const char* what_is_not_tested) {
-  return std::string("NOT TESTED: ") + what_is_not_tested + ". There is no " +
-         (head_folder() / "head.dna").lexically_normal().string() +
-         "; MIEN_SHARED names another folder.";
+std::string no_head() {
+  return "NOT TESTED: the golden rig of production size; there is no " +
+         (head_folder() / "head.dna").lexically_normal().string();
 }
 
 std::vector<std::string> present_names() {

@@ -13,7 +13,7 @@ def rigs():
     """NAME -> path of NAME.dna. `head` is too large for the repository and may be missing."""
     found = {name[:-4]: os.path.join(FOLDER, name) for name in sorted(os.listdir(FOLDER)) if name.endswith(".dna")}
     assert len(found) >= 13, "golden rigs are missing in %s: only %s" % (FOLDER, ", ".join(found))
-    head = os.path.join(SHARED, "head.dna")
+    head = os.path.normpath(os.path.join(SHARED, "head.dna"))
     if os.path.isfile(head):
         found["head"] = head
     else:
