@@ -52,13 +52,13 @@ def main():
         subprocess.run([args.python, "-c", "import mien, sys; "
                         f"mien.Dna.generate(mien.Preset.MEDIUM, 5).save({str(written)!r})"], check=True)
         for arguments in ([], [written], [written, "CTRL_expressions.jawOpen"],
-                          [written, "nobody"], [broken]):
+                          [written, "missing"], [broken]):
             results = {name: run(command, [str(argument) for argument in arguments])
                        for name, command in programs.items()}
             for name, (succeeded, text) in results.items():
                 print(f"{name:<8}{text.strip() if succeeded else 'fails'}")
             failures += len(set(results.values())) != 1
-            if results["C"][0] == (arguments[-1:] in (["nobody"], [broken])):
+            if results["C"][0] == (arguments[-1:] in (["missing"], [broken])):
                 sys.exit(f"C with {arguments}: {results['C']}")
     if failures:
         sys.exit(f"they differ in {failures} cases")

@@ -38,10 +38,8 @@ RULES = [
     (PUBLIC, r"\bjoint rows?\b", "joint values", "the joint rows of a LOD"),
     (PUBLIC, r"\bstill joints?\b", "joint without a delta", "a still joint"),
     # The joint matrix
-    (LAYERS, r"(?<!GLB )(?<!PNG )\b[Cc]hunks?\b", "row panel (of the joint matrix), part, run",
-     "a chunk of rows"),
-    (LAYERS, r"(?<![Aa]ccumulator )\btiles?\b(?! of (?:the )?(?:sheet|image))", "accumulator tile",
-     "the sums of a tile"),
+    (LAYERS, r"\b[Cc]hunks? of (?:rows|the matrix|the joint matrix)|\b[Jj]ointChunk\w*|\b\w+_chunks\b",
+     "row panel", "a chunk of rows"),
     (LAYERS, r"\bpieces? of (?:the|a) (?:matrix|column)\b|\bstored pieces?\b", "block",
      "the stored pieces"),
     # Names that changed
@@ -54,7 +52,7 @@ RULES = [
     (CODE, r"\bseen_(?:behind|[a-z]+_behind)\b|\bStagesBehind\w*", "previous_..., ...After...",
      "StagesBehindMl"),
     (CODE, r"\b\w+Life\b", "exercise_...", "DnaLife"),
-    (CODE, r"\bTogether[A-Z]\w*|\b\w+Together\b(?!\))", "shared columns", "ColumnsTogether"),
+    (CODE, r"\bTogether[A-Z]\w*|\b(?!Lips)\w+Together\b(?!\))", "shared columns", "ColumnsTogether"),
     (CODE, r"\bDoBetter\d+", "a name that tells the behavior", "TEST(DoBetter7, Stays)"),
     # Several characters
     (CODE, r"\b[Cc]rowds?\b|\bthrongs?\b", "instance packet, many instances, batch",
@@ -149,7 +147,7 @@ def self_test():
         "runtime/eval/batch.cpp:1: behaviour -> behavior"]
     # "tile" is an image of a sheet in the program, "chunk" a part of a GLB file.
     assert find_words("integrations/cli/render.cpp", "tile, chunk") == []
-    assert len(find_words("simd/kernels.h", "tile, chunk")) == 2
+    assert len(find_words("simd/kernels.h", "joint_chunks, turned joint")) == 2
     assert find_words("capi/mien.h", "No more than 8. The noise of a promise rises, otherwise "
                       "piecewise. Accumulator tile: an accumulator tile. vertex_positions") == []
 

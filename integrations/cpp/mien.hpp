@@ -127,7 +127,7 @@ class Error {
   MienStatus status() const { return status_; }
   /// "DNA_TRUNCATED"
   const char* name() const { return mien_status_name(status_); }
-  /// What, where and what to do; the name of the status if the call has no more to say.
+  /// What, where and what to do; the name of the status if the call says nothing else.
   const char* message() const { return message_[0] ? message_ : name(); }
   /// In the file; MIEN_NO_OFFSET if there is no such place.
   uint64_t byte_offset() const { return byte_offset_; }

@@ -293,7 +293,7 @@ FacePoint Form::face(double angle, double y, Side side) const {
 
 // Colors ---------------------------------------------------------------------------------------
 
-Color Form::skin_colour(Vec3 p, double row, double lid) const {
+Color Form::skin_color(Vec3 p, double row, double lid) const {
   const Color& skin = person_.skin;
   const double x = std::abs(p.x);
   const double in_front = smooth_step(2.5, 5.0, p.z);

@@ -79,7 +79,7 @@ class Form {
   double upper_opening(double x) const;
   double lower_opening(double x) const;
 
-  Color skin_colour(Vec3 closed, double row, double lid) const;
+  Color skin_color(Vec3 closed, double row, double lid) const;
 
  private:
   struct Section {

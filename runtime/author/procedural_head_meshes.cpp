@@ -51,7 +51,7 @@ class MeshMaker {
     return number() && make_points(out) && make_layouts(out) && make_faces(out) &&
            make_weights(out) && (lod_ >= kShapeLods || make_targets(out, used));
   }
-  bool make_colours(dna::MetadataPair& out);
+  bool make_colors(dna::MetadataPair& out);
 
  private:
   uint32_t left_count() const { return half_.vertices.count(); }
@@ -285,7 +285,7 @@ void MeshMaker::find_offsets(uint32_t shape, Span<Affine> pose, Span<Vec3> out) 
   }
 }
 
-bool MeshMaker::make_colours(dna::MetadataPair& out) {
+bool MeshMaker::make_colors(dna::MetadataPair& out) {
   static constexpr char kDigits[] =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   // Three bytes make four digits: one group for each position, no padding needed.
@@ -361,7 +361,7 @@ bool fill_meshes(const Head& head, Arena& arena, const Allocator& allocator, siz
     Arena for_mesh(allocator);
     MeshMaker maker(head, part, lod, arena, for_mesh);
     if (!copy_text(arena, mesh_name(part, lod), out.defn.mesh_names[m]) ||
-        !maker.make(meshes[m], used) || !maker.make_colours(out.desc.metadata[metadata_used + m])) {
+        !maker.make(meshes[m], used) || !maker.make_colors(out.desc.metadata[metadata_used + m])) {
       return false;
     }
   }

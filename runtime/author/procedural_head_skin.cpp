@@ -117,7 +117,7 @@ class SkinMaker {
     v.position = turn_lid(v.closed, v.lid);
     v.u = 0.5 + 0.5 * angles_[column] / kPi;
     v.v = (heights_[row] - kBottomY) / (kCrownY - kBottomY);
-    v.color = form_.skin_colour(v.closed, heights_[row], v.lid);
+    v.color = form_.skin_color(v.closed, heights_[row], v.lid);
     return v;
   }
 

@@ -19,7 +19,7 @@ struct Point2 {
 };
 
 /// Point `step` of `count` around the unit circle, from (1, 0) towards (0, 1). By quarters of the
-/// rational parametrisation, since sine and cosine round differently from library to library.
+/// rational parametrization, since sine and cosine round differently from library to library.
 Point2 on_circle(uint32_t step, uint32_t count) {
   uint32_t quarter = 4 * step / count % 4;
   double t = static_cast<double>(4 * step % count) / count;

@@ -38,7 +38,7 @@ struct Scratch {
   Span<uint32_t> position;       // [joint]: where a joint stands in its list, or kNone
   Span<uint32_t> first_rows;     // [column]
   Span<uint32_t> column_order;   // [column]
-  Span<uint32_t> rotation_rows;  // [turned joint][axis]: its row, or kNone
+  Span<uint32_t> rotation_rows;  // [quaternion joint][axis]: its row, or kNone
 };
 
 /// Lists the joints of a kind in order of their first row; returns how many. Of quaternion joints,

@@ -83,7 +83,7 @@ struct QuaternionJoint {
 
 /// What a joint group does to rotations besides writing angles.
 ///
-/// Angles: with quaternion outputs, rotation rows write their angles behind the joint outputs, at
+/// Angles: with quaternion outputs, rotation rows write their angles behind the joint values, at
 /// 3 * joint, and the group's `angle_joints` are then made into quaternions.
 ///
 /// Turns: joints represented by quaternions (docs/rig-evaluation.md, 4.8 "Joints represented by

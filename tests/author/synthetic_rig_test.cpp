@@ -471,7 +471,7 @@ TEST(SyntheticRig, WritesAsAFileOfProductionSize) {
 // ----------------------------------------------------------------------------------------
 
 /// Where a joint stands on the head, from the neutral values of its ancestors.
-Point place_of(const dna::Definition& defn, uint16_t joint) {
+Point index_of(const dna::Definition& defn, uint16_t joint) {
   const double kPi = 3.14159265358979323846;
   Point at = {0, 0, 0};
   for (;; joint = defn.joint_hierarchy[joint]) {
@@ -497,7 +497,7 @@ TEST_P(EveryRig, JointsStandOnTheHeadMirroredInSpiteOfTurnedParents) {
   for (uint16_t j = 0; j < defn.joint_names.count; ++j) {
     const std::string name = text(defn.joint_names[j]);
     turned += defn.neutral_rotations.xs[j] != 0 && defn.neutral_rotations.ys[j] != 0;
-    const Point p = place_of(defn, j);
+    const Point p = index_of(defn, j);
     EXPECT_LT(std::abs(p.x), 8.5) << name;
     EXPECT_LT(std::abs(p.y + 3.5), 16) << name;
     EXPECT_LT(std::abs(p.z), 10) << name;
@@ -506,7 +506,7 @@ TEST_P(EveryRig, JointsStandOnTheHeadMirroredInSpiteOfTurnedParents) {
     }
     if (name.rfind("FACIAL_L_", 0) != 0) continue;
     ASSERT_EQ(text(defn.joint_names[j + 1u]), "FACIAL_R_" + name.substr(9));
-    const Point q = place_of(defn, static_cast<uint16_t>(j + 1));
+    const Point q = index_of(defn, static_cast<uint16_t>(j + 1));
     EXPECT_NEAR(p.x, -q.x, 1e-5) << name;
     EXPECT_NEAR(p.y, q.y, 1e-5) << name;
     EXPECT_NEAR(p.z, q.z, 1e-5) << name;

@@ -154,7 +154,7 @@ class General(CliTest):
 
     def test_wrong_choices_of_what_to_load(self):
         tiny = path("tiny.dna")
-        self.fails(USAGE, "info", tiny, "--layers", "behaviour", says='did you mean "behavior"')
+        self.fails(USAGE, "info", tiny, "--layers", "behavor", says='did you mean "behavior"')
         self.fails(USAGE, "info", tiny, "--layers", "geometry,,rbf")
         self.fails(USAGE, "info", tiny, "--layers", "geometry,geometry-without-blend-shapes")
         self.fails(USAGE, "info", tiny, "--lods", "1,x", says='"x"')
@@ -292,7 +292,7 @@ class Info(CliTest):
         self.assertEqual(info["counts"]["joints"], 870)
         self.assertEqual(info["lod_count"], 8)
 
-    def test_every_kind_of_behaviour_is_told(self):
+    def test_every_kind_of_behavior_is_listed(self):
         self.ok("gen", "-o", path("all.dna"), "--preset", "body", "--ml")
         info = self.json("info", path("all.dna"), "--json")
         behavior = info["behavior"]
@@ -428,7 +428,7 @@ class Generate(CliTest):
         self.assertNotEqual(read("a.dna"), read("tiny.dna"))
         self.assertEqual(self.ok("gen", "-o", "-").stdout, read("tiny.dna"))
 
-    def test_body_and_learned_behaviour(self):
+    def test_body_and_networks(self):
         counts = self.json("info", path("body.dna"), "--json")["counts"]
         expected = {"raw_controls": 176, "rbf_controls": 670, "rbf_solvers": 72, "rbf_poses": 670,
                     "twists": 22, "swings": 16, "joints": 342, "neural_networks": 0}
@@ -776,9 +776,9 @@ class Bench(CliTest):
             self.assertGreater(row["joints_ns"], 0)
         isas = {row["isa"] for row in result["rows"]}
         self.assertIn("scalar", isas)
-        expected = {(isa, lod, activity, *crowd) for isa in isas for lod in range(lods)
+        expected = {(isa, lod, activity, *batch) for isa in isas for lod in range(lods)
                     for activity in (0.05, 0.08, 0.25, 0.5, 1.0)
-                    for crowd in ((1, False), (64, False), (64, True))}
+                    for batch in ((1, False), (64, False), (64, True))}
         expected |= {(isa, 0, 0.08, 512, False) for isa in isas}
         keys = [(row["isa"], row["lod"], row["activity"], row["characters"], row["shared_controls"])
                 for row in result["rows"]]

@@ -42,7 +42,7 @@ struct ModelJoint {
 std::vector<ModelJoint> model_joints(const LayerRig& rig, const std::vector<double>& controls,
                                      uint32_t lod, bool quaternion_outputs);
 
-/// The joint outputs of the library as the model sees them.
+/// The joint values of the library as the model sees them.
 std::vector<ModelJoint> joints_of(const LayerRig& rig, Span<const float> outputs,
                                   bool quaternion_outputs);
 

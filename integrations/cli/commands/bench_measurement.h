@@ -24,7 +24,7 @@ constexpr size_t kActivityCount = std::size(kActivities);
 
 constexpr uint32_t kInstances = 64;
 
-// A crowd that speaks: many instances of LOD 0 at one activity.
+// Many instances of LOD 0 at one activity.
 constexpr uint32_t kManyInstances = 512;
 constexpr size_t kManyActivity = 1;  // of kActivities
 

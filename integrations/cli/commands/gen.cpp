@@ -47,7 +47,7 @@ Command add_gen_command(CLI::App& app, const Session& session) {
          "solvers, twists and swings)")
       ->type_name("NAME");
   gen->add_flag("--ml", options->ml,
-                "With learned behavior: networks, their operations, joints they move");
+                "With machine-learned behavior: networks, their operations, joints they move");
   gen->footer(
       "Examples:\n"
       "  mien gen -o tiny.dna\n"

@@ -257,7 +257,7 @@ void add_rig_options(CLI::App& app, RigOptions& options, bool with_isa) {
       ->type_name("TYPE")
       ->group(group);
   app.add_option("--ml-masks", options.ml_masks,
-                 "Masks of learned behavior: switch (0 is off) or blend (0 to 1)")
+                 "Masks of machine-learned behavior: switch (0 is off) or blend (0 to 1)")
       ->type_name("TYPE")
       ->group(group);
 }

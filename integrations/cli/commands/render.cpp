@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// mien render: a rig and controls -> pictures.
+// mien render: a rig and controls -> images.
 #include <algorithm>
 #include <cmath>
 

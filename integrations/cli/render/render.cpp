@@ -102,7 +102,7 @@ class PixelPatches {
   Patch patches_[16];
 };
 
-/// From the middle of the picture outwards.
+/// From the middle of the image outwards.
 class BackdropLight {
  public:
   BackdropLight(const Backdrop& backdrop, int width, int height)

@@ -13,7 +13,7 @@ namespace {
 // that share an edge share every sample of it between them, without gap or overlap.
 constexpr int kSubpixels = 256;
 
-// What leaves this border around the picture is cut before it is rounded, so that integers hold it.
+// What leaves this border around the image is cut before it is rounded, so that integers hold it.
 constexpr float kGuard = 2.0f * kMaxPixels;
 
 constexpr int16_t kOne[1][2] = {{128, 128}};

@@ -3,7 +3,7 @@
 
 An object of the library is released when nothing refers to it any more: neither the Python object
 that made it, nor an array that looks into its memory, nor a call that is under way in another
-thread. So `close()` gives up a reference and never pulls memory away from under somebody:
+thread. So `close()` gives up a reference and never frees memory that is in use:
 
     Instance ----> handle <---- buffer <---- array <---- array[3:5]
     a call ----------^
@@ -221,7 +221,7 @@ def terminated(text: bytes, what: str) -> bytes:
 
 
 def as_bytes(data: Any) -> bytes:
-    """Bytes that nobody can change: themselves, or a copy of what somebody could."""
+    """Immutable bytes: the object itself, or a copy of a mutable buffer."""
     return data if type(data) is bytes else bytes(memoryview(data))
 
 

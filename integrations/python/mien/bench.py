@@ -84,8 +84,8 @@ def timed(work: Callable[[], Any]) -> Callable[[int], float]:
 def measure(rig: mien.Rig, count: int, lod: int, loops: ctypes.CDLL) -> List[Tuple[str, Any]]:
     """(what, (C, Python, difference) in nanoseconds)"""
     address = ctypes.c_void_p
-    face, crowd = rig.instance(), rig.batch(count)
-    for i, character in enumerate((face, *crowd)):
+    face, batch = rig.instance(), rig.batch(count)
+    for i, character in enumerate((face, *batch)):
         controls = character.raw_controls
         for j in range(len(controls)):
             controls[j] = ((i + j * 7) % 11) / 10 if (i * 5 + j) % 4 == 0 else 0.0
@@ -98,18 +98,18 @@ def measure(rig: mien.Rig, count: int, lod: int, loops: ctypes.CDLL) -> List[Tup
     found = [("face.evaluate()", alternate(
         lambda n: loops.one(evaluate, rig_address, face_address, lod, n), single, turns, 1001))]
 
-    batch = timed(lambda: crowd.evaluate(lod))
+    batch = timed(lambda: batch.evaluate(lod))
     turns = max(1, int(2e5 / (batch(10) / 10)))
-    pointers, lods = crowd._pointers, (ctypes.c_uint32 * count)(*[lod] * count)
+    pointers, lods = batch._pointers, (ctypes.c_uint32 * count)(*[lod] * count)
 
     evaluate_batch = ctypes.cast(lib.mien_rig_evaluate_batch, address)
-    batch_address = address(crowd._batch.value)
+    batch_address = address(batch._batch.value)
 
     def in_c(n: int) -> float:
         return float(loops.many(evaluate_batch, rig_address, batch_address, pointers, lods, count,
                                 int(mien.Stage.ALL), n))
 
-    found.append((f"crowd.evaluate(), {count} characters", alternate(in_c, batch, turns, 401)))
+    found.append((f"batch.evaluate(), {count} characters", alternate(in_c, batch, turns, 401)))
     return found
 
 

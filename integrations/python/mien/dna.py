@@ -68,8 +68,8 @@ class Dna(Closable):
 
         layers: which `Layer`s to load, combined with |; what is not chosen is never touched
         lods:   which LODs to keep, by number; they are numbered anew from 0. None keeps all
-        access: `FileAccess.MAP` spares reading what is not chosen; but a process crashes whose
-                mapped file somebody truncates, so the default reads it all
+        access: `FileAccess.MAP` does not read what is not chosen. If a mapped file is truncated while it is
+                open, the process may crash, so the default reads it all
         system: to convert everything to: a name ("unreal", "blender", see
                 `coordinate_system_names`) or a `CoordinateSystem`; None keeps the file's
 

@@ -56,8 +56,8 @@ class Rig(RigView):
         """Opens a baked rig: a file that `save` or `mien bake` wrote.
 
         access: `FileAccess.MAP` shares the file's pages with other processes and reads what is
-                needed; but a process crashes whose mapped file somebody truncates, so the default
-                reads it all
+                needed. If a mapped file is truncated while it is open, the process may crash, so
+                the default reads it all
         check:  `BakedCheck.FULL` also finds changed numbers
         """
         desc = cls._image_desc(isa, access, check, reuse)

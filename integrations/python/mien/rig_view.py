@@ -101,7 +101,7 @@ class RigView(Closable):
                           f"kind {kind} at LOD {lod}", uint32(kind, "kind"), uint32(lod, "lod"))
 
     def variable_joint_values(self, lod: int) -> Indices:
-        """uint16 (n,): indices into the flat joint outputs that evaluation may change at a LOD."""
+        """uint16 (n,): indices into the flat joint values that evaluation may change at a LOD."""
         return self._view(lib.mien_rig_variable_joint_values, _api.MienIndex16View(), "H",
                           f"LOD {lod}", uint32(lod, "lod"))
 

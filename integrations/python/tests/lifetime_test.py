@@ -94,17 +94,17 @@ class Closing(unittest.TestCase):
 
     @needs_numpy
     def test_arrays_survive_their_batch(self):
-        crowd = rig_of().batch(3)
-        crowd.raw_controls = pattern(crowd.raw_controls.shape[1])
-        crowd.evaluate()
-        one, row, wanted = crowd[1], crowd.joints[2], crowd.joints[2].copy()
-        crowd.close()
+        batch = rig_of().batch(3)
+        batch.raw_controls = pattern(batch.raw_controls.shape[1])
+        batch.evaluate()
+        one, row, wanted = batch[1], batch.joints[2], batch.joints[2].copy()
+        batch.close()
         with self.assertRaises(mien.ClosedError):
             one.evaluate()
-        for use in (crowd.evaluate, crowd.reset, crowd.map_gui_to_raw, lambda: crowd.joints):
+        for use in (batch.evaluate, batch.reset, batch.map_gui_to_raw, lambda: batch.joints):
             with self.assertRaises(mien.ClosedError):
                 use()
-        del crowd, one
+        del batch, one
         gc.collect()
         rig_of().batch(8).evaluate()
         numpy.testing.assert_array_equal(row, wanted)
@@ -137,9 +137,9 @@ class Closing(unittest.TestCase):
 
     def test_a_closed_rig_evaluates_no_more(self):
         rig = fresh_rig()
-        face, crowd = rig.instance(), rig.batch(2)
+        face, batch = rig.instance(), rig.batch(2)
         rig.close()
-        for use in (face.evaluate, face.map_gui_to_raw, crowd.evaluate, rig.instance,
+        for use in (face.evaluate, face.map_gui_to_raw, batch.evaluate, rig.instance,
                     lambda: rig.batch(1), lambda: rig.count(mien.Kind.JOINT),
                     lambda: rig.names(mien.Kind.JOINT), lambda: rig.joint_parents,
                     lambda: rig.statistics(0)):
@@ -182,11 +182,11 @@ import mien
 dna = mien.Dna.generate(mien.Preset.SMALL)
 rig = mien.Rig(dna)
 faces = [rig.instance() for _ in range(3)]
-crowd = rig.batch(4)
+batch = rig.batch(4)
 arrays = [face.joints for face in faces]
 class Cycle: pass
-Cycle.itself, Cycle.things = Cycle, (dna, rig, faces, crowd, arrays)
-crowd.evaluate()
+Cycle.itself, Cycle.things = Cycle, (dna, rig, faces, batch, arrays)
+batch.evaluate()
 """)
 
 
@@ -194,7 +194,7 @@ class Forking(unittest.TestCase):
     @unittest.skipUnless(hasattr(os, "fork"), "NOT TESTED: no fork on this system")
     def test_parent_and_child_have_a_character_each(self):
         rig = rig_of()
-        face, crowd = rig.instance(), rig.batch(2)
+        face, batch = rig.instance(), rig.batch(2)
         face.raw_controls = pattern(len(face.raw_controls))
         face.evaluate()
         before, wanted = face.joints.tolist(), evaluated(rig, 1)
@@ -204,7 +204,7 @@ class Forking(unittest.TestCase):
             try:
                 face.raw_controls = pattern(len(face.raw_controls), 1)
                 face.evaluate()
-                crowd.evaluate()
+                batch.evaluate()
                 same = face.joints.tolist() == wanted
                 face.close()
                 rig.close()
@@ -287,18 +287,18 @@ class Threads(unittest.TestCase):
     def test_closing_while_others_evaluate(self):
         rig = rig_of(mien.Preset.LARGE)
         for _ in range(10):
-            faces, crowd = [rig.instance() for _ in range(3)], rig.batch(4)
+            faces, batch = [rig.instance() for _ in range(3)], rig.batch(4)
             start = threading.Barrier(8)
 
             def work(i):
                 start.wait()
                 if i >= 6:
-                    for thing in (*faces, crowd):
+                    for thing in (*faces, batch):
                         thing.close()
                     return
                 try:
                     for _ in range(50):
-                        (faces + [crowd])[i % 4].evaluate()
+                        (faces + [batch])[i % 4].evaluate()
                 except (mien.ClosedError, mien.BusyError):
                     pass
 

@@ -29,9 +29,9 @@ class Arrays(unittest.TestCase):
         for shape in ((n - 1,), (n + 1,), (0,), (1,), (1, n), (n, 1), (2, n), (1, 1, n)):
             self.unchanged_by(mien.ArgumentError, numpy.zeros(shape, "f"))
         self.unchanged_by(ValueError, [])
-        crowd = self.rig.batch(3)
+        batch = self.rig.batch(3)
         for shape in ((2, n), (3, n - 1), (n, 3), (3, 1), (1, n), (3, n, 1), (n + 1,)):
-            self.unchanged_by(mien.ArgumentError, numpy.zeros(shape, "f"), crowd)
+            self.unchanged_by(mien.ArgumentError, numpy.zeros(shape, "f"), batch)
 
     @needs_numpy
     def test_wrong_types(self):
@@ -66,14 +66,14 @@ class Arrays(unittest.TestCase):
         numpy.testing.assert_array_equal(self.face.raw_controls, wide[:n][::-1])
         self.face.raw_controls = self.face.raw_controls[::-1]  # over itself
         numpy.testing.assert_array_equal(self.face.raw_controls, wide[:n])
-        crowd, rows = self.rig.batch(4), numpy.arange(4 * n, dtype="f8").reshape(n, 4).T
-        crowd.raw_controls = rows
-        numpy.testing.assert_array_equal(crowd.raw_controls, rows)
+        batch, rows = self.rig.batch(4), numpy.arange(4 * n, dtype="f8").reshape(n, 4).T
+        batch.raw_controls = rows
+        numpy.testing.assert_array_equal(batch.raw_controls, rows)
 
     @needs_numpy
     def test_outputs_cannot_be_written(self):
-        crowd = self.rig.batch(2)
-        for thing in (self.face, crowd):
+        batch = self.rig.batch(2)
+        for thing in (self.face, batch):
             for name in ("controls", "joints", "blend_shapes", "animated_maps"):
                 values = getattr(thing, name)
                 self.assertFalse(values.flags.writeable, name)
@@ -89,7 +89,7 @@ class Arrays(unittest.TestCase):
 
     @needs_numpy
     def test_views_are_views(self):
-        face, crowd = self.face, self.rig.batch(3)
+        face, batch = self.face, self.rig.batch(3)
         self.assertIs(face.joints, face.joints)
         self.assertIs(face.raw_controls, face.raw_controls)
         joints = face.joints
@@ -97,11 +97,11 @@ class Arrays(unittest.TestCase):
         face.evaluate()
         self.assertTrue(joints.any())
         self.assertTrue(numpy.shares_memory(face.controls, face.raw_controls))
-        self.assertTrue(numpy.shares_memory(crowd.joints, crowd[1].joints))
-        self.assertFalse(numpy.shares_memory(crowd[0].joints, crowd[1].joints))
-        crowd.raw_controls[1] = face.raw_controls
-        crowd[1].evaluate()
-        numpy.testing.assert_array_equal(crowd.joints[1], joints)
+        self.assertTrue(numpy.shares_memory(batch.joints, batch[1].joints))
+        self.assertFalse(numpy.shares_memory(batch[0].joints, batch[1].joints))
+        batch.raw_controls[1] = face.raw_controls
+        batch[1].evaluate()
+        numpy.testing.assert_array_equal(batch.joints[1], joints)
 
     @needs_numpy
     def test_indices_past_the_end(self):
@@ -116,9 +116,9 @@ class Numbers(unittest.TestCase):
         self.face = self.rig.instance()
 
     def test_lods(self):
-        crowd = self.rig.batch(2)
+        batch = self.rig.batch(2)
         for lod in (self.rig.lod_count, -1, 2**32, 2**64, -2**32):
-            for use in (self.face.evaluate, crowd.evaluate, lambda lod: crowd.evaluate([0, lod]),
+            for use in (self.face.evaluate, batch.evaluate, lambda lod: batch.evaluate([0, lod]),
                         self.rig.statistics, self.rig.variable_joint_values,
                         lambda lod: self.face.evaluate(lod, mien.Stage.PSD),
                         lambda lod: self.face.evaluate_joint_group(0, lod),
@@ -131,7 +131,7 @@ class Numbers(unittest.TestCase):
                 self.face.evaluate(lod)
         for lods in ([0], [0, 0, 0], "ab", [0, None], 1.5, None):
             with self.assertRaises((TypeError, mien.ArgumentError)):
-                crowd.evaluate(lods)
+                batch.evaluate(lods)
 
     @needs_numpy
     def test_numbers_of_numpy(self):

@@ -54,20 +54,20 @@ class Values(unittest.TestCase):
     def test_shapes(self):
         rig = rig_of()
         turned = rig_of(rotation=mien.RotationOutput.QUATERNION)
-        face, crowd = rig.instance(), rig.batch(3)
+        face, batch = rig.instance(), rig.batch(3)
         joints = rig.count(mien.Kind.JOINT)
         self.assertEqual(face.joints.shape, (joints, 9))
         self.assertEqual(turned.instance().joints.shape, (joints, 10))
         self.assertEqual(rig.neutral_joint_values.shape, (joints, 9))
         self.assertEqual(turned.neutral_joint_values.shape, (joints, 10))
-        self.assertEqual(crowd.joints.shape, (3, joints, 9))
+        self.assertEqual(batch.joints.shape, (3, joints, 9))
         self.assertEqual(face.controls.shape, (rig.info.control_count,))
         for name, kind in (("gui_controls", mien.Kind.GUI_CONTROL),
                            ("raw_controls", mien.Kind.RAW_CONTROL), ("ml_masks", mien.Kind.ML_MASK),
                            ("blend_shapes", mien.Kind.BLEND_SHAPE_CHANNEL),
                            ("animated_maps", mien.Kind.ANIMATED_MAP)):
             self.assertEqual(getattr(face, name).shape, (rig.count(kind),))
-            self.assertEqual(getattr(crowd, name).shape, (3, rig.count(kind)))
+            self.assertEqual(getattr(batch, name).shape, (3, rig.count(kind)))
             self.assertEqual(getattr(face, name).dtype, numpy.float32)
         parts = [face.raw_controls, face.psd_controls, face.ml_controls, face.rbf_controls]
         numpy.testing.assert_array_equal(numpy.concatenate(parts), face.controls)
@@ -102,33 +102,33 @@ class Values(unittest.TestCase):
     def test_a_batch_gives_the_bits_of_single_characters(self):
         for rig in (rig_of(), rig_of(rotation=mien.RotationOutput.QUATERNION), rig_of(mien.Preset.LARGE)):
             n, count = 7, rig.count(mien.Kind.RAW_CONTROL)
-            crowd, in_parts, face = rig.batch(n), rig.batch(n, tasks=4), rig.instance()
+            batch, in_parts, face = rig.batch(n), rig.batch(n, tasks=4), rig.instance()
             rows = numpy.array([pattern(count, i) for i in range(n)], "f")
             lods = [i % rig.lod_count for i in range(n)]
             for lod in (0, lods):
-                crowd.raw_controls = rows
-                crowd.evaluate(lod)
+                batch.raw_controls = rows
+                batch.evaluate(lod)
                 with ThreadPoolExecutor(3) as threads:
                     in_parts.raw_controls = rows
                     in_parts.evaluate(lod, threads=threads)
-                numpy.testing.assert_array_equal(in_parts.joints, crowd.joints)
+                numpy.testing.assert_array_equal(in_parts.joints, batch.joints)
                 for i in range(n):
                     face.raw_controls = rows[i]
                     face.evaluate(lods[i] if lod else 0)
                     for name in ("controls", "joints", "blend_shapes", "animated_maps"):
-                        numpy.testing.assert_array_equal(getattr(crowd, name)[i],
+                        numpy.testing.assert_array_equal(getattr(batch, name)[i],
                                                          getattr(face, name))
 
     @needs_numpy
     def test_maps_and_stages(self):
         rig = rig_of()
-        face, crowd = rig.instance(), rig.batch(2)
+        face, batch = rig.instance(), rig.batch(2)
         face.gui_controls = 0.5
-        crowd.gui_controls = 0.5
+        batch.gui_controls = 0.5
         face.map_gui_to_raw()
-        crowd.map_gui_to_raw()
+        batch.map_gui_to_raw()
         self.assertTrue(face.raw_controls.any())
-        numpy.testing.assert_array_equal(crowd.raw_controls[1], face.raw_controls)
+        numpy.testing.assert_array_equal(batch.raw_controls[1], face.raw_controls)
         face.gui_controls = 0
         face.map_raw_to_gui()
         self.assertTrue(face.gui_controls.any())
@@ -165,15 +165,15 @@ print(type(face.joints).__name__, hashlib.sha256(bytes(face.joints)).hexdigest()
 import mien
 dna = mien.Dna.generate()
 rig = mien.Rig(dna)
-face, crowd = rig.instance(), rig.batch(3)
+face, batch = rig.instance(), rig.batch(3)
 assert dna.read("defn.neutralJointTranslations.xs").typecode == "f"
 assert len(face.joints) == rig.info.joint_value_count and face.joints.readonly
 face.raw_controls = 0.5
 face.ml_masks = 1
-crowd[1].raw_controls[:] = face.raw_controls
+batch[1].raw_controls[:] = face.raw_controls
 face.evaluate()
-crowd.evaluate()
-assert crowd[1].joints == face.joints and len(rig.joint_parents) == rig.count(mien.Kind.JOINT)
+batch.evaluate()
+assert batch[1].joints == face.joints and len(rig.joint_parents) == rig.count(mien.Kind.JOINT)
 for wrong in ([1.0], [0.5] * 99):
     try: face.raw_controls = wrong
     except mien.ArgumentError: pass
@@ -185,7 +185,7 @@ for wrong in ("text", None, ["x"]):
 try: face.joints[0] = 1
 except TypeError: pass
 else: raise AssertionError("written")
-try: crowd.joints
+try: batch.joints
 except ImportError: pass
 else: raise AssertionError("no NumPy, yet an array")
 kept = face.joints

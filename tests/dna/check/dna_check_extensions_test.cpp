@@ -248,7 +248,7 @@ const Damage kNetworkCases[] = {
      [](DnaView& v, Arena& a) {
        v.mlbe.joints.input_indices = be(a, U16{5, 6, 7, 11});
      }},
-    {"MlJointOutput", kReference, "mlbe.mlbJoints.outputIndices",
+    {"MlJointValue", kReference, "mlbe.mlbJoints.outputIndices",
      [](DnaView& v, Arena& a) {
        v.mlbe.joints.output_indices = be(a, U16{23, 24, 25, 30});
      }},

@@ -221,7 +221,7 @@ const Damage kBehaviorCases[] = {
      [](DnaView& v, Arena& a) {
        group(v, 1).input_indices = be(a, U16{0, 4, 11});
      }},
-    {"JointOutput", kReference, "bhvr.joints.jointGroups[1].outputIndices",
+    {"JointValue", kReference, "bhvr.joints.jointGroups[1].outputIndices",
      [](DnaView& v, Arena& a) {
        group(v, 1).output_indices = be(a, U16{21, 22, 23, 27});
      }},

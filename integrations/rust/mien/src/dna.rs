@@ -363,7 +363,7 @@ impl OpenOptions {
     ///
     /// What the library refuses, by [`Status`](crate::Status).
     pub fn open(&self, path: impl AsRef<Path>) -> Result<Dna<'static>> {
-        // SAFETY: once it is read, nobody can change it.
+        // SAFETY: once read, the copy cannot change.
         unsafe { self.open_file(path.as_ref(), sys::MIEN_FILE_READ) }
     }
 
@@ -371,7 +371,7 @@ impl OpenOptions {
     ///
     /// # Safety
     ///
-    /// While the `Dna` lives, nobody may truncate the file or rewrite it in place: it is checked
+    /// While the `Dna` lives, no one may truncate the file or rewrite it in place: it is checked
     /// once, and then believed. Replacing it by renaming another one over it is fine.
     ///
     /// # Errors
@@ -507,7 +507,7 @@ impl GenerateOptions {
         self
     }
 
-    /// What it has beyond that: [`Generate::ML`] is learned behavior.
+    /// What it has beyond that: [`Generate::ML`] is machine-learned behavior.
     pub fn with(mut self, extra: Generate) -> Self {
         self.flags |= extra.0;
         self

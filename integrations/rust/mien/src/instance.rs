@@ -97,7 +97,7 @@ impl Instance {
         gui_controls, gui_controls_mut;
         /// Raw controls, usually in 0..1 but not clamped. Finite values are expected.
         raw_controls, raw_controls_mut;
-        /// One per region of a mesh, 0..1, initially 1: switches or blends learned behavior.
+        /// One per region of a mesh, 0..1, initially 1: switches or blends machine-learned behavior.
         ml_masks, ml_masks_mut;
     }
 }

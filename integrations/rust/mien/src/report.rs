@@ -86,7 +86,7 @@ impl Report {
 
     fn read(path: &Path, allocator: Option<&Allocator>) -> Result<Self> {
         let path = path_string(path)?;
-        // SAFETY: a terminated path. The file is read, so nobody can change what is examined.
+        // SAFETY: a terminated path. The file is copied, so the checked bytes cannot change.
         Self::create(allocator, |desc, out, error| unsafe {
             sys::mien_dna_validate_file(path.as_ptr(), desc, out, error)
         })

@@ -404,7 +404,7 @@ impl RigOptions {
     ///
     /// # Safety
     ///
-    /// Nobody may truncate the file or write to it in place until the rig and its instances are
+    /// The file must not be truncated or written to in place until the rig and its instances are
     /// gone; replacing it by renaming is safe.
     ///
     /// # Errors

@@ -43,7 +43,7 @@ unsafe extern "C" fn run<R: FnMut(usize, Work<'_>)>(
     task: Option<unsafe extern "C" fn(*mut c_void, u32)>,
     context: *mut c_void,
 ) {
-    // SAFETY: `user` is the runner of the call that is under way, and nobody else's.
+    // SAFETY: `user` is the runner of the call that is under way, and of no other.
     let runner = unsafe { &mut *(user as *mut Runner<R>) };
     let task = match task {
         Some(call) => Task { call, context },
@@ -58,7 +58,7 @@ unsafe extern "C" fn run<R: FnMut(usize, Work<'_>)>(
     work();
 }
 
-/// The work: takes tasks until there are none left. A count cannot run over: whoever finds none
+/// The work: takes tasks until there are none left. A count cannot run over: a thread that finds none
 /// left stops adding.
 fn take_all<'a>(task: &'a Task, next: &'a AtomicU32, count: u32) -> impl Fn() + Sync + 'a {
     move || loop {

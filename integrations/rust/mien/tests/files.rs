@@ -120,7 +120,7 @@ fn fields_are_read_by_path() {
 }
 
 #[test]
-fn learned_behaviour_is_generated_if_asked_for() {
+fn machine_learned_behavior_is_generated_on_request() {
     let ml = GenerateOptions::new().preset(Preset::SMALL).with(Generate::ML).generate().unwrap();
     assert!(ml.info().neural_network_count > 0);
     assert_eq!(Dna::generate(Preset::SMALL).unwrap().info().neural_network_count, 0);
