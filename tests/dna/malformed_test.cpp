@@ -136,6 +136,8 @@ TEST_P(Version, SomeBytesOfAGeneratedFile) {
   const Bytes good = generated_file(GetParam());
   Survivor survivor;
   break_everywhere(good, good.size() / 40, survivor);
+  EXPECT_GT(survivor.opened(), 0u);
+  EXPECT_LT(survivor.opened(), survivor.lives());
 }
 
 // Anything that is cut off is told from a whole file: no layer may silently lack its end.
@@ -321,18 +323,27 @@ TEST(Container, NoLayersAtAll) {
   }
 }
 
-TEST(Container, MissingLayersReadAsEmptyUnlessOthersNeedThem) {
-  for (const char* code :
-       {"desc", "defn", "bhvr", "geom", "mlbh", "rbfb", "rbfe", "jbmd", "twsw", "mlbe", "dsce"}) {
-    std::vector<dna::Layer> layers = dna::layers_of(tiny_file(8));
-    for (size_t i = 0; i < layers.size(); ++i) {
-      if (layers[i].code == code) layers.erase(layers.begin() + static_cast<ptrdiff_t>(i));
+TEST(Container, MissingLayersReadAsDefaultsUnlessOthersNeedThem) {
+  const auto without = [](const char* code) {
+    std::vector<dna::Layer> kept;
+    for (const dna::Layer& layer : dna::layers_of(tiny_file(8))) {
+      if (layer.code != code) kept.push_back(layer);
     }
-    const Bytes file = dna::file_of(8, layers);
+    EXPECT_EQ(kept.size(), 10u) << code;
+    return dna::file_of(8, kept);
+  };
+  for (const char* code : {"geom", "rbfe", "jbmd", "twsw", "mlbe", "dsce"}) {
+    SCOPED_TRACE(code);
+    const Bytes file = without(code);
     const Life life = live(file.data(), file.size());
-    EXPECT_EQ(life.broken, "") << code;
-    EXPECT_TRUE(life.opened == MIEN_OK || life.opened >= MIEN_ERROR_DNA_STRUCTURE) << code;
+    EXPECT_EQ(life.broken, "");
+    EXPECT_EQ(life.opened, MIEN_OK) << life.message;
   }
+  expect_refused(without("desc"), MIEN_ERROR_DNA_STRUCTURE, "mlbe.mlbTypeData[0]");
+  expect_refused(without("defn"), MIEN_ERROR_DNA_REFERENCE, "bhvr.controls.conditionals");
+  expect_refused(without("bhvr"), MIEN_ERROR_DNA_REFERENCE, "rbfe.poses[0].outputControlIndices");
+  expect_refused(without("mlbh"), MIEN_ERROR_DNA_REFERENCE, "bhvr.joints.jointGroups[1]");
+  expect_refused(without("rbfb"), MIEN_ERROR_DNA_STRUCTURE, "rbfe.poses");
 }
 
 // Blocks: mesh, network and solver.
@@ -349,14 +360,18 @@ TEST(Container, BlocksThatEndBeforeTheyBeginOrTooLate) {
       const size_t poses = strcmp(code, "rbfb") == 0 ? 4 + 2 * (4 + 4 + 4) : 0;
       if (value != left - poses || value < 20) continue;
       found = true;
-      for (uint32_t bad : {0u, 1u, value - 1, uint32_t(left + 1), 0xFFFFFFFFu, 0xFFFFFF00u}) {
+      const auto with_size = [&](uint32_t size) {
         Bytes file = good;
-        dna::set32(file, at, bad);
-        const Life life = live(file.data(), file.size());
-        EXPECT_EQ(life.broken, "");
-        EXPECT_TRUE(life.opened == MIEN_ERROR_DNA_STRUCTURE ||
-                    life.opened == MIEN_ERROR_DNA_TRUNCATED)
-            << code << " block size " << bad << ": " << life.message;
+        dna::set32(file, at, size);
+        return file;
+      };
+      for (uint32_t bad : {0u, 1u, value - 1}) {
+        SCOPED_TRACE(bad);
+        expect_refused(with_size(bad), MIEN_ERROR_DNA_TRUNCATED, "are left");
+      }
+      for (uint32_t bad : {uint32_t(left + 1), 0xFFFFFFFFu, 0xFFFFFF00u}) {
+        SCOPED_TRACE(bad);
+        expect_refused(with_size(bad), MIEN_ERROR_DNA_STRUCTURE, "does not fit into the");
       }
     }
     EXPECT_TRUE(found) << code;
