@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Deformation by instruction set: joints, skin, targets, normals, a whole frame of a head, and many
-// characters. The head is the finest mesh of the bench rig (by default a generated one of 24,578
-// positions and 135,254 deltas), but with eight influences for each position: those of the joints
-// that lie nearest.
+// Deformation by instruction set: joints, skin, targets, normals, a whole frame of a head, vertex
+// output, and many characters. The head is the finest mesh of the bench rig (by default a generated
+// one of 24,578 positions and 135,254 deltas), but each position has eight influences: the nearest
+// joints.
 #include <algorithm>
 #include <cmath>
 #include <condition_variable>
@@ -71,13 +71,15 @@ const MienDeformer* deformer_for(uint32_t isa) {
   if (deformers[isa]) return deformers[isa];
   MienError error = sized<MienError>();
   MienRig* rig = create_rig(head(), isa);
-  require(mien_deformer_create(head(), rig, nullptr, &deformers[isa], &error), error);
+  MienDeformerDesc desc = sized<MienDeformerDesc>();
+  desc.with_tangents = 1;
+  require(mien_deformer_create(head(), rig, &desc, &deformers[isa], &error), error);
   mien_rig_destroy(rig);
   return deformers[isa];
 }
 
-/// A character in some pose: small turns and shifts of all joints, and `channels` percent of the
-/// channels at work.
+/// A character with small rotations and translations of all joints, and `channels` percent of the
+/// channels active.
 struct Character {
   MienDeformerInstance* pose = nullptr;
   std::vector<float> joints, weights;
@@ -140,6 +142,32 @@ void frame(benchmark::State& state, uint32_t isa, uint32_t channels,
   for (auto _ : state) {
     character.update();
     require(mien_deformer_instance_deform(character.pose, 0, MIEN_NORMALS_RECOMPUTED, parallel));
+  }
+  count_vertices(state);
+}
+
+/// Targets, skin, normals, and an interleaved vertex buffer of positions, normals and perhaps
+/// tangents: as floats (12 + 12 + 16 bytes), or with packed directions (12 + 4 + 4 bytes).
+void vertices(benchmark::State& state, uint32_t isa, bool packed, bool tangents) {
+  Character character(isa, 1, 100);
+  MienMesh mesh = sized<MienMesh>();
+  require(mien_deformer_mesh(deformer_for(isa), 0, &mesh));
+  const uint32_t tangent_at = packed ? 16 : 24;
+  const uint32_t stride = tangent_at + (!tangents ? 0 : packed ? 4 : 16);
+  std::vector<uint8_t> memory(size_t{stride} * mesh.vertex_count);
+  MienVertexOutput output = sized<MienVertexOutput>();
+  output.vertex_capacity = mesh.vertex_count;
+  output.positions = {memory.data(), stride, MIEN_VERTEX_FORMAT_FLOAT32X3};
+  const uint32_t packed_format = MIEN_VERTEX_FORMAT_SNORM10_10_10_2;
+  output.normals = {memory.data() + 12, stride,
+                    packed ? packed_format : uint32_t{MIEN_VERTEX_FORMAT_FLOAT32X3}};
+  if (tangents) {
+    output.tangents = {memory.data() + tangent_at, stride,
+                       packed ? packed_format : uint32_t{MIEN_VERTEX_FORMAT_FLOAT32X4}};
+  }
+  for (auto _ : state) {
+    require(mien_deformer_instance_write_vertices(character.pose, 0, MIEN_NORMALS_SKINNED, &output,
+                                                  nullptr));
   }
   count_vertices(state);
 }
@@ -245,6 +273,11 @@ int registered = [] {
     add("frame", frame, isa, 100u, nullptr);
     add("frame_few_channels", frame, isa, 8u, nullptr);
     add("frame_two_threads", threaded_frame, isa, 2u);
+    add("targets_skin_and_normals", deform, isa, MIEN_NORMALS_SKINNED, 100u);
+    add("vertices_float", vertices, isa, false, false);
+    add("vertices_packed", vertices, isa, true, false);
+    add("vertices_tangents_float", vertices, isa, false, true);
+    add("vertices_tangents_packed", vertices, isa, true, true);
     add("eight_characters_one_by_one", packet, isa, false);
     add("eight_characters_together", packet, isa, true);
   }

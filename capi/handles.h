@@ -20,7 +20,7 @@ constexpr uint32_t kRigTag = 0x6D52'4947;
 constexpr uint32_t kInstanceTag = 0x6D49'4E53;
 constexpr uint32_t kBatchTag = 0x6D42'4154;
 constexpr uint32_t kDeformerTag = 0x6D44'4652;
-constexpr uint32_t kPoseTag = 0x6D50'4F53;
+constexpr uint32_t kDeformerInstanceTag = 0x6D50'4F53;
 
 struct MienDna {
   uint32_t tag;
@@ -63,7 +63,9 @@ inline MienStatus check(const MienRig* rig) { return check_tag(rig, kRigTag); }
 inline MienStatus check(const MienInstance* instance) { return check_tag(instance, kInstanceTag); }
 inline MienStatus check(const MienBatch* batch) { return check_tag(batch, kBatchTag); }
 inline MienStatus check(const MienDeformer* deformer) { return check_tag(deformer, kDeformerTag); }
-inline MienStatus check(const MienDeformerInstance* pose) { return check_tag(pose, kPoseTag); }
+inline MienStatus check(const MienDeformerInstance* instance) {
+  return check_tag(instance, kDeformerInstanceTag);
+}
 
 /// No struct grows beyond this: larger numbers were never set.
 constexpr size_t kMaxStructSize = 4096;

@@ -961,6 +961,8 @@ typedef struct MienDeformerDesc {
     uint32_t compose; /* MIEN_COMPOSE_... */
     uint32_t weights; /* MIEN_WEIGHTS_... */
     uint32_t normals; /* MIEN_NORMALS_...: of calls that leave the choice open */
+    uint32_t with_tangents; /* boolean: compute tangents, for mien_deformer_instance_write_vertices() */
+    uint32_t reserved;      /* 0 */
     const MienAllocator* allocator;
 } MienDeformerDesc;
 MIEN_DEFAULT(MienDeformerDesc, mien_deformer_desc_default)
@@ -1012,6 +1014,8 @@ typedef struct MienMesh {
     uint64_t lods;                       /* bit l: LOD l shows this mesh */
     MienFloatView positions;             /* x y z per position */
     MienFloatView normals;               /* x y z per vertex, unit length */
+    MienFloatView tangents;              /* x y z w per vertex, see MienVertexOutput; empty unless
+                                            MienDeformerDesc.with_tangents was set */
     MienFloatView texture_coordinates;   /* u v per vertex, as in the file */
     MienIndex32View vertex_position_indices;    /* position of each vertex */
     MienIndex32View triangles;           /* three vertices each, wound as in the file; faces of more
@@ -1107,6 +1111,73 @@ MIEN_CHECKED MienStatus mien_deformer_instance_positions(const MienDeformerInsta
                                         MienFloatView* out_positions);
 MIEN_CHECKED MienStatus mien_deformer_instance_normals(const MienDeformerInstance* deformer_instance, uint32_t mesh,
                                       MienFloatView* out_normals);
+
+/* ---- Vertex output --------------------------------------------------------------------------- */
+
+/* How a vertex attribute lies in memory, in the byte order of this machine. A signed normalized
+ * integer of n bits is round(clamp(v, -1, 1) * (2^(n-1) - 1)), ties to even, in two's complement.
+ * These are formats of vertex buffers: R32G32B32_SFLOAT, R32G32B32A32_SFLOAT, R16G16B16A16_SNORM and
+ * A2B10G10R10_SNORM_PACK32 in Vulkan; float3, float4, short4Normalized and int1010102Normalized in
+ * Metal. Direct3D 12 and WebGPU lack the last one. */
+enum MienVertexFormat {
+    MIEN_VERTEX_FORMAT_FLOAT32X3 = 0,      /* 12 bytes: x y z */
+    MIEN_VERTEX_FORMAT_FLOAT32X4 = 1,      /* 16 bytes: x y z w */
+    MIEN_VERTEX_FORMAT_SNORM16X4 = 2,      /* 8 bytes: x y z w, 16 bits each */
+    MIEN_VERTEX_FORMAT_SNORM10_10_10_2 = 3 /* 4 bytes, one 32-bit word: x in bits 0-9, y in 10-19, z in
+                                              20-29, w in 30-31 */
+};
+
+/* One attribute of all vertices: vertex i takes the size of the format from data + i * stride on.
+ * `data` and `stride` are multiples of 4, `stride` is at least the size of the format. */
+typedef struct MienVertexStream {
+    void* data;      /* NULL: this attribute is not written */
+    uint32_t stride; /* bytes */
+    uint32_t format; /* MIEN_VERTEX_FORMAT_... */
+} MienVertexStream;
+
+/* Where the vertices of a mesh go, in the order of MienMesh.vertex_position_indices. Streams may be
+ * interleaved (the same stride) or apart, but share no byte. At least one is given.
+ *
+ *   positions  as floats; w is 1
+ *   normals    in any format; w is 0
+ *   tangents   in any format with a w. The tangent points where u grows on the surface while v stays
+ *              the same, perpendicular to the normal, and w * cross(normal, tangent) points where v
+ *              grows: w is 1, or -1 where the texture is mirrored. If you flip v (1 - v), negate w.
+ *
+ * Neutral tangents are computed as MikkTSpace does, but the vertices of the file are kept: where
+ * MikkTSpace splits a vertex between triangles of both orientations, it takes the tangent and the w of
+ * those with the larger sum of angles. docs/deformation.md, 4 "Tangents", lists all differences. A
+ * vertex without texture coordinates gets an arbitrary perpendicular of its normal, always the same,
+ * and w = 1. Tangents move with the skin, and are then made perpendicular to the normal that is
+ * written. */
+typedef struct MienVertexOutput {
+    size_t struct_size;
+    size_t vertex_capacity; /* vertices for which each stream has memory: MienMesh.vertex_count or more */
+    MienVertexStream positions;
+    MienVertexStream normals;
+    MienVertexStream tangents; /* needs MienDeformerDesc.with_tangents */
+} MienVertexOutput;
+MIEN_DEFAULT(MienVertexOutput, mien_vertex_output_default)
+
+/* Deforms a mesh as mien_deformer_instance_deform() does, then writes its vertices to memory of the
+ * caller, such as a mapped vertex buffer. Each byte is written once, in the order of the vertices, and
+ * none is read, so the memory may be write-combined. Bytes between vertices are left alone. Threads as
+ * for mien_deformer_instance_deform(): the bytes are the same. The same positions, normals and tangents
+ * give the same bytes on every instruction set. Allocates nothing, locks nothing.
+ * MIEN_ERROR_INVALID_ARGUMENT: a format that the attribute does not take; a wrong stride or alignment;
+ * too little capacity; streams that overlap; no stream at all; tangents, but the deformer has none.
+ * Then nothing is deformed or written. MIEN_ERROR_LOD: the instance has no memory for this mesh.
+ * docs/deformation.md, 5 "Vertex output". */
+MIEN_CHECKED MienStatus mien_deformer_instance_write_vertices(MienDeformerInstance* deformer_instance,
+                                                              uint32_t mesh, uint32_t normals,
+                                                              const MienVertexOutput* output,
+                                                              const MienParallelFor* parallel);
+
+/* The same mesh of several instances, as mien_deformer_instance_deform_batch() takes them: instance i to
+ * outputs[i]. All outputs have the same struct_size, and share no byte either. */
+MIEN_CHECKED MienStatus mien_deformer_instance_write_vertices_batch(
+    MienDeformerInstance* const* deformer_instances, size_t count, uint32_t mesh, uint32_t normals,
+    const MienVertexOutput* outputs, const MienParallelFor* parallel);
 
 #ifdef __cplusplus
 }

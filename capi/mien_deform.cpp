@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Deformers and poses. mien.h is the manual.
+// Deformers and deformer instances. mien.h is the manual.
 #include <algorithm>
 
 #include "capi/handles.h"
@@ -11,8 +11,10 @@ using namespace mien::capi;
 
 static_assert(MIEN_NORMALS_RECOMPUTED == int(Normals::kRecomputed) &&
                   MIEN_NORMALS_SKINNED == int(Normals::kSkinned) &&
-                  MIEN_COMPOSE_EULER_ADD == int(Compose::kEulerAdd),
-              "deformer.h, skeleton.h and mien.h number the same things");
+                  MIEN_COMPOSE_EULER_ADD == int(Compose::kEulerAdd) &&
+                  MIEN_VERTEX_FORMAT_SNORM16X4 == int(VertexFormat::kSnorm16x4) &&
+                  MIEN_VERTEX_FORMAT_SNORM10_10_10_2 == int(VertexFormat::kSnorm10_10_10_2),
+              "mien.h numbers these as the runtime does");
 
 namespace {
 
@@ -20,7 +22,7 @@ MienIndex16View view_of(const Span<uint16_t>& span) { return {span.data, span.co
 MienIndex32View view_of(const Span<uint32_t>& span) { return {span.data, span.count}; }
 MienFloatView view_of(const Span<float>& span) { return {span.data, span.count}; }
 
-/// Joints, channels and meshes of a rig and a DNA: what the two have to have in common.
+/// A rig and a DNA have to have the same joints, channels and meshes.
 MienStatus compare_names(const dna::DnaView& view, const Rig& rig, MienError* error) {
   const struct {
     Kind kind;
@@ -33,9 +35,9 @@ MienStatus compare_names(const dna::DnaView& view, const Rig& rig, MienError* er
     const NameList& own = rig.names[size_t(list.kind)];
     if (own.count() != list.names.count) {
       return give_error(error, MIEN_ERROR_MISMATCH,
-                        "the rig was made of another file, or with other LODs: its number of %s "
-                        "names is %u, that of the DNA is %u",
-                        list.noun, own.count(), list.names.count);
+                        "the rig was made of another file, or with other LODs: it has %u %s names, "
+                        "the DNA has %u",
+                        own.count(), list.noun, list.names.count);
     }
     for (uint32_t i = 0; i < own.count(); ++i) {
       const Span<char> a = own[i];
@@ -66,9 +68,10 @@ MienStatus mien_deformer_create(const MienDna* dna, const MienRig* handle,
   Allocator allocator;
   if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
   if (known.compose > MIEN_COMPOSE_EULER_ADD || known.weights > MIEN_WEIGHTS_FIX ||
-      known.normals > MIEN_NORMALS_RECOMPUTED) {
+      known.normals > MIEN_NORMALS_RECOMPUTED || known.reserved != 0) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienDeformerDesc.compose, .weights or .normals is none of its values");
+                      "MienDeformerDesc.compose, .weights or .normals is none of its values, or "
+                      ".reserved is not 0");
   }
   const Rig& rig = *object(handle);
   const KernelTable* kernels = rig.kernels;
@@ -89,6 +92,7 @@ MienStatus mien_deformer_create(const MienDna* dna, const MienRig* handle,
   options.kernels = kernels;
   options.compose = static_cast<Compose>(known.compose);
   options.fix_weights = known.weights == MIEN_WEIGHTS_FIX;
+  options.tangents = known.with_tangents != 0;
   if (known.normals != MIEN_NORMALS_DEFAULT) options.normals = static_cast<Normals>(known.normals);
   Deformer* deformer = nullptr;
   Error detail;
@@ -140,6 +144,7 @@ MienStatus mien_deformer_mesh(const MienDeformer* handle, uint32_t m, MienMesh* 
   told.lods = mesh.lods;
   told.positions = {mesh.positions.data, size_t{mesh.position_count} * 3};
   told.normals = {mesh.normals.data, size_t{mesh.vertex_count} * 3};
+  told.tangents = view_of(mesh.tangents);
   told.texture_coordinates = view_of(mesh.texture_coordinates);
   told.vertex_position_indices = view_of(mesh.vertex_position_indices);
   told.triangles = view_of(mesh.triangles);
@@ -194,37 +199,37 @@ MienStatus mien_deformer_inverse_bind_matrices(const MienDeformer* deformer,
   return MIEN_OK;
 }
 
-// Pose --------------------------------------------------------------------------------------------
+// Deformer instance -------------------------------------------------------------------------------
 
 MienStatus mien_deformer_instance_create(const MienDeformer* deformer,
                                          const MienDeformerInstanceDesc* desc,
-                                         MienDeformerInstance** out_pose, MienError* error) {
-  if (MienStatus status = clear_output(out_pose, error)) return status;
+                                         MienDeformerInstance** out_instance, MienError* error) {
+  if (MienStatus status = clear_output(out_instance, error)) return status;
   if (MienStatus status = check(deformer)) return give_error(error, status, "not a deformer");
   MienDeformerInstanceDesc known;
   if (MienStatus status = read_desc(desc, known, "MienDeformerInstanceDesc", error)) return status;
   Allocator allocator;
   if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
-  DeformerInstance* pose = create_deformer_instance(*object(deformer), known.lods, allocator);
-  if (!pose) {
-    return give_error(error, MIEN_ERROR_MEMORY, "no memory for a pose of %zu bytes",
+  DeformerInstance* instance = create_deformer_instance(*object(deformer), known.lods, allocator);
+  if (!instance) {
+    return give_error(error, MIEN_ERROR_MEMORY, "no memory for a deformer instance of %zu bytes",
                       deformer_instance_size(*object(deformer), known.lods));
   }
-  pose->tag = kPoseTag;
-  *out_pose = reinterpret_cast<MienDeformerInstance*>(pose);
+  instance->tag = kDeformerInstanceTag;
+  *out_instance = reinterpret_cast<MienDeformerInstance*>(instance);
   return succeed(error);
 }
 
-void mien_deformer_instance_destroy(MienDeformerInstance* pose) {
-  if (check(pose) == MIEN_OK) destroy_deformer_instance(object(pose));
+void mien_deformer_instance_destroy(MienDeformerInstance* instance) {
+  if (check(instance) == MIEN_OK) destroy_deformer_instance(object(instance));
 }
 
-MienStatus mien_deformer_instance_update(MienDeformerInstance* pose, const MienInstance* instance) {
-  if (MienStatus status = check(pose)) return status;
-  if (MienStatus status = check(instance)) return status;
-  const Instance& source = *object(instance);
-  if (source.rig != object(pose)->deformer->rig) return MIEN_ERROR_MISMATCH;
-  update_deformer_instance(*object(pose), source.joints.data, source.channels.data);
+MienStatus mien_deformer_instance_update(MienDeformerInstance* handle, const MienInstance* source) {
+  if (MienStatus status = check(handle)) return status;
+  if (MienStatus status = check(source)) return status;
+  const Instance& evaluated = *object(source);
+  if (evaluated.rig != object(handle)->deformer->rig) return MIEN_ERROR_MISMATCH;
+  update_deformer_instance(*object(handle), evaluated.joints.data, evaluated.channels.data);
   return MIEN_OK;
 }
 
@@ -234,54 +239,59 @@ MienStatus mien_deformer_instance_update_from_values(MienDeformerInstance* handl
                                                      const float* channel_weights,
                                                      size_t channel_weight_count) {
   if (MienStatus status = check(handle)) return status;
-  DeformerInstance& pose = *object(handle);
-  if (joint_value_count != (joint_values ? pose.deformer->skeleton.value_count() : 0) ||
-      channel_weight_count != (channel_weights ? pose.channels.count : 0)) {
+  DeformerInstance& instance = *object(handle);
+  if (joint_value_count != (joint_values ? instance.deformer->skeleton.value_count() : 0) ||
+      channel_weight_count != (channel_weights ? instance.channels.count : 0)) {
     return MIEN_ERROR_INVALID_ARGUMENT;
   }
-  update_deformer_instance(pose, joint_values, channel_weights);
+  update_deformer_instance(instance, joint_values, channel_weights);
   return MIEN_OK;
 }
 
-MienStatus mien_deformer_instance_joint_matrices(const MienDeformerInstance* pose,
+MienStatus mien_deformer_instance_joint_matrices(const MienDeformerInstance* instance,
                                                  MienFloatView* out_matrices) {
   if (!out_matrices) return MIEN_ERROR_NULL_ARGUMENT;
   *out_matrices = {nullptr, 0};
-  if (MienStatus status = check(pose)) return status;
-  *out_matrices = view_of(object(pose)->joints.model);
+  if (MienStatus status = check(instance)) return status;
+  *out_matrices = view_of(object(instance)->joints.model);
   return MIEN_OK;
 }
 
-MienStatus mien_deformer_instance_skin_matrices(const MienDeformerInstance* pose,
+MienStatus mien_deformer_instance_skin_matrices(const MienDeformerInstance* instance,
                                                 MienFloatView* out_matrices) {
   if (!out_matrices) return MIEN_ERROR_NULL_ARGUMENT;
   *out_matrices = {nullptr, 0};
-  if (MienStatus status = check(pose)) return status;
-  *out_matrices = view_of(object(pose)->joints.skin);
+  if (MienStatus status = check(instance)) return status;
+  *out_matrices = view_of(object(instance)->joints.skin);
   return MIEN_OK;
 }
 
-MienStatus mien_deformer_instance_local_transforms(const MienDeformerInstance* pose,
+MienStatus mien_deformer_instance_local_transforms(const MienDeformerInstance* instance,
                                                    float* out_transforms, size_t count) {
-  if (MienStatus status = check(pose)) return status;
+  if (MienStatus status = check(instance)) return status;
   if (!out_transforms) return MIEN_ERROR_NULL_ARGUMENT;
-  const Skeleton& skeleton = object(pose)->deformer->skeleton;
+  const Skeleton& skeleton = object(instance)->deformer->skeleton;
   if (count < skeleton.joint_count * kLocalTransformFloats) return MIEN_ERROR_INVALID_ARGUMENT;
-  write_local_transforms(skeleton, object(pose)->joints, out_transforms);
+  write_local_transforms(skeleton, object(instance)->joints, out_transforms);
   return MIEN_OK;
 }
 
-MienStatus mien_deformer_instance_deform(MienDeformerInstance* pose, uint32_t mesh,
-                                         uint32_t normals, const MienParallelFor* parallel) {
-  return mien_deformer_instance_deform_batch(&pose, 1, mesh, normals, parallel);
-}
+namespace {
 
-MienStatus mien_deformer_instance_deform_batch(MienDeformerInstance* const* handles,
-                                               size_t pose_count, uint32_t mesh, uint32_t normals,
-                                               const MienParallelFor* parallel) {
-  if (pose_count == 0) return MIEN_OK;
+using Handles = MienDeformerInstance* const*;
+
+/// Checks a batch: all instances are handles of one deformer, with memory for the mesh, no two the
+/// same. Fills `out`; `normals` is not kDefault then.
+struct DeformBatch {
+  const Deformer* deformer;
+  Span<DeformerInstance* const> instances;
+  Normals normals;
+  ParallelFor parallel;
+};
+MienStatus read_batch(Handles handles, size_t count, uint32_t mesh, uint32_t normals,
+                      const MienParallelFor* parallel, DeformBatch& out) {
   if (!handles) return MIEN_ERROR_NULL_ARGUMENT;
-  for (size_t i = 0; i < pose_count; ++i) {
+  for (size_t i = 0; i < count; ++i) {
     if (MienStatus status = check(handles[i])) return status;
   }
   const Deformer& deformer = *object(handles[0])->deformer;
@@ -290,27 +300,95 @@ MienStatus mien_deformer_instance_deform_batch(MienDeformerInstance* const* hand
   if (mesh >= deformer.meshes.count) return MIEN_ERROR_INDEX;
   MienStatus status = MIEN_OK;
   size_t marked = 0;
-  for (; marked < pose_count && status == MIEN_OK; ++marked) {
-    DeformerInstance& pose = *object(handles[marked]);
-    if (pose.deformer != &deformer) {
+  for (; marked < count && status == MIEN_OK; ++marked) {
+    DeformerInstance& instance = *object(handles[marked]);
+    if (instance.deformer != &deformer) {
       status = MIEN_ERROR_MISMATCH;
-    } else if (!pose.meshes[mesh].present) {
+    } else if (!instance.meshes[mesh].present) {
       status = MIEN_ERROR_LOD;
-    } else if (pose.in_batch) {
+    } else if (instance.in_batch) {
       status = MIEN_ERROR_INVALID_ARGUMENT;
     } else {
-      pose.in_batch = true;
+      instance.in_batch = true;
     }
   }
   for (size_t i = 0; i < marked; ++i) object(handles[i])->in_batch = false;
-  if (status != MIEN_OK) return status;
+  out.deformer = &deformer;
+  out.instances = {reinterpret_cast<DeformerInstance* const*>(handles), count};
+  out.normals = normals == MIEN_NORMALS_DEFAULT ? deformer.normals : static_cast<Normals>(normals);
+  if (parallel) out.parallel = {parallel->user, parallel->run};
+  return status;
+}
 
-  ParallelFor run;
-  if (parallel) run = {parallel->user, parallel->run};
-  const Normals wanted =
-      normals == MIEN_NORMALS_DEFAULT ? deformer.normals : static_cast<Normals>(normals);
-  deform(deformer, {reinterpret_cast<DeformerInstance* const*>(handles), pose_count}, mesh, wanted,
-         run);
+VertexStream stream_of(const MienVertexStream& stream) {
+  return {static_cast<uint8_t*>(stream.data), stream.stride,
+          static_cast<VertexFormat>(stream.format)};
+}
+
+/// Checks the outputs of a batch and stores them in its instances.
+MienStatus read_outputs(const DeformBatch& batch, uint32_t mesh, const MienVertexOutput* outputs) {
+  if (!outputs) return MIEN_ERROR_NULL_ARGUMENT;
+  const uint32_t vertex_count = batch.deformer->meshes[mesh].vertex_count;
+  const size_t struct_size = outputs->struct_size;
+  if (struct_size % alignof(MienVertexOutput) != 0) return MIEN_ERROR_STRUCT_SIZE;
+  uintptr_t end = 0;
+  for (size_t i = 0; i < batch.instances.count; ++i) {
+    const void* at = reinterpret_cast<const uint8_t*>(outputs) + i * struct_size;
+    const MienVertexOutput* given = static_cast<const MienVertexOutput*>(at);
+    MienVertexOutput known;
+    if (MienStatus status = read_struct(given, known)) return status;
+    if (known.struct_size != struct_size) return MIEN_ERROR_STRUCT_SIZE;
+    VertexOutput& output = batch.instances[i]->output;
+    output = {stream_of(known.positions), stream_of(known.normals), stream_of(known.tangents)};
+    if (known.vertex_capacity < vertex_count || !is_valid(output, vertex_count) ||
+        (output.tangents.data && !batch.deformer->has_tangents)) {
+      return MIEN_ERROR_INVALID_ARGUMENT;
+    }
+    // Outputs at ascending addresses cannot overlap; only others are compared in pairs.
+    const VertexOutputRange range = range_of(output, vertex_count);
+    if (range.begin < end) {
+      for (size_t k = 0; k < i; ++k) {
+        if (overlap(output, batch.instances[k]->output, vertex_count)) {
+          return MIEN_ERROR_INVALID_ARGUMENT;
+        }
+      }
+    }
+    end = std::max(end, range.end);
+  }
+  return MIEN_OK;
+}
+
+}  // namespace
+
+MienStatus mien_deformer_instance_deform(MienDeformerInstance* handle, uint32_t mesh,
+                                         uint32_t normals, const MienParallelFor* parallel) {
+  return mien_deformer_instance_deform_batch(&handle, 1, mesh, normals, parallel);
+}
+
+MienStatus mien_deformer_instance_deform_batch(Handles handles, size_t count, uint32_t mesh,
+                                               uint32_t normals, const MienParallelFor* parallel) {
+  if (count == 0) return MIEN_OK;
+  DeformBatch batch;
+  if (MienStatus status = read_batch(handles, count, mesh, normals, parallel, batch)) return status;
+  deform(*batch.deformer, batch.instances, mesh, batch.normals, batch.parallel);
+  return MIEN_OK;
+}
+
+MienStatus mien_deformer_instance_write_vertices(MienDeformerInstance* handle, uint32_t mesh,
+                                                 uint32_t normals, const MienVertexOutput* output,
+                                                 const MienParallelFor* parallel) {
+  return mien_deformer_instance_write_vertices_batch(&handle, 1, mesh, normals, output, parallel);
+}
+
+MienStatus mien_deformer_instance_write_vertices_batch(Handles handles, size_t count, uint32_t mesh,
+                                                       uint32_t normals,
+                                                       const MienVertexOutput* outputs,
+                                                       const MienParallelFor* parallel) {
+  if (count == 0) return MIEN_OK;
+  DeformBatch batch;
+  if (MienStatus status = read_batch(handles, count, mesh, normals, parallel, batch)) return status;
+  if (MienStatus status = read_outputs(batch, mesh, outputs)) return status;
+  write_vertices(*batch.deformer, batch.instances, mesh, batch.normals, batch.parallel);
   return MIEN_OK;
 }
 
@@ -322,25 +400,25 @@ MienStatus view_mesh(const MienDeformerInstance* handle, uint32_t m, MienFloatVi
   if (!out) return MIEN_ERROR_NULL_ARGUMENT;
   *out = {nullptr, 0};
   if (MienStatus status = check(handle)) return status;
-  const DeformerInstance& pose = *object(handle);
-  if (m >= pose.meshes.count) return MIEN_ERROR_INDEX;
-  if (!pose.meshes[m].present) return MIEN_ERROR_LOD;
-  *out = {(pose.meshes[m].*values).data, size_t{count(pose.deformer->meshes[m])} * 3};
+  const DeformerInstance& instance = *object(handle);
+  if (m >= instance.meshes.count) return MIEN_ERROR_INDEX;
+  if (!instance.meshes[m].present) return MIEN_ERROR_LOD;
+  *out = {(instance.meshes[m].*values).data, size_t{count(instance.deformer->meshes[m])} * 3};
   return MIEN_OK;
 }
 
 }  // namespace
 
-MienStatus mien_deformer_instance_positions(const MienDeformerInstance* pose, uint32_t mesh,
+MienStatus mien_deformer_instance_positions(const MienDeformerInstance* instance, uint32_t mesh,
                                             MienFloatView* out_positions) {
   return view_mesh(
-      pose, mesh, out_positions, [](const DeformMesh& m) { return m.position_count; },
+      instance, mesh, out_positions, [](const DeformMesh& m) { return m.position_count; },
       &DeformedMesh::positions);
 }
 
-MienStatus mien_deformer_instance_normals(const MienDeformerInstance* pose, uint32_t mesh,
+MienStatus mien_deformer_instance_normals(const MienDeformerInstance* instance, uint32_t mesh,
                                           MienFloatView* out_normals) {
   return view_mesh(
-      pose, mesh, out_normals, [](const DeformMesh& m) { return m.vertex_count; },
+      instance, mesh, out_normals, [](const DeformMesh& m) { return m.vertex_count; },
       &DeformedMesh::normals);
 }

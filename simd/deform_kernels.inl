@@ -103,11 +103,13 @@ inline void blend(const float* weights, const uint16_t* joints, const float* mat
   columns4(sums, columns);
 }
 
-template <SkinNormals kMode, size_t kInfluences>
+template <SkinNormals kMode, size_t kInfluences, bool kTangents>
 void skin_rows(const SkinArgs& given) {
   const SkinArgs args = given;
   const size_t influences = kInfluences != 0 ? kInfluences : args.influences;
   VertexNormals normals(args.vertices + args.first_vertex[0], args.normals, args.out_normals);
+  alignas(16) static constexpr float kUnitW[4] = {0, 0, 0, 1};
+  const Quad unit_w = load4(kUnitW);
   for (size_t i = 0; i < args.count; ++i) {
     Quad c[4];
     blend<kInfluences>(args.weights + i * influences, args.joints + i * influences, args.matrices,
@@ -117,6 +119,15 @@ void skin_rows(const SkinArgs& given) {
         mul_add4(c[0], broadcast4(p[0]),
                  mul_add4(c[1], broadcast4(p[1]), mul_add4(c[2], broadcast4(p[2]), c[3])));
     store3(args.out_positions + size_t{args.position_indices[i]} * 3, skinned);
+    if constexpr (kTangents) {
+      for (size_t k = args.first_vertex[i]; k < args.first_vertex[i + 1]; ++k) {
+        const size_t vertex = args.vertices[k] & ~kHardEdge;
+        const float* t = args.tangents + vertex * 4;
+        const Quad linear = mul_add4(c[0], broadcast4(t[0]),
+                                     mul_add4(c[1], broadcast4(t[1]), c[2] * broadcast4(t[2])));
+        store4(args.out_tangents + vertex * 4, mul_add4(unit_w, broadcast4(t[3]), linear));
+      }
+    }
     if constexpr (kMode != SkinNormals::kNone) {
       if constexpr (kMode == SkinNormals::kCofactors) {
         const Quad x = c[0], y = c[1], z = c[2];
@@ -136,16 +147,18 @@ void skin_rows(const SkinArgs& given) {
 
 template <SkinNormals kMode>
 void skin_mode(const SkinArgs& args) {
+  // Not unrolled: that would double the code for an optional output.
+  if (args.out_tangents) return skin_rows<kMode, 0, true>(args);
   switch (args.influences) {
-    case 1: return skin_rows<kMode, 1>(args);
-    case 2: return skin_rows<kMode, 2>(args);
-    case 3: return skin_rows<kMode, 3>(args);
-    case 4: return skin_rows<kMode, 4>(args);
-    case 5: return skin_rows<kMode, 5>(args);
-    case 6: return skin_rows<kMode, 6>(args);
-    case 7: return skin_rows<kMode, 7>(args);
-    case 8: return skin_rows<kMode, 8>(args);
-    default: return skin_rows<kMode, 0>(args);
+    case 1: return skin_rows<kMode, 1, false>(args);
+    case 2: return skin_rows<kMode, 2, false>(args);
+    case 3: return skin_rows<kMode, 3, false>(args);
+    case 4: return skin_rows<kMode, 4, false>(args);
+    case 5: return skin_rows<kMode, 5, false>(args);
+    case 6: return skin_rows<kMode, 6, false>(args);
+    case 7: return skin_rows<kMode, 7, false>(args);
+    case 8: return skin_rows<kMode, 8, false>(args);
+    default: return skin_rows<kMode, 0, false>(args);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "simd/pose_kernels.inl"
 #include "simd/rbf_kernels.inl"
 #include "simd/rotation_kernels.inl"
+#include "simd/vertex_kernels.inl"
 
 #define MIEN_KERNEL_STRING_OF(name) #name
 #define MIEN_KERNEL_STRING(macro) MIEN_KERNEL_STRING_OF(macro)
@@ -34,6 +35,7 @@ const KernelTable kTable = {kIsa,
                             add_target,
                             skin_positions,
                             face_areas,
-                            sum_normals};
+                            sum_normals,
+                            write_vertices};
 
 }  // namespace mien::MIEN_KERNEL_ISA

@@ -268,8 +268,9 @@ constexpr uint32_t kHardEdge = 0x8000'0000;
 ///
 /// Writes position i to out_positions[3 * position_indices[i]]. Its vertices are vertices[k] for
 /// first_vertex[i] <= k < first_vertex[i + 1]; their normals are transformed, normalized, and
-/// written to out_normals[3 * vertex]. A normal that loses its direction is copied instead. Reads
-/// one float past each normal.
+/// written to out_normals[3 * vertex]. A normal that loses its direction is copied instead. Unless
+/// out_tangents is null, their tangents are transformed by the blended matrix and written to
+/// out_tangents[4 * vertex], not normalized, with their w. Reads one float past each normal.
 struct SkinArgs {
   const float* positions;
   const float* weights;
@@ -281,6 +282,8 @@ struct SkinArgs {
   const uint32_t* vertices;
   const float* normals;
   float* out_normals;
+  const float* tangents;  // [vertex] x y z w
+  float* out_tangents;
   uint32_t count;
   uint32_t influences;
   SkinNormals mode;
@@ -310,6 +313,41 @@ struct NormalArgs {
   uint32_t count;
 };
 
+/// Same numbers as MIEN_VERTEX_FORMAT_... in mien.h.
+enum class VertexFormat : uint32_t {
+  kFloat32x3 = 0,
+  kFloat32x4 = 1,
+  kSnorm16x4 = 2,
+  kSnorm10_10_10_2 = 3
+};
+
+/// Memory for one attribute of each vertex, `stride` bytes apart; data null: not wanted. Data and
+/// stride are multiples of 4.
+struct VertexStream {
+  uint8_t* data;
+  uint32_t stride;
+  VertexFormat format;
+};
+
+/// Deformed vertices -> the memory of the caller, in the order of the vertices; each byte is
+/// written once and never read. Tangents are made perpendicular to the normal and normalized; one
+/// that loses its direction becomes an arbitrary perpendicular. A fourth component is 1 for
+/// positions, 0 for normals, w for tangents.
+///
+/// Snorm: round(clamp(v, -1, 1) * (2^(bits - 1) - 1)), ties to even, in two's complement; x in the
+/// lowest bits. Nothing is fused: the same floats give the same bytes on every instruction set.
+/// Reads one float past each position and normal.
+struct VertexArgs {
+  const float* positions;            // [position] x y z
+  const uint32_t* position_indices;  // [vertex]
+  const float* normals;              // [vertex] x y z, unit
+  const float* tangents;             // [vertex] x y z w
+  VertexStream position_stream;      // kFloat32x3 or kFloat32x4
+  VertexStream normal_stream;
+  VertexStream tangent_stream;  // not kFloat32x3
+  uint32_t count;
+};
+
 struct KernelTable {
   Isa isa;
   const char* name;
@@ -333,6 +371,7 @@ struct KernelTable {
   void (*skin_positions)(const SkinArgs& args);
   void (*face_areas)(const AreaArgs& args);
   void (*sum_normals)(const NormalArgs& args);
+  void (*write_vertices)(const VertexArgs& args);
 };
 
 /// The table of an instruction set; null if this build or this CPU lacks it. kBest gives the best

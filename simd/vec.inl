@@ -44,6 +44,7 @@
 //   gather4, scatter4 lane i from or to place at[i], or at[i * stride]
 //   different_lanes4  as below
 //   cross4(a,b)     the cross product of the first three
+//   join_bits4(a,b,n) the low n bits of a, and above them those of b
 //   transpose4      four quads, rows to columns
 //   columns4(m,q)   the four columns of a matrix of 16 floats in 16 / kWidth Vecs
 //
@@ -330,6 +331,14 @@ inline uint32_t different_lanes4(const Quad& a, const Quad& b) {
   for (size_t i = 0; i < 4; ++i) different |= uint32_t{bits_of(a.v[i]) != bits_of(b.v[i])} << i;
   return different;
 }
+inline Quad join_bits4(const Quad& low, const Quad& high, int n) {
+  return lanes4([&](int i) {
+    const uint32_t bits = (bits_of(low.v[i]) & ((1u << n) - 1)) | bits_of(high.v[i]) << n;
+    float lane;
+    __builtin_memcpy(&lane, &bits, sizeof(lane));
+    return lane;
+  });
+}
 inline void transpose4(Quad& a, Quad& b, Quad& c, Quad& d) {
   const Quad rows[4] = {a, b, c, d};
   Quad* const columns[4] = {&a, &b, &c, &d};
@@ -453,6 +462,15 @@ inline void columns4(const Vec* m, Quad* columns) {
 }
 #endif
 
+#endif
+
+#if !defined(MIEN_KERNEL_SCALAR)
+using QuadBits = xsimd::batch<uint32_t, Quad::arch_type>;
+inline Quad join_bits4(Quad low, Quad high, int n) {
+  const QuadBits bits = (xsimd::bitwise_cast<QuadBits>(low) & QuadBits((1u << n) - 1)) |
+                        (xsimd::bitwise_cast<QuadBits>(high) << n);
+  return xsimd::bitwise_cast<Quad>(bits);
+}
 #endif
 
 // Bit k: the bits of lane k differ.

@@ -96,6 +96,7 @@ using RigDesc = Sized<MienRigDesc>;
 using BakedDesc = Sized<MienBakedDesc>;
 using DeformerDesc = Sized<MienDeformerDesc>;
 using DeformerInstanceDesc = Sized<MienDeformerInstanceDesc>;
+using VertexOutput = Sized<MienVertexOutput>;
 using InstanceDesc = Sized<MienInstanceDesc>;
 using BatchDesc = Sized<MienBatchDesc>;
 using ValidateDesc = Sized<MienValidateDesc>;
@@ -584,7 +585,14 @@ class DeformerInstance : public Owner<MienDeformerInstance, mien_deformer_instan
     return mien_deformer_instance_deform(get(), mesh, normals, parallel);
   }
 
-  /// x y z per position, x y z per vertex; empty for a mesh without room. The spans stay the same.
+  /// Deforms the mesh, then writes its vertices to memory of yours.
+  Status write_vertices(uint32_t mesh, const VertexOutput& output,
+                        MienNormals normals = MIEN_NORMALS_DEFAULT,
+                        const MienParallelFor* parallel = nullptr) {
+    return mien_deformer_instance_write_vertices(get(), mesh, normals, &output, parallel);
+  }
+
+  /// x y z per position, x y z per vertex; empty for a mesh without memory. The spans stay the same.
   Span<const float> positions(uint32_t mesh) const {
     return span(mien_deformer_instance_positions, mesh);
   }
@@ -613,6 +621,16 @@ inline Status deform_batch(Span<DeformerInstance> instances, uint32_t mesh,
                            const MienParallelFor* parallel = nullptr) {
   return mien_deformer_instance_deform_batch(handles_of(instances), instances.size(), mesh, normals,
                                              parallel);
+}
+
+/// The same, and the vertices of instance i go to outputs[i].
+inline Status write_vertices_batch(Span<DeformerInstance> instances, uint32_t mesh,
+                                   Span<const VertexOutput> outputs,
+                                   MienNormals normals = MIEN_NORMALS_DEFAULT,
+                                   const MienParallelFor* parallel = nullptr) {
+  if (outputs.size() != instances.size()) return MIEN_ERROR_INVALID_ARGUMENT;
+  return mien_deformer_instance_write_vertices_batch(handles_of(instances), instances.size(), mesh,
+                                                     normals, outputs.data(), parallel);
 }
 
 /// Geometry and joint hierarchy of a DNA. Immutable: may be used by several threads at once.

@@ -234,6 +234,25 @@ void test_deformer() {
   CHECK(std::memcmp(same.positions(0).data(), moved.data(), moved.size() * sizeof(float)) == 0);
   CHECK(same.update({}, {}));
 
+  // Vertices, for one instance and for two.
+  std::vector<float> vertices(size_t{2} * 3 * mesh.vertex_count);
+  mien::VertexOutput output;
+  output.vertex_capacity = mesh.vertex_count;
+  output.positions = {vertices.data(), 12, MIEN_VERTEX_FORMAT_FLOAT32X3};
+  CHECK(pose.write_vertices(0, output) && vertices[0] == pose.positions(0)[0]);
+  output.vertex_capacity -= 1;
+  CHECK(pose.write_vertices(0, output).status() == MIEN_ERROR_INVALID_ARGUMENT);
+  output.vertex_capacity += 1;
+  mien::VertexOutput outputs[] = {output, output};
+  outputs[1].positions.data = vertices.data() + vertices.size() / 2;
+  both[0] = std::move(pose);
+  both[1] = std::move(same);
+  CHECK(mien::write_vertices_batch(both, 0, outputs));
+  CHECK(!mien::write_vertices_batch(both, 0, mien::Span<const mien::VertexOutput>(outputs, 1)));
+  pose = std::move(both[0]);
+  same = std::move(both[1]);
+  CHECK(vertices[vertices.size() / 2] == same.positions(0)[0]);
+
   std::vector<float> transforms(size_t{10} * deformer.info()->joint_count);
   CHECK(pose.local_transforms(transforms));
   transforms.pop_back();

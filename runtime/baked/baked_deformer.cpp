@@ -20,7 +20,7 @@ void visit(AnyDeformer& deformer, Visitor& visitor) {
   const auto numbers = [&](auto&... fields) { (visitor.number(fields), ...); };
   const auto arrays = [&](auto&... spans) { (visitor.array(spans), ...); };
   auto& skeleton = deformer.skeleton;
-  numbers(skeleton.compose, deformer.normals, deformer.fix_weights);
+  numbers(skeleton.compose, deformer.normals, deformer.fix_weights, deformer.has_tangents);
   arrays(skeleton.order);
   for (auto& mesh : deformer.meshes) {
     numbers(mesh.position_count, mesh.vertex_count, mesh.triangle_count, mesh.max_influences,
@@ -32,8 +32,8 @@ void visit(AnyDeformer& deformer, Visitor& visitor) {
   }
   arrays(skeleton.neutral, skeleton.neutral_angles, skeleton.bind, skeleton.inverse_bind);
   for (auto& mesh : deformer.meshes) {
-    arrays(mesh.positions, mesh.normals, mesh.texture_coordinates, mesh.sorted_positions,
-           mesh.weights, mesh.deltas, mesh.neutral_directions);
+    arrays(mesh.positions, mesh.normals, mesh.tangents, mesh.texture_coordinates,
+           mesh.sorted_positions, mesh.weights, mesh.deltas, mesh.neutral_directions);
   }
 }
 

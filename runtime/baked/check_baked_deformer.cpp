@@ -49,6 +49,7 @@ bool check_mesh_arrays(const DeformerChecker& c, const DeformMesh& mesh) {
   return c.ok(positions < kHardEdge && vertices < kHardEdge &&
                   mesh.positions.count == positions * 3 + 1 &&
                   mesh.normals.count == vertices * 3 + 1 &&
+                  mesh.tangents.count == (c.deformer.has_tangents ? vertices * 4 : 0) &&
                   mesh.texture_coordinates.count == vertices * 2 &&
                   mesh.vertex_position_indices.count == vertices &&
                   below(mesh.vertex_position_indices, positions) &&

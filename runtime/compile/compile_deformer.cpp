@@ -43,7 +43,8 @@ Status plan_mesh(const MeshSource& source, MeshPlan& plan) {
   return status;
 }
 
-void place_mesh(const Mesh& source, const MeshPlan& plan, Placer& placer, DeformMesh& mesh) {
+void place_mesh(const Mesh& source, const MeshPlan& plan, bool tangents, Placer& placer,
+                DeformMesh& mesh) {
   mesh.position_count = source.positions.xs.count;
   mesh.vertex_count = source.layouts.positions.count;
   mesh.target_count = source.blend_shape_targets.count;
@@ -52,7 +53,7 @@ void place_mesh(const Mesh& source, const MeshPlan& plan, Placer& placer, Deform
   mesh.delta_count = plan.delta_count;
   place_skin(plan, placer, mesh);
   place_targets(plan, placer, mesh);
-  place_surface(plan, placer, mesh);
+  place_surface(plan, tangents, placer, mesh);
 }
 
 Status fill_mesh(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh) {
@@ -68,15 +69,15 @@ Status fill_mesh(const MeshSource& source, const MeshPlan& plan, DeformMesh& mes
   return status == Status::kOk ? fill_surface(source, mesh) : status;
 }
 
-void place_all(const DnaView& view, const Rig& rig, Span<const MeshPlan> plans, Placer& placer,
-               Deformer& deformer) {
+void place_all(const DnaView& view, const Rig& rig, Span<const MeshPlan> plans, bool tangents,
+               Placer& placer, Deformer& deformer) {
   placer.array<Deformer>(1);
   place_skeleton(rig, placer, deformer.skeleton);
   deformer.meshes = placer.array<DeformMesh>(rig.mesh_count);
   for (uint32_t m = 0; m < rig.mesh_count; ++m) {
     DeformMesh measured;
     DeformMesh& mesh = placer.measuring() ? measured : *new (&deformer.meshes[m]) DeformMesh;
-    place_mesh(mesh_at(view, m), plans[m], placer, mesh);
+    place_mesh(mesh_at(view, m), plans[m], tangents, placer, mesh);
   }
 }
 
@@ -96,7 +97,7 @@ Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions
                 rig.mesh_count);
   }
   const auto source = [&](uint32_t m) {
-    return MeshSource{view, mesh_at(view, m), m, options.fix_weights, scratch, error};
+    return MeshSource{view, mesh_at(view, m), m, options, scratch, error};
   };
   Status status = Status::kOk;
   for (uint32_t m = 0; m < rig.mesh_count; ++m) {
@@ -106,7 +107,7 @@ Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions
 
   Deformer measured;
   Placer measure(nullptr);
-  place_all(view, rig, plans, measure, measured);
+  place_all(view, rig, plans, options.tangents, measure, measured);
   void* block = allocator.get(measure.size(), kBlockAlignment);
   if (!block) {
     return fail(error, Status::kMemory, kNoOffset, "no memory for a deformer of %zu bytes",
@@ -114,7 +115,7 @@ Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions
   }
   Placer placer(block);
   Deformer placed;
-  place_all(view, rig, plans, placer, placed);
+  place_all(view, rig, plans, options.tangents, placer, placed);
   Deformer* deformer = new (block) Deformer;
   deformer->allocator = allocator;
   deformer->block_size = measure.size();
@@ -122,6 +123,7 @@ Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions
   deformer->rig = &rig;
   deformer->normals = options.normals;
   deformer->fix_weights = options.fix_weights;
+  deformer->has_tangents = options.tangents;
   deformer->skeleton = placed.skeleton;
   deformer->meshes = placed.meshes;
   rig.owners.fetch_add(1, std::memory_order_relaxed);

@@ -13,6 +13,7 @@ struct DeformOptions {
   Compose compose = Compose::kProduct;
   Normals normals = Normals::kRecomputed;
   bool fix_weights = false;
+  bool tangents = false;
 };
 
 /// Compiles the geometry of a checked view that has the same joints, channels and meshes as `rig`.
@@ -39,7 +40,7 @@ struct MeshSource {
   const dna::DnaView& view;
   const dna::Mesh& mesh;
   uint32_t index;
-  bool fix_weights;
+  const DeformOptions& options;
   Arena& scratch;
   Error& error;
 
@@ -53,7 +54,8 @@ void place_skeleton(const Rig& rig, Placer& placer, Skeleton& skeleton);
 Status fill_skeleton(const Rig& rig, const KernelTable* kernels, Compose compose, Arena& scratch,
                      Skeleton& skeleton, Error& error);
 
-// The parts of a mesh, one file each: pack_skin.cpp, pack_targets.cpp, pack_surface.cpp.
+// The parts of a mesh, one file each: pack_skin.cpp, pack_targets.cpp, pack_surface.cpp,
+// pack_tangents.cpp.
 // plan_...() counts, and refuses what cannot be compiled; place_...() lays out the memory;
 // fill_...() writes it, and fails only if scratch memory runs out.
 
@@ -66,7 +68,10 @@ void place_targets(const MeshPlan& plan, Placer& placer, DeformMesh& mesh);
 Status fill_targets(const MeshSource& source, DeformMesh& mesh);
 
 void plan_surface(const MeshSource& source, MeshPlan& plan);
-void place_surface(const MeshPlan& plan, Placer& placer, DeformMesh& mesh);
+void place_surface(const MeshPlan& plan, bool tangents, Placer& placer, DeformMesh& mesh);
 Status fill_surface(const MeshSource& source, DeformMesh& mesh);
+
+/// Part of fill_surface(). `inward`: the triangles, as the file winds them, face into the mesh.
+Status fill_tangents(const MeshSource& source, bool inward, DeformMesh& mesh);
 
 }  // namespace mien

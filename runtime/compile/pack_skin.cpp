@@ -25,9 +25,11 @@ uint32_t position_of(uint64_t key) { return static_cast<uint32_t>(key); }
 template <class F>
 void for_each_influence(const MeshSource& source, uint32_t position, F&& f) {
   const VertexSkinWeights& skin = weights_at(source.mesh, position);
-  const auto is_used = [&](float weight) { return source.fix_weights ? weight > 0 : weight != 0; };
+  const auto is_used = [&](float weight) {
+    return source.options.fix_weights ? weight > 0 : weight != 0;
+  };
   float scale = 1;
-  if (source.fix_weights) {
+  if (source.options.fix_weights) {
     double sum = 0;
     for (uint32_t i = 0; i < skin.weights.count; ++i) {
       if (is_used(skin.weights[i])) sum += skin.weights[i];

@@ -159,10 +159,11 @@ void plan_surface(const MeshSource& source, MeshPlan& plan) {
   }
 }
 
-void place_surface(const MeshPlan& plan, Placer& placer, DeformMesh& mesh) {
+void place_surface(const MeshPlan& plan, bool tangents, Placer& placer, DeformMesh& mesh) {
   const size_t positions = mesh.position_count, vertices = mesh.vertex_count;
   mesh.positions = placer.array<float>(positions * 3 + 1, kBlockAlignment);
   mesh.normals = placer.array<float>(vertices * 3 + 1, kBlockAlignment);
+  mesh.tangents = placer.array<float>(tangents ? vertices * 4 : 0, kBlockAlignment);
   mesh.texture_coordinates = placer.array<float>(vertices * 2, kBlockAlignment);
   mesh.vertex_position_indices = placer.array<uint32_t>(vertices, kBlockAlignment);
   mesh.triangles = placer.array<uint32_t>(plan.triangle_count * 3, kBlockAlignment);
@@ -190,7 +191,8 @@ Status fill_surface(const MeshSource& source, DeformMesh& mesh) {
     }
   }
   for (Vec3& direction : directions) direction = normalized(direction);
-  if (faces_point_inward(source, mesh, directions)) {
+  const bool inward = faces_point_inward(source, mesh, directions);
+  if (inward) {
     for (Vec3& direction : directions) direction = Vec3{} - direction;
     for (uint32_t f = 0; f < mesh.face_count(); ++f) {
       std::swap(mesh.faces[size_t{f} * 4 + 1], mesh.faces[size_t{f} * 4 + 3]);
@@ -205,7 +207,7 @@ Status fill_surface(const MeshSource& source, DeformMesh& mesh) {
     if (is_zero(load(stored))) store(recomputed, stored);
     if (dot(load(stored), recomputed) < kHardEdgeCosine) vertex |= kHardEdge;
   }
-  return Status::kOk;
+  return source.options.tangents ? fill_tangents(source, inward, mesh) : Status::kOk;
 }
 
 }  // namespace mien

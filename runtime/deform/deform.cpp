@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kMinChannelWeight = 1e-5f;
 constexpr uint32_t kMinParallelPositions = 16384;
-constexpr uint32_t kTaskPositions = 2048;  // or faces
+constexpr uint32_t kTaskPositions = 2048;  // or faces, or vertices
 constexpr uint32_t kTaskBlocks = kTaskPositions / kBlockPositions;
 constexpr uint32_t kMinTasks = 64;  // that skinning is cut into, if there are enough instances
 
@@ -23,10 +23,17 @@ struct Job {
   Span<DeformerInstance* const> instances;
   uint32_t mesh_index;
   Normals normals;
+  bool tangents;
+  ParallelFor parallel;
   uint32_t instance_groups = 1;  // that skinning splits the instances into
 
   const KernelTable& kernels() const { return *deformer.kernels; }
 };
+
+void run_all(Job& job, uint32_t count, void (*task)(void*, uint32_t)) {
+  if (job.parallel.run && count > 1) return run_tasks(job.parallel, count, task, &job);
+  for (uint32_t i = 0; i < count; ++i) task(&job, i);
+}
 
 // Targets and skin --------------------------------------------------------------------------------
 
@@ -60,16 +67,22 @@ const float* add_targets(const Job& job, const DeformerInstance& instance, uint3
 
 /// Positions without influences.
 void copy_unskinned(const Job& job, const float* positions, uint32_t first, uint32_t count,
-                    DeformedMesh& out) {
+                    DeformerInstance& instance) {
   const DeformMesh& mesh = job.mesh;
+  DeformedMesh& out = instance.meshes[job.mesh_index];
   for (uint32_t i = 0; i < count; ++i) {
     float* position = out.positions.data + size_t{mesh.position_indices[first + i]} * 3;
     memcpy(position, positions + size_t{i} * 4, 3 * sizeof(float));
   }
-  if (job.normals != Normals::kSkinned) return;
   for (uint32_t i = mesh.first_vertex[first]; i < mesh.first_vertex[first + count]; ++i) {
-    const size_t at = size_t{mesh.vertices[i] & ~kHardEdge} * 3;
-    memcpy(out.normals.data + at, mesh.normals.data + at, 3 * sizeof(float));
+    const size_t vertex = mesh.vertices[i] & ~kHardEdge;
+    if (job.normals == Normals::kSkinned) {
+      memcpy(out.normals.data + vertex * 3, mesh.normals.data + vertex * 3, 3 * sizeof(float));
+    }
+    if (job.tangents) {
+      memcpy(instance.tangents.data + vertex * 4, mesh.tangents.data + vertex * 4,
+             4 * sizeof(float));
+    }
   }
 }
 
@@ -86,7 +99,7 @@ void skin_block(const Job& job, DeformerInstance& instance, uint32_t block) {
     const uint32_t from = std::max(run->first, first);
     const uint32_t to = std::min(run->first + run->count, end);
     if (run->influences == 0) {
-      copy_unskinned(job, positions + size_t{from - first} * 4, from, to - from, out);
+      copy_unskinned(job, positions + size_t{from - first} * 4, from, to - from, instance);
       continue;
     }
     const size_t weight = run->first_weight + size_t{from - run->first} * run->influences;
@@ -101,6 +114,8 @@ void skin_block(const Job& job, DeformerInstance& instance, uint32_t block) {
     args.vertices = mesh.vertices.data;
     args.normals = mesh.normals.data;
     args.out_normals = out.normals.data;
+    args.tangents = mesh.tangents.data;
+    args.out_tangents = job.tangents ? instance.tangents.data : nullptr;
     args.count = to - from;
     args.influences = run->influences;
     args.mode = job.normals != Normals::kSkinned    ? SkinNormals::kNone
@@ -158,30 +173,72 @@ void normal_task(void* context, uint32_t index) {
   job.kernels().sum_normals(args);
 }
 
-void run_all(const ParallelFor& parallel, uint32_t count, void (*task)(void*, uint32_t), Job& job) {
-  if (parallel.run && count > 1) return parallel.run(parallel.user, count, task, &job);
-  for (uint32_t i = 0; i < count; ++i) task(&job, i);
+// Vertex output -----------------------------------------------------------------------------------
+
+VertexStream from_vertex(const VertexStream& stream, uint32_t first) {
+  if (!stream.data) return stream;
+  return {stream.data + size_t{first} * stream.stride, stream.stride, stream.format};
+}
+
+void vertex_task(void* context, uint32_t index) {
+  const Job& job = *static_cast<const Job*>(context);
+  const DeformMesh& mesh = job.mesh;
+  const uint32_t tasks = divide_up(mesh.vertex_count, kTaskPositions);
+  DeformerInstance& instance = *job.instances[index / tasks];
+  const DeformedMesh& deformed = instance.meshes[job.mesh_index];
+  const uint32_t first = index % tasks * kTaskPositions;
+  VertexArgs args;
+  args.positions = deformed.positions.data;
+  args.position_indices = mesh.vertex_position_indices.data + first;
+  args.normals = deformed.normals.data + size_t{first} * 3;
+  args.tangents = job.tangents ? instance.tangents.data + size_t{first} * 4 : nullptr;
+  args.position_stream = from_vertex(instance.output.positions, first);
+  args.normal_stream = from_vertex(instance.output.normals, first);
+  args.tangent_stream = from_vertex(instance.output.tangents, first);
+  args.count = std::min(kTaskPositions, mesh.vertex_count - first);
+  job.kernels().write_vertices(args);
+}
+
+void run(Job& job) {
+  const DeformMesh& mesh = job.mesh;
+  const uint32_t block_tasks = divide_up(mesh.block_count(), kTaskBlocks);
+  if (job.parallel.run && block_tasks != 0) {
+    const size_t groups = std::min<size_t>(job.instances.count, divide_up(kMinTasks, block_tasks));
+    job.instance_groups = static_cast<uint32_t>(groups);
+  }
+  run_all(job, block_tasks * job.instance_groups, skin_task);
+  if (job.normals != Normals::kRecomputed) return;
+  const uint32_t count = static_cast<uint32_t>(job.instances.count);
+  run_all(job, divide_up(mesh.face_count(), kTaskPositions) * count, area_task);
+  run_all(job, divide_up(mesh.position_count, kTaskPositions) * count, normal_task);
+}
+
+Job job_for(const Deformer& deformer, Span<DeformerInstance* const> instances, uint32_t mesh_index,
+            Normals normals, bool tangents, const ParallelFor& parallel) {
+  const DeformMesh& mesh = deformer.meshes[mesh_index];
+  const bool large = size_t{mesh.position_count} * instances.count >= kMinParallelPositions;
+  return {
+      deformer, mesh, instances, mesh_index, normals, tangents, large ? parallel : ParallelFor{}};
 }
 
 }  // namespace
 
-void deform(const Deformer& deformer, Span<DeformerInstance* const> instances, uint32_t mesh_index,
-            Normals normals, const ParallelFor& given) {
-  const DeformMesh& mesh = deformer.meshes[mesh_index];
-  const bool large = size_t{mesh.position_count} * instances.count >= kMinParallelPositions;
-  const ParallelFor parallel = large ? given : ParallelFor{};
-  Job job = {deformer, mesh, instances, mesh_index, normals};
+void deform(const Deformer& deformer, Span<DeformerInstance* const> instances, uint32_t mesh,
+            Normals normals, const ParallelFor& parallel) {
+  Job job = job_for(deformer, instances, mesh, normals, false, parallel);
+  run(job);
+}
 
-  const uint32_t block_tasks = divide_up(mesh.block_count(), kTaskBlocks);
-  if (parallel.run && block_tasks != 0) {
-    const size_t groups = std::min<size_t>(instances.count, divide_up(kMinTasks, block_tasks));
-    job.instance_groups = static_cast<uint32_t>(groups);
+void write_vertices(const Deformer& deformer, Span<DeformerInstance* const> instances,
+                    uint32_t mesh, Normals normals, const ParallelFor& parallel) {
+  bool tangents = false;
+  for (const DeformerInstance* instance : instances) {
+    tangents = tangents || instance->output.tangents.data;
   }
-  run_all(parallel, block_tasks * job.instance_groups, skin_task, job);
-  if (normals != Normals::kRecomputed) return;
+  Job job = job_for(deformer, instances, mesh, normals, tangents, parallel);
+  run(job);
   const uint32_t count = static_cast<uint32_t>(instances.count);
-  run_all(parallel, divide_up(mesh.face_count(), kTaskPositions) * count, area_task, job);
-  run_all(parallel, divide_up(mesh.position_count, kTaskPositions) * count, normal_task, job);
+  run_all(job, divide_up(job.mesh.vertex_count, kTaskPositions) * count, vertex_task);
 }
 
 }  // namespace mien

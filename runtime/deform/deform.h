@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Joint matrices and channel weights -> positions and normals of a mesh. Nothing here allocates,
-// locks or fails: the compiler has checked the deformer, and the caller checks its arguments.
+// Joint matrices and channel weights -> positions and normals of a mesh, also as vertices in the
+// memory of the caller. Nothing here allocates, locks or fails: the compiler has checked the
+// deformer, and the caller checks its arguments.
 #pragma once
 
 #include "runtime/base/parallel_for.h"
@@ -12,5 +13,10 @@ namespace mien {
 /// for the mesh. `normals` is not kDefault.
 void deform(const Deformer& deformer, Span<DeformerInstance* const> instances, uint32_t mesh,
             Normals normals, const ParallelFor& parallel);
+
+/// The same, and then writes the vertices of each instance to its `output`, which is valid, and has
+/// a stream of tangents only if the deformer has tangents. docs/deformation.md, 5 "Vertex output".
+void write_vertices(const Deformer& deformer, Span<DeformerInstance* const> instances,
+                    uint32_t mesh, Normals normals, const ParallelFor& parallel);
 
 }  // namespace mien

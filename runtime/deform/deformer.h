@@ -35,7 +35,7 @@ struct TargetRun {
   uint32_t first_delta, count;
 };
 
-/// Kernels load four floats where three are meant, so arrays of x y z end with one more float.
+/// One mesh. Kernels load four floats where three are meant, so arrays of x y z end with one more float.
 struct DeformMesh {
   uint32_t position_count = 0, vertex_count = 0, triangle_count = 0;
   uint32_t max_influences = 0, target_count = 0;
@@ -45,6 +45,7 @@ struct DeformMesh {
   // The neutral mesh, in the order of the file.
   Span<float> positions;                   // [position] x y z, + 1
   Span<float> normals;                     // [vertex] x y z, unit, + 1
+  Span<float> tangents;                    // [vertex] x y z, unit, w 1 or -1; if wanted
   Span<float> texture_coordinates;         // [vertex] u v
   Span<uint32_t> vertex_position_indices;  // [vertex]
   Span<uint32_t> triangles;                // [triangle][3] vertices
@@ -88,6 +89,7 @@ struct Deformer {
   const Rig* rig = nullptr;                // shared
   Normals normals = Normals::kRecomputed;  // what Normals::kDefault means
   bool fix_weights = false;
+  bool has_tangents = false;
   Skeleton skeleton;
   Span<DeformMesh> meshes;
 };

@@ -14,7 +14,7 @@ void place_deformer_instance(const Deformer& deformer, uint64_t lods, Placer& pl
   place_joint_pose(deformer.skeleton, placer, instance.joints);
   instance.channels = placer.array<float>(deformer.rig->channel_count, kBlockAlignment);
   instance.meshes = placer.array<DeformedMesh>(deformer.meshes.count);
-  size_t max_faces = 0;
+  size_t max_faces = 0, max_tangents = 0;
   for (size_t m = 0; m < deformer.meshes.count; ++m) {
     const DeformMesh& mesh = deformer.meshes[m];
     if (!is_shown(mesh, lods)) continue;
@@ -24,8 +24,10 @@ void place_deformer_instance(const Deformer& deformer, uint64_t lods, Placer& pl
     deformed.normals = placer.array<float>(mesh.normals.count, kBlockAlignment);
     if (!placer.measuring()) instance.meshes[m] = deformed;
     max_faces = std::max(max_faces, size_t{mesh.face_count()});
+    max_tangents = std::max(max_tangents, mesh.tangents.count);
   }
   instance.face_areas = placer.array<float>(max_faces * 4, kBlockAlignment);
+  instance.tangents = placer.array<float>(max_tangents, kBlockAlignment);
 }
 
 }  // namespace

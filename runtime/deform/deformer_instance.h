@@ -3,10 +3,11 @@
 // of its meshes, in one block of memory.
 //
 //     | DeformerInstance | joints | channels | DeformedMesh 0 ... n-1
-//     | positions, normals of mesh 0 | positions, normals of mesh 1 | ... | face areas
+//     | positions, normals of mesh 0 | positions, normals of mesh 1 | ... | face areas | tangents
 #pragma once
 
 #include "runtime/deform/deformer.h"
+#include "runtime/deform/vertex_output.h"
 #include "runtime/pose/joint_pose.h"
 
 namespace mien {
@@ -28,6 +29,8 @@ struct DeformerInstance {
   Span<float> channels;  // [channel] weight
   Span<DeformedMesh> meshes;
   Span<float> face_areas;  // scratch, [face] x y z 0, for the largest mesh
+  Span<float> tangents;    // scratch, [vertex] x y z w, for the largest mesh
+  VertexOutput output;     // of write_vertices()
 };
 
 /// Bytes of an instance with memory for the meshes of some LODs: bit l is LOD l; 0 means all meshes.

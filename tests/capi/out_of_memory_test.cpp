@@ -273,6 +273,7 @@ TEST_F(OutOfMemory, CreateDeformer) {
     const RigHandle rig = create_rig(dna.get());
     auto make = [&](const MienAllocator* allocator, MienDeformer** out, MienError* error) {
       MienDeformerDesc desc = sized<MienDeformerDesc>();
+      desc.with_tangents = 1;
       desc.allocator = allocator;
       return mien_deformer_create(dna.get(), rig.get(), &desc, out, error);
     };
@@ -368,12 +369,20 @@ TEST_F(OutOfMemory, NothingElseAllocates) {
     MienDeformerInstance* pose = nullptr;
     MienDeformerDesc deformer_desc = sized<MienDeformerDesc>();
     deformer_desc.allocator = &allocator;
+    deformer_desc.with_tangents = 1;
     ASSERT_EQ(mien_deformer_create(dna, rig, &deformer_desc, &deformer, nullptr), MIEN_OK);
     MienDeformerInstanceDesc pose_desc = sized<MienDeformerInstanceDesc>();
     pose_desc.allocator = &allocator;
     ASSERT_EQ(mien_deformer_instance_create(deformer, &pose_desc, &pose, nullptr), MIEN_OK);
     MienRigInfo info = sized<MienRigInfo>();
     ASSERT_EQ(mien_rig_info(rig, &info), MIEN_OK);
+
+    std::vector<float> vertices(size_t{1} << 16);
+    MienVertexOutput output = sized<MienVertexOutput>();
+    output.vertex_capacity = vertices.size() / 10;
+    output.positions = {vertices.data(), 40, MIEN_VERTEX_FORMAT_FLOAT32X3};
+    output.normals = {vertices.data() + 3, 40, MIEN_VERTEX_FORMAT_FLOAT32X3};
+    output.tangents = {vertices.data() + 6, 40, MIEN_VERTEX_FORMAT_FLOAT32X4};
 
     counter.restart();
     counter.fail_at = 1;
@@ -459,6 +468,8 @@ TEST_F(OutOfMemory, NothingElseAllocates) {
       for (uint32_t normals = 0; normals <= MIEN_NORMALS_RECOMPUTED; ++normals) {
         call(mien_deformer_instance_deform(pose, m, normals, nullptr));
         call(mien_deformer_instance_deform_batch(&pose, 1, m, normals, nullptr));
+        call(mien_deformer_instance_write_vertices(pose, m, normals, &output, nullptr));
+        call(mien_deformer_instance_write_vertices_batch(&pose, 1, m, normals, &output, nullptr));
       }
       call(mien_deformer_instance_positions(pose, m, &floats));
       call(mien_deformer_instance_normals(pose, m, &floats));

@@ -562,6 +562,74 @@ std::vector<Vec3d> PlainDeformer::recomputed_normals(uint32_t m, const DeformVal
   return result;
 }
 
+// As MikkTSpace does, but all triangles around a vertex with UVs of the more frequent orientation
+// share one tangent.
+std::vector<Vec4d> PlainDeformer::neutral_tangents(uint32_t m, Span<const float> normals) const {
+  const dna::Mesh& mesh = view.geom.meshes[m];
+  const auto on_plane = [](const Vec3d& v, const Vec3d& n) {
+    const double along = dot(v, n);
+    return unit({v[0] - n[0] * along, v[1] - n[1] * along, v[2] - n[2] * along});
+  };
+  struct Sum {
+    Vec3d tangent = {};
+    double angle = 0;
+  };
+  std::vector<std::array<Sum, 2>> sums(mesh.layouts.positions.count);
+  const auto add = [&](const std::array<uint32_t, 3>& corners) {
+    Vec3d p[3];
+    double u[3], v[3];
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t uv = mesh.layouts.texture_coordinates[corners[k]];
+      p[k] = at(mesh.positions, mesh.layouts.positions[corners[k]]);
+      u[k] = mesh.texture_coordinates.us[uv];
+      v[k] = mesh.texture_coordinates.vs[uv];
+    }
+    const Vec3d d1 = minus(p[1], p[0]), d2 = minus(p[2], p[0]);
+    const double area = (u[1] - u[0]) * (v[2] - v[0]) - (v[1] - v[0]) * (u[2] - u[0]);
+    const Vec3d face = cross(d1, d2);
+    if (area == 0 || dot(face, face) == 0) return;
+    const double sign = area < 0 ? -1 : 1;
+    const bool right_handed = (area > 0) != (view.dsce.face_winding_order != 0);
+    Vec3d along_u;
+    for (size_t k = 0; k < 3; ++k)
+      along_u[k] = sign * (d1[k] * (v[2] - v[0]) - d2[k] * (v[1] - v[0]));
+    for (size_t k = 0; k < 3; ++k) {
+      const float* stored = normals.data + size_t{corners[k]} * 3;
+      const Vec3d n = {stored[0], stored[1], stored[2]};
+      const Vec3d tangent = on_plane(along_u, n);
+      const double cosine =
+          dot(on_plane(minus(p[(k + 1) % 3], p[k]), n), on_plane(minus(p[(k + 2) % 3], p[k]), n));
+      const double angle = std::acos(std::max(-1.0, std::min(1.0, cosine)));
+      Sum& sum = sums[corners[k]][right_handed];
+      for (size_t i = 0; i < 3; ++i) sum.tangent[i] += angle * tangent[i];
+      sum.angle += angle;
+    }
+  };
+  for (const auto& face : mesh.faces) {
+    const auto& c = face.layout_indices;
+    for (uint32_t i = 2; i < c.count; ++i) add({c[0], c[i - 1], c[i]});
+  }
+  std::vector<Vec4d> result;
+  for (const std::array<Sum, 2>& sum : sums) {
+    const bool right_handed = sum[1].angle >= sum[0].angle;
+    const Vec3d tangent = unit(sum[right_handed].tangent);
+    result.push_back({tangent[0], tangent[1], tangent[2], right_handed ? 1.0 : -1.0});
+  }
+  return result;
+}
+
+std::vector<Vec3d> PlainDeformer::skinned_tangents(uint32_t m, const DeformValues& values,
+                                                   const std::vector<Vec4d>& neutral) const {
+  const dna::Mesh& mesh = view.geom.meshes[m];
+  const Blended blended = blend(*this, mesh, skins(values.joints));
+  std::vector<Vec3d> result;
+  for (uint32_t v = 0; v < neutral.size(); ++v) {
+    const Vec4d& t = neutral[v];
+    result.push_back(apply(blended.at[mesh.layouts.positions[v]], {t[0], t[1], t[2]}, 0));
+  }
+  return result;
+}
+
 double PlainDeformer::diagonal(uint32_t m) const {
   Vec3d low = {1e30, 1e30, 1e30}, high = {-1e30, -1e30, -1e30};
   const dna::Mesh& mesh = view.geom.meshes[m];

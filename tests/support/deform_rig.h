@@ -55,6 +55,7 @@ struct DeformValues {
 DeformValues random_values(const MienRig* rig, uint32_t seed, double scale_skew = 0.1);
 
 using Vec3d = std::array<double, 3>;
+using Vec4d = std::array<double, 4>;
 using Matrix4d = std::array<std::array<double, 4>, 4>;  // [row][column]
 
 struct PlainDeformer {
@@ -69,6 +70,11 @@ struct PlainDeformer {
   /// Unit; of vertices.
   std::vector<Vec3d> skinned_normals(uint32_t mesh, const DeformValues& values) const;
   std::vector<Vec3d> recomputed_normals(uint32_t mesh, const DeformValues& values) const;
+  /// x y z, unit, and w. `normals`: x y z of the neutral mesh per vertex.
+  std::vector<Vec4d> neutral_tangents(uint32_t mesh, Span<const float> normals) const;
+  /// Of vertices, not normalized.
+  std::vector<Vec3d> skinned_tangents(uint32_t mesh, const DeformValues& values,
+                                      const std::vector<Vec4d>& neutral) const;
   double diagonal(uint32_t mesh) const;
 
  private:

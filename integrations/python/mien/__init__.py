@@ -20,7 +20,7 @@ from ._api import (BakedCheck, Compose, CoordinateSystem, DeformerInfo, Directio
 from ._api import VERSION as _VERSION
 from ._library import path as library_path, version
 from .batch import Batch
-from .deformer import Deformer, Mesh, DeformerInstance, deform_batch
+from .deformer import Deformer, DeformerInstance, Mesh, deform_batch, write_vertices_batch
 from .dna import Dna, coordinate_system, coordinate_system_names, validate
 from .errors import (ArgumentError, BusyError, ClosedError, DnaError, Error, FileError,
                      OutOfMemoryError, OutOfRangeError, UnknownNameError)
@@ -40,4 +40,5 @@ __all__ = [
     "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationOutput", "RotationRule",
     "RotationSequence", "RotationUnit", "Severity", "Stage", "Status", "Storage",
     "TranslationUnit", "UnknownLayers", "UnknownNameError", "validate", "version", "Weights",
+    "write_vertices_batch",
 ]

@@ -410,6 +410,25 @@ class Normals(IntEnum):
     RECOMPUTED = 3
 
 
+class VertexFormat(IntEnum):
+    """How a vertex attribute lies in memory, in the byte order of this machine. A signed
+    normalized integer of n bits is round(clamp(v, -1, 1) * (2^(n-1) - 1)), ties to even, in
+    two's complement. These are formats of vertex buffers: R32G32B32_SFLOAT,
+    R32G32B32A32_SFLOAT, R16G16B16A16_SNORM and A2B10G10R10_SNORM_PACK32 in Vulkan; float3,
+    float4, short4Normalized and int1010102Normalized in Metal. Direct3D 12 and WebGPU lack the
+    last one.
+    """
+
+    #: 12 bytes: x y z
+    FLOAT32X3 = 0
+    #: 16 bytes: x y z w
+    FLOAT32X4 = 1
+    #: 8 bytes: x y z w, 16 bits each
+    SNORM16X4 = 2
+    #: 4 bytes, one 32-bit word: x in bits 0-9, y in 10-19, z in 20-29, w in 30-31
+    SNORM10_10_10_2 = 3
+
+
 class MienDna(c_void_p):
     pass
 
@@ -921,6 +940,8 @@ class MienDeformerDesc(Structure):
         ("compose", c_uint32),
         ("weights", c_uint32),
         ("normals", c_uint32),
+        ("with_tangents", c_uint32),
+        ("reserved", c_uint32),
         ("allocator", POINTER(MienAllocator)),
     ]
     struct_size: Any
@@ -928,10 +949,12 @@ class MienDeformerDesc(Structure):
     compose: Any
     weights: Any
     normals: Any
+    with_tangents: Any
+    reserved: Any
     allocator: Any
 
     def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=32, **values)
+        super().__init__(struct_size=40, **values)
 
 
 class MienDeformerInfo(Structure):
@@ -976,6 +999,7 @@ class MienMesh(Structure):
         ("lods", c_uint64),
         ("positions", MienFloatView),
         ("normals", MienFloatView),
+        ("tangents", MienFloatView),
         ("texture_coordinates", MienFloatView),
         ("vertex_position_indices", MienIndex32View),
         ("triangles", MienIndex32View),
@@ -991,13 +1015,14 @@ class MienMesh(Structure):
     lods: Any
     positions: Any
     normals: Any
+    tangents: Any
     texture_coordinates: Any
     vertex_position_indices: Any
     triangles: Any
     target_channels: Any
 
     def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=136, **values)
+        super().__init__(struct_size=152, **values)
 
 
 class MienDeformerInstanceDesc(Structure):
@@ -1012,6 +1037,35 @@ class MienDeformerInstanceDesc(Structure):
 
     def __init__(self, **values: Any) -> None:
         super().__init__(struct_size=24, **values)
+
+
+class MienVertexStream(Structure):
+    _fields_ = [
+        ("data", c_void_p),
+        ("stride", c_uint32),
+        ("format", c_uint32),
+    ]
+    data: Any
+    stride: Any
+    format: Any
+
+
+class MienVertexOutput(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("vertex_capacity", c_size_t),
+        ("positions", MienVertexStream),
+        ("normals", MienVertexStream),
+        ("tangents", MienVertexStream),
+    ]
+    struct_size: Any
+    vertex_capacity: Any
+    positions: Any
+    normals: Any
+    tangents: Any
+
+    def __init__(self, **values: Any) -> None:
+        super().__init__(struct_size=64, **values)
 
 
 class CoordinateSystem(NamedTuple):
@@ -1436,6 +1490,10 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
      POINTER(MienFloatView))),
     ("mien_deformer_instance_normals", c_int32, (MienDeformerInstance, c_uint32,
      POINTER(MienFloatView))),
+    ("mien_deformer_instance_write_vertices", c_int32, (MienDeformerInstance, c_uint32, c_uint32,
+     POINTER(MienVertexOutput), POINTER(MienParallelFor))),
+    ("mien_deformer_instance_write_vertices_batch", c_int32, (POINTER(MienDeformerInstance),
+     c_size_t, c_uint32, c_uint32, POINTER(MienVertexOutput), POINTER(MienParallelFor))),
 )
 
 
@@ -1534,6 +1592,8 @@ class Library:
     mien_deformer_instance_deform_batch: Any
     mien_deformer_instance_positions: Any
     mien_deformer_instance_normals: Any
+    mien_deformer_instance_write_vertices: Any
+    mien_deformer_instance_write_vertices_batch: Any
 
     def __init__(self, library: ctypes.CDLL) -> None:
         for name, result, parameters in FUNCTIONS:

@@ -1,25 +1,28 @@
 # SPDX-License-Identifier: MIT
-"""Deformers and poses: from joint values and channel weights to positions and normals."""
+"""Deformers and their instances: from joint values and channel weights to vertices."""
 from __future__ import annotations
 
 import ctypes
 from _thread import allocate_lock
 from concurrent.futures import Executor
 from contextlib import ExitStack, contextmanager
+from sys import byteorder
 from typing import Any, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
 
 from . import _api
-from ._api import Compose, DeformerInfo, Isa, Kind, MienError, Normals, Status, Weights
+from ._api import (Compose, DeformerInfo, Isa, Kind, MienError, Normals, Status, VertexFormat,
+                   Weights)
 from ._library import lib
 from ._memory import (Closable, DeformerHandle, Floats, Indices, PoseHandle, array_over, floats_of,
                       lod_bits, new_array, shaped, uint32)
 from ._threads import call_with_threads
 from .dna import Dna
-from .errors import BusyError, UnknownNameError, fail
+from .errors import ArgumentError, BusyError, UnknownNameError, fail
 from .instance import Instance
 from .rig import Rig
 
 _byref = ctypes.byref
+_NATIVE = "=@<" if byteorder == "little" else "=@>"
 
 
 def _matrices(owner: Any, view: Any) -> Any:
@@ -35,6 +38,7 @@ class Mesh:
       lods:                LODs that show it
       positions:           float32 (positions, 3)
       normals:             float32 (vertices, 3), unit length
+      tangents:            float32 (vertices, 4), x y z and w; empty unless asked for
       texture_coordinates: float32 (vertices, 2), as in the file
       vertex_position_indices:    uint32 (vertices,): position of each vertex
       triangles:           uint32 (triangles, 3): vertices, wound as in the file
@@ -52,6 +56,7 @@ class Mesh:
         self.lods: List[int] = [lod for lod in range(64) if mesh.lods >> lod & 1]
         self.positions: Floats = view(mesh.positions, "f", 3)
         self.normals: Floats = view(mesh.normals, "f", 3)
+        self.tangents: Floats = view(mesh.tangents, "f", 4)
         self.texture_coordinates: Floats = view(mesh.texture_coordinates, "f", 2)
         self.vertex_position_indices: Any = view(mesh.vertex_position_indices, "I")
         self.triangles: Any = view(mesh.triangles, "I", 3)
@@ -85,15 +90,18 @@ class Deformer(Closable):
     compose: how a joint's rotation is made of the neutral one and the delta, see `Compose`
     weights: whether skin weights are mended, see `Weights`
     normals: what `DeformerInstance.deform` makes if it is not told, see `Normals`
+    with_tangents: computes tangents, for `DeformerInstance.write_vertices`
     """
 
     __slots__ = ("info", "_mesh_names")
 
     def __init__(self, dna: Dna, rig: Rig, isa: int = Isa.BEST, compose: int = Compose.PRODUCT,
-                 weights: int = Weights.AS_STORED, normals: int = Normals.DEFAULT) -> None:
+                 weights: int = Weights.AS_STORED, normals: int = Normals.DEFAULT,
+                 with_tangents: bool = False) -> None:
         desc = _api.MienDeformerDesc(isa=uint32(isa, "isa"), compose=uint32(compose, "compose"),
                                      weights=uint32(weights, "weights"),
-                                     normals=uint32(normals, "normals"))
+                                     normals=uint32(normals, "normals"),
+                                     with_tangents=bool(with_tangents))
         handle, error = DeformerHandle(), MienError()
         status = lib.mien_deformer_create(dna._open(), rig._open(), _byref(desc), _byref(handle),
                                           _byref(error))
@@ -239,6 +247,36 @@ class DeformerInstance(Closable):
 
         call_with_threads(threads, call)
 
+    def write_vertices(self, mesh: int, positions: Any = None, normals: Any = None,
+                       tangents: Any = None, *, mode: int = Normals.DEFAULT,
+                       threads: Optional[Executor] = None) -> None:
+        """`deform`, and then writes positions, normals and tangents per vertex into arrays of yours,
+        as vertex buffers of GPUs hold them. None: not written.
+
+        The type of an array is its format: float32 (n, 3), float32 (n, 4), int16 (n, 4) for signed
+        normalized integers, or uint32 (n,) for 10-10-10-2; n is at least the number of vertices.
+        Arrays may be fields of a structured array, so that vertices are interleaved:
+
+            vertex = numpy.dtype([("position", "f4", 3), ("normal", "u4"), ("tangent", "i2", 4)])
+            buffer = numpy.zeros(deformer.mesh(0).vertex_count, vertex)
+            instance.write_vertices(0, buffer["position"], buffer["normal"], buffer["tangent"])
+
+        tangents: need a deformer made with `with_tangents`
+        mode:     which normals, see `Normals`
+        threads:  as of `deform`
+        """
+        output = _VertexOutput(positions, normals, tangents)
+
+        def call(parallel: Any) -> None:
+            with self._alone() as handle:
+                status = lib.mien_deformer_instance_write_vertices(
+                    handle, uint32(mesh, "mesh"), uint32(mode, "mode"), _byref(output.struct),
+                    parallel)
+                if status:
+                    fail(status, f"vertices of mesh {mesh}")
+
+        call_with_threads(threads, call)
+
     def _view(self, call: Any, what: str, width: int, *mesh: int) -> Any:
         handle, view = self._open(), _api.MienFloatView()
         status = call(handle, *mesh, _byref(view))
@@ -281,6 +319,52 @@ class DeformerInstance(Closable):
         return f"<mien.DeformerInstance{', closed' if self.closed else ''} of {self.deformer!r}>"
 
 
+_FORMATS = {("f", 3): VertexFormat.FLOAT32X3, ("f", 4): VertexFormat.FLOAT32X4,
+            ("h", 4): VertexFormat.SNORM16X4, ("I", 1): VertexFormat.SNORM10_10_10_2,
+            ("L", 1): VertexFormat.SNORM10_10_10_2}
+
+
+class _VertexOutput:
+    """A MienVertexOutput over arrays of the caller, which it keeps alive."""
+
+    def __init__(self, positions: Any, normals: Any, tangents: Any) -> None:
+        self.struct = _api.MienVertexOutput()
+        self.views: List[memoryview] = []
+        for name, values in (("positions", positions), ("normals", normals),
+                             ("tangents", tangents)):
+            if values is not None:
+                setattr(self.struct, name, self._stream(values, name))
+        self.struct.vertex_capacity = min((view.shape[0] for view in self.views if view.shape),
+                                          default=0)
+
+    def _stream(self, values: Any, what: str) -> Any:
+        view = memoryview(values)
+        shape, strides = view.shape or (), view.strides or ()
+        width = shape[1] if len(shape) == 2 else 1 if len(shape) == 1 else 0
+        vertex_format = _FORMATS.get((view.format.lstrip(_NATIVE), width))
+        if vertex_format is None or view.itemsize != (2 if vertex_format == VertexFormat.SNORM16X4
+                                                      else 4):
+            raise ArgumentError(f"{what} takes float32 (n, 3) or (n, 4), int16 (n, 4) or uint32 "
+                                f"(n,), not {view.format!r} {shape}")
+        if view.readonly:
+            raise ArgumentError(f"{what} is read-only")
+        if strides[0] < 0 or (len(shape) == 2 and strides[1] != view.itemsize):
+            raise ArgumentError(f"{what} has strides {strides}: parts of a vertex lie side by side, "
+                                "and vertices at ascending addresses")
+        self.views.append(view)
+        return _api.MienVertexStream(data=_address_of(values, view), stride=strides[0],
+                                     format=vertex_format)
+
+
+def _address_of(values: Any, view: memoryview) -> int:
+    """Of the first element. NumPy tells it; of other arrays all elements lie in a row."""
+    interface = getattr(values, "__array_interface__", None)
+    if interface is not None:
+        address: int = interface["data"][0]
+        return address
+    return ctypes.addressof(ctypes.c_char.from_buffer(view)) if view.nbytes else 0
+
+
 def deform_batch(poses: Sequence[DeformerInstance], mesh: int, normals: int = Normals.DEFAULT,
                  threads: Optional[Executor] = None) -> None:
     """`DeformerInstance.deform` of the same mesh of several poses of one deformer: the same bits, but each
@@ -295,5 +379,29 @@ def deform_batch(poses: Sequence[DeformerInstance], mesh: int, normals: int = No
                                                 uint32(normals, "normals"), parallel)
             if status:
                 fail(status, f"mesh {mesh} of {len(handles)} poses")
+
+    call_with_threads(threads, call)
+
+
+def write_vertices_batch(instances: Sequence[DeformerInstance], mesh: int,
+                         outputs: Sequence[Sequence[Any]], mode: int = Normals.DEFAULT,
+                         threads: Optional[Executor] = None) -> None:
+    """`DeformerInstance.write_vertices` of the same mesh of several instances of one deformer:
+    `outputs` has positions, normals and tangents of each. Arrays of different instances share no
+    memory."""
+    instances, count = list(instances), len(outputs)
+    if len(instances) != count:
+        raise ArgumentError(f"{len(instances)} instances and {count} outputs")
+    made = [_VertexOutput(*output) for output in outputs]
+    structs = (_api.MienVertexOutput * count)(*[output.struct for output in made])
+
+    def call(parallel: Any) -> None:
+        with ExitStack() as stack:
+            handles = [stack.enter_context(instance._alone()) for instance in instances]
+            pointers = (_api.MienDeformerInstance * count)(*handles)
+            status = lib.mien_deformer_instance_write_vertices_batch(
+                pointers, count, uint32(mesh, "mesh"), uint32(mode, "mode"), structs, parallel)
+            if status:
+                fail(status, f"vertices of mesh {mesh} of {count} instances")
 
     call_with_threads(threads, call)

@@ -93,6 +93,61 @@ class Values(unittest.TestCase):
         numpy.testing.assert_array_equal(pose.normals(0), normals)
         numpy.testing.assert_allclose(pose.positions(0), pose.deformer.mesh(0).positions, atol=1e-4)
 
+    @needs_numpy
+    def test_vertices_in_arrays_of_the_caller(self):
+        dna, rig = dna_of(mien.Preset.SMALL), rig_of(mien.Preset.SMALL)
+        deformer = mien.Deformer(dna, rig, with_tangents=True)
+        face, _ = posed()
+        instances = [deformer.instance() for _ in range(2)]
+        mesh = deformer.mesh(0)
+        self.assertEqual(mesh.tangents.shape, (mesh.vertex_count, 4))
+        vertex = numpy.dtype([("position", "f4", 3), ("normal", "u4"), ("tangent", "i2", 4),
+                              ("color", "u4")])
+        buffers = [numpy.full(mesh.vertex_count + 1, 7, vertex) for _ in instances]
+        fields = [tuple(buffer[name] for name in ("position", "normal", "tangent"))
+                  for buffer in buffers]
+        for instance in instances:
+            instance.update(face)
+        instances[0].write_vertices(0, *fields[0])
+        expected = instances[0].positions(0)[mesh.vertex_position_indices]
+        numpy.testing.assert_array_equal(buffers[0]["position"][:-1], expected)
+        words = buffers[0]["normal"][:-1]
+        normals = numpy.stack([(words << (22 - 10 * k)).astype("i4") >> 22 for k in range(3)], 1)
+        numpy.testing.assert_allclose(normals / 511, instances[0].normals(0), atol=0.51 / 511)
+        self.assertEqual(set(abs(buffers[0]["tangent"][:-1, 3])), {32767})
+        self.assertEqual(set(buffers[0]["color"]), {7})
+        self.assertEqual(buffers[0][-1]["normal"], 7)
+        with ThreadPoolExecutor(2) as threads:
+            mien.write_vertices_batch(instances, 0, fields, threads=threads)
+        self.assertEqual(buffers[0].tobytes(), buffers[1].tobytes())
+        wide = numpy.zeros((mesh.vertex_count, 4), "f4")
+        instances[0].write_vertices(0, tangents=wide, mode=mien.Normals.SKINNED)
+        numpy.testing.assert_allclose((wide[:, :3] ** 2).sum(1), 1, atol=1e-5)
+
+    @needs_numpy
+    def test_arrays_that_are_no_vertices(self):
+        deformer = deformer_of()
+        instance, count = deformer.instance(), deformer.mesh(0).vertex_count
+        good = numpy.zeros((count, 3), "f4")
+        frozen = good.copy()
+        frozen.flags.writeable = False
+        for wrong in (good.astype("f8"), good.astype(">f4"), good[:, :2], good[:-1], good[::-1],
+                      good.ravel(), good.T.copy().T, frozen, numpy.zeros((), "f4"),
+                      numpy.zeros((count, 4), "i2"), numpy.zeros(count, "u4")):
+            with self.assertRaises(mien.ArgumentError):
+                instance.write_vertices(0, wrong)
+        with self.assertRaises(mien.ArgumentError):
+            instance.write_vertices(0)
+        with self.assertRaises(mien.ArgumentError):  # the deformer has none
+            instance.write_vertices(0, tangents=numpy.zeros((count, 4), "f4"))
+        with self.assertRaises(mien.ArgumentError):
+            instance.write_vertices(0, good, good)
+        with self.assertRaises(mien.ArgumentError):
+            mien.write_vertices_batch([instance], 0, [])
+        with self.assertRaises(TypeError):
+            instance.write_vertices(0, [1, 2, 3])
+        instance.write_vertices(0, good)
+
     def test_without_numpy(self):
         run("""
 import mien
@@ -110,6 +165,10 @@ pose.deform(0)
 assert bytes(pose.positions(0)) == wanted
 assert len(pose.positions(0)) == deformer.mesh(0).position_count * 3
 assert len(pose.local_transforms) == len(pose.joint_matrices) // 16 * 10
+count = deformer.mesh(0).vertex_count
+memory = bytearray(count * 12)
+pose.write_vertices(0, memoryview(memory).cast("f", (count, 3)))
+assert bytes(pose.positions(0))[:12] in memory
 """, without_numpy=True)
 
 

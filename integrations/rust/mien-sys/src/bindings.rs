@@ -284,6 +284,16 @@ pub const MIEN_NORMALS_SKINNED: u32 = 2;
 /// neutral.
 pub const MIEN_NORMALS_RECOMPUTED: u32 = 3;
 
+// enum MienVertexFormat
+/// 12 bytes: x y z.
+pub const MIEN_VERTEX_FORMAT_FLOAT32X3: u32 = 0;
+/// 16 bytes: x y z w.
+pub const MIEN_VERTEX_FORMAT_FLOAT32X4: u32 = 1;
+/// 8 bytes: x y z w, 16 bits each.
+pub const MIEN_VERTEX_FORMAT_SNORM16X4: u32 = 2;
+/// 4 bytes, one 32-bit word: x in bits 0-9, y in 10-19, z in 20-29, w in 30-31.
+pub const MIEN_VERTEX_FORMAT_SNORM10_10_10_2: u32 = 3;
+
 #[repr(C)]
 pub struct MienDna {
     _size: [u8; 0],
@@ -965,6 +975,10 @@ pub struct MienDeformerDesc {
     pub weights: u32,
     /// `MIEN_NORMALS_...`: of calls that leave the choice open.
     pub normals: u32,
+    /// Compute tangents, for `mien_deformer_instance_write_vertices()`.
+    pub with_tangents: u32,
+    /// 0.
+    pub reserved: u32,
     pub allocator: *const MienAllocator,
 }
 
@@ -1031,6 +1045,9 @@ pub struct MienMesh {
     pub positions: MienFloatView,
     /// X y z per vertex, unit length.
     pub normals: MienFloatView,
+    /// X y z w per vertex, see MienVertexOutput; empty unless MienDeformerDesc.`with_tangents` was
+    /// set.
+    pub tangents: MienFloatView,
     /// U v per vertex, as in the file.
     pub texture_coordinates: MienFloatView,
     /// Position of each vertex.
@@ -1063,6 +1080,66 @@ pub struct MienDeformerInstanceDesc {
 }
 
 impl Default for MienDeformerInstanceDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// One attribute of all vertices: vertex i takes the size of the format from data + i \* stride
+/// on. `data` and `stride` are multiples of 4, `stride` is at least the size of the format.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienVertexStream {
+    /// NULL: this attribute is not written.
+    pub data: *mut c_void,
+    /// bytes.
+    pub stride: u32,
+    /// `MIEN_VERTEX_FORMAT_...`
+    pub format: u32,
+}
+
+impl Default for MienVertexStream {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// Where the vertices of a mesh go, in the order of MienMesh.`vertex_position_indices`. Streams
+/// may be interleaved (the same stride) or apart, but share no byte. At least one is given.
+///
+/// ```text
+/// positions  as floats; w is 1
+/// normals    in any format; w is 0
+/// tangents   in any format with a w. The tangent points where u grows on the surface while v stays
+///            the same, perpendicular to the normal, and w * cross(normal, tangent) points where v
+///            grows: w is 1, or -1 where the texture is mirrored. If you flip v (1 - v), negate w.
+/// ```
+///
+/// Neutral tangents are computed as MikkTSpace does, but the vertices of the file are kept: where
+/// MikkTSpace splits a vertex between triangles of both orientations, it takes the tangent and the
+/// w of those with the larger sum of angles. docs/deformation.md, 4 "Tangents", lists all
+/// differences. A vertex without texture coordinates gets an arbitrary perpendicular of its
+/// normal, always the same, and w = 1. Tangents move with the skin, and are then made
+/// perpendicular to the normal that is written.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienVertexOutput {
+    pub struct_size: usize,
+    /// Vertices for which each stream has memory: MienMesh.`vertex_count` or more.
+    pub vertex_capacity: usize,
+    pub positions: MienVertexStream,
+    pub normals: MienVertexStream,
+    /// Needs MienDeformerDesc.`with_tangents`.
+    pub tangents: MienVertexStream,
+}
+
+impl Default for MienVertexOutput {
     /// All zero but `struct_size`: every field has its default.
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
@@ -1530,4 +1607,21 @@ extern "C" {
     /// z per vertex. The views stay valid, their contents change with each call. A mesh without
     /// room: `MIEN_ERROR_LOD`.
     pub fn mien_deformer_instance_normals(deformer_instance: *const MienDeformerInstance, mesh: u32, out_normals: *mut MienFloatView) -> MienStatus;
+
+    /// Deforms a mesh as `mien_deformer_instance_deform()` does, then writes its vertices to
+    /// memory of the caller, such as a mapped vertex buffer. Each byte is written once, in the
+    /// order of the vertices, and none is read, so the memory may be write-combined. Bytes between
+    /// vertices are left alone. Threads as for `mien_deformer_instance_deform()`: the bytes are
+    /// the same. The same positions, normals and tangents give the same bytes on every instruction
+    /// set. Allocates nothing, locks nothing. `MIEN_ERROR_INVALID_ARGUMENT`: a format that the
+    /// attribute does not take; a wrong stride or alignment; too little capacity; streams that
+    /// overlap; no stream at all; tangents, but the deformer has none. Then nothing is deformed or
+    /// written. `MIEN_ERROR_LOD`: the instance has no memory for this mesh. docs/deformation.md, 5
+    /// "Vertex output".
+    pub fn mien_deformer_instance_write_vertices(deformer_instance: *mut MienDeformerInstance, mesh: u32, normals: u32, output: *const MienVertexOutput, parallel: *const MienParallelFor) -> MienStatus;
+
+    /// The same mesh of several instances, as `mien_deformer_instance_deform_batch()` takes them:
+    /// instance i to outputs\[i\]. All outputs have the same `struct_size`, and share no byte
+    /// either.
+    pub fn mien_deformer_instance_write_vertices_batch(deformer_instances: *const *mut MienDeformerInstance, count: usize, mesh: u32, normals: u32, outputs: *const MienVertexOutput, parallel: *const MienParallelFor) -> MienStatus;
 }

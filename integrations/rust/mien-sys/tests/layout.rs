@@ -336,14 +336,16 @@ fn mien_batch_desc() {
 #[test]
 fn mien_deformer_desc() {
     use mien_sys::MienDeformerDesc as S;
-    assert_eq!(size_of::<S>(), 32);
+    assert_eq!(size_of::<S>(), 40);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
     assert_eq!(offset!(S, isa), 8);
     assert_eq!(offset!(S, compose), 12);
     assert_eq!(offset!(S, weights), 16);
     assert_eq!(offset!(S, normals), 20);
-    assert_eq!(offset!(S, allocator), 24);
+    assert_eq!(offset!(S, with_tangents), 24);
+    assert_eq!(offset!(S, reserved), 28);
+    assert_eq!(offset!(S, allocator), 32);
 }
 
 #[test]
@@ -367,7 +369,7 @@ fn mien_deformer_info() {
 #[test]
 fn mien_mesh() {
     use mien_sys::MienMesh as S;
-    assert_eq!(size_of::<S>(), 136);
+    assert_eq!(size_of::<S>(), 152);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
     assert_eq!(offset!(S, position_count), 8);
@@ -379,10 +381,11 @@ fn mien_mesh() {
     assert_eq!(offset!(S, lods), 32);
     assert_eq!(offset!(S, positions), 40);
     assert_eq!(offset!(S, normals), 56);
-    assert_eq!(offset!(S, texture_coordinates), 72);
-    assert_eq!(offset!(S, vertex_position_indices), 88);
-    assert_eq!(offset!(S, triangles), 104);
-    assert_eq!(offset!(S, target_channels), 120);
+    assert_eq!(offset!(S, tangents), 72);
+    assert_eq!(offset!(S, texture_coordinates), 88);
+    assert_eq!(offset!(S, vertex_position_indices), 104);
+    assert_eq!(offset!(S, triangles), 120);
+    assert_eq!(offset!(S, target_channels), 136);
 }
 
 #[test]
@@ -393,4 +396,26 @@ fn mien_deformer_instance_desc() {
     assert_eq!(offset!(S, struct_size), 0);
     assert_eq!(offset!(S, lods), 8);
     assert_eq!(offset!(S, allocator), 16);
+}
+
+#[test]
+fn mien_vertex_stream() {
+    use mien_sys::MienVertexStream as S;
+    assert_eq!(size_of::<S>(), 16);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, data), 0);
+    assert_eq!(offset!(S, stride), 8);
+    assert_eq!(offset!(S, format), 12);
+}
+
+#[test]
+fn mien_vertex_output() {
+    use mien_sys::MienVertexOutput as S;
+    assert_eq!(size_of::<S>(), 64);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, vertex_capacity), 8);
+    assert_eq!(offset!(S, positions), 16);
+    assert_eq!(offset!(S, normals), 32);
+    assert_eq!(offset!(S, tangents), 48);
 }

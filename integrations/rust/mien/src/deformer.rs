@@ -67,6 +67,8 @@ pub struct Mesh<'deformer> {
     pub positions: &'deformer [[f32; 3]],
     /// x y z per vertex, unit length.
     pub normals: &'deformer [[f32; 3]],
+    /// x y z and w per vertex; empty unless [`DeformerOptions::with_tangents`] asked for them.
+    pub tangents: &'deformer [[f32; 4]],
     /// u v per vertex, as in the file.
     pub texture_coordinates: &'deformer [[f32; 2]],
     /// Position of each vertex.
@@ -132,6 +134,7 @@ impl Deformer {
                 lods: out.lods,
                 positions: rows(out.positions.data, out.positions.count),
                 normals: rows(out.normals.data, out.normals.count),
+                tangents: rows(out.tangents.data, out.tangents.count),
                 texture_coordinates: rows(uvs.data, uvs.count),
                 vertex_position_indices: slice(
                     out.vertex_position_indices.data,
@@ -231,6 +234,7 @@ pub struct DeformerOptions {
     compose: Compose,
     weights: Weights,
     normals: Normals,
+    with_tangents: bool,
     allocator: Option<Allocator>,
 }
 
@@ -264,6 +268,12 @@ impl DeformerOptions {
         self
     }
 
+    /// Computes tangents, for [`DeformerInstance::write_vertices`].
+    pub fn with_tangents(mut self, with_tangents: bool) -> Self {
+        self.with_tangents = with_tangents;
+        self
+    }
+
     /// Where memory comes from.
     pub fn allocator(mut self, allocator: &Allocator) -> Self {
         self.allocator = Some(allocator.clone());
@@ -286,6 +296,7 @@ impl DeformerOptions {
                 compose: self.compose.0,
                 weights: self.weights.0,
                 normals: self.normals.0,
+                with_tangents: self.with_tangents.into(),
                 allocator,
                 ..Default::default()
             };

@@ -226,7 +226,7 @@ impl DeformerInstance {
         }
     }
 
-    fn raw(&mut self) -> *mut sys::MienDeformerInstance {
+    pub(crate) fn raw(&mut self) -> *mut sys::MienDeformerInstance {
         self.handle.as_ptr()
     }
 

@@ -639,6 +639,30 @@ impl Normals {
 
 numbers!(Normals, u32, [(0, "DEFAULT"), (1, "NONE"), (2, "SKINNED"), (3, "RECOMPUTED")]);
 
+/// How a vertex attribute lies in memory, in the byte order of this machine. A signed normalized
+/// integer of n bits is round(clamp(v, -1, 1) \* (2^(n-1) - 1)), ties to even, in two's
+/// complement. These are formats of vertex buffers: R32G32B32\_SFLOAT, R32G32B32A32\_SFLOAT,
+/// R16G16B16A16\_SNORM and A2B10G10R10\_SNORM\_PACK32 in Vulkan; float3, float4, short4Normalized
+/// and int1010102Normalized in Metal. Direct3D 12 and WebGPU lack the last one.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct VertexFormat(pub u32);
+
+impl VertexFormat {
+    /// 12 bytes: x y z.
+    pub const FLOAT32X3: Self = Self(0);
+    /// 16 bytes: x y z w.
+    pub const FLOAT32X4: Self = Self(1);
+    /// 8 bytes: x y z w, 16 bits each.
+    pub const SNORM16X4: Self = Self(2);
+    /// 4 bytes, one 32-bit word: x in bits 0-9, y in 10-19, z in 20-29, w in 30-31.
+    pub const SNORM10_10_10_2: Self = Self(3);
+}
+
+numbers!(VertexFormat, u32, [(0, "FLOAT32X3"), (1, "FLOAT32X4"), (2, "SNORM16X4"), (3, "SNORM10_10_10_2")]);
+
 /// Where the axes of a rig point, and its units. Mirrored systems are as good as others: which
 /// hand they are of follows from the axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

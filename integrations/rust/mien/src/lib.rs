@@ -56,6 +56,7 @@ mod instance;
 mod report;
 mod rig;
 mod threads;
+mod vertex_output;
 
 #[rustfmt::skip]
 mod generated;
@@ -71,6 +72,7 @@ pub use instance::Instance;
 pub use report::{Finding, Report};
 pub use rig::{Rig, RigOptions};
 pub use threads::Work;
+pub use vertex_output::{VertexAttribute, VertexLayout};
 
 /// Major, minor and patch number of the library that runs, which may be newer than this crate.
 pub fn version() -> (u32, u32, u32) {

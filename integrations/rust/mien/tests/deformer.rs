@@ -3,7 +3,8 @@
 
 use mien::{
     CoordinateSystem, Deformer, DeformerInstance, DeformerInstanceOptions, DeformerOptions, Dna,
-    Instance, Kind, Layers, Normals, OpenOptions, Preset, Rig, Status, Weights,
+    Instance, Kind, Layers, Normals, OpenOptions, Preset, Rig, Status, VertexAttribute,
+    VertexFormat, VertexLayout, Weights,
 };
 
 struct Face {
@@ -28,6 +29,92 @@ fn bits(rows: &[[f32; 3]]) -> Vec<u32> {
 }
 
 /// Positions and normals of a mesh.
+fn bytes_of(words: &mut [u32]) -> &mut [u8] {
+    let count = std::mem::size_of_val(words);
+    unsafe { std::slice::from_raw_parts_mut(words.as_mut_ptr().cast(), count) }
+}
+
+#[test]
+fn vertices_in_a_buffer() {
+    let dna = Dna::generate(Preset::SMALL).unwrap();
+    let rig = Rig::new(&dna).unwrap();
+    let deformer = DeformerOptions::new().with_tangents(true).create(&dna, &rig).unwrap();
+    let mesh = deformer.mesh(0).unwrap();
+    let count = mesh.normals.len();
+    assert_eq!(mesh.tangents.len(), count);
+    let layout = VertexLayout::interleaved(
+        Some(VertexFormat::FLOAT32X3),
+        Some(VertexFormat::SNORM10_10_10_2),
+        Some(VertexFormat::FLOAT32X4),
+    );
+    let (mut instances, mut buffers) = (vec![], vec![]);
+    for _ in 0..2 {
+        instances.push(deformer.instance().unwrap());
+        buffers.push(vec![7u32; count * 8 + 1]);
+    }
+    let bytes = bytes_of(&mut buffers[0]);
+    instances[0].write_vertices(0, Normals::SKINNED, bytes, &layout).unwrap();
+    let positions = instances[0].positions(0).unwrap();
+    for (v, vertex) in buffers[0].chunks_exact(8).enumerate() {
+        let position = positions[mesh.vertex_position_indices[v] as usize];
+        assert_eq!([0, 1, 2].map(|k| f32::from_bits(vertex[k])), position);
+        assert_eq!(f32::from_bits(vertex[7]), mesh.tangents[v][3]);
+    }
+    assert_eq!(*buffers[0].last().unwrap(), 7);
+    let outputs: Vec<_> = buffers.iter_mut().map(|b| (bytes_of(b), layout)).collect();
+    DeformerInstance::write_vertices_batch_on(
+        &mut instances,
+        0,
+        Normals::SKINNED,
+        outputs,
+        |_, work| work(),
+    )
+    .unwrap();
+    assert_eq!(buffers[0], buffers[1]);
+}
+
+#[test]
+fn vertices_that_do_not_fit_are_refused() {
+    let Face { deformer, .. } = face(Preset::TINY);
+    let count = deformer.mesh(0).unwrap().normals.len();
+    let mut instance = deformer.instance().unwrap();
+    let mut buffer = vec![0u32; count * 4];
+    let layout = VertexLayout::interleaved(Some(VertexFormat::FLOAT32X4), None, None);
+    let mut status = |words: usize, change: &dyn Fn(&mut VertexAttribute)| {
+        let mut changed = layout;
+        change(changed.positions.as_mut().unwrap());
+        let bytes = bytes_of(&mut buffer[..words]);
+        match instance.write_vertices(0, Normals::NONE, bytes, &changed) {
+            Ok(()) => Status::OK,
+            Err(error) => error.status(),
+        }
+    };
+    assert_eq!(status(count * 4, &|_| ()), Status::OK);
+    assert_eq!(status(count * 4 - 1, &|_| ()), Status::INVALID_ARGUMENT);
+    assert_eq!(status(0, &|_| ()), Status::INVALID_ARGUMENT);
+    for wrong in [0, 8, 18, usize::MAX - 3] {
+        assert_eq!(status(count * 4, &|a| a.stride = wrong), Status::INVALID_ARGUMENT);
+    }
+    for wrong in [2, 4, count * 16, usize::MAX - 3] {
+        assert_eq!(status(count * 4, &|a| a.offset = wrong), Status::INVALID_ARGUMENT);
+    }
+    let wrong = VertexFormat::SNORM16X4;
+    assert_eq!(status(count * 4, &|a| a.format = wrong), Status::INVALID_ARGUMENT);
+    let bytes = bytes_of(&mut buffer);
+    let none = VertexLayout::default();
+    assert!(instance.write_vertices(0, Normals::NONE, bytes, &none).is_err());
+    let tangents = VertexLayout::interleaved(None, None, layout.positions.map(|p| p.format));
+    assert!(instance.write_vertices(0, Normals::NONE, bytes, &tangents).is_err());
+    let few = DeformerInstance::write_vertices_batch_on(
+        [&mut instance],
+        0,
+        Normals::NONE,
+        [],
+        |_, work| work(),
+    );
+    assert_eq!(few.unwrap_err().status(), Status::INVALID_ARGUMENT);
+}
+
 fn mesh_bits(pose: &DeformerInstance, mesh: usize) -> (Vec<u32>, Vec<u32>) {
     (bits(pose.positions(mesh).unwrap()), bits(pose.normals(mesh).unwrap()))
 }
