@@ -178,9 +178,9 @@ TEST(SyntheticBody, EverythingMovesAtItsLods) {
   }
 }
 
-class Learned : public testing::TestWithParam<uint32_t> {};
+class MachineLearned : public testing::TestWithParam<uint32_t> {};
 
-TEST_P(Learned, HasEveryActivationAndOperation) {
+TEST_P(MachineLearned, HasEveryActivationAndOperation) {
   const Bytes bytes = write_dna(generate_dna(GetParam(), 4, MIEN_GENERATE_ML).get());
   EXPECT_EQ(findings_of(bytes), "");
   const DnaHandle dna = open_dna(bytes);
@@ -199,7 +199,7 @@ TEST_P(Learned, HasEveryActivationAndOperation) {
   EXPECT_EQ(plain->view.defn.joint_names.count, dna->view.defn.joint_names.count);
 }
 
-TEST_P(Learned, JointsFollowAtTheFinerLods) {
+TEST_P(MachineLearned, JointsFollowAtTheFinerLods) {
   const DnaHandle dna = generate_dna(GetParam(), 4, MIEN_GENERATE_ML);
   const RigHandle rig = create_rig(dna.get());
   const dna::MlJoints& joints = dna->view.mlbe.joints;
@@ -220,7 +220,7 @@ TEST_P(Learned, JointsFollowAtTheFinerLods) {
 }
 
 // Masks of all regions at 0: only the biases of the decoders speak.
-TEST_P(Learned, MasksSwitchEncoders) {
+TEST_P(MachineLearned, MasksSwitchEncoders) {
   const DnaHandle dna = generate_dna(GetParam(), 4, MIEN_GENERATE_ML);
   const RigHandle rig = create_rig(dna.get());
   Character on(rig), off(rig), rest(rig);
@@ -239,7 +239,7 @@ std::string preset_name(const testing::TestParamInfo<uint32_t>& info) {
   constexpr const char* kNames[] = {"Tiny", "Small", "Medium", "Large", "Body"};
   return kNames[info.param];
 }
-INSTANTIATE_TEST_SUITE_P(Presets, Learned, testing::Range(0u, 5u), preset_name);
+INSTANTIATE_TEST_SUITE_P(Presets, MachineLearned, testing::Range(0u, 5u), preset_name);
 
 }  // namespace
 }  // namespace mien

@@ -62,7 +62,7 @@ TEST(CapiThreads, InstancesOfOneRigDoNotDisturbEachOther) {
   EXPECT_FALSE(same_bits(span_of(expected[0]), span_of(expected[kFrames]))) << "they all do alike";
 }
 
-TEST(CapiThreads, RigsAreLookedIntoByAll) {
+TEST(CapiThreads, RigsAreReadByAll) {
   const RigHandle rig = small_rig();
   const std::vector<std::string> joints = names_of(rig, MIEN_KIND_JOINT);
   const MienRigInfo info = info_of(rig);
@@ -207,7 +207,7 @@ TEST(CapiThreads, RigIsDestroyedWhileInstancesLive) {
 }
 
 // One deformer, a pose for each thread, and the deformer destroyed under way.
-TEST(CapiThreads, PosesOfOneDeformerDoNotDisturbEachOther) {
+TEST(CapiThreads, InstancesOfOneDeformerDoNotDisturbEachOther) {
   const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 5);
   const RigHandle rig = create_rig(dna.get());
   DeformerHandle deformer = create_deformer(dna.get(), rig.get());
@@ -238,7 +238,7 @@ TEST(CapiThreads, PosesOfOneDeformerDoNotDisturbEachOther) {
 }
 
 // The tasks of one call write to places of their own.
-TEST(CapiThreads, TasksOfADeformationDoNotMeet) {
+TEST(CapiThreads, TasksOfADeformationWriteToSeparatePlaces) {
   DeformRigOptions options;
   options.rows = options.columns = 130;
   options.meshes = 1;
@@ -256,7 +256,7 @@ TEST(CapiThreads, TasksOfADeformationDoNotMeet) {
   }
 }
 
-TEST(CapiThreads, LibraryIsAskedByAll) {
+TEST(CapiThreads, FunctionsWithoutAHandle) {
   on_threads(kThreads, [](int) {
     for (uint32_t isa = MIEN_ISA_BEST; isa <= MIEN_ISA_NEON; ++isa) {
       EXPECT_STRNE(mien_isa_name(isa), "unknown");

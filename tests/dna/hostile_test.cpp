@@ -35,7 +35,7 @@ Bytes many_records(const char* code, Bytes front, size_t record_bytes, uint32_t 
   return dna::file_of(8, layers);
 }
 
-TEST(Memory, ListsOfTheSmallestRecords) {
+TEST(HostileFilesMemory, ListsOfTheSmallestRecords) {
   const struct {
     const char* code;
     size_t front_zeros, record_bytes, back_zeros;
@@ -68,7 +68,7 @@ TEST(Memory, ListsOfTheSmallestRecords) {
 }
 
 // The same within a file that opens, and with LODs to be selected from.
-TEST(Memory, LongListsOfEmptyThings) {
+TEST(HostileFilesMemory, LongListsOfEmptyThings) {
   using dna::DnaView;
   constexpr uint32_t kMany = 60000;
   const struct {
@@ -153,7 +153,7 @@ TEST(Memory, LongListsOfEmptyThings) {
 }
 
 // A rig may not take what the file does not have: a name that many things share is one name.
-TEST(Memory, RegionsOfAMeshWithALongName) {
+TEST(HostileFilesMemory, RegionsOfAMeshWithALongName) {
   Arena arena(default_allocator());
   dna::DnaView view = dna::tiny_rig(arena);
   const std::string name(20000, 'm');
@@ -185,7 +185,7 @@ dna::Array<uint16_t> repeated(Arena& arena, uint32_t count, uint16_t value) {
 }
 
 // Without names of pose controls any control number passes, so the row has to have room for it.
-TEST(Buffers, PosesThatDriveControlsWithoutNames) {
+TEST(HostileFilesBuffers, PosesThatDriveControlsWithoutNames) {
   Arena arena(default_allocator());
   dna::DnaView view = dna::tiny_rig(arena);
   view.rbfe.pose_control_names = {};
@@ -196,7 +196,7 @@ TEST(Buffers, PosesThatDriveControlsWithoutNames) {
   expect_life(dna::written(view), "poses that drive controls without names");
 }
 
-TEST(Buffers, InputsThatNoLayerTakes) {
+TEST(HostileFilesBuffers, InputsThatNoLayerTakes) {
   Arena arena(default_allocator());
   dna::DnaView view = dna::tiny_rig(arena);
   view.mlbe = {};
@@ -206,7 +206,7 @@ TEST(Buffers, InputsThatNoLayerTakes) {
 }
 
 // An operation that gathers nothing, and depends on many that give something.
-TEST(Buffers, DependenciesThatNoLayerTakes) {
+TEST(HostileFilesBuffers, DependenciesThatNoLayerTakes) {
   using dna::MlOperation;
   constexpr uint32_t kMany = 5000;
   Arena arena(default_allocator());
@@ -238,7 +238,7 @@ TEST(Buffers, DependenciesThatNoLayerTakes) {
 }
 
 // Joints that follow ML controls, where nothing computes those.
-TEST(Buffers, JointsWithoutOperations) {
+TEST(HostileFilesBuffers, JointsWithoutOperations) {
   Arena arena(default_allocator());
   dna::DnaView view = dna::tiny_rig(arena);
   view.mlbe.types = {};
@@ -251,7 +251,7 @@ TEST(Buffers, JointsWithoutOperations) {
 // Time -----------------------------------------------------------------------------------------
 
 // Half of the columns stop at LOD 0: putting the others in front of them is no quadratic affair.
-TEST(Time, ColumnsOfAQuaternionJoint) {
+TEST(HostileFilesTime, ColumnsOfAQuaternionJoint) {
   constexpr uint32_t kColumns = 200000;
   Arena arena(default_allocator());
   dna::DnaView view = dna::tiny_rig(arena);

@@ -260,7 +260,7 @@ TEST(GoldenFiles, AllAreTested) {
   EXPECT_EQ(present, tested);
 }
 
-// The measuring stick itself --------------------------------------------------------------------
+// The comparison itself ---------------------------------------------------------------------------
 
 TEST(GoldenFiles, DamagedFilesAreRefused) {
   std::vector<uint8_t> bytes = read_bytes(path_of("tiny_v21", ".golden.bin"));

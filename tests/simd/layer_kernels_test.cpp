@@ -155,7 +155,7 @@ TEST(DenseLayer, HalvesGiveWhatTheirFloatsGive) {
   }
 }
 
-TEST(JointTurns, ProductOfBlends) {
+TEST(QuaternionJointsKernel, ProductOfBlends) {
   Random random = Random::from_seed(12, 1);
   for (uint32_t columns : {0u, 1u, 2u, 17u}) {
     for (uint32_t blocks : {1u, 3u}) {

@@ -214,7 +214,7 @@ Bytes random_file(Random& random, const dna::SpaceRigOptions& options) {
 }
 
 /// A last layer of tanh does not let units through; random rigs end in a linear one.
-TEST(SystemConversion, RandomRigsMoveTheSame) {
+TEST(CoordinateConversion, RandomRigsMoveTheSame) {
   Random random = Random::from_seed(5, 1);
   uint32_t mirrored = 0, permuted = 0;
   for (uint32_t round = 0; round < 300; ++round) {
@@ -238,7 +238,7 @@ TEST(SystemConversion, RandomRigsMoveTheSame) {
 }
 
 // Rotations follow into another order where there are no sums of Euler angles.
-TEST(SystemConversion, QuaternionJointsFollowIntoAnyOrder) {
+TEST(CoordinateConversion, QuaternionJointsFollowIntoAnyOrder) {
   Random random = Random::from_seed(5, 2);
   dna::SpaceRigOptions options;
   options.euler_rows = false;
@@ -257,7 +257,7 @@ TEST(SystemConversion, QuaternionJointsFollowIntoAnyOrder) {
 }
 
 // Column by column: right while one control is 1, and quaternion joints for any.
-TEST(SystemConversion, ColumnsFollowIntoAnyOrder) {
+TEST(CoordinateConversion, ColumnsFollowIntoAnyOrder) {
   Random random = Random::from_seed(5, 3);
   dna::SpaceRigOptions options;
   options.networks = false;
@@ -294,7 +294,7 @@ TEST(SystemConversion, ColumnsFollowIntoAnyOrder) {
   EXPECT_GT(changed, 100u);
 }
 
-TEST(SystemConversion, GeneratedRigsMoveTheSameInEveryNamedSystem) {
+TEST(CoordinateConversion, GeneratedRigsMoveTheSameInEveryNamedSystem) {
   Random random = Random::from_seed(5, 4);
   for (uint32_t preset : {MIEN_PRESET_TINY, MIEN_PRESET_SMALL}) {
     const Bytes bytes = write_dna(generate_dna(preset, 3).get());
@@ -308,7 +308,7 @@ TEST(SystemConversion, GeneratedRigsMoveTheSameInEveryNamedSystem) {
   }
 }
 
-TEST(SystemConversion, AGeneratedBodyMovesTheSame) {
+TEST(CoordinateConversion, AGeneratedBodyMovesTheSame) {
   Random random = Random::from_seed(5, 6);
   const Bytes bytes = write_dna(generate_dna(MIEN_PRESET_BODY, 3, MIEN_GENERATE_ML).get());
   const DnaHandle original = open_dna(bytes);
@@ -324,7 +324,7 @@ TEST(SystemConversion, AGeneratedBodyMovesTheSame) {
 constexpr const char* kGolden[] = {"tiny",      "tiny_v21", "tiny_v24", "small",
                                    "small_rot", "body",     "ml",       "ml_ext"};
 
-TEST(SystemConversion, GoldenRigsMoveTheSame) {
+TEST(CoordinateConversion, GoldenRigsMoveTheSame) {
   Random random = Random::from_seed(5, 5);
   for (const char* file : kGolden) {
     SCOPED_TRACE(file);
@@ -374,7 +374,7 @@ void expect_exact_return(const Bytes& bytes, MienCoordinateSystem system) {
   expect_same_bytes(as_latest(back.get()), as_latest(original.get()));
 }
 
-TEST(SystemConversion, AxesAndSignsReturnExactly) {
+TEST(CoordinateConversion, AxesAndSignsReturnExactly) {
   for (uint32_t preset = MIEN_PRESET_TINY; preset <= MIEN_PRESET_LARGE; ++preset) {
     const Bytes bytes = write_dna(generate_dna(preset, 3).get());
     for (const char* name : {"unreal", "unity", "opengl"}) expect_exact_return(bytes, named(name));
@@ -394,7 +394,7 @@ TEST(SystemConversion, AxesAndSignsReturnExactly) {
   expect_exact_return(write_view(dna::tiny_rig(arena)), named("unreal"));
 }
 
-TEST(SystemConversion, GoldenRigsReturnExactly) {
+TEST(CoordinateConversion, GoldenRigsReturnExactly) {
   for (const char* file : kGolden) {
     SCOPED_TRACE(file);
     const Bytes bytes = golden::read_rig(file);
@@ -430,7 +430,7 @@ void expect_near_return(const Bytes& bytes, const MienCoordinateSystem& system) 
   }
 }
 
-TEST(SystemConversion, UnitsReturnWithinRounding) {
+TEST(CoordinateConversion, UnitsReturnWithinRounding) {
   expect_near_return(write_dna(generate_dna(MIEN_PRESET_SMALL, 3).get()), named("godot"));
   Random random = Random::from_seed(6, 2);
   for (uint32_t round = 0; round < 20; ++round) {
@@ -438,7 +438,7 @@ TEST(SystemConversion, UnitsReturnWithinRounding) {
   }
 }
 
-TEST(SystemConversion, TheOwnSystemChangesNothing) {
+TEST(CoordinateConversion, TheOwnSystemChangesNothing) {
   Random random = Random::from_seed(6, 3);
   for (uint32_t round = 0; round < 20; ++round) {
     const Bytes bytes = random_file(random, {});
@@ -460,7 +460,7 @@ TEST(SystemConversion, TheOwnSystemChangesNothing) {
 
 // What is stated ---------------------------------------------------------------------------------
 
-TEST(SystemConversion, WrittenFilesAreValidAndStateTheSystem) {
+TEST(CoordinateConversion, WrittenFilesAreValidAndStateTheSystem) {
   Random random = Random::from_seed(6, 4);
   for (uint32_t round = 0; round < 30; ++round) {
     const Bytes bytes = random_file(random, {});
@@ -485,7 +485,7 @@ TEST(SystemConversion, WrittenFilesAreValidAndStateTheSystem) {
 }
 
 // 2.1 to 2.6 have no place for rotation sequences, 2.7 none for winding; no more is raised.
-TEST(SystemConversion, TheVersionIsRaisedOnlyIfItHasTo) {
+TEST(CoordinateConversion, TheVersionIsRaisedOnlyIfItHasTo) {
   Arena arena(default_allocator());
   dna::DnaView tiny = dna::tiny_rig(arena);
   tiny.desc.coordinate_system = {0, 2, 4};
@@ -515,7 +515,7 @@ TEST(SystemConversion, TheVersionIsRaisedOnlyIfItHasTo) {
   }
 }
 
-TEST(SystemConversion, NamedSystems) {
+TEST(CoordinateConversion, NamedSystems) {
   const std::vector<const char*> names = all_names();
   EXPECT_EQ(names.size(), kNamedSystemCount);
   const std::set<std::string> left_handed = {"unreal", "unreal-mesh", "unity", "directx"};
@@ -547,7 +547,7 @@ TEST(SystemConversion, NamedSystems) {
 
 // What the engines say of themselves, by the numbers of a point in front of the character, above
 // and to its left.
-TEST(SystemConversion, PointsOfNamedSystems) {
+TEST(CoordinateConversion, PointsOfNamedSystems) {
   Arena arena(default_allocator());
   dna::DnaView tiny = dna::tiny_rig(arena);
   tiny.desc.coordinate_system = {0, 2, 4};  // left, up, front, in centimeters
@@ -577,7 +577,7 @@ TEST(SystemConversion, PointsOfNamedSystems) {
 
 // Geometry ---------------------------------------------------------------------------------------
 
-TEST(SystemConversion, GeometryFollows) {
+TEST(CoordinateConversion, GeometryFollows) {
   Random random = Random::from_seed(6, 5);
   for (uint32_t round = 0; round < 100; ++round) {
     const Bytes bytes = random_file(random, {});
@@ -632,7 +632,7 @@ TEST(SystemConversion, GeometryFollows) {
 // What is refused
 // ----------------------------------------------------------------------------------
 
-class Refused : public testing::Test {
+class ConversionRefused : public testing::Test {
  protected:
   Arena arena{default_allocator()};
   dna::DnaView tiny = dna::tiny_rig(arena);
@@ -646,37 +646,37 @@ class Refused : public testing::Test {
   }
 };
 
-TEST_F(Refused, TheFilesAxesDoNotSpanSpace) {
+TEST_F(ConversionRefused, TheFilesAxesDoNotSpanSpace) {
   tiny.desc.coordinate_system = {0, 1, 4};
   expect(mirrored, "do not span space");
 }
 
-TEST_F(Refused, AControlIsTwoPartsOfARotation) {
+TEST_F(ConversionRefused, AControlIsTwoPartsOfARotation) {
   tiny.twsw.twists[0].input_control_indices = dna::be<uint16_t>(arena, {0, 1, 2, 0});
   expect(mirrored, "is part of two rotations");
 }
 
-TEST_F(Refused, ACorrectiveReadsASign) {
+TEST_F(ConversionRefused, ACorrectiveReadsASign) {
   tiny.bhvr.controls.psds.columns = dna::be<uint16_t>(arena, {0, 5, 0, 6});
   expect(mirrored, "bhvr.controls.psds.columns[");
 }
 
-TEST_F(Refused, AChannelReadsASign) {
+TEST_F(ConversionRefused, AChannelReadsASign) {
   tiny.bhvr.channels.input_indices = dna::be<uint16_t>(arena, {5, 6});
   expect(mirrored, "bhvr.blendShapeChannels.inputIndices[");
 }
 
-TEST_F(Refused, AQuaternionJointIsTurnedByASign) {
+TEST_F(ConversionRefused, AQuaternionJointIsTurnedByASign) {
   tiny.bhvr.joints.groups[1].input_indices = dna::be<uint16_t>(arena, {5, 6, 7});
   expect(mirrored, "bhvr.joints.jointGroups[1].inputIndices[");
 }
 
-TEST_F(Refused, ATwistReadsARotationThatIsComputed) {
+TEST_F(ConversionRefused, ATwistReadsARotationThatIsComputed) {
   tiny.mlbe.joints = {};
   expect(mirrored, "reads a rotation that the rig computes itself");
 }
 
-TEST_F(Refused, AnglesInAnotherOrder) {
+TEST_F(ConversionRefused, AnglesInAnotherOrder) {
   // The jaw turns about one axis only and follows; one more axis, and it does not.
   MienCoordinateSystem reordered = named("maya");
   reordered.rotation_rule = MIEN_ROTATION_RULE_EXACT;
@@ -689,7 +689,7 @@ TEST_F(Refused, AnglesInAnotherOrder) {
   expect(reordered, "keeps only some of its angles at a LOD");
 }
 
-TEST_F(Refused, ATanhHasNoUnit) {
+TEST_F(ConversionRefused, ATanhHasNoUnit) {
   tiny.mlbe.joints.output_indices = dna::be<uint16_t>(arena, {20, 21, 22, 27});  // tx ty tz, sx
   tiny.twsw = {};
   tiny.mlbh.networks[0].layers[1].function_id = 3;
@@ -702,13 +702,13 @@ TEST_F(Refused, ATanhHasNoUnit) {
   EXPECT_TRUE(open_in_system(rectified, meters));
 }
 
-TEST_F(Refused, PartOfAVector) {
+TEST_F(ConversionRefused, PartOfAVector) {
   tiny.mlbe.joints.output_indices = dna::be<uint16_t>(arena, {20, 21, 27, 28});
   tiny.twsw = {};
   expect(named("unreal"), "gets only a part of its translation");
 }
 
-TEST(SystemConversion, WrongArguments) {
+TEST(CoordinateConversion, WrongArguments) {
   Arena arena(default_allocator());
   const Bytes bytes = write_view(dna::tiny_rig(arena));
   const auto expect = [&](MienCoordinateSystem system, MienStatus status) {
@@ -737,7 +737,7 @@ TEST(SystemConversion, WrongArguments) {
 }
 
 // Translations of 1e37 meters have no number in centimeters: the largest there is stands for them.
-TEST(SystemConversion, UnitsSaturate) {
+TEST(CoordinateConversion, UnitsSaturate) {
   Arena arena(default_allocator());
   dna::DnaView tiny = dna::tiny_rig(arena);
   tiny.desc.coordinate_system = {0, 2, 4};
