@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "capi/mien.h"
+#include "runtime/baked/baked_file.h"
 #include "runtime/base/arena.h"
 #include "runtime/base/mapped_file.h"
 #include "runtime/base/status.h"
@@ -21,6 +22,7 @@ constexpr uint32_t kInstanceTag = 0x6D49'4E53;
 constexpr uint32_t kBatchTag = 0x6D42'4154;
 constexpr uint32_t kDeformerTag = 0x6D44'4652;
 constexpr uint32_t kDeformerInstanceTag = 0x6D50'4F53;
+constexpr uint32_t kBakedTag = 0x6D42'414B;
 
 struct MienDna {
   uint32_t tag;
@@ -39,6 +41,10 @@ inline const Instance* object(const MienInstance* handle) {
   return reinterpret_cast<const Instance*>(handle);
 }
 inline Batch* object(MienBatch* handle) { return reinterpret_cast<Batch*>(handle); }
+inline Baked* object(MienBaked* handle) { return reinterpret_cast<Baked*>(handle); }
+inline const Baked* object(const MienBaked* handle) {
+  return reinterpret_cast<const Baked*>(handle);
+}
 inline Deformer* object(MienDeformer* handle) { return reinterpret_cast<Deformer*>(handle); }
 inline const Deformer* object(const MienDeformer* handle) {
   return reinterpret_cast<const Deformer*>(handle);
@@ -62,6 +68,7 @@ inline MienStatus check(const MienReport* report) { return check_tag(report, kRe
 inline MienStatus check(const MienRig* rig) { return check_tag(rig, kRigTag); }
 inline MienStatus check(const MienInstance* instance) { return check_tag(instance, kInstanceTag); }
 inline MienStatus check(const MienBatch* batch) { return check_tag(batch, kBatchTag); }
+inline MienStatus check(const MienBaked* baked) { return check_tag(baked, kBakedTag); }
 inline MienStatus check(const MienDeformer* deformer) { return check_tag(deformer, kDeformerTag); }
 inline MienStatus check(const MienDeformerInstance* instance) {
   return check_tag(instance, kDeformerInstanceTag);

@@ -126,11 +126,12 @@ enum MienStatusCode {
     MIEN_ERROR_DNA_LIMIT = 35,     /* more of something than the format or Mien can number */
     MIEN_ERROR_DNA_LAYER = 36,     /* a layer that the call needs was not loaded or not in the file */
     MIEN_ERROR_DNA_VALUE = 37,     /* a value that has no meaning */
-    MIEN_ERROR_BAKED_SIGNATURE = 50, /* not an image of a rig */
-    MIEN_ERROR_BAKED_VERSION = 51,   /* an image of another version or kind of machine: bake again */
-    MIEN_ERROR_BAKED_TRUNCATED = 52, /* the image ends before what it announces */
+    MIEN_ERROR_BAKED_SIGNATURE = 50, /* not a baked file */
+    MIEN_ERROR_BAKED_VERSION = 51,   /* of another version or kind of machine: bake again */
+    MIEN_ERROR_BAKED_TRUNCATED = 52, /* the file ends before what it announces */
     MIEN_ERROR_BAKED_STRUCTURE = 53, /* sizes, counts or indices contradict each other */
-    MIEN_ERROR_BAKED_CHECKSUM = 54   /* not the bytes that were written */
+    MIEN_ERROR_BAKED_CHECKSUM = 54,  /* not the bytes that were written */
+    MIEN_ERROR_BAKED_PART = 55       /* the file does not hold what was asked of it */
 };
 
 /* "DNA_TRUNCATED" for MIEN_ERROR_DNA_TRUNCATED; "UNKNOWN" for other numbers. Static, terminated. */
@@ -195,6 +196,15 @@ typedef struct MienIndex32View {
     const uint32_t* data;
     size_t count;
 } MienIndex32View;
+
+/* A file that the caller reads: in an archive, over a network. `read` copies `size` bytes from
+ * `offset` on into `buffer` and returns how many it copied: fewer are a failure. It is asked for
+ * bytes within `size`, on the thread of the call that was given the stream, and not after it. */
+typedef struct MienStream {
+    void* user;
+    uint64_t size; /* of the whole file */
+    size_t(MIEN_CALLBACK* read)(void* user, uint64_t offset, void* buffer, size_t size);
+} MienStream;
 
 /* ---- DNA: opening ---------------------------------------------------------------------------- */
 
@@ -660,47 +670,6 @@ MIEN_CHECKED MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* d
 /* Memory is released when the last instance is gone too, so the order of destruction does not
  * matter; a destroyed rig cannot be evaluated any more. */
 MIEN_API void mien_rig_destroy(MienRig* rig);
-
-/* Baked rigs: a rig as it is in memory, to be opened where it lies. An image holds all that was chosen
- * when the rig was created but the instruction set and MienReuse, so that one file serves all machines
- * of a byte order and pointer size. The same rig gives the same bytes. A later version of the library
- * may refuse it with MIEN_ERROR_BAKED_VERSION: keep the DNA. */
-MIEN_CHECKED MienStatus mien_rig_save_file(const MienRig* rig, const char* path, MienError* error);
-
-/* The same to memory. With buffer NULL and capacity 0 only *out_size is set; a capacity that is too
- * small gives MIEN_ERROR_INVALID_ARGUMENT and the size. */
-MIEN_CHECKED MienStatus mien_rig_save_memory(const MienRig* rig, void* buffer, size_t capacity,
-                                         size_t* out_size, MienError* error);
-
-enum MienBakedCheck {
-    MIEN_BAKED_CHECK_SAFE = 0, /* every size, count and index: whatever the bytes are, nothing is read
-                                  or written outside of the rig and its instances. Numbers are not
-                                  looked at, so their pages stay on disk until they are needed. */
-    MIEN_BAKED_CHECK_FULL = 1  /* also that all bytes are those that were written: reads them all */
-};
-
-typedef struct MienBakedDesc {
-    size_t struct_size;
-    uint32_t isa;         /* MIEN_ISA_..., as in MienRigDesc */
-    uint32_t file_access; /* MIEN_FILE_...; of no meaning for memory */
-    uint32_t check;       /* MIEN_BAKED_CHECK_... */
-    uint32_t reuse;       /* MIEN_REUSE_... */
-    const MienAllocator* allocator;
-} MienBakedDesc;
-MIEN_DEFAULT(MienBakedDesc, mien_baked_desc_default)
-
-/* Opens an image, which is mapped and used in place: one allocation for the rig. All processes that
- * open the file share its pages, which are never written to. A mapped file must not be truncated or
- * rewritten in place until the rig and all its instances are gone (replacing it by renaming is safe;
- * MIEN_FILE_READ takes a copy). `path` is UTF-8, `desc` may be NULL. The rig is like one that was
- * created; destroy it with mien_rig_destroy(). */
-MIEN_CHECKED MienStatus mien_rig_open_file(const char* path, const MienBakedDesc* desc,
-                                       MienRig** out_rig, MienError* error);
-
-/* The same from memory, which stays the caller's and has to stay unchanged until the rig and all its
- * instances, batches and deformers are gone. Bytes that are not at a multiple of 64 are copied, once. */
-MIEN_CHECKED MienStatus mien_rig_open_memory(const void* bytes, size_t size, const MienBakedDesc* desc,
-                                         MienRig** out_rig, MienError* error);
 
 MIEN_CHECKED MienStatus mien_rig_info(const MienRig* rig, MienRigInfo* out_info);
 
@@ -1178,6 +1147,105 @@ MIEN_CHECKED MienStatus mien_deformer_instance_write_vertices(MienDeformerInstan
 MIEN_CHECKED MienStatus mien_deformer_instance_write_vertices_batch(
     MienDeformerInstance* const* deformer_instances, size_t count, uint32_t mesh, uint32_t normals,
     const MienVertexOutput* outputs, const MienParallelFor* parallel);
+
+/* ---- Baked files ------------------------------------------------------------------------------- */
+
+/* A rig, and its deformer, as they are in memory: used where they lie, so that a shipped program
+ * needs no DNA files. A baked file holds all that was chosen when its objects were created but the
+ * instruction set and MienReuse; it serves all machines of a byte order. The same objects give the
+ * same bytes. A later version of the library may refuse it with MIEN_ERROR_BAKED_VERSION: keep the
+ * DNA. */
+typedef struct MienBaked MienBaked;
+
+/* Writes a rig and, unless it is NULL, a deformer of this rig (else MIEN_ERROR_MISMATCH). Goes to a
+ * temporary name first, so a failure leaves `path` as it was. */
+MIEN_CHECKED MienStatus mien_bake_file(const MienRig* rig, const MienDeformer* deformer,
+                                   const char* path, MienError* error);
+
+/* The same to memory. With buffer NULL and capacity 0 only *out_size is set; a capacity that is too
+ * small gives MIEN_ERROR_INVALID_ARGUMENT and the size. */
+MIEN_CHECKED MienStatus mien_bake_memory(const MienRig* rig, const MienDeformer* deformer, void* buffer,
+                                     size_t capacity, size_t* out_size, MienError* error);
+
+enum MienBakedCheck {
+    MIEN_BAKED_CHECK_SAFE = 0, /* every size, count and index: whatever the bytes are, nothing is read
+                                  or written outside of the objects and their instances. Numbers are
+                                  not looked at, so their pages stay on disk until they are needed. */
+    MIEN_BAKED_CHECK_FULL = 1  /* also that all bytes are those that were written: reads them all */
+};
+
+typedef struct MienBakedDesc {
+    size_t struct_size;
+    uint32_t file_access; /* MIEN_FILE_...; MIEN_FILE_READ also copies memory */
+    uint32_t check;       /* MIEN_BAKED_CHECK_... */
+    const MienAllocator* allocator;
+} MienBakedDesc;
+MIEN_DEFAULT(MienBakedDesc, mien_baked_desc_default)
+
+/* Opens a baked file. It is mapped; all processes that open it share its pages, which are never
+ * written to. A mapped file must not be truncated or rewritten in place until everything made of it
+ * is gone (replacing it by renaming is safe). Checks the header here, and with
+ * MIEN_BAKED_CHECK_FULL all bytes; the rest when objects are made. `path` is UTF-8, `desc` may be
+ * NULL. One allocation, and one for the bytes if they are not mapped. Close with
+ * mien_baked_close(). */
+MIEN_CHECKED MienStatus mien_baked_open_file(const char* path, const MienBakedDesc* desc,
+                                         MienBaked** out_baked, MienError* error);
+
+/* The same from memory, which stays the caller's and has to stay unchanged until everything made of
+ * it is gone. Bytes that are not at a multiple of 64 are copied; so are all with MIEN_FILE_READ. */
+MIEN_CHECKED MienStatus mien_baked_open_memory(const void* bytes, size_t size, const MienBakedDesc* desc,
+                                           MienBaked** out_baked, MienError* error);
+
+/* The same from a stream, which is read once, into one block. MIEN_ERROR_FILE_READ if it fails. */
+MIEN_CHECKED MienStatus mien_baked_open_stream(const MienStream* stream, const MienBakedDesc* desc,
+                                           MienBaked** out_baked, MienError* error);
+
+/* Memory is released, and the file unmapped, when everything made of it is gone too. */
+MIEN_API void mien_baked_close(MienBaked* baked);
+
+typedef struct MienBakedInfo {
+    size_t struct_size;
+    uint64_t file_bytes;
+    uint64_t memory_bytes;   /* taken from the allocator */
+    uint64_t rig_bytes;      /* of the file; 0 if it has no rig */
+    uint64_t deformer_bytes; /* of the file; 0 if it has no deformer */
+    uint32_t part_count;     /* of the file, with those that this library does not know */
+    uint32_t is_mapped;      /* boolean: the file is mapped */
+} MienBakedInfo;
+MIEN_DEFAULT(MienBakedInfo, mien_baked_info_default)
+
+MIEN_CHECKED MienStatus mien_baked_info(const MienBaked* baked, MienBakedInfo* out_info);
+
+typedef struct MienBakedRigDesc {
+    size_t struct_size;
+    uint32_t isa;   /* MIEN_ISA_..., as in MienRigDesc */
+    uint32_t reuse; /* MIEN_REUSE_... */
+    const MienAllocator* allocator;
+} MienBakedRigDesc;
+MIEN_DEFAULT(MienBakedRigDesc, mien_baked_rig_desc_default)
+
+/* The rig of a baked file, like one that was created; destroy it with mien_rig_destroy(). One
+ * allocation; the bytes of the file stay alive with it. `desc` may be NULL. MIEN_ERROR_BAKED_PART
+ * if the file has no rig, MIEN_ERROR_BAKED_VERSION or MIEN_ERROR_BAKED_STRUCTURE if its rig cannot
+ * be used. */
+MIEN_CHECKED MienStatus mien_rig_from_baked(const MienBaked* baked, const MienBakedRigDesc* desc,
+                                        MienRig** out_rig, MienError* error);
+
+typedef struct MienBakedDeformerDesc {
+    size_t struct_size;
+    uint32_t isa;     /* MIEN_ISA_...; here MIEN_ISA_BEST means that of the rig */
+    uint32_t normals; /* MIEN_NORMALS_...: of calls that leave the choice open;
+                         MIEN_NORMALS_DEFAULT: as when it was baked */
+    const MienAllocator* allocator;
+} MienBakedDeformerDesc;
+MIEN_DEFAULT(MienBakedDeformerDesc, mien_baked_deformer_desc_default)
+
+/* The deformer of a baked file, like one that was created; destroy it with
+ * mien_deformer_destroy(). `rig` was made of the same MienBaked, else MIEN_ERROR_MISMATCH, and stays
+ * alive with the deformer. One allocation. `desc` may be NULL. Errors as above. */
+MIEN_CHECKED MienStatus mien_deformer_from_baked(const MienBaked* baked, const MienRig* rig,
+                                             const MienBakedDeformerDesc* desc,
+                                             MienDeformer** out_deformer, MienError* error);
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Baked rigs. mien.h is the manual.
+// Baked files. mien.h is the manual.
 #include "capi/handles.h"
 #include "runtime/baked/baked_objects.h"
 
@@ -7,46 +7,58 @@ using namespace mien;
 using namespace mien::capi;
 
 static_assert(MIEN_ERROR_BAKED_SIGNATURE == int(Status::kBakedSignature) &&
-                  MIEN_ERROR_BAKED_CHECKSUM == int(Status::kBakedChecksum),
+                  MIEN_ERROR_BAKED_PART == int(Status::kBakedPart),
               "status.h and mien.h number the same statuses");
 static_assert(MIEN_BAKED_CHECK_FULL == int(BakedCheck::kFull),
               "baked_file.h and mien.h number the same checks");
 
-// Saving ------------------------------------------------------------------------------------------
+// Baking ------------------------------------------------------------------------------------------
 
-MienStatus mien_rig_save_file(const MienRig* handle, const char* path, MienError* error) {
+namespace {
+
+MienStatus check_objects(const MienRig* rig, const MienDeformer* deformer, MienError* error) {
+  if (MienStatus status = check(rig)) return give_error(error, status, "not a rig");
+  if (!deformer) return MIEN_OK;
+  if (MienStatus status = check(deformer)) return give_error(error, status, "not a deformer");
+  if (object(deformer)->rig == object(rig)) return MIEN_OK;
+  return give_error(error, MIEN_ERROR_MISMATCH, "the deformer was made for another rig");
+}
+
+}  // namespace
+
+MienStatus mien_bake_file(const MienRig* rig, const MienDeformer* deformer, const char* path,
+                          MienError* error) {
   if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
   if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
-  if (MienStatus status = check(handle)) return give_error(error, status, "not a rig");
-  const Rig& rig = *object(handle);
-  const size_t size = baked_size(rig, nullptr);
-  uint8_t* bytes = static_cast<uint8_t*>(rig.allocator.get(size, kBlockAlignment));
+  if (MienStatus status = check_objects(rig, deformer, error)) return status;
+  const Allocator& allocator = object(rig)->allocator;
+  const size_t size = baked_size(*object(rig), deformer ? object(deformer) : nullptr);
+  uint8_t* bytes = static_cast<uint8_t*>(allocator.get(size, kBlockAlignment));
   if (!bytes) {
-    return give_error(error, MIEN_ERROR_MEMORY, "no memory for an image of %zu bytes", size);
+    return give_error(error, MIEN_ERROR_MEMORY, "no memory for a file of %zu bytes", size);
   }
-  bake(rig, nullptr, bytes);
+  bake(*object(rig), deformer ? object(deformer) : nullptr, bytes);
   Error detail;
-  const Status status = write_file(path, bytes, size, rig.allocator, detail);
-  rig.allocator.put(bytes, size, kBlockAlignment);
+  const Status status = write_file(path, bytes, size, allocator, detail);
+  allocator.put(bytes, size, kBlockAlignment);
   return status == Status::kOk ? succeed(error) : give_error(detail, error);
 }
 
-MienStatus mien_rig_save_memory(const MienRig* handle, void* buffer, size_t capacity,
-                                size_t* out_size, MienError* error) {
+MienStatus mien_bake_memory(const MienRig* rig, const MienDeformer* deformer, void* buffer,
+                            size_t capacity, size_t* out_size, MienError* error) {
   if (MienStatus status = clear_output(out_size, error)) return status;
   if (!buffer && capacity != 0) {
     return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "buffer is NULL");
   }
-  if (MienStatus status = check(handle)) return give_error(error, status, "not a rig");
-  const Rig& rig = *object(handle);
-  const size_t size = baked_size(rig, nullptr);
+  if (MienStatus status = check_objects(rig, deformer, error)) return status;
+  const size_t size = baked_size(*object(rig), deformer ? object(deformer) : nullptr);
   *out_size = size;
   if (!buffer) return succeed(error);
   if (capacity < size) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "the image takes %zu bytes, the buffer has %zu", size, capacity);
+                      "the file takes %zu bytes, the buffer has %zu", size, capacity);
   }
-  bake(rig, nullptr, static_cast<uint8_t*>(buffer));
+  bake(*object(rig), deformer ? object(deformer) : nullptr, static_cast<uint8_t*>(buffer));
   return succeed(error);
 }
 
@@ -54,99 +66,204 @@ MienStatus mien_rig_save_memory(const MienRig* handle, void* buffer, size_t capa
 
 namespace {
 
-struct OpenArguments {
-  MienBakedDesc desc;
-  Allocator allocator;
-  const KernelTable* kernels = nullptr;
-};
+MienStatus read_baked_desc(const MienBakedDesc* desc, MienBakedDesc& known, Allocator& allocator,
+                           MienError* error) {
+  if (MienStatus status = read_desc(desc, known, "MienBakedDesc", error)) return status;
+  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
+  if (known.file_access > MIEN_FILE_READ || known.check > MIEN_BAKED_CHECK_FULL) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienBakedDesc.file_access or .check is none of its values");
+  }
+  return MIEN_OK;
+}
 
-/// Takes over `file`, which is empty if the bytes belong to the caller.
-MienStatus open_baked(const void* bytes, size_t size, MappedFile& file,
-                      const OpenArguments& arguments, MienRig** out_rig, MienError* error) {
-  const size_t block_size = align_up(sizeof(Baked), kBlockAlignment);
-  void* block = arguments.allocator.get(block_size, kBlockAlignment);
+/// A Baked with room for a copy of `copied` bytes after it, in one block; `data` points there.
+MienStatus new_baked(const Allocator& allocator, uint32_t check, uint64_t copied, Baked*& out,
+                     MienError* error) {
+  const size_t head = align_up(sizeof(Baked), kBlockAlignment);
+  void* block = copied > SIZE_MAX - head
+                    ? nullptr
+                    : allocator.get(head + static_cast<size_t>(copied), kBlockAlignment);
   if (!block) {
-    if (file.bytes) close_file(file);
-    return give_error(error, MIEN_ERROR_MEMORY, "no memory for a baked file");
+    return give_error(error, MIEN_ERROR_MEMORY, "no memory for a baked file of %llu bytes",
+                      static_cast<unsigned long long>(copied));
   }
-  Baked* baked = new (block) Baked;
-  baked->bytes.allocator = arguments.allocator;
-  baked->bytes.block_size = block_size;
-  baked->bytes.file = file;
-  baked->bytes.data = static_cast<const uint8_t*>(bytes);
-  baked->bytes.size = size;
-  baked->check = static_cast<BakedCheck>(arguments.desc.check);
+  out = new (block) Baked;
+  out->bytes.allocator = allocator;
+  out->bytes.block_size = head + static_cast<size_t>(copied);
+  out->bytes.data = static_cast<uint8_t*>(block) + head;
+  out->bytes.size = static_cast<size_t>(copied);
+  out->check = static_cast<BakedCheck>(check);
+  return MIEN_OK;
+}
+
+/// Checks the bytes and hands `baked` out, or releases it.
+MienStatus finish_open(Baked* baked, MienBaked** out_baked, MienError* error) {
   Error detail;
+  if (read_baked(*baked, detail) != Status::kOk) {
+    release_bytes(&baked->bytes);
+    return give_error(detail, error);
+  }
+  baked->bytes.tag = kBakedTag;
+  *out_baked = reinterpret_cast<MienBaked*>(baked);
+  return succeed(error);
+}
+
+}  // namespace
+
+MienStatus mien_baked_open_file(const char* path, const MienBakedDesc* desc, MienBaked** out_baked,
+                                MienError* error) {
+  if (MienStatus status = clear_output(out_baked, error)) return status;
+  if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
+  MienBakedDesc known;
+  Allocator allocator;
+  if (MienStatus status = read_baked_desc(desc, known, allocator, error)) return status;
+  Baked* baked = nullptr;
+  if (MienStatus status = new_baked(allocator, known.check, 0, baked, error)) return status;
+  Error detail;
+  if (open_file(path, static_cast<FileAccess>(known.file_access), allocator, baked->bytes.file,
+                detail) != Status::kOk) {
+    release_bytes(&baked->bytes);
+    return give_error(detail, error);
+  }
+  baked->bytes.data = baked->bytes.file.bytes;
+  baked->bytes.size = baked->bytes.file.size;
+  return finish_open(baked, out_baked, error);
+}
+
+MienStatus mien_baked_open_memory(const void* bytes, size_t size, const MienBakedDesc* desc,
+                                  MienBaked** out_baked, MienError* error) {
+  if (MienStatus status = clear_output(out_baked, error)) return status;
+  if (!bytes && size != 0) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "bytes is NULL");
+  MienBakedDesc known;
+  Allocator allocator;
+  if (MienStatus status = read_baked_desc(desc, known, allocator, error)) return status;
+  const bool aligned = reinterpret_cast<uintptr_t>(bytes) % kBlockAlignment == 0;
+  const size_t copied = aligned && known.file_access == MIEN_FILE_MAP ? 0 : size;
+  Baked* baked = nullptr;
+  if (MienStatus status = new_baked(allocator, known.check, copied, baked, error)) return status;
+  if (copied != 0) {
+    memcpy(const_cast<uint8_t*>(baked->bytes.data), bytes, copied);
+  } else {
+    baked->bytes.data = static_cast<const uint8_t*>(bytes);
+    baked->bytes.size = size;
+  }
+  return finish_open(baked, out_baked, error);
+}
+
+MienStatus mien_baked_open_stream(const MienStream* stream, const MienBakedDesc* desc,
+                                  MienBaked** out_baked, MienError* error) {
+  if (MienStatus status = clear_output(out_baked, error)) return status;
+  if (!stream || !stream->read) {
+    return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "stream or stream->read is NULL");
+  }
+  MienBakedDesc known;
+  Allocator allocator;
+  if (MienStatus status = read_baked_desc(desc, known, allocator, error)) return status;
+  Baked* baked = nullptr;
+  if (MienStatus status = new_baked(allocator, known.check, stream->size, baked, error)) {
+    return status;
+  }
+  const size_t size = baked->bytes.size;
+  if (size != 0 &&
+      stream->read(stream->user, 0, const_cast<uint8_t*>(baked->bytes.data), size) != size) {
+    release_bytes(&baked->bytes);
+    return give_error(error, MIEN_ERROR_FILE_READ, "the stream did not give its %zu bytes", size);
+  }
+  return finish_open(baked, out_baked, error);
+}
+
+void mien_baked_close(MienBaked* baked) {
+  if (check(baked) != MIEN_OK) return;
+  object(baked)->bytes.tag = 0;
+  release_bytes(&object(baked)->bytes);
+}
+
+MienStatus mien_baked_info(const MienBaked* handle, MienBakedInfo* out_info) {
+  if (MienStatus status = clear_struct(out_info)) return status;
+  if (MienStatus status = check(handle)) return status;
+  const Baked& baked = *object(handle);
+  MienBakedInfo info = {};
+  info.file_bytes = baked.bytes.size;
+  info.memory_bytes = baked.bytes.block_size + baked.bytes.file.capacity;
+  info.rig_bytes = baked.rig ? baked.rig->size : 0;
+  info.deformer_bytes = baked.deformer ? baked.deformer->size : 0;
+  info.part_count = reinterpret_cast<const BakedHeader*>(baked.bytes.data)->part_count;
+  info.is_mapped = baked.bytes.file.mapped;
+  write_struct(out_info, info);
+  return MIEN_OK;
+}
+
+// Objects -----------------------------------------------------------------------------------------
+
+namespace {
+
+MienStatus no_part(const char* what, MienError* error) {
+  return give_error(error, MIEN_ERROR_BAKED_PART,
+                    "the baked file has no %s; bake it again, with one", what);
+}
+
+}  // namespace
+
+MienStatus mien_rig_from_baked(const MienBaked* baked, const MienBakedRigDesc* desc,
+                               MienRig** out_rig, MienError* error) {
+  if (MienStatus status = clear_output(out_rig, error)) return status;
+  if (MienStatus status = check(baked)) return give_error(error, status, "not a baked file");
+  MienBakedRigDesc known;
+  if (MienStatus status = read_desc(desc, known, "MienBakedRigDesc", error)) return status;
+  Allocator allocator;
+  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
+  if (known.reuse > MIEN_REUSE_NOTHING) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienBakedRigDesc.reuse is none of its values");
+  }
+  const KernelTable* kernels = nullptr;
+  if (MienStatus status = find_kernels(known.isa, kernels, error)) return status;
+  if (!object(baked)->rig) return no_part("rig", error);
   Rig* rig = nullptr;
-  Status status = read_baked(*baked, detail);
-  if (status == Status::kOk && !baked->rig) {
-    status = fail(detail, Status::kBakedStructure, kNoOffset, "the baked file has no rig");
+  Error detail;
+  if (open_baked_rig(*object(baked), kernels, allocator, rig, detail) != Status::kOk) {
+    return give_error(detail, error);
   }
-  if (status == Status::kOk) {
-    status = open_baked_rig(*baked, arguments.kernels, arguments.allocator, rig, detail);
-  }
-  release_bytes(&baked->bytes);
-  if (status != Status::kOk) return give_error(detail, error);
-  rig->always_evaluate = arguments.desc.reuse == MIEN_REUSE_NOTHING;
+  rig->always_evaluate = known.reuse == MIEN_REUSE_NOTHING;
   rig->instance_size = instance_size(*rig);
   rig->tag = kRigTag;
   *out_rig = reinterpret_cast<MienRig*>(rig);
   return succeed(error);
 }
 
-MienStatus read_open_arguments(const MienBakedDesc* desc, OpenArguments& out, MienError* error) {
-  if (MienStatus status = read_desc(desc, out.desc, "MienBakedDesc", error)) return status;
-  if (MienStatus status = read_allocator(out.desc.allocator, out.allocator, error)) return status;
-  if (out.desc.file_access > MIEN_FILE_READ || out.desc.check > MIEN_BAKED_CHECK_FULL ||
-      out.desc.reuse > MIEN_REUSE_NOTHING) {
+MienStatus mien_deformer_from_baked(const MienBaked* baked, const MienRig* rig,
+                                    const MienBakedDeformerDesc* desc, MienDeformer** out_deformer,
+                                    MienError* error) {
+  if (MienStatus status = clear_output(out_deformer, error)) return status;
+  if (MienStatus status = check(baked)) return give_error(error, status, "not a baked file");
+  if (MienStatus status = check(rig)) return give_error(error, status, "not a rig");
+  MienBakedDeformerDesc known;
+  if (MienStatus status = read_desc(desc, known, "MienBakedDeformerDesc", error)) return status;
+  Allocator allocator;
+  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
+  if (known.normals > MIEN_NORMALS_RECOMPUTED) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienBakedDesc.file_access, .check or .reuse is none of its values");
+                      "MienBakedDeformerDesc.normals is none of its values");
   }
-  return find_kernels(out.desc.isa, out.kernels, error);
-}
-
-/// Memory whose beginning is no place for vectors.
-MienStatus copy_image(const void* bytes, size_t size, const Allocator& allocator, MappedFile& file,
-                      MienError* error) {
-  uint8_t* copy = static_cast<uint8_t*>(allocator.get(size, kBlockAlignment));
-  if (!copy) {
-    return give_error(error, MIEN_ERROR_MEMORY, "no memory for an image of %zu bytes", size);
+  const KernelTable* kernels = object(rig)->kernels;
+  if (known.isa != MIEN_ISA_BEST) {
+    if (MienStatus status = find_kernels(known.isa, kernels, error)) return status;
   }
-  memcpy(copy, bytes, size);
-  file.bytes = copy;
-  file.size = file.capacity = size;
-  file.allocator = allocator;
-  return MIEN_OK;
-}
-
-}  // namespace
-
-MienStatus mien_rig_open_file(const char* path, const MienBakedDesc* desc, MienRig** out_rig,
-                              MienError* error) {
-  if (MienStatus status = clear_output(out_rig, error)) return status;
-  if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
-  OpenArguments arguments;
-  if (MienStatus status = read_open_arguments(desc, arguments, error)) return status;
-  MappedFile file;
+  if (object(rig)->bytes != &object(baked)->bytes) {
+    return give_error(error, MIEN_ERROR_MISMATCH, "the rig is not the one of this baked file");
+  }
+  if (!object(baked)->deformer) return no_part("deformer", error);
+  Deformer* deformer = nullptr;
   Error detail;
-  const Status status = open_file(path, static_cast<FileAccess>(arguments.desc.file_access),
-                                  arguments.allocator, file, detail);
-  if (status != Status::kOk) return give_error(detail, error);
-  return open_baked(file.bytes, file.size, file, arguments, out_rig, error);
-}
-
-MienStatus mien_rig_open_memory(const void* bytes, size_t size, const MienBakedDesc* desc,
-                                MienRig** out_rig, MienError* error) {
-  if (MienStatus status = clear_output(out_rig, error)) return status;
-  if (!bytes && size != 0) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "bytes is NULL");
-  OpenArguments arguments;
-  if (MienStatus status = read_open_arguments(desc, arguments, error)) return status;
-  MappedFile file;
-  if (size != 0 && reinterpret_cast<uintptr_t>(bytes) % kBlockAlignment != 0) {
-    if (MienStatus status = copy_image(bytes, size, arguments.allocator, file, error)) {
-      return status;
-    }
-    bytes = file.bytes;
+  if (open_baked_deformer(*object(baked), *object(rig), kernels, allocator, deformer, detail) !=
+      Status::kOk) {
+    return give_error(detail, error);
   }
-  return open_baked(bytes, size, file, arguments, out_rig, error);
+  if (known.normals != MIEN_NORMALS_DEFAULT) {
+    deformer->normals = static_cast<Normals>(known.normals);
+  }
+  deformer->tag = kDeformerTag;
+  *out_deformer = reinterpret_cast<MienDeformer*>(deformer);
+  return succeed(error);
 }

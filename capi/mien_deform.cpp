@@ -123,7 +123,7 @@ MienStatus mien_deformer_info(const MienDeformer* handle, MienDeformerInfo* out_
   info.joint_count = deformer.skeleton.joint_count;
   info.channel_count = deformer.rig->channel_count;
   info.mesh_count = static_cast<uint32_t>(deformer.meshes.count);
-  info.deformer_bytes = deformer.block_size;
+  info.deformer_bytes = deformer.block_size + deformer.baked_size;
   info.instance_bytes = deformer_instance_size(deformer, 0);
   write_struct(out_info, info);
   return MIEN_OK;

@@ -24,7 +24,7 @@ void visit(AnyDeformer& deformer, Visitor& visitor) {
   arrays(skeleton.order);
   for (auto& mesh : deformer.meshes) {
     numbers(mesh.position_count, mesh.vertex_count, mesh.triangle_count, mesh.max_influences,
-            mesh.target_count, mesh.delta_count, mesh.lods);
+            mesh.target_count, mesh.delta_count);
     arrays(mesh.vertex_position_indices, mesh.triangles, mesh.target_channels,
            mesh.position_indices, mesh.sorted_indices, mesh.skin_runs, mesh.joints,
            mesh.first_target_run, mesh.target_runs, mesh.delta_indices, mesh.faces,
@@ -94,6 +94,7 @@ Status open_baked_deformer(const Baked& baked, const Rig& rig, const KernelTable
     release_deformer(deformer);
     return status;
   }
+  mark_mesh_lods(rig, deformer->meshes);
   deformer->baked_size = static_cast<size_t>(baked.deformer->size);
   deformer->kernels = skeleton.kernels = kernels;
   out = deformer;

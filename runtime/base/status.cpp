@@ -35,6 +35,7 @@ const char* status_name(Status status) {
     case Status::kBakedTruncated: return "BAKED_TRUNCATED";
     case Status::kBakedStructure: return "BAKED_STRUCTURE";
     case Status::kBakedChecksum: return "BAKED_CHECKSUM";
+    case Status::kBakedPart: return "BAKED_PART";
   }
   return "UNKNOWN";
 }

@@ -48,6 +48,7 @@ enum class Status : int32_t {
   kBakedTruncated = 52,
   kBakedStructure = 53,
   kBakedChecksum = 54,
+  kBakedPart = 55,
 };
 
 /// Name of a status as in mien.h, without its prefix ("DNA_TRUNCATED").

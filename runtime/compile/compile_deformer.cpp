@@ -7,7 +7,6 @@
 namespace mien {
 namespace {
 
-using dna::Array;
 using dna::DnaView;
 using dna::Mesh;
 
@@ -57,13 +56,6 @@ void place_mesh(const Mesh& source, const MeshPlan& plan, bool tangents, Placer&
 }
 
 Status fill_mesh(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh) {
-  const DnaView& view = source.view;
-  for (uint32_t l = 0; l < view.desc.lod_count; ++l) {
-    const Array<uint16_t> row = view.defn.lod_meshes.at(l);
-    for (uint32_t i = 0; i < row.count; ++i) {
-      if (row[i] == source.index) mesh.lods |= uint64_t{1} << l;
-    }
-  }
   fill_skin(source, plan, mesh);
   const Status status = fill_targets(source, mesh);
   return status == Status::kOk ? fill_surface(source, mesh) : status;
@@ -127,6 +119,7 @@ Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions
   deformer->skeleton = placed.skeleton;
   deformer->meshes = placed.meshes;
   rig.owners.fetch_add(1, std::memory_order_relaxed);
+  mark_mesh_lods(rig, deformer->meshes);
 
   status = fill_skeleton(rig, options.kernels, options.compose, scratch, deformer->skeleton, error);
   for (uint32_t m = 0; m < rig.mesh_count && status == Status::kOk; ++m) {

@@ -5,6 +5,12 @@
 
 namespace mien {
 
+void mark_mesh_lods(const Rig& rig, const Span<DeformMesh>& meshes) {
+  for (uint32_t l = 0; l < rig.lod_count; ++l) {
+    for (const uint16_t mesh : rig.lod_meshes.at(l)) meshes[mesh].lods |= uint64_t{1} << l;
+  }
+}
+
 const SkinRun* skin_run_of(const DeformMesh& mesh, uint32_t sorted_index) {
   const auto starts_after = [](uint32_t index, const SkinRun& run) { return index < run.first; };
   return std::upper_bound(mesh.skin_runs.begin(), mesh.skin_runs.end(), sorted_index,

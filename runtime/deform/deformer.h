@@ -94,6 +94,9 @@ struct Deformer {
   Span<DeformMesh> meshes;
 };
 
+/// Tells the meshes, which are those of the rig, by which LODs they are shown.
+void mark_mesh_lods(const Rig& rig, const Span<DeformMesh>& meshes);
+
 /// The run that contains a sorted index.
 const SkinRun* skin_run_of(const DeformMesh& mesh, uint32_t sorted_index);
 

@@ -1,65 +1,34 @@
 // SPDX-License-Identifier: MIT
-// Baked rigs: what is opened is what was saved, and whatever else is opened does no harm.
+// Baked rigs: what is opened is what was baked, and whatever else is opened does no harm.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cstdio>
-#include <cstdlib>
-
-#include "runtime/baked/baked_objects.h"
-#include "tests/support/exercise_baked.h"
+#include "tests/support/baked_bytes.h"
 #include "tests/support/many_rigs.h"
-#include "tests/support/misuse.h"
 
 namespace mien {
 namespace {
 
-Bytes save(const MienRig* rig) {
-  size_t size = 0;
-  EXPECT_EQ(mien_rig_save_memory(rig, nullptr, 0, &size, nullptr), MIEN_OK);
-  Bytes bytes(size);
-  EXPECT_EQ(mien_rig_save_memory(rig, bytes.data(), size, &size, nullptr), MIEN_OK);
-  return bytes;
+using Bytes = std::vector<uint8_t>;
+
+/// A rig that keeps the file alive.
+RigHandle open_rig(const AlignedBytes& bytes, uint32_t isa = MIEN_ISA_BEST) {
+  return rig_of(open_baked(bytes), isa);
 }
 
-MienBakedDesc image_desc(uint32_t isa = MIEN_ISA_ENVIRONMENT,
-                         uint32_t check = MIEN_BAKED_CHECK_FULL) {
-  MienBakedDesc desc = sized<MienBakedDesc>();
-  desc.isa = isa;
-  desc.check = check;
-  return desc;
+/// With networks.
+Bytes ml_baked() {
+  return bake(create_rig(generate_dna(MIEN_PRESET_TINY, 1, MIEN_GENERATE_ML).get()).get());
 }
 
-RigHandle open_image(const AlignedBytes& bytes, const MienBakedDesc& desc = image_desc(),
-                     MienStatus expected = MIEN_OK) {
-  MienError error = sized<MienError>();
-  MienRig* rig = nullptr;
-  EXPECT_EQ(mien_rig_open_memory(bytes.data(), bytes.size(), &desc, &rig, &error), expected)
-      << error.message;
-  return RigHandle(rig);
-}
-
-RigHandle tiny() {
-  Arena arena(default_allocator());
-  const Bytes bytes = write_view(dna::tiny_rig(arena));
-  return create_rig(open_dna(bytes).get());
-}
-
-// The tiny rig, with every layer, and networks.
-Bytes tiny_image() { return save(tiny().get()); }
-Bytes ml_image() {
-  return save(create_rig(generate_dna(MIEN_PRESET_TINY, 1, MIEN_GENERATE_ML).get()).get());
-}
-
-// What is opened is what was saved ---------------------------------------------------------------
+// What is opened is what was baked ---------------------------------------------------------------
 
 void expect_same(const MienDna* dna, const MienRigDesc& desc) {
   RigHandle rig = create_rig(dna, desc);
-  const Bytes bytes = save(rig.get());
-  const AlignedBytes image(bytes);
-  RigHandle opened = open_image(image, image_desc(desc.isa));
+  const Bytes bytes = bake(rig.get());
+  const AlignedBytes file(bytes);
+  RigHandle opened = open_rig(file, desc.isa);
   ASSERT_TRUE(opened);
-  EXPECT_TRUE(save(opened.get()) == bytes) << "saved again, but with other bytes";
+  EXPECT_TRUE(bake(opened.get()) == bytes) << "baked again, but with other bytes";
 
   MienRigInfo info = info_of(rig), again = info_of(opened);
   EXPECT_EQ(info.instance_bytes, again.instance_bytes);
@@ -94,7 +63,7 @@ void expect_same(const MienDna* dna, const MienRigDesc& desc) {
   }
 }
 
-TEST(RigImage, EvaluatesAsTheRigThatWasSaved) {
+TEST(BakedRig, EvaluatesAsTheRigThatWasBaked) {
   for_each_dna(8, [](const DnaHandle& dna) {
     for_each_rig_desc([&](MienRigDesc desc) {
       for (uint32_t masks : {MIEN_ML_MASKS_SWITCH, MIEN_ML_MASKS_BLEND}) {
@@ -106,7 +75,7 @@ TEST(RigImage, EvaluatesAsTheRigThatWasSaved) {
   });
 }
 
-TEST(RigImage, NetworksBodiesAndOtherSystems) {
+TEST(BakedRig, NetworksBodiesAndOtherSystems) {
   const DnaHandle rigs[] = {generate_dna(MIEN_PRESET_TINY, 1, MIEN_GENERATE_ML),
                             generate_dna(MIEN_PRESET_BODY, 1, MIEN_GENERATE_ML),
                             generate_dna(MIEN_PRESET_HEAD, 0), generate_dna(MIEN_PRESET_LARGE, 2)};
@@ -124,247 +93,45 @@ TEST(RigImage, NetworksBodiesAndOtherSystems) {
   desc.system = &system;
   MienDna* dna = nullptr;
   ASSERT_EQ(mien_dna_open_memory(bytes.data(), bytes.size(), &desc, &dna, nullptr), MIEN_OK);
-  const DnaHandle turned(dna);
-  expect_same(turned.get(), sized<MienRigDesc>());
+  const DnaHandle converted(dna);
+  expect_same(converted.get(), sized<MienRigDesc>());
 }
 
-TEST(RigImage, DoesNotDependOnTheInstructionSet) {
+TEST(BakedRig, DoesNotDependOnTheInstructionSet) {
   const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 3);
-  const Bytes expected = save(create_rig(dna.get()).get());
+  const Bytes expected = bake(create_rig(dna.get()).get());
   for (uint32_t isa : present_isas()) {
-    EXPECT_TRUE(save(create_rig(dna.get(), isa).get()) == expected) << mien_isa_name(isa);
+    EXPECT_TRUE(bake(create_rig(dna.get(), isa).get()) == expected) << mien_isa_name(isa);
   }
 }
 
-TEST(RigImage, CannotBeTurnedOffByReuse) {
-  const AlignedBytes image(tiny_image());
-  MienBakedDesc desc = image_desc();
+TEST(BakedRig, ReuseIsChosenWhenItIsOpened) {
+  const AlignedBytes file(tiny_baked());
+  MienBakedRigDesc desc = sized<MienBakedRigDesc>();
   desc.reuse = MIEN_REUSE_NOTHING;
-  const RigHandle rig = open_image(image, desc);
-  EXPECT_TRUE(reinterpret_cast<const Rig*>(rig.get())->always_evaluate);
-  EXPECT_TRUE(save(rig.get()) == tiny_image());
-}
-
-// Files
-// --------------------------------------------------------------------------------------------
-
-struct TemporaryFile {
-  std::string path = testing::TempDir() + "baked_rig_test_" + std::to_string(getpid());
-  ~TemporaryFile() { remove(path.c_str()); }
-};
-
-TEST(RigImage, FilesAreMappedOrReadWithFewAllocations) {
-  const TemporaryFile file;
-  const RigHandle rig = tiny();
-  MienError error = sized<MienError>();
-  ASSERT_EQ(mien_rig_save_file(rig.get(), file.path.c_str(), &error), MIEN_OK) << error.message;
-  for (uint32_t access : {MIEN_FILE_MAP, MIEN_FILE_READ}) {
-    CountingAllocator counter;
-    const MienAllocator allocator = counter.get();
-    MienBakedDesc desc = image_desc();
-    desc.file_access = access;
-    desc.allocator = &allocator;
-    MienRig* opened = nullptr;
-    ASSERT_EQ(mien_rig_open_file(file.path.c_str(), &desc, &opened, &error), MIEN_OK)
-        << error.message;
-    EXPECT_EQ(counter.requests, access == MIEN_FILE_MAP ? 2u : 3u);
-    EXPECT_TRUE(save(opened) == save(rig.get()));
-    MienInstance* instance = nullptr;
-    ASSERT_EQ(mien_instance_create(opened, nullptr, &instance, nullptr), MIEN_OK);
-    mien_rig_destroy(opened);
-    EXPECT_NE(counter.live, 0u) << "the instance needs the rig";
-    mien_instance_destroy(instance);
-    EXPECT_TRUE(counter.clean()) << counter.first_wrong;
-  }
-  MienRig* none = nullptr;
-  EXPECT_EQ(mien_rig_open_file("/nonexistent/rig", nullptr, &none, &error), MIEN_ERROR_FILE_OPEN);
-  EXPECT_EQ(mien_rig_save_file(rig.get(), "/nonexistent/rig", &error), MIEN_ERROR_FILE_WRITE);
-}
-
-TEST(RigImage, MemoryThatIsNotAlignedIsCopied) {
-  const Bytes bytes = tiny_image();
-  Bytes shifted(bytes.size() + 128);
-  const size_t off = 64 - reinterpret_cast<uintptr_t>(shifted.data()) % 64 + 1;
-  std::copy(bytes.begin(), bytes.end(), shifted.begin() + static_cast<ptrdiff_t>(off));
   MienRig* rig = nullptr;
-  ASSERT_EQ(mien_rig_open_memory(shifted.data() + off, bytes.size(), nullptr, &rig, nullptr),
-            MIEN_OK);
+  ASSERT_EQ(mien_rig_from_baked(open_baked(file).get(), &desc, &rig, nullptr), MIEN_OK);
   const RigHandle opened(rig);
-  std::fill(shifted.begin(), shifted.end(), uint8_t{0xA5});
-  EXPECT_TRUE(save(rig) == bytes);
+  EXPECT_TRUE(reinterpret_cast<const Rig*>(rig)->always_evaluate);
+  EXPECT_TRUE(bake(rig) == tiny_baked());
 }
 
-TEST(RigImage, EveryFailureOfMemoryIsSurvived) {
-  const TemporaryFile file;
-  const Bytes bytes = tiny_image();
-  const RigHandle rig = tiny();
-  ASSERT_EQ(mien_rig_save_file(rig.get(), file.path.c_str(), nullptr), MIEN_OK);
-  Bytes shifted(bytes.size() + 64);
-  const size_t off = 64 - reinterpret_cast<uintptr_t>(shifted.data()) % 64 + 1;
-  shifted.resize(bytes.size() + off);
-  std::copy(bytes.begin(), bytes.end(), shifted.begin() + static_cast<ptrdiff_t>(off));
-  for (bool from_file : {true, false}) {
-    for (size_t k = 1; k <= 3; ++k) {
-      CountingAllocator counter;
-      counter.fail_at = k;
-      const MienAllocator allocator = counter.get();
-      MienBakedDesc desc = image_desc();
-      desc.file_access = MIEN_FILE_READ;
-      desc.allocator = &allocator;
-      MienError error = sized<MienError>();
-      MienRig* opened = nullptr;
-      const MienStatus status =
-          from_file
-              ? mien_rig_open_file(file.path.c_str(), &desc, &opened, &error)
-              : mien_rig_open_memory(shifted.data() + off, bytes.size(), &desc, &opened, &error);
-      EXPECT_EQ(status, MIEN_ERROR_MEMORY);
-      EXPECT_EQ(opened, nullptr);
-      EXPECT_NE(error.message[0], 0);
-      EXPECT_TRUE(counter.clean()) << counter.first_wrong;
-    }
-  }
-}
-
-// Misuse
-// -------------------------------------------------------------------------------------------
-
-TEST(RigImage, ArgumentsAreChecked) {
-  const AlignedBytes image(tiny_image());
-  const RigHandle rig = tiny();
-  MienRig* out = nullptr;
-  size_t size = 0;
-  uint8_t small[8];
-  EXPECT_EQ(mien_rig_save_file(nullptr, "x", nullptr), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_rig_save_file(rig.get(), nullptr, nullptr), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_rig_save_memory(rig.get(), nullptr, 0, nullptr, nullptr),
-            MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_rig_save_memory(rig.get(), nullptr, 8, &size, nullptr), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_rig_save_memory(nullptr, nullptr, 0, &size, nullptr), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_rig_save_memory(rig.get(), small, 8, &size, nullptr), MIEN_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(size, image.size());
-  EXPECT_EQ(mien_rig_open_file(nullptr, nullptr, &out, nullptr), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_rig_open_file("x", nullptr, nullptr, nullptr), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_rig_open_memory(nullptr, 64, nullptr, &out, nullptr), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_rig_open_memory(nullptr, 0, nullptr, &out, nullptr), MIEN_ERROR_BAKED_SIGNATURE);
-
-  const auto refused = [&](MienStatus expected, auto&& change) {
-    MienBakedDesc desc = image_desc();
-    change(desc);
-    out = reinterpret_cast<MienRig*>(&desc);
-    MienError error = sized<MienError>();
-    EXPECT_EQ(mien_rig_open_memory(image.data(), image.size(), &desc, &out, &error), expected);
-    EXPECT_EQ(out, nullptr);
-    EXPECT_NE(error.message[0], 0);
-  };
-  refused(MIEN_ERROR_STRUCT_SIZE, [](MienBakedDesc& d) { d.struct_size = 8; });
-  refused(MIEN_ERROR_INVALID_ARGUMENT, [](MienBakedDesc& d) { d.isa = 99; });
-  refused(MIEN_ERROR_INVALID_ARGUMENT, [](MienBakedDesc& d) { d.file_access = 2; });
-  refused(MIEN_ERROR_INVALID_ARGUMENT, [](MienBakedDesc& d) { d.check = 2; });
-  refused(MIEN_ERROR_INVALID_ARGUMENT, [](MienBakedDesc& d) { d.reuse = 2; });
-  const MienAllocator half = {nullptr, nullptr, nullptr};
-  refused(MIEN_ERROR_INVALID_ARGUMENT, [&](MienBakedDesc& d) { d.allocator = &half; });
-}
-
-// Foreign and damaged images
-// -----------------------------------------------------------------------
-
-/// Status of an image with a number of its header, or anything else, changed.
-template <class T>
-MienStatus status_with(size_t offset, T value, uint32_t check = MIEN_BAKED_CHECK_SAFE) {
-  const AlignedBytes image(tiny_image());
-  memcpy(image.data() + offset, &value, sizeof(value));
-  const MienBakedDesc desc = image_desc(MIEN_ISA_ENVIRONMENT, check);
-  MienRig* rig = nullptr;
-  const MienStatus status = mien_rig_open_memory(image.data(), image.size(), &desc, &rig, nullptr);
-  mien_rig_destroy(rig);
-  return status;
-}
-
-TEST(RigImage, ForeignImagesAreRefused) {
-  EXPECT_EQ(status_with(0, 'X'), MIEN_ERROR_BAKED_SIGNATURE);
-  EXPECT_EQ(status_with(offsetof(BakedHeader, byte_order), uint32_t{0x04030201}),
-            MIEN_ERROR_BAKED_VERSION);
-  EXPECT_EQ(status_with(offsetof(BakedHeader, version), kBakedVersion + 1),
-            MIEN_ERROR_BAKED_VERSION);
-  EXPECT_EQ(status_with(offsetof(BakedHeader, file_size), uint64_t{1} << 40),
-            MIEN_ERROR_BAKED_TRUNCATED);
-  EXPECT_EQ(status_with(offsetof(BakedHeader, file_size), uint64_t{64}),
-            MIEN_ERROR_BAKED_STRUCTURE);
-  EXPECT_EQ(status_with(offsetof(BakedHeader, part_count), uint32_t{0}),
-            MIEN_ERROR_BAKED_STRUCTURE);
-  EXPECT_EQ(status_with(offsetof(BakedHeader, part_count), ~uint32_t{0}),
-            MIEN_ERROR_BAKED_STRUCTURE);
-  constexpr size_t kPart = sizeof(BakedHeader);
-  EXPECT_EQ(status_with(kPart + offsetof(BakedPart, kind), uint32_t{99}),
-            MIEN_ERROR_BAKED_STRUCTURE);
-  EXPECT_EQ(status_with(kPart + offsetof(BakedPart, version), uint32_t{99}),
-            MIEN_ERROR_BAKED_VERSION);
-  for (const size_t field : {offsetof(BakedPart, offset), offsetof(BakedPart, size)}) {
-    for (const uint64_t value : {uint64_t{0}, uint64_t{64}, uint64_t{1} << 40, ~uint64_t{63}}) {
-      EXPECT_EQ(status_with(kPart + field, value), MIEN_ERROR_BAKED_STRUCTURE);
-    }
-  }
-  EXPECT_EQ(status_with(kPart + offsetof(BakedPart, array_count), uint32_t{1}),
-            MIEN_ERROR_BAKED_STRUCTURE);
-  BakedPart part;
-  memcpy(&part, tiny_image().data() + kPart, sizeof(part));
-  const size_t first_array = part.offset + part.number_count * sizeof(uint64_t);
-  EXPECT_EQ(status_with(first_array + offsetof(BakedArray, element_size), uint32_t{3}),
-            MIEN_ERROR_BAKED_VERSION);
-  EXPECT_EQ(status_with(first_array + offsetof(BakedArray, offset), uint64_t{0}),
-            MIEN_ERROR_BAKED_STRUCTURE);
-  EXPECT_EQ(status_with(first_array + offsetof(BakedArray, count), ~uint64_t{0}),
-            MIEN_ERROR_BAKED_STRUCTURE);
-}
-
-TEST(RigImage, DnaIsNoImageAndImagesAreNoDna) {
-  Arena arena(default_allocator());
-  const AlignedBytes dna(write_view(dna::tiny_rig(arena)));
-  open_image(dna, image_desc(), MIEN_ERROR_BAKED_SIGNATURE);
-  open_dna(tiny_image(), 0, MIEN_ERROR_DNA_SIGNATURE);
-}
-
-TEST(RigImage, FullCheckFindsEveryChangedByte) {
-  const Bytes bytes = tiny_image();
-  for (size_t at = offsetof(BakedHeader, checksum); at < bytes.size(); ++at) {
-    const MienStatus status =
-        status_with(at, static_cast<uint8_t>(bytes[at] ^ 0x10), MIEN_BAKED_CHECK_FULL);
-    EXPECT_TRUE(status == MIEN_ERROR_BAKED_CHECKSUM || status == MIEN_ERROR_BAKED_STRUCTURE ||
-                status == MIEN_ERROR_BAKED_VERSION)
-        << "byte " << at << ": " << mien_status_name(status);
-    if (HasFailure()) break;
-  }
-}
-
-TEST(RigImage, EveryTruncationIsRefused) {
-  for (const Bytes& whole : {tiny_image(), ml_image()}) {
-    for (size_t size = 0; size < whole.size(); size += 64) {
-      const AlignedBytes image(Bytes(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(size)));
-      const ExerciseBaked life = live_image(image.data(), image.size());
-      EXPECT_EQ(life.opened, size == 0 ? MIEN_ERROR_BAKED_SIGNATURE : MIEN_ERROR_BAKED_TRUNCATED);
-      EXPECT_EQ(life.broken, "");
-    }
-    const AlignedBytes image(whole);
-    const ExerciseBaked life = live_image(image.data(), image.size());
-    EXPECT_EQ(life.opened, MIEN_OK) << life.message;
-    EXPECT_EQ(life.broken, "");
-  }
-}
+// Damage where it would hurt --------------------------------------------------------------------
 
 // Each byte of what is not mere numbers: one bit of it, all of it, and the largest value.
-TEST(RigImage, AnyChangeIsRefusedOrDoesNoHarm) {
+TEST(BakedRig, AnyChangeIsRefusedOrDoesNoHarm) {
   size_t refused = 0, survived = 0;
-  for (const Bytes& whole : {tiny_image(), ml_image()}) {
-    const AlignedBytes image(whole);
+  for (const Bytes& whole : {tiny_baked(), ml_baked()}) {
+    const AlignedBytes file(whole);
     for (size_t at = 0; at < whole.size(); ++at) {
       for (const int change : {1 << at % 8, 0xFF, -1}) {
         const auto byte = static_cast<uint8_t>(change < 0 ? 0xFF : whole[at] ^ change);
-        image.data()[at] = byte;
-        const ExerciseBaked life = live_image(image.data(), image.size());
+        file.data()[at] = byte;
+        const ExerciseBaked life = exercise_baked(file.data(), file.size());
         ++(life.opened == MIEN_OK ? survived : refused);
         EXPECT_EQ(life.broken, "") << "byte " << at << " is " << unsigned{byte};
       }
-      image.data()[at] = whole[at];
+      file.data()[at] = whole[at];
       if (HasFailure()) return;
     }
   }
@@ -372,39 +139,16 @@ TEST(RigImage, AnyChangeIsRefusedOrDoesNoHarm) {
   EXPECT_GT(survived, 0u);
 }
 
-// Damage where it would hurt --------------------------------------------------------------------
-
-/// An image, and where in it the arrays of the rig are.
-struct OpenImage {
-  AlignedBytes bytes;
-  RigHandle rig;
-
-  explicit OpenImage(const Bytes& image) : bytes(image), rig(open_image(bytes)) {}
-  const Rig& arrays() const { return *reinterpret_cast<const Rig*>(rig.get()); }
-
-  /// Opened, and used if it could be, with `value` instead; the change is undone.
-  template <class T>
-  MienStatus status_with(const Span<T>& array, size_t i, uint32_t value,
-                         uint32_t isa = MIEN_ISA_ENVIRONMENT) {
-    const T kept = array[i];
-    array[i] = static_cast<T>(value);
-    const ExerciseBaked life = live_image(bytes.data(), bytes.size(), isa);
-    array[i] = kept;
-    EXPECT_EQ(life.broken, "") << i << " is " << value;
-    return life.opened;
-  }
-};
-
-TEST(RigImage, PiecesStayInTheirTiles) {
-  OpenImage tiny(tiny_image()), tall(save(make_rig(tall_rig()).get()));
-  for (OpenImage* image : {&tiny, &tall}) {
-    const JointMatrix& joints = image->arrays().joints;
+TEST(BakedRig, BlocksStayInTheirTiles) {
+  OpenBaked tiny(tiny_baked()), tall(bake(make_rig(tall_rig()).get()));
+  for (OpenBaked* file : {&tiny, &tall}) {
+    const JointMatrix& joints = file->arrays().joints;
     const uint32_t panels = joints.panel_count();
     const uint32_t blocks = joints.panels[panels].first_block_row;
     for (size_t p : {size_t{0}, joints.block_rows.count / 2, joints.block_rows.count - 1}) {
       for (uint32_t value : {joints.block_rows[p] + 1u, joints.block_rows[p] + 2u,
                              blocks * kBlockRowUnit, 0xFFFCu}) {
-        EXPECT_EQ(image->status_with(joints.block_rows, p, value), MIEN_ERROR_BAKED_STRUCTURE);
+        EXPECT_EQ(file->status_with(joints.block_rows, p, value), MIEN_ERROR_BAKED_STRUCTURE);
       }
     }
 
@@ -413,7 +157,7 @@ TEST(RigImage, PiecesStayInTheirTiles) {
     for (uint16_t ColumnPart::*kind : {&ColumnPart::pairs, &ColumnPart::singles}) {
       const auto refused = [&](size_t panel, uint32_t value) {
         EXPECT_EQ(
-            image->status_with(Span<uint16_t>{&(joints.parts[column + panel].*kind), 1}, 0, value),
+            file->status_with(Span<uint16_t>{&(joints.parts[column + panel].*kind), 1}, 0, value),
             MIEN_ERROR_BAKED_STRUCTURE)
             << "panel " << panel << ": " << value;
       };
@@ -489,9 +233,9 @@ Results results_of(const RigHandle& rig, uint32_t lod, uint32_t common) {
 
 // What is said to be of a LOD, but adds to blocks that it does not have, is lost: it reaches
 // neither another character nor what is behind.
-TEST(RigImage, SumsOutsideOfTheLodReachNobody) {
-  OpenImage image(save(make_rig(tall_rig()).get()));
-  const JointMatrix& joints = image.arrays().joints;
+TEST(BakedRig, SumsOutsideOfTheLodReachNobody) {
+  OpenBaked file(bake(make_rig(tall_rig()).get()));
+  const JointMatrix& joints = file.arrays().joints;
   const uint32_t panels = joints.panels_at_lod[1];
   const uint32_t first = joints.panels[panels].first_block_row;
   const uint32_t end = joints.panels[joints.tile_end(0)].first_block_row;
@@ -506,36 +250,36 @@ TEST(RigImage, SumsOutsideOfTheLodReachNobody) {
     ++moved;
   }
   ASSERT_GT(moved, 10u);
-  ASSERT_EQ(live_image(image.bytes.data(), image.bytes.size()).opened, MIEN_OK);
+  ASSERT_EQ(exercise_baked(file.bytes.data(), file.bytes.size()).opened, MIEN_OK);
   for (uint32_t common : {12, 40, 60}) {
-    const Results results = results_of(image.rig, 1, common);
+    const Results results = results_of(file.rig, 1, common);
     EXPECT_TRUE(results.together == results.alone) << common;
   }
 }
 
 // A pair stands in an even block and the next one, whichever of them is named.
-TEST(RigImage, PairsBeginWithEvenBlocks) {
-  OpenImage image(save(make_rig(tall_rig()).get()));
-  const JointMatrix& joints = image.arrays().joints;
-  const Results before = results_of(image.rig, 0, 12);
+TEST(BakedRig, PairsBeginWithEvenBlocks) {
+  OpenBaked file(bake(make_rig(tall_rig()).get()));
+  const JointMatrix& joints = file.arrays().joints;
+  const Results before = results_of(file.rig, 0, 12);
   for (size_t k = 0; k < joints.columns.count; ++k) {
     const uint32_t pairs = joints.part(k, joints.panel_count()).pairs;
     for (uint32_t i = 0; i < pairs; ++i)
       joints.block_rows[joints.first_entry[k] + i] += kBlockRowUnit;
   }
   for (uint32_t isa : present_isas()) {
-    const ExerciseBaked life = live_image(image.bytes.data(), image.bytes.size(), isa);
+    const ExerciseBaked life = exercise_baked(file.bytes.data(), file.bytes.size(), isa);
     EXPECT_EQ(life.opened, MIEN_OK);
     EXPECT_EQ(life.broken, "");
   }
-  const Results after = results_of(image.rig, 0, 12);
+  const Results after = results_of(file.rig, 0, 12);
   EXPECT_TRUE(after.alone == before.alone);
   EXPECT_TRUE(after.together == before.together);
 }
 
-TEST(RigImage, TargetsStayInTheirPanels) {
-  OpenImage image(save(make_rig(tall_rig()).get()));
-  const Rig& rig = image.arrays();
+TEST(BakedRig, TargetsStayInTheirPanels) {
+  OpenBaked file(bake(make_rig(tall_rig()).get()));
+  const Rig& rig = file.arrays();
   const JointMatrix& joints = rig.joints;
   for (uint32_t panel : {0u, joints.panel_count() - 1}) {
     const JointPanel &at = joints.panels[panel], &next = joints.panels[panel + 1];
@@ -552,8 +296,8 @@ TEST(RigImage, TargetsStayInTheirPanels) {
         const uint32_t most[] = {packed_rows - rows, rig.joint_value_count() - rows,
                                  joints.group_count - 1};
         for (size_t f = 0; f < 3; ++f) {
-          EXPECT_EQ(image.status_with(fields[f], 0, most[f]), MIEN_OK);
-          EXPECT_EQ(image.status_with(fields[f], 0, most[f] + 1), MIEN_ERROR_BAKED_STRUCTURE);
+          EXPECT_EQ(file.status_with(fields[f], 0, most[f]), MIEN_OK);
+          EXPECT_EQ(file.status_with(fields[f], 0, most[f] + 1), MIEN_ERROR_BAKED_STRUCTURE);
         }
       }
     }
@@ -562,9 +306,9 @@ TEST(RigImage, TargetsStayInTheirPanels) {
 }
 
 // Those of all panels at once: a LOD must not write what it did not sum.
-TEST(RigImage, TargetsOfALodHaveSums) {
-  OpenImage image(save(create_rig(generate_dna(MIEN_PRESET_SMALL, 3).get()).get()));
-  const Rig& rig = image.arrays();
+TEST(BakedRig, TargetsOfALodHaveSums) {
+  OpenBaked file(bake(create_rig(generate_dna(MIEN_PRESET_SMALL, 3).get()).get()));
+  const Rig& rig = file.arrays();
   const JointMatrix& joints = rig.joints;
   ASSERT_TRUE(joints.fits_tile());
   uint32_t first = joints.panels[joints.panel_count()].first_target;
@@ -580,8 +324,8 @@ TEST(RigImage, TargetsOfALodHaveSums) {
       const uint32_t packed_rows =
           joints.panels[joints.panels_at_lod[lod]].first_block_row * kJointBlockRows;
       const Span<uint16_t> packed_row = {&joints.targets[first + at_lod[lod] - 1].packed_row, 1};
-      EXPECT_EQ(image.status_with(packed_row, 0, packed_rows - rows), MIEN_OK);
-      EXPECT_EQ(image.status_with(packed_row, 0, packed_rows - rows + 1),
+      EXPECT_EQ(file.status_with(packed_row, 0, packed_rows - rows), MIEN_OK);
+      EXPECT_EQ(file.status_with(packed_row, 0, packed_rows - rows + 1),
                 MIEN_ERROR_BAKED_STRUCTURE);
       ++found;
     }
@@ -591,9 +335,10 @@ TEST(RigImage, TargetsOfALodHaveSums) {
 }
 
 // They cross the C interface as enumerations, which hosts index arrays with.
-TEST(RigImage, UnitsAndAxesAreInRange) {
-  const Bytes image = tiny_image();
-  const MienRigInfo info = info_of(tiny());
+TEST(BakedRig, UnitsAndAxesAreInRange) {
+  const Bytes whole = tiny_baked();
+  const AlignedBytes good(whole);
+  const MienRigInfo info = info_of(open_rig(good));
   // Each number has a slot of eight bytes.
   const uint32_t values[] = {info.translation_unit,
                              info.rotation_unit,
@@ -607,25 +352,25 @@ TEST(RigImage, UnitsAndAxesAreInRange) {
   uint32_t pairs[2 * std::size(values)] = {};
   for (size_t i = 0; i < std::size(values); ++i) pairs[2 * i] = values[i];
   const auto* slots = reinterpret_cast<const uint8_t*>(pairs);
-  const auto found = std::search(image.begin(), image.end(), slots, slots + sizeof(pairs));
-  ASSERT_NE(found, image.end());
+  const auto found = std::search(whole.begin(), whole.end(), slots, slots + sizeof(pairs));
+  ASSERT_NE(found, whole.end());
   for (size_t i = 0; i < std::size(values); ++i) {
-    AlignedBytes bad(image);
-    bad.data()[static_cast<size_t>(found - image.begin()) + 8 * i] = 0x80;
-    open_image(bad, image_desc(MIEN_ISA_BEST, MIEN_BAKED_CHECK_SAFE), MIEN_ERROR_BAKED_STRUCTURE);
+    AlignedBytes bad(whole);
+    bad.data()[static_cast<size_t>(found - whole.begin()) + 8 * i] = 0x80;
+    rig_of(open_baked(bad, MIEN_BAKED_CHECK_SAFE), MIEN_ISA_BEST, MIEN_ERROR_BAKED_STRUCTURE);
   }
 }
 
-TEST(RigImage, RunsOfCorrectivesStayInTheirTable) {
-  OpenImage image(save(create_rig(generate_dna(MIEN_PRESET_SMALL, 3).get()).get()));
-  const PsdTable& psds = image.arrays().psds;
+TEST(BakedRig, RunsOfCorrectivesStayInTheirTable) {
+  OpenBaked file(bake(create_rig(generate_dna(MIEN_PRESET_SMALL, 3).get()).get()));
+  const PsdTable& psds = file.arrays().psds;
   const auto count = static_cast<uint32_t>(psds.run_lengths.count);
   ASSERT_GT(count, 2u);
   for (uint32_t e : {0u, count / 2, count - 1}) {
     for (uint32_t length : {0u, count - e + 1, 0xFFFFu}) {
-      EXPECT_EQ(image.status_with(psds.run_lengths, e, length), MIEN_ERROR_BAKED_STRUCTURE);
+      EXPECT_EQ(file.status_with(psds.run_lengths, e, length), MIEN_ERROR_BAKED_STRUCTURE);
     }
-    EXPECT_EQ(image.status_with(psds.run_lengths, e, 1), MIEN_OK);
+    EXPECT_EQ(file.status_with(psds.run_lengths, e, 1), MIEN_OK);
   }
   // As many as are left, taken to have as many inputs each as the one with the most.
   uint32_t widest = 0;
@@ -637,27 +382,25 @@ TEST(RigImage, RunsOfCorrectivesStayInTheirTable) {
       psds.first_input[widest] +
       uint64_t{count - widest} * (psds.first_input[widest + 1] - psds.first_input[widest]);
   ASSERT_GT(last, psds.inputs.count);
-  EXPECT_EQ(image.status_with(psds.run_lengths, widest, count - widest),
-            MIEN_ERROR_BAKED_STRUCTURE);
+  EXPECT_EQ(file.status_with(psds.run_lengths, widest, count - widest), MIEN_ERROR_BAKED_STRUCTURE);
 }
 
 // Wrong, but harmless: only those who ask for all checks are told, and only if the checksum does
 // not tell them first.
-TEST(RigImage, FullCheckKnowsTheOrderOfCorrectives) {
-  OpenImage image(tiny_image());
-  const PsdTable& psds = image.arrays().psds;
+TEST(BakedRig, FullCheckKnowsTheOrderOfCorrectives) {
+  OpenBaked file(tiny_baked());
+  const PsdTable& psds = file.arrays().psds;
   ASSERT_EQ(psds.outputs.count, 2u);
   psds.inputs[0] = psds.outputs[1];
-  EXPECT_EQ(live_image(image.bytes.data(), image.bytes.size()).broken, "");
-  open_image(image.bytes, image_desc(MIEN_ISA_ENVIRONMENT, MIEN_BAKED_CHECK_SAFE));
-  const uint64_t checksum = baked_checksum(image.bytes.data(), image.bytes.size());
-  memcpy(image.bytes.data() + offsetof(BakedHeader, checksum), &checksum, sizeof(checksum));
-  open_image(image.bytes, image_desc(), MIEN_ERROR_BAKED_STRUCTURE);
+  EXPECT_EQ(exercise_baked(file.bytes.data(), file.bytes.size()).broken, "");
+  rig_of(open_baked(file.bytes, MIEN_BAKED_CHECK_SAFE));
+  file.seal();
+  rig_of(open_baked(file.bytes), MIEN_ISA_BEST, MIEN_ERROR_BAKED_STRUCTURE);
 
   psds.inputs[0] = 0;
-  EXPECT_EQ(image.status_with(psds.outputs, 0, psds.outputs[0] - 1u), MIEN_ERROR_BAKED_STRUCTURE)
+  EXPECT_EQ(file.status_with(psds.outputs, 0, psds.outputs[0] - 1u), MIEN_ERROR_BAKED_STRUCTURE)
       << "a raw control";
-  EXPECT_EQ(image.status_with(psds.outputs, 1, psds.outputs[1] + 1u), MIEN_ERROR_BAKED_STRUCTURE)
+  EXPECT_EQ(file.status_with(psds.outputs, 1, psds.outputs[1] + 1u), MIEN_ERROR_BAKED_STRUCTURE)
       << "a control of the next kind";
 }
 

@@ -157,7 +157,7 @@ extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const AlignedBytes image(Bytes(data, data + size));
-  const ExerciseBaked life = live_image(image.data(), image.size());
+  const ExerciseBaked life = exercise_baked(image.data(), image.size());
   if (life.broken.empty()) return 0;
   fprintf(stderr, "broken promise: %s (%s)\n", life.broken.c_str(), life.message.c_str());
   abort();

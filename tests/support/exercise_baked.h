@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The whole life of an image of a rig, whatever its bytes are: opened, asked, evaluated alone and
-// in a packet, saved. Used by tests and by the fuzzer, so without GoogleTest.
+// The whole life of a baked file, whatever its bytes are: its rig and its deformer are opened,
+// asked, evaluated alone and in a packet, deformed, and baked again. Used by tests and by the fuzzer, so without GoogleTest.
 #pragma once
 
 #include <cstring>
@@ -43,28 +43,48 @@ class ExerciseBakedRun {
   ExerciseBakedRun(const uint8_t* bytes, size_t size, uint32_t isa) : allocator_(counter_.get()) {
     MienBakedDesc desc = {};
     desc.struct_size = sizeof(desc);
-    desc.isa = isa;
     desc.allocator = &allocator_;
-    MienError error = {};
-    error.struct_size = sizeof(error);
+    MienBaked* baked = nullptr;
     MienRig* rig = nullptr;
-    life.opened = mien_rig_open_memory(bytes, size, &desc, &rig, &error);
-    if ((life.opened == MIEN_OK) != (rig != nullptr)) broke("open gave a rig or none");
-    if (life.opened != MIEN_OK) {
-      life.message = error.message;
-      if (life.message.empty()) broke("refused without a word");
-      if (error.status != life.opened) broke("two statuses");
-      if (error.byte_offset != MIEN_NO_OFFSET && error.byte_offset > size) broke("a place outside");
-      const bool expected =
-          life.opened >= MIEN_ERROR_BAKED_SIGNATURE && life.opened <= MIEN_ERROR_BAKED_CHECKSUM;
-      if (!expected) broke("refused with another family's status");
-    } else {
-      if (counter_.requests != 2) broke("opening took more than two blocks");
-      ask(rig);
-      evaluate(rig);
-      save(rig, size);
+    MienDeformer* deformer = nullptr;
+    const auto error = [] {
+      MienError fresh = {};
+      fresh.struct_size = sizeof(fresh);
+      return fresh;
+    };
+    MienError detail = error();
+    MienStatus status = mien_baked_open_memory(bytes, size, &desc, &baked, &detail);
+    MienBakedInfo info = {};
+    info.struct_size = sizeof(info);
+    if (opened(status, baked, detail, size)) {
+      if (mien_baked_info(baked, &info) != MIEN_OK) broke("no info of the file");
+      MienBakedRigDesc wanted = {};
+      wanted.struct_size = sizeof(wanted);
+      wanted.isa = isa;
+      wanted.allocator = &allocator_;
+      detail = error();
+      status = mien_rig_from_baked(baked, &wanted, &rig, &detail);
+      if (opened(status, rig, detail, size)) {
+        ask(rig);
+        evaluate(rig);
+      }
     }
+    if (rig && info.deformer_bytes != 0) {
+      MienBakedDeformerDesc wanted = {};
+      wanted.struct_size = sizeof(wanted);
+      wanted.allocator = &allocator_;
+      detail = error();
+      counter_.requests = 0;
+      status = mien_deformer_from_baked(baked, rig, &wanted, &deformer, &detail);
+      if (opened(status, deformer, detail, size)) {
+        ask(deformer);
+        deform(rig, deformer);
+      }
+    }
+    if (rig && life.opened == MIEN_OK) bake_again(rig, deformer, size, info);
+    mien_deformer_destroy(deformer);
     mien_rig_destroy(rig);
+    mien_baked_close(baked);
     if (!counter_.clean()) broke("memory was left");
   }
 
@@ -73,6 +93,25 @@ class ExerciseBakedRun {
  private:
   void broke(const char* what) {
     if (life.broken.empty()) life.broken = what;
+  }
+
+  /// What an open call gave; each takes one block.
+  bool opened(MienStatus status, const void* handle, const MienError& error, size_t size) {
+    life.opened = status;
+    if ((status == MIEN_OK) != (handle != nullptr)) broke("open gave a handle or none");
+    if (status == MIEN_OK) {
+      if (counter_.requests != 1) broke("opening took more than one block");
+    } else {
+      life.message = error.message;
+      if (life.message.empty()) broke("refused without a word");
+      if (error.status != status) broke("two statuses");
+      if (error.byte_offset != MIEN_NO_OFFSET && error.byte_offset > size) broke("a place outside");
+      if (status < MIEN_ERROR_BAKED_SIGNATURE || status > MIEN_ERROR_BAKED_PART) {
+        broke("refused with another family's status");
+      }
+    }
+    counter_.requests = 0;
+    return status == MIEN_OK;
   }
 
   void ask(const MienRig* rig) {
@@ -200,28 +239,149 @@ class ExerciseBakedRun {
     }
   }
 
-  // What was opened is as large as its file, whatever it holds.
-  void save(const MienRig* rig, size_t expected) {
+  template <class View>
+  void read(const View& view) {
+    for (size_t i = 0; i < view.count; ++i) sink_ = sink_ + static_cast<float>(view.data[i]);
+  }
+  template <class View>
+  void check_below(const View& view, size_t limit) {
+    for (size_t i = 0; i < view.count; ++i) {
+      if (view.data[i] >= limit) broke("an index past the end");
+    }
+  }
+
+  void ask(const MienDeformer* deformer) {
+    deformer_info_.struct_size = sizeof(deformer_info_);
+    if (mien_deformer_info(deformer, &deformer_info_) != MIEN_OK) broke("no info of a deformer");
+    MienFloatView floats = {};
+    for (const auto view : {mien_deformer_bind_matrices, mien_deformer_inverse_bind_matrices}) {
+      if (view(deformer, &floats) != MIEN_OK) broke("no matrices");
+      if (floats.count != size_t{16} * deformer_info_.joint_count) broke("other matrices");
+      read(floats);
+    }
+    for (uint32_t m = 0; m < deformer_info_.mesh_count; ++m) {
+      MienMesh mesh = {};
+      mesh.struct_size = sizeof(mesh);
+      if (mien_deformer_mesh(deformer, m, &mesh) != MIEN_OK) broke("no mesh");
+      if (mesh.positions.count != size_t{3} * mesh.position_count ||
+          mesh.normals.count != size_t{3} * mesh.vertex_count ||
+          mesh.texture_coordinates.count != size_t{2} * mesh.vertex_count ||
+          mesh.vertex_position_indices.count != mesh.vertex_count ||
+          mesh.triangles.count != size_t{3} * mesh.triangle_count ||
+          mesh.target_channels.count != mesh.target_count) {
+        broke("counts of a mesh");
+      }
+      read(mesh.positions);
+      read(mesh.normals);
+      read(mesh.texture_coordinates);
+      check_below(mesh.vertex_position_indices, mesh.position_count);
+      check_below(mesh.triangles, mesh.vertex_count);
+      check_below(mesh.target_channels, deformer_info_.channel_count);
+      for (uint32_t p = 0; p < mesh.position_count; ++p) {
+        MienIndex16View joints = {};
+        if (mien_deformer_influences(deformer, m, p, &joints, &floats) != MIEN_OK) {
+          broke("no influences");
+        }
+        if (joints.count != floats.count || joints.count > mesh.max_influences) {
+          broke("other influences");
+        }
+        check_below(joints, deformer_info_.joint_count);
+        read(floats);
+      }
+      std::vector<float> deltas(size_t{3} * mesh.position_count);
+      for (uint32_t t = 0; t < mesh.target_count && t < 8; ++t) {
+        if (mien_deformer_target(deformer, m, t, deltas.data(), deltas.size()) != MIEN_OK) {
+          broke("no target");
+        }
+      }
+    }
+  }
+
+  void deform(const MienRig* rig, const MienDeformer* deformer) {
+    constexpr size_t kCount = 2;
+    MienDeformerInstanceDesc desc = {};
+    desc.struct_size = sizeof(desc);
+    desc.allocator = &allocator_;
+    const auto instance_desc = desc_with<MienInstanceDesc>(&allocator_);
+    MienInstance* instance = nullptr;
+    MienDeformerInstance* deformed[kCount] = {};
+    bool made = mien_instance_create(rig, &instance_desc, &instance, nullptr) == MIEN_OK;
+    for (MienDeformerInstance*& one : deformed) {
+      made &= mien_deformer_instance_create(deformer, &desc, &one, nullptr) == MIEN_OK;
+    }
+    if (!made) broke("no memory for a deformer instance");
+    const size_t requests = counter_.requests;
+    for (uint32_t round = 0; made && round < 3; ++round) {
+      MienMutableFloatView raw = {};
+      (void)mien_instance_raw_controls(instance, &raw);
+      for (size_t k = 0; k < raw.count; ++k) raw.data[k] = next_control();
+      if (round < info_.lod_count) (void)mien_rig_evaluate(rig, instance, round);
+      std::vector<float> joints(info_.joint_value_count), channels(deformer_info_.channel_count);
+      for (float& value : joints) value = next_control();
+      for (float& value : channels) value = next_control();
+      if (mien_deformer_instance_update(deformed[0], instance) != MIEN_OK ||
+          mien_deformer_instance_update_from_values(
+              deformed[1], joints.empty() ? nullptr : joints.data(), joints.size(),
+              channels.empty() ? nullptr : channels.data(), channels.size()) != MIEN_OK) {
+        broke("not updated");
+      }
+      for (uint32_t m = 0; m < deformer_info_.mesh_count; ++m) {
+        const uint32_t normals = 1 + (round + m) % 3;
+        if (mien_deformer_instance_deform_batch(deformed, kCount, m, normals, nullptr) != MIEN_OK) {
+          broke("not deformed");
+        }
+        for (const MienDeformerInstance* one : deformed) {
+          MienFloatView view = {};
+          if (mien_deformer_instance_positions(one, m, &view) != MIEN_OK) broke("no positions");
+          read(view);
+          if (mien_deformer_instance_normals(one, m, &view) != MIEN_OK) broke("no normals");
+          read(view);
+        }
+      }
+      std::vector<float> locals(size_t{10} * deformer_info_.joint_count + 1);
+      for (const MienDeformerInstance* one : deformed) {
+        MienFloatView view = {};
+        (void)mien_deformer_instance_joint_matrices(one, &view);
+        read(view);
+        (void)mien_deformer_instance_skin_matrices(one, &view);
+        read(view);
+        if (mien_deformer_instance_local_transforms(one, locals.data(), locals.size()) != MIEN_OK) {
+          broke("no local transforms");
+        }
+      }
+    }
+    if (counter_.requests != requests) broke("deformation allocated");
+    for (MienDeformerInstance* one : deformed) mien_deformer_instance_destroy(one);
+    mien_instance_destroy(instance);
+  }
+
+  // What was opened is as large as its part of the file, whatever it holds.
+  void bake_again(const MienRig* rig, const MienDeformer* deformer, size_t file_size,
+                  const MienBakedInfo& info) {
+    const size_t expected =
+        64 + (deformer ? 128 : 64) + static_cast<size_t>(info.rig_bytes + info.deformer_bytes);
     size_t size = 0;
-    if (mien_rig_save_memory(rig, nullptr, 0, &size, nullptr) != MIEN_OK || size != expected) {
-      return broke("an image of another size");
+    if (mien_bake_memory(rig, deformer, nullptr, 0, &size, nullptr) != MIEN_OK ||
+        size != expected || size > file_size) {
+      return broke("a file of another size");
     }
     std::vector<uint8_t> again(size);
-    if (mien_rig_save_memory(rig, again.data(), size, &size, nullptr) != MIEN_OK) {
-      broke("not saved");
+    if (mien_bake_memory(rig, deformer, again.data(), size, &size, nullptr) != MIEN_OK) {
+      broke("not baked again");
     }
   }
 
   CountingAllocator counter_;
   MienAllocator allocator_;
   MienRigInfo info_ = {};
+  MienDeformerInfo deformer_info_ = {};
   uint32_t state_ = 1;
   volatile float sink_ = 0;
 };
 
 /// `bytes` is at a multiple of 64.
-inline ExerciseBaked live_image(const uint8_t* bytes, size_t size,
-                                uint32_t isa = MIEN_ISA_ENVIRONMENT) {
+inline ExerciseBaked exercise_baked(const uint8_t* bytes, size_t size,
+                                    uint32_t isa = MIEN_ISA_ENVIRONMENT) {
   return ExerciseBakedRun(bytes, size, isa).life;
 }
 
