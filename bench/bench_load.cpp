@@ -30,18 +30,18 @@ void compile(benchmark::State& state, uint64_t lods) {
   mien_dna_close(dna);
 }
 
-/// The image of the rig in a file that is gone with the program.
-struct ImageFile {
+/// The baked rig in a file that is removed at the end.
+struct BakedFile {
   std::string path = "/tmp/mien_bench_" + std::to_string(getpid()) + ".rig";
-  ImageFile() {
+  BakedFile() {
     MienDna* dna = open_rig(kBehaviorLayers, 0);
     MienRig* rig = create_rig(dna, MIEN_ISA_ENVIRONMENT);
     MienError error = sized<MienError>();
-    require(mien_rig_save_file(rig, path.c_str(), &error), error);
+    require(mien_bake_file(rig, nullptr, path.c_str(), &error), error);
     mien_rig_destroy(rig);
     mien_dna_close(dna);
   }
-  ~ImageFile() { remove(path.c_str()); }
+  ~BakedFile() { remove(path.c_str()); }
 };
 
 struct Requests {
@@ -54,21 +54,25 @@ struct Requests {
 };
 
 // The file is in the page cache, mapped anew each time.
-void open_image(benchmark::State& state, uint32_t access, uint32_t check) {
-  static const ImageFile file;
+void open_baked(benchmark::State& state, uint32_t access, uint32_t check) {
+  static const BakedFile file;
   Requests requests;
   const MienAllocator allocator = {&requests, Requests::allocate, Requests::release};
   MienBakedDesc desc = sized<MienBakedDesc>();
   desc.file_access = access;
   desc.check = check;
-  desc.allocator = &allocator;
+  MienBakedRigDesc rig_desc = sized<MienBakedRigDesc>();
+  desc.allocator = rig_desc.allocator = &allocator;
   MienRigInfo info = sized<MienRigInfo>();
   MienError error = sized<MienError>();
   for (auto _ : state) {
+    MienBaked* baked = nullptr;
     MienRig* rig = nullptr;
-    require(mien_rig_open_file(file.path.c_str(), &desc, &rig, &error), error);
+    require(mien_baked_open_file(file.path.c_str(), &desc, &baked, &error), error);
+    require(mien_rig_from_baked(baked, &rig_desc, &rig, &error), error);
     require(mien_rig_info(rig, &info));
     mien_rig_destroy(rig);
+    mien_baked_close(baked);
   }
   state.counters["rig_bytes"] = static_cast<double>(info.rig_bytes);
   state.counters["allocations"] =
@@ -96,9 +100,9 @@ const int kRegistered = [] {
     benchmark::RegisterBenchmark((std::string("open/") + o.name).c_str(), open, o.layers, o.lods,
                                  o.skip_targets);
   }
-  benchmark::RegisterBenchmark("image/map", open_image, MIEN_FILE_MAP, MIEN_BAKED_CHECK_SAFE);
-  benchmark::RegisterBenchmark("image/map/full", open_image, MIEN_FILE_MAP, MIEN_BAKED_CHECK_FULL);
-  benchmark::RegisterBenchmark("image/read", open_image, MIEN_FILE_READ, MIEN_BAKED_CHECK_SAFE);
+  benchmark::RegisterBenchmark("baked/map", open_baked, MIEN_FILE_MAP, MIEN_BAKED_CHECK_SAFE);
+  benchmark::RegisterBenchmark("baked/map/full", open_baked, MIEN_FILE_MAP, MIEN_BAKED_CHECK_FULL);
+  benchmark::RegisterBenchmark("baked/read", open_baked, MIEN_FILE_READ, MIEN_BAKED_CHECK_SAFE);
   benchmark::RegisterBenchmark("compile/all_lods", compile, 0);
   benchmark::RegisterBenchmark("compile/lod0", compile, 1);
   return 0;

@@ -341,6 +341,11 @@ MIEN_CHECKED MienStatus mien_dna_open_file(const char* path, const MienDnaDesc* 
 MIEN_CHECKED MienStatus mien_dna_open_memory(const void* bytes, size_t size, const MienDnaDesc* desc,
                                          MienDna** out_dna, MienError* error);
 
+/* The same from a stream: reads the header, the index and the chosen layers, each once and whole,
+ * into the allocator's memory. MIEN_ERROR_FILE_READ if the stream fails. */
+MIEN_CHECKED MienStatus mien_dna_open_stream(const MienStream* stream, const MienDnaDesc* desc,
+                                             MienDna** out_dna, MienError* error);
+
 MIEN_API void mien_dna_close(MienDna* dna);
 
 /* ---- DNA: looking into it -------------------------------------------------------------------- */

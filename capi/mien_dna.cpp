@@ -88,11 +88,9 @@ MienStatus read_open_arguments(const MienDnaDesc* desc, OpenArguments& out, Mien
   return read_system(out.desc.system, out.system, error);
 }
 
-/// Reads the view of a file that `dna` owns or borrows; closes `dna` on failure.
-MienStatus finish_open(MienDna* dna, const uint8_t* bytes, size_t size,
-                       const dna::ReadOptions& options, MienDna** out_dna, MienError* error) {
-  Error detail;
-  const Status status = dna::read_dna(bytes, size, options, dna->arena, dna->view, detail);
+/// Hands `dna` out if its view could be read, and closes it otherwise.
+MienStatus finish_open(MienDna* dna, Status status, const Error& detail, MienDna** out_dna,
+                       MienError* error) {
   if (status != Status::kOk) {
     mien_dna_close(dna);
     return give_error(detail, error);
@@ -122,7 +120,9 @@ MienStatus mien_dna_open_file(const char* path, const MienDnaDesc* desc, MienDna
     mien_dna_close(dna);
     return give_error(detail, error);
   }
-  return finish_open(dna, dna->file.bytes, dna->file.size, arguments.options, out_dna, error);
+  const Status read = dna::read_dna(dna->file.bytes, dna->file.size, arguments.options, dna->arena,
+                                    dna->view, detail);
+  return finish_open(dna, read, detail, out_dna, error);
 }
 
 MienStatus mien_dna_open_memory(const void* bytes, size_t size, const MienDnaDesc* desc,
@@ -133,8 +133,26 @@ MienStatus mien_dna_open_memory(const void* bytes, size_t size, const MienDnaDes
   if (MienStatus status = read_open_arguments(desc, arguments, error)) return status;
   MienDna* dna = new_dna(arguments.allocator);
   if (!dna) return no_memory(error);
-  return finish_open(dna, static_cast<const uint8_t*>(bytes), size, arguments.options, out_dna,
-                     error);
+  Error detail;
+  const Status read = dna::read_dna(static_cast<const uint8_t*>(bytes), size, arguments.options,
+                                    dna->arena, dna->view, detail);
+  return finish_open(dna, read, detail, out_dna, error);
+}
+
+MienStatus mien_dna_open_stream(const MienStream* stream, const MienDnaDesc* desc,
+                                MienDna** out_dna, MienError* error) {
+  if (MienStatus status = clear_output(out_dna, error)) return status;
+  if (!stream || !stream->read) {
+    return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "stream or stream->read is NULL");
+  }
+  OpenArguments arguments;
+  if (MienStatus status = read_open_arguments(desc, arguments, error)) return status;
+  MienDna* dna = new_dna(arguments.allocator);
+  if (!dna) return no_memory(error);
+  Error detail;
+  const Status read = dna::read_dna(Stream{stream->user, stream->size, stream->read},
+                                    arguments.options, dna->arena, dna->view, detail);
+  return finish_open(dna, read, detail, out_dna, error);
 }
 
 void mien_dna_close(MienDna* dna) {

@@ -94,6 +94,8 @@ using WriteDesc = Sized<MienWriteDesc>;
 using GenerateDesc = Sized<MienGenerateDesc>;
 using RigDesc = Sized<MienRigDesc>;
 using BakedDesc = Sized<MienBakedDesc>;
+using BakedRigDesc = Sized<MienBakedRigDesc>;
+using BakedDeformerDesc = Sized<MienBakedDeformerDesc>;
 using DeformerDesc = Sized<MienDeformerDesc>;
 using DeformerInstanceDesc = Sized<MienDeformerInstanceDesc>;
 using VertexOutput = Sized<MienVertexOutput>;
@@ -300,6 +302,12 @@ class Dna : public Owner<MienDna, mien_dna_close> {
       return mien_dna_open_memory(bytes, size, &desc, out, error);
     });
   }
+  /// Reads the header, the index and the chosen layers. `stream` is not needed afterwards.
+  static Result<Dna> open(const MienStream& stream, const DnaDesc& desc = {}) {
+    return make<Dna>([&](MienDna** out, MienError* error) {
+      return mien_dna_open_stream(&stream, &desc, out, error);
+    });
+  }
   static Result<Dna> generate(const GenerateDesc& desc = {}) {
     return make<Dna>(
         [&](MienDna** out, MienError* error) { return mien_dna_generate(&desc, out, error); });
@@ -437,31 +445,6 @@ class Rig : public Owner<MienRig, mien_rig_destroy> {
     return make<Rig>([&](MienRig** out, MienError* error) {
       return mien_rig_create(dna.get(), &desc, out, error);
     });
-  }
-
-  /// A baked rig: a file that save() or `mien bake` wrote.
-  static Result<Rig> open(const char* path, const BakedDesc& desc = {}) {
-    return make<Rig>([&](MienRig** out, MienError* error) {
-      return mien_rig_open_file(path, &desc, out, error);
-    });
-  }
-  /// `bytes` have to outlive the Rig and all that is made of it, unchanged.
-  static Result<Rig> open(const void* bytes, size_t size, const BakedDesc& desc = {}) {
-    return make<Rig>([&](MienRig** out, MienError* error) {
-      return mien_rig_open_memory(bytes, size, &desc, out, error);
-    });
-  }
-  Result<void> save(const char* path) const {
-    Sized<MienError> error;
-    return {mien_rig_save_file(get(), path, &error), error};
-  }
-  /// Saves to memory and tells how many bytes that took; with an empty buffer, would take.
-  Result<size_t> save(Span<unsigned char> buffer) const {
-    size_t size = 0;
-    Sized<MienError> error;
-    void* const data = buffer.empty() ? nullptr : buffer.data();
-    const MienStatus status = mien_rig_save_memory(get(), data, buffer.size(), &size, &error);
-    return {status, std::move(size), &error};
   }
 
   /// A character in its initial state. May outlive the rig, but is evaluated by it only.
@@ -687,6 +670,63 @@ class Deformer : public Owner<MienDeformer, mien_deformer_destroy> {
     return call(get(), &found) == MIEN_OK ? view(found) : Span<const float>();
   }
 };
+
+/// A file that bake() or `mien bake` wrote: a rig, and its deformer if it has one, as they are in
+/// memory. What is made of it keeps the file open. May be used by several threads at once.
+class Baked : public Owner<MienBaked, mien_baked_close> {
+ public:
+  using Owner::Owner;
+
+  static Result<Baked> open(const char* path, const BakedDesc& desc = {}) {
+    return make<Baked>([&](MienBaked** out, MienError* error) {
+      return mien_baked_open_file(path, &desc, out, error);
+    });
+  }
+  /// `bytes` have to outlive the Baked and all that is made of it, unchanged.
+  static Result<Baked> open(const void* bytes, size_t size, const BakedDesc& desc = {}) {
+    return make<Baked>([&](MienBaked** out, MienError* error) {
+      return mien_baked_open_memory(bytes, size, &desc, out, error);
+    });
+  }
+  /// Reads all of `stream`, which is not needed afterwards.
+  static Result<Baked> open(const MienStream& stream, const BakedDesc& desc = {}) {
+    return make<Baked>([&](MienBaked** out, MienError* error) {
+      return mien_baked_open_stream(&stream, &desc, out, error);
+    });
+  }
+
+  Result<MienBakedInfo> info() const {
+    Sized<MienBakedInfo> info;
+    return {mien_baked_info(get(), &info), std::move(info)};
+  }
+  Result<Rig> rig(const BakedRigDesc& desc = {}) const {
+    return make<Rig>([&](MienRig** out, MienError* error) {
+      return mien_rig_from_baked(get(), &desc, out, error);
+    });
+  }
+  /// `rig` is one that rig() made.
+  Result<Deformer> deformer(const Rig& rig, const BakedDeformerDesc& desc = {}) const {
+    return make<Deformer>([&](MienDeformer** out, MienError* error) {
+      return mien_deformer_from_baked(get(), rig.get(), &desc, out, error);
+    });
+  }
+};
+
+/// Writes a baked file; without a deformer, the rig alone.
+inline Result<void> bake(const char* path, const Rig& rig, const Deformer& deformer = Deformer()) {
+  Sized<MienError> error;
+  return {mien_bake_file(rig.get(), deformer.get(), path, &error), error};
+}
+/// The same to memory. Tells how many bytes that took; with an empty buffer, would take.
+inline Result<size_t> bake(Span<unsigned char> buffer, const Rig& rig,
+                           const Deformer& deformer = Deformer()) {
+  size_t size = 0;
+  Sized<MienError> error;
+  void* const data = buffer.empty() ? nullptr : buffer.data();
+  const MienStatus status =
+      mien_bake_memory(rig.get(), deformer.get(), data, buffer.size(), &size, &error);
+  return {status, std::move(size), &error};
+}
 
 // ---- Experimental -------------------------------------------------------------------------------
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <mien.hpp>
 #include <string>
 #include <vector>
@@ -22,16 +23,49 @@ mien::Dna generated(MienPreset preset = MIEN_PRESET_SMALL) {
   return mien::Dna::generate(desc).value();
 }
 
-void test_images() {
-  const mien::Rig rig = mien::Rig::create(generated()).value();
-  std::vector<unsigned char> bytes(rig.save(mien::Span<unsigned char>()).value());
-  CHECK(rig.save(mien::Span<unsigned char>(bytes.data(), bytes.size())));
-  const mien::Rig opened = mien::Rig::open(bytes.data(), bytes.size()).value();
-  CHECK(opened.count(MIEN_KIND_JOINT) == rig.count(MIEN_KIND_JOINT));
-  CHECK(rig.save("/dev/null"));
+/// A stream over bytes.
+struct Bytes {
+  std::vector<unsigned char> data;
+
+  MienStream stream() { return {this, data.size(), read}; }
+  static size_t read(void* user, uint64_t offset, void* buffer, size_t size) {
+    const Bytes& bytes = *static_cast<const Bytes*>(user);
+    std::memcpy(buffer, bytes.data.data() + offset, size);
+    return size;
+  }
+};
+
+void test_baked_files() {
+  const mien::Dna dna = generated();
+  const mien::Rig rig = mien::Rig::create(dna).value();
+  const mien::Deformer deformer = mien::Deformer::create(dna, rig).value();
+  Bytes bytes;
+  bytes.data.resize(mien::bake(mien::Span<unsigned char>(), rig, deformer).value());
+  CHECK(mien::bake(bytes.data, rig, deformer));
+  const MienStream stream = bytes.stream();
+  for (const bool by_stream : {false, true}) {
+    mien::Baked baked = (by_stream ? mien::Baked::open(stream)
+                                   : mien::Baked::open(bytes.data.data(), bytes.data.size()))
+                            .value();
+    CHECK(baked.info()->file_bytes == bytes.data.size());
+    const mien::Rig opened = baked.rig().value();
+    const mien::Deformer meshes = baked.deformer(opened).value();
+    baked.reset();
+    CHECK(opened.count(MIEN_KIND_JOINT) == rig.count(MIEN_KIND_JOINT));
+    CHECK(meshes.info()->mesh_count == rig.count(MIEN_KIND_MESH));
+  }
+  CHECK(mien::bake("/dev/null", rig));
+  std::vector<unsigned char> alone(mien::bake(mien::Span<unsigned char>(), rig).value());
+  CHECK(mien::bake(alone, rig));
+  const mien::Baked without = mien::Baked::open(alone.data(), alone.size()).value();
 #ifndef MIEN_EXCEPTIONS
-  CHECK(mien::Rig::open("/dev/null").error().status() == MIEN_ERROR_BAKED_SIGNATURE);
+  CHECK(without.deformer(without.rig().value()).status() == MIEN_ERROR_BAKED_PART);
+  CHECK(mien::Baked::open("/dev/null").error().status() == MIEN_ERROR_BAKED_SIGNATURE);
 #endif
+
+  bytes.data.resize(dna.write(mien::Span<unsigned char>()).value());
+  CHECK(dna.write(bytes.data));
+  CHECK(mien::Dna::open(bytes.stream())->info()->joint_count == dna.info()->joint_count);
 }
 
 void test_life() {
@@ -339,7 +373,7 @@ int main() {
   CHECK(mien::version() == MIEN_VERSION && mien::is_available(MIEN_ISA_SCALAR));
   CHECK(std::string(mien::name_of(MIEN_ISA_SCALAR)) == "scalar");
   test_life();
-  test_images();
+  test_baked_files();
   test_empty_objects();
   test_errors();
   test_fields_and_files();

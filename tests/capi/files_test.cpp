@@ -12,7 +12,9 @@
 #include <fstream>
 #include <thread>
 
+#include "tests/support/counting_allocator.h"
 #include "tests/support/golden.h"
+#include "tests/support/memory_stream.h"
 #include "tests/support/misuse.h"
 
 namespace mien {
@@ -322,6 +324,39 @@ TEST_F(Files, DevicesAreWrittenToAndSurvive) {
   const DnaHandle large = generate_dna(MIEN_PRESET_SMALL, 1);
   EXPECT_EQ(mien_dna_write_file(large.get(), "/dev/full", nullptr, &error), MIEN_ERROR_FILE_WRITE);
   EXPECT_EQ(mien_dna_write_file(large.get(), "/dev/null", nullptr, &error), MIEN_OK);
+}
+
+TEST_F(Files, StreamsAreReadWhereChosenAndNeededNoLonger) {
+  MemoryStream source(bytes);
+  const Stream inner = source.get();
+  MienStream stream = {inner.user, inner.size, inner.read};
+  CountingAllocator counter;
+  const MienAllocator allocator = counter.get();
+  MienDnaDesc desc = sized<MienDnaDesc>();
+  desc.layers = MIEN_LAYER_BEHAVIOR;
+  desc.allocator = &allocator;
+  MienDna* opened = nullptr;
+  MienError error = sized<MienError>();
+  ASSERT_EQ(mien_dna_open_stream(&stream, &desc, &opened, &error), MIEN_OK) << error.message;
+  DnaHandle read(opened);
+  EXPECT_FALSE(info_of(read).is_mapped);
+  EXPECT_EQ(info_of(read).file_bytes, bytes.size());
+  EXPECT_EQ(info_of(read).memory_bytes, counter.bytes);
+  source.bytes.assign(bytes.size(), 0xEE);
+  EXPECT_TRUE(create_rig(read.get()));
+  read.reset();
+  EXPECT_TRUE(counter.clean()) << counter.first_wrong;
+
+  source.bytes = bytes;
+  source.reads = 0;
+  source.fail_at = 3;
+  EXPECT_EQ(mien_dna_open_stream(&stream, &desc, &opened, &error), MIEN_ERROR_FILE_READ);
+  EXPECT_EQ(opened, nullptr);
+  EXPECT_NE(error.message[0], 0);
+  EXPECT_EQ(mien_dna_open_stream(nullptr, &desc, &opened, &error), MIEN_ERROR_NULL_ARGUMENT);
+  stream.read = nullptr;
+  EXPECT_EQ(mien_dna_open_stream(&stream, &desc, &opened, &error), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_TRUE(counter.clean()) << counter.first_wrong;
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any bytes as an image of a rig, through its whole life (tests/support/exercise_baked.h). An input
-// is an image. Those to start from are made here; mutations change numbers of their tables.
+// Any bytes as a baked file, through its whole life (tests/support/exercise_baked.h). Files to start
+// from are made here; mutations change numbers of their tables.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -23,23 +23,28 @@ using Random = std::minstd_rand;
 uint32_t below(Random& random, size_t end) { return static_cast<uint32_t>(random() % end); }
 
 std::vector<Bytes>& seeds() {
-  static std::vector<Bytes> images;
-  return images;
+  static std::vector<Bytes> files;
+  return files;
 }
 
+/// Rigs of each kind, without and with their deformer.
 void add_seeds(const MienDna* dna) {
-  for (uint32_t kind = 0; kind < 4; ++kind) {
+  for (uint32_t kind = 0; kind < 8; ++kind) {
     MienRigDesc desc = {};
     desc.struct_size = sizeof(desc);
-    desc.rotation = kind & 1;
-    desc.storage = kind >> 1;
+    desc.rotation_output = kind & 1;
+    desc.storage = kind >> 1 & 1;
     desc.ml_masks = kind & 1;
     MienRig* rig = nullptr;
+    MienDeformer* deformer = nullptr;
     if (mien_rig_create(dna, &desc, &rig, nullptr) != MIEN_OK) abort();
+    if (kind >= 4 && mien_deformer_create(dna, rig, nullptr, &deformer, nullptr) != MIEN_OK)
+      abort();
     size_t size = 0;
-    mien_rig_save_memory(rig, nullptr, 0, &size, nullptr);
+    if (mien_bake_memory(rig, deformer, nullptr, 0, &size, nullptr) != MIEN_OK) abort();
     Bytes bytes(size);
-    mien_rig_save_memory(rig, bytes.data(), size, &size, nullptr);
+    if (mien_bake_memory(rig, deformer, bytes.data(), size, &size, nullptr) != MIEN_OK) abort();
+    mien_deformer_destroy(deformer);
     mien_rig_destroy(rig);
     seeds().push_back(bytes);
   }
@@ -140,8 +145,8 @@ extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max
                                           unsigned int seed) {
   Random random(seed);
   for (int i = 0; i < 4; ++i) random();  // the first numbers of near seeds are near
-  const bool is_image = size >= sizeof(BakedHeader) && memcmp(data, kBakedMagic, 8) == 0;
-  if (!is_image || below(random, 50) == 0) {
+  const bool is_baked = size >= sizeof(BakedHeader) && memcmp(data, kBakedMagic, 8) == 0;
+  if (!is_baked || below(random, 50) == 0) {
     const Bytes& start = seeds()[below(random, seeds().size())];
     if (start.size() <= max_size) {
       memcpy(data, start.data(), start.size());
@@ -156,8 +161,8 @@ extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  const AlignedBytes image(Bytes(data, data + size));
-  const ExerciseBaked life = exercise_baked(image.data(), image.size());
+  const AlignedBytes file(Bytes(data, data + size));
+  const ExerciseBaked life = exercise_baked(file.data(), file.size());
   if (life.broken.empty()) return 0;
   fprintf(stderr, "broken promise: %s (%s)\n", life.broken.c_str(), life.message.c_str());
   abort();

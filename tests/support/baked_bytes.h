@@ -48,8 +48,7 @@ inline RigHandle rig_of(const BakedHandle& baked, uint32_t isa = MIEN_ISA_ENVIRO
 }
 
 inline DeformerHandle deformer_of(const BakedHandle& baked, const RigHandle& rig,
-                                  uint32_t isa = MIEN_ISA_BEST,
-                                  MienStatus expected = MIEN_OK) {
+                                  uint32_t isa = MIEN_ISA_BEST, MienStatus expected = MIEN_OK) {
   MienBakedDeformerDesc desc = sized<MienBakedDeformerDesc>();
   desc.isa = isa;
   MienError error = sized<MienError>();

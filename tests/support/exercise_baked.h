@@ -330,6 +330,7 @@ class ExerciseBakedRun {
         if (mien_deformer_instance_deform_batch(deformed, kCount, m, normals, nullptr) != MIEN_OK) {
           broke("not deformed");
         }
+        write_vertices(deformer, deformed[0], m, normals);
         for (const MienDeformerInstance* one : deformed) {
           MienFloatView view = {};
           if (mien_deformer_instance_positions(one, m, &view) != MIEN_OK) broke("no positions");
@@ -353,6 +354,27 @@ class ExerciseBakedRun {
     if (counter_.requests != requests) broke("deformation allocated");
     for (MienDeformerInstance* one : deformed) mien_deformer_instance_destroy(one);
     mien_instance_destroy(instance);
+  }
+
+  void write_vertices(const MienDeformer* deformer, MienDeformerInstance* instance, uint32_t m,
+                      uint32_t normals) {
+    MienMesh mesh = {};
+    mesh.struct_size = sizeof(mesh);
+    if (mien_deformer_mesh(deformer, m, &mesh) != MIEN_OK) broke("no mesh");
+    const size_t floats = size_t{4} * mesh.vertex_count + 1;
+    std::vector<float> positions(floats), directions(floats), tangents(floats);
+    MienVertexOutput output = {};
+    output.struct_size = sizeof(output);
+    output.vertex_capacity = mesh.vertex_count;
+    output.positions = {positions.data(), 16, MIEN_VERTEX_FORMAT_FLOAT32X4};
+    output.normals = {directions.data(), 16, m % 4};
+    if (mesh.tangents.count != 0) {
+      output.tangents = {tangents.data(), 16, MIEN_VERTEX_FORMAT_SNORM16X4};
+    }
+    if (mien_deformer_instance_write_vertices(instance, m, normals, &output, nullptr) != MIEN_OK) {
+      broke("vertices were not written");
+    }
+    for (const float value : positions) sink_ = sink_ + value;
   }
 
   // What was opened is as large as its part of the file, whatever it holds.

@@ -28,7 +28,7 @@ BakedFile open_baked_rig(const std::string& path, const LoadOptions& load,
     if (!value.empty()) fail_baked(option);
   }
   const MienRigDesc wanted = parse_rig_options(evaluation);
-  auto desc = sized<MienBakedDesc>();
+  auto desc = sized<MienBakedRigDesc>();
   desc.isa = wanted.isa;
   desc.reuse = reuse;
   BakedFile file = open_baked_file(path, desc);

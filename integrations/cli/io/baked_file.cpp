@@ -34,20 +34,34 @@ bool is_baked_file(const std::string& path) {
 
 bool is_baked_bytes(const std::string& bytes) { return bytes.compare(0, kMagicSize, kMagic) == 0; }
 
-BakedFile open_baked_file(const std::string& path, const MienBakedDesc& desc) {
+BakedFile open_baked_file(const std::string& path, const MienBakedRigDesc& desc) {
+  constexpr const char* kCannot = "cannot open baked file";
   BakedFile file;
   file.shown = shown_name(path);
-  MienRig* rig = nullptr;
+  MienBaked* baked = nullptr;
   auto error = sized<MienError>();
   MienStatus status;
   if (path == "-") {
-    file.bytes = read_standard_input();
-    status = mien_rig_open_memory(file.bytes.data(), file.bytes.size(), &desc, &rig, &error);
+    const std::string bytes = read_standard_input();
+    auto copy = sized<MienBakedDesc>();
+    copy.file_access = MIEN_FILE_READ;
+    status = mien_baked_open_memory(bytes.data(), bytes.size(), &copy, &baked, &error);
   } else {
-    status = mien_rig_open_file(path.c_str(), &desc, &rig, &error);
+    status = mien_baked_open_file(path.c_str(), nullptr, &baked, &error);
   }
-  check(status, &error, "cannot open baked file", file.shown);
+  check(status, &error, kCannot, file.shown);
+  file.baked.reset(baked);
+  MienRig* rig = nullptr;
+  check(mien_rig_from_baked(baked, &desc, &rig, &error), &error, kCannot, file.shown);
   file.rig.reset(rig);
+  auto info = sized<MienBakedInfo>();
+  check(mien_baked_info(baked, &info), nullptr, kCannot, file.shown);
+  if (info.deformer_bytes != 0) {
+    MienDeformer* deformer = nullptr;
+    check(mien_deformer_from_baked(baked, rig, nullptr, &deformer, &error), &error, kCannot,
+          file.shown);
+    file.deformer.reset(deformer);
+  }
   return file;
 }
 

@@ -13,14 +13,14 @@ bool is_baked_file(const std::string& path);
 
 bool is_baked_bytes(const std::string& bytes);
 
-/// The rig points into the bytes of standard input, so they stand before it and outlive it.
 struct BakedFile {
   std::string shown;  // path, or "standard input"
-  std::string bytes;
+  Baked baked;
   Rig rig;
+  Deformer deformer;  // null if the file has none
 };
 
 /// `path` may be "-".
-BakedFile open_baked_file(const std::string& path, const MienBakedDesc& desc);
+BakedFile open_baked_file(const std::string& path, const MienBakedRigDesc& desc);
 
 }  // namespace mien::cli

@@ -29,6 +29,7 @@ using Deformer = std::unique_ptr<MienDeformer, Destroy<MienDeformer, mien_deform
 using DeformerInstance =
     std::unique_ptr<MienDeformerInstance,
                     Destroy<MienDeformerInstance, mien_deformer_instance_destroy>>;
+using Baked = std::unique_ptr<MienBaked, Destroy<MienBaked, mien_baked_close>>;
 using Report = std::unique_ptr<MienReport, Destroy<MienReport, mien_report_destroy>>;
 
 inline std::string to_string(MienStringView view) { return std::string(view.data, view.count); }

@@ -42,6 +42,12 @@ RigFile open_rig_file(const std::string& path, const MienDnaDesc& desc, const Se
   return file;
 }
 
+bool has_geometry(const RigFile& file) {
+  auto field = sized<MienDnaField>();
+  const MienStatus status = mien_dna_field(file.dna.get(), "geom.meshes", &field, nullptr);
+  return status == MIEN_OK && field.count != 0;
+}
+
 Rig create_rig(const RigFile& file, const MienRigDesc& desc) {
   auto error = sized<MienError>();
   MienRig* rig = nullptr;

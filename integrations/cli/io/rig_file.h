@@ -32,6 +32,9 @@ std::string shown_name(const std::string& path);
 /// `path` may be "-". Prints a note if LODs were named that the file does not have.
 RigFile open_rig_file(const std::string& path, const MienDnaDesc& desc, const Session& session);
 
+/// Files may name meshes and leave their geometry out.
+bool has_geometry(const RigFile& file);
+
 Rig create_rig(const RigFile& file, const MienRigDesc& desc);
 MienRigInfo rig_info(const MienRig* rig);
 uint32_t rig_count(const MienRig* rig, uint32_t kind);

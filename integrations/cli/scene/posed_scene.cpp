@@ -79,13 +79,6 @@ SceneMesh make_mesh(const PosedScene& scene, uint32_t mesh, const std::string& n
   return made;
 }
 
-/// Files may name meshes and leave their geometry out.
-bool has_geometry(const RigFile& file) {
-  auto field = sized<MienDnaField>();
-  const MienStatus status = mien_dna_field(file.dna.get(), "geom.meshes", &field, nullptr);
-  return status == MIEN_OK && field.count != 0;
-}
-
 void choose_meshes(PosedScene& scene, const PosedSceneOptions& options, const Session& session) {
   MienIndex16View indices{};
   check(mien_rig_lod_indices(scene.rig.get(), MIEN_KIND_MESH, 0, &indices), nullptr, kCannot,

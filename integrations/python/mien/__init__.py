@@ -12,13 +12,14 @@
 
 `Dna` -> `Rig` -> `Instance` or `Batch`. README.md has more; errors are in `mien.errors`.
 """
-from ._api import (BakedCheck, Compose, CoordinateSystem, DeformerInfo, Direction, DnaField,
+from ._api import (BakedCheck, BakedInfo, Compose, CoordinateSystem, DeformerInfo, Direction, DnaField,
                    DnaInfo, DnaLayer, FaceWinding, FieldType, FileAccess, Finding,
                    InstanceStatistics, Isa, Kind, Layer, MlMasks, Normals, Preset, Reuse, RigInfo,
                    RigStatistics, RotationOutput, RotationRule, RotationSequence, RotationUnit,
                    Severity, Stage, Status, Storage, TranslationUnit, UnknownLayers, Weights)
 from ._api import VERSION as _VERSION
 from ._library import path as library_path, version
+from .baked import Baked
 from .batch import Batch
 from .deformer import Deformer, DeformerInstance, Mesh, deform_batch, write_vertices_batch
 from .dna import Dna, coordinate_system, coordinate_system_names, validate
@@ -31,7 +32,7 @@ from .rig_view import isa_available, isa_name
 __version__ = _VERSION
 
 __all__ = [
-    "__version__", "ArgumentError", "BakedCheck", "Batch", "BusyError", "ClosedError", "Compose",
+    "__version__", "ArgumentError", "Baked", "BakedCheck", "BakedInfo", "Batch", "BusyError", "ClosedError", "Compose",
     "coordinate_system", "coordinate_system_names", "CoordinateSystem", "deform_batch", "Deformer",
     "DeformerInfo", "DeformerInstance", "Direction", "Dna", "DnaError", "DnaField", "DnaInfo",
     "DnaLayer", "Error", "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding",

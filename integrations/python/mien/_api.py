@@ -79,16 +79,18 @@ class Status(IntEnum):
     DNA_LAYER = 36
     #: a value that has no meaning
     DNA_VALUE = 37
-    #: not an image of a rig
+    #: not a baked file
     BAKED_SIGNATURE = 50
-    #: an image of another version or kind of machine: bake again
+    #: of another version or kind of machine: bake again
     BAKED_VERSION = 51
-    #: the image ends before what it announces
+    #: the file ends before what it announces
     BAKED_TRUNCATED = 52
     #: sizes, counts or indices contradict each other
     BAKED_STRUCTURE = 53
     #: not the bytes that were written
     BAKED_CHECKSUM = 54
+    #: the file does not hold what was asked of it
+    BAKED_PART = 55
 
 
 class Layer(IntFlag):
@@ -327,17 +329,6 @@ class Reuse(IntEnum):
     NOTHING = 1
 
 
-class BakedCheck(IntEnum):
-    """Values of enum MienBakedCheck of the C interface."""
-
-    #: every size, count and index: whatever the bytes are, nothing is read or written outside of
-    #: the rig and its instances. Numbers are not looked at, so their pages stay on disk until they
-    #: are needed.
-    SAFE = 0
-    #: also that all bytes are those that were written: reads them all
-    FULL = 1
-
-
 class Kind(IntEnum):
     """Things with names and numbers."""
 
@@ -429,6 +420,17 @@ class VertexFormat(IntEnum):
     SNORM10_10_10_2 = 3
 
 
+class BakedCheck(IntEnum):
+    """Values of enum MienBakedCheck of the C interface."""
+
+    #: every size, count and index: whatever the bytes are, nothing is read or written outside of
+    #: the objects and their instances. Numbers are not looked at, so their pages stay on disk
+    #: until they are needed.
+    SAFE = 0
+    #: also that all bytes are those that were written: reads them all
+    FULL = 1
+
+
 class MienDna(c_void_p):
     pass
 
@@ -454,6 +456,10 @@ class MienDeformer(c_void_p):
 
 
 class MienDeformerInstance(c_void_p):
+    pass
+
+
+class MienBaked(c_void_p):
     pass
 
 
@@ -539,6 +545,17 @@ class MienIndex32View(Structure):
     ]
     data: Any
     count: Any
+
+
+class MienStream(Structure):
+    _fields_ = [
+        ("user", c_void_p),
+        ("size", c_uint64),
+        ("read", CFUNCTYPE(c_size_t, c_void_p, c_uint64, c_void_p, c_size_t)),
+    ]
+    user: Any
+    size: Any
+    read: Any
 
 
 class MienCoordinateSystem(Structure):
@@ -833,26 +850,6 @@ class MienRigInfo(Structure):
         super().__init__(struct_size=88, **values)
 
 
-class MienBakedDesc(Structure):
-    _fields_ = [
-        ("struct_size", c_size_t),
-        ("isa", c_uint32),
-        ("file_access", c_uint32),
-        ("check", c_uint32),
-        ("reuse", c_uint32),
-        ("allocator", POINTER(MienAllocator)),
-    ]
-    struct_size: Any
-    isa: Any
-    file_access: Any
-    check: Any
-    reuse: Any
-    allocator: Any
-
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=32, **values)
-
-
 class MienRigStatistics(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -1066,6 +1063,76 @@ class MienVertexOutput(Structure):
 
     def __init__(self, **values: Any) -> None:
         super().__init__(struct_size=64, **values)
+
+
+class MienBakedDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("file_access", c_uint32),
+        ("check", c_uint32),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    file_access: Any
+    check: Any
+    allocator: Any
+
+    def __init__(self, **values: Any) -> None:
+        super().__init__(struct_size=24, **values)
+
+
+class MienBakedInfo(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("file_bytes", c_uint64),
+        ("memory_bytes", c_uint64),
+        ("rig_bytes", c_uint64),
+        ("deformer_bytes", c_uint64),
+        ("part_count", c_uint32),
+        ("is_mapped", c_uint32),
+    ]
+    struct_size: Any
+    file_bytes: Any
+    memory_bytes: Any
+    rig_bytes: Any
+    deformer_bytes: Any
+    part_count: Any
+    is_mapped: Any
+
+    def __init__(self, **values: Any) -> None:
+        super().__init__(struct_size=48, **values)
+
+
+class MienBakedRigDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("isa", c_uint32),
+        ("reuse", c_uint32),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    isa: Any
+    reuse: Any
+    allocator: Any
+
+    def __init__(self, **values: Any) -> None:
+        super().__init__(struct_size=24, **values)
+
+
+class MienBakedDeformerDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("isa", c_uint32),
+        ("normals", c_uint32),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    isa: Any
+    normals: Any
+    allocator: Any
+
+    def __init__(self, **values: Any) -> None:
+        super().__init__(struct_size=24, **values)
 
 
 class CoordinateSystem(NamedTuple):
@@ -1363,6 +1430,29 @@ class DeformerInfo(NamedTuple):
                    c.mesh_count, c.deformer_bytes, c.instance_bytes)
 
 
+class BakedInfo(NamedTuple):
+    """Copy of a MienBakedInfo.
+
+      memory_bytes: taken from the allocator
+      rig_bytes: of the file; 0 if it has no rig
+      deformer_bytes: of the file; 0 if it has no deformer
+      part_count: of the file, with those that this library does not know
+      is_mapped: the file is mapped
+    """
+
+    file_bytes: int
+    memory_bytes: int
+    rig_bytes: int
+    deformer_bytes: int
+    part_count: int
+    is_mapped: bool
+
+    @classmethod
+    def _of(cls, c: MienBakedInfo) -> BakedInfo:
+        return cls(c.file_bytes, c.memory_bytes, c.rig_bytes, c.deformer_bytes, c.part_count,
+                   bool(c.is_mapped))
+
+
 # Name, result, parameters.
 FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_version", c_uint32, ()),
@@ -1373,6 +1463,8 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_dna_open_file", c_int32, (c_char_p, POINTER(MienDnaDesc), POINTER(MienDna),
      POINTER(MienError))),
     ("mien_dna_open_memory", c_int32, (c_void_p, c_size_t, POINTER(MienDnaDesc), POINTER(MienDna),
+     POINTER(MienError))),
+    ("mien_dna_open_stream", c_int32, (POINTER(MienStream), POINTER(MienDnaDesc), POINTER(MienDna),
      POINTER(MienError))),
     ("mien_dna_close", None, (MienDna,)),
     ("mien_dna_info", c_int32, (MienDna, POINTER(MienDnaInfo))),
@@ -1414,12 +1506,6 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_rig_create", c_int32, (MienDna, POINTER(MienRigDesc), POINTER(MienRig),
      POINTER(MienError))),
     ("mien_rig_destroy", None, (MienRig,)),
-    ("mien_rig_save_file", c_int32, (MienRig, c_char_p, POINTER(MienError))),
-    ("mien_rig_save_memory", c_int32, (MienRig, c_void_p, c_size_t, c_void_p, POINTER(MienError))),
-    ("mien_rig_open_file", c_int32, (c_char_p, POINTER(MienBakedDesc), POINTER(MienRig),
-     POINTER(MienError))),
-    ("mien_rig_open_memory", c_int32, (c_void_p, c_size_t, POINTER(MienBakedDesc), POINTER(MienRig),
-     POINTER(MienError))),
     ("mien_rig_info", c_int32, (MienRig, POINTER(MienRigInfo))),
     ("mien_rig_count", c_int32, (MienRig, c_uint32, c_void_p)),
     ("mien_rig_name", c_int32, (MienRig, c_uint32, c_uint32, POINTER(MienStringView))),
@@ -1494,6 +1580,21 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
      POINTER(MienVertexOutput), POINTER(MienParallelFor))),
     ("mien_deformer_instance_write_vertices_batch", c_int32, (POINTER(MienDeformerInstance),
      c_size_t, c_uint32, c_uint32, POINTER(MienVertexOutput), POINTER(MienParallelFor))),
+    ("mien_bake_file", c_int32, (MienRig, MienDeformer, c_char_p, POINTER(MienError))),
+    ("mien_bake_memory", c_int32, (MienRig, MienDeformer, c_void_p, c_size_t, c_void_p,
+     POINTER(MienError))),
+    ("mien_baked_open_file", c_int32, (c_char_p, POINTER(MienBakedDesc), POINTER(MienBaked),
+     POINTER(MienError))),
+    ("mien_baked_open_memory", c_int32, (c_void_p, c_size_t, POINTER(MienBakedDesc),
+     POINTER(MienBaked), POINTER(MienError))),
+    ("mien_baked_open_stream", c_int32, (POINTER(MienStream), POINTER(MienBakedDesc),
+     POINTER(MienBaked), POINTER(MienError))),
+    ("mien_baked_close", None, (MienBaked,)),
+    ("mien_baked_info", c_int32, (MienBaked, POINTER(MienBakedInfo))),
+    ("mien_rig_from_baked", c_int32, (MienBaked, POINTER(MienBakedRigDesc), POINTER(MienRig),
+     POINTER(MienError))),
+    ("mien_deformer_from_baked", c_int32, (MienBaked, MienRig, POINTER(MienBakedDeformerDesc),
+     POINTER(MienDeformer), POINTER(MienError))),
 )
 
 
@@ -1507,6 +1608,7 @@ class Library:
     mien_coordinate_system_name: Any
     mien_dna_open_file: Any
     mien_dna_open_memory: Any
+    mien_dna_open_stream: Any
     mien_dna_close: Any
     mien_dna_info: Any
     mien_dna_layer: Any
@@ -1532,10 +1634,6 @@ class Library:
     mien_isa_name: Any
     mien_rig_create: Any
     mien_rig_destroy: Any
-    mien_rig_save_file: Any
-    mien_rig_save_memory: Any
-    mien_rig_open_file: Any
-    mien_rig_open_memory: Any
     mien_rig_info: Any
     mien_rig_count: Any
     mien_rig_name: Any
@@ -1594,6 +1692,15 @@ class Library:
     mien_deformer_instance_normals: Any
     mien_deformer_instance_write_vertices: Any
     mien_deformer_instance_write_vertices_batch: Any
+    mien_bake_file: Any
+    mien_bake_memory: Any
+    mien_baked_open_file: Any
+    mien_baked_open_memory: Any
+    mien_baked_open_stream: Any
+    mien_baked_close: Any
+    mien_baked_info: Any
+    mien_rig_from_baked: Any
+    mien_deformer_from_baked: Any
 
     def __init__(self, library: ctypes.CDLL) -> None:
         for name, result, parameters in FUNCTIONS:

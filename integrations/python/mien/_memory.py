@@ -66,8 +66,16 @@ class ReportHandle(_Address, _api.MienReport):
             destroy(self)
 
 
+class BakedHandle(_Address, _api.MienBaked):
+    keeps: Any  # bytes that the library reads from
+
+    def __del__(self, destroy: Any = lib.mien_baked_close) -> None:
+        if self.value:
+            destroy(self)
+
+
 class RigHandle(_Address, _api.MienRig):
-    image: Optional[bytes] = None  # of a rig that was opened from memory
+    baked: Optional[BakedHandle] = None  # where its arrays are
 
     def __del__(self, destroy: Any = lib.mien_rig_destroy) -> None:
         if self.value:
@@ -81,12 +89,16 @@ class BatchHandle(_Address, _api.MienBatch):
 
 
 class DeformerHandle(_Address, _api.MienDeformer):
+    baked: Optional[BakedHandle] = None  # where its arrays are
+
     def __del__(self, destroy: Any = lib.mien_deformer_destroy) -> None:
         if self.value:
             destroy(self)
 
 
 class PoseHandle(_Address, _api.MienDeformerInstance):
+    baked: Optional[BakedHandle]  # of the deformer, whose arrays may be in memory of Python
+
     def __del__(self, destroy: Any = lib.mien_deformer_instance_destroy) -> None:
         if self.value:
             destroy(self)
@@ -94,6 +106,7 @@ class PoseHandle(_Address, _api.MienDeformerInstance):
 
 class InstanceHandle(_Address, _api.MienInstance):
     slab: Any  # where its memory is, for characters of a batch
+    baked: Optional[BakedHandle]  # of the rig, whose arrays may be in memory of Python
 
     def __del__(self, destroy: Any = lib.mien_instance_destroy) -> None:
         if self.value:
@@ -223,6 +236,40 @@ def terminated(text: bytes, what: str) -> bytes:
 def as_bytes(data: Any) -> bytes:
     """Immutable bytes: the object itself, or a copy of a mutable buffer."""
     return data if type(data) is bytes else bytes(memoryview(data))
+
+
+class FileStream:
+    """A binary file object, seekable, as the library reads it. What the file raises comes out of
+    `check`, once the call that read is over."""
+
+    def __init__(self, file: Any) -> None:
+        self._file = file
+        self._raised: Optional[BaseException] = None
+        kind: Any = dict(_api.MienStream._fields_)["read"]
+        start = file.tell()
+        self._start = start
+        size = file.seek(0, os.SEEK_END) - start
+        self.stream = _api.MienStream(size=size, read=kind(self._read))
+
+    def _read(self, _user: Any, offset: int, buffer: int, size: int) -> int:
+        try:
+            self._file.seek(self._start + offset)
+            done = 0
+            while done < size:  # raw files may give less than they are asked for
+                part = self._file.read(size - done)
+                if not part:
+                    break
+                ctypes.memmove(buffer + done, bytes(part), len(part))
+                done += len(part)
+            return done
+        except BaseException as raised:  # must not cross the library
+            self._raised = raised
+            return 0
+
+    def check(self) -> None:
+        """Raises what the file raised."""
+        if self._raised is not None:
+            raise self._raised
 
 
 def lod_bits(lods: Optional[Iterable[int]]) -> int:

@@ -107,6 +107,15 @@ class Deformer(Closable):
                                           _byref(error))
         if status:
             fail(status, "cannot make a deformer", error)
+        self._take(handle, rig)
+
+    @classmethod
+    def _of(cls, handle: DeformerHandle, rig: Rig) -> Deformer:
+        deformer = cls.__new__(cls)
+        deformer._take(handle, rig)
+        return deformer
+
+    def _take(self, handle: DeformerHandle, rig: Rig) -> None:
         self._handle = handle
         info = _api.MienDeformerInfo()
         status = lib.mien_deformer_info(handle, _byref(info))
@@ -193,7 +202,10 @@ class DeformerInstance(Closable):
     def __init__(self, deformer: Deformer, lods: Optional[Iterable[int]] = None) -> None:
         desc = _api.MienDeformerInstanceDesc(lods=lod_bits(lods))
         handle, error = PoseHandle(), MienError()
-        status = lib.mien_deformer_instance_create(deformer._open(), _byref(desc), _byref(handle), _byref(error))
+        made_for = deformer._open()
+        handle.baked = made_for.baked
+        status = lib.mien_deformer_instance_create(made_for, _byref(desc), _byref(handle),
+                                                   _byref(error))
         if status:
             fail(status, "cannot make a pose", error)
         self._handle = handle

@@ -9,7 +9,7 @@ from . import _api
 from ._api import (CoordinateSystem, DnaField, DnaInfo, DnaLayer, FieldType, FileAccess, Finding,
                    Layer, MienError, Preset, UnknownLayers)
 from ._library import lib
-from ._memory import (Closable, DnaHandle, ReportHandle, as_bytes, as_path, lod_bits,
+from ._memory import (Closable, DnaHandle, FileStream, ReportHandle, as_bytes, as_path, lod_bits,
                       new_array, terminated, uint32)
 from .errors import fail
 
@@ -96,6 +96,22 @@ class Dna(Closable):
         if status:
             fail(status, "cannot open the bytes", error)
         return cls(handle, data)
+
+    @classmethod
+    def from_stream(cls, file: Any, layers: int = Layer.ALL, lods: Optional[Iterable[int]] = None,
+                    unknown_layers: int = UnknownLayers.KEEP,
+                    system: Union[None, str, CoordinateSystem] = None) -> Dna:
+        """The same from a binary file object that can seek, such as a member of an archive: reads
+        the chosen layers alone. The file ends where the object does and begins where it stands."""
+        stream = FileStream(file)
+        desc = _dna_desc(layers, lods, unknown_layers, FileAccess.READ, system)
+        handle, error = DnaHandle(), MienError()
+        status = lib.mien_dna_open_stream(_byref(stream.stream), _byref(desc), _byref(handle),
+                                          _byref(error))
+        stream.check()
+        if status:
+            fail(status, "cannot open the stream", error)
+        return cls(handle)
 
     @classmethod
     def generate(cls, preset: int = Preset.TINY, seed: int = 0) -> Dna:

@@ -42,7 +42,9 @@ class Instance(Closable):
         desc = _api.MienInstanceDesc()
         if _slab is not None:
             desc.allocator = ctypes.pointer(_slab.allocator)
-        status = lib.mien_instance_create(rig._open(), _byref(desc), _byref(handle), _byref(error))
+        made_for = rig._open()
+        handle.baked = made_for.baked
+        status = lib.mien_instance_create(made_for, _byref(desc), _byref(handle), _byref(error))
         if status:
             fail(status, "cannot make an instance", error)
         self._handle = handle

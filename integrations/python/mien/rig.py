@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Tuple
+from typing import Any, Optional, Tuple
 
-from . import _api
+from . import _api, _baked
 from ._api import (BakedCheck, FileAccess, Isa, MienError, MlMasks, Reuse, RotationOutput,
                    Storage)
 from ._library import lib
-from ._memory import RigHandle, as_bytes, as_path, uint32
+from ._memory import Closable, RigHandle, uint32
 from .batch import Batch
 from .dna import Dna
 from .errors import fail
@@ -53,38 +53,21 @@ class Rig(RigView):
     @classmethod
     def open(cls, path: Any, isa: int = Isa.BEST, access: int = FileAccess.READ,
              check: int = BakedCheck.SAFE, reuse: int = Reuse.UNCHANGED) -> Rig:
-        """Opens a baked rig: a file that `save` or `mien bake` wrote.
+        """Opens the rig of a baked file, which `bake` or `mien bake` wrote. `Baked` also gives its
+        deformer.
 
         access: `FileAccess.MAP` shares the file's pages with other processes and reads what is
                 needed. If a mapped file is truncated while it is open, the process may crash, so
                 the default reads it all
         check:  `BakedCheck.FULL` also finds changed numbers
         """
-        desc = cls._image_desc(isa, access, check, reuse)
-        handle, error = RigHandle(), MienError()
-        status = lib.mien_rig_open_file(as_path(path), _byref(desc), _byref(handle), _byref(error))
-        if status:
-            fail(status, f"cannot open {path}", error, path)
-        return cls._of(handle)
+        return cls._of(_baked.rig_of(_baked.open_file(path, access, check), isa, reuse))
 
     @classmethod
     def from_bytes(cls, data: Any, isa: int = Isa.BEST, check: int = BakedCheck.SAFE,
                    reuse: int = Reuse.UNCHANGED) -> Rig:
         """The same from memory, which is kept alive."""
-        data = as_bytes(data)
-        desc = cls._image_desc(isa, FileAccess.READ, check, reuse)
-        handle, error = RigHandle(), MienError()
-        status = lib.mien_rig_open_memory(data, len(data), _byref(desc), _byref(handle),
-                                          _byref(error))
-        if status:
-            fail(status, "cannot open the bytes", error)
-        handle.image = data  # whatever evaluates has the handle
-        return cls._of(handle)
-
-    @staticmethod
-    def _image_desc(isa: int, access: int, check: int, reuse: int) -> Any:
-        return _api.MienBakedDesc(isa=uint32(isa, "isa"), file_access=uint32(access, "access"),
-                                     check=uint32(check, "check"), reuse=uint32(reuse, "reuse"))
+        return cls._of(_baked.rig_of(_baked.open_bytes(data, check), isa, reuse))
 
     @classmethod
     def _of(cls, handle: RigHandle) -> Rig:
@@ -92,26 +75,14 @@ class Rig(RigView):
         rig._take(handle)
         return rig
 
-    def save(self, path: Any) -> None:
-        """Bakes the rig into a file that `open` uses as it is; a failure leaves `path` as it
-        was."""
-        error = MienError()
-        status = lib.mien_rig_save_file(self._open(), as_path(path), _byref(error))
-        if status:
-            fail(status, f"cannot write {path}", error, path)
+    def bake(self, path: Any, deformer: Optional[Closable] = None) -> None:
+        """Writes a baked file, with a `Deformer` of this rig if there is one; a failure leaves
+        `path` as it was."""
+        _baked.bake(path, self._open(), deformer and deformer._open())
 
-    def to_bytes(self) -> bytes:
+    def to_bytes(self, deformer: Optional[Closable] = None) -> bytes:
         """The same to memory."""
-        handle = self._open()
-        size, error = ctypes.c_size_t(), MienError()
-        status = lib.mien_rig_save_memory(handle, None, 0, _byref(size), _byref(error))
-        if not status:
-            buffer = ctypes.create_string_buffer(size.value)
-            status = lib.mien_rig_save_memory(handle, buffer, size.value, _byref(size),
-                                              _byref(error))
-        if status:
-            fail(status, "cannot write", error)
-        return buffer.raw
+        return _baked.baked_bytes(self._open(), deformer and deformer._open())
 
     # Pickled and copied as its baked bytes, which the other process or copy opens.
 

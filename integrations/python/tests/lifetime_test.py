@@ -4,6 +4,7 @@ import copy
 import gc
 import os
 import pickle
+import sys
 import threading
 import unittest
 import weakref
@@ -175,6 +176,28 @@ class Closing(unittest.TestCase):
         face = other.instance()
         rig.close()
         face.evaluate()
+
+    def test_baked_bytes_live_as_long_as_what_reads_them(self):
+        dna = mien.Dna.generate(mien.Preset.SMALL)
+        made = mien.Rig(dna)
+        data = made.to_bytes(mien.Deformer(dna, made))
+        count = sys.getrefcount(data)
+        baked = mien.Baked.from_bytes(data)
+        rig = baked.rig()
+        deformer = baked.deformer(rig)
+        face, pose = rig.instance(), deformer.instance()
+        for thing in (baked, rig, deformer):
+            thing.close()
+        gc.collect()
+        self.assertGreater(sys.getrefcount(data), count)
+        face.reset()
+        pose.deform(0)
+        face.close()
+        self.assertGreater(sys.getrefcount(data), count)
+        pose.close()
+        del baked, rig, deformer, face, pose, thing
+        gc.collect()
+        self.assertEqual(sys.getrefcount(data), count)
 
     def test_end_of_the_process_with_everything_open(self):
         run("""

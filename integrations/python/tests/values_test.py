@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """That Python sees the numbers of C, with and without NumPy, alone and in batches."""
+import io
 import os
 import tempfile
 import unittest
@@ -31,7 +32,7 @@ class Values(unittest.TestCase):
         data = rig.to_bytes()
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "face.rig")
-            rig.save(path)
+            rig.bake(path)
             with open(path, "rb") as file:
                 self.assertEqual(file.read(), data)
             rigs = [mien.Rig.open(path, check=mien.BakedCheck.FULL),
@@ -42,6 +43,55 @@ class Values(unittest.TestCase):
                 again.close()
         with self.assertRaises(mien.DnaError):
             mien.Rig.from_bytes(b"DNA")
+
+    def test_a_baked_file_gives_rig_and_deformer(self):
+        rig = rig_of()
+        deformer = mien.Deformer(dna_of(), rig)
+        data = rig.to_bytes(deformer)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "face.rig")
+            rig.bake(path, deformer)
+            files = [mien.Baked.open(path), mien.Baked.open(path, access=mien.FileAccess.MAP),
+                     mien.Baked.from_bytes(data, check=mien.BakedCheck.FULL),
+                     mien.Baked.from_stream(io.BytesIO(data))]
+            for baked in files:
+                self.assertEqual(baked.info.file_bytes, len(data))
+                again = baked.rig(isa=mien.Isa.SCALAR)
+                meshes = baked.deformer(again)
+                baked.close()
+                self.assertEqual(again.to_bytes(meshes), data)
+                self.assertEqual(meshes.mesh(0).name, deformer.mesh(0).name)
+                meshes.instance().deform(0)
+        without = mien.Baked.from_bytes(rig.to_bytes())
+        with self.assertRaises(mien.Error) as raised:
+            without.deformer(without.rig())
+        self.assertEqual(raised.exception.status, mien.Status.BAKED_PART)
+        with self.assertRaises(mien.Error) as raised:
+            without.deformer(rig)
+        self.assertEqual(raised.exception.status, mien.Status.MISMATCH)
+
+    def test_streams(self):
+        data = dna_of().to_bytes()
+        archive = io.BytesIO(b"before" + data)
+        archive.seek(6)
+        with mien.Dna.from_stream(archive, layers=mien.Layer.BEHAVIOR) as dna:
+            self.assertEqual(dna.info.raw_control_count, dna_of().info.raw_control_count)
+
+        class Broken(io.BytesIO):
+            def read(self, size=-1):
+                raise RuntimeError("the network is down")
+
+        class Short(io.BytesIO):
+            def read(self, size=-1):
+                return super().read(1) if self.tell() < 100 else b""
+
+        for use in (mien.Dna.from_stream, mien.Baked.from_stream):
+            with self.assertRaisesRegex(RuntimeError, "network"):
+                use(Broken(data))
+            with self.assertRaises(mien.FileError):
+                use(Short(data))
+            with self.assertRaises(TypeError):
+                use(io.StringIO("text"))
 
     def test_a_control_by_name(self):
         rig = rig_of()

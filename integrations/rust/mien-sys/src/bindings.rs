@@ -55,16 +55,18 @@ pub const MIEN_ERROR_DNA_LIMIT: MienStatus = 35;
 pub const MIEN_ERROR_DNA_LAYER: MienStatus = 36;
 /// A value that has no meaning.
 pub const MIEN_ERROR_DNA_VALUE: MienStatus = 37;
-/// Not an image of a rig.
+/// Not a baked file.
 pub const MIEN_ERROR_BAKED_SIGNATURE: MienStatus = 50;
-/// An image of another version or kind of machine: bake again.
+/// Of another version or kind of machine: bake again.
 pub const MIEN_ERROR_BAKED_VERSION: MienStatus = 51;
-/// The image ends before what it announces.
+/// The file ends before what it announces.
 pub const MIEN_ERROR_BAKED_TRUNCATED: MienStatus = 52;
 /// Sizes, counts or indices contradict each other.
 pub const MIEN_ERROR_BAKED_STRUCTURE: MienStatus = 53;
 /// Not the bytes that were written.
 pub const MIEN_ERROR_BAKED_CHECKSUM: MienStatus = 54;
+/// The file does not hold what was asked of it.
+pub const MIEN_ERROR_BAKED_PART: MienStatus = 55;
 
 // enum MienLayer
 /// Only in MienDnaLayer.layer.
@@ -221,14 +223,6 @@ pub const MIEN_REUSE_UNCHANGED: u32 = 0;
 /// Everything is computed each time: for measuring.
 pub const MIEN_REUSE_NOTHING: u32 = 1;
 
-// enum MienBakedCheck
-/// Every size, count and index: whatever the bytes are, nothing is read or written outside of the
-/// rig and its instances. Numbers are not looked at, so their pages stay on disk until they are
-/// needed.
-pub const MIEN_BAKED_CHECK_SAFE: u32 = 0;
-/// Also that all bytes are those that were written: reads them all.
-pub const MIEN_BAKED_CHECK_FULL: u32 = 1;
-
 // enum MienKind
 pub const MIEN_KIND_GUI_CONTROL: u32 = 0;
 pub const MIEN_KIND_RAW_CONTROL: u32 = 1;
@@ -294,6 +288,14 @@ pub const MIEN_VERTEX_FORMAT_SNORM16X4: u32 = 2;
 /// 4 bytes, one 32-bit word: x in bits 0-9, y in 10-19, z in 20-29, w in 30-31.
 pub const MIEN_VERTEX_FORMAT_SNORM10_10_10_2: u32 = 3;
 
+// enum MienBakedCheck
+/// Every size, count and index: whatever the bytes are, nothing is read or written outside of the
+/// objects and their instances. Numbers are not looked at, so their pages stay on disk until they
+/// are needed.
+pub const MIEN_BAKED_CHECK_SAFE: u32 = 0;
+/// Also that all bytes are those that were written: reads them all.
+pub const MIEN_BAKED_CHECK_FULL: u32 = 1;
+
 #[repr(C)]
 pub struct MienDna {
     _size: [u8; 0],
@@ -352,6 +354,17 @@ pub struct MienDeformer {
 /// One character's joint matrices, positions and normals: one block.
 #[repr(C)]
 pub struct MienDeformerInstance {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
+/// A rig, and its deformer, as they are in memory: used where they lie, so that a shipped program
+/// needs no DNA files. A baked file holds all that was chosen when its objects were created but
+/// the instruction set and MienReuse; it serves all machines of a byte order. The same objects
+/// give the same bytes. A later version of the library may refuse it with
+/// `MIEN_ERROR_BAKED_VERSION`: keep the DNA.
+#[repr(C)]
+pub struct MienBaked {
     _size: [u8; 0],
     _opaque: Opaque,
 }
@@ -486,6 +499,26 @@ pub struct MienIndex32View {
 }
 
 impl Default for MienIndex32View {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// A file that the caller reads: in an archive, over a network. `read` copies `size` bytes from
+/// `offset` on into `buffer` and returns how many it copied: fewer are a failure. It is asked for
+/// bytes within `size`, on the thread of the call that was given the stream, and not after it.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienStream {
+    pub user: *mut c_void,
+    /// Of the whole file.
+    pub size: u64,
+    pub read: Option<unsafe extern "C" fn(user: *mut c_void, offset: u64, buffer: *mut c_void, size: usize) -> usize>,
+}
+
+impl Default for MienStream {
     /// All zero.
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
@@ -834,31 +867,6 @@ impl Default for MienRigInfo {
     }
 }
 
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct MienBakedDesc {
-    pub struct_size: usize,
-    /// `MIEN_ISA_...`, as in MienRigDesc.
-    pub isa: u32,
-    /// `MIEN_FILE_...`; of no meaning for memory.
-    pub file_access: u32,
-    /// `MIEN_BAKED_CHECK_...`
-    pub check: u32,
-    /// `MIEN_REUSE_...`
-    pub reuse: u32,
-    pub allocator: *const MienAllocator,
-}
-
-impl Default for MienBakedDesc {
-    /// All zero but `struct_size`: every field has its default.
-    fn default() -> Self {
-        // SAFETY: numbers, pointers and optional functions may be zero.
-        let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>();
-        zero
-    }
-}
-
 /// What one evaluation at a LOD works through.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -1149,6 +1157,97 @@ impl Default for MienVertexOutput {
     }
 }
 
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienBakedDesc {
+    pub struct_size: usize,
+    /// `MIEN_FILE_...`; `MIEN_FILE_READ` also copies memory.
+    pub file_access: u32,
+    /// `MIEN_BAKED_CHECK_...`
+    pub check: u32,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienBakedDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienBakedInfo {
+    pub struct_size: usize,
+    pub file_bytes: u64,
+    /// Taken from the allocator.
+    pub memory_bytes: u64,
+    /// Of the file; 0 if it has no rig.
+    pub rig_bytes: u64,
+    /// Of the file; 0 if it has no deformer.
+    pub deformer_bytes: u64,
+    /// Of the file, with those that this library does not know.
+    pub part_count: u32,
+    /// The file is mapped.
+    pub is_mapped: u32,
+}
+
+impl Default for MienBakedInfo {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienBakedRigDesc {
+    pub struct_size: usize,
+    /// `MIEN_ISA_...`, as in MienRigDesc.
+    pub isa: u32,
+    /// `MIEN_REUSE_...`
+    pub reuse: u32,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienBakedRigDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienBakedDeformerDesc {
+    pub struct_size: usize,
+    /// `MIEN_ISA_...`; here `MIEN_ISA_BEST` means that of the rig.
+    pub isa: u32,
+    /// `MIEN_NORMALS_...`: of calls that leave the choice open; `MIEN_NORMALS_DEFAULT`: as when it
+    /// was baked.
+    pub normals: u32,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienBakedDeformerDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
 extern "C" {
     /// `MIEN_VERSION` of the library that runs; the header's may be older.
     pub fn mien_version() -> u32;
@@ -1184,6 +1283,10 @@ extern "C" {
 
     /// The same from memory, which stays the caller's and has to outlive the MienDna, unchanged.
     pub fn mien_dna_open_memory(bytes: *const c_void, size: usize, desc: *const MienDnaDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
+
+    /// The same from a stream: reads the header, the index and the chosen layers, each once and
+    /// whole, into the allocator's memory. `MIEN_ERROR_FILE_READ` if the stream fails.
+    pub fn mien_dna_open_stream(stream: *const MienStream, desc: *const MienDnaDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
 
     pub fn mien_dna_close(dna: *mut MienDna);
 
@@ -1283,28 +1386,6 @@ extern "C" {
     /// Memory is released when the last instance is gone too, so the order of destruction does not
     /// matter; a destroyed rig cannot be evaluated any more.
     pub fn mien_rig_destroy(rig: *mut MienRig);
-
-    /// Baked rigs: a rig as it is in memory, to be opened where it lies. An image holds all that
-    /// was chosen when the rig was created but the instruction set and MienReuse, so that one file
-    /// serves all machines of a byte order and pointer size. The same rig gives the same bytes. A
-    /// later version of the library may refuse it with `MIEN_ERROR_BAKED_VERSION`: keep the DNA.
-    pub fn mien_rig_save_file(rig: *const MienRig, path: *const c_char, error: *mut MienError) -> MienStatus;
-
-    /// The same to memory. With buffer NULL and capacity 0 only \*`out_size` is set; a capacity
-    /// that is too small gives `MIEN_ERROR_INVALID_ARGUMENT` and the size.
-    pub fn mien_rig_save_memory(rig: *const MienRig, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
-
-    /// Opens an image, which is mapped and used in place: one allocation for the rig. All
-    /// processes that open the file share its pages, which are never written to. A mapped file
-    /// must not be truncated or rewritten in place until the rig and all its instances are gone
-    /// (replacing it by renaming is safe; `MIEN_FILE_READ` takes a copy). `path` is UTF-8, `desc`
-    /// may be NULL. The rig is like one that was created; destroy it with `mien_rig_destroy()`.
-    pub fn mien_rig_open_file(path: *const c_char, desc: *const MienBakedDesc, out_rig: *mut *mut MienRig, error: *mut MienError) -> MienStatus;
-
-    /// The same from memory, which stays the caller's and has to stay unchanged until the rig and
-    /// all its instances, batches and deformers are gone. Bytes that are not at a multiple of 64
-    /// are copied, once.
-    pub fn mien_rig_open_memory(bytes: *const c_void, size: usize, desc: *const MienBakedDesc, out_rig: *mut *mut MienRig, error: *mut MienError) -> MienStatus;
 
     pub fn mien_rig_info(rig: *const MienRig, out_info: *mut MienRigInfo) -> MienStatus;
 
@@ -1624,4 +1705,46 @@ extern "C" {
     /// instance i to outputs\[i\]. All outputs have the same `struct_size`, and share no byte
     /// either.
     pub fn mien_deformer_instance_write_vertices_batch(deformer_instances: *const *mut MienDeformerInstance, count: usize, mesh: u32, normals: u32, outputs: *const MienVertexOutput, parallel: *const MienParallelFor) -> MienStatus;
+
+    /// Writes a rig and, unless it is NULL, a deformer of this rig (else `MIEN_ERROR_MISMATCH`).
+    /// Goes to a temporary name first, so a failure leaves `path` as it was.
+    pub fn mien_bake_file(rig: *const MienRig, deformer: *const MienDeformer, path: *const c_char, error: *mut MienError) -> MienStatus;
+
+    /// The same to memory. With buffer NULL and capacity 0 only \*`out_size` is set; a capacity
+    /// that is too small gives `MIEN_ERROR_INVALID_ARGUMENT` and the size.
+    pub fn mien_bake_memory(rig: *const MienRig, deformer: *const MienDeformer, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
+
+    /// Opens a baked file. It is mapped; all processes that open it share its pages, which are
+    /// never written to. A mapped file must not be truncated or rewritten in place until
+    /// everything made of it is gone (replacing it by renaming is safe). Checks the header here,
+    /// and with `MIEN_BAKED_CHECK_FULL` all bytes; the rest when objects are made. `path` is
+    /// UTF-8, `desc` may be NULL. One allocation, and one for the bytes if they are not mapped.
+    /// Close with `mien_baked_close()`.
+    pub fn mien_baked_open_file(path: *const c_char, desc: *const MienBakedDesc, out_baked: *mut *mut MienBaked, error: *mut MienError) -> MienStatus;
+
+    /// The same from memory, which stays the caller's and has to stay unchanged until everything
+    /// made of it is gone. Bytes that are not at a multiple of 64 are copied; so are all with
+    /// `MIEN_FILE_READ`.
+    pub fn mien_baked_open_memory(bytes: *const c_void, size: usize, desc: *const MienBakedDesc, out_baked: *mut *mut MienBaked, error: *mut MienError) -> MienStatus;
+
+    /// The same from a stream, which is read once, into one block. `MIEN_ERROR_FILE_READ` if it
+    /// fails.
+    pub fn mien_baked_open_stream(stream: *const MienStream, desc: *const MienBakedDesc, out_baked: *mut *mut MienBaked, error: *mut MienError) -> MienStatus;
+
+    /// Memory is released, and the file unmapped, when everything made of it is gone too.
+    pub fn mien_baked_close(baked: *mut MienBaked);
+
+    pub fn mien_baked_info(baked: *const MienBaked, out_info: *mut MienBakedInfo) -> MienStatus;
+
+    /// The rig of a baked file, like one that was created; destroy it with `mien_rig_destroy()`.
+    /// One allocation; the bytes of the file stay alive with it. `desc` may be NULL.
+    /// `MIEN_ERROR_BAKED_PART` if the file has no rig, `MIEN_ERROR_BAKED_VERSION` or
+    /// `MIEN_ERROR_BAKED_STRUCTURE` if its rig cannot be used.
+    pub fn mien_rig_from_baked(baked: *const MienBaked, desc: *const MienBakedRigDesc, out_rig: *mut *mut MienRig, error: *mut MienError) -> MienStatus;
+
+    /// The deformer of a baked file, like one that was created; destroy it with
+    /// `mien_deformer_destroy()`. `rig` was made of the same MienBaked, else
+    /// `MIEN_ERROR_MISMATCH`, and stays alive with the deformer. One allocation. `desc` may be
+    /// NULL. Errors as above.
+    pub fn mien_deformer_from_baked(baked: *const MienBaked, rig: *const MienRig, desc: *const MienBakedDeformerDesc, out_deformer: *mut *mut MienDeformer, error: *mut MienError) -> MienStatus;
 }

@@ -90,6 +90,16 @@ fn mien_index32_view() {
 }
 
 #[test]
+fn mien_stream() {
+    use mien_sys::MienStream as S;
+    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, user), 0);
+    assert_eq!(offset!(S, size), 8);
+    assert_eq!(offset!(S, read), 16);
+}
+
+#[test]
 fn mien_coordinate_system() {
     use mien_sys::MienCoordinateSystem as S;
     assert_eq!(size_of::<S>(), 56);
@@ -269,19 +279,6 @@ fn mien_rig_info() {
 }
 
 #[test]
-fn mien_baked_desc() {
-    use mien_sys::MienBakedDesc as S;
-    assert_eq!(size_of::<S>(), 32);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, isa), 8);
-    assert_eq!(offset!(S, file_access), 12);
-    assert_eq!(offset!(S, check), 16);
-    assert_eq!(offset!(S, reuse), 20);
-    assert_eq!(offset!(S, allocator), 24);
-}
-
-#[test]
 fn mien_rig_statistics() {
     use mien_sys::MienRigStatistics as S;
     assert_eq!(size_of::<S>(), 56);
@@ -418,4 +415,51 @@ fn mien_vertex_output() {
     assert_eq!(offset!(S, positions), 16);
     assert_eq!(offset!(S, normals), 32);
     assert_eq!(offset!(S, tangents), 48);
+}
+
+#[test]
+fn mien_baked_desc() {
+    use mien_sys::MienBakedDesc as S;
+    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, file_access), 8);
+    assert_eq!(offset!(S, check), 12);
+    assert_eq!(offset!(S, allocator), 16);
+}
+
+#[test]
+fn mien_baked_info() {
+    use mien_sys::MienBakedInfo as S;
+    assert_eq!(size_of::<S>(), 48);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, file_bytes), 8);
+    assert_eq!(offset!(S, memory_bytes), 16);
+    assert_eq!(offset!(S, rig_bytes), 24);
+    assert_eq!(offset!(S, deformer_bytes), 32);
+    assert_eq!(offset!(S, part_count), 40);
+    assert_eq!(offset!(S, is_mapped), 44);
+}
+
+#[test]
+fn mien_baked_rig_desc() {
+    use mien_sys::MienBakedRigDesc as S;
+    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, isa), 8);
+    assert_eq!(offset!(S, reuse), 12);
+    assert_eq!(offset!(S, allocator), 16);
+}
+
+#[test]
+fn mien_baked_deformer_desc() {
+    use mien_sys::MienBakedDeformerDesc as S;
+    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, isa), 8);
+    assert_eq!(offset!(S, normals), 12);
+    assert_eq!(offset!(S, allocator), 16);
 }

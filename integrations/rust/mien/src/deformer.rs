@@ -305,12 +305,21 @@ impl DeformerOptions {
                 sys::mien_deformer_create(dna.raw(), rig.raw(), &desc, &mut handle, error)
             })
         })?;
+        Self::adopt(self.allocator.as_ref(), handle, rig)
+    }
+
+    /// Makes a deformer of what `create` gave.
+    pub(crate) fn adopt(
+        allocator: Option<&Allocator>,
+        handle: *mut sys::MienDeformer,
+        rig: &Rig,
+    ) -> Result<Deformer> {
         let handle = NonNull::new(handle).expect("a handle after success");
         let mut info = sys::MienDeformerInfo::default();
         // SAFETY: a live handle and a sized struct.
         let status = unsafe { sys::mien_deformer_info(handle.as_ptr(), &mut info) };
         let (info, rig) = (info.into(), rig.clone());
-        let shared = Shared { handle, info, rig, _allocator: self.allocator.clone() };
+        let shared = Shared { handle, info, rig, _allocator: allocator.cloned() };
         let deformer = Deformer { shared: Arc::new(shared) };
         check(status).map(|()| deformer)
     }

@@ -2,12 +2,14 @@
 
 use crate::convert::{bytes, empty_string, index, path_string, terminated, utf8};
 use crate::error::{check, checked};
+use crate::stream::with_stream;
 use crate::{
     Allocator, CoordinateSystem, DnaField, DnaInfo, DnaLayer, Generate, Layers, Preset, Result,
     UnknownLayers,
 };
 use mien_sys as sys;
 use std::borrow::Cow;
+use std::io::{Read, Seek};
 use std::marker::PhantomData;
 use std::os::raw::c_void;
 use std::path::Path;
@@ -390,6 +392,21 @@ impl OpenOptions {
         self.open_by(access, |desc, out, error| {
             // SAFETY: a terminated path and a sized struct; the rest is the caller's.
             unsafe { sys::mien_dna_open_file(path.as_ptr(), desc, out, error) }
+        })
+    }
+
+    /// Reads what was chosen, and nothing else, from a file inside of something larger, such as an
+    /// archive.
+    ///
+    /// # Errors
+    ///
+    /// Those of `mien_dna_open_stream()` in `mien.h`; of the reader, [`Status::FILE_READ`](crate::Status::FILE_READ).
+    pub fn open_reader(&self, reader: &mut (impl Read + Seek)) -> Result<Dna<'static>> {
+        with_stream(reader, |stream| {
+            self.open_by(sys::MIEN_FILE_READ, |desc, out, error| {
+                // SAFETY: a stream that is valid for the call, and a sized struct.
+                unsafe { sys::mien_dna_open_stream(stream, desc, out, error) }
+            })
         })
     }
 

@@ -31,6 +31,11 @@ impl Error {
         Self { status, byte_offset: None, message: message.into() }
     }
 
+    /// What a reader said that failed.
+    pub(crate) fn from_io(error: std::io::Error) -> Self {
+        Self::new(Status::FILE_READ, error.to_string())
+    }
+
     /// Which kind of failure this is, for programs to act on.
     #[must_use]
     pub fn status(&self) -> Status {

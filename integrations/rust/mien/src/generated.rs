@@ -56,19 +56,21 @@ impl Status {
     pub const DNA_LAYER: Self = Self(36);
     /// A value that has no meaning.
     pub const DNA_VALUE: Self = Self(37);
-    /// Not an image of a rig.
+    /// Not a baked file.
     pub const BAKED_SIGNATURE: Self = Self(50);
-    /// An image of another version or kind of machine: bake again.
+    /// Of another version or kind of machine: bake again.
     pub const BAKED_VERSION: Self = Self(51);
-    /// The image ends before what it announces.
+    /// The file ends before what it announces.
     pub const BAKED_TRUNCATED: Self = Self(52);
     /// Sizes, counts or indices contradict each other.
     pub const BAKED_STRUCTURE: Self = Self(53);
     /// Not the bytes that were written.
     pub const BAKED_CHECKSUM: Self = Self(54);
+    /// The file does not hold what was asked of it.
+    pub const BAKED_PART: Self = Self(55);
 }
 
-numbers!(Status, i32, [(0, "OK"), (1, "NULL_ARGUMENT"), (2, "INVALID_ARGUMENT"), (3, "STRUCT_SIZE"), (4, "HANDLE"), (5, "MISMATCH"), (6, "INDEX"), (7, "LOD"), (8, "NAME"), (9, "ISA"), (10, "MEMORY"), (20, "FILE_OPEN"), (21, "FILE_READ"), (22, "FILE_WRITE"), (30, "DNA_SIGNATURE"), (31, "DNA_VERSION"), (32, "DNA_TRUNCATED"), (33, "DNA_STRUCTURE"), (34, "DNA_REFERENCE"), (35, "DNA_LIMIT"), (36, "DNA_LAYER"), (37, "DNA_VALUE"), (50, "BAKED_SIGNATURE"), (51, "BAKED_VERSION"), (52, "BAKED_TRUNCATED"), (53, "BAKED_STRUCTURE"), (54, "BAKED_CHECKSUM")]);
+numbers!(Status, i32, [(0, "OK"), (1, "NULL_ARGUMENT"), (2, "INVALID_ARGUMENT"), (3, "STRUCT_SIZE"), (4, "HANDLE"), (5, "MISMATCH"), (6, "INDEX"), (7, "LOD"), (8, "NAME"), (9, "ISA"), (10, "MEMORY"), (20, "FILE_OPEN"), (21, "FILE_READ"), (22, "FILE_WRITE"), (30, "DNA_SIGNATURE"), (31, "DNA_VERSION"), (32, "DNA_TRUNCATED"), (33, "DNA_STRUCTURE"), (34, "DNA_REFERENCE"), (35, "DNA_LIMIT"), (36, "DNA_LAYER"), (37, "DNA_VALUE"), (50, "BAKED_SIGNATURE"), (51, "BAKED_VERSION"), (52, "BAKED_TRUNCATED"), (53, "BAKED_STRUCTURE"), (54, "BAKED_CHECKSUM"), (55, "BAKED_PART")]);
 
 pub(crate) fn describe(status: Status) -> &'static str {
     match status.0 {
@@ -90,11 +92,12 @@ pub(crate) fn describe(status: Status) -> &'static str {
         35 => "more of something than the format or Mien can number",
         36 => "a layer that the call needs was not loaded or not in the file",
         37 => "a value that has no meaning",
-        50 => "not an image of a rig",
-        51 => "an image of another version or kind of machine: bake again",
-        52 => "the image ends before what it announces",
+        50 => "not a baked file",
+        51 => "of another version or kind of machine: bake again",
+        52 => "the file ends before what it announces",
         53 => "sizes, counts or indices contradict each other",
         54 => "not the bytes that were written",
+        55 => "the file does not hold what was asked of it",
         _ => "",
     }
 }
@@ -500,24 +503,6 @@ impl Reuse {
 
 numbers!(Reuse, u32, [(0, "UNCHANGED"), (1, "NOTHING")]);
 
-/// What C calls `MIEN_BAKED_CHECK_...`.
-///
-/// A later library may give numbers that have no name here.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
-#[repr(transparent)]
-pub struct BakedCheck(pub u32);
-
-impl BakedCheck {
-    /// Every size, count and index: whatever the bytes are, nothing is read or written outside of
-    /// the rig and its instances. Numbers are not looked at, so their pages stay on disk until
-    /// they are needed.
-    pub const SAFE: Self = Self(0);
-    /// Also that all bytes are those that were written: reads them all.
-    pub const FULL: Self = Self(1);
-}
-
-numbers!(BakedCheck, u32, [(0, "SAFE"), (1, "FULL")]);
-
 /// Things with names and numbers.
 ///
 /// A later library may give numbers that have no name here.
@@ -662,6 +647,24 @@ impl VertexFormat {
 }
 
 numbers!(VertexFormat, u32, [(0, "FLOAT32X3"), (1, "FLOAT32X4"), (2, "SNORM16X4"), (3, "SNORM10_10_10_2")]);
+
+/// What C calls `MIEN_BAKED_CHECK_...`.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct BakedCheck(pub u32);
+
+impl BakedCheck {
+    /// Every size, count and index: whatever the bytes are, nothing is read or written outside of
+    /// the objects and their instances. Numbers are not looked at, so their pages stay on disk
+    /// until they are needed.
+    pub const SAFE: Self = Self(0);
+    /// Also that all bytes are those that were written: reads them all.
+    pub const FULL: Self = Self(1);
+}
+
+numbers!(BakedCheck, u32, [(0, "SAFE"), (1, "FULL")]);
 
 /// Where the axes of a rig point, and its units. Mirrored systems are as good as others: which
 /// hand they are of follows from the axes.
@@ -1053,6 +1056,37 @@ impl From<sys::MienDeformerInfo> for DeformerInfo {
             mesh_count: c.mesh_count as usize,
             deformer_bytes: c.deformer_bytes,
             instance_bytes: c.instance_bytes,
+        }
+    }
+}
+
+/// `MienBakedInfo` in C.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct BakedInfo {
+    /// File bytes.
+    pub file_bytes: u64,
+    /// Taken from the allocator.
+    pub memory_bytes: u64,
+    /// Of the file; 0 if it has no rig.
+    pub rig_bytes: u64,
+    /// Of the file; 0 if it has no deformer.
+    pub deformer_bytes: u64,
+    /// Of the file, with those that this library does not know.
+    pub part_count: usize,
+    /// The file is mapped.
+    pub is_mapped: bool,
+}
+
+impl From<sys::MienBakedInfo> for BakedInfo {
+    fn from(c: sys::MienBakedInfo) -> Self {
+        Self {
+            file_bytes: c.file_bytes,
+            memory_bytes: c.memory_bytes,
+            rig_bytes: c.rig_bytes,
+            deformer_bytes: c.deformer_bytes,
+            part_count: c.part_count as usize,
+            is_mapped: c.is_mapped != 0,
         }
     }
 }

@@ -45,6 +45,7 @@
 #![warn(unsafe_op_in_unsafe_fn)]
 
 mod allocator;
+mod baked;
 mod batch;
 mod convert;
 mod coordinates;
@@ -55,6 +56,7 @@ mod error;
 mod instance;
 mod report;
 mod rig;
+mod stream;
 mod threads;
 mod vertex_output;
 
@@ -62,6 +64,7 @@ mod vertex_output;
 mod generated;
 
 pub use allocator::Allocator;
+pub use baked::{Baked, BakedOptions};
 pub use batch::Batch;
 pub use deformer::{Deformer, DeformerOptions, Mesh};
 pub use deformer_instance::{DeformerInstance, DeformerInstanceOptions};

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 
-use crate::convert::{bytes, empty_string, index, path_string, slice, utf8};
+use crate::convert::{bytes, empty_string, index, slice, utf8};
 use crate::error::{check, checked};
 use crate::{
-    Allocator, Arithmetic, BakedCheck, Dna, Instance, Isa, Kind, MlMasks, Result, Reuse, RigInfo,
+    Allocator, Arithmetic, Dna, Instance, Isa, Kind, MlMasks, Result, Reuse, RigInfo,
     RigStatistics, RotationOutput, Storage,
 };
 use mien_sys as sys;
 use std::borrow::Cow;
-use std::os::raw::c_void;
-use std::path::Path;
 use std::ptr::{null_mut, NonNull};
 use std::sync::Arc;
 
@@ -53,49 +51,6 @@ impl Rig {
     /// Those of [`RigOptions::create`](crate::RigOptions::create).
     pub fn new(dna: &Dna<'_>) -> Result<Self> {
         RigOptions::new().create(dna)
-    }
-
-    /// Opens a baked rig; see [`RigOptions::open`].
-    ///
-    /// # Errors
-    ///
-    /// Those of [`RigOptions::open`](crate::RigOptions::open).
-    pub fn open(path: impl AsRef<Path>) -> Result<Self> {
-        RigOptions::new().open(path)
-    }
-
-    /// Bakes the rig into a file that [`Rig::open`] uses in place. A failure leaves `path` as it
-    /// was.
-    ///
-    /// # Errors
-    ///
-    /// Those of `mien_rig_save_file()` in `mien.h`.
-    pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
-        let path = path_string(path.as_ref())?;
-        // SAFETY: a live handle and a terminated path.
-        checked(|error| unsafe { sys::mien_rig_save_file(self.raw(), path.as_ptr(), error) })
-    }
-
-    /// The same bytes, to memory.
-    ///
-    /// # Errors
-    ///
-    /// Those of `mien_rig_save_memory()` in `mien.h`.
-    pub fn to_bytes(&self) -> Result<Vec<u8>> {
-        let save = |buffer: *mut c_void, capacity, size: &mut usize| {
-            // SAFETY: a live handle and room for `capacity` bytes.
-            checked(|error| unsafe {
-                sys::mien_rig_save_memory(self.raw(), buffer, capacity, size, error)
-            })
-        };
-        let mut size = 0;
-        save(null_mut(), 0, &mut size)?;
-        let mut bytes = Vec::<u8>::with_capacity(size);
-        save(bytes.as_mut_ptr().cast(), bytes.capacity(), &mut size)?;
-        assert!(size <= bytes.capacity());
-        // SAFETY: the call succeeded, so it has written all of them.
-        unsafe { bytes.set_len(size) };
-        Ok(bytes)
     }
 
     /// One character in its initial state.
@@ -304,7 +259,6 @@ pub struct RigOptions {
     storage: Storage,
     arithmetic: Arithmetic,
     reuse: Reuse,
-    check: BakedCheck,
     allocator: Option<Allocator>,
 }
 
@@ -346,12 +300,6 @@ impl RigOptions {
         self
     }
 
-    /// How thoroughly a baked file is checked when it is opened.
-    pub fn check(mut self, check: BakedCheck) -> Self {
-        self.check = check;
-        self
-    }
-
     /// Whether evaluation keeps results whose inputs did not change. The same bits either way.
     pub fn reuse(mut self, reuse: Reuse) -> Self {
         self.reuse = reuse;
@@ -386,85 +334,16 @@ impl RigOptions {
             // SAFETY: a live handle and a sized struct.
             checked(|error| unsafe { sys::mien_rig_create(dna.raw(), &desc, &mut handle, error) })
         })?;
-        self.adopt(handle)
+        Self::adopt(self.allocator.as_ref(), handle)
     }
 
-    /// Opens a baked rig: a file that [`Rig::save`] or `mien bake` wrote. What was chosen when it
-    /// was created stays; of the options instruction set, reuse and allocator count. The file is
-    /// read whole: see [`RigOptions::map`].
-    ///
-    /// # Errors
-    ///
-    /// What the library refuses, by [`Status`](crate::Status).
-    pub fn open(&self, path: impl AsRef<Path>) -> Result<Rig> {
-        self.open_file(path.as_ref(), sys::MIEN_FILE_READ)
-    }
-
-    /// The same, but the file is mapped and used in place: processes share its pages.
-    ///
-    /// # Safety
-    ///
-    /// The file must not be truncated or written to in place until the rig and its instances are
-    /// gone; replacing it by renaming is safe.
-    ///
-    /// # Errors
-    ///
-    /// What the library refuses, by [`Status`](crate::Status).
-    pub unsafe fn map(&self, path: impl AsRef<Path>) -> Result<Rig> {
-        self.open_file(path.as_ref(), sys::MIEN_FILE_MAP)
-    }
-
-    fn open_file(&self, path: &Path, access: u32) -> Result<Rig> {
-        let path = path_string(path)?;
-        self.open_by(access, |desc, out, error| {
-            // SAFETY: a terminated path and a sized struct; the rest is the caller's.
-            unsafe { sys::mien_rig_open_file(path.as_ptr(), desc, out, error) }
-        })
-    }
-
-    /// The same from memory that never goes away, such as `include_bytes!`.
-    ///
-    /// # Errors
-    ///
-    /// Those of `mien_rig_open_memory()` in `mien.h`.
-    pub fn open_bytes(&self, bytes: &'static [u8]) -> Result<Rig> {
-        self.open_by(sys::MIEN_FILE_MAP, |desc, out, error| {
-            let data = bytes.as_ptr().cast();
-            // SAFETY: the bytes are static, so they outlive the rig unchanged.
-            unsafe { sys::mien_rig_open_memory(data, bytes.len(), desc, out, error) }
-        })
-    }
-
-    fn open_by(
-        &self,
-        access: u32,
-        open: impl FnOnce(
-            *const sys::MienBakedDesc,
-            *mut *mut sys::MienRig,
-            *mut sys::MienError,
-        ) -> sys::MienStatus,
-    ) -> Result<Rig> {
-        let mut handle = null_mut();
-        Allocator::with(self.allocator.as_ref(), |allocator| {
-            let desc = sys::MienBakedDesc {
-                isa: self.isa.0,
-                file_access: access,
-                check: self.check.0,
-                reuse: self.reuse.0,
-                allocator,
-                ..Default::default()
-            };
-            checked(|error| open(&desc, &mut handle, error))
-        })?;
-        self.adopt(handle)
-    }
-
-    fn adopt(&self, handle: *mut sys::MienRig) -> Result<Rig> {
+    /// Makes a rig of what `create` gave.
+    pub(crate) fn adopt(allocator: Option<&Allocator>, handle: *mut sys::MienRig) -> Result<Rig> {
         let handle = NonNull::new(handle).expect("a handle after success");
         let mut info = sys::MienRigInfo::default();
         // SAFETY: a live handle and a sized struct.
         let status = unsafe { sys::mien_rig_info(handle.as_ptr(), &mut info) };
-        let shared = Shared { handle, info: info.into(), _allocator: self.allocator.clone() };
+        let shared = Shared { handle, info: info.into(), _allocator: allocator.cloned() };
         let rig = Rig { shared: Arc::new(shared) };
         check(status).map(|()| rig)
     }

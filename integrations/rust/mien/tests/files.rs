@@ -2,9 +2,10 @@
 //! DNA files in memory and on disk: opened whole and in part, written, malformed.
 
 use mien::{
-    Dna, FieldType, Generate, GenerateOptions, Layers, OpenOptions, Preset, Report, Rig,
-    RigOptions, Severity, Status, WriteOptions,
+    Baked, BakedCheck, BakedOptions, Deformer, Dna, FieldType, Generate, GenerateOptions, Isa,
+    Layers, OpenOptions, Preset, Report, Reuse, Rig, Severity, Status, WriteOptions,
 };
+use std::io::{Cursor, Read, Seek, SeekFrom};
 use std::path::PathBuf;
 use std::sync::Mutex;
 
@@ -28,28 +29,85 @@ impl Drop for TemporaryFile {
 }
 
 #[test]
-fn a_baked_rig_is_the_rig() {
+fn a_baked_file_gives_rig_and_deformer() {
     let file = TemporaryFile::new("baked");
-    let rig = Rig::new(&Dna::generate(Preset::TINY).unwrap()).unwrap();
-    rig.save(&file.0).unwrap();
+    let dna = Dna::generate(Preset::TINY).unwrap();
+    let rig = Rig::new(&dna).unwrap();
+    let deformer = Deformer::new(&dna, &rig).unwrap();
+    rig.bake(&file.0, Some(&deformer)).unwrap();
     let bytes = std::fs::read(&file.0).unwrap();
-    assert_eq!(bytes, rig.to_bytes().unwrap());
-    let opened = Rig::open(&file.0).unwrap();
-    // SAFETY: nobody else knows of the file.
-    let mapped = unsafe { RigOptions::new().map(&file.0) }.unwrap();
+    assert_eq!(bytes, rig.to_baked_bytes(Some(&deformer)).unwrap());
     // Bytes that live as long as the program, and that a leak checker finds.
     static KEPT: Mutex<Vec<&'static [u8]>> = Mutex::new(Vec::new());
     let kept: &'static [u8] = Box::leak(bytes.clone().into_boxed_slice());
     KEPT.lock().unwrap().push(kept);
-    let in_memory = RigOptions::new().open_bytes(kept).unwrap();
-    for again in [opened, mapped, in_memory] {
-        assert_eq!(again.to_bytes().unwrap(), bytes);
-        assert_eq!(again.info().joint_value_count, rig.info().joint_value_count);
+    let options = BakedOptions::new().check(BakedCheck::FULL);
+    let files = [
+        Baked::open(&file.0).unwrap(),
+        // SAFETY: nobody else knows of the file.
+        unsafe { options.map(&file.0) }.unwrap(),
+        options.open_bytes(kept).unwrap(),
+        Baked::from_reader(&mut std::fs::File::open(&file.0).unwrap()).unwrap(),
+    ];
+    for baked in files {
+        assert_eq!(baked.info().file_bytes, bytes.len() as u64);
+        let again = baked.rig_for(Isa::SCALAR, Reuse::UNCHANGED).unwrap();
+        let meshes = baked.deformer(&again).unwrap();
+        drop(baked);
+        assert_eq!(again.to_baked_bytes(Some(&meshes)).unwrap(), bytes);
+        assert_eq!(meshes.info().mesh_count, deformer.info().mesh_count);
     }
-    assert_eq!(
-        RigOptions::new().open_bytes(b"DNA").err().unwrap().status(),
-        Status::BAKED_SIGNATURE
-    );
+
+    let alone = rig.to_baked_bytes(None).unwrap();
+    let baked = Baked::from_reader(&mut Cursor::new(&alone)).unwrap();
+    let again = baked.rig().unwrap();
+    assert_eq!(baked.deformer(&again).err().unwrap().status(), Status::BAKED_PART);
+    assert_eq!(baked.deformer(&rig).err().unwrap().status(), Status::MISMATCH);
+    assert_eq!(options.open_bytes(b"DNA").err().unwrap().status(), Status::BAKED_SIGNATURE);
+}
+
+/// Fails, or panics, after some bytes.
+struct Broken {
+    file: Cursor<Vec<u8>>,
+    left: usize,
+    panics: bool,
+}
+
+impl Read for Broken {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        if self.left < buffer.len() {
+            assert!(!self.panics, "the reader panics");
+            return Err(std::io::Error::new(std::io::ErrorKind::Other, "the network is down"));
+        }
+        self.left -= buffer.len();
+        self.file.read(buffer)
+    }
+}
+
+impl Seek for Broken {
+    fn seek(&mut self, to: SeekFrom) -> std::io::Result<u64> {
+        self.file.seek(to)
+    }
+}
+
+#[test]
+fn readers_are_read_where_it_matters_and_may_fail() {
+    let bytes = tiny();
+    let options = OpenOptions::new().layers(Layers::BEHAVIOR);
+    let dna = options.open_reader(&mut Cursor::new(&bytes)).unwrap();
+    assert_eq!(dna.info().joint_count, Dna::from_bytes(&bytes).unwrap().info().joint_count);
+    for left in [0, 7, 100] {
+        let mut broken = Broken { file: Cursor::new(bytes.clone()), left, panics: false };
+        let error = options.open_reader(&mut broken).err().unwrap();
+        assert_eq!(error.status(), Status::FILE_READ);
+        assert!(error.message().contains("network"), "{error}");
+        assert!(Baked::from_reader(&mut broken).is_err());
+        broken.panics = true;
+        let panicked = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
+            options.open_reader(&mut broken).is_ok()
+        }));
+        assert!(panicked.is_err());
+    }
 }
 
 #[test]

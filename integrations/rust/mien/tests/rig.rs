@@ -373,16 +373,15 @@ fn numbers_have_names() {
 fn options_that_reach_the_library() {
     let dna = Dna::generate(Preset::TINY).unwrap();
     let rig = RigOptions::new().arithmetic(mien::Arithmetic::PORTABLE).create(&dna).unwrap();
-    let bytes: &'static [u8] = Box::leak(rig.to_bytes().unwrap().into_boxed_slice());
-    let full = RigOptions::new().check(mien::BakedCheck::FULL);
-    assert!(full.open_bytes(bytes).is_ok());
+    let mut bytes = rig.to_baked_bytes(None).unwrap();
+    let full = mien::BakedOptions::new().check(mien::BakedCheck::FULL);
+    assert!(full.open_reader(&mut std::io::Cursor::new(&bytes)).is_ok());
 
     // A changed number at the end: only the full check reads it.
-    let mut damaged = bytes.to_vec();
-    let last = damaged.len() - 1;
-    damaged[last] ^= 1;
-    let damaged: &'static [u8] = Box::leak(damaged.into_boxed_slice());
-    assert_eq!(full.open_bytes(damaged).unwrap_err().status(), mien::Status::BAKED_CHECKSUM);
+    *bytes.last_mut().unwrap() ^= 1;
+    assert!(mien::Baked::from_reader(&mut std::io::Cursor::new(&bytes)).unwrap().rig().is_ok());
+    let error = full.open_reader(&mut std::io::Cursor::new(&bytes)).unwrap_err();
+    assert_eq!(error.status(), mien::Status::BAKED_CHECKSUM);
 }
 
 #[test]
