@@ -22,6 +22,7 @@ GRAPH = {
     # Compiled data and what works on it: none of it knows DNA files or compilers.
     "runtime/rig": ["runtime/base", "simd"],
     "runtime/eval": ["runtime/base", "simd", "runtime/rig"],
+    "runtime/anim": ["runtime/base", "runtime/rig"],
     "runtime/pose": ["runtime/base", "simd", "runtime/rig"],
     "runtime/deform": ["runtime/base", "simd", "runtime/rig", "runtime/eval", "runtime/pose"],
     "runtime/baked": ["runtime/base", "simd", "runtime/rig", "runtime/eval", "runtime/pose",

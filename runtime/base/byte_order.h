@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Big-endian numbers at any address, as DNA files hold them.
+// Numbers at any address: big-endian as DNA files hold them, little-endian as clips do.
 #pragma once
 
 #include <cstdint>
@@ -56,6 +56,35 @@ inline void store_big_endian(uint8_t* at, T value) {
   memcpy(&bits, &value, sizeof(bits));
   bits = to_big_endian(bits);
   memcpy(at, &bits, sizeof(bits));
+}
+
+#if defined(__BYTE_ORDER__) && defined(__ORDER_BIG_ENDIAN__)
+constexpr bool kBigEndianHost = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
+#else
+constexpr bool kBigEndianHost = false;
+#endif
+
+template <class T>
+inline T to_little_endian(T value) {
+  if (!kBigEndianHost) return value;
+  uint8_t bytes[sizeof(T)], reversed[sizeof(T)];
+  memcpy(bytes, &value, sizeof(T));
+  for (size_t i = 0; i < sizeof(T); ++i) reversed[i] = bytes[sizeof(T) - 1 - i];
+  memcpy(&value, reversed, sizeof(T));
+  return value;
+}
+
+template <class T>
+inline T load_little_endian(const uint8_t* at) {
+  T value;
+  memcpy(&value, at, sizeof(T));
+  return to_little_endian(value);
+}
+
+template <class T>
+inline void store_little_endian(uint8_t* at, T value) {
+  value = to_little_endian(value);
+  memcpy(at, &value, sizeof(T));
 }
 
 }  // namespace mien

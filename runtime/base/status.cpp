@@ -36,6 +36,13 @@ const char* status_name(Status status) {
     case Status::kBakedStructure: return "BAKED_STRUCTURE";
     case Status::kBakedChecksum: return "BAKED_CHECKSUM";
     case Status::kBakedPart: return "BAKED_PART";
+    case Status::kClipSignature: return "CLIP_SIGNATURE";
+    case Status::kClipVersion: return "CLIP_VERSION";
+    case Status::kClipTruncated: return "CLIP_TRUNCATED";
+    case Status::kClipStructure: return "CLIP_STRUCTURE";
+    case Status::kClipChecksum: return "CLIP_CHECKSUM";
+    case Status::kClipValue: return "CLIP_VALUE";
+    case Status::kClipLimit: return "CLIP_LIMIT";
   }
   return "UNKNOWN";
 }

@@ -49,6 +49,14 @@ enum class Status : int32_t {
   kBakedStructure = 53,
   kBakedChecksum = 54,
   kBakedPart = 55,
+  // clips
+  kClipSignature = 60,
+  kClipVersion = 61,
+  kClipTruncated = 62,
+  kClipStructure = 63,
+  kClipChecksum = 64,
+  kClipValue = 65,
+  kClipLimit = 66,
 };
 
 /// Name of a status as in mien.h, without its prefix ("DNA_TRUNCATED").

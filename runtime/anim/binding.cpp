@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/anim/binding.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/base/arena.h"
+
+namespace mien {
+namespace {
+
+constexpr uint32_t kNone = ~uint32_t{0};
+constexpr uint8_t kByChannel = 1, kByMatrix = 2, kByGui = 3;
+
+// Names
+// ------------------------------------------------------------------------------------------------
+
+char folded(char c) {
+  return c == '.' ? '_' : c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+}
+
+int compare_folded(Span<const char> a, Span<const char> b) {
+  for (size_t i = 0; i < a.count && i < b.count; ++i) {
+    const char x = folded(a[i]), y = folded(b[i]);
+    if (x != y) return x < y ? -1 : 1;
+  }
+  return a.count < b.count ? -1 : a.count > b.count ? 1 : 0;
+}
+
+Span<const char> without_prefix(Span<const char> name) {
+  constexpr char kPrefix[] = "ctrl_expressions_";
+  constexpr size_t kLength = sizeof(kPrefix) - 1;
+  if (name.count <= kLength || compare_folded(name.first(kLength), {kPrefix, kLength}) != 0) {
+    return name;
+  }
+  return name.slice(kLength, name.count - kLength);
+}
+
+/// Names in the order of their folded form. `Names` gives the i-th one by name(i).
+template <class Names>
+struct NameIndex {
+  const Names& names;
+  Span<uint16_t> order;
+
+  int compare(uint16_t i, Span<const char> key) const {
+    return compare_folded(without_prefix(names.name(i)), key);
+  }
+  void sort() {
+    for (size_t i = 0; i < order.count; ++i) order[i] = static_cast<uint16_t>(i);
+    std::sort(order.begin(), order.end(), [&](uint16_t a, uint16_t b) {
+      const int order_of_names = compare(a, without_prefix(names.name(b)));
+      return order_of_names != 0 ? order_of_names < 0 : a < b;
+    });
+  }
+  uint32_t find(Span<const char> name) const {
+    const Span<const char> key = without_prefix(name);
+    const uint16_t* at =
+        std::lower_bound(order.begin(), order.end(), key,
+                         [&](uint16_t i, Span<const char> k) { return compare(i, k) < 0; });
+    uint32_t matches = 0, found = kNone;
+    for (; at != order.end() && compare(*at, key) == 0; ++at, ++matches) {
+      if (compare_names(names.name(*at), name) == 0) return *at;
+      found = *at;
+    }
+    return matches == 1 ? found : kNone;
+  }
+};
+
+struct RigNames {
+  const NameList& list;
+  Span<const char> name(uint32_t i) const { return list[i]; }
+};
+
+// Building
+// ------------------------------------------------------------------------------------------------
+
+/// Memory for the time of binding. Targets are raw controls, then GUI controls.
+struct Scratch {
+  Span<uint16_t> raw_order, gui_order, channel_order;
+  Span<uint8_t> driven_by;          // [target]
+  Span<uint8_t> is_used;            // [channel]
+  Span<uint32_t> sources, targets;  // [matrix entry] or kNone
+  Span<uint32_t> entry_order;       // matrix entries by target
+  Span<uint16_t> slots;             // [GUI control] its number in the binding
+
+  void place(Placer& placer, const Clip& clip, const Rig& rig, size_t entries) {
+    raw_order = placer.array<uint16_t>(rig.raw_count);
+    gui_order = placer.array<uint16_t>(rig.gui_count);
+    channel_order = placer.array<uint16_t>(clip.channel_count);
+    driven_by = placer.array<uint8_t>(size_t{rig.raw_count} + rig.gui_count);
+    is_used = placer.array<uint8_t>(clip.channel_count);
+    sources = placer.array<uint32_t>(entries);
+    targets = placer.array<uint32_t>(entries);
+    entry_order = placer.array<uint32_t>(entries);
+    slots = placer.array<uint16_t>(rig.gui_count);
+  }
+};
+
+/// Room for the most that there can be.
+void place_binding(Placer& placer, const Clip& clip, const Rig& rig, size_t entries,
+                   Binding& binding) {
+  placer.array<Binding>(1);
+  binding.copies = placer.array<BoundCopy>(clip.channel_count);
+  binding.sums = placer.array<BoundSum>(clip.channel_count + entries);
+  binding.terms = placer.array<BoundTerm>(clip.channel_count + entries);
+  binding.rows = placer.array<BoundRow>(rig.gui_to_raw.inputs.count);
+  binding.mapped_controls = placer.array<uint16_t>(rig.raw_count);
+  binding.controls = placer.array<uint16_t>(rig.raw_count);
+  binding.missing_channels = placer.array<uint16_t>(clip.channel_count);
+  binding.extra_controls = placer.array<uint16_t>(rig.raw_count);
+}
+
+template <class T>
+void append(Span<T>& list, const T& item) {
+  list.data[list.count++] = item;
+}
+
+struct Binder {
+  const Clip& clip;
+  const Rig& rig;
+  Span<const MatrixEntry> matrix;
+  Scratch& scratch;
+  Binding& binding;
+
+  void find_targets() {
+    NameIndex<RigNames> raws = {raw_names, scratch.raw_order};
+    NameIndex<RigNames> guis = {gui_names, scratch.gui_order};
+    NameIndex<Clip> channels = {clip, scratch.channel_order};
+    raws.sort();
+    guis.sort();
+    channels.sort();
+    const auto target_of = [&](Span<const char> name) {
+      const uint32_t raw = raws.find(name);
+      if (raw != kNone) return raw;
+      const uint32_t gui = guis.find(name);
+      return gui == kNone ? kNone : rig.raw_count + gui;
+    };
+    for (uint32_t c = 0; c < clip.channel_count; ++c) {
+      const uint32_t target = target_of(clip.name(c));
+      if (target == kNone || scratch.driven_by[target]) continue;
+      scratch.driven_by[target] = kByChannel;
+      scratch.is_used[c] = 1;
+      bind_channel(c, target);
+    }
+    for (size_t e = 0; e < matrix.count; ++e) {
+      const uint32_t source = channels.find(matrix[e].source);
+      const uint32_t target = target_of(matrix[e].control);
+      const bool there = source != kNone && target != kNone;
+      binding.missing_entries += !there;
+      const bool free = there && scratch.driven_by[target] != kByChannel;
+      scratch.sources[e] = source;
+      scratch.targets[e] = free ? target : kNone;
+      if (!free) continue;
+      scratch.driven_by[target] = kByMatrix;
+      scratch.is_used[source] = 1;
+    }
+  }
+
+  void bind_channel(uint32_t channel, uint32_t target) {
+    const auto source = static_cast<uint16_t>(channel);
+    if (target < rig.raw_count) {
+      append(binding.copies, BoundCopy{source, static_cast<uint16_t>(target)});
+    } else {
+      append(binding.terms, BoundTerm{source, 0, 1});
+      add_sum(target, binding.terms.count - 1);
+    }
+  }
+
+  /// Of the terms from `first_term` on.
+  void add_sum(uint32_t target, size_t first_term) {
+    const bool is_gui = target >= rig.raw_count;
+    auto number = static_cast<uint16_t>(target);
+    if (is_gui) {
+      number = static_cast<uint16_t>(binding.gui_count++);
+      scratch.slots[target - rig.raw_count] = number;
+    }
+    append(binding.sums, BoundSum{number, is_gui, static_cast<uint32_t>(first_term),
+                                  static_cast<uint32_t>(binding.terms.count)});
+  }
+
+  void bind_matrix() {
+    const Span<uint32_t>&targets = scratch.targets, &order = scratch.entry_order;
+    for (uint32_t e = 0; e < order.count; ++e) order[e] = e;
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+      return targets[a] != targets[b] ? targets[a] < targets[b] : a < b;
+    });
+    for (size_t i = 0; i < order.count && targets[order[i]] != kNone;) {
+      const uint32_t target = targets[order[i]];
+      const size_t first_term = binding.terms.count;
+      for (; i < order.count && targets[order[i]] == target; ++i) {
+        const auto source = static_cast<uint16_t>(scratch.sources[order[i]]);
+        append(binding.terms, BoundTerm{source, 0, matrix[order[i]].weight});
+      }
+      add_sum(target, first_term);
+    }
+  }
+
+  /// All rows of the raw controls that some GUI control of the clip moves; the others are at 0.
+  void bind_gui_controls() {
+    if (binding.gui_count == 0) return;
+    const auto zero_gui = static_cast<uint16_t>(binding.gui_count++);
+    const ControlTable& table = rig.gui_to_raw;
+    const auto is_driven = [&](uint16_t gui) {
+      return scratch.driven_by[size_t{rig.raw_count} + gui] != 0;
+    };
+    for (size_t r = 0; r < table.inputs.count; ++r) {
+      uint8_t& driven_by = scratch.driven_by[table.outputs[r]];
+      if (driven_by != 0 || !is_driven(table.inputs[r])) continue;
+      driven_by = kByGui;
+      append(binding.mapped_controls, table.outputs[r]);
+    }
+    for (uint32_t r = 0; r < table.inputs.count;) {
+      // Rows of a run have one input and one output.
+      const uint32_t run_end = table.run_ends[r];
+      const uint16_t gui = table.inputs[r], raw = table.outputs[r];
+      const size_t end = binding.rows.count + (run_end - r);
+      for (; r < run_end; ++r) {
+        if (scratch.driven_by[raw] != kByGui) continue;
+        append(binding.rows, BoundRow{is_driven(gui) ? scratch.slots[gui] : zero_gui, raw,
+                                      static_cast<uint32_t>(end), table.from[r], table.to[r],
+                                      table.slope[r], table.cut[r]});
+      }
+    }
+  }
+
+  void list_controls() {
+    for (uint32_t i = 0; i < rig.raw_count; ++i) {
+      append(scratch.driven_by[i] ? binding.controls : binding.extra_controls,
+             static_cast<uint16_t>(i));
+    }
+    for (uint32_t c = 0; c < clip.channel_count; ++c) {
+      if (!scratch.is_used[c]) append(binding.missing_channels, static_cast<uint16_t>(c));
+    }
+  }
+
+  RigNames raw_names = {rig.names[static_cast<size_t>(Kind::kRawControl)]};
+  RigNames gui_names = {rig.names[static_cast<size_t>(Kind::kGuiControl)]};
+};
+
+void fill_binding(const Clip& clip, const Rig& rig, Span<const MatrixEntry> matrix,
+                  Scratch& scratch, Binding& binding) {
+  binding.raw_count = rig.raw_count;
+  binding.channel_count = clip.channel_count;
+  // Lists begin empty and grow within their room.
+  binding.copies.count = binding.sums.count = binding.terms.count = binding.rows.count = 0;
+  binding.mapped_controls.count = binding.controls.count = 0;
+  binding.missing_channels.count = binding.extra_controls.count = 0;
+  Binder binder = {clip, rig, matrix, scratch, binding};
+  binder.find_targets();
+  binder.bind_matrix();
+  binder.bind_gui_controls();
+  binder.list_controls();
+}
+
+/// NaN becomes 0.
+float clamp01(float value) { return value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f; }
+
+}  // namespace
+
+Status bind_clip(const Clip& clip, const Rig& rig, Span<const MatrixEntry> matrix,
+                 const Allocator& allocator, Binding*& out, Error& error) {
+  out = nullptr;
+  for (size_t e = 0; e < matrix.count; ++e) {
+    if (std::isfinite(matrix[e].weight)) continue;
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "entry %zu of the matrix: the weight is not a finite number", e);
+  }
+  Binding placed;
+  Scratch scratch;
+  Placer measure(nullptr), measure_scratch(nullptr);
+  place_binding(measure, clip, rig, matrix.count, placed);
+  scratch.place(measure_scratch, clip, rig, matrix.count);
+  const size_t scratch_size = measure_scratch.size() + kBlockAlignment;  // never nothing
+  void* block = allocator.get(measure.size(), kBlockAlignment);
+  void* scratch_block = allocator.get(scratch_size, kBlockAlignment);
+  if (!block || !scratch_block) {
+    allocator.put(block, measure.size(), kBlockAlignment);
+    allocator.put(scratch_block, scratch_size, kBlockAlignment);
+    return fail(error, Status::kMemory, kNoOffset, "no memory to bind a clip");
+  }
+  Placer placer(block), scratch_placer(scratch_block);
+  place_binding(placer, clip, rig, matrix.count, placed);
+  scratch.place(scratch_placer, clip, rig, matrix.count);
+  fill_binding(clip, rig, matrix, scratch, placed);
+  allocator.put(scratch_block, scratch_size, kBlockAlignment);
+  placed.allocator = allocator;
+  placed.block_size = measure.size();
+  out = new (block) Binding(placed);
+  return Status::kOk;
+}
+
+void release_binding(Binding* binding) {
+  if (!binding) return;
+  const Allocator allocator = binding->allocator;
+  allocator.put(binding, binding->block_size, kBlockAlignment);
+}
+
+void apply_binding(const Binding& binding, Span<const float> values, Span<float> gui,
+                   Span<float> raw_controls) {
+  assert(values.count >= binding.channel_count && gui.count >= binding.gui_count &&
+         raw_controls.count >= binding.raw_count);
+  for (const BoundCopy& copy : binding.copies) raw_controls[copy.control] = values[copy.channel];
+  for (const BoundSum& sum : binding.sums) {
+    const BoundTerm* term = &binding.terms[sum.first_term];
+    float value = term->weight * values[term->channel];
+    for (const BoundTerm* end = binding.terms.data + sum.end_term; ++term != end;) {
+      value += term->weight * values[term->channel];
+    }
+    (sum.is_gui ? gui : raw_controls)[sum.target] = value;
+  }
+  if (binding.gui_count == 0) return;
+
+  // The same sums in the same order as when the rig maps GUI controls itself.
+  gui[binding.gui_count - 1] = 0;
+  for (uint16_t control : binding.mapped_controls) raw_controls[control] = 0;
+  for (uint32_t r = 0; r < binding.rows.count;) {
+    const BoundRow& row = binding.rows[r];
+    const float input = gui[row.gui];
+    const bool fires = row.from <= input && input <= row.to;
+    if (fires) raw_controls[row.control] += row.slope * input + row.cut;
+    r = fires ? row.run_end : r + 1;
+  }
+  for (uint16_t control : binding.mapped_controls) {
+    raw_controls[control] = clamp01(raw_controls[control]);
+  }
+}
+
+}  // namespace mien

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Which channel of a clip drives which raw control of a rig, found once by name.
+//
+//     values of channels --copies, sums----------------------------> raw controls
+//                        --sums--> GUI controls --table of the rig--->
+//
+// A channel drives, in this order: the raw control of its name; the GUI control of its name,
+// which the rig's own table maps to raw controls after sampling; or, as a source of the caller's
+// matrix, what the matrix says, for captures with names of their own. Names match without regard to
+// case, `.` matches `_`, and the prefix `CTRL_expressions.` may be missing. If several names match,
+// one of them has to be equal.
+//
+// The more direct way wins: a raw control that a channel names is driven by nothing else, and one
+// that the matrix drives is not driven by GUI controls.
+#pragma once
+
+#include "runtime/anim/clip.h"
+#include "runtime/base/allocator.h"
+#include "runtime/rig/rig.h"
+
+namespace mien {
+
+/// `control`, a raw control or a GUI control, gets weight * the value of channel `source`.
+struct MatrixEntry {
+  Span<const char> source, control;
+  float weight;
+};
+
+struct BoundCopy {
+  uint16_t channel, control;
+};
+
+/// A raw control or GUI control that is the sum of weight * value, in the order of the matrix.
+struct BoundSum {
+  uint16_t target, is_gui;
+  uint32_t first_term, end_term;
+};
+
+struct BoundTerm {
+  uint16_t channel, zero;
+  float weight;
+};
+
+/// A row of the rig's table: docs/rig-evaluation.md, 2.3 "GUI controls to raw controls".
+struct BoundRow {
+  uint16_t gui, control;
+  uint32_t run_end;  // the row after those of which only the first that fires counts
+  float from, to, slope, cut;
+};
+
+/// Immutable, in one block of memory; refers to neither rig nor clip. GUI controls have numbers of
+/// their own here: those that the clip drives, then one that is always 0 and stands for all others.
+struct Binding {
+  Allocator allocator;
+  size_t block_size = 0;
+  uint32_t raw_count = 0;      // of the rig
+  uint32_t channel_count = 0;  // of the clip
+  uint32_t gui_count = 0;      // 0 if the clip drives none
+  Span<BoundCopy> copies;
+  Span<BoundSum> sums;
+  Span<BoundTerm> terms;
+  Span<BoundRow> rows;
+  Span<uint16_t> mapped_controls;   // raw controls that the rows write
+  Span<uint16_t> controls;          // all raw controls that are driven, ascending
+  Span<uint16_t> missing_channels;  // of the clip: they drive nothing, because the rig lacks their
+                                    // names or an earlier channel drives the same control
+  Span<uint16_t> extra_controls;    // raw controls that nothing drives, ascending
+  uint32_t missing_entries = 0;     // of the matrix: no such channel or no such control
+};
+
+/// On success `out` is to be given back by release_binding(). kInvalidArgument for weights that are
+/// not finite, kMemory.
+Status bind_clip(const Clip& clip, const Rig& rig, Span<const MatrixEntry> matrix,
+                 const Allocator& allocator, Binding*& out, Error& error);
+void release_binding(Binding* binding);
+
+/// Writes the raw controls in `binding.controls` and leaves the others alone. `values` comes from
+/// sample_clip(); `gui` is scratch of gui_count floats. Values that
+/// go to raw controls directly keep their bits; GUI controls give the bits of the rig's own mapping.
+void apply_binding(const Binding& binding, Span<const float> values, Span<float> gui,
+                   Span<float> raw_controls);
+
+}  // namespace mien

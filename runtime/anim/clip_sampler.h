@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// Time -> values: a clip being played.
+//
+// The position is a whole number of ticks, and the fraction of a tick that a speed leaves is kept.
+// So loops are exact, and a time span leads to the same position however it is divided into steps.
+// Moving decodes nothing. Sampling decodes the frames it needs, cheaply if little time has passed.
+#pragma once
+
+#include "runtime/anim/clip_block.h"
+#include "runtime/base/arena.h"
+
+namespace mien {
+
+enum class Interpolation : uint8_t { kLinear, kStep, kCatmullRom };
+enum class Looping : uint8_t { kAsClip, kLoop, kOnce };
+
+// Then no product or sum of times overflows.
+constexpr int64_t kMaxStepTicks = int64_t{1} << 40;  // 26 minutes
+constexpr int32_t kMaxSpeed = 1 << 20;
+
+struct PlayDesc {
+  int64_t start_tick = 0;
+  int32_t speed_numerator = 1;    // negative: backward; -kMaxSpeed ... kMaxSpeed
+  int32_t speed_denominator = 1;  // 1 ... kMaxSpeed
+  Looping looping = Looping::kAsClip;
+  Interpolation interpolation = Interpolation::kLinear;
+};
+
+constexpr uint32_t kSamplerRows = 6;  // what Catmull-Rom needs where a half-rate clip wraps
+
+/// One character's playing of one clip. Its memory is placed once, for clips of up to so many
+/// channels; starting another clip takes none.
+struct ClipSampler {
+  const Clip* clip = nullptr;  // has to outlive the playing
+  int64_t tick = 0;            // 0 ... length, or below it in a loop
+  int64_t loops = 0;           // completed; negative: backward
+  int64_t fraction = 0;        // of a tick, in units of 1 / speed_denominator
+  int64_t length = 0;
+  int32_t speed_numerator = 1, speed_denominator = 1;
+  bool wraps = false;
+  bool fresh = false;     // has not moved since the start or a seek
+  bool backward = false;  // in the last step
+  Interpolation interpolation = Interpolation::kLinear;
+
+  Span<float> values;  // [channel] of the clip, as sampled last
+
+  // Frames that were needed last, of changing channels.
+  BlockDecoder decoder;
+  Span<ChannelCursor> cursors;
+  Span<float> current;  // the decoder's row
+  Span<float> rows[kSamplerRows];
+  Span<float> sampled;
+  uint32_t row_frames[kSamplerRows] = {};
+  uint32_t row_uses[kSamplerRows] = {};  // when it was last needed
+  uint32_t uses = 0;
+  Span<float> block_rows;  // [frame of a block][changing channel], or no memory
+  uint32_t block_of_rows = 0;
+};
+
+/// How large clips may be that a sampler plays.
+struct SamplerLimits {
+  uint32_t channels = 0, changing_channels = 0;
+  /// Takes 256 bytes more per changing channel, and makes a frame backward as cheap as one forward;
+  /// otherwise each frame backward decodes half a block on average.
+  bool reverse = false;
+};
+
+void place_clip_sampler(Placer& placer, const SamplerLimits& limits, ClipSampler& sampler);
+
+/// kInvalidArgument for a speed out of range, kClipLimit for a clip with more channels than there is
+/// room for; the sampler goes on as before then.
+Status start_clip(ClipSampler& sampler, const Clip& clip, const PlayDesc& desc, Error& error);
+
+/// Takes effect from here on. kInvalidArgument.
+Status set_clip_speed(ClipSampler& sampler, int32_t numerator, int32_t denominator, Error& error);
+
+/// Moves to any time: in a loop modulo its length, otherwise to the nearest end. Passes no events;
+/// the next step also passes those at the tick itself, as after a start.
+void seek_clip(ClipSampler& sampler, int64_t tick);
+
+/// Events that a step passed, in the order of passing; see next_event().
+struct EventRange {
+  const Clip* clip = nullptr;
+  int64_t from = 0, to = 0;  // passed when from < tick <= to, or, backward, to <= tick < from
+  int64_t loop_length = 0;   // 0: no loop
+  int64_t base = 0;          // time of the beginning of the loop at hand
+  int64_t index = 0;         // next event
+};
+
+/// Moves by `ticks` times the speed (-kMaxStepTicks ... kMaxStepTicks) and returns the events that it
+/// passed. An event is passed by arriving at its tick or moving beyond it, in either direction: once
+/// in each loop, however time is divided into steps.
+EventRange advance_clip(ClipSampler& sampler, int64_t ticks);
+
+/// The next event of a step; false after the last. Events are not collected, as a step over many
+/// loops passes any number of them.
+bool next_event(EventRange& range, ClipEvent& event);
+
+/// The values of all channels at the sampler's position, which stay until the next call. At a frame
+/// they have its bits; between two frames they are between their values. Always finite; a damaged
+/// block gives zeros and sets `decoder.damaged`.
+Span<const float> sample_clip(ClipSampler& sampler);
+
+}  // namespace mien

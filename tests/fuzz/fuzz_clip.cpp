@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Any bytes as a clip: opened, verified, played in every way (tests/support/exercise_clip.h), bound
+// to a rig. An input is a clip. Those to start from are made here; mutations keep the size and often
+// the checksum right, so that they get far.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <iterator>
+#include <random>
+#include <vector>
+
+#include "capi/handles.h"
+#include "runtime/anim/binding.h"
+#include "runtime/anim/clip_builder.h"
+#include "runtime/dna/format/dna_writer.h"
+#include "tests/support/exercise_clip.h"
+#include "tests/support/tiny_rig.h"
+
+extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
+
+namespace {
+
+using namespace mien;
+using Bytes = std::vector<uint8_t>;
+using Random = std::minstd_rand;
+
+std::vector<Bytes>& seeds() {
+  static std::vector<Bytes> clips;
+  return clips;
+}
+
+/// `kind` decides what the channels are like.
+void add_seed(uint32_t kind, uint32_t frames, bool wraps, uint8_t snap) {
+  constexpr uint32_t kChannels = 6;
+  const char* strings[kChannels] = {"jawOpen", "CTRL_smile.tx", "smileL", "x", "y", "smileR"};
+  std::vector<Span<const char>> names;
+  for (const char* s : strings) names.push_back({s, strlen(s)});
+  Random random(kind + frames);
+  std::vector<float> values(size_t{frames} * kChannels);
+  for (size_t i = 0; i < values.size(); ++i) {
+    const float ramp = static_cast<float>(i / kChannels) / 64;
+    const float noise = static_cast<float>(random() % 1000) / 997;
+    const float choices[] = {ramp, noise, i % 5 < 3 ? 0 : noise, 0.5f, ramp + noise, -ramp};
+    values[i] = choices[(i % kChannels * (kind + 1)) % 6];
+  }
+  const std::vector<uint8_t> snaps(kChannels, snap);
+  const ClipEventDesc events[] = {{0, 0, 1}, {20000000, 1, 0.5f}, {20000000, 0, -1}};
+  ClipDesc desc;
+  desc.frame_count = frames;
+  desc.values = values.data();
+  desc.names = {names.data(), names.size()};
+  desc.snaps = {snaps.data(), snaps.size()};
+  desc.events = {events, frames > 2 ? 3u : 0u};
+  desc.event_names = {names.data(), 2};
+  desc.wraps = wraps;
+  ClipBytes made;
+  Error error;
+  if (build_clip(desc, default_allocator(), {}, made, error) != Status::kOk) abort();
+  seeds().emplace_back(made.bytes, made.bytes + made.size);
+  release_clip(made);
+}
+
+MienRig* rig = nullptr;
+
+void make_rig() {
+  Arena arena(default_allocator());
+  const dna::DnaView view = dna::tiny_rig(arena);
+  const dna::WriteOptions options = {0, true};
+  Bytes bytes(dna::encoded_size(view, options));
+  dna::encode(view, options, bytes.data());
+  MienDna* dna = nullptr;
+  if (mien_dna_open_memory(bytes.data(), bytes.size(), nullptr, &dna, nullptr) != MIEN_OK) abort();
+  if (mien_rig_create(dna, nullptr, &rig, nullptr) != MIEN_OK) abort();
+  mien_dna_close(dna);
+}
+
+void bind(const uint8_t* data, size_t size) {
+  Clip clip;
+  Error error;
+  if (open_clip(data, size, clip, error) != Status::kOk) return;
+  const Span<const char> x = {"x", 1}, control = {"CTRL_jaw.ty", 11};
+  const MatrixEntry matrix[] = {{x, control, 0.5f}};
+  Binding* binding = nullptr;
+  if (bind_clip(clip, *capi::object(rig), {matrix, 1}, default_allocator(), binding, error) !=
+      Status::kOk) {
+    abort();
+  }
+  if (binding->controls.count + binding->extra_controls.count != binding->raw_count) abort();
+  const std::vector<float> values(clip.channel_count, 0.5f);
+  std::vector<float> gui(binding->gui_count), raw(binding->raw_count);
+  apply_binding(*binding, {values.data(), values.size()}, {gui.data(), gui.size()},
+                {raw.data(), raw.size()});
+  release_binding(binding);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  make_rig();
+  for (uint32_t kind = 0; kind < 3; ++kind) {
+    for (uint32_t frames : {1u, 2u, 65u, 129u}) {
+      add_seed(kind, frames, kind == 1, kind == 2 ? kDefaultSnap : kNoSnap);
+    }
+  }
+  return 0;
+}
+
+extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max_size,
+                                          unsigned seed) {
+  Random random(seed);
+  for (int i = 0; i < 3; ++i) random();  // the first numbers of near seeds are near
+  if (size < kClipHeaderSize || random() % 64 == 0) {
+    const Bytes& start = seeds()[random() % seeds().size()];
+    size = std::min(start.size(), max_size);
+    memcpy(data, start.data(), size);
+  }
+  if (random() % 2 == 0) {
+    size = LLVMFuzzerMutate(data, size, max_size);
+  } else if (size >= 4) {
+    const size_t limit = random() % 2 == 0 ? std::min<size_t>(size, kClipHeaderSize) : size;
+    const size_t at = random() % (limit / 4) * 4;
+    const auto old = load_little_endian<uint32_t>(data + at);
+    const uint32_t values[] = {0,
+                               1,
+                               old + 1,
+                               old - 1,
+                               ~0u,
+                               old * 2,
+                               old / 2,
+                               old + 8,
+                               ~0u - old,
+                               old ^ 1u << random() % 32,
+                               0x7F800000,
+                               64,
+                               static_cast<uint32_t>(random())};
+    store_little_endian(data + at, values[random() % std::size(values)]);
+  }
+  if (size >= kClipHeaderSize && random() % 4 != 0) {
+    store_little_endian<uint64_t>(data + kAtSize, size);
+    store_little_endian(data + kAtChecksum, clip_checksum(data, size));
+  }
+  return size;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const ClipExercise exercise(data, size);
+  if (!exercise.broken.empty()) {
+    fprintf(stderr, "broken: %s\n", exercise.broken.c_str());
+    abort();
+  }
+  bind(data, size);
+  return 0;
+}
