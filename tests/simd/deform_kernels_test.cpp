@@ -164,7 +164,7 @@ struct MeshPart {
   std::vector<float> skinned(const KernelTable& kernels, uint32_t count, uint32_t influences,
                              SkinNormals mode) {
     std::vector<float> out(kPositions * 3, -9), out_normals(vertices.size() * 3, -9);
-    SkinArgs args;
+    SkinArgs args = {};
     args.positions = positions.data;
     args.weights = weights.data;
     args.joints = joints.data();

@@ -98,8 +98,8 @@ def measure(rig: mien.Rig, count: int, lod: int, loops: ctypes.CDLL) -> List[Tup
     found = [("face.evaluate()", alternate(
         lambda n: loops.one(evaluate, rig_address, face_address, lod, n), single, turns, 1001))]
 
-    batch = timed(lambda: batch.evaluate(lod))
-    turns = max(1, int(2e5 / (batch(10) / 10)))
+    together = timed(lambda: batch.evaluate(lod))
+    turns = max(1, int(2e5 / (together(10) / 10)))
     pointers, lods = batch._pointers, (ctypes.c_uint32 * count)(*[lod] * count)
 
     evaluate_batch = ctypes.cast(lib.mien_rig_evaluate_batch, address)
@@ -109,7 +109,7 @@ def measure(rig: mien.Rig, count: int, lod: int, loops: ctypes.CDLL) -> List[Tup
         return float(loops.many(evaluate_batch, rig_address, batch_address, pointers, lods, count,
                                 int(mien.Stage.ALL), n))
 
-    found.append((f"batch.evaluate(), {count} characters", alternate(in_c, batch, turns, 401)))
+    found.append((f"batch.evaluate(), {count} characters", alternate(in_c, together, turns, 401)))
     return found
 
 
