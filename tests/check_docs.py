@@ -19,7 +19,7 @@ SKIPPED = {"build", ".git", ".cache", "__pycache__", "node_modules", "target"}
 SUFFIXES = {".h", ".hpp", ".c", ".cpp", ".inl", ".py", ".rs", ".cmake", ".txt", ".toml", ".sh",
             ".map"}
 # Named before they exist.
-NOT_YET = {"capi/mien_abi.json", "integrations/cli/commands", "MIEN_BUILD_COMPILER"}
+NOT_YET = {"capi/mien_abi.json"}
 AREAS = ("bench", "capi", "docs", "integrations", "runtime", "simd", "tests")
 
 HEADING = re.compile(r"^(#{1,6})\s+(.*?)\s*#*$")
