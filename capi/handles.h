@@ -14,7 +14,9 @@
 #include "runtime/eval/batch.h"
 #include "runtime/eval/instance.h"
 
-// Tags stand first in every object, are cleared when it is destroyed, and tell kinds apart.
+// Tags stand first in every object and tell kinds apart. Destroyed handles are not detected: a table
+// of ids with generations takes 0.2 to 0.6 ns more per handle than a tag (1.8 ns), but the object may
+// be destroyed right after the look-up. Pinning it for the call takes 13 to 21 ns and a lock to create.
 constexpr uint32_t kDnaTag = 0x6D44'4E41;
 constexpr uint32_t kReportTag = 0x6D52'5054;
 constexpr uint32_t kRigTag = 0x6D52'4947;

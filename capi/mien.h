@@ -29,8 +29,8 @@
  *             that introduced it is MIEN_ERROR_STRUCT_SIZE, a MienError too.
  *   Enums     have names for other languages to keep; fields and arguments that hold one are of a
  *             fixed width, since a C enum is not.
- *   Misuse    NULL, a wrong index, a handle of the wrong kind and (as far as a tag can tell) a
- *             handle used after it was destroyed return a status. Nothing aborts or prints.
+ *   Misuse    NULL, a wrong index and a live handle of the wrong kind return a status. Using a
+ *             destroyed handle is undefined, as using freed memory is. Nothing aborts or prints.
  *   Units     Those of the file: mien_rig_info() tells centimeters or meters, degrees or radians,
  *             and which way the axes point. Outputs are deltas from the neutral pose.
  *   Numbers   32-bit floats. See README.md for which results are equal bit for bit.
@@ -108,7 +108,7 @@ enum MienStatusCode {
     MIEN_ERROR_NULL_ARGUMENT = 1,    /* a pointer that has to be given is NULL */
     MIEN_ERROR_INVALID_ARGUMENT = 2, /* a value outside its range; a buffer that is too small */
     MIEN_ERROR_STRUCT_SIZE = 3,      /* struct_size too small, or unknown fields that are not zero */
-    MIEN_ERROR_HANDLE = 4,           /* not a live handle of this kind */
+    MIEN_ERROR_HANDLE = 4,           /* a handle of another kind */
     MIEN_ERROR_MISMATCH = 5,         /* an instance of another rig */
     MIEN_ERROR_INDEX = 6,            /* an index past the end */
     MIEN_ERROR_LOD = 7,              /* a LOD that the rig does not have */

@@ -46,7 +46,7 @@ class Status(IntEnum):
     INVALID_ARGUMENT = 2
     #: struct_size too small, or unknown fields that are not zero
     STRUCT_SIZE = 3
-    #: not a live handle of this kind
+    #: a handle of another kind
     HANDLE = 4
     #: an instance of another rig
     MISMATCH = 5

@@ -22,7 +22,7 @@ pub const MIEN_ERROR_NULL_ARGUMENT: MienStatus = 1;
 pub const MIEN_ERROR_INVALID_ARGUMENT: MienStatus = 2;
 /// `struct_size` too small, or unknown fields that are not zero.
 pub const MIEN_ERROR_STRUCT_SIZE: MienStatus = 3;
-/// Not a live handle of this kind.
+/// A handle of another kind.
 pub const MIEN_ERROR_HANDLE: MienStatus = 4;
 /// An instance of another rig.
 pub const MIEN_ERROR_MISMATCH: MienStatus = 5;

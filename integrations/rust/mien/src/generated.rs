@@ -20,7 +20,7 @@ impl Status {
     pub const INVALID_ARGUMENT: Self = Self(2);
     /// `struct_size` too small, or unknown fields that are not zero.
     pub const STRUCT_SIZE: Self = Self(3);
-    /// Not a live handle of this kind.
+    /// A handle of another kind.
     pub const HANDLE: Self = Self(4);
     /// An instance of another rig.
     pub const MISMATCH: Self = Self(5);
@@ -77,7 +77,7 @@ pub(crate) fn describe(status: Status) -> &'static str {
         1 => "a pointer that has to be given is NULL",
         2 => "a value outside its range; a buffer that is too small",
         3 => "struct_size too small, or unknown fields that are not zero",
-        4 => "not a live handle of this kind",
+        4 => "a handle of another kind",
         5 => "an instance of another rig",
         6 => "an index past the end",
         7 => "a LOD that the rig does not have",
