@@ -35,8 +35,8 @@ struct Buffer {
     const uint32_t normal_at = kSizes[position_format];
     const uint32_t tangent_at = normal_at + kSizes[normal_format];
     const uint32_t stride = tangent_at + kSizes[tangent_format] + 4;
-    memory.resize(vertex_count * stride / 4);
-    memset(memory.data(), fill, memory.size() * 4);
+    memory.reserve(vertex_count * stride / 4 + 1);  // so that without vertices it has an address
+    memory.assign(vertex_count * stride / 4, 0x0101'0101u * fill);
     output.vertex_capacity = vertex_count;
     output.positions = {bytes(), stride, position_format};
     output.normals = {bytes() + normal_at, stride, normal_format};
