@@ -97,9 +97,9 @@ void make_seeds() {
     write.struct_size = sizeof(write);
     write.version = version;
     size_t size = 0;
-    mien_dna_write_memory(generated, &write, nullptr, 0, &size, nullptr);
+    if (mien_dna_write_memory(generated, &write, nullptr, 0, &size, nullptr)) abort();
     Bytes bytes(size);
-    mien_dna_write_memory(generated, &write, bytes.data(), size, &size, nullptr);
+    if (mien_dna_write_memory(generated, &write, bytes.data(), size, &size, nullptr)) abort();
     seeds().push_back(bytes);
   }
   mien_dna_close(generated);
