@@ -115,7 +115,8 @@ void for_each_layer(const DnaView& view, const WriteOptions& options, F&& f) {
 }
 
 void write_layer(const DnaView& view, const LayerToWrite& layer, FieldWriter& writer) {
-  if (!layer.kind) return writer.copy(layer.entry->data, layer.entry->size);
+  // A view that was only read in part, for looking, has entries without their bytes: written empty.
+  if (!layer.kind) return writer.copy(layer.entry->data, layer.entry->data ? layer.entry->size : 0);
   with_layer(view, layer.kind->id, [&](const auto& record) {
     using Record = std::decay_t<decltype(record)>;
     writer.write(layer.empty ? Record{} : record);
