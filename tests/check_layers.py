@@ -23,6 +23,8 @@ GRAPH = {
     "runtime/rig": ["runtime/base", "simd"],
     "runtime/eval": ["runtime/base", "simd", "runtime/rig"],
     "runtime/anim": ["runtime/base", "runtime/rig"],
+    "runtime/mix": ["runtime/base", "simd", "runtime/rig", "runtime/eval", "runtime/anim",
+                    "runtime/pose"],
     "runtime/pose": ["runtime/base", "simd", "runtime/rig"],
     "runtime/deform": ["runtime/base", "simd", "runtime/rig", "runtime/eval", "runtime/pose"],
     "runtime/baked": ["runtime/base", "simd", "runtime/rig", "runtime/eval", "runtime/pose",
@@ -33,8 +35,9 @@ GRAPH = {
     # Makes DNA files.
     "runtime/author": ["runtime/base", "runtime/dna/format", "runtime/dna"],
     "capi": ["runtime/base", "simd", "runtime/dna/format", "runtime/dna/check",
-             "runtime/dna/convert", "runtime/dna", "runtime/rig", "runtime/eval", "runtime/pose",
-             "runtime/deform", "runtime/baked", "runtime/compile", "runtime/author"],
+             "runtime/dna/convert", "runtime/dna", "runtime/rig", "runtime/eval", "runtime/anim",
+             "runtime/mix", "runtime/pose", "runtime/deform", "runtime/baked", "runtime/compile",
+             "runtime/author"],
 }
 
 # The rooms of the program: the same, and no room sees the library but through mien.h.

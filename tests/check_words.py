@@ -51,7 +51,7 @@ RULES = [
     (CODE, r"\bplaces?_of\b|\bplace_of_\w+", "sorted index", "place_of[i]"),
     (CODE, r"\bseen_(?:behind|[a-z]+_behind)\b|\bStagesBehind\w*", "previous_..., ...After...",
      "StagesBehindMl"),
-    (CODE, r"\b\w+Life\b", "exercise_...", "DnaLife"),
+    (CODE, r"\b(?!kLife\b)\w+Life\b", "exercise_...", "DnaLife"),
     (CODE, r"\bTogether[A-Z]\w*|\b(?!Lips)\w+Together\b(?!\))", "shared columns", "ColumnsTogether"),
     (CODE, r"\bDoBetter\d+", "a name that tells the behavior", "TEST(DoBetter7, Stays)"),
     # Several characters

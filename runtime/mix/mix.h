@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// What is mixed for one rig, and how: the immutable part, shared by any number of characters.
+//
+// A row holds a value for each lane:
+//
+//     | raw controls | pose variables | zeros up to a multiple of 16 |
+//
+// Pose variables are numbers beside the controls that are mixed by the same rules: gaze target, head
+// offset, breath. A step (mixer.h) goes through its stages in this order:
+//
+//     layers, in their order    the row after the last one of base or speech is the protected row
+//     reactions                 behind the last layer that is not of the group life
+//     guards                    hold back what breaks the protected row
+//     layers and reactions that come after the guards
+//     antagonists               of two opposite lanes one is 0
+//     limits
+#pragma once
+
+#include "runtime/base/allocator.h"
+#include "runtime/base/span.h"
+#include "runtime/base/status.h"
+
+namespace mien {
+
+constexpr uint32_t kLaneStep = 16;
+constexpr uint32_t kMaxLanes = 4096;
+constexpr uint32_t kMaxLayers = 16;
+constexpr uint32_t kMaxGuards = 8;
+constexpr uint32_t kMaxGuardLanes = 24;
+constexpr uint32_t kMaxPoses = 1024;
+
+// Layers
+// ------------------------------------------------------------------------------------------------
+
+/// What a layer is for. Guards protect those of base and speech; layers act in the order in which
+/// they are given.
+enum class LayerGroup : uint8_t { kBase, kSpeech, kEmotion, kReaction, kLife };
+constexpr uint32_t kLayerGroups = 5;
+
+/// What becomes of a lane, with o the value so far, x that of the layer, a = weight * mask. Lanes that
+/// a source has no channel or pose value for stay as they are.
+enum class BlendMode : uint8_t {
+  kOverride,  // o + a (x - o)
+  kAdd,       // o + a x
+  kScreen,    // p = o within 0 ... 1: x >= 0: o + a x (1 - p), else o + a x p
+  kMax,       // o + a max(0, x - o)
+  kScale,     // o (1 + a (x - 1))
+};
+constexpr uint32_t kBlendModes = 5;
+
+/// Where the values of a layer come from.
+enum class LayerSource : uint8_t {
+  kClip,       // a clip that is played
+  kPoses,      // a weighted sum of poses
+  kStream,     // rows that arrive from outside
+  kGenerator,  // blinks, gaze, breath, noise
+};
+constexpr uint32_t kLayerSources = 4;
+
+enum LayerFlags : uint32_t {
+  kLayerAfterGuards = 1,  // mixed after the guards, which leave it alone; not for base and speech
+};
+
+struct LayerDesc {
+  LayerGroup group = LayerGroup::kBase;
+  BlendMode mode = BlendMode::kOverride;
+  LayerSource source = LayerSource::kClip;
+  uint32_t flags = 0;
+  float weight = 1;         // 0 ... 1, at the beginning
+  Span<const float> mask;   // [lane] 0 ... 1; those beyond its end are 0; empty: 1 everywhere
+  uint32_t first_pose = 0;  // of kPoses
+  uint32_t pose_count = 0;
+};
+
+struct MixLayer {
+  LayerGroup group;
+  BlendMode mode;
+  LayerSource source;
+  uint32_t flags;
+  float weight;
+  uint32_t first_pose, pose_count;
+  uint32_t first_fade;  // of the weights of its poses, among all such
+  bool masked;          // the mask is not 1 everywhere
+  Span<float> mask;     // [lane], 0 in the padding
+};
+
+/// The lanes of a pose that are not 0.
+struct PoseDesc {
+  Span<const uint16_t> lanes;
+  Span<const float> values;
+};
+
+// Guards
+// ------------------------------------------------------------------------------------------------
+
+/// A measured quantity of the face that emotions and reactions must not increase while speech needs
+/// it small, such as the gap between the lips:
+///     f(row) = rest + sum of gains[i] * row[lanes[i]]
+/// A quantity that must not decrease is written with opposite signs.
+struct Guard {
+  uint32_t count;  // of lanes
+  float rest;      // f of a row of zeros, in millimeters
+  float f_on;      // active where f(protected row) is below, fully so at 0; in millimeters, above 0
+  float tolerance;  // of the increase, in millimeters
+  float fit_error;  // of the linear model, largest seen when it was probed, in millimeters
+  uint16_t lanes[kMaxGuardLanes];
+  float gains[kMaxGuardLanes];  // millimeters
+};
+
+/// What a guard remembers from step to step: its activation 0 ... 1 and how fast it changes, so that
+/// it has no jumps in its slope.
+struct GuardState {
+  float activation, velocity;  // per second
+};
+
+/// Two lanes that move the face in opposite directions. If both are above 0, the smaller one is
+/// taken off both; with a stiffness below 1 that much of it.
+struct AntagonistPair {
+  uint16_t a, b;
+  float stiffness;  // 0 ... 1
+};
+
+// The mix
+// ------------------------------------------------------------------------------------------------
+
+/// Everything is copied.
+struct MixDesc {
+  uint32_t raw_count = 0;       // raw controls of the rig
+  uint32_t variable_count = 0;  // pose variables
+  Span<const LayerDesc> layers;
+  Span<const PoseDesc> poses;
+  Span<const Guard> guards;  // in the order in which they act
+  Span<const AntagonistPair> antagonists;
+  /// [lane] of the same size in the other half of the face, itself in the middle: for what is played
+  /// mirrored. Empty: nothing can be.
+  Span<const uint16_t> mirror;
+  /// [lane] Empty: none.
+  Span<const float> lower, upper;
+  /// How many clips play at a time, those that are faded out included, and how large they may be.
+  uint32_t player_count = 0;
+  uint32_t max_channels = 0, max_changing_channels = 0;
+  uint32_t max_bound_gui = 0;   // largest Binding::gui_count
+  bool plays_backward = false;  // SamplerLimits::reverse
+  uint32_t max_events = 64;     // that a step can report
+};
+
+/// Immutable, in one block of memory.
+struct Mix {
+  uint32_t tag = 0;  // first, for the C API to recognize its handles
+  uint32_t raw_count = 0, variable_count = 0;
+  uint32_t lane_count = 0;  // with padding
+  uint32_t fade_count = 0;  // weights of poses in all layers
+  uint32_t player_count = 0, max_channels = 0, max_changing_channels = 0, max_bound_gui = 0;
+  uint32_t max_events = 0;
+  bool plays_backward = false;
+  uint64_t fingerprint = 0;  // of everything that a snapshot depends on
+  Allocator allocator;
+  size_t block_size = 0;
+
+  Span<MixLayer> layers;
+  Span<uint32_t> pose_ends;  // [pose] into pose_lanes and pose_values
+  Span<uint16_t> pose_lanes;
+  Span<float> pose_values;
+  Span<Guard> guards;
+  Span<AntagonistPair> antagonists;
+  Span<uint16_t> mirror;     // [lane], or empty
+  Span<float> lower, upper;  // [lane]
+
+  uint32_t used_lanes() const { return raw_count + variable_count; }
+};
+
+/// On success `out` is to be given back by release_mix(). kInvalidArgument, kIndex or kMemory; the
+/// message says which element is wrong.
+Status create_mix(const MixDesc& desc, const Allocator& allocator, Mix*& out, Error& error);
+void release_mix(Mix* mix);
+
+}  // namespace mien
