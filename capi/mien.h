@@ -1,39 +1,54 @@
 /* SPDX-License-Identifier: MIT
  *
- * Mien: facial rigs in DNA files, opened, evaluated and written.
+ * Mien: reads, evaluates and deforms facial rigs in DNA files.
  *
- *     DNA file -> MienDna -> MienRig -> MienInstance -> joint, channel and map values
- *                    \______ MienDeformer -> MienDeformerInstance -> joint matrices, positions, normals
+ *     DNA file -> MienDna -> MienRig -> MienInstance -> joint values, channel and map weights
+ *                    \______ MienDeformer -> MienDeformerInstance -> matrices and vertices
  *
- * A MienDna is a checked, read-only view of a file. A MienRig is the same data packed for
- * evaluation; it keeps its own copy of all it needs, so the MienDna may be closed at once. A
- * MienInstance is one character: its controls, and the outputs of its last evaluation. A MienDeformer
- * is the geometry of the file packed for deformation, shared like a rig; a MienDeformerInstance is what it makes
- * of one character.
+ *   MienDna               a checked, read-only view of a file
+ *   MienRig               the behavior of a file, packed for evaluation; immutable
+ *   MienInstance          one character: its controls, and the results of its last evaluation
+ *   MienBatch             scratch memory for evaluating many instances in one call
+ *   MienDeformer          the geometry of a file, packed for deformation; immutable
+ *   MienDeformerInstance  one character: its joint matrices and deformed meshes
+ *   MienBaked             an open file that holds a packed rig and its deformer
  *
- * Rules that hold for every function, unless it says otherwise
+ * One rig and one deformer serve any number of characters and threads. Both copy what they need
+ * from the DNA, which may be closed afterwards.
  *
- *   Status    A function that can fail returns MienStatus; MIEN_OK is 0. When it fails, what it
- *             would have written through `out_...` pointers is NULL or zero. Functions that can
- *             fail because of data also take a MienError*, which may be NULL.
- *   Threads   A const handle may be used by any number of threads at the same time. A handle that
- *             is not const is for one thread at a time. There is no global state.
- *   Ownership What a create, open or generate call gives, the matching destroy or close releases;
- *             both accept NULL. Views (pointer + count) point into the handle they came from and
- *             live as long as it does. Strings are UTF-8 by convention, not by check, have a
- *             length, and are not terminated.
- *   Structs   Zero a struct, then set struct_size to its sizeof: zero is the default of every
- *             field. A description (`desc`) or an `allocator` may be NULL: all of it is default.
- *             Structs only ever grow. A larger one than the library knows is accepted if the
- *             rest is zero (of an output the rest is set to zero); one shorter than in the release
- *             that introduced it is MIEN_ERROR_STRUCT_SIZE, a MienError too.
- *   Enums     have names for other languages to keep; fields and arguments that hold one are of a
- *             fixed width, since a C enum is not.
- *   Misuse    NULL, a wrong index and a live handle of the wrong kind return a status. Using a
- *             destroyed handle is undefined, as using freed memory is. Nothing aborts or prints.
- *   Units     Those of the file: mien_rig_info() tells centimeters or meters, degrees or radians,
- *             and which way the axes point. Outputs are deltas from the neutral pose.
- *   Numbers   32-bit floats. See README.md for which results are equal bit for bit.
+ * These rules hold unless a function says otherwise:
+ *
+ *   Status     Functions that can fail return a MienStatus; MIEN_OK is 0. On failure, what
+ *              `out_...` points to is set to NULL or zero; arrays of the caller are left as they
+ *              are. Functions that fail because of data also take a MienError, which may be NULL.
+ *              Wrong arguments give MIEN_ERROR_NULL_ARGUMENT, MIEN_ERROR_INVALID_ARGUMENT,
+ *              MIEN_ERROR_STRUCT_SIZE or MIEN_ERROR_HANDLE; functions that create or open an
+ *              object give MIEN_ERROR_MEMORY if the allocator returns NULL. "Fails with" lists
+ *              the statuses beyond these.
+ *   Threads    A const handle may be used by any number of threads at the same time. A handle that
+ *              is not const may be used by one thread at a time. There is no global state.
+ *   Ownership  Objects that a create, open or generate function returns are released by the
+ *              matching destroy or close function, which accepts NULL. Memory that is passed in is
+ *              used during the call only.
+ *   Views      A view (pointer and count) points into the memory of the handle it was requested
+ *              from and is valid until that handle is destroyed or closed. Views of immutable
+ *              objects never change.
+ *   Strings    UTF-8, not checked. Names and paths that are passed in are terminated; a function
+ *              whose name ends in _n takes their length in bytes instead. Strings in a
+ *              MienStringView are not terminated.
+ *   Structs    Structs that begin with struct_size are extended at their end by later releases.
+ *              Initialize them with their default function, or zero them and set struct_size to
+ *              sizeof: zero is the default of every field. A desc or allocator may be NULL, which
+ *              means all defaults. A struct shorter than in the release that introduced it, or an
+ *              input with nonzero fields that the library does not know, gives
+ *              MIEN_ERROR_STRUCT_SIZE; unknown fields of outputs are set to zero.
+ *   Enums      Parameters and fields that hold an enum value are fixed-width integers, because the
+ *              size of a C enum is not fixed.
+ *   Misuse     A NULL handle, a wrong index and a handle of the wrong kind return a status. Using
+ *              a destroyed handle is undefined, like using freed memory. Nothing aborts or prints.
+ *   Units      Those of the file: mien_rig_info() returns the units of translations and rotations
+ *              and the directions of the axes. Joint values are deltas from the neutral pose.
+ *   Numbers    32-bit floats. See docs/numbers.md for which results have the same bits where.
  */
 #ifndef MIEN_H
 #define MIEN_H
@@ -55,7 +70,7 @@
 #define MIEN_API
 #endif
 
-/* Functions whose status must not be ignored: compilers warn where the language lets them. */
+/* For functions that return a status: the compiler warns if it is ignored (C++17, C23). */
 #if defined(__cplusplus) && __cplusplus >= 201703L
 #define MIEN_CHECKED [[nodiscard]] MIEN_API
 #elif defined(__STDC_VERSION__) && __STDC_VERSION__ >= 202311L
@@ -64,15 +79,15 @@
 #define MIEN_CHECKED MIEN_API
 #endif
 
-/* Calling convention of every callback. */
+/* Calling convention of callbacks. */
 #if defined(_WIN32) && !defined(_WIN64)
 #define MIEN_CALLBACK __cdecl
 #else
 #define MIEN_CALLBACK
 #endif
 
-/* Defines `function`, which returns a `Type` with struct_size set and every other field 0: the
- * default of all of them. C11 and C++17 take it without a warning. */
+/* Defines `function`, which returns a `Type` with struct_size set and all other fields zero. Compiles
+ * without warnings as C11 and C++17. */
 #ifdef __cplusplus
 #define MIEN_ZERO {}
 #else
@@ -96,85 +111,90 @@ extern "C" {
 #define MIEN_VERSION_PATCH 0
 #define MIEN_VERSION ((MIEN_VERSION_MAJOR << 24) | (MIEN_VERSION_MINOR << 16) | MIEN_VERSION_PATCH)
 
-/* MIEN_VERSION of the library that runs; the header's may be older. */
+/* Returns the MIEN_VERSION of the library in use, which may differ from that of this header. */
 MIEN_API uint32_t mien_version(void);
 
 /* ---- Status and errors ----------------------------------------------------------------------- */
 
+/* A MIEN_OK or MIEN_ERROR_... value. */
 typedef int32_t MienStatus;
 
+/* Numbers are never reused. */
 enum MienStatusCode {
     MIEN_OK = 0,
-    MIEN_ERROR_NULL_ARGUMENT = 1,    /* a pointer that has to be given is NULL */
-    MIEN_ERROR_INVALID_ARGUMENT = 2, /* a value outside its range; a buffer that is too small */
-    MIEN_ERROR_STRUCT_SIZE = 3,      /* struct_size too small, or unknown fields that are not zero */
-    MIEN_ERROR_HANDLE = 4,           /* a handle of another kind */
-    MIEN_ERROR_MISMATCH = 5,         /* an instance of another rig */
+    MIEN_ERROR_NULL_ARGUMENT = 1,    /* a required pointer is NULL */
+    MIEN_ERROR_INVALID_ARGUMENT = 2, /* a value outside its range, or a buffer that is too small */
+    MIEN_ERROR_STRUCT_SIZE = 3,      /* struct_size is too small, or unknown fields are not zero */
+    MIEN_ERROR_HANDLE = 4,           /* a handle of the wrong kind */
+    MIEN_ERROR_MISMATCH = 5,         /* objects that do not belong together */
     MIEN_ERROR_INDEX = 6,            /* an index past the end */
-    MIEN_ERROR_LOD = 7,              /* a LOD that the rig does not have */
+    MIEN_ERROR_LOD = 7,              /* a LOD that does not exist, or that the object has no memory for */
     MIEN_ERROR_NAME = 8,             /* no such name or path */
-    MIEN_ERROR_ISA = 9,              /* this CPU (or build) lacks the instruction set */
+    MIEN_ERROR_ISA = 9,              /* an instruction set that this CPU or build lacks */
     MIEN_ERROR_MEMORY = 10,          /* the allocator returned NULL */
-    MIEN_ERROR_FILE_OPEN = 20,
-    MIEN_ERROR_FILE_READ = 21,
-    MIEN_ERROR_FILE_WRITE = 22,
-    MIEN_ERROR_DNA_SIGNATURE = 30, /* not a DNA file */
-    MIEN_ERROR_DNA_VERSION = 31,   /* a DNA file of another generation than 2 */
-    MIEN_ERROR_DNA_TRUNCATED = 32, /* the file ends before what it announces */
-    MIEN_ERROR_DNA_STRUCTURE = 33, /* offsets, sizes or counts contradict each other */
-    MIEN_ERROR_DNA_REFERENCE = 34, /* an index to something that is not there */
-    MIEN_ERROR_DNA_LIMIT = 35,     /* more of something than the format or Mien can number */
-    MIEN_ERROR_DNA_LAYER = 36,     /* a layer that the call needs was not loaded or not in the file */
-    MIEN_ERROR_DNA_VALUE = 37,     /* a value that has no meaning */
+    MIEN_ERROR_FILE_OPEN = 20,       /* the file cannot be opened */
+    MIEN_ERROR_FILE_READ = 21,       /* the file or stream cannot be read */
+    MIEN_ERROR_FILE_WRITE = 22,      /* the file cannot be written */
+    MIEN_ERROR_DNA_SIGNATURE = 30,   /* not a DNA file */
+    MIEN_ERROR_DNA_VERSION = 31,     /* a DNA file of a generation other than 2 */
+    MIEN_ERROR_DNA_TRUNCATED = 32,   /* the file is shorter than its header or counts state */
+    MIEN_ERROR_DNA_STRUCTURE = 33,   /* offsets, sizes or counts contradict each other */
+    MIEN_ERROR_DNA_REFERENCE = 34,   /* an index that refers to nothing */
+    MIEN_ERROR_DNA_LIMIT = 35,       /* a count above the limit of the format or of Mien */
+    MIEN_ERROR_DNA_LAYER = 36,       /* a required layer is not loaded or not in the file */
+    MIEN_ERROR_DNA_VALUE = 37,       /* a value without a meaning, or one that cannot be converted */
     MIEN_ERROR_BAKED_SIGNATURE = 50, /* not a baked file */
-    MIEN_ERROR_BAKED_VERSION = 51,   /* of another version or kind of machine: bake again */
-    MIEN_ERROR_BAKED_TRUNCATED = 52, /* the file ends before what it announces */
+    MIEN_ERROR_BAKED_VERSION = 51,   /* baked by another version or for another kind of machine */
+    MIEN_ERROR_BAKED_TRUNCATED = 52, /* the file is shorter than its header states */
     MIEN_ERROR_BAKED_STRUCTURE = 53, /* sizes, counts or indices contradict each other */
-    MIEN_ERROR_BAKED_CHECKSUM = 54,  /* not the bytes that were written */
-    MIEN_ERROR_BAKED_PART = 55       /* the file does not hold what was asked of it */
+    MIEN_ERROR_BAKED_CHECKSUM = 54,  /* the bytes are not those that were written */
+    MIEN_ERROR_BAKED_PART = 55       /* the file does not contain the requested object */
 };
 
-/* "DNA_TRUNCATED" for MIEN_ERROR_DNA_TRUNCATED; "UNKNOWN" for other numbers. Static, terminated. */
+/* Returns "DNA_TRUNCATED" for MIEN_ERROR_DNA_TRUNCATED, and "UNKNOWN" for other numbers. The string
+ * is static and terminated. */
 MIEN_API const char* mien_status_name(MienStatus status);
 
+/* Value of a byte offset where there is none. */
 #define MIEN_NO_OFFSET UINT64_MAX
 
-/* Detail of one failure, owned by the caller. Written by the call that fails; left alone, but for
- * status = MIEN_OK, by one that succeeds. */
+/* Details of a failure, owned by the caller. A call that fails fills all fields; a call that succeeds
+ * sets status to MIEN_OK and leaves the others as they are. */
 typedef struct MienError {
     size_t struct_size;
-    uint64_t byte_offset; /* in the file; MIEN_NO_OFFSET if there is no such place */
+    uint64_t byte_offset; /* in the file; MIEN_NO_OFFSET: not about a place in a file */
     MienStatus status;
-    char message[236];    /* what, where and what to do; terminated, possibly cut */
+    char message[236];    /* what is wrong, where, and what to do; terminated, cut if too long */
 } MienError;
 MIEN_DEFAULT(MienError, mien_error_default)
 
 /* ---- Memory and views ------------------------------------------------------------------------ */
 
-/* NULL instead of a MienAllocator means the C library's heap. `allocate` returns `size` bytes at a
- * multiple of `alignment` (a power of two, 64 at most) or NULL; `release` gets both back. Copied by
- * the call that takes it; the functions have to work until the object is destroyed, on every thread
- * that creates or destroys objects with it. */
+/* Memory functions of the caller; NULL instead of a MienAllocator means the C library's heap. The
+ * struct is copied. Both functions must work until the object is destroyed, on every thread that
+ * creates or destroys objects with it. */
 typedef struct MienAllocator {
-    void* user;
+    void* user; /* passed to the functions */
+    /* Returns `size` bytes aligned to `alignment` (a power of two, at most 64), or NULL. */
     void*(MIEN_CALLBACK* allocate)(void* user, size_t size, size_t alignment);
+    /* Receives the size and alignment that the block was allocated with. */
     void(MIEN_CALLBACK* release)(void* user, void* block, size_t size, size_t alignment);
 } MienAllocator;
 
-/* One piece of work of a MienParallelFor. */
+/* One task of a MienParallelFor. */
 typedef void(MIEN_CALLBACK* MienTask)(void* context, uint32_t index);
 
-/* Threads of the caller: the library starts none. `run` calls task(context, i) once for each
- * i < count, in any order and on any threads, and returns when all are done. Tasks never wait for
- * each other, call no other function of the caller, and are worth some 10 microseconds each. */
+/* The caller's thread pool; the library starts no threads. */
 typedef struct MienParallelFor {
-    void* user;
+    void* user; /* passed to the function */
+    /* Calls task(context, i) once for each i < count, in any order, on any threads, and returns when
+     * all have finished. Tasks do not wait for each other and take about 10 microseconds each. */
     void(MIEN_CALLBACK* run)(void* user, uint32_t count, MienTask task, void* context);
 } MienParallelFor;
 
 typedef struct MienStringView {
     const char* data;
-    size_t count; /* bytes, no terminator */
+    size_t count; /* bytes; not terminated */
 } MienStringView;
 
 typedef struct MienFloatView {
@@ -197,21 +217,24 @@ typedef struct MienIndex32View {
     size_t count;
 } MienIndex32View;
 
-/* A file that the caller reads: in an archive, over a network. `read` copies `size` bytes from
- * `offset` on into `buffer` and returns how many it copied: fewer are a failure. It is asked for
- * bytes within `size`, on the thread of the call that was given the stream, and not after it. */
+/* A file that the caller reads, for example from an archive. `read` is called during the call that
+ * takes the stream, on its thread. */
 typedef struct MienStream {
-    void* user;
-    uint64_t size; /* of the whole file */
+    void* user;    /* passed to the function */
+    uint64_t size; /* of the file, in bytes */
+    /* Copies `size` bytes at `offset` to `buffer` and returns the number of bytes copied; a smaller
+     * number is an error. The range is within the file. */
     size_t(MIEN_CALLBACK* read)(void* user, uint64_t offset, void* buffer, size_t size);
 } MienStream;
 
 /* ---- DNA: opening ---------------------------------------------------------------------------- */
 
+/* A checked, read-only view of a DNA file. Immutable. */
 typedef struct MienDna MienDna;
 
-/* Layers, to be combined with |. A layer brings along what it needs (everything needs the
- * definition, RBF behavior needs behavior); the descriptor is always read. */
+/* Layers of a DNA file, combined with |. A layer loads the layers that it refers to: all of them need
+ * the definition, RBF behavior needs the behavior. The descriptor is always loaded.
+ * See docs/dna-format.md, 9 "Choosing layers". */
 enum MienLayer {
     MIEN_LAYER_UNKNOWN = 0, /* only in MienDnaLayer.layer */
     MIEN_LAYER_DESCRIPTOR = 1,
@@ -225,20 +248,22 @@ enum MienLayer {
     MIEN_LAYER_ALL = 255
 };
 
-/* Layers of a kind that Mien does not know. */
+/* Layers of kinds that Mien does not know. */
 enum MienUnknownLayers {
-    MIEN_UNKNOWN_LAYERS_KEEP = 0, /* carried along, written back unchanged */
+    MIEN_UNKNOWN_LAYERS_KEEP = 0, /* keep their bytes and write them back unchanged */
     MIEN_UNKNOWN_LAYERS_DROP = 1
 };
 
 enum MienFileAccess {
-    MIEN_FILE_MAP = 0, /* map; read into memory where the system cannot map (pipes) */
-    MIEN_FILE_READ = 1 /* read it all now: for files that others may truncate meanwhile */
+    MIEN_FILE_MAP = 0, /* map the file; read it into memory if it cannot be mapped, as pipes */
+    MIEN_FILE_READ = 1 /* read the whole file into memory: safe if it is truncated later */
 };
 
 enum MienTranslationUnit { MIEN_TRANSLATION_UNIT_CENTIMETERS = 0, MIEN_TRANSLATION_UNIT_METERS = 1 };
 enum MienRotationUnit { MIEN_ROTATION_UNIT_DEGREES = 0, MIEN_ROTATION_UNIT_RADIANS = 1 };
-enum MienDirection { /* of the character */
+
+/* Directions as seen by the character. */
+enum MienDirection {
     MIEN_DIRECTION_LEFT = 0,
     MIEN_DIRECTION_RIGHT = 1,
     MIEN_DIRECTION_UP = 2,
@@ -246,6 +271,8 @@ enum MienDirection { /* of the character */
     MIEN_DIRECTION_FRONT = 4,
     MIEN_DIRECTION_BACK = 5
 };
+
+/* Order of Euler angles. */
 enum MienRotationSequence {
     MIEN_ROTATION_SEQUENCE_XYZ = 0, /* x first, then y, then z, about fixed axes */
     MIEN_ROTATION_SEQUENCE_XZY = 1,
@@ -254,120 +281,134 @@ enum MienRotationSequence {
     MIEN_ROTATION_SEQUENCE_ZXY = 4,
     MIEN_ROTATION_SEQUENCE_ZYX = 5
 };
-/* The side of a face a b c ... that (b - a) x (c - a) points to, computed with the numbers of the
- * file whichever way its axes point. */
+
+/* The side of a face a b c ... that (b - a) x (c - a) points to, computed from the coordinates in the
+ * file, whichever way the axes point. */
 enum MienFaceWinding {
-    MIEN_FACE_WINDING_OUTWARD = 0, /* seen from outside counter-clockwise if the axes are
-                                      right-handed, clockwise if they are left-handed */
+    MIEN_FACE_WINDING_OUTWARD = 0, /* seen from outside: counter-clockwise with right-handed axes,
+                                      clockwise with left-handed axes */
     MIEN_FACE_WINDING_INWARD = 1
 };
-/* The order in which Euler angles turn, when axes change. Joint values are sums of angles, which
- * mean nothing in another order: only the first rule is exact for all rigs. */
+
+/* How Euler angles are converted to other axes. Joint values are sums of angles, which are valid in
+ * one rotation sequence only: the first rule is the only one that is exact for all rigs. */
 enum MienRotationRule {
-    MIEN_ROTATION_RULE_CARRIED = 0,   /* the file's order, about the axes as they are called now: where x
-                                     became z, xyz becomes zyx, xzy becomes zxy, and so on */
-    MIEN_ROTATION_RULE_EXACT = 1,     /* the order named. Neutral poses, joints represented by quaternions,
-                                     twists, swings and ML joints follow exactly as rotations, and so
-                                     do joints that turn about one axis only;
-                                     MIEN_ERROR_DNA_VALUE for a rig with others */
-    MIEN_ROTATION_RULE_PER_COLUMN = 2 /* the order named, each column of a joint matrix by itself: exact
-                                     while one control is 1 and all others are 0, near it for small
-                                     angles */
+    MIEN_ROTATION_RULE_CARRIED = 0,   /* the sequence of the file, about the renamed axes: where x
+                                         becomes z, xyz becomes zyx, xzy becomes zxy, and so on */
+    MIEN_ROTATION_RULE_EXACT = 1,     /* the requested sequence. Neutral poses, quaternion joints, twists,
+                                         swings, ML joints and joints that rotate about one axis only
+                                         are converted exactly; rigs with other joints are rejected
+                                         with MIEN_ERROR_DNA_VALUE */
+    MIEN_ROTATION_RULE_PER_COLUMN = 2 /* the requested sequence, each column of the joint matrix on its
+                                         own: exact while one control is 1 and the others are 0,
+                                         approximate for small angles */
 };
 
-/* Where the axes of a rig point, and its units. Mirrored systems are as good as others: which hand
- * they are of follows from the axes. */
+/* Axes, units and rotation conventions of a rig. Any handedness is allowed.
+ * See docs/dna-format.md, 11 "Coordinate systems". */
 typedef struct MienCoordinateSystem {
     size_t struct_size;
     uint32_t axes[3];           /* MIEN_DIRECTION_... of x, y, z */
     uint32_t translation_unit;  /* MIEN_TRANSLATION_UNIT_... */
-    uint32_t rotation_unit;     /* MIEN_ROTATION_UNIT_DEGREES or _RADIANS */
-    uint32_t rotation_rule;     /* MIEN_ROTATION_RULE_...; the next field counts unless it is _CARRIED */
-    uint32_t rotation_sequence; /* MIEN_ROTATION_SEQUENCE_XYZ ... */
-    int32_t rotation_signs[3];  /* of the angles about x, y, z: 1 turns y to z, z to x, x to y; -1 the
-                                   other way; 0: such that angles keep their numbers */
+    uint32_t rotation_unit;     /* MIEN_ROTATION_UNIT_... */
+    uint32_t rotation_rule;     /* MIEN_ROTATION_RULE_... */
+    uint32_t rotation_sequence; /* MIEN_ROTATION_SEQUENCE_...; ignored with MIEN_ROTATION_RULE_CARRIED */
+    int32_t rotation_signs[3];  /* of the angles about x, y, z. 1: rotates y to z, z to x, x to y.
+                                   -1: the other way. 0: the sign that leaves angles unchanged */
     uint32_t face_winding;      /* MIEN_FACE_WINDING_... */
     uint32_t reserved;          /* 0 */
 } MienCoordinateSystem;
 MIEN_DEFAULT(MienCoordinateSystem, mien_coordinate_system_default)
 
-/* The system of an engine or tool: maya, unreal, unreal-mesh (whose characters look along y), unity,
- * godot, blender, gltf, opengl, directx, houdini. Axes, units, winding and signs are those that a
- * consumer there works in; the sequence is the one of its Euler angles, to be used by setting
- * rotation_rule, which is MIEN_ROTATION_RULE_CARRIED. MIEN_ERROR_NAME for other names. */
+/* Returns the coordinate system of an engine or tool: "maya", "unreal", "unreal-mesh" (characters
+ * look along y), "unity", "godot", "blender", "gltf", "opengl", "directx" or "houdini". The rotation
+ * rule is MIEN_ROTATION_RULE_CARRIED; rotation_sequence is that of the engine's Euler angles, and is
+ * used once you set another rule.
+ * Fails with MIEN_ERROR_NAME if the name is none of these. */
 MIEN_CHECKED MienStatus mien_coordinate_system_find(const char* name,
                                                     MienCoordinateSystem* out_system);
 MIEN_CHECKED MienStatus mien_coordinate_system_find_n(const char* name, size_t name_count,
                                                       MienCoordinateSystem* out_system);
-/* The names, from index 0 on; MIEN_ERROR_INDEX past the last. */
+
+/* Returns a name that mien_coordinate_system_find() accepts. The string is static.
+ * Fails with MIEN_ERROR_INDEX if `index` is past the last name. */
 MIEN_CHECKED MienStatus mien_coordinate_system_name(uint32_t index, MienStringView* out_name);
 
+/* What to load of a DNA file, and how.
+ *
+ * A rig converted to another coordinate system moves as before: evaluating it gives the joint values
+ * of the original rig, converted. Raw controls that are components of rotations (read by RBF solvers,
+ * twists or swings as quaternions, or named .qx .qy .qz .qw) are expected in the requested system.
+ * Changes of axes and signs are exact, so converting back restores the original numbers; units round
+ * once. Texture coordinates and unknown layers are not converted. A converted rig can be written; the
+ * file is of version 2.8 if its own version cannot state the system. */
 typedef struct MienDnaDesc {
     size_t struct_size;
-    uint32_t layers;         /* MIEN_LAYER_..., combined with |; 0 is all. What is not chosen is never
-                                touched. */
-    uint32_t skip_blend_shape_targets; /* boolean: load the geometry without its blend shape targets */
-    uint32_t unknown_layers; /* MIEN_UNKNOWN_LAYERS_... */
-    uint32_t file_access;    /* MIEN_FILE_...; of no meaning for memory */
-    uint64_t lods;           /* bit l keeps LOD l of the file; 0 keeps all. Kept LODs are numbered
-                                anew from 0, and joints, meshes, channels and maps that no kept LOD
-                                uses are dropped and the others renumbered everywhere.
-                                MIEN_ERROR_LOD if the file has none of the LODs named. */
-    const MienCoordinateSystem* system; /* to convert everything to; NULL keeps the file's */
+    uint32_t layers;                   /* MIEN_LAYER_..., combined with |; the others are not read.
+                                          0: all */
+    uint32_t skip_blend_shape_targets; /* boolean: load the geometry without blend shape targets */
+    uint32_t unknown_layers;           /* MIEN_UNKNOWN_LAYERS_... */
+    uint32_t file_access;              /* MIEN_FILE_...; for mien_dna_open_file() only */
+    uint64_t lods; /* bit l keeps LOD l. Kept LODs are renumbered from 0; joints, meshes, channels
+                      and maps that none of them uses are dropped, and all indices renumbered.
+                      0: all */
+    const MienCoordinateSystem* system; /* convert to this system. NULL: keep that of the file */
     const MienAllocator* allocator;
 } MienDnaDesc;
 MIEN_DEFAULT(MienDnaDesc, mien_dna_desc_default)
 
-/* A rig in another system evaluates to the same movements: its joint values are those of the file's
- * system, converted; as rotations where the order of turning changes. Inputs that are parts of
- * rotations (raw controls read as quaternions by RBF solvers, twists or swings, and those named .qx
- * .qy .qz .qw) are expected in the system of the rig. Writing gives a complete file in that system,
- * of version 2.8 if the file's own could not state it. Changes of axes and signs are exact, so
- * converting back gives the numbers of the file; units round once. What cannot follow is refused
- * with MIEN_ERROR_DNA_VALUE: a corrective that reads a part of a rotation which changes its sign, or
- * a network that moves joints and ends in tanh, when units change; and axes that do not span space.
- * Texture coordinates and layers that Mien does not know stay as they are. */
-
-/* Opens a file of versions 2.1 to 2.8 (later 2.x: what is known of it). Checks everything that is
- * loaded, so that a rig made of it has nothing left to check. Numbers and names stay in the file;
- * memory goes to lists: usually some percent of the chosen layers, and at most 20 times their bytes
- * for a file made of nothing but the smallest records. `path` is UTF-8. A mapped file must not be truncated or rewritten in
- * place while it is open (replacing it by renaming is safe).
- * `desc` may be NULL. Close with mien_dna_close(). */
+/* Opens a DNA file of version 2.1 to 2.8, or the known layers of a later 2.x. Checks everything that
+ * it loads. Close with mien_dna_close().
+ *
+ * Numbers and names are read from the file when needed. Memory is used for lists: typically a few
+ * percent of the size of the loaded layers, at most 20 times that size. Do not truncate or overwrite
+ * a mapped file while it is open; replacing it by renaming is safe.
+ *
+ * Fails with MIEN_ERROR_FILE_OPEN or MIEN_ERROR_FILE_READ if the file cannot be read,
+ * MIEN_ERROR_DNA_SIGNATURE or MIEN_ERROR_DNA_VERSION if it is not a DNA file of generation 2,
+ * MIEN_ERROR_DNA_TRUNCATED, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT
+ * or MIEN_ERROR_DNA_VALUE if its contents are not valid or cannot be converted to the requested
+ * system, MIEN_ERROR_LOD if it has none of the requested LODs.
+ * See docs/dna-format.md, 13 "What is checked". */
 MIEN_CHECKED MienStatus mien_dna_open_file(const char* path, const MienDnaDesc* desc, MienDna** out_dna,
-                                       MienError* error);
+                                           MienError* error);
 
-/* The same from memory, which stays the caller's and has to outlive the MienDna, unchanged. */
+/* Opens a DNA file in memory: `size` bytes, of any alignment. `bytes` must outlive the MienDna,
+ * unchanged.
+ * Fails like mien_dna_open_file(), but not with MIEN_ERROR_FILE_OPEN or MIEN_ERROR_FILE_READ. */
 MIEN_CHECKED MienStatus mien_dna_open_memory(const void* bytes, size_t size, const MienDnaDesc* desc,
-                                         MienDna** out_dna, MienError* error);
+                                             MienDna** out_dna, MienError* error);
 
-/* The same from a stream: reads the header, the index and the chosen layers, each once and whole,
- * into the allocator's memory. MIEN_ERROR_FILE_READ if the stream fails. */
+/* Opens a DNA file through a stream. Reads the header, the index and the requested layers, each once
+ * and in one piece, into memory of the allocator.
+ * Fails like mien_dna_open_file(), but not with MIEN_ERROR_FILE_OPEN. */
 MIEN_CHECKED MienStatus mien_dna_open_stream(const MienStream* stream, const MienDnaDesc* desc,
                                              MienDna** out_dna, MienError* error);
 
+/* Closes a DNA. Rigs and deformers made from it stay valid; its views do not. */
 MIEN_API void mien_dna_close(MienDna* dna);
 
-/* ---- DNA: looking into it -------------------------------------------------------------------- */
+/* ---- DNA: reading fields --------------------------------------------------------------------- */
 
+/* Properties of an open DNA. Counts are those of the loaded layers and LODs. */
 typedef struct MienDnaInfo {
     size_t struct_size;
     uint32_t generation;           /* 2 */
-    uint32_t version;              /* 1 ... 8: the file is generation.version */
-    uint32_t layers;               /* MIEN_LAYER_... that were loaded */
-    uint32_t has_blend_shape_targets; /* boolean: the geometry was loaded with its targets */
-    uint64_t file_bytes;           /* size of the file; 0 if generated */
-    uint64_t memory_bytes;         /* taken from the allocator */
+    uint32_t version;              /* 1 to 8: the file is of version 2.version */
+    uint32_t layers;               /* MIEN_LAYER_..., combined with |: the loaded layers */
+    uint32_t has_blend_shape_targets; /* boolean: the geometry is loaded with its targets */
+    uint64_t file_bytes;           /* size of the file. 0: generated */
+    uint64_t memory_bytes;         /* memory taken from the allocator */
     uint32_t is_mapped;            /* boolean: the file is mapped */
     uint32_t layer_count;          /* entries for mien_dna_layer() */
     uint32_t translation_unit;     /* MIEN_TRANSLATION_UNIT_... */
-    uint32_t rotation_unit;        /* MIEN_ROTATION_UNIT_DEGREES or _RADIANS */
+    uint32_t rotation_unit;        /* MIEN_ROTATION_UNIT_... */
     uint32_t axes[3];              /* MIEN_DIRECTION_... of x, y, z */
-    uint32_t rotation_sequence;    /* MIEN_ROTATION_SEQUENCE_XYZ ... */
+    uint32_t rotation_sequence;    /* MIEN_ROTATION_SEQUENCE_... */
     int32_t rotation_signs[3];     /* 1 or -1, for the angles about x, y, z */
     uint32_t face_winding;         /* MIEN_FACE_WINDING_... */
     uint32_t lod_count;
-    uint32_t max_lod;              /* this file's LOD 0 is LOD max_lod of its data base */
+    uint32_t max_lod;              /* LOD 0 of this file is LOD max_lod of its database */
     uint32_t gui_control_count;
     uint32_t raw_control_count;
     uint32_t psd_control_count;
@@ -383,45 +424,38 @@ typedef struct MienDnaInfo {
     uint32_t rbf_pose_count;
     uint32_t twist_count;
     uint32_t swing_count;
-    uint32_t metadata_count;       /* pairs: desc.metadata[i].key and .value */
+    uint32_t metadata_count;       /* pairs desc.metadata[i].key and .value */
 } MienDnaInfo;
 MIEN_DEFAULT(MienDnaInfo, mien_dna_info_default)
 
+/* Returns the properties of a DNA. */
 MIEN_CHECKED MienStatus mien_dna_info(const MienDna* dna, MienDnaInfo* out_info);
 
-/* One entry of the file's table of layers, in file order. Files of version 2.1 have no such table;
- * their sections are listed as the layers desc, defn, bhvr and geom. */
+/* An entry of the index table of the file. Files of version 2.1 have no index table; their sections are
+ * listed as the layers desc, defn, bhvr and geom. */
 typedef struct MienDnaLayer {
     size_t struct_size;
-    uint32_t layer;         /* MIEN_LAYER_... that loads it; MIEN_LAYER_UNKNOWN for other kinds */
+    uint32_t layer;         /* MIEN_LAYER_... that loads it. MIEN_LAYER_UNKNOWN: of an unknown kind */
     uint32_t version_major;
     uint32_t version_minor;
     uint32_t is_loaded;     /* boolean: it was read, not skipped or kept unread */
-    uint64_t byte_offset;
+    uint64_t byte_offset;   /* of its first byte in the file */
     uint64_t byte_count;
-    char code[8];           /* "bhvr", terminated */
+    char code[8];           /* such as "bhvr"; terminated */
 } MienDnaLayer;
 MIEN_DEFAULT(MienDnaLayer, mien_dna_layer_default)
 
+/* Returns entry `index` of the index table, in file order.
+ * Fails with MIEN_ERROR_INDEX if `index` is not below MienDnaInfo.layer_count.
+ * See docs/dna-format.md, 4.1 "Index table". */
 MIEN_CHECKED MienStatus mien_dna_layer(const MienDna* dna, uint32_t index, MienDnaLayer* out_layer);
 
-/* Every field of every loaded layer can be read by its path: the layer's code and the field names
- * of the DNA format, with an index after each list:
- *
- *     desc.name                                 a string
- *     desc.metadata[0].key                      a string
- *     defn.jointNames                           a list of strings; defn.jointNames[3] is one
- *     defn.neutralJointTranslations.xs          floats
- *     bhvr.joints.jointGroups[7].values         floats
- *     geom.meshes[0].skinWeights[12].weights    floats
- *     mlbh.neuralNetworks[0].layers[1].biases   floats
- *
- * mien_dna_field() tells what is at a path; the read calls copy it out in native byte order. */
+/* Type of a field. */
 enum MienFieldType {
     MIEN_FIELD_RECORD = 0,  /* named fields */
-    MIEN_FIELD_LIST = 1,    /* records, strings or arrays, each with its own path [i] */
+    MIEN_FIELD_LIST = 1,    /* records, strings or arrays; element i has the path of the list + [i] */
     MIEN_FIELD_STRING = 2,
-    MIEN_FIELD_U8 = 3,      /* numbers: one, or an array of them */
+    MIEN_FIELD_U8 = 3,      /* numbers: one, or an array */
     MIEN_FIELD_U16 = 4,
     MIEN_FIELD_U32 = 5,
     MIEN_FIELD_I32 = 6,
@@ -431,31 +465,52 @@ enum MienFieldType {
 typedef struct MienDnaField {
     size_t struct_size;
     uint32_t type;        /* MIEN_FIELD_... */
-    uint32_t is_array;    /* boolean: an array of numbers, whatever its count; not one number, or an
-                             element of an array */
-    uint64_t count;       /* elements of an array or list, bytes of a string, 1 for a number, fields
-                             of a record */
-    uint64_t byte_offset; /* where the bytes of an array, of one of its elements or of a string begin
-                             in the file; MIEN_NO_OFFSET for others, and for what was made here */
+    uint32_t is_array;    /* boolean: an array of numbers, even if it has one element; not a single
+                             number or an element of an array */
+    uint64_t count;       /* elements of an array or list, bytes of a string, fields of a record; 1 for
+                             a number */
+    uint64_t byte_offset; /* of the bytes of a string, of an array or of one of its elements in the
+                             file; MIEN_NO_OFFSET: other fields, and data that is not in the file */
 } MienDnaField;
 MIEN_DEFAULT(MienDnaField, mien_dna_field_default)
 
-/* MIEN_ERROR_NAME tells the part of the path that is not there. */
+/* Finds a field of a loaded layer by its path: the code of the layer, then the names of fields, with
+ * an index after each list.
+ *
+ *     desc.name                                 a string
+ *     desc.metadata[0].key                      a string
+ *     defn.jointNames                           a list of strings; defn.jointNames[3] is one
+ *     defn.neutralJointTranslations.xs          floats
+ *     bhvr.joints.jointGroups[7].values         floats
+ *     geom.meshes[0].skinWeights[12].weights    floats
+ *     mlbh.neuralNetworks[0].layers[1].biases   floats
+ *
+ * Layers that are not loaded are empty.
+ * Fails with MIEN_ERROR_NAME if there is no such field (the message contains the part of the path that
+ * does not exist), MIEN_ERROR_INDEX if an index in the path is past the end.
+ * See docs/dna-format.md, 6 "Layers, field by field". */
 MIEN_CHECKED MienStatus mien_dna_field(const MienDna* dna, const char* path, MienDnaField* out_field,
                                        MienError* error);
 MIEN_CHECKED MienStatus mien_dna_field_n(const MienDna* dna, const char* path, size_t path_count,
                                          MienDnaField* out_field, MienError* error);
 
-/* Name of field `index` of the record at `path` ("" for the layers themselves). */
+/* Returns the name of field `index` of the record at a path. The empty path is the file itself, whose
+ * fields are the layers. The string is static.
+ * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if `index` or an index in the
+ * path is past the end, MIEN_ERROR_INVALID_ARGUMENT if the field is not a record.
+ * See docs/dna-format.md, 6 "Layers, field by field". */
 MIEN_CHECKED MienStatus mien_dna_child_name(const MienDna* dna, const char* path, uint32_t index,
                                             MienStringView* out_name, MienError* error);
 MIEN_CHECKED MienStatus mien_dna_child_name_n(const MienDna* dna, const char* path,
                                               size_t path_count, uint32_t index,
                                               MienStringView* out_name, MienError* error);
 
-/* Copies `count` elements from `first` on. `out` has room for them. Integers of any width widen;
- * reading a float field as integers (or the other way round) is MIEN_ERROR_INVALID_ARGUMENT, a range
- * past the end MIEN_ERROR_INDEX. */
+/* Copies `count` elements of a field, beginning with element `first`, to `out`, in native byte order.
+ * A field that is one number has one element. `out` may be NULL if `count` is 0. Integers are widened
+ * to 64 bits.
+ * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if the range or an index in
+ * the path is past the end, MIEN_ERROR_INVALID_ARGUMENT if the field does not hold numbers of this
+ * kind. */
 MIEN_CHECKED MienStatus mien_dna_read_floats(const MienDna* dna, const char* path, uint64_t first,
                                              uint64_t count, float* out, MienError* error);
 MIEN_CHECKED MienStatus mien_dna_read_floats_n(const MienDna* dna, const char* path,
@@ -466,7 +521,10 @@ MIEN_CHECKED MienStatus mien_dna_read_integers(const MienDna* dna, const char* p
 MIEN_CHECKED MienStatus mien_dna_read_integers_n(const MienDna* dna, const char* path,
                                                  size_t path_count, uint64_t first, uint64_t count,
                                                  int64_t* out, MienError* error);
-/* Points into the file: valid until mien_dna_close(). */
+
+/* Returns a string of the file.
+ * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if an index in the path is
+ * past the end, MIEN_ERROR_INVALID_ARGUMENT if the field is not a string. */
 MIEN_CHECKED MienStatus mien_dna_read_string(const MienDna* dna, const char* path,
                                              MienStringView* out_string, MienError* error);
 MIEN_CHECKED MienStatus mien_dna_read_string_n(const MienDna* dna, const char* path,
@@ -475,44 +533,52 @@ MIEN_CHECKED MienStatus mien_dna_read_string_n(const MienDna* dna, const char* p
 
 /* ---- DNA: writing ---------------------------------------------------------------------------- */
 
+/* How to write a DNA file. See docs/dna-format.md, 14.3 "Changing the version". */
 typedef struct MienWriteDesc {
     size_t struct_size;
-    uint32_t version;        /* 1 ... 8 writes 2.1 ... 2.8; 0 keeps the version. Layers that the
-                                version does not know are carried along (2.2 and later) unless
-                                unknown_layers says drop; 2.1 keeps the four classic ones only. */
+    uint32_t version;        /* 1 to 8: write version 2.version; layers that it does not know are
+                                kept unless unknown_layers drops them, but 2.1 holds the four layers
+                                desc, defn, bhvr and geom only. 0: the version of the DNA */
     uint32_t unknown_layers; /* MIEN_UNKNOWN_LAYERS_... */
 } MienWriteDesc;
 MIEN_DEFAULT(MienWriteDesc, mien_write_desc_default)
 
-/* Writes a canonical file: the same bytes that were read if the file was canonical and everything
- * was loaded; layers that were not loaded are written empty. Goes to a temporary name first, so a
- * failure leaves `path` as it was. RBF behavior that was opened without the machine learned behavior
- * of its file cannot be written (MIEN_ERROR_DNA_LAYER): its controls are numbered behind those.
- * `desc` may be NULL. */
+/* Writes a DNA file in canonical form: if the original file was canonical and all of it was loaded,
+ * the same bytes. Layers that were not loaded are written empty. The file is written under a temporary
+ * name and renamed, so that a failure leaves `path` unchanged.
+ * Fails with MIEN_ERROR_FILE_WRITE if the file cannot be written, MIEN_ERROR_DNA_LAYER if RBF behavior
+ * was loaded without the machine-learned behavior of its file (whose controls are numbered before its
+ * own), MIEN_ERROR_DNA_LIMIT if the file would exceed 4 GiB, MIEN_ERROR_MEMORY if there is no memory
+ * for its bytes.
+ * See docs/dna-format.md, 14 "Writing a canonical file". */
 MIEN_CHECKED MienStatus mien_dna_write_file(const MienDna* dna, const char* path,
-                                        const MienWriteDesc* desc, MienError* error);
+                                            const MienWriteDesc* desc, MienError* error);
 
-/* The same to memory. With buffer NULL and capacity 0 only *out_size is set; a capacity that is too
- * small gives MIEN_ERROR_INVALID_ARGUMENT and the size. */
-MIEN_CHECKED MienStatus mien_dna_write_memory(const MienDna* dna, const MienWriteDesc* desc, void* buffer,
-                                          size_t capacity, size_t* out_size, MienError* error);
+/* Writes a DNA file to memory and returns its size in `out_size`. `buffer` may be NULL with capacity 0
+ * to get the size only. Writes nothing if `capacity` is too small; `out_size` is set nevertheless.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small, MIEN_ERROR_DNA_LAYER or
+ * MIEN_ERROR_DNA_LIMIT as mien_dna_write_file(). */
+MIEN_CHECKED MienStatus mien_dna_write_memory(const MienDna* dna, const MienWriteDesc* desc,
+                                              void* buffer, size_t capacity, size_t* out_size,
+                                              MienError* error);
 
 /* ---- DNA: validating ------------------------------------------------------------------------- */
 
+/* The findings of a validation. Immutable. */
 typedef struct MienReport MienReport;
 
 enum MienSeverity {
-    MIEN_SEVERITY_ERROR = 0,   /* opening or mien_rig_create() refuses this */
-    MIEN_SEVERITY_WARNING = 1  /* allowed, but probably not meant */
+    MIEN_SEVERITY_ERROR = 0,  /* opening the file or mien_rig_create() fails because of this */
+    MIEN_SEVERITY_WARNING = 1 /* allowed, but probably a mistake */
 };
 
 typedef struct MienFinding {
     size_t struct_size;
-    uint32_t severity;       /* MIEN_SEVERITY_... */
-    MienStatus status;       /* what opening would return; MIEN_OK for a warning */
-    uint64_t byte_offset;    /* MIEN_NO_OFFSET if there is no such place */
-    MienStringView field;    /* path as for mien_dna_field(), or a layer's code */
-    MienStringView message;
+    uint32_t severity;      /* MIEN_SEVERITY_... */
+    MienStatus status;      /* the status of the failure; MIEN_OK for a warning */
+    uint64_t byte_offset;   /* in the file; MIEN_NO_OFFSET: not about a place in the file */
+    MienStringView field;   /* path as for mien_dna_field(), or the code of a layer */
+    MienStringView message; /* what is wrong */
 } MienFinding;
 MIEN_DEFAULT(MienFinding, mien_finding_default)
 
@@ -522,20 +588,29 @@ typedef struct MienValidateDesc {
 } MienValidateDesc;
 MIEN_DEFAULT(MienValidateDesc, mien_validate_desc_default)
 
-/* Checks a whole file and lists every finding: at most 32 for one field (of cross references
- * the last one says how many more there are), and 1000 in all. Returns MIEN_OK if the file
- * could be examined, whatever was found. The file is read, not mapped, so it may change meanwhile. */
+/* Checks all layers of a file and collects the findings: at most 32 per field and 1000 in total; the
+ * last one says if there are more. Returns MIEN_OK if the file could be checked, whatever was found.
+ * The file is read into memory, so it may change meanwhile. Destroy with mien_report_destroy().
+ * Fails with MIEN_ERROR_FILE_OPEN or MIEN_ERROR_FILE_READ if the file cannot be read.
+ * See docs/dna-format.md, 13 "What is checked". */
 MIEN_CHECKED MienStatus mien_dna_validate_file(const char* path, const MienValidateDesc* desc,
                                                MienReport** out_report, MienError* error);
+
+/* Checks a file in memory: `size` bytes. `bytes` may be released afterwards. */
 MIEN_CHECKED MienStatus mien_dna_validate_memory(const void* bytes, size_t size,
                                                  const MienValidateDesc* desc,
                                                  MienReport** out_report, MienError* error);
+
+/* Returns the number of errors and the number of warnings. */
 MIEN_CHECKED MienStatus mien_report_counts(const MienReport* report, uint32_t* out_errors,
-                                       uint32_t* out_warnings);
-/* Findings are in the order of the checks: 0 ... errors + warnings - 1. Views live as long as the
- * report. */
+                                           uint32_t* out_warnings);
+
+/* Returns finding `index`, in the order of the checks. There are as many as errors and warnings.
+ * Fails with MIEN_ERROR_INDEX if `index` is past the last finding. */
 MIEN_CHECKED MienStatus mien_report_finding(const MienReport* report, uint32_t index,
-                                        MienFinding* out_finding);
+                                            MienFinding* out_finding);
+
+/* Destroys a report. */
 MIEN_API void mien_report_destroy(MienReport* report);
 
 /* ---- DNA: generating ------------------------------------------------------------------------- */

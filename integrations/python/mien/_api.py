@@ -37,65 +37,69 @@ MIEN_NO_OFFSET = 18446744073709551615
 
 
 class Status(IntEnum):
-    """Values of enum MienStatusCode of the C interface."""
+    """Numbers are never reused."""
 
     OK = 0
-    #: a pointer that has to be given is NULL
+    #: a required pointer is NULL
     NULL_ARGUMENT = 1
-    #: a value outside its range; a buffer that is too small
+    #: a value outside its range, or a buffer that is too small
     INVALID_ARGUMENT = 2
-    #: struct_size too small, or unknown fields that are not zero
+    #: struct_size is too small, or unknown fields are not zero
     STRUCT_SIZE = 3
-    #: a handle of another kind
+    #: a handle of the wrong kind
     HANDLE = 4
-    #: an instance of another rig
+    #: objects that do not belong together
     MISMATCH = 5
     #: an index past the end
     INDEX = 6
-    #: a LOD that the rig does not have
+    #: a LOD that does not exist, or that the object has no memory for
     LOD = 7
     #: no such name or path
     NAME = 8
-    #: this CPU (or build) lacks the instruction set
+    #: an instruction set that this CPU or build lacks
     ISA = 9
     #: the allocator returned NULL
     MEMORY = 10
+    #: the file cannot be opened
     FILE_OPEN = 20
+    #: the file or stream cannot be read
     FILE_READ = 21
+    #: the file cannot be written
     FILE_WRITE = 22
     #: not a DNA file
     DNA_SIGNATURE = 30
-    #: a DNA file of another generation than 2
+    #: a DNA file of a generation other than 2
     DNA_VERSION = 31
-    #: the file ends before what it announces
+    #: the file is shorter than its header or counts state
     DNA_TRUNCATED = 32
     #: offsets, sizes or counts contradict each other
     DNA_STRUCTURE = 33
-    #: an index to something that is not there
+    #: an index that refers to nothing
     DNA_REFERENCE = 34
-    #: more of something than the format or Mien can number
+    #: a count above the limit of the format or of Mien
     DNA_LIMIT = 35
-    #: a layer that the call needs was not loaded or not in the file
+    #: a required layer is not loaded or not in the file
     DNA_LAYER = 36
-    #: a value that has no meaning
+    #: a value without a meaning, or one that cannot be converted
     DNA_VALUE = 37
     #: not a baked file
     BAKED_SIGNATURE = 50
-    #: of another version or kind of machine: bake again
+    #: baked by another version or for another kind of machine
     BAKED_VERSION = 51
-    #: the file ends before what it announces
+    #: the file is shorter than its header states
     BAKED_TRUNCATED = 52
     #: sizes, counts or indices contradict each other
     BAKED_STRUCTURE = 53
-    #: not the bytes that were written
+    #: the bytes are not those that were written
     BAKED_CHECKSUM = 54
-    #: the file does not hold what was asked of it
+    #: the file does not contain the requested object
     BAKED_PART = 55
 
 
 class Layer(IntFlag):
-    """Layers, to be combined with |. A layer brings along what it needs (everything needs the
-    definition, RBF behavior needs behavior); the descriptor is always read.
+    """Layers of a DNA file, combined with |. A layer loads the layers that it refers to: all of
+    them need the definition, RBF behavior needs the behavior. The descriptor is always loaded.
+    See docs/dna-format.md, 9 "Choosing layers".
     """
 
     #: only in MienDnaLayer.layer
@@ -112,9 +116,9 @@ class Layer(IntFlag):
 
 
 class UnknownLayers(IntEnum):
-    """Layers of a kind that Mien does not know."""
+    """Layers of kinds that Mien does not know."""
 
-    #: carried along, written back unchanged
+    #: keep their bytes and write them back unchanged
     KEEP = 0
     DROP = 1
 
@@ -122,9 +126,9 @@ class UnknownLayers(IntEnum):
 class FileAccess(IntEnum):
     """Values of enum MienFileAccess of the C interface."""
 
-    #: map; read into memory where the system cannot map (pipes)
+    #: map the file; read it into memory if it cannot be mapped, as pipes
     MAP = 0
-    #: read it all now: for files that others may truncate meanwhile
+    #: read the whole file into memory: safe if it is truncated later
     READ = 1
 
 
@@ -143,9 +147,8 @@ class RotationUnit(IntEnum):
 
 
 class Direction(IntEnum):
-    """Values of enum MienDirection of the C interface."""
+    """Directions as seen by the character."""
 
-    #: of the character
     LEFT = 0
     RIGHT = 1
     UP = 2
@@ -155,7 +158,7 @@ class Direction(IntEnum):
 
 
 class RotationSequence(IntEnum):
-    """Values of enum MienRotationSequence of the C interface."""
+    """Order of Euler angles."""
 
     #: x first, then y, then z, about fixed axes
     XYZ = 0
@@ -167,54 +170,42 @@ class RotationSequence(IntEnum):
 
 
 class FaceWinding(IntEnum):
-    """The side of a face a b c ... that (b - a) x (c - a) points to, computed with the numbers of
-    the file whichever way its axes point.
+    """The side of a face a b c ... that (b - a) x (c - a) points to, computed from the coordinates
+    in the file, whichever way the axes point.
     """
 
-    #: seen from outside counter-clockwise if the axes are right-handed, clockwise if they are
-    #: left-handed
+    #: seen from outside: counter-clockwise with right-handed axes, clockwise with left-handed axes
     OUTWARD = 0
     INWARD = 1
 
 
 class RotationRule(IntEnum):
-    """The order in which Euler angles turn, when axes change. Joint values are sums of angles,
-    which mean nothing in another order: only the first rule is exact for all rigs.
+    """How Euler angles are converted to other axes. Joint values are sums of angles, which are
+    valid in one rotation sequence only: the first rule is the only one that is exact for all
+    rigs.
     """
 
-    #: the file's order, about the axes as they are called now: where x became z, xyz becomes zyx,
-    #: xzy becomes zxy, and so on
+    #: the sequence of the file, about the renamed axes: where x becomes z, xyz becomes zyx, xzy
+    #: becomes zxy, and so on
     CARRIED = 0
-    #: the order named. Neutral poses, joints represented by quaternions, twists, swings and ML
-    #: joints follow exactly as rotations, and so do joints that turn about one axis only;
-    #: Status.DNA_VALUE for a rig with others
+    #: the requested sequence. Neutral poses, quaternion joints, twists, swings, ML joints and
+    #: joints that rotate about one axis only are converted exactly; rigs with other joints are
+    #: rejected with Status.DNA_VALUE
     EXACT = 1
-    #: the order named, each column of a joint matrix by itself: exact while one control is 1 and
-    #: all others are 0, near it for small angles
+    #: the requested sequence, each column of the joint matrix on its own: exact while one control
+    #: is 1 and the others are 0, approximate for small angles
     PER_COLUMN = 2
 
 
 class FieldType(IntEnum):
-    """Every field of every loaded layer can be read by its path: the layer's code and the field
-    names of the DNA format, with an index after each list:
-
-        desc.name                                 a string
-        desc.metadata[0].key                      a string
-        defn.jointNames                           a list of strings; defn.jointNames[3] is one
-        defn.neutralJointTranslations.xs          floats
-        bhvr.joints.jointGroups[7].values         floats
-        geom.meshes[0].skinWeights[12].weights    floats
-        mlbh.neuralNetworks[0].layers[1].biases   floats
-
-    mien_dna_field() tells what is at a path; the read calls copy it out in native byte order.
-    """
+    """Type of a field."""
 
     #: named fields
     RECORD = 0
-    #: records, strings or arrays, each with its own path [i]
+    #: records, strings or arrays; element i has the path of the list + [i]
     LIST = 1
     STRING = 2
-    #: numbers: one, or an array of them
+    #: numbers: one, or an array
     U8 = 3
     U16 = 4
     U32 = 5
@@ -225,9 +216,9 @@ class FieldType(IntEnum):
 class Severity(IntEnum):
     """Values of enum MienSeverity of the C interface."""
 
-    #: opening or mien_rig_create() refuses this
+    #: opening the file or mien_rig_create() fails because of this
     ERROR = 0
-    #: allowed, but probably not meant
+    #: allowed, but probably a mistake
     WARNING = 1
 
 
@@ -1136,16 +1127,16 @@ class MienBakedDeformerDesc(Structure):
 
 
 class CoordinateSystem(NamedTuple):
-    """Where the axes of a rig point, and its units. Mirrored systems are as good as others: which
-    hand they are of follows from the axes.
+    """Axes, units and rotation conventions of a rig. Any handedness is allowed. See
+    docs/dna-format.md, 11 "Coordinate systems".
 
       axes: Direction of x, y, z
       translation_unit: TranslationUnit
-      rotation_unit: RotationUnit.DEGREES or _RADIANS
-      rotation_rule: RotationRule; the next field counts unless it is _CARRIED
-      rotation_sequence: RotationSequence.XYZ ...
-      rotation_signs: of the angles about x, y, z: 1 turns y to z, z to x, x to y; -1 the other
-        way; 0: such that angles keep their numbers
+      rotation_unit: RotationUnit
+      rotation_rule: RotationRule
+      rotation_sequence: RotationSequence; ignored with RotationRule.CARRIED
+      rotation_signs: of the angles about x, y, z. 1: rotates y to z, z to x, x to y. -1: the
+        other way. 0: the sign that leaves angles unchanged
       face_winding: FaceWinding
     """
 
@@ -1166,24 +1157,24 @@ class CoordinateSystem(NamedTuple):
 
 
 class DnaInfo(NamedTuple):
-    """Copy of a MienDnaInfo.
+    """Properties of an open DNA. Counts are those of the loaded layers and LODs.
 
       generation: 2
-      version: 1 ... 8: the file is generation.version
-      layers: Layer that were loaded
-      has_blend_shape_targets: the geometry was loaded with its targets
-      file_bytes: size of the file; 0 if generated
-      memory_bytes: taken from the allocator
+      version: 1 to 8: the file is of version 2.version
+      layers: Layer, combined with |: the loaded layers
+      has_blend_shape_targets: the geometry is loaded with its targets
+      file_bytes: size of the file. 0: generated
+      memory_bytes: memory taken from the allocator
       is_mapped: the file is mapped
       layer_count: entries for mien_dna_layer()
       translation_unit: TranslationUnit
-      rotation_unit: RotationUnit.DEGREES or _RADIANS
+      rotation_unit: RotationUnit
       axes: Direction of x, y, z
-      rotation_sequence: RotationSequence.XYZ ...
+      rotation_sequence: RotationSequence
       rotation_signs: 1 or -1, for the angles about x, y, z
       face_winding: FaceWinding
-      max_lod: this file's LOD 0 is LOD max_lod of its data base
-      metadata_count: pairs: desc.metadata[i].key and .value
+      max_lod: LOD 0 of this file is LOD max_lod of its database
+      metadata_count: pairs desc.metadata[i].key and .value
     """
 
     generation: int
@@ -1235,12 +1226,13 @@ class DnaInfo(NamedTuple):
 
 
 class DnaLayer(NamedTuple):
-    """One entry of the file's table of layers, in file order. Files of version 2.1 have no such
-    table; their sections are listed as the layers desc, defn, bhvr and geom.
+    """An entry of the index table of the file. Files of version 2.1 have no index table; their
+    sections are listed as the layers desc, defn, bhvr and geom.
 
-      layer: Layer that loads it; Layer.UNKNOWN for other kinds
+      layer: Layer that loads it. Layer.UNKNOWN: of an unknown kind
       is_loaded: it was read, not skipped or kept unread
-      code: "bhvr", terminated
+      byte_offset: of its first byte in the file
+      code: such as "bhvr"; terminated
     """
 
     layer: Layer
@@ -1262,10 +1254,11 @@ class DnaField(NamedTuple):
     """Copy of a MienDnaField.
 
       type: FieldType
-      is_array: an array of numbers, whatever its count; not one number, or an element of an array
-      count: elements of an array or list, bytes of a string, 1 for a number, fields of a record
-      byte_offset: where the bytes of an array, of one of its elements or of a string begin in the
-        file; None for others, and for what was made here
+      is_array: an array of numbers, even if it has one element; not a single number or an element
+        of an array
+      count: elements of an array or list, bytes of a string, fields of a record; 1 for a number
+      byte_offset: of the bytes of a string, of an array or of one of its elements in the file;
+        None: other fields, and data that is not in the file
     """
 
     type: FieldType
@@ -1283,9 +1276,10 @@ class Finding(NamedTuple):
     """Copy of a MienFinding.
 
       severity: Severity
-      status: what opening would return; Status.OK for a warning
-      byte_offset: None if there is no such place
-      field: path as for mien_dna_field(), or a layer's code
+      status: the status of the failure; Status.OK for a warning
+      byte_offset: in the file; None: not about a place in the file
+      field: path as for mien_dna_field(), or the code of a layer
+      message: what is wrong
     """
 
     severity: Severity

@@ -3,69 +3,74 @@
 
 use crate::{c_char, c_void, size_of, zeroed, Opaque};
 
+/// A `MIEN_OK` or `MIEN_ERROR_...` value.
 pub type MienStatus = i32;
 
-/// One piece of work of a MienParallelFor.
+/// One task of a MienParallelFor.
 pub type MienTask = Option<unsafe extern "C" fn(context: *mut c_void, index: u32)>;
 
 pub const MIEN_VERSION_MAJOR: u32 = 0;
 pub const MIEN_VERSION_MINOR: u32 = 1;
 pub const MIEN_VERSION_PATCH: u32 = 0;
 pub const MIEN_VERSION: u32 = 65536;
+/// Value of a byte offset where there is none.
 pub const MIEN_NO_OFFSET: u64 = 18446744073709551615;
 
 // enum MienStatusCode
 pub const MIEN_OK: MienStatus = 0;
-/// A pointer that has to be given is NULL.
+/// A required pointer is NULL.
 pub const MIEN_ERROR_NULL_ARGUMENT: MienStatus = 1;
-/// A value outside its range; a buffer that is too small.
+/// A value outside its range, or a buffer that is too small.
 pub const MIEN_ERROR_INVALID_ARGUMENT: MienStatus = 2;
-/// `struct_size` too small, or unknown fields that are not zero.
+/// `struct_size` is too small, or unknown fields are not zero.
 pub const MIEN_ERROR_STRUCT_SIZE: MienStatus = 3;
-/// A handle of another kind.
+/// A handle of the wrong kind.
 pub const MIEN_ERROR_HANDLE: MienStatus = 4;
-/// An instance of another rig.
+/// Objects that do not belong together.
 pub const MIEN_ERROR_MISMATCH: MienStatus = 5;
 /// An index past the end.
 pub const MIEN_ERROR_INDEX: MienStatus = 6;
-/// A LOD that the rig does not have.
+/// A LOD that does not exist, or that the object has no memory for.
 pub const MIEN_ERROR_LOD: MienStatus = 7;
 /// No such name or path.
 pub const MIEN_ERROR_NAME: MienStatus = 8;
-/// This CPU (or build) lacks the instruction set.
+/// An instruction set that this CPU or build lacks.
 pub const MIEN_ERROR_ISA: MienStatus = 9;
 /// The allocator returned NULL.
 pub const MIEN_ERROR_MEMORY: MienStatus = 10;
+/// The file cannot be opened.
 pub const MIEN_ERROR_FILE_OPEN: MienStatus = 20;
+/// The file or stream cannot be read.
 pub const MIEN_ERROR_FILE_READ: MienStatus = 21;
+/// The file cannot be written.
 pub const MIEN_ERROR_FILE_WRITE: MienStatus = 22;
 /// Not a DNA file.
 pub const MIEN_ERROR_DNA_SIGNATURE: MienStatus = 30;
-/// A DNA file of another generation than 2.
+/// A DNA file of a generation other than 2.
 pub const MIEN_ERROR_DNA_VERSION: MienStatus = 31;
-/// The file ends before what it announces.
+/// The file is shorter than its header or counts state.
 pub const MIEN_ERROR_DNA_TRUNCATED: MienStatus = 32;
 /// Offsets, sizes or counts contradict each other.
 pub const MIEN_ERROR_DNA_STRUCTURE: MienStatus = 33;
-/// An index to something that is not there.
+/// An index that refers to nothing.
 pub const MIEN_ERROR_DNA_REFERENCE: MienStatus = 34;
-/// More of something than the format or Mien can number.
+/// A count above the limit of the format or of Mien.
 pub const MIEN_ERROR_DNA_LIMIT: MienStatus = 35;
-/// A layer that the call needs was not loaded or not in the file.
+/// A required layer is not loaded or not in the file.
 pub const MIEN_ERROR_DNA_LAYER: MienStatus = 36;
-/// A value that has no meaning.
+/// A value without a meaning, or one that cannot be converted.
 pub const MIEN_ERROR_DNA_VALUE: MienStatus = 37;
 /// Not a baked file.
 pub const MIEN_ERROR_BAKED_SIGNATURE: MienStatus = 50;
-/// Of another version or kind of machine: bake again.
+/// Baked by another version or for another kind of machine.
 pub const MIEN_ERROR_BAKED_VERSION: MienStatus = 51;
-/// The file ends before what it announces.
+/// The file is shorter than its header states.
 pub const MIEN_ERROR_BAKED_TRUNCATED: MienStatus = 52;
 /// Sizes, counts or indices contradict each other.
 pub const MIEN_ERROR_BAKED_STRUCTURE: MienStatus = 53;
-/// Not the bytes that were written.
+/// The bytes are not those that were written.
 pub const MIEN_ERROR_BAKED_CHECKSUM: MienStatus = 54;
-/// The file does not hold what was asked of it.
+/// The file does not contain the requested object.
 pub const MIEN_ERROR_BAKED_PART: MienStatus = 55;
 
 // enum MienLayer
@@ -82,14 +87,14 @@ pub const MIEN_LAYER_TWIST_SWING_BEHAVIOR: u32 = 128;
 pub const MIEN_LAYER_ALL: u32 = 255;
 
 // enum MienUnknownLayers
-/// Carried along, written back unchanged.
+/// Keep their bytes and write them back unchanged.
 pub const MIEN_UNKNOWN_LAYERS_KEEP: u32 = 0;
 pub const MIEN_UNKNOWN_LAYERS_DROP: u32 = 1;
 
 // enum MienFileAccess
-/// Map; read into memory where the system cannot map (pipes).
+/// Map the file; read it into memory if it cannot be mapped, as pipes.
 pub const MIEN_FILE_MAP: u32 = 0;
-/// Read it all now: for files that others may truncate meanwhile.
+/// Read the whole file into memory: safe if it is truncated later.
 pub const MIEN_FILE_READ: u32 = 1;
 
 // enum MienTranslationUnit
@@ -101,7 +106,6 @@ pub const MIEN_ROTATION_UNIT_DEGREES: u32 = 0;
 pub const MIEN_ROTATION_UNIT_RADIANS: u32 = 1;
 
 // enum MienDirection
-/// Of the character.
 pub const MIEN_DIRECTION_LEFT: u32 = 0;
 pub const MIEN_DIRECTION_RIGHT: u32 = 1;
 pub const MIEN_DIRECTION_UP: u32 = 2;
@@ -119,30 +123,29 @@ pub const MIEN_ROTATION_SEQUENCE_ZXY: u32 = 4;
 pub const MIEN_ROTATION_SEQUENCE_ZYX: u32 = 5;
 
 // enum MienFaceWinding
-/// Seen from outside counter-clockwise if the axes are right-handed, clockwise if they are
-/// left-handed.
+/// Seen from outside: counter-clockwise with right-handed axes, clockwise with left-handed axes.
 pub const MIEN_FACE_WINDING_OUTWARD: u32 = 0;
 pub const MIEN_FACE_WINDING_INWARD: u32 = 1;
 
 // enum MienRotationRule
-/// The file's order, about the axes as they are called now: where x became z, xyz becomes zyx, xzy
+/// The sequence of the file, about the renamed axes: where x becomes z, xyz becomes zyx, xzy
 /// becomes zxy, and so on.
 pub const MIEN_ROTATION_RULE_CARRIED: u32 = 0;
-/// The order named. Neutral poses, joints represented by quaternions, twists, swings and ML joints
-/// follow exactly as rotations, and so do joints that turn about one axis only;
-/// `MIEN_ERROR_DNA_VALUE` for a rig with others.
+/// The requested sequence. Neutral poses, quaternion joints, twists, swings, ML joints and joints
+/// that rotate about one axis only are converted exactly; rigs with other joints are rejected with
+/// `MIEN_ERROR_DNA_VALUE`.
 pub const MIEN_ROTATION_RULE_EXACT: u32 = 1;
-/// The order named, each column of a joint matrix by itself: exact while one control is 1 and all
-/// others are 0, near it for small angles.
+/// The requested sequence, each column of the joint matrix on its own: exact while one control is
+/// 1 and the others are 0, approximate for small angles.
 pub const MIEN_ROTATION_RULE_PER_COLUMN: u32 = 2;
 
 // enum MienFieldType
 /// Named fields.
 pub const MIEN_FIELD_RECORD: u32 = 0;
-/// Records, strings or arrays, each with its own path \[i\].
+/// Records, strings or arrays; element i has the path of the list + \[i\].
 pub const MIEN_FIELD_LIST: u32 = 1;
 pub const MIEN_FIELD_STRING: u32 = 2;
-/// Numbers: one, or an array of them.
+/// Numbers: one, or an array.
 pub const MIEN_FIELD_U8: u32 = 3;
 pub const MIEN_FIELD_U16: u32 = 4;
 pub const MIEN_FIELD_U32: u32 = 5;
@@ -150,9 +153,9 @@ pub const MIEN_FIELD_I32: u32 = 6;
 pub const MIEN_FIELD_F32: u32 = 7;
 
 // enum MienSeverity
-/// Opening or `mien_rig_create()` refuses this.
+/// Opening the file or `mien_rig_create()` fails because of this.
 pub const MIEN_SEVERITY_ERROR: u32 = 0;
-/// Allowed, but probably not meant.
+/// Allowed, but probably a mistake.
 pub const MIEN_SEVERITY_WARNING: u32 = 1;
 
 // enum MienPreset
@@ -296,12 +299,14 @@ pub const MIEN_BAKED_CHECK_SAFE: u32 = 0;
 /// Also that all bytes are those that were written: reads them all.
 pub const MIEN_BAKED_CHECK_FULL: u32 = 1;
 
+/// A checked, read-only view of a DNA file. Immutable.
 #[repr(C)]
 pub struct MienDna {
     _size: [u8; 0],
     _opaque: Opaque,
 }
 
+/// The findings of a validation. Immutable.
 #[repr(C)]
 pub struct MienReport {
     _size: [u8; 0],
@@ -369,16 +374,16 @@ pub struct MienBaked {
     _opaque: Opaque,
 }
 
-/// Detail of one failure, owned by the caller. Written by the call that fails; left alone, but for
-/// status = `MIEN_OK`, by one that succeeds.
+/// Details of a failure, owned by the caller. A call that fails fills all fields; a call that
+/// succeeds sets status to `MIEN_OK` and leaves the others as they are.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienError {
     pub struct_size: usize,
-    /// In the file; `MIEN_NO_OFFSET` if there is no such place.
+    /// In the file; `MIEN_NO_OFFSET`: not about a place in a file.
     pub byte_offset: u64,
     pub status: MienStatus,
-    /// What, where and what to do; terminated, possibly cut.
+    /// What is wrong, where, and what to do; terminated, cut if too long.
     pub message: [c_char; 236],
 }
 
@@ -392,15 +397,17 @@ impl Default for MienError {
     }
 }
 
-/// NULL instead of a MienAllocator means the C library's heap. `allocate` returns `size` bytes at
-/// a multiple of `alignment` (a power of two, 64 at most) or NULL; `release` gets both back.
-/// Copied by the call that takes it; the functions have to work until the object is destroyed, on
-/// every thread that creates or destroys objects with it.
+/// Memory functions of the caller; NULL instead of a MienAllocator means the C library's heap. The
+/// struct is copied. Both functions must work until the object is destroyed, on every thread that
+/// creates or destroys objects with it.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienAllocator {
+    /// Passed to the functions.
     pub user: *mut c_void,
+    /// Returns `size` bytes aligned to `alignment` (a power of two, at most 64), or NULL.
     pub allocate: Option<unsafe extern "C" fn(user: *mut c_void, size: usize, alignment: usize) -> *mut c_void>,
+    /// Receives the size and alignment that the block was allocated with.
     pub release: Option<unsafe extern "C" fn(user: *mut c_void, block: *mut c_void, size: usize, alignment: usize)>,
 }
 
@@ -412,13 +419,15 @@ impl Default for MienAllocator {
     }
 }
 
-/// Threads of the caller: the library starts none. `run` calls task(context, i) once for each i \<
-/// count, in any order and on any threads, and returns when all are done. Tasks never wait for
-/// each other, call no other function of the caller, and are worth some 10 microseconds each.
+/// The caller's thread pool; the library starts no threads.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienParallelFor {
+    /// Passed to the function.
     pub user: *mut c_void,
+    /// Calls task(context, i) once for each i \< count, in any order, on any threads, and returns
+    /// when all have finished. Tasks do not wait for each other and take about 10 microseconds
+    /// each.
     pub run: Option<unsafe extern "C" fn(user: *mut c_void, count: u32, task: MienTask, context: *mut c_void)>,
 }
 
@@ -434,7 +443,7 @@ impl Default for MienParallelFor {
 #[derive(Clone, Copy)]
 pub struct MienStringView {
     pub data: *const c_char,
-    /// Bytes, no terminator.
+    /// Bytes; not terminated.
     pub count: usize,
 }
 
@@ -506,15 +515,17 @@ impl Default for MienIndex32View {
     }
 }
 
-/// A file that the caller reads: in an archive, over a network. `read` copies `size` bytes from
-/// `offset` on into `buffer` and returns how many it copied: fewer are a failure. It is asked for
-/// bytes within `size`, on the thread of the call that was given the stream, and not after it.
+/// A file that the caller reads, for example from an archive. `read` is called during the call
+/// that takes the stream, on its thread.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienStream {
+    /// Passed to the function.
     pub user: *mut c_void,
-    /// Of the whole file.
+    /// Of the file, in bytes.
     pub size: u64,
+    /// Copies `size` bytes at `offset` to `buffer` and returns the number of bytes copied; a
+    /// smaller number is an error. The range is within the file.
     pub read: Option<unsafe extern "C" fn(user: *mut c_void, offset: u64, buffer: *mut c_void, size: usize) -> usize>,
 }
 
@@ -526,8 +537,8 @@ impl Default for MienStream {
     }
 }
 
-/// Where the axes of a rig point, and its units. Mirrored systems are as good as others: which
-/// hand they are of follows from the axes.
+/// Axes, units and rotation conventions of a rig. Any handedness is allowed. See
+/// docs/dna-format.md, 11 "Coordinate systems".
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienCoordinateSystem {
@@ -536,14 +547,14 @@ pub struct MienCoordinateSystem {
     pub axes: [u32; 3],
     /// `MIEN_TRANSLATION_UNIT_...`
     pub translation_unit: u32,
-    /// `MIEN_ROTATION_UNIT_DEGREES` or \_RADIANS.
+    /// `MIEN_ROTATION_UNIT_...`
     pub rotation_unit: u32,
-    /// `MIEN_ROTATION_RULE_...`; the next field counts unless it is \_CARRIED.
+    /// `MIEN_ROTATION_RULE_...`
     pub rotation_rule: u32,
-    /// `MIEN_ROTATION_SEQUENCE_XYZ` ...
+    /// `MIEN_ROTATION_SEQUENCE_...`; ignored with `MIEN_ROTATION_RULE_CARRIED`.
     pub rotation_sequence: u32,
-    /// Of the angles about x, y, z: 1 turns y to z, z to x, x to y; -1 the other way; 0: such that
-    /// angles keep their numbers.
+    /// Of the angles about x, y, z. 1: rotates y to z, z to x, x to y. -1: the other way. 0: the
+    /// sign that leaves angles unchanged.
     pub rotation_signs: [i32; 3],
     /// `MIEN_FACE_WINDING_...`
     pub face_winding: u32,
@@ -561,23 +572,31 @@ impl Default for MienCoordinateSystem {
     }
 }
 
+/// What to load of a DNA file, and how.
+///
+/// A rig converted to another coordinate system moves as before: evaluating it gives the joint
+/// values of the original rig, converted. Raw controls that are components of rotations (read by
+/// RBF solvers, twists or swings as quaternions, or named .qx .qy .qz .qw) are expected in the
+/// requested system. Changes of axes and signs are exact, so converting back restores the original
+/// numbers; units round once. Texture coordinates and unknown layers are not converted. A
+/// converted rig can be written; the file is of version 2.8 if its own version cannot state the
+/// system.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienDnaDesc {
     pub struct_size: usize,
-    /// `MIEN_LAYER_...`, combined with \|; 0 is all. What is not chosen is never touched.
+    /// `MIEN_LAYER_...`, combined with \|; the others are not read. 0: all.
     pub layers: u32,
-    /// Load the geometry without its blend shape targets.
+    /// Load the geometry without blend shape targets.
     pub skip_blend_shape_targets: u32,
     /// `MIEN_UNKNOWN_LAYERS_...`
     pub unknown_layers: u32,
-    /// `MIEN_FILE_...`; of no meaning for memory.
+    /// `MIEN_FILE_...`; for `mien_dna_open_file()` only.
     pub file_access: u32,
-    /// Bit l keeps LOD l of the file; 0 keeps all. Kept LODs are numbered anew from 0, and joints,
-    /// meshes, channels and maps that no kept LOD uses are dropped and the others renumbered
-    /// everywhere. `MIEN_ERROR_LOD` if the file has none of the LODs named.
+    /// Bit l keeps LOD l. Kept LODs are renumbered from 0; joints, meshes, channels and maps that
+    /// none of them uses are dropped, and all indices renumbered. 0: all.
     pub lods: u64,
-    /// To convert everything to; NULL keeps the file's.
+    /// Convert to this system. NULL: keep that of the file.
     pub system: *const MienCoordinateSystem,
     pub allocator: *const MienAllocator,
 }
@@ -592,21 +611,22 @@ impl Default for MienDnaDesc {
     }
 }
 
+/// Properties of an open DNA. Counts are those of the loaded layers and LODs.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienDnaInfo {
     pub struct_size: usize,
     /// 2.
     pub generation: u32,
-    /// 1 ... 8: the file is generation.version.
+    /// 1 to 8: the file is of version 2.version.
     pub version: u32,
-    /// `MIEN_LAYER_...` that were loaded.
+    /// `MIEN_LAYER_...`, combined with \|: the loaded layers.
     pub layers: u32,
-    /// The geometry was loaded with its targets.
+    /// The geometry is loaded with its targets.
     pub has_blend_shape_targets: u32,
-    /// Size of the file; 0 if generated.
+    /// Size of the file. 0: generated.
     pub file_bytes: u64,
-    /// Taken from the allocator.
+    /// Memory taken from the allocator.
     pub memory_bytes: u64,
     /// The file is mapped.
     pub is_mapped: u32,
@@ -614,18 +634,18 @@ pub struct MienDnaInfo {
     pub layer_count: u32,
     /// `MIEN_TRANSLATION_UNIT_...`
     pub translation_unit: u32,
-    /// `MIEN_ROTATION_UNIT_DEGREES` or \_RADIANS.
+    /// `MIEN_ROTATION_UNIT_...`
     pub rotation_unit: u32,
     /// `MIEN_DIRECTION_...` of x, y, z.
     pub axes: [u32; 3],
-    /// `MIEN_ROTATION_SEQUENCE_XYZ` ...
+    /// `MIEN_ROTATION_SEQUENCE_...`
     pub rotation_sequence: u32,
     /// 1 or -1, for the angles about x, y, z.
     pub rotation_signs: [i32; 3],
     /// `MIEN_FACE_WINDING_...`
     pub face_winding: u32,
     pub lod_count: u32,
-    /// This file's LOD 0 is LOD `max_lod` of its data base.
+    /// LOD 0 of this file is LOD `max_lod` of its database.
     pub max_lod: u32,
     pub gui_control_count: u32,
     pub raw_control_count: u32,
@@ -642,7 +662,7 @@ pub struct MienDnaInfo {
     pub rbf_pose_count: u32,
     pub twist_count: u32,
     pub swing_count: u32,
-    /// Pairs: desc.metadata\[i\].key and .value.
+    /// Pairs desc.metadata\[i\].key and .value.
     pub metadata_count: u32,
 }
 
@@ -656,21 +676,22 @@ impl Default for MienDnaInfo {
     }
 }
 
-/// One entry of the file's table of layers, in file order. Files of version 2.1 have no such
-/// table; their sections are listed as the layers desc, defn, bhvr and geom.
+/// An entry of the index table of the file. Files of version 2.1 have no index table; their
+/// sections are listed as the layers desc, defn, bhvr and geom.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienDnaLayer {
     pub struct_size: usize,
-    /// `MIEN_LAYER_...` that loads it; `MIEN_LAYER_UNKNOWN` for other kinds.
+    /// `MIEN_LAYER_...` that loads it. `MIEN_LAYER_UNKNOWN`: of an unknown kind.
     pub layer: u32,
     pub version_major: u32,
     pub version_minor: u32,
     /// It was read, not skipped or kept unread.
     pub is_loaded: u32,
+    /// Of its first byte in the file.
     pub byte_offset: u64,
     pub byte_count: u64,
-    /// "bhvr", terminated.
+    /// Such as "bhvr"; terminated.
     pub code: [c_char; 8],
 }
 
@@ -690,12 +711,13 @@ pub struct MienDnaField {
     pub struct_size: usize,
     /// `MIEN_FIELD_...`
     pub r#type: u32,
-    /// An array of numbers, whatever its count; not one number, or an element of an array.
+    /// An array of numbers, even if it has one element; not a single number or an element of an
+    /// array.
     pub is_array: u32,
-    /// Elements of an array or list, bytes of a string, 1 for a number, fields of a record.
+    /// Elements of an array or list, bytes of a string, fields of a record; 1 for a number.
     pub count: u64,
-    /// Where the bytes of an array, of one of its elements or of a string begin in the file;
-    /// `MIEN_NO_OFFSET` for others, and for what was made here.
+    /// Of the bytes of a string, of an array or of one of its elements in the file;
+    /// `MIEN_NO_OFFSET`: other fields, and data that is not in the file.
     pub byte_offset: u64,
 }
 
@@ -709,13 +731,14 @@ impl Default for MienDnaField {
     }
 }
 
+/// How to write a DNA file. See docs/dna-format.md, 14.3 "Changing the version".
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienWriteDesc {
     pub struct_size: usize,
-    /// 1 ... 8 writes 2.1 ... 2.8; 0 keeps the version. Layers that the version does not know are
-    /// carried along (2.2 and later) unless `unknown_layers` says drop; 2.1 keeps the four classic
-    /// ones only.
+    /// 1 to 8: write version 2.version; layers that it does not know are kept unless
+    /// `unknown_layers` drops them, but 2.1 holds the four layers desc, defn, bhvr and geom only.
+    /// 0: the version of the DNA.
     pub version: u32,
     /// `MIEN_UNKNOWN_LAYERS_...`
     pub unknown_layers: u32,
@@ -737,12 +760,13 @@ pub struct MienFinding {
     pub struct_size: usize,
     /// `MIEN_SEVERITY_...`
     pub severity: u32,
-    /// What opening would return; `MIEN_OK` for a warning.
+    /// The status of the failure; `MIEN_OK` for a warning.
     pub status: MienStatus,
-    /// `MIEN_NO_OFFSET` if there is no such place.
+    /// In the file; `MIEN_NO_OFFSET`: not about a place in the file.
     pub byte_offset: u64,
-    /// Path as for `mien_dna_field()`, or a layer's code.
+    /// Path as for `mien_dna_field()`, or the code of a layer.
     pub field: MienStringView,
+    /// What is wrong.
     pub message: MienStringView,
 }
 
@@ -1249,122 +1273,191 @@ impl Default for MienBakedDeformerDesc {
 }
 
 extern "C" {
-    /// `MIEN_VERSION` of the library that runs; the header's may be older.
+    /// Returns the `MIEN_VERSION` of the library in use, which may differ from that of this
+    /// header.
     pub fn mien_version() -> u32;
 
-    /// "DNA\_TRUNCATED" for `MIEN_ERROR_DNA_TRUNCATED`; "UNKNOWN" for other numbers. Static,
-    /// terminated.
+    /// Returns "DNA\_TRUNCATED" for `MIEN_ERROR_DNA_TRUNCATED`, and "UNKNOWN" for other numbers.
+    /// The string is static and terminated.
     pub fn mien_status_name(status: MienStatus) -> *const c_char;
 
-    /// The system of an engine or tool: maya, unreal, unreal-mesh (whose characters look along y),
-    /// unity, godot, blender, gltf, opengl, directx, houdini. Axes, units, winding and signs are
-    /// those that a consumer there works in; the sequence is the one of its Euler angles, to be
-    /// used by setting `rotation_rule`, which is `MIEN_ROTATION_RULE_CARRIED`. `MIEN_ERROR_NAME`
-    /// for other names.
+    /// Returns the coordinate system of an engine or tool: "maya", "unreal", "unreal-mesh"
+    /// (characters look along y), "unity", "godot", "blender", "gltf", "opengl", "directx" or
+    /// "houdini". The rotation rule is `MIEN_ROTATION_RULE_CARRIED`; `rotation_sequence` is that
+    /// of the engine's Euler angles, and is used once you set another rule. Fails with
+    /// `MIEN_ERROR_NAME` if the name is none of these.
     pub fn mien_coordinate_system_find(name: *const c_char, out_system: *mut MienCoordinateSystem) -> MienStatus;
 
-    /// The system of an engine or tool: maya, unreal, unreal-mesh (whose characters look along y),
-    /// unity, godot, blender, gltf, opengl, directx, houdini. Axes, units, winding and signs are
-    /// those that a consumer there works in; the sequence is the one of its Euler angles, to be
-    /// used by setting `rotation_rule`, which is `MIEN_ROTATION_RULE_CARRIED`. `MIEN_ERROR_NAME`
-    /// for other names.
+    /// Returns the coordinate system of an engine or tool: "maya", "unreal", "unreal-mesh"
+    /// (characters look along y), "unity", "godot", "blender", "gltf", "opengl", "directx" or
+    /// "houdini". The rotation rule is `MIEN_ROTATION_RULE_CARRIED`; `rotation_sequence` is that
+    /// of the engine's Euler angles, and is used once you set another rule. Fails with
+    /// `MIEN_ERROR_NAME` if the name is none of these.
     pub fn mien_coordinate_system_find_n(name: *const c_char, name_count: usize, out_system: *mut MienCoordinateSystem) -> MienStatus;
 
-    /// The names, from index 0 on; `MIEN_ERROR_INDEX` past the last.
+    /// Returns a name that `mien_coordinate_system_find()` accepts. The string is static. Fails
+    /// with `MIEN_ERROR_INDEX` if `index` is past the last name.
     pub fn mien_coordinate_system_name(index: u32, out_name: *mut MienStringView) -> MienStatus;
 
-    /// Opens a file of versions 2.1 to 2.8 (later 2.x: what is known of it). Checks everything
-    /// that is loaded, so that a rig made of it has nothing left to check. Numbers and names stay
-    /// in the file; memory goes to lists: usually some percent of the chosen layers, and at most
-    /// 20 times their bytes for a file made of nothing but the smallest records. `path` is UTF-8.
-    /// A mapped file must not be truncated or rewritten in place while it is open (replacing it by
-    /// renaming is safe). `desc` may be NULL. Close with `mien_dna_close()`.
+    /// Opens a DNA file of version 2.1 to 2.8, or the known layers of a later 2.x. Checks
+    /// everything that it loads. Close with `mien_dna_close()`.
+    ///
+    /// Numbers and names are read from the file when needed. Memory is used for lists: typically a
+    /// few percent of the size of the loaded layers, at most 20 times that size. Do not truncate
+    /// or overwrite a mapped file while it is open; replacing it by renaming is safe.
+    ///
+    /// Fails with `MIEN_ERROR_FILE_OPEN` or `MIEN_ERROR_FILE_READ` if the file cannot be read,
+    /// `MIEN_ERROR_DNA_SIGNATURE` or `MIEN_ERROR_DNA_VERSION` if it is not a DNA file of
+    /// generation 2, `MIEN_ERROR_DNA_TRUNCATED`, `MIEN_ERROR_DNA_STRUCTURE`,
+    /// `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT` or `MIEN_ERROR_DNA_VALUE` if its
+    /// contents are not valid or cannot be converted to the requested system, `MIEN_ERROR_LOD` if
+    /// it has none of the requested LODs. See docs/dna-format.md, 13 "What is checked".
     pub fn mien_dna_open_file(path: *const c_char, desc: *const MienDnaDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
 
-    /// The same from memory, which stays the caller's and has to outlive the MienDna, unchanged.
+    /// Opens a DNA file in memory: `size` bytes, of any alignment. `bytes` must outlive the
+    /// MienDna, unchanged. Fails like `mien_dna_open_file()`, but not with `MIEN_ERROR_FILE_OPEN`
+    /// or `MIEN_ERROR_FILE_READ`.
     pub fn mien_dna_open_memory(bytes: *const c_void, size: usize, desc: *const MienDnaDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
 
-    /// The same from a stream: reads the header, the index and the chosen layers, each once and
-    /// whole, into the allocator's memory. `MIEN_ERROR_FILE_READ` if the stream fails.
+    /// Opens a DNA file through a stream. Reads the header, the index and the requested layers,
+    /// each once and in one piece, into memory of the allocator. Fails like
+    /// `mien_dna_open_file()`, but not with `MIEN_ERROR_FILE_OPEN`.
     pub fn mien_dna_open_stream(stream: *const MienStream, desc: *const MienDnaDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
 
+    /// Closes a DNA. Rigs and deformers made from it stay valid; its views do not.
     pub fn mien_dna_close(dna: *mut MienDna);
 
+    /// Returns the properties of a DNA.
     pub fn mien_dna_info(dna: *const MienDna, out_info: *mut MienDnaInfo) -> MienStatus;
 
+    /// Returns entry `index` of the index table, in file order. Fails with `MIEN_ERROR_INDEX` if
+    /// `index` is not below MienDnaInfo.`layer_count`. See docs/dna-format.md, 4.1 "Index table".
     pub fn mien_dna_layer(dna: *const MienDna, index: u32, out_layer: *mut MienDnaLayer) -> MienStatus;
 
-    /// `MIEN_ERROR_NAME` tells the part of the path that is not there.
+    /// Finds a field of a loaded layer by its path: the code of the layer, then the names of
+    /// fields, with an index after each list.
+    ///
+    /// ```text
+    /// desc.name                                 a string
+    /// desc.metadata[0].key                      a string
+    /// defn.jointNames                           a list of strings; defn.jointNames[3] is one
+    /// defn.neutralJointTranslations.xs          floats
+    /// bhvr.joints.jointGroups[7].values         floats
+    /// geom.meshes[0].skinWeights[12].weights    floats
+    /// mlbh.neuralNetworks[0].layers[1].biases   floats
+    /// ```
+    ///
+    /// Layers that are not loaded are empty. Fails with `MIEN_ERROR_NAME` if there is no such
+    /// field (the message contains the part of the path that does not exist), `MIEN_ERROR_INDEX`
+    /// if an index in the path is past the end. See docs/dna-format.md, 6 "Layers, field by
+    /// field".
     pub fn mien_dna_field(dna: *const MienDna, path: *const c_char, out_field: *mut MienDnaField, error: *mut MienError) -> MienStatus;
 
-    /// `MIEN_ERROR_NAME` tells the part of the path that is not there.
+    /// Finds a field of a loaded layer by its path: the code of the layer, then the names of
+    /// fields, with an index after each list.
+    ///
+    /// ```text
+    /// desc.name                                 a string
+    /// desc.metadata[0].key                      a string
+    /// defn.jointNames                           a list of strings; defn.jointNames[3] is one
+    /// defn.neutralJointTranslations.xs          floats
+    /// bhvr.joints.jointGroups[7].values         floats
+    /// geom.meshes[0].skinWeights[12].weights    floats
+    /// mlbh.neuralNetworks[0].layers[1].biases   floats
+    /// ```
+    ///
+    /// Layers that are not loaded are empty. Fails with `MIEN_ERROR_NAME` if there is no such
+    /// field (the message contains the part of the path that does not exist), `MIEN_ERROR_INDEX`
+    /// if an index in the path is past the end. See docs/dna-format.md, 6 "Layers, field by
+    /// field".
     pub fn mien_dna_field_n(dna: *const MienDna, path: *const c_char, path_count: usize, out_field: *mut MienDnaField, error: *mut MienError) -> MienStatus;
 
-    /// Name of field `index` of the record at `path` ("" for the layers themselves).
+    /// Returns the name of field `index` of the record at a path. The empty path is the file
+    /// itself, whose fields are the layers. The string is static. Fails with `MIEN_ERROR_NAME` if
+    /// there is no such field, `MIEN_ERROR_INDEX` if `index` or an index in the path is past the
+    /// end, `MIEN_ERROR_INVALID_ARGUMENT` if the field is not a record. See docs/dna-format.md, 6
+    /// "Layers, field by field".
     pub fn mien_dna_child_name(dna: *const MienDna, path: *const c_char, index: u32, out_name: *mut MienStringView, error: *mut MienError) -> MienStatus;
 
-    /// Name of field `index` of the record at `path` ("" for the layers themselves).
+    /// Returns the name of field `index` of the record at a path. The empty path is the file
+    /// itself, whose fields are the layers. The string is static. Fails with `MIEN_ERROR_NAME` if
+    /// there is no such field, `MIEN_ERROR_INDEX` if `index` or an index in the path is past the
+    /// end, `MIEN_ERROR_INVALID_ARGUMENT` if the field is not a record. See docs/dna-format.md, 6
+    /// "Layers, field by field".
     pub fn mien_dna_child_name_n(dna: *const MienDna, path: *const c_char, path_count: usize, index: u32, out_name: *mut MienStringView, error: *mut MienError) -> MienStatus;
 
-    /// Copies `count` elements from `first` on. `out` has room for them. Integers of any width
-    /// widen; reading a float field as integers (or the other way round) is
-    /// `MIEN_ERROR_INVALID_ARGUMENT`, a range past the end `MIEN_ERROR_INDEX`.
+    /// Copies `count` elements of a field, beginning with element `first`, to `out`, in native
+    /// byte order. A field that is one number has one element. `out` may be NULL if `count` is 0.
+    /// Integers are widened to 64 bits. Fails with `MIEN_ERROR_NAME` if there is no such field,
+    /// `MIEN_ERROR_INDEX` if the range or an index in the path is past the end,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if the field does not hold numbers of this kind.
     pub fn mien_dna_read_floats(dna: *const MienDna, path: *const c_char, first: u64, count: u64, out: *mut f32, error: *mut MienError) -> MienStatus;
 
-    /// Copies `count` elements from `first` on. `out` has room for them. Integers of any width
-    /// widen; reading a float field as integers (or the other way round) is
-    /// `MIEN_ERROR_INVALID_ARGUMENT`, a range past the end `MIEN_ERROR_INDEX`.
+    /// Copies `count` elements of a field, beginning with element `first`, to `out`, in native
+    /// byte order. A field that is one number has one element. `out` may be NULL if `count` is 0.
+    /// Integers are widened to 64 bits. Fails with `MIEN_ERROR_NAME` if there is no such field,
+    /// `MIEN_ERROR_INDEX` if the range or an index in the path is past the end,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if the field does not hold numbers of this kind.
     pub fn mien_dna_read_floats_n(dna: *const MienDna, path: *const c_char, path_count: usize, first: u64, count: u64, out: *mut f32, error: *mut MienError) -> MienStatus;
 
-    /// Copies `count` elements from `first` on. `out` has room for them. Integers of any width
-    /// widen; reading a float field as integers (or the other way round) is
-    /// `MIEN_ERROR_INVALID_ARGUMENT`, a range past the end `MIEN_ERROR_INDEX`.
+    /// Copies `count` elements of a field, beginning with element `first`, to `out`, in native
+    /// byte order. A field that is one number has one element. `out` may be NULL if `count` is 0.
+    /// Integers are widened to 64 bits. Fails with `MIEN_ERROR_NAME` if there is no such field,
+    /// `MIEN_ERROR_INDEX` if the range or an index in the path is past the end,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if the field does not hold numbers of this kind.
     pub fn mien_dna_read_integers(dna: *const MienDna, path: *const c_char, first: u64, count: u64, out: *mut i64, error: *mut MienError) -> MienStatus;
 
-    /// Copies `count` elements from `first` on. `out` has room for them. Integers of any width
-    /// widen; reading a float field as integers (or the other way round) is
-    /// `MIEN_ERROR_INVALID_ARGUMENT`, a range past the end `MIEN_ERROR_INDEX`.
+    /// Copies `count` elements of a field, beginning with element `first`, to `out`, in native
+    /// byte order. A field that is one number has one element. `out` may be NULL if `count` is 0.
+    /// Integers are widened to 64 bits. Fails with `MIEN_ERROR_NAME` if there is no such field,
+    /// `MIEN_ERROR_INDEX` if the range or an index in the path is past the end,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if the field does not hold numbers of this kind.
     pub fn mien_dna_read_integers_n(dna: *const MienDna, path: *const c_char, path_count: usize, first: u64, count: u64, out: *mut i64, error: *mut MienError) -> MienStatus;
 
-    /// Points into the file: valid until `mien_dna_close()`.
+    /// Returns a string of the file. Fails with `MIEN_ERROR_NAME` if there is no such field,
+    /// `MIEN_ERROR_INDEX` if an index in the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT`
+    /// if the field is not a string.
     pub fn mien_dna_read_string(dna: *const MienDna, path: *const c_char, out_string: *mut MienStringView, error: *mut MienError) -> MienStatus;
 
-    /// Points into the file: valid until `mien_dna_close()`.
+    /// Returns a string of the file. Fails with `MIEN_ERROR_NAME` if there is no such field,
+    /// `MIEN_ERROR_INDEX` if an index in the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT`
+    /// if the field is not a string.
     pub fn mien_dna_read_string_n(dna: *const MienDna, path: *const c_char, path_count: usize, out_string: *mut MienStringView, error: *mut MienError) -> MienStatus;
 
-    /// Writes a canonical file: the same bytes that were read if the file was canonical and
-    /// everything was loaded; layers that were not loaded are written empty. Goes to a temporary
-    /// name first, so a failure leaves `path` as it was. RBF behavior that was opened without the
-    /// machine learned behavior of its file cannot be written (`MIEN_ERROR_DNA_LAYER`): its
-    /// controls are numbered behind those. `desc` may be NULL.
+    /// Writes a DNA file in canonical form: if the original file was canonical and all of it was
+    /// loaded, the same bytes. Layers that were not loaded are written empty. The file is written
+    /// under a temporary name and renamed, so that a failure leaves `path` unchanged. Fails with
+    /// `MIEN_ERROR_FILE_WRITE` if the file cannot be written, `MIEN_ERROR_DNA_LAYER` if RBF
+    /// behavior was loaded without the machine-learned behavior of its file (whose controls are
+    /// numbered before its own), `MIEN_ERROR_DNA_LIMIT` if the file would exceed 4 GiB,
+    /// `MIEN_ERROR_MEMORY` if there is no memory for its bytes. See docs/dna-format.md, 14
+    /// "Writing a canonical file".
     pub fn mien_dna_write_file(dna: *const MienDna, path: *const c_char, desc: *const MienWriteDesc, error: *mut MienError) -> MienStatus;
 
-    /// The same to memory. With buffer NULL and capacity 0 only \*`out_size` is set; a capacity
-    /// that is too small gives `MIEN_ERROR_INVALID_ARGUMENT` and the size.
+    /// Writes a DNA file to memory and returns its size in `out_size`. `buffer` may be NULL with
+    /// capacity 0 to get the size only. Writes nothing if `capacity` is too small; `out_size` is
+    /// set nevertheless. Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `capacity` is too small,
+    /// `MIEN_ERROR_DNA_LAYER` or `MIEN_ERROR_DNA_LIMIT` as `mien_dna_write_file()`.
     pub fn mien_dna_write_memory(dna: *const MienDna, desc: *const MienWriteDesc, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
 
-    /// Checks a whole file and lists every finding: at most 32 for one field (of cross references
-    /// the last one says how many more there are), and 1000 in all. Returns `MIEN_OK` if the file
-    /// could be examined, whatever was found. The file is read, not mapped, so it may change
-    /// meanwhile.
+    /// Checks all layers of a file and collects the findings: at most 32 per field and 1000 in
+    /// total; the last one says if there are more. Returns `MIEN_OK` if the file could be checked,
+    /// whatever was found. The file is read into memory, so it may change meanwhile. Destroy with
+    /// `mien_report_destroy()`. Fails with `MIEN_ERROR_FILE_OPEN` or `MIEN_ERROR_FILE_READ` if the
+    /// file cannot be read. See docs/dna-format.md, 13 "What is checked".
     pub fn mien_dna_validate_file(path: *const c_char, desc: *const MienValidateDesc, out_report: *mut *mut MienReport, error: *mut MienError) -> MienStatus;
 
-    /// Checks a whole file and lists every finding: at most 32 for one field (of cross references
-    /// the last one says how many more there are), and 1000 in all. Returns `MIEN_OK` if the file
-    /// could be examined, whatever was found. The file is read, not mapped, so it may change
-    /// meanwhile.
+    /// Checks a file in memory: `size` bytes. `bytes` may be released afterwards.
     pub fn mien_dna_validate_memory(bytes: *const c_void, size: usize, desc: *const MienValidateDesc, out_report: *mut *mut MienReport, error: *mut MienError) -> MienStatus;
 
-    /// Checks a whole file and lists every finding: at most 32 for one field (of cross references
-    /// the last one says how many more there are), and 1000 in all. Returns `MIEN_OK` if the file
-    /// could be examined, whatever was found. The file is read, not mapped, so it may change
-    /// meanwhile.
+    /// Returns the number of errors and the number of warnings.
     pub fn mien_report_counts(report: *const MienReport, out_errors: *mut u32, out_warnings: *mut u32) -> MienStatus;
 
-    /// Findings are in the order of the checks: 0 ... errors + warnings - 1. Views live as long as
-    /// the report.
+    /// Returns finding `index`, in the order of the checks. There are as many as errors and
+    /// warnings. Fails with `MIEN_ERROR_INDEX` if `index` is past the last finding.
     pub fn mien_report_finding(report: *const MienReport, index: u32, out_finding: *mut MienFinding) -> MienStatus;
 
+    /// Destroys a report.
     pub fn mien_report_destroy(report: *mut MienReport);
 
     /// Makes a synthetic rig: behavior of realistic size and sparsity, with simple geometry.

@@ -14,59 +14,59 @@ pub struct Status(pub i32);
 impl Status {
     /// `MIEN_OK` in C.
     pub const OK: Self = Self(0);
-    /// A pointer that has to be given is NULL.
+    /// A required pointer is NULL.
     pub const NULL_ARGUMENT: Self = Self(1);
-    /// A value outside its range; a buffer that is too small.
+    /// A value outside its range, or a buffer that is too small.
     pub const INVALID_ARGUMENT: Self = Self(2);
-    /// `struct_size` too small, or unknown fields that are not zero.
+    /// `struct_size` is too small, or unknown fields are not zero.
     pub const STRUCT_SIZE: Self = Self(3);
-    /// A handle of another kind.
+    /// A handle of the wrong kind.
     pub const HANDLE: Self = Self(4);
-    /// An instance of another rig.
+    /// Objects that do not belong together.
     pub const MISMATCH: Self = Self(5);
     /// An index past the end.
     pub const INDEX: Self = Self(6);
-    /// A LOD that the rig does not have.
+    /// A LOD that does not exist, or that the object has no memory for.
     pub const LOD: Self = Self(7);
     /// No such name or path.
     pub const NAME: Self = Self(8);
-    /// This CPU (or build) lacks the instruction set.
+    /// An instruction set that this CPU or build lacks.
     pub const ISA: Self = Self(9);
     /// The allocator returned NULL.
     pub const MEMORY: Self = Self(10);
-    /// `MIEN_ERROR_FILE_OPEN` in C.
+    /// The file cannot be opened.
     pub const FILE_OPEN: Self = Self(20);
-    /// `MIEN_ERROR_FILE_READ` in C.
+    /// The file or stream cannot be read.
     pub const FILE_READ: Self = Self(21);
-    /// `MIEN_ERROR_FILE_WRITE` in C.
+    /// The file cannot be written.
     pub const FILE_WRITE: Self = Self(22);
     /// Not a DNA file.
     pub const DNA_SIGNATURE: Self = Self(30);
-    /// A DNA file of another generation than 2.
+    /// A DNA file of a generation other than 2.
     pub const DNA_VERSION: Self = Self(31);
-    /// The file ends before what it announces.
+    /// The file is shorter than its header or counts state.
     pub const DNA_TRUNCATED: Self = Self(32);
     /// Offsets, sizes or counts contradict each other.
     pub const DNA_STRUCTURE: Self = Self(33);
-    /// An index to something that is not there.
+    /// An index that refers to nothing.
     pub const DNA_REFERENCE: Self = Self(34);
-    /// More of something than the format or Mien can number.
+    /// A count above the limit of the format or of Mien.
     pub const DNA_LIMIT: Self = Self(35);
-    /// A layer that the call needs was not loaded or not in the file.
+    /// A required layer is not loaded or not in the file.
     pub const DNA_LAYER: Self = Self(36);
-    /// A value that has no meaning.
+    /// A value without a meaning, or one that cannot be converted.
     pub const DNA_VALUE: Self = Self(37);
     /// Not a baked file.
     pub const BAKED_SIGNATURE: Self = Self(50);
-    /// Of another version or kind of machine: bake again.
+    /// Baked by another version or for another kind of machine.
     pub const BAKED_VERSION: Self = Self(51);
-    /// The file ends before what it announces.
+    /// The file is shorter than its header states.
     pub const BAKED_TRUNCATED: Self = Self(52);
     /// Sizes, counts or indices contradict each other.
     pub const BAKED_STRUCTURE: Self = Self(53);
-    /// Not the bytes that were written.
+    /// The bytes are not those that were written.
     pub const BAKED_CHECKSUM: Self = Self(54);
-    /// The file does not hold what was asked of it.
+    /// The file does not contain the requested object.
     pub const BAKED_PART: Self = Self(55);
 }
 
@@ -74,36 +74,40 @@ numbers!(Status, i32, [(0, "OK"), (1, "NULL_ARGUMENT"), (2, "INVALID_ARGUMENT"),
 
 pub(crate) fn describe(status: Status) -> &'static str {
     match status.0 {
-        1 => "a pointer that has to be given is NULL",
-        2 => "a value outside its range; a buffer that is too small",
-        3 => "struct_size too small, or unknown fields that are not zero",
-        4 => "a handle of another kind",
-        5 => "an instance of another rig",
+        1 => "a required pointer is NULL",
+        2 => "a value outside its range, or a buffer that is too small",
+        3 => "struct_size is too small, or unknown fields are not zero",
+        4 => "a handle of the wrong kind",
+        5 => "objects that do not belong together",
         6 => "an index past the end",
-        7 => "a LOD that the rig does not have",
+        7 => "a LOD that does not exist, or that the object has no memory for",
         8 => "no such name or path",
-        9 => "this CPU (or build) lacks the instruction set",
+        9 => "an instruction set that this CPU or build lacks",
         10 => "the allocator returned NULL",
+        20 => "the file cannot be opened",
+        21 => "the file or stream cannot be read",
+        22 => "the file cannot be written",
         30 => "not a DNA file",
-        31 => "a DNA file of another generation than 2",
-        32 => "the file ends before what it announces",
+        31 => "a DNA file of a generation other than 2",
+        32 => "the file is shorter than its header or counts state",
         33 => "offsets, sizes or counts contradict each other",
-        34 => "an index to something that is not there",
-        35 => "more of something than the format or Mien can number",
-        36 => "a layer that the call needs was not loaded or not in the file",
-        37 => "a value that has no meaning",
+        34 => "an index that refers to nothing",
+        35 => "a count above the limit of the format or of Mien",
+        36 => "a required layer is not loaded or not in the file",
+        37 => "a value without a meaning, or one that cannot be converted",
         50 => "not a baked file",
-        51 => "of another version or kind of machine: bake again",
-        52 => "the file ends before what it announces",
+        51 => "baked by another version or for another kind of machine",
+        52 => "the file is shorter than its header states",
         53 => "sizes, counts or indices contradict each other",
-        54 => "not the bytes that were written",
-        55 => "the file does not hold what was asked of it",
+        54 => "the bytes are not those that were written",
+        55 => "the file does not contain the requested object",
         _ => "",
     }
 }
 
-/// Layers, to be combined with \|. A layer brings along what it needs (everything needs the
-/// definition, RBF behavior needs behavior); the descriptor is always read.
+/// Layers of a DNA file, combined with \|. A layer loads the layers that it refers to: all of them
+/// need the definition, RBF behavior needs the behavior. The descriptor is always loaded. See
+/// docs/dna-format.md, 9 "Choosing layers".
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -135,7 +139,7 @@ impl Layers {
 
 flags!(Layers, u32, [(0, "UNKNOWN"), (1, "DESCRIPTOR"), (2, "DEFINITION"), (4, "BEHAVIOR"), (8, "GEOMETRY"), (16, "MACHINE_LEARNED_BEHAVIOR"), (32, "RBF_BEHAVIOR"), (64, "JOINT_BEHAVIOR_METADATA"), (128, "TWIST_SWING_BEHAVIOR"), (255, "ALL")]);
 
-/// Layers of a kind that Mien does not know.
+/// Layers of kinds that Mien does not know.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -143,7 +147,7 @@ flags!(Layers, u32, [(0, "UNKNOWN"), (1, "DESCRIPTOR"), (2, "DEFINITION"), (4, "
 pub struct UnknownLayers(pub u32);
 
 impl UnknownLayers {
-    /// Carried along, written back unchanged.
+    /// Keep their bytes and write them back unchanged.
     pub const KEEP: Self = Self(0);
     /// `MIEN_UNKNOWN_LAYERS_DROP` in C.
     pub const DROP: Self = Self(1);
@@ -159,9 +163,9 @@ numbers!(UnknownLayers, u32, [(0, "KEEP"), (1, "DROP")]);
 pub struct FileAccess(pub u32);
 
 impl FileAccess {
-    /// Map; read into memory where the system cannot map (pipes).
+    /// Map the file; read it into memory if it cannot be mapped, as pipes.
     pub const MAP: Self = Self(0);
-    /// Read it all now: for files that others may truncate meanwhile.
+    /// Read the whole file into memory: safe if it is truncated later.
     pub const READ: Self = Self(1);
 }
 
@@ -199,7 +203,7 @@ impl RotationUnit {
 
 numbers!(RotationUnit, u32, [(0, "DEGREES"), (1, "RADIANS")]);
 
-/// What C calls `MIEN_DIRECTION_...`.
+/// Directions as seen by the character.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -207,7 +211,7 @@ numbers!(RotationUnit, u32, [(0, "DEGREES"), (1, "RADIANS")]);
 pub struct Direction(pub u32);
 
 impl Direction {
-    /// Of the character.
+    /// `MIEN_DIRECTION_LEFT` in C.
     pub const LEFT: Self = Self(0);
     /// `MIEN_DIRECTION_RIGHT` in C.
     pub const RIGHT: Self = Self(1);
@@ -223,7 +227,7 @@ impl Direction {
 
 numbers!(Direction, u32, [(0, "LEFT"), (1, "RIGHT"), (2, "UP"), (3, "DOWN"), (4, "FRONT"), (5, "BACK")]);
 
-/// What C calls `MIEN_ROTATION_SEQUENCE_...`.
+/// Order of Euler angles.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -247,8 +251,8 @@ impl RotationSequence {
 
 numbers!(RotationSequence, u32, [(0, "XYZ"), (1, "XZY"), (2, "YXZ"), (3, "YZX"), (4, "ZXY"), (5, "ZYX")]);
 
-/// The side of a face a b c ... that (b - a) x (c - a) points to, computed with the numbers of the
-/// file whichever way its axes point.
+/// The side of a face a b c ... that (b - a) x (c - a) points to, computed from the coordinates in
+/// the file, whichever way the axes point.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -256,8 +260,8 @@ numbers!(RotationSequence, u32, [(0, "XYZ"), (1, "XZY"), (2, "YXZ"), (3, "YZX"),
 pub struct FaceWinding(pub u32);
 
 impl FaceWinding {
-    /// Seen from outside counter-clockwise if the axes are right-handed, clockwise if they are
-    /// left-handed.
+    /// Seen from outside: counter-clockwise with right-handed axes, clockwise with left-handed
+    /// axes.
     pub const OUTWARD: Self = Self(0);
     /// `MIEN_FACE_WINDING_INWARD` in C.
     pub const INWARD: Self = Self(1);
@@ -265,8 +269,8 @@ impl FaceWinding {
 
 numbers!(FaceWinding, u32, [(0, "OUTWARD"), (1, "INWARD")]);
 
-/// The order in which Euler angles turn, when axes change. Joint values are sums of angles, which
-/// mean nothing in another order: only the first rule is exact for all rigs.
+/// How Euler angles are converted to other axes. Joint values are sums of angles, which are valid
+/// in one rotation sequence only: the first rule is the only one that is exact for all rigs.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -274,34 +278,21 @@ numbers!(FaceWinding, u32, [(0, "OUTWARD"), (1, "INWARD")]);
 pub struct RotationRule(pub u32);
 
 impl RotationRule {
-    /// The file's order, about the axes as they are called now: where x became z, xyz becomes zyx,
-    /// xzy becomes zxy, and so on.
+    /// The sequence of the file, about the renamed axes: where x becomes z, xyz becomes zyx, xzy
+    /// becomes zxy, and so on.
     pub const CARRIED: Self = Self(0);
-    /// The order named. Neutral poses, joints represented by quaternions, twists, swings and ML
-    /// joints follow exactly as rotations, and so do joints that turn about one axis only;
-    /// `Status::DNA_VALUE` for a rig with others.
+    /// The requested sequence. Neutral poses, quaternion joints, twists, swings, ML joints and
+    /// joints that rotate about one axis only are converted exactly; rigs with other joints are
+    /// rejected with `Status::DNA_VALUE`.
     pub const EXACT: Self = Self(1);
-    /// The order named, each column of a joint matrix by itself: exact while one control is 1 and
-    /// all others are 0, near it for small angles.
+    /// The requested sequence, each column of the joint matrix on its own: exact while one control
+    /// is 1 and the others are 0, approximate for small angles.
     pub const PER_COLUMN: Self = Self(2);
 }
 
 numbers!(RotationRule, u32, [(0, "CARRIED"), (1, "EXACT"), (2, "PER_COLUMN")]);
 
-/// Every field of every loaded layer can be read by its path: the layer's code and the field names
-/// of the DNA format, with an index after each list:
-///
-/// ```text
-/// desc.name                                 a string
-/// desc.metadata[0].key                      a string
-/// defn.jointNames                           a list of strings; defn.jointNames[3] is one
-/// defn.neutralJointTranslations.xs          floats
-/// bhvr.joints.jointGroups[7].values         floats
-/// geom.meshes[0].skinWeights[12].weights    floats
-/// mlbh.neuralNetworks[0].layers[1].biases   floats
-/// ```
-///
-/// `mien_dna_field()` tells what is at a path; the read calls copy it out in native byte order.
+/// Type of a field.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -311,11 +302,11 @@ pub struct FieldType(pub u32);
 impl FieldType {
     /// Named fields.
     pub const RECORD: Self = Self(0);
-    /// Records, strings or arrays, each with its own path \[i\].
+    /// Records, strings or arrays; element i has the path of the list + \[i\].
     pub const LIST: Self = Self(1);
     /// `MIEN_FIELD_STRING` in C.
     pub const STRING: Self = Self(2);
-    /// Numbers: one, or an array of them.
+    /// Numbers: one, or an array.
     pub const U8: Self = Self(3);
     /// `MIEN_FIELD_U16` in C.
     pub const U16: Self = Self(4);
@@ -337,9 +328,9 @@ numbers!(FieldType, u32, [(0, "RECORD"), (1, "LIST"), (2, "STRING"), (3, "U8"), 
 pub struct Severity(pub u32);
 
 impl Severity {
-    /// Opening or `mien_rig_create()` refuses this.
+    /// Opening the file or `mien_rig_create()` fails because of this.
     pub const ERROR: Self = Self(0);
-    /// Allowed, but probably not meant.
+    /// Allowed, but probably a mistake.
     pub const WARNING: Self = Self(1);
 }
 
@@ -666,8 +657,8 @@ impl BakedCheck {
 
 numbers!(BakedCheck, u32, [(0, "SAFE"), (1, "FULL")]);
 
-/// Where the axes of a rig point, and its units. Mirrored systems are as good as others: which
-/// hand they are of follows from the axes.
+/// Axes, units and rotation conventions of a rig. Any handedness is allowed. See
+/// docs/dna-format.md, 11 "Coordinate systems".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct CoordinateSystem {
@@ -675,14 +666,14 @@ pub struct CoordinateSystem {
     pub axes: [Direction; 3],
     /// Translation unit.
     pub translation_unit: TranslationUnit,
-    /// `RotationUnit::DEGREES` or \_RADIANS.
+    /// Rotation unit.
     pub rotation_unit: RotationUnit,
-    /// `RotationRule`; the next field counts unless it is \_CARRIED.
+    /// Rotation rule.
     pub rotation_rule: RotationRule,
-    /// `RotationSequence::XYZ` ...
+    /// `RotationSequence`; ignored with `RotationRule::CARRIED`.
     pub rotation_sequence: RotationSequence,
-    /// Of the angles about x, y, z: 1 turns y to z, z to x, x to y; -1 the other way; 0: such that
-    /// angles keep their numbers.
+    /// Of the angles about x, y, z. 1: rotates y to z, z to x, x to y. -1: the other way. 0: the
+    /// sign that leaves angles unchanged.
     pub rotation_signs: [i32; 3],
     /// Face winding.
     pub face_winding: FaceWinding,
@@ -717,21 +708,21 @@ impl From<&CoordinateSystem> for sys::MienCoordinateSystem {
     }
 }
 
-/// `MienDnaInfo` in C.
+/// Properties of an open DNA. Counts are those of the loaded layers and LODs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct DnaInfo {
     /// 2.
     pub generation: u32,
-    /// 1 ... 8: the file is generation.version.
+    /// 1 to 8: the file is of version 2.version.
     pub version: u32,
-    /// `Layers` that were loaded.
+    /// `Layers`, combined with \|: the loaded layers.
     pub layers: Layers,
-    /// The geometry was loaded with its targets.
+    /// The geometry is loaded with its targets.
     pub has_blend_shape_targets: bool,
-    /// Size of the file; 0 if generated.
+    /// Size of the file. 0: generated.
     pub file_bytes: u64,
-    /// Taken from the allocator.
+    /// Memory taken from the allocator.
     pub memory_bytes: u64,
     /// The file is mapped.
     pub is_mapped: bool,
@@ -739,11 +730,11 @@ pub struct DnaInfo {
     pub layer_count: usize,
     /// Translation unit.
     pub translation_unit: TranslationUnit,
-    /// `RotationUnit::DEGREES` or \_RADIANS.
+    /// Rotation unit.
     pub rotation_unit: RotationUnit,
     /// `Direction` of x, y, z.
     pub axes: [Direction; 3],
-    /// `RotationSequence::XYZ` ...
+    /// Rotation sequence.
     pub rotation_sequence: RotationSequence,
     /// 1 or -1, for the angles about x, y, z.
     pub rotation_signs: [i32; 3],
@@ -751,7 +742,7 @@ pub struct DnaInfo {
     pub face_winding: FaceWinding,
     /// Lod count.
     pub lod_count: usize,
-    /// This file's LOD 0 is LOD `max_lod` of its data base.
+    /// LOD 0 of this file is LOD `max_lod` of its database.
     pub max_lod: u32,
     /// Gui control count.
     pub gui_control_count: usize,
@@ -783,7 +774,7 @@ pub struct DnaInfo {
     pub twist_count: usize,
     /// Swing count.
     pub swing_count: usize,
-    /// Pairs: desc.metadata\[i\].key and .value.
+    /// Pairs desc.metadata\[i\].key and .value.
     pub metadata_count: usize,
 }
 
@@ -826,12 +817,12 @@ impl From<sys::MienDnaInfo> for DnaInfo {
     }
 }
 
-/// One entry of the file's table of layers, in file order. Files of version 2.1 have no such
-/// table; their sections are listed as the layers desc, defn, bhvr and geom.
+/// An entry of the index table of the file. Files of version 2.1 have no index table; their
+/// sections are listed as the layers desc, defn, bhvr and geom.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct DnaLayer {
-    /// `Layers` that loads it; `Layers::UNKNOWN` for other kinds.
+    /// `Layers` that loads it. `Layers::UNKNOWN`: of an unknown kind.
     pub layer: Layers,
     /// Version major.
     pub version_major: u32,
@@ -839,11 +830,11 @@ pub struct DnaLayer {
     pub version_minor: u32,
     /// It was read, not skipped or kept unread.
     pub is_loaded: bool,
-    /// Byte offset.
+    /// Of its first byte in the file.
     pub byte_offset: u64,
     /// Byte count.
     pub byte_count: u64,
-    /// "bhvr", terminated.
+    /// Such as "bhvr"; terminated.
     pub code: String,
 }
 
@@ -867,12 +858,13 @@ impl From<sys::MienDnaLayer> for DnaLayer {
 pub struct DnaField {
     /// Type.
     pub field_type: FieldType,
-    /// An array of numbers, whatever its count; not one number, or an element of an array.
+    /// An array of numbers, even if it has one element; not a single number or an element of an
+    /// array.
     pub is_array: bool,
-    /// Elements of an array or list, bytes of a string, 1 for a number, fields of a record.
+    /// Elements of an array or list, bytes of a string, fields of a record; 1 for a number.
     pub count: u64,
-    /// Where the bytes of an array, of one of its elements or of a string begin in the file;
-    /// `None` for others, and for what was made here.
+    /// Of the bytes of a string, of an array or of one of its elements in the file; `None`: other
+    /// fields, and data that is not in the file.
     pub byte_offset: Option<u64>,
 }
 
