@@ -652,66 +652,73 @@ MIEN_CHECKED MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna*
 
 /* ---- Rig ------------------------------------------------------------------------------------- */
 
+/* The behavior of a DNA, packed for evaluation. Immutable. */
 typedef struct MienRig MienRig;
 
+/* Instruction sets. */
 enum MienIsa {
-    MIEN_ISA_BEST = 0, /* the best that this CPU and operating system allow */
+    MIEN_ISA_BEST = 0, /* the best one that the CPU, the operating system and the build support */
     MIEN_ISA_SCALAR = 1,
     MIEN_ISA_SSE2 = 2,
     MIEN_ISA_AVX2 = 3, /* with FMA and F16C */
-    MIEN_ISA_AVX512 = 4, /* F, CD, DQ, BW, VL */
+    MIEN_ISA_AVX512 = 4, /* F, CD, DQ, BW and VL */
     MIEN_ISA_NEON = 5,
-    MIEN_ISA_ENVIRONMENT = 1000 /* the one that the environment variable MIEN_ISA names ("scalar",
-                                   "sse2", ...); the best if it is unset or empty */
+    MIEN_ISA_ENVIRONMENT = 1000 /* the one named by the environment variable MIEN_ISA ("scalar",
+                                   "sse2", ...); the best one if it is unset or empty */
 };
 
-/* 1 if rigs can be created for this MIEN_ISA_... here. MIEN_ISA_BEST is always available. */
+/* Returns 1 if rigs can be created for an instruction set on this machine, else 0. */
 MIEN_API uint32_t mien_isa_available(uint32_t isa);
-/* "avx2" for MIEN_ISA_AVX2, "unknown" for other numbers. Static, terminated. */
+
+/* Returns "avx2" for MIEN_ISA_AVX2, and "unknown" for other numbers. The string is static and
+ * terminated. */
 MIEN_API const char* mien_isa_name(uint32_t isa);
 
-/* How joint rotations come out. */
+/* Form of the rotations among the joint values. */
 enum MienRotationOutput {
     MIEN_ROTATION_OUTPUT_EULER = 0,      /* 9 values per joint: tx ty tz rx ry rz sx sy sz */
     MIEN_ROTATION_OUTPUT_QUATERNION = 1  /* 10 values per joint: tx ty tz qx qy qz qw sx sy sz */
 };
 
-/* What a mask of a mesh region does to the networks of the region (mien_instance_ml_masks()). */
+/* Effect of a region mask on the networks of the region (mien_instance_ml_masks()).
+ * See docs/rig-evaluation.md, 8.5 "Region masks". */
 enum MienMlMasks {
-    MIEN_ML_MASKS_SWITCH = 0, /* 0: the networks give their default (0, or 1 for the w of a
-                                 quaternion); anything else: they are evaluated. What files were made
-                                 for. */
-    MIEN_ML_MASKS_BLEND = 1   /* in between, outputs are blended with the default; clamped to 0..1 */
+    MIEN_ML_MASKS_SWITCH = 0, /* 0: the outputs of the networks get their default (0, or 1 for the w of
+                                 a quaternion). Other values: the networks are evaluated. This is what
+                                 files are made for. */
+    MIEN_ML_MASKS_BLEND = 1   /* outputs are blended with their default by the mask, clamped to 0..1 */
 };
 
-/* How a rig keeps the large arrays that evaluation reads. Sums and results are 32-bit floats either
- * way. */
+/* Storage of the large arrays that evaluation reads. Sums and results are 32-bit floats with both.
+ * See docs/rig-evaluation.md, 4.9 "16-bit storage". */
 enum MienStorage {
     MIEN_STORAGE_32_BIT = 0,
-    MIEN_STORAGE_16_BIT = 1 /* 16 bits: network weights and columns of quaternion joints in IEEE half
-                            precision (to nearest, ties to even; what exceeds its range becomes
-                            +-65504); the joint matrix as 16-bit fixed point, in units of the largest
-                            entry of the row / 32767. Half the memory. */
+    MIEN_STORAGE_16_BIT = 1 /* half the memory. Network weights and columns of quaternion joints are IEEE
+                               half floats (rounded to nearest even, at most 65504 in magnitude); the
+                               joint matrix is 16-bit fixed point, in units of the largest entry of the
+                               row / 32767 */
 };
 
-/* Which results have the same bits on which instruction sets. */
+/* On which instruction sets results have the same bits. See docs/numbers.md, 5 "Portable
+ * arithmetic". */
 enum MienArithmetic {
-    MIEN_ARITHMETIC_FAST = 0,    /* those on AVX2, AVX-512 and NEON, which multiply and add in one step;
-                                    and those on scalar and SSE2 */
-    MIEN_ARITHMETIC_PORTABLE = 1 /* all: in two steps everywhere. Angles and quaternions are the same as
-                                    far as the C library's sine and arc tangent are. */
+    MIEN_ARITHMETIC_FAST = 0,    /* among AVX2, AVX-512 and NEON, which fuse multiply and add; and
+                                    among scalar and SSE2 */
+    MIEN_ARITHMETIC_PORTABLE = 1 /* on all, by not fusing anywhere. Angles and quaternions are the same
+                                    only as far as the sine and arc tangent of the C library are. */
 };
 
-/* Whether evaluation keeps results whose inputs did not change since the last one of the instance. They
- * have the same bits either way. */
+/* Whether an instance keeps results whose inputs have not changed since its last evaluation. Results
+ * have the same bits with both. */
 enum MienReuse {
     MIEN_REUSE_UNCHANGED = 0,
-    MIEN_REUSE_NOTHING = 1 /* everything is computed each time: for measuring */
+    MIEN_REUSE_NOTHING = 1 /* compute everything in each evaluation, for measurements */
 };
 
+/* Options of a rig. See docs/rig-evaluation.md, 9.4 "Options". */
 typedef struct MienRigDesc {
     size_t struct_size;
-    uint32_t isa; /* MIEN_ISA_...; one that is absent is MIEN_ERROR_ISA, never replaced silently */
+    uint32_t isa;             /* MIEN_ISA_... */
     uint32_t rotation_output; /* MIEN_ROTATION_OUTPUT_... */
     uint32_t ml_masks;        /* MIEN_ML_MASKS_... */
     uint32_t storage;         /* MIEN_STORAGE_... */
@@ -721,103 +728,132 @@ typedef struct MienRigDesc {
 } MienRigDesc;
 MIEN_DEFAULT(MienRigDesc, mien_rig_desc_default)
 
+/* Properties of a rig. */
 typedef struct MienRigInfo {
     size_t struct_size;
-    uint32_t isa;               /* MIEN_ISA_... in use */
+    uint32_t isa;               /* MIEN_ISA_... in use, never MIEN_ISA_BEST */
     uint32_t lod_count;
     uint32_t translation_unit;  /* MIEN_TRANSLATION_UNIT_... */
-    uint32_t rotation_unit;     /* MIEN_ROTATION_UNIT_DEGREES or _RADIANS */
+    uint32_t rotation_unit;     /* MIEN_ROTATION_UNIT_... */
     uint32_t axes[3];           /* MIEN_DIRECTION_... of x, y, z */
-    uint32_t rotation_sequence; /* MIEN_ROTATION_SEQUENCE_XYZ ... */
-    int32_t rotation_signs[3];
-    uint32_t control_count;     /* length of a control row: raw, PSD, ML, RBF, in this order */
-    uint32_t joint_value_count; /* length of a row of joint outputs: 9 or 10 per joint */
+    uint32_t rotation_sequence; /* MIEN_ROTATION_SEQUENCE_... */
+    int32_t rotation_signs[3];  /* 1 or -1, for the angles about x, y, z */
+    uint32_t control_count;     /* length of the control row: raw, PSD, ML, RBF controls */
+    uint32_t joint_value_count; /* 9 or 10 per joint */
     uint32_t rotation_output;   /* MIEN_ROTATION_OUTPUT_... */
     uint32_t storage;           /* MIEN_STORAGE_... */
     uint32_t arithmetic;        /* MIEN_ARITHMETIC_... */
-    uint64_t rig_bytes;         /* memory of the rig; with its file if it was opened from one */
+    uint64_t rig_bytes;         /* memory of the rig, including its part of a baked file */
     uint64_t instance_bytes;    /* memory of each instance */
 } MienRigInfo;
 MIEN_DEFAULT(MienRigInfo, mien_rig_info_default)
 
-/* Packs the behavior of `dna` for evaluation. The DNA needs definition and behavior loaded, else
- * MIEN_ERROR_DNA_LAYER; correctives that depend on each other in a circle are MIEN_ERROR_DNA_VALUE.
- * `desc` may be NULL. The DNA may be closed afterwards. The rig is one block of memory; making it
- * takes some more for the time of the call. */
+/* Packs the behavior of a DNA for evaluation. The rig is one block of memory; temporary memory is
+ * released before the call returns. `dna` may be closed afterwards. Destroy with mien_rig_destroy().
+ * Fails with MIEN_ERROR_DNA_LAYER if `dna` was opened without its behavior, MIEN_ERROR_DNA_VALUE if
+ * correctives depend on each other in a circle, MIEN_ERROR_DNA_LIMIT if the rig is too large,
+ * MIEN_ERROR_ISA if the requested instruction set is not available.
+ * See docs/rig-evaluation.md and docs/dna-format.md, 13 "What is checked". */
 MIEN_CHECKED MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig** out_rig,
-                                    MienError* error);
+                                        MienError* error);
 
-/* Memory is released when the last instance is gone too, so the order of destruction does not
- * matter; a destroyed rig cannot be evaluated any more. */
+/* Destroys a rig. It cannot be used any longer, but its instances, batches and deformers may be
+ * destroyed later: its memory is released with the last of them. */
 MIEN_API void mien_rig_destroy(MienRig* rig);
 
+/* Returns the properties of a rig. */
 MIEN_CHECKED MienStatus mien_rig_info(const MienRig* rig, MienRigInfo* out_info);
 
-/* Things with names and numbers. */
+/* Parts of a rig that are counted, most of them with names. */
 enum MienKind {
     MIEN_KIND_GUI_CONTROL = 0,
     MIEN_KIND_RAW_CONTROL = 1,
-    MIEN_KIND_PSD_CONTROL = 2, /* correctives: DNA files do not name them; here "psd0", "psd1", ... */
+    MIEN_KIND_PSD_CONTROL = 2, /* correctives. DNA files have no names for them; here "psd0", "psd1", ... */
     MIEN_KIND_ML_CONTROL = 3,
     MIEN_KIND_RBF_CONTROL = 4,
     MIEN_KIND_JOINT = 5,
     MIEN_KIND_BLEND_SHAPE_CHANNEL = 6,
     MIEN_KIND_ANIMATED_MAP = 7,
     MIEN_KIND_MESH = 8,
-    MIEN_KIND_ML_MASK = 9,     /* one per region of a mesh; "mesh/region" */
-    MIEN_KIND_JOINT_GROUP = 10, /* the last three have no names */
-    MIEN_KIND_RBF_SOLVER = 11,
-    MIEN_KIND_TWIST_SWING = 12  /* a swing with the twists of the same inputs, or a twist alone */
+    MIEN_KIND_ML_MASK = 9,      /* region masks, one per region of each mesh: "mesh/region" */
+    MIEN_KIND_JOINT_GROUP = 10, /* without names */
+    MIEN_KIND_RBF_SOLVER = 11,  /* without names */
+    MIEN_KIND_TWIST_SWING = 12  /* without names: a swing and the twists of the same inputs, or a twist
+                                   alone */
 };
 
+/* Returns how many parts of a kind the rig has. */
 MIEN_CHECKED MienStatus mien_rig_count(const MienRig* rig, uint32_t kind, uint32_t* out_count);
-/* Kinds without names give "". */
+
+/* Returns a name; "" for kinds without names.
+ * Fails with MIEN_ERROR_INDEX if `index` is not below mien_rig_count(). */
 MIEN_CHECKED MienStatus mien_rig_name(const MienRig* rig, uint32_t kind, uint32_t index,
-                                  MienStringView* out_name);
-/* Exact match, in O(log n); of equal names the first. MIEN_ERROR_NAME if there is none. */
+                                      MienStringView* out_name);
+
+/* Finds the index of a name: an exact match, the first of equal names. Takes O(log n).
+ * Fails with MIEN_ERROR_NAME if there is no such name, MIEN_ERROR_INVALID_ARGUMENT if `kind` has no
+ * names. */
 MIEN_CHECKED MienStatus mien_rig_find(const MienRig* rig, uint32_t kind, const char* name,
                                       uint32_t* out_index);
 MIEN_CHECKED MienStatus mien_rig_find_n(const MienRig* rig, uint32_t kind, const char* name,
                                         size_t name_count, uint32_t* out_index);
 
-/* Which joints, channels, maps, meshes or RBF solvers exist at a LOD, in file order. Other kinds:
- * MIEN_ERROR_INVALID_ARGUMENT. */
+/* Returns the indices of the joints, blend shape channels, animated maps, meshes or RBF solvers that
+ * a LOD lists, in file order.
+ * Fails with MIEN_ERROR_LOD if the rig has no such LOD, MIEN_ERROR_INVALID_ARGUMENT if `kind` is none
+ * of these five.
+ * See docs/dna-format.md, 8.2 "LOD mappings". */
 MIEN_CHECKED MienStatus mien_rig_lod_indices(const MienRig* rig, uint32_t kind, uint32_t lod,
-                                         MienIndex16View* out_indices);
-/* Indices into the joint outputs that evaluation may change at a LOD, ascending: all others keep their
- * initial value (0, or 1 for the w of a quaternion). */
+                                             MienIndex16View* out_indices);
+
+/* Returns the indices of the joint values that evaluation may change at a LOD, ascending. All others
+ * keep their initial value: 0, or 1 for the w of a quaternion.
+ * Fails with MIEN_ERROR_LOD if the rig has no such LOD.
+ * See docs/rig-evaluation.md, 4.10 "Which joint values a LOD may change". */
 MIEN_CHECKED MienStatus mien_rig_variable_joint_values(const MienRig* rig, uint32_t lod,
-                                                   MienIndex16View* out_indices);
-/* Parent of each joint; a root is its own parent. */
+                                                       MienIndex16View* out_indices);
+
+/* Returns the parents of the joints, one index per joint. A root is its own parent. */
 MIEN_CHECKED MienStatus mien_rig_joint_parents(const MienRig* rig, MienIndex16View* out_parents);
-/* Neutral pose in the layout of the joint outputs, relative to the parent: translation in translation
- * units, rotation as angles in rotation units or as a quaternion, scale 1. */
+
+/* Returns the neutral pose, relative to the parents: 9 or 10 floats per joint, in the order of the
+ * joint values. The scale is 1.
+ * See docs/rig-evaluation.md, 4.2 "Neutral pose". */
 MIEN_CHECKED MienStatus mien_rig_neutral_joint_values(const MienRig* rig, MienFloatView* out_values);
-/* The controls whose product drives a corrective, as indices into the control row. */
-MIEN_CHECKED MienStatus mien_rig_psd_inputs(const MienRig* rig, uint32_t psd, MienIndex16View* out_controls);
-/* Value each raw control starts with: 0, or 1 for the w of a quaternion input. */
+
+/* Returns the controls whose product gives corrective `psd`, as indices into the control row.
+ * Fails with MIEN_ERROR_INDEX if there is no such corrective.
+ * See docs/rig-evaluation.md, 3.1 "Weights and inputs". */
+MIEN_CHECKED MienStatus mien_rig_psd_inputs(const MienRig* rig, uint32_t psd,
+                                            MienIndex16View* out_controls);
+
+/* Returns the initial values of the raw controls, one float per raw control: 0, or 1 for the w of a
+ * quaternion.
+ * See docs/rig-evaluation.md, 1.2 "Initial values". */
 MIEN_CHECKED MienStatus mien_rig_initial_raw_controls(const MienRig* rig, MienFloatView* out_values);
 
 #ifdef MIEN_EXPERIMENTAL
 
-/* What one evaluation at a LOD works through. */
+/* The work of an evaluation at a LOD, if all controls are active. */
 typedef struct MienRigStatistics {
     size_t struct_size;
     uint32_t lod;
     uint32_t psd_count;               /* correctives computed */
-    uint32_t joint_count;             /* joints that exist at this LOD */
+    uint32_t joint_count;             /* joints of the LOD */
     uint32_t joint_row_count;         /* rows of the joint groups */
     uint32_t blend_shape_count;       /* channels written */
     uint32_t animated_map_row_count;  /* rows of the animated map table */
-    uint32_t rbf_solver_count;        /* solvers that the LOD lists */
-    uint32_t quaternion_joint_count;  /* joints represented by quaternions */
-    uint64_t joint_entry_count;       /* of the joint matrix: 8 per block, blocks of zeros not
-                                         counted */
-    uint64_t joint_byte_count;        /* of the joint matrix, if every control is active: those of
-                                         controls that are 0 are not read */
+    uint32_t rbf_solver_count;        /* RBF solvers of the LOD */
+    uint32_t quaternion_joint_count;  /* quaternion joints */
+    uint64_t joint_entry_count;       /* of the joint matrix: 8 per block that is not all zeros */
+    uint64_t joint_byte_count;        /* of the joint matrix; columns of controls that are 0 are not
+                                         read */
 } MienRigStatistics;
 MIEN_DEFAULT(MienRigStatistics, mien_rig_statistics_default)
 
+/* Returns the statistics of a LOD.
+ * Fails with MIEN_ERROR_LOD if the rig has no such LOD.
+ * See docs/rig-evaluation.md, 9.6 "Statistics". */
 MIEN_CHECKED MienStatus mien_rig_statistics(const MienRig* rig, uint32_t lod,
                                             MienRigStatistics* out_statistics);
 
@@ -825,6 +861,7 @@ MIEN_CHECKED MienStatus mien_rig_statistics(const MienRig* rig, uint32_t lod,
 
 /* ---- Instance -------------------------------------------------------------------------------- */
 
+/* One character: inputs, and the results of the last evaluation. */
 typedef struct MienInstance MienInstance;
 
 typedef struct MienInstanceDesc {
@@ -833,53 +870,96 @@ typedef struct MienInstanceDesc {
 } MienInstanceDesc;
 MIEN_DEFAULT(MienInstanceDesc, mien_instance_desc_default)
 
-/* One character in its initial state. One allocation of MienRigInfo.instance_bytes. */
+/* Creates an instance in its initial state: one allocation of MienRigInfo.instance_bytes. `rig` may be
+ * destroyed before it. Destroy with mien_instance_destroy().
+ * See docs/rig-evaluation.md, 9.2 "Instances". */
 MIEN_CHECKED MienStatus mien_instance_create(const MienRig* rig, const MienInstanceDesc* desc,
                                              MienInstance** out_instance, MienError* error);
+
+/* Destroys an instance. */
 MIEN_API void mien_instance_destroy(MienInstance* instance);
 
-/* Everything as after creation. */
+/* Returns an instance to its initial state: all inputs and results, at LOD 0.
+ * See docs/rig-evaluation.md, 1.2 "Initial values". */
 MIEN_CHECKED MienStatus mien_instance_reset(MienInstance* instance);
 
-/* Inputs, to be written in place: the views stay valid and the same until the instance is destroyed.
- * GUI controls only matter to mien_rig_map_gui_to_raw(). Raw controls are usually in 0..1 but not
- * clamped. Masks (one per region of a mesh, 0..1, initially 1) switch or blend learned behavior, see
- * MIEN_ML_MASKS_.... */
-MIEN_CHECKED MienStatus mien_instance_gui_controls(MienInstance* instance, MienMutableFloatView* out_view);
-MIEN_CHECKED MienStatus mien_instance_raw_controls(MienInstance* instance, MienMutableFloatView* out_view);
-MIEN_CHECKED MienStatus mien_instance_ml_masks(MienInstance* instance, MienMutableFloatView* out_view);
+/* Returns the GUI controls, to be written by the caller: one float per GUI control. They are inputs of
+ * mien_rig_map_gui_to_raw() only.
+ * Contents change with mien_rig_map_raw_to_gui(), mien_instance_reset(). */
+MIEN_CHECKED MienStatus mien_instance_gui_controls(MienInstance* instance,
+                                                   MienMutableFloatView* out_view);
 
-/* Outputs of the last evaluation; the views stay valid, their contents change with each evaluation.
- *   controls      the whole control row: raw, PSD, ML, RBF
- *   joints        9 or 10 per joint, as MIEN_ROTATION_OUTPUT_... says: deltas from the neutral pose.
- *                 Translation, angles and scale are added to it; with quaternions the rotation is
- *                 the product neutral * delta (the delta turns first)
- *   blend shapes  one weight per channel
- *   animated maps one weight per map, 0..1 */
+/* Returns the raw controls, to be written by the caller: one float per raw control, typically 0 to 1,
+ * not clamped. They are the inputs of evaluation.
+ * Contents change with mien_rig_map_gui_to_raw(), mien_instance_reset(). */
+MIEN_CHECKED MienStatus mien_instance_raw_controls(MienInstance* instance,
+                                                   MienMutableFloatView* out_view);
+
+/* Returns the region masks, to be written by the caller: one float per region of each mesh, 0 to 1,
+ * initially 1. They switch or blend machine-learned behavior (MIEN_ML_MASKS_...).
+ * Contents change with mien_instance_reset().
+ * See docs/rig-evaluation.md, 8.5 "Region masks". */
+MIEN_CHECKED MienStatus mien_instance_ml_masks(MienInstance* instance,
+                                               MienMutableFloatView* out_view);
+
+/* Returns the control row: one float per control, the raw, PSD, ML and RBF controls in this order.
+ * Contents change with evaluation, mien_rig_map_gui_to_raw(), mien_instance_reset() and writes to the raw
+ * controls.
+ * See docs/rig-evaluation.md, 1.1 "Control row". */
 MIEN_CHECKED MienStatus mien_instance_controls(const MienInstance* instance, MienFloatView* out_view);
-MIEN_CHECKED MienStatus mien_instance_psd_controls(const MienInstance* instance, MienFloatView* out_view);
-MIEN_CHECKED MienStatus mien_instance_ml_controls(const MienInstance* instance, MienFloatView* out_view);
-MIEN_CHECKED MienStatus mien_instance_rbf_controls(const MienInstance* instance, MienFloatView* out_view);
+
+/* Returns the PSD controls (correctives) of the control row: one float per PSD control.
+ * Contents change with evaluation, mien_instance_reset(). */
+MIEN_CHECKED MienStatus mien_instance_psd_controls(const MienInstance* instance,
+                                                   MienFloatView* out_view);
+
+/* Returns the ML controls of the control row: one float per ML control.
+ * Contents change with evaluation, mien_instance_reset(). */
+MIEN_CHECKED MienStatus mien_instance_ml_controls(const MienInstance* instance,
+                                                  MienFloatView* out_view);
+
+/* Returns the RBF pose controls of the control row: one float per RBF control.
+ * Contents change with evaluation, mien_instance_reset(). */
+MIEN_CHECKED MienStatus mien_instance_rbf_controls(const MienInstance* instance,
+                                                   MienFloatView* out_view);
+
+/* Returns the joint values: 9 or 10 floats per joint (MIEN_ROTATION_OUTPUT_...), as deltas from the
+ * neutral pose. Translation, angles and scale are added to the neutral ones; with quaternions the
+ * rotation is neutral * delta, so the delta rotates first.
+ * Contents change with evaluation, mien_instance_reset().
+ * See docs/rig-evaluation.md, 4.1 "Joint values". */
 MIEN_CHECKED MienStatus mien_instance_joints(const MienInstance* instance, MienFloatView* out_view);
-MIEN_CHECKED MienStatus mien_instance_blend_shapes(const MienInstance* instance, MienFloatView* out_view);
-MIEN_CHECKED MienStatus mien_instance_animated_maps(const MienInstance* instance, MienFloatView* out_view);
+
+/* Returns the weights of the blend shape channels: one float per channel.
+ * Contents change with evaluation, mien_instance_reset().
+ * See docs/rig-evaluation.md, 5 "Blend shapes and animated maps". */
+MIEN_CHECKED MienStatus mien_instance_blend_shapes(const MienInstance* instance,
+                                                   MienFloatView* out_view);
+
+/* Returns the weights of the animated maps, 0 to 1: one float per animated map.
+ * Contents change with evaluation, mien_instance_reset().
+ * See docs/rig-evaluation.md, 5 "Blend shapes and animated maps". */
+MIEN_CHECKED MienStatus mien_instance_animated_maps(const MienInstance* instance,
+                                                    MienFloatView* out_view);
 
 #ifdef MIEN_EXPERIMENTAL
 
-/* What the joint stage fetches for the control row as it is, at the LOD of the last evaluation (before
- * the first: LOD 0), if it keeps no results. Bytes count once, whatever the caches do. */
+/* What the joint stage reads for the current controls, at the LOD of the last evaluation (initially
+ * LOD 0), if it reuses no results. Bytes are counted once, whatever the caches hold. */
 typedef struct MienInstanceStatistics {
     size_t struct_size;
     uint32_t lod;                  /* of the last evaluation */
     uint32_t control_count;        /* of the control row: raw, PSD, ML and RBF controls */
     uint32_t active_control_count; /* controls that are not 0 */
-    uint32_t joint_column_count;   /* columns of the joint matrix that they drive at this LOD */
-    uint64_t joint_entry_count;    /* of these columns; 8 per block, as in MienRigStatistics */
+    uint32_t joint_column_count;   /* columns of the joint matrix that active controls drive */
+    uint64_t joint_entry_count;    /* of these columns: 8 per block */
     uint64_t joint_byte_count;     /* of these entries: at most MienRigStatistics.joint_byte_count */
 } MienInstanceStatistics;
 MIEN_DEFAULT(MienInstanceStatistics, mien_instance_statistics_default)
 
-/* For tools that relate times to memory. Looks at each control, so it is not for every frame. */
+/* Returns the statistics of an instance. Takes time proportional to the number of controls: meant for
+ * measurements, not for every frame.
+ * See docs/rig-evaluation.md, 9.6 "Statistics". */
 MIEN_CHECKED MienStatus mien_instance_statistics(const MienInstance* instance,
                                                  MienInstanceStatistics* out_statistics);
 
@@ -887,445 +967,543 @@ MIEN_CHECKED MienStatus mien_instance_statistics(const MienInstance* instance,
 
 /* ---- Evaluation ------------------------------------------------------------------------------ */
 
-/* Raw controls from GUI controls, and back. Forward writes only raw controls that some row of the
- * table drives, and clamps them to 0..1; others keep what they hold. Backward writes every GUI
- * control: the value whose forward mapping gives the raw controls, 0 where there is none. */
+/* Maps GUI controls to raw controls. Raw controls that the table drives are overwritten, clamped to
+ * 0..1; others are left alone.
+ * Fails with MIEN_ERROR_MISMATCH if `instance` belongs to another rig.
+ * See docs/rig-evaluation.md, 2.3 "GUI controls to raw controls". */
 MIEN_CHECKED MienStatus mien_rig_map_gui_to_raw(const MienRig* rig, MienInstance* instance);
+
+/* Maps raw controls to GUI controls. Sets every GUI control to the value that maps to the current raw
+ * controls, or to 0 if there is none.
+ * Fails with MIEN_ERROR_MISMATCH if `instance` belongs to another rig.
+ * See docs/rig-evaluation.md, 2.4 "Raw controls to GUI controls". */
 MIEN_CHECKED MienStatus mien_rig_map_raw_to_gui(const MienRig* rig, MienInstance* instance);
 
-/* Evaluates all stages at a LOD. Outputs that the LOD does not reach are 0. Changing the LOD from
- * call to call costs no more than clearing the outputs; raw controls are left alone. Allocates
- * nothing, locks nothing. Finite inputs are expected. */
+/* Evaluates all stages at a LOD. Results that the LOD does not reach have their initial value. Inputs
+ * must be finite; then results are finite. Changing the LOD between calls costs little: results are
+ * reset. Does not allocate or lock. Uses up to 48 KiB of stack.
+ * Fails with MIEN_ERROR_LOD if the rig has no such LOD, MIEN_ERROR_MISMATCH if `instance` belongs to
+ * another rig.
+ * See docs/rig-evaluation.md, 1.3 "Order of evaluation". */
 MIEN_CHECKED MienStatus mien_rig_evaluate(const MienRig* rig, MienInstance* instance, uint32_t lod);
 
+/* Stages of an evaluation, combined with |. */
 enum MienStage {
     MIEN_STAGE_ML = 1,      /* neural networks */
-    MIEN_STAGE_RBF = 2,
-    MIEN_STAGE_PSD = 4,
-    MIEN_STAGE_JOINTS = 8,  /* joint groups, then twists and swings, then joints that networks move */
+    MIEN_STAGE_RBF = 2,     /* RBF solvers */
+    MIEN_STAGE_PSD = 4,     /* correctives */
+    MIEN_STAGE_JOINTS = 8,  /* joint groups, then twists and swings, then ML joints */
     MIEN_STAGE_BLEND_SHAPES = 16,
     MIEN_STAGE_ANIMATED_MAPS = 32,
     MIEN_STAGE_ALL = 63
 };
 
-/* Only some stages, in the order above; the others keep the results of the last evaluation at the
- * same LOD (after a change of LOD: 0). */
+/* Evaluates some stages, in the order of enum MienStage. The others keep the results of the last
+ * evaluation at this LOD; after a change of LOD they are reset. Does not allocate or lock. Uses up to
+ * 48 KiB of stack.
+ * Fails with MIEN_ERROR_LOD if the rig has no such LOD, MIEN_ERROR_MISMATCH if `instance` belongs to
+ * another rig.
+ * See docs/rig-evaluation.md, 9.3 "Partial evaluation". */
 MIEN_CHECKED MienStatus mien_rig_evaluate_stages(const MienRig* rig, MienInstance* instance, uint32_t lod,
-                                             uint32_t stages);
+                                                 uint32_t stages);
 
-/* Room for evaluating many instances of a rig at once. */
+/* Scratch memory for evaluating many instances of a rig in one call. */
 typedef struct MienBatch MienBatch;
 
 typedef struct MienBatchDesc {
     size_t struct_size;
-    uint32_t capacity; /* instances per call: 1 to 2^20; 0 means 32 */
-    uint32_t tasks;    /* at once, each with scratch memory of its own; 0 means 1: for calls without
-                          threads */
+    uint32_t capacity; /* instances per call: 1 to 2^20. 0: 32 */
+    uint32_t tasks;    /* tasks that may run at the same time, each with its own scratch memory.
+                          0: 1, for calls without MienParallelFor */
     const MienAllocator* allocator;
 } MienBatchDesc;
 MIEN_DEFAULT(MienBatchDesc, mien_batch_desc_default)
 
-/* One allocation; the rig may be destroyed before the batch. */
+/* Creates a batch: one allocation of mien_batch_bytes(). `rig` may be destroyed before it. Destroy with
+ * mien_batch_destroy(). */
 MIEN_CHECKED MienStatus mien_batch_create(const MienRig* rig, const MienBatchDesc* desc,
                                           MienBatch** out_batch, MienError* error);
+
+/* Destroys a batch. */
 MIEN_API void mien_batch_destroy(MienBatch* batch);
-/* Bytes of such a batch, asked before it is made. */
+
+/* Returns the memory that a batch would take. */
 MIEN_CHECKED MienStatus mien_batch_bytes(const MienRig* rig, const MienBatchDesc* desc,
                                          uint64_t* out_bytes);
 
-/* Evaluates stages (MIEN_STAGE_..., usually all) of `count` different instances of the batch's rig, each
- * at its own LOD: the same bits as mien_rig_evaluate_stages() of each, but columns of the joint matrix
- * that many of them use are fetched once for up to 32. Results are in the instances. On this thread, or
- * in the batch's tasks on threads of `parallel`, which may be NULL: any split gives the same bits.
- * Allocates nothing, locks nothing, takes 48 KiB of stack.
- * If any instance or LOD is not valid, none is evaluated: MIEN_ERROR_MISMATCH for an instance of another
- * rig, MIEN_ERROR_INVALID_ARGUMENT for one that comes up twice or more than `capacity`. */
+/* Evaluates stages of `count` different instances of one rig; instance i at LOD lods[i]. The results
+ * have the same bits as those of mien_rig_evaluate_stages(), but columns of the joint matrix that
+ * several instances use are read once for up to 32 of them. Runs on the calling thread, or in tasks
+ * on `parallel`; `parallel` may be NULL. Does not allocate or lock. Uses up to 48 KiB of stack per
+ * task. On failure no instance is evaluated.
+ * Fails with MIEN_ERROR_LOD if the rig has no such LOD, MIEN_ERROR_MISMATCH if the batch or an
+ * instance belongs to another rig, MIEN_ERROR_INVALID_ARGUMENT if `count` exceeds
+ * MienBatchDesc.capacity or an instance is listed twice.
+ * See docs/numbers.md, 10 "One by one, in batches, with kept results". */
 MIEN_CHECKED MienStatus mien_rig_evaluate_batch(const MienRig* rig, MienBatch* batch,
-                                            MienInstance* const* instances, const uint32_t* lods,
-                                            uint32_t count, uint32_t stages,
-                                            const MienParallelFor* parallel);
+                                                MienInstance* const* instances, const uint32_t* lods,
+                                                uint32_t count, uint32_t stages,
+                                                const MienParallelFor* parallel);
 
-/* Only the joint values of one joint group (MIEN_KIND_JOINT_GROUP); not those that a later group
- * overrides wherever this one gives them. */
+/* Evaluates the joint values of one joint group (MIEN_KIND_JOINT_GROUP), except those that a later
+ * group overrides at all LODs where this one sets them. Uses up to 48 KiB of stack.
+ * Fails with MIEN_ERROR_INDEX if there is no such joint group, MIEN_ERROR_LOD if the rig has no such
+ * LOD, MIEN_ERROR_MISMATCH if `instance` belongs to another rig.
+ * See docs/rig-evaluation.md, 4.5 "Order of the joint stage". */
 MIEN_CHECKED MienStatus mien_rig_evaluate_joint_group(const MienRig* rig, MienInstance* instance,
-                                                  uint32_t lod, uint32_t group);
+                                                      uint32_t lod, uint32_t group);
 
-/* Only the pose controls of one RBF solver (MIEN_KIND_RBF_SOLVER), whether the LOD lists it or not. */
+/* Evaluates the pose controls of one RBF solver (MIEN_KIND_RBF_SOLVER), even if the LOD does not list
+ * it.
+ * Fails with MIEN_ERROR_INDEX if there is no such solver, MIEN_ERROR_LOD if the rig has no such LOD,
+ * MIEN_ERROR_MISMATCH if `instance` belongs to another rig.
+ * See docs/rig-evaluation.md, 6 "RBF solvers". */
 MIEN_CHECKED MienStatus mien_rig_evaluate_rbf_solver(const MienRig* rig, MienInstance* instance,
-                                                 uint32_t lod, uint32_t solver);
+                                                     uint32_t lod, uint32_t solver);
 
-/* Only the joints of one twist and swing set-up (MIEN_KIND_TWIST_SWING). */
+/* Evaluates the joints of one twist and swing setup (MIEN_KIND_TWIST_SWING).
+ * Fails with MIEN_ERROR_INDEX if there is no such setup, MIEN_ERROR_LOD if the rig has no such LOD,
+ * MIEN_ERROR_MISMATCH if `instance` belongs to another rig.
+ * See docs/rig-evaluation.md, 7 "Twist and swing". */
 MIEN_CHECKED MienStatus mien_rig_evaluate_twist_swing(const MienRig* rig, MienInstance* instance,
-                                                  uint32_t lod, uint32_t setup);
+                                                      uint32_t lod, uint32_t setup);
 
 /* ---- Deformer -------------------------------------------------------------------------------- */
 
-/* The geometry of a DNA and the hierarchy of its joints, packed once, then immutable: one block,
- * shared by any number of characters and threads.
+/* The geometry of a DNA and its joint hierarchy, packed for deformation. Immutable.
  *
- *   local    Translate(neutral + delta) * R * Scale(1 + delta), for column vectors. R is, as
- *            MIEN_COMPOSE_... says, R(neutral) * R(delta), or the rotation of the summed angles.
- *            With quaternion outputs R(delta) is the quaternion, of any length; zero is the
- *            identity.
- *   model    model of the parent * local; a root (its own parent) starts from the origin
+ *   local    Translate(neutral + delta) * R * Scale(1 + delta), for column vectors. R is either
+ *            R(neutral) * R(delta) or the rotation of the summed angles (MIEN_COMPOSE_...). With
+ *            quaternion outputs R(delta) is the quaternion, of any length; zero is the identity.
+ *   model    model matrix of the parent * local; a root (its own parent) starts at the origin
  *   skin     model * inverse of the model matrix of the neutral pose
- *   vertex   sum of weight * skin * (neutral position + sum of channel weight * target delta), over
- *            the joints that hold it: linear blend skinning. A vertex that no joint holds stays
- *            where its targets put it. Channel weights within 1e-5 of 0 count as 0.
+ *   vertex   sum over its joints of weight * skin * (neutral position + sum of channel weight *
+ *            target delta): linear blend skinning. A vertex without joints is not skinned. Channel
+ *            weights below 1e-5 in magnitude count as 0.
  *
- * Joints that a LOD lacks have no delta and pass on their parent's motion. A position is shared by
- * all faces around it; a vertex is a position with a texture coordinate and a normal (a layout of
- * the file), so a mesh has at least as many vertices as positions it uses. */
+ * Joints that a LOD does not list move with their parent. A position is shared by the faces around it;
+ * a vertex is a position with texture coordinates and a normal (a layout of the file), so a mesh has
+ * at least as many vertices as positions in use.
+ * See docs/deformation.md, 1 "Joint transforms" and 2 "Positions". */
 typedef struct MienDeformer MienDeformer;
 
-/* How the rotation of a joint is made of the neutral one and the delta. */
+/* How neutral rotation and delta of a joint are combined. */
 enum MienCompose {
-    MIEN_COMPOSE_PRODUCT = 0,  /* neutral rotation * delta rotation: the delta turns first */
-    MIEN_COMPOSE_EULER_ADD = 1 /* the angles are added; needs MIEN_ROTATION_OUTPUT_EULER. The same where the
-                                  neutral rotation is zero. */
+    MIEN_COMPOSE_PRODUCT = 0,  /* neutral rotation * delta rotation: the delta rotates first */
+    MIEN_COMPOSE_EULER_ADD = 1 /* the angles are added; requires MIEN_ROTATION_OUTPUT_EULER. The same as
+                                  the product where the neutral rotation is zero. */
 };
 
-/* What is done about skin weights. */
+/* Treatment of skin weights. */
 enum MienWeights {
     MIEN_WEIGHTS_AS_STORED = 0,
-    MIEN_WEIGHTS_FIX = 1 /* negative weights count as 0, and the weights of a position sum to 1 */
+    MIEN_WEIGHTS_FIX = 1 /* drop negative weights and divide the others by their sum */
 };
 
-/* Normals that mien_deformer_instance_deform() makes, unit length. Where there is no direction to be had (no
- * area, no face) they are the neutral ones. */
+/* Normals of deformed meshes; they have unit length. Normals without a direction (no area, no faces)
+ * are the neutral ones. See docs/deformation.md, 3 "Normals". */
 enum MienNormals {
-    MIEN_NORMALS_DEFAULT = 0,    /* what MienDeformerDesc.normals says; there: recomputed */
-    MIEN_NORMALS_NONE = 1,       /* left as they are */
-    MIEN_NORMALS_SKINNED = 2,    /* neutral normals turned as the skin is, right for any scale; but
-                                    blend shape targets do not turn them (they carry none) */
-    MIEN_NORMALS_RECOMPUTED = 3  /* sum of the area vectors of the faces around the position. Where
-                                    that is more than 30 degrees off the neutral normal (a hard
-                                    edge), the neutral normal is turned as the sum turned since
-                                    neutral. */
+    MIEN_NORMALS_DEFAULT = 0,    /* those of MienDeformerDesc.normals; there: recomputed */
+    MIEN_NORMALS_NONE = 1,       /* leave normals as they are */
+    MIEN_NORMALS_SKINNED = 2,    /* neutral normals rotated by the skin, correct for any scale; blend
+                                    shape targets have no influence */
+    MIEN_NORMALS_RECOMPUTED = 3  /* the sum of the area vectors of the faces around the position. On
+                                    hard edges, where this differs from the stored normal by more than
+                                    30 degrees in the neutral pose, the stored normal is rotated as the
+                                    sum has rotated since. */
 };
 
+/* Options of a deformer. */
 typedef struct MienDeformerDesc {
     size_t struct_size;
-    uint32_t isa;     /* MIEN_ISA_...; here MIEN_ISA_BEST means that of the rig */
+    uint32_t isa;     /* MIEN_ISA_...; MIEN_ISA_BEST is that of the rig */
     uint32_t compose; /* MIEN_COMPOSE_... */
     uint32_t weights; /* MIEN_WEIGHTS_... */
-    uint32_t normals; /* MIEN_NORMALS_...: of calls that leave the choice open */
+    uint32_t normals; /* MIEN_NORMALS_...: what MIEN_NORMALS_DEFAULT means for this deformer */
     uint32_t with_tangents; /* boolean: compute tangents, for mien_deformer_instance_write_vertices() */
     uint32_t reserved;      /* 0 */
     const MienAllocator* allocator;
 } MienDeformerDesc;
 MIEN_DEFAULT(MienDeformerDesc, mien_deformer_desc_default)
 
-/* Packs the geometry of `dna`, which may be closed afterwards, and keeps the rig's memory alive
- * (the rig may be destroyed). `dna` is the one that the rig was made of, or another opening of the
- * same file with the same LODs: other numbers or names of joints, channels or meshes are
- * MIEN_ERROR_MISMATCH. It needs MIEN_LAYER_GEOMETRY, else MIEN_ERROR_DNA_LAYER.
- * A position may have any number of influences up to 65535 (MIEN_ERROR_DNA_LIMIT); those of weight
- * 0 are dropped. Faces of fewer than three corners are left out. Meshes without faces, weights,
- * normals, texture coordinates or anything at all are accepted: normals that the file lacks are
- * recomputed from the faces, texture coordinates are 0. Which side of a face is outside the stored
- * normals tell; without them the file's axes and winding do. MIEN_ERROR_DNA_VALUE: joints that
- * descend from themselves; positions, deltas or weights that are not finite (the message names mesh
- * and position). Takes some memory beyond the block for the time of the call. */
+/* Packs the geometry of a DNA for deformation. `dna` is the one that the rig was created from, or the
+ * same file opened with the same LODs. `dna` may be closed and `rig` may be destroyed afterwards. The
+ * deformer is one block of memory; temporary memory is released before the call returns. Destroy with
+ * mien_deformer_destroy().
+ *
+ * Influences of weight 0 and faces of fewer than three corners are dropped. Meshes may lack faces,
+ * weights, normals or texture coordinates: missing normals are computed from the faces, missing
+ * texture coordinates are 0. Stored normals tell which side of a face is outside; without them, the
+ * winding and the axes of the file do.
+ *
+ * Fails with MIEN_ERROR_DNA_LAYER if `dna` was opened without MIEN_LAYER_GEOMETRY, MIEN_ERROR_MISMATCH
+ * if numbers or names of joints, channels or meshes differ from those of the rig, MIEN_ERROR_DNA_VALUE
+ * if a joint is its own ancestor or a position, delta or weight is not finite, MIEN_ERROR_DNA_LIMIT if
+ * a position has more than 65535 influences, MIEN_ERROR_ISA if the requested instruction set is not
+ * available.
+ * See docs/deformation.md. */
 MIEN_CHECKED MienStatus mien_deformer_create(const MienDna* dna, const MienRig* rig,
-                                         const MienDeformerDesc* desc, MienDeformer** out_deformer,
-                                         MienError* error);
+                                             const MienDeformerDesc* desc, MienDeformer** out_deformer,
+                                             MienError* error);
 
-/* Memory is released when the last pose is gone too: poses go on working. */
+/* Destroys a deformer. Its instances stay valid; its memory is released with the last of them. */
 MIEN_API void mien_deformer_destroy(MienDeformer* deformer);
 
+/* Properties of a deformer. */
 typedef struct MienDeformerInfo {
     size_t struct_size;
-    uint32_t isa;            /* MIEN_ISA_... in use */
+    uint32_t isa;            /* MIEN_ISA_... in use, never MIEN_ISA_BEST */
     uint32_t compose;        /* MIEN_COMPOSE_... */
     uint32_t weights;        /* MIEN_WEIGHTS_... */
     uint32_t normals;        /* MIEN_NORMALS_..., never MIEN_NORMALS_DEFAULT */
     uint32_t lod_count;
     uint32_t joint_count;
     uint32_t channel_count;
-    uint32_t mesh_count;     /* as in the rig, with its names: MIEN_KIND_MESH */
-    uint64_t deformer_bytes; /* memory of the deformer */
-    uint64_t instance_bytes; /* memory of a deformer instance with room for all meshes */
+    uint32_t mesh_count;     /* same as in the rig, which has their names: MIEN_KIND_MESH */
+    uint64_t deformer_bytes; /* memory of the deformer, including its part of a baked file */
+    uint64_t instance_bytes; /* memory of a deformer instance for all meshes */
 } MienDeformerInfo;
 MIEN_DEFAULT(MienDeformerInfo, mien_deformer_info_default)
 
+/* Returns the properties of a deformer. */
 MIEN_CHECKED MienStatus mien_deformer_info(const MienDeformer* deformer, MienDeformerInfo* out_info);
 
-/* The neutral mesh. Views live as long as the deformer. */
+/* A neutral mesh. Its views are valid until the deformer is destroyed. */
 typedef struct MienMesh {
     size_t struct_size;
     uint32_t position_count;
     uint32_t vertex_count;
     uint32_t triangle_count;
-    uint32_t max_influences;            /* of one position */
+    uint32_t max_influences;             /* of one position */
     uint32_t target_count;               /* blend shape targets */
-    uint32_t delta_count;                /* over all targets */
+    uint32_t delta_count;                /* of all targets */
     uint64_t lods;                       /* bit l: LOD l shows this mesh */
-    MienFloatView positions;             /* x y z per position */
-    MienFloatView normals;               /* x y z per vertex, unit length */
-    MienFloatView tangents;              /* x y z w per vertex, see MienVertexOutput; empty unless
-                                            MienDeformerDesc.with_tangents was set */
-    MienFloatView texture_coordinates;   /* u v per vertex, as in the file */
-    MienIndex32View vertex_position_indices;    /* position of each vertex */
-    MienIndex32View triangles;           /* three vertices each, wound as in the file; faces of more
-                                            corners are fans about their first */
-    MienIndex16View target_channels;       /* channel of each target, in file order */
+    MienFloatView positions;             /* 3 floats per position: x y z */
+    MienFloatView normals;               /* 3 floats per vertex: x y z, unit length */
+    MienFloatView tangents;              /* 4 floats per vertex: x y z w, see MienVertexOutput; empty
+                                            unless MienDeformerDesc.with_tangents was set */
+    MienFloatView texture_coordinates;   /* 2 floats per vertex: u v, as in the file */
+    MienIndex32View vertex_position_indices; /* one index per vertex: its position */
+    MienIndex32View triangles;           /* 3 indices per triangle: vertices, wound as in the file; faces
+                                            with more corners are fans about their first corner */
+    MienIndex16View target_channels;     /* one index per target: its blend shape channel; in file
+                                            order */
 } MienMesh;
 MIEN_DEFAULT(MienMesh, mien_mesh_default)
 
+/* Returns a neutral mesh.
+ * Fails with MIEN_ERROR_INDEX if there is no such mesh. */
 MIEN_CHECKED MienStatus mien_deformer_mesh(const MienDeformer* deformer, uint32_t mesh,
-                                       MienMesh* out_mesh);
+                                           MienMesh* out_mesh);
 
-/* Joints that hold a position and their weights, as they are used: as many as each other, possibly
- * none. Views live as long as the deformer. */
+/* Returns the influences of a position as they are used: `out_joints` gets one index per influence,
+ * `out_weights` gets one float per influence. There may be none.
+ * Fails with MIEN_ERROR_INDEX if there is no such mesh or position. */
 MIEN_CHECKED MienStatus mien_deformer_influences(const MienDeformer* deformer, uint32_t mesh,
-                                             uint32_t position, MienIndex16View* out_joints,
-                                             MienFloatView* out_weights);
+                                                 uint32_t position, MienIndex16View* out_joints,
+                                                 MienFloatView* out_weights);
 
-/* Writes x y z for each position of the mesh: how far a target moves it at channel weight 1 (0
- * where it does not). `count` is the room in `out_deltas`, 3 * position_count floats or more. */
+/* Writes a blend shape target to `out_deltas`: 3 floats per position, the offset at channel weight 1.
+ * Positions that the target does not move get 0. `count` is the capacity of `out_deltas`, in floats.
+ * Fails with MIEN_ERROR_INDEX if there is no such mesh or target, MIEN_ERROR_INVALID_ARGUMENT if
+ * `count` is less than 3 * MienMesh.position_count. */
 MIEN_CHECKED MienStatus mien_deformer_target(const MienDeformer* deformer, uint32_t mesh,
-                                         uint32_t target, float* out_deltas, size_t count);
+                                             uint32_t target, float* out_deltas, size_t count);
 
-/* Model matrices of the joints in the neutral pose, or their inverses: 16 floats per joint, column
- * by column (column vectors; the last column is the translation, the last row 0 0 0 1). Views live
- * as long as the deformer. */
+/* Returns the model matrices of the neutral pose: 16 floats per joint, column by column, for column
+ * vectors. The last column is the translation, the last row 0 0 0 1. */
 MIEN_CHECKED MienStatus mien_deformer_bind_matrices(const MienDeformer* deformer,
-                                                MienFloatView* out_matrices);
+                                                    MienFloatView* out_matrices);
+
+/* Returns the inverses of the bind matrices: 16 floats per joint, column by column. */
 MIEN_CHECKED MienStatus mien_deformer_inverse_bind_matrices(const MienDeformer* deformer,
-                                                        MienFloatView* out_matrices);
+                                                            MienFloatView* out_matrices);
 
-/* ---- DeformerInstance ------------------------------------------------------------------------------------ */
+/* ---- Deformer instance ----------------------------------------------------------------------- */
 
-/* One character's joint matrices, positions and normals: one block. */
+/* One character: joint matrices, and positions and normals of its meshes. */
 typedef struct MienDeformerInstance MienDeformerInstance;
 
 typedef struct MienDeformerInstanceDesc {
     size_t struct_size;
-    uint64_t lods; /* room for the meshes that these LODs show: bit l is LOD l. 0: for all meshes. A
-                      LOD that is not there counts for nothing. */
+    uint64_t lods; /* take memory for the meshes of these LODs only: bit l is LOD l. LODs that do not
+                      exist are ignored. 0: for all meshes */
     const MienAllocator* allocator;
 } MienDeformerInstanceDesc;
 MIEN_DEFAULT(MienDeformerInstanceDesc, mien_deformer_instance_desc_default)
 
-/* A pose in neutral: matrices, positions and normals are those of the deformer. It keeps the
- * deformer's memory alive. One allocation. */
-MIEN_CHECKED MienStatus mien_deformer_instance_create(const MienDeformer* deformer, const MienDeformerInstanceDesc* desc,
-                                     MienDeformerInstance** out_deformer_instance, MienError* error);
+/* Creates a deformer instance in the neutral pose: one allocation. `deformer` may be destroyed before
+ * it. Destroy with mien_deformer_instance_destroy(). */
+MIEN_CHECKED MienStatus mien_deformer_instance_create(const MienDeformer* deformer,
+                                                      const MienDeformerInstanceDesc* desc,
+                                                      MienDeformerInstance** out_deformer_instance,
+                                                      MienError* error);
+
+/* Destroys a deformer instance. */
 MIEN_API void mien_deformer_instance_destroy(MienDeformerInstance* deformer_instance);
 
-/* Takes over joint values and channel weights of the instance's last evaluation, and computes the
- * matrices of all joints; meshes follow with mien_deformer_instance_deform(). The instance is one of the rig
- * that the deformer was made with, else MIEN_ERROR_MISMATCH. Allocates nothing, locks nothing.
- * Values that are not finite give results that are not. */
-MIEN_CHECKED MienStatus mien_deformer_instance_update(MienDeformerInstance* deformer_instance, const MienInstance* instance);
+/* Takes over the joint values and channel weights of the last evaluation of `instance`, and computes
+ * the matrices of all joints. Meshes are deformed by mien_deformer_instance_deform(). Values that are
+ * not finite give results that are not finite. Does not allocate or lock.
+ * Fails with MIEN_ERROR_MISMATCH if `instance` belongs to a rig other than that of the deformer.
+ * See docs/deformation.md, 1 "Joint transforms". */
+MIEN_CHECKED MienStatus mien_deformer_instance_update(MienDeformerInstance* deformer_instance,
+                                                      const MienInstance* instance);
 
-/* The same from arrays: joint values as mien_instance_joints() gives them, and one weight per
- * channel. `joint_values` may be NULL, with count 0: no deltas. `channel_weights` may be NULL, with
- * count 0: all 0. Any other count than that of the rig is MIEN_ERROR_INVALID_ARGUMENT. */
-MIEN_CHECKED MienStatus mien_deformer_instance_update_from_values(MienDeformerInstance* deformer_instance, const float* joint_values,
-                                                 size_t joint_value_count,
-                                                 const float* channel_weights,
-                                                 size_t channel_weight_count);
+/* Does the same with arrays: `joint_values` like those of mien_instance_joints(), `channel_weights`
+ * one per channel. `joint_values` may be NULL with count 0: no deltas. `channel_weights` may be NULL
+ * with count 0: all weights are 0.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if a count is not that of the rig. */
+MIEN_CHECKED MienStatus mien_deformer_instance_update_from_values(
+    MienDeformerInstance* deformer_instance, const float* joint_values, size_t joint_value_count,
+    const float* channel_weights, size_t channel_weight_count);
 
-/* Matrices of the last update, 16 floats per joint, laid out as mien_deformer_bind_matrices() says:
- * model matrices, and skin matrices (for skinning elsewhere, as on a GPU). The views stay valid,
- * their contents change with each update. */
-MIEN_CHECKED MienStatus mien_deformer_instance_joint_matrices(const MienDeformerInstance* deformer_instance, MienFloatView* out_matrices);
-MIEN_CHECKED MienStatus mien_deformer_instance_skin_matrices(const MienDeformerInstance* deformer_instance, MienFloatView* out_matrices);
+/* Returns the model matrices: 16 floats per joint, in the layout of mien_deformer_bind_matrices().
+ * Contents change with mien_deformer_instance_update(), mien_deformer_instance_update_from_values(). */
+MIEN_CHECKED MienStatus mien_deformer_instance_joint_matrices(
+    const MienDeformerInstance* deformer_instance, MienFloatView* out_matrices);
 
-/* Writes the local transforms of the last update, relative to the parent, 10 floats per joint: tx
- * ty tz qx qy qz qw sx sy sz, the quaternion of unit length. `count` is the room in
- * `out_transforms`. */
-MIEN_CHECKED MienStatus mien_deformer_instance_local_transforms(const MienDeformerInstance* deformer_instance, float* out_transforms,
-                                               size_t count);
+/* Returns the skin matrices, for skinning by the caller, for example on a GPU: 16 floats per joint, in
+ * the layout of mien_deformer_bind_matrices().
+ * Contents change with mien_deformer_instance_update(), mien_deformer_instance_update_from_values(). */
+MIEN_CHECKED MienStatus mien_deformer_instance_skin_matrices(
+    const MienDeformerInstance* deformer_instance, MienFloatView* out_matrices);
 
-/* Positions of one mesh as of the last update, and its normals (MIEN_NORMALS_...). On this thread,
- * but for meshes of 16384 positions and more in tasks of about 2048, if there is somebody to run
- * them: `parallel` may be NULL. The result has the same bits. Allocates nothing, locks nothing.
- * MIEN_ERROR_LOD: the pose has no room for this mesh. */
-MIEN_CHECKED MienStatus mien_deformer_instance_deform(MienDeformerInstance* deformer_instance, uint32_t mesh, uint32_t normals,
-                                     const MienParallelFor* parallel);
+/* Writes the transforms of the last update, relative to the parents, to `out_transforms`: 10 floats per
+ * joint, tx ty tz qx qy qz qw sx sy sz, with quaternions of unit length. `count` is the capacity of
+ * `out_transforms`, in floats.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if `count` is less than 10 * MienDeformerInfo.joint_count. */
+MIEN_CHECKED MienStatus mien_deformer_instance_local_transforms(
+    const MienDeformerInstance* deformer_instance, float* out_transforms, size_t count);
 
-/* The same mesh of several different poses of one deformer: the same bits as one after the other,
- * but each piece of the mesh is fetched once, and the size that counts is that of all of them
- * together; `parallel` may be NULL. A pose that comes up twice is MIEN_ERROR_INVALID_ARGUMENT, one
- * of another deformer MIEN_ERROR_MISMATCH; then none is deformed. */
-MIEN_CHECKED MienStatus mien_deformer_instance_deform_batch(MienDeformerInstance* const* deformer_instances, size_t count, uint32_t mesh,
-                                           uint32_t normals, const MienParallelFor* parallel);
+/* Computes the positions and normals of a mesh for the last update. Runs on the calling thread; meshes
+ * of at least 16384 positions run in tasks of about 2048 on `parallel`. `parallel` may be NULL. The
+ * results have the same bits either way. Does not allocate or lock. Uses up to 16 KiB of stack per
+ * task.
+ * Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_LOD if `deformer_instance` has no
+ * memory for it (MienDeformerInstanceDesc.lods).
+ * See docs/deformation.md, 2 "Positions" and 3 "Normals". */
+MIEN_CHECKED MienStatus mien_deformer_instance_deform(MienDeformerInstance* deformer_instance,
+                                                      uint32_t mesh, uint32_t normals,
+                                                      const MienParallelFor* parallel);
 
-/* Results of the last mien_deformer_instance_deform() of the mesh: x y z per position, x y z per vertex. The
- * views stay valid, their contents change with each call. A mesh without room: MIEN_ERROR_LOD. */
-MIEN_CHECKED MienStatus mien_deformer_instance_positions(const MienDeformerInstance* deformer_instance, uint32_t mesh,
-                                        MienFloatView* out_positions);
-MIEN_CHECKED MienStatus mien_deformer_instance_normals(const MienDeformerInstance* deformer_instance, uint32_t mesh,
-                                      MienFloatView* out_normals);
+/* Deforms the same mesh of `count` different instances of one deformer. The results have the same bits
+ * as those of mien_deformer_instance_deform(), but each part of the mesh is read once for all, and the
+ * total number of positions decides about tasks. `parallel` may be NULL. On failure nothing is
+ * deformed.
+ * Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_LOD if an instance has no memory for
+ * it, MIEN_ERROR_MISMATCH if the instances have different deformers, MIEN_ERROR_INVALID_ARGUMENT if
+ * an instance is listed twice. */
+MIEN_CHECKED MienStatus mien_deformer_instance_deform_batch(
+    MienDeformerInstance* const* deformer_instances, size_t count, uint32_t mesh, uint32_t normals,
+    const MienParallelFor* parallel);
+
+/* Returns the deformed positions of a mesh: 3 floats per position, x y z.
+ * Contents change with mien_deformer_instance_deform(), mien_deformer_instance_write_vertices() and
+ * their batches.
+ * Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_LOD if `deformer_instance` has no
+ * memory for it. */
+MIEN_CHECKED MienStatus mien_deformer_instance_positions(
+    const MienDeformerInstance* deformer_instance, uint32_t mesh, MienFloatView* out_positions);
+
+/* Returns the deformed normals of a mesh: 3 floats per vertex, x y z, unit length.
+ * Contents change with mien_deformer_instance_deform(), mien_deformer_instance_write_vertices() and
+ * their batches.
+ * Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_LOD if `deformer_instance` has no
+ * memory for it. */
+MIEN_CHECKED MienStatus mien_deformer_instance_normals(
+    const MienDeformerInstance* deformer_instance, uint32_t mesh, MienFloatView* out_normals);
 
 /* ---- Vertex output --------------------------------------------------------------------------- */
 
-/* How a vertex attribute lies in memory, in the byte order of this machine. A signed normalized
- * integer of n bits is round(clamp(v, -1, 1) * (2^(n-1) - 1)), ties to even, in two's complement.
- * These are formats of vertex buffers: R32G32B32_SFLOAT, R32G32B32A32_SFLOAT, R16G16B16A16_SNORM and
- * A2B10G10R10_SNORM_PACK32 in Vulkan; float3, float4, short4Normalized and int1010102Normalized in
+/* Layout of a vertex attribute in memory, in the byte order of the machine. A signed normalized integer
+ * of n bits is round(clamp(v, -1, 1) * (2^(n-1) - 1)), ties to even, in two's complement. These are
+ * the vertex formats R32G32B32_SFLOAT, R32G32B32A32_SFLOAT, R16G16B16A16_SNORM and
+ * A2B10G10R10_SNORM_PACK32 of Vulkan, and float3, float4, short4Normalized and int1010102Normalized of
  * Metal. Direct3D 12 and WebGPU lack the last one. */
 enum MienVertexFormat {
     MIEN_VERTEX_FORMAT_FLOAT32X3 = 0,      /* 12 bytes: x y z */
     MIEN_VERTEX_FORMAT_FLOAT32X4 = 1,      /* 16 bytes: x y z w */
     MIEN_VERTEX_FORMAT_SNORM16X4 = 2,      /* 8 bytes: x y z w, 16 bits each */
-    MIEN_VERTEX_FORMAT_SNORM10_10_10_2 = 3 /* 4 bytes, one 32-bit word: x in bits 0-9, y in 10-19, z in
-                                              20-29, w in 30-31 */
+    MIEN_VERTEX_FORMAT_SNORM10_10_10_2 = 3 /* 4 bytes, one 32-bit word: x in bits 0-9, y in bits 10-19,
+                                              z in bits 20-29, w in bits 30-31 */
 };
 
-/* One attribute of all vertices: vertex i takes the size of the format from data + i * stride on.
- * `data` and `stride` are multiples of 4, `stride` is at least the size of the format. */
+/* One attribute of all vertices: vertex i is written at data + i * stride. `data` and `stride` are
+ * multiples of 4; `stride` is at least the size of the format. */
 typedef struct MienVertexStream {
-    void* data;      /* NULL: this attribute is not written */
-    uint32_t stride; /* bytes */
+    void* data;      /* NULL: the attribute is not written */
+    uint32_t stride; /* in bytes */
     uint32_t format; /* MIEN_VERTEX_FORMAT_... */
 } MienVertexStream;
 
-/* Where the vertices of a mesh go, in the order of MienMesh.vertex_position_indices. Streams may be
- * interleaved (the same stride) or apart, but share no byte. At least one is given.
+/* Where to write the vertices of a mesh, in the order of MienMesh.vertex_position_indices. Streams may
+ * be interleaved (with the same stride) or separate, but must not share bytes. At least one is needed.
  *
  *   positions  as floats; w is 1
  *   normals    in any format; w is 0
- *   tangents   in any format with a w. The tangent points where u grows on the surface while v stays
- *              the same, perpendicular to the normal, and w * cross(normal, tangent) points where v
- *              grows: w is 1, or -1 where the texture is mirrored. If you flip v (1 - v), negate w.
+ *   tangents   in any format with w. The tangent points where u grows on the surface while v stays the
+ *              same, perpendicular to the normal; w * cross(normal, tangent) points where v grows. w is
+ *              1, or -1 where the texture is mirrored. If you flip v (1 - v), negate w.
  *
- * Neutral tangents are computed as MikkTSpace does, but the vertices of the file are kept: where
- * MikkTSpace splits a vertex between triangles of both orientations, it takes the tangent and the w of
- * those with the larger sum of angles. docs/deformation.md, 4 "Tangents", lists all differences. A
- * vertex without texture coordinates gets an arbitrary perpendicular of its normal, always the same,
- * and w = 1. Tangents move with the skin, and are then made perpendicular to the normal that is
- * written. */
+ * Neutral tangents are computed as by MikkTSpace, except that vertices are never split: where triangles
+ * of both orientations meet, a vertex takes the orientation with the larger sum of angles. A vertex
+ * without texture coordinates gets an arbitrary perpendicular of its normal, always the same one, and
+ * w = 1. Tangents are skinned, and then made perpendicular to the written normal.
+ * See docs/deformation.md, 4 "Tangents". */
 typedef struct MienVertexOutput {
     size_t struct_size;
-    size_t vertex_capacity; /* vertices for which each stream has memory: MienMesh.vertex_count or more */
+    size_t vertex_capacity; /* of each stream: at least MienMesh.vertex_count */
     MienVertexStream positions;
     MienVertexStream normals;
-    MienVertexStream tangents; /* needs MienDeformerDesc.with_tangents */
+    MienVertexStream tangents; /* requires MienDeformerDesc.with_tangents */
 } MienVertexOutput;
 MIEN_DEFAULT(MienVertexOutput, mien_vertex_output_default)
 
-/* Deforms a mesh as mien_deformer_instance_deform() does, then writes its vertices to memory of the
+/* Deforms a mesh as mien_deformer_instance_deform() does, and writes its vertices to memory of the
  * caller, such as a mapped vertex buffer. Each byte is written once, in the order of the vertices, and
- * none is read, so the memory may be write-combined. Bytes between vertices are left alone. Threads as
- * for mien_deformer_instance_deform(): the bytes are the same. The same positions, normals and tangents
- * give the same bytes on every instruction set. Allocates nothing, locks nothing.
- * MIEN_ERROR_INVALID_ARGUMENT: a format that the attribute does not take; a wrong stride or alignment;
- * too little capacity; streams that overlap; no stream at all; tangents, but the deformer has none.
- * Then nothing is deformed or written. MIEN_ERROR_LOD: the instance has no memory for this mesh.
- * docs/deformation.md, 5 "Vertex output". */
+ * none is read, so the memory may be write-combined. Bytes between vertices are left alone. `parallel`
+ * may be NULL; the bytes are the same either way. The same positions, normals and tangents give the
+ * same bytes on every instruction set. Does not allocate or lock. On failure nothing is deformed or
+ * written.
+ * Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_LOD if `deformer_instance` has no
+ * memory for it, MIEN_ERROR_INVALID_ARGUMENT if a stream has a format that its attribute cannot have,
+ * a wrong stride or alignment or too little capacity, if streams overlap, if there is no stream, or if
+ * tangents are requested from a deformer without them.
+ * See docs/deformation.md, 5 "Vertex output". */
 MIEN_CHECKED MienStatus mien_deformer_instance_write_vertices(MienDeformerInstance* deformer_instance,
                                                               uint32_t mesh, uint32_t normals,
                                                               const MienVertexOutput* output,
                                                               const MienParallelFor* parallel);
 
-/* The same mesh of several instances, as mien_deformer_instance_deform_batch() takes them: instance i to
- * outputs[i]. All outputs have the same struct_size, and share no byte either. */
+/* Does the same for `count` different instances of one deformer: instance i is written to outputs[i].
+ * All outputs have the same struct_size, and must not share bytes. `parallel` may be NULL.
+ * Fails like mien_deformer_instance_write_vertices(), and with MIEN_ERROR_MISMATCH if the instances have
+ * different deformers, MIEN_ERROR_INVALID_ARGUMENT if an instance is listed twice. */
 MIEN_CHECKED MienStatus mien_deformer_instance_write_vertices_batch(
     MienDeformerInstance* const* deformer_instances, size_t count, uint32_t mesh, uint32_t normals,
     const MienVertexOutput* outputs, const MienParallelFor* parallel);
 
-/* ---- Baked files ------------------------------------------------------------------------------- */
+/* ---- Baked files ----------------------------------------------------------------------------- */
 
-/* A rig, and its deformer, as they are in memory: used where they lie, so that a shipped program
- * needs no DNA files. A baked file holds all that was chosen when its objects were created but the
- * instruction set and MienReuse; it serves all machines of a byte order. The same objects give the
- * same bytes. A later version of the library may refuse it with MIEN_ERROR_BAKED_VERSION: keep the
- * DNA. */
+/* An open baked file: a rig, and possibly its deformer, as they are in memory. They are used in place,
+ * so that programs can ship without DNA files. A baked file holds all options of its objects except the
+ * instruction set and MienReuse, and fits all machines of one byte order. The same objects give the
+ * same bytes. Keep the DNA: a later version of the library may fail to open the file with
+ * MIEN_ERROR_BAKED_VERSION. Immutable.
+ * See docs/rig-evaluation.md, 9.5 "Baked files". */
 typedef struct MienBaked MienBaked;
 
-/* Writes a rig and, unless it is NULL, a deformer of this rig (else MIEN_ERROR_MISMATCH). Goes to a
- * temporary name first, so a failure leaves `path` as it was. */
+/* Writes a rig and its deformer to a baked file. `deformer` may be NULL. The file is written under a
+ * temporary name and renamed, so that a failure leaves `path` unchanged.
+ * Fails with MIEN_ERROR_MISMATCH if `deformer` was created for another rig, MIEN_ERROR_FILE_WRITE if
+ * the file cannot be written, MIEN_ERROR_MEMORY if there is no memory for its bytes. */
 MIEN_CHECKED MienStatus mien_bake_file(const MienRig* rig, const MienDeformer* deformer,
-                                   const char* path, MienError* error);
+                                       const char* path, MienError* error);
 
-/* The same to memory. With buffer NULL and capacity 0 only *out_size is set; a capacity that is too
- * small gives MIEN_ERROR_INVALID_ARGUMENT and the size. */
+/* Writes a baked file to memory and returns its size in `out_size`. `deformer` may be NULL. `buffer`
+ * may be NULL with capacity 0 to get the size only. Writes nothing if `capacity` is too small;
+ * `out_size` is set nevertheless.
+ * Fails with MIEN_ERROR_MISMATCH if `deformer` was created for another rig,
+ * MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small. */
 MIEN_CHECKED MienStatus mien_bake_memory(const MienRig* rig, const MienDeformer* deformer, void* buffer,
-                                     size_t capacity, size_t* out_size, MienError* error);
+                                         size_t capacity, size_t* out_size, MienError* error);
 
+/* What is checked when a baked file is used. */
 enum MienBakedCheck {
-    MIEN_BAKED_CHECK_SAFE = 0, /* every size, count and index: whatever the bytes are, nothing is read
-                                  or written outside of the objects and their instances. Numbers are
-                                  not looked at, so their pages stay on disk until they are needed. */
-    MIEN_BAKED_CHECK_FULL = 1  /* also that all bytes are those that were written: reads them all */
+    MIEN_BAKED_CHECK_SAFE = 0, /* all sizes, counts and indices: whatever the bytes are, no access is out
+                                  of bounds. Numbers are not checked, so their pages are read from disk
+                                  when they are first used. */
+    MIEN_BAKED_CHECK_FULL = 1  /* also the checksum of all bytes, which reads the whole file */
 };
 
+/* How to open a baked file. */
 typedef struct MienBakedDesc {
     size_t struct_size;
-    uint32_t file_access; /* MIEN_FILE_...; MIEN_FILE_READ also copies memory */
+    uint32_t file_access; /* MIEN_FILE_...; MIEN_FILE_READ also copies bytes in memory */
     uint32_t check;       /* MIEN_BAKED_CHECK_... */
     const MienAllocator* allocator;
 } MienBakedDesc;
 MIEN_DEFAULT(MienBakedDesc, mien_baked_desc_default)
 
-/* Opens a baked file. It is mapped; all processes that open it share its pages, which are never
- * written to. A mapped file must not be truncated or rewritten in place until everything made of it
- * is gone (replacing it by renaming is safe). Checks the header here, and with
- * MIEN_BAKED_CHECK_FULL all bytes; the rest when objects are made. `path` is UTF-8, `desc` may be
- * NULL. One allocation, and one for the bytes if they are not mapped. Close with
- * mien_baked_close(). */
+/* Opens a baked file. It is mapped, so processes that open the same file share its pages. Do not
+ * truncate or overwrite a mapped file until all objects made from it are destroyed; replacing it by
+ * renaming is safe. The header is checked now, the rest when objects are created. One allocation, and
+ * one more for the bytes if the file is not mapped. Close with mien_baked_close().
+ * Fails with MIEN_ERROR_FILE_OPEN or MIEN_ERROR_FILE_READ if the file cannot be read,
+ * MIEN_ERROR_BAKED_SIGNATURE, MIEN_ERROR_BAKED_VERSION, MIEN_ERROR_BAKED_TRUNCATED or
+ * MIEN_ERROR_BAKED_STRUCTURE if its header is not valid, MIEN_ERROR_BAKED_CHECKSUM if
+ * MIEN_BAKED_CHECK_FULL finds changed bytes. */
 MIEN_CHECKED MienStatus mien_baked_open_file(const char* path, const MienBakedDesc* desc,
-                                         MienBaked** out_baked, MienError* error);
+                                             MienBaked** out_baked, MienError* error);
 
-/* The same from memory, which stays the caller's and has to stay unchanged until everything made of
- * it is gone. Bytes that are not at a multiple of 64 are copied; so are all with MIEN_FILE_READ. */
+/* Opens a baked file in memory: `size` bytes. `bytes` must outlive the MienBaked and all objects made
+ * from it, unchanged, unless they are copied: with MIEN_FILE_READ, or if `bytes` is not a multiple of
+ * 64.
+ * Fails like mien_baked_open_file(), but not with MIEN_ERROR_FILE_OPEN or MIEN_ERROR_FILE_READ. */
 MIEN_CHECKED MienStatus mien_baked_open_memory(const void* bytes, size_t size, const MienBakedDesc* desc,
-                                           MienBaked** out_baked, MienError* error);
+                                               MienBaked** out_baked, MienError* error);
 
-/* The same from a stream, which is read once, into one block. MIEN_ERROR_FILE_READ if it fails. */
+/* Opens a baked file through a stream, which is read at once into memory of the allocator.
+ * Fails like mien_baked_open_file(), but not with MIEN_ERROR_FILE_OPEN. */
 MIEN_CHECKED MienStatus mien_baked_open_stream(const MienStream* stream, const MienBakedDesc* desc,
-                                           MienBaked** out_baked, MienError* error);
+                                               MienBaked** out_baked, MienError* error);
 
-/* Memory is released, and the file unmapped, when everything made of it is gone too. */
+/* Closes a baked file. Objects made from it stay valid; its memory is released and the file unmapped
+ * with the last of them. */
 MIEN_API void mien_baked_close(MienBaked* baked);
 
+/* Properties of an open baked file. */
 typedef struct MienBakedInfo {
     size_t struct_size;
-    uint64_t file_bytes;
-    uint64_t memory_bytes;   /* taken from the allocator */
-    uint64_t rig_bytes;      /* of the file; 0 if it has no rig */
-    uint64_t deformer_bytes; /* of the file; 0 if it has no deformer */
-    uint32_t part_count;     /* of the file, with those that this library does not know */
+    uint64_t file_bytes;     /* size of the file */
+    uint64_t memory_bytes;   /* memory taken from the allocator */
+    uint64_t rig_bytes;      /* size of the rig in the file. 0: it has none */
+    uint64_t deformer_bytes; /* size of the deformer in the file. 0: it has none */
+    uint32_t part_count;     /* parts of the file, including unknown ones */
     uint32_t is_mapped;      /* boolean: the file is mapped */
 } MienBakedInfo;
 MIEN_DEFAULT(MienBakedInfo, mien_baked_info_default)
 
+/* Returns the properties of an open baked file. */
 MIEN_CHECKED MienStatus mien_baked_info(const MienBaked* baked, MienBakedInfo* out_info);
 
+/* Options of a rig that are not part of a baked file. */
 typedef struct MienBakedRigDesc {
     size_t struct_size;
-    uint32_t isa;   /* MIEN_ISA_..., as in MienRigDesc */
+    uint32_t isa;   /* MIEN_ISA_... */
     uint32_t reuse; /* MIEN_REUSE_... */
     const MienAllocator* allocator;
 } MienBakedRigDesc;
 MIEN_DEFAULT(MienBakedRigDesc, mien_baked_rig_desc_default)
 
-/* The rig of a baked file, like one that was created; destroy it with mien_rig_destroy(). One
- * allocation; the bytes of the file stay alive with it. `desc` may be NULL. MIEN_ERROR_BAKED_PART
- * if the file has no rig, MIEN_ERROR_BAKED_VERSION or MIEN_ERROR_BAKED_STRUCTURE if its rig cannot
- * be used. */
+/* Creates the rig of a baked file, with one allocation. `baked` may be closed afterwards. Destroy with
+ * mien_rig_destroy().
+ * Fails with MIEN_ERROR_BAKED_PART if the file has no rig, MIEN_ERROR_BAKED_VERSION or
+ * MIEN_ERROR_BAKED_STRUCTURE if its rig cannot be used, MIEN_ERROR_ISA if the requested instruction set
+ * is not available. */
 MIEN_CHECKED MienStatus mien_rig_from_baked(const MienBaked* baked, const MienBakedRigDesc* desc,
-                                        MienRig** out_rig, MienError* error);
+                                            MienRig** out_rig, MienError* error);
 
+/* Options of a deformer that are not part of a baked file. */
 typedef struct MienBakedDeformerDesc {
     size_t struct_size;
-    uint32_t isa;     /* MIEN_ISA_...; here MIEN_ISA_BEST means that of the rig */
-    uint32_t normals; /* MIEN_NORMALS_...: of calls that leave the choice open;
-                         MIEN_NORMALS_DEFAULT: as when it was baked */
+    uint32_t isa;     /* MIEN_ISA_...; MIEN_ISA_BEST is that of the rig */
+    uint32_t normals; /* MIEN_NORMALS_...: what MIEN_NORMALS_DEFAULT means for this deformer; here
+                         MIEN_NORMALS_DEFAULT is that of the deformer that was baked */
     const MienAllocator* allocator;
 } MienBakedDeformerDesc;
 MIEN_DEFAULT(MienBakedDeformerDesc, mien_baked_deformer_desc_default)
 
-/* The deformer of a baked file, like one that was created; destroy it with
- * mien_deformer_destroy(). `rig` was made of the same MienBaked, else MIEN_ERROR_MISMATCH, and stays
- * alive with the deformer. One allocation. `desc` may be NULL. Errors as above. */
+/* Creates the deformer of a baked file, with one allocation. `rig` is the one created from the same
+ * MienBaked. `baked` may be closed and `rig` may be destroyed afterwards. Destroy with
+ * mien_deformer_destroy().
+ * Fails with MIEN_ERROR_MISMATCH if `rig` was not created from `baked`, MIEN_ERROR_BAKED_PART if the
+ * file has no deformer, MIEN_ERROR_BAKED_VERSION or MIEN_ERROR_BAKED_STRUCTURE if its deformer cannot be
+ * used, MIEN_ERROR_ISA if the requested instruction set is not available. */
 MIEN_CHECKED MienStatus mien_deformer_from_baked(const MienBaked* baked, const MienRig* rig,
-                                             const MienBakedDeformerDesc* desc,
-                                             MienDeformer** out_deformer, MienError* error);
+                                                 const MienBakedDeformerDesc* desc,
+                                                 MienDeformer** out_deformer, MienError* error);
 
 #ifdef __cplusplus
 }

@@ -497,7 +497,7 @@ def nullable(function, parameter, documentation):
     """By the header's rules, or because its documentation says so."""
     if parameter["type"]["kind"] != "pointer":
         return False
-    name = re.escape(parameter["name"])
+    name, documentation = re.escape(parameter["name"]), joined(documentation)
     if re.search(rf"`{name}` (has to be given|must not be NULL)", documentation):
         return False
     return parameter["name"] in ("desc", "allocator", "error") \

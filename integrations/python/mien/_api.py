@@ -251,24 +251,24 @@ class Generate(IntEnum):
 
 
 class Isa(IntEnum):
-    """Values of enum MienIsa of the C interface."""
+    """Instruction sets."""
 
-    #: the best that this CPU and operating system allow
+    #: the best one that the CPU, the operating system and the build support
     BEST = 0
     SCALAR = 1
     SSE2 = 2
     #: with FMA and F16C
     AVX2 = 3
-    #: F, CD, DQ, BW, VL
+    #: F, CD, DQ, BW and VL
     AVX512 = 4
     NEON = 5
-    #: the one that the environment variable MIEN_ISA names ("scalar", "sse2", ...); the best if it
-    #: is unset or empty
+    #: the one named by the environment variable MIEN_ISA ("scalar", "sse2", ...); the best one if
+    #: it is unset or empty
     ENVIRONMENT = 1000
 
 
 class RotationOutput(IntEnum):
-    """How joint rotations come out."""
+    """Form of the rotations among the joint values."""
 
     #: 9 values per joint: tx ty tz rx ry rz sx sy sz
     EULER = 0
@@ -277,55 +277,57 @@ class RotationOutput(IntEnum):
 
 
 class MlMasks(IntEnum):
-    """What a mask of a mesh region does to the networks of the region (mien_instance_ml_masks()).
+    """Effect of a region mask on the networks of the region (mien_instance_ml_masks()). See
+    docs/rig-evaluation.md, 8.5 "Region masks".
     """
 
-    #: 0: the networks give their default (0, or 1 for the w of a quaternion); anything else: they
-    #: are evaluated. What files were made for.
+    #: 0: the outputs of the networks get their default (0, or 1 for the w of a quaternion). Other
+    #: values: the networks are evaluated. This is what files are made for.
     SWITCH = 0
-    #: in between, outputs are blended with the default; clamped to 0..1
+    #: outputs are blended with their default by the mask, clamped to 0..1
     BLEND = 1
 
 
 class Storage(IntEnum):
-    """How a rig keeps the large arrays that evaluation reads. Sums and results are 32-bit floats
-    either way.
+    """Storage of the large arrays that evaluation reads. Sums and results are 32-bit floats with
+    both. See docs/rig-evaluation.md, 4.9 "16-bit storage".
     """
 
     BIT_32 = 0
-    #: 16 bits: network weights and columns of quaternion joints in IEEE half precision (to
-    #: nearest, ties to even; what exceeds its range becomes +-65504); the joint matrix as 16-bit
-    #: fixed point, in units of the largest entry of the row / 32767. Half the memory.
+    #: half the memory. Network weights and columns of quaternion joints are IEEE half floats
+    #: (rounded to nearest even, at most 65504 in magnitude); the joint matrix is 16-bit fixed
+    #: point, in units of the largest entry of the row / 32767
     BIT_16 = 1
 
 
 class Arithmetic(IntEnum):
-    """Which results have the same bits on which instruction sets."""
+    """On which instruction sets results have the same bits. See docs/numbers.md, 5 "Portable
+    arithmetic".
+    """
 
-    #: those on AVX2, AVX-512 and NEON, which multiply and add in one step; and those on scalar and
-    #: SSE2
+    #: among AVX2, AVX-512 and NEON, which fuse multiply and add; and among scalar and SSE2
     FAST = 0
-    #: all: in two steps everywhere. Angles and quaternions are the same as far as the C library's
-    #: sine and arc tangent are.
+    #: on all, by not fusing anywhere. Angles and quaternions are the same only as far as the sine
+    #: and arc tangent of the C library are.
     PORTABLE = 1
 
 
 class Reuse(IntEnum):
-    """Whether evaluation keeps results whose inputs did not change since the last one of the
-    instance. They have the same bits either way.
+    """Whether an instance keeps results whose inputs have not changed since its last evaluation.
+    Results have the same bits with both.
     """
 
     UNCHANGED = 0
-    #: everything is computed each time: for measuring
+    #: compute everything in each evaluation, for measurements
     NOTHING = 1
 
 
 class Kind(IntEnum):
-    """Things with names and numbers."""
+    """Parts of a rig that are counted, most of them with names."""
 
     GUI_CONTROL = 0
     RAW_CONTROL = 1
-    #: correctives: DNA files do not name them; here "psd0", "psd1", ...
+    #: correctives. DNA files have no names for them; here "psd0", "psd1", ...
     PSD_CONTROL = 2
     ML_CONTROL = 3
     RBF_CONTROL = 4
@@ -333,23 +335,26 @@ class Kind(IntEnum):
     BLEND_SHAPE_CHANNEL = 6
     ANIMATED_MAP = 7
     MESH = 8
-    #: one per region of a mesh; "mesh/region"
+    #: region masks, one per region of each mesh: "mesh/region"
     ML_MASK = 9
-    #: the last three have no names
+    #: without names
     JOINT_GROUP = 10
+    #: without names
     RBF_SOLVER = 11
-    #: a swing with the twists of the same inputs, or a twist alone
+    #: without names: a swing and the twists of the same inputs, or a twist alone
     TWIST_SWING = 12
 
 
 class Stage(IntFlag):
-    """Values of enum MienStage of the C interface."""
+    """Stages of an evaluation, combined with |."""
 
     #: neural networks
     ML = 1
+    #: RBF solvers
     RBF = 2
+    #: correctives
     PSD = 4
-    #: joint groups, then twists and swings, then joints that networks move
+    #: joint groups, then twists and swings, then ML joints
     JOINTS = 8
     BLEND_SHAPES = 16
     ANIMATED_MAPS = 32
@@ -357,48 +362,48 @@ class Stage(IntFlag):
 
 
 class Compose(IntEnum):
-    """How the rotation of a joint is made of the neutral one and the delta."""
+    """How neutral rotation and delta of a joint are combined."""
 
-    #: neutral rotation * delta rotation: the delta turns first
+    #: neutral rotation * delta rotation: the delta rotates first
     PRODUCT = 0
-    #: the angles are added; needs RotationOutput.EULER. The same where the neutral rotation is
-    #: zero.
+    #: the angles are added; requires RotationOutput.EULER. The same as the product where the
+    #: neutral rotation is zero.
     EULER_ADD = 1
 
 
 class Weights(IntEnum):
-    """What is done about skin weights."""
+    """Treatment of skin weights."""
 
     AS_STORED = 0
-    #: negative weights count as 0, and the weights of a position sum to 1
+    #: drop negative weights and divide the others by their sum
     FIX = 1
 
 
 class Normals(IntEnum):
-    """Normals that mien_deformer_instance_deform() makes, unit length. Where there is no direction
-    to be had (no area, no face) they are the neutral ones.
+    """Normals of deformed meshes; they have unit length. Normals without a direction (no area, no
+    faces) are the neutral ones. See docs/deformation.md, 3 "Normals".
     """
 
-    #: what MienDeformerDesc.normals says; there: recomputed
+    #: those of MienDeformerDesc.normals; there: recomputed
     DEFAULT = 0
-    #: left as they are
+    #: leave normals as they are
     NONE = 1
-    #: neutral normals turned as the skin is, right for any scale; but blend shape targets do not
-    #: turn them (they carry none)
+    #: neutral normals rotated by the skin, correct for any scale; blend shape targets have no
+    #: influence
     SKINNED = 2
-    #: sum of the area vectors of the faces around the position. Where that is more than 30 degrees
-    #: off the neutral normal (a hard edge), the neutral normal is turned as the sum turned since
-    #: neutral.
+    #: the sum of the area vectors of the faces around the position. On hard edges, where this
+    #: differs from the stored normal by more than 30 degrees in the neutral pose, the stored
+    #: normal is rotated as the sum has rotated since.
     RECOMPUTED = 3
 
 
 class VertexFormat(IntEnum):
-    """How a vertex attribute lies in memory, in the byte order of this machine. A signed
+    """Layout of a vertex attribute in memory, in the byte order of the machine. A signed
     normalized integer of n bits is round(clamp(v, -1, 1) * (2^(n-1) - 1)), ties to even, in
-    two's complement. These are formats of vertex buffers: R32G32B32_SFLOAT,
-    R32G32B32A32_SFLOAT, R16G16B16A16_SNORM and A2B10G10R10_SNORM_PACK32 in Vulkan; float3,
-    float4, short4Normalized and int1010102Normalized in Metal. Direct3D 12 and WebGPU lack the
-    last one.
+    two's complement. These are the vertex formats R32G32B32_SFLOAT, R32G32B32A32_SFLOAT,
+    R16G16B16A16_SNORM and A2B10G10R10_SNORM_PACK32 of Vulkan, and float3, float4,
+    short4Normalized and int1010102Normalized of Metal. Direct3D 12 and WebGPU lack the last
+    one.
     """
 
     #: 12 bytes: x y z
@@ -407,18 +412,17 @@ class VertexFormat(IntEnum):
     FLOAT32X4 = 1
     #: 8 bytes: x y z w, 16 bits each
     SNORM16X4 = 2
-    #: 4 bytes, one 32-bit word: x in bits 0-9, y in 10-19, z in 20-29, w in 30-31
+    #: 4 bytes, one 32-bit word: x in bits 0-9, y in bits 10-19, z in bits 20-29, w in bits 30-31
     SNORM10_10_10_2 = 3
 
 
 class BakedCheck(IntEnum):
-    """Values of enum MienBakedCheck of the C interface."""
+    """What is checked when a baked file is used."""
 
-    #: every size, count and index: whatever the bytes are, nothing is read or written outside of
-    #: the objects and their instances. Numbers are not looked at, so their pages stay on disk
-    #: until they are needed.
+    #: all sizes, counts and indices: whatever the bytes are, no access is out of bounds. Numbers
+    #: are not checked, so their pages are read from disk when they are first used.
     SAFE = 0
-    #: also that all bytes are those that were written: reads them all
+    #: also the checksum of all bytes, which reads the whole file
     FULL = 1
 
 
@@ -1295,19 +1299,20 @@ class Finding(NamedTuple):
 
 
 class RigInfo(NamedTuple):
-    """Copy of a MienRigInfo.
+    """Properties of a rig.
 
-      isa: Isa in use
+      isa: Isa in use, never Isa.BEST
       translation_unit: TranslationUnit
-      rotation_unit: RotationUnit.DEGREES or _RADIANS
+      rotation_unit: RotationUnit
       axes: Direction of x, y, z
-      rotation_sequence: RotationSequence.XYZ ...
-      control_count: length of a control row: raw, PSD, ML, RBF, in this order
-      joint_value_count: length of a row of joint outputs: 9 or 10 per joint
+      rotation_sequence: RotationSequence
+      rotation_signs: 1 or -1, for the angles about x, y, z
+      control_count: length of the control row: raw, PSD, ML, RBF controls
+      joint_value_count: 9 or 10 per joint
       rotation_output: RotationOutput
       storage: Storage
       arithmetic: Arithmetic
-      rig_bytes: memory of the rig; with its file if it was opened from one
+      rig_bytes: memory of the rig, including its part of a baked file
       instance_bytes: memory of each instance
     """
 
@@ -1337,18 +1342,17 @@ class RigInfo(NamedTuple):
 
 
 class RigStatistics(NamedTuple):
-    """What one evaluation at a LOD works through.
+    """The work of an evaluation at a LOD, if all controls are active.
 
       psd_count: correctives computed
-      joint_count: joints that exist at this LOD
+      joint_count: joints of the LOD
       joint_row_count: rows of the joint groups
       blend_shape_count: channels written
       animated_map_row_count: rows of the animated map table
-      rbf_solver_count: solvers that the LOD lists
-      quaternion_joint_count: joints represented by quaternions
-      joint_entry_count: of the joint matrix: 8 per block, blocks of zeros not counted
-      joint_byte_count: of the joint matrix, if every control is active: those of controls that
-        are 0 are not read
+      rbf_solver_count: RBF solvers of the LOD
+      quaternion_joint_count: quaternion joints
+      joint_entry_count: of the joint matrix: 8 per block that is not all zeros
+      joint_byte_count: of the joint matrix; columns of controls that are 0 are not read
     """
 
     lod: int
@@ -1370,14 +1374,15 @@ class RigStatistics(NamedTuple):
 
 
 class InstanceStatistics(NamedTuple):
-    """What the joint stage fetches for the control row as it is, at the LOD of the last evaluation
-    (before the first: LOD 0), if it keeps no results. Bytes count once, whatever the caches do.
+    """What the joint stage reads for the current controls, at the LOD of the last evaluation
+    (initially LOD 0), if it reuses no results. Bytes are counted once, whatever the caches
+    hold.
 
       lod: of the last evaluation
       control_count: of the control row: raw, PSD, ML and RBF controls
       active_control_count: controls that are not 0
-      joint_column_count: columns of the joint matrix that they drive at this LOD
-      joint_entry_count: of these columns; 8 per block, as in MienRigStatistics
+      joint_column_count: columns of the joint matrix that active controls drive
+      joint_entry_count: of these columns: 8 per block
       joint_byte_count: of these entries: at most MienRigStatistics.joint_byte_count
     """
 
@@ -1395,15 +1400,15 @@ class InstanceStatistics(NamedTuple):
 
 
 class DeformerInfo(NamedTuple):
-    """Copy of a MienDeformerInfo.
+    """Properties of a deformer.
 
-      isa: Isa in use
+      isa: Isa in use, never Isa.BEST
       compose: Compose
       weights: Weights
       normals: Normals, never Normals.DEFAULT
-      mesh_count: as in the rig, with its names: Kind.MESH
-      deformer_bytes: memory of the deformer
-      instance_bytes: memory of a deformer instance with room for all meshes
+      mesh_count: same as in the rig, which has their names: Kind.MESH
+      deformer_bytes: memory of the deformer, including its part of a baked file
+      instance_bytes: memory of a deformer instance for all meshes
     """
 
     isa: Isa
@@ -1425,12 +1430,13 @@ class DeformerInfo(NamedTuple):
 
 
 class BakedInfo(NamedTuple):
-    """Copy of a MienBakedInfo.
+    """Properties of an open baked file.
 
-      memory_bytes: taken from the allocator
-      rig_bytes: of the file; 0 if it has no rig
-      deformer_bytes: of the file; 0 if it has no deformer
-      part_count: of the file, with those that this library does not know
+      file_bytes: size of the file
+      memory_bytes: memory taken from the allocator
+      rig_bytes: size of the rig in the file. 0: it has none
+      deformer_bytes: size of the deformer in the file. 0: it has none
+      part_count: parts of the file, including unknown ones
       is_mapped: the file is mapped
     """
 

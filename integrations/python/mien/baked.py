@@ -32,8 +32,8 @@ class Baked(Closable):
         """Opens a file.
 
         access: `FileAccess.MAP` shares the file's pages with other processes and reads what is
-                needed; but a process crashes whose mapped file somebody truncates, so the default
-                reads it all
+                needed. If a mapped file is truncated, the process crashes; so the default is to
+                read it all
         check:  `BakedCheck.FULL` also finds changed numbers
         """
         return cls(_baked.open_file(path, access, check))

@@ -180,17 +180,17 @@ pub const MIEN_PRESET_HEAD: u32 = 5;
 pub const MIEN_GENERATE_ML: u32 = 1;
 
 // enum MienIsa
-/// The best that this CPU and operating system allow.
+/// The best one that the CPU, the operating system and the build support.
 pub const MIEN_ISA_BEST: u32 = 0;
 pub const MIEN_ISA_SCALAR: u32 = 1;
 pub const MIEN_ISA_SSE2: u32 = 2;
 /// With FMA and F16C.
 pub const MIEN_ISA_AVX2: u32 = 3;
-/// F, CD, DQ, BW, VL.
+/// F, CD, DQ, BW and VL.
 pub const MIEN_ISA_AVX512: u32 = 4;
 pub const MIEN_ISA_NEON: u32 = 5;
-/// The one that the environment variable `MIEN_ISA` names ("scalar", "sse2", ...); the best if it
-/// is unset or empty.
+/// The one named by the environment variable `MIEN_ISA` ("scalar", "sse2", ...); the best one if
+/// it is unset or empty.
 pub const MIEN_ISA_ENVIRONMENT: u32 = 1000;
 
 // enum MienRotationOutput
@@ -200,36 +200,35 @@ pub const MIEN_ROTATION_OUTPUT_EULER: u32 = 0;
 pub const MIEN_ROTATION_OUTPUT_QUATERNION: u32 = 1;
 
 // enum MienMlMasks
-/// 0: the networks give their default (0, or 1 for the w of a quaternion); anything else: they are
-/// evaluated. What files were made for.
+/// 0: the outputs of the networks get their default (0, or 1 for the w of a quaternion). Other
+/// values: the networks are evaluated. This is what files are made for.
 pub const MIEN_ML_MASKS_SWITCH: u32 = 0;
-/// In between, outputs are blended with the default; clamped to 0..1.
+/// Outputs are blended with their default by the mask, clamped to 0..1.
 pub const MIEN_ML_MASKS_BLEND: u32 = 1;
 
 // enum MienStorage
 pub const MIEN_STORAGE_32_BIT: u32 = 0;
-/// 16 bits: network weights and columns of quaternion joints in IEEE half precision (to nearest,
-/// ties to even; what exceeds its range becomes +-65504); the joint matrix as 16-bit fixed point,
-/// in units of the largest entry of the row / 32767. Half the memory.
+/// Half the memory. Network weights and columns of quaternion joints are IEEE half floats (rounded
+/// to nearest even, at most 65504 in magnitude); the joint matrix is 16-bit fixed point, in units
+/// of the largest entry of the row / 32767.
 pub const MIEN_STORAGE_16_BIT: u32 = 1;
 
 // enum MienArithmetic
-/// Those on AVX2, AVX-512 and NEON, which multiply and add in one step; and those on scalar and
-/// SSE2.
+/// Among AVX2, AVX-512 and NEON, which fuse multiply and add; and among scalar and SSE2.
 pub const MIEN_ARITHMETIC_FAST: u32 = 0;
-/// All: in two steps everywhere. Angles and quaternions are the same as far as the C library's
-/// sine and arc tangent are.
+/// On all, by not fusing anywhere. Angles and quaternions are the same only as far as the sine and
+/// arc tangent of the C library are.
 pub const MIEN_ARITHMETIC_PORTABLE: u32 = 1;
 
 // enum MienReuse
 pub const MIEN_REUSE_UNCHANGED: u32 = 0;
-/// Everything is computed each time: for measuring.
+/// Compute everything in each evaluation, for measurements.
 pub const MIEN_REUSE_NOTHING: u32 = 1;
 
 // enum MienKind
 pub const MIEN_KIND_GUI_CONTROL: u32 = 0;
 pub const MIEN_KIND_RAW_CONTROL: u32 = 1;
-/// Correctives: DNA files do not name them; here "psd0", "psd1", ...
+/// Correctives. DNA files have no names for them; here "psd0", "psd1", ...
 pub const MIEN_KIND_PSD_CONTROL: u32 = 2;
 pub const MIEN_KIND_ML_CONTROL: u32 = 3;
 pub const MIEN_KIND_RBF_CONTROL: u32 = 4;
@@ -237,48 +236,51 @@ pub const MIEN_KIND_JOINT: u32 = 5;
 pub const MIEN_KIND_BLEND_SHAPE_CHANNEL: u32 = 6;
 pub const MIEN_KIND_ANIMATED_MAP: u32 = 7;
 pub const MIEN_KIND_MESH: u32 = 8;
-/// One per region of a mesh; "mesh/region".
+/// Region masks, one per region of each mesh: "mesh/region".
 pub const MIEN_KIND_ML_MASK: u32 = 9;
-/// The last three have no names.
+/// Without names.
 pub const MIEN_KIND_JOINT_GROUP: u32 = 10;
+/// Without names.
 pub const MIEN_KIND_RBF_SOLVER: u32 = 11;
-/// A swing with the twists of the same inputs, or a twist alone.
+/// Without names: a swing and the twists of the same inputs, or a twist alone.
 pub const MIEN_KIND_TWIST_SWING: u32 = 12;
 
 // enum MienStage
 /// Neural networks.
 pub const MIEN_STAGE_ML: u32 = 1;
+/// RBF solvers.
 pub const MIEN_STAGE_RBF: u32 = 2;
+/// correctives.
 pub const MIEN_STAGE_PSD: u32 = 4;
-/// Joint groups, then twists and swings, then joints that networks move.
+/// Joint groups, then twists and swings, then ML joints.
 pub const MIEN_STAGE_JOINTS: u32 = 8;
 pub const MIEN_STAGE_BLEND_SHAPES: u32 = 16;
 pub const MIEN_STAGE_ANIMATED_MAPS: u32 = 32;
 pub const MIEN_STAGE_ALL: u32 = 63;
 
 // enum MienCompose
-/// Neutral rotation \* delta rotation: the delta turns first.
+/// Neutral rotation \* delta rotation: the delta rotates first.
 pub const MIEN_COMPOSE_PRODUCT: u32 = 0;
-/// The angles are added; needs `MIEN_ROTATION_OUTPUT_EULER`. The same where the neutral rotation
-/// is zero.
+/// The angles are added; requires `MIEN_ROTATION_OUTPUT_EULER`. The same as the product where the
+/// neutral rotation is zero.
 pub const MIEN_COMPOSE_EULER_ADD: u32 = 1;
 
 // enum MienWeights
 pub const MIEN_WEIGHTS_AS_STORED: u32 = 0;
-/// Negative weights count as 0, and the weights of a position sum to 1.
+/// Drop negative weights and divide the others by their sum.
 pub const MIEN_WEIGHTS_FIX: u32 = 1;
 
 // enum MienNormals
-/// What MienDeformerDesc.normals says; there: recomputed.
+/// Those of MienDeformerDesc.normals; there: recomputed.
 pub const MIEN_NORMALS_DEFAULT: u32 = 0;
-/// Left as they are.
+/// Leave normals as they are.
 pub const MIEN_NORMALS_NONE: u32 = 1;
-/// Neutral normals turned as the skin is, right for any scale; but blend shape targets do not turn
-/// them (they carry none).
+/// Neutral normals rotated by the skin, correct for any scale; blend shape targets have no
+/// influence.
 pub const MIEN_NORMALS_SKINNED: u32 = 2;
-/// Sum of the area vectors of the faces around the position. Where that is more than 30 degrees
-/// off the neutral normal (a hard edge), the neutral normal is turned as the sum turned since
-/// neutral.
+/// The sum of the area vectors of the faces around the position. On hard edges, where this differs
+/// from the stored normal by more than 30 degrees in the neutral pose, the stored normal is
+/// rotated as the sum has rotated since.
 pub const MIEN_NORMALS_RECOMPUTED: u32 = 3;
 
 // enum MienVertexFormat
@@ -288,15 +290,14 @@ pub const MIEN_VERTEX_FORMAT_FLOAT32X3: u32 = 0;
 pub const MIEN_VERTEX_FORMAT_FLOAT32X4: u32 = 1;
 /// 8 bytes: x y z w, 16 bits each.
 pub const MIEN_VERTEX_FORMAT_SNORM16X4: u32 = 2;
-/// 4 bytes, one 32-bit word: x in bits 0-9, y in 10-19, z in 20-29, w in 30-31.
+/// 4 bytes, one 32-bit word: x in bits 0-9, y in bits 10-19, z in bits 20-29, w in bits 30-31.
 pub const MIEN_VERTEX_FORMAT_SNORM10_10_10_2: u32 = 3;
 
 // enum MienBakedCheck
-/// Every size, count and index: whatever the bytes are, nothing is read or written outside of the
-/// objects and their instances. Numbers are not looked at, so their pages stay on disk until they
-/// are needed.
+/// All sizes, counts and indices: whatever the bytes are, no access is out of bounds. Numbers are
+/// not checked, so their pages are read from disk when they are first used.
 pub const MIEN_BAKED_CHECK_SAFE: u32 = 0;
-/// Also that all bytes are those that were written: reads them all.
+/// Also the checksum of all bytes, which reads the whole file.
 pub const MIEN_BAKED_CHECK_FULL: u32 = 1;
 
 /// A checked, read-only view of a DNA file. Immutable.
@@ -313,61 +314,63 @@ pub struct MienReport {
     _opaque: Opaque,
 }
 
+/// The behavior of a DNA, packed for evaluation. Immutable.
 #[repr(C)]
 pub struct MienRig {
     _size: [u8; 0],
     _opaque: Opaque,
 }
 
+/// One character: inputs, and the results of the last evaluation.
 #[repr(C)]
 pub struct MienInstance {
     _size: [u8; 0],
     _opaque: Opaque,
 }
 
-/// Room for evaluating many instances of a rig at once.
+/// Scratch memory for evaluating many instances of a rig in one call.
 #[repr(C)]
 pub struct MienBatch {
     _size: [u8; 0],
     _opaque: Opaque,
 }
 
-/// The geometry of a DNA and the hierarchy of its joints, packed once, then immutable: one block,
-/// shared by any number of characters and threads.
+/// The geometry of a DNA and its joint hierarchy, packed for deformation. Immutable.
 ///
 /// ```text
-/// local    Translate(neutral + delta) * R * Scale(1 + delta), for column vectors. R is, as
-///          MIEN_COMPOSE_... says, R(neutral) * R(delta), or the rotation of the summed angles.
-///          With quaternion outputs R(delta) is the quaternion, of any length; zero is the
-///          identity.
-/// model    model of the parent * local; a root (its own parent) starts from the origin
+/// local    Translate(neutral + delta) * R * Scale(1 + delta), for column vectors. R is either
+///          R(neutral) * R(delta) or the rotation of the summed angles (MIEN_COMPOSE_...). With
+///          quaternion outputs R(delta) is the quaternion, of any length; zero is the identity.
+/// model    model matrix of the parent * local; a root (its own parent) starts at the origin
 /// skin     model * inverse of the model matrix of the neutral pose
-/// vertex   sum of weight * skin * (neutral position + sum of channel weight * target delta), over
-///          the joints that hold it: linear blend skinning. A vertex that no joint holds stays
-///          where its targets put it. Channel weights within 1e-5 of 0 count as 0.
+/// vertex   sum over its joints of weight * skin * (neutral position + sum of channel weight *
+///          target delta): linear blend skinning. A vertex without joints is not skinned. Channel
+///          weights below 1e-5 in magnitude count as 0.
 /// ```
 ///
-/// Joints that a LOD lacks have no delta and pass on their parent's motion. A position is shared
-/// by all faces around it; a vertex is a position with a texture coordinate and a normal (a layout
-/// of the file), so a mesh has at least as many vertices as positions it uses.
+/// Joints that a LOD does not list move with their parent. A position is shared by the faces
+/// around it; a vertex is a position with texture coordinates and a normal (a layout of the file),
+/// so a mesh has at least as many vertices as positions in use. See docs/deformation.md, 1 "Joint
+/// transforms" and 2 "Positions".
 #[repr(C)]
 pub struct MienDeformer {
     _size: [u8; 0],
     _opaque: Opaque,
 }
 
-/// One character's joint matrices, positions and normals: one block.
+/// One character: joint matrices, and positions and normals of its meshes.
 #[repr(C)]
 pub struct MienDeformerInstance {
     _size: [u8; 0],
     _opaque: Opaque,
 }
 
-/// A rig, and its deformer, as they are in memory: used where they lie, so that a shipped program
-/// needs no DNA files. A baked file holds all that was chosen when its objects were created but
-/// the instruction set and MienReuse; it serves all machines of a byte order. The same objects
-/// give the same bytes. A later version of the library may refuse it with
-/// `MIEN_ERROR_BAKED_VERSION`: keep the DNA.
+/// An open baked file: a rig, and possibly its deformer, as they are in memory. They are used in
+/// place, so that programs can ship without DNA files. A baked file holds all options of its
+/// objects except the instruction set and MienReuse, and fits all machines of one byte order. The
+/// same objects give the same bytes. Keep the DNA: a later version of the library may fail to open
+/// the file with `MIEN_ERROR_BAKED_VERSION`. Immutable. See docs/rig-evaluation.md, 9.5 "Baked
+/// files".
 #[repr(C)]
 pub struct MienBaked {
     _size: [u8; 0],
@@ -820,11 +823,12 @@ impl Default for MienGenerateDesc {
     }
 }
 
+/// Options of a rig. See docs/rig-evaluation.md, 9.4 "Options".
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienRigDesc {
     pub struct_size: usize,
-    /// `MIEN_ISA_...`; one that is absent is `MIEN_ERROR_ISA`, never replaced silently.
+    /// `MIEN_ISA_...`
     pub isa: u32,
     /// `MIEN_ROTATION_OUTPUT_...`
     pub rotation_output: u32,
@@ -849,25 +853,27 @@ impl Default for MienRigDesc {
     }
 }
 
+/// Properties of a rig.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienRigInfo {
     pub struct_size: usize,
-    /// `MIEN_ISA_...` in use.
+    /// `MIEN_ISA_...` in use, never `MIEN_ISA_BEST`.
     pub isa: u32,
     pub lod_count: u32,
     /// `MIEN_TRANSLATION_UNIT_...`
     pub translation_unit: u32,
-    /// `MIEN_ROTATION_UNIT_DEGREES` or \_RADIANS.
+    /// `MIEN_ROTATION_UNIT_...`
     pub rotation_unit: u32,
     /// `MIEN_DIRECTION_...` of x, y, z.
     pub axes: [u32; 3],
-    /// `MIEN_ROTATION_SEQUENCE_XYZ` ...
+    /// `MIEN_ROTATION_SEQUENCE_...`
     pub rotation_sequence: u32,
+    /// 1 or -1, for the angles about x, y, z.
     pub rotation_signs: [i32; 3],
-    /// Length of a control row: raw, PSD, ML, RBF, in this order.
+    /// Length of the control row: raw, PSD, ML, RBF controls.
     pub control_count: u32,
-    /// Length of a row of joint outputs: 9 or 10 per joint.
+    /// 9 or 10 per joint.
     pub joint_value_count: u32,
     /// `MIEN_ROTATION_OUTPUT_...`
     pub rotation_output: u32,
@@ -875,7 +881,7 @@ pub struct MienRigInfo {
     pub storage: u32,
     /// `MIEN_ARITHMETIC_...`
     pub arithmetic: u32,
-    /// Memory of the rig; with its file if it was opened from one.
+    /// Memory of the rig, including its part of a baked file.
     pub rig_bytes: u64,
     /// Memory of each instance.
     pub instance_bytes: u64,
@@ -891,7 +897,7 @@ impl Default for MienRigInfo {
     }
 }
 
-/// What one evaluation at a LOD works through.
+/// The work of an evaluation at a LOD, if all controls are active.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienRigStatistics {
@@ -899,7 +905,7 @@ pub struct MienRigStatistics {
     pub lod: u32,
     /// Correctives computed.
     pub psd_count: u32,
-    /// Joints that exist at this LOD.
+    /// Joints of the LOD.
     pub joint_count: u32,
     /// Rows of the joint groups.
     pub joint_row_count: u32,
@@ -907,13 +913,13 @@ pub struct MienRigStatistics {
     pub blend_shape_count: u32,
     /// Rows of the animated map table.
     pub animated_map_row_count: u32,
-    /// Solvers that the LOD lists.
+    /// RBF solvers of the LOD.
     pub rbf_solver_count: u32,
-    /// Joints represented by quaternions.
+    /// Quaternion joints.
     pub quaternion_joint_count: u32,
-    /// Of the joint matrix: 8 per block, blocks of zeros not counted.
+    /// Of the joint matrix: 8 per block that is not all zeros.
     pub joint_entry_count: u64,
-    /// Of the joint matrix, if every control is active: those of controls that are 0 are not read.
+    /// Of the joint matrix; columns of controls that are 0 are not read.
     pub joint_byte_count: u64,
 }
 
@@ -944,8 +950,8 @@ impl Default for MienInstanceDesc {
     }
 }
 
-/// What the joint stage fetches for the control row as it is, at the LOD of the last evaluation
-/// (before the first: LOD 0), if it keeps no results. Bytes count once, whatever the caches do.
+/// What the joint stage reads for the current controls, at the LOD of the last evaluation
+/// (initially LOD 0), if it reuses no results. Bytes are counted once, whatever the caches hold.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienInstanceStatistics {
@@ -956,9 +962,9 @@ pub struct MienInstanceStatistics {
     pub control_count: u32,
     /// Controls that are not 0.
     pub active_control_count: u32,
-    /// Columns of the joint matrix that they drive at this LOD.
+    /// Columns of the joint matrix that active controls drive.
     pub joint_column_count: u32,
-    /// Of these columns; 8 per block, as in MienRigStatistics.
+    /// Of these columns: 8 per block.
     pub joint_entry_count: u64,
     /// Of these entries: at most MienRigStatistics.`joint_byte_count`.
     pub joint_byte_count: u64,
@@ -978,9 +984,10 @@ impl Default for MienInstanceStatistics {
 #[derive(Clone, Copy)]
 pub struct MienBatchDesc {
     pub struct_size: usize,
-    /// Instances per call: 1 to 2^20; 0 means 32.
+    /// Instances per call: 1 to 2^20. 0: 32.
     pub capacity: u32,
-    /// At once, each with scratch memory of its own; 0 means 1: for calls without threads.
+    /// Tasks that may run at the same time, each with its own scratch memory. 0: 1, for calls
+    /// without MienParallelFor.
     pub tasks: u32,
     pub allocator: *const MienAllocator,
 }
@@ -995,17 +1002,18 @@ impl Default for MienBatchDesc {
     }
 }
 
+/// Options of a deformer.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienDeformerDesc {
     pub struct_size: usize,
-    /// `MIEN_ISA_...`; here `MIEN_ISA_BEST` means that of the rig.
+    /// `MIEN_ISA_...`; `MIEN_ISA_BEST` is that of the rig.
     pub isa: u32,
     /// `MIEN_COMPOSE_...`
     pub compose: u32,
     /// `MIEN_WEIGHTS_...`
     pub weights: u32,
-    /// `MIEN_NORMALS_...`: of calls that leave the choice open.
+    /// `MIEN_NORMALS_...`: what `MIEN_NORMALS_DEFAULT` means for this deformer.
     pub normals: u32,
     /// Compute tangents, for `mien_deformer_instance_write_vertices()`.
     pub with_tangents: u32,
@@ -1024,11 +1032,12 @@ impl Default for MienDeformerDesc {
     }
 }
 
+/// Properties of a deformer.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienDeformerInfo {
     pub struct_size: usize,
-    /// `MIEN_ISA_...` in use.
+    /// `MIEN_ISA_...` in use, never `MIEN_ISA_BEST`.
     pub isa: u32,
     /// `MIEN_COMPOSE_...`
     pub compose: u32,
@@ -1039,11 +1048,11 @@ pub struct MienDeformerInfo {
     pub lod_count: u32,
     pub joint_count: u32,
     pub channel_count: u32,
-    /// As in the rig, with its names: `MIEN_KIND_MESH`.
+    /// Same as in the rig, which has their names: `MIEN_KIND_MESH`.
     pub mesh_count: u32,
-    /// Memory of the deformer.
+    /// Memory of the deformer, including its part of a baked file.
     pub deformer_bytes: u64,
-    /// Memory of a deformer instance with room for all meshes.
+    /// Memory of a deformer instance for all meshes.
     pub instance_bytes: u64,
 }
 
@@ -1057,7 +1066,7 @@ impl Default for MienDeformerInfo {
     }
 }
 
-/// The neutral mesh. Views live as long as the deformer.
+/// A neutral mesh. Its views are valid until the deformer is destroyed.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienMesh {
@@ -1069,25 +1078,25 @@ pub struct MienMesh {
     pub max_influences: u32,
     /// Blend shape targets.
     pub target_count: u32,
-    /// Over all targets.
+    /// Of all targets.
     pub delta_count: u32,
     /// Bit l: LOD l shows this mesh.
     pub lods: u64,
-    /// X y z per position.
+    /// 3 floats per position: x y z.
     pub positions: MienFloatView,
-    /// X y z per vertex, unit length.
+    /// 3 floats per vertex: x y z, unit length.
     pub normals: MienFloatView,
-    /// X y z w per vertex, see MienVertexOutput; empty unless MienDeformerDesc.`with_tangents` was
-    /// set.
+    /// 4 floats per vertex: x y z w, see MienVertexOutput; empty unless
+    /// MienDeformerDesc.`with_tangents` was set.
     pub tangents: MienFloatView,
-    /// U v per vertex, as in the file.
+    /// 2 floats per vertex: u v, as in the file.
     pub texture_coordinates: MienFloatView,
-    /// Position of each vertex.
+    /// One index per vertex: its position.
     pub vertex_position_indices: MienIndex32View,
-    /// Three vertices each, wound as in the file; faces of more corners are fans about their
-    /// first.
+    /// 3 indices per triangle: vertices, wound as in the file; faces with more corners are fans
+    /// about their first corner.
     pub triangles: MienIndex32View,
-    /// Channel of each target, in file order.
+    /// One index per target: its blend shape channel; in file order.
     pub target_channels: MienIndex16View,
 }
 
@@ -1105,8 +1114,8 @@ impl Default for MienMesh {
 #[derive(Clone, Copy)]
 pub struct MienDeformerInstanceDesc {
     pub struct_size: usize,
-    /// Room for the meshes that these LODs show: bit l is LOD l. 0: for all meshes. A LOD that is
-    /// not there counts for nothing.
+    /// Take memory for the meshes of these LODs only: bit l is LOD l. LODs that do not exist are
+    /// ignored. 0: for all meshes.
     pub lods: u64,
     pub allocator: *const MienAllocator,
 }
@@ -1121,14 +1130,14 @@ impl Default for MienDeformerInstanceDesc {
     }
 }
 
-/// One attribute of all vertices: vertex i takes the size of the format from data + i \* stride
-/// on. `data` and `stride` are multiples of 4, `stride` is at least the size of the format.
+/// One attribute of all vertices: vertex i is written at data + i \* stride. `data` and `stride`
+/// are multiples of 4; `stride` is at least the size of the format.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienVertexStream {
-    /// NULL: this attribute is not written.
+    /// NULL: the attribute is not written.
     pub data: *mut c_void,
-    /// bytes.
+    /// In bytes.
     pub stride: u32,
     /// `MIEN_VERTEX_FORMAT_...`
     pub format: u32,
@@ -1142,32 +1151,32 @@ impl Default for MienVertexStream {
     }
 }
 
-/// Where the vertices of a mesh go, in the order of MienMesh.`vertex_position_indices`. Streams
-/// may be interleaved (the same stride) or apart, but share no byte. At least one is given.
+/// Where to write the vertices of a mesh, in the order of MienMesh.`vertex_position_indices`.
+/// Streams may be interleaved (with the same stride) or separate, but must not share bytes. At
+/// least one is needed.
 ///
 /// ```text
 /// positions  as floats; w is 1
 /// normals    in any format; w is 0
-/// tangents   in any format with a w. The tangent points where u grows on the surface while v stays
-///            the same, perpendicular to the normal, and w * cross(normal, tangent) points where v
-///            grows: w is 1, or -1 where the texture is mirrored. If you flip v (1 - v), negate w.
+/// tangents   in any format with w. The tangent points where u grows on the surface while v stays the
+///            same, perpendicular to the normal; w * cross(normal, tangent) points where v grows. w is
+///            1, or -1 where the texture is mirrored. If you flip v (1 - v), negate w.
 /// ```
 ///
-/// Neutral tangents are computed as MikkTSpace does, but the vertices of the file are kept: where
-/// MikkTSpace splits a vertex between triangles of both orientations, it takes the tangent and the
-/// w of those with the larger sum of angles. docs/deformation.md, 4 "Tangents", lists all
-/// differences. A vertex without texture coordinates gets an arbitrary perpendicular of its
-/// normal, always the same, and w = 1. Tangents move with the skin, and are then made
-/// perpendicular to the normal that is written.
+/// Neutral tangents are computed as by MikkTSpace, except that vertices are never split: where
+/// triangles of both orientations meet, a vertex takes the orientation with the larger sum of
+/// angles. A vertex without texture coordinates gets an arbitrary perpendicular of its normal,
+/// always the same one, and w = 1. Tangents are skinned, and then made perpendicular to the
+/// written normal. See docs/deformation.md, 4 "Tangents".
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienVertexOutput {
     pub struct_size: usize,
-    /// Vertices for which each stream has memory: MienMesh.`vertex_count` or more.
+    /// Of each stream: at least MienMesh.`vertex_count`.
     pub vertex_capacity: usize,
     pub positions: MienVertexStream,
     pub normals: MienVertexStream,
-    /// Needs MienDeformerDesc.`with_tangents`.
+    /// Requires MienDeformerDesc.`with_tangents`.
     pub tangents: MienVertexStream,
 }
 
@@ -1181,11 +1190,12 @@ impl Default for MienVertexOutput {
     }
 }
 
+/// How to open a baked file.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienBakedDesc {
     pub struct_size: usize,
-    /// `MIEN_FILE_...`; `MIEN_FILE_READ` also copies memory.
+    /// `MIEN_FILE_...`; `MIEN_FILE_READ` also copies bytes in memory.
     pub file_access: u32,
     /// `MIEN_BAKED_CHECK_...`
     pub check: u32,
@@ -1202,18 +1212,20 @@ impl Default for MienBakedDesc {
     }
 }
 
+/// Properties of an open baked file.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienBakedInfo {
     pub struct_size: usize,
+    /// Size of the file.
     pub file_bytes: u64,
-    /// Taken from the allocator.
+    /// Memory taken from the allocator.
     pub memory_bytes: u64,
-    /// Of the file; 0 if it has no rig.
+    /// Size of the rig in the file. 0: it has none.
     pub rig_bytes: u64,
-    /// Of the file; 0 if it has no deformer.
+    /// Size of the deformer in the file. 0: it has none.
     pub deformer_bytes: u64,
-    /// Of the file, with those that this library does not know.
+    /// Parts of the file, including unknown ones.
     pub part_count: u32,
     /// The file is mapped.
     pub is_mapped: u32,
@@ -1229,11 +1241,12 @@ impl Default for MienBakedInfo {
     }
 }
 
+/// Options of a rig that are not part of a baked file.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienBakedRigDesc {
     pub struct_size: usize,
-    /// `MIEN_ISA_...`, as in MienRigDesc.
+    /// `MIEN_ISA_...`
     pub isa: u32,
     /// `MIEN_REUSE_...`
     pub reuse: u32,
@@ -1250,14 +1263,15 @@ impl Default for MienBakedRigDesc {
     }
 }
 
+/// Options of a deformer that are not part of a baked file.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienBakedDeformerDesc {
     pub struct_size: usize,
-    /// `MIEN_ISA_...`; here `MIEN_ISA_BEST` means that of the rig.
+    /// `MIEN_ISA_...`; `MIEN_ISA_BEST` is that of the rig.
     pub isa: u32,
-    /// `MIEN_NORMALS_...`: of calls that leave the choice open; `MIEN_NORMALS_DEFAULT`: as when it
-    /// was baked.
+    /// `MIEN_NORMALS_...`: what `MIEN_NORMALS_DEFAULT` means for this deformer; here
+    /// `MIEN_NORMALS_DEFAULT` is that of the deformer that was baked.
     pub normals: u32,
     pub allocator: *const MienAllocator,
 }
@@ -1464,380 +1478,390 @@ extern "C" {
     /// `desc` may be NULL (tiny, seed 0). Close with `mien_dna_close()`.
     pub fn mien_dna_generate(desc: *const MienGenerateDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
 
-    /// 1 if rigs can be created for this `MIEN_ISA_...` here. `MIEN_ISA_BEST` is always available.
+    /// Returns 1 if rigs can be created for an instruction set on this machine, else 0.
     pub fn mien_isa_available(isa: u32) -> u32;
 
-    /// "avx2" for `MIEN_ISA_AVX2`, "unknown" for other numbers. Static, terminated.
+    /// Returns "avx2" for `MIEN_ISA_AVX2`, and "unknown" for other numbers. The string is static
+    /// and terminated.
     pub fn mien_isa_name(isa: u32) -> *const c_char;
 
-    /// Packs the behavior of `dna` for evaluation. The DNA needs definition and behavior loaded,
-    /// else `MIEN_ERROR_DNA_LAYER`; correctives that depend on each other in a circle are
-    /// `MIEN_ERROR_DNA_VALUE`. `desc` may be NULL. The DNA may be closed afterwards. The rig is
-    /// one block of memory; making it takes some more for the time of the call.
+    /// Packs the behavior of a DNA for evaluation. The rig is one block of memory; temporary
+    /// memory is released before the call returns. `dna` may be closed afterwards. Destroy with
+    /// `mien_rig_destroy()`. Fails with `MIEN_ERROR_DNA_LAYER` if `dna` was opened without its
+    /// behavior, `MIEN_ERROR_DNA_VALUE` if correctives depend on each other in a circle,
+    /// `MIEN_ERROR_DNA_LIMIT` if the rig is too large, `MIEN_ERROR_ISA` if the requested
+    /// instruction set is not available. See docs/rig-evaluation.md and docs/dna-format.md, 13
+    /// "What is checked".
     pub fn mien_rig_create(dna: *const MienDna, desc: *const MienRigDesc, out_rig: *mut *mut MienRig, error: *mut MienError) -> MienStatus;
 
-    /// Memory is released when the last instance is gone too, so the order of destruction does not
-    /// matter; a destroyed rig cannot be evaluated any more.
+    /// Destroys a rig. It cannot be used any longer, but its instances, batches and deformers may
+    /// be destroyed later: its memory is released with the last of them.
     pub fn mien_rig_destroy(rig: *mut MienRig);
 
+    /// Returns the properties of a rig.
     pub fn mien_rig_info(rig: *const MienRig, out_info: *mut MienRigInfo) -> MienStatus;
 
+    /// Returns how many parts of a kind the rig has.
     pub fn mien_rig_count(rig: *const MienRig, kind: u32, out_count: *mut u32) -> MienStatus;
 
-    /// Kinds without names give "".
+    /// Returns a name; "" for kinds without names. Fails with `MIEN_ERROR_INDEX` if `index` is not
+    /// below `mien_rig_count()`.
     pub fn mien_rig_name(rig: *const MienRig, kind: u32, index: u32, out_name: *mut MienStringView) -> MienStatus;
 
-    /// Exact match, in O(log n); of equal names the first. `MIEN_ERROR_NAME` if there is none.
+    /// Finds the index of a name: an exact match, the first of equal names. Takes O(log n). Fails
+    /// with `MIEN_ERROR_NAME` if there is no such name, `MIEN_ERROR_INVALID_ARGUMENT` if `kind`
+    /// has no names.
     pub fn mien_rig_find(rig: *const MienRig, kind: u32, name: *const c_char, out_index: *mut u32) -> MienStatus;
 
-    /// Exact match, in O(log n); of equal names the first. `MIEN_ERROR_NAME` if there is none.
+    /// Finds the index of a name: an exact match, the first of equal names. Takes O(log n). Fails
+    /// with `MIEN_ERROR_NAME` if there is no such name, `MIEN_ERROR_INVALID_ARGUMENT` if `kind`
+    /// has no names.
     pub fn mien_rig_find_n(rig: *const MienRig, kind: u32, name: *const c_char, name_count: usize, out_index: *mut u32) -> MienStatus;
 
-    /// Which joints, channels, maps, meshes or RBF solvers exist at a LOD, in file order. Other
-    /// kinds: `MIEN_ERROR_INVALID_ARGUMENT`.
+    /// Returns the indices of the joints, blend shape channels, animated maps, meshes or RBF
+    /// solvers that a LOD lists, in file order. Fails with `MIEN_ERROR_LOD` if the rig has no such
+    /// LOD, `MIEN_ERROR_INVALID_ARGUMENT` if `kind` is none of these five. See docs/dna-format.md,
+    /// 8.2 "LOD mappings".
     pub fn mien_rig_lod_indices(rig: *const MienRig, kind: u32, lod: u32, out_indices: *mut MienIndex16View) -> MienStatus;
 
-    /// Indices into the joint outputs that evaluation may change at a LOD, ascending: all others
-    /// keep their initial value (0, or 1 for the w of a quaternion).
+    /// Returns the indices of the joint values that evaluation may change at a LOD, ascending. All
+    /// others keep their initial value: 0, or 1 for the w of a quaternion. Fails with
+    /// `MIEN_ERROR_LOD` if the rig has no such LOD. See docs/rig-evaluation.md, 4.10 "Which joint
+    /// values a LOD may change".
     pub fn mien_rig_variable_joint_values(rig: *const MienRig, lod: u32, out_indices: *mut MienIndex16View) -> MienStatus;
 
-    /// Parent of each joint; a root is its own parent.
+    /// Returns the parents of the joints, one index per joint. A root is its own parent.
     pub fn mien_rig_joint_parents(rig: *const MienRig, out_parents: *mut MienIndex16View) -> MienStatus;
 
-    /// Neutral pose in the layout of the joint outputs, relative to the parent: translation in
-    /// translation units, rotation as angles in rotation units or as a quaternion, scale 1.
+    /// Returns the neutral pose, relative to the parents: 9 or 10 floats per joint, in the order
+    /// of the joint values. The scale is 1. See docs/rig-evaluation.md, 4.2 "Neutral pose".
     pub fn mien_rig_neutral_joint_values(rig: *const MienRig, out_values: *mut MienFloatView) -> MienStatus;
 
-    /// The controls whose product drives a corrective, as indices into the control row.
+    /// Returns the controls whose product gives corrective `psd`, as indices into the control row.
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such corrective. See docs/rig-evaluation.md,
+    /// 3.1 "Weights and inputs".
     pub fn mien_rig_psd_inputs(rig: *const MienRig, psd: u32, out_controls: *mut MienIndex16View) -> MienStatus;
 
-    /// Value each raw control starts with: 0, or 1 for the w of a quaternion input.
+    /// Returns the initial values of the raw controls, one float per raw control: 0, or 1 for the
+    /// w of a quaternion. See docs/rig-evaluation.md, 1.2 "Initial values".
     pub fn mien_rig_initial_raw_controls(rig: *const MienRig, out_values: *mut MienFloatView) -> MienStatus;
 
+    /// Returns the statistics of a LOD. Fails with `MIEN_ERROR_LOD` if the rig has no such LOD.
+    /// See docs/rig-evaluation.md, 9.6 "Statistics".
     pub fn mien_rig_statistics(rig: *const MienRig, lod: u32, out_statistics: *mut MienRigStatistics) -> MienStatus;
 
-    /// One character in its initial state. One allocation of MienRigInfo.`instance_bytes`.
+    /// Creates an instance in its initial state: one allocation of MienRigInfo.`instance_bytes`.
+    /// `rig` may be destroyed before it. Destroy with `mien_instance_destroy()`. See
+    /// docs/rig-evaluation.md, 9.2 "Instances".
     pub fn mien_instance_create(rig: *const MienRig, desc: *const MienInstanceDesc, out_instance: *mut *mut MienInstance, error: *mut MienError) -> MienStatus;
 
+    /// Destroys an instance.
     pub fn mien_instance_destroy(instance: *mut MienInstance);
 
-    /// Everything as after creation.
+    /// Returns an instance to its initial state: all inputs and results, at LOD 0. See
+    /// docs/rig-evaluation.md, 1.2 "Initial values".
     pub fn mien_instance_reset(instance: *mut MienInstance) -> MienStatus;
 
-    /// Inputs, to be written in place: the views stay valid and the same until the instance is
-    /// destroyed. GUI controls only matter to `mien_rig_map_gui_to_raw()`. Raw controls are
-    /// usually in 0..1 but not clamped. Masks (one per region of a mesh, 0..1, initially 1) switch
-    /// or blend learned behavior, see `MIEN_ML_MASKS_...`.
+    /// Returns the GUI controls, to be written by the caller: one float per GUI control. They are
+    /// inputs of `mien_rig_map_gui_to_raw()` only. Contents change with
+    /// `mien_rig_map_raw_to_gui()`, `mien_instance_reset()`.
     pub fn mien_instance_gui_controls(instance: *mut MienInstance, out_view: *mut MienMutableFloatView) -> MienStatus;
 
-    /// Inputs, to be written in place: the views stay valid and the same until the instance is
-    /// destroyed. GUI controls only matter to `mien_rig_map_gui_to_raw()`. Raw controls are
-    /// usually in 0..1 but not clamped. Masks (one per region of a mesh, 0..1, initially 1) switch
-    /// or blend learned behavior, see `MIEN_ML_MASKS_...`.
+    /// Returns the raw controls, to be written by the caller: one float per raw control, typically
+    /// 0 to 1, not clamped. They are the inputs of evaluation. Contents change with
+    /// `mien_rig_map_gui_to_raw()`, `mien_instance_reset()`.
     pub fn mien_instance_raw_controls(instance: *mut MienInstance, out_view: *mut MienMutableFloatView) -> MienStatus;
 
-    /// Inputs, to be written in place: the views stay valid and the same until the instance is
-    /// destroyed. GUI controls only matter to `mien_rig_map_gui_to_raw()`. Raw controls are
-    /// usually in 0..1 but not clamped. Masks (one per region of a mesh, 0..1, initially 1) switch
-    /// or blend learned behavior, see `MIEN_ML_MASKS_...`.
+    /// Returns the region masks, to be written by the caller: one float per region of each mesh, 0
+    /// to 1, initially 1. They switch or blend machine-learned behavior (`MIEN_ML_MASKS_...`).
+    /// Contents change with `mien_instance_reset()`. See docs/rig-evaluation.md, 8.5 "Region
+    /// masks".
     pub fn mien_instance_ml_masks(instance: *mut MienInstance, out_view: *mut MienMutableFloatView) -> MienStatus;
 
-    /// Outputs of the last evaluation; the views stay valid, their contents change with each
-    /// evaluation.
-    ///
-    /// ```text
-    /// controls      the whole control row: raw, PSD, ML, RBF
-    /// joints        9 or 10 per joint, as MIEN_ROTATION_OUTPUT_... says: deltas from the neutral pose.
-    ///               Translation, angles and scale are added to it; with quaternions the rotation is
-    ///               the product neutral * delta (the delta turns first)
-    /// blend shapes  one weight per channel
-    /// animated maps one weight per map, 0..1
-    /// ```
+    /// Returns the control row: one float per control, the raw, PSD, ML and RBF controls in this
+    /// order. Contents change with evaluation, `mien_rig_map_gui_to_raw()`,
+    /// `mien_instance_reset()` and writes to the raw controls. See docs/rig-evaluation.md, 1.1
+    /// "Control row".
     pub fn mien_instance_controls(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
 
-    /// Outputs of the last evaluation; the views stay valid, their contents change with each
-    /// evaluation.
-    ///
-    /// ```text
-    /// controls      the whole control row: raw, PSD, ML, RBF
-    /// joints        9 or 10 per joint, as MIEN_ROTATION_OUTPUT_... says: deltas from the neutral pose.
-    ///               Translation, angles and scale are added to it; with quaternions the rotation is
-    ///               the product neutral * delta (the delta turns first)
-    /// blend shapes  one weight per channel
-    /// animated maps one weight per map, 0..1
-    /// ```
+    /// Returns the PSD controls (correctives) of the control row: one float per PSD control.
+    /// Contents change with evaluation, `mien_instance_reset()`.
     pub fn mien_instance_psd_controls(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
 
-    /// Outputs of the last evaluation; the views stay valid, their contents change with each
-    /// evaluation.
-    ///
-    /// ```text
-    /// controls      the whole control row: raw, PSD, ML, RBF
-    /// joints        9 or 10 per joint, as MIEN_ROTATION_OUTPUT_... says: deltas from the neutral pose.
-    ///               Translation, angles and scale are added to it; with quaternions the rotation is
-    ///               the product neutral * delta (the delta turns first)
-    /// blend shapes  one weight per channel
-    /// animated maps one weight per map, 0..1
-    /// ```
+    /// Returns the ML controls of the control row: one float per ML control. Contents change with
+    /// evaluation, `mien_instance_reset()`.
     pub fn mien_instance_ml_controls(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
 
-    /// Outputs of the last evaluation; the views stay valid, their contents change with each
-    /// evaluation.
-    ///
-    /// ```text
-    /// controls      the whole control row: raw, PSD, ML, RBF
-    /// joints        9 or 10 per joint, as MIEN_ROTATION_OUTPUT_... says: deltas from the neutral pose.
-    ///               Translation, angles and scale are added to it; with quaternions the rotation is
-    ///               the product neutral * delta (the delta turns first)
-    /// blend shapes  one weight per channel
-    /// animated maps one weight per map, 0..1
-    /// ```
+    /// Returns the RBF pose controls of the control row: one float per RBF control. Contents
+    /// change with evaluation, `mien_instance_reset()`.
     pub fn mien_instance_rbf_controls(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
 
-    /// Outputs of the last evaluation; the views stay valid, their contents change with each
-    /// evaluation.
-    ///
-    /// ```text
-    /// controls      the whole control row: raw, PSD, ML, RBF
-    /// joints        9 or 10 per joint, as MIEN_ROTATION_OUTPUT_... says: deltas from the neutral pose.
-    ///               Translation, angles and scale are added to it; with quaternions the rotation is
-    ///               the product neutral * delta (the delta turns first)
-    /// blend shapes  one weight per channel
-    /// animated maps one weight per map, 0..1
-    /// ```
+    /// Returns the joint values: 9 or 10 floats per joint (`MIEN_ROTATION_OUTPUT_...`), as deltas
+    /// from the neutral pose. Translation, angles and scale are added to the neutral ones; with
+    /// quaternions the rotation is neutral \* delta, so the delta rotates first. Contents change
+    /// with evaluation, `mien_instance_reset()`. See docs/rig-evaluation.md, 4.1 "Joint values".
     pub fn mien_instance_joints(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
 
-    /// Outputs of the last evaluation; the views stay valid, their contents change with each
-    /// evaluation.
-    ///
-    /// ```text
-    /// controls      the whole control row: raw, PSD, ML, RBF
-    /// joints        9 or 10 per joint, as MIEN_ROTATION_OUTPUT_... says: deltas from the neutral pose.
-    ///               Translation, angles and scale are added to it; with quaternions the rotation is
-    ///               the product neutral * delta (the delta turns first)
-    /// blend shapes  one weight per channel
-    /// animated maps one weight per map, 0..1
-    /// ```
+    /// Returns the weights of the blend shape channels: one float per channel. Contents change
+    /// with evaluation, `mien_instance_reset()`. See docs/rig-evaluation.md, 5 "Blend shapes and
+    /// animated maps".
     pub fn mien_instance_blend_shapes(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
 
-    /// Outputs of the last evaluation; the views stay valid, their contents change with each
-    /// evaluation.
-    ///
-    /// ```text
-    /// controls      the whole control row: raw, PSD, ML, RBF
-    /// joints        9 or 10 per joint, as MIEN_ROTATION_OUTPUT_... says: deltas from the neutral pose.
-    ///               Translation, angles and scale are added to it; with quaternions the rotation is
-    ///               the product neutral * delta (the delta turns first)
-    /// blend shapes  one weight per channel
-    /// animated maps one weight per map, 0..1
-    /// ```
+    /// Returns the weights of the animated maps, 0 to 1: one float per animated map. Contents
+    /// change with evaluation, `mien_instance_reset()`. See docs/rig-evaluation.md, 5 "Blend
+    /// shapes and animated maps".
     pub fn mien_instance_animated_maps(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
 
-    /// For tools that relate times to memory. Looks at each control, so it is not for every frame.
+    /// Returns the statistics of an instance. Takes time proportional to the number of controls:
+    /// meant for measurements, not for every frame. See docs/rig-evaluation.md, 9.6 "Statistics".
     pub fn mien_instance_statistics(instance: *const MienInstance, out_statistics: *mut MienInstanceStatistics) -> MienStatus;
 
-    /// Raw controls from GUI controls, and back. Forward writes only raw controls that some row of
-    /// the table drives, and clamps them to 0..1; others keep what they hold. Backward writes
-    /// every GUI control: the value whose forward mapping gives the raw controls, 0 where there is
-    /// none.
+    /// Maps GUI controls to raw controls. Raw controls that the table drives are overwritten,
+    /// clamped to 0..1; others are left alone. Fails with `MIEN_ERROR_MISMATCH` if `instance`
+    /// belongs to another rig. See docs/rig-evaluation.md, 2.3 "GUI controls to raw controls".
     pub fn mien_rig_map_gui_to_raw(rig: *const MienRig, instance: *mut MienInstance) -> MienStatus;
 
-    /// Raw controls from GUI controls, and back. Forward writes only raw controls that some row of
-    /// the table drives, and clamps them to 0..1; others keep what they hold. Backward writes
-    /// every GUI control: the value whose forward mapping gives the raw controls, 0 where there is
-    /// none.
+    /// Maps raw controls to GUI controls. Sets every GUI control to the value that maps to the
+    /// current raw controls, or to 0 if there is none. Fails with `MIEN_ERROR_MISMATCH` if
+    /// `instance` belongs to another rig. See docs/rig-evaluation.md, 2.4 "Raw controls to GUI
+    /// controls".
     pub fn mien_rig_map_raw_to_gui(rig: *const MienRig, instance: *mut MienInstance) -> MienStatus;
 
-    /// Evaluates all stages at a LOD. Outputs that the LOD does not reach are 0. Changing the LOD
-    /// from call to call costs no more than clearing the outputs; raw controls are left alone.
-    /// Allocates nothing, locks nothing. Finite inputs are expected.
+    /// Evaluates all stages at a LOD. Results that the LOD does not reach have their initial
+    /// value. Inputs must be finite; then results are finite. Changing the LOD between calls costs
+    /// little: results are reset. Does not allocate or lock. Uses up to 48 KiB of stack. Fails
+    /// with `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if `instance`
+    /// belongs to another rig. See docs/rig-evaluation.md, 1.3 "Order of evaluation".
     pub fn mien_rig_evaluate(rig: *const MienRig, instance: *mut MienInstance, lod: u32) -> MienStatus;
 
-    /// Only some stages, in the order above; the others keep the results of the last evaluation at
-    /// the same LOD (after a change of LOD: 0).
+    /// Evaluates some stages, in the order of enum MienStage. The others keep the results of the
+    /// last evaluation at this LOD; after a change of LOD they are reset. Does not allocate or
+    /// lock. Uses up to 48 KiB of stack. Fails with `MIEN_ERROR_LOD` if the rig has no such LOD,
+    /// `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig. See docs/rig-evaluation.md, 9.3
+    /// "Partial evaluation".
     pub fn mien_rig_evaluate_stages(rig: *const MienRig, instance: *mut MienInstance, lod: u32, stages: u32) -> MienStatus;
 
-    /// One allocation; the rig may be destroyed before the batch.
+    /// Creates a batch: one allocation of `mien_batch_bytes()`. `rig` may be destroyed before it.
+    /// Destroy with `mien_batch_destroy()`.
     pub fn mien_batch_create(rig: *const MienRig, desc: *const MienBatchDesc, out_batch: *mut *mut MienBatch, error: *mut MienError) -> MienStatus;
 
+    /// Destroys a batch.
     pub fn mien_batch_destroy(batch: *mut MienBatch);
 
-    /// Bytes of such a batch, asked before it is made.
+    /// Returns the memory that a batch would take.
     pub fn mien_batch_bytes(rig: *const MienRig, desc: *const MienBatchDesc, out_bytes: *mut u64) -> MienStatus;
 
-    /// Evaluates stages (`MIEN_STAGE_...`, usually all) of `count` different instances of the
-    /// batch's rig, each at its own LOD: the same bits as `mien_rig_evaluate_stages()` of each,
-    /// but columns of the joint matrix that many of them use are fetched once for up to 32.
-    /// Results are in the instances. On this thread, or in the batch's tasks on threads of
-    /// `parallel`, which may be NULL: any split gives the same bits. Allocates nothing, locks
-    /// nothing, takes 48 KiB of stack. If any instance or LOD is not valid, none is evaluated:
-    /// `MIEN_ERROR_MISMATCH` for an instance of another rig, `MIEN_ERROR_INVALID_ARGUMENT` for one
-    /// that comes up twice or more than `capacity`.
+    /// Evaluates stages of `count` different instances of one rig; instance i at LOD lods\[i\].
+    /// The results have the same bits as those of `mien_rig_evaluate_stages()`, but columns of the
+    /// joint matrix that several instances use are read once for up to 32 of them. Runs on the
+    /// calling thread, or in tasks on `parallel`; `parallel` may be NULL. Does not allocate or
+    /// lock. Uses up to 48 KiB of stack per task. On failure no instance is evaluated. Fails with
+    /// `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if the batch or an
+    /// instance belongs to another rig, `MIEN_ERROR_INVALID_ARGUMENT` if `count` exceeds
+    /// MienBatchDesc.capacity or an instance is listed twice. See docs/numbers.md, 10 "One by one,
+    /// in batches, with kept results".
     pub fn mien_rig_evaluate_batch(rig: *const MienRig, batch: *mut MienBatch, instances: *const *mut MienInstance, lods: *const u32, count: u32, stages: u32, parallel: *const MienParallelFor) -> MienStatus;
 
-    /// Only the joint values of one joint group (`MIEN_KIND_JOINT_GROUP`); not those that a later
-    /// group overrides wherever this one gives them.
+    /// Evaluates the joint values of one joint group (`MIEN_KIND_JOINT_GROUP`), except those that
+    /// a later group overrides at all LODs where this one sets them. Uses up to 48 KiB of stack.
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such joint group, `MIEN_ERROR_LOD` if the rig
+    /// has no such LOD, `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig. See
+    /// docs/rig-evaluation.md, 4.5 "Order of the joint stage".
     pub fn mien_rig_evaluate_joint_group(rig: *const MienRig, instance: *mut MienInstance, lod: u32, group: u32) -> MienStatus;
 
-    /// Only the pose controls of one RBF solver (`MIEN_KIND_RBF_SOLVER`), whether the LOD lists it
-    /// or not.
+    /// Evaluates the pose controls of one RBF solver (`MIEN_KIND_RBF_SOLVER`), even if the LOD
+    /// does not list it. Fails with `MIEN_ERROR_INDEX` if there is no such solver,
+    /// `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if `instance` belongs to
+    /// another rig. See docs/rig-evaluation.md, 6 "RBF solvers".
     pub fn mien_rig_evaluate_rbf_solver(rig: *const MienRig, instance: *mut MienInstance, lod: u32, solver: u32) -> MienStatus;
 
-    /// Only the joints of one twist and swing set-up (`MIEN_KIND_TWIST_SWING`).
+    /// Evaluates the joints of one twist and swing setup (`MIEN_KIND_TWIST_SWING`). Fails with
+    /// `MIEN_ERROR_INDEX` if there is no such setup, `MIEN_ERROR_LOD` if the rig has no such LOD,
+    /// `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig. See docs/rig-evaluation.md, 7
+    /// "Twist and swing".
     pub fn mien_rig_evaluate_twist_swing(rig: *const MienRig, instance: *mut MienInstance, lod: u32, setup: u32) -> MienStatus;
 
-    /// Packs the geometry of `dna`, which may be closed afterwards, and keeps the rig's memory
-    /// alive (the rig may be destroyed). `dna` is the one that the rig was made of, or another
-    /// opening of the same file with the same LODs: other numbers or names of joints, channels or
-    /// meshes are `MIEN_ERROR_MISMATCH`. It needs `MIEN_LAYER_GEOMETRY`, else
-    /// `MIEN_ERROR_DNA_LAYER`. A position may have any number of influences up to 65535
-    /// (`MIEN_ERROR_DNA_LIMIT`); those of weight 0 are dropped. Faces of fewer than three corners
-    /// are left out. Meshes without faces, weights, normals, texture coordinates or anything at
-    /// all are accepted: normals that the file lacks are recomputed from the faces, texture
-    /// coordinates are 0. Which side of a face is outside the stored normals tell; without them
-    /// the file's axes and winding do. `MIEN_ERROR_DNA_VALUE`: joints that descend from
-    /// themselves; positions, deltas or weights that are not finite (the message names mesh and
-    /// position). Takes some memory beyond the block for the time of the call.
+    /// Packs the geometry of a DNA for deformation. `dna` is the one that the rig was created
+    /// from, or the same file opened with the same LODs. `dna` may be closed and `rig` may be
+    /// destroyed afterwards. The deformer is one block of memory; temporary memory is released
+    /// before the call returns. Destroy with `mien_deformer_destroy()`.
+    ///
+    /// Influences of weight 0 and faces of fewer than three corners are dropped. Meshes may lack
+    /// faces, weights, normals or texture coordinates: missing normals are computed from the
+    /// faces, missing texture coordinates are 0. Stored normals tell which side of a face is
+    /// outside; without them, the winding and the axes of the file do.
+    ///
+    /// Fails with `MIEN_ERROR_DNA_LAYER` if `dna` was opened without `MIEN_LAYER_GEOMETRY`,
+    /// `MIEN_ERROR_MISMATCH` if numbers or names of joints, channels or meshes differ from those
+    /// of the rig, `MIEN_ERROR_DNA_VALUE` if a joint is its own ancestor or a position, delta or
+    /// weight is not finite, `MIEN_ERROR_DNA_LIMIT` if a position has more than 65535 influences,
+    /// `MIEN_ERROR_ISA` if the requested instruction set is not available. See
+    /// docs/deformation.md.
     pub fn mien_deformer_create(dna: *const MienDna, rig: *const MienRig, desc: *const MienDeformerDesc, out_deformer: *mut *mut MienDeformer, error: *mut MienError) -> MienStatus;
 
-    /// Memory is released when the last pose is gone too: poses go on working.
+    /// Destroys a deformer. Its instances stay valid; its memory is released with the last of
+    /// them.
     pub fn mien_deformer_destroy(deformer: *mut MienDeformer);
 
+    /// Returns the properties of a deformer.
     pub fn mien_deformer_info(deformer: *const MienDeformer, out_info: *mut MienDeformerInfo) -> MienStatus;
 
+    /// Returns a neutral mesh. Fails with `MIEN_ERROR_INDEX` if there is no such mesh.
     pub fn mien_deformer_mesh(deformer: *const MienDeformer, mesh: u32, out_mesh: *mut MienMesh) -> MienStatus;
 
-    /// Joints that hold a position and their weights, as they are used: as many as each other,
-    /// possibly none. Views live as long as the deformer.
+    /// Returns the influences of a position as they are used: `out_joints` gets one index per
+    /// influence, `out_weights` gets one float per influence. There may be none. Fails with
+    /// `MIEN_ERROR_INDEX` if there is no such mesh or position.
     pub fn mien_deformer_influences(deformer: *const MienDeformer, mesh: u32, position: u32, out_joints: *mut MienIndex16View, out_weights: *mut MienFloatView) -> MienStatus;
 
-    /// Writes x y z for each position of the mesh: how far a target moves it at channel weight 1
-    /// (0 where it does not). `count` is the room in `out_deltas`, 3 \* `position_count` floats or
-    /// more.
+    /// Writes a blend shape target to `out_deltas`: 3 floats per position, the offset at channel
+    /// weight 1. Positions that the target does not move get 0. `count` is the capacity of
+    /// `out_deltas`, in floats. Fails with `MIEN_ERROR_INDEX` if there is no such mesh or target,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if `count` is less than 3 \* MienMesh.`position_count`.
     pub fn mien_deformer_target(deformer: *const MienDeformer, mesh: u32, target: u32, out_deltas: *mut f32, count: usize) -> MienStatus;
 
-    /// Model matrices of the joints in the neutral pose, or their inverses: 16 floats per joint,
-    /// column by column (column vectors; the last column is the translation, the last row 0 0 0
-    /// 1). Views live as long as the deformer.
+    /// Returns the model matrices of the neutral pose: 16 floats per joint, column by column, for
+    /// column vectors. The last column is the translation, the last row 0 0 0 1.
     pub fn mien_deformer_bind_matrices(deformer: *const MienDeformer, out_matrices: *mut MienFloatView) -> MienStatus;
 
-    /// Model matrices of the joints in the neutral pose, or their inverses: 16 floats per joint,
-    /// column by column (column vectors; the last column is the translation, the last row 0 0 0
-    /// 1). Views live as long as the deformer.
+    /// Returns the inverses of the bind matrices: 16 floats per joint, column by column.
     pub fn mien_deformer_inverse_bind_matrices(deformer: *const MienDeformer, out_matrices: *mut MienFloatView) -> MienStatus;
 
-    /// A pose in neutral: matrices, positions and normals are those of the deformer. It keeps the
-    /// deformer's memory alive. One allocation.
+    /// Creates a deformer instance in the neutral pose: one allocation. `deformer` may be
+    /// destroyed before it. Destroy with `mien_deformer_instance_destroy()`.
     pub fn mien_deformer_instance_create(deformer: *const MienDeformer, desc: *const MienDeformerInstanceDesc, out_deformer_instance: *mut *mut MienDeformerInstance, error: *mut MienError) -> MienStatus;
 
+    /// Destroys a deformer instance.
     pub fn mien_deformer_instance_destroy(deformer_instance: *mut MienDeformerInstance);
 
-    /// Takes over joint values and channel weights of the instance's last evaluation, and computes
-    /// the matrices of all joints; meshes follow with `mien_deformer_instance_deform()`. The
-    /// instance is one of the rig that the deformer was made with, else `MIEN_ERROR_MISMATCH`.
-    /// Allocates nothing, locks nothing. Values that are not finite give results that are not.
+    /// Takes over the joint values and channel weights of the last evaluation of `instance`, and
+    /// computes the matrices of all joints. Meshes are deformed by
+    /// `mien_deformer_instance_deform()`. Values that are not finite give results that are not
+    /// finite. Does not allocate or lock. Fails with `MIEN_ERROR_MISMATCH` if `instance` belongs
+    /// to a rig other than that of the deformer. See docs/deformation.md, 1 "Joint transforms".
     pub fn mien_deformer_instance_update(deformer_instance: *mut MienDeformerInstance, instance: *const MienInstance) -> MienStatus;
 
-    /// The same from arrays: joint values as `mien_instance_joints()` gives them, and one weight
-    /// per channel. `joint_values` may be NULL, with count 0: no deltas. `channel_weights` may be
-    /// NULL, with count 0: all 0. Any other count than that of the rig is
-    /// `MIEN_ERROR_INVALID_ARGUMENT`.
+    /// Does the same with arrays: `joint_values` like those of `mien_instance_joints()`,
+    /// `channel_weights` one per channel. `joint_values` may be NULL with count 0: no deltas.
+    /// `channel_weights` may be NULL with count 0: all weights are 0. Fails with
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if a count is not that of the rig.
     pub fn mien_deformer_instance_update_from_values(deformer_instance: *mut MienDeformerInstance, joint_values: *const f32, joint_value_count: usize, channel_weights: *const f32, channel_weight_count: usize) -> MienStatus;
 
-    /// Matrices of the last update, 16 floats per joint, laid out as
-    /// `mien_deformer_bind_matrices()` says: model matrices, and skin matrices (for skinning
-    /// elsewhere, as on a GPU). The views stay valid, their contents change with each update.
+    /// Returns the model matrices: 16 floats per joint, in the layout of
+    /// `mien_deformer_bind_matrices()`. Contents change with `mien_deformer_instance_update()`,
+    /// `mien_deformer_instance_update_from_values()`.
     pub fn mien_deformer_instance_joint_matrices(deformer_instance: *const MienDeformerInstance, out_matrices: *mut MienFloatView) -> MienStatus;
 
-    /// Matrices of the last update, 16 floats per joint, laid out as
-    /// `mien_deformer_bind_matrices()` says: model matrices, and skin matrices (for skinning
-    /// elsewhere, as on a GPU). The views stay valid, their contents change with each update.
+    /// Returns the skin matrices, for skinning by the caller, for example on a GPU: 16 floats per
+    /// joint, in the layout of `mien_deformer_bind_matrices()`. Contents change with
+    /// `mien_deformer_instance_update()`, `mien_deformer_instance_update_from_values()`.
     pub fn mien_deformer_instance_skin_matrices(deformer_instance: *const MienDeformerInstance, out_matrices: *mut MienFloatView) -> MienStatus;
 
-    /// Writes the local transforms of the last update, relative to the parent, 10 floats per
-    /// joint: tx ty tz qx qy qz qw sx sy sz, the quaternion of unit length. `count` is the room in
-    /// `out_transforms`.
+    /// Writes the transforms of the last update, relative to the parents, to `out_transforms`: 10
+    /// floats per joint, tx ty tz qx qy qz qw sx sy sz, with quaternions of unit length. `count`
+    /// is the capacity of `out_transforms`, in floats. Fails with `MIEN_ERROR_INVALID_ARGUMENT` if
+    /// `count` is less than 10 \* MienDeformerInfo.`joint_count`.
     pub fn mien_deformer_instance_local_transforms(deformer_instance: *const MienDeformerInstance, out_transforms: *mut f32, count: usize) -> MienStatus;
 
-    /// Positions of one mesh as of the last update, and its normals (`MIEN_NORMALS_...`). On this
-    /// thread, but for meshes of 16384 positions and more in tasks of about 2048, if there is
-    /// somebody to run them: `parallel` may be NULL. The result has the same bits. Allocates
-    /// nothing, locks nothing. `MIEN_ERROR_LOD`: the pose has no room for this mesh.
+    /// Computes the positions and normals of a mesh for the last update. Runs on the calling
+    /// thread; meshes of at least 16384 positions run in tasks of about 2048 on `parallel`.
+    /// `parallel` may be NULL. The results have the same bits either way. Does not allocate or
+    /// lock. Uses up to 16 KiB of stack per task. Fails with `MIEN_ERROR_INDEX` if there is no
+    /// such mesh, `MIEN_ERROR_LOD` if `deformer_instance` has no memory for it
+    /// (MienDeformerInstanceDesc.lods). See docs/deformation.md, 2 "Positions" and 3 "Normals".
     pub fn mien_deformer_instance_deform(deformer_instance: *mut MienDeformerInstance, mesh: u32, normals: u32, parallel: *const MienParallelFor) -> MienStatus;
 
-    /// The same mesh of several different poses of one deformer: the same bits as one after the
-    /// other, but each piece of the mesh is fetched once, and the size that counts is that of all
-    /// of them together; `parallel` may be NULL. A pose that comes up twice is
-    /// `MIEN_ERROR_INVALID_ARGUMENT`, one of another deformer `MIEN_ERROR_MISMATCH`; then none is
-    /// deformed.
+    /// Deforms the same mesh of `count` different instances of one deformer. The results have the
+    /// same bits as those of `mien_deformer_instance_deform()`, but each part of the mesh is read
+    /// once for all, and the total number of positions decides about tasks. `parallel` may be
+    /// NULL. On failure nothing is deformed. Fails with `MIEN_ERROR_INDEX` if there is no such
+    /// mesh, `MIEN_ERROR_LOD` if an instance has no memory for it, `MIEN_ERROR_MISMATCH` if the
+    /// instances have different deformers, `MIEN_ERROR_INVALID_ARGUMENT` if an instance is listed
+    /// twice.
     pub fn mien_deformer_instance_deform_batch(deformer_instances: *const *mut MienDeformerInstance, count: usize, mesh: u32, normals: u32, parallel: *const MienParallelFor) -> MienStatus;
 
-    /// Results of the last `mien_deformer_instance_deform()` of the mesh: x y z per position, x y
-    /// z per vertex. The views stay valid, their contents change with each call. A mesh without
-    /// room: `MIEN_ERROR_LOD`.
+    /// Returns the deformed positions of a mesh: 3 floats per position, x y z. Contents change
+    /// with `mien_deformer_instance_deform()`, `mien_deformer_instance_write_vertices()` and their
+    /// batches. Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_LOD` if
+    /// `deformer_instance` has no memory for it.
     pub fn mien_deformer_instance_positions(deformer_instance: *const MienDeformerInstance, mesh: u32, out_positions: *mut MienFloatView) -> MienStatus;
 
-    /// Results of the last `mien_deformer_instance_deform()` of the mesh: x y z per position, x y
-    /// z per vertex. The views stay valid, their contents change with each call. A mesh without
-    /// room: `MIEN_ERROR_LOD`.
+    /// Returns the deformed normals of a mesh: 3 floats per vertex, x y z, unit length. Contents
+    /// change with `mien_deformer_instance_deform()`, `mien_deformer_instance_write_vertices()`
+    /// and their batches. Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_LOD`
+    /// if `deformer_instance` has no memory for it.
     pub fn mien_deformer_instance_normals(deformer_instance: *const MienDeformerInstance, mesh: u32, out_normals: *mut MienFloatView) -> MienStatus;
 
-    /// Deforms a mesh as `mien_deformer_instance_deform()` does, then writes its vertices to
-    /// memory of the caller, such as a mapped vertex buffer. Each byte is written once, in the
-    /// order of the vertices, and none is read, so the memory may be write-combined. Bytes between
-    /// vertices are left alone. Threads as for `mien_deformer_instance_deform()`: the bytes are
-    /// the same. The same positions, normals and tangents give the same bytes on every instruction
-    /// set. Allocates nothing, locks nothing. `MIEN_ERROR_INVALID_ARGUMENT`: a format that the
-    /// attribute does not take; a wrong stride or alignment; too little capacity; streams that
-    /// overlap; no stream at all; tangents, but the deformer has none. Then nothing is deformed or
-    /// written. `MIEN_ERROR_LOD`: the instance has no memory for this mesh. docs/deformation.md, 5
-    /// "Vertex output".
+    /// Deforms a mesh as `mien_deformer_instance_deform()` does, and writes its vertices to memory
+    /// of the caller, such as a mapped vertex buffer. Each byte is written once, in the order of
+    /// the vertices, and none is read, so the memory may be write-combined. Bytes between vertices
+    /// are left alone. `parallel` may be NULL; the bytes are the same either way. The same
+    /// positions, normals and tangents give the same bytes on every instruction set. Does not
+    /// allocate or lock. On failure nothing is deformed or written. Fails with `MIEN_ERROR_INDEX`
+    /// if there is no such mesh, `MIEN_ERROR_LOD` if `deformer_instance` has no memory for it,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if a stream has a format that its attribute cannot have, a
+    /// wrong stride or alignment or too little capacity, if streams overlap, if there is no
+    /// stream, or if tangents are requested from a deformer without them. See docs/deformation.md,
+    /// 5 "Vertex output".
     pub fn mien_deformer_instance_write_vertices(deformer_instance: *mut MienDeformerInstance, mesh: u32, normals: u32, output: *const MienVertexOutput, parallel: *const MienParallelFor) -> MienStatus;
 
-    /// The same mesh of several instances, as `mien_deformer_instance_deform_batch()` takes them:
-    /// instance i to outputs\[i\]. All outputs have the same `struct_size`, and share no byte
-    /// either.
+    /// Does the same for `count` different instances of one deformer: instance i is written to
+    /// outputs\[i\]. All outputs have the same `struct_size`, and must not share bytes. `parallel`
+    /// may be NULL. Fails like `mien_deformer_instance_write_vertices()`, and with
+    /// `MIEN_ERROR_MISMATCH` if the instances have different deformers,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if an instance is listed twice.
     pub fn mien_deformer_instance_write_vertices_batch(deformer_instances: *const *mut MienDeformerInstance, count: usize, mesh: u32, normals: u32, outputs: *const MienVertexOutput, parallel: *const MienParallelFor) -> MienStatus;
 
-    /// Writes a rig and, unless it is NULL, a deformer of this rig (else `MIEN_ERROR_MISMATCH`).
-    /// Goes to a temporary name first, so a failure leaves `path` as it was.
+    /// Writes a rig and its deformer to a baked file. `deformer` may be NULL. The file is written
+    /// under a temporary name and renamed, so that a failure leaves `path` unchanged. Fails with
+    /// `MIEN_ERROR_MISMATCH` if `deformer` was created for another rig, `MIEN_ERROR_FILE_WRITE` if
+    /// the file cannot be written, `MIEN_ERROR_MEMORY` if there is no memory for its bytes.
     pub fn mien_bake_file(rig: *const MienRig, deformer: *const MienDeformer, path: *const c_char, error: *mut MienError) -> MienStatus;
 
-    /// The same to memory. With buffer NULL and capacity 0 only \*`out_size` is set; a capacity
-    /// that is too small gives `MIEN_ERROR_INVALID_ARGUMENT` and the size.
+    /// Writes a baked file to memory and returns its size in `out_size`. `deformer` may be NULL.
+    /// `buffer` may be NULL with capacity 0 to get the size only. Writes nothing if `capacity` is
+    /// too small; `out_size` is set nevertheless. Fails with `MIEN_ERROR_MISMATCH` if `deformer`
+    /// was created for another rig, `MIEN_ERROR_INVALID_ARGUMENT` if `capacity` is too small.
     pub fn mien_bake_memory(rig: *const MienRig, deformer: *const MienDeformer, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
 
-    /// Opens a baked file. It is mapped; all processes that open it share its pages, which are
-    /// never written to. A mapped file must not be truncated or rewritten in place until
-    /// everything made of it is gone (replacing it by renaming is safe). Checks the header here,
-    /// and with `MIEN_BAKED_CHECK_FULL` all bytes; the rest when objects are made. `path` is
-    /// UTF-8, `desc` may be NULL. One allocation, and one for the bytes if they are not mapped.
-    /// Close with `mien_baked_close()`.
+    /// Opens a baked file. It is mapped, so processes that open the same file share its pages. Do
+    /// not truncate or overwrite a mapped file until all objects made from it are destroyed;
+    /// replacing it by renaming is safe. The header is checked now, the rest when objects are
+    /// created. One allocation, and one more for the bytes if the file is not mapped. Close with
+    /// `mien_baked_close()`. Fails with `MIEN_ERROR_FILE_OPEN` or `MIEN_ERROR_FILE_READ` if the
+    /// file cannot be read, `MIEN_ERROR_BAKED_SIGNATURE`, `MIEN_ERROR_BAKED_VERSION`,
+    /// `MIEN_ERROR_BAKED_TRUNCATED` or `MIEN_ERROR_BAKED_STRUCTURE` if its header is not valid,
+    /// `MIEN_ERROR_BAKED_CHECKSUM` if `MIEN_BAKED_CHECK_FULL` finds changed bytes.
     pub fn mien_baked_open_file(path: *const c_char, desc: *const MienBakedDesc, out_baked: *mut *mut MienBaked, error: *mut MienError) -> MienStatus;
 
-    /// The same from memory, which stays the caller's and has to stay unchanged until everything
-    /// made of it is gone. Bytes that are not at a multiple of 64 are copied; so are all with
-    /// `MIEN_FILE_READ`.
+    /// Opens a baked file in memory: `size` bytes. `bytes` must outlive the MienBaked and all
+    /// objects made from it, unchanged, unless they are copied: with `MIEN_FILE_READ`, or if
+    /// `bytes` is not a multiple of 64. Fails like `mien_baked_open_file()`, but not with
+    /// `MIEN_ERROR_FILE_OPEN` or `MIEN_ERROR_FILE_READ`.
     pub fn mien_baked_open_memory(bytes: *const c_void, size: usize, desc: *const MienBakedDesc, out_baked: *mut *mut MienBaked, error: *mut MienError) -> MienStatus;
 
-    /// The same from a stream, which is read once, into one block. `MIEN_ERROR_FILE_READ` if it
-    /// fails.
+    /// Opens a baked file through a stream, which is read at once into memory of the allocator.
+    /// Fails like `mien_baked_open_file()`, but not with `MIEN_ERROR_FILE_OPEN`.
     pub fn mien_baked_open_stream(stream: *const MienStream, desc: *const MienBakedDesc, out_baked: *mut *mut MienBaked, error: *mut MienError) -> MienStatus;
 
-    /// Memory is released, and the file unmapped, when everything made of it is gone too.
+    /// Closes a baked file. Objects made from it stay valid; its memory is released and the file
+    /// unmapped with the last of them.
     pub fn mien_baked_close(baked: *mut MienBaked);
 
+    /// Returns the properties of an open baked file.
     pub fn mien_baked_info(baked: *const MienBaked, out_info: *mut MienBakedInfo) -> MienStatus;
 
-    /// The rig of a baked file, like one that was created; destroy it with `mien_rig_destroy()`.
-    /// One allocation; the bytes of the file stay alive with it. `desc` may be NULL.
-    /// `MIEN_ERROR_BAKED_PART` if the file has no rig, `MIEN_ERROR_BAKED_VERSION` or
-    /// `MIEN_ERROR_BAKED_STRUCTURE` if its rig cannot be used.
+    /// Creates the rig of a baked file, with one allocation. `baked` may be closed afterwards.
+    /// Destroy with `mien_rig_destroy()`. Fails with `MIEN_ERROR_BAKED_PART` if the file has no
+    /// rig, `MIEN_ERROR_BAKED_VERSION` or `MIEN_ERROR_BAKED_STRUCTURE` if its rig cannot be used,
+    /// `MIEN_ERROR_ISA` if the requested instruction set is not available.
     pub fn mien_rig_from_baked(baked: *const MienBaked, desc: *const MienBakedRigDesc, out_rig: *mut *mut MienRig, error: *mut MienError) -> MienStatus;
 
-    /// The deformer of a baked file, like one that was created; destroy it with
-    /// `mien_deformer_destroy()`. `rig` was made of the same MienBaked, else
-    /// `MIEN_ERROR_MISMATCH`, and stays alive with the deformer. One allocation. `desc` may be
-    /// NULL. Errors as above.
+    /// Creates the deformer of a baked file, with one allocation. `rig` is the one created from
+    /// the same MienBaked. `baked` may be closed and `rig` may be destroyed afterwards. Destroy
+    /// with `mien_deformer_destroy()`. Fails with `MIEN_ERROR_MISMATCH` if `rig` was not created
+    /// from `baked`, `MIEN_ERROR_BAKED_PART` if the file has no deformer,
+    /// `MIEN_ERROR_BAKED_VERSION` or `MIEN_ERROR_BAKED_STRUCTURE` if its deformer cannot be used,
+    /// `MIEN_ERROR_ISA` if the requested instruction set is not available.
     pub fn mien_deformer_from_baked(baked: *const MienBaked, rig: *const MienRig, desc: *const MienBakedDeformerDesc, out_deformer: *mut *mut MienDeformer, error: *mut MienError) -> MienStatus;
 }

@@ -40,7 +40,7 @@ unsafe impl Sync for Baked {}
 
 impl Drop for Baked {
     fn drop(&mut self) {
-        // SAFETY: a live handle, which nobody uses afterwards.
+        // SAFETY: a live handle, which is not used afterwards.
         unsafe { sys::mien_baked_close(self.handle.as_ptr()) }
     }
 }
@@ -187,7 +187,7 @@ impl BakedOptions {
     ///
     /// # Safety
     ///
-    /// Nobody may truncate the file or write to it in place until the `Baked` and all that was made
+    /// The file must not be truncated or written to in place until the `Baked` and all that was made
     /// of it are gone; replacing it by renaming is safe.
     ///
     /// # Errors

@@ -380,7 +380,7 @@ impl Generate {
 
 numbers!(Generate, u32, [(1, "ML")]);
 
-/// What C calls `MIEN_ISA_...`.
+/// Instruction sets.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -388,7 +388,7 @@ numbers!(Generate, u32, [(1, "ML")]);
 pub struct Isa(pub u32);
 
 impl Isa {
-    /// The best that this CPU and operating system allow.
+    /// The best one that the CPU, the operating system and the build support.
     pub const BEST: Self = Self(0);
     /// `MIEN_ISA_SCALAR` in C.
     pub const SCALAR: Self = Self(1);
@@ -396,18 +396,18 @@ impl Isa {
     pub const SSE2: Self = Self(2);
     /// With FMA and F16C.
     pub const AVX2: Self = Self(3);
-    /// F, CD, DQ, BW, VL.
+    /// F, CD, DQ, BW and VL.
     pub const AVX512: Self = Self(4);
     /// `MIEN_ISA_NEON` in C.
     pub const NEON: Self = Self(5);
-    /// The one that the environment variable `MIEN_ISA` names ("scalar", "sse2", ...); the best if
-    /// it is unset or empty.
+    /// The one named by the environment variable `MIEN_ISA` ("scalar", "sse2", ...); the best one
+    /// if it is unset or empty.
     pub const ENVIRONMENT: Self = Self(1000);
 }
 
 numbers!(Isa, u32, [(0, "BEST"), (1, "SCALAR"), (2, "SSE2"), (3, "AVX2"), (4, "AVX512"), (5, "NEON"), (1000, "ENVIRONMENT")]);
 
-/// How joint rotations come out.
+/// Form of the rotations among the joint values.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -423,7 +423,8 @@ impl RotationOutput {
 
 numbers!(RotationOutput, u32, [(0, "EULER"), (1, "QUATERNION")]);
 
-/// What a mask of a mesh region does to the networks of the region (`mien_instance_ml_masks()`).
+/// Effect of a region mask on the networks of the region (`mien_instance_ml_masks()`). See
+/// docs/rig-evaluation.md, 8.5 "Region masks".
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -431,17 +432,17 @@ numbers!(RotationOutput, u32, [(0, "EULER"), (1, "QUATERNION")]);
 pub struct MlMasks(pub u32);
 
 impl MlMasks {
-    /// 0: the networks give their default (0, or 1 for the w of a quaternion); anything else: they
-    /// are evaluated. What files were made for.
+    /// 0: the outputs of the networks get their default (0, or 1 for the w of a quaternion). Other
+    /// values: the networks are evaluated. This is what files are made for.
     pub const SWITCH: Self = Self(0);
-    /// In between, outputs are blended with the default; clamped to 0..1.
+    /// Outputs are blended with their default by the mask, clamped to 0..1.
     pub const BLEND: Self = Self(1);
 }
 
 numbers!(MlMasks, u32, [(0, "SWITCH"), (1, "BLEND")]);
 
-/// How a rig keeps the large arrays that evaluation reads. Sums and results are 32-bit floats
-/// either way.
+/// Storage of the large arrays that evaluation reads. Sums and results are 32-bit floats with
+/// both. See docs/rig-evaluation.md, 4.9 "16-bit storage".
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -451,15 +452,16 @@ pub struct Storage(pub u32);
 impl Storage {
     /// `MIEN_STORAGE_32_BIT` in C.
     pub const BIT_32: Self = Self(0);
-    /// 16 bits: network weights and columns of quaternion joints in IEEE half precision (to
-    /// nearest, ties to even; what exceeds its range becomes +-65504); the joint matrix as 16-bit
-    /// fixed point, in units of the largest entry of the row / 32767. Half the memory.
+    /// Half the memory. Network weights and columns of quaternion joints are IEEE half floats
+    /// (rounded to nearest even, at most 65504 in magnitude); the joint matrix is 16-bit fixed
+    /// point, in units of the largest entry of the row / 32767.
     pub const BIT_16: Self = Self(1);
 }
 
 numbers!(Storage, u32, [(0, "BIT_32"), (1, "BIT_16")]);
 
-/// Which results have the same bits on which instruction sets.
+/// On which instruction sets results have the same bits. See docs/numbers.md, 5 "Portable
+/// arithmetic".
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -467,18 +469,17 @@ numbers!(Storage, u32, [(0, "BIT_32"), (1, "BIT_16")]);
 pub struct Arithmetic(pub u32);
 
 impl Arithmetic {
-    /// Those on AVX2, AVX-512 and NEON, which multiply and add in one step; and those on scalar
-    /// and SSE2.
+    /// Among AVX2, AVX-512 and NEON, which fuse multiply and add; and among scalar and SSE2.
     pub const FAST: Self = Self(0);
-    /// All: in two steps everywhere. Angles and quaternions are the same as far as the C library's
-    /// sine and arc tangent are.
+    /// On all, by not fusing anywhere. Angles and quaternions are the same only as far as the sine
+    /// and arc tangent of the C library are.
     pub const PORTABLE: Self = Self(1);
 }
 
 numbers!(Arithmetic, u32, [(0, "FAST"), (1, "PORTABLE")]);
 
-/// Whether evaluation keeps results whose inputs did not change since the last one of the
-/// instance. They have the same bits either way.
+/// Whether an instance keeps results whose inputs have not changed since its last evaluation.
+/// Results have the same bits with both.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -488,13 +489,13 @@ pub struct Reuse(pub u32);
 impl Reuse {
     /// `MIEN_REUSE_UNCHANGED` in C.
     pub const UNCHANGED: Self = Self(0);
-    /// Everything is computed each time: for measuring.
+    /// Compute everything in each evaluation, for measurements.
     pub const NOTHING: Self = Self(1);
 }
 
 numbers!(Reuse, u32, [(0, "UNCHANGED"), (1, "NOTHING")]);
 
-/// Things with names and numbers.
+/// Parts of a rig that are counted, most of them with names.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -506,7 +507,7 @@ impl Kind {
     pub const GUI_CONTROL: Self = Self(0);
     /// `MIEN_KIND_RAW_CONTROL` in C.
     pub const RAW_CONTROL: Self = Self(1);
-    /// Correctives: DNA files do not name them; here "psd0", "psd1", ...
+    /// Correctives. DNA files have no names for them; here "psd0", "psd1", ...
     pub const PSD_CONTROL: Self = Self(2);
     /// `MIEN_KIND_ML_CONTROL` in C.
     pub const ML_CONTROL: Self = Self(3);
@@ -520,19 +521,19 @@ impl Kind {
     pub const ANIMATED_MAP: Self = Self(7);
     /// `MIEN_KIND_MESH` in C.
     pub const MESH: Self = Self(8);
-    /// One per region of a mesh; "mesh/region".
+    /// Region masks, one per region of each mesh: "mesh/region".
     pub const ML_MASK: Self = Self(9);
-    /// The last three have no names.
+    /// Without names.
     pub const JOINT_GROUP: Self = Self(10);
-    /// `MIEN_KIND_RBF_SOLVER` in C.
+    /// Without names.
     pub const RBF_SOLVER: Self = Self(11);
-    /// A swing with the twists of the same inputs, or a twist alone.
+    /// Without names: a swing and the twists of the same inputs, or a twist alone.
     pub const TWIST_SWING: Self = Self(12);
 }
 
 numbers!(Kind, u32, [(0, "GUI_CONTROL"), (1, "RAW_CONTROL"), (2, "PSD_CONTROL"), (3, "ML_CONTROL"), (4, "RBF_CONTROL"), (5, "JOINT"), (6, "BLEND_SHAPE_CHANNEL"), (7, "ANIMATED_MAP"), (8, "MESH"), (9, "ML_MASK"), (10, "JOINT_GROUP"), (11, "RBF_SOLVER"), (12, "TWIST_SWING")]);
 
-/// What C calls `MIEN_STAGE_...`.
+/// Stages of an evaluation, combined with \|.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -542,11 +543,11 @@ pub struct Stages(pub u32);
 impl Stages {
     /// Neural networks.
     pub const ML: Self = Self(1);
-    /// `MIEN_STAGE_RBF` in C.
+    /// RBF solvers.
     pub const RBF: Self = Self(2);
-    /// `MIEN_STAGE_PSD` in C.
+    /// correctives.
     pub const PSD: Self = Self(4);
-    /// Joint groups, then twists and swings, then joints that networks move.
+    /// Joint groups, then twists and swings, then ML joints.
     pub const JOINTS: Self = Self(8);
     /// `MIEN_STAGE_BLEND_SHAPES` in C.
     pub const BLEND_SHAPES: Self = Self(16);
@@ -558,7 +559,7 @@ impl Stages {
 
 flags!(Stages, u32, [(1, "ML"), (2, "RBF"), (4, "PSD"), (8, "JOINTS"), (16, "BLEND_SHAPES"), (32, "ANIMATED_MAPS"), (63, "ALL")]);
 
-/// How the rotation of a joint is made of the neutral one and the delta.
+/// How neutral rotation and delta of a joint are combined.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -566,16 +567,16 @@ flags!(Stages, u32, [(1, "ML"), (2, "RBF"), (4, "PSD"), (8, "JOINTS"), (16, "BLE
 pub struct Compose(pub u32);
 
 impl Compose {
-    /// Neutral rotation \* delta rotation: the delta turns first.
+    /// Neutral rotation \* delta rotation: the delta rotates first.
     pub const PRODUCT: Self = Self(0);
-    /// The angles are added; needs `RotationOutput::EULER`. The same where the neutral rotation is
-    /// zero.
+    /// The angles are added; requires `RotationOutput::EULER`. The same as the product where the
+    /// neutral rotation is zero.
     pub const EULER_ADD: Self = Self(1);
 }
 
 numbers!(Compose, u32, [(0, "PRODUCT"), (1, "EULER_ADD")]);
 
-/// What is done about skin weights.
+/// Treatment of skin weights.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -585,14 +586,14 @@ pub struct Weights(pub u32);
 impl Weights {
     /// `MIEN_WEIGHTS_AS_STORED` in C.
     pub const AS_STORED: Self = Self(0);
-    /// Negative weights count as 0, and the weights of a position sum to 1.
+    /// Drop negative weights and divide the others by their sum.
     pub const FIX: Self = Self(1);
 }
 
 numbers!(Weights, u32, [(0, "AS_STORED"), (1, "FIX")]);
 
-/// Normals that `mien_deformer_instance_deform()` makes, unit length. Where there is no direction
-/// to be had (no area, no face) they are the neutral ones.
+/// Normals of deformed meshes; they have unit length. Normals without a direction (no area, no
+/// faces) are the neutral ones. See docs/deformation.md, 3 "Normals".
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -600,26 +601,26 @@ numbers!(Weights, u32, [(0, "AS_STORED"), (1, "FIX")]);
 pub struct Normals(pub u32);
 
 impl Normals {
-    /// What MienDeformerDesc.normals says; there: recomputed.
+    /// Those of MienDeformerDesc.normals; there: recomputed.
     pub const DEFAULT: Self = Self(0);
-    /// Left as they are.
+    /// Leave normals as they are.
     pub const NONE: Self = Self(1);
-    /// Neutral normals turned as the skin is, right for any scale; but blend shape targets do not
-    /// turn them (they carry none).
+    /// Neutral normals rotated by the skin, correct for any scale; blend shape targets have no
+    /// influence.
     pub const SKINNED: Self = Self(2);
-    /// Sum of the area vectors of the faces around the position. Where that is more than 30
-    /// degrees off the neutral normal (a hard edge), the neutral normal is turned as the sum
-    /// turned since neutral.
+    /// The sum of the area vectors of the faces around the position. On hard edges, where this
+    /// differs from the stored normal by more than 30 degrees in the neutral pose, the stored
+    /// normal is rotated as the sum has rotated since.
     pub const RECOMPUTED: Self = Self(3);
 }
 
 numbers!(Normals, u32, [(0, "DEFAULT"), (1, "NONE"), (2, "SKINNED"), (3, "RECOMPUTED")]);
 
-/// How a vertex attribute lies in memory, in the byte order of this machine. A signed normalized
+/// Layout of a vertex attribute in memory, in the byte order of the machine. A signed normalized
 /// integer of n bits is round(clamp(v, -1, 1) \* (2^(n-1) - 1)), ties to even, in two's
-/// complement. These are formats of vertex buffers: R32G32B32\_SFLOAT, R32G32B32A32\_SFLOAT,
-/// R16G16B16A16\_SNORM and A2B10G10R10\_SNORM\_PACK32 in Vulkan; float3, float4, short4Normalized
-/// and int1010102Normalized in Metal. Direct3D 12 and WebGPU lack the last one.
+/// complement. These are the vertex formats R32G32B32\_SFLOAT, R32G32B32A32\_SFLOAT,
+/// R16G16B16A16\_SNORM and A2B10G10R10\_SNORM\_PACK32 of Vulkan, and float3, float4,
+/// short4Normalized and int1010102Normalized of Metal. Direct3D 12 and WebGPU lack the last one.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -633,13 +634,13 @@ impl VertexFormat {
     pub const FLOAT32X4: Self = Self(1);
     /// 8 bytes: x y z w, 16 bits each.
     pub const SNORM16X4: Self = Self(2);
-    /// 4 bytes, one 32-bit word: x in bits 0-9, y in 10-19, z in 20-29, w in 30-31.
+    /// 4 bytes, one 32-bit word: x in bits 0-9, y in bits 10-19, z in bits 20-29, w in bits 30-31.
     pub const SNORM10_10_10_2: Self = Self(3);
 }
 
 numbers!(VertexFormat, u32, [(0, "FLOAT32X3"), (1, "FLOAT32X4"), (2, "SNORM16X4"), (3, "SNORM10_10_10_2")]);
 
-/// What C calls `MIEN_BAKED_CHECK_...`.
+/// What is checked when a baked file is used.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -647,11 +648,10 @@ numbers!(VertexFormat, u32, [(0, "FLOAT32X3"), (1, "FLOAT32X4"), (2, "SNORM16X4"
 pub struct BakedCheck(pub u32);
 
 impl BakedCheck {
-    /// Every size, count and index: whatever the bytes are, nothing is read or written outside of
-    /// the objects and their instances. Numbers are not looked at, so their pages stay on disk
-    /// until they are needed.
+    /// All sizes, counts and indices: whatever the bytes are, no access is out of bounds. Numbers
+    /// are not checked, so their pages are read from disk when they are first used.
     pub const SAFE: Self = Self(0);
-    /// Also that all bytes are those that were written: reads them all.
+    /// Also the checksum of all bytes, which reads the whole file.
     pub const FULL: Self = Self(1);
 }
 
@@ -879,27 +879,27 @@ impl From<sys::MienDnaField> for DnaField {
     }
 }
 
-/// `MienRigInfo` in C.
+/// Properties of a rig.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct RigInfo {
-    /// `Isa` in use.
+    /// `Isa` in use, never `Isa::BEST`.
     pub isa: Isa,
     /// Lod count.
     pub lod_count: usize,
     /// Translation unit.
     pub translation_unit: TranslationUnit,
-    /// `RotationUnit::DEGREES` or \_RADIANS.
+    /// Rotation unit.
     pub rotation_unit: RotationUnit,
     /// `Direction` of x, y, z.
     pub axes: [Direction; 3],
-    /// `RotationSequence::XYZ` ...
+    /// Rotation sequence.
     pub rotation_sequence: RotationSequence,
-    /// Rotation signs.
+    /// 1 or -1, for the angles about x, y, z.
     pub rotation_signs: [i32; 3],
-    /// Length of a control row: raw, PSD, ML, RBF, in this order.
+    /// Length of the control row: raw, PSD, ML, RBF controls.
     pub control_count: usize,
-    /// Length of a row of joint outputs: 9 or 10 per joint.
+    /// 9 or 10 per joint.
     pub joint_value_count: usize,
     /// Rotation output.
     pub rotation_output: RotationOutput,
@@ -907,7 +907,7 @@ pub struct RigInfo {
     pub storage: Storage,
     /// Arithmetic.
     pub arithmetic: Arithmetic,
-    /// Memory of the rig; with its file if it was opened from one.
+    /// Memory of the rig, including its part of a baked file.
     pub rig_bytes: u64,
     /// Memory of each instance.
     pub instance_bytes: u64,
@@ -934,7 +934,7 @@ impl From<sys::MienRigInfo> for RigInfo {
     }
 }
 
-/// What one evaluation at a LOD works through.
+/// The work of an evaluation at a LOD, if all controls are active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct RigStatistics {
@@ -942,7 +942,7 @@ pub struct RigStatistics {
     pub lod: u32,
     /// Correctives computed.
     pub psd_count: usize,
-    /// Joints that exist at this LOD.
+    /// Joints of the LOD.
     pub joint_count: usize,
     /// Rows of the joint groups.
     pub joint_row_count: usize,
@@ -950,13 +950,13 @@ pub struct RigStatistics {
     pub blend_shape_count: usize,
     /// Rows of the animated map table.
     pub animated_map_row_count: usize,
-    /// Solvers that the LOD lists.
+    /// RBF solvers of the LOD.
     pub rbf_solver_count: usize,
-    /// Joints represented by quaternions.
+    /// Quaternion joints.
     pub quaternion_joint_count: usize,
-    /// Of the joint matrix: 8 per block, blocks of zeros not counted.
+    /// Of the joint matrix: 8 per block that is not all zeros.
     pub joint_entry_count: u64,
-    /// Of the joint matrix, if every control is active: those of controls that are 0 are not read.
+    /// Of the joint matrix; columns of controls that are 0 are not read.
     pub joint_byte_count: u64,
 }
 
@@ -977,8 +977,8 @@ impl From<sys::MienRigStatistics> for RigStatistics {
     }
 }
 
-/// What the joint stage fetches for the control row as it is, at the LOD of the last evaluation
-/// (before the first: LOD 0), if it keeps no results. Bytes count once, whatever the caches do.
+/// What the joint stage reads for the current controls, at the LOD of the last evaluation
+/// (initially LOD 0), if it reuses no results. Bytes are counted once, whatever the caches hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct InstanceStatistics {
@@ -988,9 +988,9 @@ pub struct InstanceStatistics {
     pub control_count: usize,
     /// Controls that are not 0.
     pub active_control_count: usize,
-    /// Columns of the joint matrix that they drive at this LOD.
+    /// Columns of the joint matrix that active controls drive.
     pub joint_column_count: usize,
-    /// Of these columns; 8 per block, as in MienRigStatistics.
+    /// Of these columns: 8 per block.
     pub joint_entry_count: u64,
     /// Of these entries: at most MienRigStatistics.`joint_byte_count`.
     pub joint_byte_count: u64,
@@ -1009,11 +1009,11 @@ impl From<sys::MienInstanceStatistics> for InstanceStatistics {
     }
 }
 
-/// `MienDeformerInfo` in C.
+/// Properties of a deformer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct DeformerInfo {
-    /// `Isa` in use.
+    /// `Isa` in use, never `Isa::BEST`.
     pub isa: Isa,
     /// Compose.
     pub compose: Compose,
@@ -1027,11 +1027,11 @@ pub struct DeformerInfo {
     pub joint_count: usize,
     /// Channel count.
     pub channel_count: usize,
-    /// As in the rig, with its names: `Kind::MESH`.
+    /// Same as in the rig, which has their names: `Kind::MESH`.
     pub mesh_count: usize,
-    /// Memory of the deformer.
+    /// Memory of the deformer, including its part of a baked file.
     pub deformer_bytes: u64,
-    /// Memory of a deformer instance with room for all meshes.
+    /// Memory of a deformer instance for all meshes.
     pub instance_bytes: u64,
 }
 
@@ -1052,19 +1052,19 @@ impl From<sys::MienDeformerInfo> for DeformerInfo {
     }
 }
 
-/// `MienBakedInfo` in C.
+/// Properties of an open baked file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct BakedInfo {
-    /// File bytes.
+    /// Size of the file.
     pub file_bytes: u64,
-    /// Taken from the allocator.
+    /// Memory taken from the allocator.
     pub memory_bytes: u64,
-    /// Of the file; 0 if it has no rig.
+    /// Size of the rig in the file. 0: it has none.
     pub rig_bytes: u64,
-    /// Of the file; 0 if it has no deformer.
+    /// Size of the deformer in the file. 0: it has none.
     pub deformer_bytes: u64,
-    /// Of the file, with those that this library does not know.
+    /// Parts of the file, including unknown ones.
     pub part_count: usize,
     /// The file is mapped.
     pub is_mapped: bool,

@@ -35,7 +35,7 @@ pub(crate) fn with_stream<R: Read + Seek, T>(
 
 /// # Safety
 ///
-/// `user` is a `Source<R>` that nobody else uses, `buffer` has room for `size` bytes.
+/// `user` is a `Source<R>` that nothing else uses, `buffer` has room for `size` bytes.
 unsafe extern "C" fn read<R: Read + Seek>(
     user: *mut c_void,
     offset: u64,
