@@ -549,7 +549,8 @@ MIEN_DEFAULT(MienWriteDesc, mien_write_desc_default)
  * Fails with MIEN_ERROR_FILE_WRITE if the file cannot be written, MIEN_ERROR_DNA_LAYER if RBF behavior
  * was loaded without the machine-learned behavior of its file (whose controls are numbered before its
  * own), MIEN_ERROR_DNA_LIMIT if the file would exceed 4 GiB, MIEN_ERROR_MEMORY if there is no memory
- * for its bytes.
+ * for its bytes. A version leaves out layers that others may need, as networks need ML operations: if
+ * the file would not open, the call fails with the status that opening it would give.
  * See docs/dna-format.md, 14 "Writing a canonical file". */
 MIEN_CHECKED MienStatus mien_dna_write_file(const MienDna* dna, const char* path,
                                             const MienWriteDesc* desc, MienError* error);

@@ -4,6 +4,7 @@
 
 #include "capi/handles.h"
 #include "runtime/base/coordinate_system.h"
+#include "runtime/dna/check/check_written.h"
 #include "runtime/dna/dna_reader.h"
 #include "runtime/dna/format/dna_path.h"
 #include "runtime/dna/format/dna_writer.h"
@@ -454,6 +455,11 @@ MienStatus plan_write(const MienDna* dna, const MienWriteDesc* desc, dna::WriteO
   }
   options.version = known.version ? static_cast<uint16_t>(known.version) : dna->view.version;
   options.keep_unknown = known.unknown_layers == MIEN_UNKNOWN_LAYERS_KEEP;
+  Arena arena(dna->allocator);
+  Error detail;
+  if (dna::check_written(view, options, arena, detail) != Status::kOk) {
+    return give_error(detail, error);
+  }
   const uint64_t bytes = dna::encoded_size(dna->view, options);
   if (bytes > UINT32_MAX) {
     return give_error(error, MIEN_ERROR_DNA_LIMIT,

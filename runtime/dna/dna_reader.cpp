@@ -9,6 +9,7 @@
 #include "runtime/dna/check/dna_check.h"
 #include "runtime/dna/convert/convert_coordinates.h"
 #include "runtime/dna/convert/lod_selection.h"
+#include "runtime/dna/format/pose_controls.h"
 #include "runtime/dna/format/record_size.h"
 
 namespace mien::dna {
@@ -294,16 +295,25 @@ class DnaReader {
         errors_ == 0) {
       check_end_marker();
     }
-    if (!definition_is_good || !count_ml_controls() || !synthesize_rbf_extension()) return;
+    if (!definition_is_good || !count_ml_controls()) return;
+    if (!synthesize_pose_controls(view_, arena_)) {
+      report(Status::kMemory, kNoOffset, "rbfe", "no memory for pose controls");
+      return;
+    }
     if (!check_layers(view_, sink_, lods_) || errors_ != 0) return;
     if (lods_ != 0 && !select_lods(view_, lods_, arena_)) {
       report(Status::kMemory, kNoOffset, "", "no memory to select LODs");
       return;
     }
-    if (!options_.system) return;
     Error error;
-    if (convert_coordinates(view_, *options_.system, arena_, error) != Status::kOk) {
+    if (options_.system &&
+        convert_coordinates(view_, *options_.system, arena_, error) != Status::kOk) {
       report(error.status, error.byte_offset, "", "%s", error.message);
+      return;
+    }
+    // What was made of a good file is not taken to be good.
+    if ((lods_ != 0 || options_.system) && check_definition(view_, sink_)) {
+      check_layers(view_, sink_);
     }
   }
 
@@ -668,32 +678,6 @@ class DnaReader {
                     "announces %u names, but the layer has %u bytes", count, entry->size);
     }
     view_.ml_control_count = count;
-    return true;
-  }
-
-  // Poses of files older than 2.5: one pose control each, of the same name (docs/dna-format.md, 6.7
-  // "rbfe 1.0: RBF behavior extension").
-  bool synthesize_rbf_extension() {
-    const List<RbfPose>& poses = view_.rbfb.poses;
-    RbfBehaviorExtension& rbfe = view_.rbfe;
-    if (rbfe.poses.count != 0 || poses.count == 0) return true;
-    Span<String> names = arena_.array<String>(poses.count);
-    Span<RbfPoseControls> controls = arena_.array<RbfPoseControls>(poses.count);
-    NewArray<uint16_t> outputs = new_array<uint16_t>(arena_, poses.count);
-    NewArray<float> weights = new_array<float>(arena_, poses.count);
-    if (!names.data || !controls.data || !outputs.data || !weights.data) {
-      return report(Status::kMemory, kNoOffset, "rbfe", "no memory for pose controls");
-    }
-    const uint32_t first = view_.first_ml() + view_.ml_control_count;
-    for (uint32_t i = 0; i < poses.count; ++i) {
-      names[i] = poses[i].name;
-      outputs.set(i, static_cast<uint16_t>(first + i));
-      weights.set(i, 1.0f);
-      controls[i].output_control_indices = {outputs.data + i * sizeof(uint16_t), 1};
-      controls[i].output_control_weights = {weights.data + i * sizeof(float), 1};
-    }
-    rbfe.pose_control_names = {names.data, poses.count};
-    rbfe.poses = {controls.data, poses.count};
     return true;
   }
 

@@ -390,6 +390,31 @@ class ExerciseDna {
     if (!copy) return broke("the written file does not open: %s", life_.message.c_str());
     if (write_bytes(copy) != first) broke("written twice, but with other bytes");
     mien_dna_close(copy);
+    write_as(dna, 1 + options_.control_seed % 8, options_.control_seed / 8 % 2);
+  }
+
+  // A version that leaves something out: either the call refuses, or the file opens and is complete.
+  void write_as(const MienDna* dna, uint32_t version, uint32_t unknown_layers) {
+    MienWriteDesc desc = {};
+    desc.struct_size = sizeof(desc);
+    desc.version = version;
+    desc.unknown_layers = unknown_layers;
+    MienError error = {};
+    error.struct_size = sizeof(error);
+    size_t size = 0;
+    MienStatus status = mien_dna_write_memory(dna, &desc, nullptr, 0, &size, &error);
+    if (status != MIEN_OK) return check_failure("writing", status, error, size_);
+    std::vector<uint8_t> bytes(size);
+    if (mien_dna_write_memory(dna, &desc, bytes.data(), size, &size, &error) != MIEN_OK ||
+        size != bytes.size()) {
+      broke("measured for 2.%u, but not written: %s", version, error.message);
+    }
+    MienDna* copy = open(bytes.data(), size, 0, status);
+    if (!copy) {
+      broke("as 2.%u, unknown layers %u: the file does not open: %s", version, unknown_layers,
+            life_.message.c_str());
+    }
+    mien_dna_close(copy);
   }
 
   // A report has errors exactly if opening or compiling refuses the file.

@@ -303,17 +303,27 @@ class LodSelector {
     defn.mesh_channels = {Array<uint16_t>(new_from).first(kept),
                           Array<uint16_t>(new_to).first(kept)};
 
-    if (!joints_.all_stay) {
-      const Array<uint16_t> parents = survivors(defn.joint_hierarchy, joints_);
-      NewArray<uint16_t> hierarchy = make_array<uint16_t>(parents.count);
-      for (uint32_t j = 0; j < hierarchy.count; ++j) {
-        const uint32_t parent = joints_[parents[j]];
-        hierarchy.set(j, static_cast<uint16_t>(parent == kGone ? 0 : parent));
-      }
-      defn.joint_hierarchy = hierarchy;
-    }
+    if (!joints_.all_stay) select_hierarchy();
     defn.neutral_translations = survivors(defn.neutral_translations, joints_);
     defn.neutral_rotations = survivors(defn.neutral_rotations, joints_);
+  }
+
+  // A joint without its parent hangs from joint 0, unless joint 0 descends from it: then it is a
+  // root. Only one can be such an ancestor: the line of parents of joint 0 ends there.
+  void select_hierarchy() {
+    const Array<uint16_t> parents = survivors(view_.defn.joint_hierarchy, joints_);
+    NewArray<uint16_t> hierarchy = make_array<uint16_t>(parents.count);
+    if (out_of_memory_ || hierarchy.count == 0) return void(view_.defn.joint_hierarchy = {});
+    uint32_t top = 0;
+    for (uint32_t up = joints_[parents[0]]; up != kGone && up != top; up = joints_[parents[top]]) {
+      top = up;
+    }
+    for (uint32_t j = 0; j < hierarchy.count; ++j) {
+      const uint32_t parent = joints_[parents[j]];
+      const uint32_t orphan = j == top ? j : 0;
+      hierarchy.set(j, static_cast<uint16_t>(parent == kGone ? orphan : parent));
+    }
+    view_.defn.joint_hierarchy = hierarchy;
   }
 
   // Which columns a LOD needs decides the order in which they turn joints represented by

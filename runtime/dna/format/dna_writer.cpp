@@ -72,10 +72,10 @@ bool version_knows(uint16_t version, const LayerKind& kind) {
   return version < 1 || version > 8 || kind.since <= version;
 }
 
-bool is_written(const DnaView& view, const WriteOptions& options, const IndexEntry& entry) {
-  const LayerKind* kind = find_layer_kind(entry.code, entry.layer_version);
+bool is_written(const IndexEntry& entry, const WriteOptions& options) {
   if (options.keep_unknown) return true;
-  return kind && version_knows(view.version, *kind) && version_knows(options.version, *kind);
+  const LayerKind* kind = find_layer_kind(entry.code, entry.layer_version);
+  return kind && version_knows(options.version, *kind);
 }
 
 const IndexEntry* find_entry(const DnaView& view, const LayerKind& kind) {
@@ -90,37 +90,27 @@ struct LayerToWrite {
   uint32_t code, layer_version;
   const LayerKind* kind;    // null: write `entry` as it is
   const IndexEntry* entry;  // null: the index lacks it
-  bool empty;               // what the source had was dropped
 };
 
 /// Calls f(layer) for each layer of the file, in order: those of the index, then those that the
-/// version knows and the index lacks or lost.
+/// version knows and the index lacks.
 template <class F>
 void for_each_layer(const DnaView& view, const WriteOptions& options, F&& f) {
   for (const IndexEntry& entry : view.index) {
-    if (!is_written(view, options, entry)) continue;
+    if (!is_written(entry, options)) continue;
     const LayerKind* kind = find_layer_kind(entry.code, entry.layer_version);
-    f(LayerToWrite{entry.code, entry.layer_version, kind, &entry, false});
+    f(LayerToWrite{entry.code, entry.layer_version, kind, &entry});
   }
   for (const LayerKind& kind : kLayerKinds) {
-    if (!version_knows(options.version, kind)) continue;
-    const IndexEntry* entry = find_entry(view, kind);
-    if (entry && is_written(view, options, *entry)) continue;
-    // An extension that was made for poses goes where they go.
-    const LayerKind& origin = kind.id == LayerId::kRbfe && !entry ? kLayerKinds[5] : kind;
-    const IndexEntry* lost = find_entry(view, origin);
-    const bool empty = lost && !is_written(view, options, *lost);
-    f(LayerToWrite{kind.code, kind.layer_version, &kind, nullptr, empty});
+    if (!version_knows(options.version, kind) || find_entry(view, kind)) continue;
+    f(LayerToWrite{kind.code, kind.layer_version, &kind, nullptr});
   }
 }
 
 void write_layer(const DnaView& view, const LayerToWrite& layer, FieldWriter& writer) {
   // A view that was only read in part, for looking, has entries without their bytes: written empty.
   if (!layer.kind) return writer.copy(layer.entry->data, layer.entry->data ? layer.entry->size : 0);
-  with_layer(view, layer.kind->id, [&](const auto& record) {
-    using Record = std::decay_t<decltype(record)>;
-    writer.write(layer.empty ? Record{} : record);
-  });
+  with_layer(view, layer.kind->id, [&](const auto& record) { writer.write(record); });
 }
 
 void write_header(const DnaView& view, const WriteOptions& options, FieldWriter& writer) {
@@ -186,6 +176,11 @@ uint64_t write_file_bytes(const DnaView& view, const WriteOptions& options, uint
 }
 
 }  // namespace
+
+bool is_written(const DnaView& view, const LayerKind& kind, const WriteOptions& options) {
+  if (version_knows(options.version, kind)) return true;
+  return options.version != 1 && options.keep_unknown && find_entry(view, kind);
+}
 
 uint64_t encoded_size(const DnaView& view, const WriteOptions& options) {
   return write_file_bytes(view, options, nullptr);

@@ -12,6 +12,9 @@ struct WriteOptions {
   bool keep_unknown = true;  // also layers that the version does not know yet
 };
 
+/// True if the file will have the layer.
+bool is_written(const DnaView& view, const LayerKind& kind, const WriteOptions& options);
+
 /// Bytes of the file. The format numbers them with 32 bits: a caller refuses more.
 uint64_t encoded_size(const DnaView& view, const WriteOptions& options);
 

@@ -323,6 +323,61 @@ TEST(LodSelection, LooseJointsStay) {
             (std::vector<std::string>{"head", "jaw", "tongue"}));
 }
 
+// Joints without a parent hang from joint 0, but not those that it hangs from itself.
+TEST(LodSelection, NoJointBecomesItsOwnAncestor) {
+  Arena arena(default_allocator());
+  const struct {
+    std::vector<uint16_t> parents, kept, expected;
+  } cases[] = {
+      {{1, 2, 2}, {0, 1}, {1, 1}},           // 0 hangs from 1, whose parent is gone
+      {{1, 2, 3, 3}, {0, 1, 2}, {1, 2, 2}},  // further up
+      {{2, 2, 3, 3}, {0, 1, 2}, {2, 2, 2}},  // with a sibling
+      {{1, 3, 3, 3}, {0, 1, 2}, {1, 1, 0}},  // another joint without parent is no ancestor
+      {{3, 3, 3, 3}, {0, 1, 2}, {0, 0, 0}},  // joint 0 is the first of them
+      {{3, 2, 2, 1}, {1, 3}, {0, 0}},        // joint 0 is gone: its number is that of joint 1
+      {{1, 1, 1}, {0, 1}, {1, 1}},           // nothing that counts is gone
+      {{0, 0, 1, 2}, {0, 3}, {0, 0}},        // the common case
+  };
+  for (const auto& c : cases) {
+    SCOPED_TRACE(testing::PrintToString(c.parents));
+    const auto count = static_cast<uint32_t>(c.parents.size());
+    DnaView view = {};
+    view.loaded = dna::kLayersAll;
+    view.desc.lod_count = 2;
+    view.dsce.rotation_sign = {1, 1, 1};
+    Array<uint16_t> all = dna::new_array<uint16_t>(arena, count);
+    const dna::NewArray<uint16_t> numbers = dna::new_array<uint16_t>(arena, count);
+    const dna::NewArray<uint16_t> parents = dna::new_array<uint16_t>(arena, count);
+    const dna::NewArray<uint16_t> kept = dna::new_array<uint16_t>(arena, c.kept.size());
+    const dna::NewArray<float> zeros = dna::new_array<float>(arena, count);
+    Span<String> names = arena.array<String>(count);
+    for (uint32_t j = 0; j < count; ++j) {
+      numbers.set(j, static_cast<uint16_t>(j));
+      parents.set(j, c.parents[j]);
+      zeros.set(j, 0);
+    }
+    for (uint32_t k = 0; k < c.kept.size(); ++k) kept.set(k, c.kept[k]);
+    all = numbers;
+    Span<Array<uint16_t>> lists = arena.array<Array<uint16_t>>(2);
+    lists[0] = all;
+    lists[1] = kept;
+    view.defn.lod_joints = {dna::be<uint16_t>(arena, {0, 1}), {lists.data, 2}};
+    const Array<uint16_t> none = dna::be<uint16_t>(arena, {0, 0});
+    const dna::List<Array<uint16_t>> empty = {arena.array<Array<uint16_t>>(1).data, 1};
+    view.defn.lod_channels = view.defn.lod_maps = view.defn.lod_meshes = {none, empty};
+    view.defn.joint_names = {names.data, count};
+    view.defn.joint_hierarchy = parents;
+    view.defn.neutral_translations = {zeros, zeros, zeros};
+    view.defn.neutral_rotations = view.defn.neutral_translations;
+    const Bytes bytes = write_view(view);
+    const DnaHandle cut = open_dna(bytes, 2);
+    ASSERT_TRUE(cut);
+    const Array<uint16_t>& found = cut->view.defn.joint_hierarchy;
+    ASSERT_EQ(found.count, c.expected.size());
+    for (uint32_t j = 0; j < found.count; ++j) EXPECT_EQ(found[j], c.expected[j]) << j;
+  }
+}
+
 // Lists may lack what the rows of their LOD write.
 TEST(LodSelection, WhatRemainingRowsWriteStays) {
   Arena arena(default_allocator());

@@ -1444,8 +1444,10 @@ extern "C" {
     /// `MIEN_ERROR_FILE_WRITE` if the file cannot be written, `MIEN_ERROR_DNA_LAYER` if RBF
     /// behavior was loaded without the machine-learned behavior of its file (whose controls are
     /// numbered before its own), `MIEN_ERROR_DNA_LIMIT` if the file would exceed 4 GiB,
-    /// `MIEN_ERROR_MEMORY` if there is no memory for its bytes. See docs/dna-format.md, 14
-    /// "Writing a canonical file".
+    /// `MIEN_ERROR_MEMORY` if there is no memory for its bytes. A version leaves out layers that
+    /// others may need, as networks need ML operations: if the file would not open, the call fails
+    /// with the status that opening it would give. See docs/dna-format.md, 14 "Writing a canonical
+    /// file".
     pub fn mien_dna_write_file(dna: *const MienDna, path: *const c_char, desc: *const MienWriteDesc, error: *mut MienError) -> MienStatus;
 
     /// Writes a DNA file to memory and returns its size in `out_size`. `buffer` may be NULL with

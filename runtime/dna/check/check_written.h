@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Would a file open that is about to be written? A version leaves out layers that others may need.
+#pragma once
+
+#include "runtime/base/status.h"
+#include "runtime/dna/format/dna_view.h"
+#include "runtime/dna/format/dna_writer.h"
+
+namespace mien::dna {
+
+/// Checks what remains of a view that passed the checks when it is written with `options`. Looks at
+/// nothing if all of it remains. `arena` is for temporary memory.
+Status check_written(const DnaView& view, const WriteOptions& options, Arena& arena, Error& error);
+
+}  // namespace mien::dna
