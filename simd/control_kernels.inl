@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "simd/vec.inl"
+#include "simd/quad.inl"
 
 namespace mien::MIEN_KERNEL_ISA {
 namespace {

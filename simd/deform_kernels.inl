@@ -5,7 +5,7 @@
 
 #include <utility>  // index_sequence, a mere type
 
-#include "simd/vec.inl"
+#include "simd/quad.inl"
 
 namespace mien::MIEN_KERNEL_ISA {
 namespace {

@@ -5,26 +5,10 @@
 
 #include <utility>  // index_sequence, a mere type
 
-#include "simd/vec.inl"
+#include "simd/math.inl"
 
 namespace mien::MIEN_KERNEL_ISA {
 namespace {
-
-// e^x for x <= 0, within 2e-7 of its value; 0 below -87. Cody-Waite reduction to |r| <= ln(2)/2,
-// then the series to the seventh power (its next term is below 6e-9 there), in halves that do not
-// wait for each other.
-inline Vec exp_of_negative(Vec x) {
-  constexpr float kRounder = 12582912.0f;  // 1.5 * 2^23: adding it rounds to whole numbers
-  const Vec bounded = at_least(x, broadcast(-87.0f));
-  const Vec n = (bounded * broadcast(1.44269504f) + broadcast(kRounder)) - broadcast(kRounder);
-  const Vec r = (bounded - n * broadcast(0.693359375f)) + n * broadcast(2.12194440e-4f);
-  const Vec r2 = r * r;
-  const Vec low = (broadcast(1.0f / 6) * r + broadcast(0.5f)) * r2 + (r + broadcast(1.0f));
-  const Vec high = (broadcast(1.0f / 5040) * r + broadcast(1.0f / 720)) * r2 +
-                   (broadcast(1.0f / 120) * r + broadcast(1.0f / 24));
-  const Vec p = high * (r2 * r2) + low;
-  return select(less(x, broadcast(-87.0f)), broadcast(0.0f), p * power_of_two(n));
-}
 
 // Within 3e-7: 1 - 2 / (e^2|v| + 1), with the sign of v, written with e^-2|v|, which cannot
 // overflow.

@@ -1,6 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Runs before the choice of an instruction set, so it is built with baseline flags and never sees
 // xsimd. MIEN_BUILT_<ISA> comes from simd/CMakeLists.txt.
+//
+// A table of our own, not xsimd::dispatch():
+// - A rig keeps the table it was made for, so a kernel is one indirect call, and two rigs with
+//   different instruction sets can stand side by side. xsimd decides at each call, for the process.
+// - The caller, MIEN_ISA and the tests ask for any table; xsimd takes the best of a list.
+// - The scalar table does without xsimd: it is the reference of the tests, and what runs on other
+//   processors.
+// - Functors of xsimd are templates on the instruction set that all objects must see. Here no two
+//   objects share an inline function of xsimd (tests/check_isa_objects.py).
 #include <stdlib.h>
 #include <string.h>
 

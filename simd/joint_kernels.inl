@@ -5,7 +5,7 @@
 
 #include <utility>  // index_sequence, a mere type
 
-#include "simd/vec.inl"
+#include "simd/quad.inl"
 
 namespace mien::MIEN_KERNEL_ISA {
 namespace {
@@ -113,9 +113,8 @@ inline void add_pairs(const Value* values, const uint16_t* block_rows, size_t co
                     std::make_index_sequence<4>());
   }
   for (; i + 2 <= count; i += 2) {
-    float *const a = sums_of(sums, block_rows[i] & kPairBlockRows), *const b = sums_of(
-                                                                        sums, block_rows[i + 1] &
-                                                                                  kPairBlockRows);
+    float* const a = sums_of(sums, block_rows[i] & kPairBlockRows);
+    float* const b = sums_of(sums, block_rows[i + 1] & kPairBlockRows);
     float* const four[] = {a, a + kJointBlockRows, b, b + kJointBlockRows};
     add_blocks<How>(values + i * 2 * kJointBlockRows, four, input, std::make_index_sequence<4>());
   }
@@ -128,8 +127,7 @@ inline void add_pairs(const Value* values, const uint16_t* block_rows, size_t co
 
 #endif
 
-/// What comes behind is fetched by the processor, who sees where a run leads; not where the next
-/// one begins.
+/// The processor fetches ahead within a run by itself, but cannot know where the next one begins.
 template <class Value>
 inline void expect(const Value* values, const uint16_t* block_rows, const JointRun& run) {
   constexpr size_t kLine = 64 / sizeof(Value), kLines = 4;

@@ -13,8 +13,7 @@ namespace mien {
 enum class Isa : uint32_t { kBest = 0, kScalar = 1, kSse2 = 2, kAvx2 = 3, kAvx512 = 4, kNeon = 5 };
 constexpr uint32_t kIsaCount = 6;
 
-/// Rows per block of a dense layer and of other arrays in lanes, the same for every instruction
-/// set.
+/// Rows per block of a dense layer and of other arrays in lanes, on every instruction set.
 constexpr uint32_t kBlockLanes = 16;
 
 /// Rows per block of a joint matrix.
@@ -74,8 +73,9 @@ struct NonzeroArgs {
 ///     controls[outputs[e]] = min(1, weights[e] * product of clamp(controls[input], 0, 1))
 ///
 /// over inputs[first_inputs[e]] ... inputs[first_inputs[e + 1] - 1], in this order; at least the
-/// lowest float. Returns the union of `marks` of the outputs whose bits changed. The run_lengths[e] entries from e on have the same number of inputs and do not
-/// read each other. Without branches that depend on numbers: nobody foresees which are active.
+/// lowest float. Returns the union of `marks` of the outputs whose bits changed. The run_lengths[e]
+/// entries from e on have the same number of inputs and do not read each other. Without branches that
+/// depend on numbers: nobody foresees which are active.
 struct PsdArgs {
   const uint16_t* outputs;
   const float* weights;
@@ -161,16 +161,18 @@ struct QuaternionJointArgs {
 /// An RBF solver. Its poses are lanes, in blocks of 16:
 ///
 ///     targets    [input][lane]: NaN for what fills the last block; without inputs one row of 0
-///     inverses   if interpolative: blocks of 16 poses, [column][lane], a column for each pose; 0
-///     for
-///                what fills the last block
+///     inverses   if interpolative: blocks of 16 poses, [column][lane], a column for each pose;
+///                0 for what fills the last block
 ///
 /// Distance: Euclidean, or the root of the summed squares of the angles between rotations: of 4
 /// inputs each, or of the 3 or 2 numbers that the swing or the twist of one has
-/// (RbfArgs::rotations), in the order of the axes in RbfArgs. Weight of d, by function: 0, 1: 2^(d
-/// * scale); 2, 3, 4: max(0, 1 - (d * scale)^n) with n = 1, 3, 5; what is not a number weighs 0. If
-/// interpolative, the inverse times the weights, clamped to 0..1. Then all are divided by their
-/// sum, if that exceeds 1 or always.
+/// (RbfArgs::rotations), in the order of the axes in RbfArgs. Weight of a distance d, by function:
+///
+///     0, 1       2^(d * scale)
+///     2, 3, 4    max(0, 1 - (d * scale)^n) with n = 1, 3, 5
+///
+/// What is not a number weighs 0. If interpolative, the inverse times the weights, clamped to 0..1.
+/// Then all are divided by their sum, if that exceeds 1 or always.
 struct RbfSolverPlan {
   uint64_t first_target, first_inverse;
   uint32_t first_input, input_count;  // whole angles; into inputs, or the lane of rotations
@@ -210,9 +212,9 @@ struct RbfArgs {
 /// Local transforms of joints, in blocks of 16 joints, one lane each:
 ///
 ///     neutral   block 0: tx0..tx15 ty tz qx qy qz qw | block 1: ...
-///     deltas    block 0: tx0..tx15 ty tz, then the half angles about x y z in radians, at most a
-///               quarter turn, or qx qy qz qw (any length; zero is the identity), then sx sy sz |
-///               block 1: ...
+///     deltas    block 0: tx0..tx15 ty tz, rotation, sx sy sz | block 1: ...
+///               rotation: the half angles about x y z in radians, at most a quarter turn, or
+///               qx qy qz qw, of any length; zero is the identity
 ///     locals    block 0: x axis (xyz), y axis, z axis, translation, qx qy qz qw | block 1: ...
 ///
 /// Translation: neutral + delta. Rotation: neutral * delta, normalized. The axes are those of the

@@ -4,28 +4,12 @@
 
 #pragma once
 
+#include "simd/math.inl"
+#include "simd/quad.inl"
 #include "simd/rotation_kernels.inl"
 
 namespace mien::MIEN_KERNEL_ISA {
 namespace {
-
-// Taylor series, for |x| <= pi/2: the next terms are below 7e-10 there.
-inline Vec sine(Vec x) {
-  const Vec xx = x * x;
-  const float terms[] = {-2.50521084e-8f, 2.75573192e-6f, -1.98412698e-4f, 8.33333333e-3f,
-                         -1.66666667e-1f};
-  Vec p = broadcast(1.60590438e-10f);
-  for (float term : terms) p = p * xx + broadcast(term);
-  return (p * xx) * x + x;
-}
-inline Vec cosine(Vec x) {
-  const Vec xx = x * x;
-  const float terms[] = {2.08767570e-9f,  -2.75573192e-7f, 2.48015873e-5f,
-                         -1.38888889e-3f, 4.16666667e-2f,  -0.5f};
-  Vec p = broadcast(-1.14707456e-11f);
-  for (float term : terms) p = p * xx + broadcast(term);
-  return p * xx + broadcast(1.0f);
-}
 
 /// The product of the rotations about three axes, given their half angles.
 inline VecQuaternion from_half_angles(const float* half_angles, const uint8_t* axes) {
@@ -33,7 +17,7 @@ inline VecQuaternion from_half_angles(const float* half_angles, const uint8_t* a
   for (int i = 0; i < 3; ++i) {
     const size_t a = axes[i], b = (a + 1) % 3, c = (a + 2) % 3;
     const Vec half = load(half_angles + a * kBlockLanes);
-    const Vec s = sine(half), k = cosine(half);
+    const Vec s = bounded_sine(half), k = bounded_cosine(half);
     const Vec qa = q[a], qb = q[b], qc = q[c], qw = q[3];
     q[a] = k * qa + s * qw;
     q[b] = k * qb - s * qc;

@@ -2,86 +2,12 @@
 // RBF solvers: distances, weights, interpolation, normalization. Products and sums are rounded one
 // by one, in an order that does not depend on the width.
 
-#include "simd/vec.inl"
+#pragma once
+
+#include "simd/math.inl"
 
 namespace mien::MIEN_KERNEL_ISA {
 namespace {
-
-// Two vectors at a time: neither waits for the other, and they share what is loaded for both.
-struct VecPair {
-  Vec a, b;
-};
-struct MaskPair {
-  Mask a, b;
-};
-inline VecPair operator+(VecPair x, VecPair y) { return {x.a + y.a, x.b + y.b}; }
-inline VecPair operator-(VecPair x, VecPair y) { return {x.a - y.a, x.b - y.b}; }
-inline VecPair operator*(VecPair x, VecPair y) { return {x.a * y.a, x.b * y.b}; }
-inline VecPair absolute(VecPair v) { return {absolute(v.a), absolute(v.b)}; }
-inline VecPair square_root(VecPair v) { return {square_root(v.a), square_root(v.b)}; }
-inline VecPair at_least(VecPair v, VecPair w) { return {at_least(v.a, w.a), at_least(v.b, w.b)}; }
-inline VecPair at_most(VecPair v, VecPair w) { return {at_most(v.a, w.a), at_most(v.b, w.b)}; }
-inline VecPair at_most_or_nan(VecPair v, VecPair w) {
-  return {at_most_or_nan(v.a, w.a), at_most_or_nan(v.b, w.b)};
-}
-inline MaskPair less(VecPair x, VecPair y) { return {less(x.a, y.a), less(x.b, y.b)}; }
-inline VecPair select(MaskPair m, VecPair x, VecPair y) {
-  return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};
-}
-inline VecPair keep(MaskPair m, VecPair v) { return {keep(m.a, v.a), keep(m.b, v.b)}; }
-inline VecPair round_to_whole(VecPair v, VecPair& power) {
-  return {round_to_whole(v.a, power.a), round_to_whole(v.b, power.b)};
-}
-inline void store(float* to, VecPair v) {
-  store(to, v.a);
-  store(to + kWidth, v.b);
-}
-
-// What follows is written for V, one vector or two.
-template <class V>
-struct Make;
-template <>
-struct Make<Vec> {
-  static Vec from(const float* lanes) { return load(lanes); }
-  static Vec of(float value) { return broadcast(value); }
-};
-template <>
-struct Make<VecPair> {
-  static VecPair from(const float* lanes) { return {load(lanes), load(lanes + kWidth)}; }
-  static VecPair of(float value) {
-    const Vec v = broadcast(value);
-    return {v, v};
-  }
-};
-
-// 2^y for -126 < y <= 126, within 2e-7 of its value; 0 below, and for what is not a number. The
-// polynomial for -1/2 ... 1/2 is within 1e-7 and gives 1 for 0.
-template <class V>
-inline V power_of_two_or_zero(V y) {
-  using M = Make<V>;
-  V power;
-  const V f = y - round_to_whole(y, power);
-  const V f2 = f * f;
-  const V high = (M::of(0.0013264739f) * f + M::of(0.00967151672f)) * f2 +
-                 (M::of(0.0555073358f) * f + M::of(0.240222424f));
-  const V p = high * f2 + (M::of(0.693147004f) * f + M::of(1.0f));
-  return keep(less(M::of(-126.0f), y), p * power);
-}
-
-// acos(x) for -1 <= x <= 1, within 2e-8 before rounding: sqrt(1 - |x|) times a polynomial
-// (Abramowitz and Stegun 4.4.46), reflected for negative x. 0 for x > 1.
-template <class V>
-inline V arc_cosine(V x) {
-  using M = Make<V>;
-  const V a = at_most_or_nan(absolute(x), M::of(1.0f));
-  const V a2 = a * a;
-  const V low = (M::of(-0.0501743046f) * a + M::of(0.0889789874f)) * a2 +
-                (M::of(-0.2145988016f) * a + M::of(1.5707963050f));
-  const V high = (M::of(-0.0012624911f) * a + M::of(0.0066700901f)) * a2 +
-                 (M::of(-0.0170881256f) * a + M::of(0.0308918810f));
-  const V angle = (high * (a2 * a2) + low) * square_root(M::of(1.0f) - a);
-  return select(less(x, M::of(0.0f)), M::of(3.14159265f) - angle, angle);
-}
 
 /// The numbers of one rotation, `step` apart; swings lack the first of four, twists the middle two.
 struct RotationInput {

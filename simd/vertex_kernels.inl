@@ -3,7 +3,8 @@
 
 #pragma once
 
-#include "simd/vec.inl"
+#include "simd/math.inl"
+#include "simd/quad.inl"
 
 namespace mien::MIEN_KERNEL_ISA {
 namespace {
@@ -35,11 +36,10 @@ inline Target target_of(const VertexStream& stream, size_t first, size_t count) 
   return {stream.data + first * stream.stride, stream.stride, count};
 }
 
-/// v in -1 ... 1 times `scale`, as a whole number in the low bits: adding 1.5 * 2^23 rounds to
-/// nearest even and leaves the number there in two's complement.
+/// v in -1 ... 1 times `scale`, rounded to the nearest whole number, which is left in the low bits.
 inline Quad to_snorm(const Quad& v, float scale) {
   const Quad clamped = lower4(higher4(v, broadcast4(-1.0f)), broadcast4(1.0f));
-  return clamped * broadcast4(scale) + broadcast4(12582912.0f);
+  return clamped * broadcast4(scale) + broadcast4(kRounder);
 }
 
 inline void write_snorm16(const Target& to, const Quads& v) {

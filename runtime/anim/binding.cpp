@@ -12,8 +12,7 @@ namespace {
 constexpr uint32_t kNone = ~uint32_t{0};
 constexpr uint8_t kByChannel = 1, kByMatrix = 2, kByGui = 3;
 
-// Names
-// ------------------------------------------------------------------------------------------------
+// Names -------------------------------------------------------------------------------------------
 
 char folded(char c) {
   return c == '.' ? '_' : c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
@@ -71,8 +70,7 @@ struct RigNames {
   Span<const char> name(uint32_t i) const { return list[i]; }
 };
 
-// Building
-// ------------------------------------------------------------------------------------------------
+// Building ----------------------------------------------------------------------------------------
 
 /// Memory for the time of binding. Targets are raw controls, then GUI controls.
 struct Scratch {

@@ -75,8 +75,8 @@ Status bind_clip(const Clip& clip, const Rig& rig, Span<const MatrixEntry> matri
 void release_binding(Binding* binding);
 
 /// Writes the raw controls in `binding.controls` and leaves the others alone. `values` comes from
-/// sample_clip(); `gui` is scratch of gui_count floats. Values that
-/// go to raw controls directly keep their bits; GUI controls give the bits of the rig's own mapping.
+/// sample_clip(); `gui` is scratch of gui_count floats. Values that go to raw controls directly keep
+/// their bits; GUI controls give the bits of the rig's own mapping.
 void apply_binding(const Binding& binding, Span<const float> values, Span<float> gui,
                    Span<float> raw_controls);
 

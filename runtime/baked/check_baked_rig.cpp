@@ -56,8 +56,7 @@ bool check_counts(const RigChecker& c) {
          c.ok(are_known(rig.units), "units and axes");
 }
 
-// Names
-// --------------------------------------------------------------------------------------------
+// Names -------------------------------------------------------------------------------------------
 
 bool is_sorted(const NameList& names) {
   for (size_t i = 1; i < names.sorted.count; ++i) {
@@ -100,8 +99,7 @@ bool check_lists(const RigChecker& c, const LodLists& lists, uint32_t limit, con
               what);
 }
 
-// Controls
-// -----------------------------------------------------------------------------------------
+// Controls ----------------------------------------------------------------------------------------
 
 bool check_table(const RigChecker& c, const ControlTable& table, uint32_t inputs, uint32_t outputs,
                  const char* what) {
@@ -196,8 +194,7 @@ bool check_psds(const RigChecker& c, bool full) {
          c.ok(!full || is_ordered(rig), "order of correctives");
 }
 
-// Joint matrix
-// -------------------------------------------------------------------------------------
+// Joint matrix ------------------------------------------------------------------------------------
 
 bool check_panels(const RigChecker& c) {
   const Rig& rig = c.rig;
@@ -376,8 +373,7 @@ bool check_joints(const RigChecker& c) {
          check_targets(c) && check_blocks(c, values / kJointBlockRows);
 }
 
-// Rotations
-// ----------------------------------------------------------------------------------------
+// Rotations ---------------------------------------------------------------------------------------
 
 bool check_turned(const Span<QuaternionJoint>& joints, uint32_t joint_count) {
   bool good = true;
@@ -441,8 +437,7 @@ bool check_twists(const RigChecker& c) {
   return c.ok(good, "twists and swings");
 }
 
-// RBF solvers
-// --------------------------------------------------------------------------------------
+// RBF solvers -------------------------------------------------------------------------------------
 
 bool check_solvers(const RigChecker& c) {
   const Rig& rig = c.rig;
@@ -504,8 +499,7 @@ bool check_rbf(const RigChecker& c) {
                      "LODs of RBF solvers");
 }
 
-// Learned behavior
-// --------------------------------------------------------------------------------
+// Learned behavior --------------------------------------------------------------------------------
 
 bool check_layers(const RigChecker& c) {
   const MlTable& ml = c.rig.ml;

@@ -50,8 +50,7 @@ Status choose_rows(const dna::DnaView& view, const Rig& rig, Arena& scratch, Spa
   return Status::kOk;
 }
 
-// Block rows and panels
-// -----------------------------------------------------------------------------
+// Block rows and panels ---------------------------------------------------------------------------
 
 /// The rows of each group one behind the other: those that the same LODs reach by their outputs, so
 /// that what moves one joint stands together, and is zero together.

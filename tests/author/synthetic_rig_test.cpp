@@ -120,8 +120,7 @@ const DnaView& rig_of(SyntheticPreset preset, uint64_t seed) {
   return rig->view;
 }
 
-// Numbers that the generator stands on
-// --------------------------------------------------------------
+// Numbers that the generator stands on ------------------------------------------------------------
 
 TEST(Random, IsSplitMixAndPcg32) {
   uint64_t state = 0;
@@ -149,8 +148,7 @@ TEST(Random, DrawsEvenlyAndNormally) {
   EXPECT_NEAR(squares / kDraws, 1, 0.03);
 }
 
-// Sizes
-// -----------------------------------------------------------------------------------------------
+// Sizes -------------------------------------------------------------------------------------------
 
 struct Expected {
   uint32_t lods, joints, gui, raw, psds, groups, channels, maps, meshes;
@@ -208,8 +206,7 @@ TEST(SyntheticRig, ShareOfGuiRowsIsNotIdentity) {
   EXPECT_EQ(drivers.size(), 174u);
 }
 
-// What must hold for every preset and seed
-// -----------------------------------------------------------
+// What must hold for every preset and seed --------------------------------------------------------
 
 class EveryRig : public ::testing::TestWithParam<std::tuple<SyntheticPreset, uint64_t>> {
  protected:
@@ -446,8 +443,7 @@ INSTANTIATE_TEST_SUITE_P(Presets, EveryRig,
                          ::testing::Combine(::testing::ValuesIn(kPresets),
                                             ::testing::Values(0, 1, 12345678901234u)));
 
-// Platforms
-// -------------------------------------------------------------------------------------------
+// Platforms ---------------------------------------------------------------------------------------
 
 TEST(SyntheticRig, IsTheSameOnEveryPlatform) {
   const uint64_t expected[] = {0xBE3E2C63A2D11315u, 0x678B74B8CAEFD2F8u, 0xB942D4231C14653Bu,
@@ -467,8 +463,7 @@ TEST(SyntheticRig, WritesAsAFileOfProductionSize) {
   EXPECT_LT(size, 16u << 20);
 }
 
-// Neutral pose
-// ----------------------------------------------------------------------------------------
+// Neutral pose ------------------------------------------------------------------------------------
 
 /// Where a joint stands on the head, from the neutral values of its ancestors.
 Point index_of(const dna::Definition& defn, uint16_t joint) {
@@ -517,8 +512,7 @@ TEST_P(EveryRig, JointsStandOnTheHeadMirroredInSpiteOfTurnedParents) {
   EXPECT_GT(pairs, 0u);
 }
 
-// Memory
-// ----------------------------------------------------------------------------------------------
+// Memory ------------------------------------------------------------------------------------------
 
 /// Gives `left` blocks, then none; keeps account.
 struct MeanAllocator {

@@ -349,8 +349,7 @@ TEST_F(OutOfMemory, WriteFile) {
   EXPECT_TRUE(counter.clean()) << counter.first_wrong;
 }
 
-// Views and look-ups while memory is out
-// -----------------------------------------------------------
+// Views and look-ups while memory is out ----------------------------------------------------------
 
 TEST_F(OutOfMemory, NothingElseAllocates) {
   CountingAllocator counter;

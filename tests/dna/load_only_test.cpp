@@ -26,8 +26,7 @@ using dna::DnaView;
 
 const size_t kPage = static_cast<size_t>(sysconf(_SC_PAGESIZE));
 
-// Guarded file
-// -------------------------------------------------------------------------------------
+// Guarded file ------------------------------------------------------------------------------------
 
 /// Address range of the guarded file, for the handler of faults.
 uintptr_t g_begin = 0, g_end = 0;
@@ -114,8 +113,7 @@ void evaluate_all_lods(const RigHandle& rig) {
   }
 }
 
-// Layers
-// -------------------------------------------------------------------------------------------
+// Layers ------------------------------------------------------------------------------------------
 
 /// The tiny rig with each layer on pages of its own; gaps between layers are allowed.
 struct SpreadFile {
@@ -252,8 +250,7 @@ TEST(LoadOnlyDeathTest, AForbiddenLayerThatIsChosenFaults) {
   }
 }
 
-// A rig of production size
-// ---------------------------------------------------------------------------
+// A rig of production size ------------------------------------------------------------------------
 
 /// The large preset, and where things lie in its file.
 class LargeFile : public testing::Test {
@@ -376,8 +373,7 @@ TEST_F(LargeFile, OpeningReadsNoNumbers) {
   EXPECT_TRUE(file.open(MIEN_LAYER_ALL));
 }
 
-// LODs
-// ---------------------------------------------------------------------------------------------
+// LODs --------------------------------------------------------------------------------------------
 
 class LargeFileLods : public LargeFile, public testing::WithParamInterface<uint64_t> {};
 INSTANTIATE_TEST_SUITE_P(Selections, LargeFileLods,
@@ -451,8 +447,7 @@ TEST(LoadOnlyDeathTest, AForbiddenMeshThatIsChosenFaults) {
       testing::ExitedWithCode(1), "went by; touched byte");
 }
 
-// Mapped files
-// -------------------------------------------------------------------------------------
+// Mapped files ------------------------------------------------------------------------------------
 
 /// Resident bytes of a mapped file as the kernel counts them; -1 if it does not tell.
 long resident_bytes(const std::string& path) {

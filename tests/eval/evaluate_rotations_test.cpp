@@ -92,8 +92,6 @@ TEST(Rotations, EverySequenceSignUnitFormAndRepresentation) {
   }
 }
 
-// More joints than one block of the kernel has, and columns that LODs leave out: their order
-// counts.
 // Rows of zeros, and rows that no LOD reaches: they neither turn a joint nor undo what another group
 // turned.
 TEST(Rotations, RowsThatCountForNothingTurnNoQuaternionJoint) {
@@ -117,6 +115,7 @@ TEST(Rotations, RowsThatCountForNothingTurnNoQuaternionJoint) {
   }
 }
 
+// More joints than one block of the kernel has, and columns that LODs leave out: their order counts.
 TEST(Rotations, QuaternionJointsOfEveryLod) {
   Random random = Random::from_seed(32, 2);
   for (int round = 0; round < 20; ++round) {

@@ -66,8 +66,7 @@ LifeOptions options_of(const uint8_t* data, size_t size) {
   return options;
 }
 
-// Files to start from
-// --------------------------------------------------------------------------------
+// Files to start from -----------------------------------------------------------------------------
 
 std::vector<Bytes>& seeds() {
   static std::vector<Bytes> files;
@@ -105,8 +104,7 @@ void make_seeds() {
   mien_dna_close(generated);
 }
 
-// Mutation
-// -----------------------------------------------------------------------------------------
+// Mutation ----------------------------------------------------------------------------------------
 
 bool ignore_finding(void*, const Finding&) { return true; }
 

@@ -55,8 +55,7 @@ void change(Random& random, T& value) {
   }
 }
 
-// Arrays and lists
-// ---------------------------------------------------------------------------------
+// Arrays and lists --------------------------------------------------------------------------------
 
 /// What happens to the elements of an array, decided once and done to all that are parallel.
 struct Edit {
@@ -267,8 +266,7 @@ class LodEditor {
   uint32_t old_count_, new_count_;
 };
 
-// Views
-// --------------------------------------------------------------------------------------------
+// Views -------------------------------------------------------------------------------------------
 
 inline void change_layer(Random& random, Arena& arena, DnaView& view, LayerId id) {
   with_layer(view, id, [&](auto& record) {

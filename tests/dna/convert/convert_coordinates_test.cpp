@@ -629,8 +629,7 @@ TEST(CoordinateConversion, GeometryFollows) {
   }
 }
 
-// What is refused
-// ----------------------------------------------------------------------------------
+// What is refused ---------------------------------------------------------------------------------
 
 class ConversionRefused : public testing::Test {
  protected:

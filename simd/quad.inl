@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+// Quads: four floats on every instruction set. A column of a matrix, or a point and one float that
+// nobody looks at.
+//
+// | name                   | meaning                                                              |
+// |------------------------|----------------------------------------------------------------------|
+// | load4, store4, store3  | from and to any address; store3 writes the first three               |
+// | broadcast4             | the same float in each lane                                          |
+// | + - *                  | rounded once each, never fused                                       |
+// | mul_add4, mul_sub4     | a * b + c, a * b - c: fused where mul_add of vec.inl is              |
+// | divide4, square_root4  | correctly rounded                                                    |
+// | higher4, lower4        | NaN in the first becomes the second                                  |
+// | yzx4                   | the first three, turned by one                                       |
+// | cross4                 | the cross product of the first three                                 |
+// | gather4, scatter4      | lane i from or to place at[i], or at[i * stride]                     |
+// | different_lanes4(a, b) | bit k: the bits of lane k differ                                     |
+// | join_bits4(a, b, n)    | the low n bits of a, and above them those of b                       |
+// | transpose4             | four quads, rows to columns                                          |
+// | columns4(m, q)         | the four columns of a matrix of 16 floats in 16 / kWidth Vecs        |
+//
+// Some intrinsics stay. What xsimd 8.1 lacks: single lanes, parts of a vector, the bits of a mask,
+// four floats that fuse beside AVX2. On NEON it refines estimates of root and quotient, fuses only
+// if a macro of the compiler says so, its min and max keep NaN, and it zips halves.
+
+#pragma once
+
+#include "simd/vec.inl"
+
+namespace mien::MIEN_KERNEL_ISA {
+namespace {
+
+#if defined(MIEN_KERNEL_SCALAR)
+
+struct Quad {
+  float v[4];
+};
+template <class F>
+inline Quad lanes4(F&& f) {
+  return {{f(0), f(1), f(2), f(3)}};
+}
+inline Quad load4(const float* from) { return {{from[0], from[1], from[2], from[3]}}; }
+inline void store4(float* to, const Quad& q) {
+  for (int i = 0; i < 4; ++i) to[i] = q.v[i];
+}
+inline void store3(float* to, const Quad& q) {
+  for (int i = 0; i < 3; ++i) to[i] = q.v[i];
+}
+inline Quad broadcast4(float value) { return {{value, value, value, value}}; }
+inline Quad operator+(const Quad& a, const Quad& b) {
+  return lanes4([&](int i) { return a.v[i] + b.v[i]; });
+}
+inline Quad operator-(const Quad& a, const Quad& b) {
+  return lanes4([&](int i) { return a.v[i] - b.v[i]; });
+}
+inline Quad operator*(const Quad& a, const Quad& b) {
+  return lanes4([&](int i) { return a.v[i] * b.v[i]; });
+}
+inline Quad mul_add4(const Quad& a, const Quad& b, const Quad& c) { return a * b + c; }
+inline Quad mul_sub4(const Quad& a, const Quad& b, const Quad& c) { return a * b - c; }
+inline Quad divide4(const Quad& a, const Quad& b) {
+  return lanes4([&](int i) { return a.v[i] / b.v[i]; });
+}
+inline Quad square_root4(const Quad& a) {
+  return lanes4([&](int i) { return __builtin_sqrtf(a.v[i]); });
+}
+inline Quad yzx4(const Quad& a) { return {{a.v[1], a.v[2], a.v[0], a.v[3]}}; }
+inline Quad higher4(const Quad& a, const Quad& b) {
+  return lanes4([&](int i) { return higher_of(a.v[i], b.v[i]); });
+}
+inline Quad lower4(const Quad& a, const Quad& b) {
+  return lanes4([&](int i) { return lower_of(a.v[i], b.v[i]); });
+}
+inline Quad gather4(const float* from, const uint16_t* at, size_t stride) {
+  return lanes4([&](size_t i) { return from[at[i * stride]]; });
+}
+inline void scatter4(float* to, const uint16_t* at, const Quad& q) {
+  for (size_t i = 0; i < 4; ++i) to[at[i]] = q.v[i];
+}
+inline uint32_t different_lanes4(const Quad& a, const Quad& b) {
+  uint32_t different = 0;
+  for (size_t i = 0; i < 4; ++i) different |= different_lanes(a.v[i], b.v[i]) << i;
+  return different;
+}
+inline Quad join_bits4(const Quad& low, const Quad& high, int n) {
+  return lanes4([&](int i) {
+    return float_of((bits_of(low.v[i]) & ((1u << n) - 1)) | bits_of(high.v[i]) << n);
+  });
+}
+inline void transpose4(Quad& a, Quad& b, Quad& c, Quad& d) {
+  const Quad rows[4] = {a, b, c, d};
+  Quad* const columns[4] = {&a, &b, &c, &d};
+  for (int i = 0; i < 4; ++i) *columns[i] = lanes4([&](int k) { return rows[k].v[i]; });
+}
+inline void columns4(const Vec* m, Quad* columns) {
+  for (int i = 0; i < 4; ++i) columns[i] = load4(m + 4 * i);
+}
+
+#else
+
+#if defined(MIEN_KERNEL_SSE2) || defined(MIEN_KERNEL_NEON)
+using Quad = Vec;
+#else
+using Quad = xsimd::batch<float, xsimd::sse2>;
+#endif
+using QuadBits = xsimd::batch<uint32_t, Quad::arch_type>;
+
+inline Quad load4(const float* from) { return Quad::load_unaligned(from); }
+inline void store4(float* to, Quad q) { q.store_unaligned(to); }
+inline Quad broadcast4(float value) { return Quad(value); }
+inline Quad join_bits4(Quad low, Quad high, int n) {
+  const QuadBits bits = (xsimd::bitwise_cast<QuadBits>(low) & QuadBits((1u << n) - 1)) |
+                        (xsimd::bitwise_cast<QuadBits>(high) << n);
+  return xsimd::bitwise_cast<Quad>(bits);
+}
+
+#if defined(MIEN_KERNEL_NEON)
+
+inline void store3(float* to, Quad q) {
+  vst1_f32(to, vget_low_f32(q));
+  vst1q_lane_f32(to + 2, q, 2);
+}
+inline Quad mul_add4(Quad a, Quad b, Quad c) { return vfmaq_f32(c, a, b); }
+inline Quad mul_sub4(Quad a, Quad b, Quad c) { return vfmaq_f32(vnegq_f32(c), a, b); }
+inline Quad divide4(Quad a, Quad b) { return divide(a, b); }
+inline Quad square_root4(Quad a) { return square_root(a); }
+inline Quad yzx4(Quad a) { return vextq_f32(vextq_f32(a, a, 3), a, 2); }
+inline Quad higher4(Quad a, Quad b) { return at_least(a, b); }
+inline Quad lower4(Quad a, Quad b) { return at_most(a, b); }
+inline Quad gather4(const float* from, const uint16_t* at, size_t stride) {
+  Quad q = Quad(vld1q_dup_f32(from + at[0]));
+  q = vld1q_lane_f32(from + at[stride], q, 1);
+  q = vld1q_lane_f32(from + at[2 * stride], q, 2);
+  return vld1q_lane_f32(from + at[3 * stride], q, 3);
+}
+inline void scatter4(float* to, const uint16_t* at, Quad q) {
+  vst1q_lane_f32(to + at[0], q, 0);
+  vst1q_lane_f32(to + at[1], q, 1);
+  vst1q_lane_f32(to + at[2], q, 2);
+  vst1q_lane_f32(to + at[3], q, 3);
+}
+inline uint32_t different_lanes4(Quad a, Quad b) { return different_lanes(a, b); }
+inline void transpose4(Quad& a, Quad& b, Quad& c, Quad& d) {
+  const float32x4x2_t ab = vtrnq_f32(a, b), cd = vtrnq_f32(c, d);
+  a = vcombine_f32(vget_low_f32(ab.val[0]), vget_low_f32(cd.val[0]));
+  b = vcombine_f32(vget_low_f32(ab.val[1]), vget_low_f32(cd.val[1]));
+  c = vcombine_f32(vget_high_f32(ab.val[0]), vget_high_f32(cd.val[0]));
+  d = vcombine_f32(vget_high_f32(ab.val[1]), vget_high_f32(cd.val[1]));
+}
+
+#else
+
+inline void store3(float* to, Quad q) {
+  _mm_storel_pi(reinterpret_cast<__m64*>(to), q);
+  _mm_store_ss(to + 2, _mm_movehl_ps(q, q));
+}
+#if defined(MIEN_KERNEL_SSE2)
+inline Quad mul_add4(Quad a, Quad b, Quad c) { return a * b + c; }
+inline Quad mul_sub4(Quad a, Quad b, Quad c) { return a * b - c; }
+#else
+inline Quad mul_add4(Quad a, Quad b, Quad c) { return _mm_fmadd_ps(a, b, c); }
+inline Quad mul_sub4(Quad a, Quad b, Quad c) { return _mm_fmsub_ps(a, b, c); }
+#endif
+inline Quad divide4(Quad a, Quad b) { return a / b; }
+inline Quad square_root4(Quad a) { return xsimd::sqrt(a); }
+inline Quad yzx4(Quad a) {
+  return xsimd::swizzle(a, xsimd::batch_constant<QuadBits, 1, 2, 0, 3>());
+}
+inline Quad higher4(Quad a, Quad b) { return xsimd::max(a, b); }
+inline Quad lower4(Quad a, Quad b) { return xsimd::min(a, b); }
+inline Quad gather4(const float* from, const uint16_t* at, size_t stride) {
+  float first = from[at[0]];
+#if defined(__wasm__)
+  // Clang 14 would otherwise move this load behind stores that follow.
+  __asm__("" : "+r"(first));
+#endif
+  return _mm_setr_ps(first, from[at[stride]], from[at[2 * stride]], from[at[3 * stride]]);
+}
+inline void scatter4(float* to, const uint16_t* at, Quad q) {
+  const __m128 upper = _mm_movehl_ps(q, q);
+  _mm_store_ss(to + at[0], q);
+  _mm_store_ss(to + at[1], _mm_shuffle_ps(q, q, 1));
+  _mm_store_ss(to + at[2], upper);
+  _mm_store_ss(to + at[3], _mm_shuffle_ps(upper, upper, 1));
+}
+inline uint32_t different_lanes4(Quad a, Quad b) { return different_lanes_of_four(a, b); }
+inline void transpose4(Quad& a, Quad& b, Quad& c, Quad& d) {
+  const Quad ac = xsimd::zip_lo(a, c), ac_high = xsimd::zip_hi(a, c);
+  const Quad bd = xsimd::zip_lo(b, d), bd_high = xsimd::zip_hi(b, d);
+  a = xsimd::zip_lo(ac, bd);
+  b = xsimd::zip_hi(ac, bd);
+  c = xsimd::zip_lo(ac_high, bd_high);
+  d = xsimd::zip_hi(ac_high, bd_high);
+}
+
+#endif
+
+inline void columns4(const Vec* m, Quad* columns) {
+#if defined(MIEN_KERNEL_AVX2)
+  for (int i = 0; i < 2; ++i) {
+    columns[2 * i] = _mm256_castps256_ps128(m[i]);
+    columns[2 * i + 1] = _mm256_extractf128_ps(m[i], 1);
+  }
+#elif defined(MIEN_KERNEL_AVX512)
+  columns[0] = _mm512_castps512_ps128(m[0]);
+  columns[1] = _mm512_extractf32x4_ps(m[0], 1);
+  columns[2] = _mm512_extractf32x4_ps(m[0], 2);
+  columns[3] = _mm512_extractf32x4_ps(m[0], 3);
+#else
+  for (int i = 0; i < 4; ++i) columns[i] = m[i];
+#endif
+}
+
+#endif
+
+// a * b.yzx - a.yzx * b is the cross product, turned by one.
+inline Quad cross4(const Quad& a, const Quad& b) { return yzx4(mul_sub4(a, yzx4(b), yzx4(a) * b)); }
+
+}  // namespace
+}  // namespace mien::MIEN_KERNEL_ISA
