@@ -153,7 +153,9 @@ struct Mix {
   uint32_t player_count = 0, max_channels = 0, max_changing_channels = 0, max_bound_gui = 0;
   uint32_t max_events = 0;
   bool plays_backward = false;
-  uint64_t fingerprint = 0;  // of everything that a snapshot depends on
+  uint32_t first_unprotected = 0;      // layer after the last one of base or speech
+  uint32_t first_after_reactions = 0;  // layer after the last one that precedes reactions
+  uint64_t fingerprint = 0;            // of everything that a snapshot depends on
   Allocator allocator;
   size_t block_size = 0;
 

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/mix/mix.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "runtime/anim/clip.h"
+#include "runtime/base/arena.h"
+#include "runtime/rig/rig.h"
+
+namespace mien {
+namespace {
+
+Status wrong(Error& error, const char* what, size_t index, const char* why) {
+  return fail(error, Status::kInvalidArgument, kNoOffset, "%s %zu: %s", what, index, why);
+}
+
+bool within(float value, float low, float high) { return value >= low && value <= high; }
+
+bool all_within(Span<const float> values, float low, float high) {
+  for (float value : values) {
+    if (!within(value, low, high)) return false;
+  }
+  return true;
+}
+
+bool is_protected(LayerGroup group) {
+  return group == LayerGroup::kBase || group == LayerGroup::kSpeech;
+}
+
+Status check_layers(const MixDesc& desc, uint32_t lanes, Error& error) {
+  if (desc.layers.count > kMaxLayers) {
+    return fail(error, Status::kInvalidArgument, kNoOffset, "%zu layers; a mix has at most %u",
+                desc.layers.count, kMaxLayers);
+  }
+  uint32_t clips = 0;
+  for (size_t i = 0; i < desc.layers.count; ++i) {
+    const LayerDesc& layer = desc.layers[i];
+    if (static_cast<uint32_t>(layer.group) >= kLayerGroups ||
+        static_cast<uint32_t>(layer.mode) >= kBlendModes ||
+        static_cast<uint32_t>(layer.source) >= kLayerSources) {
+      return wrong(error, "layer", i, "group, mode or source is not known");
+    }
+    if ((layer.flags & ~uint32_t{kLayerAfterGuards}) != 0 ||
+        (layer.flags != 0 && is_protected(layer.group))) {
+      return wrong(error, "layer", i, "the flags do not fit the group");
+    }
+    const float lowest = layer.mode == BlendMode::kAdd ? -1.0f : 0.0f;
+    if (!within(layer.weight, lowest, 1.0f)) return wrong(error, "layer", i, "weight out of range");
+    if (layer.mask.count > lanes) return wrong(error, "layer", i, "mask with too many lanes");
+    if (!all_within(layer.mask, 0.0f, 1.0f)) return wrong(error, "layer", i, "mask beyond 0 ... 1");
+    if (layer.first_pose > desc.poses.count ||
+        layer.pose_count > desc.poses.count - layer.first_pose) {
+      return wrong(error, "layer", i, "poses that the mix does not have");
+    }
+    clips += layer.source == LayerSource::kClip;
+  }
+  if (desc.player_count >= clips && desc.player_count <= 4 * kMaxLayers) return Status::kOk;
+  return fail(error, Status::kInvalidArgument, kNoOffset,
+              "%u players; each of the %u layers of clips needs one, and at most %u can be",
+              desc.player_count, clips, 4 * kMaxLayers);
+}
+
+Status check_lanes(const MixDesc& desc, uint32_t lanes, Error& error) {
+  if (desc.poses.count > kMaxPoses) {
+    return fail(error, Status::kInvalidArgument, kNoOffset, "%zu poses; a mix has at most %u",
+                desc.poses.count, kMaxPoses);
+  }
+  for (size_t i = 0; i < desc.poses.count; ++i) {
+    const PoseDesc& pose = desc.poses[i];
+    if (pose.lanes.count != pose.values.count || pose.lanes.count > lanes) {
+      return wrong(error, "pose", i, "counts of lanes and values do not match");
+    }
+    for (uint16_t lane : pose.lanes) {
+      if (lane >= lanes) return wrong(error, "pose", i, "a lane that does not exist");
+    }
+    if (!all_within(pose.values, -kLargestFloat, kLargestFloat)) {
+      return wrong(error, "pose", i, "a value is not finite");
+    }
+  }
+  if (desc.guards.count > kMaxGuards) {
+    return fail(error, Status::kInvalidArgument, kNoOffset, "%zu guards; a mix has at most %u",
+                desc.guards.count, kMaxGuards);
+  }
+  for (size_t i = 0; i < desc.guards.count; ++i) {
+    const Guard& guard = desc.guards[i];
+    if (guard.count > kMaxGuardLanes) return wrong(error, "guard", i, "too many lanes");
+    for (uint32_t k = 0; k < guard.count; ++k) {
+      if (guard.lanes[k] >= lanes) return wrong(error, "guard", i, "a lane that does not exist");
+      if (!std::isfinite(guard.gains[k])) return wrong(error, "guard", i, "a gain is not finite");
+    }
+    if (!std::isfinite(guard.rest) || !within(guard.tolerance, 0.0f, kLargestFloat) ||
+        !(guard.f_on > 0.0f) || !std::isfinite(guard.f_on)) {
+      return wrong(error, "guard", i, "rest, f_on or tolerance out of range");
+    }
+  }
+  for (size_t i = 0; i < desc.antagonists.count; ++i) {
+    const AntagonistPair& pair = desc.antagonists[i];
+    if (pair.a >= lanes || pair.b >= lanes || pair.a == pair.b) {
+      return wrong(error, "antagonists", i, "they are not two lanes of the mix");
+    }
+    if (!within(pair.stiffness, 0.0f, 1.0f)) {
+      return wrong(error, "antagonists", i, "stiffness beyond 0 ... 1");
+    }
+  }
+  if (!desc.mirror.empty() && desc.mirror.count != lanes) {
+    return fail(error, Status::kInvalidArgument, kNoOffset, "the mirror map has %zu of %u lanes",
+                desc.mirror.count, lanes);
+  }
+  for (size_t i = 0; i < desc.mirror.count; ++i) {
+    if (desc.mirror[i] >= lanes || desc.mirror[desc.mirror[i]] != i) {
+      return wrong(error, "mirror map, lane", i, "it is not the mirror image of its own image");
+    }
+  }
+  if (desc.lower.count != desc.upper.count || (!desc.lower.empty() && desc.lower.count != lanes)) {
+    return fail(error, Status::kInvalidArgument, kNoOffset, "limits of %zu and %zu of %u lanes",
+                desc.lower.count, desc.upper.count, lanes);
+  }
+  for (size_t i = 0; i < desc.lower.count; ++i) {
+    if (!(desc.lower[i] <= desc.upper[i]) || !std::isfinite(desc.lower[i]) ||
+        !std::isfinite(desc.upper[i])) {
+      return wrong(error, "limits, lane", i, "lower and upper are not in order");
+    }
+  }
+  return Status::kOk;
+}
+
+void place_mix(Placer& placer, const MixDesc& desc, Mix& mix) {
+  placer.array<Mix>(1);
+  mix.layers = placer.array<MixLayer>(desc.layers.count);
+  for (size_t i = 0; i < desc.layers.count; ++i) {
+    const Span<float> mask = placer.array<float>(mix.lane_count, kBlockAlignment);
+    if (!placer.measuring()) mix.layers[i].mask = mask;
+  }
+  size_t values = 0;
+  for (const PoseDesc& pose : desc.poses) values += pose.lanes.count;
+  mix.pose_ends = placer.array<uint32_t>(desc.poses.count);
+  mix.pose_lanes = placer.array<uint16_t>(values);
+  mix.pose_values = placer.array<float>(values);
+  mix.guards = placer.array<Guard>(desc.guards.count);
+  mix.antagonists = placer.array<AntagonistPair>(desc.antagonists.count);
+  mix.mirror = placer.array<uint16_t>(desc.mirror.count);
+  mix.lower = placer.array<float>(mix.lane_count, kBlockAlignment);
+  mix.upper = placer.array<float>(mix.lane_count, kBlockAlignment);
+}
+
+template <class T>
+void copy_items(Span<const T> from, Span<T> to) {
+  if (!from.empty()) memcpy(static_cast<void*>(to.data), from.data, from.count * sizeof(T));
+}
+
+void fill_layers(const MixDesc& desc, Mix& mix) {
+  const uint32_t lanes = mix.used_lanes();
+  for (size_t i = 0; i < desc.layers.count; ++i) {
+    const LayerDesc& from = desc.layers[i];
+    MixLayer& layer = mix.layers[i];
+    layer.group = from.group;
+    layer.mode = from.mode;
+    layer.source = from.source;
+    layer.flags = from.flags;
+    layer.weight = from.weight;
+    layer.first_pose = from.first_pose;
+    layer.pose_count = from.source == LayerSource::kPoses ? from.pose_count : 0;
+    layer.first_fade = mix.fade_count;
+    mix.fade_count += layer.pose_count;
+    const auto mask_of = [&](uint32_t lane) {
+      return from.mask.empty() ? 1.0f : lane < from.mask.count ? from.mask[lane] : 0.0f;
+    };
+    if (layer.source == LayerSource::kPoses) {
+      // Lanes that no pose has are left alone.
+      for (const PoseDesc& pose : desc.poses.slice(layer.first_pose, layer.pose_count)) {
+        for (uint16_t lane : pose.lanes) layer.mask[lane] = mask_of(lane);
+      }
+    } else {
+      for (uint32_t l = 0; l < lanes; ++l) layer.mask[l] = mask_of(l);
+    }
+    for (uint32_t l = 0; l < lanes; ++l) layer.masked |= layer.mask[l] != 1.0f;
+    if (is_protected(layer.group)) mix.first_unprotected = static_cast<uint32_t>(i + 1);
+    if (layer.group != LayerGroup::kLife && layer.flags == 0) {
+      mix.first_after_reactions = static_cast<uint32_t>(i + 1);
+    }
+  }
+}
+
+void fill_mix(const MixDesc& desc, Mix& mix) {
+  fill_layers(desc, mix);
+  uint32_t end = 0;
+  for (size_t i = 0; i < desc.poses.count; ++i) {
+    const PoseDesc& pose = desc.poses[i];
+    copy_items(pose.lanes, mix.pose_lanes.slice(end, pose.lanes.count));
+    copy_items(pose.values, mix.pose_values.slice(end, pose.values.count));
+    mix.pose_ends[i] = end += static_cast<uint32_t>(pose.lanes.count);
+  }
+  copy_items(desc.guards, mix.guards);
+  copy_items(desc.antagonists, mix.antagonists);
+  copy_items(desc.mirror, mix.mirror);
+  for (uint32_t l = 0; l < mix.used_lanes(); ++l) {
+    mix.lower[l] = desc.lower.empty() ? -kLargestFloat : desc.lower[l];
+    mix.upper[l] = desc.upper.empty() ? kLargestFloat : desc.upper[l];
+  }
+}
+
+/// FNV-1a
+uint64_t hash_numbers(uint64_t hash, std::initializer_list<uint64_t> numbers) {
+  for (uint64_t number : numbers) {
+    for (int i = 0; i < 8; ++i) hash = (hash ^ (number >> 8 * i & 0xFF)) * 0x100000001B3u;
+  }
+  return hash;
+}
+
+uint64_t fingerprint(const Mix& mix) {
+  uint64_t hash = hash_numbers(
+      0xCBF29CE484222325u,
+      {mix.raw_count, mix.variable_count, mix.player_count, mix.guards.count, mix.layers.count});
+  for (const MixLayer& layer : mix.layers) {
+    hash = hash_numbers(hash, {static_cast<uint64_t>(layer.mode),
+                               static_cast<uint64_t>(layer.source), layer.pose_count});
+  }
+  return hash;
+}
+
+}  // namespace
+
+Status create_mix(const MixDesc& desc, const Allocator& allocator, Mix*& out, Error& error) {
+  out = nullptr;
+  if (desc.raw_count > kMaxLanes || desc.variable_count > kMaxLanes - desc.raw_count) {
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "%u raw controls and %u pose variables; a row has at most %u lanes", desc.raw_count,
+                desc.variable_count, kMaxLanes);
+  }
+  if (desc.max_channels > kMaxClipChannels || desc.max_changing_channels > kMaxChangingChannels ||
+      desc.max_bound_gui > kMaxClipChannels || desc.max_events > kMaxClipChannels) {
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "channels, GUI controls or events beyond what clips can have");
+  }
+  const uint32_t lanes = desc.raw_count + desc.variable_count;
+  Status status = check_lanes(desc, lanes, error);
+  if (status == Status::kOk) status = check_layers(desc, lanes, error);
+  if (status != Status::kOk) return status;
+
+  Mix mix;
+  mix.raw_count = desc.raw_count;
+  mix.variable_count = desc.variable_count;
+  mix.lane_count = static_cast<uint32_t>(align_up(lanes, kLaneStep));
+  mix.player_count = desc.player_count;
+  mix.max_channels = desc.max_channels;
+  mix.max_changing_channels = desc.max_changing_channels;
+  mix.max_bound_gui = desc.max_bound_gui;
+  mix.max_events = desc.max_events;
+  mix.plays_backward = desc.plays_backward;
+  mix.allocator = allocator;
+  Placer measure(nullptr);
+  place_mix(measure, desc, mix);
+  mix.block_size = measure.size();
+  void* block = allocator.get(mix.block_size, kBlockAlignment);
+  if (!block) return fail(error, Status::kMemory, kNoOffset, "no memory for a mix");
+  Placer placer(block);
+  place_mix(placer, desc, mix);
+  fill_mix(desc, mix);
+  mix.fingerprint = fingerprint(mix);
+  out = new (block) Mix(mix);
+  return Status::kOk;
+}
+
+void release_mix(Mix* mix) {
+  if (!mix) return;
+  const Allocator allocator = mix->allocator;
+  allocator.put(mix, mix->block_size, kBlockAlignment);
+}
+
+}  // namespace mien

@@ -1,0 +1,497 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/mix/mixer.h"
+
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+#include "runtime/mix/mix_rows.h"
+
+namespace mien {
+namespace {
+
+constexpr uint32_t kNone = ~uint32_t{0};
+
+// Memory
+// ------------------------------------------------------------------------------------------------
+
+uint32_t clip_layers(const Mix& mix) {
+  uint32_t count = 0;
+  for (const MixLayer& layer : mix.layers) count += layer.source == LayerSource::kClip;
+  return count;
+}
+
+size_t layer_row_floats(const Mix& mix) { return size_t{2} * mix.lane_count; }
+
+void place_state(Placer& placer, const Mix& mix, Mixer& mixer) {
+  mixer.header = placer.array<StateHeader>(1, kBlockAlignment).data;
+  mixer.layers = placer.array<LayerState>(mix.layers.count);
+  mixer.player_states = placer.array<PlayerState>(mix.player_count);
+  mixer.pose_weights = placer.array<Fade>(mix.fade_count);
+  mixer.variables = placer.array<float>(mix.variable_count);
+  mixer.guards = placer.array<GuardState>(mix.guards.count);
+  mixer.guard_overrides = placer.array<float>(mix.guards.count);
+  mixer.layer_rows = placer.array<float>(
+      size_t{clip_layers(mix)} * kLayerRows * layer_row_floats(mix), kBlockAlignment);
+}
+
+void place_mixer(Placer& placer, const Mix& mix, Mixer& mixer) {
+  placer.array<Mixer>(1);
+  mixer.row = placer.array<float>(mix.lane_count, kBlockAlignment);
+  mixer.protected_row = placer.array<float>(mix.lane_count, kBlockAlignment);
+  mixer.layer_row = placer.array<float>(layer_row_floats(mix), kBlockAlignment);
+  mixer.scratch = placer.array<float>(mix.lane_count, kBlockAlignment);
+  mixer.gui = placer.array<float>(mix.max_bound_gui, kBlockAlignment);
+  mixer.players = placer.array<Player>(mix.player_count, kBlockAlignment);
+  for (uint32_t i = 0; i < mix.player_count; ++i) {
+    Player player;
+    place_clip_sampler(placer, {mix.max_channels, mix.max_changing_channels, mix.plays_backward},
+                       player.sampler);
+    player.row = placer.array<float>(layer_row_floats(mix), kBlockAlignment);
+    if (!placer.measuring()) mixer.players[i] = player;
+  }
+  mixer.events = placer.array<MixEvent>(mix.max_events);
+  Placer state(nullptr);
+  place_state(state, mix, mixer);
+  mixer.state = placer.array<uint8_t>(state.size(), kBlockAlignment);
+  if (placer.measuring()) return;
+  Placer in_state(mixer.state.data);
+  place_state(in_state, mix, mixer);
+}
+
+// What a layer plays
+// ------------------------------------------------------------------------------------------------
+
+float* layer_row(Mixer& mixer, uint32_t layer, uint32_t row) {
+  uint32_t slot = 0;
+  for (uint32_t i = 0; i < layer; ++i) slot += mixer.mix->layers[i].source == LayerSource::kClip;
+  const size_t floats = layer_row_floats(*mixer.mix);
+  return mixer.layer_rows.slice((size_t{slot} * kLayerRows + row) * floats, floats).data;
+}
+
+QuinticRows quintic_rows(Mixer& mixer, uint32_t layer) {
+  return {layer_row(mixer, layer, kQuintic0), layer_row(mixer, layer, kQuintic1),
+          layer_row(mixer, layer, kQuintic2), layer_row(mixer, layer, kQuinticRate)};
+}
+
+/// The image of a lane on the other side of the face, if the player is mirrored.
+uint32_t played_lane(const Mix& mix, const Player& player, uint32_t lane) {
+  return player.mirrored ? mix.mirror[lane] : lane;
+}
+
+void sample_player(Mixer& mixer, Player& player) {
+  const Mix& mix = *mixer.mix;
+  const Span<const float> values = sample_clip(player.sampler);
+  const Binding& binding = *player.source.binding;
+  if (!player.mirrored) {
+    apply_binding(binding, values, mixer.gui, player.row.first(mix.raw_count));
+    return;
+  }
+  apply_binding(binding, values, mixer.gui, mixer.scratch.first(mix.raw_count));
+  for (uint16_t lane : binding.controls) player.row[mix.mirror[lane]] = mixer.scratch[lane];
+}
+
+void release_player(Mixer& mixer, uint16_t& player) {
+  if (player != kNoPlayer) mixer.players[player].used = false;
+  player = kNoPlayer;
+}
+
+uint32_t find_free_player(const Mixer& mixer) {
+  for (uint32_t i = 0; i < mixer.players.count; ++i) {
+    if (!mixer.players[i].used) return i;
+  }
+  return kNone;
+}
+
+/// Leads from the rows that the layer has shown last over to a player's row.
+void start_offsets(Mixer& mixer, uint32_t index, const float* next, int64_t ticks) {
+  LayerState& layer = mixer.layers[index];
+  layer.offset_ticks = 0;
+  if (layer.shown_count == 0 || ticks == 0) return;
+  const bool moves = layer.shown_count == 2 && layer.shown_ticks > 0;
+  const float* last = layer_row(mixer, index, kShown0 + layer.newest);
+  const float* before = moves ? layer_row(mixer, index, kShown0 + (layer.newest ^ 1)) : last;
+  start_quintics(last, before, next, moves ? fraction_of(ticks, layer.shown_ticks) : 0.0f,
+                 layer_row_floats(*mixer.mix), quintic_rows(mixer, index));
+  layer.offset_start = mixer.header->now;
+  layer.offset_ticks = ticks;
+}
+
+void set_cover(Mixer& mixer, Player& player) {
+  const Mix& mix = *mixer.mix;
+  memset(player.row.data, 0, player.row.count * sizeof(float));
+  for (uint16_t lane : player.source.binding->controls) {
+    player.row[mix.lane_count + played_lane(mix, player, lane)] = 1.0f;
+  }
+}
+
+// A step
+// ------------------------------------------------------------------------------------------------
+
+void report_events(Mixer& mixer, uint32_t layer, EventRange range) {
+  ClipEvent event;
+  while (next_event(range, event)) {
+    if (mixer.event_count == mixer.events.count) {
+      mixer.lost_events = true;
+      return;  // a step over many loops passes any number of them
+    }
+    mixer.events[mixer.event_count++] = {layer, event};
+  }
+}
+
+void advance_players(Mixer& mixer, int64_t ticks) {
+  mixer.event_count = 0;
+  mixer.lost_events = false;
+  for (uint32_t i = 0; i < mixer.layers.count; ++i) {
+    LayerState& layer = mixer.layers[i];
+    if (layer.previous != kNoPlayer) {
+      advance_clip(mixer.players[layer.previous].sampler, ticks);
+    }
+    if (layer.current != kNoPlayer) {
+      report_events(mixer, i, advance_clip(mixer.players[layer.current].sampler, ticks));
+    }
+  }
+}
+
+float layer_weight(const LayerState& layer, BlendMode mode, int64_t now) {
+  const float lowest = mode == BlendMode::kAdd ? -1.0f : 0.0f;
+  const float wanted = fade_value(layer.weight, now), there = fade_value(layer.presence, now);
+  const float weight = wanted * (there < 1.0f ? (there > 0.0f ? there : 0.0f) : 1.0f);
+  return weight < 1.0f ? (weight > lowest ? weight : lowest) : 1.0f;
+}
+
+/// The row that a layer of clips shows now goes to the newer one of its rows.
+const float* mix_players(Mixer& mixer, uint32_t index, int64_t ticks) {
+  LayerState& layer = mixer.layers[index];
+  const int64_t now = mixer.header->now;
+  const size_t floats = layer_row_floats(*mixer.mix);
+  Player& current = mixer.players[layer.current];
+  sample_player(mixer, current);
+  float s = fade_value(layer.cross, now);
+  s = s < 1.0f ? (s > 0.0f ? s : 0.0f) : 1.0f;
+  if (s == 1.0f) release_player(mixer, layer.previous);
+
+  if (ticks > 0 || layer.shown_count == 0) {
+    layer.newest ^= 1;
+    layer.shown_count = layer.shown_count == 0 ? 1 : 2;
+    layer.shown_ticks = ticks;
+  }
+  float* shown = layer_row(mixer, index, kShown0 + layer.newest);
+  if (layer.previous != kNoPlayer) {
+    Player& previous = mixer.players[layer.previous];
+    sample_player(mixer, previous);
+    cross_rows(previous.row.data, current.row.data, s, floats, shown);
+  } else {
+    memcpy(shown, current.row.data, floats * sizeof(float));
+  }
+  if (layer.offset_ticks > 0) {
+    const int64_t elapsed = now - layer.offset_start;
+    if (elapsed < layer.offset_ticks) {
+      add_quintics(quintic_rows(mixer, index), fraction_of(elapsed, layer.offset_ticks), floats,
+                   shown);
+      clamp_row(floats / 2, shown + floats / 2);
+    } else {
+      layer.offset_ticks = 0;
+    }
+  }
+  return shown;
+}
+
+void mix_clip_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
+  const MixLayer& layer = mixer.mix->layers[index];
+  LayerState& state = mixer.layers[index];
+  const int64_t now = mixer.header->now;
+  if (state.current == kNoPlayer) return;
+  if (state.presence.target == 0.0f && fade_value(state.presence, now) == 0.0f) {
+    release_player(mixer, state.current);
+    release_player(mixer, state.previous);
+    state.shown_count = 0;
+    return;
+  }
+  const float weight = layer_weight(state, layer.mode, now);
+  if (weight == 0.0f) {
+    state.shown_count = 0;  // its rows are not known
+    return;
+  }
+  const float* shown = mix_players(mixer, index, ticks);
+  blend_row(layer.mode, shown, shown + mixer.mix->lane_count,
+            layer.masked ? layer.mask.data : nullptr, weight, mixer.mix->lane_count,
+            mixer.row.data);
+}
+
+void mix_pose_layer(Mixer& mixer, uint32_t index) {
+  const Mix& mix = *mixer.mix;
+  const MixLayer& layer = mix.layers[index];
+  const int64_t now = mixer.header->now;
+  const float weight = layer_weight(mixer.layers[index], layer.mode, now);
+  if (weight == 0.0f) return;
+  float* row = mixer.layer_row.data;
+  memset(row, 0, mix.lane_count * sizeof(float));
+  const Span<Fade> fades = mixer.pose_weights.slice(layer.first_fade, layer.pose_count);
+  float sum = 0.0f;
+  for (const Fade& fade : fades) {
+    const float w = fade_value(fade, now);
+    sum += w > 0.0f ? w : 0.0f;
+  }
+  const float scale = sum > 1.0f ? 1.0f / sum : 1.0f;
+  for (uint32_t p = 0; p < layer.pose_count; ++p) {
+    const float w = fade_value(fades[p], now) * scale;
+    if (!(w > 0.0f)) continue;
+    const uint32_t pose = layer.first_pose + p;
+    const uint32_t begin = pose == 0 ? 0 : mix.pose_ends[pose - 1];
+    for (uint32_t k = begin; k < mix.pose_ends[pose]; ++k) {
+      row[mix.pose_lanes[k]] += w * mix.pose_values[k];
+    }
+  }
+  blend_row(layer.mode, row, nullptr, layer.masked ? layer.mask.data : nullptr, weight,
+            mix.lane_count, mixer.row.data);
+}
+
+void keep_stage(Mixer& mixer, uint32_t stage) {
+  if (!mixer.stages) return;
+  memcpy(mixer.stages + size_t{stage} * mixer.mix->lane_count, mixer.row.data,
+         mixer.mix->lane_count * sizeof(float));
+}
+
+/// Layers from `begin` to `end` that come before the guards, or after them.
+void mix_layers(Mixer& mixer, uint32_t begin, uint32_t end, bool after_guards, int64_t ticks) {
+  const Mix& mix = *mixer.mix;
+  for (uint32_t i = begin; i < end; ++i) {
+    if (((mix.layers[i].flags & kLayerAfterGuards) != 0) != after_guards) continue;
+    switch (mix.layers[i].source) {
+      case LayerSource::kClip: mix_clip_layer(mixer, i, ticks); break;
+      case LayerSource::kPoses: mix_pose_layer(mixer, i); break;
+      case LayerSource::kStream:
+      case LayerSource::kGenerator: break;
+    }
+    keep_stage(mixer, i);
+    if (i + 1 == mix.first_unprotected && !mix.guards.empty()) {
+      memcpy(mixer.protected_row.data, mixer.row.data, mix.lane_count * sizeof(float));
+    }
+  }
+}
+
+void net_antagonists(const Mix& mix, float* row) {
+  for (const AntagonistPair& pair : mix.antagonists) {
+    const float a = row[pair.a], b = row[pair.b];
+    if (!(a > 0.0f && b > 0.0f)) continue;
+    const float both = pair.stiffness * (a < b ? a : b);
+    row[pair.a] = a - both;
+    row[pair.b] = b - both;
+  }
+}
+
+Status bad_layer(Error& error, uint32_t layer, const char* why) {
+  return fail(error, Status::kIndex, kNoOffset, "layer %u: %s", layer, why);
+}
+
+}  // namespace
+
+// Creating
+// ------------------------------------------------------------------------------------------------
+
+size_t mixer_size(const Mix& mix) {
+  Mixer mixer;
+  Placer measure(nullptr);
+  place_mixer(measure, mix, mixer);
+  return measure.size();
+}
+
+Mixer* create_mixer(const Mix& mix, uint64_t seed, const Allocator& allocator) {
+  const size_t size = mixer_size(mix);
+  void* block = allocator.get(size, kBlockAlignment);
+  if (!block) return nullptr;
+  Mixer mixer;
+  mixer.mix = &mix;
+  mixer.allocator = allocator;
+  mixer.block_size = size;
+  Placer placer(block);
+  place_mixer(placer, mix, mixer);
+  mixer.header->seed = seed;
+  for (uint32_t i = 0; i < mix.layers.count; ++i) {
+    LayerState& layer = mixer.layers[i];
+    set_fade(layer.weight, mix.layers[i].weight);
+    set_fade(layer.presence, mix.layers[i].source == LayerSource::kClip ? 0.0f : 1.0f);
+    set_fade(layer.cross, 1.0f);
+    layer.current = layer.previous = kNoPlayer;
+  }
+  for (float& activation : mixer.guard_overrides) activation = -1.0f;
+  return new (block) Mixer(mixer);
+}
+
+void destroy_mixer(Mixer* mixer) {
+  if (!mixer) return;
+  const Allocator allocator = mixer->allocator;
+  allocator.put(mixer, mixer->block_size, kBlockAlignment);
+}
+
+// Playing
+// ------------------------------------------------------------------------------------------------
+
+Status play_clip(Mixer& mixer, uint32_t index, const ClipSource& source, const LayerPlayDesc& desc,
+                 Error& error) {
+  const Mix& mix = *mixer.mix;
+  if (index >= mix.layers.count || mix.layers[index].source != LayerSource::kClip) {
+    return bad_layer(error, index, "it does not exist or plays no clips");
+  }
+  if (source.binding->raw_count != mix.raw_count ||
+      source.binding->channel_count != source.clip->channel_count ||
+      source.binding->gui_count > mix.max_bound_gui) {
+    return fail(error, Status::kMismatch, kNoOffset,
+                "layer %u: the binding is of another clip, or "
+                "of another rig than the mix",
+                index);
+  }
+  if (source.clip->has(kClipIsDelta) && mix.layers[index].mode == BlendMode::kOverride) {
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "layer %u overrides; the clip holds differences", index);
+  }
+  if ((desc.mirrored && mix.mirror.empty()) || desc.transition_ticks < 0 ||
+      desc.transition_ticks > kMaxStepTicks) {
+    return fail(error, Status::kInvalidArgument, kNoOffset, "layer %u: %s", index,
+                desc.mirrored && mix.mirror.empty() ? "the mix has no mirror map"
+                                                    : "the time of the transition is out of range");
+  }
+  LayerState& layer = mixer.layers[index];
+  const int64_t now = mixer.header->now;
+  const int64_t ticks = desc.transition == Transition::kCut ? 0 : desc.transition_ticks;
+  const bool occupied = layer.current != kNoPlayer;
+  const bool shown = occupied && layer.shown_count > 0;
+
+  // The old player goes on only in a crossfade; otherwise the new clip takes it over.
+  const uint32_t unused = find_free_player(mixer);
+  const uint32_t after_release = layer.previous != kNoPlayer ? layer.previous : unused;
+  const bool crosses = desc.transition == Transition::kCrossfade && shown && ticks > 0 &&
+                       (unused != kNone || after_release != kNone);
+  uint32_t target = unused;
+  if (occupied) target = crosses ? (unused != kNone ? unused : after_release) : layer.current;
+  Player& player = mixer.players[target];
+  const Status status = start_clip(player.sampler, *source.clip, desc.play, error);
+  if (status != Status::kOk) return status;
+
+  const bool was_crossing = layer.previous != kNoPlayer && layer.previous != target;
+  if (was_crossing) release_player(mixer, layer.previous);
+  layer.previous = kNoPlayer;
+  player.source = source;
+  player.mirrored = desc.mirrored;
+  player.used = true;
+  set_cover(mixer, player);
+  sample_player(mixer, player);
+  if (crosses) {
+    // If a crossfade was under way, what it had reached leads over to the player that stays.
+    if (fade_value(layer.cross, now) != 1.0f) {
+      start_offsets(mixer, index, mixer.players[layer.current].row.data, ticks);
+    }
+    layer.previous = layer.current;
+    set_fade(layer.cross, 0.0f);
+    start_fade(layer.cross, now, 1.0f, ticks);
+  } else {
+    set_fade(layer.cross, 1.0f);
+    start_offsets(mixer, index, player.row.data, shown ? ticks : 0);
+  }
+  layer.current = static_cast<uint16_t>(target);
+  if (!occupied) set_fade(layer.presence, 0.0f);
+  start_fade(layer.presence, now, 1.0f, ticks);
+  return Status::kOk;
+}
+
+Status stop_layer(Mixer& mixer, uint32_t index, int64_t fade_ticks, Error& error) {
+  if (index >= mixer.layers.count || mixer.mix->layers[index].source != LayerSource::kClip) {
+    return bad_layer(error, index, "it does not exist or plays no clips");
+  }
+  if (fade_ticks < 0 || fade_ticks > kMaxStepTicks) {
+    return fail(error, Status::kInvalidArgument, kNoOffset, "the time of the fade is out of range");
+  }
+  start_fade(mixer.layers[index].presence, mixer.header->now, 0.0f, fade_ticks);
+  return Status::kOk;
+}
+
+Status set_layer_weight(Mixer& mixer, uint32_t index, float weight, int64_t fade_ticks,
+                        Error& error) {
+  if (index >= mixer.layers.count) return bad_layer(error, index, "it does not exist");
+  const float lowest = mixer.mix->layers[index].mode == BlendMode::kAdd ? -1.0f : 0.0f;
+  if (!(weight >= lowest && weight <= 1.0f) || fade_ticks < 0 || fade_ticks > kMaxStepTicks) {
+    return fail(error, Status::kInvalidArgument, kNoOffset, "layer %u: weight or time out of range",
+                index);
+  }
+  start_fade(mixer.layers[index].weight, mixer.header->now, weight, fade_ticks);
+  return Status::kOk;
+}
+
+Status set_pose_weight(Mixer& mixer, uint32_t index, uint32_t pose, float weight,
+                       int64_t fade_ticks, Error& error) {
+  if (index >= mixer.layers.count || pose >= mixer.mix->layers[index].pose_count) {
+    return bad_layer(error, index, "it does not exist or has no such pose");
+  }
+  if (!(weight >= 0.0f && weight <= 1.0f) || fade_ticks < 0 || fade_ticks > kMaxStepTicks) {
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "layer %u, pose %u: weight or time out of range", index, pose);
+  }
+  start_fade(mixer.pose_weights[mixer.mix->layers[index].first_fade + pose], mixer.header->now,
+             weight, fade_ticks);
+  return Status::kOk;
+}
+
+Status set_variable(Mixer& mixer, uint32_t variable, float value, Error& error) {
+  if (variable >= mixer.variables.count) {
+    return fail(error, Status::kIndex, kNoOffset, "pose variable %u of %zu", variable,
+                mixer.variables.count);
+  }
+  if (!std::isfinite(value)) {
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "pose variable %u: the value is not finite", variable);
+  }
+  mixer.variables[variable] = value;
+  return Status::kOk;
+}
+
+Status set_guard(Mixer& mixer, uint32_t guard, float activation, Error& error) {
+  if (guard >= mixer.guard_overrides.count) {
+    return fail(error, Status::kIndex, kNoOffset, "guard %u of %zu", guard,
+                mixer.guard_overrides.count);
+  }
+  if (!(activation <= 1.0f)) {
+    return fail(error, Status::kInvalidArgument, kNoOffset, "guard %u: activation above 1", guard);
+  }
+  mixer.guard_overrides[guard] = activation < 0.0f ? -1.0f : activation;
+  return Status::kOk;
+}
+
+// Stepping
+// ------------------------------------------------------------------------------------------------
+
+void step_mixer(Mixer& mixer, int64_t ticks, float* out, size_t count, uint64_t* active) {
+  const Mix& mix = *mixer.mix;
+  assert(ticks >= 0 && ticks <= kMaxStepTicks && count <= mix.lane_count);
+  const auto layer_count = static_cast<uint32_t>(mix.layers.count);
+  mixer.header->now += ticks;
+  advance_players(mixer, ticks);
+
+  float* row = mixer.row.data;
+  memset(row, 0, mix.lane_count * sizeof(float));
+  memcpy(row + mix.raw_count, mixer.variables.data, mix.variable_count * sizeof(float));
+  if (mix.first_unprotected == 0) {
+    memcpy(mixer.protected_row.data, row, mix.lane_count * sizeof(float));
+  }
+  mix_layers(mixer, 0, mix.first_after_reactions, false, ticks);
+  keep_stage(mixer, layer_count + kStageReactions);
+  mix_layers(mixer, mix.first_after_reactions, layer_count, false, ticks);
+  keep_stage(mixer, layer_count + kStageGuards);
+  mix_layers(mixer, 0, layer_count, true, ticks);
+  net_antagonists(mix, row);
+  keep_stage(mixer, layer_count + kStageAntagonists);
+  limit_row(mix.lower.data, mix.upper.data, mix.lane_count, row);
+  keep_stage(mixer, layer_count + kStageLimits);
+
+  if (out) memcpy(out, row, count * sizeof(float));
+  if (active) find_active_lanes(row, mix.lane_count, active);
+}
+
+void step_mixers(Span<Mixer* const> mixers, int64_t ticks, float* const* outs, size_t count,
+                 uint64_t* active, size_t active_stride) {
+  for (size_t i = 0; i < mixers.count; ++i) {
+    step_mixer(*mixers[i], ticks, outs[i], count, active ? active + i * active_stride : nullptr);
+  }
+}
+
+}  // namespace mien
