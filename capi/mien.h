@@ -436,7 +436,7 @@ MIEN_CHECKED MienStatus mien_dna_info(const MienDna* dna, MienDnaInfo* out_info)
 typedef struct MienDnaLayer {
     size_t struct_size;
     uint32_t layer;         /* MIEN_LAYER_... that loads it. MIEN_LAYER_UNKNOWN: of an unknown kind */
-    uint32_t version_major;
+    uint32_t version_major; /* of the layer: version_major.version_minor */
     uint32_t version_minor;
     uint32_t is_loaded;     /* boolean: it was read, not skipped or kept unread */
     uint64_t byte_offset;   /* of its first byte in the file */
@@ -544,21 +544,23 @@ typedef struct MienWriteDesc {
 MIEN_DEFAULT(MienWriteDesc, mien_write_desc_default)
 
 /* Writes a DNA file in canonical form: if the original file was canonical and all of it was loaded,
- * the same bytes. Layers that were not loaded are written empty. The file is written under a temporary
- * name and renamed, so that a failure leaves `path` unchanged.
+ * the same bytes. Layers that were not loaded are written empty. Another version may leave out layers
+ * that others need, such as the ML operations of networks; a file that could not be opened is not
+ * written. The file is written under a temporary name and renamed, so that a failure leaves `path`
+ * unchanged.
  * Fails with MIEN_ERROR_FILE_WRITE if the file cannot be written, MIEN_ERROR_DNA_LAYER if RBF behavior
  * was loaded without the machine-learned behavior of its file (whose controls are numbered before its
- * own), MIEN_ERROR_DNA_LIMIT if the file would exceed 4 GiB, MIEN_ERROR_MEMORY if there is no memory
- * for its bytes. A version leaves out layers that others may need, as networks need ML operations: if
- * the file would not open, the call fails with the status that opening it would give.
+ * own), MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE or MIEN_ERROR_DNA_VALUE if the file could
+ * not be opened in the requested version, MIEN_ERROR_DNA_LIMIT if it would exceed 4 GiB,
+ * MIEN_ERROR_MEMORY if the allocator of the DNA returns NULL.
  * See docs/dna-format.md, 14 "Writing a canonical file". */
 MIEN_CHECKED MienStatus mien_dna_write_file(const MienDna* dna, const char* path,
                                             const MienWriteDesc* desc, MienError* error);
 
 /* Writes a DNA file to memory and returns its size in `out_size`. `buffer` may be NULL with capacity 0
  * to get the size only. Writes nothing if `capacity` is too small; `out_size` is set nevertheless.
- * Fails with MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small, MIEN_ERROR_DNA_LAYER or
- * MIEN_ERROR_DNA_LIMIT as mien_dna_write_file(). */
+ * Fails like mien_dna_write_file(), but not with MIEN_ERROR_FILE_WRITE, and with
+ * MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small. */
 MIEN_CHECKED MienStatus mien_dna_write_memory(const MienDna* dna, const MienWriteDesc* desc,
                                               void* buffer, size_t capacity, size_t* out_size,
                                               MienError* error);
@@ -969,13 +971,13 @@ MIEN_CHECKED MienStatus mien_instance_statistics(const MienInstance* instance,
 /* ---- Evaluation ------------------------------------------------------------------------------ */
 
 /* Maps GUI controls to raw controls. Raw controls that the table drives are overwritten, clamped to
- * 0..1; others are left alone.
+ * 0..1; others are left alone. Does not allocate or lock.
  * Fails with MIEN_ERROR_MISMATCH if `instance` belongs to another rig.
  * See docs/rig-evaluation.md, 2.3 "GUI controls to raw controls". */
 MIEN_CHECKED MienStatus mien_rig_map_gui_to_raw(const MienRig* rig, MienInstance* instance);
 
 /* Maps raw controls to GUI controls. Sets every GUI control to the value that maps to the current raw
- * controls, or to 0 if there is none.
+ * controls, or to 0 if there is none. Does not allocate or lock.
  * Fails with MIEN_ERROR_MISMATCH if `instance` belongs to another rig.
  * See docs/rig-evaluation.md, 2.4 "Raw controls to GUI controls". */
 MIEN_CHECKED MienStatus mien_rig_map_raw_to_gui(const MienRig* rig, MienInstance* instance);
@@ -1047,7 +1049,8 @@ MIEN_CHECKED MienStatus mien_rig_evaluate_batch(const MienRig* rig, MienBatch* b
                                                 const MienParallelFor* parallel);
 
 /* Evaluates the joint values of one joint group (MIEN_KIND_JOINT_GROUP), except those that a later
- * group overrides at all LODs where this one sets them. Uses up to 48 KiB of stack.
+ * group overrides at all LODs where this one sets them. Does not allocate or lock. Uses up to 48 KiB
+ * of stack.
  * Fails with MIEN_ERROR_INDEX if there is no such joint group, MIEN_ERROR_LOD if the rig has no such
  * LOD, MIEN_ERROR_MISMATCH if `instance` belongs to another rig.
  * See docs/rig-evaluation.md, 4.5 "Order of the joint stage". */
@@ -1055,14 +1058,15 @@ MIEN_CHECKED MienStatus mien_rig_evaluate_joint_group(const MienRig* rig, MienIn
                                                       uint32_t lod, uint32_t group);
 
 /* Evaluates the pose controls of one RBF solver (MIEN_KIND_RBF_SOLVER), even if the LOD does not list
- * it.
+ * it. Does not allocate or lock.
  * Fails with MIEN_ERROR_INDEX if there is no such solver, MIEN_ERROR_LOD if the rig has no such LOD,
  * MIEN_ERROR_MISMATCH if `instance` belongs to another rig.
  * See docs/rig-evaluation.md, 6 "RBF solvers". */
 MIEN_CHECKED MienStatus mien_rig_evaluate_rbf_solver(const MienRig* rig, MienInstance* instance,
                                                      uint32_t lod, uint32_t solver);
 
-/* Evaluates the joints of one twist and swing setup (MIEN_KIND_TWIST_SWING).
+/* Evaluates the joints of one twist and swing setup (MIEN_KIND_TWIST_SWING). Does not allocate or
+ * lock.
  * Fails with MIEN_ERROR_INDEX if there is no such setup, MIEN_ERROR_LOD if the rig has no such LOD,
  * MIEN_ERROR_MISMATCH if `instance` belongs to another rig.
  * See docs/rig-evaluation.md, 7 "Twist and swing". */
@@ -1253,7 +1257,7 @@ MIEN_CHECKED MienStatus mien_deformer_instance_update(MienDeformerInstance* defo
 
 /* Does the same with arrays: `joint_values` like those of mien_instance_joints(), `channel_weights`
  * one per channel. `joint_values` may be NULL with count 0: no deltas. `channel_weights` may be NULL
- * with count 0: all weights are 0.
+ * with count 0: all weights are 0. Does not allocate or lock.
  * Fails with MIEN_ERROR_INVALID_ARGUMENT if a count is not that of the rig. */
 MIEN_CHECKED MienStatus mien_deformer_instance_update_from_values(
     MienDeformerInstance* deformer_instance, const float* joint_values, size_t joint_value_count,
@@ -1272,7 +1276,7 @@ MIEN_CHECKED MienStatus mien_deformer_instance_skin_matrices(
 
 /* Writes the transforms of the last update, relative to the parents, to `out_transforms`: 10 floats per
  * joint, tx ty tz qx qy qz qw sx sy sz, with quaternions of unit length. `count` is the capacity of
- * `out_transforms`, in floats.
+ * `out_transforms`, in floats. Does not allocate or lock.
  * Fails with MIEN_ERROR_INVALID_ARGUMENT if `count` is less than 10 * MienDeformerInfo.joint_count. */
 MIEN_CHECKED MienStatus mien_deformer_instance_local_transforms(
     const MienDeformerInstance* deformer_instance, float* out_transforms, size_t count);
@@ -1290,8 +1294,8 @@ MIEN_CHECKED MienStatus mien_deformer_instance_deform(MienDeformerInstance* defo
 
 /* Deforms the same mesh of `count` different instances of one deformer. The results have the same bits
  * as those of mien_deformer_instance_deform(), but each part of the mesh is read once for all, and the
- * total number of positions decides about tasks. `parallel` may be NULL. On failure nothing is
- * deformed.
+ * total number of positions decides about tasks. `parallel` may be NULL. Does not allocate or lock.
+ * Uses up to 16 KiB of stack per task. On failure nothing is deformed.
  * Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_LOD if an instance has no memory for
  * it, MIEN_ERROR_MISMATCH if the instances have different deformers, MIEN_ERROR_INVALID_ARGUMENT if
  * an instance is listed twice. */
@@ -1365,8 +1369,8 @@ MIEN_DEFAULT(MienVertexOutput, mien_vertex_output_default)
  * caller, such as a mapped vertex buffer. Each byte is written once, in the order of the vertices, and
  * none is read, so the memory may be write-combined. Bytes between vertices are left alone. `parallel`
  * may be NULL; the bytes are the same either way. The same positions, normals and tangents give the
- * same bytes on every instruction set. Does not allocate or lock. On failure nothing is deformed or
- * written.
+ * same bytes on every instruction set. Does not allocate or lock. Uses up to 16 KiB of stack per task.
+ * On failure nothing is deformed or written.
  * Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_LOD if `deformer_instance` has no
  * memory for it, MIEN_ERROR_INVALID_ARGUMENT if a stream has a format that its attribute cannot have,
  * a wrong stride or alignment or too little capacity, if streams overlap, if there is no stream, or if
@@ -1377,8 +1381,9 @@ MIEN_CHECKED MienStatus mien_deformer_instance_write_vertices(MienDeformerInstan
                                                               const MienVertexOutput* output,
                                                               const MienParallelFor* parallel);
 
-/* Does the same for `count` different instances of one deformer: instance i is written to outputs[i].
- * All outputs have the same struct_size, and must not share bytes. `parallel` may be NULL.
+/* Does the same for one mesh of `count` different instances of one deformer: instance i is written to
+ * outputs[i]. All outputs have the same struct_size, and must not share bytes. `parallel` may be NULL.
+ * Does not allocate or lock. Uses up to 16 KiB of stack per task.
  * Fails like mien_deformer_instance_write_vertices(), and with MIEN_ERROR_MISMATCH if the instances have
  * different deformers, MIEN_ERROR_INVALID_ARGUMENT if an instance is listed twice. */
 MIEN_CHECKED MienStatus mien_deformer_instance_write_vertices_batch(
@@ -1398,7 +1403,7 @@ typedef struct MienBaked MienBaked;
 /* Writes a rig and its deformer to a baked file. `deformer` may be NULL. The file is written under a
  * temporary name and renamed, so that a failure leaves `path` unchanged.
  * Fails with MIEN_ERROR_MISMATCH if `deformer` was created for another rig, MIEN_ERROR_FILE_WRITE if
- * the file cannot be written, MIEN_ERROR_MEMORY if there is no memory for its bytes. */
+ * the file cannot be written, MIEN_ERROR_MEMORY if the allocator of the rig returns NULL. */
 MIEN_CHECKED MienStatus mien_bake_file(const MienRig* rig, const MienDeformer* deformer,
                                        const char* path, MienError* error);
 

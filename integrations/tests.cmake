@@ -13,9 +13,27 @@ add_test(NAME api_compatible
 add_test(NAME api_compatible_self_test
   COMMAND Python3::Interpreter ${integrations}/api/check_compatible.py --self-test)
 set_tests_properties(api_compatible api_compatible_self_test PROPERTIES LABELS guard)
+add_test(NAME api_conventions
+  COMMAND Python3::Interpreter ${integrations}/api/conventions_test.py)
+set_tests_properties(api_conventions PROPERTIES LABELS guard)
+add_test(NAME api_statuses
+  COMMAND Python3::Interpreter ${integrations}/api/check_statuses.py --self-test)
+set_tests_properties(api_statuses PROPERTIES LABELS guard)
 add_test(NAME api_layout
   COMMAND Python3::Interpreter ${integrations}/api/layout_test.py ${CMAKE_C_COMPILER})
 set_tests_properties(api_layout PROPERTIES LABELS abi)
+# clang compiles for any machine without its C library.
+find_program(MIEN_CLANG clang)
+if(MIEN_CLANG)
+  foreach(target wasm32 armv7-none-eabihf)
+    add_test(NAME api_layout_32_${target}
+      COMMAND Python3::Interpreter ${integrations}/api/layout_test.py --32
+        ${MIEN_CLANG} --target=${target})
+    set_tests_properties(api_layout_32_${target} PROPERTIES LABELS abi)
+  endforeach()
+else()
+  message(STATUS "NOT TESTED: layouts of structs on 32-bit machines; there is no clang")
+endif()
 
 add_test(NAME api_bindings
   COMMAND Python3::Interpreter ${integrations}/api/check_bindings.py)

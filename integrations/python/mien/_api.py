@@ -1234,6 +1234,7 @@ class DnaLayer(NamedTuple):
     sections are listed as the layers desc, defn, bhvr and geom.
 
       layer: Layer that loads it. Layer.UNKNOWN: of an unknown kind
+      version_major: of the layer: version_major.version_minor
       is_loaded: it was read, not skipped or kept unread
       byte_offset: of its first byte in the file
       code: such as "bhvr"; terminated

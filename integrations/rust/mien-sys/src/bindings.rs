@@ -687,6 +687,7 @@ pub struct MienDnaLayer {
     pub struct_size: usize,
     /// `MIEN_LAYER_...` that loads it. `MIEN_LAYER_UNKNOWN`: of an unknown kind.
     pub layer: u32,
+    /// Of the layer: `version_major`.`version_minor`.
     pub version_major: u32,
     pub version_minor: u32,
     /// It was read, not skipped or kept unread.
@@ -1439,21 +1440,22 @@ extern "C" {
     pub fn mien_dna_read_string_n(dna: *const MienDna, path: *const c_char, path_count: usize, out_string: *mut MienStringView, error: *mut MienError) -> MienStatus;
 
     /// Writes a DNA file in canonical form: if the original file was canonical and all of it was
-    /// loaded, the same bytes. Layers that were not loaded are written empty. The file is written
-    /// under a temporary name and renamed, so that a failure leaves `path` unchanged. Fails with
-    /// `MIEN_ERROR_FILE_WRITE` if the file cannot be written, `MIEN_ERROR_DNA_LAYER` if RBF
-    /// behavior was loaded without the machine-learned behavior of its file (whose controls are
-    /// numbered before its own), `MIEN_ERROR_DNA_LIMIT` if the file would exceed 4 GiB,
-    /// `MIEN_ERROR_MEMORY` if there is no memory for its bytes. A version leaves out layers that
-    /// others may need, as networks need ML operations: if the file would not open, the call fails
-    /// with the status that opening it would give. See docs/dna-format.md, 14 "Writing a canonical
-    /// file".
+    /// loaded, the same bytes. Layers that were not loaded are written empty. Another version may
+    /// leave out layers that others need, such as the ML operations of networks; a file that could
+    /// not be opened is not written. The file is written under a temporary name and renamed, so
+    /// that a failure leaves `path` unchanged. Fails with `MIEN_ERROR_FILE_WRITE` if the file
+    /// cannot be written, `MIEN_ERROR_DNA_LAYER` if RBF behavior was loaded without the
+    /// machine-learned behavior of its file (whose controls are numbered before its own),
+    /// `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE` or `MIEN_ERROR_DNA_VALUE` if the
+    /// file could not be opened in the requested version, `MIEN_ERROR_DNA_LIMIT` if it would
+    /// exceed 4 GiB, `MIEN_ERROR_MEMORY` if the allocator of the DNA returns NULL. See
+    /// docs/dna-format.md, 14 "Writing a canonical file".
     pub fn mien_dna_write_file(dna: *const MienDna, path: *const c_char, desc: *const MienWriteDesc, error: *mut MienError) -> MienStatus;
 
     /// Writes a DNA file to memory and returns its size in `out_size`. `buffer` may be NULL with
     /// capacity 0 to get the size only. Writes nothing if `capacity` is too small; `out_size` is
-    /// set nevertheless. Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `capacity` is too small,
-    /// `MIEN_ERROR_DNA_LAYER` or `MIEN_ERROR_DNA_LIMIT` as `mien_dna_write_file()`.
+    /// set nevertheless. Fails like `mien_dna_write_file()`, but not with `MIEN_ERROR_FILE_WRITE`,
+    /// and with `MIEN_ERROR_INVALID_ARGUMENT` if `capacity` is too small.
     pub fn mien_dna_write_memory(dna: *const MienDna, desc: *const MienWriteDesc, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
 
     /// Checks all layers of a file and collects the findings: at most 32 per field and 1000 in
@@ -1619,14 +1621,15 @@ extern "C" {
     pub fn mien_instance_statistics(instance: *const MienInstance, out_statistics: *mut MienInstanceStatistics) -> MienStatus;
 
     /// Maps GUI controls to raw controls. Raw controls that the table drives are overwritten,
-    /// clamped to 0..1; others are left alone. Fails with `MIEN_ERROR_MISMATCH` if `instance`
-    /// belongs to another rig. See docs/rig-evaluation.md, 2.3 "GUI controls to raw controls".
+    /// clamped to 0..1; others are left alone. Does not allocate or lock. Fails with
+    /// `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig. See docs/rig-evaluation.md, 2.3
+    /// "GUI controls to raw controls".
     pub fn mien_rig_map_gui_to_raw(rig: *const MienRig, instance: *mut MienInstance) -> MienStatus;
 
     /// Maps raw controls to GUI controls. Sets every GUI control to the value that maps to the
-    /// current raw controls, or to 0 if there is none. Fails with `MIEN_ERROR_MISMATCH` if
-    /// `instance` belongs to another rig. See docs/rig-evaluation.md, 2.4 "Raw controls to GUI
-    /// controls".
+    /// current raw controls, or to 0 if there is none. Does not allocate or lock. Fails with
+    /// `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig. See docs/rig-evaluation.md, 2.4
+    /// "Raw controls to GUI controls".
     pub fn mien_rig_map_raw_to_gui(rig: *const MienRig, instance: *mut MienInstance) -> MienStatus;
 
     /// Evaluates all stages at a LOD. Results that the LOD does not reach have their initial
@@ -1665,22 +1668,22 @@ extern "C" {
     pub fn mien_rig_evaluate_batch(rig: *const MienRig, batch: *mut MienBatch, instances: *const *mut MienInstance, lods: *const u32, count: u32, stages: u32, parallel: *const MienParallelFor) -> MienStatus;
 
     /// Evaluates the joint values of one joint group (`MIEN_KIND_JOINT_GROUP`), except those that
-    /// a later group overrides at all LODs where this one sets them. Uses up to 48 KiB of stack.
-    /// Fails with `MIEN_ERROR_INDEX` if there is no such joint group, `MIEN_ERROR_LOD` if the rig
-    /// has no such LOD, `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig. See
-    /// docs/rig-evaluation.md, 4.5 "Order of the joint stage".
+    /// a later group overrides at all LODs where this one sets them. Does not allocate or lock.
+    /// Uses up to 48 KiB of stack. Fails with `MIEN_ERROR_INDEX` if there is no such joint group,
+    /// `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if `instance` belongs to
+    /// another rig. See docs/rig-evaluation.md, 4.5 "Order of the joint stage".
     pub fn mien_rig_evaluate_joint_group(rig: *const MienRig, instance: *mut MienInstance, lod: u32, group: u32) -> MienStatus;
 
     /// Evaluates the pose controls of one RBF solver (`MIEN_KIND_RBF_SOLVER`), even if the LOD
-    /// does not list it. Fails with `MIEN_ERROR_INDEX` if there is no such solver,
-    /// `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if `instance` belongs to
-    /// another rig. See docs/rig-evaluation.md, 6 "RBF solvers".
+    /// does not list it. Does not allocate or lock. Fails with `MIEN_ERROR_INDEX` if there is no
+    /// such solver, `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if
+    /// `instance` belongs to another rig. See docs/rig-evaluation.md, 6 "RBF solvers".
     pub fn mien_rig_evaluate_rbf_solver(rig: *const MienRig, instance: *mut MienInstance, lod: u32, solver: u32) -> MienStatus;
 
-    /// Evaluates the joints of one twist and swing setup (`MIEN_KIND_TWIST_SWING`). Fails with
-    /// `MIEN_ERROR_INDEX` if there is no such setup, `MIEN_ERROR_LOD` if the rig has no such LOD,
-    /// `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig. See docs/rig-evaluation.md, 7
-    /// "Twist and swing".
+    /// Evaluates the joints of one twist and swing setup (`MIEN_KIND_TWIST_SWING`). Does not
+    /// allocate or lock. Fails with `MIEN_ERROR_INDEX` if there is no such setup, `MIEN_ERROR_LOD`
+    /// if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig. See
+    /// docs/rig-evaluation.md, 7 "Twist and swing".
     pub fn mien_rig_evaluate_twist_swing(rig: *const MienRig, instance: *mut MienInstance, lod: u32, setup: u32) -> MienStatus;
 
     /// Packs the geometry of a DNA for deformation. `dna` is the one that the rig was created
@@ -1745,8 +1748,8 @@ extern "C" {
 
     /// Does the same with arrays: `joint_values` like those of `mien_instance_joints()`,
     /// `channel_weights` one per channel. `joint_values` may be NULL with count 0: no deltas.
-    /// `channel_weights` may be NULL with count 0: all weights are 0. Fails with
-    /// `MIEN_ERROR_INVALID_ARGUMENT` if a count is not that of the rig.
+    /// `channel_weights` may be NULL with count 0: all weights are 0. Does not allocate or lock.
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if a count is not that of the rig.
     pub fn mien_deformer_instance_update_from_values(deformer_instance: *mut MienDeformerInstance, joint_values: *const f32, joint_value_count: usize, channel_weights: *const f32, channel_weight_count: usize) -> MienStatus;
 
     /// Returns the model matrices: 16 floats per joint, in the layout of
@@ -1761,8 +1764,8 @@ extern "C" {
 
     /// Writes the transforms of the last update, relative to the parents, to `out_transforms`: 10
     /// floats per joint, tx ty tz qx qy qz qw sx sy sz, with quaternions of unit length. `count`
-    /// is the capacity of `out_transforms`, in floats. Fails with `MIEN_ERROR_INVALID_ARGUMENT` if
-    /// `count` is less than 10 \* MienDeformerInfo.`joint_count`.
+    /// is the capacity of `out_transforms`, in floats. Does not allocate or lock. Fails with
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if `count` is less than 10 \* MienDeformerInfo.`joint_count`.
     pub fn mien_deformer_instance_local_transforms(deformer_instance: *const MienDeformerInstance, out_transforms: *mut f32, count: usize) -> MienStatus;
 
     /// Computes the positions and normals of a mesh for the last update. Runs on the calling
@@ -1776,10 +1779,10 @@ extern "C" {
     /// Deforms the same mesh of `count` different instances of one deformer. The results have the
     /// same bits as those of `mien_deformer_instance_deform()`, but each part of the mesh is read
     /// once for all, and the total number of positions decides about tasks. `parallel` may be
-    /// NULL. On failure nothing is deformed. Fails with `MIEN_ERROR_INDEX` if there is no such
-    /// mesh, `MIEN_ERROR_LOD` if an instance has no memory for it, `MIEN_ERROR_MISMATCH` if the
-    /// instances have different deformers, `MIEN_ERROR_INVALID_ARGUMENT` if an instance is listed
-    /// twice.
+    /// NULL. Does not allocate or lock. Uses up to 16 KiB of stack per task. On failure nothing is
+    /// deformed. Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_LOD` if an
+    /// instance has no memory for it, `MIEN_ERROR_MISMATCH` if the instances have different
+    /// deformers, `MIEN_ERROR_INVALID_ARGUMENT` if an instance is listed twice.
     pub fn mien_deformer_instance_deform_batch(deformer_instances: *const *mut MienDeformerInstance, count: usize, mesh: u32, normals: u32, parallel: *const MienParallelFor) -> MienStatus;
 
     /// Returns the deformed positions of a mesh: 3 floats per position, x y z. Contents change
@@ -1799,25 +1802,26 @@ extern "C" {
     /// the vertices, and none is read, so the memory may be write-combined. Bytes between vertices
     /// are left alone. `parallel` may be NULL; the bytes are the same either way. The same
     /// positions, normals and tangents give the same bytes on every instruction set. Does not
-    /// allocate or lock. On failure nothing is deformed or written. Fails with `MIEN_ERROR_INDEX`
-    /// if there is no such mesh, `MIEN_ERROR_LOD` if `deformer_instance` has no memory for it,
-    /// `MIEN_ERROR_INVALID_ARGUMENT` if a stream has a format that its attribute cannot have, a
-    /// wrong stride or alignment or too little capacity, if streams overlap, if there is no
-    /// stream, or if tangents are requested from a deformer without them. See docs/deformation.md,
-    /// 5 "Vertex output".
+    /// allocate or lock. Uses up to 16 KiB of stack per task. On failure nothing is deformed or
+    /// written. Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_LOD` if
+    /// `deformer_instance` has no memory for it, `MIEN_ERROR_INVALID_ARGUMENT` if a stream has a
+    /// format that its attribute cannot have, a wrong stride or alignment or too little capacity,
+    /// if streams overlap, if there is no stream, or if tangents are requested from a deformer
+    /// without them. See docs/deformation.md, 5 "Vertex output".
     pub fn mien_deformer_instance_write_vertices(deformer_instance: *mut MienDeformerInstance, mesh: u32, normals: u32, output: *const MienVertexOutput, parallel: *const MienParallelFor) -> MienStatus;
 
-    /// Does the same for `count` different instances of one deformer: instance i is written to
-    /// outputs\[i\]. All outputs have the same `struct_size`, and must not share bytes. `parallel`
-    /// may be NULL. Fails like `mien_deformer_instance_write_vertices()`, and with
-    /// `MIEN_ERROR_MISMATCH` if the instances have different deformers,
-    /// `MIEN_ERROR_INVALID_ARGUMENT` if an instance is listed twice.
+    /// Does the same for one mesh of `count` different instances of one deformer: instance i is
+    /// written to outputs\[i\]. All outputs have the same `struct_size`, and must not share bytes.
+    /// `parallel` may be NULL. Does not allocate or lock. Uses up to 16 KiB of stack per task.
+    /// Fails like `mien_deformer_instance_write_vertices()`, and with `MIEN_ERROR_MISMATCH` if the
+    /// instances have different deformers, `MIEN_ERROR_INVALID_ARGUMENT` if an instance is listed
+    /// twice.
     pub fn mien_deformer_instance_write_vertices_batch(deformer_instances: *const *mut MienDeformerInstance, count: usize, mesh: u32, normals: u32, outputs: *const MienVertexOutput, parallel: *const MienParallelFor) -> MienStatus;
 
     /// Writes a rig and its deformer to a baked file. `deformer` may be NULL. The file is written
     /// under a temporary name and renamed, so that a failure leaves `path` unchanged. Fails with
     /// `MIEN_ERROR_MISMATCH` if `deformer` was created for another rig, `MIEN_ERROR_FILE_WRITE` if
-    /// the file cannot be written, `MIEN_ERROR_MEMORY` if there is no memory for its bytes.
+    /// the file cannot be written, `MIEN_ERROR_MEMORY` if the allocator of the rig returns NULL.
     pub fn mien_bake_file(rig: *const MienRig, deformer: *const MienDeformer, path: *const c_char, error: *mut MienError) -> MienStatus;
 
     /// Writes a baked file to memory and returns its size in `out_size`. `deformer` may be NULL.

@@ -824,7 +824,7 @@ impl From<sys::MienDnaInfo> for DnaInfo {
 pub struct DnaLayer {
     /// `Layers` that loads it. `Layers::UNKNOWN`: of an unknown kind.
     pub layer: Layers,
-    /// Version major.
+    /// Of the layer: `version_major`.`version_minor`.
     pub version_major: u32,
     /// Version minor.
     pub version_minor: u32,
