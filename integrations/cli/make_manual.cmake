@@ -33,6 +33,17 @@ mien \\- show, check, evaluate, convert, generate and measure facial rigs in DNA
 .RI [ ARGUMENTS ]
 .SH DESCRIPTION
 ${overview}")
+# Each command has more of them.
+string(APPEND page ".SH EXAMPLES
+.nf
+mien demo\\-head \\-o head.dna
+mien info head.dna
+mien render head.dna \\-\\-set jawOpen=0.6 \\-o open.png
+mien inspect head.dna jawOpen
+mien eval head.dna \\-\\-input frames.json \\-o out.json
+mien export head.dna \\-o head.glb
+.fi
+")
 foreach(command IN LISTS commands)
   string(STRIP "${command}" command)
   if(NOT command STREQUAL "help")

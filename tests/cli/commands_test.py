@@ -172,6 +172,7 @@ class General(CliTest):
             self.fails(USAGE, *command, "--rotation", "matrix", says="euler")
             self.fails(USAGE, *command, "--ml-masks", "half", says="blend")
             self.fails(USAGE, *command, "--isa", "avx9", says="avx2")
+            self.fails(USAGE, *command, "--arithmetic", "exact", says="portable")
         for storage in ("f32", "f16"):
             self.ok("info", tiny, "--storage", storage, "--rotation", "quaternion",
                     "--isa", "scalar")
@@ -594,7 +595,7 @@ class Eval(CliTest):
                  "rbf": counts["rbf_controls"], "joints": 9 * counts["joints"],
                  "blend_shapes": counts["blend_shape_channels"], "animated_maps": counts["animated_maps"]}
         result = self.evaluate("small.dna", [{}, {"raw": {}}])
-        self.assertEqual(list(result), ["rig", "version", "lod_count", "rotation", "frames"])
+        self.assertEqual(list(result), ["rig", "version", "lod_count", "rotation", "arithmetic", "frames"])
         self.assertEqual((result["rig"], result["version"]), (info["name"], "2.8"))
         self.assertEqual((result["rotation"], result["lod_count"]), ("euler", info["lod_count"]))
         self.assertEqual(len(result["frames"]), 2)
@@ -667,6 +668,21 @@ class Eval(CliTest):
                     for a, b in zip(mine[key], scalar[key]):
                         self.assertLessEqual(abs(a - b), 1e-5 + 1e-5 * largest, (isa, key))
         self.assertGreater(compared, 0)
+
+    def test_portable_arithmetic_has_the_same_bits_everywhere(self):
+        frames = [{"raw": [(i * 7 % 11) / 10 for i in range(len(self.names("medium.dna", "raw")))]}]
+        fast = self.evaluate("medium.dna", frames)
+        self.assertEqual(fast["arithmetic"], "fast")
+        portable = ["--arithmetic", "portable"]
+        reference = self.evaluate("medium.dna", frames, "--isa", "scalar", *portable)
+        self.assertEqual(reference["arithmetic"], "portable")
+        self.assertEqual(self.evaluate("medium.dna", frames, *portable), reference)
+        baked = path("portable.rig")
+        self.ok("bake", path("medium.dna"), "-o", baked, *portable)
+        self.assertEqual(self.evaluate("portable.rig", frames, *portable)["frames"], reference["frames"])
+        self.assertEqual(self.json("info", baked, "--json")["arithmetic"], "portable")
+        self.ok("bake", path("medium.dna"), "-o", path("fast.rig"))
+        self.fails(USAGE, "info", path("fast.rig"), *portable, says=("--arithmetic portable", "bake again"))
 
     def test_geometry_is_not_needed(self):
         self.ok("convert", path("small.dna"), "-o", path("lean.dna"), "--layers", "behavior")
@@ -763,7 +779,7 @@ class Eval(CliTest):
 
 
 class Bench(CliTest):
-    ROW = ["isa", "storage", "rotation", "lod", "activity", "shared_controls", "characters",
+    ROW = ["isa", "storage", "rotation", "arithmetic", "lod", "activity", "shared_controls", "characters",
            "evaluate_ns", "joints_ns", "bytes_touched"]
 
     def test_json(self):
@@ -786,7 +802,7 @@ class Bench(CliTest):
         self.assertEqual(set(keys), expected)
         for row in result["rows"]:
             self.assertEqual(list(row), self.ROW)
-            self.assertEqual((row["storage"], row["rotation"]), ("f32", "euler"))
+            self.assertEqual((row["storage"], row["rotation"], row["arithmetic"]), ("f32", "euler", "fast"))
             self.assertGreater(row["evaluate_ns"], 0)
             self.assertGreater(row["joints_ns"], 0)
             self.assertGreaterEqual(row["bytes_touched"], 0)
@@ -810,6 +826,9 @@ class Bench(CliTest):
         result = self.json("bench", path("tiny.dna"), "--quick", "--json", "--lods", "0",
                            env={"MIEN_ISA": "scalar"})
         self.assertEqual({row["isa"] for row in result["rows"]}, {"scalar"})
+        result = self.json("bench", path("tiny.dna"), "--quick", "--json", "--lods", "0", "--isa", "scalar",
+                           "--arithmetic", "portable")
+        self.assertEqual({row["arithmetic"] for row in result["rows"]}, {"portable"})
 
     def test_text(self):
         text = self.ok("bench", path("tiny.dna"), "--quick", "--lods", "0", "--isa", "scalar").stdout.decode()
@@ -847,6 +866,8 @@ class Completion(CliTest):
         self.assertEqual(self.complete("eval", "--isa", "a"), ["avx2", "avx512"])
         self.assertEqual(self.complete("eval", "--max"), ["--max-lod"])
         self.assertEqual(self.complete("completion", ""), ["bash", "zsh", "fish"])
+        self.assertEqual(self.complete("help", "in"), ["info", "inspect"])
+        self.assertEqual(self.complete("bench", "--arithmetic", ""), ["fast", "portable"])
         self.assertIn("large.dna", self.complete("info", "la"))
         self.assertIn("large.dna", self.complete("convert", "-o", "la"))
 

@@ -23,6 +23,23 @@ libdir=$(dirname "$(find "$prefix" -name libmien.so)")
 export PKG_CONFIG_PATH=$libdir/pkgconfig
 use "$prefix" "$libdir" "$work"
 
+# refused COMPONENT REASON: find_package() fails for that reason.
+refused() {
+  local log=$work/refused-$1.log
+  if "$cmake" -S "$here" -B "$work/refused-$1" -DCMAKE_PREFIX_PATH="$prefix" -DCOMPONENTS="$1" \
+    >"$log" 2>&1; then
+    echo "a project found the component $1" >&2
+    exit 1
+  fi
+  # CMake breaks lines.
+  tr -s ' \n' '  ' <"$log" | grep -qF "$2" || { cat "$log" >&2; exit 1; }
+  echo "-- refused: $2"
+}
+refused dynamic "no component is named dynamic"
+mv "$libdir/libmien.a" "$work/libmien.a"
+refused static "the static library is not installed: no $libdir/libmien.a"
+mv "$work/libmien.a" "$libdir/libmien.a"
+
 # The program finds its library by where it lies itself.
 if [ -x "$prefix/bin/mien" ]; then
   "$prefix/bin/mien" gen --preset tiny -o "$work/tiny.dna"

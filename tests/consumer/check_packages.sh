@@ -34,7 +34,8 @@ export PKG_CONFIG_ALLOW_SYSTEM_CFLAGS=1 PKG_CONFIG_ALLOW_SYSTEM_LIBS=1
 use "$root/usr" "$libdir" "$work"
 
 run "$libdir" "$root/usr/bin/mien" gen --preset tiny -o "$work/tiny.dna"
-for file in share/man/man1/mien.1.gz share/bash-completion/completions/mien; do
+for file in share/man/man1/mien.1.gz share/bash-completion/completions/mien \
+  share/zsh/vendor-completions/_mien share/fish/vendor_completions.d/mien.fish; do
   [ -s "$root/usr/$file" ] || { echo "no $file" >&2; exit 1; }
 done
 

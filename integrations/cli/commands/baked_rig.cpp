@@ -41,6 +41,9 @@ BakedFile open_baked_rig(const std::string& path, const LoadOptions& load,
   if (wanted.storage != MIEN_STORAGE_32_BIT && wanted.storage != info.storage) {
     fail_baked("--storage " + evaluation.storage);
   }
+  if (wanted.arithmetic != MIEN_ARITHMETIC_FAST && wanted.arithmetic != info.arithmetic) {
+    fail_baked("--arithmetic " + evaluation.arithmetic);
+  }
   if (wanted.ml_masks != MIEN_ML_MASKS_SWITCH) fail_baked("--ml-masks " + evaluation.ml_masks);
   return file;
 }

@@ -69,6 +69,7 @@ void write_json(const Measurement& measured, const std::string& name) {
     json.member("rotation", row.engine->info.rotation_output == MIEN_ROTATION_OUTPUT_QUATERNION
                                 ? "quaternion"
                                 : "euler");
+    json.member("arithmetic", arithmetic_word(row.engine->info));
     json.member("lod", row.lod);
     json.key("activity");
     json.shortest(kActivities[row.activity]);

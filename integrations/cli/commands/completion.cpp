@@ -242,6 +242,7 @@ void run(const std::string& shell, const CLI::App& app) {
   std::vector<CompletedCommand> commands;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     commands.push_back(words_of(command));
+    if (commands.back().name == "help") commands.back().arguments = cli::command_names(app);
   }
   Output output("-");
   output.write(index == 0   ? bash_script(commands)

@@ -85,6 +85,7 @@ void evaluate(const Heading& file, const MienRig* rig, const std::vector<Frame>&
   json.member("lod_count", info.lod_count);
   json.member("rotation",
               info.rotation_output == MIEN_ROTATION_OUTPUT_QUATERNION ? "quaternion" : "euler");
+  json.member("arithmetic", arithmetic_word(info));
   json.key("frames");
   json.begin_array(Layout::kLines);
   Progress progress(session, "frame", frames.size());

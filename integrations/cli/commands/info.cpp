@@ -337,6 +337,7 @@ void write_json(const RigFile& file, const Summary& summary,
   if (summary.rig) {
     json.begin_object();
     json.member("isa", mien_isa_name(summary.rig->isa));
+    json.member("arithmetic", arithmetic_word(*summary.rig));
     json.member("rig_bytes", summary.rig->rig_bytes);
     json.member("instance_bytes", summary.rig->instance_bytes);
     json.end_object();

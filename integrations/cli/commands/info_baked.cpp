@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "integrations/cli/commands/options.h"
 #include "integrations/cli/io/json_writer.h"
 #include "integrations/cli/io/rig_file.h"
 #include "integrations/cli/io/text.h"
@@ -63,6 +64,7 @@ void write_json(const BakedFile& file, const MienRigInfo& info, Output& output) 
   json.member("baked", true);
   json.member("rotation", rotation_word(info));
   json.member("storage", storage_word(info));
+  json.member("arithmetic", arithmetic_word(info));
   json.member("lod_count", info.lod_count);
   json.key("counts");
   json.begin_object(Layout::kLines);
@@ -99,6 +101,7 @@ std::string text_of(const BakedFile& file, const MienRigInfo& info, const Sessio
   std::string text = heading(one_line(file.shown) + ": a baked file");
   text += line("rotations", rotation_word(info));
   text += line("storage", storage_word(info));
+  text += line("arithmetic", arithmetic_word(info));
   text +=
       line("bytes", std::to_string(info.rig_bytes) + ", " + std::to_string(info.instance_bytes) +
                         " per character, " + mien_isa_name(info.isa));

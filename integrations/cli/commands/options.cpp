@@ -24,6 +24,7 @@ const OptionWords kOptionWords[] = {
     {"--storage", {"f32", "f16"}},
     {"--rotation", {"euler", "quaternion"}},
     {"--ml-masks", {"switch", "blend"}},
+    {"--arithmetic", {"fast", "portable"}},
     {"--preset", {"tiny", "small", "medium", "large", "body"}},
     {"--version", {"2.1", "2.2", "2.3", "2.4", "2.5", "2.6", "2.7", "2.8"}},
     {"--unknown", {"keep", "drop"}},
@@ -260,6 +261,10 @@ void add_rig_options(CLI::App& app, RigOptions& options, bool with_isa) {
                  "Masks of machine-learned behavior: switch (0 is off) or blend (0 to 1)")
       ->type_name("TYPE")
       ->group(group);
+  app.add_option("--arithmetic", options.arithmetic,
+                 "fast, or portable: the same bits on every instruction set")
+      ->type_name("TYPE")
+      ->group(group);
 }
 
 size_t parse_word(const std::string& option, const std::string& word) {
@@ -302,11 +307,16 @@ void require_behavior(const MienDnaDesc& desc) {
              "add behavior to the list");
 }
 
+const std::string& arithmetic_word(const MienRigInfo& info) {
+  return option_words("--arithmetic")[info.arithmetic];
+}
+
 MienRigDesc parse_rig_options(const RigOptions& options) {
   auto desc = sized<MienRigDesc>();
   desc.rotation_output = static_cast<uint32_t>(parse_word("--rotation", options.rotation));
   desc.ml_masks = static_cast<uint32_t>(parse_word("--ml-masks", options.ml_masks));
   desc.storage = static_cast<uint32_t>(parse_word("--storage", options.storage));
+  desc.arithmetic = static_cast<uint32_t>(parse_word("--arithmetic", options.arithmetic));
   desc.isa = MIEN_ISA_ENVIRONMENT;
   if (options.isa.empty()) return desc;
   desc.isa = MIEN_ISA_SCALAR + static_cast<uint32_t>(parse_word("--isa", options.isa));

@@ -15,9 +15,9 @@ struct LoadOptions {
   std::string layers, max_lod, min_lod, lods, system, rotation_order;
 };
 
-/// --isa, --storage, --rotation, --ml-masks as they were typed.
+/// --isa, --storage, --rotation, --ml-masks, --arithmetic as they were typed.
 struct RigOptions {
-  std::string isa, storage = "f32", rotation = "euler", ml_masks = "switch";
+  std::string isa, storage = "f32", rotation = "euler", ml_masks = "switch", arithmetic = "fast";
 };
 
 void add_load_options(CLI::App& app, LoadOptions& options);
@@ -56,5 +56,8 @@ void require_behavior(const MienDnaDesc& desc);
 
 /// Wrong usage if this machine does not have the instruction set.
 MienRigDesc parse_rig_options(const RigOptions& options);
+
+/// The word of --arithmetic that a rig was made with.
+const std::string& arithmetic_word(const MienRigInfo& info);
 
 }  // namespace mien::cli
