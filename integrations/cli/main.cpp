@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // mien: a command line tool for facial rigs in DNA files.
+#include <cstdio>
 #include <new>
 
 #include "integrations/cli/commands/commands.h"
@@ -98,6 +99,11 @@ int run(int argument_count, char** arguments, Session& session) {
     refuse_empty_values(command.app);
   }
 
+  if (argument_count == 1) {
+    // As wrong usage, so that a script notices.
+    std::fputs(app.help().c_str(), stdout);
+    return kUsage;
+  }
   try {
     app.parse(argument_count, arguments);
   } catch (const CLI::ParseError& error) {
@@ -125,8 +131,7 @@ int main(int argument_count, char** arguments) {
     print_failure(session, failure.what());
     return failure.exit_code;
   } catch (const std::bad_alloc&) {
-    print_failure(session,
-                  "out of memory; free some memory, or load less with --layers and --lods");
+    print_failure(session, "out of memory; free some memory");
   } catch (const std::exception& error) {
     print_failure(session, std::string("internal error: ") + error.what() + "; please report it");
   }

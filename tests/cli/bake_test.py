@@ -56,7 +56,7 @@ class Bake(unittest.TestCase):
         self.assertIn(says, text)
 
     def evaluated(self, rig, *options, stdin=b""):
-        done = run("eval", rig, "--input", path("frames.json"), *options, stdin=stdin)
+        done = run("eval", rig, "--input", path("frames.json"), "--lod", "all", *options, stdin=stdin)
         self.assertEqual(done.returncode, DONE, done.stderr.decode())
         return json.loads(done.stdout)
 

@@ -142,7 +142,7 @@ class Golden(unittest.TestCase):
         for isa in available:
             for rotation in ("euler", "quaternion"):
                 with self.subTest(isa=isa, rotation=rotation):
-                    result = json.loads(run("eval", rig.path, "--input", "-", "--quiet", "--isa", isa,
+                    result = json.loads(run("eval", rig.path, "--input", "-", "--quiet", "--lod", "all", "--isa", isa,
                                             "--rotation", rotation, stdin=frames))
                     compared = self.compare(rig, isa, rotation, result)
                     self.assertGreater(compared, 0)

@@ -9,7 +9,8 @@ namespace mien::cli {
 namespace {
 
 struct BakeOptions {
-  std::string rig, output;
+  std::string rig;
+  OutputFile output;
   bool no_geometry = false;
   LoadOptions load;
   RigOptions evaluation;
@@ -33,7 +34,8 @@ void run(const BakeOptions& options, const Session& session) {
   const MienDnaDesc desc = parse_load_options(options.load, kEvaluationLayers | geometry);
   require_behavior(desc);
   const MienRigDesc rig_desc = parse_rig_options(options.evaluation);
-  refuse_terminal(options.output, session, "a baked file");
+  refuse_terminal(options.output.path, session, "a baked file");
+  refuse_replacing(options.output, {options.rig});
   const RigFile file = open_rig_file(options.rig, desc, session);
   const Rig rig = create_rig(file, rig_desc);
   Deformer deformer;
@@ -44,7 +46,7 @@ void run(const BakeOptions& options, const Session& session) {
           "cannot compile geometry", file.shown);
     deformer.reset(made);
   }
-  write_baked(rig.get(), deformer.get(), options.output);
+  write_baked(rig.get(), deformer.get(), options.output.path);
 }
 
 }  // namespace
@@ -55,9 +57,7 @@ Command add_bake_command(CLI::App& app, const Session& session) {
   bake->add_option("RIG", options->rig, "DNA file; - reads standard input")
       ->type_name("")
       ->required();
-  bake->add_option("-o,--output", options->output, "File to write; - is standard output")
-      ->type_name("OUT")
-      ->required();
+  add_output_options(*bake, options->output, "File to write; - is standard output")->required();
   bake->add_flag("--no-geometry", options->no_geometry, "Leave the meshes out");
   add_load_options(*bake, options->load);
   add_rig_options(*bake, options->evaluation, false);

@@ -11,7 +11,8 @@ namespace mien::cli {
 namespace {
 
 struct ConvertOptions {
-  std::string input, output, version, unknown = "keep";
+  std::string input, version, unknown = "keep";
+  OutputFile output;
   LoadOptions load;
 };
 
@@ -39,11 +40,12 @@ void run(const ConvertOptions& options, const Session& session) {
   const bool drop = parse_word("--unknown", options.unknown) == 1;
   desc.unknown_layers = drop ? MIEN_UNKNOWN_LAYERS_DROP : MIEN_UNKNOWN_LAYERS_KEEP;
   write.unknown_layers = desc.unknown_layers;
-  refuse_terminal(options.output, session, "a DNA file");
+  refuse_terminal(options.output.path, session, "a DNA file");
+  refuse_replacing(options.output, {});  // a file may be converted in place
 
   const RigFile file = open_rig_file(options.input, desc, session);
   note_lost_layers(file, write.version, session);
-  write_dna(file.dna.get(), write, options.output);
+  write_dna(file.dna.get(), write, options.output.path);
 }
 
 }  // namespace
@@ -55,9 +57,7 @@ Command add_convert_command(CLI::App& app, const Session& session) {
   convert->add_option("IN", options->input, "DNA file; - reads standard input")
       ->type_name("")
       ->required();
-  convert->add_option("-o,--output", options->output, "File to write; - is standard output")
-      ->type_name("OUT")
-      ->required();
+  add_output_options(*convert, options->output, "File to write; - is standard output")->required();
   convert
       ->add_option("--version", options->version,
                    "Version to write, 2.1 to 2.8 (default: as it is)")

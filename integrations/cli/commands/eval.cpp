@@ -13,7 +13,8 @@ namespace mien::cli {
 namespace {
 
 struct EvalOptions {
-  std::string rig, input, output = "-", lod = "all";
+  std::string rig, input, lod = "0";
+  OutputFile output{"-"};
   LoadOptions load;
   RigOptions evaluation;
 };
@@ -68,7 +69,7 @@ void evaluate(const Heading& file, const MienRig* rig, const std::vector<Frame>&
   check(mien_instance_create(rig, nullptr, &made, &error), &error, "cannot evaluate", file.shown);
   const Instance instance(made);
 
-  Output output(options.output);
+  Output output(options.output.path);
   JsonWriter json(output);
   using Layout = JsonWriter::Layout;
   json.begin_object(Layout::kLines);
@@ -115,12 +116,12 @@ void run(const EvalOptions& options, const Session& session) {
   require_behavior(desc);
   const MienRigDesc rig_desc = parse_rig_options(options.evaluation);
   const bool all_lods = options.lod == "all";
-  const auto lod =
-      all_lods ? 0 : static_cast<uint32_t>(parse_number("--lod", options.lod, UINT32_MAX));
+  const uint32_t lod = all_lods ? 0 : parse_lod(options.lod, true);
   if (options.rig == "-" && options.input == "-") {
     fail_usage("--input -", "standard input cannot be both RIG and FRAMES",
                "put one of them in a file");
   }
+  refuse_replacing(options.output, {options.rig, options.input});
 
   // Whatever is opened has to stay so: rigs may point into it.
   std::optional<RigFile> dna;
@@ -161,10 +162,9 @@ Command add_eval_command(CLI::App& app, const Session& session) {
   eval->add_option("-i,--input", options->input, "JSON with the controls; - reads standard input")
       ->type_name("FRAMES")
       ->required();
-  eval->add_option("-o,--output", options->output, "File to write; - is standard output (default)")
-      ->type_name("OUT");
+  add_output_options(*eval, options->output, "File to write; - is standard output (default)");
   eval->add_option("--lod", options->lod,
-                   "LOD to evaluate, counted from 0 among those loaded, or all (default)")
+                   "LOD to evaluate, counted from 0 among those loaded (default: 0), or all")
       ->type_name("N");
   add_load_options(*eval, options->load);
   add_rig_options(*eval, options->evaluation);
@@ -172,7 +172,7 @@ Command add_eval_command(CLI::App& app, const Session& session) {
       "FRAMES is one JSON object:\n"
       "  {\"frames\": [\n"
       "    {\"raw\": [0.1, ...]},                         all raw controls, in order\n"
-      "    {\"raw\": {\"CTRL_expressions.jawOpen\": 1}},    some by name\n"
+      "    {\"raw\": {\"jawOpen\": 1}},                     some by name, or its last part\n"
       "    {\"gui\": {\"CTRL_C_jaw.ty\": 0.4},              GUI controls (or all, in order),\n"
       "     \"raw_after_gui\": {\"12\": 1.0}},              mapped to raw; then raw, or by index\n"
       "    {\"gui\": [0.0, ...], \"ml_mask\": [1, 0]}       region masks, in any frame\n"

@@ -18,7 +18,8 @@ namespace mien::cli {
 namespace {
 
 struct ExportOptions {
-  std::string rig, output, format, lod = "0", influences, animation, rate, mouth_close;
+  OutputFile output;
+  std::string rig, format, lod = "0", influences, animation, rate, mouth_close;
   std::vector<std::string> settings;
   bool bake = false;
 };
@@ -33,13 +34,13 @@ constexpr double kNotableClose = 0.005;  // of the size: a millimeter or two of 
 
 Format parse_format(const ExportOptions& options) {
   if (!options.format.empty()) return static_cast<Format>(parse_word("--format", options.format));
-  if (options.output == "-") return Format::kGlb;
-  const size_t dot = options.output.rfind('.');
-  const std::string ending = dot == std::string::npos ? "" : options.output.substr(dot + 1);
+  if (options.output.path == "-") return Format::kGlb;
+  const size_t dot = options.output.path.rfind('.');
+  const std::string ending = dot == std::string::npos ? "" : options.output.path.substr(dot + 1);
   for (size_t i = 0; i < option_words("--format").size(); ++i) {
     if (ending == option_words("--format")[i]) return static_cast<Format>(i);
   }
-  fail_usage("-o " + options.output, "the name tells no format",
+  fail_usage("-o " + options.output.path, "the name tells no format",
              "let it end in .glb or .obj, or add --format");
 }
 
@@ -89,7 +90,7 @@ class Face {
     auto desc = sized<MienDnaDesc>();
     desc.layers = kEvaluationLayers | MIEN_LAYER_GEOMETRY;
     if (options.lod != "all") {
-      first_lod = static_cast<uint32_t>(parse_number("--lod", options.lod, kLastMaskLod));
+      first_lod = parse_lod(options.lod, true);
       desc.lods = uint64_t{1} << first_lod;
     }
     file = open_rig_file(options.rig, desc, session);
@@ -280,7 +281,7 @@ std::string baked_glb(const Face& face, const Frame& still, const std::vector<Fr
     scene.scene.animation = gltf::baked_animation(scene, weights, "frames", rate);
   }
   const std::string bytes = gltf::write_glb(scene.scene);
-  if (!session.quiet) print_report(report, options.output == "-" ? stderr : stdout);
+  if (!session.quiet) print_report(report, options.output.path == "-" ? stderr : stdout);
   return bytes;
 }
 
@@ -291,9 +292,10 @@ void run(const ExportOptions& options, const Session& session) {
   const double rate = parse_rate(options);
   check_combination(options, format);
   if (!options.influences.empty()) parse_word("--influences", options.influences);
-  if (format == Format::kGlb && options.output == "-" && session.terminal.out_is_terminal) {
+  if (format == Format::kGlb && options.output.path == "-" && session.terminal.out_is_terminal) {
     fail_usage("-o -", "a GLB file is not for a terminal", "name a file, or pipe the output");
   }
+  refuse_replacing(options.output, {options.rig, options.animation});
   try {
     const Face face(options, session);
     for (const std::string& problem : face.source->color_problems()) {
@@ -317,7 +319,7 @@ void run(const ExportOptions& options, const Session& session) {
     } else {
       bytes = rig_glb(face, still, frames, rate, options, session);
     }
-    Output output(options.output);
+    Output output(options.output.path);
     output.write(bytes);
     output.commit();
   } catch (const gltf::ExportError& error) {
@@ -336,10 +338,7 @@ Command add_export_command(CLI::App& app, const Session& session) {
   command->add_option("RIG", options->rig, "DNA file with geometry; - reads standard input")
       ->type_name("")
       ->required();
-  command
-      ->add_option("-o,--output", options->output,
-                   "File to write, .glb or .obj; - is standard output")
-      ->type_name("OUT")
+  add_output_options(*command, options->output, "File to write, .glb or .obj; - is standard output")
       ->required();
   command->add_option("--format", options->format, "glb or obj, where the name does not tell")
       ->type_name("NAME");

@@ -9,7 +9,8 @@ namespace mien::cli {
 namespace {
 
 struct GenOptions {
-  std::string output, preset = "tiny", seed = "0";
+  OutputFile output;
+  std::string preset = "tiny", seed = "0";
   bool ml = false;
 };
 
@@ -18,19 +19,19 @@ void run(const GenOptions& options, uint32_t preset, const Session& session) {
   desc.preset = preset;
   desc.flags = options.ml ? uint32_t{MIEN_GENERATE_ML} : 0;
   desc.seed = parse_number("--seed", options.seed, UINT64_MAX);
-  refuse_terminal(options.output, session, "a DNA file");
+  refuse_terminal(options.output.path, session, "a DNA file");
+  refuse_replacing(options.output, {});
 
   MienDna* made = nullptr;
   auto error = sized<MienError>();
   check(mien_dna_generate(&desc, &made, &error), &error, "cannot generate",
         "preset " + options.preset);
   const Dna dna(made);
-  write_dna(made, sized<MienWriteDesc>(), options.output);
+  write_dna(made, sized<MienWriteDesc>(), options.output.path);
 }
 
 void add_common_options(CLI::App* command, GenOptions& options, const std::string& seed) {
-  command->add_option("-o,--output", options.output, "File to write; - is standard output")
-      ->type_name("OUT.dna")
+  add_output_options(*command, options.output, "File to write; - is standard output", "OUT.dna")
       ->required();
   command->add_option("--seed", options.seed, seed)->type_name("N");
 }

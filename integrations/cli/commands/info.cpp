@@ -18,7 +18,7 @@ namespace {
 
 struct InfoOptions {
   std::string rig;
-  bool json = false;
+  bool json = false, full = false;
   std::string names;
   LoadOptions load;
   RigOptions evaluation;
@@ -391,7 +391,17 @@ std::string property(const char* label, const std::string& value) {
   return value.empty() ? "" : "  " + pad(label, 14) + one_line(value) + "\n";
 }
 
-void write_text(const RigFile& file, const Summary& summary, const Session& session) {
+/// Long values, such as colors in base64, are cut.
+std::string shortened(const std::string& value) {
+  constexpr size_t kShown = 60;
+  const std::string line = one_line(value);
+  if (line.size() <= kShown + 20) return line;
+  size_t end = kShown;
+  while (end > 0 && (line[end] & 0xc0) == 0x80) --end;  // not within a character
+  return line.substr(0, end) + "... (" + grouped(value.size()) + " bytes; --full shows all)";
+}
+
+void write_text(const RigFile& file, const Summary& summary, bool full, const Session& session) {
   const MienDnaInfo& info = file.info;
   const auto heading = [&](const std::string& text) {
     return paint(text, Style::kBold, session.terminal.out_colors) + "\n";
@@ -474,7 +484,7 @@ void write_text(const RigFile& file, const Summary& summary, const Session& sess
   if (!summary.metadata.empty()) {
     text += "\n" + heading("Metadata");
     for (const auto& [key, value] : summary.metadata) {
-      text += "  " + one_line(key) + " = " + one_line(value) + "\n";
+      text += "  " + one_line(key) + " = " + (full ? one_line(value) : shortened(value)) + "\n";
     }
   }
   Output output("-");
@@ -517,7 +527,7 @@ void run(const InfoOptions& options, const Session& session) {
   if (options.json) {
     write_json(file, summary, kinds);
   } else {
-    write_text(file, summary, session);
+    write_text(file, summary, options.full, session);
   }
 }
 
@@ -530,6 +540,7 @@ Command add_info_command(CLI::App& app, const Session& session) {
       ->type_name("")
       ->required();
   info->add_flag("--json", options->json, "JSON, for other programs");
+  info->add_flag("--full", options->full, "Show long values of metadata whole");
   info->add_option(
           "--names", options->names,
           "List names: " + list_of(option_words("--names"), "or") + "\n(comma between them)")

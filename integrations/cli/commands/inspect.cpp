@@ -28,13 +28,6 @@ struct InspectCommand {
 
 constexpr size_t kListed = 12;  // lines of each kind in the text
 
-float parse_value(const std::string& text) {
-  char* end = nullptr;
-  const float value = std::strtof(text.c_str(), &end);
-  if (!text.empty() && end == text.c_str() + text.size() && std::isfinite(value)) return value;
-  fail_usage("--value \"" + text + "\"", "not a finite number", "controls are usually in 0..1");
-}
-
 // Words for places and directions --------------------------------------------------------------
 
 /// Components along left, up and front of the character.
@@ -315,15 +308,17 @@ void write_json(const Influence& influence, const PosedScene& scene, Output& out
 }
 
 void run(const InspectCommand& command, const Session& session) {
-  const float value = parse_value(command.value);
+  const float value = parse_control_value("--value \"" + command.value + "\"", command.value);
   const RenderOutputOptions& output_options = command.output;
   PosedSceneOptions scene_options = parse_scene_options(command.scene);
   std::optional<render::View> view;  // with a heat map only
   render::RenderOptions render;
-  if (!output_options.output.empty()) {
-    if (output_options.output == "-") {
+  if (!output_options.output.path.empty()) {
+    if (output_options.output.path == "-") {
       fail_usage("-o -", "standard output is for the text", "name a file for the image");
     }
+    require_png_name(output_options.output.path);
+    refuse_replacing(output_options.output, {command.scene.rig});
     view = parse_camera(output_options.camera);
     render = parse_render_options(output_options, parse_size(output_options.size, {480, 480}));
   }
@@ -336,7 +331,7 @@ void run(const InspectCommand& command, const Session& session) {
   if (view) {
     const render::Camera camera =
         aim_camera(scene, output_options.target, *view, {render.width, render.height});
-    write_png(output_options.output, draw_heat_map(scene, influence, {render, camera}));
+    write_png(output_options.output.path, draw_heat_map(scene, influence, {render, camera}));
   }
   Output output("-");
   if (command.json) {

@@ -91,12 +91,19 @@ uint64_t lod_range(uint64_t first, uint64_t last) {
   return mask;
 }
 
+[[noreturn]] void fail_lod(const std::string& option) {
+  fail_usage(option,
+             "LOD " + std::to_string(kMaxLods - 1) + " is the last that a DNA file can have",
+             "see 'mien info' for the LODs that a file has");
+}
+
 /// "0,2-4": bits 0, 2, 3 and 4.
 uint64_t parse_lod_list(const std::string& list) {
   uint64_t mask = 0;
   for (const std::string& word : split(list)) {
     const size_t dash = word.find('-', 1);
     const uint64_t first = parse_number("--lods", word.substr(0, dash), 65535);
+    if (first >= kMaxLods) fail_lod("--lods " + list);
     const uint64_t last =
         dash == std::string::npos ? first : parse_number("--lods", word.substr(dash + 1), 65535);
     if (last < first) {
@@ -109,27 +116,20 @@ uint64_t parse_lod_list(const std::string& list) {
 }
 
 uint64_t parse_lods(const LoadOptions& options) {
-  uint64_t mask = 0;
-  if (!options.lods.empty()) {
-    mask = parse_lod_list(options.lods);
-  } else if (!options.max_lod.empty() || !options.min_lod.empty()) {
+  if (!options.lods.empty()) return parse_lod_list(options.lods);
+  if (!options.max_lod.empty() || !options.min_lod.empty()) {
     const uint64_t finest =
         options.max_lod.empty() ? 0 : parse_number("--max-lod", options.max_lod, 65535);
+    if (finest >= kMaxLods) fail_lod("--max-lod " + options.max_lod);
     const uint64_t coarsest =
         options.min_lod.empty() ? 65535 : parse_number("--min-lod", options.min_lod, 65535);
     if (coarsest < finest) {
       fail_usage("--max-lod " + options.max_lod + " --min-lod " + options.min_lod,
                  "nothing is between them", "--max-lod is the finest LOD, the smaller number");
     }
-    mask = lod_range(finest, coarsest);
-  } else {
-    return 0;
+    return lod_range(finest, coarsest);
   }
-  if (mask == 0) {
-    fail(kInvalid, "cannot select LODs", "", "no DNA file has LODs from 64 on",
-         "see 'mien info' for the LODs that the file has");
-  }
-  return mask;
+  return 0;
 }
 
 MienCoordinateSystem system_named(const std::string& name) {
@@ -289,6 +289,25 @@ uint64_t parse_number(const std::string& option, const std::string& word, uint64
   fail_usage(option + " \"" + word + "\"",
              "not a whole number from 0 to " + std::to_string(largest),
              "give one in decimal digits");
+}
+
+uint32_t parse_lod(const std::string& word, bool or_all) {
+  uint64_t lod = 0;
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, lod);
+  if (error == std::errc::invalid_argument || stop != end) {
+    fail_usage(
+        "--lod \"" + word + "\"", "this is not the number of a LOD",
+        or_all ? nearest_question(word, {"all"}, "count from 0, or write all") : "count from 0");
+  }
+  if (error != std::errc() || lod >= kMaxLods) fail_lod("--lod " + word);
+  return static_cast<uint32_t>(lod);
+}
+
+CLI::Option* add_output_options(CLI::App& app, OutputFile& output, const std::string& text,
+                                const std::string& type_name) {
+  app.add_flag("--force", output.force, "Replace even an input or a read-only file");
+  return app.add_option("-o,--output", output.path, text)->type_name(type_name);
 }
 
 MienDnaDesc parse_load_options(const LoadOptions& options, uint32_t default_layers) {

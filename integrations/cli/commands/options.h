@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "integrations/cli/commands/commands.h"
+#include "integrations/cli/io/output.h"
 #include "integrations/cli/io/rig_file.h"
 
 namespace mien::cli {
@@ -47,6 +48,14 @@ std::string name_of_system(const MienDnaInfo& info);
 
 /// A decimal number, at most `largest`. `option` is for the message.
 uint64_t parse_number(const std::string& option, const std::string& word, uint64_t largest);
+
+/// Wrong usage for what no file has: a LOD from kMaxLods on. "all" is for the caller, and for the message
+/// if `or_all`.
+uint32_t parse_lod(const std::string& word, bool or_all);
+
+/// -o and --force.
+CLI::Option* add_output_options(CLI::App& app, OutputFile& output, const std::string& text,
+                                const std::string& type_name = "OUT");
 
 /// `default_layers` apply if no layers were named.
 MienDnaDesc parse_load_options(const LoadOptions& options, uint32_t default_layers);

@@ -55,11 +55,12 @@ Plan make_plan(const RenderCommand& command) {
     fail_usage("--frames -", "standard input cannot be both RIG and FRAMES",
                "put one of them in a file");
   }
+  require_png_name(command.output.output.path);
   Plan plan;
   plan.scene = parse_scene_options(command.scene);
   plan.scene.wireframe = command.wireframe;
   plan.view = parse_camera(command.output.camera);
-  const bool tiled = modes > 0 && !is_numbered(command.output.output);
+  const bool tiled = modes > 0 && !is_numbered(command.output.output.path);
   const int side = tiled ? 256 : 640;
   plan.size = parse_size(command.output.size, {side, side});
   plan.labels = command.sheet || !command.frames.empty();
@@ -149,7 +150,8 @@ void run(const RenderCommand& command, const Session& session) {
   const Plan plan = make_plan(command);
   render::RenderOptions render = parse_render_options(command.output, plan.size);
   render.wireframe = command.wireframe;
-  refuse_terminal(command.output.output, session, "a PNG file");
+  refuse_terminal(command.output.output.path, session, "a PNG file");
+  refuse_replacing(command.output.output, {command.scene.rig, command.frames});
 
   PosedScene scene = open_scene(plan.scene, session);
   // The same scale for all images, so that shading does not depend on the pose.
@@ -161,12 +163,14 @@ void run(const RenderCommand& command, const Session& session) {
     return render_image(scene.surfaces(), shot.camera, render);
   };
 
-  const std::string& output = command.output.output;
+  const std::string& output = command.output.output.path;
   const bool many = command.sheet || plan.turns != 0 || !command.frames.empty();
   if (is_numbered(output)) {
     for (size_t i = 0; i < shots.size(); ++i) {
       progress.at(i);
-      write_png(numbered(output, i), draw(shots[i]));
+      const std::string file = numbered(output, i);
+      refuse_replacing({file, command.output.output.force}, {command.scene.rig, command.frames});
+      write_png(file, draw(shots[i]));
     }
   } else if (!many || (shots.size() == 1 && !command.sheet)) {
     write_png(output, draw(shots[0]));

@@ -2,8 +2,11 @@
 #include "integrations/cli/commands/render_output.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 
 #include "integrations/cli/commands/options.h"
 #include "integrations/cli/io/nearest_name.h"
@@ -43,10 +46,10 @@ float parse_camera_number(const std::string& camera, const std::string& word, co
   const float value = std::strtof(word.c_str(), &end);
   const bool whole = !word.empty() && end == word.c_str() + word.size();
   if (whole && value >= range.min && value <= range.max) return value;
+  char numbers[64];
+  std::snprintf(numbers, sizeof(numbers), "%g to %g", double{range.min}, double{range.max});
   fail_usage("--camera \"" + camera + "\"",
-             std::string(range.name) + " \"" + word + "\" is not a number from " +
-                 std::to_string(static_cast<int>(range.min)) + " to " +
-                 std::to_string(static_cast<int>(range.max)),
+             std::string(range.name) + " \"" + word + "\" is not a number from " + numbers,
              "give a name such as front, or YAW,PITCH[,ZOOM[,FIELD]]");
 }
 
@@ -91,14 +94,14 @@ void add_scene_options(CLI::App& app, SceneArguments& arguments) {
 PosedSceneOptions parse_scene_options(const SceneArguments& arguments) {
   PosedSceneOptions options;
   options.rig = arguments.rig;
-  options.lod = static_cast<uint32_t>(parse_number("--lod", arguments.lod, kLastMaskLod));
+  options.lod = parse_lod(arguments.lod, false);
   options.meshes = arguments.meshes;
   return options;
 }
 
 void add_render_output_options(CLI::App& app, RenderOutputOptions& options,
                                const std::string& output_text) {
-  app.add_option("-o,--output", options.output, output_text)->type_name("OUT.png");
+  add_output_options(app, options.output, output_text, "OUT.png");
   app.add_option("--camera", options.camera,
                  "front (default), three-quarter, three-quarter-right, side,\n"
                  "side-right, back, above, below; or YAW,PITCH[,ZOOM[,FIELD]] in\n"
@@ -181,6 +184,13 @@ std::string numbered(const std::string& output, size_t number) {
   std::string digits = std::to_string(number);
   while (digits.size() < place.width) digits.insert(0, place.zeros ? "0" : " ");
   return std::string(output).replace(place.begin, place.length, digits);
+}
+
+void require_png_name(const std::string& output) {
+  std::string ending = std::filesystem::path(output).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (ending.empty() || ending == ".png") return;
+  fail_usage("-o " + output, "images are PNG files", "let the name end in .png");
 }
 
 void write_png(const std::string& path, const Image& image) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "integrations/cli/commands/commands.h"
+#include "integrations/cli/io/output.h"
 #include "integrations/cli/render/camera.h"
 #include "integrations/cli/render/sheet.h"
 #include "integrations/cli/scene/posed_scene.h"
@@ -21,7 +22,8 @@ PosedSceneOptions parse_scene_options(const SceneArguments& arguments);
 
 /// As they were typed.
 struct RenderOutputOptions {
-  std::string output, camera = "front", target, size, background = "dark", samples = "4";
+  OutputFile output;
+  std::string camera = "front", target, size, background = "dark", samples = "4";
 };
 
 /// --camera, --target, --size, --background, --samples and -o.
@@ -42,6 +44,9 @@ render::Sheet make_sheet(const render::SheetLayout& layout, const render::Backdr
 /// Whether the name of a file holds a number, as "%d" or "%04d"; a name without one is one file.
 bool is_numbered(const std::string& output);
 std::string numbered(const std::string& output, size_t number);
+
+/// Wrong usage if the name tells of another format than PNG.
+void require_png_name(const std::string& output);
 
 void write_png(const std::string& path, const render::Image& image);
 

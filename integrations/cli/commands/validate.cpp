@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-// mien validate: everything that is wrong with a DNA file.
+// mien validate: everything that is wrong with DNA files, and whether baked files can be used.
+#include <algorithm>
+
 #include "integrations/cli/commands/commands.h"
+#include "integrations/cli/io/baked_file.h"
 #include "integrations/cli/io/json_writer.h"
 #include "integrations/cli/io/output.h"
 #include "integrations/cli/io/rig_file.h"
@@ -11,8 +14,17 @@ namespace mien::cli {
 namespace {
 
 struct ValidateOptions {
-  std::string rig;
+  std::vector<std::string> rigs;
   bool json = false;
+};
+
+/// Of one file. The findings point into the report.
+struct Checked {
+  std::string shown;
+  bool baked = false;  // without findings: a baked file that is not valid does not open
+  Report report;
+  uint32_t errors = 0, warnings = 0;
+  std::vector<MienFinding> findings;
 };
 
 std::vector<MienFinding> gather(const MienReport* report, uint32_t count,
@@ -34,18 +46,15 @@ std::string count_text(uint32_t count, const char* noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-void write_json(const std::string& shown, const std::vector<MienFinding>& findings, uint32_t errors,
-                uint32_t warnings) {
-  Output output("-");
-  JsonWriter json(output);
+void write_json(const Checked& checked, JsonWriter& json) {
   json.begin_object(JsonWriter::Layout::kLines);
-  json.member("file", shown);
-  json.member("valid", errors == 0);
-  json.member("errors", errors);
-  json.member("warnings", warnings);
+  json.member("file", checked.shown);
+  json.member("valid", checked.errors == 0);
+  json.member("errors", checked.errors);
+  json.member("warnings", checked.warnings);
   json.key("findings");
   json.begin_array(JsonWriter::Layout::kLines);
-  for (const MienFinding& finding : findings) {
+  for (const MienFinding& finding : checked.findings) {
     json.begin_object();
     json.member("severity", severity_word(finding));
     json.member("status", mien_status_name(finding.status));
@@ -61,58 +70,93 @@ void write_json(const std::string& shown, const std::vector<MienFinding>& findin
   }
   json.end_array();
   json.end_object();
-  json.finish();
-  output.commit();
 }
 
-void write_text(const std::string& shown, const std::vector<MienFinding>& findings,
-                uint32_t warnings, bool valid, const Session& session) {
+std::string text_of(const Checked& checked, const Session& session) {
   const bool colors = session.terminal.out_colors;
-  Output output("-");
-  for (const MienFinding& finding : findings) {
+  std::string text;
+  for (const MienFinding& finding : checked.findings) {
     const bool warning = finding.severity == MIEN_SEVERITY_WARNING;
-    std::string line =
-        paint(severity_word(finding), warning ? Style::kYellow : Style::kRed, colors);
-    if (finding.field.count != 0) line += " " + one_line(to_string(finding.field));
+    text += paint(severity_word(finding), warning ? Style::kYellow : Style::kRed, colors);
+    if (finding.field.count != 0) text += " " + one_line(to_string(finding.field));
     if (finding.byte_offset != MIEN_NO_OFFSET)
-      line += ", byte " + std::to_string(finding.byte_offset);
-    output.write(line + ": " + one_line(to_string(finding.message)) + "\n");
+      text += ", byte " + std::to_string(finding.byte_offset);
+    text += ": " + one_line(to_string(finding.message)) + "\n";
   }
-  if (valid && !session.quiet) {
-    const std::string verdict = warnings ? "valid, " + count_text(warnings, "warning") : "valid";
-    output.write(one_line(shown) + ": " + paint(verdict, Style::kGreen, colors) + "\n");
-  }
-  output.commit();
+  if (checked.errors != 0 || session.quiet) return text;
+  std::string verdict = checked.baked ? "valid baked file" : "valid";
+  if (checked.warnings) verdict += ", " + count_text(checked.warnings, "warning");
+  return text + one_line(checked.shown) + ": " + paint(verdict, Style::kGreen, colors) + "\n";
 }
 
-void run(const ValidateOptions& options, const Session& session) {
-  const std::string shown = shown_name(options.rig);
+Checked check_rig(const std::string& rig) {
+  Checked checked;
+  checked.shown = shown_name(rig);
+  if (is_baked_file(rig)) {
+    open_baked_file(rig, sized<MienBakedRigDesc>());
+    checked.baked = true;
+    return checked;
+  }
   std::string bytes;
   MienReport* made = nullptr;
   auto error = sized<MienError>();
   MienStatus status;
-  if (options.rig == "-") {
-    bytes = read_standard_input();
+  if (is_stream(rig)) {
+    bytes = read_rig_stream(rig);
     status = mien_dna_validate_memory(bytes.data(), bytes.size(), nullptr, &made, &error);
   } else {
-    status = mien_dna_validate_file(options.rig.c_str(), nullptr, &made, &error);
+    status = mien_dna_validate_file(rig.c_str(), nullptr, &made, &error);
   }
-  check(status, &error, "cannot validate", shown);
-  const Report report(made);
+  check(status, &error, "cannot validate", checked.shown);
+  checked.report.reset(made);
+  check(mien_report_counts(made, &checked.errors, &checked.warnings), nullptr, "cannot validate",
+        checked.shown);
+  checked.findings = gather(made, checked.errors + checked.warnings, checked.shown);
+  return checked;
+}
 
-  uint32_t errors = 0, warnings = 0;
-  check(mien_report_counts(made, &errors, &warnings), nullptr, "cannot validate", shown);
-  const std::vector<MienFinding> findings = gather(made, errors + warnings, shown);
-  if (options.json) {
-    write_json(shown, findings, errors, warnings);
-  } else {
-    write_text(shown, findings, warnings, errors == 0, session);
+Failure invalid(const Checked& checked) {
+  return {kInvalid, "not valid, " + checked.shown + ": " + count_text(checked.errors, "error") +
+                        ", " + count_text(checked.warnings, "warning") +
+                        "; repair the file, or export it again"};
+}
+
+void run(const ValidateOptions& options, const Session& session) {
+  const auto& rigs = options.rigs;
+  if (std::count(rigs.begin(), rigs.end(), "-") > 1) {
+    fail_usage("RIG -", "standard input can be read once", "name it once");
   }
-  if (errors != 0) {
-    fail(kInvalid, "not valid", shown,
-         count_text(errors, "error") + ", " + count_text(warnings, "warning"),
-         "repair the file, or export it again");
+  Output output("-");
+  JsonWriter json(output);
+  const bool several = rigs.size() > 1;
+  if (options.json && several) json.begin_array(JsonWriter::Layout::kLines);
+  bool has_json = false;
+  std::vector<Failure> failures;
+  for (const std::string& rig : rigs) {
+    try {
+      const Checked checked = check_rig(rig);
+      if (options.json) {
+        write_json(checked, json);
+        has_json = true;
+      } else {
+        output.write(text_of(checked, session));
+      }
+      if (checked.errors != 0) failures.push_back(invalid(checked));
+    } catch (const Failure& failure) {
+      // The other files are checked all the same.
+      failures.push_back(failure);
+    }
   }
+  if (several && options.json) json.end_array();
+  if (options.json && (several || has_json)) json.finish();
+  output.commit();
+  if (failures.empty()) return;
+  for (size_t i = 0; i + 1 < failures.size(); ++i) print_failure(session, failures[i].what());
+  // One that cannot be read tells nothing about itself, which weighs more.
+  const auto worst = std::max_element(
+      failures.begin(), failures.end(),
+      [](const Failure& a, const Failure& b) { return a.exit_code < b.exit_code; });
+  throw Failure(worst->exit_code, failures.back().what());
 }
 
 }  // namespace
@@ -121,14 +165,16 @@ Command add_validate_command(CLI::App& app, const Session& session) {
   auto options = std::make_shared<ValidateOptions>();
   CLI::App* validate =
       app.add_subcommand("validate", "Check a rig and list everything that is wrong");
-  validate->add_option("RIG", options->rig, "DNA file; - reads standard input")
+  validate->add_option("RIG", options->rigs, "DNA or baked files; - reads standard input")
       ->type_name("")
       ->required();
   validate->add_flag("--json", options->json, "JSON, for other programs");
   validate->footer(
-      "Exits with 0 if there are no errors (there may be warnings), with 2 if there are.\n\n"
+      "Exits with 0 if there are no errors (there may be warnings), with 2 if there are. All\n"
+      "files are checked, also after one that is not valid; --json of several is an array.\n\n"
       "Examples:\n"
       "  mien validate head.dna\n"
+      "  mien validate characters/*.dna --quiet\n"
       "  mien validate head.dna --json | jq '.findings[].field'");
   return {validate, [options, &session] { run(*options, session); }};
 }

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "integrations/cli/io/output.h"
+#include "integrations/cli/io/input.h"
 #include "integrations/cli/io/rig_file.h"
 
 namespace mien::cli {
@@ -42,7 +42,7 @@ BakedFile open_baked_file(const std::string& path, const MienBakedRigDesc& desc)
   auto error = sized<MienError>();
   MienStatus status;
   if (path == "-") {
-    const std::string bytes = read_standard_input();
+    const std::string bytes = read_rig_stream(path);
     auto copy = sized<MienBakedDesc>();
     copy.file_access = MIEN_FILE_READ;
     status = mien_baked_open_memory(bytes.data(), bytes.size(), &copy, &baked, &error);

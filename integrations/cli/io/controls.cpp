@@ -40,27 +40,23 @@ bool matches_glob(std::string_view pattern, std::string_view name) {
   return p == pattern.size();
 }
 
-float parse_setting_value(const std::string& setting, const std::string& number) {
-  char* end = nullptr;
-  const float value = std::strtof(number.c_str(), &end);
-  const bool whole = !number.empty() && end == number.c_str() + number.size() &&
-                     !std::isspace(static_cast<unsigned char>(number[0]));
-  if (!whole) {
-    fail_usage("--set " + setting, "\"" + number + "\" is not a number",
-               "write --set NAME=VALUE, as --set jawOpen=0.5");
-  }
-  if (!std::isfinite(value)) {
-    fail_usage("--set " + setting, "the value has to be a finite number",
-               "controls are usually in 0..1");
-  }
-  return value;
-}
+// Far past the range of every control. Larger values are slips of the hand.
+constexpr float kLargestSetting = 1000;
 
 }  // namespace
 
 std::string_view short_name(std::string_view name) {
   const size_t dot = name.rfind('.');
   return dot == std::string_view::npos || dot + 1 == name.size() ? name : name.substr(dot + 1);
+}
+
+std::vector<uint32_t> find_short_name(const MienRig* rig, uint32_t kind, const std::string& name) {
+  std::vector<uint32_t> found;
+  const uint32_t count = rig_count(rig, kind);
+  for (uint32_t i = 0; i < count; ++i) {
+    if (short_name(rig_name(rig, kind, i)) == name) found.push_back(i);
+  }
+  return found;
 }
 
 Control find_control(const MienRig* rig, const std::string& name, const std::string& what,
@@ -72,22 +68,34 @@ Control find_control(const MienRig* rig, const std::string& name, const std::str
   }
   NearestName nearest(name);
   for (const uint32_t kind : kControlKinds) {
-    std::vector<Control> found;
-    const uint32_t count = rig_count(rig, kind);
-    for (uint32_t i = 0; i < count; ++i) {
-      const std::string candidate = rig_name(rig, kind, i);
-      nearest.offer(candidate);
-      if (short_name(candidate) == name) found.push_back({kind, i, candidate});
-    }
-    if (found.size() == 1) return found[0];
+    const std::vector<uint32_t> found = find_short_name(rig, kind, name);
+    if (found.size() == 1) return {kind, found[0], rig_name(rig, kind, found[0])};
     if (found.size() > 1) {
       fail(kInvalid, what, where,
-           "\"" + name + "\" is ambiguous: " + found[0].name + " or " + found[1].name,
+           "\"" + name + "\" is ambiguous: " + rig_name(rig, kind, found[0]) + " or " +
+               rig_name(rig, kind, found[1]),
            "give the full name");
     }
+    const uint32_t count = rig_count(rig, kind);
+    for (uint32_t i = 0; i < count; ++i) nearest.offer(rig_name(rig, kind, i));
   }
   fail(kInvalid, what, where, "no raw or GUI control is named \"" + name + "\"",
        nearest.question("'mien info RIG --names raw,gui' lists the names"));
+}
+
+float parse_control_value(const std::string& option, const std::string& number) {
+  char* end = nullptr;
+  const float value = std::strtof(number.c_str(), &end);
+  const bool whole = !number.empty() && end == number.c_str() + number.size() &&
+                     !std::isspace(static_cast<unsigned char>(number[0]));
+  if (!whole) {
+    fail_usage(option, "\"" + number + "\" is not a number", "controls are usually in 0..1");
+  }
+  if (!(std::fabs(value) <= kLargestSetting)) {
+    fail_usage(option, "the value has to be a finite number from -1000 to 1000",
+               "controls are usually in 0..1");
+  }
+  return value;
 }
 
 Frame parse_settings(const std::vector<std::string>& settings, const MienRig* rig,
@@ -99,11 +107,18 @@ Frame parse_settings(const std::vector<std::string>& settings, const MienRig* ri
       fail_usage("--set \"" + setting + "\"", "this is not NAME=VALUE",
                  "write it as --set jawOpen=0.5");
     }
-    const float value = parse_setting_value(setting, setting.substr(equals + 1));
+    const float value = parse_control_value("--set " + setting, setting.substr(equals + 1));
     const Control control =
         find_control(rig, setting.substr(0, equals), "cannot set controls", shown);
     const bool gui = control.kind == MIEN_KIND_GUI_CONTROL;
-    (gui ? frame.gui : frame.raw).push_back({control.index, value});
+    std::vector<Assignment>& assignments = gui ? frame.gui : frame.raw;
+    for (const Assignment& other : assignments) {
+      if (other.index == control.index) {
+        fail_usage("--set " + setting, "\"" + control.name + "\" is set twice",
+                   "leave one of them out");
+      }
+    }
+    assignments.push_back({control.index, value});
     frame.maps_gui |= gui;
   }
   return frame;

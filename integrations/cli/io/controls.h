@@ -20,10 +20,16 @@ struct Control {
 /// A name without its prefix, which ends with the last dot: "jawOpen" of "CTRL_expressions.jawOpen".
 std::string_view short_name(std::string_view name);
 
+/// Indices of all that have this short name.
+std::vector<uint32_t> find_short_name(const MienRig* rig, uint32_t kind, const std::string& name);
+
 /// A raw or GUI control by its name, or by its short name if only one control has it; raw controls
 /// come first. Fails with the nearest name and exit code 2.
 Control find_control(const MienRig* rig, const std::string& name, const std::string& what,
                      const std::string& where);
+
+/// The value of a control from the command line. `option` is for the message.
+float parse_control_value(const std::string& option, const std::string& number);
 
 /// Settings such as "jawOpen=0.5" as a frame: GUI controls are mapped first, then raw ones are set.
 Frame parse_settings(const std::vector<std::string>& settings, const MienRig* rig,

@@ -51,12 +51,13 @@ ExitCode exit_code_of(MienStatus status) {
 
 namespace {
 
-std::string what_to_do_about(MienStatus status, const std::string& file) {
+std::string what_to_do_about(MienStatus status, const std::string& file,
+                             const std::string& about_values) {
   switch (exit_code_of(status)) {
     case kUsage: return "";  // an instruction set from the environment: the message says it all
     case kFile: return "check the path and its permissions";
     case kInternal:
-      return status == MIEN_ERROR_MEMORY ? "free some memory, or load less with --layers and --lods"
+      return status == MIEN_ERROR_MEMORY ? "free some memory"
                                          : "this is a bug in mien: please report it";
     default: break;
   }
@@ -71,6 +72,10 @@ std::string what_to_do_about(MienStatus status, const std::string& file) {
     case MIEN_ERROR_BAKED_STRUCTURE:
     case MIEN_ERROR_BAKED_CHECKSUM: return "";  // the message says to bake again
     case MIEN_ERROR_LOD: return "see 'mien info' for the LODs that the file has";
+    case MIEN_ERROR_DNA_VALUE:
+    case MIEN_ERROR_DNA_LIMIT:
+      if (!about_values.empty()) return about_values;
+      [[fallthrough]];
     default: return "see 'mien validate " + file + "' for everything that is wrong";
   }
 }
@@ -78,7 +83,7 @@ std::string what_to_do_about(MienStatus status, const std::string& file) {
 }  // namespace
 
 void check(MienStatus status, const MienError* error, const std::string& what,
-           const std::string& file) {
+           const std::string& file, const std::string& what_to_do) {
   if (status == MIEN_OK) return;
   std::string where = file;
   std::string why = std::string("status ") + mien_status_name(status);
@@ -91,7 +96,7 @@ void check(MienStatus status, const MienError* error, const std::string& what,
       where += ", byte " + std::to_string(error->byte_offset);
     }
   }
-  fail(exit_code_of(status), what, where, why, what_to_do_about(status, file));
+  fail(exit_code_of(status), what, where, why, what_to_do_about(status, file, what_to_do));
 }
 
 }  // namespace mien::cli

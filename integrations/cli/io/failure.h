@@ -34,8 +34,9 @@ struct Failure : std::runtime_error {
 /// The exit code for a status of the library.
 ExitCode exit_code_of(MienStatus status);
 
-/// Fails unless `status` is MIEN_OK. `file` is the name to show; `error` may be null.
+/// Fails unless `status` is MIEN_OK. `file` is the name to show; `error` may be null; `what_to_do` is
+/// said of invalid values in place of what is usual.
 void check(MienStatus status, const MienError* error, const std::string& what,
-           const std::string& file);
+           const std::string& file, const std::string& what_to_do = "");
 
 }  // namespace mien::cli

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/cli/io/frames.h"
 
-#include <cerrno>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <unordered_map>
 
+#include "integrations/cli/io/controls.h"
 #include "integrations/cli/io/failure.h"
+#include "integrations/cli/io/input.h"
 #include "integrations/cli/io/nearest_name.h"
-#include "integrations/cli/io/output.h"
 #include "integrations/cli/io/rig_file.h"
 
 namespace mien::cli {
@@ -34,6 +35,10 @@ constexpr Target kRawAfterGui = {MIEN_KIND_RAW_CONTROL, "raw control", "--names 
 constexpr Target kGui = {MIEN_KIND_GUI_CONTROL, "GUI control", "--names gui", false};
 constexpr Target kMask = {MIEN_KIND_ML_MASK, "region mask", "--names regions,meshes", false};
 
+// What `mien play` writes beside the controls.
+const std::vector<std::string> kIgnored = {"rig", "rate", "controls", "variables", "events"};
+const std::vector<std::string> kIgnoredInFrames = {"time", "variables", "stages"};
+
 std::string at_index(const std::string& where, size_t index) {
   return where + "[" + std::to_string(index) + "]";
 }
@@ -51,11 +56,32 @@ float parse_value(const json& value, const std::string& where) {
   return number;
 }
 
-uint32_t find_control(const MienRig* rig, const Target& target, const std::string& name,
-                      const std::string& where) {
+/// Finds controls by name; names come again in every frame.
+class ControlNames {
+ public:
+  explicit ControlNames(const MienRig* rig) : rig_(rig) {}
+
+  const MienRig* rig() const { return rig_; }
+
+  uint32_t find(const Target& target, const std::string& name, const std::string& where) {
+    auto& known = known_[&target];
+    const auto found = known.find(name);
+    if (found != known.end()) return found->second;
+    return known[name] = search(target, name, where);
+  }
+
+ private:
+  uint32_t search(const Target& target, const std::string& name, const std::string& where) const;
+
+  const MienRig* rig_;
+  std::unordered_map<const Target*, std::unordered_map<std::string, uint32_t>> known_;
+};
+
+uint32_t ControlNames::search(const Target& target, const std::string& name,
+                              const std::string& where) const {
   uint32_t index = 0;
-  if (mien_rig_find_n(rig, target.kind, name.data(), name.size(), &index) == MIEN_OK) return index;
-  const uint32_t count = rig_count(rig, target.kind);
+  if (mien_rig_find_n(rig_, target.kind, name.data(), name.size(), &index) == MIEN_OK) return index;
+  const uint32_t count = rig_count(rig_, target.kind);
 
   const char* end = name.data() + name.size();
   const auto [stop, error] = std::from_chars(name.data(), end, index);
@@ -68,18 +94,44 @@ uint32_t find_control(const MienRig* rig, const Target& target, const std::strin
          "count from 0");
   }
 
+  const std::vector<uint32_t> short_named = find_short_name(rig_, target.kind, name);
+  if (short_named.size() == 1) return short_named[0];
+  if (short_named.size() > 1) {
+    fail(kInvalid, kCannot, where,
+         "\"" + name + "\" is ambiguous: " + rig_name(rig_, target.kind, short_named[0]) + " or " +
+             rig_name(rig_, target.kind, short_named[1]),
+         "give the full name");
+  }
   NearestName nearest(name);
-  for (uint32_t i = 0; i < count; ++i) nearest.offer(rig_name(rig, target.kind, i));
+  for (uint32_t i = 0; i < count; ++i) nearest.offer(rig_name(rig_, target.kind, i));
   fail(kInvalid, kCannot, where, std::string("no ") + target.noun + " is named \"" + name + "\"",
        nearest.question(std::string("'mien info RIG ") + target.names + "' lists the names"));
 }
 
+/// A control may have several names: its own, a short one, its index.
+void refuse_doubles(const std::vector<Assignment>& assignments, const ControlNames& names,
+                    const Target& target, const std::string& where) {
+  std::vector<uint32_t> indices;
+  for (const Assignment& assignment : assignments) indices.push_back(assignment.index);
+  std::sort(indices.begin(), indices.end());
+  const auto twice = std::adjacent_find(indices.begin(), indices.end());
+  if (twice == indices.end()) return;
+  fail(kInvalid, kCannot, where,
+       std::string(target.noun) + " \"" + rig_name(names.rig(), target.kind, *twice) +
+           "\" is set twice",
+       "leave one of them out");
+}
+
+bool is_one_of(const std::string& key, const std::vector<std::string>& keys) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
 /// An array with all numbers in order, or an object with some by name.
-std::vector<Assignment> parse_assignments(const json& values, const MienRig* rig,
+std::vector<Assignment> parse_assignments(const json& values, ControlNames& names,
                                           const Target& target, const std::string& where) {
   std::vector<Assignment> assignments;
   if (values.is_array() && !target.takes_indices) {
-    const uint32_t count = rig_count(rig, target.kind);
+    const uint32_t count = rig_count(names.rig(), target.kind);
     if (values.size() != count) {
       fail(kInvalid, kCannot, where,
            std::to_string(values.size()) + " numbers given, " + std::to_string(count) + " expected",
@@ -90,9 +142,10 @@ std::vector<Assignment> parse_assignments(const json& values, const MienRig* rig
     }
   } else if (values.is_object()) {
     for (const auto& [name, value] : values.items()) {
-      assignments.push_back({find_control(rig, target, name, where),
-                             parse_value(value, where + "[\"" + name + "\"]")});
+      assignments.push_back(
+          {names.find(target, name, where), parse_value(value, where + "[\"" + name + "\"]")});
     }
+    refuse_doubles(assignments, names, target, where);
   } else {
     fail(kInvalid, kCannot, where,
          std::string("expected ") + (target.takes_indices ? "" : "an array or ") +
@@ -102,7 +155,7 @@ std::vector<Assignment> parse_assignments(const json& values, const MienRig* rig
   return assignments;
 }
 
-Frame parse_frame(const json& value, const MienRig* rig, const std::string& where) {
+Frame parse_frame(const json& value, ControlNames& names, const std::string& where) {
   if (!value.is_object()) {
     fail(kInvalid, kCannot, where, std::string("expected an object, not ") + value.type_name(),
          "see 'mien eval --help' for an example");
@@ -111,13 +164,13 @@ Frame parse_frame(const json& value, const MienRig* rig, const std::string& wher
   for (const auto& [key, values] : value.items()) {
     const std::string member = where + "." + key;
     if (key == "raw") {
-      frame.raw = parse_assignments(values, rig, kRaw, member);
+      frame.raw = parse_assignments(values, names, kRaw, member);
     } else if (key == "gui") {
-      frame.gui = parse_assignments(values, rig, kGui, member);
+      frame.gui = parse_assignments(values, names, kGui, member);
       frame.maps_gui = true;
     } else if (key == "ml_mask") {
-      frame.masks = parse_assignments(values, rig, kMask, member);
-    } else if (key != "raw_after_gui") {
+      frame.masks = parse_assignments(values, names, kMask, member);
+    } else if (key != "raw_after_gui" && !is_one_of(key, kIgnoredInFrames)) {
       fail(kInvalid, kCannot, where, "a frame has no member \"" + key + "\"",
            nearest_question(key, {"raw", "gui", "raw_after_gui", "ml_mask"},
                             "its members are raw, or gui and raw_after_gui, and ml_mask"));
@@ -133,44 +186,60 @@ Frame parse_frame(const json& value, const MienRig* rig, const std::string& wher
       fail(kInvalid, kCannot, where, "raw_after_gui is given without gui",
            "rename it to raw, or add gui");
     }
-    frame.raw = parse_assignments(*after, rig, kRawAfterGui, where + ".raw_after_gui");
+    frame.raw = parse_assignments(*after, names, kRawAfterGui, where + ".raw_after_gui");
   }
   return frame;
 }
 
-json parse_json(const std::string& text, const std::string& shown) {
-  // Messages of the parser begin with a tag in brackets.
-  const auto plain = [](const json::exception& error) {
+/// What a document would hide: a key that an object has twice, and where an error is.
+class JsonCheck : public json::json_sax_t {
+ public:
+  explicit JsonCheck(const std::string& shown) : shown_(shown) {}
+
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(json::number_integer_t) override { return true; }
+  bool number_unsigned(json::number_unsigned_t) override { return true; }
+  bool number_float(json::number_float_t, const json::string_t&) override { return true; }
+  bool string(json::string_t&) override { return true; }
+  bool binary(json::binary_t&) override { return true; }
+  bool start_array(size_t) override { return true; }
+  bool end_array() override { return true; }
+
+  bool start_object(size_t) override {
+    keys_.emplace_back();
+    return true;
+  }
+  bool end_object() override {
+    keys_.pop_back();
+    return true;
+  }
+  bool key(json::string_t& key) override {
+    if (keys_.back().insert(key).second) return true;
+    fail(kInvalid, kCannot, shown_, "an object has the key \"" + key + "\" twice",
+         "leave one of them out");
+  }
+
+  bool parse_error(size_t position, const std::string&, const json::exception& error) override {
+    // Messages of the parser begin with a tag in brackets.
     const std::string message = error.what();
     const size_t tag = message.find("] ");
-    return tag == std::string::npos ? message : message.substr(tag + 2);
-  };
-  try {
-    return json::parse(text);
-  } catch (const json::parse_error& error) {
-    fail(kInvalid, kCannot, shown + ", byte " + std::to_string(error.byte), plain(error),
-         "give one JSON object: {\"frames\": [...]}");
-  } catch (const json::exception& error) {  // a number past the range of a double
-    fail(kInvalid, kCannot, shown, plain(error), "give finite numbers only");
+    // Its only other error is a number past the range of a double.
+    const bool syntax = dynamic_cast<const json::parse_error*>(&error) != nullptr;
+    fail(kInvalid, kCannot, shown_ + ", byte " + std::to_string(position),
+         tag == std::string::npos ? message : message.substr(tag + 2),
+         syntax ? "give one JSON object: {\"frames\": [...]}" : "give finite numbers only");
   }
-}
 
-std::string read_text(const std::string& path) {
-  if (path == "-") return read_standard_input();
-  FILE* stream = std::fopen(path.c_str(), "rb");
-  std::string text;
-  char block[65536];
-  size_t count;
-  while (stream && (count = std::fread(block, 1, sizeof(block), stream)) != 0)
-    text.append(block, count);
-  const bool good = stream && !std::ferror(stream);
-  const int reason = errno;
-  if (stream) std::fclose(stream);
-  if (!good) {
-    fail(kFile, "cannot read frames", path, std::strerror(reason),
-         "check the path and its permissions");
-  }
-  return text;
+ private:
+  const std::string& shown_;
+  std::vector<std::set<std::string>> keys_;  // of the objects around the current position
+};
+
+json parse_json(const std::string& text, const std::string& shown) {
+  JsonCheck check(shown);
+  json::sax_parse(text, &check);
+  return json::parse(text);
 }
 
 void assign(const std::vector<Assignment>& assignments, const MienMutableFloatView& view) {
@@ -186,15 +255,21 @@ std::vector<Frame> parse_frames(const std::string& text, const MienRig* rig,
     fail(kInvalid, kCannot, shown, "there is no list \"frames\"",
          "give one JSON object: {\"frames\": [...]}");
   }
+  for (const auto& [key, value] : document.items()) {
+    if (key == "frames" || is_one_of(key, kIgnored)) continue;
+    fail(kInvalid, kCannot, shown, "the key \"" + key + "\" is unknown",
+         nearest_question(key, {"frames"}, "give one JSON object: {\"frames\": [...]}"));
+  }
   std::vector<Frame> frames;
+  ControlNames names(rig);
   for (const json& value : document["frames"]) {
-    frames.push_back(parse_frame(value, rig, shown + ", " + at_index("frames", frames.size())));
+    frames.push_back(parse_frame(value, names, shown + ", " + at_index("frames", frames.size())));
   }
   return frames;
 }
 
 std::vector<Frame> read_frames(const std::string& path, const MienRig* rig) {
-  return parse_frames(read_text(path), rig, shown_name(path));
+  return parse_frames(read_json(path, "cannot read frames"), rig, shown_name(path));
 }
 
 void apply_frame(const Frame& frame, const MienRig* rig, MienInstance* instance) {

@@ -10,6 +10,7 @@
 #include <io.h>
 #include <process.h>
 #else
+#include <fcntl.h>
 #include <unistd.h>
 #endif
 
@@ -70,6 +71,35 @@ int process_id() {
 #endif
 }
 
+/// A file without a name, which vanishes with the process however that ends. Null where the system has
+/// none.
+FILE* open_unnamed(const fs::path& folder) {
+#if defined(O_TMPFILE)
+  const std::string name = folder.empty() ? "." : folder.string();
+  const int file = open(name.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+  if (file < 0) return nullptr;
+  // It gets its name through this folder, see name_file().
+  FILE* stream = access("/proc/self/fd", X_OK) == 0 ? fdopen(file, "wb") : nullptr;
+  if (!stream) close(file);
+  return stream;
+#else
+  static_cast<void>(folder);
+  return nullptr;
+#endif
+}
+
+/// Gives a name that is not taken to a file of open_unnamed().
+bool name_file(FILE* stream, const std::string& name) {
+#if defined(O_TMPFILE)
+  const std::string open_file = "/proc/self/fd/" + std::to_string(fileno(stream));
+  return linkat(AT_FDCWD, open_file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+#else
+  static_cast<void>(stream);
+  static_cast<void>(name);
+  return false;
+#endif
+}
+
 void make_binary(FILE* stream) {
 #if defined(_WIN32)
   _setmode(_fileno(stream), _O_BINARY);
@@ -101,18 +131,32 @@ Output::Output(const std::string& path) : path_(path) {
   // A link stays a link: the file that it points to is replaced.
   const fs::path target = fs::exists(status) ? fs::canonical(path, ignored) : fs::path(path);
   target_ = target.string();
+  if (fs::exists(status)) permissions_ = status.permissions();
+  stream_ = open_unnamed(target.parent_path());
+  if (stream_) return;
+  take_temporary_name([&] {
+    stream_ = std::fopen(temporary_.c_str(), "wbx");
+    return stream_ != nullptr;
+  });
+}
+
+void Output::take_temporary_name(const std::function<bool()>& create) {
   const HeldSignals held;
+  const fs::path folder = fs::path(target_).parent_path();
   // Process ids repeat, and a process that was killed may have left a file of that name.
-  for (int attempt = 0; attempt < 100 && !stream_; ++attempt) {
+  for (int attempt = 0; attempt < 100; ++attempt) {
     const std::string name =
         ".mien-" + std::to_string(process_id()) + "-" + std::to_string(attempt);
-    temporary_ = (target.parent_path() / name).string();
-    stream_ = std::fopen(temporary_.c_str(), "wbx");
-    if (!stream_ && errno != EEXIST) break;
+    temporary_ = (folder / name).string();
+    if (create()) {
+      remember_pending_file(temporary_);
+      return;
+    }
+    if (errno != EEXIST) break;
   }
-  if (!stream_) fail_write(errno);
-  remember_pending_file(temporary_);
-  if (fs::exists(status)) fs::permissions(temporary_, status.permissions(), ignored);
+  const int reason = errno;
+  temporary_.clear();
+  fail_write(reason);
 }
 
 Output::~Output() {
@@ -123,16 +167,21 @@ Output::~Output() {
 
 void Output::write(const void* bytes, size_t size) {
   if (size != 0 && std::fwrite(bytes, 1, size, stream_) != size) fail_write(errno);
+  size_ += size;
 }
 
 void Output::commit() {
   if (std::fflush(stream_) != 0) fail_write(errno);
   if (stream_ == stdout) return;
+  if (!target_.empty() && temporary_.empty()) {
+    take_temporary_name([this] { return name_file(stream_, temporary_); });
+  }
   FILE* stream = stream_;
   stream_ = nullptr;
   if (std::fclose(stream) != 0) fail_write(errno);
-  if (temporary_.empty()) return;
+  if (target_.empty()) return;
   std::error_code failed;
+  if (permissions_ != fs::perms::unknown) fs::permissions(temporary_, permissions_, failed);
   fs::rename(temporary_, target_, failed);
   if (failed) fail_write(failed.value());
   temporary_.clear();
@@ -149,17 +198,22 @@ void refuse_terminal(const std::string& path, const Session& session, const char
              "name a file, or pipe the output");
 }
 
-std::string read_standard_input() {
-  make_binary(stdin);
-  std::string text;
-  char block[65536];
-  size_t count;
-  while ((count = std::fread(block, 1, sizeof(block), stdin)) != 0) text.append(block, count);
-  if (std::ferror(stdin)) {
-    fail(kFile, "cannot read", "standard input", std::strerror(errno),
-         "check the program before the pipe");
+void refuse_replacing(const OutputFile& output, const std::vector<std::string>& inputs) {
+  std::error_code ignored;
+  if (output.force || output.path == "-" || !fs::is_regular_file(output.path, ignored)) return;
+  for (const std::string& input : inputs) {
+    if (input != "-" && fs::equivalent(input, output.path, ignored)) {
+      fail_usage("-o " + output.path, "this file is also an input",
+                 "name another one, or replace it with --force");
+    }
   }
-  return text;
+  constexpr fs::perms kWrite =
+      fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
+  const fs::perms permissions = fs::status(output.path, ignored).permissions();
+  if ((permissions & kWrite) == fs::perms::none) {
+    fail(kFile, "cannot write", output.path, "the file is read-only",
+         "name another one, or replace it with --force");
+  }
 }
 
 }  // namespace mien::cli

@@ -3,15 +3,20 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "integrations/cli/io/terminal.h"
 
 namespace mien::cli {
 
-/// Writes to a temporary file beside `path`, which commit() renames. Without commit() nothing stays
-/// behind, not even after an interrupt. "-" and devices are written directly.
+/// Writes to a temporary file in the folder of `path`, which commit() names so. Without commit() nothing
+/// stays behind: where the system has files without names the temporary file is one, so not even a
+/// killed process leaves it; elsewhere it goes with an interrupt. "-" and devices are written directly.
 class Output {
  public:
   explicit Output(const std::string& path);
@@ -25,19 +30,31 @@ class Output {
   /// Everything is on disk (or handed to standard output) when this returns.
   void commit();
 
+  uint64_t size() const { return size_; }  // written so far
+
  private:
   [[noreturn]] void fail_write(int reason) const;
+  /// Tries names for temporary_ until `create` makes a file of that name.
+  void take_temporary_name(const std::function<bool()>& create);
 
   std::string path_;       // as given, for messages
   std::string target_;     // the file to replace; empty if written directly
-  std::string temporary_;  // written until commit() renames it
+  std::string temporary_;  // what commit() renames; empty while the file has no name
+  std::filesystem::perms permissions_ = std::filesystem::perms::unknown;  // of the file to replace
   FILE* stream_ = nullptr;
+  uint64_t size_ = 0;
 };
 
 /// Wrong usage if `path` is "-" and standard output is a terminal. `what` is "a DNA file", say.
 void refuse_terminal(const std::string& path, const Session& session, const char* what);
 
-/// All bytes of standard input.
-std::string read_standard_input();
+/// -o and --force as they were typed.
+struct OutputFile {
+  std::string path;
+  bool force = false;
+};
+
+/// Fails if the output is also one of the inputs, or read-only, unless it is forced.
+void refuse_replacing(const OutputFile& output, const std::vector<std::string>& inputs);
 
 }  // namespace mien::cli

@@ -2,11 +2,9 @@
 #include "integrations/cli/io/rig_file.h"
 
 #include "integrations/cli/io/baked_file.h"
-#include "integrations/cli/io/output.h"
+#include "integrations/cli/io/input.h"
 
 namespace mien::cli {
-
-std::string shown_name(const std::string& path) { return path == "-" ? "standard input" : path; }
 
 RigFile open_rig_file(const std::string& path, const MienDnaDesc& desc, const Session& session) {
   RigFile file;
@@ -14,19 +12,22 @@ RigFile open_rig_file(const std::string& path, const MienDnaDesc& desc, const Se
   MienDna* dna = nullptr;
   auto error = sized<MienError>();
   MienStatus status;
-  if (path == "-") {
-    file.bytes = read_standard_input();
+  const bool stream = is_stream(path);
+  if (stream) {
+    file.bytes = read_rig_stream(path);
     status = mien_dna_open_memory(file.bytes.data(), file.bytes.size(), &desc, &dna, &error);
   } else {
     status = mien_dna_open_file(path.c_str(), &desc, &dna, &error);
   }
   if (status == MIEN_ERROR_DNA_SIGNATURE &&
-      (path == "-" ? is_baked_bytes(file.bytes) : is_baked_file(path))) {
+      (stream ? is_baked_bytes(file.bytes) : is_baked_file(path))) {
     fail(kInvalid, "cannot open rig", file.shown,
          "this is a baked file, and the command needs a DNA file",
          "give the DNA file that it was baked from");
   }
-  check(status, &error, "cannot open rig", file.shown);
+  const bool refused_system = desc.system && status == MIEN_ERROR_DNA_VALUE;
+  check(status, &error, "cannot open rig", file.shown,
+        refused_system ? "choose another --system or --rotation-order" : "");
   file.dna.reset(dna);
   file.info = sized<MienDnaInfo>();
   check(mien_dna_info(dna, &file.info), nullptr, "cannot read rig", file.shown);
@@ -52,7 +53,7 @@ Rig create_rig(const RigFile& file, const MienRigDesc& desc) {
   auto error = sized<MienError>();
   MienRig* rig = nullptr;
   check(mien_rig_create(file.dna.get(), &desc, &rig, &error), &error, "cannot compile rig",
-        file.shown);
+        file.shown, "export the rig again without that");
   return Rig(rig);
 }
 

@@ -6,6 +6,7 @@
 
 #include "integrations/cli/io/failure.h"
 #include "integrations/cli/io/handles.h"
+#include "integrations/cli/io/input.h"
 #include "integrations/cli/io/terminal.h"
 
 namespace mien::cli {
@@ -16,7 +17,8 @@ constexpr uint32_t kEvaluationLayers =
     MIEN_LAYER_MACHINE_LEARNED_BEHAVIOR | MIEN_LAYER_RBF_BEHAVIOR |
     MIEN_LAYER_JOINT_BEHAVIOR_METADATA | MIEN_LAYER_TWIST_SWING_BEHAVIOR;
 
-// A mask of LODs has a bit for each up to this one; files have at most 33.
+// No file has more. A mask of LODs has a bit for each up to the one after.
+constexpr uint32_t kMaxLods = 33;
 constexpr uint64_t kLastMaskLod = 63;
 
 /// The DNA points into the bytes of standard input, so they stand before it and outlive it.
@@ -26,8 +28,6 @@ struct RigFile {
   Dna dna;
   MienDnaInfo info;
 };
-
-std::string shown_name(const std::string& path);
 
 /// `path` may be "-". Prints a note if LODs were named that the file does not have.
 RigFile open_rig_file(const std::string& path, const MienDnaDesc& desc, const Session& session);

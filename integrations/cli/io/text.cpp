@@ -2,6 +2,7 @@
 #include "integrations/cli/io/text.h"
 
 #include <cstdio>
+#include <iterator>
 
 namespace mien::cli {
 
@@ -40,6 +41,35 @@ std::string one_line(std::string_view text) {
     text.remove_prefix(length == 0 ? 1 : length);
   }
   return line;
+}
+
+std::string grouped(uint64_t number) {
+  std::string text = std::to_string(number);
+  for (size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
+  return text;
+}
+
+std::string size_text(uint64_t bytes) {
+  if (bytes < 1000) return std::to_string(bytes) + (bytes == 1 ? " byte" : " bytes");
+  constexpr const char* kUnits[] = {"KB", "MB", "GB", "TB", "PB", "EB"};
+  double size = static_cast<double>(bytes) / 1000;
+  size_t unit = 0;
+  for (; size >= 999.95 && unit + 1 < std::size(kUnits); ++unit) size /= 1000;
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.1f %s", size, kUnits[unit]);
+  return text;
+}
+
+std::string duration_text(double seconds) {
+  char text[48];
+  if (seconds < 9.95) {
+    std::snprintf(text, sizeof(text), "%.1f s", seconds);
+    return text;
+  }
+  const auto whole = static_cast<uint64_t>(seconds + 0.5);
+  if (whole < 60) return std::to_string(whole) + " s";
+  if (whole < 3600) return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+  return std::to_string(whole / 3600) + " h " + std::to_string(whole / 60 % 60) + " min";
 }
 
 }  // namespace mien::cli

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Text from files, made printable.
+// Text from files, and numbers, made readable.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -13,5 +14,14 @@ size_t utf8_length(std::string_view text);
 
 /// Escapes control characters and bytes that are not UTF-8, so that the text stays on one line.
 std::string one_line(std::string_view text);
+
+/// "1,234,567"
+std::string grouped(uint64_t number);
+
+/// "812 bytes", "31.4 KB", "9.0 MB": decimal units.
+std::string size_text(uint64_t bytes);
+
+/// "0.4 s", "12 s", "3 min 20 s"
+std::string duration_text(double seconds);
 
 }  // namespace mien::cli

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// What is read whole: standard input, pipes, devices, and JSON. Each with a limit, so that an endless
+// input ends in an error and not in all of the memory.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace mien::cli {
+
+// Offsets in DNA files have 32 bits.
+constexpr uint64_t kMaxRigBytes = uint64_t{4} << 30;
+constexpr uint64_t kMaxJsonBytes = uint64_t{512} << 20;
+
+/// "standard input" for "-".
+std::string shown_name(const std::string& path);
+
+/// Whether `path` has to be read from its beginning to its end: "-", a pipe, a device.
+bool is_stream(const std::string& path);
+
+/// The bytes of a stream that should hold a DNA file or a baked file. Of another one the beginning is
+/// returned, for the library to refuse.
+std::string read_rig_stream(const std::string& path);
+
+/// A file or stream of JSON with an object in it. Of anything else the beginning is returned.
+std::string read_json(const std::string& path, const std::string& what);
+
+}  // namespace mien::cli
