@@ -36,7 +36,7 @@ from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c
                     c_int16, c_int32, c_int64, c_size_t, c_uint8, c_uint16, c_uint32, c_uint64,
                     c_void_p)
 from enum import IntEnum, IntFlag
-from typing import Any, NamedTuple, Optional, Tuple, Type, TypeVar
+from typing import Any, Dict, NamedTuple, Optional, Tuple, Type, TypeVar
 
 VERSION = {version!r}
 
@@ -154,15 +154,53 @@ def write_enum(enum):
         yield f"    {short_name(enum, value)} = {value['value']}\n"
 
 
-def write_struct(struct):
+def inputs_of(api):
+    """Names of the structs that functions are given, by themselves or in another struct."""
+    types = [field["type"] for struct in api["structs"] for field in struct["fields"]]
+    types += [p["type"] for function in api["functions"] for p in function["parameters"]]
+    return {type_["to"]["name"] for type_ in types
+            if type_["kind"] == "pointer" and type_["const"] and type_["to"]["kind"] == "struct"}
+
+
+def write_struct(struct, inputs):
     yield f"class {struct['name']}(Structure):\n"
     fields = [f"(\"{field['name']}\", {c_type(field['type'])})" for field in struct["fields"]]
     yield "    _fields_ = [\n" + "".join(f"        {field},\n" for field in fields) + "    ]\n"
     for field in struct["fields"]:
         yield f"    {field['name']}: Any\n"
-    if struct["sized"]:
-        yield "\n    def __init__(self, **values: Any) -> None:\n"
-        yield f"        super().__init__(struct_size={struct['size']}, **values)\n"
+    if not struct["sized"]:
+        return
+    if struct["name"] not in inputs:
+        yield "\n    def __init__(self) -> None:\n"
+        yield f"        super().__init__({struct['size']})\n"
+        return
+    # Every field by its name, and none else: ctypes takes any name, and any number.
+    given = [f for f in struct["fields"] if f["name"] not in ("struct_size", "reserved")]
+    yield "\n    def __init__(self, *"
+    for field in given:
+        yield f",\n                 {field['name']}: {annotation_of(field)} = {default_of(field)}"
+    yield ") -> None:\n"
+    yield f"        super().__init__({struct['size']})\n"
+    for field in given:
+        yield f"        self.{field['name']} = {field['name']}\n"
+
+
+def annotation_of(field):
+    kind = scalar_of(field["type"])
+    if kind["kind"] == "array":
+        return f"Tuple[{', '.join(['int'] * kind['count'])}]"
+    if kind["kind"] == "scalar":
+        return "bool" if field["boolean"] else "float" if kind["name"] == "float" else "int"
+    return "Any"
+
+
+def default_of(field):
+    kind = scalar_of(field["type"])
+    if kind["kind"] == "array":
+        return f"({', '.join(['0'] * kind['count'])})"
+    if kind["kind"] == "scalar":
+        return "False" if field["boolean"] else "0"
+    return f"{kind['name']}()" if kind["kind"] == "struct" else "None"
 
 
 def is_text(kind):
@@ -219,6 +257,32 @@ def write_record(struct):
     yield joined + "\n"
 
 
+# What the package does not let happen: NULL, handles of another kind, wrong sizes.
+IMPOSSIBLE = ("MIEN_ERROR_NULL_ARGUMENT", "MIEN_ERROR_HANDLE", "MIEN_ERROR_STRUCT_SIZE")
+GENERAL = {"MIEN_ERROR_INVALID_ARGUMENT": "an argument is outside its range",
+           "MIEN_ERROR_MEMORY": "there is no memory"}
+
+
+def write_statuses(api):
+    """For errors.raises(), which adds them to the documentation of what calls a function."""
+    short = {v["name"]: short_name(enum, v) for enum in api["enums"]
+             if enum["name"] == "MienStatusCode" for v in enum["values"]}
+    yield "# Why functions fail, beyond what the package checks: (status, condition).\n"
+    yield "STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {\n"
+    for function in api["functions"]:
+        if function["returns"].get("name") != "MienStatus":
+            continue
+        yield f"    \"{function['name']}\": ("
+        told = [s for s in function["statuses"] if s["name"] not in IMPOSSIBLE]
+        for status in told:
+            condition = words(status["condition"] or GENERAL[status["name"]])
+            lines = textwrap.wrap(condition, 78, break_on_hyphens=False, drop_whitespace=False)
+            pieces = "\n         ".join(json.dumps(line, ensure_ascii=False) for line in lines)
+            yield f"\n        (Status.{short[status['name']]},\n         {pieces}),"
+        yield "\n    ),\n" if told else "),\n"
+    yield "}\n"
+
+
 def write_functions(functions):
     yield "# Name, result, parameters.\nFUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (\n"
     for function in functions:
@@ -254,12 +318,13 @@ def generate(api):
     for callback in api["callbacks"]:
         function = {"kind": "function", **callback}
         blocks.append([f"{callback['name']} = {c_type(function)}\n"])
-    blocks += [write_struct(struct) for struct in api["structs"]]
+    blocks += [write_struct(struct, inputs_of(api)) for struct in api["structs"]]
     given = {p["type"]["to"]["name"] for f in api["functions"] for p in f["parameters"]
              if p["direction"] == "out" and p["type"]["to"]["kind"] == "struct"}
     blocks += [write_record(struct) for struct in api["structs"]
                if struct["name"] in given and struct["sized"] and struct["name"] != "MienError"
                and not has_views(struct)]
+    blocks.append(write_statuses(api))
     blocks.append(write_functions(api["functions"]))
     return "\n\n".join("".join(block) for block in blocks)
 

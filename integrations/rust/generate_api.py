@@ -77,6 +77,8 @@ def doc(text, indent, fallback=None, api=None):
     text = text or fallback
     if not text:
         return ""
+    # What it fails with, and where to read on, in paragraphs of their own.
+    text = re.sub(r"\n(?=(?:Fails (?:with|like)|Contents change with|See docs/))", "\n\n", text)
     blocks = []  # [laid out, lines]
     for line in text.split("\n"):
         laid_out = line.startswith("  ")
@@ -337,10 +339,38 @@ def raw_value(field, type_):
     return value
 
 
+# What arguments of the safe crate cannot be: NULL, of another kind, of a wrong size.
+IMPOSSIBLE = ("MIEN_ERROR_NULL_ARGUMENT", "MIEN_ERROR_HANDLE", "MIEN_ERROR_STRUCT_SIZE")
+GENERAL = {"MIEN_ERROR_INVALID_ARGUMENT": "an argument is outside its range",
+           "MIEN_ERROR_MEMORY": "the allocator has no memory"}
+
+
+def errors(api):
+    """A macro that gives the `# Errors` section of what calls a function."""
+    status_of = {value["name"]: safe_value_name(enum, value) for enum in api["enums"]
+                 if enum["name"] == "MienStatusCode" for value in enum["values"]}
+    out = "/// The `# Errors` section of what calls a function of the C interface.\n"
+    out += "macro_rules! errors {\n"
+    for function in api["functions"]:
+        if function["returns"].get("name") != "MienStatus":
+            continue
+        lines = []
+        for status in function["statuses"]:
+            if status["name"] not in IMPOSSIBLE:
+                name = status_of[status["name"]]
+                condition = prose(status["condition"] or GENERAL[status["name"]], api)
+                lines.append(f"- [`Status::{name}`](crate::Status::{name}) if {condition}")
+        lines = [line.replace("\\", "\\\\").replace('"', '\\"') for line in lines]
+        text = "\\n\\\n         ".join(lines or ["- none with valid arguments"])
+        out += f'    ({function["name"]}) => {{\n        "{text}"\n    }};\n'
+    return out + "}\n"
+
+
 def generated(api):
     parts = [HEAD + "\nuse crate::convert::{flags, numbers, offset, text};\nuse mien_sys as sys;\n"]
     parts += [safe_enum(enum, api) for enum in api["enums"]]
     parts += [safe_struct(struct, api) for struct in plain_outputs(api)]
+    parts.append(errors(api))
     return "\n".join(parts)
 
 

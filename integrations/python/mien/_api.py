@@ -12,7 +12,7 @@ from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c
                     c_int16, c_int32, c_int64, c_size_t, c_uint8, c_uint16, c_uint32, c_uint64,
                     c_void_p)
 from enum import IntEnum, IntFlag
-from typing import Any, NamedTuple, Optional, Tuple, Type, TypeVar
+from typing import Any, Dict, NamedTuple, Optional, Tuple, Type, TypeVar
 
 VERSION = '0.1.0'
 
@@ -473,8 +473,8 @@ class MienError(Structure):
     status: Any
     message: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=256, **values)
+    def __init__(self) -> None:
+        super().__init__(256)
 
 
 class MienAllocator(Structure):
@@ -575,8 +575,22 @@ class MienCoordinateSystem(Structure):
     face_winding: Any
     reserved: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=56, **values)
+    def __init__(self, *,
+                 axes: Tuple[int, int, int] = (0, 0, 0),
+                 translation_unit: int = 0,
+                 rotation_unit: int = 0,
+                 rotation_rule: int = 0,
+                 rotation_sequence: int = 0,
+                 rotation_signs: Tuple[int, int, int] = (0, 0, 0),
+                 face_winding: int = 0) -> None:
+        super().__init__(56)
+        self.axes = axes
+        self.translation_unit = translation_unit
+        self.rotation_unit = rotation_unit
+        self.rotation_rule = rotation_rule
+        self.rotation_sequence = rotation_sequence
+        self.rotation_signs = rotation_signs
+        self.face_winding = face_winding
 
 
 class MienDnaDesc(Structure):
@@ -599,8 +613,22 @@ class MienDnaDesc(Structure):
     system: Any
     allocator: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=48, **values)
+    def __init__(self, *,
+                 layers: int = 0,
+                 skip_blend_shape_targets: bool = False,
+                 unknown_layers: int = 0,
+                 file_access: int = 0,
+                 lods: int = 0,
+                 system: Any = None,
+                 allocator: Any = None) -> None:
+        super().__init__(48)
+        self.layers = layers
+        self.skip_blend_shape_targets = skip_blend_shape_targets
+        self.unknown_layers = unknown_layers
+        self.file_access = file_access
+        self.lods = lods
+        self.system = system
+        self.allocator = allocator
 
 
 class MienDnaInfo(Structure):
@@ -673,8 +701,8 @@ class MienDnaInfo(Structure):
     swing_count: Any
     metadata_count: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=160, **values)
+    def __init__(self) -> None:
+        super().__init__(160)
 
 
 class MienDnaLayer(Structure):
@@ -697,8 +725,8 @@ class MienDnaLayer(Structure):
     byte_count: Any
     code: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=48, **values)
+    def __init__(self) -> None:
+        super().__init__(48)
 
 
 class MienDnaField(Structure):
@@ -715,8 +743,8 @@ class MienDnaField(Structure):
     count: Any
     byte_offset: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=32, **values)
+    def __init__(self) -> None:
+        super().__init__(32)
 
 
 class MienWriteDesc(Structure):
@@ -729,8 +757,12 @@ class MienWriteDesc(Structure):
     version: Any
     unknown_layers: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=16, **values)
+    def __init__(self, *,
+                 version: int = 0,
+                 unknown_layers: int = 0) -> None:
+        super().__init__(16)
+        self.version = version
+        self.unknown_layers = unknown_layers
 
 
 class MienFinding(Structure):
@@ -749,8 +781,8 @@ class MienFinding(Structure):
     field: Any
     message: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=56, **values)
+    def __init__(self) -> None:
+        super().__init__(56)
 
 
 class MienValidateDesc(Structure):
@@ -761,8 +793,10 @@ class MienValidateDesc(Structure):
     struct_size: Any
     allocator: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=16, **values)
+    def __init__(self, *,
+                 allocator: Any = None) -> None:
+        super().__init__(16)
+        self.allocator = allocator
 
 
 class MienGenerateDesc(Structure):
@@ -779,8 +813,16 @@ class MienGenerateDesc(Structure):
     seed: Any
     allocator: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=32, **values)
+    def __init__(self, *,
+                 preset: int = 0,
+                 flags: int = 0,
+                 seed: int = 0,
+                 allocator: Any = None) -> None:
+        super().__init__(32)
+        self.preset = preset
+        self.flags = flags
+        self.seed = seed
+        self.allocator = allocator
 
 
 class MienRigDesc(Structure):
@@ -803,8 +845,22 @@ class MienRigDesc(Structure):
     arithmetic: Any
     allocator: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=40, **values)
+    def __init__(self, *,
+                 isa: int = 0,
+                 rotation_output: int = 0,
+                 ml_masks: int = 0,
+                 storage: int = 0,
+                 reuse: int = 0,
+                 arithmetic: int = 0,
+                 allocator: Any = None) -> None:
+        super().__init__(40)
+        self.isa = isa
+        self.rotation_output = rotation_output
+        self.ml_masks = ml_masks
+        self.storage = storage
+        self.reuse = reuse
+        self.arithmetic = arithmetic
+        self.allocator = allocator
 
 
 class MienRigInfo(Structure):
@@ -841,8 +897,8 @@ class MienRigInfo(Structure):
     rig_bytes: Any
     instance_bytes: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=88, **values)
+    def __init__(self) -> None:
+        super().__init__(88)
 
 
 class MienRigStatistics(Structure):
@@ -871,8 +927,8 @@ class MienRigStatistics(Structure):
     joint_entry_count: Any
     joint_byte_count: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=56, **values)
+    def __init__(self) -> None:
+        super().__init__(56)
 
 
 class MienInstanceDesc(Structure):
@@ -883,8 +939,10 @@ class MienInstanceDesc(Structure):
     struct_size: Any
     allocator: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=16, **values)
+    def __init__(self, *,
+                 allocator: Any = None) -> None:
+        super().__init__(16)
+        self.allocator = allocator
 
 
 class MienInstanceStatistics(Structure):
@@ -905,8 +963,8 @@ class MienInstanceStatistics(Structure):
     joint_entry_count: Any
     joint_byte_count: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=40, **values)
+    def __init__(self) -> None:
+        super().__init__(40)
 
 
 class MienBatchDesc(Structure):
@@ -921,8 +979,14 @@ class MienBatchDesc(Structure):
     tasks: Any
     allocator: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=24, **values)
+    def __init__(self, *,
+                 capacity: int = 0,
+                 tasks: int = 0,
+                 allocator: Any = None) -> None:
+        super().__init__(24)
+        self.capacity = capacity
+        self.tasks = tasks
+        self.allocator = allocator
 
 
 class MienDeformerDesc(Structure):
@@ -945,8 +1009,20 @@ class MienDeformerDesc(Structure):
     reserved: Any
     allocator: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=40, **values)
+    def __init__(self, *,
+                 isa: int = 0,
+                 compose: int = 0,
+                 weights: int = 0,
+                 normals: int = 0,
+                 with_tangents: bool = False,
+                 allocator: Any = None) -> None:
+        super().__init__(40)
+        self.isa = isa
+        self.compose = compose
+        self.weights = weights
+        self.normals = normals
+        self.with_tangents = with_tangents
+        self.allocator = allocator
 
 
 class MienDeformerInfo(Structure):
@@ -975,8 +1051,8 @@ class MienDeformerInfo(Structure):
     deformer_bytes: Any
     instance_bytes: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=56, **values)
+    def __init__(self) -> None:
+        super().__init__(56)
 
 
 class MienMesh(Structure):
@@ -1013,8 +1089,8 @@ class MienMesh(Structure):
     triangles: Any
     target_channels: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=152, **values)
+    def __init__(self) -> None:
+        super().__init__(152)
 
 
 class MienDeformerInstanceDesc(Structure):
@@ -1027,8 +1103,12 @@ class MienDeformerInstanceDesc(Structure):
     lods: Any
     allocator: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=24, **values)
+    def __init__(self, *,
+                 lods: int = 0,
+                 allocator: Any = None) -> None:
+        super().__init__(24)
+        self.lods = lods
+        self.allocator = allocator
 
 
 class MienVertexStream(Structure):
@@ -1056,8 +1136,16 @@ class MienVertexOutput(Structure):
     normals: Any
     tangents: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=64, **values)
+    def __init__(self, *,
+                 vertex_capacity: int = 0,
+                 positions: Any = MienVertexStream(),
+                 normals: Any = MienVertexStream(),
+                 tangents: Any = MienVertexStream()) -> None:
+        super().__init__(64)
+        self.vertex_capacity = vertex_capacity
+        self.positions = positions
+        self.normals = normals
+        self.tangents = tangents
 
 
 class MienBakedDesc(Structure):
@@ -1072,8 +1160,14 @@ class MienBakedDesc(Structure):
     check: Any
     allocator: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=24, **values)
+    def __init__(self, *,
+                 file_access: int = 0,
+                 check: int = 0,
+                 allocator: Any = None) -> None:
+        super().__init__(24)
+        self.file_access = file_access
+        self.check = check
+        self.allocator = allocator
 
 
 class MienBakedInfo(Structure):
@@ -1094,8 +1188,8 @@ class MienBakedInfo(Structure):
     part_count: Any
     is_mapped: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=48, **values)
+    def __init__(self) -> None:
+        super().__init__(48)
 
 
 class MienBakedRigDesc(Structure):
@@ -1110,8 +1204,14 @@ class MienBakedRigDesc(Structure):
     reuse: Any
     allocator: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=24, **values)
+    def __init__(self, *,
+                 isa: int = 0,
+                 reuse: int = 0,
+                 allocator: Any = None) -> None:
+        super().__init__(24)
+        self.isa = isa
+        self.reuse = reuse
+        self.allocator = allocator
 
 
 class MienBakedDeformerDesc(Structure):
@@ -1126,8 +1226,14 @@ class MienBakedDeformerDesc(Structure):
     normals: Any
     allocator: Any
 
-    def __init__(self, **values: Any) -> None:
-        super().__init__(struct_size=24, **values)
+    def __init__(self, *,
+                 isa: int = 0,
+                 normals: int = 0,
+                 allocator: Any = None) -> None:
+        super().__init__(24)
+        self.isa = isa
+        self.normals = normals
+        self.allocator = allocator
 
 
 class CoordinateSystem(NamedTuple):
@@ -1452,6 +1558,586 @@ class BakedInfo(NamedTuple):
     def _of(cls, c: MienBakedInfo) -> BakedInfo:
         return cls(c.file_bytes, c.memory_bytes, c.rig_bytes, c.deformer_bytes, c.part_count,
                    bool(c.is_mapped))
+
+
+# Why functions fail, beyond what the package checks: (status, condition).
+STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
+    "mien_coordinate_system_find": (
+        (Status.NAME,
+         "the name is none of these"),
+    ),
+    "mien_coordinate_system_find_n": (
+        (Status.NAME,
+         "the name is none of these"),
+    ),
+    "mien_coordinate_system_name": (
+        (Status.INDEX,
+         "`index` is past the last name"),
+    ),
+    "mien_dna_open_file": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.LOD,
+         "it has none of the requested LODs"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.FILE_OPEN,
+         "the file cannot be read"),
+        (Status.FILE_READ,
+         "the file cannot be read"),
+        (Status.DNA_SIGNATURE,
+         "it is not a DNA file of generation 2"),
+        (Status.DNA_VERSION,
+         "it is not a DNA file of generation 2"),
+        (Status.DNA_TRUNCATED,
+         "its contents are not valid or cannot be converted to the requested system"),
+        (Status.DNA_STRUCTURE,
+         "its contents are not valid or cannot be converted to the requested system"),
+        (Status.DNA_REFERENCE,
+         "its contents are not valid or cannot be converted to the requested system"),
+        (Status.DNA_LIMIT,
+         "its contents are not valid or cannot be converted to the requested system"),
+        (Status.DNA_VALUE,
+         "its contents are not valid or cannot be converted to the requested system"),
+    ),
+    "mien_dna_open_memory": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.LOD,
+         "it has none of the requested LODs"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.DNA_SIGNATURE,
+         "it is not a DNA file of generation 2"),
+        (Status.DNA_VERSION,
+         "it is not a DNA file of generation 2"),
+        (Status.DNA_TRUNCATED,
+         "its contents are not valid or cannot be converted to the requested system"),
+        (Status.DNA_STRUCTURE,
+         "its contents are not valid or cannot be converted to the requested system"),
+        (Status.DNA_REFERENCE,
+         "its contents are not valid or cannot be converted to the requested system"),
+        (Status.DNA_LIMIT,
+         "its contents are not valid or cannot be converted to the requested system"),
+        (Status.DNA_VALUE,
+         "its contents are not valid or cannot be converted to the requested system"),
+    ),
+    "mien_dna_open_stream": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.LOD,
+         "it has none of the requested LODs"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.FILE_READ,
+         "the file cannot be read"),
+        (Status.DNA_SIGNATURE,
+         "it is not a DNA file of generation 2"),
+        (Status.DNA_VERSION,
+         "it is not a DNA file of generation 2"),
+        (Status.DNA_TRUNCATED,
+         "its contents are not valid or cannot be converted to the requested system"),
+        (Status.DNA_STRUCTURE,
+         "its contents are not valid or cannot be converted to the requested system"),
+        (Status.DNA_REFERENCE,
+         "its contents are not valid or cannot be converted to the requested system"),
+        (Status.DNA_LIMIT,
+         "its contents are not valid or cannot be converted to the requested system"),
+        (Status.DNA_VALUE,
+         "its contents are not valid or cannot be converted to the requested system"),
+    ),
+    "mien_dna_info": (),
+    "mien_dna_layer": (
+        (Status.INDEX,
+         "`index` is not below MienDnaInfo.layer_count"),
+    ),
+    "mien_dna_field": (
+        (Status.INDEX,
+         "an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field (the message contains the part of the path that does "
+         "not exist)"),
+    ),
+    "mien_dna_field_n": (
+        (Status.INDEX,
+         "an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field (the message contains the part of the path that does "
+         "not exist)"),
+    ),
+    "mien_dna_child_name": (
+        (Status.INVALID_ARGUMENT,
+         "the field is not a record"),
+        (Status.INDEX,
+         "`index` or an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+    ),
+    "mien_dna_child_name_n": (
+        (Status.INVALID_ARGUMENT,
+         "the field is not a record"),
+        (Status.INDEX,
+         "`index` or an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+    ),
+    "mien_dna_read_floats": (
+        (Status.INVALID_ARGUMENT,
+         "the field does not hold numbers of this kind"),
+        (Status.INDEX,
+         "the range or an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+    ),
+    "mien_dna_read_floats_n": (
+        (Status.INVALID_ARGUMENT,
+         "the field does not hold numbers of this kind"),
+        (Status.INDEX,
+         "the range or an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+    ),
+    "mien_dna_read_integers": (
+        (Status.INVALID_ARGUMENT,
+         "the field does not hold numbers of this kind"),
+        (Status.INDEX,
+         "the range or an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+    ),
+    "mien_dna_read_integers_n": (
+        (Status.INVALID_ARGUMENT,
+         "the field does not hold numbers of this kind"),
+        (Status.INDEX,
+         "the range or an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+    ),
+    "mien_dna_read_string": (
+        (Status.INVALID_ARGUMENT,
+         "the field is not a string"),
+        (Status.INDEX,
+         "an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+    ),
+    "mien_dna_read_string_n": (
+        (Status.INVALID_ARGUMENT,
+         "the field is not a string"),
+        (Status.INDEX,
+         "an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+    ),
+    "mien_dna_write_file": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "the allocator of the DNA returns NULL"),
+        (Status.FILE_WRITE,
+         "the file cannot be written"),
+        (Status.DNA_STRUCTURE,
+         "the file could not be opened in the requested version"),
+        (Status.DNA_REFERENCE,
+         "the file could not be opened in the requested version"),
+        (Status.DNA_LIMIT,
+         "it would exceed 4 GiB"),
+        (Status.DNA_LAYER,
+         "RBF behavior was loaded without the machine-learned behavior of its file "
+         "(whose controls are numbered before its own)"),
+        (Status.DNA_VALUE,
+         "the file could not be opened in the requested version"),
+    ),
+    "mien_dna_write_memory": (
+        (Status.INVALID_ARGUMENT,
+         "`capacity` is too small"),
+        (Status.MEMORY,
+         "the allocator of the DNA returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "the file could not be opened in the requested version"),
+        (Status.DNA_REFERENCE,
+         "the file could not be opened in the requested version"),
+        (Status.DNA_LIMIT,
+         "it would exceed 4 GiB"),
+        (Status.DNA_LAYER,
+         "RBF behavior was loaded without the machine-learned behavior of its file "
+         "(whose controls are numbered before its own)"),
+        (Status.DNA_VALUE,
+         "the file could not be opened in the requested version"),
+    ),
+    "mien_dna_validate_file": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.FILE_OPEN,
+         "the file cannot be read"),
+        (Status.FILE_READ,
+         "the file cannot be read"),
+    ),
+    "mien_dna_validate_memory": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+    ),
+    "mien_report_counts": (),
+    "mien_report_finding": (
+        (Status.INDEX,
+         "`index` is past the last finding"),
+    ),
+    "mien_dna_generate": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+    ),
+    "mien_rig_create": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.ISA,
+         "the requested instruction set is not available"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.DNA_LIMIT,
+         "the rig is too large"),
+        (Status.DNA_LAYER,
+         "`dna` was opened without its behavior"),
+        (Status.DNA_VALUE,
+         "correctives depend on each other in a circle"),
+    ),
+    "mien_rig_info": (),
+    "mien_rig_count": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+    ),
+    "mien_rig_name": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.INDEX,
+         "`index` is not below mien_rig_count()"),
+    ),
+    "mien_rig_find": (
+        (Status.INVALID_ARGUMENT,
+         "`kind` has no names"),
+        (Status.NAME,
+         "there is no such name"),
+    ),
+    "mien_rig_find_n": (
+        (Status.INVALID_ARGUMENT,
+         "`kind` has no names"),
+        (Status.NAME,
+         "there is no such name"),
+    ),
+    "mien_rig_lod_indices": (
+        (Status.INVALID_ARGUMENT,
+         "`kind` is none of these five"),
+        (Status.LOD,
+         "the rig has no such LOD"),
+    ),
+    "mien_rig_variable_joint_values": (
+        (Status.LOD,
+         "the rig has no such LOD"),
+    ),
+    "mien_rig_joint_parents": (),
+    "mien_rig_neutral_joint_values": (),
+    "mien_rig_psd_inputs": (
+        (Status.INDEX,
+         "there is no such corrective"),
+    ),
+    "mien_rig_initial_raw_controls": (),
+    "mien_rig_statistics": (
+        (Status.LOD,
+         "the rig has no such LOD"),
+    ),
+    "mien_instance_create": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+    ),
+    "mien_instance_reset": (),
+    "mien_instance_gui_controls": (),
+    "mien_instance_raw_controls": (),
+    "mien_instance_ml_masks": (),
+    "mien_instance_controls": (),
+    "mien_instance_psd_controls": (),
+    "mien_instance_ml_controls": (),
+    "mien_instance_rbf_controls": (),
+    "mien_instance_joints": (),
+    "mien_instance_blend_shapes": (),
+    "mien_instance_animated_maps": (),
+    "mien_instance_statistics": (),
+    "mien_rig_map_gui_to_raw": (
+        (Status.MISMATCH,
+         "`instance` belongs to another rig"),
+    ),
+    "mien_rig_map_raw_to_gui": (
+        (Status.MISMATCH,
+         "`instance` belongs to another rig"),
+    ),
+    "mien_rig_evaluate": (
+        (Status.MISMATCH,
+         "`instance` belongs to another rig"),
+        (Status.LOD,
+         "the rig has no such LOD"),
+    ),
+    "mien_rig_evaluate_stages": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MISMATCH,
+         "`instance` belongs to another rig"),
+        (Status.LOD,
+         "the rig has no such LOD"),
+    ),
+    "mien_batch_create": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+    ),
+    "mien_batch_bytes": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+    ),
+    "mien_rig_evaluate_batch": (
+        (Status.INVALID_ARGUMENT,
+         "`count` exceeds MienBatchDesc.capacity or an instance is listed twice"),
+        (Status.MISMATCH,
+         "the batch or an instance belongs to another rig"),
+        (Status.LOD,
+         "the rig has no such LOD"),
+    ),
+    "mien_rig_evaluate_joint_group": (
+        (Status.MISMATCH,
+         "`instance` belongs to another rig"),
+        (Status.INDEX,
+         "there is no such joint group"),
+        (Status.LOD,
+         "the rig has no such LOD"),
+    ),
+    "mien_rig_evaluate_rbf_solver": (
+        (Status.MISMATCH,
+         "`instance` belongs to another rig"),
+        (Status.INDEX,
+         "there is no such solver"),
+        (Status.LOD,
+         "the rig has no such LOD"),
+    ),
+    "mien_rig_evaluate_twist_swing": (
+        (Status.MISMATCH,
+         "`instance` belongs to another rig"),
+        (Status.INDEX,
+         "there is no such setup"),
+        (Status.LOD,
+         "the rig has no such LOD"),
+    ),
+    "mien_deformer_create": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MISMATCH,
+         "numbers or names of joints, channels or meshes differ from those of the rig"),
+        (Status.ISA,
+         "the requested instruction set is not available"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.DNA_LIMIT,
+         "a position has more than 65535 influences"),
+        (Status.DNA_LAYER,
+         "`dna` was opened without Layer.GEOMETRY"),
+        (Status.DNA_VALUE,
+         "a joint is its own ancestor or a position, delta or weight is not finite"),
+    ),
+    "mien_deformer_info": (),
+    "mien_deformer_mesh": (
+        (Status.INDEX,
+         "there is no such mesh"),
+    ),
+    "mien_deformer_influences": (
+        (Status.INDEX,
+         "there is no such mesh or position"),
+    ),
+    "mien_deformer_target": (
+        (Status.INVALID_ARGUMENT,
+         "`count` is less than 3 * MienMesh.position_count"),
+        (Status.INDEX,
+         "there is no such mesh or target"),
+    ),
+    "mien_deformer_bind_matrices": (),
+    "mien_deformer_inverse_bind_matrices": (),
+    "mien_deformer_instance_create": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+    ),
+    "mien_deformer_instance_update": (
+        (Status.MISMATCH,
+         "`instance` belongs to a rig other than that of the deformer"),
+    ),
+    "mien_deformer_instance_update_from_values": (
+        (Status.INVALID_ARGUMENT,
+         "a count is not that of the rig"),
+    ),
+    "mien_deformer_instance_joint_matrices": (),
+    "mien_deformer_instance_skin_matrices": (),
+    "mien_deformer_instance_local_transforms": (
+        (Status.INVALID_ARGUMENT,
+         "`count` is less than 10 * MienDeformerInfo.joint_count"),
+    ),
+    "mien_deformer_instance_deform": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.INDEX,
+         "there is no such mesh"),
+        (Status.LOD,
+         "`deformer_instance` has no memory for it (MienDeformerInstanceDesc.lods)"),
+    ),
+    "mien_deformer_instance_deform_batch": (
+        (Status.INVALID_ARGUMENT,
+         "an instance is listed twice"),
+        (Status.MISMATCH,
+         "the instances have different deformers"),
+        (Status.INDEX,
+         "there is no such mesh"),
+        (Status.LOD,
+         "an instance has no memory for it"),
+    ),
+    "mien_deformer_instance_positions": (
+        (Status.INDEX,
+         "there is no such mesh"),
+        (Status.LOD,
+         "`deformer_instance` has no memory for it"),
+    ),
+    "mien_deformer_instance_normals": (
+        (Status.INDEX,
+         "there is no such mesh"),
+        (Status.LOD,
+         "`deformer_instance` has no memory for it"),
+    ),
+    "mien_deformer_instance_write_vertices": (
+        (Status.INVALID_ARGUMENT,
+         "a stream has a format that its attribute cannot have, a wrong stride or "
+         "alignment or too little capacity, if streams overlap, if there is no stream, "
+         "or if tangents are requested from a deformer without them"),
+        (Status.INDEX,
+         "there is no such mesh"),
+        (Status.LOD,
+         "`deformer_instance` has no memory for it"),
+    ),
+    "mien_deformer_instance_write_vertices_batch": (
+        (Status.INVALID_ARGUMENT,
+         "a stream has a format that its attribute cannot have, a wrong stride or "
+         "alignment or too little capacity, if streams overlap, if there is no stream, "
+         "or if tangents are requested from a deformer without them; or an instance is "
+         "listed twice"),
+        (Status.MISMATCH,
+         "the instances have different deformers"),
+        (Status.INDEX,
+         "there is no such mesh"),
+        (Status.LOD,
+         "`deformer_instance` has no memory for it"),
+    ),
+    "mien_bake_file": (
+        (Status.MISMATCH,
+         "`deformer` was created for another rig"),
+        (Status.MEMORY,
+         "the allocator of the rig returns NULL"),
+        (Status.FILE_WRITE,
+         "the file cannot be written"),
+    ),
+    "mien_bake_memory": (
+        (Status.INVALID_ARGUMENT,
+         "`capacity` is too small"),
+        (Status.MISMATCH,
+         "`deformer` was created for another rig"),
+    ),
+    "mien_baked_open_file": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.FILE_OPEN,
+         "the file cannot be read"),
+        (Status.FILE_READ,
+         "the file cannot be read"),
+        (Status.BAKED_SIGNATURE,
+         "its header is not valid"),
+        (Status.BAKED_VERSION,
+         "its header is not valid"),
+        (Status.BAKED_TRUNCATED,
+         "its header is not valid"),
+        (Status.BAKED_STRUCTURE,
+         "its header is not valid"),
+        (Status.BAKED_CHECKSUM,
+         "BakedCheck.FULL finds changed bytes"),
+    ),
+    "mien_baked_open_memory": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.BAKED_SIGNATURE,
+         "its header is not valid"),
+        (Status.BAKED_VERSION,
+         "its header is not valid"),
+        (Status.BAKED_TRUNCATED,
+         "its header is not valid"),
+        (Status.BAKED_STRUCTURE,
+         "its header is not valid"),
+        (Status.BAKED_CHECKSUM,
+         "BakedCheck.FULL finds changed bytes"),
+    ),
+    "mien_baked_open_stream": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.FILE_READ,
+         "the file cannot be read"),
+        (Status.BAKED_SIGNATURE,
+         "its header is not valid"),
+        (Status.BAKED_VERSION,
+         "its header is not valid"),
+        (Status.BAKED_TRUNCATED,
+         "its header is not valid"),
+        (Status.BAKED_STRUCTURE,
+         "its header is not valid"),
+        (Status.BAKED_CHECKSUM,
+         "BakedCheck.FULL finds changed bytes"),
+    ),
+    "mien_baked_info": (),
+    "mien_rig_from_baked": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.ISA,
+         "the requested instruction set is not available"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.BAKED_VERSION,
+         "its rig cannot be used"),
+        (Status.BAKED_STRUCTURE,
+         "its rig cannot be used"),
+        (Status.BAKED_PART,
+         "the file has no rig"),
+    ),
+    "mien_deformer_from_baked": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MISMATCH,
+         "`rig` was not created from `baked`"),
+        (Status.ISA,
+         "the requested instruction set is not available"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.BAKED_VERSION,
+         "its deformer cannot be used"),
+        (Status.BAKED_STRUCTURE,
+         "its deformer cannot be used"),
+        (Status.BAKED_PART,
+         "the file has no deformer"),
+    ),
+}
 
 
 # Name, result, parameters.

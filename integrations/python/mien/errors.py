@@ -7,8 +7,9 @@ for such a thing: an index past the end is an IndexError, a file that cannot be 
 from __future__ import annotations
 
 import errno
+import inspect
 import os
-from typing import Any, Dict, NoReturn, Optional, Tuple, Type
+from typing import Any, Callable, Dict, NoReturn, Optional, Tuple, Type, TypeVar
 
 from . import _api
 from ._api import Status
@@ -122,6 +123,22 @@ def kind_of(status: int) -> Type[Error]:
     if 30 <= status <= 59:
         return DnaError
     return Error
+
+
+_F = TypeVar("_F", bound=Callable[..., Any])
+
+
+def raises(*functions: str) -> Callable[[_F], _F]:
+    """Adds to the documentation of a method why it can fail: the statuses of the C functions that it
+    calls."""
+    def add(method: _F) -> _F:
+        told = dict.fromkeys(pair for name in functions for pair in _api.STATUSES[name])
+        lines = [f"    {kind_of(status).__name__} (Status.{status.name}): {why}"
+                 for status, why in told]
+        above = inspect.cleandoc(method.__doc__ or "")
+        method.__doc__ = "\n".join([above, "", "Raises:"] + lines).lstrip("\n")
+        return method
+    return add
 
 
 def fail(status: int, what: str, detail: Optional[_api.MienError] = None,

@@ -350,8 +350,9 @@ pub struct MienBatch {
 ///
 /// Joints that a LOD does not list move with their parent. A position is shared by the faces
 /// around it; a vertex is a position with texture coordinates and a normal (a layout of the file),
-/// so a mesh has at least as many vertices as positions in use. See docs/deformation.md, 1 "Joint
-/// transforms" and 2 "Positions".
+/// so a mesh has at least as many vertices as positions in use.
+///
+/// See docs/deformation.md, 1 "Joint transforms" and 2 "Positions".
 #[repr(C)]
 pub struct MienDeformer {
     _size: [u8; 0],
@@ -369,8 +370,9 @@ pub struct MienDeformerInstance {
 /// place, so that programs can ship without DNA files. A baked file holds all options of its
 /// objects except the instruction set and MienReuse, and fits all machines of one byte order. The
 /// same objects give the same bytes. Keep the DNA: a later version of the library may fail to open
-/// the file with `MIEN_ERROR_BAKED_VERSION`. Immutable. See docs/rig-evaluation.md, 9.5 "Baked
-/// files".
+/// the file with `MIEN_ERROR_BAKED_VERSION`. Immutable.
+///
+/// See docs/rig-evaluation.md, 9.5 "Baked files".
 #[repr(C)]
 pub struct MienBaked {
     _size: [u8; 0],
@@ -540,8 +542,9 @@ impl Default for MienStream {
     }
 }
 
-/// Axes, units and rotation conventions of a rig. Any handedness is allowed. See
-/// docs/dna-format.md, 11 "Coordinate systems".
+/// Axes, units and rotation conventions of a rig. Any handedness is allowed.
+///
+/// See docs/dna-format.md, 11 "Coordinate systems".
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienCoordinateSystem {
@@ -1168,7 +1171,9 @@ impl Default for MienVertexStream {
 /// triangles of both orientations meet, a vertex takes the orientation with the larger sum of
 /// angles. A vertex without texture coordinates gets an arbitrary perpendicular of its normal,
 /// always the same one, and w = 1. Tangents are skinned, and then made perpendicular to the
-/// written normal. See docs/deformation.md, 4 "Tangents".
+/// written normal.
+///
+/// See docs/deformation.md, 4 "Tangents".
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienVertexOutput {
@@ -1299,19 +1304,22 @@ extern "C" {
     /// Returns the coordinate system of an engine or tool: "maya", "unreal", "unreal-mesh"
     /// (characters look along y), "unity", "godot", "blender", "gltf", "opengl", "directx" or
     /// "houdini". The rotation rule is `MIEN_ROTATION_RULE_CARRIED`; `rotation_sequence` is that
-    /// of the engine's Euler angles, and is used once you set another rule. Fails with
-    /// `MIEN_ERROR_NAME` if the name is none of these.
+    /// of the engine's Euler angles, and is used once you set another rule.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if the name is none of these.
     pub fn mien_coordinate_system_find(name: *const c_char, out_system: *mut MienCoordinateSystem) -> MienStatus;
 
     /// Returns the coordinate system of an engine or tool: "maya", "unreal", "unreal-mesh"
     /// (characters look along y), "unity", "godot", "blender", "gltf", "opengl", "directx" or
     /// "houdini". The rotation rule is `MIEN_ROTATION_RULE_CARRIED`; `rotation_sequence` is that
-    /// of the engine's Euler angles, and is used once you set another rule. Fails with
-    /// `MIEN_ERROR_NAME` if the name is none of these.
+    /// of the engine's Euler angles, and is used once you set another rule.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if the name is none of these.
     pub fn mien_coordinate_system_find_n(name: *const c_char, name_count: usize, out_system: *mut MienCoordinateSystem) -> MienStatus;
 
-    /// Returns a name that `mien_coordinate_system_find()` accepts. The string is static. Fails
-    /// with `MIEN_ERROR_INDEX` if `index` is past the last name.
+    /// Returns a name that `mien_coordinate_system_find()` accepts. The string is static.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if `index` is past the last name.
     pub fn mien_coordinate_system_name(index: u32, out_name: *mut MienStringView) -> MienStatus;
 
     /// Opens a DNA file of version 2.1 to 2.8, or the known layers of a later 2.x. Checks
@@ -1326,17 +1334,22 @@ extern "C" {
     /// generation 2, `MIEN_ERROR_DNA_TRUNCATED`, `MIEN_ERROR_DNA_STRUCTURE`,
     /// `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT` or `MIEN_ERROR_DNA_VALUE` if its
     /// contents are not valid or cannot be converted to the requested system, `MIEN_ERROR_LOD` if
-    /// it has none of the requested LODs. See docs/dna-format.md, 13 "What is checked".
+    /// it has none of the requested LODs.
+    ///
+    /// See docs/dna-format.md, 13 "What is checked".
     pub fn mien_dna_open_file(path: *const c_char, desc: *const MienDnaDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
 
     /// Opens a DNA file in memory: `size` bytes, of any alignment. `bytes` must outlive the
-    /// MienDna, unchanged. Fails like `mien_dna_open_file()`, but not with `MIEN_ERROR_FILE_OPEN`
-    /// or `MIEN_ERROR_FILE_READ`.
+    /// MienDna, unchanged.
+    ///
+    /// Fails like `mien_dna_open_file()`, but not with `MIEN_ERROR_FILE_OPEN` or
+    /// `MIEN_ERROR_FILE_READ`.
     pub fn mien_dna_open_memory(bytes: *const c_void, size: usize, desc: *const MienDnaDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
 
     /// Opens a DNA file through a stream. Reads the header, the index and the requested layers,
-    /// each once and in one piece, into memory of the allocator. Fails like
-    /// `mien_dna_open_file()`, but not with `MIEN_ERROR_FILE_OPEN`.
+    /// each once and in one piece, into memory of the allocator.
+    ///
+    /// Fails like `mien_dna_open_file()`, but not with `MIEN_ERROR_FILE_OPEN`.
     pub fn mien_dna_open_stream(stream: *const MienStream, desc: *const MienDnaDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
 
     /// Closes a DNA. Rigs and deformers made from it stay valid; its views do not.
@@ -1345,8 +1358,11 @@ extern "C" {
     /// Returns the properties of a DNA.
     pub fn mien_dna_info(dna: *const MienDna, out_info: *mut MienDnaInfo) -> MienStatus;
 
-    /// Returns entry `index` of the index table, in file order. Fails with `MIEN_ERROR_INDEX` if
-    /// `index` is not below MienDnaInfo.`layer_count`. See docs/dna-format.md, 4.1 "Index table".
+    /// Returns entry `index` of the index table, in file order.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if `index` is not below MienDnaInfo.`layer_count`.
+    ///
+    /// See docs/dna-format.md, 4.1 "Index table".
     pub fn mien_dna_layer(dna: *const MienDna, index: u32, out_layer: *mut MienDnaLayer) -> MienStatus;
 
     /// Finds a field of a loaded layer by its path: the code of the layer, then the names of
@@ -1362,10 +1378,12 @@ extern "C" {
     /// mlbh.neuralNetworks[0].layers[1].biases   floats
     /// ```
     ///
-    /// Layers that are not loaded are empty. Fails with `MIEN_ERROR_NAME` if there is no such
-    /// field (the message contains the part of the path that does not exist), `MIEN_ERROR_INDEX`
-    /// if an index in the path is past the end. See docs/dna-format.md, 6 "Layers, field by
-    /// field".
+    /// Layers that are not loaded are empty.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field (the message contains the part of
+    /// the path that does not exist), `MIEN_ERROR_INDEX` if an index in the path is past the end.
+    ///
+    /// See docs/dna-format.md, 6 "Layers, field by field".
     pub fn mien_dna_field(dna: *const MienDna, path: *const c_char, out_field: *mut MienDnaField, error: *mut MienError) -> MienStatus;
 
     /// Finds a field of a loaded layer by its path: the code of the layer, then the names of
@@ -1381,88 +1399,114 @@ extern "C" {
     /// mlbh.neuralNetworks[0].layers[1].biases   floats
     /// ```
     ///
-    /// Layers that are not loaded are empty. Fails with `MIEN_ERROR_NAME` if there is no such
-    /// field (the message contains the part of the path that does not exist), `MIEN_ERROR_INDEX`
-    /// if an index in the path is past the end. See docs/dna-format.md, 6 "Layers, field by
-    /// field".
+    /// Layers that are not loaded are empty.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field (the message contains the part of
+    /// the path that does not exist), `MIEN_ERROR_INDEX` if an index in the path is past the end.
+    ///
+    /// See docs/dna-format.md, 6 "Layers, field by field".
     pub fn mien_dna_field_n(dna: *const MienDna, path: *const c_char, path_count: usize, out_field: *mut MienDnaField, error: *mut MienError) -> MienStatus;
 
     /// Returns the name of field `index` of the record at a path. The empty path is the file
-    /// itself, whose fields are the layers. The string is static. Fails with `MIEN_ERROR_NAME` if
-    /// there is no such field, `MIEN_ERROR_INDEX` if `index` or an index in the path is past the
-    /// end, `MIEN_ERROR_INVALID_ARGUMENT` if the field is not a record. See docs/dna-format.md, 6
-    /// "Layers, field by field".
+    /// itself, whose fields are the layers. The string is static.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if `index` or an
+    /// index in the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field is not a
+    /// record.
+    ///
+    /// See docs/dna-format.md, 6 "Layers, field by field".
     pub fn mien_dna_child_name(dna: *const MienDna, path: *const c_char, index: u32, out_name: *mut MienStringView, error: *mut MienError) -> MienStatus;
 
     /// Returns the name of field `index` of the record at a path. The empty path is the file
-    /// itself, whose fields are the layers. The string is static. Fails with `MIEN_ERROR_NAME` if
-    /// there is no such field, `MIEN_ERROR_INDEX` if `index` or an index in the path is past the
-    /// end, `MIEN_ERROR_INVALID_ARGUMENT` if the field is not a record. See docs/dna-format.md, 6
-    /// "Layers, field by field".
+    /// itself, whose fields are the layers. The string is static.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if `index` or an
+    /// index in the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field is not a
+    /// record.
+    ///
+    /// See docs/dna-format.md, 6 "Layers, field by field".
     pub fn mien_dna_child_name_n(dna: *const MienDna, path: *const c_char, path_count: usize, index: u32, out_name: *mut MienStringView, error: *mut MienError) -> MienStatus;
 
     /// Copies `count` elements of a field, beginning with element `first`, to `out`, in native
     /// byte order. A field that is one number has one element. `out` may be NULL if `count` is 0.
-    /// Integers are widened to 64 bits. Fails with `MIEN_ERROR_NAME` if there is no such field,
-    /// `MIEN_ERROR_INDEX` if the range or an index in the path is past the end,
-    /// `MIEN_ERROR_INVALID_ARGUMENT` if the field does not hold numbers of this kind.
+    /// Integers are widened to 64 bits.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if the range or
+    /// an index in the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field does not
+    /// hold numbers of this kind.
     pub fn mien_dna_read_floats(dna: *const MienDna, path: *const c_char, first: u64, count: u64, out: *mut f32, error: *mut MienError) -> MienStatus;
 
     /// Copies `count` elements of a field, beginning with element `first`, to `out`, in native
     /// byte order. A field that is one number has one element. `out` may be NULL if `count` is 0.
-    /// Integers are widened to 64 bits. Fails with `MIEN_ERROR_NAME` if there is no such field,
-    /// `MIEN_ERROR_INDEX` if the range or an index in the path is past the end,
-    /// `MIEN_ERROR_INVALID_ARGUMENT` if the field does not hold numbers of this kind.
+    /// Integers are widened to 64 bits.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if the range or
+    /// an index in the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field does not
+    /// hold numbers of this kind.
     pub fn mien_dna_read_floats_n(dna: *const MienDna, path: *const c_char, path_count: usize, first: u64, count: u64, out: *mut f32, error: *mut MienError) -> MienStatus;
 
     /// Copies `count` elements of a field, beginning with element `first`, to `out`, in native
     /// byte order. A field that is one number has one element. `out` may be NULL if `count` is 0.
-    /// Integers are widened to 64 bits. Fails with `MIEN_ERROR_NAME` if there is no such field,
-    /// `MIEN_ERROR_INDEX` if the range or an index in the path is past the end,
-    /// `MIEN_ERROR_INVALID_ARGUMENT` if the field does not hold numbers of this kind.
+    /// Integers are widened to 64 bits.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if the range or
+    /// an index in the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field does not
+    /// hold numbers of this kind.
     pub fn mien_dna_read_integers(dna: *const MienDna, path: *const c_char, first: u64, count: u64, out: *mut i64, error: *mut MienError) -> MienStatus;
 
     /// Copies `count` elements of a field, beginning with element `first`, to `out`, in native
     /// byte order. A field that is one number has one element. `out` may be NULL if `count` is 0.
-    /// Integers are widened to 64 bits. Fails with `MIEN_ERROR_NAME` if there is no such field,
-    /// `MIEN_ERROR_INDEX` if the range or an index in the path is past the end,
-    /// `MIEN_ERROR_INVALID_ARGUMENT` if the field does not hold numbers of this kind.
+    /// Integers are widened to 64 bits.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if the range or
+    /// an index in the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field does not
+    /// hold numbers of this kind.
     pub fn mien_dna_read_integers_n(dna: *const MienDna, path: *const c_char, path_count: usize, first: u64, count: u64, out: *mut i64, error: *mut MienError) -> MienStatus;
 
-    /// Returns a string of the file. Fails with `MIEN_ERROR_NAME` if there is no such field,
-    /// `MIEN_ERROR_INDEX` if an index in the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT`
-    /// if the field is not a string.
+    /// Returns a string of the file.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if an index in
+    /// the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field is not a string.
     pub fn mien_dna_read_string(dna: *const MienDna, path: *const c_char, out_string: *mut MienStringView, error: *mut MienError) -> MienStatus;
 
-    /// Returns a string of the file. Fails with `MIEN_ERROR_NAME` if there is no such field,
-    /// `MIEN_ERROR_INDEX` if an index in the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT`
-    /// if the field is not a string.
+    /// Returns a string of the file.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if an index in
+    /// the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field is not a string.
     pub fn mien_dna_read_string_n(dna: *const MienDna, path: *const c_char, path_count: usize, out_string: *mut MienStringView, error: *mut MienError) -> MienStatus;
 
     /// Writes a DNA file in canonical form: if the original file was canonical and all of it was
     /// loaded, the same bytes. Layers that were not loaded are written empty. Another version may
     /// leave out layers that others need, such as the ML operations of networks; a file that could
     /// not be opened is not written. The file is written under a temporary name and renamed, so
-    /// that a failure leaves `path` unchanged. Fails with `MIEN_ERROR_FILE_WRITE` if the file
-    /// cannot be written, `MIEN_ERROR_DNA_LAYER` if RBF behavior was loaded without the
-    /// machine-learned behavior of its file (whose controls are numbered before its own),
-    /// `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE` or `MIEN_ERROR_DNA_VALUE` if the
-    /// file could not be opened in the requested version, `MIEN_ERROR_DNA_LIMIT` if it would
-    /// exceed 4 GiB, `MIEN_ERROR_MEMORY` if the allocator of the DNA returns NULL. See
-    /// docs/dna-format.md, 14 "Writing a canonical file".
+    /// that a failure leaves `path` unchanged.
+    ///
+    /// Fails with `MIEN_ERROR_FILE_WRITE` if the file cannot be written, `MIEN_ERROR_DNA_LAYER` if
+    /// RBF behavior was loaded without the machine-learned behavior of its file (whose controls
+    /// are numbered before its own), `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE` or
+    /// `MIEN_ERROR_DNA_VALUE` if the file could not be opened in the requested version,
+    /// `MIEN_ERROR_DNA_LIMIT` if it would exceed 4 GiB, `MIEN_ERROR_MEMORY` if the allocator of
+    /// the DNA returns NULL.
+    ///
+    /// See docs/dna-format.md, 14 "Writing a canonical file".
     pub fn mien_dna_write_file(dna: *const MienDna, path: *const c_char, desc: *const MienWriteDesc, error: *mut MienError) -> MienStatus;
 
     /// Writes a DNA file to memory and returns its size in `out_size`. `buffer` may be NULL with
     /// capacity 0 to get the size only. Writes nothing if `capacity` is too small; `out_size` is
-    /// set nevertheless. Fails like `mien_dna_write_file()`, but not with `MIEN_ERROR_FILE_WRITE`,
-    /// and with `MIEN_ERROR_INVALID_ARGUMENT` if `capacity` is too small.
+    /// set nevertheless.
+    ///
+    /// Fails like `mien_dna_write_file()`, but not with `MIEN_ERROR_FILE_WRITE`, and with
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if `capacity` is too small.
     pub fn mien_dna_write_memory(dna: *const MienDna, desc: *const MienWriteDesc, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
 
     /// Checks all layers of a file and collects the findings: at most 32 per field and 1000 in
     /// total; the last one says if there are more. Returns `MIEN_OK` if the file could be checked,
     /// whatever was found. The file is read into memory, so it may change meanwhile. Destroy with
-    /// `mien_report_destroy()`. Fails with `MIEN_ERROR_FILE_OPEN` or `MIEN_ERROR_FILE_READ` if the
-    /// file cannot be read. See docs/dna-format.md, 13 "What is checked".
+    /// `mien_report_destroy()`.
+    ///
+    /// Fails with `MIEN_ERROR_FILE_OPEN` or `MIEN_ERROR_FILE_READ` if the file cannot be read.
+    ///
+    /// See docs/dna-format.md, 13 "What is checked".
     pub fn mien_dna_validate_file(path: *const c_char, desc: *const MienValidateDesc, out_report: *mut *mut MienReport, error: *mut MienError) -> MienStatus;
 
     /// Checks a file in memory: `size` bytes. `bytes` may be released afterwards.
@@ -1472,7 +1516,9 @@ extern "C" {
     pub fn mien_report_counts(report: *const MienReport, out_errors: *mut u32, out_warnings: *mut u32) -> MienStatus;
 
     /// Returns finding `index`, in the order of the checks. There are as many as errors and
-    /// warnings. Fails with `MIEN_ERROR_INDEX` if `index` is past the last finding.
+    /// warnings.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if `index` is past the last finding.
     pub fn mien_report_finding(report: *const MienReport, index: u32, out_finding: *mut MienFinding) -> MienStatus;
 
     /// Destroys a report.
@@ -1491,11 +1537,14 @@ extern "C" {
 
     /// Packs the behavior of a DNA for evaluation. The rig is one block of memory; temporary
     /// memory is released before the call returns. `dna` may be closed afterwards. Destroy with
-    /// `mien_rig_destroy()`. Fails with `MIEN_ERROR_DNA_LAYER` if `dna` was opened without its
-    /// behavior, `MIEN_ERROR_DNA_VALUE` if correctives depend on each other in a circle,
+    /// `mien_rig_destroy()`.
+    ///
+    /// Fails with `MIEN_ERROR_DNA_LAYER` if `dna` was opened without its behavior,
+    /// `MIEN_ERROR_DNA_VALUE` if correctives depend on each other in a circle,
     /// `MIEN_ERROR_DNA_LIMIT` if the rig is too large, `MIEN_ERROR_ISA` if the requested
-    /// instruction set is not available. See docs/rig-evaluation.md and docs/dna-format.md, 13
-    /// "What is checked".
+    /// instruction set is not available.
+    ///
+    /// See docs/rig-evaluation.md and docs/dna-format.md, 13 "What is checked".
     pub fn mien_rig_create(dna: *const MienDna, desc: *const MienRigDesc, out_rig: *mut *mut MienRig, error: *mut MienError) -> MienStatus;
 
     /// Destroys a rig. It cannot be used any longer, but its instances, batches and deformers may
@@ -1508,142 +1557,190 @@ extern "C" {
     /// Returns how many parts of a kind the rig has.
     pub fn mien_rig_count(rig: *const MienRig, kind: u32, out_count: *mut u32) -> MienStatus;
 
-    /// Returns a name; "" for kinds without names. Fails with `MIEN_ERROR_INDEX` if `index` is not
-    /// below `mien_rig_count()`.
+    /// Returns a name; "" for kinds without names.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if `index` is not below `mien_rig_count()`.
     pub fn mien_rig_name(rig: *const MienRig, kind: u32, index: u32, out_name: *mut MienStringView) -> MienStatus;
 
-    /// Finds the index of a name: an exact match, the first of equal names. Takes O(log n). Fails
-    /// with `MIEN_ERROR_NAME` if there is no such name, `MIEN_ERROR_INVALID_ARGUMENT` if `kind`
-    /// has no names.
+    /// Finds the index of a name: an exact match, the first of equal names. Takes O(log n).
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such name, `MIEN_ERROR_INVALID_ARGUMENT` if
+    /// `kind` has no names.
     pub fn mien_rig_find(rig: *const MienRig, kind: u32, name: *const c_char, out_index: *mut u32) -> MienStatus;
 
-    /// Finds the index of a name: an exact match, the first of equal names. Takes O(log n). Fails
-    /// with `MIEN_ERROR_NAME` if there is no such name, `MIEN_ERROR_INVALID_ARGUMENT` if `kind`
-    /// has no names.
+    /// Finds the index of a name: an exact match, the first of equal names. Takes O(log n).
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such name, `MIEN_ERROR_INVALID_ARGUMENT` if
+    /// `kind` has no names.
     pub fn mien_rig_find_n(rig: *const MienRig, kind: u32, name: *const c_char, name_count: usize, out_index: *mut u32) -> MienStatus;
 
     /// Returns the indices of the joints, blend shape channels, animated maps, meshes or RBF
-    /// solvers that a LOD lists, in file order. Fails with `MIEN_ERROR_LOD` if the rig has no such
-    /// LOD, `MIEN_ERROR_INVALID_ARGUMENT` if `kind` is none of these five. See docs/dna-format.md,
-    /// 8.2 "LOD mappings".
+    /// solvers that a LOD lists, in file order.
+    ///
+    /// Fails with `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_INVALID_ARGUMENT` if
+    /// `kind` is none of these five.
+    ///
+    /// See docs/dna-format.md, 8.2 "LOD mappings".
     pub fn mien_rig_lod_indices(rig: *const MienRig, kind: u32, lod: u32, out_indices: *mut MienIndex16View) -> MienStatus;
 
     /// Returns the indices of the joint values that evaluation may change at a LOD, ascending. All
-    /// others keep their initial value: 0, or 1 for the w of a quaternion. Fails with
-    /// `MIEN_ERROR_LOD` if the rig has no such LOD. See docs/rig-evaluation.md, 4.10 "Which joint
-    /// values a LOD may change".
+    /// others keep their initial value: 0, or 1 for the w of a quaternion.
+    ///
+    /// Fails with `MIEN_ERROR_LOD` if the rig has no such LOD.
+    ///
+    /// See docs/rig-evaluation.md, 4.10 "Which joint values a LOD may change".
     pub fn mien_rig_variable_joint_values(rig: *const MienRig, lod: u32, out_indices: *mut MienIndex16View) -> MienStatus;
 
     /// Returns the parents of the joints, one index per joint. A root is its own parent.
     pub fn mien_rig_joint_parents(rig: *const MienRig, out_parents: *mut MienIndex16View) -> MienStatus;
 
     /// Returns the neutral pose, relative to the parents: 9 or 10 floats per joint, in the order
-    /// of the joint values. The scale is 1. See docs/rig-evaluation.md, 4.2 "Neutral pose".
+    /// of the joint values. The scale is 1.
+    ///
+    /// See docs/rig-evaluation.md, 4.2 "Neutral pose".
     pub fn mien_rig_neutral_joint_values(rig: *const MienRig, out_values: *mut MienFloatView) -> MienStatus;
 
     /// Returns the controls whose product gives corrective `psd`, as indices into the control row.
-    /// Fails with `MIEN_ERROR_INDEX` if there is no such corrective. See docs/rig-evaluation.md,
-    /// 3.1 "Weights and inputs".
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such corrective.
+    ///
+    /// See docs/rig-evaluation.md, 3.1 "Weights and inputs".
     pub fn mien_rig_psd_inputs(rig: *const MienRig, psd: u32, out_controls: *mut MienIndex16View) -> MienStatus;
 
     /// Returns the initial values of the raw controls, one float per raw control: 0, or 1 for the
-    /// w of a quaternion. See docs/rig-evaluation.md, 1.2 "Initial values".
+    /// w of a quaternion.
+    ///
+    /// See docs/rig-evaluation.md, 1.2 "Initial values".
     pub fn mien_rig_initial_raw_controls(rig: *const MienRig, out_values: *mut MienFloatView) -> MienStatus;
 
-    /// Returns the statistics of a LOD. Fails with `MIEN_ERROR_LOD` if the rig has no such LOD.
+    /// Returns the statistics of a LOD.
+    ///
+    /// Fails with `MIEN_ERROR_LOD` if the rig has no such LOD.
+    ///
     /// See docs/rig-evaluation.md, 9.6 "Statistics".
     pub fn mien_rig_statistics(rig: *const MienRig, lod: u32, out_statistics: *mut MienRigStatistics) -> MienStatus;
 
     /// Creates an instance in its initial state: one allocation of MienRigInfo.`instance_bytes`.
-    /// `rig` may be destroyed before it. Destroy with `mien_instance_destroy()`. See
-    /// docs/rig-evaluation.md, 9.2 "Instances".
+    /// `rig` may be destroyed before it. Destroy with `mien_instance_destroy()`.
+    ///
+    /// See docs/rig-evaluation.md, 9.2 "Instances".
     pub fn mien_instance_create(rig: *const MienRig, desc: *const MienInstanceDesc, out_instance: *mut *mut MienInstance, error: *mut MienError) -> MienStatus;
 
     /// Destroys an instance.
     pub fn mien_instance_destroy(instance: *mut MienInstance);
 
-    /// Returns an instance to its initial state: all inputs and results, at LOD 0. See
-    /// docs/rig-evaluation.md, 1.2 "Initial values".
+    /// Returns an instance to its initial state: all inputs and results, at LOD 0.
+    ///
+    /// See docs/rig-evaluation.md, 1.2 "Initial values".
     pub fn mien_instance_reset(instance: *mut MienInstance) -> MienStatus;
 
     /// Returns the GUI controls, to be written by the caller: one float per GUI control. They are
-    /// inputs of `mien_rig_map_gui_to_raw()` only. Contents change with
-    /// `mien_rig_map_raw_to_gui()`, `mien_instance_reset()`.
+    /// inputs of `mien_rig_map_gui_to_raw()` only.
+    ///
+    /// Contents change with `mien_rig_map_raw_to_gui()`, `mien_instance_reset()`.
     pub fn mien_instance_gui_controls(instance: *mut MienInstance, out_view: *mut MienMutableFloatView) -> MienStatus;
 
     /// Returns the raw controls, to be written by the caller: one float per raw control, typically
-    /// 0 to 1, not clamped. They are the inputs of evaluation. Contents change with
-    /// `mien_rig_map_gui_to_raw()`, `mien_instance_reset()`.
+    /// 0 to 1, not clamped. They are the inputs of evaluation.
+    ///
+    /// Contents change with `mien_rig_map_gui_to_raw()`, `mien_instance_reset()`.
     pub fn mien_instance_raw_controls(instance: *mut MienInstance, out_view: *mut MienMutableFloatView) -> MienStatus;
 
     /// Returns the region masks, to be written by the caller: one float per region of each mesh, 0
     /// to 1, initially 1. They switch or blend machine-learned behavior (`MIEN_ML_MASKS_...`).
-    /// Contents change with `mien_instance_reset()`. See docs/rig-evaluation.md, 8.5 "Region
-    /// masks".
+    ///
+    /// Contents change with `mien_instance_reset()`.
+    ///
+    /// See docs/rig-evaluation.md, 8.5 "Region masks".
     pub fn mien_instance_ml_masks(instance: *mut MienInstance, out_view: *mut MienMutableFloatView) -> MienStatus;
 
     /// Returns the control row: one float per control, the raw, PSD, ML and RBF controls in this
-    /// order. Contents change with evaluation, `mien_rig_map_gui_to_raw()`,
-    /// `mien_instance_reset()` and writes to the raw controls. See docs/rig-evaluation.md, 1.1
-    /// "Control row".
+    /// order.
+    ///
+    /// Contents change with evaluation, `mien_rig_map_gui_to_raw()`, `mien_instance_reset()` and
+    /// writes to the raw controls.
+    ///
+    /// See docs/rig-evaluation.md, 1.1 "Control row".
     pub fn mien_instance_controls(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
 
     /// Returns the PSD controls (correctives) of the control row: one float per PSD control.
+    ///
     /// Contents change with evaluation, `mien_instance_reset()`.
     pub fn mien_instance_psd_controls(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
 
-    /// Returns the ML controls of the control row: one float per ML control. Contents change with
-    /// evaluation, `mien_instance_reset()`.
+    /// Returns the ML controls of the control row: one float per ML control.
+    ///
+    /// Contents change with evaluation, `mien_instance_reset()`.
     pub fn mien_instance_ml_controls(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
 
-    /// Returns the RBF pose controls of the control row: one float per RBF control. Contents
-    /// change with evaluation, `mien_instance_reset()`.
+    /// Returns the RBF pose controls of the control row: one float per RBF control.
+    ///
+    /// Contents change with evaluation, `mien_instance_reset()`.
     pub fn mien_instance_rbf_controls(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
 
     /// Returns the joint values: 9 or 10 floats per joint (`MIEN_ROTATION_OUTPUT_...`), as deltas
     /// from the neutral pose. Translation, angles and scale are added to the neutral ones; with
-    /// quaternions the rotation is neutral \* delta, so the delta rotates first. Contents change
-    /// with evaluation, `mien_instance_reset()`. See docs/rig-evaluation.md, 4.1 "Joint values".
+    /// quaternions the rotation is neutral \* delta, so the delta rotates first.
+    ///
+    /// Contents change with evaluation, `mien_instance_reset()`.
+    ///
+    /// See docs/rig-evaluation.md, 4.1 "Joint values".
     pub fn mien_instance_joints(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
 
-    /// Returns the weights of the blend shape channels: one float per channel. Contents change
-    /// with evaluation, `mien_instance_reset()`. See docs/rig-evaluation.md, 5 "Blend shapes and
-    /// animated maps".
+    /// Returns the weights of the blend shape channels: one float per channel.
+    ///
+    /// Contents change with evaluation, `mien_instance_reset()`.
+    ///
+    /// See docs/rig-evaluation.md, 5 "Blend shapes and animated maps".
     pub fn mien_instance_blend_shapes(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
 
-    /// Returns the weights of the animated maps, 0 to 1: one float per animated map. Contents
-    /// change with evaluation, `mien_instance_reset()`. See docs/rig-evaluation.md, 5 "Blend
-    /// shapes and animated maps".
+    /// Returns the weights of the animated maps, 0 to 1: one float per animated map.
+    ///
+    /// Contents change with evaluation, `mien_instance_reset()`.
+    ///
+    /// See docs/rig-evaluation.md, 5 "Blend shapes and animated maps".
     pub fn mien_instance_animated_maps(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
 
     /// Returns the statistics of an instance. Takes time proportional to the number of controls:
-    /// meant for measurements, not for every frame. See docs/rig-evaluation.md, 9.6 "Statistics".
+    /// meant for measurements, not for every frame.
+    ///
+    /// See docs/rig-evaluation.md, 9.6 "Statistics".
     pub fn mien_instance_statistics(instance: *const MienInstance, out_statistics: *mut MienInstanceStatistics) -> MienStatus;
 
     /// Maps GUI controls to raw controls. Raw controls that the table drives are overwritten,
-    /// clamped to 0..1; others are left alone. Does not allocate or lock. Fails with
-    /// `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig. See docs/rig-evaluation.md, 2.3
-    /// "GUI controls to raw controls".
+    /// clamped to 0..1; others are left alone. Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig.
+    ///
+    /// See docs/rig-evaluation.md, 2.3 "GUI controls to raw controls".
     pub fn mien_rig_map_gui_to_raw(rig: *const MienRig, instance: *mut MienInstance) -> MienStatus;
 
     /// Maps raw controls to GUI controls. Sets every GUI control to the value that maps to the
-    /// current raw controls, or to 0 if there is none. Does not allocate or lock. Fails with
-    /// `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig. See docs/rig-evaluation.md, 2.4
-    /// "Raw controls to GUI controls".
+    /// current raw controls, or to 0 if there is none. Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig.
+    ///
+    /// See docs/rig-evaluation.md, 2.4 "Raw controls to GUI controls".
     pub fn mien_rig_map_raw_to_gui(rig: *const MienRig, instance: *mut MienInstance) -> MienStatus;
 
     /// Evaluates all stages at a LOD. Results that the LOD does not reach have their initial
     /// value. Inputs must be finite; then results are finite. Changing the LOD between calls costs
-    /// little: results are reset. Does not allocate or lock. Uses up to 48 KiB of stack. Fails
-    /// with `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if `instance`
-    /// belongs to another rig. See docs/rig-evaluation.md, 1.3 "Order of evaluation".
+    /// little: results are reset. Does not allocate or lock. Uses up to 48 KiB of stack.
+    ///
+    /// Fails with `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if `instance`
+    /// belongs to another rig.
+    ///
+    /// See docs/rig-evaluation.md, 1.3 "Order of evaluation".
     pub fn mien_rig_evaluate(rig: *const MienRig, instance: *mut MienInstance, lod: u32) -> MienStatus;
 
     /// Evaluates some stages, in the order of enum MienStage. The others keep the results of the
     /// last evaluation at this LOD; after a change of LOD they are reset. Does not allocate or
-    /// lock. Uses up to 48 KiB of stack. Fails with `MIEN_ERROR_LOD` if the rig has no such LOD,
-    /// `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig. See docs/rig-evaluation.md, 9.3
-    /// "Partial evaluation".
+    /// lock. Uses up to 48 KiB of stack.
+    ///
+    /// Fails with `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if `instance`
+    /// belongs to another rig.
+    ///
+    /// See docs/rig-evaluation.md, 9.3 "Partial evaluation".
     pub fn mien_rig_evaluate_stages(rig: *const MienRig, instance: *mut MienInstance, lod: u32, stages: u32) -> MienStatus;
 
     /// Creates a batch: one allocation of `mien_batch_bytes()`. `rig` may be destroyed before it.
@@ -1660,30 +1757,41 @@ extern "C" {
     /// The results have the same bits as those of `mien_rig_evaluate_stages()`, but columns of the
     /// joint matrix that several instances use are read once for up to 32 of them. Runs on the
     /// calling thread, or in tasks on `parallel`; `parallel` may be NULL. Does not allocate or
-    /// lock. Uses up to 48 KiB of stack per task. On failure no instance is evaluated. Fails with
-    /// `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if the batch or an
-    /// instance belongs to another rig, `MIEN_ERROR_INVALID_ARGUMENT` if `count` exceeds
-    /// MienBatchDesc.capacity or an instance is listed twice. See docs/numbers.md, 10 "One by one,
-    /// in batches, with kept results".
+    /// lock. Uses up to 48 KiB of stack per task. On failure no instance is evaluated.
+    ///
+    /// Fails with `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if the batch
+    /// or an instance belongs to another rig, `MIEN_ERROR_INVALID_ARGUMENT` if `count` exceeds
+    /// MienBatchDesc.capacity or an instance is listed twice.
+    ///
+    /// See docs/numbers.md, 10 "One by one, in batches, with kept results".
     pub fn mien_rig_evaluate_batch(rig: *const MienRig, batch: *mut MienBatch, instances: *const *mut MienInstance, lods: *const u32, count: u32, stages: u32, parallel: *const MienParallelFor) -> MienStatus;
 
     /// Evaluates the joint values of one joint group (`MIEN_KIND_JOINT_GROUP`), except those that
     /// a later group overrides at all LODs where this one sets them. Does not allocate or lock.
-    /// Uses up to 48 KiB of stack. Fails with `MIEN_ERROR_INDEX` if there is no such joint group,
-    /// `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if `instance` belongs to
-    /// another rig. See docs/rig-evaluation.md, 4.5 "Order of the joint stage".
+    /// Uses up to 48 KiB of stack.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such joint group, `MIEN_ERROR_LOD` if the rig
+    /// has no such LOD, `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig.
+    ///
+    /// See docs/rig-evaluation.md, 4.5 "Order of the joint stage".
     pub fn mien_rig_evaluate_joint_group(rig: *const MienRig, instance: *mut MienInstance, lod: u32, group: u32) -> MienStatus;
 
     /// Evaluates the pose controls of one RBF solver (`MIEN_KIND_RBF_SOLVER`), even if the LOD
-    /// does not list it. Does not allocate or lock. Fails with `MIEN_ERROR_INDEX` if there is no
-    /// such solver, `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if
-    /// `instance` belongs to another rig. See docs/rig-evaluation.md, 6 "RBF solvers".
+    /// does not list it. Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such solver, `MIEN_ERROR_LOD` if the rig has
+    /// no such LOD, `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig.
+    ///
+    /// See docs/rig-evaluation.md, 6 "RBF solvers".
     pub fn mien_rig_evaluate_rbf_solver(rig: *const MienRig, instance: *mut MienInstance, lod: u32, solver: u32) -> MienStatus;
 
     /// Evaluates the joints of one twist and swing setup (`MIEN_KIND_TWIST_SWING`). Does not
-    /// allocate or lock. Fails with `MIEN_ERROR_INDEX` if there is no such setup, `MIEN_ERROR_LOD`
-    /// if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig. See
-    /// docs/rig-evaluation.md, 7 "Twist and swing".
+    /// allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such setup, `MIEN_ERROR_LOD` if the rig has no
+    /// such LOD, `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig.
+    ///
+    /// See docs/rig-evaluation.md, 7 "Twist and swing".
     pub fn mien_rig_evaluate_twist_swing(rig: *const MienRig, instance: *mut MienInstance, lod: u32, setup: u32) -> MienStatus;
 
     /// Packs the geometry of a DNA for deformation. `dna` is the one that the rig was created
@@ -1700,8 +1808,9 @@ extern "C" {
     /// `MIEN_ERROR_MISMATCH` if numbers or names of joints, channels or meshes differ from those
     /// of the rig, `MIEN_ERROR_DNA_VALUE` if a joint is its own ancestor or a position, delta or
     /// weight is not finite, `MIEN_ERROR_DNA_LIMIT` if a position has more than 65535 influences,
-    /// `MIEN_ERROR_ISA` if the requested instruction set is not available. See
-    /// docs/deformation.md.
+    /// `MIEN_ERROR_ISA` if the requested instruction set is not available.
+    ///
+    /// See docs/deformation.md.
     pub fn mien_deformer_create(dna: *const MienDna, rig: *const MienRig, desc: *const MienDeformerDesc, out_deformer: *mut *mut MienDeformer, error: *mut MienError) -> MienStatus;
 
     /// Destroys a deformer. Its instances stay valid; its memory is released with the last of
@@ -1711,17 +1820,22 @@ extern "C" {
     /// Returns the properties of a deformer.
     pub fn mien_deformer_info(deformer: *const MienDeformer, out_info: *mut MienDeformerInfo) -> MienStatus;
 
-    /// Returns a neutral mesh. Fails with `MIEN_ERROR_INDEX` if there is no such mesh.
+    /// Returns a neutral mesh.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh.
     pub fn mien_deformer_mesh(deformer: *const MienDeformer, mesh: u32, out_mesh: *mut MienMesh) -> MienStatus;
 
     /// Returns the influences of a position as they are used: `out_joints` gets one index per
-    /// influence, `out_weights` gets one float per influence. There may be none. Fails with
-    /// `MIEN_ERROR_INDEX` if there is no such mesh or position.
+    /// influence, `out_weights` gets one float per influence. There may be none.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh or position.
     pub fn mien_deformer_influences(deformer: *const MienDeformer, mesh: u32, position: u32, out_joints: *mut MienIndex16View, out_weights: *mut MienFloatView) -> MienStatus;
 
     /// Writes a blend shape target to `out_deltas`: 3 floats per position, the offset at channel
     /// weight 1. Positions that the target does not move get 0. `count` is the capacity of
-    /// `out_deltas`, in floats. Fails with `MIEN_ERROR_INDEX` if there is no such mesh or target,
+    /// `out_deltas`, in floats.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh or target,
     /// `MIEN_ERROR_INVALID_ARGUMENT` if `count` is less than 3 \* MienMesh.`position_count`.
     pub fn mien_deformer_target(deformer: *const MienDeformer, mesh: u32, target: u32, out_deltas: *mut f32, count: usize) -> MienStatus;
 
@@ -1742,59 +1856,81 @@ extern "C" {
     /// Takes over the joint values and channel weights of the last evaluation of `instance`, and
     /// computes the matrices of all joints. Meshes are deformed by
     /// `mien_deformer_instance_deform()`. Values that are not finite give results that are not
-    /// finite. Does not allocate or lock. Fails with `MIEN_ERROR_MISMATCH` if `instance` belongs
-    /// to a rig other than that of the deformer. See docs/deformation.md, 1 "Joint transforms".
+    /// finite. Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_MISMATCH` if `instance` belongs to a rig other than that of the
+    /// deformer.
+    ///
+    /// See docs/deformation.md, 1 "Joint transforms".
     pub fn mien_deformer_instance_update(deformer_instance: *mut MienDeformerInstance, instance: *const MienInstance) -> MienStatus;
 
     /// Does the same with arrays: `joint_values` like those of `mien_instance_joints()`,
     /// `channel_weights` one per channel. `joint_values` may be NULL with count 0: no deltas.
     /// `channel_weights` may be NULL with count 0: all weights are 0. Does not allocate or lock.
+    ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if a count is not that of the rig.
     pub fn mien_deformer_instance_update_from_values(deformer_instance: *mut MienDeformerInstance, joint_values: *const f32, joint_value_count: usize, channel_weights: *const f32, channel_weight_count: usize) -> MienStatus;
 
     /// Returns the model matrices: 16 floats per joint, in the layout of
-    /// `mien_deformer_bind_matrices()`. Contents change with `mien_deformer_instance_update()`,
+    /// `mien_deformer_bind_matrices()`.
+    ///
+    /// Contents change with `mien_deformer_instance_update()`,
     /// `mien_deformer_instance_update_from_values()`.
     pub fn mien_deformer_instance_joint_matrices(deformer_instance: *const MienDeformerInstance, out_matrices: *mut MienFloatView) -> MienStatus;
 
     /// Returns the skin matrices, for skinning by the caller, for example on a GPU: 16 floats per
-    /// joint, in the layout of `mien_deformer_bind_matrices()`. Contents change with
-    /// `mien_deformer_instance_update()`, `mien_deformer_instance_update_from_values()`.
+    /// joint, in the layout of `mien_deformer_bind_matrices()`.
+    ///
+    /// Contents change with `mien_deformer_instance_update()`,
+    /// `mien_deformer_instance_update_from_values()`.
     pub fn mien_deformer_instance_skin_matrices(deformer_instance: *const MienDeformerInstance, out_matrices: *mut MienFloatView) -> MienStatus;
 
     /// Writes the transforms of the last update, relative to the parents, to `out_transforms`: 10
     /// floats per joint, tx ty tz qx qy qz qw sx sy sz, with quaternions of unit length. `count`
-    /// is the capacity of `out_transforms`, in floats. Does not allocate or lock. Fails with
-    /// `MIEN_ERROR_INVALID_ARGUMENT` if `count` is less than 10 \* MienDeformerInfo.`joint_count`.
+    /// is the capacity of `out_transforms`, in floats. Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `count` is less than 10 \*
+    /// MienDeformerInfo.`joint_count`.
     pub fn mien_deformer_instance_local_transforms(deformer_instance: *const MienDeformerInstance, out_transforms: *mut f32, count: usize) -> MienStatus;
 
     /// Computes the positions and normals of a mesh for the last update. Runs on the calling
     /// thread; meshes of at least 16384 positions run in tasks of about 2048 on `parallel`.
     /// `parallel` may be NULL. The results have the same bits either way. Does not allocate or
-    /// lock. Uses up to 16 KiB of stack per task. Fails with `MIEN_ERROR_INDEX` if there is no
-    /// such mesh, `MIEN_ERROR_LOD` if `deformer_instance` has no memory for it
-    /// (MienDeformerInstanceDesc.lods). See docs/deformation.md, 2 "Positions" and 3 "Normals".
+    /// lock. Uses up to 16 KiB of stack per task.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_LOD` if
+    /// `deformer_instance` has no memory for it (MienDeformerInstanceDesc.lods).
+    ///
+    /// See docs/deformation.md, 2 "Positions" and 3 "Normals".
     pub fn mien_deformer_instance_deform(deformer_instance: *mut MienDeformerInstance, mesh: u32, normals: u32, parallel: *const MienParallelFor) -> MienStatus;
 
     /// Deforms the same mesh of `count` different instances of one deformer. The results have the
     /// same bits as those of `mien_deformer_instance_deform()`, but each part of the mesh is read
     /// once for all, and the total number of positions decides about tasks. `parallel` may be
     /// NULL. Does not allocate or lock. Uses up to 16 KiB of stack per task. On failure nothing is
-    /// deformed. Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_LOD` if an
-    /// instance has no memory for it, `MIEN_ERROR_MISMATCH` if the instances have different
-    /// deformers, `MIEN_ERROR_INVALID_ARGUMENT` if an instance is listed twice.
+    /// deformed.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_LOD` if an instance has
+    /// no memory for it, `MIEN_ERROR_MISMATCH` if the instances have different deformers,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if an instance is listed twice.
     pub fn mien_deformer_instance_deform_batch(deformer_instances: *const *mut MienDeformerInstance, count: usize, mesh: u32, normals: u32, parallel: *const MienParallelFor) -> MienStatus;
 
-    /// Returns the deformed positions of a mesh: 3 floats per position, x y z. Contents change
-    /// with `mien_deformer_instance_deform()`, `mien_deformer_instance_write_vertices()` and their
-    /// batches. Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_LOD` if
+    /// Returns the deformed positions of a mesh: 3 floats per position, x y z.
+    ///
+    /// Contents change with `mien_deformer_instance_deform()`,
+    /// `mien_deformer_instance_write_vertices()` and their batches.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_LOD` if
     /// `deformer_instance` has no memory for it.
     pub fn mien_deformer_instance_positions(deformer_instance: *const MienDeformerInstance, mesh: u32, out_positions: *mut MienFloatView) -> MienStatus;
 
-    /// Returns the deformed normals of a mesh: 3 floats per vertex, x y z, unit length. Contents
-    /// change with `mien_deformer_instance_deform()`, `mien_deformer_instance_write_vertices()`
-    /// and their batches. Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_LOD`
-    /// if `deformer_instance` has no memory for it.
+    /// Returns the deformed normals of a mesh: 3 floats per vertex, x y z, unit length.
+    ///
+    /// Contents change with `mien_deformer_instance_deform()`,
+    /// `mien_deformer_instance_write_vertices()` and their batches.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_LOD` if
+    /// `deformer_instance` has no memory for it.
     pub fn mien_deformer_instance_normals(deformer_instance: *const MienDeformerInstance, mesh: u32, out_normals: *mut MienFloatView) -> MienStatus;
 
     /// Deforms a mesh as `mien_deformer_instance_deform()` does, and writes its vertices to memory
@@ -1803,50 +1939,64 @@ extern "C" {
     /// are left alone. `parallel` may be NULL; the bytes are the same either way. The same
     /// positions, normals and tangents give the same bytes on every instruction set. Does not
     /// allocate or lock. Uses up to 16 KiB of stack per task. On failure nothing is deformed or
-    /// written. Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_LOD` if
+    /// written.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_LOD` if
     /// `deformer_instance` has no memory for it, `MIEN_ERROR_INVALID_ARGUMENT` if a stream has a
     /// format that its attribute cannot have, a wrong stride or alignment or too little capacity,
     /// if streams overlap, if there is no stream, or if tangents are requested from a deformer
-    /// without them. See docs/deformation.md, 5 "Vertex output".
+    /// without them.
+    ///
+    /// See docs/deformation.md, 5 "Vertex output".
     pub fn mien_deformer_instance_write_vertices(deformer_instance: *mut MienDeformerInstance, mesh: u32, normals: u32, output: *const MienVertexOutput, parallel: *const MienParallelFor) -> MienStatus;
 
     /// Does the same for one mesh of `count` different instances of one deformer: instance i is
     /// written to outputs\[i\]. All outputs have the same `struct_size`, and must not share bytes.
     /// `parallel` may be NULL. Does not allocate or lock. Uses up to 16 KiB of stack per task.
+    ///
     /// Fails like `mien_deformer_instance_write_vertices()`, and with `MIEN_ERROR_MISMATCH` if the
     /// instances have different deformers, `MIEN_ERROR_INVALID_ARGUMENT` if an instance is listed
     /// twice.
     pub fn mien_deformer_instance_write_vertices_batch(deformer_instances: *const *mut MienDeformerInstance, count: usize, mesh: u32, normals: u32, outputs: *const MienVertexOutput, parallel: *const MienParallelFor) -> MienStatus;
 
     /// Writes a rig and its deformer to a baked file. `deformer` may be NULL. The file is written
-    /// under a temporary name and renamed, so that a failure leaves `path` unchanged. Fails with
-    /// `MIEN_ERROR_MISMATCH` if `deformer` was created for another rig, `MIEN_ERROR_FILE_WRITE` if
-    /// the file cannot be written, `MIEN_ERROR_MEMORY` if the allocator of the rig returns NULL.
+    /// under a temporary name and renamed, so that a failure leaves `path` unchanged.
+    ///
+    /// Fails with `MIEN_ERROR_MISMATCH` if `deformer` was created for another rig,
+    /// `MIEN_ERROR_FILE_WRITE` if the file cannot be written, `MIEN_ERROR_MEMORY` if the allocator
+    /// of the rig returns NULL.
     pub fn mien_bake_file(rig: *const MienRig, deformer: *const MienDeformer, path: *const c_char, error: *mut MienError) -> MienStatus;
 
     /// Writes a baked file to memory and returns its size in `out_size`. `deformer` may be NULL.
     /// `buffer` may be NULL with capacity 0 to get the size only. Writes nothing if `capacity` is
-    /// too small; `out_size` is set nevertheless. Fails with `MIEN_ERROR_MISMATCH` if `deformer`
-    /// was created for another rig, `MIEN_ERROR_INVALID_ARGUMENT` if `capacity` is too small.
+    /// too small; `out_size` is set nevertheless.
+    ///
+    /// Fails with `MIEN_ERROR_MISMATCH` if `deformer` was created for another rig,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if `capacity` is too small.
     pub fn mien_bake_memory(rig: *const MienRig, deformer: *const MienDeformer, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
 
     /// Opens a baked file. It is mapped, so processes that open the same file share its pages. Do
     /// not truncate or overwrite a mapped file until all objects made from it are destroyed;
     /// replacing it by renaming is safe. The header is checked now, the rest when objects are
     /// created. One allocation, and one more for the bytes if the file is not mapped. Close with
-    /// `mien_baked_close()`. Fails with `MIEN_ERROR_FILE_OPEN` or `MIEN_ERROR_FILE_READ` if the
-    /// file cannot be read, `MIEN_ERROR_BAKED_SIGNATURE`, `MIEN_ERROR_BAKED_VERSION`,
-    /// `MIEN_ERROR_BAKED_TRUNCATED` or `MIEN_ERROR_BAKED_STRUCTURE` if its header is not valid,
-    /// `MIEN_ERROR_BAKED_CHECKSUM` if `MIEN_BAKED_CHECK_FULL` finds changed bytes.
+    /// `mien_baked_close()`.
+    ///
+    /// Fails with `MIEN_ERROR_FILE_OPEN` or `MIEN_ERROR_FILE_READ` if the file cannot be read,
+    /// `MIEN_ERROR_BAKED_SIGNATURE`, `MIEN_ERROR_BAKED_VERSION`, `MIEN_ERROR_BAKED_TRUNCATED` or
+    /// `MIEN_ERROR_BAKED_STRUCTURE` if its header is not valid, `MIEN_ERROR_BAKED_CHECKSUM` if
+    /// `MIEN_BAKED_CHECK_FULL` finds changed bytes.
     pub fn mien_baked_open_file(path: *const c_char, desc: *const MienBakedDesc, out_baked: *mut *mut MienBaked, error: *mut MienError) -> MienStatus;
 
     /// Opens a baked file in memory: `size` bytes. `bytes` must outlive the MienBaked and all
     /// objects made from it, unchanged, unless they are copied: with `MIEN_FILE_READ`, or if
-    /// `bytes` is not a multiple of 64. Fails like `mien_baked_open_file()`, but not with
-    /// `MIEN_ERROR_FILE_OPEN` or `MIEN_ERROR_FILE_READ`.
+    /// `bytes` is not a multiple of 64.
+    ///
+    /// Fails like `mien_baked_open_file()`, but not with `MIEN_ERROR_FILE_OPEN` or
+    /// `MIEN_ERROR_FILE_READ`.
     pub fn mien_baked_open_memory(bytes: *const c_void, size: usize, desc: *const MienBakedDesc, out_baked: *mut *mut MienBaked, error: *mut MienError) -> MienStatus;
 
     /// Opens a baked file through a stream, which is read at once into memory of the allocator.
+    ///
     /// Fails like `mien_baked_open_file()`, but not with `MIEN_ERROR_FILE_OPEN`.
     pub fn mien_baked_open_stream(stream: *const MienStream, desc: *const MienBakedDesc, out_baked: *mut *mut MienBaked, error: *mut MienError) -> MienStatus;
 
@@ -1858,16 +2008,20 @@ extern "C" {
     pub fn mien_baked_info(baked: *const MienBaked, out_info: *mut MienBakedInfo) -> MienStatus;
 
     /// Creates the rig of a baked file, with one allocation. `baked` may be closed afterwards.
-    /// Destroy with `mien_rig_destroy()`. Fails with `MIEN_ERROR_BAKED_PART` if the file has no
-    /// rig, `MIEN_ERROR_BAKED_VERSION` or `MIEN_ERROR_BAKED_STRUCTURE` if its rig cannot be used,
-    /// `MIEN_ERROR_ISA` if the requested instruction set is not available.
+    /// Destroy with `mien_rig_destroy()`.
+    ///
+    /// Fails with `MIEN_ERROR_BAKED_PART` if the file has no rig, `MIEN_ERROR_BAKED_VERSION` or
+    /// `MIEN_ERROR_BAKED_STRUCTURE` if its rig cannot be used, `MIEN_ERROR_ISA` if the requested
+    /// instruction set is not available.
     pub fn mien_rig_from_baked(baked: *const MienBaked, desc: *const MienBakedRigDesc, out_rig: *mut *mut MienRig, error: *mut MienError) -> MienStatus;
 
     /// Creates the deformer of a baked file, with one allocation. `rig` is the one created from
     /// the same MienBaked. `baked` may be closed and `rig` may be destroyed afterwards. Destroy
-    /// with `mien_deformer_destroy()`. Fails with `MIEN_ERROR_MISMATCH` if `rig` was not created
-    /// from `baked`, `MIEN_ERROR_BAKED_PART` if the file has no deformer,
-    /// `MIEN_ERROR_BAKED_VERSION` or `MIEN_ERROR_BAKED_STRUCTURE` if its deformer cannot be used,
-    /// `MIEN_ERROR_ISA` if the requested instruction set is not available.
+    /// with `mien_deformer_destroy()`.
+    ///
+    /// Fails with `MIEN_ERROR_MISMATCH` if `rig` was not created from `baked`,
+    /// `MIEN_ERROR_BAKED_PART` if the file has no deformer, `MIEN_ERROR_BAKED_VERSION` or
+    /// `MIEN_ERROR_BAKED_STRUCTURE` if its deformer cannot be used, `MIEN_ERROR_ISA` if the
+    /// requested instruction set is not available.
     pub fn mien_deformer_from_baked(baked: *const MienBaked, rig: *const MienRig, desc: *const MienBakedDeformerDesc, out_deformer: *mut *mut MienDeformer, error: *mut MienError) -> MienStatus;
 }

@@ -89,7 +89,7 @@ impl Baked {
     ///
     /// # Errors
     ///
-    /// Those of `mien_rig_from_baked()` in `mien.h`.
+    #[doc = errors!(mien_rig_from_baked)]
     pub fn rig_for(&self, isa: Isa, reuse: Reuse) -> Result<Rig> {
         let mut handle = null_mut();
         Allocator::with(self.allocator.as_ref(), |allocator| {
@@ -121,7 +121,7 @@ impl Baked {
     ///
     /// # Errors
     ///
-    /// Those of `mien_deformer_from_baked()` in `mien.h`.
+    #[doc = errors!(mien_deformer_from_baked)]
     pub fn deformer_for(&self, rig: &Rig, isa: Isa, normals: Normals) -> Result<Deformer> {
         let mut handle = null_mut();
         Allocator::with(self.allocator.as_ref(), |allocator| {
@@ -178,7 +178,7 @@ impl BakedOptions {
     ///
     /// # Errors
     ///
-    /// Those of `mien_baked_open_file()` in `mien.h`.
+    #[doc = errors!(mien_baked_open_file)]
     pub fn open(&self, path: impl AsRef<Path>) -> Result<Baked> {
         self.open_file(path.as_ref(), sys::MIEN_FILE_READ)
     }
@@ -192,7 +192,7 @@ impl BakedOptions {
     ///
     /// # Errors
     ///
-    /// Those of `mien_baked_open_file()` in `mien.h`.
+    #[doc = errors!(mien_baked_open_file)]
     pub unsafe fn map(&self, path: impl AsRef<Path>) -> Result<Baked> {
         self.open_file(path.as_ref(), sys::MIEN_FILE_MAP)
     }
@@ -209,7 +209,7 @@ impl BakedOptions {
     ///
     /// # Errors
     ///
-    /// Those of `mien_baked_open_memory()` in `mien.h`.
+    #[doc = errors!(mien_baked_open_memory)]
     pub fn open_bytes(&self, bytes: &'static [u8]) -> Result<Baked> {
         self.open_by(sys::MIEN_FILE_MAP, |desc, out| {
             let data = bytes.as_ptr().cast();
@@ -224,7 +224,9 @@ impl BakedOptions {
     ///
     /// # Errors
     ///
-    /// Those of `mien_baked_open_stream()` in `mien.h`; of the reader, [`Status::FILE_READ`](crate::Status::FILE_READ).
+    #[doc = errors!(mien_baked_open_stream)]
+    ///
+    /// An error of the reader is [`Status::FILE_READ`](crate::Status::FILE_READ).
     pub fn open_reader(&self, reader: &mut (impl Read + Seek)) -> Result<Baked> {
         self.open_by(sys::MIEN_FILE_READ, |desc, out| {
             with_stream(reader, |stream| {
@@ -264,7 +266,7 @@ impl Rig {
     ///
     /// # Errors
     ///
-    /// Those of `mien_bake_file()` in `mien.h`.
+    #[doc = errors!(mien_bake_file)]
     pub fn bake(&self, path: impl AsRef<Path>, deformer: Option<&Deformer>) -> Result<()> {
         let path = path_string(path.as_ref())?;
         let deformer = deformer.map_or(null(), |deformer| deformer.raw());
@@ -276,7 +278,7 @@ impl Rig {
     ///
     /// # Errors
     ///
-    /// Those of `mien_bake_memory()` in `mien.h`.
+    #[doc = errors!(mien_bake_memory)]
     pub fn to_baked_bytes(&self, deformer: Option<&Deformer>) -> Result<Vec<u8>> {
         let deformer = deformer.map_or(null(), |deformer| deformer.raw());
         let bake = |buffer: *mut c_void, capacity, size: &mut usize| {

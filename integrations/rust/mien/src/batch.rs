@@ -40,7 +40,7 @@ impl Batch {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_batch_create)]
     pub fn new(rig: &Rig, capacity: usize) -> Result<Self> {
         Self::create(rig, capacity, 1, None)
     }
@@ -49,7 +49,7 @@ impl Batch {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_batch_create)]
     pub fn with_tasks(rig: &Rig, capacity: usize, tasks: usize) -> Result<Self> {
         Self::create(rig, capacity, tasks, None)
     }
@@ -58,7 +58,7 @@ impl Batch {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_batch_create)]
     pub fn new_in(rig: &Rig, capacity: usize, tasks: usize, allocator: &Allocator) -> Result<Self> {
         Self::create(rig, capacity, tasks, Some(allocator))
     }
@@ -88,7 +88,7 @@ impl Batch {
     ///
     /// # Errors
     ///
-    /// Those of `mien_batch_bytes()` in `mien.h`.
+    #[doc = errors!(mien_batch_bytes)]
     pub fn bytes(rig: &Rig, capacity: usize, tasks: usize) -> Result<u64> {
         let mut out = 0;
         let desc = Self::desc(capacity, tasks, null());
@@ -119,7 +119,7 @@ impl Batch {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_rig_evaluate_batch)]
     pub fn evaluate<'faces>(
         &mut self,
         instances: impl IntoIterator<Item = &'faces mut Instance>,
@@ -132,7 +132,7 @@ impl Batch {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_rig_evaluate_batch)]
     pub fn evaluate_each<'faces>(
         &mut self,
         instances: impl IntoIterator<Item = (&'faces mut Instance, usize)>,
@@ -148,7 +148,7 @@ impl Batch {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_rig_evaluate_batch)]
     pub fn evaluate_each_on<'faces>(
         &mut self,
         instances: impl IntoIterator<Item = (&'faces mut Instance, usize)>,

@@ -20,7 +20,7 @@ impl CoordinateSystem {
     ///
     /// # Errors
     ///
-    /// Those of `mien_coordinate_system_find_n()` in `mien.h`.
+    #[doc = errors!(mien_coordinate_system_find_n)]
     pub fn named(name: &str) -> Result<Self> {
         let mut out = sys::MienCoordinateSystem::default();
         // SAFETY: as many bytes as are told, and a sized struct.

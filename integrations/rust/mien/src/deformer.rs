@@ -95,7 +95,7 @@ impl Deformer {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_deformer_instance_create)]
     pub fn instance(&self) -> Result<DeformerInstance> {
         DeformerInstance::new(self)
     }
@@ -121,7 +121,7 @@ impl Deformer {
     ///
     /// # Errors
     ///
-    /// Those of `mien_deformer_mesh()` in `mien.h`.
+    #[doc = errors!(mien_deformer_mesh)]
     pub fn mesh(&self, mesh: usize) -> Result<Mesh<'_>> {
         let mut out = sys::MienMesh::default();
         // SAFETY: a live handle and a sized struct; views live as long as the deformer.
@@ -151,7 +151,7 @@ impl Deformer {
     ///
     /// # Errors
     ///
-    /// Those of `mien_deformer_influences()` in `mien.h`.
+    #[doc = errors!(mien_deformer_influences)]
     pub fn influences(&self, mesh: usize, position: usize) -> Result<(&[u16], &[f32])> {
         let mut joints = sys::MienIndex16View::default();
         let mut weights = sys::MienFloatView::default();
@@ -174,7 +174,7 @@ impl Deformer {
     ///
     /// # Errors
     ///
-    /// Those of `mien_deformer_target()` in `mien.h`.
+    #[doc = errors!(mien_deformer_target)]
     pub fn target(&self, mesh: usize, target: usize) -> Result<Vec<[f32; 3]>> {
         let mut out = vec![[0.0; 3]; self.mesh(mesh)?.positions.len()];
         let (mesh, target) = (index(mesh), index(target));
@@ -287,7 +287,7 @@ impl DeformerOptions {
     ///
     /// # Errors
     ///
-    /// Those of `mien_deformer_create()` in `mien.h`.
+    #[doc = errors!(mien_deformer_create)]
     pub fn create(&self, dna: &Dna<'_>, rig: &Rig) -> Result<Deformer> {
         let mut handle = null_mut();
         Allocator::with(self.allocator.as_ref(), |allocator| {

@@ -46,7 +46,7 @@ impl DeformerInstance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_deformer_instance_update()` in `mien.h`.
+    #[doc = errors!(mien_deformer_instance_update)]
     pub fn update(&mut self, instance: &Instance) -> Result<()> {
         // SAFETY: live handles, and `&mut self` for the one that changes.
         check(unsafe { sys::mien_deformer_instance_update(self.raw(), instance.raw_const()) })
@@ -57,7 +57,7 @@ impl DeformerInstance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_deformer_instance_update_from_values()` in `mien.h`.
+    #[doc = errors!(mien_deformer_instance_update_from_values)]
     pub fn update_from_values(&mut self, joints: &[f32], channel_weights: &[f32]) -> Result<()> {
         let pointer = |values: &[f32]| if values.is_empty() { null() } else { values.as_ptr() };
         let (values, weights) = (pointer(joints), pointer(channel_weights));
@@ -96,7 +96,7 @@ impl DeformerInstance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_deformer_instance_local_transforms()` in `mien.h`.
+    #[doc = errors!(mien_deformer_instance_local_transforms)]
     pub fn local_transforms(&self, out: &mut [[f32; 10]]) -> Result<()> {
         let (data, count) = (out.as_mut_ptr().cast(), 10 * out.len());
         // SAFETY: a live handle, and room for as many floats as are told.
@@ -111,7 +111,7 @@ impl DeformerInstance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_deformer_instance_deform()` in `mien.h`.
+    #[doc = errors!(mien_deformer_instance_deform)]
     pub fn deform(&mut self, mesh: usize, normals: Normals) -> Result<()> {
         // SAFETY: a live handle.
         check(unsafe {
@@ -138,7 +138,7 @@ impl DeformerInstance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_deformer_instance_deform()` in `mien.h`.
+    #[doc = errors!(mien_deformer_instance_deform)]
     pub fn deform_on(
         &mut self,
         mesh: usize,
@@ -158,7 +158,7 @@ impl DeformerInstance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_deformer_instance_deform_batch()` in `mien.h`.
+    #[doc = errors!(mien_deformer_instance_deform_batch)]
     pub fn deform_batch<'poses>(
         poses: impl IntoIterator<Item = &'poses mut DeformerInstance>,
         mesh: usize,
@@ -177,7 +177,7 @@ impl DeformerInstance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_deformer_instance_deform_batch()` in `mien.h`.
+    #[doc = errors!(mien_deformer_instance_deform_batch)]
     pub fn deform_batch_on<'poses>(
         poses: impl IntoIterator<Item = &'poses mut DeformerInstance>,
         mesh: usize,
@@ -202,7 +202,7 @@ impl DeformerInstance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_deformer_instance_positions()` in `mien.h`.
+    #[doc = errors!(mien_deformer_instance_positions)]
     pub fn positions(&self, mesh: usize) -> Result<&[[f32; 3]]> {
         let mut out = sys::MienFloatView::default();
         // SAFETY: a live handle; the view stays valid, and what writes to it takes `&mut self`.
@@ -216,7 +216,7 @@ impl DeformerInstance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_deformer_instance_normals()` in `mien.h`.
+    #[doc = errors!(mien_deformer_instance_normals)]
     pub fn normals(&self, mesh: usize) -> Result<&[[f32; 3]]> {
         let mut out = sys::MienFloatView::default();
         // SAFETY: as above.
@@ -278,7 +278,7 @@ impl DeformerInstanceOptions {
     ///
     /// # Errors
     ///
-    /// Those of `mien_deformer_instance_create()` in `mien.h`.
+    #[doc = errors!(mien_deformer_instance_create)]
     pub fn create(&self, deformer: &Deformer) -> Result<DeformerInstance> {
         let mut handle = null_mut();
         Allocator::with(self.allocator.as_ref(), |allocator| {

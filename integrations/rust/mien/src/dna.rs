@@ -97,7 +97,7 @@ impl<'bytes> Dna<'bytes> {
     ///
     /// # Errors
     ///
-    /// Those of `mien_dna_layer()` in `mien.h`.
+    #[doc = errors!(mien_dna_layer)]
     pub fn layer(&self, layer: usize) -> Result<DnaLayer> {
         let mut out = sys::MienDnaLayer::default();
         // SAFETY: a live handle and a sized struct.
@@ -122,7 +122,7 @@ impl<'bytes> Dna<'bytes> {
     ///
     /// # Errors
     ///
-    /// Those of `mien_dna_field()` in `mien.h`.
+    #[doc = errors!(mien_dna_field)]
     pub fn field(&self, path: &str) -> Result<DnaField> {
         let path = terminated(path)?;
         let mut out = sys::MienDnaField::default();
@@ -137,7 +137,7 @@ impl<'bytes> Dna<'bytes> {
     ///
     /// # Errors
     ///
-    /// Those of `mien_dna_child_name()` in `mien.h`.
+    #[doc = errors!(mien_dna_child_name)]
     pub fn field_name(&self, path: &str, field: usize) -> Result<Cow<'_, str>> {
         let path = terminated(path)?;
         let mut out = empty_string();
@@ -153,7 +153,7 @@ impl<'bytes> Dna<'bytes> {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_dna_read_floats)]
     pub fn read_floats(&self, path: &str) -> Result<Vec<f32>> {
         let mut out = vec![0.0; self.length(path)?];
         self.read_floats_into(path, 0, &mut out)?;
@@ -164,7 +164,7 @@ impl<'bytes> Dna<'bytes> {
     ///
     /// # Errors
     ///
-    /// Those of `mien_dna_read_floats()` in `mien.h`.
+    #[doc = errors!(mien_dna_read_floats)]
     pub fn read_floats_into(&self, path: &str, first: u64, out: &mut [f32]) -> Result<()> {
         let (path, count) = (terminated(path)?, out.len() as u64);
         // SAFETY: a live handle, a terminated path, and room for `count` values.
@@ -178,7 +178,7 @@ impl<'bytes> Dna<'bytes> {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_dna_read_integers)]
     pub fn read_integers(&self, path: &str) -> Result<Vec<i64>> {
         let mut out = vec![0; self.length(path)?];
         self.read_integers_into(path, 0, &mut out)?;
@@ -189,7 +189,7 @@ impl<'bytes> Dna<'bytes> {
     ///
     /// # Errors
     ///
-    /// Those of `mien_dna_read_integers()` in `mien.h`.
+    #[doc = errors!(mien_dna_read_integers)]
     pub fn read_integers_into(&self, path: &str, first: u64, out: &mut [i64]) -> Result<()> {
         let (path, count) = (terminated(path)?, out.len() as u64);
         // SAFETY: as for floats.
@@ -212,7 +212,7 @@ impl<'bytes> Dna<'bytes> {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_dna_read_string)]
     pub fn read_string(&self, path: &str) -> Result<Cow<'_, str>> {
         self.read_string_bytes(path).map(utf8)
     }
@@ -221,7 +221,7 @@ impl<'bytes> Dna<'bytes> {
     ///
     /// # Errors
     ///
-    /// Those of `mien_dna_read_string()` in `mien.h`.
+    #[doc = errors!(mien_dna_read_string)]
     pub fn read_string_bytes(&self, path: &str) -> Result<&[u8]> {
         let path = terminated(path)?;
         let mut out = empty_string();
@@ -363,7 +363,7 @@ impl OpenOptions {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_dna_open_file)]
     pub fn open(&self, path: impl AsRef<Path>) -> Result<Dna<'static>> {
         // SAFETY: once read, the copy cannot change.
         unsafe { self.open_file(path.as_ref(), sys::MIEN_FILE_READ) }
@@ -378,7 +378,7 @@ impl OpenOptions {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_dna_open_file)]
     pub unsafe fn map(&self, path: impl AsRef<Path>) -> Result<Dna<'static>> {
         // SAFETY: the caller sees to it that the file stays as it is.
         unsafe { self.open_file(path.as_ref(), sys::MIEN_FILE_MAP) }
@@ -400,7 +400,9 @@ impl OpenOptions {
     ///
     /// # Errors
     ///
-    /// Those of `mien_dna_open_stream()` in `mien.h`; of the reader, [`Status::FILE_READ`](crate::Status::FILE_READ).
+    #[doc = errors!(mien_dna_open_stream)]
+    ///
+    /// An error of the reader is [`Status::FILE_READ`](crate::Status::FILE_READ).
     pub fn open_reader(&self, reader: &mut (impl Read + Seek)) -> Result<Dna<'static>> {
         with_stream(reader, |stream| {
             self.open_by(sys::MIEN_FILE_READ, |desc, out, error| {
@@ -414,7 +416,7 @@ impl OpenOptions {
     ///
     /// # Errors
     ///
-    /// Those of `mien_dna_open_memory()` in `mien.h`.
+    #[doc = errors!(mien_dna_open_memory)]
     pub fn open_bytes<'bytes>(&self, bytes: &'bytes [u8]) -> Result<Dna<'bytes>> {
         self.open_by(sys::MIEN_FILE_MAP, |desc, out, error| {
             let data = bytes.as_ptr().cast();
@@ -462,7 +464,7 @@ impl WriteOptions {
     ///
     /// # Errors
     ///
-    /// Those of `mien_dna_write_file()` in `mien.h`.
+    #[doc = errors!(mien_dna_write_file)]
     pub fn write(&self, dna: &Dna<'_>, path: impl AsRef<Path>) -> Result<()> {
         let path = path_string(path.as_ref())?;
         // SAFETY: a live handle, a terminated path, a sized struct.
@@ -475,7 +477,7 @@ impl WriteOptions {
     ///
     /// # Errors
     ///
-    /// Those of `mien_dna_write_memory()` in `mien.h`.
+    #[doc = errors!(mien_dna_write_memory)]
     pub fn to_bytes(&self, dna: &Dna<'_>) -> Result<Vec<u8>> {
         let write = |buffer: *mut c_void, capacity, size: &mut usize| {
             // SAFETY: a live handle, a sized struct, and room for `capacity` bytes.
@@ -540,7 +542,7 @@ impl GenerateOptions {
     ///
     /// # Errors
     ///
-    /// Those of `mien_dna_generate()` in `mien.h`.
+    #[doc = errors!(mien_dna_generate)]
     pub fn generate(&self) -> Result<Dna<'static>> {
         Dna::created(self.allocator.as_ref(), |allocator, out, error| {
             let desc = sys::MienGenerateDesc {

@@ -106,8 +106,9 @@ pub(crate) fn describe(status: Status) -> &'static str {
 }
 
 /// Layers of a DNA file, combined with \|. A layer loads the layers that it refers to: all of them
-/// need the definition, RBF behavior needs the behavior. The descriptor is always loaded. See
-/// docs/dna-format.md, 9 "Choosing layers".
+/// need the definition, RBF behavior needs the behavior. The descriptor is always loaded.
+///
+/// See docs/dna-format.md, 9 "Choosing layers".
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -423,8 +424,9 @@ impl RotationOutput {
 
 numbers!(RotationOutput, u32, [(0, "EULER"), (1, "QUATERNION")]);
 
-/// Effect of a region mask on the networks of the region (`mien_instance_ml_masks()`). See
-/// docs/rig-evaluation.md, 8.5 "Region masks".
+/// Effect of a region mask on the networks of the region (`mien_instance_ml_masks()`).
+///
+/// See docs/rig-evaluation.md, 8.5 "Region masks".
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -442,7 +444,9 @@ impl MlMasks {
 numbers!(MlMasks, u32, [(0, "SWITCH"), (1, "BLEND")]);
 
 /// Storage of the large arrays that evaluation reads. Sums and results are 32-bit floats with
-/// both. See docs/rig-evaluation.md, 4.9 "16-bit storage".
+/// both.
+///
+/// See docs/rig-evaluation.md, 4.9 "16-bit storage".
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -657,8 +661,9 @@ impl BakedCheck {
 
 numbers!(BakedCheck, u32, [(0, "SAFE"), (1, "FULL")]);
 
-/// Axes, units and rotation conventions of a rig. Any handedness is allowed. See
-/// docs/dna-format.md, 11 "Coordinate systems".
+/// Axes, units and rotation conventions of a rig. Any handedness is allowed.
+///
+/// See docs/dna-format.md, 11 "Coordinate systems".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct CoordinateSystem {
@@ -1081,4 +1086,415 @@ impl From<sys::MienBakedInfo> for BakedInfo {
             is_mapped: c.is_mapped != 0,
         }
     }
+}
+
+/// The `# Errors` section of what calls a function of the C interface.
+macro_rules! errors {
+    (mien_coordinate_system_find) => {
+        "- [`Status::NAME`](crate::Status::NAME) if the name is none of these"
+    };
+    (mien_coordinate_system_find_n) => {
+        "- [`Status::NAME`](crate::Status::NAME) if the name is none of these"
+    };
+    (mien_coordinate_system_name) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if `index` is past the last name"
+    };
+    (mien_dna_open_file) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::LOD`](crate::Status::LOD) if it has none of the requested LODs\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::FILE_OPEN`](crate::Status::FILE_OPEN) if the file cannot be read\n\
+         - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read\n\
+         - [`Status::DNA_SIGNATURE`](crate::Status::DNA_SIGNATURE) if it is not a DNA file of generation 2\n\
+         - [`Status::DNA_VERSION`](crate::Status::DNA_VERSION) if it is not a DNA file of generation 2\n\
+         - [`Status::DNA_TRUNCATED`](crate::Status::DNA_TRUNCATED) if its contents are not valid or cannot be converted to the requested system\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if its contents are not valid or cannot be converted to the requested system\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if its contents are not valid or cannot be converted to the requested system\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if its contents are not valid or cannot be converted to the requested system\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if its contents are not valid or cannot be converted to the requested system"
+    };
+    (mien_dna_open_memory) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::LOD`](crate::Status::LOD) if it has none of the requested LODs\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::DNA_SIGNATURE`](crate::Status::DNA_SIGNATURE) if it is not a DNA file of generation 2\n\
+         - [`Status::DNA_VERSION`](crate::Status::DNA_VERSION) if it is not a DNA file of generation 2\n\
+         - [`Status::DNA_TRUNCATED`](crate::Status::DNA_TRUNCATED) if its contents are not valid or cannot be converted to the requested system\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if its contents are not valid or cannot be converted to the requested system\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if its contents are not valid or cannot be converted to the requested system\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if its contents are not valid or cannot be converted to the requested system\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if its contents are not valid or cannot be converted to the requested system"
+    };
+    (mien_dna_open_stream) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::LOD`](crate::Status::LOD) if it has none of the requested LODs\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read\n\
+         - [`Status::DNA_SIGNATURE`](crate::Status::DNA_SIGNATURE) if it is not a DNA file of generation 2\n\
+         - [`Status::DNA_VERSION`](crate::Status::DNA_VERSION) if it is not a DNA file of generation 2\n\
+         - [`Status::DNA_TRUNCATED`](crate::Status::DNA_TRUNCATED) if its contents are not valid or cannot be converted to the requested system\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if its contents are not valid or cannot be converted to the requested system\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if its contents are not valid or cannot be converted to the requested system\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if its contents are not valid or cannot be converted to the requested system\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if its contents are not valid or cannot be converted to the requested system"
+    };
+    (mien_dna_info) => {
+        "- none with valid arguments"
+    };
+    (mien_dna_layer) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if `index` is not below MienDnaInfo.`layer_count`"
+    };
+    (mien_dna_field) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field (the message contains the part of the path that does not exist)"
+    };
+    (mien_dna_field_n) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field (the message contains the part of the path that does not exist)"
+    };
+    (mien_dna_child_name) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field is not a record\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if `index` or an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+    };
+    (mien_dna_child_name_n) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field is not a record\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if `index` or an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+    };
+    (mien_dna_read_floats) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field does not hold numbers of this kind\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the range or an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+    };
+    (mien_dna_read_floats_n) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field does not hold numbers of this kind\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the range or an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+    };
+    (mien_dna_read_integers) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field does not hold numbers of this kind\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the range or an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+    };
+    (mien_dna_read_integers_n) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field does not hold numbers of this kind\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the range or an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+    };
+    (mien_dna_read_string) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field is not a string\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+    };
+    (mien_dna_read_string_n) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field is not a string\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+    };
+    (mien_dna_write_file) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator of the DNA returns NULL\n\
+         - [`Status::FILE_WRITE`](crate::Status::FILE_WRITE) if the file cannot be written\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the file could not be opened in the requested version\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the file could not be opened in the requested version\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if it would exceed 4 GiB\n\
+         - [`Status::DNA_LAYER`](crate::Status::DNA_LAYER) if RBF behavior was loaded without the machine-learned behavior of its file (whose controls are numbered before its own)\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the file could not be opened in the requested version"
+    };
+    (mien_dna_write_memory) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `capacity` is too small\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator of the DNA returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the file could not be opened in the requested version\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the file could not be opened in the requested version\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if it would exceed 4 GiB\n\
+         - [`Status::DNA_LAYER`](crate::Status::DNA_LAYER) if RBF behavior was loaded without the machine-learned behavior of its file (whose controls are numbered before its own)\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the file could not be opened in the requested version"
+    };
+    (mien_dna_validate_file) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::FILE_OPEN`](crate::Status::FILE_OPEN) if the file cannot be read\n\
+         - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read"
+    };
+    (mien_dna_validate_memory) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+    };
+    (mien_report_counts) => {
+        "- none with valid arguments"
+    };
+    (mien_report_finding) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if `index` is past the last finding"
+    };
+    (mien_dna_generate) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+    };
+    (mien_rig_create) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::ISA`](crate::Status::ISA) if the requested instruction set is not available\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the rig is too large\n\
+         - [`Status::DNA_LAYER`](crate::Status::DNA_LAYER) if `dna` was opened without its behavior\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if correctives depend on each other in a circle"
+    };
+    (mien_rig_info) => {
+        "- none with valid arguments"
+    };
+    (mien_rig_count) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range"
+    };
+    (mien_rig_name) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if `index` is not below `mien_rig_count()`"
+    };
+    (mien_rig_find) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `kind` has no names\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such name"
+    };
+    (mien_rig_find_n) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `kind` has no names\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such name"
+    };
+    (mien_rig_lod_indices) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `kind` is none of these five\n\
+         - [`Status::LOD`](crate::Status::LOD) if the rig has no such LOD"
+    };
+    (mien_rig_variable_joint_values) => {
+        "- [`Status::LOD`](crate::Status::LOD) if the rig has no such LOD"
+    };
+    (mien_rig_joint_parents) => {
+        "- none with valid arguments"
+    };
+    (mien_rig_neutral_joint_values) => {
+        "- none with valid arguments"
+    };
+    (mien_rig_psd_inputs) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if there is no such corrective"
+    };
+    (mien_rig_initial_raw_controls) => {
+        "- none with valid arguments"
+    };
+    (mien_rig_statistics) => {
+        "- [`Status::LOD`](crate::Status::LOD) if the rig has no such LOD"
+    };
+    (mien_instance_create) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+    };
+    (mien_instance_reset) => {
+        "- none with valid arguments"
+    };
+    (mien_instance_gui_controls) => {
+        "- none with valid arguments"
+    };
+    (mien_instance_raw_controls) => {
+        "- none with valid arguments"
+    };
+    (mien_instance_ml_masks) => {
+        "- none with valid arguments"
+    };
+    (mien_instance_controls) => {
+        "- none with valid arguments"
+    };
+    (mien_instance_psd_controls) => {
+        "- none with valid arguments"
+    };
+    (mien_instance_ml_controls) => {
+        "- none with valid arguments"
+    };
+    (mien_instance_rbf_controls) => {
+        "- none with valid arguments"
+    };
+    (mien_instance_joints) => {
+        "- none with valid arguments"
+    };
+    (mien_instance_blend_shapes) => {
+        "- none with valid arguments"
+    };
+    (mien_instance_animated_maps) => {
+        "- none with valid arguments"
+    };
+    (mien_instance_statistics) => {
+        "- none with valid arguments"
+    };
+    (mien_rig_map_gui_to_raw) => {
+        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `instance` belongs to another rig"
+    };
+    (mien_rig_map_raw_to_gui) => {
+        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `instance` belongs to another rig"
+    };
+    (mien_rig_evaluate) => {
+        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `instance` belongs to another rig\n\
+         - [`Status::LOD`](crate::Status::LOD) if the rig has no such LOD"
+    };
+    (mien_rig_evaluate_stages) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if `instance` belongs to another rig\n\
+         - [`Status::LOD`](crate::Status::LOD) if the rig has no such LOD"
+    };
+    (mien_batch_create) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+    };
+    (mien_batch_bytes) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range"
+    };
+    (mien_rig_evaluate_batch) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `count` exceeds MienBatchDesc.capacity or an instance is listed twice\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the batch or an instance belongs to another rig\n\
+         - [`Status::LOD`](crate::Status::LOD) if the rig has no such LOD"
+    };
+    (mien_rig_evaluate_joint_group) => {
+        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `instance` belongs to another rig\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if there is no such joint group\n\
+         - [`Status::LOD`](crate::Status::LOD) if the rig has no such LOD"
+    };
+    (mien_rig_evaluate_rbf_solver) => {
+        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `instance` belongs to another rig\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if there is no such solver\n\
+         - [`Status::LOD`](crate::Status::LOD) if the rig has no such LOD"
+    };
+    (mien_rig_evaluate_twist_swing) => {
+        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `instance` belongs to another rig\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if there is no such setup\n\
+         - [`Status::LOD`](crate::Status::LOD) if the rig has no such LOD"
+    };
+    (mien_deformer_create) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if numbers or names of joints, channels or meshes differ from those of the rig\n\
+         - [`Status::ISA`](crate::Status::ISA) if the requested instruction set is not available\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if a position has more than 65535 influences\n\
+         - [`Status::DNA_LAYER`](crate::Status::DNA_LAYER) if `dna` was opened without `Layers::GEOMETRY`\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if a joint is its own ancestor or a position, delta or weight is not finite"
+    };
+    (mien_deformer_info) => {
+        "- none with valid arguments"
+    };
+    (mien_deformer_mesh) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh"
+    };
+    (mien_deformer_influences) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh or position"
+    };
+    (mien_deformer_target) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `count` is less than 3 \\* MienMesh.`position_count`\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh or target"
+    };
+    (mien_deformer_bind_matrices) => {
+        "- none with valid arguments"
+    };
+    (mien_deformer_inverse_bind_matrices) => {
+        "- none with valid arguments"
+    };
+    (mien_deformer_instance_create) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+    };
+    (mien_deformer_instance_update) => {
+        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `instance` belongs to a rig other than that of the deformer"
+    };
+    (mien_deformer_instance_update_from_values) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a count is not that of the rig"
+    };
+    (mien_deformer_instance_joint_matrices) => {
+        "- none with valid arguments"
+    };
+    (mien_deformer_instance_skin_matrices) => {
+        "- none with valid arguments"
+    };
+    (mien_deformer_instance_local_transforms) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `count` is less than 10 \\* MienDeformerInfo.`joint_count`"
+    };
+    (mien_deformer_instance_deform) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh\n\
+         - [`Status::LOD`](crate::Status::LOD) if `deformer_instance` has no memory for it (MienDeformerInstanceDesc.lods)"
+    };
+    (mien_deformer_instance_deform_batch) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an instance is listed twice\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the instances have different deformers\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh\n\
+         - [`Status::LOD`](crate::Status::LOD) if an instance has no memory for it"
+    };
+    (mien_deformer_instance_positions) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh\n\
+         - [`Status::LOD`](crate::Status::LOD) if `deformer_instance` has no memory for it"
+    };
+    (mien_deformer_instance_normals) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh\n\
+         - [`Status::LOD`](crate::Status::LOD) if `deformer_instance` has no memory for it"
+    };
+    (mien_deformer_instance_write_vertices) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a stream has a format that its attribute cannot have, a wrong stride or alignment or too little capacity, if streams overlap, if there is no stream, or if tangents are requested from a deformer without them\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh\n\
+         - [`Status::LOD`](crate::Status::LOD) if `deformer_instance` has no memory for it"
+    };
+    (mien_deformer_instance_write_vertices_batch) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a stream has a format that its attribute cannot have, a wrong stride or alignment or too little capacity, if streams overlap, if there is no stream, or if tangents are requested from a deformer without them; or an instance is listed twice\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the instances have different deformers\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh\n\
+         - [`Status::LOD`](crate::Status::LOD) if `deformer_instance` has no memory for it"
+    };
+    (mien_bake_file) => {
+        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `deformer` was created for another rig\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator of the rig returns NULL\n\
+         - [`Status::FILE_WRITE`](crate::Status::FILE_WRITE) if the file cannot be written"
+    };
+    (mien_bake_memory) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `capacity` is too small\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if `deformer` was created for another rig"
+    };
+    (mien_baked_open_file) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::FILE_OPEN`](crate::Status::FILE_OPEN) if the file cannot be read\n\
+         - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read\n\
+         - [`Status::BAKED_SIGNATURE`](crate::Status::BAKED_SIGNATURE) if its header is not valid\n\
+         - [`Status::BAKED_VERSION`](crate::Status::BAKED_VERSION) if its header is not valid\n\
+         - [`Status::BAKED_TRUNCATED`](crate::Status::BAKED_TRUNCATED) if its header is not valid\n\
+         - [`Status::BAKED_STRUCTURE`](crate::Status::BAKED_STRUCTURE) if its header is not valid\n\
+         - [`Status::BAKED_CHECKSUM`](crate::Status::BAKED_CHECKSUM) if `BakedCheck::FULL` finds changed bytes"
+    };
+    (mien_baked_open_memory) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::BAKED_SIGNATURE`](crate::Status::BAKED_SIGNATURE) if its header is not valid\n\
+         - [`Status::BAKED_VERSION`](crate::Status::BAKED_VERSION) if its header is not valid\n\
+         - [`Status::BAKED_TRUNCATED`](crate::Status::BAKED_TRUNCATED) if its header is not valid\n\
+         - [`Status::BAKED_STRUCTURE`](crate::Status::BAKED_STRUCTURE) if its header is not valid\n\
+         - [`Status::BAKED_CHECKSUM`](crate::Status::BAKED_CHECKSUM) if `BakedCheck::FULL` finds changed bytes"
+    };
+    (mien_baked_open_stream) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read\n\
+         - [`Status::BAKED_SIGNATURE`](crate::Status::BAKED_SIGNATURE) if its header is not valid\n\
+         - [`Status::BAKED_VERSION`](crate::Status::BAKED_VERSION) if its header is not valid\n\
+         - [`Status::BAKED_TRUNCATED`](crate::Status::BAKED_TRUNCATED) if its header is not valid\n\
+         - [`Status::BAKED_STRUCTURE`](crate::Status::BAKED_STRUCTURE) if its header is not valid\n\
+         - [`Status::BAKED_CHECKSUM`](crate::Status::BAKED_CHECKSUM) if `BakedCheck::FULL` finds changed bytes"
+    };
+    (mien_baked_info) => {
+        "- none with valid arguments"
+    };
+    (mien_rig_from_baked) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::ISA`](crate::Status::ISA) if the requested instruction set is not available\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::BAKED_VERSION`](crate::Status::BAKED_VERSION) if its rig cannot be used\n\
+         - [`Status::BAKED_STRUCTURE`](crate::Status::BAKED_STRUCTURE) if its rig cannot be used\n\
+         - [`Status::BAKED_PART`](crate::Status::BAKED_PART) if the file has no rig"
+    };
+    (mien_deformer_from_baked) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if `rig` was not created from `baked`\n\
+         - [`Status::ISA`](crate::Status::ISA) if the requested instruction set is not available\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::BAKED_VERSION`](crate::Status::BAKED_VERSION) if its deformer cannot be used\n\
+         - [`Status::BAKED_STRUCTURE`](crate::Status::BAKED_STRUCTURE) if its deformer cannot be used\n\
+         - [`Status::BAKED_PART`](crate::Status::BAKED_PART) if the file has no deformer"
+    };
 }

@@ -130,7 +130,7 @@ impl Instance {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_instance_create)]
     pub fn new(rig: &Rig) -> Result<Self> {
         Self::create(rig, None)
     }
@@ -139,7 +139,7 @@ impl Instance {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_instance_create)]
     pub fn new_in(rig: &Rig, allocator: &Allocator) -> Result<Self> {
         Self::create(rig, Some(allocator))
     }
@@ -195,7 +195,7 @@ impl Instance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_rig_evaluate()` in `mien.h`.
+    #[doc = errors!(mien_rig_evaluate)]
     #[inline]
     pub fn evaluate(&mut self, lod: usize) -> Result<()> {
         // SAFETY: live handles, and `&mut self` for the one that changes; the same below.
@@ -207,7 +207,7 @@ impl Instance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_rig_evaluate_stages()` in `mien.h`.
+    #[doc = errors!(mien_rig_evaluate_stages)]
     #[inline]
     pub fn evaluate_stages(&mut self, lod: usize, stages: Stages) -> Result<()> {
         check(unsafe {
@@ -220,7 +220,7 @@ impl Instance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_rig_evaluate_joint_group()` in `mien.h`.
+    #[doc = errors!(mien_rig_evaluate_joint_group)]
     pub fn evaluate_joint_group(&mut self, lod: usize, group: usize) -> Result<()> {
         let (lod, group) = (index(lod), index(group));
         check(unsafe { sys::mien_rig_evaluate_joint_group(self.rig.raw(), self.raw(), lod, group) })
@@ -231,7 +231,7 @@ impl Instance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_rig_evaluate_rbf_solver()` in `mien.h`.
+    #[doc = errors!(mien_rig_evaluate_rbf_solver)]
     pub fn evaluate_rbf_solver(&mut self, lod: usize, solver: usize) -> Result<()> {
         let (lod, solver) = (index(lod), index(solver));
         check(unsafe { sys::mien_rig_evaluate_rbf_solver(self.rig.raw(), self.raw(), lod, solver) })
@@ -242,7 +242,7 @@ impl Instance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_rig_evaluate_twist_swing()` in `mien.h`.
+    #[doc = errors!(mien_rig_evaluate_twist_swing)]
     pub fn evaluate_twist_swing(&mut self, lod: usize, setup: usize) -> Result<()> {
         let (lod, setup) = (index(lod), index(setup));
         check(unsafe { sys::mien_rig_evaluate_twist_swing(self.rig.raw(), self.raw(), lod, setup) })
@@ -253,7 +253,7 @@ impl Instance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_rig_map_gui_to_raw()` in `mien.h`.
+    #[doc = errors!(mien_rig_map_gui_to_raw)]
     pub fn map_gui_to_raw(&mut self) -> Result<()> {
         check(unsafe { sys::mien_rig_map_gui_to_raw(self.rig.raw(), self.raw()) })
     }
@@ -263,7 +263,7 @@ impl Instance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_rig_map_raw_to_gui()` in `mien.h`.
+    #[doc = errors!(mien_rig_map_raw_to_gui)]
     pub fn map_raw_to_gui(&mut self) -> Result<()> {
         check(unsafe { sys::mien_rig_map_raw_to_gui(self.rig.raw(), self.raw()) })
     }
@@ -272,7 +272,7 @@ impl Instance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_instance_statistics()` in `mien.h`.
+    #[doc = errors!(mien_instance_statistics)]
     pub fn statistics(&self) -> Result<InstanceStatistics> {
         let mut out = sys::MienInstanceStatistics::default();
         // SAFETY: a live handle, which is only read, and a sized struct.
@@ -284,7 +284,7 @@ impl Instance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_instance_reset()` in `mien.h`.
+    #[doc = errors!(mien_instance_reset)]
     pub fn reset(&mut self) -> Result<()> {
         check(unsafe { sys::mien_instance_reset(self.raw()) })
     }

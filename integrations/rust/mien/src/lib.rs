@@ -44,6 +44,10 @@
 #![deny(missing_docs)]
 #![warn(unsafe_op_in_unsafe_fn)]
 
+#[macro_use]
+#[rustfmt::skip]
+mod generated;
+
 mod allocator;
 mod baked;
 mod batch;
@@ -59,9 +63,6 @@ mod rig;
 mod stream;
 mod threads;
 mod vertex_output;
-
-#[rustfmt::skip]
-mod generated;
 
 pub use allocator::Allocator;
 pub use baked::{Baked, BakedOptions};

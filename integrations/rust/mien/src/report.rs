@@ -52,7 +52,7 @@ impl Report {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_dna_validate_file)]
     pub fn of_file(path: impl AsRef<Path>) -> Result<Self> {
         Self::read(path.as_ref(), None)
     }
@@ -61,7 +61,7 @@ impl Report {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_dna_validate_file)]
     pub fn of_file_in(path: impl AsRef<Path>, allocator: &Allocator) -> Result<Self> {
         Self::read(path.as_ref(), Some(allocator))
     }
@@ -70,7 +70,7 @@ impl Report {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_dna_validate_memory)]
     pub fn of_bytes(file: &[u8]) -> Result<Self> {
         Self::examine(file, None)
     }
@@ -79,7 +79,7 @@ impl Report {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_dna_validate_memory)]
     pub fn of_bytes_in(file: &[u8], allocator: &Allocator) -> Result<Self> {
         Self::examine(file, Some(allocator))
     }
@@ -143,7 +143,7 @@ impl Report {
     ///
     /// # Errors
     ///
-    /// Those of `mien_report_finding()` in `mien.h`.
+    #[doc = errors!(mien_report_finding)]
     pub fn finding(&self, finding: usize) -> Result<Finding<'_>> {
         let mut out = sys::MienFinding::default();
         // SAFETY: a live handle and a sized struct; views live as long as the report.

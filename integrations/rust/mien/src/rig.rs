@@ -57,7 +57,7 @@ impl Rig {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_instance_create)]
     pub fn instance(&self) -> Result<Instance> {
         Instance::new(self)
     }
@@ -92,7 +92,7 @@ impl Rig {
     ///
     /// # Errors
     ///
-    /// What the library refuses, by [`Status`](crate::Status).
+    #[doc = errors!(mien_rig_name)]
     pub fn name(&self, kind: Kind, i: usize) -> Result<Cow<'_, str>> {
         self.name_bytes(kind, i).map(utf8)
     }
@@ -107,7 +107,7 @@ impl Rig {
     ///
     /// # Errors
     ///
-    /// Those of `mien_rig_name()` in `mien.h`.
+    #[doc = errors!(mien_rig_name)]
     pub fn name_bytes(&self, kind: Kind, i: usize) -> Result<&[u8]> {
         let mut out = empty_string();
         // SAFETY: a live handle; the view lives as long.
@@ -122,7 +122,7 @@ impl Rig {
     ///
     /// # Errors
     ///
-    /// Those of `mien_rig_find_n()` in `mien.h`.
+    #[doc = errors!(mien_rig_find_n)]
     pub fn find(&self, kind: Kind, name: impl AsRef<[u8]>) -> Result<usize> {
         let (name, mut out) = (name.as_ref(), 0);
         // SAFETY: a live handle, and as many bytes as are told.
@@ -142,7 +142,7 @@ impl Rig {
     ///
     /// # Errors
     ///
-    /// Those of `mien_rig_lod_indices()` in `mien.h`.
+    #[doc = errors!(mien_rig_lod_indices)]
     pub fn lod_indices(&self, kind: Kind, lod: usize) -> Result<&[u16]> {
         self.indices(|out| unsafe {
             // SAFETY: a live handle.
@@ -155,7 +155,7 @@ impl Rig {
     ///
     /// # Errors
     ///
-    /// Those of `mien_rig_variable_joint_values()` in `mien.h`.
+    #[doc = errors!(mien_rig_variable_joint_values)]
     pub fn variable_joint_values(&self, lod: usize) -> Result<&[u16]> {
         // SAFETY: a live handle.
         self.indices(|out| unsafe {
@@ -175,7 +175,7 @@ impl Rig {
     ///
     /// # Errors
     ///
-    /// Those of `mien_rig_psd_inputs()` in `mien.h`.
+    #[doc = errors!(mien_rig_psd_inputs)]
     pub fn psd_inputs(&self, psd: usize) -> Result<&[u16]> {
         // SAFETY: a live handle.
         self.indices(|out| unsafe { sys::mien_rig_psd_inputs(self.raw(), index(psd), out) })
@@ -200,7 +200,7 @@ impl Rig {
     ///
     /// # Errors
     ///
-    /// Those of `mien_rig_statistics()` in `mien.h`.
+    #[doc = errors!(mien_rig_statistics)]
     pub fn statistics(&self, lod: usize) -> Result<RigStatistics> {
         let mut out = sys::MienRigStatistics::default();
         // SAFETY: a live handle and a sized struct.
@@ -317,7 +317,7 @@ impl RigOptions {
     ///
     /// # Errors
     ///
-    /// Those of `mien_rig_create()` in `mien.h`.
+    #[doc = errors!(mien_rig_create)]
     pub fn create(&self, dna: &Dna<'_>) -> Result<Rig> {
         let mut handle = null_mut();
         Allocator::with(self.allocator.as_ref(), |allocator| {

@@ -121,7 +121,7 @@ impl DeformerInstance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_deformer_instance_write_vertices()` in `mien.h`.
+    #[doc = errors!(mien_deformer_instance_write_vertices)]
     pub fn write_vertices(
         &mut self,
         mesh: usize,
@@ -142,8 +142,8 @@ impl DeformerInstance {
     ///
     /// # Errors
     ///
-    /// Those of `mien_deformer_instance_write_vertices_batch()` in `mien.h`;
-    /// [`Status::INVALID_ARGUMENT`] if there are not as many buffers as instances.
+    #[doc = errors!(mien_deformer_instance_write_vertices_batch)]
+    /// - [`Status::INVALID_ARGUMENT`] if there are not as many buffers as instances
     pub fn write_vertices_batch_on<'outputs>(
         instances: impl IntoIterator<Item = &'outputs mut DeformerInstance>,
         mesh: usize,
