@@ -27,6 +27,8 @@ GRAPH = {
                     "runtime/pose"],
     "runtime/pose": ["runtime/base", "simd", "runtime/rig"],
     "runtime/deform": ["runtime/base", "simd", "runtime/rig", "runtime/eval", "runtime/pose"],
+    "runtime/probe": ["runtime/base", "runtime/rig", "runtime/eval", "runtime/mix", "runtime/pose",
+                      "runtime/deform"],
     "runtime/baked": ["runtime/base", "simd", "runtime/rig", "runtime/eval", "runtime/pose",
                       "runtime/deform"],
     # DNA -> compiled data.
@@ -36,7 +38,8 @@ GRAPH = {
     "runtime/author": ["runtime/base", "runtime/dna/format", "runtime/dna"],
     "capi": ["runtime/base", "simd", "runtime/dna/format", "runtime/dna/check",
              "runtime/dna/convert", "runtime/dna", "runtime/rig", "runtime/eval", "runtime/anim",
-             "runtime/mix", "runtime/pose", "runtime/deform", "runtime/baked", "runtime/compile",
+             "runtime/mix", "runtime/pose", "runtime/deform", "runtime/probe", "runtime/baked",
+             "runtime/compile",
              "runtime/author"],
 }
 

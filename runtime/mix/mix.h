@@ -19,6 +19,7 @@
 #include "runtime/base/allocator.h"
 #include "runtime/base/span.h"
 #include "runtime/base/status.h"
+#include "runtime/mix/guard.h"
 
 namespace mien {
 
@@ -26,7 +27,6 @@ constexpr uint32_t kLaneStep = 16;
 constexpr uint32_t kMaxLanes = 4096;
 constexpr uint32_t kMaxLayers = 16;
 constexpr uint32_t kMaxGuards = 8;
-constexpr uint32_t kMaxGuardLanes = 24;
 constexpr uint32_t kMaxPoses = 1024;
 
 // Layers
@@ -90,28 +90,8 @@ struct PoseDesc {
   Span<const float> values;
 };
 
-// Guards
+// Antagonists
 // ------------------------------------------------------------------------------------------------
-
-/// A measured quantity of the face that emotions and reactions must not increase while speech needs
-/// it small, such as the gap between the lips:
-///     f(row) = rest + sum of gains[i] * row[lanes[i]]
-/// A quantity that must not decrease is written with opposite signs.
-struct Guard {
-  uint32_t count;  // of lanes
-  float rest;      // f of a row of zeros, in millimeters
-  float f_on;      // active where f(protected row) is below, fully so at 0; in millimeters, above 0
-  float tolerance;  // of the increase, in millimeters
-  float fit_error;  // of the linear model, largest seen when it was probed, in millimeters
-  uint16_t lanes[kMaxGuardLanes];
-  float gains[kMaxGuardLanes];  // millimeters
-};
-
-/// What a guard remembers from step to step: its activation 0 ... 1 and how fast it changes, so that
-/// it has no jumps in its slope.
-struct GuardState {
-  float activation, velocity;  // per second
-};
 
 /// Two lanes that move the face in opposite directions. If both are above 0, the smaller one is
 /// taken off both; with a stiffness below 1 that much of it.

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Guards: what speech or a blink needs stays, whatever later layers want.
+//
+// A guard knows a measured distance, say between the inner edges of the lips, as a function of a few
+// raw controls, and holds back what would make it larger than it is in the protected row.
+#pragma once
+
+#include <cstdint>
+
+namespace mien {
+
+constexpr uint32_t kMaxGuardLanes = 24;
+constexpr uint32_t kMaxGuardPairs = 24;
+
+/// Two lanes, as numbers into Guard::lanes, that together do something else than each alone.
+struct GuardPair {
+  uint16_t first, second;
+  float gain;  // millimeters
+};
+
+/// A distance in millimeters; at 0 both sides touch, below they overlap:
+///     f(row) = rest + sum of gain * lane + sum of gain * lane * lane over the pairs
+/// runtime/probe/probe_guards.h measures the gains on a rig.
+struct Guard {
+  uint32_t count;  // of lanes
+  uint32_t pair_count;
+  float rest;                      // f of a row of zeros
+  float f_on;                      // active where f(protected row) is below, fully so at 0; above 0
+  float tolerance;                 // by so much later layers may open
+  float fit_error;                 // of this function: root mean square over rows that were tried
+  uint16_t lanes[kMaxGuardLanes];  // raw controls, by falling size of the gain: see hold_guard()
+  float gains[kMaxGuardLanes];     // beside lanes
+  GuardPair pairs[kMaxGuardPairs];
+};
+
+/// f(row)
+float guard_distance(const Guard& guard, const float* row);
+
+/// 1 where the protected row closes, 0 where it is open by f_on or more, smooth between.
+float guard_activation(const Guard& guard, const float* protected_row);
+
+/// Moves lanes of `row` back towards the protected row until f(row) is f(protected row), or 0 if that
+/// is less, plus the tolerance; `activation` 0 ... 1 is the share of that move which is made. Lanes
+/// with the largest gains go first, so that the least of the row is lost. Lanes that open nothing keep
+/// their bits, and all do if the limit is kept. In closed form, as f is linear in each lane.
+void hold_guard(const Guard& guard, const float* protected_row, float activation, float* row);
+
+/// The fastest that guards take hold of a lane or let go of it, per second. With speech at 8 phonemes
+/// a second what they hold back would jump otherwise.
+constexpr float kGuardSpeed = 12;
+
+/// After all guards, for `count` lanes: `row` is what they left of `free_row`. `held` is by how much
+/// lanes were moved in the last step, zeros at the beginning; it changes by `max_change` at most,
+/// kGuardSpeed times the seconds of the step. A lane never passes the protected row. Where nothing is
+/// held, bits stay.
+void ease_guards(const float* free_row, const float* protected_row, uint32_t count,
+                 float max_change, float* held, float* row);
+
+}  // namespace mien

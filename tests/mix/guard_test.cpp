@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/mix/guard.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+namespace mien {
+namespace {
+
+constexpr float kAtOnce = std::numeric_limits<float>::infinity();
+
+/// Lanes 2, 0, 1 of a row of four open by 20, 5 and 1 mm; lane 3 closes by 4 mm; the jaw does nothing
+/// while lane 1 is 1.
+Guard some_guard() {
+  Guard guard = {};
+  guard.f_on = 10;
+  guard.tolerance = 0.5f;
+  guard.count = 4;
+  const uint16_t lanes[] = {2, 0, 3, 1};
+  const float gains[] = {20, 5, -4, 1};
+  std::copy(lanes, lanes + 4, guard.lanes);
+  std::copy(gains, gains + 4, guard.gains);
+  guard.pair_count = 1;
+  guard.pairs[0] = {0, 3, -20};
+  return guard;
+}
+
+using Row = std::vector<float>;
+
+bool same_bits(const Row& a, const Row& b) {
+  return memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+TEST(Guard, DistanceIsASumOfLanesAndOfProductsOfPairs) {
+  Guard guard = some_guard();
+  guard.rest = 0.25f;
+  const Row row = {0.5f, 0.5f, 0.25f, 1};
+  EXPECT_FLOAT_EQ(guard_distance(guard, row.data()),
+                  0.25f + 20 * 0.25f + 5 * 0.5f - 4 + 0.5f - 20 * 0.25f * 0.5f);
+}
+
+TEST(Guard, ActivationFallsFromContactToTheRangesEnd) {
+  const Guard guard = some_guard();
+  float before = 2;
+  for (float open : {-0.5f, 0.0f, 0.1f, 0.25f, 0.4f, 0.5f}) {  // lane 2: 20 mm
+    const Row row = {0, 0, open, 0};
+    const float activation = guard_activation(guard, row.data());
+    if (open <= 0) {
+      EXPECT_EQ(activation, 1);
+    } else {
+      EXPECT_LT(activation, before);
+    }
+    before = activation;
+  }
+  EXPECT_EQ(before, 0);
+}
+
+TEST(Guard, LeavesRowsAloneThatKeepTheLimit) {
+  const Guard guard = some_guard();
+  const Row closed = {0, 0, 0, 0.5f};
+  const Row row = {0.1f, 0.3f, 0.05f, 0.5f};
+  Row held = row;
+  hold_guard(guard, closed.data(), 1, held.data());
+  EXPECT_TRUE(same_bits(held, row));
+}
+
+TEST(Guard, LeavesEveryRowAloneWhileItIsNotActive) {
+  const Guard guard = some_guard();
+  const Row closed(4), row = {1, 0.1f, 1, 0};
+  for (float activation : {0.0f, -0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()}) {
+    Row held = row;
+    hold_guard(guard, closed.data(), activation, held.data());
+    EXPECT_TRUE(same_bits(held, row));
+  }
+}
+
+TEST(Guard, TakesTheLargestGainsFirstAndNoMoreThanIsNeeded) {
+  const Guard guard = some_guard();
+  const Row closed(4);
+  Row row = {0.2f, 0, 0.5f, 0};  // 11 mm
+  hold_guard(guard, closed.data(), 1, row.data());
+  EXPECT_NEAR(guard_distance(guard, row.data()), 0.5, 1e-5);
+  EXPECT_EQ(row[2], 0) << "is not enough";
+  EXPECT_FLOAT_EQ(row[0], 0.1f);
+  Row less = {0.05f, 0, 0.5f, 0};
+  hold_guard(guard, closed.data(), 1, less.data());
+  EXPECT_EQ(less[0], 0.05f) << "stays, because lane 2 can make the room";
+  EXPECT_NEAR(guard_distance(guard, less.data()), 0.5, 1e-5);
+}
+
+TEST(Guard, KeepsWhatHelpsAndWhatAPairHasMadeHarmless) {
+  const Guard guard = some_guard();
+  const Row sealed = {0, 1, 0, 0};
+  Row row = {1, 1, 0.7f, 0.5f};
+  hold_guard(guard, sealed.data(), 1, row.data());
+  EXPECT_EQ(row[2], 0.7f) << "the jaw opens nothing while lane 1 seals";
+  EXPECT_EQ(row[3], 0.5f);
+  EXPECT_LT(row[0], 1);
+}
+
+TEST(Guard, MovesLanesBackThatWereLowered) {
+  const Guard guard = some_guard();
+  const Row closed = {0.3f, 0, 0, 0.5f};
+  Row row = {0.3f, 0, 0, 0};  // what closed is gone: 1.5 mm, of which 0.5 mm are tolerated
+  hold_guard(guard, closed.data(), 1, row.data());
+  EXPECT_FLOAT_EQ(row[3], 0.25f);
+  EXPECT_EQ(row[0], 0.3f);
+}
+
+TEST(Guard, CountsOverlapAsRoom) {
+  const Guard guard = some_guard();
+  const Row pressed = {0, 0, 0, 1}, touching(4);
+  Row over_pressed = {1, 0, 0, 1}, over_touching = {1, 0, 0, 0};
+  hold_guard(guard, pressed.data(), 1, over_pressed.data());
+  hold_guard(guard, touching.data(), 1, over_touching.data());
+  EXPECT_NEAR(over_pressed[0], 0.9f, 1e-6);  // 4 mm + 0.5 mm
+  EXPECT_NEAR(over_touching[0], 0.1f, 1e-6);
+}
+
+TEST(Guard, TakesTheShareThatActivationSays) {
+  const Guard guard = some_guard();
+  const Row closed(4);
+  Row all = {0, 0, 1, 0}, half = all;
+  hold_guard(guard, closed.data(), 1, all.data());
+  hold_guard(guard, closed.data(), 0.5f, half.data());
+  EXPECT_FLOAT_EQ(half[2], 0.5f + 0.5f * all[2]);
+}
+
+TEST(Guard, EasesAtItsSpeedAndEndsAtTheExactRow) {
+  const Row free_row = {0.8f, 0.3f}, protected_row = {0, 0.3f}, wanted = {0.1f, 0.3f};
+  Row held(2);
+  float before = free_row[0];
+  for (int step = 0; step < 10; ++step) {
+    Row row = wanted;
+    ease_guards(free_row.data(), protected_row.data(), 2, 0.1f, held.data(), row.data());
+    EXPECT_LE(before - row[0], 0.1f + 1e-6f);
+    EXPECT_EQ(row[1], 0.3f);
+    before = row[0];
+  }
+  EXPECT_EQ(before, 0.1f);
+  for (int step = 0; step < 10; ++step) {
+    Row row = free_row;
+    ease_guards(free_row.data(), protected_row.data(), 2, 0.1f, held.data(), row.data());
+    EXPECT_LE(row[0] - before, 0.1f + 1e-6f);
+    before = row[0];
+  }
+  EXPECT_EQ(before, 0.8f);
+  EXPECT_EQ(held[0], 0);
+}
+
+TEST(Guard, EasingAtOnceLeavesTheRowOfTheGuards) {
+  const Row free_row = {0.8f, 0.3f, -0.7f}, protected_row = {0, 0.3f, 0}, wanted = {0.1f, 0.3f, 0};
+  Row row = wanted, held(3);
+  ease_guards(free_row.data(), protected_row.data(), 3, kAtOnce, held.data(), row.data());
+  EXPECT_TRUE(same_bits(row, wanted));
+}
+
+TEST(Guard, EasingNeverPassesTheProtectedRow) {
+  // Held far back; then what is held disappears.
+  Row held = {0.6f};
+  const Row protected_row = {0.2f};
+  for (float free_value : {0.3f, 0.2f, 0.1f}) {
+    const Row free_row = {free_value};
+    Row row = free_row;
+    ease_guards(free_row.data(), protected_row.data(), 1, 0.05f, held.data(), row.data());
+    EXPECT_GE(row[0], std::min(free_value, 0.2f));
+    EXPECT_LE(row[0], std::max(free_value, 0.2f));
+  }
+  EXPECT_LE(held[0], 0);
+}
+
+}  // namespace
+}  // namespace mien
