@@ -24,10 +24,11 @@ struct GuardPair {
 struct Guard {
   uint32_t count;  // of lanes
   uint32_t pair_count;
-  float rest;                      // f of a row of zeros
-  float f_on;                      // active where f(protected row) is below, fully so at 0; above 0
-  float tolerance;                 // by so much later layers may open
-  float fit_error;                 // of this function: root mean square over rows that were tried
+  uint32_t needs_speech;  // 1: no more active than the layers of speech are; lips touch at rest too
+  float rest;             // f of a row of zeros
+  float f_on;             // active where f(protected row) is below, fully so at 0; above 0
+  float tolerance;        // by so much later layers may open
+  float fit_error;        // of this function: root mean square over rows that were tried
   uint16_t lanes[kMaxGuardLanes];  // raw controls, by falling size of the gain: see hold_guard()
   float gains[kMaxGuardLanes];     // beside lanes
   GuardPair pairs[kMaxGuardPairs];

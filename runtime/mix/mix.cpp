@@ -85,6 +85,14 @@ Status check_lanes(const MixDesc& desc, uint32_t lanes, Error& error) {
   for (size_t i = 0; i < desc.guards.count; ++i) {
     const Guard& guard = desc.guards[i];
     if (guard.count > kMaxGuardLanes) return wrong(error, "guard", i, "too many lanes");
+    if (guard.pair_count > kMaxGuardPairs) return wrong(error, "guard", i, "too many pairs");
+    for (uint32_t k = 0; k < guard.pair_count; ++k) {
+      const GuardPair& pair = guard.pairs[k];
+      if (pair.first >= guard.count || pair.second >= guard.count || pair.first == pair.second) {
+        return wrong(error, "guard", i, "a pair of lanes that it does not have");
+      }
+      if (!std::isfinite(pair.gain)) return wrong(error, "guard", i, "a gain is not finite");
+    }
     for (uint32_t k = 0; k < guard.count; ++k) {
       if (guard.lanes[k] >= lanes) return wrong(error, "guard", i, "a lane that does not exist");
       if (!std::isfinite(guard.gains[k])) return wrong(error, "guard", i, "a gain is not finite");

@@ -29,7 +29,7 @@ void place_state(Placer& placer, const Mix& mix, Mixer& mixer) {
   mixer.player_states = placer.array<PlayerState>(mix.player_count);
   mixer.pose_weights = placer.array<Fade>(mix.fade_count);
   mixer.variables = placer.array<float>(mix.variable_count);
-  mixer.guards = placer.array<GuardState>(mix.guards.count);
+  mixer.held = placer.array<float>(mix.guards.empty() ? 0 : mix.lane_count);
   mixer.guard_overrides = placer.array<float>(mix.guards.count);
   mixer.layer_rows = placer.array<float>(
       size_t{clip_layers(mix)} * kLayerRows * layer_row_floats(mix), kBlockAlignment);
@@ -271,6 +271,37 @@ void mix_layers(Mixer& mixer, uint32_t begin, uint32_t end, bool after_guards, i
   }
 }
 
+/// The strongest layer of speech.
+float speech_weight(const Mixer& mixer) {
+  float speech = 0.0f;
+  for (size_t i = 0; i < mixer.layers.count; ++i) {
+    const MixLayer& layer = mixer.mix->layers[i];
+    if (layer.group != LayerGroup::kSpeech) continue;
+    const float weight = layer_weight(mixer.layers[i], layer.mode, mixer.header->now);
+    if (weight > speech) speech = weight;
+  }
+  return speech;
+}
+
+void hold_guards(Mixer& mixer, int64_t ticks) {
+  const Mix& mix = *mixer.mix;
+  if (mix.guards.empty()) return;
+  const float* const before = mixer.protected_row.data;
+  memcpy(mixer.scratch.data, mixer.row.data, mix.lane_count * sizeof(float));
+  const float speech = speech_weight(mixer);
+  for (size_t i = 0; i < mix.guards.count; ++i) {
+    const Guard& guard = mix.guards[i];
+    float activation = mixer.guard_overrides[i];
+    if (activation < 0.0f) {
+      activation = guard_activation(guard, before) * (guard.needs_speech ? speech : 1.0f);
+    }
+    hold_guard(guard, before, activation, mixer.row.data);
+  }
+  const double seconds = static_cast<double>(ticks) / kTicksPerSecond;
+  ease_guards(mixer.scratch.data, before, mix.lane_count, static_cast<float>(kGuardSpeed * seconds),
+              mixer.held.data, mixer.row.data);
+}
+
 void net_antagonists(const Mix& mix, float* row) {
   for (const AntagonistPair& pair : mix.antagonists) {
     const float a = row[pair.a], b = row[pair.b];
@@ -476,6 +507,7 @@ void step_mixer(Mixer& mixer, int64_t ticks, float* out, size_t count, uint64_t*
   mix_layers(mixer, 0, mix.first_after_reactions, false, ticks);
   keep_stage(mixer, layer_count + kStageReactions);
   mix_layers(mixer, mix.first_after_reactions, layer_count, false, ticks);
+  hold_guards(mixer, ticks);
   keep_stage(mixer, layer_count + kStageGuards);
   mix_layers(mixer, 0, layer_count, true, ticks);
   net_antagonists(mix, row);

@@ -119,9 +119,9 @@ struct Mixer {
   Span<PlayerState> player_states;  // written for snapshots
   Span<Fade> pose_weights;          // MixLayer::first_fade
   Span<float> variables;            // [pose variable] with which a row begins
-  Span<GuardState> guards;
-  Span<float> guard_overrides;  // [guard] activation that the caller wants; negative: none
-  Span<float> layer_rows;       // [layer that plays clips][LayerRow][value, cover]
+  Span<float> held;                 // [lane] by how much guards moved it, if there are any
+  Span<float> guard_overrides;      // [guard] activation that the caller wants; negative: none
+  Span<float> layer_rows;           // [layer that plays clips][LayerRow][value, cover]
 };
 
 /// Stages of a step: a layer each, then these.

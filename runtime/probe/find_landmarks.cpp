@@ -137,7 +137,8 @@ class Finder {
   }
 
   void add(StandardGuard kind, GuardDesc desc) {
-    if (kind == StandardGuard::kLidsLeft || kind == StandardGuard::kLidsRight) desc.f_on = kLidsOn;
+    desc.needs_speech = kind != StandardGuard::kLidsLeft && kind != StandardGuard::kLidsRight;
+    if (!desc.needs_speech) desc.f_on = kLidsOn;
     if (kind == StandardGuard::kTeeth) desc.f_on = kTeethOn;
     out_.kinds[out_.count] = kind;
     out_.descs[out_.count++] = desc;

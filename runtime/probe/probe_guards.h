@@ -15,6 +15,7 @@ struct GuardDesc {
   uint16_t closed_by = kNoControl;  // raw control that makes both touch at 1; else they do at rest
   float tolerance = 0.3f;           // see Guard
   float f_on = 12;
+  bool needs_speech = true;
 };
 
 /// Evaluates and deforms the rig at LOD 0, with each raw control by itself, and with pairs of them

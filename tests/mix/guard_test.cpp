@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "tests/support/mix_setup.h"
+
 namespace mien {
 namespace {
 
@@ -27,12 +29,6 @@ Guard some_guard() {
   guard.pair_count = 1;
   guard.pairs[0] = {0, 3, -20};
   return guard;
-}
-
-using Row = std::vector<float>;
-
-bool same_bits(const Row& a, const Row& b) {
-  return memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
 TEST(Guard, DistanceIsASumOfLanesAndOfProductsOfPairs) {
@@ -171,6 +167,96 @@ TEST(Guard, EasingNeverPassesTheProtectedRow) {
     EXPECT_LE(row[0], std::max(free_value, 0.2f));
   }
   EXPECT_LE(held[0], 0);
+}
+
+// In a mixer --------------------------------------------------------------------------------------
+
+constexpr int64_t kStep = kTicksPerSecond / 60;
+
+/// Speech and an emotion as poses, with one guard.
+struct GuardedMix {
+  Guard guard = some_guard();
+  MixInput input{4};
+  MixHandle mix;
+
+  explicit GuardedMix(bool needs_speech = false) {
+    guard.needs_speech = needs_speech;
+    input.add(BlendMode::kOverride, LayerSource::kPoses, LayerGroup::kSpeech).pose_count = 1;
+    LayerDesc& emotion = input.add(BlendMode::kScreen, LayerSource::kPoses, LayerGroup::kEmotion);
+    emotion.first_pose = input.add_pose({3}, {0.5f}) + 1;
+    emotion.pose_count = 1;
+    input.add_pose({0, 2}, {0.25f, 0.6f});
+    input.desc.guards = {&guard, 1};
+    mix = make_mix(input);
+  }
+};
+
+TEST(GuardOfAMixer, HoldsAnEmotionBackWithinAFewSteps) {
+  const GuardedMix made;
+  OwnMixer own(made.mix);
+  own.pose(0, 0, 1);
+  own.step(kStep);
+  own.pose(1, 0, 1);
+  Row row = own.step(kStep), before = row;
+  EXPECT_FLOAT_EQ(row[2], 0.6f - 0.2f) << "12 per second";
+  for (int step = 0; step < 10; ++step) {
+    row = own.step(kStep);
+    EXPECT_LE(std::abs(row[2] - before[2]), 0.2001f);
+    before = row;
+  }
+  EXPECT_EQ(row[3], 0.5f) << "speech";
+  EXPECT_NEAR(guard_distance(made.guard, row.data()), 0.5f, 1e-5f);
+  EXPECT_TRUE(same_bits(own.step(0), row)) << "without time nothing moves";
+  // It comes back when speech is over.
+  Error error;
+  EXPECT_EQ(set_guard(own.mixer, 0, 0, error), Status::kOk);
+  for (int step = 0; step < 10; ++step) row = own.step(kStep);
+  EXPECT_EQ(row[0], 0.25f);
+  EXPECT_EQ(row[2], 0.6f);
+}
+
+TEST(GuardOfAMixer, ThatNeedsSpeechIsAsActiveAsItsLayers) {
+  const GuardedMix made(true);
+  OwnMixer own(made.mix);
+  own.weight(0, 0);
+  own.pose(1, 0, 1);
+  Row row;
+  for (int step = 0; step < 20; ++step) row = own.step(kStep);
+  EXPECT_EQ(row[2], 0.6f) << "silent, although the lips touch";
+  own.weight(0, 1);
+  for (int step = 0; step < 20; ++step) row = own.step(kStep);
+  EXPECT_LE(guard_distance(made.guard, row.data()), 0.5001f);
+}
+
+TEST(GuardOfAMixer, StaysOutOfAMixerThatKeepsTheLimit) {
+  const GuardedMix guarded;
+  GuardedMix free;
+  free.input.desc.guards = {};
+  const MixHandle without = make_mix(free.input);
+  OwnMixer a(guarded.mix), b(without);
+  for (OwnMixer* own : {&a, &b}) {
+    own->pose(0, 0, 1);
+    own->pose(1, 0, 0.15f);
+  }
+  for (int step = 0; step < 5; ++step) EXPECT_TRUE(same_bits(a.step(kStep), b.step(kStep)));
+}
+
+TEST(GuardOfAMixer, IsRefusedWithPairsThatDoNotFit) {
+  const auto status_of = [](GuardPair pair, uint32_t count) {
+    GuardedMix made;
+    made.guard.pairs[0] = pair;
+    made.guard.pair_count = count;
+    Mix* mix = nullptr;
+    Error error;
+    const Status status = create_mix(made.input.finish(), default_allocator(), mix, error);
+    EXPECT_EQ(mix, nullptr);
+    return status;
+  };
+  EXPECT_EQ(status_of({0, 4, 1}, 1), Status::kInvalidArgument);
+  EXPECT_EQ(status_of({4, 0, 1}, 1), Status::kInvalidArgument);
+  EXPECT_EQ(status_of({2, 2, 1}, 1), Status::kInvalidArgument);
+  EXPECT_EQ(status_of({0, 1, NAN}, 1), Status::kInvalidArgument);
+  EXPECT_EQ(status_of({0, 1, 1}, kMaxGuardPairs + 1), Status::kInvalidArgument);
 }
 
 }  // namespace
