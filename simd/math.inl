@@ -7,10 +7,14 @@
 // | nearest               | |v| up to 2^22     | 0; ties to even                                  |
 // | round_to_whole(v, p)  | |v| up to 126      | 0: a nearest whole number n, and p = 2^n         |
 // | power_of_two          | whole -126 ... 127 | 0                                                |
-// | power_of_two_or_zero  | up to 126          | 2e-7 of its value; 0 up to -126                  |
+// | power_of_two_or_zero  | up to 126          | 2.5e-7 of its value; 0 up to -126                |
 // | exp_of_negative       | up to 0            | 2e-7 of its value; 0 below -87                   |
-// | arc_cosine            | -1 ... 1           | 2e-8, before rounding; 0 above 1                 |
+// | quick_arc_cosine      | -1 ... 1           | 2e-8, before rounding; 0 above 1                 |
 // | bounded_sine, _cosine | -pi/2 ... pi/2     | next terms of the series: below 7e-10            |
+// | sine_cosine           | finite             | 2 ulp                                            |
+// | arc_tangent(y, x)     | finite             | 2 ulp                                            |
+// | arc_cosine            | -1 ... 1           | 2 ulp; 0 beyond                                  |
+// | reciprocal_root       | above 0            | 1.5 ulp                                          |
 
 #pragma once
 
@@ -35,12 +39,12 @@ inline V nearest(V v) {
 template <class V>
 inline V round_to_whole(V v, V& power) {
   const V rounder = Make<V>::of(kPowerRounder), sum = v + rounder;
-  power = low_bits_to_exponent(sum);
+  power = shift_bits<23>(sum);
   return sum - rounder;
 }
 template <class V>
 inline V power_of_two(V n) {
-  return low_bits_to_exponent(n + Make<V>::of(kPowerRounder));
+  return shift_bits<23>(n + Make<V>::of(kPowerRounder));
 }
 
 // Exponentials ------------------------------------------------------------------------------------
@@ -60,23 +64,25 @@ inline V power_of_two_or_zero(V y) {
 
 // Cody-Waite reduction to |r| <= ln(2)/2, then the series to the seventh power (its next term is below
 // 6e-9 there), in halves that do not wait for each other.
-inline Vec exp_of_negative(Vec x) {
-  const Vec bounded = at_least(x, broadcast(-87.0f));
-  const Vec n = nearest(bounded * broadcast(1.44269504f));
-  const Vec r = (bounded - n * broadcast(0.693359375f)) + n * broadcast(2.12194440e-4f);
-  const Vec r2 = r * r;
-  const Vec low = (broadcast(1.0f / 6) * r + broadcast(0.5f)) * r2 + (r + broadcast(1.0f));
-  const Vec high = (broadcast(1.0f / 5040) * r + broadcast(1.0f / 720)) * r2 +
-                   (broadcast(1.0f / 120) * r + broadcast(1.0f / 24));
-  const Vec p = high * (r2 * r2) + low;
-  return select(less(x, broadcast(-87.0f)), broadcast(0.0f), p * power_of_two(n));
+template <class V>
+inline V exp_of_negative(V x) {
+  using M = Make<V>;
+  const V bounded = at_least(x, M::of(-87.0f));
+  const V n = nearest(bounded * M::of(1.44269504f));
+  const V r = (bounded - n * M::of(0.693359375f)) + n * M::of(2.12194440e-4f);
+  const V r2 = r * r;
+  const V low = (M::of(1.0f / 6) * r + M::of(0.5f)) * r2 + (r + M::of(1.0f));
+  const V high = (M::of(1.0f / 5040) * r + M::of(1.0f / 720)) * r2 +
+                 (M::of(1.0f / 120) * r + M::of(1.0f / 24));
+  const V p = high * (r2 * r2) + low;
+  return select(less(x, M::of(-87.0f)), M::of(0.0f), p * power_of_two(n));
 }
 
 // Angles ------------------------------------------------------------------------------------------
 
 // sqrt(1 - |x|) times a polynomial (Abramowitz and Stegun 4.4.46), reflected for negative x.
 template <class V>
-inline V arc_cosine(V x) {
+inline V quick_arc_cosine(V x) {
   using M = Make<V>;
   const V a = at_most_or_nan(absolute(x), M::of(1.0f));
   const V a2 = a * a;
@@ -89,21 +95,141 @@ inline V arc_cosine(V x) {
 }
 
 // Taylor series.
-inline Vec bounded_sine(Vec x) {
-  const Vec xx = x * x;
+template <class V>
+inline V bounded_sine(V x) {
+  using M = Make<V>;
+  const V xx = x * x;
   const float terms[] = {-2.50521084e-8f, 2.75573192e-6f, -1.98412698e-4f, 8.33333333e-3f,
                          -1.66666667e-1f};
-  Vec p = broadcast(1.60590438e-10f);
-  for (float term : terms) p = p * xx + broadcast(term);
+  V p = M::of(1.60590438e-10f);
+  for (float term : terms) p = p * xx + M::of(term);
   return (p * xx) * x + x;
 }
-inline Vec bounded_cosine(Vec x) {
-  const Vec xx = x * x;
+template <class V>
+inline V bounded_cosine(V x) {
+  using M = Make<V>;
+  const V xx = x * x;
   const float terms[] = {2.08767570e-9f,  -2.75573192e-7f, 2.48015873e-5f,
                          -1.38888889e-3f, 4.16666667e-2f,  -0.5f};
-  Vec p = broadcast(-1.14707456e-11f);
-  for (float term : terms) p = p * xx + broadcast(term);
-  return p * xx + broadcast(1.0f);
+  V p = M::of(-1.14707456e-11f);
+  for (float term : terms) p = p * xx + M::of(term);
+  return p * xx + M::of(1.0f);
+}
+
+// Full range --------------------------------------------------------------------------------------
+
+constexpr float kPi = 3.14159274f, kHalfPi = 1.57079637f;
+constexpr float kPiRest = -2.78275342e-8f;  // (pi - kPi) / kPi
+
+/// x = n * pi/2 + rest, where |rest| is at most pi/4; `bits` has n in its low bits. For x too large
+/// to be reduced in floats: by the bits of 2/pi that count, in integers (Payne and Hanek).
+inline void reduce_large_angle(float x, float& rest, float& bits) {
+  // 2/pi, after 32 bits before the point.
+  static constexpr uint32_t kTwoOverPi[] = {0,          0xA2F9836E, 0x4E441529, 0xFC2757D1,
+                                            0xF534DDC0, 0xDB629599, 0x3C439041, 0xFE5163AB};
+  const uint32_t exponent = bits_of(x) >> 23 & 0xFF;
+  bits = kRounder;
+  rest = x - x;
+  if (exponent == 0xFF) return;  // not a number
+  // |x| = fraction * 2^shift. What comes before gives multiples of 4, what comes after the 96 bits
+  // less than 2^-70.
+  const uint64_t fraction = (bits_of(x) & 0x7FFFFF) | 0x800000;
+  const uint32_t first = exponent - 150 + 30, word = first / 32, bit = first % 32;
+  const auto part = [&](uint32_t i) {
+    const uint64_t two = uint64_t{kTwoOverPi[word + i]} << 32 | kTwoOverPi[word + i + 1];
+    return two >> (32 - bit) & 0xFFFFFFFF;
+  };
+  const uint64_t low = fraction * part(2), middle = fraction * part(1) + (low >> 32);
+  const uint64_t high = fraction * part(0) + (middle >> 32);
+  const uint64_t quarters = high << 32 | (middle & 0xFFFFFFFF);  // 2 bits, then 62 behind the point
+  const uint64_t n = (quarters + (uint64_t{1} << 61)) >> 62;
+  const auto left = static_cast<int64_t>(quarters - (n << 62));
+  const float turn = static_cast<float>(static_cast<double>(left) * (0x1p-62 * 1.5707963267948966));
+  const bool negative = x < 0;
+  rest = negative ? -turn : turn;
+  bits = kRounder + static_cast<float>(negative ? -static_cast<int>(n) : static_cast<int>(n));
+}
+
+// Cody-Waite reduction to |r| <= pi/4: the first two parts of pi/2 have sixteen bits and n at most
+// eight, so their products are exact; what the second difference loses is added at the end. Then
+// minimax polynomials, within 4e-9.
+template <class V>
+inline void sine_cosine(V x, V& sine, V& cosine) {
+  using M = Make<V>;
+  constexpr float kMaxAngle = 256;
+  V sum = x * M::of(0.636619747f) + M::of(kRounder);
+  const V n = sum - M::of(kRounder), second = n * M::of(-0x1.2aeep-18f);
+  const V first = x - n * M::of(0x1.922p+0f), rest = first - second;
+  V r = rest + (((first - rest) - second) - n * M::of(-0x1.e973dcp-35f));
+  if (__builtin_expect(any(less(M::of(kMaxAngle), absolute(x))), false)) {
+    constexpr size_t kCount = sizeof(V) / sizeof(float);
+    alignas(64) float angles[kCount], rests[kCount], sums[kCount];
+    store(angles, x);
+    store(rests, r);
+    store(sums, sum);
+    for (size_t i = 0; i < kCount; ++i) {
+      if (__builtin_fabsf(angles[i]) > kMaxAngle) reduce_large_angle(angles[i], rests[i], sums[i]);
+    }
+    r = M::from(rests);
+    sum = M::from(sums);
+  }
+  const V r2 = r * r;
+  const V s = r + (r * r2) * (M::of(-0.166666552f) +
+                              r2 * (M::of(0.00833218824f) + r2 * M::of(-0.000195180954f)));
+  const V c = (M::of(1.0f) - r2 * M::of(0.5f)) +
+              (r2 * r2) * (M::of(0.0416666456f) +
+                           r2 * (M::of(-0.00138873095f) + r2 * M::of(2.44323273e-05f)));
+  // By n modulo 4: s c, c -s, -s -c, -c s.
+  const V odd = shift_bits<31>(sum), upper = shift_bits<30>(sum);
+  const auto swapped = less(with_sign(M::of(1.0f), odd), M::of(0.0f));
+  sine = flip_sign(select(swapped, c, s), upper);
+  cosine = flip_sign(flip_sign(select(swapped, s, c), upper), odd);
+}
+
+// The angle of (x, y), -pi ... pi, with the signs of zeros as C has them: the smaller by the larger
+// magnitude, a minimax polynomial within 2e-8, and what the octant adds to it. Not a number if both
+// are infinite.
+template <class V>
+inline V arc_tangent(V y, V x) {
+  using M = Make<V>;
+  const V zero = M::of(0.0f), smallest = M::of(0x1p-149f);
+  const V ax = absolute(x), ay = absolute(y);
+  const auto steep = less(ax, ay);
+  const V low = select(steep, ax, ay), high = select(steep, ay, ax);
+  const V a = divide(low, high + keep(less(high, smallest), smallest));
+  const V u = a * a, u2 = u * u;
+  const V even = (M::of(0.00291873305f) * u + M::of(-0.0163611509f)) * u2 +
+                 (M::of(0.0432025157f) * u + M::of(-0.0755155608f));
+  const V rest = (M::of(0.106657512f) * u + M::of(-0.14211002f)) * u2 +
+                 (M::of(0.199937671f) * u + M::of(-0.333331525f));
+  const V t = a + (a * u) * (even * (u2 * u2) + rest);
+  const V signed_t = flip_sign(t, x);
+  const V base =
+      select(steep, M::of(kHalfPi), keep(less(with_sign(M::of(1.0f), x), zero), M::of(kPi)));
+  const V added = select(steep, zero - signed_t, signed_t);
+  return with_sign(base + (added + base * M::of(kPiRest)), y);
+}
+
+// From the arc sine z + z^3 p(z^2) for z up to 1/2, within 5e-9: pi/2 - asin(x), and for larger x
+// twice the arc sine of sqrt((1 - x) / 2).
+template <class V>
+inline V arc_cosine(V x) {
+  using M = Make<V>;
+  const V half = M::of(0.5f), a = at_most_or_nan(absolute(x), M::of(1.0f));
+  const auto large = less(half, a);
+  const V u = select(large, (M::of(1.0f) - a) * half, a * a), z = select(large, square_root(u), a);
+  const V u2 = u * u;
+  const V p = (M::of(0.0421583876f) * u2 + (M::of(0.0241847429f) * u + M::of(0.0454691537f))) * u2 +
+              (M::of(0.0749530941f) * u + M::of(0.166667521f));
+  const V sine = z + (z * u) * p;
+  const V angle = select(large, sine + sine, (M::of(kHalfPi) - sine) + M::of(kHalfPi * kPiRest));
+  const V reflected = (M::of(kPi) - angle) + M::of(kPi * kPiRest);
+  return select(less(x, M::of(0.0f)), reflected, angle);
+}
+
+template <class V>
+inline V reciprocal_root(V v) {
+  return divide(Make<V>::of(1.0f), square_root(v));
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ template <class V>
     dot = dot + M::from(targets + k * stride) * M::of(input.first[k * input.step]);
   }
   const V u = dot * dot;
-  return arc_cosine((u + u) - M::of(1.0f));
+  return quick_arc_cosine((u + u) - M::of(1.0f));
 }
 
 template <class V>

@@ -23,7 +23,10 @@
 // | less(a, b)             | a mask                                                               |
 // | select(m, a, b)        | a where m, else b                                                    |
 // | keep(m, a)             | a where m, else 0                                                    |
-// | low_bits_to_exponent   | the bits of each float, moved up by 23                               |
+// | any(m)                 | whether a lane of a mask is set                                      |
+// | with_sign(v, s)        | the magnitude of v, the sign bit of s                                |
+// | flip_sign(v, s)        | -v where the sign bit of s is set                                    |
+// | shift_bits<n>(v)       | the bits of each float, moved up by n                                |
 // | different_lanes(a, b)  | bit k: the bits of lane k differ                                     |
 // | sum_of_lanes           | of 16 lanes, in kVecsPerBlock vectors: one half is added to the      |
 // |                        | other until one is left                                              |
@@ -126,7 +129,13 @@ inline Vec at_most_or_nan(Vec v, Vec high) { return high < v ? high : v; }
 inline Mask less(Vec a, Vec b) { return a < b; }
 inline Vec select(Mask m, Vec a, Vec b) { return m ? a : b; }
 inline Vec keep(Mask m, Vec a) { return m ? a : 0.0f; }
-inline Vec low_bits_to_exponent(Vec v) { return float_of(bits_of(v) << 23); }
+inline bool any(Mask m) { return m; }
+inline Vec with_sign(Vec v, Vec s) { return __builtin_copysignf(v, s); }
+inline Vec flip_sign(Vec v, Vec s) { return float_of(bits_of(v) ^ (bits_of(s) & 0x80000000u)); }
+template <int kBits>
+inline Vec shift_bits(Vec v) {
+  return float_of(bits_of(v) << kBits);
+}
 inline uint32_t different_lanes(Vec a, Vec b) { return bits_of(a) != bits_of(b); }
 
 using BlockVec = Vec;
@@ -196,8 +205,12 @@ inline Vec broadcast(float value) { return Vec(value); }
 inline Vec absolute(Vec v) { return xsimd::abs(v); }
 inline Mask less(Vec a, Vec b) { return a < b; }
 inline Vec select(Mask m, Vec a, Vec b) { return xsimd::select(m, a, b); }
-inline Vec low_bits_to_exponent(Vec v) {
-  return xsimd::bitwise_cast<Vec>(xsimd::bitwise_cast<Bits>(v) << 23);
+inline bool any(Mask m) { return xsimd::any(m); }
+inline Vec with_sign(Vec v, Vec s) { return absolute(v) | (s & broadcast(-0.0f)); }
+inline Vec flip_sign(Vec v, Vec s) { return v ^ (s & broadcast(-0.0f)); }
+template <int kBits>
+inline Vec shift_bits(Vec v) {
+  return xsimd::bitwise_cast<Vec>(xsimd::bitwise_cast<Bits>(v) << kBits);
 }
 #if defined(MIEN_KERNEL_SSE2) || defined(MIEN_KERNEL_AVX2)
 inline Vec keep(Mask m, Vec a) { return Vec(m.data) & a; }
@@ -355,8 +368,16 @@ inline VecPair select(MaskPair m, VecPair x, VecPair y) {
   return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};
 }
 inline VecPair keep(MaskPair m, VecPair v) { return {keep(m.a, v.a), keep(m.b, v.b)}; }
-inline VecPair low_bits_to_exponent(VecPair v) {
-  return {low_bits_to_exponent(v.a), low_bits_to_exponent(v.b)};
+inline bool any(MaskPair m) { return any(m.a) || any(m.b); }
+inline VecPair with_sign(VecPair v, VecPair s) {
+  return {with_sign(v.a, s.a), with_sign(v.b, s.b)};
+}
+inline VecPair flip_sign(VecPair v, VecPair s) {
+  return {flip_sign(v.a, s.a), flip_sign(v.b, s.b)};
+}
+template <int kBits>
+inline VecPair shift_bits(VecPair v) {
+  return {shift_bits<kBits>(v.a), shift_bits<kBits>(v.b)};
 }
 inline void store(float* to, VecPair v) {
   store(to, v.a);
