@@ -7,10 +7,6 @@
 namespace mien {
 namespace {
 
-// Millimeters. Lanes with less gain go back less, so that none is lost for next to nothing, and none
-// jumps when its gain changes sign.
-constexpr float kFullGain = 1.0f;
-
 void gather(const Guard& guard, const float* row, float* values) {
   for (uint32_t i = 0; i < guard.count; ++i) values[i] = row[guard.lanes[i]];
 }

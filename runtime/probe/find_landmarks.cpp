@@ -7,7 +7,7 @@
 namespace mien {
 namespace {
 
-constexpr double kTogether = 0.01;  // millimeters
+constexpr double kTouching = 0.01;  // millimeters
 constexpr double kApart = 2;        // millimeters
 // Lids move when eyes look or smile, and jaws when anything is said: that is no blink and no s.
 constexpr float kLidsOn = 6, kTeethOn = 4;
@@ -90,7 +90,7 @@ class Finder {
       uint32_t position;
     };
     const uint32_t count = deformer_.meshes[mesh].position_count;
-    const double step = kTogether / probe_.millimeters();
+    const double step = kTouching / probe_.millimeters();
     const Vec3 up = probe_.axis(2) * probe_.millimeters(), left = probe_.axis(0);
     Arena scratch(allocator_);
     const Span<Cell> cells = scratch.array<Cell>(count);
