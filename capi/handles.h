@@ -5,6 +5,9 @@
 #include <cstring>
 
 #include "capi/mien.h"
+#include "runtime/anim/binding.h"
+#include "runtime/anim/clip_builder.h"
+#include "runtime/anim/clip_sampler.h"
 #include "runtime/baked/baked_file.h"
 #include "runtime/base/arena.h"
 #include "runtime/base/mapped_file.h"
@@ -25,6 +28,9 @@ constexpr uint32_t kBatchTag = 0x6D42'4154;
 constexpr uint32_t kDeformerTag = 0x6D44'4652;
 constexpr uint32_t kDeformerInstanceTag = 0x6D50'4F53;
 constexpr uint32_t kBakedTag = 0x6D42'414B;
+constexpr uint32_t kClipTag = 0x6D43'4C50;
+constexpr uint32_t kClipPlayerTag = 0x6D43'504C;
+constexpr uint32_t kClipBindingTag = 0x6D43'424E;
 
 struct MienDna {
   uint32_t tag;
@@ -32,6 +38,33 @@ struct MienDna {
   mien::MappedFile file;  // empty if opened from memory or generated
   mien::Arena arena;
   mien::dna::DnaView view;
+};
+
+// One block, with the reports behind it; the bytes are the caller's, mapped, or a block of their own.
+struct MienClip {
+  uint32_t tag = 0;
+  mien::Allocator allocator;
+  size_t block_size = 0;
+  mutable std::atomic<uint32_t> owners{1};  // the creator and every player
+  mien::MappedFile file;
+  mien::ClipBytes own;
+  mien::Clip view;
+  mien::Span<mien::ChannelReport> reports;  // of a clip that was built here, else none
+};
+
+struct MienClipPlayer {
+  uint32_t tag = 0;
+  mien::Allocator allocator;
+  size_t block_size = 0;
+  const MienClip* clip = nullptr;
+  mien::ClipSampler sampler;
+  mien::EventRange events;  // that the last advance passed
+};
+
+struct MienClipBinding {
+  uint32_t tag = 0;
+  mien::Allocator allocator;
+  mien::Binding* binding = nullptr;
 };
 
 namespace mien::capi {
@@ -74,6 +107,11 @@ inline MienStatus check(const MienBaked* baked) { return check_tag(baked, kBaked
 inline MienStatus check(const MienDeformer* deformer) { return check_tag(deformer, kDeformerTag); }
 inline MienStatus check(const MienDeformerInstance* instance) {
   return check_tag(instance, kDeformerInstanceTag);
+}
+inline MienStatus check(const MienClip* clip) { return check_tag(clip, kClipTag); }
+inline MienStatus check(const MienClipPlayer* player) { return check_tag(player, kClipPlayerTag); }
+inline MienStatus check(const MienClipBinding* binding) {
+  return check_tag(binding, kClipBindingTag);
 }
 
 /// No struct grows beyond this: larger numbers were never set.
@@ -172,6 +210,9 @@ MienStatus read_desc(const T* in, T& out, const char* name, MienError* error) {
 
 /// The kernels of a MIEN_ISA_..., or the reason why there are none.
 MienStatus find_kernels(uint32_t isa, const KernelTable*& out, MienError* error);
+
+/// Drops one owner of a clip; the last one releases it.
+void release_clip_handle(const MienClip* clip);
 
 /// An empty MienDna in the allocator's memory; null if there is none.
 MienDna* new_dna(const Allocator& allocator);

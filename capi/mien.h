@@ -12,6 +12,9 @@
  *   MienDeformer          the geometry of a file, packed for deformation; immutable
  *   MienDeformerInstance  one character: its joint matrices and deformed meshes
  *   MienBaked             an open file that holds a packed rig and its deformer
+ *   MienClip              compressed curves of named channels; immutable
+ *   MienClipPlayer        plays a clip for one character
+ *   MienClipBinding       maps the channels of a clip to the raw controls of a rig; immutable
  *
  * One rig and one deformer serve any number of characters and threads. Both copy what they need
  * from the DNA, which may be closed afterwards.
@@ -148,7 +151,14 @@ enum MienStatusCode {
     MIEN_ERROR_BAKED_TRUNCATED = 52, /* the file is shorter than its header states */
     MIEN_ERROR_BAKED_STRUCTURE = 53, /* sizes, counts or indices contradict each other */
     MIEN_ERROR_BAKED_CHECKSUM = 54,  /* the bytes are not those that were written */
-    MIEN_ERROR_BAKED_PART = 55       /* the file does not contain the requested object */
+    MIEN_ERROR_BAKED_PART = 55,      /* the file does not contain the requested object */
+    MIEN_ERROR_CLIP_SIGNATURE = 60,  /* not a clip */
+    MIEN_ERROR_CLIP_VERSION = 61,    /* built by another version */
+    MIEN_ERROR_CLIP_TRUNCATED = 62,  /* the clip is shorter than its header states */
+    MIEN_ERROR_CLIP_STRUCTURE = 63,  /* sizes, counts or curves contradict each other */
+    MIEN_ERROR_CLIP_CHECKSUM = 64,   /* the bytes are not those that were written */
+    MIEN_ERROR_CLIP_VALUE = 65,      /* a value that is not finite */
+    MIEN_ERROR_CLIP_LIMIT = 66       /* more than a clip, player or binding can hold */
 };
 
 /* Returns "DNA_TRUNCATED" for MIEN_ERROR_DNA_TRUNCATED, and "UNKNOWN" for other numbers. The string
@@ -1510,6 +1520,336 @@ MIEN_DEFAULT(MienBakedDeformerDesc, mien_baked_deformer_desc_default)
 MIEN_CHECKED MienStatus mien_deformer_from_baked(const MienBaked* baked, const MienRig* rig,
                                                  const MienBakedDeformerDesc* desc,
                                                  MienDeformer** out_deformer, MienError* error);
+
+/* ---- Clips ----------------------------------------------------------------------------------- */
+
+/* Curves of named channels at a constant frame rate, compressed. A clip is not bound to a rig: a
+ * MienClipBinding maps its channels to raw controls.
+ *
+ *     rows of values -> MienClip -> MienClipPlayer  -> values of channels
+ *                              \___ MienClipBinding -> raw controls of a rig
+ *
+ * Times are integers, in ticks of 1 / MIEN_TICKS_PER_SECOND s. At common frame rates a frame is a whole
+ * number of ticks; at others it is rounded to the nearest. A clip is used in place and needs no
+ * decompression in advance. Whatever its bytes are, decoded values are finite. Immutable. */
+typedef struct MienClip MienClip;
+
+/* Ticks per second. */
+#define MIEN_TICKS_PER_SECOND 705600000
+
+/* What follows the last frame. */
+enum MienLooping {
+    MIEN_LOOPING_DEFAULT = 0, /* for a clip MIEN_LOOPING_CLAMP, for a player that of its clip */
+    MIEN_LOOPING_CLAMP = 1,   /* the last frame stays; the length is (frames - 1) * ticks per frame */
+    MIEN_LOOPING_WRAP = 2     /* the first frame follows; the length is frames * ticks per frame */
+};
+
+/* A named moment of a clip, such as a phoneme. */
+typedef struct MienClipEvent {
+    int64_t tick;
+    MienStringView name;
+    float value;
+    uint32_t reserved; /* 0 */
+} MienClipEvent;
+
+/* What to build a clip from. */
+typedef struct MienClipDesc {
+    size_t struct_size;
+    uint32_t rate_numerator;     /* frames per second, as a fraction. 0: 60 */
+    uint32_t rate_denominator;   /* 0: 1 */
+    uint32_t frame_count;        /* 1 to 2^28 */
+    uint32_t channel_count;      /* at most 65535, of which at most 512 change */
+    const MienStringView* names; /* one per channel, all different, not empty */
+    const float* values;         /* channel c of frame f is values[f * frame_stride + c] */
+    size_t frame_stride;         /* floats from frame to frame. 0: channel_count */
+    const float* snaps;          /* one per channel, used instead of `snap`; may be NULL */
+    float snap;                  /* 0: values keep all bits. 2^-9, 2^-10 ... 2^-16: values are rounded to
+                                    multiples of it, which makes the clip several times smaller */
+    uint32_t looping;            /* MIEN_LOOPING_... */
+    uint32_t is_delta;           /* boolean: values are differences, to be added to other values */
+    uint32_t event_count;
+    const MienClipEvent* events; /* in any order; 0 <= tick < frame_count * ticks per frame */
+    const MienAllocator* allocator;
+} MienClipDesc;
+MIEN_DEFAULT(MienClipDesc, mien_clip_desc_default)
+
+/* Builds a clip in memory. `desc` is required. The same values give the same bytes on every machine.
+ * Close with mien_clip_close().
+ * Fails with MIEN_ERROR_CLIP_VALUE if a value is not finite (the message names frame and channel),
+ * MIEN_ERROR_NAME if a name is empty or occurs twice, MIEN_ERROR_CLIP_LIMIT if there are too many frames,
+ * channels or bytes. */
+MIEN_CHECKED MienStatus mien_clip_build(const MienClipDesc* desc, MienClip** out_clip,
+                                        MienError* error);
+
+/* How to open a clip. */
+typedef struct MienClipOpenDesc {
+    size_t struct_size;
+    uint32_t file_access; /* MIEN_FILE_...; no effect on memory and streams */
+    uint32_t reserved;    /* 0 */
+    const MienAllocator* allocator;
+} MienClipOpenDesc;
+MIEN_DEFAULT(MienClipOpenDesc, mien_clip_open_desc_default)
+
+/* Opens a clip. It is mapped; do not truncate or overwrite a mapped file until the clip is closed and
+ * its players are destroyed; replacing it by renaming is safe. Names and events are checked now,
+ * curves when they are decoded: a damaged one gives zeros (see mien_clip_verify()). Close with
+ * mien_clip_close().
+ * Fails with MIEN_ERROR_FILE_OPEN or MIEN_ERROR_FILE_READ if the file cannot be read,
+ * MIEN_ERROR_CLIP_SIGNATURE, MIEN_ERROR_CLIP_VERSION, MIEN_ERROR_CLIP_TRUNCATED or
+ * MIEN_ERROR_CLIP_STRUCTURE if it is not a valid clip. */
+MIEN_CHECKED MienStatus mien_clip_open_file(const char* path, const MienClipOpenDesc* desc,
+                                            MienClip** out_clip, MienError* error);
+
+/* Opens a clip in memory, at any alignment. `bytes` must outlive the clip and its players, unchanged.
+ * Fails like mien_clip_open_file(), but not with MIEN_ERROR_FILE_OPEN or MIEN_ERROR_FILE_READ. */
+MIEN_CHECKED MienStatus mien_clip_open_memory(const void* bytes, size_t size,
+                                              const MienClipOpenDesc* desc, MienClip** out_clip,
+                                              MienError* error);
+
+/* Opens a clip through a stream, which is read at once into memory of the allocator.
+ * Fails like mien_clip_open_file(), but not with MIEN_ERROR_FILE_OPEN. */
+MIEN_CHECKED MienStatus mien_clip_open_stream(const MienStream* stream, const MienClipOpenDesc* desc,
+                                              MienClip** out_clip, MienError* error);
+
+/* Closes a clip. Players stay valid; memory is released and the file unmapped with the last of them. */
+MIEN_API void mien_clip_close(MienClip* clip);
+
+/* Writes a clip to a file. The file is written under a temporary name and renamed, so that a failure
+ * leaves `path` unchanged.
+ * Fails with MIEN_ERROR_FILE_WRITE if the file cannot be written. */
+MIEN_CHECKED MienStatus mien_clip_write_file(const MienClip* clip, const char* path,
+                                             MienError* error);
+
+/* Writes a clip to memory and returns its size in `out_size`. `buffer` may be NULL with capacity 0 to
+ * get the size only. Writes nothing if `capacity` is too small; `out_size` is set nevertheless.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small. */
+MIEN_CHECKED MienStatus mien_clip_write_memory(const MienClip* clip, void* buffer, size_t capacity,
+                                               size_t* out_size, MienError* error);
+
+/* Properties of a clip. */
+typedef struct MienClipInfo {
+    size_t struct_size;
+    uint32_t rate_numerator;         /* frames per second, as a fraction */
+    uint32_t rate_denominator;
+    uint32_t frame_count;
+    uint32_t channel_count;
+    uint32_t changing_channel_count; /* channels that do not have one value in all frames */
+    uint32_t event_count;
+    uint32_t looping;                /* MIEN_LOOPING_CLAMP or MIEN_LOOPING_WRAP */
+    uint32_t is_delta;               /* boolean: values are differences */
+    float snap;                      /* largest step that a channel was rounded to. 0: none was */
+    uint32_t is_mapped;              /* boolean: the file is mapped */
+    int64_t ticks_per_frame;
+    int64_t length;                  /* ticks */
+    uint64_t file_bytes;             /* size of the clip */
+    uint64_t memory_bytes;           /* memory taken from the allocator */
+    uint64_t player_bytes;           /* memory of a player without MienClipPlayerDesc.reverse */
+} MienClipInfo;
+MIEN_DEFAULT(MienClipInfo, mien_clip_info_default)
+
+/* Returns the properties of a clip. */
+MIEN_CHECKED MienStatus mien_clip_info(const MienClip* clip, MienClipInfo* out_info);
+
+/* A channel of a clip. Block counts, bits and max_error are known after mien_clip_build() only: they
+ * are 0 for a clip that was opened. */
+typedef struct MienClipChannel {
+    size_t struct_size;
+    MienStringView name;
+    float rest;               /* value of a channel that does not change, else 0 */
+    uint32_t is_changing;     /* boolean: the channel has a curve */
+    uint32_t zero_blocks;     /* blocks of 64 frames that are zero */
+    uint32_t constant_blocks; /* blocks with one other value */
+    uint32_t grid_blocks;     /* blocks of decimal or binary fractions */
+    uint32_t float_blocks;    /* other blocks */
+    uint64_t bits;            /* of all blocks */
+    float max_error;          /* largest error of rounding to a step */
+    uint32_t reserved;        /* 0 */
+} MienClipChannel;
+MIEN_DEFAULT(MienClipChannel, mien_clip_channel_default)
+
+/* Returns a channel. Channels are in the order in which the clip was built. Its name is a view of the
+ * clip.
+ * Fails with MIEN_ERROR_INDEX if `index` is out of range. */
+MIEN_CHECKED MienStatus mien_clip_channel(const MienClip* clip, uint32_t index,
+                                          MienClipChannel* out_channel);
+
+/* Returns the index of the channel with this name. Searches all channels.
+ * Fails with MIEN_ERROR_NAME if there is none. */
+MIEN_CHECKED MienStatus mien_clip_find_channel(const MienClip* clip, const char* name,
+                                               uint32_t* out_index);
+MIEN_CHECKED MienStatus mien_clip_find_channel_n(const MienClip* clip, const char* name,
+                                                 size_t name_count, uint32_t* out_index);
+
+/* Returns an event. Events are sorted by tick; those of one tick keep the order in which they were
+ * given. Its name is a view of the clip.
+ * Fails with MIEN_ERROR_INDEX if `index` is out of range. */
+MIEN_CHECKED MienStatus mien_clip_event(const MienClip* clip, uint32_t index,
+                                        MienClipEvent* out_event);
+
+/* Checks that a clip has the bytes that were written and that all curves can be decoded. Reads the
+ * whole clip. Uses up to 24 KiB of stack.
+ * Fails with MIEN_ERROR_CLIP_CHECKSUM if bytes have changed, MIEN_ERROR_CLIP_STRUCTURE if a curve cannot
+ * be decoded. */
+MIEN_CHECKED MienStatus mien_clip_verify(const MienClip* clip, MienError* error);
+
+/* Copies `frame_count` frames from `first_frame` on: channel c of frame first_frame + n to
+ * out_values[n * frame_stride + c]. frame_stride is at least the number of channels; 0 means this
+ * number. A call decodes its first block of 64 frames from the beginning, so many frames in one call
+ * cost less than one by one. Uses up to 24 KiB of stack.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if frame_stride is too small, MIEN_ERROR_INDEX if there are not
+ * so many frames, MIEN_ERROR_CLIP_STRUCTURE if a curve is damaged; its block is zero in
+ * `out_values`. */
+MIEN_CHECKED MienStatus mien_clip_read(const MienClip* clip, uint32_t first_frame,
+                                       uint32_t frame_count, float* out_values, size_t frame_stride,
+                                       MienError* error);
+
+/* ---- Clip player ----------------------------------------------------------------------------- */
+
+/* Plays a clip for one character: a position, and the state of the decoder. */
+typedef struct MienClipPlayer MienClipPlayer;
+
+/* Values between two frames. All are within the range of the two. */
+enum MienInterpolation {
+    MIEN_INTERPOLATION_LINEAR = 0,
+    MIEN_INTERPOLATION_STEP = 1,       /* the value of the earlier frame */
+    MIEN_INTERPOLATION_CATMULL_ROM = 2 /* a Catmull-Rom spline, clamped to the range of the two frames */
+};
+
+/* How to play a clip. */
+typedef struct MienClipPlayerDesc {
+    size_t struct_size;
+    uint32_t looping;          /* MIEN_LOOPING_... */
+    uint32_t interpolation;    /* MIEN_INTERPOLATION_... */
+    int32_t speed_numerator;   /* speed, as a fraction; negative plays backward. -2^20 to 2^20 */
+    int32_t speed_denominator; /* 1 to 2^20. Both 0: 1 / 1 */
+    int64_t start_tick;        /* the initial position, as for mien_clip_player_seek() */
+    uint32_t reverse;          /* boolean: use 256 bytes more per changing channel to play backward as
+                                  fast as forward */
+    uint32_t reserved;         /* 0 */
+    const MienAllocator* allocator;
+} MienClipPlayerDesc;
+MIEN_DEFAULT(MienClipPlayerDesc, mien_clip_player_desc_default)
+
+/* Creates a player, with one allocation. `clip` may be closed before it. Destroy with
+ * mien_clip_player_destroy(). */
+MIEN_CHECKED MienStatus mien_clip_player_create(const MienClip* clip, const MienClipPlayerDesc* desc,
+                                                MienClipPlayer** out_clip_player, MienError* error);
+
+/* Destroys a player. */
+MIEN_API void mien_clip_player_destroy(MienClipPlayer* clip_player);
+
+/* State of a player. */
+typedef struct MienClipPlayerInfo {
+    size_t struct_size;
+    int64_t tick;        /* 0 to the length of the clip; with MIEN_LOOPING_WRAP less than the length */
+    int64_t loops;       /* completed since creation or the last seek; negative: backward */
+    uint32_t looping;    /* MIEN_LOOPING_CLAMP or MIEN_LOOPING_WRAP */
+    uint32_t is_damaged; /* boolean: a damaged curve was decoded and gave zeros */
+} MienClipPlayerInfo;
+MIEN_DEFAULT(MienClipPlayerInfo, mien_clip_player_info_default)
+
+/* Returns the state of a player. */
+MIEN_CHECKED MienStatus mien_clip_player_info(const MienClipPlayer* clip_player,
+                                              MienClipPlayerInfo* out_info);
+
+/* Moves to a tick: modulo the length with MIEN_LOOPING_WRAP, else to the nearest in range. Passes no
+ * events; the next mien_clip_player_advance() also passes events at this tick, as after creation.
+ * Does not allocate or lock. */
+MIEN_CHECKED MienStatus mien_clip_player_seek(MienClipPlayer* clip_player, int64_t tick);
+
+/* Changes the speed of the following calls of mien_clip_player_advance(). Does not allocate or
+ * lock.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if it is outside the range of MienClipPlayerDesc. */
+MIEN_CHECKED MienStatus mien_clip_player_set_speed(MienClipPlayer* clip_player, int32_t numerator,
+                                                   int32_t denominator);
+
+/* Moves by `ticks` times the speed. `ticks` is -2^40 to 2^40 (26 minutes). Fractions of ticks are kept,
+ * so that the position does not depend on the size of steps. Does not allocate or lock.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if `ticks` is out of range. */
+MIEN_CHECKED MienStatus mien_clip_player_advance(MienClipPlayer* clip_player, int64_t ticks);
+
+/* Returns the next event that the last mien_clip_player_advance() passed. `out_found` is 1, or 0 after
+ * the last event. An event is passed when the position reaches or crosses its tick in either
+ * direction, once per loop. Its name is a view of the clip. Does not
+ * allocate or lock. */
+MIEN_CHECKED MienStatus mien_clip_player_next_event(MienClipPlayer* clip_player,
+                                                    MienClipEvent* out_event, uint32_t* out_found);
+
+/* Returns the values at the position: one float per channel. At a frame they have the bits of the clip.
+ * Decodes the frames since the last call, or at most 64 after a jump; playing backward without
+ * MienClipPlayerDesc.reverse counts as jumps. Does not allocate or lock.
+ * Contents change with mien_clip_player_sample(). */
+MIEN_CHECKED MienStatus mien_clip_player_sample(MienClipPlayer* clip_player,
+                                                MienFloatView* out_values);
+
+/* ---- Clip binding ---------------------------------------------------------------------------- */
+
+/* Maps the channels of a clip to raw controls of a rig. Serves all clips with the same channels and
+ * all rigs with the same raw controls. Immutable. */
+typedef struct MienClipBinding MienClipBinding;
+
+/* Adds weight * value of a channel to a raw or GUI control. */
+typedef struct MienMatrixEntry {
+    MienStringView channel;
+    MienStringView control;
+    float weight;
+    uint32_t reserved; /* 0 */
+} MienMatrixEntry;
+
+/* How to bind a clip. */
+typedef struct MienClipBindingDesc {
+    size_t struct_size;
+    const MienMatrixEntry* matrix; /* for channels whose names the rig lacks; may be NULL */
+    size_t matrix_count;
+    const MienAllocator* allocator;
+} MienClipBindingDesc;
+MIEN_DEFAULT(MienClipBindingDesc, mien_clip_binding_desc_default)
+
+/* Binds a clip to a rig by names. A channel drives the raw control with its name; else the GUI control
+ * with its name, which is then mapped as by mien_rig_map_gui_to_raw(); else the controls of its entries
+ * in the matrix, whose sums are formed in the order of the matrix. Names match without regard to case;
+ * `.` matches `_`; the prefix `CTRL_expressions.` may be missing. If several names match, one of them
+ * must be equal. A raw control that a channel drives by name is driven by nothing else, and one that the
+ * matrix drives is not driven by GUI controls. Names without a match are not an error: see
+ * mien_clip_binding_info(). `clip` may be closed and `rig` may be destroyed afterwards. Destroy with
+ * mien_clip_binding_destroy().
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if a weight is not finite, MIEN_ERROR_CLIP_LIMIT if channels
+ * drive more than 4095 GUI controls. */
+MIEN_CHECKED MienStatus mien_clip_binding_create(const MienClip* clip, const MienRig* rig,
+                                                 const MienClipBindingDesc* desc,
+                                                 MienClipBinding** out_clip_binding,
+                                                 MienError* error);
+
+/* Destroys a binding. */
+MIEN_API void mien_clip_binding_destroy(MienClipBinding* clip_binding);
+
+/* What a binding found. Indices are ascending. */
+typedef struct MienClipBindingInfo {
+    size_t struct_size;
+    uint32_t channel_count;           /* channels of the clip */
+    uint32_t raw_control_count;       /* raw controls of the rig */
+    uint32_t missing_entry_count;     /* matrix entries whose channel or control does not exist */
+    uint32_t reserved;                /* 0 */
+    MienIndex16View controls;         /* raw controls that are driven */
+    MienIndex16View extra_controls;   /* raw controls that are not driven */
+    MienIndex16View missing_channels; /* channels that drive nothing: the rig lacks their names, or an
+                                         earlier channel drives the same control */
+} MienClipBindingInfo;
+MIEN_DEFAULT(MienClipBindingInfo, mien_clip_binding_info_default)
+
+/* Returns what a binding found. */
+MIEN_CHECKED MienStatus mien_clip_binding_info(const MienClipBinding* clip_binding,
+                                               MienClipBindingInfo* out_info);
+
+/* Computes the raw controls that are driven and leaves the others as they are. `values` has one float
+ * per channel, as mien_clip_player_sample() returns them; `raw_controls` has one float per raw control,
+ * as mien_instance_raw_controls() returns them. Values that drive raw controls by name keep their bits;
+ * GUI controls give the bits of mien_rig_map_gui_to_raw(). Does not allocate or lock. Uses
+ * up to 16 KiB of stack.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if a count is not that of clip and rig. */
+MIEN_CHECKED MienStatus mien_clip_binding_apply(const MienClipBinding* clip_binding,
+                                                const float* values, size_t value_count,
+                                                float* raw_controls, size_t raw_control_count);
 
 #ifdef __cplusplus
 }

@@ -4,8 +4,8 @@
 // to what the C interface does, and nothing hidden: get() gives the handle for all that is not
 // here.
 //
-//   Owners      Dna, Report, Rig, Instance, Batch, Deformer and DeformerInstance release what they
-//               hold. They can be moved, not copied. Calls on an empty one (default, moved from)
+//   Owners      Dna, Report, Rig, Instance, Batch, Deformer, DeformerInstance, Baked, Clip, ClipPlayer
+//               and ClipBinding release what they hold. They can be moved, not copied. Calls on an empty one (default, moved from)
 //               return MIEN_ERROR_NULL_ARGUMENT; its spans are empty.
 //   Results     A call that can fail returns a Result: test it, then use *result; or use value().
 //               Errors carry status, byte offset and message.
@@ -102,9 +102,14 @@ using VertexOutput = Sized<MienVertexOutput>;
 using InstanceDesc = Sized<MienInstanceDesc>;
 using BatchDesc = Sized<MienBatchDesc>;
 using ValidateDesc = Sized<MienValidateDesc>;
+using ClipDesc = Sized<MienClipDesc>;
+using ClipOpenDesc = Sized<MienClipOpenDesc>;
+using ClipPlayerDesc = Sized<MienClipPlayerDesc>;
+using ClipBindingDesc = Sized<MienClipBindingDesc>;
 using CoordinateSystem = Sized<MienCoordinateSystem>;
 
 inline std::string_view view(const MienStringView& text) { return {text.data, text.count}; }
+inline MienStringView view(std::string_view text) { return {text.data(), text.size()}; }
 inline Span<const float> view(const MienFloatView& floats) { return {floats.data, floats.count}; }
 inline Span<float> view(const MienMutableFloatView& floats) { return {floats.data, floats.count}; }
 inline Span<const uint16_t> view(const MienIndex16View& list) { return {list.data, list.count}; }
@@ -727,6 +732,137 @@ inline Result<size_t> bake(Span<unsigned char> buffer, const Rig& rig,
       mien_bake_memory(rig.get(), deformer.get(), data, buffer.size(), &size, &error);
   return {status, std::move(size), &error};
 }
+
+// ---- Clips --------------------------------------------------------------------------------------
+
+/// One character's playing of a clip, which it keeps alive. For one thread at a time.
+class ClipPlayer : public Owner<MienClipPlayer, mien_clip_player_destroy> {
+ public:
+  using Owner::Owner;
+
+  Result<MienClipPlayerInfo> info() const {
+    Sized<MienClipPlayerInfo> info;
+    return {mien_clip_player_info(get(), &info), std::move(info)};
+  }
+  /// Times are in ticks, of which a second has MIEN_TICKS_PER_SECOND.
+  Status seek(int64_t tick) { return mien_clip_player_seek(get(), tick); }
+  Status advance(int64_t ticks) { return mien_clip_player_advance(get(), ticks); }
+  Status set_speed(int32_t numerator, int32_t denominator = 1) {
+    return mien_clip_player_set_speed(get(), numerator, denominator);
+  }
+  /// Whether the last advance passed another event, which is written to `event`.
+  bool next_event(MienClipEvent& event) {
+    uint32_t found = 0;
+    return mien_clip_player_next_event(get(), &event, &found) == MIEN_OK && found != 0;
+  }
+  /// Values of all channels at the position. The span stays the same.
+  Span<const float> sample() {
+    MienFloatView values = {nullptr, 0};
+    return mien_clip_player_sample(get(), &values) == MIEN_OK ? view(values) : Span<const float>();
+  }
+};
+
+/// Which channel of a clip drives which raw control of a rig. Immutable.
+class ClipBinding : public Owner<MienClipBinding, mien_clip_binding_destroy> {
+ public:
+  using Owner::Owner;
+
+  Result<MienClipBindingInfo> info() const {
+    Sized<MienClipBindingInfo> info;
+    return {mien_clip_binding_info(get(), &info), std::move(info)};
+  }
+  /// Writes the raw controls that are driven, and no others.
+  Status apply(Span<const float> values, Span<float> raw_controls) const {
+    return mien_clip_binding_apply(get(), values.data(), values.size(), raw_controls.data(),
+                                   raw_controls.size());
+  }
+};
+
+/// Control curves at a constant rate. Immutable: may be used by several threads at once.
+class Clip : public Owner<MienClip, mien_clip_close> {
+ public:
+  using Owner::Owner;
+
+  static Result<Clip> build(const ClipDesc& desc) {
+    return make<Clip>(
+        [&](MienClip** out, MienError* error) { return mien_clip_build(&desc, out, error); });
+  }
+  static Result<Clip> open(const char* path, const ClipOpenDesc& desc = {}) {
+    return make<Clip>([&](MienClip** out, MienError* error) {
+      return mien_clip_open_file(path, &desc, out, error);
+    });
+  }
+  /// `bytes` have to outlive the Clip and its players, unchanged.
+  static Result<Clip> open(const void* bytes, size_t size, const ClipOpenDesc& desc = {}) {
+    return make<Clip>([&](MienClip** out, MienError* error) {
+      return mien_clip_open_memory(bytes, size, &desc, out, error);
+    });
+  }
+  /// Reads all of `stream`, which is not needed afterwards.
+  static Result<Clip> open(const MienStream& stream, const ClipOpenDesc& desc = {}) {
+    return make<Clip>([&](MienClip** out, MienError* error) {
+      return mien_clip_open_stream(&stream, &desc, out, error);
+    });
+  }
+
+  Result<MienClipInfo> info() const {
+    Sized<MienClipInfo> info;
+    return {mien_clip_info(get(), &info), std::move(info)};
+  }
+  Result<MienClipChannel> channel(uint32_t index) const {
+    Sized<MienClipChannel> channel;
+    return {mien_clip_channel(get(), index, &channel), std::move(channel)};
+  }
+  Result<uint32_t> find_channel(std::string_view name) const {
+    uint32_t index = 0;
+    const MienStatus status = mien_clip_find_channel_n(get(), name.data(), name.size(), &index);
+    return {status, std::move(index)};
+  }
+  Result<MienClipEvent> event(uint32_t index) const {
+    MienClipEvent event;
+    const MienStatus status = mien_clip_event(get(), index, &event);
+    return {status, std::move(event)};
+  }
+  /// Whether the bytes are those that were written.
+  Result<void> verify() const {
+    Sized<MienError> error;
+    return {mien_clip_verify(get(), &error), error};
+  }
+  /// Fills `out`, which has room for the frames, row after row.
+  Result<void> read(uint32_t first_frame, uint32_t frame_count, Span<float> out) const {
+    Sized<MienClipInfo> info;
+    Sized<MienError> error;
+    if (mien_clip_info(get(), &info) == MIEN_OK &&
+        out.size() / (info.channel_count ? info.channel_count : 1) < frame_count) {
+      return {MIEN_ERROR_INVALID_ARGUMENT, error};
+    }
+    return {mien_clip_read(get(), first_frame, frame_count, out.data(), 0, &error), error};
+  }
+
+  Result<void> write(const char* path) const {
+    Sized<MienError> error;
+    return {mien_clip_write_file(get(), path, &error), error};
+  }
+  /// Writes to memory and tells how many bytes that took; with an empty buffer, would take.
+  Result<size_t> write(Span<unsigned char> buffer) const {
+    size_t size = 0;
+    Sized<MienError> error;
+    void* const data = buffer.empty() ? nullptr : buffer.data();
+    const MienStatus status = mien_clip_write_memory(get(), data, buffer.size(), &size, &error);
+    return {status, std::move(size), &error};
+  }
+
+  Result<ClipPlayer> player(const ClipPlayerDesc& desc = {}) const {
+    return make<ClipPlayer>([&](MienClipPlayer** out, MienError* error) {
+      return mien_clip_player_create(get(), &desc, out, error);
+    });
+  }
+  Result<ClipBinding> bind(const Rig& rig, const ClipBindingDesc& desc = {}) const {
+    return make<ClipBinding>([&](MienClipBinding** out, MienError* error) {
+      return mien_clip_binding_create(get(), rig.get(), &desc, out, error);
+    });
+  }
+};
 
 // ---- Experimental -------------------------------------------------------------------------------
 

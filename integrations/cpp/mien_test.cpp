@@ -101,6 +101,56 @@ void test_life() {
   mien_instance_destroy(moved.release());
 }
 
+void test_clips() {
+  const MienStringView names[] = {mien::view("jawOpen"), mien::view("nobody")};
+  const float values[] = {0, 1, 0.5f, 1, 1, 1};
+  const MienClipEvent events[] = {{0, mien::view("M"), 1, 0}};
+  mien::ClipDesc desc;
+  desc.frame_count = 3;
+  desc.channel_count = 2;
+  desc.names = names;
+  desc.values = values;
+  desc.events = events;
+  desc.event_count = 1;
+  Bytes bytes;
+  {
+    const mien::Clip built = mien::Clip::build(desc).value();
+    bytes.data.resize(built.write(mien::Span<unsigned char>()).value());
+    CHECK(built.write(bytes.data) && built.write("/dev/null"));
+  }
+  const MienStream stream = bytes.stream();
+  for (const bool by_stream : {false, true}) {
+    mien::Clip clip = (by_stream ? mien::Clip::open(stream)
+                                 : mien::Clip::open(bytes.data.data(), bytes.data.size()))
+                          .value();
+    CHECK(clip.verify() && clip.info()->frame_count == 3);
+    CHECK(mien::view(clip.channel(1)->name) == "nobody" &&
+          clip.find_channel("nobody").value() == 1);
+    CHECK(clip.event(0)->value == 1);
+    float rows[4];
+    CHECK(clip.read(1, 2, rows) && rows[0] == 0.5f && rows[3] == 1);
+    CHECK(clip.read(0, 3, rows).status() == MIEN_ERROR_INVALID_ARGUMENT);
+
+    mien::GenerateDesc head;
+    head.preset = MIEN_PRESET_HEAD;
+    const mien::Rig rig = mien::Rig::create(mien::Dna::generate(head).value()).value();
+    mien::Instance face = rig.instance().value();
+    const mien::ClipBinding binding = clip.bind(rig).value();
+    CHECK(binding.info()->missing_channels.count == 1);
+    mien::ClipPlayer player = clip.player().value();
+    clip.reset();
+    CHECK(player.advance(MIEN_TICKS_PER_SECOND / 120));
+    MienClipEvent event;
+    CHECK(player.next_event(event) && mien::view(event.name) == "M");
+    CHECK(!player.next_event(event));
+    CHECK(binding.apply(player.sample(), face.raw_controls()));
+    CHECK(face.raw_controls()[rig.find(MIEN_KIND_RAW_CONTROL, "jawOpen").value()] == 0.25f);
+    CHECK(player.seek(MIEN_TICKS_PER_SECOND) && player.sample()[0] == 1);
+    CHECK(player.set_speed(-2) && player.info()->loops == 0);
+  }
+  CHECK(mien::Clip::open("/nonexistent").status() == MIEN_ERROR_FILE_OPEN);
+}
+
 void test_empty_objects() {
   const mien::Dna dna;
   const mien::Rig rig;
@@ -374,6 +424,7 @@ int main() {
   CHECK(std::string(mien::name_of(MIEN_ISA_SCALAR)) == "scalar");
   test_life();
   test_baked_files();
+  test_clips();
   test_empty_objects();
   test_errors();
   test_fields_and_files();

@@ -46,8 +46,8 @@ Status read_header(const uint8_t* bytes, size_t size, Clip& clip, Error& error) 
   if ((clip.flags & ~kKnownFlags) != 0 || clip.ticks_per_frame == 0 || clip.frame_count == 0 ||
       clip.frame_count > kMaxClipFrames || !whole || clip.channel_count > kMaxClipChannels ||
       clip.changing_count > clip.channel_count || clip.changing_count > kMaxChangingChannels ||
-      clip.name_count < clip.channel_count ||
-      load_little_endian<uint32_t>(bytes + kClipHeaderSize - 4) != 0) {
+      clip.name_count < clip.channel_count || clip.has(kClipSnapped) != (clip.snap != kNoSnap) ||
+      (clip.snap != kNoSnap && (clip.snap < kMinSnap || clip.snap > kMaxSnap))) {
     return damaged(error, kClipFields[0].at, "header");
   }
   return Status::kOk;

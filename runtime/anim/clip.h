@@ -77,6 +77,7 @@ struct Clip {
   uint32_t rate_numerator = 0, rate_denominator = 0;
   uint32_t frame_count = 0, channel_count = 0, changing_count = 0, event_count = 0;
   uint32_t name_count = 0, name_bytes = 0;
+  uint32_t snap = 0;  // n of the coarsest step 1 / 2^n that channels were rounded to; 0: none was
   int64_t ticks_per_frame = 0;
 
   bool has(ClipFlags flag) const { return (flags & flag) != 0; }
@@ -120,7 +121,7 @@ struct Clip {
   }
 };
 
-/// The fields of the header, u32 each; zeros follow the last.
+/// The fields of the header, u32 each, up to its end.
 struct ClipField {
   size_t at;
   uint32_t Clip::*member;
@@ -129,7 +130,13 @@ constexpr ClipField kClipFields[] = {
     {24, &Clip::flags},       {28, &Clip::rate_numerator}, {32, &Clip::rate_denominator},
     {36, &Clip::frame_count}, {40, &Clip::channel_count},  {44, &Clip::changing_count},
     {48, &Clip::event_count}, {52, &Clip::name_count},     {56, &Clip::name_bytes},
+    {60, &Clip::snap},
 };
+
+/// Steps of snapped channels are 1 / 2^n.
+constexpr uint32_t kNoSnap = 0;
+constexpr uint32_t kMinSnap = 9, kMaxSnap = 16;
+constexpr uint32_t kDefaultSnap = 11;
 
 constexpr uint32_t kNoChannel = ~uint32_t{0};
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/anim/clip_block.h"
 
+#include <cassert>
 #include <cstring>
 
 #include "runtime/base/bits.h"
@@ -193,6 +194,28 @@ void decode_frame(BlockDecoder& decoder, uint32_t frame) {
       decoder.end != 0 && frame / kBlockFrames == (decoder.end - 1) / kBlockFrames;
   if (!same_block || frame + 1 < decoder.next) enter_block(decoder, frame / kBlockFrames);
   while (decoder.next <= frame) decode_next(decoder);
+}
+
+bool read_frames(const Clip& clip, uint32_t first, uint32_t count, float* out, size_t stride) {
+  assert(first <= clip.frame_count && count <= clip.frame_count - first);
+  ChannelCursor cursors[kMaxChangingChannels];
+  float row[kMaxChangingChannels], before[kMaxChangingChannels];
+  BlockDecoder decoder;
+  begin_decoding(clip, {cursors, kMaxChangingChannels}, {row, kMaxChangingChannels}, decoder);
+  const bool half_rate = clip.has(kClipHalfRate);
+  for (uint32_t f = first; f < first + count; ++f, out += stride) {
+    const bool is_mean = half_rate && f % 2 == 1;
+    if (is_mean) {
+      decode_frame(decoder, f / 2);
+      memcpy(before, row, sizeof(float) * clip.changing_count);
+    }
+    decode_frame(decoder, half_rate ? (f + 1) / 2 : f);
+    for (uint32_t c = 0; c < clip.channel_count; ++c) out[c] = clip.rest(c);
+    for (uint32_t i = 0; i < clip.changing_count; ++i) {
+      out[clip.changing(i)] = is_mean ? half_rate_mean(before[i], row[i]) : row[i];
+    }
+  }
+  return !decoder.damaged;
 }
 
 Status verify_clip(const Clip& clip, Error& error) {

@@ -96,6 +96,10 @@ void decode_frame(BlockDecoder& decoder, uint32_t frame);
 /// A frame that a half-rate clip does not store, from its neighbors.
 inline float half_rate_mean(float a, float b) { return a * 0.5f + b * 0.5f; }
 
+/// Copies `count` frames from `first` on: frame f of all channels goes to out + (f - first) * stride.
+/// Takes 24 KiB of stack. False if a block was damaged, which gave zeros.
+bool read_frames(const Clip& clip, uint32_t first, uint32_t count, float* out, size_t stride);
+
 /// Whether the bytes are those that were written: the checksum, then every block. kClipChecksum or
 /// kClipStructure.
 Status verify_clip(const Clip& clip, Error& error);

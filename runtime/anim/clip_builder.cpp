@@ -226,7 +226,10 @@ Status build_with_scratch(Build& build, const Allocator& allocator, Span<Channel
   if (status == Status::kOk) status = sort_events(build, error);
   if (status == Status::kOk) status = find_changes(build, reports, error);
   if (status != Status::kOk) return status;
-  for (uint8_t n : desc.snaps) clip.flags |= n == kNoSnap ? 0u : uint32_t{kClipSnapped};
+  for (uint8_t n : desc.snaps) {
+    if (n != kNoSnap && (clip.snap == kNoSnap || n < clip.snap)) clip.snap = n;
+  }
+  if (clip.snap != kNoSnap) clip.flags |= kClipSnapped;
   if (desc.wraps) clip.flags |= kClipWraps;
   if (desc.is_delta) clip.flags |= kClipIsDelta;
   if (is_half_rate(build)) clip.flags |= kClipHalfRate;

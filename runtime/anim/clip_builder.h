@@ -14,11 +14,6 @@ struct ClipEventDesc {
   float value;
 };
 
-/// Steps of snapped channels are 1 / 2^n.
-constexpr uint32_t kNoSnap = 0;
-constexpr uint32_t kMinSnap = 9, kMaxSnap = 16;
-constexpr uint32_t kDefaultSnap = 11;
-
 struct ClipDesc {
   uint32_t rate_numerator = 60, rate_denominator = 1;  // frames per second
   uint32_t frame_count = 0;

@@ -90,6 +90,7 @@ TEST(Clip, TellsWhatItWasBuiltOf) {
   EXPECT_EQ(clip.length(true), 150 * clip.ticks_per_frame);
   EXPECT_TRUE(clip.has(kClipWraps) && clip.has(kClipIsDelta));
   EXPECT_FALSE(clip.has(kClipSnapped) || clip.has(kClipHalfRate));
+  EXPECT_EQ(clip.snap, kNoSnap);
   for (uint32_t c = 0; c < 40; ++c) {
     EXPECT_EQ(text(clip.name(c)), input.names[c]) << "channels keep their order";
     EXPECT_EQ(find_channel(clip, clip.name(c)), c);
@@ -219,7 +220,7 @@ void put(Bytes& bytes, uint64_t at, T value) {
   store_little_endian<T>(bytes.data() + at, value);
 }
 constexpr size_t kFlags = 24, kRate = 28, kFrames = 36, kChannels = 40, kChanging = 44,
-                 kEvents = 48, kNames = 52, kNameBytes = 56, kZero = 60;
+                 kEvents = 48, kNames = 52, kNameBytes = 56, kSnap = 60;
 
 const Forgery kForgeries[] = {
     {"UnknownFlag", [](Bytes& b, const Clip&) { put<uint32_t>(b, kFlags, 16); }},
@@ -242,7 +243,13 @@ const Forgery kForgeries[] = {
     {"FewerNamesThanChannels", [](Bytes& b, const Clip&) { put<uint32_t>(b, kNames, 39); }},
     {"LongNames", [](Bytes& b, const Clip&) { put<uint32_t>(b, kNameBytes, UINT32_MAX); }},
     {"ShortNames", [](Bytes& b, const Clip& c) { put(b, kNameBytes, c.name_bytes - 1); }},
-    {"NotZero", [](Bytes& b, const Clip&) { put<uint32_t>(b, kZero, 1); }},
+    {"StepWithoutItsFlag", [](Bytes& b, const Clip&) { put<uint32_t>(b, kSnap, 9); }},
+    {"FlagWithoutItsStep", [](Bytes& b, const Clip&) { put<uint32_t>(b, kFlags, kClipSnapped); }},
+    {"StepOutOfRange",
+     [](Bytes& b, const Clip&) {
+       put<uint32_t>(b, kFlags, kClipSnapped);
+       put<uint32_t>(b, kSnap, 17);
+     }},
     {"EmptyName", [](Bytes& b, const Clip& c) { put<uint32_t>(b, c.at.name_ends, 0); }},
     {"NamesThatGoBack", [](Bytes& b, const Clip& c) { put<uint32_t>(b, c.at.name_ends + 8, 3); }},
     {"NameBeyondTheOthers",

@@ -59,6 +59,10 @@ static void test_library(void) {
                   {MIEN_ERROR_DNA_LIMIT, "DNA_LIMIT"},
                   {MIEN_ERROR_DNA_LAYER, "DNA_LAYER"},
                   {MIEN_ERROR_DNA_VALUE, "DNA_VALUE"},
+                  {MIEN_ERROR_CLIP_SIGNATURE, "CLIP_SIGNATURE"},
+                  {MIEN_ERROR_CLIP_CHECKSUM, "CLIP_CHECKSUM"},
+                  {MIEN_ERROR_CLIP_VALUE, "CLIP_VALUE"},
+                  {MIEN_ERROR_CLIP_LIMIT, "CLIP_LIMIT"},
                   {-1, "UNKNOWN"},
                   {11, "UNKNOWN"},
                   {1000, "UNKNOWN"}};

@@ -50,6 +50,14 @@ int main(void) {
   CHECK_DEFAULT(MienDeformerInfo, mien_deformer_info_default);
   CHECK_DEFAULT(MienMesh, mien_mesh_default);
   CHECK_DEFAULT(MienDeformerInstanceDesc, mien_deformer_instance_desc_default);
+  CHECK_DEFAULT(MienClipDesc, mien_clip_desc_default);
+  CHECK_DEFAULT(MienClipOpenDesc, mien_clip_open_desc_default);
+  CHECK_DEFAULT(MienClipInfo, mien_clip_info_default);
+  CHECK_DEFAULT(MienClipChannel, mien_clip_channel_default);
+  CHECK_DEFAULT(MienClipPlayerDesc, mien_clip_player_desc_default);
+  CHECK_DEFAULT(MienClipPlayerInfo, mien_clip_player_info_default);
+  CHECK_DEFAULT(MienClipBindingDesc, mien_clip_binding_desc_default);
+  CHECK_DEFAULT(MienClipBindingInfo, mien_clip_binding_info_default);
 #ifdef MIEN_EXPERIMENTAL
   CHECK_DEFAULT(MienRigStatistics, mien_rig_statistics_default);
   CHECK_DEFAULT(MienInstanceStatistics, mien_instance_statistics_default);

@@ -93,6 +93,34 @@ void bind(const uint8_t* data, size_t size) {
   release_binding(binding);
 }
 
+void use_by_handle(const uint8_t* data, size_t size) {
+  MienClip* clip = nullptr;
+  if (mien_clip_open_memory(data, size, nullptr, &clip, nullptr) != MIEN_OK) return;
+  MienClipInfo info = mien_clip_info_default();
+  if (mien_clip_info(clip, &info) != MIEN_OK) abort();
+  const uint32_t count = std::min(info.frame_count, 100u);
+  std::vector<float> rows(size_t{count} * info.channel_count);
+  const MienStatus read =
+      mien_clip_read(clip, info.frame_count - count, count, rows.data(), 0, nullptr);
+  if (read != MIEN_OK && read != MIEN_ERROR_CLIP_STRUCTURE) abort();
+  for (float value : rows) {
+    if (!std::isfinite(value)) abort();
+  }
+  MienClipPlayer* player = nullptr;
+  if (mien_clip_player_create(clip, nullptr, &player, nullptr) != MIEN_OK) abort();
+  mien_clip_close(clip);
+  MienClipEvent event;
+  uint32_t found = 1;
+  MienFloatView values;
+  if (mien_clip_player_advance(player, info.ticks_per_frame) != MIEN_OK) abort();
+  for (int i = 0; i < 100 && found; ++i) {
+    if (mien_clip_player_next_event(player, &event, &found) != MIEN_OK) abort();
+  }
+  if (mien_clip_player_sample(player, &values) != MIEN_OK) abort();
+  if (values.count != info.channel_count) abort();
+  mien_clip_player_destroy(player);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
@@ -149,5 +177,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     abort();
   }
   bind(data, size);
+  use_by_handle(data, size);
   return 0;
 }

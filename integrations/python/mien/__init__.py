@@ -12,18 +12,19 @@
 
 `Dna` -> `Rig` -> `Instance` or `Batch`. README.md has more; errors are in `mien.errors`.
 """
-from ._api import (BakedCheck, BakedInfo, Compose, CoordinateSystem, DeformerInfo, Direction, DnaField,
+from ._api import (BakedCheck, BakedInfo, ClipChannel, ClipInfo, ClipPlayerInfo, Compose, CoordinateSystem, DeformerInfo, Direction, DnaField,
                    DnaInfo, DnaLayer, FaceWinding, FieldType, FileAccess, Finding,
-                   InstanceStatistics, Isa, Kind, Layer, MlMasks, Normals, Preset, Reuse, RigInfo,
+                   InstanceStatistics, Interpolation, Isa, Kind, Layer, Looping, MlMasks, Normals, Preset, Reuse, RigInfo,
                    RigStatistics, RotationOutput, RotationRule, RotationSequence, RotationUnit,
                    Severity, Stage, Status, Storage, TranslationUnit, UnknownLayers, Weights)
 from ._api import VERSION as _VERSION
 from ._library import path as library_path, version
 from .baked import Baked
 from .batch import Batch
+from .clip import Clip, ClipBinding, ClipEvent, ClipPlayer, TICKS_PER_SECOND
 from .deformer import Deformer, DeformerInstance, Mesh, deform_batch, write_vertices_batch
 from .dna import Dna, coordinate_system, coordinate_system_names, validate
-from .errors import (ArgumentError, BusyError, ClosedError, DnaError, Error, FileError,
+from .errors import (ArgumentError, BusyError, ClipError, ClosedError, DnaError, Error, FileError,
                      OutOfMemoryError, OutOfRangeError, UnknownNameError)
 from .instance import Instance
 from .rig import Rig
@@ -32,14 +33,16 @@ from .rig_view import isa_available, isa_name
 __version__ = _VERSION
 
 __all__ = [
-    "__version__", "ArgumentError", "Baked", "BakedCheck", "BakedInfo", "Batch", "BusyError", "ClosedError", "Compose",
+    "__version__", "ArgumentError", "Baked", "BakedCheck", "BakedInfo", "Batch", "BusyError", "Clip", "ClipBinding",
+    "ClipChannel", "ClipError", "ClipEvent", "ClipInfo", "ClipPlayer", "ClipPlayerInfo", "ClosedError",
+    "Compose",
     "coordinate_system", "coordinate_system_names", "CoordinateSystem", "deform_batch", "Deformer",
     "DeformerInfo", "DeformerInstance", "Direction", "Dna", "DnaError", "DnaField", "DnaInfo",
     "DnaLayer", "Error", "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding",
-    "Instance", "InstanceStatistics", "Isa", "isa_available", "isa_name", "Kind", "Layer",
-    "library_path", "Mesh", "MlMasks", "Normals", "OutOfMemoryError", "OutOfRangeError", "Preset",
+    "Instance", "InstanceStatistics", "Interpolation", "Isa", "isa_available", "isa_name", "Kind", "Layer",
+    "library_path", "Looping", "Mesh", "MlMasks", "Normals", "OutOfMemoryError", "OutOfRangeError", "Preset",
     "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationOutput", "RotationRule",
-    "RotationSequence", "RotationUnit", "Severity", "Stage", "Status", "Storage",
+    "RotationSequence", "RotationUnit", "Severity", "Stage", "Status", "Storage", "TICKS_PER_SECOND",
     "TranslationUnit", "UnknownLayers", "UnknownNameError", "validate", "version", "Weights",
     "write_vertices_batch",
 ]

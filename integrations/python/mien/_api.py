@@ -34,6 +34,7 @@ def text(view: Any) -> str:
 
 
 MIEN_NO_OFFSET = 18446744073709551615
+MIEN_TICKS_PER_SECOND = 705600000
 
 
 class Status(IntEnum):
@@ -94,6 +95,20 @@ class Status(IntEnum):
     BAKED_CHECKSUM = 54
     #: the file does not contain the requested object
     BAKED_PART = 55
+    #: not a clip
+    CLIP_SIGNATURE = 60
+    #: built by another version
+    CLIP_VERSION = 61
+    #: the clip is shorter than its header states
+    CLIP_TRUNCATED = 62
+    #: sizes, counts or curves contradict each other
+    CLIP_STRUCTURE = 63
+    #: the bytes are not those that were written
+    CLIP_CHECKSUM = 64
+    #: a value that is not finite
+    CLIP_VALUE = 65
+    #: more than a clip, player or binding can hold
+    CLIP_LIMIT = 66
 
 
 class Layer(IntFlag):
@@ -426,6 +441,27 @@ class BakedCheck(IntEnum):
     FULL = 1
 
 
+class Looping(IntEnum):
+    """What follows the last frame."""
+
+    #: for a clip Looping.CLAMP, for a player that of its clip
+    DEFAULT = 0
+    #: the last frame stays; the length is (frames - 1) * ticks per frame
+    CLAMP = 1
+    #: the first frame follows; the length is frames * ticks per frame
+    WRAP = 2
+
+
+class Interpolation(IntEnum):
+    """Values between two frames. All are within the range of the two."""
+
+    LINEAR = 0
+    #: the value of the earlier frame
+    STEP = 1
+    #: a Catmull-Rom spline, clamped to the range of the two frames
+    CATMULL_ROM = 2
+
+
 class MienDna(c_void_p):
     pass
 
@@ -455,6 +491,18 @@ class MienDeformerInstance(c_void_p):
 
 
 class MienBaked(c_void_p):
+    pass
+
+
+class MienClip(c_void_p):
+    pass
+
+
+class MienClipPlayer(c_void_p):
+    pass
+
+
+class MienClipBinding(c_void_p):
     pass
 
 
@@ -1236,6 +1284,292 @@ class MienBakedDeformerDesc(Structure):
         self.allocator = allocator
 
 
+class MienClipEvent(Structure):
+    _fields_ = [
+        ("tick", c_int64),
+        ("name", MienStringView),
+        ("value", c_float),
+        ("reserved", c_uint32),
+    ]
+    tick: Any
+    name: Any
+    value: Any
+    reserved: Any
+
+
+class MienClipDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("rate_numerator", c_uint32),
+        ("rate_denominator", c_uint32),
+        ("frame_count", c_uint32),
+        ("channel_count", c_uint32),
+        ("names", POINTER(MienStringView)),
+        ("values", c_void_p),
+        ("frame_stride", c_size_t),
+        ("snaps", c_void_p),
+        ("snap", c_float),
+        ("looping", c_uint32),
+        ("is_delta", c_uint32),
+        ("event_count", c_uint32),
+        ("events", POINTER(MienClipEvent)),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    rate_numerator: Any
+    rate_denominator: Any
+    frame_count: Any
+    channel_count: Any
+    names: Any
+    values: Any
+    frame_stride: Any
+    snaps: Any
+    snap: Any
+    looping: Any
+    is_delta: Any
+    event_count: Any
+    events: Any
+    allocator: Any
+
+    def __init__(self, *,
+                 rate_numerator: int = 0,
+                 rate_denominator: int = 0,
+                 frame_count: int = 0,
+                 channel_count: int = 0,
+                 names: Any = None,
+                 values: Any = None,
+                 frame_stride: int = 0,
+                 snaps: Any = None,
+                 snap: float = 0,
+                 looping: int = 0,
+                 is_delta: bool = False,
+                 event_count: int = 0,
+                 events: Any = None,
+                 allocator: Any = None) -> None:
+        super().__init__(88)
+        self.rate_numerator = rate_numerator
+        self.rate_denominator = rate_denominator
+        self.frame_count = frame_count
+        self.channel_count = channel_count
+        self.names = names
+        self.values = values
+        self.frame_stride = frame_stride
+        self.snaps = snaps
+        self.snap = snap
+        self.looping = looping
+        self.is_delta = is_delta
+        self.event_count = event_count
+        self.events = events
+        self.allocator = allocator
+
+
+class MienClipOpenDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("file_access", c_uint32),
+        ("reserved", c_uint32),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    file_access: Any
+    reserved: Any
+    allocator: Any
+
+    def __init__(self, *,
+                 file_access: int = 0,
+                 allocator: Any = None) -> None:
+        super().__init__(24)
+        self.file_access = file_access
+        self.allocator = allocator
+
+
+class MienClipInfo(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("rate_numerator", c_uint32),
+        ("rate_denominator", c_uint32),
+        ("frame_count", c_uint32),
+        ("channel_count", c_uint32),
+        ("changing_channel_count", c_uint32),
+        ("event_count", c_uint32),
+        ("looping", c_uint32),
+        ("is_delta", c_uint32),
+        ("snap", c_float),
+        ("is_mapped", c_uint32),
+        ("ticks_per_frame", c_int64),
+        ("length", c_int64),
+        ("file_bytes", c_uint64),
+        ("memory_bytes", c_uint64),
+        ("player_bytes", c_uint64),
+    ]
+    struct_size: Any
+    rate_numerator: Any
+    rate_denominator: Any
+    frame_count: Any
+    channel_count: Any
+    changing_channel_count: Any
+    event_count: Any
+    looping: Any
+    is_delta: Any
+    snap: Any
+    is_mapped: Any
+    ticks_per_frame: Any
+    length: Any
+    file_bytes: Any
+    memory_bytes: Any
+    player_bytes: Any
+
+    def __init__(self) -> None:
+        super().__init__(88)
+
+
+class MienClipChannel(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", MienStringView),
+        ("rest", c_float),
+        ("is_changing", c_uint32),
+        ("zero_blocks", c_uint32),
+        ("constant_blocks", c_uint32),
+        ("grid_blocks", c_uint32),
+        ("float_blocks", c_uint32),
+        ("bits", c_uint64),
+        ("max_error", c_float),
+        ("reserved", c_uint32),
+    ]
+    struct_size: Any
+    name: Any
+    rest: Any
+    is_changing: Any
+    zero_blocks: Any
+    constant_blocks: Any
+    grid_blocks: Any
+    float_blocks: Any
+    bits: Any
+    max_error: Any
+    reserved: Any
+
+    def __init__(self) -> None:
+        super().__init__(64)
+
+
+class MienClipPlayerDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("looping", c_uint32),
+        ("interpolation", c_uint32),
+        ("speed_numerator", c_int32),
+        ("speed_denominator", c_int32),
+        ("start_tick", c_int64),
+        ("reverse", c_uint32),
+        ("reserved", c_uint32),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    looping: Any
+    interpolation: Any
+    speed_numerator: Any
+    speed_denominator: Any
+    start_tick: Any
+    reverse: Any
+    reserved: Any
+    allocator: Any
+
+    def __init__(self, *,
+                 looping: int = 0,
+                 interpolation: int = 0,
+                 speed_numerator: int = 0,
+                 speed_denominator: int = 0,
+                 start_tick: int = 0,
+                 reverse: bool = False,
+                 allocator: Any = None) -> None:
+        super().__init__(48)
+        self.looping = looping
+        self.interpolation = interpolation
+        self.speed_numerator = speed_numerator
+        self.speed_denominator = speed_denominator
+        self.start_tick = start_tick
+        self.reverse = reverse
+        self.allocator = allocator
+
+
+class MienClipPlayerInfo(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("tick", c_int64),
+        ("loops", c_int64),
+        ("looping", c_uint32),
+        ("is_damaged", c_uint32),
+    ]
+    struct_size: Any
+    tick: Any
+    loops: Any
+    looping: Any
+    is_damaged: Any
+
+    def __init__(self) -> None:
+        super().__init__(32)
+
+
+class MienMatrixEntry(Structure):
+    _fields_ = [
+        ("channel", MienStringView),
+        ("control", MienStringView),
+        ("weight", c_float),
+        ("reserved", c_uint32),
+    ]
+    channel: Any
+    control: Any
+    weight: Any
+    reserved: Any
+
+
+class MienClipBindingDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("matrix", POINTER(MienMatrixEntry)),
+        ("matrix_count", c_size_t),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    matrix: Any
+    matrix_count: Any
+    allocator: Any
+
+    def __init__(self, *,
+                 matrix: Any = None,
+                 matrix_count: int = 0,
+                 allocator: Any = None) -> None:
+        super().__init__(32)
+        self.matrix = matrix
+        self.matrix_count = matrix_count
+        self.allocator = allocator
+
+
+class MienClipBindingInfo(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("channel_count", c_uint32),
+        ("raw_control_count", c_uint32),
+        ("missing_entry_count", c_uint32),
+        ("reserved", c_uint32),
+        ("controls", MienIndex16View),
+        ("extra_controls", MienIndex16View),
+        ("missing_channels", MienIndex16View),
+    ]
+    struct_size: Any
+    channel_count: Any
+    raw_control_count: Any
+    missing_entry_count: Any
+    reserved: Any
+    controls: Any
+    extra_controls: Any
+    missing_channels: Any
+
+    def __init__(self) -> None:
+        super().__init__(72)
+
+
 class CoordinateSystem(NamedTuple):
     """Axes, units and rotation conventions of a rig. Any handedness is allowed. See
     docs/dna-format.md, 11 "Coordinate systems".
@@ -1558,6 +1892,94 @@ class BakedInfo(NamedTuple):
     def _of(cls, c: MienBakedInfo) -> BakedInfo:
         return cls(c.file_bytes, c.memory_bytes, c.rig_bytes, c.deformer_bytes, c.part_count,
                    bool(c.is_mapped))
+
+
+class ClipInfo(NamedTuple):
+    """Properties of a clip.
+
+      rate_numerator: frames per second, as a fraction
+      changing_channel_count: channels that do not have one value in all frames
+      looping: Looping.CLAMP or Looping.WRAP
+      is_delta: values are differences
+      snap: largest step that a channel was rounded to. 0: none was
+      is_mapped: the file is mapped
+      length: ticks
+      file_bytes: size of the clip
+      memory_bytes: memory taken from the allocator
+      player_bytes: memory of a player without MienClipPlayerDesc.reverse
+    """
+
+    rate_numerator: int
+    rate_denominator: int
+    frame_count: int
+    channel_count: int
+    changing_channel_count: int
+    event_count: int
+    looping: Looping
+    is_delta: bool
+    snap: float
+    is_mapped: bool
+    ticks_per_frame: int
+    length: int
+    file_bytes: int
+    memory_bytes: int
+    player_bytes: int
+
+    @classmethod
+    def _of(cls, c: MienClipInfo) -> ClipInfo:
+        return cls(c.rate_numerator, c.rate_denominator, c.frame_count, c.channel_count,
+                   c.changing_channel_count, c.event_count, _enum(Looping, c.looping),
+                   bool(c.is_delta), c.snap, bool(c.is_mapped), c.ticks_per_frame, c.length,
+                   c.file_bytes, c.memory_bytes, c.player_bytes)
+
+
+class ClipChannel(NamedTuple):
+    """A channel of a clip. Block counts, bits and max_error are known after mien_clip_build()
+    only: they are 0 for a clip that was opened.
+
+      rest: value of a channel that does not change, else 0
+      is_changing: the channel has a curve
+      zero_blocks: blocks of 64 frames that are zero
+      constant_blocks: blocks with one other value
+      grid_blocks: blocks of decimal or binary fractions
+      float_blocks: other blocks
+      bits: of all blocks
+      max_error: largest error of rounding to a step
+    """
+
+    name: str
+    rest: float
+    is_changing: bool
+    zero_blocks: int
+    constant_blocks: int
+    grid_blocks: int
+    float_blocks: int
+    bits: int
+    max_error: float
+
+    @classmethod
+    def _of(cls, c: MienClipChannel) -> ClipChannel:
+        return cls(text(c.name), c.rest, bool(c.is_changing), c.zero_blocks, c.constant_blocks,
+                   c.grid_blocks, c.float_blocks, c.bits, c.max_error)
+
+
+class ClipPlayerInfo(NamedTuple):
+    """State of a player.
+
+      tick: 0 to the length of the clip; with Looping.WRAP less than the length
+      loops: completed since creation or the last seek; negative: backward
+      looping: Looping.CLAMP or Looping.WRAP
+      is_damaged: a damaged curve was decoded and gave zeros
+    """
+
+    tick: int
+    loops: int
+    looping: Looping
+    is_damaged: bool
+
+    @classmethod
+    def _of(cls, c: MienClipPlayerInfo) -> ClipPlayerInfo:
+        return cls(c.tick, c.loops, _enum(Looping, c.looping), bool(c.is_damaged))
 
 
 # Why functions fail, beyond what the package checks: (status, condition).
@@ -2137,6 +2559,136 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.BAKED_PART,
          "the file has no deformer"),
     ),
+    "mien_clip_build": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.NAME,
+         "a name is empty or occurs twice"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.CLIP_VALUE,
+         "a value is not finite (the message names frame and channel)"),
+        (Status.CLIP_LIMIT,
+         "there are too many frames, channels or bytes"),
+    ),
+    "mien_clip_open_file": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.FILE_OPEN,
+         "the file cannot be read"),
+        (Status.FILE_READ,
+         "the file cannot be read"),
+        (Status.CLIP_SIGNATURE,
+         "it is not a valid clip"),
+        (Status.CLIP_VERSION,
+         "it is not a valid clip"),
+        (Status.CLIP_TRUNCATED,
+         "it is not a valid clip"),
+        (Status.CLIP_STRUCTURE,
+         "it is not a valid clip"),
+    ),
+    "mien_clip_open_memory": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.CLIP_SIGNATURE,
+         "it is not a valid clip"),
+        (Status.CLIP_VERSION,
+         "it is not a valid clip"),
+        (Status.CLIP_TRUNCATED,
+         "it is not a valid clip"),
+        (Status.CLIP_STRUCTURE,
+         "it is not a valid clip"),
+    ),
+    "mien_clip_open_stream": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.FILE_READ,
+         "the file cannot be read"),
+        (Status.CLIP_SIGNATURE,
+         "it is not a valid clip"),
+        (Status.CLIP_VERSION,
+         "it is not a valid clip"),
+        (Status.CLIP_TRUNCATED,
+         "it is not a valid clip"),
+        (Status.CLIP_STRUCTURE,
+         "it is not a valid clip"),
+    ),
+    "mien_clip_write_file": (
+        (Status.FILE_WRITE,
+         "the file cannot be written"),
+    ),
+    "mien_clip_write_memory": (
+        (Status.INVALID_ARGUMENT,
+         "`capacity` is too small"),
+    ),
+    "mien_clip_info": (),
+    "mien_clip_channel": (
+        (Status.INDEX,
+         "`index` is out of range"),
+    ),
+    "mien_clip_find_channel": (
+        (Status.NAME,
+         "there is none"),
+    ),
+    "mien_clip_find_channel_n": (
+        (Status.NAME,
+         "there is none"),
+    ),
+    "mien_clip_event": (
+        (Status.INDEX,
+         "`index` is out of range"),
+    ),
+    "mien_clip_verify": (
+        (Status.CLIP_STRUCTURE,
+         "a curve cannot be decoded"),
+        (Status.CLIP_CHECKSUM,
+         "bytes have changed"),
+    ),
+    "mien_clip_read": (
+        (Status.INVALID_ARGUMENT,
+         "frame_stride is too small"),
+        (Status.INDEX,
+         "there are not so many frames"),
+        (Status.CLIP_STRUCTURE,
+         "a curve is damaged; its block is zero in `out_values`"),
+    ),
+    "mien_clip_player_create": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+    ),
+    "mien_clip_player_info": (),
+    "mien_clip_player_seek": (),
+    "mien_clip_player_set_speed": (
+        (Status.INVALID_ARGUMENT,
+         "it is outside the range of MienClipPlayerDesc"),
+    ),
+    "mien_clip_player_advance": (
+        (Status.INVALID_ARGUMENT,
+         "`ticks` is out of range"),
+    ),
+    "mien_clip_player_next_event": (),
+    "mien_clip_player_sample": (),
+    "mien_clip_binding_create": (
+        (Status.INVALID_ARGUMENT,
+         "a weight is not finite"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.CLIP_LIMIT,
+         "channels drive more than 4095 GUI controls"),
+    ),
+    "mien_clip_binding_info": (),
+    "mien_clip_binding_apply": (
+        (Status.INVALID_ARGUMENT,
+         "a count is not that of clip and rig"),
+    ),
 }
 
 
@@ -2282,6 +2834,39 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
      POINTER(MienError))),
     ("mien_deformer_from_baked", c_int32, (MienBaked, MienRig, POINTER(MienBakedDeformerDesc),
      POINTER(MienDeformer), POINTER(MienError))),
+    ("mien_clip_build", c_int32, (POINTER(MienClipDesc), POINTER(MienClip), POINTER(MienError))),
+    ("mien_clip_open_file", c_int32, (c_char_p, POINTER(MienClipOpenDesc), POINTER(MienClip),
+     POINTER(MienError))),
+    ("mien_clip_open_memory", c_int32, (c_void_p, c_size_t, POINTER(MienClipOpenDesc),
+     POINTER(MienClip), POINTER(MienError))),
+    ("mien_clip_open_stream", c_int32, (POINTER(MienStream), POINTER(MienClipOpenDesc),
+     POINTER(MienClip), POINTER(MienError))),
+    ("mien_clip_close", None, (MienClip,)),
+    ("mien_clip_write_file", c_int32, (MienClip, c_char_p, POINTER(MienError))),
+    ("mien_clip_write_memory", c_int32, (MienClip, c_void_p, c_size_t, c_void_p,
+     POINTER(MienError))),
+    ("mien_clip_info", c_int32, (MienClip, POINTER(MienClipInfo))),
+    ("mien_clip_channel", c_int32, (MienClip, c_uint32, POINTER(MienClipChannel))),
+    ("mien_clip_find_channel", c_int32, (MienClip, c_char_p, c_void_p)),
+    ("mien_clip_find_channel_n", c_int32, (MienClip, c_char_p, c_size_t, c_void_p)),
+    ("mien_clip_event", c_int32, (MienClip, c_uint32, POINTER(MienClipEvent))),
+    ("mien_clip_verify", c_int32, (MienClip, POINTER(MienError))),
+    ("mien_clip_read", c_int32, (MienClip, c_uint32, c_uint32, c_void_p, c_size_t,
+     POINTER(MienError))),
+    ("mien_clip_player_create", c_int32, (MienClip, POINTER(MienClipPlayerDesc),
+     POINTER(MienClipPlayer), POINTER(MienError))),
+    ("mien_clip_player_destroy", None, (MienClipPlayer,)),
+    ("mien_clip_player_info", c_int32, (MienClipPlayer, POINTER(MienClipPlayerInfo))),
+    ("mien_clip_player_seek", c_int32, (MienClipPlayer, c_int64)),
+    ("mien_clip_player_set_speed", c_int32, (MienClipPlayer, c_int32, c_int32)),
+    ("mien_clip_player_advance", c_int32, (MienClipPlayer, c_int64)),
+    ("mien_clip_player_next_event", c_int32, (MienClipPlayer, POINTER(MienClipEvent), c_void_p)),
+    ("mien_clip_player_sample", c_int32, (MienClipPlayer, POINTER(MienFloatView))),
+    ("mien_clip_binding_create", c_int32, (MienClip, MienRig, POINTER(MienClipBindingDesc),
+     POINTER(MienClipBinding), POINTER(MienError))),
+    ("mien_clip_binding_destroy", None, (MienClipBinding,)),
+    ("mien_clip_binding_info", c_int32, (MienClipBinding, POINTER(MienClipBindingInfo))),
+    ("mien_clip_binding_apply", c_int32, (MienClipBinding, c_void_p, c_size_t, c_void_p, c_size_t)),
 )
 
 
@@ -2388,6 +2973,32 @@ class Library:
     mien_baked_info: Any
     mien_rig_from_baked: Any
     mien_deformer_from_baked: Any
+    mien_clip_build: Any
+    mien_clip_open_file: Any
+    mien_clip_open_memory: Any
+    mien_clip_open_stream: Any
+    mien_clip_close: Any
+    mien_clip_write_file: Any
+    mien_clip_write_memory: Any
+    mien_clip_info: Any
+    mien_clip_channel: Any
+    mien_clip_find_channel: Any
+    mien_clip_find_channel_n: Any
+    mien_clip_event: Any
+    mien_clip_verify: Any
+    mien_clip_read: Any
+    mien_clip_player_create: Any
+    mien_clip_player_destroy: Any
+    mien_clip_player_info: Any
+    mien_clip_player_seek: Any
+    mien_clip_player_set_speed: Any
+    mien_clip_player_advance: Any
+    mien_clip_player_next_event: Any
+    mien_clip_player_sample: Any
+    mien_clip_binding_create: Any
+    mien_clip_binding_destroy: Any
+    mien_clip_binding_info: Any
+    mien_clip_binding_apply: Any
 
     def __init__(self, library: ctypes.CDLL) -> None:
         for name, result, parameters in FUNCTIONS:

@@ -74,6 +74,28 @@ class BakedHandle(_Address, _api.MienBaked):
             destroy(self)
 
 
+class ClipHandle(_Address, _api.MienClip):
+    keeps: Any  # bytes that the library reads from
+
+    def __del__(self, destroy: Any = lib.mien_clip_close) -> None:
+        if self.value:
+            destroy(self)
+
+
+class ClipPlayerHandle(_Address, _api.MienClipPlayer):
+    clip: Optional[ClipHandle]  # whose bytes may be in memory of Python
+
+    def __del__(self, destroy: Any = lib.mien_clip_player_destroy) -> None:
+        if self.value:
+            destroy(self)
+
+
+class ClipBindingHandle(_Address, _api.MienClipBinding):
+    def __del__(self, destroy: Any = lib.mien_clip_binding_destroy) -> None:
+        if self.value:
+            destroy(self)
+
+
 class RigHandle(_Address, _api.MienRig):
     baked: Optional[BakedHandle] = None  # where its arrays are
 

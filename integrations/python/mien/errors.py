@@ -106,6 +106,10 @@ class DnaError(Error, ValueError):
     tells where."""
 
 
+class ClipError(Error, ValueError):
+    """A clip is damaged or of another kind, or cannot be built of these curves."""
+
+
 _KINDS = {
     Status.INDEX: OutOfRangeError, Status.LOD: OutOfRangeError, Status.NAME: UnknownNameError,
     Status.MEMORY: OutOfMemoryError,
@@ -122,6 +126,8 @@ def kind_of(status: int) -> Type[Error]:
         return FileError
     if 30 <= status <= 59:
         return DnaError
+    if 60 <= status <= 69:
+        return ClipError
     return Error
 
 

@@ -15,6 +15,8 @@ pub const MIEN_VERSION_PATCH: u32 = 0;
 pub const MIEN_VERSION: u32 = 65536;
 /// Value of a byte offset where there is none.
 pub const MIEN_NO_OFFSET: u64 = 18446744073709551615;
+/// Ticks per second.
+pub const MIEN_TICKS_PER_SECOND: u32 = 705600000;
 
 // enum MienStatusCode
 pub const MIEN_OK: MienStatus = 0;
@@ -72,6 +74,20 @@ pub const MIEN_ERROR_BAKED_STRUCTURE: MienStatus = 53;
 pub const MIEN_ERROR_BAKED_CHECKSUM: MienStatus = 54;
 /// The file does not contain the requested object.
 pub const MIEN_ERROR_BAKED_PART: MienStatus = 55;
+/// Not a clip.
+pub const MIEN_ERROR_CLIP_SIGNATURE: MienStatus = 60;
+/// Built by another version.
+pub const MIEN_ERROR_CLIP_VERSION: MienStatus = 61;
+/// The clip is shorter than its header states.
+pub const MIEN_ERROR_CLIP_TRUNCATED: MienStatus = 62;
+/// Sizes, counts or curves contradict each other.
+pub const MIEN_ERROR_CLIP_STRUCTURE: MienStatus = 63;
+/// The bytes are not those that were written.
+pub const MIEN_ERROR_CLIP_CHECKSUM: MienStatus = 64;
+/// A value that is not finite.
+pub const MIEN_ERROR_CLIP_VALUE: MienStatus = 65;
+/// More than a clip, player or binding can hold.
+pub const MIEN_ERROR_CLIP_LIMIT: MienStatus = 66;
 
 // enum MienLayer
 /// Only in MienDnaLayer.layer.
@@ -300,6 +316,21 @@ pub const MIEN_BAKED_CHECK_SAFE: u32 = 0;
 /// Also the checksum of all bytes, which reads the whole file.
 pub const MIEN_BAKED_CHECK_FULL: u32 = 1;
 
+// enum MienLooping
+/// For a clip `MIEN_LOOPING_CLAMP`, for a player that of its clip.
+pub const MIEN_LOOPING_DEFAULT: u32 = 0;
+/// The last frame stays; the length is (frames - 1) \* ticks per frame.
+pub const MIEN_LOOPING_CLAMP: u32 = 1;
+/// The first frame follows; the length is frames \* ticks per frame.
+pub const MIEN_LOOPING_WRAP: u32 = 2;
+
+// enum MienInterpolation
+pub const MIEN_INTERPOLATION_LINEAR: u32 = 0;
+/// The value of the earlier frame.
+pub const MIEN_INTERPOLATION_STEP: u32 = 1;
+/// A Catmull-Rom spline, clamped to the range of the two frames.
+pub const MIEN_INTERPOLATION_CATMULL_ROM: u32 = 2;
+
 /// A checked, read-only view of a DNA file. Immutable.
 #[repr(C)]
 pub struct MienDna {
@@ -375,6 +406,39 @@ pub struct MienDeformerInstance {
 /// See docs/rig-evaluation.md, 9.5 "Baked files".
 #[repr(C)]
 pub struct MienBaked {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
+/// Curves of named channels at a constant frame rate, compressed. A clip is not bound to a rig: a
+/// MienClipBinding maps its channels to raw controls.
+///
+/// ```text
+/// rows of values -> MienClip -> MienClipPlayer  -> values of channels
+///                          \___ MienClipBinding -> raw controls of a rig
+/// ```
+///
+/// Times are integers, in ticks of 1 / `MIEN_TICKS_PER_SECOND` s. At common frame rates a frame is
+/// a whole number of ticks; at others it is rounded to the nearest. A clip is used in place and
+/// needs no decompression in advance. Whatever its bytes are, decoded values are finite.
+/// Immutable.
+#[repr(C)]
+pub struct MienClip {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
+/// Plays a clip for one character: a position, and the state of the decoder.
+#[repr(C)]
+pub struct MienClipPlayer {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
+/// Maps the channels of a clip to raw controls of a rig. Serves all clips with the same channels
+/// and all rigs with the same raw controls. Immutable.
+#[repr(C)]
+pub struct MienClipBinding {
     _size: [u8; 0],
     _opaque: Opaque,
 }
@@ -1292,6 +1356,299 @@ impl Default for MienBakedDeformerDesc {
     }
 }
 
+/// A named moment of a clip, such as a phoneme.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienClipEvent {
+    pub tick: i64,
+    pub name: MienStringView,
+    pub value: f32,
+    /// 0.
+    pub reserved: u32,
+}
+
+impl Default for MienClipEvent {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// What to build a clip from.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienClipDesc {
+    pub struct_size: usize,
+    /// Frames per second, as a fraction. 0: 60.
+    pub rate_numerator: u32,
+    /// 0: 1.
+    pub rate_denominator: u32,
+    /// 1 to 2^28.
+    pub frame_count: u32,
+    /// At most 65535, of which at most 512 change.
+    pub channel_count: u32,
+    /// One per channel, all different, not empty.
+    pub names: *const MienStringView,
+    /// Channel c of frame f is values\[f \* `frame_stride` + c\].
+    pub values: *const f32,
+    /// Floats from frame to frame. 0: `channel_count`.
+    pub frame_stride: usize,
+    /// One per channel, used instead of `snap`; may be NULL.
+    pub snaps: *const f32,
+    /// 0: values keep all bits. 2^-9, 2^-10 ... 2^-16: values are rounded to multiples of it,
+    /// which makes the clip several times smaller.
+    pub snap: f32,
+    /// `MIEN_LOOPING_...`
+    pub looping: u32,
+    /// Values are differences, to be added to other values.
+    pub is_delta: u32,
+    pub event_count: u32,
+    /// In any order; 0 \<= tick \< `frame_count` \* ticks per frame.
+    pub events: *const MienClipEvent,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienClipDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// How to open a clip.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienClipOpenDesc {
+    pub struct_size: usize,
+    /// `MIEN_FILE_...`; no effect on memory and streams.
+    pub file_access: u32,
+    /// 0.
+    pub reserved: u32,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienClipOpenDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// Properties of a clip.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienClipInfo {
+    pub struct_size: usize,
+    /// Frames per second, as a fraction.
+    pub rate_numerator: u32,
+    pub rate_denominator: u32,
+    pub frame_count: u32,
+    pub channel_count: u32,
+    /// Channels that do not have one value in all frames.
+    pub changing_channel_count: u32,
+    pub event_count: u32,
+    /// `MIEN_LOOPING_CLAMP` or `MIEN_LOOPING_WRAP`.
+    pub looping: u32,
+    /// Values are differences.
+    pub is_delta: u32,
+    /// Largest step that a channel was rounded to. 0: none was.
+    pub snap: f32,
+    /// The file is mapped.
+    pub is_mapped: u32,
+    pub ticks_per_frame: i64,
+    /// ticks.
+    pub length: i64,
+    /// Size of the clip.
+    pub file_bytes: u64,
+    /// Memory taken from the allocator.
+    pub memory_bytes: u64,
+    /// Memory of a player without MienClipPlayerDesc.reverse.
+    pub player_bytes: u64,
+}
+
+impl Default for MienClipInfo {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// A channel of a clip. Block counts, bits and `max_error` are known after `mien_clip_build()`
+/// only: they are 0 for a clip that was opened.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienClipChannel {
+    pub struct_size: usize,
+    pub name: MienStringView,
+    /// Value of a channel that does not change, else 0.
+    pub rest: f32,
+    /// The channel has a curve.
+    pub is_changing: u32,
+    /// Blocks of 64 frames that are zero.
+    pub zero_blocks: u32,
+    /// Blocks with one other value.
+    pub constant_blocks: u32,
+    /// Blocks of decimal or binary fractions.
+    pub grid_blocks: u32,
+    /// Other blocks.
+    pub float_blocks: u32,
+    /// Of all blocks.
+    pub bits: u64,
+    /// Largest error of rounding to a step.
+    pub max_error: f32,
+    /// 0.
+    pub reserved: u32,
+}
+
+impl Default for MienClipChannel {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// How to play a clip.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienClipPlayerDesc {
+    pub struct_size: usize,
+    /// `MIEN_LOOPING_...`
+    pub looping: u32,
+    /// `MIEN_INTERPOLATION_...`
+    pub interpolation: u32,
+    /// Speed, as a fraction; negative plays backward. -2^20 to 2^20.
+    pub speed_numerator: i32,
+    /// 1 to 2^20. Both 0: 1 / 1.
+    pub speed_denominator: i32,
+    /// The initial position, as for `mien_clip_player_seek()`.
+    pub start_tick: i64,
+    /// Use 256 bytes more per changing channel to play backward as fast as forward.
+    pub reverse: u32,
+    /// 0.
+    pub reserved: u32,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienClipPlayerDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// State of a player.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienClipPlayerInfo {
+    pub struct_size: usize,
+    /// 0 to the length of the clip; with `MIEN_LOOPING_WRAP` less than the length.
+    pub tick: i64,
+    /// Completed since creation or the last seek; negative: backward.
+    pub loops: i64,
+    /// `MIEN_LOOPING_CLAMP` or `MIEN_LOOPING_WRAP`.
+    pub looping: u32,
+    /// A damaged curve was decoded and gave zeros.
+    pub is_damaged: u32,
+}
+
+impl Default for MienClipPlayerInfo {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// Adds weight \* value of a channel to a raw or GUI control.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienMatrixEntry {
+    pub channel: MienStringView,
+    pub control: MienStringView,
+    pub weight: f32,
+    /// 0.
+    pub reserved: u32,
+}
+
+impl Default for MienMatrixEntry {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// How to bind a clip.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienClipBindingDesc {
+    pub struct_size: usize,
+    /// For channels whose names the rig lacks; may be NULL.
+    pub matrix: *const MienMatrixEntry,
+    pub matrix_count: usize,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienClipBindingDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// What a binding found. Indices are ascending.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienClipBindingInfo {
+    pub struct_size: usize,
+    /// Channels of the clip.
+    pub channel_count: u32,
+    /// Raw controls of the rig.
+    pub raw_control_count: u32,
+    /// Matrix entries whose channel or control does not exist.
+    pub missing_entry_count: u32,
+    /// 0.
+    pub reserved: u32,
+    /// Raw controls that are driven.
+    pub controls: MienIndex16View,
+    /// Raw controls that are not driven.
+    pub extra_controls: MienIndex16View,
+    /// Channels that drive nothing: the rig lacks their names, or an earlier channel drives the
+    /// same control.
+    pub missing_channels: MienIndex16View,
+}
+
+impl Default for MienClipBindingInfo {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
 extern "C" {
     /// Returns the `MIEN_VERSION` of the library in use, which may differ from that of this
     /// header.
@@ -2024,4 +2381,163 @@ extern "C" {
     /// `MIEN_ERROR_BAKED_STRUCTURE` if its deformer cannot be used, `MIEN_ERROR_ISA` if the
     /// requested instruction set is not available.
     pub fn mien_deformer_from_baked(baked: *const MienBaked, rig: *const MienRig, desc: *const MienBakedDeformerDesc, out_deformer: *mut *mut MienDeformer, error: *mut MienError) -> MienStatus;
+
+    /// Builds a clip in memory. `desc` is required. The same values give the same bytes on every
+    /// machine. Close with `mien_clip_close()`.
+    ///
+    /// Fails with `MIEN_ERROR_CLIP_VALUE` if a value is not finite (the message names frame and
+    /// channel), `MIEN_ERROR_NAME` if a name is empty or occurs twice, `MIEN_ERROR_CLIP_LIMIT` if
+    /// there are too many frames, channels or bytes.
+    pub fn mien_clip_build(desc: *const MienClipDesc, out_clip: *mut *mut MienClip, error: *mut MienError) -> MienStatus;
+
+    /// Opens a clip. It is mapped; do not truncate or overwrite a mapped file until the clip is
+    /// closed and its players are destroyed; replacing it by renaming is safe. Names and events
+    /// are checked now, curves when they are decoded: a damaged one gives zeros (see
+    /// `mien_clip_verify()`). Close with `mien_clip_close()`.
+    ///
+    /// Fails with `MIEN_ERROR_FILE_OPEN` or `MIEN_ERROR_FILE_READ` if the file cannot be read,
+    /// `MIEN_ERROR_CLIP_SIGNATURE`, `MIEN_ERROR_CLIP_VERSION`, `MIEN_ERROR_CLIP_TRUNCATED` or
+    /// `MIEN_ERROR_CLIP_STRUCTURE` if it is not a valid clip.
+    pub fn mien_clip_open_file(path: *const c_char, desc: *const MienClipOpenDesc, out_clip: *mut *mut MienClip, error: *mut MienError) -> MienStatus;
+
+    /// Opens a clip in memory, at any alignment. `bytes` must outlive the clip and its players,
+    /// unchanged.
+    ///
+    /// Fails like `mien_clip_open_file()`, but not with `MIEN_ERROR_FILE_OPEN` or
+    /// `MIEN_ERROR_FILE_READ`.
+    pub fn mien_clip_open_memory(bytes: *const c_void, size: usize, desc: *const MienClipOpenDesc, out_clip: *mut *mut MienClip, error: *mut MienError) -> MienStatus;
+
+    /// Opens a clip through a stream, which is read at once into memory of the allocator.
+    ///
+    /// Fails like `mien_clip_open_file()`, but not with `MIEN_ERROR_FILE_OPEN`.
+    pub fn mien_clip_open_stream(stream: *const MienStream, desc: *const MienClipOpenDesc, out_clip: *mut *mut MienClip, error: *mut MienError) -> MienStatus;
+
+    /// Closes a clip. Players stay valid; memory is released and the file unmapped with the last
+    /// of them.
+    pub fn mien_clip_close(clip: *mut MienClip);
+
+    /// Writes a clip to a file. The file is written under a temporary name and renamed, so that a
+    /// failure leaves `path` unchanged.
+    ///
+    /// Fails with `MIEN_ERROR_FILE_WRITE` if the file cannot be written.
+    pub fn mien_clip_write_file(clip: *const MienClip, path: *const c_char, error: *mut MienError) -> MienStatus;
+
+    /// Writes a clip to memory and returns its size in `out_size`. `buffer` may be NULL with
+    /// capacity 0 to get the size only. Writes nothing if `capacity` is too small; `out_size` is
+    /// set nevertheless.
+    ///
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `capacity` is too small.
+    pub fn mien_clip_write_memory(clip: *const MienClip, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
+
+    /// Returns the properties of a clip.
+    pub fn mien_clip_info(clip: *const MienClip, out_info: *mut MienClipInfo) -> MienStatus;
+
+    /// Returns a channel. Channels are in the order in which the clip was built. Its name is a
+    /// view of the clip.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if `index` is out of range.
+    pub fn mien_clip_channel(clip: *const MienClip, index: u32, out_channel: *mut MienClipChannel) -> MienStatus;
+
+    /// Returns the index of the channel with this name. Searches all channels.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is none.
+    pub fn mien_clip_find_channel(clip: *const MienClip, name: *const c_char, out_index: *mut u32) -> MienStatus;
+
+    /// Returns the index of the channel with this name. Searches all channels.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is none.
+    pub fn mien_clip_find_channel_n(clip: *const MienClip, name: *const c_char, name_count: usize, out_index: *mut u32) -> MienStatus;
+
+    /// Returns an event. Events are sorted by tick; those of one tick keep the order in which they
+    /// were given. Its name is a view of the clip.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if `index` is out of range.
+    pub fn mien_clip_event(clip: *const MienClip, index: u32, out_event: *mut MienClipEvent) -> MienStatus;
+
+    /// Checks that a clip has the bytes that were written and that all curves can be decoded.
+    /// Reads the whole clip. Uses up to 24 KiB of stack.
+    ///
+    /// Fails with `MIEN_ERROR_CLIP_CHECKSUM` if bytes have changed, `MIEN_ERROR_CLIP_STRUCTURE` if
+    /// a curve cannot be decoded.
+    pub fn mien_clip_verify(clip: *const MienClip, error: *mut MienError) -> MienStatus;
+
+    /// Copies `frame_count` frames from `first_frame` on: channel c of frame `first_frame` + n to
+    /// `out_values`\[n \* `frame_stride` + c\]. `frame_stride` is at least the number of channels;
+    /// 0 means this number. A call decodes its first block of 64 frames from the beginning, so
+    /// many frames in one call cost less than one by one. Uses up to 24 KiB of stack.
+    ///
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `frame_stride` is too small, `MIEN_ERROR_INDEX`
+    /// if there are not so many frames, `MIEN_ERROR_CLIP_STRUCTURE` if a curve is damaged; its
+    /// block is zero in `out_values`.
+    pub fn mien_clip_read(clip: *const MienClip, first_frame: u32, frame_count: u32, out_values: *mut f32, frame_stride: usize, error: *mut MienError) -> MienStatus;
+
+    /// Creates a player, with one allocation. `clip` may be closed before it. Destroy with
+    /// `mien_clip_player_destroy()`.
+    pub fn mien_clip_player_create(clip: *const MienClip, desc: *const MienClipPlayerDesc, out_clip_player: *mut *mut MienClipPlayer, error: *mut MienError) -> MienStatus;
+
+    /// Destroys a player.
+    pub fn mien_clip_player_destroy(clip_player: *mut MienClipPlayer);
+
+    /// Returns the state of a player.
+    pub fn mien_clip_player_info(clip_player: *const MienClipPlayer, out_info: *mut MienClipPlayerInfo) -> MienStatus;
+
+    /// Moves to a tick: modulo the length with `MIEN_LOOPING_WRAP`, else to the nearest in range.
+    /// Passes no events; the next `mien_clip_player_advance()` also passes events at this tick, as
+    /// after creation. Does not allocate or lock.
+    pub fn mien_clip_player_seek(clip_player: *mut MienClipPlayer, tick: i64) -> MienStatus;
+
+    /// Changes the speed of the following calls of `mien_clip_player_advance()`. Does not allocate
+    /// or lock.
+    ///
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if it is outside the range of MienClipPlayerDesc.
+    pub fn mien_clip_player_set_speed(clip_player: *mut MienClipPlayer, numerator: i32, denominator: i32) -> MienStatus;
+
+    /// Moves by `ticks` times the speed. `ticks` is -2^40 to 2^40 (26 minutes). Fractions of ticks
+    /// are kept, so that the position does not depend on the size of steps. Does not allocate or
+    /// lock.
+    ///
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `ticks` is out of range.
+    pub fn mien_clip_player_advance(clip_player: *mut MienClipPlayer, ticks: i64) -> MienStatus;
+
+    /// Returns the next event that the last `mien_clip_player_advance()` passed. `out_found` is 1,
+    /// or 0 after the last event. An event is passed when the position reaches or crosses its tick
+    /// in either direction, once per loop. Its name is a view of the clip. Does not allocate or
+    /// lock.
+    pub fn mien_clip_player_next_event(clip_player: *mut MienClipPlayer, out_event: *mut MienClipEvent, out_found: *mut u32) -> MienStatus;
+
+    /// Returns the values at the position: one float per channel. At a frame they have the bits of
+    /// the clip. Decodes the frames since the last call, or at most 64 after a jump; playing
+    /// backward without MienClipPlayerDesc.reverse counts as jumps. Does not allocate or lock.
+    ///
+    /// Contents change with `mien_clip_player_sample()`.
+    pub fn mien_clip_player_sample(clip_player: *mut MienClipPlayer, out_values: *mut MienFloatView) -> MienStatus;
+
+    /// Binds a clip to a rig by names. A channel drives the raw control with its name; else the
+    /// GUI control with its name, which is then mapped as by `mien_rig_map_gui_to_raw()`; else the
+    /// controls of its entries in the matrix, whose sums are formed in the order of the matrix.
+    /// Names match without regard to case; `.` matches `_`; the prefix `CTRL_expressions.` may be
+    /// missing. If several names match, one of them must be equal. A raw control that a channel
+    /// drives by name is driven by nothing else, and one that the matrix drives is not driven by
+    /// GUI controls. Names without a match are not an error: see `mien_clip_binding_info()`.
+    /// `clip` may be closed and `rig` may be destroyed afterwards. Destroy with
+    /// `mien_clip_binding_destroy()`.
+    ///
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if a weight is not finite, `MIEN_ERROR_CLIP_LIMIT`
+    /// if channels drive more than 4095 GUI controls.
+    pub fn mien_clip_binding_create(clip: *const MienClip, rig: *const MienRig, desc: *const MienClipBindingDesc, out_clip_binding: *mut *mut MienClipBinding, error: *mut MienError) -> MienStatus;
+
+    /// Destroys a binding.
+    pub fn mien_clip_binding_destroy(clip_binding: *mut MienClipBinding);
+
+    /// Returns what a binding found.
+    pub fn mien_clip_binding_info(clip_binding: *const MienClipBinding, out_info: *mut MienClipBindingInfo) -> MienStatus;
+
+    /// Computes the raw controls that are driven and leaves the others as they are. `values` has
+    /// one float per channel, as `mien_clip_player_sample()` returns them; `raw_controls` has one
+    /// float per raw control, as `mien_instance_raw_controls()` returns them. Values that drive
+    /// raw controls by name keep their bits; GUI controls give the bits of
+    /// `mien_rig_map_gui_to_raw()`. Does not allocate or lock. Uses up to 16 KiB of stack.
+    ///
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if a count is not that of clip and rig.
+    pub fn mien_clip_binding_apply(clip_binding: *const MienClipBinding, values: *const f32, value_count: usize, raw_controls: *mut f32, raw_control_count: usize) -> MienStatus;
 }

@@ -463,3 +463,153 @@ fn mien_baked_deformer_desc() {
     assert_eq!(offset!(S, normals), 12);
     assert_eq!(offset!(S, allocator), 16);
 }
+
+#[test]
+fn mien_clip_event() {
+    use mien_sys::MienClipEvent as S;
+    assert_eq!(size_of::<S>(), 32);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, tick), 0);
+    assert_eq!(offset!(S, name), 8);
+    assert_eq!(offset!(S, value), 24);
+    assert_eq!(offset!(S, reserved), 28);
+}
+
+#[test]
+fn mien_clip_desc() {
+    use mien_sys::MienClipDesc as S;
+    assert_eq!(size_of::<S>(), 88);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, rate_numerator), 8);
+    assert_eq!(offset!(S, rate_denominator), 12);
+    assert_eq!(offset!(S, frame_count), 16);
+    assert_eq!(offset!(S, channel_count), 20);
+    assert_eq!(offset!(S, names), 24);
+    assert_eq!(offset!(S, values), 32);
+    assert_eq!(offset!(S, frame_stride), 40);
+    assert_eq!(offset!(S, snaps), 48);
+    assert_eq!(offset!(S, snap), 56);
+    assert_eq!(offset!(S, looping), 60);
+    assert_eq!(offset!(S, is_delta), 64);
+    assert_eq!(offset!(S, event_count), 68);
+    assert_eq!(offset!(S, events), 72);
+    assert_eq!(offset!(S, allocator), 80);
+}
+
+#[test]
+fn mien_clip_open_desc() {
+    use mien_sys::MienClipOpenDesc as S;
+    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, file_access), 8);
+    assert_eq!(offset!(S, reserved), 12);
+    assert_eq!(offset!(S, allocator), 16);
+}
+
+#[test]
+fn mien_clip_info() {
+    use mien_sys::MienClipInfo as S;
+    assert_eq!(size_of::<S>(), 88);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, rate_numerator), 8);
+    assert_eq!(offset!(S, rate_denominator), 12);
+    assert_eq!(offset!(S, frame_count), 16);
+    assert_eq!(offset!(S, channel_count), 20);
+    assert_eq!(offset!(S, changing_channel_count), 24);
+    assert_eq!(offset!(S, event_count), 28);
+    assert_eq!(offset!(S, looping), 32);
+    assert_eq!(offset!(S, is_delta), 36);
+    assert_eq!(offset!(S, snap), 40);
+    assert_eq!(offset!(S, is_mapped), 44);
+    assert_eq!(offset!(S, ticks_per_frame), 48);
+    assert_eq!(offset!(S, length), 56);
+    assert_eq!(offset!(S, file_bytes), 64);
+    assert_eq!(offset!(S, memory_bytes), 72);
+    assert_eq!(offset!(S, player_bytes), 80);
+}
+
+#[test]
+fn mien_clip_channel() {
+    use mien_sys::MienClipChannel as S;
+    assert_eq!(size_of::<S>(), 64);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, name), 8);
+    assert_eq!(offset!(S, rest), 24);
+    assert_eq!(offset!(S, is_changing), 28);
+    assert_eq!(offset!(S, zero_blocks), 32);
+    assert_eq!(offset!(S, constant_blocks), 36);
+    assert_eq!(offset!(S, grid_blocks), 40);
+    assert_eq!(offset!(S, float_blocks), 44);
+    assert_eq!(offset!(S, bits), 48);
+    assert_eq!(offset!(S, max_error), 56);
+    assert_eq!(offset!(S, reserved), 60);
+}
+
+#[test]
+fn mien_clip_player_desc() {
+    use mien_sys::MienClipPlayerDesc as S;
+    assert_eq!(size_of::<S>(), 48);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, looping), 8);
+    assert_eq!(offset!(S, interpolation), 12);
+    assert_eq!(offset!(S, speed_numerator), 16);
+    assert_eq!(offset!(S, speed_denominator), 20);
+    assert_eq!(offset!(S, start_tick), 24);
+    assert_eq!(offset!(S, reverse), 32);
+    assert_eq!(offset!(S, reserved), 36);
+    assert_eq!(offset!(S, allocator), 40);
+}
+
+#[test]
+fn mien_clip_player_info() {
+    use mien_sys::MienClipPlayerInfo as S;
+    assert_eq!(size_of::<S>(), 32);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, tick), 8);
+    assert_eq!(offset!(S, loops), 16);
+    assert_eq!(offset!(S, looping), 24);
+    assert_eq!(offset!(S, is_damaged), 28);
+}
+
+#[test]
+fn mien_matrix_entry() {
+    use mien_sys::MienMatrixEntry as S;
+    assert_eq!(size_of::<S>(), 40);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, channel), 0);
+    assert_eq!(offset!(S, control), 16);
+    assert_eq!(offset!(S, weight), 32);
+    assert_eq!(offset!(S, reserved), 36);
+}
+
+#[test]
+fn mien_clip_binding_desc() {
+    use mien_sys::MienClipBindingDesc as S;
+    assert_eq!(size_of::<S>(), 32);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, matrix), 8);
+    assert_eq!(offset!(S, matrix_count), 16);
+    assert_eq!(offset!(S, allocator), 24);
+}
+
+#[test]
+fn mien_clip_binding_info() {
+    use mien_sys::MienClipBindingInfo as S;
+    assert_eq!(size_of::<S>(), 72);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, channel_count), 8);
+    assert_eq!(offset!(S, raw_control_count), 12);
+    assert_eq!(offset!(S, missing_entry_count), 16);
+    assert_eq!(offset!(S, reserved), 20);
+    assert_eq!(offset!(S, controls), 24);
+    assert_eq!(offset!(S, extra_controls), 40);
+    assert_eq!(offset!(S, missing_channels), 56);
+}

@@ -68,9 +68,23 @@ impl Status {
     pub const BAKED_CHECKSUM: Self = Self(54);
     /// The file does not contain the requested object.
     pub const BAKED_PART: Self = Self(55);
+    /// Not a clip.
+    pub const CLIP_SIGNATURE: Self = Self(60);
+    /// Built by another version.
+    pub const CLIP_VERSION: Self = Self(61);
+    /// The clip is shorter than its header states.
+    pub const CLIP_TRUNCATED: Self = Self(62);
+    /// Sizes, counts or curves contradict each other.
+    pub const CLIP_STRUCTURE: Self = Self(63);
+    /// The bytes are not those that were written.
+    pub const CLIP_CHECKSUM: Self = Self(64);
+    /// A value that is not finite.
+    pub const CLIP_VALUE: Self = Self(65);
+    /// More than a clip, player or binding can hold.
+    pub const CLIP_LIMIT: Self = Self(66);
 }
 
-numbers!(Status, i32, [(0, "OK"), (1, "NULL_ARGUMENT"), (2, "INVALID_ARGUMENT"), (3, "STRUCT_SIZE"), (4, "HANDLE"), (5, "MISMATCH"), (6, "INDEX"), (7, "LOD"), (8, "NAME"), (9, "ISA"), (10, "MEMORY"), (20, "FILE_OPEN"), (21, "FILE_READ"), (22, "FILE_WRITE"), (30, "DNA_SIGNATURE"), (31, "DNA_VERSION"), (32, "DNA_TRUNCATED"), (33, "DNA_STRUCTURE"), (34, "DNA_REFERENCE"), (35, "DNA_LIMIT"), (36, "DNA_LAYER"), (37, "DNA_VALUE"), (50, "BAKED_SIGNATURE"), (51, "BAKED_VERSION"), (52, "BAKED_TRUNCATED"), (53, "BAKED_STRUCTURE"), (54, "BAKED_CHECKSUM"), (55, "BAKED_PART")]);
+numbers!(Status, i32, [(0, "OK"), (1, "NULL_ARGUMENT"), (2, "INVALID_ARGUMENT"), (3, "STRUCT_SIZE"), (4, "HANDLE"), (5, "MISMATCH"), (6, "INDEX"), (7, "LOD"), (8, "NAME"), (9, "ISA"), (10, "MEMORY"), (20, "FILE_OPEN"), (21, "FILE_READ"), (22, "FILE_WRITE"), (30, "DNA_SIGNATURE"), (31, "DNA_VERSION"), (32, "DNA_TRUNCATED"), (33, "DNA_STRUCTURE"), (34, "DNA_REFERENCE"), (35, "DNA_LIMIT"), (36, "DNA_LAYER"), (37, "DNA_VALUE"), (50, "BAKED_SIGNATURE"), (51, "BAKED_VERSION"), (52, "BAKED_TRUNCATED"), (53, "BAKED_STRUCTURE"), (54, "BAKED_CHECKSUM"), (55, "BAKED_PART"), (60, "CLIP_SIGNATURE"), (61, "CLIP_VERSION"), (62, "CLIP_TRUNCATED"), (63, "CLIP_STRUCTURE"), (64, "CLIP_CHECKSUM"), (65, "CLIP_VALUE"), (66, "CLIP_LIMIT")]);
 
 pub(crate) fn describe(status: Status) -> &'static str {
     match status.0 {
@@ -101,6 +115,13 @@ pub(crate) fn describe(status: Status) -> &'static str {
         53 => "sizes, counts or indices contradict each other",
         54 => "the bytes are not those that were written",
         55 => "the file does not contain the requested object",
+        60 => "not a clip",
+        61 => "built by another version",
+        62 => "the clip is shorter than its header states",
+        63 => "sizes, counts or curves contradict each other",
+        64 => "the bytes are not those that were written",
+        65 => "a value that is not finite",
+        66 => "more than a clip, player or binding can hold",
         _ => "",
     }
 }
@@ -661,6 +682,42 @@ impl BakedCheck {
 
 numbers!(BakedCheck, u32, [(0, "SAFE"), (1, "FULL")]);
 
+/// What follows the last frame.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Looping(pub u32);
+
+impl Looping {
+    /// For a clip `Looping::CLAMP`, for a player that of its clip.
+    pub const DEFAULT: Self = Self(0);
+    /// The last frame stays; the length is (frames - 1) \* ticks per frame.
+    pub const CLAMP: Self = Self(1);
+    /// The first frame follows; the length is frames \* ticks per frame.
+    pub const WRAP: Self = Self(2);
+}
+
+numbers!(Looping, u32, [(0, "DEFAULT"), (1, "CLAMP"), (2, "WRAP")]);
+
+/// Values between two frames. All are within the range of the two.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Interpolation(pub u32);
+
+impl Interpolation {
+    /// `MIEN_INTERPOLATION_LINEAR` in C.
+    pub const LINEAR: Self = Self(0);
+    /// The value of the earlier frame.
+    pub const STEP: Self = Self(1);
+    /// A Catmull-Rom spline, clamped to the range of the two frames.
+    pub const CATMULL_ROM: Self = Self(2);
+}
+
+numbers!(Interpolation, u32, [(0, "LINEAR"), (1, "STEP"), (2, "CATMULL_ROM")]);
+
 /// Axes, units and rotation conventions of a rig. Any handedness is allowed.
 ///
 /// See docs/dna-format.md, 11 "Coordinate systems".
@@ -1088,6 +1145,89 @@ impl From<sys::MienBakedInfo> for BakedInfo {
     }
 }
 
+/// Properties of a clip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ClipInfo {
+    /// Frames per second, as a fraction.
+    pub rate_numerator: u32,
+    /// Rate denominator.
+    pub rate_denominator: u32,
+    /// Frame count.
+    pub frame_count: usize,
+    /// Channel count.
+    pub channel_count: usize,
+    /// Channels that do not have one value in all frames.
+    pub changing_channel_count: usize,
+    /// Event count.
+    pub event_count: usize,
+    /// `Looping::CLAMP` or `Looping::WRAP`.
+    pub looping: Looping,
+    /// Values are differences.
+    pub is_delta: bool,
+    /// Largest step that a channel was rounded to. 0: none was.
+    pub snap: f32,
+    /// The file is mapped.
+    pub is_mapped: bool,
+    /// Ticks per frame.
+    pub ticks_per_frame: i64,
+    /// ticks.
+    pub length: i64,
+    /// Size of the clip.
+    pub file_bytes: u64,
+    /// Memory taken from the allocator.
+    pub memory_bytes: u64,
+    /// Memory of a player without MienClipPlayerDesc.reverse.
+    pub player_bytes: u64,
+}
+
+impl From<sys::MienClipInfo> for ClipInfo {
+    fn from(c: sys::MienClipInfo) -> Self {
+        Self {
+            rate_numerator: c.rate_numerator,
+            rate_denominator: c.rate_denominator,
+            frame_count: c.frame_count as usize,
+            channel_count: c.channel_count as usize,
+            changing_channel_count: c.changing_channel_count as usize,
+            event_count: c.event_count as usize,
+            looping: Looping(c.looping),
+            is_delta: c.is_delta != 0,
+            snap: c.snap,
+            is_mapped: c.is_mapped != 0,
+            ticks_per_frame: c.ticks_per_frame,
+            length: c.length,
+            file_bytes: c.file_bytes,
+            memory_bytes: c.memory_bytes,
+            player_bytes: c.player_bytes,
+        }
+    }
+}
+
+/// State of a player.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct ClipPlayerInfo {
+    /// 0 to the length of the clip; with `Looping::WRAP` less than the length.
+    pub tick: i64,
+    /// Completed since creation or the last seek; negative: backward.
+    pub loops: i64,
+    /// `Looping::CLAMP` or `Looping::WRAP`.
+    pub looping: Looping,
+    /// A damaged curve was decoded and gave zeros.
+    pub is_damaged: bool,
+}
+
+impl From<sys::MienClipPlayerInfo> for ClipPlayerInfo {
+    fn from(c: sys::MienClipPlayerInfo) -> Self {
+        Self {
+            tick: c.tick,
+            loops: c.loops,
+            looping: Looping(c.looping),
+            is_damaged: c.is_damaged != 0,
+        }
+    }
+}
+
 /// The `# Errors` section of what calls a function of the C interface.
 macro_rules! errors {
     (mien_coordinate_system_find) => {
@@ -1496,5 +1636,102 @@ macro_rules! errors {
          - [`Status::BAKED_VERSION`](crate::Status::BAKED_VERSION) if its deformer cannot be used\n\
          - [`Status::BAKED_STRUCTURE`](crate::Status::BAKED_STRUCTURE) if its deformer cannot be used\n\
          - [`Status::BAKED_PART`](crate::Status::BAKED_PART) if the file has no deformer"
+    };
+    (mien_clip_build) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::NAME`](crate::Status::NAME) if a name is empty or occurs twice\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::CLIP_VALUE`](crate::Status::CLIP_VALUE) if a value is not finite (the message names frame and channel)\n\
+         - [`Status::CLIP_LIMIT`](crate::Status::CLIP_LIMIT) if there are too many frames, channels or bytes"
+    };
+    (mien_clip_open_file) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::FILE_OPEN`](crate::Status::FILE_OPEN) if the file cannot be read\n\
+         - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read\n\
+         - [`Status::CLIP_SIGNATURE`](crate::Status::CLIP_SIGNATURE) if it is not a valid clip\n\
+         - [`Status::CLIP_VERSION`](crate::Status::CLIP_VERSION) if it is not a valid clip\n\
+         - [`Status::CLIP_TRUNCATED`](crate::Status::CLIP_TRUNCATED) if it is not a valid clip\n\
+         - [`Status::CLIP_STRUCTURE`](crate::Status::CLIP_STRUCTURE) if it is not a valid clip"
+    };
+    (mien_clip_open_memory) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::CLIP_SIGNATURE`](crate::Status::CLIP_SIGNATURE) if it is not a valid clip\n\
+         - [`Status::CLIP_VERSION`](crate::Status::CLIP_VERSION) if it is not a valid clip\n\
+         - [`Status::CLIP_TRUNCATED`](crate::Status::CLIP_TRUNCATED) if it is not a valid clip\n\
+         - [`Status::CLIP_STRUCTURE`](crate::Status::CLIP_STRUCTURE) if it is not a valid clip"
+    };
+    (mien_clip_open_stream) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read\n\
+         - [`Status::CLIP_SIGNATURE`](crate::Status::CLIP_SIGNATURE) if it is not a valid clip\n\
+         - [`Status::CLIP_VERSION`](crate::Status::CLIP_VERSION) if it is not a valid clip\n\
+         - [`Status::CLIP_TRUNCATED`](crate::Status::CLIP_TRUNCATED) if it is not a valid clip\n\
+         - [`Status::CLIP_STRUCTURE`](crate::Status::CLIP_STRUCTURE) if it is not a valid clip"
+    };
+    (mien_clip_write_file) => {
+        "- [`Status::FILE_WRITE`](crate::Status::FILE_WRITE) if the file cannot be written"
+    };
+    (mien_clip_write_memory) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `capacity` is too small"
+    };
+    (mien_clip_info) => {
+        "- none with valid arguments"
+    };
+    (mien_clip_channel) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if `index` is out of range"
+    };
+    (mien_clip_find_channel) => {
+        "- [`Status::NAME`](crate::Status::NAME) if there is none"
+    };
+    (mien_clip_find_channel_n) => {
+        "- [`Status::NAME`](crate::Status::NAME) if there is none"
+    };
+    (mien_clip_event) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if `index` is out of range"
+    };
+    (mien_clip_verify) => {
+        "- [`Status::CLIP_STRUCTURE`](crate::Status::CLIP_STRUCTURE) if a curve cannot be decoded\n\
+         - [`Status::CLIP_CHECKSUM`](crate::Status::CLIP_CHECKSUM) if bytes have changed"
+    };
+    (mien_clip_read) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `frame_stride` is too small\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if there are not so many frames\n\
+         - [`Status::CLIP_STRUCTURE`](crate::Status::CLIP_STRUCTURE) if a curve is damaged; its block is zero in `out_values`"
+    };
+    (mien_clip_player_create) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+    };
+    (mien_clip_player_info) => {
+        "- none with valid arguments"
+    };
+    (mien_clip_player_seek) => {
+        "- none with valid arguments"
+    };
+    (mien_clip_player_set_speed) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if it is outside the range of MienClipPlayerDesc"
+    };
+    (mien_clip_player_advance) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `ticks` is out of range"
+    };
+    (mien_clip_player_next_event) => {
+        "- none with valid arguments"
+    };
+    (mien_clip_player_sample) => {
+        "- none with valid arguments"
+    };
+    (mien_clip_binding_create) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a weight is not finite\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::CLIP_LIMIT`](crate::Status::CLIP_LIMIT) if channels drive more than 4095 GUI controls"
+    };
+    (mien_clip_binding_info) => {
+        "- none with valid arguments"
+    };
+    (mien_clip_binding_apply) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a count is not that of clip and rig"
     };
 }
