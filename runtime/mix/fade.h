@@ -19,6 +19,8 @@
 
 namespace mien {
 
+constexpr int64_t kMaxFadeTicks = int64_t{1} << 40;  // 26 minutes
+
 /// The coefficients of the offset, and how much shorter than T it lasts.
 struct Quintic {
   float c0, c1, c2;

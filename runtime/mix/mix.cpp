@@ -6,6 +6,8 @@
 
 #include "runtime/anim/clip.h"
 #include "runtime/base/arena.h"
+#include "runtime/mix/fade.h"
+#include "runtime/mix/stream.h"
 #include "runtime/rig/rig.h"
 
 namespace mien {
@@ -23,6 +25,8 @@ bool all_within(Span<const float> values, float low, float high) {
   }
   return true;
 }
+
+bool is_time(int64_t ticks) { return ticks >= 0 && ticks <= kMaxFadeTicks; }
 
 bool is_protected(LayerGroup group) {
   return group == LayerGroup::kBase || group == LayerGroup::kSpeech;
@@ -54,11 +58,53 @@ Status check_layers(const MixDesc& desc, uint32_t lanes, Error& error) {
       return wrong(error, "layer", i, "poses that the mix does not have");
     }
     clips += layer.source == LayerSource::kClip;
+    if (layer.source != LayerSource::kStream && layer.source != LayerSource::kGenerator) continue;
+    if (layer.lanes.count > lanes) return wrong(error, "layer", i, "too many lanes");
+    for (uint16_t lane : layer.lanes) {
+      if (lane >= lanes) return wrong(error, "layer", i, "a lane that does not exist");
+    }
+    const bool generates = layer.source == LayerSource::kGenerator;
+    if (generates && (static_cast<uint32_t>(layer.generator) >= kGenerators || layer.period < 1 ||
+                      layer.period > kMaxFadeTicks || layer.amounts.count != layer.lanes.count ||
+                      !all_within(layer.amounts, -kLargestFloat, kLargestFloat))) {
+      return wrong(error, "layer", i, "generator, period or amounts out of range");
+    }
+    if (!generates && (!is_time(layer.delay) || layer.stream_frames < 2 ||
+                       layer.stream_frames > kMaxStreamFrames)) {
+      return wrong(error, "layer", i, "delay or number of frames out of range");
+    }
   }
   if (desc.player_count >= clips && desc.player_count <= 4 * kMaxLayers) return Status::kOk;
   return fail(error, Status::kInvalidArgument, kNoOffset,
               "%u players; each of the %u layers of clips needs one, and at most %u can be",
               desc.player_count, clips, 4 * kMaxLayers);
+}
+
+Status check_reactions(const MixDesc& desc, Error& error) {
+  if (desc.reactions.count > kMaxReactions) {
+    return fail(error, Status::kInvalidArgument, kNoOffset, "%zu reactions; a mix has at most %u",
+                desc.reactions.count, kMaxReactions);
+  }
+  for (size_t i = 0; i < desc.reactions.count; ++i) {
+    const ReactionDesc& reaction = desc.reactions[i];
+    if (reaction.strokes.count > kMaxStrokes)
+      return wrong(error, "reaction", i, "too many strokes");
+    if (!within(reaction.adapted, 0.0f, 1.0f) || !is_time(reaction.cooldown) ||
+        !is_time(reaction.adapt_ticks) || !is_time(reaction.recover_ticks) ||
+        static_cast<uint32_t>(reaction.retrigger) > 2) {
+      return wrong(error, "reaction", i, "rule, adaptation or a time out of range");
+    }
+    for (const Stroke& stroke : reaction.strokes) {
+      if (stroke.pose >= desc.poses.count || static_cast<uint32_t>(stroke.mode) >= kBlendModes) {
+        return wrong(error, "reaction", i, "a stroke with a pose or mode that does not exist");
+      }
+      if (!is_time(stroke.delay) || !is_time(stroke.attack) || !is_time(stroke.hold) ||
+          !is_time(stroke.release)) {
+        return wrong(error, "reaction", i, "a stroke with a time out of range");
+      }
+    }
+  }
+  return Status::kOk;
 }
 
 Status check_lanes(const MixDesc& desc, uint32_t lanes, Error& error) {
@@ -138,13 +184,22 @@ void place_mix(Placer& placer, const MixDesc& desc, Mix& mix) {
   mix.layers = placer.array<MixLayer>(desc.layers.count);
   for (size_t i = 0; i < desc.layers.count; ++i) {
     const Span<float> mask = placer.array<float>(mix.lane_count, kBlockAlignment);
-    if (!placer.measuring()) mix.layers[i].mask = mask;
+    const Span<uint16_t> lanes = placer.array<uint16_t>(desc.layers[i].lanes.count);
+    const Span<float> amounts = placer.array<float>(desc.layers[i].amounts.count);
+    if (placer.measuring()) continue;
+    mix.layers[i].mask = mask;
+    mix.layers[i].lanes = lanes;
+    mix.layers[i].amounts = amounts;
   }
   size_t values = 0;
   for (const PoseDesc& pose : desc.poses) values += pose.lanes.count;
   mix.pose_ends = placer.array<uint32_t>(desc.poses.count);
   mix.pose_lanes = placer.array<uint16_t>(values);
   mix.pose_values = placer.array<float>(values);
+  size_t strokes = 0;
+  for (const ReactionDesc& reaction : desc.reactions) strokes += reaction.strokes.count;
+  mix.reactions = placer.array<Reaction>(desc.reactions.count);
+  mix.strokes = placer.array<Stroke>(strokes);
   mix.guards = placer.array<Guard>(desc.guards.count);
   mix.antagonists = placer.array<AntagonistPair>(desc.antagonists.count);
   mix.mirror = placer.array<uint16_t>(desc.mirror.count);
@@ -171,6 +226,12 @@ void fill_layers(const MixDesc& desc, Mix& mix) {
     layer.pose_count = from.source == LayerSource::kPoses ? from.pose_count : 0;
     layer.first_fade = mix.fade_count;
     mix.fade_count += layer.pose_count;
+    layer.generator = from.generator;
+    layer.period = from.period;
+    layer.delay = from.delay;
+    layer.stream_frames = from.stream_frames;
+    copy_items(from.lanes, layer.lanes);
+    copy_items(from.amounts, layer.amounts);
     const auto mask_of = [&](uint32_t lane) {
       return from.mask.empty() ? 1.0f : lane < from.mask.count ? from.mask[lane] : 0.0f;
     };
@@ -179,8 +240,10 @@ void fill_layers(const MixDesc& desc, Mix& mix) {
       for (const PoseDesc& pose : desc.poses.slice(layer.first_pose, layer.pose_count)) {
         for (uint16_t lane : pose.lanes) layer.mask[lane] = mask_of(lane);
       }
-    } else {
+    } else if (layer.source == LayerSource::kClip) {
       for (uint32_t l = 0; l < lanes; ++l) layer.mask[l] = mask_of(l);
+    } else {
+      for (uint16_t lane : from.lanes) layer.mask[lane] = mask_of(lane);
     }
     for (uint32_t l = 0; l < lanes; ++l) layer.masked |= layer.mask[l] != 1.0f;
     if (is_protected(layer.group)) mix.first_unprotected = static_cast<uint32_t>(i + 1);
@@ -198,6 +261,15 @@ void fill_mix(const MixDesc& desc, Mix& mix) {
     copy_items(pose.lanes, mix.pose_lanes.slice(end, pose.lanes.count));
     copy_items(pose.values, mix.pose_values.slice(end, pose.values.count));
     mix.pose_ends[i] = end += static_cast<uint32_t>(pose.lanes.count);
+  }
+  uint32_t stroke = 0;
+  for (size_t i = 0; i < desc.reactions.count; ++i) {
+    const ReactionDesc& from = desc.reactions[i];
+    const auto count = static_cast<uint32_t>(from.strokes.count);
+    copy_items(from.strokes, mix.strokes.slice(stroke, count));
+    mix.reactions[i] = {stroke,       stroke + count, from.retrigger,   from.after_guards, {},
+                        from.adapted, from.cooldown,  from.adapt_ticks, from.recover_ticks};
+    stroke += count;
   }
   copy_items(desc.guards, mix.guards);
   copy_items(desc.antagonists, mix.antagonists);
@@ -218,8 +290,8 @@ uint64_t hash_numbers(uint64_t hash, std::initializer_list<uint64_t> numbers) {
 
 uint64_t fingerprint(const Mix& mix) {
   uint64_t hash = hash_numbers(
-      0xCBF29CE484222325u,
-      {mix.raw_count, mix.variable_count, mix.player_count, mix.guards.count, mix.layers.count});
+      0xCBF29CE484222325u, {mix.raw_count, mix.variable_count, mix.player_count, mix.guards.count,
+                            mix.layers.count, mix.reactions.count, mix.strokes.count});
   for (const MixLayer& layer : mix.layers) {
     hash = hash_numbers(hash, {static_cast<uint64_t>(layer.mode),
                                static_cast<uint64_t>(layer.source), layer.pose_count});
@@ -244,6 +316,7 @@ Status create_mix(const MixDesc& desc, const Allocator& allocator, Mix*& out, Er
   const uint32_t lanes = desc.raw_count + desc.variable_count;
   Status status = check_lanes(desc, lanes, error);
   if (status == Status::kOk) status = check_layers(desc, lanes, error);
+  if (status == Status::kOk) status = check_reactions(desc, error);
   if (status != Status::kOk) return status;
 
   Mix mix;

@@ -57,6 +57,9 @@ enum class LayerSource : uint8_t {
 };
 constexpr uint32_t kLayerSources = 4;
 
+enum class Generator : uint8_t { kBlink, kBreath, kNoise };
+constexpr uint32_t kGenerators = 3;
+
 enum LayerFlags : uint32_t {
   kLayerAfterGuards = 1,  // mixed after the guards, which leave it alone; not for base and speech
 };
@@ -70,6 +73,12 @@ struct LayerDesc {
   Span<const float> mask;   // [lane] 0 ... 1; those beyond its end are 0; empty: 1 everywhere
   uint32_t first_pose = 0;  // of kPoses
   uint32_t pose_count = 0;
+  Span<const uint16_t> lanes;  // of the channels of kStream; that kGenerator moves
+  Span<const float> amounts;   // beside the lanes of kGenerator
+  Generator generator = Generator::kBlink;
+  int64_t period = 0;           // ticks; of kGenerator (generator.h)
+  int64_t delay = 0;            // ticks; with which kStream is played
+  uint32_t stream_frames = 64;  // that wait in kStream at most
 };
 
 struct MixLayer {
@@ -80,14 +89,64 @@ struct MixLayer {
   float weight;
   uint32_t first_pose, pose_count;
   uint32_t first_fade;  // of the weights of its poses, among all such
-  bool masked;          // the mask is not 1 everywhere
-  Span<float> mask;     // [lane], 0 in the padding
+  Generator generator;
+  bool masked;  // the mask is not 1 everywhere
+  uint32_t stream_frames;
+  int64_t period, delay;
+  Span<uint16_t> lanes;
+  Span<float> amounts;
+  Span<float> mask;  // [lane], 0 in the padding
 };
 
 /// The lanes of a pose that are not 0.
 struct PoseDesc {
   Span<const uint16_t> lanes;
   Span<const float> values;
+};
+
+// Reactions (reaction.h)
+// ------------------------------------------------------------------------------------------------
+
+constexpr uint32_t kMaxReactions = 16;
+constexpr uint32_t kMaxStrokes = 8;  // of a reaction
+constexpr int64_t kUntilReleased = INT64_MAX;
+
+/// Leads the lanes of a pose towards its values and back. Times are in ticks.
+struct Stroke {
+  uint32_t pose;
+  BlendMode mode;
+  bool held;  // as long as the stimulus lasts; weaker as the reaction adapts, unless it lags
+  bool lags;  // exponentially; attack and release are time constants. Else by quintics
+  uint8_t zero;
+  int64_t delay, attack;
+  int64_t hold;  // after the attack, if not held
+  int64_t release;
+};
+
+/// What a trigger does while the reaction runs.
+enum class Retrigger : uint8_t {
+  kExtend,   // the stimulus goes on; strokes that fall or rest begin again
+  kRestart,  // all strokes begin again
+  kIgnore,
+};
+
+struct ReactionDesc {
+  Span<const Stroke> strokes;
+  Retrigger retrigger = Retrigger::kExtend;
+  bool after_guards = false;
+  int64_t cooldown = 0;       // strokes that are not held begin at most so often
+  float adapted = 1;          // what remains of the strength if the stimulus lasts, 0 ... 1
+  int64_t adapt_ticks = 0;    // time constants of adaptation and
+  int64_t recover_ticks = 0;  // of recovery after it
+};
+
+struct Reaction {
+  uint32_t first_stroke, end_stroke;
+  Retrigger retrigger;
+  bool after_guards;
+  uint8_t zeros[2];
+  float adapted;
+  int64_t cooldown, adapt_ticks, recover_ticks;
 };
 
 // Antagonists
@@ -109,6 +168,7 @@ struct MixDesc {
   uint32_t variable_count = 0;  // pose variables
   Span<const LayerDesc> layers;
   Span<const PoseDesc> poses;
+  Span<const ReactionDesc> reactions;
   Span<const Guard> guards;  // in the order in which they act
   Span<const AntagonistPair> antagonists;
   /// [lane] of the same size in the other half of the face, itself in the middle: for what is played
@@ -143,6 +203,8 @@ struct Mix {
   Span<uint32_t> pose_ends;  // [pose] into pose_lanes and pose_values
   Span<uint16_t> pose_lanes;
   Span<float> pose_values;
+  Span<Reaction> reactions;
+  Span<Stroke> strokes;
   Span<Guard> guards;
   Span<AntagonistPair> antagonists;
   Span<uint16_t> mirror;     // [lane], or empty

@@ -11,13 +11,20 @@ namespace mien {
 namespace {
 
 constexpr uint32_t kNone = ~uint32_t{0};
+constexpr int64_t kMaxStreamTick = INT64_MAX / 4;  // differences do not overflow
 
 // Memory
 // ------------------------------------------------------------------------------------------------
 
-uint32_t clip_layers(const Mix& mix) {
-  uint32_t count = 0;
-  for (const MixLayer& layer : mix.layers) count += layer.source == LayerSource::kClip;
+/// Layers that can lead over from what they have shown to something else.
+bool has_rows(const MixLayer& layer) {
+  return layer.source == LayerSource::kClip || layer.source == LayerSource::kStream;
+}
+
+/// Of the first `end` layers.
+size_t layers_with_rows(const Mix& mix, size_t end) {
+  size_t count = 0;
+  for (const MixLayer& layer : mix.layers.first(end)) count += has_rows(layer);
   return count;
 }
 
@@ -30,9 +37,13 @@ void place_state(Placer& placer, const Mix& mix, Mixer& mixer) {
   mixer.pose_weights = placer.array<Fade>(mix.fade_count);
   mixer.variables = placer.array<float>(mix.variable_count);
   mixer.held = placer.array<float>(mix.guards.empty() ? 0 : mix.lane_count);
+  mixer.generators = placer.array<GeneratorState>(mix.layers.count);
+  mixer.reactions = placer.array<ReactionState>(mix.reactions.count);
+  mixer.strokes = placer.array<StrokeState>(mix.strokes.count);
   mixer.guard_overrides = placer.array<float>(mix.guards.count);
   mixer.layer_rows = placer.array<float>(
-      size_t{clip_layers(mix)} * kLayerRows * layer_row_floats(mix), kBlockAlignment);
+      layers_with_rows(mix, mix.layers.count) * kLayerRows * layer_row_floats(mix),
+      kBlockAlignment);
 }
 
 void place_mixer(Placer& placer, const Mix& mix, Mixer& mixer) {
@@ -50,6 +61,14 @@ void place_mixer(Placer& placer, const Mix& mix, Mixer& mixer) {
     player.row = placer.array<float>(layer_row_floats(mix), kBlockAlignment);
     if (!placer.measuring()) mixer.players[i] = player;
   }
+  mixer.streams = placer.array<Stream*>(mix.layers.count);
+  for (size_t i = 0; i < mix.layers.count; ++i) {
+    const MixLayer& layer = mix.layers[i];
+    if (layer.source != LayerSource::kStream) continue;
+    Stream* stream = nullptr;
+    place_stream(placer, layer.stream_frames, static_cast<uint32_t>(layer.lanes.count), stream);
+    if (!placer.measuring()) mixer.streams[i] = stream;
+  }
   mixer.events = placer.array<MixEvent>(mix.max_events);
   Placer state(nullptr);
   place_state(state, mix, mixer);
@@ -59,25 +78,7 @@ void place_mixer(Placer& placer, const Mix& mix, Mixer& mixer) {
   place_state(in_state, mix, mixer);
 }
 
-// What a layer plays
-// ------------------------------------------------------------------------------------------------
-
-float* layer_row(Mixer& mixer, uint32_t layer, uint32_t row) {
-  uint32_t slot = 0;
-  for (uint32_t i = 0; i < layer; ++i) slot += mixer.mix->layers[i].source == LayerSource::kClip;
-  const size_t floats = layer_row_floats(*mixer.mix);
-  return mixer.layer_rows.slice((size_t{slot} * kLayerRows + row) * floats, floats).data;
-}
-
-QuinticRows quintic_rows(Mixer& mixer, uint32_t layer) {
-  return {layer_row(mixer, layer, kQuintic0), layer_row(mixer, layer, kQuintic1),
-          layer_row(mixer, layer, kQuintic2), layer_row(mixer, layer, kQuinticRate)};
-}
-
-/// The image of a lane on the other side of the face, if the player is mirrored.
-uint32_t played_lane(const Mix& mix, const Player& player, uint32_t lane) {
-  return player.mirrored ? mix.mirror[lane] : lane;
-}
+}  // namespace
 
 void sample_player(Mixer& mixer, Player& player) {
   const Mix& mix = *mixer.mix;
@@ -89,6 +90,27 @@ void sample_player(Mixer& mixer, Player& player) {
   }
   apply_binding(binding, values, mixer.gui, mixer.scratch.first(mix.raw_count));
   for (uint16_t lane : binding.controls) player.row[mix.mirror[lane]] = mixer.scratch[lane];
+}
+
+namespace {
+
+// What a layer plays
+// ------------------------------------------------------------------------------------------------
+
+float* layer_row(Mixer& mixer, uint32_t layer, uint32_t row) {
+  const size_t slot = layers_with_rows(*mixer.mix, layer);
+  const size_t floats = layer_row_floats(*mixer.mix);
+  return mixer.layer_rows.slice((slot * kLayerRows + row) * floats, floats).data;
+}
+
+QuinticRows quintic_rows(Mixer& mixer, uint32_t layer) {
+  return {layer_row(mixer, layer, kQuintic0), layer_row(mixer, layer, kQuintic1),
+          layer_row(mixer, layer, kQuintic2), layer_row(mixer, layer, kQuinticRate)};
+}
+
+/// The image of a lane on the other side of the face, if the player is mirrored.
+uint32_t played_lane(const Mix& mix, const Player& player, uint32_t lane) {
+  return player.mirrored ? mix.mirror[lane] : lane;
 }
 
 void release_player(Mixer& mixer, uint16_t& player) {
@@ -103,8 +125,8 @@ uint32_t find_free_player(const Mixer& mixer) {
   return kNone;
 }
 
-/// Leads from the rows that the layer has shown last over to a player's row.
-void start_offsets(Mixer& mixer, uint32_t index, const float* next, int64_t ticks) {
+/// Leads from the rows that the layer has shown last over to another row, beginning at `start`.
+void start_offsets(Mixer& mixer, uint32_t index, const float* next, int64_t start, int64_t ticks) {
   LayerState& layer = mixer.layers[index];
   layer.offset_ticks = 0;
   if (layer.shown_count == 0 || ticks == 0) return;
@@ -113,7 +135,7 @@ void start_offsets(Mixer& mixer, uint32_t index, const float* next, int64_t tick
   const float* before = moves ? layer_row(mixer, index, kShown0 + (layer.newest ^ 1)) : last;
   start_quintics(last, before, next, moves ? fraction_of(ticks, layer.shown_ticks) : 0.0f,
                  layer_row_floats(*mixer.mix), quintic_rows(mixer, index));
-  layer.offset_start = mixer.header->now;
+  layer.offset_start = start;
   layer.offset_ticks = ticks;
 }
 
@@ -160,63 +182,113 @@ float layer_weight(const LayerState& layer, BlendMode mode, int64_t now) {
   return weight < 1.0f ? (weight > lowest ? weight : lowest) : 1.0f;
 }
 
-/// The row that a layer of clips shows now goes to the newer one of its rows.
-const float* mix_players(Mixer& mixer, uint32_t index, int64_t ticks) {
+/// Where the row goes that a layer shows now: over the older one of its two.
+float* next_shown_row(Mixer& mixer, uint32_t index, int64_t ticks) {
   LayerState& layer = mixer.layers[index];
-  const int64_t now = mixer.header->now;
-  const size_t floats = layer_row_floats(*mixer.mix);
-  Player& current = mixer.players[layer.current];
-  sample_player(mixer, current);
-  float s = fade_value(layer.cross, now);
-  s = s < 1.0f ? (s > 0.0f ? s : 0.0f) : 1.0f;
-  if (s == 1.0f) release_player(mixer, layer.previous);
-
   if (ticks > 0 || layer.shown_count == 0) {
     layer.newest ^= 1;
     layer.shown_count = layer.shown_count == 0 ? 1 : 2;
     layer.shown_ticks = ticks;
   }
-  float* shown = layer_row(mixer, index, kShown0 + layer.newest);
-  if (layer.previous != kNoPlayer) {
-    Player& previous = mixer.players[layer.previous];
-    sample_player(mixer, previous);
-    cross_rows(previous.row.data, current.row.data, s, floats, shown);
-  } else {
-    memcpy(shown, current.row.data, floats * sizeof(float));
-  }
-  if (layer.offset_ticks > 0) {
-    const int64_t elapsed = now - layer.offset_start;
-    if (elapsed < layer.offset_ticks) {
-      add_quintics(quintic_rows(mixer, index), fraction_of(elapsed, layer.offset_ticks), floats,
-                   shown);
-      clamp_row(floats / 2, shown + floats / 2);
-    } else {
-      layer.offset_ticks = 0;
-    }
-  }
-  return shown;
+  return layer_row(mixer, index, kShown0 + layer.newest);
 }
 
-void mix_clip_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
+void add_offsets(Mixer& mixer, uint32_t index, float* shown) {
+  LayerState& layer = mixer.layers[index];
+  if (layer.offset_ticks == 0) return;
+  const int64_t elapsed = mixer.header->now - layer.offset_start;
+  if (elapsed >= layer.offset_ticks) {
+    layer.offset_ticks = 0;
+    return;
+  }
+  const size_t lanes = mixer.mix->lane_count;
+  add_quintics(quintic_rows(mixer, index), fraction_of(elapsed, layer.offset_ticks), 2 * lanes,
+               shown);
+  clamp_row(lanes, shown + lanes);
+}
+
+void blend_shown(Mixer& mixer, uint32_t index, float weight, const float* shown) {
   const MixLayer& layer = mixer.mix->layers[index];
-  LayerState& state = mixer.layers[index];
-  const int64_t now = mixer.header->now;
-  if (state.current == kNoPlayer) return;
-  if (state.presence.target == 0.0f && fade_value(state.presence, now) == 0.0f) {
-    release_player(mixer, state.current);
-    release_player(mixer, state.previous);
-    state.shown_count = 0;
-    return;
-  }
-  const float weight = layer_weight(state, layer.mode, now);
-  if (weight == 0.0f) {
-    state.shown_count = 0;  // its rows are not known
-    return;
-  }
-  const float* shown = mix_players(mixer, index, ticks);
   blend_row(layer.mode, shown, shown + mixer.mix->lane_count,
             layer.masked ? layer.mask.data : nullptr, weight, mixer.mix->lane_count,
             mixer.row.data);
+}
+
+void mix_clip_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
+  LayerState& layer = mixer.layers[index];
+  const int64_t now = mixer.header->now;
+  if (layer.current == kNoPlayer) return;
+  if (layer.presence.target == 0.0f && fade_value(layer.presence, now) == 0.0f) {
+    release_player(mixer, layer.current);
+    release_player(mixer, layer.previous);
+    layer.shown_count = 0;
+    return;
+  }
+  const float weight = layer_weight(layer, mixer.mix->layers[index].mode, now);
+  if (weight == 0.0f) {
+    layer.shown_count = 0;  // its rows are not known
+    return;
+  }
+  Player& current = mixer.players[layer.current];
+  sample_player(mixer, current);
+  float s = fade_value(layer.cross, now);
+  s = s < 1.0f ? (s > 0.0f ? s : 0.0f) : 1.0f;
+  if (s == 1.0f) release_player(mixer, layer.previous);
+  float* shown = next_shown_row(mixer, index, ticks);
+  if (layer.previous != kNoPlayer) {
+    Player& previous = mixer.players[layer.previous];
+    sample_player(mixer, previous);
+    cross_rows(previous.row.data, current.row.data, s, current.row.count, shown);
+  } else {
+    memcpy(shown, current.row.data, current.row.count * sizeof(float));
+  }
+  add_offsets(mixer, index, shown);
+  blend_shown(mixer, index, weight, shown);
+}
+
+void mix_stream_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
+  const Mix& mix = *mixer.mix;
+  const MixLayer& layer = mix.layers[index];
+  LayerState& state = mixer.layers[index];
+  Stream& stream = *mixer.streams[index];
+  const int64_t now = mixer.header->now;
+  const StreamSample sample = sample_stream(stream, now - layer.delay, mixer.scratch.data);
+  if (sample == StreamSample::kNone) return;
+  if (sample == StreamSample::kLost) {
+    const int64_t lost = stream.last_tick + kStreamAhead + layer.delay;
+    if (state.presence.target != 0.0f) start_fade(state.presence, lost, 0.0f, kStreamFade);
+  } else if (state.presence.target != 1.0f) {
+    start_fade(state.presence, now - ticks, 1.0f, kStreamFade);
+  }
+  float* row = mixer.layer_row.data;
+  memset(row, 0, mixer.layer_row.count * sizeof(float));
+  for (size_t i = 0; i < layer.lanes.count; ++i) {
+    row[layer.lanes[i]] = mixer.scratch[i];
+    row[mix.lane_count + layer.lanes[i]] = 1.0f;
+  }
+  const float weight = layer_weight(state, layer.mode, now);
+  if (weight == 0.0f) {
+    state.shown_count = 0;
+    return;
+  }
+  if (sample == StreamSample::kJumped) {
+    start_offsets(mixer, index, row, now - ticks, kStreamLeadOver);
+  }
+  float* shown = next_shown_row(mixer, index, ticks);
+  memcpy(shown, row, mixer.layer_row.count * sizeof(float));
+  add_offsets(mixer, index, shown);
+  blend_shown(mixer, index, weight, shown);
+}
+
+void mix_generator(Mixer& mixer, uint32_t index) {
+  const Mix& mix = *mixer.mix;
+  const MixLayer& layer = mix.layers[index];
+  const int64_t now = mixer.header->now;
+  float* row = mixer.layer_row.data;
+  memset(row, 0, mix.lane_count * sizeof(float));
+  generate(layer, mixer.header->seed, index, now, mixer.row.data, mixer.generators[index], row);
+  blend_row(layer.mode, row, nullptr, layer.mask.data,
+            layer_weight(mixer.layers[index], layer.mode, now), mix.lane_count, mixer.row.data);
 }
 
 void mix_pose_layer(Mixer& mixer, uint32_t index) {
@@ -261,8 +333,8 @@ void mix_layers(Mixer& mixer, uint32_t begin, uint32_t end, bool after_guards, i
     switch (mix.layers[i].source) {
       case LayerSource::kClip: mix_clip_layer(mixer, i, ticks); break;
       case LayerSource::kPoses: mix_pose_layer(mixer, i); break;
-      case LayerSource::kStream:
-      case LayerSource::kGenerator: break;
+      case LayerSource::kStream: mix_stream_layer(mixer, i, ticks); break;
+      case LayerSource::kGenerator: mix_generator(mixer, i); break;
     }
     keep_stage(mixer, i);
     if (i + 1 == mix.first_unprotected && !mix.guards.empty()) {
@@ -342,10 +414,11 @@ Mixer* create_mixer(const Mix& mix, uint64_t seed, const Allocator& allocator) {
   for (uint32_t i = 0; i < mix.layers.count; ++i) {
     LayerState& layer = mixer.layers[i];
     set_fade(layer.weight, mix.layers[i].weight);
-    set_fade(layer.presence, mix.layers[i].source == LayerSource::kClip ? 0.0f : 1.0f);
+    set_fade(layer.presence, has_rows(mix.layers[i]) ? 0.0f : 1.0f);
     set_fade(layer.cross, 1.0f);
     layer.current = layer.previous = kNoPlayer;
   }
+  for (ReactionState& reaction : mixer.reactions) set_fade(reaction.gain, 1.0f);
   for (float& activation : mixer.guard_overrides) activation = -1.0f;
   return new (block) Mixer(mixer);
 }
@@ -359,26 +432,42 @@ void destroy_mixer(Mixer* mixer) {
 // Playing
 // ------------------------------------------------------------------------------------------------
 
+Status check_source(const Mix& mix, uint32_t layer, const ClipSource& source, Error& error) {
+  if (source.binding->raw_count != mix.raw_count ||
+      source.binding->channel_count != source.clip->channel_count ||
+      source.binding->gui_count > mix.max_bound_gui) {
+    return fail(error, Status::kMismatch, kNoOffset,
+                "layer %u: the binding is of another clip, or of another rig than the mix", layer);
+  }
+  if (source.clip->has(kClipIsDelta) && mix.layers[layer].mode == BlendMode::kOverride) {
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "layer %u overrides; the clip holds differences", layer);
+  }
+  return Status::kOk;
+}
+
+Status start_player(Mixer& mixer, Player& player, const ClipSource& source, const PlayDesc& desc,
+                    bool mirrored, Error& error) {
+  const Status status = start_clip(player.sampler, *source.clip, desc, error);
+  if (status != Status::kOk) return status;
+  player.source = source;
+  player.mirrored = mirrored;
+  player.used = true;
+  set_cover(mixer, player);
+  sample_player(mixer, player);
+  return Status::kOk;
+}
+
 Status play_clip(Mixer& mixer, uint32_t index, const ClipSource& source, const LayerPlayDesc& desc,
                  Error& error) {
   const Mix& mix = *mixer.mix;
   if (index >= mix.layers.count || mix.layers[index].source != LayerSource::kClip) {
     return bad_layer(error, index, "it does not exist or plays no clips");
   }
-  if (source.binding->raw_count != mix.raw_count ||
-      source.binding->channel_count != source.clip->channel_count ||
-      source.binding->gui_count > mix.max_bound_gui) {
-    return fail(error, Status::kMismatch, kNoOffset,
-                "layer %u: the binding is of another clip, or "
-                "of another rig than the mix",
-                index);
-  }
-  if (source.clip->has(kClipIsDelta) && mix.layers[index].mode == BlendMode::kOverride) {
-    return fail(error, Status::kInvalidArgument, kNoOffset,
-                "layer %u overrides; the clip holds differences", index);
-  }
+  Status status = check_source(mix, index, source, error);
+  if (status != Status::kOk) return status;
   if ((desc.mirrored && mix.mirror.empty()) || desc.transition_ticks < 0 ||
-      desc.transition_ticks > kMaxStepTicks) {
+      desc.transition_ticks > kMaxFadeTicks) {
     return fail(error, Status::kInvalidArgument, kNoOffset, "layer %u: %s", index,
                 desc.mirrored && mix.mirror.empty() ? "the mix has no mirror map"
                                                     : "the time of the transition is out of range");
@@ -397,28 +486,23 @@ Status play_clip(Mixer& mixer, uint32_t index, const ClipSource& source, const L
   uint32_t target = unused;
   if (occupied) target = crosses ? (unused != kNone ? unused : after_release) : layer.current;
   Player& player = mixer.players[target];
-  const Status status = start_clip(player.sampler, *source.clip, desc.play, error);
+  status = start_player(mixer, player, source, desc.play, desc.mirrored, error);
   if (status != Status::kOk) return status;
 
   const bool was_crossing = layer.previous != kNoPlayer && layer.previous != target;
   if (was_crossing) release_player(mixer, layer.previous);
   layer.previous = kNoPlayer;
-  player.source = source;
-  player.mirrored = desc.mirrored;
-  player.used = true;
-  set_cover(mixer, player);
-  sample_player(mixer, player);
   if (crosses) {
     // If a crossfade was under way, what it had reached leads over to the player that stays.
     if (fade_value(layer.cross, now) != 1.0f) {
-      start_offsets(mixer, index, mixer.players[layer.current].row.data, ticks);
+      start_offsets(mixer, index, mixer.players[layer.current].row.data, now, ticks);
     }
     layer.previous = layer.current;
     set_fade(layer.cross, 0.0f);
     start_fade(layer.cross, now, 1.0f, ticks);
   } else {
     set_fade(layer.cross, 1.0f);
-    start_offsets(mixer, index, player.row.data, shown ? ticks : 0);
+    start_offsets(mixer, index, player.row.data, now, shown ? ticks : 0);
   }
   layer.current = static_cast<uint16_t>(target);
   if (!occupied) set_fade(layer.presence, 0.0f);
@@ -430,7 +514,7 @@ Status stop_layer(Mixer& mixer, uint32_t index, int64_t fade_ticks, Error& error
   if (index >= mixer.layers.count || mixer.mix->layers[index].source != LayerSource::kClip) {
     return bad_layer(error, index, "it does not exist or plays no clips");
   }
-  if (fade_ticks < 0 || fade_ticks > kMaxStepTicks) {
+  if (fade_ticks < 0 || fade_ticks > kMaxFadeTicks) {
     return fail(error, Status::kInvalidArgument, kNoOffset, "the time of the fade is out of range");
   }
   start_fade(mixer.layers[index].presence, mixer.header->now, 0.0f, fade_ticks);
@@ -441,7 +525,7 @@ Status set_layer_weight(Mixer& mixer, uint32_t index, float weight, int64_t fade
                         Error& error) {
   if (index >= mixer.layers.count) return bad_layer(error, index, "it does not exist");
   const float lowest = mixer.mix->layers[index].mode == BlendMode::kAdd ? -1.0f : 0.0f;
-  if (!(weight >= lowest && weight <= 1.0f) || fade_ticks < 0 || fade_ticks > kMaxStepTicks) {
+  if (!(weight >= lowest && weight <= 1.0f) || fade_ticks < 0 || fade_ticks > kMaxFadeTicks) {
     return fail(error, Status::kInvalidArgument, kNoOffset, "layer %u: weight or time out of range",
                 index);
   }
@@ -454,7 +538,7 @@ Status set_pose_weight(Mixer& mixer, uint32_t index, uint32_t pose, float weight
   if (index >= mixer.layers.count || pose >= mixer.mix->layers[index].pose_count) {
     return bad_layer(error, index, "it does not exist or has no such pose");
   }
-  if (!(weight >= 0.0f && weight <= 1.0f) || fade_ticks < 0 || fade_ticks > kMaxStepTicks) {
+  if (!(weight >= 0.0f && weight <= 1.0f) || fade_ticks < 0 || fade_ticks > kMaxFadeTicks) {
     return fail(error, Status::kInvalidArgument, kNoOffset,
                 "layer %u, pose %u: weight or time out of range", index, pose);
   }
@@ -473,6 +557,53 @@ Status set_variable(Mixer& mixer, uint32_t variable, float value, Error& error) 
                 "pose variable %u: the value is not finite", variable);
   }
   mixer.variables[variable] = value;
+  return Status::kOk;
+}
+
+Status push_row(Mixer& mixer, uint32_t index, int64_t tick, Span<const float> values,
+                bool* accepted, Error& error) {
+  if (index >= mixer.streams.count || !mixer.streams[index]) {
+    return bad_layer(error, index, "it does not exist or is no stream");
+  }
+  Stream& stream = *mixer.streams[index];
+  if (values.count != stream.channels) {
+    return fail(error, Status::kMismatch, kNoOffset, "layer %u: %zu values for %u channels", index,
+                values.count, stream.channels);
+  }
+  for (float value : values) {
+    if (std::isfinite(value)) continue;
+    return fail(error, Status::kInvalidArgument, kNoOffset, "layer %u: a value is not finite",
+                index);
+  }
+  if (tick > kMaxStreamTick || tick < -kMaxStreamTick) {
+    return fail(error, Status::kInvalidArgument, kNoOffset, "layer %u: time out of range", index);
+  }
+  const bool pushed = push_stream(stream, tick, values.data);
+  if (accepted) *accepted = pushed;
+  return Status::kOk;
+}
+
+Status trigger(Mixer& mixer, uint32_t reaction, float strength, int64_t hold_ticks, Error& error) {
+  if (reaction >= mixer.reactions.count) {
+    return fail(error, Status::kIndex, kNoOffset, "reaction %u of %zu", reaction,
+                mixer.reactions.count);
+  }
+  if (!(strength >= 0.0f && strength <= 1.0f) || hold_ticks < 0 ||
+      (hold_ticks > kMaxFadeTicks && hold_ticks != kUntilReleased)) {
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "reaction %u: strength or time out of range", reaction);
+  }
+  trigger_reaction(*mixer.mix, reaction, mixer.header->now, strength, hold_ticks, mixer.reactions,
+                   mixer.strokes);
+  return Status::kOk;
+}
+
+Status end_stimulus(Mixer& mixer, uint32_t reaction, Error& error) {
+  if (reaction >= mixer.reactions.count) {
+    return fail(error, Status::kIndex, kNoOffset, "reaction %u of %zu", reaction,
+                mixer.reactions.count);
+  }
+  release_reaction(reaction, mixer.header->now, mixer.reactions);
   return Status::kOk;
 }
 
@@ -505,11 +636,13 @@ void step_mixer(Mixer& mixer, int64_t ticks, float* out, size_t count, uint64_t*
     memcpy(mixer.protected_row.data, row, mix.lane_count * sizeof(float));
   }
   mix_layers(mixer, 0, mix.first_after_reactions, false, ticks);
+  mix_reactions(mix, mixer.header->now, false, mixer.reactions, mixer.strokes, row);
   keep_stage(mixer, layer_count + kStageReactions);
   mix_layers(mixer, mix.first_after_reactions, layer_count, false, ticks);
   hold_guards(mixer, ticks);
   keep_stage(mixer, layer_count + kStageGuards);
   mix_layers(mixer, 0, layer_count, true, ticks);
+  mix_reactions(mix, mixer.header->now, true, mixer.reactions, mixer.strokes, row);
   net_antagonists(mix, row);
   keep_stage(mixer, layer_count + kStageAntagonists);
   limit_row(mix.lower.data, mix.upper.data, mix.lane_count, row);

@@ -14,7 +14,10 @@
 #include "runtime/anim/binding.h"
 #include "runtime/anim/clip_sampler.h"
 #include "runtime/mix/fade.h"
+#include "runtime/mix/generator.h"
 #include "runtime/mix/mix.h"
+#include "runtime/mix/reaction.h"
+#include "runtime/mix/stream.h"
 
 namespace mien {
 
@@ -107,6 +110,7 @@ struct Mixer {
   Span<float> scratch;        // [lane]
   Span<float> gui;
   Span<Player> players;
+  Span<Stream*> streams;  // [layer] null where it is none
   Span<MixEvent> events;
   uint32_t event_count = 0;
   bool lost_events = false;  // the last step passed more of them than there is room for
@@ -120,8 +124,11 @@ struct Mixer {
   Span<Fade> pose_weights;          // MixLayer::first_fade
   Span<float> variables;            // [pose variable] with which a row begins
   Span<float> held;                 // [lane] by how much guards moved it, if there are any
-  Span<float> guard_overrides;      // [guard] activation that the caller wants; negative: none
-  Span<float> layer_rows;           // [layer that plays clips][LayerRow][value, cover]
+  Span<GeneratorState> generators;  // [layer]
+  Span<ReactionState> reactions;
+  Span<StrokeState> strokes;
+  Span<float> guard_overrides;  // [guard] activation that the caller wants; negative: none
+  Span<float> layer_rows;       // [layer of clips or a stream][LayerRow][value, cover]
 };
 
 /// Stages of a step: a layer each, then these.
@@ -160,6 +167,19 @@ Status set_pose_weight(Mixer& mixer, uint32_t layer, uint32_t pose, float weight
 /// The value with which a pose variable enters each step. kIndex, kInvalidArgument if not finite.
 Status set_variable(Mixer& mixer, uint32_t variable, float value, Error& error);
 
+/// Gives a layer of a stream one value per channel, of a time of the mixer (`header->now`). May be
+/// called by one thread at any time; all other functions are for the thread that steps. A frame that
+/// is not newer than the last one, or for which there is no room, is dropped, which is no error;
+/// `accepted` tells, unless it is null. kIndex, kMismatch for another number of values,
+/// kInvalidArgument for one that is not finite.
+Status push_row(Mixer& mixer, uint32_t layer, int64_t tick, Span<const float> values,
+                bool* accepted, Error& error);
+
+/// Something happens: for `hold_ticks` or, with kUntilReleased, until end_stimulus(). Strength
+/// 0 ... 1. kIndex, kInvalidArgument.
+Status trigger(Mixer& mixer, uint32_t reaction, float strength, int64_t hold_ticks, Error& error);
+Status end_stimulus(Mixer& mixer, uint32_t reaction, Error& error);
+
 /// Activation of a guard, 0 ... 1, or negative: as it finds it itself. kIndex, kInvalidArgument.
 Status set_guard(Mixer& mixer, uint32_t guard, float activation, Error& error);
 
@@ -172,5 +192,29 @@ void step_mixer(Mixer& mixer, int64_t ticks, float* out, size_t count, uint64_t*
 /// holds `active_stride` words per mixer or is null.
 void step_mixers(Span<Mixer* const> mixers, int64_t ticks, float* const* outs, size_t count,
                  uint64_t* active, size_t active_stride);
+
+// For play_clip() and snapshots: what a clip must be like for a layer; a player that begins, with its
+// row; and its row at the time that it has.
+Status check_source(const Mix& mix, uint32_t layer, const ClipSource& source, Error& error);
+Status start_player(Mixer& mixer, Player& player, const ClipSource& source, const PlayDesc& desc,
+                    bool mirrored, Error& error);
+void sample_player(Mixer& mixer, Player& player);
+
+// Snapshots (snapshot.cpp)
+// ------------------------------------------------------------------------------------------------
+
+/// Bytes of a snapshot: the same for all mixers of a mix.
+size_t snapshot_size(const Mixer& mixer);
+
+/// Everything that the next steps depend on but rows of streams; little-endian, to be read on any
+/// machine. kInvalidArgument if there is no room.
+Status take_snapshot(Mixer& mixer, Span<uint8_t> out, Error& error);
+
+/// Goes on from a snapshot of a mixer of the same mix, bit for bit; streams begin anew. `sources`
+/// are the clips that may be needed, found by id. kInvalidArgument for bytes that are no snapshot of
+/// this mix or hold what no mixer can be in, kMismatch for a clip that is missing or another one; the
+/// mixer then stays as it is.
+Status restore_snapshot(Mixer& mixer, Span<const uint8_t> bytes, Span<const ClipSource> sources,
+                        Error& error);
 
 }  // namespace mien

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Small movements of a face that nothing asks for: blinks, breath, noise. Random numbers are a hash
+// of the seed and a counter, so they do not depend on what else happens or on how time is divided.
+#pragma once
+
+#include "runtime/mix/mix.h"
+
+namespace mien {
+
+struct GeneratorState {
+  int64_t next;    // kBlink: when the current or next blink begins
+  uint32_t index;  // of it
+  uint32_t zero;
+};
+
+/// Values of the layer's lanes go to `out`, which is zero elsewhere; `row` is what the layers before
+/// it have made. `stream` tells generators of a mix apart.
+///
+/// kBlink: closes in 75 ms, stays 25 ms, opens in 150 ms. The time from one to the next is 0.5 s to
+/// 2 * period - 0.5 s; every other lane begins up to 10 ms later. If the first lane of the row is
+/// above kBlinkSeen, the performance blinks, and the time begins anew.
+/// kBreath: 40 % of the period in, 60 % out.
+/// kNoise: smooth between -1 and 1, with a new random number every period, for each lane its own.
+void generate(const MixLayer& layer, uint64_t seed, uint32_t stream, int64_t now, const float* row,
+              GeneratorState& state, float* out);
+
+constexpr float kBlinkSeen = 0.6f;
+
+}  // namespace mien

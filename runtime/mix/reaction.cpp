@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/mix/reaction.h"
+
+#include "runtime/mix/mix_rows.h"
+
+namespace mien {
+namespace {
+
+/// A Fade whose ticks are a time constant.
+float lag_value(const Fade& lag, int64_t now) {
+  if (lag.ticks <= 0 || lag.offset.c0 == 0.0f) return lag.target;
+  const int64_t elapsed = now > lag.start ? now - lag.start : 0;
+  return lag.target + lag.offset.c0 * decay(fraction_of(elapsed, lag.ticks));
+}
+
+bool lag_ended(const Fade& lag, int64_t now) {
+  return lag.ticks <= 0 || decay(fraction_of(now - lag.start, lag.ticks)) == 0.0f;
+}
+
+void start_lag(Fade& lag, int64_t now, float target, int64_t time_constant) {
+  const float value = lag_value(lag, now);
+  lag.target = target;
+  lag.offset = {value - target, 0.0f, 0.0f, 1.0f};
+  lag.start = now;
+  lag.ticks = time_constant;
+}
+
+void lead(const Stroke& stroke, StrokeState& state, int64_t now, float target, int64_t ticks) {
+  if (stroke.lags) {
+    start_lag(state.envelope, now, target, ticks);
+  } else {
+    start_fade(state.envelope, now, target, ticks);
+  }
+}
+
+/// Goes through the phases that have begun, each at its own time and not at that of the step.
+void advance_stroke(const Stroke& stroke, const ReactionState& reaction, int64_t now,
+                    StrokeState& state) {
+  if (state.phase == kStrokeWaits && now >= state.begin) {
+    lead(stroke, state, state.begin, reaction.strength, stroke.attack);
+    state.phase = kStrokeRises;
+  }
+  if (state.phase == kStrokeRises) {
+    const int64_t risen = state.begin + stroke.attack;
+    int64_t end = risen + stroke.hold;
+    if (stroke.held) end = reaction.stimulus_end > risen ? reaction.stimulus_end : risen;
+    if (now >= end) {
+      lead(stroke, state, end, 0.0f, stroke.release);
+      state.phase = kStrokeFalls;
+    }
+  }
+  if (state.phase != kStrokeFalls) return;
+  const bool ended = stroke.lags ? lag_ended(state.envelope, now)
+                                 : now - state.envelope.start >= state.envelope.ticks;
+  if (!ended) return;
+  set_fade(state.envelope, 0.0f);
+  state.phase = kStrokeRests;
+}
+
+void blend_pose(const Mix& mix, const Stroke& stroke, float weight, float* row) {
+  const uint32_t begin = stroke.pose == 0 ? 0 : mix.pose_ends[stroke.pose - 1];
+  for (uint32_t k = begin; k < mix.pose_ends[stroke.pose]; ++k) {
+    blend_row(stroke.mode, &mix.pose_values[k], nullptr, nullptr, weight, 1,
+              &row[mix.pose_lanes[k]]);
+  }
+}
+
+}  // namespace
+
+float decay(float x) {
+  if (!(x < 8.3178f)) return 0.0f;  // 12 ln 2
+  // exp(-x) = 2^-n * exp(-r), 0 <= r < ln 2
+  const float scaled = x * 1.44269504f;
+  const auto n = static_cast<int>(scaled);
+  const float r = x - static_cast<float>(n) * 0.693147181f;
+  float power = 1.0f;
+  for (int i = 0; i < n; ++i) power *= 0.5f;
+  float sum = 1.0f;
+  for (int i = 9; i >= 1; --i) sum = 1.0f - r * sum / static_cast<float>(i);
+  return power * sum;
+}
+
+void trigger_reaction(const Mix& mix, uint32_t index, int64_t now, float strength,
+                      int64_t hold_ticks, Span<ReactionState> states, Span<StrokeState> strokes) {
+  const Reaction& reaction = mix.reactions[index];
+  ReactionState& state = states[index];
+  const bool running = state.running != 0;
+  const bool cooled = !running || now - state.triggered >= reaction.cooldown;
+  if (running && reaction.retrigger == Retrigger::kIgnore) return;
+  const int64_t end = hold_ticks == kUntilReleased ? kUntilReleased : now + hold_ticks;
+  const bool lasted = running && state.stimulus_end >= now;
+  state.stimulus_end = !lasted || end > state.stimulus_end ? end : state.stimulus_end;
+  const float stronger = lasted && state.strength > strength ? state.strength : strength;
+  const bool grows = stronger > state.strength;
+  state.strength = stronger;
+  state.running = 1;
+  if (!lasted) start_lag(state.gain, now, reaction.adapted, reaction.adapt_ticks);
+  const bool restarts = reaction.retrigger == Retrigger::kRestart && cooled;
+  bool began = false;
+  for (uint32_t s = reaction.first_stroke; s < reaction.end_stroke; ++s) {
+    const Stroke& stroke = mix.strokes[s];
+    StrokeState& now_at = strokes[s];
+    advance_stroke(stroke, state, now, now_at);
+    if (now_at.phase == kStrokeWaits) continue;
+    const bool resting = now_at.phase == kStrokeRests || now_at.phase == kStrokeFalls;
+    if (restarts || (resting && (stroke.held || cooled))) {
+      now_at.begin = now + stroke.delay;
+      now_at.phase = kStrokeWaits;
+      began = began || !stroke.held;
+    } else if (grows && now_at.phase == kStrokeRises) {
+      lead(stroke, now_at, now, stronger, stroke.attack);
+    }
+  }
+  if (began || !running) state.triggered = now;
+}
+
+void release_reaction(uint32_t index, int64_t now, Span<ReactionState> states) {
+  ReactionState& state = states[index];
+  if (state.running && state.stimulus_end > now) state.stimulus_end = now;
+}
+
+void mix_reactions(const Mix& mix, int64_t now, bool after_guards, Span<ReactionState> states,
+                   Span<StrokeState> strokes, float* row) {
+  for (uint32_t r = 0; r < mix.reactions.count; ++r) {
+    const Reaction& reaction = mix.reactions[r];
+    ReactionState& state = states[r];
+    if (!state.running || reaction.after_guards != after_guards) continue;
+    if (now >= state.stimulus_end && state.gain.target != 1.0f) {
+      start_lag(state.gain, state.stimulus_end, 1.0f, reaction.recover_ticks);
+    }
+    const float gain = lag_value(state.gain, now);
+    bool running = state.gain.target != 1.0f || !lag_ended(state.gain, now);
+    for (uint32_t s = reaction.first_stroke; s < reaction.end_stroke; ++s) {
+      const Stroke& stroke = mix.strokes[s];
+      advance_stroke(stroke, state, now, strokes[s]);
+      running = running || strokes[s].phase != kStrokeRests;
+      float weight =
+          stroke.lags ? lag_value(strokes[s].envelope, now) : fade_value(strokes[s].envelope, now);
+      if (stroke.held && !stroke.lags) weight *= gain;
+      if (weight > 0.0f) blend_pose(mix, stroke, weight < 1.0f ? weight : 1.0f, row);
+    }
+    state.running = running ? 1 : 0;
+  }
+}
+
+void glare_strokes(uint32_t first_pose, Stroke (&strokes)[kGlareStrokes]) {
+  constexpr int64_t ms = kTicksPerSecond / 1000;
+  const Stroke all[kGlareStrokes] = {
+      {0, BlendMode::kMax, false, false, 0, 60 * ms, 70 * ms, 60 * ms, 220 * ms},
+      {1, BlendMode::kScreen, true, false, 0, 90 * ms, 150 * ms, 0, 400 * ms},
+      {2, BlendMode::kAdd, true, false, 0, 200 * ms, 120 * ms, 0, 350 * ms},
+      {3, BlendMode::kAdd, true, true, 0, 200 * ms, 250 * ms, 0, 500 * ms},
+      {4, BlendMode::kAdd, true, false, 0, 180 * ms, 350 * ms, 0, 600 * ms},
+  };
+  for (uint32_t i = 0; i < kGlareStrokes; ++i) {
+    strokes[i] = all[i];
+    strokes[i].pose += first_pose;
+  }
+}
+
+ReactionDesc glare_reaction(const Stroke (&strokes)[kGlareStrokes]) {
+  ReactionDesc desc;
+  desc.strokes = {strokes, kGlareStrokes};
+  desc.cooldown = kTicksPerSecond / 4;
+  desc.adapted = 0.6f;
+  desc.adapt_ticks = desc.recover_ticks = kTicksPerSecond * 3 / 2;
+  return desc;
+}
+
+}  // namespace mien

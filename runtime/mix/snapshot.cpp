@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+// A snapshot:
+//
+//     | "MIENMIX\n" | version u32 | size u32 | fingerprint of the mix u64 | state |
+//
+// Its bytes may come from anywhere. All that is used as an index or takes part in arithmetic of
+// times is checked before anything changes; numbers that are only computed with may have any finite
+// value.
+#include <cmath>
+#include <cstring>
+
+#include "runtime/mix/mixer.h"
+#include "runtime/rig/rig.h"
+
+namespace mien {
+namespace {
+
+constexpr char kMagic[8] = {'M', 'I', 'E', 'N', 'M', 'I', 'X', '\n'};
+constexpr uint32_t kVersion = 1;
+constexpr int64_t kMaxNow = INT64_MAX / 4;
+constexpr uint32_t kNone = ~uint32_t{0};
+
+struct SnapshotHeader {
+  char magic[8];
+  uint32_t version, size;
+  uint64_t fingerprint;
+};
+
+Status wrong(Error& error, const char* what) {
+  return fail(error, Status::kInvalidArgument, kNoOffset, "the snapshot %s", what);
+}
+
+/// The state in the bytes, addressed as in the mixer.
+struct SavedState {
+  const Mixer& mixer;
+  const uint8_t* bytes;
+
+  template <class T>
+  T read(const T& in_mixer) const {
+    T value;
+    memcpy(&value, bytes + (reinterpret_cast<const uint8_t*>(&in_mixer) - mixer.state.data),
+           sizeof(T));
+    return value;
+  }
+};
+
+bool finite(std::initializer_list<float> values) {
+  for (float value : values) {
+    if (!std::isfinite(value)) return false;
+  }
+  return true;
+}
+
+bool is_duration(int64_t ticks) { return ticks >= 0 && ticks <= kMaxFadeTicks; }
+bool is_time(int64_t tick) { return tick >= -kMaxNow && tick <= kMaxNow; }
+
+bool is_fade(const Fade& fade) {
+  return is_time(fade.start) && is_duration(fade.ticks) &&
+         finite({fade.target, fade.offset.c0, fade.offset.c1, fade.offset.c2}) &&
+         fade.offset.rate >= 0.0f;
+}
+
+bool is_layer(const Mixer& mixer, const SavedState& saved, uint32_t index, uint64_t& players) {
+  const LayerState layer = saved.read(mixer.layers[index]);
+  const uint16_t used[2] = {layer.current, layer.previous};
+  for (uint16_t player : used) {
+    if (player == kNoPlayer) continue;
+    if (mixer.mix->layers[index].source != LayerSource::kClip || player >= mixer.players.count ||
+        (players >> player & 1) != 0) {
+      return false;
+    }
+    players |= uint64_t{1} << player;
+  }
+  return (layer.current != kNoPlayer || layer.previous == kNoPlayer) && is_fade(layer.weight) &&
+         is_fade(layer.presence) && is_fade(layer.cross) && layer.shown_count <= 2 &&
+         layer.newest <= 1 && is_duration(layer.shown_ticks) && is_time(layer.offset_start) &&
+         is_duration(layer.offset_ticks);
+}
+
+uint32_t find_source(Span<const ClipSource> sources, uint64_t id) {
+  for (uint32_t i = 0; i < sources.count; ++i) {
+    if (sources[i].id == id) return i;
+  }
+  return kNone;
+}
+
+Status check_player(const Mixer& mixer, const PlayerState& player, uint32_t layer,
+                    Span<const ClipSource> sources, Error& error) {
+  const uint32_t found = find_source(sources, player.source);
+  if (found == kNone) {
+    return fail(error, Status::kMismatch, kNoOffset,
+                "layer %u: the clip with the number %llu is missing", layer,
+                static_cast<unsigned long long>(player.source));
+  }
+  const Status status = check_source(*mixer.mix, layer, sources[found], error);
+  if (status != Status::kOk) return Status::kMismatch;
+  const Clip& clip = *sources[found].clip;
+  const int64_t length = clip.length(player.wraps != 0);
+  if (clip.channel_count > mixer.mix->max_channels ||
+      clip.changing_count > mixer.mix->max_changing_channels ||
+      (player.wraps ? player.tick >= length : player.tick > length)) {
+    return fail(error, Status::kMismatch, kNoOffset, "layer %u: the clip is another one", layer);
+  }
+  const bool valid = player.tick >= 0 && is_time(player.loops) && player.speed_denominator >= 1 &&
+                     player.speed_denominator <= kMaxSpeed && player.fraction >= 0 &&
+                     player.fraction < player.speed_denominator &&
+                     player.speed_numerator >= -kMaxSpeed && player.speed_numerator <= kMaxSpeed &&
+                     player.wraps <= 1 && player.mirrored <= 1 && player.fresh <= 1 &&
+                     player.backward <= 1 &&
+                     player.interpolation <= static_cast<uint8_t>(Interpolation::kCatmullRom) &&
+                     (!player.mirrored || !mixer.mix->mirror.empty());
+  return valid ? Status::kOk : wrong(error, "holds a player that cannot be");
+}
+
+bool is_reaction(const ReactionState& reaction) {
+  return is_time(reaction.triggered) &&
+         (is_time(reaction.stimulus_end) || reaction.stimulus_end == kUntilReleased) &&
+         is_fade(reaction.gain) && finite({reaction.strength}) && reaction.running <= 1;
+}
+
+/// What is left: numbers that are only computed with.
+bool all_finite(const SavedState& saved, Span<float> floats) {
+  for (const float& value : floats) {
+    if (!std::isfinite(saved.read(value))) return false;
+  }
+  return true;
+}
+
+Status check_state(const Mixer& mixer, const SavedState& saved, Span<const ClipSource> sources,
+                   Error& error) {
+  const int64_t now = saved.read(*mixer.header).now;
+  if (now < 0 || now > kMaxNow) return wrong(error, "has a time out of range");
+  uint64_t players = 0;
+  for (uint32_t i = 0; i < mixer.layers.count; ++i) {
+    if (!is_layer(mixer, saved, i, players)) return wrong(error, "holds a layer that cannot be");
+    const LayerState layer = saved.read(mixer.layers[i]);
+    const uint16_t used[2] = {layer.current, layer.previous};
+    for (uint16_t player : used) {
+      if (player == kNoPlayer) continue;
+      const Status status =
+          check_player(mixer, saved.read(mixer.player_states[player]), i, sources, error);
+      if (status != Status::kOk) return status;
+    }
+  }
+  bool valid = true;
+  for (const Fade& fade : mixer.pose_weights) valid = valid && is_fade(saved.read(fade));
+  for (const GeneratorState& generator : mixer.generators) {
+    const int64_t next = saved.read(generator).next;
+    valid = valid && next >= 0 && is_time(next) && (next == 0 || now - next <= kMaxFadeTicks);
+  }
+  for (const ReactionState& reaction : mixer.reactions) {
+    valid = valid && is_reaction(saved.read(reaction));
+  }
+  for (const StrokeState& stroke : mixer.strokes) {
+    const StrokeState state = saved.read(stroke);
+    valid = valid && is_fade(state.envelope) && is_time(state.begin) && state.phase <= kStrokeFalls;
+  }
+  valid = valid && all_finite(saved, mixer.variables) && all_finite(saved, mixer.guard_overrides) &&
+          all_finite(saved, mixer.held) && all_finite(saved, mixer.layer_rows);
+  return valid ? Status::kOk : wrong(error, "holds a number that cannot be");
+}
+
+PlayerState saved_player(const Player& player) {
+  const ClipSampler& sampler = player.sampler;
+  PlayerState state = {};
+  state.source = player.source.id;
+  state.tick = sampler.tick;
+  state.loops = sampler.loops;
+  state.fraction = sampler.fraction;
+  state.speed_numerator = sampler.speed_numerator;
+  state.speed_denominator = sampler.speed_denominator;
+  state.used = 1;
+  state.wraps = sampler.wraps;
+  state.interpolation = static_cast<uint8_t>(sampler.interpolation);
+  state.mirrored = player.mirrored;
+  state.fresh = sampler.fresh;
+  state.backward = sampler.backward;
+  return state;
+}
+
+void restore_player(Mixer& mixer, Player& player, const PlayerState& state,
+                    const ClipSource& source) {
+  PlayDesc desc;
+  desc.start_tick = state.tick;
+  desc.speed_numerator = state.speed_numerator;
+  desc.speed_denominator = state.speed_denominator;
+  desc.looping = state.wraps ? Looping::kLoop : Looping::kOnce;
+  desc.interpolation = static_cast<Interpolation>(state.interpolation);
+  Error error;
+  start_player(mixer, player, source, desc, state.mirrored != 0, error);  // was checked
+  player.sampler.loops = state.loops;
+  player.sampler.fraction = state.fraction;
+  player.sampler.fresh = state.fresh != 0;
+  player.sampler.backward = state.backward != 0;
+}
+
+}  // namespace
+
+size_t snapshot_size(const Mixer& mixer) { return sizeof(SnapshotHeader) + mixer.state.count; }
+
+Status take_snapshot(Mixer& mixer, Span<uint8_t> out, Error& error) {
+  if (out.count < snapshot_size(mixer)) {
+    return fail(error, Status::kInvalidArgument, kNoOffset, "%zu bytes for a snapshot of %zu",
+                out.count, snapshot_size(mixer));
+  }
+  for (uint32_t i = 0; i < mixer.players.count; ++i) {
+    mixer.player_states[i] = mixer.players[i].used ? saved_player(mixer.players[i]) : PlayerState{};
+  }
+  SnapshotHeader header = {};
+  memcpy(header.magic, kMagic, sizeof(kMagic));
+  header.version = kVersion;
+  header.size = static_cast<uint32_t>(mixer.state.count);
+  header.fingerprint = mixer.mix->fingerprint;
+  memcpy(out.data, &header, sizeof(header));
+  memcpy(out.data + sizeof(header), mixer.state.data, mixer.state.count);
+  return Status::kOk;
+}
+
+Status restore_snapshot(Mixer& mixer, Span<const uint8_t> bytes, Span<const ClipSource> sources,
+                        Error& error) {
+  SnapshotHeader header;
+  if (bytes.count < snapshot_size(mixer)) return wrong(error, "is truncated or of another mix");
+  memcpy(&header, bytes.data, sizeof(header));
+  if (memcmp(header.magic, kMagic, sizeof(kMagic)) != 0 || header.version != kVersion ||
+      header.size != mixer.state.count || header.fingerprint != mixer.mix->fingerprint) {
+    return wrong(error, "is none, or of another version or mix");
+  }
+  const SavedState saved = {mixer, bytes.data + sizeof(header)};
+  const Status status = check_state(mixer, saved, sources, error);
+  if (status != Status::kOk) return status;
+
+  memcpy(mixer.state.data, saved.bytes, mixer.state.count);
+  for (Player& player : mixer.players) player.used = false;
+  for (const LayerState& layer : mixer.layers) {
+    const uint16_t used[2] = {layer.current, layer.previous};
+    for (uint16_t player : used) {
+      if (player == kNoPlayer) continue;
+      const PlayerState& state = mixer.player_states[player];
+      restore_player(mixer, mixer.players[player], state,
+                     sources[find_source(sources, state.source)]);
+    }
+  }
+  mixer.event_count = 0;
+  mixer.lost_events = false;
+  return Status::kOk;
+}
+
+}  // namespace mien

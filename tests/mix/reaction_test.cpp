@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+// A light in the eyes of a face that speaks: what moves when, and what does not.
+#include "runtime/mix/reaction.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/mix_setup.h"
+
+namespace mien {
+namespace {
+
+// Raw controls 0, 1: lids. 2, 3: squint. 4, 5: brows. 6 ... 19: mouth. Variables: gaze, pupil, head.
+constexpr uint32_t kRaw = 20;
+enum Lane : uint16_t { kLidLeft, kLidRight, kSquint = 2, kBrow = 4, kMouth = 6 };
+enum Variable : uint16_t { kGaze = kRaw, kPupil, kHead };
+constexpr uint32_t kLanes = kRaw + 3;
+
+struct FaceMix {
+  BoundClip speech;
+  MixHandle mix;
+
+  explicit FaceMix(Retrigger rule = Retrigger::kExtend) : speech(performance(), kRaw) {
+    MixInput input(kRaw, 3);
+    input.add(BlendMode::kOverride, LayerSource::kClip, LayerGroup::kSpeech);
+    input.add(BlendMode::kScreen, LayerSource::kPoses, LayerGroup::kEmotion).pose_count = 1;
+    input.add_pose({kSquint, 3, kMouth, 7}, {0.3f, 0.3f, 0.6f, 0.6f});
+    input.add_pose({kLidLeft, kLidRight}, {1.0f, 1.0f});
+    input.add_pose({kSquint, 3, kBrow, 5}, {0.9f, 0.9f, 0.7f, 0.7f});
+    input.add_pose({kGaze}, {-0.4f});
+    input.add_pose({kPupil}, {-0.5f});
+    input.add_pose({kHead}, {0.3f});
+    Stroke strokes[kGlareStrokes];
+    glare_strokes(1, strokes);
+    ReactionDesc glare = glare_reaction(strokes);
+    glare.retrigger = rule;
+    input.desc.reactions = {&glare, 1};
+    mix = make_mix(input);
+  }
+
+  /// Lids that do not close by themselves; the mouth moves all the time.
+  static ClipInput performance() {
+    Curves curves = smooth_curves(60, kRaw, 600);
+    for (uint32_t f = 0; f < 600; ++f) {
+      for (uint32_t l = 0; l < kMouth; ++l) curves.at(f, l) *= l < 2 ? 0.02f : 0.1f;
+    }
+    ClipInput input(curves);
+    input.events = {{kTicksPerSecond * 5 / 2, "word", 1.0f}};
+    return input;
+  }
+
+  OwnMixer start() const {
+    OwnMixer own(mix);
+    own.play(0, speech);
+    own.pose(1, 0, 0.8f);
+    return own;
+  }
+};
+
+void fire(OwnMixer& own, int64_t hold = kUntilReleased, float strength = 1) {
+  Error error;
+  ASSERT_EQ(trigger(own.mixer, 0, strength, hold, error), Status::kOk) << error.message;
+}
+
+void let_go(OwnMixer& own) {
+  Error error;
+  ASSERT_EQ(end_stimulus(own.mixer, 0, error), Status::kOk);
+}
+
+/// Rows at each millisecond, from 1 on.
+struct Recording {
+  std::vector<Row> rows = {Row(kLanes)};
+  std::vector<int> events;  // milliseconds
+
+  void step(OwnMixer& own) {
+    rows.push_back(own.step(kMillisecond));
+    if (own.mixer.event_count > 0) events.push_back(static_cast<int>(rows.size() - 1));
+  }
+};
+
+TEST(Glare, ActsWhenAndWhereItShould) {  // D1 to D6
+  const FaceMix face;
+  OwnMixer plain = face.start(), lit = face.start();
+  Recording without, with;
+  for (int ms = 1; ms <= 9000; ++ms) {
+    without.step(plain);
+    with.step(lit);
+    if (ms == 2000) fire(lit);
+    if (ms == 3500) let_go(lit);
+  }
+  int closed[2] = {0, 0}, last_difference = 0;
+  for (int ms = 1; ms <= 9000; ++ms) {
+    const Row &a = without.rows[ms], &b = with.rows[ms];
+    if (!same_bits(a, b)) last_difference = ms;
+    if (ms <= 2060) {
+      ASSERT_TRUE(same_bits(a, b)) << ms;  // D1
+    }
+    for (int lid = 0; lid < 2; ++lid) {
+      if (closed[lid] == 0 && b[lid] >= 0.9f) closed[lid] = ms;
+    }
+    if (ms <= 2200) {
+      ASSERT_EQ(bits_of(a[kPupil]), bits_of(b[kPupil])) << ms;  // D3
+    }
+    for (uint32_t l = kMouth; l < kRaw; ++l) ASSERT_EQ(bits_of(a[l]), bits_of(b[l]));  // D4
+    for (uint32_t l = 0; l < kLanes && ms > 1; ++l) {                                  // D5
+      const float faster =
+          std::fabs((b[l] - with.rows[ms - 1][l]) - (a[l] - without.rows[ms - 1][l]));
+      ASSERT_LE(faster * 1000, l < 2 ? 30.0f : 12.0f) << ms << ", lane " << l;
+    }
+  }
+  for (int lid : closed) {  // D2
+    EXPECT_GE(lid, 2110);
+    EXPECT_LE(lid, 2160);
+  }
+  const float travel = with.rows[2450][kPupil] / -0.5f;
+  EXPECT_NEAR(travel, 1 - std::exp(-1.0), 0.003);  // D3
+  EXPECT_EQ(with.events, without.events);
+  EXPECT_EQ(with.events.size(), 1u);
+  // Pupils are the last: 500 ms * 12 ln 2 after the light.
+  EXPECT_GT(last_difference, 3500);
+  EXPECT_LT(last_difference, 3500 + 4200);
+  lit.step(20 * kTicksPerSecond);  // until it has recovered from adaptation
+  EXPECT_EQ(lit.mixer.reactions[0].running, 0);
+}
+
+TEST(Glare, AdaptsWhileTheLightStays) {
+  const FaceMix face;
+  OwnMixer lit = face.start();
+  fire(lit);
+  const float at_first = lit.step(400 * kMillisecond)[kGaze];
+  const float later = lit.step(20 * kTicksPerSecond)[kGaze];
+  EXPECT_LT(at_first, -0.33f);
+  EXPECT_NEAR(later, 0.6f * -0.4f, 1e-4f);
+}
+
+TEST(Glare, TriggeredAgainOrFlickeringMakesNoJump) {  // D7
+  for (int flicker : {0, 1}) {
+    for (Retrigger rule : {Retrigger::kExtend, Retrigger::kRestart, Retrigger::kIgnore}) {
+      const FaceMix face(rule);
+      OwnMixer plain = face.start(), lit = face.start();
+      Recording without, with;
+      bool on = false;
+      for (int ms = 1; ms <= 9000; ++ms) {
+        without.step(plain);
+        with.step(lit);
+        if (flicker == 0) {
+          if (ms == 2000 || ms == 2030) fire(lit);
+          if (ms == 3500) let_go(lit);
+        } else if (ms >= 2000 && ms < 3500 && ms % 33 == 0) {  // 15 Hz
+          on = !on;
+          on ? fire(lit) : let_go(lit);
+        } else if (ms == 3500) {
+          let_go(lit);
+        }
+      }
+      int blinks = 0, last_blink = -1000;
+      for (int ms = 2; ms <= 9000; ++ms) {
+        const Row &a = without.rows[ms], &b = with.rows[ms];
+        for (uint32_t l = 0; l < kLanes; ++l) {
+          const float changed = (b[l] - with.rows[ms - 1][l]) - (a[l] - without.rows[ms - 1][l]);
+          ASSERT_LE(std::fabs(changed) * 1000, l < 2 ? 30.0f : 12.0f) << ms << ", lane " << l;
+        }
+        if (b[0] >= 0.9f && with.rows[ms - 1][0] < 0.9f) {
+          EXPECT_GE(ms - last_blink, 250);
+          last_blink = ms;
+          ++blinks;
+        }
+      }
+      EXPECT_GE(blinks, 1);
+      EXPECT_TRUE(same_bits(with.rows[9000], without.rows[9000]));
+    }
+  }
+}
+
+TEST(Glare, DoesNotDependOnHowTimeIsDivided) {  // F3
+  const FaceMix face;
+  OwnMixer coarse = face.start(), fine = face.start();
+  for (int i = 0; i < 100; ++i) {
+    if (i == 20) {
+      fire(coarse, 700 * kMillisecond, 0.7f);
+      fire(fine, 700 * kMillisecond, 0.7f);
+    }
+    const Row row = coarse.step(16 * kMillisecond);
+    for (int k = 0; k < 3; ++k) fine.step(4 * kMillisecond);
+    ASSERT_TRUE(same_bits(fine.step(4 * kMillisecond), row)) << i;
+  }
+}
+
+TEST(Reactions, RefuseWhatDoesNotExist) {
+  const FaceMix face;
+  OwnMixer own = face.start();
+  Error error;
+  EXPECT_EQ(trigger(own.mixer, 1, 1, 0, error), Status::kIndex);
+  EXPECT_EQ(trigger(own.mixer, 0, 1.5f, 0, error), Status::kInvalidArgument);
+  EXPECT_EQ(trigger(own.mixer, 0, NAN, 0, error), Status::kInvalidArgument);
+  EXPECT_EQ(trigger(own.mixer, 0, 1, -1, error), Status::kInvalidArgument);
+  EXPECT_EQ(end_stimulus(own.mixer, 1, error), Status::kIndex);
+
+  Stroke strokes[kGlareStrokes];
+  const auto created = [&](auto&& change) {
+    MixInput input(4);
+    for (int i = 0; i < 5; ++i) input.add_pose({0}, {1.0f});
+    glare_strokes(0, strokes);
+    ReactionDesc desc = glare_reaction(strokes);
+    input.desc.reactions = {&desc, 1};
+    change(desc);
+    Mix* mix = nullptr;
+    const Status status = create_mix(input.finish(), default_allocator(), mix, error);
+    release_mix(mix);
+    return status;
+  };
+  EXPECT_EQ(created([](ReactionDesc&) {}), Status::kOk);
+  EXPECT_EQ(created([&](ReactionDesc&) { strokes[4].pose = 5; }), Status::kInvalidArgument);
+  EXPECT_EQ(created([&](ReactionDesc&) { strokes[0].attack = -1; }), Status::kInvalidArgument);
+  EXPECT_EQ(created([&](ReactionDesc& d) { d.adapted = 2; }), Status::kInvalidArgument);
+  EXPECT_EQ(created([&](ReactionDesc& d) { d.cooldown = INT64_MAX; }), Status::kInvalidArgument);
+}
+
+TEST(Decay, IsExponentialAndEnds) {
+  for (int i = 0; i < 8300; ++i) {
+    const float x = static_cast<float>(i) * 0.001f;
+    EXPECT_NEAR(decay(x), std::exp(-double{x}), 3e-7) << x;
+  }
+  EXPECT_EQ(decay(8.4f), 0.0f);
+  EXPECT_EQ(decay(INFINITY), 0.0f);
+  EXPECT_EQ(decay(NAN), 0.0f);
+}
+
+}  // namespace
+}  // namespace mien

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Snapshots continue to the bit, whatever goes on; bytes that are none change nothing.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/mix_setup.h"
+
+namespace mien {
+namespace {
+
+constexpr uint32_t kLanes = 24;
+constexpr int64_t kStep = kTicksPerSecond / 60;
+
+/// Everything on.
+struct Everything {
+  std::deque<BoundClip> clips;
+  std::vector<uint16_t> mirror;
+  std::vector<uint16_t> lanes = {0, 1};
+  Row amounts = {1, 1};
+  MixHandle mix;
+  std::vector<ClipSource> sources;
+
+  Everything() {
+    for (uint32_t i = 0; i < 3; ++i) {
+      ClipInput input(smooth_curves(80 + i, kLanes, 100 + 50 * i));
+      input.wraps = i > 0;
+      clips.emplace_back(std::move(input), kLanes);
+      sources.push_back(clips.back().source);
+    }
+    for (uint16_t l = 0; l < kLanes + 1; ++l) mirror.push_back(l < kLanes ? l ^ 1 : l);
+    MixInput input(kLanes, 1);
+    input.desc.mirror = {mirror.data(), mirror.size()};
+    input.add(BlendMode::kOverride, LayerSource::kClip, LayerGroup::kSpeech);
+    input.add(BlendMode::kScreen);
+    input.add(BlendMode::kScreen, LayerSource::kPoses, LayerGroup::kEmotion).pose_count = 2;
+    for (Generator kind : {Generator::kBlink, Generator::kBreath, Generator::kNoise}) {
+      LayerDesc& layer = input.add(BlendMode::kAdd, LayerSource::kGenerator, LayerGroup::kLife);
+      layer.generator = kind;
+      layer.period = kTicksPerSecond;
+      layer.lanes = {lanes.data(), 2};
+      layer.amounts = {amounts.data(), 2};
+    }
+    for (uint16_t p = 0; p < 5; ++p) {
+      input.add_pose({p, static_cast<uint16_t>(p + 6), 24}, {0.5f, 0.7f, 0.2f});
+    }
+    Stroke strokes[kGlareStrokes];
+    glare_strokes(0, strokes);
+    const ReactionDesc glare = glare_reaction(strokes);
+    input.desc.reactions = {&glare, 1};
+    const AntagonistPair pair = {3, 4, 1};
+    input.desc.antagonists = {&pair, 1};
+    mix = make_mix(input);
+  }
+
+  void disturb(OwnMixer& own, Random& random) const {
+    Error error;
+    if (random.chance(0.05)) {
+      LayerPlayDesc desc;
+      desc.transition = static_cast<Transition>(random.below(3));
+      desc.transition_ticks = random.below(500) * kMillisecond;
+      desc.mirrored = random.chance(0.3);
+      desc.play.speed_numerator = static_cast<int32_t>(random.below(7)) - 3;
+      desc.play.speed_denominator = 2;
+      desc.play.interpolation = static_cast<Interpolation>(random.below(3));
+      ASSERT_EQ(play_clip(own.mixer, random.below(2), sources[random.below(3)], desc, error),
+                Status::kOk);
+    }
+    if (random.chance(0.02)) {
+      ASSERT_EQ(stop_layer(own.mixer, random.below(2), random.below(300) * kMillisecond, error),
+                Status::kOk);
+    }
+    if (random.chance(0.05)) {
+      own.weight(random.below(6), static_cast<float>(random.real()),
+                 random.below(300) * kMillisecond);
+    }
+    if (random.chance(0.05)) {
+      own.pose(2, random.below(2), static_cast<float>(random.real()),
+               random.below(300) * kMillisecond);
+    }
+    if (random.chance(0.03)) {
+      ASSERT_EQ(trigger(own.mixer, 0, static_cast<float>(random.real()),
+                        random.below(1000) * kMillisecond, error),
+                Status::kOk);
+    }
+  }
+};
+
+std::vector<uint8_t> snapshot(OwnMixer& own) {
+  std::vector<uint8_t> bytes(snapshot_size(own.mixer));
+  Error error;
+  EXPECT_EQ(take_snapshot(own.mixer, {bytes.data(), bytes.size()}, error), Status::kOk);
+  return bytes;
+}
+
+Status restore(OwnMixer& own, const std::vector<uint8_t>& bytes,
+               const std::vector<ClipSource>& sources) {
+  Error error;
+  return restore_snapshot(own.mixer, {bytes.data(), bytes.size()}, {sources.data(), sources.size()},
+                          error);
+}
+
+TEST(Snapshot, ContinuesToTheBitAnywhere) {  // F2
+  const Everything all;
+  OwnMixer own(all.mix, 9);
+  Random random = Random::from_seed(90, 0);
+  for (int round = 0; round < 100; ++round) {
+    for (uint32_t i = random.below(40); i > 0; --i) {
+      all.disturb(own, random);
+      own.step(random.below(30) * kMillisecond);
+    }
+    // Into a fresh mixer, and into one that has done something else.
+    OwnMixer other(all.mix, 1);
+    other.play(0, all.clips[0]);
+    if (round % 2 == 0) other.step(kStep);
+    const std::vector<uint8_t> bytes = snapshot(own);
+    ASSERT_EQ(restore(other, bytes, all.sources), Status::kOk);
+    ASSERT_EQ(snapshot(other), bytes);
+    Random mine = Random::from_seed(91, static_cast<uint64_t>(round)), its = mine;
+    for (int i = 0; i < 40; ++i) {
+      all.disturb(own, mine);
+      all.disturb(other, its);
+      ASSERT_TRUE(same_bits(own.step(kStep), other.step(kStep))) << round << ", " << i;
+      ASSERT_EQ(own.mixer.event_count, other.mixer.event_count);
+    }
+  }
+}
+
+TEST(Snapshot, RefusesOtherMixesMissingClipsAndLittleRoom) {
+  const Everything all;
+  OwnMixer own(all.mix);
+  own.play(0, all.clips[0]);
+  own.step(kStep);
+  const std::vector<uint8_t> bytes = snapshot(own);
+  Error error;
+  std::vector<uint8_t> small(bytes.size() - 1);
+  EXPECT_EQ(take_snapshot(own.mixer, {small.data(), small.size()}, error),
+            Status::kInvalidArgument);
+
+  OwnMixer other(all.mix);
+  const std::vector<uint8_t> untouched = snapshot(other);
+  EXPECT_EQ(restore(other, bytes, {all.sources[1], all.sources[2]}), Status::kMismatch);
+  std::vector<ClipSource> wrong = all.sources;
+  const BoundClip short_one(ClipInput(smooth_curves(1, kLanes, 1)), kLanes);
+  wrong[0].clip = short_one.source.clip;
+  EXPECT_EQ(restore(other, bytes, wrong), Status::kMismatch);
+  EXPECT_EQ(restore(other, small, all.sources), Status::kInvalidArgument);
+  EXPECT_EQ(restore(other, {}, all.sources), Status::kInvalidArgument);
+  EXPECT_EQ(snapshot(other), untouched);
+
+  MixInput input(kLanes);
+  input.add(BlendMode::kOverride);
+  const MixHandle small_mix = make_mix(input);
+  OwnMixer of_other_mix(small_mix);
+  EXPECT_EQ(restore(of_other_mix, bytes, all.sources), Status::kInvalidArgument);
+}
+
+TEST(Snapshot, DamagedOnesAreRefusedOrHarmless) {
+  const Everything all;
+  OwnMixer own(all.mix, 9);
+  Random random = Random::from_seed(92, 0);
+  for (int i = 0; i < 100; ++i) {
+    all.disturb(own, random);
+    own.step(kStep);
+  }
+  const std::vector<uint8_t> good = snapshot(own);
+  // Most of a snapshot are rows; the numbers that matter come first.
+  const uint32_t front = static_cast<uint32_t>(good.size() / 5);
+  int accepted = 0, refused = 0;
+  for (int round = 0; round < 20000; ++round) {
+    std::vector<uint8_t> bytes = good;
+    for (uint32_t i = 1 + random.below(4); i > 0; --i) {
+      const uint32_t at =
+          random.below(random.chance(0.9) ? front : static_cast<uint32_t>(good.size()));
+      bytes[at] = random.chance(0.5) ? static_cast<uint8_t>(bytes[at] ^ 1u << random.below(8))
+                                     : static_cast<uint8_t>(random.below(256));
+    }
+    OwnMixer other(all.mix);
+    const std::vector<uint8_t> untouched = snapshot(other);
+    if (restore(other, bytes, all.sources) != Status::kOk) {
+      ++refused;
+      ASSERT_EQ(snapshot(other), untouched);
+      continue;
+    }
+    ++accepted;
+    for (int i = 0; i < 3; ++i) {
+      for (float value : other.step(kStep)) ASSERT_FALSE(std::isnan(value));
+    }
+  }
+  EXPECT_GT(refused, 1000);
+  EXPECT_GT(accepted, 1000);
+}
+
+}  // namespace
+}  // namespace mien
