@@ -21,15 +21,14 @@ float distance(const Guard& guard, const float* values) {
   return sum;
 }
 
-/// By how much the distance grows with a lane while the others stay.
-float slope(const Guard& guard, uint32_t lane, const float* values) {
-  float sum = guard.gains[lane];
+/// By how much the distance grows with each lane while the others stay.
+void find_slopes(const Guard& guard, const float* values, float* slopes) {
+  std::copy(guard.gains, guard.gains + guard.count, slopes);
   for (uint32_t i = 0; i < guard.pair_count; ++i) {
     const GuardPair& pair = guard.pairs[i];
-    if (pair.first == lane) sum += pair.gain * values[pair.second];
-    if (pair.second == lane) sum += pair.gain * values[pair.first];
+    slopes[pair.first] += pair.gain * values[pair.second];
+    slopes[pair.second] += pair.gain * values[pair.first];
   }
-  return sum;
 }
 
 }  // namespace
@@ -53,16 +52,22 @@ void hold_guard(const Guard& guard, const float* protected_row, float activation
   gather(guard, row, values);
   const float limit = std::max(distance(guard, before), 0.0f) + guard.tolerance;
   float excess = distance(guard, values) - limit;
+  if (!(excess > 0)) return;
+  float slopes[kMaxGuardLanes];
+  find_slopes(guard, values, slopes);
   for (uint32_t i = 0; i < guard.count && excess > 0; ++i) {
     const float change = values[i] - before[i];
     if (change == 0) continue;
-    const float gain = slope(guard, i, values);
-    const float opens = gain * change;
+    const float opens = slopes[i] * change;
     if (!(opens > 0)) continue;
-    const float back = opens > excess ? excess / gain : change;
+    const float back = opens > excess ? excess / slopes[i] : change;
     excess -= std::min(opens, excess);
-    values[i] -= back;
     row[guard.lanes[i]] -= activation * back;
+    for (uint32_t p = 0; p < guard.pair_count; ++p) {
+      const GuardPair& pair = guard.pairs[p];
+      if (pair.first == i) slopes[pair.second] -= pair.gain * back;
+      if (pair.second == i) slopes[pair.first] -= pair.gain * back;
+    }
   }
 }
 
