@@ -50,6 +50,13 @@ const float* RigProbe::joint(uint32_t joint) const {
   return deformed_->joints.model.data + size_t{joint} * kMatrixFloats;
 }
 
+Vec3 RigProbe::skinned(uint32_t joint, Vec3 p) const {
+  const float* m = deformed_->joints.skin.data + size_t{joint} * kMatrixFloats;
+  return {m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12],
+          m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13],
+          m[2] * p.x + m[6] * p.y + m[10] * p.z + m[14]};
+}
+
 Span<const float> RigProbe::positions(uint32_t mesh) {
   if (!fresh_[mesh]) {
     deform(deformer_, {&deformed_, 1}, mesh, Normals::kNone, {});

@@ -42,6 +42,8 @@ class RigProbe {
   Span<const float> joint_values() const { return instance_->joints; }
   /// Model matrix: four columns of four.
   const float* joint(uint32_t joint) const;
+  /// Where a joint takes a place of the neutral pose.
+  Vec3 skinned(uint32_t joint, Vec3 place) const;
   Span<const float> positions(uint32_t mesh);
   /// In the rig's unit and axes.
   Vec3 place(const Landmark& landmark);
