@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Every function of mien.h is there for users of each language, beyond the generated declarations.
+"""What mien.h offers is there for users of each language, beyond the generated declarations: every
+function, every field of the structs that functions are given, every enum with all its values, and the
+statuses of each function in the documentation.
 
-A function that a language does without, for good or for now, is named in WITHOUT with the reason.
-Usage: check_bindings.py
+What a language does without, for good or for now, is named in WITHOUT with the reason.
+Usage: check_bindings.py [--self-test]
 """
+import copy
 import json
 import re
 import sys
@@ -19,9 +22,23 @@ SOURCES = {
     "Python": ["python/mien/[a-z]*.py", "python/mien/_[!a]*.py"],
     "Rust": ["rust/mien/src/**/*.rs"],
 }
+GENERATED = {"Python": "python/mien/_api.py", "Rust": "rust/mien/src/generated.rs"}
 
+# "mien_noun_verb", "MienDesc.field", "MienEnum" or, of a field of all structs, "field": {language: why}
 WITHOUT = {
-    # "mien_noun_verb": {"Rust": "why not"},
+    "allocator": {"Python": "memory of the library is not Python's",
+                  "Rust": "an allocator is given where objects are many: instances, batches, reports"},
+    "MienVertexFormat": {"Python": "the type of an array says it"},
+}
+# Functions whose own statuses cannot reach a user, who finds no list of them either.
+SILENT = {
+    "mien_coordinate_system_name": {"Python", "Rust"},
+    "mien_dna_layer": {"Python"}, "mien_report_finding": {"Python"},
+    "mien_deformer_instance_local_transforms": {"Python"},
+    "mien_rig_map_gui_to_raw": {"Python"}, "mien_rig_map_raw_to_gui": {"Python"},
+    # Documented where the same method calls another function too.
+    "mien_rig_evaluate": {"Python"}, "mien_dna_read_floats": {"Python"},
+    "mien_dna_read_integers": {"Python"}, "mien_dna_read_string": {"Python"},
 }
 
 
@@ -31,33 +48,177 @@ def without_comments(text, suffix):
     return re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.DOTALL)
 
 
-def main():
-    api = json.loads((HERE / "mien_api.json").read_text(encoding="utf-8"))
+def braced(text, start):
+    """From `start`, just behind an opening bracket, to the closing one."""
+    depth, end = 1, start
+    while depth and end < len(text):
+        depth += {"(": 1, "{": 1, ")": -1, "}": -1}.get(text[end], 0)
+        end += 1
+    return text[start:end - 1]
+
+
+class Binding:
+    """The sources of a language."""
+
+    def __init__(self, language, text, generated=""):
+        self.language, self.text, self.generated = language, text, generated
+        self.names = set(re.findall(r"\bmien_\w+\b", text))
+
+    def fields_of(self, struct):
+        """Names of the fields that are set, or None for all of them."""
+        if self.language == "C++":
+            given = rf"Sized<{struct}>|Span<const {struct}>|const {struct}\b"
+            return None if re.search(given, self.text) else set()
+        if f"for sys::{struct}" in self.generated:
+            return None  # a struct of its own, with every field
+        found = set(re.findall(r"\.(\w+) = ", self.text))
+        for match in re.finditer(rf"\b{struct}(?:\(| \{{)", self.text):
+            inside = braced(self.text, match.end())
+            if "**" in inside:
+                return None
+            # Python: field=value; Rust: field: value, or the field alone.
+            found |= set(re.findall(r"(?:^|[,\s(])(\w+)(?==[^=]|:[^:]|\s*(?:,|$))", inside))
+        return found
+
+    def has_enum(self, name, enum):
+        """Whether users can name the enum; the generators write all its values."""
+        if self.language == "C++":
+            return True  # mien.hpp includes mien.h
+        if not re.search(rf"\bclass {name}\(|\bstruct {name}\(", self.generated):
+            return False
+        if self.language == "Rust":
+            return "pub use generated::*" in self.text
+        return f'"{name}"' in self.text
+
+    def has_value(self, enum, value):
+        short = value["short_name"]
+        if enum["name"] == "MienStatusCode":
+            short = re.sub("^ERROR_", "", short)
+        return self.language == "C++" or \
+            re.search(rf"\b_?{short}\b.*\b{value['value']}\b", self.generated) is not None
+
+    def documents(self, function):
+        if self.language in SILENT.get(function, ()):
+            return True
+        if self.language == "Python":
+            return re.search(rf'@raises\([^)]*"{function}(_n)?"', self.text) is not None
+        return self.language != "Rust" or f"errors!({function})" in self.text
+
+
+def safe_name(language, enum):
+    """What a language calls an enum: StatusCode is Status, flags of Rust are plural."""
+    name = {"MienStatusCode": "Status"}.get(enum["name"], enum["name"][len("Mien"):])
+    return {"Layer": "Layers", "Stage": "Stages"}.get(name, name) if language == "Rust" else name
+
+
+def problems_of(api, binding):
+    language = binding.language
     functions = [function["name"] for function in api["functions"]]
-    problems, languages = [], []
+
+    def missing(name, what, is_there, plain=None):
+        excused = language in WITHOUT.get(name, {}) or language in WITHOUT.get(plain, {})
+        if not is_there and not excused:
+            yield f"{language} has no {what}"
+        if is_there and language in WITHOUT.get(name, {}):
+            yield f"{language} has a {what}, though WITHOUT says not"
+
+    for function in api["functions"]:
+        # A function that takes text, and its sibling that takes a length: one of them will do.
+        name = function["name"]
+        sibling = name[:-2] if name.endswith("_n") else name + "_n"
+        if name not in binding.names and sibling in functions and sibling in binding.names:
+            continue
+        yield from missing(name, f"binding of {name}", name in binding.names)
+        special = [s for s in function["statuses"] if not s["general"]]
+        if special and name in binding.names and not name.endswith("_n") and \
+                not binding.documents(name):
+            yield f"{language} does not document the statuses of {name}"
+    given = {p["type"]["to"]["name"] for f in api["functions"] for p in f["parameters"]
+             if p["role"] in ("struct", "array") and p["direction"] == "in"
+             and p["type"]["to"]["kind"] == "struct"}
+    for struct in api["structs"]:
+        if struct["name"] not in given or not struct["sized"]:
+            continue
+        fields = binding.fields_of(struct["name"])
+        for field in struct["fields"]:
+            if field["name"] in ("struct_size", "reserved"):
+                continue
+            name = f"{struct['name']}.{field['name']}"
+            yield from missing(name, f"way to set {name}",
+                               fields is None or field["name"] in fields, field["name"])
+    for enum in api["enums"]:
+        name = safe_name(language, enum)
+        there = binding.has_enum(name, enum)
+        yield from missing(enum["name"], f"enum {name}", there)
+        for value in enum["values"]:
+            if there and not binding.has_value(enum, value):
+                yield f"{language} has no {value['name']}"
+
+
+def bindings():
     for language, patterns in SOURCES.items():
         files = sorted({file for pattern in patterns for file in INTEGRATIONS.glob(pattern)})
         if not files:
             print(f"NOT TESTED: there is no binding for {language}")
             continue
-        languages.append(language)
+        generated = INTEGRATIONS / GENERATED.get(language, "")
+        files = [file for file in files if file != generated]
         text = "\n".join(without_comments(file.read_text(encoding="utf-8"), file.suffix)
                          for file in files)
-        used = set(re.findall(r"\bmien_\w+\b", text))
-        for name in functions:
-            # A function that takes text, and its sibling that takes a length: one of them will do.
-            sibling = name[:-2] if name.endswith("_n") else name + "_n"
-            if sibling in functions and sibling in used:
-                continue
-            excused = language in WITHOUT.get(name, {})
-            if name not in used and not excused:
-                problems.append(f"{language} has no binding of {name}")
-            if name in used and excused:
-                problems.append(f"{language} has a binding of {name}, though WITHOUT says not")
-    problems += [f"WITHOUT names {name}, which mien.h does not declare"
-                 for name in WITHOUT if name not in functions]
+        yield Binding(language, text, generated.read_text(encoding="utf-8")
+                      if language in GENERATED else "")
+
+
+def self_test(api, found):
+    """Each kind of thing that is added to the interface is missed in each language that lacks it."""
+    def added(change):
+        new = copy.deepcopy(api)
+        change(new)
+        return [problem for binding in found for problem in problems_of(new, binding)]
+
+    def add_function(new):
+        new["functions"].append(dict(new["functions"][0], name="mien_added", statuses=[]))
+
+    def add_status(new):
+        entry = next(f for f in new["functions"] if f["name"] == "mien_rig_count")
+        entry["statuses"].append({"name": "MIEN_ERROR_LOD", "condition": "?", "general": False})
+
+    def add_field(new):
+        struct = next(s for s in new["structs"] if s["name"] == "MienRigDesc")
+        struct["fields"].append(dict(struct["fields"][1], name="added"))
+
+    def add_enum(new):
+        new["enums"].append({"name": "MienAdded", "values": []})
+
+    def add_value(new):
+        enum = next(e for e in new["enums"] if e["name"] == "MienIsa")
+        enum["values"].append({"name": "MIEN_ISA_ADDED", "short_name": "ADDED", "value": 77})
+
+    both = ["Python", "Rust"]
+    for change, languages, what in (
+            (lambda new: None, [], ""),
+            (add_function, ["C++"] + both, "has no binding of mien_added"),
+            (add_status, both, "does not document the statuses of mien_rig_count"),
+            (add_field, both, "has no way to set MienRigDesc.added"),
+            (add_enum, both, "has no enum Added"), (add_value, both, "has no MIEN_ISA_ADDED")):
+        problems, expected = added(change), [f"{language} {what}" for language in languages]
+        assert problems == expected, (problems, expected)
+
+
+def main():
+    api = json.loads((HERE / "mien_api.json").read_text(encoding="utf-8"))
+    found = list(bindings())
+    problems = [problem for binding in found for problem in problems_of(api, binding)]
+    known = {f["name"] for f in api["functions"]} | {e["name"] for e in api["enums"]} | \
+        {f"{s['name']}.{f['name']}" for s in api["structs"] for f in s["fields"]} | \
+        {f["name"] for s in api["structs"] for f in s["fields"]}
+    problems += [f"WITHOUT or SILENT names {name}, which mien.h does not declare"
+                 for name in sorted(set(WITHOUT) | set(SILENT)) if name not in known]
+    if sys.argv[1:] == ["--self-test"] and not problems:
+        self_test(api, found)
     print("\n".join(problems) if problems else
-          f"{len(functions)} functions, each in {', '.join(languages)}")
+          f"{len(api['functions'])} functions, {len(api['enums'])} enums and the fields of structs, "
+          f"each in {', '.join(binding.language for binding in found)}")
     return 1 if problems else 0
 
 

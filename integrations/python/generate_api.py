@@ -275,7 +275,10 @@ def write_statuses(api):
         yield f"    \"{function['name']}\": ("
         told = [s for s in function["statuses"] if s["name"] not in IMPOSSIBLE]
         for status in told:
-            condition = words(status["condition"] or GENERAL[status["name"]])
+            condition = status["condition"]
+            if not condition or function["size_query"] and status["name"] in GENERAL:
+                condition = GENERAL[status["name"]]  # the buffer is never too small here
+            condition = words(condition)
             lines = textwrap.wrap(condition, 78, break_on_hyphens=False, drop_whitespace=False)
             pieces = "\n         ".join(json.dumps(line, ensure_ascii=False) for line in lines)
             yield f"\n        (Status.{short[status['name']]},\n         {pieces}),"

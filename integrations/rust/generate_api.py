@@ -358,7 +358,10 @@ def errors(api):
         for status in function["statuses"]:
             if status["name"] not in IMPOSSIBLE:
                 name = status_of[status["name"]]
-                condition = prose(status["condition"] or GENERAL[status["name"]], api)
+                condition = status["condition"]
+                if not condition or function["size_query"] and status["name"] in GENERAL:
+                    condition = GENERAL[status["name"]]  # the buffer is never too small here
+                condition = prose(condition, api)
                 lines.append(f"- [`Status::{name}`](crate::Status::{name}) if {condition}")
         lines = [line.replace("\\", "\\\\").replace('"', '\\"') for line in lines]
         text = "\\n\\\n         ".join(lines or ["- none with valid arguments"])

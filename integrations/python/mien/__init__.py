@@ -12,9 +12,10 @@
 
 `Dna` -> `Rig` -> `Instance` or `Batch`. README.md has more; errors are in `mien.errors`.
 """
-from ._api import (BakedCheck, BakedInfo, ClipChannel, ClipInfo, ClipPlayerInfo, Compose, CoordinateSystem, DeformerInfo, Direction, DnaField,
-                   DnaInfo, DnaLayer, FaceWinding, FieldType, FileAccess, Finding,
-                   InstanceStatistics, Interpolation, Isa, Kind, Layer, Looping, MlMasks, Normals, Preset, Reuse, RigInfo,
+from ._api import (Arithmetic, BakedCheck, BakedInfo, ClipChannel, ClipInfo, ClipPlayerInfo, Compose,
+                   CoordinateSystem, DeformerInfo, Direction, DnaField, DnaInfo, DnaLayer,
+                   FaceWinding, FieldType, FileAccess, Finding, Generate, InstanceStatistics,
+                   Interpolation, Isa, Kind, Layer, Looping, MlMasks, Normals, Preset, Reuse, RigInfo,
                    RigStatistics, RotationOutput, RotationRule, RotationSequence, RotationUnit,
                    Severity, Stage, Status, Storage, TranslationUnit, UnknownLayers, Weights)
 from ._api import VERSION as _VERSION
@@ -33,14 +34,15 @@ from .rig_view import isa_available, isa_name
 __version__ = _VERSION
 
 __all__ = [
-    "__version__", "ArgumentError", "Baked", "BakedCheck", "BakedInfo", "Batch", "BusyError", "Clip", "ClipBinding",
-    "ClipChannel", "ClipError", "ClipEvent", "ClipInfo", "ClipPlayer", "ClipPlayerInfo", "ClosedError",
-    "Compose",
-    "coordinate_system", "coordinate_system_names", "CoordinateSystem", "deform_batch", "Deformer",
-    "DeformerInfo", "DeformerInstance", "Direction", "Dna", "DnaError", "DnaField", "DnaInfo",
-    "DnaLayer", "Error", "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding",
-    "Instance", "InstanceStatistics", "Interpolation", "Isa", "isa_available", "isa_name", "Kind", "Layer",
-    "library_path", "Looping", "Mesh", "MlMasks", "Normals", "OutOfMemoryError", "OutOfRangeError", "Preset",
+    "__version__", "ArgumentError", "Arithmetic", "Baked", "BakedCheck", "BakedInfo", "Batch",
+    "BusyError", "Clip", "ClipBinding", "ClipChannel", "ClipError", "ClipEvent", "ClipInfo",
+    "ClipPlayer", "ClipPlayerInfo", "ClosedError", "Compose", "coordinate_system",
+    "coordinate_system_names", "CoordinateSystem", "deform_batch", "Deformer", "DeformerInfo",
+    "DeformerInstance", "Direction", "Dna", "DnaError", "DnaField", "DnaInfo", "DnaLayer", "Error",
+    "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding", "Generate", "Instance",
+    "InstanceStatistics", "Interpolation", "Isa", "isa_available", "isa_name", "Kind", "Layer",
+    "library_path", "Looping", "Mesh", "MlMasks", "Normals", "OutOfMemoryError", "OutOfRangeError",
+    "Preset",
     "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationOutput", "RotationRule",
     "RotationSequence", "RotationUnit", "Severity", "Stage", "Status", "Storage", "TICKS_PER_SECOND",
     "TranslationUnit", "UnknownLayers", "UnknownNameError", "validate", "version", "Weights",

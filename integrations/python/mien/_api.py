@@ -2172,9 +2172,9 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_dna_write_memory": (
         (Status.INVALID_ARGUMENT,
-         "`capacity` is too small"),
+         "an argument is outside its range"),
         (Status.MEMORY,
-         "the allocator of the DNA returns NULL"),
+         "there is no memory"),
         (Status.DNA_STRUCTURE,
          "the file could not be opened in the requested version"),
         (Status.DNA_REFERENCE,
@@ -2470,7 +2470,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_bake_memory": (
         (Status.INVALID_ARGUMENT,
-         "`capacity` is too small"),
+         "an argument is outside its range"),
         (Status.MISMATCH,
          "`deformer` was created for another rig"),
     ),

@@ -8,6 +8,7 @@ from . import _baked
 from ._api import BakedCheck, BakedInfo, FileAccess, Isa, Normals, Reuse
 from ._memory import BakedHandle, Closable
 from .deformer import Deformer
+from .errors import raises
 from .rig import Rig
 
 
@@ -28,6 +29,7 @@ class Baked(Closable):
         self.info: BakedInfo = _baked.info_of(handle)
 
     @classmethod
+    @raises("mien_baked_open_file")
     def open(cls, path: Any, access: int = FileAccess.READ, check: int = BakedCheck.SAFE) -> Baked:
         """Opens a file.
 
@@ -39,20 +41,24 @@ class Baked(Closable):
         return cls(_baked.open_file(path, access, check))
 
     @classmethod
+    @raises("mien_baked_open_memory")
     def from_bytes(cls, data: Any, check: int = BakedCheck.SAFE) -> Baked:
         """The same from memory, which is kept alive."""
         return cls(_baked.open_bytes(data, check))
 
     @classmethod
+    @raises("mien_baked_open_stream")
     def from_stream(cls, file: Any, check: int = BakedCheck.SAFE) -> Baked:
         """The same from a binary file object that can seek: reads it to its end, from where it
         stands."""
         return cls(_baked.open_stream(file, check))
 
+    @raises("mien_rig_from_baked")
     def rig(self, isa: int = Isa.BEST, reuse: int = Reuse.UNCHANGED) -> Rig:
         """The rig. Other choices were made when it was baked."""
         return Rig._of(_baked.rig_of(self._open(), isa, reuse))
 
+    @raises("mien_deformer_from_baked")
     def deformer(self, rig: Rig, isa: int = Isa.BEST, normals: int = Normals.DEFAULT) -> Deformer:
         """The deformer of a rig that this made. `Isa.BEST` is that of the rig, `Normals.DEFAULT`
         the choice that was baked."""

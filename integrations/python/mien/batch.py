@@ -13,7 +13,7 @@ from ._api import MienError, Stage, Status
 from ._library import lib
 from ._memory import BatchHandle, Closable, Floats, assign, empty, numpy, uint32
 from ._threads import call_with_threads
-from .errors import ArgumentError, BusyError, OutOfMemoryError, OutOfRangeError, fail
+from .errors import ArgumentError, BusyError, OutOfMemoryError, OutOfRangeError, fail, raises
 from .instance import Instance
 from .rig_view import RigView
 
@@ -71,6 +71,7 @@ class Batch(Closable):
     __slots__ = ("rig", "_slab", "_lock", "_instances", "_batch", "_pointers", "_desc", "_lods",
                  "_views")
 
+    @raises("mien_batch_create")
     def __init__(self, rig: RigView, count: int, tasks: int = 1) -> None:
         if not 0 <= count <= 1 << 20:
             raise ArgumentError(f"a batch of {count} characters; there may be 2**20")
@@ -208,6 +209,7 @@ class Batch(Closable):
 
     # ---- evaluation ----------------------------------------------------------------------------
 
+    @raises("mien_rig_evaluate_batch", but=(Status.MISMATCH,))
     def evaluate(self, lod: Union[int, Sequence[int]] = 0, stages: int = Stage.ALL,
                  threads: Optional[Executor] = None) -> None:
         """Computes the outputs of all characters, at one LOD or at one for each: the bits that

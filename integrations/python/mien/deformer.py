@@ -17,7 +17,7 @@ from ._memory import (Closable, DeformerHandle, Floats, Indices, PoseHandle, arr
                       lod_bits, new_array, shaped, uint32)
 from ._threads import call_with_threads
 from .dna import Dna
-from .errors import ArgumentError, BusyError, UnknownNameError, fail
+from .errors import ArgumentError, BusyError, UnknownNameError, fail, raises
 from .instance import Instance
 from .rig import Rig
 
@@ -95,6 +95,7 @@ class Deformer(Closable):
 
     __slots__ = ("info", "_mesh_names")
 
+    @raises("mien_deformer_create")
     def __init__(self, dna: Dna, rig: Rig, isa: int = Isa.BEST, compose: int = Compose.PRODUCT,
                  weights: int = Weights.AS_STORED, normals: int = Normals.DEFAULT,
                  with_tangents: bool = False) -> None:
@@ -124,6 +125,7 @@ class Deformer(Closable):
         self.info: DeformerInfo = DeformerInfo._of(info)
         self._mesh_names = rig.names(Kind.MESH)
 
+    @raises("mien_deformer_mesh")
     def mesh(self, mesh: Union[int, str]) -> Mesh:
         """A neutral mesh, by index or by name."""
         if isinstance(mesh, str):
@@ -141,6 +143,7 @@ class Deformer(Closable):
         """All neutral meshes."""
         return [self.mesh(i) for i in range(self.info.mesh_count)]
 
+    @raises("mien_deformer_influences")
     def influences(self, mesh: int, position: int) -> Tuple[Indices, Floats]:
         """uint16 (n,) joints that hold a position, and float32 (n,) their weights."""
         handle, joints, weights = self._open(), _api.MienIndex16View(), _api.MienFloatView()
@@ -152,6 +155,7 @@ class Deformer(Closable):
         return (array_over(handle, joints.data, joints.count, "H", False),
                 array_over(handle, weights.data, weights.count, "f", False))
 
+    @raises("mien_deformer_mesh", "mien_deformer_target")
     def target(self, mesh: int, target: int) -> Floats:
         """float32 (positions, 3), a copy: how far a target moves each position at weight 1."""
         count = self.mesh(mesh).position_count * 3
@@ -199,6 +203,7 @@ class DeformerInstance(Closable):
 
     __slots__ = ("deformer", "_lock")
 
+    @raises("mien_deformer_instance_create")
     def __init__(self, deformer: Deformer, lods: Optional[Iterable[int]] = None) -> None:
         desc = _api.MienDeformerInstanceDesc(lods=lod_bits(lods))
         handle, error = PoseHandle(), MienError()
@@ -223,6 +228,7 @@ class DeformerInstance(Closable):
         finally:
             self._lock.release()
 
+    @raises("mien_deformer_instance_update")
     def update(self, instance: Instance) -> None:
         """Takes over joints and channels of the instance's last evaluation, and computes the
         matrices of all joints; meshes follow with `deform`."""
@@ -231,6 +237,7 @@ class DeformerInstance(Closable):
             if status:
                 fail(status, "an instance of another rig")
 
+    @raises("mien_deformer_instance_update_from_values")
     def update_from_values(self, joint_values: Any = None, channel_weights: Any = None) -> None:
         """The same from arrays: joint values of the shape and units of `Instance.joints` (None: no
         deltas) and one weight per channel (None: all 0)."""
@@ -244,6 +251,7 @@ class DeformerInstance(Closable):
                 fail(status, f"{joint_count} joint values and {weight_count} channel weights")
             del joints, weights  # so far they had to live
 
+    @raises("mien_deformer_instance_deform")
     def deform(self, mesh: int, normals: int = Normals.DEFAULT,
                threads: Optional[Executor] = None) -> None:
         """Computes `positions(mesh)` as of the last update, and normals of a kind (`Normals`).
@@ -259,6 +267,7 @@ class DeformerInstance(Closable):
 
         call_with_threads(threads, call)
 
+    @raises("mien_deformer_instance_write_vertices")
     def write_vertices(self, mesh: int, positions: Any = None, normals: Any = None,
                        tangents: Any = None, *, mode: int = Normals.DEFAULT,
                        threads: Optional[Executor] = None) -> None:
@@ -298,10 +307,12 @@ class DeformerInstance(Closable):
             return _matrices(handle, view)
         return array_over(handle, view.data, view.count, "f", False, (view.count // width, width))
 
+    @raises("mien_deformer_instance_positions")
     def positions(self, mesh: int) -> Floats:
         """float32 (positions, 3) of the last `deform`."""
         return self._view(lib.mien_deformer_instance_positions, f"mesh {mesh}", 3, uint32(mesh, "mesh"))
 
+    @raises("mien_deformer_instance_normals")
     def normals(self, mesh: int) -> Floats:
         """float32 (vertices, 3) of the last `deform` that made normals."""
         return self._view(lib.mien_deformer_instance_normals, f"mesh {mesh}", 3, uint32(mesh, "mesh"))
@@ -340,16 +351,16 @@ class _VertexOutput:
     """A MienVertexOutput over arrays of the caller, which it keeps alive."""
 
     def __init__(self, positions: Any, normals: Any, tangents: Any) -> None:
-        self.struct = _api.MienVertexOutput()
         self.views: List[memoryview] = []
-        for name, values in (("positions", positions), ("normals", normals),
-                             ("tangents", tangents)):
-            if values is not None:
-                setattr(self.struct, name, self._stream(values, name))
+        self.struct = _api.MienVertexOutput(positions=self._stream(positions, "positions"),
+                                            normals=self._stream(normals, "normals"),
+                                            tangents=self._stream(tangents, "tangents"))
         self.struct.vertex_capacity = min((view.shape[0] for view in self.views if view.shape),
                                           default=0)
 
     def _stream(self, values: Any, what: str) -> Any:
+        if values is None:
+            return _api.MienVertexStream()
         view = memoryview(values)
         shape, strides = view.shape or (), view.strides or ()
         width = shape[1] if len(shape) == 2 else 1 if len(shape) == 1 else 0
@@ -377,6 +388,7 @@ def _address_of(values: Any, view: memoryview) -> int:
     return ctypes.addressof(ctypes.c_char.from_buffer(view)) if view.nbytes else 0
 
 
+@raises("mien_deformer_instance_deform_batch")
 def deform_batch(poses: Sequence[DeformerInstance], mesh: int, normals: int = Normals.DEFAULT,
                  threads: Optional[Executor] = None) -> None:
     """`DeformerInstance.deform` of the same mesh of several poses of one deformer: the same bits, but each
@@ -395,6 +407,7 @@ def deform_batch(poses: Sequence[DeformerInstance], mesh: int, normals: int = No
     call_with_threads(threads, call)
 
 
+@raises("mien_deformer_instance_write_vertices_batch")
 def write_vertices_batch(instances: Sequence[DeformerInstance], mesh: int,
                          outputs: Sequence[Sequence[Any]], mode: int = Normals.DEFAULT,
                          threads: Optional[Executor] = None) -> None:

@@ -11,11 +11,12 @@ from ._api import (CoordinateSystem, DnaField, DnaInfo, DnaLayer, FieldType, Fil
 from ._library import lib
 from ._memory import (Closable, DnaHandle, FileStream, ReportHandle, as_bytes, as_path, lod_bits,
                       new_array, terminated, uint32)
-from .errors import fail
+from .errors import fail, raises
 
 _byref = ctypes.byref
 
 
+@raises("mien_coordinate_system_find_n")
 def coordinate_system(name: str) -> CoordinateSystem:
     """The system of an engine or tool, by its name: "unreal", "unity", "blender", ... Change what
     should differ by `._replace(rotation_rule=RotationRule.EXACT)`."""
@@ -36,8 +37,9 @@ def coordinate_system_names() -> List[str]:
 
 
 def _dna_desc(layers: int, lods: Optional[Iterable[int]], unknown_layers: int, access: int,
-              system: Union[None, str, CoordinateSystem]) -> Any:
+              system: Union[None, str, CoordinateSystem], skip_blend_shape_targets: bool) -> Any:
     desc = _api.MienDnaDesc(layers=uint32(layers, "layers"), lods=lod_bits(lods),
+                            skip_blend_shape_targets=bool(skip_blend_shape_targets),
                             unknown_layers=uint32(unknown_layers, "unknown_layers"),
                             file_access=uint32(access, "access"))
     if isinstance(system, str):
@@ -61,9 +63,11 @@ class Dna(Closable):
         self._handle = handle
 
     @classmethod
+    @raises("mien_dna_open_file")
     def open(cls, path: Any, layers: int = Layer.ALL, lods: Optional[Iterable[int]] = None,
              unknown_layers: int = UnknownLayers.KEEP, access: int = FileAccess.READ,
-             system: Union[None, str, CoordinateSystem] = None) -> Dna:
+             system: Union[None, str, CoordinateSystem] = None,
+             skip_blend_shape_targets: bool = False) -> Dna:
         """Opens a file of versions 2.1 to 2.8 and checks everything that is loaded.
 
         layers: which `Layer`s to load, combined with |; what is not chosen is never touched
@@ -72,10 +76,9 @@ class Dna(Closable):
                 open, the process may crash, so the default reads it all
         system: to convert everything to: a name ("unreal", "blender", see
                 `coordinate_system_names`) or a `CoordinateSystem`; None keeps the file's
-
-        Raises FileError, or DnaError with the byte offset of what is wrong.
+        skip_blend_shape_targets: loads the geometry without them
         """
-        desc = _dna_desc(layers, lods, unknown_layers, access, system)
+        desc = _dna_desc(layers, lods, unknown_layers, access, system, skip_blend_shape_targets)
         handle, error = DnaHandle(), MienError()
         status = lib.mien_dna_open_file(as_path(path), _byref(desc), _byref(handle), _byref(error))
         if status:
@@ -83,13 +86,16 @@ class Dna(Closable):
         return cls(handle)
 
     @classmethod
+    @raises("mien_dna_open_memory")
     def from_bytes(cls, data: Any, layers: int = Layer.ALL, lods: Optional[Iterable[int]] = None,
                    unknown_layers: int = UnknownLayers.KEEP,
-                   system: Union[None, str, CoordinateSystem] = None) -> Dna:
+                   system: Union[None, str, CoordinateSystem] = None,
+                   skip_blend_shape_targets: bool = False) -> Dna:
         """The same from memory: `bytes` are used where they are and kept alive; any other buffer
         (bytearray, memoryview, array) is copied, since it could change."""
         data = as_bytes(data)
-        desc = _dna_desc(layers, lods, unknown_layers, FileAccess.READ, system)
+        desc = _dna_desc(layers, lods, unknown_layers, FileAccess.READ, system,
+                         skip_blend_shape_targets)
         handle, error = DnaHandle(), MienError()
         status = lib.mien_dna_open_memory(data, len(data), _byref(desc), _byref(handle),
                                           _byref(error))
@@ -98,13 +104,16 @@ class Dna(Closable):
         return cls(handle, data)
 
     @classmethod
+    @raises("mien_dna_open_stream")
     def from_stream(cls, file: Any, layers: int = Layer.ALL, lods: Optional[Iterable[int]] = None,
                     unknown_layers: int = UnknownLayers.KEEP,
-                    system: Union[None, str, CoordinateSystem] = None) -> Dna:
+                    system: Union[None, str, CoordinateSystem] = None,
+                    skip_blend_shape_targets: bool = False) -> Dna:
         """The same from a binary file object that can seek, such as a member of an archive: reads
         the chosen layers alone. The file ends where the object does and begins where it stands."""
         stream = FileStream(file)
-        desc = _dna_desc(layers, lods, unknown_layers, FileAccess.READ, system)
+        desc = _dna_desc(layers, lods, unknown_layers, FileAccess.READ, system,
+                         skip_blend_shape_targets)
         handle, error = DnaHandle(), MienError()
         status = lib.mien_dna_open_stream(_byref(stream.stream), _byref(desc), _byref(handle),
                                           _byref(error))
@@ -114,9 +123,12 @@ class Dna(Closable):
         return cls(handle)
 
     @classmethod
-    def generate(cls, preset: int = Preset.TINY, seed: int = 0) -> Dna:
-        """A synthetic face rig of a `Preset` size; the same seed gives the same bytes anywhere."""
-        desc = _api.MienGenerateDesc(preset=uint32(preset, "preset"), seed=seed)
+    @raises("mien_dna_generate")
+    def generate(cls, preset: int = Preset.TINY, seed: int = 0, flags: int = 0) -> Dna:
+        """A synthetic rig of a `Preset`, with what the `Generate` flags add; the same arguments give
+        the same bytes anywhere."""
+        desc = _api.MienGenerateDesc(preset=uint32(preset, "preset"), seed=seed,
+                                     flags=uint32(flags, "flags"))
         handle, error = DnaHandle(), MienError()
         status = lib.mien_dna_generate(_byref(desc), _byref(handle), _byref(error))
         if status:
@@ -157,6 +169,7 @@ class Dna(Closable):
             fail(status, "no such field", error)
         return found
 
+    @raises("mien_dna_field")
     def field(self, path: str) -> DnaField:
         """What is at a path such as "bhvr.joints.jointGroups[7].values": type, count, offset.
 
@@ -164,6 +177,7 @@ class Dna(Closable):
         """
         return DnaField._of(self._field(self._open(), self._path(path)))
 
+    @raises("mien_dna_child_name")
     def fields(self, path: str = "") -> List[str]:
         """Names of the fields of the record at a path; of the layers for ""."""
         return self._field_names(self._open(), self._path(path))
@@ -178,6 +192,7 @@ class Dna(Closable):
             names.append(_api.text(name))
         return names
 
+    @raises("mien_dna_field")
     def read(self, path: str) -> Any:
         """Copy of the field at a path, of every loaded layer, in native byte order:
 
@@ -221,6 +236,7 @@ class Dna(Closable):
         return _byref(_api.MienWriteDesc(version=uint32(version, "version"),
                                          unknown_layers=uint32(unknown_layers, "unknown_layers")))
 
+    @raises("mien_dna_write_file")
     def save(self, path: Any, version: int = 0, unknown_layers: int = UnknownLayers.KEEP) -> None:
         """Writes a canonical file; a failure leaves `path` as it was. `version` 1 ... 8 writes 2.1
         ... 2.8, 0 keeps the version."""
@@ -230,6 +246,7 @@ class Dna(Closable):
         if status:
             fail(status, f"cannot write {path}", error, path)
 
+    @raises("mien_dna_write_memory")
     def to_bytes(self, version: int = 0, unknown_layers: int = UnknownLayers.KEEP) -> bytes:
         """The same to memory."""
         handle, desc = self._open(), self._write_desc(version, unknown_layers)
@@ -252,6 +269,7 @@ class Dna(Closable):
                 f"{info.lod_count} LODs>")
 
 
+@raises("mien_dna_validate_file")
 def validate(file: Any) -> List[Finding]:
     """Every finding of a whole file, given by path or as bytes, in the order of the checks.
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import errno
 import inspect
 import os
-from typing import Any, Callable, Dict, NoReturn, Optional, Tuple, Type, TypeVar
+from typing import Any, Callable, Dict, List, NoReturn, Optional, Tuple, Type, TypeVar
 
 from . import _api
 from ._api import Status
@@ -134,13 +134,17 @@ def kind_of(status: int) -> Type[Error]:
 _F = TypeVar("_F", bound=Callable[..., Any])
 
 
-def raises(*functions: str) -> Callable[[_F], _F]:
+def raises(*functions: str, but: Tuple[Status, ...] = ()) -> Callable[[_F], _F]:
     """Adds to the documentation of a method why it can fail: the statuses of the C functions that it
-    calls."""
+    calls, but those that it rules out."""
     def add(method: _F) -> _F:
-        told = dict.fromkeys(pair for name in functions for pair in _api.STATUSES[name])
-        lines = [f"    {kind_of(status).__name__} (Status.{status.name}): {why}"
-                 for status, why in told]
+        told: Dict[Tuple[str, str], List[str]] = {}
+        for name in functions:
+            for status, why in _api.STATUSES[name]:
+                if status not in but:
+                    told.setdefault((kind_of(status).__name__, why), []).append(status.name)
+        lines = [f"    {kind} ({', '.join(dict.fromkeys(names))}): {why}"
+                 for (kind, why), names in told.items()]
         above = inspect.cleandoc(method.__doc__ or "")
         method.__doc__ = "\n".join([above, "", "Raises:"] + lines).lstrip("\n")
         return method

@@ -12,7 +12,7 @@ from . import _api
 from ._api import InstanceStatistics, Kind, MienError, Stage, Status
 from ._library import lib
 from ._memory import Closable, Floats, InstanceHandle, array_over, assign, uint32
-from .errors import BusyError, OutOfRangeError, UnknownNameError, fail
+from .errors import BusyError, OutOfRangeError, UnknownNameError, fail, raises
 from .rig_view import RigView
 
 _byref = ctypes.byref
@@ -36,6 +36,7 @@ class Instance(Closable):
 
     __slots__ = ("rig", "_lod_count", "_views", "_lock")
 
+    @raises("mien_instance_create")
     def __init__(self, rig: RigView, _slab: Any = None, _lock: Any = None) -> None:
         handle, error = InstanceHandle(), MienError()
         handle.slab = _slab
@@ -190,6 +191,7 @@ class Instance(Closable):
 
     # ---- evaluation ----------------------------------------------------------------------------
 
+    @raises("mien_rig_evaluate_stages", but=(Status.MISMATCH,))
     def evaluate(self, lod: int = 0, stages: int = Stage.ALL) -> None:
         """Computes the outputs at a LOD; outputs that the LOD does not reach are 0.
 
@@ -221,14 +223,17 @@ class Instance(Closable):
         """Each GUI control's value whose mapping gives the raw controls; 0 where there is none."""
         self._call(lib.mien_rig_map_raw_to_gui)
 
+    @raises("mien_rig_evaluate_joint_group", but=(Status.MISMATCH,))
     def evaluate_joint_group(self, group: int, lod: int = 0) -> None:
         """Only the joint values of one joint group (`Kind.JOINT_GROUP`)."""
         self._call(lib.mien_rig_evaluate_joint_group, self._lod(lod), uint32(group, "group"))
 
+    @raises("mien_rig_evaluate_rbf_solver", but=(Status.MISMATCH,))
     def evaluate_rbf_solver(self, solver: int, lod: int = 0) -> None:
         """Only the pose controls of one RBF solver, whether the LOD lists it or not."""
         self._call(lib.mien_rig_evaluate_rbf_solver, self._lod(lod), uint32(solver, "solver"))
 
+    @raises("mien_rig_evaluate_twist_swing", but=(Status.MISMATCH,))
     def evaluate_twist_swing(self, setup: int, lod: int = 0) -> None:
         """Only the joints of one twist and swing set-up (`Kind.TWIST_SWING`)."""
         self._call(lib.mien_rig_evaluate_twist_swing, self._lod(lod), uint32(setup, "setup"))

@@ -6,13 +6,13 @@ import ctypes
 from typing import Any, Optional, Tuple
 
 from . import _api, _baked
-from ._api import (BakedCheck, FileAccess, Isa, MienError, MlMasks, Reuse, RotationOutput,
+from ._api import (Arithmetic, BakedCheck, FileAccess, Isa, MienError, MlMasks, Reuse, RotationOutput,
                    Storage)
 from ._library import lib
 from ._memory import Closable, RigHandle, uint32
 from .batch import Batch
 from .dna import Dna
-from .errors import fail
+from .errors import fail, raises
 from .instance import Instance
 from .rig_view import RigView
 
@@ -29,18 +29,21 @@ class Rig(RigView):
     rotation: `RotationOutput.EULER` gives 9 values per joint, `RotationOutput.QUATERNION` 10
     ml_masks: whether masks switch or blend what was learned, see `MlMasks`
     reuse:    `Reuse.NOTHING` computes all of it each time, even if no input changed: for measuring
+    arithmetic: `Arithmetic.PORTABLE` gives the same bits on every instruction set
     storage:  `Storage.BIT_16` halves the memory of the large arrays, at three decimal digits
     """
 
     __slots__ = ()
 
+    @raises("mien_rig_create")
     def __init__(self, dna: Dna, isa: int = Isa.BEST, rotation: int = RotationOutput.EULER,
                  ml_masks: int = MlMasks.SWITCH, storage: int = Storage.BIT_32,
-                 reuse: int = Reuse.UNCHANGED) -> None:
+                 reuse: int = Reuse.UNCHANGED, arithmetic: int = Arithmetic.FAST) -> None:
         desc = _api.MienRigDesc(isa=uint32(isa, "isa"),
                                 rotation_output=uint32(rotation, "rotation"),
                                 ml_masks=uint32(ml_masks, "ml_masks"),
-                                storage=uint32(storage, "storage"), reuse=uint32(reuse, "reuse"))
+                                storage=uint32(storage, "storage"), reuse=uint32(reuse, "reuse"),
+                                arithmetic=uint32(arithmetic, "arithmetic"))
         if not isinstance(dna, Dna):
             raise TypeError(f"Rig takes a Dna, not {type(dna).__name__}: Rig(Dna.open(path)), or "
                             "Rig.open(path) for a baked file")
@@ -51,6 +54,7 @@ class Rig(RigView):
         self._take(handle)
 
     @classmethod
+    @raises("mien_baked_open_file", "mien_rig_from_baked")
     def open(cls, path: Any, isa: int = Isa.BEST, access: int = FileAccess.READ,
              check: int = BakedCheck.SAFE, reuse: int = Reuse.UNCHANGED) -> Rig:
         """Opens the rig of a baked file, which `bake` or `mien bake` wrote. `Baked` also gives its
@@ -64,6 +68,7 @@ class Rig(RigView):
         return cls._of(_baked.rig_of(_baked.open_file(path, access, check), isa, reuse))
 
     @classmethod
+    @raises("mien_baked_open_memory", "mien_rig_from_baked")
     def from_bytes(cls, data: Any, isa: int = Isa.BEST, check: int = BakedCheck.SAFE,
                    reuse: int = Reuse.UNCHANGED) -> Rig:
         """The same from memory, which is kept alive."""
@@ -75,11 +80,13 @@ class Rig(RigView):
         rig._take(handle)
         return rig
 
+    @raises("mien_bake_file")
     def bake(self, path: Any, deformer: Optional[Closable] = None) -> None:
         """Writes a baked file, with a `Deformer` of this rig if there is one; a failure leaves
         `path` as it was."""
         _baked.bake(path, self._open(), deformer and deformer._open())
 
+    @raises("mien_bake_memory")
     def to_bytes(self, deformer: Optional[Closable] = None) -> bytes:
         """The same to memory."""
         return _baked.baked_bytes(self._open(), deformer and deformer._open())

@@ -9,7 +9,7 @@ from . import _api
 from ._api import Kind, RigInfo, RigStatistics, RotationOutput, Status
 from ._library import lib
 from ._memory import Closable, Floats, Indices, RigHandle, array_over, uint32
-from .errors import UnknownNameError, fail
+from .errors import UnknownNameError, fail, raises
 
 _byref = ctypes.byref
 
@@ -50,6 +50,7 @@ class RigView(Closable):
             fail(status, f"kind {kind}")
         return found.value
 
+    @raises("mien_rig_name")
     def name(self, kind: int, index: int) -> str:
         """Name of a thing; "" for kinds without names."""
         view = _api.MienStringView()
@@ -66,6 +67,7 @@ class RigView(Closable):
             self._names[kind] = [self.name(kind, i) for i in range(self.count(kind))]
         return list(self._names[kind])
 
+    @raises("mien_rig_find_n")
     def find(self, kind: int, name: str) -> int:
         """Index of the thing of a `Kind` with exactly this name, or UnknownNameError."""
         encoded = name.encode("utf-8", "surrogateescape")
@@ -95,11 +97,13 @@ class RigView(Closable):
             fail(status, what)
         return array_over(handle, view.data, view.count, code, False)
 
+    @raises("mien_rig_lod_indices")
     def lod_indices(self, kind: int, lod: int) -> Indices:
         """uint16 (n,): which joints, channels, maps, meshes or RBF solvers exist at a LOD."""
         return self._view(lib.mien_rig_lod_indices, _api.MienIndex16View(), "H",
                           f"kind {kind} at LOD {lod}", uint32(kind, "kind"), uint32(lod, "lod"))
 
+    @raises("mien_rig_variable_joint_values")
     def variable_joint_values(self, lod: int) -> Indices:
         """uint16 (n,): indices into the flat joint values that evaluation may change at a LOD."""
         return self._view(lib.mien_rig_variable_joint_values, _api.MienIndex16View(), "H",
@@ -118,6 +122,7 @@ class RigView(Closable):
                             "neutral pose")
         return values.reshape(-1, self.joint_width) if hasattr(values, "reshape") else values
 
+    @raises("mien_rig_psd_inputs")
     def psd_inputs(self, psd: int) -> Indices:
         """uint16 (n,): the controls whose product drives a corrective, as indices into the whole
         control row."""
@@ -135,6 +140,7 @@ class RigView(Closable):
         """Values per joint: 9, or 10 with quaternions; see `Instance.joints`."""
         return 10 if self.info.rotation_output == RotationOutput.QUATERNION else 9
 
+    @raises("mien_rig_statistics")
     def statistics(self, lod: int) -> RigStatistics:
         """What one evaluation at a LOD works through."""
         found = _api.MienRigStatistics()

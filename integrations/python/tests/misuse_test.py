@@ -173,6 +173,7 @@ class Numbers(unittest.TestCase):
         dna = dna_of()
         for use in (lambda: mien.Rig(dna, isa=99), lambda: mien.Rig(dna, rotation=2),
                     lambda: mien.Rig(dna, ml_masks=9), lambda: mien.Rig(dna, storage=9),
+                    lambda: mien.Rig(dna, arithmetic=9), lambda: mien.Dna.generate(flags=99),
                     lambda: mien.Rig(dna, isa=-1), lambda: mien.Dna.generate(99),
                     lambda: mien.Dna.open("x", lods=[]), lambda: mien.Dna.open("x", lods=[64])):
             with self.assertRaises(mien.Error):
@@ -191,6 +192,19 @@ class Numbers(unittest.TestCase):
         self.assertGreater(self.rig.batch(3, tasks=2).scratch_bytes, 0)
         with self.assertRaises((TypeError, AttributeError)):
             mien.Rig("head.dna")
+
+    def test_structs_take_their_own_fields_alone(self):
+        for name, values in (("MienRigDesc", {"isaa": 1}), ("MienRigDesc", {"struct_size": 1}),
+                             ("MienDnaDesc", {"reserved": 0}), ("MienRigInfo", {"lod_count": 1})):
+            with self.assertRaises(TypeError):
+                getattr(mien._api, name)(**values)
+        desc = mien._api.MienRigDesc(arithmetic=mien.Arithmetic.PORTABLE)
+        self.assertEqual((desc.arithmetic, desc.isa), (1, 0))
+
+    def test_documentation_tells_why_calls_fail(self):
+        self.assertIn("OutOfRangeError (LOD): the rig has no such LOD", mien.Instance.evaluate.__doc__)
+        self.assertNotIn("MISMATCH", mien.Instance.evaluate.__doc__)
+        self.assertIn("Raises:", mien.Rig.__init__.__doc__)
 
     def test_instances_of_other_rigs(self):
         stranger = fresh_rig().instance()
@@ -335,6 +349,9 @@ class Files(unittest.TestCase):
         self.assertEqual(cut.info.lod_count, 1)
         with self.assertRaises(mien.OutOfRangeError):
             mien.Dna.from_bytes(self.data, lods=[63])
+        for skip in (False, True):
+            dna = mien.Dna.from_bytes(self.data, skip_blend_shape_targets=skip)
+            self.assertEqual(dna.info.has_blend_shape_targets, not skip)
 
 
 if __name__ == "__main__":

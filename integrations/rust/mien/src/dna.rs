@@ -280,6 +280,7 @@ impl std::fmt::Debug for Dna<'_> {
 #[must_use = "options do nothing until they are used"]
 pub struct OpenOptions {
     layers: Layers,
+    skip_blend_shape_targets: bool,
     unknown_layers: UnknownLayers,
     lods: u64,
     system: Option<CoordinateSystem>,
@@ -295,6 +296,12 @@ impl OpenOptions {
     /// Only these layers, and those that they need. What is not chosen is not looked at.
     pub fn layers(mut self, layers: Layers) -> Self {
         self.layers = layers;
+        self
+    }
+
+    /// Loads the geometry without its blend shape targets.
+    pub fn skip_blend_shape_targets(mut self, skip: bool) -> Self {
+        self.skip_blend_shape_targets = skip;
         self
     }
 
@@ -351,6 +358,7 @@ impl OpenOptions {
         sys::MienDnaDesc {
             system,
             layers: self.layers.0,
+            skip_blend_shape_targets: self.skip_blend_shape_targets.into(),
             unknown_layers: self.unknown_layers.0,
             file_access: access,
             lods: self.lods,

@@ -1343,8 +1343,8 @@ macro_rules! errors {
          - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the file could not be opened in the requested version"
     };
     (mien_dna_write_memory) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `capacity` is too small\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator of the DNA returns NULL\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the file could not be opened in the requested version\n\
          - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the file could not be opened in the requested version\n\
          - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if it would exceed 4 GiB\n\
@@ -1584,7 +1584,7 @@ macro_rules! errors {
          - [`Status::FILE_WRITE`](crate::Status::FILE_WRITE) if the file cannot be written"
     };
     (mien_bake_memory) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `capacity` is too small\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if `deformer` was created for another rig"
     };
     (mien_baked_open_file) => {
