@@ -1770,8 +1770,7 @@ MIEN_CHECKED MienStatus mien_clip_player_advance(MienClipPlayer* clip_player, in
 
 /* Returns the next event that the last mien_clip_player_advance() passed. `out_found` is 1, or 0 after
  * the last event. An event is passed when the position reaches or crosses its tick in either
- * direction, once per loop. Its name is a view of the clip. Does not
- * allocate or lock. */
+ * direction, once per loop. Its name is a view of the clip. Does not allocate or lock. */
 MIEN_CHECKED MienStatus mien_clip_player_next_event(MienClipPlayer* clip_player,
                                                     MienClipEvent* out_event, uint32_t* out_found);
 

@@ -36,7 +36,7 @@ else()
 endif()
 
 add_test(NAME api_bindings
-  COMMAND Python3::Interpreter ${integrations}/api/check_bindings.py)
+  COMMAND Python3::Interpreter ${integrations}/api/check_bindings.py --self-test)
 set_tests_properties(api_bindings PROPERTIES LABELS guard)
 
 # ---- Python -----------------------------------------------------------------------------------------

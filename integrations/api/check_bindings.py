@@ -28,12 +28,16 @@ GENERATED = {"Python": "python/mien/_api.py", "Rust": "rust/mien/src/generated.r
 WITHOUT = {
     "allocator": {"Python": "memory of the library is not Python's",
                   "Rust": "an allocator is given where objects are many: instances, batches, reports"},
+    "MienClipDesc.frame_stride": {"Python": "rows are arrays", "Rust": "rows are a slice"},
+    "MienClipPlayerDesc.speed_numerator": {"Rust": "ClipPlayer::set_speed()"},
+    "MienClipPlayerDesc.speed_denominator": {"Rust": "ClipPlayer::set_speed()"},
+    "MienClipPlayerDesc.start_tick": {"Rust": "ClipPlayer::seek()"},
     "MienVertexFormat": {"Python": "the type of an array says it"},
 }
 # Functions whose own statuses cannot reach a user, who finds no list of them either.
 SILENT = {
     "mien_coordinate_system_name": {"Python", "Rust"},
-    "mien_dna_layer": {"Python"}, "mien_report_finding": {"Python"},
+    "mien_clip_event": {"Python"}, "mien_dna_layer": {"Python"}, "mien_report_finding": {"Python"},
     "mien_deformer_instance_local_transforms": {"Python"},
     "mien_rig_map_gui_to_raw": {"Python"}, "mien_rig_map_raw_to_gui": {"Python"},
     # Documented where the same method calls another function too.

@@ -415,6 +415,8 @@ def nullable(function, parameter, text):
     """By the rules of mien.h, or because the comment says so."""
     if parameter["type"]["kind"] != "pointer":
         return False
+    if f"`{parameter['name']}` is required" in text:
+        return False
     return parameter["name"] in ("desc", "allocator", "error") \
         or RELEASE.search(function) is not None \
         or f"`{parameter['name']}` may be NULL" in text

@@ -82,6 +82,9 @@ class Functions(unittest.TestCase):
         declaration = "mien_new(const MienParallelFor* parallel)"
         self.assertTrue(parameter("`parallel`\n * may be NULL.", declaration, "parallel")["nullable"])
         self.assertFalse(parameter("Runs `parallel`.", declaration, "parallel")["nullable"])
+        declaration = "mien_new(const MienBatchDesc* desc)"
+        self.assertTrue(parameter("Does it.", declaration, "desc")["nullable"])
+        self.assertFalse(parameter("`desc` is required.", declaration, "desc")["nullable"])
 
     def test_views(self):
         declaration = "mien_new(const MienInstance* instance, MienFloatView* out_view)"

@@ -2625,7 +2625,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_clip_write_memory": (
         (Status.INVALID_ARGUMENT,
-         "`capacity` is too small"),
+         "an argument is outside its range"),
     ),
     "mien_clip_info": (),
     "mien_clip_channel": (

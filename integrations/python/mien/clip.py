@@ -13,7 +13,7 @@ from ._api import (ClipChannel, ClipInfo, ClipPlayerInfo, FileAccess, Interpolat
 from ._library import lib
 from ._memory import (ClipBindingHandle, ClipHandle, ClipPlayerHandle, Closable, FileStream,
                       array_over, as_bytes, as_path, floats_of, new_array, shaped, uint32)
-from .errors import ArgumentError, OutOfRangeError, fail
+from .errors import ArgumentError, OutOfRangeError, fail, raises
 
 _byref = ctypes.byref
 
@@ -37,7 +37,7 @@ def _views(names: Sequence[bytes]) -> Any:
     """Names as C takes them. They have to outlive the call."""
     views = (_api.MienStringView * len(names))()
     for view, name in zip(views, names):
-        view.data, view.count = ctypes.cast(name, ctypes.c_void_p).value, len(name)
+        view.data, view.count = ctypes.cast(ctypes.c_char_p(name), ctypes.c_void_p).value, len(name)
     return views
 
 
@@ -72,6 +72,7 @@ class Clip(Closable):
         self.info: ClipInfo = ClipInfo._of(found)
 
     @classmethod
+    @raises("mien_clip_build")
     def build(cls, names: Sequence[str], values: Any, rate: Any = 60, snap: Any = 0,
               looping: int = Looping.DEFAULT, events: Iterable[ClipEvent] = (),
               is_delta: bool = False) -> Clip:
@@ -117,6 +118,7 @@ class Clip(Closable):
         return cls(handle)
 
     @classmethod
+    @raises("mien_clip_open_file")
     def open(cls, path: Any, access: int = FileAccess.READ) -> Clip:
         """Opens a file. `FileAccess.MAP` reads only what is needed, but a mapped file that is
         truncated crashes the process, so the default reads all of it."""
@@ -129,6 +131,7 @@ class Clip(Closable):
         return cls(handle)
 
     @classmethod
+    @raises("mien_clip_open_memory")
     def from_bytes(cls, data: Any) -> Clip:
         """The same from memory, which is kept alive."""
         data = as_bytes(data)
@@ -140,6 +143,7 @@ class Clip(Closable):
         return cls(handle)
 
     @classmethod
+    @raises("mien_clip_open_stream")
     def from_stream(cls, file: Any) -> Clip:
         """The same from a binary file object that can seek: reads it to its end, from where it
         stands."""
@@ -152,6 +156,7 @@ class Clip(Closable):
             fail(status, "cannot open the stream", error)
         return cls(handle)
 
+    @raises("mien_clip_write_file")
     def save(self, path: Any) -> None:
         """Writes the file. A failure leaves `path` as it was."""
         error = MienError()
@@ -159,6 +164,7 @@ class Clip(Closable):
         if status:
             fail(status, f"cannot write {path}", error, path)
 
+    @raises("mien_clip_write_memory")
     def to_bytes(self) -> bytes:
         """The bytes of the file."""
         size, error = ctypes.c_size_t(), MienError()
@@ -171,6 +177,7 @@ class Clip(Closable):
             fail(status, "cannot write the clip", error)
         return buffer.raw
 
+    @raises("mien_clip_channel")
     def channel(self, number: int) -> ClipChannel:
         """A channel: its name, and how its curve is stored."""
         found = _api.MienClipChannel()
@@ -184,6 +191,7 @@ class Clip(Closable):
         """Names of the channels, in their order."""
         return [self.channel(c).name for c in range(self.info.channel_count)]
 
+    @raises("mien_clip_find_channel_n")
     def find(self, name: str) -> int:
         """Number of the channel of a name."""
         encoded, found = _encoded(name), ctypes.c_uint32()
@@ -203,6 +211,7 @@ class Clip(Closable):
             found.append(ClipEvent(event.tick, text(event.name), event.value))
         return found
 
+    @raises("mien_clip_verify")
     def verify(self) -> None:
         """Raises `ClipError` unless the bytes are those that were written."""
         error = MienError()
@@ -210,6 +219,7 @@ class Clip(Closable):
         if status:
             fail(status, "the clip is damaged", error)
 
+    @raises("mien_clip_read")
     def read(self, first: int = 0, count: Optional[int] = None) -> Any:
         """Frames: float32 (count, channels); without NumPy, one after the other in an array."""
         first = uint32(first, "first")
@@ -279,12 +289,14 @@ class ClipPlayer(Closable):
         if status:
             fail(status, f"cannot seek {tick}")
 
+    @raises("mien_clip_player_set_speed")
     def set_speed(self, speed: Any) -> None:
         """Another speed from here on."""
         status = lib.mien_clip_player_set_speed(self._open(), *_fraction(speed))
         if status:
             fail(status, f"speed {speed}")
 
+    @raises("mien_clip_player_advance")
     def advance(self, ticks: int) -> List[ClipEvent]:
         """Moves by ticks times the speed. Returns the events that were passed, in order."""
         handle = self._open()
@@ -312,6 +324,7 @@ class ClipBinding(Closable):
 
     __slots__ = ("controls", "missing_channels", "extra_controls", "missing_entries")
 
+    @raises("mien_clip_binding_create")
     def __init__(self, clip: Clip, rig: Any, matrix: Iterable[Tuple[str, str, float]] = ()) -> None:
         entries = [(_encoded(channel), _encoded(control), float(weight))
                    for channel, control, weight in matrix]
@@ -340,6 +353,7 @@ class ClipBinding(Closable):
         #: Entries of the matrix with a channel or a control that is not there.
         self.missing_entries: int = info.missing_entry_count
 
+    @raises("mien_clip_binding_apply")
     def apply(self, values: Any, instance: Any) -> None:
         """Writes the raw controls of an `Instance` that are driven; `values` as from
         `ClipPlayer.sample`."""

@@ -329,7 +329,7 @@ impl Clip {
     ///
     /// # Errors
     ///
-    /// [`Status::INDEX`].
+    #[doc = errors!(mien_clip_channel)]
     pub fn channel(&self, channel: usize) -> Result<ClipChannel<'_>> {
         let mut out = sys::MienClipChannel::default();
         // SAFETY: a live handle and a sized struct.
@@ -349,7 +349,7 @@ impl Clip {
     ///
     /// # Errors
     ///
-    /// [`Status::NAME`].
+    #[doc = errors!(mien_clip_find_channel_n)]
     pub fn find(&self, name: &str) -> Result<usize> {
         let mut out = 0;
         // SAFETY: a live handle, and text with its length.
@@ -363,7 +363,7 @@ impl Clip {
     ///
     /// # Errors
     ///
-    /// [`Status::INDEX`].
+    #[doc = errors!(mien_clip_event)]
     pub fn event(&self, event: usize) -> Result<ClipEvent> {
         let mut out = sys::MienClipEvent { name: empty_string(), ..Default::default() };
         // SAFETY: a live handle, and a place for an event, whose name lives as long as the clip.
@@ -377,7 +377,7 @@ impl Clip {
     ///
     /// # Errors
     ///
-    /// [`Status::CLIP_CHECKSUM`], [`Status::CLIP_STRUCTURE`].
+    #[doc = errors!(mien_clip_verify)]
     pub fn verify(&self) -> Result<()> {
         // SAFETY: a live handle.
         checked(|error| unsafe { sys::mien_clip_verify(self.raw(), error) })
@@ -387,7 +387,7 @@ impl Clip {
     ///
     /// # Errors
     ///
-    /// [`Status::INDEX`], [`Status::CLIP_STRUCTURE`].
+    #[doc = errors!(mien_clip_read)]
     pub fn read(&self, first_frame: usize, frame_count: usize) -> Result<Vec<f32>> {
         let frames = self.info.frame_count;
         if first_frame > frames || frame_count > frames - first_frame {
@@ -571,7 +571,7 @@ impl ClipBinding {
     ///
     /// # Errors
     ///
-    /// [`Status::INVALID_ARGUMENT`] for another number of values or controls.
+    #[doc = errors!(mien_clip_binding_apply)]
     pub fn apply(&self, values: &[f32], raw_controls: &mut [f32]) -> Result<()> {
         // SAFETY: a live handle, and arrays with their lengths.
         check(unsafe {

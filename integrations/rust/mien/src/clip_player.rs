@@ -51,7 +51,7 @@ impl ClipPlayer {
     ///
     /// # Errors
     ///
-    /// None for a player that is there.
+    #[doc = errors!(mien_clip_player_seek)]
     pub fn seek(&mut self, tick: i64) -> Result<()> {
         // SAFETY: a live handle; the same below.
         check(unsafe { sys::mien_clip_player_seek(self.handle.as_ptr(), tick) })
@@ -61,7 +61,7 @@ impl ClipPlayer {
     ///
     /// # Errors
     ///
-    /// [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) out of its range.
+    #[doc = errors!(mien_clip_player_set_speed)]
     pub fn set_speed(&mut self, numerator: i32, denominator: i32) -> Result<()> {
         check(unsafe {
             sys::mien_clip_player_set_speed(self.handle.as_ptr(), numerator, denominator)
@@ -72,7 +72,7 @@ impl ClipPlayer {
     ///
     /// # Errors
     ///
-    /// [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) beyond 2^40 ticks.
+    #[doc = errors!(mien_clip_player_advance)]
     pub fn advance(&mut self, ticks: i64) -> Result<()> {
         check(unsafe { sys::mien_clip_player_advance(self.handle.as_ptr(), ticks) })
     }

@@ -1675,7 +1675,7 @@ macro_rules! errors {
         "- [`Status::FILE_WRITE`](crate::Status::FILE_WRITE) if the file cannot be written"
     };
     (mien_clip_write_memory) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `capacity` is too small"
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range"
     };
     (mien_clip_info) => {
         "- none with valid arguments"

@@ -193,6 +193,10 @@ fn parts_are_loaded() {
     assert_eq!(Rig::new(&dna).unwrap_err().status(), Status::DNA_LAYER);
     let error = OpenOptions::new().lods(1 << 60).open_bytes(&bytes).unwrap_err();
     assert_eq!(error.status(), Status::LOD);
+    for skip in [false, true] {
+        let options = OpenOptions::new().skip_blend_shape_targets(skip);
+        assert_eq!(options.open_bytes(&bytes).unwrap().info().has_blend_shape_targets, !skip);
+    }
 }
 
 #[test]
