@@ -68,7 +68,8 @@ bool keep_finding(void* user, const dna::Finding& finding) {
   return static_cast<MienReport*>(user)->add(finding);
 }
 
-// What only compilation finds: correctives that depend on each other in a circle.
+// What only compilation finds: correctives that depend on each other in a circle, too much work. Its
+// messages begin with the field.
 void try_to_compile(const dna::DnaView& view, MienReport* report) {
   if (report->errors != 0 || report->out_of_memory) return;
   Rig* rig = nullptr;
@@ -80,7 +81,10 @@ void try_to_compile(const dna::DnaView& view, MienReport* report) {
   } else if (status == Status::kMemory) {
     report->out_of_memory = true;
   } else {
-    report->add({status, detail.byte_offset, "bhvr", detail.message});
+    char* const colon = strstr(detail.message, ": ");
+    if (colon) *colon = 0;
+    report->add({status, detail.byte_offset, colon ? detail.message : "bhvr",
+                 colon ? colon + 2 : detail.message});
   }
 }
 

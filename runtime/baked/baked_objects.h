@@ -34,7 +34,7 @@ BakedPart write_part(const Deformer& deformer, uint8_t* bytes);
 /// Every count and every index in the tables: evaluation, batches, names and statistics stay within
 /// the arrays, whatever the floats are. Costs time for the tables only. `full` also proves the
 /// order of names and of correctives. kBakedStructure.
-Status check_rig(const Rig& rig, bool full, Error& error);
+Status check_rig(const Rig& rig, uint64_t bytes, bool full, Error& error);
 
 /// The same for deformation, and for indices that callers follow: triangles, channels, positions of
 /// vertices. Each position and each vertex is written once, so tasks never write the same memory.

@@ -144,7 +144,7 @@ Status open_baked_rig(const Baked& baked, const KernelTable* kernels, const Allo
   visit(*rig, reader);
   Status status = reader.finish();
   if (status == Status::kOk) {
-    status = check_rig(*rig, baked.check == BakedCheck::kFull, error);
+    status = check_rig(*rig, baked.rig->size, baked.check == BakedCheck::kFull, error);
   }
   if (status != Status::kOk) {
     release_rig(rig);

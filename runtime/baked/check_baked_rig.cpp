@@ -7,6 +7,7 @@
 
 #include "runtime/baked/baked_objects.h"
 #include "runtime/baked/part_check.h"
+#include "runtime/rig/work.h"
 
 namespace mien {
 namespace {
@@ -545,7 +546,7 @@ bool check_step_inputs(const RigChecker& c, const MlStep& step) {
 bool check_steps(const RigChecker& c) {
   const Rig& rig = c.rig;
   const MlTable& ml = rig.ml;
-  uint64_t outputs = 0, multiplications = 0, gathered = 0, dependencies = 0;
+  uint64_t outputs = 0, gathered = 0, dependencies = 0;
   for (const MlStep& step : ml.steps) {
     const bool runs = step.layer_count != 0;
     bool good = fits(step.first_layer, step.layer_count, ml.layers.count) &&
@@ -557,15 +558,9 @@ bool check_steps(const RigChecker& c) {
     good = good && outputs <= ml.buffer_size && dependencies <= ml.dependencies.count &&
            gathered <= ml.controls.count;
     if (good && runs) {
-      for (uint32_t l = 0; l < step.layer_count; ++l) {
-        const NetworkLayer& layer = ml.layers[step.first_layer + l];
-        multiplications += padded(layer.output_count) * layer.input_count;
-        if (multiplications > kMaxMultiplications) break;
-      }
       good = ml.layers[step.first_layer + step.layer_count - 1].output_count == step.output_count &&
              fits(step.first_limit, rig.lod_count, ml.limits.count) &&
-             fits(step.first_scatter, step.scatter_count, ml.controls.count) &&
-             multiplications <= kMaxMultiplications;
+             fits(step.first_scatter, step.scatter_count, ml.controls.count);
     }
     if (!c.ok(good, "steps of learned behavior")) return false;
   }
@@ -598,9 +593,17 @@ bool check_ml(const RigChecker& c) {
          check_layers(c) && check_steps(c);
 }
 
+/// After all else: what a frame at each LOD takes is counted along indices.
+bool check_work(const RigChecker& c, uint64_t bytes) {
+  // More than compiling allows, whose measure is a little larger than the bytes that are written.
+  const uint64_t budget = 2 * work_budget(bytes);
+  return c.ok(count_rbf_steps(c.rig, budget) <= budget, "work of RBF solvers") &&
+         c.ok(count_ml_steps(c.rig, budget) <= budget, "work of learned behavior");
+}
+
 }  // namespace
 
-Status check_rig(const Rig& rig, bool full, Error& error) {
+Status check_rig(const Rig& rig, uint64_t bytes, bool full, Error& error) {
   const RigChecker c = {{error}, rig};
   const bool good =
       check_counts(c) && check_names(c, full) && check_controls(c) && check_psds(c, full) &&
@@ -609,7 +612,8 @@ Status check_rig(const Rig& rig, bool full, Error& error) {
       check_lists(c, rig.lod_channels, rig.channel_count, "LODs of blend shape channels") &&
       check_lists(c, rig.lod_maps, rig.map_count, "LODs of animated maps") &&
       check_lists(c, rig.lod_meshes, rig.mesh_count, "LODs of meshes") &&
-      check_lists(c, rig.variable_joint_values, rig.joint_value_count(), "variable joint values");
+      check_lists(c, rig.variable_joint_values, rig.joint_value_count(), "variable joint values") &&
+      check_work(c, bytes);
   return good ? Status::kOk : error.status;
 }
 

@@ -8,7 +8,12 @@
 
 /// Lets the compiler check arguments against a format, as of printf; `first` is 0 for a va_list.
 #if defined(__GNUC__)
+#if defined( \
+    __MINGW32__)  // whose C++ programs print by the rules of C99, not by those of the system
+#define MIEN_PRINTF(format_number, first) __attribute__((format(gnu_printf, format_number, first)))
+#else
 #define MIEN_PRINTF(format_number, first) __attribute__((format(printf, format_number, first)))
+#endif
 #else
 #define MIEN_PRINTF(format_number, first)
 #endif

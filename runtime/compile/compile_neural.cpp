@@ -5,6 +5,7 @@
 
 #include "runtime/base/half.h"
 #include "runtime/compile/compile_rig.h"
+#include "runtime/rig/work.h"
 
 namespace mien {
 namespace {
@@ -274,7 +275,7 @@ Status place_ml(const DnaView& view, Placer& placer, Rig& rig, Error& error) {
     }
   }
 
-  size_t steps = 0, controls = 0, dependencies = 0, buffer = 0, multiplications = 0;
+  size_t steps = 0, controls = 0, dependencies = 0, buffer = 0;
   size_t max_inputs = 0;
   for_each_step(view, [&](const Visit& visit) {
     ++steps;
@@ -296,21 +297,16 @@ Status place_ml(const DnaView& view, Placer& placer, Rig& rig, Error& error) {
     if (visit.operation) dependencies += visit.operation->set_dependencies.count;
     if (visit.network == kNone) return;
     if (!visit.operation) controls += view.mlbh.networks[visit.network].output_indices.count;
-    for (const auto& layer : view.mlbh.networks[visit.network].layers) {
-      multiplications += layer_values(layer);
-    }
   });
   for (const MlType& type : view.mlbe.types) {
     for_each_scatter(type,
                      [&](uint32_t, uint32_t, const Array<uint32_t>& p) { controls += p.count; });
   }
-  if (max_inputs > kMaxBufferFloats || buffer > kMaxBufferFloats || controls > kMaxBufferFloats ||
-      multiplications > kMaxMultiplications) {
-    return fail(
-        error, Status::kDnaLimit, kNoOffset,
-        "mlbe: the operations together take %zu values, %zu controls and %zu multiplications; "
-        "%zu, %zu and %zu are allowed",
-        buffer, controls, multiplications, kMaxBufferFloats, kMaxBufferFloats, kMaxMultiplications);
+  if (max_inputs > kMaxBufferFloats || buffer > kMaxBufferFloats || controls > kMaxBufferFloats) {
+    return fail(error, Status::kDnaLimit, kNoOffset,
+                "mlbe: the operations together take %zu values and %zu controls; %zu of each are "
+                "allowed",
+                buffer, controls, kMaxBufferFloats);
   }
   ml.buffer_size = static_cast<uint32_t>(buffer);
   ml.widest_layer = std::max(ml.widest_layer, static_cast<uint32_t>(max_inputs));
@@ -452,7 +448,14 @@ Status fill_ml(const DnaView& view, Arena& scratch, Rig& rig, Error& error) {
         });
   }
   fill_ml_joints(view, rig, position);
-  return Status::kOk;
+  const uint64_t budget = compile_budget(view, rig),
+                 steps_at_all_lods = count_ml_steps(rig, budget);
+  if (steps_at_all_lods <= budget) return Status::kOk;
+  return fail(
+      error, Status::kDnaLimit, kNoOffset,
+      "mlbe: %llu steps or more to evaluate each LOD once; %llu are allowed for a file of this "
+      "size",
+      static_cast<unsigned long long>(steps_at_all_lods), static_cast<unsigned long long>(budget));
 }
 
 void mark_ml_joint_inputs(const DnaView& view, uint32_t lod_count, Span<uint8_t> reach) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "runtime/compile/compile_rig.h"
+#include "runtime/rig/work.h"
 
 namespace mien {
 namespace {
@@ -12,7 +13,6 @@ namespace {
 // Production solvers have some tens of poses. Automatic radii and interpolation take time and
 // memory with the square of it and more, so a file must not ask for any number.
 constexpr uint32_t kMaxPoses = 1024;
-constexpr size_t kMaxInverseFloats = size_t{4} << 20;
 constexpr float kMaxBlend = 1e9f;  // of a twist or swing: squares of rotations must not overflow
 constexpr float kMaxScale = 1e9f;  // of a pose, as kernels.h asks
 
@@ -98,11 +98,12 @@ void invert(double* m, uint32_t n) {
   }
 }
 
-bool fill_inverse(RbfTable& rbf, const RbfSolverPlan& s, Arena& scratch) {
+/// `scratch` has room for 2 n^2 numbers.
+void fill_inverse(RbfTable& rbf, const RbfSolverPlan& s, const Span<double>& scratch) {
   const uint32_t n = s.pose_count;
   const size_t width = size_t{n} * 2;
-  Span<double> m = scratch.array<double>(n * width);
-  if (!m.data && n != 0) return false;
+  const Span<double> m = scratch.first(n * width);
+  std::fill(m.begin(), m.end(), 0.0);
   bool empty_row = false;
   for (uint32_t r = 0; r < n; ++r) {
     bool any = false;
@@ -125,7 +126,28 @@ bool fill_inverse(RbfTable& rbf, const RbfSolverPlan& s, Arena& scratch) {
           std::isfinite(v) ? static_cast<float>(v) : 0.0f;
     }
   }
-  return true;
+}
+
+/// What the squares and cubes of pose counts cost.
+uint64_t count_matrix_steps(const dna::DnaView& view, const RbfTable& rbf) {
+  uint64_t steps = 0;
+  for (uint32_t i = 0; i < rbf.plans.count; ++i) {
+    const uint64_t poses = rbf.plans[i].pose_count, inputs = rbf.plans[i].input_count;
+    if (rbf.plans[i].interpolative) steps += count_inversion_steps(poses, inputs);
+    if (view.rbfb.solvers[i].automatic_radius == 0) steps += poses * poses * (inputs + 16) / 2;
+  }
+  return steps;
+}
+
+Status check_work(const dna::DnaView& view, const Rig& rig, Error& error) {
+  const uint64_t budget = compile_budget(view, rig);
+  const uint64_t steps = std::max(count_rbf_steps(rig, budget), count_matrix_steps(view, rig.rbf));
+  if (steps <= budget) return Status::kOk;
+  return fail(
+      error, Status::kDnaLimit, kNoOffset,
+      "rbfb.solvers: %llu steps or more to make the solvers, or to evaluate each LOD once; %llu "
+      "are allowed for a file of this size",
+      static_cast<unsigned long long>(steps), static_cast<unsigned long long>(budget));
 }
 
 /// Numbers that a rotation has for a distance, 0 if it does not see rotations.
@@ -196,6 +218,27 @@ void fill_rotations_of(const dna::RbfSolver& from, uint32_t first_lane, RbfTable
     }
     rbf.swings[lane] = from.distance_method == kSwingAngle ? 1.0f : 0.0f;
   }
+}
+
+/// False if memory ran out.
+bool fill_radii_and_inverses(const dna::DnaView& view, Arena& scratch, RbfTable& rbf) {
+  size_t most = 0;  // of one solver
+  for (const RbfSolverPlan& plan : rbf.plans) {
+    if (plan.interpolative) most = std::max(most, size_t{plan.pose_count} * plan.pose_count * 2);
+  }
+  const Span<double> matrix = scratch.array<double>(most);
+  if (most != 0 && !matrix.data) return false;
+  const double to_radians = view.desc.rotation_unit == 0 ? 0.017453292519943295 : 1.0;
+  for (uint32_t i = 0; i < rbf.plans.count; ++i) {
+    const dna::RbfSolver& from = view.rbfb.solvers[i];
+    RbfSolverPlan& plan = rbf.plans[i];
+    const bool automatic = from.automatic_radius == 0;
+    const double radius =
+        automatic ? automatic_radius(rbf, plan) : static_cast<double>(from.radius) * to_radians;
+    plan.scale = static_cast<float>(distance_scale(plan.function, radius));
+    if (plan.interpolative) fill_inverse(rbf, plan, matrix);
+  }
+  return true;
 }
 
 /// Pose controls: lists of what each pose drives.
@@ -281,11 +324,6 @@ Status place_rbf(const dna::DnaView& view, Placer& placer, Rig& rig, Error& erro
     targets += target_floats(count, plan_inputs(solver));
     if (is_interpolative(solver)) inverses += size_t{padded(count)} * count;
   }
-  if (inverses > kMaxInverseFloats) {
-    return fail(error, Status::kDnaLimit, kNoOffset,
-                "rbfb.solvers: the interpolative solvers need %zu matrix entries; %zu are allowed",
-                inverses, kMaxInverseFloats);
-  }
   size_t pose_inputs = 0, pose_outputs = 0;
   for (const dna::RbfPoseControls& pose : view.rbfe.poses) {
     pose_inputs += pose.input_control_indices.count;
@@ -318,7 +356,6 @@ Status fill_rbf(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error
   if (rig.control_count && !writer.data) {
     return fail(error, Status::kMemory, kNoOffset, "no memory to compile RBF solvers");
   }
-  const double to_radians = view.desc.rotation_unit == 0 ? 0.017453292519943295 : 1.0;
   uint32_t input = 0, rotation = 0, pose = 0, lane = 0;
   size_t target = 0, inverse = 0;
   for (uint32_t i = 0; i < rbf.solvers.count; ++i) {
@@ -350,14 +387,8 @@ Status fill_rbf(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error
       rbf.pose_scales[lane + p] = std::min(std::max(scale, -kMaxScale), kMaxScale);
       rbf.pose_factors[lane + p] = 1.0f;
     }
+    plan.first_control = kNoFirstControl;
     fill_targets(from, plan, rbf);
-    const bool automatic = from.automatic_radius == 0;
-    const double radius =
-        automatic ? automatic_radius(rbf, plan) : static_cast<double>(from.radius) * to_radians;
-    plan.scale = static_cast<float>(distance_scale(plan.function, radius));
-    if (plan.interpolative && !fill_inverse(rbf, plan, scratch)) {
-      return fail(error, Status::kMemory, kNoOffset, "no memory to compile RBF solver %u", i);
-    }
     rotation += parted_rotations(from);
     pose += plan.pose_count;
     lane += padded(plan.pose_count);
@@ -372,8 +403,13 @@ Status fill_rbf(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error
     }
   }
   fill_poses(view, rbf);
-  find_order(rbf, writer);
   fill_lod_lists(view.rbfb.lod_solvers, rbf.lod_solvers);
+  const Status status = check_work(view, rig, error);
+  if (status != Status::kOk) return status;
+  if (!fill_radii_and_inverses(view, scratch, rbf)) {
+    return fail(error, Status::kMemory, kNoOffset, "no memory to compile RBF solvers");
+  }
+  find_order(rbf, writer);
   return Status::kOk;
 }
 

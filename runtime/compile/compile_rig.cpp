@@ -5,6 +5,9 @@
 #include <cstdio>
 #include <cstring>
 
+#include "runtime/dna/format/dna_writer.h"
+#include "runtime/rig/work.h"
+
 namespace mien {
 namespace {
 
@@ -296,6 +299,11 @@ void fill_lod_lists(const LodMap& map, LodLists& lists) {
     copy_array(map.indices[r], lists.indices.slice(lists.first[r], map.indices[r].count));
     lists.first[r + 1] = lists.first[r] + map.indices[r].count;
   }
+}
+
+uint64_t compile_budget(const DnaView& view, const Rig& rig) {
+  const uint64_t bytes = view.file_size ? view.file_size : dna::encoded_size(view, {});
+  return work_budget(std::min<uint64_t>(bytes, rig.block_size));
 }
 
 Status compile_rig(const DnaView& view, const CompileOptions& options, const Allocator& allocator,

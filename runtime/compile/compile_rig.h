@@ -88,11 +88,16 @@ void fill_variable_joint_values(const dna::DnaView& view, Rig& rig);
 void place_rotations(const dna::DnaView& view, Placer& placer, Rig& rig);
 Status fill_rotations(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
 
-/// kDnaLimit for a solver too large to be made.
+/// Steps that compiling, and a frame at each LOD, may take (work.h). What makes a rig large may be other
+/// layers of its file than those that are work, so the smaller of both counts; then a rig that was
+/// compiled opens as a baked file too.
+uint64_t compile_budget(const dna::DnaView& view, const Rig& rig);
+
+/// kDnaLimit for a solver too large to be made, and for work that is out of proportion.
 Status place_rbf(const dna::DnaView& view, Placer& placer, Rig& rig, Error& error);
 Status fill_rbf(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
 
-/// kDnaLimit for operations that repeat networks beyond measure.
+/// kDnaLimit for operations that repeat values or networks beyond measure.
 Status place_ml(const dna::DnaView& view, Placer& placer, Rig& rig, Error& error);
 Status fill_ml(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
 /// How many LODs, counted from 0, read a control to move a joint.

@@ -174,9 +174,8 @@ struct MlStep {
 constexpr uint32_t kNoMask = ~uint32_t{0};
 
 // Operations cost a file few bytes and may all run the same large network, so their number alone
-// bounds neither memory nor time.
+// does not bound memory. (Time: work.h.)
 constexpr size_t kMaxBufferFloats = size_t{4} << 20;
-constexpr size_t kMaxMultiplications = size_t{256} << 20;
 
 /// A joint that learned behavior moves (docs/rig-evaluation.md, 8.6 "ML joints"). Controls of what
 /// it does not give are kNoControl; a rotation takes three or four controls from rotation_control

@@ -273,7 +273,7 @@ TEST_F(ReportTest, CirclesOfCorrectives) {
   create_rig(opened.get(), MIEN_ISA_SCALAR, MIEN_ERROR_DNA_VALUE);
   const Report report(file);
   EXPECT_EQ(report.errors, 1u) << report.text();
-  EXPECT_TRUE(report.has(MIEN_ERROR_DNA_VALUE, "bhvr.controls.psds.columns")) << report.text();
+  EXPECT_TRUE(report.has(MIEN_ERROR_DNA_VALUE, "bhvr.controls.psds")) << report.text();
 }
 
 TEST_F(ReportTest, WarningsRefuseNothing) {

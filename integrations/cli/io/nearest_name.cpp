@@ -8,6 +8,8 @@ namespace mien::cli {
 
 namespace {
 
+constexpr size_t kLongestName = 1000;  // that anyone mistypes
+
 std::string lower_case(std::string_view text) {
   std::string lower(text);
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -37,12 +39,20 @@ size_t edit_distance(std::string_view a, std::string_view b) {
 NearestName::NearestName(std::string_view name)
     : name_(lower_case(name)), best_distance_(std::min<size_t>(name.size() / 4, 5) + 2) {}
 
+size_t NearestName::distance_to(std::string_view text) const {
+  const size_t longer = std::max(name_.size(), text.size());
+  const size_t shorter = std::min(name_.size(), text.size());
+  // The difference of lengths has to be inserted. Distances take time with the product of lengths.
+  if (longer - shorter >= best_distance_ || longer > kLongestName) return best_distance_;
+  return edit_distance(name_, text);
+}
+
 void NearestName::offer(std::string_view candidate) {
-  const std::string lower = lower_case(candidate);
-  const size_t dot = lower.find('.');
-  size_t distance = edit_distance(name_, lower);
-  if (dot != std::string::npos && name_.find('.') == std::string::npos) {
-    distance = std::min(distance, edit_distance(name_, std::string_view(lower).substr(dot + 1)));
+  const size_t dot = candidate.find('.');
+  const std::string lower = lower_case(candidate.substr(0, 2 * kLongestName));
+  size_t distance = distance_to(lower);
+  if (dot < lower.size() && name_.find('.') == std::string::npos) {
+    distance = std::min(distance, distance_to(std::string_view(lower).substr(dot + 1)));
   }
   if (distance >= best_distance_) return;
   best_distance_ = distance;

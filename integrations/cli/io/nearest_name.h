@@ -20,6 +20,9 @@ class NearestName {
   std::string question(const std::string& otherwise) const;
 
  private:
+  /// At most best_distance_: what is farther away does not matter.
+  size_t distance_to(std::string_view text) const;
+
   std::string name_;
   std::string best_;
   size_t best_distance_;

@@ -203,43 +203,6 @@ void check_definition_layer(Checker& c) {
 
 // Behavior --------------------------------------------------------------------------------------
 
-// Correctives that need each other have no order of evaluation. Settles, wave after wave, those
-// whose inputs are settled. Opening leaves this to the compilation of a rig.
-void check_psd_circles(Checker& c, const Field& field) {
-  const PsdTable& psds = c.view.bhvr.controls.psds;
-  const uint32_t first = c.view.first_psd(), end = c.view.first_ml();
-  if (!c.thorough || end > 65536 || psds.columns.count != psds.rows.count) return;
-
-  Marks settled;
-  auto open = [&](uint16_t control) {
-    return control >= first && control < end && !settled.has(control);
-  };
-  uint64_t budget =
-      uint64_t{1} << 28;  // waves times entries: no file keeps us for more than seconds
-  for (bool progress = true; progress;) {
-    if (budget < psds.rows.count) return;
-    budget -= psds.rows.count;
-    Marks waiting;
-    for (uint32_t i = 0; i < psds.rows.count; ++i) {
-      if (open(psds.columns[i])) waiting.set(psds.rows[i]);
-    }
-    progress = false;
-    for (uint32_t p = first; p < end; ++p) {
-      const uint16_t control = static_cast<uint16_t>(p);
-      if (settled.has(control) || waiting.has(control)) continue;
-      settled.set(control);
-      progress = true;
-    }
-  }
-  for (uint32_t i = 0; i < psds.rows.count; ++i) {
-    if (!open(psds.columns[i]) || !open(psds.rows[i])) continue;
-    c.error(Field{&field, "columns"}, Status::kDnaValue, c.offset(psds.columns, i),
-            "element %u makes corrective %u depend on a circle of correctives", i,
-            unsigned{psds.rows[i]});
-    return;
-  }
-}
-
 void check_controls(Checker& c, const Field& bhvr) {
   const Definition& d = c.view.defn;
   const Controls& controls = c.view.bhvr.controls;
@@ -266,7 +229,6 @@ void check_controls(Checker& c, const Field& bhvr) {
             "element %u is %u, but the %u correctives are numbered from %u", i, row, end - first,
             first);
   }
-  check_psd_circles(c, table);
 }
 
 // Evaluation assigns, so a row that comes up again replaces what was there.

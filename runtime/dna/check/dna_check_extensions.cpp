@@ -94,7 +94,9 @@ void check_rbf(Checker& c) {
   const Field field{nullptr, "rbfb"};
   c.numbered(Field{&field, "solvers"}, rbfb.solvers.count);
   c.numbered(Field{&field, "poses"}, rbfb.poses.count);
-  c.lod_map(Field{&field, "lodSolverMapping"}, rbfb.lod_solvers, rbfb.solvers.count, "solvers");
+  // Evaluation runs through these lists: a solver would run each time that it is listed.
+  c.lod_map(Field{&field, "lodSolverMapping"}, rbfb.lod_solvers, rbfb.solvers.count, "solvers",
+            Status::kDnaValue);
   for (uint32_t s = 0; s < rbfb.solvers.count && !c.stopped(); ++s) {
     check_solver(c, Field{&field, "solvers", s}, rbfb.solvers[s]);
   }

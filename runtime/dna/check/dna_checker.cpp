@@ -190,16 +190,29 @@ void Checker::finite(const Field& field, const Array<float>& values) {
   }
 }
 
-void Checker::unique(const Field& field, const Array<uint16_t>& numbers) {
-  if (!thorough) return;
+void Checker::unique(const Field& field, const Array<uint16_t>& numbers, Status repeated) {
+  if ((!thorough && repeated == Status::kOk) || numbers.count < 2) return;
+  const auto report = [&](uint32_t i) {
+    if (repeated == Status::kOk) {
+      warning(field, offset(numbers, i), "element %u is %u for the second time", i,
+              unsigned{numbers[i]});
+    } else {
+      error(field, repeated, offset(numbers, i), "element %u is %u for the second time", i,
+            unsigned{numbers[i]});
+    }
+  };
+  if (numbers.count <= 32) {  // marks take longer to clear than that
+    for (uint32_t i = 1; i < numbers.count && !stopped_; ++i) {
+      uint32_t k = 0;
+      while (numbers[k] != numbers[i]) ++k;
+      if (k != i) report(i);
+    }
+    return;
+  }
   Marks seen;
   for (uint32_t i = 0; i < numbers.count && !stopped_; ++i) {
-    const uint16_t number = numbers[i];
-    if (seen.has(number)) {
-      warning(field, offset(numbers, i), "element %u is %u for the second time", i,
-              unsigned{number});
-    }
-    seen.set(number);
+    if (seen.has(numbers[i])) report(i);
+    seen.set(numbers[i]);
   }
 }
 
@@ -212,7 +225,8 @@ void Checker::vectors(const Field& field, const Vec3Array& v) {
   finite(Field{&field, "zs"}, v.zs);
 }
 
-void Checker::lod_map(const Field& field, const LodMap& map, uint32_t limit, const char* of) {
+void Checker::lod_map(const Field& field, const LodMap& map, uint32_t limit, const char* of,
+                      Status repeated) {
   const Field lods{&field, "lods"};
   indices_below(lods, map.lods, map.indices.count, "lists");
   const bool nothing_to_list = limit == 0 && map.lods.count == 0;
@@ -224,7 +238,7 @@ void Checker::lod_map(const Field& field, const LodMap& map, uint32_t limit, con
     if (i >= map.indices.count || stopped_) return;
     const Field row{&field, "indices", i};
     indices_below(row, map.indices[i], limit, of);
-    unique(row, map.indices[i]);
+    unique(row, map.indices[i], repeated);
   };
   if (end_lod == kAllLods) {
     for (uint32_t i = 0; i < map.indices.count; ++i) check_row(i);

@@ -127,14 +127,15 @@ class Checker {
   /// Warns of NaN and infinity. Reads every number: thorough only.
   void finite(const Field& field, const Array<float>& values);
 
-  /// Warns of numbers that come up twice. Thorough only.
-  void unique(const Field& field, const Array<uint16_t>& numbers);
+  /// Reports numbers that come up twice: with `repeated`, or as warnings, if thorough, for kOk.
+  void unique(const Field& field, const Array<uint16_t>& numbers, Status repeated = Status::kOk);
 
   // Shared records ------------------------------------------------------------------------------
 
   /// Three equal lengths, finite.
   void vectors(const Field& field, const Vec3Array& vectors);
-  void lod_map(const Field& field, const LodMap& map, uint32_t limit, const char* of);
+  void lod_map(const Field& field, const LodMap& map, uint32_t limit, const char* of,
+               Status repeated = Status::kOk);
   /// `lods` says how many of `rows` rows each LOD uses: an entry per LOD, none larger than `rows`,
   /// none larger than the one before (LOD selection keeps the rows of the finest chosen LOD).
   void row_counts(const Field& field, const Array<uint16_t>& lods, uint32_t rows);

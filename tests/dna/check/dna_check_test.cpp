@@ -449,29 +449,13 @@ TEST(DnaCheckTest, ControlsOfLayersNotLoaded) {
   EXPECT_EQ(lenient.findings.size(), 0u) << lenient.text();
 }
 
-// Circles of correctives ------------------------------------------------------------------------
+// Correctives of correctives: circles are left to the compilation of a rig ------------------------
 
 TEST(DnaCheckTest, CorrectiveOfCorrective) {
   Arena arena(default_allocator());
   DnaView view = tiny_rig(arena);
   view.bhvr.controls.psds.columns = be(arena, U16{0, 4, 0, 2});
   expect_no_findings(view);
-}
-
-// Opening lets this pass, making a rig does not.
-TEST(DnaCheckTest, CorrectivesInACircle) {
-  Arena arena(default_allocator());
-  DnaView view = tiny_rig(arena);
-  for (U16 columns : {U16{0, 4, 0, 3}, U16{0, 3, 0, 2}}) {
-    view.bhvr.controls.psds.columns = be(arena, columns);
-    KeptFindings report;
-    EXPECT_TRUE(check(view, report, true));
-    EXPECT_EQ(report.errors(), 1u);
-    EXPECT_TRUE(report.has(kValue, "bhvr.controls.psds.columns")) << report.text();
-    KeptFindings opening;
-    EXPECT_TRUE(check(view, opening, false));
-    EXPECT_EQ(opening.findings.size(), 0u) << opening.text();
-  }
 }
 
 // Time ------------------------------------------------------------------------------------------
