@@ -407,7 +407,7 @@ typedef struct MienDnaInfo {
     uint32_t version;              /* 1 to 8: the file is of version 2.version */
     uint32_t layers;               /* MIEN_LAYER_..., combined with |: the loaded layers */
     uint32_t has_blend_shape_targets; /* boolean: the geometry is loaded with its targets */
-    uint64_t file_bytes;           /* size of the file. 0: generated */
+    uint64_t file_bytes;           /* size of the file */
     uint64_t memory_bytes;         /* memory taken from the allocator */
     uint32_t is_mapped;            /* boolean: the file is mapped */
     uint32_t layer_count;          /* entries for mien_dna_layer() */
@@ -625,43 +625,6 @@ MIEN_CHECKED MienStatus mien_report_finding(const MienReport* report, uint32_t i
 
 /* Destroys a report. */
 MIEN_API void mien_report_destroy(MienReport* report);
-
-/* ---- DNA: generating ------------------------------------------------------------------------- */
-
-enum MienPreset {
-    MIEN_PRESET_TINY = 0,   /* readable by eye */
-    MIEN_PRESET_SMALL = 1,
-    MIEN_PRESET_MEDIUM = 2,
-    MIEN_PRESET_LARGE = 3,  /* a production head: 870 joints, 260 raw controls, 8 LODs, a million
-                               matrix entries */
-    MIEN_PRESET_BODY = 4,   /* a production body: 342 joints that 72 RBF solvers with 670 poses, 22
-                               twists and 16 swings move, some of them represented by quaternions */
-    MIEN_PRESET_HEAD = 5    /* a stylized person to look at: skin, eyes, teeth, tongue, hair; the 52
-                               expressions of ARKit as raw controls under their names (values 0..1),
-                               correctives, wrinkle maps, 8 LODs. Seed 0 is the one that was
-                               designed, others vary proportions and colors. Vertex colors are in
-                               the metadata: key "mien.colors.<mesh name>", value base64 of 3 bytes
-                               (sRGB) per position of the mesh. */
-};
-
-enum MienGenerate {
-    MIEN_GENERATE_ML = 1 /* with learned behavior: networks by mesh region, every activation, their
-                            operations, and joints that they move (not for MIEN_PRESET_HEAD) */
-};
-
-typedef struct MienGenerateDesc {
-    size_t struct_size;
-    uint32_t preset; /* MIEN_PRESET_... */
-    uint32_t flags;  /* MIEN_GENERATE_..., combined with | */
-    uint64_t seed;   /* the same seed gives the same bytes on every machine */
-    const MienAllocator* allocator;
-} MienGenerateDesc;
-MIEN_DEFAULT(MienGenerateDesc, mien_generate_desc_default)
-
-/* Makes a synthetic rig: behavior of realistic size and sparsity, with simple geometry. `desc` may be
- * NULL (tiny, seed 0). Close with mien_dna_close(). */
-MIEN_CHECKED MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna,
-                                      MienError* error);
 
 /* ---- Rig ------------------------------------------------------------------------------------- */
 

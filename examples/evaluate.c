@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include <mien.h>
+#include <mien_author.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -2,14 +2,14 @@
 #define MIEN_EXCEPTIONS  // value() throws; without, test each result
 #include <cmath>
 #include <cstdio>
-#include <mien.hpp>
+#include <mien_author.hpp>
 
 /* evaluate [FILE.dna [CONTROL]]: turns a control up and tells which joint it moves most. */
 int main(int argc, char** argv) try {
   const char* control = argc > 2 ? argv[2] : "CTRL_expressions.jawOpen";
   mien::GenerateDesc large;
   large.preset = MIEN_PRESET_LARGE;
-  const auto dna = (argc > 1 ? mien::Dna::open(argv[1]) : mien::Dna::generate(large)).value();
+  const auto dna = (argc > 1 ? mien::Dna::open(argv[1]) : mien::generate(large)).value();
   const mien::Rig rig = mien::Rig::create(dna).value();
   mien::Instance face = rig.instance().value();
   face.raw_controls()[rig.find(MIEN_KIND_RAW_CONTROL, control).value()] = 1;  // written in place

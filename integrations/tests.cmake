@@ -93,7 +93,7 @@ foreach(standard 17 20)
     set_target_properties(${name} PROPERTIES CXX_STANDARD ${standard})
     target_compile_options(${name} PRIVATE ${strict_cxx})
     target_include_directories(${name} PRIVATE ${integrations}/cpp)
-    target_link_libraries(${name} PRIVATE mien)
+    target_link_libraries(${name} PRIVATE mien_author)
     if(way STREQUAL exceptions)
       target_compile_definitions(${name} PRIVATE MIEN_EXCEPTIONS)
     else()
@@ -122,7 +122,7 @@ set_tests_properties(cpp_linking_test PROPERTIES LABELS abi)
 add_executable(example_cpp ${PROJECT_SOURCE_DIR}/examples/evaluate.cpp)
 target_compile_options(example_cpp PRIVATE ${strict_cxx})
 target_include_directories(example_cpp PRIVATE ${integrations}/cpp)
-target_link_libraries(example_cpp PRIVATE mien)
+target_link_libraries(example_cpp PRIVATE mien_author)
 
 # ---- the examples -----------------------------------------------------------------------------------
 

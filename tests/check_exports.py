@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What mien.h declares, what mien.map lists and what libmien.so exports are the same names.
+"""What a header declares, what its map lists and what the library exports are the same names.
 
-Usage: check_exports.py [--nm NM] LIBRARY
+Usage: check_exports.py [--nm NM] LIBRARY...    libmien.so, libmien-author.so or both
 """
 import argparse
 import re
@@ -17,24 +17,26 @@ def without_comments(text):
     return re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)
 
 
-def declared(header):
-    """Functions marked MIEN_API or MIEN_CHECKED."""
-    text = re.sub(r"^[ \t]*#(.*\\\n)*.*$", "", without_comments(header), flags=re.MULTILINE)
-    names = re.findall(r"\bMIEN_(?:API|CHECKED)\b[^;()]*?\b(\w+)\s*\(", text)
-    if len(names) != len(re.findall(r"\bMIEN_(?:API|CHECKED)\b", text)):
-        sys.exit("mien.h: a MIEN_API that is no function, or that this check cannot read")
+def declared(file, mark):
+    """Functions marked MIEN_API or MIEN_CHECKED; of mien_author.h, MIEN_AUTHOR_..."""
+    text = re.sub(r"^[ \t]*#(.*\\\n)*.*$", "", without_comments(file.read_text(encoding="utf-8")),
+                  flags=re.MULTILINE)
+    names = re.findall(rf"\b{mark}_(?:API|CHECKED)\b[^;()]*?\b(\w+)\s*\(", text)
+    if not names or len(names) != len(re.findall(r"\bMIEN_(?:\w+_)?(?:API|CHECKED)\b", text)):
+        sys.exit(f"{file.name}: a {mark}_API that is no function, or that this check cannot read")
     return names
 
 
-def listed(version_script):
+def listed(file):
     """Names under `global:`, and the name of the version itself."""
     version, body = re.fullmatch(
-        r"\s*(\w+)\s*\{\s*global:(.*?)local:\s*\*;\s*\};\s*", without_comments(version_script), re.DOTALL
+        r"\s*(\w+)\s*\{\s*global:(.*?)local:\s*\*;\s*\};\s*",
+        without_comments(file.read_text(encoding="utf-8")), re.DOTALL
     ).groups()
     names = [name.strip() for name in body.split(";") if name.strip()]
     for name in names:
         if not re.fullmatch(r"\w+", name):
-            sys.exit(f"mien.map: {name!r}: each name is written out, without patterns")
+            sys.exit(f"{file.name}: {name!r}: each name is written out, without patterns")
     return version, names
 
 
@@ -48,37 +50,37 @@ def exported(nm, library):
     return [(re.sub(r"@.*", "", row[0]), row[1]) for row in rows]
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("library")
-    parser.add_argument("--nm", default="nm")
-    args = parser.parse_args()
+def problems_of(nm, library):
+    stem = "mien_author" if "mien-author" in Path(library).name else "mien"
+    header, version_script = CAPI / f"{stem}.h", CAPI / f"{stem}.map"
+    in_header = declared(header, stem.upper())
+    version, in_script = listed(version_script)
 
-    header = declared((CAPI / "mien.h").read_text(encoding="utf-8"))
-    version, script = listed((CAPI / "mien.map").read_text(encoding="utf-8"))
-    symbols = exported(args.nm, args.library)
-
-    problems = []
-    for where, names in (("mien.h", header), ("mien.map", script)):
+    for where, names in ((header.name, in_header), (version_script.name, in_script)):
         for name in sorted({name for name in names if names.count(name) > 1}):
-            problems.append(f"{where} has {name} more than once")
-    library = set()
-    for name, kind in symbols:
+            yield f"{where} has {name} more than once"
+    in_library = set()
+    for name, kind in exported(nm, library):
         if name == version and kind == "A":
             continue
-        library.add(name)
+        in_library.add(name)
         if kind != "T":
-            problems.append(f"the library exports {name}, which is no plain function (nm: {kind})")
+            yield f"{library} exports {name}, which is no plain function (nm: {kind})"
 
-    def compare(left, right, text):
-        problems.extend(text.format(name) for name in sorted(set(left) - set(right)))
+    sets = {header.name: in_header, version_script.name: in_script, library: in_library}
+    for where, names in sets.items():
+        for other, wanted in sets.items():
+            yield from (f"{where} lacks {name} of {other}"
+                        for name in sorted(set(wanted) - set(names)))
 
-    compare(header, script, "mien.map lacks {} of mien.h")
-    compare(script, header, "mien.map has {}, which mien.h does not declare")
-    compare(header, library, "the library does not export {} of mien.h")
-    compare(library, header, "the library exports {}, which mien.h does not declare")
 
-    print("\n".join(problems) if problems else f"{len(header)} names, in header, list and library")
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("libraries", nargs="+", metavar="LIBRARY")
+    parser.add_argument("--nm", default="nm")
+    args = parser.parse_args()
+    problems = [problem for library in args.libraries for problem in problems_of(args.nm, library)]
+    print("\n".join(problems) if problems else "the same names in headers, maps and libraries")
     return 1 if problems else 0
 
 

@@ -35,15 +35,24 @@ GRAPH = {
     "runtime/compile": ["runtime/base", "simd", "runtime/dna/format", "runtime/rig",
                         "runtime/pose", "runtime/deform"],
     # Makes DNA files.
-    "runtime/author": ["runtime/base", "runtime/dna/format", "runtime/dna"],
-    "capi": ["runtime/base", "simd", "runtime/dna/format", "runtime/dna/check",
+    "runtime/author": ["runtime/base", "runtime/dna/format"],
+    # The C interface: what both libraries are built with, and each of them.
+    "capi/arguments": ["runtime/base"],
+    "capi/mien_author": ["runtime/base", "runtime/dna/format", "runtime/author",
+                         "capi/arguments"],
+    "capi": ["capi/arguments", "runtime/base", "simd", "runtime/dna/format", "runtime/dna/check",
              "runtime/dna/convert", "runtime/dna", "runtime/rig", "runtime/eval", "runtime/anim",
              "runtime/mix", "runtime/pose", "runtime/deform", "runtime/probe", "runtime/baked",
-             "runtime/compile",
-             "runtime/author"],
+             "runtime/compile"],
 }
 
-# The rooms of the program: the same, and no room sees the library but through mien.h.
+# Of capi, files that are layers of their own.
+FILES = {"capi/mien.h": "capi/arguments", "capi/arguments.h": "capi/arguments",
+         "capi/arguments.cpp": "capi/arguments", "capi/mien_author.h": "capi/mien_author",
+         "capi/mien_author.cpp": "capi/mien_author"}
+PUBLIC_HEADERS = ("capi/mien.h", "capi/mien_author.h")
+
+# The rooms of the program: the same, and no room sees the libraries but through their headers.
 PROGRAM = "integrations/cli"
 PROGRAM_GRAPH = {
     "math": [],
@@ -51,11 +60,12 @@ PROGRAM_GRAPH = {
     "io": ["mien.h", "math"],                     # files, frames, JSON, output
     "gltf": ["mien.h", "math", "io"],             # rigs -> GLB, OBJ
     "scene": ["mien.h", "math", "io", "render"],  # a rig in a pose
-    "commands": ["mien.h", "math", "io", "render", "gltf", "scene", "bench/csr_matrix.h"],
+    "commands": ["mien.h", "mien_author.h", "math", "io", "render", "gltf", "scene",
+                 "bench/csr_matrix.h"],
     "": ["mien.h", "io", "commands"],             # main.cpp
 }
 
-# Everything else outside sees the public header and its own files. Tests and benchmarks see
+# Everything else outside sees the public headers and its own files. Tests and benchmarks see
 # everything.
 OUTSIDE = "integrations"
 
@@ -68,7 +78,7 @@ KERNEL_HEADERS = re.compile(r"(std\w+|string|math|float|assert|limits|arm_neon|i
 
 def layer_of(path):
     """Layer of a path relative to the project, or None."""
-    directory = path.rsplit("/", 1)[0]
+    directory = FILES.get(path, path.rsplit("/", 1)[0])
     return directory if directory in GRAPH else None
 
 
@@ -108,7 +118,7 @@ def check_program_include(path, resolved):
     if own not in PROGRAM_GRAPH:
         return "a room that this check does not know"
     if other is None:
-        other = "mien.h" if resolved == "capi/mien.h" else resolved
+        other = resolved[len("capi/"):] if resolved in PUBLIC_HEADERS else resolved
     if other == own or other in PROGRAM_GRAPH[own]:
         return None
     return f"{own or 'main'} knows nothing of {other}: see PROGRAM_GRAPH"
@@ -132,8 +142,8 @@ def check_include(path, quoted, target, resolved):
         return check_program_include(path, resolved)
     if own is None:
         own_directory = "/".join(path.split("/")[:2]) + "/"
-        if resolved != "capi/mien.h" and not resolved.startswith(own_directory):
-            return "integrations include mien.h and their own files only"
+        if resolved not in PUBLIC_HEADERS and not resolved.startswith(own_directory):
+            return "integrations include the public headers and their own files only"
         return None
 
     other = layer_of(resolved)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What mien.h offers is there for users of each language, beyond the generated declarations: every
+"""What the headers offer is there for users of each language, beyond the generated declarations: every
 function, every field of the structs that functions are given, every enum with all its values, and the
 statuses of each function in the documentation.
 

@@ -34,7 +34,8 @@ def with_function(comment, declaration):
 
 
 def function(comment, declaration):
-    return with_function(comment, declaration)["functions"][-1]
+    functions = with_function(comment, declaration)["functions"]
+    return [found for found in functions if found["library"] == "mien"][-1]
 
 
 def parameter(comment, declaration, name):

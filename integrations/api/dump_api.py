@@ -19,7 +19,8 @@ from conventions import Conventions
 HERE = Path(__file__).resolve().parent
 CAPI = HERE.parent.parent / "capi"
 # Library, its header, its linker script. A header knows the types of those before it.
-LIBRARIES = (("mien", "mien.h", "mien.map"),)
+LIBRARIES = (("mien", "mien.h", "mien.map"),
+             ("mien-author", "mien_author.h", "mien_author.map"))
 OUTPUT = HERE / "mien_api.json"
 
 

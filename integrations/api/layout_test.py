@@ -41,7 +41,7 @@ def main():
     bits = "_32" if arguments[:1] == ["--32"] else ""
     compiler = arguments[1:] if bits else arguments
     api = json.loads((HERE / "mien_api.json").read_text(encoding="utf-8"))
-    lines = ["#include <mien.h>"]
+    lines = ["#include <mien_author.h>"]
     lines += [f'_Static_assert({expression} == {value}, "{expression} is not {value}");'
               for expression, value in claims(api, bits)]
     with tempfile.TemporaryDirectory() as directory:

@@ -16,7 +16,7 @@
 //   Linking     Files of one program may differ in MIEN_EXCEPTIONS and in the C++ standard: each
 //               combination has an inline namespace of its own. Types of one do not convert to another.
 //
-// Units, threads and shapes: see mien.h.
+// Units, threads and shapes: see mien.h. What makes files is in mien_author.hpp.
 #pragma once
 
 #include <mien.h>
@@ -91,7 +91,6 @@ struct Sized : Struct {
 };
 using DnaDesc = Sized<MienDnaDesc>;
 using WriteDesc = Sized<MienWriteDesc>;
-using GenerateDesc = Sized<MienGenerateDesc>;
 using RigDesc = Sized<MienRigDesc>;
 using BakedDesc = Sized<MienBakedDesc>;
 using BakedRigDesc = Sized<MienBakedRigDesc>;
@@ -312,10 +311,6 @@ class Dna : public Owner<MienDna, mien_dna_close> {
     return make<Dna>([&](MienDna** out, MienError* error) {
       return mien_dna_open_stream(&stream, &desc, out, error);
     });
-  }
-  static Result<Dna> generate(const GenerateDesc& desc = {}) {
-    return make<Dna>(
-        [&](MienDna** out, MienError* error) { return mien_dna_generate(&desc, out, error); });
   }
 
   Result<MienDnaInfo> info() const {
@@ -881,5 +876,3 @@ inline Result<MienInstanceStatistics> statistics(const Instance& instance) {
 
 }  // namespace MIEN_CPP_NAMESPACE
 }  // namespace mien
-
-#undef MIEN_CPP_NAMESPACE

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <mien.hpp>
+#include <mien_author.hpp>
 #include <string>
 #include <vector>
 
@@ -20,7 +20,7 @@ void check(bool condition, const char* text, int line) {
 mien::Dna generated(MienPreset preset = MIEN_PRESET_SMALL) {
   mien::GenerateDesc desc;
   desc.preset = preset;
-  return mien::Dna::generate(desc).value();
+  return mien::generate(desc).value();
 }
 
 /// A stream over bytes.
@@ -133,7 +133,7 @@ void test_clips() {
 
     mien::GenerateDesc head;
     head.preset = MIEN_PRESET_HEAD;
-    const mien::Rig rig = mien::Rig::create(mien::Dna::generate(head).value()).value();
+    const mien::Rig rig = mien::Rig::create(mien::generate(head).value()).value();
     mien::Instance face = rig.instance().value();
     const mien::ClipBinding binding = clip.bind(rig).value();
     CHECK(binding.info()->missing_channels.count == 1);

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Makes the wheel: the package, and the library beside it, so that no variable has to tell where
-it is. Needs the standard library of Python 3.9 only, and no network.
+"""Makes the wheel: the package, and the libraries beside it, so that no variable has to tell where
+they are. Needs the standard library of Python 3.9 only, and no network.
 
     build_wheel.py [--library FILE] [--platform TAG] [--output DIRECTORY]
 
-It is also the build backend that pyproject.toml names (PEP 517). The library is --library, or the
-file named in MIEN_LIBRARY, or that of build/release in the source tree.
+It is also the build backend that pyproject.toml names (PEP 517). libmien is --library, or the file
+named in MIEN_LIBRARY, or that of build/release in the source tree; libmien-author lies beside it.
 """
 import argparse
 import base64
@@ -52,15 +52,26 @@ def metadata():
     return "\n".join(lines) + "\n" + (HERE / "README.md").read_text(encoding="utf-8")
 
 
-def library_file(given=None):
-    found = Path(given or os.environ.get("MIEN_LIBRARY") or ROOT / "build/release/lib/libmien.so")
-    if not found.exists():
-        sys.exit(f"no library at {found}: build it (./dev build), or name it in MIEN_LIBRARY")
-    return found.resolve()
+def library_files(given=None):
+    """(name in the package, file) of both libraries."""
+    mien = Path(given or os.environ.get("MIEN_LIBRARY") or ROOT / "build/release/lib/libmien.so")
+    files = []
+    for stem, found in (("mien", mien), ("mien-author", mien.parent / built_name("mien-author"))):
+        if not found.exists():
+            sys.exit(f"no library at {found}: build it (./dev build), or name libmien in "
+                     "MIEN_LIBRARY")
+        files.append((packaged_name(stem), found.resolve()))
+    return files
 
 
-def library_name():
-    return {"win32": "mien.dll", "darwin": "libmien.dylib"}.get(sys.platform, "libmien.so")
+def built_name(stem):
+    return {"win32": f"{stem}.dll", "darwin": f"lib{stem}.dylib"}.get(sys.platform, f"lib{stem}.so")
+
+
+def packaged_name(stem):
+    """The name by which libmien-author asks for libmien."""
+    return {"win32": f"{stem}.dll", "darwin": f"lib{stem}.0.dylib"}.get(sys.platform,
+                                                                       f"lib{stem}.so.0")
 
 
 # The first C library with which each version of the C++ library was released: those of the
@@ -69,13 +80,13 @@ CXX_NEEDS = [((3, 4, 19), 17), ((3, 4, 22), 24), ((3, 4, 24), 27), ((3, 4, 28), 
              ((3, 4, 29), 34), ((3, 4, 30), 35), ((3, 4, 32), 38)]
 
 
-def platform_tag(library=None):
-    """The tag of this platform; on Linux with glibc, the manylinux tag that the library's symbols
-    allow, so that pip installs it on every system that can run it."""
+def platform_tag(libraries):
+    """The tag of this platform; on Linux with glibc, the manylinux tag that the libraries' symbols
+    allow, so that pip installs them on every system that can run them."""
     plain = re.sub(r"[-.]", "_", sysconfig.get_platform())
-    if not plain.startswith("linux_") or library is None or not shutil.which("objdump"):
+    if not plain.startswith("linux_") or not shutil.which("objdump"):
         return plain
-    symbols = subprocess.run(["objdump", "-p", library], capture_output=True, text=True).stdout
+    symbols = subprocess.run(["objdump", "-p", *libraries], capture_output=True, text=True).stdout
     c = [int(minor) for minor in re.findall(r"\bGLIBC_2\.(\d+)", symbols)]
     cxx = max([tuple(map(int, found.split("."))) for found in
                re.findall(r"\bGLIBCXX_([\d.]+)", symbols)], default=(0, 0, 0))
@@ -89,10 +100,11 @@ def write(directory, library=None, tag=None):
     """Writes the wheel and returns its name."""
     stem = f"mien-{version()}"
     info = f"{stem}.dist-info"
-    tag = f"py3-none-{tag or platform_tag(library_file(library))}"
+    libraries = library_files(library)
+    tag = f"py3-none-{tag or platform_tag([file for _, file in libraries])}"
     files = [(f"mien/{file.name}", file.read_bytes()) for file in sorted((HERE / "mien").iterdir())
              if file.suffix == ".py" or file.name == "py.typed"]
-    files.append((f"mien/{library_name()}", library_file(library).read_bytes()))
+    files += [(f"mien/{name}", file.read_bytes()) for name, file in libraries]
     files.append((f"{info}/METADATA", metadata().encode()))
     files.append((f"{info}/LICENSE", (ROOT / "LICENSE").read_bytes()))
     files.append((f"{info}/WHEEL", (
@@ -102,10 +114,12 @@ def write(directory, library=None, tag=None):
     record = []
     name = f"{stem}-{tag}.whl"
     with zipfile.ZipFile(Path(directory) / name, "w", zipfile.ZIP_DEFLATED) as wheel:
+        executable = [f"mien/{name}" for name, _ in libraries]
+
         def add(path, data):
             entry = zipfile.ZipInfo(path, DATE)
             entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.external_attr = (0o100755 if path.endswith(library_name()) else 0o100644) << 16
+            entry.external_attr = (0o100755 if path in executable else 0o100644) << 16
             wheel.writestr(entry, data)
 
         for path, data in files:
@@ -133,8 +147,8 @@ def build_sdist(sdist_directory, config_settings=None):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--library", help="libmien to put into it")
-    parser.add_argument("--platform", help="platform tag; default: that of the library")
+    parser.add_argument("--library", help="libmien to put into it, with libmien-author beside it")
+    parser.add_argument("--platform", help="platform tag; default: that of the libraries")
     parser.add_argument("--output", default=".", help="directory; default: this one")
     args = parser.parse_args()
     Path(args.output).mkdir(parents=True, exist_ok=True)

@@ -286,8 +286,12 @@ def write_statuses(api):
     yield "}\n"
 
 
-def write_functions(functions):
-    yield "# Name, result, parameters.\nFUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (\n"
+# Library, its class, its table.
+LIBRARIES = (("mien", "Library", "FUNCTIONS"), ("mien-author", "AuthorLibrary", "AUTHOR_FUNCTIONS"))
+
+
+def write_functions(functions, library, class_name, table):
+    yield f"# Name, result, parameters.\n{table}: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (\n"
     for function in functions:
         types = ", ".join(c_type(p["type"], parameter=True) for p in function["parameters"])
         returned = function["returns"]
@@ -296,12 +300,12 @@ def write_functions(functions):
         line = f'("{function["name"]}", {result}, ({types}{comma})),'
         yield textwrap.fill(line, 100, initial_indent="    ", subsequent_indent="     ") + "\n"
     yield ")\n\n\n"
-    yield 'class Library:\n    """Each function of the C interface, by its name."""\n\n'
+    yield f'class {class_name}:\n    """Each function of lib{library}, by its name."""\n\n'
     for function in functions:
         yield f"    {function['name']}: Any\n"
-    yield '''
+    yield f'''
     def __init__(self, library: ctypes.CDLL) -> None:
-        for name, result, parameters in FUNCTIONS:
+        for name, result, parameters in {table}:
             function = getattr(library, name)
             function.restype = result
             function.argtypes = parameters
@@ -328,7 +332,9 @@ def generate(api):
                if struct["name"] in given and struct["sized"] and struct["name"] != "MienError"
                and not has_views(struct)]
     blocks.append(write_statuses(api))
-    blocks.append(write_functions(api["functions"]))
+    for library, class_name, table in LIBRARIES:
+        functions = [f for f in api["functions"] if f["library"] == library]
+        blocks.append(write_functions(functions, library, class_name, table))
     return "\n\n".join("".join(block) for block in blocks)
 
 

@@ -53,7 +53,7 @@ fi
 # The example prints what the one in C prints, whichever way it is linked.
 expected=$("$build/tests/example_c")
 rm -rf "$build/rust/installed"
-for component in mien_runtime mien_development; do
+for component in mien_runtime mien_author_runtime mien_development; do
   cmake --install "$build" --prefix "$build/rust/installed" --component $component >/dev/null
 done
 unset MIEN_LIB_DIR

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * The default of every sized struct: its size in place, all else zero. Compiled as C11 and as C++17,
  * both with the warnings that users turn on. */
-#include <mien.h>
+#include <mien_author.h>
 #include <stdio.h>
 #include <string.h>
 

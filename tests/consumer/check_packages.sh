@@ -13,20 +13,23 @@ root=$work/root
 
 rm -rf "$work"
 mkdir -p "$root"
-[ ${#packages[@]} -eq 3 ] || { echo "not three packages: ${packages[*]}" >&2; exit 1; }
+[ ${#packages[@]} -eq 4 ] || { echo "not four packages: ${packages[*]}" >&2; exit 1; }
 for package in "${packages[@]}"; do
   dpkg-deb --extract "$package" "$root"
 done
 libdir=$(dirname "$(find "$root" -name libmien.so)")
-soname=$(basename "$(readlink "$libdir/libmien.so")")
 
 # Each exported name has its release, and no other name has one.
-python3 "$here/../check_exports.py" "$libdir/libmien.so"
-runtime=$(printf '%s\n' "${packages[@]}" | grep "/libmien${soname##*.so.}_")
-dpkg-deb --ctrl-tarfile "$runtime" | tar -xO ./symbols >"$work/symbols"
-sed -n 's/^ \(mien_[a-z0-9_]*\)@.*/\1/p' "$work/symbols" >"$work/symbols.names"
-sed -n 's/^ *\(mien_[a-z0-9_]*\);.*/\1/p' "$here/../../capi/mien.map" | LC_ALL=C sort >"$work/map.names"
-diff "$work/map.names" "$work/symbols.names"
+python3 "$here/../check_exports.py" "$libdir/libmien.so" "$libdir/libmien-author.so"
+for library in mien mien-author; do
+  soname=$(basename "$(readlink "$libdir/lib$library.so")")
+  runtime=$(printf '%s\n' "${packages[@]}" | grep "/lib$library${soname##*.so.}_")
+  dpkg-deb --ctrl-tarfile "$runtime" | tar -xO ./symbols >"$work/symbols"
+  sed -n 's/^ \(mien_[a-z0-9_]*\)@.*/\1/p' "$work/symbols" >"$work/symbols.names"
+  sed -n 's/^ *\(mien_[a-z0-9_]*\);.*/\1/p' "$here/../../capi/${library/-/_}.map" |
+    LC_ALL=C sort >"$work/map.names"
+  diff "$work/map.names" "$work/symbols.names"
+done
 
 # As for another machine: the packages' own root stands before the paths that they name.
 export PKG_CONFIG_LIBDIR=$libdir/pkgconfig PKG_CONFIG_SYSROOT_DIR=$root

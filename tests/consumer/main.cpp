@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: MIT
 // The same as main.c, with what is installed for C++.
 #include <cstdio>
+#ifdef MAKES_FILES
+#include <mien_author.hpp>
+#else
 #include <mien.hpp>
+#endif
 
-int main() {
-  auto dna = mien::Dna::generate();
+int main(int argc, char** argv) {
+  if (argc != 2) return 1;
+#ifdef MAKES_FILES
+  auto dna = mien::generate();
+#else
+  auto dna = mien::Dna::open(argv[1]);
+#endif
   if (!dna) {
     std::fprintf(stderr, "mien: %s\n", dna.error().message());
     return 1;

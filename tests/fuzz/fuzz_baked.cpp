@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "capi/mien_author.h"
 #include "runtime/baked/baked_objects.h"
 #include "runtime/dna/format/dna_writer.h"
 #include "tests/support/exercise_baked.h"

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "capi/mien_author.h"
 #include "runtime/dna/dna_reader.h"
 #include "runtime/dna/format/dna_writer.h"
 #include "tests/fuzz/view_mutator.h"

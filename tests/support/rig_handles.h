@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "capi/handles.h"
-#include "capi/mien.h"
+#include "capi/mien_author.h"
 #include "tests/support/descs.h"
 
 namespace mien {

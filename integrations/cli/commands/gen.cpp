@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // mien gen: a synthetic rig; mien demo-head: the head in the box.
+#include "capi/mien_author.h"
 #include "integrations/cli/commands/options.h"
 #include "integrations/cli/io/output.h"
 #include "integrations/cli/io/write_dna.h"

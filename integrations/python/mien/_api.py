@@ -237,34 +237,6 @@ class Severity(IntEnum):
     WARNING = 1
 
 
-class Preset(IntEnum):
-    """Values of enum MienPreset of the C interface."""
-
-    #: readable by eye
-    TINY = 0
-    SMALL = 1
-    MEDIUM = 2
-    #: a production head: 870 joints, 260 raw controls, 8 LODs, a million matrix entries
-    LARGE = 3
-    #: a production body: 342 joints that 72 RBF solvers with 670 poses, 22 twists and 16 swings
-    #: move, some of them represented by quaternions
-    BODY = 4
-    #: a stylized person to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit
-    #: as raw controls under their names (values 0..1), correctives, wrinkle maps, 8 LODs. Seed 0
-    #: is the one that was designed, others vary proportions and colors. Vertex colors are in the
-    #: metadata: key "mien.colors.<mesh name>", value base64 of 3 bytes (sRGB) per position of the
-    #: mesh.
-    HEAD = 5
-
-
-class Generate(IntEnum):
-    """Values of enum MienGenerate of the C interface."""
-
-    #: with learned behavior: networks by mesh region, every activation, their operations, and
-    #: joints that they move (not for Preset.HEAD)
-    ML = 1
-
-
 class Isa(IntEnum):
     """Instruction sets."""
 
@@ -460,6 +432,34 @@ class Interpolation(IntEnum):
     STEP = 1
     #: a Catmull-Rom spline, clamped to the range of the two frames
     CATMULL_ROM = 2
+
+
+class Preset(IntEnum):
+    """Values of enum MienPreset of the C interface."""
+
+    #: small enough to read
+    TINY = 0
+    SMALL = 1
+    MEDIUM = 2
+    #: a production head: 870 joints, 260 raw controls, 8 LODs, a million matrix entries
+    LARGE = 3
+    #: a production body: 342 joints, moved by 72 RBF solvers with 670 poses, 22 twists and 16
+    #: swings; some are quaternion joints
+    BODY = 4
+    #: a stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit as
+    #: raw controls with their names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the
+    #: designed head, other seeds vary proportions and colors. Vertex colors are in the metadata:
+    #: key "mien.colors.<mesh name>", value base64 of 3 bytes (sRGB) per vertex position of the
+    #: mesh.
+    HEAD = 5
+
+
+class Generate(IntEnum):
+    """Values of enum MienGenerate of the C interface."""
+
+    #: with machine-learned behavior: networks per mesh region with every activation and operation,
+    #: and joints that they move. Not for Preset.HEAD
+    ML = 1
 
 
 class MienDna(c_void_p):
@@ -844,32 +844,6 @@ class MienValidateDesc(Structure):
     def __init__(self, *,
                  allocator: Any = None) -> None:
         super().__init__(16)
-        self.allocator = allocator
-
-
-class MienGenerateDesc(Structure):
-    _fields_ = [
-        ("struct_size", c_size_t),
-        ("preset", c_uint32),
-        ("flags", c_uint32),
-        ("seed", c_uint64),
-        ("allocator", POINTER(MienAllocator)),
-    ]
-    struct_size: Any
-    preset: Any
-    flags: Any
-    seed: Any
-    allocator: Any
-
-    def __init__(self, *,
-                 preset: int = 0,
-                 flags: int = 0,
-                 seed: int = 0,
-                 allocator: Any = None) -> None:
-        super().__init__(32)
-        self.preset = preset
-        self.flags = flags
-        self.seed = seed
         self.allocator = allocator
 
 
@@ -1570,6 +1544,32 @@ class MienClipBindingInfo(Structure):
         super().__init__(72)
 
 
+class MienGenerateDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("preset", c_uint32),
+        ("flags", c_uint32),
+        ("seed", c_uint64),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    preset: Any
+    flags: Any
+    seed: Any
+    allocator: Any
+
+    def __init__(self, *,
+                 preset: int = 0,
+                 flags: int = 0,
+                 seed: int = 0,
+                 allocator: Any = None) -> None:
+        super().__init__(32)
+        self.preset = preset
+        self.flags = flags
+        self.seed = seed
+        self.allocator = allocator
+
+
 class CoordinateSystem(NamedTuple):
     """Axes, units and rotation conventions of a rig. Any handedness is allowed. See
     docs/dna-format.md, 11 "Coordinate systems".
@@ -1607,7 +1607,7 @@ class DnaInfo(NamedTuple):
       version: 1 to 8: the file is of version 2.version
       layers: Layer, combined with |: the loaded layers
       has_blend_shape_targets: the geometry is loaded with its targets
-      file_bytes: size of the file. 0: generated
+      file_bytes: size of the file
       memory_bytes: memory taken from the allocator
       is_mapped: the file is mapped
       layer_count: entries for mien_dna_layer()
@@ -2208,12 +2208,6 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INDEX,
          "`index` is past the last finding"),
     ),
-    "mien_dna_generate": (
-        (Status.INVALID_ARGUMENT,
-         "an argument is outside its range"),
-        (Status.MEMORY,
-         "there is no memory"),
-    ),
     "mien_rig_create": (
         (Status.INVALID_ARGUMENT,
          "an argument is outside its range"),
@@ -2689,6 +2683,12 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INVALID_ARGUMENT,
          "a count is not that of clip and rig"),
     ),
+    "mien_dna_generate": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+    ),
 }
 
 
@@ -2738,8 +2738,6 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_report_counts", c_int32, (MienReport, c_void_p, c_void_p)),
     ("mien_report_finding", c_int32, (MienReport, c_uint32, POINTER(MienFinding))),
     ("mien_report_destroy", None, (MienReport,)),
-    ("mien_dna_generate", c_int32, (POINTER(MienGenerateDesc), POINTER(MienDna),
-     POINTER(MienError))),
     ("mien_isa_available", c_uint32, (c_uint32,)),
     ("mien_isa_name", c_char_p, (c_uint32,)),
     ("mien_rig_create", c_int32, (MienDna, POINTER(MienRigDesc), POINTER(MienRig),
@@ -2871,7 +2869,7 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
 
 
 class Library:
-    """Each function of the C interface, by its name."""
+    """Each function of libmien, by its name."""
 
     mien_version: Any
     mien_status_name: Any
@@ -2901,7 +2899,6 @@ class Library:
     mien_report_counts: Any
     mien_report_finding: Any
     mien_report_destroy: Any
-    mien_dna_generate: Any
     mien_isa_available: Any
     mien_isa_name: Any
     mien_rig_create: Any
@@ -3002,6 +2999,26 @@ class Library:
 
     def __init__(self, library: ctypes.CDLL) -> None:
         for name, result, parameters in FUNCTIONS:
+            function = getattr(library, name)
+            function.restype = result
+            function.argtypes = parameters
+            setattr(self, name, function)
+
+
+# Name, result, parameters.
+AUTHOR_FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
+    ("mien_dna_generate", c_int32, (POINTER(MienGenerateDesc), POINTER(MienDna),
+     POINTER(MienError))),
+)
+
+
+class AuthorLibrary:
+    """Each function of libmien-author, by its name."""
+
+    mien_dna_generate: Any
+
+    def __init__(self, library: ctypes.CDLL) -> None:
+        for name, result, parameters in AUTHOR_FUNCTIONS:
             function = getattr(library, name)
             function.restype = result
             function.argtypes = parameters

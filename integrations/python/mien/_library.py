@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Finds libmien and loads it, once, when the package is imported."""
+"""Finds libmien and loads it, once, when the package is imported; and libmien-author, which makes
+files, when it is needed."""
 from __future__ import annotations
 
 import ctypes
@@ -7,40 +8,49 @@ import ctypes.util
 import os
 import sys
 from pathlib import Path
-from typing import Iterator
+from typing import Iterable, Iterator, Optional
 
 from . import _api
 
-_NAMES = {"win32": ("mien.dll",), "darwin": ("libmien.0.dylib", "libmien.dylib")}.get(
-    sys.platform, ("libmien.so.0", "libmien.so"))
+
+def _names(stem: str) -> Iterable[str]:
+    """What the file of a library is called here."""
+    if sys.platform == "win32":
+        return (f"{stem}.dll",)
+    if sys.platform == "darwin":
+        return (f"lib{stem}.0.dylib", f"lib{stem}.dylib")
+    return (f"lib{stem}.so.0", f"lib{stem}.so")
 
 
-def _candidates() -> Iterator[str]:
-    """Where the library may be, best first: as told, in the package, in the system."""
-    told = os.environ.get("MIEN_LIBRARY")
-    if told:
-        yield told
-        return
-    for name in _NAMES:
-        beside = Path(__file__).resolve().parent / name
-        if beside.exists():
-            yield str(beside)
-    yield from _NAMES
-    found = ctypes.util.find_library("mien")
+def _in(directory: Path, stem: str) -> Iterator[str]:
+    return (str(directory / name) for name in _names(stem) if (directory / name).exists())
+
+
+def _in_system(stem: str) -> Iterator[str]:
+    yield from _names(stem)
+    found = ctypes.util.find_library(stem)
     if found:
         yield found
 
 
-def _load() -> ctypes.CDLL:
+def _candidates() -> Iterator[str]:
+    """Where libmien may be, best first: as told, in the package, in the system."""
+    told = os.environ.get("MIEN_LIBRARY")
+    if told:
+        yield told
+        return
+    yield from _in(Path(__file__).resolve().parent, "mien")
+    yield from _in_system("mien")
+
+
+def _load(candidates: Iterable[str], message: str) -> ctypes.CDLL:
     failures = []
-    for candidate in _candidates():
+    for candidate in candidates:
         try:
             return ctypes.CDLL(candidate)
         except OSError as error:
             failures.append(str(error))
-    raise ImportError("libmien was not found. Install the wheel, which holds it, or the library "
-                      "itself, or name the file in MIEN_LIBRARY. Tried:\n  "
-                      + "\n  ".join(failures))
+    raise ImportError(message + " Tried:\n  " + "\n  ".join(failures))
 
 
 def _bind(loaded: ctypes.CDLL) -> _api.Library:
@@ -58,9 +68,23 @@ def _bind(loaded: ctypes.CDLL) -> _api.Library:
     return library
 
 
-_loaded = _load()
+_loaded = _load(_candidates(), "libmien was not found. Install the wheel, which holds it, or the "
+                "library itself, or name the file in MIEN_LIBRARY.")
 lib = _bind(_loaded)
 path = _loaded._name
+_author: Optional[_api.AuthorLibrary] = None
+
+
+def author() -> _api.AuthorLibrary:
+    """libmien-author, which lies beside libmien."""
+    global _author
+    if _author is None:
+        beside = os.path.dirname(path)
+        candidates = _in(Path(beside), "mien-author") if beside else _in_system("mien-author")
+        _author = _api.AuthorLibrary(_load(
+            candidates, "libmien-author, which makes DNA files, was not found beside libmien "
+            f"({path}). Install the wheel, which holds both."))
+    return _author
 
 
 def version() -> str:

@@ -8,7 +8,7 @@ from typing import Any, Iterable, List, Optional, Union
 from . import _api
 from ._api import (CoordinateSystem, DnaField, DnaInfo, DnaLayer, FieldType, FileAccess, Finding,
                    Layer, MienError, Preset, UnknownLayers)
-from ._library import lib
+from ._library import author, lib
 from ._memory import (Closable, DnaHandle, FileStream, ReportHandle, as_bytes, as_path, lod_bits,
                       new_array, terminated, uint32)
 from .errors import fail, raises
@@ -130,7 +130,7 @@ class Dna(Closable):
         desc = _api.MienGenerateDesc(preset=uint32(preset, "preset"), seed=seed,
                                      flags=uint32(flags, "flags"))
         handle, error = DnaHandle(), MienError()
-        status = lib.mien_dna_generate(_byref(desc), _byref(handle), _byref(error))
+        status = author().mien_dna_generate(_byref(desc), _byref(handle), _byref(error))
         if status:
             fail(status, "cannot generate", error)
         return cls(handle)

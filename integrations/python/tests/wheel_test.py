@@ -4,6 +4,8 @@ import base64
 import csv
 import hashlib
 import os
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -54,6 +56,8 @@ class Wheel(unittest.TestCase):
             for name in [f"mien/{file.name}" for file in (PACKAGE / "mien").glob("*.py")]:
                 self.assertIn(name, names)
             self.assertIn("mien/py.typed", names)
+            libraries = [name for name in names if re.match(r"mien/(lib)?mien", name)]
+            self.assertEqual(len(libraries), 2, names)
 
     def test_it_runs_where_it_is_put(self):
         place = self.directory / "place with spaces"
@@ -79,6 +83,16 @@ class Wheel(unittest.TestCase):
                 subprocess.run([sys.executable, "-c", CODE], check=True, cwd="/",
                                stdout=subprocess.DEVNULL,
                                env={**self.environment, "PYTHONPATH": place})
+
+    def test_without_the_library_that_makes_files(self):
+        alone = shutil.copy(mien.library_path, self.directory)
+        environment = {**self.environment, "PYTHONPATH": str(PACKAGE), "MIEN_LIBRARY": alone}
+        for call, error in (("from_bytes(b'no file')", "DnaError"),
+                            ("generate()", "ImportError: libmien-author")):
+            result = subprocess.run([sys.executable, "-c", f"import mien; mien.Dna.{call}"],
+                                    capture_output=True, text=True, env=environment)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(error, result.stderr)
 
     def test_a_library_that_is_not_there(self):
         for told in ("/nonexistent/libmien.so", str(PACKAGE / "README.md")):

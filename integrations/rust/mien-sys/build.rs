@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-//! Finds libmien: built here with the feature `vendored`, else in `MIEN_LIB_DIR` if that is set, else by
-//! pkg-config. Documentation is made without it.
+//! Finds libmien and libmien-author: built here with the feature `vendored`, else in `MIEN_LIB_DIR` if that
+//! is set, else by pkg-config. Documentation is made without them.
 //!
-//! Crates that depend on this one directly learn from `DEP_MIEN_LIB_DIR` where it is, if that is no
+//! Crates that depend on this one directly learn from `DEP_MIEN_LIB_DIR` where they are, if that is no
 //! place where the dynamic linker looks by itself.
 
 use std::env;
 use std::path::Path;
 use std::process::{exit, Command};
+
+/// In the order in which linkers need them.
+const LIBRARIES: [&str; 2] = ["mien-author", "mien"];
 
 fn main() {
     for variable in ["MIEN_LIB_DIR", "MIEN_STATIC", "PKG_CONFIG", "PKG_CONFIG_PATH"] {
@@ -36,7 +39,7 @@ fn main() {
     }
 }
 
-/// Builds the static library with CMake in cargo's output directory; returns where it is.
+/// Builds the static libraries with CMake in cargo's output directory; returns where they are.
 fn build_vendored() -> String {
     let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..");
     if !sources.join("capi/mien.h").exists() {
@@ -59,7 +62,7 @@ fn build_vendored() -> String {
         "-DMIEN_BUILD_TESTS=OFF",
         "-DMIEN_BUILD_BENCH=OFF",
     ]);
-    run(&["--build", &build, "--parallel", "--target", "mien_static"]);
+    run(&["--build", &build, "--parallel", "--target", "mien_author_static"]);
     for room in ["capi", "runtime", "simd"] {
         println!("cargo:rerun-if-changed={}/{}", sources, room);
     }
@@ -67,16 +70,18 @@ fn build_vendored() -> String {
 }
 
 fn link_directory(directory: &str, statically: bool) {
-    let names: &[&str] = match (statically, target("OS").as_str(), target("ENV").as_str()) {
-        (true, "windows", "msvc") => &["mien.lib"],
-        (true, ..) => &["libmien.a"],
-        (false, "windows", "msvc") => &["mien.lib"],
-        (false, "windows", _) => &["libmien.dll.a", "mien.lib"],
-        (false, "macos", _) => &["libmien.dylib"],
-        (false, ..) => &["libmien.so"],
-    };
-    if !names.iter().any(|name| Path::new(directory).join(name).exists()) {
-        fail(&format!("there is no {} in MIEN_LIB_DIR={}", names[0], directory));
+    for library in LIBRARIES {
+        let (lib, archive) = (format!("{}.lib", library), format!("lib{}.a", library));
+        let names = match (statically, target("OS").as_str(), target("ENV").as_str()) {
+            (_, "windows", "msvc") => vec![lib],
+            (true, ..) => vec![archive],
+            (false, "windows", _) => vec![format!("lib{}.dll.a", library), lib],
+            (false, "macos", _) => vec![format!("lib{}.dylib", library)],
+            (false, ..) => vec![format!("lib{}.so", library)],
+        };
+        if !names.iter().any(|name| Path::new(directory).join(name).exists()) {
+            fail(&format!("there is no {} in MIEN_LIB_DIR={}", names[0], directory));
+        }
     }
     // Relative to where cargo was called, which is not where the linker works.
     let directory = match Path::new(directory).canonicalize() {
@@ -87,15 +92,15 @@ fn link_directory(directory: &str, statically: bool) {
         link_statically(&directory);
     } else {
         println!("cargo:rustc-link-search=native={}", directory);
-        println!("cargo:rustc-link-lib=dylib=mien");
         println!("cargo:lib_dir={}", directory);
+        link("dylib");
     }
 }
 
 fn link_by_pkg_config(statically: bool) {
     let program = env::var("PKG_CONFIG").unwrap_or_else(|_| "pkg-config".into());
     let ask = |arguments: &[&str]| {
-        let output = Command::new(&program).args(arguments).arg("mien >= 0.1").output();
+        let output = Command::new(&program).args(arguments).arg("mien-author >= 0.1").output();
         match output {
             Ok(output) if output.status.success() => {
                 String::from_utf8_lossy(&output.stdout).trim().to_string()
@@ -113,15 +118,23 @@ fn link_by_pkg_config(statically: bool) {
         println!("cargo:rustc-link-search=native={}", directory);
         println!("cargo:lib_dir={}", directory);
     }
-    println!("cargo:rustc-link-lib=dylib=mien");
+    link("dylib");
+}
+
+fn link(kind: &str) {
+    for library in LIBRARIES {
+        println!("cargo:rustc-link-lib={}={}", kind, library);
+    }
 }
 
 fn link_statically(directory: &str) {
     println!("cargo:rustc-link-search=native={}", directory);
-    println!("cargo:rustc-link-lib=static=mien");
-    // It becomes part of the crate, which has to follow it.
-    println!("cargo:rerun-if-changed={}/libmien.a", directory);
-    // What the library itself is written in.
+    link("static");
+    // They become part of the crate, which has to follow them.
+    for library in LIBRARIES {
+        println!("cargo:rerun-if-changed={}/lib{}.a", directory, library);
+    }
+    // What the libraries themselves are written in.
     match (target("OS").as_str(), target("ENV").as_str()) {
         ("macos", _) => println!("cargo:rustc-link-lib=dylib=c++"),
         (_, "msvc") => {}
@@ -137,10 +150,10 @@ fn target(what: &str) -> String {
 }
 
 fn fail(why: &str) -> ! {
-    eprintln!("mien-sys does not find the Mien library: {}", why);
+    eprintln!("mien-sys does not find the Mien libraries: {}", why);
     eprintln!(
-        "Install it where pkg-config looks, set MIEN_LIB_DIR to the directory of libmien, or use the \
-         feature `vendored`."
+        "Install them where pkg-config looks, set MIEN_LIB_DIR to their directory, or use the feature \
+         `vendored`."
     );
     exit(1);
 }

@@ -174,27 +174,6 @@ pub const MIEN_SEVERITY_ERROR: u32 = 0;
 /// Allowed, but probably a mistake.
 pub const MIEN_SEVERITY_WARNING: u32 = 1;
 
-// enum MienPreset
-/// Readable by eye.
-pub const MIEN_PRESET_TINY: u32 = 0;
-pub const MIEN_PRESET_SMALL: u32 = 1;
-pub const MIEN_PRESET_MEDIUM: u32 = 2;
-/// A production head: 870 joints, 260 raw controls, 8 LODs, a million matrix entries.
-pub const MIEN_PRESET_LARGE: u32 = 3;
-/// A production body: 342 joints that 72 RBF solvers with 670 poses, 22 twists and 16 swings move,
-/// some of them represented by quaternions.
-pub const MIEN_PRESET_BODY: u32 = 4;
-/// A stylized person to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit as
-/// raw controls under their names (values 0..1), correctives, wrinkle maps, 8 LODs. Seed 0 is the
-/// one that was designed, others vary proportions and colors. Vertex colors are in the metadata:
-/// key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per position of the mesh.
-pub const MIEN_PRESET_HEAD: u32 = 5;
-
-// enum MienGenerate
-/// With learned behavior: networks by mesh region, every activation, their operations, and joints
-/// that they move (not for `MIEN_PRESET_HEAD`).
-pub const MIEN_GENERATE_ML: u32 = 1;
-
 // enum MienIsa
 /// The best one that the CPU, the operating system and the build support.
 pub const MIEN_ISA_BEST: u32 = 0;
@@ -330,6 +309,27 @@ pub const MIEN_INTERPOLATION_LINEAR: u32 = 0;
 pub const MIEN_INTERPOLATION_STEP: u32 = 1;
 /// A Catmull-Rom spline, clamped to the range of the two frames.
 pub const MIEN_INTERPOLATION_CATMULL_ROM: u32 = 2;
+
+// enum MienPreset
+/// Small enough to read.
+pub const MIEN_PRESET_TINY: u32 = 0;
+pub const MIEN_PRESET_SMALL: u32 = 1;
+pub const MIEN_PRESET_MEDIUM: u32 = 2;
+/// A production head: 870 joints, 260 raw controls, 8 LODs, a million matrix entries.
+pub const MIEN_PRESET_LARGE: u32 = 3;
+/// A production body: 342 joints, moved by 72 RBF solvers with 670 poses, 22 twists and 16 swings;
+/// some are quaternion joints.
+pub const MIEN_PRESET_BODY: u32 = 4;
+/// A stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit as raw
+/// controls with their names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the designed
+/// head, other seeds vary proportions and colors. Vertex colors are in the metadata: key
+/// "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per vertex position of the mesh.
+pub const MIEN_PRESET_HEAD: u32 = 5;
+
+// enum MienGenerate
+/// With machine-learned behavior: networks per mesh region with every activation and operation,
+/// and joints that they move. Not for `MIEN_PRESET_HEAD`.
+pub const MIEN_GENERATE_ML: u32 = 1;
 
 /// A checked, read-only view of a DNA file. Immutable.
 #[repr(C)]
@@ -694,7 +694,7 @@ pub struct MienDnaInfo {
     pub layers: u32,
     /// The geometry is loaded with its targets.
     pub has_blend_shape_targets: u32,
-    /// Size of the file. 0: generated.
+    /// Size of the file.
     pub file_bytes: u64,
     /// Memory taken from the allocator.
     pub memory_bytes: u64,
@@ -859,29 +859,6 @@ pub struct MienValidateDesc {
 }
 
 impl Default for MienValidateDesc {
-    /// All zero but `struct_size`: every field has its default.
-    fn default() -> Self {
-        // SAFETY: numbers, pointers and optional functions may be zero.
-        let mut zero: Self = unsafe { zeroed() };
-        zero.struct_size = size_of::<Self>();
-        zero
-    }
-}
-
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct MienGenerateDesc {
-    pub struct_size: usize,
-    /// `MIEN_PRESET_...`
-    pub preset: u32,
-    /// `MIEN_GENERATE_...`, combined with \|.
-    pub flags: u32,
-    /// The same seed gives the same bytes on every machine.
-    pub seed: u64,
-    pub allocator: *const MienAllocator,
-}
-
-impl Default for MienGenerateDesc {
     /// All zero but `struct_size`: every field has its default.
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
@@ -1649,6 +1626,29 @@ impl Default for MienClipBindingInfo {
     }
 }
 
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienGenerateDesc {
+    pub struct_size: usize,
+    /// `MIEN_PRESET_...`
+    pub preset: u32,
+    /// `MIEN_GENERATE_...`, combined with \|.
+    pub flags: u32,
+    /// The same preset, flags and seed give the same bytes on every machine.
+    pub seed: u64,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienGenerateDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
 extern "C" {
     /// Returns the `MIEN_VERSION` of the library in use, which may differ from that of this
     /// header.
@@ -1880,10 +1880,6 @@ extern "C" {
 
     /// Destroys a report.
     pub fn mien_report_destroy(report: *mut MienReport);
-
-    /// Makes a synthetic rig: behavior of realistic size and sparsity, with simple geometry.
-    /// `desc` may be NULL (tiny, seed 0). Close with `mien_dna_close()`.
-    pub fn mien_dna_generate(desc: *const MienGenerateDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
 
     /// Returns 1 if rigs can be created for an instruction set on this machine, else 0.
     pub fn mien_isa_available(isa: u32) -> u32;
@@ -2540,4 +2536,9 @@ extern "C" {
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if a count is not that of clip and rig.
     pub fn mien_clip_binding_apply(clip_binding: *const MienClipBinding, values: *const f32, value_count: usize, raw_controls: *mut f32, raw_control_count: usize) -> MienStatus;
+
+    /// Generates a rig of a preset and opens it: a file of version 2.8 with all layers, with
+    /// behavior of realistic size and sparsity and simple geometry. `desc` may be NULL: the tiny
+    /// preset. Close with `mien_dna_close()`.
+    pub fn mien_dna_generate(desc: *const MienGenerateDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
 }

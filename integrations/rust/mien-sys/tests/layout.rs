@@ -230,18 +230,6 @@ fn mien_validate_desc() {
 }
 
 #[test]
-fn mien_generate_desc() {
-    use mien_sys::MienGenerateDesc as S;
-    assert_eq!(size_of::<S>(), 32);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, preset), 8);
-    assert_eq!(offset!(S, flags), 12);
-    assert_eq!(offset!(S, seed), 16);
-    assert_eq!(offset!(S, allocator), 24);
-}
-
-#[test]
 fn mien_rig_desc() {
     use mien_sys::MienRigDesc as S;
     assert_eq!(size_of::<S>(), 40);
@@ -612,4 +600,16 @@ fn mien_clip_binding_info() {
     assert_eq!(offset!(S, controls), 24);
     assert_eq!(offset!(S, extra_controls), 40);
     assert_eq!(offset!(S, missing_channels), 56);
+}
+
+#[test]
+fn mien_generate_desc() {
+    use mien_sys::MienGenerateDesc as S;
+    assert_eq!(size_of::<S>(), 32);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, preset), 8);
+    assert_eq!(offset!(S, flags), 12);
+    assert_eq!(offset!(S, seed), 16);
+    assert_eq!(offset!(S, allocator), 24);
 }

@@ -358,50 +358,6 @@ impl Severity {
 
 numbers!(Severity, u32, [(0, "ERROR"), (1, "WARNING")]);
 
-/// What C calls `MIEN_PRESET_...`.
-///
-/// A later library may give numbers that have no name here.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
-#[repr(transparent)]
-pub struct Preset(pub u32);
-
-impl Preset {
-    /// Readable by eye.
-    pub const TINY: Self = Self(0);
-    /// `MIEN_PRESET_SMALL` in C.
-    pub const SMALL: Self = Self(1);
-    /// `MIEN_PRESET_MEDIUM` in C.
-    pub const MEDIUM: Self = Self(2);
-    /// A production head: 870 joints, 260 raw controls, 8 LODs, a million matrix entries.
-    pub const LARGE: Self = Self(3);
-    /// A production body: 342 joints that 72 RBF solvers with 670 poses, 22 twists and 16 swings
-    /// move, some of them represented by quaternions.
-    pub const BODY: Self = Self(4);
-    /// A stylized person to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit
-    /// as raw controls under their names (values 0..1), correctives, wrinkle maps, 8 LODs. Seed 0
-    /// is the one that was designed, others vary proportions and colors. Vertex colors are in the
-    /// metadata: key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per position of
-    /// the mesh.
-    pub const HEAD: Self = Self(5);
-}
-
-numbers!(Preset, u32, [(0, "TINY"), (1, "SMALL"), (2, "MEDIUM"), (3, "LARGE"), (4, "BODY"), (5, "HEAD")]);
-
-/// What C calls `MIEN_GENERATE_...`.
-///
-/// A later library may give numbers that have no name here.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[repr(transparent)]
-pub struct Generate(pub u32);
-
-impl Generate {
-    /// With learned behavior: networks by mesh region, every activation, their operations, and
-    /// joints that they move (not for `Preset::HEAD`).
-    pub const ML: Self = Self(1);
-}
-
-numbers!(Generate, u32, [(1, "ML")]);
-
 /// Instruction sets.
 ///
 /// A later library may give numbers that have no name here.
@@ -718,6 +674,50 @@ impl Interpolation {
 
 numbers!(Interpolation, u32, [(0, "LINEAR"), (1, "STEP"), (2, "CATMULL_ROM")]);
 
+/// What C calls `MIEN_PRESET_...`.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Preset(pub u32);
+
+impl Preset {
+    /// Small enough to read.
+    pub const TINY: Self = Self(0);
+    /// `MIEN_PRESET_SMALL` in C.
+    pub const SMALL: Self = Self(1);
+    /// `MIEN_PRESET_MEDIUM` in C.
+    pub const MEDIUM: Self = Self(2);
+    /// A production head: 870 joints, 260 raw controls, 8 LODs, a million matrix entries.
+    pub const LARGE: Self = Self(3);
+    /// A production body: 342 joints, moved by 72 RBF solvers with 670 poses, 22 twists and 16
+    /// swings; some are quaternion joints.
+    pub const BODY: Self = Self(4);
+    /// A stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit as
+    /// raw controls with their names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the
+    /// designed head, other seeds vary proportions and colors. Vertex colors are in the metadata:
+    /// key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per vertex position of the
+    /// mesh.
+    pub const HEAD: Self = Self(5);
+}
+
+numbers!(Preset, u32, [(0, "TINY"), (1, "SMALL"), (2, "MEDIUM"), (3, "LARGE"), (4, "BODY"), (5, "HEAD")]);
+
+/// What C calls `MIEN_GENERATE_...`.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(transparent)]
+pub struct Generate(pub u32);
+
+impl Generate {
+    /// With machine-learned behavior: networks per mesh region with every activation and
+    /// operation, and joints that they move. Not for `Preset::HEAD`.
+    pub const ML: Self = Self(1);
+}
+
+numbers!(Generate, u32, [(1, "ML")]);
+
 /// Axes, units and rotation conventions of a rig. Any handedness is allowed.
 ///
 /// See docs/dna-format.md, 11 "Coordinate systems".
@@ -782,7 +782,7 @@ pub struct DnaInfo {
     pub layers: Layers,
     /// The geometry is loaded with its targets.
     pub has_blend_shape_targets: bool,
-    /// Size of the file. 0: generated.
+    /// Size of the file.
     pub file_bytes: u64,
     /// Memory taken from the allocator.
     pub memory_bytes: u64,
@@ -1367,10 +1367,6 @@ macro_rules! errors {
     (mien_report_finding) => {
         "- [`Status::INDEX`](crate::Status::INDEX) if `index` is past the last finding"
     };
-    (mien_dna_generate) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
-    };
     (mien_rig_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::ISA`](crate::Status::ISA) if the requested instruction set is not available\n\
@@ -1733,5 +1729,9 @@ macro_rules! errors {
     };
     (mien_clip_binding_apply) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a count is not that of clip and rig"
+    };
+    (mien_dna_generate) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
     };
 }
