@@ -19,7 +19,8 @@ Status check_header(const SharedBytes& file, Error& error) {
                 "wrote");
   }
   if (file.size < sizeof(BakedHeader)) {
-    return fail(error, Status::kBakedTruncated, file.size, "the file ends within its header");
+    return fail(error, Status::kBakedTruncated, file.size,
+                "the file ends within its header: it is truncated; fetch or bake it again");
   }
   BakedHeader header;
   memcpy(&header, file.data, sizeof(header));

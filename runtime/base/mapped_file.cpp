@@ -19,6 +19,17 @@ namespace {
 
 constexpr size_t kCopyAlignment = 64;
 
+// Of a long path the end is shown, which tells more than the beginning.
+Status fail_file(Error& error, Status status, const char* action, const char* path,
+                 const char* reason) {
+  constexpr size_t kMaxShown = 140;
+  const size_t length = strlen(path);
+  const char* shown = length > kMaxShown ? path + (length - kMaxShown) : path;
+  while (shown != path && (*shown & 0xC0) == 0x80) ++shown;  // not within a character of UTF-8
+  return fail(error, status, kNoOffset, "cannot %s %s%s: %s", action, shown == path ? "" : "...",
+              shown, reason);
+}
+
 // Reads to the end of a file of unknown size, such as a pipe. Grows by half, so the memory taken stays
 // within a small multiple of the bytes read.
 Status read_stream(FILE* stream, const char* path, size_t expected, const Allocator& allocator,
@@ -37,11 +48,11 @@ Status read_stream(FILE* stream, const char* path, size_t expected, const Alloca
     capacity = larger;
   }
   if (!bytes) {
-    return fail(error, Status::kMemory, kNoOffset, "%.100s: no memory to read the file", path);
+    return fail_file(error, Status::kMemory, "read", path, "no memory");
   }
   if (ferror(stream)) {
     allocator.put(bytes, capacity, kCopyAlignment);
-    return fail(error, Status::kFileRead, kNoOffset, "%.100s: %s", path, strerror(errno));
+    return fail_file(error, Status::kFileRead, "read", path, strerror(errno));
   }
   out.bytes = bytes;
   out.size = size;
@@ -71,7 +82,7 @@ Status open_file(const char* path, FileAccess, const Allocator& allocator, Mappe
   out = {};
   FILE* stream = fopen(path, "rb");
   if (!stream) {
-    return fail(error, Status::kFileOpen, kNoOffset, "%.100s: %s", path, strerror(errno));
+    return fail_file(error, Status::kFileOpen, "open", path, strerror(errno));
   }
   Status status = read_stream(stream, path, 64 * 1024, allocator, out, error);
   fclose(stream);
@@ -90,18 +101,18 @@ Status open_file(const char* path, FileAccess access, const Allocator& allocator
   out = {};
   int descriptor = open(path, O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) {
-    return fail(error, Status::kFileOpen, kNoOffset, "%.100s: %s", path, strerror(errno));
+    return fail_file(error, Status::kFileOpen, "open", path, strerror(errno));
   }
   struct stat about;
   if (fstat(descriptor, &about) != 0 || S_ISDIR(about.st_mode)) {
     int reason = S_ISDIR(about.st_mode) ? EISDIR : errno;
     close(descriptor);
-    return fail(error, Status::kFileRead, kNoOffset, "%.100s: %s", path, strerror(reason));
+    return fail_file(error, Status::kFileRead, "read", path, strerror(reason));
   }
   const bool regular = S_ISREG(about.st_mode) && about.st_size > 0;
   if (regular && static_cast<uint64_t>(about.st_size) > SIZE_MAX - 1) {
     close(descriptor);
-    return fail(error, Status::kMemory, kNoOffset, "%.100s: too large for this machine", path);
+    return fail_file(error, Status::kMemory, "read", path, "too large for the address space");
   }
   if (access == FileAccess::kMap && regular) {
     size_t size = static_cast<size_t>(about.st_size);
@@ -118,7 +129,7 @@ Status open_file(const char* path, FileAccess access, const Allocator& allocator
   if (!stream) {
     int reason = errno;
     close(descriptor);
-    return fail(error, Status::kFileRead, kNoOffset, "%.100s: %s", path, strerror(reason));
+    return fail_file(error, Status::kFileRead, "read", path, strerror(reason));
   }
   size_t expected = regular ? static_cast<size_t>(about.st_size) : 64 * 1024;
   Status status = read_stream(stream, path, expected, allocator, out, error);
@@ -144,13 +155,13 @@ Status write_file(const char* path, const uint8_t* bytes, size_t size, const All
     bool done = device && fwrite(bytes, 1, size, device) == size;
     done = device && fclose(device) == 0 && done;
     if (done) return Status::kOk;
-    return fail(error, Status::kFileWrite, kNoOffset, "%.100s: %s", path, strerror(errno));
+    return fail_file(error, Status::kFileWrite, "write", path, strerror(errno));
   }
 
   // The temporary file stands in the same folder: only there can a rename be atomic.
   const size_t capacity = strlen(path) + 48;
   char* temporary = static_cast<char*>(allocator.get(capacity, 1));
-  if (!temporary) return fail(error, Status::kMemory, kNoOffset, "%.100s: no memory", path);
+  if (!temporary) return fail_file(error, Status::kMemory, "write", path, "no memory");
 #if defined(_WIN32)
   const int process = _getpid();
 #else
@@ -176,7 +187,7 @@ Status write_file(const char* path, const uint8_t* bytes, size_t size, const All
   Status status = Status::kOk;
   if (!written) {
     if (stream) remove(temporary);
-    status = fail(error, Status::kFileWrite, kNoOffset, "%.100s: %s", path, strerror(reason));
+    status = fail_file(error, Status::kFileWrite, "write", path, strerror(reason));
   }
   allocator.put(temporary, capacity, 1);
   return status;

@@ -303,10 +303,11 @@ Status place_ml(const DnaView& view, Placer& placer, Rig& rig, Error& error) {
                      [&](uint32_t, uint32_t, const Array<uint32_t>& p) { controls += p.count; });
   }
   if (max_inputs > kMaxBufferFloats || buffer > kMaxBufferFloats || controls > kMaxBufferFloats) {
-    return fail(error, Status::kDnaLimit, kNoOffset,
-                "mlbe: the operations together take %zu values and %zu controls; %zu of each are "
-                "allowed",
-                buffer, controls, kMaxBufferFloats);
+    return fail(
+        error, Status::kDnaLimit, kNoOffset,
+        "mlbe: the operations together take %zu values and %zu controls; at most %zu of each "
+        "are supported",
+        buffer, controls, kMaxBufferFloats);
   }
   ml.buffer_size = static_cast<uint32_t>(buffer);
   ml.widest_layer = std::max(ml.widest_layer, static_cast<uint32_t>(max_inputs));
@@ -451,11 +452,12 @@ Status fill_ml(const DnaView& view, Arena& scratch, Rig& rig, Error& error) {
   const uint64_t budget = compile_budget(view, rig),
                  steps_at_all_lods = count_ml_steps(rig, budget);
   if (steps_at_all_lods <= budget) return Status::kOk;
-  return fail(
-      error, Status::kDnaLimit, kNoOffset,
-      "mlbe: %llu steps or more to evaluate each LOD once; %llu are allowed for a file of this "
-      "size",
-      static_cast<unsigned long long>(steps_at_all_lods), static_cast<unsigned long long>(budget));
+  return fail(error, Status::kDnaLimit, kNoOffset,
+              "mlbe: %llu steps or more to evaluate each LOD once; at most %llu are supported for "
+              "a file of "
+              "this size",
+              static_cast<unsigned long long>(steps_at_all_lods),
+              static_cast<unsigned long long>(budget));
 }
 
 void mark_ml_joint_inputs(const DnaView& view, uint32_t lod_count, Span<uint8_t> reach) {

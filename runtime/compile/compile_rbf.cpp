@@ -145,8 +145,8 @@ Status check_work(const dna::DnaView& view, const Rig& rig, Error& error) {
   if (steps <= budget) return Status::kOk;
   return fail(
       error, Status::kDnaLimit, kNoOffset,
-      "rbfb.solvers: %llu steps or more to make the solvers, or to evaluate each LOD once; %llu "
-      "are allowed for a file of this size",
+      "rbfb.solvers: %llu steps or more to make the solvers, or to evaluate each LOD once; at most "
+      "%llu are supported for a file of this size",
       static_cast<unsigned long long>(steps), static_cast<unsigned long long>(budget));
 }
 
@@ -314,7 +314,7 @@ Status place_rbf(const dna::DnaView& view, Placer& placer, Rig& rig, Error& erro
     const uint32_t count = solver.pose_indices.count;
     if (count > kMaxPoses) {
       return fail(error, Status::kDnaLimit, view.offset_of(solver.pose_indices.data),
-                  "rbfb.solvers[%u].poseIndices: %u poses; a solver may have %u", i, count,
+                  "rbfb.solvers[%u].poseIndices: %u poses; at most %u are supported", i, count,
                   kMaxPoses);
     }
     rotations += parted_rotations(solver);

@@ -314,7 +314,7 @@ Status compile_rig(const DnaView& view, const CompileOptions& options, const All
   if (options.quaternion_outputs &&
       measured.joint_value_count() + size_t{measured.joint_count} * 3 > kNoOutput) {
     return fail(error, Status::kDnaLimit, kNoOffset,
-                "%u joints are too many for quaternion outputs; use Euler angles",
+                "%u joints are too many for quaternion outputs; use MIEN_ROTATION_OUTPUT_EULER",
                 measured.joint_count);
   }
   // A mesh's name stands before each of its regions, so a long one multiplies.
@@ -327,7 +327,7 @@ Status compile_rig(const DnaView& view, const CompileOptions& options, const All
     return fail(
         error, Status::kDnaLimit, kNoOffset,
         "mlbh.neuralNetworkToMeshRegion.regionNames: the names of the regions take %zu bytes "
-        "with those of their meshes; %zu are allowed",
+        "with those of their meshes; at most %zu are supported",
         mask_name_bytes, kMaxMaskNameBytes);
   }
   Arena scratch(allocator);

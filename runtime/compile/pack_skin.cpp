@@ -73,8 +73,8 @@ Status plan_skin(const MeshSource& source, MeshPlan& plan) {
     });
     if (influences > kMaxInfluences) {
       return fail(source.error, Status::kDnaLimit, source.view.offset_of(skin.weights.data),
-                  "geom.meshes[%u].skinWeights[%u]: %u influences; %u are allowed", source.index, p,
-                  influences, kMaxInfluences);
+                  "geom.meshes[%u].skinWeights[%u]: %u influences; at most %u are supported",
+                  source.index, p, influences, kMaxInfluences);
     }
     plan.order[p] = uint64_t{influences} << 48 | joint << 32 | p;
     plan.weight_count += influences;

@@ -245,8 +245,8 @@ Status plan_block_rows(const dna::DnaView& view, const Rig& rig, Arena& scratch,
   }
   if (next > kMaxBlockRows) {
     return fail(error, Status::kDnaLimit, kNoOffset,
-                "bhvr.joints.jointGroups: rows make up %u block_rows of %u; %u are allowed", next,
-                kJointBlockRows, kMaxBlockRows);
+                "bhvr.joints.jointGroups: the rows fill %u blocks of %u; at most %u are supported",
+                next, kJointBlockRows, kMaxBlockRows);
   }
 
   plan.block_row_reaches = scratch.array<uint8_t>(next);

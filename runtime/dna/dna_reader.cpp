@@ -180,9 +180,8 @@ class FieldReader {
     count = load_big_endian<uint32_t>(here());
     if (count > (limit_ - at_ - 4) / element_bytes) {
       report(Status::kDnaTruncated, at_,
-             "announces %u elements of %zu bytes or more, but only %zu "
-             "bytes are left",
-             count, element_bytes, limit_ - at_ - 4);
+             "states %u elements of at least %zu bytes, but only %zu bytes are left", count,
+             element_bytes, limit_ - at_ - 4);
       return false;
     }
     at_ += 4;
@@ -352,7 +351,8 @@ class DnaReader {
       return nullptr;
     }
     if (size != 0 && stream_.read(stream_.user, offset, data, size) != size) {
-      report(Status::kFileRead, offset, "", "the stream did not give %zu bytes", size);
+      report(Status::kFileRead, offset, "",
+             "the read function of the stream gave fewer than the %zu bytes asked for", size);
       return nullptr;
     }
     segment[0] = {static_cast<const uint8_t*>(data), offset, size, view_.segments};
@@ -371,12 +371,13 @@ class DnaReader {
                                : "the file does not start with \"DNA\": it is no DNA file");
     }
     if (size_ < kHeaderBytes) {
-      return report(Status::kDnaTruncated, size_, "", "the file ends within its header");
+      return report(Status::kDnaTruncated, size_, "",
+                    "the file ends within its header: it is truncated");
     }
     view_.generation = load_big_endian<uint16_t>(header_ + 3);
     view_.version = load_big_endian<uint16_t>(header_ + 5);
     if (view_.generation != 2) {
-      return report(Status::kDnaVersion, 3, "", "version %u.%u: only 2.x can be read",
+      return report(Status::kDnaVersion, 3, "", "the file has version %u.%u; only 2.x can be read",
                     unsigned{view_.generation}, unsigned{view_.version});
     }
     if (sink_.thorough && (view_.version == 0 || view_.version > 8)) {
@@ -388,14 +389,15 @@ class DnaReader {
 
   bool read_index() {
     if (size_ < kHeaderBytes + 4) {
-      return report(Status::kDnaTruncated, size_, "", "the file ends before its index");
+      return report(Status::kDnaTruncated, size_, "",
+                    "the file ends before its index: it is truncated");
     }
     const uint32_t count = load_big_endian<uint32_t>(header_ + kHeaderBytes);
     const size_t first = kHeaderBytes + 4;
     if (count > (size_ - first) / kIndexEntryBytes) {
       return report(Status::kDnaTruncated, kHeaderBytes, "",
-                    "the index announces %u layers, but the "
-                    "file has %zu bytes",
+                    "the index states %u layers, but the file has %zu bytes: it is truncated or "
+                    "damaged",
                     count, size_);
     }
     if (!allocate_index(count)) return false;
@@ -408,16 +410,16 @@ class DnaReader {
       const uint32_t offset = load_big_endian<uint32_t>(entry + 8);
       const uint32_t bytes = load_big_endian<uint32_t>(entry + 12);
       if (uint64_t{offset} + bytes > size_) {
-        return report(Status::kDnaTruncated, at + 8, "",
-                      "layer %u (%.4s) is said to be at %u with %u "
-                      "bytes, but the file has %zu",
-                      i, entry, offset, bytes, size_);
+        return report(
+            Status::kDnaTruncated, at + 8, "",
+            "by the index, layer %u (%.4s) is at %u with %u bytes, but the file has %zu: it "
+            "is truncated or damaged",
+            i, entry, offset, bytes, size_);
       }
       if (bytes != 0 && offset < data_begin) {
         return report(Status::kDnaStructure, at + 8, "",
-                      "layer %u (%.4s) is said to be at %u, within "
-                      "the index",
-                      i, entry, offset);
+                      "by the index, layer %u (%.4s) is at %u, which is within the index", i, entry,
+                      offset);
       }
       view_.index[i] = {load_big_endian<uint32_t>(entry), load_big_endian<uint32_t>(entry + 4),
                         nullptr, bytes, offset};
@@ -500,17 +502,18 @@ class DnaReader {
 
   bool read_sections() {
     if (size_ < kSectionTableEnd) {
-      return report(Status::kDnaTruncated, size_, "", "the file ends within its section table");
+      return report(Status::kDnaTruncated, size_, "",
+                    "the file ends within its section table: it is truncated");
     }
     for (int s = 0; s < kSectionCount; ++s) {
       sections_[s] = load_big_endian<uint32_t>(header_ + kHeaderBytes + 4 * s);
       if (sections_[s] < kSectionTableEnd || sections_[s] > size_) {
         const Status status = sections_[s] > size_ ? Status::kDnaTruncated : Status::kDnaStructure;
-        return report(
-            status, kHeaderBytes + 4 * static_cast<size_t>(s), "",
-            "section %d is said to be at %zu, but the file has %zu bytes and its sections "
-            "begin at %zu",
-            s, sections_[s], size_, kSectionTableEnd);
+        return report(status, kHeaderBytes + 4 * static_cast<size_t>(s), "",
+                      "by the section table, section %d is at %zu, but the file has %zu bytes and "
+                      "its sections "
+                      "begin at %zu",
+                      s, sections_[s], size_, kSectionTableEnd);
       }
     }
     // Two sections in one place would be read twice.
@@ -564,8 +567,7 @@ class DnaReader {
     if (size_ - at >= 3 && !marker) return;
     if (!marker || memcmp(marker, "AND", 3) != 0) {
       report(Status::kDnaStructure, at, "",
-             "the end marker \"AND\" is missing: the file is cut off or "
-             "damaged");
+             "the end marker \"AND\" is missing: the file is truncated or damaged");
     } else if (sink_.thorough && size_ - at > 3) {
       report(Status::kOk, at + 3, "", "%zu bytes after the end marker", size_ - at - 3);
     }
@@ -675,7 +677,7 @@ class DnaReader {
     const uint32_t count = first ? load_big_endian<uint32_t>(first) : 0;
     if (!first || count > (entry->size - 4) / 4) {
       return report(Status::kDnaTruncated, entry->offset, "mlbh.mlControlNames",
-                    "announces %u names, but the layer has %u bytes", count, entry->size);
+                    "states %u names, but the layer has %u bytes", count, entry->size);
     }
     view_.ml_control_count = count;
     return true;

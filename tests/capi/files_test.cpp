@@ -281,6 +281,25 @@ TEST_F(Files, FailureLeavesTheOldFile) {
   EXPECT_EQ(names(), std::vector<std::string>{"a.dna"});
 }
 
+// What, where and why: of a long path its end, in whole characters.
+TEST_F(Files, MessagesNameTheFile) {
+  std::string folders;
+  for (int i = 0; i < 30; ++i) folders += "/f\u00f6lder";
+  MienDna* opened = nullptr;
+  MienError error = sized<MienError>();
+  for (const std::string& where : {path("not-there.dna"), path(folders + "/not-there.dna")}) {
+    ASSERT_EQ(mien_dna_open_file(where.c_str(), nullptr, &opened, &error), MIEN_ERROR_FILE_OPEN);
+    const std::string said = error.message;
+    EXPECT_EQ(said.rfind("cannot open ", 0), 0u) << said;
+    EXPECT_NE(said.find("/not-there.dna: " + std::string(strerror(ENOENT))), std::string::npos)
+        << said;
+  }
+  const std::string said = error.message;
+  const size_t cut = said.find("...");
+  ASSERT_NE(cut, std::string::npos) << said;
+  EXPECT_NE(static_cast<unsigned char>(said[cut + 3]) & 0xC0, 0x80) << "within a character";
+}
+
 // "replacing it by renaming is safe"
 TEST_F(Files, WritingOverTheOpenFile) {
   EXPECT_EQ(write(path("a.dna")), MIEN_OK);

@@ -286,7 +286,7 @@ TEST_F(Misuse, PathsThatLeadNowhere) {
   MienError error = sized<MienError>();
   MienDnaField field = sized<MienDnaField>();
   (void)mien_dna_field(dna, "bhvr.joints.jointGroup[7].values", &field, &error);
-  EXPECT_NE(std::string(error.message).find("jointGroup[7].values\" is no field"),
+  EXPECT_NE(std::string(error.message).find("jointGroup[7].values\" is not a field"),
             std::string::npos)
       << error.message;
 }

@@ -145,7 +145,8 @@ void check_network(Checker& c, const Field& at, const NeuralNetwork& network) {
       c.has_length(weights, layer.weights, uint64_t{inputs} * outputs, "outputs times inputs");
     } else if (outputs == 0 ? layer.weights.count != 0 : layer.weights.count % outputs != 0) {
       c.error(weights, Status::kDnaStructure, c.offset(layer.weights),
-              "has %u elements, which %u outputs cannot share", layer.weights.count, outputs);
+              "has %u elements, which is not a multiple of its %u outputs", layer.weights.count,
+              outputs);
     }
     c.finite(weights, layer.weights);
     c.finite(Field{&field, "biases"}, layer.biases);
@@ -409,7 +410,7 @@ void check_ml_joints(Checker& c) {
     }
     if (seen >> key & 1) {
       c.error(Field{&field, "parameterKeys"}, Status::kDnaValue, c.offset(keys, i),
-              "element %u is %u for the second time", i, key);
+              "element %u repeats %u", i, key);
     }
     seen |= 1u << key;
     c.enumeration(Field{&field, "parameterValues", i}, c.offset(joints.parameter_values, i),

@@ -194,11 +194,9 @@ void Checker::unique(const Field& field, const Array<uint16_t>& numbers, Status 
   if ((!thorough && repeated == Status::kOk) || numbers.count < 2) return;
   const auto report = [&](uint32_t i) {
     if (repeated == Status::kOk) {
-      warning(field, offset(numbers, i), "element %u is %u for the second time", i,
-              unsigned{numbers[i]});
+      warning(field, offset(numbers, i), "element %u repeats %u", i, unsigned{numbers[i]});
     } else {
-      error(field, repeated, offset(numbers, i), "element %u is %u for the second time", i,
-            unsigned{numbers[i]});
+      error(field, repeated, offset(numbers, i), "element %u repeats %u", i, unsigned{numbers[i]});
     }
   };
   if (numbers.count <= 32) {  // marks take longer to clear than that

@@ -77,8 +77,8 @@ class CoordinateConverter {
   /// A place that has no room for a sign reads or writes a control.
   Status refuse(const Array<uint16_t>& where, uint32_t index, const char* field) {
     return fail(error_, Status::kDnaValue, view_.offset_of(where.data + 2 * size_t{index}),
-                "%s[%u]: control %u is part of a rotation, and what uses it here cannot follow it "
-                "into another coordinate system; convert to one with the same axes and units",
+                "%s[%u]: control %u is a component of a rotation, and this use of it cannot be "
+                "converted; request a coordinate system with the axes and units of the file",
                 field, index, unsigned{where[index]});
   }
 

@@ -77,8 +77,8 @@ class RowConverter {
     const uint32_t joint = group.output_indices[row] / 9;
     const String& name = view_.defn.joint_names[joint];
     return fail(error_, Status::kDnaValue, view_.offset_of(group.output_indices.data + 2 * row),
-                "bhvr.joints.jointGroups[%u].outputIndices[%u]: joint %.*s %s; carry the order of "
-                "the file along with the axes",
+                "bhvr.joints.jointGroups[%u].outputIndices[%u]: joint %.*s %s; use "
+                "MIEN_ROTATION_RULE_CARRIED",
                 number, row, static_cast<int>(name.count < 60 ? name.count : 60), name.chars(),
                 why);
   }

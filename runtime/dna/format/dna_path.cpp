@@ -53,7 +53,7 @@ class FieldFinder {
       with_layer(view_, kind.id, [&](const auto& record) { resolve(record); });
       return status_;
     }
-    return missing("is no layer");
+    return missing("is not a layer: see mien_dna_child_name() with an empty path");
   }
 
  private:
@@ -78,13 +78,14 @@ class FieldFinder {
       return;
     }
     if (*rest_ != '.') {
-      missing("does not fit: a record has fields, not elements");
+      missing("does not exist: a record has fields, not elements");
       return;
     }
     ++rest_;
     Matcher matcher{*this, token()};
     Record::fields(record, matcher);
-    if (!matcher.matched) missing("is no field here");
+    if (!matcher.matched)
+      missing("is not a field of this record: mien_dna_child_name() lists them");
   }
 
   template <class T>
@@ -107,7 +108,7 @@ class FieldFinder {
     uint32_t index;
     if (!read_index(array.count, index)) return;
     if (*rest_ != 0) {
-      missing("goes on behind a number");
+      missing("does not exist: a number has no fields or elements");
       return;
     }
     found = {number_type<T>(), 1, array.data + index * sizeof(T)};
@@ -115,7 +116,7 @@ class FieldFinder {
 
   void resolve(const String& string) {
     if (*rest_ != 0) {
-      missing("goes on behind a string");
+      missing("does not exist: a string has no fields or elements");
       return;
     }
     found = {FieldType::kString, string.count, string.data};
@@ -124,7 +125,7 @@ class FieldFinder {
   template <class T, std::enable_if_t<std::is_arithmetic<T>::value, int> = 0>
   void resolve(T value) {
     if (*rest_ != 0) {
-      missing("goes on behind a number");
+      missing("does not exist: a number has no fields or elements");
       return;
     }
     found = {number_type<T>(), 1};
@@ -135,7 +136,7 @@ class FieldFinder {
     const char* at = rest_;
     uint64_t value = 0;
     if (*at++ != '[' || *at < '0' || *at > '9') {
-      missing("does not fit: elements are named as [index]");
+      missing("does not exist: elements of a list are named [index]");
       return false;
     }
     while (*at >= '0' && *at <= '9') {
@@ -147,8 +148,9 @@ class FieldFinder {
       return false;
     }
     if (value >= count) {
-      status_ = fail(error_, Status::kIndex, kNoOffset,
-                     "%.120s: \"%.60s\" is past the end, there are %u", path_, rest_, count);
+      status_ =
+          fail(error_, Status::kIndex, kNoOffset,
+               "%.120s: \"%.60s\" is past the end: the list has %u elements", path_, rest_, count);
       return false;
     }
     rest_ = at + 1;
@@ -195,11 +197,11 @@ Status find_field_name(const DnaView& view, const char* path, uint32_t index, co
   if (status != Status::kOk) return status;
   if (finder.found.type != FieldType::kRecord) {
     return fail(error, Status::kInvalidArgument, kNoOffset,
-                "%.160s: no record, so it has no field names", path);
+                "%.160s: is not a record, so it has no field names", path);
   }
   if (!finder.name) {
-    return fail(error, Status::kIndex, kNoOffset, "%.160s: has %u fields, there is no number %u",
-                path, static_cast<unsigned>(finder.found.count), index);
+    return fail(error, Status::kIndex, kNoOffset, "%.160s: has %u fields; %u is past the end", path,
+                static_cast<unsigned>(finder.found.count), index);
   }
   out = finder.name;
   return Status::kOk;

@@ -438,15 +438,15 @@ TEST_F(DnaPath, ErrorsTellWhatIsNotThere) {
     Status status;
     const char* said;
   } cases[] = {
-      {"behavior.joints", Status::kName, "\"behavior.joints\" is no layer"},
-      {"bhvr.join.rowCount", Status::kName, "\"join.rowCount\" is no field"},
-      {"bhvr.joints[0]", Status::kName, "\"[0]\" does not fit"},
-      {"defn.jointNames.count", Status::kName, "\".count\" does not fit"},
+      {"behavior.joints", Status::kName, "\"behavior.joints\" is not a layer"},
+      {"bhvr.join.rowCount", Status::kName, "\"join.rowCount\" is not a field"},
+      {"bhvr.joints[0]", Status::kName, "\"[0]\" does not exist"},
+      {"defn.jointNames.count", Status::kName, "\".count\" does not exist"},
       {"defn.jointNames[1", Status::kName, "\"[1\" lacks its closing bracket"},
-      {"defn.jointNames[3]", Status::kIndex, "\"[3]\" is past the end, there are 3"},
-      {"defn.jointHierarchy[99999999999999999999]", Status::kIndex, "there are 3"},
-      {"desc.age.years", Status::kName, "\".years\" goes on behind a number"},
-      {"desc.name.first", Status::kName, "\".first\" goes on behind a string"},
+      {"defn.jointNames[3]", Status::kIndex, "\"[3]\" is past the end: the list has 3 elements"},
+      {"defn.jointHierarchy[99999999999999999999]", Status::kIndex, "3 elements"},
+      {"desc.age.years", Status::kName, "\".years\" does not exist: a number"},
+      {"desc.name.first", Status::kName, "\".first\" does not exist: a string"},
   };
   for (const auto& c : cases) {
     FieldRef found;
