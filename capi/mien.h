@@ -680,8 +680,9 @@ enum MienStorage {
 enum MienArithmetic {
     MIEN_ARITHMETIC_FAST = 0,    /* among AVX2, AVX-512 and NEON, which fuse multiply and add; and
                                     among scalar and SSE2 */
-    MIEN_ARITHMETIC_PORTABLE = 1 /* on all, by not fusing anywhere. Angles and quaternions are the same
-                                    only as far as the sine and arc tangent of the C library are. */
+    MIEN_ARITHMETIC_PORTABLE = 1 /* on all, by not fusing anywhere. Rigs made of a DNA file are the same as
+                                    far as the sine of the C library is; a baked rig has the same bits
+                                    on every machine. */
 };
 
 /* Whether an instance keeps results whose inputs have not changed since its last evaluation. Results

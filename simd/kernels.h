@@ -154,9 +154,48 @@ struct QuaternionJointArgs {
   float* rotations;
   uint32_t column_count;   // to evaluate
   uint32_t column_stride;  // columns stored per block
-  uint32_t block_count;
+  uint32_t joint_count;    // what else fills a vector is computed, too
   bool halves;
 };
+
+/// Euler angles as files have them (docs/rig-evaluation.md, 4.6 "Euler angles and quaternions").
+struct EulerForm {
+  uint8_t axes[3];        // first, second, third axis to turn about
+  float parity;           // of `axes` as a permutation: 1 or -1
+  float to_radians[3];    // of the angles about x y z, with their signs
+  float from_radians[3];  // likewise
+};
+
+/// Rotations from one form to the other, in blocks of 16, one lane each; `from` may be `to`:
+///
+///     quaternions   block 0: x0..x15 y0..y15 z0..z15 w0..w15 | block 1: ...
+///     angles        block 0: x0..x15 y0..y15 z0..z15 *       | block 1: ...
+///
+/// Quaternions need not be unit: lengths up to 1e18 and down to 1e-18 have the angles of the unit one, 0
+/// those of the identity. Angles are any finite ones. Nothing is fused: every instruction set gives the
+/// same bits. Arrays are 64-byte aligned.
+struct EulerArgs {
+  EulerForm form;
+  const float* from;
+  float* to;
+  uint32_t count;  // of rotations; what else fills a vector is computed, too
+};
+
+/// Twists and swings (docs/rig-evaluation.md, 7 "Twist and swing"), in blocks of 16 outputs, one lane
+/// each, 64-byte aligned:
+///
+///     inputs      block 0: x y z w of the input, ux uy uz, blend, swing | block 1: ...
+///     rotations   block 0: x y z w | block 1: ...
+///
+/// (ux uy uz) selects the axis of the twist: 1 there, or -1 for its inverse, else 0. `swing` is 1 for
+/// the outputs of a swing, where the twist is inverted, else 0. Lengths of inputs are 1e-9 ... 1e9, or
+/// 0. Nothing is fused, as above.
+struct TwistSwingArgs {
+  const float* inputs;
+  float* rotations;
+  uint32_t count;  // of outputs, as above
+};
+constexpr uint32_t kTwistSwingRows = 9;
 
 /// An RBF solver. Its poses are lanes, in blocks of 16:
 ///
@@ -366,6 +405,9 @@ struct KernelTable {
   void (*finish_sums)(float* sums, const float* scales, size_t count);
   void (*dense_layer)(const DenseLayerArgs& args);
   void (*quaternion_joints)(const QuaternionJointArgs& args);
+  void (*angles_from_quaternions)(const EulerArgs& args);
+  void (*quaternions_from_angles)(const EulerArgs& args);
+  void (*twist_swing)(const TwistSwingArgs& args);
   void (*rbf_solvers)(const RbfArgs& args);
   void (*joint_locals)(const JointLocalArgs& args);
   void (*joint_tree)(const JointTreeArgs& args);

@@ -154,7 +154,7 @@ inline void reduce_large_angle(float x, float& rest, float& bits) {
 // eight, so their products are exact; what the second difference loses is added at the end. Then
 // minimax polynomials, within 4e-9.
 template <class V>
-inline void sine_cosine(V x, V& sine, V& cosine) {
+[[gnu::always_inline]] inline void sine_cosine(V x, V& sine, V& cosine) {
   using M = Make<V>;
   constexpr float kMaxAngle = 256;
   V sum = x * M::of(0.636619747f) + M::of(kRounder);
@@ -190,7 +190,7 @@ inline void sine_cosine(V x, V& sine, V& cosine) {
 // magnitude, a minimax polynomial within 2e-8, and what the octant adds to it. Not a number if both
 // are infinite.
 template <class V>
-inline V arc_tangent(V y, V x) {
+[[gnu::always_inline]] inline V arc_tangent(V y, V x) {
   using M = Make<V>;
   const V zero = M::of(0.0f), smallest = M::of(0x1p-149f);
   const V ax = absolute(x), ay = absolute(y);
@@ -213,7 +213,7 @@ inline V arc_tangent(V y, V x) {
 // From the arc sine z + z^3 p(z^2) for z up to 1/2, within 5e-9: pi/2 - asin(x), and for larger x
 // twice the arc sine of sqrt((1 - x) / 2).
 template <class V>
-inline V arc_cosine(V x) {
+[[gnu::always_inline]] inline V arc_cosine(V x) {
   using M = Make<V>;
   const V half = M::of(0.5f), a = at_most_or_nan(absolute(x), M::of(1.0f));
   const auto large = less(half, a);

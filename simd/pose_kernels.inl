@@ -15,14 +15,8 @@ namespace {
 inline VecQuaternion from_half_angles(const float* half_angles, const uint8_t* axes) {
   Vec q[4] = {broadcast(0.0f), broadcast(0.0f), broadcast(0.0f), broadcast(1.0f)};
   for (int i = 0; i < 3; ++i) {
-    const size_t a = axes[i], b = (a + 1) % 3, c = (a + 2) % 3;
-    const Vec half = load(half_angles + a * kBlockLanes);
-    const Vec s = bounded_sine(half), k = bounded_cosine(half);
-    const Vec qa = q[a], qb = q[b], qc = q[c], qw = q[3];
-    q[a] = k * qa + s * qw;
-    q[b] = k * qb - s * qc;
-    q[c] = k * qc + s * qb;
-    q[3] = k * qw - s * qa;
+    const Vec half = load(half_angles + axes[i] * kBlockLanes);
+    turn_about(axes[i], bounded_sine(half), bounded_cosine(half), q);
   }
   return {q[0], q[1], q[2], q[3]};
 }

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Joints represented by quaternions.
+// Rotations of joints: quaternions and Euler angles, joints represented by quaternions, twists and
+// swings. Nothing is fused, so every instruction set gives the same bits.
 
 #pragma once
 
-#include "simd/vec.inl"
+#include "simd/math.inl"
 
 namespace mien::MIEN_KERNEL_ISA {
 namespace {
 
-struct VecQuaternion {
-  Vec x, y, z, w;
+template <class V>
+struct LaneQuaternion {
+  V x, y, z, w;
 };
+using VecQuaternion = LaneQuaternion<Vec>;
 
 inline VecQuaternion load_quaternion(const float* at) {
   return {load(at), load(at + kBlockLanes), load(at + 2 * kBlockLanes), load(at + 3 * kBlockLanes)};
@@ -29,7 +32,8 @@ inline VecQuaternion blend_with_identity(const VecQuaternion& q, float weight) {
   return {b.x * scale, b.y * scale, b.z * scale, b.w * scale};
 }
 
-inline VecQuaternion multiply(const VecQuaternion& a, const VecQuaternion& b) {
+template <class V>
+inline LaneQuaternion<V> multiply(const LaneQuaternion<V>& a, const LaneQuaternion<V>& b) {
   return {
       a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
       a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
@@ -42,12 +46,16 @@ inline float bounded(float weight) {
   return weight > kLargest ? kLargest : weight < -kLargest ? -kLargest : weight;
 }
 
+// Joints represented by quaternions ---------------------------------------------------------------
+
 template <class Value>
 void turn(const Value* all_values, const QuaternionJointArgs& args) {
   constexpr size_t kColumnFloats = 4 * kBlockLanes;
-  for (size_t block = 0; block < args.block_count; ++block) {
+  const size_t joint_count = args.joint_count;
+  for (size_t first = 0; first < joint_count; first += kBlockLanes) {
+    const size_t block = first / kBlockLanes;
     const Value* values = all_values + block * args.column_stride * kColumnFloats;
-    for (size_t lane = 0; lane < kBlockLanes; lane += kWidth) {
+    for (size_t lane = 0; lane < kBlockLanes && first + lane < joint_count; lane += kWidth) {
       VecQuaternion product = {broadcast(0.0f), broadcast(0.0f), broadcast(0.0f), broadcast(1.0f)};
       for (size_t c = 0; c < args.column_count; ++c) {
         const float weight = bounded(args.controls[args.columns[c]]);
@@ -69,6 +77,161 @@ void quaternion_joints(const QuaternionJointArgs& args) {
     turn(static_cast<const uint16_t*>(args.values), args);
   } else {
     turn(static_cast<const float*>(args.values), args);
+  }
+}
+
+// Euler angles ------------------------------------------------------------------------------------
+
+/// Rows of a block, of one vector or two.
+template <class V>
+struct Lanes {
+  using M = Make<V>;
+  static V row(const float* at, size_t row) { return M::from(at + row * kBlockLanes); }
+  static void put(float* at, size_t row, V value) { store(at + row * kBlockLanes, value); }
+};
+
+/// Calls f(first lane in memory of `rows` rows, Make<V>) for the vectors of `count` lanes, two at a time
+/// where there are as many.
+template <class F>
+inline void for_each_vector(size_t count, size_t rows, F&& f) {
+  constexpr bool kPairsFit = 2 * kWidth <= kBlockLanes;
+  for (size_t i = 0; i < count;) {
+    const size_t at = i / kBlockLanes * rows * kBlockLanes + i % kBlockLanes;
+    if constexpr (kPairsFit) {
+      if (i + kWidth < count) {
+        f(at, Make<VecPair>());
+        i += 2 * kWidth;
+        continue;
+      }
+    }
+    f(at, Make<Vec>());
+    i += kWidth;
+  }
+}
+
+/// With half angles a, b, c and the sequence xyz:
+///
+///     w + y = (cos b + sin b) cos(a - c)        x - z = (cos b + sin b) sin(a - c)
+///     w - y = (cos b - sin b) cos(a + c)        x + z = (cos b - sin b) sin(a + c)
+///
+/// These four are accurate near the poles too, where one pair vanishes; matrices would need double
+/// precision there. Products of pairs give the sines and cosines of 2a and 2c, and the product of their
+/// lengths the cosine of 2b. Other sequences turn about other axes, and odd ones against y.
+template <class V>
+[[gnu::always_inline]] inline void angles_of(const EulerForm& form, const float* from, float* to) {
+  using M = Make<V>;
+  using L = Lanes<V>;
+  const V parity = M::of(form.parity), zero = M::of(0.0f);
+  const V x = L::row(from, form.axes[0]), y = L::row(from, form.axes[1]) * parity;
+  const V z = L::row(from, form.axes[2]), w = L::row(from, 3);
+  const V u1 = w + y, v1 = x - z, u2 = w - y, v2 = x + z;
+  const V n1 = u1 * u1 + v1 * v1, n2 = u2 * u2 + v2 * v2;
+  const V wy = w * y - x * z, cosine = square_root(n1) * square_root(n2);
+  const V second = arc_tangent(wy + wy, cosine) * parity;
+  const V uu = u1 * u2, uv = u2 * v1, vu = u1 * v2, vv = v1 * v2;
+  const V first = arc_tangent(vu + uv, uu - vv);
+  // At a pole one pair is left, and with it a - c or a + c.
+  constexpr float kPole = 1e-7f;
+  const auto pole = less(cosine, (n1 + n2) * M::of(0.5f * kPole));
+  const auto upper = less(n2, n1);
+  const V u = select(upper, u1, u2), v = select(upper, zero - v1, v2), twice = u * v;
+  const V third =
+      arc_tangent(select(pole, twice + twice, vu - uv), select(pole, (u - v) * (u + v), uu + vv));
+  const V angles[3] = {select(pole, zero, first), second, third};
+  for (size_t i = 0; i < 3; ++i) {
+    const size_t axis = form.axes[i];
+    L::put(to, axis, angles[i] * M::of(form.from_radians[axis]));
+  }
+}
+
+void angles_from_quaternions(const EulerArgs& args) {
+  for_each_vector(args.count, 4, [&](size_t at, auto make) {
+    angles_of<decltype(make.of(0.0f))>(args.form, args.from + at, args.to + at);
+  });
+}
+
+/// The product of q and, on its left, the rotation about an axis, given sine and cosine of half the
+/// angle.
+template <class V>
+inline void turn_about(size_t axis, V sine, V cosine, V (&q)[4]) {
+  const size_t a = axis, b = (a + 1) % 3, c = (a + 2) % 3;
+  const V qa = q[a], qb = q[b], qc = q[c], qw = q[3];
+  q[a] = cosine * qa + sine * qw;
+  q[b] = cosine * qb - sine * qc;
+  q[c] = cosine * qc + sine * qb;
+  q[3] = cosine * qw - sine * qa;
+}
+
+void quaternions_from_angles(const EulerArgs& args) {
+  for_each_vector(args.count, 4, [&](size_t at, auto make) {
+    using V = decltype(make.of(0.0f));
+    using L = Lanes<V>;
+    V q[4] = {make.of(0.0f), make.of(0.0f), make.of(0.0f), make.of(1.0f)};
+    for (const size_t axis : args.form.axes) {
+      V sine, cosine;
+      sine_cosine(L::row(args.from + at, axis) * make.of(0.5f * args.form.to_radians[axis]), sine,
+                  cosine);
+      turn_about(axis, sine, cosine, q);
+    }
+    for (size_t k = 0; k < 4; ++k) L::put(args.to + at, k, q[k]);
+  });
+}
+
+// Twists and swings -------------------------------------------------------------------------------
+
+/// From q (t = 0) to the identity (t = 1) and beyond, the short way.
+inline VecQuaternion slerp_to_identity(const VecQuaternion& q, Vec t) {
+  constexpr float kParallel = 1.0f - 1.0f / (1 << 23);
+  const Vec zero = broadcast(0.0f), one = broadcast(1.0f);
+  const Vec c = absolute(q.w), s = one - t, angle = arc_cosine(c);
+  const Vec sine = square_root((one - c) * (one + c));
+  VecPair sines, cosines;
+  sine_cosine(VecPair{s * angle, t * angle}, sines, cosines);
+  const Mask parallel = less(broadcast(kParallel), c);
+  const Vec from = select(parallel, s, divide(sines.a, sine));
+  const Vec to = select(parallel, t, divide(sines.b, sine));
+  return {q.x * from, q.y * from, q.z * from, q.w * from + select(less(q.w, zero), zero - to, to)};
+}
+
+/// conjugate / squared length; the identity for 0.
+inline VecQuaternion inverse(const VecQuaternion& q) {
+  const Vec zero = broadcast(0.0f), squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  const Mask has = less(zero, squared);
+  return {keep(has, divide(zero - q.x, squared)), keep(has, divide(zero - q.y, squared)),
+          keep(has, divide(zero - q.z, squared)),
+          select(has, divide(q.w, squared), broadcast(1.0f))};
+}
+
+inline VecQuaternion select(Mask m, const VecQuaternion& a, const VecQuaternion& b) {
+  return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z), select(m, a.w, b.w)};
+}
+
+void twist_swing(const TwistSwingArgs& args) {
+  using L = Lanes<Vec>;
+  const Vec zero = broadcast(0.0f), one = broadcast(1.0f);
+  const VecQuaternion identity = {zero, zero, zero, one};
+  for (size_t i = 0; i < args.count; i += kBlockLanes) {
+    for (size_t lane = 0; lane < kBlockLanes && i + lane < args.count; lane += kWidth) {
+      const float* in = args.inputs + i * kTwistSwingRows + lane;
+      const VecQuaternion q = load_quaternion(in);
+      VecQuaternion twist = {q.x * L::row(in, 4), q.y * L::row(in, 5), q.z * L::row(in, 6), q.w};
+      const Vec squared =
+          twist.x * twist.x + twist.y * twist.y + twist.z * twist.z + twist.w * twist.w;
+      const Vec length = square_root(squared);
+      twist = select(less(zero, squared),
+                     VecQuaternion{divide(twist.x, length), divide(twist.y, length),
+                                   divide(twist.z, length), divide(twist.w, length)},
+                     identity);
+      const Mask swing = less(zero, L::row(in, 8));
+      const VecQuaternion whole = select(swing, inverse(multiply(q, twist)), twist);
+      const VecQuaternion part = slerp_to_identity(whole, L::row(in, 7));
+      const VecQuaternion out = multiply(select(swing, twist, identity), part);
+      float* to = args.rotations + i * 4 + lane;
+      L::put(to, 0, out.x);
+      L::put(to, 1, out.y);
+      L::put(to, 2, out.z);
+      L::put(to, 3, out.w);
+    }
   }
 }
 

@@ -85,11 +85,6 @@ void euler_from_matrix(const RotationConvention& convention, const Matrix3& matr
   for (int i = 0; i < 3; ++i) angles[i] = turns[i] * convention.signs[i] / convention.to_radians;
 }
 
-void euler_from_quaternion(const RotationConvention& convention, const Quaternion& q,
-                           float angles[3]) {
-  euler_from_matrix(convention, matrix_from_quaternion(q), angles);
-}
-
 Matrix3 operator*(const Matrix3& a, const Matrix3& b) {
   Matrix3 product = {};
   for (int r = 0; r < 3; ++r) {
@@ -141,20 +136,6 @@ Quaternion rotation_part(const Quaternion& q, uint32_t axis, bool swing) {
     case 1: return {(q.w * q.x + q.y * q.z) / n, 0, (q.w * q.z - q.y * q.x) / n, n};
     default: return {(q.w * q.x - q.z * q.y) / n, (q.w * q.y + q.z * q.x) / n, 0, n};
   }
-}
-
-Quaternion slerp_to_identity(const Quaternion& q, float t) {
-  constexpr float kParallel = 1.0f - 1.0f / (1 << 23);
-  const float sign = q.w < 0 ? -1.0f : 1.0f;
-  const float cosine = q.w * sign;
-  float from = 1 - t, to = t;
-  if (cosine <= kParallel) {
-    const float angle = std::acos(cosine);
-    const float sine = std::sin(angle);
-    from = std::sin((1 - t) * angle) / sine;
-    to = std::sin(t * angle) / sine;
-  }
-  return {q.x * from, q.y * from, q.z * from, q.w * from + to * sign};
 }
 
 }  // namespace mien

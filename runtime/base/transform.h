@@ -27,11 +27,6 @@ RotationConvention rotation_convention(uint32_t sequence, const int32_t signs[3]
 /// From angles about x, y, z.
 Quaternion quaternion_from_euler(const RotationConvention& convention, const float angles[3]);
 
-/// To angles about x, y, z. In gimbal lock the angle that is left open is 0. `q` may have any length;
-/// zero means the identity.
-void euler_from_quaternion(const RotationConvention& convention, const Quaternion& q,
-                           float angles[3]);
-
 /// Rotation matrix for row vectors, v * m.
 struct Matrix3 {
   double m[3][3];
@@ -40,6 +35,7 @@ struct Matrix3 {
 Matrix3 matrix_from_euler(const RotationConvention& convention, const float angles[3]);
 /// The length of `q` does not matter; zero gives the identity.
 Matrix3 matrix_from_quaternion(const Quaternion& q);
+/// To angles about x, y, z. In gimbal lock the angle that is left open is 0.
 void euler_from_matrix(const RotationConvention& convention, const Matrix3& matrix,
                        float angles[3]);
 Matrix3 operator*(const Matrix3& a, const Matrix3& b);
@@ -56,8 +52,5 @@ Quaternion normalized(const Quaternion& q);
 /// solvers see it (docs/rig-evaluation.md, 6.2 "Preparation of inputs and targets"). Not a number
 /// if `q` has no such part.
 Quaternion rotation_part(const Quaternion& q, uint32_t axis, bool swing);
-
-/// From `q` (t = 0) to the identity (t = 1) and beyond, the short way.
-Quaternion slerp_to_identity(const Quaternion& q, float t);
 
 }  // namespace mien

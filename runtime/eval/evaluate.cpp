@@ -140,7 +140,7 @@ void evaluate(const Rig& rig, Instance& instance, uint32_t lod, uint32_t stages)
 void evaluate_joint_group(const Rig& rig, Instance& instance, uint32_t lod, uint32_t group) {
   enter_lod(rig, instance, lod);
   evaluate_joint_rows(rig, instance, lod, kAllPanels, group);
-  evaluate_rotations(rig, instance, lod, group);
+  evaluate_rotations(rig, instance, lod, group, 1);
   instance.stale |= kStageJoints | kAllPanels;
 }
 
@@ -152,7 +152,7 @@ void evaluate_rbf_solver(const Rig& rig, Instance& instance, uint32_t lod, uint3
 
 void evaluate_twist_swing(const Rig& rig, Instance& instance, uint32_t lod, uint32_t setup) {
   enter_lod(rig, instance, lod);
-  apply_twist_swing(rig, instance, lod, rig.twist_swing.setups[setup]);
+  apply_twists_and_swings(rig, instance, lod, rig.twist_swing.setups.slice(setup, 1));
   instance.stale |= kStageJoints | kAllPanels;
 }
 

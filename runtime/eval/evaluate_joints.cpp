@@ -166,13 +166,8 @@ void begin_joints(const Rig& rig, Instance& instance, uint32_t lod) {
 }
 
 void finish_joints(const Rig& rig, Instance& instance, uint32_t lod) {
-  const RotationTable& rotations = rig.rotations;
-  if (!rotations.angle_joints.empty() || !rotations.quaternion_joints.empty()) {
-    for (uint32_t g = 0; g < rig.joints.group_count; ++g) evaluate_rotations(rig, instance, lod, g);
-  }
-  for (const TwistSwing& setup : rig.twist_swing.setups) {
-    apply_twist_swing(rig, instance, lod, setup);
-  }
+  evaluate_rotations(rig, instance, lod, 0, rig.joints.group_count);
+  apply_twists_and_swings(rig, instance, lod, rig.twist_swing.setups);
   add_ml_joints(rig, instance, lod);
   instance.stale &= ~(Uses{kStageJoints} | kAllPanels);
 }

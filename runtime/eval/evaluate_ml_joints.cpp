@@ -21,9 +21,70 @@ void clear_ml_joints(const Rig& rig, Instance& instance, uint32_t lod) {
   }
 }
 
+namespace {
+
+/// Sixteen ML rotations, made into the form in which they are added: of quaternions to quaternions, of
+/// angles to angles.
+class MlRotationBlock {
+ public:
+  MlRotationBlock(const Rig& rig, Instance& instance)
+      : rig_(rig), instance_(instance),
+        converts_(rig.ml.quaternion_rotations != rig.quaternion_outputs) {}
+
+  void add(const MlJoint& joint) {
+    const float* x = instance_.controls.data + joint.rotation_control;
+    float part[4] = {x[0], x[1], x[2], 0};
+    if (rig_.ml.quaternion_rotations) {
+      const Quaternion q = normalized({x[0], x[1], x[2], x[3]});
+      part[0] = q.x;
+      part[1] = q.y;
+      part[2] = q.z;
+      part[3] = q.w;
+    }
+    for (uint32_t k = 0; k < 4; ++k) rows_[k * kBlockLanes + count_] = part[k];
+    joints_[count_++] = joint.joint;
+    if (count_ == kBlockLanes) flush();
+  }
+  void flush() {
+    if (count_ == 0) return;
+    if (converts_) {
+      const auto kernel = rig_.quaternion_outputs ? rig_.kernels->quaternions_from_angles
+                                                  : rig_.kernels->angles_from_quaternions;
+      kernel({euler_form(rig_.rotation), rows_, rows_, count_});
+    }
+    for (uint32_t i = 0; i < count_; ++i) {
+      const float* lane = rows_ + i;
+      const float v[4] = {lane[0], lane[kBlockLanes], lane[2 * kBlockLanes], lane[3 * kBlockLanes]};
+      float* out = instance_.joints.data + size_t{joints_[i]} * rig_.joint_attributes + 3;
+      if (rig_.quaternion_outputs) {
+        const Quaternion q =
+            Quaternion{v[0], v[1], v[2], v[3]} * Quaternion{out[0], out[1], out[2], out[3]};
+        out[0] = q.x;
+        out[1] = q.y;
+        out[2] = q.z;
+        out[3] = q.w;
+      } else {
+        for (int k = 0; k < 3; ++k) out[k] = saturated(out[k] + v[k]);
+      }
+    }
+    count_ = 0;
+  }
+
+ private:
+  const Rig& rig_;
+  Instance& instance_;
+  const bool converts_;
+  uint32_t count_ = 0;
+  alignas(kBlockAlignment) float rows_[4 * kBlockLanes] = {};
+  uint16_t joints_[kBlockLanes];
+};
+
+}  // namespace
+
 void add_ml_joints(const Rig& rig, Instance& instance, uint32_t lod) {
-  const MlTable& ml = rig.ml;
-  for (const MlJoint& joint : ml.joints) {
+  if (rig.ml.joints.empty()) return;
+  MlRotationBlock rotations(rig, instance);
+  for (const MlJoint& joint : rig.ml.joints) {
     if (!is_active(joint, lod)) continue;
     float* out = instance.joints.data + size_t{joint.joint} * rig.joint_attributes;
     float* scale = out + rig.joint_attributes - 3;
@@ -35,18 +96,9 @@ void add_ml_joints(const Rig& rig, Instance& instance, uint32_t lod) {
         scale[i] = saturated(scale[i] + instance.controls[joint.scale[i]]);
       }
     }
-    if (joint.rotation_control == kNoControl) continue;
-    const float* x = instance.controls.data + joint.rotation_control;
-    const Quaternion q = ml.quaternion_rotations ? normalized({x[0], x[1], x[2], x[3]})
-                                                 : quaternion_from_euler(rig.rotation, x);
-    if (rig.quaternion_outputs) {
-      write_rotation(rig, instance, joint.joint, q * Quaternion{out[3], out[4], out[5], out[6]});
-    } else {
-      float angles[3] = {x[0], x[1], x[2]};
-      if (ml.quaternion_rotations) euler_from_quaternion(rig.rotation, q, angles);
-      for (int i = 0; i < 3; ++i) out[3 + i] = saturated(out[3 + i] + angles[i]);
-    }
+    if (joint.rotation_control != kNoControl) rotations.add(joint);
   }
+  rotations.flush();
 }
 
 }  // namespace mien

@@ -120,8 +120,13 @@ void convert_rotation(const Rig& rig, Instance& instance, uint16_t base) {
     }
     return;
   }
-  const Matrix3 turned = transposed(ml.to_rig) * matrix_from_euler(ml.rotation, angles) * ml.to_rig;
-  euler_from_matrix(rig.rotation, turned, x);
+  alignas(kBlockAlignment) float rows[4 * kBlockLanes] = {};
+  for (int i = 0; i < 3; ++i) rows[i * kBlockLanes] = angles[i];
+  rig.kernels->quaternions_from_angles({euler_form(ml.rotation), rows, rows, 1});
+  const float v[3] = {rows[0], rows[kBlockLanes], rows[2 * kBlockLanes]};
+  for (int i = 0; i < 3; ++i) rows[i * kBlockLanes] = v[ml.change.from[i]] * ml.change.turn[i];
+  rig.kernels->angles_from_quaternions({euler_form(rig.rotation), rows, rows, 1});
+  for (int i = 0; i < 3; ++i) x[i] = rows[i * kBlockLanes];
 }
 
 void clear_joint_controls(const Rig& rig, Instance& instance) {

@@ -65,11 +65,14 @@ void finish_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTi
 
 // Rotations of joints (evaluate_rotations.cpp) ----------------------------------------------------
 
-/// The rotations of a group, once its rows are written.
-void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32_t group);
-void apply_twist_swing(const Rig& rig, Instance& instance, uint32_t lod, const TwistSwing& setup);
-/// In the form of the rig's outputs.
-void write_rotation(const Rig& rig, Instance& instance, uint32_t joint, const Quaternion& q);
+/// The rotations of neighboring groups, once their rows are written.
+void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32_t first_group,
+                        uint32_t group_count);
+/// Set-ups in order.
+void apply_twists_and_swings(const Rig& rig, Instance& instance, uint32_t lod,
+                             const Span<TwistSwing>& setups);
+/// A convention as kernels take it.
+EulerForm euler_form(const RotationConvention& convention);
 
 // ML joints (evaluate_ml_joints.cpp) --------------------------------------------------------------
 

@@ -182,10 +182,11 @@ TEST(QuaternionJointsKernel, ProductOfBlends) {
         }
       }
       const AlignedHalves halves(values.data, size_t{blocks} * (columns + 1) * kFloats);
+      const uint32_t joints = blocks * kBlockLanes - 5;
       for (const KernelTable* table : present()) {
         QuaternionJointArgs args = {
             halves.data, controls_of.data(), controls.data(), rotations.data,
-            columns,     columns + 1,        blocks,          true};
+            columns,     columns + 1,        joints,          true};
         table->quaternion_joints(args);
         const std::vector<float> from_halves(rotations.data, rotations.data + blocks * kFloats);
         args.values = values.data;
@@ -193,7 +194,7 @@ TEST(QuaternionJointsKernel, ProductOfBlends) {
         table->quaternion_joints(args);
         EXPECT_TRUE(std::equal(from_halves.begin(), from_halves.end(), rotations.data));
         for (uint32_t b = 0; b < blocks; ++b) {
-          for (uint32_t j = 0; j < kBlockLanes; ++j) {
+          for (uint32_t j = 0; j < kBlockLanes && b * kBlockLanes + j < joints; ++j) {
             double a[4] = {0, 0, 0, 1};
             for (uint32_t c = 0; c < columns; ++c) {
               const float* q = values.data + (size_t{b} * (columns + 1) + c) * kFloats + j;

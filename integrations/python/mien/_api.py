@@ -294,8 +294,8 @@ class Arithmetic(IntEnum):
 
     #: among AVX2, AVX-512 and NEON, which fuse multiply and add; and among scalar and SSE2
     FAST = 0
-    #: on all, by not fusing anywhere. Angles and quaternions are the same only as far as the sine
-    #: and arc tangent of the C library are.
+    #: on all, by not fusing anywhere. Rigs made of a DNA file are the same as far as the sine of
+    #: the C library is; a baked rig has the same bits on every machine.
     PORTABLE = 1
 
 

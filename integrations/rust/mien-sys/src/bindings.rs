@@ -211,8 +211,8 @@ pub const MIEN_STORAGE_16_BIT: u32 = 1;
 // enum MienArithmetic
 /// Among AVX2, AVX-512 and NEON, which fuse multiply and add; and among scalar and SSE2.
 pub const MIEN_ARITHMETIC_FAST: u32 = 0;
-/// On all, by not fusing anywhere. Angles and quaternions are the same only as far as the sine and
-/// arc tangent of the C library are.
+/// On all, by not fusing anywhere. Rigs made of a DNA file are the same as far as the sine of the
+/// C library is; a baked rig has the same bits on every machine.
 pub const MIEN_ARITHMETIC_PORTABLE: u32 = 1;
 
 // enum MienReuse

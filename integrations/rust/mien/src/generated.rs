@@ -452,8 +452,8 @@ pub struct Arithmetic(pub u32);
 impl Arithmetic {
     /// Among AVX2, AVX-512 and NEON, which fuse multiply and add; and among scalar and SSE2.
     pub const FAST: Self = Self(0);
-    /// On all, by not fusing anywhere. Angles and quaternions are the same only as far as the sine
-    /// and arc tangent of the C library are.
+    /// On all, by not fusing anywhere. Rigs made of a DNA file are the same as far as the sine of
+    /// the C library is; a baked rig has the same bits on every machine.
     pub const PORTABLE: Self = Self(1);
 }
 

@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: MIT
+// Euler angles, twists and swings in lanes: every instruction set present against double precision, and
+// against each other to the bit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "runtime/author/random.h"
+#include "simd/kernels.h"
+
+namespace mien {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr uint8_t kAxes[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+
+using Quad = std::array<double, 4>;
+
+std::vector<const KernelTable*> present() {
+  std::vector<const KernelTable*> tables;
+  for (uint32_t isa = 1; isa < kIsaCount; ++isa) {
+    if (const KernelTable* table = kernels_for(static_cast<Isa>(isa))) tables.push_back(table);
+  }
+  return tables;
+}
+
+Quad product(const Quad& a, const Quad& b) {
+  return {a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1],
+          a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],
+          a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3],
+          a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
+}
+double length(const Quad& q) {
+  return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+}
+Quad scaled(const Quad& q, double s) { return {q[0] * s, q[1] * s, q[2] * s, q[3] * s}; }
+Quad conjugate(const Quad& q) { return {-q[0], -q[1], -q[2], q[3]}; }
+
+/// Radians between two rotations, of any length but 0.
+double angle_between(const Quad& a, const Quad& b) {
+  const Quad turn = product(scaled(a, 1 / length(a)), conjugate(scaled(b, 1 / length(b))));
+  return 2 * std::atan2(std::hypot(turn[0], turn[1], turn[2]), std::fabs(turn[3]));
+}
+
+EulerForm random_form(Random& random, int sequence) {
+  EulerForm form = {};
+  std::copy(kAxes[sequence], kAxes[sequence] + 3, form.axes);
+  form.parity = sequence == 0 || sequence == 3 || sequence == 4 ? 1.0f : -1.0f;
+  const float unit = random.chance(0.5) ? 0.017453292f : 1.0f;
+  for (int i = 0; i < 3; ++i) {
+    const float sign = random.chance(0.5) ? 1.0f : -1.0f;
+    form.to_radians[i] = sign * unit;
+    form.from_radians[i] = sign / unit;
+  }
+  return form;
+}
+
+Quad quaternion_of(const EulerForm& form, const std::array<double, 3>& angles) {
+  Quad q = {0, 0, 0, 1};
+  for (const uint8_t axis : form.axes) {
+    const double half = angles[axis] * double{form.to_radians[axis]} / 2;
+    Quad turn = {0, 0, 0, std::cos(half)};
+    turn[axis] = std::sin(half);
+    q = product(turn, q);
+  }
+  return q;
+}
+
+/// Rows of lanes in blocks.
+struct Block {
+  Block(uint32_t row_count, size_t lanes)
+      : rows(row_count), storage(rows * (lanes + 2 * kBlockLanes) + 16, 0.0f) {
+    const size_t past = reinterpret_cast<uintptr_t>(storage.data()) / sizeof(float) % 16;
+    data = storage.data() + (past ? 16 - past : 0);
+  }
+  Block(const Block&) = delete;
+  float& at(size_t lane, size_t row) {
+    return data[(lane / kBlockLanes * rows + row) * kBlockLanes + lane % kBlockLanes];
+  }
+  uint32_t rows;
+  std::vector<float> storage;
+  float* data;
+};
+
+/// Runs a kernel on every instruction set, expects the same bits in the first lanes, and leaves them.
+template <class Run>
+void run_everywhere(Block& out, size_t lanes, uint32_t rows, Run&& run) {
+  std::vector<float> first;
+  for (const KernelTable* table : present()) {
+    run(*table);
+    std::vector<float> now;
+    for (size_t i = 0; i < lanes; ++i) {
+      for (uint32_t r = 0; r < rows; ++r) now.push_back(out.at(i, r));
+    }
+    if (first.empty()) first = now;
+    ASSERT_EQ(std::memcmp(first.data(), now.data(), now.size() * sizeof(float)), 0) << table->name;
+  }
+}
+
+TEST(EulerKernels, DescribeTheRotationInEveryFormAndCount) {
+  Random random = Random::from_seed(72, 1);
+  for (int sequence = 0; sequence < 6; ++sequence) {
+    for (uint32_t count : {1u, 3u, 4u, 5u, 8u, 9u, 15u, 16u, 17u, 31u, 100u}) {
+      const EulerForm form = random_form(random, sequence);
+      Block quaternions(4, count), angles(4, count);
+      for (size_t i = 0; i < count; ++i) {
+        const double size = std::exp(random.between(-30, 30));
+        for (int k = 0; k < 4; ++k) {
+          quaternions.at(i, k) = static_cast<float>(random.between(-1, 1) * size);
+        }
+      }
+      run_everywhere(angles, count, 3, [&](const KernelTable& table) {
+        table.angles_from_quaternions({form, quaternions.data, angles.data, count});
+      });
+      for (size_t i = 0; i < count; ++i) {
+        const Quad expected = {quaternions.at(i, 0), quaternions.at(i, 1), quaternions.at(i, 2),
+                               quaternions.at(i, 3)};
+        const Quad mine = quaternion_of(form, {angles.at(i, 0), angles.at(i, 1), angles.at(i, 2)});
+        ASSERT_LT(angle_between(mine, expected), 1e-6) << "sequence " << sequence;
+        const uint8_t second = form.axes[1];
+        ASSERT_LE(std::fabs(angles.at(i, second) * double{form.to_radians[second]}),
+                  kPi / 2 + 1e-6);
+      }
+    }
+  }
+}
+
+TEST(EulerKernels, MayWriteWhereTheyRead) {
+  Random random = Random::from_seed(72, 2);
+  const EulerForm form = random_form(random, 1);
+  for (const KernelTable* table : present()) {
+    Block from(4, 20), to(4, 20);
+    for (size_t i = 0; i < 20; ++i) {
+      for (int k = 0; k < 4; ++k) from.at(i, k) = static_cast<float>(random.between(-1, 1));
+    }
+    table->quaternions_from_angles({form, from.data, to.data, 20});
+    table->quaternions_from_angles({form, from.data, from.data, 20});
+    for (size_t i = 0; i < 20; ++i) {
+      for (int k = 0; k < 4; ++k) ASSERT_EQ(from.at(i, k), to.at(i, k)) << table->name;
+    }
+    table->angles_from_quaternions({form, from.data, to.data, 20});
+    table->angles_from_quaternions({form, from.data, from.data, 20});
+    for (size_t i = 0; i < 20; ++i) {
+      for (int k = 0; k < 3; ++k) ASSERT_EQ(from.at(i, k), to.at(i, k)) << table->name;
+    }
+  }
+}
+
+TEST(EulerKernels, AnglesNearAndAtThePolesDescribeTheRotation) {
+  Random random = Random::from_seed(72, 3);
+  for (int sequence = 0; sequence < 6; ++sequence) {
+    const EulerForm form = random_form(random, sequence);
+    const uint8_t second = form.axes[1];
+    constexpr double kOffsets[] = {0, 1e-9, 1e-8, 1e-7, 3e-7, 1e-6, 1e-5, 1e-4, 1e-3, 0.1};
+    constexpr uint32_t kCount = 20 * 10;
+    Block quaternions(4, kCount), angles(4, kCount);
+    for (uint32_t i = 0; i < kCount; ++i) {
+      const double radians[3] = {random.between(-kPi, kPi), random.between(-kPi, kPi),
+                                 random.between(-kPi, kPi)};
+      std::array<double, 3> a;
+      for (int k = 0; k < 3; ++k) a[k] = radians[k] / double{form.to_radians[k]};
+      a[second] = ((i % 2 ? kPi / 2 : -kPi / 2) + (i % 4 < 2 ? 1 : -1) * kOffsets[i / 20]) /
+                  double{form.to_radians[second]};
+      if (i / 20 == 0 && i % 20 < 2) a[form.axes[0]] = a[form.axes[2]] = 0;
+      const Quad q = quaternion_of(form, a);
+      for (int k = 0; k < 4; ++k) quaternions.at(i, k) = static_cast<float>(q[k]);
+    }
+    run_everywhere(angles, kCount, 3, [&](const KernelTable& table) {
+      table.angles_from_quaternions({form, quaternions.data, angles.data, kCount});
+    });
+    for (size_t i = 0; i < kCount; ++i) {
+      const Quad expected = {quaternions.at(i, 0), quaternions.at(i, 1), quaternions.at(i, 2),
+                             quaternions.at(i, 3)};
+      const Quad mine = quaternion_of(form, {angles.at(i, 0), angles.at(i, 1), angles.at(i, 2)});
+      ASSERT_LT(angle_between(mine, expected), 1.5e-6) << "sequence " << sequence << ", lane " << i;
+    }
+  }
+}
+
+TEST(EulerKernels, TurnsAboutOneAxisAndNoTurnLeaveTheOtherAnglesZero) {
+  Random random = Random::from_seed(72, 4);
+  for (int sequence = 0; sequence < 6; ++sequence) {
+    const EulerForm form = random_form(random, sequence);
+    Block quaternions(4, 5), angles(4, 5);  // lane 3: the identity; lane 4: no length
+    for (size_t i = 0; i < 3; ++i) {
+      quaternions.at(i, i) = static_cast<float>(std::sin(0.3));
+      quaternions.at(i, 3) = static_cast<float>(std::cos(0.3));
+    }
+    quaternions.at(3, 3) = 1;
+    run_everywhere(angles, 5, 3, [&](const KernelTable& table) {
+      table.angles_from_quaternions({form, quaternions.data, angles.data, 5});
+    });
+    for (size_t i = 0; i < 5; ++i) {
+      for (size_t k = 0; k < 3; ++k) {
+        if (i == k) {
+          EXPECT_NEAR(angles.at(i, k) * form.to_radians[k], 0.6, 2e-7);
+        } else {
+          EXPECT_EQ(angles.at(i, k), 0) << "lane " << i << ", axis " << k;
+        }
+      }
+    }
+  }
+}
+
+TEST(EulerKernels, QuaternionsOfAnyAngles) {
+  Random random = Random::from_seed(72, 5);
+  for (int sequence = 0; sequence < 6; ++sequence) {
+    for (uint32_t count : {1u, 7u, 16u, 40u}) {
+      const EulerForm form = random_form(random, sequence);
+      Block angles(4, count), quaternions(4, count);
+      for (size_t i = 0; i < count; ++i) {
+        for (int k = 0; k < 3; ++k) {
+          const double turns = random.chance(0.2) ? 100 : 1;
+          angles.at(i, k) =
+              static_cast<float>(random.between(-7, 7) * turns * form.from_radians[k]);
+        }
+      }
+      run_everywhere(quaternions, count, 4, [&](const KernelTable& table) {
+        table.quaternions_from_angles({form, angles.data, quaternions.data, count});
+      });
+      for (size_t i = 0; i < count; ++i) {
+        std::array<double, 3> a;
+        for (size_t k = 0; k < 3; ++k) {
+          // As it is rounded to half angles in radians.
+          a[k] = double{angles.at(i, k) * (0.5f * form.to_radians[k])} * 2 /
+                 double{form.to_radians[k]};
+        }
+        const Quad expected = quaternion_of(form, a);
+        for (size_t k = 0; k < 4; ++k) ASSERT_NEAR(quaternions.at(i, k), expected[k], 4e-7);
+      }
+    }
+  }
+}
+
+/// docs/rig-evaluation.md, 7 "Twist and swing".
+Quad slerp_to_identity(const Quad& q, double t) {
+  const double sign = q[3] < 0 ? -1 : 1, cosine = q[3] * sign;
+  double from = 1 - t, to = t;
+  if (cosine <= 1 - std::ldexp(1.0, -23)) {
+    const double angle = std::acos(cosine);
+    from = std::sin((1 - t) * angle) / std::sin(angle);
+    to = std::sin(t * angle) / std::sin(angle);
+  }
+  Quad result = scaled(q, from);
+  result[3] += to * sign;
+  return result;
+}
+Quad twist_or_swing(const Quad& q, int axis, bool inverted, bool swing, double blend) {
+  Quad twist = {0, 0, 0, q[3]};
+  twist[axis] = inverted ? -q[axis] : q[axis];
+  twist = length(twist) > 0 ? scaled(twist, 1 / length(twist)) : Quad{0, 0, 0, 1};
+  if (!swing) return slerp_to_identity(twist, blend);
+  Quad rest = product(q, twist);
+  rest = scaled(conjugate(rest), 1 / (length(rest) * length(rest)));
+  return product(twist, slerp_to_identity(rest, blend));
+}
+
+TEST(TwistSwingKernel, EveryKindAxisBlendAndCount) {
+  Random random = Random::from_seed(72, 6);
+  for (uint32_t count : {1u, 4u, 7u, 8u, 13u, 16u, 33u, 400u}) {
+    Block inputs(kTwistSwingRows, count), rotations(4, count);
+    std::vector<Quad> expected;
+    for (size_t i = 0; i < count; ++i) {
+      Quad q;
+      for (double& part : q) part = random.between(-1, 1);
+      if (random.chance(0.2)) q = {q[0] * 1e-4, q[1] * 1e-4, q[2] * 1e-4, q[3]};  // nearly none
+      q = scaled(q, 1 / length(q));
+      for (int k = 0; k < 4; ++k) inputs.at(i, k) = static_cast<float>(q[k]);
+      const int axis = static_cast<int>(random.below(3));
+      const bool swing = random.chance(0.5), inverted = swing || random.chance(0.5);
+      constexpr double kBlends[] = {0, 0.25, 0.5, 0.8125, 1, 1.5, -0.5};
+      const double blend = kBlends[random.below(7)];
+      inputs.at(i, 4 + axis) = inverted ? -1.0f : 1.0f;
+      inputs.at(i, 7) = static_cast<float>(blend);
+      inputs.at(i, 8) = swing ? 1.0f : 0.0f;
+      for (int k = 0; k < 4; ++k) q[k] = inputs.at(i, k);
+      expected.push_back(twist_or_swing(q, axis, inverted, swing, blend));
+    }
+    run_everywhere(rotations, count, 4, [&](const KernelTable& table) {
+      table.twist_swing({inputs.data, rotations.data, count});
+    });
+    for (size_t i = 0; i < count; ++i) {
+      for (int k = 0; k < 4; ++k) {
+        ASSERT_NEAR(rotations.at(i, k), expected[i][k], 2e-6) << "lane " << i << ", part " << k;
+      }
+    }
+  }
+}
+
+TEST(TwistSwingKernel, EndsOfTheBlendAreExact) {
+  Block inputs(kTwistSwingRows, 2), rotations(4, 2);
+  for (size_t i = 0; i < 2; ++i) {
+    inputs.at(i, 1) = 0.6f;
+    inputs.at(i, 3) = 0.8f;
+    inputs.at(i, 5) = 1;
+    inputs.at(i, 7) = static_cast<float>(i);  // the whole twist; the identity
+  }
+  run_everywhere(rotations, 2, 4, [&](const KernelTable& table) {
+    table.twist_swing({inputs.data, rotations.data, 2});
+  });
+  EXPECT_FLOAT_EQ(rotations.at(0, 1), 0.6f);
+  EXPECT_FLOAT_EQ(rotations.at(0, 3), 0.8f);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(rotations.at(1, k), 0);
+  EXPECT_FLOAT_EQ(rotations.at(1, 3), 1);
+}
+
+// No part on the axis and w 0; no input at all; lengths far from 1; blends far from 0 ... 1.
+TEST(TwistSwingKernel, GivesFiniteResultsForExtremeInputs) {
+  Random random = Random::from_seed(72, 7);
+  constexpr uint32_t kCount = 1600;
+  Block inputs(kTwistSwingRows, kCount), rotations(4, kCount), angles(4, kCount);
+  constexpr float kLengths[] = {1e-9f, 1e-5f, 1, 1e5f, 1e9f};
+  constexpr float kBlends[] = {0, 1, -1e9f, 1e9f, 0.5f, 300};
+  for (size_t i = 0; i < kCount; ++i) {
+    const float size = kLengths[random.below(5)];
+    for (int k = 0; k < 4; ++k) {
+      inputs.at(i, k) =
+          random.chance(0.4) ? 0.0f : static_cast<float>(random.between(-0.5, 0.5)) * size;
+    }
+    inputs.at(i, 4 + random.below(3)) = random.chance(0.5) ? -1.0f : 1.0f;
+    inputs.at(i, 7) = kBlends[random.below(6)];
+    inputs.at(i, 8) = random.chance(0.5) ? 1.0f : 0.0f;
+  }
+  run_everywhere(rotations, kCount, 4, [&](const KernelTable& table) {
+    table.twist_swing({inputs.data, rotations.data, kCount});
+  });
+  const EulerForm form = random_form(random, 2);
+  run_everywhere(angles, kCount, 3, [&](const KernelTable& table) {
+    table.angles_from_quaternions({form, rotations.data, angles.data, kCount});
+  });
+  for (size_t i = 0; i < kCount; ++i) {
+    for (int k = 0; k < 4; ++k) ASSERT_TRUE(std::isfinite(rotations.at(i, k))) << i;
+    for (int k = 0; k < 3; ++k) ASSERT_TRUE(std::isfinite(angles.at(i, k))) << i;
+  }
+}
+
+}  // namespace
+}  // namespace mien
