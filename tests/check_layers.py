@@ -26,6 +26,7 @@ GRAPH = {
     "runtime/mix": ["runtime/base", "simd", "runtime/rig", "runtime/eval", "runtime/anim",
                     "runtime/pose"],
     "runtime/pose": ["runtime/base", "simd", "runtime/rig"],
+    "runtime/solve": ["runtime/base", "runtime/rig", "runtime/anim", "runtime/pose"],
     "runtime/deform": ["runtime/base", "simd", "runtime/rig", "runtime/eval", "runtime/pose"],
     "runtime/probe": ["runtime/base", "runtime/rig", "runtime/eval", "runtime/mix", "runtime/pose",
                       "runtime/deform"],
@@ -42,8 +43,8 @@ GRAPH = {
                          "capi/arguments"],
     "capi": ["capi/arguments", "runtime/base", "simd", "runtime/dna/format", "runtime/dna/check",
              "runtime/dna/convert", "runtime/dna", "runtime/rig", "runtime/eval", "runtime/anim",
-             "runtime/mix", "runtime/pose", "runtime/deform", "runtime/probe", "runtime/baked",
-             "runtime/compile"],
+             "runtime/mix", "runtime/pose", "runtime/solve", "runtime/deform", "runtime/probe",
+             "runtime/baked", "runtime/compile"],
 }
 
 # Of capi, files that are layers of their own.

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// The solvers that come with the library. Each is a struct of parameters and describe(), which gives
+// what create_stack() takes; the struct has to live until then. Lengths are in the rig's unit, places in
+// its model space. Nothing here calls the math library, so results have the same bits everywhere.
+#pragma once
+
+#include "runtime/solve/solver_stack.h"
+
+namespace mien {
+
+constexpr uint16_t kNoSolverJoint = 0xFFFF;
+constexpr uint32_t kMaxSolverJoints = 8;
+
+/// Turns a joint so that one of its axes points at a target: the shortest way, then about that axis so
+/// that `up_axis` is as near to `up` as it can be. Beyond the cone it points at the cone's edge.
+struct AimSolver {
+  uint16_t joint = 0;
+  uint16_t target_joint = kNoSolverJoint;  // else the target is at three lanes of the row
+  uint32_t target_lane = 0;
+  float axis[3] = {0, 0, 1};     // of the joint, unit
+  float up_axis[3] = {0, 0, 0};  // of the joint, unit; zero: no turn about the axis
+  float up[3] = {0, 1, 0};       // in model space, unit
+  float cone_cosine = -1;        // of the largest angle from where the neutral pose points it
+  float weight = 1;              // 0 ... 1
+  // Set by describe().
+  float cone_axis[3] = {};  // in the space of the parent
+  uint16_t parent = 0;
+  uint16_t reads[3] = {};
+};
+SolverDesc describe(const Skeleton& skeleton, AimSolver& solver);
+
+/// Lets a joint hang on another joint than its parent, as if the parent moved with that one. Which of
+/// the spaces, is the lane's value, rounded. When that changes, the joint stays where it is, and what
+/// it is off is eased out with a quintic.
+struct SpaceSolver {
+  uint16_t joint = 0;
+  uint16_t spaces[kMaxSolverJoints] = {};  // kNoSolverJoint: model space
+  uint32_t space_count = 0;
+  uint32_t lane = 0;
+  int64_t ease_ticks = 0;
+  // Set by describe().
+  uint16_t parent = 0;
+  uint16_t reads[kMaxSolverJoints + 1] = {};
+};
+SolverDesc describe(const Skeleton& skeleton, SpaceSolver& solver);
+
+/// Lets the place of a joint swing about where the pose has it: a damped harmonic oscillator in model
+/// space, advanced by its exact solution, so it is stable for any step and the same for any division
+/// of a time into steps while its goal rests. Output 0 is its speed.
+struct SpringSolver {
+  uint16_t joint = 0;
+  float frequency = 3;        // of the undamped spring, in Hertz; above 0
+  float damping = 0.3f;       // share of the critical damping, 0 ... 1 and beyond
+  float rest_offset[3] = {};  // from the pose's place, in model space
+  float stretch = 1e9f;       // farthest from there
+  float teleport = 1e9f;      // a goal that jumps farther in a step takes the joint along
+  // Set by describe().
+  uint16_t parent = 0;
+  uint16_t reads[2] = {};
+};
+SolverDesc describe(const Skeleton& skeleton, SpringSolver& solver);
+
+/// Gives joints a share of the twist of another joint about an axis: 0.5 is half of its angle. Their own
+/// twist is replaced. Output 0 is the sine of half of the angle.
+struct TwistSolver {
+  uint16_t source = 0;
+  float axis[3] = {1, 0, 0};  // of the source and of all joints, unit
+  uint16_t joints[kMaxSolverJoints] = {};
+  float shares[kMaxSolverJoints] = {};  // -1 ... 1
+  uint32_t joint_count = 0;
+  uint16_t reads[1] = {};  // set by describe()
+};
+SolverDesc describe(const Skeleton& skeleton, TwistSolver& solver);
+
+/// Moves a joint as another one was moved from its neutral pose, or as its mirror image.
+struct CopySolver {
+  uint16_t source = 0, joint = 0;
+  bool mirrored = false;
+  float mirror_axis[3] = {1, 0, 0};  // from right to left in model space, unit
+  float weight = 1;                  // 0 ... 1
+  uint16_t reads[1] = {};            // set by describe()
+};
+SolverDesc describe(const Skeleton& skeleton, CopySolver& solver);
+
+}  // namespace mien
