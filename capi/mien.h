@@ -15,6 +15,8 @@
  *   MienClip              compressed curves of named channels; immutable
  *   MienClipPlayer        plays a clip for one character
  *   MienClipBinding       maps the channels of a clip to the raw controls of a rig; immutable
+ *   MienMix               layers, reactions and limits that make the raw controls of a rig; immutable
+ *   MienMixer             one character: what plays, fades and reacts in a mix
  *
  * One rig and one deformer serve any number of characters and threads. Both copy what they need
  * from the DNA, which may be closed afterwards.
@@ -1813,6 +1815,352 @@ MIEN_CHECKED MienStatus mien_clip_binding_info(const MienClipBinding* clip_bindi
 MIEN_CHECKED MienStatus mien_clip_binding_apply(const MienClipBinding* clip_binding,
                                                 const float* values, size_t value_count,
                                                 float* raw_controls, size_t raw_control_count);
+
+/* ---- Mix ------------------------------------------------------------------------------------- */
+
+/* What is mixed for one rig, and how. A row holds a value for each lane: first the raw controls of the
+ * rig, then pose variables, which are numbers of the caller that are mixed by the same rules (gaze, head
+ * turn, breath). A step of a MienMixer goes through layers in their order, then reactions, guards,
+ * layers and reactions after the guards, antagonists, limits. docs/mixing.md explains each. Serves any
+ * number of mixers and threads. Immutable. */
+typedef struct MienMix MienMix;
+
+/* What a layer is for. Guards protect base and speech from the others. */
+enum MienLayerGroup {
+    MIEN_LAYER_GROUP_BASE = 0,
+    MIEN_LAYER_GROUP_SPEECH = 1,
+    MIEN_LAYER_GROUP_EMOTION = 2,
+    MIEN_LAYER_GROUP_REACTION = 3,
+    MIEN_LAYER_GROUP_LIFE = 4      /* acts after the reactions if no layer of another group follows */
+};
+
+/* What becomes of a lane: o is its value so far, x that of the layer, a = weight * mask. Lanes for which
+ * the source of a layer has no value keep theirs. */
+enum MienBlendMode {
+    MIEN_BLEND_MODE_OVERRIDE = 0, /* o + a (x - o) */
+    MIEN_BLEND_MODE_ADD = 1,      /* o + a x */
+    MIEN_BLEND_MODE_SCREEN = 2,   /* o + a x (1 - p), for x < 0 o + a x p; p is o clamped to 0 ... 1 */
+    MIEN_BLEND_MODE_MAX = 3,      /* o + a max(0, x - o) */
+    MIEN_BLEND_MODE_SCALE = 4     /* o (1 + a (x - 1)) */
+};
+
+/* Where the values of a layer come from. */
+enum MienLayerSource {
+    MIEN_LAYER_SOURCE_CLIP = 0,     /* mien_mixer_play() */
+    MIEN_LAYER_SOURCE_POSES = 1,    /* a weighted sum: mien_mixer_set_pose_weight() */
+    MIEN_LAYER_SOURCE_STREAM = 2,   /* mien_mixer_push() */
+    MIEN_LAYER_SOURCE_GENERATOR = 3 /* MIEN_GENERATOR_... */
+};
+
+/* What a layer generates from the seed of the mixer and the time. */
+enum MienGenerator {
+    MIEN_GENERATOR_BLINK = 0,  /* every `period` on average, at least 0.5 s apart; waits anew after the
+                                  first lane was above 0.6 in the layers before */
+    MIEN_GENERATOR_BREATH = 1, /* 0 to 1 in 40 % of a period and back */
+    MIEN_GENERATOR_NOISE = 2   /* smooth between -1 and 1; a new random value every period */
+};
+
+/* A layer of a mix. Zero what its source does not use. */
+typedef struct MienMixLayer {
+    int64_t period;         /* of a generator, ticks */
+    int64_t delay;          /* of a stream, ticks: it is played so much later than its times say */
+    const float* mask;      /* one per lane, 0 to 1; those left out at the end are 0. NULL: 1 for all */
+    const uint16_t* lanes;  /* of the channels of a stream, or that a generator moves */
+    const float* amounts;   /* one per lane of a generator: its values are multiplied by them */
+    uint32_t mask_count;
+    uint32_t lane_count;
+    uint32_t group;         /* MIEN_LAYER_GROUP_... */
+    uint32_t mode;          /* MIEN_BLEND_MODE_... */
+    uint32_t source;        /* MIEN_LAYER_SOURCE_... */
+    uint32_t after_guards;  /* boolean: guards leave the layer alone; not for base and speech */
+    float weight;           /* at the beginning. 0 to 1; with MIEN_BLEND_MODE_ADD -1 to 1 */
+    uint32_t first_pose;    /* its poses, in MienMixDesc.poses */
+    uint32_t pose_count;
+    uint32_t generator;     /* MIEN_GENERATOR_... */
+    uint32_t stream_frames; /* rows of a stream that can wait. 0: 64; else 2 to 1024 */
+    uint32_t reserved;      /* 0 */
+} MienMixLayer;
+
+/* Values of the lanes that a pose moves. */
+typedef struct MienMixPose {
+    const uint16_t* lanes;
+    const float* values;
+    size_t count;
+} MienMixPose;
+
+/* A part of a reaction: leads the lanes of a pose to its values and back. Times are in ticks. */
+typedef struct MienMixStroke {
+    int64_t delay;    /* after the trigger */
+    int64_t attack;   /* to strength * pose */
+    int64_t hold;     /* after the attack; without effect if is_held */
+    int64_t release;  /* back to 0 */
+    uint32_t pose;    /* in MienMixDesc.poses */
+    uint32_t mode;    /* MIEN_BLEND_MODE_... */
+    uint32_t is_held; /* boolean: holds as long as the stimulus lasts, and adapts to it */
+    uint32_t is_lag;  /* boolean: moves exponentially; attack and release are time constants */
+} MienMixStroke;
+
+/* What a trigger does while the reaction runs. */
+enum MienRetrigger {
+    MIEN_RETRIGGER_EXTEND = 0,  /* the stimulus goes on; strokes that rest or fall begin again */
+    MIEN_RETRIGGER_RESTART = 1, /* all strokes begin again */
+    MIEN_RETRIGGER_IGNORE = 2
+};
+
+/* What a face does by itself when something happens to it. */
+typedef struct MienMixReaction {
+    int64_t cooldown;             /* ticks; strokes that are not held begin at most so often */
+    int64_t adapt_ticks;          /* time constants of adaptation to a stimulus that lasts */
+    int64_t recover_ticks;        /* and of recovery from it */
+    const MienMixStroke* strokes; /* at most 8 */
+    size_t stroke_count;
+    uint32_t retrigger;           /* MIEN_RETRIGGER_... */
+    uint32_t after_guards;        /* boolean: guards leave it alone */
+    float adapted;                /* share of the strength that is left after adaptation; 1: all */
+    uint32_t reserved;            /* 0 */
+} MienMixReaction;
+
+/* Two lanes that move the face in opposite directions: where both are above 0, the smaller one times
+ * stiffness is subtracted from both. */
+typedef struct MienMixAntagonists {
+    uint16_t first;
+    uint16_t second;
+    float stiffness; /* 0 to 1 */
+} MienMixAntagonists;
+
+/* Guards: distances of the face that emotions and reactions must not open while speech or a blink closes
+ * them. Bits of MienMixDesc.guards. */
+enum MienGuard {
+    MIEN_GUARD_LIPS = 1,  /* between the lips, left, center and right, and from lower lip to upper teeth */
+    MIEN_GUARD_LIDS = 2,  /* between the lids */
+    MIEN_GUARD_TEETH = 4, /* between the teeth */
+    MIEN_GUARD_ALL = 7
+};
+
+/* What to mix. Everything is copied. */
+typedef struct MienMixDesc {
+    size_t struct_size;
+    const MienMixLayer* layers;            /* at most 16 */
+    size_t layer_count;
+    const MienMixPose* poses;              /* at most 1024; of layers and strokes */
+    size_t pose_count;
+    const MienMixReaction* reactions;      /* at most 16 */
+    size_t reaction_count;
+    const MienMixAntagonists* antagonists;
+    size_t antagonist_count;
+    const uint16_t* mirror;                /* per lane its counterpart in the other half of the face, or
+                                              itself. NULL: nothing can be played mirrored */
+    const float* lower;                    /* limits per lane. NULL: none; both or neither */
+    const float* upper;
+    const MienDeformer* deformer;          /* on which guards are measured; may be NULL if guards is 0 */
+    uint32_t guards;                       /* MIEN_GUARD_... bits; those whose landmarks are found act */
+    uint32_t variable_count;               /* pose variables; with the raw controls at most 4096 lanes */
+    uint32_t player_count;                 /* clips that play at a time; crossfades need two.
+                                              0: two for each layer of clips */
+    uint32_t max_channels;                 /* largest clip. 0: as many as the rig has raw controls */
+    uint32_t max_changing_channels;        /* of the largest clip. 0: max_channels, 512 at most */
+    uint32_t max_events;                   /* that a step can report. 0: 64 */
+    uint32_t reverse;                      /* boolean: memory to play backward as fast as forward */
+    uint32_t reserved;                     /* 0 */
+    const MienAllocator* allocator;
+} MienMixDesc;
+MIEN_DEFAULT(MienMixDesc, mien_mix_desc_default)
+
+/* Creates a mix for a rig. `desc` is required. `rig` may be destroyed afterwards, and so may the
+ * deformer. Measuring guards evaluates and deforms the rig some hundred times. Destroy with mien_mix_destroy().
+ * Fails with MIEN_ERROR_MISMATCH if the deformer is of another rig,
+ * MIEN_ERROR_INVALID_ARGUMENT if a part of `desc` is out of range; the message names it. */
+MIEN_CHECKED MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc,
+                                        MienMix** out_mix, MienError* error);
+
+/* Destroys a mix. Its mixers must be destroyed first. */
+MIEN_API void mien_mix_destroy(MienMix* mix);
+
+/* Properties of a mix. */
+typedef struct MienMixInfo {
+    size_t struct_size;
+    uint32_t raw_control_count;
+    uint32_t variable_count;
+    uint32_t lane_count;     /* raw controls and pose variables */
+    uint32_t layer_count;
+    uint32_t stage_count;    /* of mien_mixer_stage() */
+    uint32_t guard_count;    /* guards whose landmarks were found */
+    uint64_t mixer_bytes;    /* memory of a mixer without MienMixerDesc.stages */
+    uint64_t snapshot_bytes; /* size of a snapshot */
+} MienMixInfo;
+MIEN_DEFAULT(MienMixInfo, mien_mix_info_default)
+
+/* Returns the properties of a mix. */
+MIEN_CHECKED MienStatus mien_mix_info(const MienMix* mix, MienMixInfo* out_info);
+
+/* ---- Mixer ----------------------------------------------------------------------------------- */
+
+/* One character in a mix: what plays, fades and reacts. Only mien_mixer_push() may be called by another
+ * thread at the same time. */
+typedef struct MienMixer MienMixer;
+
+/* How to create a mixer. */
+typedef struct MienMixerDesc {
+    size_t struct_size;
+    uint64_t seed;   /* of the generators */
+    uint32_t stages; /* boolean: keep the row after each stage, for mien_mixer_stage() */
+    uint32_t reserved; /* 0 */
+    const MienAllocator* allocator;
+} MienMixerDesc;
+MIEN_DEFAULT(MienMixerDesc, mien_mixer_desc_default)
+
+/* Creates a mixer at time 0, with one allocation: nothing plays, weights of poses and pose variables are
+ * 0. `mix` must outlive it. Destroy with mien_mixer_destroy(). */
+MIEN_CHECKED MienStatus mien_mixer_create(const MienMix* mix, const MienMixerDesc* desc,
+                                          MienMixer** out_mixer, MienError* error);
+
+/* Destroys a mixer. */
+MIEN_API void mien_mixer_destroy(MienMixer* mixer);
+
+/* How a layer goes on from what it played. A layer that played nothing fades in. */
+enum MienTransition {
+    MIEN_TRANSITION_INERTIAL = 0,  /* the old clip is dropped; its last value and speed lead over */
+    MIEN_TRANSITION_CROSSFADE = 1, /* both play; without a free player like MIEN_TRANSITION_INERTIAL */
+    MIEN_TRANSITION_CUT = 2        /* at once */
+};
+
+/* How to play a clip in a layer. */
+typedef struct MienPlayDesc {
+    size_t struct_size;
+    uint64_t clip_id;          /* the caller's number of clip and binding, by which
+                                  mien_mixer_restore() finds them */
+    int64_t start_tick;        /* of the clip */
+    int64_t transition_ticks;  /* 0 to 2^40 */
+    uint32_t transition;       /* MIEN_TRANSITION_... */
+    uint32_t looping;          /* MIEN_LOOPING_... */
+    uint32_t interpolation;    /* MIEN_INTERPOLATION_... */
+    int32_t speed_numerator;   /* as in MienClipPlayerDesc */
+    int32_t speed_denominator;
+    uint32_t mirrored;         /* boolean; needs MienMixDesc.mirror */
+} MienPlayDesc;
+MIEN_DEFAULT(MienPlayDesc, mien_play_desc_default)
+
+/* Plays a clip in a layer, from the next step on. `clip` and `clip_binding` must outlive the playing,
+ * the transition to the next clip included. On failure the layer goes on as before. Does not allocate or
+ * lock.
+ * Fails with MIEN_ERROR_INDEX if the layer does not exist or has another source, MIEN_ERROR_MISMATCH if
+ * the binding is of another clip or rig, MIEN_ERROR_INVALID_ARGUMENT if a time, speed or choice is out
+ * of range or a clip of differences would override, MIEN_ERROR_CLIP_LIMIT if the clip is larger than
+ * the mix allows. */
+MIEN_CHECKED MienStatus mien_mixer_play(MienMixer* mixer, uint32_t layer, const MienClip* clip,
+                                        const MienClipBinding* clip_binding,
+                                        const MienPlayDesc* desc, MienError* error);
+
+/* Fades out what a layer plays, which then ends. Fades take 0 to 2^40 ticks, here and below; they start
+ * from value and speed that there are, and end with speed 0. Does not allocate or lock.
+ * Fails with MIEN_ERROR_INDEX if the layer does not exist or plays no clips. */
+MIEN_CHECKED MienStatus mien_mixer_stop(MienMixer* mixer, uint32_t layer, int64_t fade_ticks);
+
+/* Fades the weight of a layer to `weight`, whose range is that of MienMixLayer. Does not allocate or lock.
+ * Fails with MIEN_ERROR_INDEX if the layer does not exist. */
+MIEN_CHECKED MienStatus mien_mixer_set_weight(MienMixer* mixer, uint32_t layer, float weight,
+                                              int64_t fade_ticks);
+
+/* Fades the weight of a pose to `weight`, 0 ... 1. `pose` counts from the first one of its layer. Weights of a layer
+ * that add up to more than 1 are divided by their sum. Does not allocate or lock.
+ * Fails with MIEN_ERROR_INDEX if the layer or its pose does not exist. */
+MIEN_CHECKED MienStatus mien_mixer_set_pose_weight(MienMixer* mixer, uint32_t layer, uint32_t pose,
+                                                   float weight, int64_t fade_ticks);
+
+/* Sets the `value` with which a pose variable enters each step. Does not allocate or lock.
+ * Fails with MIEN_ERROR_INDEX if it does not exist, MIEN_ERROR_INVALID_ARGUMENT if the value is not
+ * finite. */
+MIEN_CHECKED MienStatus mien_mixer_set_variable(MienMixer* mixer, uint32_t variable, float value);
+
+/* Sets how much a guard acts: `activation` is 0 ... 1; below 0: as much as the protected layers close what it guards,
+ * which is the default. Does not allocate or lock.
+ * Fails with MIEN_ERROR_INDEX if the guard does not exist. */
+MIEN_CHECKED MienStatus mien_mixer_set_guard(MienMixer* mixer, uint32_t guard, float activation);
+
+/* Starts a reaction to a stimulus of `strength`, 0 ... 1, that lasts `hold_ticks`; if they are negative, until
+ * mien_mixer_release(). Does not allocate or lock.
+ * Fails with MIEN_ERROR_INDEX if the reaction does not exist, MIEN_ERROR_INVALID_ARGUMENT if strength or
+ * time is out of range. */
+MIEN_CHECKED MienStatus mien_mixer_trigger(MienMixer* mixer, uint32_t reaction, float strength,
+                                           int64_t hold_ticks);
+
+/* Ends the stimulus of a reaction. Does not allocate or lock.
+ * Fails with MIEN_ERROR_INDEX if the reaction does not exist. */
+MIEN_CHECKED MienStatus mien_mixer_release(MienMixer* mixer, uint32_t reaction);
+
+/* Gives a layer of a stream one value per channel, for a time of the mixer. One thread may call this
+ * while another one uses the mixer. `out_accepted` may be NULL; it is 0 for a row that is dropped because
+ * it is not newer than the last one or there is no room. Does not allocate or lock.
+ * Fails with MIEN_ERROR_INDEX if the layer does not exist or is no stream, MIEN_ERROR_MISMATCH if it has
+ * another number of channels, MIEN_ERROR_INVALID_ARGUMENT if a value is not finite. */
+MIEN_CHECKED MienStatus mien_mixer_push(MienMixer* mixer, uint32_t layer, int64_t tick,
+                                        const float* values, size_t value_count,
+                                        uint32_t* out_accepted);
+
+/* Advances by `ticks`, 0 to 2^40, and mixes. The raw controls go to `instance`, which may be NULL. Does
+ * not allocate or lock.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if `ticks` is out of range, MIEN_ERROR_MISMATCH if the instance
+ * has another number of raw controls. */
+MIEN_CHECKED MienStatus mien_mixer_step(MienMixer* mixer, int64_t ticks, MienInstance* instance);
+
+/* Does the same for `count` mixers, each with the instance at its place. `instances` may be NULL. The
+ * results are those of single calls. No mixer may occur twice. On failure no mixer has moved.
+ * Fails like mien_mixer_step(). */
+MIEN_CHECKED MienStatus mien_mixer_step_batch(MienMixer* const* mixers,
+                                              MienInstance* const* instances, size_t count,
+                                              int64_t ticks);
+
+/* Returns the row of the last step, one float per lane: raw controls, then pose variables.
+ * Contents change with mien_mixer_step() and mien_mixer_step_batch(). */
+MIEN_CHECKED MienStatus mien_mixer_row(const MienMixer* mixer, MienFloatView* out_row);
+
+/* Returns the row after a stage of the last step, one float per lane. Stages are the layers, then reactions, guards, antagonists,
+ * limits. A layer after the guards comes after them in time.
+ * Fails with MIEN_ERROR_INDEX if the stage does not exist, MIEN_ERROR_INVALID_ARGUMENT if
+ * MienMixerDesc.stages was 0.
+ * Contents change with mien_mixer_step() and mien_mixer_step_batch(). */
+MIEN_CHECKED MienStatus mien_mixer_stage(const MienMixer* mixer, uint32_t stage,
+                                         MienFloatView* out_row);
+
+/* State of a mixer. */
+typedef struct MienMixerInfo {
+    size_t struct_size;
+    int64_t tick;         /* time since the beginning */
+    uint32_t event_count; /* events of clips that the last step passed */
+    uint32_t lost_events; /* boolean: it passed more than MienMixDesc.max_events */
+} MienMixerInfo;
+MIEN_DEFAULT(MienMixerInfo, mien_mixer_info_default)
+
+/* Returns the state of a mixer. */
+MIEN_CHECKED MienStatus mien_mixer_info(const MienMixer* mixer, MienMixerInfo* out_info);
+
+/* Returns an event of the last step and its layer. The tick is that in the clip, whose view its name is.
+ * Fails with MIEN_ERROR_INDEX if `index` is out of range. */
+MIEN_CHECKED MienStatus mien_mixer_event(const MienMixer* mixer, uint32_t index,
+                                         MienClipEvent* out_event, uint32_t* out_layer);
+
+/* Writes the state of a mixer to memory, all that its next steps depend on but rows of streams, and
+ * returns its size in `out_size`. `buffer` may be NULL with capacity 0 to get the size only. The bytes
+ * serve every machine. Does not allocate or lock.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small. */
+MIEN_CHECKED MienStatus mien_mixer_snapshot(MienMixer* mixer, void* buffer, size_t capacity,
+                                            size_t* out_size, MienError* error);
+
+/* A clip that mien_mixer_restore() may need. */
+typedef struct MienMixerClip {
+    uint64_t clip_id; /* as in MienPlayDesc */
+    const MienClip* clip;
+    const MienClipBinding* clip_binding;
+} MienMixerClip;
+
+/* Goes on from a snapshot of a mixer of the same mix, bit for bit; streams begin anew. `clips` holds
+ * those that may be playing. The bytes are not trusted. On failure the mixer stays as it is. Does not
+ * allocate or lock.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if the bytes are not a snapshot of this mix,
+ * MIEN_ERROR_MISMATCH if a clip is missing or another one. */
+MIEN_CHECKED MienStatus mien_mixer_restore(MienMixer* mixer, const void* bytes, size_t size,
+                                           const MienMixerClip* clips, size_t clip_count,
+                                           MienError* error);
 
 #ifdef __cplusplus
 }

@@ -34,6 +34,8 @@ WITHOUT = {
     "MienClipPlayerDesc.start_tick": {"Rust": "ClipPlayer::seek()"},
     "MienVertexFormat": {"Python": "the type of an array says it"},
 }
+# Sections of mien.h that a language does without.
+SECTIONS = {"Python": {"Mix", "Mixer"}, "Rust": {"Mix", "Mixer"}}  # not yet
 # Functions whose own statuses cannot reach a user, who finds no list of them either.
 SILENT = {
     "mien_coordinate_system_name": {"Python", "Rust"},
@@ -117,6 +119,9 @@ def safe_name(language, enum):
 
 def problems_of(api, binding):
     language = binding.language
+    api = {kind: [entry for entry in entries if not isinstance(entry, dict) or
+                  entry.get("section") not in SECTIONS.get(language, ())]
+           if isinstance(entries, list) else entries for kind, entries in api.items()}
     functions = [function["name"] for function in api["functions"]]
 
     def missing(name, what, is_there, plain=None):

@@ -4,8 +4,8 @@
 // to what the C interface does, and nothing hidden: get() gives the handle for all that is not
 // here.
 //
-//   Owners      Dna, Report, Rig, Instance, Batch, Deformer, DeformerInstance, Baked, Clip, ClipPlayer
-//               and ClipBinding release what they hold. They can be moved, not copied. Calls on an empty one (default, moved from)
+//   Owners      Dna, Report, Rig, Instance, Batch, Deformer, DeformerInstance, Baked, Clip, ClipPlayer,
+//               ClipBinding, Mix and Mixer release what they hold. They can be moved, not copied. Calls on an empty one (default, moved from)
 //               return MIEN_ERROR_NULL_ARGUMENT; its spans are empty.
 //   Results     A call that can fail returns a Result: test it, then use *result; or use value().
 //               Errors carry status, byte offset and message.
@@ -105,6 +105,9 @@ using ClipDesc = Sized<MienClipDesc>;
 using ClipOpenDesc = Sized<MienClipOpenDesc>;
 using ClipPlayerDesc = Sized<MienClipPlayerDesc>;
 using ClipBindingDesc = Sized<MienClipBindingDesc>;
+using MixDesc = Sized<MienMixDesc>;
+using MixerDesc = Sized<MienMixerDesc>;
+using PlayDesc = Sized<MienPlayDesc>;
 using CoordinateSystem = Sized<MienCoordinateSystem>;
 
 inline std::string_view view(const MienStringView& text) { return {text.data, text.count}; }
@@ -855,6 +858,115 @@ class Clip : public Owner<MienClip, mien_clip_close> {
   Result<ClipBinding> bind(const Rig& rig, const ClipBindingDesc& desc = {}) const {
     return make<ClipBinding>([&](MienClipBinding** out, MienError* error) {
       return mien_clip_binding_create(get(), rig.get(), &desc, out, error);
+    });
+  }
+};
+
+// ---- Mixing -------------------------------------------------------------------------------------
+
+/// One character in a mix, which has to outlive it, as do clips and bindings that it plays. For one
+/// thread at a time; push() may be called by another one.
+class Mixer : public Owner<MienMixer, mien_mixer_destroy> {
+ public:
+  using Owner::Owner;
+
+  Result<void> play(uint32_t layer, const Clip& clip, const ClipBinding& binding,
+                    const PlayDesc& desc = {}) {
+    Sized<MienError> error;
+    return {mien_mixer_play(get(), layer, clip.get(), binding.get(), &desc, &error), error};
+  }
+  Status stop(uint32_t layer, int64_t fade_ticks = 0) {
+    return mien_mixer_stop(get(), layer, fade_ticks);
+  }
+  Status set_weight(uint32_t layer, float weight, int64_t fade_ticks = 0) {
+    return mien_mixer_set_weight(get(), layer, weight, fade_ticks);
+  }
+  Status set_pose_weight(uint32_t layer, uint32_t pose, float weight, int64_t fade_ticks = 0) {
+    return mien_mixer_set_pose_weight(get(), layer, pose, weight, fade_ticks);
+  }
+  Status set_variable(uint32_t variable, float value) {
+    return mien_mixer_set_variable(get(), variable, value);
+  }
+  Status set_guard(uint32_t guard, float activation) {
+    return mien_mixer_set_guard(get(), guard, activation);
+  }
+  /// Negative ticks: until end_stimulus().
+  Status trigger(uint32_t reaction, float strength, int64_t hold_ticks) {
+    return mien_mixer_trigger(get(), reaction, strength, hold_ticks);
+  }
+  Status end_stimulus(uint32_t reaction) { return mien_mixer_release(get(), reaction); }
+  /// Whether the row was accepted: it was not late and there was room.
+  Result<bool> push(uint32_t layer, int64_t tick, Span<const float> values) {
+    uint32_t accepted = 0;
+    const MienStatus status =
+        mien_mixer_push(get(), layer, tick, values.data(), values.size(), &accepted);
+    return {status, accepted != 0};
+  }
+  Status step(int64_t ticks) { return mien_mixer_step(get(), ticks, nullptr); }
+  Status step(int64_t ticks, Instance& instance) {
+    return mien_mixer_step(get(), ticks, instance.get());
+  }
+  /// Several at once; `instances` is empty or has one for each mixer.
+  static Status step(Span<MienMixer* const> mixers, Span<MienInstance* const> instances,
+                     int64_t ticks) {
+    if (!instances.empty() && instances.size() != mixers.size()) return MIEN_ERROR_INVALID_ARGUMENT;
+    return mien_mixer_step_batch(mixers.data(), instances.empty() ? nullptr : instances.data(),
+                                 mixers.size(), ticks);
+  }
+
+  /// Raw controls, then pose variables, as the last step left them. The span stays the same.
+  Span<const float> row() const {
+    MienFloatView row = {nullptr, 0};
+    return mien_mixer_row(get(), &row) == MIEN_OK ? view(row) : Span<const float>();
+  }
+  /// The row after a stage; empty without MixerDesc.stages.
+  Span<const float> stage(uint32_t stage) const {
+    MienFloatView row = {nullptr, 0};
+    return mien_mixer_stage(get(), stage, &row) == MIEN_OK ? view(row) : Span<const float>();
+  }
+  Result<MienMixerInfo> info() const {
+    Sized<MienMixerInfo> info;
+    return {mien_mixer_info(get(), &info), std::move(info)};
+  }
+  /// An event of the last step; `layer` gets the number of its layer.
+  Result<MienClipEvent> event(uint32_t index, uint32_t& layer) const {
+    MienClipEvent event;
+    const MienStatus status = mien_mixer_event(get(), index, &event, &layer);
+    return {status, std::move(event)};
+  }
+  /// Writes a snapshot and tells how many bytes that took; with an empty buffer, would take.
+  Result<size_t> snapshot(Span<unsigned char> buffer) {
+    size_t size = 0;
+    Sized<MienError> error;
+    void* const data = buffer.empty() ? nullptr : buffer.data();
+    const MienStatus status = mien_mixer_snapshot(get(), data, buffer.size(), &size, &error);
+    return {status, std::move(size), &error};
+  }
+  Result<void> restore(Span<const unsigned char> bytes, Span<const MienMixerClip> clips) {
+    Sized<MienError> error;
+    return {
+        mien_mixer_restore(get(), bytes.data(), bytes.size(), clips.data(), clips.size(), &error),
+        error};
+  }
+};
+
+/// What is mixed for one rig, and how. Immutable: may be used by several threads at once.
+class Mix : public Owner<MienMix, mien_mix_destroy> {
+ public:
+  using Owner::Owner;
+
+  static Result<Mix> create(const Rig& rig, const MixDesc& desc) {
+    return make<Mix>([&](MienMix** out, MienError* error) {
+      return mien_mix_create(rig.get(), &desc, out, error);
+    });
+  }
+  Result<MienMixInfo> info() const {
+    Sized<MienMixInfo> info;
+    return {mien_mix_info(get(), &info), std::move(info)};
+  }
+  Result<Mixer> mixer(const MixerDesc& desc = {}) const {
+    return make<Mixer>([&](MienMixer** out, MienError* error) {
+      return mien_mixer_create(get(), &desc, out, error);
     });
   }
 };

@@ -101,6 +101,60 @@ void test_life() {
   mien_instance_destroy(moved.release());
 }
 
+void test_mixing() {
+  const mien::Dna dna = generated();
+  const mien::Rig rig = mien::Rig::create(dna).value();
+  const uint32_t raw_count = rig.count(MIEN_KIND_RAW_CONTROL);
+  const uint16_t lanes[] = {0};
+  const float half[] = {0.5f};
+  const MienMixPose pose = {lanes, half, 1};
+  MienMixLayer layers[3] = {};
+  layers[0].weight = layers[1].weight = layers[2].weight = 1;
+  layers[1].source = MIEN_LAYER_SOURCE_POSES;
+  layers[1].mode = MIEN_BLEND_MODE_SCREEN;
+  layers[1].pose_count = 1;
+  layers[2].source = MIEN_LAYER_SOURCE_STREAM;
+  layers[2].lanes = lanes;
+  layers[2].lane_count = 1;
+  const MienMixStroke stroke = {0, 100, 0, 100, 0, MIEN_BLEND_MODE_MAX, 1, 0};
+  MienMixReaction reaction = {};
+  reaction.strokes = &stroke;
+  reaction.stroke_count = 1;
+  mien::MixDesc desc;
+  desc.layers = layers;
+  desc.layer_count = 3;
+  desc.poses = &pose;
+  desc.pose_count = 1;
+  desc.reactions = &reaction;
+  desc.reaction_count = 1;
+  desc.variable_count = 1;
+  const mien::Mix mix = mien::Mix::create(rig, desc).value();
+  CHECK(mix.info()->lane_count == raw_count + 1);
+
+  mien::MixerDesc with_stages;
+  with_stages.stages = 1;
+  mien::Mixer mixer = mix.mixer(with_stages).value(), other = mix.mixer().value();
+  mien::Instance face = rig.instance().value();
+  CHECK(mixer.set_pose_weight(1, 0, 1) && mixer.set_variable(0, 0.25f));
+  CHECK(mixer.set_weight(0, 0.5f, 10) && mixer.stop(0));
+  CHECK(mixer.trigger(0, 1, -1) && mixer.end_stimulus(0));
+#ifndef MIEN_EXCEPTIONS
+  CHECK(mixer.set_guard(0, 1).status() == MIEN_ERROR_INDEX);
+  uint32_t layer = 0;
+  CHECK(mixer.event(0, layer).status() == MIEN_ERROR_INDEX);
+  CHECK(mixer.play(0, mien::Clip(), mien::ClipBinding()).status() == MIEN_ERROR_NULL_ARGUMENT);
+#endif
+  CHECK(mixer.push(2, 1000, half).value() && !mixer.push(2, 1000, half).value());
+  CHECK(mixer.step(500, face) && face.raw_controls()[0] == 0.5f);
+  CHECK(mixer.row()[0] == 0.5f && mixer.row()[raw_count] == 0.25f);
+  CHECK(mixer.stage(0)[0] == 0 && mixer.stage(1)[0] == 0.5f && other.stage(0).empty());
+  CHECK(mixer.info()->tick == 500);
+  std::vector<unsigned char> bytes(mixer.snapshot({}).value());
+  CHECK(mixer.snapshot(bytes) && other.restore(bytes, {}) && other.info()->tick == 500);
+  MienMixer* const both[] = {mixer.get(), other.get()};
+  CHECK(mien::Mixer::step(both, {}, 100) && mixer.row()[0] == other.row()[0]);
+}
+
 void test_clips() {
   const MienStringView names[] = {mien::view("jawOpen"), mien::view("nobody")};
   const float values[] = {0, 1, 0.5f, 1, 1, 1};
@@ -425,6 +479,7 @@ int main() {
   test_life();
   test_baked_files();
   test_clips();
+  test_mixing();
   test_empty_objects();
   test_errors();
   test_fields_and_files();

@@ -46,8 +46,12 @@ void place_state(Placer& placer, const Mix& mix, Mixer& mixer) {
       kBlockAlignment);
 }
 
-void place_mixer(Placer& placer, const Mix& mix, Mixer& mixer) {
+void place_mixer(Placer& placer, const Mix& mix, bool stages, Mixer& mixer) {
   placer.array<Mixer>(1);
+  if (stages) {
+    const size_t floats = size_t{stage_count(mix)} * mix.lane_count;
+    mixer.stages = placer.array<float>(floats, kBlockAlignment).data;
+  }
   mixer.row = placer.array<float>(mix.lane_count, kBlockAlignment);
   mixer.protected_row = placer.array<float>(mix.lane_count, kBlockAlignment);
   mixer.layer_row = placer.array<float>(layer_row_floats(mix), kBlockAlignment);
@@ -61,11 +65,11 @@ void place_mixer(Placer& placer, const Mix& mix, Mixer& mixer) {
     player.row = placer.array<float>(layer_row_floats(mix), kBlockAlignment);
     if (!placer.measuring()) mixer.players[i] = player;
   }
-  mixer.streams = placer.array<Stream*>(mix.layers.count);
+  mixer.streams = placer.array<RowStream*>(mix.layers.count);
   for (size_t i = 0; i < mix.layers.count; ++i) {
     const MixLayer& layer = mix.layers[i];
     if (layer.source != LayerSource::kStream) continue;
-    Stream* stream = nullptr;
+    RowStream* stream = nullptr;
     place_stream(placer, layer.stream_frames, static_cast<uint32_t>(layer.lanes.count), stream);
     if (!placer.measuring()) mixer.streams[i] = stream;
   }
@@ -250,7 +254,7 @@ void mix_stream_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
   const Mix& mix = *mixer.mix;
   const MixLayer& layer = mix.layers[index];
   LayerState& state = mixer.layers[index];
-  Stream& stream = *mixer.streams[index];
+  RowStream& stream = *mixer.streams[index];
   const int64_t now = mixer.header->now;
   const StreamSample sample = sample_stream(stream, now - layer.delay, mixer.scratch.data);
   if (sample == StreamSample::kNone) return;
@@ -393,15 +397,15 @@ Status bad_layer(Error& error, uint32_t layer, const char* why) {
 // Creating
 // ------------------------------------------------------------------------------------------------
 
-size_t mixer_size(const Mix& mix) {
+size_t mixer_size(const Mix& mix, bool stages) {
   Mixer mixer;
   Placer measure(nullptr);
-  place_mixer(measure, mix, mixer);
+  place_mixer(measure, mix, stages, mixer);
   return measure.size();
 }
 
-Mixer* create_mixer(const Mix& mix, uint64_t seed, const Allocator& allocator) {
-  const size_t size = mixer_size(mix);
+Mixer* create_mixer(const Mix& mix, uint64_t seed, bool stages, const Allocator& allocator) {
+  const size_t size = mixer_size(mix, stages);
   void* block = allocator.get(size, kBlockAlignment);
   if (!block) return nullptr;
   Mixer mixer;
@@ -409,7 +413,7 @@ Mixer* create_mixer(const Mix& mix, uint64_t seed, const Allocator& allocator) {
   mixer.allocator = allocator;
   mixer.block_size = size;
   Placer placer(block);
-  place_mixer(placer, mix, mixer);
+  place_mixer(placer, mix, stages, mixer);
   mixer.header->seed = seed;
   for (uint32_t i = 0; i < mix.layers.count; ++i) {
     LayerState& layer = mixer.layers[i];
@@ -421,6 +425,13 @@ Mixer* create_mixer(const Mix& mix, uint64_t seed, const Allocator& allocator) {
   for (ReactionState& reaction : mixer.reactions) set_fade(reaction.gain, 1.0f);
   for (float& activation : mixer.guard_overrides) activation = -1.0f;
   return new (block) Mixer(mixer);
+}
+
+size_t state_size(const Mix& mix) {
+  Mixer mixer;
+  Placer measure(nullptr);
+  place_state(measure, mix, mixer);
+  return measure.size();
 }
 
 void destroy_mixer(Mixer* mixer) {
@@ -565,7 +576,7 @@ Status push_row(Mixer& mixer, uint32_t index, int64_t tick, Span<const float> va
   if (index >= mixer.streams.count || !mixer.streams[index]) {
     return bad_layer(error, index, "it does not exist or is no stream");
   }
-  Stream& stream = *mixer.streams[index];
+  RowStream& stream = *mixer.streams[index];
   if (values.count != stream.channels) {
     return fail(error, Status::kMismatch, kNoOffset, "layer %u: %zu values for %u channels", index,
                 values.count, stream.channels);

@@ -110,11 +110,11 @@ struct Mixer {
   Span<float> scratch;        // [lane]
   Span<float> gui;
   Span<Player> players;
-  Span<Stream*> streams;  // [layer] null where it is none
+  Span<RowStream*> streams;  // [layer] null where it is none
   Span<MixEvent> events;
   uint32_t event_count = 0;
   bool lost_events = false;  // the last step passed more of them than there is room for
-  float* stages = nullptr;   // [stage][lane]: if set, a step writes its row after each stage
+  float* stages = nullptr;   // [stage][lane]: the row after each stage of the last step, or null
 
   Span<uint8_t> state;
   // In it:
@@ -137,12 +137,12 @@ inline uint32_t stage_count(const Mix& mix) {
   return static_cast<uint32_t>(mix.layers.count) + kStageLimits + 1;
 }
 
-/// Bytes of a mixer.
-size_t mixer_size(const Mix& mix);
+/// Bytes of a mixer that keeps its stages, or does not.
+size_t mixer_size(const Mix& mix, bool stages);
 
 /// At time 0: nothing plays, poses have weight 0, variables are 0, layers the weight of their desc.
-/// The mix has to outlive it. Null if memory ran out.
-Mixer* create_mixer(const Mix& mix, uint64_t seed, const Allocator& allocator);
+/// With `stages`, the row after each stage is kept. The mix has to outlive it. Null if memory ran out.
+Mixer* create_mixer(const Mix& mix, uint64_t seed, bool stages, const Allocator& allocator);
 void destroy_mixer(Mixer* mixer);
 
 /// kIndex for a layer that does not exist or plays no clips, kMismatch for a binding of another clip
@@ -203,18 +203,26 @@ void sample_player(Mixer& mixer, Player& player);
 // Snapshots (snapshot.cpp)
 // ------------------------------------------------------------------------------------------------
 
-/// Bytes of a snapshot: the same for all mixers of a mix.
-size_t snapshot_size(const Mixer& mixer);
+/// Bytes of a snapshot of any mixer of the mix.
+size_t snapshot_size(const Mix& mix);
+
+/// Bytes of Mixer::state.
+size_t state_size(const Mix& mix);
+
+/// Finds the clip with an id; false if there is none.
+struct ClipFinder {
+  const void* user;
+  bool (*find)(const void* user, uint64_t id, ClipSource& source);
+};
 
 /// Everything that the next steps depend on but rows of streams; little-endian, to be read on any
 /// machine. kInvalidArgument if there is no room.
 Status take_snapshot(Mixer& mixer, Span<uint8_t> out, Error& error);
 
-/// Goes on from a snapshot of a mixer of the same mix, bit for bit; streams begin anew. `sources`
-/// are the clips that may be needed, found by id. kInvalidArgument for bytes that are no snapshot of
+/// Goes on from a snapshot of a mixer of the same mix, bit for bit; streams begin anew. kInvalidArgument for bytes that are no snapshot of
 /// this mix or hold what no mixer can be in, kMismatch for a clip that is missing or another one; the
 /// mixer then stays as it is.
-Status restore_snapshot(Mixer& mixer, Span<const uint8_t> bytes, Span<const ClipSource> sources,
+Status restore_snapshot(Mixer& mixer, Span<const uint8_t> bytes, const ClipFinder& clips,
                         Error& error);
 
 }  // namespace mien

@@ -18,7 +18,6 @@ namespace {
 constexpr char kMagic[8] = {'M', 'I', 'E', 'N', 'M', 'I', 'X', '\n'};
 constexpr uint32_t kVersion = 1;
 constexpr int64_t kMaxNow = INT64_MAX / 4;
-constexpr uint32_t kNone = ~uint32_t{0};
 
 struct SnapshotHeader {
   char magic[8];
@@ -77,24 +76,17 @@ bool is_layer(const Mixer& mixer, const SavedState& saved, uint32_t index, uint6
          is_duration(layer.offset_ticks);
 }
 
-uint32_t find_source(Span<const ClipSource> sources, uint64_t id) {
-  for (uint32_t i = 0; i < sources.count; ++i) {
-    if (sources[i].id == id) return i;
-  }
-  return kNone;
-}
-
 Status check_player(const Mixer& mixer, const PlayerState& player, uint32_t layer,
-                    Span<const ClipSource> sources, Error& error) {
-  const uint32_t found = find_source(sources, player.source);
-  if (found == kNone) {
+                    const ClipFinder& clips, Error& error) {
+  ClipSource source;
+  if (!clips.find(clips.user, player.source, source)) {
     return fail(error, Status::kMismatch, kNoOffset,
                 "layer %u: the clip with the number %llu is missing", layer,
                 static_cast<unsigned long long>(player.source));
   }
-  const Status status = check_source(*mixer.mix, layer, sources[found], error);
+  const Status status = check_source(*mixer.mix, layer, source, error);
   if (status != Status::kOk) return Status::kMismatch;
-  const Clip& clip = *sources[found].clip;
+  const Clip& clip = *source.clip;
   const int64_t length = clip.length(player.wraps != 0);
   if (clip.channel_count > mixer.mix->max_channels ||
       clip.changing_count > mixer.mix->max_changing_channels ||
@@ -126,7 +118,7 @@ bool all_finite(const SavedState& saved, Span<float> floats) {
   return true;
 }
 
-Status check_state(const Mixer& mixer, const SavedState& saved, Span<const ClipSource> sources,
+Status check_state(const Mixer& mixer, const SavedState& saved, const ClipFinder& clips,
                    Error& error) {
   const int64_t now = saved.read(*mixer.header).now;
   if (now < 0 || now > kMaxNow) return wrong(error, "has a time out of range");
@@ -138,7 +130,7 @@ Status check_state(const Mixer& mixer, const SavedState& saved, Span<const ClipS
     for (uint16_t player : used) {
       if (player == kNoPlayer) continue;
       const Status status =
-          check_player(mixer, saved.read(mixer.player_states[player]), i, sources, error);
+          check_player(mixer, saved.read(mixer.player_states[player]), i, clips, error);
       if (status != Status::kOk) return status;
     }
   }
@@ -196,12 +188,12 @@ void restore_player(Mixer& mixer, Player& player, const PlayerState& state,
 
 }  // namespace
 
-size_t snapshot_size(const Mixer& mixer) { return sizeof(SnapshotHeader) + mixer.state.count; }
+size_t snapshot_size(const Mix& mix) { return sizeof(SnapshotHeader) + state_size(mix); }
 
 Status take_snapshot(Mixer& mixer, Span<uint8_t> out, Error& error) {
-  if (out.count < snapshot_size(mixer)) {
+  if (out.count < snapshot_size(*mixer.mix)) {
     return fail(error, Status::kInvalidArgument, kNoOffset, "%zu bytes for a snapshot of %zu",
-                out.count, snapshot_size(mixer));
+                out.count, snapshot_size(*mixer.mix));
   }
   for (uint32_t i = 0; i < mixer.players.count; ++i) {
     mixer.player_states[i] = mixer.players[i].used ? saved_player(mixer.players[i]) : PlayerState{};
@@ -216,17 +208,18 @@ Status take_snapshot(Mixer& mixer, Span<uint8_t> out, Error& error) {
   return Status::kOk;
 }
 
-Status restore_snapshot(Mixer& mixer, Span<const uint8_t> bytes, Span<const ClipSource> sources,
+Status restore_snapshot(Mixer& mixer, Span<const uint8_t> bytes, const ClipFinder& clips,
                         Error& error) {
   SnapshotHeader header;
-  if (bytes.count < snapshot_size(mixer)) return wrong(error, "is truncated or of another mix");
+  if (bytes.count < snapshot_size(*mixer.mix))
+    return wrong(error, "is truncated or of another mix");
   memcpy(&header, bytes.data, sizeof(header));
   if (memcmp(header.magic, kMagic, sizeof(kMagic)) != 0 || header.version != kVersion ||
       header.size != mixer.state.count || header.fingerprint != mixer.mix->fingerprint) {
     return wrong(error, "is none, or of another version or mix");
   }
   const SavedState saved = {mixer, bytes.data + sizeof(header)};
-  const Status status = check_state(mixer, saved, sources, error);
+  const Status status = check_state(mixer, saved, clips, error);
   if (status != Status::kOk) return status;
 
   memcpy(mixer.state.data, saved.bytes, mixer.state.count);
@@ -236,8 +229,9 @@ Status restore_snapshot(Mixer& mixer, Span<const uint8_t> bytes, Span<const Clip
     for (uint16_t player : used) {
       if (player == kNoPlayer) continue;
       const PlayerState& state = mixer.player_states[player];
-      restore_player(mixer, mixer.players[player], state,
-                     sources[find_source(sources, state.source)]);
+      ClipSource source;
+      clips.find(clips.user, state.source, source);
+      restore_player(mixer, mixer.players[player], state, source);
     }
   }
   mixer.event_count = 0;

@@ -7,14 +7,14 @@
 
 namespace mien {
 
-void place_stream(Placer& placer, uint32_t capacity, uint32_t channels, Stream*& stream) {
-  const Span<Stream> place = placer.array<Stream>(1, kBlockAlignment);
+void place_stream(Placer& placer, uint32_t capacity, uint32_t channels, RowStream*& stream) {
+  const Span<RowStream> place = placer.array<RowStream>(1, kBlockAlignment);
   const Span<float> rows = placer.array<float>(size_t{capacity} * channels);
   const Span<int64_t> ticks = placer.array<int64_t>(capacity);
   const Span<float> last = placer.array<float>(channels), before = placer.array<float>(channels);
   stream = place.data;
   if (placer.measuring()) return;
-  new (stream) Stream{};
+  new (stream) RowStream{};
   stream->capacity = capacity;
   stream->channels = channels;
   stream->rows = rows.data;
@@ -23,7 +23,7 @@ void place_stream(Placer& placer, uint32_t capacity, uint32_t channels, Stream*&
   stream->before = before.data;
 }
 
-bool push_stream(Stream& stream, int64_t tick, const float* values) {
+bool push_stream(RowStream& stream, int64_t tick, const float* values) {
   if (stream.has_newest && tick <= stream.newest) return false;
   const uint32_t head = stream.head.load(std::memory_order_relaxed);
   if (head - stream.tail.load(std::memory_order_acquire) == stream.capacity) return false;
@@ -36,7 +36,7 @@ bool push_stream(Stream& stream, int64_t tick, const float* values) {
   return true;
 }
 
-StreamSample sample_stream(Stream& stream, int64_t tick, float* values) {
+StreamSample sample_stream(RowStream& stream, int64_t tick, float* values) {
   const uint32_t head = stream.head.load(std::memory_order_acquire);
   uint32_t tail = stream.tail.load(std::memory_order_relaxed);
   const uint32_t first = tail;

@@ -20,7 +20,7 @@ constexpr int64_t kStreamFade = kTicksPerSecond / 4;
 constexpr int64_t kStreamLeadOver = kTicksPerSecond / 10;
 constexpr uint32_t kMaxStreamFrames = 1024;
 
-struct Stream {
+struct RowStream {
   std::atomic<uint32_t> head, tail;  // frames pushed, frames taken
   uint32_t capacity, channels;
   float* rows;     // [frame % capacity][channel]
@@ -38,13 +38,13 @@ struct Stream {
 
 enum class StreamSample : uint8_t { kNone, kShown, kJumped, kLost };
 
-void place_stream(Placer& placer, uint32_t capacity, uint32_t channels, Stream*& stream);
+void place_stream(Placer& placer, uint32_t capacity, uint32_t channels, RowStream*& stream);
 
 /// False for a frame that is dropped: it is not newer than the last one, or there is no room.
-bool push_stream(Stream& stream, int64_t tick, const float* values);
+bool push_stream(RowStream& stream, int64_t tick, const float* values);
 
 /// Values at a time that does not go back. kJumped: they do not continue what was shown before.
 /// kLost: those of `kStreamAhead` after the last frame. kNone: no frame so far, no values.
-StreamSample sample_stream(Stream& stream, int64_t tick, float* values);
+StreamSample sample_stream(RowStream& stream, int64_t tick, float* values);
 
 }  // namespace mien

@@ -58,6 +58,11 @@ int main(void) {
   CHECK_DEFAULT(MienClipPlayerInfo, mien_clip_player_info_default);
   CHECK_DEFAULT(MienClipBindingDesc, mien_clip_binding_desc_default);
   CHECK_DEFAULT(MienClipBindingInfo, mien_clip_binding_info_default);
+  CHECK_DEFAULT(MienMixDesc, mien_mix_desc_default);
+  CHECK_DEFAULT(MienMixInfo, mien_mix_info_default);
+  CHECK_DEFAULT(MienMixerDesc, mien_mixer_desc_default);
+  CHECK_DEFAULT(MienPlayDesc, mien_play_desc_default);
+  CHECK_DEFAULT(MienMixerInfo, mien_mixer_info_default);
 #ifdef MIEN_EXPERIMENTAL
   CHECK_DEFAULT(MienRigStatistics, mien_rig_statistics_default);
   CHECK_DEFAULT(MienInstanceStatistics, mien_instance_statistics_default);

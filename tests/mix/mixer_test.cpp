@@ -437,10 +437,8 @@ TEST(Stages, AreSeenOneByOne) {
   OwnMixer own(mix);
   own.pose(0, 0, 1.0f);
   own.pose(1, 0, 1.0f);
-  Row stages(stage_count(*mix) * mix->lane_count);
-  own.mixer.stages = stages.data();
   own.step(kStep);
-  const auto at = [&](uint32_t stage) { return stages[stage * mix->lane_count]; };
+  const auto at = [&](uint32_t stage) { return own.mixer.stages[stage * mix->lane_count]; };
   EXPECT_EQ(at(0), 0.5f);
   EXPECT_EQ(at(2 + kStageReactions), 0.5f);
   EXPECT_EQ(at(2 + kStageGuards), 0.5f);
@@ -645,9 +643,9 @@ TEST(Memory, EveryFailedRequestIsReported) {
   EXPECT_EQ(mix, nullptr);
   counting.fail_at = 4;
   ASSERT_EQ(create_mix(input.finish(), allocator, mix, error), Status::kOk);
-  Mixer* mixer = create_mixer(*mix, 1, allocator);
+  Mixer* mixer = create_mixer(*mix, 1, false, allocator);
   ASSERT_NE(mixer, nullptr);
-  EXPECT_EQ(create_mixer(*mix, 1, allocator), nullptr);
+  EXPECT_EQ(create_mixer(*mix, 1, false, allocator), nullptr);
   destroy_mixer(mixer);
   release_mix(mix);
   EXPECT_TRUE(counting.clean());
@@ -659,8 +657,9 @@ TEST(Memory, StepsAndPlaysTakeNone) {
   CountingAllocator counting;
   const MienAllocator given = counting.get();
   const MixHandle mix = make_mix(input);
-  const MixerHandle mixer(create_mixer(*mix, 1, {given.user, given.allocate, given.release}));
-  EXPECT_EQ(counting.bytes, mixer_size(*mix));
+  const MixerHandle mixer(
+      create_mixer(*mix, 1, false, {given.user, given.allocate, given.release}));
+  EXPECT_EQ(counting.bytes, mixer_size(*mix, false));
   LayerPlayDesc desc;
   Error error;
   for (uint32_t i = 0; i < 100; ++i) {

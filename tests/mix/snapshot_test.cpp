@@ -87,7 +87,7 @@ struct Everything {
 };
 
 std::vector<uint8_t> snapshot(OwnMixer& own) {
-  std::vector<uint8_t> bytes(snapshot_size(own.mixer));
+  std::vector<uint8_t> bytes(snapshot_size(*own.mixer.mix));
   Error error;
   EXPECT_EQ(take_snapshot(own.mixer, {bytes.data(), bytes.size()}, error), Status::kOk);
   return bytes;
@@ -95,9 +95,16 @@ std::vector<uint8_t> snapshot(OwnMixer& own) {
 
 Status restore(OwnMixer& own, const std::vector<uint8_t>& bytes,
                const std::vector<ClipSource>& sources) {
+  const auto find = [](const void* user, uint64_t id, ClipSource& source) {
+    for (const ClipSource& each : *static_cast<const std::vector<ClipSource>*>(user)) {
+      if (each.id != id) continue;
+      source = each;
+      return true;
+    }
+    return false;
+  };
   Error error;
-  return restore_snapshot(own.mixer, {bytes.data(), bytes.size()}, {sources.data(), sources.size()},
-                          error);
+  return restore_snapshot(own.mixer, {bytes.data(), bytes.size()}, {&sources, find}, error);
 }
 
 TEST(Snapshot, ContinuesToTheBitAnywhere) {  // F2

@@ -179,7 +179,7 @@ Curves noisy_solve(uint64_t seed, uint32_t frames) {
     for (uint32_t f = 0; f < frames; ++f) {
       double& value = sums.at(f, c);
       value += 0.02 * (leak.at(f) - 1.2);
-      if (value > -0.01) value += kNoise * random.normal();
+      if (value > -0.01) value += kSensorNoise * random.normal();
     }
   }
   return sums.clamped();
@@ -192,7 +192,7 @@ Curves dense_noise(uint64_t seed, uint32_t frames) {
     const SmoothNoise motion(random, 30, frames);
     const double center = random.between(0.2, 0.8);
     for (uint32_t f = 0; f < frames; ++f) {
-      sums.at(f, c) = center + 0.05 * motion.at(f) + kNoise * random.normal();
+      sums.at(f, c) = center + 0.05 * motion.at(f) + kSensorNoise * random.normal();
     }
   }
   return sums.clamped();
@@ -209,7 +209,7 @@ Curves phone_capture(uint64_t seed, uint32_t frames) {
     for (uint32_t f = 0; f < frames; ++f) {
       const double m = motion.at(f), error = random.normal();
       if (angle) {
-        curves.at(f, c) = static_cast<float>(0.2 * m + kNoise * error);
+        curves.at(f, c) = static_cast<float>(0.2 * m + kSensorNoise * error);
       } else if (m + offset > 0) {
         const double value = amplitude * (m + offset) * (m + offset);
         curves.at(f, c) = static_cast<float>(clamp01(value * (1 + 0.01 * error)));

@@ -17,7 +17,7 @@ namespace mien {
 
 constexpr uint32_t kFaceControls = 251;
 constexpr uint32_t kCaptureChannels = 61;  // 52 coefficients, 9 angles of head and eyes
-constexpr double kNoise = 0.001;           // standard deviation
+constexpr double kSensorNoise = 0.001;     // standard deviation
 
 struct Curves {
   uint32_t channels = 0, frames = 0;

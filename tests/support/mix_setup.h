@@ -111,7 +111,7 @@ struct OwnMixer {
   Mixer& mixer;
 
   explicit OwnMixer(const MixHandle& mix, uint64_t seed = 1)
-      : handle(create_mixer(*mix, seed, default_allocator())), mixer(*handle) {}
+      : handle(create_mixer(*mix, seed, true, default_allocator())), mixer(*handle) {}
 
   void play(uint32_t layer, const BoundClip& clip, Transition transition = Transition::kCut,
             int64_t ticks = 0, PlayDesc play = {}) {

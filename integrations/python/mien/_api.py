@@ -434,6 +434,94 @@ class Interpolation(IntEnum):
     CATMULL_ROM = 2
 
 
+class LayerGroup(IntEnum):
+    """What a layer is for. Guards protect base and speech from the others."""
+
+    BASE = 0
+    SPEECH = 1
+    EMOTION = 2
+    REACTION = 3
+    #: acts after the reactions if no layer of another group follows
+    LIFE = 4
+
+
+class BlendMode(IntEnum):
+    """What becomes of a lane: o is its value so far, x that of the layer, a = weight * mask. Lanes
+    for which the source of a layer has no value keep theirs.
+    """
+
+    #: o + a (x - o)
+    OVERRIDE = 0
+    #: o + a x
+    ADD = 1
+    #: o + a x (1 - p), for x < 0 o + a x p; p is o clamped to 0 ... 1
+    SCREEN = 2
+    #: o + a max(0, x - o)
+    MAX = 3
+    #: o (1 + a (x - 1))
+    SCALE = 4
+
+
+class LayerSource(IntEnum):
+    """Where the values of a layer come from."""
+
+    #: mien_mixer_play()
+    CLIP = 0
+    #: a weighted sum: mien_mixer_set_pose_weight()
+    POSES = 1
+    #: mien_mixer_push()
+    STREAM = 2
+    #: Generator
+    GENERATOR = 3
+
+
+class Generator(IntEnum):
+    """What a layer generates from the seed of the mixer and the time."""
+
+    #: every `period` on average, at least 0.5 s apart; waits anew after the first lane was above
+    #: 0.6 in the layers before
+    BLINK = 0
+    #: 0 to 1 in 40 % of a period and back
+    BREATH = 1
+    #: smooth between -1 and 1; a new random value every period
+    NOISE = 2
+
+
+class Retrigger(IntEnum):
+    """What a trigger does while the reaction runs."""
+
+    #: the stimulus goes on; strokes that rest or fall begin again
+    EXTEND = 0
+    #: all strokes begin again
+    RESTART = 1
+    IGNORE = 2
+
+
+class Guard(IntFlag):
+    """Guards: distances of the face that emotions and reactions must not open while speech or a
+    blink closes them. Bits of MienMixDesc.guards.
+    """
+
+    #: between the lips, left, center and right, and from lower lip to upper teeth
+    LIPS = 1
+    #: between the lids
+    LIDS = 2
+    #: between the teeth
+    TEETH = 4
+    ALL = 7
+
+
+class Transition(IntEnum):
+    """How a layer goes on from what it played. A layer that played nothing fades in."""
+
+    #: the old clip is dropped; its last value and speed lead over
+    INERTIAL = 0
+    #: both play; without a free player like Transition.INERTIAL
+    CROSSFADE = 1
+    #: at once
+    CUT = 2
+
+
 class Preset(IntEnum):
     """Values of enum MienPreset of the C interface."""
 
@@ -503,6 +591,14 @@ class MienClipPlayer(c_void_p):
 
 
 class MienClipBinding(c_void_p):
+    pass
+
+
+class MienMix(c_void_p):
+    pass
+
+
+class MienMixer(c_void_p):
     pass
 
 
@@ -1544,6 +1640,326 @@ class MienClipBindingInfo(Structure):
         super().__init__(72)
 
 
+class MienMixLayer(Structure):
+    _fields_ = [
+        ("period", c_int64),
+        ("delay", c_int64),
+        ("mask", c_void_p),
+        ("lanes", c_void_p),
+        ("amounts", c_void_p),
+        ("mask_count", c_uint32),
+        ("lane_count", c_uint32),
+        ("group", c_uint32),
+        ("mode", c_uint32),
+        ("source", c_uint32),
+        ("after_guards", c_uint32),
+        ("weight", c_float),
+        ("first_pose", c_uint32),
+        ("pose_count", c_uint32),
+        ("generator", c_uint32),
+        ("stream_frames", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    period: Any
+    delay: Any
+    mask: Any
+    lanes: Any
+    amounts: Any
+    mask_count: Any
+    lane_count: Any
+    group: Any
+    mode: Any
+    source: Any
+    after_guards: Any
+    weight: Any
+    first_pose: Any
+    pose_count: Any
+    generator: Any
+    stream_frames: Any
+    reserved: Any
+
+
+class MienMixPose(Structure):
+    _fields_ = [
+        ("lanes", c_void_p),
+        ("values", c_void_p),
+        ("count", c_size_t),
+    ]
+    lanes: Any
+    values: Any
+    count: Any
+
+
+class MienMixStroke(Structure):
+    _fields_ = [
+        ("delay", c_int64),
+        ("attack", c_int64),
+        ("hold", c_int64),
+        ("release", c_int64),
+        ("pose", c_uint32),
+        ("mode", c_uint32),
+        ("is_held", c_uint32),
+        ("is_lag", c_uint32),
+    ]
+    delay: Any
+    attack: Any
+    hold: Any
+    release: Any
+    pose: Any
+    mode: Any
+    is_held: Any
+    is_lag: Any
+
+
+class MienMixReaction(Structure):
+    _fields_ = [
+        ("cooldown", c_int64),
+        ("adapt_ticks", c_int64),
+        ("recover_ticks", c_int64),
+        ("strokes", POINTER(MienMixStroke)),
+        ("stroke_count", c_size_t),
+        ("retrigger", c_uint32),
+        ("after_guards", c_uint32),
+        ("adapted", c_float),
+        ("reserved", c_uint32),
+    ]
+    cooldown: Any
+    adapt_ticks: Any
+    recover_ticks: Any
+    strokes: Any
+    stroke_count: Any
+    retrigger: Any
+    after_guards: Any
+    adapted: Any
+    reserved: Any
+
+
+class MienMixAntagonists(Structure):
+    _fields_ = [
+        ("first", c_uint16),
+        ("second", c_uint16),
+        ("stiffness", c_float),
+    ]
+    first: Any
+    second: Any
+    stiffness: Any
+
+
+class MienMixDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("layers", POINTER(MienMixLayer)),
+        ("layer_count", c_size_t),
+        ("poses", POINTER(MienMixPose)),
+        ("pose_count", c_size_t),
+        ("reactions", POINTER(MienMixReaction)),
+        ("reaction_count", c_size_t),
+        ("antagonists", POINTER(MienMixAntagonists)),
+        ("antagonist_count", c_size_t),
+        ("mirror", c_void_p),
+        ("lower", c_void_p),
+        ("upper", c_void_p),
+        ("deformer", MienDeformer),
+        ("guards", c_uint32),
+        ("variable_count", c_uint32),
+        ("player_count", c_uint32),
+        ("max_channels", c_uint32),
+        ("max_changing_channels", c_uint32),
+        ("max_events", c_uint32),
+        ("reverse", c_uint32),
+        ("reserved", c_uint32),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    layers: Any
+    layer_count: Any
+    poses: Any
+    pose_count: Any
+    reactions: Any
+    reaction_count: Any
+    antagonists: Any
+    antagonist_count: Any
+    mirror: Any
+    lower: Any
+    upper: Any
+    deformer: Any
+    guards: Any
+    variable_count: Any
+    player_count: Any
+    max_channels: Any
+    max_changing_channels: Any
+    max_events: Any
+    reverse: Any
+    reserved: Any
+    allocator: Any
+
+    def __init__(self, *,
+                 layers: Any = None,
+                 layer_count: int = 0,
+                 poses: Any = None,
+                 pose_count: int = 0,
+                 reactions: Any = None,
+                 reaction_count: int = 0,
+                 antagonists: Any = None,
+                 antagonist_count: int = 0,
+                 mirror: Any = None,
+                 lower: Any = None,
+                 upper: Any = None,
+                 deformer: Any = None,
+                 guards: int = 0,
+                 variable_count: int = 0,
+                 player_count: int = 0,
+                 max_channels: int = 0,
+                 max_changing_channels: int = 0,
+                 max_events: int = 0,
+                 reverse: bool = False,
+                 allocator: Any = None) -> None:
+        super().__init__(144)
+        self.layers = layers
+        self.layer_count = layer_count
+        self.poses = poses
+        self.pose_count = pose_count
+        self.reactions = reactions
+        self.reaction_count = reaction_count
+        self.antagonists = antagonists
+        self.antagonist_count = antagonist_count
+        self.mirror = mirror
+        self.lower = lower
+        self.upper = upper
+        self.deformer = deformer
+        self.guards = guards
+        self.variable_count = variable_count
+        self.player_count = player_count
+        self.max_channels = max_channels
+        self.max_changing_channels = max_changing_channels
+        self.max_events = max_events
+        self.reverse = reverse
+        self.allocator = allocator
+
+
+class MienMixInfo(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("raw_control_count", c_uint32),
+        ("variable_count", c_uint32),
+        ("lane_count", c_uint32),
+        ("layer_count", c_uint32),
+        ("stage_count", c_uint32),
+        ("guard_count", c_uint32),
+        ("mixer_bytes", c_uint64),
+        ("snapshot_bytes", c_uint64),
+    ]
+    struct_size: Any
+    raw_control_count: Any
+    variable_count: Any
+    lane_count: Any
+    layer_count: Any
+    stage_count: Any
+    guard_count: Any
+    mixer_bytes: Any
+    snapshot_bytes: Any
+
+    def __init__(self) -> None:
+        super().__init__(48)
+
+
+class MienMixerDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("seed", c_uint64),
+        ("stages", c_uint32),
+        ("reserved", c_uint32),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    seed: Any
+    stages: Any
+    reserved: Any
+    allocator: Any
+
+    def __init__(self, *,
+                 seed: int = 0,
+                 stages: bool = False,
+                 allocator: Any = None) -> None:
+        super().__init__(32)
+        self.seed = seed
+        self.stages = stages
+        self.allocator = allocator
+
+
+class MienPlayDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("clip_id", c_uint64),
+        ("start_tick", c_int64),
+        ("transition_ticks", c_int64),
+        ("transition", c_uint32),
+        ("looping", c_uint32),
+        ("interpolation", c_uint32),
+        ("speed_numerator", c_int32),
+        ("speed_denominator", c_int32),
+        ("mirrored", c_uint32),
+    ]
+    struct_size: Any
+    clip_id: Any
+    start_tick: Any
+    transition_ticks: Any
+    transition: Any
+    looping: Any
+    interpolation: Any
+    speed_numerator: Any
+    speed_denominator: Any
+    mirrored: Any
+
+    def __init__(self, *,
+                 clip_id: int = 0,
+                 start_tick: int = 0,
+                 transition_ticks: int = 0,
+                 transition: int = 0,
+                 looping: int = 0,
+                 interpolation: int = 0,
+                 speed_numerator: int = 0,
+                 speed_denominator: int = 0,
+                 mirrored: bool = False) -> None:
+        super().__init__(56)
+        self.clip_id = clip_id
+        self.start_tick = start_tick
+        self.transition_ticks = transition_ticks
+        self.transition = transition
+        self.looping = looping
+        self.interpolation = interpolation
+        self.speed_numerator = speed_numerator
+        self.speed_denominator = speed_denominator
+        self.mirrored = mirrored
+
+
+class MienMixerInfo(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("tick", c_int64),
+        ("event_count", c_uint32),
+        ("lost_events", c_uint32),
+    ]
+    struct_size: Any
+    tick: Any
+    event_count: Any
+    lost_events: Any
+
+    def __init__(self) -> None:
+        super().__init__(24)
+
+
+class MienMixerClip(Structure):
+    _fields_ = [
+        ("clip_id", c_uint64),
+        ("clip", MienClip),
+        ("clip_binding", MienClipBinding),
+    ]
+    clip_id: Any
+    clip: Any
+    clip_binding: Any
+
+
 class MienGenerateDesc(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -1980,6 +2396,48 @@ class ClipPlayerInfo(NamedTuple):
     @classmethod
     def _of(cls, c: MienClipPlayerInfo) -> ClipPlayerInfo:
         return cls(c.tick, c.loops, _enum(Looping, c.looping), bool(c.is_damaged))
+
+
+class MixInfo(NamedTuple):
+    """Properties of a mix.
+
+      lane_count: raw controls and pose variables
+      stage_count: of mien_mixer_stage()
+      guard_count: guards whose landmarks were found
+      mixer_bytes: memory of a mixer without MienMixerDesc.stages
+      snapshot_bytes: size of a snapshot
+    """
+
+    raw_control_count: int
+    variable_count: int
+    lane_count: int
+    layer_count: int
+    stage_count: int
+    guard_count: int
+    mixer_bytes: int
+    snapshot_bytes: int
+
+    @classmethod
+    def _of(cls, c: MienMixInfo) -> MixInfo:
+        return cls(c.raw_control_count, c.variable_count, c.lane_count, c.layer_count,
+                   c.stage_count, c.guard_count, c.mixer_bytes, c.snapshot_bytes)
+
+
+class MixerInfo(NamedTuple):
+    """State of a mixer.
+
+      tick: time since the beginning
+      event_count: events of clips that the last step passed
+      lost_events: it passed more than MienMixDesc.max_events
+    """
+
+    tick: int
+    event_count: int
+    lost_events: bool
+
+    @classmethod
+    def _of(cls, c: MienMixerInfo) -> MixerInfo:
+        return cls(c.tick, c.event_count, bool(c.lost_events))
 
 
 # Why functions fail, beyond what the package checks: (status, condition).
@@ -2683,6 +3141,115 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INVALID_ARGUMENT,
          "a count is not that of clip and rig"),
     ),
+    "mien_mix_create": (
+        (Status.INVALID_ARGUMENT,
+         "a part of `desc` is out of range; the message names it"),
+        (Status.MISMATCH,
+         "the deformer is of another rig"),
+        (Status.MEMORY,
+         "there is no memory"),
+    ),
+    "mien_mix_info": (),
+    "mien_mixer_create": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+    ),
+    "mien_mixer_play": (
+        (Status.INVALID_ARGUMENT,
+         "a time, speed or choice is out of range or a clip of differences would "
+         "override"),
+        (Status.MISMATCH,
+         "the binding is of another clip or rig"),
+        (Status.INDEX,
+         "the layer does not exist or has another source"),
+        (Status.CLIP_LIMIT,
+         "the clip is larger than the mix allows"),
+    ),
+    "mien_mixer_stop": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.INDEX,
+         "the layer does not exist or plays no clips"),
+    ),
+    "mien_mixer_set_weight": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.INDEX,
+         "the layer does not exist"),
+    ),
+    "mien_mixer_set_pose_weight": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.INDEX,
+         "the layer or its pose does not exist"),
+    ),
+    "mien_mixer_set_variable": (
+        (Status.INVALID_ARGUMENT,
+         "the value is not finite"),
+        (Status.INDEX,
+         "it does not exist"),
+    ),
+    "mien_mixer_set_guard": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.INDEX,
+         "the guard does not exist"),
+    ),
+    "mien_mixer_trigger": (
+        (Status.INVALID_ARGUMENT,
+         "strength or time is out of range"),
+        (Status.INDEX,
+         "the reaction does not exist"),
+    ),
+    "mien_mixer_release": (
+        (Status.INDEX,
+         "the reaction does not exist"),
+    ),
+    "mien_mixer_push": (
+        (Status.INVALID_ARGUMENT,
+         "a value is not finite"),
+        (Status.MISMATCH,
+         "it has another number of channels"),
+        (Status.INDEX,
+         "the layer does not exist or is no stream"),
+    ),
+    "mien_mixer_step": (
+        (Status.INVALID_ARGUMENT,
+         "`ticks` is out of range"),
+        (Status.MISMATCH,
+         "the instance has another number of raw controls"),
+    ),
+    "mien_mixer_step_batch": (
+        (Status.INVALID_ARGUMENT,
+         "`ticks` is out of range"),
+        (Status.MISMATCH,
+         "the instance has another number of raw controls"),
+    ),
+    "mien_mixer_row": (),
+    "mien_mixer_stage": (
+        (Status.INVALID_ARGUMENT,
+         "MienMixerDesc.stages was 0. Contents change with mien_mixer_step() and "
+         "mien_mixer_step_batch()"),
+        (Status.INDEX,
+         "the stage does not exist"),
+    ),
+    "mien_mixer_info": (),
+    "mien_mixer_event": (
+        (Status.INDEX,
+         "`index` is out of range"),
+    ),
+    "mien_mixer_snapshot": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+    ),
+    "mien_mixer_restore": (
+        (Status.INVALID_ARGUMENT,
+         "the bytes are not a snapshot of this mix"),
+        (Status.MISMATCH,
+         "a clip is missing or another one"),
+    ),
     "mien_dna_generate": (
         (Status.INVALID_ARGUMENT,
          "an argument is outside its range"),
@@ -2865,6 +3432,33 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_clip_binding_destroy", None, (MienClipBinding,)),
     ("mien_clip_binding_info", c_int32, (MienClipBinding, POINTER(MienClipBindingInfo))),
     ("mien_clip_binding_apply", c_int32, (MienClipBinding, c_void_p, c_size_t, c_void_p, c_size_t)),
+    ("mien_mix_create", c_int32, (MienRig, POINTER(MienMixDesc), POINTER(MienMix),
+     POINTER(MienError))),
+    ("mien_mix_destroy", None, (MienMix,)),
+    ("mien_mix_info", c_int32, (MienMix, POINTER(MienMixInfo))),
+    ("mien_mixer_create", c_int32, (MienMix, POINTER(MienMixerDesc), POINTER(MienMixer),
+     POINTER(MienError))),
+    ("mien_mixer_destroy", None, (MienMixer,)),
+    ("mien_mixer_play", c_int32, (MienMixer, c_uint32, MienClip, MienClipBinding,
+     POINTER(MienPlayDesc), POINTER(MienError))),
+    ("mien_mixer_stop", c_int32, (MienMixer, c_uint32, c_int64)),
+    ("mien_mixer_set_weight", c_int32, (MienMixer, c_uint32, c_float, c_int64)),
+    ("mien_mixer_set_pose_weight", c_int32, (MienMixer, c_uint32, c_uint32, c_float, c_int64)),
+    ("mien_mixer_set_variable", c_int32, (MienMixer, c_uint32, c_float)),
+    ("mien_mixer_set_guard", c_int32, (MienMixer, c_uint32, c_float)),
+    ("mien_mixer_trigger", c_int32, (MienMixer, c_uint32, c_float, c_int64)),
+    ("mien_mixer_release", c_int32, (MienMixer, c_uint32)),
+    ("mien_mixer_push", c_int32, (MienMixer, c_uint32, c_int64, c_void_p, c_size_t, c_void_p)),
+    ("mien_mixer_step", c_int32, (MienMixer, c_int64, MienInstance)),
+    ("mien_mixer_step_batch", c_int32, (POINTER(MienMixer), POINTER(MienInstance), c_size_t,
+     c_int64)),
+    ("mien_mixer_row", c_int32, (MienMixer, POINTER(MienFloatView))),
+    ("mien_mixer_stage", c_int32, (MienMixer, c_uint32, POINTER(MienFloatView))),
+    ("mien_mixer_info", c_int32, (MienMixer, POINTER(MienMixerInfo))),
+    ("mien_mixer_event", c_int32, (MienMixer, c_uint32, POINTER(MienClipEvent), c_void_p)),
+    ("mien_mixer_snapshot", c_int32, (MienMixer, c_void_p, c_size_t, c_void_p, POINTER(MienError))),
+    ("mien_mixer_restore", c_int32, (MienMixer, c_void_p, c_size_t, POINTER(MienMixerClip),
+     c_size_t, POINTER(MienError))),
 )
 
 
@@ -2996,6 +3590,28 @@ class Library:
     mien_clip_binding_destroy: Any
     mien_clip_binding_info: Any
     mien_clip_binding_apply: Any
+    mien_mix_create: Any
+    mien_mix_destroy: Any
+    mien_mix_info: Any
+    mien_mixer_create: Any
+    mien_mixer_destroy: Any
+    mien_mixer_play: Any
+    mien_mixer_stop: Any
+    mien_mixer_set_weight: Any
+    mien_mixer_set_pose_weight: Any
+    mien_mixer_set_variable: Any
+    mien_mixer_set_guard: Any
+    mien_mixer_trigger: Any
+    mien_mixer_release: Any
+    mien_mixer_push: Any
+    mien_mixer_step: Any
+    mien_mixer_step_batch: Any
+    mien_mixer_row: Any
+    mien_mixer_stage: Any
+    mien_mixer_info: Any
+    mien_mixer_event: Any
+    mien_mixer_snapshot: Any
+    mien_mixer_restore: Any
 
     def __init__(self, library: ctypes.CDLL) -> None:
         for name, result, parameters in FUNCTIONS:

@@ -310,6 +310,69 @@ pub const MIEN_INTERPOLATION_STEP: u32 = 1;
 /// A Catmull-Rom spline, clamped to the range of the two frames.
 pub const MIEN_INTERPOLATION_CATMULL_ROM: u32 = 2;
 
+// enum MienLayerGroup
+pub const MIEN_LAYER_GROUP_BASE: u32 = 0;
+pub const MIEN_LAYER_GROUP_SPEECH: u32 = 1;
+pub const MIEN_LAYER_GROUP_EMOTION: u32 = 2;
+pub const MIEN_LAYER_GROUP_REACTION: u32 = 3;
+/// Acts after the reactions if no layer of another group follows.
+pub const MIEN_LAYER_GROUP_LIFE: u32 = 4;
+
+// enum MienBlendMode
+/// O + a (x - o).
+pub const MIEN_BLEND_MODE_OVERRIDE: u32 = 0;
+/// O + a x.
+pub const MIEN_BLEND_MODE_ADD: u32 = 1;
+/// O + a x (1 - p), for x \< 0 o + a x p; p is o clamped to 0 ... 1.
+pub const MIEN_BLEND_MODE_SCREEN: u32 = 2;
+/// O + a max(0, x - o).
+pub const MIEN_BLEND_MODE_MAX: u32 = 3;
+/// O (1 + a (x - 1)).
+pub const MIEN_BLEND_MODE_SCALE: u32 = 4;
+
+// enum MienLayerSource
+/// `mien_mixer_play()`.
+pub const MIEN_LAYER_SOURCE_CLIP: u32 = 0;
+/// A weighted sum: `mien_mixer_set_pose_weight()`.
+pub const MIEN_LAYER_SOURCE_POSES: u32 = 1;
+/// `mien_mixer_push()`.
+pub const MIEN_LAYER_SOURCE_STREAM: u32 = 2;
+/// `MIEN_GENERATOR_...`
+pub const MIEN_LAYER_SOURCE_GENERATOR: u32 = 3;
+
+// enum MienGenerator
+/// Every `period` on average, at least 0.5 s apart; waits anew after the first lane was above 0.6
+/// in the layers before.
+pub const MIEN_GENERATOR_BLINK: u32 = 0;
+/// 0 to 1 in 40 % of a period and back.
+pub const MIEN_GENERATOR_BREATH: u32 = 1;
+/// Smooth between -1 and 1; a new random value every period.
+pub const MIEN_GENERATOR_NOISE: u32 = 2;
+
+// enum MienRetrigger
+/// The stimulus goes on; strokes that rest or fall begin again.
+pub const MIEN_RETRIGGER_EXTEND: u32 = 0;
+/// All strokes begin again.
+pub const MIEN_RETRIGGER_RESTART: u32 = 1;
+pub const MIEN_RETRIGGER_IGNORE: u32 = 2;
+
+// enum MienGuard
+/// Between the lips, left, center and right, and from lower lip to upper teeth.
+pub const MIEN_GUARD_LIPS: u32 = 1;
+/// Between the lids.
+pub const MIEN_GUARD_LIDS: u32 = 2;
+/// Between the teeth.
+pub const MIEN_GUARD_TEETH: u32 = 4;
+pub const MIEN_GUARD_ALL: u32 = 7;
+
+// enum MienTransition
+/// The old clip is dropped; its last value and speed lead over.
+pub const MIEN_TRANSITION_INERTIAL: u32 = 0;
+/// Both play; without a free player like `MIEN_TRANSITION_INERTIAL`.
+pub const MIEN_TRANSITION_CROSSFADE: u32 = 1;
+/// At once.
+pub const MIEN_TRANSITION_CUT: u32 = 2;
+
 // enum MienPreset
 /// Small enough to read.
 pub const MIEN_PRESET_TINY: u32 = 0;
@@ -439,6 +502,25 @@ pub struct MienClipPlayer {
 /// and all rigs with the same raw controls. Immutable.
 #[repr(C)]
 pub struct MienClipBinding {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
+/// What is mixed for one rig, and how. A row holds a value for each lane: first the raw controls
+/// of the rig, then pose variables, which are numbers of the caller that are mixed by the same
+/// rules (gaze, head turn, breath). A step of a MienMixer goes through layers in their order, then
+/// reactions, guards, layers and reactions after the guards, antagonists, limits. docs/mixing.md
+/// explains each. Serves any number of mixers and threads. Immutable.
+#[repr(C)]
+pub struct MienMix {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
+/// One character in a mix: what plays, fades and reacts. Only `mien_mixer_push()` may be called by
+/// another thread at the same time.
+#[repr(C)]
+pub struct MienMixer {
     _size: [u8; 0],
     _opaque: Opaque,
 }
@@ -1626,6 +1708,330 @@ impl Default for MienClipBindingInfo {
     }
 }
 
+/// A layer of a mix. Zero what its source does not use.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienMixLayer {
+    /// Of a generator, ticks.
+    pub period: i64,
+    /// Of a stream, ticks: it is played so much later than its times say.
+    pub delay: i64,
+    /// One per lane, 0 to 1; those left out at the end are 0. NULL: 1 for all.
+    pub mask: *const f32,
+    /// Of the channels of a stream, or that a generator moves.
+    pub lanes: *const u16,
+    /// One per lane of a generator: its values are multiplied by them.
+    pub amounts: *const f32,
+    pub mask_count: u32,
+    pub lane_count: u32,
+    /// `MIEN_LAYER_GROUP_...`
+    pub group: u32,
+    /// `MIEN_BLEND_MODE_...`
+    pub mode: u32,
+    /// `MIEN_LAYER_SOURCE_...`
+    pub source: u32,
+    /// Guards leave the layer alone; not for base and speech.
+    pub after_guards: u32,
+    /// At the beginning. 0 to 1; with `MIEN_BLEND_MODE_ADD` -1 to 1.
+    pub weight: f32,
+    /// Its poses, in MienMixDesc.poses.
+    pub first_pose: u32,
+    pub pose_count: u32,
+    /// `MIEN_GENERATOR_...`
+    pub generator: u32,
+    /// Rows of a stream that can wait. 0: 64; else 2 to 1024.
+    pub stream_frames: u32,
+    /// 0.
+    pub reserved: u32,
+}
+
+impl Default for MienMixLayer {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// Values of the lanes that a pose moves.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienMixPose {
+    pub lanes: *const u16,
+    pub values: *const f32,
+    pub count: usize,
+}
+
+impl Default for MienMixPose {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// A part of a reaction: leads the lanes of a pose to its values and back. Times are in ticks.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienMixStroke {
+    /// After the trigger.
+    pub delay: i64,
+    /// To strength \* pose.
+    pub attack: i64,
+    /// After the attack; without effect if `is_held`.
+    pub hold: i64,
+    /// Back to 0.
+    pub release: i64,
+    /// In MienMixDesc.poses.
+    pub pose: u32,
+    /// `MIEN_BLEND_MODE_...`
+    pub mode: u32,
+    /// Holds as long as the stimulus lasts, and adapts to it.
+    pub is_held: u32,
+    /// Moves exponentially; attack and release are time constants.
+    pub is_lag: u32,
+}
+
+impl Default for MienMixStroke {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// What a face does by itself when something happens to it.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienMixReaction {
+    /// Ticks; strokes that are not held begin at most so often.
+    pub cooldown: i64,
+    /// Time constants of adaptation to a stimulus that lasts.
+    pub adapt_ticks: i64,
+    /// And of recovery from it.
+    pub recover_ticks: i64,
+    /// At most 8.
+    pub strokes: *const MienMixStroke,
+    pub stroke_count: usize,
+    /// `MIEN_RETRIGGER_...`
+    pub retrigger: u32,
+    /// Guards leave it alone.
+    pub after_guards: u32,
+    /// Share of the strength that is left after adaptation; 1: all.
+    pub adapted: f32,
+    /// 0.
+    pub reserved: u32,
+}
+
+impl Default for MienMixReaction {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// Two lanes that move the face in opposite directions: where both are above 0, the smaller one
+/// times stiffness is subtracted from both.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienMixAntagonists {
+    pub first: u16,
+    pub second: u16,
+    /// 0 to 1.
+    pub stiffness: f32,
+}
+
+impl Default for MienMixAntagonists {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// What to mix. Everything is copied.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienMixDesc {
+    pub struct_size: usize,
+    /// At most 16.
+    pub layers: *const MienMixLayer,
+    pub layer_count: usize,
+    /// At most 1024; of layers and strokes.
+    pub poses: *const MienMixPose,
+    pub pose_count: usize,
+    /// At most 16.
+    pub reactions: *const MienMixReaction,
+    pub reaction_count: usize,
+    pub antagonists: *const MienMixAntagonists,
+    pub antagonist_count: usize,
+    /// Per lane its counterpart in the other half of the face, or itself. NULL: nothing can be
+    /// played mirrored.
+    pub mirror: *const u16,
+    /// Limits per lane. NULL: none; both or neither.
+    pub lower: *const f32,
+    pub upper: *const f32,
+    /// On which guards are measured; may be NULL if guards is 0.
+    pub deformer: *const MienDeformer,
+    /// `MIEN_GUARD_...` bits; those whose landmarks are found act.
+    pub guards: u32,
+    /// Pose variables; with the raw controls at most 4096 lanes.
+    pub variable_count: u32,
+    /// Clips that play at a time; crossfades need two. 0: two for each layer of clips.
+    pub player_count: u32,
+    /// Largest clip. 0: as many as the rig has raw controls.
+    pub max_channels: u32,
+    /// Of the largest clip. 0: `max_channels`, 512 at most.
+    pub max_changing_channels: u32,
+    /// That a step can report. 0: 64.
+    pub max_events: u32,
+    /// Memory to play backward as fast as forward.
+    pub reverse: u32,
+    /// 0.
+    pub reserved: u32,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienMixDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// Properties of a mix.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienMixInfo {
+    pub struct_size: usize,
+    pub raw_control_count: u32,
+    pub variable_count: u32,
+    /// Raw controls and pose variables.
+    pub lane_count: u32,
+    pub layer_count: u32,
+    /// Of `mien_mixer_stage()`.
+    pub stage_count: u32,
+    /// Guards whose landmarks were found.
+    pub guard_count: u32,
+    /// Memory of a mixer without MienMixerDesc.stages.
+    pub mixer_bytes: u64,
+    /// Size of a snapshot.
+    pub snapshot_bytes: u64,
+}
+
+impl Default for MienMixInfo {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// How to create a mixer.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienMixerDesc {
+    pub struct_size: usize,
+    /// Of the generators.
+    pub seed: u64,
+    /// Keep the row after each stage, for `mien_mixer_stage()`.
+    pub stages: u32,
+    /// 0.
+    pub reserved: u32,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienMixerDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// How to play a clip in a layer.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienPlayDesc {
+    pub struct_size: usize,
+    /// The caller's number of clip and binding, by which `mien_mixer_restore()` finds them.
+    pub clip_id: u64,
+    /// Of the clip.
+    pub start_tick: i64,
+    /// 0 to 2^40.
+    pub transition_ticks: i64,
+    /// `MIEN_TRANSITION_...`
+    pub transition: u32,
+    /// `MIEN_LOOPING_...`
+    pub looping: u32,
+    /// `MIEN_INTERPOLATION_...`
+    pub interpolation: u32,
+    /// As in MienClipPlayerDesc.
+    pub speed_numerator: i32,
+    pub speed_denominator: i32,
+    /// ; needs MienMixDesc.mirror.
+    pub mirrored: u32,
+}
+
+impl Default for MienPlayDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// State of a mixer.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienMixerInfo {
+    pub struct_size: usize,
+    /// Time since the beginning.
+    pub tick: i64,
+    /// Events of clips that the last step passed.
+    pub event_count: u32,
+    /// It passed more than MienMixDesc.`max_events`.
+    pub lost_events: u32,
+}
+
+impl Default for MienMixerInfo {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// A clip that `mien_mixer_restore()` may need.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienMixerClip {
+    /// As in MienPlayDesc.
+    pub clip_id: u64,
+    pub clip: *const MienClip,
+    pub clip_binding: *const MienClipBinding,
+}
+
+impl Default for MienMixerClip {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienGenerateDesc {
@@ -2536,6 +2942,145 @@ extern "C" {
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if a count is not that of clip and rig.
     pub fn mien_clip_binding_apply(clip_binding: *const MienClipBinding, values: *const f32, value_count: usize, raw_controls: *mut f32, raw_control_count: usize) -> MienStatus;
+
+    /// Creates a mix for a rig. `desc` is required. `rig` may be destroyed afterwards, and so may
+    /// the deformer. Measuring guards evaluates and deforms the rig some hundred times. Destroy
+    /// with `mien_mix_destroy()`.
+    ///
+    /// Fails with `MIEN_ERROR_MISMATCH` if the deformer is of another rig,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if a part of `desc` is out of range; the message names it.
+    pub fn mien_mix_create(rig: *const MienRig, desc: *const MienMixDesc, out_mix: *mut *mut MienMix, error: *mut MienError) -> MienStatus;
+
+    /// Destroys a mix. Its mixers must be destroyed first.
+    pub fn mien_mix_destroy(mix: *mut MienMix);
+
+    /// Returns the properties of a mix.
+    pub fn mien_mix_info(mix: *const MienMix, out_info: *mut MienMixInfo) -> MienStatus;
+
+    /// Creates a mixer at time 0, with one allocation: nothing plays, weights of poses and pose
+    /// variables are 0. `mix` must outlive it. Destroy with `mien_mixer_destroy()`.
+    pub fn mien_mixer_create(mix: *const MienMix, desc: *const MienMixerDesc, out_mixer: *mut *mut MienMixer, error: *mut MienError) -> MienStatus;
+
+    /// Destroys a mixer.
+    pub fn mien_mixer_destroy(mixer: *mut MienMixer);
+
+    /// Plays a clip in a layer, from the next step on. `clip` and `clip_binding` must outlive the
+    /// playing, the transition to the next clip included. On failure the layer goes on as before.
+    /// Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if the layer does not exist or has another source,
+    /// `MIEN_ERROR_MISMATCH` if the binding is of another clip or rig,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if a time, speed or choice is out of range or a clip of
+    /// differences would override, `MIEN_ERROR_CLIP_LIMIT` if the clip is larger than the mix
+    /// allows.
+    pub fn mien_mixer_play(mixer: *mut MienMixer, layer: u32, clip: *const MienClip, clip_binding: *const MienClipBinding, desc: *const MienPlayDesc, error: *mut MienError) -> MienStatus;
+
+    /// Fades out what a layer plays, which then ends. Fades take 0 to 2^40 ticks, here and below;
+    /// they start from value and speed that there are, and end with speed 0. Does not allocate or
+    /// lock.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if the layer does not exist or plays no clips.
+    pub fn mien_mixer_stop(mixer: *mut MienMixer, layer: u32, fade_ticks: i64) -> MienStatus;
+
+    /// Fades the weight of a layer to `weight`, whose range is that of MienMixLayer. Does not
+    /// allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if the layer does not exist.
+    pub fn mien_mixer_set_weight(mixer: *mut MienMixer, layer: u32, weight: f32, fade_ticks: i64) -> MienStatus;
+
+    /// Fades the weight of a pose to `weight`, 0 ... 1. `pose` counts from the first one of its
+    /// layer. Weights of a layer that add up to more than 1 are divided by their sum. Does not
+    /// allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if the layer or its pose does not exist.
+    pub fn mien_mixer_set_pose_weight(mixer: *mut MienMixer, layer: u32, pose: u32, weight: f32, fade_ticks: i64) -> MienStatus;
+
+    /// Sets the `value` with which a pose variable enters each step. Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if it does not exist, `MIEN_ERROR_INVALID_ARGUMENT` if the
+    /// value is not finite.
+    pub fn mien_mixer_set_variable(mixer: *mut MienMixer, variable: u32, value: f32) -> MienStatus;
+
+    /// Sets how much a guard acts: `activation` is 0 ... 1; below 0: as much as the protected
+    /// layers close what it guards, which is the default. Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if the guard does not exist.
+    pub fn mien_mixer_set_guard(mixer: *mut MienMixer, guard: u32, activation: f32) -> MienStatus;
+
+    /// Starts a reaction to a stimulus of `strength`, 0 ... 1, that lasts `hold_ticks`; if they
+    /// are negative, until `mien_mixer_release()`. Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if the reaction does not exist, `MIEN_ERROR_INVALID_ARGUMENT`
+    /// if strength or time is out of range.
+    pub fn mien_mixer_trigger(mixer: *mut MienMixer, reaction: u32, strength: f32, hold_ticks: i64) -> MienStatus;
+
+    /// Ends the stimulus of a reaction. Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if the reaction does not exist.
+    pub fn mien_mixer_release(mixer: *mut MienMixer, reaction: u32) -> MienStatus;
+
+    /// Gives a layer of a stream one value per channel, for a time of the mixer. One thread may
+    /// call this while another one uses the mixer. `out_accepted` may be NULL; it is 0 for a row
+    /// that is dropped because it is not newer than the last one or there is no room. Does not
+    /// allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if the layer does not exist or is no stream,
+    /// `MIEN_ERROR_MISMATCH` if it has another number of channels, `MIEN_ERROR_INVALID_ARGUMENT`
+    /// if a value is not finite.
+    pub fn mien_mixer_push(mixer: *mut MienMixer, layer: u32, tick: i64, values: *const f32, value_count: usize, out_accepted: *mut u32) -> MienStatus;
+
+    /// Advances by `ticks`, 0 to 2^40, and mixes. The raw controls go to `instance`, which may be
+    /// NULL. Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `ticks` is out of range, `MIEN_ERROR_MISMATCH`
+    /// if the instance has another number of raw controls.
+    pub fn mien_mixer_step(mixer: *mut MienMixer, ticks: i64, instance: *mut MienInstance) -> MienStatus;
+
+    /// Does the same for `count` mixers, each with the instance at its place. `instances` may be
+    /// NULL. The results are those of single calls. No mixer may occur twice. On failure no mixer
+    /// has moved.
+    ///
+    /// Fails like `mien_mixer_step()`.
+    pub fn mien_mixer_step_batch(mixers: *const *mut MienMixer, instances: *const *mut MienInstance, count: usize, ticks: i64) -> MienStatus;
+
+    /// Returns the row of the last step, one float per lane: raw controls, then pose variables.
+    ///
+    /// Contents change with `mien_mixer_step()` and `mien_mixer_step_batch()`.
+    pub fn mien_mixer_row(mixer: *const MienMixer, out_row: *mut MienFloatView) -> MienStatus;
+
+    /// Returns the row after a stage of the last step, one float per lane. Stages are the layers,
+    /// then reactions, guards, antagonists, limits. A layer after the guards comes after them in
+    /// time.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if the stage does not exist, `MIEN_ERROR_INVALID_ARGUMENT` if
+    /// MienMixerDesc.stages was 0.
+    ///
+    /// Contents change with `mien_mixer_step()` and `mien_mixer_step_batch()`.
+    pub fn mien_mixer_stage(mixer: *const MienMixer, stage: u32, out_row: *mut MienFloatView) -> MienStatus;
+
+    /// Returns the state of a mixer.
+    pub fn mien_mixer_info(mixer: *const MienMixer, out_info: *mut MienMixerInfo) -> MienStatus;
+
+    /// Returns an event of the last step and its layer. The tick is that in the clip, whose view
+    /// its name is.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if `index` is out of range.
+    pub fn mien_mixer_event(mixer: *const MienMixer, index: u32, out_event: *mut MienClipEvent, out_layer: *mut u32) -> MienStatus;
+
+    /// Writes the state of a mixer to memory, all that its next steps depend on but rows of
+    /// streams, and returns its size in `out_size`. `buffer` may be NULL with capacity 0 to get
+    /// the size only. The bytes serve every machine. Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `capacity` is too small.
+    pub fn mien_mixer_snapshot(mixer: *mut MienMixer, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
+
+    /// Goes on from a snapshot of a mixer of the same mix, bit for bit; streams begin anew.
+    /// `clips` holds those that may be playing. The bytes are not trusted. On failure the mixer
+    /// stays as it is. Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if the bytes are not a snapshot of this mix,
+    /// `MIEN_ERROR_MISMATCH` if a clip is missing or another one.
+    pub fn mien_mixer_restore(mixer: *mut MienMixer, bytes: *const c_void, size: usize, clips: *const MienMixerClip, clip_count: usize, error: *mut MienError) -> MienStatus;
 
     /// Generates a rig of a preset and opens it: a file of version 2.8 with all layers, with
     /// behavior of realistic size and sparsity and simple geometry. `desc` may be NULL: the tiny

@@ -603,6 +603,176 @@ fn mien_clip_binding_info() {
 }
 
 #[test]
+fn mien_mix_layer() {
+    use mien_sys::MienMixLayer as S;
+    assert_eq!(size_of::<S>(), 88);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, period), 0);
+    assert_eq!(offset!(S, delay), 8);
+    assert_eq!(offset!(S, mask), 16);
+    assert_eq!(offset!(S, lanes), 24);
+    assert_eq!(offset!(S, amounts), 32);
+    assert_eq!(offset!(S, mask_count), 40);
+    assert_eq!(offset!(S, lane_count), 44);
+    assert_eq!(offset!(S, group), 48);
+    assert_eq!(offset!(S, mode), 52);
+    assert_eq!(offset!(S, source), 56);
+    assert_eq!(offset!(S, after_guards), 60);
+    assert_eq!(offset!(S, weight), 64);
+    assert_eq!(offset!(S, first_pose), 68);
+    assert_eq!(offset!(S, pose_count), 72);
+    assert_eq!(offset!(S, generator), 76);
+    assert_eq!(offset!(S, stream_frames), 80);
+    assert_eq!(offset!(S, reserved), 84);
+}
+
+#[test]
+fn mien_mix_pose() {
+    use mien_sys::MienMixPose as S;
+    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, lanes), 0);
+    assert_eq!(offset!(S, values), 8);
+    assert_eq!(offset!(S, count), 16);
+}
+
+#[test]
+fn mien_mix_stroke() {
+    use mien_sys::MienMixStroke as S;
+    assert_eq!(size_of::<S>(), 48);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, delay), 0);
+    assert_eq!(offset!(S, attack), 8);
+    assert_eq!(offset!(S, hold), 16);
+    assert_eq!(offset!(S, release), 24);
+    assert_eq!(offset!(S, pose), 32);
+    assert_eq!(offset!(S, mode), 36);
+    assert_eq!(offset!(S, is_held), 40);
+    assert_eq!(offset!(S, is_lag), 44);
+}
+
+#[test]
+fn mien_mix_reaction() {
+    use mien_sys::MienMixReaction as S;
+    assert_eq!(size_of::<S>(), 56);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, cooldown), 0);
+    assert_eq!(offset!(S, adapt_ticks), 8);
+    assert_eq!(offset!(S, recover_ticks), 16);
+    assert_eq!(offset!(S, strokes), 24);
+    assert_eq!(offset!(S, stroke_count), 32);
+    assert_eq!(offset!(S, retrigger), 40);
+    assert_eq!(offset!(S, after_guards), 44);
+    assert_eq!(offset!(S, adapted), 48);
+    assert_eq!(offset!(S, reserved), 52);
+}
+
+#[test]
+fn mien_mix_antagonists() {
+    use mien_sys::MienMixAntagonists as S;
+    assert_eq!(size_of::<S>(), 8);
+    assert_eq!(align_of::<S>(), 4);
+    assert_eq!(offset!(S, first), 0);
+    assert_eq!(offset!(S, second), 2);
+    assert_eq!(offset!(S, stiffness), 4);
+}
+
+#[test]
+fn mien_mix_desc() {
+    use mien_sys::MienMixDesc as S;
+    assert_eq!(size_of::<S>(), 144);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, layers), 8);
+    assert_eq!(offset!(S, layer_count), 16);
+    assert_eq!(offset!(S, poses), 24);
+    assert_eq!(offset!(S, pose_count), 32);
+    assert_eq!(offset!(S, reactions), 40);
+    assert_eq!(offset!(S, reaction_count), 48);
+    assert_eq!(offset!(S, antagonists), 56);
+    assert_eq!(offset!(S, antagonist_count), 64);
+    assert_eq!(offset!(S, mirror), 72);
+    assert_eq!(offset!(S, lower), 80);
+    assert_eq!(offset!(S, upper), 88);
+    assert_eq!(offset!(S, deformer), 96);
+    assert_eq!(offset!(S, guards), 104);
+    assert_eq!(offset!(S, variable_count), 108);
+    assert_eq!(offset!(S, player_count), 112);
+    assert_eq!(offset!(S, max_channels), 116);
+    assert_eq!(offset!(S, max_changing_channels), 120);
+    assert_eq!(offset!(S, max_events), 124);
+    assert_eq!(offset!(S, reverse), 128);
+    assert_eq!(offset!(S, reserved), 132);
+    assert_eq!(offset!(S, allocator), 136);
+}
+
+#[test]
+fn mien_mix_info() {
+    use mien_sys::MienMixInfo as S;
+    assert_eq!(size_of::<S>(), 48);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, raw_control_count), 8);
+    assert_eq!(offset!(S, variable_count), 12);
+    assert_eq!(offset!(S, lane_count), 16);
+    assert_eq!(offset!(S, layer_count), 20);
+    assert_eq!(offset!(S, stage_count), 24);
+    assert_eq!(offset!(S, guard_count), 28);
+    assert_eq!(offset!(S, mixer_bytes), 32);
+    assert_eq!(offset!(S, snapshot_bytes), 40);
+}
+
+#[test]
+fn mien_mixer_desc() {
+    use mien_sys::MienMixerDesc as S;
+    assert_eq!(size_of::<S>(), 32);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, seed), 8);
+    assert_eq!(offset!(S, stages), 16);
+    assert_eq!(offset!(S, reserved), 20);
+    assert_eq!(offset!(S, allocator), 24);
+}
+
+#[test]
+fn mien_play_desc() {
+    use mien_sys::MienPlayDesc as S;
+    assert_eq!(size_of::<S>(), 56);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, clip_id), 8);
+    assert_eq!(offset!(S, start_tick), 16);
+    assert_eq!(offset!(S, transition_ticks), 24);
+    assert_eq!(offset!(S, transition), 32);
+    assert_eq!(offset!(S, looping), 36);
+    assert_eq!(offset!(S, interpolation), 40);
+    assert_eq!(offset!(S, speed_numerator), 44);
+    assert_eq!(offset!(S, speed_denominator), 48);
+    assert_eq!(offset!(S, mirrored), 52);
+}
+
+#[test]
+fn mien_mixer_info() {
+    use mien_sys::MienMixerInfo as S;
+    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, tick), 8);
+    assert_eq!(offset!(S, event_count), 16);
+    assert_eq!(offset!(S, lost_events), 20);
+}
+
+#[test]
+fn mien_mixer_clip() {
+    use mien_sys::MienMixerClip as S;
+    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, clip_id), 0);
+    assert_eq!(offset!(S, clip), 8);
+    assert_eq!(offset!(S, clip_binding), 16);
+}
+
+#[test]
 fn mien_generate_desc() {
     use mien_sys::MienGenerateDesc as S;
     assert_eq!(size_of::<S>(), 32);

@@ -674,6 +674,147 @@ impl Interpolation {
 
 numbers!(Interpolation, u32, [(0, "LINEAR"), (1, "STEP"), (2, "CATMULL_ROM")]);
 
+/// What a layer is for. Guards protect base and speech from the others.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct LayerGroup(pub u32);
+
+impl LayerGroup {
+    /// `MIEN_LAYER_GROUP_BASE` in C.
+    pub const BASE: Self = Self(0);
+    /// `MIEN_LAYER_GROUP_SPEECH` in C.
+    pub const SPEECH: Self = Self(1);
+    /// `MIEN_LAYER_GROUP_EMOTION` in C.
+    pub const EMOTION: Self = Self(2);
+    /// `MIEN_LAYER_GROUP_REACTION` in C.
+    pub const REACTION: Self = Self(3);
+    /// Acts after the reactions if no layer of another group follows.
+    pub const LIFE: Self = Self(4);
+}
+
+numbers!(LayerGroup, u32, [(0, "BASE"), (1, "SPEECH"), (2, "EMOTION"), (3, "REACTION"), (4, "LIFE")]);
+
+/// What becomes of a lane: o is its value so far, x that of the layer, a = weight \* mask. Lanes
+/// for which the source of a layer has no value keep theirs.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct BlendMode(pub u32);
+
+impl BlendMode {
+    /// O + a (x - o).
+    pub const OVERRIDE: Self = Self(0);
+    /// O + a x.
+    pub const ADD: Self = Self(1);
+    /// O + a x (1 - p), for x \< 0 o + a x p; p is o clamped to 0 ... 1.
+    pub const SCREEN: Self = Self(2);
+    /// O + a max(0, x - o).
+    pub const MAX: Self = Self(3);
+    /// O (1 + a (x - 1)).
+    pub const SCALE: Self = Self(4);
+}
+
+numbers!(BlendMode, u32, [(0, "OVERRIDE"), (1, "ADD"), (2, "SCREEN"), (3, "MAX"), (4, "SCALE")]);
+
+/// Where the values of a layer come from.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct LayerSource(pub u32);
+
+impl LayerSource {
+    /// `mien_mixer_play()`.
+    pub const CLIP: Self = Self(0);
+    /// A weighted sum: `mien_mixer_set_pose_weight()`.
+    pub const POSES: Self = Self(1);
+    /// `mien_mixer_push()`.
+    pub const STREAM: Self = Self(2);
+    /// `Generator`
+    pub const GENERATOR: Self = Self(3);
+}
+
+numbers!(LayerSource, u32, [(0, "CLIP"), (1, "POSES"), (2, "STREAM"), (3, "GENERATOR")]);
+
+/// What a layer generates from the seed of the mixer and the time.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Generator(pub u32);
+
+impl Generator {
+    /// Every `period` on average, at least 0.5 s apart; waits anew after the first lane was above
+    /// 0.6 in the layers before.
+    pub const BLINK: Self = Self(0);
+    /// 0 to 1 in 40 % of a period and back.
+    pub const BREATH: Self = Self(1);
+    /// Smooth between -1 and 1; a new random value every period.
+    pub const NOISE: Self = Self(2);
+}
+
+numbers!(Generator, u32, [(0, "BLINK"), (1, "BREATH"), (2, "NOISE")]);
+
+/// What a trigger does while the reaction runs.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Retrigger(pub u32);
+
+impl Retrigger {
+    /// The stimulus goes on; strokes that rest or fall begin again.
+    pub const EXTEND: Self = Self(0);
+    /// All strokes begin again.
+    pub const RESTART: Self = Self(1);
+    /// `MIEN_RETRIGGER_IGNORE` in C.
+    pub const IGNORE: Self = Self(2);
+}
+
+numbers!(Retrigger, u32, [(0, "EXTEND"), (1, "RESTART"), (2, "IGNORE")]);
+
+/// Guards: distances of the face that emotions and reactions must not open while speech or a blink
+/// closes them. Bits of MienMixDesc.guards.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(transparent)]
+pub struct Guard(pub u32);
+
+impl Guard {
+    /// Between the lips, left, center and right, and from lower lip to upper teeth.
+    pub const LIPS: Self = Self(1);
+    /// Between the lids.
+    pub const LIDS: Self = Self(2);
+    /// Between the teeth.
+    pub const TEETH: Self = Self(4);
+    /// `MIEN_GUARD_ALL` in C.
+    pub const ALL: Self = Self(7);
+}
+
+flags!(Guard, u32, [(1, "LIPS"), (2, "LIDS"), (4, "TEETH"), (7, "ALL")]);
+
+/// How a layer goes on from what it played. A layer that played nothing fades in.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Transition(pub u32);
+
+impl Transition {
+    /// The old clip is dropped; its last value and speed lead over.
+    pub const INERTIAL: Self = Self(0);
+    /// Both play; without a free player like `Transition::INERTIAL`.
+    pub const CROSSFADE: Self = Self(1);
+    /// At once.
+    pub const CUT: Self = Self(2);
+}
+
+numbers!(Transition, u32, [(0, "INERTIAL"), (1, "CROSSFADE"), (2, "CUT")]);
+
 /// What C calls `MIEN_PRESET_...`.
 ///
 /// A later library may give numbers that have no name here.
@@ -1228,6 +1369,65 @@ impl From<sys::MienClipPlayerInfo> for ClipPlayerInfo {
     }
 }
 
+/// Properties of a mix.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct MixInfo {
+    /// Raw control count.
+    pub raw_control_count: usize,
+    /// Variable count.
+    pub variable_count: usize,
+    /// Raw controls and pose variables.
+    pub lane_count: usize,
+    /// Layer count.
+    pub layer_count: usize,
+    /// Of `mien_mixer_stage()`.
+    pub stage_count: usize,
+    /// Guards whose landmarks were found.
+    pub guard_count: usize,
+    /// Memory of a mixer without MienMixerDesc.stages.
+    pub mixer_bytes: u64,
+    /// Size of a snapshot.
+    pub snapshot_bytes: u64,
+}
+
+impl From<sys::MienMixInfo> for MixInfo {
+    fn from(c: sys::MienMixInfo) -> Self {
+        Self {
+            raw_control_count: c.raw_control_count as usize,
+            variable_count: c.variable_count as usize,
+            lane_count: c.lane_count as usize,
+            layer_count: c.layer_count as usize,
+            stage_count: c.stage_count as usize,
+            guard_count: c.guard_count as usize,
+            mixer_bytes: c.mixer_bytes,
+            snapshot_bytes: c.snapshot_bytes,
+        }
+    }
+}
+
+/// State of a mixer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct MixerInfo {
+    /// Time since the beginning.
+    pub tick: i64,
+    /// Events of clips that the last step passed.
+    pub event_count: usize,
+    /// It passed more than MienMixDesc.`max_events`.
+    pub lost_events: bool,
+}
+
+impl From<sys::MienMixerInfo> for MixerInfo {
+    fn from(c: sys::MienMixerInfo) -> Self {
+        Self {
+            tick: c.tick,
+            event_count: c.event_count as usize,
+            lost_events: c.lost_events != 0,
+        }
+    }
+}
+
 /// The `# Errors` section of what calls a function of the C interface.
 macro_rules! errors {
     (mien_coordinate_system_find) => {
@@ -1729,6 +1929,84 @@ macro_rules! errors {
     };
     (mien_clip_binding_apply) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a count is not that of clip and rig"
+    };
+    (mien_mix_create) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a part of `desc` is out of range; the message names it\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the deformer is of another rig\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+    };
+    (mien_mix_info) => {
+        "- none with valid arguments"
+    };
+    (mien_mixer_create) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+    };
+    (mien_mixer_play) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a time, speed or choice is out of range or a clip of differences would override\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the binding is of another clip or rig\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the layer does not exist or has another source\n\
+         - [`Status::CLIP_LIMIT`](crate::Status::CLIP_LIMIT) if the clip is larger than the mix allows"
+    };
+    (mien_mixer_stop) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the layer does not exist or plays no clips"
+    };
+    (mien_mixer_set_weight) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the layer does not exist"
+    };
+    (mien_mixer_set_pose_weight) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the layer or its pose does not exist"
+    };
+    (mien_mixer_set_variable) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the value is not finite\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if it does not exist"
+    };
+    (mien_mixer_set_guard) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the guard does not exist"
+    };
+    (mien_mixer_trigger) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if strength or time is out of range\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the reaction does not exist"
+    };
+    (mien_mixer_release) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if the reaction does not exist"
+    };
+    (mien_mixer_push) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a value is not finite\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if it has another number of channels\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the layer does not exist or is no stream"
+    };
+    (mien_mixer_step) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `ticks` is out of range\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the instance has another number of raw controls"
+    };
+    (mien_mixer_step_batch) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `ticks` is out of range\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the instance has another number of raw controls"
+    };
+    (mien_mixer_row) => {
+        "- none with valid arguments"
+    };
+    (mien_mixer_stage) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if MienMixerDesc.stages was 0. Contents change with `mien_mixer_step()` and `mien_mixer_step_batch()`\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the stage does not exist"
+    };
+    (mien_mixer_info) => {
+        "- none with valid arguments"
+    };
+    (mien_mixer_event) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if `index` is out of range"
+    };
+    (mien_mixer_snapshot) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range"
+    };
+    (mien_mixer_restore) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the bytes are not a snapshot of this mix\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if a clip is missing or another one"
     };
     (mien_dna_generate) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
