@@ -22,6 +22,15 @@ void add_quiet_option(CLI::App& app, Session& session) {
   app.add_flag("-q,--quiet", session.quiet, "Print no notes and no progress");
 }
 
+/// For a command and its actions.
+template <class Do>
+void for_each_command(CLI::App* command, const Do& what) {
+  what(command);
+  for (CLI::App* action : command->get_subcommands([](const CLI::App*) { return true; })) {
+    for_each_command(action, what);
+  }
+}
+
 /// An empty value (from an unset variable in a script, say) is an error.
 void refuse_empty_values(CLI::App* command) {
   for (CLI::Option* option : command->get_options()) {
@@ -41,10 +50,16 @@ Words option_names(const CLI::App& command) {
 
 /// An error of the parser, in our words.
 [[noreturn]] void fail_parse(const CLI::App& app, const CLI::ParseError& error) {
-  const auto parsed = app.get_subcommands();
-  const CLI::App& command = parsed.empty() ? app : *parsed[0];
-  const std::string where = parsed.empty() ? "" : command.get_name();
-  const std::string help = "see 'mien " + where + (parsed.empty() ? "" : " ") + "--help'";
+  // The command that was reached: of a command with actions, the action.
+  const CLI::App* reached = &app;
+  std::string where;
+  while (!reached->get_subcommands().empty()) {
+    reached = reached->get_subcommands()[0];
+    where += (where.empty() ? "" : " ") + reached->get_name();
+  }
+  const CLI::App& command = *reached;
+  const bool lacks_command = !command_names(command).empty();
+  const std::string help = "see 'mien " + where + (where.empty() ? "" : " ") + "--help'";
   const std::string what = "wrong usage";
 
   // If an option is mistyped, other errors follow from that.
@@ -54,11 +69,11 @@ Words option_names(const CLI::App& command) {
     fail(kUsage, what, where, "unknown option " + extra,
          nearest_question(extra, option_names(command), help));
   }
-  if (parsed.empty() && !extras.empty()) {
+  if (lacks_command && !extras.empty()) {
     fail(kUsage, what, where, "unknown command " + extras[0],
-         nearest_question(extras[0], command_names(app), help));
+         nearest_question(extras[0], command_names(command), help));
   }
-  if (parsed.empty()) fail(kUsage, what, where, "no command is given", help);
+  if (lacks_command) fail(kUsage, what, where, "no command is given", help);
   if (!extras.empty()) {
     fail(kUsage, what, where, "unexpected argument \"" + extras[0] + "\"", help);
   }
@@ -80,23 +95,19 @@ int run(int argument_count, char** arguments, Session& session) {
       "4 out of memory or internal error.");
 
   const std::vector<Command> commands = {
-      add_info_command(app, session),
-      add_validate_command(app, session),
-      add_eval_command(app, session),
-      add_convert_command(app, session),
-      add_gen_command(app, session),
-      add_demo_head_command(app, session),
-      add_export_command(app, session),
-      add_render_command(app, session),
-      add_inspect_command(app, session),
-      add_bake_command(app, session),
-      add_bench_command(app, session),
-      add_completion_command(app),
-      add_help_command(app),
+      add_info_command(app, session),    add_validate_command(app, session),
+      add_eval_command(app, session),    add_convert_command(app, session),
+      add_gen_command(app, session),     add_demo_head_command(app, session),
+      add_export_command(app, session),  add_render_command(app, session),
+      add_inspect_command(app, session), add_bake_command(app, session),
+      add_clip_command(app, session),    add_bench_command(app, session),
+      add_completion_command(app),       add_help_command(app),
   };
   for (const Command& command : commands) {
-    add_quiet_option(*command.app, session);
-    refuse_empty_values(command.app);
+    for_each_command(command.app, [&session](CLI::App* one) {
+      add_quiet_option(*one, session);
+      refuse_empty_values(one);
+    });
   }
 
   if (argument_count == 1) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // mien completion: scripts for shells, made from the options that the program really has.
+#include <algorithm>
+
 #include "integrations/cli/commands/options.h"
 #include "integrations/cli/io/output.h"
 
@@ -18,7 +20,8 @@ struct CompletedOption {
 struct CompletedCommand {
   std::string name, description;
   std::vector<CompletedOption> options;
-  Words arguments;  // empty: files
+  Words arguments;             // empty: files
+  bool takes_actions = false;  // the arguments are the first, files follow
 };
 
 /// Words that an option offers in a command.
@@ -31,11 +34,7 @@ Words values_of(const std::string& command, const std::string& option) {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-CompletedCommand words_of(const CLI::App* command) {
-  CompletedCommand words;
-  words.name = command->get_name();
-  words.description = command->get_description();
-  if (words.name == "completion") words.arguments = option_words("SHELL");
+void add_options(const CLI::App* command, CompletedCommand& words) {
   for (const CLI::Option* option : command->get_options()) {
     if (!option->nonpositional()) continue;
     CompletedOption entry;
@@ -47,7 +46,22 @@ CompletedCommand words_of(const CLI::App* command) {
     const std::string& last = entry.names.back();
     entry.takes_file =
         last == "--output" || last == "--input" || last == "--frames" || last == "--animation";
+    const auto same = [&](const CompletedOption& other) { return other.names == entry.names; };
+    if (std::any_of(words.options.begin(), words.options.end(), same)) continue;
     words.options.push_back(entry);
+  }
+}
+
+CompletedCommand words_of(const CLI::App* command) {
+  CompletedCommand words;
+  words.name = command->get_name();
+  words.description = command->get_description();
+  if (words.name == "completion") words.arguments = option_words("SHELL");
+  add_options(command, words);
+  for (const CLI::App* action : command->get_subcommands([](const CLI::App*) { return true; })) {
+    words.arguments.push_back(action->get_name());
+    words.takes_actions = true;
+    add_options(action, words);
   }
   return words;
 }
@@ -137,7 +151,8 @@ std::string bash_script(const std::vector<CompletedCommand>& commands) {
   script += "    esac\n    return\n  fi\n  case $command in\n";
   for (const CompletedCommand& command : commands) {
     if (command.arguments.empty()) continue;
-    script += "    " + command.name + ") COMPREPLY=($(compgen -W '" + join(command.arguments, " ") +
+    script += "    " + command.name + ") COMPREPLY=($(compgen " +
+              (command.takes_actions ? "-f " : "") + "-W '" + join(command.arguments, " ") +
               "' -- \"$word\")) ;;\n";
   }
   script +=
@@ -187,9 +202,10 @@ std::string zsh_script(const std::vector<CompletedCommand>& commands) {
         script += " \\\n        " + shell_quoted(spec);
       }
     }
-    const std::string arguments =
-        command.arguments.empty() ? "_files" : "(" + join(command.arguments, " ") + ")";
-    script += " \\\n        " + shell_quoted("*:argument:" + arguments) + " ;;\n";
+    const std::string list = "(" + join(command.arguments, " ") + ")";
+    if (command.takes_actions) script += " \\\n        " + shell_quoted("1:action:" + list);
+    const bool files = command.arguments.empty() || command.takes_actions;
+    script += " \\\n        " + shell_quoted("*:argument:" + (files ? "_files" : list)) + " ;;\n";
   }
   script +=
       "  esac\n"
@@ -231,7 +247,8 @@ std::string fish_script(const std::vector<CompletedCommand>& commands) {
       script += " -d " + fish_quoted(option.description) + "\n";
     }
     if (!command.arguments.empty()) {
-      script += start + " -f -a " + fish_quoted(join(command.arguments, " ")) + "\n";
+      script += start + (command.takes_actions ? " -a " : " -f -a ") +
+                fish_quoted(join(command.arguments, " ")) + "\n";
     }
   }
   return script;

@@ -9,20 +9,28 @@
 namespace mien::cli {
 
 Command add_help_command(CLI::App& app) {
-  auto name = std::make_shared<std::string>();
+  auto names = std::make_shared<Words>();
   CLI::App* help = app.add_subcommand("help", "Show the help of a command");
-  help->add_option("COMMAND", *name, "One of the commands")->type_name("");
-  return {help, [name, &app] {
-            const Words commands = command_names(app);
-            if (!name->empty() &&
-                std::find(commands.begin(), commands.end(), *name) == commands.end()) {
-              fail_usage("help " + *name, "there is no such command",
-                         nearest_question(*name, commands, "see 'mien --help'"));
+  help->add_option("COMMAND", *names, "One of the commands, and its action")
+      ->type_name("")
+      ->expected(0, 2);
+  return {help, [names, &app] {
+            const CLI::App* command = &app;
+            std::string parents = "mien", typed = "help";
+            for (const std::string& name : *names) {
+              const Words commands = command_names(*command);
+              typed += " " + name;
+              if (std::find(commands.begin(), commands.end(), name) == commands.end()) {
+                fail_usage(typed, "there is no such command",
+                           nearest_question(name, commands, "see 'mien --help'"));
+              }
+              if (command != &app) parents += " " + command->get_name();
+              command = command->get_subcommand(name);
             }
             Output output("-");
-            output.write(name->empty() ? app.get_formatter()->make_help(&app, "mien",
-                                                                        CLI::AppFormatMode::Normal)
-                                       : app.get_subcommand(*name)->help("mien"));
+            output.write(names->empty() ? app.get_formatter()->make_help(&app, "mien",
+                                                                         CLI::AppFormatMode::Normal)
+                                        : command->help(parents));
             output.commit();
           }};
 }

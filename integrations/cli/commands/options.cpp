@@ -41,6 +41,7 @@ const OptionWords kOptionWords[] = {
     {"--background", {"dark", "light"}},
     {"--samples", {"1", "4", "16"}},
     {"--target", {"face", "eyes", "mouth"}},
+    {"--loop", {"clamp", "wrap"}},
     {"SHELL", {"bash", "zsh", "fish"}},
 };
 

@@ -38,7 +38,14 @@ ExitCode exit_code_of(MienStatus status) {
     case MIEN_ERROR_BAKED_VERSION:
     case MIEN_ERROR_BAKED_TRUNCATED:
     case MIEN_ERROR_BAKED_STRUCTURE:
-    case MIEN_ERROR_BAKED_CHECKSUM: return kInvalid;
+    case MIEN_ERROR_BAKED_CHECKSUM:
+    case MIEN_ERROR_CLIP_SIGNATURE:
+    case MIEN_ERROR_CLIP_VERSION:
+    case MIEN_ERROR_CLIP_TRUNCATED:
+    case MIEN_ERROR_CLIP_STRUCTURE:
+    case MIEN_ERROR_CLIP_CHECKSUM:
+    case MIEN_ERROR_CLIP_VALUE:
+    case MIEN_ERROR_CLIP_LIMIT: return kInvalid;
 
     case MIEN_ERROR_FILE_OPEN:
     case MIEN_ERROR_FILE_READ:
@@ -71,6 +78,13 @@ std::string what_to_do_about(MienStatus status, const std::string& file,
     case MIEN_ERROR_BAKED_TRUNCATED:
     case MIEN_ERROR_BAKED_STRUCTURE:
     case MIEN_ERROR_BAKED_CHECKSUM: return "";  // the message says to bake again
+    case MIEN_ERROR_CLIP_SIGNATURE: return "give a clip, as 'mien clip build' writes them";
+    case MIEN_ERROR_CLIP_VERSION:
+    case MIEN_ERROR_CLIP_TRUNCATED:
+    case MIEN_ERROR_CLIP_STRUCTURE:
+    case MIEN_ERROR_CLIP_CHECKSUM:
+    case MIEN_ERROR_CLIP_VALUE:
+    case MIEN_ERROR_CLIP_LIMIT: return about_values;
     case MIEN_ERROR_LOD: return "see 'mien info' for the LODs that the file has";
     case MIEN_ERROR_DNA_VALUE:
     case MIEN_ERROR_DNA_LIMIT:

@@ -30,6 +30,7 @@ using DeformerInstance =
     std::unique_ptr<MienDeformerInstance,
                     Destroy<MienDeformerInstance, mien_deformer_instance_destroy>>;
 using Baked = std::unique_ptr<MienBaked, Destroy<MienBaked, mien_baked_close>>;
+using Clip = std::unique_ptr<MienClip, Destroy<MienClip, mien_clip_close>>;
 using Report = std::unique_ptr<MienReport, Destroy<MienReport, mien_report_destroy>>;
 
 inline std::string to_string(MienStringView view) { return std::string(view.data, view.count); }

@@ -92,6 +92,22 @@ std::string read_rig_stream(const std::string& path) {
               {kMaxRigBytes, "4 GiB", "no rig is that large; check what was given", judge});
 }
 
+std::string read_clip_stream(const std::string& path) {
+  const auto judge = [](const std::string& text, size_t) {
+    if (text.size() < 8) return Verdict::kUndecided;
+    return text.compare(0, 7, "MIENCLP") == 0 ? Verdict::kWanted : Verdict::kOther;
+  };
+  return read(path, "cannot read clip",
+              {kMaxClipBytes, "4 GiB", "no clip is that large; check what was given", judge});
+}
+
+std::string read_text(const std::string& path, const std::string& what) {
+  const auto judge = [](const std::string& text, size_t fresh) {
+    return text.find('\0', fresh) == std::string::npos ? Verdict::kUndecided : Verdict::kOther;
+  };
+  return read(path, what, {kMaxTextBytes, "512 MiB", "split it into several files", judge});
+}
+
 std::string read_json(const std::string& path, const std::string& what) {
   const auto judge = [](const std::string& text, size_t fresh) {
     const size_t first = text.find_first_not_of(" \t\r\n", fresh);

@@ -11,6 +11,8 @@ namespace mien::cli {
 // Offsets in DNA files have 32 bits.
 constexpr uint64_t kMaxRigBytes = uint64_t{4} << 30;
 constexpr uint64_t kMaxJsonBytes = uint64_t{512} << 20;
+constexpr uint64_t kMaxTextBytes = kMaxJsonBytes;
+constexpr uint64_t kMaxClipBytes = uint64_t{4} << 30;
 
 /// "standard input" for "-".
 std::string shown_name(const std::string& path);
@@ -21,6 +23,12 @@ bool is_stream(const std::string& path);
 /// The bytes of a stream that should hold a DNA file or a baked file. Of another one the beginning is
 /// returned, for the library to refuse.
 std::string read_rig_stream(const std::string& path);
+
+/// The bytes of a stream that should hold a clip. Of another one the beginning is returned.
+std::string read_clip_stream(const std::string& path);
+
+/// A file or stream of text, such as a take. Of bytes that are no text the beginning is returned.
+std::string read_text(const std::string& path, const std::string& what);
 
 /// A file or stream of JSON with an object in it. Of anything else the beginning is returned.
 std::string read_json(const std::string& path, const std::string& what);

@@ -87,6 +87,11 @@ void JsonWriter::fixed(double number, int decimals) {
 
 void JsonWriter::shortest(double number) {
   separate();
+  // Without a point readers take it for an integer, which has no sign at zero.
+  if (number == 0 && std::signbit(number)) {
+    text_ += "-0.0";
+    return;
+  }
   char digits[32];
   text_.append(digits, std::to_chars(digits, digits + sizeof(digits), number).ptr);
 }

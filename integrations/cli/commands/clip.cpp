@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: MIT
+// mien clip: curves of controls <-> clips.
+#include <charconv>
+#include <cmath>
+
+#include "integrations/cli/commands/options.h"
+#include "integrations/cli/io/clip_file.h"
+#include "integrations/cli/io/input.h"
+#include "integrations/cli/io/json_writer.h"
+#include "integrations/cli/io/output.h"
+#include "integrations/cli/io/take.h"
+#include "integrations/cli/io/text.h"
+
+namespace mien::cli {
+
+namespace {
+
+struct BuildOptions {
+  std::string input, rate, snap, loop = "clamp", channels;
+  bool resample = false;
+  OutputFile output;
+};
+
+struct ClipOptions {
+  std::string clip;
+  bool json = false;
+  OutputFile output;
+};
+
+// Building ----------------------------------------------------------------------------------------
+
+float parse_snap(const std::string& word) {
+  if (word.empty()) return 0;
+  // As a fraction, a power or a decimal: 1/2048, 2^-11, 0.00048828125.
+  double step = 0;
+  const bool is_fraction = word.compare(0, 2, "1/") == 0, is_power = word.compare(0, 3, "2^-") == 0;
+  const char *begin = word.data() + (is_fraction ? 2
+                                     : is_power  ? 3
+                                                 : 0),
+             *end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(begin, end, step);
+  const bool parsed = error == std::errc() && stop == end;
+  if (is_fraction) step = 1 / step;
+  if (is_power) step = std::exp2(-step);
+  int exponent = 0;
+  const bool is_step = std::frexp(step, &exponent) == 0.5 && exponent >= -15 && exponent <= -8;
+  if (parsed && (step == 0 || is_step)) return static_cast<float>(step);
+  fail_usage("--snap \"" + word + "\"", "not a step from 1/65536 to 1/512",
+             "give a power of two, such as 1/2048, or 0 to keep every bit");
+}
+
+Rate parse_rate_option(const std::string& word) {
+  if (word.empty()) return {};
+  const Rate rate = parse_rate(word);
+  if (rate.known()) return rate;
+  fail_usage("--rate \"" + word + "\"", "not a number of frames per second",
+             "give one such as 60, 29.97 or 30000/1001");
+}
+
+[[noreturn]] void fail_off(const Take& take, const Rate& rate, size_t row) {
+  const double expected = take.times.seconds[0] + static_cast<double>(row) / rate.hertz();
+  char text[160];
+  snprintf(text, sizeof(text),
+           "its time is %.6g s after the first row, at %s frames per second it would be %.6g s",
+           take.times.seconds[row] - take.times.seconds[0], rate_text(rate).c_str(),
+           expected - take.times.seconds[0]);
+  fail(kInvalid, "cannot build clip", take.row_name(row), text,
+       "give the right --rate, or --resample to interpolate");
+}
+
+/// The rate of the clip; the rows lie on it afterwards.
+Rate settle_rate(Take& take, const Rate& wanted, bool with_resampling, const Session& session) {
+  Rate rate = wanted.known() ? wanted : take.rate;
+  if (take.times.seconds.empty()) {
+    if (with_resampling) {
+      fail(kInvalid, "cannot build clip", take.shown, "there are no times to resample",
+           "leave out --resample");
+    }
+    return rate.known() ? rate : Rate{60, 1};
+  }
+  if (!rate.known()) {
+    rate = take.is_live_link ? find_drifting_rate(take.times) : find_rate(take.times);
+  }
+  if (!rate.known()) {
+    fail(kInvalid, "cannot build clip", take.shown,
+         "its rows are less than a microsecond or more than 6 seconds apart",
+         "give --rate and --resample, and times in seconds");
+  }
+  if (with_resampling) {
+    resample(take, rate);
+  } else if (take.is_live_link) {
+    const std::vector<double>& seconds = take.times.seconds;
+    const double span = seconds.back() - seconds.front();
+    const double length = static_cast<double>(seconds.size() - 1) / rate.hertz();
+    if (std::abs(span - length) > 1 / rate.hertz()) {
+      char text[160];
+      snprintf(text, sizeof(text),
+               "%.3f s were recorded, the clip takes %.3f s: every row is a frame; --resample "
+               "keeps the time",
+               span, length);
+      note(session, text);
+    }
+  } else {
+    const size_t off = first_row_off(take.times, rate);
+    if (off < take.row_count) fail_off(take, rate, off);
+  }
+  return rate;
+}
+
+void run_build(const BuildOptions& options, const Session& session) {
+  const float snap = parse_snap(options.snap);
+  const Rate wanted = parse_rate_option(options.rate);
+  const size_t loop = parse_word("--loop", options.loop);
+  refuse_terminal(options.output.path, session, "a clip");
+  refuse_replacing(options.output, {options.input});
+  Take take = parse_take(read_text(options.input, "cannot read take"), shown_name(options.input));
+  if (!options.channels.empty()) keep_channels(take, options.channels);
+  const Rate rate = settle_rate(take, wanted, options.resample, session);
+
+  std::vector<MienStringView> names;
+  for (const std::string& name : take.names) names.push_back({name.data(), name.size()});
+  auto desc = sized<MienClipDesc>();
+  desc.rate_numerator = rate.numerator;
+  desc.rate_denominator = rate.denominator;
+  desc.frame_count = static_cast<uint32_t>(std::min<size_t>(take.row_count, UINT32_MAX));
+  desc.channel_count = static_cast<uint32_t>(std::min<size_t>(names.size(), UINT32_MAX));
+  desc.names = names.data();
+  desc.values = take.values.data();
+  desc.snap = snap;
+  desc.looping = loop == 0 ? MIEN_LOOPING_CLAMP : MIEN_LOOPING_WRAP;
+  auto error = sized<MienError>();
+  MienClip* made = nullptr;
+  check(mien_clip_build(&desc, &made, &error), &error, "cannot build clip", take.shown);
+  const Clip clip(made);
+  size_t size = 0;
+  check(mien_clip_write_memory(made, nullptr, 0, &size, &error), &error, "cannot build clip",
+        take.shown);
+  std::vector<char> bytes(size);
+  check(mien_clip_write_memory(made, bytes.data(), size, &size, &error), &error,
+        "cannot build clip", take.shown);
+  Output output(options.output.path);
+  output.write(bytes.data(), size);
+  output.commit();
+}
+
+// Looking into clips ------------------------------------------------------------------------------
+
+uint64_t raw_bytes(const MienClipInfo& info) {
+  return uint64_t{info.frame_count} * info.channel_count * sizeof(float);
+}
+
+double ratio(const MienClipInfo& info) {
+  return static_cast<double>(raw_bytes(info)) / static_cast<double>(info.file_bytes);
+}
+
+const char* loop_word(const MienClipInfo& info) {
+  return info.looping == MIEN_LOOPING_WRAP ? "wrap" : "clamp";
+}
+
+void write_json(const ClipFile& file, Output& output) {
+  const MienClipInfo& info = file.info;
+  JsonWriter json(output);
+  json.begin_object(JsonWriter::Layout::kLines);
+  json.key("rate");
+  json.begin_array();
+  json.value(info.rate_numerator);
+  json.value(info.rate_denominator);
+  json.end_array();
+  json.member("frames", info.frame_count);
+  json.key("channels");
+  json.begin_array();
+  for (const std::string& name : channel_names(file)) json.value(name);
+  json.end_array();
+  json.member("changing_channels", info.changing_channel_count);
+  json.member("bytes", info.file_bytes);
+  json.member("raw_bytes", raw_bytes(info));
+  json.key("ratio");
+  json.fixed(ratio(info), 1);
+  json.key("snap");
+  json.shortest(static_cast<double>(info.snap));
+  json.member("loop", loop_word(info));
+  json.end_object();
+  json.finish();
+}
+
+std::string info_text(const ClipFile& file, const Session& session) {
+  const MienClipInfo& info = file.info;
+  const auto line = [](std::string label, const std::string& value) {
+    label.resize(std::max<size_t>(label.size(), 18), ' ');
+    return "  " + label + value + "\n";
+  };
+  std::string text =
+      paint(one_line(file.shown) + ": a clip", Style::kBold, session.terminal.out_colors) + "\n";
+  const double seconds =
+      static_cast<double>(info.length) / static_cast<double>(MIEN_TICKS_PER_SECOND);
+  char length[64];
+  snprintf(length, sizeof(length), ", %.3f s, %s", seconds, loop_word(info));
+  text += line("frames", grouped(info.frame_count) + length);
+  text += line("rate", rate_text({info.rate_numerator, info.rate_denominator}) + " per second");
+  text += line("channels", grouped(info.channel_count) + ", of which " +
+                               grouped(info.changing_channel_count) + " change");
+  char size[64];
+  snprintf(size, sizeof(size), ", %.1f times smaller than 32-bit floats", ratio(info));
+  text += line("size", size_text(info.file_bytes) + size);
+  text +=
+      line("values", info.snap == 0
+                         ? std::string("every bit kept")
+                         : "rounded to 1/" +
+                               grouped(static_cast<uint64_t>(1 / static_cast<double>(info.snap))));
+  if (info.event_count != 0) text += line("events", grouped(info.event_count));
+  if (info.is_delta) text += line("kind", "differences");
+  std::string names;
+  for (const std::string& name : channel_names(file)) {
+    names += (names.empty() ? "" : " ") + one_line(name);
+  }
+  return text + line("names", names);
+}
+
+void run_info(const ClipOptions& options, const Session& session) {
+  const ClipFile file = open_clip_file(options.clip);
+  Output output("-");
+  if (options.json) {
+    write_json(file, output);
+  } else {
+    output.write(info_text(file, session));
+  }
+  output.commit();
+}
+
+void run_verify(const ClipOptions& options, const Session& session) {
+  const ClipFile file = open_clip_file(options.clip);
+  auto error = sized<MienError>();
+  check(mien_clip_verify(file.clip.get(), &error), &error, "clip is damaged", file.shown);
+  if (session.quiet) return;
+  Output output("-");
+  output.write(one_line(file.shown) + ": " + grouped(file.info.frame_count) + " frames of " +
+               grouped(file.info.channel_count) + " channels are as they were written\n");
+  output.commit();
+}
+
+// Export ------------------------------------------------------------------------------------------
+
+double frame_time(const MienClipInfo& info, uint32_t frame) {
+  return static_cast<double>(frame) * info.rate_denominator / info.rate_numerator;
+}
+
+std::string csv_field(const std::string& name) {
+  // Blanks at the ends would be trimmed.
+  const bool plain = name.find_first_of(",\"\r\n") == std::string::npos &&
+                     name.find_first_of(" \t") != 0 && name.find_last_of(" \t") != name.size() - 1;
+  if (plain) return name;
+  std::string quoted = "\"";
+  for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+void export_csv(const ClipFile& file, Output& output) {
+  std::string text = "time";
+  for (const std::string& name : channel_names(file)) text += "," + csv_field(name);
+  text += "\n";
+  char digits[64];
+  const auto append = [&](auto number) {
+    text.append(digits, std::to_chars(digits, digits + sizeof(digits), number).ptr);
+  };
+  for_each_frame(file, [&](uint32_t frame, const float* values) {
+    append(frame_time(file.info, frame));
+    for (uint32_t c = 0; c < file.info.channel_count; ++c) {
+      text += ',';
+      append(values[c]);
+    }
+    text += '\n';
+    output.write(text);
+    text.clear();
+  });
+}
+
+void export_json(const ClipFile& file, Output& output) {
+  const std::vector<std::string> names = channel_names(file);
+  const MienClipInfo& info = file.info;
+  JsonWriter json(output);
+  json.begin_object(JsonWriter::Layout::kLines);
+  json.key("rate");
+  if (info.rate_denominator == 1) {
+    json.value(info.rate_numerator);
+  } else {
+    json.begin_array();
+    json.value(info.rate_numerator);
+    json.value(info.rate_denominator);
+    json.end_array();
+  }
+  json.key("frames");
+  json.begin_array(JsonWriter::Layout::kLines);
+  for_each_frame(file, [&](uint32_t frame, const float* values) {
+    json.begin_object();
+    json.key("time");
+    json.shortest(frame_time(info, frame));
+    json.key("raw");
+    json.begin_object();
+    for (uint32_t c = 0; c < info.channel_count; ++c) {
+      json.key(names[c]);
+      json.shortest(static_cast<double>(values[c]));
+    }
+    json.end_object();
+    json.end_object();
+  });
+  json.end_array();
+  json.end_object();
+  json.finish();
+}
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+void run_export(const ClipOptions& options, const Session&) {
+  const std::string& path = options.output.path;
+  const bool as_json = ends_with(path, ".json");
+  if (!as_json && !ends_with(path, ".csv") && path != "-") {
+    fail_usage("-o " + path, "the name ends in neither .csv nor .json", "choose one of them");
+  }
+  refuse_replacing(options.output, {options.clip});
+  const ClipFile file = open_clip_file(options.clip);
+  Output output(path);
+  (as_json ? export_json : export_csv)(file, output);
+  output.commit();
+}
+
+CLI::Option* add_clip_option(CLI::App& app, ClipOptions& options) {
+  return app.add_option("CLIP", options.clip, "Clip; - reads standard input")
+      ->type_name("")
+      ->required();
+}
+
+}  // namespace
+
+Command add_clip_command(CLI::App& app, const Session& session) {
+  CLI::App* clip = app.add_subcommand("clip", "Compress curves of controls, and read them back");
+  clip->require_subcommand(1);
+  clip->footer("'mien help clip build' shows the options of an action, with examples.");
+
+  auto build = std::make_shared<BuildOptions>();
+  CLI::App* build_app = clip->add_subcommand("build", "Make a clip of a table or of frames");
+  build_app->add_option("IN", build->input, "CSV or JSON; - reads standard input")
+      ->type_name("")
+      ->required();
+  add_output_options(*build_app, build->output, "File to write; - is standard output")->required();
+  build_app->add_option("--rate", build->rate, "Frames per second (default: found from the times)")
+      ->type_name("R");
+  build_app
+      ->add_option("--snap", build->snap,
+                   "Round values to a step of 1/512 to 1/65536, which makes the clip\nseveral "
+                   "times smaller (default: keep every bit)")
+      ->type_name("STEP");
+  build_app->add_option("--loop", build->loop, "After the last frame: clamp (default) or wrap")
+      ->type_name("WORD");
+  build_app
+      ->add_option("--channels", build->channels,
+                   "Only these, with commas between; * stands for any characters")
+      ->type_name("LIST");
+  build_app->add_flag("--resample", build->resample,
+                      "Interpolate rows that do not lie on a constant rate");
+  build_app->footer(
+      "IN is one of these, told by its content:\n"
+      "  CSV        a header time,NAME,NAME,... and a row per frame; time in seconds\n"
+      "  CSV of the Live Link Face app, 61 channels behind a timecode: every row is a frame, the\n"
+      "             channels keep the names of the app\n"
+      "  JSON       frames as 'mien eval' takes them and 'mien play' writes them. A control that "
+      "a\n"
+      "             frame does not name is 0 there\n"
+      "Values are the nearest 32-bit floats. Times may be a twentieth of a frame off the rate.\n\n"
+      "Examples:\n"
+      "  mien clip build take.csv -o take.clip\n"
+      "  mien clip build take.csv -o small.clip --snap 1/2048 --channels 'jaw*,mouth*'\n"
+      "  mien clip build phone.csv -o phone.clip --resample --rate 60");
+
+  auto info = std::make_shared<ClipOptions>();
+  CLI::App* info_app = clip->add_subcommand("info", "Show what a clip holds");
+  add_clip_option(*info_app, *info);
+  info_app->add_flag("--json", info->json, "As JSON");
+
+  auto verify = std::make_shared<ClipOptions>();
+  CLI::App* verify_app =
+      clip->add_subcommand("verify", "Check that the bytes of a clip are those that were written");
+  add_clip_option(*verify_app, *verify);
+
+  auto exported = std::make_shared<ClipOptions>();
+  CLI::App* export_app =
+      clip->add_subcommand("export", "Write the frames of a clip as CSV or JSON");
+  add_clip_option(*export_app, *exported);
+  add_output_options(*export_app, exported->output,
+                     "File to write, .csv or .json; - is standard output, CSV")
+      ->required();
+  export_app->footer(
+      "Numbers have the digits that give the same floats back: building a clip of the file gives\n"
+      "the same frames. Events are not written.\n\n"
+      "Examples:\n"
+      "  mien clip export take.clip -o take.csv\n"
+      "  mien clip export take.clip -o frames.json && mien eval head.dna --input frames.json");
+
+  return {clip, [=, &session] {
+            if (build_app->parsed()) run_build(*build, session);
+            if (info_app->parsed()) run_info(*info, session);
+            if (verify_app->parsed()) run_verify(*verify, session);
+            if (export_app->parsed()) run_export(*exported, session);
+          }};
+}
+
+}  // namespace mien::cli

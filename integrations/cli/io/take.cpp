@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/cli/io/take.h"
+
+#include <cmath>
+
+#include "integrations/cli/io/controls.h"
+#include "integrations/cli/io/failure.h"
+#include "integrations/cli/io/nearest_name.h"
+
+namespace mien::cli {
+
+std::string Take::row_name(size_t row) const {
+  if (lines.empty()) return shown + ", frames[" + std::to_string(row) + "]";
+  return shown + ", row " + std::to_string(lines[row]);
+}
+
+Take parse_take(std::string_view text, const std::string& shown) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";  // of UTF-8
+  if (text.substr(0, kMark.size()) == kMark) text.remove_prefix(kMark.size());
+  const size_t first = text.find_first_not_of(" \t\r\n");
+  const bool is_json = first != std::string_view::npos && text[first] == '{';
+  return is_json ? parse_json_take(text, shown) : parse_csv_take(text, shown);
+}
+
+void keep_channels(Take& take, const std::string& patterns) {
+  for (size_t begin = 0; begin <= patterns.size();) {
+    const size_t comma = std::min(patterns.find(',', begin), patterns.size());
+    const std::string one = patterns.substr(begin, comma - begin);
+    bool matches = false;
+    for (const std::string& name : take.names) matches = matches || matches_pattern(one, name);
+    if (!matches) {
+      fail(kInvalid, "cannot build clip", take.shown, "no channel is named \"" + one + "\"",
+           nearest_question(one, take.names, "the header of the file has the names"));
+    }
+    begin = comma + 1;
+  }
+  std::vector<size_t> kept;
+  std::vector<std::string> names;
+  for (size_t c = 0; c < take.names.size(); ++c) {
+    if (!matches_pattern(patterns, take.names[c])) continue;
+    kept.push_back(c);
+    names.push_back(take.names[c]);
+  }
+  std::vector<float> values;
+  values.reserve(take.row_count * kept.size());
+  for (size_t r = 0; r < take.row_count; ++r) {
+    for (size_t c : kept) values.push_back(take.values[r * take.names.size() + c]);
+  }
+  take.names = std::move(names);
+  take.values = std::move(values);
+}
+
+void resample(Take& take, const Rate& rate) {
+  const std::vector<double>& seconds = take.times.seconds;
+  const size_t channels = take.names.size();
+  const double span = seconds.back() - seconds.front();
+  if (span * rate.hertz() * static_cast<double>(channels + 1) > 1e9) {
+    fail(kInvalid, "cannot build clip", take.shown,
+         "its times are so far apart that there would be a thousand million values",
+         "check the times, or give a lower --rate");
+  }
+  // The last row counts if it is at a frame, but for the rounding of times.
+  const auto frames = static_cast<size_t>(std::floor(span * rate.hertz() + 1e-6)) + 1;
+  std::vector<float> values;
+  values.reserve(frames * channels);
+  size_t before = 0;
+  for (size_t f = 0; f < frames; ++f) {
+    const double time = seconds.front() + static_cast<double>(f) / rate.hertz();
+    while (before + 2 < seconds.size() && seconds[before + 1] <= time) ++before;
+    const size_t after = before + 1 < seconds.size() ? before + 1 : before;
+    const double interval = seconds[after] - seconds[before];
+    const double part = interval > 0 ? (time - seconds[before]) / interval : 0;
+    const double t = part < 0 ? 0 : part > 1 ? 1 : part;
+    for (size_t c = 0; c < channels; ++c) {
+      const double a = static_cast<double>(take.values[before * channels + c]);
+      const double b = static_cast<double>(take.values[after * channels + c]);
+      // A row that is hit keeps its bits.
+      values.push_back(t == 0   ? take.values[before * channels + c]
+                       : t == 1 ? take.values[after * channels + c]
+                                : static_cast<float>(a + (b - a) * t));
+    }
+  }
+  take.values = std::move(values);
+  take.row_count = frames;
+  take.times = {};
+}
+
+}  // namespace mien::cli

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Rows of values with names, as recorded or exported: what clips are made of.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "integrations/cli/io/frame_rate.h"
+
+namespace mien::cli {
+
+struct Take {
+  std::string shown;  // the file, for messages
+  std::vector<std::string> names;
+  std::vector<float> values;  // row after row
+  size_t row_count = 0;
+  Times times;                // empty if the file has none
+  std::vector<size_t> lines;  // of rows, in the file, if it has lines
+  Rate rate;                  // if the file says so
+  bool is_live_link = false;  // of the Live Link Face app, whose clock drifts
+
+  /// "take.csv, row 7", as a table shows its rows, or "take.json, frames[5]".
+  std::string row_name(size_t row) const;
+};
+
+/// CSV or JSON, told by the content. Exit code 2 with the row and the column of what is wrong.
+Take parse_take(std::string_view text, const std::string& shown);
+
+// The two, which parse_take() chooses from.
+Take parse_csv_take(std::string_view text, const std::string& shown);
+Take parse_json_take(std::string_view text, const std::string& shown);
+
+/// Keeps the channels that match one of the patterns, which have commas between and may contain *.
+void keep_channels(Take& take, const std::string& patterns);
+
+/// Rows at a constant rate, interpolated linearly between those that are there.
+void resample(Take& take, const Rate& rate);
+
+}  // namespace mien::cli

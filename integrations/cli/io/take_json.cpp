@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// JSON: the frames of `mien eval`, as `mien play` and `mien clip export` write them.
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <unordered_map>
+
+#include "integrations/cli/io/failure.h"
+#include "integrations/cli/io/nearest_name.h"
+#include "integrations/cli/io/take.h"
+#include "integrations/cli/io/text.h"
+
+namespace mien::cli {
+
+namespace {
+
+// Numbers are parsed as floats at once, so that none is rounded twice; objects keep their order.
+using json = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::string, bool, int64_t,
+                                  uint64_t, float>;
+
+constexpr const char* kCannot = "cannot build clip";
+constexpr const char* kExample = "give one JSON object: {\"frames\": [{\"raw\": {NAME: number}}]}";
+
+const std::vector<std::string> kIgnored = {"rig", "variables", "events"};
+const std::vector<std::string> kIgnoredInFrames = {"variables", "stages"};
+
+bool is_one_of(const std::string& key, const std::vector<std::string>& keys) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+json parse(std::string_view text, const std::string& shown) {
+  std::vector<std::set<std::string>> keys;
+  const auto watch = [&](int, json::parse_event_t event, json& value) {
+    if (event == json::parse_event_t::object_start) keys.emplace_back();
+    if (event == json::parse_event_t::object_end) keys.pop_back();
+    if (event == json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second) {
+      fail(kInvalid, kCannot, shown,
+           "an object has the key \"" + one_line(value.get<std::string>()) + "\" twice",
+           "leave one of them out");
+    }
+    return true;
+  };
+  try {
+    return json::parse(text, watch);
+  } catch (const json::exception& error) {
+    // Messages of the parser begin with a tag in brackets.
+    const std::string message = error.what();
+    const size_t tag = message.find("] ");
+    fail(kInvalid, kCannot, shown, tag == std::string::npos ? message : message.substr(tag + 2),
+         kExample);
+  }
+}
+
+struct Reader {
+  Take take;
+  std::unordered_map<std::string, size_t> channels;
+  size_t listed = 0;  // channels of the list "controls"
+
+  size_t channel(const std::string& name) {
+    const auto [found, is_new] = channels.try_emplace(name, take.names.size());
+    if (is_new) take.names.push_back(name);
+    return found->second;
+  }
+};
+
+float number(const json& value, const std::string& where) {
+  if (!value.is_number()) {
+    fail(kInvalid, kCannot, where, std::string("expected a number, not ") + value.type_name(),
+         "write a number");
+  }
+  const auto result = value.get<float>();
+  if (!std::isfinite(result)) {
+    fail(kInvalid, kCannot, where, "it is too large for a 32-bit float",
+         "controls are usually in 0..1");
+  }
+  return result;
+}
+
+Rate read_rate(const json& value, const std::string& where) {
+  Rate rate;
+  if (value.is_array() && value.size() == 2 && value[0].is_number_unsigned() &&
+      value[1].is_number_unsigned()) {
+    rate = parse_rate(value[0].dump() + "/" + value[1].dump());
+  } else if (value.is_number()) {
+    rate = parse_rate(value.dump());
+  }
+  if (rate.known()) return rate;
+  fail(kInvalid, kCannot, where, "the rate is " + value.dump(),
+       "give frames per second, or [numerator, denominator]");
+}
+
+/// Values of a frame, by channel; `row` grows with the channels.
+void read_values(Reader& reader, const json& values, const std::string& where,
+                 std::vector<float>& row) {
+  if (values.is_array()) {
+    if (reader.listed == 0) {
+      fail(kInvalid, kCannot, where, "its values have no names",
+           "write an object, or a list \"controls\" beside \"frames\"");
+    }
+    if (values.size() != reader.listed) {
+      fail(kInvalid, kCannot, where,
+           std::to_string(values.size()) + " numbers given, \"controls\" names " +
+               std::to_string(reader.listed),
+           "give one for each name");
+    }
+    for (size_t c = 0; c < reader.listed; ++c) {
+      row[c] = number(values[c], where + "[" + std::to_string(c) + "]");
+    }
+    return;
+  }
+  if (!values.is_object()) {
+    fail(kInvalid, kCannot, where,
+         std::string("expected an array or an object of numbers, not ") + values.type_name(),
+         kExample);
+  }
+  for (const auto& [name, value] : values.items()) {
+    const size_t c = reader.channel(name);
+    if (c >= row.size()) row.resize(c + 1);
+    row[c] = number(value, where + "[\"" + one_line(name) + "\"]");
+  }
+}
+
+std::vector<float> read_frame(Reader& reader, const json& frame, const std::string& where) {
+  if (!frame.is_object()) {
+    fail(kInvalid, kCannot, where, std::string("expected an object, not ") + frame.type_name(),
+         kExample);
+  }
+  std::vector<float> row(reader.take.names.size());
+  for (const auto& [key, value] : frame.items()) {
+    const std::string member = where + "." + key;
+    if (key == "raw" || key == "gui") {
+      read_values(reader, value, member, row);
+    } else if (key == "time") {
+      reader.take.times.seconds.push_back(static_cast<double>(number(value, member)));
+    } else if (key == "raw_after_gui" || key == "ml_mask") {
+      fail(kInvalid, kCannot, where, "a clip has no " + key,
+           "leave it out, or name controls in raw");
+    } else if (!is_one_of(key, kIgnoredInFrames)) {
+      fail(kInvalid, kCannot, where, "a frame has no member \"" + one_line(key) + "\"",
+           nearest_question(key, {"raw", "gui", "time"}, "its members are raw or gui, and time"));
+    }
+  }
+  return row;
+}
+
+void read_controls(Reader& reader, const json& controls) {
+  const std::string where = reader.take.shown + ", controls";
+  if (!controls.is_array()) fail(kInvalid, kCannot, where, "it is not a list", "list the names");
+  for (const json& name : controls) {
+    if (!name.is_string() || name.get<std::string>().empty()) {
+      fail(kInvalid, kCannot, where, "it is not a list of names", "list the names");
+    }
+    if (reader.channel(name.get<std::string>()) != reader.listed++) {
+      fail(kInvalid, kCannot, where, "\"" + one_line(name.get<std::string>()) + "\" is there twice",
+           "leave one of them out");
+    }
+  }
+}
+
+}  // namespace
+
+Take parse_json_take(std::string_view text, const std::string& shown) {
+  Reader reader;
+  Take& take = reader.take;
+  take.shown = shown;
+  const json document = parse(text, shown);
+  if (!document.contains("frames") || !document["frames"].is_array() ||
+      document["frames"].empty()) {
+    fail(kInvalid, kCannot, shown, "there is no list \"frames\" with a frame", kExample);
+  }
+  for (const auto& [key, value] : document.items()) {
+    if (key == "rate") {
+      take.rate = read_rate(value, shown + ", rate");
+    } else if (key == "controls") {
+      read_controls(reader, value);
+    } else if (key != "frames" && !is_one_of(key, kIgnored)) {
+      fail(kInvalid, kCannot, shown, "the key \"" + one_line(key) + "\" is unknown",
+           nearest_question(key, {"frames", "rate", "controls"}, kExample));
+    }
+  }
+  std::vector<std::vector<float>> rows;
+  for (const json& frame : document["frames"]) {
+    rows.push_back(
+        read_frame(reader, frame, shown + ", frames[" + std::to_string(rows.size()) + "]"));
+  }
+  take.row_count = rows.size();
+  for (std::vector<float>& row : rows) {
+    row.resize(take.names.size());
+    take.values.insert(take.values.end(), row.begin(), row.end());
+    row = {};
+  }
+  // Times are there for readers; the rate counts.
+  std::vector<double>& seconds = take.times.seconds;
+  const bool ascend = std::adjacent_find(seconds.begin(), seconds.end(), [](double a, double b) {
+                        return b <= a;
+                      }) == seconds.end();
+  if (!seconds.empty() && (seconds.size() != rows.size() || !ascend)) {
+    fail(kInvalid, kCannot, shown, "not all frames have a time, or the times do not ascend",
+         "give all of them, or none and \"rate\"");
+  }
+  // 32-bit floats are what times were read as.
+  if (!seconds.empty()) take.times.precision = std::abs(seconds.back()) * 6e-8;
+  return std::move(reader.take);
+}
+
+}  // namespace mien::cli
