@@ -17,4 +17,17 @@ MienStatus give_error(MienError* to, MienStatus status, const char* format, ...)
   return give_error(detail, to);
 }
 
+MienStatus check_fields(std::initializer_list<FieldRange> fields, MienError* error) {
+  for (const FieldRange& field : fields) {
+    if (field.value <= field.last) continue;
+    if (field.last == 0) {
+      return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "%s is %u; it must be 0", field.name,
+                        field.value);
+    }
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "%s is %u; valid values are 0 to %u",
+                      field.name, field.value, field.last);
+  }
+  return MIEN_OK;
+}
+
 }  // namespace mien::capi

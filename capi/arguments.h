@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstring>
+#include <initializer_list>
 
 #include "capi/mien.h"
 #include "runtime/base/allocator.h"
@@ -74,7 +75,9 @@ template <class T>
 MienStatus clear_output(T* out, MienError* error) {
   if (out) *out = {};
   if (MienStatus status = check_error(error)) return status;
-  return out ? MIEN_OK : give_error(error, MIEN_ERROR_NULL_ARGUMENT, "the output pointer is NULL");
+  return out ? MIEN_OK
+             : give_error(error, MIEN_ERROR_NULL_ARGUMENT,
+                          "the pointer to the result (out_...) is NULL");
 }
 
 inline MienStatus succeed(MienError* error) {
@@ -100,9 +103,18 @@ MienStatus read_desc(const T* in, T& out, const char* name, MienError* error) {
   const MienStatus status = read_struct(in, out);
   if (status == MIEN_OK) return MIEN_OK;
   return give_error(error, status,
-                    "%s.struct_size is %zu, expected %zu (or more with zeros behind): set it to "
-                    "sizeof(%s) or begin with the default",
+                    "%s.struct_size is %zu, expected %zu (or more, followed by zeros): set it to "
+                    "sizeof(%s) or start from its default function",
                     name, in->struct_size, sizeof(T), name);
 }
+
+/// A field whose values are 0 to `last`.
+struct FieldRange {
+  const char* name;
+  uint32_t value, last;
+};
+
+/// MIEN_ERROR_INVALID_ARGUMENT for the first field that is out of its range.
+MienStatus check_fields(std::initializer_list<FieldRange> fields, MienError* error);
 
 }  // namespace mien::capi

@@ -22,7 +22,8 @@ MienStatus find_kernels(uint32_t isa, const KernelTable*& out, MienError* error)
                       wanted ? wanted : "");
   }
   if (isa >= kIsaCount) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "isa %u is not a MIEN_ISA_...", isa);
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "isa is %u, which is not a MIEN_ISA_...",
+                      isa);
   }
   out = kernels_for(static_cast<Isa>(isa));
   if (out) return MIEN_OK;

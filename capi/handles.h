@@ -124,6 +124,15 @@ inline MienStatus check(const MienClipBinding* binding) {
   return check_tag(binding, kClipBindingTag);
 }
 
+/// The same for calls that tell what is wrong; `name` is that of the parameter.
+template <class Handle>
+MienStatus check(const Handle* handle, const char* name, MienError* error) {
+  const MienStatus status = check(handle);
+  if (status == MIEN_OK) return MIEN_OK;
+  if (!handle) return give_error(error, status, "%s is NULL", name);
+  return give_error(error, status, "%s is a handle of another kind, or none", name);
+}
+
 /// The kernels of a MIEN_ISA_..., or the reason why there are none.
 MienStatus find_kernels(uint32_t isa, const KernelTable*& out, MienError* error);
 

@@ -63,18 +63,19 @@ MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna, Mi
   if (MienStatus status = clear_output(out_dna, error)) return status;
   MienGenerateDesc known;
   if (MienStatus status = read_desc(desc, known, "MienGenerateDesc", error)) return status;
-  if (known.preset > MIEN_PRESET_HEAD) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienGenerateDesc.preset %u is no MIEN_PRESET_...", known.preset);
-  }
+  const MienStatus in_range =
+      check_fields({{"MienGenerateDesc.preset", known.preset, MIEN_PRESET_HEAD}}, error);
+  if (in_range != MIEN_OK) return in_range;
   if ((known.flags & ~uint32_t{MIEN_GENERATE_ML}) != 0) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienGenerateDesc.flags has unknown bits: 0x%x", known.flags);
+    return give_error(
+        error, MIEN_ERROR_INVALID_ARGUMENT,
+        "MienGenerateDesc.flags is 0x%x, which has bits that are not a MIEN_GENERATE_...",
+        known.flags);
   }
   if (known.preset == MIEN_PRESET_HEAD && known.flags != 0) {
     return give_error(
         error, MIEN_ERROR_INVALID_ARGUMENT,
-        "MIEN_PRESET_HEAD has no learned behavior: MienGenerateDesc.flags is to be 0");
+        "MIEN_PRESET_HEAD has no machine-learned behavior: MienGenerateDesc.flags must be 0");
   }
   Allocator allocator;
   if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;

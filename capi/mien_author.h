@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * libmien-author: makes DNA files. A separate library on top of libmien, because programs that evaluate
- * and deform do not need it. The rules of mien.h hold here too.
+ * libmien-author: creates DNA files. A separate library that uses libmien, because programs that
+ * evaluate and deform rigs do not need it. The rules of mien.h apply.
  */
 #ifndef MIEN_AUTHOR_H
 #define MIEN_AUTHOR_H
@@ -14,7 +14,7 @@
 #define MIEN_AUTHOR_API MIEN_API
 #endif
 
-/* As MIEN_CHECKED of mien.h. */
+/* Like MIEN_CHECKED in mien.h. */
 #if defined(__cplusplus) && __cplusplus >= 201703L
 #define MIEN_AUTHOR_CHECKED [[nodiscard]] MIEN_AUTHOR_API
 #elif defined(__STDC_VERSION__) && __STDC_VERSION__ >= 202311L
@@ -29,6 +29,7 @@ extern "C" {
 
 /* ---- Generating ------------------------------------------------------------------------------ */
 
+/* Generated rigs. */
 enum MienPreset {
     MIEN_PRESET_TINY = 0,   /* small enough to read */
     MIEN_PRESET_SMALL = 1,
@@ -45,12 +46,13 @@ enum MienPreset {
                                vertex position of the mesh. */
 };
 
+/* Additions to a preset, combined with |. */
 enum MienGenerate {
-    MIEN_GENERATE_ML = 1 /* with machine-learned behavior: networks per mesh region with every
-                            activation and operation, and joints that they move. Not for
-                            MIEN_PRESET_HEAD */
+    MIEN_GENERATE_ML = 1 /* machine-learned behavior: networks for mesh regions with all activation
+                            functions and operations, and ML joints; not with MIEN_PRESET_HEAD */
 };
 
+/* What to generate. */
 typedef struct MienGenerateDesc {
     size_t struct_size;
     uint32_t preset; /* MIEN_PRESET_... */
@@ -60,9 +62,8 @@ typedef struct MienGenerateDesc {
 } MienGenerateDesc;
 MIEN_DEFAULT(MienGenerateDesc, mien_generate_desc_default)
 
-/* Generates a rig of a preset and opens it: a file of version 2.8 with all layers, with behavior of
- * realistic size and sparsity and simple geometry. `desc` may be NULL: the tiny preset. Close with
- * mien_dna_close(). */
+/* Generates a rig and opens it: a file of version 2.8 with all layers, behavior of realistic size and
+ * sparsity, and simple geometry. Close with mien_dna_close(). */
 MIEN_AUTHOR_CHECKED MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna,
                                                  MienError* error);
 

@@ -17,11 +17,12 @@ static_assert(MIEN_BAKED_CHECK_FULL == int(BakedCheck::kFull),
 namespace {
 
 MienStatus check_objects(const MienRig* rig, const MienDeformer* deformer, MienError* error) {
-  if (MienStatus status = check(rig)) return give_error(error, status, "not a rig");
+  if (MienStatus status = check(rig, "rig", error)) return status;
   if (!deformer) return MIEN_OK;
-  if (MienStatus status = check(deformer)) return give_error(error, status, "not a deformer");
+  if (MienStatus status = check(deformer, "deformer", error)) return status;
   if (object(deformer)->rig == object(rig)) return MIEN_OK;
-  return give_error(error, MIEN_ERROR_MISMATCH, "the deformer was made for another rig");
+  return give_error(error, MIEN_ERROR_MISMATCH,
+                    "the deformer was created for another rig: bake it with its own");
 }
 
 }  // namespace
@@ -55,8 +56,10 @@ MienStatus mien_bake_memory(const MienRig* rig, const MienDeformer* deformer, vo
   *out_size = size;
   if (!buffer) return succeed(error);
   if (capacity < size) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "the file takes %zu bytes, the buffer has %zu", size, capacity);
+    return give_error(
+        error, MIEN_ERROR_INVALID_ARGUMENT,
+        "the file has %zu bytes, the buffer %zu: call again with a buffer of this size", size,
+        capacity);
   }
   bake(*object(rig), deformer ? object(deformer) : nullptr, static_cast<uint8_t*>(buffer));
   return succeed(error);
@@ -70,11 +73,9 @@ MienStatus read_baked_desc(const MienBakedDesc* desc, MienBakedDesc& known, Allo
                            MienError* error) {
   if (MienStatus status = read_desc(desc, known, "MienBakedDesc", error)) return status;
   if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
-  if (known.file_access > MIEN_FILE_READ || known.check > MIEN_BAKED_CHECK_FULL) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienBakedDesc.file_access or .check is none of its values");
-  }
-  return MIEN_OK;
+  return check_fields({{"MienBakedDesc.file_access", known.file_access, MIEN_FILE_READ},
+                       {"MienBakedDesc.check", known.check, MIEN_BAKED_CHECK_FULL}},
+                      error);
 }
 
 /// A Baked with room for a copy of `copied` bytes after it, in one block; `data` points there.
@@ -168,7 +169,9 @@ MienStatus mien_baked_open_stream(const MienStream* stream, const MienBakedDesc*
   if (size != 0 &&
       stream->read(stream->user, 0, const_cast<uint8_t*>(baked->bytes.data), size) != size) {
     release_bytes(&baked->bytes);
-    return give_error(error, MIEN_ERROR_FILE_READ, "the stream did not give its %zu bytes", size);
+    return give_error(error, MIEN_ERROR_FILE_READ,
+                      "the read function of the stream gave fewer than the %zu bytes asked for",
+                      size);
   }
   return finish_open(baked, out_baked, error);
 }
@@ -200,7 +203,7 @@ namespace {
 
 MienStatus no_part(const char* what, MienError* error) {
   return give_error(error, MIEN_ERROR_BAKED_PART,
-                    "the baked file has no %s; bake it again, with one", what);
+                    "the baked file has no %s: bake it again with one", what);
 }
 
 }  // namespace
@@ -208,15 +211,14 @@ MienStatus no_part(const char* what, MienError* error) {
 MienStatus mien_rig_from_baked(const MienBaked* baked, const MienBakedRigDesc* desc,
                                MienRig** out_rig, MienError* error) {
   if (MienStatus status = clear_output(out_rig, error)) return status;
-  if (MienStatus status = check(baked)) return give_error(error, status, "not a baked file");
+  if (MienStatus status = check(baked, "baked", error)) return status;
   MienBakedRigDesc known;
   if (MienStatus status = read_desc(desc, known, "MienBakedRigDesc", error)) return status;
   Allocator allocator;
   if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
-  if (known.reuse > MIEN_REUSE_NOTHING) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienBakedRigDesc.reuse is none of its values");
-  }
+  const MienStatus in_range =
+      check_fields({{"MienBakedRigDesc.reuse", known.reuse, MIEN_REUSE_NOTHING}}, error);
+  if (in_range != MIEN_OK) return in_range;
   const KernelTable* kernels = nullptr;
   if (MienStatus status = find_kernels(known.isa, kernels, error)) return status;
   if (!object(baked)->rig) return no_part("rig", error);
@@ -236,22 +238,23 @@ MienStatus mien_deformer_from_baked(const MienBaked* baked, const MienRig* rig,
                                     const MienBakedDeformerDesc* desc, MienDeformer** out_deformer,
                                     MienError* error) {
   if (MienStatus status = clear_output(out_deformer, error)) return status;
-  if (MienStatus status = check(baked)) return give_error(error, status, "not a baked file");
-  if (MienStatus status = check(rig)) return give_error(error, status, "not a rig");
+  if (MienStatus status = check(baked, "baked", error)) return status;
+  if (MienStatus status = check(rig, "rig", error)) return status;
   MienBakedDeformerDesc known;
   if (MienStatus status = read_desc(desc, known, "MienBakedDeformerDesc", error)) return status;
   Allocator allocator;
   if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
-  if (known.normals > MIEN_NORMALS_RECOMPUTED) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienBakedDeformerDesc.normals is none of its values");
-  }
+  const MienStatus in_range = check_fields(
+      {{"MienBakedDeformerDesc.normals", known.normals, MIEN_NORMALS_RECOMPUTED}}, error);
+  if (in_range != MIEN_OK) return in_range;
   const KernelTable* kernels = object(rig)->kernels;
   if (known.isa != MIEN_ISA_BEST) {
     if (MienStatus status = find_kernels(known.isa, kernels, error)) return status;
   }
   if (object(rig)->bytes != &object(baked)->bytes) {
-    return give_error(error, MIEN_ERROR_MISMATCH, "the rig is not the one of this baked file");
+    return give_error(
+        error, MIEN_ERROR_MISMATCH,
+        "the rig was not created from this baked file: use that of mien_rig_from_baked()");
   }
   if (!object(baked)->deformer) return no_part("deformer", error);
   Deformer* deformer = nullptr;

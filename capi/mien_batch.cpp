@@ -29,7 +29,7 @@ MienStatus read_batch_desc(const MienBatchDesc* desc, MienBatchDesc& out, MienEr
 MienStatus mien_batch_create(const MienRig* rig, const MienBatchDesc* desc, MienBatch** out_batch,
                              MienError* error) {
   if (MienStatus status = clear_output(out_batch, error)) return status;
-  if (MienStatus status = check(rig)) return give_error(error, status, "not a rig");
+  if (MienStatus status = check(rig, "rig", error)) return status;
   MienBatchDesc known;
   if (MienStatus status = read_batch_desc(desc, known, error)) return status;
   Allocator allocator;

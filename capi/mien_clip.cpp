@@ -2,6 +2,7 @@
 // Clips, their players and bindings. mien.h is the manual.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "capi/handles.h"
 
@@ -118,16 +119,19 @@ MienStatus check_clip_desc(const MienClipDesc& desc, MienError* error) {
       return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "the name of event %u is NULL", e);
     }
   }
-  if (desc.looping > MIEN_LOOPING_WRAP) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienClipDesc.looping is %u, which is not a MIEN_LOOPING_...", desc.looping);
-  }
+  const MienStatus in_range =
+      check_fields({{"MienClipDesc.looping", desc.looping, MIEN_LOOPING_WRAP}}, error);
+  if (in_range != MIEN_OK) return in_range;
   for (uint32_t c = 0; c < (desc.snaps ? desc.channel_count : 1); ++c) {
     const float step = desc.snaps ? desc.snaps[c] : desc.snap;
     if (snap_of(step) != 1) continue;
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "a step of %g: it is 0, or a power of two from 2^-16 to 2^-9",
-                      static_cast<double>(step));
+    char index[16] = "";
+    if (desc.snaps) snprintf(index, sizeof(index), "s[%u]", c);
+    return give_error(
+        error, MIEN_ERROR_INVALID_ARGUMENT,
+        "MienClipDesc.snap%s is %g; valid steps are 0 and the powers of two from 2^-16 "
+        "to 2^-9",
+        index, static_cast<double>(step));
   }
   return MIEN_OK;
 }
@@ -189,13 +193,9 @@ MienStatus read_open_desc(const MienClipOpenDesc* desc, MienClipOpenDesc& known,
                           Allocator& allocator, MienError* error) {
   if (MienStatus status = read_desc(desc, known, "MienClipOpenDesc", error)) return status;
   if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
-  if (known.file_access > MIEN_FILE_READ || known.reserved != 0) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienClipOpenDesc.file_access is %u, which is not a MIEN_FILE_..., or "
-                      ".reserved is not 0",
-                      known.file_access);
-  }
-  return MIEN_OK;
+  return check_fields({{"MienClipOpenDesc.file_access", known.file_access, MIEN_FILE_READ},
+                       {"MienClipOpenDesc.reserved", known.reserved, 0}},
+                      error);
 }
 
 }  // namespace
@@ -269,7 +269,9 @@ MienStatus mien_clip_open_stream(const MienStream* stream, const MienClipOpenDes
     clip->own = {allocator, static_cast<uint8_t*>(block), size};
     if (stream->read(stream->user, 0, block, size) != size) {
       release_clip_handle(clip);
-      return give_error(error, MIEN_ERROR_FILE_READ, "the stream did not give its %zu bytes", size);
+      return give_error(error, MIEN_ERROR_FILE_READ,
+                        "the read function of the stream gave fewer than the %zu bytes asked for",
+                        size);
     }
   }
   return finish_clip(clip, clip->own.bytes, clip->own.size, out_clip, error);
@@ -284,7 +286,7 @@ void mien_clip_close(MienClip* clip) {
 MienStatus mien_clip_write_file(const MienClip* clip, const char* path, MienError* error) {
   if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
   if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
-  if (MienStatus status = check(clip)) return give_error(error, status, "not a clip");
+  if (MienStatus status = check(clip, "clip", error)) return status;
   Error detail;
   const Status status =
       write_file(path, clip->view.bytes, clip->view.size, clip->allocator, detail);
@@ -297,13 +299,15 @@ MienStatus mien_clip_write_memory(const MienClip* clip, void* buffer, size_t cap
   if (!buffer && capacity != 0) {
     return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "buffer is NULL");
   }
-  if (MienStatus status = check(clip)) return give_error(error, status, "not a clip");
+  if (MienStatus status = check(clip, "clip", error)) return status;
   const size_t size = clip->view.size;
   *out_size = size;
   if (!buffer) return succeed(error);
   if (capacity < size) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "the clip takes %zu bytes, the buffer has %zu", size, capacity);
+    return give_error(
+        error, MIEN_ERROR_INVALID_ARGUMENT,
+        "the clip has %zu bytes, the buffer %zu: call again with a buffer of this size", size,
+        capacity);
   }
   memcpy(buffer, clip->view.bytes, size);
   return succeed(error);
@@ -423,7 +427,7 @@ MienStatus mien_clip_event(const MienClip* clip, uint32_t index, MienClipEvent* 
 
 MienStatus mien_clip_verify(const MienClip* clip, MienError* error) {
   if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
-  if (MienStatus status = check(clip)) return give_error(error, status, "not a clip");
+  if (MienStatus status = check(clip, "clip", error)) return status;
   Error detail;
   return verify_clip(clip->view, detail) == Status::kOk ? succeed(error)
                                                         : give_error(detail, error);
@@ -432,7 +436,7 @@ MienStatus mien_clip_verify(const MienClip* clip, MienError* error) {
 MienStatus mien_clip_read(const MienClip* handle, uint32_t first_frame, uint32_t frame_count,
                           float* out_values, size_t frame_stride, MienError* error) {
   if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
-  if (MienStatus status = check(handle)) return give_error(error, status, "not a clip");
+  if (MienStatus status = check(handle, "clip", error)) return status;
   const Clip& clip = handle->view;
   if (!out_values && frame_count != 0 && clip.channel_count != 0) {
     return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "out_values is NULL");
@@ -457,17 +461,17 @@ MienStatus mien_clip_read(const MienClip* handle, uint32_t first_frame, uint32_t
 MienStatus mien_clip_player_create(const MienClip* clip, const MienClipPlayerDesc* desc,
                                    MienClipPlayer** out_clip_player, MienError* error) {
   if (MienStatus status = clear_output(out_clip_player, error)) return status;
-  if (MienStatus status = check(clip)) return give_error(error, status, "not a clip");
+  if (MienStatus status = check(clip, "clip", error)) return status;
   MienClipPlayerDesc known;
   if (MienStatus status = read_desc(desc, known, "MienClipPlayerDesc", error)) return status;
   Allocator allocator;
   if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
-  if (known.looping > MIEN_LOOPING_WRAP || known.interpolation > MIEN_INTERPOLATION_CATMULL_ROM ||
-      known.reserved != 0) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienClipPlayerDesc.looping or .interpolation is none of its values, or "
-                      ".reserved is not 0");
-  }
+  const MienStatus in_range = check_fields(
+      {{"MienClipPlayerDesc.looping", known.looping, MIEN_LOOPING_WRAP},
+       {"MienClipPlayerDesc.interpolation", known.interpolation, MIEN_INTERPOLATION_CATMULL_ROM},
+       {"MienClipPlayerDesc.reserved", known.reserved, 0}},
+      error);
+  if (in_range != MIEN_OK) return in_range;
   PlayDesc play;
   play.start_tick = known.start_tick;
   const bool has_speed = known.speed_numerator != 0 || known.speed_denominator != 0;
@@ -611,17 +615,21 @@ MienStatus mien_clip_binding_create(const MienClip* clip, const MienRig* rig,
                                     const MienClipBindingDesc* desc,
                                     MienClipBinding** out_clip_binding, MienError* error) {
   if (MienStatus status = clear_output(out_clip_binding, error)) return status;
-  if (MienStatus status = check(clip)) return give_error(error, status, "not a clip");
-  if (MienStatus status = check(rig)) return give_error(error, status, "not a rig");
+  if (MienStatus status = check(clip, "clip", error)) return status;
+  if (MienStatus status = check(rig, "rig", error)) return status;
   MienClipBindingDesc known;
   if (MienStatus status = read_desc(desc, known, "MienClipBindingDesc", error)) return status;
   Allocator allocator;
   if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
   if (!known.matrix && known.matrix_count != 0) {
-    return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "MienClipBindingDesc.matrix is NULL");
+    return give_error(error, MIEN_ERROR_NULL_ARGUMENT,
+                      "MienClipBindingDesc.matrix is NULL, but .matrix_count is %zu",
+                      known.matrix_count);
   }
   if (known.matrix_count > UINT32_MAX / 2) {
-    return give_error(error, MIEN_ERROR_CLIP_LIMIT, "a matrix of %zu entries", known.matrix_count);
+    return give_error(error, MIEN_ERROR_CLIP_LIMIT,
+                      "MienClipBindingDesc.matrix_count is %zu; at most %u are supported",
+                      known.matrix_count, UINT32_MAX / 2);
   }
   for (size_t e = 0; e < known.matrix_count; ++e) {
     const MienMatrixEntry& entry = known.matrix[e];

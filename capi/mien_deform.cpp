@@ -61,18 +61,19 @@ MienStatus mien_deformer_create(const MienDna* dna, const MienRig* handle,
                                 const MienDeformerDesc* desc, MienDeformer** out_deformer,
                                 MienError* error) {
   if (MienStatus status = clear_output(out_deformer, error)) return status;
-  if (MienStatus status = check(dna)) return give_error(error, status, "not an open DNA");
-  if (MienStatus status = check(handle)) return give_error(error, status, "not a rig");
+  if (MienStatus status = check(dna, "dna", error)) return status;
+  if (MienStatus status = check(handle, "rig", error)) return status;
   MienDeformerDesc known;
   if (MienStatus status = read_desc(desc, known, "MienDeformerDesc", error)) return status;
   Allocator allocator;
   if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
-  if (known.compose > MIEN_COMPOSE_EULER_ADD || known.weights > MIEN_WEIGHTS_FIX ||
-      known.normals > MIEN_NORMALS_RECOMPUTED || known.reserved != 0) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienDeformerDesc.compose, .weights or .normals is none of its values, or "
-                      ".reserved is not 0");
-  }
+  const MienStatus in_range =
+      check_fields({{"MienDeformerDesc.compose", known.compose, MIEN_COMPOSE_EULER_ADD},
+                    {"MienDeformerDesc.weights", known.weights, MIEN_WEIGHTS_FIX},
+                    {"MienDeformerDesc.normals", known.normals, MIEN_NORMALS_RECOMPUTED},
+                    {"MienDeformerDesc.reserved", known.reserved, 0}},
+                   error);
+  if (in_range != MIEN_OK) return in_range;
   const Rig& rig = *object(handle);
   const KernelTable* kernels = rig.kernels;
   if (known.isa != MIEN_ISA_BEST) {
@@ -205,7 +206,7 @@ MienStatus mien_deformer_instance_create(const MienDeformer* deformer,
                                          const MienDeformerInstanceDesc* desc,
                                          MienDeformerInstance** out_instance, MienError* error) {
   if (MienStatus status = clear_output(out_instance, error)) return status;
-  if (MienStatus status = check(deformer)) return give_error(error, status, "not a deformer");
+  if (MienStatus status = check(deformer, "deformer", error)) return status;
   MienDeformerInstanceDesc known;
   if (MienStatus status = read_desc(desc, known, "MienDeformerInstanceDesc", error)) return status;
   Allocator allocator;

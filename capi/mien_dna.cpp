@@ -37,11 +37,14 @@ struct OpenArguments {
 MienStatus read_system(const MienCoordinateSystem* in, CoordinateSystem& out, MienError* error) {
   MienCoordinateSystem known;
   if (MienStatus status = read_desc(in, known, "MienCoordinateSystem", error)) return status;
-  bool signs = true;
   for (int i = 0; i < 3; ++i) {
     out.axes[i] = known.axes[i];
     out.rotation_signs[i] = known.rotation_signs[i];
-    signs &= known.rotation_signs[i] >= -1 && known.rotation_signs[i] <= 1;
+    if (known.rotation_signs[i] < -1 || known.rotation_signs[i] > 1) {
+      return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                        "MienCoordinateSystem.rotation_signs[%d] is %d; valid values are -1 to 1",
+                        i, known.rotation_signs[i]);
+    }
   }
   if (!spans_space(out.axes)) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
@@ -49,16 +52,17 @@ MienStatus read_system(const MienCoordinateSystem* in, CoordinateSystem& out, Mi
                       "or right, one up or down, one front or back",
                       out.axes[0], out.axes[1], out.axes[2]);
   }
-  if (!signs || known.translation_unit > MIEN_TRANSLATION_UNIT_METERS ||
-      known.rotation_unit > MIEN_ROTATION_UNIT_RADIANS ||
-      known.rotation_rule > MIEN_ROTATION_RULE_PER_COLUMN ||
-      known.rotation_sequence > MIEN_ROTATION_SEQUENCE_ZYX ||
-      known.face_winding > MIEN_FACE_WINDING_INWARD || known.reserved != 0) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienCoordinateSystem.translation_unit, .rotation_unit, .rotation_rule, "
-                      ".rotation_sequence, .rotation_signs or .face_winding is none of its values, "
-                      "or .reserved is not 0");
-  }
+  const MienStatus in_range = check_fields(
+      {{"MienCoordinateSystem.translation_unit", known.translation_unit,
+        MIEN_TRANSLATION_UNIT_METERS},
+       {"MienCoordinateSystem.rotation_unit", known.rotation_unit, MIEN_ROTATION_UNIT_RADIANS},
+       {"MienCoordinateSystem.rotation_rule", known.rotation_rule, MIEN_ROTATION_RULE_PER_COLUMN},
+       {"MienCoordinateSystem.rotation_sequence", known.rotation_sequence,
+        MIEN_ROTATION_SEQUENCE_ZYX},
+       {"MienCoordinateSystem.face_winding", known.face_winding, MIEN_FACE_WINDING_INWARD},
+       {"MienCoordinateSystem.reserved", known.reserved, 0}},
+      error);
+  if (in_range != MIEN_OK) return in_range;
   out.translation_unit = known.translation_unit;
   out.rotation_unit = known.rotation_unit;
   out.rotation_rule = static_cast<RotationRule>(known.rotation_rule);
@@ -72,14 +76,15 @@ MienStatus read_open_arguments(const MienDnaDesc* desc, OpenArguments& out, Mien
   if (MienStatus status = read_allocator(out.desc.allocator, out.allocator, error)) return status;
   if (out.desc.layers & ~uint32_t{dna::kLayersAll}) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienDnaDesc.layers has unknown bits: 0x%x", out.desc.layers);
+                      "MienDnaDesc.layers is 0x%x, which has bits that are not a MIEN_LAYER_...",
+                      out.desc.layers);
   }
-  if (out.desc.unknown_layers > MIEN_UNKNOWN_LAYERS_DROP || out.desc.file_access > MIEN_FILE_READ ||
-      out.desc.skip_blend_shape_targets > 1) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienDnaDesc.unknown_layers, .file_access or .skip_blend_shape_targets is "
-                      "none of its values");
-  }
+  const MienStatus in_range = check_fields(
+      {{"MienDnaDesc.unknown_layers", out.desc.unknown_layers, MIEN_UNKNOWN_LAYERS_DROP},
+       {"MienDnaDesc.file_access", out.desc.file_access, MIEN_FILE_READ},
+       {"MienDnaDesc.skip_blend_shape_targets", out.desc.skip_blend_shape_targets, 1}},
+      error);
+  if (in_range != MIEN_OK) return in_range;
   out.options.layers = out.desc.layers ? out.desc.layers : uint32_t{dna::kLayersAll};
   out.options.skip_blend_shape_targets = out.desc.skip_blend_shape_targets != 0;
   out.options.keep_unknown = out.desc.unknown_layers == MIEN_UNKNOWN_LAYERS_KEEP;
@@ -279,7 +284,7 @@ size_t length_of(const char* text) { return text ? strlen(text) : 0; }
 /// A terminated copy of `path` in `out`.
 MienStatus copy_path(const MienDna* dna, const char* path, size_t count, char (&out)[kMaxPath + 1],
                      MienError* error) {
-  if (MienStatus status = check(dna)) return give_error(error, status, "not an open DNA");
+  if (MienStatus status = check(dna, "dna", error)) return status;
   if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
   if (count > kMaxPath || memchr(path, 0, count)) {
     return give_error(error, MIEN_ERROR_NAME,
@@ -299,6 +304,27 @@ MienStatus find(const MienDna* dna, const char* path, size_t count, char (&copy)
   if (dna::find_field(dna->view, copy, field, detail) != Status::kOk)
     return give_error(detail, error);
   return MIEN_OK;
+}
+
+/// For messages about a field of another type than the caller expects.
+const char* content_of(dna::FieldType type) {
+  switch (type) {
+    case dna::FieldType::kRecord: return "a record";
+    case dna::FieldType::kList: return "a list";
+    case dna::FieldType::kString: return "a string";
+    case dna::FieldType::kF32: return "floats";
+    default: return "integers";
+  }
+}
+
+const char* reader_of(dna::FieldType type) {
+  switch (type) {
+    case dna::FieldType::kRecord: return "the paths of its fields";
+    case dna::FieldType::kList: return "the paths of its elements";
+    case dna::FieldType::kString: return "mien_dna_read_string()";
+    case dna::FieldType::kF32: return "mien_dna_read_floats()";
+    default: return "mien_dna_read_integers()";
+  }
 }
 
 /// Copies big-endian elements of type From into `out`.
@@ -334,7 +360,8 @@ MienStatus mien_dna_field_n(const MienDna* dna, const char* given, size_t path_c
   const MienStatus cleared = clear_struct(out_field);
   if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
   if (cleared != MIEN_OK) {
-    return give_error(error, cleared, "out_field is NULL or its struct_size too small");
+    return give_error(error, cleared,
+                      "out_field is NULL, or its struct_size is not sizeof(MienDnaField)");
   }
   char path[kMaxPath + 1];
   dna::FieldRef field;
@@ -379,7 +406,9 @@ MienStatus mien_dna_read_floats_n(const MienDna* dna, const char* given, size_t 
   dna::FieldRef field;
   if (MienStatus status = find(dna, given, path_count, path, field, error)) return status;
   if (field.type != dna::FieldType::kF32) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "%.160s does not hold floats", path);
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "%.120s holds %s, not floats: read it with %s", path, content_of(field.type),
+                      reader_of(field.type));
   }
   if (MienStatus status = check_range(field, path, first, count, out, error)) return status;
   copy_elements<float>(field, first, count, out);
@@ -401,7 +430,9 @@ MienStatus mien_dna_read_integers_n(const MienDna* dna, const char* given, size_
   const bool integer = field.type == dna::FieldType::kU8 || field.type == dna::FieldType::kU16 ||
                        field.type == dna::FieldType::kU32 || field.type == dna::FieldType::kI32;
   if (!integer) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "%.160s does not hold integers", path);
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "%.120s holds %s, not integers: read it with %s", path,
+                      content_of(field.type), reader_of(field.type));
   }
   if (MienStatus status = check_range(field, path, first, count, out, error)) return status;
   switch (field.type) {
@@ -425,7 +456,9 @@ MienStatus mien_dna_read_string_n(const MienDna* dna, const char* given, size_t 
   dna::FieldRef field;
   if (MienStatus status = find(dna, given, path_count, path, field, error)) return status;
   if (field.type != dna::FieldType::kString) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "%.160s is not a string", path);
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "%.120s holds %s, not a string: read it with %s", path,
+                      content_of(field.type), reader_of(field.type));
   }
   *out_string = {reinterpret_cast<const char*>(field.bytes), static_cast<size_t>(field.count)};
   return succeed(error);
@@ -437,22 +470,22 @@ namespace {
 
 MienStatus plan_write(const MienDna* dna, const MienWriteDesc* desc, dna::WriteOptions& options,
                       size_t& size, MienError* error) {
-  if (MienStatus status = check(dna)) return give_error(error, status, "not an open DNA");
+  if (MienStatus status = check(dna, "dna", error)) return status;
   const DnaView& view = dna->view;
   if (view.has(dna::kLayerRbf) && !view.has(dna::kLayerMachineLearned) &&
       view.ml_control_count != 0) {
-    return give_error(
-        error, MIEN_ERROR_DNA_LAYER,
-        "RBF behavior was opened without machine learned behavior, whose controls come "
-        "before its own: open both to write the file");
+    return give_error(error, MIEN_ERROR_DNA_LAYER,
+                      "RBF behavior was opened without the machine-learned behavior of the file, "
+                      "whose controls are "
+                      "numbered before its own: open both to write the file");
   }
   MienWriteDesc known;
   if (MienStatus status = read_desc(desc, known, "MienWriteDesc", error)) return status;
-  if (known.version > 8 || known.unknown_layers > MIEN_UNKNOWN_LAYERS_DROP) {
-    return give_error(
-        error, MIEN_ERROR_INVALID_ARGUMENT,
-        "MienWriteDesc.version is 0 or 1 to 8, .unknown_layers a MIEN_UNKNOWN_LAYERS_...");
-  }
+  const MienStatus in_range = check_fields(
+      {{"MienWriteDesc.version", known.version, 8},
+       {"MienWriteDesc.unknown_layers", known.unknown_layers, MIEN_UNKNOWN_LAYERS_DROP}},
+      error);
+  if (in_range != MIEN_OK) return in_range;
   options.version = known.version ? static_cast<uint16_t>(known.version) : dna->view.version;
   options.keep_unknown = known.unknown_layers == MIEN_UNKNOWN_LAYERS_KEEP;
   Arena arena(dna->allocator);
@@ -463,8 +496,8 @@ MienStatus plan_write(const MienDna* dna, const MienWriteDesc* desc, dna::WriteO
   const uint64_t bytes = dna::encoded_size(dna->view, options);
   if (bytes > UINT32_MAX) {
     return give_error(error, MIEN_ERROR_DNA_LIMIT,
-                      "the file would have %llu bytes: DNA files hold 32-bit "
-                      "offsets",
+                      "the file would have %llu bytes, DNA files hold less than 4 GiB: write fewer "
+                      "LODs or layers",
                       static_cast<unsigned long long>(bytes));
   }
   size = static_cast<size_t>(bytes);
@@ -503,8 +536,10 @@ MienStatus mien_dna_write_memory(const MienDna* dna, const MienWriteDesc* desc, 
   *out_size = size;
   if (!buffer) return succeed(error);
   if (capacity < size) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "the file takes %zu bytes, the buffer has %zu", size, capacity);
+    return give_error(
+        error, MIEN_ERROR_INVALID_ARGUMENT,
+        "the file has %zu bytes, the buffer %zu: call again with a buffer of this size", size,
+        capacity);
   }
   dna::encode(dna->view, options, static_cast<uint8_t*>(buffer));
   return succeed(error);

@@ -47,7 +47,7 @@ struct MienReport {
     dna::Finding kept = finding;
     if (count + 1 == kMaxFindings) {
       kept.field = "";
-      kept.message = "there may be more findings, but no more are listed";
+      kept.message = "there may be more findings: mend these and validate again";
     }
     StoredFinding& stored = findings[full ? count - 1 : count];
     stored.status = kept.status;

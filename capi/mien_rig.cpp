@@ -37,18 +37,19 @@ const char* mien_isa_name(uint32_t isa) {
 MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig** out_rig,
                            MienError* error) {
   if (MienStatus status = clear_output(out_rig, error)) return status;
-  if (MienStatus status = check(dna)) return give_error(error, status, "not an open DNA");
+  if (MienStatus status = check(dna, "dna", error)) return status;
   MienRigDesc known;
   if (MienStatus status = read_desc(desc, known, "MienRigDesc", error)) return status;
   Allocator allocator;
   if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
-  if (known.rotation_output > MIEN_ROTATION_OUTPUT_QUATERNION ||
-      known.ml_masks > MIEN_ML_MASKS_BLEND || known.storage > MIEN_STORAGE_16_BIT ||
-      known.reuse > MIEN_REUSE_NOTHING || known.arithmetic > MIEN_ARITHMETIC_PORTABLE) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienRigDesc.rotation_output, .ml_masks, .storage, .reuse or .arithmetic is "
-                      "none of its values");
-  }
+  const MienStatus in_range = check_fields(
+      {{"MienRigDesc.rotation_output", known.rotation_output, MIEN_ROTATION_OUTPUT_QUATERNION},
+       {"MienRigDesc.ml_masks", known.ml_masks, MIEN_ML_MASKS_BLEND},
+       {"MienRigDesc.storage", known.storage, MIEN_STORAGE_16_BIT},
+       {"MienRigDesc.reuse", known.reuse, MIEN_REUSE_NOTHING},
+       {"MienRigDesc.arithmetic", known.arithmetic, MIEN_ARITHMETIC_PORTABLE}},
+      error);
+  if (in_range != MIEN_OK) return in_range;
   const KernelTable* kernels = nullptr;
   if (MienStatus status = find_kernels(known.isa, kernels, error)) return status;
   if (!dna->view.has(dna::kLayerBehavior)) {
@@ -281,7 +282,7 @@ MienStatus mien_rig_statistics(const MienRig* handle, uint32_t lod,
 MienStatus mien_instance_create(const MienRig* rig, const MienInstanceDesc* desc,
                                 MienInstance** out_instance, MienError* error) {
   if (MienStatus status = clear_output(out_instance, error)) return status;
-  if (MienStatus status = check(rig)) return give_error(error, status, "not a rig");
+  if (MienStatus status = check(rig, "rig", error)) return status;
   MienInstanceDesc known;
   if (MienStatus status = read_desc(desc, known, "MienInstanceDesc", error)) return status;
   Allocator allocator;

@@ -395,7 +395,7 @@ TEST(CapiClip, WrongTakesAreNamed) {
   with([](auto& d) { d.frame_count = 1u << 29; }, MIEN_ERROR_CLIP_LIMIT, "at most");
   with([](auto& d) { d.frame_stride = 250; }, invalid, "stride");
   with([](auto& d) { d.rate_numerator = 1, d.rate_denominator = 100; }, invalid, "rate");
-  with([](auto& d) { d.snap = 0.001f; }, invalid, "power of two");
+  with([](auto& d) { d.snap = 0.001f; }, invalid, "MienClipDesc.snap is 0.001");
   with([](auto& d) { d.snap = 1.0f / 256; }, invalid, "2^-9");
   with([](auto& d) { d.snap = -1.0f / 512; }, invalid, "2^-9");
   with([](auto& d) { d.snap = std::numeric_limits<float>::quiet_NaN(); }, invalid, "2^-9");

@@ -269,7 +269,7 @@ TEST_F(CapiDna, RbfWithoutTheControlsBeforeItIsNotWritten) {
   EXPECT_EQ(mien_dna_write_memory(part.get(), nullptr, nullptr, 0, &size, &error),
             MIEN_ERROR_DNA_LAYER);
   EXPECT_EQ(size, 0u);
-  EXPECT_NE(std::string(error.message).find("machine learned"), std::string::npos);
+  EXPECT_NE(std::string(error.message).find("machine-learned"), std::string::npos);
 
   const DnaHandle both = open(file, MIEN_LAYER_RBF_BEHAVIOR | MIEN_LAYER_MACHINE_LEARNED_BEHAVIOR);
   EXPECT_EQ(mien_dna_write_memory(both.get(), nullptr, nullptr, 0, &size, &error), MIEN_OK);

@@ -482,6 +482,44 @@ TEST_F(Misuse, LongerErrorsAreZeroBehindWhatIsKnown) {
   EXPECT_EQ(error.known.struct_size, sizeof(error));
 }
 
+// The parameter or field, the value that it has, and those that it may have.
+TEST_F(Misuse, MessagesNameTheArgument) {
+  MienError error = sized<MienError>();
+  const auto expect_said = [&](MienStatus status, const char* message) {
+    EXPECT_NE(status, MIEN_OK);
+    EXPECT_EQ(status, error.status);
+    EXPECT_STREQ(error.message, message);
+  };
+  MienRig* made = nullptr;
+  expect_said(mien_rig_create(nullptr, nullptr, &made, &error), "dna is NULL");
+  expect_said(mien_rig_create(reinterpret_cast<MienDna*>(rig), nullptr, &made, &error),
+              "dna is a handle of another kind, or none");
+  MienRigDesc desc = mien_rig_desc_default();
+  desc.storage = 9;
+  expect_said(mien_rig_create(dna, &desc, &made, &error),
+              "MienRigDesc.storage is 9; valid values are 0 to 1");
+  MienCoordinateSystem system = mien_coordinate_system_default();
+  system.axes[0] = MIEN_DIRECTION_LEFT;
+  system.axes[1] = MIEN_DIRECTION_UP;
+  system.axes[2] = MIEN_DIRECTION_FRONT;
+  MienDnaDesc open = mien_dna_desc_default();
+  open.system = &system;
+  const auto opening = [&] {
+    MienDna* opened = nullptr;
+    return mien_dna_open_memory(bytes.data(), bytes.size(), &open, &opened, &error);
+  };
+  system.rotation_signs[2] = -2;
+  expect_said(opening(), "MienCoordinateSystem.rotation_signs[2] is -2; valid values are -1 to 1");
+  system.rotation_signs[2] = 0;
+  system.reserved = 1;
+  expect_said(opening(), "MienCoordinateSystem.reserved is 1; it must be 0");
+  float value;
+  expect_said(mien_dna_read_floats(dna, "desc.name", 0, 1, &value, &error),
+              "desc.name holds a string, not floats: read it with mien_dna_read_string()");
+  expect_said(mien_dna_read_floats(dna, "defn.jointNames", 0, 1, &value, &error),
+              "defn.jointNames holds a list, not floats: read it with the paths of its elements");
+}
+
 TEST_F(Misuse, ErrorsTellTheirPlaceInTheFile) {
   MienError error = sized<MienError>();
   MienDna* opened = dna;

@@ -523,7 +523,7 @@ class Transition(IntEnum):
 
 
 class Preset(IntEnum):
-    """Values of enum MienPreset of the C interface."""
+    """Generated rigs."""
 
     #: small enough to read
     TINY = 0
@@ -543,10 +543,10 @@ class Preset(IntEnum):
 
 
 class Generate(IntEnum):
-    """Values of enum MienGenerate of the C interface."""
+    """Additions to a preset, combined with |."""
 
-    #: with machine-learned behavior: networks per mesh region with every activation and operation,
-    #: and joints that they move. Not for Preset.HEAD
+    #: machine-learned behavior: networks for mesh regions with all activation functions and
+    #: operations, and ML joints; not with Preset.HEAD
     ML = 1
 
 

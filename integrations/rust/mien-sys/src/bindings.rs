@@ -390,8 +390,8 @@ pub const MIEN_PRESET_BODY: u32 = 4;
 pub const MIEN_PRESET_HEAD: u32 = 5;
 
 // enum MienGenerate
-/// With machine-learned behavior: networks per mesh region with every activation and operation,
-/// and joints that they move. Not for `MIEN_PRESET_HEAD`.
+/// machine-learned behavior: networks for mesh regions with all activation functions and
+/// operations, and ML joints; not with `MIEN_PRESET_HEAD`.
 pub const MIEN_GENERATE_ML: u32 = 1;
 
 /// A checked, read-only view of a DNA file. Immutable.
@@ -2032,6 +2032,7 @@ impl Default for MienMixerClip {
     }
 }
 
+/// What to generate.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienGenerateDesc {
@@ -3082,8 +3083,7 @@ extern "C" {
     /// `MIEN_ERROR_MISMATCH` if a clip is missing or another one.
     pub fn mien_mixer_restore(mixer: *mut MienMixer, bytes: *const c_void, size: usize, clips: *const MienMixerClip, clip_count: usize, error: *mut MienError) -> MienStatus;
 
-    /// Generates a rig of a preset and opens it: a file of version 2.8 with all layers, with
-    /// behavior of realistic size and sparsity and simple geometry. `desc` may be NULL: the tiny
-    /// preset. Close with `mien_dna_close()`.
+    /// Generates a rig and opens it: a file of version 2.8 with all layers, behavior of realistic
+    /// size and sparsity, and simple geometry. Close with `mien_dna_close()`.
     pub fn mien_dna_generate(desc: *const MienGenerateDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
 }

@@ -815,7 +815,7 @@ impl Transition {
 
 numbers!(Transition, u32, [(0, "INERTIAL"), (1, "CROSSFADE"), (2, "CUT")]);
 
-/// What C calls `MIEN_PRESET_...`.
+/// Generated rigs.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -844,7 +844,7 @@ impl Preset {
 
 numbers!(Preset, u32, [(0, "TINY"), (1, "SMALL"), (2, "MEDIUM"), (3, "LARGE"), (4, "BODY"), (5, "HEAD")]);
 
-/// What C calls `MIEN_GENERATE_...`.
+/// Additions to a preset, combined with \|.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -852,8 +852,8 @@ numbers!(Preset, u32, [(0, "TINY"), (1, "SMALL"), (2, "MEDIUM"), (3, "LARGE"), (
 pub struct Generate(pub u32);
 
 impl Generate {
-    /// With machine-learned behavior: networks per mesh region with every activation and
-    /// operation, and joints that they move. Not for `Preset::HEAD`.
+    /// machine-learned behavior: networks for mesh regions with all activation functions and
+    /// operations, and ML joints; not with `Preset::HEAD`.
     pub const ML: Self = Self(1);
 }
 
