@@ -14,6 +14,7 @@ MienStatus give_error(MienError* to, MienStatus status, const char* format, ...)
   va_start(arguments, format);
   vsnprintf(detail.message, sizeof(detail.message), format, arguments);
   va_end(arguments);
+  make_printable(detail.message);
   return give_error(detail, to);
 }
 

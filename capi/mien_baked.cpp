@@ -122,7 +122,8 @@ MienStatus mien_baked_open_file(const char* path, const MienBakedDesc* desc, Mie
   Baked* baked = nullptr;
   if (MienStatus status = new_baked(allocator, known.check, 0, baked, error)) return status;
   Error detail;
-  if (open_file(path, static_cast<FileAccess>(known.file_access), allocator, baked->bytes.file,
+  if (open_file(path, static_cast<FileAccess>(known.file_access),
+                {kBakedMagic, sizeof(kBakedMagic)}, allocator, baked->bytes.file,
                 detail) != Status::kOk) {
     release_bytes(&baked->bytes);
     return give_error(detail, error);

@@ -226,8 +226,8 @@ MienStatus mien_clip_open_file(const char* path, const MienClipOpenDesc* desc, M
   MienClip* clip = nullptr;
   if (MienStatus status = new_clip(allocator, 0, clip, error)) return status;
   Error detail;
-  if (open_file(path, static_cast<FileAccess>(known.file_access), allocator, clip->file, detail) !=
-      Status::kOk) {
+  if (open_file(path, static_cast<FileAccess>(known.file_access), {kClipMagic, sizeof(kClipMagic)},
+                allocator, clip->file, detail) != Status::kOk) {
     release_clip_handle(clip);
     return give_error(detail, error);
   }

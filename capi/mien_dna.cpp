@@ -121,7 +121,7 @@ MienStatus mien_dna_open_file(const char* path, const MienDnaDesc* desc, MienDna
   if (!dna) return no_memory(error);
   Error detail;
   const Status status = open_file(path, static_cast<FileAccess>(arguments.desc.file_access),
-                                  arguments.allocator, dna->file, detail);
+                                  {"DNA", 3}, arguments.allocator, dna->file, detail);
   if (status != Status::kOk) {
     mien_dna_close(dna);
     return give_error(detail, error);

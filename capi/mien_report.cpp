@@ -33,6 +33,7 @@ struct MienReport {
     uint8_t* bytes = static_cast<uint8_t*>(arena.allocate(length + 1, 1));
     if (!bytes) return false;
     memcpy(bytes, text, length + 1);
+    make_printable(reinterpret_cast<char*>(bytes));
     out = {bytes, static_cast<uint32_t>(length)};
     return true;
   }
@@ -133,7 +134,7 @@ MienStatus mien_dna_validate_file(const char* path, const MienValidateDesc* desc
   // All of it is looked at anyway, and a file in memory cannot change under the checks.
   MappedFile file;
   Error detail;
-  if (open_file(path, FileAccess::kRead, allocator, file, detail) != Status::kOk) {
+  if (open_file(path, FileAccess::kRead, {"DNA", 3}, allocator, file, detail) != Status::kOk) {
     return give_error(detail, error);
   }
   const MienStatus status = examine(file.bytes, file.size, allocator, out_report, error);

@@ -22,14 +22,47 @@ enum class FileAccess : uint32_t {
   kRead = 1,  // always read: the file may be truncated or rewritten while it is in use
 };
 
+/// Where reading stops: a device or a pipe may have no end. Files that are mapped are as long as they
+/// are.
+struct FileLimits {
+  /// What does not begin like this is not read any further: the caller sees it and refuses.
+  const char* signature = nullptr;
+  size_t signature_size = 0;
+  /// More fails with kFileRead.
+  uint64_t bytes = uint64_t{1} << 32;
+};
+
 /// `path` is UTF-8. On failure `out` holds nothing and `error` says why.
-Status open_file(const char* path, FileAccess access, const Allocator& allocator, MappedFile& out,
-                 Error& error);
+Status open_file(const char* path, FileAccess access, const FileLimits& limits,
+                 const Allocator& allocator, MappedFile& out, Error& error);
 void close_file(MappedFile& file);
 
-/// Writes to a temporary name beside `path`, then renames: a reader sees the old file or the whole
-/// new one, and a failure leaves nothing behind. Devices and pipes are written to directly.
+/// Writes to a temporary name in the same folder, then renames: a reader sees the old file or the whole
+/// new one, and a failure leaves nothing behind. An existing file keeps its permissions; where its owner
+/// or group cannot be kept, nobody gets more than everybody had. A symbolic link is followed, and
+/// refused if it leads nowhere. Devices and pipes are written to directly.
 Status write_file(const char* path, const uint8_t* bytes, size_t size, const Allocator& allocator,
                   Error& error);
+
+// What the systems have in common ------------------------------------------------------------------
+
+constexpr size_t kCopyAlignment = 64;
+
+/// "cannot open PATH: reason". Of a long path the end is shown, which tells more than the beginning.
+Status fail_file(Error& error, Status status, const char* action, const char* path,
+                 const char* reason);
+
+/// Where bytes come from: copies up to `size` bytes to `to` and returns how many; 0 at the end, negative
+/// if it fails.
+struct ByteSource {
+  void* user;
+  int64_t (*read)(void* user, void* to, size_t size);
+};
+
+/// Reads to the end of a file of unknown size, such as a pipe. kMemory, or kFileRead for a file larger
+/// than `limits` allows; gives false in `good` if the source failed.
+Status read_to_end(const ByteSource& source, const char* path, size_t expected,
+                   const FileLimits& limits, const Allocator& allocator, MappedFile& out,
+                   bool& good, Error& error);
 
 }  // namespace mien

@@ -54,7 +54,29 @@ Status fail(Error& error, Status status, uint64_t byte_offset, const char* forma
   va_start(arguments, format);
   vsnprintf(error.message, sizeof(error.message), format, arguments);
   va_end(arguments);
+  make_printable(error.message);
   return status;
+}
+
+void make_printable(char* text) {
+  uint8_t* at = reinterpret_cast<uint8_t*>(text);
+  while (*at) {
+    // How many bytes follow, and the smallest number that needs so many.
+    const uint32_t lead = *at;
+    const int more = lead < 0x80       ? 0
+                     : lead >> 5 == 6  ? 1
+                     : lead >> 4 == 14 ? 2
+                     : lead >> 3 == 30 ? 3
+                                       : -1;
+    constexpr uint32_t kSmallest[4] = {0x20, 0xA0, 0x800, 0x10000};
+    uint32_t code = more < 0 ? 0 : more == 0 ? lead : lead & (0x3Fu >> more);
+    int read = 0;
+    for (; read < more && at[read + 1] >> 6 == 2; ++read) code = code << 6 | (at[read + 1] & 0x3F);
+    const bool good = more >= 0 && read == more && code >= kSmallest[more] && code != 0x7F &&
+                      code <= 0x10FFFF && code >> 11 != 27;
+    if (!good) *at = '?';
+    at += good ? more + 1 : 1;
+  }
 }
 
 }  // namespace mien

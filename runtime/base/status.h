@@ -78,8 +78,13 @@ struct Error {
 };
 
 /// Writes the error and returns its status, so that a check reads `return fail(error, ...)`.
-/// A message that does not fit is cut at the end of the array.
+/// A message that does not fit is cut at the end of the array. It may quote names and letters out of
+/// files: it is made printable.
 MIEN_PRINTF(4, 5)
 Status fail(Error& error, Status status, uint64_t byte_offset, const char* format, ...);
+
+/// Replaces, in place, each control character and each byte that is no part of valid UTF-8 by '?': a
+/// message must not move the cursor of a terminal, whatever the file says.
+void make_printable(char* text);
 
 }  // namespace mien

@@ -135,7 +135,7 @@ TEST(Clip, IsUsedInAMappedFile) {
       write_file(path.c_str(), made.bytes.data(), made.bytes.size(), default_allocator(), error),
       Status::kOk);
   MappedFile file;
-  ASSERT_EQ(open_file(path.c_str(), FileAccess::kMap, default_allocator(), file, error),
+  ASSERT_EQ(open_file(path.c_str(), FileAccess::kMap, {}, default_allocator(), file, error),
             Status::kOk);
   Clip clip;
   ASSERT_EQ(open_clip(file.bytes, file.size, clip, error), Status::kOk) << error.message;

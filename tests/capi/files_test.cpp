@@ -345,6 +345,75 @@ TEST_F(Files, DevicesAreWrittenToAndSurvive) {
   EXPECT_EQ(mien_dna_write_file(large.get(), "/dev/null", nullptr, &error), MIEN_OK);
 }
 
+TEST_F(Files, DevicesWithoutEndStopAtTheSignature) {
+  if (!fs::is_character_file("/dev/zero")) GTEST_SKIP() << "no /dev/zero here";
+  MienError error = sized<MienError>();
+  MienDna* opened = nullptr;
+  EXPECT_EQ(mien_dna_open_file("/dev/zero", nullptr, &opened, &error), MIEN_ERROR_DNA_SIGNATURE);
+  MienBaked* baked = nullptr;
+  EXPECT_EQ(mien_baked_open_file("/dev/zero", nullptr, &baked, &error), MIEN_ERROR_BAKED_SIGNATURE);
+  MienReport* report = nullptr;
+  EXPECT_EQ(mien_dna_validate_file("/dev/zero", nullptr, &report, &error), MIEN_OK);
+  mien_report_destroy(report);
+}
+
+mode_t mode_of(const std::string& path) {
+  struct stat about;
+  return stat(path.c_str(), &about) == 0 ? about.st_mode & 07777 : 0;
+}
+
+TEST_F(Files, WritingKeepsThePermissions) {
+  for (const mode_t mode : {0600, 0640, 0444, 0664, 0755, 0400}) {
+    write_all(path("a.dna"), {1});
+    ASSERT_EQ(chmod(path("a.dna").c_str(), mode), 0);
+    EXPECT_EQ(write(path("a.dna")), MIEN_OK);
+    EXPECT_EQ(mode_of(path("a.dna")), mode);
+    EXPECT_EQ(read_all(path("a.dna")), bytes);
+    fs::remove(path("a.dna"));
+  }
+  const mode_t mask = umask(027);
+  EXPECT_EQ(write(path("new.dna")), MIEN_OK);
+  umask(mask);
+  EXPECT_EQ(mode_of(path("new.dna")), mode_t{0640}) << "as any new file";
+  // What runs as its owner is no longer what was trusted to.
+  write_all(path("set.dna"), {1});
+  ASSERT_EQ(chmod(path("set.dna").c_str(), 04755), 0);
+  EXPECT_EQ(write(path("set.dna")), MIEN_OK);
+  EXPECT_EQ(mode_of(path("set.dna")), mode_t{0755});
+}
+
+TEST_F(Files, WritingFollowsLinks) {
+  fs::create_directory(path("other"));
+  write_all(path("other/a.dna"), {1});
+  fs::create_symlink("other/a.dna", path("link.dna"));
+  fs::create_symlink("link.dna", path("link of link.dna"));
+  EXPECT_EQ(write(path("link of link.dna")), MIEN_OK);
+  EXPECT_EQ(read_all(path("other/a.dna")), bytes);
+  EXPECT_TRUE(fs::is_symlink(path("link.dna")) && fs::is_symlink(path("link of link.dna")));
+  // Nothing is made where a link leads nowhere.
+  fs::create_symlink("other/none.dna", path("nowhere.dna"));
+  fs::create_symlink("circle.dna", path("circle.dna"));
+  for (const char* name : {"nowhere.dna", "circle.dna"}) {
+    MienError error = sized<MienError>();
+    EXPECT_EQ(write(path(name), &error), MIEN_ERROR_FILE_WRITE) << name;
+    EXPECT_TRUE(fs::is_symlink(path(name)));
+  }
+  EXPECT_FALSE(fs::exists(path("other/none.dna")));
+  // A name of two keeps its contents: the other one is a new file.
+  write_all(path("b.dna"), {7});
+  fs::create_hard_link(path("b.dna"), path("c.dna"));
+  EXPECT_EQ(write(path("b.dna")), MIEN_OK);
+  EXPECT_EQ(read_all(path("c.dna")), Bytes({7}));
+}
+
+TEST_F(Files, NamesMayBeAsLongAsTheSystemTakes) {
+  const std::string name = std::string(251, 'n') + ".dna";
+  EXPECT_EQ(write(path(name)), MIEN_OK);
+  EXPECT_EQ(write(path(name)), MIEN_OK);
+  EXPECT_EQ(read_all(path(name)), bytes);
+  EXPECT_EQ(names(), std::vector<std::string>{name});
+}
+
 TEST_F(Files, StreamsAreReadWhereChosenAndNeededNoLonger) {
   MemoryStream source(bytes);
   const Stream inner = source.get();

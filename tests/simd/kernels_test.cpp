@@ -505,6 +505,14 @@ TEST(CpuFeatures, EachInstructionSetNeedsAllOfItsBits) {
   EXPECT_STREQ(narrowest({}), "sse2");
 }
 
+void set_environment(const char* value) {
+#if defined(_WIN32)
+  _putenv_s("MIEN_ISA", value ? value : "");
+#else
+  value ? setenv("MIEN_ISA", value, 1) : unsetenv("MIEN_ISA");
+#endif
+}
+
 /// MIEN_ISA for the time of one test.
 class ChooseKernels : public ::testing::Test {
  protected:
@@ -513,13 +521,11 @@ class ChooseKernels : public ::testing::Test {
       was_set_ = true;
       before_ = value;
     }
-    unsetenv("MIEN_ISA");
+    set_environment(nullptr);
   }
-  ~ChooseKernels() override {
-    was_set_ ? setenv("MIEN_ISA", before_.c_str(), 1) : unsetenv("MIEN_ISA");
-  }
+  ~ChooseKernels() override { set_environment(was_set_ ? before_.c_str() : nullptr); }
   static const KernelTable* choose(const char* environment) {
-    setenv("MIEN_ISA", environment, 1);
+    set_environment(environment);
     return kernels_from_environment();
   }
 

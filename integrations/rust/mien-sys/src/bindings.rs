@@ -2243,7 +2243,8 @@ extern "C" {
     /// loaded, the same bytes. Layers that were not loaded are written empty. Another version may
     /// leave out layers that others need, such as the ML operations of networks; a file that could
     /// not be opened is not written. The file is written under a temporary name and renamed, so
-    /// that a failure leaves `path` unchanged.
+    /// that a failure leaves `path` unchanged. An existing file keeps its permissions; a symbolic
+    /// link is followed, unless it leads nowhere.
     ///
     /// Fails with `MIEN_ERROR_FILE_WRITE` if the file cannot be written, `MIEN_ERROR_DNA_LAYER` if
     /// RBF behavior was loaded without the machine-learned behavior of its file (whose controls
