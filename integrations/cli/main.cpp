@@ -4,6 +4,7 @@
 #include <new>
 
 #include "integrations/cli/commands/commands.h"
+#include "integrations/cli/commands/help_format.h"
 #include "integrations/cli/commands/options.h"
 #include "integrations/cli/io/nearest_name.h"
 
@@ -84,7 +85,7 @@ int run(int argument_count, char** arguments, Session& session) {
   CLI::App app(
       "A tool for facial rigs in DNA files: inspect, check, evaluate, convert, render, export.",
       "mien");
-  app.get_formatter()->column_width(26);
+  app.formatter(std::make_shared<HelpFormatter>());  // the commands inherit it
   app.set_help_flag("-h,--help", "Show this help");
   app.set_version_flag("--version", version_text(), "Show the version");
   add_quiet_option(app, session);

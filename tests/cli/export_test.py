@@ -12,6 +12,7 @@ import json
 import math
 import os
 import random
+import re
 import shutil
 import struct
 import subprocess
@@ -426,6 +427,8 @@ class Contents(ExportTest):
             first = read(name)
             self.ok("export", rig, "-o", path(name), *options)
             self.assertEqual(read(name), first)
+            # Materials are for files only.
+            first = re.sub(rb"(mtllib|usemtl) .*\n", b"", first) if name == "a.obj" else first
             piped = self.ok("export", "-", "-o", "-", "--format", name[-3:], *options,
                             stdin=read("small.dna"))
             self.assertEqual(piped.stdout, first)

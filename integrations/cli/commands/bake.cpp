@@ -16,7 +16,8 @@ struct BakeOptions {
   RigOptions evaluation;
 };
 
-void write_baked(const MienRig* rig, const MienDeformer* deformer, const std::string& path) {
+void write_baked(const MienRig* rig, const MienDeformer* deformer, const std::string& path,
+                 const Session& session) {
   const std::string shown = path == "-" ? "standard output" : path;
   auto error = sized<MienError>();
   size_t size = 0;
@@ -27,6 +28,7 @@ void write_baked(const MienRig* rig, const MienDeformer* deformer, const std::st
   Output output(path);
   output.write(bytes.data(), size);
   output.commit();
+  note_written(session, path, size);
 }
 
 void run(const BakeOptions& options, const Session& session) {
@@ -46,7 +48,7 @@ void run(const BakeOptions& options, const Session& session) {
           "cannot compile geometry", file.shown);
     deformer.reset(made);
   }
-  write_baked(rig.get(), deformer.get(), options.output.path);
+  write_baked(rig.get(), deformer.get(), options.output.path, session);
 }
 
 }  // namespace

@@ -88,41 +88,52 @@ void write_json(const Measurement& measured, const std::string& name) {
   output.commit();
 }
 
-/// Three columns: microseconds of the evaluation and of the joints, and how many times as fast as the
-/// CSR row the joints are, if there is one.
+/// Three columns: microseconds of the evaluation and of its joint stage, and how many times as fast as
+/// the CSR row the evaluation is, if there is one.
 std::string times_text(const BenchRow& row, double csr_ns) {
   char text[64];
-  const double ratio = row.joints_ns > 0 ? csr_ns / row.joints_ns : 0.0;
+  const double ratio = row.evaluate_ns > 0 ? csr_ns / row.evaluate_ns : 0.0;
   std::snprintf(text, sizeof(text),
                 csr_ns > 0 ? "  %10.2f %10.2f %7.1f" : "  %10.2f %10.2f       -",
                 row.evaluate_ns / 1000, row.joints_ns / 1000, ratio);
   return text;
 }
 
+/// As in the table of README.md.
+std::string row_name(const Engine& engine) {
+  const bool half = engine.info.storage == MIEN_STORAGE_16_BIT;
+  return mien_isa_name(engine.info.isa) + std::string(half ? ", 16 bits" : "");
+}
+
 void write_text(const Measurement& measured, const std::string& name, const Session& session) {
   Output output("-");
   const bool colors = session.terminal.out_colors;
   const size_t samples = measured.rows.empty() ? 0 : measured.rows[0].joints_samples.size();
-  output.write(paint(one_line(name), Style::kBold, colors) + " on " + one_line(cpu_name()) + ", " +
-               compiler_name() + "\nMicroseconds per instance, medians of " +
-               std::to_string(samples) +
-               ". x CSR: speed of the joints relative to compressed sparse rows.\n\n");
+  output.write(
+      paint(one_line(name), Style::kBold, colors) + " on " + one_line(cpu_name()) + ", " +
+      compiler_name() + "\nMicroseconds per instance, medians of " + std::to_string(samples) +
+      ": evaluate is everything, joints the joint stage of it.\n"
+      "active: the share of raw controls that are not zero. x CSR: CSR time / evaluate, where "
+      "CSR is\nthe joint matrix in compressed sparse rows, which skips no control that is "
+      "zero.\n\n");
   char line[160];
-  std::snprintf(line, sizeof(line), "%-6s %3s %6s  %29s  %29s  %29s\n", "", "", "",
-                "1 instance         ", "64 instances        ", "64, same active controls ");
+  std::snprintf(line, sizeof(line), "%-15s %3s %6s  %29s  %29s  %29s\n", "", "", "",
+                "1 instance         ", "64 instances        ", "64 instances, same controls");
   output.write(paint(line, Style::kBold, colors));
   const char* columns = "    evaluate     joints   x CSR";
-  std::snprintf(line, sizeof(line), "%-6s %3s %6s", "isa", "LOD", "active");
+  std::snprintf(line, sizeof(line), "%-15s %3s %6s", "", "LOD", "active");
   output.write(paint(line + std::string(columns) + columns + columns, Style::kBold, colors) + "\n");
 
   // A baked file has no CSR rows.
   const auto csr_ns_at = [&](uint32_t lod) {
-    return measured.csr.empty() ? 0.0 : measured.csr[lod].joints_ns;
+    for (const CsrRow& row : measured.csr) {
+      if (row.lod == lod) return row.joints_ns;
+    }
+    return 0.0;
   };
-  const uint32_t lod_count = measured.engines[0].info.lod_count;
-  for (uint32_t lod = 0; lod < lod_count; ++lod) {
+  for (const uint32_t lod : measured.lods) {
     const double csr_ns = csr_ns_at(lod);
-    std::snprintf(line, sizeof(line), "%-6s %3u %6s  %10s %10.2f %7.1f\n", "CSR", lod, "all", "",
+    std::snprintf(line, sizeof(line), "%-15s %3u %6s  %10s %10.2f %7.1f\n", "CSR", lod, "all", "",
                   csr_ns / 1000, 1.0);
     if (!measured.csr.empty()) output.write(line);
     // One line for the three rows of an engine, LOD and activity.
@@ -130,8 +141,8 @@ void write_text(const Measurement& measured, const std::string& name, const Sess
       const BenchRow* row = &measured.rows[i];
       if (row->instances == kManyInstances) break;
       if (row->lod != lod) continue;
-      std::snprintf(line, sizeof(line), "%-6s %3u %4.0f %%", mien_isa_name(row->engine->info.isa),
-                    lod, 100 * kActivities[row->activity]);
+      std::snprintf(line, sizeof(line), "%-15s %3u %4.0f %%", row_name(*row->engine).c_str(), lod,
+                    100 * kActivities[row->activity]);
       output.write(line + times_text(row[0], csr_ns) + times_text(row[1], csr_ns) +
                    times_text(row[2], csr_ns) + "\n");
     }
@@ -141,8 +152,8 @@ void write_text(const Measurement& measured, const std::string& name, const Sess
   output.write(paint(line, Style::kBold, colors));
   for (const BenchRow& row : measured.rows) {
     if (row.instances != kManyInstances) continue;
-    std::snprintf(line, sizeof(line), "%-6s %3u %4.0f %%", mien_isa_name(row.engine->info.isa),
-                  row.lod, 100 * kActivities[row.activity]);
+    std::snprintf(line, sizeof(line), "%-15s %3u %4.0f %%", row_name(*row.engine).c_str(), row.lod,
+                  100 * kActivities[row.activity]);
     output.write(line + times_text(row, csr_ns_at(row.lod)) + "\n");
   }
   output.commit();
@@ -183,7 +194,16 @@ void run(BenchOptions options, const Session& session) {
     evaluation.isa = rig_desc.isa == MIEN_ISA_ENVIRONMENT ? "" : mien_isa_name(rig_desc.isa);
     return open_baked_rig(options.rig, options.load, evaluation, rig_desc.reuse).rig;
   };
-  Measurement measured = prepare_measurement(source, descs);
+  const bool named =
+      !options.load.lods.empty() || !options.load.max_lod.empty() || !options.load.min_lod.empty();
+  const auto choose_lods = [&](uint32_t count) {
+    std::vector<uint32_t> lods;
+    for (uint32_t lod = 0; lod < count; ++lod) lods.push_back(lod);
+    // People look at the finest, a middle and the coarsest first.
+    if (!options.json && !named && count > 3) lods = {0, count / 2, count - 1};
+    return lods;
+  };
+  Measurement measured = prepare_measurement(source, descs, choose_lods);
   measure(measured, options.quick ? kQuickPlan : kFullPlan, session);
   const std::string name = dna ? read_string(*dna, "desc.name") : source.shown;
   if (options.json) {
@@ -208,8 +228,11 @@ Command add_bench_command(CLI::App& app, const Session& session) {
   bench->get_option("--isa")->description(
       "Instruction set, or all that this machine has\n(default: $MIEN_ISA, else the best)");
   bench->footer(
-      "Measures the processor time of a single thread. CSR is the joint matrix of the LOD in\n"
-      "compressed sparse rows, one scalar dot product per row, measured in the same run.\n\n"
+      "Measures the processor time of a single thread, on one instruction set, at the finest, a\n"
+      "middle and the coarsest LOD; --lods names others, --json has all. CSR is the joint matrix "
+      "of\n"
+      "the LOD in compressed sparse rows, one scalar dot product per row, measured in the same "
+      "run.\n\n"
       "Examples:\n"
       "  mien bench head.dna --quick\n"
       "  mien bench head.dna --isa all --json > times.json\n"

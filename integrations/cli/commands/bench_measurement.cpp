@@ -118,7 +118,7 @@ std::vector<bench::DenseGroup> read_groups(const RigFile& file) {
 void prepare_csr(Measurement& made, const RigFile& file, std::mt19937& random) {
   const std::vector<bench::DenseGroup> groups = read_groups(file);
   const MienRigInfo& info = made.engines[0].info;
-  for (uint32_t lod = 0; lod < info.lod_count; ++lod) {
+  for (const uint32_t lod : made.lods) {
     made.csr.push_back({lod, bench::make_csr(groups, lod, info.joint_value_count), {}});
   }
   made.csr_y.resize(info.joint_value_count);
@@ -186,7 +186,8 @@ void sample_csr(CsrRow& row, Measurement& measurement) {
 
 }  // namespace
 
-Measurement prepare_measurement(const BenchSource& source, const std::vector<MienRigDesc>& descs) {
+Measurement prepare_measurement(const BenchSource& source, const std::vector<MienRigDesc>& descs,
+                                const std::function<std::vector<uint32_t>(uint32_t)>& choose_lods) {
   Measurement made;
   std::mt19937 random(20240229);
   for (const MienRigDesc& desc : descs) made.engines.push_back(make_engine(source, desc));
@@ -195,9 +196,10 @@ Measurement prepare_measurement(const BenchSource& source, const std::vector<Mie
     made.controls.push_back(
         draw_controls(rig_count(first, MIEN_KIND_RAW_CONTROL), activity, random));
   }
-  const uint32_t lod_count = made.engines[0].info.lod_count;
-  std::vector<uint64_t> bytes;  // [lod][activity][shared]: the same for each instruction set
-  for (uint32_t lod = 0; lod < lod_count; ++lod) {
+  made.lods = choose_lods(made.engines[0].info.lod_count);
+  std::vector<uint64_t>
+      bytes;  // [number of the lod][activity][shared]: the same for each instruction set
+  for (const uint32_t lod : made.lods) {
     for (const ControlSets& controls : made.controls) {
       for (const bool shared : {false, true}) {
         bytes.push_back(bytes_touched(made.engines[0], lod, controls, shared));
@@ -205,9 +207,10 @@ Measurement prepare_measurement(const BenchSource& source, const std::vector<Mie
     }
   }
   for (const Engine& engine : made.engines) {
-    for (uint32_t lod = 0; lod < lod_count; ++lod) {
+    for (size_t l = 0; l < made.lods.size(); ++l) {
+      const uint32_t lod = made.lods[l];
       for (size_t activity = 0; activity < kActivityCount; ++activity) {
-        const uint64_t* of_row = &bytes[(lod * kActivityCount + activity) * 2];
+        const uint64_t* of_row = &bytes[(l * kActivityCount + activity) * 2];
         made.rows.push_back({&engine, lod, activity, 1, false, of_row[0], {}, {}});
         made.rows.push_back({&engine, lod, activity, kInstances, false, of_row[0], {}, {}});
         made.rows.push_back({&engine, lod, activity, kInstances, true, of_row[1], {}, {}});
@@ -215,17 +218,29 @@ Measurement prepare_measurement(const BenchSource& source, const std::vector<Mie
     }
   }
   for (const Engine& engine : made.engines) {
-    made.rows.push_back(
-        {&engine, 0, kManyActivity, kManyInstances, false, bytes[2 * kManyActivity], {}, {}});
+    made.rows.push_back({&engine,
+                         made.lods[0],
+                         kManyActivity,
+                         kManyInstances,
+                         false,
+                         bytes[2 * kManyActivity],
+                         {},
+                         {}});
   }
   if (source.dna) prepare_csr(made, *source.dna, random);
   return made;
 }
 
 void measure(Measurement& measurement, const BenchPlan& plan, const Session& session) {
-  const size_t work = measurement.rows.size() + measurement.csr.size();
   const double start = work_ns();
-  Progress progress(session, "round 1, row", work);
+  Progress progress(session, "measuring", 1);
+  // Both the least number of rounds and the time have to be reached.
+  const auto share = [&](size_t round, size_t row) {
+    const double rounds = static_cast<double>(round) +
+                          static_cast<double>(row) / static_cast<double>(measurement.rows.size());
+    return std::min(rounds / static_cast<double>(plan.min_rounds),
+                    (work_ns() - start) / (plan.seconds * 1e9));
+  };
   for (size_t round = 0; round < plan.max_rounds; ++round) {
     if (round >= plan.min_rounds && work_ns() - start > plan.seconds * 1e9) break;
     size_t done = 0;
@@ -233,7 +248,7 @@ void measure(Measurement& measurement, const BenchPlan& plan, const Session& ses
       for (size_t i = 0; i < kSamplesOfOne; ++i) sample_csr(row, measurement);
     }
     for (BenchRow& row : measurement.rows) {
-      progress.at("round " + std::to_string(round + 1) + ", row", done++);
+      progress.at_share(share(round, done++));
       const size_t samples = row.instances == 1 ? kSamplesOfOne : 1;
       for (size_t i = 0; i < samples; ++i) {
         sample_row(row, measurement.controls[row.activity], round * samples + i);

@@ -87,6 +87,7 @@ struct CsrRow {
 
 struct Measurement {
   std::vector<Engine> engines;
+  std::vector<uint32_t> lods;         // that are measured
   std::vector<ControlSets> controls;  // per activity
   // Per engine and LOD and activity: 1 instance, kInstances, kInstances with shared controls. Behind
   // these, kManyInstances of each engine.
@@ -96,7 +97,9 @@ struct Measurement {
   float csr_sum = 0.0f;  // uses the products, so that no compiler leaves them out
 };
 
-Measurement prepare_measurement(const BenchSource& source, const std::vector<MienRigDesc>& descs);
+/// `choose_lods` is given the number of LODs.
+Measurement prepare_measurement(const BenchSource& source, const std::vector<MienRigDesc>& descs,
+                                const std::function<std::vector<uint32_t>(uint32_t)>& choose_lods);
 
 void measure(Measurement& measurement, const BenchPlan& plan, const Session& session);
 

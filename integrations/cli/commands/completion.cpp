@@ -26,7 +26,8 @@ struct CompletedCommand {
 
 /// Words that an option offers in a command.
 Words values_of(const std::string& command, const std::string& option) {
-  Words words = option_words(option);
+  const Words& own = option_words(command + " " + option);
+  Words words = own.empty() ? option_words(option) : own;
   if (command == "bench" && option == "--isa") words.push_back("all");
   if ((command == "eval" || command == "export") && option == "--lod") words.push_back("all");
   return words;

@@ -45,7 +45,7 @@ void run(const ConvertOptions& options, const Session& session) {
 
   const RigFile file = open_rig_file(options.input, desc, session);
   note_lost_layers(file, write.version, session);
-  write_dna(file.dna.get(), write, options.output.path);
+  write_dna(file.dna.get(), write, options.output.path, session);
 }
 
 }  // namespace

@@ -1,67 +1,38 @@
 // SPDX-License-Identifier: MIT
-// mien eval: frames of controls -> joints, blend shapes and animated maps, as JSON.
+// mien eval: frames of controls -> joints, blend shapes and animated maps.
+#include <filesystem>
 #include <optional>
 
 #include "integrations/cli/commands/baked_rig.h"
+#include "integrations/cli/commands/eval_output.h"
 #include "integrations/cli/commands/options.h"
 #include "integrations/cli/io/dna_fields.h"
 #include "integrations/cli/io/frames.h"
-#include "integrations/cli/io/json_writer.h"
 
 namespace mien::cli {
 
 namespace {
 
 struct EvalOptions {
-  std::string rig, input, lod = "0";
+  std::string rig, input, format, lod = "0";
   OutputFile output{"-"};
   LoadOptions load;
   RigOptions evaluation;
 };
 
-struct OutputArray {
-  const char* key;
-  MienStatus (*view)(const MienInstance*, MienFloatView*);
-};
-
-// The raw controls are the first of the control row, see write_lod().
-constexpr OutputArray kOutputArrays[] = {
-    {"psd", mien_instance_psd_controls},          {"ml", mien_instance_ml_controls},
-    {"rbf", mien_instance_rbf_controls},          {"joints", mien_instance_joints},
-    {"blend_shapes", mien_instance_blend_shapes}, {"animated_maps", mien_instance_animated_maps},
-};
-
-void write_array(JsonWriter& json, const char* key, const float* values, size_t count,
-                 const std::string& where) {
-  json.key(key);
-  const size_t written = json.floats(values, count);
-  if (written == count) return;
-  fail(kInvalid, "cannot evaluate", where + ", " + key + "[" + std::to_string(written) + "]",
-       "the result is not a finite number", "give smaller controls; they are usually in 0..1");
-}
-
-void write_lod(JsonWriter& json, const MienRig* rig, MienInstance* instance, uint32_t lod,
-               const std::string& where) {
-  json.begin_object();
-  json.member("lod", lod);
-  MienFloatView controls{};
-  check(mien_instance_controls(instance, &controls), nullptr, "cannot read outputs", "");
-  write_array(json, "raw", controls.data, rig_count(rig, MIEN_KIND_RAW_CONTROL), where);
-  for (const OutputArray& array : kOutputArrays) {
-    MienFloatView view{};
-    check(array.view(instance, &view), nullptr, "cannot read outputs", "");
-    write_array(json, array.key, view.data, view.count, where);
+/// By --format, else by the ending of the file, else JSON.
+EvalFormat parse_format(const EvalOptions& options) {
+  const std::string option = "eval --format";
+  if (!options.format.empty()) return static_cast<EvalFormat>(parse_word(option, options.format));
+  const std::string ending = std::filesystem::path(options.output.path).extension().string();
+  const Words& words = option_words(option);
+  for (size_t i = 0; i < words.size(); ++i) {
+    if (ending == "." + words[i]) return static_cast<EvalFormat>(i);
   }
-  json.end_object();
+  return EvalFormat::kJson;
 }
 
-/// What stands above the frames; a baked rig does not know its name and version.
-struct Heading {
-  std::string shown, name, version;
-  bool baked = false;
-};
-
-void evaluate(const Heading& file, const MienRig* rig, const std::vector<Frame>& frames,
+void evaluate(const EvalHeading& file, const MienRig* rig, const std::vector<Frame>& frames,
               uint32_t first_lod, uint32_t lod_end, const EvalOptions& options,
               const Session& session) {
   auto error = sized<MienError>();
@@ -70,51 +41,31 @@ void evaluate(const Heading& file, const MienRig* rig, const std::vector<Frame>&
   const Instance instance(made);
 
   Output output(options.output.path);
-  JsonWriter json(output);
-  using Layout = JsonWriter::Layout;
-  json.begin_object(Layout::kLines);
-  const MienRigInfo info = rig_info(rig);
-  for (const auto& [key, text] :
-       {std::pair<const char*, const std::string&>{"rig", file.name}, {"version", file.version}}) {
-    json.key(key);
-    if (file.baked) {
-      json.null();
-    } else {
-      json.value(text);
-    }
-  }
-  json.member("lod_count", info.lod_count);
-  json.member("rotation",
-              info.rotation_output == MIEN_ROTATION_OUTPUT_QUATERNION ? "quaternion" : "euler");
-  json.member("arithmetic", arithmetic_word(info));
-  json.key("frames");
-  json.begin_array(Layout::kLines);
+  const std::unique_ptr<EvalWriter> writer = make_eval_writer(parse_format(options), output);
+  writer->begin(rig, file, frames.size() * (lod_end - first_lod));
   Progress progress(session, "frame", frames.size());
   for (size_t f = 0; f < frames.size(); ++f) {
     progress.at(f);
-    json.begin_object(Layout::kLines);
-    json.key("lods");
-    json.begin_array(Layout::kLines);
     for (uint32_t lod = first_lod; lod < lod_end; ++lod) {
       check(mien_instance_reset(made), nullptr, "cannot evaluate", file.shown);
       apply_frame(frames[f], rig, made);
       check(mien_rig_evaluate(rig, made, lod), nullptr, "cannot evaluate", file.shown);
-      write_lod(json, rig, made, lod,
-                file.shown + ", frame " + std::to_string(f) + ", LOD " + std::to_string(lod));
+      writer->write(f, lod, made);
     }
-    json.end_array();
-    json.end_object();
   }
-  json.end_array();
-  json.end_object();
-  json.finish();
+  writer->end();
   output.commit();
+  progress.finish();
+  note_written(session, options.output.path, output.size());
 }
 
 void run(const EvalOptions& options, const Session& session) {
   const MienDnaDesc desc = parse_load_options(options.load, kEvaluationLayers);
   require_behavior(desc);
   const MienRigDesc rig_desc = parse_rig_options(options.evaluation);
+  if (parse_format(options) == EvalFormat::kNpy) {
+    refuse_terminal(options.output.path, session, "an array");
+  }
   const bool all_lods = options.lod == "all";
   const uint32_t lod = all_lods ? 0 : parse_lod(options.lod, true);
   if (options.rig == "-" && options.input == "-") {
@@ -127,7 +78,7 @@ void run(const EvalOptions& options, const Session& session) {
   std::optional<RigFile> dna;
   std::optional<BakedFile> baked;
   Rig made;
-  Heading heading;
+  EvalHeading heading;
   const MienRig* rig = nullptr;
   if (is_baked_file(options.rig)) {
     baked = open_baked_rig(options.rig, options.load, options.evaluation);
@@ -166,21 +117,30 @@ Command add_eval_command(CLI::App& app, const Session& session) {
   eval->add_option("--lod", options->lod,
                    "LOD to evaluate, counted from 0 among those loaded (default: 0), or all")
       ->type_name("N");
+  eval->add_option(
+          "--format", options->format,
+          "json (default, everything), jsonl, csv (joints, blend shapes and animated maps, "
+          "with their names) or npy (joints)")
+      ->type_name("NAME");
   add_load_options(*eval, options->load);
   add_rig_options(*eval, options->evaluation);
   eval->footer(
       "FRAMES is one JSON object:\n"
       "  {\"frames\": [\n"
-      "    {\"raw\": [0.1, ...]},                         all raw controls, in order\n"
-      "    {\"raw\": {\"jawOpen\": 1}},                     some by name, or its last part\n"
-      "    {\"gui\": {\"CTRL_C_jaw.ty\": 0.4},              GUI controls (or all, in order),\n"
-      "     \"raw_after_gui\": {\"12\": 1.0}},              mapped to raw; then raw, or by index\n"
-      "    {\"gui\": [0.0, ...], \"ml_mask\": [1, 0]}       region masks, in any frame\n"
+      "    {\"raw\": [0.1, ...]},                    all raw controls, in order\n"
+      "    {\"raw\": {\"jawOpen\": 1}},                some, by name or its last part\n"
+      "    {\"gui\": {\"CTRL_C_jaw.ty\": 0.4},         GUI controls (or all, in order),\n"
+      "     \"raw_after_gui\": {\"12\": 1.0}},         mapped to raw; then raw, or by index\n"
+      "    {\"gui\": [0.0, ...], \"ml_mask\": [1, 0]}  region masks, in any frame\n"
       "  ]}\n"
       "Controls that are not named keep their initial values. Every frame starts afresh at\n"
       "every LOD.\n\n"
+      "For long takes: csv has a header and a row per frame and LOD; jsonl a line with the names,\n"
+      "then a line per frame and LOD; npy is an array [frame and LOD][joint][value] for NumPy, in\n"
+      "the order of 'mien info RIG --names joints'. The name of OUT tells the format, too.\n\n"
       "Examples:\n"
       "  mien eval head.dna --input frames.json -o out.json\n"
+      "  mien eval head.dna --input take.json -o take.csv\n"
       "  echo '{\"frames\": [{}]}' | mien eval head.dna --input - --lod 0");
   return {eval, [options, &session] { run(*options, session); }};
 }

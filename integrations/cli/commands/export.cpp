@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "integrations/cli/commands/options.h"
 #include "integrations/cli/gltf/arkit_bake.h"
@@ -260,7 +261,12 @@ std::string baked_glb(const Face& face, const Frame& still, const std::vector<Fr
   note_losses(face, scene.losses, session);
   const auto mouth_close = static_cast<gltf::MouthClose>(
       options.mouth_close.empty() ? 0 : parse_word("--mouth-close", options.mouth_close));
-  const gltf::BakeReport report = gltf::bake_arkit(*face.source, controls, mouth_close, scene);
+  gltf::BakeReport report;
+  {
+    Progress progress(session, "baking expressions", 1);
+    report = gltf::bake_arkit(*face.source, controls, mouth_close, scene,
+                              [&](double share) { progress.at_share(share); });
+  }
   if (options.mouth_close.empty() && report.max_close_with_jaw > kNotableClose * report.diagonal) {
     note(session, face.file.shown +
                       ": on this rig mouthClose is another thing when the jaw is open; for "
@@ -296,6 +302,12 @@ void run(const ExportOptions& options, const Session& session) {
     fail_usage("-o -", "a GLB file is not for a terminal", "name a file, or pipe the output");
   }
   refuse_replacing(options.output, {options.rig, options.animation});
+  // Beside an OBJ file; standard output and devices have no place for it.
+  OutputFile materials{"", options.output.force};
+  if (format == Format::kObj && !is_stream(options.output.path)) {
+    materials.path = std::filesystem::path(options.output.path).replace_extension(".mtl").string();
+    refuse_replacing(materials, {options.rig});
+  }
   try {
     const Face face(options, session);
     for (const std::string& problem : face.source->color_problems()) {
@@ -313,7 +325,13 @@ void run(const ExportOptions& options, const Session& session) {
     std::string bytes;
     if (format == Format::kObj) {
       face.apply(still);
-      bytes = gltf::write_obj(*face.source, face.pose.get());
+      bytes = gltf::write_obj(*face.source, face.pose.get(),
+                              std::filesystem::path(materials.path).filename().string());
+      if (!materials.path.empty()) {
+        Output library(materials.path);
+        library.write(gltf::write_mtl(*face.source));
+        library.commit();
+      }
     } else if (options.bake) {
       bytes = baked_glb(face, still, frames, rate, options, session);
     } else {
@@ -322,6 +340,7 @@ void run(const ExportOptions& options, const Session& session) {
     Output output(options.output.path);
     output.write(bytes);
     output.commit();
+    note_written(session, options.output.path, output.size());
   } catch (const gltf::ExportError& error) {
     const std::string where = error.where.empty() ? "" : ", " + one_line(error.where);
     fail(exit_code_of(error.status), kCannot, shown_name(options.rig) + where, error.what(),
@@ -373,10 +392,11 @@ Command add_export_command(CLI::App& app, const Session& session) {
       "A GLB holds the skeleton, the skin and the blend shape channels as morph targets: what\n"
       "the controls drive, not what drives it. --set gives the pose it opens in, --animation\n"
       "one that moves. Meters, y up, the face to the front of z. Materials go by mesh names.\n"
-      "--lod all puts each LOD in a scene of its own; viewers show the first one.\n\n"
+      "--lod all puts each LOD in a scene of its own; viewers show the first one. Beside an OBJ\n"
+      "file its materials go to a file of the same name that ends in .mtl.\n\n"
       "Examples:\n"
       "  mien export head.dna -o head.glb\n"
-      "  mien export head.dna -o smile.obj --set mouthSmileLeft=1 --set mouthSmileRight=1\n"
+      "  mien export head.dna -o smile.obj --set mouthSmileLeft=1\n"
       "  mien export head.dna -o talk.glb --animation frames.json --fps 60\n"
       "  mien export head.dna -o arkit.glb --bake-arkit --lod 2");
   return {command, [options, &session] { run(*options, session); }};

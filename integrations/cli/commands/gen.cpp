@@ -28,7 +28,7 @@ void run(const GenOptions& options, uint32_t preset, const Session& session) {
   check(mien_dna_generate(&desc, &made, &error), &error, "cannot generate",
         "preset " + options.preset);
   const Dna dna(made);
-  write_dna(made, sized<MienWriteDesc>(), options.output.path);
+  write_dna(made, sized<MienWriteDesc>(), options.output.path, session);
 }
 
 void add_common_options(CLI::App* command, GenOptions& options, const std::string& seed) {

@@ -409,9 +409,9 @@ void write_text(const RigFile& file, const Summary& summary, bool full, const Se
   std::string text = heading(one_line(file.shown));
   text += property("name", summary.name);
   text += property("version", version_text(info));
-  text += property("bytes", std::to_string(info.file_bytes) +
-                                (info.is_mapped ? ", mapped; " : ", read; ") +
-                                std::to_string(info.memory_bytes) + " of memory");
+  text +=
+      property("size", size_text(info.file_bytes) + (info.is_mapped ? ", mapped; " : ", read; ") +
+                           size_text(info.memory_bytes) + " of memory");
   text += property("character", summary.archetype + ", " + summary.gender + ", " +
                                     std::to_string(summary.age) + " years");
   text += property("complexity", summary.complexity);
@@ -436,8 +436,8 @@ void write_text(const RigFile& file, const Summary& summary, bool full, const Se
   text += property("LODs", std::to_string(info.lod_count) + ", the finest is LOD " +
                                std::to_string(info.max_lod) + " of its data base");
   if (summary.rig) {
-    text += property("rig", std::to_string(summary.rig->rig_bytes) + " bytes, " +
-                                std::to_string(summary.rig->instance_bytes) + " per character, " +
+    text += property("rig", size_text(summary.rig->rig_bytes) + ", " +
+                                size_text(summary.rig->instance_bytes) + " per character, " +
                                 mien_isa_name(summary.rig->isa));
   }
 
@@ -446,7 +446,7 @@ void write_text(const RigFile& file, const Summary& summary, bool full, const Se
   for (const MienDnaLayer& layer : summary.layers) {
     rows.push_back({one_line(layer.code),
                     std::to_string(layer.version_major) + "." + std::to_string(layer.version_minor),
-                    std::to_string(layer.byte_offset), std::to_string(layer.byte_count),
+                    grouped(layer.byte_offset), grouped(layer.byte_count),
                     layer.layer == 0  ? "unknown"
                     : layer.is_loaded ? ""
                                       : "not loaded"});
@@ -455,8 +455,7 @@ void write_text(const RigFile& file, const Summary& summary, bool full, const Se
 
   text += "\n" + heading("Counts");
   rows.clear();
-  for (const Count& count : summary.counts)
-    rows.push_back({count.text, std::to_string(count.value)});
+  for (const Count& count : summary.counts) rows.push_back({count.text, grouped(count.value)});
   text += table(rows);
 
   text += "\n" + heading("Behavior");
@@ -464,7 +463,7 @@ void write_text(const RigFile& file, const Summary& summary, bool full, const Se
     if (tally.empty()) continue;
     std::string kinds;
     for (const auto& [kind, count] : tally.kinds) {
-      if (count != 0) kinds += (kinds.empty() ? "" : ", ") + std::to_string(count) + " " + kind;
+      if (count != 0) kinds += (kinds.empty() ? "" : ", ") + grouped(count) + " " + kind;
     }
     text += "  " + pad(tally.label, 18) + kinds + "\n";
   }
@@ -476,7 +475,7 @@ void write_text(const RigFile& file, const Summary& summary, bool full, const Se
     for (size_t lod = 0; lod < summary.lods.size(); ++lod) {
       rows.push_back({std::to_string(lod)});
       for (const Count& count : summary.lods[lod].counts)
-        rows.back().push_back(std::to_string(count.value));
+        rows.back().push_back(grouped(count.value));
     }
     text += table(rows);
   }

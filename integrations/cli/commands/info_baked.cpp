@@ -102,13 +102,12 @@ std::string text_of(const BakedFile& file, const MienRigInfo& info, const Sessio
   text += line("rotations", rotation_word(info));
   text += line("storage", storage_word(info));
   text += line("arithmetic", arithmetic_word(info));
-  text +=
-      line("bytes", std::to_string(info.rig_bytes) + ", " + std::to_string(info.instance_bytes) +
-                        " per character, " + mien_isa_name(info.isa));
+  text += line("size", size_text(info.rig_bytes) + ", " + size_text(info.instance_bytes) +
+                           " per character, " + mien_isa_name(info.isa));
   text += line("LODs", std::to_string(info.lod_count));
   text += "\n" + heading("Counts");
   for (const KindWords& words : kKinds) {
-    text += line(words.text, std::to_string(rig_count(rig, words.kind)));
+    text += line(words.text, grouped(rig_count(rig, words.kind)));
   }
   text += "\n" + heading("Levels of detail");
   for (uint32_t lod = 0; lod < info.lod_count; ++lod) {
@@ -116,7 +115,7 @@ std::string text_of(const BakedFile& file, const MienRigInfo& info, const Sessio
     for (const auto& [key, value] : numbers_at(rig, lod)) {
       std::string words = key;
       for (char& c : words) c = c == '_' ? ' ' : c;
-      numbers += (numbers.empty() ? "" : ", ") + std::to_string(value) + " " + words;
+      numbers += (numbers.empty() ? "" : ", ") + grouped(value) + " " + words;
     }
     text += "  LOD " + std::to_string(lod) + ": " + numbers + "\n";
   }

@@ -26,7 +26,16 @@ struct InspectCommand {
   bool json = false;
 };
 
-constexpr size_t kListed = 12;  // lines of each kind in the text
+constexpr size_t kListed = 12;         // lines of each kind in the text
+constexpr float kLeastShare = 0.001f;  // of the largest value: less is not shown
+
+/// How many rows from the first on matter; rows are sorted.
+template <class T, class Matters>
+size_t count_while(const std::vector<T>& rows, const Matters& matters) {
+  const auto end =
+      std::find_if(rows.begin(), rows.end(), [&](const T& row) { return !matters(row); });
+  return static_cast<size_t>(end - rows.begin());
+}
 
 // Words for places and directions --------------------------------------------------------------
 
@@ -113,46 +122,70 @@ class Text {
     line(paint(name, Style::kBold, colors_) + "  " + (count == 0 ? "none" : what));
   }
 
-  void rest(size_t count) {
-    if (count > kListed)
-      line("  and " + std::to_string(count - kListed) + " more; --json lists all");
+  /// `count` of `all` rows deserve a line.
+  void rest(size_t count, size_t all) {
+    const size_t listed = std::min(count, kListed);
+    if (all == listed) return;
+    const bool tiny = count <= kListed;
+    line("  and " + grouped(all - listed) + (tiny ? " below a thousandth of these" : " more") +
+         "; --json lists all");
   }
 
   void values(const std::string& name, const std::vector<ValueChange>& list) {
-    title(name, list.size(), std::to_string(list.size()));
-    for (size_t i = 0; i < std::min(list.size(), kListed); ++i) {
+    title(name, list.size(), grouped(list.size()) + ", the largest first");
+    const float least = list.empty() ? 0 : kLeastShare * std::fabs(list[0].value);
+    const size_t count = count_while(
+        list, [&](const ValueChange& change) { return std::fabs(change.value) >= least; });
+    for (size_t i = 0; i < std::min(count, kListed); ++i) {
       line("  " + padded(one_line(list[i].name), 36) + " " + number(list[i].value));
     }
-    rest(list.size());
+    rest(count, list.size());
   }
 
   void joints(const Influence& influence) {
     const auto& list = influence.joints;
     title("Joints", list.size(),
-          std::to_string(list.size()) + " of " +
-              std::to_string(rig_count(scene_.rig.get(), MIEN_KIND_JOINT)) + " move");
+          grouped(list.size()) + " of " + grouped(rig_count(scene_.rig.get(), MIEN_KIND_JOINT)) +
+              " move, the strongest first: by the sum of shares of the largest values");
+    JointMotion most{};
+    for (const JointMotion& joint : list) {
+      most.translation = std::max(most.translation, joint.translation);
+      most.rotation = std::max(most.rotation, joint.rotation);
+      most.scale = std::max(most.scale, joint.scale);
+    }
+    const auto matters = [&](float value, float of) {
+      return value != 0 && value >= kLeastShare * of;
+    };
+    const size_t count = count_while(list, [&](const JointMotion& joint) {
+      return matters(joint.translation, most.translation) ||
+             matters(joint.rotation, most.rotation) || matters(joint.scale, most.scale);
+    });
     if (!list.empty()) {
       line("  " + padded("", 36) + " translation  rotation  scale");
     }
-    for (size_t i = 0; i < std::min(list.size(), kListed); ++i) {
+    for (size_t i = 0; i < std::min(count, kListed); ++i) {
       const JointMotion& joint = list[i];
-      const auto cell = [](float value, const std::string& unit) {
-        return value == 0 ? std::string("-") : number(value) + " " + unit;
+      const auto cell = [&](float value, float of, const std::string& unit) {
+        return matters(value, of) ? number(value) + unit : std::string("-");
       };
       line("  " + padded(one_line(joint.name), 36) + " " +
-           padded(cell(joint.translation, scene_.unit()), 12) + " " +
-           padded(cell(joint.rotation, rotation_unit(scene_)), 13) + " " +
-           (joint.scale == 0 ? "-" : number(joint.scale)));
+           padded(cell(joint.translation, most.translation, " " + scene_.unit()), 12) + " " +
+           padded(cell(joint.rotation, most.rotation, " " + rotation_unit(scene_)), 13) + " " +
+           cell(joint.scale, most.scale, ""));
     }
-    rest(list.size());
+    rest(count, list.size());
   }
 
   void correctives(const Influence& influence) {
     const auto& list = influence.correctives;
     title("Correctives", list.size(),
-          std::to_string(list.size()) + " with this control as an input");
+          grouped(list.size()) + " with this control as an input, the strongest first");
     const std::string unit = scene_.unit();
-    for (size_t i = 0; i < std::min(list.size(), kListed); ++i) {
+    const float least = list.empty() ? 0 : kLeastShare * list[0].beyond_sum;
+    const size_t count = count_while(list, [&](const Corrective& corrective) {
+      return !corrective.reachable || corrective.beyond_sum >= least;
+    });
+    for (size_t i = 0; i < std::min(count, kListed); ++i) {
       const Corrective& c = list[i];
       std::string with;
       for (const std::string& partner : c.partners) {
@@ -169,7 +202,7 @@ class Text {
       }
       line("  " + padded("psd" + std::to_string(c.psd), 8) + " " + padded(with, 50) + " " + effect);
     }
-    rest(list.size());
+    rest(count, list.size());
   }
 
   void meshes(const Influence& influence) {
@@ -177,7 +210,9 @@ class Text {
       title("Meshes", 0, "");
       return;
     }
-    title("Meshes", 1, "up to " + number(influence.max_distance()) + " " + scene_.unit());
+    title("Meshes", 1,
+          "up to " + number(influence.max_distance()) + " " + scene_.unit() +
+              ", in the order of the file");
     const std::string unit = " " + scene_.unit();
     for (const MeshMotion& motion : influence.meshes) {
       const std::string name = "  " + padded(one_line(motion.mesh->name), 36) + " ";
@@ -331,7 +366,9 @@ void run(const InspectCommand& command, const Session& session) {
   if (view) {
     const render::Camera camera =
         aim_camera(scene, output_options.target, *view, {render.width, render.height});
-    write_png(output_options.output.path, draw_heat_map(scene, influence, {render, camera}));
+    const std::string& path = output_options.output.path;
+    const uint64_t bytes = write_png(path, draw_heat_map(scene, influence, {render, camera}));
+    note_written(session, path, bytes);
   }
   Output output("-");
   if (command.json) {

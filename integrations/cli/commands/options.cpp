@@ -29,6 +29,7 @@ const OptionWords kOptionWords[] = {
     {"--version", {"2.1", "2.2", "2.3", "2.4", "2.5", "2.6", "2.7", "2.8"}},
     {"--unknown", {"keep", "drop"}},
     {"--format", {"glb", "obj"}},
+    {"eval --format", {"json", "jsonl", "csv", "npy"}},
     {"--mouth-close", {"alone", "jaw"}},
     {"--influences", {"4", "8", "12"}},
     {"--rotation-order", {"carried", "exact", "per-column"}},

@@ -157,7 +157,8 @@ void run(const RenderCommand& command, const Session& session) {
   // The same scale for all images, so that shading does not depend on the pose.
   render.scale = length(scene.neutral_box().size());
   const std::vector<Shot> shots = find_shots(command, plan, scene);
-  Progress progress(session, "image", shots.size());
+  Progress progress(session, shots.size() == 1 ? "drawing" : "image", shots.size());
+  if (shots.size() == 1) render.progress = [&](double share) { progress.at_share(share); };
   const auto draw = [&](const Shot& shot) {
     pose_scene(scene, shot.frame);
     return render_image(scene.surfaces(), shot.camera, render);
@@ -165,15 +166,16 @@ void run(const RenderCommand& command, const Session& session) {
 
   const std::string& output = command.output.output.path;
   const bool many = command.sheet || plan.turns != 0 || !command.frames.empty();
+  uint64_t bytes = 0;
   if (is_numbered(output)) {
     for (size_t i = 0; i < shots.size(); ++i) {
       progress.at(i);
       const std::string file = numbered(output, i);
       refuse_replacing({file, command.output.output.force}, {command.scene.rig, command.frames});
-      write_png(file, draw(shots[i]));
+      bytes += write_png(file, draw(shots[i]));
     }
   } else if (!many || (shots.size() == 1 && !command.sheet)) {
-    write_png(output, draw(shots[0]));
+    bytes = write_png(output, draw(shots[0]));
   } else {
     const size_t columns = std::min(choose_columns(plan, shots.size()), shots.size());
     render::Sheet sheet =
@@ -182,8 +184,10 @@ void run(const RenderCommand& command, const Session& session) {
       progress.at(i);
       sheet.add(draw(shots[i]), shots[i].label);
     }
-    write_png(output, sheet.image());
+    bytes = write_png(output, sheet.image());
   }
+  progress.finish();
+  note_written(session, output, bytes);
 }
 
 }  // namespace
@@ -230,7 +234,7 @@ Command add_render_command(CLI::App& app, const Session& session) {
       "Examples:\n"
       "  mien render head.dna -o head.png\n"
       "  mien render head.dna --set jawOpen=0.7 --camera three-quarter -o open.png\n"
-      "  mien render head.dna --camera 20,-5,1.5 --target mouth --size 1280x720 -o mouth.png\n"
+      "  mien render head.dna --camera 20,-5,1.5 --target mouth -o mouth.png\n"
       "  mien render head.dna --sheet --columns 8 -o sheet.png\n"
       "  mien render head.dna --turntable 8 -o around.png\n"
       "  mien render head.dna --frames frames.json -o 'frame-%04d.png'");

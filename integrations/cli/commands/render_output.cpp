@@ -193,10 +193,11 @@ void require_png_name(const std::string& output) {
   fail_usage("-o " + output, "images are PNG files", "let the name end in .png");
 }
 
-void write_png(const std::string& path, const Image& image) {
+uint64_t write_png(const std::string& path, const Image& image) {
   Output output(path);
   output.write(render::to_png(image));
   output.commit();
+  return output.size();
 }
 
 render::Sheet make_sheet(const render::SheetLayout& layout, const Backdrop& backdrop) {

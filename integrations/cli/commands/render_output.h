@@ -48,6 +48,7 @@ std::string numbered(const std::string& output, size_t number);
 /// Wrong usage if the name tells of another format than PNG.
 void require_png_name(const std::string& output);
 
-void write_png(const std::string& path, const render::Image& image);
+/// Returns the bytes of the file.
+uint64_t write_png(const std::string& path, const render::Image& image);
 
 }  // namespace mien::cli

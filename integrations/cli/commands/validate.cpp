@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // mien validate: everything that is wrong with DNA files, and whether baked files can be used.
 #include <algorithm>
+#include <filesystem>
+#include <optional>
 
 #include "integrations/cli/commands/commands.h"
 #include "integrations/cli/io/baked_file.h"
@@ -89,9 +91,19 @@ std::string text_of(const Checked& checked, const Session& session) {
   return text + one_line(checked.shown) + ": " + paint(verdict, Style::kGreen, colors) + "\n";
 }
 
-Checked check_rig(const std::string& rig) {
+// Takes about a second to check.
+constexpr uint64_t kLargeBytes = uint64_t{200} << 20;
+
+Checked check_rig(const std::string& rig, const Session& session) {
   Checked checked;
   checked.shown = shown_name(rig);
+  std::error_code unknown;
+  const uint64_t bytes_of_file = is_stream(rig) ? 0 : std::filesystem::file_size(rig, unknown);
+  std::optional<Progress> progress;
+  if (!unknown && bytes_of_file > kLargeBytes) {
+    progress.emplace(session,
+                     "checking " + one_line(checked.shown) + ", " + size_text(bytes_of_file));
+  }
   if (is_baked_file(rig)) {
     open_baked_file(rig, sized<MienBakedRigDesc>());
     checked.baked = true;
@@ -134,7 +146,7 @@ void run(const ValidateOptions& options, const Session& session) {
   std::vector<Failure> failures;
   for (const std::string& rig : rigs) {
     try {
-      const Checked checked = check_rig(rig);
+      const Checked checked = check_rig(rig, session);
       if (options.json) {
         write_json(checked, json);
         has_json = true;

@@ -212,7 +212,8 @@ BakedMesh bake_mesh(const RigSource& source, Face& face, uint32_t rig_mesh, doub
 }  // namespace
 
 BakeReport bake_arkit(const RigSource& source, const ArkitControls& controls,
-                      MouthClose mouth_close, RigScene& scene) {
+                      MouthClose mouth_close, RigScene& scene,
+                      const std::function<void(double share)>& progress) {
   const bool with_jaw = mouth_close == MouthClose::kWithJaw;
   BakeReport report;
   report.expressions.resize(kArkitCount);
@@ -239,6 +240,9 @@ BakeReport bake_arkit(const RigSource& source, const ArkitControls& controls,
     }
     Random random;
     for (uint32_t i = 0; i < kCombinations; ++i) {
+      // Most of the time goes here.
+      const double part = double(i) / kCombinations;
+      if (progress) progress((double(m) + part) / double(scene.scene.meshes.size()));
       for (double& weight : weights) {
         const bool is_on = random.unit() < 0.125;
         const double value = random.unit();

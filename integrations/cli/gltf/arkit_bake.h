@@ -2,6 +2,8 @@
 // The 52 ARKit expressions as morph targets, and what that loses against the rig.
 #pragma once
 
+#include <functional>
+
 #include "integrations/cli/gltf/arkit_controls.h"
 #include "integrations/cli/gltf/rig_scene.h"
 
@@ -42,9 +44,11 @@ struct BakeReport {
 /// A target is a straight line, a rotating jaw or eye is not, and expressions together have
 /// correctives: the report measures both, the second by random combinations, the same every time:
 /// each expression is on with a chance of 1 in 8, by 0 to 1. With MouthClose::kWithJaw, mouthClose
-/// is measured with a jaw as open as it, and in combinations never above jawOpen.
+/// is measured with a jaw as open as it, and in combinations never above jawOpen. `progress` is called
+/// now and then.
 BakeReport bake_arkit(const RigSource& source, const ArkitControls& controls,
-                      MouthClose mouth_close, RigScene& scene);
+                      MouthClose mouth_close, RigScene& scene,
+                      const std::function<void(double share)>& progress = {});
 
 /// Weights of the expressions from raw controls named after them (ArkitControls::by_name).
 ArkitWeights arkit_weights(const ArkitControls& controls, const MienFloatView& raw);

@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
+#include <set>
 
+#include "integrations/cli/gltf/material.h"
 #include "integrations/cli/gltf/rig_source.h"
+#include "integrations/cli/math/srgb.h"
 
 namespace mien::gltf {
 
@@ -74,8 +78,13 @@ struct Base {
   uint64_t position = 1, vertex = 1;
 };
 
+/// Without the colors of positions, which stand in the OBJ file.
+Material material_of(const std::string& mesh) { return material_for(cli::mesh_class(mesh), false); }
+
+bool has_faces(const MienMesh& mesh) { return mesh.vertex_count != 0 && mesh.triangle_count != 0; }
+
 void write_mesh(const RigSource& source, uint32_t number, const MienDeformerInstance* pose,
-                Base& base, std::string& text) {
+                Base& base, bool with_material, std::string& text) {
   const MienMesh mesh = source.mesh(number);
   const std::string name = source.name(MIEN_KIND_MESH, number);
   MienFloatView positions{}, normals{};
@@ -84,6 +93,7 @@ void write_mesh(const RigSource& source, uint32_t number, const MienDeformerInst
   const std::vector<uint8_t>& colors = source.colors(number);
 
   text += "\no " + word_of(name) + "\ng " + word_of(name) + "\n";
+  if (with_material) text += "usemtl " + material_of(name).name + "\n";
   for (size_t p = 0; p < mesh.position_count; ++p) {
     append(text, "v", source.point(positions.data + 3 * p), name);
     if (!colors.empty()) {
@@ -126,15 +136,36 @@ void write_mesh(const RigSource& source, uint32_t number, const MienDeformerInst
 
 }  // namespace
 
-std::string write_obj(const RigSource& source, MienDeformerInstance* pose) {
+std::string write_obj(const RigSource& source, MienDeformerInstance* pose,
+                      const std::string& material_library) {
   std::string text = "# meters, y up, z to the front\n";
+  if (!material_library.empty()) text += "mtllib " + material_library + "\n";
   Base base;
   for (uint32_t m = 0; m < source.count(MIEN_KIND_MESH); ++m) {
-    const MienMesh mesh = source.mesh(m);
-    if (mesh.vertex_count == 0 || mesh.triangle_count == 0) continue;
+    if (!has_faces(source.mesh(m))) continue;
     check(mien_deformer_instance_deform(pose, m, MIEN_NORMALS_RECOMPUTED, nullptr),
           "cannot deform");
-    write_mesh(source, m, pose, base, text);
+    write_mesh(source, m, pose, base, !material_library.empty(), text);
+  }
+  return text;
+}
+
+std::string write_mtl(const RigSource& source) {
+  std::string text = "# sRGB colors\n";
+  std::set<std::string> written;
+  for (uint32_t m = 0; m < source.count(MIEN_KIND_MESH); ++m) {
+    if (!has_faces(source.mesh(m))) continue;
+    const Material material = material_of(source.name(MIEN_KIND_MESH, m));
+    if (!written.insert(material.name).second) continue;
+    char lines[256];
+    const auto color = [&](size_t i) { return math::linear_to_srgb(material.color[i]); };
+    // The exponent that is usual for a roughness in programs that convert these.
+    const double smoothness = 1 - material.roughness;
+    std::snprintf(lines, sizeof(lines),
+                  "\nnewmtl %s\nKd %.4f %.4f %.4f\nKs 0.2 0.2 0.2\nNs %.1f\nd %.2f\nillum 2\n",
+                  material.name.c_str(), color(0), color(1), color(2),
+                  1000 * smoothness * smoothness, material.color[3]);
+    text += lines;
   }
   return text;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/cli/io/terminal.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -63,18 +64,61 @@ void print_failure(const Session& session, const std::string& text) {
                one_line(text).c_str());
 }
 
-Progress::Progress(const Session& session, std::string what, size_t total)
-    : shown_(session.terminal.error_is_terminal && !session.quiet), what_(std::move(what)),
-      total_(total), next_(Clock::now() + std::chrono::milliseconds(300)) {}
-
-Progress::~Progress() {
-  if (shown_) std::fputs("\r\033[K", stderr);
+void note_written(const Session& session, const std::string& path, uint64_t bytes) {
+  if (!session.terminal.error_is_terminal || session.quiet || path == "-") return;
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - session.start;
+  std::fprintf(stderr, "wrote %s, %s, %s\n", one_line(path).c_str(), size_text(bytes).c_str(),
+               duration_text(time.count()).c_str());
 }
 
-void Progress::at(const std::string& what, size_t done) {
-  if (!shown_ || Clock::now() < next_) return;
-  next_ = Clock::now() + std::chrono::milliseconds(100);
-  std::fprintf(stderr, "\r\033[K%s %zu/%zu", what.c_str(), done, total_);
+Progress::Progress(const Session& session, std::string what, size_t total)
+    : shown_(session.terminal.error_is_terminal && !session.quiet), what_(std::move(what)),
+      total_(total), start_(Clock::now()), next_(start_ + std::chrono::seconds(1)) {
+  if (!shown_ || total != 0) return;
+  std::fprintf(stderr, "%s ...", what_.c_str());
+  std::fflush(stderr);
+}
+
+Progress::~Progress() { finish(); }
+
+void Progress::finish() {
+  if (shown_) std::fputs("\r\033[K", stderr);
+  shown_ = false;
+}
+
+bool Progress::is_due() {
+  const Clock::time_point now = Clock::now();
+  if (!shown_ || now < next_) return false;
+  next_ = now + std::chrono::milliseconds(100);
+  return true;
+}
+
+void Progress::at(size_t done) {
+  if (total_ == 0 || !is_due()) return;
+  const std::chrono::duration<double> time = Clock::now() - start_;
+  const double rate = static_cast<double>(done) / time.count();
+  char counts[96];
+  std::snprintf(counts, sizeof(counts), "  %s/%s  %.*f/s", grouped(done).c_str(),
+                grouped(total_).c_str(), rate < 10 ? 1 : 0, rate);
+  show(static_cast<double>(done) / static_cast<double>(total_), counts);
+}
+
+void Progress::at_share(double share) {
+  if (is_due()) show(share, "");
+}
+
+void Progress::show(double share, const std::string& counts) {
+  constexpr size_t kBar = 20;
+  share = std::min(std::max(share, 0.0), 1.0);
+  const auto filled = static_cast<size_t>(share * kBar);
+  std::string bar(filled, '=');
+  if (filled < kBar) bar += '>';
+  bar.resize(kBar, ' ');
+  const std::chrono::duration<double> time = Clock::now() - start_;
+  std::string left;
+  if (share > 0) left = "  " + duration_text(time.count() * (1 - share) / share) + " left";
+  std::fprintf(stderr, "\r\033[K%s  [%s] %3.0f %%%s%s", what_.c_str(), bar.c_str(), 100 * share,
+               counts.c_str(), left.c_str());
   std::fflush(stderr);
 }
 

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace mien::cli {
@@ -24,6 +25,7 @@ Terminal find_terminal();
 struct Session {
   bool quiet = false;
   Terminal terminal;
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 };
 
 /// `text` in that style if `colors` are wanted.
@@ -35,24 +37,36 @@ void note(const Session& session, const std::string& text);
 /// "mien: text" on standard error.
 void print_failure(const Session& session, const std::string& text);
 
-/// "frame 3/8" on standard error while the object lives; only on a terminal and without --quiet.
+/// "wrote head.glb, 9.0 MB, 1.2 s" on standard error: the file and the time since the program started.
+/// Only on a terminal, without --quiet, and not for standard output ("-").
+void note_written(const Session& session, const std::string& path, uint64_t bytes);
+
+/// "image  [=====>    ]  45 %  23/52  3.4/s  9 s left" on standard error while the object lives, once
+/// that is longer than a second; only on a terminal and without --quiet.
 class Progress {
  public:
-  Progress(const Session& session, std::string what, size_t total);
+  /// Without a total, `what` alone is shown, at once: what comes cannot tell how far it is.
+  Progress(const Session& session, std::string what, size_t total = 0);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void at(size_t done) { at(what_, done); }
-  void at(const std::string& what, size_t done);
+  void at(size_t done);
+  /// Removes the line; the destructor does, too.
+  void finish();
+  /// The same as at() where there is nothing to count: only bar and remaining time are shown.
+  void at_share(double share);
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  bool is_due();
+  void show(double share, const std::string& counts);
+
   bool shown_;
   std::string what_;
   size_t total_;
-  Clock::time_point next_;
+  Clock::time_point start_, next_;
 };
 
 }  // namespace mien::cli

@@ -9,7 +9,8 @@
 
 namespace mien::cli {
 
-void write_dna(const MienDna* dna, const MienWriteDesc& desc, const std::string& path) {
+void write_dna(const MienDna* dna, const MienWriteDesc& desc, const std::string& path,
+               const Session& session) {
   // Through memory, so that Output writes files, devices and standard output alike and cleans up
   // after an interrupt.
   const std::string shown = path == "-" ? "standard output" : path;
@@ -23,6 +24,7 @@ void write_dna(const MienDna* dna, const MienWriteDesc& desc, const std::string&
   Output output(path);
   output.write(bytes.data(), size);
   output.commit();
+  note_written(session, path, size);
 }
 
 }  // namespace mien::cli

@@ -5,10 +5,12 @@
 #include <string>
 
 #include "capi/mien.h"
+#include "integrations/cli/io/terminal.h"
 
 namespace mien::cli {
 
 /// Writes to a file, a device, or with "-" to standard output.
-void write_dna(const MienDna* dna, const MienWriteDesc& desc, const std::string& path);
+void write_dna(const MienDna* dna, const MienWriteDesc& desc, const std::string& path,
+               const Session& session);
 
 }  // namespace mien::cli

@@ -195,6 +195,7 @@ Image render_image(const std::vector<Surface>& surfaces, const Camera& camera,
   Image image(options.width, options.height, {});
   const BackdropLight backdrop(options.backdrop, options.width, options.height);
   for (int y = 0; y < options.height; ++y) {
+    if (options.progress) options.progress(float(y) / float(options.height));
     for (int x = 0; x < options.width; ++x) {
       const size_t pixel = layer.index(x, y);
       const int empty = patches.find(pixel);

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "integrations/cli/math/vector.h"
@@ -54,6 +55,7 @@ struct RenderOptions {
   // Size of the subject, which hollows and the softness of shadows are measured by; 0: that of the
   // box around all surfaces.
   float scale = 0;
+  std::function<void(double share)> progress;  // called now and then while an image is made
 };
 
 /// Corners that are not finite, degenerate triangles and indices past the end are left out. Width
