@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* evaluate [FILE.dna [CONTROL]]: turns a control up and tells which joint it moves most. */
+/* evaluate [FILE.dna [CONTROL]]: turns a control up and tells which joint moves or turns most. */
 int main(int argc, char** argv) {
   const char* control = argc > 2 ? argv[2] : "CTRL_expressions.jawOpen";
   MienGenerateDesc large = {.struct_size = sizeof large, .preset = MIEN_PRESET_LARGE};
@@ -20,12 +20,16 @@ int main(int argc, char** argv) {
   if (!status) status = mien_rig_create(dna, NULL, &rig, &error);
   if (!status) status = mien_instance_create(rig, NULL, &face, &error);
   if (!status) status = mien_rig_find(rig, MIEN_KIND_RAW_CONTROL, control, &index);
+  if (status == MIEN_ERROR_NAME && strchr(control, '.')) { /* some rigs leave the prefix out */
+    control = strrchr(control, '.') + 1;
+    status = mien_rig_find(rig, MIEN_KIND_RAW_CONTROL, control, &index);
+  }
   if (!status) status = mien_instance_raw_controls(face, &inputs);
   if (!status) inputs.data[index] = 1; /* written in place */
   if (!status) status = mien_rig_evaluate(rig, face, 0);
   if (!status) status = mien_instance_joints(face, &moves);
   for (uint32_t i = 0; i < moves.count; ++i)
-    if (i % 9 < 3 && moves.data[i] * moves.data[i] > moves.data[most] * moves.data[most]) most = i;
+    if (i % 9 < 6 && moves.data[i] * moves.data[i] > moves.data[most] * moves.data[most]) most = i;
   if (!status) status = mien_rig_name(rig, MIEN_KIND_JOINT, most / 9, &name);
   if (status) {
     fprintf(stderr, "%s: %s\n", mien_status_name(status), error.status ? error.message : control);

@@ -44,6 +44,9 @@ def main():
         programs["Rust"] = [args.cargo, "run", "--quiet", "--offline", "--manifest-path", manifest,
                             "--example", "evaluate", "--"]
 
+    code = (HERE / "evaluate.c").read_text(encoding="utf-8").split("\n", 1)[1]
+    if code not in (HERE.parent / "README.md").read_text(encoding="utf-8"):
+        sys.exit("the example of README.md is not evaluate.c")
     failures = 0
     with tempfile.TemporaryDirectory() as directory:
         broken = Path(directory) / "broken.dna"
@@ -51,7 +54,10 @@ def main():
         written = Path(directory) / "head.dna"
         subprocess.run([args.python, "-c", "import mien, sys; "
                         f"mien.Dna.generate(mien.Preset.MEDIUM, 5).save({str(written)!r})"], check=True)
-        for arguments in ([], [written], [written, "CTRL_expressions.jawOpen"],
+        head = Path(directory) / "person.dna"
+        subprocess.run([args.python, "-c", "import mien; "
+                        f"mien.Dna.generate(mien.Preset.HEAD).save({str(head)!r})"], check=True)
+        for arguments in ([], [head], [head, "mouthSmileLeft"], [written], [written, "CTRL_expressions.jawOpen"],
                           [written, "missing"], [broken]):
             results = {name: run(command, [str(argument) for argument in arguments])
                        for name, command in programs.items()}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! evaluate [FILE.dna [CONTROL]]: turns a control up and tells which joint it moves most.
+//! evaluate [FILE.dna [CONTROL]]: turns a control up and tells which joint moves or turns most.
 use mien::{Dna, Kind, Preset, Rig};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -12,11 +12,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let rig = Rig::new(&dna)?;
     let mut face = rig.instance()?;
+    let control = match rig.find(Kind::RAW_CONTROL, &control) {
+        Ok(_) => control,
+        Err(_) => control.rsplit('.').next().unwrap_or("").into(), // some rigs leave the prefix out
+    };
     face.raw_controls_mut()[rig.find(Kind::RAW_CONTROL, &control)?] = 1.0; // written in place
     face.evaluate(0)?;
 
     // Per joint tx ty tz rx ry rz sx sy sz, from neutral; of equals the first.
-    let reach = |joint: &[f32]| joint[..3].iter().fold(0.0, |most, t| t.abs().max(most));
+    let reach = |joint: &[f32]| joint[..6].iter().fold(0.0, |most, t| t.abs().max(most));
     let joints = face.joints().chunks_exact(9).enumerate();
     let (most, d) =
         joints.reduce(|a, b| if reach(b.1) > reach(a.1) { b } else { a }).ok_or("no joints")?;
