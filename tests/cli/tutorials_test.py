@@ -59,7 +59,7 @@ class Tutorials(unittest.TestCase):
         self.assertGreater(moving, 10)
 
     def test_face_capture(self):
-        self.follow("face-capture", ["frames.json", "strip.png", "talk.glb", "arkit.glb", "take-joints.csv",
+        self.follow("face-capture", ["frames.json", "take.clip", "strip.png", "talk.glb", "arkit.glb", "take-joints.csv",
                                         "take-joints.npy"])
         lines = (Path(self.folder) / "take-joints.csv").read_text(encoding="utf-8").splitlines()
         self.assertEqual(len(lines), 121)

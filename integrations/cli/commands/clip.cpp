@@ -362,11 +362,10 @@ Command add_clip_command(CLI::App& app, const Session& session) {
   build_app->footer(
       "IN is one of these, told by its content:\n"
       "  CSV        a header time,NAME,NAME,... and a row per frame; time in seconds\n"
-      "  CSV of the Live Link Face app, 61 channels behind a timecode: every row is a frame, the\n"
-      "             channels keep the names of the app\n"
-      "  JSON       frames as 'mien eval' takes them and 'mien play' writes them. A control that "
-      "a\n"
-      "             frame does not name is 0 there\n"
+      "  CSV of the Live Link Face app, 61 channels behind a timecode: every row is\n"
+      "             a frame, the channels keep the names of the app\n"
+      "  JSON       frames as 'mien eval' takes them and 'mien play' writes them. A\n"
+      "             control that a frame does not name is 0 there\n"
       "Values are the nearest 32-bit floats. Times may be a twentieth of a frame off the rate.\n\n"
       "Examples:\n"
       "  mien clip build take.csv -o take.clip\n"
@@ -395,7 +394,8 @@ Command add_clip_command(CLI::App& app, const Session& session) {
       "the same frames. Events are not written.\n\n"
       "Examples:\n"
       "  mien clip export take.clip -o take.csv\n"
-      "  mien clip export take.clip -o frames.json && mien eval head.dna --input frames.json");
+      "  mien clip export take.clip -o frames.json\n"
+      "  mien eval head.dna --input frames.json");
 
   return {clip, [=, &session] {
             if (build_app->parsed()) run_build(*build, session);
