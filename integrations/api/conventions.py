@@ -177,7 +177,8 @@ class Conventions:
         handles = [p for p in parameters if self.handle_of(p)]
         exclusive = any(not p["type"]["const"] for p in handles) or \
             any(p["role"] == "array" and p["direction"] == "inout" for p in parameters)
-        function["threads"] = "exclusive" if exclusive else "shared"
+        beside = "One thread may call this while another one uses" in plain
+        function["threads"] = "one_more" if beside else "exclusive" if exclusive else "shared"
         function["size_query"] = next((p["name"] for p in parameters if p["name"] == "out_size" and any(
             q["role"] == "buffer" and q["direction"] == "out" for q in parameters)), None)
         function["allocates"] = "Does not allocate or lock" not in plain

@@ -106,7 +106,10 @@ class Functions(unittest.TestCase):
 
     def test_threads(self):
         self.assertEqual(function("Looks.", "mien_new(const MienRig* rig)")["threads"], "shared")
-        self.assertEqual(function("Moves.", "mien_new(MienInstance* instance)")["threads"], "exclusive")
+        declaration = "mien_new(MienInstance* instance)"
+        self.assertEqual(function("Moves.", declaration)["threads"], "exclusive")
+        beside = "One thread may call this while another one uses the instance."
+        self.assertEqual(function(beside, declaration)["threads"], "one_more")
 
     def statuses(self, comment, declaration="mien_new(const MienRig* rig)"):
         found = function(comment, declaration)["statuses"]
