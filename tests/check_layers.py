@@ -61,7 +61,8 @@ PROGRAM_GRAPH = {
     "io": ["mien.h", "math"],                     # files, frames, JSON, output
     "gltf": ["mien.h", "math", "io"],             # rigs -> GLB, OBJ
     "scene": ["mien.h", "math", "io", "render"],  # a rig in a pose
-    "commands": ["mien.h", "mien_author.h", "math", "io", "render", "gltf", "scene",
+    "play": ["mien.h", "io", "gltf"],  # scenes of `mien play`
+    "commands": ["mien.h", "mien_author.h", "math", "io", "render", "gltf", "scene", "play",
                  "bench/csr_matrix.h"],
     "": ["mien.h", "io", "commands"],             # main.cpp
 }

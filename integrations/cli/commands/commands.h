@@ -32,6 +32,7 @@ Command add_export_command(CLI::App& app, const Session& session);
 Command add_gen_command(CLI::App& app, const Session& session);
 Command add_demo_head_command(CLI::App& app, const Session& session);
 Command add_clip_command(CLI::App& app, const Session& session);
+Command add_play_command(CLI::App& app, const Session& session);
 Command add_bench_command(CLI::App& app, const Session& session);
 Command add_render_command(CLI::App& app, const Session& session);
 Command add_inspect_command(CLI::App& app, const Session& session);

@@ -28,14 +28,8 @@ const char* const kArkitNames[kArkitCount] = {
 
 namespace {
 
-struct Meaning {
-  const char* expression;
-  const char* control;
-  float weight;
-};
-
 // Raw controls that together make an expression. The fractions are estimates.
-constexpr Meaning kMeanings[] = {
+constexpr ArkitMeaning kMeanings[] = {
     {"eyeBlinkLeft", "eyeBlinkL", 1},
     {"eyeBlinkRight", "eyeBlinkR", 1},
     {"eyeLookDownLeft", "eyeLookDownL", 1},
@@ -119,6 +113,8 @@ constexpr Meaning kMeanings[] = {
 
 }  // namespace
 
+std::vector<ArkitMeaning> arkit_meanings() { return {std::begin(kMeanings), std::end(kMeanings)}; }
+
 ArkitControls find_arkit_controls(const RigSource& source) {
   const ControlNames names(source.rig(), MIEN_KIND_RAW_CONTROL);
   ArkitControls result;
@@ -133,7 +129,7 @@ ArkitControls find_arkit_controls(const RigSource& source) {
     }
     result.by_name = false;
     bool complete = true;
-    for (const Meaning& meaning : kMeanings) {
+    for (const ArkitMeaning& meaning : kMeanings) {
       if (std::string(kArkitNames[e]) != meaning.expression) continue;
       const bool found = names.find(meaning.control, control);
       complete &= found;

@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/cli/play/performance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include "integrations/cli/gltf/arkit_controls.h"
+#include "integrations/cli/io/failure.h"
+#include "integrations/cli/io/nearest_name.h"
+#include "integrations/cli/io/rig_file.h"
+#include "integrations/cli/io/text.h"
+
+namespace mien::cli {
+
+namespace {
+
+constexpr const char* kCannot = "cannot play scene";
+constexpr int64_t kMillisecond = MIEN_TICKS_PER_SECOND / 1000;
+
+// By the names of ARKit and by those of heads that name sides by a letter.
+const NamedValues kBlinkControls = {
+    {"eyeBlinkLeft", 1}, {"eyeBlinkRight", 1}, {"eyeBlinkL", 1}, {"eyeBlinkR", 1}};
+const NamedValues kBreathControls = {{"noseNostrilDilateL", 0.3f}, {"noseNostrilDilateR", 0.3f}};
+const NamedValues kSquintControls = {{"eyeSquintLeft", 0.8f},   {"eyeSquintRight", 0.8f},
+                                     {"browDownLeft", 0.7f},    {"browDownRight", 0.7f},
+                                     {"eyeSquintInnerL", 0.8f}, {"eyeSquintInnerR", 0.8f},
+                                     {"browDownL", 0.7f},       {"browDownR", 0.7f}};
+const NamedValues kPupilControls = {{"eyePupilNarrowL", 1}, {"eyePupilNarrowR", 1}};
+
+int64_t ticks_of(double seconds) {
+  return std::llround(seconds * static_cast<double>(MIEN_TICKS_PER_SECOND));
+}
+
+void checked(MienStatus status, const MienError& error, const std::string& where) {
+  if (status == MIEN_OK) return;
+  // What a scene asks for and cannot be is the scene's fault.
+  const bool own = status == MIEN_ERROR_INVALID_ARGUMENT || status == MIEN_ERROR_MISMATCH;
+  if (own && error.message[0]) fail(kInvalid, kCannot, where, error.message, "change the scene");
+  check(status, &error, kCannot, where);
+}
+
+}  // namespace
+
+Performance::Performance(const Script& script, const MienRig* rig, const MienDeformer* deformer,
+                         const Session& session)
+    : script_(script), rig_(rig), session_(session), lanes_(rig) {
+  MienFloatView initial{};
+  check(mien_rig_initial_raw_controls(rig, &initial), nullptr, kCannot, script.shown);
+  initial_.assign(initial.data, initial.data + initial.count);
+  add_layers();
+  for (size_t r = 0; r < script.reactions.size(); ++r) add_glare();
+  for (const EventScript& event : script.events) {
+    if (event.kind == EventKind::kPlay) clip(event.clip.path, event.where);
+    if (event.kind == EventKind::kVariable) lanes_.variable(event.variable);
+  }
+  make_mix(deformer);
+}
+
+const Performance::BoundClip& Performance::clip(const std::string& path, const std::string& where) {
+  const auto known = clips_.find(path);
+  if (known != clips_.end()) return known->second;
+  const std::filesystem::path folder = std::filesystem::path(script_.shown).parent_path();
+  BoundClip bound;
+  bound.file = open_clip_file((folder / path).string());
+  std::vector<MienMatrixEntry> matrix;
+  for (const gltf::ArkitMeaning& meaning : gltf::arkit_meanings()) {
+    matrix.push_back({{meaning.expression, strlen(meaning.expression)},
+                      {meaning.control, strlen(meaning.control)},
+                      meaning.weight,
+                      0});
+  }
+  auto desc = sized<MienClipBindingDesc>();
+  desc.matrix = matrix.data();
+  desc.matrix_count = matrix.size();
+  auto error = sized<MienError>();
+  MienClipBinding* binding = nullptr;
+  checked(mien_clip_binding_create(bound.file.clip.get(), rig_, &desc, &binding, &error), error,
+          where);
+  bound.binding.reset(binding);
+  auto info = sized<MienClipBindingInfo>();
+  check(mien_clip_binding_info(binding, &info), nullptr, kCannot, where);
+  if (info.missing_channels.count != 0) {
+    const std::vector<std::string> names = channel_names(bound.file);
+    note(session_, bound.file.shown + ": the rig has no controls for " +
+                       std::to_string(info.missing_channels.count) + " of " +
+                       std::to_string(names.size()) + " channels, the first is " +
+                       one_line(names[info.missing_channels.data[0]]));
+  }
+  return clips_.emplace(path, std::move(bound)).first->second;
+}
+
+uint32_t Performance::add_pose(LaneValues values) {
+  pose_values_.push_back(std::move(values));
+  const LaneValues& kept = pose_values_.back();
+  poses_.push_back({kept.lanes.data(), kept.values.data(), kept.lanes.size()});
+  return static_cast<uint32_t>(poses_.size() - 1);
+}
+
+void Performance::add_layers() {
+  for (size_t l = 0; l < script_.layers.size(); ++l) {
+    const LayerScript& from = script_.layers[l];
+    const std::string where = script_.shown + ".layers[" + std::to_string(l) + "]";
+    parts_.emplace_back();
+    LayerParts& parts = parts_.back();
+    MienMixLayer layer = {};
+    layer.group = from.group;
+    layer.mode = from.mode;
+    layer.source = from.source;
+    layer.weight = from.weight;
+    layer.after_guards = from.after_guards;
+    if (from.mask) {
+      parts.mask = lanes_.mask(*from.mask, from.invert_mask, where + ".mask.controls");
+      layer.mask = parts.mask.data();
+      layer.mask_count = static_cast<uint32_t>(parts.mask.size());
+    }
+    if (from.source == MIEN_LAYER_SOURCE_CLIP) clip(from.clip.path, where + ".source.clip");
+    if (from.source == MIEN_LAYER_SOURCE_POSES) {
+      layer.first_pose = static_cast<uint32_t>(poses_.size());
+      layer.pose_count = static_cast<uint32_t>(from.poses.size());
+      for (const PoseScript& pose : from.poses) {
+        add_pose(lanes_.lanes(pose.values, where + ".source.poses." + pose.name));
+      }
+    }
+    if (from.source == MIEN_LAYER_SOURCE_GENERATOR) {
+      const bool blinks = from.generator == MIEN_GENERATOR_BLINK;
+      parts.generated = from.controls.empty()
+                            ? lanes_.present(blinks ? kBlinkControls : kBreathControls)
+                            : lanes_.lanes(from.controls, where + ".source.controls");
+      if (parts.generated.lanes.empty() && !blinks)
+        parts.generated = {{lanes_.variable("breath")}, {1}};
+      if (parts.generated.lanes.empty()) {
+        fail(kInvalid, kCannot, where, "the rig has no controls that blink",
+             "name them: \"controls\": {NAME: 1}");
+      }
+      layer.generator = from.generator;
+      layer.period = ticks_of(from.period);
+      layer.lanes = parts.generated.lanes.data();
+      layer.amounts = parts.generated.values.data();
+      layer.lane_count = static_cast<uint32_t>(parts.generated.lanes.size());
+    }
+    layers_.push_back(layer);
+    stages_.push_back(from.name);
+  }
+}
+
+/// Light in the eyes: lids, squint, gaze, pupils, head.
+void Performance::add_glare() {
+  LaneValues pupils = lanes_.present(kPupilControls);
+  if (pupils.lanes.empty()) pupils = {{lanes_.variable("pupil")}, {-1}};
+  const LaneValues poses[] = {lanes_.present(kBlinkControls),
+                              lanes_.present(kSquintControls),
+                              {{lanes_.variable("gaze.y")}, {-0.4f}},
+                              pupils,
+                              {{lanes_.variable("head.turn")}, {0.3f}}};
+  struct Times {
+    uint32_t mode, is_held, is_lag;
+    int64_t delay, attack, hold, release;
+  };
+  constexpr Times kTimes[] = {{MIEN_BLEND_MODE_MAX, 0, 0, 60, 70, 60, 220},
+                              {MIEN_BLEND_MODE_SCREEN, 1, 0, 90, 150, 0, 400},
+                              {MIEN_BLEND_MODE_ADD, 1, 0, 200, 120, 0, 350},
+                              {MIEN_BLEND_MODE_ADD, 1, 1, 200, 250, 0, 500},
+                              {MIEN_BLEND_MODE_ADD, 1, 0, 180, 350, 0, 600}};
+  strokes_.emplace_back();
+  for (size_t i = 0; i < 5; ++i) {
+    const Times& t = kTimes[i];
+    strokes_.back().push_back({t.delay * kMillisecond, t.attack * kMillisecond,
+                               t.hold * kMillisecond, t.release * kMillisecond, add_pose(poses[i]),
+                               t.mode, t.is_held, t.is_lag});
+  }
+  MienMixReaction reaction = {};
+  reaction.cooldown = 250 * kMillisecond;
+  reaction.adapt_ticks = reaction.recover_ticks = 1500 * kMillisecond;
+  reaction.strokes = strokes_.back().data();
+  reaction.stroke_count = strokes_.back().size();
+  reaction.retrigger = MIEN_RETRIGGER_EXTEND;
+  reaction.adapted = 0.6f;
+  reactions_.push_back(reaction);
+}
+
+void Performance::make_mix(const MienDeformer* deformer) {
+  std::vector<MienMixAntagonists> antagonists;
+  if (script_.antagonists) antagonists = find_antagonists(rig_);
+  // Tables of GUI controls end in 0 to 1 for every raw control; parts of rotations reach further.
+  std::vector<float> lower(lanes_.count(), -1e6f), upper(lanes_.count(), 1e6f);
+  for (size_t i = 0; i < lanes_.controls().size(); ++i) {
+    const bool rotation = lanes_.controls()[i].find(".q") != std::string::npos;
+    lower[i] = rotation ? -1.0f : 0.0f;
+    upper[i] = 1;
+  }
+  auto desc = sized<MienMixDesc>();
+  desc.layers = layers_.data();
+  desc.layer_count = layers_.size();
+  desc.poses = poses_.data();
+  desc.pose_count = poses_.size();
+  desc.reactions = reactions_.data();
+  desc.reaction_count = reactions_.size();
+  desc.antagonists = antagonists.data();
+  desc.antagonist_count = antagonists.size();
+  if (script_.limits) desc.lower = lower.data(), desc.upper = upper.data();
+  desc.deformer = script_.guards ? deformer : nullptr;
+  desc.guards = script_.guards;
+  desc.variable_count = static_cast<uint32_t>(lanes_.variables().size());
+  desc.max_events = 1024;
+  desc.reverse = 1;
+  for (const auto& [path, bound] : clips_) {
+    desc.max_channels = std::max(desc.max_channels, bound.file.info.channel_count);
+    desc.max_changing_channels =
+        std::max(desc.max_changing_channels, bound.file.info.changing_channel_count);
+  }
+  auto error = sized<MienError>();
+  MienMix* mix = nullptr;
+  checked(mien_mix_create(rig_, &desc, &mix, &error), error, script_.shown);
+  mix_.reset(mix);
+  auto info = sized<MienMixInfo>();
+  check(mien_mix_info(mix, &info), nullptr, kCannot, script_.shown);
+  if (script_.guards != 0 && info.guard_count == 0) {
+    note(session_, script_.shown + ": the rig has none of the parts that the guards measure");
+  }
+  for (const char* stage : {"reactions", "guards", "antagonists", "limits"})
+    stages_.push_back(stage);
+  auto how = sized<MienMixerDesc>();
+  how.seed = script_.seed;
+  how.stages = 1;
+  MienMixer* mixer = nullptr;
+  checked(mien_mixer_create(mix, &how, &mixer, &error), error, script_.shown);
+  mixer_.reset(mixer);
+}
+
+void Performance::play(uint32_t layer, const ClipScript& what, uint32_t transition, double duration,
+                       const std::string& where) {
+  const BoundClip& bound = clip(what.path, where);
+  auto desc = sized<MienPlayDesc>();
+  desc.start_tick = ticks_of(what.start);
+  desc.transition = transition;
+  desc.transition_ticks = ticks_of(duration);
+  if (what.loop) desc.looping = *what.loop ? MIEN_LOOPING_WRAP : MIEN_LOOPING_CLAMP;
+  constexpr int32_t kDenominator = 1000;
+  desc.speed_numerator = static_cast<int32_t>(std::lround(what.speed * kDenominator));
+  desc.speed_denominator = kDenominator;
+  auto error = sized<MienError>();
+  checked(mien_mixer_play(mixer_.get(), layer, bound.file.clip.get(), bound.binding.get(), &desc,
+                          &error),
+          error, where);
+}
+
+void Performance::start() {
+  for (uint32_t l = 0; l < script_.layers.size(); ++l) {
+    const LayerScript& layer = script_.layers[l];
+    const std::string where = script_.shown + ".layers[" + std::to_string(l) + "]";
+    if (layer.source == MIEN_LAYER_SOURCE_CLIP) play(l, layer.clip, MIEN_TRANSITION_CUT, 0, where);
+    EventScript weights;
+    weights.kind = EventKind::kWeights;
+    weights.where = where + ".source.weights";
+    weights.target = l;
+    weights.weights = layer.weights;
+    apply(weights);
+  }
+}
+
+void Performance::apply(const EventScript& event) {
+  MienMixer* mixer = mixer_.get();
+  const auto error = sized<MienError>();
+  const int64_t fade = ticks_of(event.fade);
+  switch (event.kind) {
+    case EventKind::kWeight:
+      checked(mien_mixer_set_weight(mixer, event.target, event.weight, fade), error, event.where);
+      break;
+    case EventKind::kWeights:
+      for (const auto& [name, weight] : event.weights) {
+        const std::vector<PoseScript>& poses = script_.layers[event.target].poses;
+        std::vector<std::string> names;
+        for (const PoseScript& pose : poses) names.push_back(pose.name);
+        const auto found = std::find(names.begin(), names.end(), name);
+        if (found == names.end()) {
+          fail(kInvalid, kCannot, event.where, "the layer has no pose \"" + one_line(name) + "\"",
+               nearest_question(name, names, "name one of its poses"));
+        }
+        if (weight < 0 || weight > 1) {
+          fail(kInvalid, kCannot, event.where,
+               "the weight of " + one_line(name) + " is not within 0 to 1", "give another number");
+        }
+        checked(
+            mien_mixer_set_pose_weight(mixer, event.target,
+                                       static_cast<uint32_t>(found - names.begin()), weight, fade),
+            error, event.where);
+      }
+      break;
+    case EventKind::kPlay:
+      play(event.target, event.clip, event.transition, event.duration, event.where);
+      break;
+    case EventKind::kStop:
+      checked(mien_mixer_stop(mixer, event.target, fade), error, event.where);
+      break;
+    case EventKind::kTrigger:
+      checked(mien_mixer_trigger(mixer, event.target, event.weight, ticks_of(event.hold)), error,
+              event.where);
+      break;
+    case EventKind::kVariable: {
+      const size_t lane = lanes_.variable(event.variable);
+      checked(mien_mixer_set_variable(mixer, static_cast<uint32_t>(lane - lanes_.controls().size()),
+                                      event.weight),
+              error, event.where);
+      break;
+    }
+  }
+}
+
+void Performance::step_to(int64_t tick) {
+  checked(mien_mixer_step(mixer_.get(), tick - now_, nullptr), sized<MienError>(), script_.shown);
+  now_ = tick;
+  auto info = sized<MienMixerInfo>();
+  check(mien_mixer_info(mixer_.get(), &info), nullptr, kCannot, script_.shown);
+  for (uint32_t e = 0; e < info.event_count; ++e) {
+    MienClipEvent event = {};
+    uint32_t layer = 0;
+    check(mien_mixer_event(mixer_.get(), e, &event, &layer), nullptr, kCannot, script_.shown);
+    events_.push_back({static_cast<double>(tick) / static_cast<double>(MIEN_TICKS_PER_SECOND),
+                       stages_[layer], to_string(event.name), event.value});
+  }
+}
+
+void Performance::run(double rate, double seconds,
+                      const std::function<void(size_t, double, const float*)>& use) {
+  start();
+  const auto frames = static_cast<size_t>(std::floor(seconds * rate + 1e-6)) + 1;
+  std::vector<float> row(lanes_.count());
+  size_t next = 0;
+  Progress progress(session_, "frame", frames);
+  for (size_t f = 0; f < frames; ++f) {
+    progress.at(f);
+    const double time = static_cast<double>(f) / rate;
+    const int64_t tick = ticks_of(time);
+    for (; next < script_.events.size() && ticks_of(script_.events[next].time) <= tick; ++next) {
+      const EventScript& event = script_.events[next];
+      // At time 0 nothing has moved yet, so there is nothing to go on from.
+      if (ticks_of(event.time) > now_) step_to(ticks_of(event.time));
+      apply(event);
+    }
+    step_to(tick);
+    MienFloatView view{};
+    check(mien_mixer_row(mixer_.get(), &view), nullptr, kCannot, script_.shown);
+    std::copy(view.data, view.data + row.size(), row.begin());
+    // The w of rotations that nothing moves.
+    for (size_t i = 0; i < initial_.size(); ++i) {
+      if (initial_[i] != 0 && row[i] == 0) row[i] = initial_[i];
+    }
+    use(f, time, row.data());
+  }
+}
+
+std::vector<float> Performance::stage_values(uint16_t lane) const {
+  std::vector<float> values;
+  for (uint32_t s = 0; s < stages_.size(); ++s) {
+    MienFloatView view{};
+    check(mien_mixer_stage(mixer_.get(), s, &view), nullptr, kCannot, script_.shown);
+    values.push_back(view.data[lane]);
+  }
+  return values;
+}
+
+}  // namespace mien::cli

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// A scene on a rig: the mix that it describes, its clips, and the frames that come of it.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "integrations/cli/io/clip_file.h"
+#include "integrations/cli/io/terminal.h"
+#include "integrations/cli/play/rig_lanes.h"
+#include "integrations/cli/play/script.h"
+
+namespace mien::cli {
+
+using Mix = std::unique_ptr<MienMix, Destroy<MienMix, mien_mix_destroy>>;
+using Mixer = std::unique_ptr<MienMixer, Destroy<MienMixer, mien_mixer_destroy>>;
+using ClipBinding =
+    std::unique_ptr<MienClipBinding, Destroy<MienClipBinding, mien_clip_binding_destroy>>;
+
+struct FiredEvent {
+  double time;
+  std::string layer, name;
+  float value;
+};
+
+class Performance {
+ public:
+  /// `deformer` is where guards are measured; it may be null if the scene has none.
+  Performance(const Script& script, const MienRig* rig, const MienDeformer* deformer,
+              const Session& session);
+
+  const RigLanes& lanes() const { return lanes_; }
+  /// "talk", ..., "reactions", "guards", "antagonists", "limits"
+  const std::vector<std::string>& stages() const { return stages_; }
+  const std::vector<FiredEvent>& events() const { return events_; }
+
+  /// Calls `use` with each frame: its number, its time and its row, a value per lane.
+  void run(double rate, double seconds,
+           const std::function<void(size_t frame, double time, const float* row)>& use);
+
+  /// A lane after each stage, while run() calls.
+  std::vector<float> stage_values(uint16_t lane) const;
+
+ private:
+  struct BoundClip {
+    ClipFile file;
+    ClipBinding binding;
+  };
+  struct LayerParts {
+    std::vector<float> mask;
+    LaneValues generated;
+  };
+
+  const BoundClip& clip(const std::string& path, const std::string& where);
+  uint32_t add_pose(LaneValues values);
+  void add_layers();
+  void add_glare();
+  void make_mix(const MienDeformer* deformer);
+  void start();
+  void play(uint32_t layer, const ClipScript& what, uint32_t transition, double duration,
+            const std::string& where);
+  void apply(const EventScript& event);
+  void step_to(int64_t tick);
+
+  const Script& script_;
+  const MienRig* rig_;
+  const Session& session_;
+  RigLanes lanes_;
+  std::map<std::string, BoundClip> clips_;
+  std::deque<LaneValues> pose_values_;  // where poses point to
+  std::deque<LayerParts> parts_;
+  std::deque<std::vector<MienMixStroke>> strokes_;
+  std::vector<MienMixPose> poses_;
+  std::vector<MienMixLayer> layers_;
+  std::vector<MienMixReaction> reactions_;
+  std::vector<float> initial_;  // raw controls that are not 0 at the beginning
+  std::vector<std::string> stages_;
+  std::vector<FiredEvent> events_;
+  Mix mix_;
+  Mixer mixer_;
+  int64_t now_ = 0;
+};
+
+}  // namespace mien::cli

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/cli/play/rig_lanes.h"
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+
+#include "integrations/cli/io/controls.h"
+#include "integrations/cli/io/failure.h"
+#include "integrations/cli/io/handles.h"
+#include "integrations/cli/io/nearest_name.h"
+#include "integrations/cli/io/rig_file.h"
+#include "integrations/cli/io/text.h"
+
+namespace mien::cli {
+
+namespace {
+
+constexpr const char* kCannot = "cannot play scene";
+
+bool same_word(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+    return std::tolower(static_cast<unsigned char>(x)) ==
+           std::tolower(static_cast<unsigned char>(y));
+  });
+}
+
+bool is_variable_name(const std::string& name) {
+  return name == "pupil" || name == "breath" || name == "head.turn" ||
+         name.compare(0, 5, "gaze.") == 0 || name.compare(0, 5, "user.") == 0;
+}
+
+}  // namespace
+
+RigLanes::RigLanes(const MienRig* rig) {
+  for (uint32_t i = 0; i < rig_count(rig, MIEN_KIND_RAW_CONTROL); ++i) {
+    controls_.push_back(rig_name(rig, MIEN_KIND_RAW_CONTROL, i));
+  }
+}
+
+bool RigLanes::find_control(const std::string& name, size_t& index) const {
+  for (index = 0; index < controls_.size(); ++index) {
+    if (controls_[index] == name) return true;
+  }
+  for (index = 0; index < controls_.size(); ++index) {
+    if (same_word(short_name(controls_[index]), name)) return true;
+  }
+  return false;
+}
+
+uint16_t RigLanes::variable(const std::string& name) {
+  const auto found = std::find(variables_.begin(), variables_.end(), name);
+  const size_t index = static_cast<size_t>(found - variables_.begin());
+  if (found == variables_.end()) variables_.push_back(name);
+  return static_cast<uint16_t>(controls_.size() + index);
+}
+
+uint16_t RigLanes::lane(const std::string& name, const std::string& where) {
+  size_t index = 0;
+  if (find_control(name, index)) return static_cast<uint16_t>(index);
+  if (is_variable_name(name)) return variable(name);
+  fail(kInvalid, kCannot, where, "no raw control is named \"" + one_line(name) + "\"",
+       nearest_question(name, controls_, "'mien info RIG --names raw' lists the names"));
+}
+
+LaneValues RigLanes::lanes(const NamedValues& values, const std::string& where) {
+  std::vector<std::pair<uint16_t, float>> sorted;
+  for (const auto& [name, value] : values) sorted.emplace_back(lane(name, where), value);
+  std::sort(sorted.begin(), sorted.end());
+  LaneValues found;
+  for (const auto& [lane, value] : sorted) {
+    if (!found.lanes.empty() && found.lanes.back() == lane) {
+      fail(kInvalid, kCannot, where, "\"" + controls_[lane] + "\" is there twice",
+           "leave one of them out");
+    }
+    found.lanes.push_back(lane);
+    found.values.push_back(value);
+  }
+  return found;
+}
+
+LaneValues RigLanes::present(const NamedValues& values) const {
+  std::vector<std::pair<uint16_t, float>> sorted;
+  size_t index = 0;
+  for (const auto& [name, value] : values) {
+    if (find_control(name, index)) sorted.emplace_back(static_cast<uint16_t>(index), value);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  LaneValues found;
+  for (const auto& [lane, value] : sorted) {
+    found.lanes.push_back(lane);
+    found.values.push_back(value);
+  }
+  return found;
+}
+
+std::vector<float> RigLanes::mask(const std::vector<std::string>& patterns, bool invert,
+                                  const std::string& where) const {
+  std::vector<float> mask(controls_.size(), invert ? 1.0f : 0.0f);
+  for (const std::string& pattern : patterns) {
+    bool matches = false;
+    for (size_t i = 0; i < controls_.size(); ++i) {
+      if (!matches_pattern(pattern, controls_[i])) continue;
+      matches = true;
+      mask[i] = invert ? 0.0f : 1.0f;
+    }
+    if (matches) continue;
+    fail(kInvalid, kCannot, where, "no raw control matches \"" + one_line(pattern) + "\"",
+         nearest_question(pattern, controls_, "'mien info RIG --names raw' lists the names"));
+  }
+  return mask;
+}
+
+std::vector<MienMixAntagonists> find_antagonists(const MienRig* rig) {
+  auto error = sized<MienError>();
+  MienInstance* made = nullptr;
+  check(mien_instance_create(rig, nullptr, &made, &error), &error, kCannot, "");
+  const Instance instance(made);
+  MienMutableFloatView gui{}, raw{};
+  check(mien_instance_gui_controls(made, &gui), nullptr, kCannot, "");
+  check(mien_instance_raw_controls(made, &raw), nullptr, kCannot, "");
+  const auto driven = [&](size_t control, float value) {
+    check(mien_instance_reset(made), nullptr, kCannot, "");
+    gui.data[control] = value;
+    check(mien_rig_map_gui_to_raw(rig, made), nullptr, kCannot, "");
+    std::vector<uint16_t> lanes;
+    for (size_t i = 0; i < raw.count; ++i) {
+      if (raw.data[i] > 0) lanes.push_back(static_cast<uint16_t>(i));
+    }
+    return lanes;
+  };
+  const std::vector<uint16_t> rest = gui.count ? driven(0, 0) : std::vector<uint16_t>();
+  const auto beside = [](const std::vector<uint16_t>& all, const std::vector<uint16_t>& without) {
+    std::vector<uint16_t> left;
+    std::set_difference(all.begin(), all.end(), without.begin(), without.end(),
+                        std::back_inserter(left));
+    return left;
+  };
+  std::vector<MienMixAntagonists> pairs;
+  for (size_t g = 0; g < gui.count; ++g) {
+    const std::vector<uint16_t> up = beside(driven(g, 1), rest), down = beside(driven(g, -1), rest);
+    for (uint16_t a : beside(up, down)) {
+      for (uint16_t b : beside(down, up)) {
+        const auto same = [&](const MienMixAntagonists& pair) {
+          return (pair.first == a && pair.second == b) || (pair.first == b && pair.second == a);
+        };
+        if (std::none_of(pairs.begin(), pairs.end(), same)) pairs.push_back({a, b, 1});
+      }
+    }
+  }
+  return pairs;
+}
+
+}  // namespace mien::cli

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Lanes of a mix by the names that a scene gives them: the raw controls of a rig, then variables.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "capi/mien.h"
+#include "integrations/cli/play/script.h"
+
+namespace mien::cli {
+
+struct LaneValues {
+  std::vector<uint16_t> lanes;
+  std::vector<float> values;
+};
+
+class RigLanes {
+ public:
+  explicit RigLanes(const MienRig* rig);
+
+  const std::vector<std::string>& controls() const { return controls_; }
+  const std::vector<std::string>& variables() const { return variables_; }
+  size_t count() const { return controls_.size() + variables_.size(); }
+
+  /// A raw control by its name or by its short name without regard to case; else a variable that scenes
+  /// know (pupil, breath, head.turn, gaze., user.), which may be new. Exit code 2 with the nearest name.
+  uint16_t lane(const std::string& name, const std::string& where);
+  /// The variable of a name, which may be new.
+  uint16_t variable(const std::string& name);
+  LaneValues lanes(const NamedValues& values, const std::string& where);
+  /// Those of the names that are raw controls.
+  LaneValues present(const NamedValues& values) const;
+  /// 1 for raw controls whose names match a pattern, else 0; inverted if `invert`.
+  std::vector<float> mask(const std::vector<std::string>& patterns, bool invert,
+                          const std::string& where) const;
+
+ private:
+  bool find_control(const std::string& name, size_t& index) const;
+
+  std::vector<std::string> controls_, variables_;
+};
+
+/// Raw controls that opposite halves of one GUI control drive.
+std::vector<MienMixAntagonists> find_antagonists(const MienRig* rig);
+
+}  // namespace mien::cli

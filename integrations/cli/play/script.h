@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// SCENE of `mien play`: JSON text -> what to play, with names that no rig has been asked about.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "capi/mien.h"
+
+namespace mien::cli {
+
+using NamedValues = std::vector<std::pair<std::string, float>>;
+
+struct ClipScript {
+  std::string path;
+  std::optional<bool> loop;  // else as the clip says
+  double speed = 1, start = 0;
+};
+
+struct PoseScript {
+  std::string name;
+  NamedValues values;
+};
+
+struct LayerScript {
+  std::string name;
+  uint32_t group = MIEN_LAYER_GROUP_BASE, mode = MIEN_BLEND_MODE_OVERRIDE;
+  uint32_t source = MIEN_LAYER_SOURCE_CLIP;
+  float weight = 1;
+  bool after_guards = false;
+  std::optional<std::vector<std::string>> mask;  // patterns
+  bool invert_mask = false;
+  ClipScript clip;
+  std::vector<PoseScript> poses;
+  NamedValues weights;  // of poses
+  uint32_t generator = MIEN_GENERATOR_BLINK;
+  double period = 4;
+  NamedValues controls;  // that the generator moves, with amounts; empty: those it usually moves
+};
+
+enum class EventKind { kWeight, kWeights, kPlay, kStop, kTrigger, kVariable };
+
+struct EventScript {
+  double time = 0;
+  EventKind kind = EventKind::kWeight;
+  std::string where;    // in the scene, for messages
+  uint32_t target = 0;  // layer or reaction
+  double fade = 0;
+  float weight = 1;
+  NamedValues weights;
+  ClipScript clip;
+  uint32_t transition = MIEN_TRANSITION_INERTIAL;
+  double duration = 0.25;
+  double hold = 0;
+  std::string variable;
+};
+
+struct Script {
+  std::string shown;
+  double seconds = 0;  // 0: not said
+  double rate = 60;
+  uint64_t seed = 0;
+  std::vector<LayerScript> layers;
+  std::vector<std::string> reactions;  // names; all of the preset glare
+  std::vector<EventScript> events;     // by time, those of one time in their order
+  uint32_t guards = 0;                 // MIEN_GUARD_...
+  bool antagonists = false, limits = false;
+};
+
+/// Exit code 2 with the place of what is wrong.
+Script parse_script(const std::string& text, const std::string& shown);
+
+}  // namespace mien::cli

@@ -1,0 +1,243 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""`mien play`: layers, fades, reactions and guards of a scene, at their times; and clear refusals.
+
+    cli_play_test.py path/to/mien [unittest options]      (or MIEN_BIN=path/to/mien)
+"""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+DONE, USAGE, INVALID, FILE, INTERNAL = range(5)
+
+mien = os.environ.get("MIEN_BIN", "")
+folder = ""
+
+
+def setUpModule():
+    global folder
+    folder = tempfile.mkdtemp(prefix="mien-play-")
+    head = os.environ.get("MIEN_HEAD")
+    if head:
+        shutil.copy(head, path("head.dna"))
+    else:
+        assert run("demo-head", "-o", path("head.dna")).returncode == DONE
+    # Names of the app, of which the rig lacks one; 2 seconds.
+    rows = "".join(f"{k / 60!r},{k / 120!r},{0.25},{1}\n" for k in range(121))
+    write("talk.csv", "time,JawOpen,MouthSmileLeft,nobody\n" + rows)
+    assert run("clip", "build", path("talk.csv"), "-o", path("talk.clip")).returncode == DONE
+
+
+def tearDownModule():
+    shutil.rmtree(folder)
+
+
+def path(name):
+    return os.path.join(folder, name)
+
+
+def write(name, text):
+    with open(path(name), "w", encoding="utf-8") as file:
+        file.write(text)
+    return path(name)
+
+
+def run(*arguments, stdin=b""):
+    return subprocess.run([mien, *arguments], input=stdin, capture_output=True, check=False)
+
+
+TALK = {"name": "talk", "group": "speech", "source": {"clip": "talk.clip"}}
+JOY = {"name": "joy", "group": "emotion", "mode": "screen",
+       "source": {"poses": {"smile": {"mouthSmileLeft": 0.8}, "puff": {"cheekPuff": 1}}}}
+
+
+class Played:
+    """The frames of a scene, by control."""
+
+    def __init__(self, document):
+        self.names = document["controls"]
+        self.variables = document["variables"]
+        self.frames = document["frames"]
+        self.document = document
+
+    def value(self, name, frame):
+        return self.frames[frame]["raw"][self.names.index(name)]
+
+    def curve(self, name):
+        return [self.value(name, f) for f in range(len(self.frames))]
+
+
+class PlayTest(unittest.TestCase):
+    def play(self, scene, *options):
+        done = run("play", write("scene.json", json.dumps({"seconds": 2, **scene})),
+                   path("head.dna"), "-q", *options)
+        self.assertEqual(done.returncode, DONE, done.stderr.decode())
+        return Played(json.loads(done.stdout)) if done.stdout else None
+
+    def refused(self, scene, says, *options, code=INVALID):
+        text = scene if isinstance(scene, str) else json.dumps({"seconds": 1, **scene})
+        done = run("play", write("wrong.json", text), path("head.dna"), "-q", *options)
+        line = done.stderr.decode()
+        self.assertEqual(done.returncode, code, line)
+        self.assertEqual(line.count("\n"), 1, line)
+        for part in [says] if isinstance(says, str) else says:
+            self.assertIn(part, line)
+
+    def test_a_clip_drives_the_controls_of_its_names(self):
+        played = self.play({"layers": [TALK]})
+        self.assertEqual(len(played.frames), 121)
+        for f in (0, 1, 60, 120):
+            self.assertAlmostEqual(played.frames[f]["time"], f / 60, 12)
+            self.assertAlmostEqual(played.value("jawOpen", f), f / 120, 6)
+            self.assertEqual(played.value("mouthSmileLeft", f), 0.25)
+            self.assertEqual(played.value("mouthSmileRight", f), 0)
+
+    def test_speed_start_and_loop(self):
+        source = {"clip": "talk.clip", "speed": 2, "start": 0.5, "loop": False}
+        played = self.play({"rate": 30, "layers": [{**TALK, "source": source}]})
+        self.assertAlmostEqual(played.value("jawOpen", 15), (0.5 + 2 * 0.5) / 2, 5)
+        self.assertAlmostEqual(played.value("jawOpen", 60), 1, 6)
+        source["loop"] = True
+        played = self.play({"rate": 30, "layers": [{**TALK, "source": source}]})
+        self.assertLess(played.value("jawOpen", 60), 0.6)
+
+    def test_weights_fade_at_their_times(self):
+        played = self.play({"layers": [{**JOY, "mode": "override"}], "events": [
+            {"time": 0.5, "layer": "joy", "weights": {"smile": 1}, "fade": 0.5},
+            {"time": 1.5, "layer": "joy", "weight": 0}]})
+        smile = played.curve("mouthSmileLeft")
+        self.assertEqual(set(smile[:31]), {0})
+        self.assertAlmostEqual(smile[45], 0.4, 5)
+        self.assertAlmostEqual(smile[60], 0.8, 6)
+        self.assertAlmostEqual(smile[89], 0.8, 6)
+        self.assertEqual(set(smile[90:]), {0})
+        self.assertTrue(all(b >= a for a, b in zip(smile[30:60], smile[31:61])))
+
+    def test_screen_and_masks(self):
+        joy = {**JOY, "source": {**JOY["source"], "weights": {"smile": 1}}}
+        played = self.play({"layers": [TALK, joy]})
+        self.assertAlmostEqual(played.value("mouthSmileLeft", 60), 0.25 + 0.8 * 0.75, 5)
+        for mask, smile in (({"controls": ["jaw*"]}, 0.25),
+                            ({"controls": ["mouth*"]}, 0.85),
+                            ({"controls": ["mouth*"], "invert": True}, 0.25)):
+            played = self.play({"layers": [TALK, {**joy, "mask": mask}]})
+            self.assertAlmostEqual(played.value("mouthSmileLeft", 60), smile, 5)
+
+    def test_the_light_of_a_torch(self):
+        played = self.play({"layers": [TALK], "reactions": [{"name": "glare", "preset": "glare"}],
+                            "events": [{"time": 1, "trigger": "glare", "hold": 0.5}]})
+        lid = played.curve("eyeBlinkLeft")
+        self.assertEqual(set(lid[:64]), {0})
+        first = next(f for f, value in enumerate(lid) if value >= 0.9) / 60
+        self.assertTrue(1.11 <= first <= 1.16, first)
+        self.assertGreater(played.value("eyeSquintLeft", 85), 0.4)
+        for f in range(121):
+            self.assertAlmostEqual(played.value("jawOpen", f), f / 120, 5)
+
+    def test_blinks_follow_the_seed(self):
+        scene = {"seconds": 20, "layers": [{"name": "blink", "group": "life", "mode": "max",
+                                            "source": {"generator": "blink"}}]}
+        first = self.play({**scene, "seed": 7}).curve("eyeBlinkLeft")
+        self.assertGreater(max(first), 0.9)
+        self.assertEqual(first, self.play(scene, "--seed", "7").curve("eyeBlinkLeft"))
+        self.assertNotEqual(first, self.play({**scene, "seed": 8}).curve("eyeBlinkLeft"))
+
+    def test_guards_keep_lips_closed(self):
+        rows = "".join(f"{k / 60!r},0.5,0.5\n" for k in range(121))
+        write("closed.csv", "time,jawOpen,mouthClose\n" + rows)
+        self.assertEqual(run("clip", "build", path("closed.csv"), "-o",
+                             path("closed.clip")).returncode, DONE)
+        scene = {"layers": [{**TALK, "source": {"clip": "closed.clip"}},
+                            {"name": "awe", "group": "emotion", "mode": "screen", "source": {
+                                "poses": {"awe": {"jawOpen": 1, "browInnerUp": 1}},
+                                "weights": {"awe": 1}}}]}
+        free = self.play(scene)
+        held = self.play({**scene, "guards": ["lips"]})
+        self.assertEqual(free.value("browInnerUp", 60), held.value("browInnerUp", 60))
+        self.assertLess(held.value("jawOpen", 60), free.value("jawOpen", 60) - 0.1)
+
+    def test_limits(self):
+        joy = {**JOY, "mode": "add", "source": {"poses": {"p": {"mouthSmileLeft": 3}},
+                                                "weights": {"p": 1}}}
+        self.assertEqual(self.play({"layers": [joy]}).value("mouthSmileLeft", 9), 3)
+        self.assertEqual(self.play({"layers": [joy], "limits": True}).value("mouthSmileLeft", 9), 1)
+
+    def test_variables_and_stages(self):
+        played = self.play({"layers": [TALK, JOY], "events": [
+            {"time": 1, "variable": "gaze.x", "value": 0.5},
+            {"time": 0, "layer": "joy", "weights": {"smile": 1}}]}, "--stages", "mouthSmileLeft")
+        self.assertEqual(played.variables, ["gaze.x"])
+        self.assertEqual([played.frames[f]["variables"] for f in (59, 60)], [[0], [0.5]])
+        stages = played.frames[60]["stages"]["mouthSmileLeft"]
+        self.assertEqual([name for name, _ in stages],
+                         ["talk", "joy", "reactions", "guards", "antagonists", "limits"])
+        self.assertEqual(stages[0][1], 0.25)
+        self.assertAlmostEqual(stages[1][1], 0.85, 5)
+        self.assertEqual(stages[-1][1], played.value("mouthSmileLeft", 60))
+
+    def test_switching_clips(self):
+        rows = "".join(f"{k / 60!r},0\n" for k in range(121))
+        write("still.csv", "time,jawOpen\n" + rows)
+        run("clip", "build", path("still.csv"), "-o", path("still.clip"))
+        event = {"time": 1, "layer": "talk", "play": {"clip": "still.clip"}, "duration": 0.5}
+        for transition, after in (("cut", 0), ("crossfade", 0.4), ("inertial", 0.4)):
+            played = self.play({"layers": [TALK], "events": [{**event, "transition": transition}]})
+            jaw = played.curve("jawOpen")
+            self.assertAlmostEqual(jaw[59], 59 / 120, 5)
+            self.assertGreaterEqual(jaw[61], after)
+            self.assertEqual(jaw[95], 0)
+
+    def test_every_output(self):
+        names = [path("out" + end) for end in (".json", ".csv", ".clip", ".svg")]
+        self.play({"layers": [TALK]}, *[word for name in names for word in ("-o", name)])
+        with open(names[0], encoding="utf-8") as file:
+            played = Played(json.load(file))
+        xml.etree.ElementTree.parse(names[3])
+        self.assertEqual(run("clip", "build", names[1], "-o", path("again.clip")).returncode, DONE)
+        for clip in (names[2], path("again.clip")):
+            text = run("clip", "export", clip, "-o", "-").stdout.decode().splitlines()
+            row = dict(zip(text[0].split(","), text[61].split(",")))
+            self.assertAlmostEqual(float(row["jawOpen"]), played.value("jawOpen", 60), 6)
+        done = run("eval", path("head.dna"), "--input", names[0], "-o", path("evaluated.json"))
+        self.assertEqual(done.returncode, DONE, done.stderr.decode())
+
+    def test_wrong_scenes(self):
+        joy = lambda **change: {"layers": [{**JOY, **change}]}
+        event = lambda **e: {"layers": [TALK, JOY], "events": [{"time": 0, **e}],
+                             "reactions": [{"name": "glare", "preset": "glare"}]}
+        for scene, says in (
+                ("[]", "expected an object"), ("{", "wrong.json"), ({"lyaers": []}, '"layers"'),
+                (joy(mode="scren"), '"screen"'), (joy(group="mood"), "emotion"),
+                (joy(weight=2), "layers[0].weight"), (joy(source={}), "no source"),
+                (joy(mask={"controls": ["mouht*"]}), "layers[0].mask.controls"),
+                (joy(source={"poses": {"p": {"mouthSmileLetf": 1}}}), '"mouthSmileLeft"'),
+                (joy(source={"poses": {"p": {"jawOpen": "x"}}}), "expected a number"),
+                (joy(source={"poses": {"p": {}}, "weights": {"q": 1}}), "no pose"),
+                (joy(source={"generator": "noise"}), "controls"),
+                ({"layers": [TALK, TALK]}, "there twice"), ({"layers": [TALK] * 17}, "16"),
+                ({"layers": [{**TALK, "source": {"clip": ""}}]}, "empty"),
+                ({"guards": ["lisp"]}, '"lips"'), ({"seconds": -1}, "seconds"),
+                ({"reactions": [{"name": "x", "preset": "gape"}]}, "glare"),
+                (event(layer="joi", weight=1), '"joy"'), (event(layer="joy"), '"weight"'),
+                (event(layer="joy", play={"clip": "talk.clip"}), "no clip"),
+                (event(layer="talk", weights={"a": 1}), "no poses"),
+                (event(trigger="glare", strength=2), "events[0].strength"),
+                (event(variable="x"), '"value"')):
+            with self.subTest(says):
+                self.refused(scene, says)
+        missing = {"layers": [{**TALK, "source": {"clip": "none.clip"}}]}
+        self.refused(missing, "none.clip", code=FILE)
+        self.refused({"layers": [TALK]}, ".svg", "-o", path("x.txt"), code=USAGE)
+        self.refused({"layers": [TALK]}, "--rate", "--rate", "fast", code=USAGE)
+        self.refused({"layers": [TALK]}, "jawOpne", "--stages", "jawOpne")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
+        mien = sys.argv.pop(1)
+    unittest.main()
