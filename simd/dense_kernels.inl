@@ -108,5 +108,71 @@ void dense_layer(const DenseLayerArgs& args) {
   }
 }
 
+// Batches: lanes are characters, and a weight is the same for all of them -----------------------------
+
+inline const float* block_weights(const float* values, const DenseBatchArgs&) { return values; }
+inline const float* block_weights(const uint16_t* values, const DenseBatchArgs& args) {
+  for (size_t i = 0; i < size_t{args.column_count} * kBlockLanes; i += kWidth) {
+    store(args.scratch + i, load_half(values + i));
+  }
+  return args.scratch;
+}
+
+/// The sums over every other column of neighboring rows, R counts them, for kBatchVecs vectors of lanes.
+template <class How, size_t... R>
+inline void sum_columns(const float* weights, const float* inputs, size_t first_column,
+                        size_t column_count, VecPair* sums, std::index_sequence<R...>) {
+  VecPair sum[] = {(static_cast<void>(R), Make<VecPair>::of(0.0f))...};
+  for (size_t c = first_column; c < column_count; c += 2) {
+    const Vec a = load(inputs + c * kBatchLanes), b = load(inputs + c * kBatchLanes + kWidth);
+    const float* const column = weights + c * kBlockLanes;
+    const Vec weight[] = {broadcast(column[R])...};
+    ((sum[R].a = How::mul_add(weight[R], a, sum[R].a)), ...);
+    ((sum[R].b = How::mul_add(weight[R], b, sum[R].b)), ...);
+  }
+  ((sums[R] = sum[R]), ...);
+}
+
+/// Eight sums hide the wait for each other, and with two inputs and a weight they fit 16 registers.
+template <class How, class Weight>
+void sum_batch(const DenseBatchArgs& args) {
+  constexpr size_t kRows = 4;
+  constexpr std::make_index_sequence<kRows> kEach;
+  const size_t column_count = args.column_count, row_count = args.row_count;
+  const Weight* values = static_cast<const Weight*>(args.values);
+  for (size_t block = 0; block < row_count; block += kBlockLanes) {
+    const float* const weights = block_weights(values + block * column_count, args);
+    for (size_t row = block; row < block + kBlockLanes && row < row_count; row += kRows) {
+      for (size_t lane = 0; lane < args.lane_count; lane += 2 * kWidth) {
+        VecPair even[kRows], odd[kRows];
+        const float* const at = weights + (row - block);
+        sum_columns<How>(at, args.inputs + lane, 0, column_count, even, kEach);
+        sum_columns<How>(at, args.inputs + lane, 1, column_count, odd, kEach);
+        for (size_t r = 0; r < kRows; ++r) {
+          const VecPair sum = even[r] + odd[r];
+          store(args.outputs + (row + r) * kBatchLanes + lane, {saturate(sum.a), saturate(sum.b)});
+        }
+      }
+    }
+  }
+}
+
+template <class How>
+void sum_batch(const DenseBatchArgs& args) {
+  args.halves ? sum_batch<How, uint16_t>(args) : sum_batch<How, float>(args);
+}
+
+void dense_batch(const DenseBatchArgs& args) {
+  args.portable ? sum_batch<AsPortable>(args) : sum_batch<AsFast>(args);
+  const Vec alpha = broadcast(args.alpha);
+  for (size_t r = 0; r < args.row_count; ++r) {
+    const Vec bias = broadcast(args.biases[r]);
+    for (size_t lane = 0; lane < args.lane_count; lane += kWidth) {
+      float* const at = args.outputs + r * kBatchLanes + lane;
+      store(at, saturate(activate(saturate(load(at) + bias), args.function, alpha)));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mien::MIEN_KERNEL_ISA

@@ -140,6 +140,28 @@ struct DenseLayerArgs {
   bool portable;  // products are rounded before they are added, on every instruction set
 };
 
+/// The same layer for many characters, one lane each, with the same bits:
+///
+///     inputs     [column][32]
+///     outputs    [row][32]
+///
+/// For lanes k < lane_count; those up to the next multiple of batch_step are computed as well. Rows past
+/// row_count, up to the next 16, may be written.
+struct DenseBatchArgs {
+  const void* values;   // as for dense_layer
+  const float* biases;  // as for dense_layer
+  const float* inputs;  // 64-byte aligned, and so are those that follow
+  float* outputs;
+  float* scratch;  // of halves: 16 floats for each column
+  float alpha;
+  uint32_t column_count;
+  uint32_t row_count;
+  uint32_t lane_count;
+  uint8_t function;
+  bool halves;
+  bool portable;
+};
+
 /// Joints represented by quaternions, in blocks of 16 joints, one lane each:
 ///
 ///     values   block 0: c0 x0..x15 y0..y15 z0..z15 w0..w15 | c1 ... ; block 1: ...
@@ -396,7 +418,7 @@ struct KernelTable {
   void (*joint_columns_fixed)(const JointColumnsArgs& args);  // of 16-bit integers
   void (*joint_batch)(const JointBatchArgs& args);
   void (*joint_batch_fixed)(const JointBatchArgs& args);
-  uint32_t batch_step;  // lanes that these take at a time
+  uint32_t batch_step;  // lanes that these and dense_batch take at a time
   void (*nonzero)(const NonzeroArgs& args);
   uint64_t (*psds)(const PsdArgs& args);
   void (*psd_batch)(const PsdBatchArgs& args);
@@ -404,6 +426,7 @@ struct KernelTable {
   /// of 16, both are 64-byte aligned.
   void (*finish_sums)(float* sums, const float* scales, size_t count);
   void (*dense_layer)(const DenseLayerArgs& args);
+  void (*dense_batch)(const DenseBatchArgs& args);
   void (*quaternion_joints)(const QuaternionJointArgs& args);
   void (*angles_from_quaternions)(const EulerArgs& args);
   void (*quaternions_from_angles)(const EulerArgs& args);

@@ -40,6 +40,11 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
         placer.array<float>(tile_block_rows * kJointBlockRows * kBatchLanes, kBlockAlignment);
     scratch.ends = placer.array<uint32_t>(block_row_count(joints));
     scratch.blocks = placer.array<BatchBlock>(block_count);
+    for (Span<float>& layer : scratch.ml_layers) {
+      layer = placer.array<float>(size_t{rig.ml.widest_layer} * kBatchLanes, kBlockAlignment);
+    }
+    scratch.ml_weights = placer.array<float>(
+        rig.half_storage ? size_t{rig.ml.widest_layer} * kBlockLanes : 0, kBlockAlignment);
     if (!placer.measuring()) batch.tasks[i] = scratch;
   }
 }

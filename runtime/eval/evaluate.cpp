@@ -34,26 +34,25 @@ void note_changes(const Rig& rig, Instance& instance, const ControlRange& range,
   const uint32_t count = range.end - range.first;
   if (same_bits(previous, now, count)) return;
   Uses uses = 0;
+  // Without branches: nobody foresees which controls change.
+  const Uses* control_uses = rig.control_uses.data + range.first;
   for (uint32_t i = 0; i < count; ++i) {
-    if (same_bits(previous[i], now[i])) continue;
-    uses |= rig.control_uses[range.first + i];
+    uses |= control_uses[i] & (Uses{0} - Uses{!same_bits(previous[i], now[i])});
     previous[i] = now[i];
   }
   instance.stale |= uses & ~Uses{writer & ~rig.feedback_stages};
 }
 
-/// Runs write(), which writes controls of a range only.
-template <class Write>
-void write_controls(const Rig& rig, Instance& instance, const ControlRange& range, uint32_t writer,
-                    Write&& write) {
+/// Before a stage, or part of one, writes controls of a range, and after.
+void begin_writing(Instance& instance, const ControlRange& range) {
   const float* controls = instance.controls.data;
-  float* before = instance.before_writing.data;
-  std::copy(controls + range.first, controls + range.end, before);
-  write();
-  note_changes(rig, instance, range, before, writer);
+  std::copy(controls + range.first, controls + range.end, instance.before_writing.data);
+}
+void end_writing(const Rig& rig, Instance& instance, const ControlRange& range, uint32_t writer) {
+  note_changes(rig, instance, range, instance.before_writing.data, writer);
   // Raw controls among them were not changed by the caller.
   const uint32_t raw_end = std::min(range.end, rig.raw_count);
-  for (uint32_t c = range.first; c < raw_end; ++c) instance.previous_raw[c] = controls[c];
+  for (uint32_t c = range.first; c < raw_end; ++c) instance.previous_raw[c] = instance.controls[c];
 }
 
 // Results that a LOD does not write stay 0 from here on, so stages clear nothing. Raw controls
@@ -90,21 +89,40 @@ void run(const InstancePacket& packet, uint32_t stage, Evaluate* evaluate_stage,
     Instance& instance = *packet.instances[i];
     if ((instance.stale & stage) == 0) continue;
     instance.stale &= ~Uses{stage};
-    write_controls(packet.rig, instance, writes, stage,
-                   [&] { evaluate_stage(packet.rig, instance, packet.lod); });
+    begin_writing(instance, writes);
+    evaluate_stage(packet.rig, instance, packet.lod);
+    end_writing(packet.rig, instance, writes, stage);
   }
+}
+
+/// Those instances of a packet for which any of the stages is stale, in `stale`.
+InstancePacket stale_ones(const InstancePacket& packet, uint32_t stages, Instance** stale) {
+  InstancePacket those = packet;
+  those.instances = stale;
+  those.count = 0;
+  for (uint32_t i = 0; i < packet.count; ++i) {
+    if (packet.instances[i]->stale & stages) stale[those.count++] = packet.instances[i];
+  }
+  return those;
+}
+
+void run_ml(const InstancePacket& packet) {
+  Instance* stale[kBatchLanes];
+  const InstancePacket those = stale_ones(packet, kStageMl, stale);
+  const ControlRange& writes = packet.rig.ml_writes;
+  for (uint32_t i = 0; i < those.count; ++i) {
+    stale[i]->stale &= ~Uses{kStageMl};
+    begin_writing(*stale[i], writes);
+  }
+  evaluate_ml(those);
+  for (uint32_t i = 0; i < those.count; ++i) end_writing(packet.rig, *stale[i], writes, kStageMl);
 }
 
 /// Correctives and joints of the instances that need either: it is not known before which of them
 /// new correctives will move. One alone is left to the stages themselves.
 void run_together(const InstancePacket& packet, uint32_t stages) {
   Instance* changed[kBatchLanes];
-  InstancePacket those = packet;
-  those.instances = changed;
-  those.count = 0;
-  for (uint32_t i = 0; i < packet.count; ++i) {
-    if (packet.instances[i]->stale & stages) changed[those.count++] = packet.instances[i];
-  }
+  const InstancePacket those = stale_ones(packet, stages, changed);
   if (those.count < 2) return;
   gather_controls(those);
   if (stages & kStagePsd) evaluate_psds_together(those);
@@ -121,7 +139,7 @@ void evaluate_packet(const InstancePacket& packet, uint32_t stages) {
     stale |= packet.instances[i]->stale;
   }
   if ((stale & stages) == 0) return;
-  run(packet, stages & kStageMl, evaluate_ml, rig.ml_writes);
+  if (stages & kStageMl) run_ml(packet);
   run(packet, stages & kStageRbf, evaluate_rbf, rig.rbf_writes);
   if (packet.scratch) run_together(packet, stages & (kStagePsd | kStageJoints));
   run(packet, stages & kStagePsd, evaluate_psds);
@@ -146,8 +164,9 @@ void evaluate_joint_group(const Rig& rig, Instance& instance, uint32_t lod, uint
 
 void evaluate_rbf_solver(const Rig& rig, Instance& instance, uint32_t lod, uint32_t solver) {
   begin_evaluation(rig, instance, lod);
-  write_controls(rig, instance, rig.rbf_writes, kNoStage,
-                 [&] { solve_rbf(rig, instance, solver); });
+  begin_writing(instance, rig.rbf_writes);
+  solve_rbf(rig, instance, solver);
+  end_writing(rig, instance, rig.rbf_writes, kNoStage);
 }
 
 void evaluate_twist_swing(const Rig& rig, Instance& instance, uint32_t lod, uint32_t setup) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "runtime/eval/instance_packet.h"
 #include "runtime/eval/stages.h"
 
 namespace mien {
@@ -27,33 +28,87 @@ void gather(const Rig& rig, Instance& instance, const MlStep& step, float* input
   }
 }
 
+/// What a single evaluation and a batch tell a kernel of a layer alike.
+template <class Args>
+Args layer_args(const Rig& rig, const NetworkLayer& layer) {
+  Args args = {};
+  args.halves = rig.half_storage;
+  args.portable = rig.portable;
+  if (args.halves) {
+    args.values = rig.ml.halves.data + layer.first_value;
+  } else {
+    args.values = rig.ml.values.data + layer.first_value;
+  }
+  args.biases = rig.ml.biases.data + layer.first_bias;
+  args.alpha = layer.alpha;
+  args.column_count = layer.input_count;
+  args.row_count = layer.output_count;
+  args.function = layer.function;
+  return args;
+}
+
 /// Layer after layer; the last one writes where the step's outputs lie.
 void run_network(const Rig& rig, Instance& instance, const MlStep& step) {
-  const MlTable& ml = rig.ml;
   float* in = instance.ml_layers[0].data;
   float* out = instance.ml_layers[1].data;
   gather(rig, instance, step, in);
   for (uint32_t l = 0; l < step.layer_count; ++l) {
-    const NetworkLayer& layer = ml.layers[step.first_layer + l];
+    auto args = layer_args<DenseLayerArgs>(rig, rig.ml.layers[step.first_layer + l]);
     const bool last = l + 1 == step.layer_count;
-    DenseLayerArgs args;
-    args.halves = rig.half_storage;
-    args.portable = rig.portable;
-    if (args.halves) {
-      args.values = ml.halves.data + layer.first_value;
-    } else {
-      args.values = ml.values.data + layer.first_value;
-    }
-    args.biases = ml.biases.data + layer.first_bias;
     args.inputs = in;
     args.outputs = last ? instance.ml_values.data + step.first_output : out;
-    args.alpha = layer.alpha;
-    args.column_count = layer.input_count;
-    args.row_count = layer.output_count;
-    args.function = layer.function;
     rig.kernels->dense_layer(args);
     std::swap(in, out);
   }
+}
+
+/// The same for several instances, one lane each.
+void run_network_together(const InstancePacket& those, const MlStep& step) {
+  const Rig& rig = those.rig;
+  const PacketScratch& scratch = *those.scratch;
+  float* in = scratch.ml_layers[0].data;
+  float* out = scratch.ml_layers[1].data;
+  const uint32_t input_count = rig.ml.layers[step.first_layer].input_count;
+  const uint32_t batch_step = rig.kernels->batch_step;
+  const uint32_t lane_end = (those.count + batch_step - 1) / batch_step * batch_step;
+  for (uint32_t k = 0; k < those.count; ++k) {
+    Instance& instance = *those.instances[k];
+    float* inputs = instance.ml_layers[0].data;
+    gather(rig, instance, step, inputs);
+    for (uint32_t i = 0; i < input_count; ++i) in[size_t{i} * kBatchLanes + k] = inputs[i];
+  }
+  for (uint32_t k = those.count; k < lane_end; ++k) {
+    for (uint32_t i = 0; i < input_count; ++i) in[size_t{i} * kBatchLanes + k] = 0;
+  }
+  for (uint32_t l = 0; l < step.layer_count; ++l) {
+    auto args = layer_args<DenseBatchArgs>(rig, rig.ml.layers[step.first_layer + l]);
+    args.inputs = in;
+    args.outputs = out;
+    args.scratch = scratch.ml_weights.data;
+    args.lane_count = those.count;
+    rig.kernels->dense_batch(args);
+    std::swap(in, out);
+  }
+  for (uint32_t k = 0; k < those.count; ++k) {
+    float* values = those.instances[k]->ml_values.data + step.first_output;
+    for (uint32_t i = 0; i < step.output_count; ++i) values[i] = in[size_t{i} * kBatchLanes + k];
+  }
+}
+
+/// A network step of those instances whose mask lets it run.
+void run_networks(const InstancePacket& packet, const MlStep& step, const float* masks) {
+  Instance* running[kBatchLanes];
+  InstancePacket those = packet;
+  those.instances = running;
+  those.count = 0;
+  for (uint32_t i = 0; i < packet.count; ++i) {
+    if (masks[i] > 0.0f) running[those.count++] = packet.instances[i];
+  }
+  // Lanes without an instance cost as much as those with one.
+  if (packet.scratch && 2 * those.count >= packet.rig.kernels->batch_step && those.count > 1) {
+    return run_network_together(those, step);
+  }
+  for (uint32_t i = 0; i < those.count; ++i) run_network(packet.rig, *running[i], step);
 }
 
 void add_weighted(const Rig& rig, Instance& instance, const MlStep& step) {
@@ -145,33 +200,41 @@ void clear_joint_controls(const Rig& rig, Instance& instance) {
 
 }  // namespace
 
-void evaluate_ml(const Rig& rig, Instance& instance, uint32_t lod) {
+void evaluate_ml(const InstancePacket& packet) {
+  const Rig& rig = packet.rig;
   // What the last frame converted and no network writes in this one would be converted again.
-  if (rig.ml.converts) clear_joint_controls(rig, instance);
+  for (uint32_t i = 0; i < packet.count && rig.ml.converts; ++i) {
+    clear_joint_controls(rig, *packet.instances[i]);
+  }
   for (const MlStep& step : rig.ml.steps) {
-    if (!is_active(step.lods, lod)) continue;
+    if (!is_active(step.lods, packet.lod)) continue;
     if (step.layer_count == 0) {
-      add_weighted(rig, instance, step);
+      for (uint32_t i = 0; i < packet.count; ++i) add_weighted(rig, *packet.instances[i], step);
       continue;
     }
-    const float mask = mask_of(rig, instance, step);
-    float* values = instance.ml_values.data + step.first_output;
-    if (mask > 0.0f) {
-      run_network(rig, instance, step);
-    } else {
-      std::fill(values, values + step.output_count, 0.0f);
+    float masks[kBatchLanes];
+    for (uint32_t i = 0; i < packet.count; ++i) {
+      masks[i] = mask_of(rig, *packet.instances[i], step);
     }
-    scatter(rig, instance, step, lod, mask);
-    if (mask > 0.0f && mask < 1.0f) {
-      for (uint32_t i = 0; i < step.output_count; ++i) values[i] *= mask;
+    run_networks(packet, step, masks);
+    for (uint32_t i = 0; i < packet.count; ++i) {
+      Instance& instance = *packet.instances[i];
+      float* values = instance.ml_values.data + step.first_output;
+      if (!(masks[i] > 0.0f)) std::fill(values, values + step.output_count, 0.0f);
+      scatter(rig, instance, step, packet.lod, masks[i]);
+      if (masks[i] > 0.0f && masks[i] < 1.0f) {
+        for (uint32_t k = 0; k < step.output_count; ++k) values[k] *= masks[i];
+      }
     }
   }
-  if (!rig.ml.converts) return;
-  for (const MlJoint& joint : rig.ml.joints) {
-    convert_triple(rig, instance, joint.translation, false);
-    convert_triple(rig, instance, joint.scale, true);
-    if (joint.rotation_control != kNoControl)
-      convert_rotation(rig, instance, joint.rotation_control);
+  for (uint32_t i = 0; i < packet.count && rig.ml.converts; ++i) {
+    Instance& instance = *packet.instances[i];
+    for (const MlJoint& joint : rig.ml.joints) {
+      convert_triple(rig, instance, joint.translation, false);
+      convert_triple(rig, instance, joint.scale, true);
+      if (joint.rotation_control != kNoControl)
+        convert_rotation(rig, instance, joint.rotation_control);
+    }
   }
 }
 

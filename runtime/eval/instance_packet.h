@@ -3,7 +3,9 @@
 // Both run the same stages in the same order. In a batch the correctives and the joint matrix are
 // computed for the whole packet, where that is faster; the bits are the same either way.
 //
-//     each instance:       what changed, ML, RBF
+//     each instance:       what changed
+//     the packet:          ML: networks that many instances run
+//     each instance:       RBF
 //     the packet (batch):  PSD; of the joint matrix the columns that many instances use
 //     each instance:       PSD, joints, blend shapes, animated maps: what is left
 #pragma once
@@ -22,12 +24,14 @@ struct BlockList {
 
 /// Scratch memory of a packet.
 struct PacketScratch {
-  Span<float> controls;     // [control][32]
-  Span<uint32_t> changed;   // [corrective] a bit for each of the 32
-  Span<uint8_t> users;      // [column] how many of them use it
-  Span<float> sums;         // [32][packed row of a tile]
-  Span<uint32_t> ends;      // [block row] into blocks
-  Span<BatchBlock> blocks;  // of used columns; those of a block row begin at BlockList::starts
+  Span<float> controls;      // [control][32]
+  Span<uint32_t> changed;    // [corrective] a bit for each of the 32
+  Span<uint8_t> users;       // [column] how many of them use it
+  Span<float> sums;          // [32][packed row of a tile]
+  Span<uint32_t> ends;       // [block row] into blocks
+  Span<BatchBlock> blocks;   // of used columns; those of a block row begin at BlockList::starts
+  Span<float> ml_layers[2];  // [input or output][32] of the widest network layer
+  Span<float> ml_weights;    // of a block of rows, in half storage
 };
 
 struct InstancePacket {

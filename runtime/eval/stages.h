@@ -9,6 +9,8 @@
 
 namespace mien {
 
+struct InstancePacket;
+
 // Controls (evaluate_controls.cpp) ----------------------------------------------------------------
 
 /// Marks what becomes stale, by note_written_psds().
@@ -23,7 +25,8 @@ inline void note_written_psds(Instance& instance, Uses uses) {
 
 // Networks (evaluate_neural.cpp) and RBF solvers (evaluate_rbf.cpp) -------------------------------
 
-void evaluate_ml(const Rig& rig, Instance& instance, uint32_t lod);
+/// All instances of the packet.
+void evaluate_ml(const InstancePacket& packet);
 void evaluate_rbf(const Rig& rig, Instance& instance, uint32_t lod);
 /// One solver, whether the LOD lists it or not.
 void solve_rbf(const Rig& rig, Instance& instance, uint32_t solver);

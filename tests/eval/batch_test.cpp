@@ -90,6 +90,39 @@ TEST(Batch, HasTheBitsOfSingleEvaluation) {
 }
 
 // Large enough that lists of active pieces and whole blocks both come up.
+// Masks leave some instances out of a network, or blend what it gives.
+TEST(Batch, OfNetworksWithMasks) {
+  const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 5, MIEN_GENERATE_ML);
+  Random random = Random::from_seed(15, 1);
+  for (uint32_t isa : present_isas()) {
+    for (uint32_t variant = 0; variant < 8; ++variant) {
+      MienRigDesc desc = sized<MienRigDesc>();
+      desc.isa = isa;
+      desc.storage = variant & 1 ? MIEN_STORAGE_16_BIT : MIEN_STORAGE_32_BIT;
+      desc.arithmetic = variant & 2 ? MIEN_ARITHMETIC_PORTABLE : MIEN_ARITHMETIC_FAST;
+      desc.ml_masks = variant & 4 ? MIEN_ML_MASKS_BLEND : MIEN_ML_MASKS_SWITCH;
+      for (size_t count : {2, 9, 40}) {
+        SCOPED_TRACE(std::string(mien_isa_name(isa)) + ", variant " + std::to_string(variant) +
+                     ", " + std::to_string(count) + " instances");
+        InstancePacket packet(dna.get(), desc, count);
+        const BatchHandle batch = create_batch(packet.rig, static_cast<uint32_t>(count));
+        ASSERT_FALSE(packet.together[0].masks.empty());
+        for (uint32_t frame = 0; frame < 4; ++frame) {
+          packet.draw(random, 60, false, frame < 2 ? 1 : 2);
+          for (size_t i = 0; i < count; ++i) {
+            for (size_t m = 0; m < packet.together[i].masks.count; ++m) {
+              constexpr float kMasks[] = {1, 1, 0, 0.25f};
+              packet.together[i].masks[m] = packet.alone[i].masks[m] = kMasks[random.below(4)];
+            }
+          }
+          packet.evaluate(batch.get());
+          packet.expect_equal();
+        }
+      }
+    }
+  }
+}
+
 TEST(Batch, OfALargeRig) {
   const DnaHandle dna = generate_dna(MIEN_PRESET_MEDIUM, 1);
   Random random = Random::from_seed(12, 1);

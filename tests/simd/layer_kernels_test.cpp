@@ -105,6 +105,50 @@ struct AlignedHalves {
   uint16_t* data;
 };
 
+// Every function, floats and halves, fast and portable, any number of lanes.
+TEST(DenseBatch, HasTheBitsOfOneByOne) {
+  Random random = Random::from_seed(11, 9);
+  for (const KernelTable* table : present()) {
+    for (uint32_t round = 0; round < 120; ++round) {
+      const uint32_t columns = random.below(70), row_count = 1 + random.below(50);
+      const uint32_t lanes = 1 + random.below(kBatchLanes);
+      const uint32_t rows = (row_count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
+      const auto function = static_cast<uint8_t>(round % 5);
+      const bool is_half = round / 5 % 2, portable = round / 10 % 2;
+      Aligned values(size_t{rows} * columns), biases(rows), inputs(size_t{columns} * kBatchLanes),
+          outputs(size_t{rows} * kBatchLanes), scratch(size_t{columns} * kBlockLanes), single(rows);
+      for (size_t i = 0; i < size_t{rows} * columns; ++i) {
+        values.data[i] = static_cast<float>(random.between(-1, 1));
+      }
+      for (uint32_t r = 0; r < rows; ++r)
+        biases.data[r] = static_cast<float>(random.between(-2, 2));
+      for (size_t i = 0; i < size_t{columns} * kBatchLanes; ++i) {
+        inputs.data[i] = static_cast<float>(random.between(-2, 2));
+      }
+      if (round % 7 == 0 && columns > 0) {  // sums that saturate
+        values.data[0] = 3e38f;
+        for (uint32_t k = 0; k < kBatchLanes; ++k) inputs.data[k] *= 10;
+      }
+      const AlignedHalves halves(values.data, size_t{rows} * columns);
+      const void* weights = is_half ? static_cast<const void*>(halves.data) : values.data;
+      table->dense_batch({weights, biases.data, inputs.data, outputs.data, scratch.data, 0.1f,
+                          columns, row_count, lanes, function, is_half, portable});
+      std::vector<float> of_lane(columns);
+      for (uint32_t k = 0; k < lanes; ++k) {
+        for (uint32_t c = 0; c < columns; ++c) of_lane[c] = inputs.data[c * kBatchLanes + k];
+        table->dense_layer({weights, biases.data, of_lane.data(), single.data, 0.1f, columns,
+                            row_count, function, is_half, portable});
+        for (uint32_t r = 0; r < row_count; ++r) {
+          ASSERT_EQ(std::memcmp(&outputs.data[r * kBatchLanes + k], &single.data[r], sizeof(float)),
+                    0)
+              << table->name << ", round " << round << ", lane " << k << ", row " << r << ": "
+              << outputs.data[r * kBatchLanes + k] << ", not " << single.data[r];
+        }
+      }
+    }
+  }
+}
+
 // A layer of one column: each half comes out as it is.
 TEST(DenseLayer, EveryFiniteHalfIsReadExactly) {
   std::vector<uint16_t> all;
