@@ -15,6 +15,7 @@
 #include "runtime/dna/format/dna_view.h"
 #include "runtime/eval/batch.h"
 #include "runtime/eval/instance.h"
+#include "runtime/mix/gaze.h"
 #include "runtime/mix/mixer.h"
 
 // Tags stand first in every object and tell kinds apart. Destroyed handles are not detected: a table
@@ -32,6 +33,7 @@ constexpr uint32_t kClipTag = 0x6D43'4C50;
 constexpr uint32_t kClipPlayerTag = 0x6D43'504C;
 constexpr uint32_t kClipBindingTag = 0x6D43'424E;
 constexpr uint32_t kMixTag = 0x6D4D'4958;
+constexpr uint32_t kGazeTag = 0x6D47'415A;
 constexpr uint32_t kMixerTag = 0x6D4D'5852;
 
 struct MienDna {
@@ -67,6 +69,13 @@ struct MienClipBinding {
   uint32_t tag = 0;
   mien::Allocator allocator;
   mien::Binding* binding = nullptr;
+};
+
+struct MienGaze {
+  uint32_t tag;
+  mien::Allocator allocator;
+  uint32_t raw_count;  // of the rig
+  mien::GazeTable table;
 };
 
 namespace mien::capi {
@@ -118,6 +127,7 @@ inline MienStatus check(const MienDeformerInstance* instance) {
 }
 inline MienStatus check(const MienClip* clip) { return check_tag(clip, kClipTag); }
 inline MienStatus check(const MienClipPlayer* player) { return check_tag(player, kClipPlayerTag); }
+inline MienStatus check(const MienGaze* gaze) { return check_tag(gaze, kGazeTag); }
 inline MienStatus check(const MienMix* mix) { return check_tag(mix, kMixTag); }
 inline MienStatus check(const MienMixer* mixer) { return check_tag(mixer, kMixerTag); }
 inline MienStatus check(const MienClipBinding* binding) {

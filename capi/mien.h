@@ -1994,6 +1994,72 @@ MIEN_DEFAULT(MienMixInfo, mien_mix_info_default)
 /* Returns the properties of a mix. */
 MIEN_CHECKED MienStatus mien_mix_info(const MienMix* mix, MienMixInfo* out_info);
 
+/* Finds antagonists: pairs of raw controls that the two halves of one GUI control drive, and nothing
+ * else does. Writes as many as there is room for, with stiffness 1; `out_count` tells how many there are.
+ * `out_pairs` may be NULL if `capacity` is 0. */
+MIEN_CHECKED MienStatus mien_mix_antagonists(const MienRig* rig, MienMixAntagonists* out_pairs,
+                                             size_t capacity, size_t* out_count);
+
+/* Finds the counterparts of raw controls in the other half of the face, for MienMixDesc.mirror. Controls
+ * are counterparts if their names differ in Left and Right or L and R only and their motions agree, or
+ * if the motion of joints is mirrored. Others, and lanes beyond the raw controls, are their own.
+ * Evaluates the rig once for each raw control, and takes memory from its allocator during the call.
+ * Fails with MIEN_ERROR_MISMATCH if `lane_count` is less than the raw controls. */
+MIEN_CHECKED MienStatus mien_mix_mirror(const MienDeformer* deformer, uint16_t* out_lanes,
+                                        size_t lane_count, MienError* error);
+
+/* Writes a mask for each raw control: the share of its joint motion, at value 1 and LOD 0, that is of
+ * some joint groups; a millimeter counts as much as a degree. Controls that move no joint, and lanes
+ * beyond the raw controls, get `otherwise_weight`. Evaluates the rig once for each raw control and
+ * group, and takes memory from its allocator during the call.
+ * Fails with MIEN_ERROR_INDEX if a group does not exist, MIEN_ERROR_MISMATCH if `lane_count` is less
+ * than the raw controls. */
+MIEN_CHECKED MienStatus mien_mix_mask(const MienRig* rig, const uint32_t* groups, size_t group_count,
+                                      float otherwise_weight, float* out_mask, size_t lane_count,
+                                      MienError* error);
+
+/* Which controls turn the eyes of a rig, and how far. Immutable. */
+typedef struct MienGaze MienGaze;
+
+/* How to create a gaze. */
+typedef struct MienGazeDesc {
+    size_t struct_size;
+    const char* left_eye;  /* names of joints. NULL: L_Eye, R_Eye, FACIAL_L_Eye or FACIAL_R_Eye */
+    const char* right_eye;
+    const MienAllocator* allocator;
+} MienGazeDesc;
+MIEN_DEFAULT(MienGazeDesc, mien_gaze_desc_default)
+
+/* Creates a gaze by measuring how raw controls turn the eyes: evaluates the rig some thousand times.
+ * `deformer` may be destroyed afterwards. Destroy with mien_gaze_destroy().
+ * Fails with MIEN_ERROR_NAME if there are no such joints, MIEN_ERROR_INVALID_ARGUMENT if no raw control
+ * turns an eye in one of the four directions, farther with each step. */
+MIEN_CHECKED MienStatus mien_gaze_create(const MienDeformer* deformer, const MienGazeDesc* desc,
+                                         MienGaze** out_gaze, MienError* error);
+
+/* Destroys a gaze. */
+MIEN_API void mien_gaze_destroy(MienGaze* gaze);
+
+/* A place in millimeters from the origin, in the model space of a rig before its head moves. */
+typedef struct MienGazeTarget {
+    float left;
+    float up;
+    float front;
+} MienGazeTarget;
+
+/* Tangents of angles that are beyond the reach of the eyes, the mean of both: for the head to turn. */
+typedef struct MienGazeRest {
+    float left;
+    float up;
+} MienGazeRest;
+
+/* Sets the raw controls of a row so that both eyes look at a target. Near targets make eyes converge.
+ * `out_rest` may be NULL. Does not allocate or lock.
+ * Fails with MIEN_ERROR_MISMATCH if `row_count` is less than the raw controls, MIEN_ERROR_INVALID_ARGUMENT
+ * if the target is not finite. */
+MIEN_CHECKED MienStatus mien_gaze_look_at(const MienGaze* gaze, const MienGazeTarget* target, float* row,
+                                          size_t row_count, MienGazeRest* out_rest);
+
 /* ---- Mixer ----------------------------------------------------------------------------------- */
 
 /* One character in a mix: what plays, fades and reacts. Only mien_mixer_push() may be called by another

@@ -108,6 +108,7 @@ using ClipBindingDesc = Sized<MienClipBindingDesc>;
 using MixDesc = Sized<MienMixDesc>;
 using MixerDesc = Sized<MienMixerDesc>;
 using PlayDesc = Sized<MienPlayDesc>;
+using GazeDesc = Sized<MienGazeDesc>;
 using CoordinateSystem = Sized<MienCoordinateSystem>;
 
 inline std::string_view view(const MienStringView& text) { return {text.data, text.count}; }
@@ -968,6 +969,43 @@ class Mix : public Owner<MienMix, mien_mix_destroy> {
     return make<Mixer>([&](MienMixer** out, MienError* error) {
       return mien_mixer_create(get(), &desc, out, error);
     });
+  }
+
+  /// Writes as many pairs as there is room for; how many there are.
+  static Result<size_t> antagonists(const Rig& rig, Span<MienMixAntagonists> out) {
+    size_t count = 0;
+    const MienStatus status = mien_mix_antagonists(rig.get(), out.data(), out.size(), &count);
+    return {status, std::move(count)};
+  }
+  /// For MixDesc::mirror.
+  static Result<void> mirror(const Deformer& deformer, Span<uint16_t> out) {
+    Sized<MienError> error;
+    const MienStatus status = mien_mix_mirror(deformer.get(), out.data(), out.size(), &error);
+    return {status, error};
+  }
+  /// For MienMixLayer::mask.
+  static Result<void> mask(const Rig& rig, Span<const uint32_t> groups, float otherwise,
+                           Span<float> out) {
+    Sized<MienError> error;
+    const MienStatus status = mien_mix_mask(rig.get(), groups.data(), groups.size(), otherwise,
+                                            out.data(), out.size(), &error);
+    return {status, error};
+  }
+};
+
+class Gaze : public Owner<MienGaze, mien_gaze_destroy> {
+ public:
+  using Owner::Owner;
+
+  /// The deformer may be destroyed afterwards.
+  static Result<Gaze> create(const Deformer& deformer, const GazeDesc& desc = {}) {
+    return make<Gaze>([&](MienGaze** out, MienError* error) {
+      return mien_gaze_create(deformer.get(), &desc, out, error);
+    });
+  }
+  Status look_at(const MienGazeTarget& target, Span<float> row,
+                 MienGazeRest* rest = nullptr) const {
+    return mien_gaze_look_at(get(), &target, row.data(), row.size(), rest);
   }
 };
 

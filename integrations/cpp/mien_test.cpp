@@ -128,6 +128,17 @@ void test_mixing() {
   desc.reactions = &reaction;
   desc.reaction_count = 1;
   desc.variable_count = 1;
+  // What the rig says about itself.
+  std::vector<float> mask(raw_count);
+  CHECK(mien::Mix::antagonists(rig, {}) && mien::Mix::mask(rig, {}, 1, mask));
+  const mien::Deformer deformer = mien::Deformer::create(dna, rig).value();
+  std::vector<uint16_t> mirror(raw_count + 1);
+  CHECK(mien::Mix::mirror(deformer, mirror) && mirror[raw_count] == raw_count);
+#ifndef MIEN_EXCEPTIONS
+  CHECK(mien::Gaze::create(deformer).status() == MIEN_ERROR_NAME);  // this rig has no such eyes
+  CHECK(mien::Gaze().look_at({0, 0, 1000}, mask).status() == MIEN_ERROR_NULL_ARGUMENT);
+#endif
+
   const mien::Mix mix = mien::Mix::create(rig, desc).value();
   CHECK(mix.info()->lane_count == raw_count + 1);
 

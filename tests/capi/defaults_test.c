@@ -59,6 +59,7 @@ int main(void) {
   CHECK_DEFAULT(MienClipBindingDesc, mien_clip_binding_desc_default);
   CHECK_DEFAULT(MienClipBindingInfo, mien_clip_binding_info_default);
   CHECK_DEFAULT(MienMixDesc, mien_mix_desc_default);
+  CHECK_DEFAULT(MienGazeDesc, mien_gaze_desc_default);
   CHECK_DEFAULT(MienMixInfo, mien_mix_info_default);
   CHECK_DEFAULT(MienMixerDesc, mien_mixer_desc_default);
   CHECK_DEFAULT(MienPlayDesc, mien_play_desc_default);

@@ -598,6 +598,10 @@ class MienMix(c_void_p):
     pass
 
 
+class MienGaze(c_void_p):
+    pass
+
+
 class MienMixer(c_void_p):
     pass
 
@@ -1861,6 +1865,48 @@ class MienMixInfo(Structure):
 
     def __init__(self) -> None:
         super().__init__(48)
+
+
+class MienGazeDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("left_eye", c_void_p),
+        ("right_eye", c_void_p),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    left_eye: Any
+    right_eye: Any
+    allocator: Any
+
+    def __init__(self, *,
+                 left_eye: Any = None,
+                 right_eye: Any = None,
+                 allocator: Any = None) -> None:
+        super().__init__(32)
+        self.left_eye = left_eye
+        self.right_eye = right_eye
+        self.allocator = allocator
+
+
+class MienGazeTarget(Structure):
+    _fields_ = [
+        ("left", c_float),
+        ("up", c_float),
+        ("front", c_float),
+    ]
+    left: Any
+    up: Any
+    front: Any
+
+
+class MienGazeRest(Structure):
+    _fields_ = [
+        ("left", c_float),
+        ("up", c_float),
+    ]
+    left: Any
+    up: Any
 
 
 class MienMixerDesc(Structure):
@@ -3150,6 +3196,32 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "there is no memory"),
     ),
     "mien_mix_info": (),
+    "mien_mix_antagonists": (),
+    "mien_mix_mirror": (
+        (Status.MISMATCH,
+         "`lane_count` is less than the raw controls"),
+    ),
+    "mien_mix_mask": (
+        (Status.MISMATCH,
+         "`lane_count` is less than the raw controls"),
+        (Status.INDEX,
+         "a group does not exist"),
+    ),
+    "mien_gaze_create": (
+        (Status.INVALID_ARGUMENT,
+         "no raw control turns an eye in one of the four directions, farther with each "
+         "step"),
+        (Status.NAME,
+         "there are no such joints"),
+        (Status.MEMORY,
+         "there is no memory"),
+    ),
+    "mien_gaze_look_at": (
+        (Status.INVALID_ARGUMENT,
+         "the target is not finite"),
+        (Status.MISMATCH,
+         "`row_count` is less than the raw controls"),
+    ),
     "mien_mixer_create": (
         (Status.INVALID_ARGUMENT,
          "an argument is outside its range"),
@@ -3436,6 +3508,15 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
      POINTER(MienError))),
     ("mien_mix_destroy", None, (MienMix,)),
     ("mien_mix_info", c_int32, (MienMix, POINTER(MienMixInfo))),
+    ("mien_mix_antagonists", c_int32, (MienRig, POINTER(MienMixAntagonists), c_size_t, c_void_p)),
+    ("mien_mix_mirror", c_int32, (MienDeformer, c_void_p, c_size_t, POINTER(MienError))),
+    ("mien_mix_mask", c_int32, (MienRig, c_void_p, c_size_t, c_float, c_void_p, c_size_t,
+     POINTER(MienError))),
+    ("mien_gaze_create", c_int32, (MienDeformer, POINTER(MienGazeDesc), POINTER(MienGaze),
+     POINTER(MienError))),
+    ("mien_gaze_destroy", None, (MienGaze,)),
+    ("mien_gaze_look_at", c_int32, (MienGaze, POINTER(MienGazeTarget), c_void_p, c_size_t,
+     POINTER(MienGazeRest))),
     ("mien_mixer_create", c_int32, (MienMix, POINTER(MienMixerDesc), POINTER(MienMixer),
      POINTER(MienError))),
     ("mien_mixer_destroy", None, (MienMixer,)),
@@ -3593,6 +3674,12 @@ class Library:
     mien_mix_create: Any
     mien_mix_destroy: Any
     mien_mix_info: Any
+    mien_mix_antagonists: Any
+    mien_mix_mirror: Any
+    mien_mix_mask: Any
+    mien_gaze_create: Any
+    mien_gaze_destroy: Any
+    mien_gaze_look_at: Any
     mien_mixer_create: Any
     mien_mixer_destroy: Any
     mien_mixer_play: Any

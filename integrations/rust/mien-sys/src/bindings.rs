@@ -517,6 +517,13 @@ pub struct MienMix {
     _opaque: Opaque,
 }
 
+/// Which controls turn the eyes of a rig, and how far. Immutable.
+#[repr(C)]
+pub struct MienGaze {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
 /// One character in a mix: what plays, fades and reacts. Only `mien_mixer_push()` may be called by
 /// another thread at the same time.
 #[repr(C)]
@@ -1933,6 +1940,61 @@ impl Default for MienMixInfo {
     }
 }
 
+/// How to create a gaze.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienGazeDesc {
+    pub struct_size: usize,
+    /// Names of joints. NULL: L\_Eye, R\_Eye, FACIAL\_L\_Eye or FACIAL\_R\_Eye.
+    pub left_eye: *const c_char,
+    pub right_eye: *const c_char,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienGazeDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// A place in millimeters from the origin, in the model space of a rig before its head moves.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienGazeTarget {
+    pub left: f32,
+    pub up: f32,
+    pub front: f32,
+}
+
+impl Default for MienGazeTarget {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// Tangents of angles that are beyond the reach of the eyes, the mean of both: for the head to
+/// turn.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienGazeRest {
+    pub left: f32,
+    pub up: f32,
+}
+
+impl Default for MienGazeRest {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
 /// How to create a mixer.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -2958,6 +3020,46 @@ extern "C" {
 
     /// Returns the properties of a mix.
     pub fn mien_mix_info(mix: *const MienMix, out_info: *mut MienMixInfo) -> MienStatus;
+
+    /// Finds antagonists: pairs of raw controls that the two halves of one GUI control drive, and
+    /// nothing else does. Writes as many as there is room for, with stiffness 1; `out_count` tells
+    /// how many there are. `out_pairs` may be NULL if `capacity` is 0.
+    pub fn mien_mix_antagonists(rig: *const MienRig, out_pairs: *mut MienMixAntagonists, capacity: usize, out_count: *mut usize) -> MienStatus;
+
+    /// Finds the counterparts of raw controls in the other half of the face, for
+    /// MienMixDesc.mirror. Controls are counterparts if their names differ in Left and Right or L
+    /// and R only and their motions agree, or if the motion of joints is mirrored. Others, and
+    /// lanes beyond the raw controls, are their own. Evaluates the rig once for each raw control,
+    /// and takes memory from its allocator during the call.
+    ///
+    /// Fails with `MIEN_ERROR_MISMATCH` if `lane_count` is less than the raw controls.
+    pub fn mien_mix_mirror(deformer: *const MienDeformer, out_lanes: *mut u16, lane_count: usize, error: *mut MienError) -> MienStatus;
+
+    /// Writes a mask for each raw control: the share of its joint motion, at value 1 and LOD 0,
+    /// that is of some joint groups; a millimeter counts as much as a degree. Controls that move
+    /// no joint, and lanes beyond the raw controls, get `otherwise_weight`. Evaluates the rig once
+    /// for each raw control and group, and takes memory from its allocator during the call.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if a group does not exist, `MIEN_ERROR_MISMATCH` if
+    /// `lane_count` is less than the raw controls.
+    pub fn mien_mix_mask(rig: *const MienRig, groups: *const u32, group_count: usize, otherwise_weight: f32, out_mask: *mut f32, lane_count: usize, error: *mut MienError) -> MienStatus;
+
+    /// Creates a gaze by measuring how raw controls turn the eyes: evaluates the rig some thousand
+    /// times. `deformer` may be destroyed afterwards. Destroy with `mien_gaze_destroy()`.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there are no such joints, `MIEN_ERROR_INVALID_ARGUMENT` if
+    /// no raw control turns an eye in one of the four directions, farther with each step.
+    pub fn mien_gaze_create(deformer: *const MienDeformer, desc: *const MienGazeDesc, out_gaze: *mut *mut MienGaze, error: *mut MienError) -> MienStatus;
+
+    /// Destroys a gaze.
+    pub fn mien_gaze_destroy(gaze: *mut MienGaze);
+
+    /// Sets the raw controls of a row so that both eyes look at a target. Near targets make eyes
+    /// converge. `out_rest` may be NULL. Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_MISMATCH` if `row_count` is less than the raw controls,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if the target is not finite.
+    pub fn mien_gaze_look_at(gaze: *const MienGaze, target: *const MienGazeTarget, row: *mut f32, row_count: usize, out_rest: *mut MienGazeRest) -> MienStatus;
 
     /// Creates a mixer at time 0, with one allocation: nothing plays, weights of poses and pose
     /// variables are 0. `mix` must outlive it. Destroy with `mien_mixer_destroy()`.

@@ -723,6 +723,36 @@ fn mien_mix_info() {
 }
 
 #[test]
+fn mien_gaze_desc() {
+    use mien_sys::MienGazeDesc as S;
+    assert_eq!(size_of::<S>(), 32);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, left_eye), 8);
+    assert_eq!(offset!(S, right_eye), 16);
+    assert_eq!(offset!(S, allocator), 24);
+}
+
+#[test]
+fn mien_gaze_target() {
+    use mien_sys::MienGazeTarget as S;
+    assert_eq!(size_of::<S>(), 12);
+    assert_eq!(align_of::<S>(), 4);
+    assert_eq!(offset!(S, left), 0);
+    assert_eq!(offset!(S, up), 4);
+    assert_eq!(offset!(S, front), 8);
+}
+
+#[test]
+fn mien_gaze_rest() {
+    use mien_sys::MienGazeRest as S;
+    assert_eq!(size_of::<S>(), 8);
+    assert_eq!(align_of::<S>(), 4);
+    assert_eq!(offset!(S, left), 0);
+    assert_eq!(offset!(S, up), 4);
+}
+
+#[test]
 fn mien_mixer_desc() {
     use mien_sys::MienMixerDesc as S;
     assert_eq!(size_of::<S>(), 32);

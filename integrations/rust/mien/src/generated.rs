@@ -1938,6 +1938,25 @@ macro_rules! errors {
     (mien_mix_info) => {
         "- none with valid arguments"
     };
+    (mien_mix_antagonists) => {
+        "- none with valid arguments"
+    };
+    (mien_mix_mirror) => {
+        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `lane_count` is less than the raw controls"
+    };
+    (mien_mix_mask) => {
+        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `lane_count` is less than the raw controls\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if a group does not exist"
+    };
+    (mien_gaze_create) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if no raw control turns an eye in one of the four directions, farther with each step\n\
+         - [`Status::NAME`](crate::Status::NAME) if there are no such joints\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+    };
+    (mien_gaze_look_at) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the target is not finite\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if `row_count` is less than the raw controls"
+    };
     (mien_mixer_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// What a mix has to know of a rig, and gazes. mien.h is the manual.
+#include <algorithm>
+#include <cmath>
+
+#include "capi/handles.h"
+#include "runtime/probe/probe_controls.h"
+#include "runtime/probe/probe_gaze.h"
+
+using namespace mien;
+using namespace mien::capi;
+
+static_assert(sizeof(MienMixAntagonists) == sizeof(AntagonistPair) &&
+                  offsetof(MienMixAntagonists, second) == offsetof(AntagonistPair, b) &&
+                  offsetof(MienMixAntagonists, stiffness) == offsetof(AntagonistPair, stiffness),
+              "both have one layout");
+
+MienStatus mien_mix_antagonists(const MienRig* rig, MienMixAntagonists* out_pairs, size_t capacity,
+                                size_t* out_count) {
+  if (!out_count) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_count = 0;
+  if (!out_pairs && capacity != 0) return MIEN_ERROR_NULL_ARGUMENT;
+  if (MienStatus status = check(rig)) return status;
+  *out_count =
+      find_antagonists(*object(rig), {reinterpret_cast<AntagonistPair*>(out_pairs), capacity});
+  return MIEN_OK;
+}
+
+MienStatus mien_mix_mirror(const MienDeformer* deformer, uint16_t* out_lanes, size_t lane_count,
+                           MienError* error) {
+  if (MienStatus status = check_error(error)) return status;
+  if (!out_lanes) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "out_lanes is NULL");
+  if (MienStatus status = check(deformer)) return give_error(error, status, "not a deformer");
+  const Deformer& of = *object(deformer);
+  if (lane_count < of.rig->raw_count || lane_count > kMaxLanes) {
+    return give_error(error, MIEN_ERROR_MISMATCH, "%zu lanes; the rig has %u raw controls",
+                      lane_count, of.rig->raw_count);
+  }
+  Error detail;
+  const Span<uint16_t> lanes = {out_lanes, of.rig->raw_count};
+  if (find_mirror(of, of.rig->allocator, lanes, detail) != Status::kOk) {
+    return give_error(detail, error);
+  }
+  for (size_t i = lanes.count; i < lane_count; ++i) out_lanes[i] = static_cast<uint16_t>(i);
+  return succeed(error);
+}
+
+MienStatus mien_mix_mask(const MienRig* rig, const uint32_t* groups, size_t group_count,
+                         float otherwise_weight, float* out_mask, size_t lane_count,
+                         MienError* error) {
+  if (MienStatus status = check_error(error)) return status;
+  if (!out_mask || (!groups && group_count != 0)) {
+    return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "groups or out_mask is NULL");
+  }
+  if (MienStatus status = check(rig)) return give_error(error, status, "not a rig");
+  const Rig& of = *object(rig);
+  if (lane_count < of.raw_count) {
+    return give_error(error, MIEN_ERROR_MISMATCH, "%zu lanes; the rig has %u raw controls",
+                      lane_count, of.raw_count);
+  }
+  Error detail;
+  if (mask_of_groups(of, {groups, group_count}, otherwise_weight, of.allocator,
+                     {out_mask, of.raw_count}, detail) != Status::kOk) {
+    return give_error(detail, error);
+  }
+  std::fill(out_mask + of.raw_count, out_mask + lane_count, otherwise_weight);
+  return succeed(error);
+}
+
+// Gaze --------------------------------------------------------------------------------------------
+
+MienStatus mien_gaze_create(const MienDeformer* deformer, const MienGazeDesc* desc,
+                            MienGaze** out_gaze, MienError* error) {
+  if (MienStatus status = clear_output(out_gaze, error)) return status;
+  if (MienStatus status = check(deformer)) return give_error(error, status, "not a deformer");
+  MienGazeDesc known;
+  if (MienStatus status = read_desc(desc, known, "MienGazeDesc", error)) return status;
+  Allocator allocator;
+  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
+  const Deformer& of = *object(deformer);
+  uint32_t eyes[2];
+  find_eyes(*of.rig, eyes);
+  if (known.left_eye) eyes[0] = find_joint(*of.rig, {known.left_eye});
+  if (known.right_eye) eyes[1] = find_joint(*of.rig, {known.right_eye});
+  for (uint32_t eye : eyes) {
+    if (eye != kNoJoint) continue;
+    return give_error(error, MIEN_ERROR_NAME, "the rig has no joints for both eyes: name them");
+  }
+  Error detail;
+  GazeTable table;
+  if (probe_gaze(of, eyes, allocator, table, detail) != Status::kOk) {
+    return give_error(detail, error);
+  }
+  void* block = allocator.get(sizeof(MienGaze), alignof(MienGaze));
+  if (!block) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a gaze");
+  *out_gaze = new (block) MienGaze{kGazeTag, allocator, of.rig->raw_count, table};
+  return succeed(error);
+}
+
+void mien_gaze_destroy(MienGaze* gaze) {
+  if (check(gaze) != MIEN_OK) return;
+  const Allocator allocator = gaze->allocator;
+  gaze->tag = 0;
+  allocator.put(gaze, sizeof(MienGaze), alignof(MienGaze));
+}
+
+MienStatus mien_gaze_look_at(const MienGaze* gaze, const MienGazeTarget* target, float* row,
+                             size_t row_count, MienGazeRest* out_rest) {
+  if (out_rest) *out_rest = {0, 0};
+  if (!target || !row) return MIEN_ERROR_NULL_ARGUMENT;
+  if (MienStatus status = check(gaze)) return status;
+  if (row_count < gaze->raw_count) return MIEN_ERROR_MISMATCH;
+  const float place[3] = {target->left, target->up, target->front};
+  for (float value : place) {
+    if (!std::isfinite(value)) return MIEN_ERROR_INVALID_ARGUMENT;
+  }
+  float rest[2];
+  look_at(gaze->table, place, row, rest);
+  if (out_rest) *out_rest = {rest[0], rest[1]};
+  return MIEN_OK;
+}
