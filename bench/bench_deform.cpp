@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "bench/bench_support.h"
-#include "capi/handles.h"
+#include "capi/dna_handle.h"
 
 namespace mien::bench {
 namespace {

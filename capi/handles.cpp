@@ -5,12 +5,6 @@
 
 namespace mien::capi {
 
-MienDna* new_dna(const Allocator& allocator) {
-  void* memory = allocator.get(sizeof(MienDna), alignof(MienDna));
-  if (!memory) return nullptr;
-  return new (memory) MienDna{kDnaTag, allocator, {}, Arena(allocator), {}};
-}
-
 MienStatus find_kernels(uint32_t isa, const KernelTable*& out, MienError* error) {
   if (isa == MIEN_ISA_ENVIRONMENT) {
     out = kernels_from_environment();

@@ -10,9 +10,7 @@
 #include "runtime/anim/clip_sampler.h"
 #include "runtime/baked/baked_file.h"
 #include "runtime/base/arena.h"
-#include "runtime/base/mapped_file.h"
 #include "runtime/deform/deformer_instance.h"
-#include "runtime/dna/format/dna_view.h"
 #include "runtime/eval/batch.h"
 #include "runtime/eval/instance.h"
 #include "runtime/mix/gaze.h"
@@ -35,14 +33,6 @@ constexpr uint32_t kClipBindingTag = 0x6D43'424E;
 constexpr uint32_t kMixTag = 0x6D4D'4958;
 constexpr uint32_t kGazeTag = 0x6D47'415A;
 constexpr uint32_t kMixerTag = 0x6D4D'5852;
-
-struct MienDna {
-  uint32_t tag;
-  mien::Allocator allocator;
-  mien::MappedFile file;  // empty if opened from memory or a stream
-  mien::Arena arena;
-  mien::dna::DnaView view;
-};
 
 // One block, with the reports behind it; the bytes are the caller's, mapped, or a block of their own.
 struct MienClip {
@@ -148,8 +138,5 @@ MienStatus find_kernels(uint32_t isa, const KernelTable*& out, MienError* error)
 
 /// Drops one owner of a clip; the last one releases it.
 void release_clip_handle(const MienClip* clip);
-
-/// An empty MienDna in the allocator's memory; null if there is none.
-MienDna* new_dna(const Allocator& allocator);
 
 }  // namespace mien::capi

@@ -28,8 +28,10 @@
  *              are. Functions that fail because of data also take a MienError, which may be NULL.
  *              Wrong arguments give MIEN_ERROR_NULL_ARGUMENT, MIEN_ERROR_INVALID_ARGUMENT,
  *              MIEN_ERROR_STRUCT_SIZE or MIEN_ERROR_HANDLE; functions that create or open an
- *              object give MIEN_ERROR_MEMORY if the allocator returns NULL. "Fails with" lists
- *              the statuses beyond these.
+ *              object give MIEN_ERROR_MEMORY if the allocator returns NULL. In a library that
+ *              was built with MIEN_BUILD_COMPILER=OFF, functions that create or take a MienDna or
+ *              a MienReport give MIEN_ERROR_UNSUPPORTED. "Fails with" lists the statuses beyond
+ *              these.
  *   Threads    A const handle may be used by any number of threads at the same time. A handle that
  *              is not const may be used by one thread at a time. There is no global state.
  *   Ownership  Objects that a create, open or generate function returns are released by the
@@ -137,6 +139,7 @@ enum MienStatusCode {
     MIEN_ERROR_NAME = 8,             /* no such name or path */
     MIEN_ERROR_ISA = 9,              /* an instruction set that this CPU or build lacks */
     MIEN_ERROR_MEMORY = 10,          /* the allocator returned NULL */
+    MIEN_ERROR_UNSUPPORTED = 11,     /* this build of the library opens baked files only */
     MIEN_ERROR_FILE_OPEN = 20,       /* the file cannot be opened */
     MIEN_ERROR_FILE_READ = 21,       /* the file or stream cannot be read */
     MIEN_ERROR_FILE_WRITE = 22,      /* the file cannot be written */

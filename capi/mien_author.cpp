@@ -43,15 +43,15 @@ bool make_file(const MienGenerateDesc& desc, File& out) {
   return true;
 }
 
-size_t MIEN_CALLBACK read_file(void* user, uint64_t offset, void* buffer, size_t size) {
+size_t MIEN_CALLBACK read_made(void* user, uint64_t offset, void* buffer, size_t size) {
   memcpy(buffer, static_cast<const File*>(user)->bytes + offset, size);
   return size;
 }
 
 /// libmien reads what it keeps into memory of its own: `file` may go afterwards.
-MienStatus open_file(File& file, const MienAllocator* allocator, MienDna** out_dna,
+MienStatus open_made(File& file, const MienAllocator* allocator, MienDna** out_dna,
                      MienError* error) {
-  const MienStream stream = {&file, file.size, read_file};
+  const MienStream stream = {&file, file.size, read_made};
   MienDnaDesc desc = mien_dna_desc_default();
   desc.allocator = allocator;
   return mien_dna_open_stream(&stream, &desc, out_dna, error);
@@ -83,5 +83,5 @@ MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna, Mi
   if (!make_file(known, file)) {
     return give_error(error, MIEN_ERROR_MEMORY, "no memory for the rig");
   }
-  return open_file(file, known.allocator, out_dna, error);
+  return open_made(file, known.allocator, out_dna, error);
 }

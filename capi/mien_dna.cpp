@@ -2,7 +2,7 @@
 // DNA files: opening, looking into them, writing. mien.h is the manual.
 #include <algorithm>
 
-#include "capi/handles.h"
+#include "capi/dna_handle.h"
 #include "runtime/base/coordinate_system.h"
 #include "runtime/dna/check/check_written.h"
 #include "runtime/dna/dna_reader.h"
@@ -24,6 +24,12 @@ static_assert(MIEN_LAYER_TWIST_SWING_BEHAVIOR == int(dna::kLayerTwistSwing) &&
               "dna_view.h and mien.h number the same layers");
 static_assert(MIEN_FIELD_F32 == int(dna::FieldType::kF32), "dna_path.h and mien.h agree");
 static_assert(sizeof(MienError::message) == sizeof(Error::message), "messages are copied whole");
+
+MienDna* mien::capi::new_dna(const Allocator& allocator) {
+  void* memory = allocator.get(sizeof(MienDna), alignof(MienDna));
+  if (!memory) return nullptr;
+  return new (memory) MienDna{kDnaTag, allocator, {}, Arena(allocator), {}};
+}
 
 namespace {
 
@@ -168,44 +174,6 @@ void mien_dna_close(MienDna* dna) {
   dna->tag = 0;
   dna->~MienDna();
   allocator.put(dna, sizeof(MienDna), alignof(MienDna));
-}
-
-// Coordinate systems ------------------------------------------------------------------------------
-
-MienStatus mien_coordinate_system_find(const char* name, MienCoordinateSystem* out_system) {
-  return mien_coordinate_system_find_n(name, name ? strlen(name) : 0, out_system);
-}
-
-MienStatus mien_coordinate_system_find_n(const char* name, size_t name_count,
-                                         MienCoordinateSystem* out_system) {
-  if (MienStatus status = clear_struct(out_system)) return status;
-  if (!name) return MIEN_ERROR_NULL_ARGUMENT;
-  for (const NamedSystem& named : kNamedSystems) {
-    if (strlen(named.name) != name_count || memcmp(named.name, name, name_count) != 0) continue;
-    const CoordinateSystem& system = named.system;
-    MienCoordinateSystem out = {};
-    for (int i = 0; i < 3; ++i) {
-      out.axes[i] = system.axes[i];
-      out.rotation_signs[i] = system.rotation_signs[i];
-    }
-    out.translation_unit = system.translation_unit;
-    out.rotation_unit = system.rotation_unit;
-    out.rotation_rule = static_cast<uint32_t>(system.rotation_rule);
-    out.rotation_sequence = system.rotation_sequence;
-    out.face_winding = system.face_winding;
-    write_struct(out_system, out);
-    return MIEN_OK;
-  }
-  return MIEN_ERROR_NAME;
-}
-
-MienStatus mien_coordinate_system_name(uint32_t index, MienStringView* out_name) {
-  if (!out_name) return MIEN_ERROR_NULL_ARGUMENT;
-  *out_name = {};
-  if (index >= kNamedSystemCount) return MIEN_ERROR_INDEX;
-  const char* name = kNamedSystems[index].name;
-  *out_name = {name, strlen(name)};
-  return MIEN_OK;
 }
 
 // Looking into it ---------------------------------------------------------------------------------

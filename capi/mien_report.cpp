@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Validation: every finding about a file, kept for the caller. mien.h is the manual.
-#include "capi/handles.h"
+#include "capi/dna_handle.h"
 #include "runtime/compile/compile_rig.h"
 #include "runtime/dna/dna_reader.h"
 

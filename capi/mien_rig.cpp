@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "capi/handles.h"
-#include "runtime/compile/compile_rig.h"
 #include "runtime/eval/evaluate.h"
 
 using namespace mien;
@@ -15,63 +14,8 @@ static_assert(MIEN_KIND_ML_MASK == int(Kind::kMlMask) &&
 static_assert(MIEN_STAGE_ALL == int(kStagesAll) &&
                   MIEN_STAGE_ANIMATED_MAPS == int(kStageAnimatedMaps),
               "evaluate.h and mien.h number the same stages");
-static_assert(MIEN_ISA_NEON == int(Isa::kNeon) && MIEN_ISA_BEST == int(Isa::kBest),
-              "kernels.h and mien.h number the same instruction sets");
-// Library -----------------------------------------------------------------------------------------
-
-uint32_t mien_version(void) { return MIEN_VERSION; }
-
-const char* mien_status_name(MienStatus status) { return status_name(static_cast<Status>(status)); }
-
-uint32_t mien_isa_available(uint32_t isa) {
-  if (isa == MIEN_ISA_ENVIRONMENT) return kernels_from_environment() != nullptr;
-  return isa < kIsaCount && kernels_for(static_cast<Isa>(isa)) != nullptr;
-}
-
-const char* mien_isa_name(uint32_t isa) {
-  return isa == MIEN_ISA_ENVIRONMENT ? "environment" : isa_name(static_cast<Isa>(isa));
-}
 
 // Rig ---------------------------------------------------------------------------------------------
-
-MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig** out_rig,
-                           MienError* error) {
-  if (MienStatus status = clear_output(out_rig, error)) return status;
-  if (MienStatus status = check(dna, "dna", error)) return status;
-  MienRigDesc known;
-  if (MienStatus status = read_desc(desc, known, "MienRigDesc", error)) return status;
-  Allocator allocator;
-  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
-  const MienStatus in_range = check_fields(
-      {{"MienRigDesc.rotation_output", known.rotation_output, MIEN_ROTATION_OUTPUT_QUATERNION},
-       {"MienRigDesc.ml_masks", known.ml_masks, MIEN_ML_MASKS_BLEND},
-       {"MienRigDesc.storage", known.storage, MIEN_STORAGE_16_BIT},
-       {"MienRigDesc.reuse", known.reuse, MIEN_REUSE_NOTHING},
-       {"MienRigDesc.arithmetic", known.arithmetic, MIEN_ARITHMETIC_PORTABLE}},
-      error);
-  if (in_range != MIEN_OK) return in_range;
-  const KernelTable* kernels = nullptr;
-  if (MienStatus status = find_kernels(known.isa, kernels, error)) return status;
-  if (!dna->view.has(dna::kLayerBehavior)) {
-    return give_error(error, MIEN_ERROR_DNA_LAYER,
-                      "the DNA was opened without its behavior; open it with MIEN_LAYER_BEHAVIOR");
-  }
-  Rig* rig = nullptr;
-  Error detail;
-  const CompileOptions options = {kernels,
-                                  known.rotation_output == MIEN_ROTATION_OUTPUT_QUATERNION,
-                                  known.ml_masks == MIEN_ML_MASKS_BLEND,
-                                  known.storage == MIEN_STORAGE_16_BIT,
-                                  known.arithmetic == MIEN_ARITHMETIC_PORTABLE,
-                                  known.reuse == MIEN_REUSE_NOTHING};
-  if (compile_rig(dna->view, options, allocator, rig, detail) != Status::kOk) {
-    return give_error(detail, error);
-  }
-  rig->tag = kRigTag;
-  rig->instance_size = instance_size(*rig);
-  *out_rig = reinterpret_cast<MienRig*>(rig);
-  return succeed(error);
-}
 
 void mien_rig_destroy(MienRig* rig) {
   if (check(rig) != MIEN_OK) return;

@@ -76,6 +76,10 @@ void sum_layer(const Weight* values, const DenseLayerArgs& args) {
   size_t walks = (vec_count + kMaxVecs - 1) / kMaxVecs;
   for (size_t v = 0; walks != 0; --walks) {
     const size_t count = (vec_count - v + walks - 1) / walks;  // shared evenly
+    if constexpr (kMaxVecs > 6) {
+      if (count == 7) sum_rows<How>(values, args, v, std::make_index_sequence<7>());
+      if (count == 8) sum_rows<How>(values, args, v, std::make_index_sequence<8>());
+    }
     switch (count) {
       case 1: sum_rows<How>(values, args, v, std::make_index_sequence<1>()); break;
       case 2: sum_rows<How>(values, args, v, std::make_index_sequence<2>()); break;
@@ -83,8 +87,7 @@ void sum_layer(const Weight* values, const DenseLayerArgs& args) {
       case 4: sum_rows<How>(values, args, v, std::make_index_sequence<4>()); break;
       case 5: sum_rows<How>(values, args, v, std::make_index_sequence<5>()); break;
       case 6: sum_rows<How>(values, args, v, std::make_index_sequence<6>()); break;
-      case 7: sum_rows<How>(values, args, v, std::make_index_sequence<7>()); break;
-      default: sum_rows<How>(values, args, v, std::make_index_sequence<8>()); break;
+      default: break;
     }
     v += count;
   }

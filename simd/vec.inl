@@ -336,12 +336,16 @@ struct AsFast {
     return mien::MIEN_KERNEL_ISA::mul_add(a, b, c);
   }
 };
+#if defined(MIEN_KERNEL_SCALAR) || defined(MIEN_KERNEL_SSE2)
+using AsPortable = AsFast;  // these always round twice: one copy of each kernel serves both
+#else
 struct AsPortable {
   template <class V>
   static V mul_add(V a, V b, V c) {
     return a * b + c;  // kernels are built without contraction
   }
 };
+#endif
 
 // Pairs of vectors --------------------------------------------------------------------------------
 

@@ -64,7 +64,7 @@ PROGRAM_GRAPH = {
     "play": ["mien.h", "io", "gltf"],  # scenes of `mien play`
     "commands": ["mien.h", "mien_author.h", "math", "io", "render", "gltf", "scene", "play",
                  "bench/csr_matrix.h"],
-    "": ["mien.h", "io", "commands"],             # main.cpp
+    "": ["mien.h", "mien_author.h", "io", "commands"],  # main.cpp, without_author.cpp
 }
 
 # Everything else outside sees the public headers and its own files. Tests and benchmarks see

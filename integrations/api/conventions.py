@@ -2,6 +2,7 @@
 """What names, types and comments of the headers say beyond C: enums, counts, ownership, statuses.
 README.md lists the conventions. A declaration that leaves something open is an error.
 """
+import json
 import re
 
 from c_header import HeaderError, POINTER_SIZES, joined
@@ -14,7 +15,7 @@ NUMBERS = {"count", "size", "capacity", "first", "value", "numerator", "denomina
 FIRST_RELEASE = "0.1.0"
 # The statuses of wrong arguments, which the introduction of mien.h explains for all functions.
 GENERAL = ("MIEN_ERROR_NULL_ARGUMENT", "MIEN_ERROR_INVALID_ARGUMENT", "MIEN_ERROR_STRUCT_SIZE",
-           "MIEN_ERROR_HANDLE", "MIEN_ERROR_MEMORY")
+           "MIEN_ERROR_HANDLE", "MIEN_ERROR_MEMORY", "MIEN_ERROR_UNSUPPORTED")
 RELEASE = re.compile(r"_(destroy|close)$")
 ROW = re.compile(r"\b(one|\d+)(?: or (\d+))? \w+ per ((?:[A-Za-z]+ )*?[A-Za-z]+)"
                  r"(?=[,.:;)]| \(| of | in | and |$)")
@@ -353,6 +354,9 @@ class Conventions:
             yield "MIEN_ERROR_INVALID_ARGUMENT"
         if any(p["role"] == "object" for p in parameters):
             yield "MIEN_ERROR_MEMORY"
+        if any("MienDna" in json.dumps(p["type"]) or "MienReport" in json.dumps(p["type"])
+               for p in parameters if p["role"] in ("handle", "object")):
+            yield "MIEN_ERROR_UNSUPPORTED"
 
     def said_statuses(self, function):
         """{status: condition} of the sentence "Fails with MIEN_ERROR_X if ..., MIEN_ERROR_Y if ..."."""

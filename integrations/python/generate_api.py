@@ -260,7 +260,8 @@ def write_record(struct):
 # What the package does not let happen: NULL, handles of another kind, wrong sizes.
 IMPOSSIBLE = ("MIEN_ERROR_NULL_ARGUMENT", "MIEN_ERROR_HANDLE", "MIEN_ERROR_STRUCT_SIZE")
 GENERAL = {"MIEN_ERROR_INVALID_ARGUMENT": "an argument is outside its range",
-           "MIEN_ERROR_MEMORY": "there is no memory"}
+           "MIEN_ERROR_MEMORY": "there is no memory",
+           "MIEN_ERROR_UNSUPPORTED": "this build of libmien opens baked files only"}
 
 
 def write_statuses(api):

@@ -342,7 +342,8 @@ def raw_value(field, type_):
 # What arguments of the safe crate cannot be: NULL, of another kind, of a wrong size.
 IMPOSSIBLE = ("MIEN_ERROR_NULL_ARGUMENT", "MIEN_ERROR_HANDLE", "MIEN_ERROR_STRUCT_SIZE")
 GENERAL = {"MIEN_ERROR_INVALID_ARGUMENT": "an argument is outside its range",
-           "MIEN_ERROR_MEMORY": "the allocator has no memory"}
+           "MIEN_ERROR_MEMORY": "the allocator has no memory",
+           "MIEN_ERROR_UNSUPPORTED": "this build of libmien opens baked files only"}
 
 
 def errors(api):

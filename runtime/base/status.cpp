@@ -19,6 +19,7 @@ const char* status_name(Status status) {
     case Status::kName: return "NAME";
     case Status::kIsa: return "ISA";
     case Status::kMemory: return "MEMORY";
+    case Status::kUnsupported: return "UNSUPPORTED";
     case Status::kFileOpen: return "FILE_OPEN";
     case Status::kFileRead: return "FILE_READ";
     case Status::kFileWrite: return "FILE_WRITE";

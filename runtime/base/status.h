@@ -34,6 +34,8 @@ enum class Status : int32_t {
   kIsa = 9,
   // memory
   kMemory = 10,
+  // the build
+  kUnsupported = 11,
   // files
   kFileOpen = 20,
   kFileRead = 21,

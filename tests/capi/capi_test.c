@@ -64,7 +64,8 @@ static void test_library(void) {
                   {MIEN_ERROR_CLIP_VALUE, "CLIP_VALUE"},
                   {MIEN_ERROR_CLIP_LIMIT, "CLIP_LIMIT"},
                   {-1, "UNKNOWN"},
-                  {11, "UNKNOWN"},
+                  {MIEN_ERROR_UNSUPPORTED, "UNSUPPORTED"},
+                  {12, "UNKNOWN"},
                   {1000, "UNKNOWN"}};
   static const char* const isas[] = {"best", "scalar", "sse2", "avx2", "avx512", "neon"};
   size_t i;

@@ -9,7 +9,7 @@
 #include <set>
 #include <thread>
 
-#include "capi/handles.h"
+#include "capi/dna_handle.h"
 #include "tests/support/deform_rig.h"
 #include "tests/support/tiny_rig.h"
 

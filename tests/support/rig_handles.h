@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "capi/handles.h"
+#include "capi/dna_handle.h"
 #include "capi/mien_author.h"
 #include "tests/support/descs.h"
 

@@ -20,8 +20,9 @@ ExitCode exit_code_of(MienStatus status) {
   switch (status) {
     case MIEN_OK: return kDone;
 
-    // Only an option asks for an instruction set.
-    case MIEN_ERROR_ISA: return kUsage;
+    // Only an option asks for an instruction set; only a command for what this build lacks.
+    case MIEN_ERROR_ISA:
+    case MIEN_ERROR_UNSUPPORTED: return kUsage;
 
     case MIEN_ERROR_INDEX:
     case MIEN_ERROR_LOD:

@@ -61,6 +61,8 @@ class Status(IntEnum):
     ISA = 9
     #: the allocator returned NULL
     MEMORY = 10
+    #: this build of the library opens baked files only
+    UNSUPPORTED = 11
     #: the file cannot be opened
     FILE_OPEN = 20
     #: the file or stream cannot be read
@@ -2507,6 +2509,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "it has none of the requested LODs"),
         (Status.MEMORY,
          "there is no memory"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
         (Status.FILE_OPEN,
          "the file cannot be read"),
         (Status.FILE_READ,
@@ -2533,6 +2537,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "it has none of the requested LODs"),
         (Status.MEMORY,
          "there is no memory"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
         (Status.DNA_SIGNATURE,
          "it is not a DNA file of generation 2"),
         (Status.DNA_VERSION,
@@ -2555,6 +2561,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "it has none of the requested LODs"),
         (Status.MEMORY,
          "there is no memory"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
         (Status.FILE_READ,
          "the file cannot be read"),
         (Status.DNA_SIGNATURE,
@@ -2572,10 +2580,15 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.DNA_VALUE,
          "its contents are not valid or cannot be converted to the requested system"),
     ),
-    "mien_dna_info": (),
+    "mien_dna_info": (
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
+    ),
     "mien_dna_layer": (
         (Status.INDEX,
          "`index` is not below MienDnaInfo.layer_count"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
     ),
     "mien_dna_field": (
         (Status.INDEX,
@@ -2583,6 +2596,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.NAME,
          "there is no such field (the message contains the part of the path that does "
          "not exist)"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
     ),
     "mien_dna_field_n": (
         (Status.INDEX,
@@ -2590,6 +2605,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.NAME,
          "there is no such field (the message contains the part of the path that does "
          "not exist)"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
     ),
     "mien_dna_child_name": (
         (Status.INVALID_ARGUMENT,
@@ -2598,6 +2615,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "`index` or an index in the path is past the end"),
         (Status.NAME,
          "there is no such field"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
     ),
     "mien_dna_child_name_n": (
         (Status.INVALID_ARGUMENT,
@@ -2606,6 +2625,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "`index` or an index in the path is past the end"),
         (Status.NAME,
          "there is no such field"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
     ),
     "mien_dna_read_floats": (
         (Status.INVALID_ARGUMENT,
@@ -2614,6 +2635,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "the range or an index in the path is past the end"),
         (Status.NAME,
          "there is no such field"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
     ),
     "mien_dna_read_floats_n": (
         (Status.INVALID_ARGUMENT,
@@ -2622,6 +2645,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "the range or an index in the path is past the end"),
         (Status.NAME,
          "there is no such field"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
     ),
     "mien_dna_read_integers": (
         (Status.INVALID_ARGUMENT,
@@ -2630,6 +2655,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "the range or an index in the path is past the end"),
         (Status.NAME,
          "there is no such field"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
     ),
     "mien_dna_read_integers_n": (
         (Status.INVALID_ARGUMENT,
@@ -2638,6 +2665,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "the range or an index in the path is past the end"),
         (Status.NAME,
          "there is no such field"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
     ),
     "mien_dna_read_string": (
         (Status.INVALID_ARGUMENT,
@@ -2646,6 +2675,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "an index in the path is past the end"),
         (Status.NAME,
          "there is no such field"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
     ),
     "mien_dna_read_string_n": (
         (Status.INVALID_ARGUMENT,
@@ -2654,12 +2685,16 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "an index in the path is past the end"),
         (Status.NAME,
          "there is no such field"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
     ),
     "mien_dna_write_file": (
         (Status.INVALID_ARGUMENT,
          "an argument is outside its range"),
         (Status.MEMORY,
          "the allocator of the DNA returns NULL"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
         (Status.FILE_WRITE,
          "the file cannot be written"),
         (Status.DNA_STRUCTURE,
@@ -2679,6 +2714,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "an argument is outside its range"),
         (Status.MEMORY,
          "there is no memory"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
         (Status.DNA_STRUCTURE,
          "the file could not be opened in the requested version"),
         (Status.DNA_REFERENCE,
@@ -2696,6 +2733,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "an argument is outside its range"),
         (Status.MEMORY,
          "there is no memory"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
         (Status.FILE_OPEN,
          "the file cannot be read"),
         (Status.FILE_READ,
@@ -2706,11 +2745,18 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "an argument is outside its range"),
         (Status.MEMORY,
          "there is no memory"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
     ),
-    "mien_report_counts": (),
+    "mien_report_counts": (
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
+    ),
     "mien_report_finding": (
         (Status.INDEX,
          "`index` is past the last finding"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
     ),
     "mien_rig_create": (
         (Status.INVALID_ARGUMENT,
@@ -2719,6 +2765,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "the requested instruction set is not available"),
         (Status.MEMORY,
          "there is no memory"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
         (Status.DNA_LIMIT,
          "the rig is too large"),
         (Status.DNA_LAYER,
@@ -2861,6 +2909,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "the requested instruction set is not available"),
         (Status.MEMORY,
          "there is no memory"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
         (Status.DNA_LIMIT,
          "a position has more than 65535 influences"),
         (Status.DNA_LAYER,
@@ -3327,6 +3377,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "an argument is outside its range"),
         (Status.MEMORY,
          "there is no memory"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
     ),
 }
 

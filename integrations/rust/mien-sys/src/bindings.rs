@@ -40,6 +40,8 @@ pub const MIEN_ERROR_NAME: MienStatus = 8;
 pub const MIEN_ERROR_ISA: MienStatus = 9;
 /// The allocator returned NULL.
 pub const MIEN_ERROR_MEMORY: MienStatus = 10;
+/// This build of the library opens baked files only.
+pub const MIEN_ERROR_UNSUPPORTED: MienStatus = 11;
 /// The file cannot be opened.
 pub const MIEN_ERROR_FILE_OPEN: MienStatus = 20;
 /// The file or stream cannot be read.

@@ -34,6 +34,8 @@ impl Status {
     pub const ISA: Self = Self(9);
     /// The allocator returned NULL.
     pub const MEMORY: Self = Self(10);
+    /// This build of the library opens baked files only.
+    pub const UNSUPPORTED: Self = Self(11);
     /// The file cannot be opened.
     pub const FILE_OPEN: Self = Self(20);
     /// The file or stream cannot be read.
@@ -84,7 +86,7 @@ impl Status {
     pub const CLIP_LIMIT: Self = Self(66);
 }
 
-numbers!(Status, i32, [(0, "OK"), (1, "NULL_ARGUMENT"), (2, "INVALID_ARGUMENT"), (3, "STRUCT_SIZE"), (4, "HANDLE"), (5, "MISMATCH"), (6, "INDEX"), (7, "LOD"), (8, "NAME"), (9, "ISA"), (10, "MEMORY"), (20, "FILE_OPEN"), (21, "FILE_READ"), (22, "FILE_WRITE"), (30, "DNA_SIGNATURE"), (31, "DNA_VERSION"), (32, "DNA_TRUNCATED"), (33, "DNA_STRUCTURE"), (34, "DNA_REFERENCE"), (35, "DNA_LIMIT"), (36, "DNA_LAYER"), (37, "DNA_VALUE"), (50, "BAKED_SIGNATURE"), (51, "BAKED_VERSION"), (52, "BAKED_TRUNCATED"), (53, "BAKED_STRUCTURE"), (54, "BAKED_CHECKSUM"), (55, "BAKED_PART"), (60, "CLIP_SIGNATURE"), (61, "CLIP_VERSION"), (62, "CLIP_TRUNCATED"), (63, "CLIP_STRUCTURE"), (64, "CLIP_CHECKSUM"), (65, "CLIP_VALUE"), (66, "CLIP_LIMIT")]);
+numbers!(Status, i32, [(0, "OK"), (1, "NULL_ARGUMENT"), (2, "INVALID_ARGUMENT"), (3, "STRUCT_SIZE"), (4, "HANDLE"), (5, "MISMATCH"), (6, "INDEX"), (7, "LOD"), (8, "NAME"), (9, "ISA"), (10, "MEMORY"), (11, "UNSUPPORTED"), (20, "FILE_OPEN"), (21, "FILE_READ"), (22, "FILE_WRITE"), (30, "DNA_SIGNATURE"), (31, "DNA_VERSION"), (32, "DNA_TRUNCATED"), (33, "DNA_STRUCTURE"), (34, "DNA_REFERENCE"), (35, "DNA_LIMIT"), (36, "DNA_LAYER"), (37, "DNA_VALUE"), (50, "BAKED_SIGNATURE"), (51, "BAKED_VERSION"), (52, "BAKED_TRUNCATED"), (53, "BAKED_STRUCTURE"), (54, "BAKED_CHECKSUM"), (55, "BAKED_PART"), (60, "CLIP_SIGNATURE"), (61, "CLIP_VERSION"), (62, "CLIP_TRUNCATED"), (63, "CLIP_STRUCTURE"), (64, "CLIP_CHECKSUM"), (65, "CLIP_VALUE"), (66, "CLIP_LIMIT")]);
 
 pub(crate) fn describe(status: Status) -> &'static str {
     match status.0 {
@@ -98,6 +100,7 @@ pub(crate) fn describe(status: Status) -> &'static str {
         8 => "no such name or path",
         9 => "an instruction set that this CPU or build lacks",
         10 => "the allocator returned NULL",
+        11 => "this build of the library opens baked files only",
         20 => "the file cannot be opened",
         21 => "the file or stream cannot be read",
         22 => "the file cannot be written",
@@ -1443,6 +1446,7 @@ macro_rules! errors {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::LOD`](crate::Status::LOD) if it has none of the requested LODs\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::FILE_OPEN`](crate::Status::FILE_OPEN) if the file cannot be read\n\
          - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read\n\
          - [`Status::DNA_SIGNATURE`](crate::Status::DNA_SIGNATURE) if it is not a DNA file of generation 2\n\
@@ -1457,6 +1461,7 @@ macro_rules! errors {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::LOD`](crate::Status::LOD) if it has none of the requested LODs\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::DNA_SIGNATURE`](crate::Status::DNA_SIGNATURE) if it is not a DNA file of generation 2\n\
          - [`Status::DNA_VERSION`](crate::Status::DNA_VERSION) if it is not a DNA file of generation 2\n\
          - [`Status::DNA_TRUNCATED`](crate::Status::DNA_TRUNCATED) if its contents are not valid or cannot be converted to the requested system\n\
@@ -1469,6 +1474,7 @@ macro_rules! errors {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::LOD`](crate::Status::LOD) if it has none of the requested LODs\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read\n\
          - [`Status::DNA_SIGNATURE`](crate::Status::DNA_SIGNATURE) if it is not a DNA file of generation 2\n\
          - [`Status::DNA_VERSION`](crate::Status::DNA_VERSION) if it is not a DNA file of generation 2\n\
@@ -1479,62 +1485,74 @@ macro_rules! errors {
          - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if its contents are not valid or cannot be converted to the requested system"
     };
     (mien_dna_info) => {
-        "- none with valid arguments"
+        "- [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
     };
     (mien_dna_layer) => {
-        "- [`Status::INDEX`](crate::Status::INDEX) if `index` is not below MienDnaInfo.`layer_count`"
+        "- [`Status::INDEX`](crate::Status::INDEX) if `index` is not below MienDnaInfo.`layer_count`\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
     };
     (mien_dna_field) => {
         "- [`Status::INDEX`](crate::Status::INDEX) if an index in the path is past the end\n\
-         - [`Status::NAME`](crate::Status::NAME) if there is no such field (the message contains the part of the path that does not exist)"
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field (the message contains the part of the path that does not exist)\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
     };
     (mien_dna_field_n) => {
         "- [`Status::INDEX`](crate::Status::INDEX) if an index in the path is past the end\n\
-         - [`Status::NAME`](crate::Status::NAME) if there is no such field (the message contains the part of the path that does not exist)"
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field (the message contains the part of the path that does not exist)\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
     };
     (mien_dna_child_name) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field is not a record\n\
          - [`Status::INDEX`](crate::Status::INDEX) if `index` or an index in the path is past the end\n\
-         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
     };
     (mien_dna_child_name_n) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field is not a record\n\
          - [`Status::INDEX`](crate::Status::INDEX) if `index` or an index in the path is past the end\n\
-         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
     };
     (mien_dna_read_floats) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field does not hold numbers of this kind\n\
          - [`Status::INDEX`](crate::Status::INDEX) if the range or an index in the path is past the end\n\
-         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
     };
     (mien_dna_read_floats_n) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field does not hold numbers of this kind\n\
          - [`Status::INDEX`](crate::Status::INDEX) if the range or an index in the path is past the end\n\
-         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
     };
     (mien_dna_read_integers) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field does not hold numbers of this kind\n\
          - [`Status::INDEX`](crate::Status::INDEX) if the range or an index in the path is past the end\n\
-         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
     };
     (mien_dna_read_integers_n) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field does not hold numbers of this kind\n\
          - [`Status::INDEX`](crate::Status::INDEX) if the range or an index in the path is past the end\n\
-         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
     };
     (mien_dna_read_string) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field is not a string\n\
          - [`Status::INDEX`](crate::Status::INDEX) if an index in the path is past the end\n\
-         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
     };
     (mien_dna_read_string_n) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field is not a string\n\
          - [`Status::INDEX`](crate::Status::INDEX) if an index in the path is past the end\n\
-         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
     };
     (mien_dna_write_file) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator of the DNA returns NULL\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::FILE_WRITE`](crate::Status::FILE_WRITE) if the file cannot be written\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the file could not be opened in the requested version\n\
          - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the file could not be opened in the requested version\n\
@@ -1545,6 +1563,7 @@ macro_rules! errors {
     (mien_dna_write_memory) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the file could not be opened in the requested version\n\
          - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the file could not be opened in the requested version\n\
          - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if it would exceed 4 GiB\n\
@@ -1554,23 +1573,27 @@ macro_rules! errors {
     (mien_dna_validate_file) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::FILE_OPEN`](crate::Status::FILE_OPEN) if the file cannot be read\n\
          - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read"
     };
     (mien_dna_validate_memory) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
     };
     (mien_report_counts) => {
-        "- none with valid arguments"
+        "- [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
     };
     (mien_report_finding) => {
-        "- [`Status::INDEX`](crate::Status::INDEX) if `index` is past the last finding"
+        "- [`Status::INDEX`](crate::Status::INDEX) if `index` is past the last finding\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
     };
     (mien_rig_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::ISA`](crate::Status::ISA) if the requested instruction set is not available\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the rig is too large\n\
          - [`Status::DNA_LAYER`](crate::Status::DNA_LAYER) if `dna` was opened without its behavior\n\
          - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if correctives depend on each other in a circle"
@@ -1702,6 +1725,7 @@ macro_rules! errors {
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if numbers or names of joints, channels or meshes differ from those of the rig\n\
          - [`Status::ISA`](crate::Status::ISA) if the requested instruction set is not available\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if a position has more than 65535 influences\n\
          - [`Status::DNA_LAYER`](crate::Status::DNA_LAYER) if `dna` was opened without `Layers::GEOMETRY`\n\
          - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if a joint is its own ancestor or a position, delta or weight is not finite"
@@ -2029,6 +2053,7 @@ macro_rules! errors {
     };
     (mien_dna_generate) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
     };
 }

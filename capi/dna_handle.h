@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// What a handle of a DNA file is: of the part of the library that MIEN_BUILD_COMPILER=OFF leaves out.
+#pragma once
+
+#include "capi/handles.h"
+#include "runtime/base/mapped_file.h"
+#include "runtime/dna/format/dna_view.h"
+
+struct MienDna {
+  uint32_t tag;
+  mien::Allocator allocator;
+  mien::MappedFile file;  // empty if opened from memory or a stream
+  mien::Arena arena;
+  mien::dna::DnaView view;
+};
+
+namespace mien::capi {
+
+/// An empty MienDna in the allocator's memory; null if there is none.
+MienDna* new_dna(const Allocator& allocator);
+
+}  // namespace mien::capi
