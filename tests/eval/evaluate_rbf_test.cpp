@@ -185,7 +185,7 @@ TEST(RbfSolvers, OnlyThoseOfTheLod) {
   RbfRig made(random);
   for (int s = 0; s < 4; ++s) made.add({}, 5);
   made.rig.base.lod_count = 3;
-  made.rig.lod_solvers = {{3, 0, 1, 2}, {2, 2}, {}};
+  made.rig.lod_solvers = {{3, 0, 1, 2}, {2}, {}};
   expect_model(made.rig, random, 1e-5, 5);
 }
 
