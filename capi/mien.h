@@ -16,7 +16,7 @@
  *   MienClipPlayer        plays a clip for one character
  *   MienClipBinding       maps the channels of a clip to the raw controls of a rig; immutable
  *   MienMix               layers, reactions and limits that make the raw controls of a rig; immutable
- *   MienMixer             one character: what plays, fades and reacts in a mix
+ *   MienMixer             one character: the clips, fades and reactions that run in a mix
  *
  * One rig and one deformer serve any number of characters and threads. Both copy what they need
  * from the DNA, which may be closed afterwards.
@@ -1500,18 +1500,18 @@ MIEN_CHECKED MienStatus mien_deformer_from_baked(const MienBaked* baked, const M
  *                              \___ MienClipBinding -> raw controls of a rig
  *
  * Times are integers, in ticks of 1 / MIEN_TICKS_PER_SECOND s. At common frame rates a frame is a whole
- * number of ticks; at others it is rounded to the nearest. A clip is used in place and needs no
- * decompression in advance. Whatever its bytes are, decoded values are finite. Immutable. */
+ * number of ticks; at others it is rounded to the nearest. A clip is used in place: frames are decoded
+ * as they are played. Whatever its bytes are, decoded values are finite. Immutable. */
 typedef struct MienClip MienClip;
 
 /* Ticks per second. */
 #define MIEN_TICKS_PER_SECOND 705600000
 
-/* What follows the last frame. */
+/* What happens after the last frame. */
 enum MienLooping {
-    MIEN_LOOPING_DEFAULT = 0, /* for a clip MIEN_LOOPING_CLAMP, for a player that of its clip */
-    MIEN_LOOPING_CLAMP = 1,   /* the last frame stays; the length is (frames - 1) * ticks per frame */
-    MIEN_LOOPING_WRAP = 2     /* the first frame follows; the length is frames * ticks per frame */
+    MIEN_LOOPING_DEFAULT = 0, /* a clip: MIEN_LOOPING_CLAMP; a player: the setting of its clip */
+    MIEN_LOOPING_CLAMP = 1,   /* holds the last frame; the length is (frames - 1) * ticks per frame */
+    MIEN_LOOPING_WRAP = 2     /* starts over; the length is frames * ticks per frame */
 };
 
 /* A named moment of a clip, such as a phoneme. */
@@ -1546,8 +1546,8 @@ MIEN_DEFAULT(MienClipDesc, mien_clip_desc_default)
 /* Builds a clip in memory. `desc` is required. The same values give the same bytes on every machine.
  * Close with mien_clip_close().
  * Fails with MIEN_ERROR_CLIP_VALUE if a value is not finite (the message names frame and channel),
- * MIEN_ERROR_NAME if a name is empty or occurs twice, MIEN_ERROR_CLIP_LIMIT if there are too many frames,
- * channels or bytes. */
+ * MIEN_ERROR_NAME if a name is empty or occurs twice, MIEN_ERROR_CLIP_LIMIT if there are too many
+ * frames, channels or bytes. */
 MIEN_CHECKED MienStatus mien_clip_build(const MienClipDesc* desc, MienClip** out_clip,
                                         MienError* error);
 
@@ -1576,7 +1576,7 @@ MIEN_CHECKED MienStatus mien_clip_open_memory(const void* bytes, size_t size,
                                               const MienClipOpenDesc* desc, MienClip** out_clip,
                                               MienError* error);
 
-/* Opens a clip through a stream, which is read at once into memory of the allocator.
+/* Opens a clip through a stream, which is read completely into memory of the allocator.
  * Fails like mien_clip_open_file(), but not with MIEN_ERROR_FILE_OPEN. */
 MIEN_CHECKED MienStatus mien_clip_open_stream(const MienStream* stream, const MienClipOpenDesc* desc,
                                               MienClip** out_clip, MienError* error);
@@ -1603,7 +1603,7 @@ typedef struct MienClipInfo {
     uint32_t rate_denominator;
     uint32_t frame_count;
     uint32_t channel_count;
-    uint32_t changing_channel_count; /* channels that do not have one value in all frames */
+    uint32_t changing_channel_count; /* channels whose value is not the same in all frames */
     uint32_t event_count;
     uint32_t looping;                /* MIEN_LOOPING_CLAMP or MIEN_LOOPING_WRAP */
     uint32_t is_delta;               /* boolean: values are differences */
@@ -1656,18 +1656,18 @@ MIEN_CHECKED MienStatus mien_clip_find_channel_n(const MienClip* clip, const cha
 MIEN_CHECKED MienStatus mien_clip_event(const MienClip* clip, uint32_t index,
                                         MienClipEvent* out_event);
 
-/* Checks that a clip has the bytes that were written and that all curves can be decoded. Reads the
- * whole clip. Uses up to 24 KiB of stack.
+/* Checks that no byte of a clip has changed since it was written and that all curves can be decoded.
+ * Reads the whole clip. Uses up to 24 KiB of stack.
  * Fails with MIEN_ERROR_CLIP_CHECKSUM if bytes have changed, MIEN_ERROR_CLIP_STRUCTURE if a curve cannot
  * be decoded. */
 MIEN_CHECKED MienStatus mien_clip_verify(const MienClip* clip, MienError* error);
 
-/* Copies `frame_count` frames from `first_frame` on: channel c of frame first_frame + n to
- * out_values[n * frame_stride + c]. frame_stride is at least the number of channels; 0 means this
- * number. A call decodes its first block of 64 frames from the beginning, so many frames in one call
- * cost less than one by one. Uses up to 24 KiB of stack.
- * Fails with MIEN_ERROR_INVALID_ARGUMENT if frame_stride is too small, MIEN_ERROR_INDEX if there are not
- * so many frames, MIEN_ERROR_CLIP_STRUCTURE if a curve is damaged; its block is zero in
+/* Copies `frame_count` frames, starting at `first_frame`: channel c of frame first_frame + n goes to
+ * out_values[n * frame_stride + c]. frame_stride is at least the number of channels; 0 means that
+ * number. Each call decodes its first block of 64 frames from the start of the block, so many frames in
+ * one call cost less than the same frames one by one. Uses up to 24 KiB of stack.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if frame_stride is too small, MIEN_ERROR_INDEX if the
+ * clip has fewer frames, MIEN_ERROR_CLIP_STRUCTURE if a curve is damaged; its block is zero in
  * `out_values`. */
 MIEN_CHECKED MienStatus mien_clip_read(const MienClip* clip, uint32_t first_frame,
                                        uint32_t frame_count, float* out_values, size_t frame_stride,
@@ -1678,7 +1678,7 @@ MIEN_CHECKED MienStatus mien_clip_read(const MienClip* clip, uint32_t first_fram
 /* Plays a clip for one character: a position, and the state of the decoder. */
 typedef struct MienClipPlayer MienClipPlayer;
 
-/* Values between two frames. All are within the range of the two. */
+/* How values between two frames are computed. They stay within the range of the two. */
 enum MienInterpolation {
     MIEN_INTERPOLATION_LINEAR = 0,
     MIEN_INTERPOLATION_STEP = 1,       /* the value of the earlier frame */
@@ -1693,14 +1693,14 @@ typedef struct MienClipPlayerDesc {
     int32_t speed_numerator;   /* speed, as a fraction; negative plays backward. -2^20 to 2^20 */
     int32_t speed_denominator; /* 1 to 2^20. Both 0: 1 / 1 */
     int64_t start_tick;        /* the initial position, as for mien_clip_player_seek() */
-    uint32_t reverse;          /* boolean: use 256 bytes more per changing channel to play backward as
-                                  fast as forward */
+    uint32_t reverse;          /* boolean: play backward as fast as forward, for 256 more bytes per
+                                  changing channel */
     uint32_t reserved;         /* 0 */
     const MienAllocator* allocator;
 } MienClipPlayerDesc;
 MIEN_DEFAULT(MienClipPlayerDesc, mien_clip_player_desc_default)
 
-/* Creates a player, with one allocation. `clip` may be closed before it. Destroy with
+/* Creates a player, with one allocation. `clip` may be closed before the player is destroyed. Destroy with
  * mien_clip_player_destroy(). */
 MIEN_CHECKED MienStatus mien_clip_player_create(const MienClip* clip, const MienClipPlayerDesc* desc,
                                                 MienClipPlayer** out_clip_player, MienError* error);
@@ -1727,7 +1727,7 @@ MIEN_CHECKED MienStatus mien_clip_player_info(const MienClipPlayer* clip_player,
  * Does not allocate or lock. */
 MIEN_CHECKED MienStatus mien_clip_player_seek(MienClipPlayer* clip_player, int64_t tick);
 
-/* Changes the speed of the following calls of mien_clip_player_advance(). Does not allocate or
+/* Sets the speed for later calls of mien_clip_player_advance(). Does not allocate or
  * lock.
  * Fails with MIEN_ERROR_INVALID_ARGUMENT if it is outside the range of MienClipPlayerDesc. */
 MIEN_CHECKED MienStatus mien_clip_player_set_speed(MienClipPlayer* clip_player, int32_t numerator,
@@ -1776,9 +1776,9 @@ MIEN_DEFAULT(MienClipBindingDesc, mien_clip_binding_desc_default)
 
 /* Binds a clip to a rig by names. A channel drives the raw control with its name; else the GUI control
  * with its name, which is then mapped as by mien_rig_map_gui_to_raw(); else the controls of its entries
- * in the matrix, whose sums are formed in the order of the matrix. Names match without regard to case;
- * `.` matches `_`; the prefix `CTRL_expressions.` may be missing. If several names match, one of them
- * must be equal. A raw control that a channel drives by name is driven by nothing else, and one that the
+ * in the matrix, which are summed in the order of the matrix. Names match without regard to case;
+ * `.` matches `_`; the prefix `CTRL_expressions.` may be missing. If several names match, only one that
+ * is equal counts. A raw control that a channel drives by name is driven by nothing else, and one that the
  * matrix drives is not driven by GUI controls. Names without a match are not an error: see
  * mien_clip_binding_info(). `clip` may be closed and `rig` may be destroyed afterwards. Destroy with
  * mien_clip_binding_destroy().
@@ -1824,12 +1824,12 @@ MIEN_CHECKED MienStatus mien_clip_binding_apply(const MienClipBinding* clip_bind
 
 /* What is mixed for one rig, and how. A row holds a value for each lane: first the raw controls of the
  * rig, then pose variables, which are numbers of the caller that are mixed by the same rules (gaze, head
- * turn, breath). A step of a MienMixer goes through layers in their order, then reactions, guards,
- * layers and reactions after the guards, antagonists, limits. docs/mixing.md explains each. Serves any
- * number of mixers and threads. Immutable. */
+ * turn, breath). Each step of a MienMixer applies the layers in order, then reactions, guards, layers
+ * and reactions after the guards, antagonists, limits. docs/mixing.md explains each. Serves any number
+ * of mixers and threads. Immutable. */
 typedef struct MienMix MienMix;
 
-/* What a layer is for. Guards protect base and speech from the others. */
+/* What a layer is for. Guards protect the result of base and speech from the other groups. */
 enum MienLayerGroup {
     MIEN_LAYER_GROUP_BASE = 0,
     MIEN_LAYER_GROUP_SPEECH = 1,
@@ -1838,8 +1838,8 @@ enum MienLayerGroup {
     MIEN_LAYER_GROUP_LIFE = 4      /* acts after the reactions if no layer of another group follows */
 };
 
-/* What becomes of a lane: o is its value so far, x that of the layer, a = weight * mask. Lanes for which
- * the source of a layer has no value keep theirs. */
+/* How a layer changes a lane: o is the value so far, x that of the layer, a = weight * mask. A lane for
+ * which the source of the layer has no value does not change. */
 enum MienBlendMode {
     MIEN_BLEND_MODE_OVERRIDE = 0, /* o + a (x - o) */
     MIEN_BLEND_MODE_ADD = 1,      /* o + a x */
@@ -1858,30 +1858,30 @@ enum MienLayerSource {
 
 /* What a layer generates from the seed of the mixer and the time. */
 enum MienGenerator {
-    MIEN_GENERATOR_BLINK = 0,  /* every `period` on average, at least 0.5 s apart; waits anew after the
-                                  first lane was above 0.6 in the layers before */
-    MIEN_GENERATOR_BREATH = 1, /* 0 to 1 in 40 % of a period and back */
+    MIEN_GENERATOR_BLINK = 0,  /* every `period` on average, at least 0.5 s apart. The wait starts over
+                                  when earlier layers raise the first lane above 0.6 */
+    MIEN_GENERATOR_BREATH = 1, /* 0 to 1 in 40 % of the period, back to 0 in the rest */
     MIEN_GENERATOR_NOISE = 2   /* smooth between -1 and 1; a new random value every period */
 };
 
-/* A layer of a mix. Zero what its source does not use. */
+/* A layer of a mix. Leave the fields that its source does not use at zero. */
 typedef struct MienMixLayer {
     int64_t period;         /* of a generator, ticks */
-    int64_t delay;          /* of a stream, ticks: it is played so much later than its times say */
+    int64_t delay;          /* of a stream, ticks: rows are played this much after their times */
     const float* mask;      /* one per lane, 0 to 1; those left out at the end are 0. NULL: 1 for all */
-    const uint16_t* lanes;  /* of the channels of a stream, or that a generator moves */
-    const float* amounts;   /* one per lane of a generator: its values are multiplied by them */
+    const uint16_t* lanes;  /* lane of each channel of a stream, or the lanes that a generator moves */
+    const float* amounts;   /* one per lane of a generator: scales its value */
     uint32_t mask_count;
     uint32_t lane_count;
     uint32_t group;         /* MIEN_LAYER_GROUP_... */
     uint32_t mode;          /* MIEN_BLEND_MODE_... */
     uint32_t source;        /* MIEN_LAYER_SOURCE_... */
-    uint32_t after_guards;  /* boolean: guards leave the layer alone; not for base and speech */
-    float weight;           /* at the beginning. 0 to 1; with MIEN_BLEND_MODE_ADD -1 to 1 */
-    uint32_t first_pose;    /* its poses, in MienMixDesc.poses */
+    uint32_t after_guards;  /* boolean: acts after the guards; not for base and speech */
+    float weight;           /* initial weight. 0 to 1; with MIEN_BLEND_MODE_ADD -1 to 1 */
+    uint32_t first_pose;    /* first of its poses in MienMixDesc.poses */
     uint32_t pose_count;
     uint32_t generator;     /* MIEN_GENERATOR_... */
-    uint32_t stream_frames; /* rows of a stream that can wait. 0: 64; else 2 to 1024 */
+    uint32_t stream_frames; /* most rows of a stream that can be queued. 0: 64; else 2 to 1024 */
     uint32_t reserved;      /* 0 */
 } MienMixLayer;
 
@@ -1892,35 +1892,35 @@ typedef struct MienMixPose {
     size_t count;
 } MienMixPose;
 
-/* A part of a reaction: leads the lanes of a pose to its values and back. Times are in ticks. */
+/* A part of a reaction: moves the lanes of a pose to its values and back. Times are in ticks. */
 typedef struct MienMixStroke {
     int64_t delay;    /* after the trigger */
     int64_t attack;   /* to strength * pose */
-    int64_t hold;     /* after the attack; without effect if is_held */
+    int64_t hold;     /* after the attack; ignored if is_held */
     int64_t release;  /* back to 0 */
     uint32_t pose;    /* in MienMixDesc.poses */
     uint32_t mode;    /* MIEN_BLEND_MODE_... */
-    uint32_t is_held; /* boolean: holds as long as the stimulus lasts, and adapts to it */
+    uint32_t is_held; /* boolean: holds as long as the stimulus lasts, and adapts unless is_lag */
     uint32_t is_lag;  /* boolean: moves exponentially; attack and release are time constants */
 } MienMixStroke;
 
 /* What a trigger does while the reaction runs. */
 enum MienRetrigger {
-    MIEN_RETRIGGER_EXTEND = 0,  /* the stimulus goes on; strokes that rest or fall begin again */
-    MIEN_RETRIGGER_RESTART = 1, /* all strokes begin again */
+    MIEN_RETRIGGER_EXTEND = 0,  /* extends the stimulus; strokes that ended or release start again */
+    MIEN_RETRIGGER_RESTART = 1, /* all strokes start again, at most once per cooldown */
     MIEN_RETRIGGER_IGNORE = 2
 };
 
-/* What a face does by itself when something happens to it. */
+/* What a face does in response to a stimulus, such as a bright light. */
 typedef struct MienMixReaction {
-    int64_t cooldown;             /* ticks; strokes that are not held begin at most so often */
-    int64_t adapt_ticks;          /* time constants of adaptation to a stimulus that lasts */
-    int64_t recover_ticks;        /* and of recovery from it */
+    int64_t cooldown;             /* ticks; shortest time between two starts of strokes not held */
+    int64_t adapt_ticks;          /* time constant of adaptation to a lasting stimulus */
+    int64_t recover_ticks;        /* time constant of recovery after it */
     const MienMixStroke* strokes; /* at most 8 */
     size_t stroke_count;
     uint32_t retrigger;           /* MIEN_RETRIGGER_... */
     uint32_t after_guards;        /* boolean: guards leave it alone */
-    float adapted;                /* share of the strength that is left after adaptation; 1: all */
+    float adapted;                /* share of the strength that remains after adaptation; 1: all */
     uint32_t reserved;            /* 0 */
 } MienMixReaction;
 
@@ -1932,7 +1932,7 @@ typedef struct MienMixAntagonists {
     float stiffness; /* 0 to 1 */
 } MienMixAntagonists;
 
-/* Guards: distances of the face that emotions and reactions must not open while speech or a blink closes
+/* Guards: distances in the face that emotions and reactions must not open while speech or a blink closes
  * them. Bits of MienMixDesc.guards. */
 enum MienGuard {
     MIEN_GUARD_LIPS = 1,  /* between the lips, left, center and right, and from lower lip to upper teeth */
@@ -1956,22 +1956,23 @@ typedef struct MienMixDesc {
                                               itself. NULL: nothing can be played mirrored */
     const float* lower;                    /* limits per lane. NULL: none; both or neither */
     const float* upper;
-    const MienDeformer* deformer;          /* on which guards are measured; may be NULL if guards is 0 */
-    uint32_t guards;                       /* MIEN_GUARD_... bits; those whose landmarks are found act */
+    const MienDeformer* deformer;          /* for measuring the guards; may be NULL if guards is 0 */
+    uint32_t guards;                       /* MIEN_GUARD_... bits; without landmarks a guard is left out */
     uint32_t variable_count;               /* pose variables; with the raw controls at most 4096 lanes */
-    uint32_t player_count;                 /* clips that play at a time; crossfades need two.
+    uint32_t player_count;                 /* clips that play at a time; a crossfade needs two.
                                               0: two for each layer of clips */
-    uint32_t max_channels;                 /* largest clip. 0: as many as the rig has raw controls */
-    uint32_t max_changing_channels;        /* of the largest clip. 0: max_channels, 512 at most */
+    uint32_t max_channels;                 /* of any clip. 0: as many as the rig has raw controls */
+    uint32_t max_changing_channels;        /* of any clip. 0: max_channels, 512 at most */
     uint32_t max_events;                   /* that a step can report. 0: 64 */
-    uint32_t reverse;                      /* boolean: memory to play backward as fast as forward */
+    uint32_t reverse;                      /* boolean: as in MienClipPlayerDesc */
     uint32_t reserved;                     /* 0 */
     const MienAllocator* allocator;
 } MienMixDesc;
 MIEN_DEFAULT(MienMixDesc, mien_mix_desc_default)
 
 /* Creates a mix for a rig. `desc` is required. `rig` may be destroyed afterwards, and so may the
- * deformer. Measuring guards evaluates and deforms the rig some hundred times. Destroy with mien_mix_destroy().
+ * deformer. Measuring guards takes time: it evaluates and deforms the rig at LOD 0 for each raw control
+ * and for pairs that share a corrective. Destroy with mien_mix_destroy().
  * Fails with MIEN_ERROR_MISMATCH if the deformer is of another rig,
  * MIEN_ERROR_INVALID_ARGUMENT if a part of `desc` is out of range; the message names it. */
 MIEN_CHECKED MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc,
@@ -1987,8 +1988,8 @@ typedef struct MienMixInfo {
     uint32_t variable_count;
     uint32_t lane_count;     /* raw controls and pose variables */
     uint32_t layer_count;
-    uint32_t stage_count;    /* of mien_mixer_stage() */
-    uint32_t guard_count;    /* guards whose landmarks were found */
+    uint32_t stage_count;    /* for mien_mixer_stage() */
+    uint32_t guard_count;    /* for mien_mixer_set_guard() */
     uint64_t mixer_bytes;    /* memory of a mixer without MienMixerDesc.stages */
     uint64_t snapshot_bytes; /* size of a snapshot */
 } MienMixInfo;
@@ -2065,40 +2066,40 @@ MIEN_CHECKED MienStatus mien_gaze_look_at(const MienGaze* gaze, const MienGazeTa
 
 /* ---- Mixer ----------------------------------------------------------------------------------- */
 
-/* One character in a mix: what plays, fades and reacts. Only mien_mixer_push() may be called by another
- * thread at the same time. */
+/* One character in a mix: the clips, fades and reactions that run. Only mien_mixer_push() may be called
+ * by another thread at the same time. */
 typedef struct MienMixer MienMixer;
 
 /* How to create a mixer. */
 typedef struct MienMixerDesc {
     size_t struct_size;
-    uint64_t seed;   /* of the generators */
-    uint32_t stages; /* boolean: keep the row after each stage, for mien_mixer_stage() */
+    uint64_t seed;     /* of the generators */
+    uint32_t stages;   /* boolean: keep the row after each stage, for mien_mixer_stage() */
     uint32_t reserved; /* 0 */
     const MienAllocator* allocator;
 } MienMixerDesc;
 MIEN_DEFAULT(MienMixerDesc, mien_mixer_desc_default)
 
-/* Creates a mixer at time 0, with one allocation: nothing plays, weights of poses and pose variables are
- * 0. `mix` must outlive it. Destroy with mien_mixer_destroy(). */
+/* Creates a mixer at time 0, with one allocation. Nothing plays; the weights of poses and the pose
+ * variables are 0. `mix` must outlive it. Destroy with mien_mixer_destroy(). */
 MIEN_CHECKED MienStatus mien_mixer_create(const MienMix* mix, const MienMixerDesc* desc,
                                           MienMixer** out_mixer, MienError* error);
 
 /* Destroys a mixer. */
 MIEN_API void mien_mixer_destroy(MienMixer* mixer);
 
-/* How a layer goes on from what it played. A layer that played nothing fades in. */
+/* How a layer changes to another clip. A layer that plays nothing fades in, except with a cut. */
 enum MienTransition {
-    MIEN_TRANSITION_INERTIAL = 0,  /* the old clip is dropped; its last value and speed lead over */
-    MIEN_TRANSITION_CROSSFADE = 1, /* both play; without a free player like MIEN_TRANSITION_INERTIAL */
-    MIEN_TRANSITION_CUT = 2        /* at once */
+    MIEN_TRANSITION_INERTIAL = 0,  /* the old clip stops; each lane blends from its last value and speed */
+    MIEN_TRANSITION_CROSSFADE = 1, /* both play; without a free player, as MIEN_TRANSITION_INERTIAL */
+    MIEN_TRANSITION_CUT = 2        /* immediate; transition_ticks is not used */
 };
 
 /* How to play a clip in a layer. */
 typedef struct MienPlayDesc {
     size_t struct_size;
-    uint64_t clip_id;          /* the caller's number of clip and binding, by which
-                                  mien_mixer_restore() finds them */
+    uint64_t clip_id;          /* chosen by the caller: mien_mixer_restore() finds clip and binding
+                                  by it */
     int64_t start_tick;        /* of the clip */
     int64_t transition_ticks;  /* 0 to 2^40 */
     uint32_t transition;       /* MIEN_TRANSITION_... */
@@ -2110,45 +2111,49 @@ typedef struct MienPlayDesc {
 } MienPlayDesc;
 MIEN_DEFAULT(MienPlayDesc, mien_play_desc_default)
 
-/* Plays a clip in a layer, from the next step on. `clip` and `clip_binding` must outlive the playing,
- * the transition to the next clip included. On failure the layer goes on as before. Does not allocate or
+/* Plays a clip in a layer, from the next step on. `clip` and `clip_binding` must outlive their playback,
+ * including the transition to the next clip. On failure the layer goes on as before. Does not allocate or
  * lock.
  * Fails with MIEN_ERROR_INDEX if the layer does not exist or has another source, MIEN_ERROR_MISMATCH if
- * the binding is of another clip or rig, MIEN_ERROR_INVALID_ARGUMENT if a time, speed or choice is out
- * of range or a clip of differences would override, MIEN_ERROR_CLIP_LIMIT if the clip is larger than
+ * the binding is of another clip or rig, MIEN_ERROR_INVALID_ARGUMENT if a time, speed or enum value is
+ * out of range or a clip of differences would override, MIEN_ERROR_CLIP_LIMIT if the clip is larger than
  * the mix allows. */
 MIEN_CHECKED MienStatus mien_mixer_play(MienMixer* mixer, uint32_t layer, const MienClip* clip,
                                         const MienClipBinding* clip_binding,
                                         const MienPlayDesc* desc, MienError* error);
 
-/* Fades out what a layer plays, which then ends. Fades take 0 to 2^40 ticks, here and below; they start
- * from value and speed that there are, and end with speed 0. Does not allocate or lock.
+/* Fades out the clip of a layer and ends it. Fades take 0 to 2^40 ticks, here and below; they start from
+ * the current value and speed, and end with speed 0. Does not allocate or lock.
  * Fails with MIEN_ERROR_INDEX if the layer does not exist or plays no clips. */
 MIEN_CHECKED MienStatus mien_mixer_stop(MienMixer* mixer, uint32_t layer, int64_t fade_ticks);
 
-/* Fades the weight of a layer to `weight`, whose range is that of MienMixLayer. Does not allocate or lock.
+/* Fades the weight of a layer to `weight`, with the range of MienMixLayer.weight. Does not allocate or
+ * lock.
  * Fails with MIEN_ERROR_INDEX if the layer does not exist. */
 MIEN_CHECKED MienStatus mien_mixer_set_weight(MienMixer* mixer, uint32_t layer, float weight,
                                               int64_t fade_ticks);
 
-/* Fades the weight of a pose to `weight`, 0 ... 1. `pose` counts from the first one of its layer. Weights of a layer
- * that add up to more than 1 are divided by their sum. Does not allocate or lock.
+/* Fades the weight of a pose to `weight`, 0 ... 1. `pose` counts from the first one of its layer. Weights
+ * of a layer that add up to more than 1 are divided by their sum. Does not allocate or lock.
  * Fails with MIEN_ERROR_INDEX if the layer or its pose does not exist. */
 MIEN_CHECKED MienStatus mien_mixer_set_pose_weight(MienMixer* mixer, uint32_t layer, uint32_t pose,
                                                    float weight, int64_t fade_ticks);
 
-/* Sets the `value` with which a pose variable enters each step. Does not allocate or lock.
+/* Sets the `value` that a pose variable has at the start of each step. Does not allocate or lock.
  * Fails with MIEN_ERROR_INDEX if it does not exist, MIEN_ERROR_INVALID_ARGUMENT if the value is not
  * finite. */
 MIEN_CHECKED MienStatus mien_mixer_set_variable(MienMixer* mixer, uint32_t variable, float value);
 
-/* Sets how much a guard acts: `activation` is 0 ... 1; below 0: as much as the protected layers close what it guards,
- * which is the default. Does not allocate or lock.
+/* Sets how much a guard acts: `activation` is 0 ... 1. If it is negative, the default, the guard acts as
+ * far as base and speech close its distance; those of lips and teeth act no more than the largest weight
+ * of a speech layer. Guards are numbered in this order, without those that were not asked for or not
+ * found: lips left, center and right, teeth, lower lip to upper teeth, left lids, right lids. Does not
+ * allocate or lock.
  * Fails with MIEN_ERROR_INDEX if the guard does not exist. */
 MIEN_CHECKED MienStatus mien_mixer_set_guard(MienMixer* mixer, uint32_t guard, float activation);
 
-/* Starts a reaction to a stimulus of `strength`, 0 ... 1, that lasts `hold_ticks`; if they are negative, until
- * mien_mixer_release(). Does not allocate or lock.
+/* Starts a reaction to a stimulus of `strength`, 0 ... 1, that lasts `hold_ticks`, at most 2^40; if
+ * negative, until mien_mixer_release(). Does not allocate or lock.
  * Fails with MIEN_ERROR_INDEX if the reaction does not exist, MIEN_ERROR_INVALID_ARGUMENT if strength or
  * time is out of range. */
 MIEN_CHECKED MienStatus mien_mixer_trigger(MienMixer* mixer, uint32_t reaction, float strength,
@@ -2158,11 +2163,12 @@ MIEN_CHECKED MienStatus mien_mixer_trigger(MienMixer* mixer, uint32_t reaction, 
  * Fails with MIEN_ERROR_INDEX if the reaction does not exist. */
 MIEN_CHECKED MienStatus mien_mixer_release(MienMixer* mixer, uint32_t reaction);
 
-/* Gives a layer of a stream one value per channel, for a time of the mixer. One thread may call this
+/* Queues a row for a stream layer: one value per channel, for time `tick` of the mixer. One thread may call this
  * while another one uses the mixer. `out_accepted` may be NULL; it is 0 for a row that is dropped because
- * it is not newer than the last one or there is no room. Does not allocate or lock.
+ * it is not newer than the last one or the queue is full. Does not allocate or lock.
  * Fails with MIEN_ERROR_INDEX if the layer does not exist or is no stream, MIEN_ERROR_MISMATCH if it has
- * another number of channels, MIEN_ERROR_INVALID_ARGUMENT if a value is not finite. */
+ * another number of channels, MIEN_ERROR_INVALID_ARGUMENT if a value is not finite or `tick` is 2^61 or
+ * more. */
 MIEN_CHECKED MienStatus mien_mixer_push(MienMixer* mixer, uint32_t layer, int64_t tick,
                                         const float* values, size_t value_count,
                                         uint32_t* out_accepted);
@@ -2173,8 +2179,8 @@ MIEN_CHECKED MienStatus mien_mixer_push(MienMixer* mixer, uint32_t layer, int64_
  * has another number of raw controls. */
 MIEN_CHECKED MienStatus mien_mixer_step(MienMixer* mixer, int64_t ticks, MienInstance* instance);
 
-/* Does the same for `count` mixers, each with the instance at its place. `instances` may be NULL. The
- * results are those of single calls. No mixer may occur twice. On failure no mixer has moved.
+/* Steps `count` mixers; instances[i] belongs to mixers[i]. `instances` may be NULL. The results are those
+ * of single calls. No mixer may occur twice. On failure no mixer has moved.
  * Fails like mien_mixer_step(). */
 MIEN_CHECKED MienStatus mien_mixer_step_batch(MienMixer* const* mixers,
                                               MienInstance* const* instances, size_t count,
@@ -2184,8 +2190,9 @@ MIEN_CHECKED MienStatus mien_mixer_step_batch(MienMixer* const* mixers,
  * Contents change with mien_mixer_step() and mien_mixer_step_batch(). */
 MIEN_CHECKED MienStatus mien_mixer_row(const MienMixer* mixer, MienFloatView* out_row);
 
-/* Returns the row after a stage of the last step, one float per lane. Stages are the layers, then reactions, guards, antagonists,
- * limits. A layer after the guards comes after them in time.
+/* Returns the row after a stage of the last step, one float per lane. Stages are numbered: the layers,
+ * then reactions, guards, antagonists, limits. Layers that act after the reactions or the guards keep
+ * their numbers.
  * Fails with MIEN_ERROR_INDEX if the stage does not exist, MIEN_ERROR_INVALID_ARGUMENT if
  * MienMixerDesc.stages was 0.
  * Contents change with mien_mixer_step() and mien_mixer_step_batch(). */
@@ -2195,7 +2202,7 @@ MIEN_CHECKED MienStatus mien_mixer_stage(const MienMixer* mixer, uint32_t stage,
 /* State of a mixer. */
 typedef struct MienMixerInfo {
     size_t struct_size;
-    int64_t tick;         /* time since the beginning */
+    int64_t tick;         /* time since creation */
     uint32_t event_count; /* events of clips that the last step passed */
     uint32_t lost_events; /* boolean: it passed more than MienMixDesc.max_events */
 } MienMixerInfo;
@@ -2204,14 +2211,15 @@ MIEN_DEFAULT(MienMixerInfo, mien_mixer_info_default)
 /* Returns the state of a mixer. */
 MIEN_CHECKED MienStatus mien_mixer_info(const MienMixer* mixer, MienMixerInfo* out_info);
 
-/* Returns an event of the last step and its layer. The tick is that in the clip, whose view its name is.
+/* Returns an event of the last step and its layer. Its tick is in the time of the clip, and its name is a
+ * view of the clip.
  * Fails with MIEN_ERROR_INDEX if `index` is out of range. */
 MIEN_CHECKED MienStatus mien_mixer_event(const MienMixer* mixer, uint32_t index,
                                          MienClipEvent* out_event, uint32_t* out_layer);
 
-/* Writes the state of a mixer to memory, all that its next steps depend on but rows of streams, and
- * returns its size in `out_size`. `buffer` may be NULL with capacity 0 to get the size only. The bytes
- * serve every machine. Does not allocate or lock.
+/* Writes the state of a mixer to memory: all that later steps depend on, except queued rows of streams.
+ * Returns its size in `out_size`. `buffer` may be NULL with capacity 0 to get the size only. Snapshots
+ * can be restored on 64-bit machines of the same byte order. Does not allocate or lock.
  * Fails with MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small. */
 MIEN_CHECKED MienStatus mien_mixer_snapshot(MienMixer* mixer, void* buffer, size_t capacity,
                                             size_t* out_size, MienError* error);
@@ -2223,11 +2231,12 @@ typedef struct MienMixerClip {
     const MienClipBinding* clip_binding;
 } MienMixerClip;
 
-/* Goes on from a snapshot of a mixer of the same mix, bit for bit; streams begin anew. `clips` holds
- * those that may be playing. The bytes are not trusted. On failure the mixer stays as it is. Does not
+/* Restores a snapshot of a mixer of the same mix; later steps give the same bits. Rows of
+ * streams are not part of it. `clips` holds the clips that may be playing. The bytes are checked, whatever their origin.
+ * On failure the mixer does not change. Does not
  * allocate or lock.
  * Fails with MIEN_ERROR_INVALID_ARGUMENT if the bytes are not a snapshot of this mix,
- * MIEN_ERROR_MISMATCH if a clip is missing or another one. */
+ * MIEN_ERROR_MISMATCH if a clip is missing or is not the one that played. */
 MIEN_CHECKED MienStatus mien_mixer_restore(MienMixer* mixer, const void* bytes, size_t size,
                                            const MienMixerClip* clips, size_t clip_count,
                                            MienError* error);

@@ -360,7 +360,7 @@ Command add_clip_command(CLI::App& app, const Session& session) {
   build_app->add_flag("--resample", build->resample,
                       "Interpolate rows that do not lie on a constant rate");
   build_app->footer(
-      "IN is one of these, told by its content:\n"
+      "IN is one of these, recognized by its content:\n"
       "  CSV        a header time,NAME,NAME,... and a row per frame; time in seconds\n"
       "  CSV of the Live Link Face app, 61 channels behind a timecode: every row is\n"
       "             a frame, the channels keep the names of the app\n"

@@ -416,18 +416,18 @@ class BakedCheck(IntEnum):
 
 
 class Looping(IntEnum):
-    """What follows the last frame."""
+    """What happens after the last frame."""
 
-    #: for a clip Looping.CLAMP, for a player that of its clip
+    #: a clip: Looping.CLAMP; a player: the setting of its clip
     DEFAULT = 0
-    #: the last frame stays; the length is (frames - 1) * ticks per frame
+    #: holds the last frame; the length is (frames - 1) * ticks per frame
     CLAMP = 1
-    #: the first frame follows; the length is frames * ticks per frame
+    #: starts over; the length is frames * ticks per frame
     WRAP = 2
 
 
 class Interpolation(IntEnum):
-    """Values between two frames. All are within the range of the two."""
+    """How values between two frames are computed. They stay within the range of the two."""
 
     LINEAR = 0
     #: the value of the earlier frame
@@ -437,7 +437,7 @@ class Interpolation(IntEnum):
 
 
 class LayerGroup(IntEnum):
-    """What a layer is for. Guards protect base and speech from the others."""
+    """What a layer is for. Guards protect the result of base and speech from the other groups."""
 
     BASE = 0
     SPEECH = 1
@@ -448,8 +448,8 @@ class LayerGroup(IntEnum):
 
 
 class BlendMode(IntEnum):
-    """What becomes of a lane: o is its value so far, x that of the layer, a = weight * mask. Lanes
-    for which the source of a layer has no value keep theirs.
+    """How a layer changes a lane: o is the value so far, x that of the layer, a = weight * mask. A
+    lane for which the source of the layer has no value does not change.
     """
 
     #: o + a (x - o)
@@ -480,10 +480,10 @@ class LayerSource(IntEnum):
 class Generator(IntEnum):
     """What a layer generates from the seed of the mixer and the time."""
 
-    #: every `period` on average, at least 0.5 s apart; waits anew after the first lane was above
-    #: 0.6 in the layers before
+    #: every `period` on average, at least 0.5 s apart. The wait starts over when earlier layers
+    #: raise the first lane above 0.6
     BLINK = 0
-    #: 0 to 1 in 40 % of a period and back
+    #: 0 to 1 in 40 % of the period, back to 0 in the rest
     BREATH = 1
     #: smooth between -1 and 1; a new random value every period
     NOISE = 2
@@ -492,15 +492,15 @@ class Generator(IntEnum):
 class Retrigger(IntEnum):
     """What a trigger does while the reaction runs."""
 
-    #: the stimulus goes on; strokes that rest or fall begin again
+    #: extends the stimulus; strokes that ended or release start again
     EXTEND = 0
-    #: all strokes begin again
+    #: all strokes start again, at most once per cooldown
     RESTART = 1
     IGNORE = 2
 
 
 class Guard(IntFlag):
-    """Guards: distances of the face that emotions and reactions must not open while speech or a
+    """Guards: distances in the face that emotions and reactions must not open while speech or a
     blink closes them. Bits of MienMixDesc.guards.
     """
 
@@ -514,13 +514,14 @@ class Guard(IntFlag):
 
 
 class Transition(IntEnum):
-    """How a layer goes on from what it played. A layer that played nothing fades in."""
+    """How a layer changes to another clip. A layer that plays nothing fades in, except with a cut.
+    """
 
-    #: the old clip is dropped; its last value and speed lead over
+    #: the old clip stops; each lane blends from its last value and speed
     INERTIAL = 0
-    #: both play; without a free player like Transition.INERTIAL
+    #: both play; without a free player, as Transition.INERTIAL
     CROSSFADE = 1
-    #: at once
+    #: immediate; transition_ticks is not used
     CUT = 2
 
 
@@ -2362,7 +2363,7 @@ class ClipInfo(NamedTuple):
     """Properties of a clip.
 
       rate_numerator: frames per second, as a fraction
-      changing_channel_count: channels that do not have one value in all frames
+      changing_channel_count: channels whose value is not the same in all frames
       looping: Looping.CLAMP or Looping.WRAP
       is_delta: values are differences
       snap: largest step that a channel was rounded to. 0: none was
@@ -2450,8 +2451,8 @@ class MixInfo(NamedTuple):
     """Properties of a mix.
 
       lane_count: raw controls and pose variables
-      stage_count: of mien_mixer_stage()
-      guard_count: guards whose landmarks were found
+      stage_count: for mien_mixer_stage()
+      guard_count: for mien_mixer_set_guard()
       mixer_bytes: memory of a mixer without MienMixerDesc.stages
       snapshot_bytes: size of a snapshot
     """
@@ -2474,7 +2475,7 @@ class MixInfo(NamedTuple):
 class MixerInfo(NamedTuple):
     """State of a mixer.
 
-      tick: time since the beginning
+      tick: time since creation
       event_count: events of clips that the last step passed
       lost_events: it passed more than MienMixDesc.max_events
     """
@@ -3202,7 +3203,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INVALID_ARGUMENT,
          "frame_stride is too small"),
         (Status.INDEX,
-         "there are not so many frames"),
+         "the clip has fewer frames"),
         (Status.CLIP_STRUCTURE,
          "a curve is damaged; its block is zero in `out_values`"),
     ),
@@ -3280,7 +3281,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_mixer_play": (
         (Status.INVALID_ARGUMENT,
-         "a time, speed or choice is out of range or a clip of differences would "
+         "a time, speed or enum value is out of range or a clip of differences would "
          "override"),
         (Status.MISMATCH,
          "the binding is of another clip or rig"),
@@ -3331,7 +3332,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_mixer_push": (
         (Status.INVALID_ARGUMENT,
-         "a value is not finite"),
+         "a value is not finite or `tick` is 2^61 or more"),
         (Status.MISMATCH,
          "it has another number of channels"),
         (Status.INDEX,
@@ -3370,7 +3371,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INVALID_ARGUMENT,
          "the bytes are not a snapshot of this mix"),
         (Status.MISMATCH,
-         "a clip is missing or another one"),
+         "a clip is missing or is not the one that played"),
     ),
     "mien_dna_generate": (
         (Status.INVALID_ARGUMENT,

@@ -298,11 +298,11 @@ pub const MIEN_BAKED_CHECK_SAFE: u32 = 0;
 pub const MIEN_BAKED_CHECK_FULL: u32 = 1;
 
 // enum MienLooping
-/// For a clip `MIEN_LOOPING_CLAMP`, for a player that of its clip.
+/// A clip: `MIEN_LOOPING_CLAMP`; a player: the setting of its clip.
 pub const MIEN_LOOPING_DEFAULT: u32 = 0;
-/// The last frame stays; the length is (frames - 1) \* ticks per frame.
+/// Holds the last frame; the length is (frames - 1) \* ticks per frame.
 pub const MIEN_LOOPING_CLAMP: u32 = 1;
-/// The first frame follows; the length is frames \* ticks per frame.
+/// Starts over; the length is frames \* ticks per frame.
 pub const MIEN_LOOPING_WRAP: u32 = 2;
 
 // enum MienInterpolation
@@ -343,18 +343,18 @@ pub const MIEN_LAYER_SOURCE_STREAM: u32 = 2;
 pub const MIEN_LAYER_SOURCE_GENERATOR: u32 = 3;
 
 // enum MienGenerator
-/// Every `period` on average, at least 0.5 s apart; waits anew after the first lane was above 0.6
-/// in the layers before.
+/// Every `period` on average, at least 0.5 s apart. The wait starts over when earlier layers raise
+/// the first lane above 0.6.
 pub const MIEN_GENERATOR_BLINK: u32 = 0;
-/// 0 to 1 in 40 % of a period and back.
+/// 0 to 1 in 40 % of the period, back to 0 in the rest.
 pub const MIEN_GENERATOR_BREATH: u32 = 1;
 /// Smooth between -1 and 1; a new random value every period.
 pub const MIEN_GENERATOR_NOISE: u32 = 2;
 
 // enum MienRetrigger
-/// The stimulus goes on; strokes that rest or fall begin again.
+/// Extends the stimulus; strokes that ended or release start again.
 pub const MIEN_RETRIGGER_EXTEND: u32 = 0;
-/// All strokes begin again.
+/// All strokes start again, at most once per cooldown.
 pub const MIEN_RETRIGGER_RESTART: u32 = 1;
 pub const MIEN_RETRIGGER_IGNORE: u32 = 2;
 
@@ -368,11 +368,11 @@ pub const MIEN_GUARD_TEETH: u32 = 4;
 pub const MIEN_GUARD_ALL: u32 = 7;
 
 // enum MienTransition
-/// The old clip is dropped; its last value and speed lead over.
+/// The old clip stops; each lane blends from its last value and speed.
 pub const MIEN_TRANSITION_INERTIAL: u32 = 0;
-/// Both play; without a free player like `MIEN_TRANSITION_INERTIAL`.
+/// Both play; without a free player, as `MIEN_TRANSITION_INERTIAL`.
 pub const MIEN_TRANSITION_CROSSFADE: u32 = 1;
-/// At once.
+/// Immediate; `transition_ticks` is not used.
 pub const MIEN_TRANSITION_CUT: u32 = 2;
 
 // enum MienPreset
@@ -484,8 +484,8 @@ pub struct MienBaked {
 /// ```
 ///
 /// Times are integers, in ticks of 1 / `MIEN_TICKS_PER_SECOND` s. At common frame rates a frame is
-/// a whole number of ticks; at others it is rounded to the nearest. A clip is used in place and
-/// needs no decompression in advance. Whatever its bytes are, decoded values are finite.
+/// a whole number of ticks; at others it is rounded to the nearest. A clip is used in place:
+/// frames are decoded as they are played. Whatever its bytes are, decoded values are finite.
 /// Immutable.
 #[repr(C)]
 pub struct MienClip {
@@ -510,7 +510,7 @@ pub struct MienClipBinding {
 
 /// What is mixed for one rig, and how. A row holds a value for each lane: first the raw controls
 /// of the rig, then pose variables, which are numbers of the caller that are mixed by the same
-/// rules (gaze, head turn, breath). A step of a MienMixer goes through layers in their order, then
+/// rules (gaze, head turn, breath). Each step of a MienMixer applies the layers in order, then
 /// reactions, guards, layers and reactions after the guards, antagonists, limits. docs/mixing.md
 /// explains each. Serves any number of mixers and threads. Immutable.
 #[repr(C)]
@@ -526,8 +526,8 @@ pub struct MienGaze {
     _opaque: Opaque,
 }
 
-/// One character in a mix: what plays, fades and reacts. Only `mien_mixer_push()` may be called by
-/// another thread at the same time.
+/// One character in a mix: the clips, fades and reactions that run. Only `mien_mixer_push()` may
+/// be called by another thread at the same time.
 #[repr(C)]
 pub struct MienMixer {
     _size: [u8; 0],
@@ -1519,7 +1519,7 @@ pub struct MienClipInfo {
     pub rate_denominator: u32,
     pub frame_count: u32,
     pub channel_count: u32,
-    /// Channels that do not have one value in all frames.
+    /// Channels whose value is not the same in all frames.
     pub changing_channel_count: u32,
     pub event_count: u32,
     /// `MIEN_LOOPING_CLAMP` or `MIEN_LOOPING_WRAP`.
@@ -1603,7 +1603,7 @@ pub struct MienClipPlayerDesc {
     pub speed_denominator: i32,
     /// The initial position, as for `mien_clip_player_seek()`.
     pub start_tick: i64,
-    /// Use 256 bytes more per changing channel to play backward as fast as forward.
+    /// Play backward as fast as forward, for 256 more bytes per changing channel.
     pub reverse: u32,
     /// 0.
     pub reserved: u32,
@@ -1717,19 +1717,19 @@ impl Default for MienClipBindingInfo {
     }
 }
 
-/// A layer of a mix. Zero what its source does not use.
+/// A layer of a mix. Leave the fields that its source does not use at zero.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienMixLayer {
     /// Of a generator, ticks.
     pub period: i64,
-    /// Of a stream, ticks: it is played so much later than its times say.
+    /// Of a stream, ticks: rows are played this much after their times.
     pub delay: i64,
     /// One per lane, 0 to 1; those left out at the end are 0. NULL: 1 for all.
     pub mask: *const f32,
-    /// Of the channels of a stream, or that a generator moves.
+    /// Lane of each channel of a stream, or the lanes that a generator moves.
     pub lanes: *const u16,
-    /// One per lane of a generator: its values are multiplied by them.
+    /// One per lane of a generator: scales its value.
     pub amounts: *const f32,
     pub mask_count: u32,
     pub lane_count: u32,
@@ -1739,16 +1739,16 @@ pub struct MienMixLayer {
     pub mode: u32,
     /// `MIEN_LAYER_SOURCE_...`
     pub source: u32,
-    /// Guards leave the layer alone; not for base and speech.
+    /// Acts after the guards; not for base and speech.
     pub after_guards: u32,
-    /// At the beginning. 0 to 1; with `MIEN_BLEND_MODE_ADD` -1 to 1.
+    /// Initial weight. 0 to 1; with `MIEN_BLEND_MODE_ADD` -1 to 1.
     pub weight: f32,
-    /// Its poses, in MienMixDesc.poses.
+    /// First of its poses in MienMixDesc.poses.
     pub first_pose: u32,
     pub pose_count: u32,
     /// `MIEN_GENERATOR_...`
     pub generator: u32,
-    /// Rows of a stream that can wait. 0: 64; else 2 to 1024.
+    /// Most rows of a stream that can be queued. 0: 64; else 2 to 1024.
     pub stream_frames: u32,
     /// 0.
     pub reserved: u32,
@@ -1779,7 +1779,7 @@ impl Default for MienMixPose {
     }
 }
 
-/// A part of a reaction: leads the lanes of a pose to its values and back. Times are in ticks.
+/// A part of a reaction: moves the lanes of a pose to its values and back. Times are in ticks.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienMixStroke {
@@ -1787,7 +1787,7 @@ pub struct MienMixStroke {
     pub delay: i64,
     /// To strength \* pose.
     pub attack: i64,
-    /// After the attack; without effect if `is_held`.
+    /// After the attack; ignored if `is_held`.
     pub hold: i64,
     /// Back to 0.
     pub release: i64,
@@ -1795,7 +1795,7 @@ pub struct MienMixStroke {
     pub pose: u32,
     /// `MIEN_BLEND_MODE_...`
     pub mode: u32,
-    /// Holds as long as the stimulus lasts, and adapts to it.
+    /// Holds as long as the stimulus lasts, and adapts unless `is_lag`.
     pub is_held: u32,
     /// Moves exponentially; attack and release are time constants.
     pub is_lag: u32,
@@ -1809,15 +1809,15 @@ impl Default for MienMixStroke {
     }
 }
 
-/// What a face does by itself when something happens to it.
+/// What a face does in response to a stimulus, such as a bright light.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienMixReaction {
-    /// Ticks; strokes that are not held begin at most so often.
+    /// Ticks; shortest time between two starts of strokes not held.
     pub cooldown: i64,
-    /// Time constants of adaptation to a stimulus that lasts.
+    /// Time constant of adaptation to a lasting stimulus.
     pub adapt_ticks: i64,
-    /// And of recovery from it.
+    /// Time constant of recovery after it.
     pub recover_ticks: i64,
     /// At most 8.
     pub strokes: *const MienMixStroke,
@@ -1826,7 +1826,7 @@ pub struct MienMixReaction {
     pub retrigger: u32,
     /// Guards leave it alone.
     pub after_guards: u32,
-    /// Share of the strength that is left after adaptation; 1: all.
+    /// Share of the strength that remains after adaptation; 1: all.
     pub adapted: f32,
     /// 0.
     pub reserved: u32,
@@ -1881,21 +1881,21 @@ pub struct MienMixDesc {
     /// Limits per lane. NULL: none; both or neither.
     pub lower: *const f32,
     pub upper: *const f32,
-    /// On which guards are measured; may be NULL if guards is 0.
+    /// For measuring the guards; may be NULL if guards is 0.
     pub deformer: *const MienDeformer,
-    /// `MIEN_GUARD_...` bits; those whose landmarks are found act.
+    /// `MIEN_GUARD_...` bits; without landmarks a guard is left out.
     pub guards: u32,
     /// Pose variables; with the raw controls at most 4096 lanes.
     pub variable_count: u32,
-    /// Clips that play at a time; crossfades need two. 0: two for each layer of clips.
+    /// Clips that play at a time; a crossfade needs two. 0: two for each layer of clips.
     pub player_count: u32,
-    /// Largest clip. 0: as many as the rig has raw controls.
+    /// Of any clip. 0: as many as the rig has raw controls.
     pub max_channels: u32,
-    /// Of the largest clip. 0: `max_channels`, 512 at most.
+    /// Of any clip. 0: `max_channels`, 512 at most.
     pub max_changing_channels: u32,
     /// That a step can report. 0: 64.
     pub max_events: u32,
-    /// Memory to play backward as fast as forward.
+    /// As in MienClipPlayerDesc.
     pub reverse: u32,
     /// 0.
     pub reserved: u32,
@@ -1922,9 +1922,9 @@ pub struct MienMixInfo {
     /// Raw controls and pose variables.
     pub lane_count: u32,
     pub layer_count: u32,
-    /// Of `mien_mixer_stage()`.
+    /// For `mien_mixer_stage()`.
     pub stage_count: u32,
-    /// Guards whose landmarks were found.
+    /// For `mien_mixer_set_guard()`.
     pub guard_count: u32,
     /// Memory of a mixer without MienMixerDesc.stages.
     pub mixer_bytes: u64,
@@ -2026,7 +2026,7 @@ impl Default for MienMixerDesc {
 #[derive(Clone, Copy)]
 pub struct MienPlayDesc {
     pub struct_size: usize,
-    /// The caller's number of clip and binding, by which `mien_mixer_restore()` finds them.
+    /// Chosen by the caller: `mien_mixer_restore()` finds clip and binding by it.
     pub clip_id: u64,
     /// Of the clip.
     pub start_tick: i64,
@@ -2060,7 +2060,7 @@ impl Default for MienPlayDesc {
 #[derive(Clone, Copy)]
 pub struct MienMixerInfo {
     pub struct_size: usize,
-    /// Time since the beginning.
+    /// Time since creation.
     pub tick: i64,
     /// Events of clips that the last step passed.
     pub event_count: u32,
@@ -2875,7 +2875,7 @@ extern "C" {
     /// `MIEN_ERROR_FILE_READ`.
     pub fn mien_clip_open_memory(bytes: *const c_void, size: usize, desc: *const MienClipOpenDesc, out_clip: *mut *mut MienClip, error: *mut MienError) -> MienStatus;
 
-    /// Opens a clip through a stream, which is read at once into memory of the allocator.
+    /// Opens a clip through a stream, which is read completely into memory of the allocator.
     ///
     /// Fails like `mien_clip_open_file()`, but not with `MIEN_ERROR_FILE_OPEN`.
     pub fn mien_clip_open_stream(stream: *const MienStream, desc: *const MienClipOpenDesc, out_clip: *mut *mut MienClip, error: *mut MienError) -> MienStatus;
@@ -2922,25 +2922,26 @@ extern "C" {
     /// Fails with `MIEN_ERROR_INDEX` if `index` is out of range.
     pub fn mien_clip_event(clip: *const MienClip, index: u32, out_event: *mut MienClipEvent) -> MienStatus;
 
-    /// Checks that a clip has the bytes that were written and that all curves can be decoded.
-    /// Reads the whole clip. Uses up to 24 KiB of stack.
+    /// Checks that no byte of a clip has changed since it was written and that all curves can be
+    /// decoded. Reads the whole clip. Uses up to 24 KiB of stack.
     ///
     /// Fails with `MIEN_ERROR_CLIP_CHECKSUM` if bytes have changed, `MIEN_ERROR_CLIP_STRUCTURE` if
     /// a curve cannot be decoded.
     pub fn mien_clip_verify(clip: *const MienClip, error: *mut MienError) -> MienStatus;
 
-    /// Copies `frame_count` frames from `first_frame` on: channel c of frame `first_frame` + n to
-    /// `out_values`\[n \* `frame_stride` + c\]. `frame_stride` is at least the number of channels;
-    /// 0 means this number. A call decodes its first block of 64 frames from the beginning, so
-    /// many frames in one call cost less than one by one. Uses up to 24 KiB of stack.
+    /// Copies `frame_count` frames, starting at `first_frame`: channel c of frame `first_frame` +
+    /// n goes to `out_values`\[n \* `frame_stride` + c\]. `frame_stride` is at least the number of
+    /// channels; 0 means that number. Each call decodes its first block of 64 frames from the
+    /// start of the block, so many frames in one call cost less than the same frames one by one.
+    /// Uses up to 24 KiB of stack.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `frame_stride` is too small, `MIEN_ERROR_INDEX`
-    /// if there are not so many frames, `MIEN_ERROR_CLIP_STRUCTURE` if a curve is damaged; its
-    /// block is zero in `out_values`.
+    /// if the clip has fewer frames, `MIEN_ERROR_CLIP_STRUCTURE` if a curve is damaged; its block
+    /// is zero in `out_values`.
     pub fn mien_clip_read(clip: *const MienClip, first_frame: u32, frame_count: u32, out_values: *mut f32, frame_stride: usize, error: *mut MienError) -> MienStatus;
 
-    /// Creates a player, with one allocation. `clip` may be closed before it. Destroy with
-    /// `mien_clip_player_destroy()`.
+    /// Creates a player, with one allocation. `clip` may be closed before the player is destroyed.
+    /// Destroy with `mien_clip_player_destroy()`.
     pub fn mien_clip_player_create(clip: *const MienClip, desc: *const MienClipPlayerDesc, out_clip_player: *mut *mut MienClipPlayer, error: *mut MienError) -> MienStatus;
 
     /// Destroys a player.
@@ -2954,8 +2955,7 @@ extern "C" {
     /// after creation. Does not allocate or lock.
     pub fn mien_clip_player_seek(clip_player: *mut MienClipPlayer, tick: i64) -> MienStatus;
 
-    /// Changes the speed of the following calls of `mien_clip_player_advance()`. Does not allocate
-    /// or lock.
+    /// Sets the speed for later calls of `mien_clip_player_advance()`. Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if it is outside the range of MienClipPlayerDesc.
     pub fn mien_clip_player_set_speed(clip_player: *mut MienClipPlayer, numerator: i32, denominator: i32) -> MienStatus;
@@ -2982,13 +2982,13 @@ extern "C" {
 
     /// Binds a clip to a rig by names. A channel drives the raw control with its name; else the
     /// GUI control with its name, which is then mapped as by `mien_rig_map_gui_to_raw()`; else the
-    /// controls of its entries in the matrix, whose sums are formed in the order of the matrix.
-    /// Names match without regard to case; `.` matches `_`; the prefix `CTRL_expressions.` may be
-    /// missing. If several names match, one of them must be equal. A raw control that a channel
-    /// drives by name is driven by nothing else, and one that the matrix drives is not driven by
-    /// GUI controls. Names without a match are not an error: see `mien_clip_binding_info()`.
-    /// `clip` may be closed and `rig` may be destroyed afterwards. Destroy with
-    /// `mien_clip_binding_destroy()`.
+    /// controls of its entries in the matrix, which are summed in the order of the matrix. Names
+    /// match without regard to case; `.` matches `_`; the prefix `CTRL_expressions.` may be
+    /// missing. If several names match, only one that is equal counts. A raw control that a
+    /// channel drives by name is driven by nothing else, and one that the matrix drives is not
+    /// driven by GUI controls. Names without a match are not an error: see
+    /// `mien_clip_binding_info()`. `clip` may be closed and `rig` may be destroyed afterwards.
+    /// Destroy with `mien_clip_binding_destroy()`.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if a weight is not finite, `MIEN_ERROR_CLIP_LIMIT`
     /// if channels drive more than 4095 GUI controls.
@@ -3010,8 +3010,8 @@ extern "C" {
     pub fn mien_clip_binding_apply(clip_binding: *const MienClipBinding, values: *const f32, value_count: usize, raw_controls: *mut f32, raw_control_count: usize) -> MienStatus;
 
     /// Creates a mix for a rig. `desc` is required. `rig` may be destroyed afterwards, and so may
-    /// the deformer. Measuring guards evaluates and deforms the rig some hundred times. Destroy
-    /// with `mien_mix_destroy()`.
+    /// the deformer. Measuring guards takes time: it evaluates and deforms the rig at LOD 0 for
+    /// each raw control and for pairs that share a corrective. Destroy with `mien_mix_destroy()`.
     ///
     /// Fails with `MIEN_ERROR_MISMATCH` if the deformer is of another rig,
     /// `MIEN_ERROR_INVALID_ARGUMENT` if a part of `desc` is out of range; the message names it.
@@ -3063,32 +3063,31 @@ extern "C" {
     /// `MIEN_ERROR_INVALID_ARGUMENT` if the target is not finite.
     pub fn mien_gaze_look_at(gaze: *const MienGaze, target: *const MienGazeTarget, row: *mut f32, row_count: usize, out_rest: *mut MienGazeRest) -> MienStatus;
 
-    /// Creates a mixer at time 0, with one allocation: nothing plays, weights of poses and pose
-    /// variables are 0. `mix` must outlive it. Destroy with `mien_mixer_destroy()`.
+    /// Creates a mixer at time 0, with one allocation. Nothing plays; the weights of poses and the
+    /// pose variables are 0. `mix` must outlive it. Destroy with `mien_mixer_destroy()`.
     pub fn mien_mixer_create(mix: *const MienMix, desc: *const MienMixerDesc, out_mixer: *mut *mut MienMixer, error: *mut MienError) -> MienStatus;
 
     /// Destroys a mixer.
     pub fn mien_mixer_destroy(mixer: *mut MienMixer);
 
-    /// Plays a clip in a layer, from the next step on. `clip` and `clip_binding` must outlive the
-    /// playing, the transition to the next clip included. On failure the layer goes on as before.
-    /// Does not allocate or lock.
+    /// Plays a clip in a layer, from the next step on. `clip` and `clip_binding` must outlive
+    /// their playback, including the transition to the next clip. On failure the layer goes on as
+    /// before. Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if the layer does not exist or has another source,
     /// `MIEN_ERROR_MISMATCH` if the binding is of another clip or rig,
-    /// `MIEN_ERROR_INVALID_ARGUMENT` if a time, speed or choice is out of range or a clip of
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if a time, speed or enum value is out of range or a clip of
     /// differences would override, `MIEN_ERROR_CLIP_LIMIT` if the clip is larger than the mix
     /// allows.
     pub fn mien_mixer_play(mixer: *mut MienMixer, layer: u32, clip: *const MienClip, clip_binding: *const MienClipBinding, desc: *const MienPlayDesc, error: *mut MienError) -> MienStatus;
 
-    /// Fades out what a layer plays, which then ends. Fades take 0 to 2^40 ticks, here and below;
-    /// they start from value and speed that there are, and end with speed 0. Does not allocate or
-    /// lock.
+    /// Fades out the clip of a layer and ends it. Fades take 0 to 2^40 ticks, here and below; they
+    /// start from the current value and speed, and end with speed 0. Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if the layer does not exist or plays no clips.
     pub fn mien_mixer_stop(mixer: *mut MienMixer, layer: u32, fade_ticks: i64) -> MienStatus;
 
-    /// Fades the weight of a layer to `weight`, whose range is that of MienMixLayer. Does not
+    /// Fades the weight of a layer to `weight`, with the range of MienMixLayer.weight. Does not
     /// allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if the layer does not exist.
@@ -3101,20 +3100,24 @@ extern "C" {
     /// Fails with `MIEN_ERROR_INDEX` if the layer or its pose does not exist.
     pub fn mien_mixer_set_pose_weight(mixer: *mut MienMixer, layer: u32, pose: u32, weight: f32, fade_ticks: i64) -> MienStatus;
 
-    /// Sets the `value` with which a pose variable enters each step. Does not allocate or lock.
+    /// Sets the `value` that a pose variable has at the start of each step. Does not allocate or
+    /// lock.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if it does not exist, `MIEN_ERROR_INVALID_ARGUMENT` if the
     /// value is not finite.
     pub fn mien_mixer_set_variable(mixer: *mut MienMixer, variable: u32, value: f32) -> MienStatus;
 
-    /// Sets how much a guard acts: `activation` is 0 ... 1; below 0: as much as the protected
-    /// layers close what it guards, which is the default. Does not allocate or lock.
+    /// Sets how much a guard acts: `activation` is 0 ... 1. If it is negative, the default, the
+    /// guard acts as far as base and speech close its distance; those of lips and teeth act no
+    /// more than the largest weight of a speech layer. Guards are numbered in this order, without
+    /// those that were not asked for or not found: lips left, center and right, teeth, lower lip
+    /// to upper teeth, left lids, right lids. Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if the guard does not exist.
     pub fn mien_mixer_set_guard(mixer: *mut MienMixer, guard: u32, activation: f32) -> MienStatus;
 
-    /// Starts a reaction to a stimulus of `strength`, 0 ... 1, that lasts `hold_ticks`; if they
-    /// are negative, until `mien_mixer_release()`. Does not allocate or lock.
+    /// Starts a reaction to a stimulus of `strength`, 0 ... 1, that lasts `hold_ticks`, at most
+    /// 2^40; if negative, until `mien_mixer_release()`. Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if the reaction does not exist, `MIEN_ERROR_INVALID_ARGUMENT`
     /// if strength or time is out of range.
@@ -3125,14 +3128,14 @@ extern "C" {
     /// Fails with `MIEN_ERROR_INDEX` if the reaction does not exist.
     pub fn mien_mixer_release(mixer: *mut MienMixer, reaction: u32) -> MienStatus;
 
-    /// Gives a layer of a stream one value per channel, for a time of the mixer. One thread may
-    /// call this while another one uses the mixer. `out_accepted` may be NULL; it is 0 for a row
-    /// that is dropped because it is not newer than the last one or there is no room. Does not
-    /// allocate or lock.
+    /// Queues a row for a stream layer: one value per channel, for time `tick` of the mixer. One
+    /// thread may call this while another one uses the mixer. `out_accepted` may be NULL; it is 0
+    /// for a row that is dropped because it is not newer than the last one or the queue is full.
+    /// Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if the layer does not exist or is no stream,
     /// `MIEN_ERROR_MISMATCH` if it has another number of channels, `MIEN_ERROR_INVALID_ARGUMENT`
-    /// if a value is not finite.
+    /// if a value is not finite or `tick` is 2^61 or more.
     pub fn mien_mixer_push(mixer: *mut MienMixer, layer: u32, tick: i64, values: *const f32, value_count: usize, out_accepted: *mut u32) -> MienStatus;
 
     /// Advances by `ticks`, 0 to 2^40, and mixes. The raw controls go to `instance`, which may be
@@ -3142,9 +3145,8 @@ extern "C" {
     /// if the instance has another number of raw controls.
     pub fn mien_mixer_step(mixer: *mut MienMixer, ticks: i64, instance: *mut MienInstance) -> MienStatus;
 
-    /// Does the same for `count` mixers, each with the instance at its place. `instances` may be
-    /// NULL. The results are those of single calls. No mixer may occur twice. On failure no mixer
-    /// has moved.
+    /// Steps `count` mixers; instances\[i\] belongs to mixers\[i\]. `instances` may be NULL. The
+    /// results are those of single calls. No mixer may occur twice. On failure no mixer has moved.
     ///
     /// Fails like `mien_mixer_step()`.
     pub fn mien_mixer_step_batch(mixers: *const *mut MienMixer, instances: *const *mut MienInstance, count: usize, ticks: i64) -> MienStatus;
@@ -3154,9 +3156,9 @@ extern "C" {
     /// Contents change with `mien_mixer_step()` and `mien_mixer_step_batch()`.
     pub fn mien_mixer_row(mixer: *const MienMixer, out_row: *mut MienFloatView) -> MienStatus;
 
-    /// Returns the row after a stage of the last step, one float per lane. Stages are the layers,
-    /// then reactions, guards, antagonists, limits. A layer after the guards comes after them in
-    /// time.
+    /// Returns the row after a stage of the last step, one float per lane. Stages are numbered:
+    /// the layers, then reactions, guards, antagonists, limits. Layers that act after the
+    /// reactions or the guards keep their numbers.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if the stage does not exist, `MIEN_ERROR_INVALID_ARGUMENT` if
     /// MienMixerDesc.stages was 0.
@@ -3167,25 +3169,27 @@ extern "C" {
     /// Returns the state of a mixer.
     pub fn mien_mixer_info(mixer: *const MienMixer, out_info: *mut MienMixerInfo) -> MienStatus;
 
-    /// Returns an event of the last step and its layer. The tick is that in the clip, whose view
-    /// its name is.
+    /// Returns an event of the last step and its layer. Its tick is in the time of the clip, and
+    /// its name is a view of the clip.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if `index` is out of range.
     pub fn mien_mixer_event(mixer: *const MienMixer, index: u32, out_event: *mut MienClipEvent, out_layer: *mut u32) -> MienStatus;
 
-    /// Writes the state of a mixer to memory, all that its next steps depend on but rows of
-    /// streams, and returns its size in `out_size`. `buffer` may be NULL with capacity 0 to get
-    /// the size only. The bytes serve every machine. Does not allocate or lock.
+    /// Writes the state of a mixer to memory: all that later steps depend on, except queued rows
+    /// of streams. Returns its size in `out_size`. `buffer` may be NULL with capacity 0 to get the
+    /// size only. Snapshots can be restored on 64-bit machines of the same byte order. Does not
+    /// allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `capacity` is too small.
     pub fn mien_mixer_snapshot(mixer: *mut MienMixer, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
 
-    /// Goes on from a snapshot of a mixer of the same mix, bit for bit; streams begin anew.
-    /// `clips` holds those that may be playing. The bytes are not trusted. On failure the mixer
-    /// stays as it is. Does not allocate or lock.
+    /// Restores a snapshot of a mixer of the same mix; later steps give the same bits. Rows of
+    /// streams are not part of it. `clips` holds the clips that may be playing. The bytes are
+    /// checked, whatever their origin. On failure the mixer does not change. Does not allocate or
+    /// lock.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if the bytes are not a snapshot of this mix,
-    /// `MIEN_ERROR_MISMATCH` if a clip is missing or another one.
+    /// `MIEN_ERROR_MISMATCH` if a clip is missing or is not the one that played.
     pub fn mien_mixer_restore(mixer: *mut MienMixer, bytes: *const c_void, size: usize, clips: *const MienMixerClip, clip_count: usize, error: *mut MienError) -> MienStatus;
 
     /// Generates a rig and opens it: a file of version 2.8 with all layers, behavior of realistic

@@ -641,7 +641,7 @@ impl BakedCheck {
 
 numbers!(BakedCheck, u32, [(0, "SAFE"), (1, "FULL")]);
 
-/// What follows the last frame.
+/// What happens after the last frame.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -649,17 +649,17 @@ numbers!(BakedCheck, u32, [(0, "SAFE"), (1, "FULL")]);
 pub struct Looping(pub u32);
 
 impl Looping {
-    /// For a clip `Looping::CLAMP`, for a player that of its clip.
+    /// A clip: `Looping::CLAMP`; a player: the setting of its clip.
     pub const DEFAULT: Self = Self(0);
-    /// The last frame stays; the length is (frames - 1) \* ticks per frame.
+    /// Holds the last frame; the length is (frames - 1) \* ticks per frame.
     pub const CLAMP: Self = Self(1);
-    /// The first frame follows; the length is frames \* ticks per frame.
+    /// Starts over; the length is frames \* ticks per frame.
     pub const WRAP: Self = Self(2);
 }
 
 numbers!(Looping, u32, [(0, "DEFAULT"), (1, "CLAMP"), (2, "WRAP")]);
 
-/// Values between two frames. All are within the range of the two.
+/// How values between two frames are computed. They stay within the range of the two.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -677,7 +677,7 @@ impl Interpolation {
 
 numbers!(Interpolation, u32, [(0, "LINEAR"), (1, "STEP"), (2, "CATMULL_ROM")]);
 
-/// What a layer is for. Guards protect base and speech from the others.
+/// What a layer is for. Guards protect the result of base and speech from the other groups.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -699,8 +699,8 @@ impl LayerGroup {
 
 numbers!(LayerGroup, u32, [(0, "BASE"), (1, "SPEECH"), (2, "EMOTION"), (3, "REACTION"), (4, "LIFE")]);
 
-/// What becomes of a lane: o is its value so far, x that of the layer, a = weight \* mask. Lanes
-/// for which the source of a layer has no value keep theirs.
+/// How a layer changes a lane: o is the value so far, x that of the layer, a = weight \* mask. A
+/// lane for which the source of the layer has no value does not change.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -750,10 +750,10 @@ numbers!(LayerSource, u32, [(0, "CLIP"), (1, "POSES"), (2, "STREAM"), (3, "GENER
 pub struct Generator(pub u32);
 
 impl Generator {
-    /// Every `period` on average, at least 0.5 s apart; waits anew after the first lane was above
-    /// 0.6 in the layers before.
+    /// Every `period` on average, at least 0.5 s apart. The wait starts over when earlier layers
+    /// raise the first lane above 0.6.
     pub const BLINK: Self = Self(0);
-    /// 0 to 1 in 40 % of a period and back.
+    /// 0 to 1 in 40 % of the period, back to 0 in the rest.
     pub const BREATH: Self = Self(1);
     /// Smooth between -1 and 1; a new random value every period.
     pub const NOISE: Self = Self(2);
@@ -769,9 +769,9 @@ numbers!(Generator, u32, [(0, "BLINK"), (1, "BREATH"), (2, "NOISE")]);
 pub struct Retrigger(pub u32);
 
 impl Retrigger {
-    /// The stimulus goes on; strokes that rest or fall begin again.
+    /// Extends the stimulus; strokes that ended or release start again.
     pub const EXTEND: Self = Self(0);
-    /// All strokes begin again.
+    /// All strokes start again, at most once per cooldown.
     pub const RESTART: Self = Self(1);
     /// `MIEN_RETRIGGER_IGNORE` in C.
     pub const IGNORE: Self = Self(2);
@@ -779,7 +779,7 @@ impl Retrigger {
 
 numbers!(Retrigger, u32, [(0, "EXTEND"), (1, "RESTART"), (2, "IGNORE")]);
 
-/// Guards: distances of the face that emotions and reactions must not open while speech or a blink
+/// Guards: distances in the face that emotions and reactions must not open while speech or a blink
 /// closes them. Bits of MienMixDesc.guards.
 ///
 /// A later library may give numbers that have no name here.
@@ -800,7 +800,7 @@ impl Guard {
 
 flags!(Guard, u32, [(1, "LIPS"), (2, "LIDS"), (4, "TEETH"), (7, "ALL")]);
 
-/// How a layer goes on from what it played. A layer that played nothing fades in.
+/// How a layer changes to another clip. A layer that plays nothing fades in, except with a cut.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -808,11 +808,11 @@ flags!(Guard, u32, [(1, "LIPS"), (2, "LIDS"), (4, "TEETH"), (7, "ALL")]);
 pub struct Transition(pub u32);
 
 impl Transition {
-    /// The old clip is dropped; its last value and speed lead over.
+    /// The old clip stops; each lane blends from its last value and speed.
     pub const INERTIAL: Self = Self(0);
-    /// Both play; without a free player like `Transition::INERTIAL`.
+    /// Both play; without a free player, as `Transition::INERTIAL`.
     pub const CROSSFADE: Self = Self(1);
-    /// At once.
+    /// Immediate; `transition_ticks` is not used.
     pub const CUT: Self = Self(2);
 }
 
@@ -1301,7 +1301,7 @@ pub struct ClipInfo {
     pub frame_count: usize,
     /// Channel count.
     pub channel_count: usize,
-    /// Channels that do not have one value in all frames.
+    /// Channels whose value is not the same in all frames.
     pub changing_channel_count: usize,
     /// Event count.
     pub event_count: usize,
@@ -1384,9 +1384,9 @@ pub struct MixInfo {
     pub lane_count: usize,
     /// Layer count.
     pub layer_count: usize,
-    /// Of `mien_mixer_stage()`.
+    /// For `mien_mixer_stage()`.
     pub stage_count: usize,
-    /// Guards whose landmarks were found.
+    /// For `mien_mixer_set_guard()`.
     pub guard_count: usize,
     /// Memory of a mixer without MienMixerDesc.stages.
     pub mixer_bytes: u64,
@@ -1413,7 +1413,7 @@ impl From<sys::MienMixInfo> for MixInfo {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct MixerInfo {
-    /// Time since the beginning.
+    /// Time since creation.
     pub tick: i64,
     /// Events of clips that the last step passed.
     pub event_count: usize,
@@ -1918,7 +1918,7 @@ macro_rules! errors {
     };
     (mien_clip_read) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `frame_stride` is too small\n\
-         - [`Status::INDEX`](crate::Status::INDEX) if there are not so many frames\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the clip has fewer frames\n\
          - [`Status::CLIP_STRUCTURE`](crate::Status::CLIP_STRUCTURE) if a curve is damaged; its block is zero in `out_values`"
     };
     (mien_clip_player_create) => {
@@ -1986,7 +1986,7 @@ macro_rules! errors {
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
     };
     (mien_mixer_play) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a time, speed or choice is out of range or a clip of differences would override\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a time, speed or enum value is out of range or a clip of differences would override\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if the binding is of another clip or rig\n\
          - [`Status::INDEX`](crate::Status::INDEX) if the layer does not exist or has another source\n\
          - [`Status::CLIP_LIMIT`](crate::Status::CLIP_LIMIT) if the clip is larger than the mix allows"
@@ -2019,7 +2019,7 @@ macro_rules! errors {
         "- [`Status::INDEX`](crate::Status::INDEX) if the reaction does not exist"
     };
     (mien_mixer_push) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a value is not finite\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a value is not finite or `tick` is 2^61 or more\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if it has another number of channels\n\
          - [`Status::INDEX`](crate::Status::INDEX) if the layer does not exist or is no stream"
     };
@@ -2049,7 +2049,7 @@ macro_rules! errors {
     };
     (mien_mixer_restore) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the bytes are not a snapshot of this mix\n\
-         - [`Status::MISMATCH`](crate::Status::MISMATCH) if a clip is missing or another one"
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if a clip is missing or is not the one that played"
     };
     (mien_dna_generate) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
