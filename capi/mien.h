@@ -2005,8 +2005,8 @@ MIEN_CHECKED MienStatus mien_mix_antagonists(const MienRig* rig, MienMixAntagoni
                                              size_t capacity, size_t* out_count);
 
 /* Finds the counterparts of raw controls in the other half of the face, for MienMixDesc.mirror. Controls
- * are counterparts if their names differ in Left and Right or L and R only and their motions agree, or
- * if the motion of joints is mirrored. Others, and lanes beyond the raw controls, are their own.
+ * are counterparts if their names differ only in Left and Right or L and R and their motions agree, or
+ * if they move joints in mirrored ways. Others, and lanes beyond the raw controls, map to themselves.
  * Evaluates the rig once for each raw control, and takes memory from its allocator during the call.
  * Fails with MIEN_ERROR_MISMATCH if `lane_count` is less than the raw controls. */
 MIEN_CHECKED MienStatus mien_mix_mirror(const MienDeformer* deformer, uint16_t* out_lanes,
@@ -2034,10 +2034,10 @@ typedef struct MienGazeDesc {
 } MienGazeDesc;
 MIEN_DEFAULT(MienGazeDesc, mien_gaze_desc_default)
 
-/* Creates a gaze by measuring how raw controls turn the eyes: evaluates the rig some thousand times.
+/* Creates a gaze by measuring how raw controls turn the eyes: evaluates the rig twice per raw control and more.
  * `deformer` may be destroyed afterwards. Destroy with mien_gaze_destroy().
- * Fails with MIEN_ERROR_NAME if there are no such joints, MIEN_ERROR_INVALID_ARGUMENT if no raw control
- * turns an eye in one of the four directions, farther with each step. */
+ * Fails with MIEN_ERROR_NAME if there are no such joints, MIEN_ERROR_INVALID_ARGUMENT if one of the
+ * four directions has no raw control that turns an eye steadily farther. */
 MIEN_CHECKED MienStatus mien_gaze_create(const MienDeformer* deformer, const MienGazeDesc* desc,
                                          MienGaze** out_gaze, MienError* error);
 
@@ -2051,7 +2051,8 @@ typedef struct MienGazeTarget {
     float front;
 } MienGazeTarget;
 
-/* Tangents of angles that are beyond the reach of the eyes, the mean of both: for the head to turn. */
+/* The part of a gaze that is beyond the reach of the eyes, for the head to turn: tangents of angles, the
+ * mean of both eyes. */
 typedef struct MienGazeRest {
     float left;
     float up;

@@ -3260,8 +3260,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_gaze_create": (
         (Status.INVALID_ARGUMENT,
-         "no raw control turns an eye in one of the four directions, farther with each "
-         "step"),
+         "one of the four directions has no raw control that turns an eye steadily "
+         "farther"),
         (Status.NAME,
          "there are no such joints"),
         (Status.MEMORY,

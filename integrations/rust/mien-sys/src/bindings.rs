@@ -1980,8 +1980,8 @@ impl Default for MienGazeTarget {
     }
 }
 
-/// Tangents of angles that are beyond the reach of the eyes, the mean of both: for the head to
-/// turn.
+/// The part of a gaze that is beyond the reach of the eyes, for the head to turn: tangents of
+/// angles, the mean of both eyes.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienGazeRest {
@@ -3029,10 +3029,10 @@ extern "C" {
     pub fn mien_mix_antagonists(rig: *const MienRig, out_pairs: *mut MienMixAntagonists, capacity: usize, out_count: *mut usize) -> MienStatus;
 
     /// Finds the counterparts of raw controls in the other half of the face, for
-    /// MienMixDesc.mirror. Controls are counterparts if their names differ in Left and Right or L
-    /// and R only and their motions agree, or if the motion of joints is mirrored. Others, and
-    /// lanes beyond the raw controls, are their own. Evaluates the rig once for each raw control,
-    /// and takes memory from its allocator during the call.
+    /// MienMixDesc.mirror. Controls are counterparts if their names differ only in Left and Right
+    /// or L and R and their motions agree, or if they move joints in mirrored ways. Others, and
+    /// lanes beyond the raw controls, map to themselves. Evaluates the rig once for each raw
+    /// control, and takes memory from its allocator during the call.
     ///
     /// Fails with `MIEN_ERROR_MISMATCH` if `lane_count` is less than the raw controls.
     pub fn mien_mix_mirror(deformer: *const MienDeformer, out_lanes: *mut u16, lane_count: usize, error: *mut MienError) -> MienStatus;
@@ -3046,11 +3046,12 @@ extern "C" {
     /// `lane_count` is less than the raw controls.
     pub fn mien_mix_mask(rig: *const MienRig, groups: *const u32, group_count: usize, otherwise_weight: f32, out_mask: *mut f32, lane_count: usize, error: *mut MienError) -> MienStatus;
 
-    /// Creates a gaze by measuring how raw controls turn the eyes: evaluates the rig some thousand
-    /// times. `deformer` may be destroyed afterwards. Destroy with `mien_gaze_destroy()`.
+    /// Creates a gaze by measuring how raw controls turn the eyes: evaluates the rig twice per raw
+    /// control and more. `deformer` may be destroyed afterwards. Destroy with
+    /// `mien_gaze_destroy()`.
     ///
     /// Fails with `MIEN_ERROR_NAME` if there are no such joints, `MIEN_ERROR_INVALID_ARGUMENT` if
-    /// no raw control turns an eye in one of the four directions, farther with each step.
+    /// one of the four directions has no raw control that turns an eye steadily farther.
     pub fn mien_gaze_create(deformer: *const MienDeformer, desc: *const MienGazeDesc, out_gaze: *mut *mut MienGaze, error: *mut MienError) -> MienStatus;
 
     /// Destroys a gaze.

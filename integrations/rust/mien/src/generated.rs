@@ -1973,7 +1973,7 @@ macro_rules! errors {
          - [`Status::INDEX`](crate::Status::INDEX) if a group does not exist"
     };
     (mien_gaze_create) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if no raw control turns an eye in one of the four directions, farther with each step\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if one of the four directions has no raw control that turns an eye steadily farther\n\
          - [`Status::NAME`](crate::Status::NAME) if there are no such joints\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
     };
