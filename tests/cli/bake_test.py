@@ -113,10 +113,29 @@ class Bake(unittest.TestCase):
         self.assertEqual(run("bench", path("ml.rig"), "--quick").returncode, DONE)
         self.refused(USAGE, "bench", "-", says="give its path", stdin=read("ml.rig"))
 
+    def test_render(self):
+        """The synthetic rig has no vertex colors, so nothing tells the images apart."""
+        def drawn(rig, *options, stdin=b""):
+            done = run("render", rig, "-o", "-", "--size", "96x96", *options, stdin=stdin)
+            self.assertEqual(done.returncode, DONE, done.stderr.decode())
+            return done.stdout
+
+        for options in ([], ["--lod", "1"], ["--turntable", "3"]):
+            image = drawn(path("small.dna"), *options)
+            self.assertEqual(drawn(path("small.rig"), *options), image, options)
+        self.assertEqual(drawn("-", stdin=read("small.rig")), drawn(path("small.dna")))
+        self.assertNotEqual(drawn(path("small.dna"), "--lod", "1"), drawn(path("small.dna")))
+        self.refused(INVALID, "render", path("small.rig"), "--lod", "9", "-o", path("out.png"),
+                     says="LOD 9 is out of range")
+        self.assertEqual(run("bake", path("small.dna"), "-o", path("bare.rig"), "--layers",
+                             "behavior").returncode, DONE)
+        self.refused(INVALID, "render", path("bare.rig"), "-o", path("out.png"),
+                     says="no geometry")
+
     def test_what_needs_the_dna_says_so(self):
         for command in (["convert", path("small.rig"), "-o", path("out.dna")],
                         ["bake", path("small.rig"), "-o", path("out.rig")],
-                        ["render", path("small.rig"), "-o", path("out.png")]):
+                        ["export", path("small.rig"), "-o", path("out.glb")]):
             self.refused(INVALID, *command, says="this is a baked file, and the command needs a DNA file")
             self.assertFalse(os.path.exists(command[-1]))
         self.refused(INVALID, "convert", "-", "-o", path("out.dna"), stdin=read("small.rig"),

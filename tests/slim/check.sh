@@ -24,7 +24,7 @@ python3 "$root/tests/check_exports.py" "$2/lib/libmien.so"
 frames='{"frames": [{}]}'
 posed='{"frames": [{"raw": {"jawOpen": 0.5, "mouthSmileLeft": 1}}]}'
 
-# Baked by the full build, evaluated by both: the same bytes.
+# Baked by the full build, evaluated and drawn by both: the same bytes.
 "$full" demo-head -o "$work/head.dna"
 "$full" gen --preset large --ml -o "$work/large.dna"
 "$full" gen --preset body -o "$work/body.dna"
@@ -39,6 +39,14 @@ for program in full slim; do
   "${!program}" eval "$work/head.baked" --input - --lod all <<<"$posed" >"$work/posed-$program.json"
 done
 cmp "$work/posed-full.json" "$work/posed-slim.json"
+for lod in 0 3; do
+  for program in full slim; do
+    "${!program}" render "$work/head.baked" --lod $lod --set jawOpen=0.5 --size 160x160 \
+      -o "$work/head-$lod-$program.png"
+  done
+  cmp "$work/head-$lod-full.png" "$work/head-$lod-slim.png"
+done
+if cmp -s "$work/head-0-full.png" "$work/head-3-full.png"; then die "LODs look alike"; fi
 if cmp -s "$work/posed-full.json" "$work/head-full.json"; then die "the pose is not evaluated"; fi
 
 # refused COMMAND...: fails, and the message names the reason.

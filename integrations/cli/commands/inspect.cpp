@@ -90,7 +90,7 @@ std::string padded(std::string text, size_t width) {
 }
 
 std::string rotation_unit(const PosedScene& scene) {
-  return scene.file.info.rotation_unit == MIEN_ROTATION_UNIT_RADIANS ? "rad" : "deg";
+  return scene.info.rotation_unit == MIEN_ROTATION_UNIT_RADIANS ? "rad" : "deg";
 }
 
 class Text {
@@ -103,7 +103,7 @@ class Text {
     line(paint(one_line(influence.control.name), Style::kBold, colors_) +
          (gui ? ": GUI control " : ": raw control ") + std::to_string(influence.control.index) +
          " = " + number(influence.value) + ", LOD " + std::to_string(scene_.lod) + " of " +
-         one_line(scene_.file.shown));
+         one_line(scene_.shown));
     if (gui) values("Raw controls", influence.raw);
     joints(influence);
     values("Blend shape channels", influence.channels);
@@ -309,7 +309,7 @@ void write_meshes(JsonWriter& json, const Influence& influence, const PosedScene
 void write_json(const Influence& influence, const PosedScene& scene, Output& output) {
   JsonWriter json(output);
   json.begin_object(JsonWriter::Layout::kLines);
-  json.member("rig", scene.file.shown);
+  json.member("rig", scene.shown);
   json.member("lod", scene.lod);
   json.member("control", influence.control.name);
   json.member("kind", influence.control.kind == MIEN_KIND_GUI_CONTROL ? "gui" : "raw");
@@ -361,7 +361,7 @@ void run(const InspectCommand& command, const Session& session) {
 
   PosedScene scene = open_scene(scene_options, session);
   const Control control =
-      find_control(scene.rig.get(), command.control, "cannot inspect", scene.file.shown);
+      find_control(scene.rig.get(), command.control, "cannot inspect", scene.shown);
   const Influence influence = find_influence(scene, control, value, session);
   if (view) {
     const render::Camera camera =

@@ -96,8 +96,8 @@ std::vector<Shot> sheet_shots(const RenderCommand& command, const PosedScene& sc
   }
   if (!shots.empty()) return shots;
   const std::string what = "cannot draw a sheet";
-  if (count == 0) fail(kInvalid, what, scene.file.shown, "the rig has no raw controls", "");
-  fail(kInvalid, what, scene.file.shown, "no raw control matches \"" + command.select + "\"",
+  if (count == 0) fail(kInvalid, what, scene.shown, "the rig has no raw controls", "");
+  fail(kInvalid, what, scene.shown, "no raw control matches \"" + command.select + "\"",
        nearest.question("'mien info RIG --names raw' lists the names"));
 }
 
@@ -119,7 +119,7 @@ std::vector<Shot> turntable_shots(const RenderCommand& command, const Plan& plan
 
 std::vector<Shot> find_shots(const RenderCommand& command, const Plan& plan,
                              const PosedScene& scene) {
-  const Frame base = parse_settings(command.settings, scene.rig.get(), scene.file.shown);
+  const Frame base = parse_settings(command.settings, scene.rig.get(), scene.shown);
   if (plan.turns != 0) return turntable_shots(command, plan, scene, base);
   // Tiles are small, so they show the face if it can be found.
   std::string target = command.output.target;

@@ -16,7 +16,7 @@ using render::Axes;
 Box box_of_joints(const PosedScene& scene, const std::string& pattern) {
   MienFloatView matrices{};
   check(mien_deformer_bind_matrices(scene.deformer.get(), &matrices), nullptr, "cannot draw",
-        scene.file.shown);
+        scene.shown);
   Box box;
   const uint32_t count = rig_count(scene.rig.get(), MIEN_KIND_JOINT);
   for (uint32_t j = 0; j < count; ++j) {
@@ -102,7 +102,7 @@ std::vector<Vec3> find_target(const PosedScene& scene, const std::string& target
   }
   if (box.empty() || !(length(box.size()) > 0)) {
     const bool part = target == "face" || target == "eyes" || target == "mouth";
-    fail(kInvalid, "cannot aim the camera", scene.file.shown,
+    fail(kInvalid, "cannot aim the camera", scene.shown,
          part ? "no mesh or joint is named as " + (target == "face" ? "eyes and a mouth" : target) +
                     " are"
               : "no mesh and no two joints match \"" + target + "\"",

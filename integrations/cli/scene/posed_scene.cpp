@@ -5,6 +5,7 @@
 
 #include "integrations/cli/io/controls.h"
 #include "integrations/cli/io/dna_fields.h"
+#include "integrations/cli/io/input.h"
 #include "integrations/cli/io/nearest_name.h"
 #include "integrations/cli/scene/mesh_material.h"
 
@@ -19,7 +20,7 @@ constexpr const char* kCannot = "cannot draw";
 
 /// Left, up and front in the axes of the file; the usual ones if two axes of the file have the same
 /// direction.
-Axes axes_of(const MienDnaInfo& info) {
+Axes axes_of(const MienRigInfo& info) {
   constexpr Vec3 kUnit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   Axes axes;
   bool left = false, up = false, front = false;
@@ -63,17 +64,19 @@ SceneMesh make_mesh(const PosedScene& scene, uint32_t mesh, const std::string& n
   made.mesh_class = mesh_class(name);
   made.neutral = sized<MienMesh>();
   check(mien_deformer_mesh(scene.deformer.get(), mesh, &made.neutral), nullptr, kCannot,
-        scene.file.shown);
+        scene.shown);
   const uint32_t positions = made.neutral.position_count;
-  VertexColors colors = read_vertex_colors(scene.file.dna.get(), name, positions);
-  if (!colors.problem.empty()) {
-    note(session, scene.file.shown + ": " + colors.problem + "; drawing without these colors");
+  if (scene.file.dna) {
+    VertexColors colors = read_vertex_colors(scene.file.dna.get(), name, positions);
+    if (!colors.problem.empty()) {
+      note(session, scene.shown + ": " + colors.problem + "; drawing without these colors");
+    }
+    made.colors = std::move(colors.rgb);
   }
-  made.colors = std::move(colors.rgb);
   if (made.colors.empty() && made.mesh_class == MeshClass::kEye) {
     made.colors = paint_eye(made.neutral.positions.data, positions, scene.axes.front);
   }
-  if (options.wireframe) {
+  if (options.wireframe && scene.file.dna) {
     made.inner_edges = find_inner_edges(scene.file, mesh, made.neutral.triangle_count);
   }
   return made;
@@ -81,8 +84,8 @@ SceneMesh make_mesh(const PosedScene& scene, uint32_t mesh, const std::string& n
 
 void choose_meshes(PosedScene& scene, const PosedSceneOptions& options, const Session& session) {
   MienIndex16View indices{};
-  check(mien_rig_lod_indices(scene.rig.get(), MIEN_KIND_MESH, 0, &indices), nullptr, kCannot,
-        scene.file.shown);
+  check(mien_rig_lod_indices(scene.rig.get(), MIEN_KIND_MESH, scene.rig_lod, &indices), nullptr,
+        kCannot, scene.shown);
   NearestName nearest(options.meshes);
   bool any = false;
   for (size_t i = 0; i < indices.count; ++i) {
@@ -101,29 +104,27 @@ void choose_meshes(PosedScene& scene, const PosedSceneOptions& options, const Se
   const std::string lod = "LOD " + std::to_string(scene.lod);
   if (!any && options.geometry_optional) return;
   if (!any) {
-    fail(kInvalid, kCannot, scene.file.shown, "no mesh of " + lod + " has faces",
+    fail(kInvalid, kCannot, scene.shown, "no mesh of " + lod + " has faces",
          "give a rig with geometry, or another --lod; see 'mien info'");
   }
   if (options.meshes.empty()) {
-    fail(kInvalid, kCannot, scene.file.shown,
+    fail(kInvalid, kCannot, scene.shown,
          "all meshes of " + lod + " need textures, such as shells of eyes",
          "choose some with --meshes");
   }
-  fail(kInvalid, kCannot, scene.file.shown,
-       "no mesh of " + lod + " matches \"" + options.meshes + "\"",
+  fail(kInvalid, kCannot, scene.shown, "no mesh of " + lod + " matches \"" + options.meshes + "\"",
        nearest.question("'mien info RIG --names meshes' lists the names"));
 }
 
 }  // namespace
 
 std::string PosedScene::unit() const {
-  return file.info.translation_unit == MIEN_TRANSLATION_UNIT_METERS ? "m" : "cm";
+  return info.translation_unit == MIEN_TRANSLATION_UNIT_METERS ? "m" : "cm";
 }
 
 const float* PosedScene::positions(const SceneMesh& mesh) const {
   MienFloatView view{};
-  check(mien_deformer_instance_positions(pose.get(), mesh.mesh, &view), nullptr, kCannot,
-        file.shown);
+  check(mien_deformer_instance_positions(pose.get(), mesh.mesh, &view), nullptr, kCannot, shown);
   return view.data;
 }
 
@@ -131,8 +132,7 @@ std::vector<render::Surface> PosedScene::surfaces() const {
   std::vector<render::Surface> surfaces;
   for (const SceneMesh& mesh : meshes) {
     MienFloatView normals{};
-    check(mien_deformer_instance_normals(pose.get(), mesh.mesh, &normals), nullptr, kCannot,
-          file.shown);
+    check(mien_deformer_instance_normals(pose.get(), mesh.mesh, &normals), nullptr, kCannot, shown);
     render::Surface surface;
     surface.positions = positions(mesh);
     surface.position_count = mesh.neutral.position_count;
@@ -169,35 +169,69 @@ math::Box PosedScene::neutral_box() const {
   return box;
 }
 
-PosedScene open_scene(const PosedSceneOptions& options, const Session& session) {
+namespace {
+
+/// One LOD of a DNA file, compiled.
+void compile_scene(PosedScene& scene, const PosedSceneOptions& options, const Session& session) {
   auto desc = sized<MienDnaDesc>();
   desc.layers = kEvaluationLayers | MIEN_LAYER_GEOMETRY;
   desc.lods = uint64_t{1} << options.lod;  // nothing of the other LODs is read
-
-  PosedScene scene;
-  scene.lod = options.lod;
   scene.file = open_rig_file(options.rig, desc, session);
   scene.rig = create_rig(scene.file, sized<MienRigDesc>());
-  scene.axes = axes_of(scene.file.info);
+  if (!has_geometry(scene.file)) return;
+  auto error = sized<MienError>();
+  MienDeformer* deformer = nullptr;
+  check(mien_deformer_create(scene.file.dna.get(), scene.rig.get(), nullptr, &deformer, &error),
+        &error, "cannot compile geometry", scene.shown);
+  scene.deformer.reset(deformer);
+}
+
+/// A baked file, used in place.
+void map_scene(PosedScene& scene, const PosedSceneOptions& options) {
+  BakedFile file = open_baked_file(options.rig, sized<MienBakedRigDesc>());
+  scene.baked = std::move(file.baked);
+  scene.rig = std::move(file.rig);
+  scene.deformer = std::move(file.deformer);
+  scene.rig_lod = options.lod;
+  const uint32_t lod_count = rig_info(scene.rig.get()).lod_count;
+  if (options.lod >= lod_count) {
+    fail(kInvalid, kCannot, scene.shown,
+         "LOD " + std::to_string(options.lod) + " is out of range: there are " +
+             std::to_string(lod_count),
+         "count from 0");
+  }
+}
+
+}  // namespace
+
+PosedScene open_scene(const PosedSceneOptions& options, const Session& session) {
+  PosedScene scene;
+  scene.shown = shown_name(options.rig);
+  scene.lod = options.lod;
+  if (is_baked_file(options.rig)) {
+    map_scene(scene, options);
+  } else {
+    compile_scene(scene, options, session);
+  }
+  scene.info = rig_info(scene.rig.get());
+  scene.axes = axes_of(scene.info);
 
   auto error = sized<MienError>();
   MienInstance* instance = nullptr;
   check(mien_instance_create(scene.rig.get(), nullptr, &instance, &error), &error, kCannot,
-        scene.file.shown);
+        scene.shown);
   scene.instance.reset(instance);
-  if (!has_geometry(scene.file)) {
+  if (!scene.deformer) {
     if (options.geometry_optional) return scene;
-    fail(kInvalid, kCannot, scene.file.shown, "the file has no geometry",
+    fail(kInvalid, kCannot, scene.shown, "the file has no geometry",
          "give a rig with meshes; see 'mien info'");
   }
 
-  MienDeformer* deformer = nullptr;
-  check(mien_deformer_create(scene.file.dna.get(), scene.rig.get(), nullptr, &deformer, &error),
-        &error, "cannot compile geometry", scene.file.shown);
-  scene.deformer.reset(deformer);
+  auto desc = sized<MienDeformerInstanceDesc>();
+  desc.lods = uint64_t{1} << scene.rig_lod;
   MienDeformerInstance* pose = nullptr;
-  check(mien_deformer_instance_create(deformer, nullptr, &pose, &error), &error, kCannot,
-        scene.file.shown);
+  check(mien_deformer_instance_create(scene.deformer.get(), &desc, &pose, &error), &error, kCannot,
+        scene.shown);
   scene.pose.reset(pose);
   choose_meshes(scene, options, session);
   return scene;
@@ -206,10 +240,10 @@ PosedScene open_scene(const PosedSceneOptions& options, const Session& session) 
 void pose_scene(PosedScene& scene, const Frame& frame) {
   MienInstance* instance = scene.instance.get();
   MienDeformerInstance* pose = scene.pose.get();
-  const std::string& shown = scene.file.shown;
+  const std::string& shown = scene.shown;
   check(mien_instance_reset(instance), nullptr, kCannot, shown);
   apply_frame(frame, scene.rig.get(), instance);
-  check(mien_rig_evaluate(scene.rig.get(), instance, 0), nullptr, kCannot, shown);
+  check(mien_rig_evaluate(scene.rig.get(), instance, scene.rig_lod), nullptr, kCannot, shown);
   if (!pose) return;
   check(mien_deformer_instance_update(pose, instance), nullptr, kCannot, shown);
   for (const SceneMesh& mesh : scene.meshes) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "integrations/cli/io/baked_file.h"
 #include "integrations/cli/io/frames.h"
 #include "integrations/cli/io/mesh_appearance.h"
 #include "integrations/cli/io/rig_file.h"
@@ -24,7 +25,7 @@ struct SceneMesh {
 };
 
 struct PosedSceneOptions {
-  std::string rig;     // path, or "-"
+  std::string rig;     // DNA file or baked file: path, or "-"
   uint32_t lod = 0;    // 0..kLastMaskLod
   std::string meshes;  // pattern; empty: all meshes that look right without textures
   bool wireframe = false;
@@ -32,12 +33,16 @@ struct PosedSceneOptions {
 };
 
 struct PosedScene {
-  RigFile file;
+  std::string shown;  // path, or "standard input"
+  RigFile file;       // without a DNA if the rig comes from a baked file
+  Baked baked;        // null if it comes from a DNA file
   Rig rig;
+  MienRigInfo info;
   Instance instance;
   Deformer deformer;  // null without geometry, as is the next
   DeformerInstance pose;
-  uint32_t lod = 0;  // as the file counts; no other LOD is loaded
+  uint32_t lod = 0;      // as the file counts
+  uint32_t rig_lod = 0;  // as the rig counts: of a DNA file, no other LOD is loaded
   std::vector<SceneMesh> meshes;
   render::Axes axes;
 
@@ -50,7 +55,8 @@ struct PosedScene {
 };
 
 /// Opens the rig, loads one LOD of it and chooses its meshes. Fails if there are none, unless
-/// geometry is optional.
+/// geometry is optional. Baked files have neither vertex colors nor faces of more than three corners:
+/// meshes get a material by their names, and wireframes show triangles.
 PosedScene open_scene(const PosedSceneOptions& options, const Session& session);
 
 /// Sets the controls of a frame, evaluates and deforms.

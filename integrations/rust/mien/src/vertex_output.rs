@@ -91,8 +91,9 @@ impl VertexLayout {
     fn output(&self, buffer: &mut [u8]) -> sys::MienVertexOutput {
         let mut capacity = usize::MAX;
         let mut stream = |attribute: Option<VertexAttribute>| {
-            let Some(VertexAttribute { format, offset, stride }) = attribute else {
-                return sys::MienVertexStream { data: null_mut(), stride: 0, format: 0 };
+            let VertexAttribute { format, offset, stride } = match attribute {
+                Some(attribute) => attribute,
+                None => return sys::MienVertexStream { data: null_mut(), stride: 0, format: 0 },
             };
             let room = buffer.len().saturating_sub(offset);
             let count = match (room.checked_sub(format.size()), stride) {
