@@ -66,7 +66,8 @@ Command add_bake_command(CLI::App& app, const Session& session) {
   bake->footer(
       "A baked file opens in microseconds, and all processes that open it share its memory. It\n"
       "gives the same results as the DNA file, on every instruction set; the options chosen here\n"
-      "are fixed. info, eval, bench, render and export accept it in place of a DNA file.\n"
+      "are fixed. info, validate, eval, play, bench, render and inspect accept it in place of a\n"
+      "DNA file.\n"
       "Keep the DNA file: a later version of Mien may require baking again.\n\n"
       "Examples:\n"
       "  mien bake head.dna -o head.rig\n"

@@ -230,7 +230,8 @@ Command add_render_command(CLI::App& app, const Session& session) {
   render->footer(
       "The default size is 640x640 pixels, or 256x256 for each of several images in one file.\n"
       "The light moves with the camera. Meshes have the colors of the metadata mien.colors.MESH\n"
-      "of the file (base64 of r g b for each position), else a material by their names.\n\n"
+      "of the file (base64 of r g b for each position), else a material by their names: baked\n"
+      "files have no metadata.\n\n"
       "Examples:\n"
       "  mien render head.dna -o head.png\n"
       "  mien render head.dna --set jawOpen=0.7 --camera three-quarter -o open.png\n"
