@@ -215,13 +215,13 @@ struct ClipFinder {
   bool (*find)(const void* user, uint64_t id, ClipSource& source);
 };
 
-/// Everything that the next steps depend on but rows of streams; little-endian, to be read on any
-/// machine. kInvalidArgument if there is no room.
+/// Everything that the next steps depend on but rows of streams, in the byte order of the machine.
+/// kInvalidArgument if there is no room.
 Status take_snapshot(Mixer& mixer, Span<uint8_t> out, Error& error);
 
-/// Goes on from a snapshot of a mixer of the same mix, bit for bit; streams begin anew. kInvalidArgument for bytes that are no snapshot of
-/// this mix or hold what no mixer can be in, kMismatch for a clip that is missing or another one; the
-/// mixer then stays as it is.
+/// Goes on from a snapshot of a mixer of the same mix, bit for bit; rows that streams have received
+/// stay. kInvalidArgument for bytes that are no snapshot of this mix or hold what no mixer can be in,
+/// kMismatch for a clip that is missing or another one; the mixer then stays as it is.
 Status restore_snapshot(Mixer& mixer, Span<const uint8_t> bytes, const ClipFinder& clips,
                         Error& error);
 

@@ -81,7 +81,8 @@ NumberPlace find_number(const std::string& output) {
 }  // namespace
 
 void add_scene_options(CLI::App& app, SceneArguments& arguments) {
-  app.add_option("RIG", arguments.rig, "DNA file with geometry, or baked file; - reads standard input")
+  app.add_option("RIG", arguments.rig,
+                 "DNA file with geometry, or baked file; - reads standard input")
       ->type_name("")
       ->required();
   app.add_option("--lod", arguments.lod, "LOD to show (default: 0, the finest)")->type_name("N");
