@@ -180,6 +180,20 @@ class PlayTest(unittest.TestCase):
         self.assertAlmostEqual(stages[1][1], 0.85, 5)
         self.assertEqual(stages[-1][1], played.value("mouthSmileLeft", 60))
 
+    def test_stages_are_in_the_order_in_which_they_act(self):
+        """Reactions come before the layers of life that follow all others."""
+        blink = {"name": "blink", "group": "life", "mode": "max", "source": {"generator": "blink"}}
+        played = self.play({"layers": [TALK, JOY, blink],
+                            "reactions": [{"name": "glare", "preset": "glare"}],
+                            "events": [{"time": 0, "trigger": "glare", "hold": 1}]},
+                           "--stages", "eyeBlinkLeft")
+        self.assertEqual([name for name, _ in played.frames[30]["stages"]["eyeBlinkLeft"]],
+                         ["talk", "joy", "reactions", "blink", "guards", "antagonists", "limits"])
+        frame = next(f for f in played.frames if dict(f["stages"]["eyeBlinkLeft"])["reactions"] > 0.9)
+        values = dict(frame["stages"]["eyeBlinkLeft"])
+        self.assertEqual(values["joy"], 0)
+        self.assertGreaterEqual(values["blink"], values["reactions"])
+
     def test_switching_clips(self):
         rows = "".join(f"{k / 60!r},0\n" for k in range(121))
         write("still.csv", "time,jawOpen\n" + rows)

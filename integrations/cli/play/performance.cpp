@@ -141,8 +141,26 @@ void Performance::add_layers() {
       layer.lane_count = static_cast<uint32_t>(parts.generated.lanes.size());
     }
     layers_.push_back(layer);
-    stages_.push_back(from.name);
   }
+}
+
+/// In the order in which they act: reactions come behind the last layer that is not of the group life.
+void Performance::order_stages() {
+  const auto layer_count = static_cast<uint32_t>(layers_.size());
+  uint32_t before_reactions = 0;
+  for (uint32_t i = 0; i < layer_count; ++i) {
+    if (layers_[i].group != MIEN_LAYER_GROUP_LIFE) before_reactions = i + 1;
+  }
+  const auto add = [&](const std::string& name, uint32_t number) {
+    stages_.push_back(name);
+    stage_numbers_.push_back(number);
+  };
+  for (uint32_t i = 0; i < before_reactions; ++i) add(script_.layers[i].name, i);
+  add("reactions", layer_count);
+  for (uint32_t i = before_reactions; i < layer_count; ++i) add(script_.layers[i].name, i);
+  add("guards", layer_count + 1);
+  add("antagonists", layer_count + 2);
+  add("limits", layer_count + 3);
 }
 
 /// Light in the eyes: lids, squint, gaze, pupils, head.
@@ -219,8 +237,7 @@ void Performance::make_mix(const MienDeformer* deformer) {
   if (script_.guards != 0 && info.guard_count == 0) {
     note(session_, script_.shown + ": the rig has none of the parts that the guards measure");
   }
-  for (const char* stage : {"reactions", "guards", "antagonists", "limits"})
-    stages_.push_back(stage);
+  order_stages();
   auto how = sized<MienMixerDesc>();
   how.seed = script_.seed;
   how.stages = 1;
@@ -318,7 +335,7 @@ void Performance::step_to(int64_t tick) {
     uint32_t layer = 0;
     check(mien_mixer_event(mixer_.get(), e, &event, &layer), nullptr, kCannot, script_.shown);
     events_.push_back({static_cast<double>(tick) / static_cast<double>(MIEN_TICKS_PER_SECOND),
-                       stages_[layer], to_string(event.name), event.value});
+                       script_.layers[layer].name, to_string(event.name), event.value});
   }
 }
 
@@ -353,9 +370,9 @@ void Performance::run(double rate, double seconds,
 
 std::vector<float> Performance::stage_values(uint16_t lane) const {
   std::vector<float> values;
-  for (uint32_t s = 0; s < stages_.size(); ++s) {
+  for (const uint32_t number : stage_numbers_) {
     MienFloatView view{};
-    check(mien_mixer_stage(mixer_.get(), s, &view), nullptr, kCannot, script_.shown);
+    check(mien_mixer_stage(mixer_.get(), number, &view), nullptr, kCannot, script_.shown);
     values.push_back(view.data[lane]);
   }
   return values;

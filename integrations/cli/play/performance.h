@@ -58,6 +58,7 @@ class Performance {
   uint32_t add_pose(LaneValues values);
   void add_layers();
   void add_glare();
+  void order_stages();
   void make_mix(const MienDeformer* deformer);
   void start();
   void play(uint32_t layer, const ClipScript& what, uint32_t transition, double duration,
@@ -78,6 +79,7 @@ class Performance {
   std::vector<MienMixReaction> reactions_;
   std::vector<float> initial_;  // raw controls that are not 0 at the beginning
   std::vector<std::string> stages_;
+  std::vector<uint32_t> stage_numbers_;  // of each, for mien_mixer_stage()
   std::vector<FiredEvent> events_;
   Mix mix_;
   Mixer mixer_;
