@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// What the stages of `mien author` hand to each other: a mesh with shapes, bones, skin weights.
+//
+//     AuthorMesh ──place──> Placement ──weigh──> SkinWeights ──fit──> joint matrix ──> DNA
+//
+// Each is plain data that the next stage reads and a caller can replace. Positions, displacements
+// and bones are in the internal frame: centimeters, +X the character's left, +Y up, +Z to the front.
+// Vertices of all parts are numbered in one row, part after part.
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/base/span.h"
+#include "runtime/base/vector.h"
+
+namespace mien::author {
+
+using Name = Span<const char>;
+
+constexpr uint32_t kNone = ~uint32_t{0};
+
+/// How the file's axes lie in the internal frame. A signed permutation: file component `axis[i]`
+/// times `sign[i]` is internal component i.
+struct Frame {
+  uint8_t axis[3] = {0, 1, 2};
+  int8_t sign[3] = {1, 1, 1};
+
+  Vec3 to_internal(Vec3 file) const {
+    const double f[3] = {file.x, file.y, file.z};
+    return {sign[0] * f[axis[0]], sign[1] * f[axis[1]], sign[2] * f[axis[2]]};
+  }
+  Vec3 to_file(Vec3 internal) const {
+    double f[3];
+    f[axis[0]] = sign[0] * internal.x;
+    f[axis[1]] = sign[1] * internal.y;
+    f[axis[2]] = sign[2] * internal.z;
+    return {f[0], f[1], f[2]};
+  }
+};
+
+struct Vec3f {
+  float x = 0, y = 0, z = 0;
+};
+
+struct Uv {
+  float u = 0, v = 0;
+};
+
+/// An object of the input, written as a mesh of its own.
+struct Part {
+  Name name;
+  uint32_t first_vertex = 0, vertex_count = 0;
+  uint32_t first_face = 0, face_count = 0;
+};
+
+/// Full displacements at value 1 of one expression.
+struct Shape {
+  Name name;
+  Span<const Vec3f> displacements;  // of every vertex
+  Span<const uint32_t> moving;      // vertices with a displacement, ascending
+};
+
+/// The input, checked: finite positions, indices in range, faces of three corners or more.
+struct AuthorMesh {
+  Span<const Vec3> positions;
+
+  // Faces as they will be written: face f has corners face_starts[f] ... face_starts[f + 1].
+  Span<const uint32_t> face_starts;  // faces + 1
+  Span<const uint32_t> corners;      // vertices
+  Span<const uint32_t> corner_uvs;   // into uvs; empty: no UVs
+  Span<const Uv> uvs;
+
+  Span<const uint32_t> triangles;  // of the faces, 3 vertices each, without degenerate ones
+  Span<const uint32_t> welded;     // per vertex: the first vertex at the same place
+  Span<const uint32_t> component;  // per vertex: connected component of the welded mesh
+  uint32_t component_count = 0;
+  Span<const uint8_t> is_skin;  // per vertex: of the surface that facial bones move
+
+  Span<const Part> parts;
+  Span<const Shape> shapes;
+
+  Frame frame;
+  double diagonal = 0;  // of the bounding box of the skin: lengths are compared with it
+};
+
+enum class BoneKind : uint8_t { kRoot, kNeck, kHead, kFace, kFacial, kJaw, kEye };
+
+struct Bone {
+  Name name;
+  Vec3 position;        // in the mesh, not relative to the parent
+  uint32_t parent = 0;  // before this bone; root: itself
+  uint32_t mirror = 0;  // its mirror image; itself if it has none or lies on the plane
+  uint32_t rank = 0;    // of facial bones: 0 stays longest when LODs drop bones; others 0
+  BoneKind kind = BoneKind::kFacial;
+};
+
+/// Parents come before children, and facial bones follow one another by rank.
+struct Placement {
+  Span<const Bone> bones;
+  uint32_t first_facial = 0, facial_count = 0;
+  Span<const uint32_t>
+      lod_facial_counts;      // facial bones of each LOD, falling; all others are in every LOD
+  Span<const uint32_t> mask;  // vertices that facial bones were placed on, ascending
+  double symmetry_plane = 0;  // x
+  bool symmetric = false;
+};
+
+/// Influences of vertex v: slots v * m ... v * m + m - 1, the heaviest first; unused ones have weight
+/// 0 and joint 0. Joints are numbers of bones.
+struct SkinWeights {
+  Span<uint16_t> joints;  // n * m
+  Span<float> weights;    // n * m
+  uint32_t m = 0;
+};
+
+}  // namespace mien::author
