@@ -7,14 +7,12 @@
 import json
 import os
 import random
-import shutil
 import struct
-import subprocess
 import sys
-import tempfile
-import unittest
 
-DONE, USAGE, INVALID, FILE, INTERNAL = range(5)
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+from program import (USAGE, INVALID, FILE, ProgramTest,  # noqa: E402
+                     main, make_folder, path, read, write)
 
 # The 61 channels of the Live Link Face app, in its order.
 LIVE_LINK = (
@@ -29,36 +27,9 @@ LIVE_LINK = (
     "CheekSquintRight NoseSneerLeft NoseSneerRight TongueOut HeadYaw HeadPitch HeadRoll "
     "LeftEyeYaw LeftEyePitch LeftEyeRoll RightEyeYaw RightEyePitch RightEyeRoll").split()
 
-mien = os.environ.get("MIEN_BIN", "")
-folder = ""
-
 
 def setUpModule():
-    global folder
-    folder = tempfile.mkdtemp(prefix="mien-clip-")
-
-
-def tearDownModule():
-    shutil.rmtree(folder)
-
-
-def path(name):
-    return os.path.join(folder, name)
-
-
-def write(name, text):
-    with open(path(name), "w", encoding="utf-8", newline="") as file:
-        file.write(text)
-    return path(name)
-
-
-def read(name):
-    with open(path(name), "rb") as file:
-        return file.read()
-
-
-def run(*arguments, stdin=b""):
-    return subprocess.run([mien, *arguments], input=stdin, capture_output=True, check=False)
+    make_folder()
 
 
 def bits(value):
@@ -83,36 +54,23 @@ def random_floats(count, seed):
     return values
 
 
-class ClipTest(unittest.TestCase):
-    def done(self, *arguments, stdin=b""):
-        finished = run(*arguments, stdin=stdin)
-        self.assertEqual(finished.returncode, DONE, finished.stderr.decode())
-        return finished
-
-    def refused(self, code, *arguments, says=(), stdin=b""):
-        finished = run(*arguments, stdin=stdin)
-        text = finished.stderr.decode()
-        self.assertEqual(finished.returncode, code, text)
-        self.assertEqual(text.count("\n"), 1, text)
-        for part in [says] if isinstance(says, str) else says:
-            self.assertIn(part, text)
-
+class ClipTest(ProgramTest):
     def build(self, text, *options, name="take"):
         source = write(name + ".in", text)
-        self.done("clip", "build", source, "-o", path(name + ".clip"), *options)
+        self.ok("clip", "build", source, "-o", path(name + ".clip"), *options)
         return path(name + ".clip")
 
     def refuse_take(self, text, says, *options, code=INVALID):
         source = write("wrong.in", text)
-        self.refused(code, "clip", "build", source, "-o", path("wrong.clip"), *options, says=says)
+        self.fails(code, "clip", "build", source, "-o", path("wrong.clip"), *options, says=says)
         self.assertFalse(os.path.exists(path("wrong.clip")))
 
     def info(self, clip):
-        return json.loads(self.done("clip", "info", clip, "--json").stdout)
+        return self.json("clip", "info", clip, "--json")
 
     def rows(self, clip):
         """Header, and floats, of the clip as CSV."""
-        lines = self.done("clip", "export", clip, "-o", "-").stdout.decode().splitlines()
+        lines = self.ok("clip", "export", clip, "-o", "-").stdout.decode().splitlines()
         return lines[0].split(","), [[nearest(v) for v in line.split(",")] for line in lines[1:]]
 
 
@@ -126,10 +84,10 @@ class RoundTrip(ClipTest):
             first = self.build(json.dumps(document), "--rate", rate, name="first")
             for ending in ("csv", "json"):
                 table = path("back." + ending)
-                self.done("clip", "export", first, "-o", table)
-                self.done("clip", "build", table, "-o", path("second.clip"))
+                self.ok("clip", "export", first, "-o", table)
+                self.ok("clip", "build", table, "-o", path("second.clip"))
                 self.assertEqual(read("second.clip"), read("first.clip"), (rate, ending))
-                self.done("clip", "export", path("second.clip"), "-o", path("again." + ending))
+                self.ok("clip", "export", path("second.clip"), "-o", path("again." + ending))
                 self.assertEqual(read("again." + ending), read("back." + ending))
             with open(path("back.json"), encoding="utf-8") as file:
                 back = json.load(file)
@@ -156,17 +114,17 @@ class RoundTrip(ClipTest):
 
     def test_streams(self):
         text = b"time,a\n0,1\n0.5,2\n"
-        clip = self.done("clip", "build", "-", "-o", "-", stdin=text).stdout
-        self.assertEqual(self.done("clip", "export", "-", "-o", "-", stdin=clip).stdout, text)
-        self.assertIn(b"2 frames", self.done("clip", "verify", "-", stdin=clip).stdout)
+        clip = self.ok("clip", "build", "-", "-o", "-", stdin=text).stdout
+        self.assertEqual(self.ok("clip", "export", "-", "-o", "-", stdin=clip).stdout, text)
+        self.assertIn(b"2 frames", self.ok("clip", "verify", "-", stdin=clip).stdout)
 
     def test_the_frames_of_eval(self):
-        self.done("gen", "-o", path("tiny.dna"))
-        names = json.loads(self.done("info", path("tiny.dna"), "--json", "--names", "raw").stdout)
+        self.ok("gen", "-o", path("tiny.dna"))
+        names = json.loads(self.ok("info", path("tiny.dna"), "--json", "--names", "raw").stdout)
         name = names["names"]["raw"][0]
         clip = self.build(json.dumps({"frames": [{"raw": {name: 0.25}}, {}, {"raw": {name: 1}}]}))
-        self.done("clip", "export", clip, "-o", path("frames.json"))
-        out = self.done("eval", path("tiny.dna"), "--input", path("frames.json")).stdout
+        self.ok("clip", "export", clip, "-o", path("frames.json"))
+        out = self.ok("eval", path("tiny.dna"), "--input", path("frames.json")).stdout
         self.assertEqual([f["lods"][0]["raw"][0] for f in json.loads(out)["frames"]], [0.25, 0, 1])
 
     def test_the_output_of_play(self):
@@ -191,33 +149,33 @@ class Information(ClipTest):
 
     def test_text(self):
         clip = self.build("time,jawOpen\n0,0.1\n0.04,0.2\n", "--snap", "2^-11")
-        text = self.done("clip", "info", clip).stdout.decode()
+        text = self.ok("clip", "info", clip).stdout.decode()
         for part in ("2, 0.040 s, clamp", "25 per second", "1/2,048", "jawOpen"):
             self.assertIn(part, text)
 
     def test_verify(self):
         clip = self.build("time,a\n0,0.1\n0.04,0.2\n0.08,0.15\n")
-        self.assertIn("3 frames", self.done("clip", "verify", clip).stdout.decode())
-        self.assertEqual(self.done("clip", "verify", clip, "--quiet").stdout, b"")
+        self.assertIn("3 frames", self.ok("clip", "verify", clip).stdout.decode())
+        self.assertEqual(self.ok("clip", "verify", clip, "--quiet").stdout, b"")
         damaged = bytearray(read("take.clip"))
         damaged[-24] ^= 1
         with open(path("damaged.clip"), "wb") as file:
             file.write(damaged)
-        self.refused(INVALID, "clip", "verify", path("damaged.clip"), says="damaged.clip")
+        self.fails(INVALID, "clip", "verify", path("damaged.clip"), says="damaged.clip")
 
     def test_other_files_are_no_clips(self):
         write("text.clip", "time,a\n")
         for action in ("info", "verify"):
-            self.refused(INVALID, "clip", action, path("text.clip"), says="not a clip")
-            self.refused(INVALID, "clip", action, "-", stdin=b"text", says="standard input")
-            self.refused(FILE, "clip", action, path("nowhere.clip"), says="nowhere.clip")
+            self.fails(INVALID, "clip", action, path("text.clip"), says="not a clip")
+            self.fails(INVALID, "clip", action, "-", stdin=b"text", says="standard input")
+            self.fails(FILE, "clip", action, path("nowhere.clip"), says="nowhere.clip")
         clip = self.build("time,a\n0,1\n")
         cut = write("cut.clip", "")
         with open(cut, "wb") as file:
             file.write(read("take.clip")[:-8])
-        self.refused(INVALID, "clip", "info", cut, says="ends after")
-        self.refused(USAGE, "clip", "export", clip, "-o", path("x.txt"), says=".csv")
-        self.refused(FILE, "clip", "export", clip, "-o", "/nonexistent/x.csv")
+        self.fails(INVALID, "clip", "info", cut, says="ends after")
+        self.fails(USAGE, "clip", "export", clip, "-o", path("x.txt"), says=".csv")
+        self.fails(FILE, "clip", "export", clip, "-o", "/nonexistent/x.csv")
 
 
 class Rates(ClipTest):
@@ -306,20 +264,20 @@ class Choices(ClipTest):
 
     def test_outputs_do_not_replace_inputs(self):
         source = write("same.csv", "time,a\n0,1\n")
-        self.refused(USAGE, "clip", "build", source, "-o", source)
+        self.fails(USAGE, "clip", "build", source, "-o", source)
         clip = self.build("time,a\n0,1\n", name="kept.csv")
         self.assertTrue(clip.endswith(".csv.clip"))
 
     def test_usage(self):
-        self.refused(USAGE, "clip", says="no command is given")
-        self.refused(USAGE, "clip", "biuld", "x", says='did you mean "build"?')
-        self.refused(USAGE, "clip", "build", "x", says="--output")
-        self.refused(USAGE, "clip", "build", "x", "-o", "y", "--snpa", "1", says='"--snap"')
-        self.refused(FILE, "clip", "build", path("nowhere.csv"), "-o", path("x.clip"))
+        self.fails(USAGE, "clip", says="no command is given")
+        self.fails(USAGE, "clip", "biuld", "x", says='did you mean "build"?')
+        self.fails(USAGE, "clip", "build", "x", says="--output")
+        self.fails(USAGE, "clip", "build", "x", "-o", "y", "--snpa", "1", says='"--snap"')
+        self.fails(FILE, "clip", "build", path("nowhere.csv"), "-o", path("x.clip"))
         for words in (["clip"], ["clip", "build"], ["clip", "export"]):
-            self.assertIn(b"clip", self.done("help", *words).stdout)
-        self.refused(USAGE, "help", "clip", "biuld", says='did you mean "build"?')
-        self.assertIn(b"--resample", self.done("completion", "bash").stdout)
+            self.assertIn(b"clip", self.ok("help", *words).stdout)
+        self.fails(USAGE, "help", "clip", "biuld", says='did you mean "build"?')
+        self.assertIn(b"--resample", self.ok("completion", "bash").stdout)
 
 
 class LiveLink(ClipTest):
@@ -420,6 +378,4 @@ class WrongTakes(ClipTest):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
-        mien = sys.argv.pop(1)
-    unittest.main()
+    main()

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The `mien` program from outside: every command, every family of failures.
+"""What all commands share, and `mien info`, `validate`, `gen`, `bench` and `completion`.
 
     commands_test.py path/to/mien [unittest options]      (or MIEN_BIN=path/to/mien)
 
-All rigs come from `mien gen`; nothing else is needed but Python 3.
+All rigs come from `mien gen`.
 """
 import json
 import math
@@ -12,97 +12,26 @@ import os
 import random
 import resource
 import shutil
-import signal
 import stat
 import struct
 import subprocess
 import sys
-import tempfile
-import time
-import unittest
 
-DONE, USAGE, INVALID, FILE, INTERNAL = range(5)
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+import program  # noqa: E402
+from program import (DONE, USAGE, INVALID, FILE, INTERNAL, ProgramTest, main,  # noqa: E402
+                     make, make_folder, path, read, run, write)
+
 PRESETS = ("tiny", "small", "medium", "large", "body")
-VERSIONS = ["2.%d" % i for i in range(1, 9)]
-
-mien = os.environ.get("MIEN_BIN", "")
-folder = ""
 
 
 def setUpModule():
-    global folder
-    folder = tempfile.mkdtemp(prefix="mien-cli-")
+    make_folder()
     for preset in PRESETS:
-        done = run("gen", "-o", path(preset + ".dna"), "--preset", preset)
-        assert done.returncode == DONE, done.stderr
+        make("gen", "-o", path(preset + ".dna"), "--preset", preset)
 
 
-def tearDownModule():
-    shutil.rmtree(folder)
-
-
-def path(name):
-    return os.path.join(folder, name)
-
-
-def read(name):
-    with open(path(name), "rb") as file:
-        return file.read()
-
-
-def write(name, content):
-    with open(path(name), "wb") as file:
-        file.write(content if isinstance(content, bytes) else content.encode())
-    return path(name)
-
-
-def run(*arguments, stdin=b"", env=None, **more):
-    """Output and errors as bytes and text."""
-    more.setdefault("stdout", subprocess.PIPE)
-    done = subprocess.run([mien, *arguments], input=stdin, stderr=subprocess.PIPE, timeout=300,
-                          env={**os.environ, **(env or {})}, **more)
-    done.stderr = done.stderr.decode()
-    return done
-
-
-def float32(number):
-    return struct.unpack("<f", struct.pack("<f", number))[0]
-
-
-class CliTest(unittest.TestCase):
-    def ok(self, *arguments, **more):
-        done = run(*arguments, **more)
-        self.assertEqual(done.returncode, DONE, done.stderr)
-        return done
-
-    def fails(self, code, *arguments, says=(), **more):
-        """Fails with that code and one line that names what it should."""
-        done = run(*arguments, **more)
-        self.assertEqual(done.returncode, code, (arguments, done.stderr, done.stdout))
-        lines = done.stderr.splitlines()
-        self.assertEqual(len(lines), 1, done.stderr)
-        self.assertTrue(lines[0].startswith("mien: "), done.stderr)
-        for word in [says] if isinstance(says, str) else says:
-            self.assertIn(word, lines[0])
-        return done
-
-    def json(self, *arguments, **more):
-        def refuse(name):
-            raise AssertionError("not a number of JSON: " + name)
-        return json.loads(self.ok(*arguments, **more).stdout, parse_constant=refuse)
-
-    def names(self, rig, kind):
-        return self.ok("info", path(rig), "--names", kind).stdout.decode().splitlines()
-
-    def evaluate(self, rig, frames, *options):
-        frames = json.dumps({"frames": frames}).encode()
-        return self.json("eval", path(rig), "--input", "-", "--quiet", *options, stdin=frames)
-
-    def evaluate_one(self, rig, frame, lod=0):
-        return self.evaluate(rig, [frame], "--lod", str(lod))["frames"][0]["lods"][0]
-
-
-class General(CliTest):
+class General(ProgramTest):
     def test_help_and_version_end_well(self):
         text = self.ok("--help").stdout.decode()
         for command in ("info", "validate", "eval", "convert", "gen", "demo-head", "bench", "completion"):
@@ -189,7 +118,7 @@ class General(CliTest):
 
     def test_files_that_cannot_be_read(self):
         frames = write("neutral.json", '{"frames": [{}]}')
-        for name in (path("missing.dna"), folder):
+        for name in (path("missing.dna"), program.folder):
             self.fails(FILE, "info", name, says=name)
             self.fails(FILE, "validate", name, says=name)
             self.fails(FILE, "eval", name, "--input", frames, says=name)
@@ -201,7 +130,7 @@ class General(CliTest):
     def test_files_that_cannot_be_written(self):
         tiny = path("tiny.dna")
         frames = write("neutral.json", '{"frames": [{}]}')
-        for target in (path("missing/x"), folder, "/dev/full"):
+        for target in (path("missing/x"), program.folder, "/dev/full"):
             self.fails(FILE, "gen", "-o", target, says=target)
             self.fails(FILE, "convert", tiny, "-o", target, says=target)
             self.fails(FILE, "eval", tiny, "--input", frames, "-o", target, says=target)
@@ -267,13 +196,13 @@ class General(CliTest):
         if not codes:
             self.skipTest("the program cannot start with little memory (a sanitizer?)")
         self.assertEqual(codes, {DONE, INTERNAL})
-        self.assertEqual([name for name in os.listdir(folder) if name.startswith(".mien")], [])
+        self.assertEqual([name for name in os.listdir(program.folder) if name.startswith(".mien")], [])
 
     def test_names_with_control_characters_stay_on_one_line(self):
         self.fails(FILE, "info", path("two\nlines.dna"), says="two\\nlines.dna")
 
 
-class Info(CliTest):
+class Info(ProgramTest):
     def test_text(self):
         text = self.ok("info", path("tiny.dna")).stdout.decode()
         for word in ("Layers", "Counts", "Levels of detail", "Metadata", "degrees", "bhvr"):
@@ -367,7 +296,7 @@ class Info(CliTest):
         self.assertFalse(info["mapped"])
 
 
-class Validate(CliTest):
+class Validate(ProgramTest):
     def test_generated_rigs_are_valid(self):
         for preset in PRESETS:
             report = self.json("validate", path(preset + ".dna"), "--json")
@@ -412,7 +341,7 @@ class Validate(CliTest):
         self.assertEqual(json.loads(done.stdout)["findings"][0]["status"], "DNA_TRUNCATED")
 
 
-class Generate(CliTest):
+class Generate(ProgramTest):
     def test_the_head_in_the_box_is_valid_and_depends_on_its_seed(self):
         for seed in ("0", "7"):
             self.ok("demo-head", "-o", path("person%s.dna" % seed), "--seed", seed)
@@ -457,358 +386,14 @@ class Generate(CliTest):
         self.assertEqual(stat.S_IMODE(os.stat(path("old.dna")).st_mode), 0o600)
         self.ok("gen", "-o", "/dev/null")
         self.assertTrue(stat.S_ISCHR(os.stat("/dev/null").st_mode))
-        self.assertEqual([name for name in os.listdir(folder) if name.startswith(".mien")], [])
+        self.assertEqual([name for name in os.listdir(program.folder) if name.startswith(".mien")], [])
 
     def test_a_relative_name_is_written_here(self):
-        self.ok("gen", "-o", "here.dna", cwd=folder)
+        self.ok("gen", "-o", "here.dna", cwd=program.folder)
         self.assertEqual(read("here.dna"), read("tiny.dna"))
 
 
-class Convert(CliTest):
-    def test_without_options_the_bytes_stay(self):
-        for preset in PRESETS:
-            original = read(preset + ".dna")
-            self.ok("convert", path(preset + ".dna"), "-o", path("copy.dna"))
-            self.assertEqual(read("copy.dna"), original)
-            self.assertEqual(self.ok("convert", "-", "-o", "-", stdin=original).stdout, original)
-
-    def test_in_place(self):
-        shutil.copy(path("small.dna"), path("place.dna"))
-        self.ok("convert", path("place.dna"), "-o", path("place.dna"))
-        self.assertEqual(read("place.dna"), read("small.dna"))
-        self.ok("convert", path("place.dna"), "-o", path("place.dna"), "--version", "2.2")
-        self.assertEqual(self.json("info", path("place.dna"), "--json")["version"], "2.2")
-
-    def test_every_version(self):
-        for preset in ("tiny", "small"):
-            before = self.json("info", path(preset + ".dna"), "--json")["counts"]
-            for version in VERSIONS:
-                old = path("v%s.dna" % version)
-                done = self.ok("convert", path(preset + ".dna"), "-o", old, "--version", version)
-                self.assertEqual("left out" in done.stderr, version == "2.1")
-                info = self.json("info", old, "--json")
-                self.assertEqual(info["version"], version)
-                self.assertEqual(info["counts"], before)
-                self.assertTrue(self.json("validate", old, "--json")["valid"])
-                # And back: what came through is the same. 2.1 has lost its empty layers.
-                self.ok("convert", old, "-o", path("back.dna"), "--version", "2.8")
-                self.assertEqual(self.json("info", path("back.dna"), "--json")["counts"], before)
-
-    def test_unknown_layers(self):
-        original = read("tiny.dna")
-        # The code of the last entry of the index becomes one that nobody knows.
-        count = struct.unpack_from(">I", original, 7)[0]
-        entry = 11 + 16 * (count - 1)
-        strange = write("strange.dna", original[:entry] + b"zzzz" + original[entry + 4:])
-        layers = self.json("info", strange, "--json")["layers"]
-        self.assertEqual([layer["code"] for layer in layers if not layer["known"]], ["zzzz"])
-        def codes(*options):
-            self.ok("convert", strange, "-o", path("y.dna"), *options)
-            return [layer["code"] for layer in self.json("info", path("y.dna"), "--json")["layers"]]
-        self.assertIn("zzzz", codes())
-        self.assertIn("zzzz", codes("--unknown", "keep"))
-        self.assertNotIn("zzzz", codes("--unknown", "drop"))
-        self.assertIn("zzzz", codes("--version", "2.3"))
-        self.assertNotIn("zzzz", codes("--version", "2.3", "--unknown", "drop"))
-
-    def test_layers_and_lods(self):
-        self.ok("convert", path("medium.dna"), "-o", path("part.dna"), "--layers", "behavior",
-                "--max-lod", "2")
-        whole = self.json("info", path("medium.dna"), "--json")
-        part = self.json("info", path("part.dna"), "--json")
-        self.assertEqual(part["lod_count"], whole["lod_count"] - 2)
-        self.assertEqual(part["counts"]["vertices"], 0)
-        self.assertLess(part["counts"]["joints"], whole["counts"]["joints"])
-        self.assertEqual(part["lods"][0]["joints"], whole["lods"][2]["joints"])
-        self.assertLess(part["file_bytes"], whole["file_bytes"] / 2)
-        self.assertTrue(self.json("validate", path("part.dna"), "--json")["valid"])
-
-    def test_lod_selection_keeps_the_joint_values(self):
-        controls = {name: 0.5 for name in self.names("small.dna", "raw")}
-        whole = self.evaluate_one("small.dna", {"raw": controls}, lod=1)
-        self.ok("convert", path("small.dna"), "-o", path("lod1.dna"), "--lods", "1")
-        part = self.evaluate_one("lod1.dna", {"raw": controls})
-        old, new = self.names("small.dna", "joints"), self.names("lod1.dna", "joints")
-        for i, name in enumerate(new):
-            k = old.index(name)
-            self.assertEqual(part["joints"][9 * i:9 * i + 9], whole["joints"][9 * k:9 * k + 9], name)
-        self.assertTrue(any(part["joints"]))
-        # The same without a file in between.
-        part = self.evaluate("small.dna", [{"raw": controls}], "--lods", "1")
-        self.assertEqual(part["lod_count"], 1)
-        self.assertEqual(part["frames"][0]["lods"][0]["lod"], 0)
-
-
-class Systems(CliTest):
-    def test_info_names_the_system(self):
-        self.assertEqual(self.json("info", path("tiny.dna"), "--json")["system"], "maya")
-        text = self.ok("info", path("tiny.dna")).stdout.decode()
-        self.assertIn("system        maya\n", text)
-        self.assertIn("z front: right-handed\n", text)
-        self.assertIn("counter-clockwise seen from outside\n", text)
-        text = self.ok("info", path("tiny.dna"), "--system", "unity").stdout.decode()
-        self.assertIn("x right, y up, z front: left-handed\n", text)
-        self.assertIn("units         m, degrees\n", text)
-        self.assertIn("faces         clockwise seen from outside\n", text)
-
-    def test_every_name_converts_and_is_found_again(self):
-        text = self.ok("convert", "--help").stdout.decode()
-        for name in ("maya", "unreal", "unreal-mesh", "unity", "godot", "blender", "gltf", "opengl",
-                     "directx", "houdini"):
-            self.assertIn(name, text)
-            there = path(name + "_system.dna")
-            self.ok("convert", path("small.dna"), "-o", there, "--system", name)
-            self.assertEqual(self.json("info", there, "--json")["system"], name)
-            self.assertEqual(self.json("validate", there, "--json")["errors"], 0)
-
-    def test_axes_and_signs_come_back_exactly(self):
-        self.ok("convert", path("small.dna"), "-o", path("there.dna"), "--system", "unreal")
-        self.assertNotEqual(read("there.dna"), read("small.dna"))
-        self.ok("convert", path("there.dna"), "-o", path("back.dna"), "--system", "maya")
-        self.assertEqual(read("back.dna"), read("small.dna"))
-        self.ok("convert", path("small.dna"), "-o", path("back.dna"), "--system", "maya")
-        self.assertEqual(read("back.dna"), read("small.dna"))
-
-    def test_eval_gives_numbers_of_the_system(self):
-        frame = {"raw": {"CTRL_expressions.jawOpen": 1}}
-        plain = self.evaluate_one("small.dna", frame)["joints"]
-        frames = json.dumps({"frames": [frame]}).encode()
-        turned = self.json("eval", path("small.dna"), "--input", "-", "--quiet", "--lod", "0",
-                           "--system", "blender", stdin=frames)["frames"][0]["lods"][0]["joints"]
-        for at in range(0, len(plain), 9):  # x left, y back, z up, in meters
-            expected = (plain[at] / 100, -plain[at + 2] / 100, plain[at + 1] / 100)
-            for k in range(3):
-                self.assertAlmostEqual(turned[at + k], expected[k], delta=1e-6)
-
-    def test_wrong_systems(self):
-        self.fails(USAGE, "info", path("tiny.dna"), "--system", "unitty", says='did you mean "unity"')
-        self.fails(USAGE, "info", path("tiny.dna"), "--rotation-order", "exact", says="--system")
-        self.fails(USAGE, "info", path("tiny.dna"), "--system", "unity", "--rotation-order", "bent",
-                   says="--rotation-order")
-        self.fails(INVALID, "info", path("small.dna"), "--system", "unity", "--rotation-order",
-                   "exact", says=["jointGroups", "several axes"])
-        self.ok("info", path("small.dna"), "--system", "unity", "--rotation-order", "per-column")
-
-
-class Eval(CliTest):
-    def test_shape(self):
-        info = self.json("info", path("small.dna"), "--json")
-        counts = info["counts"]
-        sizes = {"raw": counts["raw_controls"], "psd": counts["psd_controls"], "ml": counts["ml_controls"],
-                 "rbf": counts["rbf_controls"], "joints": 9 * counts["joints"],
-                 "blend_shapes": counts["blend_shape_channels"], "animated_maps": counts["animated_maps"]}
-        result = self.evaluate("small.dna", [{}, {"raw": {}}], "--lod", "all")
-        self.assertEqual(list(result), ["rig", "version", "lod_count", "rotation", "arithmetic", "frames"])
-        self.assertEqual((result["rig"], result["version"]), (info["name"], "2.8"))
-        self.assertEqual((result["rotation"], result["lod_count"]), ("euler", info["lod_count"]))
-        self.assertEqual(len(result["frames"]), 2)
-        for frame in result["frames"]:
-            self.assertEqual([lod["lod"] for lod in frame["lods"]], list(range(info["lod_count"])))
-            for lod in frame["lods"]:
-                self.assertEqual(list(lod), ["lod"] + list(sizes))
-                for key, size in sizes.items():
-                    self.assertEqual(len(lod[key]), size, key)
-                    self.assertFalse(any(lod[key]), key)  # neutral
-
-    def test_by_name_and_by_number_are_the_same(self):
-        names = self.names("small.dna", "raw")
-        values = [float32(0.3 + 0.5 * i / len(names)) for i in range(len(names))]
-        by_number = self.evaluate_one("small.dna", {"raw": values})
-        by_name = self.evaluate_one("small.dna", {"raw": dict(reversed(list(zip(names, values))))})
-        self.assertEqual(by_number, by_name)
-        self.assertTrue(any(by_number["joints"]) and any(by_number["psd"]))
-        self.assertTrue(any(by_number["blend_shapes"]) and any(by_number["animated_maps"]))
-        one = self.evaluate_one("small.dna", {"raw": {names[4]: 0.5}})["raw"]
-        self.assertEqual(one, [0.5 if i == 4 else 0 for i in range(len(names))])
-
-    def test_numbers_come_back_as_the_same_float(self):
-        names = self.names("tiny.dna", "raw")
-        chance = random.Random(5)
-        values = [struct.unpack("<f", struct.pack("<I", chance.randrange(0x00000001, 0x3f800000)))[0]
-                  for _ in names]
-        raw = self.evaluate_one("tiny.dna", {"raw": values})["raw"]
-        self.assertEqual([struct.pack("<f", number) for number in raw],
-                         [struct.pack("<f", number) for number in values])
-        text = self.ok("eval", path("tiny.dna"), "-i", "-", stdin=json.dumps(
-            {"frames": [{"raw": [0.1] * len(names)}]}).encode()).stdout.decode()
-        # Read as a double it is the very float, which 0.1 and 0.100000001 are not.
-        self.assertIn("[0.10000000149011612,", text)
-
-    def test_gui_frames(self):
-        gui, raw = self.names("small.dna", "gui"), self.names("small.dna", "raw")
-        everything = [0.5] * len(gui)
-        mapped = self.evaluate_one("small.dna", {"gui": everything})["raw"]
-        self.assertTrue(any(mapped))
-        self.assertEqual(self.evaluate_one("small.dna", {"gui": dict(zip(gui, everything))})["raw"], mapped)
-        # The result is that of the mapped raw controls.
-        by_gui = self.evaluate_one("small.dna", {"gui": everything})
-        self.assertEqual(self.evaluate_one("small.dna", {"raw": mapped}), by_gui)
-        after = self.evaluate_one("small.dna", {"gui": everything, "raw_after_gui": {"3": 0.25, raw[1]: 0.75}})
-        expected = list(mapped)
-        expected[3], expected[1] = 0.25, 0.75
-        self.assertEqual(after["raw"], expected)
-
-    def test_frames_and_lods_start_afresh(self):
-        names = self.names("small.dna", "raw")
-        frames = [{"raw": [0.9] * len(names)}, {"raw": {names[0]: 0.5}}, {"gui": [1.0] * len(self.names("small.dna", "gui"))}, {}]
-        together = self.evaluate("small.dna", frames, "--lod", "all")["frames"]
-        self.assertEqual([[frame["lods"][0]] for frame in together],
-                         [frame["lods"] for frame in self.evaluate("small.dna", frames)["frames"]])
-        for i, frame in enumerate(frames):
-            for lod in together[i]["lods"]:
-                self.assertEqual(lod, self.evaluate_one("small.dna", frame, lod["lod"]))
-        self.assertFalse(any(together[3]["lods"][0]["raw"]))
-
-    def test_instruction_sets_agree(self):
-        frames = [{"raw": [(i * 7 % 11) / 10 for i in range(len(self.names("medium.dna", "raw")))]}]
-        reference = self.evaluate("medium.dna", frames, "--isa", "scalar", "--lod", "all")["frames"][0]["lods"]
-        compared = 0
-        for isa in ("sse2", "avx2", "avx512", "neon"):
-            if run("info", path("tiny.dna"), "--isa", isa).returncode != DONE:
-                continue
-            compared += 1
-            for mine, scalar in zip(self.evaluate("medium.dna", frames, "--isa", isa, "--lod", "all")["frames"][0]["lods"], reference):
-                for key in ("psd", "joints", "blend_shapes", "animated_maps"):
-                    largest = max(map(abs, scalar[key]), default=0)
-                    for a, b in zip(mine[key], scalar[key]):
-                        self.assertLessEqual(abs(a - b), 1e-5 + 1e-5 * largest, (isa, key))
-        self.assertGreater(compared, 0)
-
-    def test_portable_arithmetic_has_the_same_bits_everywhere(self):
-        frames = [{"raw": [(i * 7 % 11) / 10 for i in range(len(self.names("medium.dna", "raw")))]}]
-        fast = self.evaluate("medium.dna", frames)
-        self.assertEqual(fast["arithmetic"], "fast")
-        portable = ["--arithmetic", "portable"]
-        reference = self.evaluate("medium.dna", frames, "--isa", "scalar", *portable)
-        self.assertEqual(reference["arithmetic"], "portable")
-        self.assertEqual(self.evaluate("medium.dna", frames, *portable), reference)
-        baked = path("portable.rig")
-        self.ok("bake", path("medium.dna"), "-o", baked, *portable)
-        self.assertEqual(self.evaluate("portable.rig", frames, *portable)["frames"], reference["frames"])
-        self.assertEqual(self.json("info", baked, "--json")["arithmetic"], "portable")
-        self.ok("bake", path("medium.dna"), "-o", path("fast.rig"))
-        self.fails(USAGE, "info", path("fast.rig"), *portable, says=("--arithmetic portable", "bake again"))
-
-    def test_geometry_is_not_needed(self):
-        self.ok("convert", path("small.dna"), "-o", path("lean.dna"), "--layers", "behavior")
-        frame = {"raw": [0.5] * len(self.names("small.dna", "raw"))}
-        self.assertEqual(self.evaluate_one("lean.dna", frame), self.evaluate_one("small.dna", frame))
-        self.assertEqual(self.evaluate("small.dna", [frame], "--layers", "all"),
-                         self.evaluate("small.dna", [frame]))
-
-    def test_input_and_output(self):
-        frames = write("one.json", '{"frames": [{}], "rate": 60}')
-        self.ok("eval", path("tiny.dna"), "--input", frames, "-o", path("out.json"))
-        by_pipe = self.ok("eval", "-", "--input", frames, stdin=read("tiny.dna")).stdout
-        self.assertEqual(read("out.json"), by_pipe)
-        by_input = self.ok("eval", path("tiny.dna"), "--input", "-", "-o", "-", stdin=read("one.json")).stdout
-        self.assertEqual(by_input, by_pipe)
-        self.assertEqual(self.evaluate("tiny.dna", [])["frames"], [])
-
-    def refused(self, frame, *says):
-        text = frame if isinstance(frame, (str, bytes)) else json.dumps({"frames": [{}, frame]})
-        text = text.encode() if isinstance(text, str) else text
-        write("old.json", "old")
-        done = self.fails(INVALID, "eval", path("tiny.dna"), "--input", "-", "-o", path("old.json"),
-                          stdin=text, says=says)
-        self.assertEqual(read("old.json"), b"old")
-        self.assertEqual([name for name in os.listdir(folder) if name.startswith(".mien")], [])
-        return done
-
-    def test_unknown_names(self):
-        raw, gui = self.names("tiny.dna", "raw")[2], self.names("tiny.dna", "gui")[1]
-        self.refused({"raw": {raw[:-1] + "x": 1}}, "frames[1].raw", raw[:-1] + "x", 'did you mean "')
-        self.refused({"raw": {raw.upper(): 1}}, 'did you mean "%s"' % raw)
-        self.refused({"gui": {gui[1:]: 1}}, "frames[1].gui", 'did you mean "%s"' % gui)
-        self.refused({"gui": {}, "raw_after_gui": {"completely different": 1}}, "--names raw")
-        self.refused({"raw": {"3": 1}}, '"3"')
-        self.refused({"raws": {}}, 'did you mean "raw"')
-        self.refused({"something": {}}, "something")
-
-    def test_wrong_counts_and_indices(self):
-        raw, gui = len(self.names("tiny.dna", "raw")), len(self.names("tiny.dna", "gui"))
-        self.refused({"raw": [0] * (raw + 1)}, "%d numbers given, %d expected" % (raw + 1, raw))
-        self.refused({"raw": []}, "0 numbers given, %d expected" % raw)
-        self.refused({"gui": [0] * (gui - 1)}, "%d numbers given, %d expected" % (gui - 1, gui))
-        self.refused({"ml_mask": [1]}, "1 numbers given, 0 expected")
-        self.refused({"gui": {}, "raw_after_gui": {str(raw): 1}}, str(raw), "out of range")
-        self.refused({"gui": {}, "raw_after_gui": {"99999999999999999999": 1}}, "out of range")
-        self.ok("eval", path("tiny.dna"), "--input", "-", stdin=b'{"frames": [{"ml_mask": []}]}')
-        self.fails(INVALID, "eval", path("tiny.dna"), "--input", "-", "--lod", "3", says=("LOD 3", "there are 3"))
-
-    def test_wrong_json(self):
-        count = len(self.names("tiny.dna", "raw"))
-        def with_number(text):
-            return '{"frames": [{"raw": [%s]}]}' % ",".join([text] * count)
-        self.refused("", "byte")
-        self.refused("{", "byte 2")
-        self.refused("[]", "frames")
-        self.refused("{}", "frames")
-        self.refused('{"frames": {}}', "frames")
-        self.refused('{"frames": [[]]}', "frames[0]")
-        self.refused('{"frames": [{}]} {}', "byte")
-        self.refused(b'{"frames": [{"raw": {"\xff": 1}}]}', "byte", "\\xff")
-        for number in ("NaN", "nan", "Infinity", "-Infinity", "1e999", "-1e999", "1e39", "3.5e38", "0x1"):
-            self.refused(with_number(number))
-        for value in ("true", "null", '"1"', "[1]", "{}"):
-            self.refused(with_number(value), "frames[0].raw[0]", "number")
-        self.refused({"raw": 1}, "frames[1].raw")
-        self.refused({"raw": None}, "frames[1].raw")
-        self.refused({"gui": {}, "raw_after_gui": [1]}, "raw_after_gui")
-        self.refused({"raw": {}, "gui": {}}, "both")
-        self.refused({"raw_after_gui": {}}, "without gui")
-        self.ok("eval", path("tiny.dna"), "--input", "-", stdin=with_number("1e-50").encode())
-
-    def test_what_overflows_saturates(self):
-        lod = self.evaluate_one("tiny.dna", {"raw": [3.4e38] * len(self.names("tiny.dna", "raw"))})
-        largest = max(abs(value) for value in lod["joints"])
-        self.assertGreater(largest, 3e38)
-        self.assertLess(largest, 3.5e38)
-
-    def has_open_output(self, child):
-        """Waits until the program has opened its temporary file, with a name or without."""
-        files = "/proc/%d/fd" % child.pid
-        for _ in range(2000):
-            for number in os.listdir(files):
-                try:
-                    target = os.readlink(os.path.join(files, number))
-                except OSError:
-                    continue
-                if target.startswith(folder) and ("(deleted)" in target or "/.mien-" in target):
-                    return True
-            time.sleep(0.005)
-        return False
-
-    def test_a_killed_process_leaves_nothing_behind(self):
-        try:
-            os.close(os.open(folder, os.O_TMPFILE | os.O_WRONLY))
-        except OSError:
-            self.skipTest("this file system has no files without names")
-        child = subprocess.Popen([mien, "eval", path("large.dna"), "--input", "-", "-o", path("never.json")],
-                                 stdin=subprocess.PIPE, stderr=subprocess.DEVNULL)
-        frames = [{"raw": [0.5] * len(self.names("large.dna", "raw"))}] * 400
-        child.stdin.write(json.dumps({"frames": frames}).encode())
-        child.stdin.close()
-        self.assertTrue(self.has_open_output(child))
-        child.kill()
-        self.assertEqual(child.wait(), -signal.SIGKILL)
-        self.assertEqual([name for name in os.listdir(folder) if name.startswith(".mien")], [])
-        self.assertFalse(os.path.exists(path("never.json")))
-
-    def test_an_interrupt_leaves_nothing_behind(self):
-        target = path("never.json")
-        frames = [{"raw": [0.5] * len(self.names("large.dna", "raw"))}] * 400
-        frames = write("many.json", json.dumps({"frames": frames}))
-        child = subprocess.Popen([mien, "eval", path("large.dna"), "--input", frames, "-o", target],
-                                 stderr=subprocess.DEVNULL)
-        self.assertTrue(self.has_open_output(child))
-        child.send_signal(signal.SIGTERM)
-        self.assertEqual(child.wait(), -signal.SIGTERM)
-        self.assertEqual([name for name in os.listdir(folder) if name.startswith(".mien")], [])
-        self.assertFalse(os.path.exists(target))
-
-
-class Bench(CliTest):
+class Bench(ProgramTest):
     ROW = ["isa", "storage", "rotation", "arithmetic", "lod", "activity", "shared_controls", "characters",
            "evaluate_ns", "joints_ns", "bytes_touched"]
 
@@ -867,7 +452,7 @@ class Bench(CliTest):
         self.fails(USAGE, "bench", path("tiny.dna"), "--layers", "definition")
 
 
-class Completion(CliTest):
+class Completion(ProgramTest):
     def test_scripts_parse(self):
         parsed = []
         for shell in ("bash", "zsh", "fish"):
@@ -884,7 +469,7 @@ class Completion(CliTest):
         script = self.ok("completion", "bash").stdout.decode() + (
             "COMP_WORDS=(mien %s); COMP_CWORD=%d; _mien; printf '%%s\\n' \"${COMPREPLY[@]}\"\n"
             % (" ".join("'%s'" % word for word in words), len(words)))
-        done = subprocess.run(["bash"], input=script.encode(), stdout=subprocess.PIPE, cwd=folder)
+        done = subprocess.run(["bash"], input=script.encode(), stdout=subprocess.PIPE, cwd=program.folder)
         return done.stdout.decode().split()
 
     def test_bash_completes(self):
@@ -903,9 +488,4 @@ class Completion(CliTest):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 1 and not sys.argv[1].startswith("-") and os.path.exists(sys.argv[1]):
-        mien = sys.argv.pop(1)
-    if not mien:
-        sys.exit("usage: commands_test.py path/to/mien (or MIEN_BIN)")
-    mien = os.path.abspath(mien)
-    unittest.main()
+    main()

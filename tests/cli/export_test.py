@@ -17,55 +17,26 @@ import shutil
 import struct
 import subprocess
 import sys
-import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import golden_rigs  # noqa: E402
 from glb import Glb, Obj  # noqa: E402
+import program  # noqa: E402
+from program import (DONE, USAGE, INVALID, FILE, ProgramTest, main,  # noqa: E402
+                     make, make_folder, path, read, run, write)
 
-DONE, USAGE, INVALID, FILE, INTERNAL = range(5)
 PRESETS = ("tiny", "small", "medium", "large")
 
 here = os.path.dirname(os.path.abspath(__file__))
 project = os.path.dirname(os.path.dirname(here))
 validator = os.environ.get("MIEN_GLTF_VALIDATOR") or os.path.join(project, "build", "gltf_validator")
-mien = os.environ.get("MIEN_BIN", "")
-folder = ""
 
 
 def setUpModule():
-    global folder
-    folder = tempfile.mkdtemp(prefix="mien-export-")
+    make_folder()
     for preset in PRESETS:
-        done = run("gen", "-o", path(preset + ".dna"), "--preset", preset)
-        assert done.returncode == DONE, done.stderr
-
-
-def tearDownModule():
-    shutil.rmtree(folder)
-
-
-def path(name):
-    return os.path.join(folder, name)
-
-
-def read(name):
-    with open(path(name), "rb") as file:
-        return file.read()
-
-
-def write(name, content):
-    with open(path(name), "wb") as file:
-        file.write(content if isinstance(content, bytes) else content.encode())
-    return path(name)
-
-
-def run(*arguments, stdin=b"", env=None):
-    done = subprocess.run([mien, *arguments], input=stdin, capture_output=True, timeout=800,
-                          env={**os.environ, **(env or {})})
-    done.stderr = done.stderr.decode()
-    return done
+        make("gen", "-o", path(preset + ".dna"), "--preset", preset)
 
 
 def say(text):
@@ -116,20 +87,7 @@ def size_of(points):
                     [max(p[k] for p in points) for k in range(3)])
 
 
-class ExportTest(unittest.TestCase):
-    def ok(self, *arguments, **more):
-        done = run(*arguments, **more)
-        self.assertEqual(done.returncode, DONE, done.stderr)
-        return done
-
-    def fails(self, code, *arguments, says=(), **more):
-        done = run(*arguments, **more)
-        self.assertEqual(done.returncode, code, (arguments, done.stderr))
-        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
-        self.assertTrue(done.stderr.startswith("mien: "), done.stderr)
-        for word in [says] if isinstance(says, str) else says:
-            self.assertIn(word, done.stderr)
-
+class ExportTest(ProgramTest):
     def glb(self, rig, *options, **more):
         return Glb(self.ok("export", rig, "-o", "-", *options, **more).stdout)
 
@@ -466,8 +424,7 @@ class Baking(ExportTest):
 
     @classmethod
     def setUpClass(cls):
-        done = run("export", path("large.dna"), "-o", path("baked.glb"), "--bake-arkit", "--lod", "4")
-        assert done.returncode == DONE, done.stderr
+        done = make("export", path("large.dna"), "-o", path("baked.glb"), "--bake-arkit", "--lod", "4")
         cls.report = done.stdout.decode().splitlines()
         cls.glb_file = Glb(read("baked.glb"))
 
@@ -526,8 +483,7 @@ class ProceduralHead(ExportTest):
     def setUpClass(cls):
         if not makes_heads():
             skip("the procedural head; this program does not make one")
-        done = run("demo-head", "-o", path("head.dna"))
-        assert done.returncode == DONE, done.stderr
+        make("demo-head", "-o", path("head.dna"))
 
     def test_deforms_as_mien_does(self):
         rig = path("head.dna")
@@ -629,7 +585,7 @@ class Failures(ExportTest):
         self.ok("convert", rig, "-o", path("bare.dna"), "--layers", "behavior")
         self.fails(INVALID, "export", path("bare.dna"), "-o", out, says="bare")
         self.assertFalse(os.path.exists(out))
-        self.assertEqual([name for name in os.listdir(folder) if name.startswith(".mien")], [])
+        self.assertEqual([name for name in os.listdir(program.folder) if name.startswith(".mien")], [])
 
     def test_truncated_and_damaged_files_fail_well(self):
         whole = read("tiny.dna")
@@ -755,9 +711,4 @@ class Readers(ExportTest):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 1 and not sys.argv[1].startswith("-") and os.path.exists(sys.argv[1]):
-        mien = sys.argv.pop(1)
-    if not mien:
-        sys.exit("usage: export_test.py path/to/mien (or MIEN_BIN)")
-    mien = os.path.abspath(mien)
-    unittest.main()
+    main()

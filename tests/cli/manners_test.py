@@ -14,72 +14,27 @@ import shutil
 import struct
 import subprocess
 import sys
-import tempfile
-import unittest
 
-DONE, USAGE, INVALID, FILE, INTERNAL = range(5)
-
-mien = os.environ.get("MIEN_BIN", "")
-folder = ""
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+import program  # noqa: E402
+from program import (DONE, USAGE, FILE, ProgramTest, main,  # noqa: E402
+                     make, make_folder, path, read, write)
 
 
 def setUpModule():
-    global folder
-    folder = tempfile.mkdtemp(prefix="mien-manners-")
+    make_folder()
     for arguments in (["gen", "-o", path("small.dna"), "--preset", "small"],
                       ["gen", "-o", path("large.dna"), "--preset", "large"], ["demo-head", "-o", path("head.dna")],
                       ["bake", path("small.dna"), "-o", path("small.rig")]):
-        done = run(*arguments)
-        assert done.returncode == DONE, done.stderr
+        make(*arguments)
     write("frames.json", '{"frames": [{}]}')
-
-
-def tearDownModule():
-    shutil.rmtree(folder)
-
-
-def path(name):
-    return os.path.join(folder, name)
-
-
-def read(name):
-    with open(path(name), "rb") as file:
-        return file.read()
-
-
-def write(name, content):
-    with open(path(name), "wb") as file:
-        file.write(content if isinstance(content, bytes) else content.encode())
-    return path(name)
-
-
-def run(*arguments, stdin=b"", **more):
-    done = subprocess.run([mien, *arguments], input=stdin, capture_output=True, timeout=120, check=False, **more)
-    done.stderr = done.stderr.decode()
-    return done
-
-
-class MannersTest(unittest.TestCase):
-    def ok(self, *arguments, **more):
-        done = run(*arguments, **more)
-        self.assertEqual(done.returncode, DONE, done.stderr)
-        return done
-
-    def fails(self, code, *arguments, says=(), **more):
-        """Fails with that code and one line that names what it should."""
-        done = run(*arguments, **more)
-        self.assertEqual(done.returncode, code, (arguments, done.stderr, done.stdout))
-        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
-        for word in [says] if isinstance(says, str) else says:
-            self.assertIn(word, done.stderr)
-        return done
 
 
 COMMANDS = ("info", "validate", "eval", "convert", "gen", "demo-head", "export", "render", "inspect", "bake", "bench",
             "completion", "help", "clip", "clip build", "clip info", "clip verify", "clip export")
 
 
-class Help(MannersTest):
+class Help(ProgramTest):
     def test_help_fits_80_columns(self):
         for command in ([],) + tuple(name.split() for name in COMMANDS):
             text = self.ok("help", *command).stdout.decode()
@@ -93,7 +48,7 @@ class Help(MannersTest):
         shutil.copy(path("head.dna"), work)
         for name in ("frames.json", "take.json"):
             shutil.copy(path("frames.json"), os.path.join(work, name))
-        subprocess.run([mien, "bake", "head.dna", "-o", "head.rig"], cwd=work, check=True)
+        subprocess.run([program.mien, "bake", "head.dna", "-o", "head.rig"], cwd=work, check=True)
         ran = 0
         for command in ("eval", "convert", "gen", "export", "bake", "inspect"):
             text = self.ok("help", command).stdout.decode()
@@ -104,17 +59,17 @@ class Help(MannersTest):
                 shutil.copy(path("head.dna"), work)
                 line = line.strip().replace("mien ", '"$MIEN" ')
                 done = subprocess.run(["bash", "-c", line], cwd=work, capture_output=True, check=False,
-                                      env={**os.environ, "MIEN": mien})
+                                      env={**os.environ, "MIEN": program.mien})
                 self.assertEqual(done.returncode, DONE, (line, done.stderr))
                 ran += 1
         self.assertGreater(ran, 15)
 
 
-class Terminal(MannersTest):
+class Terminal(ProgramTest):
     def on_terminal(self, *arguments):
         """What a person reads on standard error."""
         own, programs = pty.openpty()
-        child = subprocess.Popen([mien, *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+        child = subprocess.Popen([program.mien, *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                  stderr=programs, env={**os.environ, "TERM": "xterm"})
         os.close(programs)
         text = b""
@@ -158,7 +113,7 @@ class Terminal(MannersTest):
         self.assertNotIn("[", self.on_terminal("gen", "-o", "-").replace("\033[K", ""))
 
 
-class Numbers(MannersTest):
+class Numbers(ProgramTest):
     def test_large_numbers_have_separators_and_sizes_units(self):
         text = self.ok("info", path("head.dna")).stdout.decode()
         self.assertRegex(text, r"size +12\.3 MB, mapped; \d+\.\d MB of memory")
@@ -185,7 +140,7 @@ class Numbers(MannersTest):
         self.assertRegex(text, r"\w+, 16 bits +0 ")
 
 
-class Formats(MannersTest):
+class Formats(ProgramTest):
     def setUp(self):
         names = self.ok("info", path("small.dna"), "--names", "raw").stdout.decode().split()
         frames = [{"raw": {names[i]: 0.5, "jawOpen": 0.25 * i}} for i in range(1, 4) if names[i] != "CTRL_expressions.jawOpen"]
@@ -250,9 +205,4 @@ class Formats(MannersTest):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 1 and not sys.argv[1].startswith("-") and os.path.exists(sys.argv[1]):
-        mien = sys.argv.pop(1)
-    if not mien:
-        sys.exit("usage: manners_test.py path/to/mien (or MIEN_BIN)")
-    mien = os.path.abspath(mien)
-    unittest.main()
+    main()

@@ -10,52 +10,23 @@ Rigs come from `mien gen` and from tests/golden.
 import base64
 import json
 import os
-import shutil
 import struct
-import subprocess
 import sys
-import tempfile
-import unittest
 import zlib
 from pathlib import Path
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import golden_rigs  # noqa: E402
+import program  # noqa: E402
+from program import USAGE, INVALID, FILE, ProgramTest, main, make, make_folder, path, write  # noqa: E402
 
-DONE, USAGE, INVALID, FILE, INTERNAL = range(5)
 GAP = 6
-
-mien = os.environ.get("MIEN_BIN", "")
-folder = ""
 
 
 def setUpModule():
-    global folder
-    folder = tempfile.mkdtemp(prefix="mien-render-")
+    make_folder()
     for preset in ("tiny", "small"):
-        done = run("gen", "-o", path(preset + ".dna"), "--preset", preset)
-        assert done.returncode == DONE, done.stderr
-
-
-def tearDownModule():
-    shutil.rmtree(folder)
-
-
-def path(name):
-    return os.path.join(folder, name)
-
-
-def write(name, content):
-    with open(path(name), "wb") as file:
-        file.write(content if isinstance(content, bytes) else content.encode())
-    return path(name)
-
-
-def run(*arguments, stdin=b""):
-    done = subprocess.run([mien, *arguments], input=stdin, stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, timeout=300)
-    done.stderr = done.stderr.decode()
-    return done
+        make("gen", "-o", path(preset + ".dna"), "--preset", preset)
 
 
 class Picture:
@@ -108,24 +79,9 @@ class Picture:
         return [row[3 * x:3 * (x + w)] for row in self.rows[y:y + h]]
 
 
-class RenderTest(unittest.TestCase):
-    def ok(self, *arguments, **more):
-        done = run(*arguments, **more)
-        self.assertEqual(done.returncode, DONE, done.stderr)
-        return done
-
-    def fails(self, code, *arguments, says=(), **more):
-        """Fails with that code and one line that names what it should, and leaves nothing behind."""
-        before = sorted(os.listdir(folder))
-        done = run(*arguments, **more)
-        self.assertEqual(done.returncode, code, (arguments, done.stderr, done.stdout[:200]))
-        self.assertEqual(done.stdout, b"")
-        lines = done.stderr.splitlines()
-        self.assertEqual(len(lines), 1, done.stderr)
-        self.assertTrue(lines[0].startswith("mien: "), done.stderr)
-        for word in [says] if isinstance(says, str) else says:
-            self.assertIn(word, lines[0])
-        self.assertEqual(sorted(os.listdir(folder)), before)
+class RenderTest(ProgramTest):
+    def fails(self, *arguments, **more):
+        self.assertEqual(super().fails(*arguments, **more).stdout, b"")
 
     def picture(self, *arguments, rig="tiny", **more):
         self.ok("render", path(rig + ".dna"), "-o", path("out.png"), *arguments, **more)
@@ -274,12 +230,12 @@ class Render(RenderTest):
         for arguments in ([], ["-o", ""]):
             self.fails(USAGE, "render", path("tiny.dna"), *arguments)
         self.fails(FILE, "render", path("tiny.dna"), "-o", path("none/out.png"), says="none/out.png")
-        self.fails(FILE, "render", path("tiny.dna"), "-o", folder, says="irectory")
+        self.fails(FILE, "render", path("tiny.dna"), "-o", program.folder, says="irectory")
         self.fails(FILE, "render", path("missing.dna"), "-o", path("no.png"), says="missing.dna")
         self.fails(FILE, "render", path("tiny.dna"), "-o", "/dev/full", says="/dev/full")
         write("out.png", "old")
         self.picture("--size", "16")
-        self.assertEqual([n for n in os.listdir(folder) if n.startswith(".")], [])
+        self.assertEqual([n for n in os.listdir(program.folder) if n.startswith(".")], [])
         done = self.ok("render", "-", "-o", "-", "--size", "16",
                        stdin=Path(path("tiny.dna")).read_bytes())
         self.assertEqual(Picture(done.stdout).width, 16)
@@ -366,7 +322,7 @@ class Several(RenderTest):
         self.assertNotEqual(tiles[0], tiles[1])
 
         self.ok("render", path("tiny.dna"), "--frames", frames, "--size", "40", "-o", path("f-%04d.png"))
-        numbered = sorted(n for n in os.listdir(folder) if n.startswith("f-"))
+        numbered = sorted(n for n in os.listdir(program.folder) if n.startswith("f-"))
         self.assertEqual(numbered, ["f-0000.png", "f-0001.png", "f-0002.png"])
         for i, name in enumerate(numbered):
             self.assertEqual(Picture(Path(path(name)).read_bytes()).part(0, 0, 40, 40), tiles[i])
@@ -535,8 +491,4 @@ class Surroundings(RenderTest):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
-        mien = os.path.abspath(sys.argv.pop(1))
-    if not mien:
-        sys.exit(__doc__)
-    unittest.main()
+    main()

@@ -10,70 +10,25 @@ import shutil
 import stat
 import subprocess
 import sys
-import tempfile
-import unittest
 
-DONE, USAGE, INVALID, FILE, INTERNAL = range(5)
-
-mien = os.environ.get("MIEN_BIN", "")
-folder = ""
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+import program  # noqa: E402
+from program import (DONE, USAGE, INVALID, FILE, ProgramTest, main,  # noqa: E402
+                     make, make_folder, path, read, run, write)
 
 
 def setUpModule():
-    global folder
-    folder = tempfile.mkdtemp(prefix="mien-traps-")
+    make_folder()
     for arguments in (["gen", "-o", path("small.dna"), "--preset", "small"], ["demo-head", "-o", path("head.dna")],
                       ["bake", path("small.dna"), "-o", path("small.rig")]):
-        done = run(*arguments)
-        assert done.returncode == DONE, done.stderr
+        make(*arguments)
     write("frames.json", '{"frames": [{}]}')
 
 
-def tearDownModule():
-    shutil.rmtree(folder)
-
-
-def path(name):
-    return os.path.join(folder, name)
-
-
-def read(name):
-    with open(path(name), "rb") as file:
-        return file.read()
-
-
-def write(name, content):
-    with open(path(name), "wb") as file:
-        file.write(content if isinstance(content, bytes) else content.encode())
-    return path(name)
-
-
-def run(*arguments, stdin=b"", **more):
-    done = subprocess.run([mien, *arguments], input=stdin, capture_output=True, timeout=120, check=False, **more)
-    done.stderr = done.stderr.decode()
-    return done
-
-
-class TrapTest(unittest.TestCase):
-    def ok(self, *arguments, **more):
-        done = run(*arguments, **more)
-        self.assertEqual(done.returncode, DONE, done.stderr)
-        return done
-
-    def fails(self, code, *arguments, says=(), **more):
-        """Fails with that code and one line that names what it should."""
-        done = run(*arguments, **more)
-        self.assertEqual(done.returncode, code, (arguments, done.stderr, done.stdout))
-        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
-        for word in [says] if isinstance(says, str) else says:
-            self.assertIn(word, done.stderr)
-        return done
-
-
-class EndlessInputs(TrapTest):
+class EndlessInputs(ProgramTest):
     def pipe(self, piece, *arguments):
         """Runs the program with `piece` repeated for ever as its input; returns its failure."""
-        child = subprocess.Popen([mien, *arguments], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
+        child = subprocess.Popen([program.mien, *arguments], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
                                  stderr=subprocess.PIPE)
         written = 0
         try:
@@ -114,12 +69,12 @@ class EndlessInputs(TrapTest):
 
     def test_pipes_with_names_are_read_as_well(self):
         command = '"$1" info --json <(cat "$2") && "$1" eval "$2" -i <(echo "{\\"frames\\": []}")'
-        done = subprocess.run(["bash", "-c", command, "bash", mien, path("small.dna")], capture_output=True, check=False)
+        done = subprocess.run(["bash", "-c", command, "bash", program.mien, path("small.dna")], capture_output=True, check=False)
         self.assertEqual(done.returncode, DONE, done.stderr)
         self.assertIn(b'"frames": []', done.stdout)
 
 
-class Outputs(TrapTest):
+class Outputs(ProgramTest):
     def test_an_output_that_is_an_input_is_refused(self):
         shutil.copy(path("head.dna"), path("mine.dna"))
         os.symlink("mine.dna", path("link.dna"))
@@ -167,7 +122,7 @@ class Outputs(TrapTest):
         self.assertEqual(read("R.PNG")[:4], b"\x89PNG")
 
 
-class Slips(TrapTest):
+class Slips(ProgramTest):
     def frames(self, text, *options):
         return ("eval", path("small.dna"), "-i", write("slip.json", text), *options)
 
@@ -234,7 +189,7 @@ class Slips(TrapTest):
         self.assertNotIn(b"--full", full)
 
 
-class Validate(TrapTest):
+class Validate(ProgramTest):
     def test_several_files(self):
         cut = write("cut.dna", read("small.dna")[:-10])
         small, head, missing = path("small.dna"), path("head.dna"), path("missing.dna")
@@ -260,9 +215,4 @@ class Validate(TrapTest):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 1 and not sys.argv[1].startswith("-") and os.path.exists(sys.argv[1]):
-        mien = sys.argv.pop(1)
-    if not mien:
-        sys.exit("usage: traps_test.py path/to/mien (or MIEN_BIN)")
-    mien = os.path.abspath(mien)
-    unittest.main()
+    main()
