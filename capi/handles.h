@@ -33,6 +33,8 @@ constexpr uint32_t kClipBindingTag = 0x6D43'424E;
 constexpr uint32_t kMixTag = 0x6D4D'4958;
 constexpr uint32_t kGazeTag = 0x6D47'415A;
 constexpr uint32_t kMixerTag = 0x6D4D'5852;
+constexpr uint32_t kSolverStackTag = 0x6D53'4F4C;
+constexpr uint32_t kSolverStateTag = 0x6D53'5354;
 
 // One block, with the reports behind it; the bytes are the caller's, mapped, or a block of their own.
 struct MienClip {

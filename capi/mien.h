@@ -17,6 +17,9 @@
  *   MienClipBinding       maps the channels of a clip to the raw controls of a rig; immutable
  *   MienMix               layers, reactions and limits that make the raw controls of a rig; immutable
  *   MienMixer             one character: the clips, fades and reactions that run in a mix
+ *   MienGaze              which raw controls turn the eyes of a rig, and how far; immutable
+ *   MienSolverStack       solvers that move joints after the rig has posed them; immutable
+ *   MienSolverState       one character: what springs and other solvers remember
  *
  * One rig and one deformer serve any number of characters and threads. Both copy what they need
  * from the DNA, which may be closed afterwards.
@@ -1978,7 +1981,7 @@ MIEN_DEFAULT(MienMixDesc, mien_mix_desc_default)
 MIEN_CHECKED MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc,
                                         MienMix** out_mix, MienError* error);
 
-/* Destroys a mix. Its mixers must be destroyed first. */
+/* Destroys a mix. Its mixers go on: the last of them releases it. */
 MIEN_API void mien_mix_destroy(MienMix* mix);
 
 /* Properties of a mix. */
@@ -2082,7 +2085,7 @@ typedef struct MienMixerDesc {
 MIEN_DEFAULT(MienMixerDesc, mien_mixer_desc_default)
 
 /* Creates a mixer at time 0, with one allocation. Nothing plays; the weights of poses and the pose
- * variables are 0. `mix` must outlive it. Destroy with mien_mixer_destroy(). */
+ * variables are 0. `mix` may be destroyed before it. Destroy with mien_mixer_destroy(). */
 MIEN_CHECKED MienStatus mien_mixer_create(const MienMix* mix, const MienMixerDesc* desc,
                                           MienMixer** out_mixer, MienError* error);
 
@@ -2241,6 +2244,235 @@ typedef struct MienMixerClip {
 MIEN_CHECKED MienStatus mien_mixer_restore(MienMixer* mixer, const void* bytes, size_t size,
                                            const MienMixerClip* clips, size_t clip_count,
                                            MienError* error);
+
+/* ---- Solvers --------------------------------------------------------------------------------- */
+
+/* Solvers move joints of a deformer after the rig has posed them: eyes that hit a target, a cap that
+ * changes from hand to head, earrings that swing.
+ *
+ *     mien_deformer_instance_update() -> mien_solver_state_step() -> mien_deformer_instance_deform()
+ *
+ * A step changes the matrices of the deformer instance in place. Lengths are in the translation unit of
+ * the rig, places in its model space. The same bits on every machine, for one character and for many.
+ * A stack serves any number of characters and threads. Immutable.
+ * See docs/mixing.md, 6 "Solvers". */
+typedef struct MienSolverStack MienSolverStack;
+
+/* No joint, where a field holds the index of one. */
+#define MIEN_NO_JOINT 0xFFFF
+
+/* Turns a joint so that one of its axes points at a target: the shortest way, then about that axis so
+ * that `up_axis` is as near to `up` as it can be. Directions may have any length. */
+typedef struct MienAimSolver {
+    uint32_t joint;
+    uint32_t target_joint; /* its place is the target. MIEN_NO_JOINT: it is at three lanes of the row */
+    uint32_t target_lane;  /* first of these three: x y z in model space */
+    float axis[3];         /* of the joint, not 0 */
+    float up_axis[3];      /* of the joint; 0 0 0: no turn about the axis */
+    float up[3];           /* in model space; 0 0 0: 0 1 0 */
+    float cone_degrees;    /* 0 to 180: farthest from where the neutral pose points. 0: no limit */
+    float weight;          /* 0 to 1 */
+} MienAimSolver;
+
+/* Lets a joint hang on another joint than its parent, as if the parent moved with that one. A lane says
+ * which of the spaces. When it changes, the joint stays where it is, and what it is off is eased out. */
+typedef struct MienSpaceSolver {
+    int64_t ease_ticks;     /* 0 to 2^40 */
+    const uint16_t* spaces; /* joints. MIEN_NO_JOINT: model space */
+    uint32_t space_count;   /* 1 to 8 */
+    uint32_t lane;          /* of the row: its value, rounded, is a place in `spaces` */
+    uint32_t joint;
+    uint32_t reserved;      /* 0 */
+} MienSpaceSolver;
+
+/* Lets the place of a joint swing about where the pose has it: a damped harmonic oscillator in model
+ * space, advanced by its exact solution, so that it is stable for any step. Output 0 is its speed, in
+ * units per second. */
+typedef struct MienSpringSolver {
+    uint32_t joint;
+    float frequency;      /* of the undamped spring, in Hertz; above 0 */
+    float damping;        /* share of the critical damping; 0 or more */
+    float rest_offset[3]; /* from the place in the pose, in model space */
+    float stretch;        /* farthest from the place of rest. 0: any */
+    float teleport;       /* what jumps farther in a step takes the joint along. 0: never */
+} MienSpringSolver;
+
+/* Gives joints a share of the twist of another joint about an axis. Their own twist is replaced. Output
+ * 0 is the sine of half of the angle. */
+typedef struct MienTwistSolver {
+    const uint16_t* joints;
+    const float* shares;  /* for each of these, -1 to 1: 0.5 is half of the angle */
+    uint32_t joint_count; /* 1 to 8 */
+    uint32_t source;      /* joint */
+    float axis[3];        /* of the source and of all joints, not 0 */
+    uint32_t reserved;    /* 0 */
+} MienTwistSolver;
+
+/* Moves a joint as another one was moved from its neutral pose, or as its mirror image. */
+typedef struct MienCopySolver {
+    uint32_t source;      /* joint */
+    uint32_t joint;
+    uint32_t is_mirrored; /* boolean: as the mirror image */
+    float mirror_axis[3]; /* from right to left in model space; 0 0 0: 1 0 0 */
+    float weight;         /* 0 to 1 */
+} MienCopySolver;
+
+/* What a MienUserSolver sees of one character. */
+typedef struct MienSolverPose {
+    float* locals;         /* 10 floats per joint: tx ty tz qx qy qz qw sx sy sz, relative to the parent.
+                              Those of its `writes` may be changed; quaternions of any length but 0 */
+    const float* models;   /* 16 floats per joint, as in mien_deformer_instance_joint_matrices(); up to
+                              date for its `reads` */
+    const float* previous; /* 16 floats for each of its `previous_joints`, after the last step */
+    const float* row;      /* MienSolverStackDesc.lane_count floats. NULL: there are none */
+    float* outputs;        /* MienUserSolver.output_count floats to publish */
+    void* state;           /* MienUserSolver.state_bytes bytes, aligned to 8; zeros at first */
+    uint32_t lod;
+    uint32_t is_reset;     /* boolean: the first step, or the character was moved to another place */
+} MienSolverPose;
+
+/* What a MienUserSolver is called with. */
+typedef struct MienSolverCall {
+    const MienSolverPose* poses; /* characters, 64 at most */
+    const uint16_t* parents;     /* one per joint; a root is its own parent */
+    int64_t ticks;               /* since the last step */
+    uint32_t pose_count;
+    uint32_t joint_count;
+} MienSolverCall;
+
+/* A solver of the caller. It runs on the thread that steps, and must not use the handles of the step. */
+typedef struct MienUserSolver {
+    void* user; /* passed to the function; must live as long as the stack and its states */
+    /* Changes the locals of some characters, and nothing else of them but outputs and state. */
+    void(MIEN_CALLBACK* solve)(void* user, const MienSolverCall* call);
+    const uint16_t* reads;           /* joints whose model matrices it reads */
+    const uint16_t* writes;          /* joints whose locals it changes */
+    const uint16_t* previous_joints; /* joints whose model matrices of the last step it reads */
+    uint32_t read_count;
+    uint32_t write_count;            /* 1 or more */
+    uint32_t previous_joint_count;
+    uint32_t state_bytes;            /* 0 to 2^20 */
+    uint32_t output_count;           /* 0 to 4096 */
+    uint32_t reserved;               /* 0 */
+} MienUserSolver;
+
+/* One solver: one of the pointers is not NULL. */
+typedef struct MienSolver {
+    const char* name;             /* for messages. NULL: that of the kind */
+    const MienAimSolver* aim;     /* may be NULL */
+    const MienSpaceSolver* space; /* may be NULL */
+    const MienSpringSolver* spring; /* may be NULL */
+    const MienTwistSolver* twist; /* may be NULL */
+    const MienCopySolver* copy;   /* may be NULL */
+    const MienUserSolver* custom; /* may be NULL */
+    uint64_t lods;                /* where it runs: bit l is LOD l. 0: at all */
+} MienSolver;
+
+/* How to create a solver stack. Everything is copied. */
+typedef struct MienSolverStackDesc {
+    size_t struct_size;
+    const MienSolver* solvers; /* in the order in which they run; at most 256 */
+    size_t solver_count;
+    uint32_t lane_count;       /* of the rows that steps get, at least. 0: they get none */
+    uint32_t check_writes;     /* boolean: compare all joints before and after each solver, for
+                                  mien_solver_state_undeclared() */
+    const MienAllocator* allocator;
+} MienSolverStackDesc;
+MIEN_DEFAULT(MienSolverStackDesc, mien_solver_stack_desc_default)
+
+/* Creates a solver stack. `desc` is required. `deformer` may be destroyed before it. Destroy with
+ * mien_solver_stack_destroy().
+ * Fails with MIEN_ERROR_INDEX if a joint or lane does not exist, MIEN_ERROR_INVALID_ARGUMENT if a number
+ * is out of range, or if a solver reads a joint that a later one moves; the message names both. */
+MIEN_CHECKED MienStatus mien_solver_stack_create(const MienDeformer* deformer,
+                                                 const MienSolverStackDesc* desc,
+                                                 MienSolverStack** out_solver_stack,
+                                                 MienError* error);
+
+/* Destroys a solver stack. Its states go on: the last of them releases it. */
+MIEN_API void mien_solver_stack_destroy(MienSolverStack* solver_stack);
+
+/* Properties of a solver stack. */
+typedef struct MienSolverStackInfo {
+    size_t struct_size;
+    uint32_t solver_count;
+    uint32_t lane_count;
+    uint32_t output_count; /* of all solvers */
+    uint32_t joint_count;
+    uint64_t state_bytes;  /* memory of a state */
+} MienSolverStackInfo;
+MIEN_DEFAULT(MienSolverStackInfo, mien_solver_stack_info_default)
+
+/* Returns the properties of a solver stack. */
+MIEN_CHECKED MienStatus mien_solver_stack_info(const MienSolverStack* solver_stack,
+                                               MienSolverStackInfo* out_info);
+
+/* One character: what its solvers remember between steps. */
+typedef struct MienSolverState MienSolverState;
+
+/* How to create a solver state. */
+typedef struct MienSolverStateDesc {
+    size_t struct_size;
+    const MienAllocator* allocator;
+} MienSolverStateDesc;
+MIEN_DEFAULT(MienSolverStateDesc, mien_solver_state_desc_default)
+
+/* Creates a solver state. `solver_stack` may be destroyed before it. Destroy with
+ * mien_solver_state_destroy(). */
+MIEN_CHECKED MienStatus mien_solver_state_create(const MienSolverStack* solver_stack,
+                                                 const MienSolverStateDesc* desc,
+                                                 MienSolverState** out_solver_state,
+                                                 MienError* error);
+
+/* Destroys a solver state. */
+MIEN_API void mien_solver_state_destroy(MienSolverState* solver_state);
+
+/* What solvers of one character get. */
+typedef struct MienSolverInput {
+    const float* row;   /* such as that of mien_mixer_row(). NULL: none */
+    size_t row_count;   /* at least MienSolverStackDesc.lane_count */
+    uint32_t lod;       /* 0 to 63 */
+    uint32_t is_reset;  /* boolean: the character was moved to another place: springs come to rest, and
+                           spaces do not ease */
+} MienSolverInput;
+
+/* Runs the solvers on the pose of `deformer_instance`, which mien_deformer_instance_update() has to set
+ * before every step. `input` may be NULL: no row, LOD 0. `ticks`, the time since the last step, is 0 to
+ * 2^40. Does not allocate or lock.
+ * Fails with MIEN_ERROR_MISMATCH if the instance has another deformer than the stack or the row is
+ * shorter than MienSolverStackDesc.lane_count, MIEN_ERROR_INVALID_ARGUMENT if ticks or LOD are out of
+ * range. */
+MIEN_CHECKED MienStatus mien_solver_state_step(MienSolverState* solver_state,
+                                               MienDeformerInstance* deformer_instance,
+                                               const MienSolverInput* input, int64_t ticks);
+
+/* Steps `count` states of one stack; deformer_instances[i] and inputs[i] belong to solver_states[i].
+ * `inputs` may be NULL. The results are those of single calls. No state or instance may occur twice. On
+ * failure nothing has moved. Does not allocate or lock. Uses up to 8 KiB of stack.
+ * Fails like mien_solver_state_step(), and with MIEN_ERROR_MISMATCH if the states have different
+ * stacks. */
+MIEN_CHECKED MienStatus mien_solver_state_step_batch(MienSolverState* const* solver_states,
+                                                     MienDeformerInstance* const* deformer_instances,
+                                                     const MienSolverInput* inputs, size_t count,
+                                                     int64_t ticks);
+
+/* Returns what a solver has published in the last step, one float per output. `solver` counts in the order of the
+ * stack. Contents change with mien_solver_state_step(), mien_solver_state_step_batch().
+ * Fails with MIEN_ERROR_INDEX if the solver does not exist. */
+MIEN_CHECKED MienStatus mien_solver_state_outputs(const MienSolverState* solver_state, uint32_t solver,
+                                                  MienFloatView* out_values);
+
+/* Returns the transforms after the last step, relative to the parents: 10 floats per joint, tx ty tz qx
+ * qy qz qw sx sy sz. (mien_deformer_instance_local_transforms() gives those before it.)
+ * Contents change with mien_solver_state_step(), mien_solver_state_step_batch(). */
+MIEN_CHECKED MienStatus mien_solver_state_transforms(const MienSolverState* solver_state,
+                                                     MienFloatView* out_transforms);
+
+/* Returns the name of a solver that changed a joint which is not in its list in the last step, or an
+ * empty string. Contents change with mien_solver_state_step(), mien_solver_state_step_batch().
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if MienSolverStackDesc.check_writes was 0. */
+MIEN_CHECKED MienStatus mien_solver_state_undeclared(const MienSolverState* solver_state,
+                                                     MienStringView* out_name);
 
 #ifdef __cplusplus
 }

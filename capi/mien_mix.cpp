@@ -246,9 +246,7 @@ MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc, MienMix*
 }
 
 void mien_mix_destroy(MienMix* mix) {
-  if (check(mix) != MIEN_OK) return;
-  object(mix)->tag = 0;
-  release_mix(object(mix));
+  if (check(mix) == MIEN_OK) release_mix(object(mix));
 }
 
 MienStatus mien_mix_info(const MienMix* handle, MienMixInfo* out_info) {

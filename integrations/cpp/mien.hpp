@@ -5,8 +5,9 @@
 // here.
 //
 //   Owners      Dna, Report, Rig, Instance, Batch, Deformer, DeformerInstance, Baked, Clip, ClipPlayer,
-//               ClipBinding, Mix and Mixer release what they hold. They can be moved, not copied. Calls on an empty one (default, moved from)
-//               return MIEN_ERROR_NULL_ARGUMENT; its spans are empty.
+//               ClipBinding, Mix, Mixer, Gaze, SolverStack and SolverState release what they hold. They
+//               can be moved, not copied. Calls on an empty one (default, moved from) return
+//               MIEN_ERROR_NULL_ARGUMENT; its spans are empty.
 //   Results     A call that can fail returns a Result: test it, then use *result; or use value().
 //               Errors carry status, byte offset and message.
 //   Spans       std::span where the standard library has it, else a Span with the same core. They
@@ -109,6 +110,8 @@ using MixDesc = Sized<MienMixDesc>;
 using MixerDesc = Sized<MienMixerDesc>;
 using PlayDesc = Sized<MienPlayDesc>;
 using GazeDesc = Sized<MienGazeDesc>;
+using SolverStackDesc = Sized<MienSolverStackDesc>;
+using SolverStateDesc = Sized<MienSolverStateDesc>;
 using CoordinateSystem = Sized<MienCoordinateSystem>;
 
 inline std::string_view view(const MienStringView& text) { return {text.data, text.count}; }
@@ -865,7 +868,7 @@ class Clip : public Owner<MienClip, mien_clip_close> {
 
 // ---- Mixing -------------------------------------------------------------------------------------
 
-/// One character in a mix, which has to outlive it, as do clips and bindings that it plays. For one
+/// One character in a mix. Clips and bindings that it plays have to outlive their playback. For one
 /// thread at a time; push() may be called by another one.
 class Mixer : public Owner<MienMixer, mien_mixer_destroy> {
  public:
@@ -965,6 +968,7 @@ class Mix : public Owner<MienMix, mien_mix_destroy> {
     Sized<MienMixInfo> info;
     return {mien_mix_info(get(), &info), std::move(info)};
   }
+  /// May outlive the mix.
   Result<Mixer> mixer(const MixerDesc& desc = {}) const {
     return make<Mixer>([&](MienMixer** out, MienError* error) {
       return mien_mixer_create(get(), &desc, out, error);
@@ -1006,6 +1010,77 @@ class Gaze : public Owner<MienGaze, mien_gaze_destroy> {
   Status look_at(const MienGazeTarget& target, Span<float> row,
                  MienGazeRest* rest = nullptr) const {
     return mien_gaze_look_at(get(), &target, row.data(), row.size(), rest);
+  }
+};
+
+// ---- Solvers ------------------------------------------------------------------------------------
+
+/// What the solvers of one character remember. For one thread at a time.
+class SolverState : public Owner<MienSolverState, mien_solver_state_destroy> {
+ public:
+  using Owner::Owner;
+
+  /// After DeformerInstance::update(), before deform().
+  Status step(DeformerInstance& instance, int64_t ticks, const MienSolverInput& input = {}) {
+    return mien_solver_state_step(get(), instance.get(), &input, ticks);
+  }
+  /// Row of a mixer; empty: none.
+  Status step(DeformerInstance& instance, int64_t ticks, Span<const float> row, uint32_t lod = 0) {
+    return step(instance, ticks, MienSolverInput{row.data(), row.size(), lod, 0});
+  }
+
+  /// What a solver has published in the last step.
+  Span<const float> outputs(uint32_t solver) const {
+    MienFloatView found = {nullptr, 0};
+    return mien_solver_state_outputs(get(), solver, &found) == MIEN_OK ? view(found)
+                                                                       : Span<const float>();
+  }
+  /// After the last step, 10 floats per joint: tx ty tz qx qy qz qw sx sy sz.
+  Span<const float> transforms() const {
+    MienFloatView found = {nullptr, 0};
+    return mien_solver_state_transforms(get(), &found) == MIEN_OK ? view(found)
+                                                                  : Span<const float>();
+  }
+  /// With SolverStackDesc::check_writes: the solver that changed a joint which is not in its list.
+  Result<std::string_view> undeclared() const {
+    MienStringView name = {nullptr, 0};
+    const MienStatus status = mien_solver_state_undeclared(get(), &name);
+    return {status, view(name)};
+  }
+};
+
+/// Steps states of one stack; `inputs` is empty or has one for each.
+inline Status step_batch(Span<SolverState> states, Span<DeformerInstance> instances,
+                         Span<const MienSolverInput> inputs, int64_t ticks) {
+  if (instances.size() != states.size() || (!inputs.empty() && inputs.size() != states.size())) {
+    return MIEN_ERROR_INVALID_ARGUMENT;
+  }
+  return mien_solver_state_step_batch(handles_of(states), handles_of(instances),
+                                      inputs.empty() ? nullptr : inputs.data(), states.size(),
+                                      ticks);
+}
+
+/// Solvers of one deformer, which move joints after the rig has posed them. Immutable: may be used by
+/// several threads at once.
+class SolverStack : public Owner<MienSolverStack, mien_solver_stack_destroy> {
+ public:
+  using Owner::Owner;
+
+  /// May outlive the deformer.
+  static Result<SolverStack> create(const Deformer& deformer, const SolverStackDesc& desc) {
+    return make<SolverStack>([&](MienSolverStack** out, MienError* error) {
+      return mien_solver_stack_create(deformer.get(), &desc, out, error);
+    });
+  }
+  Result<MienSolverStackInfo> info() const {
+    Sized<MienSolverStackInfo> info;
+    return {mien_solver_stack_info(get(), &info), std::move(info)};
+  }
+  /// May outlive the stack.
+  Result<SolverState> state(const SolverStateDesc& desc = {}) const {
+    return make<SolverState>([&](MienSolverState** out, MienError* error) {
+      return mien_solver_state_create(get(), &desc, out, error);
+    });
   }
 };
 

@@ -166,6 +166,55 @@ void test_mixing() {
   CHECK(mien::Mixer::step(both, {}, 100) && mixer.row()[0] == other.row()[0]);
 }
 
+void raise_joint(void* user, const MienSolverCall* call) {
+  for (uint32_t i = 0; i < call->pose_count; ++i) {
+    call->poses[i].locals[1] += *static_cast<float*>(user);
+    call->poses[i].outputs[0] = 5;
+  }
+}
+
+void test_solvers() {
+  mien::GenerateDesc small;
+  small.preset = MIEN_PRESET_SMALL;
+  const mien::Dna dna = mien::generate(small).value();
+  const mien::Rig rig = mien::Rig::create(dna).value();
+  mien::Deformer deformer = mien::Deformer::create(dna, rig).value();
+  std::vector<mien::DeformerInstance> bodies;
+  for (int i = 0; i < 2; ++i) bodies.push_back(deformer.instance().value());
+  const float before = bodies[0].joint_matrices()[13];
+  float rise = 2;
+  const uint16_t root = 0;
+  MienUserSolver raise = {};
+  raise.user = &rise;
+  raise.solve = raise_joint;
+  raise.writes = &root;
+  raise.write_count = 1;
+  raise.output_count = 1;
+  MienSolver solver = {};
+  solver.custom = &raise;
+  mien::SolverStackDesc desc;
+  desc.solvers = &solver;
+  desc.solver_count = 1;
+  desc.check_writes = 1;
+  mien::SolverStack stack = mien::SolverStack::create(deformer, desc).value();
+  CHECK(stack.info()->output_count == 1);
+  std::vector<mien::SolverState> states;
+  for (int i = 0; i < 2; ++i) states.push_back(stack.state().value());
+  stack.reset();
+  deformer.reset();
+  CHECK(states[0].step(bodies[0], 10) && bodies[0].joint_matrices()[13] == before + 2);
+  CHECK(states[0].outputs(0)[0] == 5 && states[0].outputs(1).empty());
+  CHECK(states[0].transforms().size() % 10 == 0 && states[0].undeclared().value().empty());
+  rise = 3;
+  for (mien::DeformerInstance& body : bodies) CHECK(body.update({}, {}));
+  CHECK(mien::step_batch(states, bodies, {}, 10));
+  CHECK(bodies[1].joint_matrices()[13] == before + 3);
+  CHECK(!mien::step_batch(states, {}, {}, 10));
+  CHECK(mien::SolverState().step(bodies[0], 1).status() == MIEN_ERROR_NULL_ARGUMENT);
+  solver.custom = nullptr;
+  CHECK(mien::SolverStack::create(mien::Deformer(), desc).status() == MIEN_ERROR_NULL_ARGUMENT);
+}
+
 void test_clips() {
   const MienStringView names[] = {mien::view("jawOpen"), mien::view("nobody")};
   const float values[] = {0, 1, 0.5f, 1, 1, 1};
@@ -491,6 +540,7 @@ int main() {
   test_baked_files();
   test_clips();
   test_mixing();
+  test_solvers();
   test_empty_objects();
   test_errors();
   test_fields_and_files();

@@ -180,7 +180,7 @@ Status check_lanes(const MixDesc& desc, uint32_t lanes, Error& error) {
 }
 
 void place_mix(Placer& placer, const MixDesc& desc, Mix& mix) {
-  placer.array<Mix>(1);
+  placer.unwritten_array<Mix>(1);
   mix.layers = placer.array<MixLayer>(desc.layers.count);
   for (size_t i = 0; i < desc.layers.count; ++i) {
     const Span<float> mask = placer.array<float>(mix.lane_count, kBlockAlignment);
@@ -319,10 +319,16 @@ Status create_mix(const MixDesc& desc, const Allocator& allocator, Mix*& out, Er
   if (status == Status::kOk) status = check_reactions(desc, error);
   if (status != Status::kOk) return status;
 
-  Mix mix;
+  Mix measured;
+  measured.lane_count = static_cast<uint32_t>(align_up(lanes, kLaneStep));
+  Placer measure(nullptr);
+  place_mix(measure, desc, measured);
+  void* block = allocator.get(measure.size(), kBlockAlignment);
+  if (!block) return fail(error, Status::kMemory, kNoOffset, "no memory for a mix");
+  Mix& mix = *new (block) Mix;
   mix.raw_count = desc.raw_count;
   mix.variable_count = desc.variable_count;
-  mix.lane_count = static_cast<uint32_t>(align_up(lanes, kLaneStep));
+  mix.lane_count = measured.lane_count;
   mix.player_count = desc.player_count;
   mix.max_channels = desc.max_channels;
   mix.max_changing_channels = desc.max_changing_channels;
@@ -330,23 +336,23 @@ Status create_mix(const MixDesc& desc, const Allocator& allocator, Mix*& out, Er
   mix.max_events = desc.max_events;
   mix.plays_backward = desc.plays_backward;
   mix.allocator = allocator;
-  Placer measure(nullptr);
-  place_mix(measure, desc, mix);
   mix.block_size = measure.size();
-  void* block = allocator.get(mix.block_size, kBlockAlignment);
-  if (!block) return fail(error, Status::kMemory, kNoOffset, "no memory for a mix");
   Placer placer(block);
   place_mix(placer, desc, mix);
   fill_mix(desc, mix);
   mix.fingerprint = fingerprint(mix);
-  out = new (block) Mix(mix);
+  out = &mix;
   return Status::kOk;
 }
 
-void release_mix(Mix* mix) {
-  if (!mix) return;
-  const Allocator allocator = mix->allocator;
-  allocator.put(mix, mix->block_size, kBlockAlignment);
+void release_mix(const Mix* mix) {
+  if (!mix || mix->owners.fetch_sub(1, std::memory_order_acq_rel) != 1) return;
+  Mix* last = const_cast<Mix*>(mix);
+  const Allocator allocator = last->allocator;
+  const size_t size = last->block_size;
+  last->tag = 0;
+  last->~Mix();
+  allocator.put(last, size, kBlockAlignment);
 }
 
 }  // namespace mien

@@ -16,6 +16,8 @@
 //     limits
 #pragma once
 
+#include <atomic>
+
 #include "runtime/base/allocator.h"
 #include "runtime/base/span.h"
 #include "runtime/base/status.h"
@@ -198,6 +200,7 @@ struct Mix {
   uint64_t fingerprint = 0;            // of everything that a snapshot depends on
   Allocator allocator;
   size_t block_size = 0;
+  mutable std::atomic<uint32_t> owners{1};  // the creator and every mixer
 
   Span<MixLayer> layers;
   Span<uint32_t> pose_ends;  // [pose] into pose_lanes and pose_values
@@ -216,6 +219,6 @@ struct Mix {
 /// On success `out` is to be given back by release_mix(). kInvalidArgument, kIndex or kMemory; the
 /// message says which element is wrong.
 Status create_mix(const MixDesc& desc, const Allocator& allocator, Mix*& out, Error& error);
-void release_mix(Mix* mix);
+void release_mix(const Mix* mix);
 
 }  // namespace mien

@@ -424,6 +424,7 @@ Mixer* create_mixer(const Mix& mix, uint64_t seed, bool stages, const Allocator&
   }
   for (ReactionState& reaction : mixer.reactions) set_fade(reaction.gain, 1.0f);
   for (float& activation : mixer.guard_overrides) activation = -1.0f;
+  mix.owners.fetch_add(1, std::memory_order_relaxed);
   return new (block) Mixer(mixer);
 }
 
@@ -436,8 +437,10 @@ size_t state_size(const Mix& mix) {
 
 void destroy_mixer(Mixer* mixer) {
   if (!mixer) return;
+  const Mix* const mix = mixer->mix;
   const Allocator allocator = mixer->allocator;
   allocator.put(mixer, mixer->block_size, kBlockAlignment);
+  release_mix(mix);
 }
 
 // Playing

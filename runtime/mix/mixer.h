@@ -141,7 +141,8 @@ inline uint32_t stage_count(const Mix& mix) {
 size_t mixer_size(const Mix& mix, bool stages);
 
 /// At time 0: nothing plays, poses have weight 0, variables are 0, layers the weight of their desc.
-/// With `stages`, the row after each stage is kept. The mix has to outlive it. Null if memory ran out.
+/// With `stages`, the row after each stage is kept. The mixer owns the mix with others. Null if memory
+/// ran out.
 Mixer* create_mixer(const Mix& mix, uint64_t seed, bool stages, const Allocator& allocator);
 void destroy_mixer(Mixer* mixer);
 

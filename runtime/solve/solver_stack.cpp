@@ -244,13 +244,18 @@ void place_state(const Stack& stack, Placer& placer, StackState& state) {
 
 }  // namespace
 
+size_t stack_state_size(const Stack& stack) {
+  StackState state;
+  Placer measure(nullptr);
+  place_state(stack, measure, state);
+  return measure.size();
+}
+
 StackState* create_stack_state(const Stack& stack, const Allocator& allocator) {
   StackState state;
   state.stack = &stack;
   state.allocator = allocator;
-  Placer measure(nullptr);
-  place_state(stack, measure, state);
-  state.block_size = measure.size();
+  state.block_size = stack_state_size(stack);
   void* block = allocator.get(state.block_size, kBlockAlignment);
   if (!block) return nullptr;
   Placer placer(block);
@@ -295,6 +300,17 @@ void update_models(const Stack& stack, JointRange range, const float* locals, fl
 }
 
 namespace {
+
+/// Solvers may write scales, on which normals depend.
+void note_scales(const Stack& stack, const StackState& state, JointPose& pose) {
+  for (const Solver& solver : stack.solvers) {
+    for (uint16_t joint : solver.writes) {
+      const float* scale = state.locals.data + size_t{joint} * kLocalTransformFloats + 7;
+      if (scale[0] == scale[1] && scale[1] == scale[2] && scale[0] > 0) continue;
+      pose.non_uniform_scale = true;
+    }
+  }
+}
 
 /// skin = model * inverse bind, both of four columns with a last row of 0 0 0 1.
 void update_skins(const Stack& stack, JointRange range, JointPose& pose) {
@@ -386,6 +402,7 @@ void step_stack(const Stack& stack, Span<const StackPose> characters, int64_t ti
     update_all(stack, stack.first_last_update, static_cast<uint32_t>(stack.updates.count),
                character);
     for (const JointRange& range : stack.changed) update_skins(stack, range, *character.pose);
+    note_scales(stack, *character.state, *character.pose);
     keep_previous(stack, character);
     character.state->fresh = false;
   }

@@ -18,7 +18,7 @@
 
 namespace mien {
 
-/// What a solver sees of one character.
+/// What a solver sees of one character. MienSolverPose has the same layout.
 struct SolverPose {
   float* locals;          // [joint] kLocalTransformFloats relative to the parent, as
                           // write_local_transforms() has them: what a solver writes
@@ -28,7 +28,7 @@ struct SolverPose {
   float* outputs;         // SolverDesc::output_count numbers to publish
   void* state;            // SolverDesc::state_size bytes, zeros at first; aligned like a double
   uint32_t lod;
-  bool reset;  // the first step, or the character was moved to another place
+  uint32_t reset;  // 1: the first step, or the character was moved to another place
 };
 
 /// Some characters at a time. Must not allocate.
@@ -113,6 +113,9 @@ struct StackDesc {
 Status create_stack(const Skeleton& skeleton, const StackDesc& desc, const Allocator& allocator,
                     Stack*& out, Error& error);
 void release_stack(Stack* stack);
+
+/// Bytes of a state.
+size_t stack_state_size(const Stack& stack);
 
 /// The stack has to outlive it. Null if memory ran out.
 StackState* create_stack_state(const Stack& stack, const Allocator& allocator);

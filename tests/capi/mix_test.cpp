@@ -231,6 +231,24 @@ TEST(Mixer, ABatchIsEachAlone) {
   EXPECT_EQ(row_of(together[0]), before);
 }
 
+TEST(Mixer, OutlivesItsMix) {
+  const Scene scene;
+  CountingAllocator counting;
+  const MienAllocator allocator = counting.get();
+  MienMixDesc desc = scene.desc();
+  desc.allocator = &allocator;
+  MixHandle mix = scene.mix(desc);
+  MixerHandle one = Scene::mixer(mix), other = Scene::mixer(mix);
+  mix.reset();
+  ASSERT_EQ(scene.play(one), MIEN_OK);
+  ASSERT_EQ(mien_mixer_step(one.get(), kStep, nullptr), MIEN_OK);
+  EXPECT_GT(row_of(one)[0], 0.0f);
+  one.reset();
+  EXPECT_FALSE(counting.clean()) << "the other mixer needs the mix";
+  other.reset();
+  EXPECT_TRUE(counting.clean()) << counting.first_wrong;
+}
+
 TEST(Mixer, SnapshotsContinueToTheBit) {
   const Scene scene;
   const MixHandle mix = scene.mix();

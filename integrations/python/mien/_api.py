@@ -35,6 +35,7 @@ def text(view: Any) -> str:
 
 MIEN_NO_OFFSET = 18446744073709551615
 MIEN_TICKS_PER_SECOND = 705600000
+MIEN_NO_JOINT = 65535
 
 
 class Status(IntEnum):
@@ -606,6 +607,14 @@ class MienGaze(c_void_p):
 
 
 class MienMixer(c_void_p):
+    pass
+
+
+class MienSolverStack(c_void_p):
+    pass
+
+
+class MienSolverState(c_void_p):
     pass
 
 
@@ -2009,6 +2018,254 @@ class MienMixerClip(Structure):
     clip_binding: Any
 
 
+class MienAimSolver(Structure):
+    _fields_ = [
+        ("joint", c_uint32),
+        ("target_joint", c_uint32),
+        ("target_lane", c_uint32),
+        ("axis", c_float * 3),
+        ("up_axis", c_float * 3),
+        ("up", c_float * 3),
+        ("cone_degrees", c_float),
+        ("weight", c_float),
+    ]
+    joint: Any
+    target_joint: Any
+    target_lane: Any
+    axis: Any
+    up_axis: Any
+    up: Any
+    cone_degrees: Any
+    weight: Any
+
+
+class MienSpaceSolver(Structure):
+    _fields_ = [
+        ("ease_ticks", c_int64),
+        ("spaces", c_void_p),
+        ("space_count", c_uint32),
+        ("lane", c_uint32),
+        ("joint", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    ease_ticks: Any
+    spaces: Any
+    space_count: Any
+    lane: Any
+    joint: Any
+    reserved: Any
+
+
+class MienSpringSolver(Structure):
+    _fields_ = [
+        ("joint", c_uint32),
+        ("frequency", c_float),
+        ("damping", c_float),
+        ("rest_offset", c_float * 3),
+        ("stretch", c_float),
+        ("teleport", c_float),
+    ]
+    joint: Any
+    frequency: Any
+    damping: Any
+    rest_offset: Any
+    stretch: Any
+    teleport: Any
+
+
+class MienTwistSolver(Structure):
+    _fields_ = [
+        ("joints", c_void_p),
+        ("shares", c_void_p),
+        ("joint_count", c_uint32),
+        ("source", c_uint32),
+        ("axis", c_float * 3),
+        ("reserved", c_uint32),
+    ]
+    joints: Any
+    shares: Any
+    joint_count: Any
+    source: Any
+    axis: Any
+    reserved: Any
+
+
+class MienCopySolver(Structure):
+    _fields_ = [
+        ("source", c_uint32),
+        ("joint", c_uint32),
+        ("is_mirrored", c_uint32),
+        ("mirror_axis", c_float * 3),
+        ("weight", c_float),
+    ]
+    source: Any
+    joint: Any
+    is_mirrored: Any
+    mirror_axis: Any
+    weight: Any
+
+
+class MienSolverPose(Structure):
+    _fields_ = [
+        ("locals", c_void_p),
+        ("models", c_void_p),
+        ("previous", c_void_p),
+        ("row", c_void_p),
+        ("outputs", c_void_p),
+        ("state", c_void_p),
+        ("lod", c_uint32),
+        ("is_reset", c_uint32),
+    ]
+    locals: Any
+    models: Any
+    previous: Any
+    row: Any
+    outputs: Any
+    state: Any
+    lod: Any
+    is_reset: Any
+
+
+class MienSolverCall(Structure):
+    _fields_ = [
+        ("poses", POINTER(MienSolverPose)),
+        ("parents", c_void_p),
+        ("ticks", c_int64),
+        ("pose_count", c_uint32),
+        ("joint_count", c_uint32),
+    ]
+    poses: Any
+    parents: Any
+    ticks: Any
+    pose_count: Any
+    joint_count: Any
+
+
+class MienUserSolver(Structure):
+    _fields_ = [
+        ("user", c_void_p),
+        ("solve", CFUNCTYPE(None, c_void_p, POINTER(MienSolverCall))),
+        ("reads", c_void_p),
+        ("writes", c_void_p),
+        ("previous_joints", c_void_p),
+        ("read_count", c_uint32),
+        ("write_count", c_uint32),
+        ("previous_joint_count", c_uint32),
+        ("state_bytes", c_uint32),
+        ("output_count", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    user: Any
+    solve: Any
+    reads: Any
+    writes: Any
+    previous_joints: Any
+    read_count: Any
+    write_count: Any
+    previous_joint_count: Any
+    state_bytes: Any
+    output_count: Any
+    reserved: Any
+
+
+class MienSolver(Structure):
+    _fields_ = [
+        ("name", c_void_p),
+        ("aim", POINTER(MienAimSolver)),
+        ("space", POINTER(MienSpaceSolver)),
+        ("spring", POINTER(MienSpringSolver)),
+        ("twist", POINTER(MienTwistSolver)),
+        ("copy", POINTER(MienCopySolver)),
+        ("custom", POINTER(MienUserSolver)),
+        ("lods", c_uint64),
+    ]
+    name: Any
+    aim: Any
+    space: Any
+    spring: Any
+    twist: Any
+    copy: Any
+    custom: Any
+    lods: Any
+
+
+class MienSolverStackDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("solvers", POINTER(MienSolver)),
+        ("solver_count", c_size_t),
+        ("lane_count", c_uint32),
+        ("check_writes", c_uint32),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    solvers: Any
+    solver_count: Any
+    lane_count: Any
+    check_writes: Any
+    allocator: Any
+
+    def __init__(self, *,
+                 solvers: Any = None,
+                 solver_count: int = 0,
+                 lane_count: int = 0,
+                 check_writes: bool = False,
+                 allocator: Any = None) -> None:
+        super().__init__(40)
+        self.solvers = solvers
+        self.solver_count = solver_count
+        self.lane_count = lane_count
+        self.check_writes = check_writes
+        self.allocator = allocator
+
+
+class MienSolverStackInfo(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("solver_count", c_uint32),
+        ("lane_count", c_uint32),
+        ("output_count", c_uint32),
+        ("joint_count", c_uint32),
+        ("state_bytes", c_uint64),
+    ]
+    struct_size: Any
+    solver_count: Any
+    lane_count: Any
+    output_count: Any
+    joint_count: Any
+    state_bytes: Any
+
+    def __init__(self) -> None:
+        super().__init__(32)
+
+
+class MienSolverStateDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    allocator: Any
+
+    def __init__(self, *,
+                 allocator: Any = None) -> None:
+        super().__init__(16)
+        self.allocator = allocator
+
+
+class MienSolverInput(Structure):
+    _fields_ = [
+        ("row", c_void_p),
+        ("row_count", c_size_t),
+        ("lod", c_uint32),
+        ("is_reset", c_uint32),
+    ]
+    row: Any
+    row_count: Any
+    lod: Any
+    is_reset: Any
+
+
 class MienGenerateDesc(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -2487,6 +2744,24 @@ class MixerInfo(NamedTuple):
     @classmethod
     def _of(cls, c: MienMixerInfo) -> MixerInfo:
         return cls(c.tick, c.event_count, bool(c.lost_events))
+
+
+class SolverStackInfo(NamedTuple):
+    """Properties of a solver stack.
+
+      output_count: of all solvers
+      state_bytes: memory of a state
+    """
+
+    solver_count: int
+    lane_count: int
+    output_count: int
+    joint_count: int
+    state_bytes: int
+
+    @classmethod
+    def _of(cls, c: MienSolverStackInfo) -> SolverStackInfo:
+        return cls(c.solver_count, c.lane_count, c.output_count, c.joint_count, c.state_bytes)
 
 
 # Why functions fail, beyond what the package checks: (status, condition).
@@ -3373,6 +3648,45 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.MISMATCH,
          "a clip is missing or is not the one that played"),
     ),
+    "mien_solver_stack_create": (
+        (Status.INVALID_ARGUMENT,
+         "a number is out of range, or if a solver reads a joint that a later one moves;"
+         " the message names both"),
+        (Status.INDEX,
+         "a joint or lane does not exist"),
+        (Status.MEMORY,
+         "there is no memory"),
+    ),
+    "mien_solver_stack_info": (),
+    "mien_solver_state_create": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+    ),
+    "mien_solver_state_step": (
+        (Status.INVALID_ARGUMENT,
+         "ticks or LOD are out of range"),
+        (Status.MISMATCH,
+         "the instance has another deformer than the stack or the row is shorter than "
+         "MienSolverStackDesc.lane_count"),
+    ),
+    "mien_solver_state_step_batch": (
+        (Status.INVALID_ARGUMENT,
+         "ticks or LOD are out of range"),
+        (Status.MISMATCH,
+         "the instance has another deformer than the stack or the row is shorter than "
+         "MienSolverStackDesc.lane_count; or the states have different stacks"),
+    ),
+    "mien_solver_state_outputs": (
+        (Status.INDEX,
+         "the solver does not exist"),
+    ),
+    "mien_solver_state_transforms": (),
+    "mien_solver_state_undeclared": (
+        (Status.INVALID_ARGUMENT,
+         "MienSolverStackDesc.check_writes was 0"),
+    ),
     "mien_dna_generate": (
         (Status.INVALID_ARGUMENT,
          "an argument is outside its range"),
@@ -3593,6 +3907,20 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_mixer_snapshot", c_int32, (MienMixer, c_void_p, c_size_t, c_void_p, POINTER(MienError))),
     ("mien_mixer_restore", c_int32, (MienMixer, c_void_p, c_size_t, POINTER(MienMixerClip),
      c_size_t, POINTER(MienError))),
+    ("mien_solver_stack_create", c_int32, (MienDeformer, POINTER(MienSolverStackDesc),
+     POINTER(MienSolverStack), POINTER(MienError))),
+    ("mien_solver_stack_destroy", None, (MienSolverStack,)),
+    ("mien_solver_stack_info", c_int32, (MienSolverStack, POINTER(MienSolverStackInfo))),
+    ("mien_solver_state_create", c_int32, (MienSolverStack, POINTER(MienSolverStateDesc),
+     POINTER(MienSolverState), POINTER(MienError))),
+    ("mien_solver_state_destroy", None, (MienSolverState,)),
+    ("mien_solver_state_step", c_int32, (MienSolverState, MienDeformerInstance,
+     POINTER(MienSolverInput), c_int64)),
+    ("mien_solver_state_step_batch", c_int32, (POINTER(MienSolverState),
+     POINTER(MienDeformerInstance), POINTER(MienSolverInput), c_size_t, c_int64)),
+    ("mien_solver_state_outputs", c_int32, (MienSolverState, c_uint32, POINTER(MienFloatView))),
+    ("mien_solver_state_transforms", c_int32, (MienSolverState, POINTER(MienFloatView))),
+    ("mien_solver_state_undeclared", c_int32, (MienSolverState, POINTER(MienStringView))),
 )
 
 
@@ -3752,6 +4080,16 @@ class Library:
     mien_mixer_event: Any
     mien_mixer_snapshot: Any
     mien_mixer_restore: Any
+    mien_solver_stack_create: Any
+    mien_solver_stack_destroy: Any
+    mien_solver_stack_info: Any
+    mien_solver_state_create: Any
+    mien_solver_state_destroy: Any
+    mien_solver_state_step: Any
+    mien_solver_state_step_batch: Any
+    mien_solver_state_outputs: Any
+    mien_solver_state_transforms: Any
+    mien_solver_state_undeclared: Any
 
     def __init__(self, library: ctypes.CDLL) -> None:
         for name, result, parameters in FUNCTIONS:

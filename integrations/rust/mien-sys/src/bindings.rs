@@ -17,6 +17,8 @@ pub const MIEN_VERSION: u32 = 65536;
 pub const MIEN_NO_OFFSET: u64 = 18446744073709551615;
 /// Ticks per second.
 pub const MIEN_TICKS_PER_SECOND: u32 = 705600000;
+/// No joint, where a field holds the index of one.
+pub const MIEN_NO_JOINT: u32 = 65535;
 
 // enum MienStatusCode
 pub const MIEN_OK: MienStatus = 0;
@@ -530,6 +532,31 @@ pub struct MienGaze {
 /// be called by another thread at the same time.
 #[repr(C)]
 pub struct MienMixer {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
+/// Solvers move joints of a deformer after the rig has posed them: eyes that hit a target, a cap
+/// that changes from hand to head, earrings that swing.
+///
+/// ```text
+/// mien_deformer_instance_update() -> mien_solver_state_step() -> mien_deformer_instance_deform()
+/// ```
+///
+/// A step changes the matrices of the deformer instance in place. Lengths are in the translation
+/// unit of the rig, places in its model space. The same bits on every machine, for one character
+/// and for many. A stack serves any number of characters and threads. Immutable.
+///
+/// See docs/mixing.md, 6 "Solvers".
+#[repr(C)]
+pub struct MienSolverStack {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
+/// One character: what its solvers remember between steps.
+#[repr(C)]
+pub struct MienSolverState {
     _size: [u8; 0],
     _opaque: Opaque,
 }
@@ -2096,6 +2123,346 @@ impl Default for MienMixerClip {
     }
 }
 
+/// Turns a joint so that one of its axes points at a target: the shortest way, then about that
+/// axis so that `up_axis` is as near to `up` as it can be. Directions may have any length.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienAimSolver {
+    pub joint: u32,
+    /// Its place is the target. `MIEN_NO_JOINT`: it is at three lanes of the row.
+    pub target_joint: u32,
+    /// First of these three: x y z in model space.
+    pub target_lane: u32,
+    /// Of the joint, not 0.
+    pub axis: [f32; 3],
+    /// Of the joint; 0 0 0: no turn about the axis.
+    pub up_axis: [f32; 3],
+    /// In model space; 0 0 0: 0 1 0.
+    pub up: [f32; 3],
+    /// 0 to 180: farthest from where the neutral pose points. 0: no limit.
+    pub cone_degrees: f32,
+    /// 0 to 1.
+    pub weight: f32,
+}
+
+impl Default for MienAimSolver {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// Lets a joint hang on another joint than its parent, as if the parent moved with that one. A
+/// lane says which of the spaces. When it changes, the joint stays where it is, and what it is off
+/// is eased out.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienSpaceSolver {
+    /// 0 to 2^40.
+    pub ease_ticks: i64,
+    /// Joints. `MIEN_NO_JOINT`: model space.
+    pub spaces: *const u16,
+    /// 1 to 8.
+    pub space_count: u32,
+    /// Of the row: its value, rounded, is a place in `spaces`.
+    pub lane: u32,
+    pub joint: u32,
+    /// 0.
+    pub reserved: u32,
+}
+
+impl Default for MienSpaceSolver {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// Lets the place of a joint swing about where the pose has it: a damped harmonic oscillator in
+/// model space, advanced by its exact solution, so that it is stable for any step. Output 0 is its
+/// speed, in units per second.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienSpringSolver {
+    pub joint: u32,
+    /// Of the undamped spring, in Hertz; above 0.
+    pub frequency: f32,
+    /// Share of the critical damping; 0 or more.
+    pub damping: f32,
+    /// From the place in the pose, in model space.
+    pub rest_offset: [f32; 3],
+    /// Farthest from the place of rest. 0: any.
+    pub stretch: f32,
+    /// What jumps farther in a step takes the joint along. 0: never.
+    pub teleport: f32,
+}
+
+impl Default for MienSpringSolver {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// Gives joints a share of the twist of another joint about an axis. Their own twist is replaced.
+/// Output 0 is the sine of half of the angle.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienTwistSolver {
+    pub joints: *const u16,
+    /// For each of these, -1 to 1: 0.5 is half of the angle.
+    pub shares: *const f32,
+    /// 1 to 8.
+    pub joint_count: u32,
+    /// joint.
+    pub source: u32,
+    /// Of the source and of all joints, not 0.
+    pub axis: [f32; 3],
+    /// 0.
+    pub reserved: u32,
+}
+
+impl Default for MienTwistSolver {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// Moves a joint as another one was moved from its neutral pose, or as its mirror image.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienCopySolver {
+    /// joint.
+    pub source: u32,
+    pub joint: u32,
+    /// As the mirror image.
+    pub is_mirrored: u32,
+    /// From right to left in model space; 0 0 0: 1 0 0.
+    pub mirror_axis: [f32; 3],
+    /// 0 to 1.
+    pub weight: f32,
+}
+
+impl Default for MienCopySolver {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// What a MienUserSolver sees of one character.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienSolverPose {
+    /// 10 floats per joint: tx ty tz qx qy qz qw sx sy sz, relative to the parent. Those of its
+    /// `writes` may be changed; quaternions of any length but 0.
+    pub locals: *mut f32,
+    /// 16 floats per joint, as in `mien_deformer_instance_joint_matrices()`; up to date for its
+    /// `reads`.
+    pub models: *const f32,
+    /// 16 floats for each of its `previous_joints`, after the last step.
+    pub previous: *const f32,
+    /// MienSolverStackDesc.`lane_count` floats. NULL: there are none.
+    pub row: *const f32,
+    /// MienUserSolver.`output_count` floats to publish.
+    pub outputs: *mut f32,
+    /// MienUserSolver.`state_bytes` bytes, aligned to 8; zeros at first.
+    pub state: *mut c_void,
+    pub lod: u32,
+    /// The first step, or the character was moved to another place.
+    pub is_reset: u32,
+}
+
+impl Default for MienSolverPose {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// What a MienUserSolver is called with.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienSolverCall {
+    /// Characters, 64 at most.
+    pub poses: *const MienSolverPose,
+    /// One per joint; a root is its own parent.
+    pub parents: *const u16,
+    /// Since the last step.
+    pub ticks: i64,
+    pub pose_count: u32,
+    pub joint_count: u32,
+}
+
+impl Default for MienSolverCall {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// A solver of the caller. It runs on the thread that steps, and must not use the handles of the
+/// step.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienUserSolver {
+    /// Passed to the function; must live as long as the stack and its states.
+    pub user: *mut c_void,
+    /// Changes the locals of some characters, and nothing else of them but outputs and state.
+    pub solve: Option<unsafe extern "C" fn(user: *mut c_void, call: *const MienSolverCall)>,
+    /// Joints whose model matrices it reads.
+    pub reads: *const u16,
+    /// Joints whose locals it changes.
+    pub writes: *const u16,
+    /// Joints whose model matrices of the last step it reads.
+    pub previous_joints: *const u16,
+    pub read_count: u32,
+    /// 1 or more.
+    pub write_count: u32,
+    pub previous_joint_count: u32,
+    /// 0 to 2^20.
+    pub state_bytes: u32,
+    /// 0 to 4096.
+    pub output_count: u32,
+    /// 0.
+    pub reserved: u32,
+}
+
+impl Default for MienUserSolver {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// One solver: one of the pointers is not NULL.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienSolver {
+    /// For messages. NULL: that of the kind.
+    pub name: *const c_char,
+    /// May be NULL.
+    pub aim: *const MienAimSolver,
+    /// May be NULL.
+    pub space: *const MienSpaceSolver,
+    /// May be NULL.
+    pub spring: *const MienSpringSolver,
+    /// May be NULL.
+    pub twist: *const MienTwistSolver,
+    /// May be NULL.
+    pub copy: *const MienCopySolver,
+    /// May be NULL.
+    pub custom: *const MienUserSolver,
+    /// Where it runs: bit l is LOD l. 0: at all.
+    pub lods: u64,
+}
+
+impl Default for MienSolver {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// How to create a solver stack. Everything is copied.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienSolverStackDesc {
+    pub struct_size: usize,
+    /// In the order in which they run; at most 256.
+    pub solvers: *const MienSolver,
+    pub solver_count: usize,
+    /// Of the rows that steps get, at least. 0: they get none.
+    pub lane_count: u32,
+    /// Compare all joints before and after each solver, for `mien_solver_state_undeclared()`.
+    pub check_writes: u32,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienSolverStackDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// Properties of a solver stack.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienSolverStackInfo {
+    pub struct_size: usize,
+    pub solver_count: u32,
+    pub lane_count: u32,
+    /// Of all solvers.
+    pub output_count: u32,
+    pub joint_count: u32,
+    /// Memory of a state.
+    pub state_bytes: u64,
+}
+
+impl Default for MienSolverStackInfo {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// How to create a solver state.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienSolverStateDesc {
+    pub struct_size: usize,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienSolverStateDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// What solvers of one character get.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienSolverInput {
+    /// Such as that of `mien_mixer_row()`. NULL: none.
+    pub row: *const f32,
+    /// At least MienSolverStackDesc.`lane_count`.
+    pub row_count: usize,
+    /// 0 to 63.
+    pub lod: u32,
+    /// The character was moved to another place: springs come to rest, and spaces do not ease.
+    pub is_reset: u32,
+}
+
+impl Default for MienSolverInput {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
 /// What to generate.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -3017,7 +3384,7 @@ extern "C" {
     /// `MIEN_ERROR_INVALID_ARGUMENT` if a part of `desc` is out of range; the message names it.
     pub fn mien_mix_create(rig: *const MienRig, desc: *const MienMixDesc, out_mix: *mut *mut MienMix, error: *mut MienError) -> MienStatus;
 
-    /// Destroys a mix. Its mixers must be destroyed first.
+    /// Destroys a mix. Its mixers go on: the last of them releases it.
     pub fn mien_mix_destroy(mix: *mut MienMix);
 
     /// Returns the properties of a mix.
@@ -3065,7 +3432,8 @@ extern "C" {
     pub fn mien_gaze_look_at(gaze: *const MienGaze, target: *const MienGazeTarget, row: *mut f32, row_count: usize, out_rest: *mut MienGazeRest) -> MienStatus;
 
     /// Creates a mixer at time 0, with one allocation. Nothing plays; the weights of poses and the
-    /// pose variables are 0. `mix` must outlive it. Destroy with `mien_mixer_destroy()`.
+    /// pose variables are 0. `mix` may be destroyed before it. Destroy with
+    /// `mien_mixer_destroy()`.
     pub fn mien_mixer_create(mix: *const MienMix, desc: *const MienMixerDesc, out_mixer: *mut *mut MienMixer, error: *mut MienError) -> MienStatus;
 
     /// Destroys a mixer.
@@ -3192,6 +3560,66 @@ extern "C" {
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if the bytes are not a snapshot of this mix,
     /// `MIEN_ERROR_MISMATCH` if a clip is missing or is not the one that played.
     pub fn mien_mixer_restore(mixer: *mut MienMixer, bytes: *const c_void, size: usize, clips: *const MienMixerClip, clip_count: usize, error: *mut MienError) -> MienStatus;
+
+    /// Creates a solver stack. `desc` is required. `deformer` may be destroyed before it. Destroy
+    /// with `mien_solver_stack_destroy()`.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if a joint or lane does not exist,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if a number is out of range, or if a solver reads a joint
+    /// that a later one moves; the message names both.
+    pub fn mien_solver_stack_create(deformer: *const MienDeformer, desc: *const MienSolverStackDesc, out_solver_stack: *mut *mut MienSolverStack, error: *mut MienError) -> MienStatus;
+
+    /// Destroys a solver stack. Its states go on: the last of them releases it.
+    pub fn mien_solver_stack_destroy(solver_stack: *mut MienSolverStack);
+
+    /// Returns the properties of a solver stack.
+    pub fn mien_solver_stack_info(solver_stack: *const MienSolverStack, out_info: *mut MienSolverStackInfo) -> MienStatus;
+
+    /// Creates a solver state. `solver_stack` may be destroyed before it. Destroy with
+    /// `mien_solver_state_destroy()`.
+    pub fn mien_solver_state_create(solver_stack: *const MienSolverStack, desc: *const MienSolverStateDesc, out_solver_state: *mut *mut MienSolverState, error: *mut MienError) -> MienStatus;
+
+    /// Destroys a solver state.
+    pub fn mien_solver_state_destroy(solver_state: *mut MienSolverState);
+
+    /// Runs the solvers on the pose of `deformer_instance`, which
+    /// `mien_deformer_instance_update()` has to set before every step. `input` may be NULL: no
+    /// row, LOD 0. `ticks`, the time since the last step, is 0 to 2^40. Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_MISMATCH` if the instance has another deformer than the stack or the
+    /// row is shorter than MienSolverStackDesc.`lane_count`, `MIEN_ERROR_INVALID_ARGUMENT` if
+    /// ticks or LOD are out of range.
+    pub fn mien_solver_state_step(solver_state: *mut MienSolverState, deformer_instance: *mut MienDeformerInstance, input: *const MienSolverInput, ticks: i64) -> MienStatus;
+
+    /// Steps `count` states of one stack; `deformer_instances`\[i\] and inputs\[i\] belong to
+    /// `solver_states`\[i\]. `inputs` may be NULL. The results are those of single calls. No state
+    /// or instance may occur twice. On failure nothing has moved. Does not allocate or lock. Uses
+    /// up to 8 KiB of stack.
+    ///
+    /// Fails like `mien_solver_state_step()`, and with `MIEN_ERROR_MISMATCH` if the states have
+    /// different stacks.
+    pub fn mien_solver_state_step_batch(solver_states: *const *mut MienSolverState, deformer_instances: *const *mut MienDeformerInstance, inputs: *const MienSolverInput, count: usize, ticks: i64) -> MienStatus;
+
+    /// Returns what a solver has published in the last step, one float per output. `solver` counts
+    /// in the order of the stack. Contents change with `mien_solver_state_step()`,
+    /// `mien_solver_state_step_batch()`.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if the solver does not exist.
+    pub fn mien_solver_state_outputs(solver_state: *const MienSolverState, solver: u32, out_values: *mut MienFloatView) -> MienStatus;
+
+    /// Returns the transforms after the last step, relative to the parents: 10 floats per joint,
+    /// tx ty tz qx qy qz qw sx sy sz. (`mien_deformer_instance_local_transforms()` gives those
+    /// before it.)
+    ///
+    /// Contents change with `mien_solver_state_step()`, `mien_solver_state_step_batch()`.
+    pub fn mien_solver_state_transforms(solver_state: *const MienSolverState, out_transforms: *mut MienFloatView) -> MienStatus;
+
+    /// Returns the name of a solver that changed a joint which is not in its list in the last
+    /// step, or an empty string. Contents change with `mien_solver_state_step()`,
+    /// `mien_solver_state_step_batch()`.
+    ///
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if MienSolverStackDesc.`check_writes` was 0.
+    pub fn mien_solver_state_undeclared(solver_state: *const MienSolverState, out_name: *mut MienStringView) -> MienStatus;
 
     /// Generates a rig and opens it: a file of version 2.8 with all layers, behavior of realistic
     /// size and sparsity, and simple geometry. Close with `mien_dna_close()`.

@@ -803,6 +803,178 @@ fn mien_mixer_clip() {
 }
 
 #[test]
+fn mien_aim_solver() {
+    use mien_sys::MienAimSolver as S;
+    assert_eq!(size_of::<S>(), 56);
+    assert_eq!(align_of::<S>(), 4);
+    assert_eq!(offset!(S, joint), 0);
+    assert_eq!(offset!(S, target_joint), 4);
+    assert_eq!(offset!(S, target_lane), 8);
+    assert_eq!(offset!(S, axis), 12);
+    assert_eq!(offset!(S, up_axis), 24);
+    assert_eq!(offset!(S, up), 36);
+    assert_eq!(offset!(S, cone_degrees), 48);
+    assert_eq!(offset!(S, weight), 52);
+}
+
+#[test]
+fn mien_space_solver() {
+    use mien_sys::MienSpaceSolver as S;
+    assert_eq!(size_of::<S>(), 32);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, ease_ticks), 0);
+    assert_eq!(offset!(S, spaces), 8);
+    assert_eq!(offset!(S, space_count), 16);
+    assert_eq!(offset!(S, lane), 20);
+    assert_eq!(offset!(S, joint), 24);
+    assert_eq!(offset!(S, reserved), 28);
+}
+
+#[test]
+fn mien_spring_solver() {
+    use mien_sys::MienSpringSolver as S;
+    assert_eq!(size_of::<S>(), 32);
+    assert_eq!(align_of::<S>(), 4);
+    assert_eq!(offset!(S, joint), 0);
+    assert_eq!(offset!(S, frequency), 4);
+    assert_eq!(offset!(S, damping), 8);
+    assert_eq!(offset!(S, rest_offset), 12);
+    assert_eq!(offset!(S, stretch), 24);
+    assert_eq!(offset!(S, teleport), 28);
+}
+
+#[test]
+fn mien_twist_solver() {
+    use mien_sys::MienTwistSolver as S;
+    assert_eq!(size_of::<S>(), 40);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, joints), 0);
+    assert_eq!(offset!(S, shares), 8);
+    assert_eq!(offset!(S, joint_count), 16);
+    assert_eq!(offset!(S, source), 20);
+    assert_eq!(offset!(S, axis), 24);
+    assert_eq!(offset!(S, reserved), 36);
+}
+
+#[test]
+fn mien_copy_solver() {
+    use mien_sys::MienCopySolver as S;
+    assert_eq!(size_of::<S>(), 28);
+    assert_eq!(align_of::<S>(), 4);
+    assert_eq!(offset!(S, source), 0);
+    assert_eq!(offset!(S, joint), 4);
+    assert_eq!(offset!(S, is_mirrored), 8);
+    assert_eq!(offset!(S, mirror_axis), 12);
+    assert_eq!(offset!(S, weight), 24);
+}
+
+#[test]
+fn mien_solver_pose() {
+    use mien_sys::MienSolverPose as S;
+    assert_eq!(size_of::<S>(), 56);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, locals), 0);
+    assert_eq!(offset!(S, models), 8);
+    assert_eq!(offset!(S, previous), 16);
+    assert_eq!(offset!(S, row), 24);
+    assert_eq!(offset!(S, outputs), 32);
+    assert_eq!(offset!(S, state), 40);
+    assert_eq!(offset!(S, lod), 48);
+    assert_eq!(offset!(S, is_reset), 52);
+}
+
+#[test]
+fn mien_solver_call() {
+    use mien_sys::MienSolverCall as S;
+    assert_eq!(size_of::<S>(), 32);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, poses), 0);
+    assert_eq!(offset!(S, parents), 8);
+    assert_eq!(offset!(S, ticks), 16);
+    assert_eq!(offset!(S, pose_count), 24);
+    assert_eq!(offset!(S, joint_count), 28);
+}
+
+#[test]
+fn mien_user_solver() {
+    use mien_sys::MienUserSolver as S;
+    assert_eq!(size_of::<S>(), 64);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, user), 0);
+    assert_eq!(offset!(S, solve), 8);
+    assert_eq!(offset!(S, reads), 16);
+    assert_eq!(offset!(S, writes), 24);
+    assert_eq!(offset!(S, previous_joints), 32);
+    assert_eq!(offset!(S, read_count), 40);
+    assert_eq!(offset!(S, write_count), 44);
+    assert_eq!(offset!(S, previous_joint_count), 48);
+    assert_eq!(offset!(S, state_bytes), 52);
+    assert_eq!(offset!(S, output_count), 56);
+    assert_eq!(offset!(S, reserved), 60);
+}
+
+#[test]
+fn mien_solver() {
+    use mien_sys::MienSolver as S;
+    assert_eq!(size_of::<S>(), 64);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, name), 0);
+    assert_eq!(offset!(S, aim), 8);
+    assert_eq!(offset!(S, space), 16);
+    assert_eq!(offset!(S, spring), 24);
+    assert_eq!(offset!(S, twist), 32);
+    assert_eq!(offset!(S, copy), 40);
+    assert_eq!(offset!(S, custom), 48);
+    assert_eq!(offset!(S, lods), 56);
+}
+
+#[test]
+fn mien_solver_stack_desc() {
+    use mien_sys::MienSolverStackDesc as S;
+    assert_eq!(size_of::<S>(), 40);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, solvers), 8);
+    assert_eq!(offset!(S, solver_count), 16);
+    assert_eq!(offset!(S, lane_count), 24);
+    assert_eq!(offset!(S, check_writes), 28);
+    assert_eq!(offset!(S, allocator), 32);
+}
+
+#[test]
+fn mien_solver_stack_info() {
+    use mien_sys::MienSolverStackInfo as S;
+    assert_eq!(size_of::<S>(), 32);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, solver_count), 8);
+    assert_eq!(offset!(S, lane_count), 12);
+    assert_eq!(offset!(S, output_count), 16);
+    assert_eq!(offset!(S, joint_count), 20);
+    assert_eq!(offset!(S, state_bytes), 24);
+}
+
+#[test]
+fn mien_solver_state_desc() {
+    use mien_sys::MienSolverStateDesc as S;
+    assert_eq!(size_of::<S>(), 16);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, allocator), 8);
+}
+
+#[test]
+fn mien_solver_input() {
+    use mien_sys::MienSolverInput as S;
+    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, row), 0);
+    assert_eq!(offset!(S, row_count), 8);
+    assert_eq!(offset!(S, lod), 16);
+    assert_eq!(offset!(S, is_reset), 20);
+}
+
+#[test]
 fn mien_generate_desc() {
     use mien_sys::MienGenerateDesc as S;
     assert_eq!(size_of::<S>(), 32);

@@ -1431,6 +1431,34 @@ impl From<sys::MienMixerInfo> for MixerInfo {
     }
 }
 
+/// Properties of a solver stack.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct SolverStackInfo {
+    /// Solver count.
+    pub solver_count: usize,
+    /// Lane count.
+    pub lane_count: usize,
+    /// Of all solvers.
+    pub output_count: usize,
+    /// Joint count.
+    pub joint_count: usize,
+    /// Memory of a state.
+    pub state_bytes: u64,
+}
+
+impl From<sys::MienSolverStackInfo> for SolverStackInfo {
+    fn from(c: sys::MienSolverStackInfo) -> Self {
+        Self {
+            solver_count: c.solver_count as usize,
+            lane_count: c.lane_count as usize,
+            output_count: c.output_count as usize,
+            joint_count: c.joint_count as usize,
+            state_bytes: c.state_bytes,
+        }
+    }
+}
+
 /// The `# Errors` section of what calls a function of the C interface.
 macro_rules! errors {
     (mien_coordinate_system_find) => {
@@ -2050,6 +2078,35 @@ macro_rules! errors {
     (mien_mixer_restore) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the bytes are not a snapshot of this mix\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if a clip is missing or is not the one that played"
+    };
+    (mien_solver_stack_create) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a number is out of range, or if a solver reads a joint that a later one moves; the message names both\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if a joint or lane does not exist\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+    };
+    (mien_solver_stack_info) => {
+        "- none with valid arguments"
+    };
+    (mien_solver_state_create) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+    };
+    (mien_solver_state_step) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if ticks or LOD are out of range\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the instance has another deformer than the stack or the row is shorter than MienSolverStackDesc.`lane_count`"
+    };
+    (mien_solver_state_step_batch) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if ticks or LOD are out of range\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the instance has another deformer than the stack or the row is shorter than MienSolverStackDesc.`lane_count`; or the states have different stacks"
+    };
+    (mien_solver_state_outputs) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if the solver does not exist"
+    };
+    (mien_solver_state_transforms) => {
+        "- none with valid arguments"
+    };
+    (mien_solver_state_undeclared) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if MienSolverStackDesc.`check_writes` was 0"
     };
     (mien_dna_generate) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\

@@ -1,0 +1,472 @@
+// SPDX-License-Identifier: MIT
+// Solver stacks and their states. mien.h is the manual.
+#include <cmath>
+
+#include "capi/handles.h"
+#include "runtime/base/vector.h"
+#include "runtime/solve/solvers.h"
+
+using namespace mien;
+using namespace mien::capi;
+
+static_assert(MIEN_NO_JOINT == kNoSolverJoint && sizeof(MienSolverPose) == sizeof(SolverPose) &&
+                  offsetof(MienSolverPose, previous) == offsetof(SolverPose, previous) &&
+                  offsetof(MienSolverPose, state) == offsetof(SolverPose, state) &&
+                  offsetof(MienSolverPose, is_reset) == offsetof(SolverPose, reset),
+              "both have one layout");
+
+// The stack of the runtime is a block of its own, because it knows no deformers.
+struct MienSolverStack {
+  uint32_t tag;
+  Allocator allocator;
+  mutable std::atomic<uint32_t> owners{1};  // the creator and every state
+  const Deformer* deformer;                 // owned with others
+  Stack* stack;
+  uint32_t lane_count;
+};
+
+struct MienSolverState {
+  uint32_t tag;
+  Allocator allocator;
+  const MienSolverStack* stack;  // owned with others
+  StackState* state;
+  bool in_batch;
+};
+
+namespace {
+
+constexpr size_t kMaxSolvers = 256;
+constexpr uint32_t kMaxStateBytes = 1 << 20, kMaxOutputs = 4096;
+
+using mien::capi::check;
+MienStatus check(const MienSolverStack* stack) { return check_tag(stack, kSolverStackTag); }
+MienStatus check(const MienSolverState* state) { return check_tag(state, kSolverStateTag); }
+
+/// What a MienUserSolver needs when it is called.
+struct UserCall {
+  void(MIEN_CALLBACK* solve)(void* user, const MienSolverCall* call);
+  void* user;
+};
+
+void solve_custom(const SolverArgs& args) {
+  const UserCall& to = *static_cast<const UserCall*>(args.params);
+  const MienSolverCall call = {reinterpret_cast<const MienSolverPose*>(args.poses),
+                               args.skeleton.parents.data, args.ticks, args.count,
+                               args.skeleton.joint_count};
+  to.solve(to.user, &call);
+}
+
+/// Turns the solvers of a desc into those of the runtime, in memory of the arena.
+class Describer {
+ public:
+  Describer(const Skeleton& skeleton, uint32_t lane_count, Arena& arena, MienError* error)
+      : skeleton_(skeleton), lane_count_(lane_count), arena_(arena), error_(error) {}
+
+  MienStatus describe_solver(size_t index, const MienSolver& from, SolverDesc& to) {
+    index_ = index;
+    const int given = (from.aim != nullptr) + (from.space != nullptr) + (from.spring != nullptr) +
+                      (from.twist != nullptr) + (from.copy != nullptr) + (from.custom != nullptr);
+    if (given != 1) return refuse_solver("exactly one of its pointers has to be set");
+    MienStatus status = MIEN_OK;
+    if (from.aim) status = describe_aim(*from.aim, to);
+    if (from.space) status = describe_space(*from.space, to);
+    if (from.spring) status = describe_spring(*from.spring, to);
+    if (from.twist) status = describe_twist(*from.twist, to);
+    if (from.copy) status = describe_copy(*from.copy, to);
+    if (from.custom) status = describe_custom(*from.custom, to);
+    if (from.name) to.name = from.name;
+    if (from.lods != 0) to.lods = from.lods;
+    return status;
+  }
+
+ private:
+  MienStatus refuse_solver(const char* why) {
+    return give_error(error_, MIEN_ERROR_INVALID_ARGUMENT, "solver %zu: %s", index_, why);
+  }
+  MienStatus no_solver_memory() {
+    return give_error(error_, MIEN_ERROR_MEMORY, "no memory for a solver stack");
+  }
+
+  MienStatus read_joint(uint32_t from, uint16_t& to) {
+    if (from >= skeleton_.joint_count) {
+      return give_error(error_, MIEN_ERROR_INDEX, "solver %zu: joint %u of %u", index_, from,
+                        skeleton_.joint_count);
+    }
+    to = static_cast<uint16_t>(from);
+    return MIEN_OK;
+  }
+  MienStatus check_lanes(uint32_t first, uint32_t count) {
+    if (first < lane_count_ && count <= lane_count_ - first) return MIEN_OK;
+    return give_error(error_, MIEN_ERROR_INDEX,
+                      "solver %zu: lane %u of %u (MienSolverStackDesc.lane_count)", index_, first,
+                      lane_count_);
+  }
+
+  /// A direction of length 1; 0 0 0 becomes `otherwise`, or is wrong without it.
+  MienStatus read_direction(const float (&from)[3], const Vec3* otherwise, float (&to)[3]) {
+    Vec3 v = {from[0], from[1], from[2]};
+    if (!(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z))) {
+      return refuse_solver("a direction is not finite");
+    }
+    v = normalized(v);
+    if (is_zero(v)) {
+      if (!otherwise) return refuse_solver("a direction has length 0");
+      v = *otherwise;
+    }
+    to[0] = static_cast<float>(v.x);
+    to[1] = static_cast<float>(v.y);
+    to[2] = static_cast<float>(v.z);
+    return MIEN_OK;
+  }
+  static bool within(float value, float low, float high) { return value >= low && value <= high; }
+
+  MienStatus describe_aim(const MienAimSolver& from, SolverDesc& to) {
+    const Span<AimSolver> solver = arena_.array<AimSolver>(1);
+    if (!solver.data) return no_solver_memory();
+    AimSolver& out = solver[0];
+    if (MienStatus status = read_joint(from.joint, out.joint)) return status;
+    if (from.target_joint != MIEN_NO_JOINT) {
+      if (MienStatus status = read_joint(from.target_joint, out.target_joint)) return status;
+    } else if (MienStatus status = check_lanes(from.target_lane, 3)) {
+      return status;
+    }
+    out.target_lane = from.target_lane;
+    const Vec3 none = {}, up = {0, 1, 0};
+    if (MienStatus status = read_direction(from.axis, nullptr, out.axis)) return status;
+    if (MienStatus status = read_direction(from.up_axis, &none, out.up_axis)) return status;
+    if (MienStatus status = read_direction(from.up, &up, out.up)) return status;
+    if (!within(from.cone_degrees, 0, 180) || !within(from.weight, 0, 1)) {
+      return refuse_solver("cone_degrees or weight is out of range");
+    }
+    if (from.cone_degrees > 0) {
+      constexpr double kRadians = 3.14159265358979323846 / 180;
+      out.cone_cosine = static_cast<float>(std::cos(double{from.cone_degrees} * kRadians));
+    }
+    out.weight = from.weight;
+    to = mien::describe(skeleton_, out);
+    return MIEN_OK;
+  }
+
+  MienStatus describe_space(const MienSpaceSolver& from, SolverDesc& to) {
+    const Span<SpaceSolver> solver = arena_.array<SpaceSolver>(1);
+    if (!solver.data) return no_solver_memory();
+    SpaceSolver& out = solver[0];
+    if (MienStatus status = read_joint(from.joint, out.joint)) return status;
+    if (MienStatus status = check_lanes(from.lane, 1)) return status;
+    if (!from.spaces || from.space_count == 0 || from.space_count > kMaxSolverJoints ||
+        from.ease_ticks < 0 || from.ease_ticks > kMaxFadeTicks || from.reserved != 0) {
+      return refuse_solver(
+          "it has no spaces or too many, ease_ticks is out of range, or reserved is not 0");
+    }
+    for (uint32_t i = 0; i < from.space_count; ++i) {
+      out.spaces[i] = kNoSolverJoint;
+      if (from.spaces[i] == MIEN_NO_JOINT) continue;
+      if (MienStatus status = read_joint(from.spaces[i], out.spaces[i])) return status;
+    }
+    out.space_count = from.space_count;
+    out.lane = from.lane;
+    out.ease_ticks = from.ease_ticks;
+    to = mien::describe(skeleton_, out);
+    return MIEN_OK;
+  }
+
+  MienStatus describe_spring(const MienSpringSolver& from, SolverDesc& to) {
+    const Span<SpringSolver> solver = arena_.array<SpringSolver>(1);
+    if (!solver.data) return no_solver_memory();
+    SpringSolver& out = solver[0];
+    if (MienStatus status = read_joint(from.joint, out.joint)) return status;
+    constexpr float kMost = 1e9f;
+    bool known = from.frequency > 0 && from.frequency <= 1000 && within(from.damping, 0, 1000) &&
+                 within(from.stretch, 0, kMost) && within(from.teleport, 0, kMost);
+    for (float offset : from.rest_offset) known = known && within(offset, -kMost, kMost);
+    if (!known) {
+      return refuse_solver("frequency, damping, rest_offset, stretch or teleport is out of range");
+    }
+    out.frequency = from.frequency;
+    out.damping = from.damping;
+    memcpy(out.rest_offset, from.rest_offset, sizeof(out.rest_offset));
+    if (from.stretch > 0) out.stretch = from.stretch;
+    if (from.teleport > 0) out.teleport = from.teleport;
+    to = mien::describe(skeleton_, out);
+    return MIEN_OK;
+  }
+
+  MienStatus describe_twist(const MienTwistSolver& from, SolverDesc& to) {
+    const Span<TwistSolver> solver = arena_.array<TwistSolver>(1);
+    if (!solver.data) return no_solver_memory();
+    TwistSolver& out = solver[0];
+    if (MienStatus status = read_joint(from.source, out.source)) return status;
+    if (MienStatus status = read_direction(from.axis, nullptr, out.axis)) return status;
+    if (!from.joints || !from.shares || from.joint_count == 0 ||
+        from.joint_count > kMaxSolverJoints || from.reserved != 0) {
+      return refuse_solver("it has no joints or shares, or too many, or reserved is not 0");
+    }
+    for (uint32_t i = 0; i < from.joint_count; ++i) {
+      if (MienStatus status = read_joint(from.joints[i], out.joints[i])) return status;
+      if (!within(from.shares[i], -1, 1)) return refuse_solver("a share is not within -1 to 1");
+      out.shares[i] = from.shares[i];
+    }
+    out.joint_count = from.joint_count;
+    to = mien::describe(skeleton_, out);
+    return MIEN_OK;
+  }
+
+  MienStatus describe_copy(const MienCopySolver& from, SolverDesc& to) {
+    const Span<CopySolver> solver = arena_.array<CopySolver>(1);
+    if (!solver.data) return no_solver_memory();
+    CopySolver& out = solver[0];
+    if (MienStatus status = read_joint(from.source, out.source)) return status;
+    if (MienStatus status = read_joint(from.joint, out.joint)) return status;
+    const Vec3 left = {1, 0, 0};
+    if (MienStatus status = read_direction(from.mirror_axis, &left, out.mirror_axis)) return status;
+    if (!within(from.weight, 0, 1)) return refuse_solver("weight is not within 0 to 1");
+    out.mirrored = from.is_mirrored != 0;
+    out.weight = from.weight;
+    to = mien::describe(skeleton_, out);
+    return MIEN_OK;
+  }
+
+  MienStatus describe_custom(const MienUserSolver& from, SolverDesc& to) {
+    const Span<UserCall> call = arena_.array<UserCall>(1);
+    if (!call.data) return no_solver_memory();
+    if (!from.solve || !from.writes || (!from.reads && from.read_count != 0) ||
+        (!from.previous_joints && from.previous_joint_count != 0)) {
+      return refuse_solver(
+          "it has no function, no writes, or a list is NULL but its count is not 0");
+    }
+    const uint32_t most = skeleton_.joint_count;  // longer lists name a joint twice
+    if (from.write_count == 0 || from.write_count > most || from.read_count > most ||
+        from.previous_joint_count > most || from.state_bytes > kMaxStateBytes ||
+        from.output_count > kMaxOutputs || from.reserved != 0) {
+      return refuse_solver(
+          "a list has no or too many joints, state_bytes or output_count is out of range, "
+          "or reserved is not 0");
+    }
+    call[0] = {from.solve, from.user};
+    to.name = "custom";
+    to.solve = solve_custom;
+    to.params = call.data;
+    to.params_size = sizeof(UserCall);
+    to.reads = {from.reads, from.read_count};
+    to.writes = {from.writes, from.write_count};
+    to.previous = {from.previous_joints, from.previous_joint_count};
+    to.state_size = from.state_bytes;
+    to.output_count = from.output_count;
+    return MIEN_OK;
+  }
+
+  const Skeleton& skeleton_;
+  uint32_t lane_count_;
+  Arena& arena_;
+  MienError* error_;
+  size_t index_ = 0;
+};
+
+void release_stack_handle(const MienSolverStack* stack) {
+  if (stack->owners.fetch_sub(1, std::memory_order_acq_rel) != 1) return;
+  MienSolverStack* last = const_cast<MienSolverStack*>(stack);
+  const Allocator allocator = last->allocator;
+  release_stack(last->stack);
+  release_deformer(last->deformer);
+  last->tag = 0;
+  last->~MienSolverStack();
+  allocator.put(last, sizeof(MienSolverStack), alignof(MienSolverStack));
+}
+
+}  // namespace
+
+// Stack -------------------------------------------------------------------------------------------
+
+MienStatus mien_solver_stack_create(const MienDeformer* deformer, const MienSolverStackDesc* desc,
+                                    MienSolverStack** out_stack, MienError* error) {
+  if (MienStatus status = clear_output(out_stack, error)) return status;
+  if (MienStatus status = check(deformer, "deformer", error)) return status;
+  if (!desc) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "desc is NULL");
+  MienSolverStackDesc known;
+  if (MienStatus status = read_desc(desc, known, "MienSolverStackDesc", error)) return status;
+  Allocator allocator;
+  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
+  if (!known.solvers && known.solver_count != 0) {
+    return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "MienSolverStackDesc.solvers is NULL");
+  }
+  if (known.solver_count > kMaxSolvers) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "%zu solvers; a stack has at most %zu",
+                      known.solver_count, kMaxSolvers);
+  }
+  const Skeleton& skeleton = object(deformer)->skeleton;
+  Arena arena(allocator);
+  const Span<SolverDesc> solvers = arena.array<SolverDesc>(known.solver_count);
+  void* block = solvers.count == known.solver_count
+                    ? allocator.get(sizeof(MienSolverStack), alignof(MienSolverStack))
+                    : nullptr;
+  if (!block) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a solver stack");
+  Stack* stack = nullptr;
+  Describer describer(skeleton, known.lane_count, arena, error);
+  MienStatus status = MIEN_OK;
+  for (size_t i = 0; i < solvers.count && status == MIEN_OK; ++i) {
+    status = describer.describe_solver(i, known.solvers[i], solvers[i]);
+  }
+  if (status == MIEN_OK) {
+    Error detail;
+    const StackDesc stack_desc = {{solvers.data, solvers.count}, known.check_writes != 0};
+    if (create_stack(skeleton, stack_desc, allocator, stack, detail) != Status::kOk) {
+      status = give_error(detail, error);
+    }
+  }
+  if (status != MIEN_OK) {
+    allocator.put(block, sizeof(MienSolverStack), alignof(MienSolverStack));
+    return status;
+  }
+  object(deformer)->owners.fetch_add(1, std::memory_order_relaxed);
+  auto* made = new (block) MienSolverStack;
+  made->tag = kSolverStackTag;
+  made->allocator = allocator;
+  made->deformer = object(deformer);
+  made->stack = stack;
+  made->lane_count = known.lane_count;
+  *out_stack = made;
+  return succeed(error);
+}
+
+void mien_solver_stack_destroy(MienSolverStack* stack) {
+  if (check(stack) == MIEN_OK) release_stack_handle(stack);
+}
+
+MienStatus mien_solver_stack_info(const MienSolverStack* handle, MienSolverStackInfo* out_info) {
+  if (MienStatus status = clear_struct(out_info)) return status;
+  if (MienStatus status = check(handle)) return status;
+  const Stack& stack = *handle->stack;
+  MienSolverStackInfo info = {};
+  info.solver_count = static_cast<uint32_t>(stack.solvers.count);
+  info.lane_count = handle->lane_count;
+  info.output_count = stack.output_count;
+  info.joint_count = stack.skeleton->joint_count;
+  info.state_bytes = sizeof(MienSolverState) + stack_state_size(stack);
+  write_struct(out_info, info);
+  return MIEN_OK;
+}
+
+// State -------------------------------------------------------------------------------------------
+
+MienStatus mien_solver_state_create(const MienSolverStack* stack, const MienSolverStateDesc* desc,
+                                    MienSolverState** out_state, MienError* error) {
+  if (MienStatus status = clear_output(out_state, error)) return status;
+  if (MienStatus status = check(stack)) return give_error(error, status, "not a solver stack");
+  MienSolverStateDesc known;
+  if (MienStatus status = read_desc(desc, known, "MienSolverStateDesc", error)) return status;
+  Allocator allocator;
+  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
+  void* block = allocator.get(sizeof(MienSolverState), alignof(MienSolverState));
+  StackState* state = block ? create_stack_state(*stack->stack, allocator) : nullptr;
+  if (!state) {
+    if (block) allocator.put(block, sizeof(MienSolverState), alignof(MienSolverState));
+    return give_error(error, MIEN_ERROR_MEMORY, "no memory for a solver state");
+  }
+  stack->owners.fetch_add(1, std::memory_order_relaxed);
+  *out_state = new (block) MienSolverState{kSolverStateTag, allocator, stack, state, false};
+  return succeed(error);
+}
+
+void mien_solver_state_destroy(MienSolverState* state) {
+  if (check(state) != MIEN_OK) return;
+  const MienSolverStack* const stack = state->stack;
+  const Allocator allocator = state->allocator;
+  destroy_stack_state(state->state);
+  state->tag = 0;
+  allocator.put(state, sizeof(MienSolverState), alignof(MienSolverState));
+  release_stack_handle(stack);
+}
+
+namespace {
+
+MienStatus check_input(const MienSolverState& state, const MienDeformerInstance* instance,
+                       const MienSolverInput* input) {
+  if (MienStatus status = check(instance)) return status;
+  const MienSolverStack& stack = *state.stack;
+  if (object(instance)->deformer != stack.deformer) return MIEN_ERROR_MISMATCH;
+  if (input && !input->row && input->row_count != 0) return MIEN_ERROR_NULL_ARGUMENT;
+  if (stack.lane_count > (input ? input->row_count : 0)) return MIEN_ERROR_MISMATCH;
+  return input && input->lod > 63 ? MIEN_ERROR_INVALID_ARGUMENT : MIEN_OK;
+}
+
+}  // namespace
+
+MienStatus mien_solver_state_step(MienSolverState* state, MienDeformerInstance* instance,
+                                  const MienSolverInput* input, int64_t ticks) {
+  return mien_solver_state_step_batch(&state, &instance, input, 1, ticks);
+}
+
+MienStatus mien_solver_state_step_batch(MienSolverState* const* states,
+                                        MienDeformerInstance* const* instances,
+                                        const MienSolverInput* inputs, size_t count,
+                                        int64_t ticks) {
+  if (count == 0) return MIEN_OK;
+  if (!states || !instances) return MIEN_ERROR_NULL_ARGUMENT;
+  if (ticks < 0 || ticks > kMaxStepTicks) return MIEN_ERROR_INVALID_ARGUMENT;
+  for (size_t i = 0; i < count; ++i) {
+    if (MienStatus status = check(states[i])) return status;
+    if (states[i]->stack != states[0]->stack) return MIEN_ERROR_MISMATCH;
+    const MienSolverInput* const input = inputs ? inputs + i : nullptr;
+    if (MienStatus status = check_input(*states[i], instances[i], input)) return status;
+  }
+  MienStatus status = MIEN_OK;
+  size_t marked = 0;
+  for (; marked < count && status == MIEN_OK; ++marked) {
+    DeformerInstance& instance = *object(instances[marked]);
+    if (states[marked]->in_batch || instance.in_batch) {
+      status = MIEN_ERROR_INVALID_ARGUMENT;
+      break;
+    }
+    states[marked]->in_batch = instance.in_batch = true;
+  }
+  for (size_t i = 0; i < marked; ++i) {
+    states[i]->in_batch = object(instances[i])->in_batch = false;
+  }
+  if (status != MIEN_OK) return status;
+
+  const MienSolverStack& stack = *states[0]->stack;
+  StackPose poses[kMaxStackPoses];
+  for (size_t first = 0; first < count; first += kMaxStackPoses) {
+    const size_t some = count - first < kMaxStackPoses ? count - first : kMaxStackPoses;
+    for (size_t i = 0; i < some; ++i) {
+      const MienSolverInput input = inputs ? inputs[first + i] : MienSolverInput{};
+      poses[i] = {states[first + i]->state, &object(instances[first + i])->joints,
+                  stack.lane_count != 0 ? input.row : nullptr, input.lod, input.is_reset != 0};
+    }
+    step_stack(*stack.stack, {poses, some}, ticks);
+  }
+  return MIEN_OK;
+}
+
+MienStatus mien_solver_state_outputs(const MienSolverState* state, uint32_t solver,
+                                     MienFloatView* out_values) {
+  if (!out_values) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_values = {};
+  if (MienStatus status = check(state)) return status;
+  const Stack& stack = *state->stack->stack;
+  if (solver >= stack.solvers.count) return MIEN_ERROR_INDEX;
+  const uint32_t first = stack.solvers[solver].first_output;
+  const uint32_t end = solver + 1 < stack.solvers.count ? stack.solvers[solver + 1].first_output
+                                                        : stack.output_count;
+  *out_values = {state->state->outputs.data + first, end - first};
+  return MIEN_OK;
+}
+
+MienStatus mien_solver_state_transforms(const MienSolverState* state,
+                                        MienFloatView* out_transforms) {
+  if (!out_transforms) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_transforms = {};
+  if (MienStatus status = check(state)) return status;
+  *out_transforms = {state->state->locals.data, state->state->locals.count};
+  return MIEN_OK;
+}
+
+MienStatus mien_solver_state_undeclared(const MienSolverState* state, MienStringView* out_name) {
+  if (!out_name) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_name = {};
+  if (MienStatus status = check(state)) return status;
+  if (!state->stack->stack->check_writes) return MIEN_ERROR_INVALID_ARGUMENT;
+  const char* const name = state->state->undeclared;
+  if (name) *out_name = {name, strlen(name)};
+  return MIEN_OK;
+}
