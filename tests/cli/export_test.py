@@ -633,6 +633,10 @@ class Readers(ExportTest):
             jobs["golden_" + name] = [rig, "--lod", "all"]
         for name, arguments in jobs.items():
             self.ok("export", *arguments, "-o", path(name + ".glb"), "--quiet")
+        if makes_heads():
+            self.ok("play", os.path.join(project, "examples", "scene.json"), path("head.dna"),
+                    "--rate", "10", "-o", path("played.glb"), "--quiet")
+            jobs["played"] = []
         self.made.extend(jobs)
         return self.made
 
@@ -655,6 +659,8 @@ class Readers(ExportTest):
             self.assertLessEqual({m["code"] for m in report["messages"]}, {"UNUSED_OBJECT"}, name)
         facts = dict(zip(names, (report["info"] for report in reports)))
         self.assertEqual(facts["moving"]["animationCount"], 1)
+        if "played" in facts:
+            self.assertEqual(facts["played"]["animationCount"], 1)
         self.assertEqual(facts["four"]["maxInfluences"], 4)
         self.assertEqual(facts["small"]["maxInfluences"], 8)
         self.assertTrue(facts["baked"]["hasMorphTargets"] and not facts["baked"]["hasSkins"])

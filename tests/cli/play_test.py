@@ -7,11 +7,16 @@
 import json
 import os
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree
+
+here = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(here, "..", "support"))
+from glb import Glb  # noqa: E402
 
 DONE, USAGE, INVALID, FILE, INTERNAL = range(5)
 
@@ -45,6 +50,11 @@ def write(name, text):
     with open(path(name), "w", encoding="utf-8") as file:
         file.write(text)
     return path(name)
+
+
+def load(name):
+    with open(name, encoding="utf-8") as file:
+        return json.load(file)
 
 
 def run(*arguments, stdin=b""):
@@ -219,6 +229,93 @@ class PlayTest(unittest.TestCase):
             self.assertAlmostEqual(float(row["jawOpen"]), played.value("jawOpen", 60), 6)
         done = run("eval", path("head.dna"), "--input", names[0], "-o", path("evaluated.json"))
         self.assertEqual(done.returncode, DONE, done.stderr.decode())
+
+    def test_a_glb_is_what_export_makes_of_the_frames(self):
+        scene = {"seconds": 0.5, "layers": [TALK, JOY],
+                 "events": [{"time": 0, "layer": "joy", "weights": {"smile": 1}, "fade": 0.4}]}
+        for lod in "0", "3":
+            self.play(scene, "-o", path("frames.json"), "-o", path("played.glb"), "--lod", lod)
+            done = run("export", path("head.dna"), "--animation", path("frames.json"), "--fps", "60",
+                       "--lod", lod, "-o", path("exported.glb"), "-q")
+            self.assertEqual(done.returncode, DONE, done.stderr.decode())
+            with open(path("played.glb"), "rb") as played, open(path("exported.glb"), "rb") as exported:
+                glb = Glb(played.read())
+                self.assertEqual(glb.json, Glb(exported.read()).json)
+                played.seek(0), exported.seek(0)
+                self.assertEqual(played.read(), exported.read())
+            animation, = glb.json["animations"]
+            paths = {channel["target"]["path"] for channel in animation["channels"]}
+            self.assertIn("rotation", paths)
+
+    def test_pictures_are_those_of_the_frames(self):
+        look = ["--target", "mouth", "--size", "48x40", "--samples", "1", "--lod", "2"]
+        self.play({"seconds": 1, "layers": [TALK]}, "-o", path("frames.json"), "-o",
+                  path("played-%02d.png"), "--every", "0.4", *look)
+        frames = load(path("frames.json"))["frames"]
+        write("three.json", json.dumps({"frames": [frames[f] for f in (0, 24, 48)]}))
+        done = run("render", path("head.dna"), "--frames", path("three.json"), "-o",
+                   path("drawn-%02d.png"), "-q", *look)
+        self.assertEqual(done.returncode, DONE, done.stderr.decode())
+        pictures = []
+        for number in range(3):
+            with open(path(f"played-{number:02}.png"), "rb") as played, \
+                    open(path(f"drawn-{number:02}.png"), "rb") as drawn:
+                pictures.append(played.read())
+                self.assertEqual(pictures[-1], drawn.read())
+        self.assertEqual(len(set(pictures)), 3)
+        self.assertFalse(os.path.exists(path("played-03.png")))
+
+    def size_of_strip(self, *options, seconds=2):
+        self.play({"layers": [TALK], "seconds": seconds}, "-o", path("strip.png"), "--lod", "5",
+                  "--size", "30x20", "--samples", "1", *options)
+        with open(path("strip.png"), "rb") as file:
+            return struct.unpack_from(">II", file.read(), 16)
+
+    def test_a_strip_has_a_picture_every_so_many_seconds(self):
+        gap, label = 6, 15
+        size = lambda columns, rows: (columns * (30 + gap) + gap, rows * (20 + label + gap) + gap)
+        # 0, 0.5, ... 2 s; 16 pictures at most if nothing is said; frames are not shown twice.
+        self.assertEqual(self.size_of_strip("--every", "0.5"), size(5, 1))
+        self.assertEqual(self.size_of_strip("--every", "0.5", "--columns", "2"), size(2, 3))
+        self.assertEqual(self.size_of_strip(), size(8, 2))
+        self.assertEqual(self.size_of_strip(seconds=0), size(1, 1))
+        self.assertEqual(self.size_of_strip("--every", "0.001", "--rate", "4"), size(8, 2))
+
+    def test_options_of_outputs_that_are_not_there(self):
+        for *options, says in ((["--every", "1"], "OUT.png"), (["--target", "mouth"], "OUT.png"),
+                               (["--influences", "8"], "OUT.glb"), (["--lod", "2"], "OUT.png"),
+                               (["-o", path("x.png"), "--every", "0"], "--every"),
+                               (["-o", path("x.png"), "--every", "soon"], "--every"),
+                               (["-o", path("x%d.png"), "--columns", "2"], "--columns"),
+                               (["-o", path("x.png"), "--columns", "0"], "--columns"),
+                               (["-o", path("x.png"), "--camera", "frunt"], "front"),
+                               (["-o", path("x.png"), "--target", "nsoe"], "nsoe"),
+                               (["-o", path("x.glb"), "--influences", "5"], "--influences")):
+            with self.subTest(options[0]):
+                code = INVALID if says == "nsoe" else USAGE
+                self.refused({"layers": [TALK]}, says, *options[0], code=code)
+                self.assertFalse(os.path.exists(path("x.png")))
+        self.assertEqual(run("bake", path("head.dna"), "-o", path("head.rig"), "-q").returncode, DONE)
+        write("scene.json", json.dumps({"seconds": 0.1, "layers": [TALK]}))
+        done = run("play", path("scene.json"), path("head.rig"), "-o", path("x.glb"))
+        self.assertEqual(done.returncode, USAGE)
+        self.assertIn(b"give the DNA file", done.stderr)
+        done = run("play", path("scene.json"), path("head.rig"), "-o", path("baked.png"), "--size", "32")
+        self.assertEqual(done.returncode, DONE, done.stderr.decode())
+        done = run("play", path("scene.json"), "-", "-o", path("x.png"), stdin=b"")
+        self.assertEqual(done.returncode, USAGE)
+
+    def test_the_scene_of_the_examples_closes_lips_and_lids(self):
+        scene = load(os.path.join(here, "../../examples/scene.json"))
+        held = self.play(scene)
+        free = self.play({**scene, "guards": []})
+        lips_closed, both = round(1.2 * 60), round(1.8 * 60)
+        for frame in lips_closed, both:
+            self.assertGreater(free.value("jawOpen", frame), 0.25)
+            self.assertEqual(held.value("jawOpen", frame), 0)
+            self.assertGreater(held.value("mouthSmileLeft", frame), 0.85)
+        self.assertLess(held.value("eyeBlinkLeft", lips_closed), 0.01)
+        self.assertGreater(held.value("eyeBlinkLeft", both), 0.95)
 
     def test_wrong_scenes(self):
         joy = lambda **change: {"layers": [{**JOY, **change}]}

@@ -5,14 +5,12 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "integrations/cli/commands/options.h"
+#include "integrations/cli/commands/exported_rig.h"
 #include "integrations/cli/gltf/arkit_bake.h"
 #include "integrations/cli/gltf/glb_writer.h"
 #include "integrations/cli/gltf/obj_writer.h"
 #include "integrations/cli/io/controls.h"
-#include "integrations/cli/io/dna_fields.h"
 #include "integrations/cli/io/output.h"
-#include "integrations/cli/io/text.h"
 
 namespace mien::cli {
 
@@ -82,124 +80,7 @@ void check_combination(const ExportOptions& options, Format format) {
   }
 }
 
-// Rig ---------------------------------------------------------------------------------------------
-
-/// A rig, opened with the LODs to export, and the character that is posed.
-class Face {
- public:
-  Face(const ExportOptions& options, const Session& session) {
-    auto desc = sized<MienDnaDesc>();
-    desc.layers = kEvaluationLayers | MIEN_LAYER_GEOMETRY;
-    if (options.lod != "all") {
-      first_lod = parse_lod(options.lod, true);
-      desc.lods = uint64_t{1} << first_lod;
-    }
-    file = open_rig_file(options.rig, desc, session);
-    // Plain C++ rounds alike on every machine, and so the files are the same.
-    auto rig_desc = sized<MienRigDesc>();
-    rig_desc.isa = MIEN_ISA_SCALAR;
-    rig = create_rig(file, rig_desc);
-
-    auto error = sized<MienError>();
-    MienDeformer* deformer_made = nullptr;
-    check(mien_deformer_create(file.dna.get(), rig.get(), nullptr, &deformer_made, &error), &error,
-          "cannot prepare geometry", file.shown);
-    deformer.reset(deformer_made);
-    MienInstance* instance_made = nullptr;
-    check(mien_instance_create(rig.get(), nullptr, &instance_made, &error), &error,
-          "cannot prepare rig", file.shown);
-    instance.reset(instance_made);
-    source = std::make_unique<gltf::RigSource>(
-        gltf::RigHandles{file.dna.get(), rig.get(), deformer.get()});
-    pose = gltf::make_deformer_instance(*source);
-  }
-
-  /// Evaluates a frame at the finest LOD, and the pose with it.
-  void apply(const Frame& frame) const {
-    check(mien_instance_reset(instance.get()), nullptr, kCannot, file.shown);
-    apply_frame(frame, rig.get(), instance.get());
-    check(mien_rig_evaluate(rig.get(), instance.get(), 0), nullptr, kCannot, file.shown);
-    check(mien_deformer_instance_update(pose.get(), instance.get()), nullptr, kCannot, file.shown);
-  }
-
-  MienFloatView channel_weights() const {
-    MienFloatView view{};
-    check(mien_instance_blend_shapes(instance.get(), &view), nullptr, kCannot, file.shown);
-    return view;
-  }
-
-  MienFloatView raw_controls() const {
-    MienFloatView view{};
-    check(mien_instance_controls(instance.get(), &view), nullptr, kCannot, file.shown);
-    return view;
-  }
-
-  uint32_t first_lod = 0;
-  RigFile file;
-  Rig rig;
-  Deformer deformer;
-  Instance instance;
-  std::unique_ptr<gltf::RigSource> source;
-  DeformerInstance pose;
-};
-
-gltf::SceneOptions scene_options(const Face& face, const ExportOptions& options) {
-  gltf::SceneOptions scene;
-  scene.name = read_string(face.file, "desc.name");
-  if (scene.name.empty()) scene.name = "rig";
-  scene.first_lod = face.first_lod;
-  if (!options.influences.empty()) {
-    scene.influences =
-        4 + 4 * static_cast<uint32_t>(parse_word("--influences", options.influences));
-  }
-  return scene;
-}
-
-std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.2g %%", share * 100);
-  return text;
-}
-
-void note_losses(const Face& face, const gltf::Losses& losses, const Session& session) {
-  const std::string& shown = face.file.shown;
-  if (losses.cut_positions != 0) {
-    note(session, shown + ": " + std::to_string(losses.cut_positions) +
-                      " positions follow more than " + std::to_string(losses.places) +
-                      " joints; the lightest were dropped, up to " +
-                      percent(losses.max_weight_cut) + " of a position's weight");
-  }
-  if (losses.corrected_positions != 0) {
-    note(session, shown + ": skin weights of " + std::to_string(losses.corrected_positions) +
-                      " positions do not sum to 1 or are negative, which glTF forbids; they were "
-                      "corrected, by up to " +
-                      percent(losses.max_correction));
-  }
-  for (const std::string& mesh : losses.empty_meshes) {
-    note(session, shown + ": mesh " + one_line(mesh) + " has no faces: left out");
-  }
-}
-
 // GLB ---------------------------------------------------------------------------------------------
-
-std::string rig_glb(const Face& face, const Frame& still, const std::vector<Frame>& frames,
-                    double rate, const ExportOptions& options, const Session& session) {
-  gltf::RigScene scene = gltf::make_rig_scene(*face.source, scene_options(face, options));
-  note_losses(face, scene.losses, session);
-  face.apply(still);
-  gltf::set_pose(scene, *face.source, face.pose.get(), face.channel_weights());
-  if (!frames.empty()) {
-    gltf::AnimationRecorder recorder(scene, *face.source, "frames", rate);
-    Progress progress(session, "frame", frames.size());
-    for (size_t f = 0; f < frames.size(); ++f) {
-      progress.at(f);
-      face.apply(frames[f]);
-      recorder.add_frame(face.pose.get(), face.channel_weights());
-    }
-    scene.scene.animation = recorder.finish();
-  }
-  return gltf::write_glb(scene.scene);
-}
 
 /// What baking loses, for people: on standard output, unless that is the file.
 void print_report(const gltf::BakeReport& report, FILE* stream) {
@@ -227,7 +108,7 @@ void print_report(const gltf::BakeReport& report, FILE* stream) {
 }
 
 /// Raw controls that a baked file has no weight for.
-void note_lost_controls(const Face& face, const gltf::ArkitControls& controls,
+void note_lost_controls(const ExportedRig& face, const gltf::ArkitControls& controls,
                         const std::vector<const Frame*>& frames, const Session& session) {
   std::vector<bool> is_known(rig_count(face.rig.get(), MIEN_KIND_RAW_CONTROL));
   for (const auto& expression : controls.controls) is_known[expression[0].control] = true;
@@ -248,7 +129,7 @@ void note_lost_controls(const Face& face, const gltf::ArkitControls& controls,
                     "for them");
 }
 
-std::string baked_glb(const Face& face, const Frame& still, const std::vector<Frame>& frames,
+std::string baked_glb(const ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
                       double rate, const ExportOptions& options, const Session& session) {
   const gltf::ArkitControls controls = gltf::find_arkit_controls(*face.source);
   const bool is_posed = !options.settings.empty() || !frames.empty();
@@ -257,7 +138,8 @@ std::string baked_glb(const Face& face, const Frame& still, const std::vector<Fr
          "not all ARKit expressions are controls of the rig, so controls are no weights of them",
          "leave out --bake-arkit, or --set and --animation");
   }
-  gltf::RigScene scene = gltf::make_still_scene(*face.source, scene_options(face, options));
+  gltf::RigScene scene =
+      gltf::make_still_scene(*face.source, face.scene_options(options.influences));
   note_losses(face, scene.losses, session);
   const auto mouth_close = static_cast<gltf::MouthClose>(
       options.mouth_close.empty() ? 0 : parse_word("--mouth-close", options.mouth_close));
@@ -309,10 +191,8 @@ void run(const ExportOptions& options, const Session& session) {
     refuse_replacing(materials, {options.rig});
   }
   try {
-    const Face face(options, session);
-    for (const std::string& problem : face.source->color_problems()) {
-      note(session, face.file.shown + ": " + problem + "; exporting without these colors");
-    }
+    const ExportedRig face(options.rig, options.lod, session);
+    note_color_problems(face, session);
     const Frame still = parse_settings(options.settings, face.rig.get(), face.file.shown);
     std::vector<Frame> frames;
     if (!options.animation.empty()) {
@@ -335,16 +215,14 @@ void run(const ExportOptions& options, const Session& session) {
     } else if (options.bake) {
       bytes = baked_glb(face, still, frames, rate, options, session);
     } else {
-      bytes = rig_glb(face, still, frames, rate, options, session);
+      bytes = rig_glb(face, still, frames, rate, face.scene_options(options.influences), session);
     }
     Output output(options.output.path);
     output.write(bytes);
     output.commit();
     note_written(session, options.output.path, output.size());
   } catch (const gltf::ExportError& error) {
-    const std::string where = error.where.empty() ? "" : ", " + one_line(error.where);
-    fail(exit_code_of(error.status), kCannot, shown_name(options.rig) + where, error.what(),
-         error.what_to_do);
+    fail_export(error, options.rig);
   }
 }
 

@@ -2,38 +2,39 @@
 // mien play: a scene of clips, poses, reactions and generators on a rig, as frames of controls.
 #include <algorithm>
 #include <charconv>
-#include <cmath>
+#include <map>
 #include <optional>
 
 #include "integrations/cli/commands/baked_rig.h"
+#include "integrations/cli/commands/contact_strip.h"
+#include "integrations/cli/commands/exported_rig.h"
 #include "integrations/cli/commands/options.h"
-#include "integrations/cli/io/controls.h"
 #include "integrations/cli/io/dna_fields.h"
-#include "integrations/cli/io/json_writer.h"
-#include "integrations/cli/io/take.h"
+#include "integrations/cli/io/frame_rate.h"
+#include "integrations/cli/io/nearest_name.h"
 #include "integrations/cli/io/text.h"
-#include "integrations/cli/play/lanes_svg.h"
-#include "integrations/cli/play/performance.h"
+#include "integrations/cli/play/recording.h"
 
 namespace mien::cli {
 
 namespace {
 
 struct PlayOptions {
-  std::string scene, rig, rate, seconds, seed, stages;
+  std::string scene, rig, rate, seconds, seed, stages, influences;
   std::vector<std::string> outputs;
+  StripOptions strip;  // with --lod, which a GLB has as well
   bool force = false;
 };
 
-/// All frames, as they are written.
-struct Recording {
-  std::vector<double> times;
-  std::vector<float> rows;                 // [frame][lane]
-  std::vector<std::vector<float>> stages;  // [frame][watched lane * stages + stage]
-};
+const Words kEndings = {".json", ".csv", ".clip", ".svg", ".glb", ".png"};
 
 bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+bool any_ends_with(const std::vector<std::string>& outputs, const std::string& end) {
+  return std::any_of(outputs.begin(), outputs.end(),
+                     [&](const std::string& output) { return ends_with(output, end); });
 }
 
 double parse_seconds(const std::string& option, const std::string& word) {
@@ -55,187 +56,83 @@ std::vector<std::string> split(const std::string& list) {
   return words;
 }
 
-void write_json(const std::string& rig_name, double rate, const Performance& performance,
-                const Recording& recording, const std::vector<uint16_t>& watched, Output& output) {
-  const RigLanes& lanes = performance.lanes();
-  const size_t controls = lanes.controls().size(), count = lanes.count();
-  JsonWriter json(output);
-  using Layout = JsonWriter::Layout;
-  const auto list = [&](const char* key, const std::vector<std::string>& names) {
-    json.key(key);
-    json.begin_array();
-    for (const std::string& name : names) json.value(name);
-    json.end_array();
-  };
-  json.begin_object(Layout::kLines);
-  json.member("rig", rig_name);
-  json.key("rate");
-  json.shortest(rate);
-  list("controls", lanes.controls());
-  list("variables", lanes.variables());
-  json.key("events");
-  json.begin_array(Layout::kLines);
-  for (const FiredEvent& event : performance.events()) {
-    json.begin_object();
-    json.key("time");
-    json.shortest(event.time);
-    json.member("layer", event.layer);
-    json.member("name", event.name);
-    json.key("value");
-    json.shortest(static_cast<double>(event.value));
-    json.end_object();
-  }
-  json.end_array();
-  json.key("frames");
-  json.begin_array(Layout::kLines);
-  const size_t stage_count = performance.stages().size();
-  for (size_t f = 0; f < recording.times.size(); ++f) {
-    json.begin_object();
-    json.key("time");
-    json.shortest(recording.times[f]);
-    const float* row = &recording.rows[f * count];
-    json.key("raw");
-    json.floats(row, controls);
-    json.key("variables");
-    json.floats(row + controls, count - controls);
-    if (!watched.empty()) {
-      json.key("stages");
-      json.begin_object();
-      for (size_t w = 0; w < watched.size(); ++w) {
-        json.key(watched[w] < controls ? short_name(lanes.controls()[watched[w]])
-                                       : lanes.variables()[watched[w] - controls]);
-        json.begin_array();
-        for (size_t s = 0; s < stage_count; ++s) {
-          json.begin_array();
-          json.value(performance.stages()[s]);
-          json.shortest(static_cast<double>(recording.stages[f][w * stage_count + s]));
-          json.end_array();
-        }
-        json.end_array();
-      }
-      json.end_object();
-    }
-    json.end_object();
-  }
-  json.end_array();
-  json.end_object();
-  json.finish();
-}
-
-void write_csv(const Performance& performance, const Recording& recording, Output& output) {
-  const RigLanes& lanes = performance.lanes();
-  std::string text = "time";
-  for (const std::string& name : lanes.controls()) text += "," + name;
-  text += "\n";
-  char digits[64];
-  const auto append = [&](auto number) {
-    text.append(digits, std::to_chars(digits, digits + sizeof(digits), number).ptr);
-  };
-  for (size_t f = 0; f < recording.times.size(); ++f) {
-    append(recording.times[f]);
-    for (size_t c = 0; c < lanes.controls().size(); ++c) {
-      text += ',';
-      append(recording.rows[f * lanes.count() + c]);
-    }
-    text += '\n';
-    output.write(text);
-    text.clear();
-  }
-}
-
-void write_clip(const Performance& performance, const Recording& recording, double rate,
-                const std::string& shown, Output& output) {
-  const RigLanes& lanes = performance.lanes();
-  std::vector<MienStringView> names;
-  for (const std::string& name : lanes.controls()) names.push_back({name.data(), name.size()});
-  const Rate fraction = nearest_rate(rate, 1e-9);
-  auto desc = sized<MienClipDesc>();
-  desc.rate_numerator = fraction.numerator;
-  desc.rate_denominator = fraction.denominator;
-  desc.frame_count = static_cast<uint32_t>(recording.times.size());
-  desc.channel_count = static_cast<uint32_t>(names.size());
-  desc.names = names.data();
-  desc.values = recording.rows.data();
-  desc.frame_stride = lanes.count();
-  auto error = sized<MienError>();
-  MienClip* made = nullptr;
-  check(mien_clip_build(&desc, &made, &error), &error, "cannot build clip", shown);
-  const Clip clip(made);
-  size_t size = 0;
-  check(mien_clip_write_memory(made, nullptr, 0, &size, &error), &error, "cannot build clip",
-        shown);
-  std::vector<char> bytes(size);
-  check(mien_clip_write_memory(made, bytes.data(), size, &size, &error), &error,
-        "cannot build clip", shown);
-  output.write(bytes.data(), size);
-}
-
-/// Lanes that were named, else all that move.
 std::vector<uint16_t> watched_lanes(const std::string& names, RigLanes lanes) {
   std::vector<uint16_t> watched;
   for (const std::string& name : split(names)) watched.push_back(lanes.lane(name, "--stages"));
   return watched;
 }
 
-/// Drops the watched lanes that stay as they are, with their stages.
-void keep_moving(const Performance& performance, std::vector<uint16_t>& watched,
-                 Recording& recording) {
-  const size_t stage_count = performance.stages().size(), count = performance.lanes().count();
-  std::vector<size_t> kept;
-  for (size_t w = 0; w < watched.size(); ++w) {
-    bool moves = false;
-    for (size_t f = 0; f < recording.times.size() && !moves; ++f) {
-      moves = recording.rows[f * count + watched[w]] != recording.rows[watched[w]];
+/// Endings, and options that none of the outputs has a use for.
+void check_outputs(const std::vector<std::string>& outputs, const PlayOptions& options) {
+  for (const std::string& output : outputs) {
+    const bool known = output == "-" ||
+                       std::any_of(kEndings.begin(), kEndings.end(),
+                                   [&](const std::string& end) { return ends_with(output, end); });
+    if (!known) {
+      fail_usage("-o " + output, "the name ends in none of " + list_of(kEndings, "and"),
+                 "let it end in one of them");
     }
-    if (moves) kept.push_back(w);
+    refuse_replacing({output, options.force}, {options.scene, options.rig});
   }
-  for (std::vector<float>& stages : recording.stages) {
-    std::vector<float> left;
-    for (size_t w : kept) {
-      const auto first = stages.begin() + static_cast<std::ptrdiff_t>(w * stage_count);
-      left.insert(left.end(), first, first + static_cast<std::ptrdiff_t>(stage_count));
-    }
-    stages = std::move(left);
+  const bool png = any_ends_with(outputs, ".png"), glb = any_ends_with(outputs, ".glb");
+  const StripOptions& strip = options.strip;
+  const RenderOutputOptions usual;
+  const std::pair<const char*, bool> of_images[] = {
+      {"--every", !strip.every.empty()},
+      {"--columns", !strip.columns.empty()},
+      {"--meshes", !strip.scene.meshes.empty()},
+      {"--camera", strip.output.camera != usual.camera},
+      {"--target", !strip.output.target.empty()},
+      {"--size", !strip.output.size.empty()},
+      {"--background", strip.output.background != usual.background},
+      {"--samples", strip.output.samples != usual.samples}};
+  for (const auto& [option, given] : of_images) {
+    if (given && !png) fail_usage(option, "there are no images", "add -o OUT.png");
   }
-  std::vector<uint16_t> moving;
-  for (size_t w : kept) moving.push_back(watched[w]);
-  watched = std::move(moving);
+  if (!options.influences.empty()) {
+    parse_word("--influences", options.influences);
+    if (!glb) fail_usage("--influences", "there is no skin", "add -o OUT.glb");
+  }
+  parse_lod(strip.scene.lod, false);
+  if (strip.scene.lod != "0" && !png && !glb) {
+    fail_usage("--lod " + strip.scene.lod, "controls are the same for all LODs",
+               "add -o OUT.png or OUT.glb");
+  }
+  if (options.rig == "-" && (png || glb)) {
+    fail_usage("RIG -", "the rig is read again for images and for a GLB", "put it in a file");
+  }
+  if (glb && is_baked_file(options.rig)) {
+    fail_usage("-o OUT.glb", "a baked file has no names and axes for a GLB", "give the DNA file");
+  }
 }
 
-void write_svg(const Performance& performance, const Recording& recording,
-               const std::vector<uint16_t>& watched, Output& output) {
-  const RigLanes& lanes = performance.lanes();
-  const size_t frames = recording.times.size(), stage_count = performance.stages().size();
-  std::vector<LanePlot> plots;
-  for (size_t w = 0; w < watched.size(); ++w) {
-    const size_t lane = watched[w], controls = lanes.controls().size();
-    LanePlot plot;
-    plot.name = lane < controls ? std::string(short_name(lanes.controls()[lane]))
-                                : lanes.variables()[lane - controls];
-    plot.stages.assign(stage_count, std::vector<float>(frames));
-    for (size_t f = 0; f < frames; ++f) {
-      plot.values.push_back(recording.rows[f * lanes.count() + lane]);
-      for (size_t s = 0; s < stage_count; ++s) {
-        plot.stages[s][f] = recording.stages[f][w * stage_count + s];
+/// What `mien export --animation` writes of the same frames.
+std::string scene_glb(const PlayOptions& options, const Recording& recording, size_t lane_count,
+                      const Session& session) {
+  try {
+    const ExportedRig face(options.rig, options.strip.scene.lod, session);
+    note_color_problems(face, session);
+    const uint32_t controls = rig_count(face.rig.get(), MIEN_KIND_RAW_CONTROL);
+    std::vector<Frame> frames(recording.times.size());
+    for (size_t f = 0; f < frames.size(); ++f) {
+      for (uint32_t i = 0; i < controls; ++i) {
+        frames[f].raw.push_back({i, recording.rows[f * lane_count + i]});
       }
     }
-    plots.push_back(std::move(plot));
+    return rig_glb(face, {}, frames, recording.rate, face.scene_options(options.influences),
+                   session);
+  } catch (const gltf::ExportError& error) {
+    fail_export(error, options.rig);
   }
-  output.write(lanes_svg(plots, performance.stages(), recording.times.back()));
 }
 
 void run(const PlayOptions& options, const Session& session) {
   const std::vector<std::string> outputs =
       options.outputs.empty() ? std::vector<std::string>{"-"} : options.outputs;
+  check_outputs(outputs, options);
+  std::map<std::string, StripPlan> strips;
   for (const std::string& output : outputs) {
-    bool known = output == "-";
-    for (const char* end : {".json", ".csv", ".clip", ".svg"})
-      known = known || ends_with(output, end);
-    if (!known) {
-      fail_usage("-o " + output, "the name ends in none of .json, .csv, .clip and .svg",
-                 "write JSON; 'mien export --animation' and 'mien render --frames' take it");
-    }
-    refuse_replacing({output, options.force}, {options.scene, options.rig});
+    if (ends_with(output, ".png")) strips.emplace(output, plan_strip(options.strip, output));
   }
   const Rate rate_option = options.rate.empty() ? Rate{} : parse_rate(options.rate);
   if (!options.rate.empty() && !rate_option.known()) {
@@ -289,41 +186,50 @@ void run(const PlayOptions& options, const Session& session) {
   }
 
   Performance performance(script, rig, meshes, session);
-  std::vector<uint16_t> watched = watched_lanes(options.stages, performance.lanes());
-  const bool draws = std::any_of(outputs.begin(), outputs.end(),
-                                 [](const std::string& o) { return ends_with(o, ".svg"); });
-  const bool all = draws && watched.empty();
+  Recording recording;
+  recording.rate = rate;
+  recording.watched = watched_lanes(options.stages, performance.lanes());
+  const bool all = any_ends_with(outputs, ".svg") && recording.watched.empty();
+  const size_t lane_count = performance.lanes().count();
   if (all) {
-    for (size_t lane = 0; lane < performance.lanes().count(); ++lane) {
-      watched.push_back(static_cast<uint16_t>(lane));
+    for (size_t lane = 0; lane < lane_count; ++lane) {
+      recording.watched.push_back(static_cast<uint16_t>(lane));
     }
   }
-  Recording recording;
   performance.run(rate, seconds, [&](size_t, double time, const float* row) {
     recording.times.push_back(time);
-    recording.rows.insert(recording.rows.end(), row, row + performance.lanes().count());
+    recording.rows.insert(recording.rows.end(), row, row + lane_count);
     std::vector<float> stages;
-    for (uint16_t lane : watched) {
+    for (uint16_t lane : recording.watched) {
       const std::vector<float> values = performance.stage_values(lane);
       stages.insert(stages.end(), values.begin(), values.end());
     }
     recording.stages.push_back(std::move(stages));
   });
-  if (all) keep_moving(performance, watched, recording);
+  if (all) keep_moving(performance, recording);
 
   for (const std::string& path : outputs) {
+    if (ends_with(path, ".png")) {
+      const uint64_t bytes =
+          write_strip(strips.at(path), options.strip.output.target, recording, lane_count,
+                      find_captions(script), {path, options.force}, session);
+      note_written(session, path, bytes);
+      continue;
+    }
     Output output(path);
     if (ends_with(path, ".csv")) {
       write_csv(performance, recording, output);
     } else if (ends_with(path, ".clip")) {
-      write_clip(performance, recording, rate, path, output);
+      write_clip(performance, recording, path, output);
     } else if (ends_with(path, ".svg")) {
-      write_svg(performance, recording, watched, output);
+      write_svg(performance, recording, output);
+    } else if (ends_with(path, ".glb")) {
+      output.write(scene_glb(options, recording, lane_count, session));
     } else {
-      write_json(name, rate, performance, recording, all ? std::vector<uint16_t>() : watched,
-                 output);
+      write_json(name, performance, recording, !all, output);
     }
     output.commit();
+    note_written(session, path, output.size());
   }
 }
 
@@ -337,9 +243,11 @@ Command add_play_command(CLI::App& app, const Session& session) {
       ->type_name("")
       ->required();
   play->add_option("RIG", options->rig, "DNA file or baked rig")->type_name("")->required();
-  play->add_option("-o,--output", options->outputs,
-                   "Files to write, by their endings: .json, .csv, .clip, .svg\n(default: JSON on "
-                   "standard output)")
+  play->add_option(
+          "-o,--output", options->outputs,
+          "Files to write, by their endings: .json, .csv, .clip, .svg\n(lanes over time), .glb "
+          "(animation), .png (contact strip); may be\nrepeated (default: JSON on standard "
+          "output)")
       ->type_name("OUT")
       ->expected(1)
       ->take_all();
@@ -354,6 +262,25 @@ Command add_play_command(CLI::App& app, const Session& session) {
                    "Also tell for these controls which layer made their values,\nwith commas "
                    "between")
       ->type_name("NAMES");
+  play->add_option("--lod", options->strip.scene.lod,
+                   "LOD of images and of a GLB (default: 0, the finest)")
+      ->type_name("N");
+  play->add_option("--influences", options->influences,
+                   "Joints per vertex of a GLB: 4, 8 or 12 (default: 8 where 4 do not do)")
+      ->type_name("N");
+  const std::string group = "Images";
+  play->add_option("--every", options->strip.every,
+                   "Seconds from image to image (default: 16 images at most)")
+      ->type_name("S")
+      ->group(group);
+  play->add_option("--columns", options->strip.columns, "Images in a row (default: 8)")
+      ->type_name("N")
+      ->group(group);
+  play->add_option("--meshes", options->strip.scene.meshes,
+                   "Draw only these meshes, for example head*,teeth*")
+      ->type_name("PATTERN")
+      ->group(group);
+  add_camera_options(*play, options->strip.output, group);
   play->footer(
       "SCENE is one JSON object, in which everything may be left out:\n"
       "  {\"rate\": 60, \"seconds\": 4, \"seed\": 7,\n"
@@ -377,8 +304,13 @@ Command add_play_command(CLI::App& app, const Session& session) {
       "Examples:\n"
       "  mien play scene.json head.dna -o frames.json -o lanes.svg\n"
       "  mien play scene.json head.dna | mien eval head.dna --input -\n"
-      "  mien export head.dna --animation frames.json -o head.glb");
-  return {play, [options, &session] { run(*options, session); }};
+      "  mien play scene.json head.dna -o scene.glb\n"
+      "  mien play scene.json head.dna -o strip.png --every 0.1 --target mouth\n"
+      "  mien play scene.json head.dna -o 'frame-%04d.png' --every 0.04");
+  return {play, [options, &session] {
+            options->strip.scene.rig = options->rig;
+            run(*options, session);
+          }};
 }
 
 }  // namespace mien::cli

@@ -100,23 +100,33 @@ PosedSceneOptions parse_scene_options(const SceneArguments& arguments) {
   return options;
 }
 
+void add_camera_options(CLI::App& app, RenderOutputOptions& options, const std::string& group) {
+  CLI::Option* const all[] = {
+      app.add_option("--camera", options.camera,
+                     "front (default), three-quarter, three-quarter-right, side,\n"
+                     "side-right, back, above, below; or YAW,PITCH[,ZOOM[,FIELD]] in\n"
+                     "degrees: yaw 90 sees the left side, pitch 90 looks down")
+          ->type_name("VIEW"),
+      app.add_option("--target", options.target,
+                     "What to look at: face, eyes, mouth, or a pattern of mesh or\n"
+                     "joint names such as *lip* (default: everything; for sheets and\n"
+                     "strips the face)")
+          ->type_name("NAME"),
+      app.add_option("--size", options.size, "Pixels of an image, such as 640x480 or 640")
+          ->type_name("WxH"),
+      app.add_option("--background", options.background, "dark (default) or light")
+          ->type_name("NAME"),
+      app.add_option("--samples", options.samples, "Samples per pixel: 1, 4 (default) or 16")
+          ->type_name("N"),
+  };
+  if (group.empty()) return;
+  for (CLI::Option* option : all) option->group(group);
+}
+
 void add_render_output_options(CLI::App& app, RenderOutputOptions& options,
                                const std::string& output_text) {
   add_output_options(app, options.output, output_text, "OUT.png");
-  app.add_option("--camera", options.camera,
-                 "front (default), three-quarter, three-quarter-right, side,\n"
-                 "side-right, back, above, below; or YAW,PITCH[,ZOOM[,FIELD]] in\n"
-                 "degrees: yaw 90 sees the left side, pitch 90 looks down")
-      ->type_name("VIEW");
-  app.add_option("--target", options.target,
-                 "What to look at: face, eyes, mouth, or a pattern of mesh or\n"
-                 "joint names such as *lip* (default: everything; for --sheet the\nface)")
-      ->type_name("NAME");
-  app.add_option("--size", options.size, "Pixels of an image, such as 640x480 or 640")
-      ->type_name("WxH");
-  app.add_option("--background", options.background, "dark (default) or light")->type_name("NAME");
-  app.add_option("--samples", options.samples, "Samples per pixel: 1, 4 (default) or 16")
-      ->type_name("N");
+  add_camera_options(app, options);
 }
 
 View parse_camera(const std::string& text) {

@@ -26,7 +26,9 @@ struct RenderOutputOptions {
   std::string camera = "front", target, size, background = "dark", samples = "4";
 };
 
-/// --camera, --target, --size, --background, --samples and -o.
+/// --camera, --target, --size, --background, --samples.
+void add_camera_options(CLI::App& app, RenderOutputOptions& options, const std::string& group = "");
+/// The same and -o.
 void add_render_output_options(CLI::App& app, RenderOutputOptions& options,
                                const std::string& output_text);
 

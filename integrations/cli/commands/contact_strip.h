@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Images of a recorded performance, evenly spaced, with their times: one sheet or a file each.
+#pragma once
+
+#include "integrations/cli/commands/render_output.h"
+#include "integrations/cli/play/recording.h"
+
+namespace mien::cli {
+
+/// As they were typed.
+struct StripOptions {
+  SceneArguments scene;
+  RenderOutputOptions output;
+  std::string every, columns;
+};
+
+/// The options, parsed before any file is opened.
+struct StripPlan {
+  PosedSceneOptions scene;
+  render::View view;
+  render::Size size;
+  render::RenderOptions render;
+  double every = 0;    // seconds; 0: so that there are 16 images at most
+  size_t columns = 0;  // 0: 8 at most
+};
+StripPlan plan_strip(const StripOptions& options, const std::string& path);
+
+/// What happens in a scene, as labels name it: reactions, clips, poses and weights that begin.
+using Captions = std::vector<std::pair<double, std::string>>;
+Captions find_captions(const Script& script);
+
+/// Draws frames of the recording to `output`, where %04d makes a file of each. Returns the bytes written.
+uint64_t write_strip(const StripPlan& plan, const std::string& target, const Recording& recording,
+                     size_t lane_count, const Captions& captions, const OutputFile& output,
+                     const Session& session);
+
+}  // namespace mien::cli

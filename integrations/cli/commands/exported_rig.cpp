@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/cli/commands/exported_rig.h"
+
+#include <cstdio>
+
+#include "integrations/cli/gltf/glb_writer.h"
+#include "integrations/cli/io/dna_fields.h"
+#include "integrations/cli/io/text.h"
+
+namespace mien::cli {
+
+namespace {
+
+constexpr const char* kCannot = "cannot export";
+
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.2g %%", share * 100);
+  return text;
+}
+
+}  // namespace
+
+ExportedRig::ExportedRig(const std::string& path, const std::string& lod, const Session& session) {
+  auto desc = sized<MienDnaDesc>();
+  desc.layers = kEvaluationLayers | MIEN_LAYER_GEOMETRY;
+  if (lod != "all") {
+    first_lod = parse_lod(lod, true);
+    desc.lods = uint64_t{1} << first_lod;
+  }
+  file = open_rig_file(path, desc, session);
+  // Plain C++ rounds alike on every machine, and so the files are the same.
+  auto rig_desc = sized<MienRigDesc>();
+  rig_desc.isa = MIEN_ISA_SCALAR;
+  rig = create_rig(file, rig_desc);
+
+  auto error = sized<MienError>();
+  MienDeformer* deformer_made = nullptr;
+  check(mien_deformer_create(file.dna.get(), rig.get(), nullptr, &deformer_made, &error), &error,
+        "cannot prepare geometry", file.shown);
+  deformer.reset(deformer_made);
+  MienInstance* instance_made = nullptr;
+  check(mien_instance_create(rig.get(), nullptr, &instance_made, &error), &error,
+        "cannot prepare rig", file.shown);
+  instance.reset(instance_made);
+  source = std::make_unique<gltf::RigSource>(
+      gltf::RigHandles{file.dna.get(), rig.get(), deformer.get()});
+  pose = gltf::make_deformer_instance(*source);
+}
+
+void ExportedRig::apply(const Frame& frame) const {
+  check(mien_instance_reset(instance.get()), nullptr, kCannot, file.shown);
+  apply_frame(frame, rig.get(), instance.get());
+  check(mien_rig_evaluate(rig.get(), instance.get(), 0), nullptr, kCannot, file.shown);
+  check(mien_deformer_instance_update(pose.get(), instance.get()), nullptr, kCannot, file.shown);
+}
+
+MienFloatView ExportedRig::channel_weights() const {
+  MienFloatView view{};
+  check(mien_instance_blend_shapes(instance.get(), &view), nullptr, kCannot, file.shown);
+  return view;
+}
+
+MienFloatView ExportedRig::raw_controls() const {
+  MienFloatView view{};
+  check(mien_instance_controls(instance.get(), &view), nullptr, kCannot, file.shown);
+  return view;
+}
+
+gltf::SceneOptions ExportedRig::scene_options(const std::string& influences) const {
+  gltf::SceneOptions scene;
+  scene.name = read_string(file, "desc.name");
+  if (scene.name.empty()) scene.name = "rig";
+  scene.first_lod = first_lod;
+  if (!influences.empty()) {
+    scene.influences = 4 + 4 * static_cast<uint32_t>(parse_word("--influences", influences));
+  }
+  return scene;
+}
+
+void note_color_problems(const ExportedRig& face, const Session& session) {
+  for (const std::string& problem : face.source->color_problems()) {
+    note(session, face.file.shown + ": " + problem + "; exporting without these colors");
+  }
+}
+
+void note_losses(const ExportedRig& face, const gltf::Losses& losses, const Session& session) {
+  const std::string& shown = face.file.shown;
+  if (losses.cut_positions != 0) {
+    note(session, shown + ": " + std::to_string(losses.cut_positions) +
+                      " positions follow more than " + std::to_string(losses.places) +
+                      " joints; the lightest were dropped, up to " +
+                      percent(losses.max_weight_cut) + " of a position's weight");
+  }
+  if (losses.corrected_positions != 0) {
+    note(session, shown + ": skin weights of " + std::to_string(losses.corrected_positions) +
+                      " positions do not sum to 1 or are negative, which glTF forbids; they were "
+                      "corrected, by up to " +
+                      percent(losses.max_correction));
+  }
+  for (const std::string& mesh : losses.empty_meshes) {
+    note(session, shown + ": mesh " + one_line(mesh) + " has no faces: left out");
+  }
+}
+
+std::string rig_glb(const ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
+                    double rate, const gltf::SceneOptions& options, const Session& session) {
+  gltf::RigScene scene = gltf::make_rig_scene(*face.source, options);
+  note_losses(face, scene.losses, session);
+  face.apply(still);
+  gltf::set_pose(scene, *face.source, face.pose.get(), face.channel_weights());
+  if (!frames.empty()) {
+    gltf::AnimationRecorder recorder(scene, *face.source, "frames", rate);
+    Progress progress(session, "frame", frames.size());
+    for (size_t f = 0; f < frames.size(); ++f) {
+      progress.at(f);
+      face.apply(frames[f]);
+      recorder.add_frame(face.pose.get(), face.channel_weights());
+    }
+    scene.scene.animation = recorder.finish();
+  }
+  return gltf::write_glb(scene.scene);
+}
+
+void fail_export(const gltf::ExportError& error, const std::string& rig) {
+  const std::string where = error.where.empty() ? "" : ", " + one_line(error.where);
+  fail(exit_code_of(error.status), kCannot, shown_name(rig) + where, error.what(),
+       error.what_to_do);
+}
+
+}  // namespace mien::cli

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// A rig that goes into a GLB or OBJ file, and the character that is posed for it.
+#pragma once
+
+#include "integrations/cli/commands/options.h"
+#include "integrations/cli/gltf/rig_scene.h"
+#include "integrations/cli/io/frames.h"
+
+namespace mien::cli {
+
+/// Opened with the LODs to export.
+class ExportedRig {
+ public:
+  /// `lod` is a number or "all".
+  ExportedRig(const std::string& path, const std::string& lod, const Session& session);
+
+  /// Evaluates a frame at the finest LOD, and the pose with it.
+  void apply(const Frame& frame) const;
+
+  MienFloatView channel_weights() const;
+  MienFloatView raw_controls() const;
+  /// `influences` is 4, 8, 12 or empty.
+  gltf::SceneOptions scene_options(const std::string& influences) const;
+
+  uint32_t first_lod = 0;
+  RigFile file;
+  Rig rig;
+  Deformer deformer;
+  Instance instance;
+  std::unique_ptr<gltf::RigSource> source;
+  DeformerInstance pose;
+};
+
+/// Notes for people: colors that are left out, and what glTF has no place for.
+void note_color_problems(const ExportedRig& face, const Session& session);
+void note_losses(const ExportedRig& face, const gltf::Losses& losses, const Session& session);
+
+/// A GLB with skeleton, skin and morph targets that opens in the pose `still` and plays `frames`, if there
+/// are any. Throws gltf::ExportError.
+std::string rig_glb(const ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
+                    double rate, const gltf::SceneOptions& options, const Session& session);
+
+/// "cannot export" with the exit code of what was wrong.
+[[noreturn]] void fail_export(const gltf::ExportError& error, const std::string& rig);
+
+}  // namespace mien::cli

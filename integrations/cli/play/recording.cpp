@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/cli/play/recording.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "integrations/cli/io/controls.h"
+#include "integrations/cli/io/failure.h"
+#include "integrations/cli/io/frame_rate.h"
+#include "integrations/cli/io/json_writer.h"
+#include "integrations/cli/play/lanes_svg.h"
+
+namespace mien::cli {
+
+void write_json(const std::string& rig_name, const Performance& performance,
+                const Recording& recording, bool stages, Output& output) {
+  const std::vector<uint16_t>& watched = recording.watched;
+  const RigLanes& lanes = performance.lanes();
+  const size_t controls = lanes.controls().size(), count = lanes.count();
+  JsonWriter json(output);
+  using Layout = JsonWriter::Layout;
+  const auto list = [&](const char* key, const std::vector<std::string>& names) {
+    json.key(key);
+    json.begin_array();
+    for (const std::string& name : names) json.value(name);
+    json.end_array();
+  };
+  json.begin_object(Layout::kLines);
+  json.member("rig", rig_name);
+  json.key("rate");
+  json.shortest(recording.rate);
+  list("controls", lanes.controls());
+  list("variables", lanes.variables());
+  json.key("events");
+  json.begin_array(Layout::kLines);
+  for (const FiredEvent& event : performance.events()) {
+    json.begin_object();
+    json.key("time");
+    json.shortest(event.time);
+    json.member("layer", event.layer);
+    json.member("name", event.name);
+    json.key("value");
+    json.shortest(static_cast<double>(event.value));
+    json.end_object();
+  }
+  json.end_array();
+  json.key("frames");
+  json.begin_array(Layout::kLines);
+  const size_t stage_count = performance.stages().size();
+  for (size_t f = 0; f < recording.times.size(); ++f) {
+    json.begin_object();
+    json.key("time");
+    json.shortest(recording.times[f]);
+    const float* row = &recording.rows[f * count];
+    json.key("raw");
+    json.floats(row, controls);
+    json.key("variables");
+    json.floats(row + controls, count - controls);
+    if (stages && !watched.empty()) {
+      json.key("stages");
+      json.begin_object();
+      for (size_t w = 0; w < watched.size(); ++w) {
+        json.key(watched[w] < controls ? short_name(lanes.controls()[watched[w]])
+                                       : lanes.variables()[watched[w] - controls]);
+        json.begin_array();
+        for (size_t s = 0; s < stage_count; ++s) {
+          json.begin_array();
+          json.value(performance.stages()[s]);
+          json.shortest(static_cast<double>(recording.stages[f][w * stage_count + s]));
+          json.end_array();
+        }
+        json.end_array();
+      }
+      json.end_object();
+    }
+    json.end_object();
+  }
+  json.end_array();
+  json.end_object();
+  json.finish();
+}
+
+void write_csv(const Performance& performance, const Recording& recording, Output& output) {
+  const RigLanes& lanes = performance.lanes();
+  std::string text = "time";
+  for (const std::string& name : lanes.controls()) text += "," + name;
+  text += "\n";
+  char digits[64];
+  const auto append = [&](auto number) {
+    text.append(digits, std::to_chars(digits, digits + sizeof(digits), number).ptr);
+  };
+  for (size_t f = 0; f < recording.times.size(); ++f) {
+    append(recording.times[f]);
+    for (size_t c = 0; c < lanes.controls().size(); ++c) {
+      text += ',';
+      append(recording.rows[f * lanes.count() + c]);
+    }
+    text += '\n';
+    output.write(text);
+    text.clear();
+  }
+}
+
+void write_clip(const Performance& performance, const Recording& recording,
+                const std::string& shown, Output& output) {
+  const RigLanes& lanes = performance.lanes();
+  std::vector<MienStringView> names;
+  for (const std::string& name : lanes.controls()) names.push_back({name.data(), name.size()});
+  const Rate fraction = nearest_rate(recording.rate, 1e-9);
+  auto desc = sized<MienClipDesc>();
+  desc.rate_numerator = fraction.numerator;
+  desc.rate_denominator = fraction.denominator;
+  desc.frame_count = static_cast<uint32_t>(recording.times.size());
+  desc.channel_count = static_cast<uint32_t>(names.size());
+  desc.names = names.data();
+  desc.values = recording.rows.data();
+  desc.frame_stride = lanes.count();
+  auto error = sized<MienError>();
+  MienClip* made = nullptr;
+  check(mien_clip_build(&desc, &made, &error), &error, "cannot build clip", shown);
+  const Clip clip(made);
+  size_t size = 0;
+  check(mien_clip_write_memory(made, nullptr, 0, &size, &error), &error, "cannot build clip",
+        shown);
+  std::vector<char> bytes(size);
+  check(mien_clip_write_memory(made, bytes.data(), size, &size, &error), &error,
+        "cannot build clip", shown);
+  output.write(bytes.data(), size);
+}
+
+void keep_moving(const Performance& performance, Recording& recording) {
+  std::vector<uint16_t>& watched = recording.watched;
+  const size_t stage_count = performance.stages().size(), count = performance.lanes().count();
+  std::vector<size_t> kept;
+  for (size_t w = 0; w < watched.size(); ++w) {
+    bool moves = false;
+    for (size_t f = 0; f < recording.times.size() && !moves; ++f) {
+      moves = recording.rows[f * count + watched[w]] != recording.rows[watched[w]];
+    }
+    if (moves) kept.push_back(w);
+  }
+  for (std::vector<float>& stages : recording.stages) {
+    std::vector<float> left;
+    for (size_t w : kept) {
+      const auto first = stages.begin() + static_cast<std::ptrdiff_t>(w * stage_count);
+      left.insert(left.end(), first, first + static_cast<std::ptrdiff_t>(stage_count));
+    }
+    stages = std::move(left);
+  }
+  std::vector<uint16_t> moving;
+  for (size_t w : kept) moving.push_back(watched[w]);
+  watched = std::move(moving);
+}
+
+void write_svg(const Performance& performance, const Recording& recording, Output& output) {
+  const std::vector<uint16_t>& watched = recording.watched;
+  const RigLanes& lanes = performance.lanes();
+  const size_t frames = recording.times.size(), stage_count = performance.stages().size();
+  std::vector<LanePlot> plots;
+  for (size_t w = 0; w < watched.size(); ++w) {
+    const size_t lane = watched[w], controls = lanes.controls().size();
+    LanePlot plot;
+    plot.name = lane < controls ? std::string(short_name(lanes.controls()[lane]))
+                                : lanes.variables()[lane - controls];
+    plot.stages.assign(stage_count, std::vector<float>(frames));
+    for (size_t f = 0; f < frames; ++f) {
+      plot.values.push_back(recording.rows[f * lanes.count() + lane]);
+      for (size_t s = 0; s < stage_count; ++s) {
+        plot.stages[s][f] = recording.stages[f][w * stage_count + s];
+      }
+    }
+    plots.push_back(std::move(plot));
+  }
+  output.write(lanes_svg(plots, performance.stages(), recording.times.back()));
+}
+
+}  // namespace mien::cli

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// All frames of a performance, and the files of text and curves that they become.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "integrations/cli/io/output.h"
+#include "integrations/cli/play/performance.h"
+
+namespace mien::cli {
+
+struct Recording {
+  double rate = 60;
+  std::vector<double> times;
+  std::vector<float> rows;                 // [frame][lane]
+  std::vector<uint16_t> watched;           // lanes with stages
+  std::vector<std::vector<float>> stages;  // [frame][watched lane * stages + stage]
+};
+
+/// Drops the watched lanes that stay as they are, with their stages.
+void keep_moving(const Performance& performance, Recording& recording);
+
+/// Frames as `mien eval` takes them. `stages`: those of the watched lanes as well.
+void write_json(const std::string& rig_name, const Performance& performance,
+                const Recording& recording, bool stages, Output& output);
+void write_csv(const Performance& performance, const Recording& recording, Output& output);
+/// `shown` is for messages.
+void write_clip(const Performance& performance, const Recording& recording,
+                const std::string& shown, Output& output);
+/// The watched lanes over time.
+void write_svg(const Performance& performance, const Recording& recording, Output& output);
+
+}  // namespace mien::cli
