@@ -3,37 +3,15 @@
 
 #include <algorithm>
 
+#include "runtime/author/cholesky.h"
+
 namespace mien::head {
 
-using author::exact_sine_cosine;
-using author::kPi;
+using author::Cholesky;
 using author::make;
+using author::motion;
 
 namespace {
-
-/// a after b.
-Affine operator*(const Affine& a, const Affine& b) {
-  Affine out;
-  for (int r = 0; r < 3; ++r) {
-    out.rows[r] = b.rows[0] * a.rows[r].x + b.rows[1] * a.rows[r].y + b.rows[2] * a.rows[r].z;
-  }
-  out.shift = a(b.shift);
-  return out;
-}
-
-/// Turns about x, then y, then z (degrees), about `center`, then shifts.
-Affine motion(const double angles[3], Vec3 center, Vec3 shift) {
-  const auto [sx, cx] = exact_sine_cosine(angles[0] * kPi / 180);
-  const auto [sy, cy] = exact_sine_cosine(angles[1] * kPi / 180);
-  const auto [sz, cz] = exact_sine_cosine(angles[2] * kPi / 180);
-  Affine out;
-  out.rows[0] = {cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx};
-  out.rows[1] = {sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx};
-  out.rows[2] = {-sy, cy * sx, cy * cx};
-  out.shift = center + shift -
-              Vec3{dot(out.rows[0], center), dot(out.rows[1], center), dot(out.rows[2], center)};
-  return out;
-}
 
 JointDelta delta_of(Vec3 translation, Vec3 rotation) {
   const auto as_float = [](double x) { return static_cast<float>(x); };
@@ -66,49 +44,10 @@ void set_designed(const Shapes& shapes, const Skeleton& skeleton, const JointDel
   }
 }
 
-/// Symmetric positive definite system, in place; `size` rows of `size`.
-class Cholesky {
- public:
-  Cholesky(Span<double> matrix, uint32_t size) : m_(matrix), n_(size) {}
-
-  void factor() {
-    for (uint32_t c = 0; c < n_; ++c) {
-      for (uint32_t r = c; r < n_; ++r) {
-        double sum = at(r, c);
-        for (uint32_t k = 0; k < c; ++k) sum -= at(r, k) * at(c, k);
-        at(r, c) = r == c ? std::sqrt(sum) : sum / at(c, c);
-      }
-    }
-  }
-  void solve(Span<Vec3> x) const {
-    for (uint32_t r = 0; r < n_; ++r) {
-      for (uint32_t k = 0; k < r; ++k) x[r] = x[r] - x[k] * at(r, k);
-      x[r] = x[r] * (1 / at(r, r));
-    }
-    for (uint32_t r = n_; r-- > 0;) {
-      for (uint32_t k = r + 1; k < n_; ++k) x[r] = x[r] - x[k] * at(k, r);
-      x[r] = x[r] * (1 / at(r, r));
-    }
-  }
-
- private:
-  double& at(uint32_t r, uint32_t c) const { return m_[size_t{r} * n_ + c]; }
-  Span<double> m_;
-  uint32_t n_;
-};
-
 /// Edges of lips have to meet, even where no blend shape helps.
 double importance(const Vertex& v) { return v.edge ? 20 : 1; }
 
 Vec3 mirrored(Vec3 v) { return {-v.x, v.y, v.z}; }
-
-Vec3 skin(const Affine* pose, const Weights& weights, Vec3 p) {
-  Vec3 out;
-  for (uint32_t i = 0; i < weights.count; ++i) {
-    out = out + pose[weights.joints[i]](p) * static_cast<double>(weights.values[i]);
-  }
-  return out;
-}
 
 }  // namespace
 
@@ -172,7 +111,7 @@ bool fit_joints(const Form& form, const Shapes& shapes, const Skeleton& skeleton
   double trace = 0;
   for (uint32_t r = 0; r < rows; ++r) trace += matrix[size_t{r} * rows + r];
   for (uint32_t r = 0; r < rows; ++r) matrix[size_t{r} * rows + r] += 2e-4 * trace / rows;
-  Cholesky system(matrix, rows);
+  Cholesky system(matrix.data, rows);
   system.factor();
 
   for (uint32_t s = 0; s < shape_count; ++s) {
@@ -192,8 +131,8 @@ bool fit_joints(const Form& form, const Shapes& shapes, const Skeleton& skeleton
       pose_joints(skeleton, out, &shape, 1, pose.data);
       for (uint32_t i = 0; i < mesh.vertices.count(); ++i) {
         const Vertex& v = mesh.vertices[i];
-        const Vec3 wanted =
-            shapes.displacement(shape, v) - (skin(pose.data, weights[i], v.position) - v.position);
+        const Vec3 wanted = shapes.displacement(shape, v) -
+                            (skin(pose.data, influences(weights[i]), v.position) - v.position);
         for (uint32_t a = 0; a < weights[i].count; ++a) {
           const uint16_t j = weights[i].joints[a];
           if (!is_fitted(j)) continue;
@@ -203,7 +142,7 @@ bool fit_joints(const Form& form, const Shapes& shapes, const Skeleton& skeleton
         }
       }
     }
-    system.solve(right_side);
+    system.solve(right_side.data);
     const bool alone = other == s;  // symmetric in itself: made so to the last bit
     // Below the jaw, translations are in its frame, turned by all that is open with this shape.
     double opened = shapes.turns(s, 1).jaw_open;
@@ -223,24 +162,6 @@ bool fit_joints(const Form& form, const Shapes& shapes, const Skeleton& skeleton
     }
   }
   return true;
-}
-
-Vec3 residual(const Affine* pose, const Weights& weights, Vec3 p, Vec3 target) {
-  const Vec3 r = target - skin(pose, weights, p);
-  // Blend shapes are added before skinning: undo its linear part, by Cramer's rule.
-  Vec3 m[3];
-  for (uint32_t i = 0; i < weights.count; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      m[k] = m[k] + pose[weights.joints[i]].rows[k] * static_cast<double>(weights.values[i]);
-    }
-  }
-  const auto cross = [](Vec3 a, Vec3 b) {
-    return Vec3{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-  };
-  const Vec3 c0 = cross(m[1], m[2]), c1 = cross(m[2], m[0]), c2 = cross(m[0], m[1]);
-  const double determinant = dot(m[0], c0);
-  if (std::abs(determinant) < 0.05) return r;
-  return (c0 * r.x + c1 * r.y + c2 * r.z) * (1 / determinant);
 }
 
 }  // namespace mien::head

@@ -279,7 +279,7 @@ void MeshMaker::find_offsets(uint32_t shape, Span<Affine> pose, Span<Vec3> out) 
       target = target + shapes.displacement(active[a], v);
       if (a > 0) from = from + offsets_of(active[a])[i];
     }
-    Vec3 offset = residual(pose.data, weights_[i], from, target);
+    Vec3 offset = author::residual(pose.data, influences(weights_[i]), from, target);
     if (half_.on_plane(i) && twin == shape) offset.x = 0;
     out[i] = is_moved(i, offset) ? offset : Vec3();
   }
