@@ -6,7 +6,7 @@
 
 #include "runtime/base/arena.h"
 #include "runtime/base/vector.h"
-#include "runtime/dna/format/dna_schema.h"
+#include "runtime/dna/format/dna_view.h"
 
 namespace mien::author {
 
@@ -59,6 +59,32 @@ inline bool copy_text(Arena& arena, const Text& text, dna::String& out) {
   if (!chars) return false;
   memcpy(chars, text.chars, text.count);
   out = {chars, text.count};
+  return true;
+}
+
+/// Vectors in the making.
+struct NewVec3s {
+  dna::NewArray<float> xs, ys, zs;
+
+  bool allocate(Arena& arena, size_t count) {
+    return make(arena, count, xs) && make(arena, count, ys) && make(arena, count, zs);
+  }
+  void set(size_t i, Vec3 v) const {
+    xs.set(i, static_cast<float>(v.x));
+    ys.set(i, static_cast<float>(v.y));
+    zs.set(i, static_cast<float>(v.z));
+  }
+  operator dna::Vec3Array() const { return {xs, ys, zs}; }
+};
+
+/// An index with every layer of the newest version.
+inline bool fill_index(Arena& arena, dna::DnaView& out) {
+  if (!make(arena, dna::kLayerIdCount, out.index)) return false;
+  for (size_t i = 0; i < dna::kLayerIdCount; ++i) {
+    out.index[i].code = dna::kLayerKinds[i].code;
+    out.index[i].layer_version = dna::kLayerKinds[i].layer_version;
+  }
+  out.loaded = dna::kLayersAll;
   return true;
 }
 

@@ -8,6 +8,7 @@ namespace head {
 namespace {
 
 using author::copy_text;
+using author::fill_index;
 using author::make;
 using author::Text;
 
@@ -27,16 +28,6 @@ bool fill_descriptor(uint64_t seed, Arena& arena, dna::Descriptor& out) {
   return copy_text(arena, Text().add("mien_head"), out.name) &&
          copy_text(arena, Text().add("mien_head"), out.complexity) &&
          copy_text(arena, Text().add("mien_procedural"), out.db_name);
-}
-
-bool fill_index(Arena& arena, dna::DnaView& out) {
-  if (!make(arena, dna::kLayerIdCount, out.index)) return false;
-  for (size_t i = 0; i < dna::kLayerIdCount; ++i) {
-    out.index[i].code = dna::kLayerKinds[i].code;
-    out.index[i].layer_version = dna::kLayerKinds[i].layer_version;
-  }
-  out.loaded = dna::kLayersAll;
-  return true;
 }
 
 bool make_head(uint64_t seed, Arena& arena, const Allocator& allocator, dna::DnaView& out) {

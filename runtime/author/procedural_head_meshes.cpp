@@ -10,6 +10,7 @@ namespace mien::head {
 using author::copy_text;
 using author::make;
 using author::make_lod_map;
+using author::NewVec3s;
 using author::Text;
 
 namespace {
@@ -20,20 +21,6 @@ constexpr const char* kPartNames[kPartCount] = {"head",     "teeth", "tongue", "
 constexpr double kLeastOffset = 0.002;
 
 Vec3 mirrored(Vec3 v) { return {-v.x, v.y, v.z}; }
-
-struct NewVec3s {
-  dna::NewArray<float> xs, ys, zs;
-
-  bool allocate(Arena& arena, size_t count) {
-    return make(arena, count, xs) && make(arena, count, ys) && make(arena, count, zs);
-  }
-  void set(size_t i, Vec3 v) const {
-    xs.set(i, static_cast<float>(v.x));
-    ys.set(i, static_cast<float>(v.y));
-    zs.set(i, static_cast<float>(v.z));
-  }
-  operator dna::Vec3Array() const { return {xs, ys, zs}; }
-};
 
 Text mesh_name(Part part, uint32_t lod) {
   return Text().add(kPartNames[static_cast<int>(part)]).add("_lod").add(uint64_t{lod}).add("_mesh");

@@ -12,8 +12,10 @@
 namespace mien::synthetic {
 
 using author::copy_text;
+using author::fill_index;
 using author::make;
 using author::make_lod_map;
+using author::NewVec3s;
 using author::Text;
 
 /// 1 in the middle, 0 from `radius` on, with a smooth end; takes squares to spare the root.

@@ -36,20 +36,6 @@ Vec3 point_at(const dna::Vec3Array& points, size_t i) {
   return {points.xs[i], points.ys[i], points.zs[i]};
 }
 
-struct NewVec3s {
-  dna::NewArray<float> xs, ys, zs;
-
-  bool allocate(Arena& arena, size_t count) {
-    return make(arena, count, xs) && make(arena, count, ys) && make(arena, count, zs);
-  }
-  void set(size_t i, Vec3 v) const {
-    xs.set(i, static_cast<float>(v.x));
-    ys.set(i, static_cast<float>(v.y));
-    zs.set(i, static_cast<float>(v.z));
-  }
-  operator dna::Vec3Array() const { return {xs, ys, zs}; }
-};
-
 // Surface ---------------------------------------------------------------------------------------
 
 /// Rows of vertices from the lower pole to the upper one, each counter-clockwise from the front as

@@ -360,16 +360,6 @@ bool fill_maps(const Head& head, uint64_t seed, Arena& arena, dna::DnaView& out)
   return make_lod_map(arena, sizes.lod_count, count, in_lod, out.defn.lod_maps);
 }
 
-bool fill_index(Arena& arena, dna::DnaView& out) {
-  if (!make(arena, dna::kLayerIdCount, out.index)) return false;
-  for (size_t i = 0; i < dna::kLayerIdCount; ++i) {
-    out.index[i].code = dna::kLayerKinds[i].code;
-    out.index[i].layer_version = dna::kLayerKinds[i].layer_version;
-  }
-  out.loaded = dna::kLayersAll;
-  return true;
-}
-
 bool make_head_rig(SyntheticPreset preset, uint64_t seed, bool learned, Arena& arena,
                    dna::DnaView& out) {
   Head head;

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// From shapes to motions of bones: which bones move with a shape, their translations by least
+// squares, their rotations by block descent, and weights that suit both.
+//
+// A vertex v goes to v + sum over bones j of w_vj (M_js v - v), where M_js is the rigid motion of
+// bone j at full value of shape s. Bones that do not move with s have the identity.
+#pragma once
+
+#include "runtime/author/fit/footprints.h"
+#include "runtime/author/joint_motion.h"
+
+namespace mien::author {
+
+struct FitOptions {
+  bool rotations = true;
+  uint32_t sweeps = 4;        // of block descent over the bones
+  uint32_t alternations = 2;  // refits of the weights, each followed by a new fit; 0 keeps weights
+  double support = 1e-3;      // share of the largest energy from which on a bone moves with a shape
+  double max_degrees = 30;    // rotation of a facial bone by one shape
+};
+
+struct Motions {
+  Span<Affine> items;    // [shape * bone_count + bone]
+  Span<uint8_t> active;  // likewise: 0 where the motion is the identity by decision
+  uint32_t bone_count = 0;
+
+  Span<Affine> of(size_t shape) const { return items.slice(shape * bone_count, bone_count); }
+  Span<uint8_t> active_in(size_t shape) const {
+    return active.slice(shape * bone_count, bone_count);
+  }
+};
+
+/// Memory of one thread's work at a time; work is dealt out to lanes, never to threads, so results
+/// do not depend on these.
+struct FitLane {
+  Span<Vec3> rest;      // per vertex: what is left to do
+  Span<double> matrix;  // bones * bones
+  Span<Vec3> steps;     // per bone
+  Span<uint16_t> rows;  // per bone
+  Span<double> energy;  // per bone
+};
+constexpr uint32_t kFitLanes = 8;
+
+struct Fitter {
+  Span<const Vec3> positions;
+  Footprints footprints;
+  FitLane lanes[kFitLanes];
+  FitOptions options;
+};
+
+/// False if memory ran out.
+bool make_fitter(Span<const Vec3> positions, const Placement& placement, uint32_t influences,
+                 const FitOptions& options, Arena& arena, Fitter& out);
+bool make_motions(size_t shapes, size_t bones, Arena& arena, Motions& out);
+
+/// Marks bones with energy under their footprint: sum of w^2 |rest|^2.
+void find_support(const Fitter& fitter, FitLane& lane, Span<uint8_t> active);
+
+/// Moves active bones further so that they take up what `lane.rest` still has to do, and leaves what
+/// they do not.
+void fit_motions(const Fitter& fitter, const Placement& placement, FitLane& lane,
+                 Span<const uint8_t> active, Span<Affine> motions);
+
+/// All shapes, with the weights as they are and bones where they are. `given`: keep `active` as it
+/// is, rather than find it.
+void fit_all(Fitter& fitter, const AuthorMesh& mesh, const Placement& placement,
+             const SkinWeights& weights, bool given, const ParallelFor& parallel,
+             const Motions& out);
+
+/// Weights of each vertex over its own influences that bring it closest to its displacements, all
+/// shapes together: not negative, summing to one, drawn to what they were.
+void refit_weights(const AuthorMesh& mesh, const Motions& motions, const ParallelFor& parallel,
+                   SkinWeights& weights);
+
+}  // namespace mien::author

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Skin weights by joint: which vertices a joint moves, and the sums over them that every shape needs.
+#pragma once
+
+#include "runtime/author/mesh/author_mesh.h"
+#include "runtime/base/arena.h"
+#include "runtime/base/parallel_for.h"
+
+namespace mien::author {
+
+struct Influenced {
+  uint32_t vertex;
+  float weight;
+};
+
+/// Squared weights of a footprint as a mass: its sum, center and second moments about it.
+struct Moments {
+  double mass = 0;
+  Vec3 center;
+  Vec3 spread[3];  // symmetric
+
+  double size() const { return spread[0].x + spread[1].y + spread[2].z; }
+};
+
+/// Whether a fit may move the bone: the trunk of the skeleton stays where it is.
+inline bool is_fitted(const Bone& bone) {
+  return bone.kind == BoneKind::kFacial || bone.kind == BoneKind::kJaw ||
+         bone.kind == BoneKind::kEye;
+}
+
+struct Footprints {
+  uint32_t bone_count = 0;
+  Span<uint32_t> starts;     // bone_count + 1, into `entries`
+  Span<Influenced> entries;  // by bone, vertices ascending
+  Span<double> gram;         // bone_count rows: sums of products of weights; 0 for fixed bones
+  Span<Moments> moments;     // per bone
+  Span<uint8_t> fitted;      // per bone
+  double damping = 0;        // added to the diagonal of the Gram matrix
+
+  Span<Influenced> of(uint32_t bone) const {
+    return entries.slice(starts[bone], starts[bone + 1] - starts[bone]);
+  }
+};
+
+/// Takes all memory that fill_footprints() needs; false if there was not enough.
+bool make_footprints(size_t vertex_count, const Placement& placement, uint32_t influences,
+                     Arena& arena, Footprints& out);
+
+/// Weights may change between two calls. Any number of threads gives the same bits.
+void fill_footprints(Span<const Vec3> positions, const SkinWeights& weights,
+                     const ParallelFor& parallel, Footprints& out);
+
+}  // namespace mien::author

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// What joints cannot do: deltas as the joint matrix holds them, blend shape targets for the rest, and
+// how far the rig then is from the shapes.
+#pragma once
+
+#include "runtime/author/fit/fit_shapes.h"
+
+namespace mien::author {
+
+/// Deltas in the file's frame, rounded as they are written, and the motions that they mean.
+void deltas_of_motions(const Placement& placement, const Frame& frame, Motions& motions,
+                       const JointDeltas& out);
+
+/// How bones move where these deltas add up. In the internal frame; bones whose parent moves are not
+/// supported.
+void pose_bones(const Placement& placement, const Frame& frame, const JointDeltas& deltas,
+                Span<const uint32_t> controls, Span<Affine> out);
+
+/// Offsets of one control, added before skinning. Vertices ascend.
+struct Target {
+  Span<uint32_t> vertices;
+  Span<Vec3f> offsets;  // internal frame
+  double energy = 0;    // sum of squares
+};
+
+/// One target for each shape, empty where joints alone come within `threshold`. False if memory
+/// ran out.
+bool make_targets(const AuthorMesh& mesh, const SkinWeights& weights, const Motions& motions,
+                  double threshold, const ParallelFor& parallel, Arena& arena, Span<Target>& out);
+
+struct ShapeError {
+  double error = 0;    // root of the squared residuals over that of the squared displacements
+  double squares = 0;  // sum of squared residuals
+  double energy = 0;   // sum of squared displacements
+  double max = 0;      // longest residual
+};
+
+struct FitError {
+  double error = 0;              // of all shapes together
+  double median = 0, worst = 0;  // of single shapes
+  uint32_t worst_shape = kNone;
+  double rms = 0, max = 0;  // of residuals, in shares of the diagonal
+  Span<ShapeError> shapes;
+};
+
+/// The rig with each control alone at 1 against the shapes. `targets` may be empty. False if memory
+/// ran out.
+bool measure_fit(const AuthorMesh& mesh, const SkinWeights& weights, const Motions& motions,
+                 Span<const Target> targets, const ParallelFor& parallel, Arena& arena,
+                 FitError& out);
+
+}  // namespace mien::author

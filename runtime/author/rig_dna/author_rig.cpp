@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/author/rig_dna/author_rig.h"
+
+#include <algorithm>
+
+#include "runtime/author/dna_making.h"
+#include "runtime/author/fit/lod_weights.h"
+#include "runtime/author/rig_dna/rig_model.h"
+
+namespace mien::author {
+
+namespace {
+
+class RigMaker {
+ public:
+  RigMaker(const AuthorMesh& mesh, const Placement& placement, const RigOptions& options,
+           Arena& arena, const Allocator& allocator, RigReport& report)
+      : mesh_(mesh), placement_(placement), options_(options), arena_(arena), scratch_(allocator),
+        allocator_(allocator),
+        report_(report), model_{mesh, placement, options.name, {}, {}, {}, {}, {}} {}
+
+  bool make(Span<SkinWeights> weights, dna::DnaView& out) {
+    return fit(weights[0]) && round() && make_lods(weights) && write(out);
+  }
+
+ private:
+  bool starts(const char* step) {
+    if (!options_.go_on || options_.go_on(options_.user, step)) return true;
+    report_.stopped = true;
+    return false;
+  }
+
+  bool measure(const SkinWeights& weights, Span<const Target> targets, FitError& out) {
+    return measure_fit(mesh_, weights, motions_, targets, options_.parallel, arena_, out);
+  }
+
+  bool fit(SkinWeights& weights) {
+    const size_t bones = placement_.bones.count;
+    if (!starts("fit") || !make_motions(mesh_.shapes.count, bones, scratch_, motions_))
+      return false;
+    if (mesh_.shapes.empty()) return true;
+    Arena for_fit(allocator_);
+    Fitter fitter;
+    if (!make_fitter(mesh_.positions, placement_, weights.m, options_.fit, for_fit, fitter)) {
+      return false;
+    }
+    const auto fit_again = [&](FitError& error) {
+      fit_all(fitter, mesh_, placement_, weights, false, options_.parallel, motions_);
+      return measure(weights, {}, error);
+    };
+    fitter.options.rotations = false;
+    if (!fit_again(report_.translations)) return false;
+    report_.rotations = report_.translations;
+    if (options_.fit.rotations) {
+      fitter.options.rotations = true;
+      if (!fit_again(report_.rotations)) return false;
+    }
+    FitError ignored = report_.rotations;
+    for (uint32_t i = 0; i < options_.fit.alternations && !options_.keep_weights; ++i) {
+      if (!starts("weights")) return false;
+      refit_weights(mesh_, motions_, options_.parallel, weights);
+      if (!fit_again(ignored)) return false;
+    }
+    return true;
+  }
+
+  /// From here on motions are what the numbers of the file mean.
+  bool round() {
+    const size_t bones = placement_.bones.count;
+    model_.deltas.joint_count = static_cast<uint32_t>(bones);
+    if (!author::make(scratch_, mesh_.shapes.count * bones, model_.deltas.items) ||
+        !author::make(scratch_, bones, model_.regions.region)) {
+      return false;
+    }
+    model_.regions.count = 1;
+    deltas_of_motions(placement_, mesh_.frame, motions_, model_.deltas);
+    return true;
+  }
+
+  bool make_lods(Span<SkinWeights> weights) {
+    const size_t count = placement_.lod_facial_counts.count;
+    Span<LodModel> lods;
+    if (!starts("levels of detail") || !author::make(scratch_, count, lods) ||
+        !author::make(arena_, count, report_.lods)) {
+      return false;
+    }
+    model_.lods = lods;
+    for (uint32_t l = 0; l < count; ++l) {
+      if (!make_lod(l, weights, lods[l])) return false;
+      report_.lods[l].channels = model_.channels_in_lod(l);
+    }
+    return true;
+  }
+
+  bool make_lod(uint32_t l, Span<SkinWeights> weights, LodModel& lod) {
+    LodReport& report = report_.lods[l];
+    const uint32_t kept = placement_.lod_facial_counts[l];
+    report.joints = static_cast<uint32_t>(placement_.bones.count) - placement_.facial_count + kept;
+    lod.weights = weights[l < weights.count ? l : 0];
+    FitError error;
+    if (l > 0) {
+      SkinWeights collapsed;
+      if (!make_weights_like(weights[0], scratch_, collapsed) ||
+          !collapse_weights(placement_, kept, weights[0], scratch_, collapsed) ||
+          !measure(collapsed, {}, error)) {
+        return false;
+      }
+      report.collapsed_error = error.error;
+      if (l >= weights.count) lod.weights = collapsed;
+    }
+    if (!measure(lod.weights, {}, error)) return false;
+    report.new_error = error.error;
+    if (l > 0 && !options_.keep_weights) {
+      refit_weights(mesh_, motions_, options_.parallel, lod.weights);
+      if (!measure(lod.weights, {}, error)) return false;
+    }
+    report.joints_error = error.error;
+    if (l == 0) report_.joints = error;
+    if (l < 2 && options_.residual_targets && !make_shape_targets(l, lod)) return false;
+    if (!measure(lod.weights, lod.targets, error)) return false;
+    report.error = error.error;
+    if (l == 0) report_.rig = error;
+    return true;
+  }
+
+  /// LOD 0 has all channels, the strongest first, and LOD 1 the first half of them.
+  bool make_shape_targets(uint32_t l, LodModel& lod) {
+    Span<Target> targets;
+    if (!make_targets(mesh_, lod.weights, motions_, options_.residual_threshold * mesh_.diagonal,
+                      options_.parallel, scratch_, targets)) {
+      return false;
+    }
+    if (l == 0) {
+      Span<uint32_t> channels;
+      if (!author::make(scratch_, targets.count, channels)) return false;
+      uint32_t count = 0;
+      size_t moving = 0;
+      for (uint32_t s = 0; s < targets.count; ++s) {
+        moving += mesh_.shapes[s].moving.count;
+        report_.target_vertices += static_cast<uint32_t>(targets[s].vertices.count);
+        if (!targets[s].vertices.empty()) channels[count++] = s;
+      }
+      std::sort(channels.begin(), channels.begin() + count, [&](uint32_t a, uint32_t b) {
+        const double x = targets[a].energy, y = targets[b].energy;
+        return x != y ? x > y : a < b;
+      });
+      model_.channels = channels.first(count);
+      model_.shape_channels[0] = count;
+      model_.shape_channels[1] = placement_.lod_facial_counts.count > 1 ? (count + 1) / 2 : 0;
+      report_.target_count = count;
+      report_.target_share =
+          moving > 0 ? static_cast<double>(report_.target_vertices) / static_cast<double>(moving)
+                     : 0;
+    } else {
+      Span<uint8_t> used;
+      if (!author::make(scratch_, targets.count, used)) return false;
+      for (uint32_t c = 0; c < model_.channels_in_lod(l); ++c) used[model_.channels[c]] = 1;
+      for (size_t s = 0; s < targets.count; ++s) {
+        if (!used[s]) targets[s] = Target();
+      }
+    }
+    lod.targets = targets;
+    return true;
+  }
+
+  bool write(dna::DnaView& out) {
+    return starts("write") && fill_index(arena_, out) && fill_descriptor(model_, arena_, out) &&
+           fill_controls(model_, arena_, out) && fill_joints(model_, arena_, scratch_, out) &&
+           fill_meshes(model_, arena_, allocator_, out);
+  }
+
+  const AuthorMesh& mesh_;
+  const Placement& placement_;
+  const RigOptions& options_;
+  Arena& arena_;
+  Arena scratch_;
+  const Allocator& allocator_;
+  RigReport& report_;
+  RigModel model_;
+  Motions motions_;
+};
+
+}  // namespace
+
+bool author_rig(const AuthorMesh& mesh, const Placement& placement, Span<SkinWeights> weights,
+                const RigOptions& options, Arena& arena, const Allocator& allocator,
+                RigReport& report, dna::DnaView& out) {
+  report = {};
+  out = dna::DnaView();
+  RigMaker maker(mesh, placement, options, arena, allocator, report);
+  if (maker.make(weights, out)) return true;
+  out = dna::DnaView();
+  return false;
+}
+
+}  // namespace mien::author

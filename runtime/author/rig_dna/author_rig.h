@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// From a mesh with bones and weights to a DNA file.
+#pragma once
+
+#include "runtime/author/fit/targets.h"
+#include "runtime/dna/format/dna_view.h"
+
+namespace mien::author {
+
+struct RigOptions {
+  FitOptions fit;
+  bool residual_targets = true;      // what joints cannot do becomes blend shape targets
+  double residual_threshold = 1e-3;  // shorter offsets are left out; in shares of the diagonal
+  bool keep_weights = false;         // the weights are the caller's own: fit motions only
+  Name name = {"head", 4};
+  ParallelFor parallel;
+  void* user = nullptr;
+  bool (*go_on)(void* user, const char* step) = nullptr;  // called before each step; false: stop
+};
+
+struct LodReport {
+  uint32_t joints = 0, channels = 0;
+  double collapsed_error = 0;  // with dropped bones' weights on the nearest bone that is left
+  double new_error = 0;        // with new weights
+  double joints_error = 0;     // with weights refitted to the shapes
+  double error = 0;            // of the file, with blend shapes
+};
+
+struct RigReport {
+  bool stopped = false;   // by go_on
+  FitError translations;  // of bones that only move, with the weights as they came
+  FitError rotations;     // of bones that turn too
+  FitError joints;        // with refitted weights: of the joints that are written
+  FitError rig;           // with blend shapes: of the file
+  uint32_t target_count = 0, target_vertices = 0;
+  double target_share = 0;  // of the displacements of moving vertices, those with an offset
+  Span<LodReport> lods;
+};
+
+/// `weights` holds those of LOD 0, or those of every LOD, each over the bones that it keeps; where
+/// they are missing, dropped bones hand theirs to the nearest one that is left. They are refitted in
+/// place unless the options keep them. Report and view lie in `arena`, and the view refers to names
+/// in it. False if memory ran out or `go_on` stopped it.
+bool author_rig(const AuthorMesh& mesh, const Placement& placement, Span<SkinWeights> weights,
+                const RigOptions& options, Arena& arena, const Allocator& allocator,
+                RigReport& report, dna::DnaView& out);
+
+}  // namespace mien::author

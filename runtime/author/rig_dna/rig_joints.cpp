@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// Descriptor, controls and joints of an authored rig.
+#include "runtime/author/dna_making.h"
+#include "runtime/author/rig_dna/rig_model.h"
+
+namespace mien::author {
+
+bool join_text(Arena& arena, std::initializer_list<Name> parts, dna::String& out) {
+  size_t count = 0;
+  for (const Name& part : parts) count += part.count;
+  uint8_t* chars = static_cast<uint8_t*>(arena.allocate(count, 1));
+  if (!chars) return false;
+  out = {chars, static_cast<uint32_t>(count)};
+  for (const Name& part : parts) {
+    if (part.count > 0) memcpy(chars, part.data, part.count);
+    chars += part.count;
+  }
+  return true;
+}
+
+namespace {
+
+/// Directions of the format: 0 left, 1 right, 2 up, 3 down, 4 front, 5 back.
+dna::FileCoordinateSystem axes_of(const Frame& frame) {
+  uint16_t axes[3] = {};
+  for (int i = 0; i < 3; ++i) {
+    axes[frame.axis[i]] = static_cast<uint16_t>(2 * i + (frame.sign[i] < 0));
+  }
+  return {axes[0], axes[1], axes[2]};
+}
+
+bool fill_joint_names(const RigModel& rig, Arena& arena, dna::Definition& out) {
+  const Span<const Bone> bones = rig.placement.bones;
+  dna::NewArray<uint16_t> parents;
+  NewVec3s translations, rotations;
+  if (!make(arena, bones.count, out.joint_names) || !make(arena, bones.count, parents) ||
+      !translations.allocate(arena, bones.count) || !rotations.allocate(arena, bones.count)) {
+    return false;
+  }
+  for (uint32_t j = 0; j < bones.count; ++j) {
+    const Bone& bone = bones[j];
+    if (!join_text(arena, {bone.name}, out.joint_names[j])) return false;
+    parents.set(j, static_cast<uint16_t>(bone.parent));
+    const Vec3 from = bone.parent != j ? bones[bone.parent].position : Vec3();
+    translations.set(j, rig.mesh.frame.to_file(bone.position - from));
+    rotations.set(j, {});
+  }
+  out.joint_hierarchy = parents;
+  out.neutral_translations = translations;
+  out.neutral_rotations = rotations;
+  const auto in_lod = [&rig](size_t lod, size_t j) {
+    return rig.in_lod(static_cast<uint32_t>(j), lod);
+  };
+  return make_lod_map(arena, rig.lod_count(), bones.count, in_lod, out.lod_joints);
+}
+
+/// Rows: attributes of the region's joints that some control changes, those of the coarsest LODs
+/// first. Columns: controls that change one of them.
+bool fill_group(const RigModel& rig, uint32_t region, Arena& arena, Span<uint16_t> row_buffer,
+                Span<uint16_t> column_buffer, dna::JointGroup& out) {
+  const uint32_t bones = static_cast<uint32_t>(rig.placement.bones.count);
+  const uint32_t controls = rig.control_count(), lods = rig.lod_count();
+  const auto value = [&rig](uint32_t control, uint32_t row) {
+    const JointDelta& d = rig.deltas.at(control, row / 9);
+    return row % 9 < 3 ? d.translation[row % 9] : d.rotation[row % 9 - 3];
+  };
+  dna::NewArray<uint16_t> lod_rows;
+  if (!make(arena, lods, lod_rows)) return false;
+  uint32_t rows = 0, columns = 0, joints = 0;
+  for (uint32_t lod = lods; lod-- > 0;) {
+    for (uint32_t j = 0; j < bones; ++j) {
+      const bool is_new = rig.in_lod(j, lod) && (lod + 1 == lods || !rig.in_lod(j, lod + 1));
+      if (!is_new || rig.regions.region[j] != region) continue;
+      const uint32_t before = rows;
+      for (uint32_t a = 0; a < 6; ++a) {
+        bool moves = false;
+        for (uint32_t c = 0; c < controls && !moves; ++c) moves = value(c, j * 9 + a) != 0;
+        if (moves) row_buffer[rows++] = static_cast<uint16_t>(j * 9 + a);
+      }
+      joints += rows > before;
+    }
+    lod_rows.set(lod, static_cast<uint16_t>(rows));
+  }
+  for (uint32_t c = 0; c < controls; ++c) {
+    bool moves = false;
+    for (uint32_t r = 0; r < rows && !moves; ++r) moves = value(c, row_buffer[r]) != 0;
+    if (moves) column_buffer[columns++] = static_cast<uint16_t>(c);
+  }
+  dna::NewArray<uint16_t> inputs, outputs, members;
+  dna::NewArray<float> values;
+  if (!make(arena, columns, inputs) || !make(arena, rows, outputs) ||
+      !make(arena, size_t{rows} * columns, values) || !make(arena, joints, members)) {
+    return false;
+  }
+  for (uint32_t c = 0; c < columns; ++c) inputs.set(c, column_buffer[c]);
+  uint32_t member = 0;
+  for (uint32_t r = 0; r < rows; ++r) {
+    outputs.set(r, row_buffer[r]);
+    const bool first = r == 0 || row_buffer[r] / 9 != row_buffer[r - 1] / 9;
+    if (first) members.set(member++, static_cast<uint16_t>(row_buffer[r] / 9));
+    for (uint32_t c = 0; c < columns; ++c) {
+      values.set(size_t{r} * columns + c, value(column_buffer[c], row_buffer[r]));
+    }
+  }
+  out = {lod_rows, inputs, outputs, values, members};
+  return true;
+}
+
+}  // namespace
+
+bool fill_descriptor(const RigModel& rig, Arena& arena, dna::DnaView& out) {
+  dna::Descriptor& desc = out.desc;
+  desc.archetype = 5;  // other
+  desc.gender = 2;     // other
+  desc.coordinate_system = axes_of(rig.mesh.frame);
+  desc.lod_count = static_cast<uint16_t>(rig.lod_count());
+  return make(arena, 1, desc.metadata) &&
+         copy_text(arena, Text().add("generator"), desc.metadata[0].key) &&
+         copy_text(arena, Text().add("mien author"), desc.metadata[0].value) &&
+         join_text(arena, {rig.name}, desc.name) &&
+         copy_text(arena, Text().add("mien_author"), desc.complexity) &&
+         copy_text(arena, Text().add("mien_author"), desc.db_name);
+}
+
+bool fill_controls(const RigModel& rig, Arena& arena, dna::DnaView& out) {
+  static constexpr char kPrefix[] = "CTRL_";
+  const size_t count = rig.mesh.shapes.count;
+  dna::NewArray<uint16_t> inputs, outputs, map_lods;
+  dna::NewArray<float> from, to, slope, cut;
+  if (!make(arena, count, out.defn.raw_control_names) ||
+      !make(arena, count, out.defn.gui_control_names) || !make(arena, count, inputs) ||
+      !make(arena, count, outputs) || !make(arena, count, from) || !make(arena, count, to) ||
+      !make(arena, count, slope) || !make(arena, count, cut) ||
+      !make(arena, rig.lod_count(), map_lods)) {
+    return false;
+  }
+  for (uint32_t i = 0; i < count; ++i) {
+    const Name name = rig.mesh.shapes[i].name;
+    if (!join_text(arena, {name}, out.defn.raw_control_names[i]) ||
+        !join_text(arena, {{kPrefix, 5}, name}, out.defn.gui_control_names[i])) {
+      return false;
+    }
+    inputs.set(i, static_cast<uint16_t>(i));
+    outputs.set(i, static_cast<uint16_t>(i));
+    from.set(i, 0);
+    to.set(i, 1);
+    slope.set(i, 1);
+    cut.set(i, 0);
+  }
+  out.bhvr.controls.conditionals = {inputs, outputs, from, to, slope, cut};
+  for (uint32_t lod = 0; lod < rig.lod_count(); ++lod) map_lods.set(lod, 0);
+  out.bhvr.maps.lods = map_lods;
+  return make_lod_map(
+      arena, rig.lod_count(), 0, [](size_t, size_t) { return false; }, out.defn.lod_maps);
+}
+
+bool fill_joints(const RigModel& rig, Arena& arena, Arena& scratch, dna::DnaView& out) {
+  Span<uint16_t> rows, columns;
+  const size_t bones = rig.placement.bones.count;
+  dna::Joints& joints = out.bhvr.joints;
+  if (!fill_joint_names(rig, arena, out.defn) || !make(scratch, bones * 6, rows) ||
+      !make(scratch, rig.control_count(), columns) ||
+      !make(arena, rig.regions.count, joints.groups)) {
+    return false;
+  }
+  joints.row_count = static_cast<uint16_t>(9 * bones);
+  joints.col_count = static_cast<uint16_t>(rig.control_count());
+  for (uint32_t g = 0; g < rig.regions.count; ++g) {
+    if (!fill_group(rig, g, arena, rows, columns, joints.groups[g])) return false;
+  }
+  return true;
+}
+
+}  // namespace mien::author

@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: MIT
+// Authored rigs as files: opened, evaluated and deformed by the library, and compared with the shapes
+// that they were made from.
+#include "runtime/author/rig_dna/author_rig.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "runtime/author/random.h"
+#include "tests/support/author_setup.h"
+#include "tests/support/deform_rig.h"
+#include "tests/support/rig_handles.h"
+
+namespace mien::author {
+namespace {
+
+/// The small head, authored.
+struct Authored {
+  AuthorSetup head;
+  Arena arena{default_allocator()};
+  RigReport report;
+  std::vector<uint8_t> bytes;
+
+  explicit Authored(RigOptions options = {}, uint32_t lods = 4, const Frame& frame = {},
+                    uint32_t bones = 40) {
+    make_author_head(5, bones, 6, lods, head);
+    head.mesh.frame = frame;
+    dna::DnaView view;
+    EXPECT_TRUE(author_rig(head.mesh, head.placement, {&head.weights, 1}, options, arena,
+                           default_allocator(), report, view));
+    bytes = write_view(view);
+  }
+};
+
+const Authored& authored() {
+  static const Authored made;
+  return made;
+}
+
+/// A rig as the library runs it.
+struct Played {
+  DnaHandle dna;
+  RigHandle rig;
+  Character character;
+  DeformerHandle deformer;
+  DeformerInstanceHandle instance;
+
+  explicit Played(const std::vector<uint8_t>& bytes, uint32_t isa = MIEN_ISA_ENVIRONMENT)
+      : dna(open_dna(bytes)), rig(create_rig(dna.get(), isa)), character(rig),
+        deformer(create_deformer(dna.get(), rig.get())),
+        instance(create_deformer_instance(deformer.get())) {}
+
+  void set(uint32_t control) {
+    for (float& value : character.raw) value = 0;
+    if (control < character.raw.count) character.raw[control] = 1;
+  }
+  std::vector<Vec3> deform(uint32_t lod) {
+    character.evaluate(lod);
+    EXPECT_EQ(mien_deformer_instance_update(instance.get(), character.instance.get()), MIEN_OK);
+    EXPECT_EQ(mien_deformer_instance_deform(instance.get(), lod, MIEN_NORMALS_NONE, nullptr),
+              MIEN_OK);
+    MienFloatView view = {};
+    EXPECT_EQ(mien_deformer_instance_positions(instance.get(), lod, &view), MIEN_OK);
+    std::vector<Vec3> out(view.count / 3);
+    for (size_t v = 0; v < out.size(); ++v) {
+      out[v] = {double{view.data[3 * v]}, double{view.data[3 * v + 1]},
+                double{view.data[3 * v + 2]}};
+    }
+    return out;
+  }
+  double error(const AuthorSetup& head, uint32_t lod, double* max = nullptr) {
+    double squares = 0, energy = 0, longest = 0;
+    for (uint32_t s = 0; s < head.shapes.size(); ++s) {
+      set(s);
+      const std::vector<Vec3> points = deform(lod);
+      for (size_t v = 0; v < points.size(); ++v) {
+        const Vec3f f = head.displacements[s][v];
+        const Vec3 d = {double{f.x}, double{f.y}, double{f.z}};
+        const Vec3 rest = head.mesh.frame.to_internal(points[v]) - head.positions[v] - d;
+        squares += dot(rest, rest);
+        energy += dot(d, d);
+        longest = std::max(longest, length(rest));
+      }
+    }
+    if (max) *max = longest / head.mesh.diagonal;
+    return std::sqrt(squares / energy);
+  }
+};
+
+TEST(AuthorRig, FilesAreValidWithoutFindings) {
+  const std::vector<uint8_t>& bytes = authored().bytes;
+  MienReport* report = nullptr;
+  ASSERT_EQ(mien_dna_validate_memory(bytes.data(), bytes.size(), nullptr, &report, nullptr),
+            MIEN_OK);
+  uint32_t errors = 0, warnings = 0;
+  EXPECT_EQ(mien_report_counts(report, &errors, &warnings), MIEN_OK);
+  EXPECT_EQ(errors, 0u);
+  EXPECT_EQ(warnings, 0u);
+  mien_report_destroy(report);
+  EXPECT_TRUE(write_dna(open_dna(bytes).get()) == bytes) << "round trip";
+}
+
+TEST(AuthorRig, NeutralIsTheMesh) {
+  Played played(authored().bytes);
+  for (uint32_t lod = 0; lod < 4; ++lod) {
+    played.set(kNone);
+    const std::vector<Vec3> points = played.deform(lod);
+    ASSERT_EQ(points.size(), authored().head.positions.size());
+    for (size_t v = 0; v < points.size(); ++v) {
+      EXPECT_LT(length(points[v] - authored().head.positions[v]),
+                1e-6 * authored().head.mesh.diagonal);
+    }
+  }
+}
+
+TEST(AuthorRig, TheReportTellsTheErrorOfTheEvaluatedFile) {
+  Played played(authored().bytes);
+  double max = 0;
+  EXPECT_NEAR(played.error(authored().head, 0, &max), authored().report.rig.error, 1e-4);
+  EXPECT_NEAR(max, authored().report.rig.max, 1e-5);
+  for (uint32_t lod = 1; lod < 4; ++lod) {
+    EXPECT_NEAR(played.error(authored().head, lod), authored().report.lods[lod].error, 1e-4);
+  }
+}
+
+TEST(AuthorRig, ErrorsFallFromStepToStep) {
+  const RigReport& r = authored().report;
+  EXPECT_LT(r.rotations.error, r.translations.error);
+  EXPECT_LT(r.joints.error, 0.7 * r.rotations.error);
+  EXPECT_LT(r.rig.error, r.joints.error);
+  EXPECT_LE(r.rig.max, 1.05e-3) << "no offset above the threshold is missing";
+  EXPECT_LE(r.joints.median, r.joints.worst);
+  for (uint32_t lod = 1; lod < 4; ++lod) {
+    EXPECT_LT(r.lods[lod].joints_error, r.lods[lod].collapsed_error);
+    EXPECT_GE(r.lods[lod].joints_error, r.lods[lod - 1].joints_error);
+  }
+}
+
+TEST(AuthorRig, EveryInstructionSetGivesTheSame) {
+  const std::vector<uint32_t> isas = present_isas();
+  Played first(authored().bytes, isas[0]);
+  for (uint32_t isa : isas) {
+    Played other(authored().bytes, isa);
+    for (uint32_t lod : {0u, 2u}) {
+      for (uint32_t control : {0u, 17u, 33u}) {
+        first.set(control);
+        other.set(control);
+        const std::vector<Vec3> a = first.deform(lod), b = other.deform(lod);
+        for (size_t v = 0; v < a.size(); ++v) {
+          EXPECT_LT(length(a[v] - b[v]), 2e-6 * authored().head.mesh.diagonal);
+        }
+      }
+    }
+  }
+}
+
+TEST(AuthorRig, RandomControlsAddUpAsInTheModel) {
+  const Authored& a = authored();
+  Played played(a.bytes);
+  const dna::DnaView& view = played.dna->view;
+  Random random = Random::from_seed(1, 9);
+  const uint32_t joints = view.defn.joint_names.count;
+  for (int round = 0; round < 1000; ++round) {
+    std::vector<double> expected(size_t{joints} * 9);
+    for (float& value : played.character.raw) {
+      value = random.chance(0.5) ? static_cast<float>(random.real()) : 0;
+    }
+    const uint32_t lod = random.below(4);
+    for (const dna::JointGroup& group : view.bhvr.joints.groups) {
+      for (uint32_t r = 0; r < group.lods[lod]; ++r) {
+        for (uint32_t c = 0; c < group.input_indices.count; ++c) {
+          expected[group.output_indices[r]] +=
+              double{group.values[size_t{r} * group.input_indices.count + c]} *
+              double{played.character.raw[group.input_indices[c]]};
+        }
+      }
+    }
+    played.character.evaluate(lod);
+    for (size_t i = 0; i < expected.size(); ++i) {
+      ASSERT_NEAR(played.character.joints[i], expected[i], 1e-4);
+    }
+  }
+}
+
+TEST(AuthorRig, LodsAreNested) {
+  const DnaHandle dna = open_dna(authored().bytes);
+  const dna::DnaView& view = dna->view;
+  EXPECT_EQ(view.desc.lod_count, 4u);
+  for (uint32_t lod = 1; lod < 4; ++lod) {
+    const dna::Array<uint16_t> fine = view.defn.lod_joints.at(lod - 1);
+    const dna::Array<uint16_t> coarse = view.defn.lod_joints.at(lod);
+    EXPECT_LT(coarse.count, fine.count);
+    for (size_t i = 0, k = 0; i < coarse.count; ++i) {
+      while (k < fine.count && fine[k] != coarse[i]) ++k;
+      EXPECT_LT(k, fine.count) << "joint " << coarse[i] << " is new at LOD " << lod;
+    }
+    EXPECT_EQ(view.defn.lod_meshes.at(lod).count, 1u);
+    // Weights name joints of the LOD only.
+    for (const dna::VertexSkinWeights& w : view.geom.meshes[lod].skin_weights) {
+      for (size_t i = 0; i < w.joint_indices.count; ++i)
+        EXPECT_LT(w.joint_indices[i], coarse.count);
+    }
+  }
+  EXPECT_EQ(view.defn.lod_channels.at(0).count, view.defn.channel_names.count);
+  EXPECT_EQ(view.defn.lod_channels.at(1).count, (view.defn.channel_names.count + 1) / 2);
+  EXPECT_EQ(view.defn.lod_channels.at(2).count, 0u);
+}
+
+TEST(AuthorRig, GuiControlsDriveTheExpressionsOfTheirNames) {
+  Played played(authored().bytes);
+  const std::vector<std::string> gui = names_of(played.rig, MIEN_KIND_GUI_CONTROL);
+  const std::vector<std::string> raw = names_of(played.rig, MIEN_KIND_RAW_CONTROL);
+  ASSERT_EQ(raw, authored().head.shape_names);
+  ASSERT_EQ(gui.size(), raw.size());
+  for (size_t i = 0; i < gui.size(); ++i) {
+    EXPECT_EQ(gui[i], "CTRL_" + raw[i]);
+    for (float& value : played.character.gui) value = 0;
+    played.character.gui[i] = 0.75f;
+    played.character.map_gui_to_raw();
+    for (size_t k = 0; k < raw.size(); ++k) {
+      EXPECT_EQ(played.character.raw[k], k == i ? 0.75f : 0.0f);
+    }
+  }
+}
+
+TEST(AuthorRig, WithoutResidualTargetsThereAreNoBlendShapes) {
+  RigOptions options;
+  options.residual_targets = false;
+  const Authored made(options);
+  EXPECT_EQ(open_dna(made.bytes)->view.defn.channel_names.count, 0u);
+  EXPECT_EQ(made.report.rig.error, made.report.joints.error);
+  EXPECT_EQ(made.report.target_count, 0u);
+}
+
+TEST(AuthorRig, WeightsOfTheCallerStay) {
+  RigOptions options;
+  options.keep_weights = true;
+  AuthorSetup before;
+  make_author_head(5, 40, 6, 4, before);
+  const Authored made(options);
+  EXPECT_EQ(made.head.weight_values, before.weight_values);
+  EXPECT_EQ(made.head.joints, before.joints);
+  EXPECT_GT(made.report.joints.error, authored().report.joints.error);
+}
+
+TEST(AuthorRig, WithoutShapesThereAreJointsAndMeshes) {
+  AuthorSetup head;
+  make_author_head(6, 12, 4, 2, head);
+  head.displacements.clear();
+  head.shape_names.clear();
+  head.finish(4);
+  Arena arena(default_allocator());
+  RigReport report;
+  dna::DnaView view;
+  ASSERT_TRUE(author_rig(head.mesh, head.placement, {&head.weights, 1}, {}, arena,
+                         default_allocator(), report, view));
+  Played played(write_view(view));
+  EXPECT_EQ(count_of(played.rig, MIEN_KIND_RAW_CONTROL), 0u);
+  EXPECT_EQ(played.deform(1).size(), head.positions.size());
+}
+
+TEST(AuthorRig, OtherAxesGiveTheSameFace) {
+  Frame frame;  // z up, y to the back: x y z of the file are x, -z, y
+  frame.axis[0] = 0, frame.axis[1] = 2, frame.axis[2] = 1;
+  frame.sign[0] = 1, frame.sign[1] = 1, frame.sign[2] = -1;
+  const Authored made({}, 4, frame);
+  Played played(made.bytes);
+  const dna::FileCoordinateSystem axes = played.dna->view.desc.coordinate_system;
+  EXPECT_EQ(axes.x_axis, 0);  // left
+  EXPECT_EQ(axes.y_axis, 5);  // back
+  EXPECT_EQ(axes.z_axis, 2);  // up
+  EXPECT_NEAR(played.error(made.head, 0), authored().report.rig.error, 1e-4);
+  // Opened in the first file's axes, it is the first file's face.
+  MienCoordinateSystem system = mien_coordinate_system_default();
+  const uint32_t left_up_front[3] = {MIEN_DIRECTION_LEFT, MIEN_DIRECTION_UP, MIEN_DIRECTION_FRONT};
+  memcpy(system.axes, left_up_front, sizeof(system.axes));
+  const DnaHandle same = open_in_system(made.bytes, system);
+  const dna::Vec3Array& p = same->view.geom.meshes[0].positions;
+  for (size_t v = 0; v < made.head.positions.size(); ++v) {
+    EXPECT_LT(
+        length(Vec3{double{p.xs[v]}, double{p.ys[v]}, double{p.zs[v]}} - made.head.positions[v]),
+        1e-5);
+  }
+}
+
+void run_in_threads(void*, uint32_t count, void (*task)(void*, uint32_t), void* context) {
+  std::vector<std::thread> threads;
+  for (uint32_t t = 0; t < 8; ++t) {
+    threads.emplace_back([=] {
+      for (uint32_t i = t; i < count; i += 8) task(context, i);
+    });
+  }
+  for (std::thread& t : threads) t.join();
+}
+
+TEST(AuthorRig, AnyNumberOfThreadsGivesTheSameBytes) {
+  RigOptions options;
+  options.parallel = {nullptr, run_in_threads};
+  EXPECT_TRUE(Authored(options).bytes == authored().bytes);
+}
+
+TEST(AuthorRig, StopsWhereItIsToldTo) {
+  struct Stop {
+    int left;
+    static bool go_on(void* user, const char*) { return --static_cast<Stop*>(user)->left >= 0; }
+  };
+  AuthorSetup head;
+  make_author_head(6, 12, 4, 2, head);
+  int steps = 0;
+  for (bool done = false; !done; ++steps) {
+    ASSERT_LT(steps, 20);
+    Stop stop = {steps};
+    RigOptions options;
+    options.user = &stop;
+    options.go_on = Stop::go_on;
+    Arena arena(default_allocator());
+    RigReport report;
+    dna::DnaView view;
+    done = author_rig(head.mesh, head.placement, {&head.weights, 1}, options, arena,
+                      default_allocator(), report, view);
+    EXPECT_EQ(report.stopped, !done);
+    EXPECT_EQ(view.index.count != 0, done);
+  }
+  EXPECT_GE(steps, 4);
+}
+
+/// Gives out a number of blocks and no more than that.
+struct FewBlocks {
+  size_t left, live = 0;
+
+  Allocator get() {
+    return {this,
+            [](void* user, size_t size, size_t alignment) -> void* {
+              FewBlocks& self = *static_cast<FewBlocks*>(user);
+              if (self.left == 0) return nullptr;
+              --self.left;
+              ++self.live;
+              return default_allocator().get(size, alignment);
+            },
+            [](void* user, void* block, size_t size, size_t alignment) {
+              --static_cast<FewBlocks*>(user)->live;
+              default_allocator().put(block, size, alignment);
+            }};
+  }
+};
+
+TEST(AuthorRig, AnyAllocationMayFail) {
+  AuthorSetup head;
+  make_author_head(7, 8, 4, 2, head);
+  const std::vector<float> weights = head.weight_values;
+  const std::vector<uint16_t> joints = head.joints;
+  bool made = false;
+  size_t blocks = 0;
+  for (; !made; ++blocks) {
+    ASSERT_LT(blocks, 1000u);
+    head.weight_values = weights;
+    head.joints = joints;
+    FewBlocks few = {blocks};
+    {
+      const Allocator allocator = few.get();
+      Arena arena(allocator);
+      RigReport report;
+      dna::DnaView view;
+      made = author_rig(head.mesh, head.placement, {&head.weights, 1}, {}, arena, allocator, report,
+                        view);
+      EXPECT_FALSE(report.stopped);
+    }
+    EXPECT_EQ(few.live, 0u);
+  }
+  EXPECT_GT(blocks, 8u);
+}
+
+}  // namespace
+}  // namespace mien::author

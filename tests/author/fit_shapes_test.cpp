@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: MIT
+// Fits on motions that are known, and on the expressions of the procedural head.
+#include "runtime/author/fit/fit_shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "runtime/author/fit/procrustes.h"
+#include "runtime/author/fit/targets.h"
+#include "runtime/author/random.h"
+#include "tests/support/author_setup.h"
+
+namespace mien::author {
+namespace {
+
+double difference(const Affine& a, const Affine& b) {
+  double sum = length(a.shift - b.shift);
+  for (int r = 0; r < 3; ++r) sum += length(a.rows[r] - b.rows[r]);
+  return sum;
+}
+
+Affine turned(Vec3 degrees, Vec3 center = {}, Vec3 shift = {}) {
+  const double angles[3] = {degrees.x, degrees.y, degrees.z};
+  return motion(angles, center, shift);
+}
+
+// Rotations --------------------------------------------------------------------------------------
+
+TEST(Procrustes, ARotationIsItsOwnClosest) {
+  Random random = Random::from_seed(1, 2);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 angles = {random.between(-170, 170), random.between(-80, 80),
+                         random.between(-170, 170)};
+    const Affine wanted = turned(angles);
+    Affine found;
+    closest_rotation(wanted.rows, 1, found.rows);
+    EXPECT_LT(difference(wanted, found), 1e-12);
+    Affine scaled = wanted;
+    for (Vec3& row : scaled.rows) row = row * 0.01;
+    closest_rotation(scaled.rows, 1, found.rows);
+    EXPECT_LT(difference(wanted, found), 1e-12);
+  }
+}
+
+TEST(Procrustes, AReflectionGivesARotation) {
+  const Vec3 mirror[3] = {{-1, 0, 0}, {0, 3, 0}, {0, 0, 2}};
+  Vec3 found[3];
+  closest_rotation(mirror, 1, found);
+  EXPECT_NEAR(dot(found[0], cross(found[1], found[2])), 1, 1e-12);
+}
+
+TEST(Procrustes, ZeroGivesTheIdentity) {
+  const Vec3 zero[3] = {};
+  Affine found;
+  closest_rotation(zero, 1, found.rows);
+  EXPECT_LT(difference(found, Affine::identity()), 1e-15);
+}
+
+TEST(Procrustes, LargeRotationsKeepTheirAxisAndStopAtTheLimit) {
+  const double limit = exact_sine(15 * kPi / 180);
+  Affine found;
+  closest_rotation(turned({0, 50, 0}).rows, limit, found.rows);
+  EXPECT_LT(difference(found, turned({0, 30, 0})), 1e-12);
+  closest_rotation(turned({0, 29, 0}).rows, limit, found.rows);
+  EXPECT_LT(difference(found, turned({0, 29, 0})), 1e-12);
+}
+
+TEST(EulerAngles, GiveTheRotationBack) {
+  Random random = Random::from_seed(3, 4);
+  for (int i = 0; i < 200; ++i) {
+    const Affine wanted =
+        turned({random.between(-180, 180), random.between(-90, 90), random.between(-180, 180)});
+    EXPECT_LT(difference(turned(euler_angles(wanted.rows)), wanted), 1e-9);
+  }
+  for (double side : {-90.0, 90.0}) {
+    const Affine wanted = turned({20, side, 35});
+    EXPECT_LT(difference(turned(euler_angles(wanted.rows)), wanted), 1e-9);
+  }
+}
+
+// Fits -------------------------------------------------------------------------------------------
+
+/// Two clouds of points, each carried by one bone alone, and a third that does not move.
+struct Clouds : AuthorSetup {
+  Affine first = turned({10, -20, 5}, {3, 0, 0}, {0.5, 0.2, -0.1});
+  Affine second = turned({0, 0, 25}, {-3, 0, 0}, {0, 1, 0});
+
+  Clouds() {
+    add_trunk();
+    add_bone("a", {3, 0, 0}, BoneKind::kFacial, 3);
+    add_bone("b", {-3, 0, 0}, BoneKind::kFacial, 3);
+    add_bone("c", {0, 6, 0}, BoneKind::kFacial, 3);
+    Random random = Random::from_seed(5, 6);
+    for (uint32_t j = 4; j < 7; ++j) {
+      for (int i = 0; i < 60; ++i) {
+        const Vec3 offset = {random.normal(), random.normal(), random.normal()};
+        add_vertex(bones[j].position + offset);
+        joints.push_back(static_cast<uint16_t>(j));
+        weight_values.push_back(1);
+      }
+    }
+    add_shape("move", [&](uint32_t v) -> Vec3 {
+      if (v >= 120) return {};
+      return (v < 60 ? first : second)(positions[v]) - positions[v];
+    });
+    finish(1);
+  }
+};
+
+struct Fitted {
+  Arena arena{default_allocator()};
+  Fitter fitter;
+  Motions motions;
+
+  Fitted(const AuthorSetup& setup, const FitOptions& options = {},
+         const ParallelFor& parallel = {}) {
+    EXPECT_TRUE(make_fitter(setup.mesh.positions, setup.placement, setup.weights.m, options, arena,
+                            fitter));
+    EXPECT_TRUE(make_motions(setup.shapes.size(), setup.bones.size(), arena, motions));
+    fit_all(fitter, setup.mesh, setup.placement, setup.weights, false, parallel, motions);
+  }
+  double error(const AuthorSetup& setup) {
+    FitError error;
+    EXPECT_TRUE(measure_fit(setup.mesh, setup.weights, motions, {}, {}, arena, error));
+    return error.error;
+  }
+};
+
+TEST(FitShapes, RigidMotionsAreFound) {
+  const Clouds clouds;
+  Fitted fitted(clouds);
+  // The term that keeps bones still costs a little.
+  EXPECT_LT(fitted.error(clouds), 0.02);
+  EXPECT_LT(difference(fitted.motions.of(0)[4], clouds.first), 0.15);
+  EXPECT_LT(difference(fitted.motions.of(0)[5], clouds.second), 0.15);
+}
+
+TEST(FitShapes, BonesThatAreNotConcernedStayExactlyStill) {
+  const Clouds clouds;
+  const Fitted fitted(clouds);
+  for (uint32_t j : {0u, 1u, 2u, 3u, 6u}) {
+    EXPECT_EQ(fitted.motions.active_in(0)[j], 0) << j;
+    EXPECT_EQ(difference(fitted.motions.of(0)[j], Affine::identity()), 0) << j;
+  }
+}
+
+TEST(FitShapes, TranslationsAloneDoNotTurn) {
+  const Clouds clouds;
+  FitOptions options;
+  options.rotations = false;
+  Fitted fitted(clouds, options);
+  for (uint32_t j = 4; j < 6; ++j) {
+    Affine still = fitted.motions.of(0)[j];
+    EXPECT_GT(length(still.shift), 0.1);
+    still.shift = {};
+    EXPECT_EQ(difference(still, Affine::identity()), 0);
+  }
+  EXPECT_GT(fitted.error(clouds), 2 * Fitted(clouds).error(clouds));
+}
+
+TEST(FitShapes, FacialBonesTurnNoFurtherThanTheLimitAndJawsDo) {
+  Clouds clouds;
+  FitOptions options;
+  options.max_degrees = 10;
+  const Fitted limited(clouds, options);
+  const auto trace = [](const Affine& m) { return m.rows[0].x + m.rows[1].y + m.rows[2].z; };
+  const double at_limit = 1 + 2 * std::cos(10 * M_PI / 180);
+  EXPECT_NEAR(trace(limited.motions.of(0)[5]), at_limit, 1e-9);
+  clouds.bones[5].kind = BoneKind::kJaw;
+  const Fitted free(clouds, options);
+  EXPECT_NEAR(trace(free.motions.of(0)[5]), 1 + 2 * std::cos(25 * M_PI / 180), 1e-5);
+}
+
+TEST(FitShapes, AShapeWithoutDisplacementsMovesNothing) {
+  Clouds clouds;
+  clouds.add_shape("nothing", [](uint32_t) { return Vec3(); });
+  clouds.finish(1);
+  const Fitted fitted(clouds);
+  for (uint32_t j = 0; j < 7; ++j) {
+    EXPECT_EQ(fitted.motions.active_in(1)[j], 0);
+    EXPECT_EQ(difference(fitted.motions.of(1)[j], Affine::identity()), 0);
+  }
+}
+
+// Weights ----------------------------------------------------------------------------------------
+
+TEST(RefitWeights, WeightsThatMadeTheShapesAreFoundAgain) {
+  AuthorSetup setup;
+  setup.add_trunk();
+  for (int j = 0; j < 4; ++j) {
+    setup.add_bone("b" + std::to_string(j), {double(j), 0, 0}, BoneKind::kFacial, 3);
+  }
+  const std::vector<double> made = {0.5, 0.3, 0.2, 0};
+  setup.add_vertex({1, 1, 1});
+  for (int j = 0; j < 4; ++j) {
+    setup.joints.push_back(static_cast<uint16_t>(4 + j));
+    setup.weight_values.push_back(0.25f);
+  }
+  Random random = Random::from_seed(7, 8);
+  std::vector<Vec3> moves;
+  for (int s = 0; s < 6; ++s) {
+    Vec3 sum;
+    for (int j = 0; j < 4; ++j) {
+      moves.push_back({random.normal(), random.normal(), random.normal()});
+      sum = sum + moves.back() * made[static_cast<size_t>(j)];
+    }
+    setup.add_shape("s" + std::to_string(s), [&](uint32_t) { return sum; });
+  }
+  setup.finish(4);
+  Arena arena(default_allocator());
+  Motions motions;
+  ASSERT_TRUE(make_motions(6, setup.bones.size(), arena, motions));
+  for (size_t i = 0; i < moves.size(); ++i) {
+    motions.of(i / 4)[4 + i % 4].shift = moves[i];
+    motions.active_in(i / 4)[4 + i % 4] = 1;
+  }
+  refit_weights(setup.mesh, motions, {}, setup.weights);
+  for (uint16_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(setup.joints[i], 4 + i) << "heaviest first";
+    EXPECT_NEAR(setup.weight_values[i], made[i], 0.01);
+  }
+  EXPECT_LT(setup.weight_values[3], 0.01f);
+}
+
+TEST(RefitWeights, WeightsStayWeights) {
+  AuthorSetup head;
+  make_author_head(5, 24, 6, 1, head);
+  const std::vector<uint16_t> before = head.joints;
+  Fitted fitted(head);
+  const double error = fitted.error(head);
+  refit_weights(head.mesh, fitted.motions, {}, head.weights);
+  EXPECT_LT(fitted.error(head), 0.8 * error);
+  for (size_t v = 0; v < head.positions.size(); ++v) {
+    double sum = 0;
+    std::set<uint16_t> own(before.begin() + static_cast<ptrdiff_t>(v * 6),
+                           before.begin() + static_cast<ptrdiff_t>(v * 6 + 6));
+    for (size_t i = v * 6; i < v * 6 + 6; ++i) {
+      const float w = head.weight_values[i];
+      EXPECT_GE(w, 0);
+      EXPECT_TRUE(i == v * 6 || w <= head.weight_values[i - 1]) << "heaviest first";
+      EXPECT_TRUE(w == 0 || w >= 0.99e-4f);
+      EXPECT_TRUE(w == 0 || own.count(head.joints[i])) << "a new influence";
+      sum += double{w};
+    }
+    EXPECT_NEAR(sum, 1, 1e-6);
+  }
+}
+
+// A face -----------------------------------------------------------------------------------------
+
+TEST(FitShapes, ErrorsFallWithRotationsAlternationsAndBones) {
+  AuthorSetup few, many;
+  make_author_head(5, 20, 6, 1, few);
+  make_author_head(5, 40, 6, 1, many);
+  FitOptions translations;
+  translations.rotations = false;
+  const double moved = Fitted(few, translations).error(few);
+  Fitted turned_too(few);
+  const double turned_error = turned_too.error(few);
+  EXPECT_LT(turned_error, 1.02 * moved);
+  EXPECT_LT(Fitted(many).error(many), 1.02 * turned_error);
+  double last = turned_error;
+  for (int i = 0; i < 3; ++i) {
+    refit_weights(few.mesh, turned_too.motions, {}, few.weights);
+    fit_all(turned_too.fitter, few.mesh, few.placement, few.weights, false, {}, turned_too.motions);
+    const double error = turned_too.error(few);
+    EXPECT_LT(error, 1.02 * last);
+    last = error;
+  }
+  EXPECT_LT(last, 0.6 * turned_error);
+}
+
+TEST(FitShapes, AnUnusedControlChangesNothing) {
+  AuthorSetup head, more;
+  make_author_head(6, 16, 4, 1, head);
+  make_author_head(6, 16, 4, 1, more);
+  more.add_shape("unused", [](uint32_t) { return Vec3(); });
+  more.finish(4);
+  const Fitted a(head), b(more);
+  for (size_t i = 0; i < a.motions.items.count; ++i) {
+    EXPECT_EQ(difference(a.motions.items[i], b.motions.items[i]), 0);
+  }
+  refit_weights(head.mesh, a.motions, {}, head.weights);
+  refit_weights(more.mesh, b.motions, {}, more.weights);
+  EXPECT_EQ(head.weight_values, more.weight_values);
+}
+
+/// Runs tasks in another order, as threads would.
+void run_backwards(void*, uint32_t count, void (*task)(void*, uint32_t), void* context) {
+  for (uint32_t i = count; i-- > 0;) task(context, i);
+}
+
+TEST(FitShapes, TheOrderOfTasksDoesNotMatter) {
+  AuthorSetup a, b;
+  make_author_head(6, 16, 4, 1, a);
+  make_author_head(6, 16, 4, 1, b);
+  const ParallelFor backwards = {nullptr, run_backwards};
+  Fitted x(a), y(b, {}, backwards);
+  refit_weights(a.mesh, x.motions, {}, a.weights);
+  refit_weights(b.mesh, y.motions, backwards, b.weights);
+  fit_all(x.fitter, a.mesh, a.placement, a.weights, false, {}, x.motions);
+  fit_all(y.fitter, b.mesh, b.placement, b.weights, false, backwards, y.motions);
+  EXPECT_EQ(a.weight_values, b.weight_values);
+  EXPECT_EQ(a.joints, b.joints);
+  for (size_t i = 0; i < x.motions.items.count; ++i) {
+    EXPECT_EQ(difference(x.motions.items[i], y.motions.items[i]), 0);
+  }
+}
+
+// Targets ----------------------------------------------------------------------------------------
+
+TEST(MakeTargets, WithoutThresholdShapesAreReached) {
+  AuthorSetup head;
+  make_author_head(5, 24, 6, 1, head);
+  Fitted fitted(head);
+  Span<Target> targets;
+  ASSERT_TRUE(make_targets(head.mesh, head.weights, fitted.motions, 0, {}, fitted.arena, targets));
+  FitError error;
+  ASSERT_TRUE(
+      measure_fit(head.mesh, head.weights, fitted.motions, targets, {}, fitted.arena, error));
+  EXPECT_LT(error.max, 1e-5);
+}
+
+TEST(MakeTargets, OffsetsBelowTheThresholdAreLeftOut) {
+  AuthorSetup head;
+  make_author_head(5, 24, 6, 1, head);
+  Fitted fitted(head);
+  Span<Target> targets;
+  const double threshold = 1e-3 * head.mesh.diagonal;
+  ASSERT_TRUE(
+      make_targets(head.mesh, head.weights, fitted.motions, threshold, {}, fitted.arena, targets));
+  size_t count = 0;
+  for (const Target& t : targets) {
+    count += t.vertices.count;
+    for (size_t i = 0; i < t.vertices.count; ++i) {
+      const Vec3f o = t.offsets[i];
+      EXPECT_GT(std::hypot(double{o.x}, double{o.y}, double{o.z}), threshold);
+      EXPECT_TRUE(i == 0 || t.vertices[i] > t.vertices[i - 1]);
+    }
+  }
+  EXPECT_GT(count, 0u);
+  FitError error;
+  ASSERT_TRUE(
+      measure_fit(head.mesh, head.weights, fitted.motions, targets, {}, fitted.arena, error));
+  // What is left out is short; skinning may turn it but hardly stretches it.
+  EXPECT_LT(error.max, 1.05e-3);
+}
+
+}  // namespace
+}  // namespace mien::author
