@@ -107,9 +107,9 @@ void fit_bone(const Fitter& fitter, const Footprints& f, uint32_t bone, bool is_
     map[r] =
         m.spread[0] * row.x + m.spread[1] * row.y + m.spread[2] * row.z + torque[r] + row * hold;
   }
-  const double half = is_rigid ? 180 : 0.5 * fitter.options.max_degrees;
   Affine next;
-  closest_rotation(map, is_rigid ? 1 : exact_sine(half * kPi / 180), next.rows);
+  const double half = fitter.options.max_degrees * kPi / 360;
+  closest_rotation(map, is_rigid ? 1 : exact_sine(half), next.rows);
   next.shift = motion(m.center) + force * (1 / m.mass) - next.turn(m.center);
   for (const Influenced& e : f.of(bone)) {
     const Vec3 p = fitter.positions[e.vertex];
