@@ -154,3 +154,10 @@ endif()
 add_test(NAME rust_api
   COMMAND Python3::Interpreter ${integrations}/rust/generate_api.py --check)
 set_tests_properties(rust_api PROPERTIES LABELS guard)
+
+# ---- JavaScript -------------------------------------------------------------------------------------
+
+# The package itself is tested by web/tests, which ./dev test runs where there is an emcc.
+add_test(NAME web_api
+  COMMAND Python3::Interpreter ${integrations}/web/generate_api.py --check)
+set_tests_properties(web_api PROPERTIES LABELS guard)

@@ -21,22 +21,33 @@ SOURCES = {
     "C++": ["cpp/*.hpp"],
     "Python": ["python/mien/[a-z]*.py", "python/mien/_[!a]*.py"],
     "Rust": ["rust/mien/src/**/*.rs"],
+    "JavaScript": ["web/mien/[b-z]*.js"],
 }
-GENERATED = {"Python": "python/mien/_api.py", "Rust": "rust/mien/src/generated.rs"}
+GENERATED = {"Python": "python/mien/_api.py", "Rust": "rust/mien/src/generated.rs",
+             "JavaScript": "web/mien/api.js"}
 
 # "mien_noun_verb", "MienDesc.field", "MienEnum" or, of a field of all structs, "field": {language: why}
 WITHOUT = {
     "allocator": {"Python": "memory of the library is not Python's",
+                  "JavaScript": "memory is the module's",
                   "Rust": "an allocator is given where objects are many: instances, batches, reports"},
     "MienClipDesc.frame_stride": {"Python": "rows are arrays", "Rust": "rows are a slice"},
     "MienClipPlayerDesc.speed_numerator": {"Rust": "ClipPlayer::set_speed()"},
     "MienClipPlayerDesc.speed_denominator": {"Rust": "ClipPlayer::set_speed()"},
     "MienClipPlayerDesc.start_tick": {"Rust": "ClipPlayer::seek()"},
     "MienVertexFormat": {"Python": "the type of an array says it"},
+    "file_access": {"JavaScript": "there is no file system"},
+    **{name: {"JavaScript": "there is no file system"} for name in (
+        "mien_dna_open_file", "mien_dna_write_file", "mien_dna_validate_file", "mien_bake_file",
+        "mien_baked_open_file", "mien_clip_open_file", "mien_clip_write_file")},
+    **{name: {"JavaScript": "a stream reads the caller's bytes, without a copy that has to be kept"}
+       for name in ("mien_dna_open_memory", "mien_baked_open_memory", "mien_clip_open_memory")},
+    **{name: {"JavaScript": "one by one: threads of a page share no module"} for name in (
+        "mien_deformer_instance_deform_batch", "mien_deformer_instance_write_vertices_batch")},
 }
 # Sections of mien.h that a language does without.
 NOT_YET = {"Mix", "Mixer", "Solvers"}
-SECTIONS = {"Python": NOT_YET, "Rust": NOT_YET}
+SECTIONS = {language: NOT_YET for language in ("Python", "Rust", "JavaScript")}
 # Functions whose own statuses cannot reach a user, who finds no list of them either.
 SILENT = {
     "mien_coordinate_system_name": {"Python", "Rust"},
@@ -78,6 +89,8 @@ class Binding:
             return None if re.search(given, self.text) else set()
         if f"for sys::{struct}" in self.generated:
             return None  # a struct of its own, with every field
+        if self.language == "JavaScript":
+            return self.javascript_fields(struct)
         found = set(re.findall(r"\.(\w+) = ", self.text))
         for match in re.finditer(rf"\b{struct}(?:\(| \{{)", self.text):
             inside = braced(self.text, match.end())
@@ -87,10 +100,21 @@ class Binding:
             found |= set(re.findall(r"(?:^|[,\s(])(\w+)(?==[^=]|:[^:]|\s*(?:,|$))", inside))
         return found
 
+    def javascript_fields(self, struct):
+        """Names of the fields in the generated layout, if an object of the caller is written to it."""
+        name = struct[len("Mien"):]
+        layout = re.search(rf"^  {name}: {{(.*?)^  }} }}", self.generated, re.DOTALL | re.MULTILINE)
+        if not layout or not re.search(rf'"\*?{name}"', self.text + self.generated):
+            return set()
+        return {re.sub("([A-Z])", r"_\1", field).lower()
+                for field in re.findall(r"^    (\w+): \[", layout.group(1), re.MULTILINE)}
+
     def has_enum(self, name, enum):
         """Whether users can name the enum; the generators write all its values."""
         if self.language == "C++":
             return True  # mien.hpp includes mien.h
+        if self.language == "JavaScript":
+            return f"export const {name} =" in self.generated
         if not re.search(rf"\bclass {name}\(|\bstruct {name}\(", self.generated):
             return False
         if self.language == "Rust":
@@ -105,8 +129,8 @@ class Binding:
             re.search(rf"\b_?{short}\b.*\b{value['value']}\b", self.generated) is not None
 
     def documents(self, function):
-        if self.language in SILENT.get(function, ()):
-            return True
+        if self.language == "JavaScript" or self.language in SILENT.get(function, ()):
+            return True  # JavaScript: api.d.ts has the comments of the header
         if self.language == "Python":
             return re.search(rf'@raises\([^)]*"{function}(_n)?"', self.text) is not None
         return self.language != "Rust" or f"errors!({function})" in self.text
@@ -205,12 +229,14 @@ def self_test(api, found):
         enum["values"].append({"name": "MIEN_ISA_ADDED", "short_name": "ADDED", "value": 77})
 
     both = ["Python", "Rust"]
+    all_others = both + ["JavaScript"]
     for change, languages, what in (
             (lambda new: None, [], ""),
-            (add_function, ["C++"] + both, "has no binding of mien_added"),
+            (add_function, ["C++"] + all_others, "has no binding of mien_added"),
             (add_status, both, "does not document the statuses of mien_rig_count"),
-            (add_field, both, "has no way to set MienRigDesc.added"),
-            (add_enum, both, "has no enum Added"), (add_value, both, "has no MIEN_ISA_ADDED")):
+            (add_field, all_others, "has no way to set MienRigDesc.added"),
+            (add_enum, all_others, "has no enum Added"),
+            (add_value, all_others, "has no MIEN_ISA_ADDED")):
         problems, expected = added(change), [f"{language} {what}" for language in languages]
         assert problems == expected, (problems, expected)
 

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Meshes: the deformer of a rig, its neutral meshes, and the deformed ones of a character.
+import { Normals } from "./api.js";
+import { Handle, makeHandle } from "./memory.js";
+
+export class Deformer extends Handle {
+  #info;
+
+  static create(memory, dna, rig, desc = {}) {
+    return new Deformer(memory, makeHandle(memory, (out, error, scratch) =>
+      memory.exports.mien_deformer_create(dna.handle, rig.handle, scratch.struct("DeformerDesc", desc), out, error)));
+  }
+
+  static fromBaked(memory, baked, rig, desc) {
+    return new Deformer(memory, makeHandle(memory, (out, error, scratch) =>
+      memory.exports.mien_deformer_from_baked(baked.handle, rig.handle,
+        scratch.struct("BakedDeformerDesc", desc), out, error)));
+  }
+
+  constructor(memory, handle) {
+    super(memory, handle, "mien_deformer_destroy");
+  }
+
+  get info() {
+    return (this.#info ??= this.struct("mien_deformer_info", "DeformerInfo"));
+  }
+
+  /** A neutral mesh. Its arrays are views until memory grows: ask again, or copy what is kept. */
+  mesh(index) {
+    return this.struct("mien_deformer_mesh", "Mesh", index);
+  }
+
+  /** Joints and weights of a position. */
+  influences(mesh, position) {
+    const { memory } = this;
+    return memory.withScratch((scratch) => {
+      const out = scratch.take(16);
+      this.call("mien_deformer_influences", mesh, position, out, out + 8);
+      const at = (offset) => memory.data.getUint32(out + offset, true);
+      return { joints: memory.array("u16", at(0), at(4)), weights: memory.array("f32", at(8), at(12)) };
+    });
+  }
+
+  /** A copy of a blend shape target: three floats per position. */
+  target(mesh, target) {
+    const { memory } = this;
+    const count = 3 * this.mesh(mesh).positionCount;
+    return memory.withScratch((scratch) => {
+      const out = scratch.take(Math.max(1, count) * 4);
+      this.call("mien_deformer_target", mesh, target, out, count);
+      return memory.array("f32", out, count).slice();
+    });
+  }
+
+  get bindMatrices() {
+    return this.view("f32", "mien_deformer_bind_matrices");
+  }
+
+  get inverseBindMatrices() {
+    return this.view("f32", "mien_deformer_inverse_bind_matrices");
+  }
+
+  /** A character; `lods` are the LODs that it takes memory for: 0b1 for LOD 0 only. */
+  instance(desc = {}) {
+    return new DeformerInstance(this.memory, this, desc);
+  }
+}
+
+export class DeformerInstance extends Handle {
+  #jointCount;
+  #output = 0;
+  #outputBytes = 0;
+
+  constructor(memory, deformer, desc) {
+    super(memory, makeHandle(memory, (out, error, scratch) =>
+      memory.exports.mien_deformer_instance_create(deformer.handle,
+        scratch.struct("DeformerInstanceDesc", desc), out, error)),
+    "mien_deformer_instance_destroy");
+    this.#jointCount = deformer.info.jointCount;
+  }
+
+  dispose() {
+    this.memory.exports.free(this.#output);
+    this.#output = this.#outputBytes = 0;
+    super.dispose();
+  }
+
+  /** Takes over the results of an instance and computes all matrices. */
+  update(instance) {
+    this.call("mien_deformer_instance_update", instance.handle);
+  }
+
+  updateFromValues(jointValues = [], channelWeights = []) {
+    this.memory.withScratch((scratch) => {
+      const joints = jointValues.length ? scratch.array("f32", jointValues) : 0;
+      const weights = channelWeights.length ? scratch.array("f32", channelWeights) : 0;
+      this.call("mien_deformer_instance_update_from_values", joints, jointValues.length, weights, channelWeights.length);
+    });
+  }
+
+  get jointMatrices() {
+    return this.view("f32", "mien_deformer_instance_joint_matrices");
+  }
+
+  get skinMatrices() {
+    return this.view("f32", "mien_deformer_instance_skin_matrices");
+  }
+
+  /** Ten floats per joint, tx ty tz qx qy qz qw sx sy sz, relative to the parents; a copy. */
+  get localTransforms() {
+    const { memory } = this;
+    const count = 10 * this.#jointCount;
+    return memory.withScratch((scratch) => {
+      const out = scratch.take(Math.max(1, count) * 4);
+      this.call("mien_deformer_instance_local_transforms", out, count);
+      return memory.array("f32", out, count).slice();
+    });
+  }
+
+  deform(mesh, normals = Normals.DEFAULT) {
+    this.call("mien_deformer_instance_deform", mesh, normals, 0);
+  }
+
+  positions(mesh) {
+    return this.view("f32", "mien_deformer_instance_positions", mesh);
+  }
+
+  normals(mesh) {
+    return this.view("f32", "mien_deformer_instance_normals", mesh);
+  }
+
+  /** Deforms a mesh and copies the positions of its vertices, and their normals, to arrays of three
+   * floats per vertex, such as those of buffer attributes. `vertexCount` is that of the mesh. */
+  writeVertices(mesh, vertexCount, positions, normals = null, kind = Normals.DEFAULT) {
+    const { memory } = this;
+    // Memory of the module, kept from frame to frame.
+    const size = vertexCount * 12;
+    if (this.#outputBytes < 2 * size) {
+      memory.exports.free(this.#output);
+      this.#output = memory.exports.malloc(2 * size);
+      this.#outputBytes = this.#output ? 2 * size : 0;
+      if (!this.#output) memory.check(10);
+    }
+    memory.withScratch((scratch) => {
+      const output = scratch.struct("VertexOutput", {
+        vertexCapacity: vertexCount,
+        positions: { data: this.#output, stride: 12 },
+        normals: normals ? { data: this.#output + size, stride: 12 } : undefined,
+      });
+      this.call("mien_deformer_instance_write_vertices", mesh, kind, output, 0);
+    });
+    positions.set(memory.array("f32", this.#output, 3 * vertexCount));
+    normals?.set(memory.array("f32", this.#output + size, 3 * vertexCount));
+  }
+}

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// Mien in JavaScript: facial rigs in browsers, workers and Node.js. index.d.ts is the manual.
+import { Layer } from "./api.js";
+import { Clip } from "./clip.js";
+import { coordinateSystemNames, Dna, validate } from "./dna.js";
+import { Memory } from "./memory.js";
+import { isBaked, Rig } from "./rig.js";
+
+export * from "./api.js";
+export * from "./errors.js";
+export { Clip, ClipBinding, ClipPlayer } from "./clip.js";
+export { Deformer, DeformerInstance } from "./deformer.js";
+export { Dna } from "./dna.js";
+export { Batch, Instance, Rig } from "./rig.js";
+
+const isNode = typeof process === "object" && !!process.versions?.node && process.type !== "renderer";
+
+/** Bytes of a source: an address, a file of a browser, a response, or bytes as they are. */
+async function bytesOf(source) {
+  if (source instanceof Uint8Array) return source;
+  if (source instanceof ArrayBuffer) return new Uint8Array(source);
+  if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
+  if (typeof Blob === "function" && source instanceof Blob) return new Uint8Array(await source.arrayBuffer());
+  const response = typeof Response === "function" && source instanceof Response ? source : await fetched(source);
+  if (response instanceof Uint8Array) return response;
+  if (!response.ok) throw new Error(`${response.url || source}: ${response.status} ${response.statusText}`);
+  return new Uint8Array(await response.arrayBuffer());
+}
+
+async function fetched(source) {
+  if (typeof source !== "string" && !(source instanceof URL)) {
+    throw new TypeError("expected bytes, a Blob, a Response or an address");
+  }
+  const isFile = source instanceof URL ? source.protocol === "file:" : !/^[a-z][a-z0-9+.-]+:/i.test(source) || source.startsWith("file:");
+  if (isNode && isFile) {
+    const { readFile } = await import(/* @vite-ignore */ "node:fs/promises");
+    const path = typeof source === "string" && source.startsWith("file:") ? new URL(source) : source;
+    return new Uint8Array(await readFile(path));
+  }
+  return fetch(source);
+}
+
+async function compiled(source) {
+  if (source instanceof WebAssembly.Module) return source;
+  if (!isNode && (typeof source === "string" || source instanceof URL)) {
+    const response = await fetch(source);
+    if (!response.ok) throw new Error(`${response.url}: ${response.status} ${response.statusText}`);
+    // Servers that do not know the type of .wasm files get a second way.
+    if (response.headers.get("content-type")?.startsWith("application/wasm")) {
+      return WebAssembly.compileStreaming(response);
+    }
+    return WebAssembly.compile(await response.arrayBuffer());
+  }
+  return WebAssembly.compile(await bytesOf(source));
+}
+
+export class Mien {
+  #memory;
+
+  /** Loads the WebAssembly module: the one of the package, or `wasm`. */
+  static async load({ wasm, bakedOnly = false } = {}) {
+    // Bundlers find the files by these two expressions.
+    const source = wasm ?? (bakedOnly
+      ? new URL("./mien-runtime.wasm", import.meta.url)
+      : new URL("./mien.wasm", import.meta.url));
+    return new Mien(await Memory.instantiate(await compiled(source)));
+  }
+
+  constructor(memory) {
+    this.#memory = memory;
+  }
+
+  /** The functions of the C interface, and the memory. */
+  get exports() {
+    return this.#memory.exports;
+  }
+
+  /** "0.1.0" */
+  get version() {
+    const version = this.exports.mien_version();
+    return `${version >>> 24}.${(version >>> 16) & 255}.${version & 0xffff}`;
+  }
+
+  isaAvailable(isa) {
+    return this.exports.mien_isa_available(isa) !== 0;
+  }
+
+  isaName(isa) {
+    return this.#memory.terminatedText(this.exports.mien_isa_name(isa));
+  }
+
+  /** Bytes of memory that the module has; it grows and never shrinks. */
+  get memoryBytes() {
+    return this.#memory.buffer.byteLength;
+  }
+
+  get coordinateSystems() {
+    return coordinateSystemNames(this.#memory);
+  }
+
+  /** A rig, with its deformer, of a DNA file or a baked file. */
+  async openRig(source, options = {}) {
+    const bytes = await bytesOf(source);
+    if (isBaked(bytes)) return Rig.fromBaked(this.#memory, bytes, options);
+    const { lods, system, layers, skipBlendShapeTargets, ...rest } = options;
+    const dna = Dna.open(this.#memory, bytes, { lods, system, layers, skipBlendShapeTargets });
+    try {
+      return this.createRig(dna, rest);
+    } finally {
+      dna.dispose();
+    }
+  }
+
+  async openDna(source, options = {}) {
+    return Dna.open(this.#memory, await bytesOf(source), options);
+  }
+
+  async openClip(source) {
+    return Clip.open(this.#memory, await bytesOf(source));
+  }
+
+  buildClip(desc) {
+    return Clip.build(this.#memory, desc);
+  }
+
+  /** Findings about the bytes of a DNA file. */
+  async validate(source) {
+    return validate(this.#memory, await bytesOf(source));
+  }
+
+  /** A generated rig: Preset.HEAD is a head to look at. */
+  generate(preset, options = {}) {
+    return Dna.generate(this.#memory, { preset, ...options });
+  }
+
+  /** The rig of an open DNA file, which may be disposed afterwards. */
+  createRig(dna, { deformer = true, ...desc } = {}) {
+    const rig = Rig.create(this.#memory, dna, desc);
+    try {
+      rig.metadata = dna.metadata;
+      if (deformer && (dna.info.layers & Layer.GEOMETRY) && dna.info.meshCount) {
+        rig.deformer = rig.createDeformer(dna, deformer === true ? {} : deformer);
+      }
+    } catch (error) {
+      rig.dispose();
+      throw error;
+    }
+    return rig;
+  }
+}

@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: MIT
+// The WebAssembly module and its memory: calls, structs, text and arrays. When memory grows, its buffer
+// is a new one and typed arrays over the old one are empty, so they are made anew where they are used.
+import { layouts, Status } from "./api.js";
+import { errorOf } from "./errors.js";
+
+const encoder = new TextEncoder();
+const decoder = new TextDecoder();
+const NO_OFFSET = 2n ** 64n - 1n;
+// Above this, temporary memory comes from the heap: the stack of the module has 1 MiB.
+const STACK_BLOCK = 4096;
+
+const SIZES = { i8: 1, u8: 1, bool: 4, i16: 2, u16: 2, i32: 4, u32: 4, f32: 4, i64: 8, u64: 8, offset: 8, f64: 8 };
+const ARRAYS = {
+  i8: Int8Array, u8: Uint8Array, i16: Int16Array, u16: Uint16Array, i32: Int32Array, u32: Uint32Array,
+  f32: Float32Array, f64: Float64Array,
+};
+
+function getNumber(data, kind, at) {
+  switch (kind) {
+    case "i8": return data.getInt8(at);
+    case "u8": return data.getUint8(at);
+    case "bool": return data.getUint32(at, true) !== 0;
+    case "i16": return data.getInt16(at, true);
+    case "u16": return data.getUint16(at, true);
+    case "i32": return data.getInt32(at, true);
+    case "u32": return data.getUint32(at, true);
+    case "f32": return data.getFloat32(at, true);
+    case "f64": return data.getFloat64(at, true);
+    case "i64": return Number(data.getBigInt64(at, true));
+    case "u64": return Number(data.getBigUint64(at, true));
+    default: { // offset
+      const value = data.getBigUint64(at, true);
+      return value === NO_OFFSET ? null : Number(value);
+    }
+  }
+}
+
+function setNumber(data, kind, at, value) {
+  switch (kind) {
+    case "i8": case "u8": return data.setUint8(at, value);
+    case "bool": return data.setUint32(at, value ? 1 : 0, true);
+    case "i16": case "u16": return data.setUint16(at, value, true);
+    case "i32": case "u32": return data.setUint32(at, value, true);
+    case "f32": return data.setFloat32(at, value, true);
+    case "f64": return data.setFloat64(at, value, true);
+    default: return data.setBigInt64(at, BigInt(value), true);
+  }
+}
+
+export class Memory {
+  /** Files that streams of the module read. */
+  #files = new Map();
+  #lastFile = 0;
+  #data;
+
+  /** Instantiates a compiled module. */
+  static async instantiate(module) {
+    const memory = new Memory();
+    // What the C library asks of a system; the environment is empty.
+    const imports = {
+      env: {
+        mien_web_read: (file, offset, buffer, size) => memory.#read(file, Number(offset), buffer, size),
+        emscripten_notify_memory_growth() {},
+      },
+      wasi_snapshot_preview1: {
+        environ_sizes_get(count, size) {
+          memory.data.setUint32(count, 0, true);
+          memory.data.setUint32(size, 0, true);
+          return 0;
+        },
+        environ_get: () => 0,
+      },
+    };
+    memory.exports = (await WebAssembly.instantiate(module, imports)).exports;
+    memory.exports._initialize?.();
+    return memory;
+  }
+
+  get buffer() {
+    return this.exports.memory.buffer;
+  }
+
+  get data() {
+    if (this.#data?.buffer !== this.buffer) this.#data = new DataView(this.buffer);
+    return this.#data;
+  }
+
+  /** A typed array over the module's memory, until it grows. */
+  array(kind, address, count) {
+    return new ARRAYS[kind](this.buffer, count ? address : 0, count);
+  }
+
+  /** Copies text out of memory. */
+  text(address, count) {
+    return decoder.decode(new Uint8Array(this.buffer, address, count));
+  }
+
+  terminatedText(address, most = 2 ** 20) {
+    const bytes = new Uint8Array(this.buffer, address, Math.min(most, this.buffer.byteLength - address));
+    const end = bytes.indexOf(0);
+    return decoder.decode(end < 0 ? bytes : bytes.subarray(0, end));
+  }
+
+  #read(file, offset, buffer, size) {
+    const bytes = this.#files.get(file).subarray(offset, offset + size);
+    new Uint8Array(this.buffer).set(bytes, buffer);
+    return bytes.length;
+  }
+
+  /** Calls open(stream) with a stream of bytes: they are not copied, but read where they are. */
+  withStream(bytes, scratch, open) {
+    const file = ++this.#lastFile;
+    this.#files.set(file, bytes);
+    try {
+      const stream = scratch.take(24);
+      this.exports.mien_web_stream(stream, file, BigInt(bytes.length));
+      return open(stream);
+    } finally {
+      this.#files.delete(file);
+    }
+  }
+
+  /** Calls run(scratch) with memory that is released afterwards. */
+  withScratch(run) {
+    const scratch = new Scratch(this);
+    try {
+      return run(scratch);
+    } finally {
+      scratch.release();
+    }
+  }
+
+  /** Throws unless a status is OK; `error` is the address of a struct Error, or 0. */
+  check(status, error = 0, what = "") {
+    if (status === Status.OK) return;
+    const { message, byteOffset } = error ? this.read("Error", error) : { message: "", byteOffset: null };
+    const text = message || `${what}${what && ": "}${this.terminatedText(this.exports.mien_status_name(status))}`;
+    throw errorOf(status, text, byteOffset);
+  }
+
+  /** A struct as an object. Arrays in it are views until memory grows; text is copied. */
+  read(name, address) {
+    const object = {};
+    for (const [key, [offset, kind, count]] of Object.entries(layouts[name].fields)) {
+      object[key] = this.#readField(kind, address + offset, count);
+    }
+    return object;
+  }
+
+  #readField(kind, at, count) {
+    const { data } = this;
+    if (kind === "text") return this.terminatedText(at, count);
+    if (kind === "string") return this.text(data.getUint32(at, true), data.getUint32(at + 4, true));
+    if (kind === "f32s" || kind === "u16s" || kind === "u32s") {
+      return this.array(kind.slice(0, 3), data.getUint32(at, true), data.getUint32(at + 4, true));
+    }
+    if (kind === "handle" || kind.startsWith("*")) return data.getUint32(at, true);
+    if (layouts[kind]) return this.read(kind, at);
+    if (count === undefined) return getNumber(data, kind, at);
+    return Array.from({ length: count }, (_, i) => getNumber(data, kind, at + i * SIZES[kind]));
+  }
+}
+
+/** Memory for the time of a call: small blocks on the stack of the module, others on its heap. */
+class Scratch {
+  #memory;
+  #stack;
+  #blocks = [];
+
+  constructor(memory) {
+    this.#memory = memory;
+    this.#stack = memory.exports.stackSave();
+  }
+
+  release() {
+    const { exports } = this.#memory;
+    for (const block of this.#blocks) exports.free(block);
+    exports.stackRestore(this.#stack);
+  }
+
+  /** Zeroed memory. */
+  take(size) {
+    const { exports } = this.#memory;
+    let address;
+    if (size <= STACK_BLOCK) {
+      address = exports.stackAlloc(size);
+    } else {
+      address = exports.malloc(size);
+      if (!address) throw errorOf(Status.MEMORY, `${size} bytes of memory are not available`);
+      this.#blocks.push(address);
+    }
+    new Uint8Array(this.#memory.buffer, address, size).fill(0);
+    return address;
+  }
+
+  /** UTF-8, terminated: [address, bytes without the end]. */
+  text(text) {
+    const bytes = encoder.encode(text);
+    const address = this.take(bytes.length + 1);
+    new Uint8Array(this.#memory.buffer).set(bytes, address);
+    return [address, bytes.length];
+  }
+
+  /** A copy of numbers. */
+  array(kind, values) {
+    const address = this.take(Math.max(1, values.length) * SIZES[kind]);
+    this.#memory.array(kind, address, values.length).set(values);
+    return address;
+  }
+
+  /** An empty struct for results. */
+  out(name) {
+    const { size, sized } = layouts[name];
+    const address = this.take(size);
+    if (sized) this.#memory.data.setUint32(address, size, true);
+    return address;
+  }
+
+  /** A struct from an object; fields that it does not have are zero. */
+  struct(name, values = {}) {
+    const address = this.out(name);
+    this.#fill(name, address, values);
+    return address;
+  }
+
+  structs(name, list) {
+    const { size } = layouts[name];
+    const address = this.take(Math.max(1, list.length) * size);
+    list.forEach((values, i) => this.#fill(name, address + i * size, values));
+    return address;
+  }
+
+  #fill(name, address, values) {
+    const { fields } = layouts[name];
+    for (const [key, value] of Object.entries(values)) {
+      const field = Object.hasOwn(fields, key) ? fields[key] : undefined;
+      if (!field) throw new TypeError(`${name} has no "${key}"; it has ${Object.keys(fields).join(", ")}`);
+      if (value === undefined || value === null) continue;
+      this.#setField(fields, address, field, value);
+    }
+  }
+
+  #setField(fields, address, [offset, kind, count], value) {
+    const memory = this.#memory;
+    const at = address + offset;
+    if (kind.startsWith("*")) {
+      const [pointer, length] = this.#pointed(kind.slice(1), value, count !== undefined);
+      memory.data.setUint32(at, pointer, true);
+      if (count !== undefined) memory.data.setUint32(address + fields[count][0], length, true);
+    } else if (kind === "string") {
+      const [pointer, length] = this.text(value);
+      memory.data.setUint32(at, pointer, true);
+      memory.data.setUint32(at + 4, length, true);
+    } else if (kind === "handle") {
+      memory.data.setUint32(at, value.handle, true);
+    } else if (layouts[kind]) {
+      this.#fill(kind, at, value);
+    } else if (count !== undefined) {
+      for (let i = 0; i < count; ++i) setNumber(memory.data, kind, at + i * SIZES[kind], value[i]);
+    } else {
+      setNumber(memory.data, kind, at, value);
+    }
+  }
+
+  #pointed(kind, value, isList) {
+    if (kind === "text") return this.text(value);
+    if (kind === "string") {
+      const address = this.take(Math.max(1, value.length) * 8);
+      value.forEach((text, i) => {
+        const [pointer, length] = this.text(text);
+        this.#memory.data.setUint32(address + i * 8, pointer, true);
+        this.#memory.data.setUint32(address + i * 8 + 4, length, true);
+      });
+      return [address, value.length];
+    }
+    if (layouts[kind]) return isList ? [this.structs(kind, value), value.length] : [this.struct(kind, value), 1];
+    return [this.array(kind, value), value.length];
+  }
+}
+
+/** An object of the C interface. Its memory is released by dispose(), never by itself. */
+export class Handle {
+  #handle;
+  #destroy;
+  #views = new Map();
+
+  constructor(memory, handle, destroy) {
+    this.memory = memory;
+    this.#handle = handle;
+    this.#destroy = destroy;
+    // Not a property for those who print an object.
+    Object.defineProperty(this, "memory", { enumerable: false });
+  }
+
+  /** The address of the object, for functions of Mien.exports. */
+  get handle() {
+    if (!this.#handle) throw errorOf(Status.HANDLE, `this ${this.constructor.name} was disposed`);
+    return this.#handle;
+  }
+
+  get isDisposed() {
+    return this.#handle === 0;
+  }
+
+  dispose() {
+    if (!this.#handle) return;
+    this.memory.exports[this.#destroy](this.#handle);
+    this.#handle = 0;
+    this.#views.clear();
+  }
+
+  /** Calls a function with this object and further arguments. */
+  call(name, ...rest) {
+    this.memory.check(this.memory.exports[name](this.handle, ...rest), 0, name);
+  }
+
+  /** A struct that a function returns. */
+  struct(name, struct, ...rest) {
+    return this.memory.withScratch((scratch) => {
+      const out = scratch.out(struct);
+      this.call(name, ...rest, out);
+      return this.memory.read(struct, out);
+    });
+  }
+
+  /** A number that a function returns. */
+  number(name, ...rest) {
+    return this.memory.withScratch((scratch) => {
+      const out = scratch.take(4);
+      this.call(name, ...rest, out);
+      return this.memory.data.getUint32(out, true);
+    });
+  }
+
+  /** The typed array that a function returns as a view: the same one until memory grows. */
+  view(kind, name, ...rest) {
+    const key = rest.length ? `${name} ${rest}` : name;
+    const known = this.#views.get(key);
+    const { memory, handle } = this;
+    if (handle && known && known.buffer === memory.buffer) return known;
+    const made = memory.withScratch((scratch) => {
+      const out = scratch.take(8);
+      this.call(name, ...rest, out);
+      return memory.array(kind, memory.data.getUint32(out, true), memory.data.getUint32(out + 4, true));
+    });
+    this.#views.set(key, made);
+    return made;
+  }
+
+  /** Bytes of which a function tells the size first: call(buffer, capacity, out_size, error). */
+  bytes(call) {
+    const { memory } = this;
+    return memory.withScratch((scratch) => {
+      const size = scratch.take(4);
+      const error = scratch.out("Error");
+      memory.check(call(0, 0, size, error, scratch), error);
+      const capacity = memory.data.getUint32(size, true);
+      const buffer = scratch.take(Math.max(1, capacity));
+      memory.check(call(buffer, capacity, size, error, scratch), error);
+      return memory.array("u8", buffer, capacity).slice();
+    });
+  }
+}
+
+if (Symbol.dispose) {
+  Handle.prototype[Symbol.dispose] = function () {
+    this.dispose();
+  };
+}
+
+/** Calls make(out, error, scratch) and returns the handle that it wrote. */
+export function makeHandle(memory, make) {
+  return memory.withScratch((scratch) => {
+    const out = scratch.take(4);
+    const error = scratch.out("Error");
+    memory.check(make(out, error, scratch), error);
+    return memory.data.getUint32(out, true);
+  });
+}

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT
+ * What the WebAssembly module has besides the libraries: streams that JavaScript reads. */
+#include "capi/mien.h"
+
+/* Copies `size` bytes at `offset` of file `user` to `buffer`; see mien/memory.js. */
+size_t mien_web_read(void* user, uint64_t offset, void* buffer, size_t size);
+
+/* Fills a stream: function pointers are not for JavaScript to write. */
+void mien_web_stream(MienStream* out_stream, void* user, uint64_t size);
+
+void mien_web_stream(MienStream* out_stream, void* user, uint64_t size) {
+  out_stream->user = user;
+  out_stream->size = size;
+  out_stream->read = mien_web_read;
+}
