@@ -192,7 +192,7 @@ MienStatus mien_baked_info(const MienBaked* handle, MienBakedInfo* out_info) {
   info.memory_bytes = baked.bytes.block_size + baked.bytes.file.capacity;
   info.rig_bytes = baked.rig ? baked.rig->size : 0;
   info.deformer_bytes = baked.deformer ? baked.deformer->size : 0;
-  info.part_count = reinterpret_cast<const BakedHeader*>(baked.bytes.data)->part_count;
+  info.part_count = header_of(baked.bytes.data)->part_count;
   info.is_mapped = baked.bytes.file.mapped;
   write_struct(out_info, info);
   return MIEN_OK;

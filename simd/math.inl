@@ -25,20 +25,17 @@ namespace {
 
 // Rounding ----------------------------------------------------------------------------------------
 
-// Floats near 1.5 * 2^23 are whole numbers: adding it rounds to the nearest, ties to even, and the
-// lowest bits of the sum are those of the number, in two's complement.
-constexpr float kRounder = 12582912.0f;
-// With 127 they are those of the exponent of its power of two.
+// The lowest bits of a sum with 127 more are those of the exponent of the number's power of two.
 constexpr float kPowerRounder = kRounder + 127.0f;
 
 template <class V>
 inline V nearest(V v) {
   const V rounder = Make<V>::of(kRounder);
-  return (v + rounder) - rounder;
+  return (nearest_whole(v) + rounder) - rounder;  // 0, not -0
 }
 template <class V>
 inline V round_to_whole(V v, V& power) {
-  const V rounder = Make<V>::of(kPowerRounder), sum = v + rounder;
+  const V rounder = Make<V>::of(kPowerRounder), sum = nearest_whole(v) + rounder;
   power = shift_bits<23>(sum);
   return sum - rounder;
 }
@@ -157,7 +154,7 @@ template <class V>
 [[gnu::always_inline]] inline void sine_cosine(V x, V& sine, V& cosine) {
   using M = Make<V>;
   constexpr float kMaxAngle = 256;
-  V sum = x * M::of(0.636619747f) + M::of(kRounder);
+  V sum = nearest_whole(x * M::of(0.636619747f)) + M::of(kRounder);
   const V n = sum - M::of(kRounder), second = n * M::of(-0x1.2aeep-18f);
   const V first = x - n * M::of(0x1.922p+0f), rest = first - second;
   V r = rest + (((first - rest) - second) - n * M::of(-0x1.e973dcp-35f));

@@ -288,6 +288,38 @@ inline BlockVec load_block(const int16_t* from) {
 
 #endif
 
+// Rounding ----------------------------------------------------------------------------------------
+
+// Floats near 1.5 * 2^23 are whole numbers: adding it rounds, and the lowest bits of the sum are those
+// of the number, in two's complement.
+constexpr float kRounder = 12582912.0f;
+
+#if defined(MIEN_KERNEL_AVX2) || defined(MIEN_KERNEL_AVX512)
+constexpr int kToNearest = _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC;
+#endif
+/// To the nearest whole number, ties to even, for |v| up to 2^22. Hosts may have told the processor
+/// to round in another direction: then still to the nearest, ties to either side. For 0 either zero.
+#if defined(MIEN_KERNEL_AVX512)
+inline Vec nearest_whole(Vec v) { return _mm512_roundscale_ps(v, kToNearest); }
+#elif defined(MIEN_KERNEL_AVX2)
+inline Vec nearest_whole(Vec v) { return _mm256_round_ps(v, kToNearest); }
+#elif defined(MIEN_KERNEL_NEON)
+inline Vec nearest_whole(Vec v) { return vrndnq_f32(v); }
+#elif defined(MIEN_KERNEL_SSE2)
+inline Vec nearest_whole(Vec v) {
+  // Another direction leaves up to 1: more than 1/2 is 1 or more after the product, and truncated
+  // to 1 whatever the direction is.
+  const Vec rounder = broadcast(kRounder), n = (v + rounder) - rounder;
+  const Vec missed = (v - n) * broadcast(0x1.fffffep+0f);
+  return n + Vec(_mm_cvtepi32_ps(_mm_cvttps_epi32(missed)));
+}
+#else
+inline Vec nearest_whole(Vec v) {
+  const Vec n = (v + kRounder) - kRounder, left = v - n;
+  return n + (keep(less(0.5f, left), 1.0f) - keep(less(left, -0.5f), 1.0f));
+}
+#endif
+
 // In terms of the above ---------------------------------------------------------------------------
 
 constexpr size_t kVecsPerBlock = kBlockLanes / kWidth;
@@ -376,6 +408,7 @@ inline bool any(MaskPair m) { return any(m.a) || any(m.b); }
 inline VecPair with_sign(VecPair v, VecPair s) {
   return {with_sign(v.a, s.a), with_sign(v.b, s.b)};
 }
+inline VecPair nearest_whole(VecPair v) { return {nearest_whole(v.a), nearest_whole(v.b)}; }
 inline VecPair flip_sign(VecPair v, VecPair s) {
   return {flip_sign(v.a, s.a), flip_sign(v.b, s.b)};
 }

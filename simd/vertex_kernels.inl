@@ -30,7 +30,9 @@ struct Target {
   size_t stride;
   size_t count;
 
-  float* floats(size_t k) const { return reinterpret_cast<float*>(data + k * stride); }
+  float* floats(size_t k) const {
+    return static_cast<float*>(static_cast<void*>(data + k * stride));
+  }
 };
 inline Target target_of(const VertexStream& stream, size_t first, size_t count) {
   return {stream.data + first * stream.stride, stream.stride, count};

@@ -82,7 +82,7 @@ Status read_baked(Baked& baked, Error& error) {
   const size_t size = baked.bytes.size;
   const Status status = check_header(baked.bytes, error);
   if (status != Status::kOk) return status;
-  const auto* header = reinterpret_cast<const BakedHeader*>(bytes);
+  const BakedHeader* header = header_of(bytes);
   if (baked.check == BakedCheck::kFull && baked_checksum(bytes, size) != header->checksum) {
     return fail(error, Status::kBakedChecksum, offsetof(BakedHeader, checksum),
                 "the bytes are not those that were written: the file is damaged; fetch or bake it "
@@ -90,7 +90,7 @@ Status read_baked(Baked& baked, Error& error) {
   }
 
   // Parts follow each other, so none shares its bytes.
-  const auto* parts = reinterpret_cast<const BakedPart*>(bytes + sizeof(BakedHeader));
+  const auto* parts = static_cast<const BakedPart*>(static_cast<const void*>(header + 1));
   uint64_t at = sizeof(BakedHeader) + uint64_t{header->part_count} * sizeof(BakedPart);
   for (uint32_t i = 0; i < header->part_count; ++i) {
     const BakedPart& part = parts[i];

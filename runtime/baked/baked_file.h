@@ -55,6 +55,11 @@ struct BakedArray {
 };
 static_assert(sizeof(BakedArray) == 24, "no padding");
 
+/// Of bytes that are aligned to kBlockAlignment.
+inline const BakedHeader* header_of(const uint8_t* bytes) {
+  return static_cast<const BakedHeader*>(static_cast<const void*>(bytes));
+}
+
 enum class BakedCheck : uint32_t {
   kSafe = 0,  // whatever the bytes are, evaluation and deformation stay within the arrays
   kFull = 1,  // and the bytes are those that were written

@@ -87,8 +87,8 @@ class PartReader {
   void array(Span<T>& span) {
     // Baked objects are never written to.
     size_t count = 0;
-    uint8_t* data = const_cast<uint8_t*>(take_array(sizeof(T), count));
-    span = {reinterpret_cast<T*>(data), count};
+    void* data = const_cast<uint8_t*>(take_array(sizeof(T), count));
+    span = {static_cast<T*>(data), count};
   }
 
   Status finish();

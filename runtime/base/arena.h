@@ -122,9 +122,9 @@ class Placer {
   Span<T> unwritten_array(size_t count, size_t alignment = alignof(T)) {
     static_assert(std::is_trivially_destructible<T>::value, "a block destroys nothing");
     used_ = align_up(used_, alignment);
-    uint8_t* at = base_ ? base_ + used_ : nullptr;
+    void* at = base_ ? base_ + used_ : nullptr;
     used_ += count * sizeof(T);
-    return {reinterpret_cast<T*>(at), count};
+    return {static_cast<T*>(at), count};
   }
 
   bool measuring() const { return base_ == nullptr; }

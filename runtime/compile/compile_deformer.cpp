@@ -56,6 +56,7 @@ void place_mesh(const Mesh& source, const MeshPlan& plan, bool tangents, Placer&
 }
 
 Status fill_mesh(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh) {
+  if (mesh.is_empty() && mesh.target_count == 0) return Status::kOk;
   fill_skin(source, plan, mesh);
   const Status status = fill_targets(source, mesh);
   return status == Status::kOk ? fill_surface(source, mesh) : status;
@@ -65,7 +66,7 @@ void place_all(const DnaView& view, const Rig& rig, Span<const MeshPlan> plans, 
                Placer& placer, Deformer& deformer) {
   placer.array<Deformer>(1);
   place_skeleton(rig, placer, deformer.skeleton);
-  deformer.meshes = placer.array<DeformMesh>(rig.mesh_count);
+  deformer.meshes = placer.unwritten_array<DeformMesh>(rig.mesh_count);
   for (uint32_t m = 0; m < rig.mesh_count; ++m) {
     DeformMesh measured;
     DeformMesh& mesh = placer.measuring() ? measured : *new (&deformer.meshes[m]) DeformMesh;

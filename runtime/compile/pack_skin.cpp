@@ -90,11 +90,11 @@ Status plan_skin(const MeshSource& source, MeshPlan& plan) {
 }
 
 void place_skin(const MeshPlan& plan, Placer& placer, DeformMesh& mesh) {
-  const size_t count = mesh.position_count;
-  mesh.sorted_positions = placer.array<float>(count * 4, kBlockAlignment);
-  mesh.weights = placer.array<float>(plan.weight_count, kBlockAlignment);
-  mesh.joints = placer.array<uint16_t>(plan.weight_count, kBlockAlignment);
-  mesh.position_indices = placer.array<uint32_t>(count, kBlockAlignment);
+  const size_t count = mesh.position_count, alignment = mesh.array_alignment();
+  mesh.sorted_positions = placer.array<float>(count * 4, alignment);
+  mesh.weights = placer.array<float>(plan.weight_count, alignment);
+  mesh.joints = placer.array<uint16_t>(plan.weight_count, alignment);
+  mesh.position_indices = placer.array<uint32_t>(count, alignment);
   mesh.sorted_indices = placer.array<uint32_t>(count);
   mesh.skin_runs = placer.array<SkinRun>(plan.skin_run_count);
 }

@@ -161,18 +161,19 @@ void plan_surface(const MeshSource& source, MeshPlan& plan) {
 
 void place_surface(const MeshPlan& plan, bool tangents, Placer& placer, DeformMesh& mesh) {
   const size_t positions = mesh.position_count, vertices = mesh.vertex_count;
-  mesh.positions = placer.array<float>(positions * 3 + 1, kBlockAlignment);
-  mesh.normals = placer.array<float>(vertices * 3 + 1, kBlockAlignment);
-  mesh.tangents = placer.array<float>(tangents ? vertices * 4 : 0, kBlockAlignment);
-  mesh.texture_coordinates = placer.array<float>(vertices * 2, kBlockAlignment);
-  mesh.vertex_position_indices = placer.array<uint32_t>(vertices, kBlockAlignment);
-  mesh.triangles = placer.array<uint32_t>(plan.triangle_count * 3, kBlockAlignment);
-  mesh.faces = placer.array<uint32_t>(plan.face_count * 4, kBlockAlignment);
-  mesh.first_adjacent_face = placer.array<uint32_t>(positions + 1, kBlockAlignment);
-  mesh.adjacent_faces = placer.array<uint32_t>(plan.face_count * 4, kBlockAlignment);
-  mesh.first_vertex = placer.array<uint32_t>(positions + 1, kBlockAlignment);
-  mesh.vertices = placer.array<uint32_t>(vertices, kBlockAlignment);
-  mesh.neutral_directions = placer.array<float>(positions * 4, kBlockAlignment);
+  const size_t alignment = mesh.array_alignment();
+  mesh.positions = placer.array<float>(positions * 3 + 1, alignment);
+  mesh.normals = placer.array<float>(vertices * 3 + 1, alignment);
+  mesh.tangents = placer.array<float>(tangents ? vertices * 4 : 0, alignment);
+  mesh.texture_coordinates = placer.array<float>(vertices * 2, alignment);
+  mesh.vertex_position_indices = placer.array<uint32_t>(vertices, alignment);
+  mesh.triangles = placer.array<uint32_t>(plan.triangle_count * 3, alignment);
+  mesh.faces = placer.array<uint32_t>(plan.face_count * 4, alignment);
+  mesh.first_adjacent_face = placer.array<uint32_t>(positions + 1, alignment);
+  mesh.adjacent_faces = placer.array<uint32_t>(plan.face_count * 4, alignment);
+  mesh.first_vertex = placer.array<uint32_t>(positions + 1, alignment);
+  mesh.vertices = placer.array<uint32_t>(vertices, alignment);
+  mesh.neutral_directions = placer.array<float>(positions * 4, alignment);
 }
 
 Status fill_surface(const MeshSource& source, DeformMesh& mesh) {

@@ -43,11 +43,12 @@ Status plan_targets(const MeshSource& source, MeshPlan& plan) {
 }
 
 void place_targets(const MeshPlan& plan, Placer& placer, DeformMesh& mesh) {
+  const size_t alignment = mesh.array_alignment();
   mesh.target_channels = placer.array<uint16_t>(mesh.target_count);
   mesh.first_target_run = placer.array<uint32_t>(size_t{mesh.block_count()} + 1);
   mesh.target_runs = placer.array<TargetRun>(plan.target_run_count);
-  mesh.deltas = placer.array<float>(plan.delta_count * 3 + 1, kBlockAlignment);
-  mesh.delta_indices = placer.array<uint16_t>(plan.delta_count, kBlockAlignment);
+  mesh.deltas = placer.array<float>(plan.delta_count * 3 + 1, alignment);
+  mesh.delta_indices = placer.array<uint16_t>(plan.delta_count, alignment);
 }
 
 // A counting sort with two passes over all deltas: the first counts the runs and deltas of each

@@ -225,6 +225,7 @@ Job job_for(const Deformer& deformer, Span<DeformerInstance* const> instances, u
 
 void deform(const Deformer& deformer, Span<DeformerInstance* const> instances, uint32_t mesh,
             Normals normals, const ParallelFor& parallel) {
+  if (instances.count == 0 || instances[0]->meshes[mesh].empty) return;
   Job job = job_for(deformer, instances, mesh, normals, false, parallel);
   run(job);
 }

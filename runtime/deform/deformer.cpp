@@ -6,8 +6,13 @@
 namespace mien {
 
 void mark_mesh_lods(const Rig& rig, const Span<DeformMesh>& meshes) {
-  for (uint32_t l = 0; l < rig.lod_count; ++l) {
-    for (const uint16_t mesh : rig.lod_meshes.at(l)) meshes[mesh].lods |= uint64_t{1} << l;
+  // LODs that are alike share a row, which is read once for all of them.
+  const Span<uint16_t>& rows = rig.lod_meshes.row_of_lod;
+  for (uint32_t l = 0; l < rows.count; ++l) {
+    if (std::find(rows.begin(), rows.begin() + l, rows[l]) != rows.begin() + l) continue;
+    uint64_t lods = 0;
+    for (uint32_t k = l; k < rows.count; ++k) lods |= uint64_t{rows[k] == rows[l]} << k;
+    for (const uint16_t mesh : rig.lod_meshes.at(l)) meshes[mesh].lods |= lods;
   }
 }
 

@@ -76,6 +76,10 @@ struct DeformMesh {
 
   uint32_t block_count() const { return (position_count + kBlockPositions - 1) / kBlockPositions; }
   uint32_t face_count() const { return static_cast<uint32_t>(faces.count / 4); }
+
+  /// A file names a mesh with six bytes, so one without geometry costs next to nothing.
+  bool is_empty() const { return position_count == 0 && vertex_count == 0; }
+  size_t array_alignment() const { return is_empty() ? alignof(float) : kBlockAlignment; }
 };
 
 struct Deformer {

@@ -20,8 +20,10 @@ void place_deformer_instance(const Deformer& deformer, uint64_t lods, Placer& pl
     if (!is_shown(mesh, lods)) continue;
     DeformedMesh deformed;
     deformed.present = true;
-    deformed.positions = placer.array<float>(mesh.positions.count, kBlockAlignment);
-    deformed.normals = placer.array<float>(mesh.normals.count, kBlockAlignment);
+    deformed.empty = mesh.is_empty();
+    const size_t alignment = mesh.array_alignment();
+    deformed.positions = placer.array<float>(mesh.positions.count, alignment);
+    deformed.normals = placer.array<float>(mesh.normals.count, alignment);
     if (!placer.measuring()) instance.meshes[m] = deformed;
     max_faces = std::max(max_faces, size_t{mesh.face_count()});
     max_tangents = std::max(max_tangents, mesh.tangents.count);

@@ -14,6 +14,7 @@ namespace mien {
 
 struct DeformedMesh {
   bool present = false;   // the instance has memory for this mesh
+  bool empty = false;     // which has no geometry
   Span<float> positions;  // [position] x y z, + 1
   Span<float> normals;    // [vertex] x y z, + 1
 };

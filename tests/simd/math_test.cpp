@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -312,6 +313,59 @@ TEST(MathFunctions, RoundingIsExact) {
   for (float tie : {0.5f, 1.5f, 2.5f, -0.5f, -1.5f}) x.push_back(tie);
   r = evaluate(MathFunction::kNearest, x, {});
   for (size_t i = 0; i < x.size(); ++i) ASSERT_EQ(r.a[i], std::nearbyint(x[i])) << x[i];
+}
+
+// The host may have told the processor to round in another direction. Reductions go to the nearest
+// whole number all the same, so polynomials stay in their range and what is lost is a few units.
+TEST(MathFunctions, ReduceToTheNearestWhateverTheHostRoundsTo) {
+  const struct {
+    MathFunction function;
+    float low, high, within;
+    double (*exact)(double);
+    double (*second)(double);
+  } cases[] = {
+      {MathFunction::kSineCosine, -250, 250, 1e-6f, [](double v) { return std::sin(v); },
+       [](double v) { return std::cos(v); }},
+      {MathFunction::kExpOfNegative, -80, 0, 1e-6f, [](double v) { return std::exp(v); }, nullptr},
+      {MathFunction::kPowerOfTwoOrZero, -120, 0, 1e-6f, [](double v) { return std::exp2(v); },
+       nullptr},
+      {MathFunction::kRoundToWhole, -125, 125, 0.5f, [](double v) { return v; }, nullptr},
+      {MathFunction::kNearest, -4e6f, 4e6f, 0.5f, [](double v) { return v; }, nullptr},
+  };
+  const int directions[] = {
+#if defined(FE_UPWARD) && defined(FE_DOWNWARD) && defined(FE_TOWARDZERO)
+    FE_UPWARD,
+    FE_DOWNWARD,
+    FE_TOWARDZERO,
+#endif
+    FE_TONEAREST
+  };
+  for (const auto& one : cases) {
+    std::vector<float> x = range(one.low, one.high, 30000);
+    for (float tie : {0.5f, 1.5f, 2.5f}) x.push_back(-tie);
+    const size_t count = (x.size() + kStep - 1) / kStep * kStep;
+    Floats in(count), a(count), b(count);
+    std::copy(x.begin(), x.end(), in.data);
+    for (const MathProbe* probe : present()) {
+      for (const int direction : directions) {
+        const int before = std::fegetround();
+        if (std::fesetround(direction) != 0) continue;
+        probe->vectors({one.function, in.data, in.data, a.data, b.data, count});
+        std::fesetround(before);
+        for (size_t i = 0; i < x.size(); ++i) {
+          const double exact = one.exact(double{x[i]});
+          ASSERT_NEAR(a.data[i], exact, one.within)
+              << isa_name(probe->isa) << ", direction " << direction << ", x = " << x[i];
+          if (one.within == 0.5f) {
+            ASSERT_EQ(a.data[i], std::nearbyint(a.data[i])) << x[i];
+          }
+          if (one.second) {
+            ASSERT_NEAR(b.data[i], one.second(double{x[i]}), one.within) << x[i];
+          }
+        }
+      }
+    }
+  }
 }
 
 }  // namespace
