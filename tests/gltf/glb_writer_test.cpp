@@ -90,6 +90,27 @@ MorphTarget target_of(size_t count) {
   return target;
 }
 
+TEST(GlbWriter, NodesUndoTheQuantizationOfMeshesWithoutSkin) {
+  Mesh mesh = fan(9);  // x from 0 to 8, y from 0 to 6
+  mesh.targets.push_back(target_of(2));
+  const Parts parts = read(write_glb(scene_of(std::move(mesh)), true));
+  EXPECT_EQ(parts.text["extensionsRequired"], json::array({"KHR_mesh_quantization"}));
+  const json& node = parts.text["nodes"][0];
+  EXPECT_EQ(node["translation"], json::array({4.0, 3.0, 0.0}));
+  EXPECT_EQ(node["scale"], json::array({4.0, 4.0, 4.0}));
+  const json& primitive = parts.text["meshes"][0]["primitives"][0];
+  const json& positions =
+      parts.text["accessors"][primitive["attributes"]["POSITION"].get<size_t>()];
+  EXPECT_EQ(positions["componentType"], 5122);
+  EXPECT_EQ(positions["normalized"], true);
+  EXPECT_EQ(positions["min"], json::array({-32767, -24575, 0}));
+  EXPECT_EQ(positions["max"], json::array({32767, 24575, 0}));
+  // What targets move is a quarter as well, and is not moved to the center.
+  const json& moves = parts.text["accessors"][primitive["targets"][0]["POSITION"].get<size_t>()];
+  EXPECT_EQ(moves["min"], json::array({0, -16384, 0}));
+  EXPECT_EQ(moves["max"], json::array({8192, 0, 8192}));
+}
+
 TEST(GlbWriter, StillMeshHasNoSkeleton) {
   const Parts parts = read(write_glb(scene_of(fan(4))));
   EXPECT_FALSE(parts.text.contains("skins"));

@@ -55,14 +55,16 @@ class Glb:
         assert self.json["buffers"] == [{"byteLength": binary_size}]
 
     def numbers(self, view, offset, component, count, width=1):
-        """Numbers that stand close together."""
+        """`count` groups of numbers, which stand close together or begin at multiples of the stride."""
         view = self.json["bufferViews"][view]
         values = array.array(COMPONENTS[component])
+        size = width * values.itemsize
+        stride = view.get("byteStride", size)
         first = view.get("byteOffset", 0) + offset
-        size = count * values.itemsize
-        assert view.get("byteStride") in (None, width * values.itemsize)
-        assert first % values.itemsize == 0 and offset + size <= view["byteLength"]
-        values.frombytes(self.binary[first:first + size])
+        assert stride >= size and stride % values.itemsize == 0 and first % values.itemsize == 0
+        assert count == 0 or offset + (count - 1) * stride + size <= view["byteLength"]
+        for at in range(first, first + count * stride, stride):
+            values.frombytes(self.binary[at:at + size])
         if sys.byteorder == "big":
             values.byteswap()
         return values
@@ -72,8 +74,8 @@ class Glb:
         accessor = self.json["accessors"][index]
         width, count, component = SHAPES[accessor["type"]], accessor["count"], accessor["componentType"]
         if "bufferView" in accessor:
-            flat = list(self.numbers(accessor["bufferView"], accessor.get("byteOffset", 0), component,
-                                     count * width, width))
+            flat = list(self.numbers(accessor["bufferView"], accessor.get("byteOffset", 0), component, count,
+                                     width))
         else:
             flat = [0] * (count * width)
         if "sparse" in accessor:
@@ -81,13 +83,16 @@ class Glb:
             places = self.numbers(sparse["indices"]["bufferView"], sparse["indices"]["byteOffset"],
                                   sparse["indices"]["componentType"], sparse["count"])
             values = self.numbers(sparse["values"]["bufferView"], sparse["values"]["byteOffset"],
-                                  component, sparse["count"] * width)
+                                  component, sparse["count"], width)
             assert list(places) == sorted(set(places))
             for i, place in enumerate(places):
                 flat[place * width:(place + 1) * width] = values[i * width:(i + 1) * width]
         for bound, choose in (("min", min), ("max", max)):
             if bound in accessor:
                 assert accessor[bound] == [choose(flat[k::width]) for k in range(width)], index
+        if accessor.get("normalized"):
+            most = {"b": 127, "B": 255, "h": 32767, "H": 65535}[COMPONENTS[component]]
+            flat = [value / most for value in flat]
         if width == 1:
             return flat
         return [tuple(flat[i:i + width]) for i in range(0, len(flat), width)]
@@ -141,7 +146,7 @@ class Glb:
 
     def deformed(self, number, frame=None, weights=None):
         """Positions of the vertices of a node's mesh: targets first, then the skin. `weights` by
-        name of the target take the place of those in the file."""
+        name of the target take the place of those in the file; correctives follow from them."""
         nodes = self.posed_nodes(frame)
         node = nodes[number]
         primitive, = self.json["meshes"][node["mesh"]]["primitives"]
@@ -150,12 +155,16 @@ class Glb:
         used = node["weights"]
         if weights is not None:
             used = [weights.get(name, 0) for name in self.target_names(number)]
+            extras = self.json["meshes"][node["mesh"]].get("extras", {})
+            for corrective in extras.get("correctives", []):
+                used[corrective["target"]] = math.prod(used[i] for i in corrective["product"])
         for target, weight in zip(primitive.get("targets", []), used):
             if weight != 0:
                 points = [tuple(a + weight * b for a, b in zip(point, move))
                           for point, move in zip(points, self.accessor(target["POSITION"]))]
         if "skin" not in node:
-            return points
+            own = local_matrix(node)
+            return [transform(own, point) for point in points]
         skin = self.json["skins"][node["skin"]]
         world = self.world_matrices(nodes)
         palette = []

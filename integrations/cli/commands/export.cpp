@@ -7,6 +7,7 @@
 
 #include "integrations/cli/commands/exported_rig.h"
 #include "integrations/cli/gltf/arkit_bake.h"
+#include "integrations/cli/gltf/bake_skeleton.h"
 #include "integrations/cli/gltf/glb_writer.h"
 #include "integrations/cli/gltf/obj_writer.h"
 #include "integrations/cli/io/controls.h"
@@ -18,9 +19,10 @@ namespace {
 
 struct ExportOptions {
   OutputFile output;
-  std::string rig, format, lod = "0", influences, animation, rate, mouth_close;
+  std::string rig, format, lod = "0", animation, rate, mouth_close;
   std::vector<std::string> settings;
-  bool bake = false;
+  GlbOptions glb;
+  bool bake = false, correctives = false;
 };
 
 enum class Format { kGlb, kObj };
@@ -63,10 +65,9 @@ void check_combination(const ExportOptions& options, Format format) {
   if (!options.animation.empty() && !options.settings.empty()) {
     fail_usage("--set", "the animation sets the controls", "leave out --set or --animation");
   }
-  const char* only_glb = options.bake                  ? "--bake-arkit"
-                         : !options.animation.empty()  ? "--animation"
-                         : !options.influences.empty() ? "--influences"
-                                                       : nullptr;
+  const char* only_glb = options.bake                 ? "--bake-arkit"
+                         : !options.animation.empty() ? "--animation"
+                                                      : options.glb.named();
   if (format == Format::kObj && only_glb) {
     fail_usage(only_glb, "an OBJ file holds one still pose", "write a .glb file");
   }
@@ -74,8 +75,12 @@ void check_combination(const ExportOptions& options, Format format) {
     parse_word("--mouth-close", options.mouth_close);
     if (!options.bake) fail_usage("--mouth-close", "nothing is baked", "add --bake-arkit");
   }
-  if (options.bake && !options.influences.empty()) {
-    fail_usage("--influences " + options.influences, "a baked mesh has no skin",
+  if (options.correctives && !options.bake) {
+    fail_usage("--correctives", "nothing is baked", "add --bake-arkit");
+  }
+  if (options.bake && !options.glb.influences.empty()) {
+    fail_usage("--influences " + options.glb.influences,
+               "a baked mesh follows head, neck and eyes only",
                "leave out --influences or --bake-arkit");
   }
 }
@@ -92,13 +97,20 @@ void print_report(const gltf::BakeReport& report, FILE* stream) {
                  expression.max_move * 1000, expression.halfway.rms * 1000,
                  expression.halfway.max * 1000);
   }
-  const double share = report.diagonal > 0 ? 100 / report.diagonal : 0;
-  std::fprintf(stream,
-               "%u random combinations against the full rig, %zu positions that move:\n"
-               "off by %.4f mm rms, %.4f mm at most (%.3g %% and %.3g %% of the size)\n",
-               report.combination_count, report.moved_positions, report.combinations.rms * 1000,
-               report.combinations.max * 1000, report.combinations.rms * share,
-               report.combinations.max * share);
+  const auto print_combinations = [&](const char* who, const gltf::Residual& off) {
+    const double share = report.diagonal > 0 ? 100 / report.diagonal : 0;
+    std::fprintf(stream,
+                 "%s: off by %.4f mm rms, %.4f mm at most (%.3g %% and %.3g %% of the size)\n", who,
+                 off.rms * 1000, off.max * 1000, off.rms * share, off.max * share);
+  };
+  std::fprintf(stream, "%u random combinations against the full rig, %zu positions that move:\n",
+               report.combination_count, report.moved_positions);
+  print_combinations("in a viewer that adds targets", report.combinations);
+  if (report.corrective_count != 0) {
+    const std::string who = "with the " + std::to_string(report.corrective_count) +
+                            " correctives, driven as in the extras";
+    print_combinations(who.c_str(), report.corrected);
+  }
   std::fprintf(stream, "at most in:");
   for (size_t e = 0; e < gltf::kArkitCount; ++e) {
     if (report.worst[e] != 0)
@@ -138,18 +150,23 @@ std::string baked_glb(const ExportedRig& face, const Frame& still, const std::ve
          "not all ARKit expressions are controls of the rig, so controls are no weights of them",
          "leave out --bake-arkit, or --set and --animation");
   }
-  gltf::RigScene scene =
-      gltf::make_still_scene(*face.source, face.scene_options(options.influences));
+  gltf::RigScene scene = gltf::make_still_scene(*face.source, face.scene_options(options.glb));
   note_losses(face, scene.losses, session);
-  const auto mouth_close = static_cast<gltf::MouthClose>(
-      options.mouth_close.empty() ? 0 : parse_word("--mouth-close", options.mouth_close));
+  gltf::add_bake_skeleton(*face.source, scene);
+  gltf::BakeOptions bake;
+  bake.correctives = options.correctives;
+  if (!options.mouth_close.empty()) {
+    bake.mouth_close =
+        static_cast<gltf::MouthClose>(parse_word("--mouth-close", options.mouth_close));
+  }
   gltf::BakeReport report;
   {
     Progress progress(session, "baking expressions", 1);
-    report = gltf::bake_arkit(*face.source, controls, mouth_close, scene,
+    report = gltf::bake_arkit(*face.source, controls, bake, scene,
                               [&](double share) { progress.at_share(share); });
   }
-  if (options.mouth_close.empty() && report.max_close_with_jaw > kNotableClose * report.diagonal) {
+  if (options.mouth_close.empty() && !options.correctives &&
+      report.max_close_with_jaw > kNotableClose * report.diagonal) {
     note(session, face.file.shown +
                       ": on this rig mouthClose is another thing when the jaw is open; for "
                       "captured data add --mouth-close jaw");
@@ -168,7 +185,7 @@ std::string baked_glb(const ExportedRig& face, const Frame& still, const std::ve
     weights.erase(weights.begin());
     scene.scene.animation = gltf::baked_animation(scene, weights, "frames", rate);
   }
-  const std::string bytes = gltf::write_glb(scene.scene);
+  const std::string bytes = glb_bytes(scene.scene, options.glb);
   if (!session.quiet) print_report(report, options.output.path == "-" ? stderr : stdout);
   return bytes;
 }
@@ -179,7 +196,7 @@ void run(const ExportOptions& options, const Session& session) {
   const Format format = parse_format(options);
   const double rate = parse_rate(options);
   check_combination(options, format);
-  if (!options.influences.empty()) parse_word("--influences", options.influences);
+  check_glb_options(options.glb);
   if (format == Format::kGlb && options.output.path == "-" && session.terminal.out_is_terminal) {
     fail_usage("-o -", "a GLB file is not for a terminal", "name a file, or pipe the output");
   }
@@ -215,7 +232,7 @@ void run(const ExportOptions& options, const Session& session) {
     } else if (options.bake) {
       bytes = baked_glb(face, still, frames, rate, options, session);
     } else {
-      bytes = rig_glb(face, still, frames, rate, face.scene_options(options.influences), session);
+      bytes = rig_glb(face, still, frames, rate, options.glb, session);
     }
     Output output(options.output.path);
     output.write(bytes);
@@ -249,18 +266,18 @@ Command add_export_command(CLI::App& app, const Session& session) {
                    "jawOpen=0.6; again for others")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
-  command
-      ->add_option("--influences", options->influences,
-                   "Joints per vertex: 4, 8 or 12 (default: 8 where 4 do not do)")
-      ->type_name("N");
+  add_glb_options(*command, options->glb);
   command
       ->add_option("--animation", options->animation,
                    "Frames as for 'mien eval', as an animation; - reads standard input")
       ->type_name("FRAMES");
   command->add_option("--fps", options->rate, "Frames per second (default: 30)")->type_name("N");
   command->add_flag("--bake-arkit", options->bake,
-                    "No skeleton: the 52 ARKit expressions as morph targets. Prints how far\n"
-                    "these are off the full rig");
+                    "The 52 ARKit expressions as morph targets; of the bones head, neck and eyes\n"
+                    "stay. Prints how far these are off the full rig");
+  command->add_flag("--correctives", options->correctives,
+                    "With --bake-arkit: targets for what two expressions do together, with what\n"
+                    "drives them in the extras");
   command
       ->add_option("--mouth-close", options->mouth_close,
                    "mouthClose as a difference to neutral: alone (default), or to an open\n"

@@ -19,7 +19,44 @@ std::string percent(double share) {
   return text;
 }
 
+std::string millimeters(double meters) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.2g mm", meters * 1000);
+  return text;
+}
+
 }  // namespace
+
+const char* GlbOptions::named() const {
+  return !influences.empty() ? "--influences"
+         : quantize          ? "--quantize"
+         : no_uvs            ? "--no-uvs"
+         : no_morph_normals  ? "--no-morph-normals"
+                             : nullptr;
+}
+
+void add_glb_options(CLI::App& command, GlbOptions& options, const std::string& group) {
+  command
+      .add_option("--influences", options.influences,
+                  "Joints per vertex: 4 (default), 8 or 12. Where the rig has more, weights are\n"
+                  "fitted to its expressions; the loss is printed")
+      ->type_name("N")
+      ->group(group);
+  command
+      .add_flag("--quantize", options.quantize,
+                "Half the size: integers of 8 and 16 bits (KHR_mesh_quantization, which\n"
+                "three.js and Blender read)")
+      ->group(group);
+  command.add_flag("--no-uvs", options.no_uvs, "No texture coordinates")->group(group);
+  command
+      .add_flag("--no-morph-normals", options.no_morph_normals,
+                "Targets move positions only; viewers keep the normals as they are")
+      ->group(group);
+}
+
+void check_glb_options(const GlbOptions& options) {
+  if (!options.influences.empty()) parse_word("--influences", options.influences);
+}
 
 ExportedRig::ExportedRig(const std::string& path, const std::string& lod, const Session& session) {
   auto desc = sized<MienDnaDesc>();
@@ -67,13 +104,14 @@ MienFloatView ExportedRig::raw_controls() const {
   return view;
 }
 
-gltf::SceneOptions ExportedRig::scene_options(const std::string& influences) const {
+gltf::SceneOptions ExportedRig::scene_options(const GlbOptions& options) const {
   gltf::SceneOptions scene;
   scene.name = read_string(file, "desc.name");
   if (scene.name.empty()) scene.name = "rig";
   scene.first_lod = first_lod;
-  if (!influences.empty()) {
-    scene.influences = 4 + 4 * static_cast<uint32_t>(parse_word("--influences", influences));
+  if (!options.influences.empty()) {
+    scene.influences =
+        4 + 4 * static_cast<uint32_t>(parse_word("--influences", options.influences));
   }
   return scene;
 }
@@ -86,11 +124,20 @@ void note_color_problems(const ExportedRig& face, const Session& session) {
 
 void note_losses(const ExportedRig& face, const gltf::Losses& losses, const Session& session) {
   const std::string& shown = face.file.shown;
-  if (losses.cut_positions != 0) {
-    note(session, shown + ": " + std::to_string(losses.cut_positions) +
-                      " positions follow more than " + std::to_string(losses.places) +
-                      " joints; the lightest were dropped, up to " +
-                      percent(losses.max_weight_cut) + " of a position's weight");
+  if (losses.crowded_positions != 0) {
+    const gltf::Residual& off = losses.skin.residual;
+    std::string text = shown + ": " + std::to_string(losses.crowded_positions) + " of " +
+                       std::to_string(losses.positions) + " positions follow more than " +
+                       std::to_string(losses.places) +
+                       " joints; their weights were fitted to the rig's expressions: off by " +
+                       millimeters(off.rms) + " rms, " + millimeters(off.max) + " at most";
+    if (!losses.skin.expression.empty()) text += ", with " + one_line(losses.skin.expression);
+    if (losses.places == 4) {
+      text +=
+          ". --influences 8 is for programs that read more than four joints, as Blender does "
+          "and three.js does not";
+    }
+    note(session, text);
   }
   if (losses.corrected_positions != 0) {
     note(session, shown + ": skin weights of " + std::to_string(losses.corrected_positions) +
@@ -104,8 +151,14 @@ void note_losses(const ExportedRig& face, const gltf::Losses& losses, const Sess
 }
 
 std::string rig_glb(const ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
-                    double rate, const gltf::SceneOptions& options, const Session& session) {
-  gltf::RigScene scene = gltf::make_rig_scene(*face.source, options);
+                    double rate, const GlbOptions& options, const Session& session) {
+  gltf::SceneOptions scene_options = face.scene_options(options);
+  gltf::RigScene scene;
+  {
+    Progress progress(session, "fitting skin weights", 1);
+    scene_options.progress = [&](double share) { progress.at_share(share); };
+    scene = gltf::make_rig_scene(*face.source, scene_options);
+  }
   note_losses(face, scene.losses, session);
   face.apply(still);
   gltf::set_pose(scene, *face.source, face.pose.get(), face.channel_weights());
@@ -119,7 +172,19 @@ std::string rig_glb(const ExportedRig& face, const Frame& still, const std::vect
     }
     scene.scene.animation = recorder.finish();
   }
-  return gltf::write_glb(scene.scene);
+  return glb_bytes(scene.scene, options);
+}
+
+std::string glb_bytes(gltf::Scene& scene, const GlbOptions& options) {
+  for (gltf::Mesh& mesh : scene.meshes) {
+    if (options.no_uvs) mesh.uvs.clear();
+    if (!options.no_morph_normals) continue;
+    for (gltf::MorphTarget& target : mesh.targets) {
+      target.normals.clear();
+      target.normal_vertices.clear();
+    }
+  }
+  return gltf::write_glb(scene, options.quantize);
 }
 
 void fail_export(const gltf::ExportError& error, const std::string& rig) {

@@ -8,6 +8,19 @@
 
 namespace mien::cli {
 
+/// Options of commands that write GLB files.
+struct GlbOptions {
+  std::string influences;  // 4, 8, 12 or empty
+  bool quantize = false, no_uvs = false, no_morph_normals = false;
+
+  /// One of them that was given, or null.
+  const char* named() const;
+};
+
+void add_glb_options(CLI::App& command, GlbOptions& options, const std::string& group = "Options");
+/// Fails on wrong words.
+void check_glb_options(const GlbOptions& options);
+
 /// Opened with the LODs to export.
 class ExportedRig {
  public:
@@ -19,8 +32,7 @@ class ExportedRig {
 
   MienFloatView channel_weights() const;
   MienFloatView raw_controls() const;
-  /// `influences` is 4, 8, 12 or empty.
-  gltf::SceneOptions scene_options(const std::string& influences) const;
+  gltf::SceneOptions scene_options(const GlbOptions& options) const;
 
   uint32_t first_lod = 0;
   RigFile file;
@@ -38,7 +50,10 @@ void note_losses(const ExportedRig& face, const gltf::Losses& losses, const Sess
 /// A GLB with skeleton, skin and morph targets that opens in the pose `still` and plays `frames`, if there
 /// are any. Throws gltf::ExportError.
 std::string rig_glb(const ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
-                    double rate, const gltf::SceneOptions& options, const Session& session);
+                    double rate, const GlbOptions& options, const Session& session);
+
+/// The scene with what the options leave of it.
+std::string glb_bytes(gltf::Scene& scene, const GlbOptions& options);
 
 /// "cannot export" with the exit code of what was wrong.
 [[noreturn]] void fail_export(const gltf::ExportError& error, const std::string& rig);

@@ -20,7 +20,8 @@ namespace mien::cli {
 namespace {
 
 struct PlayOptions {
-  std::string scene, rig, rate, seconds, seed, stages, influences;
+  std::string scene, rig, rate, seconds, seed, stages;
+  GlbOptions glb;
   std::vector<std::string> outputs;
   StripOptions strip;  // with --lod, which a GLB has as well
   bool force = false;
@@ -89,9 +90,9 @@ void check_outputs(const std::vector<std::string>& outputs, const PlayOptions& o
   for (const auto& [option, given] : of_images) {
     if (given && !png) fail_usage(option, "there are no images", "add -o OUT.png");
   }
-  if (!options.influences.empty()) {
-    parse_word("--influences", options.influences);
-    if (!glb) fail_usage("--influences", "there is no skin", "add -o OUT.glb");
+  check_glb_options(options.glb);
+  if (options.glb.named() && !glb) {
+    fail_usage(options.glb.named(), "there is no GLB", "add -o OUT.glb");
   }
   parse_lod(strip.scene.lod, false);
   if (strip.scene.lod != "0" && !png && !glb) {
@@ -119,8 +120,7 @@ std::string scene_glb(const PlayOptions& options, const Recording& recording, si
         frames[f].raw.push_back({i, recording.rows[f * lane_count + i]});
       }
     }
-    return rig_glb(face, {}, frames, recording.rate, face.scene_options(options.influences),
-                   session);
+    return rig_glb(face, {}, frames, recording.rate, options.glb, session);
   } catch (const gltf::ExportError& error) {
     fail_export(error, options.rig);
   }
@@ -265,9 +265,7 @@ Command add_play_command(CLI::App& app, const Session& session) {
   play->add_option("--lod", options->strip.scene.lod,
                    "LOD of images and of a GLB (default: 0, the finest)")
       ->type_name("N");
-  play->add_option("--influences", options->influences,
-                   "Joints per vertex of a GLB: 4, 8 or 12 (default: 8 where 4 do not do)")
-      ->type_name("N");
+  add_glb_options(*play, options->glb, "GLB");
   const std::string group = "Images";
   play->add_option("--every", options->strip.every,
                    "Seconds from image to image (default: 16 images at most)")

@@ -10,6 +10,8 @@ namespace {
 
 constexpr uint32_t kCombinations = 200;
 constexpr double kLeastMove = 2e-6;  // of the diagonal
+constexpr double kLeastCorrective = 1e-3;
+constexpr size_t kMaxCorrectives = 128;
 
 /// Pseudo-random numbers that are the same everywhere: splitmix64.
 class Random {
@@ -98,20 +100,32 @@ struct Distances {
 /// A mesh in neutral, and how far the expressions move its positions, in units of the file.
 struct BakedMesh {
   uint32_t rig_mesh = 0, lod = 0;
-  std::vector<float> neutral;
-  std::vector<float> moves[kArkitCount];
+  std::vector<float> neutral, neutral_normals;
+  std::vector<float> moves[kArkitCount], turns[kArkitCount];
   std::vector<bool> is_moved;  // of the positions
+  struct Pair {
+    size_t first, second;
+    std::vector<float> moves;
+  };
+  std::vector<Pair> correctives;
 
-  void compare(const Face& face, const Weights& weights, Distances& distances) const {
+  void compare(const Face& face, const Weights& weights, bool corrected,
+               Distances& distances) const {
     const std::vector<float> posed = face.positions(rig_mesh);
+    std::vector<std::pair<double, const std::vector<float>*>> terms;
+    for (size_t e = 0; e < kArkitCount; ++e) {
+      if (weights[e] != 0) terms.emplace_back(weights[e], &moves[e]);
+    }
+    for (const Pair& pair : correctives) {
+      const double weight = weights[pair.first] * weights[pair.second];
+      if (corrected && weight != 0) terms.emplace_back(weight, &pair.moves);
+    }
     for (size_t p = 0; p < is_moved.size(); ++p) {
       if (!is_moved[p]) continue;
       double squared = 0;
       for (size_t i = 3 * p; i < 3 * p + 3; ++i) {
         double sum = neutral[i];
-        for (size_t e = 0; e < kArkitCount; ++e) {
-          if (weights[e] != 0) sum += weights[e] * moves[e][i];
-        }
+        for (const auto& [weight, term] : terms) sum += weight * (*term)[i];
         squared += (posed[i] - sum) * (posed[i] - sum);
       }
       distances.add(squared);
@@ -152,6 +166,12 @@ std::vector<float> less(std::vector<float> a, const std::vector<float>& b) {
   return a;
 }
 
+std::vector<float> sum(std::vector<float> a, const std::vector<float>& b,
+                       const std::vector<float>& c) {
+  for (size_t i = 0; i < a.size(); ++i) a[i] += b[i] + c[i];
+  return a;
+}
+
 double length_at(const RigSource& source, const std::vector<float>& moves, size_t position) {
   return length(source.point(moves.data() + 3 * position));
 }
@@ -166,6 +186,7 @@ BakedMesh bake_mesh(const RigSource& source, Face& face, uint32_t rig_mesh, doub
   Weights weights(kArkitCount);
   const Shape neutral = shape_of(face, rig_mesh, baked.lod, weights);
   baked.neutral = neutral.positions;
+  baked.neutral_normals = neutral.normals;
   for (uint32_t v = 0; v < from.vertex_count; ++v) {
     const math::Vec3d p =
         source.point(baked.neutral.data() + size_t{3} * from.vertex_position_indices.data[v]);
@@ -184,6 +205,7 @@ BakedMesh bake_mesh(const RigSource& source, Face& face, uint32_t rig_mesh, doub
                                       kLeastMove * diagonal));
     mesh.targets.back().name = kArkitNames[e];
     baked.moves[e] = less(shape.positions, base.positions);
+    baked.turns[e] = less(shape.normals, base.normals);
     for (size_t p = 0; p < baked.is_moved.size(); ++p) {
       const double length = length_at(source, baked.moves[e], p);
       if (length > kLeastMove * diagonal) baked.is_moved[p] = true;
@@ -209,33 +231,83 @@ BakedMesh bake_mesh(const RigSource& source, Face& face, uint32_t rig_mesh, doub
   return baked;
 }
 
+/// What two expressions together move beyond their sum, where that is notable: a target each.
+void add_correctives(const RigSource& source, Face& face, double diagonal, MouthClose mouth_close,
+                     BakedMesh& baked, Mesh& mesh) {
+  if (mesh.targets.empty()) return;
+  struct Found {
+    double most;
+    size_t first, second;
+  };
+  std::vector<Found> found;
+  Weights weights(kArkitCount);
+  const auto deform = [&](size_t a, size_t b, bool with_normals) {
+    weights[a] = weights[b] = 1;
+    face.deform(baked.rig_mesh, baked.lod, weights, with_normals);
+    weights[a] = weights[b] = 0;
+  };
+  for (size_t a = 0; a < kArkitCount; ++a) {
+    for (size_t b = a + 1; b < kArkitCount; ++b) {
+      // A mouthClose that goes with the jaw is nothing by itself.
+      const bool closes = a == kMouthClose || b == kMouthClose;
+      if (closes && mouth_close == MouthClose::kWithJaw) continue;
+      if (mesh.targets[a].vertices.empty() || mesh.targets[b].vertices.empty()) continue;
+      deform(a, b, false);
+      const std::vector<float> beyond =
+          less(face.positions(baked.rig_mesh), sum(baked.neutral, baked.moves[a], baked.moves[b]));
+      double most = 0;
+      for (size_t p = 0; p < baked.is_moved.size(); ++p) {
+        most = std::max(most, length_at(source, beyond, p));
+      }
+      if (most > kLeastCorrective * diagonal) found.push_back({most, a, b});
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Found& x, const Found& y) { return x.most > y.most; });
+  if (found.size() > kMaxCorrectives) found.resize(kMaxCorrectives);
+  for (const auto& [most, a, b] : found) {
+    deform(a, b, true);
+    const std::vector<float> positions = sum(baked.neutral, baked.moves[a], baked.moves[b]);
+    MorphTarget target = difference(source, baked.rig_mesh, face.pose(), positions,
+                                    sum(baked.neutral_normals, baked.turns[a], baked.turns[b]),
+                                    kLeastMove * diagonal);
+    target.name = std::string(kArkitNames[a]) + "+" + kArkitNames[b];
+    mesh.correctives.push_back({static_cast<uint32_t>(mesh.targets.size()),
+                                {static_cast<uint32_t>(a), static_cast<uint32_t>(b)}});
+    mesh.targets.push_back(std::move(target));
+    baked.correctives.push_back({a, b, less(face.positions(baked.rig_mesh), positions)});
+  }
+}
+
 }  // namespace
 
 BakeReport bake_arkit(const RigSource& source, const ArkitControls& controls,
-                      MouthClose mouth_close, RigScene& scene,
+                      const BakeOptions& options, RigScene& scene,
                       const std::function<void(double share)>& progress) {
-  const bool with_jaw = mouth_close == MouthClose::kWithJaw;
+  const bool with_jaw = options.mouth_close == MouthClose::kWithJaw;
   BakeReport report;
   report.expressions.resize(kArkitCount);
   report.diagonal = diagonal_of(source);
   report.combination_count = kCombinations;
   Face face(source, controls);
-  Distances halfway[kArkitCount], together;
+  Distances halfway[kArkitCount], together, corrected;
   for (size_t m = 0; m < scene.scene.meshes.size(); ++m) {
     const uint32_t rig_mesh = scene.rig_meshes[m];
-    const BakedMesh baked = bake_mesh(source, face, rig_mesh, report.diagonal, mouth_close,
-                                      scene.scene.meshes[m], report);
+    Mesh& mesh = scene.scene.meshes[m];
+    BakedMesh baked =
+        bake_mesh(source, face, rig_mesh, report.diagonal, options.mouth_close, mesh, report);
+    if (options.correctives) {
+      add_correctives(source, face, report.diagonal, options.mouth_close, baked, mesh);
+      report.corrective_count += mesh.correctives.size();
+    }
     report.moved_positions +=
         static_cast<size_t>(std::count(baked.is_moved.begin(), baked.is_moved.end(), true));
-    const auto measure = [&](const Weights& weights, Distances& distances) {
-      face.deform(rig_mesh, baked.lod, weights, false);
-      baked.compare(face, weights, distances);
-    };
     Weights weights(kArkitCount);
     for (size_t e = 0; e < kArkitCount; ++e) {
       weights[e] = 0.5;
       if (with_jaw && e == kMouthClose) weights[kJawOpen] = 0.5;
-      measure(weights, halfway[e]);
+      face.deform(rig_mesh, baked.lod, weights, false);
+      baked.compare(face, weights, false, halfway[e]);
       weights[e] = weights[kJawOpen] = 0;
     }
     Random random;
@@ -250,7 +322,9 @@ BakeReport bake_arkit(const RigSource& source, const ArkitControls& controls,
       }
       if (with_jaw) weights[kMouthClose] = std::min(weights[kMouthClose], weights[kJawOpen]);
       const double most = together.most;
-      measure(weights, together);
+      face.deform(rig_mesh, baked.lod, weights, false);
+      baked.compare(face, weights, false, together);
+      baked.compare(face, weights, true, corrected);
       if (together.most > most) std::copy(weights.begin(), weights.end(), report.worst.begin());
     }
   }
@@ -259,6 +333,7 @@ BakeReport bake_arkit(const RigSource& source, const ArkitControls& controls,
     report.expressions[e].halfway = halfway[e].residual(meters);
   }
   report.combinations = together.residual(meters);
+  report.corrected = corrected.residual(meters);
   return report;
 }
 
@@ -268,9 +343,24 @@ ArkitWeights arkit_weights(const ArkitControls& controls, const MienFloatView& r
   return weights;
 }
 
+namespace {
+
+/// Of the expressions, and of the correctives that they drive.
+std::vector<float> target_weights(const Mesh& mesh, const ArkitWeights& expressions) {
+  if (mesh.targets.empty()) return {};
+  std::vector<float> weights(expressions.begin(), expressions.end());
+  for (const Corrective& corrective : mesh.correctives) {
+    weights.push_back(weights[corrective.product[0]] * weights[corrective.product[1]]);
+  }
+  return weights;
+}
+
+}  // namespace
+
 void set_baked_pose(RigScene& scene, const ArkitWeights& weights) {
   for (Mesh& mesh : scene.scene.meshes) {
-    for (size_t t = 0; t < mesh.targets.size(); ++t) mesh.targets[t].weight = weights[t];
+    const std::vector<float> all = target_weights(mesh, weights);
+    for (size_t t = 0; t < all.size(); ++t) mesh.targets[t].weight = all[t];
   }
 }
 
@@ -287,7 +377,8 @@ Animation baked_animation(const RigScene& scene, const std::vector<ArkitWeights>
     animation.weights.back().mesh = m;
     for (const ArkitWeights& weights : frames) {
       std::vector<float>& track = animation.weights.back().weights;
-      track.insert(track.end(), weights.begin(), weights.end());
+      const std::vector<float> all = target_weights(scene.scene.meshes[m], weights);
+      track.insert(track.end(), all.begin(), all.end());
     }
   }
   return animation;

@@ -9,16 +9,16 @@
 
 namespace mien::gltf {
 
-/// Distances between two shapes of the same positions, over those that some expression moves.
-struct Residual {
-  double rms = 0, max = 0;  // meters
-};
-
 /// What mouthClose is a difference to.
 enum class MouthClose {
   kAlone,    // the neutral mesh, as for all others
   kWithJaw,  // the mesh with jawOpen at 1: captured data close the lips of an open jaw with it, to
              // the degree that the jaw is open at most
+};
+
+struct BakeOptions {
+  MouthClose mouth_close = MouthClose::kAlone;
+  bool correctives = false;
 };
 
 struct BakeReport {
@@ -28,6 +28,8 @@ struct BakeReport {
   };
   std::vector<Expression> expressions;  // kArkitCount of them
   Residual combinations;                // sums of targets against the rig
+  Residual corrected;                   // the same with correctives
+  size_t corrective_count = 0;          // of all meshes
   ArkitWeights worst{};                 // the combination with the largest distance
   double max_close_with_jaw = 0;        // by how much mouthClose differs in its two ways, meters
   uint32_t combination_count = 0;
@@ -44,10 +46,15 @@ struct BakeReport {
 /// A target is a straight line, a rotating jaw or eye is not, and expressions together have
 /// correctives: the report measures both, the second by random combinations, the same every time:
 /// each expression is on with a chance of 1 in 8, by 0 to 1. With MouthClose::kWithJaw, mouthClose
-/// is measured with a jaw as open as it, and in combinations never above jawOpen. `progress` is called
-/// now and then.
+/// is measured with a jaw as open as it, and in combinations never above jawOpen.
+///
+/// With `options.correctives` each mesh also gets a target for every two expressions that together
+/// move it by more than a thousandth of the diagonal beyond their sum, the 128 largest at most: at the
+/// product of their weights it makes the two exact (mouthClose with the jaw has none).
+///
+/// `progress` is called now and then.
 BakeReport bake_arkit(const RigSource& source, const ArkitControls& controls,
-                      MouthClose mouth_close, RigScene& scene,
+                      const BakeOptions& options, RigScene& scene,
                       const std::function<void(double share)>& progress = {});
 
 /// Weights of the expressions from raw controls named after them (ArkitControls::by_name).

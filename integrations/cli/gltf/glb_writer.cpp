@@ -15,7 +15,7 @@ using math::Matrix;
 using math::Transform;
 
 // Numbers of the glTF specification.
-enum ComponentType : int { kU8 = 5121, kU16 = 5123, kU32 = 5125, kF32 = 5126 };
+enum ComponentType : int { kS8 = 5120, kU8, kS16, kU16, kU32 = 5125, kF32 };
 enum ViewTarget : int { kOtherData = 0, kVertexData = 34962, kIndexData = 34963 };
 
 constexpr const char* kShapes[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
@@ -26,6 +26,38 @@ json list_of(json value) {
   list.push_back(std::move(value));
   return list;
 }
+
+size_t size_of(ComponentType type) {
+  return type == kS8 || type == kU8 ? 1 : type == kS16 || type == kU16 ? 2 : 4;
+}
+
+/// How vectors of three are written: as floats, or as normalized integers that a reader multiplies
+/// by `scale` and moves by `center`.
+struct Packing {
+  ComponentType type = kF32;
+  math::Vec3d center;
+  double scale = 1;
+
+  bool is_float() const { return type == kF32; }
+  /// In an attribute every vertex begins at a multiple of four.
+  size_t stride() const { return type == kF32 ? 12 : type == kS16 ? 8 : 4; }
+
+  std::array<int, 3> packed(const Float3& values) const {
+    const double most = type == kS16 ? 32767 : 127;
+    std::array<int, 3> result{};
+    for (int i = 0; i < 3; ++i) {
+      const double share = (values[size_t(i)] - center[i]) / scale;
+      result[size_t(i)] = static_cast<int>(std::lround(std::clamp(share, -1.0, 1.0) * most));
+    }
+    return result;
+  }
+};
+
+/// The packings of a file.
+struct Packings {
+  bool quantized = false;
+  Packing positions, moves, normals, turns;
+};
 
 /// The binary part, and what the JSON part says about it.
 class Data {
@@ -54,15 +86,11 @@ class Data {
   size_t offset_in_view() const { return bytes.size() - view_begin_; }
 
   void put(uint32_t value, ComponentType type) {
-    const int count = type == kU8 ? 1 : type == kU16 ? 2 : 4;
-    for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> (8 * i) & 255);
+    for (size_t i = 0; i < size_of(type); ++i) bytes += static_cast<char>(value >> (8 * i) & 255);
   }
 
   void put(float value) {
-    if (!std::isfinite(value)) {
-      throw ExportError(MIEN_ERROR_DNA_VALUE, part_, "a value is not a finite number",
-                        "see 'mien validate', or give smaller controls");
-    }
+    check_finite(std::array<float, 1>{value});
     uint32_t bits;
     std::memcpy(&bits, &value, sizeof(bits));
     put(bits, kF32);
@@ -71,6 +99,15 @@ class Data {
   template <size_t n>
   void put(const std::array<float, n>& values) {
     for (const float value : values) put(value);
+  }
+
+  template <size_t n>
+  void check_finite(const std::array<float, n>& values) const {
+    for (const float value : values) {
+      if (std::isfinite(value)) continue;
+      throw ExportError(MIEN_ERROR_DNA_VALUE, part_, "a value is not a finite number",
+                        "see 'mien validate', or give smaller controls");
+    }
   }
 
   /// Everything begins at a multiple of four.
@@ -83,19 +120,17 @@ class Data {
 
   /// A view of its own with an accessor for all of it.
   template <size_t n>
-  size_t add(const std::vector<std::array<float, n>>& values, ViewTarget target,
-             bool with_bounds = false) {
+  size_t add(const std::vector<std::array<float, n>>& values, ViewTarget target) {
     begin_view();
-    const size_t accessor = append(values, with_bounds);
+    const size_t accessor = append(values);
     end_view(target);
     return accessor;
   }
 
   /// The same within the view that was begun.
   template <size_t n>
-  size_t append(const std::vector<std::array<float, n>>& values, bool with_bounds = false) {
+  size_t append(const std::vector<std::array<float, n>>& values) {
     json accessor = accessor_here(kF32, values.size(), kShapes[n]);
-    if (with_bounds) set_bounds(accessor, values.data(), values.size());
     for (const auto& value : values) put(value);
     return add_accessor(std::move(accessor));
   }
@@ -111,6 +146,42 @@ class Data {
     return add_accessor(std::move(accessor));
   }
 
+  /// Vectors in this packing, as an attribute (with its stride) or close together.
+  void put(const std::vector<Float3>& values, const Packing& packing, bool as_attribute) {
+    for (const Float3& value : values) {
+      if (packing.is_float()) {
+        put(value);
+        continue;
+      }
+      check_finite(value);
+      for (const int component : packing.packed(value)) {
+        put(static_cast<uint32_t>(component), packing.type);
+      }
+      if (as_attribute) align();
+    }
+  }
+
+  /// A view of its own.
+  size_t add_attribute(const std::vector<Float3>& values, const Packing& packing,
+                       bool with_bounds) {
+    begin_view();
+    json accessor = accessor_here(packing.type, values.size(), "VEC3");
+    describe(accessor, values, packing, with_bounds, false);
+    put(values, packing, true);
+    end_view(kVertexData, packing.is_float() ? 0 : packing.stride());
+    return add_accessor(std::move(accessor));
+  }
+
+  static void describe(json& accessor, const std::vector<Float3>& values, const Packing& packing,
+                       bool with_bounds, bool with_zero) {
+    if (!packing.is_float()) accessor["normalized"] = true;
+    if (!with_bounds) return;
+    if (packing.is_float()) return set_bounds(accessor, values.data(), values.size(), with_zero);
+    std::vector<std::array<int, 3>> packed;
+    for (const Float3& value : values) packed.push_back(packing.packed(value));
+    set_bounds(accessor, packed.data(), packed.size(), with_zero);
+  }
+
   json accessor_here(ComponentType type, size_t count, const char* shape) const {
     json accessor = {{"bufferView", current_view()}};
     if (offset_in_view() != 0) accessor["byteOffset"] = offset_in_view();
@@ -120,10 +191,10 @@ class Data {
     return accessor;
   }
 
-  template <size_t n>
-  static void set_bounds(json& accessor, const std::array<float, n>* values, size_t count,
-                         bool with_zero = false) {
-    std::array<float, n> least{}, most{};
+  template <class T, size_t n>
+  static void set_bounds(json& accessor, const std::array<T, n>* values, size_t count,
+                         bool with_zero) {
+    std::array<T, n> least{}, most{};
     if (!with_zero && count != 0) least = most = values[0];
     for (size_t i = 0; i < count; ++i) {
       for (size_t k = 0; k < n; ++k) {
@@ -140,96 +211,147 @@ class Data {
   size_t view_begin_ = 0;
 };
 
+// Quantization ------------------------------------------------------------------------------------
+
+/// One cube holds all positions, because one skin undoes its scale; moves have its scale too. Turns of
+/// normals end at 1, which is 60 degrees: readers normalize.
+Packings packings_of(const Scene& scene) {
+  math::Boxd box;
+  double longest = 0;
+  const auto vector = [](const Float3& v) { return math::Vec3d{v[0], v[1], v[2]}; };
+  for (const Mesh& mesh : scene.meshes) {
+    for (const Float3& position : mesh.positions) box.add(vector(position));
+    for (const MorphTarget& target : mesh.targets) {
+      for (const Float3& move : target.positions) {
+        for (const float value : move) longest = std::max(longest, std::abs(double{value}));
+      }
+    }
+  }
+  Packings packings;
+  packings.quantized = true;
+  if (!box.empty()) {
+    const math::Vec3d size = box.size();
+    longest = std::max({longest, size.x / 2, size.y / 2, size.z / 2});
+    packings.positions.center = box.center();
+  }
+  if (!(longest > 0)) longest = 1;
+  packings.positions.type = packings.moves.type = kS16;
+  packings.positions.scale = packings.moves.scale = longest;
+  packings.normals.type = packings.turns.type = kS8;
+  return packings;
+}
+
 // Meshes ------------------------------------------------------------------------------------------
 
-/// Displacements of some of `count` vertices, of which the others have none.
+/// Displacements of some of `count` vertices, of which the others have none: of positions or normals.
 class Displacements {
  public:
-  Displacements(const MorphTarget& target, size_t count)
-      : target_(target), count_(count), index_type_(count <= 65536 ? kU16 : kU32),
-        sparse_(target.vertices.size() * (index_type_ == kU16 ? 14u : 16u) < count * 12) {}
+  Displacements(const std::vector<uint32_t>& vertices, const std::vector<Float3>& values,
+                const Packing& packing, size_t count)
+      : vertices_(vertices), values_(values), packing_(packing), count_(count),
+        index_type_(count <= 65536 ? kU16 : kU32) {}
 
-  bool is_sparse() const { return sparse_ && !target_.vertices.empty(); }
-  bool is_dense() const { return !sparse_; }
-
-  /// Indices of the sparse form; positions and normals share them.
-  void put_indices(Data& data) {
-    index_view_ = data.current_view();
-    index_offset_ = data.offset_in_view();
-    for (const uint32_t vertex : target_.vertices) data.put(vertex, index_type_);
-    data.align();
+  bool is_dense() const {
+    const size_t entry = size_of(index_type_) + 3 * size_of(packing_.type);
+    return vertices_.size() * entry >= count_ * packing_.stride();
   }
 
-  size_t put_sparse(Data& data, const std::vector<Float3>& values, bool with_bounds) const {
+  size_t put_sparse(Data& data, bool with_bounds) const {
     json accessor = {
-        {"componentType", static_cast<int>(kF32)}, {"count", count_}, {"type", "VEC3"}};
-    if (with_bounds) Data::set_bounds(accessor, values.data(), values.size(), true);
+        {"componentType", static_cast<int>(packing_.type)}, {"count", count_}, {"type", "VEC3"}};
+    Data::describe(accessor, values_, packing_, with_bounds, true);
     // Without sparse values all are 0.
-    if (!values.empty()) {
-      accessor["sparse"] = {
-          {"count", values.size()},
-          {"indices",
-           {{"bufferView", index_view_},
-            {"byteOffset", index_offset_},
-            {"componentType", static_cast<int>(index_type_)}}},
-          {"values", {{"bufferView", data.current_view()}, {"byteOffset", data.offset_in_view()}}}};
-      for (const Float3& value : values) data.put(value);
+    if (!values_.empty()) {
+      json indices = {{"bufferView", data.current_view()}, {"byteOffset", data.offset_in_view()}};
+      indices["componentType"] = static_cast<int>(index_type_);
+      for (const uint32_t vertex : vertices_) data.put(vertex, index_type_);
+      data.align();
+      json values = {{"bufferView", data.current_view()}, {"byteOffset", data.offset_in_view()}};
+      data.put(values_, packing_, false);
+      data.align();
+      accessor["sparse"] = {{"count", values_.size()},
+                            {"indices", std::move(indices)},
+                            {"values", std::move(values)}};
     }
     return data.add_accessor(std::move(accessor));
   }
 
-  size_t put_dense(Data& data, const std::vector<Float3>& values, bool with_bounds) const {
+  size_t put_dense(Data& data, bool with_bounds) const {
     std::vector<Float3> all(count_, Float3{});
-    for (size_t i = 0; i < values.size(); ++i) all[target_.vertices[i]] = values[i];
-    return data.append(all, with_bounds);
+    for (size_t i = 0; i < values_.size(); ++i) all[vertices_[i]] = values_[i];
+    json accessor = data.accessor_here(packing_.type, count_, "VEC3");
+    Data::describe(accessor, all, packing_, with_bounds, false);
+    data.put(all, packing_, true);
+    return data.add_accessor(std::move(accessor));
   }
 
  private:
-  const MorphTarget& target_;
+  const std::vector<uint32_t>& vertices_;
+  const std::vector<Float3>& values_;
+  const Packing& packing_;
   size_t count_;
   ComponentType index_type_;
-  bool sparse_;
-  size_t index_view_ = 0, index_offset_ = 0;
 };
 
-/// All sparse data of a mesh is in one view, all dense data in another: viewers upload the second.
-json add_targets(Data& data, const Mesh& mesh) {
+/// All sparse data of a mesh is in one view; viewers upload those of dense data.
+json add_targets(Data& data, const Mesh& mesh, const Packings& packings) {
   const size_t count = mesh.positions.size();
   // Either all targets of a mesh move normals, or none.
   const bool with_normals =
       std::any_of(mesh.targets.begin(), mesh.targets.end(),
                   [](const MorphTarget& target) { return !target.normals.empty(); });
-  std::vector<Displacements> moves;
-  json targets = json::array();
-  for (const MorphTarget& target : mesh.targets) {
-    moves.emplace_back(target, count);
-    targets.push_back(json::object());
+  struct Attribute {
+    const char* name;
+    const Packing& packing;
+    const std::vector<uint32_t> MorphTarget::*vertices;
+    const std::vector<Float3> MorphTarget::*values;
+  };
+  std::vector<Attribute> attributes = {
+      {"POSITION", packings.moves, &MorphTarget::vertices, &MorphTarget::positions}};
+  if (with_normals) {
+    attributes.push_back(
+        {"NORMAL", packings.turns, &MorphTarget::normal_vertices, &MorphTarget::normals});
   }
 
-  const auto add_those = [&](bool dense, ViewTarget view) {
-    data.begin_view();
-    for (size_t i = 0; i < moves.size(); ++i) {
-      if (moves[i].is_dense() != dense) continue;
+  json targets = json::array();
+  for (size_t i = 0; i < mesh.targets.size(); ++i) targets.push_back(json::object());
+  const auto add_those = [&](const Attribute& attribute, bool dense) {
+    for (size_t i = 0; i < targets.size(); ++i) {
       const MorphTarget& target = mesh.targets[i];
+      const Displacements moves(target.*attribute.vertices, target.*attribute.values,
+                                attribute.packing, count);
+      if (moves.is_dense() != dense) continue;
       data.about("mesh " + mesh.name + ", target " + target.name);
-      const auto put = [&](const std::vector<Float3>& values, bool with_bounds) {
-        return dense ? moves[i].put_dense(data, values, with_bounds)
-                     : moves[i].put_sparse(data, values, with_bounds);
-      };
-      if (moves[i].is_sparse()) moves[i].put_indices(data);
-      targets[i]["POSITION"] = put(target.positions, true);
-      if (with_normals) targets[i]["NORMAL"] = put(target.normals, false);
+      const bool with_bounds = &attribute == &attributes[0];
+      targets[i][attribute.name] =
+          dense ? moves.put_dense(data, with_bounds) : moves.put_sparse(data, with_bounds);
     }
-    if (data.offset_in_view() != 0) data.end_view(view, dense ? sizeof(Float3) : 0);
   };
-  add_those(false, kOtherData);
-  add_those(true, kVertexData);
+  data.begin_view();
+  for (const Attribute& attribute : attributes) add_those(attribute, false);
+  if (data.offset_in_view() != 0) data.end_view(kOtherData);
+  for (const Attribute& attribute : attributes) {
+    data.begin_view();
+    add_those(attribute, true);
+    if (data.offset_in_view() != 0) data.end_view(kVertexData, attribute.packing.stride());
+  }
   return targets;
+}
+
+/// A weight in 65535ths; those of a vertex sum to 65535. The first, which is the largest, takes what
+/// rounding leaves.
+uint32_t normalized_weight(const Mesh& mesh, size_t vertex, uint32_t influence) {
+  const float* weights = mesh.weights.data() + vertex * mesh.influences;
+  const auto rounded = [&](uint32_t k) { return std::lround(weights[k] * 65535.0); };
+  if (influence != 0) return static_cast<uint32_t>(rounded(influence));
+  long rest = 65535;
+  for (uint32_t k = 1; k < mesh.influences; ++k) rest -= rounded(k);
+  return static_cast<uint32_t>(rest);
 }
 
 /// Four influences of each vertex from `first` on: numbers and weights.
 void add_influences(Data& data, const Mesh& mesh, uint32_t first, size_t joint_count,
-                    json& attributes) {
+                    bool quantized, json& attributes) {
   const ComponentType type = joint_count <= 256 ? kU8 : kU16;
   const std::string set = std::to_string(first / 4);
   const size_t count = mesh.positions.size();
@@ -241,11 +363,40 @@ void add_influences(Data& data, const Mesh& mesh, uint32_t first, size_t joint_c
   }
   data.end_view(kVertexData);
   data.begin_view();
-  attributes["WEIGHTS_" + set] = data.add_accessor(data.accessor_here(kF32, count, "VEC4"));
+  json weights = data.accessor_here(quantized ? kU16 : kF32, count, "VEC4");
+  if (quantized) weights["normalized"] = true;
+  attributes["WEIGHTS_" + set] = data.add_accessor(std::move(weights));
   for (size_t v = 0; v < count; ++v) {
-    for (uint32_t k = first; k < first + 4; ++k) data.put(mesh.weights[v * mesh.influences + k]);
+    for (uint32_t k = first; k < first + 4; ++k) {
+      if (quantized) {
+        data.put(normalized_weight(mesh, v, k), kU16);
+      } else {
+        data.put(mesh.weights[v * mesh.influences + k]);
+      }
+    }
   }
   data.end_view(kVertexData);
+}
+
+/// Texture coordinates that a 16-bit share of 1 can hold.
+bool are_shares(const std::vector<Float2>& uvs) {
+  return std::all_of(uvs.begin(), uvs.end(), [](const Float2& uv) {
+    return uv[0] >= 0 && uv[0] <= 1 && uv[1] >= 0 && uv[1] <= 1;
+  });
+}
+
+size_t add_uvs(Data& data, const Mesh& mesh, bool quantized) {
+  if (!quantized || !are_shares(mesh.uvs)) return data.add(mesh.uvs, kVertexData);
+  data.begin_view();
+  json accessor = data.accessor_here(kU16, mesh.uvs.size(), "VEC2");
+  accessor["normalized"] = true;
+  for (const Float2& uv : mesh.uvs) {
+    for (const float value : uv) {
+      data.put(static_cast<uint32_t>(std::lround(value * 65535)), kU16);
+    }
+  }
+  data.end_view(kVertexData);
+  return data.add_accessor(std::move(accessor));
 }
 
 size_t add_colors(Data& data, const Mesh& mesh) {
@@ -269,22 +420,24 @@ size_t add_triangles(Data& data, const Mesh& mesh) {
   return data.add_accessor(std::move(accessor));
 }
 
-json mesh_json(Data& data, const Mesh& mesh, size_t joint_count) {
+json mesh_json(Data& data, const Mesh& mesh, size_t joint_count, const Packings& packings) {
   data.about("mesh " + mesh.name);
   json attributes;
-  attributes["POSITION"] = data.add(mesh.positions, kVertexData, true);
-  if (!mesh.normals.empty()) attributes["NORMAL"] = data.add(mesh.normals, kVertexData);
-  if (!mesh.uvs.empty()) attributes["TEXCOORD_0"] = data.add(mesh.uvs, kVertexData);
+  attributes["POSITION"] = data.add_attribute(mesh.positions, packings.positions, true);
+  if (!mesh.normals.empty()) {
+    attributes["NORMAL"] = data.add_attribute(mesh.normals, packings.normals, false);
+  }
+  if (!mesh.uvs.empty()) attributes["TEXCOORD_0"] = add_uvs(data, mesh, packings.quantized);
   if (!mesh.colors.empty()) attributes["COLOR_0"] = add_colors(data, mesh);
   for (uint32_t first = 0; first < mesh.influences; first += 4) {
-    add_influences(data, mesh, first, joint_count, attributes);
+    add_influences(data, mesh, first, joint_count, packings.quantized, attributes);
   }
   json primitive = {{"attributes", std::move(attributes)}};
   primitive["indices"] = add_triangles(data, mesh);
   primitive["material"] = mesh.material;
   json result = {{"name", mesh.name}};
   if (!mesh.targets.empty()) {
-    primitive["targets"] = add_targets(data, mesh);
+    primitive["targets"] = add_targets(data, mesh, packings);
     json weights = json::array(), names = json::array();
     for (const MorphTarget& target : mesh.targets) {
       weights.push_back(target.weight);
@@ -292,6 +445,10 @@ json mesh_json(Data& data, const Mesh& mesh, size_t joint_count) {
     }
     result["weights"] = std::move(weights);
     result["extras"]["targetNames"] = std::move(names);
+    for (const Corrective& corrective : mesh.correctives) {
+      result["extras"]["correctives"].push_back(
+          {{"target", corrective.target}, {"product", corrective.product}});
+    }
   }
   result["primitives"] = list_of(std::move(primitive));
   return result;
@@ -342,12 +499,15 @@ Matrix bind_matrix(const std::vector<Joint>& joints, uint32_t joint, std::vector
   return known[joint];
 }
 
-void add_inverse_binds(Data& data, const std::vector<Joint>& joints) {
+/// `packing` of the positions: a skinned vertex knows no node that could undo it.
+void add_inverse_binds(Data& data, const std::vector<Joint>& joints, const Packing& packing) {
   data.about("bind pose");
   std::vector<Matrix> known(joints.size());
   std::vector<bool> is_known(joints.size());
+  const Matrix unpack =
+      math::matrix_of({packing.center, {}, {packing.scale, packing.scale, packing.scale}});
   for (uint32_t j = 0; j < joints.size(); ++j) {
-    const Matrix unbind = inverse(bind_matrix(joints, j, known, is_known));
+    const Matrix unbind = inverse(bind_matrix(joints, j, known, is_known)) * unpack;
     for (int c = 0; c < 4; ++c) {
       for (const auto& row : unbind.m) data.put(static_cast<float>(row[c]));
       data.put(c == 3 ? 1.0f : 0.0f);
@@ -355,12 +515,12 @@ void add_inverse_binds(Data& data, const std::vector<Joint>& joints) {
   }
 }
 
-json skin_json(Data& data, const Scene& scene) {
+json skin_json(Data& data, const Scene& scene, const Packing& packing) {
   json skin = {{"name", scene.name}};
   data.begin_view();
   skin["inverseBindMatrices"] =
       data.add_accessor(data.accessor_here(kF32, scene.joints.size(), "MAT4"));
-  add_inverse_binds(data, scene.joints);
+  add_inverse_binds(data, scene.joints, packing);
   data.end_view(kOtherData);
   skin["skeleton"] = 0;
   json joints = json::array();
@@ -460,10 +620,15 @@ std::string pack(std::string text, const std::string& binary) {
 
 }  // namespace
 
-std::string write_glb(const Scene& scene) {
+std::string write_glb(const Scene& scene, bool quantized) {
   Data data;
+  const Packings packings = quantized ? packings_of(scene) : Packings{};
   json root;
   root["asset"] = {{"version", "2.0"}, {"generator", "Mien " + version_text()}};
+  if (quantized) {
+    root["extensionsUsed"] = list_of("KHR_mesh_quantization");
+    root["extensionsRequired"] = list_of("KHR_mesh_quantization");
+  }
   root["scene"] = 0;
 
   json nodes = json::array(), meshes = json::array(), materials = json::array();
@@ -471,9 +636,15 @@ std::string write_glb(const Scene& scene) {
   const size_t first_mesh_node = nodes.size();
   for (const Mesh& mesh : scene.meshes) {
     json node = {{"name", mesh.name}, {"mesh", meshes.size()}};
-    if (mesh.influences != 0) node["skin"] = 0;
+    if (mesh.influences != 0) {
+      node["skin"] = 0;
+    } else if (quantized) {
+      const auto& [type, center, scale] = packings.positions;
+      node["translation"] = {center.x, center.y, center.z};
+      node["scale"] = {scale, scale, scale};
+    }
     nodes.push_back(std::move(node));
-    meshes.push_back(mesh_json(data, mesh, scene.joints.size()));
+    meshes.push_back(mesh_json(data, mesh, scene.joints.size(), packings));
   }
   json scenes = json::array();
   for (size_t lod = 0; lod < scene.lods.size(); ++lod) {
@@ -487,7 +658,7 @@ std::string write_glb(const Scene& scene) {
   root["nodes"] = std::move(nodes);
   root["materials"] = std::move(materials);
   root["meshes"] = std::move(meshes);
-  if (!scene.joints.empty()) root["skins"] = list_of(skin_json(data, scene));
+  if (!scene.joints.empty()) root["skins"] = list_of(skin_json(data, scene, packings.positions));
   if (moves_something(scene.animation)) {
     root["animations"] = list_of(animation_json(data, scene.animation, first_mesh_node));
   }

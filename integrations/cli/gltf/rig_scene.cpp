@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "integrations/cli/gltf/material.h"
+#include "integrations/cli/gltf/rig_skin.h"
 
 namespace mien::gltf {
 
@@ -78,123 +79,6 @@ std::vector<Transform> local_transforms(const RigSource& source, const MienDefor
   return transforms;
 }
 
-std::vector<Joint> make_joints(const RigSource& source, const MienDeformerInstance* neutral) {
-  MienIndex16View parents{};
-  check(mien_rig_joint_parents(source.rig(), &parents), "cannot read rig");
-  const std::vector<Transform> locals = local_transforms(source, neutral);
-  std::vector<Joint> joints(locals.size());
-  for (uint32_t j = 0; j < joints.size(); ++j) {
-    joints[j].name = source.name(MIEN_KIND_JOINT, j);
-    joints[j].parent = parents.data[j] == j ? kNone : parents.data[j];
-    joints[j].bind = joints[j].pose = locals[j];
-  }
-  return joints;
-}
-
-// Skin --------------------------------------------------------------------------------------------
-
-struct Influence {
-  uint16_t joint;
-  double weight;
-};
-
-/// Joints of a position, the heaviest first; each once, none of weight 0 or less. As stored: the
-/// sum may be anything.
-std::vector<Influence> influences_of(const RigSource& source, uint32_t rig_mesh,
-                                     uint32_t position) {
-  MienIndex16View joints{};
-  MienFloatView weights{};
-  check(mien_deformer_influences(source.deformer(), rig_mesh, position, &joints, &weights),
-        "cannot read skin weights");
-  std::vector<Influence> influences;
-  for (size_t i = 0; i < joints.count; ++i) {
-    const auto same =
-        std::find_if(influences.begin(), influences.end(),
-                     [&](const Influence& other) { return other.joint == joints.data[i]; });
-    if (same == influences.end()) {
-      influences.push_back({joints.data[i], weights.data[i]});
-    } else {
-      same->weight += weights.data[i];
-    }
-  }
-  std::sort(influences.begin(), influences.end(), [](const Influence& a, const Influence& b) {
-    return a.weight != b.weight ? a.weight > b.weight : a.joint < b.joint;
-  });
-  return influences;
-}
-
-/// Weights that float sums of 8 stored values miss by rounding only.
-constexpr double kRoundedSum = 1e-5;
-
-/// Positive, `most` at most, and of sum 1 to the last digit of a float.
-void make_exact(std::vector<Influence>& influences, size_t most, Losses& losses) {
-  double stored = 0, positive = 0;
-  for (const Influence& influence : influences) stored += influence.weight;
-  while (!influences.empty() && !(influences.back().weight > 0)) influences.pop_back();
-  for (const Influence& influence : influences) positive += influence.weight;
-  const double correction = std::max(std::abs(1 - stored), positive - stored);
-  if (correction > kRoundedSum) {
-    ++losses.corrected_positions;
-    losses.max_correction = std::max(losses.max_correction, correction);
-  }
-  if (influences.size() > most) {
-    double kept = 0;
-    influences.resize(most);
-    for (const Influence& influence : influences) kept += influence.weight;
-    ++losses.cut_positions;
-    losses.max_weight_cut = std::max(losses.max_weight_cut, 1 - kept / positive);
-    positive = kept;
-  }
-  double rest = 1;
-  for (Influence& influence : influences) {
-    influence.weight = static_cast<float>(influence.weight / positive);
-    rest -= influence.weight;
-  }
-  if (!influences.empty()) influences[0].weight = static_cast<float>(influences[0].weight + rest);
-}
-
-/// Positions that no joint holds follow one that never moves, after those of the rig.
-uint16_t still_joint(std::vector<Joint>& joints, size_t rig_joints) {
-  if (joints.size() == rig_joints) {
-    joints.emplace_back();
-    joints.back().name = "still";
-  }
-  if (joints.size() > 65536) {
-    throw ExportError(MIEN_ERROR_DNA_LIMIT, "", "the rig has more than 65535 joints", "");
-  }
-  return static_cast<uint16_t>(rig_joints);
-}
-
-void add_skin(const RigSource& source, uint32_t rig_mesh, const MienMesh& from,
-              uint32_t influences_per_vertex, RigScene& result, Mesh& mesh) {
-  if (from.max_influences == 0 || result.scene.joints.empty()) return;
-  const size_t most = influences_per_vertex, rig_joints = source.count(MIEN_KIND_JOINT);
-  std::vector<std::vector<Influence>> of_position(from.position_count);
-  for (uint32_t p = 0; p < from.position_count; ++p) {
-    std::vector<Influence> influences = influences_of(source, rig_mesh, p);
-    if (!influences.empty()) make_exact(influences, most, result.losses);
-    if (influences.empty()) influences = {{still_joint(result.scene.joints, rig_joints), 1}};
-    of_position[p] = std::move(influences);
-  }
-  mesh.influences = influences_per_vertex;
-  mesh.joints.assign(mesh.positions.size() * most, 0);
-  mesh.weights.assign(mesh.positions.size() * most, 0);
-  for (size_t v = 0; v < mesh.positions.size(); ++v) {
-    const std::vector<Influence>& influences = of_position[from.vertex_position_indices.data[v]];
-    for (size_t k = 0; k < influences.size(); ++k) {
-      mesh.joints[v * most + k] = influences[k].joint;
-      mesh.weights[v * most + k] = static_cast<float>(influences[k].weight);
-    }
-  }
-}
-
-uint32_t influences_needed(const RigSource& source) {
-  for (uint32_t m = 0; m < source.count(MIEN_KIND_MESH); ++m) {
-    if (source.mesh(m).max_influences > 4) return 8;
-  }
-  return 4;
-}
-
 // Targets -----------------------------------------------------------------------------------------
 
 /// Whether one of the LODs that show the mesh drives the channel. Elsewhere its weight is 0.
@@ -242,10 +126,10 @@ std::vector<float> channel_deltas(const RigSource& source, uint32_t rig_mesh, co
   return sum;
 }
 
-// Turns of a normal below this are not worth their bytes.
-constexpr double kLeastTurn = 1e-3;
+// Turns of a normal below this, half a degree, are not worth their bytes.
+constexpr double kLeastTurn = 1e-2;
 
-/// Vertices whose position or normal moves. `deltas` are per position, the normals per vertex.
+/// What moves further than `least`, and normals that turn. `deltas` are per position, the normals per vertex.
 MorphTarget make_target(const RigSource& source, const MienMesh& mesh,
                         const std::vector<float>& deltas, const std::vector<float>& normals,
                         const std::vector<float>& neutral_normals, double least) {
@@ -255,10 +139,14 @@ MorphTarget make_target(const RigSource& source, const MienMesh& mesh,
     const float turn[3] = {normals[n] - neutral_normals[n], normals[n + 1] - neutral_normals[n + 1],
                            normals[n + 2] - neutral_normals[n + 2]};
     const Vec3d move = source.point(deltas.data() + p), bend = source.direction(turn);
-    if (dot(move, move) <= least * least && dot(bend, bend) <= kLeastTurn * kLeastTurn) continue;
-    target.vertices.push_back(v);
-    target.positions.push_back(floats(move));
-    target.normals.push_back(floats(bend));
+    if (dot(move, move) > least * least) {
+      target.vertices.push_back(v);
+      target.positions.push_back(floats(move));
+    }
+    if (dot(bend, bend) > kLeastTurn * kLeastTurn) {
+      target.normal_vertices.push_back(v);
+      target.normals.push_back(floats(bend));
+    }
   }
   return target;
 }
@@ -306,6 +194,20 @@ cli::DeformerInstance make_deformer_instance(const RigSource& source) {
   return pose;
 }
 
+std::vector<Joint> neutral_joints(const RigSource& source) {
+  MienIndex16View parents{};
+  check(mien_rig_joint_parents(source.rig(), &parents), "cannot read rig");
+  const cli::DeformerInstance neutral = make_deformer_instance(source);
+  const std::vector<Transform> locals = local_transforms(source, neutral.get());
+  std::vector<Joint> joints(locals.size());
+  for (uint32_t j = 0; j < joints.size(); ++j) {
+    joints[j].name = source.name(MIEN_KIND_JOINT, j);
+    joints[j].parent = parents.data[j] == j ? kNone : parents.data[j];
+    joints[j].bind = joints[j].pose = locals[j];
+  }
+  return joints;
+}
+
 RigScene make_still_scene(const RigSource& source, const SceneOptions& options) {
   RigScene result;
   Scene& scene = result.scene;
@@ -340,15 +242,12 @@ RigScene make_still_scene(const RigSource& source, const SceneOptions& options) 
 RigScene make_rig_scene(const RigSource& source, const SceneOptions& options) {
   RigScene result = make_still_scene(source, options);
   const cli::DeformerInstance pose = make_deformer_instance(source);
-  result.scene.joints = make_joints(source, pose.get());
-  const uint32_t influences =
-      options.influences != 0 ? options.influences : influences_needed(source);
-  result.losses.places = influences;
+  result.scene.joints = neutral_joints(source);
+  add_skin(source, options, result);
   for (size_t i = 0; i < result.scene.meshes.size(); ++i) {
     const uint32_t rig_mesh = result.rig_meshes[i];
     const MienMesh from = source.mesh(rig_mesh);
     result.channels.emplace_back();
-    add_skin(source, rig_mesh, from, influences, result, result.scene.meshes[i]);
     add_targets(source, rig_mesh, from, pose.get(), result, result.scene.meshes[i]);
   }
   return result;

@@ -6,21 +6,25 @@
 // (controls, correctives, networks) has no place in glTF; poses and animations are results.
 #pragma once
 
-#include "integrations/cli/gltf/rig_source.h"
+#include <functional>
+
+#include "integrations/cli/gltf/skin_fit.h"
 
 namespace mien::gltf {
 
 struct SceneOptions {
-  std::string name;         // of the scene
-  uint32_t first_lod = 0;   // number to show for the first LOD that was opened
-  uint32_t influences = 0;  // per vertex, 4, 8 or 12; 0: 8 if some position has more than 4
+  std::string name;                            // of the scene
+  uint32_t first_lod = 0;                      // number to show for the first LOD that was opened
+  uint32_t influences = 4;                     // per vertex, 4, 8 or 12
+  std::function<void(double share)> progress;  // called now and then; may be empty
 };
 
 /// What glTF has no place for.
 struct Losses {
   uint32_t places = 0;                    // for influences, per vertex
-  size_t cut_positions = 0;               // with more influences than that
-  double max_weight_cut = 0;              // share of a position's weight, 0..1
+  size_t positions = 0;                   // with influences
+  size_t crowded_positions = 0;           // with more influences than there is room for
+  SkinLoss skin;                          // of those
   size_t corrected_positions = 0;         // with negative weights, or weights that do not sum to 1
   double max_correction = 0;              // largest change of a sum
   std::vector<std::string> empty_meshes;  // left out
@@ -65,12 +69,14 @@ class AnimationRecorder {
   Animation animation_;
 };
 
+/// All joints of the rig in the neutral pose.
+std::vector<Joint> neutral_joints(const RigSource& source);
+
 /// In the neutral pose.
 cli::DeformerInstance make_deformer_instance(const RigSource& source);
 
 /// How far each vertex of a mesh moves: `positions` and `normals` as of the pose less those given,
-/// in the axes of glTF. Vertices that move less than `least` (meters) and turn less than 1e-3 are
-/// left out.
+/// in the axes of glTF. Moves below `least` (meters) and turns below half a degree are left out.
 MorphTarget difference(const RigSource& source, uint32_t rig_mesh, const MienDeformerInstance* pose,
                        const std::vector<float>& neutral_positions,
                        const std::vector<float>& neutral_normals, double least);

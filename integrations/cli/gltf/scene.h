@@ -33,6 +33,11 @@ using Float4 = std::array<float, 4>;
 
 constexpr uint32_t kNone = UINT32_MAX;
 
+/// Distances between two shapes of the same positions.
+struct Residual {
+  double rms = 0, max = 0;  // meters
+};
+
 struct Joint {
   std::string name;
   uint32_t parent = kNone;  // kNone: a root. Parents may follow their children.
@@ -40,13 +45,21 @@ struct Joint {
   math::Transform pose;     // relative to the parent, as the file opens
 };
 
-/// Moves some vertices. Vertices ascend.
+/// Moves some vertices and turns some normals. Vertices ascend.
 struct MorphTarget {
   std::string name;
   float weight = 0;  // as the file opens
   std::vector<uint32_t> vertices;
-  std::vector<Float3> positions;  // one for each of the vertices
-  std::vector<Float3> normals;    // the same, or none
+  std::vector<Float3> positions;  // by what they move; one for each of the vertices
+  std::vector<uint32_t> normal_vertices;
+  std::vector<Float3> normals;  // by what they turn
+};
+
+/// A target whose weight is to be the product of the weights of others. glTF itself cannot say that: a
+/// program has to read it from the extras.
+struct Corrective {
+  uint32_t target;
+  std::array<uint32_t, 2> product;
 };
 
 /// Arrays have one entry per vertex, or none where that is allowed.
@@ -62,6 +75,7 @@ struct Mesh {
   std::vector<float> weights;                   // the same; each vertex's sum to 1
   std::vector<uint32_t> triangles;              // three vertices each
   std::vector<MorphTarget> targets;
+  std::vector<Corrective> correctives;  // among the targets
 };
 
 struct Material {

@@ -23,6 +23,21 @@ Matrix matrix_of(const Transform& transform) {
   return matrix;
 }
 
+Transform operator*(const Transform& a, const Transform& b) {
+  const Quaternion &p = a.rotation, &q = b.rotation;
+  const Matrix m = matrix_of(a);
+  Transform product;
+  for (int r = 0; r < 3; ++r) {
+    product.translation[r] = m.m[r][3];
+    for (int c = 0; c < 3; ++c) product.translation[r] += m.m[r][c] * b.translation[c];
+    product.scale[r] = a.scale[r] * b.scale[r];
+  }
+  product.rotation = {
+      p.w * q.x + p.x * q.w + p.y * q.z - p.z * q.y, p.w * q.y - p.x * q.z + p.y * q.w + p.z * q.x,
+      p.w * q.z + p.x * q.y - p.y * q.x + p.z * q.w, p.w * q.w - p.x * q.x - p.y * q.y - p.z * q.z};
+  return product;
+}
+
 Matrix operator*(const Matrix& a, const Matrix& b) {
   Matrix product;
   for (int r = 0; r < 3; ++r) {

@@ -25,6 +25,9 @@ struct Transform {
   Vec3d scale = {1, 1, 1};
 };
 
+/// `b` is applied first. Exact if the scale of `a` is the same along all axes.
+Transform operator*(const Transform& a, const Transform& b);
+
 /// Three rows of an affine matrix for column vectors; the fourth is 0 0 0 1.
 struct Matrix {
   double m[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};

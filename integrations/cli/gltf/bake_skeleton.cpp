@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/cli/gltf/bake_skeleton.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "integrations/cli/gltf/rig_skin.h"
+
+namespace mien::gltf {
+
+namespace {
+
+using math::Transform;
+
+/// Whether the name is that of a neck, head or eye: the word, with or without a side, a prefix and a
+/// number.
+bool is_kept_name(const std::string& name) {
+  static const char* const kKept[] = {"neck", "head", "eye", "eyeball", "lefteye", "righteye"};
+  static const char* const kBeside[] = {"l",     "r",      "c",    "m",    "left",
+                                        "right", "facial", "face", "joint"};
+  const auto is_in = [](const std::string& word, const auto& words) {
+    return std::find(std::begin(words), std::end(words), word) != std::end(words);
+  };
+  size_t kept = 0;
+  std::string word;
+  for (size_t i = 0; i <= name.size(); ++i) {
+    const auto letter = static_cast<unsigned char>(i < name.size() ? name[i] : '_');
+    if (std::isalpha(letter)) {
+      word += static_cast<char>(std::tolower(letter));
+      continue;
+    }
+    if (is_in(word, kKept)) {
+      ++kept;
+    } else if (!word.empty() && !is_in(word, kBeside)) {
+      return false;
+    }
+    word.clear();
+  }
+  return kept == 1;
+}
+
+/// For each joint of the rig the nearest kept one among itself and its ancestors, or kNone.
+std::vector<uint32_t> nearest_kept(const std::vector<Joint>& joints,
+                                   const std::vector<bool>& kept) {
+  std::vector<uint32_t> nearest(joints.size(), kNone);
+  for (uint32_t j = 0; j < joints.size(); ++j) {
+    uint32_t at = j;
+    while (at != kNone && !kept[at]) at = joints[at].parent;
+    nearest[j] = at;
+  }
+  return nearest;
+}
+
+/// The kept joints, relative to each other.
+std::vector<Joint> kept_joints(const std::vector<Joint>& joints, const std::vector<bool>& kept,
+                               const std::vector<uint32_t>& new_number) {
+  std::vector<Joint> result;
+  for (uint32_t j = 0; j < joints.size(); ++j) {
+    if (!kept[j]) continue;
+    Joint joint = joints[j];
+    uint32_t at = joint.parent;
+    for (; at != kNone && !kept[at]; at = joints[at].parent) {
+      joint.bind = joints[at].bind * joint.bind;
+    }
+    joint.pose = joint.bind;
+    joint.parent = at == kNone ? kNone : new_number[at];
+    result.push_back(std::move(joint));
+  }
+  return result;
+}
+
+}  // namespace
+
+void add_bake_skeleton(const RigSource& source, RigScene& scene) {
+  const std::vector<Joint> joints = neutral_joints(source);
+  std::vector<bool> kept(joints.size());
+  for (size_t j = 0; j < joints.size(); ++j) kept[j] = is_kept_name(joints[j].name);
+  if (std::find(kept.begin(), kept.end(), true) == kept.end()) return;
+  // What hangs from none of them follows the root.
+  for (size_t j = 0; j < joints.size(); ++j) kept[j] = kept[j] || joints[j].parent == kNone;
+
+  std::vector<uint32_t> new_number(joints.size(), kNone);
+  uint32_t count = 0;
+  for (size_t j = 0; j < joints.size(); ++j) {
+    if (kept[j]) new_number[j] = count++;
+  }
+  std::vector<uint32_t> follows = nearest_kept(joints, kept);
+  for (uint32_t& joint : follows) joint = new_number[joint];
+  scene.scene.joints = kept_joints(joints, kept, new_number);
+  add_skin(source, follows, scene);
+}
+
+}  // namespace mien::gltf
