@@ -141,6 +141,44 @@ TEST(AuthorRig, ErrorsFallFromStepToStep) {
   }
 }
 
+TEST(AuthorRig, JointGroupsAreFullBlocksOfTheirRegions) {
+  RigOptions options;
+  options.regions = 4;
+  for (bool full : {true, false}) {
+    options.full_groups = full;
+    const Authored made(options);
+    const GroupReport& r = made.report.groups;
+    const DnaHandle dna = open_dna(made.bytes);
+    uint64_t stored = 0, nonzeros = 0;
+    std::vector<int> group_of(dna->view.defn.joint_names.count, -1);
+    EXPECT_EQ(dna->view.bhvr.joints.groups.count, r.groups);
+    EXPECT_GE(r.groups, 3u);
+    for (uint32_t g = 0; g < r.groups; ++g) {
+      const dna::JointGroup& group = dna->view.bhvr.joints.groups[g];
+      stored += group.values.count;
+      for (size_t i = 0; i < group.values.count; ++i) nonzeros += group.values[i] != 0;
+      EXPECT_LT(group.input_indices.count, 52u) << "a group with every control";
+      for (size_t i = 0; i < group.joint_indices.count; ++i) {
+        int& owner = group_of[group.joint_indices[i]];
+        EXPECT_EQ(owner, -1) << "a joint in two groups";
+        owner = static_cast<int>(g);
+      }
+    }
+    EXPECT_EQ(r.stored, stored);
+    EXPECT_EQ(r.nonzeros, nonzeros);
+    EXPECT_EQ(r.full, uint64_t{40 * 6 * 52});
+    EXPECT_LT(r.stored, r.full);
+    EXPECT_GT(r.removed.error, r.before.error);
+    EXPECT_LT(r.refitted.error, r.before.error + 0.015);
+    EXPECT_GE(r.padding[1], r.padding[0]);
+    if (full) {
+      EXPECT_GT(nonzeros, stored * 99 / 100);
+    } else {
+      EXPECT_LT(nonzeros, stored * 95 / 100);
+    }
+  }
+}
+
 TEST(AuthorRig, EveryInstructionSetGivesTheSame) {
   const std::vector<uint32_t> isas = present_isas();
   Played first(authored().bytes, isas[0]);

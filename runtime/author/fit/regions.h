@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Regions of the face: joints that lie together and move together. Each becomes a joint group, a dense
-// block of the joint matrix, and holds only expressions that own it.
+// block of the joint matrix, and holds only controls that own it.
 #pragma once
 
 #include "runtime/author/fit/fit_shapes.h"
@@ -8,8 +8,46 @@
 namespace mien::author {
 
 struct JointRegions {
-  Span<uint16_t> region;  // by bone; fixed bones have none that counts
+  Span<uint16_t> region;  // by bone; kNoRegion for those that are never moved
   uint32_t count = 0;
+
+  static constexpr uint16_t kNoRegion = 0xFFFF;
 };
+
+/// Rows of a group from which on padding to 4 rows costs less than 2 %.
+constexpr uint32_t kRowsPerGroup = 75;
+constexpr uint32_t kMaxRegions = 24;
+
+/// Average linkage of fitted bones on distance and likeness of motion; the halves of a symmetric
+/// face get mirrored regions. As many regions as leave each kRowsPerGroup rows, if `wanted` is 0;
+/// kMaxRegions at most, and one for bones on the plane.
+/// False if memory ran out.
+bool find_regions(const Placement& placement, const Footprints& footprints, const Motions& motions,
+                  uint32_t wanted, Arena& arena, const Allocator& allocator, JointRegions& out);
+
+/// Length of what a bone's motion does to its footprint: of its translation, and of its rotation
+/// times the root mean square arm.
+double effect_of(const Bone& bone, const Moments& moments, const Affine& motion);
+
+struct PruneReport {
+  uint32_t outliers = 0;  // entries of regions that their control does not own
+  uint32_t faint = 0;     // entries with an effect below the least one
+};
+
+/// A control owns regions with this share of its effect, in squares. Leaving one out costs up to the
+/// root of it in error, 3 %.
+constexpr double kOwnedShare = 0.001;
+
+/// Clears entries of regions that the control does not own, and those with less than `least_effect`.
+/// `full`: then marks all bones of owned regions as active.
+PruneReport prune(const Placement& placement, const Footprints& footprints,
+                  const JointRegions& regions, double least_effect, bool full, size_t control,
+                  const Motions& motions);
+
+/// Average linkage on a matrix of `count` rows of distances, which is destroyed: merges the two
+/// groups with the smallest mean distance until `groups` are left; of equal ones the first.
+/// Numbers them by their first members. False if memory ran out.
+bool link_by_distance(Span<double> matrix, uint32_t count, uint32_t groups, Arena& scratch,
+                      uint16_t* out);
 
 }  // namespace mien::author

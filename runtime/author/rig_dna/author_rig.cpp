@@ -11,6 +11,24 @@ namespace mien::author {
 
 namespace {
 
+void measure_groups(const dna::Joints& joints, GroupReport& report) {
+  constexpr uint32_t kBlocks[3] = {4, 8, 16};
+  uint64_t padded[3] = {};
+  report.groups = joints.groups.count;
+  for (const dna::JointGroup& group : joints.groups) {
+    const uint64_t rows = group.output_indices.count, columns = group.input_indices.count;
+    report.stored += rows * columns;
+    for (size_t i = 0; i < group.values.count; ++i) report.nonzeros += group.values[i] != 0;
+    for (int b = 0; b < 3; ++b) {
+      padded[b] += (rows + kBlocks[b] - 1) / kBlocks[b] * kBlocks[b] * columns;
+    }
+  }
+  if (report.stored == 0) return;
+  for (int b = 0; b < 3; ++b) {
+    report.padding[b] = static_cast<double>(padded[b]) / static_cast<double>(report.stored) - 1;
+  }
+}
+
 class RigMaker {
  public:
   RigMaker(const AuthorMesh& mesh, const Placement& placement, const RigOptions& options,
@@ -55,24 +73,41 @@ class RigMaker {
       fitter.options.rotations = true;
       if (!fit_again(report_.rotations)) return false;
     }
-    FitError ignored = report_.rotations;
+    GroupReport& groups = report_.groups;
+    groups.before = report_.rotations;
     for (uint32_t i = 0; i < options_.fit.alternations && !options_.keep_weights; ++i) {
       if (!starts("weights")) return false;
       refit_weights(mesh_, motions_, options_.parallel, weights);
-      if (!fit_again(ignored)) return false;
+      if (!fit_again(groups.before)) return false;
     }
-    return true;
+
+    if (!starts("groups") ||
+        !find_regions(placement_, fitter.footprints, motions_, options_.regions, scratch_,
+                      allocator_, model_.regions)) {
+      return false;
+    }
+    for (size_t s = 0; s < mesh_.shapes.count; ++s) {
+      const PruneReport pruned =
+          prune(placement_, fitter.footprints, model_.regions,
+                options_.least_effect * mesh_.diagonal, options_.full_groups, s, motions_);
+      groups.pruned.outliers += pruned.outliers;
+      groups.pruned.faint += pruned.faint;
+    }
+    // Weights adapt once more to the bones that are left.
+    if (!measure(weights, {}, groups.removed)) return false;
+    fit_all(fitter, mesh_, placement_, weights, true, options_.parallel, motions_);
+    if (!options_.keep_weights && options_.fit.alternations > 0) {
+      refit_weights(mesh_, motions_, options_.parallel, weights);
+      fit_all(fitter, mesh_, placement_, weights, true, options_.parallel, motions_);
+    }
+    return measure(weights, {}, groups.refitted);
   }
 
   /// From here on motions are what the numbers of the file mean.
   bool round() {
     const size_t bones = placement_.bones.count;
     model_.deltas.joint_count = static_cast<uint32_t>(bones);
-    if (!author::make(scratch_, mesh_.shapes.count * bones, model_.deltas.items) ||
-        !author::make(scratch_, bones, model_.regions.region)) {
-      return false;
-    }
-    model_.regions.count = 1;
+    if (!author::make(scratch_, mesh_.shapes.count * bones, model_.deltas.items)) return false;
     deltas_of_motions(placement_, mesh_.frame, motions_, model_.deltas);
     return true;
   }
@@ -164,9 +199,16 @@ class RigMaker {
   }
 
   bool write(dna::DnaView& out) {
-    return starts("write") && fill_index(arena_, out) && fill_descriptor(model_, arena_, out) &&
-           fill_controls(model_, arena_, out) && fill_joints(model_, arena_, scratch_, out) &&
-           fill_meshes(model_, arena_, allocator_, out);
+    if (!starts("write") || !fill_index(arena_, out) || !fill_descriptor(model_, arena_, out) ||
+        !fill_controls(model_, arena_, out) || !fill_joints(model_, arena_, scratch_, out) ||
+        !fill_meshes(model_, arena_, allocator_, out)) {
+      return false;
+    }
+    measure_groups(out.bhvr.joints, report_.groups);
+    for (const Bone& bone : placement_.bones) {
+      if (is_fitted(bone)) report_.groups.full += uint64_t{6} * model_.control_count();
+    }
+    return true;
   }
 
   const AuthorMesh& mesh_;

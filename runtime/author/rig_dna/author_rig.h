@@ -2,6 +2,7 @@
 // From a mesh with bones and weights to a DNA file.
 #pragma once
 
+#include "runtime/author/fit/regions.h"
 #include "runtime/author/fit/targets.h"
 #include "runtime/dna/format/dna_view.h"
 
@@ -11,11 +12,24 @@ struct RigOptions {
   FitOptions fit;
   bool residual_targets = true;      // what joints cannot do becomes blend shape targets
   double residual_threshold = 1e-3;  // shorter offsets are left out; in shares of the diagonal
+  uint32_t regions = 0;              // joint groups; 0: as many as have kRowsPerGroup rows each
+  bool full_groups = true;           // a control moves all joints of the regions that it owns
+  double least_effect = 2e-4;        // of an entry of the matrix; in shares of the diagonal
   bool keep_weights = false;         // the weights are the caller's own: fit motions only
   Name name = {"head", 4};
   ParallelFor parallel;
   void* user = nullptr;
   bool (*go_on)(void* user, const char* step) = nullptr;  // called before each step; false: stop
+};
+
+/// The joint matrix as it is stored.
+struct GroupReport {
+  uint32_t groups = 0;
+  uint64_t nonzeros = 0, stored = 0;  // values
+  uint64_t full = 0;                  // of one dense matrix: 6 rows for each fitted joint
+  double padding[3] = {};             // stored in blocks of 4, 8, 16 rows: shares on top
+  PruneReport pruned;
+  FitError before, removed, refitted;  // errors of the joints around the pruning
 };
 
 struct LodReport {
@@ -30,10 +44,11 @@ struct RigReport {
   bool stopped = false;   // by go_on
   FitError translations;  // of bones that only move, with the weights as they came
   FitError rotations;     // of bones that turn too
-  FitError joints;        // with refitted weights: of the joints that are written
+  FitError joints;        // with refitted weights and in groups: of the joints that are written
   FitError rig;           // with blend shapes: of the file
   uint32_t target_count = 0, target_vertices = 0;
   double target_share = 0;  // of the displacements of moving vertices, those with an offset
+  GroupReport groups;
   Span<LodReport> lods;
 };
 
