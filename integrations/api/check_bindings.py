@@ -47,11 +47,11 @@ WITHOUT = {
 }
 # Sections of mien.h that a language does without.
 NOT_YET = {"Mix", "Mixer", "Solvers"}
-SECTIONS = {language: NOT_YET for language in ("Python", "Rust", "JavaScript")}
+SECTIONS = {language: NOT_YET for language in ("Rust", "JavaScript")}
 # Functions whose own statuses cannot reach a user, who finds no list of them either.
 SILENT = {
     "mien_coordinate_system_name": {"Python", "Rust"},
-    "mien_clip_event": {"Python"}, "mien_dna_layer": {"Python"}, "mien_report_finding": {"Python"},
+    "mien_clip_event": {"Python"}, "mien_mixer_event": {"Python"}, "mien_dna_layer": {"Python"}, "mien_report_finding": {"Python"},
     "mien_deformer_instance_local_transforms": {"Python"},
     "mien_rig_map_gui_to_raw": {"Python"}, "mien_rig_map_raw_to_gui": {"Python"},
     # Documented where the same method calls another function too.

@@ -12,12 +12,14 @@
 
 `Dna` -> `Rig` -> `Instance` or `Batch`. README.md has more; errors are in `mien.errors`.
 """
-from ._api import (Arithmetic, BakedCheck, BakedInfo, ClipChannel, ClipInfo, ClipPlayerInfo, Compose,
+from ._api import (Arithmetic, BakedCheck, BakedInfo, BlendMode, ClipChannel, ClipInfo, ClipPlayerInfo, Compose,
                    CoordinateSystem, DeformerInfo, Direction, DnaField, DnaInfo, DnaLayer,
-                   FaceWinding, FieldType, FileAccess, Finding, Generate, InstanceStatistics,
-                   Interpolation, Isa, Kind, Layer, Looping, MlMasks, Normals, Preset, Reuse, RigInfo,
+                   FaceWinding, FieldType, FileAccess, Finding, Generate, Generator, Guard,
+                   InstanceStatistics, Interpolation, Isa, Kind, Layer, LayerGroup, LayerSource,
+                   Looping, MixerInfo, MixInfo, MlMasks, Normals, Preset, Retrigger, Reuse, RigInfo,
                    RigStatistics, RotationOutput, RotationRule, RotationSequence, RotationUnit,
-                   Severity, Stage, Status, Storage, TranslationUnit, UnknownLayers, Weights)
+                   Severity, SolverStackInfo, Stage, Status, Storage, Transition, TranslationUnit,
+                   UnknownLayers, Weights)
 from ._api import VERSION as _VERSION
 from ._library import path as library_path, version
 from .baked import Baked
@@ -28,23 +30,32 @@ from .dna import Dna, coordinate_system, coordinate_system_names, validate
 from .errors import (ArgumentError, BusyError, ClipError, ClosedError, DnaError, Error, FileError,
                      OutOfMemoryError, OutOfRangeError, UnknownNameError)
 from .instance import Instance
+from .mix import Antagonists, Gaze, Mix, MixLayer, Reaction, Stroke, ticks
+from .mixer import MixEvent, Mixer, step_mixers
 from .rig import Rig
 from .rig_view import isa_available, isa_name
+from .solve import (NO_JOINT, AimSolver, CopySolver, CustomSolver, SolverPose, SolverStack,
+                    SolverState, SpaceSolver, SpringSolver, TwistSolver, step_states)
 
 __version__ = _VERSION
 
 __all__ = [
-    "__version__", "ArgumentError", "Arithmetic", "Baked", "BakedCheck", "BakedInfo", "Batch",
-    "BusyError", "Clip", "ClipBinding", "ClipChannel", "ClipError", "ClipEvent", "ClipInfo",
-    "ClipPlayer", "ClipPlayerInfo", "ClosedError", "Compose", "coordinate_system",
-    "coordinate_system_names", "CoordinateSystem", "deform_batch", "Deformer", "DeformerInfo",
-    "DeformerInstance", "Direction", "Dna", "DnaError", "DnaField", "DnaInfo", "DnaLayer", "Error",
-    "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding", "Generate", "Instance",
-    "InstanceStatistics", "Interpolation", "Isa", "isa_available", "isa_name", "Kind", "Layer",
-    "library_path", "Looping", "Mesh", "MlMasks", "Normals", "OutOfMemoryError", "OutOfRangeError",
-    "Preset",
-    "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationOutput", "RotationRule",
-    "RotationSequence", "RotationUnit", "Severity", "Stage", "Status", "Storage", "TICKS_PER_SECOND",
-    "TranslationUnit", "UnknownLayers", "UnknownNameError", "validate", "version", "Weights",
+    "__version__", "AimSolver", "Antagonists", "ArgumentError", "Arithmetic", "Baked",
+    "BakedCheck", "BakedInfo", "Batch", "BlendMode", "BusyError", "Clip", "ClipBinding",
+    "ClipChannel", "ClipError", "ClipEvent", "ClipInfo", "ClipPlayer", "ClipPlayerInfo",
+    "ClosedError", "Compose", "coordinate_system", "coordinate_system_names",
+    "CoordinateSystem", "CopySolver", "CustomSolver", "deform_batch", "Deformer",
+    "DeformerInfo", "DeformerInstance", "Direction", "Dna", "DnaError", "DnaField", "DnaInfo",
+    "DnaLayer", "Error", "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding",
+    "Gaze", "Generate", "Generator", "Guard", "Instance", "InstanceStatistics", "Interpolation",
+    "Isa", "isa_available", "isa_name", "Kind", "Layer", "LayerGroup", "LayerSource",
+    "library_path", "Looping", "Mesh", "Mix", "Mixer", "MixerInfo", "MixEvent", "MixInfo",
+    "MixLayer", "MlMasks", "NO_JOINT", "Normals", "OutOfMemoryError", "OutOfRangeError",
+    "Preset", "Reaction", "Retrigger", "Reuse", "Rig", "RigInfo", "RigStatistics",
+    "RotationOutput", "RotationRule", "RotationSequence", "RotationUnit", "Severity",
+    "SolverPose", "SolverStack", "SolverStackInfo", "SolverState", "SpaceSolver",
+    "SpringSolver", "Stage", "Status", "step_mixers", "step_states", "Storage", "Stroke",
+    "ticks", "TICKS_PER_SECOND", "Transition", "TranslationUnit", "TwistSolver",
+    "UnknownLayers", "UnknownNameError", "validate", "version", "Weights",
     "write_vertices_batch",
 ]

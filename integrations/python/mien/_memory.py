@@ -96,6 +96,41 @@ class ClipBindingHandle(_Address, _api.MienClipBinding):
             destroy(self)
 
 
+class MixHandle(_Address, _api.MienMix):
+    def __del__(self, destroy: Any = lib.mien_mix_destroy) -> None:
+        if self.value:
+            destroy(self)
+
+
+class MixerHandle(_Address, _api.MienMixer):
+    def __del__(self, destroy: Any = lib.mien_mixer_destroy) -> None:
+        if self.value:
+            destroy(self)
+
+
+class GazeHandle(_Address, _api.MienGaze):
+    def __del__(self, destroy: Any = lib.mien_gaze_destroy) -> None:
+        if self.value:
+            destroy(self)
+
+
+class SolverStackHandle(_Address, _api.MienSolverStack):
+    baked: Optional[BakedHandle]  # of the deformer, whose arrays may be in memory of Python
+    functions: Any  # of custom solvers
+
+    def __del__(self, destroy: Any = lib.mien_solver_stack_destroy) -> None:
+        if self.value:
+            destroy(self)
+
+
+class SolverStateHandle(_Address, _api.MienSolverState):
+    stack: Optional[SolverStackHandle]  # whose functions it calls
+
+    def __del__(self, destroy: Any = lib.mien_solver_state_destroy) -> None:
+        if self.value:
+            destroy(self)
+
+
 class RigHandle(_Address, _api.MienRig):
     baked: Optional[BakedHandle] = None  # where its arrays are
 
