@@ -13,7 +13,7 @@ const ROUNDS = 40;
 const TURNS = 5;
 const ACTIVE = 0.08; // share of controls that are not 0
 
-const median = (values) => values.toSorted((a, b) => a - b)[values.length >> 1];
+const median = (values) => values.slice().sort((a, b) => a - b)[values.length >> 1];
 
 /** Frames of random controls, a different set of active ones in each. */
 function drawFrames(count) {

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Mien in JavaScript: facial rigs in browsers, workers and Node.js. index.d.ts is the manual.
-import { Layer } from "./api.js";
+import { Layer, Status } from "./api.js";
 import { Clip } from "./clip.js";
 import { coordinateSystemNames, Dna, validate } from "./dna.js";
+import { errorOf } from "./errors.js";
 import { Memory } from "./memory.js";
 import { isBaked, Rig } from "./rig.js";
 
 export * from "./api.js";
-export * from "./errors.js";
+export {
+  ArgumentError, BakedError, ClipError, DnaError, FileError, MienError, MienMemoryError, UnsupportedError,
+} from "./errors.js";
 export { Clip, ClipBinding, ClipPlayer } from "./clip.js";
 export { Deformer, DeformerInstance } from "./deformer.js";
 export { Dna } from "./dna.js";
@@ -130,6 +133,9 @@ export class Mien {
 
   /** A generated rig: Preset.HEAD is a head to look at. */
   generate(preset, options = {}) {
+    if (!this.exports.mien_dna_generate) {
+      throw errorOf(Status.UNSUPPORTED, "this module opens baked files only: load the other one to generate rigs");
+    }
     return Dna.generate(this.#memory, { preset, ...options });
   }
 
