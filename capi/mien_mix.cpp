@@ -209,6 +209,7 @@ MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc, MienMix*
   lists.fill(known);
   const Rig& of = *object(rig);
   MixDesc mix;
+  mix.kernels = of.kernels;
   mix.raw_count = of.raw_count;
   mix.variable_count = known.variable_count;
   const size_t lanes = size_t{of.raw_count} + known.variable_count;

@@ -5,6 +5,7 @@
 #include "simd/deform_kernels.inl"
 #include "simd/dense_kernels.inl"
 #include "simd/joint_kernels.inl"
+#include "simd/mix_kernels.inl"
 #include "simd/pose_kernels.inl"
 #include "simd/rbf_kernels.inl"
 #include "simd/rotation_kernels.inl"
@@ -40,6 +41,10 @@ const KernelTable kTable = {kIsa,
                             skin_positions,
                             face_areas,
                             sum_normals,
-                            write_vertices};
+                            write_vertices,
+                            blend_row,
+                            cross_rows,
+                            add_quintics,
+                            limit_row};
 
 }  // namespace mien::MIEN_KERNEL_ISA

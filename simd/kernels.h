@@ -411,6 +411,34 @@ struct VertexArgs {
   uint32_t count;
 };
 
+/// What becomes of a lane in a mix, with o the value so far, x that of the layer, a = weight * mask.
+enum class BlendMode : uint8_t {
+  kOverride,  // o + a (x - o)
+  kAdd,       // o + a x
+  kScreen,    // p = o within 0 ... 1: x >= 0: o + a x (1 - p), else o + a x p
+  kMax,       // o + a max(0, x - o)
+  kScale,     // o (1 + a (x - 1))
+};
+
+/// Blends `x` over `row`. `cover` is 1 in lanes that the source has a value for, 0 in the others and
+/// in between while a transition changes that, where x is already multiplied by it; null: 1
+/// everywhere. kAdd and kScreen do not need it, as x is 0 where it is 0.
+///
+/// A lane that nothing is added to keeps its bits, as with a = 0; kOverride with a = 1 and cover = 1
+/// gives those of x.
+struct BlendArgs {
+  const float *x, *cover, *mask;
+  float* row;
+  size_t count;
+  float weight;
+  BlendMode mode;
+};
+
+/// Coefficients of one Quintic (runtime/mix/fade.h) per lane.
+struct QuinticRows {
+  float *c0, *c1, *c2, *rate;
+};
+
 struct KernelTable {
   Isa isa;
   const char* name;
@@ -439,6 +467,15 @@ struct KernelTable {
   void (*face_areas)(const AreaArgs& args);
   void (*sum_normals)(const NormalArgs& args);
   void (*write_vertices)(const VertexArgs& args);
+  // Rows of a mix: 64-byte aligned, counts are multiples of 16. Every lane is computed alone and
+  // nothing is fused, so all instruction sets give the same bits.
+  void (*blend_row)(const BlendArgs& args);
+  /// out = from + s (to - from); the bits of `to` where they are equal or s is 1.
+  void (*cross_rows)(const float* from, const float* to, float s, size_t count, float* out);
+  /// row += offset at u
+  void (*add_quintics)(const QuinticRows& quintics, float u, size_t count, float* row);
+  /// What is not a number becomes the lower limit; -0 within the limits stays.
+  void (*limit_row)(const float* lower, const float* upper, size_t count, float* row);
 };
 
 /// The table of an instruction set; null if this build or this CPU lacks it. kBest gives the best

@@ -20,7 +20,7 @@
 // | absolute               | without the sign                                                     |
 // | at_least, at_most      | NaN becomes the bound                                                |
 // | at_most_or_nan         | NaN stays                                                            |
-// | less(a, b)             | a mask                                                               |
+// | less(a, b), equal(a, b)| a mask                                                               |
 // | select(m, a, b)        | a where m, else b                                                    |
 // | keep(m, a)             | a where m, else 0                                                    |
 // | any(m)                 | whether a lane of a mask is set                                      |
@@ -127,6 +127,7 @@ inline Vec at_least(Vec v, Vec low) { return v > low ? v : low; }
 inline Vec at_most(Vec v, Vec high) { return v < high ? v : high; }
 inline Vec at_most_or_nan(Vec v, Vec high) { return high < v ? high : v; }
 inline Mask less(Vec a, Vec b) { return a < b; }
+inline Mask equal(Vec a, Vec b) { return a == b; }
 inline Vec select(Mask m, Vec a, Vec b) { return m ? a : b; }
 inline Vec keep(Mask m, Vec a) { return m ? a : 0.0f; }
 inline bool any(Mask m) { return m; }
@@ -204,6 +205,7 @@ inline void store_first(float* to, Vec value, size_t count) {
 inline Vec broadcast(float value) { return Vec(value); }
 inline Vec absolute(Vec v) { return xsimd::abs(v); }
 inline Mask less(Vec a, Vec b) { return a < b; }
+inline Mask equal(Vec a, Vec b) { return a == b; }
 inline Vec select(Mask m, Vec a, Vec b) { return xsimd::select(m, a, b); }
 inline bool any(Mask m) { return xsimd::any(m); }
 inline Vec with_sign(Vec v, Vec s) { return absolute(v) | (s & broadcast(-0.0f)); }

@@ -98,7 +98,8 @@ struct Scratch {
 void place_binding(Placer& placer, const Clip& clip, const Rig& rig, size_t entries,
                    Binding& binding) {
   placer.array<Binding>(1);
-  binding.copies = placer.array<BoundCopy>(clip.channel_count);
+  binding.copies = placer.array<BoundCopy>(clip.changing_count);
+  binding.constants = placer.array<BoundCopy>(clip.channel_count - clip.changing_count);
   binding.sums = placer.array<BoundSum>(clip.channel_count + entries);
   binding.terms = placer.array<BoundTerm>(clip.channel_count + entries);
   binding.rows = placer.array<BoundRow>(rig.gui_to_raw.inputs.count);
@@ -157,7 +158,14 @@ struct Binder {
   void bind_channel(uint32_t channel, uint32_t target) {
     const auto source = static_cast<uint16_t>(channel);
     if (target < rig.raw_count) {
-      append(binding.copies, BoundCopy{source, static_cast<uint16_t>(target)});
+      // Channels come in ascending order.
+      while (next_changing < clip.changing_count && clip.changing(next_changing) < channel) {
+        ++next_changing;
+      }
+      const bool changes =
+          next_changing < clip.changing_count && clip.changing(next_changing) == channel;
+      append(changes ? binding.copies : binding.constants,
+             BoundCopy{source, static_cast<uint16_t>(target)});
     } else {
       append(binding.terms, BoundTerm{source, 0, 1});
       add_sum(target, binding.terms.count - 1);
@@ -231,6 +239,7 @@ struct Binder {
     }
   }
 
+  uint32_t next_changing = 0;
   RigNames raw_names = {rig.names[static_cast<size_t>(Kind::kRawControl)]};
   RigNames gui_names = {rig.names[static_cast<size_t>(Kind::kGuiControl)]};
 };
@@ -240,7 +249,8 @@ void fill_binding(const Clip& clip, const Rig& rig, Span<const MatrixEntry> matr
   binding.raw_count = rig.raw_count;
   binding.channel_count = clip.channel_count;
   // Lists begin empty and grow within their room.
-  binding.copies.count = binding.sums.count = binding.terms.count = binding.rows.count = 0;
+  binding.copies.count = binding.constants.count = 0;
+  binding.sums.count = binding.terms.count = binding.rows.count = 0;
   binding.mapped_controls.count = binding.controls.count = 0;
   binding.missing_channels.count = binding.extra_controls.count = 0;
   Binder binder = {clip, rig, matrix, scratch, binding};
@@ -294,10 +304,15 @@ void release_binding(Binding* binding) {
 }
 
 void apply_binding(const Binding& binding, Span<const float> values, Span<float> gui,
-                   Span<float> raw_controls) {
+                   Span<float> raw_controls, bool constants) {
   assert(values.count >= binding.channel_count && gui.count >= binding.gui_count &&
          raw_controls.count >= binding.raw_count);
   for (const BoundCopy& copy : binding.copies) raw_controls[copy.control] = values[copy.channel];
+  if (constants) {
+    for (const BoundCopy& copy : binding.constants) {
+      raw_controls[copy.control] = values[copy.channel];
+    }
+  }
   for (const BoundSum& sum : binding.sums) {
     const BoundTerm* term = &binding.terms[sum.first_term];
     float value = term->weight * values[term->channel];

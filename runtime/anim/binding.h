@@ -56,7 +56,8 @@ struct Binding {
   uint32_t raw_count = 0;      // of the rig
   uint32_t channel_count = 0;  // of the clip
   uint32_t gui_count = 0;      // 0 if the clip drives none
-  Span<BoundCopy> copies;
+  Span<BoundCopy> copies;      // of channels that change
+  Span<BoundCopy> constants;   // of the others
   Span<BoundSum> sums;
   Span<BoundTerm> terms;
   Span<BoundRow> rows;
@@ -74,10 +75,11 @@ Status bind_clip(const Clip& clip, const Rig& rig, Span<const MatrixEntry> matri
                  const Allocator& allocator, Binding*& out, Error& error);
 void release_binding(Binding* binding);
 
-/// Writes the raw controls in `binding.controls` and leaves the others alone. `values` comes from
+/// Writes the raw controls in `binding.controls` and leaves the others alone; without `constants` also
+/// those that had their value from the beginning of the clip on. `values` comes from
 /// sample_clip(); `gui` is scratch of gui_count floats. Values that go to raw controls directly keep
 /// their bits; GUI controls give the bits of the rig's own mapping.
 void apply_binding(const Binding& binding, Span<const float> values, Span<float> gui,
-                   Span<float> raw_controls);
+                   Span<float> raw_controls, bool constants = true);
 
 }  // namespace mien

@@ -49,7 +49,7 @@ void blink(const MixLayer& layer, uint64_t seed, uint32_t stream, int64_t now, c
         now - state.next - static_cast<int64_t>(late * static_cast<double>(kBlinkOnset));
     const float closed = smooth_at(t, kBlinkClose);
     const float opened = smooth_at(t - kBlinkClose - kBlinkHold, kBlinkOpen);
-    out[layer.lanes[i]] = layer.amounts[i] * (closed - opened);
+    out[i] = layer.amounts[i] * (closed - opened);
   }
 }
 
@@ -63,8 +63,7 @@ void generate(const MixLayer& layer, uint64_t seed, uint32_t stream, int64_t now
     case Generator::kBreath: {
       const int64_t in = layer.period * 2 / 5, t = now % layer.period;
       const float breath = smooth_at(t, in) - smooth_at(t - in, layer.period - in);
-      for (size_t i = 0; i < layer.lanes.count; ++i)
-        out[layer.lanes[i]] = layer.amounts[i] * breath;
+      for (size_t i = 0; i < layer.lanes.count; ++i) out[i] = layer.amounts[i] * breath;
       break;
     }
     case Generator::kNoise: {
@@ -73,7 +72,7 @@ void generate(const MixLayer& layer, uint64_t seed, uint32_t stream, int64_t now
       for (size_t i = 0; i < layer.lanes.count; ++i) {
         const uint64_t lane = (uint64_t{stream} << 32) + i;
         const float a = random_at(seed, lane, cell), b = random_at(seed, lane, cell + 1);
-        out[layer.lanes[i]] = layer.amounts[i] * (2.0f * (a + s * (b - a)) - 1.0f);
+        out[i] = layer.amounts[i] * (2.0f * (a + s * (b - a)) - 1.0f);
       }
       break;
     }

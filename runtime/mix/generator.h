@@ -13,8 +13,8 @@ struct GeneratorState {
   uint32_t zero;
 };
 
-/// Values of the layer's lanes go to `out`, which is zero elsewhere; `row` is what the layers before
-/// it have made. `stream` tells generators of a mix apart.
+/// `out` gets a value for each of the layer's lanes; `row` is what the layers before it have made.
+/// `stream` tells generators of a mix apart.
 ///
 /// kBlink: closes in 75 ms, stays 25 ms, opens in 150 ms. The time from one to the next is 0.5 s to
 /// 2 * period - 0.5 s; every other lane begins up to 10 ms later. If the first lane of the row is

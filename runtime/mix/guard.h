@@ -37,14 +37,17 @@ struct Guard {
 /// f(row)
 float guard_distance(const Guard& guard, const float* row);
 
-/// 1 where the protected row closes, 0 where it is open by f_on or more, smooth between.
-float guard_activation(const Guard& guard, const float* protected_row);
+/// 1 where the protected row closes, 0 where it is open by f_on or more, smooth between; `distance` is
+/// f(protected row).
+float guard_activation(const Guard& guard, float distance);
 
-/// Moves lanes of `row` back towards the protected row until f(row) is f(protected row), or 0 if that
-/// is less, plus the tolerance; `activation` 0 ... 1 is the share of that move which is made. Lanes
-/// with the largest gains go first, so that the least of the row is lost. Lanes that open nothing keep
-/// their bits, and all do if the limit is kept. In closed form, as f is linear in each lane.
-void hold_guard(const Guard& guard, const float* protected_row, float activation, float* row);
+/// Moves lanes of `row` back towards the protected row until f(row) is `distance`, which is f(protected
+/// row), or 0 if that is less, plus the tolerance; `activation` 0 ... 1 is the share of that move which
+/// is made. Lanes with the largest gains go first, so that the least of the row is lost. Lanes that
+/// open nothing keep their bits, and all do if the limit is kept. In closed form, as f is linear in
+/// each lane.
+void hold_guard(const Guard& guard, const float* protected_row, float distance, float activation,
+                float* row);
 
 /// The fastest that guards take hold of a lane or let go of it, per second. With speech at 8 phonemes
 /// a second what they hold back would jump otherwise.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/mix/mix.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -200,6 +201,9 @@ void place_mix(Placer& placer, const MixDesc& desc, Mix& mix) {
   for (const ReactionDesc& reaction : desc.reactions) strokes += reaction.strokes.count;
   mix.reactions = placer.array<Reaction>(desc.reactions.count);
   mix.strokes = placer.array<Stroke>(strokes);
+  size_t guarded = 0;
+  for (const Guard& guard : desc.guards) guarded += guard.count;
+  mix.guarded = placer.array<uint16_t>(guarded);
   mix.guards = placer.array<Guard>(desc.guards.count);
   mix.antagonists = placer.array<AntagonistPair>(desc.antagonists.count);
   mix.mirror = placer.array<uint16_t>(desc.mirror.count);
@@ -245,10 +249,28 @@ void fill_layers(const MixDesc& desc, Mix& mix) {
     } else {
       for (uint16_t lane : from.lanes) layer.mask[lane] = mask_of(lane);
     }
-    for (uint32_t l = 0; l < lanes; ++l) layer.masked |= layer.mask[l] != 1.0f;
     if (is_protected(layer.group)) mix.first_unprotected = static_cast<uint32_t>(i + 1);
     if (layer.group != LayerGroup::kLife && layer.flags == 0) {
       mix.first_after_reactions = static_cast<uint32_t>(i + 1);
+    }
+  }
+}
+
+void fill_guards(const MixDesc& desc, Mix& mix) {
+  size_t count = 0;
+  for (const Guard& guard : desc.guards) {
+    for (uint32_t i = 0; i < guard.count; ++i) mix.guarded[count++] = guard.lanes[i];
+  }
+  uint16_t* const lanes = mix.guarded.data;
+  std::sort(lanes, lanes + count);
+  mix.guarded.count = static_cast<size_t>(std::unique(lanes, lanes + count) - lanes);
+  copy_items(desc.guards, mix.guards);
+  for (Guard& guard : mix.guards) {
+    for (uint32_t i = 0; i < kMaxGuardLanes; ++i) {
+      const bool used = i < guard.count;
+      const uint16_t* at = std::lower_bound(lanes, mix.guarded.end(), guard.lanes[i]);
+      guard.lanes[i] = used ? static_cast<uint16_t>(at - lanes) : uint16_t{0};
+      if (!used) guard.gains[i] = 0;
     }
   }
 }
@@ -271,7 +293,7 @@ void fill_mix(const MixDesc& desc, Mix& mix) {
                         from.adapted, from.cooldown,  from.adapt_ticks, from.recover_ticks};
     stroke += count;
   }
-  copy_items(desc.guards, mix.guards);
+  fill_guards(desc, mix);
   copy_items(desc.antagonists, mix.antagonists);
   copy_items(desc.mirror, mix.mirror);
   for (uint32_t l = 0; l < mix.used_lanes(); ++l) {
@@ -289,9 +311,10 @@ uint64_t hash_numbers(uint64_t hash, std::initializer_list<uint64_t> numbers) {
 }
 
 uint64_t fingerprint(const Mix& mix) {
-  uint64_t hash = hash_numbers(
-      0xCBF29CE484222325u, {mix.raw_count, mix.variable_count, mix.player_count, mix.guards.count,
-                            mix.layers.count, mix.reactions.count, mix.strokes.count});
+  uint64_t hash =
+      hash_numbers(0xCBF29CE484222325u,
+                   {mix.raw_count, mix.variable_count, mix.player_count, mix.guards.count,
+                    mix.guarded.count, mix.layers.count, mix.reactions.count, mix.strokes.count});
   for (const MixLayer& layer : mix.layers) {
     hash = hash_numbers(hash, {static_cast<uint64_t>(layer.mode),
                                static_cast<uint64_t>(layer.source), layer.pose_count});
@@ -335,6 +358,7 @@ Status create_mix(const MixDesc& desc, const Allocator& allocator, Mix*& out, Er
   mix.max_bound_gui = desc.max_bound_gui;
   mix.max_events = desc.max_events;
   mix.plays_backward = desc.plays_backward;
+  mix.kernels = desc.kernels ? desc.kernels : kernels_for(Isa::kBest);
   mix.allocator = allocator;
   mix.block_size = measure.size();
   Placer placer(block);

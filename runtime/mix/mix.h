@@ -22,6 +22,7 @@
 #include "runtime/base/span.h"
 #include "runtime/base/status.h"
 #include "runtime/mix/guard.h"
+#include "simd/kernels.h"
 
 namespace mien {
 
@@ -39,15 +40,7 @@ constexpr uint32_t kMaxPoses = 1024;
 enum class LayerGroup : uint8_t { kBase, kSpeech, kEmotion, kReaction, kLife };
 constexpr uint32_t kLayerGroups = 5;
 
-/// What becomes of a lane, with o the value so far, x that of the layer, a = weight * mask. Lanes that
-/// a source has no channel or pose value for stay as they are.
-enum class BlendMode : uint8_t {
-  kOverride,  // o + a (x - o)
-  kAdd,       // o + a x
-  kScreen,    // p = o within 0 ... 1: x >= 0: o + a x (1 - p), else o + a x p
-  kMax,       // o + a max(0, x - o)
-  kScale,     // o (1 + a (x - 1))
-};
+/// BlendMode: simd/kernels.h. Lanes that a source has no channel or pose value for stay as they are.
 constexpr uint32_t kBlendModes = 5;
 
 /// Where the values of a layer come from.
@@ -92,7 +85,6 @@ struct MixLayer {
   uint32_t first_pose, pose_count;
   uint32_t first_fade;  // of the weights of its poses, among all such
   Generator generator;
-  bool masked;  // the mask is not 1 everywhere
   uint32_t stream_frames;
   int64_t period, delay;
   Span<uint16_t> lanes;
@@ -184,6 +176,9 @@ struct MixDesc {
   uint32_t max_bound_gui = 0;   // largest Binding::gui_count
   bool plays_backward = false;  // SamplerLimits::reverse
   uint32_t max_events = 64;     // that a step can report
+  /// Of the rig, so that its instruction set is used for all; the results are the same with any. Null:
+  /// the best.
+  const KernelTable* kernels = nullptr;
 };
 
 /// Immutable, in one block of memory.
@@ -198,6 +193,7 @@ struct Mix {
   uint32_t first_unprotected = 0;      // layer after the last one of base or speech
   uint32_t first_after_reactions = 0;  // layer after the last one that precedes reactions
   uint64_t fingerprint = 0;            // of everything that a snapshot depends on
+  const KernelTable* kernels = nullptr;
   Allocator allocator;
   size_t block_size = 0;
   mutable std::atomic<uint32_t> owners{1};  // the creator and every mixer
@@ -208,7 +204,8 @@ struct Mix {
   Span<float> pose_values;
   Span<Reaction> reactions;
   Span<Stroke> strokes;
-  Span<Guard> guards;
+  Span<uint16_t> guarded;  // the lanes of all guards, ascending
+  Span<Guard> guards;      // with lanes that are places in `guarded`
   Span<AntagonistPair> antagonists;
   Span<uint16_t> mirror;     // [lane], or empty
   Span<float> lower, upper;  // [lane]

@@ -30,13 +30,18 @@ size_t layers_with_rows(const Mix& mix, size_t end) {
 
 size_t layer_row_floats(const Mix& mix) { return size_t{2} * mix.lane_count; }
 
+/// Of what a layer shows: streams cover the same lanes all the time.
+size_t shown_floats(const Mix& mix, uint32_t layer) {
+  return mix.layers[layer].source == LayerSource::kStream ? mix.lane_count : layer_row_floats(mix);
+}
+
 void place_state(Placer& placer, const Mix& mix, Mixer& mixer) {
   mixer.header = placer.array<StateHeader>(1, kBlockAlignment).data;
   mixer.layers = placer.array<LayerState>(mix.layers.count);
   mixer.player_states = placer.array<PlayerState>(mix.player_count);
   mixer.pose_weights = placer.array<Fade>(mix.fade_count);
   mixer.variables = placer.array<float>(mix.variable_count);
-  mixer.held = placer.array<float>(mix.guards.empty() ? 0 : mix.lane_count);
+  mixer.held = placer.array<float>(mix.guarded.count);
   mixer.generators = placer.array<GeneratorState>(mix.layers.count);
   mixer.reactions = placer.array<ReactionState>(mix.reactions.count);
   mixer.strokes = placer.array<StrokeState>(mix.strokes.count);
@@ -53,7 +58,7 @@ void place_mixer(Placer& placer, const Mix& mix, bool stages, Mixer& mixer) {
     mixer.stages = placer.array<float>(floats, kBlockAlignment).data;
   }
   mixer.row = placer.array<float>(mix.lane_count, kBlockAlignment);
-  mixer.protected_row = placer.array<float>(mix.lane_count, kBlockAlignment);
+  mixer.guarded_rows = placer.array<float>(3 * mix.guarded.count);
   mixer.layer_row = placer.array<float>(layer_row_floats(mix), kBlockAlignment);
   mixer.scratch = placer.array<float>(mix.lane_count, kBlockAlignment);
   mixer.gui = placer.array<float>(mix.max_bound_gui, kBlockAlignment);
@@ -84,12 +89,12 @@ void place_mixer(Placer& placer, const Mix& mix, bool stages, Mixer& mixer) {
 
 }  // namespace
 
-void sample_player(Mixer& mixer, Player& player) {
+void sample_player(Mixer& mixer, Player& player, bool constants) {
   const Mix& mix = *mixer.mix;
   const Span<const float> values = sample_clip(player.sampler);
   const Binding& binding = *player.source.binding;
   if (!player.mirrored) {
-    apply_binding(binding, values, mixer.gui, player.row.first(mix.raw_count));
+    apply_binding(binding, values, mixer.gui, player.row.first(mix.raw_count), constants);
     return;
   }
   apply_binding(binding, values, mixer.gui, mixer.scratch.first(mix.raw_count));
@@ -138,7 +143,7 @@ void start_offsets(Mixer& mixer, uint32_t index, const float* next, int64_t star
   const float* last = layer_row(mixer, index, kShown0 + layer.newest);
   const float* before = moves ? layer_row(mixer, index, kShown0 + (layer.newest ^ 1)) : last;
   start_quintics(last, before, next, moves ? fraction_of(ticks, layer.shown_ticks) : 0.0f,
-                 layer_row_floats(*mixer.mix), quintic_rows(mixer, index));
+                 shown_floats(*mixer.mix, index), quintic_rows(mixer, index));
   layer.offset_start = start;
   layer.offset_ticks = ticks;
 }
@@ -205,17 +210,16 @@ void add_offsets(Mixer& mixer, uint32_t index, float* shown) {
     layer.offset_ticks = 0;
     return;
   }
-  const size_t lanes = mixer.mix->lane_count;
-  add_quintics(quintic_rows(mixer, index), fraction_of(elapsed, layer.offset_ticks), 2 * lanes,
-               shown);
-  clamp_row(lanes, shown + lanes);
+  mixer.mix->kernels->add_quintics(quintic_rows(mixer, index),
+                                   fraction_of(elapsed, layer.offset_ticks),
+                                   shown_floats(*mixer.mix, index), shown);
 }
 
-void blend_shown(Mixer& mixer, uint32_t index, float weight, const float* shown) {
+/// `cover` may be null: the layer's mask leaves out what its source has no value for.
+void blend(Mixer& mixer, uint32_t index, float weight, const float* values, const float* cover) {
   const MixLayer& layer = mixer.mix->layers[index];
-  blend_row(layer.mode, shown, shown + mixer.mix->lane_count,
-            layer.masked ? layer.mask.data : nullptr, weight, mixer.mix->lane_count,
-            mixer.row.data);
+  mixer.mix->kernels->blend_row(
+      {values, cover, layer.mask.data, mixer.row.data, mixer.mix->lane_count, weight, layer.mode});
 }
 
 void mix_clip_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
@@ -234,20 +238,21 @@ void mix_clip_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
     return;
   }
   Player& current = mixer.players[layer.current];
-  sample_player(mixer, current);
+  sample_player(mixer, current, false);
   float s = fade_value(layer.cross, now);
   s = s < 1.0f ? (s > 0.0f ? s : 0.0f) : 1.0f;
   if (s == 1.0f) release_player(mixer, layer.previous);
   float* shown = next_shown_row(mixer, index, ticks);
   if (layer.previous != kNoPlayer) {
     Player& previous = mixer.players[layer.previous];
-    sample_player(mixer, previous);
-    cross_rows(previous.row.data, current.row.data, s, current.row.count, shown);
+    sample_player(mixer, previous, false);
+    mixer.mix->kernels->cross_rows(previous.row.data, current.row.data, s, current.row.count,
+                                   shown);
   } else {
     memcpy(shown, current.row.data, current.row.count * sizeof(float));
   }
   add_offsets(mixer, index, shown);
-  blend_shown(mixer, index, weight, shown);
+  blend(mixer, index, weight, shown, shown + mixer.mix->lane_count);
 }
 
 void mix_stream_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
@@ -265,11 +270,8 @@ void mix_stream_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
     start_fade(state.presence, now - ticks, 1.0f, kStreamFade);
   }
   float* row = mixer.layer_row.data;
-  memset(row, 0, mixer.layer_row.count * sizeof(float));
-  for (size_t i = 0; i < layer.lanes.count; ++i) {
-    row[layer.lanes[i]] = mixer.scratch[i];
-    row[mix.lane_count + layer.lanes[i]] = 1.0f;
-  }
+  memset(row, 0, mix.lane_count * sizeof(float));
+  for (size_t i = 0; i < layer.lanes.count; ++i) row[layer.lanes[i]] = mixer.scratch[i];
   const float weight = layer_weight(state, layer.mode, now);
   if (weight == 0.0f) {
     state.shown_count = 0;
@@ -279,20 +281,19 @@ void mix_stream_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
     start_offsets(mixer, index, row, now - ticks, kStreamLeadOver);
   }
   float* shown = next_shown_row(mixer, index, ticks);
-  memcpy(shown, row, mixer.layer_row.count * sizeof(float));
+  memcpy(shown, row, mix.lane_count * sizeof(float));
   add_offsets(mixer, index, shown);
-  blend_shown(mixer, index, weight, shown);
+  blend(mixer, index, weight, shown, nullptr);
 }
 
 void mix_generator(Mixer& mixer, uint32_t index) {
   const Mix& mix = *mixer.mix;
   const MixLayer& layer = mix.layers[index];
   const int64_t now = mixer.header->now;
-  float* row = mixer.layer_row.data;
-  memset(row, 0, mix.lane_count * sizeof(float));
-  generate(layer, mixer.header->seed, index, now, mixer.row.data, mixer.generators[index], row);
-  blend_row(layer.mode, row, nullptr, layer.mask.data,
-            layer_weight(mixer.layers[index], layer.mode, now), mix.lane_count, mixer.row.data);
+  float* values = mixer.layer_row.data;
+  generate(layer, mixer.header->seed, index, now, mixer.row.data, mixer.generators[index], values);
+  blend_lanes(mix, layer.mode, layer.lanes, values, layer.mask.data,
+              layer_weight(mixer.layers[index], layer.mode, now), mixer.row.data);
 }
 
 void mix_pose_layer(Mixer& mixer, uint32_t index) {
@@ -319,8 +320,20 @@ void mix_pose_layer(Mixer& mixer, uint32_t index) {
       row[mix.pose_lanes[k]] += w * mix.pose_values[k];
     }
   }
-  blend_row(layer.mode, row, nullptr, layer.masked ? layer.mask.data : nullptr, weight,
-            mix.lane_count, mixer.row.data);
+  blend(mixer, index, weight, row, nullptr);
+}
+
+enum GuardedRow : uint32_t { kProtected, kFree, kHeldBack };
+
+float* guarded_row(Mixer& mixer, GuardedRow which) {
+  return mixer.guarded_rows.data + which * mixer.mix->guarded.count;
+}
+
+/// Keeps what the row is now in the lanes of guards.
+void gather_guarded(Mixer& mixer, GuardedRow which) {
+  const Span<uint16_t> lanes = mixer.mix->guarded;
+  float* kept = guarded_row(mixer, which);
+  for (size_t i = 0; i < lanes.count; ++i) kept[i] = mixer.row[lanes[i]];
 }
 
 void keep_stage(Mixer& mixer, uint32_t stage) {
@@ -341,9 +354,7 @@ void mix_layers(Mixer& mixer, uint32_t begin, uint32_t end, bool after_guards, i
       case LayerSource::kGenerator: mix_generator(mixer, i); break;
     }
     keep_stage(mixer, i);
-    if (i + 1 == mix.first_unprotected && !mix.guards.empty()) {
-      memcpy(mixer.protected_row.data, mixer.row.data, mix.lane_count * sizeof(float));
-    }
+    if (i + 1 == mix.first_unprotected) gather_guarded(mixer, kProtected);
   }
 }
 
@@ -362,20 +373,25 @@ float speech_weight(const Mixer& mixer) {
 void hold_guards(Mixer& mixer, int64_t ticks) {
   const Mix& mix = *mixer.mix;
   if (mix.guards.empty()) return;
-  const float* const before = mixer.protected_row.data;
-  memcpy(mixer.scratch.data, mixer.row.data, mix.lane_count * sizeof(float));
+  const size_t count = mix.guarded.count;
+  gather_guarded(mixer, kFree);
+  gather_guarded(mixer, kHeldBack);
+  const float* const before = guarded_row(mixer, kProtected);
+  float* const row = guarded_row(mixer, kHeldBack);
   const float speech = speech_weight(mixer);
   for (size_t i = 0; i < mix.guards.count; ++i) {
     const Guard& guard = mix.guards[i];
+    const float distance = guard_distance(guard, before);
     float activation = mixer.guard_overrides[i];
     if (activation < 0.0f) {
-      activation = guard_activation(guard, before) * (guard.needs_speech ? speech : 1.0f);
+      activation = guard_activation(guard, distance) * (guard.needs_speech ? speech : 1.0f);
     }
-    hold_guard(guard, before, activation, mixer.row.data);
+    hold_guard(guard, before, distance, activation, row);
   }
   const double seconds = static_cast<double>(ticks) / kTicksPerSecond;
-  ease_guards(mixer.scratch.data, before, mix.lane_count, static_cast<float>(kGuardSpeed * seconds),
-              mixer.held.data, mixer.row.data);
+  ease_guards(guarded_row(mixer, kFree), before, static_cast<uint32_t>(count),
+              static_cast<float>(kGuardSpeed * seconds), mixer.held.data, row);
+  for (size_t i = 0; i < count; ++i) mixer.row[mix.guarded[i]] = row[i];
 }
 
 void net_antagonists(const Mix& mix, float* row) {
@@ -468,7 +484,7 @@ Status start_player(Mixer& mixer, Player& player, const ClipSource& source, cons
   player.mirrored = mirrored;
   player.used = true;
   set_cover(mixer, player);
-  sample_player(mixer, player);
+  sample_player(mixer, player, true);
   return Status::kOk;
 }
 
@@ -646,9 +662,7 @@ void step_mixer(Mixer& mixer, int64_t ticks, float* out, size_t count, uint64_t*
   float* row = mixer.row.data;
   memset(row, 0, mix.lane_count * sizeof(float));
   memcpy(row + mix.raw_count, mixer.variables.data, mix.variable_count * sizeof(float));
-  if (mix.first_unprotected == 0) {
-    memcpy(mixer.protected_row.data, row, mix.lane_count * sizeof(float));
-  }
+  if (mix.first_unprotected == 0) gather_guarded(mixer, kProtected);
   mix_layers(mixer, 0, mix.first_after_reactions, false, ticks);
   mix_reactions(mix, mixer.header->now, false, mixer.reactions, mixer.strokes, row);
   keep_stage(mixer, layer_count + kStageReactions);
@@ -659,11 +673,11 @@ void step_mixer(Mixer& mixer, int64_t ticks, float* out, size_t count, uint64_t*
   mix_reactions(mix, mixer.header->now, true, mixer.reactions, mixer.strokes, row);
   net_antagonists(mix, row);
   keep_stage(mixer, layer_count + kStageAntagonists);
-  limit_row(mix.lower.data, mix.upper.data, mix.lane_count, row);
+  mix.kernels->limit_row(mix.lower.data, mix.upper.data, mix.lane_count, row);
   keep_stage(mixer, layer_count + kStageLimits);
 
   if (out) memcpy(out, row, count * sizeof(float));
-  if (active) find_active_lanes(row, mix.lane_count, active);
+  if (active) mix.kernels->nonzero({row, active, mix.lane_count});
 }
 
 void step_mixers(Span<Mixer* const> mixers, int64_t ticks, float* const* outs, size_t count,

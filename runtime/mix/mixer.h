@@ -104,10 +104,10 @@ struct Mixer {
   Allocator allocator;
   size_t block_size = 0;
 
-  Span<float> row;            // [lane] the result of the last step
-  Span<float> protected_row;  // [lane]
-  Span<float> layer_row;      // [value of a lane], then [cover of a lane]
-  Span<float> scratch;        // [lane]
+  Span<float> row;           // [lane] the result of the last step
+  Span<float> guarded_rows;  // [protected, free, held back][place in Mix::guarded]
+  Span<float> layer_row;     // [value of a lane], then [cover of a lane]
+  Span<float> scratch;       // [lane]
   Span<float> gui;
   Span<Player> players;
   Span<RowStream*> streams;  // [layer] null where it is none
@@ -123,7 +123,7 @@ struct Mixer {
   Span<PlayerState> player_states;  // written for snapshots
   Span<Fade> pose_weights;          // MixLayer::first_fade
   Span<float> variables;            // [pose variable] with which a row begins
-  Span<float> held;                 // [lane] by how much guards moved it, if there are any
+  Span<float> held;                 // [place in Mix::guarded] by how much guards moved it
   Span<GeneratorState> generators;  // [layer]
   Span<ReactionState> reactions;
   Span<StrokeState> strokes;
@@ -195,11 +195,11 @@ void step_mixers(Span<Mixer* const> mixers, int64_t ticks, float* const* outs, s
                  uint64_t* active, size_t active_stride);
 
 // For play_clip() and snapshots: what a clip must be like for a layer; a player that begins, with its
-// row; and its row at the time that it has.
+// row; and its row at the time that it has, with or without what never changes.
 Status check_source(const Mix& mix, uint32_t layer, const ClipSource& source, Error& error);
 Status start_player(Mixer& mixer, Player& player, const ClipSource& source, const PlayDesc& desc,
                     bool mirrored, Error& error);
-void sample_player(Mixer& mixer, Player& player);
+void sample_player(Mixer& mixer, Player& player, bool constants);
 
 // Snapshots (snapshot.cpp)
 // ------------------------------------------------------------------------------------------------

@@ -59,10 +59,9 @@ void advance_stroke(const Stroke& stroke, const ReactionState& reaction, int64_t
 
 void blend_pose(const Mix& mix, const Stroke& stroke, float weight, float* row) {
   const uint32_t begin = stroke.pose == 0 ? 0 : mix.pose_ends[stroke.pose - 1];
-  for (uint32_t k = begin; k < mix.pose_ends[stroke.pose]; ++k) {
-    blend_row(stroke.mode, &mix.pose_values[k], nullptr, nullptr, weight, 1,
-              &row[mix.pose_lanes[k]]);
-  }
+  const uint32_t count = mix.pose_ends[stroke.pose] - begin;
+  blend_lanes(mix, stroke.mode, mix.pose_lanes.slice(begin, count), &mix.pose_values.data[begin],
+              nullptr, weight, row);
 }
 
 }  // namespace

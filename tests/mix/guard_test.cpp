@@ -31,6 +31,11 @@ Guard some_guard() {
   return guard;
 }
 
+void hold(const Guard& guard, const Row& protected_row, float activation, Row& row) {
+  hold_guard(guard, protected_row.data(), guard_distance(guard, protected_row.data()), activation,
+             row.data());
+}
+
 TEST(Guard, DistanceIsASumOfLanesAndOfProductsOfPairs) {
   Guard guard = some_guard();
   guard.rest = 0.25f;
@@ -44,7 +49,7 @@ TEST(Guard, ActivationFallsFromContactToTheRangesEnd) {
   float before = 2;
   for (float open : {-0.5f, 0.0f, 0.1f, 0.25f, 0.4f, 0.5f}) {  // lane 2: 20 mm
     const Row row = {0, 0, open, 0};
-    const float activation = guard_activation(guard, row.data());
+    const float activation = guard_activation(guard, guard_distance(guard, row.data()));
     if (open <= 0) {
       EXPECT_EQ(activation, 1);
     } else {
@@ -60,7 +65,7 @@ TEST(Guard, LeavesRowsAloneThatKeepTheLimit) {
   const Row closed = {0, 0, 0, 0.5f};
   const Row row = {0.1f, 0.3f, 0.05f, 0.5f};
   Row held = row;
-  hold_guard(guard, closed.data(), 1, held.data());
+  hold(guard, closed, 1, held);
   EXPECT_TRUE(same_bits(held, row));
 }
 
@@ -69,7 +74,7 @@ TEST(Guard, LeavesEveryRowAloneWhileItIsNotActive) {
   const Row closed(4), row = {1, 0.1f, 1, 0};
   for (float activation : {0.0f, -0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()}) {
     Row held = row;
-    hold_guard(guard, closed.data(), activation, held.data());
+    hold(guard, closed, activation, held);
     EXPECT_TRUE(same_bits(held, row));
   }
 }
@@ -78,12 +83,12 @@ TEST(Guard, TakesTheLargestGainsFirstAndNoMoreThanIsNeeded) {
   const Guard guard = some_guard();
   const Row closed(4);
   Row row = {0.2f, 0, 0.5f, 0};  // 11 mm
-  hold_guard(guard, closed.data(), 1, row.data());
+  hold(guard, closed, 1, row);
   EXPECT_NEAR(guard_distance(guard, row.data()), 0.5, 1e-5);
   EXPECT_EQ(row[2], 0) << "is not enough";
   EXPECT_FLOAT_EQ(row[0], 0.1f);
   Row less = {0.05f, 0, 0.5f, 0};
-  hold_guard(guard, closed.data(), 1, less.data());
+  hold(guard, closed, 1, less);
   EXPECT_EQ(less[0], 0.05f) << "stays, because lane 2 can make the room";
   EXPECT_NEAR(guard_distance(guard, less.data()), 0.5, 1e-5);
 }
@@ -92,7 +97,7 @@ TEST(Guard, KeepsWhatHelpsAndWhatAPairHasMadeHarmless) {
   const Guard guard = some_guard();
   const Row sealed = {0, 1, 0, 0};
   Row row = {1, 1, 0.7f, 0.5f};
-  hold_guard(guard, sealed.data(), 1, row.data());
+  hold(guard, sealed, 1, row);
   EXPECT_EQ(row[2], 0.7f) << "the jaw opens nothing while lane 1 seals";
   EXPECT_EQ(row[3], 0.5f);
   EXPECT_LT(row[0], 1);
@@ -102,7 +107,7 @@ TEST(Guard, MovesLanesBackThatWereLowered) {
   const Guard guard = some_guard();
   const Row closed = {0.3f, 0, 0, 0.5f};
   Row row = {0.3f, 0, 0, 0};  // what closed is gone: 1.5 mm, of which 0.5 mm are tolerated
-  hold_guard(guard, closed.data(), 1, row.data());
+  hold(guard, closed, 1, row);
   EXPECT_FLOAT_EQ(row[3], 0.25f);
   EXPECT_EQ(row[0], 0.3f);
 }
@@ -111,8 +116,8 @@ TEST(Guard, CountsOverlapAsRoom) {
   const Guard guard = some_guard();
   const Row pressed = {0, 0, 0, 1}, touching(4);
   Row over_pressed = {1, 0, 0, 1}, over_touching = {1, 0, 0, 0};
-  hold_guard(guard, pressed.data(), 1, over_pressed.data());
-  hold_guard(guard, touching.data(), 1, over_touching.data());
+  hold(guard, pressed, 1, over_pressed);
+  hold(guard, touching, 1, over_touching);
   EXPECT_NEAR(over_pressed[0], 0.9f, 1e-6);  // 4 mm + 0.5 mm
   EXPECT_NEAR(over_touching[0], 0.1f, 1e-6);
 }
@@ -121,8 +126,8 @@ TEST(Guard, TakesTheShareThatActivationSays) {
   const Guard guard = some_guard();
   const Row closed(4);
   Row all = {0, 0, 1, 0}, half = all;
-  hold_guard(guard, closed.data(), 1, all.data());
-  hold_guard(guard, closed.data(), 0.5f, half.data());
+  hold(guard, closed, 1, all);
+  hold(guard, closed, 0.5f, half);
   EXPECT_FLOAT_EQ(half[2], 0.5f + 0.5f * all[2]);
 }
 

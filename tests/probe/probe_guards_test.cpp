@@ -101,6 +101,14 @@ bool is_mouth(const std::string& control) {
          control.rfind("tongue", 0) == 0;
 }
 
+float activation_of(const Guard& guard, const Pose& row) {
+  return guard_activation(guard, guard_distance(guard, row.data()));
+}
+void hold(const Guard& guard, const Pose& protected_row, float activation, Pose& row) {
+  hold_guard(guard, protected_row.data(), guard_distance(guard, protected_row.data()), activation,
+             row.data());
+}
+
 /// What emotions do to some poses, with guards and without.
 struct Outcome {
   double kept = 0, kept_without_mouth = 0;  // shares of the emotions, means
@@ -121,7 +129,7 @@ Outcome try_emotions(GuardedHead& head, const std::vector<Pose>& poses, std::vec
         const Pose free = over(pose, emotion, weight);
         Pose held = free, masked = free;
         for (Kind kind : kinds) {
-          hold_guard(head.guards[head.index(kind)], pose.data(), 1, held.data());
+          hold(head.guards[head.index(kind)], pose, 1, held);
         }
         for (size_t c = 0; c < masked.size(); ++c) {
           if (is_mouth(head.controls[c])) masked[c] = pose[c];
@@ -256,7 +264,7 @@ TEST(ProbeGuards, LidsTouchWhenTheyBlink) {
       const Guard& lids = h.guards[h.index(kind)];
       EXPECT_NEAR(guard_distance(lids, blink.data()), 0, 0.01);
       EXPECT_NEAR(guard_distance(lids, rest.data()), h.distance(kind, rest), 0.01);
-      EXPECT_EQ(guard_activation(lids, rest.data()), 0);
+      EXPECT_EQ(activation_of(lids, rest), 0);
     }
   }
 }
@@ -406,7 +414,7 @@ TEST(GuardedSpeech, NoLaneIsFasterThanItsSourcesByMoreThanTheGuardsSpeed) {
         Pose row = free;
         for (Kind kind : {Kind::kLipsLeft, Kind::kLipsCenter, Kind::kLipsRight}) {
           const Guard& guard = h.guards[h.index(kind)];
-          hold_guard(guard, speech.data(), guard_activation(guard, speech.data()), row.data());
+          hold(guard, speech, activation_of(guard, speech), row);
         }
         ease_guards(free.data(), speech.data(), static_cast<uint32_t>(row.size()),
                     static_cast<float>(kGuardSpeed * dt), held.data(), row.data());
@@ -449,8 +457,8 @@ TEST(GuardedSpeech, AGuardThatIsNotActiveChangesNoBit) {
     Pose row = free, held(row.size());
     for (Kind kind : {Kind::kLipsLeft, Kind::kLipsCenter, Kind::kLipsRight}) {
       const Guard& guard = h.guards[h.index(kind)];
-      EXPECT_EQ(guard_activation(guard, open.data()), 0);
-      hold_guard(guard, open.data(), 0, row.data());
+      EXPECT_EQ(activation_of(guard, open), 0);
+      hold(guard, open, 0, row);
     }
     ease_guards(free.data(), open.data(), static_cast<uint32_t>(row.size()), 0.2f, held.data(),
                 row.data());

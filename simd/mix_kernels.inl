@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Rows of a mix: a layer over those before it, one clip into another, transitions, limits.
+
+#pragma once
+
+#include "simd/vec.inl"
+
+namespace mien::MIEN_KERNEL_ISA {
+namespace {
+
+/// 1 and no lane of memory, or what the source covers.
+struct Covered {
+  const float* cover;
+  Vec operator()(size_t i) const {
+    return at_most(at_least(load(cover + i), broadcast(0.0f)), broadcast(1.0f));
+  }
+};
+struct Whole {
+  Vec operator()(size_t) const { return broadcast(1.0f); }
+};
+
+/// What a mode adds to a lane, by o, x, c and a.
+struct BlendOverride {
+  Vec operator()(Vec o, Vec x, Vec c, Vec a) const { return a * (x - c * o); }
+};
+struct BlendAdd {
+  Vec operator()(Vec, Vec x, Vec, Vec a) const { return a * x; }
+};
+struct BlendScreen {
+  Vec operator()(Vec o, Vec x, Vec, Vec a) const {
+    const Vec p = at_most(at_least(o, broadcast(0.0f)), broadcast(1.0f));
+    return a * x * select(less(x, broadcast(0.0f)), p, broadcast(1.0f) - p);
+  }
+};
+struct BlendMax {
+  Vec operator()(Vec o, Vec x, Vec c, Vec a) const {
+    return a * at_least(x - c * o, broadcast(0.0f));
+  }
+};
+struct BlendScale {
+  Vec operator()(Vec o, Vec x, Vec c, Vec a) const { return a * (x - c) * o; }
+};
+
+template <bool kReplaces, class Added, class Cover>
+void blend_lanes(const BlendArgs& args, Added added, Cover cover) {
+  const Vec weight = broadcast(args.weight), zero = broadcast(0.0f), one = broadcast(1.0f);
+  for (size_t i = 0; i < args.count; i += kWidth) {
+    const Vec o = load(args.row + i), x = load(args.x + i), c = cover(i);
+    const Vec a = weight * load(args.mask + i);
+    const Vec more = added(o, x, c, a);
+    // -0 + 0 would be 0.
+    Vec mixed = select(equal(more, zero), o, o + more);
+    if (kReplaces) mixed = select(equal(a * c, one), x, mixed);
+    store(args.row + i, mixed);
+  }
+}
+
+template <bool kReplaces, class Added>
+void blend_covered(const BlendArgs& args, Added added) {
+  if (args.cover) {
+    blend_lanes<kReplaces>(args, added, Covered{args.cover});
+  } else {
+    blend_lanes<kReplaces>(args, added, Whole{});
+  }
+}
+
+void blend_row(const BlendArgs& args) {
+  switch (args.mode) {
+    case BlendMode::kOverride: return blend_covered<true>(args, BlendOverride{});
+    case BlendMode::kAdd: return blend_lanes<false>(args, BlendAdd{}, Whole{});
+    case BlendMode::kScreen: return blend_lanes<false>(args, BlendScreen{}, Whole{});
+    case BlendMode::kMax: return blend_covered<false>(args, BlendMax{});
+    case BlendMode::kScale: return blend_covered<false>(args, BlendScale{});
+  }
+}
+
+void cross_rows(const float* from, const float* to, float s, size_t count, float* out) {
+  const Vec share = broadcast(s), zero = broadcast(0.0f);
+  for (size_t i = 0; i < count; i += kWidth) {
+    const Vec a = load(from + i), b = load(to + i), way = b - a;
+    const Vec mixed = a + share * way;
+    store(out + i, select(equal(way, zero), b, s == 1.0f ? b : mixed));
+  }
+}
+
+void add_quintics(const QuinticRows& quintics, float u, size_t count, float* row) {
+  const Vec at = broadcast(u), zero = broadcast(0.0f), one = broadcast(1.0f);
+  for (size_t i = 0; i < count; i += kWidth) {
+    const Vec c0 = load(quintics.c0 + i), v = at_most(at * load(quintics.rate + i), one);
+    const Vec w = one - v;
+    const Vec inner = c0 + v * (load(quintics.c1 + i) + v * load(quintics.c2 + i));
+    const Vec offset = w * w * w * inner;
+    // Rounding near the end.
+    store(row + i, load(row + i) + select(less(offset * c0, zero), zero, offset));
+  }
+}
+
+void limit_row(const float* lower, const float* upper, size_t count, float* row) {
+  for (size_t i = 0; i < count; i += kWidth) {
+    const Vec v = load(row + i);
+    const Vec limited = at_most(at_least(v, load(lower + i)), load(upper + i));
+    store(row + i, select(equal(v, limited), v, limited));
+  }
+}
+
+}  // namespace
+}  // namespace mien::MIEN_KERNEL_ISA
