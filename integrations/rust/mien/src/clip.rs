@@ -510,7 +510,7 @@ impl Clip {
         check(status).map(|()| binding)
     }
 
-    fn raw(&self) -> *const sys::MienClip {
+    pub(crate) fn raw(&self) -> *const sys::MienClip {
         self.handle.as_ptr()
     }
 }
@@ -541,6 +541,10 @@ impl std::fmt::Debug for ClipBinding {
 }
 
 impl ClipBinding {
+    pub(crate) fn raw(&self) -> *const sys::MienClipBinding {
+        self.handle.as_ptr()
+    }
+
     /// Raw controls that are driven, ascending.
     #[must_use]
     pub fn controls(&self) -> &[u16] {

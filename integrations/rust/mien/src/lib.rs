@@ -60,8 +60,11 @@ mod deformer_instance;
 mod dna;
 mod error;
 mod instance;
+mod mix;
+mod mixer;
 mod report;
 mod rig;
+mod solve;
 mod stream;
 mod threads;
 mod vertex_output;
@@ -77,8 +80,14 @@ pub use dna::{Dna, GenerateOptions, OpenOptions, WriteOptions};
 pub use error::{Error, Result};
 pub use generated::*;
 pub use instance::Instance;
+pub use mix::{Antagonists, Gaze, Mix, MixLayer, MixOptions, Reaction, Stroke};
+pub use mixer::{MixEvent, Mixer, PlayOptions, StreamSender};
 pub use report::{Finding, Report};
 pub use rig::{Rig, RigOptions};
+pub use solve::{
+    AimSolver, CopySolver, CustomSolver, Solver, SolverInput, SolverPose, SolverStack,
+    SolverStackOptions, SolverState, SpaceSolver, SpringSolver, TwistSolver, NO_JOINT,
+};
 pub use threads::Work;
 pub use vertex_output::{VertexAttribute, VertexLayout};
 
