@@ -74,8 +74,9 @@ PROGRAM_GRAPH = {
     "io": ["mien.h", "math"],                     # files, frames, JSON, output
     "gltf": ["mien.h", "math", "io"],             # rigs -> GLB, OBJ
     "scene": ["mien.h", "math", "io", "render"],  # a rig in a pose
+    "live": ["mien.h", "io", "gltf"],  # packets of live sources -> rows of controls
     "play": ["mien.h", "io", "gltf"],  # scenes of `mien play`
-    "commands": ["mien.h", "mien_author.h", "math", "io", "render", "gltf", "scene", "play",
+    "commands": ["mien.h", "mien_author.h", "math", "io", "render", "gltf", "scene", "play", "live",
                  "bench/csr_matrix.h"],
     "": ["mien.h", "mien_author.h", "io", "commands"],  # main.cpp, without_author.cpp
 }

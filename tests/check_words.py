@@ -90,7 +90,7 @@ RULES = [
     (CODE, r"[Cc]olour\w*", "color", "make_colours"),
     (CODE, r"\b[Ll]icences?\b", "license", "the licence"),
     (CODE, r"(?:[Nn]eighbour|[Ff]avour|[Hh]onour)\w*", "neighbor, favor, honor", "neighbours"),
-    (CODE, r"(?:[Ii]nitial|[Nn]ormal|[Oo]ptim|[Oo]rgan|[Rr]ecogn|[Ss]erial|[Rr]eal|[Uu]til|"
+    (CODE, r"(?<!lo_message_de)(?:[Ii]nitial|[Nn]ormal|[Oo]ptim|[Oo]rgan|[Rr]ecogn|[Ss]erial|[Rr]eal|[Uu]til|"
            r"[Mm]inim|[Mm]axim|[Qq]uant|[Ss]ynchron|[Tt]riangul|[Ee]mphas|[Ss]ummar|[Pp]arametr|"
            r"[Vv]ector|[Gg]eneral|[Ss]pecial|[Cc]ustom|[Ff]inal|[Vv]isual|[Ll]inear|[Ss]ynthes|"
            r"[Cc]ategor|[Pp]riorit|[Ss]tandard|[Aa]uthor|[Pp]enal)"

@@ -9,6 +9,7 @@
 #include "integrations/cli/commands/contact_strip.h"
 #include "integrations/cli/commands/exported_rig.h"
 #include "integrations/cli/commands/options.h"
+#include "integrations/cli/commands/real_time.h"
 #include "integrations/cli/io/dna_fields.h"
 #include "integrations/cli/io/frame_rate.h"
 #include "integrations/cli/io/nearest_name.h"
@@ -24,9 +25,11 @@ struct PlayOptions {
   GlbOptions glb;
   std::vector<std::string> outputs;
   StripOptions strip;  // with --lod, which a GLB has as well
+  RealTimeOptions real_time;
   bool force = false;
 };
 
+constexpr double kMaxFrames = 1e7;
 const Words kEndings = {".json", ".csv", ".clip", ".svg", ".glb", ".png"};
 
 bool ends_with(const std::string& text, const std::string& end) {
@@ -127,9 +130,10 @@ std::string scene_glb(const PlayOptions& options, const Recording& recording, si
 }
 
 void run(const PlayOptions& options, const Session& session) {
-  const std::vector<std::string> outputs =
-      options.outputs.empty() ? std::vector<std::string>{"-"} : options.outputs;
+  std::vector<std::string> outputs = options.outputs;
+  if (outputs.empty() && options.real_time.send.empty()) outputs = {"-"};
   check_outputs(outputs, options);
+  RealTime::check(options.real_time);
   std::map<std::string, StripPlan> strips;
   for (const std::string& output : outputs) {
     if (ends_with(output, ".png")) strips.emplace(output, plan_strip(options.strip, output));
@@ -139,13 +143,15 @@ void run(const PlayOptions& options, const Session& session) {
     fail_usage("--rate \"" + options.rate + "\"", "not a number of frames per second",
                "give one such as 60, 29.97 or 30000/1001");
   }
-  Script script =
-      parse_script(read_json(options.scene, "cannot read scene"), shown_name(options.scene));
+  Script script = parse_script(read_json(options.scene, "cannot read scene"),
+                               shown_name(options.scene), !options.real_time.live.empty());
   if (!options.seed.empty()) script.seed = parse_number("--seed", options.seed, UINT64_MAX);
   const double rate = rate_option.known() ? rate_option.hertz() : script.rate;
-  const double seconds =
+  double seconds =
       options.seconds.empty() ? script.seconds : parse_seconds("--seconds", options.seconds);
-  if (seconds * rate > 1e7) {
+  // Until Ctrl-C.
+  if (seconds == 0 && options.real_time.given()) seconds = kMaxFrames / rate;
+  if (seconds * rate > kMaxFrames) {
     fail(kInvalid, "cannot play scene", script.shown, "there would be more than 10,000,000 frames",
          "give fewer --seconds or a lower --rate");
   }
@@ -185,7 +191,12 @@ void run(const PlayOptions& options, const Session& session) {
     script.guards = 0;
   }
 
-  Performance performance(script, rig, meshes, session);
+  std::unique_ptr<RealTime> real_time;
+  if (options.real_time.given()) {
+    real_time = std::make_unique<RealTime>(options.real_time, rig, session);
+  }
+  const StreamScript stream = real_time ? real_time->stream() : StreamScript();
+  Performance performance(script, rig, meshes, stream, session);
   Recording recording;
   recording.rate = rate;
   recording.watched = watched_lanes(options.stages, performance.lanes());
@@ -196,7 +207,11 @@ void run(const PlayOptions& options, const Session& session) {
       recording.watched.push_back(static_cast<uint16_t>(lane));
     }
   }
-  performance.run(rate, seconds, [&](size_t, double time, const float* row) {
+  std::function<bool(int64_t)> wait;
+  if (real_time) wait = [&](int64_t tick) { return real_time->wait(tick, performance); };
+  performance.run(rate, seconds, wait, [&](size_t, double time, const float* row) {
+    if (real_time) real_time->send(time, row);
+    if (outputs.empty()) return;
     recording.times.push_back(time);
     recording.rows.insert(recording.rows.end(), row, row + lane_count);
     std::vector<float> stages;
@@ -206,6 +221,8 @@ void run(const PlayOptions& options, const Session& session) {
     }
     recording.stages.push_back(std::move(stages));
   });
+  if (real_time) real_time->finish(session);
+  real_time.reset();
   if (all) keep_moving(performance, recording);
 
   for (const std::string& path : outputs) {
@@ -266,6 +283,22 @@ Command add_play_command(CLI::App& app, const Session& session) {
                    "LOD of images and of a GLB (default: 0, the finest)")
       ->type_name("N");
   add_glb_options(*play, options->glb, "GLB");
+  const std::string clock = "By the clock";
+  play->add_option("--live", options->real_time.live,
+                   "Listen on a port: livelink://:11111 for the Live Link Face app,\n"
+                   "vmc://:39539 for VMC; from other machines too, unless a host is named.\n"
+                   "Drives the layer with the source {\"live\": true}, else all below the layers")
+      ->type_name("FROM")
+      ->group(clock);
+  play->add_option("--delay", options->real_time.delay,
+                   "Seconds by which live data are played later, which hides jitter\nand "
+                   "disorder (default: 0.05)")
+      ->type_name("S")
+      ->group(clock);
+  play->add_option("--send", options->real_time.send,
+                   "Send the raw controls of each frame by VMC: vmc://HOST:PORT")
+      ->type_name("TO")
+      ->group(clock);
   const std::string group = "Images";
   play->add_option("--every", options->strip.every,
                    "Seconds from image to image (default: 16 images at most)")
@@ -304,7 +337,10 @@ Command add_play_command(CLI::App& app, const Session& session) {
       "  mien play scene.json head.dna | mien eval head.dna --input -\n"
       "  mien play scene.json head.dna -o scene.glb\n"
       "  mien play scene.json head.dna -o strip.png --every 0.1 --target mouth\n"
-      "  mien play scene.json head.dna -o 'frame-%04d.png' --every 0.04");
+      "  mien play scene.json head.dna -o 'frame-%04d.png' --every 0.04\n"
+      "  mien play scene.json head.dna --live livelink://:11111 --send vmc://127.0.0.1:39539\n\n"
+      "--live and --send play by the clock, for --seconds or until Ctrl-C; then outputs are "
+      "written.");
   return {play, [options, &session] {
             options->strip.scene.rig = options->rig;
             run(*options, session);

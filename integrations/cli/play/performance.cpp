@@ -44,8 +44,8 @@ void checked(MienStatus status, const MienError& error, const std::string& where
 }  // namespace
 
 Performance::Performance(const Script& script, const MienRig* rig, const MienDeformer* deformer,
-                         const Session& session)
-    : script_(script), rig_(rig), session_(session), lanes_(rig) {
+                         const StreamScript& stream, const Session& session)
+    : script_(script), stream_(stream), rig_(rig), session_(session), lanes_(rig) {
   MienFloatView initial{};
   check(mien_rig_initial_raw_controls(rig, &initial), nullptr, kCannot, script.shown);
   initial_.assign(initial.data, initial.data + initial.count);
@@ -122,6 +122,12 @@ void Performance::add_layers() {
       for (const PoseScript& pose : from.poses) {
         add_pose(lanes_.lanes(pose.values, where + ".source.poses." + pose.name));
       }
+    }
+    if (from.source == MIEN_LAYER_SOURCE_STREAM) {
+      layer.lanes = stream_.lanes.data();
+      layer.lane_count = static_cast<uint32_t>(stream_.lanes.size());
+      layer.delay = ticks_of(stream_.delay);
+      layer.stream_frames = 256;
     }
     if (from.source == MIEN_LAYER_SOURCE_GENERATOR) {
       const bool blinks = from.generator == MIEN_GENERATOR_BLINK;
@@ -339,17 +345,26 @@ void Performance::step_to(int64_t tick) {
   }
 }
 
-void Performance::run(double rate, double seconds,
+void Performance::push(int64_t tick, const std::vector<float>& row) {
+  for (uint32_t l = 0; l < script_.layers.size(); ++l) {
+    if (script_.layers[l].source != MIEN_LAYER_SOURCE_STREAM) continue;
+    checked(mien_mixer_push(mixer_.get(), l, tick, row.data(), row.size(), nullptr),
+            sized<MienError>(), script_.shown);
+  }
+}
+
+void Performance::run(double rate, double seconds, const std::function<bool(int64_t)>& wait,
                       const std::function<void(size_t, double, const float*)>& use) {
   start();
   const auto frames = static_cast<size_t>(std::floor(seconds * rate + 1e-6)) + 1;
   std::vector<float> row(lanes_.count());
   size_t next = 0;
-  Progress progress(session_, "frame", frames);
+  Progress progress(session_, wait ? "playing" : "frame", wait ? 0 : frames);
   for (size_t f = 0; f < frames; ++f) {
-    progress.at(f);
+    if (!wait) progress.at(f);
     const double time = static_cast<double>(f) / rate;
     const int64_t tick = ticks_of(time);
+    if (wait && !wait(tick)) return;
     for (; next < script_.events.size() && ticks_of(script_.events[next].time) <= tick; ++next) {
       const EventScript& event = script_.events[next];
       // At time 0 nothing has moved yet, so there is nothing to go on from.

@@ -26,20 +26,32 @@ struct FiredEvent {
   float value;
 };
 
+/// Rows that arrive while a scene plays.
+struct StreamScript {
+  std::vector<uint16_t> lanes;
+  double delay = 0;  // seconds
+};
+
 class Performance {
  public:
-  /// `deformer` is where guards are measured; it may be null if the scene has none.
+  /// `deformer` is where guards are measured; it may be null if the scene has none. `stream` is for a live
+  /// layer.
   Performance(const Script& script, const MienRig* rig, const MienDeformer* deformer,
-              const Session& session);
+              const StreamScript& stream, const Session& session);
 
   const RigLanes& lanes() const { return lanes_; }
   /// "talk", ..., "reactions", "guards", "antagonists", "limits"
   const std::vector<std::string>& stages() const { return stages_; }
   const std::vector<FiredEvent>& events() const { return events_; }
 
-  /// Calls `use` with each frame: its number, its time and its row, a value per lane.
-  void run(double rate, double seconds,
+  /// Calls `use` with each frame: its number, its time and its row, a value per lane. `wait` may be empty;
+  /// it is called with the tick of each frame before anything else is done for it, and ends the run with
+  /// false.
+  void run(double rate, double seconds, const std::function<bool(int64_t tick)>& wait,
            const std::function<void(size_t frame, double time, const float* row)>& use);
+
+  /// A row for the live layer.
+  void push(int64_t tick, const std::vector<float>& row);
 
   /// A lane after each stage, while run() calls.
   std::vector<float> stage_values(uint16_t lane) const;
@@ -67,6 +79,7 @@ class Performance {
   void step_to(int64_t tick);
 
   const Script& script_;
+  const StreamScript& stream_;
   const MienRig* rig_;
   const Session& session_;
   RigLanes lanes_;

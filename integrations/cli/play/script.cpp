@@ -153,8 +153,12 @@ LayerScript read_layer(const Node& node) {
   } else if (source.has("generator")) {
     layer.source = MIEN_LAYER_SOURCE_GENERATOR;
     read_generator(source, layer);
+  } else if (source.has("live")) {
+    source.require_object({"live"});
+    if (!source.at("live").truth()) source.at("live").wrong("it is false", "write true");
+    layer.source = MIEN_LAYER_SOURCE_STREAM;
   } else {
-    source.wrong("this is no source", "give a clip, poses or a generator");
+    source.wrong("this is no source", "give a clip, poses, a generator or \"live\": true");
   }
   return layer;
 }
@@ -240,7 +244,7 @@ void refuse_same_names(const Node& root, const char* key, Words names) {
 
 }  // namespace
 
-Script parse_script(const std::string& text, const std::string& shown) {
+Script parse_script(const std::string& text, const std::string& shown, bool live) {
   json document;
   try {
     document = json::parse(text);
@@ -268,6 +272,22 @@ Script parse_script(const std::string& text, const std::string& shown) {
   for (uint32_t guard : guards) script.guards |= guard;
 
   read_list(root, "layers", 16, script.layers, read_layer);
+  const auto is_live = [](const LayerScript& l) { return l.source == MIEN_LAYER_SOURCE_STREAM; };
+  const auto lives = std::count_if(script.layers.begin(), script.layers.end(), is_live);
+  if (lives != 0 && !live) {
+    root.at("layers").wrong("one of them is live, and there is no live source",
+                            "add --live livelink://:11111 or --live vmc://:39539");
+  }
+  if (lives > 1) root.at("layers").wrong("several are live", "leave one of them");
+  if (lives == 0 && live) {
+    if (script.layers.size() == 16) {
+      root.at("layers").wrong("there is no room for the live layer", "leave one out");
+    }
+    LayerScript added;
+    added.name = "live";
+    added.source = MIEN_LAYER_SOURCE_STREAM;
+    script.layers.insert(script.layers.begin(), added);
+  }
   Words names;
   for (const LayerScript& layer : script.layers) names.push_back(layer.name);
   refuse_same_names(root, "layers", names);

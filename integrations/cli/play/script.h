@@ -70,7 +70,8 @@ struct Script {
   bool antagonists = false, limits = false;
 };
 
-/// Exit code 2 with the place of what is wrong.
-Script parse_script(const std::string& text, const std::string& shown);
+/// Exit code 2 with the place of what is wrong. `live`: there is a live source. A scene with no layer for
+/// it gets one, "live", before all others.
+Script parse_script(const std::string& text, const std::string& shown, bool live);
 
 }  // namespace mien::cli

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// `mien play` by the clock: live data in, frames out, until the scene ends or Ctrl-C.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "integrations/cli/live/live_input.h"
+#include "integrations/cli/play/performance.h"
+
+namespace mien::cli {
+
+/// As they were typed; empty: none.
+struct RealTimeOptions {
+  std::string live, send, delay;
+
+  bool given() const { return !live.empty() || !send.empty(); }
+};
+
+class RealTime {
+ public:
+  /// Wrong usage before anything is opened.
+  static void check(const RealTimeOptions& options);
+
+  /// Listens from now on.
+  RealTime(const RealTimeOptions& options, const MienRig* rig, const Session& session);
+  ~RealTime();
+  RealTime(const RealTime&) = delete;
+  RealTime& operator=(const RealTime&) = delete;
+
+  const StreamScript& stream() const { return stream_; }
+
+  /// Sleeps until a tick, and pushes the rows that have come and are needed then. False after Ctrl-C.
+  bool wait(int64_t tick, Performance& performance);
+  void send(double time, const float* row);
+  /// Notes what was received, and what could not be sent.
+  void finish(const Session& session);
+
+ private:
+  StreamScript stream_;
+  std::unique_ptr<live::LiveInput> input_;
+  std::unique_ptr<live::VmcSender> sender_;
+  std::chrono::steady_clock::time_point start_;
+  bool started_ = false;
+  uint64_t unsent_ = 0;
+};
+
+}  // namespace mien::cli

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/cli/live/live_input.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <thread>
+#include <unordered_map>
+
+#include "integrations/cli/gltf/arkit_controls.h"
+#include "integrations/cli/io/controls.h"
+#include "integrations/cli/io/failure.h"
+#include "integrations/cli/io/rig_file.h"
+#include "integrations/cli/io/text.h"
+#include "integrations/cli/live/live_link_face.h"
+
+namespace mien::live {
+
+namespace {
+
+constexpr const char* kCannot = "cannot listen";
+constexpr int64_t kSecond = MIEN_TICKS_PER_SECOND;
+
+std::string lower_case(std::string_view name) {
+  std::string lower(name);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower;
+}
+
+int64_t ticks_of(double seconds) { return std::llround(seconds * static_cast<double>(kSecond)); }
+
+}  // namespace
+
+LiveInput::LiveInput(const Address& address, int64_t delay, const MienRig* rig,
+                     const cli::Session& session)
+    : address_(address), socket_(address), play_out_(delay, kSecond) {
+  channels_.assign(kLiveLinkNames, kLiveLinkNames + kLiveLinkValues);
+  if (address.protocol == Protocol::kVmc) {
+    // Senders name what they have; that may be the controls of the rig itself.
+    std::unordered_map<std::string, int> numbers;
+    for (const std::string& name : channels_) {
+      numbers.emplace(lower_case(name), static_cast<int>(numbers.size()));
+    }
+    for (uint32_t i = 0; i < cli::rig_count(rig, MIEN_KIND_RAW_CONTROL); ++i) {
+      const std::string name(cli::short_name(cli::rig_name(rig, MIEN_KIND_RAW_CONTROL, i)));
+      if (!numbers.emplace(lower_case(name), static_cast<int>(channels_.size())).second) continue;
+      channels_.push_back(name);
+    }
+    vmc_ = std::make_unique<VmcDecoder>(channels_.size(), [numbers](std::string_view name) {
+      const auto found = numbers.find(lower_case(name));
+      return found == numbers.end() ? -1 : found->second;
+    });
+  }
+  bind(rig, session);
+  address_.port = socket_.port();
+  cli::note(session, "listening on " + to_text(address_));
+  start();
+}
+
+/// By a clip of one frame with the names of the source.
+void LiveInput::bind(const MienRig* rig, const cli::Session& session) {
+  std::vector<MienStringView> names;
+  for (const std::string& name : channels_) names.push_back({name.data(), name.size()});
+  const std::vector<float> zeros(names.size());
+  auto desc = cli::sized<MienClipDesc>();
+  desc.rate_numerator = 60;
+  desc.rate_denominator = 1;
+  desc.frame_count = 1;
+  desc.channel_count = static_cast<uint32_t>(names.size());
+  desc.names = names.data();
+  desc.values = zeros.data();
+  desc.frame_stride = zeros.size();
+  auto error = cli::sized<MienError>();
+  MienClip* built = nullptr;
+  cli::check(mien_clip_build(&desc, &built, &error), &error, kCannot, to_text(address_));
+  const cli::Clip clip(built);
+
+  std::vector<MienMatrixEntry> matrix;
+  const std::vector<gltf::ArkitMeaning> meanings = gltf::arkit_meanings();
+  for (const gltf::ArkitMeaning& meaning : meanings) {
+    matrix.push_back({{meaning.expression, strlen(meaning.expression)},
+                      {meaning.control, strlen(meaning.control)},
+                      meaning.weight,
+                      0});
+  }
+  auto how = cli::sized<MienClipBindingDesc>();
+  how.matrix = matrix.data();
+  how.matrix_count = matrix.size();
+  MienClipBinding* binding = nullptr;
+  cli::check(mien_clip_binding_create(built, rig, &how, &binding, &error), &error, kCannot,
+             to_text(address_));
+  binding_.reset(binding);
+  auto info = cli::sized<MienClipBindingInfo>();
+  cli::check(mien_clip_binding_info(binding, &info), nullptr, kCannot, to_text(address_));
+  lanes_.assign(info.controls.data, info.controls.data + info.controls.count);
+  raw_.resize(info.raw_control_count);
+  if (lanes_.empty()) {
+    cli::fail(cli::kInvalid, kCannot, to_text(address_), "the rig has none of the controls",
+              "see docs/face-capture.md for the names");
+  }
+  if (info.missing_channels.count != 0) {
+    cli::note(session, "the rig has no controls for " +
+                           std::to_string(info.missing_channels.count) + " of " +
+                           std::to_string(channels_.size()) + " channels, the first is " +
+                           cli::one_line(channels_[info.missing_channels.data[0]]));
+  }
+}
+
+void LiveInput::start() { start_ = std::chrono::steady_clock::now(); }
+
+int64_t LiveInput::now() const {
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+  return ticks_of(passed.count());
+}
+
+void LiveInput::receive_until(int64_t tick) {
+  const std::chrono::duration<double> seconds(static_cast<double>(tick) /
+                                              static_cast<double>(kSecond));
+  const auto end =
+      start_ + std::chrono::duration_cast<std::chrono::steady_clock::duration>(seconds);
+  socket_.receive_until(end, [&](const uint8_t* bytes, size_t size) { use_datagram(bytes, size); });
+}
+
+void LiveInput::use_datagram(const uint8_t* bytes, size_t size) {
+  ++packets_;
+  if (!vmc_) {
+    use_live_link(bytes, size);
+    return;
+  }
+  const bool good = vmc_->decode(bytes, size, [&](double sent, const std::vector<float>& values) {
+    const int64_t arrived = now();
+    double seconds = sent;
+    if (seconds < 0) {
+      const auto since = static_cast<double>(arrived - said_at_) / static_cast<double>(kSecond);
+      seconds = said_ < 0 ? since : said_ + since;
+    } else {
+      said_ = sent;
+      said_at_ = arrived;
+    }
+    use_row(seconds, values.data());
+  });
+  if (!good) ++damaged_;
+}
+
+void LiveInput::use_live_link(const uint8_t* bytes, size_t size) {
+  LiveLinkPacket packet;
+  if (decode_live_link(bytes, size, packet) != nullptr) {
+    ++damaged_;
+    return;
+  }
+  const int64_t arrived = now();
+  if (packet.device != device_ && !device_.empty() && arrived - device_seen_ < kSecond) {
+    ++foreign_;
+    return;
+  }
+  device_ = std::string(packet.device);
+  device_seen_ = arrived;
+  use_row(packet.seconds, packet.values);
+}
+
+void LiveInput::use_row(double seconds, const float* values) {
+  cli::check(
+      mien_clip_binding_apply(binding_.get(), values, channels_.size(), raw_.data(), raw_.size()),
+      nullptr, kCannot, to_text(address_));
+  std::vector<float> row;
+  for (const uint16_t lane : lanes_) {
+    if (!std::isfinite(raw_[lane])) {
+      ++damaged_;
+      return;
+    }
+    row.push_back(raw_[lane]);
+  }
+  switch (play_out_.add(ticks_of(seconds), now(), row.data(), row.size())) {
+    case PlayOut::Arrival::kKept: break;
+    case PlayOut::Arrival::kTwice: ++twice_; break;
+    case PlayOut::Arrival::kLate: ++late_; break;
+    case PlayOut::Arrival::kStrange:
+    case PlayOut::Arrival::kNoRoom: ++strange_; break;
+  }
+}
+
+bool LiveInput::take(int64_t tick, int64_t& time, std::vector<float>& row) {
+  return play_out_.take(tick, time, row);
+}
+
+std::string LiveInput::summary() const {
+  std::string text = "received " + std::to_string(packets_) + " packets";
+  const char* between = "; ";
+  const auto add = [&](uint64_t count, const char* what) {
+    if (count == 0) return;
+    text += between + std::to_string(count) + " " + what;
+    between = ", ";
+  };
+  add(damaged_, "damaged");
+  add(late_, "too late");
+  add(twice_, "repeated");
+  add(foreign_, "of another device");
+  add(strange_, "of another time");
+  return text;
+}
+
+}  // namespace mien::live
