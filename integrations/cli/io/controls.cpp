@@ -50,13 +50,18 @@ std::string_view short_name(std::string_view name) {
   return dot == std::string_view::npos || dot + 1 == name.size() ? name : name.substr(dot + 1);
 }
 
-std::vector<uint32_t> find_short_name(const MienRig* rig, uint32_t kind, const std::string& name) {
-  std::vector<uint32_t> found;
+ShortNames::ShortNames(const MienRig* rig, uint32_t kind) {
   const uint32_t count = rig_count(rig, kind);
   for (uint32_t i = 0; i < count; ++i) {
-    if (short_name(rig_name(rig, kind, i)) == name) found.push_back(i);
+    const std::string name = rig_name(rig, kind, i);
+    indices_[std::string(short_name(name))].push_back(i);
   }
-  return found;
+}
+
+const std::vector<uint32_t>& ShortNames::find(const std::string& name) const {
+  static const std::vector<uint32_t> kNone;
+  const auto found = indices_.find(name);
+  return found == indices_.end() ? kNone : found->second;
 }
 
 Control find_control(const MienRig* rig, const std::string& name, const std::string& what,
@@ -68,7 +73,8 @@ Control find_control(const MienRig* rig, const std::string& name, const std::str
   }
   NearestName nearest(name);
   for (const uint32_t kind : kControlKinds) {
-    const std::vector<uint32_t> found = find_short_name(rig, kind, name);
+    const ShortNames short_names(rig, kind);
+    const std::vector<uint32_t>& found = short_names.find(name);
     if (found.size() == 1) return {kind, found[0], rig_name(rig, kind, found[0])};
     if (found.size() > 1) {
       fail(kInvalid, what, where,

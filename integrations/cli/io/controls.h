@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "integrations/cli/io/frames.h"
@@ -20,8 +21,17 @@ struct Control {
 /// A name without its prefix, which ends with the last dot: "jawOpen" of "CTRL_expressions.jawOpen".
 std::string_view short_name(std::string_view name);
 
-/// Indices of all that have this short name.
-std::vector<uint32_t> find_short_name(const MienRig* rig, uint32_t kind, const std::string& name);
+/// Finds what has a short name; the rig is read once, whatever the number of names.
+class ShortNames {
+ public:
+  ShortNames(const MienRig* rig, uint32_t kind);
+
+  /// The indices, ascending.
+  const std::vector<uint32_t>& find(const std::string& name) const;
+
+ private:
+  std::unordered_map<std::string, std::vector<uint32_t>> indices_;
+};
 
 /// A raw or GUI control by its name, or by its short name if only one control has it; raw controls
 /// come first. Fails with the nearest name and exit code 2.

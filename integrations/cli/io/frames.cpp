@@ -71,14 +71,15 @@ class ControlNames {
   }
 
  private:
-  uint32_t search(const Target& target, const std::string& name, const std::string& where) const;
+  uint32_t search(const Target& target, const std::string& name, const std::string& where);
 
   const MienRig* rig_;
+  std::unordered_map<uint32_t, ShortNames> short_names_;  // by kind, once one was needed
   std::unordered_map<const Target*, std::unordered_map<std::string, uint32_t>> known_;
 };
 
 uint32_t ControlNames::search(const Target& target, const std::string& name,
-                              const std::string& where) const {
+                              const std::string& where) {
   uint32_t index = 0;
   if (mien_rig_find_n(rig_, target.kind, name.data(), name.size(), &index) == MIEN_OK) return index;
   const uint32_t count = rig_count(rig_, target.kind);
@@ -94,7 +95,9 @@ uint32_t ControlNames::search(const Target& target, const std::string& name,
          "count from 0");
   }
 
-  const std::vector<uint32_t> short_named = find_short_name(rig_, target.kind, name);
+  const ShortNames& short_names =
+      short_names_.try_emplace(target.kind, rig_, target.kind).first->second;
+  const std::vector<uint32_t>& short_named = short_names.find(name);
   if (short_named.size() == 1) return short_named[0];
   if (short_named.size() > 1) {
     fail(kInvalid, kCannot, where,
