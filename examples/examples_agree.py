@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 """The examples of all languages do the same job: they have to print the same.
 
-Usage: examples_agree.py --python INTERPRETER --cargo CARGO_OR_NOTHING C_PROGRAM CPP_PROGRAM
+Usage: examples_agree.py --python INTERPRETER --cargo CARGO_OR_NOTHING --programs DIRECTORY
+The programs in C and C++ are DIRECTORY/example_c, _cpp, _mix_c and _mix_cpp.
 The library is found by the environment: MIEN_LIBRARY (Python), MIEN_LIB_DIR (Rust).
 """
 import argparse
@@ -24,30 +25,48 @@ def run(command, arguments):
     return result.returncode == 0, result.stdout
 
 
+def mixes_differ(programs):
+    """Whether the four say something else while the head speaks, smiles and is dazzled."""
+    printed = {name: run(command, [])[1] for name, command in programs.items()}
+    print(printed["C"], end="")
+    rows = [line.split() for line in printed["C"].splitlines()]
+    column = {name: rows[0].index(name) + 1 for name in ("jaw", "smile", "lids", "squint")}
+    of = {int(row[0]): {name: float(row[at]) for name, at in column.items()} for row in rows}
+    # Lips close for the m although joy opens the jaw by 0.16; lids close for the flashlight alone.
+    if not (of[60]["jaw"] < 0.02 and of[50]["jaw"] > 0.5 and of[60]["smile"] == 0.72
+            and of[90]["lids"] == 0 and of[100]["lids"] == 1 and of[150]["squint"] == 0):
+        sys.exit("the mix does not do what its comments say")
+    return len(set(printed.values())) != 1
+
+
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("c")
-    parser.add_argument("cpp")
+    parser.add_argument("--programs", type=Path, required=True)
     parser.add_argument("--python", default=sys.executable)
     parser.add_argument("--cargo", default="")
     args = parser.parse_args()
 
-    programs = {"C": [args.c], "C++": [args.cpp]}
+    programs = {"C": ["example_c"], "C++": ["example_cpp"]}
+    mixing = {"C": ["example_mix_c"], "C++": ["example_mix_cpp"]}
+    for commands in (programs, mixing):
+        commands.update({name: [args.programs / command[0]] for name, command in commands.items()})
     if subprocess.run([args.python, "-c", "import numpy"], stderr=subprocess.DEVNULL).returncode:
         print(f"NOT TESTED: the example in Python; {args.python} has no NumPy")
     else:
         programs["Python"] = [args.python, HERE / "evaluate.py"]
+        mixing["Python"] = [args.python, HERE / "mix.py"]
     manifest = HERE.parent / "integrations" / "rust" / "mien" / "Cargo.toml"
     if not args.cargo or not manifest.exists():
         print("NOT TESTED: the example in Rust; there is no " + ("crate" if args.cargo else "cargo"))
     else:
-        programs["Rust"] = [args.cargo, "run", "--quiet", "--offline", "--manifest-path", manifest,
-                            "--example", "evaluate", "--"]
+        cargo = [args.cargo, "run", "--quiet", "--offline", "--manifest-path", manifest, "--example"]
+        programs["Rust"] = cargo + ["evaluate", "--"]
+        mixing["Rust"] = cargo + ["mix"]
 
     code = (HERE / "evaluate.c").read_text(encoding="utf-8").split("\n", 1)[1]
     if code not in (HERE.parent / "README.md").read_text(encoding="utf-8"):
         sys.exit("the example of README.md is not evaluate.c")
-    failures = 0
+    failures = mixes_differ(mixing)
     with tempfile.TemporaryDirectory() as directory:
         broken = Path(directory) / "broken.dna"
         broken.write_bytes(b"DNA, but not for long")

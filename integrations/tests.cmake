@@ -120,9 +120,12 @@ add_test(NAME cpp_linking_test COMMAND cpp_linking_test)
 set_tests_properties(cpp_linking_test PROPERTIES LABELS abi)
 
 add_executable(example_cpp ${PROJECT_SOURCE_DIR}/examples/evaluate.cpp)
-target_compile_options(example_cpp PRIVATE ${strict_cxx})
-target_include_directories(example_cpp PRIVATE ${integrations}/cpp)
-target_link_libraries(example_cpp PRIVATE mien_author)
+add_executable(example_mix_cpp ${PROJECT_SOURCE_DIR}/examples/mix.cpp)
+foreach(name example_cpp example_mix_cpp)
+  target_compile_options(${name} PRIVATE ${strict_cxx})
+  target_include_directories(${name} PRIVATE ${integrations}/cpp)
+  target_link_libraries(${name} PRIVATE mien_author)
+endforeach()
 
 # ---- the examples -----------------------------------------------------------------------------------
 
@@ -131,7 +134,7 @@ if(NOT MIEN_SANITIZE AND NOT CMAKE_CROSSCOMPILING)
   add_test(NAME examples_agree
     COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/examples/examples_agree.py --python ${MIEN_PYTHON}
       --cargo "$<$<BOOL:${MIEN_CARGO}>:${MIEN_CARGO}>"
-      $<TARGET_FILE:example_c> $<TARGET_FILE:example_cpp>)
+      --programs $<TARGET_FILE_DIR:example_c>)
   set_tests_properties(examples_agree PROPERTIES LABELS abi TIMEOUT 600
     ENVIRONMENT "${python_environment};MIEN_LIB_DIR=$<TARGET_FILE_DIR:mien>;CARGO_TARGET_DIR=${PROJECT_BINARY_DIR}/rust/target/shared")
 endif()
