@@ -47,25 +47,28 @@ Affine internal_motion(const Frame& frame, Vec3 center, const double turn[3],
 
 }  // namespace
 
+JointDelta delta_of_motion(const Bone& bone, const Frame& frame, const Affine& motion) {
+  const Vec3 shift = frame.to_file(motion(bone.position) - bone.position);
+  Vec3 rows[3];
+  to_file(frame, motion.rows, rows);
+  const Vec3 turn = euler_angles(rows);
+  JointDelta out;
+  for (int k = 0; k < 3; ++k) {
+    out.translation[k] = static_cast<float>(part(shift, k));
+    out.rotation[k] = static_cast<float>(part(turn, k));
+  }
+  return out;
+}
+
 void deltas_of_motions(const Placement& placement, const Frame& frame, Motions& motions,
                        const JointDeltas& out) {
   const uint32_t bones = motions.bone_count;
   for (size_t s = 0; s * bones < motions.items.count; ++s) {
     const uint32_t shape = static_cast<uint32_t>(s);
     for (uint32_t j = 0; j < bones; ++j) {
-      out.at(shape, j) = {};
-      if (!motions.active_in(s)[j]) continue;
-      const Affine& m = motions.of(s)[j];
-      const Vec3 center = placement.bones[j].position;
-      const Vec3 shift = frame.to_file(m(center) - center);
-      Vec3 rows[3];
-      to_file(frame, m.rows, rows);
-      const Vec3 turn = euler_angles(rows);
-      JointDelta& d = out.at(shape, j);
-      for (int k = 0; k < 3; ++k) {
-        d.translation[k] = static_cast<float>(part(shift, k));
-        d.rotation[k] = static_cast<float>(part(turn, k));
-      }
+      out.at(shape, j) = motions.active_in(s)[j]
+                             ? delta_of_motion(placement.bones[j], frame, motions.of(s)[j])
+                             : JointDelta();
     }
     pose_bones(placement, frame, out, {&shape, 1}, motions.of(s));
   }

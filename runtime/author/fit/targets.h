@@ -7,6 +7,9 @@
 
 namespace mien::author {
 
+/// In the file's frame.
+JointDelta delta_of_motion(const Bone& bone, const Frame& frame, const Affine& motion);
+
 /// Deltas in the file's frame, rounded as they are written, and the motions that they mean.
 void deltas_of_motions(const Placement& placement, const Frame& frame, Motions& motions,
                        const JointDeltas& out);

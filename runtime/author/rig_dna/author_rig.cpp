@@ -35,10 +35,10 @@ class RigMaker {
            Arena& arena, const Allocator& allocator, RigReport& report)
       : mesh_(mesh), placement_(placement), options_(options), arena_(arena), scratch_(allocator),
         allocator_(allocator),
-        report_(report), model_{mesh, placement, options.name, {}, {}, {}, {}, {}} {}
+        report_(report), model_{mesh_, placement, options.name, {}, {}, {}, {}, {}, {}} {}
 
   bool make(Span<SkinWeights> weights, dna::DnaView& out) {
-    return fit(weights[0]) && round() && make_lods(weights) && write(out);
+    return find_controls() && fit(weights[0]) && round() && make_lods(weights) && write(out);
   }
 
  private:
@@ -50,6 +50,23 @@ class RigMaker {
 
   bool measure(const SkinWeights& weights, Span<const Target> targets, FitError& out) {
     return measure_fit(mesh_, weights, motions_, targets, options_.parallel, arena_, out);
+  }
+
+  /// From here on the shapes of `mesh_` are the expressions.
+  bool find_controls() {
+    Span<Shape> expressions;
+    Span<Combination> combinations;
+    if (!find_combinations(mesh_.shapes, scratch_, expressions, combinations)) return false;
+    mesh_.shapes = expressions;
+    if (options_.overlap_correctives > 0) {
+      Arena for_pairs(allocator_);
+      if (!add_overlaps(mesh_, options_.overlap_correctives, options_.parallel, scratch_, for_pairs,
+                        combinations)) {
+        return false;
+      }
+    }
+    model_.combinations = combinations;
+    return true;
   }
 
   bool fit(SkinWeights& weights) {
@@ -107,7 +124,7 @@ class RigMaker {
   bool round() {
     const size_t bones = placement_.bones.count;
     model_.deltas.joint_count = static_cast<uint32_t>(bones);
-    if (!author::make(scratch_, mesh_.shapes.count * bones, model_.deltas.items)) return false;
+    if (!author::make(scratch_, model_.control_count() * bones, model_.deltas.items)) return false;
     deltas_of_motions(placement_, mesh_.frame, motions_, model_.deltas);
     return true;
   }
@@ -152,50 +169,87 @@ class RigMaker {
     report.joints_error = error.error;
     if (l == 0) report_.joints = error;
     if (l < 2 && options_.residual_targets && !make_shape_targets(l, lod)) return false;
+    if (l == 0 && (!add_correctives(lod.weights) || !list_channels())) return false;
     if (!measure(lod.weights, lod.targets, error)) return false;
     report.error = error.error;
     if (l == 0) report_.rig = error;
     return true;
   }
 
-  /// LOD 0 has all channels, the strongest first, and LOD 1 the first half of them.
+  /// LOD 0 has targets for all controls, LOD 1 for the expressions that need them most.
   bool make_shape_targets(uint32_t l, LodModel& lod) {
-    Span<Target> targets;
+    Span<Target> targets, all;
     if (!make_targets(mesh_, lod.weights, motions_, options_.residual_threshold * mesh_.diagonal,
                       options_.parallel, scratch_, targets)) {
       return false;
     }
     if (l == 0) {
-      Span<uint32_t> channels;
-      if (!author::make(scratch_, targets.count, channels)) return false;
-      uint32_t count = 0;
       size_t moving = 0;
       for (uint32_t s = 0; s < targets.count; ++s) {
         moving += mesh_.shapes[s].moving.count;
         report_.target_vertices += static_cast<uint32_t>(targets[s].vertices.count);
-        if (!targets[s].vertices.empty()) channels[count++] = s;
+        report_.target_count += !targets[s].vertices.empty();
       }
-      std::sort(channels.begin(), channels.begin() + count, [&](uint32_t a, uint32_t b) {
-        const double x = targets[a].energy, y = targets[b].energy;
-        return x != y ? x > y : a < b;
-      });
-      model_.channels = channels.first(count);
-      model_.shape_channels[0] = count;
-      model_.shape_channels[1] = placement_.lod_facial_counts.count > 1 ? (count + 1) / 2 : 0;
-      report_.target_count = count;
-      report_.target_share =
-          moving > 0 ? static_cast<double>(report_.target_vertices) / static_cast<double>(moving)
-                     : 0;
-    } else {
-      Span<uint8_t> used;
-      if (!author::make(scratch_, targets.count, used)) return false;
-      for (uint32_t c = 0; c < model_.channels_in_lod(l); ++c) used[model_.channels[c]] = 1;
-      for (size_t s = 0; s < targets.count; ++s) {
-        if (!used[s]) targets[s] = Target();
+      if (moving > 0) {
+        report_.target_share =
+            static_cast<double>(report_.target_vertices) / static_cast<double>(moving);
       }
     }
-    lod.targets = targets;
+    if (!author::make(scratch_, model_.control_count(), all)) return false;
+    std::copy(targets.begin(), targets.end(), all.begin());
+    if (l == 1) {
+      Span<uint8_t> used;
+      if (!author::make(scratch_, all.count, used)) return false;
+      for (uint32_t c = 0; c < model_.channels_in_lod(1); ++c) used[model_.channels[c]] = 1;
+      for (size_t c = 0; c < all.count; ++c) {
+        if (!used[c]) all[c] = Target();
+      }
+    }
+    lod.targets = all;
+    targets_ = l == 0 ? all : targets_;
     return true;
+  }
+
+  /// Channels of expressions come first, the strongest before the others; LOD 1 keeps half of them.
+  bool list_channels() {
+    Span<uint32_t> channels;
+    if (!author::make(scratch_, targets_.count, channels)) return false;
+    uint32_t count = 0, expressions = 0;
+    for (uint32_t c = 0; c < targets_.count; ++c) {
+      if (targets_[c].vertices.empty()) continue;
+      channels[count++] = c;
+      expressions += c < model_.expression_count();
+    }
+    const auto stronger = [this](uint32_t a, uint32_t b) {
+      const double x = targets_[a].energy, y = targets_[b].energy;
+      return x != y ? x > y : a < b;
+    };
+    std::sort(channels.begin(), channels.begin() + expressions, stronger);
+    std::sort(channels.begin() + expressions, channels.begin() + count, stronger);
+    model_.channels = channels.first(count);
+    model_.shape_channels[0] = count;
+    model_.shape_channels[1] = (expressions + 1) / 2;
+    return true;
+  }
+
+  bool add_correctives(const SkinWeights& weights) {
+    if (model_.combinations.empty()) return true;
+    if (!starts("correctives")) return false;
+    Arena for_fit(allocator_);
+    Fitter fitter;
+    Span<Target> targets = targets_;
+    if (!make_fitter(mesh_.positions, placement_, weights.m, options_.fit, for_fit, fitter) ||
+        (targets.empty() && !author::make(for_fit, model_.control_count(), targets))) {
+      return false;
+    }
+    fill_footprints(mesh_.positions, weights, options_.parallel, fitter.footprints);
+    CorrectiveInput input = {fitter, mesh_, placement_, weights, model_.regions, {}, 0, -1, {}};
+    input.combinations = model_.combinations;
+    input.least_effect = options_.least_effect * mesh_.diagonal;
+    if (options_.residual_targets) input.threshold = options_.residual_threshold * mesh_.diagonal;
+    input.parallel = options_.parallel;
+    return fit_correctives(input, scratch_, allocator_, model_.deltas, targets,
+                           report_.correctives);
   }
 
   bool write(dna::DnaView& out) {
@@ -211,7 +265,7 @@ class RigMaker {
     return true;
   }
 
-  const AuthorMesh& mesh_;
+  AuthorMesh mesh_;
   const Placement& placement_;
   const RigOptions& options_;
   Arena& arena_;
@@ -220,6 +274,7 @@ class RigMaker {
   RigReport& report_;
   RigModel model_;
   Motions motions_;
+  Span<Target> targets_;  // of LOD 0, by control
 };
 
 }  // namespace

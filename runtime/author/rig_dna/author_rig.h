@@ -2,6 +2,7 @@
 // From a mesh with bones and weights to a DNA file.
 #pragma once
 
+#include "runtime/author/fit/correctives.h"
 #include "runtime/author/fit/regions.h"
 #include "runtime/author/fit/targets.h"
 #include "runtime/dna/format/dna_view.h"
@@ -15,6 +16,7 @@ struct RigOptions {
   uint32_t regions = 0;              // joint groups; 0: as many as have kRowsPerGroup rows each
   bool full_groups = true;           // a control moves all joints of the regions that it owns
   double least_effect = 2e-4;        // of an entry of the matrix; in shares of the diagonal
+  uint32_t overlap_correctives = 0;  // at most as many, for pairs that double their motion
   bool keep_weights = false;         // the weights are the caller's own: fit motions only
   Name name = {"head", 4};
   ParallelFor parallel;
@@ -22,7 +24,7 @@ struct RigOptions {
   bool (*go_on)(void* user, const char* step) = nullptr;  // called before each step; false: stop
 };
 
-/// The joint matrix as it is stored.
+/// The joint matrix as it is stored: with correctives.
 struct GroupReport {
   uint32_t groups = 0;
   uint64_t nonzeros = 0, stored = 0;  // values
@@ -46,12 +48,14 @@ struct RigReport {
   FitError rotations;     // of bones that turn too
   FitError joints;        // with refitted weights and in groups: of the joints that are written
   FitError rig;           // with blend shapes: of the file
-  uint32_t target_count = 0, target_vertices = 0;
+  CorrectiveReport correctives;
+  uint32_t target_count = 0, target_vertices = 0;  // of expressions
   double target_share = 0;  // of the displacements of moving vertices, those with an offset
   GroupReport groups;
   Span<LodReport> lods;
 };
 
+/// Shapes whose names are made of other shapes' names become correctives, the others raw controls.
 /// `weights` holds those of LOD 0, or those of every LOD, each over the bones that it keeps; where
 /// they are missing, dropped bones hand theirs to the nearest one that is left. They are refitted in
 /// place unless the options keep them. Report and view lie in `arena`, and the view refers to names

@@ -106,6 +106,27 @@ bool fill_group(const RigModel& rig, uint32_t region, Arena& arena, Span<uint16_
   return true;
 }
 
+bool fill_correctives(const RigModel& rig, Arena& arena, dna::Controls& out) {
+  size_t entries = 0, entry = 0;
+  for (const Combination& c : rig.combinations) entries += c.members.count;
+  dna::NewArray<uint16_t> rows, columns;
+  dna::NewArray<float> weights;
+  if (!make(arena, entries, rows) || !make(arena, entries, columns) ||
+      !make(arena, entries, weights)) {
+    return false;
+  }
+  for (uint32_t i = 0; i < rig.combinations.count; ++i) {
+    for (const uint32_t member : rig.combinations[i].members) {
+      rows.set(entry, static_cast<uint16_t>(rig.expression_count() + i));
+      columns.set(entry, static_cast<uint16_t>(member));
+      weights.set(entry++, 1);
+    }
+  }
+  out.psd_count = static_cast<uint16_t>(rig.combinations.count);
+  out.psds = {rows, columns, weights};
+  return true;
+}
+
 }  // namespace
 
 bool fill_descriptor(const RigModel& rig, Arena& arena, dna::DnaView& out) {
@@ -148,6 +169,7 @@ bool fill_controls(const RigModel& rig, Arena& arena, dna::DnaView& out) {
     cut.set(i, 0);
   }
   out.bhvr.controls.conditionals = {inputs, outputs, from, to, slope, cut};
+  if (!fill_correctives(rig, arena, out.bhvr.controls)) return false;
   for (uint32_t lod = 0; lod < rig.lod_count(); ++lod) map_lods.set(lod, 0);
   out.bhvr.maps.lods = map_lods;
   return make_lod_map(

@@ -192,7 +192,7 @@ bool fill_channels(const RigModel& rig, Arena& arena, dna::DnaView& out) {
     return false;
   }
   for (uint32_t c = 0; c < count; ++c) {
-    if (!join_text(arena, {rig.mesh.shapes[rig.channels[c]].name}, out.defn.channel_names[c])) {
+    if (!join_text(arena, {rig.control_name(rig.channels[c])}, out.defn.channel_names[c])) {
       return false;
     }
     inputs.set(c, static_cast<uint16_t>(rig.channels[c]));

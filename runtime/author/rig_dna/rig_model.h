@@ -5,6 +5,7 @@
 
 #include <initializer_list>
 
+#include "runtime/author/fit/correctives.h"
 #include "runtime/author/fit/regions.h"
 #include "runtime/author/fit/targets.h"
 #include "runtime/dna/format/dna_view.h"
@@ -17,10 +18,12 @@ struct LodModel {
   Span<const Target> targets;  // by control; empty: none
 };
 
+/// Controls are the expressions, which are the shapes of `mesh`, and then the combinations.
 struct RigModel {
   const AuthorMesh& mesh;
   const Placement& placement;
   Name name;
+  Span<const Combination> combinations;
   Span<const LodModel> lods;
   JointDeltas deltas;  // by control
   JointRegions regions;
@@ -28,7 +31,14 @@ struct RigModel {
   uint32_t shape_channels[2] = {};  // how many of them exist at LOD 0 and LOD 1
 
   uint32_t lod_count() const { return static_cast<uint32_t>(lods.count); }
-  uint32_t control_count() const { return static_cast<uint32_t>(mesh.shapes.count); }
+  uint32_t expression_count() const { return static_cast<uint32_t>(mesh.shapes.count); }
+  uint32_t control_count() const {
+    return expression_count() + static_cast<uint32_t>(combinations.count);
+  }
+  Name control_name(uint32_t control) const {
+    return control < expression_count() ? mesh.shapes[control].name
+                                        : combinations[control - expression_count()].name;
+  }
   bool in_lod(uint32_t bone, size_t lod) const {
     return placement.bones[bone].kind != BoneKind::kFacial ||
            bone - placement.first_facial < placement.lod_facial_counts[lod];
@@ -41,7 +51,7 @@ bool join_text(Arena& arena, std::initializer_list<Name> parts, dna::String& out
 
 /// Names, axes, units.
 bool fill_descriptor(const RigModel& rig, Arena& arena, dna::DnaView& out);
-/// A GUI control for each raw control.
+/// A GUI control for each raw control; correctives.
 bool fill_controls(const RigModel& rig, Arena& arena, dna::DnaView& out);
 /// Joint names, hierarchy, neutral pose, joint groups.
 bool fill_joints(const RigModel& rig, Arena& arena, Arena& scratch, dna::DnaView& out);
