@@ -21,54 +21,17 @@ void add_target(const TargetArgs& given) {
 
 // Normals -----------------------------------------------------------------------------------------
 
-/// Takes one vector for each of `vertices`, in this order, and writes them normalized. It collects
-/// 64 before it writes, so that square roots and divisions overlap.
-class VertexNormals {
- public:
-  VertexNormals(const uint32_t* vertices, const float* neutral, float* normals)
-      : vertices_(vertices), neutral_(neutral), normals_(normals) {}
+// Squared lengths of what has a direction.
+constexpr float kMinSquared = 1e-36f, kMaxSquared = 3.4e38f;
 
-  void add(const Quad& v) {
-    store4(vectors_ + 4 * count_, v);
-    if (++count_ == kMax) flush();
-  }
-  void flush() {
-    for (size_t i = 0; i < count_; i += 4) {
-      const float* v = vectors_ + 4 * i;
-      Quad x = load4(v), y = load4(v + 4), z = load4(v + 8), w = load4(v + 12);
-      transpose4(x, y, z, w);
-      const Quad squared = mul_add4(z, z, mul_add4(y, y, x * x));
-      const Quad scale = divide4(broadcast4(1.0f), square_root4(squared));
-      x = x * scale;
-      y = y * scale;
-      z = z * scale;
-      transpose4(x, y, z, w);
-      float lengths[4];
-      store4(lengths, squared);
-      const size_t rest = count_ - i;
-      put(x, lengths[0], vertices_[i]);
-      if (rest > 1) put(y, lengths[1], vertices_[i + 1]);
-      if (rest > 2) put(z, lengths[2], vertices_[i + 2]);
-      if (rest > 3) put(w, lengths[3], vertices_[i + 3]);
-    }
-    vertices_ += count_;
-    count_ = 0;
-  }
-
- private:
-  void put(const Quad& unit, float squared, uint32_t vertex) {
-    const size_t at = size_t{vertex & ~kHardEdge} * 3;
-    const bool has_direction = squared > 1e-36f && squared < 3.4e38f;
-    store3(normals_ + at, has_direction ? unit : load4(neutral_ + at));
-  }
-
-  static constexpr size_t kMax = 64;
-  alignas(16) float vectors_[kMax * 4] = {};
-  size_t count_ = 0;
-  const uint32_t* vertices_;
-  const float* neutral_;
-  float* normals_;
-};
+/// Writes the normal of a vertex: the vector normalized, or the neutral normal if it has no direction.
+inline void put_normal(const Quad& vector, uint32_t vertex, const float* neutral, float* normals) {
+  const size_t place = size_t{vertex & ~kHardEdge} * 3;
+  float squared;
+  const Quad unit = normalized4(vector, squared);
+  const bool has_direction = squared > kMinSquared && squared < kMaxSquared;
+  store3(normals + place, has_direction ? unit : load4(neutral + place));
+}
 
 // Skinning ----------------------------------------------------------------------------------------
 
@@ -107,7 +70,7 @@ template <SkinNormals kMode, size_t kInfluences, bool kTangents>
 void skin_rows(const SkinArgs& given) {
   const SkinArgs args = given;
   const size_t influences = kInfluences != 0 ? kInfluences : args.influences;
-  VertexNormals normals(args.vertices + args.first_vertex[0], args.normals, args.out_normals);
+  const uint32_t* vertex = args.vertices + args.first_vertex[0];
   alignas(16) static constexpr float kUnitW[4] = {0, 0, 0, 1};
   const Quad unit_w = load4(kUnitW);
   for (size_t i = 0; i < args.count; ++i) {
@@ -121,11 +84,11 @@ void skin_rows(const SkinArgs& given) {
     store3(args.out_positions + size_t{args.position_indices[i]} * 3, skinned);
     if constexpr (kTangents) {
       for (size_t k = args.first_vertex[i]; k < args.first_vertex[i + 1]; ++k) {
-        const size_t vertex = args.vertices[k] & ~kHardEdge;
-        const float* t = args.tangents + vertex * 4;
+        const size_t place = size_t{args.vertices[k] & ~kHardEdge} * 4;
+        const float* t = args.tangents + place;
         const Quad linear = mul_add4(c[0], broadcast4(t[0]),
                                      mul_add4(c[1], broadcast4(t[1]), c[2] * broadcast4(t[2])));
-        store4(args.out_tangents + vertex * 4, mul_add4(unit_w, broadcast4(t[3]), linear));
+        store4(args.out_tangents + place, mul_add4(unit_w, broadcast4(t[3]), linear));
       }
     }
     if constexpr (kMode != SkinNormals::kNone) {
@@ -135,14 +98,15 @@ void skin_rows(const SkinArgs& given) {
         c[1] = cross4(z, x);
         c[2] = cross4(x, y);
       }
-      for (size_t k = args.first_vertex[i]; k < args.first_vertex[i + 1]; ++k) {
-        const float* n = args.normals + size_t{args.vertices[k] & ~kHardEdge} * 3;
-        normals.add(mul_add4(c[0], broadcast4(n[0]),
-                             mul_add4(c[1], broadcast4(n[1]), c[2] * broadcast4(n[2]))));
+      for (const uint32_t* end = args.vertices + args.first_vertex[i + 1]; vertex != end;
+           ++vertex) {
+        const float* n = args.normals + size_t{*vertex & ~kHardEdge} * 3;
+        put_normal(mul_add4(c[0], broadcast4(n[0]),
+                            mul_add4(c[1], broadcast4(n[1]), c[2] * broadcast4(n[2]))),
+                   *vertex, args.normals, args.out_normals);
       }
     }
   }
-  if constexpr (kMode != SkinNormals::kNone) normals.flush();
 }
 
 template <SkinNormals kMode>
@@ -191,7 +155,7 @@ inline Quad rotated_normal(const Quad& sum, const float* neutral_direction, cons
   float now[4];
   store4(now, sum);
   const float squared = dot3(now, now);
-  if (!(squared > 1e-36f && squared < 3.4e38f)) return broadcast4(0.0f);
+  if (!(squared > kMinSquared && squared < kMaxSquared)) return broadcast4(0.0f);
   const Quad unit = sum * broadcast4(1.0f / __builtin_sqrtf(squared));
   const Quad axis = cross4(load4(neutral_direction), unit), n = load4(normal);
   float unit_parts[4], axis_parts[4];
@@ -205,22 +169,21 @@ inline Quad rotated_normal(const Quad& sum, const float* neutral_direction, cons
 
 void sum_normals(const NormalArgs& given) {
   const NormalArgs args = given;
-  VertexNormals normals(args.vertices + args.first_vertex[0], args.normals, args.out_normals);
+  const uint32_t* vertex = args.vertices + args.first_vertex[0];
   for (size_t i = 0; i < args.count; ++i) {
     Quad sum = broadcast4(0.0f);
     for (size_t k = args.first_adjacent_face[i]; k < args.first_adjacent_face[i + 1]; ++k) {
       sum = sum + load4(args.areas + size_t{args.adjacent_faces[k]} * 4);
     }
-    for (size_t k = args.first_vertex[i]; k < args.first_vertex[i + 1]; ++k) {
-      if ((args.vertices[k] & kHardEdge) == 0) {
-        normals.add(sum);
-        continue;
+    for (const uint32_t* end = args.vertices + args.first_vertex[i + 1]; vertex != end; ++vertex) {
+      Quad normal = sum;
+      if ((*vertex & kHardEdge) != 0) {
+        const float* n = args.normals + size_t{*vertex & ~kHardEdge} * 3;
+        normal = rotated_normal(sum, args.neutral_directions + i * 4, n);
       }
-      const float* n = args.normals + size_t{args.vertices[k] & ~kHardEdge} * 3;
-      normals.add(rotated_normal(sum, args.neutral_directions + i * 4, n));
+      put_normal(normal, *vertex, args.normals, args.out_normals);
     }
   }
-  normals.flush();
 }
 
 }  // namespace

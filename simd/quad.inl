@@ -13,6 +13,7 @@
 // | yzx4                   | the first three, turned by one                                       |
 // | cross4                 | the cross product of the first three                                 |
 // | gather4, scatter4      | lane i from or to place at[i], or at[i * stride]                     |
+// | normalized4(q, s)      | q / sqrt(s), s = z * z + (y * y + x * x) with mul_add                |
 // | different_lanes4(a, b) | bit k: the bits of lane k differ                                     |
 // | join_bits4(a, b, n)    | the low n bits of a, and above them those of b                       |
 // | transpose4             | four quads, rows to columns                                          |
@@ -76,6 +77,10 @@ inline Quad gather4(const float* from, const uint16_t* at, size_t stride) {
 inline void scatter4(float* to, const uint16_t* at, const Quad& q) {
   for (size_t i = 0; i < 4; ++i) to[at[i]] = q.v[i];
 }
+inline Quad normalized4(const Quad& q, float& squared) {
+  squared = q.v[2] * q.v[2] + (q.v[1] * q.v[1] + q.v[0] * q.v[0]);
+  return q * broadcast4(1.0f / __builtin_sqrtf(squared));
+}
 inline uint32_t different_lanes4(const Quad& a, const Quad& b) {
   uint32_t different = 0;
   for (size_t i = 0; i < 4; ++i) different |= different_lanes(a.v[i], b.v[i]) << i;
@@ -138,6 +143,11 @@ inline void scatter4(float* to, const uint16_t* at, Quad q) {
   vst1q_lane_f32(to + at[2], q, 2);
   vst1q_lane_f32(to + at[3], q, 3);
 }
+inline Quad normalized4(Quad q, float& squared) {
+  const float x = vgetq_lane_f32(q, 0), y = vgetq_lane_f32(q, 1), z = vgetq_lane_f32(q, 2);
+  squared = __builtin_fmaf(z, z, __builtin_fmaf(y, y, x * x));
+  return q * broadcast4(1.0f / __builtin_sqrtf(squared));
+}
 inline uint32_t different_lanes4(Quad a, Quad b) { return different_lanes(a, b); }
 inline void transpose4(Quad& a, Quad& b, Quad& c, Quad& d) {
   const float32x4x2_t ab = vtrnq_f32(a, b), cd = vtrnq_f32(c, d);
@@ -152,6 +162,18 @@ inline void transpose4(Quad& a, Quad& b, Quad& c, Quad& d) {
 inline void store3(float* to, Quad q) {
   _mm_storel_pi(reinterpret_cast<__m64*>(to), q);
   _mm_store_ss(to + 2, _mm_movehl_ps(q, q));
+}
+// In one lane: dividing four takes as long, and so do four roots.
+inline Quad normalized4(Quad q, float& squared) {
+  const __m128 y = _mm_shuffle_ps(q, q, 1), z = _mm_movehl_ps(q, q);
+#if defined(MIEN_KERNEL_SSE2)
+  const __m128 sum = _mm_add_ss(_mm_mul_ss(z, z), _mm_add_ss(_mm_mul_ss(y, y), _mm_mul_ss(q, q)));
+#else
+  const __m128 sum = _mm_fmadd_ss(z, z, _mm_fmadd_ss(y, y, _mm_mul_ss(q, q)));
+#endif
+  squared = _mm_cvtss_f32(sum);
+  const __m128 scale = _mm_div_ss(_mm_set_ss(1.0f), _mm_sqrt_ss(sum));
+  return q * Quad(_mm_shuffle_ps(scale, scale, 0));
 }
 #if defined(MIEN_KERNEL_SSE2)
 inline Quad mul_add4(Quad a, Quad b, Quad c) { return a * b + c; }
