@@ -502,7 +502,8 @@ bool check_rbf(const RigChecker& c) {
 
 // Learned behavior --------------------------------------------------------------------------------
 
-bool check_layers(const RigChecker& c) {
+/// `widest` becomes what the layers ask of the scratch of an instance.
+bool check_layers(const RigChecker& c, uint64_t& widest) {
   const MlTable& ml = c.rig.ml;
   const size_t values = c.rig.half_storage ? ml.halves.count : ml.values.count;
   uint64_t value = 0, bias = 0;
@@ -511,27 +512,31 @@ bool check_layers(const RigChecker& c) {
     bias += padded(layer.output_count);
     if (!c.ok(in_order && bias <= ml.biases.count && layer.function <= 4 &&
                   padded(layer.output_count) <= padded(ml.widest_layer) &&
-                  layer.input_count <= ml.widest_layer,
+                  layer.input_count <= ml.widest_layer &&
+                  (layer.output_count != 0 || layer.input_count == 0),
               "network layers")) {
       return false;
     }
     value += padded(layer.output_count) * layer.input_count;
     if (!c.ok(value <= values, "network layers")) return false;
+    widest = std::max({widest, padded(layer.output_count), uint64_t{layer.input_count}});
   }
   return true;
 }
 
 /// What a step takes lies in the buffer or in the list of controls, and what it makes of it fits.
-bool check_step_inputs(const RigChecker& c, const MlStep& step) {
+/// `widest` grows to the most values that a step takes.
+bool check_step_inputs(const RigChecker& c, const MlStep& step, uint64_t& widest) {
   const MlTable& ml = c.rig.ml;
   bool good = fits(step.first_dependency, step.dependency_count, ml.dependencies.count) &&
               fits(step.first_gather, step.gather_count, ml.controls.count) &&
               step.gather_count <= ml.widest_layer;
-  uint64_t taken = 0;
+  uint64_t taken = 0, most = step.gather_count;
   for (uint32_t d = 0; good && d < step.dependency_count; ++d) {
     const MlDependency& from = ml.dependencies[step.first_dependency + d];
     good = is_flag(from.gathers);
     if (!good) break;
+    most += std::min(from.count, ml.buffer_size);
     if (step.layer_count == 0) {
       const size_t limit = from.gathers ? ml.controls.count : ml.buffer_size;
       good = fits(from.first, step.output_count, limit);
@@ -540,17 +545,18 @@ bool check_step_inputs(const RigChecker& c, const MlStep& step) {
       good = fits(from.first, from.count, ml.buffer_size) && taken <= ml.widest_layer;
     }
   }
+  widest = std::max(widest, most);
   return good;
 }
 
-bool check_steps(const RigChecker& c) {
+bool check_steps(const RigChecker& c, uint64_t& widest) {
   const Rig& rig = c.rig;
   const MlTable& ml = rig.ml;
   uint64_t outputs = 0, gathered = 0, dependencies = 0;
   for (const MlStep& step : ml.steps) {
     const bool runs = step.layer_count != 0;
     bool good = fits(step.first_layer, step.layer_count, ml.layers.count) &&
-                step.first_output == outputs && check_step_inputs(c, step) &&
+                step.first_output == outputs && check_step_inputs(c, step, widest) &&
                 (step.mask == kNoMask || step.mask < rig.mask_count);
     gathered += step.gather_count;
     dependencies += step.dependency_count;
@@ -564,13 +570,14 @@ bool check_steps(const RigChecker& c) {
     }
     if (!c.ok(good, "steps of learned behavior")) return false;
   }
-  return true;
+  return c.ok(outputs == ml.buffer_size, "steps of learned behavior");
 }
 
 bool check_ml(const RigChecker& c) {
   const Rig& rig = c.rig;
   const MlTable& ml = rig.ml;
   const uint32_t parts = ml.quaternion_rotations ? 4 : 3;
+  uint64_t widest = 0;
   bool joints = true;
   for (const MlJoint& joint : ml.joints) {
     joints &= joint.joint < rig.joint_count;
@@ -586,11 +593,11 @@ bool check_ml(const RigChecker& c) {
          c.ok(ml.buffer_size <= kMaxBufferFloats && below(ml.controls, rig.control_count) &&
                   (ml.steps.empty() || ml.default_is_one.count == rig.control_count),
               "controls of learned behavior") &&
-         c.ok(ml.widest_layer <= std::max({kMaxBufferFloats, ml.values.count, ml.halves.count}),
-              "network layers") &&
          c.ok(!ml.converts || (is_order(ml.change.from) && is_order(ml.change.to)),
               "system of learned behavior") &&
-         check_layers(c) && check_steps(c);
+         check_layers(c, widest) && check_steps(c, widest) &&
+         // Each instance takes as much: no more than something asks for.
+         c.ok(ml.widest_layer <= widest, "network layers");
 }
 
 /// After all else: what a frame at each LOD takes is counted along indices.

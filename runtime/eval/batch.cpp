@@ -15,6 +15,17 @@ size_t max_packets(const Rig& rig, uint32_t capacity) {
   return std::min<size_t>(capacity, size_t{capacity} / kBatchLanes + rig.lod_count);
 }
 
+/// Inputs or padded outputs of the widest layer. (Scratch of an instance also holds what steps gather
+/// and no layer takes, and may be much larger.)
+size_t widest_layer(const Rig& rig) {
+  size_t widest = 0;
+  for (const NetworkLayer& layer : rig.ml.layers) {
+    widest =
+        std::max({widest, align_up(layer.output_count, kBlockLanes), size_t{layer.input_count}});
+  }
+  return widest;
+}
+
 void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& placer, Batch& batch) {
   const JointMatrix& joints = rig.joints;
   size_t block_count = kBatchAhead;
@@ -29,6 +40,7 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
   batch.lods = placer.array<uint32_t>(capacity);
   batch.first_of_packet = placer.array<uint32_t>(max_packets(rig, capacity) + 1);
   batch.tasks = placer.array<PacketScratch>(std::min<size_t>(tasks, max_packets(rig, capacity)));
+  const size_t layer_width = widest_layer(rig);
   const size_t tile_block_rows = std::min(block_row_count(joints), kMaxTileBlockRows);
   for (size_t i = 0; i < batch.tasks.count; ++i) {
     PacketScratch scratch;
@@ -41,10 +53,10 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
     scratch.ends = placer.array<uint32_t>(block_row_count(joints));
     scratch.blocks = placer.array<BatchBlock>(block_count);
     for (Span<float>& layer : scratch.ml_layers) {
-      layer = placer.array<float>(size_t{rig.ml.widest_layer} * kBatchLanes, kBlockAlignment);
+      layer = placer.array<float>(layer_width * kBatchLanes, kBlockAlignment);
     }
-    scratch.ml_weights = placer.array<float>(
-        rig.half_storage ? size_t{rig.ml.widest_layer} * kBlockLanes : 0, kBlockAlignment);
+    scratch.ml_weights =
+        placer.array<float>(rig.half_storage ? layer_width * kBlockLanes : 0, kBlockAlignment);
     if (!placer.measuring()) batch.tasks[i] = scratch;
   }
 }

@@ -4,6 +4,7 @@
 
 #include "tests/support/baked_bytes.h"
 #include "tests/support/many_rigs.h"
+#include "tests/support/random_layer_rig.h"
 
 namespace mien {
 namespace {
@@ -335,6 +336,36 @@ TEST(BakedRig, TargetsOfALodHaveSums) {
 }
 
 // They cross the C interface as enumerations, which hosts index arrays with.
+// A number of the file that nothing else contradicts must not become memory of each instance.
+TEST(BakedRig, MemoryOfInstancesIsWhatStepsAndLayersAskFor) {
+  Random random = Random::from_seed(71, 1);
+  std::vector<uint8_t> file;
+  do {
+    const LayerFile layers(random_layer_rig(random, false));
+    file = bake(create_rig(layers.dna.get()).get());
+  } while (OpenBaked(file).arrays().ml.steps.empty());
+  const uint32_t kept = OpenBaked(file).arrays().ml.widest_layer;
+  const uint32_t buffer = OpenBaked(file).arrays().ml.buffer_size;
+  ASSERT_EQ(exercise_baked(AlignedBytes(file).data(), file.size()).opened, MIEN_OK);
+  // Numbers lie at the begin of a part, 8 bytes each: all that read like one of the two.
+  uint32_t refused = 0;
+  const auto* parts = reinterpret_cast<const BakedPart*>(file.data() + sizeof(BakedHeader));
+  for (uint32_t i = 0; i < parts[0].number_count; ++i) {
+    std::vector<uint8_t> changed = file;
+    uint8_t* const at = changed.data() + parts[0].offset + size_t{i} * sizeof(uint64_t);
+    uint32_t number = 0;
+    memcpy(&number, at, sizeof(number));
+    if (number != kept && number != buffer) continue;
+    number = 4u << 20;
+    memcpy(at, &number, sizeof(number));
+    const AlignedBytes bytes(changed);
+    const ExerciseBaked life = exercise_baked(bytes.data(), bytes.size());
+    EXPECT_EQ(life.broken, "");
+    refused += life.opened == MIEN_ERROR_BAKED_STRUCTURE;
+  }
+  EXPECT_GE(refused, 2u);
+}
+
 TEST(BakedRig, UnitsAndAxesAreInRange) {
   const Bytes whole = tiny_baked();
   const AlignedBytes good(whole);

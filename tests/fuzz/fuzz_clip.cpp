@@ -29,6 +29,45 @@ std::vector<Bytes>& seeds() {
   return clips;
 }
 
+/// Elements of a section trade places, are there twice, or come from another clip; counts at edges.
+size_t change_section(Random& random, uint8_t* data, size_t size, size_t max_size) {
+  Clip clip;
+  Error error;
+  // What cannot be opened has no sections: its counts are changed.
+  const bool opens = open_clip(data, size, clip, error) == Status::kOk;
+  if (!opens || random() % 4 == 0) {
+    if (size < kClipHeaderSize) return size;
+    const ClipField& field = kClipFields[random() % std::size(kClipFields)];
+    const auto old = load_little_endian<uint32_t>(data + field.at);
+    const uint32_t values[] = {0,       1,        2,      63,     64,      65,       511,
+                               512,     513,      0xFFFE, 0xFFFF, 0x10000, 1u << 28, old + 1,
+                               old - 1, 1u << 31, ~0u,    16,     old * 2};
+    store_little_endian(data + field.at, values[random() % std::size(values)]);
+    return size;
+  }
+  const uint64_t begins[] = {
+      clip.at.rests,      clip.at.name_ends, clip.at.changing, clip.at.events,
+      clip.at.block_ends, clip.at.chars,     clip.at.blocks,   size};
+  const size_t elements[] = {4, 4, 2, Clip::kEventSize, 4, 1, 8};
+  const uint32_t s = random() % 7;
+  const size_t count = (begins[s + 1] - begins[s]) / elements[s];
+  if (count == 0) return size;
+  uint8_t* const a = data + begins[s] + random() % count * elements[s];
+  uint8_t* const b = data + begins[s] + random() % count * elements[s];
+  if (random() % 3 == 0 && a != b) {
+    std::swap_ranges(a, a + elements[s], b);
+  } else if (random() % 2 == 0) {
+    memmove(a, b, elements[s]);
+  } else {
+    const Bytes& other = seeds()[random() % seeds().size()];
+    const size_t from = random() % other.size(),
+                 at = begins[s] + random() % (begins[s + 1] - begins[s]);
+    const size_t bytes = 1 + random() % std::min(other.size() - from, size - at);
+    memcpy(data + at, other.data() + from, bytes);
+  }
+  return std::min(size, max_size);
+}
+
 /// `kind` decides what the channels are like.
 void add_seed(uint32_t kind, uint32_t frames, bool wraps, uint8_t snap) {
   constexpr uint32_t kChannels = 6;
@@ -142,8 +181,11 @@ extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max
     size = std::min(start.size(), max_size);
     memcpy(data, start.data(), size);
   }
-  if (random() % 2 == 0) {
+  const uint32_t way = random() % 6;
+  if (way < 2) {
     size = LLVMFuzzerMutate(data, size, max_size);
+  } else if (way == 2) {
+    size = change_section(random, data, size, max_size);
   } else if (size >= 4) {
     const size_t limit = random() % 2 == 0 ? std::min<size_t>(size, kClipHeaderSize) : size;
     const size_t at = random() % (limit / 4) * 4;

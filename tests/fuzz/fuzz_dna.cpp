@@ -10,11 +10,13 @@
 // Without the two letters all of the input is the file, and everything is chosen.
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <vector>
 
 #include "capi/mien_author.h"
 #include "runtime/dna/dna_reader.h"
 #include "runtime/dna/format/dna_writer.h"
+#include "tests/fuzz/time_limit.h"
 #include "tests/fuzz/view_mutator.h"
 #include "tests/support/exercise_dna.h"
 #include "tests/support/tiny_rig.h"
@@ -29,7 +31,7 @@ using namespace mien::dna;
 using Bytes = std::vector<uint8_t>;
 constexpr size_t kTail = 8;
 
-enum Flags : uint8_t { kDropUnknown = 1, kDoNotValidate = 2 };
+enum Flags : uint8_t { kDropUnknown = 1, kDoNotValidate = 2, kTwins = 4 };
 
 bool has_tail(const uint8_t* data, size_t size) {
   return size >= kTail && data[size - kTail] == 'M' && data[size - kTail + 1] == 'o';
@@ -64,6 +66,7 @@ LifeOptions options_of(const uint8_t* data, size_t size) {
   options.control_seed = tail[5];
   if (tail[6] & kDropUnknown) options.unknown_layers = MIEN_UNKNOWN_LAYERS_DROP;
   options.validate = !(tail[6] & kDoNotValidate);
+  options.twins = (tail[6] & kTwins) != 0;
   return options;
 }
 
@@ -133,6 +136,25 @@ void change_raw(Random& random, uint8_t* data, size_t size) {
   store_big_endian(data + at, values[below(random, sizeof(values) / sizeof(values[0]))]);
 }
 
+/// The count in front of an array, wherever it is.
+void change_count(Random& random, uint8_t* data, size_t size) {
+  Arena arena(default_allocator());
+  DnaView view;
+  read_leniently(data, size, arena, view);
+  ArrayCollector arrays;
+  for (const LayerKind& kind : kLayerKinds) {
+    with_layer(view, kind.id, [&](auto& record) { arrays.visit(record); });
+  }
+  if (arrays.data.empty()) return;
+  const uint8_t* const array = arrays.data[below(random, arrays.data.size())];
+  if (array < data + 4 || array > data + size) return;  // in the arena
+  uint8_t* const count = data + (array - data) - 4;
+  const uint32_t old = load_big_endian<uint32_t>(count);
+  const uint32_t values[] = {0,      1,       old + 1, old - 1,    old * 2,    old / 2,
+                             0xFFFF, 0x10000, 0x10001, 0x7FFFFFFF, 0x80000000, ~0u};
+  store_big_endian(count, values[below(random, std::size(values))]);
+}
+
 /// Writes the view and a tail over `data`. 0 if it does not fit.
 size_t put(const DnaView& view, uint16_t version, const uint8_t* tail, uint8_t* data,
            size_t max_size) {
@@ -155,6 +177,7 @@ void change_tail(Random& random, uint8_t* tail) {
   tail[5] = static_cast<uint8_t>(random());
   tail[6] = static_cast<uint8_t>(below(random, 8) == 0 ? kDropUnknown : 0);
   if (!whole || below(random, 4)) tail[6] |= kDoNotValidate;
+  if (below(random, 3) == 0) tail[6] |= kTwins;
   tail[7] = static_cast<uint8_t>(below(random, 2) ? 0 : random());
 }
 
@@ -162,7 +185,7 @@ void change_tail(Random& random, uint8_t* tail) {
 
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
   // Defaults that suit files of this size; what the caller says comes later and wins.
-  static char max_len[] = "-max_len=100000", len_control[] = "-len_control=0";
+  static char max_len[] = "-max_len=300000", len_control[] = "-len_control=0";
   static std::vector<char*> arguments(*argv, *argv + *argc);
   arguments.insert(arguments.begin() + 1, {max_len, len_control});
   arguments.push_back(nullptr);
@@ -199,6 +222,7 @@ extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max
   if (made == 0) return LLVMFuzzerMutate(data, size, max_size);
 
   if (below(random, 10) == 0) change_raw(random, data, made - kTail);
+  if (below(random, 8) == 0) change_count(random, data, made - kTail);
   if (below(random, 50) == 0) return LLVMFuzzerMutate(data, made, max_size);
   return made;
 }
@@ -223,7 +247,7 @@ extern "C" size_t LLVMFuzzerCustomCrossOver(const uint8_t* a, size_t a_size, con
   }
   uint8_t tail[kTail];
   change_tail(random, tail);
-  return put(one, one.version, tail, out, max_size);
+  return put(one, below(random, 2) ? one.version : other.version, tail, out, max_size);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
@@ -234,7 +258,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const size_t file_size = has_tail(data, size) ? size - kTail : size;
   // A block of its own, so that the address sanitizer sees the first byte past the end.
   const Bytes file(data, data + file_size);
-  const Life life = live(file.data(), file.size(), options);
+  Life life = live(file.data(), file.size(), options);
+  check_time(life.seconds, file.size(), life.broken);
   if (life.broken.empty()) return 0;
   fprintf(stderr, "broken promise (layers 0x%x, LODs 0x%llx, unknown layers %u, system %u): %s\n",
           options.layers, static_cast<unsigned long long>(options.lods), options.unknown_layers,

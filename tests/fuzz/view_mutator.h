@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "runtime/dna/format/dna_view.h"
 
@@ -42,10 +43,24 @@ inline void change(Random& random, float& value) {
   value = odd[below(random, sizeof(odd) / sizeof(odd[0]))];
 }
 
+/// How many of each list there are: numbers next to these are where references end.
+inline std::vector<uint32_t>& known_counts() {
+  static std::vector<uint32_t> counts;
+  return counts;
+}
+
 /// Mostly small numbers: those are the ones that refer to something.
 template <class T>
 void change(Random& random, T& value) {
-  switch (below(random, 8)) {
+  switch (below(random, 10)) {
+    case 8:
+    case 9: {
+      const std::vector<uint32_t>& counts = known_counts();
+      if (!counts.empty()) {
+        value = static_cast<T>(counts[below(random, counts.size())] + below(random, 3) - 1);
+      }
+      break;
+    }
     case 0: value = static_cast<T>(~T{0}); break;
     case 1: value = static_cast<T>(value + 1); break;
     case 2: value = static_cast<T>(value - 1); break;
@@ -59,7 +74,20 @@ void change(Random& random, T& value) {
 
 /// What happens to the elements of an array, decided once and done to all that are parallel.
 struct Edit {
-  enum Kind { kChange, kSwap, kDuplicate, kRemove, kRepeat, kCut, kClear, kKinds };
+  enum Kind {
+    kChange,
+    kSwap,
+    kDuplicate,
+    kRemove,
+    kRepeat,
+    kCut,
+    kClear,
+    kReverse,
+    kRotate,
+    kShuffle,
+    kKeepOne,
+    kKinds
+  };
   Kind kind;
   uint32_t at, other, times;
 
@@ -69,6 +97,12 @@ struct Edit {
     edit.at = below(random, count);
     edit.other = below(random, count);
     edit.times = 1 + below(random, below(random, 8) == 0 ? 300 : 6);
+    // Seldom, for it makes files large: to where a count no longer fits into a byte, or two.
+    constexpr uint32_t kEdges[] = {255, 256, 257, 65535, 65536, 65537};
+    if (edit.kind == kRepeat && below(random, 32) == 0) {
+      const uint32_t edge = kEdges[below(random, below(random, 4) ? 3 : 6)];
+      if (edge > count) edit.times = edge - static_cast<uint32_t>(count);
+    }
     return edit;
   }
 
@@ -81,11 +115,17 @@ struct Edit {
       case kRemove: return count - 1;
       case kCut: return at;
       case kClear: return 0;
+      case kKeepOne: return 1;
       default: return count;
     }
   }
-  uint32_t old_index(uint32_t i) const {
+  uint32_t old_index(uint32_t i, uint32_t count) const {
     switch (kind) {
+      case kReverse: return count - 1 - i;
+      case kRotate: return (i + at) % count;
+      // A permutation of a prime number of places, else nearly one.
+      case kShuffle: return static_cast<uint32_t>(uint64_t{i} * (2 * other + 3) % count);
+      case kKeepOne: return at;
       case kSwap: return i == at ? other : i == other ? at : i;
       case kDuplicate: return i > at ? i - 1 : i;
       case kRepeat: return i <= at ? i : i <= at + times ? at : i - times;
@@ -100,7 +140,7 @@ void apply(const Edit& edit, Random& random, Arena& arena, Array<T>& array) {
   const uint32_t count = edit.new_count(array.count);
   const NewArray<T> made = new_array<T>(arena, count);
   for (uint32_t i = 0; i < count; ++i) {
-    T value = array.count ? array[edit.old_index(i)] : T{};
+    T value = array.count ? array[edit.old_index(i, array.count)] : T{};
     if (edit.kind == Edit::kChange && i == edit.at) change(random, value);
     made.set(i, value);
   }
@@ -112,7 +152,7 @@ void apply(const Edit& edit, Random&, Arena& arena, List<T>& list) {
   const uint32_t count = edit.new_count(list.count);
   const Span<T> made = arena.array<T>(count);
   for (uint32_t i = 0; i < count; ++i) {
-    if (list.count) made[i] = list[edit.old_index(i)];
+    if (list.count) made[i] = list[edit.old_index(i, list.count)];
   }
   list = {made.data, count};
 }
@@ -228,6 +268,64 @@ class FieldMutator {
   uint32_t place_ = 0;
 };
 
+/// Where the arrays of a layer lie, as the file has them.
+struct ArrayCollector {
+  std::vector<const uint8_t*> data;
+
+  static bool has_face_winding() { return true; }
+  template <class T>
+  void operator()(const char*, T& member) {
+    visit(member);
+  }
+  template <class T, std::enable_if_t<std::is_arithmetic<T>::value, int> = 0>
+  void visit(T&) {}
+  template <class T>
+  void visit(Array<T>& array) {
+    if (array.count) data.push_back(reinterpret_cast<const uint8_t*>(array.data));
+  }
+  void visit(String& string) {
+    if (string.count) data.push_back(reinterpret_cast<const uint8_t*>(string.data));
+  }
+  template <class T>
+  void visit(List<T>& list) {
+    for (T& element : list) visit(element);
+  }
+  template <class Record, std::enable_if_t<std::is_class<Record>::value, int> = 0>
+  void visit(Record& record) {
+    Record::fields(record, *this);
+  }
+};
+
+/// All arrays of one type, and how many elements each list and array has.
+template <class Wanted>
+struct SameArrays {
+  std::vector<Array<Wanted>*> arrays;
+  std::vector<uint32_t> counts;
+
+  static bool has_face_winding() { return true; }
+  template <class T>
+  void operator()(const char*, T& member) {
+    visit(member);
+  }
+  template <class T, std::enable_if_t<std::is_arithmetic<T>::value, int> = 0>
+  void visit(T&) {}
+  template <class T>
+  void visit(Array<T>& array) {
+    if constexpr (std::is_same<T, Wanted>::value) arrays.push_back(&array);
+    if (array.count) counts.push_back(array.count);
+  }
+  void visit(String&) {}
+  template <class T>
+  void visit(List<T>& list) {
+    if (list.count) counts.push_back(list.count);
+    for (T& element : list) visit(element);
+  }
+  template <class Record, std::enable_if_t<std::is_class<Record>::value, int> = 0>
+  void visit(Record& record) {
+    Record::fields(record, *this);
+  }
+};
+
 /// Every array called `lods` gets an entry more or less, and so does the descriptor.
 class LodEditor {
  public:
@@ -277,6 +375,32 @@ inline void change_layer(Random& random, Arena& arena, DnaView& view, LayerId id
   });
 }
 
+/// Two index arrays trade places, or one takes the place of the other.
+template <class T>
+void swap_arrays(Random& random, DnaView& view, LayerId id) {
+  SameArrays<T> found;
+  with_layer(view, id, [&](auto& record) { found.visit(record); });
+  if (found.arrays.size() < 2) return;
+  const uint32_t i = below(random, found.arrays.size());
+  const uint32_t near = below(random, 2) ? (i + 1) % static_cast<uint32_t>(found.arrays.size())
+                                         : below(random, found.arrays.size());
+  if (below(random, 2)) {
+    std::swap(*found.arrays[i], *found.arrays[near]);
+  } else {
+    *found.arrays[i] = *found.arrays[near];
+  }
+}
+
+inline void collect_counts(DnaView& view) {
+  SameArrays<uint16_t> found;
+  found.visit(view.defn);
+  found.visit(view.bhvr);
+  found.counts.push_back(view.desc.lod_count);
+  std::sort(found.counts.begin(), found.counts.end());
+  found.counts.erase(std::unique(found.counts.begin(), found.counts.end()), found.counts.end());
+  known_counts() = found.counts;
+}
+
 /// A row more or less in a joint group, with its values.
 inline void change_joint_rows(Random& random, Arena& arena, DnaView& view) {
   const List<JointGroup>& groups = view.bhvr.joints.groups;
@@ -323,7 +447,14 @@ inline void change_index(Random& random, Arena& arena, DnaView& view) {
 }
 
 inline void change_view(Random& random, Arena& arena, DnaView& view) {
-  switch (below(random, 16)) {
+  collect_counts(view);
+  switch (below(random, 18)) {
+    case 3:
+      swap_arrays<uint16_t>(random, view, static_cast<LayerId>(below(random, kLayerIdCount)));
+      break;
+    case 4:
+      swap_arrays<uint32_t>(random, view, static_cast<LayerId>(below(random, kLayerIdCount)));
+      break;
     case 0: change_index(random, arena, view); break;
     case 1: change_lod_count(random, arena, view); break;
     case 2: change_joint_rows(random, arena, view); break;

@@ -10,9 +10,14 @@
 
 #include "capi/mien.h"
 #include "tests/support/counting_allocator.h"
+#include "tests/support/cpu_time.h"
 #include "tests/support/descs.h"
+#include "tests/support/rig_twins.h"
 
 namespace mien {
+
+/// Most memory that an instance or a deformer instance may take.
+constexpr size_t baked_instance_bound(size_t file_size) { return 40 * file_size + 8 * 1024 * 1024; }
 
 /// Bytes at a multiple of 64, in a block that ends where they do.
 class AlignedBytes {
@@ -36,17 +41,20 @@ struct ExerciseBaked {
   MienStatus opened = MIEN_OK;
   std::string message;
   std::string broken;  // a promise that was not kept; "" if all were
+  double seconds = 0;  // of opening, and frames at each LOD
 };
 
 class ExerciseBakedRun {
  public:
-  ExerciseBakedRun(const uint8_t* bytes, size_t size, uint32_t isa) : allocator_(counter_.get()) {
+  ExerciseBakedRun(const uint8_t* bytes, size_t size, uint32_t isa, uint32_t twin_seed)
+      : allocator_(counter_.get()), file_size_(size) {
     MienBakedDesc desc = {};
     desc.struct_size = sizeof(desc);
     desc.allocator = &allocator_;
     MienBaked* baked = nullptr;
     MienRig* rig = nullptr;
     MienDeformer* deformer = nullptr;
+    const double start = cpu_seconds();
     const auto error = [] {
       MienError fresh = {};
       fresh.struct_size = sizeof(fresh);
@@ -81,7 +89,9 @@ class ExerciseBakedRun {
         deform(rig, deformer);
       }
     }
+    life.seconds = cpu_seconds() - start;
     if (rig && life.opened == MIEN_OK) bake_again(rig, deformer, size, info);
+    if (rig && twin_seed != 0 && life.broken.empty()) compare_twins(baked, rig, twin_seed);
     mien_deformer_destroy(deformer);
     mien_rig_destroy(rig);
     mien_baked_close(baked);
@@ -183,6 +193,9 @@ class ExerciseBakedRun {
       made &= mien_instance_create(rig, &instance_desc, &instance, nullptr) == MIEN_OK;
     }
     if (!made) broke("no memory for a packet");
+    if (counter_.peak > (kCrowd + 3) * baked_instance_bound(file_size_)) {
+      broke("instances and a batch take too much memory");
+    }
     const size_t requests = counter_.requests;
     for (uint32_t lod = 0; made && lod < info_.lod_count; ++lod) {
       uint32_t lods[kCrowd];
@@ -310,6 +323,9 @@ class ExerciseBakedRun {
       made &= mien_deformer_instance_create(deformer, &desc, &one, nullptr) == MIEN_OK;
     }
     if (!made) broke("no memory for a deformer instance");
+    if (counter_.peak > 8 * baked_instance_bound(file_size_)) {
+      broke("deformer instances take too much memory");
+    }
     const size_t requests = counter_.requests;
     for (uint32_t round = 0; made && round < 3; ++round) {
       MienMutableFloatView raw = {};
@@ -393,18 +409,50 @@ class ExerciseBakedRun {
     }
   }
 
+  // Whatever it holds, the same bytes give the same bits, and so does what is baked again. (What an
+  // instruction set takes of a block that is not full, which results may be kept and what a batch skips
+  // is up to the tables.)
+  void compare_twins(const MienBaked* baked, const MienRig* rig, uint32_t seed) {
+    RigTwins twins(seed);
+    MienBakedRigDesc desc = {};
+    desc.struct_size = sizeof(desc);
+    desc.isa = twins.draw_isa(true);
+    desc.reuse = MIEN_REUSE_NOTHING;
+    size_t size = 0;
+    (void)mien_bake_memory(rig, nullptr, nullptr, 0, &size, nullptr);
+    std::vector<uint8_t> bytes(size);
+    (void)mien_bake_memory(rig, nullptr, bytes.data(), size, &size, nullptr);
+    const AlignedBytes aligned(bytes);
+    MienBaked* again = nullptr;
+    if (mien_baked_open_memory(aligned.data(), size, nullptr, &again, nullptr) != MIEN_OK) {
+      return broke("what was baked again does not open");
+    }
+    for (const MienBaked* file : {baked, baked, static_cast<const MienBaked*>(again)}) {
+      MienRig* twin = nullptr;
+      if (mien_rig_from_baked(file, &desc, &twin, nullptr) != MIEN_OK) {
+        broke("a rig does not open again");
+        break;
+      }
+      twins.add(file == again ? "rig baked again" : "rig", twin, nullptr);
+    }
+    mien_baked_close(again);
+    const std::string difference = twins.compare(4);
+    if (!difference.empty()) broke(difference.c_str());
+  }
+
   CountingAllocator counter_;
   MienAllocator allocator_;
+  size_t file_size_;
   MienRigInfo info_ = {};
   MienDeformerInfo deformer_info_ = {};
   uint32_t state_ = 1;
   volatile float sink_ = 0;
 };
 
-/// `bytes` is at a multiple of 64.
+/// `bytes` is at a multiple of 64. With a seed, rigs of it are compared.
 inline ExerciseBaked exercise_baked(const uint8_t* bytes, size_t size,
-                                    uint32_t isa = MIEN_ISA_ENVIRONMENT) {
-  return ExerciseBakedRun(bytes, size, isa).life;
+                                    uint32_t isa = MIEN_ISA_ENVIRONMENT, uint32_t twin_seed = 0) {
+  return ExerciseBakedRun(bytes, size, isa, twin_seed).life;
 }
 
 }  // namespace mien

@@ -14,7 +14,9 @@
 
 #include "capi/mien.h"
 #include "tests/support/counting_allocator.h"
+#include "tests/support/cpu_time.h"
 #include "tests/support/descs.h"
+#include "tests/support/dna_twins.h"
 
 namespace mien {
 
@@ -37,6 +39,7 @@ struct LifeOptions {
   uint32_t unknown_layers = MIEN_UNKNOWN_LAYERS_KEEP;
   uint32_t control_seed = 1;
   bool validate = true;
+  bool twins = false;  // compare with rigs that have to give the same bits
   const MienCoordinateSystem* system = nullptr;  // to convert to; refusing is one of the answers
 };
 
@@ -46,6 +49,7 @@ struct Life {
   MienStatus packed = MIEN_OK;    // the geometry, if compiled
   std::string message;            // of the step that failed
   size_t open_peak = 0, rig_peak = 0, deformer_peak = 0, report_peak = 0;
+  double seconds = 0;  // of opening, compiling, and frames at each LOD
   std::string broken;  // a promise that was not kept; "" if all were
 };
 
@@ -55,7 +59,9 @@ class ExerciseDna {
       : bytes_(bytes), size_(size), options_(options), allocator_(counter_.get()) {}
 
   Life run() {
+    const double start = cpu_seconds();
     MienDna* dna = open(bytes_, size_, options_.lods, life_.opened, options_.system);
+    life_.seconds = cpu_seconds() - start;
     life_.open_peak = counter_.peak;
     if (life_.open_peak > open_memory_bound(size_)) {
       broke("opening %zu bytes held %zu", size_, life_.open_peak);
@@ -64,6 +70,10 @@ class ExerciseDna {
       check_info(dna);
       compile(dna);
       write(dna);
+      if (options_.twins && life_.compiled == MIEN_OK && life_.broken.empty()) {
+        const std::string difference = compare_dna_twins(dna, options_.control_seed);
+        if (!difference.empty()) broke("%s", difference.c_str());
+      }
     }
     mien_dna_close(dna);
     if (options_.validate) validate();
@@ -149,9 +159,11 @@ class ExerciseDna {
     MienError error = {};
     error.struct_size = sizeof(error);
     MienRig* rig = nullptr;
+    const double start = cpu_seconds();
     life_.compiled = mien_rig_create(dna, &desc, &rig, &error);
     if ((life_.compiled == MIEN_OK) != (rig != nullptr)) broke("create gave a rig or none");
     if (!rig) {
+      life_.seconds += cpu_seconds() - start;
       check_failure("create", life_.compiled, error, size_);
       // Opening leaves circles of correctives, and what a file may ask a rig to compute.
       const bool expected =
@@ -163,6 +175,7 @@ class ExerciseDna {
       return;
     }
     evaluate(rig);
+    life_.seconds += cpu_seconds() - start;
     life_.rig_peak = counter_.peak - before;
     if (life_.rig_peak > rig_memory_bound(size_)) {
       broke("a rig of %zu bytes of file took %zu", size_, life_.rig_peak);
