@@ -333,7 +333,8 @@ TEST_F(Files, DevicesAreWrittenToAndSurvive) {
 
   EXPECT_EQ(write("/dev/null"), MIEN_OK);
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
-  if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  if (!fs::is_character_file("/dev/full"))
+    GTEST_SKIP() << "NOT TESTED: a full disk; there is no /dev/full";
   MienError error = sized<MienError>();
   EXPECT_EQ(write("/dev/full", &error), MIEN_ERROR_FILE_WRITE);
   EXPECT_NE(std::string(error.message).find("/dev/full"), std::string::npos) << error.message;
@@ -346,7 +347,8 @@ TEST_F(Files, DevicesAreWrittenToAndSurvive) {
 }
 
 TEST_F(Files, DevicesWithoutEndStopAtTheSignature) {
-  if (!fs::is_character_file("/dev/zero")) GTEST_SKIP() << "no /dev/zero here";
+  if (!fs::is_character_file("/dev/zero"))
+    GTEST_SKIP() << "NOT TESTED: devices without end; there is no /dev/zero";
   MienError error = sized<MienError>();
   MienDna* opened = nullptr;
   EXPECT_EQ(mien_dna_open_file("/dev/zero", nullptr, &opened, &error), MIEN_ERROR_DNA_SIGNATURE);

@@ -194,7 +194,7 @@ class General(ProgramTest):
                 self.assertEqual(len(done.stderr.splitlines()), done.returncode != DONE, done.stderr)
                 codes.add(done.returncode)
         if not codes:
-            self.skipTest("the program cannot start with little memory (a sanitizer?)")
+            self.skipTest("NOT TESTED: too little memory; the program cannot start with little (a sanitizer?)")
         self.assertEqual(codes, {DONE, INTERNAL})
         self.assertEqual([name for name in os.listdir(program.folder) if name.startswith(".mien")], [])
 

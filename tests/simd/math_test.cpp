@@ -160,7 +160,13 @@ void expect_sine_cosine(const std::vector<float>& x) {
 }
 
 TEST(MathFunctions, SineAndCosineOfAllFiniteFloats) {
-  expect_sine_cosine(finite_floats(9973));
+  std::vector<float> floats = finite_floats(9973);
+#if defined(_WIN32)
+  printf("NOT TESTED: sines beyond 1e5 on Windows; its C library is not exact there\n");
+  const auto is_large = [](float v) { return std::fabs(v) > 1e5f; };
+  floats.erase(std::remove_if(floats.begin(), floats.end(), is_large), floats.end());
+#endif
+  expect_sine_cosine(floats);
   expect_sine_cosine(range(-20, 20, 200000));
 }
 

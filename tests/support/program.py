@@ -67,6 +67,10 @@ def make(*arguments):
 
 
 class ProgramTest(unittest.TestCase):
+    def skipTest(self, reason):
+        print(reason, file=sys.stderr)  # unittest itself does not tell, and ./dev collects these lines
+        super().skipTest(reason)
+
     def ok(self, *arguments, **more):
         done = run(*arguments, **more)
         self.assertEqual(done.returncode, DONE, done.stderr)
