@@ -14,24 +14,39 @@
 namespace mien {
 namespace {
 
-Status wrong(Error& error, const char* what, size_t index, const char* why) {
-  return fail(error, Status::kInvalidArgument, kNoOffset, "%s %zu: %s", what, index, why);
+/// What is wrong with an element of a list, and what it would have to be.
+template <class... Values>
+Status wrong(Error& error, const char* format, size_t index, Values... values) {
+  return fail(error, Status::kInvalidArgument, kNoOffset, format, index, values...);
+}
+
+/// The first element that is not within the limits; the number of elements if all are.
+size_t first_beyond(Span<const float> values, float low, float high) {
+  size_t i = 0;
+  while (i < values.count && values[i] >= low && values[i] <= high) ++i;
+  return i;
+}
+
+/// Refuses the first lane that does not exist.
+Status check_lane_list(Span<const uint16_t> list, uint32_t lanes, const char* of, size_t index,
+                       Error& error) {
+  for (size_t i = 0; i < list.count; ++i) {
+    if (list[i] < lanes) continue;
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "%s %zu: .lanes[%zu] is %u; lanes are below %u", of, index, i, list[i], lanes);
+  }
+  return Status::kOk;
 }
 
 bool within(float value, float low, float high) { return value >= low && value <= high; }
-
-bool all_within(Span<const float> values, float low, float high) {
-  for (float value : values) {
-    if (!within(value, low, high)) return false;
-  }
-  return true;
-}
 
 bool is_time(int64_t ticks) { return ticks >= 0 && ticks <= kMaxFadeTicks; }
 
 bool is_protected(LayerGroup group) {
   return group == LayerGroup::kBase || group == LayerGroup::kSpeech;
 }
+
+constexpr char kTimeRange[] = "times are 0 ... 2^40 ticks (26 minutes)";
 
 Status check_layers(const MixDesc& desc, uint32_t lanes, Error& error) {
   if (desc.layers.count > kMaxLayers) {
@@ -41,38 +56,65 @@ Status check_layers(const MixDesc& desc, uint32_t lanes, Error& error) {
   uint32_t clips = 0;
   for (size_t i = 0; i < desc.layers.count; ++i) {
     const LayerDesc& layer = desc.layers[i];
-    if (static_cast<uint32_t>(layer.group) >= kLayerGroups ||
-        static_cast<uint32_t>(layer.mode) >= kBlendModes ||
-        static_cast<uint32_t>(layer.source) >= kLayerSources) {
-      return wrong(error, "layer", i, "group, mode or source is not known");
+    const auto group = static_cast<uint32_t>(layer.group), mode = static_cast<uint32_t>(layer.mode);
+    const auto source = static_cast<uint32_t>(layer.source);
+    if (group >= kLayerGroups || mode >= kBlendModes || source >= kLayerSources) {
+      return wrong(error, "layer %zu: .group %u, .mode %u or .source %u is none of the known ones",
+                   i, group, mode, source);
     }
     if ((layer.flags & ~uint32_t{kLayerAfterGuards}) != 0 ||
         (layer.flags != 0 && is_protected(layer.group))) {
-      return wrong(error, "layer", i, "the flags do not fit the group");
+      return wrong(error,
+                   "layer %zu: .flags %u; only .after_guards is known, and not in the groups base "
+                   "and speech, which guards protect",
+                   i, layer.flags);
     }
     const float lowest = layer.mode == BlendMode::kAdd ? -1.0f : 0.0f;
-    if (!within(layer.weight, lowest, 1.0f)) return wrong(error, "layer", i, "weight out of range");
-    if (layer.mask.count > lanes) return wrong(error, "layer", i, "mask with too many lanes");
-    if (!all_within(layer.mask, 0.0f, 1.0f)) return wrong(error, "layer", i, "mask beyond 0 ... 1");
+    if (!within(layer.weight, lowest, 1.0f)) {
+      return wrong(error, "layer %zu: .weight is %g; it must be within %g ... 1", i,
+                   double{layer.weight}, double{lowest});
+    }
+    if (layer.mask.count > lanes) {
+      return wrong(error, "layer %zu: .mask has %zu lanes; the mix has %u", i, layer.mask.count,
+                   lanes);
+    }
+    const size_t beyond = first_beyond(layer.mask, 0.0f, 1.0f);
+    if (beyond != layer.mask.count) {
+      return wrong(error, "layer %zu: .mask[%zu] is %g; masks are within 0 ... 1", i, beyond,
+                   double{layer.mask[beyond]});
+    }
     if (layer.first_pose > desc.poses.count ||
         layer.pose_count > desc.poses.count - layer.first_pose) {
-      return wrong(error, "layer", i, "poses that the mix does not have");
+      return wrong(error, "layer %zu: %u poses from %u on; the mix has %zu", i, layer.pose_count,
+                   layer.first_pose, desc.poses.count);
     }
     clips += layer.source == LayerSource::kClip;
     if (layer.source != LayerSource::kStream && layer.source != LayerSource::kGenerator) continue;
-    if (layer.lanes.count > lanes) return wrong(error, "layer", i, "too many lanes");
-    for (uint16_t lane : layer.lanes) {
-      if (lane >= lanes) return wrong(error, "layer", i, "a lane that does not exist");
+    if (layer.lanes.count > lanes) {
+      return wrong(error, "layer %zu: %zu lanes; the mix has %u", i, layer.lanes.count, lanes);
     }
-    const bool generates = layer.source == LayerSource::kGenerator;
-    if (generates && (static_cast<uint32_t>(layer.generator) >= kGenerators || layer.period < 1 ||
-                      layer.period > kMaxFadeTicks || layer.amounts.count != layer.lanes.count ||
-                      !all_within(layer.amounts, -kLargestFloat, kLargestFloat))) {
-      return wrong(error, "layer", i, "generator, period or amounts out of range");
-    }
-    if (!generates && (!is_time(layer.delay) || layer.stream_frames < 2 ||
-                       layer.stream_frames > kMaxStreamFrames)) {
-      return wrong(error, "layer", i, "delay or number of frames out of range");
+    const Status status = check_lane_list(layer.lanes, lanes, "layer", i, error);
+    if (status != Status::kOk) return status;
+    if (layer.source == LayerSource::kGenerator) {
+      if (static_cast<uint32_t>(layer.generator) >= kGenerators || layer.period < 1 ||
+          layer.period > kMaxFadeTicks) {
+        return wrong(
+            error,
+            "layer %zu: .generator %u with a .period of %lld ticks; generators are below %u, "
+            "periods 1 ... 2^40 ticks",
+            i, static_cast<uint32_t>(layer.generator), static_cast<long long>(layer.period),
+            kGenerators);
+      }
+      if (layer.amounts.count != layer.lanes.count ||
+          first_beyond(layer.amounts, -kLargestFloat, kLargestFloat) != layer.amounts.count) {
+        return wrong(error, "layer %zu: %zu finite .amounts are needed, one for each of .lanes", i,
+                     layer.lanes.count);
+      }
+    } else if (!is_time(layer.delay) || layer.stream_frames < 2 ||
+               layer.stream_frames > kMaxStreamFrames) {
+      return wrong(error, "layer %zu: .delay %lld, .stream_frames %u; %s, frames 2 ... %u", i,
+                   static_cast<long long>(layer.delay), layer.stream_frames, kTimeRange,
+                   kMaxStreamFrames);
     }
   }
   if (desc.player_count >= clips && desc.player_count <= 4 * kMaxLayers) return Status::kOk;
@@ -88,74 +130,100 @@ Status check_reactions(const MixDesc& desc, Error& error) {
   }
   for (size_t i = 0; i < desc.reactions.count; ++i) {
     const ReactionDesc& reaction = desc.reactions[i];
-    if (reaction.strokes.count > kMaxStrokes)
-      return wrong(error, "reaction", i, "too many strokes");
-    if (!within(reaction.adapted, 0.0f, 1.0f) || !is_time(reaction.cooldown) ||
-        !is_time(reaction.adapt_ticks) || !is_time(reaction.recover_ticks) ||
-        static_cast<uint32_t>(reaction.retrigger) > 2) {
-      return wrong(error, "reaction", i, "rule, adaptation or a time out of range");
+    if (reaction.strokes.count > kMaxStrokes) {
+      return wrong(error, "reaction %zu: %zu strokes; it has at most %u", i, reaction.strokes.count,
+                   kMaxStrokes);
     }
-    for (const Stroke& stroke : reaction.strokes) {
+    if (static_cast<uint32_t>(reaction.retrigger) > 2 || !within(reaction.adapted, 0.0f, 1.0f)) {
+      return wrong(
+          error, "reaction %zu: .retrigger %u, .adapted %g; rules are 0 ... 2, the latter 0 ... 1",
+          i, static_cast<uint32_t>(reaction.retrigger), double{reaction.adapted});
+    }
+    if (!is_time(reaction.cooldown) || !is_time(reaction.adapt_ticks) ||
+        !is_time(reaction.recover_ticks)) {
+      return wrong(error, "reaction %zu: .cooldown, .adapt_ticks or .recover_ticks; %s", i,
+                   kTimeRange);
+    }
+    for (size_t s = 0; s < reaction.strokes.count; ++s) {
+      const Stroke& stroke = reaction.strokes[s];
       if (stroke.pose >= desc.poses.count || static_cast<uint32_t>(stroke.mode) >= kBlendModes) {
-        return wrong(error, "reaction", i, "a stroke with a pose or mode that does not exist");
+        return wrong(error, "reaction %zu, stroke %zu: .pose %u of %zu, .mode %u of %u", i, s,
+                     stroke.pose, desc.poses.count, static_cast<uint32_t>(stroke.mode),
+                     kBlendModes);
       }
       if (!is_time(stroke.delay) || !is_time(stroke.attack) || !is_time(stroke.hold) ||
           !is_time(stroke.release)) {
-        return wrong(error, "reaction", i, "a stroke with a time out of range");
+        return wrong(error, "reaction %zu, stroke %zu: .delay, .attack, .hold or .release; %s", i,
+                     s, kTimeRange);
       }
     }
   }
   return Status::kOk;
 }
 
-Status check_lanes(const MixDesc& desc, uint32_t lanes, Error& error) {
-  if (desc.poses.count > kMaxPoses) {
-    return fail(error, Status::kInvalidArgument, kNoOffset, "%zu poses; a mix has at most %u",
-                desc.poses.count, kMaxPoses);
+Status check_guard(const Guard& guard, size_t i, uint32_t lanes, Error& error) {
+  if (guard.count > kMaxGuardLanes || guard.pair_count > kMaxGuardPairs) {
+    return wrong(error, "guard %zu: %u lanes and %u pairs; it has at most %u and %u", i,
+                 guard.count, guard.pair_count, kMaxGuardLanes, kMaxGuardPairs);
   }
+  const Status status = check_lane_list({guard.lanes, guard.count}, lanes, "guard", i, error);
+  if (status != Status::kOk) return status;
+  bool finite =
+      first_beyond({guard.gains, guard.count}, -kLargestFloat, kLargestFloat) == guard.count;
+  for (uint32_t k = 0; k < guard.pair_count; ++k) {
+    const GuardPair& pair = guard.pairs[k];
+    finite = finite && std::isfinite(pair.gain);
+    if (pair.first < guard.count && pair.second < guard.count && pair.first != pair.second)
+      continue;
+    return wrong(error,
+                 "guard %zu: pair %u is of its lanes %u and %u; it has %u, and a pair has two", i,
+                 k, pair.first, pair.second, guard.count);
+  }
+  if (finite && std::isfinite(guard.rest) && within(guard.tolerance, 0.0f, kLargestFloat) &&
+      guard.f_on > 0.0f && std::isfinite(guard.f_on)) {
+    return Status::kOk;
+  }
+  return wrong(
+      error,
+      "guard %zu: gains and .rest must be finite, .tolerance (%g) 0 or more, .f_on (%g) above "
+      "0",
+      i, double{guard.tolerance}, double{guard.f_on});
+}
+
+Status check_lanes(const MixDesc& desc, uint32_t lanes, Error& error) {
+  if (desc.poses.count > kMaxPoses || desc.guards.count > kMaxGuards) {
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "%zu poses and %zu guards; a mix has at most %u and %u", desc.poses.count,
+                desc.guards.count, kMaxPoses, kMaxGuards);
+  }
+  Status status = Status::kOk;
   for (size_t i = 0; i < desc.poses.count; ++i) {
     const PoseDesc& pose = desc.poses[i];
     if (pose.lanes.count != pose.values.count || pose.lanes.count > lanes) {
-      return wrong(error, "pose", i, "counts of lanes and values do not match");
+      return wrong(error, "pose %zu: %zu lanes, %zu values; both must be as many, at most %u", i,
+                   pose.lanes.count, pose.values.count, lanes);
     }
-    for (uint16_t lane : pose.lanes) {
-      if (lane >= lanes) return wrong(error, "pose", i, "a lane that does not exist");
-    }
-    if (!all_within(pose.values, -kLargestFloat, kLargestFloat)) {
-      return wrong(error, "pose", i, "a value is not finite");
-    }
-  }
-  if (desc.guards.count > kMaxGuards) {
-    return fail(error, Status::kInvalidArgument, kNoOffset, "%zu guards; a mix has at most %u",
-                desc.guards.count, kMaxGuards);
-  }
-  for (size_t i = 0; i < desc.guards.count; ++i) {
-    const Guard& guard = desc.guards[i];
-    if (guard.count > kMaxGuardLanes) return wrong(error, "guard", i, "too many lanes");
-    if (guard.pair_count > kMaxGuardPairs) return wrong(error, "guard", i, "too many pairs");
-    for (uint32_t k = 0; k < guard.pair_count; ++k) {
-      const GuardPair& pair = guard.pairs[k];
-      if (pair.first >= guard.count || pair.second >= guard.count || pair.first == pair.second) {
-        return wrong(error, "guard", i, "a pair of lanes that it does not have");
-      }
-      if (!std::isfinite(pair.gain)) return wrong(error, "guard", i, "a gain is not finite");
-    }
-    for (uint32_t k = 0; k < guard.count; ++k) {
-      if (guard.lanes[k] >= lanes) return wrong(error, "guard", i, "a lane that does not exist");
-      if (!std::isfinite(guard.gains[k])) return wrong(error, "guard", i, "a gain is not finite");
-    }
-    if (!std::isfinite(guard.rest) || !within(guard.tolerance, 0.0f, kLargestFloat) ||
-        !(guard.f_on > 0.0f) || !std::isfinite(guard.f_on)) {
-      return wrong(error, "guard", i, "rest, f_on or tolerance out of range");
+    status = check_lane_list(pose.lanes, lanes, "pose", i, error);
+    if (status != Status::kOk) return status;
+    const size_t beyond = first_beyond(pose.values, -kLargestFloat, kLargestFloat);
+    if (beyond != pose.values.count) {
+      return wrong(error, "pose %zu: .values[%zu] is %g; values must be finite", i, beyond,
+                   double{pose.values[beyond]});
     }
   }
+  for (size_t i = 0; i < desc.guards.count && status == Status::kOk; ++i) {
+    status = check_guard(desc.guards[i], i, lanes, error);
+  }
+  if (status != Status::kOk) return status;
   for (size_t i = 0; i < desc.antagonists.count; ++i) {
     const AntagonistPair& pair = desc.antagonists[i];
     if (pair.a >= lanes || pair.b >= lanes || pair.a == pair.b) {
-      return wrong(error, "antagonists", i, "they are not two lanes of the mix");
+      return wrong(error, "antagonists %zu: lanes %u and %u; they must be two of %u", i, pair.a,
+                   pair.b, lanes);
     }
     if (!within(pair.stiffness, 0.0f, 1.0f)) {
-      return wrong(error, "antagonists", i, "stiffness beyond 0 ... 1");
+      return wrong(error, "antagonists %zu: .stiffness is %g; it must be within 0 ... 1", i,
+                   double{pair.stiffness});
     }
   }
   if (!desc.mirror.empty() && desc.mirror.count != lanes) {
@@ -164,7 +232,9 @@ Status check_lanes(const MixDesc& desc, uint32_t lanes, Error& error) {
   }
   for (size_t i = 0; i < desc.mirror.count; ++i) {
     if (desc.mirror[i] >= lanes || desc.mirror[desc.mirror[i]] != i) {
-      return wrong(error, "mirror map, lane", i, "it is not the mirror image of its own image");
+      return wrong(error,
+                   "mirror map: lane %zu becomes %u, which does not become it; give lanes in pairs",
+                   i, desc.mirror[i]);
     }
   }
   if (desc.lower.count != desc.upper.count || (!desc.lower.empty() && desc.lower.count != lanes)) {
@@ -174,7 +244,8 @@ Status check_lanes(const MixDesc& desc, uint32_t lanes, Error& error) {
   for (size_t i = 0; i < desc.lower.count; ++i) {
     if (!(desc.lower[i] <= desc.upper[i]) || !std::isfinite(desc.lower[i]) ||
         !std::isfinite(desc.upper[i])) {
-      return wrong(error, "limits, lane", i, "lower and upper are not in order");
+      return wrong(error, "limits of lane %zu: %g ... %g; they must be finite and in order", i,
+                   double{desc.lower[i]}, double{desc.upper[i]});
     }
   }
   return Status::kOk;
@@ -334,7 +405,11 @@ Status create_mix(const MixDesc& desc, const Allocator& allocator, Mix*& out, Er
   if (desc.max_channels > kMaxClipChannels || desc.max_changing_channels > kMaxChangingChannels ||
       desc.max_bound_gui > kMaxClipChannels || desc.max_events > kMaxClipChannels) {
     return fail(error, Status::kInvalidArgument, kNoOffset,
-                "channels, GUI controls or events beyond what clips can have");
+                "%u channels, %u of them changing, %u GUI controls, %u events; clips have at most "
+                "%u, %u, %u "
+                "and %u",
+                desc.max_channels, desc.max_changing_channels, desc.max_bound_gui, desc.max_events,
+                kMaxClipChannels, kMaxChangingChannels, kMaxClipChannels, kMaxClipChannels);
   }
   const uint32_t lanes = desc.raw_count + desc.variable_count;
   Status status = check_lanes(desc, lanes, error);
@@ -347,7 +422,10 @@ Status create_mix(const MixDesc& desc, const Allocator& allocator, Mix*& out, Er
   Placer measure(nullptr);
   place_mix(measure, desc, measured);
   void* block = allocator.get(measure.size(), kBlockAlignment);
-  if (!block) return fail(error, Status::kMemory, kNoOffset, "no memory for a mix");
+  if (!block) {
+    return fail(error, Status::kMemory, kNoOffset, "no memory for a mix: %zu bytes",
+                measure.size());
+  }
   Mix& mix = *new (block) Mix;
   mix.raw_count = desc.raw_count;
   mix.variable_count = desc.variable_count;

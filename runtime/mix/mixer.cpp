@@ -404,6 +404,14 @@ void net_antagonists(const Mix& mix, float* row) {
   }
 }
 
+Status bad_fade(Error& error, const char* of, uint32_t index, float weight, float lowest,
+                int64_t ticks) {
+  return fail(
+      error, Status::kInvalidArgument, kNoOffset,
+      "%s %u: weight %g in %lld ticks; weights are %g ... 1, times 0 ... 2^40 ticks (26 minutes)",
+      of, index, double{weight}, static_cast<long long>(ticks), double{lowest});
+}
+
 Status bad_layer(Error& error, uint32_t layer, const char* why) {
   return fail(error, Status::kIndex, kNoOffset, "layer %u: %s", layer, why);
 }
@@ -499,8 +507,9 @@ Status play_clip(Mixer& mixer, uint32_t index, const ClipSource& source, const L
   if ((desc.mirrored && mix.mirror.empty()) || desc.transition_ticks < 0 ||
       desc.transition_ticks > kMaxFadeTicks) {
     return fail(error, Status::kInvalidArgument, kNoOffset, "layer %u: %s", index,
-                desc.mirrored && mix.mirror.empty() ? "the mix has no mirror map"
-                                                    : "the time of the transition is out of range");
+                desc.mirrored && mix.mirror.empty()
+                    ? "the mix has no mirror map"
+                    : "the time of the transition must be 0 ... 2^40 ticks (26 minutes)");
   }
   LayerState& layer = mixer.layers[index];
   const int64_t now = mixer.header->now;
@@ -545,7 +554,7 @@ Status stop_layer(Mixer& mixer, uint32_t index, int64_t fade_ticks, Error& error
     return bad_layer(error, index, "it does not exist or plays no clips");
   }
   if (fade_ticks < 0 || fade_ticks > kMaxFadeTicks) {
-    return fail(error, Status::kInvalidArgument, kNoOffset, "the time of the fade is out of range");
+    return bad_fade(error, "layer", index, 0.0f, 0.0f, fade_ticks);
   }
   start_fade(mixer.layers[index].presence, mixer.header->now, 0.0f, fade_ticks);
   return Status::kOk;
@@ -556,8 +565,7 @@ Status set_layer_weight(Mixer& mixer, uint32_t index, float weight, int64_t fade
   if (index >= mixer.layers.count) return bad_layer(error, index, "it does not exist");
   const float lowest = mixer.mix->layers[index].mode == BlendMode::kAdd ? -1.0f : 0.0f;
   if (!(weight >= lowest && weight <= 1.0f) || fade_ticks < 0 || fade_ticks > kMaxFadeTicks) {
-    return fail(error, Status::kInvalidArgument, kNoOffset, "layer %u: weight or time out of range",
-                index);
+    return bad_fade(error, "layer", index, weight, lowest, fade_ticks);
   }
   start_fade(mixer.layers[index].weight, mixer.header->now, weight, fade_ticks);
   return Status::kOk;
@@ -569,8 +577,7 @@ Status set_pose_weight(Mixer& mixer, uint32_t index, uint32_t pose, float weight
     return bad_layer(error, index, "it does not exist or has no such pose");
   }
   if (!(weight >= 0.0f && weight <= 1.0f) || fade_ticks < 0 || fade_ticks > kMaxFadeTicks) {
-    return fail(error, Status::kInvalidArgument, kNoOffset,
-                "layer %u, pose %u: weight or time out of range", index, pose);
+    return bad_fade(error, "pose", pose, weight, 0.0f, fade_ticks);
   }
   start_fade(mixer.pose_weights[mixer.mix->layers[index].first_fade + pose], mixer.header->now,
              weight, fade_ticks);
@@ -606,7 +613,9 @@ Status push_row(Mixer& mixer, uint32_t index, int64_t tick, Span<const float> va
                 index);
   }
   if (tick > kMaxStreamTick || tick < -kMaxStreamTick) {
-    return fail(error, Status::kInvalidArgument, kNoOffset, "layer %u: time out of range", index);
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "layer %u: tick %lld; times are within 2^61 of 0", index,
+                static_cast<long long>(tick));
   }
   const bool pushed = push_stream(stream, tick, values.data);
   if (accepted) *accepted = pushed;
@@ -620,8 +629,11 @@ Status trigger(Mixer& mixer, uint32_t reaction, float strength, int64_t hold_tic
   }
   if (!(strength >= 0.0f && strength <= 1.0f) || hold_ticks < 0 ||
       (hold_ticks > kMaxFadeTicks && hold_ticks != kUntilReleased)) {
-    return fail(error, Status::kInvalidArgument, kNoOffset,
-                "reaction %u: strength or time out of range", reaction);
+    return fail(
+        error, Status::kInvalidArgument, kNoOffset,
+        "reaction %u: strength %g for %lld ticks; strengths are 0 ... 1, times 0 ... 2^40, or "
+        "kUntilReleased",
+        reaction, double{strength}, static_cast<long long>(hold_ticks));
   }
   trigger_reaction(*mixer.mix, reaction, mixer.header->now, strength, hold_ticks, mixer.reactions,
                    mixer.strokes);
@@ -643,7 +655,9 @@ Status set_guard(Mixer& mixer, uint32_t guard, float activation, Error& error) {
                 mixer.guard_overrides.count);
   }
   if (!(activation <= 1.0f)) {
-    return fail(error, Status::kInvalidArgument, kNoOffset, "guard %u: activation above 1", guard);
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "guard %u: activation %g; it must be 0 ... 1, or negative for the guard's own",
+                guard, double{activation});
   }
   mixer.guard_overrides[guard] = activation < 0.0f ? -1.0f : activation;
   return Status::kOk;

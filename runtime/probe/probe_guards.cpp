@@ -114,18 +114,21 @@ Status check_landmark(const Deformer& deformer, const Landmark& landmark, size_t
                       Error& error) {
   const bool joints = landmark.mesh == kOfJoints;
   if (landmark.points.empty()) {
-    return fail(error, Status::kInvalidArgument, kNoOffset, "guard %zu: no points", guard);
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "guard %zu: a landmark has no points; give positions of a mesh, or joints", guard);
   }
   if (!joints &&
       (landmark.mesh >= deformer.meshes.count || !(deformer.meshes[landmark.mesh].lods & 1))) {
-    return fail(error, Status::kIndex, kNoOffset, "guard %zu: mesh %u is none of LOD 0", guard,
-                landmark.mesh);
+    return fail(error, Status::kIndex, kNoOffset,
+                "guard %zu: mesh %u is none that LOD 0 shows, of %zu", guard, landmark.mesh,
+                deformer.meshes.count);
   }
   const uint32_t count =
       joints ? deformer.rig->joint_count : deformer.meshes[landmark.mesh].position_count;
   for (uint32_t point : landmark.points) {
     if (point < count) continue;
-    return fail(error, Status::kIndex, kNoOffset, "guard %zu: point %u of %u", guard, point, count);
+    return fail(error, Status::kIndex, kNoOffset, "guard %zu: point %u; %s has %u", guard, point,
+                joints ? "joints: the rig" : "positions: the mesh", count);
   }
   return Status::kOk;
 }
@@ -134,12 +137,15 @@ Status check_guard(const Deformer& deformer, const GuardDesc& desc, size_t guard
   const bool positive = desc.f_on > 0 && desc.f_on <= kLargestFloat && desc.tolerance >= 0 &&
                         desc.tolerance <= kLargestFloat;
   if (!positive) {
-    return fail(error, Status::kInvalidArgument, kNoOffset,
-                "guard %zu: f_on must be above 0, the tolerance not below, both finite", guard);
+    return fail(
+        error, Status::kInvalidArgument, kNoOffset,
+        "guard %zu: .f_on is %g and .tolerance %g; the first must be above 0, the second 0 or "
+        "more, both finite",
+        guard, double{desc.f_on}, double{desc.tolerance});
   }
   if (desc.closed_by != kNoControl && desc.closed_by >= deformer.rig->raw_count) {
-    return fail(error, Status::kIndex, kNoOffset, "guard %zu: raw control %u of %u", guard,
-                desc.closed_by, deformer.rig->raw_count);
+    return fail(error, Status::kIndex, kNoOffset, "guard %zu: .closed_by is raw control %u of %u",
+                guard, desc.closed_by, deformer.rig->raw_count);
   }
   const Status status = check_landmark(deformer, desc.upper, guard, error);
   return status != Status::kOk ? status : check_landmark(deformer, desc.lower, guard, error);

@@ -9,6 +9,7 @@
 
 #include "runtime/base/mapped_file.h"
 #include "tests/support/exercise_clip.h"
+#include "tests/support/long_run.h"
 #include "tests/support/made_clip.h"
 
 namespace mien {
@@ -378,7 +379,7 @@ TEST(ClipDamage, MutatedBytesAreRefusedOrPlayedSafely) {
   const Bytes originals[] = {small_input().build(), half.build()};
   std::minstd_rand random(1);
   int opened = 0, unnoticed = 0;
-  for (int i = 0; i < 1500; ++i) {
+  for (size_t i = 0; i < rounds(1500, 10000000); ++i) {  // A5
     Bytes bytes = originals[i % 2];
     for (uint32_t changes = 1 + random() % 3; changes > 0; --changes) {
       const size_t limit = random() % 3 == 0 ? kClipHeaderSize : bytes.size();

@@ -2,6 +2,7 @@
 // Antagonists, mirror, masks and gazes through mien.h: results, wrong arguments, memory. What they find
 // is tested in tests/probe.
 #include <cmath>
+#include <functional>
 
 #include "tests/support/counting_allocator.h"
 #include "tests/support/deform_rig.h"
@@ -131,6 +132,67 @@ TEST(Gaze, TakesJointsByName) {
   MienGaze* made = nullptr;
   EXPECT_EQ(mien_gaze_create(nullptr, nullptr, &made, nullptr), MIEN_ERROR_NULL_ARGUMENT);
   mien_gaze_destroy(nullptr);
+}
+
+// Mirror and masks take memory from the allocator of the rig, guards from that of the mix.
+TEST(MixProbes, EveryFailedAllocationIsReportedAndNothingLeaks) {
+  const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 1);
+  CountingAllocator memory;
+  {
+    const MienAllocator allocator = memory.get();
+    MienRigDesc rig_desc = sized<MienRigDesc>();
+    rig_desc.allocator = &allocator;
+    MienRig* made_rig = nullptr;
+    ASSERT_EQ(mien_rig_create(dna.get(), &rig_desc, &made_rig, nullptr), MIEN_OK);
+    const RigHandle rig(made_rig);
+    MienDeformerDesc deformer_desc = sized<MienDeformerDesc>();
+    deformer_desc.allocator = &allocator;
+    MienDeformer* made_deformer = nullptr;
+    ASSERT_EQ(mien_deformer_create(dna.get(), rig.get(), &deformer_desc, &made_deformer, nullptr),
+              MIEN_OK);
+    const DeformerHandle deformer(made_deformer);
+    const size_t lane_count = names_of(rig, MIEN_KIND_RAW_CONTROL).size();
+    std::vector<uint16_t> lanes(lane_count);
+    std::vector<float> mask(lane_count);
+    const uint32_t group = 0;
+    MienMixDesc mix_desc = sized<MienMixDesc>();
+    mix_desc.allocator = &allocator;
+    mix_desc.deformer = deformer.get();
+    mix_desc.guards = MIEN_GUARD_ALL;
+    const std::function<MienStatus(MienError*)> calls[] = {
+        [&](MienError* error) {
+          return mien_mix_mirror(deformer.get(), lanes.data(), lane_count, error);
+        },
+        [&](MienError* error) {
+          return mien_mix_mask(rig.get(), &group, 1, 0, mask.data(), lane_count, error);
+        },
+        [&](MienError* error) {
+          MienMix* mix = nullptr;
+          const MienStatus status = mien_mix_create(rig.get(), &mix_desc, &mix, error);
+          EXPECT_EQ(mix == nullptr, status != MIEN_OK);
+          mien_mix_destroy(mix);
+          return status;
+        },
+    };
+    const size_t live = memory.live;
+    for (const auto& call : calls) {
+      for (size_t request = 1;; ++request) {
+        memory.restart();
+        memory.fail_at = request;
+        MienError error = sized<MienError>();
+        const MienStatus status = call(&error);
+        EXPECT_EQ(status, memory.failed ? MIEN_ERROR_MEMORY : MIEN_OK) << error.message;
+        EXPECT_EQ(memory.live, live);
+        if (memory.failed == 0) {
+          EXPECT_GT(request, 1u);
+          break;
+        }
+        EXPECT_NE(error.message[0], 0);
+      }
+    }
+    memory.fail_at = 0;
+  }
+  EXPECT_TRUE(memory.clean()) << memory.first_wrong;
 }
 
 TEST(Gaze, IsOfAnyMemoryOrFailsWithoutALeak) {

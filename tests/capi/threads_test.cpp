@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "tests/support/deform_rig.h"
+#include "tests/support/mix_scene.h"
 
 namespace mien {
 namespace {
@@ -254,6 +255,42 @@ TEST(CapiThreads, TasksOfADeformationWriteToSeparatePlaces) {
   for (uint32_t normals : {MIEN_NORMALS_SKINNED, MIEN_NORMALS_RECOMPUTED}) {
     EXPECT_EQ(mien_deformer_instance_deform(d.instance.get(), 0, normals, &parallel), MIEN_OK);
   }
+}
+
+// One mix and its clips, many mixers; rows of a stream come from yet another thread.
+TEST(CapiThreads, MixersOfOneMixDoNotDisturbEachOther) {
+  const MixScene scene(24);
+  constexpr int kSteps = 60;
+  std::vector<uint64_t> expected(kThreads), found(kThreads);
+  const auto play = [&](int t, std::vector<uint64_t>& hashes) {
+    SceneActor actor(scene, static_cast<uint64_t>(t));
+    actor.begin();
+    Random random = Random::from_seed(static_cast<uint64_t>(t), 0);
+    for (int step = 0; step < kSteps; ++step) {
+      actor.disturb(random);
+      hashes[static_cast<size_t>(t)] = hash_floats(hashes[static_cast<size_t>(t)],
+                                                   actor.step(kSceneStep), scene.mix->lane_count);
+    }
+  };
+  for (int t = 0; t < kThreads; ++t) play(t, expected);
+  on_threads(kThreads, [&](int t) { play(t, found); });
+  EXPECT_EQ(found, expected);
+
+  SceneActor streamed(scene, 1);
+  on_threads(2, [&](int t) {
+    Random random = Random::from_seed(static_cast<uint64_t>(t), 1);
+    const float row[MixScene::kChannels] = {};
+    for (int i = 0; i < 500; ++i) {
+      Error error;
+      if (t == 0) {
+        EXPECT_EQ(push_row(*streamed.mixer, MixScene::kLive, i * kSceneStep,
+                           {row, MixScene::kChannels}, nullptr, error),
+                  Status::kOk);
+      } else {
+        streamed.step(random.below(40) * kSceneMillisecond);
+      }
+    }
+  });
 }
 
 TEST(CapiThreads, FunctionsWithoutAHandle) {

@@ -227,7 +227,7 @@ struct MixScene {
 /// Plays the scene at random; what it does depends on the random numbers alone.
 struct SceneActor {
   struct Destroy {
-    void operator()(Mixer* mixer) const { destroy_mixer(mixer); }
+    void operator()(Mixer* made) const { destroy_mixer(made); }
   };
   const MixScene& scene;
   std::unique_ptr<Mixer, Destroy> mixer;
@@ -285,29 +285,28 @@ struct SceneActor {
       const uint32_t layer = random.chance(0.5) ? MixScene::kBase : MixScene::kSpeech;
       scene_requires(stop_layer(*mixer, layer, some(300), error));
     }
+    // One after the other: the order of evaluation of arguments is the compiler's.
+    const auto share = [&random] { return static_cast<float>(random.below(257)) / 256; };
     if (random.chance(0.05)) {
-      scene_requires(set_layer_weight(*mixer, random.below(MixScene::kLayers),
-                                      static_cast<float>(random.below(257)) / 256, some(300),
-                                      error));
+      const uint32_t layer = random.below(MixScene::kLayers);
+      const float weight = share();
+      scene_requires(set_layer_weight(*mixer, layer, weight, some(300), error));
     }
     if (random.chance(0.05)) {
-      scene_requires(set_pose_weight(*mixer, MixScene::kMood, random.below(MixScene::kMoods),
-                                     static_cast<float>(random.below(257)) / 256, some(300),
-                                     error));
+      const uint32_t pose = random.below(MixScene::kMoods);
+      const float weight = share();
+      scene_requires(set_pose_weight(*mixer, MixScene::kMood, pose, weight, some(300), error));
     }
     if (random.chance(0.03)) {
       const int64_t hold = random.chance(0.2) ? kUntilReleased : some(1000);
-      scene_requires(trigger(*mixer, 0, static_cast<float>(random.below(257)) / 256, hold, error));
+      scene_requires(trigger(*mixer, 0, share(), hold, error));
     }
     if (random.chance(0.03)) scene_requires(end_stimulus(*mixer, 0, error));
-    if (random.chance(0.02) && mixer->guard_overrides.count != 0) {
-      scene_requires(set_guard(*mixer,
-                               random.below(static_cast<uint32_t>(mixer->guard_overrides.count)),
-                               static_cast<float>(random.below(513)) / 256 - 1, error));
+    if (random.chance(0.02) && !mixer->guard_overrides.empty()) {
+      const uint32_t guard = random.below(static_cast<uint32_t>(mixer->guard_overrides.count));
+      scene_requires(set_guard(*mixer, guard, 2 * share() - 1, error));
     }
-    if (random.chance(0.02)) {
-      scene_requires(set_variable(*mixer, 0, static_cast<float>(random.below(257)) / 256, error));
-    }
+    if (random.chance(0.02)) scene_requires(set_variable(*mixer, 0, share(), error));
   }
 
   /// All lanes.

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Tests with a short form for every day and a long one, which runs with MIEN_LONG_TESTS set (ctest -C
+// long -L long).
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+
+namespace mien {
+
+/// `many` in long tests, or as many as MIEN_LONG_TESTS says if that is more than 1.
+inline size_t rounds(size_t usual, size_t many) {
+  const char* wanted = std::getenv("MIEN_LONG_TESTS");
+  if (!wanted) return usual;
+  const unsigned long long count = std::strtoull(wanted, nullptr, 10);
+  return count > 1 ? static_cast<size_t>(count) : many;
+}
+
+}  // namespace mien
