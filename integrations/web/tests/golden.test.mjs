@@ -2,11 +2,14 @@
 // Golden rigs in WebAssembly: within their tolerances, and with the bits of the native program where
 // docs/numbers.md promises them.
 import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 import { after, test } from "node:test";
-import { api, goldenRigs, Mien, mien, readGolden, sameBits } from "./support.mjs";
+import {
+  api, goldenRigs, Mien, mien, program as nativeProgram, project, readGolden, sameBits,
+} from "./support.mjs";
 
 const { Isa, RotationOutput, RotationUnit } = api;
 const work = mkdtempSync(join(tmpdir(), "mien-web-"));
@@ -146,6 +149,43 @@ for (const [name, path] of goldenRigs()) {
     }
   });
 }
+
+test("vertices have the bits of the native library", async (context) => {
+  const baked = join(work, "head.baked");
+  const generated = join(work, "head.dna");
+  mien(["demo-head", "-o", generated, "--quiet"]);
+  mien(["bake", generated, "-o", baked, "--quiet"]);
+  const pose = { jawOpen: 0.6, mouthSmileLeft: 0.75, eyeBlinkRight: 1, browInnerUp: 0.3 };
+  const done = spawnSync("python3", [join(project, "integrations/web/tests/native_vertices.py"), baked,
+    ...Object.entries(pose).map(([name, value]) => `${name}=${value}`)], {
+    maxBuffer: 2 ** 28,
+    env: { ...process.env, PYTHONPATH: join(project, "integrations/python"), PYTHONDONTWRITEBYTECODE: "1",
+      MIEN_LIBRARY: join(dirname(dirname(nativeProgram)), "lib/libmien.so") },
+  });
+  if (/No module named 'numpy'/.test(done.stderr)) {
+    console.log("NOT TESTED: bits of vertices in WebAssembly; Python has no NumPy");
+    context.skip("Python has no NumPy");
+    return;
+  }
+  assert.equal(done.status, 0, done.stderr.toString());
+  const native = new Uint32Array(done.stdout.buffer.slice(done.stdout.byteOffset, done.stdout.byteOffset + done.stdout.length));
+  const rig = await slim.openRig(readFileSync(baked));
+  const [face, meshes] = [rig.instance(), rig.deformer.instance({ lods: 1 })];
+  for (const [name, value] of Object.entries(pose)) face.controls[name] = value;
+  face.evaluate(0);
+  meshes.update(face);
+  let at = 0;
+  for (const mesh of rig.lodIndices(api.Kind.MESH, 0).slice()) {
+    meshes.deform(mesh);
+    for (const values of [meshes.positions(mesh), meshes.normals(mesh)]) {
+      const bits = new Uint32Array(values.slice().buffer);
+      assert.deepEqual(bits, native.subarray(at, at + bits.length), rig.name(api.Kind.MESH, mesh));
+      at += bits.length;
+    }
+  }
+  assert.equal(at, native.length);
+  assert.ok(at > 50000);
+});
 
 test("a head that was generated here is the one that the program generates", () => {
   const dna = full.generate(api.Preset.HEAD);

@@ -3,6 +3,8 @@
 // compile.
 import { DnaError, Isa, Kind, Mien, MienError, Normals, Preset, Stage, TICKS_PER_SECOND } from "mien";
 import type { Clip, Mesh, Rig, RigInfo } from "mien";
+import { FaceObject, GltfFace } from "mien/three";
+import { MeshBasicMaterial, PerspectiveCamera, Scene } from "three";
 
 export async function use(file: File): Promise<number> {
   const mien: Mien = await Mien.load({ bakedOnly: false });
@@ -42,4 +44,15 @@ export async function use(file: File): Promise<number> {
     if (error instanceof MienError) return error.status;
   }
   return info.lodCount + joints.length + names.length + (mesh?.vertexCount ?? 0) + head.count(Kind.MESH) + String(value).length;
+}
+
+export function show(rig: Rig, scene: Scene, camera: PerspectiveCamera): void {
+  const face = new FaceObject(rig, { skinning: "gpu", material: () => new MeshBasicMaterial() });
+  scene.add(face);
+  face.face.controls.jawOpen = 1;
+  face.lod = face.lodOf(camera);
+  face.update();
+  new GltfFace(scene, rig).update();
+  // @ts-expect-error: no such way of skinning
+  new FaceObject(rig, { skinning: "cpu" });
 }

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: MIT
+// The viewer in a headless Chromium, used as people use it.
+import assert from "node:assert/strict";
+import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { serve } from "../serve.mjs";
+import { findChromium, Page } from "./browser.mjs";
+import { mien, project, sameBits } from "./support.mjs";
+
+const folder = join(project, "build/web/viewer");
+const chromium = findChromium();
+const missing = !existsSync(folder) ? "it was not built" : !chromium ? "there is no Chromium" : null;
+if (missing) console.log(`NOT TESTED: the viewer in a browser; ${missing}`);
+const options = { skip: missing ?? false };
+
+const work = mkdtempSync(join(tmpdir(), "mien-viewer-"));
+const dna = join(work, "head.dna");
+const baked = join(work, "head.rig");
+let server;
+let page;
+
+before(async () => {
+  if (missing) return;
+  mien(["demo-head", "-o", dna, "--quiet"]);
+  mien(["bake", dna, "-o", baked, "--quiet"]);
+  mien(["export", dna, "-o", join(work, "head.glb"), "--quiet"]);
+  server = await serve(folder);
+  page = await Page.open(chromium, { width: 800, height: 400 }); // small: the GPU is software
+  await page.goto(server.url);
+  await page.until("() => document.body.dataset.ready", "loaded");
+});
+
+after(async () => {
+  await page?.close();
+  server?.close();
+  rmSync(work, { recursive: true });
+});
+
+const text = (id) => page.run((of) => document.getElementById(of).textContent, id);
+const frames = (count = 2) => page.run(async (wanted) => {
+  for (let i = 0; i < wanted; ++i) await new Promise(requestAnimationFrame);
+}, count);
+
+/** Opens files by the button, and waits until the page has dealt with them. */
+async function open(...paths) {
+  await page.run(() => { window.viewerModel = window.viewer.model; });
+  await page.choose("#files", paths);
+  await page.until("() => document.body.hasAttribute('aria-busy') || window.viewer.model !== window.viewerModel || " +
+    "!document.getElementById('error').hidden || document.getElementById('files').value === ''", "begun");
+  await page.until("() => !document.body.hasAttribute('aria-busy') && document.getElementById('files').value === ''", "opened");
+  await frames();
+}
+
+/** Moves a slider as a user does. */
+const slide = (name, value) => page.run((label, to) => {
+  const input = document.querySelector(`#list input[aria-label="${label}"]`);
+  input.value = to;
+  input.dispatchEvent(new Event("input", { bubbles: true }));
+}, name, value);
+
+const choose = (id, value) => page.run((of, to) => {
+  const element = document.getElementById(of);
+  if (element.type === "checkbox") element.checked = to;
+  else element.value = to;
+  element.dispatchEvent(new Event("change"));
+}, id, value);
+
+const numbers = async (what) => Float32Array.from(await page.run(`() => Array.from(${what})`));
+
+/** The middle of the canvas, as 64 x 64 pixels. */
+const canvas = () => page.run(async () => {
+  const { renderer, scene, camera, canvas: element } = window.viewer.stage;
+  renderer.render(scene, camera);
+  const copy = new OffscreenCanvas(64, 64);
+  const context = copy.getContext("2d");
+  context.drawImage(element, 0, 0, 64, 64);
+  const { data } = context.getImageData(0, 0, 64, 64);
+  return Array.from(data);
+});
+
+/** Structural similarity of the brightness of two images of 64 x 64 pixels, in windows of 8 x 8. */
+function similarity(a, b) {
+  const gray = (image) => Float64Array.from({ length: 4096 }, (_, i) => 0.3 * image[4 * i] + 0.59 * image[4 * i + 1] + 0.11 * image[4 * i + 2]);
+  const [x, y] = [gray(a), gray(b)];
+  let sum = 0;
+  for (let window = 0; window < 64; ++window) {
+    let [mx, my, xx, yy, xy] = [0, 0, 0, 0, 0];
+    for (let i = 0; i < 64; ++i) {
+      const at = ((window >> 3) * 8 + (i >> 3)) * 64 + (window & 7) * 8 + (i & 7);
+      mx += x[at] / 64;
+      my += y[at] / 64;
+      xx += (x[at] * x[at]) / 64;
+      yy += (y[at] * y[at]) / 64;
+      xy += (x[at] * y[at]) / 64;
+    }
+    const [c1, c2] = [6.5025, 58.5225];
+    sum += ((2 * mx * my + c1) * (2 * (xy - mx * my) + c2)) /
+      ((mx * mx + my * my + c1) * (xx - mx * mx + yy - my * my + c2));
+  }
+  return sum / 64;
+}
+
+test("the page opens without errors and asks no other place for anything", options, async () => {
+  assert.match(await text("welcome"), /Nothing is sent anywhere/);
+  assert.deepEqual(page.errors, []);
+  assert.ok(page.requests.length > 5);
+  for (const address of page.requests) assert.ok(address.startsWith(server.url), address);
+});
+
+test("the page cannot send anything elsewhere", options, async () => {
+  const reached = await page.run(() => fetch("https://example.org/", { mode: "no-cors" }).then(() => true, () => false));
+  assert.equal(reached, false);
+  assert.ok(page.errors.splice(0).some((error) => /Content Security Policy/.test(error)));
+});
+
+test("a file that is no rig gives a message and leaves the page alive", options, async () => {
+  const bad = join(work, "bad.dna");
+  writeFileSync(bad, readFileSync(dna).subarray(0, 5000));
+  await open(bad);
+  assert.match(await text("error"), /bad\.dna could not be opened: .* \(at byte \d+\)/);
+  for (const [name, content] of [["text.dna", "hello"], ["empty.dna", ""], ["x.glb", "glTF1234"], ["x.json", "{"]]) {
+    writeFileSync(join(work, name), content);
+    await open(join(work, name));
+    assert.match(await text("error"), new RegExp(`${name.replace(".", "\\.")} could not be opened`));
+  }
+  assert.match(await text("file"), /No file is open/);
+  page.errors.length = 0; // each was written to the console, too
+});
+
+test("the built-in head opens by its button", options, async () => {
+  await page.run(() => document.getElementById("head").click());
+  await page.until("() => window.viewer.model", "generated", 120);
+  await page.until("() => !document.body.hasAttribute('aria-busy')", "done");
+  await frames();
+  assert.equal(await text("file"), "Built-in head");
+  assert.equal(await text("count"), "52 controls");
+  assert.match(await text("facts"), /109 joints.*8 LODs/);
+  assert.deepEqual(page.errors, []);
+});
+
+test("sliders give the values of the native program, bit for bit", options, async () => {
+  await open(baked);
+  assert.equal(await text("file"), "head.rig");
+  await slide("jawOpen", 0.6);
+  await slide("mouthSmileLeft", 0.75);
+  await frames();
+  const raw = await numbers("window.viewer.model.face.rawControls");
+  const native = JSON.parse(mien(["eval", baked, "--isa", "scalar", "--input", "-", "--quiet"],
+    JSON.stringify({ frames: [{ raw: Array.from(raw) }] }))).frames[0].lods[0];
+  assert.ok(raw.filter((value) => value !== 0).length === 2);
+  assert.ok(sameBits(await numbers("window.viewer.model.face.joints"), native.joints));
+  assert.ok(sameBits(await numbers("window.viewer.model.face.blendShapes"), native.blend_shapes));
+  assert.ok(sameBits(await numbers("window.viewer.model.face.animatedMaps"), native.animated_maps));
+});
+
+test("scalar and vector kernels show the same vertices", options, async () => {
+  const positions = () => numbers("window.viewer.model.object.children[0].geometry.attributes.position.array.subarray(0, 3000)");
+  const vectors = await positions();
+  await page.run(() => { window.viewerModel = window.viewer.model; });
+  await choose("isa", "1");
+  await page.until("() => window.viewer.model !== window.viewerModel && !document.body.hasAttribute('aria-busy')", "reopened");
+  await frames();
+  assert.equal(await page.run(() => window.viewer.model.rig.info.isa), 1);
+  assert.ok(sameBits(await positions(), vectors));
+  await page.run(() => { window.viewerModel = window.viewer.model; });
+  await choose("isa", "2");
+  await page.until("() => window.viewer.model !== window.viewerModel && !document.body.hasAttribute('aria-busy')", "reopened");
+});
+
+test("an open mouth is seen, and skinning on the GPU shows nearly the same", options, async () => {
+  await page.run(() => document.getElementById("neutral").click());
+  await frames();
+  const neutral = await canvas();
+  assert.ok(neutral.filter((_, i) => i % 4 === 3).filter((alpha) => alpha > 0).length > 400);
+  assert.ok(neutral.filter((_, i) => i % 4 === 3).filter((alpha) => alpha === 0).length > 200);
+  await slide("jawOpen", 1);
+  await frames();
+  const opened = await canvas();
+  assert.ok(similarity(neutral, neutral) > 0.999);
+  const changed = similarity(neutral, opened);
+  assert.ok(changed < 0.995, `similarity of neutral and open mouth: ${changed}`);
+  await page.run(() => { window.viewerModel = window.viewer.model; });
+  await choose("skinning", "gpu");
+  await page.until("() => window.viewer.model !== window.viewerModel && !document.body.hasAttribute('aria-busy')", "reopened");
+  await frames(4);
+  const gpu = similarity(await canvas(), opened);
+  assert.ok(1 - gpu < (1 - changed) / 2, `similarity of Mien's and the GPU's skinning: ${gpu}`);
+  await page.run(() => { window.viewerModel = window.viewer.model; });
+  await choose("skinning", "mien");
+  await page.until("() => window.viewer.model !== window.viewerModel && !document.body.hasAttribute('aria-busy')", "reopened");
+  assert.deepEqual(page.errors, []);
+});
+
+test("expressions, search, LODs, skeleton and heat map", options, async () => {
+  await page.run(() => [...document.querySelectorAll("#preset-buttons button")].find((button) => button.textContent === "Surprise").click());
+  await frames();
+  assert.equal(await page.run(() => window.viewer.model.face.controls.browInnerUp), Math.fround(0.9));
+  await page.run(() => {
+    const search = document.getElementById("search");
+    search.value = "smile left";
+    search.dispatchEvent(new Event("input"));
+  });
+  assert.equal(await text("count"), "1 of 52");
+  await page.run(() => document.querySelector("#list li:not([hidden]) button").click());
+  assert.match(await text("inspected"), /mouthSmileLeft at 1 moves \d+ joints/);
+  assert.ok(await page.run(() => document.querySelectorAll("#moved li").length) > 3);
+  await choose("lod", "4");
+  await choose("bones", true);
+  await choose("heat", true);
+  await choose("wire", true);
+  await frames(4);
+  assert.equal(await page.run(() => window.viewer.model.object.lod), 4);
+  assert.match(await text("heat-legend"), /moved by \d+\.\d mm/);
+  for (const id of ["bones", "heat", "wire"]) await choose(id, false);
+  await choose("lod", "0");
+  await choose("auto-lod", true);
+  await page.run(() => window.viewer.stage.camera.position.multiplyScalar(8));
+  await page.run(() => window.viewer.stage.request());
+  await frames(4);
+  assert.ok(await page.run(() => window.viewer.model.object.lod) > 1);
+  await choose("auto-lod", false);
+  assert.deepEqual(page.errors, []);
+});
+
+test("poses are downloaded in the form that they are opened in", options, async () => {
+  await open(baked);
+  await slide("jawOpen", 0.4);
+  const saved = await page.run(async () => {
+    const made = [];
+    const create = URL.createObjectURL;
+    URL.createObjectURL = (blob) => { made.push(blob); return create(blob); };
+    document.getElementById("save").click();
+    URL.createObjectURL = create;
+    return made[0].text();
+  });
+  const file = join(work, "pose.json");
+  writeFileSync(file, saved);
+  mien(["eval", baked, "--input", file, "--quiet"]); // the program takes it, too
+  await page.run(() => document.getElementById("neutral").click());
+  await open(file);
+  assert.equal(await page.run(() => window.viewer.model.face.controls.jawOpen), Math.fround(0.4));
+  writeFileSync(file, JSON.stringify({ raw: { nothing: 1 } }));
+  await open(file);
+  assert.match(await text("error"), /has no nothing/);
+  page.errors.length = 0;
+});
+
+test("a Live Link Face recording plays, and one that does not fit says so", options, async () => {
+  const csv = join(work, "take.csv");
+  const rows = Array.from({ length: 30 }, (_, i) => `00:00:00:${String(i).padStart(2, "0")}.000,2,${i / 30},0.5`);
+  writeFileSync(csv, ["Timecode,BlendShapeCount,JawOpen,MouthFunnel", ...rows, ""].join("\n"));
+  await open(csv);
+  assert.match(await text("file"), /2 controls played, 1\.0 s/);
+  assert.equal(await page.run(() => window.viewer.model.face.controls.mouthFunnel), 0.5);
+  await page.until("() => window.viewer.model.face.controls.jawOpen > 0.2", "moved");
+  await page.run(() => document.getElementById("play").click());
+  writeFileSync(csv, "Timecode,A\n0,0\n0,x\n");
+  await open(csv);
+  assert.match(await text("error"), /line 3, A: "x" is no number/);
+  page.errors.length = 0;
+});
+
+test("a GLB opens with its morph targets", options, async () => {
+  await open(join(work, "head.glb"));
+  assert.match(await text("facts"), /\d+ morph targets/);
+  assert.ok(await page.run(() => window.viewer.model.list.length) > 10);
+  await page.run(() => document.querySelector("#list input").dispatchEvent(new Event("input")));
+  await frames();
+  assert.deepEqual(page.errors, []);
+});
+
+test("files of the place of the page open by address", options, async () => {
+  assert.ok(readdirSync(folder).includes("index.html"));
+  await page.goto(`${server.url}?file=none.dna`);
+  await page.until("() => document.body.dataset.ready && !document.getElementById('error').hidden", "refused");
+  assert.match(await text("error"), /none\.dna could not be opened: 404/);
+  page.errors.length = 0;
+});
+
+test("10,000 frames take no more memory", options, async () => {
+  await open(baked);
+  const measure = () => page.run(() => { window.gc(); return [window.viewer.mien.memoryBytes, performance.memory.usedJSHeapSize]; });
+  const run = (count) => page.run((wanted) => {
+    const { model } = window.viewer;
+    model.object.lod = 6;
+    for (let frame = 0; frame < wanted; ++frame) {
+      model.face.controls.jawOpen = (frame % 100) / 100;
+      model.update();
+    }
+  }, count);
+  await run(200);
+  const [module, heap] = await measure();
+  await run(10000);
+  const [moduleAfter, heapAfter] = await measure();
+  assert.equal(moduleAfter, module);
+  assert.ok(heapAfter - heap < 2e6, `the heap grew by ${heapAfter - heap} bytes`);
+});
+
+test("the page is used by keyboard alone", options, async () => {
+  const seen = new Set();
+  for (let i = 0; i < 12; ++i) {
+    await page.key("Tab");
+    seen.add(await page.run(() => document.activeElement.id || document.activeElement.className || document.activeElement.tagName));
+  }
+  for (const id of ["skip", "open", "head", "canvas"]) assert.ok(seen.has(id), `${id} is not reached: ${[...seen]}`);
+  await page.run(() => document.getElementById("canvas").focus());
+  const place = () => page.run(() => window.viewer.stage.camera.position.toArray());
+  const old = await place();
+  await page.key("ArrowRight");
+  await frames();
+  assert.notDeepEqual(await place(), old);
+});
+
+const axe = join(project, "build/web/tools/node_modules/axe-core/axe.min.js");
+if (!missing && !existsSync(axe)) console.log("NOT TESTED: accessibility of the viewer; axe-core could not be fetched");
+for (const [name, width, height, dark] of [["light", 1280, 800, false], ["dark", 1280, 800, true], ["phone", 390, 800, false]]) {
+  test(`axe-core finds nothing: ${name}`, { skip: missing ?? (existsSync(axe) ? false : "there is no axe-core") }, async () => {
+    await page.size(width, height, width < 500);
+    await page.send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }] });
+    // Through the protocol, past the policy of the page.
+    await page.send("Runtime.evaluate", { expression: readFileSync(axe, "utf8") });
+    await frames(3);
+    const violations = await page.run(async () => (await window.axe.run()).violations.map(({ id, nodes }) => [id, nodes.map((node) => node.html.slice(0, 120))]));
+    assert.deepEqual(violations, []);
+    assert.ok(await page.run(() => document.documentElement.scrollWidth <= innerWidth), "the page is wider than the window");
+    if (process.env.MIEN_SHOTS) writeFileSync(join(process.env.MIEN_SHOTS, `${name}.png`), await page.screenshot());
+  });
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Performances and poses as text: CSV of the Live Link Face app, JSON of this page and of `mien eval`.
+
+/** {names, values, rate} of a CSV file: a heading of names, then a row per frame. */
+export function readCsv(text) {
+  const lines = text.split(/\r?\n/).filter((line) => line.trim() !== "");
+  if (lines.length < 2) throw new Error("the CSV file has no frames");
+  const heading = lines[0].split(",").map((name) => name.trim());
+  // Recordings begin with a timecode and a count, which are no channels.
+  const columns = heading.map((name, i) => [name, i])
+    .filter(([name]) => name && !/^(timecode|blendshapecount|frame|time)$/i.test(name));
+  if (columns.length === 0) throw new Error("the CSV file has no channels");
+  const values = new Float32Array(columns.length * (lines.length - 1));
+  lines.slice(1).forEach((line, row) => {
+    const cells = line.split(",");
+    columns.forEach(([name, i], column) => {
+      const value = Number(cells[i]);
+      if (cells[i] === undefined || cells[i].trim() === "" || !Number.isFinite(value)) {
+        throw new Error(`line ${row + 2}, ${name}: "${cells[i] ?? ""}" is no number`);
+      }
+      values[row * columns.length + column] = value;
+    });
+  });
+  // ARKit names begin small; Live Link Face writes them with a capital.
+  const names = columns.map(([name]) => name[0].toLowerCase() + name.slice(1));
+  return { names, values, rate: rateOf(heading, lines) };
+}
+
+/** Frames per second by the timecodes, hours:minutes:seconds:frames: one more than the largest frame number. */
+function rateOf(heading, lines) {
+  const column = heading.findIndex((name) => /^timecode$/i.test(name));
+  if (column < 0) return 60;
+  const frames = lines.slice(1).map((line) => Number(/^\d+:\d+:\d+[:;](\d+)/.exec(line.split(",")[column])?.[1] ?? -1));
+  const most = frames.reduce((a, b) => Math.max(a, b), -1);
+  return [24, 25, 30, 50, 60].find((rate) => most < rate) ?? 60;
+}
+
+/** A pose {raw: {name: value}} or frames of them; {names, values, rate} for frames, {pose} for one pose. */
+export function readJson(text) {
+  const value = JSON.parse(text);
+  const frames = Array.isArray(value?.frames) ? value.frames.map((frame) => frame.raw ?? frame)
+    : [value?.raw ?? value];
+  for (const [i, frame] of frames.entries()) {
+    if (!frame || typeof frame !== "object" || Array.isArray(frame)) {
+      throw new Error(`frame ${i} is no object of controls by name`);
+    }
+    for (const [name, number] of Object.entries(frame)) {
+      if (typeof number !== "number" || !Number.isFinite(number)) throw new Error(`frame ${i}, ${name}: no number`);
+    }
+  }
+  if (frames.length === 0) throw new Error("there are no frames");
+  if (frames.length === 1) return { pose: frames[0] };
+  const names = [...new Set(frames.flatMap((frame) => Object.keys(frame)))];
+  const values = Float32Array.from(frames.flatMap((frame) => names.map((name) => frame[name] ?? 0)));
+  return { names, values, rate: Number(value.rate) > 0 ? Math.round(value.rate) : 60 };
+}

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+// What can be opened: a rig, whose controls Mien evaluates, or a GLB, whose morph targets are its controls.
+import { Isa, Kind } from "mien";
+import { FaceObject } from "mien/three";
+
+/** A rig of a DNA file or a baked file. */
+export class RigModel {
+  static async open(mien, bytes, { isa = Isa.SSE2, skinning = "mien", showFilms = false } = {}) {
+    const rig = await mien.openRig(bytes, { isa });
+    try {
+      if (!rig.deformer) throw new Error("this rig has no meshes to show: it was written or baked without geometry");
+      return new RigModel(rig, { skinning, showFilms });
+    } catch (error) {
+      rig.dispose();
+      throw error;
+    }
+  }
+
+  constructor(rig, options) {
+    this.rig = rig;
+    this.object = new FaceObject(rig, options);
+    this.face = this.object.face;
+    this.times = { evaluation: 0, deformation: 0 };
+    this.kinds = [["raw", "Raw controls"]];
+    if (rig.count(Kind.GUI_CONTROL)) this.kinds.push(["gui", "GUI controls"]);
+  }
+
+  names(kind) {
+    return this.rig.names(kind === "gui" ? Kind.GUI_CONTROL : Kind.RAW_CONTROL);
+  }
+
+  range(kind) {
+    return kind === "gui" ? [-1, 1] : [0, 1];
+  }
+
+  values(kind) {
+    return kind === "gui" ? this.face.guiControls : this.face.rawControls;
+  }
+
+  set(kind, index, value) {
+    this.values(kind)[index] = value;
+    if (kind === "gui") this.face.mapGuiToRaw();
+    else if (this.kinds.length > 1) this.face.mapRawToGui();
+  }
+
+  /** Raw controls by name; names that the rig lacks are returned. */
+  setPose(pose) {
+    const missing = [];
+    this.face.rawControls.set(this.rig.initialRawControls);
+    for (const [name, value] of Object.entries(pose)) {
+      const index = this.rig.find(Kind.RAW_CONTROL, name);
+      if (index === undefined) missing.push(name);
+      else this.face.rawControls[index] = value;
+    }
+    if (this.kinds.length > 1) this.face.mapRawToGui();
+    return missing;
+  }
+
+  pose() {
+    const initial = this.rig.initialRawControls;
+    const raw = this.face.rawControls;
+    return Object.fromEntries(this.names("raw").map((name, i) => [name, raw[i]]).filter((_, i) => raw[i] !== initial[i]));
+  }
+
+  update() {
+    const start = performance.now();
+    this.face.evaluate(this.object.lod);
+    const evaluated = performance.now();
+    this.object.pose();
+    const posed = performance.now();
+    // Means over some frames: clocks of browsers are coarse.
+    const mix = (old, value) => (old ? old * 0.9 + value * 0.1 : value);
+    this.times.evaluation = mix(this.times.evaluation, evaluated - start);
+    this.times.deformation = mix(this.times.deformation, posed - evaluated);
+  }
+
+  /** What a raw control moves at 1: [kind, name, text] each, the farthest first. */
+  inspect(index) {
+    const { rig } = this;
+    const probe = rig.instance();
+    try {
+      probe.rawControls[index] = probe.rawControls[index] === 1 ? 0 : 1;
+      probe.evaluate(0);
+      const width = rig.info.jointValueCount / rig.count(Kind.JOINT);
+      const radians = rig.info.rotationUnit === 1;
+      const joints = rig.names(Kind.JOINT).map((name, j) => {
+        const at = j * width;
+        const v = probe.joints;
+        const moved = Math.hypot(v[at], v[at + 1], v[at + 2]) * (rig.info.translationUnit === 0 ? 10 : 1000);
+        const turned = Math.hypot(v[at + 3], v[at + 4], v[at + 5]) * (radians ? 180 / Math.PI : 1);
+        return { name, moved, turned };
+      }).filter(({ moved, turned }) => moved > 0.005 || turned > 0.005)
+        .sort((a, b) => b.moved + b.turned - a.moved - a.turned)
+        .map(({ name, moved, turned }) => ["joint", name, `${moved.toFixed(2)} mm, ${turned.toFixed(1)}°`]);
+      const weights = (kind, label, values) => rig.names(kind).map((name, i) => [label, name, values[i]])
+        .filter(([, , value]) => Math.abs(value) > 1e-4).sort((a, b) => Math.abs(b[2]) - Math.abs(a[2]))
+        .map(([what, name, value]) => [what, name, value.toFixed(2)]);
+      return [
+        ...weights(Kind.BLEND_SHAPE_CHANNEL, "shape", probe.blendShapes),
+        ...weights(Kind.ANIMATED_MAP, "map", probe.animatedMaps),
+        ...joints,
+      ];
+    } finally {
+      probe.dispose();
+    }
+  }
+
+  get facts() {
+    const { rig } = this;
+    const count = (kind, word) => `${rig.count(kind)} ${word}`;
+    const vertices = this.object.children.filter((mesh) => mesh.visible).reduce((sum, mesh) => sum + mesh.userData.vertexCount, 0);
+    return [count(Kind.RAW_CONTROL, "raw controls"), count(Kind.PSD_CONTROL, "correctives"), count(Kind.JOINT, "joints"),
+      count(Kind.BLEND_SHAPE_CHANNEL, "shapes"), `${rig.info.lodCount} LODs`, `${vertices.toLocaleString("en")} vertices shown`].join(", ");
+  }
+
+  dispose() {
+    this.object.dispose();
+    this.rig.dispose();
+  }
+}
+
+/** A GLB file: its morph targets by name. */
+export class GlbModel {
+  static async open(bytes) {
+    const { GLTFLoader } = await import("three/addons/loaders/GLTFLoader.js");
+    const buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength);
+    return new GlbModel(await new GLTFLoader().parseAsync(buffer, ""));
+  }
+
+  constructor({ scene }) {
+    this.object = scene;
+    this.times = null;
+    this.targets = new Map();
+    scene.traverse((mesh) => {
+      mesh.frustumCulled = false;
+      for (const [name, target] of Object.entries(mesh.morphTargetDictionary ?? {})) {
+        if (!this.targets.has(name)) this.targets.set(name, []);
+        this.targets.get(name).push([mesh, target]);
+      }
+    });
+    this.list = [...this.targets.keys()];
+    this.current = new Float32Array(this.list.length);
+    this.kinds = [["raw", "Morph targets"]];
+  }
+
+  names() {
+    return this.list;
+  }
+
+  range() {
+    return [0, 1];
+  }
+
+  values() {
+    return this.current;
+  }
+
+  set(kind, index, value) {
+    this.current[index] = value;
+  }
+
+  setPose(pose) {
+    this.current.fill(0);
+    return Object.entries(pose).filter(([name, value]) => {
+      const index = this.list.indexOf(name.slice(name.lastIndexOf(".") + 1));
+      if (index >= 0) this.current[index] = value;
+      return index < 0;
+    }).map(([name]) => name);
+  }
+
+  pose() {
+    return Object.fromEntries(this.list.map((name, i) => [name, this.current[i]]).filter(([, value]) => value !== 0));
+  }
+
+  update() {
+    this.list.forEach((name, i) => {
+      for (const [mesh, target] of this.targets.get(name)) mesh.morphTargetInfluences[target] = this.current[i];
+    });
+  }
+
+  get facts() {
+    let vertices = 0;
+    this.object.traverse((mesh) => { vertices += mesh.isMesh ? mesh.geometry.attributes.position.count : 0; });
+    return `${this.list.length} morph targets, ${vertices.toLocaleString("en")} vertices`;
+  }
+
+  dispose() {
+    this.object.traverse((mesh) => {
+      mesh.geometry?.dispose();
+      mesh.material?.dispose?.();
+    });
+  }
+}

@@ -1,0 +1,422 @@
+// SPDX-License-Identifier: MIT
+// The page: opens files, and connects its controls with what is shown.
+import { Isa, Mien, Preset, TICKS_PER_SECOND } from "mien";
+import { readCsv, readJson } from "./files.js";
+import { GlbModel, RigModel } from "./models.js";
+import { Panel } from "./panel.js";
+import { PRESETS } from "./presets.js";
+import { HeatMap, Stage } from "./stage.js";
+
+const $ = (id) => document.getElementById(id);
+const stage = new Stage($("canvas"));
+const heat = new HeatMap();
+const panel = new Panel({
+  changed(kind, index, value) {
+    stop();
+    model.set(kind, index, value);
+    pose();
+  },
+  inspected: (kind, index) => inspect(kind, index),
+});
+
+let mien = null;
+let model = null;
+let opened = null; // name and bytes of the model
+let take = null; // what plays: clip, player, binding
+let dirty = false;
+
+// ---- messages ---------------------------------------------------------------------------------------
+
+function say(text) {
+  $("file").textContent = text;
+}
+
+/** Shows what went wrong; what was open stays open. */
+function fail(what, error) {
+  console.error(error);
+  const place = error.byteOffset !== undefined && error.byteOffset !== null ? ` (at byte ${error.byteOffset})` : "";
+  $("error").textContent = `${what}: ${error.message}${place}`;
+  $("error").hidden = false;
+}
+
+function clearError() {
+  $("error").hidden = true;
+  $("error").textContent = "";
+}
+
+/** Runs a task; a failure becomes a message. */
+async function attempt(what, task) {
+  document.body.setAttribute("aria-busy", "true");
+  try {
+    await task();
+    return true;
+  } catch (error) {
+    fail(what, error);
+    return false;
+  } finally {
+    document.body.removeAttribute("aria-busy");
+  }
+}
+
+// ---- opening ----------------------------------------------------------------------------------------
+
+async function loadModule() {
+  mien ??= await Mien.load();
+}
+
+async function openModel(name, bytes) {
+  const options = {
+    isa: Number($("isa").value) || Isa.SSE2, skinning: $("skinning").value, showFilms: $("films").checked,
+  };
+  const isGlb = bytes.length >= 4 && String.fromCharCode(...bytes.subarray(0, 4)) === "glTF";
+  if (!isGlb) await loadModule();
+  const made = isGlb ? await GlbModel.open(bytes) : await RigModel.open(mien, bytes, options);
+  stop();
+  heat.end();
+  model?.dispose();
+  model = made;
+  opened = { name, bytes };
+  $("welcome").hidden = true;
+  stage.show(model.object);
+  fillView(isGlb);
+  panel.show(model);
+  showPresets();
+  for (const id of ["pose", "view", "sliders"]) $(id).hidden = false;
+  $("inspect").hidden = isGlb;
+  $("play").hidden = $("time-row").hidden = true;
+  $("facts").textContent = model.facts;
+  say(name);
+  pose();
+}
+
+async function openTake({ names, values, rate }) {
+  if (!(model instanceof RigModel)) throw new Error("open a rig first, then what it plays");
+  openClip(mien.buildClip({ names, values, rateNumerator: rate, rateDenominator: 1 }));
+}
+
+function openClip(clip) {
+  const binding = clip.bind(model.rig);
+  if (binding.info.controls.length === 0) {
+    for (const object of [binding, clip]) object.dispose();
+    throw new Error("none of its channels is a control of this rig");
+  }
+  dropTake();
+  take = { clip, binding, player: clip.player({ looping: 2 }), isPlaying: false, last: 0 };
+  $("play").hidden = $("time-row").hidden = false;
+  $("time").max = String(clip.duration);
+  say(`${opened.name}: ${binding.info.controls.length} controls played, ${clip.duration.toFixed(1)} s`);
+  play();
+}
+
+async function openBytes(name, bytes) {
+  clearError();
+  const ending = name.slice(name.lastIndexOf(".") + 1).toLowerCase();
+  if (ending === "csv") return openTake(readCsv(new TextDecoder().decode(bytes)));
+  if (ending === "json") {
+    const read = readJson(new TextDecoder().decode(bytes));
+    if (!read.pose) return openTake(read);
+    if (!model) throw new Error("open a rig first, then a pose");
+    stop();
+    const missing = model.setPose(read.pose);
+    pose();
+    if (missing.length) throw new Error(`this rig has no ${missing.slice(0, 5).join(", ")}${missing.length > 5 ? " …" : ""}`);
+    return undefined;
+  }
+  if (ending === "clip") {
+    if (!(model instanceof RigModel)) throw new Error("open a rig first, then what it plays");
+    return openClip(await mien.openClip(bytes));
+  }
+  say(`Opening ${name} …`);
+  const before = opened?.name ?? "No file is open.";
+  try {
+    return await openModel(name, bytes);
+  } catch (error) {
+    say(before);
+    throw error;
+  }
+}
+
+async function openFiles(files) {
+  // Rigs before what they play.
+  const order = (file) => (/\.(csv|json|clip)$/i.test(file.name) ? 1 : 0);
+  for (const file of [...files].sort((a, b) => order(a) - order(b))) {
+    await attempt(`${file.name} could not be opened`, async () => openBytes(file.name, new Uint8Array(await file.arrayBuffer())));
+  }
+}
+
+function openHead() {
+  return attempt("The head could not be generated", async () => {
+    clearError();
+    say("Generating the head …");
+    await new Promise((resolve) => setTimeout(resolve, 30)); // for the text to be seen
+    await loadModule();
+    const dna = mien.generate(Preset.HEAD);
+    const bytes = dna.write();
+    dna.dispose();
+    await openModel("Built-in head", bytes);
+  });
+}
+
+// ---- pose -------------------------------------------------------------------------------------------
+
+/** The controls have changed: the next frame shows it. */
+function pose() {
+  dirty = true;
+  stage.request();
+}
+
+stage.beforeDraw = (time) => {
+  if (!model) return false;
+  if (take?.isPlaying) advance(time);
+  if ($("auto-lod").checked && model.rig) {
+    const lod = model.object.lodOf(stage.camera);
+    if (lod !== model.object.lod) setLod(lod);
+  }
+  if (dirty) {
+    dirty = false;
+    model.update();
+    if (model.rig) afterUpdate();
+    panel.refresh();
+  }
+  return take?.isPlaying ?? false;
+};
+
+function afterUpdate() {
+  if ($("heat").checked && $("skinning").value === "mien") {
+    const most = heat.apply(model.object) * (model.rig.info.translationUnit === 0 ? 10 : 1000);
+    $("heat-legend").textContent = `Gray: still. Red: moved by ${most.toFixed(1)} mm.`;
+  }
+  if ($("bones").checked) {
+    stage.showSkeleton(model.rig.jointParents, model.object.deformed.jointMatrices, model.object.matrix);
+  }
+  // Clocks of browsers count in tenths of milliseconds.
+  const shown = (value) => (value < 0.05 ? "< 0.05 ms" : `${value.toFixed(2)} ms`);
+  $("times").replaceChildren(...[["Evaluation", shown(model.times.evaluation)],
+    [$("skinning").value === "mien" ? "Deformation" : "Matrices", shown(model.times.deformation)],
+    ["LOD", String(model.object.lod)]].flatMap(([term, text]) => {
+    const [dt, dd] = [document.createElement("dt"), document.createElement("dd")];
+    dt.textContent = term;
+    dd.textContent = text;
+    return [dt, dd];
+  }));
+}
+
+function showPresets() {
+  const buttons = Object.entries(PRESETS).map(([name, values]) => {
+    const known = new Set(model.names("raw").map((control) => control.slice(control.lastIndexOf(".") + 1)));
+    const found = Object.fromEntries(Object.entries(values).filter(([control]) => known.has(control)));
+    // A preset of which the rig has next to nothing would look like another expression.
+    if (Object.keys(found).length === 0) return null;
+    const button = document.createElement("button");
+    button.type = "button";
+    button.textContent = name;
+    button.addEventListener("click", () => {
+      stop();
+      model.setPose(found);
+      pose();
+    });
+    return button;
+  }).filter(Boolean);
+  $("preset-buttons").replaceChildren(...buttons);
+  $("presets").hidden = buttons.length === 0;
+}
+
+function download(name, text) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([text], { type: "application/json" }));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+// ---- playing ----------------------------------------------------------------------------------------
+
+function play() {
+  take.isPlaying = true;
+  take.last = 0;
+  $("play").textContent = "Pause";
+  stage.request();
+}
+
+function stop() {
+  if (!take?.isPlaying) return;
+  take.isPlaying = false;
+  $("play").textContent = "Play";
+}
+
+function dropTake() {
+  stop();
+  if (!take) return;
+  for (const object of [take.player, take.binding, take.clip]) object.dispose();
+  take = null;
+}
+
+function advance(time) {
+  const seconds = take.last ? Math.min(0.25, (time - take.last) / 1000) : 0;
+  take.last = time;
+  take.player.advance(Math.round(seconds * TICKS_PER_SECOND));
+  sample();
+}
+
+function sample() {
+  take.binding.apply(take.player.sample(), model.face);
+  $("time").value = String(take.player.info.tick / TICKS_PER_SECOND);
+  dirty = true;
+}
+
+// ---- view -------------------------------------------------------------------------------------------
+
+function option(value, text) {
+  const made = document.createElement("option");
+  made.value = String(value);
+  made.textContent = text;
+  return made;
+}
+
+function fillView(isGlb) {
+  for (const id of ["lod", "isa", "skinning", "auto-lod", "heat", "bones", "films"]) $(id).disabled = isGlb;
+  $("times").replaceChildren();
+  if (isGlb) return;
+  $("lod").replaceChildren(...Array.from({ length: model.rig.info.lodCount }, (_, lod) => option(lod, String(lod))));
+  if (!$("isa").options.length) {
+    $("isa").replaceChildren(option(Isa.SSE2, "128-bit vectors"), option(Isa.SCALAR, "scalar"));
+  }
+  setWire();
+}
+
+function setLod(lod) {
+  heat.end();
+  model.object.lod = lod;
+  $("lod").value = String(model.object.lod);
+  $("facts").textContent = model.facts;
+  setWire();
+  pose();
+}
+
+function setWire() {
+  model?.object.traverse((node) => {
+    if (node.isMesh) node.material.wireframe = $("wire").checked;
+  });
+  stage.request();
+}
+
+/** Opens the same file with other options, in the same pose. */
+function reopen() {
+  return attempt("The file could not be opened again", async () => {
+    const kept = model.pose();
+    const view = [stage.camera.position.clone(), stage.controls.target.clone()];
+    const { lod } = model.object;
+    dropTake();
+    await openModel(opened.name, opened.bytes);
+    model.setPose(kept);
+    setLod(lod);
+    stage.camera.position.copy(view[0]);
+    stage.controls.target.copy(view[1]);
+    stage.controls.update();
+  });
+}
+
+function inspect(kind, index) {
+  if (!model.rig || kind !== "raw") {
+    $("inspected").textContent = "Select a raw control by its name.";
+    $("moved").replaceChildren();
+    return;
+  }
+  const moved = model.inspect(index);
+  const name = model.names(kind)[index];
+  const count = (of, word) => {
+    const number = moved.filter(([what]) => what === of).length;
+    return `${number} ${word}${number === 1 ? "" : "s"}`;
+  };
+  $("inspected").textContent = moved.length
+    ? `${name} at 1 moves ${count("joint", "joint")}, ${count("shape", "shape")}, ${count("map", "map")}.`
+    : `${name} alone moves nothing.`;
+  $("moved").replaceChildren(...moved.map(([what, of, text]) => {
+    const item = document.createElement("li");
+    for (const part of [`${what} ${of}`, text]) {
+      const span = document.createElement("span");
+      span.textContent = part;
+      item.append(span);
+    }
+    return item;
+  }));
+}
+
+// ---- events -----------------------------------------------------------------------------------------
+
+$("open").addEventListener("click", () => $("files").click());
+$("files").addEventListener("change", async () => {
+  await openFiles($("files").files);
+  $("files").value = "";
+});
+$("head").addEventListener("click", openHead);
+$("neutral").addEventListener("click", () => {
+  stop();
+  model.setPose({});
+  pose();
+});
+$("save").addEventListener("click", () => {
+  download("pose.json", `${JSON.stringify({ frames: [{ raw: model.pose() }] }, null, 2)}\n`);
+});
+$("play").addEventListener("click", () => (take.isPlaying ? stop() : play()));
+$("time").addEventListener("input", () => {
+  stop();
+  take.player.seek(Math.round(Number($("time").value) * TICKS_PER_SECOND));
+  sample();
+  pose();
+});
+$("lod").addEventListener("change", () => {
+  $("auto-lod").checked = false;
+  setLod(Number($("lod").value));
+});
+for (const id of ["isa", "skinning", "films"]) $(id).addEventListener("change", reopen);
+$("skinning").addEventListener("change", () => {
+  $("heat").disabled = $("skinning").value === "gpu";
+});
+$("wire").addEventListener("change", setWire);
+$("auto-lod").addEventListener("change", () => stage.request());
+$("bones").addEventListener("change", () => {
+  if (!$("bones").checked) stage.hideSkeleton();
+  pose();
+});
+$("heat").addEventListener("change", () => {
+  if (!$("heat").checked) heat.end();
+  $("heat-legend").hidden = !$("heat").checked;
+  pose();
+});
+
+let over = 0;
+addEventListener("dragenter", (event) => {
+  event.preventDefault();
+  if (++over === 1) $("drop").hidden = false;
+});
+addEventListener("dragleave", () => {
+  if (--over === 0) $("drop").hidden = true;
+});
+addEventListener("dragover", (event) => event.preventDefault());
+addEventListener("drop", (event) => {
+  event.preventDefault();
+  over = 0;
+  $("drop").hidden = true;
+  openFiles(event.dataTransfer.files);
+});
+
+// For the console, and for tests.
+window.viewer = {
+  get mien() { return mien; },
+  get model() { return model; },
+  get stage() { return stage; },
+  openBytes, openHead, pose,
+};
+
+// ?file=ADDRESS opens a file of the place that the page is from.
+const wanted = new URLSearchParams(location.search).get("file");
+if (wanted) {
+  const name = decodeURIComponent(wanted.slice(wanted.lastIndexOf("/") + 1));
+  attempt(`${name} could not be opened`, async () => {
+    const answer = await fetch(wanted);
+    if (!answer.ok) throw new Error(`${answer.status} ${answer.statusText}`);
+    await openBytes(name, new Uint8Array(await answer.arrayBuffer()));
+  });
+}
+document.body.dataset.ready = "true";
