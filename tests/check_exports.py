@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: MIT
 """What a header declares, what its map lists and what the library exports are the same names.
 
-Usage: check_exports.py [--nm NM] LIBRARY...    libmien.so, libmien-author.so or both
+Usage: check_exports.py [--nm NM] [--objdump OBJDUMP] LIBRARY...
+
+A library is libmien.so, libmien-author.so, or one of them as a DLL, which objdump reads.
 """
 import argparse
 import re
@@ -50,7 +52,14 @@ def exported(nm, library):
     return [(re.sub(r"@.*", "", row[0]), row[1]) for row in rows]
 
 
-def problems_of(nm, library):
+def exported_by_dll(objdump, library):
+    """The same for a DLL, whose table has names only."""
+    output = subprocess.run([objdump, "-p", library], check=True, capture_output=True, text=True).stdout
+    table = re.search(r"^\[Ordinal/Name Pointer\] Table.*\n((?:\s*\[.*\n)+)", output, re.MULTILINE)
+    return [(line.split()[-1], "T") for line in table.group(1).splitlines()] if table else []
+
+
+def problems_of(nm, objdump, library):
     stem = "mien_author" if "mien-author" in Path(library).name else "mien"
     header, version_script = CAPI / f"{stem}.h", CAPI / f"{stem}.map"
     in_header = declared(header, stem.upper())
@@ -60,7 +69,8 @@ def problems_of(nm, library):
         for name in sorted({name for name in names if names.count(name) > 1}):
             yield f"{where} has {name} more than once"
     in_library = set()
-    for name, kind in exported(nm, library):
+    is_dll = library.endswith(".dll")
+    for name, kind in exported_by_dll(objdump, library) if is_dll else exported(nm, library):
         if name == version and kind == "A":
             continue
         in_library.add(name)
@@ -78,8 +88,10 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("libraries", nargs="+", metavar="LIBRARY")
     parser.add_argument("--nm", default="nm")
+    parser.add_argument("--objdump", default="objdump")
     args = parser.parse_args()
-    problems = [problem for library in args.libraries for problem in problems_of(args.nm, library)]
+    problems = [problem for library in args.libraries
+                for problem in problems_of(args.nm, args.objdump, library)]
     print("\n".join(problems) if problems else "the same names in headers, maps and libraries")
     return 1 if problems else 0
 

@@ -407,7 +407,8 @@ TEST(Work, MeshesWithoutGeometryTakeTheirRecordOnly) {
   for (dna::String& mesh : names) mesh = dna::text("m");
   view.defn.mesh_names = {names.data, kMany};
   view.defn.lod_meshes.indices = dna::list<Array<uint16_t>>(arena, {counted(arena, kMany)});
-  const DnaHandle dna = open_dna(write_view(view));
+  const Bytes bytes = write_view(view);
+  const DnaHandle dna = open_dna(bytes);
   const RigHandle rig = create_rig(dna.get());
   ASSERT_TRUE(rig);
   MienDeformer* deformer = nullptr;

@@ -85,7 +85,9 @@ class ExerciseDna {
   }
 
  private:
-#if defined(__GNUC__)
+#if defined(__MINGW_PRINTF_FORMAT)
+  __attribute__((format(__MINGW_PRINTF_FORMAT, 2, 3)))
+#elif defined(__GNUC__)
   __attribute__((format(printf, 2, 3)))
 #endif
   void
