@@ -2156,6 +2156,29 @@ MIEN_CHECKED MienStatus mien_mixer_set_variable(MienMixer* mixer, uint32_t varia
  * Fails with MIEN_ERROR_INDEX if the guard does not exist. */
 MIEN_CHECKED MienStatus mien_mixer_set_guard(MienMixer* mixer, uint32_t guard, float activation);
 
+/* What a guard did in the last step. Distances are in millimeters, of the function of raw controls that was
+ * measured on the rig; below 0 both sides overlap. */
+typedef struct MienGuardState {
+    size_t struct_size;
+    MienStringView name;       /* "lips left", "lips center", "lips right", "teeth", "lower lip to teeth",
+                                  "left lids" or "right lids" */
+    MienIndex16View controls;  /* raw controls that it may hold back */
+    uint32_t kind;             /* MIEN_GUARD_... */
+    float activation;          /* how much it acted, 0 to 1 */
+    float protected_distance;  /* after the last layer of base and speech */
+    float wanted;              /* after the later layers and reactions that come before the guards */
+    float limit;               /* that it lets pass when fully active */
+    float distance;            /* that the guards left: above `limit` where it is less active, while it
+                                  eases in, or where other controls part the sides */
+} MienGuardState;
+MIEN_DEFAULT(MienGuardState, mien_guard_state_default)
+
+/* Returns what a guard did in the last step. `guard` counts as in mien_mixer_set_guard(). Views are of the
+ * mix.
+ * Fails with MIEN_ERROR_INDEX if the guard does not exist. */
+MIEN_CHECKED MienStatus mien_mixer_guard(const MienMixer* mixer, uint32_t guard,
+                                         MienGuardState* out_state);
+
 /* Starts a reaction to a stimulus of `strength`, 0 ... 1, that lasts `hold_ticks`, at most 2^40; if
  * negative, until mien_mixer_release(). Does not allocate or lock.
  * Fails with MIEN_ERROR_INDEX if the reaction does not exist, MIEN_ERROR_INVALID_ARGUMENT if strength or

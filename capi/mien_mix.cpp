@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Mixes and mixers. mien.h is the manual.
+#include <cstring>
+
 #include "capi/handles.h"
 #include "runtime/probe/probe_guards.h"
 
@@ -170,7 +172,24 @@ Status measure_guards(const Deformer& deformer, uint32_t wanted, const Allocator
     if ((wanted & guard_bit(found.kinds[i])) != 0) descs[count++] = found.descs[i];
   }
   if (count == 0) return Status::kOk;
-  return probe_guards(deformer, {descs, count}, allocator, {guards, count}, error);
+  const Status probed = probe_guards(deformer, {descs, count}, allocator, {guards, count}, error);
+  for (uint32_t i = 0, k = 0; i < found.count; ++i) {
+    if ((wanted & guard_bit(found.kinds[i])) == 0) continue;
+    guards[k++].kind = static_cast<uint32_t>(found.kinds[i]);
+  }
+  return probed;
+}
+
+const char* guard_name(StandardGuard kind) {
+  switch (kind) {
+    case StandardGuard::kLipsLeft: return "lips left";
+    case StandardGuard::kLipsCenter: return "lips center";
+    case StandardGuard::kLipsRight: return "lips right";
+    case StandardGuard::kLipToTeeth: return "lower lip to teeth";
+    case StandardGuard::kLidsLeft: return "left lids";
+    case StandardGuard::kLidsRight: return "right lids";
+    default: return "teeth";
+  }
 }
 
 uint32_t clip_layer_count(const MienMixDesc& desc) {
@@ -383,6 +402,28 @@ MienStatus mien_mixer_set_guard(MienMixer* mixer, uint32_t guard, float activati
   if (MienStatus status = check(mixer)) return status;
   Error detail;
   return status_of(set_guard(*object(mixer), guard, activation, detail));
+}
+
+MienStatus mien_mixer_guard(const MienMixer* handle, uint32_t guard, MienGuardState* out_state) {
+  if (MienStatus status = clear_struct(out_state)) return status;
+  if (MienStatus status = check(handle)) return status;
+  const Mixer& mixer = *object(handle);
+  GuardState found = {};
+  Error detail;
+  if (MienStatus status = status_of(guard_state(mixer, guard, found, detail))) return status;
+  const auto kind = static_cast<StandardGuard>(mixer.mix->guards[guard].kind);
+  const char* name = guard_name(kind);
+  MienGuardState state = {};
+  state.name = {name, strlen(name)};
+  state.controls = {found.lanes.data, found.lanes.count};
+  state.kind = guard_bit(kind);
+  state.activation = found.activation;
+  state.protected_distance = found.protected_distance;
+  state.wanted = found.wanted;
+  state.limit = found.limit;
+  state.distance = found.distance;
+  write_struct(out_state, state);
+  return MIEN_OK;
 }
 
 MienStatus mien_mixer_trigger(MienMixer* mixer, uint32_t reaction, float strength,

@@ -928,6 +928,11 @@ class Mixer : public Owner<MienMixer, mien_mixer_destroy> {
     MienFloatView row = {nullptr, 0};
     return mien_mixer_stage(get(), stage, &row) == MIEN_OK ? view(row) : Span<const float>();
   }
+  /// What a guard did in the last step.
+  Result<MienGuardState> guard(uint32_t guard) const {
+    Sized<MienGuardState> state;
+    return {mien_mixer_guard(get(), guard, &state), std::move(state)};
+  }
   Result<MienMixerInfo> info() const {
     Sized<MienMixerInfo> info;
     return {mien_mixer_info(get(), &info), std::move(info)};

@@ -32,6 +32,7 @@ struct Guard {
   uint16_t lanes[kMaxGuardLanes];  // raw controls, by falling size of the gain: see hold_guard()
   float gains[kMaxGuardLanes];     // beside lanes
   GuardPair pairs[kMaxGuardPairs];
+  uint32_t kind;  // the caller's, for telling guards apart
 };
 
 /// f(row)

@@ -274,6 +274,7 @@ void place_mix(Placer& placer, const MixDesc& desc, Mix& mix) {
   mix.strokes = placer.array<Stroke>(strokes);
   size_t guarded = 0;
   for (const Guard& guard : desc.guards) guarded += guard.count;
+  mix.guard_lanes = placer.array<uint16_t>(guarded);
   mix.guarded = placer.array<uint16_t>(guarded);
   mix.guards = placer.array<Guard>(desc.guards.count);
   mix.antagonists = placer.array<AntagonistPair>(desc.antagonists.count);
@@ -330,7 +331,10 @@ void fill_layers(const MixDesc& desc, Mix& mix) {
 void fill_guards(const MixDesc& desc, Mix& mix) {
   size_t count = 0;
   for (const Guard& guard : desc.guards) {
-    for (uint32_t i = 0; i < guard.count; ++i) mix.guarded[count++] = guard.lanes[i];
+    for (uint32_t i = 0; i < guard.count; ++i) {
+      mix.guard_lanes[count] = guard.lanes[i];
+      mix.guarded[count++] = guard.lanes[i];
+    }
   }
   uint16_t* const lanes = mix.guarded.data;
   std::sort(lanes, lanes + count);

@@ -204,8 +204,9 @@ struct Mix {
   Span<float> pose_values;
   Span<Reaction> reactions;
   Span<Stroke> strokes;
-  Span<uint16_t> guarded;  // the lanes of all guards, ascending
-  Span<Guard> guards;      // with lanes that are places in `guarded`
+  Span<uint16_t> guard_lanes;  // of each guard, one after the other, as it was given
+  Span<uint16_t> guarded;      // the lanes of all guards, ascending
+  Span<Guard> guards;          // with lanes that are places in `guarded`
   Span<AntagonistPair> antagonists;
   Span<uint16_t> mirror;     // [lane], or empty
   Span<float> lower, upper;  // [lane]

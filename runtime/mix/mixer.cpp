@@ -325,7 +325,7 @@ void mix_pose_layer(Mixer& mixer, uint32_t index) {
 
 enum GuardedRow : uint32_t { kProtected, kFree, kHeldBack };
 
-float* guarded_row(Mixer& mixer, GuardedRow which) {
+float* guarded_row(const Mixer& mixer, GuardedRow which) {
   return mixer.guarded_rows.data + which * mixer.mix->guarded.count;
 }
 
@@ -370,6 +370,14 @@ float speech_weight(const Mixer& mixer) {
   return speech;
 }
 
+/// Of a guard whose distance is that in the protected row.
+float activation_of(const Mixer& mixer, size_t guard, float distance, float speech) {
+  const float wanted = mixer.guard_overrides[guard];
+  if (wanted >= 0.0f) return wanted;
+  const Guard& of = mixer.mix->guards[guard];
+  return guard_activation(of, distance) * (of.needs_speech ? speech : 1.0f);
+}
+
 void hold_guards(Mixer& mixer, int64_t ticks) {
   const Mix& mix = *mixer.mix;
   if (mix.guards.empty()) return;
@@ -382,11 +390,7 @@ void hold_guards(Mixer& mixer, int64_t ticks) {
   for (size_t i = 0; i < mix.guards.count; ++i) {
     const Guard& guard = mix.guards[i];
     const float distance = guard_distance(guard, before);
-    float activation = mixer.guard_overrides[i];
-    if (activation < 0.0f) {
-      activation = guard_activation(guard, distance) * (guard.needs_speech ? speech : 1.0f);
-    }
-    hold_guard(guard, before, distance, activation, row);
+    hold_guard(guard, before, distance, activation_of(mixer, i, distance, speech), row);
   }
   const double seconds = static_cast<double>(ticks) / kTicksPerSecond;
   ease_guards(guarded_row(mixer, kFree), before, static_cast<uint32_t>(count),
@@ -660,6 +664,24 @@ Status set_guard(Mixer& mixer, uint32_t guard, float activation, Error& error) {
                 guard, double{activation});
   }
   mixer.guard_overrides[guard] = activation < 0.0f ? -1.0f : activation;
+  return Status::kOk;
+}
+
+Status guard_state(const Mixer& mixer, uint32_t guard, GuardState& state, Error& error) {
+  const Mix& mix = *mixer.mix;
+  if (guard >= mix.guards.count) {
+    return fail(error, Status::kIndex, kNoOffset, "guard %u of %zu", guard, mix.guards.count);
+  }
+  const Guard& of = mix.guards[guard];
+  size_t first = 0;
+  for (uint32_t i = 0; i < guard; ++i) first += mix.guards[i].count;
+  const auto lanes = mix.guard_lanes.slice(first, of.count);
+  state.lanes = {lanes.data, lanes.count};
+  state.protected_distance = guard_distance(of, guarded_row(mixer, kProtected));
+  state.wanted = guard_distance(of, guarded_row(mixer, kFree));
+  state.distance = guard_distance(of, guarded_row(mixer, kHeldBack));
+  state.limit = std::max(state.protected_distance, 0.0f) + of.tolerance;
+  state.activation = activation_of(mixer, guard, state.protected_distance, speech_weight(mixer));
   return Status::kOk;
 }
 

@@ -184,6 +184,19 @@ Status end_stimulus(Mixer& mixer, uint32_t reaction, Error& error);
 /// Activation of a guard, 0 ... 1, or negative: as it finds it itself. kIndex, kInvalidArgument.
 Status set_guard(Mixer& mixer, uint32_t guard, float activation, Error& error);
 
+/// What a guard did in the last step. Distances are f of its lanes, in millimeters.
+struct GuardState {
+  Span<const uint16_t> lanes;  // that it knows
+  float activation;
+  float protected_distance;  // of the protected row
+  float wanted;              // of the row that the layers and reactions before the guards made
+  float limit;               // that it lets pass when fully active
+  float distance;            // of the row that the guards left
+};
+
+/// kIndex.
+Status guard_state(const Mixer& mixer, uint32_t guard, GuardState& state, Error& error);
+
 /// Advances by 0 ... kMaxStepTicks and mixes. The first `count` lanes of the result go to `out`: raw
 /// controls of an instance, or all lanes. The whole row stays in `mixer.row`. `active` gets a bit for
 /// each lane that is not 0, [(lane_count + 63) / 64] words, or is null.

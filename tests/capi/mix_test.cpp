@@ -338,6 +338,10 @@ TEST(Mixer, RefusesWhatIsWrong) {
   EXPECT_EQ(mien_mixer_set_variable(mixer, 1, 0), MIEN_ERROR_INDEX);
   EXPECT_EQ(mien_mixer_set_variable(mixer, 0, INFINITY), MIEN_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(mien_mixer_set_guard(mixer, 0, 1), MIEN_ERROR_INDEX);
+  MienGuardState guard = sized<MienGuardState>();
+  EXPECT_EQ(mien_mixer_guard(mixer, 0, &guard), MIEN_ERROR_INDEX);
+  EXPECT_EQ(mien_mixer_guard(mixer, 0, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_mixer_guard(nullptr, 0, &guard), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(mien_mixer_trigger(mixer, 1, 1, 0), MIEN_ERROR_INDEX);
   EXPECT_EQ(mien_mixer_trigger(mixer, 0, 2, 0), MIEN_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(mien_mixer_release(mixer, 1), MIEN_ERROR_INDEX);

@@ -171,6 +171,32 @@ class PlayTest(unittest.TestCase):
         self.assertEqual(free.value("browInnerUp", 60), held.value("browInnerUp", 60))
         self.assertLess(held.value("jawOpen", 60), free.value("jawOpen", 60) - 0.1)
 
+    def test_a_guard_tells_why_it_holds_a_lane_back(self):
+        scene = load(os.path.join(here, "../../examples/scene.json"))
+        played = self.play(scene, "--stages", "jawOpen", "-o", path("why.json"), "-o", path("why.svg"))
+        self.assertIsNone(played)
+        frames = load(path("why.json"))["frames"]
+        # Lips are closed for an M while joy wants them open.
+        stages, guards = dict(frames[108]["stages"]["jawOpen"]), frames[108]["guards"]
+        self.assertGreater(stages["blink"], 0.25)
+        self.assertEqual(stages["guards"], 0)
+        self.assertTrue({"lips left", "lips center", "lips right"} <= set(guards), guards)
+        center = guards["lips center"]
+        self.assertGreater(center["wanted_mm"], center["limit_mm"] + 1)
+        self.assertLess(center["distance_mm"], center["limit_mm"] + 0.01)
+        self.assertEqual(center["activation"], 1)
+        self.assertEqual(frames[12]["guards"], {}, "an open vowel is nothing to guard")
+        self.assertFalse(set(guards) & {"left lids", "right lids"}, "they know nothing of the jaw")
+        with open(path("why.svg"), encoding="utf-8") as file:
+            svg = file.read()
+        xml.etree.ElementTree.fromstring(svg)
+        for words in (">held back by guards<", ">held: lips left, lips center, lips right",
+                      ">lips center, mm<", ">flashlight<", ">joy<"):
+            self.assertIn(words, svg)
+        self.assertNotIn(">held back by limits<", svg)
+        done = run("eval", path("head.dna"), "--input", path("why.json"), "-o", path("evaluated.json"))
+        self.assertEqual(done.returncode, DONE, done.stderr.decode())
+
     def test_limits(self):
         joy = {**JOY, "mode": "add", "source": {"poses": {"p": {"mouthSmileLeft": 3}},
                                                 "weights": {"p": 1}}}

@@ -220,6 +220,40 @@ TEST(GuardOfAMixer, HoldsAnEmotionBackWithinAFewSteps) {
   EXPECT_EQ(row[2], 0.6f);
 }
 
+TEST(GuardOfAMixer, TellsWhatItDid) {
+  const GuardedMix made;
+  OwnMixer own(made.mix);
+  own.pose(0, 0, 1);
+  own.pose(1, 0, 1);
+  Row row;
+  for (int step = 0; step < 20; ++step) row = own.step(kStep);
+  GuardState state = {};
+  Error error;
+  ASSERT_EQ(guard_state(own.mixer, 0, state, error), Status::kOk);
+  ASSERT_EQ(state.lanes.count, made.guard.count);
+  for (uint32_t i = 0; i < made.guard.count; ++i) EXPECT_EQ(state.lanes[i], made.guard.lanes[i]);
+  // Lanes 0 and 2 as the emotion screens them over speech, which leaves both at 0.
+  Row wanted = row;
+  wanted[0] = 0.25f;
+  wanted[2] = 0.6f;
+  const Row speech = [&] {
+    OwnMixer alone(made.mix);
+    alone.pose(0, 0, 1);
+    return alone.step(kStep);
+  }();
+  EXPECT_EQ(state.protected_distance, guard_distance(made.guard, speech.data()));
+  EXPECT_FLOAT_EQ(state.wanted, guard_distance(made.guard, wanted.data()));
+  EXPECT_EQ(state.distance, guard_distance(made.guard, row.data()));
+  EXPECT_EQ(state.limit, std::max(state.protected_distance, 0.0f) + made.guard.tolerance);
+  EXPECT_EQ(state.activation, guard_activation(made.guard, state.protected_distance));
+  EXPECT_GT(state.wanted, state.limit + 0.1f);
+  EXPECT_NEAR(state.distance, state.limit, 1e-5f);
+  EXPECT_EQ(set_guard(own.mixer, 0, 0.25f, error), Status::kOk);
+  ASSERT_EQ(guard_state(own.mixer, 0, state, error), Status::kOk);
+  EXPECT_EQ(state.activation, 0.25f);
+  EXPECT_EQ(guard_state(own.mixer, 1, state, error), Status::kIndex);
+}
+
 TEST(GuardOfAMixer, ThatNeedsSpeechIsAsActiveAsItsLayers) {
   const GuardedMix made(true);
   OwnMixer own(made.mix);

@@ -89,34 +89,6 @@ StripPlan plan_strip(const StripOptions& options, const std::string& path) {
   return plan;
 }
 
-Captions find_captions(const Script& script) {
-  Captions captions;
-  for (const EventScript& event : script.events) {
-    switch (event.kind) {
-      case EventKind::kTrigger:
-        captions.emplace_back(event.time, script.reactions[event.target]);
-        break;
-      case EventKind::kWeights:
-        for (const auto& [name, weight] : event.weights) {
-          if (weight > 0) captions.emplace_back(event.time, name);
-        }
-        break;
-      case EventKind::kWeight:
-        captions.emplace_back(
-            event.time, script.layers[event.target].name + (event.weight == 0 ? " ends" : ""));
-        break;
-      case EventKind::kStop:
-        captions.emplace_back(event.time, script.layers[event.target].name + " ends");
-        break;
-      case EventKind::kPlay:
-        captions.emplace_back(event.time, script.layers[event.target].name);
-        break;
-      case EventKind::kVariable: break;
-    }
-  }
-  return captions;
-}
-
 uint64_t write_strip(const StripPlan& plan, const std::string& target, const Recording& recording,
                      size_t lane_count, const Captions& captions, const OutputFile& output,
                      const Session& session) {

@@ -25,10 +25,6 @@ struct StripPlan {
 };
 StripPlan plan_strip(const StripOptions& options, const std::string& path);
 
-/// What happens in a scene, as labels name it: reactions, clips, poses and weights that begin.
-using Captions = std::vector<std::pair<double, std::string>>;
-Captions find_captions(const Script& script);
-
 /// Draws frames of the recording to `output`, where %04d makes a file of each. Returns the bytes written.
 uint64_t write_strip(const StripPlan& plan, const std::string& target, const Recording& recording,
                      size_t lane_count, const Captions& captions, const OutputFile& output,

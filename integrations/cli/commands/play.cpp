@@ -199,6 +199,7 @@ void run(const PlayOptions& options, const Session& session) {
   Performance performance(script, rig, meshes, stream, session);
   Recording recording;
   recording.rate = rate;
+  recording.captions = find_captions(script);
   recording.watched = watched_lanes(options.stages, performance.lanes());
   const bool all = any_ends_with(outputs, ".svg") && recording.watched.empty();
   const size_t lane_count = performance.lanes().count();
@@ -220,6 +221,7 @@ void run(const PlayOptions& options, const Session& session) {
       stages.insert(stages.end(), values.begin(), values.end());
     }
     recording.stages.push_back(std::move(stages));
+    if (!recording.watched.empty()) recording.guards.push_back(performance.guard_frames());
   });
   if (real_time) real_time->finish(session);
   real_time.reset();
@@ -229,7 +231,7 @@ void run(const PlayOptions& options, const Session& session) {
     if (ends_with(path, ".png")) {
       const uint64_t bytes =
           write_strip(strips.at(path), options.strip.output.target, recording, lane_count,
-                      find_captions(script), {path, options.force}, session);
+                      recording.captions, {path, options.force}, session);
       note_written(session, path, bytes);
       continue;
     }
@@ -276,8 +278,8 @@ Command add_play_command(CLI::App& app, const Session& session) {
   play->add_option("--seed", options->seed, "Of blinks, breath and noise (default: the scene's)")
       ->type_name("N");
   play->add_option("--stages", options->stages,
-                   "Also tell for these controls which layer made their values,\nwith commas "
-                   "between")
+                   "Also tell for these controls which layer made their values, and\nwhich guards "
+                   "held them back; with commas between")
       ->type_name("NAMES");
   play->add_option("--lod", options->strip.scene.lod,
                    "LOD of images and of a GLB (default: 0, the finest)")

@@ -37,7 +37,7 @@ constexpr Target kMask = {MIEN_KIND_ML_MASK, "region mask", "--names regions,mes
 
 // What `mien play` writes beside the controls.
 const std::vector<std::string> kIgnored = {"rig", "rate", "controls", "variables", "events"};
-const std::vector<std::string> kIgnoredInFrames = {"time", "variables", "stages"};
+const std::vector<std::string> kIgnoredInFrames = {"time", "variables", "stages", "guards"};
 
 std::string at_index(const std::string& where, size_t index) {
   return where + "[" + std::to_string(index) + "]";

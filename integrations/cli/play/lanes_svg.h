@@ -1,20 +1,31 @@
 // SPDX-License-Identifier: MIT
-// Lanes over time as a picture: one row per lane that moves, and which layer made its value.
+// Lanes over time as a vector image: one row per lane that moves, and which layer made its value; below, the
+// distances of guards that held something back.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "integrations/cli/play/script.h"
+
 namespace mien::cli {
 
 struct LanePlot {
-  std::string name;
+  std::string name, note;
   std::vector<float> values;               // [frame]
   std::vector<std::vector<float>> stages;  // [stage][frame] the value after it
 };
 
-/// Lanes below each other over `seconds`; the share of each stage is filled in its color.
+/// [frame], distances in millimeters
+struct GuardPlot {
+  std::string name;
+  std::vector<float> activation, wanted, limit, distance;
+};
+
+/// Lanes below each other over `seconds`. What a layer adds has its color; what guards, antagonists and
+/// limits take away is hatched. Captions stand at their times.
 std::string lanes_svg(const std::vector<LanePlot>& lanes, const std::vector<std::string>& stages,
+                      const std::vector<GuardPlot>& guards, const Captions& captions,
                       double seconds);
 
 }  // namespace mien::cli

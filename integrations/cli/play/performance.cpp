@@ -250,6 +250,12 @@ void Performance::make_mix(const MienDeformer* deformer) {
   MienMixer* mixer = nullptr;
   checked(mien_mixer_create(mix, &how, &mixer, &error), error, script_.shown);
   mixer_.reset(mixer);
+  for (uint32_t g = 0; g < info.guard_count; ++g) {
+    auto state = sized<MienGuardState>();
+    check(mien_mixer_guard(mixer, g, &state), nullptr, kCannot, script_.shown);
+    const MienIndex16View& controls = state.controls;
+    guards_.push_back({to_string(state.name), {controls.data, controls.data + controls.count}});
+  }
 }
 
 void Performance::play(uint32_t layer, const ClipScript& what, uint32_t transition, double duration,
@@ -391,6 +397,17 @@ std::vector<float> Performance::stage_values(uint16_t lane) const {
     values.push_back(view.data[lane]);
   }
   return values;
+}
+
+std::vector<GuardFrame> Performance::guard_frames() const {
+  std::vector<GuardFrame> frames;
+  for (uint32_t g = 0; g < guards_.size(); ++g) {
+    auto state = sized<MienGuardState>();
+    check(mien_mixer_guard(mixer_.get(), g, &state), nullptr, kCannot, script_.shown);
+    frames.push_back(
+        {state.activation, state.protected_distance, state.wanted, state.limit, state.distance});
+  }
+  return frames;
 }
 
 }  // namespace mien::cli

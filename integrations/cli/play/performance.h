@@ -32,6 +32,19 @@ struct StreamScript {
   double delay = 0;  // seconds
 };
 
+/// A guard of a mix.
+struct GuardFacts {
+  std::string name;
+  std::vector<uint16_t> controls;  // that it may hold back
+};
+
+/// What it did in a frame, in millimeters: see MienGuardState.
+struct GuardFrame {
+  float activation, protected_distance, wanted, limit, distance;
+  /// Whether it had something to hold back.
+  bool acts() const { return activation > 0 && wanted > limit; }
+};
+
 class Performance {
  public:
   /// `deformer` is where guards are measured; it may be null if the scene has none. `stream` is for a live
@@ -55,6 +68,9 @@ class Performance {
 
   /// A lane after each stage, while run() calls.
   std::vector<float> stage_values(uint16_t lane) const;
+  const std::vector<GuardFacts>& guards() const { return guards_; }
+  /// Of each guard, while run() calls.
+  std::vector<GuardFrame> guard_frames() const;
 
  private:
   struct BoundClip {
@@ -94,6 +110,7 @@ class Performance {
   std::vector<std::string> stages_;
   std::vector<uint32_t> stage_numbers_;  // of each, for mien_mixer_stage()
   std::vector<FiredEvent> events_;
+  std::vector<GuardFacts> guards_;
   Mix mix_;
   Mixer mixer_;
   int64_t now_ = 0;

@@ -12,6 +12,61 @@
 
 namespace mien::cli {
 
+namespace {
+
+bool knows(const GuardFacts& guard, uint16_t lane) {
+  return std::find(guard.controls.begin(), guard.controls.end(), lane) != guard.controls.end();
+}
+
+/// Guards that had something to hold back in a frame, of those that know a watched lane.
+void write_guards(const Performance& performance, const Recording& recording, size_t frame,
+                  JsonWriter& json) {
+  const std::vector<GuardFacts>& guards = performance.guards();
+  json.key("guards");
+  json.begin_object();
+  for (size_t g = 0; g < guards.size(); ++g) {
+    const GuardFrame& state = recording.guards[frame][g];
+    const auto known = [&](uint16_t lane) { return knows(guards[g], lane); };
+    if (!state.acts() || std::none_of(recording.watched.begin(), recording.watched.end(), known)) {
+      continue;
+    }
+    json.key(guards[g].name);
+    json.begin_object();
+    const auto number = [&](const char* key, float value) {
+      json.key(key);
+      json.shortest(static_cast<double>(value));
+    };
+    number("activation", state.activation);
+    number("wanted_mm", state.wanted);
+    number("limit_mm", state.limit);
+    number("distance_mm", state.distance);
+    json.end_object();
+  }
+  json.end_object();
+}
+
+/// The guards that held a lane back, as words below its name.
+std::string holders(const Performance& performance, const Recording& recording, size_t watched) {
+  const std::vector<std::string>& stages = performance.stages();
+  const auto at = std::find(stages.begin(), stages.end(), "guards");
+  const auto stage = static_cast<size_t>(at - stages.begin());
+  if (stage == 0 || at == stages.end()) return "";
+  const uint16_t lane = recording.watched[watched];
+  std::string text;
+  for (size_t g = 0; g < performance.guards().size(); ++g) {
+    const GuardFacts& guard = performance.guards()[g];
+    bool held = false;
+    for (size_t f = 0; f < recording.times.size() && !held && knows(guard, lane); ++f) {
+      const float* values = &recording.stages[f][watched * stages.size()];
+      held = values[stage] != values[stage - 1] && recording.guards[f][g].acts();
+    }
+    if (held) text += (text.empty() ? "held: " : ", ") + guard.name;
+  }
+  return text;
+}
+
+}  // namespace
+
 void write_json(const std::string& rig_name, const Performance& performance,
                 const Recording& recording, bool stages, Output& output) {
   const std::vector<uint16_t>& watched = recording.watched;
@@ -72,6 +127,7 @@ void write_json(const std::string& rig_name, const Performance& performance,
         json.end_array();
       }
       json.end_object();
+      write_guards(performance, recording, f, json);
     }
     json.end_object();
   }
@@ -169,9 +225,25 @@ void write_svg(const Performance& performance, const Recording& recording, Outpu
         plot.stages[s][f] = recording.stages[f][w * stage_count + s];
       }
     }
+    plot.note = holders(performance, recording, w);
     plots.push_back(std::move(plot));
   }
-  output.write(lanes_svg(plots, performance.stages(), recording.times.back()));
+  std::vector<GuardPlot> guards;
+  for (size_t g = 0; g < performance.guards().size(); ++g) {
+    GuardPlot plot;
+    plot.name = performance.guards()[g].name;
+    bool acts = false;
+    for (const std::vector<GuardFrame>& frame : recording.guards) {
+      acts = acts || frame[g].acts();
+      plot.activation.push_back(frame[g].activation);
+      plot.wanted.push_back(frame[g].wanted);
+      plot.limit.push_back(frame[g].limit);
+      plot.distance.push_back(frame[g].distance);
+    }
+    if (acts) guards.push_back(std::move(plot));
+  }
+  output.write(
+      lanes_svg(plots, performance.stages(), guards, recording.captions, recording.times.back()));
 }
 
 }  // namespace mien::cli

@@ -13,9 +13,11 @@ namespace mien::cli {
 struct Recording {
   double rate = 60;
   std::vector<double> times;
-  std::vector<float> rows;                 // [frame][lane]
-  std::vector<uint16_t> watched;           // lanes with stages
-  std::vector<std::vector<float>> stages;  // [frame][watched lane * stages + stage]
+  std::vector<float> rows;                      // [frame][lane]
+  std::vector<uint16_t> watched;                // lanes with stages
+  std::vector<std::vector<float>> stages;       // [frame][watched lane * stages + stage]
+  std::vector<std::vector<GuardFrame>> guards;  // [frame][guard]
+  Captions captions;
 };
 
 /// Drops the watched lanes that stay as they are, with their stages.

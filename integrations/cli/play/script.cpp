@@ -304,4 +304,32 @@ Script parse_script(const std::string& text, const std::string& shown, bool live
   return script;
 }
 
+Captions find_captions(const Script& script) {
+  Captions captions;
+  for (const EventScript& event : script.events) {
+    switch (event.kind) {
+      case EventKind::kTrigger:
+        captions.emplace_back(event.time, script.reactions[event.target]);
+        break;
+      case EventKind::kWeights:
+        for (const auto& [name, weight] : event.weights) {
+          if (weight > 0) captions.emplace_back(event.time, name);
+        }
+        break;
+      case EventKind::kWeight:
+        captions.emplace_back(
+            event.time, script.layers[event.target].name + (event.weight == 0 ? " ends" : ""));
+        break;
+      case EventKind::kStop:
+        captions.emplace_back(event.time, script.layers[event.target].name + " ends");
+        break;
+      case EventKind::kPlay:
+        captions.emplace_back(event.time, script.layers[event.target].name);
+        break;
+      case EventKind::kVariable: break;
+    }
+  }
+  return captions;
+}
+
 }  // namespace mien::cli

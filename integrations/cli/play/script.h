@@ -70,6 +70,10 @@ struct Script {
   bool antagonists = false, limits = false;
 };
 
+/// What happens in a scene, as labels name it: reactions, clips, poses and weights that begin; by time.
+using Captions = std::vector<std::pair<double, std::string>>;
+Captions find_captions(const Script& script);
+
 /// Exit code 2 with the place of what is wrong. `live`: there is a live source. A scene with no layer for
 /// it gets one, "live", before all others.
 Script parse_script(const std::string& text, const std::string& shown, bool live);

@@ -31,7 +31,7 @@ from .errors import (ArgumentError, BusyError, ClipError, ClosedError, DnaError,
                      OutOfMemoryError, OutOfRangeError, UnknownNameError)
 from .instance import Instance
 from .mix import Antagonists, Gaze, Mix, MixLayer, Reaction, Stroke, ticks
-from .mixer import MixEvent, Mixer, step_mixers
+from .mixer import GuardState, MixEvent, Mixer, step_mixers
 from .rig import Rig
 from .rig_view import isa_available, isa_name
 from .solve import (NO_JOINT, AimSolver, CopySolver, CustomSolver, SolverPose, SolverStack,
@@ -49,7 +49,7 @@ __all__ = [
     "DnaLayer", "Error", "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding",
     "Gaze", "Generate", "Generator", "Guard", "Instance", "InstanceStatistics", "Interpolation",
     "Isa", "isa_available", "isa_name", "Kind", "Layer", "LayerGroup", "LayerSource",
-    "library_path", "Looping", "Mesh", "Mix", "Mixer", "MixerInfo", "MixEvent", "MixInfo",
+    "GuardState", "library_path", "Looping", "Mesh", "Mix", "Mixer", "MixerInfo", "MixEvent", "MixInfo",
     "MixLayer", "MlMasks", "NO_JOINT", "Normals", "OutOfMemoryError", "OutOfRangeError",
     "Preset", "Reaction", "Retrigger", "Reuse", "Rig", "RigInfo", "RigStatistics",
     "RotationOutput", "RotationRule", "RotationSequence", "RotationUnit", "Severity",

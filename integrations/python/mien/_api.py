@@ -1991,6 +1991,32 @@ class MienPlayDesc(Structure):
         self.mirrored = mirrored
 
 
+class MienGuardState(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", MienStringView),
+        ("controls", MienIndex16View),
+        ("kind", c_uint32),
+        ("activation", c_float),
+        ("protected_distance", c_float),
+        ("wanted", c_float),
+        ("limit", c_float),
+        ("distance", c_float),
+    ]
+    struct_size: Any
+    name: Any
+    controls: Any
+    kind: Any
+    activation: Any
+    protected_distance: Any
+    wanted: Any
+    limit: Any
+    distance: Any
+
+    def __init__(self) -> None:
+        super().__init__(64)
+
+
 class MienMixerInfo(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -3595,6 +3621,12 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INDEX,
          "the guard does not exist"),
     ),
+    "mien_mixer_guard": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.INDEX,
+         "the guard does not exist"),
+    ),
     "mien_mixer_trigger": (
         (Status.INVALID_ARGUMENT,
          "strength or time is out of range"),
@@ -3894,6 +3926,7 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_mixer_set_pose_weight", c_int32, (MienMixer, c_uint32, c_uint32, c_float, c_int64)),
     ("mien_mixer_set_variable", c_int32, (MienMixer, c_uint32, c_float)),
     ("mien_mixer_set_guard", c_int32, (MienMixer, c_uint32, c_float)),
+    ("mien_mixer_guard", c_int32, (MienMixer, c_uint32, POINTER(MienGuardState))),
     ("mien_mixer_trigger", c_int32, (MienMixer, c_uint32, c_float, c_int64)),
     ("mien_mixer_release", c_int32, (MienMixer, c_uint32)),
     ("mien_mixer_push", c_int32, (MienMixer, c_uint32, c_int64, c_void_p, c_size_t, c_void_p)),
@@ -4069,6 +4102,7 @@ class Library:
     mien_mixer_set_pose_weight: Any
     mien_mixer_set_variable: Any
     mien_mixer_set_guard: Any
+    mien_mixer_guard: Any
     mien_mixer_trigger: Any
     mien_mixer_release: Any
     mien_mixer_push: Any

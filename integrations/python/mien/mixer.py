@@ -9,7 +9,7 @@ from operator import index
 from typing import Any, Dict, Iterable, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple
 
 from . import _api
-from ._api import (Interpolation, Looping, MienError, MixerInfo, Status, Transition, text)
+from ._api import (Guard, Interpolation, Looping, MienError, MixerInfo, Status, Transition, text)
 from ._library import lib
 from ._memory import Closable, Floats, MixerHandle, array_over, as_bytes, floats_of, uint32
 from .clip import TICKS_PER_SECOND, Clip, ClipBinding, _fraction, _int
@@ -27,6 +27,19 @@ class MixEvent(NamedTuple):
     tick: int
     name: str
     value: float
+
+
+class GuardState(NamedTuple):
+    """What a guard did in the last step. Distances are in millimeters."""
+
+    name: str
+    kind: Guard
+    controls: Tuple[int, ...]
+    activation: float
+    protected_distance: float
+    wanted: float
+    limit: float
+    distance: float
 
 
 class Mixer(Closable):
@@ -202,6 +215,18 @@ class Mixer(Closable):
         if status:
             fail(status, f"stage {stage} of {self.mix.info.stage_count}")
         return array_over(handle, view.data, view.count, "f", False)
+
+    @raises("mien_mixer_guard")
+    def guard(self, guard: int) -> GuardState:
+        """What a guard did in the last step: the distance that later layers wanted, the limit, and
+        what is left. Guards are numbered as in `set_guard`."""
+        state = _api.MienGuardState()
+        status = lib.mien_mixer_guard(self._open(), uint32(guard, "guard"), _byref(state))
+        if status:
+            fail(status, f"guard {guard} of {self.mix.info.guard_count}")
+        controls = tuple(state.controls.data[i] for i in range(state.controls.count))
+        return GuardState(text(state.name), Guard(state.kind), controls, state.activation,
+                          state.protected_distance, state.wanted, state.limit, state.distance)
 
     @property
     def info(self) -> MixerInfo:

@@ -1326,6 +1326,33 @@ export interface PlayDesc {
   mirrored?: boolean;
 }
 
+/**
+ * What a guard did in the last step. Distances are in millimeters, of the function of raw controls that was
+ * measured on the rig; below 0 both sides overlap.
+ */
+export interface GuardState {
+  /**
+   * "lips left", "lips center", "lips right", "teeth", "lower lip to teeth", "left lids" or "right lids"
+   */
+  readonly name: string;
+  /** raw controls that it may hold back */
+  readonly controls: Uint16Array;
+  /** MIEN_GUARD_... */
+  readonly kind: Guard;
+  /** how much it acted, 0 to 1 */
+  readonly activation: number;
+  /** after the last layer of base and speech */
+  readonly protectedDistance: number;
+  /** after the later layers and reactions that come before the guards */
+  readonly wanted: number;
+  /** that it lets pass when fully active */
+  readonly limit: number;
+  /**
+   * that the guards left: above `limit` where it is less active, while it eases in, or where other controls part the sides
+   */
+  readonly distance: number;
+}
+
 /** State of a mixer. */
 export interface MixerInfo {
   /** time since creation */
@@ -2406,6 +2433,12 @@ export interface Exports {
    * Fails with MIEN_ERROR_INDEX if the guard does not exist.
    */
   mien_mixer_set_guard(mixer: number, guard: number, activation: number): number;
+  /**
+   * Returns what a guard did in the last step. `guard` counts as in mien_mixer_set_guard(). Views are of the
+   * mix.
+   * Fails with MIEN_ERROR_INDEX if the guard does not exist.
+   */
+  mien_mixer_guard(mixer: number, guard: number, out_state: number): number;
   /**
    * Starts a reaction to a stimulus of `strength`, 0 ... 1, that lasts `hold_ticks`, at most 2^40; if
    * negative, until mien_mixer_release(). Does not allocate or lock.

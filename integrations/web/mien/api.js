@@ -676,6 +676,16 @@ export const layouts = {
     speedDenominator: [48, "i32"],
     mirrored: [52, "bool"],
   } },
+  GuardState: { size: 44, sized: true, fields: {
+    name: [4, "string"],
+    controls: [12, "u16s"],
+    kind: [20, "u32"],
+    activation: [24, "f32"],
+    protectedDistance: [28, "f32"],
+    wanted: [32, "f32"],
+    limit: [36, "f32"],
+    distance: [40, "f32"],
+  } },
   MixerInfo: { size: 24, sized: true, fields: {
     tick: [8, "i64"],
     eventCount: [16, "u32"],

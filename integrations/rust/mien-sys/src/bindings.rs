@@ -2082,6 +2082,42 @@ impl Default for MienPlayDesc {
     }
 }
 
+/// What a guard did in the last step. Distances are in millimeters, of the function of raw
+/// controls that was measured on the rig; below 0 both sides overlap.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienGuardState {
+    pub struct_size: usize,
+    /// "lips left", "lips center", "lips right", "teeth", "lower lip to teeth", "left lids" or
+    /// "right lids".
+    pub name: MienStringView,
+    /// Raw controls that it may hold back.
+    pub controls: MienIndex16View,
+    /// `MIEN_GUARD_...`
+    pub kind: u32,
+    /// How much it acted, 0 to 1.
+    pub activation: f32,
+    /// After the last layer of base and speech.
+    pub protected_distance: f32,
+    /// After the later layers and reactions that come before the guards.
+    pub wanted: f32,
+    /// That it lets pass when fully active.
+    pub limit: f32,
+    /// That the guards left: above `limit` where it is less active, while it eases in, or where
+    /// other controls part the sides.
+    pub distance: f32,
+}
+
+impl Default for MienGuardState {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
 /// State of a mixer.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -3484,6 +3520,12 @@ extern "C" {
     ///
     /// Fails with `MIEN_ERROR_INDEX` if the guard does not exist.
     pub fn mien_mixer_set_guard(mixer: *mut MienMixer, guard: u32, activation: f32) -> MienStatus;
+
+    /// Returns what a guard did in the last step. `guard` counts as in `mien_mixer_set_guard()`.
+    /// Views are of the mix.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if the guard does not exist.
+    pub fn mien_mixer_guard(mixer: *const MienMixer, guard: u32, out_state: *mut MienGuardState) -> MienStatus;
 
     /// Starts a reaction to a stimulus of `strength`, 0 ... 1, that lasts `hold_ticks`, at most
     /// 2^40; if negative, until `mien_mixer_release()`. Does not allocate or lock.

@@ -782,6 +782,22 @@ fn mien_play_desc() {
 }
 
 #[test]
+fn mien_guard_state() {
+    use mien_sys::MienGuardState as S;
+    assert_eq!(size_of::<S>(), 64);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, name), 8);
+    assert_eq!(offset!(S, controls), 24);
+    assert_eq!(offset!(S, kind), 40);
+    assert_eq!(offset!(S, activation), 44);
+    assert_eq!(offset!(S, protected_distance), 48);
+    assert_eq!(offset!(S, wanted), 52);
+    assert_eq!(offset!(S, limit), 56);
+    assert_eq!(offset!(S, distance), 60);
+}
+
+#[test]
 fn mien_mixer_info() {
     use mien_sys::MienMixerInfo as S;
     assert_eq!(size_of::<S>(), 24);

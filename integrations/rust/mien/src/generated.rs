@@ -2039,6 +2039,10 @@ macro_rules! errors {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::INDEX`](crate::Status::INDEX) if the guard does not exist"
     };
+    (mien_mixer_guard) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the guard does not exist"
+    };
     (mien_mixer_trigger) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if strength or time is out of range\n\
          - [`Status::INDEX`](crate::Status::INDEX) if the reaction does not exist"

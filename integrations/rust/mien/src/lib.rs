@@ -81,7 +81,7 @@ pub use error::{Error, Result};
 pub use generated::*;
 pub use instance::Instance;
 pub use mix::{Antagonists, Gaze, Mix, MixLayer, MixOptions, Reaction, Stroke};
-pub use mixer::{MixEvent, Mixer, PlayOptions, StreamSender};
+pub use mixer::{GuardState, MixEvent, Mixer, PlayOptions, StreamSender};
 pub use report::{Finding, Report};
 pub use rig::{Rig, RigOptions};
 pub use solve::{

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 
-use crate::convert::{index, slice};
+use crate::convert::{bytes, index, slice, utf8};
 use crate::error::{check, checked};
 use crate::{
-    Allocator, Clip, ClipBinding, ClipEvent, Error, Instance, Interpolation, Looping, Mix,
+    Allocator, Clip, ClipBinding, ClipEvent, Error, Guard, Instance, Interpolation, Looping, Mix,
     MixerInfo, Result, Status, Transition, TICKS_PER_SECOND,
 };
 use mien_sys as sys;
@@ -47,6 +47,27 @@ impl Default for PlayOptions {
             mirrored: false,
         }
     }
+}
+
+/// What a guard did in the last step. Distances are in millimeters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GuardState<'a> {
+    /// What it keeps closed, such as "lips center".
+    pub name: String,
+    /// One of the constants of [`Guard`].
+    pub kind: Guard,
+    /// Raw controls that it may hold back.
+    pub controls: &'a [u16],
+    /// How much it acted, 0 to 1.
+    pub activation: f32,
+    /// After the last layer of base and speech.
+    pub protected_distance: f32,
+    /// After the later layers and reactions that come before the guards.
+    pub wanted: f32,
+    /// That it lets pass when fully active.
+    pub limit: f32,
+    /// That the guards left.
+    pub distance: f32,
 }
 
 /// An event of a clip that a step passed.
@@ -367,6 +388,29 @@ impl Mixer {
         unsafe {
             check(sys::mien_mixer_stage(self.raw_const(), index(stage), &mut view))?;
             Ok(slice(view.data, view.count))
+        }
+    }
+
+    /// What a guard did in the last step. Guards are numbered as in [`Mixer::set_guard`].
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_mixer_guard)]
+    pub fn guard(&self, guard: usize) -> Result<GuardState<'_>> {
+        let mut out = sys::MienGuardState::default();
+        // SAFETY: a live handle and a sized struct; the views are of the mix, which the mixer keeps.
+        unsafe {
+            check(sys::mien_mixer_guard(self.raw_const(), index(guard), &mut out))?;
+            Ok(GuardState {
+                name: utf8(bytes(out.name)).into_owned(),
+                kind: Guard(out.kind),
+                controls: slice(out.controls.data, out.controls.count),
+                activation: out.activation,
+                protected_distance: out.protected_distance,
+                wanted: out.wanted,
+                limit: out.limit,
+                distance: out.distance,
+            })
         }
     }
 
