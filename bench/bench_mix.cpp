@@ -137,10 +137,11 @@ void dense_layers(benchmark::State& state, Isa isa) {
   for (Mixer* mixer : mixers) destroy_mixer(mixer);
 }
 
-/// Eight guards of 24 lanes and 8 pairs, fully active, while later layers move all lanes of all of
-/// them: more than any face does.
+/// Eight guards of 24 lanes and 8 pairs each, fully active, while later layers move all of the 48 lanes
+/// that they have together: more than any face does.
 void guards(benchmark::State& state, float activation) {
-  const std::vector<uint16_t> lanes = first_lanes(kLanes);
+  constexpr uint32_t kGuarded = 48;
+  const std::vector<uint16_t> lanes = first_lanes(kGuarded);
   Guard all[kMaxGuards];
   for (uint32_t g = 0; g < kMaxGuards; ++g) all[g] = scene_guard(g, lanes);
   Rows rows;
@@ -152,7 +153,7 @@ void guards(benchmark::State& state, float activation) {
       const float distance = guard_distance(guard, rows.x);
       hold_guard(guard, rows.x, distance, activation, row);
     }
-    ease_guards(free_row, rows.x, kLanes, 0.2f, held, row);
+    ease_guards(free_row, rows.x, kGuarded, 0.2f, held, row);
     benchmark::ClobberMemory();
   }
 }
@@ -178,7 +179,7 @@ const MixScene& scene(uint32_t isa) {
     std::vector<uint16_t> lanes = first_lanes(raws);
     Random random = Random::from_seed(3, 0);
     for (uint32_t i = 0; i + 1 < raws; ++i) std::swap(lanes[i], lanes[i + random.below(raws - i)]);
-    lanes.resize(raws * 5 / 16);  // some rest at times
+    lanes.resize(raws * 4 / 15);  // some rest at times
     scenes[isa] = new MixScene(raws, lanes, kernels_for(static_cast<Isa>(isa)));
   }
   return *scenes[isa];

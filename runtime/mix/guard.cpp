@@ -18,6 +18,10 @@ struct Values {
   }
 };
 
+// By value and without branches, so that compilers make vectors of them.
+float higher(float a, float b) { return a > b ? a : b; }
+float lower(float a, float b) { return a < b ? a : b; }
+
 float distance(const Guard& guard, const Values& values) {
   // Four sums at a time, which compilers make a vector.
   float sums[4] = {};
@@ -73,14 +77,15 @@ void hold_guard(const Guard& guard, const float* protected_row, float closed, fl
 }
 
 void ease_guards(const float* free_row, const float* protected_row, uint32_t count,
-                 float max_change, float* held, float* row) {
+                 float max_change, float* __restrict held, float* __restrict row) {
   for (uint32_t i = 0; i < count; ++i) {
-    const float wanted = free_row[i] - row[i];
-    const float eased = held[i] + std::min(std::max(wanted - held[i], -max_change), max_change);
+    const float kept = row[i], wanted = free_row[i] - kept;
+    const float eased = held[i] + lower(higher(wanted - held[i], -max_change), max_change);
     const float change = free_row[i] - protected_row[i];
-    const float now = std::min(std::max(eased, std::min(change, 0.0f)), std::max(change, 0.0f));
+    const float now = lower(higher(eased, lower(change, 0.0f)), higher(change, 0.0f));
+    const float moved = free_row[i] - now;
     held[i] = now;
-    row[i] = now == wanted ? row[i] : free_row[i] - now;
+    row[i] = now == wanted ? kept : moved;
   }
 }
 

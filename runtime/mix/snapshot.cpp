@@ -101,7 +101,8 @@ Status check_player(const Mixer& mixer, const PlayerState& player, uint32_t laye
                      player.backward <= 1 &&
                      player.interpolation <= static_cast<uint8_t>(Interpolation::kCatmullRom) &&
                      (!player.mirrored || !mixer.mix->mirror.empty());
-  return valid ? Status::kOk : wrong(error, "holds a player that cannot be");
+  return valid ? Status::kOk
+               : wrong(error, "has a player in a state that none can be in: it is damaged");
 }
 
 bool is_reaction(const ReactionState& reaction) {
@@ -124,7 +125,10 @@ Status check_state(const Mixer& mixer, const SavedState& saved, const ClipFinder
   if (now < 0 || now > kMaxNow) return wrong(error, "has a time out of range");
   uint64_t players = 0;
   for (uint32_t i = 0; i < mixer.layers.count; ++i) {
-    if (!is_layer(mixer, saved, i, players)) return wrong(error, "holds a layer that cannot be");
+    if (!is_layer(mixer, saved, i, players)) {
+      return wrong(error,
+                   "has a layer in a state that none can be in: it is damaged, take another");
+    }
     const LayerState layer = saved.read(mixer.layers[i]);
     const uint16_t used[2] = {layer.current, layer.previous};
     for (uint16_t player : used) {
@@ -149,7 +153,7 @@ Status check_state(const Mixer& mixer, const SavedState& saved, const ClipFinder
   }
   valid = valid && all_finite(saved, mixer.variables) && all_finite(saved, mixer.guard_overrides) &&
           all_finite(saved, mixer.held) && all_finite(saved, mixer.layer_rows);
-  return valid ? Status::kOk : wrong(error, "holds a number that cannot be");
+  return valid ? Status::kOk : wrong(error, "has a number out of range: it is damaged");
 }
 
 PlayerState saved_player(const Player& player) {
