@@ -151,6 +151,7 @@ void test_mixing() {
   CHECK(mixer.trigger(0, 1, -1) && mixer.end_stimulus(0));
 #ifndef MIEN_EXCEPTIONS
   CHECK(mixer.set_guard(0, 1).status() == MIEN_ERROR_INDEX);
+  CHECK(mixer.guard(0).status() == MIEN_ERROR_INDEX);
   uint32_t layer = 0;
   CHECK(mixer.event(0, layer).status() == MIEN_ERROR_INDEX);
   CHECK(mixer.play(0, mien::Clip(), mien::ClipBinding()).status() == MIEN_ERROR_NULL_ARGUMENT);

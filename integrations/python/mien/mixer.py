@@ -221,10 +221,12 @@ class Mixer(Closable):
         """What a guard did in the last step: the distance that later layers wanted, the limit, and
         what is left. Guards are numbered as in `set_guard`."""
         state = _api.MienGuardState()
-        status = lib.mien_mixer_guard(self._open(), uint32(guard, "guard"), _byref(state))
+        handle = self._open()
+        status = lib.mien_mixer_guard(handle, uint32(guard, "guard"), _byref(state))
         if status:
             fail(status, f"guard {guard} of {self.mix.info.guard_count}")
-        controls = tuple(state.controls.data[i] for i in range(state.controls.count))
+        view = state.controls
+        controls = tuple(array_over(handle, view.data, view.count, "H", False).tolist())
         return GuardState(text(state.name), Guard(state.kind), controls, state.activation,
                           state.protected_distance, state.wanted, state.limit, state.distance)
 

@@ -166,6 +166,15 @@ class MixTest(unittest.TestCase):
             mixer.step(FRAME, face)
         self.assertLess(face["jawOpen"], 0.1)
         self.assertGreater(face["mouthSmileLeft"], 0.5)
+        states = [mixer.guard(g) for g in range(mix.info.guard_count)]
+        self.assertIn("lips center", [state.name for state in states])
+        for state in states:
+            self.assertEqual(state.kind, mien.Guard.LIPS)
+            self.assertGreater(state.wanted, state.limit)
+            self.assertLess(state.distance, state.limit + 0.01)
+            self.assertIn(rig_of(HEAD).raw_control("jawOpen"), state.controls)
+        with self.assertRaises(mien.OutOfRangeError):
+            mixer.guard(mix.info.guard_count)
         for guard in range(mix.info.guard_count):
             mixer.set_guard(guard, 0)
         for _ in range(30):

@@ -230,6 +230,11 @@ fn guards_and_tables_measure_the_rig() {
         mixer.step(FRAME, None).unwrap();
     }
     assert!(mixer.row()[jaw] < 0.1 && mixer.row()[head.lane("mouthSmileLeft")] > 0.5);
+    let lips = mixer.guard(0).unwrap();
+    assert!(lips.name.starts_with("lips") && lips.kind == Guard::LIPS);
+    assert!(lips.wanted > lips.limit && lips.distance < lips.limit + 0.01);
+    assert!(lips.controls.iter().any(|&control| control as usize == jaw));
+    assert!(mixer.guard(100).is_err());
     for guard in 0..mix.info().guard_count {
         mixer.set_guard(guard, 0.0).unwrap();
     }
