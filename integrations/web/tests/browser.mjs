@@ -94,11 +94,16 @@ export class Page {
 
   /** Waits until a function in the page returns something true. */
   async until(code, what, seconds = 60) {
+    let failure = "";
     for (const end = Date.now() + seconds * 1000; Date.now() < end; ) {
-      if (await this.run(`async () => Boolean(await (${code})())`)) return;
+      try {
+        if (await this.run(`async () => Boolean(await (${code})())`)) return;
+      } catch (error) {
+        failure = error.message; // a page that is still loading has no document
+      }
       await new Promise((resolve) => setTimeout(resolve, 50));
     }
-    throw new Error(`after ${seconds} s: not ${what}; errors: ${this.errors.join("; ")}`);
+    throw new Error(`after ${seconds} s: not ${what}; ${failure} ${this.errors.join("; ")}`);
   }
 
   /** Chooses files in an <input type=file>, as a user does. */
