@@ -289,6 +289,57 @@ TEST(FitShapes, AnUnusedControlChangesNothing) {
   EXPECT_EQ(head.weight_values, more.weight_values);
 }
 
+/// The same head with its vertices in another order, `scale` times as large and moved.
+void make_other_head(const AuthorSetup& from, double scale, Vec3 shift, AuthorSetup& out) {
+  std::vector<uint32_t> order;  // old numbers
+  Random random = Random::from_seed(11, 12);
+  for (uint32_t v = 0; v < from.positions.size(); ++v) order.push_back(v);
+  for (uint32_t v = static_cast<uint32_t>(order.size()); v > 1; --v) {
+    std::swap(order[v - 1], order[random.below(v)]);
+  }
+  out.bones = from.bones;
+  out.bone_names = from.bone_names;
+  for (Bone& bone : out.bones) bone.position = bone.position * scale + shift;
+  const uint32_t m = from.weights.m;
+  for (uint32_t v : order) {
+    out.add_vertex(from.positions[v] * scale + shift);
+    for (uint32_t i = v * m; i < v * m + m; ++i) {
+      out.joints.push_back(from.joints[i]);
+      out.weight_values.push_back(from.weight_values[i]);
+    }
+  }
+  for (size_t s = 0; s < from.shapes.size(); ++s) {
+    out.add_shape(from.shape_names[s], [&](uint32_t v) {
+      const Vec3f d = from.displacements[s][order[v]];
+      return Vec3{double{d.x}, double{d.y}, double{d.z}} * scale;
+    });
+  }
+  out.finish(m);
+}
+
+TEST(FitShapes, OrderOfVerticesUnitAndPlaceDoNotMatter) {
+  AuthorSetup head, other;
+  make_author_head(6, 16, 4, 1, head);
+  const double scale = 100;
+  const Vec3 shift = {300, -200, 50};
+  make_other_head(head, scale, shift, other);
+  Fitted a(head), b(other);
+  for (int round = 0; round < 2; ++round) {
+    EXPECT_NEAR(a.error(head), b.error(other), 1e-5);
+    for (size_t i = 0; i < a.motions.items.count; ++i) {
+      ASSERT_EQ(a.motions.active[i], b.motions.active[i]);
+      const Vec3 at = head.bones[i % head.bones.size()].position, there = at * scale + shift;
+      const Affine &x = a.motions.items[i], &y = b.motions.items[i];
+      for (int r = 0; r < 3; ++r) EXPECT_LT(length(x.rows[r] - y.rows[r]), 1e-3);
+      EXPECT_LT(length((x(at) - at) * scale - (y(there) - there)), 1e-4 * other.mesh.diagonal);
+    }
+    refit_weights(head.mesh, a.motions, {}, head.weights);
+    refit_weights(other.mesh, b.motions, {}, other.weights);
+    fit_all(a.fitter, head.mesh, head.placement, head.weights, false, {}, a.motions);
+    fit_all(b.fitter, other.mesh, other.placement, other.weights, false, {}, b.motions);
+  }
+}
+
 /// Runs tasks in another order, as threads would.
 void run_backwards(void*, uint32_t count, void (*task)(void*, uint32_t), void* context) {
   for (uint32_t i = count; i-- > 0;) task(context, i);
