@@ -166,7 +166,10 @@ enum MienStatusCode {
     MIEN_ERROR_CLIP_STRUCTURE = 63,  /* sizes, counts or curves contradict each other */
     MIEN_ERROR_CLIP_CHECKSUM = 64,   /* the bytes are not those that were written */
     MIEN_ERROR_CLIP_VALUE = 65,      /* a value that is not finite */
-    MIEN_ERROR_CLIP_LIMIT = 66       /* more than a clip, player or binding can hold */
+    MIEN_ERROR_CLIP_LIMIT = 66,      /* more than a clip, player or binding can hold */
+    MIEN_ERROR_AUTHOR_MESH = 80,     /* arrays of a mesh, shape or bone contradict each other */
+    MIEN_ERROR_AUTHOR_REFUSED = 81,  /* a mesh that cannot be rigged; the message names the rule */
+    MIEN_ERROR_AUTHOR_CANCELED = 82 /* the caller's progress function asked to stop */
 };
 
 /* Returns "DNA_TRUNCATED" for MIEN_ERROR_DNA_TRUNCATED, and "UNKNOWN" for other numbers. The string

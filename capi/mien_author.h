@@ -34,10 +34,11 @@ enum MienPreset {
     MIEN_PRESET_TINY = 0,   /* small enough to read */
     MIEN_PRESET_SMALL = 1,
     MIEN_PRESET_MEDIUM = 2,
-    MIEN_PRESET_LARGE = 3,  /* a production head: 870 joints, 260 raw controls, 8 LODs, a million
-                               matrix entries */
-    MIEN_PRESET_BODY = 4,   /* a production body: 342 joints, moved by 72 RBF solvers with 670 poses,
-                               22 twists and 16 swings; some are quaternion joints */
+    MIEN_PRESET_LARGE = 3,  /* a synthetic rig of production size: 870 joints, 260 raw controls, 8 LODs,
+                               a million matrix entries */
+    MIEN_PRESET_BODY = 4,   /* a synthetic rig of the size of a production body: 342 joints, moved by 72
+                               RBF solvers with 670 poses, 22 twists and 16 swings; some are
+                               quaternion joints */
     MIEN_PRESET_HEAD = 5    /* a stylized head to look at: skin, eyes, teeth, tongue, hair; the 52
                                expressions of ARKit as raw controls with their names (0 to 1),
                                correctives, wrinkle maps, 8 LODs. Seed 0 is the designed head, other
@@ -66,6 +67,143 @@ MIEN_DEFAULT(MienGenerateDesc, mien_generate_desc_default)
  * sparsity, and simple geometry. Close with mien_dna_close(). */
 MIEN_AUTHOR_CHECKED MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna,
                                                  MienError* error);
+
+/* ---- Rigs from meshes ------------------------------------------------------------------------- */
+
+/* What was found and measured while a rig was made; immutable. */
+typedef struct MienAuthorReport MienAuthorReport;
+
+/* A part of a mesh with a name: it becomes a mesh of the file. */
+typedef struct MienAuthorObject {
+    MienStringView name; /* 1 to 200 bytes */
+    uint32_t first_face; /* where the object before it ends */
+    uint32_t face_count;
+} MienAuthorObject;
+
+/* An expression: becomes a raw control of its name, 0 to 1. */
+typedef struct MienAuthorShape {
+    MienStringView name;         /* 1 to 200 bytes; all different */
+    const uint32_t* positions;   /* which positions move. NULL: all, in their order */
+    size_t position_count;       /* of `positions`, or of the mesh */
+    const double* displacements; /* 3 per position that moves, at full value */
+} MienAuthorShape;
+
+/* A mesh to be rigged: a head, or the front of one, with whatever is inside. */
+typedef struct MienAuthorMesh {
+    size_t struct_size;
+    const double* positions;         /* 3 per position, in the unit and axes of MienAuthorDesc */
+    size_t position_count;
+    const uint32_t* face_sizes;      /* corners of each face, 3 or more. NULL: all are triangles */
+    size_t face_count;
+    const uint32_t* corners;         /* positions, face after face, counterclockwise from outside */
+    size_t corner_count;
+    const double* uvs;               /* 2 per UV; may be NULL */
+    size_t uv_count;
+    const uint32_t* corner_uvs;      /* one per corner. NULL: no UVs */
+    const MienAuthorObject* objects; /* NULL: one, named "head" */
+    size_t object_count;
+    const MienAuthorShape* shapes;   /* may be NULL */
+    size_t shape_count;
+} MienAuthorMesh;
+MIEN_DEFAULT(MienAuthorMesh, mien_author_mesh_default)
+
+/* What a bone is. */
+enum MienBoneKind {
+    MIEN_BONE_ROOT = 0,
+    MIEN_BONE_NECK = 1,
+    MIEN_BONE_HEAD = 2,
+    MIEN_BONE_FACE = 3,
+    MIEN_BONE_FACIAL = 4, /* moves with expressions; LODs keep the first ones */
+    MIEN_BONE_JAW = 5,
+    MIEN_BONE_EYE = 6
+};
+
+/* A bone of the caller. */
+typedef struct MienAuthorBone {
+    MienStringView name; /* 1 to 200 bytes; all different */
+    double position[3];  /* in the mesh, not relative to the parent */
+    uint32_t parent;     /* a bone before this one; the first one is its own parent */
+    uint32_t kind;       /* MIEN_BONE_...: the first is the root, and facial ones stand in one run */
+} MienAuthorBone;
+
+/* Whether the halves of the face are mirror images. */
+enum MienSymmetry {
+    MIEN_SYMMETRY_AUTO = 0, /* if mirrored positions lie within 0.5 % of the face from the surface */
+    MIEN_SYMMETRY_ON = 1,
+    MIEN_SYMMETRY_OFF = 2
+};
+
+/* Directions of the axes of a mesh. */
+enum MienMeshAxis {
+    MIEN_MESH_AXIS_DEFAULT = 0, /* up: Y; front: Z */
+    MIEN_MESH_AXIS_X = 1,
+    MIEN_MESH_AXIS_Y = 2,
+    MIEN_MESH_AXIS_Z = 3,
+    MIEN_MESH_AXIS_MINUS_X = 4,
+    MIEN_MESH_AXIS_MINUS_Y = 5,
+    MIEN_MESH_AXIS_MINUS_Z = 6
+};
+
+/* How bones and weights are made, combined with |. */
+enum MienAuthorFlags {
+    MIEN_AUTHOR_PAPER = 1,            /* the published method alone, with the neck cut: no symmetry, no
+                                         weights by motion, no joints for jaw and eyes */
+    MIEN_AUTHOR_NO_NECK_CUT = 2,      /* the face mask may have parts of the neck */
+    MIEN_AUTHOR_MASK_FROM_SHAPES = 4, /* the face mask is what shapes move: for what is not human */
+    MIEN_AUTHOR_AREA_DENSITY = 8,     /* positions count by the area around them: for scans */
+    MIEN_AUTHOR_NO_TARGETS = 16       /* what joints cannot do is left out, not written as targets */
+};
+
+/* How a mesh is rigged. */
+typedef struct MienAuthorDesc {
+    size_t struct_size;
+    uint32_t facial_joints;            /* 1 to 7000. 0: 240 */
+    uint32_t influences;               /* per position: 1 to 12. 0: 8 */
+    uint32_t lods;                     /* 1 to 8. 0: 8 */
+    uint32_t groups;                   /* in depth, of which the front one is the face: 2 to 16. 0: 3 */
+    uint64_t seed;                     /* of the starts of the search for bones */
+    double unit;                       /* centimeters of one unit of the mesh. 0: 1 */
+    uint32_t up;                       /* MIEN_MESH_AXIS_... */
+    uint32_t front;                    /* MIEN_MESH_AXIS_..., at a right angle to `up` */
+    uint32_t symmetry;                 /* MIEN_SYMMETRY_... */
+    uint32_t flags;                    /* MIEN_AUTHOR_..., combined with | */
+    MienStringView name;               /* of the character; empty: "head" */
+    MienStringView face_object;        /* the object with the face; empty: it is found */
+    const MienAuthorBone* bones;       /* the caller's own. NULL: they are placed */
+    size_t bone_count;
+    const uint16_t* weight_joints;     /* `influences` per position of the mesh, numbers of bones. NULL:
+                                          weights are made */
+    const float* weights;              /* beside weight_joints; both or neither, and only with `bones` */
+    const MienParallelFor* parallel;   /* may be NULL */
+    void* progress_user;               /* passed to the next function */
+    /* Called on the calling thread with the name of the step that begins and a share from 0 to 1 that
+     * never falls. Returns 0 to go on; anything else cancels. May be NULL. */
+    int32_t(MIEN_CALLBACK* progress)(void* user, const char* step, double share);
+    const MienAllocator* allocator;
+} MienAuthorDesc;
+MIEN_DEFAULT(MienAuthorDesc, mien_author_desc_default)
+
+/* Makes a rig from a mesh, with or without expressions, and opens it as a file of version 2.8: joints,
+ * skin weights of every LOD, and for each expression a raw control that moves them. The file has the
+ * axes of the mesh, in centimeters; positions keep their order, without those in no face. The same
+ * mesh, options and seed give the same bytes on any number of threads. `mesh` is required;
+ * `out_report` may be NULL. Close with mien_dna_close() and mien_author_report_close().
+ * Fails with MIEN_ERROR_AUTHOR_MESH if the arrays of the mesh, bones or weights contradict each other,
+ * MIEN_ERROR_AUTHOR_REFUSED if the mesh cannot be rigged, MIEN_ERROR_AUTHOR_CANCELED if `progress`
+ * said so, MIEN_ERROR_DNA_LIMIT if the file would be too large.
+ * See docs/authoring.md, 1 "What goes in and what comes out". */
+MIEN_AUTHOR_CHECKED MienStatus mien_author_rig(const MienAuthorMesh* mesh, const MienAuthorDesc* desc,
+                                               MienDna** out_dna, MienAuthorReport** out_report,
+                                               MienError* error);
+
+/* Closes a report. */
+MIEN_AUTHOR_API void mien_author_report_close(MienAuthorReport* author_report);
+
+/* Returns the report as JSON: bones, mask, groups, errors of the fit, and more. Lengths are in
+ * centimeters.
+ * See docs/authoring.md, 6 "The report". */
+MIEN_AUTHOR_CHECKED MienStatus mien_author_report_json(const MienAuthorReport* author_report,
+                                                       MienStringView* out_json);
 
 #ifdef __cplusplus
 }

@@ -40,7 +40,8 @@ GRAPH = {
     # From a mesh to a rig: what the stages hand to each other; bones; weights; motion; the file.
     "runtime/author/mesh": ["runtime/base", "runtime/author"],
     "runtime/author/place": ["runtime/base", "runtime/author", "runtime/author/mesh"],
-    "runtime/author/weights": ["runtime/base", "runtime/author", "runtime/author/mesh"],
+    "runtime/author/weights": ["runtime/base", "runtime/author", "runtime/author/mesh",
+                               "runtime/author/place"],
     "runtime/author/fit": ["runtime/base", "runtime/author", "runtime/author/mesh",
                            "runtime/author/weights"],
     "runtime/author/rig_dna": ["runtime/base", "runtime/dna/format", "runtime/author",
@@ -63,7 +64,8 @@ GRAPH = {
 # Of capi, files that are layers of their own.
 FILES = {"capi/mien.h": "capi/arguments", "capi/arguments.h": "capi/arguments",
          "capi/arguments.cpp": "capi/arguments", "capi/mien_author.h": "capi/mien_author",
-         "capi/mien_author.cpp": "capi/mien_author"}
+         "capi/mien_author.cpp": "capi/mien_author", "capi/mien_author_rig.cpp": "capi/mien_author",
+         "capi/made_file.h": "capi/mien_author"}
 PUBLIC_HEADERS = ("capi/mien.h", "capi/mien_author.h")
 
 # The rooms of the program: the same, and no room sees the libraries but through their headers.
@@ -75,8 +77,9 @@ PROGRAM_GRAPH = {
     "gltf": ["mien.h", "math", "io"],             # rigs -> GLB, OBJ
     "scene": ["mien.h", "math", "io", "render"],  # a rig in a pose
     "live": ["mien.h", "io", "gltf"],  # packets of live sources -> rows of controls
+    "mesh": ["mien.h", "io"],          # meshes and shapes from files, for `mien author`
     "play": ["mien.h", "io", "gltf"],  # scenes of `mien play`
-    "commands": ["mien.h", "mien_author.h", "math", "io", "render", "gltf", "scene", "play", "live",
+    "commands": ["mien.h", "mien_author.h", "math", "io", "render", "gltf", "scene", "mesh", "play", "live",
                  "bench/csr_matrix.h"],
     "": ["mien.h", "mien_author.h", "io", "commands"],  # main.cpp, without_author.cpp
 }

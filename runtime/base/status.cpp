@@ -44,6 +44,9 @@ const char* status_name(Status status) {
     case Status::kClipChecksum: return "CLIP_CHECKSUM";
     case Status::kClipValue: return "CLIP_VALUE";
     case Status::kClipLimit: return "CLIP_LIMIT";
+    case Status::kAuthorMesh: return "AUTHOR_MESH";
+    case Status::kAuthorRefused: return "AUTHOR_REFUSED";
+    case Status::kAuthorCanceled: return "AUTHOR_CANCELED";
   }
   return "UNKNOWN";
 }

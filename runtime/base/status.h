@@ -64,6 +64,10 @@ enum class Status : int32_t {
   kClipChecksum = 64,
   kClipValue = 65,
   kClipLimit = 66,
+  // authoring
+  kAuthorMesh = 80,
+  kAuthorRefused = 81,
+  kAuthorCanceled = 82,
 };
 
 /// Name of a status as in mien.h, without its prefix ("DNA_TRUNCATED").

@@ -4,6 +4,7 @@
 //     command line -> commands/ -> io/ (files, frames, JSON) -> mien.h
 //                              \-> scene/ (a rig in a pose) -> render/ -> PNG
 //                              \-> gltf/ -> GLB, OBJ
+//     meshes -> mesh/ -> mien_author.h
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -31,6 +32,7 @@ Command add_convert_command(CLI::App& app, const Session& session);
 Command add_export_command(CLI::App& app, const Session& session);
 Command add_gen_command(CLI::App& app, const Session& session);
 Command add_demo_head_command(CLI::App& app, const Session& session);
+Command add_author_command(CLI::App& app, const Session& session);
 Command add_clip_command(CLI::App& app, const Session& session);
 Command add_play_command(CLI::App& app, const Session& session);
 Command add_bench_command(CLI::App& app, const Session& session);

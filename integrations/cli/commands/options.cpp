@@ -43,6 +43,11 @@ const OptionWords kOptionWords[] = {
     {"--samples", {"1", "4", "16"}},
     {"--target", {"face", "eyes", "mouth"}},
     {"--loop", {"clamp", "wrap"}},
+    {"--symmetry", {"auto", "on", "off"}},
+    {"--residual", {"targets", "off"}},
+    {"--unit", {"cm", "m", "mm", "dm"}},
+    {"--up", {"x", "y", "z", "-x", "-y", "-z"}},
+    {"--front", {"x", "y", "z", "-x", "-y", "-z"}},
     {"SHELL", {"bash", "zsh", "fish"}},
 };
 

@@ -46,7 +46,9 @@ ExitCode exit_code_of(MienStatus status) {
     case MIEN_ERROR_CLIP_STRUCTURE:
     case MIEN_ERROR_CLIP_CHECKSUM:
     case MIEN_ERROR_CLIP_VALUE:
-    case MIEN_ERROR_CLIP_LIMIT: return kInvalid;
+    case MIEN_ERROR_CLIP_LIMIT:
+    case MIEN_ERROR_AUTHOR_MESH:
+    case MIEN_ERROR_AUTHOR_REFUSED: return kInvalid;
 
     case MIEN_ERROR_FILE_OPEN:
     case MIEN_ERROR_FILE_READ:
@@ -86,6 +88,8 @@ std::string what_to_do_about(MienStatus status, const std::string& file,
     case MIEN_ERROR_CLIP_CHECKSUM:
     case MIEN_ERROR_CLIP_VALUE:
     case MIEN_ERROR_CLIP_LIMIT: return about_values;
+    case MIEN_ERROR_AUTHOR_MESH: return "export the mesh again";
+    case MIEN_ERROR_AUTHOR_REFUSED: return "see docs/authoring.md";
     case MIEN_ERROR_LOD: return "see 'mien info' for the LODs that the file has";
     case MIEN_ERROR_DNA_VALUE:
     case MIEN_ERROR_DNA_LIMIT:

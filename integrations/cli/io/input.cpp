@@ -108,6 +108,15 @@ std::string read_text(const std::string& path, const std::string& what) {
   return read(path, what, {kMaxTextBytes, "512 MiB", "split it into several files", judge});
 }
 
+std::string read_mesh_bytes(const std::string& path, const std::string& what) {
+  const auto judge = [](const std::string& text, size_t fresh) {
+    if (text.size() < 4) return Verdict::kUndecided;
+    if (text.compare(0, 4, "glTF") == 0 || text.compare(0, 4, "MSHP") == 0) return Verdict::kWanted;
+    return text.find('\0', fresh) == std::string::npos ? Verdict::kUndecided : Verdict::kOther;
+  };
+  return read(path, what, {kMaxMeshBytes, "2 GiB", "split it into several files", judge});
+}
+
 std::string read_json(const std::string& path, const std::string& what) {
   const auto judge = [](const std::string& text, size_t fresh) {
     const size_t first = text.find_first_not_of(" \t\r\n", fresh);

@@ -13,6 +13,7 @@ constexpr uint64_t kMaxRigBytes = uint64_t{4} << 30;
 constexpr uint64_t kMaxJsonBytes = uint64_t{512} << 20;
 constexpr uint64_t kMaxTextBytes = kMaxJsonBytes;
 constexpr uint64_t kMaxClipBytes = uint64_t{4} << 30;
+constexpr uint64_t kMaxMeshBytes = uint64_t{2} << 30;
 
 /// "standard input" for "-".
 std::string shown_name(const std::string& path);
@@ -29,6 +30,10 @@ std::string read_clip_stream(const std::string& path);
 
 /// A file or stream of text, such as a take. Of bytes that are no text the beginning is returned.
 std::string read_text(const std::string& path, const std::string& what);
+
+/// A file or stream that should hold a mesh or shapes: GLB, .mshp, or text. Of other bytes the beginning
+/// is returned.
+std::string read_mesh_bytes(const std::string& path, const std::string& what);
 
 /// A file or stream of JSON with an object in it. Of anything else the beginning is returned.
 std::string read_json(const std::string& path, const std::string& what);

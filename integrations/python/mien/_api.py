@@ -112,6 +112,12 @@ class Status(IntEnum):
     CLIP_VALUE = 65
     #: more than a clip, player or binding can hold
     CLIP_LIMIT = 66
+    #: arrays of a mesh, shape or bone contradict each other
+    AUTHOR_MESH = 80
+    #: a mesh that cannot be rigged; the message names the rule
+    AUTHOR_REFUSED = 81
+    #: the caller's progress function asked to stop
+    AUTHOR_CANCELED = 82
 
 
 class Layer(IntFlag):
@@ -533,10 +539,11 @@ class Preset(IntEnum):
     TINY = 0
     SMALL = 1
     MEDIUM = 2
-    #: a production head: 870 joints, 260 raw controls, 8 LODs, a million matrix entries
+    #: a synthetic rig of production size: 870 joints, 260 raw controls, 8 LODs, a million matrix
+    #: entries
     LARGE = 3
-    #: a production body: 342 joints, moved by 72 RBF solvers with 670 poses, 22 twists and 16
-    #: swings; some are quaternion joints
+    #: a synthetic rig of the size of a production body: 342 joints, moved by 72 RBF solvers with
+    #: 670 poses, 22 twists and 16 swings; some are quaternion joints
     BODY = 4
     #: a stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit as
     #: raw controls with their names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the
@@ -552,6 +559,57 @@ class Generate(IntEnum):
     #: machine-learned behavior: networks for mesh regions with all activation functions and
     #: operations, and ML joints; not with Preset.HEAD
     ML = 1
+
+
+class BoneKind(IntEnum):
+    """What a bone is."""
+
+    ROOT = 0
+    NECK = 1
+    HEAD = 2
+    FACE = 3
+    #: moves with expressions; LODs keep the first ones
+    FACIAL = 4
+    JAW = 5
+    EYE = 6
+
+
+class Symmetry(IntEnum):
+    """Whether the halves of the face are mirror images."""
+
+    #: if mirrored positions lie within 0.5 % of the face from the surface
+    AUTO = 0
+    ON = 1
+    OFF = 2
+
+
+class MeshAxis(IntEnum):
+    """Directions of the axes of a mesh."""
+
+    #: up: Y; front: Z
+    DEFAULT = 0
+    X = 1
+    Y = 2
+    Z = 3
+    MINUS_X = 4
+    MINUS_Y = 5
+    MINUS_Z = 6
+
+
+class AuthorFlags(IntFlag):
+    """How bones and weights are made, combined with |."""
+
+    #: the published method alone, with the neck cut: no symmetry, no weights by motion, no joints
+    #: for jaw and eyes
+    PAPER = 1
+    #: the face mask may have parts of the neck
+    NO_NECK_CUT = 2
+    #: the face mask is what shapes move: for what is not human
+    MASK_FROM_SHAPES = 4
+    #: positions count by the area around them: for scans
+    AREA_DENSITY = 8
+    #: what joints cannot do is left out, not written as targets
+    NO_TARGETS = 16
 
 
 class MienDna(c_void_p):
@@ -615,6 +673,10 @@ class MienSolverStack(c_void_p):
 
 
 class MienSolverState(c_void_p):
+    pass
+
+
+class MienAuthorReport(c_void_p):
     pass
 
 
@@ -2318,6 +2380,195 @@ class MienGenerateDesc(Structure):
         self.allocator = allocator
 
 
+class MienAuthorObject(Structure):
+    _fields_ = [
+        ("name", MienStringView),
+        ("first_face", c_uint32),
+        ("face_count", c_uint32),
+    ]
+    name: Any
+    first_face: Any
+    face_count: Any
+
+
+class MienAuthorShape(Structure):
+    _fields_ = [
+        ("name", MienStringView),
+        ("positions", c_void_p),
+        ("position_count", c_size_t),
+        ("displacements", c_void_p),
+    ]
+    name: Any
+    positions: Any
+    position_count: Any
+    displacements: Any
+
+
+class MienAuthorMesh(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("positions", c_void_p),
+        ("position_count", c_size_t),
+        ("face_sizes", c_void_p),
+        ("face_count", c_size_t),
+        ("corners", c_void_p),
+        ("corner_count", c_size_t),
+        ("uvs", c_void_p),
+        ("uv_count", c_size_t),
+        ("corner_uvs", c_void_p),
+        ("objects", POINTER(MienAuthorObject)),
+        ("object_count", c_size_t),
+        ("shapes", POINTER(MienAuthorShape)),
+        ("shape_count", c_size_t),
+    ]
+    struct_size: Any
+    positions: Any
+    position_count: Any
+    face_sizes: Any
+    face_count: Any
+    corners: Any
+    corner_count: Any
+    uvs: Any
+    uv_count: Any
+    corner_uvs: Any
+    objects: Any
+    object_count: Any
+    shapes: Any
+    shape_count: Any
+
+    def __init__(self, *,
+                 positions: Any = None,
+                 position_count: int = 0,
+                 face_sizes: Any = None,
+                 face_count: int = 0,
+                 corners: Any = None,
+                 corner_count: int = 0,
+                 uvs: Any = None,
+                 uv_count: int = 0,
+                 corner_uvs: Any = None,
+                 objects: Any = None,
+                 object_count: int = 0,
+                 shapes: Any = None,
+                 shape_count: int = 0) -> None:
+        super().__init__(112)
+        self.positions = positions
+        self.position_count = position_count
+        self.face_sizes = face_sizes
+        self.face_count = face_count
+        self.corners = corners
+        self.corner_count = corner_count
+        self.uvs = uvs
+        self.uv_count = uv_count
+        self.corner_uvs = corner_uvs
+        self.objects = objects
+        self.object_count = object_count
+        self.shapes = shapes
+        self.shape_count = shape_count
+
+
+class MienAuthorBone(Structure):
+    _fields_ = [
+        ("name", MienStringView),
+        ("position", c_double * 3),
+        ("parent", c_uint32),
+        ("kind", c_uint32),
+    ]
+    name: Any
+    position: Any
+    parent: Any
+    kind: Any
+
+
+class MienAuthorDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("facial_joints", c_uint32),
+        ("influences", c_uint32),
+        ("lods", c_uint32),
+        ("groups", c_uint32),
+        ("seed", c_uint64),
+        ("unit", c_double),
+        ("up", c_uint32),
+        ("front", c_uint32),
+        ("symmetry", c_uint32),
+        ("flags", c_uint32),
+        ("name", MienStringView),
+        ("face_object", MienStringView),
+        ("bones", POINTER(MienAuthorBone)),
+        ("bone_count", c_size_t),
+        ("weight_joints", c_void_p),
+        ("weights", c_void_p),
+        ("parallel", POINTER(MienParallelFor)),
+        ("progress_user", c_void_p),
+        ("progress", CFUNCTYPE(c_int32, c_void_p, c_void_p, c_double)),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    facial_joints: Any
+    influences: Any
+    lods: Any
+    groups: Any
+    seed: Any
+    unit: Any
+    up: Any
+    front: Any
+    symmetry: Any
+    flags: Any
+    name: Any
+    face_object: Any
+    bones: Any
+    bone_count: Any
+    weight_joints: Any
+    weights: Any
+    parallel: Any
+    progress_user: Any
+    progress: Any
+    allocator: Any
+
+    def __init__(self, *,
+                 facial_joints: int = 0,
+                 influences: int = 0,
+                 lods: int = 0,
+                 groups: int = 0,
+                 seed: int = 0,
+                 unit: int = 0,
+                 up: int = 0,
+                 front: int = 0,
+                 symmetry: int = 0,
+                 flags: int = 0,
+                 name: Any = MienStringView(),
+                 face_object: Any = MienStringView(),
+                 bones: Any = None,
+                 bone_count: int = 0,
+                 weight_joints: Any = None,
+                 weights: Any = None,
+                 parallel: Any = None,
+                 progress_user: Any = None,
+                 progress: Any = None,
+                 allocator: Any = None) -> None:
+        super().__init__(152)
+        self.facial_joints = facial_joints
+        self.influences = influences
+        self.lods = lods
+        self.groups = groups
+        self.seed = seed
+        self.unit = unit
+        self.up = up
+        self.front = front
+        self.symmetry = symmetry
+        self.flags = flags
+        self.name = name
+        self.face_object = face_object
+        self.bones = bones
+        self.bone_count = bone_count
+        self.weight_joints = weight_joints
+        self.weights = weights
+        self.parallel = parallel
+        self.progress_user = progress_user
+        self.progress = progress
+        self.allocator = allocator
+
+
 class CoordinateSystem(NamedTuple):
     """Axes, units and rotation conventions of a rig. Any handedness is allowed. See
     docs/dna-format.md, 11 "Coordinate systems".
@@ -3727,6 +3978,23 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.UNSUPPORTED,
          "this build of libmien opens baked files only"),
     ),
+    "mien_author_rig": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
+        (Status.DNA_LIMIT,
+         "the file would be too large"),
+        (Status.AUTHOR_MESH,
+         "the arrays of the mesh, bones or weights contradict each other"),
+        (Status.AUTHOR_REFUSED,
+         "the mesh cannot be rigged"),
+        (Status.AUTHOR_CANCELED,
+         "`progress` said so"),
+    ),
+    "mien_author_report_json": (),
 }
 
 
@@ -4137,6 +4405,10 @@ class Library:
 AUTHOR_FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_dna_generate", c_int32, (POINTER(MienGenerateDesc), POINTER(MienDna),
      POINTER(MienError))),
+    ("mien_author_rig", c_int32, (POINTER(MienAuthorMesh), POINTER(MienAuthorDesc),
+     POINTER(MienDna), POINTER(MienAuthorReport), POINTER(MienError))),
+    ("mien_author_report_close", None, (MienAuthorReport,)),
+    ("mien_author_report_json", c_int32, (MienAuthorReport, POINTER(MienStringView))),
 )
 
 
@@ -4144,6 +4416,9 @@ class AuthorLibrary:
     """Each function of libmien-author, by its name."""
 
     mien_dna_generate: Any
+    mien_author_rig: Any
+    mien_author_report_close: Any
+    mien_author_report_json: Any
 
     def __init__(self, library: ctypes.CDLL) -> None:
         for name, result, parameters in AUTHOR_FUNCTIONS:

@@ -78,6 +78,12 @@ export declare const Status: {
   readonly CLIP_VALUE: 65;
   /** more than a clip, player or binding can hold */
   readonly CLIP_LIMIT: 66;
+  /** arrays of a mesh, shape or bone contradict each other */
+  readonly AUTHOR_MESH: 80;
+  /** a mesh that cannot be rigged; the message names the rule */
+  readonly AUTHOR_REFUSED: 81;
+  /** the caller's progress function asked to stop */
+  readonly AUTHOR_CANCELED: 82;
 };
 export type Status = (typeof Status)[keyof typeof Status];
 
@@ -522,10 +528,12 @@ export declare const Preset: {
   readonly TINY: 0;
   readonly SMALL: 1;
   readonly MEDIUM: 2;
-  /** a production head: 870 joints, 260 raw controls, 8 LODs, a million matrix entries */
+  /**
+   * a synthetic rig of production size: 870 joints, 260 raw controls, 8 LODs, a million matrix entries
+   */
   readonly LARGE: 3;
   /**
-   * a production body: 342 joints, moved by 72 RBF solvers with 670 poses, 22 twists and 16 swings; some are quaternion joints
+   * a synthetic rig of the size of a production body: 342 joints, moved by 72 RBF solvers with 670 poses, 22 twists and 16 swings; some are quaternion joints
    */
   readonly BODY: 4;
   /**
@@ -543,6 +551,58 @@ export declare const Generate: {
   readonly ML: 1;
 };
 export type Generate = (typeof Generate)[keyof typeof Generate];
+
+/** What a bone is. */
+export declare const BoneKind: {
+  readonly ROOT: 0;
+  readonly NECK: 1;
+  readonly HEAD: 2;
+  readonly FACE: 3;
+  /** moves with expressions; LODs keep the first ones */
+  readonly FACIAL: 4;
+  readonly JAW: 5;
+  readonly EYE: 6;
+};
+export type BoneKind = (typeof BoneKind)[keyof typeof BoneKind];
+
+/** Whether the halves of the face are mirror images. */
+export declare const Symmetry: {
+  /** if mirrored positions lie within 0.5 % of the face from the surface */
+  readonly AUTO: 0;
+  readonly ON: 1;
+  readonly OFF: 2;
+};
+export type Symmetry = (typeof Symmetry)[keyof typeof Symmetry];
+
+/** Directions of the axes of a mesh. */
+export declare const MeshAxis: {
+  /** up: Y; front: Z */
+  readonly DEFAULT: 0;
+  readonly X: 1;
+  readonly Y: 2;
+  readonly Z: 3;
+  readonly MINUS_X: 4;
+  readonly MINUS_Y: 5;
+  readonly MINUS_Z: 6;
+};
+export type MeshAxis = (typeof MeshAxis)[keyof typeof MeshAxis];
+
+/** How bones and weights are made, combined with |. */
+export declare const AuthorFlags: {
+  /**
+   * the published method alone, with the neck cut: no symmetry, no weights by motion, no joints for jaw and eyes
+   */
+  readonly PAPER: 1;
+  /** the face mask may have parts of the neck */
+  readonly NO_NECK_CUT: 2;
+  /** the face mask is what shapes move: for what is not human */
+  readonly MASK_FROM_SHAPES: 4;
+  /** positions count by the area around them: for scans */
+  readonly AREA_DENSITY: 8;
+  /** what joints cannot do is left out, not written as targets */
+  readonly NO_TARGETS: 16;
+};
+export type AuthorFlags = number;
 
 /**
  * Details of a failure, owned by the caller. A call that fails fills all fields; a call that succeeds
@@ -1586,6 +1646,102 @@ export interface GenerateDesc {
   seed?: number;
 }
 
+/** A part of a mesh with a name: it becomes a mesh of the file. */
+export interface AuthorObject {
+  /** 1 to 200 bytes */
+  name?: string;
+  /** where the object before it ends */
+  firstFace?: number;
+  faceCount?: number;
+}
+
+/** An expression: becomes a raw control of its name, 0 to 1. */
+export interface AuthorShape {
+  /** 1 to 200 bytes; all different */
+  name?: string;
+  /** which positions move. NULL: all, in their order */
+  positions?: Uint32Array | readonly number[];
+  /** of `positions`, or of the mesh */
+  positionCount?: number;
+  /** 3 per position that moves, at full value */
+  displacements?: Float64Array | readonly number[];
+}
+
+/** A mesh to be rigged: a head, or the front of one, with whatever is inside. */
+export interface AuthorMesh {
+  /** 3 per position, in the unit and axes of MienAuthorDesc */
+  positions?: Float64Array | readonly number[];
+  positionCount?: number;
+  /** corners of each face, 3 or more. NULL: all are triangles */
+  faceSizes?: Uint32Array | readonly number[];
+  faceCount?: number;
+  /** positions, face after face, counterclockwise from outside */
+  corners?: Uint32Array | readonly number[];
+  cornerCount?: number;
+  /** 2 per UV; may be NULL */
+  uvs?: Float64Array | readonly number[];
+  uvCount?: number;
+  /** one per corner. NULL: no UVs */
+  cornerUvs?: Uint32Array | readonly number[];
+  /** NULL: one, named "head" */
+  objects?: readonly AuthorObject[];
+  objectCount?: number;
+  /** may be NULL */
+  shapes?: readonly AuthorShape[];
+  shapeCount?: number;
+}
+
+/** A bone of the caller. */
+export interface AuthorBone {
+  /** 1 to 200 bytes; all different */
+  name?: string;
+  /** in the mesh, not relative to the parent */
+  position?: readonly number[];
+  /** a bone before this one; the first one is its own parent */
+  parent?: number;
+  /** MIEN_BONE_...: the first is the root, and facial ones stand in one run */
+  kind?: BoneKind;
+}
+
+/** How a mesh is rigged. */
+export interface AuthorDesc {
+  /** 1 to 7000. 0: 240 */
+  facialJoints?: number;
+  /** per position: 1 to 12. 0: 8 */
+  influences?: number;
+  /** 1 to 8. 0: 8 */
+  lods?: number;
+  /** in depth, of which the front one is the face: 2 to 16. 0: 3 */
+  groups?: number;
+  /** of the starts of the search for bones */
+  seed?: number;
+  /** centimeters of one unit of the mesh. 0: 1 */
+  unit?: number;
+  /** MIEN_MESH_AXIS_... */
+  up?: MeshAxis;
+  /** MIEN_MESH_AXIS_..., at a right angle to `up` */
+  front?: MeshAxis;
+  /** MIEN_SYMMETRY_... */
+  symmetry?: Symmetry;
+  /** MIEN_AUTHOR_..., combined with | */
+  flags?: AuthorFlags;
+  /** of the character; empty: "head" */
+  name?: string;
+  /** the object with the face; empty: it is found */
+  faceObject?: string;
+  /** the caller's own. NULL: they are placed */
+  bones?: readonly AuthorBone[];
+  boneCount?: number;
+  /** `influences` per position of the mesh, numbers of bones. NULL: weights are made */
+  weightJoints?: Uint16Array | readonly number[];
+  /** beside weight_joints; both or neither, and only with `bones` */
+  weights?: Float32Array | readonly number[];
+  /** may be NULL */
+  parallel?: ParallelFor;
+  /** passed to the next function */
+  progressUser?: number;
+}
+
 /**
  * The functions of the WebAssembly module: the C interface. Pointers and handles are numbers.
  * The classes of this package call them; use them yourself where a class lacks something.
@@ -2569,4 +2725,24 @@ export interface Exports {
    * sparsity, and simple geometry. Close with mien_dna_close().
    */
   mien_dna_generate(desc: number, out_dna: number, error: number): number;
+  /**
+   * Makes a rig from a mesh, with or without expressions, and opens it as a file of version 2.8: joints,
+   * skin weights of every LOD, and for each expression a raw control that moves them. The file has the
+   * axes of the mesh, in centimeters; positions keep their order, without those in no face. The same
+   * mesh, options and seed give the same bytes on any number of threads. `mesh` is required;
+   * `out_report` may be NULL. Close with mien_dna_close() and mien_author_report_close().
+   * Fails with MIEN_ERROR_AUTHOR_MESH if the arrays of the mesh, bones or weights contradict each other,
+   * MIEN_ERROR_AUTHOR_REFUSED if the mesh cannot be rigged, MIEN_ERROR_AUTHOR_CANCELED if `progress`
+   * said so, MIEN_ERROR_DNA_LIMIT if the file would be too large.
+   * See docs/authoring.md, 1 "What goes in and what comes out".
+   */
+  mien_author_rig(mesh: number, desc: number, out_dna: number, out_report: number, error: number): number;
+  /** Closes a report. */
+  mien_author_report_close(author_report: number): void;
+  /**
+   * Returns the report as JSON: bones, mask, groups, errors of the fit, and more. Lengths are in
+   * centimeters.
+   * See docs/authoring.md, 6 "The report".
+   */
+  mien_author_report_json(author_report: number, out_json: number): number;
 }

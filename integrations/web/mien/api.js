@@ -41,6 +41,9 @@ export const Status = Object.freeze({
   CLIP_CHECKSUM: 64,
   CLIP_VALUE: 65,
   CLIP_LIMIT: 66,
+  AUTHOR_MESH: 80,
+  AUTHOR_REFUSED: 81,
+  AUTHOR_CANCELED: 82,
 });
 
 export const Layer = Object.freeze({
@@ -282,6 +285,40 @@ export const Preset = Object.freeze({
 
 export const Generate = Object.freeze({
   ML: 1,
+});
+
+export const BoneKind = Object.freeze({
+  ROOT: 0,
+  NECK: 1,
+  HEAD: 2,
+  FACE: 3,
+  FACIAL: 4,
+  JAW: 5,
+  EYE: 6,
+});
+
+export const Symmetry = Object.freeze({
+  AUTO: 0,
+  ON: 1,
+  OFF: 2,
+});
+
+export const MeshAxis = Object.freeze({
+  DEFAULT: 0,
+  X: 1,
+  Y: 2,
+  Z: 3,
+  MINUS_X: 4,
+  MINUS_Y: 5,
+  MINUS_Z: 6,
+});
+
+export const AuthorFlags = Object.freeze({
+  PAPER: 1,
+  NO_NECK_CUT: 2,
+  MASK_FROM_SHAPES: 4,
+  AREA_DENSITY: 8,
+  NO_TARGETS: 16,
 });
 
 // Of each struct the size, whether it begins with struct_size, and of each field its offset,
@@ -798,5 +835,57 @@ export const layouts = {
     preset: [4, "u32"],
     flags: [8, "u32"],
     seed: [16, "u64"],
+  } },
+  AuthorObject: { size: 16, sized: false, fields: {
+    name: [0, "string"],
+    firstFace: [8, "u32"],
+    faceCount: [12, "u32"],
+  } },
+  AuthorShape: { size: 20, sized: false, fields: {
+    name: [0, "string"],
+    positions: [8, "*u32", "positionCount"],
+    positionCount: [12, "u32"],
+    displacements: [16, "*f64"],
+  } },
+  AuthorMesh: { size: 56, sized: true, fields: {
+    positions: [4, "*f64", "positionCount"],
+    positionCount: [8, "u32"],
+    faceSizes: [12, "*u32"],
+    faceCount: [16, "u32"],
+    corners: [20, "*u32", "cornerCount"],
+    cornerCount: [24, "u32"],
+    uvs: [28, "*f64", "uvCount"],
+    uvCount: [32, "u32"],
+    cornerUvs: [36, "*u32"],
+    objects: [40, "*AuthorObject", "objectCount"],
+    objectCount: [44, "u32"],
+    shapes: [48, "*AuthorShape", "shapeCount"],
+    shapeCount: [52, "u32"],
+  } },
+  AuthorBone: { size: 40, sized: false, fields: {
+    name: [0, "string"],
+    position: [8, "f64", 3],
+    parent: [32, "u32"],
+    kind: [36, "u32"],
+  } },
+  AuthorDesc: { size: 104, sized: true, fields: {
+    facialJoints: [4, "u32"],
+    influences: [8, "u32"],
+    lods: [12, "u32"],
+    groups: [16, "u32"],
+    seed: [24, "u64"],
+    unit: [32, "f64"],
+    up: [40, "u32"],
+    front: [44, "u32"],
+    symmetry: [48, "u32"],
+    flags: [52, "u32"],
+    name: [56, "string"],
+    faceObject: [64, "string"],
+    bones: [72, "*AuthorBone", "boneCount"],
+    boneCount: [76, "u32"],
+    weightJoints: [80, "*u16"],
+    weights: [84, "*f32"],
+    parallel: [88, "*ParallelFor"],
+    progressUser: [92, "u32"],
   } },
 };

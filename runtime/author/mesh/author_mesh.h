@@ -94,6 +94,14 @@ struct Bone {
   BoneKind kind = BoneKind::kFacial;
 };
 
+/// Below it the neck carries what facial bones do not. It falls towards the back.
+struct NeckCut {
+  bool exists = false;
+  double y = 0, z = 0;  // of the throat
+
+  double above(Vec3 p) const { return p.y - (y + 0.35 * (z - p.z > 0 ? z - p.z : 0)); }
+};
+
 /// Parents come before children, and facial bones follow one another by rank.
 struct Placement {
   Span<const Bone> bones;
@@ -103,6 +111,7 @@ struct Placement {
   Span<const uint32_t> mask;  // vertices that facial bones were placed on, ascending
   double symmetry_plane = 0;  // x
   bool symmetric = false;
+  NeckCut neck_cut;
 };
 
 /// Influences of vertex v: slots v * m ... v * m + m - 1, the heaviest first; unused ones have weight

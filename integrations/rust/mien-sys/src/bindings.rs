@@ -92,6 +92,12 @@ pub const MIEN_ERROR_CLIP_CHECKSUM: MienStatus = 64;
 pub const MIEN_ERROR_CLIP_VALUE: MienStatus = 65;
 /// More than a clip, player or binding can hold.
 pub const MIEN_ERROR_CLIP_LIMIT: MienStatus = 66;
+/// Arrays of a mesh, shape or bone contradict each other.
+pub const MIEN_ERROR_AUTHOR_MESH: MienStatus = 80;
+/// A mesh that cannot be rigged; the message names the rule.
+pub const MIEN_ERROR_AUTHOR_REFUSED: MienStatus = 81;
+/// The caller's progress function asked to stop.
+pub const MIEN_ERROR_AUTHOR_CANCELED: MienStatus = 82;
 
 // enum MienLayer
 /// Only in MienDnaLayer.layer.
@@ -382,10 +388,11 @@ pub const MIEN_TRANSITION_CUT: u32 = 2;
 pub const MIEN_PRESET_TINY: u32 = 0;
 pub const MIEN_PRESET_SMALL: u32 = 1;
 pub const MIEN_PRESET_MEDIUM: u32 = 2;
-/// A production head: 870 joints, 260 raw controls, 8 LODs, a million matrix entries.
+/// A synthetic rig of production size: 870 joints, 260 raw controls, 8 LODs, a million matrix
+/// entries.
 pub const MIEN_PRESET_LARGE: u32 = 3;
-/// A production body: 342 joints, moved by 72 RBF solvers with 670 poses, 22 twists and 16 swings;
-/// some are quaternion joints.
+/// A synthetic rig of the size of a production body: 342 joints, moved by 72 RBF solvers with 670
+/// poses, 22 twists and 16 swings; some are quaternion joints.
 pub const MIEN_PRESET_BODY: u32 = 4;
 /// A stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit as raw
 /// controls with their names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the designed
@@ -397,6 +404,45 @@ pub const MIEN_PRESET_HEAD: u32 = 5;
 /// machine-learned behavior: networks for mesh regions with all activation functions and
 /// operations, and ML joints; not with `MIEN_PRESET_HEAD`.
 pub const MIEN_GENERATE_ML: u32 = 1;
+
+// enum MienBoneKind
+pub const MIEN_BONE_ROOT: u32 = 0;
+pub const MIEN_BONE_NECK: u32 = 1;
+pub const MIEN_BONE_HEAD: u32 = 2;
+pub const MIEN_BONE_FACE: u32 = 3;
+/// Moves with expressions; LODs keep the first ones.
+pub const MIEN_BONE_FACIAL: u32 = 4;
+pub const MIEN_BONE_JAW: u32 = 5;
+pub const MIEN_BONE_EYE: u32 = 6;
+
+// enum MienSymmetry
+/// If mirrored positions lie within 0.5 % of the face from the surface.
+pub const MIEN_SYMMETRY_AUTO: u32 = 0;
+pub const MIEN_SYMMETRY_ON: u32 = 1;
+pub const MIEN_SYMMETRY_OFF: u32 = 2;
+
+// enum MienMeshAxis
+/// Up: Y; front: Z.
+pub const MIEN_MESH_AXIS_DEFAULT: u32 = 0;
+pub const MIEN_MESH_AXIS_X: u32 = 1;
+pub const MIEN_MESH_AXIS_Y: u32 = 2;
+pub const MIEN_MESH_AXIS_Z: u32 = 3;
+pub const MIEN_MESH_AXIS_MINUS_X: u32 = 4;
+pub const MIEN_MESH_AXIS_MINUS_Y: u32 = 5;
+pub const MIEN_MESH_AXIS_MINUS_Z: u32 = 6;
+
+// enum MienAuthorFlags
+/// The published method alone, with the neck cut: no symmetry, no weights by motion, no joints for
+/// jaw and eyes.
+pub const MIEN_AUTHOR_PAPER: u32 = 1;
+/// The face mask may have parts of the neck.
+pub const MIEN_AUTHOR_NO_NECK_CUT: u32 = 2;
+/// The face mask is what shapes move: for what is not human.
+pub const MIEN_AUTHOR_MASK_FROM_SHAPES: u32 = 4;
+/// Positions count by the area around them: for scans.
+pub const MIEN_AUTHOR_AREA_DENSITY: u32 = 8;
+/// What joints cannot do is left out, not written as targets.
+pub const MIEN_AUTHOR_NO_TARGETS: u32 = 16;
 
 /// A checked, read-only view of a DNA file. Immutable.
 #[repr(C)]
@@ -557,6 +603,13 @@ pub struct MienSolverStack {
 /// One character: what its solvers remember between steps.
 #[repr(C)]
 pub struct MienSolverState {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
+/// What was found and measured while a rig was made; immutable.
+#[repr(C)]
+pub struct MienAuthorReport {
     _size: [u8; 0],
     _opaque: Opaque,
 }
@@ -2523,6 +2576,162 @@ impl Default for MienGenerateDesc {
     }
 }
 
+/// A part of a mesh with a name: it becomes a mesh of the file.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienAuthorObject {
+    /// 1 to 200 bytes.
+    pub name: MienStringView,
+    /// Where the object before it ends.
+    pub first_face: u32,
+    pub face_count: u32,
+}
+
+impl Default for MienAuthorObject {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// An expression: becomes a raw control of its name, 0 to 1.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienAuthorShape {
+    /// 1 to 200 bytes; all different.
+    pub name: MienStringView,
+    /// Which positions move. NULL: all, in their order.
+    pub positions: *const u32,
+    /// Of `positions`, or of the mesh.
+    pub position_count: usize,
+    /// 3 per position that moves, at full value.
+    pub displacements: *const f64,
+}
+
+impl Default for MienAuthorShape {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// A mesh to be rigged: a head, or the front of one, with whatever is inside.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienAuthorMesh {
+    pub struct_size: usize,
+    /// 3 per position, in the unit and axes of MienAuthorDesc.
+    pub positions: *const f64,
+    pub position_count: usize,
+    /// Corners of each face, 3 or more. NULL: all are triangles.
+    pub face_sizes: *const u32,
+    pub face_count: usize,
+    /// Positions, face after face, counterclockwise from outside.
+    pub corners: *const u32,
+    pub corner_count: usize,
+    /// 2 per UV; may be NULL.
+    pub uvs: *const f64,
+    pub uv_count: usize,
+    /// One per corner. NULL: no UVs.
+    pub corner_uvs: *const u32,
+    /// NULL: one, named "head".
+    pub objects: *const MienAuthorObject,
+    pub object_count: usize,
+    /// May be NULL.
+    pub shapes: *const MienAuthorShape,
+    pub shape_count: usize,
+}
+
+impl Default for MienAuthorMesh {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// A bone of the caller.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienAuthorBone {
+    /// 1 to 200 bytes; all different.
+    pub name: MienStringView,
+    /// In the mesh, not relative to the parent.
+    pub position: [f64; 3],
+    /// A bone before this one; the first one is its own parent.
+    pub parent: u32,
+    /// `MIEN_BONE_...`: the first is the root, and facial ones stand in one run.
+    pub kind: u32,
+}
+
+impl Default for MienAuthorBone {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// How a mesh is rigged.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienAuthorDesc {
+    pub struct_size: usize,
+    /// 1 to 7000. 0: 240.
+    pub facial_joints: u32,
+    /// Per position: 1 to 12. 0: 8.
+    pub influences: u32,
+    /// 1 to 8. 0: 8.
+    pub lods: u32,
+    /// In depth, of which the front one is the face: 2 to 16. 0: 3.
+    pub groups: u32,
+    /// Of the starts of the search for bones.
+    pub seed: u64,
+    /// Centimeters of one unit of the mesh. 0: 1.
+    pub unit: f64,
+    /// `MIEN_MESH_AXIS_...`
+    pub up: u32,
+    /// `MIEN_MESH_AXIS_...`, at a right angle to `up`.
+    pub front: u32,
+    /// `MIEN_SYMMETRY_...`
+    pub symmetry: u32,
+    /// `MIEN_AUTHOR_...`, combined with \|.
+    pub flags: u32,
+    /// Of the character; empty: "head".
+    pub name: MienStringView,
+    /// The object with the face; empty: it is found.
+    pub face_object: MienStringView,
+    /// The caller's own. NULL: they are placed.
+    pub bones: *const MienAuthorBone,
+    pub bone_count: usize,
+    /// `influences` per position of the mesh, numbers of bones. NULL: weights are made.
+    pub weight_joints: *const u16,
+    /// Beside `weight_joints`; both or neither, and only with `bones`.
+    pub weights: *const f32,
+    /// May be NULL.
+    pub parallel: *const MienParallelFor,
+    /// Passed to the next function.
+    pub progress_user: *mut c_void,
+    /// Called on the calling thread with the name of the step that begins and a share from 0 to 1
+    /// that never falls. Returns 0 to go on; anything else cancels. May be NULL.
+    pub progress: Option<unsafe extern "C" fn(user: *mut c_void, step: *const c_char, share: f64) -> i32>,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienAuthorDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
 extern "C" {
     /// Returns the `MIEN_VERSION` of the library in use, which may differ from that of this
     /// header.
@@ -3666,4 +3875,28 @@ extern "C" {
     /// Generates a rig and opens it: a file of version 2.8 with all layers, behavior of realistic
     /// size and sparsity, and simple geometry. Close with `mien_dna_close()`.
     pub fn mien_dna_generate(desc: *const MienGenerateDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
+
+    /// Makes a rig from a mesh, with or without expressions, and opens it as a file of version
+    /// 2.8: joints, skin weights of every LOD, and for each expression a raw control that moves
+    /// them. The file has the axes of the mesh, in centimeters; positions keep their order,
+    /// without those in no face. The same mesh, options and seed give the same bytes on any number
+    /// of threads. `mesh` is required; `out_report` may be NULL. Close with `mien_dna_close()` and
+    /// `mien_author_report_close()`.
+    ///
+    /// Fails with `MIEN_ERROR_AUTHOR_MESH` if the arrays of the mesh, bones or weights contradict
+    /// each other, `MIEN_ERROR_AUTHOR_REFUSED` if the mesh cannot be rigged,
+    /// `MIEN_ERROR_AUTHOR_CANCELED` if `progress` said so, `MIEN_ERROR_DNA_LIMIT` if the file
+    /// would be too large.
+    ///
+    /// See docs/authoring.md, 1 "What goes in and what comes out".
+    pub fn mien_author_rig(mesh: *const MienAuthorMesh, desc: *const MienAuthorDesc, out_dna: *mut *mut MienDna, out_report: *mut *mut MienAuthorReport, error: *mut MienError) -> MienStatus;
+
+    /// Closes a report.
+    pub fn mien_author_report_close(author_report: *mut MienAuthorReport);
+
+    /// Returns the report as JSON: bones, mask, groups, errors of the fit, and more. Lengths are
+    /// in centimeters.
+    ///
+    /// See docs/authoring.md, 6 "The report".
+    pub fn mien_author_report_json(author_report: *const MienAuthorReport, out_json: *mut MienStringView) -> MienStatus;
 }

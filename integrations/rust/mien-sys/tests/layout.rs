@@ -1001,3 +1001,84 @@ fn mien_generate_desc() {
     assert_eq!(offset!(S, seed), 16);
     assert_eq!(offset!(S, allocator), 24);
 }
+
+#[test]
+fn mien_author_object() {
+    use mien_sys::MienAuthorObject as S;
+    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, name), 0);
+    assert_eq!(offset!(S, first_face), 16);
+    assert_eq!(offset!(S, face_count), 20);
+}
+
+#[test]
+fn mien_author_shape() {
+    use mien_sys::MienAuthorShape as S;
+    assert_eq!(size_of::<S>(), 40);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, name), 0);
+    assert_eq!(offset!(S, positions), 16);
+    assert_eq!(offset!(S, position_count), 24);
+    assert_eq!(offset!(S, displacements), 32);
+}
+
+#[test]
+fn mien_author_mesh() {
+    use mien_sys::MienAuthorMesh as S;
+    assert_eq!(size_of::<S>(), 112);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, positions), 8);
+    assert_eq!(offset!(S, position_count), 16);
+    assert_eq!(offset!(S, face_sizes), 24);
+    assert_eq!(offset!(S, face_count), 32);
+    assert_eq!(offset!(S, corners), 40);
+    assert_eq!(offset!(S, corner_count), 48);
+    assert_eq!(offset!(S, uvs), 56);
+    assert_eq!(offset!(S, uv_count), 64);
+    assert_eq!(offset!(S, corner_uvs), 72);
+    assert_eq!(offset!(S, objects), 80);
+    assert_eq!(offset!(S, object_count), 88);
+    assert_eq!(offset!(S, shapes), 96);
+    assert_eq!(offset!(S, shape_count), 104);
+}
+
+#[test]
+fn mien_author_bone() {
+    use mien_sys::MienAuthorBone as S;
+    assert_eq!(size_of::<S>(), 48);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, name), 0);
+    assert_eq!(offset!(S, position), 16);
+    assert_eq!(offset!(S, parent), 40);
+    assert_eq!(offset!(S, kind), 44);
+}
+
+#[test]
+fn mien_author_desc() {
+    use mien_sys::MienAuthorDesc as S;
+    assert_eq!(size_of::<S>(), 152);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, facial_joints), 8);
+    assert_eq!(offset!(S, influences), 12);
+    assert_eq!(offset!(S, lods), 16);
+    assert_eq!(offset!(S, groups), 20);
+    assert_eq!(offset!(S, seed), 24);
+    assert_eq!(offset!(S, unit), 32);
+    assert_eq!(offset!(S, up), 40);
+    assert_eq!(offset!(S, front), 44);
+    assert_eq!(offset!(S, symmetry), 48);
+    assert_eq!(offset!(S, flags), 52);
+    assert_eq!(offset!(S, name), 56);
+    assert_eq!(offset!(S, face_object), 72);
+    assert_eq!(offset!(S, bones), 88);
+    assert_eq!(offset!(S, bone_count), 96);
+    assert_eq!(offset!(S, weight_joints), 104);
+    assert_eq!(offset!(S, weights), 112);
+    assert_eq!(offset!(S, parallel), 120);
+    assert_eq!(offset!(S, progress_user), 128);
+    assert_eq!(offset!(S, progress), 136);
+    assert_eq!(offset!(S, allocator), 144);
+}

@@ -84,9 +84,15 @@ impl Status {
     pub const CLIP_VALUE: Self = Self(65);
     /// More than a clip, player or binding can hold.
     pub const CLIP_LIMIT: Self = Self(66);
+    /// Arrays of a mesh, shape or bone contradict each other.
+    pub const AUTHOR_MESH: Self = Self(80);
+    /// A mesh that cannot be rigged; the message names the rule.
+    pub const AUTHOR_REFUSED: Self = Self(81);
+    /// The caller's progress function asked to stop.
+    pub const AUTHOR_CANCELED: Self = Self(82);
 }
 
-numbers!(Status, i32, [(0, "OK"), (1, "NULL_ARGUMENT"), (2, "INVALID_ARGUMENT"), (3, "STRUCT_SIZE"), (4, "HANDLE"), (5, "MISMATCH"), (6, "INDEX"), (7, "LOD"), (8, "NAME"), (9, "ISA"), (10, "MEMORY"), (11, "UNSUPPORTED"), (20, "FILE_OPEN"), (21, "FILE_READ"), (22, "FILE_WRITE"), (30, "DNA_SIGNATURE"), (31, "DNA_VERSION"), (32, "DNA_TRUNCATED"), (33, "DNA_STRUCTURE"), (34, "DNA_REFERENCE"), (35, "DNA_LIMIT"), (36, "DNA_LAYER"), (37, "DNA_VALUE"), (50, "BAKED_SIGNATURE"), (51, "BAKED_VERSION"), (52, "BAKED_TRUNCATED"), (53, "BAKED_STRUCTURE"), (54, "BAKED_CHECKSUM"), (55, "BAKED_PART"), (60, "CLIP_SIGNATURE"), (61, "CLIP_VERSION"), (62, "CLIP_TRUNCATED"), (63, "CLIP_STRUCTURE"), (64, "CLIP_CHECKSUM"), (65, "CLIP_VALUE"), (66, "CLIP_LIMIT")]);
+numbers!(Status, i32, [(0, "OK"), (1, "NULL_ARGUMENT"), (2, "INVALID_ARGUMENT"), (3, "STRUCT_SIZE"), (4, "HANDLE"), (5, "MISMATCH"), (6, "INDEX"), (7, "LOD"), (8, "NAME"), (9, "ISA"), (10, "MEMORY"), (11, "UNSUPPORTED"), (20, "FILE_OPEN"), (21, "FILE_READ"), (22, "FILE_WRITE"), (30, "DNA_SIGNATURE"), (31, "DNA_VERSION"), (32, "DNA_TRUNCATED"), (33, "DNA_STRUCTURE"), (34, "DNA_REFERENCE"), (35, "DNA_LIMIT"), (36, "DNA_LAYER"), (37, "DNA_VALUE"), (50, "BAKED_SIGNATURE"), (51, "BAKED_VERSION"), (52, "BAKED_TRUNCATED"), (53, "BAKED_STRUCTURE"), (54, "BAKED_CHECKSUM"), (55, "BAKED_PART"), (60, "CLIP_SIGNATURE"), (61, "CLIP_VERSION"), (62, "CLIP_TRUNCATED"), (63, "CLIP_STRUCTURE"), (64, "CLIP_CHECKSUM"), (65, "CLIP_VALUE"), (66, "CLIP_LIMIT"), (80, "AUTHOR_MESH"), (81, "AUTHOR_REFUSED"), (82, "AUTHOR_CANCELED")]);
 
 pub(crate) fn describe(status: Status) -> &'static str {
     match status.0 {
@@ -125,6 +131,9 @@ pub(crate) fn describe(status: Status) -> &'static str {
         64 => "the bytes are not those that were written",
         65 => "a value that is not finite",
         66 => "more than a clip, player or binding can hold",
+        80 => "arrays of a mesh, shape or bone contradict each other",
+        81 => "a mesh that cannot be rigged; the message names the rule",
+        82 => "the caller's progress function asked to stop",
         _ => "",
     }
 }
@@ -832,10 +841,11 @@ impl Preset {
     pub const SMALL: Self = Self(1);
     /// `MIEN_PRESET_MEDIUM` in C.
     pub const MEDIUM: Self = Self(2);
-    /// A production head: 870 joints, 260 raw controls, 8 LODs, a million matrix entries.
+    /// A synthetic rig of production size: 870 joints, 260 raw controls, 8 LODs, a million matrix
+    /// entries.
     pub const LARGE: Self = Self(3);
-    /// A production body: 342 joints, moved by 72 RBF solvers with 670 poses, 22 twists and 16
-    /// swings; some are quaternion joints.
+    /// A synthetic rig of the size of a production body: 342 joints, moved by 72 RBF solvers with
+    /// 670 poses, 22 twists and 16 swings; some are quaternion joints.
     pub const BODY: Self = Self(4);
     /// A stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit as
     /// raw controls with their names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the
@@ -861,6 +871,99 @@ impl Generate {
 }
 
 numbers!(Generate, u32, [(1, "ML")]);
+
+/// What a bone is.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct BoneKind(pub u32);
+
+impl BoneKind {
+    /// `MIEN_BONE_ROOT` in C.
+    pub const ROOT: Self = Self(0);
+    /// `MIEN_BONE_NECK` in C.
+    pub const NECK: Self = Self(1);
+    /// `MIEN_BONE_HEAD` in C.
+    pub const HEAD: Self = Self(2);
+    /// `MIEN_BONE_FACE` in C.
+    pub const FACE: Self = Self(3);
+    /// Moves with expressions; LODs keep the first ones.
+    pub const FACIAL: Self = Self(4);
+    /// `MIEN_BONE_JAW` in C.
+    pub const JAW: Self = Self(5);
+    /// `MIEN_BONE_EYE` in C.
+    pub const EYE: Self = Self(6);
+}
+
+numbers!(BoneKind, u32, [(0, "ROOT"), (1, "NECK"), (2, "HEAD"), (3, "FACE"), (4, "FACIAL"), (5, "JAW"), (6, "EYE")]);
+
+/// Whether the halves of the face are mirror images.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Symmetry(pub u32);
+
+impl Symmetry {
+    /// If mirrored positions lie within 0.5 % of the face from the surface.
+    pub const AUTO: Self = Self(0);
+    /// `MIEN_SYMMETRY_ON` in C.
+    pub const ON: Self = Self(1);
+    /// `MIEN_SYMMETRY_OFF` in C.
+    pub const OFF: Self = Self(2);
+}
+
+numbers!(Symmetry, u32, [(0, "AUTO"), (1, "ON"), (2, "OFF")]);
+
+/// Directions of the axes of a mesh.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct MeshAxis(pub u32);
+
+impl MeshAxis {
+    /// Up: Y; front: Z.
+    pub const DEFAULT: Self = Self(0);
+    /// `MIEN_MESH_AXIS_X` in C.
+    pub const X: Self = Self(1);
+    /// `MIEN_MESH_AXIS_Y` in C.
+    pub const Y: Self = Self(2);
+    /// `MIEN_MESH_AXIS_Z` in C.
+    pub const Z: Self = Self(3);
+    /// `MIEN_MESH_AXIS_MINUS_X` in C.
+    pub const MINUS_X: Self = Self(4);
+    /// `MIEN_MESH_AXIS_MINUS_Y` in C.
+    pub const MINUS_Y: Self = Self(5);
+    /// `MIEN_MESH_AXIS_MINUS_Z` in C.
+    pub const MINUS_Z: Self = Self(6);
+}
+
+numbers!(MeshAxis, u32, [(0, "DEFAULT"), (1, "X"), (2, "Y"), (3, "Z"), (4, "MINUS_X"), (5, "MINUS_Y"), (6, "MINUS_Z")]);
+
+/// How bones and weights are made, combined with \|.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(transparent)]
+pub struct AuthorFlags(pub u32);
+
+impl AuthorFlags {
+    /// The published method alone, with the neck cut: no symmetry, no weights by motion, no joints
+    /// for jaw and eyes.
+    pub const PAPER: Self = Self(1);
+    /// The face mask may have parts of the neck.
+    pub const NO_NECK_CUT: Self = Self(2);
+    /// The face mask is what shapes move: for what is not human.
+    pub const MASK_FROM_SHAPES: Self = Self(4);
+    /// Positions count by the area around them: for scans.
+    pub const AREA_DENSITY: Self = Self(8);
+    /// What joints cannot do is left out, not written as targets.
+    pub const NO_TARGETS: Self = Self(16);
+}
+
+flags!(AuthorFlags, u32, [(1, "PAPER"), (2, "NO_NECK_CUT"), (4, "MASK_FROM_SHAPES"), (8, "AREA_DENSITY"), (16, "NO_TARGETS")]);
 
 /// Axes, units and rotation conventions of a rig. Any handedness is allowed.
 ///
@@ -2116,5 +2219,17 @@ macro_rules! errors {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
+    };
+    (mien_author_rig) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the file would be too large\n\
+         - [`Status::AUTHOR_MESH`](crate::Status::AUTHOR_MESH) if the arrays of the mesh, bones or weights contradict each other\n\
+         - [`Status::AUTHOR_REFUSED`](crate::Status::AUTHOR_REFUSED) if the mesh cannot be rigged\n\
+         - [`Status::AUTHOR_CANCELED`](crate::Status::AUTHOR_CANCELED) if `progress` said so"
+    };
+    (mien_author_report_json) => {
+        "- none with valid arguments"
     };
 }

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+// mien author: a rig from a mesh.
+#include <csignal>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "capi/mien_author.h"
+#include "integrations/cli/commands/options.h"
+#include "integrations/cli/io/input.h"
+#include "integrations/cli/io/output.h"
+#include "integrations/cli/io/text.h"
+#include "integrations/cli/io/thread_pool.h"
+#include "integrations/cli/io/write_dna.h"
+#include "integrations/cli/mesh/mesh_file.h"
+
+namespace mien::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using AuthorReport =
+    std::unique_ptr<MienAuthorReport, Destroy<MienAuthorReport, mien_author_report_close>>;
+
+constexpr int kInterrupted = 130;  // as shells say of a program that Ctrl-C ended
+
+struct AuthorCommand {
+  std::string mesh, shapes, unit, object;
+  std::string joints = "240", influences = "8", lods = "8", seed = "1", groups = "3", threads = "0";
+  std::string symmetry = "auto", residual = "targets", up = "y", front = "z";
+  std::string report;
+  bool paper = false, no_neck_cut = false, mask_from_shapes = false, area_density = false;
+  OutputFile output;
+};
+
+uint32_t parse_count(const char* option, const std::string& word, uint32_t least, uint32_t most) {
+  const uint64_t count = parse_number(option, word, most);
+  if (count >= least) return static_cast<uint32_t>(count);
+  fail_usage(std::string(option) + " " + word, "this is below " + std::to_string(least),
+             "give " + std::to_string(least) + " to " + std::to_string(most));
+}
+
+/// The options, parsed before any file is opened.
+MienAuthorDesc parse_options(const AuthorCommand& command) {
+  auto desc = sized<MienAuthorDesc>();
+  desc.facial_joints = parse_count("--joints", command.joints, 1, 7000);
+  desc.influences = parse_count("--influences", command.influences, 1, 12);
+  desc.lods = parse_count("--lods", command.lods, 1, 8);
+  desc.groups = parse_count("--groups", command.groups, 2, 16);
+  desc.seed = parse_number("--seed", command.seed, UINT64_MAX);
+  desc.symmetry =
+      MIEN_SYMMETRY_AUTO + static_cast<uint32_t>(parse_word("--symmetry", command.symmetry));
+  desc.up = MIEN_MESH_AXIS_X + static_cast<uint32_t>(parse_word("--up", command.up));
+  desc.front = MIEN_MESH_AXIS_X + static_cast<uint32_t>(parse_word("--front", command.front));
+  if (command.up.back() == command.front.back()) {
+    fail_usage("--up " + command.up + " --front " + command.front, "these are along the same axis",
+               "give two that stand at a right angle");
+  }
+  if (!command.unit.empty()) {
+    constexpr double kCentimeters[] = {1, 100, 0.1, 10};
+    desc.unit = kCentimeters[parse_word("--unit", command.unit)];
+  }
+  if (command.paper) desc.flags |= MIEN_AUTHOR_PAPER;
+  if (command.no_neck_cut) desc.flags |= MIEN_AUTHOR_NO_NECK_CUT;
+  if (command.mask_from_shapes) desc.flags |= MIEN_AUTHOR_MASK_FROM_SHAPES;
+  if (command.area_density) desc.flags |= MIEN_AUTHOR_AREA_DENSITY;
+  if (parse_word("--residual", command.residual) == 1) desc.flags |= MIEN_AUTHOR_NO_TARGETS;
+  desc.face_object = {command.object.data(), command.object.size()};
+  return desc;
+}
+
+/// The mesh as the library takes it; refers to `file`.
+struct MeshView {
+  MienAuthorMesh mesh = sized<MienAuthorMesh>();
+  std::vector<MienAuthorObject> objects;
+  std::vector<MienAuthorShape> shapes;
+
+  explicit MeshView(const MeshFile& file) {
+    for (const MeshObject& object : file.objects) {
+      objects.push_back(
+          {{object.name.data(), object.name.size()}, object.first_face, object.face_count});
+    }
+    for (const MeshShape& shape : file.shapes) {
+      shapes.push_back({{shape.name.data(), shape.name.size()},
+                        shape.vertices.empty() ? nullptr : shape.vertices.data(),
+                        shape.displacements.size() / 3,
+                        shape.displacements.data()});
+    }
+    mesh.positions = file.positions.data();
+    mesh.position_count = file.position_count();
+    mesh.face_sizes = file.face_sizes.data();
+    mesh.face_count = file.face_sizes.size();
+    mesh.corners = file.corners.data();
+    mesh.corner_count = file.corners.size();
+    mesh.uvs = file.uvs.data();
+    mesh.uv_count = file.uvs.size() / 2;
+    mesh.corner_uvs = file.corner_uvs.empty() ? nullptr : file.corner_uvs.data();
+    mesh.objects = objects.data();
+    mesh.object_count = objects.size();
+    mesh.shapes = shapes.data();
+    mesh.shape_count = shapes.size();
+  }
+};
+
+/// Progress on the terminal, and the time of each step.
+struct Watch {
+  using Clock = std::chrono::steady_clock;
+
+  Progress progress;
+  Json seconds = Json::object();
+  std::string step;
+  Clock::time_point since = Clock::now();
+
+  explicit Watch(const Session& session) : progress(session, "rig", 100) {}
+
+  void enter(const std::string& next) {
+    const Clock::time_point now = Clock::now();
+    if (!step.empty()) {
+      const double before = seconds.contains(step) ? seconds[step].get<double>() : 0;
+      seconds[step] = before + std::chrono::duration<double>(now - since).count();
+    }
+    step = next;
+    since = now;
+  }
+  static int32_t MIEN_CALLBACK report(void* user, const char* step, double share) {
+    Watch& watch = *static_cast<Watch*>(user);
+    watch.enter(step);
+    watch.progress.at_share(share);
+    return 0;
+  }
+};
+
+// Nothing has been written while the library works, so nothing needs to be taken back.
+extern "C" void end_interrupted(int) { std::_Exit(kInterrupted); }
+
+/// While it lives, Ctrl-C ends the program at once.
+struct EndOnInterrupt {
+  void (*before)(int);
+  EndOnInterrupt() : before(std::signal(SIGINT, end_interrupted)) {}
+  ~EndOnInterrupt() { std::signal(SIGINT, before); }
+};
+
+struct Made {
+  Dna dna;
+  Json report;
+};
+
+Made make_rig(const AuthorCommand& command, MienAuthorDesc desc, const MeshFile& file,
+              const Session& session) {
+  const MeshView view(file);
+  const EndOnInterrupt interrupt;
+  ThreadPool pool(parse_count("--threads", command.threads, 0, 1024));
+  const MienParallelFor parallel = pool.parallel_for();
+  Watch watch(session);
+  desc.parallel = &parallel;
+  desc.progress = Watch::report;
+  desc.progress_user = &watch;
+  auto error = sized<MienError>();
+  MienDna* dna = nullptr;
+  MienAuthorReport* made = nullptr;
+  const MienStatus status = mien_author_rig(&view.mesh, &desc, &dna, &made, &error);
+  watch.enter("");
+  watch.progress.finish();
+  check(status, &error, "cannot rig", shown_name(command.mesh));
+  const AuthorReport report(made);
+  Made out = {Dna(dna), {}};
+  MienStringView json = {};
+  check(mien_author_report_json(report.get(), &json), nullptr, "cannot rig", command.mesh);
+  out.report = Json::parse(json.data, json.data + json.count);
+  double total = 0;
+  for (const Json& seconds : watch.seconds) total += seconds.get<double>();
+  watch.seconds["total"] = total;
+  out.report["seconds"] = watch.seconds;
+  return out;
+}
+
+/// Hints about what is not wrong, but rarely meant.
+void note_oddities(const AuthorCommand& command, const Json& report, const Session& session) {
+  const double size = report["mesh"]["diagonal"].get<double>();
+  if (size < 10 || size > 300) {
+    note(session, "the face's mesh measures " + std::to_string(size) +
+                      " cm from corner to corner; choose the unit with --unit");
+  }
+  const uint64_t facial = report["facial_joints"].get<uint64_t>();
+  if (facial < parse_number("--joints", command.joints, 7000)) {
+    note(session, "the face has room for " + std::to_string(facial) + " facial joints only");
+  }
+  if (report["face_only"].get<bool>()) {
+    note(session, "a face without a back of the head: all of it is rigged");
+  } else if (report["throat"].is_null() && !command.no_neck_cut) {
+    note(session, "no throat found below the nose: the face mask is not cut off from the neck");
+  }
+}
+
+void run(const AuthorCommand& command, const Session& session) {
+  MienAuthorDesc desc = parse_options(command);
+  refuse_terminal(command.output.path, session, "a DNA file");
+  std::vector<std::string> inputs = {command.mesh};
+  if (!command.shapes.empty()) inputs.push_back(command.shapes);
+  refuse_replacing(command.output, inputs);
+  if (!command.report.empty()) {
+    refuse_replacing({command.report, command.output.force}, inputs);
+    if (command.report == command.output.path) {
+      fail_usage("--report " + command.report, "this is also the output", "give another name");
+    }
+  }
+  MeshFile file = read_mesh_file(command.mesh);
+  if (!command.shapes.empty()) file.shapes = read_shapes(command.shapes, file);
+  // glTF is in meters.
+  if (command.unit.empty()) desc.unit = file.in_meters ? 100 : 1;
+
+  const Made made = make_rig(command, desc, file, session);
+  note_oddities(command, made.report, session);
+  std::unique_ptr<Output> report;
+  if (!command.report.empty()) {
+    report = std::make_unique<Output>(command.report);
+    report->write(made.report.dump(1) + "\n");
+  }
+  write_dna(made.dna.get(), sized<MienWriteDesc>(), command.output.path, session);
+  if (report) report->commit();
+}
+
+}  // namespace
+
+Command add_author_command(CLI::App& app, const Session& session) {
+  auto options = std::make_shared<AuthorCommand>();
+  CLI::App* author =
+      app.add_subcommand("author", "Make a rig from a mesh: joints, weights, motion");
+  author->add_option("MESH", options->mesh, "OBJ or GLB file of a head; - is standard input")
+      ->required();
+  add_output_options(*author, options->output, "File to write; - is standard output", "OUT.dna")
+      ->required();
+  author
+      ->add_option(
+          "--shapes", options->shapes,
+          "Expressions: a folder of OBJ or .target files, an .mshp, or a GLB\n(default: the "
+          "morph targets of MESH)")
+      ->type_name("PATH");
+  author->add_option("--joints", options->joints, "Facial joints (default: 240)")->type_name("N");
+  author
+      ->add_option("--influences", options->influences,
+                   "Joints that move a vertex at most: 1 to 12 (default: 8)")
+      ->type_name("N");
+  author->add_option("--lods", options->lods, "Levels of detail: 1 to 8 (default: 8)")
+      ->type_name("N");
+  author->add_option("--seed", options->seed, "Of the search for joints (default: 1)")
+      ->type_name("N");
+  author->add_option("--symmetry", options->symmetry, "Mirror joints: auto (default), on or off")
+      ->type_name("NAME");
+  author
+      ->add_option("--residual", options->residual,
+                   "What joints cannot do: targets (default), or off to leave it out")
+      ->type_name("NAME");
+  author->add_flag("--paper", options->paper,
+                   "The published method alone: no symmetry, no weights by motion");
+  author->add_option("--unit", options->unit, "Of MESH: cm (default of OBJ), m (of GLB), mm or dm")
+      ->type_name("NAME");
+  author->add_option("--up", options->up, "Axis to the top of the head (default: y)")
+      ->type_name("AXIS");
+  author->add_option("--front", options->front, "Axis out of the face (default: z)")
+      ->type_name("AXIS");
+  author->add_option("--face-object", options->object, "Object with the face (default: found)")
+      ->type_name("NAME");
+  author
+      ->add_option("--groups", options->groups,
+                   "Groups in depth, the front one is the face (default: 3)")
+      ->type_name("N");
+  author->add_flag("--no-neck-cut", options->no_neck_cut, "Leave the neck in the face mask");
+  author->add_flag("--mask-from-shapes", options->mask_from_shapes,
+                   "The face mask is what shapes move: for what is not human");
+  author->add_flag("--area-density", options->area_density,
+                   "Vertices count by the area around them: for scans");
+  author->add_option("--threads", options->threads, "0 (default): as many as the machine has")
+      ->type_name("N");
+  author->add_option("--report", options->report, "Write what was found and measured as JSON")
+      ->type_name("R.json");
+  author->footer(
+      "Without shapes it places joints and weights. The rig has the axes of MESH, in centimeters;\n"
+      "each expression becomes a raw control of its name. The same input, options and seed give\n"
+      "the same bytes for any number of threads. See docs/authoring.md.\n\n"
+      "Examples:\n"
+      "  mien author head.obj -o head.dna\n"
+      "  mien author head.obj --shapes expressions/ --joints 120 -o head.dna --report report.json\n"
+      "  mien author head.glb -o head.dna\n"
+      "  mien author scan.obj --unit mm --up z --front -y -o head.dna");
+  return {author, [options, &session] { run(*options, session); }};
+}
+
+}  // namespace mien::cli

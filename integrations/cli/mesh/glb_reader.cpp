@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: MIT
+// GLB: every mesh of the scene where its node puts it, morph targets as shapes. Skins, materials and
+// animations are skipped. What is compressed or lies in other files is refused.
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "integrations/cli/io/failure.h"
+#include "integrations/cli/io/text.h"
+#include "integrations/cli/mesh/mesh_file.h"
+
+namespace mien::cli {
+
+namespace {
+
+using Json = nlohmann::json;
+using Matrix = std::array<double, 12>;  // 3 rows of 4
+
+constexpr size_t kMaxElements = size_t{1} << 28;
+constexpr int kMaxDepth = 256;
+
+Matrix product(const Matrix& a, const Matrix& b) {
+  Matrix out;
+  for (size_t r = 0; r < 3; ++r) {
+    for (size_t c = 0; c < 4; ++c) {
+      double sum = c == 3 ? a[4 * r + 3] : 0;
+      for (size_t k = 0; k < 3; ++k) sum += a[4 * r + k] * b[4 * k + c];
+      out[4 * r + c] = sum;
+    }
+  }
+  return out;
+}
+
+class Glb {
+ public:
+  Glb(const std::string& bytes, const std::string& path) : path_(path) {
+    const auto word = [&](size_t at) {
+      uint32_t value = 0;
+      if (bytes.size() < 4 || at > bytes.size() - 4) fail("", "truncated", "get the file again");
+      for (size_t i = 0; i < 4; ++i) {
+        value |= uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
+      }
+      return value;
+    };
+    if (word(4) != 2) {
+      fail("byte 4", "version " + std::to_string(word(4)) + ": 2 is supported",
+           "export it as glTF 2.0");
+    }
+    std::string json;
+    for (size_t at = 12; bytes.size() >= 8 && at <= bytes.size() - 8;) {
+      const size_t size = word(at);
+      const uint32_t kind = word(at + 4);
+      at += 8;
+      if (size > bytes.size() - at) {
+        fail("byte " + std::to_string(at),
+             "truncated: a chunk of " + std::to_string(size) + " bytes does not fit",
+             "get the file again");
+      }
+      if (kind == 0x4E4F534A && json.empty()) json = bytes.substr(at, size);
+      if (kind == 0x004E4942 && binary_.empty()) binary_ = std::string_view(bytes).substr(at, size);
+      at += (size + 3) / 4 * 4;
+    }
+    root_ = Json::parse(json, nullptr, false);
+    if (!root_.is_object()) fail("", "its JSON is not valid", "export it again");
+    for (const Json& name : list(root_, "extensionsRequired")) {
+      if (name.is_string() && name.get<std::string>() == "KHR_mesh_quantization") continue;
+      fail("",
+           "it needs the extension " + (name.is_string() ? one_line(name.get<std::string>()) : "?"),
+           "export it without compression");
+    }
+  }
+
+  MeshFile read();
+
+ private:
+  [[noreturn]] void fail(const std::string& where, const std::string& why,
+                         const std::string& what_to_do = "export it again") const {
+    fail_mesh(path_, where, why, what_to_do);
+  }
+  static const Json& list(const Json& of, const char* key) {
+    static const Json kNothing = Json::array();
+    const auto it = of.is_object() ? of.find(key) : of.end();
+    return of.is_object() && it != of.end() && it->is_array() ? *it : kNothing;
+  }
+  const Json& element(const char* key, size_t index) const {
+    const Json& all = list(root_, key);
+    if (index >= all.size() || !all[index].is_object()) {
+      fail("", std::string("there is no element ") + std::to_string(index) + " of " + key);
+    }
+    return all[index];
+  }
+  size_t whole(const Json& of, const char* key, size_t otherwise) const {
+    const auto it = of.find(key);
+    if (it == of.end()) return otherwise;
+    if (!it->is_number_unsigned() || it->get<uint64_t>() > kMaxElements) {
+      fail("", std::string("\"") + key + "\" is no number from 0 to 2^28");
+    }
+    return it->get<size_t>();
+  }
+  static std::string text(const Json& of, const char* key) {
+    const auto it = of.find(key);
+    return it != of.end() && it->is_string() ? it->get<std::string>() : std::string();
+  }
+
+  /// `count` elements of `width` numbers in the binary chunk, through a buffer view.
+  void copy(size_t view, size_t offset, size_t type, bool normalized, size_t count, size_t width,
+            std::vector<double>& out) const;
+  /// Numbers of an accessor, `width` per element, with sparse ones.
+  std::vector<double> numbers(size_t accessor, size_t width, const char* what) const;
+  std::vector<uint32_t> indices(size_t accessor, size_t below, const char* what) const;
+  Matrix local_matrix(const Json& node) const;
+  void add_node(size_t index, const Matrix& parent, int depth);
+  void add_primitive(const Json& mesh, const Json& primitive, const Matrix& place);
+
+  const std::string& path_;
+  std::string_view binary_;
+  Json root_;
+  MeshFile out_;
+  std::map<std::string, size_t> shape_of_;
+  std::set<std::string> object_names_;
+  std::set<size_t> visited_;
+  bool all_have_uvs_ = true;
+};
+
+void Glb::copy(size_t view_index, size_t offset, size_t type, bool normalized, size_t count,
+               size_t width, std::vector<double>& out) const {
+  const Json& view = element("bufferViews", view_index);
+  if (whole(view, "buffer", 0) != 0 || !text(element("buffers", 0), "uri").empty()) {
+    fail("", "its data lie in another file", "export it as one .glb file");
+  }
+  const size_t sizes[] = {1, 1, 2, 2, 0, 4, 4};  // from 5120
+  if (type < 5120 || type > 5126 || sizes[type - 5120] == 0) {
+    fail("", "numbers of type " + std::to_string(type) + " are not known");
+  }
+  const size_t size = sizes[type - 5120];
+  const size_t stride = std::max(whole(view, "byteStride", 0), size_t{0});
+  const size_t step = stride ? stride : size * width;
+  const size_t begin = whole(view, "byteOffset", 0), length = whole(view, "byteLength", 0);
+  if (begin > binary_.size() || length > binary_.size() - begin || offset > length ||
+      (count > 0 && (step < size * width || (count - 1) > (length - offset) / step ||
+                     (count - 1) * step + size * width > length - offset))) {
+    fail("buffer view " + std::to_string(view_index),
+         "it does not have " + std::to_string(count) + " elements within the file");
+  }
+  out.reserve(count * width);
+  const char* from = binary_.data() + begin + offset;
+  for (size_t i = 0; i < count; ++i) {
+    for (size_t k = 0; k < width; ++k) {
+      const char* at = from + i * step + k * size;
+      uint32_t bits = 0;
+      for (size_t b = 0; b < size; ++b)
+        bits |= uint32_t{static_cast<unsigned char>(at[b])} << (8 * b);
+      double value = 0;
+      switch (type) {
+        case 5120: value = static_cast<int8_t>(bits); break;
+        case 5121: value = bits; break;
+        case 5122: value = static_cast<int16_t>(bits); break;
+        case 5123: value = bits; break;
+        case 5125: value = bits; break;
+        default: {
+          float single;
+          memcpy(&single, &bits, sizeof(single));
+          value = double{single};
+        }
+      }
+      const double largest[] = {127, 255, 32767, 65535, 1, 4294967295.0, 1};
+      if (normalized) value = std::max(value / largest[type - 5120], -1.0);
+      if (!std::isfinite(value)) {
+        fail("buffer view " + std::to_string(view_index), "a number is not finite");
+      }
+      out.push_back(value);
+    }
+  }
+}
+
+std::vector<double> Glb::numbers(size_t index, size_t width, const char* what) const {
+  const Json& accessor = element("accessors", index);
+  const char* const types[] = {"", "SCALAR", "VEC2", "VEC3"};
+  if (text(accessor, "type") != types[width]) {
+    fail("accessor " + std::to_string(index),
+         std::string(what) + " should have the type " + types[width]);
+  }
+  const size_t count = whole(accessor, "count", 0), type = whole(accessor, "componentType", 0);
+  const auto normal = accessor.find("normalized");
+  const bool normalized = normal != accessor.end() && normal->is_boolean() && normal->get<bool>();
+  std::vector<double> out;
+  if (accessor.contains("bufferView")) {
+    copy(whole(accessor, "bufferView", 0), whole(accessor, "byteOffset", 0), type, normalized,
+         count, width, out);
+  } else if (!accessor.contains("sparse") && count > 0) {
+    fail("accessor " + std::to_string(index), "it has no data that can be read",
+         "export it without compression");
+  } else {
+    // A sparse accessor alone: bounded by what others of the file hold.
+    if (count > binary_.size())
+      fail("accessor " + std::to_string(index), "it is larger than the file");
+    out.assign(count * width, 0);
+  }
+  const auto sparse = accessor.find("sparse");
+  if (sparse == accessor.end()) return out;
+  if (!sparse->is_object() || !sparse->contains("indices") || !sparse->contains("values") ||
+      !(*sparse)["indices"].is_object() || !(*sparse)["values"].is_object()) {
+    fail("accessor " + std::to_string(index), "its sparse part is incomplete");
+  }
+  const size_t changed = whole(*sparse, "count", 0);
+  const Json &places = (*sparse)["indices"], &values = (*sparse)["values"];
+  std::vector<double> at, with;
+  copy(whole(places, "bufferView", 0), whole(places, "byteOffset", 0),
+       whole(places, "componentType", 0), false, changed, 1, at);
+  copy(whole(values, "bufferView", 0), whole(values, "byteOffset", 0), type, normalized, changed,
+       width, with);
+  for (size_t i = 0; i < changed; ++i) {
+    if (!(at[i] >= 0 && at[i] < static_cast<double>(count))) {
+      fail("accessor " + std::to_string(index), "it changes an element that is not there");
+    }
+    for (size_t k = 0; k < width; ++k) {
+      out[static_cast<size_t>(at[i]) * width + k] = with[i * width + k];
+    }
+  }
+  return out;
+}
+
+std::vector<uint32_t> Glb::indices(size_t accessor, size_t below, const char* what) const {
+  std::vector<uint32_t> out;
+  for (const double value : numbers(accessor, 1, what)) {
+    if (!(value >= 0 && value < static_cast<double>(below))) {
+      fail("accessor " + std::to_string(accessor), std::string(what) + " names vertex " +
+                                                       std::to_string(value) + " of " +
+                                                       std::to_string(below));
+    }
+    out.push_back(static_cast<uint32_t>(value));
+  }
+  return out;
+}
+
+Matrix Glb::local_matrix(const Json& node) const {
+  const auto array = [&](const char* key, std::vector<double> otherwise) {
+    const Json& given = list(node, key);
+    if (given.empty()) return otherwise;
+    if (given.size() != otherwise.size())
+      fail("", std::string("\"") + key + "\" of a node is wrong");
+    for (size_t i = 0; i < given.size(); ++i) {
+      if (!given[i].is_number()) fail("", std::string("\"") + key + "\" of a node is wrong");
+      otherwise[i] = given[i].get<double>();
+    }
+    return otherwise;
+  };
+  Matrix out;
+  if (node.contains("matrix")) {
+    const std::vector<double> m = array("matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    for (size_t r = 0; r < 3; ++r) {
+      for (size_t c = 0; c < 4; ++c) out[4 * r + c] = m[4 * c + r];
+    }
+    return out;
+  }
+  const std::vector<double> t = array("translation", {0, 0, 0}), s = array("scale", {1, 1, 1});
+  const std::vector<double> q = array("rotation", {0, 0, 0, 1});
+  const double x = q[0], y = q[1], z = q[2], w = q[3];
+  const double r[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
+                          {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
+                          {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t k = 0; k < 3; ++k) out[4 * i + k] = r[i][k] * s[k];
+    out[4 * i + 3] = t[i];
+  }
+  return out;
+}
+
+void Glb::add_primitive(const Json& mesh, const Json& primitive, const Matrix& place) {
+  if (!primitive.is_object() || !primitive.contains("attributes")) fail("", "a primitive is wrong");
+  if (whole(primitive, "mode", 4) != 4) return;  // points and lines have no surface
+  const Json& attributes = primitive["attributes"];
+  if (!attributes.is_object() || !attributes.contains("POSITION")) return;
+  const std::vector<double> local = numbers(whole(attributes, "POSITION", 0), 3, "POSITION");
+  const size_t count = local.size() / 3, first = out_.position_count();
+  const auto transform = [&](const double* p, double w, double* to) {
+    for (size_t r = 0; r < 3; ++r) {
+      to[r] = place[4 * r] * p[0] + place[4 * r + 1] * p[1] + place[4 * r + 2] * p[2] +
+              place[4 * r + 3] * w;
+    }
+  };
+  if (first + count > (size_t{1} << 24)) fail("", "more than 2^24 vertices", "make it smaller");
+  out_.positions.resize(3 * (first + count));
+  for (size_t v = 0; v < count; ++v) transform(&local[3 * v], 1, &out_.positions[3 * (first + v)]);
+
+  std::vector<uint32_t> corners;
+  if (primitive.contains("indices")) {
+    corners = indices(whole(primitive, "indices", 0), count, "indices");
+  } else {
+    for (size_t v = 0; v < count; ++v) corners.push_back(static_cast<uint32_t>(v));
+  }
+  corners.resize(corners.size() / 3 * 3);
+  const uint32_t first_uv = static_cast<uint32_t>(out_.uvs.size() / 2);
+  if (attributes.contains("TEXCOORD_0")) {
+    const std::vector<double> uvs = numbers(whole(attributes, "TEXCOORD_0", 0), 2, "TEXCOORD_0");
+    if (uvs.size() != 2 * count) fail("", "TEXCOORD_0 and POSITION have different counts");
+    // An image's first row is at v = 0 in glTF, its last one elsewhere.
+    for (size_t v = 0; v < count; ++v) {
+      out_.uvs.push_back(uvs[2 * v]);
+      out_.uvs.push_back(1 - uvs[2 * v + 1]);
+    }
+  } else {
+    all_have_uvs_ = false;
+  }
+  MeshObject object;
+  const std::string name = text(mesh, "name").empty() ? "mesh" : text(mesh, "name");
+  object.name = name;
+  for (size_t n = 2; !object_names_.insert(object.name).second; ++n) {
+    object.name = name + "_" + std::to_string(n);
+  }
+  object.first_face = static_cast<uint32_t>(out_.face_sizes.size());
+  object.face_count = static_cast<uint32_t>(corners.size() / 3);
+  for (const uint32_t corner : corners) {
+    out_.corners.push_back(static_cast<uint32_t>(first) + corner);
+    out_.corner_uvs.push_back(first_uv + corner);
+  }
+  out_.face_sizes.insert(out_.face_sizes.end(), object.face_count, 3);
+  if (object.face_count > 0) out_.objects.push_back(object);
+
+  const Json& targets = list(primitive, "targets");
+  const Json& names =
+      mesh.contains("extras") ? list(mesh["extras"], "targetNames") : list(mesh, "");
+  for (size_t t = 0; t < targets.size(); ++t) {
+    std::string shape_name = t < names.size() && names[t].is_string()
+                                 ? names[t].get<std::string>()
+                                 : "target_" + std::to_string(t);
+    if (shape_name.empty()) shape_name = "target_" + std::to_string(t);
+    const auto [it, added] = shape_of_.emplace(shape_name, out_.shapes.size());
+    if (added) {
+      out_.shapes.emplace_back();
+      out_.shapes.back().name = shape_name;
+    }
+    if (!targets[t].is_object() || !targets[t].contains("POSITION")) continue;
+    const std::vector<double> deltas = numbers(whole(targets[t], "POSITION", 0), 3, "a target");
+    if (deltas.size() != local.size()) fail("", "a target has another count than its mesh");
+    MeshShape& shape = out_.shapes[it->second];
+    for (size_t v = 0; v < count; ++v) {
+      if (deltas[3 * v] == 0 && deltas[3 * v + 1] == 0 && deltas[3 * v + 2] == 0) continue;
+      double moved[3];
+      transform(&deltas[3 * v], 0, moved);
+      shape.vertices.push_back(static_cast<uint32_t>(first + v));
+      shape.displacements.insert(shape.displacements.end(), moved, moved + 3);
+    }
+  }
+}
+
+void Glb::add_node(size_t index, const Matrix& parent, int depth) {
+  const Json& node = element("nodes", index);
+  // A node that comes back would never end.
+  if (depth > kMaxDepth || !visited_.insert(index).second) {
+    fail("node " + std::to_string(index), "it has several parents or over 256 ancestors");
+  }
+  const Matrix place = product(parent, local_matrix(node));
+  if (node.contains("mesh")) {
+    const Json& mesh = element("meshes", whole(node, "mesh", 0));
+    // A skinned mesh is where its joints put it; its own node does not count.
+    const Matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    for (const Json& primitive : list(mesh, "primitives")) {
+      add_primitive(mesh, primitive, node.contains("skin") ? identity : place);
+    }
+  }
+  for (const Json& child : list(node, "children")) {
+    if (!child.is_number_unsigned()) fail("node " + std::to_string(index), "a child is no number");
+    add_node(child.get<size_t>(), place, depth + 1);
+  }
+}
+
+MeshFile Glb::read() {
+  const Matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+  if (!list(root_, "scenes").empty()) {
+    for (const Json& node : list(element("scenes", whole(root_, "scene", 0)), "nodes")) {
+      if (!node.is_number_unsigned()) fail("", "a node of the scene is no number");
+      add_node(node.get<size_t>(), identity, 0);
+    }
+  } else {
+    for (size_t node = 0; node < list(root_, "nodes").size(); ++node) {
+      if (visited_.count(node) == 0) add_node(node, identity, 0);
+    }
+  }
+  if (!all_have_uvs_) {
+    out_.uvs.clear();
+    out_.corner_uvs.clear();
+  }
+  for (MeshShape& shape : out_.shapes) {
+    if (!shape.vertices.empty()) continue;
+    shape.vertices = {0};
+    shape.displacements = {0, 0, 0};
+  }
+  out_.in_meters = true;
+  return std::move(out_);
+}
+
+}  // namespace
+
+MeshFile read_glb(const std::string& bytes, const std::string& path) {
+  return Glb(bytes, path).read();
+}
+
+}  // namespace mien::cli

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Meshes and expression shapes from files, as mien_author.h takes them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace mien::cli {
+
+struct MeshObject {
+  std::string name;
+  uint32_t first_face = 0, face_count = 0;
+};
+
+/// Displacements of some positions; or of all, if `vertices` is empty.
+struct MeshShape {
+  std::string name;
+  std::vector<uint32_t> vertices;
+  std::vector<double> displacements;  // 3 each
+};
+
+struct MeshFile {
+  std::vector<double> positions;  // 3 each, in the file's unit and axes
+  std::vector<uint32_t> face_sizes, corners;
+  std::vector<double> uvs;           // 2 each
+  std::vector<uint32_t> corner_uvs;  // empty: not every corner has a UV
+  std::vector<MeshObject> objects;   // in the order of their faces
+  std::vector<MeshShape> shapes;
+
+  bool in_meters = false;  // as glTF says
+
+  size_t position_count() const { return positions.size() / 3; }
+};
+
+/// A mesh, and with GLB its morph targets as shapes. Fails with kInvalid.
+MeshFile read_mesh_file(const std::string& path);
+
+/// Shapes for `mesh`: a folder of OBJ or .target files, each an expression of the file's name; an
+/// .mshp; the morph targets of a GLB with the same positions.
+std::vector<MeshShape> read_shapes(const std::string& path, const MeshFile& mesh);
+
+// Of each format; `path` is for messages ----------------------------------------------------------
+
+MeshFile read_obj(const std::string& bytes, const std::string& path);
+MeshFile read_glb(const std::string& bytes, const std::string& path);
+/// Lines `index dx dy dz`, with comments after #.
+MeshShape read_target(const std::string& bytes, size_t position_count, const std::string& path);
+std::vector<MeshShape> read_mshp(const std::string& bytes, size_t position_count,
+                                 const std::string& path);
+
+/// "invalid mesh, PATH, WHERE: why; what_to_do"
+[[noreturn]] void fail_mesh(const std::string& path, const std::string& where,
+                            const std::string& why, const std::string& what_to_do);
+
+}  // namespace mien::cli

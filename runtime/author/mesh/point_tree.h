@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Nearest points by a k-d tree. Of points equally far, the one with the lowest index is nearest, so
+// answers do not depend on how the tree was built.
+#pragma once
+
+#include "runtime/base/arena.h"
+#include "runtime/base/vector.h"
+
+namespace mien::author {
+
+struct Near {
+  double squared_distance;
+  uint32_t point;
+
+  bool operator<(const Near& other) const {
+    return squared_distance != other.squared_distance ? squared_distance < other.squared_distance
+                                                      : point < other.point;
+  }
+};
+
+class PointTree {
+ public:
+  /// Keeps `points`. False if memory ran out.
+  bool build(Span<const Vec3> points, Arena& arena);
+
+  /// `points` is not empty.
+  Near nearest(Vec3 at) const;
+  /// Up to `wanted` points, the nearest first; returns how many.
+  uint32_t nearest(Vec3 at, uint32_t wanted, Near* out) const;
+
+ private:
+  struct Query;
+  void search(Query& query, uint32_t from, uint32_t to) const;
+
+  Span<const Vec3> points_;
+  Span<uint32_t> order_;  // each range: its middle splits it, along the axis in splits_
+  Span<uint8_t> splits_;
+};
+
+}  // namespace mien::author

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The places that facial bones are put on: the front group in depth, without the neck.
+#pragma once
+
+#include "runtime/author/mesh/topology.h"
+#include "runtime/author/place/place.h"
+
+namespace mien::author {
+
+/// What the steps of the placement share.
+struct Placing {
+  const AuthorMesh& mesh;
+  const PlaceOptions& options;
+  const ParallelFor& parallel;
+  Arena& arena;    // results
+  Arena& scratch;  // gone when the placement is done
+  PlaceReport& report;
+  Error& error;
+
+  Box box = {};      // of the skin
+  double plane = 0;  // x of the plane of symmetry
+  bool symmetric = false;
+  Span<uint32_t> skin =
+      {};                   // places (first vertices) of the skin, by z, y, x: no order of the file
+  Span<Vec3> points = {};   // their positions
+  Span<double> areas = {};  // per vertex
+  Span<uint8_t> group = {};    // per place: 0 front; empty with a face only
+  Span<uint8_t> in_mask = {};  // per place
+  Span<uint32_t> mask = {};    // places of the mask, numbers in `skin`
+};
+
+/// Sorts the places of the skin.
+Status find_skin(Placing& placing);
+/// Groups in depth.
+Status group_in_depth(Placing& placing);
+/// Fills the mask.
+Status find_mask(Placing& placing);
+/// Decides whether left and right are treated as mirror images.
+Status find_symmetry(Placing& placing);
+/// Positions of the joints `neck` and `head`.
+Status find_neck_and_head(Placing& placing, Vec3& neck, Vec3& head);
+
+inline Status no_memory(Placing& placing) {
+  return fail(placing.error, Status::kMemory, kNoOffset, "no memory for placing bones");
+}
+
+}  // namespace mien::author

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Bones for a head: root, neck, head, face, and facial bones at the means of groups of the face mask.
+// docs/authoring.md says what of it is the published method and what is ours.
+#pragma once
+
+#include "runtime/author/place/kmeans.h"
+#include "runtime/author/place/linkage.h"
+#include "runtime/author/place/throat.h"
+#include "runtime/base/status.h"
+
+namespace mien::author {
+
+enum class Symmetry : uint8_t { kAuto, kOn, kOff };
+
+struct PlaceOptions {
+  uint32_t facial_joints = 240;
+  uint32_t lods = 8;
+  uint64_t seed = 1;
+  Symmetry symmetry = Symmetry::kAuto;
+  uint32_t groups = 3;  // in depth; the front one is the mask
+  bool paper = false;   // the published method alone, with the neck cut
+  bool neck_cut = true;
+  bool mask_from_shapes = false;  // the mask is what shapes move, and two rings around it
+  bool area_density = false;      // vertices count by their area: for scans
+};
+
+/// How the neck was told from the head.
+enum class NeckSplit : uint8_t { kNoNeck, kLinkage, kAreaLinkage, kPlane };
+
+constexpr uint32_t kMaxGroups = 16;
+constexpr uint32_t kRuns = 8;
+
+struct PlaceReport {
+  bool face_only = false;  // no back of the head: no groups
+  Linkage linkage;         // of all places in depth
+  uint32_t group_count = 0;
+  uint32_t group_sizes[kMaxGroups] = {};  // front first, of places
+  double borders[kMaxGroups] = {};        // z between groups, front first: group_count - 1
+  NeckSplit neck_split = NeckSplit::kNoNeck;
+  Vec3 head_mean, neck_mean;
+  Throat throat;
+  uint32_t mask_places = 0, added_by_shapes = 0;
+  double symmetry_error = 0;  // mean distance of mirrored places to the mesh, part of the diagonal
+  uint32_t asked_joints = 0;
+  KMeansRun runs[kRuns];
+  uint32_t run_count = 0, chosen_run = 0;
+  double spacing = 0;                 // median distance of a facial bone to the nearest other
+  double uncovered = 0;               // part of the mask farther than twice that from all bones
+  Span<const double> lod_objectives;  // of the facial bones that each LOD keeps
+  uint32_t eye_joints = 0;
+  bool jaw_joint = false;
+  double jaw_angle = 0;  // degrees, of the shape that opens it
+  Name jaw_shape;
+};
+
+/// Fails with kAuthorRefused if no bones can be placed.
+Status place_bones(const AuthorMesh& mesh, const PlaceOptions& options, const ParallelFor& parallel,
+                   Arena& arena, const Allocator& allocator, Placement& out, PlaceReport& report,
+                   Error& error);
+
+}  // namespace mien::author

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/author/rigging/rigging.h"
+
+#include <cstring>
+
+#include "runtime/author/dna_making.h"
+#include "runtime/author/place/rank.h"
+
+namespace mien::author {
+
+namespace {
+
+// Joint values have 16-bit numbers, nine for each joint.
+constexpr uint32_t kMaxBones = 65536 / 9;
+constexpr size_t kMaxName = 200;
+
+Status no_memory(Error& error) {
+  return fail(error, Status::kMemory, kNoOffset, "no memory for the rig");
+}
+
+bool is_caller(const RiggingOptions& options) { return !options.bones.empty(); }
+
+Status check_bones(const RiggingOptions& options, Error& error) {
+  const Span<const OwnBone> bones = options.bones;
+  if (bones.count > kMaxBones) {
+    return fail(error, Status::kAuthorRefused, kNoOffset, "%zu bones: %u are allowed", bones.count,
+                kMaxBones);
+  }
+  uint32_t facial_runs = 0, roots = 0;
+  for (uint32_t b = 0; b < bones.count; ++b) {
+    const OwnBone& bone = bones[b];
+    if (bone.name.count < 1 || bone.name.count > kMaxName) {
+      return fail(error, Status::kAuthorMesh, kNoOffset,
+                  "the name of bone %u has %zu bytes: 1 to %zu", b, bone.name.count, kMaxName);
+    }
+    for (uint32_t other = 0; other < b; ++other) {
+      if (bones[other].name.count != bone.name.count ||
+          memcmp(bones[other].name.data, bone.name.data, bone.name.count) != 0) {
+        continue;
+      }
+      return fail(error, Status::kAuthorMesh, kNoOffset, "bones %u and %u have one name", other, b);
+    }
+    for (double x : bone.position) {
+      if (std::abs(x) < 1e15) continue;
+      return fail(error, Status::kAuthorMesh, kNoOffset, "bone %u is at no finite position", b);
+    }
+    const bool is_root = b == 0;
+    if (is_root ? bone.parent != 0 : bone.parent >= b) {
+      return fail(error, Status::kAuthorMesh, kNoOffset,
+                  "bone %u has parent %u: bone 0 is its own, others have one before them", b,
+                  bone.parent);
+    }
+    roots += bone.kind == BoneKind::kRoot;
+    facial_runs +=
+        bone.kind == BoneKind::kFacial && (b == 0 || bones[b - 1].kind != BoneKind::kFacial);
+  }
+  if (roots != 1 || bones[0].kind != BoneKind::kRoot || facial_runs != 1) {
+    return fail(error, Status::kAuthorMesh, kNoOffset,
+                "bones need one root, the first, and facial ones in one run: %u roots, %u runs",
+                roots, facial_runs);
+  }
+  return Status::kOk;
+}
+
+/// The caller's bones in place of those that were found; the mask stays.
+Status take_bones(const MeshSource& source, const RiggingOptions& options, Arena& arena,
+                  Placement& out, Error& error) {
+  Span<Bone> bones;
+  Span<uint32_t> counts;
+  if (!make(arena, options.bones.count, bones) || !make(arena, options.place.lods, counts)) {
+    return no_memory(error);
+  }
+  out.first_facial = out.facial_count = 0;
+  for (uint32_t b = 0; b < bones.count; ++b) {
+    const OwnBone& own = options.bones[b];
+    Bone& bone = bones[b];
+    const Vec3 at = {own.position[0], own.position[1], own.position[2]};
+    bone.name = own.name;
+    bone.position = source.frame.to_internal(at * source.unit);
+    bone.parent = own.parent;
+    bone.mirror = b;
+    bone.kind = own.kind;
+    if (own.kind != BoneKind::kFacial) continue;
+    if (out.facial_count == 0) out.first_facial = b;
+    bone.rank = out.facial_count++;
+  }
+  // The caller's order is the rank.
+  joint_ladder(out.facial_count, counts);
+  out.bones = bones;
+  out.lod_facial_counts = counts;
+  out.symmetric = false;
+  return Status::kOk;
+}
+
+Status take_weights(const MeshSource& source, const RiggingOptions& options, const Rigging& rigging,
+                    Arena& arena, SkinWeights& out, Error& error) {
+  const size_t sources = source.positions.count / 3, m = options.influences;
+  const OwnWeights& own = options.weights;
+  if (own.weights.count != sources * m || own.joints.count != sources * m) {
+    return fail(error, Status::kAuthorMesh, kNoOffset,
+                "%zu weights and %zu joints: %zu positions with %zu influences are expected",
+                own.weights.count, own.joints.count, sources, m);
+  }
+  const size_t n = rigging.read.mesh.positions.count;
+  out.m = options.influences;
+  if (!make(arena, n * m, out.joints) || !make(arena, n * m, out.weights)) return no_memory(error);
+  for (size_t v = 0; v < n; ++v) {
+    const size_t from = rigging.read.source_vertices[v] * m;
+    double sum = 0;
+    for (size_t i = 0; i < m; ++i) {
+      const float weight = own.weights[from + i];
+      if (!(weight >= 0 && weight < 1e15f) ||
+          own.joints[from + i] >= rigging.placement.bones.count) {
+        return fail(error, Status::kAuthorMesh, kNoOffset,
+                    "influence %zu of position %zu is no weight of a bone", i, from / m);
+      }
+      sum += double{weight};
+    }
+    if (!(sum > 0)) {
+      return fail(error, Status::kAuthorMesh, kNoOffset, "position %zu has no weight", from / m);
+    }
+    size_t used = 0;
+    for (size_t i = 0; i < m; ++i) {
+      if (!(own.weights[from + i] > 0)) continue;
+      // The heaviest come first.
+      size_t slot = used++;
+      const float weight = static_cast<float>(own.weights[from + i] / sum);
+      for (; slot > 0 && out.weights[v * m + slot - 1] < weight; --slot) {
+        out.weights[v * m + slot] = out.weights[v * m + slot - 1];
+        out.joints[v * m + slot] = out.joints[v * m + slot - 1];
+      }
+      out.weights[v * m + slot] = weight;
+      out.joints[v * m + slot] = own.joints[from + i];
+    }
+  }
+  return Status::kOk;
+}
+
+struct Steps {
+  const RiggingOptions* options;
+  bool stopped = false;
+
+  bool go_on(const char* step, double share) {
+    stopped = stopped || (options->go_on && !options->go_on(options->user, step, share));
+    return !stopped;
+  }
+};
+
+/// Steps of the fit do not tell how far they are: each takes half of what is left.
+struct FitSteps {
+  Steps* steps;
+  double share;
+
+  static bool go_on(void* user, const char* step) {
+    FitSteps& fit = *static_cast<FitSteps*>(user);
+    fit.share += (1 - fit.share) * 0.25;
+    return fit.steps->go_on(step, fit.share);
+  }
+};
+
+}  // namespace
+
+Status make_rig(const MeshSource& source, const RiggingOptions& options, Arena& arena,
+                const Allocator& allocator, Rigging& out, Error& error) {
+  out = Rigging();
+  Steps steps = {&options};
+  const auto canceled = [&] { return fail(error, Status::kAuthorCanceled, kNoOffset, "canceled"); };
+  if (!steps.go_on("mesh", 0)) return canceled();
+  Status status = read_mesh(source, arena, allocator, out.read, error);
+  if (status == Status::kOk && is_caller(options)) status = check_bones(options, error);
+  if (status != Status::kOk) return status;
+
+  if (!steps.go_on("bones", 0.05)) return canceled();
+  const AuthorMesh& mesh = out.read.mesh;
+  status = place_bones(mesh, options.place, options.parallel, arena, allocator, out.placement,
+                       out.place, error);
+  if (status == Status::kOk && is_caller(options)) {
+    status = take_bones(source, options, arena, out.placement, error);
+  }
+  if (status != Status::kOk) return status;
+
+  if (!steps.go_on("weights", 0.15)) return canceled();
+  const bool own_weights = options.weights.weights.count > 0;
+  Span<SkinWeights> lods;
+  if (!make(arena, own_weights ? 1 : options.place.lods, lods)) return no_memory(error);
+  for (uint32_t lod = 0; lod < lods.count; ++lod) {
+    if (own_weights) {
+      status = take_weights(source, options, out, arena, lods[0], error);
+      if (status != Status::kOk) return status;
+      continue;
+    }
+    WeightOptions weigh;
+    weigh.influences = options.influences;
+    weigh.facial_bones = out.placement.lod_facial_counts[lod];
+    if (!make_skin_weights(mesh, out.placement, weigh, arena, allocator, lods[lod])) {
+      return no_memory(error);
+    }
+    if (!steps.go_on("weights", 0.15 + 0.15 * (lod + 1.0) / static_cast<double>(lods.count)))
+      return canceled();
+  }
+  if (!measure_weights(mesh, out.placement, lods[0], allocator, out.made_weights)) {
+    return no_memory(error);
+  }
+
+  RigOptions rig;
+  rig.residual_targets = options.residual_targets;
+  rig.keep_weights = own_weights;
+  rig.name = options.name;
+  rig.parallel = options.parallel;
+  FitSteps fit = {&steps, 0.3};
+  rig.user = &fit;
+  rig.go_on = FitSteps::go_on;
+  if (!author_rig(mesh, out.placement, lods, rig, arena, allocator, out.rig, out.dna)) {
+    return steps.stopped ? canceled() : no_memory(error);
+  }
+  out.weights = lods[0];
+  return Status::kOk;
+}
+
+}  // namespace mien::author

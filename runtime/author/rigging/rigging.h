@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// From a mesh to a rig: all stages in their order, each of which the caller may replace.
+#pragma once
+
+#include "runtime/author/mesh/mesh_input.h"
+#include "runtime/author/place/place.h"
+#include "runtime/author/rig_dna/author_rig.h"
+#include "runtime/author/weights/skin_weights.h"
+
+namespace mien::author {
+
+/// A bone of the caller, in the caller's frame and unit.
+struct OwnBone {
+  Name name;
+  double position[3];
+  uint32_t parent;
+  BoneKind kind;
+};
+
+/// Weights of the caller: rows as long as there are influences, one for each position of the source.
+struct OwnWeights {
+  Span<const uint16_t> joints;
+  Span<const float> weights;
+};
+
+struct RiggingOptions {
+  PlaceOptions place;
+  uint32_t influences = 8;
+  bool residual_targets = true;
+  Name name = {"head", 4};
+  Span<const OwnBone> bones;  // empty: placed
+  OwnWeights weights;         // empty: made
+  ParallelFor parallel;
+  void* user = nullptr;
+  /// Called on the calling thread before each step; false stops. Null: never.
+  bool (*go_on)(void* user, const char* step, double share) = nullptr;
+};
+
+struct Rigging {
+  ReadMesh read;
+  Placement placement;
+  PlaceReport place;
+  SkinWeights weights;  // of LOD 0, as they are written
+  WeightReport made_weights;
+  RigReport rig;
+  dna::DnaView dna;
+};
+
+/// Fails with kAuthorMesh if arrays contradict each other, kAuthorRefused for what cannot be rigged,
+/// kAuthorCanceled if go_on said so. What `out` refers to lies in `arena` and in `source`.
+Status make_rig(const MeshSource& source, const RiggingOptions& options, Arena& arena,
+                const Allocator& allocator, Rigging& out, Error& error);
+
+/// What was done and measured, as JSON (docs/authoring.md, 6 "The report"). False if memory ran out.
+bool write_report(const MeshSource& source, const RiggingOptions& options, const Rigging& rigging,
+                  Arena& arena, Span<const char>& out);
+
+}  // namespace mien::author

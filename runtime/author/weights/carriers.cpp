@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/author/weights/carriers.h"
+
+#include <algorithm>
+
+#include "runtime/author/dna_making.h"
+#include "runtime/author/exact_math.h"
+#include "runtime/author/mesh/point_tree.h"
+#include "runtime/author/place/extra_joints.h"
+
+namespace mien::author {
+
+namespace {
+
+constexpr double kOnSkin = 0.02;    // parts of the diagonal: lies on the skin
+constexpr double kFar = 0.05;       // no longer follows it
+constexpr double kRigid = 0.05;     // part of the motion that no rigid motion explains
+constexpr double kWithChin = 0.30;  // part of the chin's motion
+constexpr double kMoves = 1e-3;     // part of the diagonal: what moves less is at rest
+
+struct Carried {
+  Carrier carrier = Carrier::kRigid;
+  uint32_t bone = 0;
+};
+
+Vec3 moved(const Shape& shape, uint32_t v) {
+  const Vec3f d = shape.displacements[v];
+  return {d.x, d.y, d.z};
+}
+
+/// Whether shapes move these vertices as a whole. Points and targets are room for all of them.
+bool moves_rigidly(const AuthorMesh& mesh, Span<const uint32_t> vertices, Span<Vec3> points,
+                   Span<Vec3> targets) {
+  double motion = 0, rest = 0;
+  for (const Shape& shape : mesh.shapes) {
+    double here = 0;
+    for (size_t i = 0; i < vertices.count; ++i) {
+      const Vec3 d = moved(shape, vertices[i]);
+      points[i] = mesh.positions[vertices[i]];
+      targets[i] = points[i] + d;
+      here += dot(d, d);
+    }
+    if (here == 0) continue;
+    motion += here;
+    const RigidMotion rigid =
+        fit_rigid(points.first(vertices.count), targets.first(vertices.count));
+    for (size_t i = 0; i < vertices.count; ++i) {
+      const auto& r = rigid.rotation;
+      const Vec3 p = points[i];
+      const Vec3 at = Vec3{dot({r[0][0], r[0][1], r[0][2]}, p), dot({r[1][0], r[1][1], r[1][2]}, p),
+                           dot({r[2][0], r[2][1], r[2][2]}, p)} +
+                      rigid.shift;
+      rest += dot(targets[i] - at, targets[i] - at);
+    }
+  }
+  return rest <= kRigid * motion;
+}
+
+}  // namespace
+
+bool carry_components(const AuthorMesh& mesh, const Placement& placement, uint32_t head,
+                      Arena& scratch, SkinWeights& out, WeightReport* report) {
+  const size_t n = mesh.positions.count;
+  if (mesh.component_count < 2) return true;
+  Span<uint32_t> ends, members, eye_of, skin;
+  Span<Vec3> points, targets, skin_points;
+  if (!make(scratch, mesh.component_count + 1, ends) || !make(scratch, n, members) ||
+      !make(scratch, mesh.component_count, eye_of) || !make(scratch, n, skin) ||
+      !make(scratch, n, points) || !make(scratch, n, targets) || !make(scratch, n, skin_points)) {
+    return false;
+  }
+  Eye eyes[kMaxEyes];
+  uint32_t eye_count = 0;
+  if (!find_eyes(mesh, placement.symmetry_plane, placement.symmetric, scratch, eyes, eye_count,
+                 eye_of)) {
+    return false;
+  }
+  for (uint32_t v = 0; v < n; ++v) ++ends[mesh.component[v] + 1];
+  for (uint32_t c = 0; c < mesh.component_count; ++c) ends[c + 1] += ends[c];
+  // ends[c] is where component c begins, and where it ends once its members are in.
+  size_t skin_count = 0;
+  for (uint32_t v = 0; v < n; ++v) {
+    members[ends[mesh.component[v]]++] = v;
+    if (!mesh.is_skin[v] || mesh.welded[v] != v) continue;
+    skin[skin_count] = v;
+    skin_points[skin_count++] = mesh.positions[v];
+  }
+  PointTree tree;
+  if (!tree.build(skin_points.first(skin_count), scratch)) return false;
+
+  // How far the chin moves when the jaw opens: the mean of the 200 that move most, as for the joint.
+  Jaw jaw;
+  if (!find_jaw(mesh, placement.symmetry_plane, scratch, jaw)) return false;
+  uint32_t jaw_bone = kNone;
+  for (uint32_t b = 0; b < placement.bones.count; ++b) {
+    if (placement.bones[b].kind == BoneKind::kJaw) jaw_bone = b;
+  }
+
+  for (uint32_t c = 0, from = 0; c < mesh.component_count; from = ends[c++]) {
+    const Span<const uint32_t> all = members.slice(from, ends[c] - from);
+    if (all.empty() || mesh.is_skin[all[0]]) continue;
+    Carried part = {Carrier::kRigid, head};
+    if (eye_of[c] != kNone) {
+      for (uint32_t b = 0; b < placement.bones.count; ++b) {
+        const Eye& eye = eyes[eye_of[c]];
+        if (placement.bones[b].kind == BoneKind::kEye &&
+            length(placement.bones[b].position - eye.center) <= eye.radius) {
+          part.bone = b;
+        }
+      }
+    } else {
+      if (jaw_bone != kNone && jaw.shape != kNone && jaw.chin_motion > 0) {
+        double motion = 0;
+        for (uint32_t v : all) motion += length(moved(mesh.shapes[jaw.shape], v));
+        if (motion > kWithChin * jaw.chin_motion * static_cast<double>(all.count)) {
+          part.bone = jaw_bone;
+        }
+      }
+      bool follows;
+      if (mesh.shapes.empty()) {
+        size_t near = 0;
+        for (uint32_t v : all) {
+          near += tree.nearest(mesh.positions[v]).squared_distance <=
+                  kOnSkin * kOnSkin * mesh.diagonal * mesh.diagonal;
+        }
+        follows = near * 20 >= all.count * 19;
+      } else {
+        double farthest = 0;
+        for (const Shape& shape : mesh.shapes) {
+          for (uint32_t v : all) farthest = std::max(farthest, length(moved(shape, v)));
+        }
+        // The head's joint never moves, that of the jaw as a whole.
+        follows = farthest > kMoves * mesh.diagonal &&
+                  (part.bone != jaw_bone || !moves_rigidly(mesh, all, points, targets));
+      }
+      if (follows) part.carrier = Carrier::kNearestSkin;
+    }
+    if (report) {
+      report->rigid_components += part.carrier == Carrier::kRigid;
+      report->following_components += part.carrier == Carrier::kNearestSkin;
+      continue;
+    }
+    for (uint32_t v : all) {
+      InfluenceList list;
+      double rigid = 1;
+      if (part.carrier == Carrier::kNearestSkin) {
+        const Near near = tree.nearest(mesh.positions[v]);
+        rigid = smooth_step(kOnSkin, kFar, std::sqrt(near.squared_distance) / mesh.diagonal);
+        const InfluenceList there = load(skin[near.point], out);
+        for (uint32_t i = 0; i < there.count; ++i) {
+          list.add(there.joints[i], there.values[i] * (1 - rigid));
+        }
+      }
+      list.add(part.bone, rigid);
+      store(list, v, out);
+    }
+  }
+  return true;
+}
+
+}  // namespace mien::author

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Weights of what is not skin: eyeballs, teeth, tongue, lashes, the inside of the mouth.
+#pragma once
+
+#include "runtime/author/weights/skin_weights.h"
+
+namespace mien::author {
+
+/// Influences of one vertex while they are put together.
+struct InfluenceList {
+  static constexpr uint32_t kCapacity = 2 * kMaxAuthorInfluences + 4;
+  uint32_t joints[kCapacity];
+  double values[kCapacity];
+  uint32_t count = 0;
+
+  /// Adds to the joint's weight.
+  void add(uint32_t joint, double value) {
+    if (!(value > 0)) return;
+    for (uint32_t i = 0; i < count; ++i) {
+      if (joints[i] != joint) continue;
+      values[i] += value;
+      return;
+    }
+    joints[count] = joint;
+    values[count++] = value;
+  }
+  double sum() const;
+};
+
+/// The heaviest m, without those below 1e-4, with sum one in single precision.
+void store(const InfluenceList& list, uint32_t vertex, SkinWeights& out);
+InfluenceList load(uint32_t vertex, const SkinWeights& from);
+
+/// Components that are not skin. An eyeball turns with its joint. What no shape moves is rigid on the
+/// head; what moves as a whole in all shapes, and at least 30 % as far as the chin when the jaw opens,
+/// on the jaw. The rest follows the nearest skin, the less the farther from it. Without shapes, what
+/// lies on the skin follows it and the rest is rigid. With `report`, counts and writes no weights.
+/// False if memory ran out.
+bool carry_components(const AuthorMesh& mesh, const Placement& placement, uint32_t head,
+                      Arena& scratch, SkinWeights& out, WeightReport* report);
+
+}  // namespace mien::author

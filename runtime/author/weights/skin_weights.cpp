@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/author/weights/skin_weights.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "runtime/author/dna_making.h"
+#include "runtime/author/exact_math.h"
+#include "runtime/author/mesh/point_tree.h"
+#include "runtime/author/weights/carriers.h"
+
+namespace mien::author {
+
+namespace {
+
+constexpr float kLeastWeight = 1e-4f;
+
+/// What weighing the skin needs.
+struct Weighing {
+  const AuthorMesh& mesh;
+  const Placement& placement;
+  Arena& scratch;
+  SkinWeights& out;
+  uint32_t facial = 0;  // bones in use
+  uint32_t head = 0, neck = 0;
+  double spacing = 0;
+  SurfaceGraph graph = {};
+
+  // The nearest m + 1 bones of each vertex, nearest first.
+  uint32_t lists = 0;  // m + 1
+  Span<uint16_t> near = {};
+  Span<double> distances = {};
+  Span<uint8_t> counts = {};
+};
+
+/// Ways from every bone at once, nearest first; each vertex passes on a bone only if it keeps it.
+bool find_nearest_bones(Weighing& w) {
+  const size_t n = w.mesh.positions.count;
+  Span<double> depths;
+  Span<uint32_t> places;
+  Span<Vec3> points;
+  PointTree tree;
+  if (!make(w.scratch, n * w.lists, w.near) || !make(w.scratch, n * w.lists, w.distances) ||
+      !make(w.scratch, n, w.counts) || !make(w.scratch, w.facial, depths) ||
+      !make(w.scratch, w.placement.mask.count, places) ||
+      !make(w.scratch, w.placement.mask.count, points)) {
+    return false;
+  }
+  size_t count = 0;
+  for (uint32_t v : w.placement.mask) {
+    if (w.mesh.welded[v] != v) continue;
+    places[count] = v;
+    points[count++] = w.mesh.positions[v];
+  }
+  if (count == 0 || !tree.build(points.first(count), w.scratch)) return count == 0;
+  StepHeap heap(w.scratch);
+  for (uint32_t b = 0; b < w.facial; ++b) {
+    // All places that are equally near, so that neither side of the face is preferred.
+    constexpr uint32_t kTies = 8;
+    Near near[kTies];
+    const Vec3 at = w.placement.bones[w.placement.first_facial + b].position;
+    const uint32_t found = tree.nearest(at, kTies, near);
+    depths[b] = std::sqrt(near[0].squared_distance);
+    const double tie = near[0].squared_distance * (1 + 1e-6);
+    for (uint32_t i = 0; i < found && near[i].squared_distance <= tie; ++i) {
+      if (!heap.push({depths[b], places[near[i].point], b, 0})) return false;
+    }
+  }
+  const auto has = [&](uint32_t v, uint32_t bone) {
+    const uint16_t* list = w.near.data + size_t{v} * w.lists;
+    return std::find(list, list + w.counts[v], bone) != list + w.counts[v];
+  };
+  while (!heap.empty()) {
+    const Step step = heap.pop();
+    const uint32_t v = step.vertex;
+    if (w.counts[v] == w.lists || has(v, step.label)) continue;
+    const size_t slot = size_t{v} * w.lists + w.counts[v]++;
+    w.near[slot] = static_cast<uint16_t>(step.label);
+    w.distances[slot] = step.distance;
+    for (uint32_t e = w.graph.starts[v]; e < w.graph.starts[v + 1]; ++e) {
+      const uint32_t to = w.graph.neighbors[e];
+      if (w.counts[to] == w.lists || has(to, step.label)) continue;
+      const double way = step.way + w.graph.lengths[e], depth = depths[step.label];
+      if (!heap.push({std::sqrt(way * way + depth * depth), to, step.label, way})) return false;
+    }
+  }
+  return true;
+}
+
+/// Shepard's weights of a vertex with support up to the next bone; they sum to one.
+void shepard_weights(const Weighing& w, uint32_t v, InfluenceList& out) {
+  const uint32_t found = w.counts[v];
+  if (found == 0) return;
+  const size_t slot = size_t{v} * w.lists;
+  const uint32_t used = std::min(found, w.lists - 1);
+  const double least = 1e-9 * w.mesh.diagonal;
+  // Without a next bone all that can be reached share the vertex.
+  const double reach = std::max(
+      found == w.lists ? w.distances[slot + found - 1] * 1.0001 : w.distances[slot + found - 1] * 2,
+      2 * least);
+  double sum = 0, values[kMaxAuthorInfluences];
+  for (uint32_t i = 0; i < used; ++i) {
+    const double d = std::max(w.distances[slot + i], least);
+    const double value = reach > d ? (reach - d) / (reach * d) : 0;
+    values[i] = value * value;
+    sum += values[i];
+  }
+  for (uint32_t i = 0; i < used; ++i) {
+    out.add(w.placement.first_facial + w.near[slot + i], sum > 0 ? values[i] / sum : 1.0 / used);
+  }
+}
+
+bool weigh_skin(Weighing& w) {
+  const AuthorMesh& mesh = w.mesh;
+  const NeckCut& cut = w.placement.neck_cut;
+  Span<double> from_mask;
+  if (!make(w.scratch, mesh.positions.count, from_mask) ||
+      !surface_distances(mesh, w.graph, w.placement.mask, w.scratch, from_mask)) {
+    return false;
+  }
+  double low = std::numeric_limits<double>::infinity();
+  for (uint32_t v = 0; v < mesh.positions.count; ++v) {
+    if (mesh.is_skin[v]) low = std::min(low, mesh.positions[v].y);
+  }
+  // Over half of the neck the head hands over to it.
+  const double band = std::max(0.5 * (cut.y - low), 1e-9 * mesh.diagonal);
+  for (uint32_t v = 0; v < mesh.positions.count; ++v) {
+    if (!mesh.is_skin[v] || mesh.welded[v] != v) continue;
+    InfluenceList facial, list;
+    shepard_weights(w, v, facial);
+    const double t = facial.count ? clamp01(from_mask[v] / (2 * w.spacing)) : 1;
+    const double outside = t * t * (3 - 2 * t);
+    for (uint32_t i = 0; i < facial.count; ++i) {
+      list.add(facial.joints[i], facial.values[i] * (1 - outside));
+    }
+    const double in_neck = cut.exists ? smooth_step(0, 1, -cut.above(mesh.positions[v]) / band) : 0;
+    list.add(w.head, outside * (1 - in_neck));
+    list.add(w.neck, outside * in_neck);
+    store(list, v, w.out);
+  }
+  return true;
+}
+
+/// A bone's vertices are in one piece: what lies apart goes to the other bones there.
+bool connect_supports(Weighing& w) {
+  const AuthorMesh& mesh = w.mesh;
+  const size_t n = mesh.positions.count;
+  const uint32_t m = w.out.m;
+  Span<uint32_t> starts, members, stack;
+  Span<uint32_t> seen;  // by which bone and piece
+  if (!make(w.scratch, w.placement.bones.count + 2, starts) || !make(w.scratch, n * m, members) ||
+      !make(w.scratch, n, stack) || !make(w.scratch, n, seen)) {
+    return false;
+  }
+  const auto is_place = [&](uint32_t v) { return mesh.is_skin[v] && mesh.welded[v] == v; };
+  const auto slot_of = [&](uint32_t v, uint32_t bone) -> uint32_t {
+    for (uint32_t i = 0; i < m; ++i) {
+      if (w.out.joints[size_t{v} * m + i] == bone && w.out.weights[size_t{v} * m + i] > 0) return i;
+    }
+    return kNone;
+  };
+  for (int fill = 0; fill < 2; ++fill) {
+    for (uint32_t v = 0; v < n; ++v) {
+      for (uint32_t i = 0; i < m && is_place(v); ++i) {
+        if (!(w.out.weights[size_t{v} * m + i] > 0)) continue;
+        const uint32_t bone = w.out.joints[size_t{v} * m + i];
+        if (fill) {
+          members[starts[bone + 1]++] = v;
+        } else {
+          ++starts[bone + 2];
+        }
+      }
+    }
+    for (size_t b = 0; b + 1 < starts.count && !fill; ++b) starts[b + 1] += starts[b];
+  }
+  uint32_t piece = 0;
+  for (uint32_t b = w.placement.first_facial; b < w.placement.first_facial + w.facial; ++b) {
+    const uint32_t first_piece = piece + 1;
+    uint32_t best_piece = 0;
+    float best = 0;
+    for (uint32_t i = starts[b]; i < starts[b + 1]; ++i) {
+      if (seen[members[i]] >= first_piece) continue;
+      ++piece;
+      uint32_t count = 0;
+      stack[count++] = members[i];
+      seen[members[i]] = piece;
+      while (count > 0) {
+        const uint32_t v = stack[--count];
+        const float weight = w.out.weights[size_t{v} * m + slot_of(v, b)];
+        if (weight > best) {
+          best = weight;
+          best_piece = piece;
+        }
+        for (uint32_t e = w.graph.starts[v]; e < w.graph.starts[v + 1]; ++e) {
+          const uint32_t to = w.graph.neighbors[e];
+          if (seen[to] >= first_piece || slot_of(to, b) == kNone) continue;
+          seen[to] = piece;
+          stack[count++] = to;
+        }
+      }
+    }
+    if (piece <= first_piece) continue;
+    for (uint32_t i = starts[b]; i < starts[b + 1]; ++i) {
+      const uint32_t v = members[i];
+      if (seen[v] == best_piece) continue;
+      InfluenceList list = load(v, w.out);
+      for (uint32_t k = 0; k < list.count; ++k) {
+        if (list.joints[k] == b) list.values[k] = 0;
+      }
+      if (list.sum() <= 0) list.add(w.head, 1);
+      store(list, v, w.out);
+    }
+  }
+  return true;
+}
+
+/// False if memory ran out.
+bool find_median_spacing(const Placement& placement, uint32_t facial, double diagonal,
+                         Arena& scratch, double& out) {
+  Span<double> gaps;
+  out = diagonal / 4;
+  if (facial < 2) return true;
+  if (!make(scratch, facial, gaps)) return false;
+  for (uint32_t a = 0; a < facial; ++a) {
+    gaps[a] = std::numeric_limits<double>::infinity();
+    for (uint32_t b = 0; b < facial; ++b) {
+      if (a == b) continue;
+      gaps[a] = std::min(gaps[a], length(placement.bones[placement.first_facial + a].position -
+                                         placement.bones[placement.first_facial + b].position));
+    }
+  }
+  std::sort(gaps.begin(), gaps.end());
+  out = std::max(gaps[facial / 2], 1e-6 * diagonal);
+  return true;
+}
+
+uint32_t bone_of_kind(const Placement& placement, BoneKind kind, uint32_t otherwise) {
+  for (uint32_t b = 0; b < placement.bones.count; ++b) {
+    if (placement.bones[b].kind == kind) return b;
+  }
+  return otherwise;
+}
+
+}  // namespace
+
+double InfluenceList::sum() const {
+  double total = 0;
+  for (uint32_t i = 0; i < count; ++i) total += values[i];
+  return total;
+}
+
+void store(const InfluenceList& list, uint32_t vertex, SkinWeights& out) {
+  uint32_t order[InfluenceList::kCapacity];
+  for (uint32_t i = 0; i < list.count; ++i) order[i] = i;
+  std::sort(order, order + list.count, [&](uint32_t a, uint32_t b) {
+    return list.values[a] != list.values[b] ? list.values[a] > list.values[b]
+                                            : list.joints[a] < list.joints[b];
+  });
+  const uint32_t most = std::min(list.count, out.m);
+  double sum = 0, all = 0;
+  for (uint32_t i = 0; i < most; ++i) all += list.values[order[i]];
+  uint32_t used = 0;
+  for (; used < most && list.values[order[used]] >= kLeastWeight * all &&
+         list.values[order[used]] > 0;
+       ++used) {
+    sum += list.values[order[used]];
+  }
+  uint16_t* joints = out.joints.data + size_t{vertex} * out.m;
+  float* weights = out.weights.data + size_t{vertex} * out.m;
+  double written = 0;
+  for (uint32_t i = 0; i < out.m; ++i) {
+    joints[i] = i < used ? static_cast<uint16_t>(list.joints[order[i]]) : uint16_t{0};
+    weights[i] = i < used ? static_cast<float>(list.values[order[i]] / sum) : 0;
+    written += double{weights[i]};
+  }
+  if (used > 0) weights[0] = static_cast<float>(weights[0] + (1 - written));
+}
+
+InfluenceList load(uint32_t vertex, const SkinWeights& from) {
+  InfluenceList list;
+  for (uint32_t i = 0; i < from.m; ++i) {
+    list.add(from.joints[size_t{vertex} * from.m + i],
+             double{from.weights[size_t{vertex} * from.m + i]});
+  }
+  return list;
+}
+
+bool make_skin_weights(const AuthorMesh& mesh, const Placement& placement,
+                       const WeightOptions& options, Arena& arena, const Allocator& allocator,
+                       SkinWeights& out) {
+  Arena scratch(allocator);
+  const size_t n = mesh.positions.count;
+  out.m = options.influences;
+  if (!make(arena, n * out.m, out.joints) || !make(arena, n * out.m, out.weights)) return false;
+  Weighing w = {mesh, placement, scratch, out};
+  w.facial = std::min(options.facial_bones, placement.facial_count);
+  w.lists = out.m + 1;
+  w.head = bone_of_kind(placement, BoneKind::kHead, 0);
+  w.neck = bone_of_kind(placement, BoneKind::kNeck, w.head);
+  if (!find_median_spacing(placement, w.facial, mesh.diagonal, scratch, w.spacing) ||
+      !make_surface_graph(mesh, scratch, scratch, w.graph) || !find_nearest_bones(w) ||
+      !weigh_skin(w) || !connect_supports(w)) {
+    return false;
+  }
+  for (uint32_t v = 0; v < n; ++v) {
+    const uint32_t place = mesh.welded[v];
+    if (!mesh.is_skin[v] || place == v) continue;
+    for (uint32_t i = 0; i < out.m; ++i) {
+      out.joints[size_t{v} * out.m + i] = out.joints[size_t{place} * out.m + i];
+      out.weights[size_t{v} * out.m + i] = out.weights[size_t{place} * out.m + i];
+    }
+  }
+  return carry_components(mesh, placement, w.head, scratch, out, nullptr);
+}
+
+bool measure_weights(const AuthorMesh& mesh, const Placement& placement, const SkinWeights& weights,
+                     const Allocator& allocator, WeightReport& out) {
+  out = WeightReport();
+  Arena scratch(allocator);
+  const size_t n = mesh.positions.count;
+  const uint32_t m = weights.m;
+  SurfaceGraph graph;
+  Span<uint32_t> seen, stack, dominant, pieces;
+  Span<double> steps;
+  if (!make_surface_graph(mesh, scratch, scratch, graph) || !make(scratch, n, seen) ||
+      !make(scratch, n, stack) || !make(scratch, placement.bones.count, dominant) ||
+      !make(scratch, placement.bones.count, pieces) ||
+      !make(scratch, graph.neighbors.count, steps)) {
+    return false;
+  }
+  for (uint32_t v = 0; v < n; ++v) {
+    double sum = 0;
+    uint32_t used = 0;
+    for (uint32_t i = 0; i < m; ++i) {
+      const float weight = weights.weights[size_t{v} * m + i];
+      sum += double{weight};
+      used += weight > 0;
+    }
+    out.worst_sum = std::max(out.worst_sum, std::abs(sum - 1));
+    out.max_influences = std::max(out.max_influences, used);
+    if (mesh.is_skin[v] && m > 0) ++dominant[weights.joints[size_t{v} * m]];
+  }
+  const auto weight_of = [&](uint32_t v, uint32_t bone) {
+    for (uint32_t i = 0; i < m; ++i) {
+      if (weights.joints[size_t{v} * m + i] == bone && weights.weights[size_t{v} * m + i] > 0) {
+        return double{weights.weights[size_t{v} * m + i]};
+      }
+    }
+    return 0.0;
+  };
+  // Pieces of each facial bone's vertices on the skin.
+  uint32_t stamp = 0;
+  for (uint32_t b = placement.first_facial; b < placement.first_facial + placement.facial_count;
+       ++b) {
+    ++stamp;
+    for (uint32_t v = 0; v < n; ++v) {
+      if (!mesh.is_skin[v] || mesh.welded[v] != v || seen[v] == stamp || !(weight_of(v, b) > 0)) {
+        continue;
+      }
+      ++pieces[b];
+      uint32_t count = 0;
+      stack[count++] = v;
+      seen[v] = stamp;
+      while (count > 0) {
+        const uint32_t from = stack[--count];
+        for (uint32_t e = graph.starts[from]; e < graph.starts[from + 1]; ++e) {
+          const uint32_t to = graph.neighbors[e];
+          if (seen[to] == stamp || !(weight_of(to, b) > 0)) continue;
+          seen[to] = stamp;
+          stack[count++] = to;
+        }
+      }
+    }
+    out.split_supports += pieces[b] > 1;
+    out.idle_bones += dominant[b] == 0;
+  }
+  double spacing = 0;
+  if (!find_median_spacing(placement, placement.facial_count, mesh.diagonal, scratch, spacing)) {
+    return false;
+  }
+  size_t edges = 0;
+  for (uint32_t v = 0; v < n; ++v) {
+    for (uint32_t e = graph.starts[v]; e < graph.starts[v + 1] && mesh.is_skin[v]; ++e) {
+      const uint32_t to = graph.neighbors[e];
+      if (to < v || !(graph.lengths[e] > 0)) continue;
+      double difference = 0;
+      for (uint32_t i = 0; i < m; ++i) {
+        const uint32_t a = weights.joints[size_t{v} * m + i],
+                       b = weights.joints[size_t{to} * m + i];
+        const double in_a = double{weights.weights[size_t{v} * m + i]};
+        const double in_b = double{weights.weights[size_t{to} * m + i]};
+        if (in_a > 0) difference += std::abs(in_a - weight_of(to, a));
+        if (in_b > 0 && !(weight_of(v, b) > 0)) difference += in_b;
+      }
+      steps[edges++] = difference * spacing / graph.lengths[e];
+    }
+  }
+  if (edges > 0) {
+    std::sort(steps.data, steps.data + edges);
+    out.roughness = steps[std::min(edges - 1, edges * 95 / 100)];
+  }
+  const uint32_t head = bone_of_kind(placement, BoneKind::kHead, 0);
+  SkinWeights none;
+  return carry_components(mesh, placement, head, scratch, none, &out);
+}
+
+}  // namespace mien::author

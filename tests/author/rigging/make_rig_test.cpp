@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "runtime/author/rigging/rigging.h"
+#include "runtime/dna/check/dna_check.h"
+#include "runtime/dna/format/dna_writer.h"
+#include "tests/support/counting_allocator.h"
+#include "tests/support/mesh_source.h"
+
+namespace mien::author {
+namespace {
+
+struct Made {
+  Arena arena{default_allocator()};
+  Rigging rigging;
+  Error error;
+  Status status = Status::kOk;
+  std::vector<uint8_t> bytes;
+  std::string report;
+
+  Made(const Made&) = delete;
+  explicit Made(TestMesh mesh, RiggingOptions options = {}, uint32_t joints = 40) {
+    options.place.facial_joints = joints;
+    const MeshSource source = mesh.source();
+    status = make_rig(source, options, arena, default_allocator(), rigging, error);
+    if (status != Status::kOk) return;
+    bytes.resize(dna::encoded_size(rigging.dna, {}));
+    dna::encode(rigging.dna, {}, bytes.data());
+    Span<const char> json;
+    EXPECT_TRUE(write_report(source, options, rigging, arena, json));
+    report.assign(json.data, json.count);
+  }
+  std::string why() const { return error.message; }
+};
+
+void run_on_eight(void*, uint32_t count, void (*task)(void*, uint32_t), void* context) {
+  std::vector<std::thread> threads;
+  for (uint32_t t = 0; t < 8; ++t) {
+    threads.emplace_back([=] {
+      for (uint32_t i = count; i-- > 0;) {
+        if (i % 8 == t) task(context, i);
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+}
+
+TEST(MakeRig, GivesTheSameBytesOnAnyNumberOfThreads) {
+  RiggingOptions options;
+  options.place.lods = 3;
+  const Made one(procedural_mesh(5, true), options);
+  ASSERT_EQ(one.status, Status::kOk) << one.why();
+  options.parallel.run = run_on_eight;
+  const Made eight(procedural_mesh(5, true), options);
+  EXPECT_EQ(one.bytes, eight.bytes);
+  EXPECT_EQ(one.report, eight.report);
+}
+
+TEST(MakeRig, WithoutShapesPlacesAndWeighsOnly) {
+  const Made made(procedural_mesh(5, false));
+  ASSERT_EQ(made.status, Status::kOk) << made.why();
+  EXPECT_NE(made.report.find("\"fit\":null"), std::string::npos);
+  EXPECT_GT(made.bytes.size(), 1000u);
+}
+
+TEST(MakeRig, LeavesOutLooseVerticesAndKeepsTheOrderOfTheOthers) {
+  TestMesh mesh = procedural_mesh(5, false);
+  TestMesh shifted;
+  shifted.vertex(1e6, 0, 0);  // in no face
+  shifted.positions.insert(shifted.positions.end(), mesh.positions.begin(), mesh.positions.end());
+  shifted.face_sizes = mesh.face_sizes;
+  for (const uint32_t corner : mesh.corners) shifted.corners.push_back(corner + 1);
+  const Made plain(mesh), with(shifted);
+  ASSERT_EQ(with.status, Status::kOk) << with.why();
+  EXPECT_EQ(with.rigging.read.loose_vertices, 1u);
+  EXPECT_EQ(plain.bytes, with.bytes);
+}
+
+TEST(MakeRig, StopsWhereItIsTold) {
+  struct Count {
+    int left;
+    double last;
+    static bool go_on(void* user, const char* step, double share) {
+      Count& count = *static_cast<Count*>(user);
+      EXPECT_NE(step, nullptr);
+      EXPECT_GE(share, count.last);
+      EXPECT_LE(share, 1);
+      count.last = share;
+      return count.left-- > 0;
+    }
+  };
+  for (int stop = 0; stop < 200; ++stop) {
+    Count count = {stop, 0};
+    RiggingOptions options;
+    options.place.lods = 2;
+    options.user = &count;
+    options.go_on = Count::go_on;
+    const Made made(procedural_mesh(7, true), options, 10);
+    if (made.status == Status::kOk) {
+      EXPECT_GT(stop, 4);
+      return;
+    }
+    EXPECT_EQ(made.status, Status::kAuthorCanceled) << stop;
+  }
+  ADD_FAILURE() << "it never ended";
+}
+
+TEST(MakeRig, TakesTheCallersBonesAndWeights) {
+  TestMesh mesh = procedural_mesh(5, true);
+  const double at[4][3] = {{0, 0, 0}, {0, -5, 0}, {2, -6, 8}, {-2, -6, 8}};
+  const char* const names[] = {"root", "head", "left", "right"};
+  std::vector<OwnBone> bones;
+  for (uint32_t b = 0; b < 4; ++b) {
+    OwnBone bone = {{names[b], strlen(names[b])},
+                    {at[b][0], at[b][1], at[b][2]},
+                    b < 2 ? 0u : 1u,
+                    b == 0   ? BoneKind::kRoot
+                    : b == 1 ? BoneKind::kHead
+                             : BoneKind::kFacial};
+    bones.push_back(bone);
+  }
+  RiggingOptions options;
+  options.bones = {bones.data(), bones.size()};
+  options.place.lods = 1;
+  const Made placed(mesh, options);
+  ASSERT_EQ(placed.status, Status::kOk) << placed.why();
+  EXPECT_EQ(placed.rigging.placement.bones.count, 4u);
+
+  const size_t n = mesh.positions.size() / 3;
+  std::vector<uint16_t> joints(2 * n);
+  std::vector<float> weights(2 * n);
+  for (size_t v = 0; v < n; ++v) {
+    joints[2 * v] = 1;
+    joints[2 * v + 1] = mesh.positions[3 * v] > 0 ? 2 : 3;
+    weights[2 * v] = 1;
+    weights[2 * v + 1] = 3;
+  }
+  options.influences = 2;
+  options.weights = {{joints.data(), joints.size()}, {weights.data(), weights.size()}};
+  const Made weighed(mesh, options);
+  ASSERT_EQ(weighed.status, Status::kOk) << weighed.why();
+  for (uint32_t v = 0; v < n; ++v) {
+    EXPECT_FLOAT_EQ(weighed.rigging.weights.weights[2 * v], 0.75f);
+    EXPECT_GE(weighed.rigging.weights.joints[2 * v], 2);
+  }
+
+  joints[0] = 4;
+  EXPECT_EQ(Made(mesh, options).status, Status::kAuthorMesh);
+  joints[0] = 1;
+  weights[0] = weights[1] = 0;
+  EXPECT_EQ(Made(mesh, options).status, Status::kAuthorMesh);
+  weights[0] = -1;
+  EXPECT_EQ(Made(mesh, options).status, Status::kAuthorMesh);
+  options.weights = {};
+  const auto refused = [&](uint32_t bone, const OwnBone& as) {
+    const OwnBone kept = bones[bone];
+    bones[bone] = as;
+    const Status status = Made(mesh, options).status;
+    bones[bone] = kept;
+    return status;
+  };
+  OwnBone wrong = bones[2];
+  wrong.parent = 2;
+  EXPECT_EQ(refused(2, wrong), Status::kAuthorMesh);
+  wrong = bones[3];
+  wrong.name = bones[2].name;
+  EXPECT_EQ(refused(3, wrong), Status::kAuthorMesh);
+  wrong.name = {"x", 1};
+  wrong.position[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(refused(3, wrong), Status::kAuthorMesh);
+  wrong = bones[1];
+  wrong.kind = BoneKind::kFacial;
+  EXPECT_EQ(refused(1, wrong), Status::kOk);
+  wrong.kind = BoneKind::kRoot;
+  EXPECT_EQ(refused(1, wrong), Status::kAuthorMesh);
+}
+
+TEST(MakeRig, NamesWhatIsWrongWithAMesh) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  struct Case {
+    const char* what;
+    Status status;
+    void (*spoil)(TestMesh& mesh, double nan);
+  } const cases[] = {
+      {"position 7", Status::kAuthorMesh, [](TestMesh& m, double x) { m.positions[22] = x; }},
+      {"corner 5", Status::kAuthorMesh, [](TestMesh& m, double) { m.corners[5] = 1u << 30; }},
+      {"face 2", Status::kAuthorMesh, [](TestMesh& m, double) { m.face_sizes[2] = 2; }},
+      {"beyond", Status::kAuthorMesh, [](TestMesh& m, double) { m.face_sizes.back() += 1; }},
+      {"corners", Status::kAuthorMesh,
+       [](TestMesh& m, double) { m.corners.resize(m.corners.size() + 3); }},
+      {"no faces", Status::kAuthorRefused,
+       [](TestMesh& m, double) {
+         m.face_sizes.clear();
+         m.corners.clear();
+       }},
+      {"flat", Status::kAuthorRefused,
+       [](TestMesh& m, double) {
+         for (size_t i = 2; i < m.positions.size(); i += 3) m.positions[i] = 4;
+       }},
+      {"0 cm of 0 cm", Status::kAuthorRefused,
+       [](TestMesh& m, double) {
+         for (size_t i = 0; i < m.positions.size(); ++i) m.positions[i] = 1;
+       }},
+      {"fewer than 3", Status::kAuthorRefused,
+       [](TestMesh& m, double) {
+         for (uint32_t& corner : m.corners) corner = 3;
+       }},
+      {"shape 0", Status::kAuthorMesh, [](TestMesh& m, double x) { m.displacements[0][5] = x; }},
+      {"shape 1", Status::kAuthorMesh, [](TestMesh& m, double) { m.displacements[1].resize(9); }},
+      {"two shapes", Status::kAuthorMesh,
+       [](TestMesh& m, double) { m.shape_names[1] = m.shape_names[0]; }},
+      {"name of shape", Status::kAuthorMesh, [](TestMesh& m, double) { m.shape_names[0] = ""; }},
+      {"object 0", Status::kAuthorMesh,
+       [](TestMesh& m, double) {
+         m.objects = {{{"a", 1}, 1, 5}};
+       }},
+  };
+  for (const Case& one : cases) {
+    TestMesh mesh = procedural_mesh(6, true);
+    one.spoil(mesh, nan);
+    const Made made(mesh);
+    EXPECT_EQ(made.status, one.status) << one.what;
+    EXPECT_NE(made.why().find(one.what), std::string::npos) << one.what << ": " << made.why();
+  }
+}
+
+TEST(MakeRig, TakesBrokenButUsableMeshes) {
+  TestMesh mesh = procedural_mesh(6, false);
+  for (int i = 0; i < 3; ++i) mesh.face({mesh.corners[0], mesh.corners[1], mesh.corners[2]});
+  mesh.face({5, 5, 6, 7});
+  mesh.face({5, 5, 6});
+  mesh.face({1, 2, 40});  // an edge of many faces
+  const Made made(mesh);
+  EXPECT_EQ(made.status, Status::kOk) << made.why();
+  EXPECT_EQ(made.rigging.read.dropped_faces, 1u);
+}
+
+TEST(MakeRig, SaysWhenMemoryRunsOut) {
+  TestMesh mesh = procedural_mesh(7, true);
+  for (size_t fail_at = 1; fail_at < 400; fail_at += fail_at < 40 ? 1 : 13) {
+    CountingAllocator counting;
+    counting.fail_at = fail_at;
+    const MienAllocator given = counting.get();
+    const Allocator allocator = {given.user, given.allocate, given.release};
+    Status status;
+    {
+      Arena arena(allocator);
+      Rigging rigging;
+      Error error;
+      RiggingOptions options;
+      options.place.facial_joints = 12;
+      options.place.lods = 2;
+      status = make_rig(mesh.source(), options, arena, allocator, rigging, error);
+    }
+    EXPECT_TRUE(counting.clean()) << fail_at << " " << counting.first_wrong;
+    EXPECT_EQ(status, counting.failed ? Status::kMemory : Status::kOk) << fail_at;
+    if (status == Status::kOk) return;
+  }
+}
+
+}  // namespace
+}  // namespace mien::author

@@ -1,0 +1,271 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""`mien author`: meshes of every format become rigs that are valid and can be drawn; what cannot be rigged
+is refused with the rule; broken files end in an error; Ctrl-C leaves nothing.
+
+    cli_author_test.py path/to/mien [unittest options]      (or MIEN_BIN=path/to/mien)
+"""
+import json
+import math
+import os
+import random
+import struct
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+from program import (USAGE, INVALID, FILE, ProgramTest,  # noqa: E402
+                     main, make_folder, path, read, run, write)
+
+SHARED = os.path.join(os.environ.get("MIEN_SHARED", os.path.join(
+    os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "shared")), "data", "meshes")
+
+
+def bust(rows=40, columns=48):
+    """Positions and quads of a head with nose, chin and neck, and two shapes of it."""
+    profile = [(-18, 5, 4, 6.5), (-14, 4.8, 3.4, 5.8), (-11.5, 4.9, 4, 5.8), (-10, 5.4, 8, 6),
+               (-8, 6, 9, 6.5), (-5, 6.8, 9.4, 8), (0, 7.5, 9.6, 9.6), (6, 7.4, 9, 9.5),
+               (10, 5.5, 6.5, 7.5), (12, 1, 1, 1)]
+    positions, faces = [], []
+    for r in range(rows):
+        y = -18 + 30 * r / (rows - 1)
+        k = max(i for i in range(len(profile) - 1) if profile[i][0] <= y)
+        a, b = profile[k], profile[k + 1]
+        t = (y - a[0]) / (b[0] - a[0])
+        width, front, back = (a[i] + (b[i] - a[i]) * t for i in (1, 2, 3))
+        for c in range(columns):
+            turn = 2 * math.pi * c / columns
+            x, z = width * math.sin(turn), math.cos(turn)
+            z *= front if z > 0 else back
+            if abs(turn) < 1 or turn > 5.3:
+                z += 2 * math.exp(-(x * x / 2 + (y + 1) ** 2 / 2))
+            positions.append((round(x, 6), round(y, 6), round(z, 6)))
+    for r in range(rows - 1):
+        for c in range(columns):
+            d = (c + 1) % columns
+            faces.append((r * columns + c, r * columns + d, (r + 1) * columns + d,
+                          (r + 1) * columns + c))
+    shapes = {}
+    for name, (cx, cy) in {"smile": (3, -6), "jawOpen": (0, -9)}.items():
+        shapes[name] = [tuple(s * math.exp(-((abs(x) - cx) ** 2 + (y - cy) ** 2) / 6) * (z > 2)
+                              for s in ((0.3, 0.6, -0.2) if name == "smile" else (0, -2, -1)))
+                        for x, y, z in positions]
+    return positions, faces, shapes
+
+
+def obj(positions, faces, names=None):
+    lines = [f"v {x} {y} {z}" for x, y, z in positions]
+    for at, face in enumerate(faces):
+        if names and at in names:
+            lines.append("o " + names[at])
+        lines.append("f " + " ".join(str(v + 1) for v in face))
+    return "\n".join(lines) + "\n"
+
+
+def moved(positions, shape):
+    return [tuple(a + b for a, b in zip(p, d)) for p, d in zip(positions, shape)]
+
+
+def glb(positions, faces, shapes, edit=None, scale=0.01):
+    """With indices of 16 bits and morph targets, in meters."""
+    triangles = [v for f in faces for v in (f[0], f[1], f[2], f[0], f[2], f[3])]
+    blocks, views, accessors = b"", [], []
+
+    def add(data, kind, count, component):
+        nonlocal blocks
+        views.append({"buffer": 0, "byteOffset": len(blocks), "byteLength": len(data)})
+        accessors.append({"bufferView": len(views) - 1, "type": kind, "count": count,
+                          "componentType": component})
+        blocks += data + b"\0" * (-len(data) % 4)
+        return len(accessors) - 1
+
+    def vectors(rows):
+        return b"".join(struct.pack("<3f", *(scale * c for c in row)) for row in rows)
+
+    primitive = {"attributes": {"POSITION": add(vectors(positions), "VEC3", len(positions), 5126)},
+                 "indices": add(struct.pack(f"<{len(triangles)}H", *triangles), "SCALAR",
+                                len(triangles), 5123),
+                 "targets": [{"POSITION": add(vectors(rows), "VEC3", len(rows), 5126)}
+                             for rows in shapes.values()]}
+    root = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+            "nodes": [{"mesh": 0}], "accessors": accessors, "bufferViews": views,
+            "buffers": [{"byteLength": len(blocks)}],
+            "meshes": [{"name": "face", "primitives": [primitive],
+                        "extras": {"targetNames": list(shapes)}}]}
+    if edit:
+        edit(root)
+    text = json.dumps(root).encode()
+    text += b" " * (-len(text) % 4)
+    return struct.pack("<4sII", b"glTF", 2, 20 + len(text) + 8 + len(blocks)) + \
+        struct.pack("<II", len(text), 0x4E4F534A) + text + \
+        struct.pack("<II", len(blocks), 0x004E4942) + blocks
+
+
+def mshp(positions, shapes):
+    data = struct.pack("<4s4I", b"MSHP", 1, len(positions), len(shapes), 2)
+    for name, rows in shapes.items():
+        kept = [(v, d) for v, d in enumerate(rows) if max(map(abs, d)) > 1e-3]
+        data += struct.pack("<B", len(name)) + name.encode() + struct.pack("<fI", 1e-3, len(kept))
+        data += struct.pack(f"<{len(kept)}H", *(v for v, _ in kept))
+        data += b"".join(struct.pack("<3h", *(round(1000 * c) for c in d)) for _, d in kept)
+    return data
+
+
+def setUpModule():
+    global POSITIONS, FACES, SHAPES
+    make_folder()
+    POSITIONS, FACES, SHAPES = bust()
+    write("head.obj", obj(POSITIONS, FACES))
+    os.makedirs(path("shapes"), exist_ok=True)
+    os.makedirs(path("targets"), exist_ok=True)
+    for name, rows in SHAPES.items():
+        write(f"shapes/{name}.obj", obj(moved(POSITIONS, rows), FACES))
+        write(f"targets/{name}.target", "# index dx dy dz\n" + "".join(
+            f"{v} {d[0]:.6f} {d[1]:.6f} {d[2]:.6f}\n" for v, d in enumerate(rows)
+            if max(map(abs, d)) > 1e-6))
+    write("head.glb", glb(POSITIONS, FACES, SHAPES))
+    write("shapes.mshp", mshp(POSITIONS, SHAPES))
+
+
+class AuthorTest(ProgramTest):
+    def author(self, *arguments, name="out"):
+        self.ok("author", *arguments, "-o", path(name + ".dna"), "--report", path(name + ".json"))
+        self.ok("validate", path(name + ".dna"))
+        return json.loads(read(name + ".json"))
+
+    def test_a_mesh_alone_gives_joints_and_weights(self):
+        report = self.author(path("head.obj"), "--joints", "40", "--lods", "3")
+        self.assertIsNone(report["fit"])
+        self.assertEqual(report["facial_joints"], 40)
+        self.assertEqual(sum(report["groups"]["counts"]), len(POSITIONS))
+        self.assertEqual(len(report["objective"]["runs"]), 8)
+        self.assertEqual(min(report["objective"]["runs"]), report["objective"]["chosen"])
+        self.assertTrue(report["throat"])
+        self.assertTrue(set(report["mask"]) <= set(range(len(POSITIONS))))
+        self.assertGreater(report["seconds"]["total"], 0)
+        self.ok("render", path("out.dna"), "-o", path("out.png"))
+
+    def test_every_format_of_shapes_gives_the_same_rig(self):
+        errors = []
+        for at, shapes in enumerate(("shapes", "targets", "shapes.mshp", None)):
+            arguments = [path("head.obj"), "--shapes", path(shapes)] if shapes else [path("head.glb")]
+            report = self.author(*arguments, "--joints", "30", "--lods", "2", name=f"format{at}")
+            self.assertEqual(set(report["fit"]["per_shape"]), set(SHAPES))
+            errors.append((report["fit"]["joints_error"], report["throat"]["y"]))
+        for error, throat in errors[1:]:
+            self.assertAlmostEqual(error, errors[0][0], delta=0.01)
+            self.assertAlmostEqual(throat, errors[0][1], places=3)
+
+    def test_unit_and_axes_change_nothing_but_those_of_the_file(self):
+        turned = [(10 * x, -10 * z, 10 * y) for x, y, z in POSITIONS]
+        write("turned.obj", obj(turned, FACES))
+        one = self.author(path("head.obj"), "--joints", "30", "--lods", "1", name="one")
+        two = self.author(path("turned.obj"), "--joints", "30", "--lods", "1", "--unit", "mm", "--up",
+                          "z", "--front", "-y", name="two")
+        self.assertEqual(one["mask"], two["mask"])
+        for a, b in zip(one["bones"], two["bones"]):
+            self.assertEqual(a["name"], b["name"])
+            x, y, z = b["position"]
+            for here, there in zip(a["position"], (x, z, -y)):
+                self.assertAlmostEqual(here, there, places=3)
+
+    def test_threads_do_not_change_the_bytes(self):
+        files = []
+        for threads in ("1", "7"):
+            self.author(path("head.glb"), "--joints", "30", "--lods", "2", "--threads", threads)
+            files.append(read("out.dna"))
+        self.assertEqual(files[0], files[1])
+
+    def test_objects_become_meshes(self):
+        positions = POSITIONS + [(1, 0, 3), (2, 0, 3), (1, 1, 3)]
+        n = len(POSITIONS)
+        write("two.obj", obj(positions, FACES + [(n, n + 1, n + 2)], {0: "skin", len(FACES): "brow"}))
+        report = self.author(path("two.obj"), "--joints", "20", "--lods", "1")
+        self.assertEqual(report["mesh"]["objects"], 2)
+        self.assertIn("brow", " ".join(self.names("out.dna", "meshes")))
+
+    def test_what_cannot_be_rigged_is_refused_with_the_rule(self):
+        flat = [(x, y, 0) for x, y, _ in POSITIONS]
+        for name, text, words in (
+                ("empty", "", "no faces"), ("points", "v 0 0 0\nv 1 1 1\n", "no faces"),
+                ("flat", obj(flat, FACES), "flat"),
+                ("one", obj([(0, 0, 0)], [(0, 0, 0)]), "fewer than 3"),
+                ("nan", obj(POSITIONS, FACES).replace("v 0.0", "v nan", 1), "line"),
+                ("infinite", "v 1e999 0 0\n", "line 1"),
+                ("index", obj(POSITIONS, [(0, 1, 99999999)]), "there is no position"),
+                ("negative", "v 0 0 0\nf -1 -2 -3\n", "there is no position"),
+                ("corner", "v 0 0 0\nf 1 1\n", "at least 3"),
+                ("huge", "v 0 0 0\nf 1 2 99999999999999999999\n", "line 2")):
+            source = write(name + ".obj", text)
+            self.fails(INVALID, "author", source, "-o", path("no.dna"), says=words)
+            self.assertFalse(os.path.exists(path("no.dna")), name)
+
+    def test_wrong_usage_is_told_before_anything_is_read(self):
+        for option in (("--joints", "0"), ("--joints", "x"), ("--influences", "13"), ("--lods", "9"),
+                       ("--lods", "0"), ("--unit", "inch"), ("--up", "w"), ("--front", "y"),
+                       ("--symmetry", "maybe"), ("--residual", "some"), ("--groups", "1")):
+            self.fails(USAGE, "author", path("missing.obj"), *option, "-o", path("no.dna"))
+        self.fails(FILE, "author", path("missing.obj"), "-o", path("no.dna"))
+        self.fails(FILE, "author", path("head.obj"), "--shapes", path("missing"), "-o", path("no.dna"))
+
+    def test_shapes_of_another_mesh_are_refused(self):
+        other, faces, _ = bust(20, 20)
+        os.makedirs(path("other"), exist_ok=True)
+        write("other/smile.obj", obj(other, faces))
+        self.fails(INVALID, "author", path("head.obj"), "--shapes", path("other"), "-o", path("no.dna"),
+                   says="positions")
+        self.fails(INVALID, "author", write("small.obj", obj(other, faces)), "--shapes",
+                   path("shapes.mshp"), "-o", path("no.dna"), says="positions")
+
+    def test_broken_files_end_in_an_error(self):
+        generator = random.Random(4)
+        small, faces, shapes = bust(8, 8)
+        sources = {"glb": glb(small, faces, shapes), "mshp": mshp(small, shapes),
+                   "obj": obj(small, faces).encode()}
+        mesh = write("few.obj", obj(small, faces))
+        for kind, data in sources.items():
+            for _ in range(25):
+                broken = bytearray(data[:generator.randrange(len(data))]
+                                   if generator.random() < 0.4 else data)
+                for _ in range(generator.randrange(1, 8)):
+                    if broken:
+                        broken[generator.randrange(len(broken))] = generator.randrange(256)
+                source = write("broken." + kind, bytes(broken))
+                arguments = (mesh, "--shapes", source) if kind == "mshp" else (source,)
+                done = run("author", *arguments, "--joints", "8", "--lods", "1", "-o",
+                                        path("broken.dna"))
+                self.assertIn(done.returncode, (0, INVALID), done.stderr)
+
+    def test_glb_that_points_outside_is_refused(self):
+        def change(where, value):
+            def edit(root):
+                target = root
+                for key in where[:-1]:
+                    target = target[key]
+                target[where[-1]] = value
+            return edit
+        cases = [(("accessors", 0, "count"), 10 ** 8), (("bufferViews", 0, "byteLength"), 10 ** 9),
+                 (("nodes", 0, "mesh"), 7), (("accessors", 0, "type"), "VEC2"),
+                 (("accessors", 0, "componentType"), 7), (("nodes", 0, "children"), [0]),
+                 (("extensionsRequired",), ["KHR_draco_mesh_compression"]),
+                 (("buffers", 0, "uri"), "other.bin"), (("accessors", 1, "byteOffset"), -4),
+                 (("nodes", 0, "matrix"), [1, 2]), (("meshes", 0, "primitives"), [3])]
+        for where, value in cases:
+            source = write("wrong.glb", glb(POSITIONS, FACES, SHAPES, change(where, value)))
+            self.fails(INVALID, "author", source, "-o", path("no.dna"))
+
+    def test_real_meshes_where_there_are_some(self):
+        if not os.path.isdir(SHARED):
+            self.skipTest(f"no meshes in {SHARED}")
+        mask = self.author(os.path.join(SHARED, "mediapipe", "canonical_face_model.obj"), "--joints",
+                           "60", "--lods", "4")
+        self.assertTrue(mask["face_only"])
+        self.assertLess(mask["uncovered"], 0.01)
+        ict = self.author(os.path.join(SHARED, "ict", "ict_neutral.obj"), "--joints", "120", "--lods", "1")
+        self.assertTrue(ict["symmetry"]["enforced"])
+        self.assertEqual(ict["eyes"], 2)
+        self.assertEqual(ict["weights"]["split_supports"], 0)
+        self.assertLess(ict["uncovered"], 0.01)
+
+
+if __name__ == "__main__":
+    main()
