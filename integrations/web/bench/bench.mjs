@@ -9,8 +9,8 @@ import { join } from "node:path";
 import { api, Mien, mien, project } from "../tests/support.mjs";
 
 const FRAMES = 64;
-const ROUNDS = 40;
-const TURNS = 5;
+const ROUNDS = 15;
+const TURNS = 12;
 const ACTIVE = 0.08; // share of controls that are not 0
 
 const median = (values) => values.slice().sort((a, b) => a - b)[values.length >> 1];
