@@ -9,10 +9,14 @@ import json
 import math
 import os
 import random
+import signal
 import struct
+import subprocess
 import sys
+import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+import program  # noqa: E402
 from program import (USAGE, INVALID, FILE, ProgramTest,  # noqa: E402
                      main, make_folder, path, read, run, write)
 
@@ -252,6 +256,19 @@ class AuthorTest(ProgramTest):
         for where, value in cases:
             source = write("wrong.glb", glb(POSITIONS, FACES, SHAPES, change(where, value)))
             self.fails(INVALID, "author", source, "-o", path("no.dna"))
+
+    @unittest.skipUnless(hasattr(os, "mkfifo"), "no pipes with names")
+    def test_an_interrupt_ends_with_130_and_leaves_nothing(self):
+        pipe = path("pipe.obj")
+        os.mkfifo(pipe)
+        before = sorted(os.listdir(os.path.dirname(pipe)))
+        process = subprocess.Popen([program.mien, "author", pipe, "-o", path("no.dna"), "--report",
+                                    path("no.json")], stderr=subprocess.PIPE)
+        with open(pipe, "wb"):  # once it reads
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        self.assertEqual(sorted(os.listdir(os.path.dirname(pipe))), before)
 
     def test_real_meshes_where_there_are_some(self):
         if not os.path.isdir(SHARED):

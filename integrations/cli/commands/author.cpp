@@ -147,7 +147,6 @@ struct Made {
 Made make_rig(const AuthorCommand& command, MienAuthorDesc desc, const MeshFile& file,
               const Session& session) {
   const MeshView view(file);
-  const EndOnInterrupt interrupt;
   ThreadPool pool(parse_count("--threads", command.threads, 0, 1024));
   const MienParallelFor parallel = pool.parallel_for();
   Watch watch(session);
@@ -203,6 +202,7 @@ void run(const AuthorCommand& command, const Session& session) {
       fail_usage("--report " + command.report, "this is also the output", "give another name");
     }
   }
+  auto interrupt = std::make_unique<EndOnInterrupt>();
   MeshFile file = read_mesh_file(command.mesh);
   if (!command.shapes.empty()) file.shapes = read_shapes(command.shapes, file);
   // glTF is in meters.
@@ -210,6 +210,7 @@ void run(const AuthorCommand& command, const Session& session) {
 
   const Made made = make_rig(command, desc, file, session);
   note_oddities(command, made.report, session);
+  interrupt.reset();  // files that are being written have a handler of their own
   std::unique_ptr<Output> report;
   if (!command.report.empty()) {
     report = std::make_unique<Output>(command.report);
