@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/mix/mixer.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstring>
