@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <cstring>
 
 #include "runtime/author/dna_making.h"
@@ -47,9 +48,13 @@ class Json {
   void number(double value) {
     separate();
     char digits[40];
+#if defined(__EMSCRIPTEN__)  // its library has no std::to_chars() of floats, and one locale only
+    text(digits, static_cast<size_t>(snprintf(digits, sizeof(digits), "%.9g", value)));
+#else
     const auto end =
         std::to_chars(digits, digits + sizeof(digits), value, std::chars_format::general, 9).ptr;
     text(digits, static_cast<size_t>(end - digits));
+#endif
   }
   void whole(uint64_t value) {
     separate();
