@@ -16,11 +16,13 @@ namespace {
 struct WidePath {
   wchar_t* text = nullptr;  // null if there is no memory, or if the path is not UTF-8
   size_t capacity = 0;
+  bool is_utf8 = false;
   Allocator allocator;
 
   WidePath(const char* path, const Allocator& memory) : allocator(memory) {
     const int count = MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, path, -1, nullptr, 0);
     if (count <= 0) return;
+    is_utf8 = true;
     wchar_t* plain = make(static_cast<size_t>(count));
     if (!plain) return;
     MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, path, -1, plain, count);
@@ -48,6 +50,12 @@ struct WidePath {
     return static_cast<wchar_t*>(allocator.get(sizeof(wchar_t) * count, alignof(wchar_t)));
   }
 };
+
+Status fail_path(Error& error, Status status, const char* action, const char* path,
+                 const WidePath& wide) {
+  return wide.is_utf8 ? fail_file(error, Status::kMemory, action, path, "no memory")
+                      : fail_file(error, status, action, path, "not UTF-8");
+}
 
 Status fail_with(Error& error, Status status, const char* path, DWORD reason) {
   char text[128] = "";
@@ -99,7 +107,7 @@ Status open_file(const char* path, FileAccess access, const FileLimits& limits,
   out = {};
   const WidePath wide(path, allocator);
   if (!wide.text) {
-    return fail_file(error, Status::kFileOpen, "open", path, "no memory, or not UTF-8");
+    return fail_path(error, Status::kFileOpen, "open", path, wide);
   }
   // Others may rename and delete the file while it is open, as elsewhere.
   const HANDLE file = CreateFileW(wide.text, GENERIC_READ, FILE_SHARE_READ | FILE_SHARE_DELETE,
@@ -140,7 +148,7 @@ Status write_file(const char* path, const uint8_t* bytes, size_t size, const All
                   Error& error) {
   const WidePath to(path, allocator);
   if (!to.text) {
-    return fail_file(error, Status::kFileWrite, "write", path, "no memory, or not UTF-8");
+    return fail_path(error, Status::kFileWrite, "write", path, to);
   }
   size_t folder = 0, length = 0;
   for (; to.text[length]; ++length) {

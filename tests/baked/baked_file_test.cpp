@@ -84,8 +84,13 @@ void for_each_way(const Bytes& bytes, const std::function<void(const Way&, MienB
   MienBakedDesc map = sized<MienBakedDesc>(), read = map;
   map.check = read.check = MIEN_BAKED_CHECK_FULL;
   read.file_access = MIEN_FILE_READ;
-  f({"mapped", 1, from_file}, map);
-  f({"read", 2, from_file}, read);
+#if defined(_WIN32)
+  constexpr size_t kPath = 1;  // in the letters of the system
+#else
+  constexpr size_t kPath = 0;
+#endif
+  f({"mapped", kPath + 1, from_file}, map);
+  f({"read", kPath + 2, from_file}, read);
   f({"memory", 1, from_memory}, map);
   f({"memory, copied", 1, from_memory}, read);
   f({"misaligned memory", 1, from_misaligned}, map);
