@@ -1867,7 +1867,13 @@ enum MienGenerator {
     MIEN_GENERATOR_BLINK = 0,  /* every `period` on average, at least 0.5 s apart. The wait starts over
                                   when earlier layers raise the first lane above 0.6 */
     MIEN_GENERATOR_BREATH = 1, /* 0 to 1 in 40 % of the period, back to 0 in the rest */
-    MIEN_GENERATOR_NOISE = 2   /* smooth between -1 and 1; a new random value every period */
+    MIEN_GENERATOR_NOISE = 2,  /* smooth between -1 and 1; a new random value every period */
+    MIEN_GENERATOR_GAZE = 3    /* turns the eyes to a place with saccades: MienMixDesc.gaze. `lanes` are the
+                                  left, up and front of a MienGazeTarget, as earlier layers made them,
+                                  then, if wanted, two lanes that get what is left for the head, a
+                                  MienGazeRest. `amounts` are fixation jitter across and up in degrees, 0,
+                                  and factors for the two lanes of the head. Blinks of the mix follow
+                                  shifts of 20 degrees and more */
 };
 
 /* A layer of a mix. Leave the fields that its source does not use at zero. */
@@ -1947,6 +1953,33 @@ enum MienGuard {
     MIEN_GUARD_ALL = 7
 };
 
+/* No mesh: points are joints. */
+#define MIEN_NO_MESH 0xFFFFFFFF
+/* No raw control. */
+#define MIEN_NO_CONTROL 0xFFFF
+
+/* A place of a face: the middle of some positions of a mesh that LOD 0 shows, or of some joints. */
+typedef struct MienLandmark {
+    const uint32_t* points; /* positions of the mesh, or joints */
+    uint32_t point_count;   /* 1 to 65536 */
+    uint32_t mesh;          /* whose positions they are. MIEN_NO_MESH: they are joints */
+} MienLandmark;
+
+/* A guard for landmarks of the caller: the distance of `upper` above `lower`, along the axis that points
+ * up, must not be opened. */
+typedef struct MienMixGuard {
+    MienLandmark upper;
+    MienLandmark lower;
+    uint32_t closed_by;    /* raw control that makes both touch at 1. MIEN_NO_CONTROL: they do at rest */
+    uint32_t needs_speech; /* boolean: acts no more than the largest weight of a speech layer */
+    float tolerance;       /* millimeters by which later layers may open, 0 or more; 0.3 for the others */
+    float f_on;            /* acts where base and speech open by less, fully at 0. Millimeters above 0; 12
+                              for lips, 6 for lids */
+} MienMixGuard;
+
+/* Which controls turn the eyes of a rig, and how far. Immutable. */
+typedef struct MienGaze MienGaze;
+
 /* What to mix. Everything is copied. */
 typedef struct MienMixDesc {
     size_t struct_size;
@@ -1962,7 +1995,10 @@ typedef struct MienMixDesc {
                                               itself. NULL: nothing can be played mirrored */
     const float* lower;                    /* limits per lane. NULL: none; both or neither */
     const float* upper;
-    const MienDeformer* deformer;          /* for measuring the guards; may be NULL if guards is 0 */
+    const MienMixGuard* custom_guards;     /* act after the others; at most 8 with them */
+    size_t custom_guard_count;
+    const MienGaze* gaze;                  /* for a layer with MIEN_GENERATOR_GAZE, copied; may be NULL */
+    const MienDeformer* deformer;          /* for measuring the guards; may be NULL if there are none */
     uint32_t guards;                       /* MIEN_GUARD_... bits; without landmarks a guard is left out */
     uint32_t variable_count;               /* pose variables; with the raw controls at most 4096 lanes */
     uint32_t player_count;                 /* clips that play at a time; a crossfade needs two.
@@ -1979,8 +2015,9 @@ MIEN_DEFAULT(MienMixDesc, mien_mix_desc_default)
 /* Creates a mix for a rig. `desc` is required. `rig` may be destroyed afterwards, and so may the
  * deformer. Measuring guards takes time: it evaluates and deforms the rig at LOD 0 for each raw control
  * and for pairs that share a corrective. Destroy with mien_mix_destroy().
- * Fails with MIEN_ERROR_MISMATCH if the deformer is of another rig,
- * MIEN_ERROR_INVALID_ARGUMENT if a part of `desc` is out of range; the message names it. */
+ * Fails with MIEN_ERROR_MISMATCH if deformer or gaze are of another rig, MIEN_ERROR_INDEX if a landmark
+ * names a mesh, position or joint that does not exist, MIEN_ERROR_INVALID_ARGUMENT if a part of `desc` is
+ * out of range; the message names it. */
 MIEN_CHECKED MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc,
                                         MienMix** out_mix, MienError* error);
 
@@ -2003,6 +2040,35 @@ MIEN_DEFAULT(MienMixInfo, mien_mix_info_default)
 
 /* Returns the properties of a mix. */
 MIEN_CHECKED MienStatus mien_mix_info(const MienMix* mix, MienMixInfo* out_info);
+
+/* A guard of a mix, as it was measured: the distance in millimeters is `rest`, the sum of gain times lane,
+ * and a sum over pairs of lanes that share a corrective. docs/mixing.md, 4 "Guards". */
+typedef struct MienMixGuardInfo {
+    size_t struct_size;
+    MienIndex16View lanes; /* raw controls that change it, by falling gain */
+    MienFloatView gains;   /* 1 float per lane: millimeters at value 1 */
+    uint32_t pair_count;
+    uint32_t needs_speech; /* boolean: as in MienMixGuard */
+    float rest;            /* distance of a row of zeros */
+    float tolerance;       /* as in MienMixGuard */
+    float f_on;
+    float fit_error;       /* millimeters, root mean square over rows that were tried */
+} MienMixGuardInfo;
+MIEN_DEFAULT(MienMixGuardInfo, mien_mix_guard_info_default)
+
+/* Returns what was measured of a guard. `guard_index` counts as in mien_mixer_set_guard(), from 0 to
+ * MienMixInfo.guard_count - 1; mien_mixer_guard() has its name.
+ * Fails with MIEN_ERROR_INDEX if there is no such guard. */
+MIEN_CHECKED MienStatus mien_mix_guard(const MienMix* mix, uint32_t guard_index,
+                                       MienMixGuardInfo* out_guard);
+
+/* Gives the strokes of a response to a light in the eyes, of which there are 5. Their poses are, from
+ * `first_pose` on: lids closed; squint and lowered brows; gaze turned away; narrow pupils; head turned
+ * away. docs/mixing.md, 3 "Reactions" has the times. `out_reaction` gets these strokes and the rules of
+ * the reaction.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if `stroke_count` is less than 5. */
+MIEN_CHECKED MienStatus mien_mix_glare(uint32_t first_pose, MienMixStroke* out_strokes,
+                                       size_t stroke_count, MienMixReaction* out_reaction);
 
 /* Finds antagonists: pairs of raw controls that the two halves of one GUI control drive, and nothing
  * else does. Writes as many as there is room for, with stiffness 1; `out_count` tells how many there are.
@@ -2027,9 +2093,6 @@ MIEN_CHECKED MienStatus mien_mix_mirror(const MienDeformer* deformer, uint16_t* 
 MIEN_CHECKED MienStatus mien_mix_mask(const MienRig* rig, const uint32_t* groups, size_t group_count,
                                       float otherwise_weight, float* out_mask, size_t lane_count,
                                       MienError* error);
-
-/* Which controls turn the eyes of a rig, and how far. Immutable. */
-typedef struct MienGaze MienGaze;
 
 /* How to create a gaze. */
 typedef struct MienGazeDesc {
@@ -2153,20 +2216,20 @@ MIEN_CHECKED MienStatus mien_mixer_set_variable(MienMixer* mixer, uint32_t varia
 
 /* Sets how much a guard acts: `activation` is 0 ... 1. If it is negative, the default, the guard acts as
  * far as base and speech close its distance; those of lips and teeth act no more than the largest weight
- * of a speech layer. Guards are numbered in this order, without those that were not asked for or not
- * found: lips left, center and right, teeth, lower lip to upper teeth, left lids, right lids. Does not
- * allocate or lock.
- * Fails with MIEN_ERROR_INDEX if the guard does not exist. */
-MIEN_CHECKED MienStatus mien_mixer_set_guard(MienMixer* mixer, uint32_t guard, float activation);
+ * of a speech layer. mien_mixer_guard() tells which `guard_index` is which guard. Does not allocate or lock.
+ * Fails with MIEN_ERROR_INDEX if the guard does not exist, MIEN_ERROR_INVALID_ARGUMENT if `activation` is
+ * above 1 or not a number. */
+MIEN_CHECKED MienStatus mien_mixer_set_guard(MienMixer* mixer, uint32_t guard_index,
+                                             float activation);
 
 /* What a guard did in the last step. Distances are in millimeters, of the function of raw controls that was
  * measured on the rig; below 0 both sides overlap. */
 typedef struct MienGuardState {
     size_t struct_size;
     MienStringView name;       /* "lips left", "lips center", "lips right", "teeth", "lower lip to teeth",
-                                  "left lids" or "right lids" */
+                                  "left lids", "right lids" or "custom" */
     MienIndex16View controls;  /* raw controls that it may hold back */
-    uint32_t kind;             /* MIEN_GUARD_... */
+    uint32_t kind;             /* MIEN_GUARD_...; 0: it is of MienMixDesc.custom_guards */
     float activation;          /* how much it acted, 0 to 1 */
     float protected_distance;  /* after the last layer of base and speech */
     float wanted;              /* after the later layers and reactions that come before the guards */
@@ -2176,10 +2239,10 @@ typedef struct MienGuardState {
 } MienGuardState;
 MIEN_DEFAULT(MienGuardState, mien_guard_state_default)
 
-/* Returns what a guard did in the last step. `guard` counts as in mien_mixer_set_guard(). Views are of the
- * mix.
+/* Returns what a guard did in the last step. `guard_index` counts as in mien_mixer_set_guard(). Views are of
+ * the mix.
  * Fails with MIEN_ERROR_INDEX if the guard does not exist. */
-MIEN_CHECKED MienStatus mien_mixer_guard(const MienMixer* mixer, uint32_t guard,
+MIEN_CHECKED MienStatus mien_mixer_guard(const MienMixer* mixer, uint32_t guard_index,
                                          MienGuardState* out_state);
 
 /* Starts a reaction to a stimulus of `strength`, 0 ... 1, that lasts `hold_ticks`, at most 2^40; if

@@ -11,7 +11,7 @@ using namespace mien::capi;
 static_assert(MIEN_LAYER_GROUP_LIFE == int(LayerGroup::kLife) &&
                   MIEN_BLEND_MODE_SCALE == int(BlendMode::kScale) &&
                   MIEN_LAYER_SOURCE_GENERATOR == int(LayerSource::kGenerator) &&
-                  MIEN_GENERATOR_NOISE == int(Generator::kNoise) &&
+                  MIEN_GENERATOR_GAZE == int(Generator::kGaze) &&
                   MIEN_RETRIGGER_IGNORE == int(Retrigger::kIgnore),
               "mix.h and mien.h number the same choices");
 
@@ -94,19 +94,22 @@ struct MixLists {
   }
 };
 
+constexpr uint32_t kMaxLandmarkPoints = 65536;
+
 /// What the mix cannot see, because it takes spans and enums of 8 bits.
 MienStatus check_mix_desc(const MienMixDesc& desc, MienError* error) {
   if ((!desc.layers && desc.layer_count != 0) || (!desc.poses && desc.pose_count != 0) ||
       (!desc.reactions && desc.reaction_count != 0) ||
       (!desc.antagonists && desc.antagonist_count != 0) || (!desc.lower != !desc.upper) ||
-      (!desc.deformer && (desc.guards & MIEN_GUARD_ALL) != 0)) {
+      (!desc.custom_guards && desc.custom_guard_count != 0) ||
+      (!desc.deformer && ((desc.guards & MIEN_GUARD_ALL) != 0 || desc.custom_guard_count != 0))) {
     return give_error(error, MIEN_ERROR_NULL_ARGUMENT,
                       "MienMixDesc: an array is NULL, but its count is not 0; one of the limits is "
                       "NULL; or guards are not 0 without a deformer");
   }
   if (desc.layer_count > kMaxLayers || desc.pose_count > kMaxPoses ||
       desc.reaction_count > kMaxReactions || desc.antagonist_count > kMaxLanes ||
-      desc.guards > MIEN_GUARD_ALL || desc.reserved != 0) {
+      desc.guards > MIEN_GUARD_ALL || desc.custom_guard_count > kMaxGuards || desc.reserved != 0) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
                       "MienMixDesc: too many layers, poses, reactions or antagonists, unknown "
                       "guards, or .reserved is not 0");
@@ -117,13 +120,22 @@ MienStatus check_mix_desc(const MienMixDesc& desc, MienError* error) {
       return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "layer %zu: lanes is NULL", i);
     }
     if (layer.group > MIEN_LAYER_GROUP_LIFE || layer.mode > MIEN_BLEND_MODE_SCALE ||
-        layer.source > MIEN_LAYER_SOURCE_GENERATOR || layer.generator > MIEN_GENERATOR_NOISE ||
+        layer.source > MIEN_LAYER_SOURCE_GENERATOR || layer.generator > MIEN_GENERATOR_GAZE ||
         layer.reserved != 0) {
       return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
                         "layer %zu: group, mode, source or generator is none of its values, or "
                         "reserved is not 0",
                         i);
     }
+  }
+  for (size_t i = 0; i < desc.custom_guard_count; ++i) {
+    const MienMixGuard& guard = desc.custom_guards[i];
+    if (guard.upper.point_count <= kMaxLandmarkPoints &&
+        guard.lower.point_count <= kMaxLandmarkPoints && guard.closed_by <= MIEN_NO_CONTROL) {
+      continue;
+    }
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "custom guard %zu: too many points, or closed_by is out of range", i);
   }
   for (size_t i = 0; i < desc.pose_count; ++i) {
     const MienMixPose& pose = desc.poses[i];
@@ -159,25 +171,45 @@ uint32_t guard_bit(StandardGuard kind) {
   }
 }
 
-/// Measures those of the standard guards that are wanted and whose landmarks are found.
-Status measure_guards(const Deformer& deformer, uint32_t wanted, const Allocator& allocator,
-                      Arena& arena, Guard (&guards)[kStandardGuardCount], uint32_t& count,
-                      Error& error) {
+static_assert(sizeof(kOfJoints) == 4 && kOfJoints == MIEN_NO_MESH &&
+                  kNoControl == MIEN_NO_CONTROL && kStandardGuardCount < kMaxGuards,
+              "guards of the caller are those of the runtime");
+
+Landmark landmark_of(const MienLandmark& from) {
+  return {from.mesh, {from.points, from.points ? from.point_count : 0}};
+}
+
+/// Measures those of the standard guards that are wanted and whose landmarks are found, and the
+/// caller's.
+Status measure_guards(const Deformer& deformer, const MienMixDesc& desc, const Allocator& allocator,
+                      Arena& arena, Guard (&guards)[kMaxGuards], uint32_t& count, Error& error) {
   StandardGuards found = {};
-  const Status status = find_standard_guards(deformer, allocator, arena, found, error);
-  if (status != Status::kOk) return status;
-  GuardDesc descs[kStandardGuardCount];
+  if (desc.guards != 0) {
+    const Status status = find_standard_guards(deformer, allocator, arena, found, error);
+    if (status != Status::kOk) return status;
+  }
+  GuardDesc descs[kMaxGuards];
   count = 0;
   for (uint32_t i = 0; i < found.count; ++i) {
-    if ((wanted & guard_bit(found.kinds[i])) != 0) descs[count++] = found.descs[i];
+    if ((desc.guards & guard_bit(found.kinds[i])) != 0) descs[count++] = found.descs[i];
+  }
+  if (desc.custom_guard_count > kMaxGuards - count) {
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "%u guards of the rig and %zu of the caller; a mix has at most %u", count,
+                desc.custom_guard_count, kMaxGuards);
+  }
+  for (size_t i = 0; i < desc.custom_guard_count; ++i) {
+    const MienMixGuard& from = desc.custom_guards[i];
+    GuardDesc& to = descs[count++];
+    to.upper = landmark_of(from.upper);
+    to.lower = landmark_of(from.lower);
+    to.closed_by = from.closed_by < kNoControl ? static_cast<uint16_t>(from.closed_by) : kNoControl;
+    to.tolerance = from.tolerance;
+    to.f_on = from.f_on;
+    to.needs_speech = from.needs_speech != 0;
   }
   if (count == 0) return Status::kOk;
-  const Status probed = probe_guards(deformer, {descs, count}, allocator, {guards, count}, error);
-  for (uint32_t i = 0, k = 0; i < found.count; ++i) {
-    if ((wanted & guard_bit(found.kinds[i])) == 0) continue;
-    guards[k++].kind = static_cast<uint32_t>(found.kinds[i]);
-  }
-  return probed;
+  return probe_guards(deformer, {descs, count}, allocator, {guards, count}, error);
 }
 
 const char* guard_name(StandardGuard kind) {
@@ -188,7 +220,8 @@ const char* guard_name(StandardGuard kind) {
     case StandardGuard::kLipToTeeth: return "lower lip to teeth";
     case StandardGuard::kLidsLeft: return "left lids";
     case StandardGuard::kLidsRight: return "right lids";
-    default: return "teeth";
+    case StandardGuard::kTeeth: return "teeth";
+    default: return "custom";
   }
 }
 
@@ -218,6 +251,14 @@ MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc, MienMix*
     }
     if (object(known.deformer)->rig != object(rig)) {
       return give_error(error, MIEN_ERROR_MISMATCH, "MienMixDesc.deformer is of another rig");
+    }
+  }
+  if (known.gaze) {
+    if (MienStatus status = check(known.gaze)) {
+      return give_error(error, status, "MienMixDesc.gaze is not a gaze");
+    }
+    if (known.gaze->raw_count != object(rig)->raw_count) {
+      return give_error(error, MIEN_ERROR_MISMATCH, "MienMixDesc.gaze is of another rig");
     }
   }
 
@@ -250,14 +291,15 @@ MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc, MienMix*
   mix.plays_backward = known.reverse != 0;
   mix.max_events = known.max_events != 0 ? known.max_events : 64;
   Error detail;
-  Guard guards[kStandardGuardCount];
+  Guard guards[kMaxGuards];
   uint32_t guard_count = 0;
-  if (known.guards != 0) {
-    const Status status = measure_guards(*object(known.deformer), known.guards, allocator, arena,
-                                         guards, guard_count, detail);
+  if (known.guards != 0 || known.custom_guard_count != 0) {
+    const Status status = measure_guards(*object(known.deformer), known, allocator, arena, guards,
+                                         guard_count, detail);
     if (status != Status::kOk) return give_error(detail, error);
   }
   mix.guards = {guards, guard_count};
+  if (known.gaze) mix.gaze = &known.gaze->table;
   Mix* made = nullptr;
   if (create_mix(mix, allocator, made, detail) != Status::kOk) return give_error(detail, error);
   made->tag = kMixTag;
@@ -283,6 +325,54 @@ MienStatus mien_mix_info(const MienMix* handle, MienMixInfo* out_info) {
   info.mixer_bytes = mixer_size(mix, false);
   info.snapshot_bytes = snapshot_size(mix);
   write_struct(out_info, info);
+  return MIEN_OK;
+}
+
+MienStatus mien_mix_guard(const MienMix* handle, uint32_t guard, MienMixGuardInfo* out_guard) {
+  if (MienStatus status = clear_struct(out_guard)) return status;
+  if (MienStatus status = check(handle)) return status;
+  const Mix& mix = *object(handle);
+  if (guard >= mix.guards.count) return MIEN_ERROR_INDEX;
+  const Guard& of = mix.guards[guard];
+  MienMixGuardInfo info = {};
+  size_t first = 0;
+  for (uint32_t i = 0; i < guard; ++i) first += mix.guards[i].count;
+  const Span<uint16_t> lanes = mix.guard_lanes.slice(first, of.count);
+  info.lanes = {lanes.data, lanes.count};
+  info.gains = {of.gains, of.count};
+  info.needs_speech = of.needs_speech;
+  info.pair_count = of.pair_count;
+  info.rest = of.rest;
+  info.tolerance = of.tolerance;
+  info.f_on = of.f_on;
+  info.fit_error = of.fit_error;
+  write_struct(out_guard, info);
+  return MIEN_OK;
+}
+
+MienStatus mien_mix_glare(uint32_t first_pose, MienMixStroke* out_strokes, size_t stroke_count,
+                          MienMixReaction* out_reaction) {
+  if (out_reaction) *out_reaction = {};
+  if (!out_strokes || !out_reaction) return MIEN_ERROR_NULL_ARGUMENT;
+  if (stroke_count < kGlareStrokes) return MIEN_ERROR_INVALID_ARGUMENT;
+  Stroke strokes[kGlareStrokes];
+  glare_strokes(first_pose, strokes);
+  const ReactionDesc reaction = glare_reaction(strokes);
+  for (uint32_t i = 0; i < kGlareStrokes; ++i) {
+    const Stroke& from = strokes[i];
+    out_strokes[i] = {from.delay,   from.attack, from.hold,
+                      from.release, from.pose,   static_cast<uint32_t>(from.mode),
+                      from.held,    from.lags};
+  }
+  *out_reaction = {reaction.cooldown,
+                   reaction.adapt_ticks,
+                   reaction.recover_ticks,
+                   out_strokes,
+                   kGlareStrokes,
+                   static_cast<uint32_t>(reaction.retrigger),
+                   0,
+                   reaction.adapted,
+                   0};
   return MIEN_OK;
 }
 
@@ -410,13 +500,13 @@ MienStatus mien_mixer_guard(const MienMixer* handle, uint32_t guard, MienGuardSt
   const Mixer& mixer = *object(handle);
   GuardState found = {};
   Error detail;
-  if (MienStatus status = status_of(guard_state(mixer, guard, found, detail))) return status;
+  if (guard_state(mixer, guard, found, detail) != Status::kOk) return MIEN_ERROR_INDEX;
   const auto kind = static_cast<StandardGuard>(mixer.mix->guards[guard].kind);
   const char* name = guard_name(kind);
   MienGuardState state = {};
   state.name = {name, strlen(name)};
   state.controls = {found.lanes.data, found.lanes.count};
-  state.kind = guard_bit(kind);
+  state.kind = mixer.mix->guards[guard].kind < kStandardGuardCount ? guard_bit(kind) : 0;
   state.activation = found.activation;
   state.protected_distance = found.protected_distance;
   state.wanted = found.wanted;

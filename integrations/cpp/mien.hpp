@@ -973,6 +973,17 @@ class Mix : public Owner<MienMix, mien_mix_destroy> {
     Sized<MienMixInfo> info;
     return {mien_mix_info(get(), &info), std::move(info)};
   }
+  /// A guard, as it was measured.
+  Result<MienMixGuardInfo> guard(uint32_t guard) const {
+    Sized<MienMixGuardInfo> found;
+    return {mien_mix_guard(get(), guard, &found), std::move(found)};
+  }
+  /// A response to a light in the eyes: fills 5 strokes, which the reaction refers to.
+  static Result<MienMixReaction> glare(uint32_t first_pose, Span<MienMixStroke> strokes) {
+    MienMixReaction reaction = {};
+    const MienStatus status = mien_mix_glare(first_pose, strokes.data(), strokes.size(), &reaction);
+    return {status, std::move(reaction)};
+  }
   /// May outlive the mix.
   Result<Mixer> mixer(const MixerDesc& desc = {}) const {
     return make<Mixer>([&](MienMixer** out, MienError* error) {

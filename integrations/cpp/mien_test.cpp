@@ -163,6 +163,11 @@ void test_mixing() {
   CHECK(mixer.info()->tick == 500);
   std::vector<unsigned char> bytes(mixer.snapshot({}).value());
   CHECK(mixer.snapshot(bytes) && other.restore(bytes, {}) && other.info()->tick == 500);
+  CHECK(mixer.guard(0).status() == MIEN_ERROR_INDEX);
+  CHECK(mix.guard(0).status() == MIEN_ERROR_INDEX);
+  MienMixStroke glare[5];
+  CHECK(mien::Mix::glare(3, glare)->strokes == glare && glare[1].pose == 4);
+  CHECK(mien::Mix::glare(3, {}).status() == MIEN_ERROR_NULL_ARGUMENT);
   MienMixer* const both[] = {mixer.get(), other.get()};
   CHECK(mien::Mixer::step(both, {}, 100) && mixer.row()[0] == other.row()[0]);
 }

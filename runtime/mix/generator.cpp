@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/mix/generator.h"
 
+#include <cmath>
+
 #include "runtime/mix/fade.h"
 
 namespace mien {
@@ -31,9 +33,13 @@ int64_t interval(const MixLayer& layer, uint64_t seed, uint32_t stream, uint32_t
                                           static_cast<double>(random_at(seed, stream, index)));
 }
 
-void blink(const MixLayer& layer, uint64_t seed, uint32_t stream, int64_t now, const float* row,
-           GeneratorState& state, float* out) {
+void blink(const MixLayer& layer, uint64_t seed, uint32_t stream, int64_t now, int64_t shift,
+           const float* row, GeneratorState& state, float* out) {
   if (state.next == 0) state.next = interval(layer, seed, stream, 0);
+  if (now < state.next && shift != kNoShift && shift < state.next) {
+    const int64_t last = state.next - interval(layer, seed, stream, state.index);
+    if (shift >= last + kBlinkGap) state.next = shift;
+  }
   constexpr int64_t kWhole = kBlinkClose + kBlinkHold + kBlinkOpen + kBlinkOnset;
   if (now < state.next && row[layer.lanes[0]] > kBlinkSeen) {
     state.next = now + interval(layer, seed, stream, ++state.index);
@@ -55,11 +61,12 @@ void blink(const MixLayer& layer, uint64_t seed, uint32_t stream, int64_t now, c
 
 }  // namespace
 
-void generate(const MixLayer& layer, uint64_t seed, uint32_t stream, int64_t now, const float* row,
-              GeneratorState& state, float* out) {
+void generate(const MixLayer& layer, uint64_t seed, uint32_t stream, int64_t now, int64_t shift,
+              const float* row, GeneratorState& state, float* out) {
   if (layer.lanes.empty()) return;
   switch (layer.generator) {
-    case Generator::kBlink: blink(layer, seed, stream, now, row, state, out); break;
+    case Generator::kGaze: break;  // generate_gaze()
+    case Generator::kBlink: blink(layer, seed, stream, now, shift, row, state, out); break;
     case Generator::kBreath: {
       const int64_t in = layer.period * 2 / 5, t = now % layer.period;
       const float breath = smooth_at(t, in) - smooth_at(t - in, layer.period - in);
@@ -77,6 +84,91 @@ void generate(const MixLayer& layer, uint64_t seed, uint32_t stream, int64_t now
       break;
     }
   }
+}
+
+// Gaze
+// ------------------------------------------------------------------------------------------------
+
+namespace {
+
+/// Degrees between two places as the eyes see them. The chord instead of an arc cosine: 1 % less at 60.
+float angle_between(const GazeTable& table, const float* a, const float* b) {
+  double unit[2][3];
+  for (int which = 0; which < 2; ++which) {
+    const float* place = which == 0 ? a : b;
+    double square = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double middle =
+          0.5 * (double{table.eyes[0].center[k]} + double{table.eyes[1].center[k]});
+      unit[which][k] = double{place[k]} - middle;
+      square += unit[which][k] * unit[which][k];
+    }
+    const double scale = square > 0 ? 1 / std::sqrt(square) : 0;
+    for (double& part : unit[which]) part *= scale;
+  }
+  double square = 0;
+  for (int k = 0; k < 3; ++k) {
+    square += (unit[0][k] - unit[1][k]) * (unit[0][k] - unit[1][k]);
+  }
+  const double chord = std::sqrt(square);
+  return static_cast<float>(57.29577951308232 * chord * (1 + square / 24));
+}
+
+void start_saccade(const GazeTable& table, const float* target, int64_t now, GazeState& state) {
+  const float degrees = angle_between(table, state.to, target);
+  state.start = now;
+  state.duration = 21 * kMillisecond + static_cast<int64_t>(2.2 * double{degrees} * kMillisecond);
+  if (degrees >= kLargeShift) state.large_shift = now;
+  for (int k = 0; k < 3; ++k) {
+    state.from[k] = state.to[k];
+    state.to[k] = target[k];
+  }
+}
+
+}  // namespace
+
+void generate_gaze(const GazeTable& table, const MixLayer& layer, uint64_t seed, uint32_t stream,
+                   int64_t now, int64_t ticks, const float* row, GazeState& state, float* scratch,
+                   float* out) {
+  float target[3];
+  for (int k = 0; k < 3; ++k) {  // other layers may have made anything of it
+    const float value = row[layer.lanes[static_cast<size_t>(k)]];
+    target[k] = value > -1e6f && value < 1e6f ? value : 0.0f;
+  }
+  if (!state.begun) {
+    for (int k = 0; k < 3; ++k) state.from[k] = state.to[k] = target[k];
+    state.begun = 1;
+  }
+  if (state.duration != 0 && now >= state.start + state.duration) state.duration = 0;
+  if (state.duration == 0) {
+    const double seconds = static_cast<double>(ticks) / kTicksPerSecond;
+    const float degrees = angle_between(table, state.to, target);
+    if (double{degrees} > kPursuitSpeed * seconds) {
+      start_saccade(table, target, now, state);
+    } else {
+      for (int k = 0; k < 3; ++k) state.to[k] = target[k];
+    }
+  }
+  const float s = state.duration != 0 ? smooth_at(now - state.start, state.duration) : 1.0f;
+  float place[3];
+  for (int k = 0; k < 3; ++k) place[k] = state.from[k] + s * (state.to[k] - state.from[k]);
+  if (s == 1.0f) {
+    for (int k = 0; k < 3; ++k) place[k] = state.to[k];
+  }
+  // Jitter of some degrees at the distance to the front.
+  const auto cell = static_cast<uint64_t>(now / layer.period);
+  const float u = smooth_at(now % layer.period, layer.period);
+  for (uint32_t k = 0; k < 2; ++k) {
+    const uint64_t lane = (uint64_t{stream} << 32) + k;
+    const float a = random_at(seed, lane, cell), b = random_at(seed, lane, cell + 1);
+    const float noise = 2.0f * (a + u * (b - a)) - 1.0f;
+    const float distance = place[2] - table.eyes[0].center[2];
+    place[k] += layer.amounts[k] * 0.017453292f * noise * (distance > 1.0f ? distance : 1.0f);
+  }
+  float beyond[2];
+  look_at(table, place, scratch, beyond);
+  for (uint32_t i = 0; i < 8; ++i) out[i] = scratch[table.eyes[i / 4].lanes[i % 4]];
+  for (size_t i = 3; i < layer.lanes.count; ++i) out[5 + i] = layer.amounts[i] * beyond[i - 3];
 }
 
 }  // namespace mien

@@ -21,9 +21,30 @@ struct GeneratorState {
 /// above kBlinkSeen, the performance blinks, and the time begins anew.
 /// kBreath: 40 % of the period in, 60 % out.
 /// kNoise: smooth between -1 and 1, with a new random number every period, for each lane its own.
-void generate(const MixLayer& layer, uint64_t seed, uint32_t stream, int64_t now, const float* row,
-              GeneratorState& state, float* out);
+/// `shift` is when the eyes last began to turn far (GazeState::large_shift): with it a blink begins, if the
+/// last one was long enough ago.
+void generate(const MixLayer& layer, uint64_t seed, uint32_t stream, int64_t now, int64_t shift,
+              const float* row, GeneratorState& state, float* out);
 
 constexpr float kBlinkSeen = 0.6f;
+
+constexpr int64_t kNoShift = -(int64_t{1} << 60);
+constexpr float kLargeShift = 20;    // degrees
+constexpr float kPursuitSpeed = 30;  // degrees per second
+
+/// Where the eyes look: on the way from one place to another in a saccade, or at `to`.
+struct GazeState {
+  int64_t start, duration;  // of the saccade; 0: it rests or pursues
+  int64_t large_shift;      // when the last one beyond kLargeShift began
+  float from[3], to[3];     // as GazeEye::center
+  uint32_t begun, zero;
+};
+
+/// kGaze: a place that moves by less than kPursuitSpeed is pursued, else a saccade of 21 ms and 2.2 ms per
+/// degree goes there; it does not change its goal on the way. `out` gets values for Mix::gaze_lanes,
+/// `scratch` has as many lanes as a row.
+void generate_gaze(const GazeTable& table, const MixLayer& layer, uint64_t seed, uint32_t stream,
+                   int64_t now, int64_t ticks, const float* row, GazeState& state, float* scratch,
+                   float* out);
 
 }  // namespace mien

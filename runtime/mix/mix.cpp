@@ -42,6 +42,10 @@ bool within(float value, float low, float high) { return value >= low && value <
 
 bool is_time(int64_t ticks) { return ticks >= 0 && ticks <= kMaxFadeTicks; }
 
+bool is_gaze(const LayerDesc& layer) {
+  return layer.source == LayerSource::kGenerator && layer.generator == Generator::kGaze;
+}
+
 bool is_protected(LayerGroup group) {
   return group == LayerGroup::kBase || group == LayerGroup::kSpeech;
 }
@@ -53,7 +57,7 @@ Status check_layers(const MixDesc& desc, uint32_t lanes, Error& error) {
     return fail(error, Status::kInvalidArgument, kNoOffset, "%zu layers; a mix has at most %u",
                 desc.layers.count, kMaxLayers);
   }
-  uint32_t clips = 0;
+  uint32_t clips = 0, gazes = 0;
   for (size_t i = 0; i < desc.layers.count; ++i) {
     const LayerDesc& layer = desc.layers[i];
     const auto group = static_cast<uint32_t>(layer.group), mode = static_cast<uint32_t>(layer.mode);
@@ -109,6 +113,14 @@ Status check_layers(const MixDesc& desc, uint32_t lanes, Error& error) {
           first_beyond(layer.amounts, -kLargestFloat, kLargestFloat) != layer.amounts.count) {
         return wrong(error, "layer %zu: %zu finite .amounts are needed, one for each of .lanes", i,
                      layer.lanes.count);
+      }
+      const size_t count = layer.lanes.count;
+      if (is_gaze(layer) && (!desc.gaze || (count != 3 && count != 5) || ++gazes > 1)) {
+        return wrong(
+            error,
+            "layer %zu: a gaze takes 3 or 5 lanes, not %zu, and the gaze of the mix; there is "
+            "one such layer at most",
+            i, count);
       }
     } else if (!is_time(layer.delay) || layer.stream_frames < 2 ||
                layer.stream_frames > kMaxStreamFrames) {
@@ -226,6 +238,15 @@ Status check_lanes(const MixDesc& desc, uint32_t lanes, Error& error) {
                    double{pair.stiffness});
     }
   }
+  if (desc.gaze) {
+    for (const GazeEye& eye : desc.gaze->eyes) {
+      for (uint16_t lane : eye.lanes) {
+        if (lane >= desc.raw_count) {
+          return wrong(error, "gaze: control %zu of %u", lane, desc.raw_count);
+        }
+      }
+    }
+  }
   if (!desc.mirror.empty() && desc.mirror.count != lanes) {
     return fail(error, Status::kInvalidArgument, kNoOffset, "the mirror map has %zu of %u lanes",
                 desc.mirror.count, lanes);
@@ -278,6 +299,10 @@ void place_mix(Placer& placer, const MixDesc& desc, Mix& mix) {
   mix.guarded = placer.array<uint16_t>(guarded);
   mix.guards = placer.array<Guard>(desc.guards.count);
   mix.antagonists = placer.array<AntagonistPair>(desc.antagonists.count);
+  for (const LayerDesc& layer : desc.layers) {
+    if (!is_gaze(layer)) continue;
+    mix.gaze_lanes = placer.array<uint16_t>(8 + layer.lanes.count - 3);
+  }
   mix.mirror = placer.array<uint16_t>(desc.mirror.count);
   mix.lower = placer.array<float>(mix.lane_count, kBlockAlignment);
   mix.upper = placer.array<float>(mix.lane_count, kBlockAlignment);
@@ -286,6 +311,13 @@ void place_mix(Placer& placer, const MixDesc& desc, Mix& mix) {
 template <class T>
 void copy_items(Span<const T> from, Span<T> to) {
   if (!from.empty()) memcpy(static_cast<void*>(to.data), from.data, from.count * sizeof(T));
+}
+
+void fill_gaze(const MixDesc& desc, const LayerDesc& layer, Mix& mix) {
+  mix.has_gaze = true;
+  mix.gaze = *desc.gaze;
+  for (uint32_t i = 0; i < 8; ++i) mix.gaze_lanes[i] = mix.gaze.eyes[i / 4].lanes[i % 4];
+  for (size_t i = 3; i < layer.lanes.count; ++i) mix.gaze_lanes[5 + i] = layer.lanes[i];
 }
 
 void fill_layers(const MixDesc& desc, Mix& mix) {
@@ -318,6 +350,9 @@ void fill_layers(const MixDesc& desc, Mix& mix) {
       }
     } else if (layer.source == LayerSource::kClip) {
       for (uint32_t l = 0; l < lanes; ++l) layer.mask[l] = mask_of(l);
+    } else if (is_gaze(from)) {
+      fill_gaze(desc, from, mix);
+      for (uint16_t lane : mix.gaze_lanes) layer.mask[lane] = mask_of(lane);
     } else {
       for (uint16_t lane : from.lanes) layer.mask[lane] = mask_of(lane);
     }
@@ -387,9 +422,9 @@ uint64_t hash_numbers(uint64_t hash, std::initializer_list<uint64_t> numbers) {
 
 uint64_t fingerprint(const Mix& mix) {
   uint64_t hash =
-      hash_numbers(0xCBF29CE484222325u,
-                   {mix.raw_count, mix.variable_count, mix.player_count, mix.guards.count,
-                    mix.guarded.count, mix.layers.count, mix.reactions.count, mix.strokes.count});
+      hash_numbers(0xCBF29CE484222325u, {mix.raw_count, mix.variable_count, mix.player_count,
+                                         mix.guards.count, mix.guarded.count, mix.layers.count,
+                                         mix.reactions.count, mix.strokes.count, mix.has_gaze});
   for (const MixLayer& layer : mix.layers) {
     hash = hash_numbers(hash, {static_cast<uint64_t>(layer.mode),
                                static_cast<uint64_t>(layer.source), layer.pose_count});

@@ -21,6 +21,7 @@
 #include "runtime/base/allocator.h"
 #include "runtime/base/span.h"
 #include "runtime/base/status.h"
+#include "runtime/mix/gaze.h"
 #include "runtime/mix/guard.h"
 #include "simd/kernels.h"
 
@@ -52,8 +53,8 @@ enum class LayerSource : uint8_t {
 };
 constexpr uint32_t kLayerSources = 4;
 
-enum class Generator : uint8_t { kBlink, kBreath, kNoise };
-constexpr uint32_t kGenerators = 3;
+enum class Generator : uint8_t { kBlink, kBreath, kNoise, kGaze };
+constexpr uint32_t kGenerators = 4;
 
 enum LayerFlags : uint32_t {
   kLayerAfterGuards = 1,  // mixed after the guards, which leave it alone; not for base and speech
@@ -164,6 +165,8 @@ struct MixDesc {
   Span<const PoseDesc> poses;
   Span<const ReactionDesc> reactions;
   Span<const Guard> guards;  // in the order in which they act
+  const GazeTable* gaze =
+      nullptr;  // of the layer with Generator::kGaze, of which there is one at most
   Span<const AntagonistPair> antagonists;
   /// [lane] of the same size in the other half of the face, itself in the middle: for what is played
   /// mirrored. Empty: nothing can be.
@@ -208,8 +211,11 @@ struct Mix {
   Span<uint16_t> guarded;      // the lanes of all guards, ascending
   Span<Guard> guards;          // with lanes that are places in `guarded`
   Span<AntagonistPair> antagonists;
-  Span<uint16_t> mirror;     // [lane], or empty
-  Span<float> lower, upper;  // [lane]
+  bool has_gaze = false;  // a layer generates it
+  GazeTable gaze;
+  Span<uint16_t> gaze_lanes;  // of the left and of the right eye, then those of the head
+  Span<uint16_t> mirror;      // [lane], or empty
+  Span<float> lower, upper;   // [lane]
 
   uint32_t used_lanes() const { return raw_count + variable_count; }
 };

@@ -44,6 +44,7 @@ void place_state(Placer& placer, const Mix& mix, Mixer& mixer) {
   mixer.variables = placer.array<float>(mix.variable_count);
   mixer.held = placer.array<float>(mix.guarded.count);
   mixer.generators = placer.array<GeneratorState>(mix.layers.count);
+  mixer.gazes = placer.array<GazeState>(mix.has_gaze ? 1 : 0);
   mixer.reactions = placer.array<ReactionState>(mix.reactions.count);
   mixer.strokes = placer.array<StrokeState>(mix.strokes.count);
   mixer.guard_overrides = placer.array<float>(mix.guards.count);
@@ -287,12 +288,22 @@ void mix_stream_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
   blend(mixer, index, weight, shown, nullptr);
 }
 
-void mix_generator(Mixer& mixer, uint32_t index) {
+void mix_generator(Mixer& mixer, uint32_t index, int64_t ticks) {
   const Mix& mix = *mixer.mix;
   const MixLayer& layer = mix.layers[index];
   const int64_t now = mixer.header->now;
   float* values = mixer.layer_row.data;
-  generate(layer, mixer.header->seed, index, now, mixer.row.data, mixer.generators[index], values);
+  const uint64_t seed = mixer.header->seed;
+  if (layer.generator == Generator::kGaze) {
+    generate_gaze(mix.gaze, layer, seed, index, now, ticks, mixer.row.data, mixer.gazes[0],
+                  mixer.scratch.data, values);
+    // The lanes of the eyes, then those that get what is left for the head.
+    blend_lanes(mix, layer.mode, mix.gaze_lanes, values, layer.mask.data,
+                layer_weight(mixer.layers[index], layer.mode, now), mixer.row.data);
+    return;
+  }
+  const int64_t shift = mixer.gazes.empty() ? kNoShift : mixer.gazes[0].large_shift;
+  generate(layer, seed, index, now, shift, mixer.row.data, mixer.generators[index], values);
   blend_lanes(mix, layer.mode, layer.lanes, values, layer.mask.data,
               layer_weight(mixer.layers[index], layer.mode, now), mixer.row.data);
 }
@@ -352,7 +363,7 @@ void mix_layers(Mixer& mixer, uint32_t begin, uint32_t end, bool after_guards, i
       case LayerSource::kClip: mix_clip_layer(mixer, i, ticks); break;
       case LayerSource::kPoses: mix_pose_layer(mixer, i); break;
       case LayerSource::kStream: mix_stream_layer(mixer, i, ticks); break;
-      case LayerSource::kGenerator: mix_generator(mixer, i); break;
+      case LayerSource::kGenerator: mix_generator(mixer, i, ticks); break;
     }
     keep_stage(mixer, i);
     if (i + 1 == mix.first_unprotected) gather_guarded(mixer, kProtected);
@@ -453,6 +464,7 @@ Mixer* create_mixer(const Mix& mix, uint64_t seed, bool stages, const Allocator&
   }
   for (ReactionState& reaction : mixer.reactions) set_fade(reaction.gain, 1.0f);
   for (float& activation : mixer.guard_overrides) activation = -1.0f;
+  for (GazeState& gaze : mixer.gazes) gaze.large_shift = kNoShift;
   mix.owners.fetch_add(1, std::memory_order_relaxed);
   return new (block) Mixer(mixer);
 }

@@ -125,6 +125,7 @@ struct Mixer {
   Span<float> variables;            // [pose variable] with which a row begins
   Span<float> held;                 // [place in Mix::guarded] by how much guards moved it
   Span<GeneratorState> generators;  // [layer]
+  Span<GazeState> gazes;            // one if a layer generates gazes
   Span<ReactionState> reactions;
   Span<StrokeState> strokes;
   Span<float> guard_overrides;  // [guard] activation that the caller wants; negative: none

@@ -144,6 +144,14 @@ Status check_state(const Mixer& mixer, const SavedState& saved, const ClipFinder
     const int64_t next = saved.read(generator).next;
     valid = valid && next >= 0 && is_time(next) && (next == 0 || now - next <= kMaxFadeTicks);
   }
+  for (const GazeState& gaze : mixer.gazes) {
+    const GazeState state = saved.read(gaze);
+    valid = valid && is_time(state.start) && is_duration(state.duration) &&
+            is_time(state.large_shift) && state.begun <= 1;
+    for (int k = 0; k < 3; ++k) {
+      valid = valid && std::fabs(state.from[k]) <= 1e6f && std::fabs(state.to[k]) <= 1e6f;
+    }
+  }
   for (const ReactionState& reaction : mixer.reactions) {
     valid = valid && is_reaction(saved.read(reaction));
   }

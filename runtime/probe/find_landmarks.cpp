@@ -140,6 +140,7 @@ class Finder {
     desc.needs_speech = kind != StandardGuard::kLidsLeft && kind != StandardGuard::kLidsRight;
     if (!desc.needs_speech) desc.f_on = kLidsOn;
     if (kind == StandardGuard::kTeeth) desc.f_on = kTeethOn;
+    desc.kind = static_cast<uint32_t>(kind);
     out_.kinds[out_.count] = kind;
     out_.descs[out_.count++] = desc;
   }

@@ -217,6 +217,7 @@ Status probe_guards(const Deformer& deformer, Span<const GuardDesc> descs,
     out[g] = Guard();
     out[g].f_on = descs[g].f_on;
     out[g].tolerance = descs[g].tolerance;
+    out[g].kind = descs[g].kind;
     out[g].needs_speech = descs[g].needs_speech;
     out[g].rest = rounded(m.rest - m.contact);
     choose_lanes(m, pairs, order, out[g]);

@@ -16,6 +16,7 @@ struct GuardDesc {
   float tolerance = 0.3f;           // see Guard
   float f_on = 12;
   bool needs_speech = true;
+  uint32_t kind = 7;  // of the Guard: one of StandardGuard, or none of them
 };
 
 /// Evaluates and deforms the rig at LOD 0, with each raw control by itself, and with pairs of them

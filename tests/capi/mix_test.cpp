@@ -300,7 +300,9 @@ TEST(Mix, RefusesWhatIsWrong) {
   refused(invalid, [](Scene& s, MienMixDesc&) { s.layers[0].mode = 256; });
   refused(invalid, [](Scene& s, MienMixDesc&) { s.layers[0].group = 5; });
   refused(invalid, [](Scene& s, MienMixDesc&) { s.layers[0].source = 4; });
+  refused(invalid, [](Scene& s, MienMixDesc&) { s.layers[3].generator = 4; });
   refused(invalid, [](Scene& s, MienMixDesc&) { s.layers[3].generator = 3; });
+  refused(null, [](Scene&, MienMixDesc& d) { d.custom_guard_count = 1; });
   refused(invalid, [](Scene& s, MienMixDesc&) { s.layers[0].reserved = 1; });
   refused(invalid, [](Scene& s, MienMixDesc&) { s.layers[0].weight = 2; });
   refused(invalid, [](Scene& s, MienMixDesc&) { s.reaction.stroke_count = 9; });

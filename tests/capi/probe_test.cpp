@@ -212,5 +212,190 @@ TEST(Gaze, IsOfAnyMemoryOrFailsWithoutALeak) {
   }
 }
 
+// Guards ------------------------------------------------------------------------------------------
+
+struct CloseMix {
+  void operator()(MienMix* mix) const { mien_mix_destroy(mix); }
+  void operator()(MienMixer* mixer) const { mien_mixer_destroy(mixer); }
+};
+using MixHandle = std::unique_ptr<MienMix, CloseMix>;
+using MixerHandle = std::unique_ptr<MienMixer, CloseMix>;
+
+/// The teeth, by the joints that hold them.
+struct TeethGuard {
+  uint32_t upper[1], lower[1];
+  MienMixGuard guard = {};
+
+  TeethGuard() {
+    const MienRig* rig = head().rig.get();
+    EXPECT_EQ(mien_rig_find(rig, MIEN_KIND_JOINT, "C_TeethUpper", upper), MIEN_OK);
+    EXPECT_EQ(mien_rig_find(rig, MIEN_KIND_JOINT, "C_TeethLower", lower), MIEN_OK);
+    guard.upper = {upper, 1, MIEN_NO_MESH};
+    guard.lower = {lower, 1, MIEN_NO_MESH};
+    guard.closed_by = MIEN_NO_CONTROL;
+    guard.tolerance = 0.3f;
+    guard.f_on = 4;
+  }
+};
+
+/// Nothing protected, and an emotion that opens the jaw.
+MixHandle guarded_mix(MienMixDesc desc, MienStatus expected = MIEN_OK) {
+  static const uint16_t lanes[1] = {head().control("jawOpen")};
+  static const float open[1] = {0.5f};
+  const MienMixPose pose = {lanes, open, 1};
+  MienMixLayer layer = {};
+  layer.group = MIEN_LAYER_GROUP_EMOTION;
+  layer.source = MIEN_LAYER_SOURCE_POSES;
+  layer.pose_count = 1;
+  layer.weight = 1;
+  desc.layers = &layer;
+  desc.layer_count = 1;
+  desc.poses = &pose;
+  desc.pose_count = 1;
+  MienMix* mix = nullptr;
+  MienError error = sized<MienError>();
+  EXPECT_EQ(mien_mix_create(head().rig.get(), &desc, &mix, &error), expected) << error.message;
+  return MixHandle(mix);
+}
+
+MienMixDesc desc_of(const MienMixGuard& guard, uint32_t guards = 0) {
+  MienMixDesc desc = sized<MienMixDesc>();
+  desc.deformer = head().deformer.get();
+  desc.custom_guards = &guard;
+  desc.custom_guard_count = 1;
+  desc.guards = guards;
+  return desc;
+}
+
+TEST(MixGuards, OfTheCallerAreMeasuredLikeTheOthers) {
+  const TeethGuard teeth;
+  const MixHandle mix = guarded_mix(desc_of(teeth.guard, MIEN_GUARD_TEETH | MIEN_GUARD_LIDS));
+  MienMixInfo info = sized<MienMixInfo>();
+  ASSERT_EQ(mien_mix_info(mix.get(), &info), MIEN_OK);
+  std::vector<MienMixGuardInfo> guards(info.guard_count, sized<MienMixGuardInfo>());
+  for (uint32_t i = 0; i < info.guard_count; ++i) {
+    ASSERT_EQ(mien_mix_guard(mix.get(), i, &guards[i]), MIEN_OK);
+  }
+  ASSERT_EQ(guards.size(), 4u);
+  EXPECT_EQ(guards[0].needs_speech, 1u);
+  EXPECT_EQ(guards[3].needs_speech, 0u);
+  ASSERT_EQ(guards[0].lanes.count, guards[3].lanes.count);
+  ASSERT_GT(guards[0].lanes.count, 0u);
+  EXPECT_EQ(guards[0].lanes.data[0], head().control("jawOpen"));
+  for (size_t i = 0; i < guards[0].lanes.count; ++i) {
+    EXPECT_EQ(guards[0].lanes.data[i], guards[3].lanes.data[i]);
+    EXPECT_EQ(guards[0].gains.data[i], guards[3].gains.data[i]);
+  }
+  EXPECT_EQ(guards[0].fit_error, guards[3].fit_error);
+  MienMixGuardInfo wrong = sized<MienMixGuardInfo>();
+  EXPECT_EQ(mien_mix_guard(mix.get(), 4, &wrong), MIEN_ERROR_INDEX);
+  EXPECT_EQ(mien_mix_guard(mix.get(), 0, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+}
+
+TEST(MixGuards, OfTheCallerHoldWhatTheyMeasure) {
+  const TeethGuard teeth;
+  const MixHandle mix = guarded_mix(desc_of(teeth.guard));
+  MienMixer* made = nullptr;
+  ASSERT_EQ(mien_mixer_create(mix.get(), nullptr, &made, nullptr), MIEN_OK);
+  const MixerHandle mixer(made);
+  ASSERT_EQ(mien_mixer_set_pose_weight(made, 0, 0, 1, 0), MIEN_OK);
+  for (int i = 0; i < 60; ++i) {
+    ASSERT_EQ(mien_mixer_step(made, MIEN_TICKS_PER_SECOND / 60, nullptr), MIEN_OK);
+  }
+  MienMixGuardInfo info = sized<MienMixGuardInfo>();
+  ASSERT_EQ(mien_mix_guard(mix.get(), 0, &info), MIEN_OK);
+  MienGuardState state = sized<MienGuardState>();
+  ASSERT_EQ(mien_mixer_guard(made, 0, &state), MIEN_OK);
+  EXPECT_EQ(std::string(state.name.data, state.name.count), "custom");
+  EXPECT_EQ(state.kind, 0u);
+  EXPECT_EQ(state.activation, 1);
+  EXPECT_EQ(state.protected_distance, info.rest);
+  EXPECT_NEAR(state.wanted, info.rest + 0.5f * info.gains.data[0], 1e-3);
+  EXPECT_GT(state.wanted, state.limit + 1);
+  EXPECT_NEAR(state.distance, state.limit, 1e-3);
+  MienFloatView row = {};
+  ASSERT_EQ(mien_mixer_row(made, &row), MIEN_OK);
+  EXPECT_LT(row.data[info.lanes.data[0]], 0.1f);
+}
+
+TEST(MixGuards, RefuseWrongLandmarks) {
+  const auto refused = [](MienStatus expected, auto&& change) {
+    TeethGuard teeth;
+    MienMixDesc desc = desc_of(teeth.guard);
+    change(teeth, desc);
+    guarded_mix(desc, expected);
+  };
+  const MienStatus invalid = MIEN_ERROR_INVALID_ARGUMENT;
+  refused(MIEN_ERROR_INDEX, [](TeethGuard& t, MienMixDesc&) { t.upper[0] = 60000; });
+  refused(MIEN_ERROR_INDEX, [](TeethGuard& t, MienMixDesc&) { t.guard.upper.mesh = 1000; });
+  refused(invalid, [](TeethGuard& t, MienMixDesc&) { t.guard.upper.point_count = 0; });
+  refused(invalid, [](TeethGuard& t, MienMixDesc&) { t.guard.upper.points = nullptr; });
+  refused(invalid, [](TeethGuard& t, MienMixDesc&) { t.guard.upper.point_count = 65537; });
+  refused(invalid, [](TeethGuard& t, MienMixDesc&) { t.guard.closed_by = 65536; });
+  refused(invalid, [](TeethGuard& t, MienMixDesc&) { t.guard.f_on = 0; });
+  refused(invalid, [](TeethGuard& t, MienMixDesc&) { t.guard.tolerance = NAN; });
+  refused(invalid, [](TeethGuard&, MienMixDesc& d) { d.custom_guard_count = 9; });
+  refused(MIEN_ERROR_NULL_ARGUMENT, [](TeethGuard&, MienMixDesc& d) { d.deformer = nullptr; });
+}
+
+TEST(Glare, IsTheReactionOfTheLibrary) {
+  MienMixStroke strokes[5] = {};
+  MienMixReaction reaction = {};
+  ASSERT_EQ(mien_mix_glare(7, strokes, 5, &reaction), MIEN_OK);
+  EXPECT_EQ(reaction.strokes, strokes);
+  EXPECT_EQ(reaction.stroke_count, 5u);
+  EXPECT_EQ(strokes[0].pose, 7u);
+  EXPECT_EQ(strokes[0].mode, MIEN_BLEND_MODE_MAX + 0u);
+  EXPECT_EQ(strokes[0].delay, 60 * (MIEN_TICKS_PER_SECOND / 1000));
+  EXPECT_EQ(strokes[3].is_lag, 1u);
+  EXPECT_EQ(strokes[4].pose, 11u);
+  EXPECT_EQ(mien_mix_glare(0, strokes, 4, &reaction), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(reaction.strokes, nullptr);
+  EXPECT_EQ(mien_mix_glare(0, nullptr, 5, &reaction), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_mix_glare(0, strokes, 5, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+}
+
+TEST(GazeLayer, TurnsTheEyesToAPoseVariable) {
+  MienGaze* gaze = nullptr;
+  ASSERT_EQ(mien_gaze_create(head().deformer.get(), nullptr, &gaze, nullptr), MIEN_OK);
+  const auto first = static_cast<uint16_t>(head().controls.size());
+  const uint16_t lanes[3] = {first, static_cast<uint16_t>(first + 1),
+                             static_cast<uint16_t>(first + 2)};
+  const float amounts[3] = {};
+  MienMixLayer layer = {};
+  layer.group = MIEN_LAYER_GROUP_LIFE;
+  layer.source = MIEN_LAYER_SOURCE_GENERATOR;
+  layer.generator = MIEN_GENERATOR_GAZE;
+  layer.period = MIEN_TICKS_PER_SECOND;
+  layer.lanes = lanes;
+  layer.amounts = amounts;
+  layer.lane_count = 3;
+  layer.weight = 1;
+  MienMixDesc desc = sized<MienMixDesc>();
+  desc.layers = &layer;
+  desc.layer_count = 1;
+  desc.variable_count = 3;
+  desc.gaze = gaze;
+  MienMix* mix = nullptr;
+  MienMixer* mixer = nullptr;
+  ASSERT_EQ(mien_mix_create(head().rig.get(), &desc, &mix, nullptr), MIEN_OK);
+  ASSERT_EQ(mien_mixer_create(mix, nullptr, &mixer, nullptr), MIEN_OK);
+  const MienGazeTarget target = {200, 1650, 1000};
+  const float place[3] = {target.left, target.up, target.front};
+  for (uint32_t k = 0; k < 3; ++k) {
+    ASSERT_EQ(mien_mixer_set_variable(mixer, k, place[k]), MIEN_OK);
+  }
+  ASSERT_EQ(mien_mixer_step(mixer, MIEN_TICKS_PER_SECOND, nullptr), MIEN_OK);
+  std::vector<float> wanted(head().controls.size());
+  ASSERT_EQ(mien_gaze_look_at(gaze, &target, wanted.data(), wanted.size(), nullptr), MIEN_OK);
+  MienFloatView row = {};
+  ASSERT_EQ(mien_mixer_row(mixer, &row), MIEN_OK);
+  EXPECT_GT(wanted[head().control("eyeLookOutLeft")], 0);
+  EXPECT_TRUE(same_bits({row.data, wanted.size()}, span_of(wanted)));
+  mien_mixer_destroy(mixer);
+  mien_mix_destroy(mix);
+  mien_gaze_destroy(gaze);
+}
+
 }  // namespace
 }  // namespace mien

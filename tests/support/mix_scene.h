@@ -174,7 +174,7 @@ struct MixScene {
     layers[kOverGuards].pose_count = 1;
     layers[kOverGuards].flags = kLayerAfterGuards;
     const std::vector<uint16_t>* generated[] = {&eyes, &small, &small};
-    for (uint32_t g = 0; g < kGenerators; ++g) {
+    for (uint32_t g = 0; g < 3; ++g) {
       LayerDesc& layer = layers[kBlinks + g];
       layer.generator = static_cast<Generator>(g);
       layer.period = kTicksPerSecond * (2 + g);

@@ -30,7 +30,8 @@ from .dna import Dna, coordinate_system, coordinate_system_names, validate
 from .errors import (ArgumentError, BusyError, ClipError, ClosedError, DnaError, Error, FileError,
                      OutOfMemoryError, OutOfRangeError, UnknownNameError)
 from .instance import Instance
-from .mix import Antagonists, Gaze, Mix, MixLayer, Reaction, Stroke, ticks
+from .mix import (NO_CONTROL, Antagonists, CustomGuard, Gaze, GuardInfo, Landmark, Mix, MixLayer,
+                  Reaction, Stroke, glare, ticks)
 from .mixer import GuardState, MixEvent, Mixer, step_mixers
 from .rig import Rig
 from .rig_view import isa_available, isa_name
@@ -44,18 +45,18 @@ __all__ = [
     "BakedCheck", "BakedInfo", "Batch", "BlendMode", "BusyError", "Clip", "ClipBinding",
     "ClipChannel", "ClipError", "ClipEvent", "ClipInfo", "ClipPlayer", "ClipPlayerInfo",
     "ClosedError", "Compose", "coordinate_system", "coordinate_system_names",
-    "CoordinateSystem", "CopySolver", "CustomSolver", "deform_batch", "Deformer",
+    "CoordinateSystem", "CopySolver", "CustomGuard", "CustomSolver", "deform_batch", "Deformer",
     "DeformerInfo", "DeformerInstance", "Direction", "Dna", "DnaError", "DnaField", "DnaInfo",
     "DnaLayer", "Error", "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding",
-    "Gaze", "Generate", "Generator", "Guard", "Instance", "InstanceStatistics", "Interpolation",
-    "Isa", "isa_available", "isa_name", "Kind", "Layer", "LayerGroup", "LayerSource",
-    "GuardState", "library_path", "Looping", "Mesh", "Mix", "Mixer", "MixerInfo", "MixEvent", "MixInfo",
-    "MixLayer", "MlMasks", "NO_JOINT", "Normals", "OutOfMemoryError", "OutOfRangeError",
-    "Preset", "Reaction", "Retrigger", "Reuse", "Rig", "RigInfo", "RigStatistics",
-    "RotationOutput", "RotationRule", "RotationSequence", "RotationUnit", "Severity",
-    "SolverPose", "SolverStack", "SolverStackInfo", "SolverState", "SpaceSolver",
-    "SpringSolver", "Stage", "Status", "step_mixers", "step_states", "Storage", "Stroke",
-    "ticks", "TICKS_PER_SECOND", "Transition", "TranslationUnit", "TwistSolver",
-    "UnknownLayers", "UnknownNameError", "validate", "version", "Weights",
-    "write_vertices_batch",
+    "Gaze", "Generate", "Generator", "glare", "Guard", "GuardInfo", "GuardState", "Instance",
+    "InstanceStatistics", "Interpolation", "Isa", "isa_available", "isa_name", "Kind",
+    "Landmark", "Layer", "LayerGroup", "LayerSource", "library_path", "Looping", "Mesh", "Mix",
+    "Mixer", "MixerInfo", "MixEvent", "MixInfo", "MixLayer", "MlMasks", "NO_CONTROL",
+    "NO_JOINT", "Normals", "OutOfMemoryError", "OutOfRangeError", "Preset", "Reaction",
+    "Retrigger", "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationOutput", "RotationRule",
+    "RotationSequence", "RotationUnit", "Severity", "SolverPose", "SolverStack",
+    "SolverStackInfo", "SolverState", "SpaceSolver", "SpringSolver", "Stage", "Status",
+    "step_mixers", "step_states", "Storage", "Stroke", "ticks", "TICKS_PER_SECOND",
+    "Transition", "TranslationUnit", "TwistSolver", "UnknownLayers", "UnknownNameError",
+    "validate", "version", "Weights", "write_vertices_batch",
 ]

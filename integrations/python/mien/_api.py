@@ -35,6 +35,8 @@ def text(view: Any) -> str:
 
 MIEN_NO_OFFSET = 18446744073709551615
 MIEN_TICKS_PER_SECOND = 705600000
+MIEN_NO_MESH = 4294967295
+MIEN_NO_CONTROL = 65535
 MIEN_NO_JOINT = 65535
 
 
@@ -494,6 +496,12 @@ class Generator(IntEnum):
     BREATH = 1
     #: smooth between -1 and 1; a new random value every period
     NOISE = 2
+    #: turns the eyes to a place with saccades: MienMixDesc.gaze. `lanes` are the left, up and
+    #: front of a MienGazeTarget, as earlier layers made them, then, if wanted, two lanes that get
+    #: what is left for the head, a MienGazeRest. `amounts` are fixation jitter across and up in
+    #: degrees, 0, and factors for the two lanes of the head. Blinks of the mix follow shifts of 20
+    #: degrees and more
+    GAZE = 3
 
 
 class Retrigger(IntEnum):
@@ -1823,6 +1831,34 @@ class MienMixAntagonists(Structure):
     stiffness: Any
 
 
+class MienLandmark(Structure):
+    _fields_ = [
+        ("points", c_void_p),
+        ("point_count", c_uint32),
+        ("mesh", c_uint32),
+    ]
+    points: Any
+    point_count: Any
+    mesh: Any
+
+
+class MienMixGuard(Structure):
+    _fields_ = [
+        ("upper", MienLandmark),
+        ("lower", MienLandmark),
+        ("closed_by", c_uint32),
+        ("needs_speech", c_uint32),
+        ("tolerance", c_float),
+        ("f_on", c_float),
+    ]
+    upper: Any
+    lower: Any
+    closed_by: Any
+    needs_speech: Any
+    tolerance: Any
+    f_on: Any
+
+
 class MienMixDesc(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -1837,6 +1873,9 @@ class MienMixDesc(Structure):
         ("mirror", c_void_p),
         ("lower", c_void_p),
         ("upper", c_void_p),
+        ("custom_guards", POINTER(MienMixGuard)),
+        ("custom_guard_count", c_size_t),
+        ("gaze", MienGaze),
         ("deformer", MienDeformer),
         ("guards", c_uint32),
         ("variable_count", c_uint32),
@@ -1860,6 +1899,9 @@ class MienMixDesc(Structure):
     mirror: Any
     lower: Any
     upper: Any
+    custom_guards: Any
+    custom_guard_count: Any
+    gaze: Any
     deformer: Any
     guards: Any
     variable_count: Any
@@ -1883,6 +1925,9 @@ class MienMixDesc(Structure):
                  mirror: Any = None,
                  lower: Any = None,
                  upper: Any = None,
+                 custom_guards: Any = None,
+                 custom_guard_count: int = 0,
+                 gaze: Any = None,
                  deformer: Any = None,
                  guards: int = 0,
                  variable_count: int = 0,
@@ -1892,7 +1937,7 @@ class MienMixDesc(Structure):
                  max_events: int = 0,
                  reverse: bool = False,
                  allocator: Any = None) -> None:
-        super().__init__(144)
+        super().__init__(168)
         self.layers = layers
         self.layer_count = layer_count
         self.poses = poses
@@ -1904,6 +1949,9 @@ class MienMixDesc(Structure):
         self.mirror = mirror
         self.lower = lower
         self.upper = upper
+        self.custom_guards = custom_guards
+        self.custom_guard_count = custom_guard_count
+        self.gaze = gaze
         self.deformer = deformer
         self.guards = guards
         self.variable_count = variable_count
@@ -1939,6 +1987,32 @@ class MienMixInfo(Structure):
 
     def __init__(self) -> None:
         super().__init__(48)
+
+
+class MienMixGuardInfo(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("lanes", MienIndex16View),
+        ("gains", MienFloatView),
+        ("pair_count", c_uint32),
+        ("needs_speech", c_uint32),
+        ("rest", c_float),
+        ("tolerance", c_float),
+        ("f_on", c_float),
+        ("fit_error", c_float),
+    ]
+    struct_size: Any
+    lanes: Any
+    gains: Any
+    pair_count: Any
+    needs_speech: Any
+    rest: Any
+    tolerance: Any
+    f_on: Any
+    fit_error: Any
+
+    def __init__(self) -> None:
+        super().__init__(64)
 
 
 class MienGazeDesc(Structure):
@@ -3794,11 +3868,21 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INVALID_ARGUMENT,
          "a part of `desc` is out of range; the message names it"),
         (Status.MISMATCH,
-         "the deformer is of another rig"),
+         "deformer or gaze are of another rig"),
+        (Status.INDEX,
+         "a landmark names a mesh, position or joint that does not exist"),
         (Status.MEMORY,
          "there is no memory"),
     ),
     "mien_mix_info": (),
+    "mien_mix_guard": (
+        (Status.INDEX,
+         "there is no such guard"),
+    ),
+    "mien_mix_glare": (
+        (Status.INVALID_ARGUMENT,
+         "`stroke_count` is less than 5"),
+    ),
     "mien_mix_antagonists": (),
     "mien_mix_mirror": (
         (Status.MISMATCH,
@@ -3868,13 +3952,11 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_mixer_set_guard": (
         (Status.INVALID_ARGUMENT,
-         "an argument is outside its range"),
+         "`activation` is above 1 or not a number"),
         (Status.INDEX,
          "the guard does not exist"),
     ),
     "mien_mixer_guard": (
-        (Status.INVALID_ARGUMENT,
-         "an argument is outside its range"),
         (Status.INDEX,
          "the guard does not exist"),
     ),
@@ -4175,6 +4257,9 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
      POINTER(MienError))),
     ("mien_mix_destroy", None, (MienMix,)),
     ("mien_mix_info", c_int32, (MienMix, POINTER(MienMixInfo))),
+    ("mien_mix_guard", c_int32, (MienMix, c_uint32, POINTER(MienMixGuardInfo))),
+    ("mien_mix_glare", c_int32, (c_uint32, POINTER(MienMixStroke), c_size_t,
+     POINTER(MienMixReaction))),
     ("mien_mix_antagonists", c_int32, (MienRig, POINTER(MienMixAntagonists), c_size_t, c_void_p)),
     ("mien_mix_mirror", c_int32, (MienDeformer, c_void_p, c_size_t, POINTER(MienError))),
     ("mien_mix_mask", c_int32, (MienRig, c_void_p, c_size_t, c_float, c_void_p, c_size_t,
@@ -4356,6 +4441,8 @@ class Library:
     mien_mix_create: Any
     mien_mix_destroy: Any
     mien_mix_info: Any
+    mien_mix_guard: Any
+    mien_mix_glare: Any
     mien_mix_antagonists: Any
     mien_mix_mirror: Any
     mien_mix_mask: Any

@@ -88,6 +88,20 @@ class MixLayer(NamedTuple):
         return cls(LayerSource.GENERATOR, group, mode, weight, mask, after_guards,
                    lanes=tuple(lanes), amounts=tuple(lanes.values()), kind=kind, period=period)
 
+    @classmethod
+    def gaze(cls, target: Sequence[Lane], head: Mapping[Lane, float] = {},
+             jitter: Tuple[float, float] = (0.0, 0.0), period: int = TICKS_PER_SECOND // 4,
+             group: int = LayerGroup.LIFE, weight: float = 1.0) -> MixLayer:
+        """Turns the eyes to a place, by the `gaze` of the mix.
+
+        target: three lanes, usually pose variables: millimeters to the left, up and to the front
+        head:   two lanes with factors, which get what is left for the head
+        jitter: degrees of fixation across and up; `period` is its time
+        """
+        return cls(LayerSource.GENERATOR, group, BlendMode.OVERRIDE, weight,
+                   lanes=(*target, *head), amounts=(*jitter, 0.0, *head.values()),
+                   kind=Generator.GAZE, period=period)
+
 
 class Stroke(NamedTuple):
     """A part of a reaction: moves lanes to a pose and back. Times are in ticks.
@@ -129,6 +143,67 @@ class Antagonists(NamedTuple):
     first: int
     second: int
     stiffness: float = 1.0
+
+
+#: No raw control: what a `CustomGuard` measures touches at rest.
+NO_CONTROL: int = _api.MIEN_NO_CONTROL
+
+
+class Landmark(NamedTuple):
+    """A place of a face: the middle of some positions of a mesh that LOD 0 shows, or of some joints
+    (mesh None)."""
+
+    points: Sequence[int]
+    mesh: Optional[int] = None
+
+
+class CustomGuard(NamedTuple):
+    """A guard for landmarks of yours: the distance of `upper` above `lower` must not be opened.
+
+    closed_by: raw control that makes both touch at 1; NO_CONTROL: they do at rest
+    tolerance: millimeters by which later layers may open
+    f_on:      acts where base and speech open by less millimeters
+    """
+
+    upper: Landmark
+    lower: Landmark
+    closed_by: Lane = NO_CONTROL
+    needs_speech: bool = False
+    tolerance: float = 0.3
+    f_on: float = 12.0
+
+
+class GuardInfo(NamedTuple):
+    """A guard as it was measured: millimeters = rest + sum of gain * lane + pairs of lanes.
+
+    fit_error: millimeters, root mean square over rows that were tried
+    """
+
+    lanes: List[int]
+    gains: List[float]
+    pair_count: int
+    rest: float
+    needs_speech: bool
+    tolerance: float
+    f_on: float
+    fit_error: float
+
+
+@raises("mien_mix_glare")
+def glare(poses: Sequence[Pose]) -> Reaction:
+    """A response to a light in the eyes. Its five poses: lids closed; squint and lowered brows; gaze
+    turned away; narrow pupils; head turned away. An empty one leaves its part out."""
+    if len(poses) != 5:
+        raise ArgumentError(f"{len(poses)} poses: a glare takes 5")
+    strokes, reaction = (_api.MienMixStroke * 5)(), _api.MienMixReaction()
+    status = lib.mien_mix_glare(0, strokes, len(strokes), _byref(reaction))
+    if status:
+        fail(status, "no glare")
+    return Reaction(
+        [Stroke(poses[s.pose], s.mode, s.delay, s.attack, s.hold, s.release, bool(s.is_held),
+                bool(s.is_lag)) for s in strokes],
+        reaction.retrigger, reaction.cooldown, reaction.adapted, reaction.adapt_ticks,
+        reaction.recover_ticks, bool(reaction.after_guards))
 
 
 class _Lists:
@@ -201,6 +276,21 @@ class _Lists:
             to.amounts = self.floats([float(a) for a in from_.amounts], "amounts")[0]
         return to
 
+    def landmark(self, from_: Landmark) -> Any:
+        points = (ctypes.c_uint32 * len(from_.points))(
+            *(uint32(point, "point") for point in from_.points))
+        self._held.append(points)
+        return _api.MienLandmark(
+            points=ctypes.cast(points, ctypes.c_void_p), point_count=len(points),
+            mesh=_api.MIEN_NO_MESH if from_.mesh is None else uint32(from_.mesh, "mesh"))
+
+    def guard(self, from_: CustomGuard) -> Any:
+        closed_by = from_.closed_by if from_.closed_by == NO_CONTROL else self.lane(from_.closed_by)
+        return _api.MienMixGuard(
+            upper=self.landmark(from_.upper), lower=self.landmark(from_.lower),
+            closed_by=closed_by, needs_speech=bool(from_.needs_speech),
+            tolerance=from_.tolerance, f_on=from_.f_on)
+
     def reaction(self, from_: Reaction) -> Any:
         strokes = self.array(_api.MienMixStroke, [_api.MienMixStroke(
             delay=index(s.delay), attack=index(s.attack), hold=index(s.hold),
@@ -236,6 +326,8 @@ class Mix(Closable):
                  be played mirrored
     limits:      (lower, upper), one number for all lanes or one for each; None: none
     guards:      `Guard` bits; measured on `deformer`, which takes time
+    custom_guards: more of them, for landmarks of yours
+    gaze:        for a layer of `MixLayer.gaze`
     """
 
     __slots__ = ("info", "variables")
@@ -243,6 +335,7 @@ class Mix(Closable):
     @raises("mien_mix_create")
     def __init__(self, rig: Rig, layers: Iterable[MixLayer], reactions: Iterable[Reaction] = (),
                  guards: int = 0, deformer: Optional[Deformer] = None,
+                 custom_guards: Iterable[CustomGuard] = (), gaze: Optional[Gaze] = None,
                  variables: Sequence[str] = (), antagonists: Iterable[Antagonists] = (),
                  mirror: Optional[Sequence[int]] = None,
                  limits: Optional[Tuple[Any, Any]] = None, players: int = 0,
@@ -253,7 +346,10 @@ class Mix(Closable):
         reaction_list = [lists.reaction(reaction) for reaction in reactions]
         pairs = [_api.MienMixAntagonists(first=lists.lane(a), second=lists.lane(b),
                                          stiffness=stiffness) for a, b, stiffness in antagonists]
+        guard_list = [lists.guard(guard) for guard in custom_guards]
         desc = _api.MienMixDesc(
+            custom_guards=lists.array(_api.MienMixGuard, guard_list),
+            custom_guard_count=len(guard_list), gaze=gaze and gaze._open(),
             layers=lists.array(_api.MienMixLayer, layer_list), layer_count=len(layer_list),
             poses=lists.array(_api.MienMixPose, lists.poses), pose_count=len(lists.poses),
             reactions=lists.array(_api.MienMixReaction, reaction_list),
@@ -285,6 +381,20 @@ class Mix(Closable):
             fail(status, "no info")
         self.info: MixInfo = MixInfo._of(found)
         self.variables: Dict[str, int] = {name: i for i, name in enumerate(variables)}
+
+    @raises("mien_mix_guard")
+    def guard(self, guard: int) -> GuardInfo:
+        """A guard, by its number from 0 on."""
+        g = _api.MienMixGuardInfo()
+        handle = self._open()
+        status = lib.mien_mix_guard(handle, uint32(guard, "guard"), _byref(g))
+        if status:
+            fail(status, f"guard {guard} of {self.info.guard_count}")
+        count = g.lanes.count
+        lanes = list((ctypes.c_uint16 * count).from_address(g.lanes.data)) if count else []
+        gains = list((ctypes.c_float * count).from_address(g.gains.data)) if count else []
+        return GuardInfo(lanes, gains, g.pair_count, g.rest,
+                         bool(g.needs_speech), g.tolerance, g.f_on, g.fit_error)
 
     def variable(self, variable: Lane) -> int:
         """Number of a pose variable."""

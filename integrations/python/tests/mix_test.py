@@ -263,6 +263,50 @@ class MixTest(unittest.TestCase):
         with self.assertRaises(mien.UnknownNameError):
             mien.Gaze(deformer_of(), left_eye="nobody")
 
+    def test_gaze_layers_look_at_pose_variables(self):
+        rig, face = rig_of(HEAD), rig_of(HEAD).instance()
+        gaze = mien.Gaze(deformer_of())
+        mix = mien.Mix(rig, [mien.MixLayer.gaze(["x", "y", "z"], {"turn": 1.0, "nod": 1.0})],
+                       variables=["x", "y", "z", "turn", "nod"], gaze=gaze)
+        mixer = mix.mixer()
+        for name, value in zip("xyz", (200.0, 1700.0, 1000.0)):
+            mixer.set_variable(name, value)
+        mixer.step(FRAME)
+        gaze.look_at((200.0, 1700.0, 1000.0), face)
+        self.assertEqual(bytes(mixer.row)[:len(bytes(face.raw_controls))],
+                         bytes(face.raw_controls))
+        with self.assertRaises(mien.ArgumentError):
+            mien.Mix(rig, [mien.MixLayer.gaze([0, 1, 2])])
+
+    def test_guards_of_ones_own_tell_what_they_held(self):
+        rig = rig_of(HEAD)
+        joints = [mien.Landmark([rig.find(mien.Kind.JOINT, name)])
+                  for name in ("C_TeethUpper", "C_TeethLower")]
+        mix = mien.Mix(rig, [mien.MixLayer.poses([{"jawOpen": 0.5}])], deformer=deformer_of(),
+                       custom_guards=[mien.CustomGuard(*joints, f_on=4.0)])
+        guard = mix.guard(0)
+        self.assertEqual(guard.lanes[0], rig.raw_control("jawOpen"))
+        self.assertGreater(guard.gains[0], 1)
+        mixer = mix.mixer()
+        mixer.set_pose_weight(0, 0, 1.0)
+        mixer.step(mien.ticks(1))
+        step = mixer.guard(0)
+        self.assertEqual(step.activation, 1.0)
+        self.assertEqual((step.name, step.kind, list(step.controls)), ("custom", 0, guard.lanes))
+        self.assertGreater(step.wanted, step.limit)
+        self.assertAlmostEqual(step.distance, step.limit, 3)
+        for error, call in ((mien.OutOfRangeError, lambda: mix.guard(1)),
+                            (mien.OutOfRangeError, lambda: mixer.guard(1)),
+                            (mien.ArgumentError, lambda: mien.glare([]))):
+            with self.assertRaises(error):
+                call()
+        dazzled = mien.glare([{"eyeBlinkLeft": 1.0}, {}, {}, {}, {}])
+        self.assertEqual(dazzled.strokes[0].delay, mien.ticks(0.06))
+        mixer = mien.Mix(rig, [], [dazzled]).mixer()
+        mixer.trigger(0)
+        mixer.step(mien.ticks(0.13))
+        self.assertEqual(mixer.row[rig.raw_control("eyeBlinkLeft")], 1.0)
+
 
 class SolverTest(unittest.TestCase):
     def setUp(self):

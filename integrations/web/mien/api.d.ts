@@ -481,6 +481,10 @@ export declare const Generator: {
   readonly BREATH: 1;
   /** smooth between -1 and 1; a new random value every period */
   readonly NOISE: 2;
+  /**
+   * turns the eyes to a place with saccades: MienMixDesc.gaze. `lanes` are the left, up and front of a MienGazeTarget, as earlier layers made them, then, if wanted, two lanes that get what is left for the head, a MienGazeRest. `amounts` are fixation jitter across and up in degrees, 0, and factors for the two lanes of the head. Blinks of the mix follow shifts of 20 degrees and more
+   */
+  readonly GAZE: 3;
 };
 export type Generator = (typeof Generator)[keyof typeof Generator];
 
@@ -1277,6 +1281,37 @@ export interface MixAntagonists {
   stiffness?: number;
 }
 
+/**
+ * A place of a face: the middle of some positions of a mesh that LOD 0 shows, or of some joints.
+ */
+export interface Landmark {
+  /** positions of the mesh, or joints */
+  points?: Uint32Array | readonly number[];
+  /** 1 to 65536 */
+  pointCount?: number;
+  /** whose positions they are. MIEN_NO_MESH: they are joints */
+  mesh?: number;
+}
+
+/**
+ * A guard for landmarks of the caller: the distance of `upper` above `lower`, along the axis that points
+ * up, must not be opened.
+ */
+export interface MixGuard {
+  upper?: Landmark;
+  lower?: Landmark;
+  /** raw control that makes both touch at 1. MIEN_NO_CONTROL: they do at rest */
+  closedBy?: number;
+  /** acts no more than the largest weight of a speech layer */
+  needsSpeech?: boolean;
+  /** millimeters by which later layers may open, 0 or more; 0.3 for the others */
+  tolerance?: number;
+  /**
+   * acts where base and speech open by less, fully at 0. Millimeters above 0; 12 for lips, 6 for lids
+   */
+  fOn?: number;
+}
+
 /** What to mix. Everything is copied. */
 export interface MixDesc {
   /** at most 16 */
@@ -1297,7 +1332,12 @@ export interface MixDesc {
   /** limits per lane. NULL: none; both or neither */
   lower?: Float32Array | readonly number[];
   upper?: Float32Array | readonly number[];
-  /** for measuring the guards; may be NULL if guards is 0 */
+  /** act after the others; at most 8 with them */
+  customGuards?: readonly MixGuard[];
+  customGuardCount?: number;
+  /** for a layer with MIEN_GENERATOR_GAZE, copied; may be NULL */
+  gaze?: { readonly handle: number };
+  /** for measuring the guards; may be NULL if there are none */
   deformer?: { readonly handle: number };
   /** MIEN_GUARD_... bits; without landmarks a guard is left out */
   guards?: Guard;
@@ -1330,6 +1370,27 @@ export interface MixInfo {
   readonly mixerBytes: number;
   /** size of a snapshot */
   readonly snapshotBytes: number;
+}
+
+/**
+ * A guard of a mix, as it was measured: the distance in millimeters is `rest`, the sum of gain times lane,
+ * and a sum over pairs of lanes that share a corrective. docs/mixing.md, 4 "Guards".
+ */
+export interface MixGuardInfo {
+  /** raw controls that change it, by falling gain */
+  readonly lanes: Uint16Array;
+  /** 1 float per lane: millimeters at value 1 */
+  readonly gains: Float32Array;
+  readonly pairCount: number;
+  /** as in MienMixGuard */
+  readonly needsSpeech: boolean;
+  /** distance of a row of zeros */
+  readonly rest: number;
+  /** as in MienMixGuard */
+  readonly tolerance: number;
+  readonly fOn: number;
+  /** millimeters, root mean square over rows that were tried */
+  readonly fitError: number;
 }
 
 /** How to create a gaze. */
@@ -1392,12 +1453,12 @@ export interface PlayDesc {
  */
 export interface GuardState {
   /**
-   * "lips left", "lips center", "lips right", "teeth", "lower lip to teeth", "left lids" or "right lids"
+   * "lips left", "lips center", "lips right", "teeth", "lower lip to teeth", "left lids", "right lids" or "custom"
    */
   readonly name: string;
   /** raw controls that it may hold back */
   readonly controls: Uint16Array;
-  /** MIEN_GUARD_... */
+  /** MIEN_GUARD_...; 0: it is of MienMixDesc.custom_guards */
   readonly kind: Guard;
   /** how much it acted, 0 to 1 */
   readonly activation: number;
@@ -2492,14 +2553,29 @@ export interface Exports {
    * Creates a mix for a rig. `desc` is required. `rig` may be destroyed afterwards, and so may the
    * deformer. Measuring guards takes time: it evaluates and deforms the rig at LOD 0 for each raw control
    * and for pairs that share a corrective. Destroy with mien_mix_destroy().
-   * Fails with MIEN_ERROR_MISMATCH if the deformer is of another rig,
-   * MIEN_ERROR_INVALID_ARGUMENT if a part of `desc` is out of range; the message names it.
+   * Fails with MIEN_ERROR_MISMATCH if deformer or gaze are of another rig, MIEN_ERROR_INDEX if a landmark
+   * names a mesh, position or joint that does not exist, MIEN_ERROR_INVALID_ARGUMENT if a part of `desc` is
+   * out of range; the message names it.
    */
   mien_mix_create(rig: number, desc: number, out_mix: number, error: number): number;
   /** Destroys a mix. Its mixers go on: the last of them releases it. */
   mien_mix_destroy(mix: number): void;
   /** Returns the properties of a mix. */
   mien_mix_info(mix: number, out_info: number): number;
+  /**
+   * Returns what was measured of a guard. `guard_index` counts as in mien_mixer_set_guard(), from 0 to
+   * MienMixInfo.guard_count - 1; mien_mixer_guard() has its name.
+   * Fails with MIEN_ERROR_INDEX if there is no such guard.
+   */
+  mien_mix_guard(mix: number, guard_index: number, out_guard: number): number;
+  /**
+   * Gives the strokes of a response to a light in the eyes, of which there are 5. Their poses are, from
+   * `first_pose` on: lids closed; squint and lowered brows; gaze turned away; narrow pupils; head turned
+   * away. docs/mixing.md, 3 "Reactions" has the times. `out_reaction` gets these strokes and the rules of
+   * the reaction.
+   * Fails with MIEN_ERROR_INVALID_ARGUMENT if `stroke_count` is less than 5.
+   */
+  mien_mix_glare(first_pose: number, out_strokes: number, stroke_count: number, out_reaction: number): number;
   /**
    * Finds antagonists: pairs of raw controls that the two halves of one GUI control drive, and nothing
    * else does. Writes as many as there is room for, with stiffness 1; `out_count` tells how many there are.
@@ -2583,18 +2659,17 @@ export interface Exports {
   /**
    * Sets how much a guard acts: `activation` is 0 ... 1. If it is negative, the default, the guard acts as
    * far as base and speech close its distance; those of lips and teeth act no more than the largest weight
-   * of a speech layer. Guards are numbered in this order, without those that were not asked for or not
-   * found: lips left, center and right, teeth, lower lip to upper teeth, left lids, right lids. Does not
-   * allocate or lock.
-   * Fails with MIEN_ERROR_INDEX if the guard does not exist.
+   * of a speech layer. mien_mixer_guard() tells which `guard_index` is which guard. Does not allocate or lock.
+   * Fails with MIEN_ERROR_INDEX if the guard does not exist, MIEN_ERROR_INVALID_ARGUMENT if `activation` is
+   * above 1 or not a number.
    */
-  mien_mixer_set_guard(mixer: number, guard: number, activation: number): number;
+  mien_mixer_set_guard(mixer: number, guard_index: number, activation: number): number;
   /**
-   * Returns what a guard did in the last step. `guard` counts as in mien_mixer_set_guard(). Views are of the
-   * mix.
+   * Returns what a guard did in the last step. `guard_index` counts as in mien_mixer_set_guard(). Views are of
+   * the mix.
    * Fails with MIEN_ERROR_INDEX if the guard does not exist.
    */
-  mien_mixer_guard(mixer: number, guard: number, out_state: number): number;
+  mien_mixer_guard(mixer: number, guard_index: number, out_state: number): number;
   /**
    * Starts a reaction to a stimulus of `strength`, 0 ... 1, that lasts `hold_ticks`, at most 2^40; if
    * negative, until mien_mixer_release(). Does not allocate or lock.

@@ -253,6 +253,7 @@ export const Generator = Object.freeze({
   BLINK: 0,
   BREATH: 1,
   NOISE: 2,
+  GAZE: 3,
 });
 
 export const Retrigger = Object.freeze({
@@ -654,7 +655,20 @@ export const layouts = {
     second: [2, "u16"],
     stiffness: [4, "f32"],
   } },
-  MixDesc: { size: 88, sized: true, fields: {
+  Landmark: { size: 12, sized: false, fields: {
+    points: [0, "*u32", "pointCount"],
+    pointCount: [4, "u32"],
+    mesh: [8, "u32"],
+  } },
+  MixGuard: { size: 40, sized: false, fields: {
+    upper: [0, "Landmark"],
+    lower: [12, "Landmark"],
+    closedBy: [24, "u32"],
+    needsSpeech: [28, "bool"],
+    tolerance: [32, "f32"],
+    fOn: [36, "f32"],
+  } },
+  MixDesc: { size: 100, sized: true, fields: {
     layers: [4, "*MixLayer", "layerCount"],
     layerCount: [8, "u32"],
     poses: [12, "*MixPose", "poseCount"],
@@ -666,14 +680,17 @@ export const layouts = {
     mirror: [36, "*u16"],
     lower: [40, "*f32"],
     upper: [44, "*f32"],
-    deformer: [48, "handle"],
-    guards: [52, "u32"],
-    variableCount: [56, "u32"],
-    playerCount: [60, "u32"],
-    maxChannels: [64, "u32"],
-    maxChangingChannels: [68, "u32"],
-    maxEvents: [72, "u32"],
-    reverse: [76, "bool"],
+    customGuards: [48, "*MixGuard", "customGuardCount"],
+    customGuardCount: [52, "u32"],
+    gaze: [56, "handle"],
+    deformer: [60, "handle"],
+    guards: [64, "u32"],
+    variableCount: [68, "u32"],
+    playerCount: [72, "u32"],
+    maxChannels: [76, "u32"],
+    maxChangingChannels: [80, "u32"],
+    maxEvents: [84, "u32"],
+    reverse: [88, "bool"],
   } },
   MixInfo: { size: 48, sized: true, fields: {
     rawControlCount: [4, "u32"],
@@ -684,6 +701,16 @@ export const layouts = {
     guardCount: [24, "u32"],
     mixerBytes: [32, "u64"],
     snapshotBytes: [40, "u64"],
+  } },
+  MixGuardInfo: { size: 44, sized: true, fields: {
+    lanes: [4, "u16s"],
+    gains: [12, "f32s"],
+    pairCount: [20, "u32"],
+    needsSpeech: [24, "bool"],
+    rest: [28, "f32"],
+    tolerance: [32, "f32"],
+    fOn: [36, "f32"],
+    fitError: [40, "f32"],
   } },
   GazeDesc: { size: 16, sized: true, fields: {
     leftEye: [4, "*text"],

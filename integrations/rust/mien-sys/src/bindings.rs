@@ -17,6 +17,10 @@ pub const MIEN_VERSION: u32 = 65536;
 pub const MIEN_NO_OFFSET: u64 = 18446744073709551615;
 /// Ticks per second.
 pub const MIEN_TICKS_PER_SECOND: u32 = 705600000;
+/// No mesh: points are joints.
+pub const MIEN_NO_MESH: u32 = 4294967295;
+/// No raw control.
+pub const MIEN_NO_CONTROL: u32 = 65535;
 /// No joint, where a field holds the index of one.
 pub const MIEN_NO_JOINT: u32 = 65535;
 
@@ -358,6 +362,12 @@ pub const MIEN_GENERATOR_BLINK: u32 = 0;
 pub const MIEN_GENERATOR_BREATH: u32 = 1;
 /// Smooth between -1 and 1; a new random value every period.
 pub const MIEN_GENERATOR_NOISE: u32 = 2;
+/// Turns the eyes to a place with saccades: MienMixDesc.gaze. `lanes` are the left, up and front
+/// of a MienGazeTarget, as earlier layers made them, then, if wanted, two lanes that get what is
+/// left for the head, a MienGazeRest. `amounts` are fixation jitter across and up in degrees, 0,
+/// and factors for the two lanes of the head. Blinks of the mix follow shifts of 20 degrees and
+/// more.
+pub const MIEN_GENERATOR_GAZE: u32 = 3;
 
 // enum MienRetrigger
 /// Extends the stimulus; strokes that ended or release start again.
@@ -1939,6 +1949,52 @@ impl Default for MienMixAntagonists {
     }
 }
 
+/// A place of a face: the middle of some positions of a mesh that LOD 0 shows, or of some joints.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienLandmark {
+    /// Positions of the mesh, or joints.
+    pub points: *const u32,
+    /// 1 to 65536.
+    pub point_count: u32,
+    /// Whose positions they are. `MIEN_NO_MESH`: they are joints.
+    pub mesh: u32,
+}
+
+impl Default for MienLandmark {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// A guard for landmarks of the caller: the distance of `upper` above `lower`, along the axis that
+/// points up, must not be opened.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienMixGuard {
+    pub upper: MienLandmark,
+    pub lower: MienLandmark,
+    /// Raw control that makes both touch at 1. `MIEN_NO_CONTROL`: they do at rest.
+    pub closed_by: u32,
+    /// Acts no more than the largest weight of a speech layer.
+    pub needs_speech: u32,
+    /// Millimeters by which later layers may open, 0 or more; 0.3 for the others.
+    pub tolerance: f32,
+    /// Acts where base and speech open by less, fully at 0. Millimeters above 0; 12 for lips, 6
+    /// for lids.
+    pub f_on: f32,
+}
+
+impl Default for MienMixGuard {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
 /// What to mix. Everything is copied.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -1961,7 +2017,12 @@ pub struct MienMixDesc {
     /// Limits per lane. NULL: none; both or neither.
     pub lower: *const f32,
     pub upper: *const f32,
-    /// For measuring the guards; may be NULL if guards is 0.
+    /// Act after the others; at most 8 with them.
+    pub custom_guards: *const MienMixGuard,
+    pub custom_guard_count: usize,
+    /// For a layer with `MIEN_GENERATOR_GAZE`, copied; may be NULL.
+    pub gaze: *const MienGaze,
+    /// For measuring the guards; may be NULL if there are none.
     pub deformer: *const MienDeformer,
     /// `MIEN_GUARD_...` bits; without landmarks a guard is left out.
     pub guards: u32,
@@ -2013,6 +2074,38 @@ pub struct MienMixInfo {
 }
 
 impl Default for MienMixInfo {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// A guard of a mix, as it was measured: the distance in millimeters is `rest`, the sum of gain
+/// times lane, and a sum over pairs of lanes that share a corrective. docs/mixing.md, 4 "Guards".
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienMixGuardInfo {
+    pub struct_size: usize,
+    /// Raw controls that change it, by falling gain.
+    pub lanes: MienIndex16View,
+    /// 1 float per lane: millimeters at value 1.
+    pub gains: MienFloatView,
+    pub pair_count: u32,
+    /// As in MienMixGuard.
+    pub needs_speech: u32,
+    /// Distance of a row of zeros.
+    pub rest: f32,
+    /// As in MienMixGuard.
+    pub tolerance: f32,
+    pub f_on: f32,
+    /// Millimeters, root mean square over rows that were tried.
+    pub fit_error: f32,
+}
+
+impl Default for MienMixGuardInfo {
     /// All zero but `struct_size`: every field has its default.
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
@@ -2141,12 +2234,12 @@ impl Default for MienPlayDesc {
 #[derive(Clone, Copy)]
 pub struct MienGuardState {
     pub struct_size: usize,
-    /// "lips left", "lips center", "lips right", "teeth", "lower lip to teeth", "left lids" or
-    /// "right lids".
+    /// "lips left", "lips center", "lips right", "teeth", "lower lip to teeth", "left lids",
+    /// "right lids" or "custom".
     pub name: MienStringView,
     /// Raw controls that it may hold back.
     pub controls: MienIndex16View,
-    /// `MIEN_GUARD_...`
+    /// `MIEN_GUARD_...`; 0: it is of MienMixDesc.`custom_guards`.
     pub kind: u32,
     /// How much it acted, 0 to 1.
     pub activation: f32,
@@ -3625,7 +3718,8 @@ extern "C" {
     /// the deformer. Measuring guards takes time: it evaluates and deforms the rig at LOD 0 for
     /// each raw control and for pairs that share a corrective. Destroy with `mien_mix_destroy()`.
     ///
-    /// Fails with `MIEN_ERROR_MISMATCH` if the deformer is of another rig,
+    /// Fails with `MIEN_ERROR_MISMATCH` if deformer or gaze are of another rig, `MIEN_ERROR_INDEX`
+    /// if a landmark names a mesh, position or joint that does not exist,
     /// `MIEN_ERROR_INVALID_ARGUMENT` if a part of `desc` is out of range; the message names it.
     pub fn mien_mix_create(rig: *const MienRig, desc: *const MienMixDesc, out_mix: *mut *mut MienMix, error: *mut MienError) -> MienStatus;
 
@@ -3634,6 +3728,20 @@ extern "C" {
 
     /// Returns the properties of a mix.
     pub fn mien_mix_info(mix: *const MienMix, out_info: *mut MienMixInfo) -> MienStatus;
+
+    /// Returns what was measured of a guard. `guard_index` counts as in `mien_mixer_set_guard()`,
+    /// from 0 to MienMixInfo.`guard_count` - 1; `mien_mixer_guard()` has its name.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such guard.
+    pub fn mien_mix_guard(mix: *const MienMix, guard_index: u32, out_guard: *mut MienMixGuardInfo) -> MienStatus;
+
+    /// Gives the strokes of a response to a light in the eyes, of which there are 5. Their poses
+    /// are, from `first_pose` on: lids closed; squint and lowered brows; gaze turned away; narrow
+    /// pupils; head turned away. docs/mixing.md, 3 "Reactions" has the times. `out_reaction` gets
+    /// these strokes and the rules of the reaction.
+    ///
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `stroke_count` is less than 5.
+    pub fn mien_mix_glare(first_pose: u32, out_strokes: *mut MienMixStroke, stroke_count: usize, out_reaction: *mut MienMixReaction) -> MienStatus;
 
     /// Finds antagonists: pairs of raw controls that the two halves of one GUI control drive, and
     /// nothing else does. Writes as many as there is room for, with stiffness 1; `out_count` tells
@@ -3723,18 +3831,18 @@ extern "C" {
 
     /// Sets how much a guard acts: `activation` is 0 ... 1. If it is negative, the default, the
     /// guard acts as far as base and speech close its distance; those of lips and teeth act no
-    /// more than the largest weight of a speech layer. Guards are numbered in this order, without
-    /// those that were not asked for or not found: lips left, center and right, teeth, lower lip
-    /// to upper teeth, left lids, right lids. Does not allocate or lock.
+    /// more than the largest weight of a speech layer. `mien_mixer_guard()` tells which
+    /// `guard_index` is which guard. Does not allocate or lock.
     ///
-    /// Fails with `MIEN_ERROR_INDEX` if the guard does not exist.
-    pub fn mien_mixer_set_guard(mixer: *mut MienMixer, guard: u32, activation: f32) -> MienStatus;
+    /// Fails with `MIEN_ERROR_INDEX` if the guard does not exist, `MIEN_ERROR_INVALID_ARGUMENT` if
+    /// `activation` is above 1 or not a number.
+    pub fn mien_mixer_set_guard(mixer: *mut MienMixer, guard_index: u32, activation: f32) -> MienStatus;
 
-    /// Returns what a guard did in the last step. `guard` counts as in `mien_mixer_set_guard()`.
-    /// Views are of the mix.
+    /// Returns what a guard did in the last step. `guard_index` counts as in
+    /// `mien_mixer_set_guard()`. Views are of the mix.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if the guard does not exist.
-    pub fn mien_mixer_guard(mixer: *const MienMixer, guard: u32, out_state: *mut MienGuardState) -> MienStatus;
+    pub fn mien_mixer_guard(mixer: *const MienMixer, guard_index: u32, out_state: *mut MienGuardState) -> MienStatus;
 
     /// Starts a reaction to a stimulus of `strength`, 0 ... 1, that lasts `hold_ticks`, at most
     /// 2^40; if negative, until `mien_mixer_release()`. Does not allocate or lock.

@@ -678,9 +678,32 @@ fn mien_mix_antagonists() {
 }
 
 #[test]
+fn mien_landmark() {
+    use mien_sys::MienLandmark as S;
+    assert_eq!(size_of::<S>(), 16);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, points), 0);
+    assert_eq!(offset!(S, point_count), 8);
+    assert_eq!(offset!(S, mesh), 12);
+}
+
+#[test]
+fn mien_mix_guard() {
+    use mien_sys::MienMixGuard as S;
+    assert_eq!(size_of::<S>(), 48);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, upper), 0);
+    assert_eq!(offset!(S, lower), 16);
+    assert_eq!(offset!(S, closed_by), 32);
+    assert_eq!(offset!(S, needs_speech), 36);
+    assert_eq!(offset!(S, tolerance), 40);
+    assert_eq!(offset!(S, f_on), 44);
+}
+
+#[test]
 fn mien_mix_desc() {
     use mien_sys::MienMixDesc as S;
-    assert_eq!(size_of::<S>(), 144);
+    assert_eq!(size_of::<S>(), 168);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
     assert_eq!(offset!(S, layers), 8);
@@ -694,16 +717,19 @@ fn mien_mix_desc() {
     assert_eq!(offset!(S, mirror), 72);
     assert_eq!(offset!(S, lower), 80);
     assert_eq!(offset!(S, upper), 88);
-    assert_eq!(offset!(S, deformer), 96);
-    assert_eq!(offset!(S, guards), 104);
-    assert_eq!(offset!(S, variable_count), 108);
-    assert_eq!(offset!(S, player_count), 112);
-    assert_eq!(offset!(S, max_channels), 116);
-    assert_eq!(offset!(S, max_changing_channels), 120);
-    assert_eq!(offset!(S, max_events), 124);
-    assert_eq!(offset!(S, reverse), 128);
-    assert_eq!(offset!(S, reserved), 132);
-    assert_eq!(offset!(S, allocator), 136);
+    assert_eq!(offset!(S, custom_guards), 96);
+    assert_eq!(offset!(S, custom_guard_count), 104);
+    assert_eq!(offset!(S, gaze), 112);
+    assert_eq!(offset!(S, deformer), 120);
+    assert_eq!(offset!(S, guards), 128);
+    assert_eq!(offset!(S, variable_count), 132);
+    assert_eq!(offset!(S, player_count), 136);
+    assert_eq!(offset!(S, max_channels), 140);
+    assert_eq!(offset!(S, max_changing_channels), 144);
+    assert_eq!(offset!(S, max_events), 148);
+    assert_eq!(offset!(S, reverse), 152);
+    assert_eq!(offset!(S, reserved), 156);
+    assert_eq!(offset!(S, allocator), 160);
 }
 
 #[test]
@@ -720,6 +746,22 @@ fn mien_mix_info() {
     assert_eq!(offset!(S, guard_count), 28);
     assert_eq!(offset!(S, mixer_bytes), 32);
     assert_eq!(offset!(S, snapshot_bytes), 40);
+}
+
+#[test]
+fn mien_mix_guard_info() {
+    use mien_sys::MienMixGuardInfo as S;
+    assert_eq!(size_of::<S>(), 64);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, lanes), 8);
+    assert_eq!(offset!(S, gains), 24);
+    assert_eq!(offset!(S, pair_count), 40);
+    assert_eq!(offset!(S, needs_speech), 44);
+    assert_eq!(offset!(S, rest), 48);
+    assert_eq!(offset!(S, tolerance), 52);
+    assert_eq!(offset!(S, f_on), 56);
+    assert_eq!(offset!(S, fit_error), 60);
 }
 
 #[test]

@@ -80,7 +80,10 @@ pub use dna::{Dna, GenerateOptions, OpenOptions, WriteOptions};
 pub use error::{Error, Result};
 pub use generated::*;
 pub use instance::Instance;
-pub use mix::{Antagonists, Gaze, Mix, MixLayer, MixOptions, Reaction, Stroke};
+pub use mix::{
+    Antagonists, CustomGuard, Gaze, GuardInfo, Landmark, Mix, MixLayer, MixOptions, Reaction,
+    Stroke,
+};
 pub use mixer::{GuardState, MixEvent, Mixer, PlayOptions, StreamSender};
 pub use report::{Finding, Report};
 pub use rig::{Rig, RigOptions};

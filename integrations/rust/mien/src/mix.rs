@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-use crate::convert::{index, terminated};
+use crate::convert::{index, slice, terminated};
 use crate::error::{check, checked};
 use crate::{
     Allocator, BlendMode, Deformer, Error, Generator, Guard, LayerGroup, LayerSource, MixInfo,
@@ -89,6 +89,18 @@ impl MixLayer {
         layer.generator = generator;
         layer.period = period;
         layer
+    }
+
+    /// Turns the eyes to a place, by [`MixOptions::gaze`], in the group life. `target` are lanes,
+    /// usually pose variables: millimeters to the left, up and to the front. Two lanes of `head` with
+    /// factors get what is left for the head. `jitter`: degrees of fixation across and up.
+    #[must_use]
+    pub fn gaze(target: [usize; 3], head: Option<[(usize, f32); 2]>, jitter: [f32; 2]) -> Self {
+        let [across, up] = jitter;
+        let mut lanes = vec![(target[0], across), (target[1], up), (target[2], 0.0)];
+        lanes.extend(head.iter().flatten());
+        Self::generator(Generator::GAZE, &lanes, crate::TICKS_PER_SECOND / 4)
+            .mode(BlendMode::OVERRIDE)
     }
 
     /// What it is for.
@@ -218,6 +230,100 @@ impl Default for Reaction {
     }
 }
 
+impl Reaction {
+    /// A response to a light in the eyes. Its poses: lids closed; squint and lowered brows; gaze turned
+    /// away; narrow pupils; head turned away. An empty one leaves its part out.
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_mix_glare)]
+    pub fn glare(poses: [Vec<(usize, f32)>; 5]) -> Result<Self> {
+        let mut strokes = [sys::MienMixStroke::default(); 5];
+        let mut reaction = sys::MienMixReaction::default();
+        // SAFETY: room for as many strokes as are told.
+        check(unsafe {
+            sys::mien_mix_glare(0, strokes.as_mut_ptr(), strokes.len(), &mut reaction)
+        })?;
+        let stroke = |(stroke, pose): (&sys::MienMixStroke, Vec<(usize, f32)>)| Stroke {
+            pose,
+            mode: BlendMode(stroke.mode),
+            delay: stroke.delay,
+            attack: stroke.attack,
+            hold: stroke.hold,
+            release: stroke.release,
+            is_held: stroke.is_held != 0,
+            is_lag: stroke.is_lag != 0,
+        };
+        Ok(Self {
+            strokes: strokes.iter().zip(poses).map(stroke).collect(),
+            retrigger: Retrigger(reaction.retrigger),
+            cooldown: reaction.cooldown,
+            adapted: reaction.adapted,
+            adapt_ticks: reaction.adapt_ticks,
+            recover_ticks: reaction.recover_ticks,
+            after_guards: reaction.after_guards != 0,
+        })
+    }
+}
+
+/// A place of a face: the middle of some positions of a mesh that LOD 0 shows, or of some joints.
+#[derive(Clone, Debug, Default)]
+pub struct Landmark {
+    /// Positions of the mesh, or joints.
+    pub points: Vec<u32>,
+    /// Whose positions they are; none: they are joints.
+    pub mesh: Option<usize>,
+}
+
+impl Landmark {
+    fn raw(&self) -> sys::MienLandmark {
+        sys::MienLandmark {
+            points: self.points.as_ptr(),
+            point_count: index(self.points.len()),
+            mesh: self.mesh.map_or(sys::MIEN_NO_MESH as u32, index),
+        }
+    }
+}
+
+/// A guard for landmarks of yours: the distance of `upper` above `lower` must not be opened.
+#[derive(Clone, Debug)]
+pub struct CustomGuard {
+    /// One side.
+    pub upper: Landmark,
+    /// The other.
+    pub lower: Landmark,
+    /// Raw control that makes both touch at 1; none: they do at rest.
+    pub closed_by: Option<usize>,
+    /// Acts no more than the largest weight of a speech layer.
+    pub needs_speech: bool,
+    /// Millimeters by which later layers may open.
+    pub tolerance: f32,
+    /// Acts where base and speech open by less millimeters.
+    pub f_on: f32,
+}
+
+/// A guard of a mix, as it was measured: millimeters = rest + sum of gain * lane + pairs of lanes.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct GuardInfo<'a> {
+    /// Raw controls that change it, by falling gain.
+    pub lanes: &'a [u16],
+    /// Beside these: millimeters at value 1.
+    pub gains: &'a [f32],
+    /// Pairs of lanes that share a corrective.
+    pub pair_count: usize,
+    /// Distance of a row of zeros.
+    pub rest: f32,
+    /// As in [`CustomGuard`].
+    pub needs_speech: bool,
+    /// As in [`CustomGuard`].
+    pub tolerance: f32,
+    /// As in [`CustomGuard`].
+    pub f_on: f32,
+    /// Millimeters, root mean square over rows that were tried.
+    pub fit_error: f32,
+}
+
 /// Two lanes that move the face in opposite directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Antagonists {
@@ -238,6 +344,8 @@ pub struct MixOptions {
     mirror: Option<Vec<u16>>,
     limits: Option<(Vec<f32>, Vec<f32>)>,
     guards: Option<(Guard, Deformer)>,
+    custom_guards: Vec<CustomGuard>,
+    gaze: Option<Arc<Gaze>>,
     variables: usize,
     players: usize,
     max_channels: usize,
@@ -294,6 +402,20 @@ impl MixOptions {
     #[must_use]
     pub fn guards(mut self, guards: Guard, deformer: &Deformer) -> Self {
         self.guards = Some((guards, deformer.clone()));
+        self
+    }
+
+    /// More guards, for landmarks of yours; [`guards`](Self::guards) names the deformer.
+    #[must_use]
+    pub fn custom_guard(mut self, guard: CustomGuard) -> Self {
+        self.custom_guards.push(guard);
+        self
+    }
+
+    /// For a layer of [`MixLayer::gaze`].
+    #[must_use]
+    pub fn gaze(mut self, gaze: &Arc<Gaze>) -> Self {
+        self.gaze = Some(gaze.clone());
         self
     }
 
@@ -414,6 +536,18 @@ impl MixOptions {
                 stiffness: pair.stiffness,
             })
             .collect();
+        let custom_guards: Vec<_> = self
+            .custom_guards
+            .iter()
+            .map(|guard| sys::MienMixGuard {
+                upper: guard.upper.raw(),
+                lower: guard.lower.raw(),
+                closed_by: guard.closed_by.map_or(sys::MIEN_NO_CONTROL as u32, index),
+                needs_speech: guard.needs_speech.into(),
+                tolerance: guard.tolerance,
+                f_on: guard.f_on,
+            })
+            .collect();
         let limit = |limit: fn(&(Vec<f32>, Vec<f32>)) -> *const f32| {
             self.limits.as_ref().map_or(null(), limit)
         };
@@ -431,6 +565,9 @@ impl MixOptions {
                 mirror: self.mirror.as_ref().map_or(null(), |mirror| mirror.as_ptr()),
                 lower: limit(|(lower, _)| lower.as_ptr()),
                 upper: limit(|(_, upper)| upper.as_ptr()),
+                custom_guards: custom_guards.as_ptr(),
+                custom_guard_count: custom_guards.len(),
+                gaze: self.gaze.as_ref().map_or(null(), |gaze| gaze.handle.as_ptr()),
                 deformer: self.guards.as_ref().map_or(null(), |(_, deformer)| deformer.raw()),
                 guards: self.guards.as_ref().map_or(0, |(guards, _)| guards.0),
                 variable_count: index(self.variables),
@@ -528,6 +665,31 @@ impl Mix {
     #[doc = errors!(mien_mixer_create)]
     pub fn mixer_with_stages(&self, seed: u64) -> Result<Mixer> {
         Mixer::new(self, seed, true)
+    }
+
+    /// A guard, by its number.
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_mix_guard)]
+    pub fn guard(&self, guard: usize) -> Result<GuardInfo<'_>> {
+        let mut out = sys::MienMixGuardInfo::default();
+        // SAFETY: a live handle and a sized struct.
+        check(unsafe { sys::mien_mix_guard(self.raw(), index(guard), &mut out) })?;
+        // SAFETY: views live as long as the mix.
+        let (lanes, gains) = unsafe {
+            (slice(out.lanes.data, out.lanes.count), slice(out.gains.data, out.gains.count))
+        };
+        Ok(GuardInfo {
+            lanes,
+            gains,
+            pair_count: out.pair_count as usize,
+            rest: out.rest,
+            needs_speech: out.needs_speech != 0,
+            tolerance: out.tolerance,
+            f_on: out.f_on,
+            fit_error: out.fit_error,
+        })
     }
 
     pub(crate) fn raw(&self) -> *const sys::MienMix {

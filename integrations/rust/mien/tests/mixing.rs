@@ -3,10 +3,11 @@
 //! calls are errors.
 
 use mien::{
-    AimSolver, BlendMode, Clip, ClipBinding, ClipEvent, ClipOptions, CopySolver, CustomSolver,
-    Deformer, Dna, Gaze, Generator, Guard, Kind, LayerGroup, Mix, MixLayer, MixOptions, Mixer,
-    PlayOptions, Preset, Reaction, Rig, Solver, SolverInput, SolverStackOptions, SolverState,
-    SpaceSolver, SpringSolver, Status, Stroke, Transition, TwistSolver, NO_JOINT, TICKS_PER_SECOND,
+    AimSolver, BlendMode, Clip, ClipBinding, ClipEvent, ClipOptions, CopySolver, CustomGuard,
+    CustomSolver, Deformer, Dna, Gaze, Generator, Guard, Kind, Landmark, LayerGroup, Mix, MixLayer,
+    MixOptions, Mixer, PlayOptions, Preset, Reaction, Rig, Solver, SolverInput, SolverStackOptions,
+    SolverState, SpaceSolver, SpringSolver, Status, Stroke, Transition, TwistSolver, NO_JOINT,
+    TICKS_PER_SECOND,
 };
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
@@ -252,6 +253,64 @@ fn guards_and_tables_measure_the_rig() {
         Gaze::new(&head.deformer, Some(("nobody", "R_Eye"))).unwrap_err().status(),
         Status::NAME
     );
+}
+
+#[test]
+fn guards_of_ones_own_tell_what_they_held() {
+    let head = Head::get();
+    let joint = |name: &str| head.rig.find(Kind::JOINT, name).unwrap() as u32;
+    let jaw = head.lane("jawOpen");
+    let teeth = CustomGuard {
+        upper: Landmark { points: vec![joint("C_TeethUpper")], mesh: None },
+        lower: Landmark { points: vec![joint("C_TeethLower")], mesh: None },
+        closed_by: None,
+        needs_speech: false,
+        tolerance: 0.3,
+        f_on: 4.0,
+    };
+    let none: [Vec<(usize, f32)>; 4] = Default::default();
+    let [a, b, c, d] = none;
+    let glare = Reaction::glare([vec![(head.lane("eyeBlinkLeft"), 1.0)], a, b, c, d]).unwrap();
+    assert_eq!(glare.strokes[0].delay, TICKS_PER_SECOND / 1000 * 60);
+    let options = MixOptions::new()
+        .layer(MixLayer::poses(&[&[(jaw, 0.5)]]))
+        .reaction(glare)
+        .guards(Guard(0), &head.deformer);
+    let mix = options.clone().custom_guard(teeth.clone()).create(&head.rig).unwrap();
+    let guard = mix.guard(0).unwrap();
+    assert_eq!(usize::from(guard.lanes[0]), jaw);
+    assert_eq!(mix.guard(1).unwrap_err().status(), Status::INDEX);
+    let mut mixer = mix.mixer(0).unwrap();
+    mixer.set_pose_weight(0, 0, 1.0, 0).unwrap();
+    mixer.trigger(0, 1.0, 0).unwrap();
+    mixer.step(TICKS_PER_SECOND / 100 * 13, None).unwrap();
+    assert_eq!(mixer.row()[head.lane("eyeBlinkLeft")], 1.0);
+    let step = mixer.guard(0).unwrap();
+    assert_eq!((step.activation, step.name.as_str()), (1.0, "custom"));
+    assert!(step.controls == guard.lanes && step.wanted > step.limit);
+    assert!((step.distance - step.limit).abs() < 1e-3);
+    let wrong = CustomGuard { f_on: 0.0, ..teeth };
+    let wrong = options.custom_guard(wrong).create(&head.rig).unwrap_err();
+    assert_eq!(wrong.status(), Status::INVALID_ARGUMENT);
+}
+
+#[test]
+fn gaze_layers_look_at_pose_variables() {
+    let head = Head::get();
+    let lanes = head.variable();
+    let gaze = Arc::new(Gaze::new(&head.deformer, None).unwrap());
+    let layer = MixLayer::gaze([lanes, lanes + 1, lanes + 2], None, [0.0; 2]);
+    let options = MixOptions::new().layer(layer).variables(3);
+    assert_eq!(options.create(&head.rig).unwrap_err().status(), Status::INVALID_ARGUMENT);
+    let mut mixer = options.gaze(&gaze).create(&head.rig).unwrap().mixer(0).unwrap();
+    let place = [200.0, 1700.0, 1000.0];
+    for (variable, value) in place.iter().enumerate() {
+        mixer.set_variable(variable, *value).unwrap();
+    }
+    mixer.step(FRAME, None).unwrap();
+    let mut row = vec![0.0; lanes];
+    gaze.look_at(place, &mut row).unwrap();
+    assert_eq!(mixer.row()[..lanes], row);
 }
 
 #[test]
