@@ -9,6 +9,7 @@ All rigs come from `mien gen`.
 import json
 import os
 import random
+import shutil
 import signal
 import struct
 import subprocess
@@ -235,6 +236,36 @@ class Eval(ProgramTest):
         self.assertEqual(child.wait(), -signal.SIGKILL)
         self.assertEqual([name for name in os.listdir(program.folder) if name.startswith(".mien")], [])
         self.assertFalse(os.path.exists(path("never.json")))
+
+    def test_files_of_killed_processes_are_removed(self):
+        """Where files have names from the start. Only what is old, of no living process, and named so."""
+        if not shutil.which("cc"):
+            self.skipTest("NOT TESTED: files that killed processes left; there is no C compiler")
+        source = write("named.c", """
+            #define _GNU_SOURCE
+            #include <errno.h>
+            #include <fcntl.h>
+            #include <sys/syscall.h>
+            #include <unistd.h>
+            int open(const char* path, int flags, ...) {
+              if ((flags & O_TMPFILE) == O_TMPFILE) return errno = EOPNOTSUPP, -1;
+              return (int)syscall(SYS_openat, AT_FDCWD, path, flags, 0666);
+            }""")
+        subprocess.run(["cc", "-shared", "-fPIC", source, "-o", path("named.so")], check=True)
+        child = subprocess.Popen(["true"])
+        child.wait()
+        living = os.getpid()
+        names = {".mien-%d-0" % child.pid: True, ".mien-%d-1" % child.pid: False, ".mien-%d-0" % living: False,
+                 ".mien-%d-0x" % child.pid: False, "mien-%d-0" % child.pid: False}
+        for name in names:
+            os.utime(write(name, "old"), (0, 0))
+        os.utime(path(".mien-%d-1" % child.pid))  # young
+        self.ok("eval", path("tiny.dna"), "--input", "-", "-o", path("out.json"), stdin=b'{"frames": [{}]}',
+                env={"LD_PRELOAD": path("named.so")})
+        for name, removed in names.items():
+            self.assertEqual(os.path.exists(path(name)), not removed, name)
+            if not removed:
+                os.remove(path(name))
 
     def test_an_interrupt_leaves_nothing_behind(self):
         target = path("never.json")

@@ -2,7 +2,9 @@
 #include "integrations/cli/io/output.h"
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #if defined(_WIN32)
@@ -11,6 +13,7 @@
 #include <process.h>
 #else
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #endif
 
@@ -100,6 +103,30 @@ bool name_file(FILE* stream, const std::string& name) {
 #endif
 }
 
+/// Removes temporary files in the folder that processes which were killed left behind: of this user, not
+/// touched for an hour (a folder may be shared with another machine, whose processes are not seen here).
+void remove_abandoned_files(const fs::path& folder) {
+#if !defined(_WIN32)
+  constexpr auto kAge = std::chrono::hours(1);
+  std::error_code failed;
+  fs::directory_iterator entries(folder.empty() ? fs::path(".") : folder, failed);
+  for (; !failed && entries != fs::directory_iterator(); entries.increment(failed)) {
+    const std::string name = entries->path().filename().string();
+    int process = 0, attempt = 0, end = 0;
+    if (std::sscanf(name.c_str(), ".mien-%9d-%3d%n", &process, &attempt, &end) != 2) continue;
+    if (static_cast<size_t>(end) != name.size() || process <= 0) continue;
+    struct stat file;
+    if (lstat(entries->path().c_str(), &file) != 0 || !S_ISREG(file.st_mode)) continue;
+    const auto age =
+        std::chrono::system_clock::now() - std::chrono::system_clock::from_time_t(file.st_mtime);
+    const bool is_dead = kill(process, 0) != 0 && errno == ESRCH;
+    if (is_dead && file.st_uid == geteuid() && age > kAge) unlink(entries->path().c_str());
+  }
+#else
+  static_cast<void>(folder);
+#endif
+}
+
 void make_binary(FILE* stream) {
 #if defined(_WIN32)
   _setmode(_fileno(stream), _O_BINARY);
@@ -134,6 +161,7 @@ Output::Output(const std::string& path) : path_(path) {
   if (fs::exists(status)) permissions_ = status.permissions();
   stream_ = open_unnamed(target.parent_path());
   if (stream_) return;
+  remove_abandoned_files(target.parent_path());
   take_temporary_name([&] {
     stream_ = std::fopen(temporary_.c_str(), "wbx");
     return stream_ != nullptr;
