@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/mix/mixer_layers.h"
+
+namespace mien {
+
+bool has_rows(const MixLayer& layer) {
+  return layer.source == LayerSource::kClip || layer.source == LayerSource::kStream;
+}
+
+size_t layers_with_rows(const Mix& mix, size_t end) {
+  size_t count = 0;
+  for (const MixLayer& layer : mix.layers.first(end)) count += has_rows(layer);
+  return count;
+}
+
+size_t shown_floats(const Mix& mix, uint32_t layer) {
+  return mix.layers[layer].source == LayerSource::kStream ? mix.lane_count : layer_row_floats(mix);
+}
+
+float* layer_row(Mixer& mixer, uint32_t layer, uint32_t row) {
+  const size_t slot = layers_with_rows(*mixer.mix, layer);
+  const size_t floats = layer_row_floats(*mixer.mix);
+  return mixer.layer_rows.slice((slot * kLayerRows + row) * floats, floats).data;
+}
+
+QuinticRows quintic_rows(Mixer& mixer, uint32_t layer) {
+  return {layer_row(mixer, layer, kQuintic0), layer_row(mixer, layer, kQuintic1),
+          layer_row(mixer, layer, kQuintic2), layer_row(mixer, layer, kQuinticRate)};
+}
+
+void start_offsets(Mixer& mixer, uint32_t index, const float* next, int64_t start, int64_t ticks) {
+  LayerState& layer = mixer.layers[index];
+  layer.offset_ticks = 0;
+  if (layer.shown_count == 0 || ticks == 0) return;
+  const bool moves = layer.shown_count == 2 && layer.shown_ticks > 0;
+  const float* last = layer_row(mixer, index, kShown0 + layer.newest);
+  const float* before = moves ? layer_row(mixer, index, kShown0 + (layer.newest ^ 1)) : last;
+  start_quintics(last, before, next, moves ? fraction_of(ticks, layer.shown_ticks) : 0.0f,
+                 shown_floats(*mixer.mix, index), quintic_rows(mixer, index));
+  layer.offset_start = start;
+  layer.offset_ticks = ticks;
+}
+
+void release_player(Mixer& mixer, uint16_t& player) {
+  if (player != kNoPlayer) mixer.players[player].used = false;
+  player = kNoPlayer;
+}
+
+void sample_player(Mixer& mixer, Player& player, bool constants) {
+  const Mix& mix = *mixer.mix;
+  const Span<const float> values = sample_clip(player.sampler);
+  const Binding& binding = *player.source.binding;
+  if (!player.mirrored) {
+    apply_binding(binding, values, mixer.gui, player.row.first(mix.raw_count), constants);
+    return;
+  }
+  apply_binding(binding, values, mixer.gui, mixer.scratch.first(mix.raw_count));
+  for (uint16_t lane : binding.controls) player.row[mix.mirror[lane]] = mixer.scratch[lane];
+}
+
+}  // namespace mien

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// What the layers of a mixer play, and the rows that they have shown: for its commands and its step.
+#pragma once
+
+#include "runtime/mix/mix_rows.h"
+#include "runtime/mix/mixer.h"
+
+namespace mien {
+
+/// Layers that can lead over from what they have shown to something else.
+bool has_rows(const MixLayer& layer);
+/// Of the first `end` layers.
+size_t layers_with_rows(const Mix& mix, size_t end);
+inline size_t layer_row_floats(const Mix& mix) { return size_t{2} * mix.lane_count; }
+/// Of what a layer shows: streams cover the same lanes all the time.
+size_t shown_floats(const Mix& mix, uint32_t layer);
+
+float* layer_row(Mixer& mixer, uint32_t layer, uint32_t row);
+QuinticRows quintic_rows(Mixer& mixer, uint32_t layer);
+
+/// Leads from the rows that the layer has shown last over to another row, beginning at `start`.
+void start_offsets(Mixer& mixer, uint32_t index, const float* next, int64_t start, int64_t ticks);
+
+/// The image of a lane on the other side of the face, if the player is mirrored.
+inline uint32_t played_lane(const Mix& mix, const Player& player, uint32_t lane) {
+  return player.mirrored ? mix.mirror[lane] : lane;
+}
+void release_player(Mixer& mixer, uint16_t& player);
+
+}  // namespace mien
