@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 
 #include "integrations/cli/gltf/arkit_controls.h"
 #include "integrations/cli/io/failure.h"
@@ -17,7 +18,6 @@ namespace mien::cli {
 namespace {
 
 constexpr const char* kCannot = "cannot play scene";
-constexpr int64_t kMillisecond = MIEN_TICKS_PER_SECOND / 1000;
 
 // By the names of ARKit and by those of heads that name sides by a letter.
 const NamedValues kBlinkControls = {
@@ -178,29 +178,12 @@ void Performance::add_glare() {
                               {{lanes_.variable("gaze.y")}, {-0.4f}},
                               pupils,
                               {{lanes_.variable("head.turn")}, {0.3f}}};
-  struct Times {
-    uint32_t mode, is_held, is_lag;
-    int64_t delay, attack, hold, release;
-  };
-  constexpr Times kTimes[] = {{MIEN_BLEND_MODE_MAX, 0, 0, 60, 70, 60, 220},
-                              {MIEN_BLEND_MODE_SCREEN, 1, 0, 90, 150, 0, 400},
-                              {MIEN_BLEND_MODE_ADD, 1, 0, 200, 120, 0, 350},
-                              {MIEN_BLEND_MODE_ADD, 1, 1, 200, 250, 0, 500},
-                              {MIEN_BLEND_MODE_ADD, 1, 0, 180, 350, 0, 600}};
-  strokes_.emplace_back();
-  for (size_t i = 0; i < 5; ++i) {
-    const Times& t = kTimes[i];
-    strokes_.back().push_back({t.delay * kMillisecond, t.attack * kMillisecond,
-                               t.hold * kMillisecond, t.release * kMillisecond, add_pose(poses[i]),
-                               t.mode, t.is_held, t.is_lag});
-  }
+  const uint32_t first = add_pose(poses[0]);
+  for (size_t i = 1; i < std::size(poses); ++i) add_pose(poses[i]);
+  strokes_.emplace_back(std::size(poses));
   MienMixReaction reaction = {};
-  reaction.cooldown = 250 * kMillisecond;
-  reaction.adapt_ticks = reaction.recover_ticks = 1500 * kMillisecond;
-  reaction.strokes = strokes_.back().data();
-  reaction.stroke_count = strokes_.back().size();
-  reaction.retrigger = MIEN_RETRIGGER_EXTEND;
-  reaction.adapted = 0.6f;
+  check(mien_mix_glare(first, strokes_.back().data(), strokes_.back().size(), &reaction), nullptr,
+        kCannot, script_.shown);
   reactions_.push_back(reaction);
 }
 
