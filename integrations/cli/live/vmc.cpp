@@ -61,18 +61,24 @@ bool VmcDecoder::decode_message(const uint8_t* bytes, size_t size, const Use& us
   const Message message(lo_message_deserialise(copy.data(), copy.size(), &problem));
   const char* path = reinterpret_cast<const char*>(bytes);
   if (!message || memchr(bytes, 0, size) == nullptr) return false;
+  // Arguments stand at multiples of four, which is less than their type in liblo is aligned to.
+  const auto number = [](const lo_arg* argument) {
+    float value;
+    memcpy(&value, argument, sizeof(value));
+    return value;
+  };
   const auto made = static_cast<lo_message>(message.get());
   const std::string_view types = lo_message_get_types(made);
   lo_arg** arguments = lo_message_get_argv(made);
   if (strcmp(path, kTime) == 0) {
-    if (types != "f" || !(arguments[0]->f >= 0) || !(double{arguments[0]->f} < kMaxSeconds)) {
-      return false;
-    }
-    seconds_ = double{arguments[0]->f};
+    if (types != "f") return false;
+    const double seconds = number(arguments[0]);
+    if (!(seconds >= 0) || !(seconds < kMaxSeconds)) return false;
+    seconds_ = seconds;
   } else if (strcmp(path, kValue) == 0) {
-    if (types != "sf" || !std::isfinite(arguments[1]->f)) return false;
-    const int index = find_(&arguments[0]->s);
-    if (index >= 0) values_[static_cast<size_t>(index)] = arguments[1]->f;
+    if (types != "sf" || !std::isfinite(number(arguments[1]))) return false;
+    const int index = find_(reinterpret_cast<const char*>(arguments[0]));
+    if (index >= 0) values_[static_cast<size_t>(index)] = number(arguments[1]);
   } else if (strcmp(path, kApply) == 0) {
     use(seconds_, values_);
     seconds_ = -1;
