@@ -30,8 +30,10 @@ from .dna import Dna, coordinate_system, coordinate_system_names, validate
 from .errors import (ArgumentError, BusyError, ClipError, ClosedError, DnaError, Error, FileError,
                      OutOfMemoryError, OutOfRangeError, UnknownNameError)
 from .instance import Instance
-from .mix import (NO_CONTROL, Antagonists, CustomGuard, Gaze, GuardInfo, Landmark, Mix, MixLayer,
-                  Reaction, Stroke, glare, ticks)
+from .mix import Gaze, Mix
+from .mix_parts import (NO_CONTROL, Antagonists, CustomGuard, Landmark, MixLayer, Reaction, Stroke,
+                        glare, ticks)
+from .mix_view import GuardInfo
 from .mixer import GuardState, MixEvent, Mixer, step_mixers
 from .rig import Rig
 from .rig_view import isa_available, isa_name

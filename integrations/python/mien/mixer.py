@@ -6,7 +6,7 @@ import ctypes
 from _thread import allocate_lock
 from contextlib import ExitStack, contextmanager
 from operator import index
-from typing import Any, Dict, Iterable, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple
 
 from . import _api
 from ._api import (Guard, Interpolation, Looping, MienError, MixerInfo, Status, Transition, text)
@@ -15,7 +15,8 @@ from ._memory import Closable, Floats, MixerHandle, array_over, as_bytes, floats
 from .clip import TICKS_PER_SECOND, Clip, ClipBinding, _fraction, _int
 from .errors import ArgumentError, BusyError, fail, raises
 from .instance import Instance
-from .mix import Lane, Mix
+from .mix_parts import Lane
+from .mix_view import MixView
 
 _byref = ctypes.byref
 
@@ -50,7 +51,7 @@ class Mixer(Closable):
     __slots__ = ("mix", "_lock", "_push_lock", "_playing", "_restored")
 
     @raises("mien_mixer_create")
-    def __init__(self, mix: Mix, seed: int = 0, stages: bool = False) -> None:
+    def __init__(self, mix: MixView, seed: int = 0, stages: bool = False) -> None:
         number = index(seed)
         if not 0 <= number < 1 << 64:
             raise ArgumentError(f"seed {number}: not in 0 ... 2**64 - 1")
