@@ -40,7 +40,8 @@ void expect_good_rig(AuthorSetup& head, const Bounds& bounds) {
 }
 
 TEST(RealMeshes, IctIsFollowed) {
-  if (real_mesh_folder().empty()) GTEST_SKIP() << "no $MIEN_SHARED/data/meshes";
+  if (real_mesh_folder().empty())
+    GTEST_SKIP() << "NOT TESTED: rigs from real heads; there is no $MIEN_SHARED/data/meshes";
   AuthorSetup head;
   ASSERT_TRUE(load_ict(head));
   EXPECT_EQ(head.positions.size(), 11248u);
@@ -48,7 +49,8 @@ TEST(RealMeshes, IctIsFollowed) {
 }
 
 TEST(RealMeshes, MakeHumanIsFollowed) {
-  if (real_mesh_folder().empty()) GTEST_SKIP() << "no $MIEN_SHARED/data/meshes";
+  if (real_mesh_folder().empty())
+    GTEST_SKIP() << "NOT TESTED: rigs from real heads; there is no $MIEN_SHARED/data/meshes";
   AuthorSetup head;
   ASSERT_TRUE(load_makehuman(head));
   EXPECT_EQ(head.positions.size(), 4490u);

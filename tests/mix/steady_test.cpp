@@ -5,22 +5,10 @@
 
 #include <cmath>
 
+#include "tests/support/counted_news.h"
 #include "tests/support/counting_allocator.h"
 #include "tests/support/long_run.h"
 #include "tests/support/mix_scene.h"
-
-// Requests that pass by the caller's allocator show here. (Inlined, gcc takes these for a mismatch.)
-namespace {
-size_t g_news = 0;
-}
-[[gnu::noinline]] void* operator new(size_t size) {
-  ++g_news;
-  void* memory = malloc(size ? size : 1);
-  if (!memory) abort();
-  return memory;
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, size_t) noexcept { free(memory); }
 
 namespace mien {
 namespace {

@@ -44,8 +44,7 @@ void add_glb_options(CLI::App& command, GlbOptions& options, const std::string& 
       ->group(group);
   command
       .add_flag("--quantize", options.quantize,
-                "Half the size: integers of 8 and 16 bits (KHR_mesh_quantization, which\n"
-                "three.js and Blender read)")
+                "About half the size: integers of 8 and 16 bits (KHR_mesh_quantization)")
       ->group(group);
   command.add_flag("--no-uvs", options.no_uvs, "No texture coordinates")->group(group);
   command

@@ -211,6 +211,12 @@ void reduce(const Form& form, size_t most, std::vector<Influence>& influences) {
   for (const size_t i : chosen) {
     if (best[i] > 0) kept.push_back({influences[i].joint, best[i]});
   }
+  if (kept.empty()) {  // poses beyond floats have no distances: the heaviest stay
+    double sum = 0;
+    kept.assign(influences.begin(), influences.begin() + most);
+    for (const Influence& influence : kept) sum += influence.weight;
+    for (Influence& influence : kept) influence.weight /= sum;
+  }
   std::sort(kept.begin(), kept.end(), [](const Influence& a, const Influence& b) {
     return a.weight != b.weight ? a.weight > b.weight : a.joint < b.joint;
   });

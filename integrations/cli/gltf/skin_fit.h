@@ -17,7 +17,7 @@ struct Influence {
 /// A position with more influences than there is room for.
 struct CrowdedPosition {
   uint32_t rig_mesh, position;
-  std::vector<Influence> influences;  // positive weights of sum 1, each joint once
+  std::vector<Influence> influences;  // the heaviest first, of sum 1, all above 0, each joint once
 };
 
 struct SkinLoss {
