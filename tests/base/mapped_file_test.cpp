@@ -3,11 +3,57 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstring>
+#include <filesystem>
 #include <string>
+#include <thread>
+#include <vector>
 
 namespace mien {
 namespace {
+
+namespace fs = std::filesystem;
+
+/// An empty folder, for as long as it lives.
+struct Folder {
+  fs::path path = fs::path(testing::TempDir()) / "mapped_file_test";
+
+  Folder() {
+    std::error_code failed;
+    fs::remove_all(path, failed);
+    fs::create_directories(path, failed);
+    EXPECT_FALSE(failed) << failed.message();
+  }
+  ~Folder() {
+    std::error_code failed;
+    fs::remove_all(path, failed);
+  }
+  size_t entries() const {
+    size_t count = 0;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+      (void)entry;
+      ++count;
+    }
+    return count;
+  }
+};
+
+Status write_text(const std::string& path, const std::string& text, Error& error) {
+  return write_file(path.c_str(), reinterpret_cast<const uint8_t*>(text.data()), text.size(),
+                    default_allocator(), error);
+}
+
+/// What a file says, or why it cannot be read.
+std::string text_of(const std::string& path, FileAccess access) {
+  MappedFile file;
+  Error error;
+  const Status status = open_file(path.c_str(), access, {}, default_allocator(), file, error);
+  if (status != Status::kOk) return error.message;
+  const std::string text(reinterpret_cast<const char*>(file.bytes), file.size);
+  close_file(file);
+  return text;
+}
 
 /// Gives `letter` for ever, `step` at a time, after a beginning, and counts.
 struct Endless {
@@ -75,6 +121,116 @@ TEST(ReadToEnd, TellsThatTheSourceFailed) {
             Status::kFileRead);
   EXPECT_FALSE(good);
   EXPECT_EQ(file.bytes, nullptr);
+}
+
+TEST(SystemFile, NamesAreUtf8) {
+  const Folder folder;
+  for (const char* name :
+       {"plain.dna", "two words.dna", "h\xC3\xA4nde.dna", "\xE9\xA1\x94 \xF0\x9F\x99\x82.dna"}) {
+    const std::string path = (folder.path / fs::u8path(name)).u8string();
+    Error error;
+    for (const char* text : {"first", "another"}) {
+      ASSERT_EQ(write_text(path, text, error), Status::kOk) << error.message;
+      EXPECT_EQ(text_of(path, FileAccess::kMap), text);
+      EXPECT_EQ(text_of(path, FileAccess::kRead), text);
+    }
+    EXPECT_TRUE(fs::exists(folder.path / fs::u8path(name))) << "under this very name";
+  }
+  EXPECT_EQ(folder.entries(), 4u) << "no temporary files";
+#if defined(_WIN32)
+  Error error;
+  EXPECT_EQ(write_text("\xFF\xFE.dna", "text", error), Status::kFileWrite);
+  EXPECT_NE(strstr(error.message, "not UTF-8"), nullptr) << error.message;
+  EXPECT_NE(text_of("\xFF\xFE.dna", FileAccess::kMap).find("not UTF-8"), std::string::npos);
+#endif
+}
+
+TEST(SystemFile, NamesAndPathsMayBeAsLongAsTheSystemAllows) {
+  const Folder folder;
+  fs::path deep = fs::absolute(folder.path).make_preferred();
+#if defined(_WIN32)
+  deep = L"\\\\?\\" + deep.wstring();  // for the functions of this test; the library adds its own
+#endif
+  for (int level = 0; level < 6; ++level) deep /= std::string(60, static_cast<char>('a' + level));
+  std::error_code failed;
+  fs::create_directories(deep, failed);
+  ASSERT_FALSE(failed) << failed.message();
+  std::string path = (deep / "face.dna").u8string();
+  if (path.compare(0, 4, "\\\\?\\") == 0) path.erase(0, 4);
+  ASSERT_GT(path.size(), 260u);
+  const std::string name(251, 'n');
+  for (const std::string& each : {path, (folder.path / (name + ".dna")).u8string()}) {
+    Error error;
+    for (const char* text : {"first", "another"}) {
+      ASSERT_EQ(write_text(each, text, error), Status::kOk) << error.message;
+      EXPECT_EQ(text_of(each, FileAccess::kMap), text);
+    }
+  }
+}
+
+TEST(SystemFile, IsReplacedWholeOrNotAtAllWhileItIsMapped) {
+  const Folder folder;
+  const std::string path = (folder.path / "face.dna").u8string();
+  Error error;
+  ASSERT_EQ(write_text(path, "first", error), Status::kOk) << error.message;
+  MappedFile file;
+  ASSERT_EQ(open_file(path.c_str(), FileAccess::kMap, {}, default_allocator(), file, error),
+            Status::kOk);
+  const Status status = write_text(path, "second", error);
+#if !defined(_WIN32)
+  EXPECT_EQ(status, Status::kOk);
+#endif
+  EXPECT_TRUE(status == Status::kOk || status == Status::kFileWrite);
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(file.bytes), file.size), "first");
+  close_file(file);
+  EXPECT_EQ(text_of(path, FileAccess::kRead), status == Status::kOk ? "second" : "first");
+  EXPECT_EQ(folder.entries(), 1u) << "no temporary files";
+  EXPECT_EQ(write_text(path, "third", error), Status::kOk) << error.message;
+  EXPECT_EQ(text_of(path, FileAccess::kRead), "third");
+}
+
+TEST(SystemFile, IsWholeForReadersWhileThreadsReplaceIt) {
+  const Folder folder;
+  const std::string path = (folder.path / "face.dna").u8string();
+  constexpr size_t kSize = 20000;
+  Error error;
+  ASSERT_EQ(write_text(path, std::string(kSize, 'a'), error), Status::kOk) << error.message;
+  std::atomic<int> written{0}, torn{0};
+  std::vector<std::thread> threads;
+  for (char letter : {'b', 'c', 'd'}) {
+    threads.emplace_back([&, letter] {
+      for (int i = 0; i < 50; ++i) {
+        Error mine;
+        written += write_text(path, std::string(kSize, letter), mine) == Status::kOk;
+      }
+    });
+  }
+  threads.emplace_back([&] {
+    for (int i = 0; i < 100; ++i) {
+      const std::string text = text_of(path, i % 2 ? FileAccess::kMap : FileAccess::kRead);
+      // On Windows a file that is just being replaced may refuse to open.
+      if (text.compare(0, 11, "cannot open") == 0) continue;
+      torn += text.size() != kSize || text.find_first_not_of(text[0]) != std::string::npos;
+    }
+  });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(torn, 0);
+#if defined(_WIN32)
+  EXPECT_GT(written, 0);
+#else
+  EXPECT_EQ(written, 150);
+#endif
+  EXPECT_EQ(folder.entries(), 1u) << "no temporary files";
+}
+
+TEST(SystemFile, FailsWithThePathAndTheReason) {
+  const Folder folder;
+  const std::string path = (folder.path / "missing" / "face.dna").u8string();
+  Error error;
+  EXPECT_EQ(write_text(path, "text", error), Status::kFileWrite);
+  EXPECT_NE(strstr(error.message, "face.dna"), nullptr) << error.message;
+  EXPECT_NE(text_of(path, FileAccess::kMap).find("cannot open"), std::string::npos);
+  EXPECT_NE(text_of(path, FileAccess::kMap).find("face.dna"), std::string::npos);
 }
 
 }  // namespace

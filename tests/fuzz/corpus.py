@@ -3,7 +3,7 @@
 """The kept inputs of the fuzzers: for each a file tests/fuzz/corpus/NAME.xz.
 
     corpus.py unpack FOLDER          writes the inputs of each fuzzer into FOLDER/NAME
-    corpus.py replay NAME PROGRAM    runs PROGRAM on those of one fuzzer
+    corpus.py replay NAME COMMAND    runs COMMAND on those of one fuzzer
 
 A packed file is an LZMA container, as xz makes, of inputs in the order of their bytes, each behind its
 size (u32, little-endian). They are generated data, made by the fuzzers from files of their own.
@@ -46,14 +46,14 @@ def pack(name, folder):
     return len(packed)
 
 
-def replay(name, program):
+def replay(name, command):
     total = sum(path.stat().st_size for path in FOLDER.glob("*.xz"))
     if total > LARGEST:
         sys.exit(f"{FOLDER} has {total} bytes, more than {LARGEST}")
     with tempfile.TemporaryDirectory() as folder:
         if not unpack(name, pathlib.Path(folder)):
             sys.exit(f"no inputs for {name} in {FOLDER}")
-        result = subprocess.run([program, folder], check=False, stdout=subprocess.PIPE,
+        result = subprocess.run([*command, folder], check=False, stdout=subprocess.PIPE,
                                 stderr=subprocess.STDOUT, text=True, errors="replace")
     print(result.stdout[-3000:])
     if result.returncode:
@@ -61,8 +61,8 @@ def replay(name, program):
 
 
 def main():
-    if len(sys.argv) == 4 and sys.argv[1] == "replay":
-        replay(sys.argv[2], sys.argv[3])
+    if len(sys.argv) >= 4 and sys.argv[1] == "replay":
+        replay(sys.argv[2], sys.argv[3:])
     elif len(sys.argv) == 3 and sys.argv[1] == "unpack":
         for path in sorted(FOLDER.glob("*.xz")):
             count = unpack(path.stem, pathlib.Path(sys.argv[2]) / path.stem)

@@ -8,8 +8,11 @@
 
 namespace mien {
 
-// A fuzzer counts edges, which makes a program a few times slower; sanitizers do so much more.
-#if defined(__SANITIZE_ADDRESS__)
+// A fuzzer counts edges, which makes a program a few times slower; sanitizers do so much more. Other CPUs
+// are mostly emulated.
+#if !defined(__x86_64__) && !defined(_M_X64)
+constexpr double kSlowdown = 200;
+#elif defined(__SANITIZE_ADDRESS__)
 constexpr double kSlowdown = 40;
 #elif defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(memory_sanitizer)
