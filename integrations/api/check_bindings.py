@@ -46,9 +46,7 @@ WITHOUT = {
         "mien_deformer_instance_deform_batch", "mien_deformer_instance_write_vertices_batch")},
 }
 # Sections of mien.h that a language does without.
-NOT_YET = {"Mix", "Mixer", "Solvers"}
-SECTIONS = {language: {"Rigs from meshes"} for language in ("Python", "Rust")}
-SECTIONS["JavaScript"] = NOT_YET | {"Rigs from meshes"}
+SECTIONS = {language: {"Rigs from meshes"} for language in ("Python", "Rust", "JavaScript")}
 # Functions whose own statuses cannot reach a user, who finds no list of them either.
 SILENT = {
     "mien_coordinate_system_name": {"Python", "Rust"},

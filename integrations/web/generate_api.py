@@ -26,8 +26,10 @@ VIEWS = {
 }
 ARRAYS = {"i8": "Int8Array", "u8": "Uint8Array", "i16": "Int16Array", "u16": "Uint16Array",
           "i32": "Int32Array", "u32": "Uint32Array", "f32": "Float32Array", "f64": "Float64Array"}
-# What JavaScript neither gives nor gets: memory and files are the module's. Nor does it call back.
+# What JavaScript neither gives nor gets: memory and files are the module's.
 HIDDEN = {"struct_size", "reserved", "allocator", "file_access"}
+# Numbers for "none"; classes take null or nothing instead, so types do not have them.
+NOTHING = {"MIEN_NO_MESH", "MIEN_NO_CONTROL", "MIEN_NO_JOINT"}
 INTERNAL = set(VIEWS) | {"MienAllocator", "MienParallelFor", "MienStream"}
 
 HEADING = """\
@@ -59,8 +61,7 @@ def plain(kind):
 
 
 def fields_of(struct):
-    return [field for field in struct["fields"]
-            if field["name"] not in HIDDEN and field["type"]["kind"] != "function"]
+    return [field for field in struct["fields"] if field["name"] not in HIDDEN]
 
 
 def field_kind(field):
@@ -79,6 +80,8 @@ def field_kind(field):
         if to["kind"] == "struct":
             return "*" + (VIEWS[to["name"]][0] if to["name"] in VIEWS else script_name(to["name"]))
         return "*text" if to["name"] == "char" else "*" + KINDS[to["name"]]
+    if kind["kind"] == "function":
+        return "u32"
     if field["boolean"]:
         return "bool"
     if "MIEN_NO_OFFSET" in json.dumps(field["sentinels"]):
@@ -90,8 +93,8 @@ def write_script(api):
     yield HEADING
     yield f"\nexport const VERSION = {json.dumps(api['version'])};\n"
     for constant in api["constants"]:
-        if constant["name"] == "MIEN_TICKS_PER_SECOND":
-            yield f"export const TICKS_PER_SECOND = {constant['value']};\n"
+        if constant["name"] == "MIEN_TICKS_PER_SECOND" or constant["name"] in NOTHING:
+            yield f"export const {constant['name'][len('MIEN_'):]} = {constant['value']};\n"
     for enum in api["enums"]:
         values = "".join(f"  {short_name(enum, v)}: {v['value']},\n" for v in enum["values"])
         yield f"\nexport const {script_name(enum['name'])} = Object.freeze({{\n{values}}});\n"

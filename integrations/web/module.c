@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * What the WebAssembly module has besides the libraries: streams that JavaScript reads. */
+ * What the WebAssembly module has besides the libraries: streams that JavaScript reads,
+ * and solvers that it runs. */
 #include "capi/mien.h"
 
 /* Copies `size` bytes at `offset` of file `user` to `buffer`; see mien/memory.js. */
@@ -13,3 +14,11 @@ void mien_web_stream(MienStream* out_stream, void* user, uint64_t size) {
   out_stream->size = size;
   out_stream->read = mien_web_read;
 }
+
+/* Runs the custom solver `user`; see mien/memory.js. */
+void mien_web_solve(void* user, const MienSolverCall* call);
+
+/* The function of every MienUserSolver. */
+uintptr_t mien_web_solver(void);
+
+uintptr_t mien_web_solver(void) { return (uintptr_t)mien_web_solve; }

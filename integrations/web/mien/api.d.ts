@@ -1621,6 +1621,10 @@ export interface SolverCall {
 export interface UserSolver {
   /** passed to the function; must live as long as the stack and its states */
   user?: number;
+  /**
+   * Changes the locals of some characters, and nothing else of them but outputs and state.
+   */
+  solve?: number;
   /** joints whose model matrices it reads */
   reads?: Uint16Array | readonly number[];
   /** joints whose locals it changes */
@@ -1801,6 +1805,10 @@ export interface AuthorDesc {
   parallel?: ParallelFor;
   /** passed to the next function */
   progressUser?: number;
+  /**
+   * Called on the calling thread with the name of the step that begins and a share from 0 to 1 that never falls. Returns 0 to go on; anything else cancels. May be NULL.
+   */
+  progress?: number;
 }
 
 /**

@@ -3,6 +3,9 @@
 
 export const VERSION = "0.1.0";
 export const TICKS_PER_SECOND = 705600000;
+export const NO_MESH = 4294967295;
+export const NO_CONTROL = 65535;
+export const NO_JOINT = 65535;
 
 export const Status = Object.freeze({
   OK: 0,
@@ -818,6 +821,7 @@ export const layouts = {
   } },
   UserSolver: { size: 44, sized: false, fields: {
     user: [0, "u32"],
+    solve: [4, "u32"],
     reads: [8, "*u16", "readCount"],
     writes: [12, "*u16", "writeCount"],
     previousJoints: [16, "*u16", "previousJointCount"],
@@ -914,5 +918,6 @@ export const layouts = {
     weights: [84, "*f32"],
     parallel: [88, "*ParallelFor"],
     progressUser: [92, "u32"],
+    progress: [96, "u32"],
   } },
 };

@@ -2,6 +2,8 @@
 // Meshes: the deformer of a rig, its neutral meshes, and the deformed ones of a character.
 import { Normals } from "./api.js";
 import { Handle, makeHandle } from "./memory.js";
+import { findMirror, Gaze } from "./mix.js";
+import { SolverStack } from "./solve.js";
 
 export class Deformer extends Handle {
   #info;
@@ -63,6 +65,18 @@ export class Deformer extends Handle {
   /** A character; `lods` are the LODs that it takes memory for: 0b1 for LOD 0 only. */
   instance(desc = {}) {
     return new DeformerInstance(this.memory, this, desc);
+  }
+
+  mirror(laneCount) {
+    return findMirror(this.memory, this, laneCount);
+  }
+
+  gaze(desc = {}) {
+    return Gaze.create(this.memory, this, desc);
+  }
+
+  solvers(solvers, desc = {}) {
+    return SolverStack.create(this.memory, this, solvers, desc);
   }
 }
 

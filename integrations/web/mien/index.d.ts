@@ -3,6 +3,7 @@
 //
 //     DNA file or baked file -> Rig -> Instance          controls in; joint values, weights out
 //                                 \ -> Deformer -> DeformerInstance   matrices and vertices
+//                                 \ -> Mix -> Mixer   clips, poses and reactions in; controls of an Instance
 //
 // Objects have memory in the module, which is released by dispose() or `using`, never by itself. Typed arrays
 // are views of that memory. When it grows, old views become empty; properties and methods make new ones, so
@@ -11,8 +12,11 @@
 import type {
   BatchDesc, ClipBindingDesc, ClipChannel, ClipDesc, ClipEvent, ClipInfo, ClipPlayerDesc, ClipPlayerInfo,
   CoordinateSystem, DeformerDesc, DeformerInfo, DeformerInstanceDesc, DnaDesc, DnaField, DnaInfo, DnaLayer,
-  Exports, Finding, GenerateDesc, InstanceStatistics, Isa, Kind, Mesh, Normals, Preset, Reuse, RigDesc, RigInfo,
-  RigStatistics, Stage, Status, WriteDesc, BakedCheck,
+  Exports, Finding, GazeDesc, GazeRest, GazeTarget, GenerateDesc, GuardState, InstanceStatistics, Isa, Kind, Mesh,
+  MixDesc, MixGuardInfo, MixInfo, MixReaction, MixStroke, MixerDesc, MixerInfo, Normals, PlayDesc, Preset, Reuse,
+  RigDesc, RigInfo, RigStatistics, SolverInput, SolverStackDesc, SolverStackInfo, SpringSolver, Stage, Status,
+  TwistSolver, WriteDesc, BakedCheck, AimSolver as AimSolverDesc, BlendMode, CopySolver as CopySolverDesc,
+  Generator as GeneratorKind, LayerGroup, LayerSource, MixLayer as MixLayerDesc,
 } from "./api.js";
 
 export * from "./api.js";
@@ -119,6 +123,9 @@ export class Mien {
   openClip(source: Source): Promise<Clip>;
   /** Builds a clip of curves. channelCount and frameCount follow from names and values. */
   buildClip(desc: ClipDesc): Clip;
+  /** A response to a light in the eyes. Its five poses: lids closed; squint and lowered brows; gaze turned away;
+   * narrow pupils; head turned away. An empty one leaves its part out. */
+  glare(poses: readonly Pose[]): Reaction;
   /** Checks the bytes of a DNA file and lists what is wrong with them. */
   validate(source: Source): Promise<Report>;
   /** Generates a rig: generate(Preset.HEAD) is a head to look at. */
@@ -174,6 +181,13 @@ export interface Rig extends Handle {
   instance(): Instance;
   batch(desc?: BatchDesc): Batch;
   batchBytes(desc?: BatchDesc): number;
+  /** Layers, reactions and guards for characters of this rig. */
+  mix(options?: MixOptions): Mix;
+  /** Pairs of raw controls that the two halves of one GUI control drive, for MixOptions.antagonists. */
+  antagonists(): Antagonists[];
+  /** Of each lane the share of its joint motion that is of some joint groups, for masks of layers. Those that
+   * move no joint have `otherwise`. */
+  groupMask(groups: readonly number[], options?: { otherwise?: number; laneCount?: number }): Float32Array;
   /** Meshes with other options. `dna` is the file that the rig was made from. */
   createDeformer(dna: Dna, desc?: DeformerDesc): Deformer;
   /** The bytes of a baked file; null: without meshes. */
@@ -235,6 +249,12 @@ export interface Deformer extends Handle {
   readonly inverseBindMatrices: Float32Array;
   /** A character. */
   instance(desc?: DeformerInstanceDesc): DeformerInstance;
+  /** Of each lane of a mix its counterpart in the other half of the face, for MixOptions.mirror. */
+  mirror(laneCount: number): Uint16Array;
+  /** Measures which raw controls turn the eyes. */
+  gaze(desc?: GazeDesc): Gaze;
+  /** Solvers, in the order in which they run. */
+  solvers(solvers: readonly Solver[], desc?: Omit<SolverStackDesc, "solvers" | "solverCount">): SolverStack;
 }
 export const Deformer: { readonly prototype: Deformer };
 
@@ -312,3 +332,282 @@ export interface ClipBinding extends Handle {
   apply(values: Float32Array, instance: Instance): void;
 }
 export const ClipBinding: { readonly prototype: ClipBinding };
+
+// ---- mixing ----------------------------------------------------------------------------------------------
+
+/** Seconds in the unit of all times. */
+export declare function ticks(seconds: number): number;
+
+/** A raw control or pose variable: its name, or its number among the lanes of a mix. */
+export type Lane = string | number;
+
+/** Values of the lanes that a pose moves: { mouthSmileLeft: 0.8 }. */
+export type Pose = Readonly<Record<string, number>>;
+
+/** Weights of lanes, 0 to 1: { jawOpen: 0.5 }, or names alone for 1, others are 0; or one number for each lane. */
+export type Mask = readonly string[] | Readonly<Record<string, number>> | readonly number[] | Float32Array;
+
+export interface LayerOptions {
+  group?: LayerGroup;
+  mode?: BlendMode;
+  /** Initial weight, 0 to 1; with BlendMode.ADD -1 to 1. Default: 1. */
+  weight?: number;
+  /** Default: 1 for all lanes. */
+  mask?: Mask;
+  /** Acts after the guards; not for base and speech. */
+  afterGuards?: boolean;
+}
+
+/** A layer of a mix, as MixLayer makes it. */
+export interface MixLayer extends LayerOptions,
+  Omit<MixLayerDesc, "mask" | "maskCount" | "lanes" | "laneCount" | "firstPose" | "poseCount" | keyof LayerOptions> {
+  source: LayerSource;
+  poses?: readonly Pose[];
+  lanes?: readonly Lane[];
+  amounts?: readonly number[];
+}
+
+/** Makes layers, with the group and mode that each usually has. */
+export declare const MixLayer: {
+  /** Plays clips: mixer.play(). Base, override. */
+  clip(options?: LayerOptions): MixLayer;
+  /** A weighted sum of poses: mixer.setPoseWeight(). Emotion, screen. */
+  poses(poses: readonly Pose[], options?: LayerOptions): MixLayer;
+  /** Rows that arrive from outside, a value for each of these lanes: mixer.push(). Base, override. `delay` in
+   * ticks hides jitter; `streamFrames` is how many rows can be queued, 0 means 64. */
+  stream(lanes: readonly Lane[], options?: LayerOptions & { delay?: number; streamFrames?: number }): MixLayer;
+  /** Blinks, breath or noise for lanes, scaled by their amounts; `period` in ticks. Life, add. */
+  generator(generator: GeneratorKind, amounts: Pose, options: LayerOptions & { period: number }): MixLayer;
+  /** Turns the eyes to a place, by MixOptions.gaze. `target`: three lanes, usually pose variables, millimeters to
+   * the left, up and to the front. `head`: two lanes with factors, which get what is left for the head. `jitter`:
+   * degrees across and up; `period` is its time, by default a quarter of a second. Life. */
+  gaze(target: readonly Lane[], options?: Omit<LayerOptions, "mode"> & {
+    head?: Pose; jitter?: readonly [number, number]; period?: number;
+  }): MixLayer;
+};
+
+/** A part of a reaction: moves lanes to a pose and back. */
+export interface Stroke extends Omit<MixStroke, "pose"> {
+  pose: Pose;
+}
+
+/** What a face does in response to a stimulus: mixer.trigger(). `adapted` is 1 by default. */
+export interface Reaction extends Omit<MixReaction, "strokes" | "strokeCount"> {
+  strokes: readonly Stroke[];
+}
+
+/** Two lanes that move the face in opposite directions. */
+export interface Antagonists {
+  first: Lane;
+  second: Lane;
+  /** Default: 1. */
+  stiffness?: number;
+}
+
+/** A place of a face: the middle of some positions of a mesh that LOD 0 shows, or without mesh of some joints. */
+export interface Landmark {
+  points: readonly number[] | Uint32Array;
+  mesh?: number | null;
+}
+
+/** A guard for landmarks of yours: the distance of `upper` above `lower` must not be opened. */
+export interface CustomGuard {
+  upper: Landmark;
+  lower: Landmark;
+  /** Raw control that makes both touch at 1. null: they do at rest. */
+  closedBy?: Lane | null;
+  needsSpeech?: boolean;
+  /** Millimeters by which later layers may open. Default: 0.3. */
+  tolerance?: number;
+  /** Acts where base and speech open by less millimeters. Default: 12. */
+  fOn?: number;
+}
+
+export interface MixOptions extends Pick<MixDesc,
+  "guards" | "playerCount" | "maxChannels" | "maxChangingChannels" | "maxEvents" | "reverse"> {
+  layers?: readonly MixLayer[];
+  reactions?: readonly Reaction[];
+  /** Such as rig.antagonists(). */
+  antagonists?: readonly Antagonists[];
+  customGuards?: readonly CustomGuard[];
+  /** Names of pose variables, lanes behind the raw controls. */
+  variables?: readonly string[];
+  /** Limits, one for all lanes or one for each; both or neither. */
+  lower?: number | readonly number[] | Float32Array;
+  upper?: number | readonly number[] | Float32Array;
+  /** Per lane its counterpart, such as deformer.mirror(). Without it nothing can be played mirrored. */
+  mirror?: readonly number[] | Uint16Array;
+  /** For a layer of MixLayer.gaze. */
+  gaze?: Gaze;
+  /** What guards are measured on, which takes time. Default: the deformer of the rig. */
+  deformer?: Deformer;
+}
+
+/** What is mixed for one rig, and how. Serves any number of mixers. */
+export interface Mix extends Handle {
+  readonly info: MixInfo;
+  /** Numbers of the pose variables by name. */
+  readonly variables: ReadonlyMap<string, number>;
+  /** A guard as it was measured, by its number from 0 on; a copy. */
+  guard(index: number): MixGuardInfo;
+  /** A character. */
+  mixer(desc?: MixerDesc): Mixer;
+}
+export const Mix: { readonly prototype: Mix };
+
+/** An event of a clip that a step passed. */
+export interface MixerEvent extends ClipEvent {
+  readonly layer: number;
+}
+
+/** A clip that restore() may need. */
+export interface MixerClip {
+  /** As in play(). */
+  clipId?: number | bigint;
+  clip: Clip;
+  binding: ClipBinding;
+}
+
+/** One character in a mix. Times are in ticks: ticks(0.5) is half a second. */
+export interface Mixer extends Handle {
+  readonly mix: Mix;
+  /** Plays a clip in a layer, from the next step on. The transition from what the layer plays takes a quarter of a
+   * second unless desc says otherwise. Clip and binding may be disposed afterwards. */
+  play(layer: number, clip: Clip, binding: ClipBinding, desc?: PlayDesc): void;
+  /** Fades out the clip of a layer and ends it. */
+  stop(layer: number, fadeTicks?: number): void;
+  setWeight(layer: number, weight: number, fadeTicks?: number): void;
+  /** `pose` counts from the first one of its layer. */
+  setPoseWeight(layer: number, pose: number, weight: number, fadeTicks?: number): void;
+  /** The value that a pose variable has at the start of each step. */
+  setVariable(variable: Lane, value: number): void;
+  /** How much a guard acts, 0 to 1; negative: as it finds by itself. */
+  setGuard(guard: number, activation: number): void;
+  /** What a guard did in the last step; a copy. */
+  guard(index: number): GuardState;
+  /** Starts a reaction to a stimulus that lasts `holdTicks`; if negative, until release(). */
+  trigger(reaction: number, strength?: number, holdTicks?: number): void;
+  release(reaction: number): void;
+  /** Queues a row for a stream layer, for a time of the mixer. false: it is not newer than the last one, or the
+   * queue is full. */
+  push(layer: number, tick: number, values: ArrayLike<number>): boolean;
+  /** Advances and mixes; raw controls go to the instance. */
+  step(ticks: number, instance?: Instance | null): void;
+  /** Events of clips that the last step passed. */
+  readonly events: readonly MixerEvent[];
+  /** What the last step gave: raw controls, then pose variables. */
+  readonly row: Float32Array;
+  /** The row after a stage of the last step: the layers, reactions, guards, antagonists, limits. Needs
+   * mix.mixer({ stages: 1 }). */
+  stage(index: number): Float32Array;
+  readonly info: MixerInfo;
+  /** All that later steps depend on, except queued rows of streams. */
+  snapshot(): Uint8Array;
+  /** Goes on from a snapshot of a mixer of the same mix, to the bit. `clips`: those that may be playing. */
+  restore(bytes: Uint8Array, clips?: readonly MixerClip[]): void;
+}
+export const Mixer: {
+  readonly prototype: Mixer;
+  /** Steps several mixers, with an instance for each or none: the results of single calls. */
+  stepAll(mixers: readonly Mixer[], ticks: number, instances?: readonly Instance[] | null): void;
+};
+
+/** Which raw controls turn the eyes of a rig, and how far. */
+export interface Gaze extends Handle {
+  /** Sets the raw controls of an instance so that both eyes look at a place, in millimeters. Returns what is
+   * beyond the reach of the eyes, for the head to turn: tangents of angles. */
+  lookAt(target: GazeTarget, instance: Instance): GazeRest;
+}
+export const Gaze: { readonly prototype: Gaze };
+
+// ---- solvers ---------------------------------------------------------------------------------------------
+
+/** What a custom solver sees of one character: views, for the time of the call. */
+export interface SolverPose {
+  /** Per joint tx ty tz qx qy qz qw sx sy sz, relative to the parent; to be changed for its `writes`. */
+  readonly locals: Float32Array;
+  /** Model matrices, 16 floats per joint, column by column. */
+  readonly models: Float32Array;
+  /** Those of its `previousJoints` after the last step. */
+  readonly previous: Float32Array;
+  readonly row: Float32Array;
+  /** To be written. */
+  readonly outputs: Float32Array;
+  /** To be written; zeros at first. */
+  readonly state: Float32Array;
+  readonly lod: number;
+  /** The first step, or the character was moved to another place. */
+  readonly isReset: boolean;
+}
+
+/** A function of yours. What it throws comes out of the step. */
+export interface CustomSolver {
+  /** Changes the locals of the joints in `writes`. */
+  solve(poses: readonly SolverPose[], ticks: number): void;
+  writes: readonly number[];
+  reads?: readonly number[];
+  previousJoints?: readonly number[];
+  /** Length of SolverPose.state. */
+  stateFloats?: number;
+  /** Length of SolverPose.outputs. */
+  outputCount?: number;
+}
+
+/** `weight` is 1 by default; without `targetJoint` the target is at three lanes of the row. */
+export interface AimSolver extends Omit<AimSolverDesc, "targetJoint"> {
+  targetJoint?: number | null;
+}
+
+/** Lets a joint hang on one of some joints, which a lane of the row chooses. null: model space. */
+export interface SpaceSolver {
+  joint: number;
+  spaces: readonly (number | null)[];
+  lane: number;
+  easeTicks?: number;
+}
+
+interface SolverKinds {
+  aim: AimSolver;
+  space: SpaceSolver;
+  spring: SpringSolver;
+  twist: TwistSolver;
+  /** `weight` is 1 by default. */
+  copy: CopySolverDesc;
+  custom: CustomSolver;
+}
+
+/** One kind of solver: { spring: { joint, frequency: 3, damping: 0.3 } }. */
+export type Solver = {
+  [K in keyof SolverKinds]: { [L in K]: SolverKinds[L] } & { [L in Exclude<keyof SolverKinds, K>]?: undefined } & {
+    /** For messages. */
+    name?: string;
+    /** Bit l: runs at LOD l. Default: at all. */
+    lods?: number;
+  };
+}[keyof SolverKinds];
+
+/** Solvers of one deformer. Serves any number of characters. */
+export interface SolverStack extends Handle {
+  readonly info: SolverStackInfo;
+  /** A character. */
+  state(): SolverState;
+}
+export const SolverStack: { readonly prototype: SolverStack };
+
+/** What the solvers of one character remember. */
+export interface SolverState extends Handle {
+  /** Runs the solvers on a pose, which pose.update() has to set before every step. */
+  step(pose: DeformerInstance, ticks: number, input?: SolverInput): void;
+  /** What a solver has published in the last step. */
+  outputs(solver: number): Float32Array;
+  /** After the last step: tx ty tz qx qy qz qw sx sy sz per joint, relative to the parents. */
+  readonly transforms: Float32Array;
+  /** Of a stack with `checkWrites`: the solver that changed a joint which is not in its list in the last step, or "". */
+  readonly undeclared: string;
+}
+export const SolverState: {
+  readonly prototype: SolverState;
+  /** Steps states of one stack, each with its pose and input: the results of single calls. */
+  stepAll(states: readonly SolverState[], poses: readonly DeformerInstance[], ticks: number,
+    inputs?: readonly SolverInput[] | null): void;
+};

@@ -5,6 +5,7 @@ import { Clip } from "./clip.js";
 import { coordinateSystemNames, Dna, validate } from "./dna.js";
 import { errorOf } from "./errors.js";
 import { Memory } from "./memory.js";
+import { glare } from "./mix.js";
 import { isBaked, Rig } from "./rig.js";
 
 export * from "./api.js";
@@ -14,7 +15,10 @@ export {
 export { Clip, ClipBinding, ClipPlayer } from "./clip.js";
 export { Deformer, DeformerInstance } from "./deformer.js";
 export { Dna } from "./dna.js";
+export { Gaze, Mix, Mixer } from "./mix.js";
+export { MixLayer, ticks } from "./mix_parts.js";
 export { Batch, Instance, Rig } from "./rig.js";
+export { SolverStack, SolverState } from "./solve.js";
 
 const isNode = typeof process === "object" && !!process.versions?.node && process.type !== "renderer";
 
@@ -124,6 +128,10 @@ export class Mien {
 
   buildClip(desc) {
     return Clip.build(this.#memory, desc);
+  }
+
+  glare(poses) {
+    return glare(this.#memory, poses);
   }
 
   /** Findings about the bytes of a DNA file. */

@@ -7,8 +7,10 @@ import { errorOf } from "./errors.js";
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();
 const NO_OFFSET = 2n ** 64n - 1n;
-// Above this, temporary memory comes from the heap: the stack of the module has 1 MiB.
+// Temporary memory comes from the stack of the module, which has 1 MiB; larger blocks, and what a call takes
+// beyond a share, from its heap.
 const STACK_BLOCK = 4096;
+const STACK_SHARE = 65536;
 
 const SIZES = { i8: 1, u8: 1, bool: 4, i16: 2, u16: 2, i32: 4, u32: 4, f32: 4, i64: 8, u64: 8, offset: 8, f64: 8 };
 const ARRAYS = {
@@ -52,6 +54,10 @@ export class Memory {
   /** Files that streams of the module read. */
   #files = new Map();
   #lastFile = 0;
+  /** Functions of custom solvers, and what they threw in the steps under way. */
+  #solvers = new Map();
+  #lastSolver = 0;
+  #thrown = [];
   #data;
 
   /** Instantiates a compiled module. */
@@ -61,6 +67,7 @@ export class Memory {
     const imports = {
       env: {
         mien_web_read: (file, offset, buffer, size) => memory.#read(file, Number(offset), buffer, size),
+        mien_web_solve: (solver, call) => memory.#solve(solver, call),
         emscripten_notify_memory_growth() {},
       },
       wasi_snapshot_preview1: {
@@ -121,6 +128,42 @@ export class Memory {
     }
   }
 
+  /** Takes a function for custom solvers: solve(call) with a struct SolverCall. Returns its number. */
+  addSolver(solve) {
+    this.#solvers.set(++this.#lastSolver, solve);
+    return this.#lastSolver;
+  }
+
+  removeSolver(solver) {
+    this.#solvers.delete(solver);
+  }
+
+  // What a function throws must not cross the module, whose stack it would leave as it is.
+  #solve(solver, address) {
+    const thrown = this.#thrown.at(-1);
+    if (thrown.length) return;
+    try {
+      const call = this.read("SolverCall", address);
+      const { size } = layouts.SolverPose;
+      const poses = Array.from({ length: call.poseCount }, (_, i) => this.read("SolverPose", call.poses + i * size));
+      this.#solvers.get(solver)({ ...call, poses });
+    } catch (error) {
+      thrown.push(error);
+    }
+  }
+
+  /** As withScratch(); throws what custom solvers threw. */
+  withSolvers(run) {
+    const thrown = [];
+    this.#thrown.push(thrown);
+    try {
+      this.withScratch(run);
+    } finally {
+      this.#thrown.pop();
+    }
+    if (thrown.length) throw thrown[0];
+  }
+
   /** Calls run(scratch) with memory that is released afterwards. */
   withScratch(run) {
     const scratch = new Scratch(this);
@@ -166,6 +209,7 @@ export class Memory {
 class Scratch {
   #memory;
   #stack;
+  #stackLeft = STACK_SHARE;
   #blocks = [];
 
   constructor(memory) {
@@ -183,7 +227,8 @@ class Scratch {
   take(size) {
     const { exports } = this.#memory;
     let address;
-    if (size <= STACK_BLOCK) {
+    if (size <= STACK_BLOCK && size <= this.#stackLeft) {
+      this.#stackLeft -= size;
       address = exports.stackAlloc(size);
     } else {
       address = exports.malloc(size);
@@ -283,31 +328,52 @@ class Scratch {
 export class Handle {
   #handle;
   #destroy;
+  #afterwards;
+  #isDisposed = false;
+  #users = 0;
   #views = new Map();
 
-  constructor(memory, handle, destroy) {
+  /** `destroy` is the function that releases the object; `afterwards` is called after it. */
+  constructor(memory, handle, destroy, afterwards) {
     this.memory = memory;
     this.#handle = handle;
     this.#destroy = destroy;
+    this.#afterwards = afterwards;
     // Not a property for those who print an object.
     Object.defineProperty(this, "memory", { enumerable: false });
   }
 
   /** The address of the object, for functions of Mien.exports. */
   get handle() {
-    if (!this.#handle) throw errorOf(Status.HANDLE, `this ${this.constructor.name} was disposed`);
+    if (this.#isDisposed) throw errorOf(Status.HANDLE, `this ${this.constructor.name} was disposed`);
     return this.#handle;
   }
 
   get isDisposed() {
-    return this.#handle === 0;
+    return this.#isDisposed;
   }
 
   dispose() {
-    if (!this.#handle) return;
+    if (this.#isDisposed) return;
+    this.#isDisposed = true;
+    this.#views.clear();
+    if (!this.#users) this.#release();
+  }
+
+  #release() {
     this.memory.exports[this.#destroy](this.#handle);
     this.#handle = 0;
-    this.#views.clear();
+    this.#afterwards?.();
+  }
+
+  /** Keeps the object in memory, disposed or not, until drop(): another one reads it. */
+  keep() {
+    ++this.#users;
+    return this;
+  }
+
+  drop() {
+    if (!--this.#users && this.#isDisposed) this.#release();
   }
 
   /** Calls a function with this object and further arguments. */
@@ -337,8 +403,8 @@ export class Handle {
   view(kind, name, ...rest) {
     const key = rest.length ? `${name} ${rest}` : name;
     const known = this.#views.get(key);
-    const { memory, handle } = this;
-    if (handle && known && known.buffer === memory.buffer) return known;
+    const { memory } = this;
+    if (!this.#isDisposed && known && known.buffer === memory.buffer) return known;
     const made = memory.withScratch((scratch) => {
       const out = scratch.take(8);
       this.call(name, ...rest, out);
@@ -367,6 +433,12 @@ if (Symbol.dispose) {
   Handle.prototype[Symbol.dispose] = function () {
     this.dispose();
   };
+}
+
+/** The handles of objects, none of which may occur twice. */
+export function handlesOf(scratch, objects) {
+  if (new Set(objects).size !== objects.length) throw errorOf(Status.INVALID_ARGUMENT, "an object occurs twice");
+  return scratch.array("u32", objects.map((object) => object.handle));
 }
 
 /** Calls make(out, error, scratch) and returns the handle that it wrote. */

@@ -4,6 +4,7 @@ import { Kind, Stage, Status } from "./api.js";
 import { Deformer } from "./deformer.js";
 import { errorOf } from "./errors.js";
 import { Handle, makeHandle } from "./memory.js";
+import { findAntagonists, findMask, Mix } from "./mix.js";
 
 const MAGIC = "MIENBAKE";
 
@@ -163,6 +164,18 @@ export class Rig extends Handle {
       this.call("mien_batch_bytes", scratch.struct("BatchDesc", desc), out);
       return Number(memory.data.getBigUint64(out, true));
     });
+  }
+
+  mix(desc = {}) {
+    return Mix.create(this.memory, this, desc);
+  }
+
+  antagonists() {
+    return findAntagonists(this.memory, this);
+  }
+
+  groupMask(groups, options = {}) {
+    return findMask(this.memory, this, groups, options);
   }
 
   /** A deformer of the file that the rig was made from. */

@@ -387,7 +387,7 @@ test("the package works in a worker", async () => {
 test("every member of the classes is declared, and nothing else", () => {
   const declared = readFileSync(join(packageFolder, "index.d.ts"), "utf8");
   for (const name of ["Mien", "Dna", "Rig", "Instance", "Batch", "Deformer", "DeformerInstance", "Clip", "ClipPlayer",
-    "ClipBinding"]) {
+    "ClipBinding", "Mix", "Mixer", "Gaze", "SolverStack", "SolverState"]) {
     const body = new RegExp(`^export (?:class|interface) ${name} [^{]*{(.*?)^}`, "ms").exec(declared)[1];
     const types = new Set([...body.matchAll(/^ {2}(?:readonly |static )*(\w+)[?(:]/gm)].map((match) => match[1]));
     const members = Object.getOwnPropertyNames(api[name]?.prototype ?? Mien.prototype)

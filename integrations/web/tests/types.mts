@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What users write, compiled with every check of TypeScript and never run. Lines below @ts-expect-error must not
 // compile.
-import { DnaError, Isa, Kind, Mien, MienError, Normals, Preset, Stage, TICKS_PER_SECOND } from "mien";
-import type { Clip, Mesh, Rig, RigInfo } from "mien";
+import {
+  BlendMode, DnaError, Generator, Guard, Isa, Kind, LayerGroup, Mien, MienError, Mixer, MixLayer, Normals, Preset,
+  Stage, TICKS_PER_SECOND, ticks,
+} from "mien";
+import type { Clip, Mesh, MixerEvent, Reaction, Rig, RigInfo } from "mien";
 import { FaceObject, GltfFace } from "mien/three";
 import { MeshBasicMaterial, PerspectiveCamera, Scene } from "three";
 
@@ -44,6 +47,42 @@ export async function use(file: File): Promise<number> {
     if (error instanceof MienError) return error.status;
   }
   return info.lodCount + joints.length + names.length + (mesh?.vertexCount ?? 0) + head.count(Kind.MESH) + String(value).length;
+}
+
+export function mixing(mien: Mien, rig: Rig, clip: Clip): number {
+  const face = rig.instance();
+  const dazzled: Reaction = {
+    strokes: [{ pose: { eyeBlinkLeft: 1 }, mode: BlendMode.MAX, attack: ticks(0.1) }], cooldown: ticks(1),
+  };
+  using mix = rig.mix({
+    layers: [
+      MixLayer.clip({ group: LayerGroup.SPEECH }), MixLayer.poses([{ jawOpen: 0.5 }], { mask: ["jawOpen"] }),
+      MixLayer.generator(Generator.BLINK, { eyeBlinkLeft: 1 }, { period: ticks(4) }),
+      MixLayer.gaze(["x", "y", "z"], { jitter: [0.1, 0.1] }), MixLayer.stream(["browInnerUp", 3]),
+    ],
+    reactions: [dazzled, mien.glare([{}, {}, {}, {}, {}])],
+    guards: Guard.LIPS | Guard.LIDS, variables: ["x", "y", "z"], antagonists: rig.antagonists(), lower: 0, upper: 1,
+  });
+  const mixer: Mixer = mix.mixer({ seed: 1 });
+  mixer.play(0, clip, clip.bind(rig), { transitionTicks: ticks(0.1) });
+  mixer.step(ticks(1 / 60), face);
+  const events: readonly MixerEvent[] = mixer.events;
+  Mixer.stepAll([mixer], 1);
+  mixer.restore(mixer.snapshot(), [{ clipId: 1, clip, binding: clip.bind(rig) }]);
+  const stack = rig.deformer?.solvers([
+    { spring: { joint: 1, frequency: 3, damping: 0.3 }, lods: 1 },
+    { space: { joint: 1, spaces: [null, 2], lane: 0 } },
+    { custom: { writes: [1], solve: (poses, time) => { for (const pose of poses) pose.locals[10] = time; } } },
+  ], { laneCount: 1 });
+  const meshes = rig.deformer?.instance();
+  if (meshes) stack?.state().step(meshes, 1, { row: mixer.row });
+  // @ts-expect-error: a misspelled option
+  rig.mix({ layer: [] });
+  // @ts-expect-error: one kind of solver
+  rig.deformer?.solvers([{ spring: { joint: 0 }, twist: {} }]);
+  // @ts-expect-error: modes are those of BlendMode
+  MixLayer.clip({ mode: 77 });
+  return events.length + mixer.guard(0).distance;
 }
 
 export function show(rig: Rig, scene: Scene, camera: PerspectiveCamera): void {

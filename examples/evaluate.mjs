@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// evaluate.mjs [FILE.dna [CONTROL]]: turns a control up and tells which joint moves or turns most.
+import { Kind, Mien, Preset } from "mien";
+
+const [file, control = "CTRL_expressions.jawOpen"] = process.argv.slice(2);
+const mien = await Mien.load();
+const rig = file ? await mien.openRig(file) : mien.createRig(mien.generate(Preset.LARGE));
+const face = rig.instance();
+face.controls[control] = 1; // or face.rawControls[i]
+face.evaluate(0);
+let most = 0; // per joint tx ty tz rx ry rz sx sy sz
+face.joints.forEach((value, i) => {
+  if (i % 9 < 6 && Math.abs(value) > Math.abs(face.joints[most])) most = i;
+});
+const joint = Math.floor(most / 9);
+const [x, y, z, rx, ry, rz] = Array.from(face.joints.slice(9 * joint, 9 * joint + 6), (value) => value.toFixed(3));
+console.log(`${control} moves ${rig.name(Kind.JOINT, joint)} most: by ${x} ${y} ${z}, turning it by ${rx} ${ry} ${rz}`);
