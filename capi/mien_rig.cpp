@@ -209,13 +209,10 @@ MienStatus mien_rig_statistics(const MienRig* handle, uint32_t lod,
     statistics.joint_byte_count += joints.bytes_before(k, panels);
   }
   for (size_t g = 0; g < joints.group_count; ++g) {
-    const uint32_t rows = joints.group_rows_at_lod[g * rig.lod_count + lod];
-    statistics.joint_row_count += rows;
-    const GroupRotations& rotations = rig.rotations.groups[g];
-    for (const QuaternionJoint& turned : rig.rotations.quaternion_joints.slice(
-             rotations.first_quaternion_joint, rotations.quaternion_joint_count)) {
-      statistics.quaternion_joint_count += turned.first_row < rows;
-    }
+    statistics.joint_row_count += joints.group_rows_at_lod[g * rig.lod_count + lod];
+  }
+  for (const RotationOutput& turn : rig.rotations.turns) {
+    statistics.quaternion_joint_count += turn.lods >> lod & 1;
   }
   write_struct(out_statistics, statistics);
   return MIEN_OK;

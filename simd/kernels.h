@@ -162,21 +162,25 @@ struct DenseBatchArgs {
   bool portable;
 };
 
-/// Joints represented by quaternions, in blocks of 16 joints, one lane each:
+/// Turns of joints represented by quaternions, in blocks of 16, one lane each. The steps of block b
+/// begin with step first_steps[b]:
 ///
-///     values   block 0: c0 x0..x15 y0..y15 z0..z15 w0..w15 | c1 ... ; block 1: ...
+///     values    step 0: x0..x15 y0..y15 z0..z15 w0..w15 | step 1: ...
+///     columns   step 0: c0..c15 | step 1: ...
 ///
-/// For each joint: the product, over the columns in order, of the quaternion of the column blended
-/// with the identity by the column's control; later columns turn last. All w are >= 0. Writes
-/// rotations[4 * 16 * b + 16 * k + j] for k = x, y, z, w.
+/// For each lane: the product, over its steps in order, of the quaternion of the step blended with
+/// the identity by controls[column]; later steps turn last. All w are >= 0. A lane has the first
+/// lane_steps[16 * b + lane] of the step_counts[b] steps of its block. Controls count as up to 1e7 of
+/// either sign. Writes rotations[64 * b + 16 * k + lane] for k = x, y, z, w. Nothing is fused.
 struct QuaternionJointArgs {
   const void* values;  // floats or halves, 64-byte aligned
   const uint16_t* columns;
+  const uint32_t* first_steps;
+  const uint32_t* step_counts;
+  const float* lane_steps;  // whole numbers; 64-byte aligned
   const float* controls;
-  float* rotations;
-  uint32_t column_count;   // to evaluate
-  uint32_t column_stride;  // columns stored per block
-  uint32_t joint_count;    // what else fills a vector is computed, too
+  float* rotations;  // 64-byte aligned
+  uint32_t block_count;
   bool halves;
 };
 

@@ -13,6 +13,7 @@
 // | yzx4                   | the first three, turned by one                                       |
 // | cross4                 | the cross product of the first three                                 |
 // | gather4, scatter4      | lane i from or to place at[i], or at[i * stride]                     |
+// | gather                 | a Vec: lane i from place at[i]                                       |
 // | normalized4(q, s)      | q / sqrt(s), s = z * z + (y * y + x * x) with mul_add                |
 // | different_lanes4(a, b) | bit k: the bits of lane k differ                                     |
 // | join_bits4(a, b, n)    | the low n bits of a, and above them those of b                       |
@@ -233,6 +234,25 @@ inline void columns4(const Vec* m, Quad* columns) {
 }
 
 #endif
+
+// By single loads: gathers of processors are not faster, and some are slow by a fix of microcode.
+inline Vec gather(const float* from, const uint16_t* at) {
+#if defined(MIEN_KERNEL_SCALAR)
+  return from[*at];
+#elif defined(MIEN_KERNEL_AVX2)
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(gather4(from, at, 1)),
+                              gather4(from, at + 4, 1), 1);
+#elif defined(MIEN_KERNEL_AVX512)
+  const __m256 low = _mm256_insertf128_ps(_mm256_castps128_ps256(gather4(from, at, 1)),
+                                          gather4(from, at + 4, 1), 1);
+  const __m256 high = _mm256_insertf128_ps(_mm256_castps128_ps256(gather4(from, at + 8, 1)),
+                                           gather4(from, at + 12, 1), 1);
+  return _mm512_castpd_ps(
+      _mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(low)), _mm256_castps_pd(high), 1));
+#else
+  return gather4(from, at, 1);
+#endif
+}
 
 // a * b.yzx - a.yzx * b is the cross product, turned by one.
 inline Quad cross4(const Quad& a, const Quad& b) { return yzx4(mul_sub4(a, yzx4(b), yzx4(a) * b)); }

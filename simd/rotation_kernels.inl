@@ -5,6 +5,7 @@
 #pragma once
 
 #include "simd/math.inl"
+#include "simd/quad.inl"
 
 namespace mien::MIEN_KERNEL_ISA {
 namespace {
@@ -23,12 +24,13 @@ inline VecQuaternion load_quaternion(const uint16_t* at) {
           load_half(at + 3 * kBlockLanes)};
 }
 
-// The blend is made unit by a true root and division: estimates would bend the joints.
-inline VecQuaternion blend_with_identity(const VecQuaternion& q, float weight) {
-  const Vec t = broadcast(weight);
-  const VecQuaternion b = {t * q.x, t * q.y, t * q.z, t * q.w + broadcast(1.0f - weight)};
+// The blend is made unit by a true root and division: estimates would bend the joints. With weight 0
+// it is the identity, exactly.
+inline VecQuaternion blend_with_identity(const VecQuaternion& q, Vec t) {
+  const Vec one = broadcast(1.0f);
+  const VecQuaternion b = {t * q.x, t * q.y, t * q.z, t * q.w + (one - t)};
   const Vec length = square_root(b.x * b.x + b.y * b.y + b.z * b.z + b.w * b.w);
-  const Vec scale = divide(broadcast(1.0f), length);
+  const Vec scale = divide(one, length);
   return {b.x * scale, b.y * scale, b.z * scale, b.w * scale};
 }
 
@@ -41,43 +43,46 @@ inline LaneQuaternion<V> multiply(const LaneQuaternion<V>& a, const LaneQuaterni
 
 // Controls this large turn no joint any further. Up to 2^24, 1 - weight is exact, so that the
 // identity blended with itself never vanishes.
-inline float bounded(float weight) {
+inline Vec bounded(Vec weight) {
   constexpr float kLargest = 1e7f;
-  return weight > kLargest ? kLargest : weight < -kLargest ? -kLargest : weight;
+  return at_most(at_least(weight, broadcast(-kLargest)), broadcast(kLargest));
 }
 
 // Joints represented by quaternions ---------------------------------------------------------------
 
 template <class Value>
-void turn(const Value* all_values, const QuaternionJointArgs& args) {
-  constexpr size_t kColumnFloats = 4 * kBlockLanes;
-  const size_t joint_count = args.joint_count;
-  for (size_t first = 0; first < joint_count; first += kBlockLanes) {
-    const size_t block = first / kBlockLanes;
-    const Value* values = all_values + block * args.column_stride * kColumnFloats;
-    for (size_t lane = 0; lane < kBlockLanes && first + lane < joint_count; lane += kWidth) {
-      VecQuaternion product = {broadcast(0.0f), broadcast(0.0f), broadcast(0.0f), broadcast(1.0f)};
-      for (size_t c = 0; c < args.column_count; ++c) {
-        const float weight = bounded(args.controls[args.columns[c]]);
-        if (weight == 0.0f) continue;  // the identity
-        const VecQuaternion q = load_quaternion(values + c * kColumnFloats + lane);
-        product = multiply(blend_with_identity(q, weight), product);
-      }
-      float* out = args.rotations + block * kColumnFloats + lane;
-      store(out, product.x);
-      store(out + kBlockLanes, product.y);
-      store(out + 2 * kBlockLanes, product.z);
-      store(out + 3 * kBlockLanes, product.w);
+inline VecQuaternion product_of_steps(const QuaternionJointArgs& args, size_t block, size_t lane) {
+  const size_t first = args.first_steps[block], count = args.step_counts[block];
+  const Value* values = static_cast<const Value*>(args.values) + first * 4 * kBlockLanes + lane;
+  const uint16_t* columns = args.columns + first * kBlockLanes + lane;
+  const Vec zero = broadcast(0.0f), lane_steps = load(args.lane_steps + block * kBlockLanes + lane);
+  VecQuaternion product = {zero, zero, zero, broadcast(1.0f)};
+  for (size_t s = 0; s < count; ++s, values += 4 * kBlockLanes, columns += kBlockLanes) {
+    const Mask used = less(broadcast(static_cast<float>(s)), lane_steps);
+    const Vec weight = keep(used, bounded(gather(args.controls, columns)));
+    if (!any(less(zero, absolute(weight)))) continue;  // identities
+    product = multiply(blend_with_identity(load_quaternion(values), weight), product);
+  }
+  // Products with identities, which others may skip, differ in the sign of zeros.
+  return {product.x + zero, product.y + zero, product.z + zero, product.w + zero};
+}
+
+template <class Value>
+void turn(const QuaternionJointArgs& args) {
+  for (size_t block = 0; block < args.block_count; ++block) {
+    for (size_t lane = 0; lane < kBlockLanes; lane += kWidth) {
+      const VecQuaternion q = product_of_steps<Value>(args, block, lane);
+      float* out = args.rotations + block * 4 * kBlockLanes + lane;
+      store(out, q.x);
+      store(out + kBlockLanes, q.y);
+      store(out + 2 * kBlockLanes, q.z);
+      store(out + 3 * kBlockLanes, q.w);
     }
   }
 }
 
 void quaternion_joints(const QuaternionJointArgs& args) {
-  if (args.halves) {
-    turn(static_cast<const uint16_t*>(args.values), args);
-  } else {
-    turn(static_cast<const float*>(args.values), args);
-  }
+  args.halves ? turn<uint16_t>(args) : turn<float>(args);
 }
 
 // Euler angles ------------------------------------------------------------------------------------

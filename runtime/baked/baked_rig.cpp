@@ -9,7 +9,7 @@ namespace mien {
 namespace {
 
 /// To be raised whenever the list of numbers or arrays, or the meaning of one, changes.
-constexpr uint32_t kRigPartVersion = 2;
+constexpr uint32_t kRigPartVersion = 3;
 
 template <class AnyRig, class Visitor>
 void visit_numbers(AnyRig& rig, Visitor& visitor) {
@@ -26,8 +26,7 @@ void visit_numbers(AnyRig& rig, Visitor& visitor) {
   each(rig.control_count, rig.joint_count, rig.channel_count, rig.map_count, rig.mesh_count);
   each(rig.mask_count, rig.joint_attributes);
   each(rig.joints.contested, rig.joints.group_count, rig.joints.panel_shift);
-  each(rig.joints.widest_group, rig.joints.tallest_group);
-  each(rig.rotations.max_quaternion_joints, rig.rbf.independent);
+  each(rig.rbf.independent);
   for (auto* range : {&rig.ml_writes, &rig.rbf_writes}) each(range->first, range->end);
   each(rig.feedback_stages);
 
@@ -69,8 +68,8 @@ void visit_arrays(AnyRig& rig, Visitor& visitor) {
   each(rig.psds.outputs, rig.psds.first_input, rig.psds.inputs, rig.psds.count_at_lod);
   each(rig.psds.run_lengths, rig.psds.entry_of_psd);
   each(rig.channels.inputs, rig.channels.outputs, rig.channels.count_at_lod);
-  each(rotations.groups, rotations.angle_joints, rotations.quaternion_joints, rotations.columns);
-  each(rotations.columns_at_lod);
+  each(rotations.groups, rotations.angle_joints, rotations.turns, rotations.blocks_at_lod);
+  each(rotations.first_steps, rotations.steps_at_lod, rotations.columns);
   each(rig.twist_swing.setups, rig.twist_swing.outputs);
   each(rbf.plans, rbf.solvers, rbf.inputs, rbf.rotations, rbf.poses, rbf.first_input);
   each(rbf.first_output, rbf.pose_inputs, rbf.pose_outputs);
@@ -94,15 +93,17 @@ void visit_arrays(AnyRig& rig, Visitor& visitor) {
   }
   each(rig.psds.weights, rbf.swings, rbf.pose_scales, rbf.pose_factors, rbf.pose_weights);
   each(rbf.targets, rbf.inverses, ml.default_is_one, ml.biases, ml.values, ml.halves);
-  each(rotations.values, rotations.halves);
+  each(rotations.lane_steps_at_lod, rotations.values, rotations.halves);
   each(joints.scales, joints.values, joints.fixed_values);
 }
 
 // Sums of their fields: padding would give one rig two images. No size depends on that of a pointer.
 static_assert(sizeof(ColumnPart) == 4 && sizeof(JointPanel) == 8 && sizeof(JointTarget) == 6 &&
-                  sizeof(QuaternionJoint) == 4,
+                  sizeof(AngleJoint) == 4,
               "");
-static_assert(sizeof(GroupRotations) == 32 && sizeof(RbfSolver) == 4, "");
+static_assert(sizeof(GroupRotations) == 16 && sizeof(RotationOutput) == 16 &&
+                  sizeof(RbfSolver) == 4,
+              "");
 static_assert(sizeof(RbfSolverPlan) == 48, "");
 static_assert(sizeof(NetworkLayer) == 32 && sizeof(MlDependency) == 16, "");
 static_assert(sizeof(MlStep) == 56 && sizeof(MlJoint) == 24, "");

@@ -376,47 +376,40 @@ bool check_joints(const RigChecker& c) {
 
 // Rotations ---------------------------------------------------------------------------------------
 
-bool check_turned(const Span<QuaternionJoint>& joints, uint32_t joint_count) {
-  bool good = true;
-  for (const QuaternionJoint& turned : joints) good &= turned.joint < joint_count;
-  return good;
-}
-
 bool check_rotations(const RigChecker& c) {
   const Rig& rig = c.rig;
   const RotationTable& table = rig.rotations;
   const size_t values = rig.half_storage ? table.halves.count : table.values.count;
-  if (!c.ok(table.groups.count == rig.joints.group_count &&
-                table.columns_at_lod.count == table.groups.count * rig.lod_count &&
-                table.max_quaternion_joints <= table.quaternion_joints.count &&
-                below(table.columns, rig.control_count) &&
-                check_turned(table.angle_joints, rig.joint_count) &&
-                check_turned(table.quaternion_joints, rig.joint_count) &&
-                (rig.quaternion_outputs || table.angle_joints.empty()),
-            "rotations of joint groups")) {
-    return false;
-  }
-  uint64_t angles = 0, turns = 0, columns = 0, value = 0;
-  for (size_t g = 0; g < table.groups.count; ++g) {
-    const GroupRotations& group = table.groups[g];
-    const bool in_order = group.first_angle_joint == angles &&
-                          group.first_quaternion_joint == turns && group.first_column == columns &&
-                          group.first_value == value;
-    const Span<uint32_t> at_lod = table.columns_at_lod.slice(g * rig.lod_count, rig.lod_count);
-    angles += group.angle_joint_count;
-    turns += group.quaternion_joint_count;
-    columns += group.column_count;
-    if (!c.ok(in_order && group.quaternion_joint_count <= table.max_quaternion_joints &&
-                  below(at_lod, uint64_t{group.column_count} + 1) &&
-                  angles <= table.angle_joints.count && turns <= table.quaternion_joints.count &&
-                  columns <= table.columns.count,
-              "rotations of joint groups")) {
-      return false;
+  bool good = table.groups.count == rig.joints.group_count &&
+              table.blocks_at_lod.count == rig.lod_count && table.first_steps.count != 0 &&
+              below(table.columns, rig.control_count) &&
+              (rig.quaternion_outputs || table.angle_joints.empty());
+  if (!c.ok(good, "rotations of joint groups")) return false;
+  const uint64_t blocks = table.block_count(), steps = table.columns.count / kBlockLanes;
+  const uint64_t lanes = blocks * kBlockLanes;
+  good = blocks == padded(table.turns.count) / kBlockLanes &&
+         table.steps_at_lod.count == blocks * rig.lod_count &&
+         table.lane_steps_at_lod.count == lanes * rig.lod_count &&
+         values == steps * 4 * kBlockLanes && is_runs(table.first_steps, blocks, steps) &&
+         below(table.blocks_at_lod, blocks + 1);
+  if (!c.ok(good, "rotations of joint groups")) return false;
+  for (uint64_t l = 0; l < rig.lod_count; ++l) {
+    for (uint64_t b = 0; b < blocks; ++b) {
+      good &= table.steps_at_lod[l * blocks + b] <= table.first_steps[b + 1] - table.first_steps[b];
     }
-    value += padded(group.quaternion_joint_count) * 4 * group.column_count;
-    if (!c.ok(value <= values, "rotations of joint groups")) return false;
   }
-  return true;
+  for (const AngleJoint& joint : table.angle_joints) good &= joint.joint < rig.joint_count;
+  for (const RotationOutput& turn : table.turns) {
+    good &= turn.joint < rig.joint_count && turn.lane < lanes;
+  }
+  uint64_t angles = 0, turns = 0;
+  for (const GroupRotations& group : table.groups) {
+    good &= group.first_angle_joint == angles && group.first_turn == turns;
+    angles += group.angle_joint_count;
+    turns += group.turn_count;
+    good &= angles <= table.angle_joints.count && turns <= table.turns.count;
+  }
+  return c.ok(good, "rotations of joint groups");
 }
 
 bool check_twists(const RigChecker& c) {

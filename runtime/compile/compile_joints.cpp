@@ -456,10 +456,6 @@ void place_joints(const dna::DnaView& view, const JointPlan& plan, Placer& place
   const auto& groups = view.bhvr.joints.groups;
   joints.group_rows_at_lod = placer.array<uint16_t>(size_t{groups.count} * rig.lod_count);
   joints.group_count = groups.count;
-  for (const dna::JointGroup& group : groups) {
-    joints.widest_group = std::max(joints.widest_group, group.input_indices.count);
-    joints.tallest_group = std::max(joints.tallest_group, group.output_indices.count);
-  }
   place_variable_values(view, placer, rig);
 }
 

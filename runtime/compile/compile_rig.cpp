@@ -219,10 +219,10 @@ void count_things(const DnaView& view, const CompileOptions& options, Rig& rig) 
                                      rig.units.rotation);
 }
 
-Status place_all(const DnaView& view, const JointPlan& joints, Placer& placer, Rig& rig,
-                 Error& error) {
+Status place_all(const DnaView& view, const JointPlan& joints, const RotationPlan& rotations,
+                 Placer& placer, Rig& rig, Error& error) {
   place_joints(view, joints, placer, rig);
-  place_rotations(view, placer, rig);
+  place_rotations(rotations, placer, rig);
   place_controls(view, placer, rig);
   place_twists_and_swings(view, placer, rig);
   place_pose(view, placer, rig);
@@ -236,15 +236,15 @@ Status place_all(const DnaView& view, const JointPlan& joints, Placer& placer, R
 }
 
 /// `reach` is zeroed scratch, one for each control.
-Status fill_all(const DnaView& view, JointPlan& joints, Span<uint8_t> reach, Arena& scratch,
-                Rig& rig, Error& error) {
+Status fill_all(const DnaView& view, JointPlan& joints, const RotationPlan& rotations,
+                Span<uint8_t> reach, Arena& scratch, Rig& rig, Error& error) {
   Status status = fill_controls(view, scratch, rig, error);
   if (status != Status::kOk) return status;
   // Which LODs read a control decides which correctives they need.
   fill_joints(view, joints, reach, rig);
   mark_ml_joint_inputs(view, rig.lod_count, reach);
   status = fill_psds(view, reach, scratch, rig, error);
-  if (status == Status::kOk) status = fill_rotations(view, scratch, rig, error);
+  if (status == Status::kOk) fill_rotations(view, rotations, rig);
   if (status == Status::kOk) status = fill_rbf(view, scratch, rig, error);
   if (status == Status::kOk) status = fill_twists_and_swings(view, scratch, rig, error);
   if (status == Status::kOk) status = fill_ml(view, scratch, rig, error);
@@ -335,9 +335,12 @@ Status compile_rig(const DnaView& view, const CompileOptions& options, const All
   JointPlan joints;
   Status status = plan_joints(view, measured, scratch, joints, error);
   if (status != Status::kOk) return status;
+  RotationPlan rotations;
+  status = plan_rotations(view, measured, scratch, rotations, error);
+  if (status != Status::kOk) return status;
   Placer measure(nullptr);
   measure.array<Rig>(1);
-  status = place_all(view, joints, measure, measured, error);
+  status = place_all(view, joints, rotations, measure, measured, error);
   if (status != Status::kOk) return status;
 
   Span<uint8_t> reach = scratch.array<uint8_t>(measured.control_count);
@@ -358,8 +361,9 @@ Status compile_rig(const DnaView& view, const CompileOptions& options, const All
   rig->kernels = options.kernels;
   rig->ml.blend_masks = options.blend_masks;
   count_things(view, options, *rig);
-  status = place_all(view, joints, placer, *rig, error);
-  if (status == Status::kOk) status = fill_all(view, joints, reach, scratch, *rig, error);
+  status = place_all(view, joints, rotations, placer, *rig, error);
+  if (status == Status::kOk)
+    status = fill_all(view, joints, rotations, reach, scratch, *rig, error);
   if (status != Status::kOk) {
     release_rig(rig);
     return status;

@@ -84,9 +84,34 @@ void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach,
 /// After joints, twists and swings, and before the neutral pose.
 void fill_variable_joint_values(const dna::DnaView& view, Rig& rig);
 
-/// After fill_joints(), which knows the largest group.
-void place_rotations(const dna::DnaView& view, Placer& placer, Rig& rig);
-Status fill_rotations(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
+/// A joint represented by quaternions, of one group, before it has its lane.
+struct PlannedTurn {
+  uint64_t lods;  // bit l: a LOD turns it
+  uint32_t group;
+  uint32_t rows[3];  // about x y z, or ~0
+  uint32_t steps;    // columns that turn it
+  uint32_t lane;     // among those of all groups
+  uint16_t joint;
+  uint8_t reach;  // how many LODs, counted from 0
+};
+
+/// Rotations of joint groups, in scratch memory: found out once, before anything is placed.
+struct RotationPlan {
+  Span<GroupRotations> groups;
+  Span<AngleJoint> angle_joints;
+  Span<PlannedTurn> turns;       // by group
+  Span<uint32_t> sorted;         // turns in the order of their lanes
+  Span<uint32_t> used_at_lod;    // [turn][lod] leading steps
+  Span<uint32_t> first_columns;  // [group] into order, one more at the end
+  Span<uint32_t> order;          // columns of their groups, in the order in which they turn
+  size_t step_count = 0;         // of all blocks
+};
+
+/// kMemory (scratch).
+Status plan_rotations(const dna::DnaView& view, const Rig& rig, Arena& scratch, RotationPlan& plan,
+                      Error& error);
+void place_rotations(const RotationPlan& plan, Placer& placer, Rig& rig);
+void fill_rotations(const dna::DnaView& view, const RotationPlan& plan, Rig& rig);
 
 /// Steps that compiling, and a frame at each LOD, may take (work.h). What makes a rig large may be other
 /// layers of its file than those that are work, so the smaller of both counts; then a rig that was

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What joint groups do to rotations: angles that become quaternions, and joints represented by
-// quaternions (docs/rig-evaluation.md, 4.3, 4.7, 4.8).
+// quaternions (docs/rig-evaluation.md, 4.3, 4.7, 4.8). The latter are turns here.
 #include <algorithm>
 
 #include "runtime/base/half.h"
@@ -33,132 +33,239 @@ uint32_t count_joints(const dna::DnaView& view, const dna::JointGroup& group, Ro
 
 constexpr uint32_t kNone = ~uint32_t{0};
 
-/// For the time of compilation; sized for the largest group and all joints.
+/// For the time of planning.
 struct Scratch {
-  Span<uint32_t> position;       // [joint]: where a joint stands in its list, or kNone
-  Span<uint32_t> first_rows;     // [column]
-  Span<uint32_t> column_order;   // [column]
-  Span<uint32_t> rotation_rows;  // [quaternion joint][axis]: its row, or kNone
+  Span<uint32_t> position;        // [joint]: its angle joint or turn in this group, or kNone
+  Span<uint32_t> first_rows;      // [column] of the widest group
+  Span<uint32_t> columns_at_lod;  // [lod]
 };
 
-/// Lists the joints of a kind in order of their first row; returns how many. Of quaternion joints,
-/// rows of zeros and rows that no LOD reaches do not count: they must not undo what another group
-/// turned. `position` is all kNone, before and after.
-uint32_t list_joints(const dna::DnaView& view, const dna::JointGroup& group, RowKind kind,
-                     bool quaternion_outputs, const Scratch& scratch, QuaternionJoint* out) {
+/// Lists the joints of a kind in order of their first row. Of turns, rows of zeros and rows that no
+/// LOD reaches do not count: they must not undo what another group turned. `position` is all kNone,
+/// before and after.
+uint32_t list_angle_joints(const dna::DnaView& view, const dna::JointGroup& group,
+                           const Span<uint32_t>& position, AngleJoint* out) {
   uint32_t count = 0;
   for (uint32_t r = 0; r < group.output_indices.count; ++r) {
-    const uint32_t output = group.output_indices[r];
-    if (kind_of(view, quaternion_outputs, output) != kind) continue;
-    if (kind == RowKind::kTurn && (r >= rows_at_lod(group.lods, 0) || is_zero(group, r))) continue;
-    uint32_t& position = scratch.position[output / kFileAttributes];
-    if (position == kNone) {
-      position = count;
-      out[count++] = {static_cast<uint16_t>(output / kFileAttributes), static_cast<uint16_t>(r)};
-    }
-    if (kind != RowKind::kTurn) continue;
-    const uint32_t axis = output % kFileAttributes - 3;
-    uint32_t* rows = scratch.rotation_rows.data + size_t{position} * 3;
-    if (rows[axis] == kNone) rows[axis] = r;
+    const uint32_t output = group.output_indices[r], joint = output / kFileAttributes;
+    if (kind_of(view, true, output) != RowKind::kAngle || position[joint] != kNone) continue;
+    position[joint] = count;
+    out[count++] = {static_cast<uint16_t>(joint), static_cast<uint16_t>(r)};
   }
-  for (uint32_t i = 0; i < count; ++i) scratch.position[out[i].joint] = kNone;
+  for (uint32_t i = 0; i < count; ++i) position[out[i].joint] = kNone;
   return count;
 }
 
-/// One quaternion for each column and joint; of the two that mean the same rotation the one with
-/// w >= 0, so that blending with the identity never needs to ask.
-void fill_turns(const dna::JointGroup& group, uint32_t column_count, const Scratch& scratch,
-                const Rig& rig, const GroupRotations& rotations) {
-  for (uint32_t j = 0; j < rotations.quaternion_joint_count; ++j) {
-    const uint32_t* rows = scratch.rotation_rows.data + size_t{j} * 3;
-    const size_t lane = rotations.first_value +
-                        size_t{j / kBlockLanes} * column_count * 4 * kBlockLanes + j % kBlockLanes;
-    for (uint32_t k = 0; k < column_count; ++k) {
-      float angles[3] = {};
-      for (int axis = 0; axis < 3; ++axis) {
-        if (rows[axis] == kNone) continue;
-        angles[axis] =
-            group.values[size_t{rows[axis]} * group.input_indices.count + scratch.column_order[k]];
+uint32_t list_turns(const dna::DnaView& view, uint32_t g, const Span<uint32_t>& position,
+                    PlannedTurn* out) {
+  const dna::JointGroup& group = view.bhvr.joints.groups[g];
+  uint32_t count = 0;
+  for (uint32_t r = 0; r < group.output_indices.count; ++r) {
+    const uint32_t output = group.output_indices[r], joint = output / kFileAttributes;
+    if (kind_of(view, false, output) != RowKind::kTurn) continue;
+    if (r >= rows_at_lod(group.lods, 0) || is_zero(group, r)) continue;
+    if (position[joint] == kNone) {
+      position[joint] = count;
+      out[count] = {};
+      out[count].group = g;
+      out[count].joint = static_cast<uint16_t>(joint);
+      std::fill(out[count].rows, out[count].rows + 3, kNone);
+      for (uint32_t l = 0; l < view.desc.lod_count; ++l) {
+        out[count].lods |= uint64_t{rows_at_lod(group.lods, l) > r} << l;
       }
-      const Quaternion q = quaternion_from_euler(rig.rotation, angles);
-      const float sign = q.w < 0 ? -1.0f : 1.0f;
-      size_t at = lane + size_t{k} * 4 * kBlockLanes;
-      for (float part : {q.x, q.y, q.z, q.w}) {
-        if (rig.half_storage) {
-          rig.rotations.halves[at] = half_from_float(part * sign);
-        } else {
-          rig.rotations.values[at] = part * sign;
-        }
-        at += kBlockLanes;
-      }
+      out[count++].reach = lod_reach(group.lods, view.desc.lod_count, r);
     }
+    uint32_t& row = out[position[joint]].rows[output % kFileAttributes - 3];
+    if (row == kNone) row = r;
+  }
+  for (uint32_t i = 0; i < count; ++i) position[out[i].joint] = kNone;
+  return count;
+}
+
+/// Calls f(index) for the columns that turn a joint, of the first `count` in the order of its group.
+template <class F>
+void for_each_step(const dna::JointGroup& group, const PlannedTurn& turn, const uint32_t* order,
+                   uint32_t count, F&& f) {
+  for (uint32_t k = 0; k < count; ++k) {
+    uint32_t any = 0;
+    for (const uint32_t row : turn.rows) {
+      if (row != kNone) any |= magnitude_bits(row_values(group, row) + size_t{order[k]} * 4);
+    }
+    if (any) f(k);
+  }
+}
+
+Status no_memory(Error& error) {
+  return fail(error, Status::kMemory, kNoOffset, "no memory to compile rotations");
+}
+
+/// One quaternion for each lane of a step; of the two that mean the same rotation the one with
+/// w >= 0, so that blending with the identity never needs to ask.
+void fill_step(const dna::JointGroup& group, const PlannedTurn& turn, uint32_t column, size_t at,
+               const Rig& rig) {
+  float angles[3] = {};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (turn.rows[axis] == kNone) continue;
+    angles[axis] = group.values[size_t{turn.rows[axis]} * group.input_indices.count + column];
+  }
+  const Quaternion q = quaternion_from_euler(rig.rotation, angles);
+  const float sign = q.w < 0 ? -1.0f : 1.0f;
+  for (float part : {q.x, q.y, q.z, q.w}) {
+    if (rig.half_storage) {
+      rig.rotations.halves[at] = half_from_float(part * sign);
+    } else {
+      rig.rotations.values[at] = part * sign;
+    }
+    at += kBlockLanes;
   }
 }
 
 }  // namespace
 
-void place_rotations(const dna::DnaView& view, Placer& placer, Rig& rig) {
-  size_t angle_joints = 0, quaternion_joints = 0, columns = 0, values = 0;
+Status plan_rotations(const dna::DnaView& view, const Rig& rig, Arena& arena, RotationPlan& plan,
+                      Error& error) {
   const auto& groups = view.bhvr.joints.groups;
+  size_t turns = 0, angle_joints = 0, columns = 0, widest = 0;
   for (const dna::JointGroup& group : groups) {
-    angle_joints += count_joints(view, group, RowKind::kAngle, rig.quaternion_outputs);
-    const size_t turns = count_joints(view, group, RowKind::kTurn, rig.quaternion_outputs);
-    quaternion_joints += turns;
-    rig.rotations.max_quaternion_joints =
-        std::max(rig.rotations.max_quaternion_joints, static_cast<uint32_t>(turns));
-    if (turns == 0) continue;
+    if (rig.quaternion_outputs) {
+      angle_joints += count_joints(view, group, RowKind::kAngle, rig.quaternion_outputs);
+    }
+    const size_t count = count_joints(view, group, RowKind::kTurn, rig.quaternion_outputs);
+    if (count == 0) continue;
+    turns += count;
     columns += group.input_indices.count;
-    values += align_up(turns, kBlockLanes) * 4 * group.input_indices.count;
+    widest = std::max<size_t>(widest, group.input_indices.count);
   }
-  rig.rotations.groups = placer.array<GroupRotations>(groups.count);
-  rig.rotations.angle_joints = placer.array<QuaternionJoint>(angle_joints);
-  rig.rotations.quaternion_joints = placer.array<QuaternionJoint>(quaternion_joints);
-  rig.rotations.columns = placer.array<uint16_t>(columns);
-  rig.rotations.columns_at_lod = placer.array<uint32_t>(size_t{groups.count} * rig.lod_count);
-  rig.rotations.values = placer.array<float>(rig.half_storage ? 0 : values, kBlockAlignment);
-  rig.rotations.halves = placer.array<uint16_t>(rig.half_storage ? values : 0, kBlockAlignment);
-}
-
-Status fill_rotations(const dna::DnaView& view, Arena& arena, Rig& rig, Error& error) {
-  RotationTable& table = rig.rotations;
-  const size_t columns = rig.joints.widest_group;
-  const size_t rows = size_t{rig.joints.tallest_group} * 3;
-  const Scratch scratch = {arena.array<uint32_t>(rig.joint_count), arena.array<uint32_t>(columns),
-                           arena.array<uint32_t>(columns), arena.array<uint32_t>(rows)};
-  if ((rig.joint_count && !scratch.position.data) || (rows && !scratch.rotation_rows.data) ||
-      (columns && (!scratch.first_rows.data || !scratch.column_order.data))) {
-    return fail(error, Status::kMemory, kNoOffset, "no memory to compile rotations");
+  plan.groups = arena.array<GroupRotations>(groups.count);
+  plan.first_columns = arena.array<uint32_t>(size_t{groups.count} + 1);
+  if (!plan.first_columns.data || (groups.count && !plan.groups.data)) return no_memory(error);
+  if (turns + angle_joints == 0) return Status::kOk;
+  plan.angle_joints = arena.array<AngleJoint>(angle_joints);
+  plan.turns = arena.array<PlannedTurn>(turns);
+  plan.order = arena.array<uint32_t>(columns);
+  plan.used_at_lod = arena.array<uint32_t>(turns * rig.lod_count);
+  plan.sorted = arena.array<uint32_t>(turns);
+  const Scratch scratch = {arena.array<uint32_t>(rig.joint_count), arena.array<uint32_t>(widest),
+                           arena.array<uint32_t>(rig.lod_count)};
+  const size_t lods = turns * rig.lod_count;
+  if ((angle_joints && !plan.angle_joints.data) || (turns && !plan.turns.data) ||
+      (columns && !plan.order.data) || (lods && !plan.used_at_lod.data) ||
+      (turns && !plan.sorted.data) || (rig.joint_count && !scratch.position.data) ||
+      (widest && !scratch.first_rows.data) || (rig.lod_count && !scratch.columns_at_lod.data)) {
+    return no_memory(error);
   }
   std::fill(scratch.position.begin(), scratch.position.end(), kNone);
 
-  uint32_t angle_joint = 0, quaternion_joint = 0, column = 0;
-  size_t value = 0;
-  for (uint32_t g = 0; g < table.groups.count; ++g) {
-    const dna::JointGroup& group = view.bhvr.joints.groups[g];
-    GroupRotations& rotations = table.groups[g];
-    rotations = {angle_joint, 0, quaternion_joint, 0, column, 0, value};
-    const size_t most = std::min(rows, size_t{group.output_indices.count} * 3);
-    std::fill(scratch.rotation_rows.begin(), scratch.rotation_rows.begin() + most, kNone);
-    rotations.angle_joint_count = list_joints(view, group, RowKind::kAngle, rig.quaternion_outputs,
-                                              scratch, table.angle_joints.data + angle_joint);
-    rotations.quaternion_joint_count =
-        list_joints(view, group, RowKind::kTurn, rig.quaternion_outputs, scratch,
-                    table.quaternion_joints.data + quaternion_joint);
-    angle_joint += rotations.angle_joint_count;
-    quaternion_joint += rotations.quaternion_joint_count;
-    if (rotations.quaternion_joint_count == 0) continue;
-
-    rotations.column_count =
-        dna::order_quaternion_columns(view, group, scratch.first_rows, scratch.column_order,
-                                      table.columns_at_lod.data + size_t{g} * rig.lod_count);
-    for (uint32_t k = 0; k < rotations.column_count; ++k) {
-      table.columns[column + k] = group.input_indices[scratch.column_order[k]];
+  uint32_t turn = 0, angle_joint = 0, column = 0;
+  for (uint32_t g = 0; g < groups.count; ++g) {
+    const dna::JointGroup& group = groups[g];
+    GroupRotations& rotations = plan.groups[g];
+    rotations = {angle_joint, 0, turn, 0};
+    if (angle_joints) {
+      rotations.angle_joint_count =
+          list_angle_joints(view, group, scratch.position, plan.angle_joints.data + angle_joint);
+      angle_joint += rotations.angle_joint_count;
     }
-    fill_turns(group, rotations.column_count, scratch, rig, rotations);
-    column += rotations.column_count;
-    value += align_up(rotations.quaternion_joint_count, kBlockLanes) * 4 * rotations.column_count;
+    if (turns) rotations.turn_count = list_turns(view, g, scratch.position, plan.turns.data + turn);
+    plan.first_columns[g] = column;
+    if (rotations.turn_count == 0) continue;
+    const Span<uint32_t> order = plan.order.slice(column, group.input_indices.count);
+    const uint32_t used = dna::order_quaternion_columns(view, group, scratch.first_rows, order,
+                                                        scratch.columns_at_lod.data);
+    column += used;
+    for (uint32_t i = 0; i < rotations.turn_count; ++i, ++turn) {
+      PlannedTurn& planned = plan.turns[turn];
+      uint32_t* at_lod = plan.used_at_lod.data + size_t{turn} * rig.lod_count;
+      for_each_step(group, planned, order.data, used, [&](uint32_t k) {
+        ++planned.steps;
+        for (uint32_t l = 0; l < rig.lod_count; ++l) {
+          at_lod[l] += (planned.lods >> l & 1) && k < scratch.columns_at_lod[l];
+        }
+      });
+    }
+  }
+  plan.first_columns[groups.count] = column;
+  plan.angle_joints = plan.angle_joints.first(angle_joint);
+  plan.turns = plan.turns.first(turn);
+  plan.sorted = plan.sorted.first(turn);
+  for (uint32_t t = 0; t < turn; ++t) plan.sorted[t] = t;
+  std::sort(plan.sorted.begin(), plan.sorted.end(), [&](uint32_t a, uint32_t b) {
+    const PlannedTurn &x = plan.turns[a], &y = plan.turns[b];
+    if (x.reach != y.reach) return x.reach > y.reach;
+    return x.steps != y.steps ? x.steps > y.steps : a < b;
+  });
+  for (uint32_t i = 0, most = 0; i < turn; ++i) {
+    plan.turns[plan.sorted[i]].lane = i;
+    most = std::max(i % kBlockLanes ? most : 0, plan.turns[plan.sorted[i]].steps);
+    if ((i + 1) % kBlockLanes == 0 || i + 1 == turn) plan.step_count += most;
   }
   return Status::kOk;
+}
+
+void place_rotations(const RotationPlan& plan, Placer& placer, Rig& rig) {
+  RotationTable& table = rig.rotations;
+  const size_t blocks = align_up(plan.turns.count, kBlockLanes) / kBlockLanes;
+  const size_t lanes = plan.step_count * kBlockLanes, values = lanes * 4;
+  table.groups = placer.array<GroupRotations>(plan.groups.count);
+  table.angle_joints = placer.array<AngleJoint>(plan.angle_joints.count);
+  table.turns = placer.array<RotationOutput>(plan.turns.count);
+  table.blocks_at_lod = placer.array<uint32_t>(rig.lod_count);
+  table.first_steps = placer.array<uint32_t>(blocks + 1);
+  table.steps_at_lod = placer.array<uint32_t>(blocks * rig.lod_count);
+  table.lane_steps_at_lod =
+      placer.array<float>(blocks * rig.lod_count * kBlockLanes, kBlockAlignment);
+  table.columns = placer.array<uint16_t>(lanes);
+  table.values = placer.array<float>(rig.half_storage ? 0 : values, kBlockAlignment);
+  table.halves = placer.array<uint16_t>(rig.half_storage ? values : 0, kBlockAlignment);
+}
+
+void fill_rotations(const dna::DnaView& view, const RotationPlan& plan, Rig& rig) {
+  RotationTable& table = rig.rotations;
+  std::copy(plan.groups.begin(), plan.groups.end(), table.groups.begin());
+  std::copy(plan.angle_joints.begin(), plan.angle_joints.end(), table.angle_joints.begin());
+  const uint32_t blocks = table.block_count();
+  for (uint32_t i = 0; i < plan.sorted.count; ++i) {
+    const uint32_t block = i / kBlockLanes, lane = i % kBlockLanes;
+    const PlannedTurn& turn = plan.turns[plan.sorted[i]];
+    table.turns[plan.sorted[i]] = {turn.lods, i, turn.joint, 0};
+    const auto steps =
+        std::max(lane ? table.first_steps[block + 1] - table.first_steps[block] : 0, turn.steps);
+    table.first_steps[block + 1] = table.first_steps[block] + steps;
+    const uint32_t* used = plan.used_at_lod.data + size_t{plan.sorted[i]} * rig.lod_count;
+    for (uint32_t l = 0; l < rig.lod_count; ++l) {
+      const size_t at = size_t{l} * blocks + block;
+      if (l < turn.reach) table.blocks_at_lod[l] = block + 1;
+      table.steps_at_lod[at] = std::max(table.steps_at_lod[at], used[l]);
+      table.lane_steps_at_lod[at * kBlockLanes + lane] = static_cast<float>(used[l]);
+    }
+  }
+  for (const PlannedTurn& turn : plan.turns) {
+    const dna::JointGroup& group = view.bhvr.joints.groups[turn.group];
+    const uint32_t first = plan.first_columns[turn.group];
+    const uint32_t* order = plan.order.data + first;
+    const uint32_t lane = turn.lane % kBlockLanes;
+    size_t step = table.first_steps[turn.lane / kBlockLanes];
+    for_each_step(group, turn, order, plan.first_columns[turn.group + 1] - first, [&](uint32_t k) {
+      table.columns[step * kBlockLanes + lane] = group.input_indices[order[k]];
+      fill_step(group, turn, order[k], step++ * 4 * kBlockLanes + lane, rig);
+    });
+  }
+  // What fills a step reads a control that the step reads anyway.
+  for (size_t block = 0; block < blocks; ++block) {
+    const size_t count = std::min<size_t>(plan.sorted.count - block * kBlockLanes, kBlockLanes);
+    for (size_t step = table.first_steps[block]; step < table.first_steps[block + 1]; ++step) {
+      const auto steps = step - table.first_steps[block];
+      const auto has = [&](size_t lane) {
+        return lane < count && plan.turns[plan.sorted[block * kBlockLanes + lane]].steps > steps;
+      };
+      uint16_t* columns = table.columns.data + step * kBlockLanes;
+      size_t some = 0;
+      while (!has(some)) ++some;
+      for (size_t lane = 0; lane < kBlockLanes; ++lane) {
+        if (!has(lane)) columns[lane] = columns[some];
+      }
+    }
+  }
 }
 
 }  // namespace mien

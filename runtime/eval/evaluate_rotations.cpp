@@ -9,92 +9,70 @@
 namespace mien {
 namespace {
 
-/// Joints of a list whose first row a LOD reaches: they are in order of it.
-uint32_t reached(const Span<QuaternionJoint>& joints, uint32_t rows) {
-  uint32_t count = 0;
-  while (count < joints.count && joints[count].first_row < rows) ++count;
-  return count;
+/// Writes a lane of a block to its joint, in the form of the rig's outputs.
+void write_rotation(const Rig& rig, Instance& instance, uint32_t joint, const float* lane) {
+  float* out = instance.joints.data + size_t{joint} * rig.joint_attributes + 3;
+  out[0] = lane[0];
+  out[1] = lane[kBlockLanes];
+  out[2] = lane[2 * kBlockLanes];
+  if (rig.quaternion_outputs) out[3] = lane[3 * kBlockLanes];
 }
 
-/// Writes rotations of joints in the form of the rig's outputs, sixteen at a time.
-class RotationWriter {
- public:
-  RotationWriter(const Rig& rig, Instance& instance)
-      : rig_(rig), instance_(instance), form_(euler_form(rig.rotation)) {}
+/// Computes the turns of all groups that a LOD has, and writes those of some.
+void turn_joints(const Rig& rig, Instance& instance, uint32_t lod,
+                 const Span<RotationOutput>& turns) {
+  const RotationTable& table = rig.rotations;
+  if (turns.empty() || table.blocks_at_lod[lod] == 0) return;
+  const size_t first_block = size_t{lod} * table.block_count();
+  QuaternionJointArgs args;
+  args.halves = rig.half_storage;
+  args.values = args.halves ? static_cast<const void*>(table.halves.data) : table.values.data;
+  args.columns = table.columns.data;
+  args.first_steps = table.first_steps.data;
+  args.step_counts = table.steps_at_lod.data + first_block;
+  args.lane_steps = table.lane_steps_at_lod.data + first_block * kBlockLanes;
+  args.controls = instance.controls.data;
+  args.rotations = instance.rotations.data;
+  args.block_count = table.blocks_at_lod[lod];
+  rig.kernels->quaternion_joints(args);
+  if (!rig.quaternion_outputs) {
+    rig.kernels->angles_from_quaternions(
+        {euler_form(rig.rotation), args.rotations, args.rotations, args.block_count * kBlockLanes});
+  }
+  for (const RotationOutput& turn : turns) {
+    if ((turn.lods >> lod & 1) == 0) continue;
+    write_rotation(
+        rig, instance, turn.joint,
+        args.rotations + turn.lane / kBlockLanes * 4 * kBlockLanes + turn.lane % kBlockLanes);
+  }
+}
 
-  /// A lane of quaternions.
-  void add(uint32_t joint, const float* lane) {
-    for (uint32_t k = 0; k < 4; ++k) {
-      rotations_[k * kBlockLanes + count_] = lane[k * kBlockLanes];
-    }
+/// Rotation rows with quaternion outputs: their angles become quaternions, sixteen at a time.
+class AngleBlock {
+ public:
+  AngleBlock(const Rig& rig, Instance& instance) : rig_(rig), instance_(instance) {}
+
+  void add(uint32_t joint) {
+    const float* angles =
+        instance_.joints_and_angles.data + rig_.joint_value_count() + size_t{joint} * 3;
+    for (uint32_t k = 0; k < 3; ++k) rows_[k * kBlockLanes + count_] = angles[k];
     joints_[count_++] = static_cast<uint16_t>(joint);
     if (count_ == kBlockLanes) flush();
   }
   void flush() {
     if (count_ == 0) return;
-    if (!rig_.quaternion_outputs) {
-      rig_.kernels->angles_from_quaternions({form_, rotations_, rotations_, count_});
-    }
-    for (uint32_t i = 0; i < count_; ++i) {
-      float* out = instance_.joints.data + size_t{joints_[i]} * rig_.joint_attributes + 3;
-      const float* lane = rotations_ + i;
-      out[0] = lane[0];
-      out[1] = lane[kBlockLanes];
-      out[2] = lane[2 * kBlockLanes];
-      if (rig_.quaternion_outputs) out[3] = lane[3 * kBlockLanes];
-    }
+    rig_.kernels->quaternions_from_angles({euler_form(rig_.rotation), rows_, rows_, count_});
+    for (uint32_t i = 0; i < count_; ++i) write_rotation(rig_, instance_, joints_[i], rows_ + i);
     count_ = 0;
   }
 
  private:
   const Rig& rig_;
   Instance& instance_;
-  const EulerForm form_;
   uint32_t count_ = 0;
   uint16_t joints_[kBlockLanes];
-  alignas(kBlockAlignment) float rotations_[4 * kBlockLanes] = {};
+  alignas(kBlockAlignment) float rows_[4 * kBlockLanes] = {};
 };
-
-void quaternion_joints(const Rig& rig, Instance& instance, uint32_t lod, uint32_t group,
-                       const Span<QuaternionJoint>& joints, RotationWriter& writer) {
-  const RotationTable& table = rig.rotations;
-  const GroupRotations& rotations = table.groups[group];
-  QuaternionJointArgs args;
-  args.halves = rig.half_storage;
-  if (args.halves) {
-    args.values = table.halves.data + rotations.first_value;
-  } else {
-    args.values = table.values.data + rotations.first_value;
-  }
-  args.columns = table.columns.data + rotations.first_column;
-  args.controls = instance.controls.data;
-  args.rotations = instance.rotations.data;
-  args.column_count = table.columns_at_lod[size_t{group} * rig.lod_count + lod];
-  args.column_stride = rotations.column_count;
-  args.joint_count = static_cast<uint32_t>(joints.count);
-  rig.kernels->quaternion_joints(args);
-  for (uint32_t j = 0; j < joints.count; ++j) {
-    writer.add(joints[j].joint,
-               args.rotations + j / kBlockLanes * 4 * kBlockLanes + j % kBlockLanes);
-  }
-}
-
-/// Rotation rows with quaternion outputs: their angles become quaternions.
-void angle_joints(const Rig& rig, Instance& instance, const Span<QuaternionJoint>& joints,
-                  RotationWriter& writer) {
-  const float* all_angles = instance.joints_and_angles.data + rig.joint_value_count();
-  const EulerForm form = euler_form(rig.rotation);
-  alignas(kBlockAlignment) float block[4 * kBlockLanes] = {};
-  for (uint32_t first = 0; first < joints.count; first += kBlockLanes) {
-    const uint32_t count = std::min(static_cast<uint32_t>(joints.count) - first, kBlockLanes);
-    for (uint32_t j = 0; j < count; ++j) {
-      const float* angles = all_angles + size_t{joints[first + j].joint} * 3;
-      for (uint32_t k = 0; k < 3; ++k) block[k * kBlockLanes + j] = angles[k];
-    }
-    rig.kernels->quaternions_from_angles({form, block, block, count});
-    for (uint32_t j = 0; j < count; ++j) writer.add(joints[first + j].joint, block + j);
-  }
-}
 
 /// Inputs need not be unit, but squares of what is far from it would overflow, or vanish.
 Quaternion bounded(const Quaternion& q) {
@@ -111,7 +89,7 @@ Quaternion bounded(const Quaternion& q) {
 /// only where two of them write the same joint.
 class TwistSwingBlock {
  public:
-  TwistSwingBlock(const Rig& rig, Instance& instance) : rig_(rig), writer_(rig, instance) {}
+  TwistSwingBlock(const Rig& rig, Instance& instance) : rig_(rig), instance_(instance) {}
 
   void add(const Quaternion& q, uint32_t axis, bool inverted, const TwistSwingOutput& out,
            bool swing) {
@@ -130,14 +108,19 @@ class TwistSwingBlock {
   void flush() {
     if (count_ == 0) return;
     rig_.kernels->twist_swing({inputs_, rotations_, count_});
-    for (uint32_t i = 0; i < count_; ++i) writer_.add(joints_[i], rotations_ + i);
+    if (!rig_.quaternion_outputs) {
+      rig_.kernels->angles_from_quaternions(
+          {euler_form(rig_.rotation), rotations_, rotations_, count_});
+    }
+    for (uint32_t i = 0; i < count_; ++i) {
+      write_rotation(rig_, instance_, joints_[i], rotations_ + i);
+    }
     count_ = 0;
-    writer_.flush();
   }
 
  private:
   const Rig& rig_;
-  RotationWriter writer_;
+  Instance& instance_;
   uint32_t count_ = 0;
   alignas(kBlockAlignment) float inputs_[kTwistSwingRows * kBlockLanes] = {};
   alignas(kBlockAlignment) float rotations_[4 * kBlockLanes];
@@ -160,21 +143,24 @@ EulerForm euler_form(const RotationConvention& convention) {
 void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32_t first_group,
                         uint32_t group_count) {
   const RotationTable& table = rig.rotations;
-  if (table.angle_joints.empty() && table.quaternion_joints.empty()) return;
-  RotationWriter writer(rig, instance);
+  if (group_count == 0) return;
+  const GroupRotations &first = table.groups[first_group],
+                       &last = table.groups[first_group + group_count - 1];
+  turn_joints(
+      rig, instance, lod,
+      table.turns.slice(first.first_turn, last.first_turn + last.turn_count - first.first_turn));
+  if (table.angle_joints.empty()) return;
+  AngleBlock block(rig, instance);
   for (uint32_t group = first_group; group < first_group + group_count; ++group) {
     const GroupRotations& rotations = table.groups[group];
     const uint32_t rows = rig.joints.group_rows_at_lod[size_t{group} * rig.lod_count + lod];
-    Span<QuaternionJoint> joints =
-        table.angle_joints.slice(rotations.first_angle_joint, rotations.angle_joint_count);
-    joints = joints.first(reached(joints, rows));
-    if (!joints.empty()) angle_joints(rig, instance, joints, writer);
-    joints = table.quaternion_joints.slice(rotations.first_quaternion_joint,
-                                           rotations.quaternion_joint_count);
-    joints = joints.first(reached(joints, rows));
-    if (!joints.empty()) quaternion_joints(rig, instance, lod, group, joints, writer);
+    for (const AngleJoint& joint :
+         table.angle_joints.slice(rotations.first_angle_joint, rotations.angle_joint_count)) {
+      if (joint.first_row >= rows) break;  // they are in order of it
+      block.add(joint.joint);
+    }
   }
-  writer.flush();
+  block.flush();
 }
 
 void apply_twists_and_swings(const Rig& rig, Instance& instance, uint32_t lod,

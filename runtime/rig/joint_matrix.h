@@ -84,9 +84,7 @@ struct JointMatrix {
   Span<uint16_t> group_rows_at_lod;  // [group][lod]: leading rows of the group, as in the file
   bool contested = false;            // some output is written by rows of different panels
   uint32_t group_count = 0;
-  uint32_t panel_shift = 0;    // 2^panel_shift panels share a mark (stage_access.h)
-  uint32_t widest_group = 0;   // columns
-  uint32_t tallest_group = 0;  // rows
+  uint32_t panel_shift = 0;  // 2^panel_shift panels share a mark (stage_access.h)
 
   uint32_t panel_count() const { return static_cast<uint32_t>(panels.count - 1); }
   /// Whether panel `panel` fits a tile that begins with block row `first_block_row`.

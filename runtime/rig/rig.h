@@ -74,11 +74,19 @@ struct PsdTable {
   Span<uint16_t> entry_of_psd;  // where corrective p stands
 };
 
-/// A joint that a group turns, and the first of the group's rows that does: it turns at the LODs
-/// that reach this row.
-struct QuaternionJoint {
+/// A joint whose angles a group makes a quaternion of, and the first of the group's rows that writes
+/// one: at the LODs that reach this row.
+struct AngleJoint {
   uint16_t joint;
   uint16_t first_row;
+};
+
+/// Where a rotation that was computed in lanes goes.
+struct RotationOutput {
+  uint64_t lods;  // bit l: at LOD l
+  uint32_t lane;
+  uint16_t joint;
+  uint16_t zero;
 };
 
 /// What a joint group does to rotations besides writing angles.
@@ -87,25 +95,28 @@ struct QuaternionJoint {
 /// 3 * joint, and the group's `angle_joints` are then made into quaternions.
 ///
 /// Turns: joints represented by quaternions (docs/rig-evaluation.md, 4.8 "Joints represented by
-/// quaternions"). Per column there is one quaternion per joint; the rotation is the product, over
-/// the columns, of each blended with the identity by its control. In blocks of kBlockLanes joints,
-/// as simd/kernels.h draws them.
+/// quaternions").
 struct GroupRotations {
-  uint32_t first_angle_joint, angle_joint_count;            // into RotationTable::angle_joints
-  uint32_t first_quaternion_joint, quaternion_joint_count;  // into RotationTable::quaternion_joints
-  uint32_t first_column, column_count;                      // into RotationTable::columns
-  uint64_t first_value;                                     // into RotationTable::values
+  uint32_t first_angle_joint, angle_joint_count;  // into RotationTable::angle_joints
+  uint32_t first_turn, turn_count;                // into RotationTable::turns
 };
 
+/// The turns of all groups are packed into blocks of kBlockLanes, one lane each, as simd/kernels.h
+/// draws them: first those that more LODs reach, then those with more steps. A step is a column of
+/// the lane's group in which the joint turns; a LOD uses the first steps of a lane.
 struct RotationTable {
   Span<GroupRotations> groups;  // one for each joint group
-  Span<QuaternionJoint> angle_joints;
-  Span<QuaternionJoint> quaternion_joints;
-  Span<uint16_t> columns;              // control that a column reads
-  Span<uint32_t> columns_at_lod;       // [group][lod]: leading columns
-  Span<float> values;                  // or
-  Span<uint16_t> halves;               // in half storage
-  uint32_t max_quaternion_joints = 0;  // of one group
+  Span<AngleJoint> angle_joints;
+  Span<RotationOutput> turns;     // by group; a later one for the same joint counts
+  Span<uint32_t> blocks_at_lod;   // leading blocks
+  Span<uint32_t> first_steps;     // [block] into steps, one more at the end
+  Span<uint32_t> steps_at_lod;    // [lod][block]: the most that a lane uses
+  Span<float> lane_steps_at_lod;  // [lod][block][lane]: that it uses, as a float to compare with
+  Span<uint16_t> columns;         // [step][lane]: control that it reads
+  Span<float> values;             // [step][x y z w][lane], or
+  Span<uint16_t> halves;          // the same in half storage
+
+  uint32_t block_count() const { return static_cast<uint32_t>(first_steps.count - 1); }
 };
 
 /// How a solver measures, as files number it.

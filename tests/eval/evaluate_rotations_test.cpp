@@ -143,6 +143,42 @@ TEST(Rotations, QuaternionJointsOfEveryLod) {
   }
 }
 
+// Joints of different groups share a block: each has its own columns, and its own LODs. Of two groups
+// that turn one joint the later one counts, where a LOD reaches it.
+TEST(Rotations, QuaternionJointsOfManyGroups) {
+  Random random = Random::from_seed(32, 11);
+  for (int round = 0; round < 10; ++round) {
+    LayerRig rig = joint_rig(40);
+    rig.base.lod_count = 4;
+    rig.rotations.assign(40, 1);
+    for (uint32_t g = 0; g < 17; ++g) {
+      std::vector<uint16_t> joints;
+      for (uint32_t j = 0; j <= random.below(4); ++j) {
+        const auto joint = static_cast<uint16_t>(g < 14 ? g + 14 * (j % 2) : 39 - random.below(30));
+        if (std::find(joints.begin(), joints.end(), joint) == joints.end()) joints.push_back(joint);
+      }
+      PlainGroup group = random_group(rig, joints, random);
+      const uint32_t columns = 1 + random.below(4),
+                     rows = static_cast<uint32_t>(group.outputs.size());
+      group.inputs.clear();
+      for (uint32_t c = 0; c < columns; ++c) {
+        group.inputs.push_back(static_cast<uint16_t>((g + 3 * c) % kRaw));
+      }
+      group.values.resize(size_t{rows} * columns);
+      for (float& value : group.values) {
+        if (random.chance(0.4)) value = 0;
+      }
+      uint32_t reached = rows;
+      for (uint16_t& lod : group.lods) {
+        lod = static_cast<uint16_t>(reached);
+        if (random.chance(0.6)) reached = random.below(reached + 1);
+      }
+      rig.base.groups.push_back(group);
+    }
+    expect_model(rig, random, 3, 4e-6);
+  }
+}
+
 TEST(Twists, EveryAxisBlendAndLod) {
   Random random = Random::from_seed(32, 3);
   for (uint16_t axis = 0; axis < 3; ++axis) {

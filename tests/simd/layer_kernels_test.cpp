@@ -199,66 +199,77 @@ TEST(DenseLayer, HalvesGiveWhatTheirFloatsGive) {
   }
 }
 
-TEST(QuaternionJointsKernel, ProductOfBlends) {
+// Blocks whose lanes have different columns and numbers of steps, controls of 0 among them; a step
+// more is stored than used, as at a coarse LOD.
+TEST(QuaternionJointsKernel, ProductOfTheBlendsOfEachLane) {
   Random random = Random::from_seed(12, 1);
-  for (uint32_t columns : {0u, 1u, 2u, 17u}) {
+  constexpr uint32_t kFloats = 4 * kBlockLanes, kControls = 19;
+  for (uint32_t most : {0u, 1u, 2u, 17u}) {
     for (uint32_t blocks : {1u, 3u}) {
-      constexpr uint32_t kFloats = 4 * kBlockLanes;
-      Aligned values(size_t{blocks} * (columns + 1) * kFloats), rotations(blocks * kFloats);
-      std::vector<uint16_t> controls_of(columns);
-      std::vector<float> controls(columns + 3);
-      for (uint32_t c = 0; c < columns; ++c) controls_of[c] = static_cast<uint16_t>(columns - c);
+      const size_t steps = size_t{blocks} * (most + 1);
+      Aligned values(steps * kFloats), rotations(blocks * kFloats),
+          lane_steps(blocks * kBlockLanes);
+      std::vector<uint16_t> columns(steps * kBlockLanes);
+      std::vector<uint32_t> first_steps, step_counts(blocks, most);
+      std::vector<float> controls(kControls);
+      for (uint32_t b = 0; b < blocks; ++b) first_steps.push_back(b * (most + 1));
+      for (uint16_t& column : columns) column = static_cast<uint16_t>(random.below(kControls));
       for (float& x : controls) x = static_cast<float>(random.between(-0.5, 1.5));
-      if (columns > 1) controls[1] = 0;
-      // One column more is stored than evaluated, as at a coarse LOD.
-      for (uint32_t b = 0; b < blocks; ++b) {
-        for (uint32_t c = 0; c <= columns; ++c) {
-          for (uint32_t j = 0; j < kBlockLanes; ++j) {
-            double q[4], length = 0;
-            for (double& part : q) part = random.between(-1, 1);
-            q[3] = std::fabs(q[3]) + 0.2;
-            for (double part : q) length += part * part;
-            for (uint32_t k = 0; k < 4; ++k) {
-              values.data[(size_t{b} * (columns + 1) + c) * kFloats + k * kBlockLanes + j] =
-                  float_from_half(half_from_float(static_cast<float>(q[k] / std::sqrt(length))));
-            }
+      controls[1] = controls[2] = 0;
+      for (uint32_t i = 0; i < blocks * kBlockLanes; ++i) {
+        lane_steps.data[i] = static_cast<float>(i == 3 ? most : random.below(most + 1));
+      }
+      for (size_t s = 0; s < steps; ++s) {
+        for (uint32_t j = 0; j < kBlockLanes; ++j) {
+          double q[4], length = 0;
+          for (double& part : q) part = random.between(-1, 1);
+          q[3] = std::fabs(q[3]) + 0.2;
+          for (double part : q) length += part * part;
+          for (uint32_t k = 0; k < 4; ++k) {
+            values.data[s * kFloats + k * kBlockLanes + j] =
+                float_from_half(half_from_float(static_cast<float>(q[k] / std::sqrt(length))));
           }
         }
       }
-      const AlignedHalves halves(values.data, size_t{blocks} * (columns + 1) * kFloats);
-      const uint32_t joints = blocks * kBlockLanes - 5;
+      const AlignedHalves halves(values.data, steps * kFloats);
+      std::vector<float> reference;  // the bits of every instruction set
       for (const KernelTable* table : present()) {
-        QuaternionJointArgs args = {
-            halves.data, controls_of.data(), controls.data(), rotations.data,
-            columns,     columns + 1,        joints,          true};
+        QuaternionJointArgs args = {halves.data,        columns.data(),  first_steps.data(),
+                                    step_counts.data(), lane_steps.data, controls.data(),
+                                    rotations.data,     blocks,          true};
         table->quaternion_joints(args);
         const std::vector<float> from_halves(rotations.data, rotations.data + blocks * kFloats);
         args.values = values.data;
         args.halves = false;
         table->quaternion_joints(args);
         EXPECT_TRUE(std::equal(from_halves.begin(), from_halves.end(), rotations.data));
-        for (uint32_t b = 0; b < blocks; ++b) {
-          for (uint32_t j = 0; j < kBlockLanes && b * kBlockLanes + j < joints; ++j) {
-            double a[4] = {0, 0, 0, 1};
-            for (uint32_t c = 0; c < columns; ++c) {
-              const float* q = values.data + (size_t{b} * (columns + 1) + c) * kFloats + j;
-              const double w = controls[controls_of[c]];
-              double l[4], length = 0;
-              for (uint32_t k = 0; k < 4; ++k) l[k] = w * q[k * kBlockLanes];
-              l[3] += 1 - w;
-              for (double part : l) length += part * part;
-              for (double& part : l) part /= std::sqrt(length);
-              const double p[4] = {l[3] * a[0] + l[0] * a[3] + l[1] * a[2] - l[2] * a[1],
-                                   l[3] * a[1] - l[0] * a[2] + l[1] * a[3] + l[2] * a[0],
-                                   l[3] * a[2] + l[0] * a[1] - l[1] * a[0] + l[2] * a[3],
-                                   l[3] * a[3] - l[0] * a[0] - l[1] * a[1] - l[2] * a[2]};
-              std::memcpy(a, p, sizeof(a));
-            }
-            for (uint32_t k = 0; k < 4; ++k) {
-              ASSERT_NEAR(rotations.data[b * kFloats + k * kBlockLanes + j], a[k], 4e-6)
-                  << table->name << ", " << columns << " columns, joint " << j;
-            }
-          }
+        if (reference.empty()) reference = from_halves;
+        EXPECT_EQ(std::memcmp(reference.data(), rotations.data, reference.size() * sizeof(float)),
+                  0)
+            << table->name;
+      }
+      for (uint32_t i = 0; i < blocks * kBlockLanes; ++i) {
+        double a[4] = {0, 0, 0, 1};
+        const uint32_t lane = i % kBlockLanes;
+        for (uint32_t s = 0; s < static_cast<uint32_t>(lane_steps.data[i]); ++s) {
+          const size_t step = first_steps[i / kBlockLanes] + s;
+          const float* q = values.data + step * kFloats + lane;
+          const double w = controls[columns[step * kBlockLanes + lane]];
+          double l[4], length = 0;
+          for (uint32_t k = 0; k < 4; ++k) l[k] = w * q[k * kBlockLanes];
+          l[3] += 1 - w;
+          for (double part : l) length += part * part;
+          for (double& part : l) part /= std::sqrt(length);
+          const double p[4] = {l[3] * a[0] + l[0] * a[3] + l[1] * a[2] - l[2] * a[1],
+                               l[3] * a[1] - l[0] * a[2] + l[1] * a[3] + l[2] * a[0],
+                               l[3] * a[2] + l[0] * a[1] - l[1] * a[0] + l[2] * a[3],
+                               l[3] * a[3] - l[0] * a[0] - l[1] * a[1] - l[2] * a[2]};
+          std::memcpy(a, p, sizeof(a));
+        }
+        for (uint32_t k = 0; k < 4; ++k) {
+          ASSERT_NEAR(rotations.data[i / kBlockLanes * kFloats + k * kBlockLanes + lane], a[k],
+                      4e-6)
+              << most << " steps, lane " << i;
         }
       }
     }
