@@ -68,7 +68,8 @@ RULES = [
     (PUBLIC, r"(?<!machine-)(?<!Machine-)\b[Ll]earned behavior\b", "machine-learned behavior",
      "learned behavior"),
     # The program
-    (PUBLIC, r"\b[Pp]ictures?\b", "image, render", "look at the pictures"),
+    # An option of `mien author` has the name.
+    (PUBLIC, r"(?<!--)\b[Pp]ictures?\b", "image, render", "look at the pictures"),
     (CODE, r"\bsubjects?\.(?:h|cpp)\b|\blooks\.(?:h|cpp)\b|\bpictures\.(?:h|cpp)\b",
      "posed_scene, mesh_appearance, render_output", "looks.h"),
     (CODE, r"\bsystem_\w+\.(?:cpp|h)\b", "coordinate conversion", "system_axes.cpp"),

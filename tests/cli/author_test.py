@@ -17,6 +17,7 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import program  # noqa: E402
+from picture import Picture  # noqa: E402
 from program import (USAGE, INVALID, FILE, ProgramTest,  # noqa: E402
                      main, make_folder, path, read, run, write)
 
@@ -186,6 +187,58 @@ class AuthorTest(ProgramTest):
         report = self.author(path("two.obj"), "--joints", "20", "--lods", "1")
         self.assertEqual(report["mesh"]["objects"], 2)
         self.assertIn("brow", " ".join(self.names("out.dna", "meshes")))
+
+    def pictures(self, name):
+        return sorted(os.listdir(path(name)))
+
+    def test_pictures_show_what_there_is_to_show(self):
+        all_of_them = ["bones.png", "groups.png", "lods.png", "mask.png", "shapes.png", "weights.png"]
+        self.author(path("head.glb"), "--joints", "30", "--lods", "2", name="plain")
+        report = self.author(path("head.glb"), "--joints", "30", "--lods", "2", "--pictures",
+                             path("made/pictures"), name="drawn")
+        self.assertEqual(self.pictures("made/pictures"), all_of_them)
+        self.assertEqual(read("plain.dna"), read("drawn.dna"))
+        mask = Picture(read("made/pictures/mask.png"))
+        self.assertEqual((mask.width, mask.height), (3 * 406 + 6, 440 + 44 + 12))
+        # Three pictures of it: most of the face from the front, less than half of the head from the side.
+        shares = []
+        for column in range(3):
+            rows = mask.part(6 + 406 * column, 6, 400, 440)
+            colors = [(row[i], row[i + 2]) for row in rows for i in range(0, len(row), 3)]
+            face = sum(r > b + 40 for r, b in colors)
+            head = sum(abs(r - b) < 30 and r < 200 for r, b in colors) + face
+            shares.append(face / head)
+        self.assertGreater(shares[0], 1.3 * shares[2])
+        self.assertGreater(shares[2], 0.05)
+        # On the left of a picture is the right of the face; the bones are a third from the top or lower.
+        bones = Picture(read("made/pictures/bones.png"))
+        for left, x in ((False, 6), (True, 206)):
+            half = [row[i:i + 3] for row in bones.part(x, 100, 200, 340) for i in range(0, 600, 3)]
+            own = half.count(bytes((214, 84, 58) if left else (52, 118, 196)))
+            other = half.count(bytes((52, 118, 196) if left else (214, 84, 58)))
+            self.assertGreater(own, 50)
+            self.assertEqual(other, 0)
+        self.assertEqual(report["facial_joints"], 30)
+
+        self.author(path("head.obj"), "--joints", "20", "--lods", "1", "--pictures", path("still"))
+        self.assertEqual(self.pictures("still"), ["bones.png", "groups.png", "mask.png", "weights.png"])
+        front = [f for f in FACES if all(POSITIONS[v][2] > 4 for v in f)]
+        write("front.obj", obj(POSITIONS, front))
+        self.author(path("front.obj"), "--joints", "10", "--lods", "1", "--pictures", path("front"))
+        self.assertNotIn("groups.png", self.pictures("front"))
+
+    def test_no_pictures_where_there_is_no_rig_and_no_folder(self):
+        self.fails(INVALID, "author", write("dot.obj", "v 0 0 0\nf 1 1 1\n"), "-o", path("no.dna"),
+                   "--pictures", path("none"))
+        self.assertFalse(os.path.exists(path("none")))
+        file = write("file", "x")
+        self.fails(FILE, "author", path("head.obj"), "--joints", "8", "--lods", "1", "-o", path("no.dna"),
+                   "--pictures", file, says="file")
+        self.assertFalse(os.path.exists(path("no.dna")))
+        # A folder that was made for pictures goes if the rig cannot be written.
+        self.fails(FILE, "author", path("head.obj"), "--joints", "8", "--lods", "1", "-o",
+                   path("missing/no.dna"), "--pictures", path("none"))
+        self.assertFalse(os.path.exists(path("none")))
 
     def test_what_cannot_be_rigged_is_refused_with_the_rule(self):
         flat = [(x, y, 0) for x, y, _ in POSITIONS]

@@ -2,9 +2,11 @@
 // mien author: a rig from a mesh.
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "capi/mien_author.h"
+#include "integrations/cli/commands/author_images.h"
 #include "integrations/cli/commands/options.h"
 #include "integrations/cli/io/input.h"
 #include "integrations/cli/io/output.h"
@@ -12,6 +14,7 @@
 #include "integrations/cli/io/thread_pool.h"
 #include "integrations/cli/io/write_dna.h"
 #include "integrations/cli/mesh/mesh_file.h"
+#include "integrations/cli/render/png.h"
 
 namespace mien::cli {
 
@@ -27,7 +30,7 @@ struct AuthorCommand {
   std::string mesh, shapes, unit, object;
   std::string joints = "240", influences = "8", lods = "8", seed = "1", groups = "3", threads = "0";
   std::string symmetry = "auto", residual = "targets", up = "y", front = "z";
-  std::string report;
+  std::string report, images;
   bool paper = false, no_neck_cut = false, mask_from_shapes = false, area_density = false;
   OutputFile output;
 };
@@ -190,6 +193,43 @@ void note_oddities(const AuthorCommand& command, const Json& report, const Sessi
   }
 }
 
+/// A folder for images, made if it is missing, and removed again if nothing was put into it.
+class ImageFolder {
+ public:
+  explicit ImageFolder(const std::string& path) : path_(path) {
+    std::error_code reason;
+    made_ = std::filesystem::create_directories(path, reason);
+    if (!reason && std::filesystem::is_directory(path, reason)) return;
+    fail(kFile, "cannot write", path, reason ? reason.message() : "this is not a folder",
+         "name another folder");
+  }
+  ~ImageFolder() {
+    std::error_code ignored;
+    if (made_) std::filesystem::remove(path_, ignored);  // fails if there is something in it
+  }
+  ImageFolder(const ImageFolder&) = delete;
+  ImageFolder& operator=(const ImageFolder&) = delete;
+
+  std::string file(const std::string& name) const {
+    return (std::filesystem::path(path_) / name).string();
+  }
+
+ private:
+  std::string path_;
+  bool made_ = false;
+};
+
+std::vector<AuthorImage> draw_images(const AuthorCommand& command, const MienAuthorDesc& desc,
+                                     const MeshFile& mesh, Made& made, const Session& session) {
+  RigFile file = {shown_name(command.output.path), {}, std::move(made.dna), sized<MienDnaInfo>()};
+  check(mien_dna_info(file.dna.get(), &file.info), nullptr, "cannot draw", file.shown);
+  PosedScene scene = open_scene(std::move(file), session);
+  std::vector<AuthorImage> made_images =
+      draw_author_images({mesh, desc.unit, made.report, scene}, session);
+  made.dna = std::move(scene.file.dna);
+  return made_images;
+}
+
 void run(const AuthorCommand& command, const Session& session) {
   MienAuthorDesc desc = parse_options(command);
   refuse_terminal(command.output.path, session, "a DNA file");
@@ -208,16 +248,26 @@ void run(const AuthorCommand& command, const Session& session) {
   // glTF is in meters.
   if (command.unit.empty()) desc.unit = file.in_meters ? 100 : 1;
 
-  const Made made = make_rig(command, desc, file, session);
+  Made made = make_rig(command, desc, file, session);
   note_oddities(command, made.report, session);
+  std::vector<AuthorImage> made_images;
+  if (!command.images.empty()) made_images = draw_images(command, desc, file, made, session);
   interrupt.reset();  // files that are being written have a handler of their own
   std::unique_ptr<Output> report;
   if (!command.report.empty()) {
     report = std::make_unique<Output>(command.report);
     report->write(made.report.dump(1) + "\n");
   }
+  std::unique_ptr<ImageFolder> folder;
+  std::vector<std::unique_ptr<Output>> images;
+  if (!made_images.empty()) folder = std::make_unique<ImageFolder>(command.images);
+  for (const AuthorImage& made_image : made_images) {
+    images.push_back(std::make_unique<Output>(folder->file(made_image.name)));
+    images.back()->write(render::to_png(made_image.image));
+  }
   write_dna(made.dna.get(), sized<MienWriteDesc>(), command.output.path, session);
   if (report) report->commit();
+  for (const std::unique_ptr<Output>& image : images) image->commit();
 }
 
 }  // namespace
@@ -274,13 +324,19 @@ Command add_author_command(CLI::App& app, const Session& session) {
       ->type_name("N");
   author->add_option("--report", options->report, "Write what was found and measured as JSON")
       ->type_name("R.json");
+  author
+      ->add_option(
+          "--pictures", options->images,
+          "Draw groups, face mask, joints, weights and shapes as PNG\nfiles in this folder")
+      ->type_name("DIR");
   author->footer(
       "Without shapes it places joints and weights. The rig has the axes of MESH, in centimeters;\n"
       "each expression becomes a raw control of its name. The same input, options and seed give\n"
       "the same bytes for any number of threads. See docs/authoring.md.\n\n"
       "Examples:\n"
       "  mien author head.obj -o head.dna\n"
-      "  mien author head.obj --shapes expressions/ --joints 120 -o head.dna --report report.json\n"
+      "  mien author head.obj --shapes expressions/ -o head.dna --report report.json\n"
+      "  mien author head.obj --joints 120 -o head.dna --pictures images/\n"
       "  mien author head.glb -o head.dna\n"
       "  mien author scan.obj --unit mm --up z --front -y -o head.dna");
   return {author, [options, &session] { run(*options, session); }};

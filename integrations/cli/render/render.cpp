@@ -15,16 +15,6 @@ namespace {
 constexpr int kShadowSize = 512;
 constexpr Vec3 kWire = {0.02f, 0.022f, 0.026f};
 
-Lens make_lens(const Camera& camera, int width, int height) {
-  Lens lens;
-  lens.center_x = float(width) / 2;
-  lens.center_y = float(height) / 2;
-  lens.focal =
-      float(std::min(width, height)) / 2 / std::tan(camera.field_of_view * 0.008726646259971648f);
-  lens.near = std::max(camera.distance * 0.01f, 1e-12f);
-  return lens;
-}
-
 /// Samples of a pixel that show one surface at about one depth: shaded once.
 struct Patch {
   uint32_t number;  // of the triangle that has most of them

@@ -240,6 +240,16 @@ class Drawing {
 
 }  // namespace
 
+Lens make_lens(const Camera& camera, int width, int height) {
+  Lens lens;
+  lens.center_x = float(width) / 2;
+  lens.center_y = float(height) / 2;
+  lens.focal =
+      float(std::min(width, height)) / 2 / std::tan(camera.field_of_view * 0.008726646259971648f);
+  lens.near = std::max(camera.distance * 0.01f, 1e-12f);
+  return lens;
+}
+
 SamplePattern sample_pattern(int count) {
   switch (count) {
     case 4: return {4, kFour};

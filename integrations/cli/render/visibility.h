@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "integrations/cli/math/vector.h"
+#include "integrations/cli/render/camera.h"
 
 namespace mien::render {
 
@@ -21,6 +22,9 @@ struct Lens {
   /// Larger is nearer: 1 / distance, or z. Linear across the picture of a triangle in both cases.
   float depth_of(math::Vec3 p) const { return perspective ? 1 / -p.z : p.z; }
 };
+
+/// Of a picture of that size.
+Lens make_lens(const Camera& camera, int width, int height);
 
 /// Where the samples lie within a pixel, in 1/256 of its width.
 struct SamplePattern {

@@ -29,16 +29,6 @@ constexpr Stop kStops[] = {{0.00f, {168, 170, 172}}, {0.04f, {176, 172, 160}},
 /// Position on the legend, 0..1. Small movements get more of it than their share.
 float legend_position(float share) { return std::sqrt(saturate(share)); }
 
-/// `share` is a part of the largest movement.
-Color heat_color(float share) {
-  const float t = legend_position(share);
-  size_t i = 1;
-  while (i + 1 < std::size(kStops) && kStops[i].at < t) ++i;
-  const Stop &a = kStops[i - 1], &b = kStops[i];
-  return render::to_srgb(
-      mix(to_linear(a.color), to_linear(b.color), saturate((t - a.at) / (b.at - a.at))));
-}
-
 std::string amount(float value, const std::string& unit) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.3g ", static_cast<double>(value));
@@ -93,6 +83,15 @@ std::vector<render::Surface> heat_surfaces(const Influence& influence,
 }
 
 }  // namespace
+
+Color heat_color(float share) {
+  const float t = legend_position(share);
+  size_t i = 1;
+  while (i + 1 < std::size(kStops) && kStops[i].at < t) ++i;
+  const Stop &a = kStops[i - 1], &b = kStops[i];
+  return render::to_srgb(
+      mix(to_linear(a.color), to_linear(b.color), saturate((t - a.at) / (b.at - a.at))));
+}
 
 Image draw_heat_map(const PosedScene& scene, const Influence& influence,
                     const HeatMapOptions& options) {

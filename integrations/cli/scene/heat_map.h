@@ -9,6 +9,10 @@
 
 namespace mien::cli {
 
+/// The color of a share of the largest movement, 0 to 1: gray where there is none. Small shares get more
+/// than theirs of the scale, which goes by their square root.
+render::Color heat_color(float share);
+
 struct HeatMapOptions {
   render::RenderOptions render;  // of one of the two images; its scale is set here
   render::Camera camera;

@@ -171,12 +171,7 @@ math::Box PosedScene::neutral_box() const {
 
 namespace {
 
-/// One LOD of a DNA file, compiled.
-void compile_scene(PosedScene& scene, const PosedSceneOptions& options, const Session& session) {
-  auto desc = sized<MienDnaDesc>();
-  desc.layers = kEvaluationLayers | MIEN_LAYER_GEOMETRY;
-  desc.lods = uint64_t{1} << options.lod;  // nothing of the other LODs is read
-  scene.file = open_rig_file(options.rig, desc, session);
+void compile_scene(PosedScene& scene) {
   scene.rig = create_rig(scene.file, sized<MienRigDesc>());
   if (!has_geometry(scene.file)) return;
   auto error = sized<MienError>();
@@ -202,17 +197,9 @@ void map_scene(PosedScene& scene, const PosedSceneOptions& options) {
   }
 }
 
-}  // namespace
-
-PosedScene open_scene(const PosedSceneOptions& options, const Session& session) {
-  PosedScene scene;
-  scene.shown = shown_name(options.rig);
-  scene.lod = options.lod;
-  if (is_baked_file(options.rig)) {
-    map_scene(scene, options);
-  } else {
-    compile_scene(scene, options, session);
-  }
+/// What is the same whatever the rig came from.
+PosedScene finish_scene(PosedScene scene, const PosedSceneOptions& options,
+                        const Session& session) {
   scene.info = rig_info(scene.rig.get());
   scene.axes = axes_of(scene.info);
 
@@ -235,6 +222,32 @@ PosedScene open_scene(const PosedSceneOptions& options, const Session& session) 
   scene.pose.reset(pose);
   choose_meshes(scene, options, session);
   return scene;
+}
+
+}  // namespace
+
+PosedScene open_scene(const PosedSceneOptions& options, const Session& session) {
+  PosedScene scene;
+  scene.shown = shown_name(options.rig);
+  scene.lod = options.lod;
+  if (is_baked_file(options.rig)) {
+    map_scene(scene, options);
+  } else {
+    auto desc = sized<MienDnaDesc>();
+    desc.layers = kEvaluationLayers | MIEN_LAYER_GEOMETRY;
+    desc.lods = uint64_t{1} << options.lod;  // nothing of the other LODs is read
+    scene.file = open_rig_file(options.rig, desc, session);
+    compile_scene(scene);
+  }
+  return finish_scene(std::move(scene), options, session);
+}
+
+PosedScene open_scene(RigFile file, const Session& session) {
+  PosedScene scene;
+  scene.shown = file.shown;
+  scene.file = std::move(file);
+  compile_scene(scene);
+  return finish_scene(std::move(scene), {}, session);
 }
 
 void pose_scene(PosedScene& scene, const Frame& frame) {

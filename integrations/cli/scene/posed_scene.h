@@ -59,6 +59,9 @@ struct PosedScene {
 /// meshes get a material by their names, and wireframes show triangles.
 PosedScene open_scene(const PosedSceneOptions& options, const Session& session);
 
+/// LOD 0 of a DNA that is open, with all meshes that look right without textures.
+PosedScene open_scene(RigFile file, const Session& session);
+
 /// Sets the controls of a frame, evaluates and deforms.
 void pose_scene(PosedScene& scene, const Frame& frame);
 

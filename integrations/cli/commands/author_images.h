@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Images of how a rig was made: groups in depth, face mask, bones, weights, LODs, shapes beside what the
+// rig makes of them.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "integrations/cli/mesh/mesh_file.h"
+#include "integrations/cli/render/image.h"
+#include "integrations/cli/scene/posed_scene.h"
+
+namespace mien::cli {
+
+struct AuthorImage {
+  std::string name;  // of the file
+  render::Image image;
+};
+
+/// What a rig was made of, and what came out.
+struct MadeRig {
+  const MeshFile& mesh;
+  double unit;  // centimeters of one unit of the mesh
+  const nlohmann::ordered_json& report;
+  PosedScene& scene;  // of the rig; is posed
+};
+
+/// Images that have something to show: no shapes.png without shapes, no groups.png where there are none.
+std::vector<AuthorImage> draw_author_images(const MadeRig& made, const Session& session);
+
+}  // namespace mien::cli
