@@ -25,7 +25,7 @@ bool fill_meshes(const Head& head, Arena& arena, const Allocator& allocator, siz
 
 /// Meshes: every part at every LOD, part by part within a LOD.
 constexpr uint32_t kMeshCount = kPartCount * kLodCount;
-/// LODs with blend shapes.
+/// LODs with blend shapes of the whole face; the others have those of the edges of the lips.
 constexpr uint32_t kShapeLods = 2;
 
 }  // namespace mien::head

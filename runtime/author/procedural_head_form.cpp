@@ -71,13 +71,14 @@ namespace {
 // y, half width, front, back, exponent
 constexpr int kKnotColumns = 5;
 constexpr double kKnots[][kKnotColumns] = {
-    {-18.4, 8.8, 3.6, -7.6, 2.3},    {-17.6, 7.9, 3.75, -7.5, 2.25}, {-16.6, 6.2, 3.6, -7.1, 2.15},
-    {-15.4, 4.5, 3.35, -6.5, 2.1},   {-14.0, 3.8, 3.4, -6.0, 2.05},  {-12.4, 3.65, 4.0, -5.8, 2.0},
-    {-11.5, 3.85, 4.75, -5.75, 2.0}, {-10.8, 4.15, 6.9, -5.8, 2.0},  {-10.2, 4.4, 8.35, -5.85, 2.0},
-    {-9.2, 4.95, 8.75, -6.0, 2.0},   {-8.0, 5.6, 8.65, -6.3, 2.05},  {-6.0, 6.2, 8.8, -6.9, 2.1},
-    {-4.0, 6.85, 9.0, -7.8, 2.15},   {-1.5, 7.4, 9.15, -8.9, 2.2},   {0.6, 7.65, 9.25, -9.6, 2.25},
-    {3.0, 7.85, 9.45, -10.0, 2.3},   {5.0, 7.85, 9.4, -10.1, 2.3},   {7.5, 7.45, 8.75, -9.7, 2.25},
-    {9.8, 6.3, 7.2, -8.5, 2.2},      {11.4, 4.6, 4.9, -6.6, 2.15},   {12.25, 2.7, 2.3, -4.0, 2.1},
+    {-22.0, 4.0, 2.4, -4.6, 2.2},    {-21.5, 6.4, 3.9, -6.3, 2.2},  {-20.6, 8.5, 4.9, -7.7, 2.25},
+    {-19.4, 9.5, 5.15, -8.4, 2.3},   {-18.2, 9.0, 4.9, -8.4, 2.25}, {-17.0, 7.2, 4.4, -7.9, 2.15},
+    {-15.8, 5.45, 3.85, -7.1, 2.05}, {-14.4, 4.85, 3.6, -6.5, 2.0}, {-12.6, 4.7, 3.9, -6.1, 2.0},
+    {-11.5, 4.7, 4.75, -5.95, 2.0},  {-10.9, 4.65, 6.6, -5.9, 2.0}, {-10.3, 4.75, 8.15, -5.9, 2.0},
+    {-9.2, 5.45, 8.7, -6.0, 2.05},   {-8.0, 5.8, 8.62, -6.3, 2.05}, {-6.0, 6.4, 8.8, -6.9, 2.1},
+    {-4.0, 6.95, 9.0, -7.8, 2.15},   {-1.5, 7.4, 9.15, -8.9, 2.2},  {0.6, 7.65, 9.25, -9.6, 2.25},
+    {3.0, 7.85, 9.5, -10.0, 2.3},    {5.0, 7.85, 9.35, -10.1, 2.3}, {7.5, 7.45, 8.6, -9.7, 2.25},
+    {9.8, 6.3, 7.0, -8.5, 2.2},      {11.4, 4.6, 4.7, -6.6, 2.15},  {12.25, 2.7, 2.2, -4.0, 2.1},
     {12.6, 0.6, -0.3, -1.5, 2.0},
 };
 constexpr int kKnotCount = sizeof(kKnots) / sizeof(kKnots[0]);
@@ -124,7 +125,18 @@ double round_ridge(double x) {
   return u > 40 ? 0 : exact_exp(-u * u / (u + 0.35));
 }
 
-constexpr double kCollarY = -15.6;
+constexpr double kCollarY = -16.1;
+
+/// How far a place is inside the jaw, in the view from the side: its border runs from the chin to
+/// the angle below the ear and up from there. Negative on the neck.
+double inside_jaw(double y, double z) {
+  const double below = y - mix(-7.3, -10.6, (z - 1.0) / 7.0);
+  const double before = (z - 0.9) + 0.14 * (y + 7.3);
+  const double both = std::min(below * 0.92, before);
+  // The angle is round.
+  const double h = std::max(0.0, 1 - std::abs(below * 0.92 - before) / 1.6);
+  return both - 0.4 * h * h;
+}
 
 }  // namespace
 
@@ -134,9 +146,10 @@ Form::Section Form::section(double y, double cosine) const {
   };
   Section s = {at(1), at(2), at(3), at(4)};
   // The nape has no jaw.
-  static constexpr double kNape[][2] = {{-18.4, 8.8}, {-17.6, 7.9}, {-16.6, 6.3}, {-15.4, 4.8},
-                                        {-13.6, 4.0}, {-10.5, 4.2}, {-7.5, 5.1},  {-4.5, 6.35},
-                                        {-1.5, 7.25}, {0.6, 7.65}};
+  static constexpr double kNape[][2] = {{-22.0, 4.0},  {-21.5, 6.4}, {-20.6, 8.5}, {-19.4, 9.5},
+                                        {-18.2, 9.0},  {-17.0, 7.3}, {-15.4, 5.5}, {-13.6, 4.8},
+                                        {-10.5, 4.75}, {-7.5, 5.3},  {-4.5, 6.35}, {-1.5, 7.25},
+                                        {0.6, 7.65}};
   if (y < 0.6)
     s.half_width = mix(s.half_width, interpolate(y, kNape), smooth_step(0.30, -0.45, cosine));
   s.half_width *= mix(1, person_.jaw, bump(0, y, 0, -8, 1, 3.2));
@@ -149,58 +162,94 @@ Form::Section Form::section(double y, double cosine) const {
 double Form::mouth_line(double x) const {
   const double s = std::min(std::abs(x) / kMouthHalfWidth, 1.3);
   // A bow: down in the middle of the upper lip, up at the corners.
-  return kMouthY - 0.10 * bump(s, 0, 0, 0, 0.30, 1) + 0.26 * s * s;
+  return kMouthY - 0.10 * bump(s, 0, 0, 0, 0.30, 1) + 0.15 * s * s;
+}
+
+double Form::lip_height(double x, int which) const {
+  const double s = std::min(std::abs(x) / (1.04 * kMouthHalfWidth), 1.0), end = 1 - s * s;
+  const double full = mix(1, person_.lips, 0.5);
+  if (which < 0) return 0.76 * full * exact_pow(end, 0.54);
+  const double bow = 0.60 + 0.12 * bump(s, 0, 0.26, 0, 0.20, 1) - 0.07 * bump(s, 0, 0, 0, 0.10, 1);
+  return bow * full * exact_pow(end, 0.8);
+}
+
+FrontPlace Form::lip_curve(double out, int which) const {
+  if (which == 0) return {out * kMouthHalfWidth, kMouthY};
+  const double x = out * 1.04 * kMouthHalfWidth;
+  return {x, kMouthY + which * lip_height(x, which)};
 }
 
 double Form::lid_line(double x) const {
   const double s = along_eye(x), inside = std::max(0.0, 1 - s * s);
-  return kEye.y + (0.13 + 1.5 * person_.eye_tilt) * std::min(std::max(s, -1.4), 1.4) -
-         0.42 * inside;
+  return kEye.y + (0.15 + 1.5 * person_.eye_tilt) * std::min(std::max(s, -1.4), 1.4) -
+         0.36 * inside;
+}
+
+FrontPlace Form::lid_curve(double along, int which) const {
+  if (which == 0) return {kEye.x + along * kEyeHalfWidth, kEye.y};
+  const double height = (which > 0 ? 1.36 : -0.85) * exact_pow(1 - along * along, 0.6);
+  return {kEye.x + 1.13 * along * kEyeHalfWidth, kEye.y + height};
 }
 
 double Form::upper_opening(double x) const {
   const double s = along_eye(x), inside = std::max(0.0, 1 - s * s);
-  return 0.70 * exact_pow(inside, 0.62) * (1 - 0.10 * s);
+  return 0.56 * exact_pow(inside, 0.62) * (1 - 0.08 * s);
 }
 
 double Form::lower_opening(double x) const {
   const double s = along_eye(x), inside = std::max(0.0, 1 - s * s);
-  return -0.25 * exact_pow(inside, 0.85) * (1 + 0.18 * s);
+  return -0.21 * exact_pow(inside, 0.80) * (1 + 0.16 * s);
 }
 
 double Form::relief(double x, double y) const {
   const Person& p = person_;
   // Ridge of the nose, its height and its half width.
-  static constexpr double kRidge[][2] = {{-3.95, 0.0}, {-3.55, 0.30}, {-3.0, 1.65}, {-2.55, 2.0},
-                                         {-1.5, 1.45}, {0.4, 0.66},   {2.3, 0.32},  {4.4, 0.0}};
-  static constexpr double kWidth[][2] = {{-3.4, 0.86}, {-2.5, 0.92}, {-1.5, 0.66},
-                                         {0.4, 0.55},  {2.2, 0.95},  {4.0, 1.6}};
+  static constexpr double kRidge[][2] = {{-4.15, 0.0},  {-3.8, 0.22}, {-3.45, 1.0}, {-3.1, 1.75},
+                                         {-2.65, 2.05}, {-2.0, 1.66}, {-1.0, 1.18}, {0.4, 0.62},
+                                         {1.3, 0.38},   {2.4, 0.30},  {4.4, 0.0}};
+  static constexpr double kWidth[][2] = {{-3.8, 0.50}, {-3.3, 0.80}, {-2.7, 0.95}, {-1.5, 0.70},
+                                         {0.4, 0.62},  {2.2, 1.0},   {4.0, 1.6}};
   double z =
       p.nose * interpolate(y, kRidge) * round_ridge(x / (p.nose_width * interpolate(y, kWidth)));
   struct Bump {
     double amount, cx, cy, sx, sy;
   };
+  const double wing = p.nose_width;
   const Bump bumps[] = {
-      {-1.0, 3.4, 0.75, 2.1, 1.35},                             // sockets
-      {-0.55, 1.75, 0.3, 0.78, 1.25},                           // inner corners of the eyes
-      {0.18, 2.9, 3.3, 2.2, 0.8},                               // brow ridge
-      {0.62 * p.nose, 1.10 * p.nose_width, -2.85, 0.46, 0.48},  // wings of the nose
-      {-0.20, 0.60, -3.42, 0.30, 0.20},                         // nostrils
-      {0.40 * p.cheek, 4.7, -2.2, 1.7, 1.4},                    // cheekbones
-      {0.14, 2.6, -2.6, 1.3, 1.3},                              // apple of the cheek
-      {-0.40 * p.cheek, 5.0, -5.4, 1.3, 1.7},                   // hollow of the cheek
-      {0.80, 0, -5.7, 2.6, 1.9},                                // muzzle
-      {0.34 * p.lips, 0.55, -5.55, 1.15, 0.40},                 // upper lip
-      {0.46 * p.lips, 0.30, -6.68, 1.20, 0.46},                 // lower lip
-      {-0.20, 2.8, -5.95, 0.5, 0.6},                            // corners of the mouth
-      {-0.13, 0, -4.75, 0.30, 0.55},                            // philtrum
-      {-0.46, 0, -7.75, 1.5, 0.48},                             // fold above the chin
-      {0.62 * p.chin, 0, -9.2, 1.5, 1.0},                       // chin
-      {0.20, 1.6, 5.4, 2.6, 1.6},                               // forehead
-      {-0.25, 6.4, 2.2, 1.0, 1.8},                              // temples
+      {-0.62, 3.3, 0.45, 1.9, 1.25},                    // sockets
+      {-0.50, 1.75, 0.35, 0.62, 0.95},                  // inner corners of the eyes
+      {0.26, 3.5, 1.85, 1.6, 0.55},                     // skin that hangs over the crease
+      {0.24, 2.8, 3.15, 2.2, 0.75},                     // brow ridge
+      {0.86 * p.nose, 1.17 * wing, -3.05, 0.42, 0.48},  // wings of the nose
+      {-0.20, 0.86 * wing, -2.42, 0.22, 0.30},          // furrow between tip and wing
+      {-0.16, 1.85 * wing, -3.05, 0.32, 0.52},          // behind the wing
+      {0.34 * p.cheek, 4.7, -2.0, 1.7, 1.3},            // cheekbones
+      {0.22, 2.9, -2.5, 1.2, 1.2},                      // apple of the cheek
+      {-0.34 * p.cheek, 5.0, -5.4, 1.3, 1.7},           // hollow of the cheek
+      {0.74, 0, -5.7, 2.5, 1.9},                        // muzzle
+      {-0.10, 2.25, -4.35, 0.35, 0.75},                 // from nose to mouth
+      {-0.22, 2.75, -6.0, 0.42, 0.55},                  // corners of the mouth
+      {-0.13, 0, -4.75, 0.26, 0.55},                    // philtrum
+      {0.06, 0.42, -4.85, 0.20, 0.50},                  // its edges
+      {-0.42, 0, -7.65, 1.5, 0.50},                     // fold above the chin
+      {0.62 * p.chin, 0, -9.2, 1.45, 1.0},              // chin
+      {0.20, 1.6, 5.4, 2.6, 1.6},                       // forehead
+      {-0.25, 6.4, 2.2, 1.0, 1.8},                      // temples
   };
   for (const Bump& b : bumps) z += b.amount * bump(std::abs(x), y, b.cx, b.cy, b.sx, b.sy);
   return z;
+}
+
+/// How far the lips stand out: most a third of the way up from where they meet, where both are round.
+double Form::lips(double x, double y) const {
+  const double d = y - mouth_line(x), s = std::abs(x) / (1.04 * kMouthHalfWidth);
+  if (s >= 1) return 0;
+  const int which = d > 0 ? 1 : -1;
+  const double height = lip_height(x, which), q = std::abs(d) / height;
+  if (q >= 1) return 0;
+  const double end = std::sqrt(1 - s * s);
+  return (which > 0 ? 0.30 : 0.40) * person_.lips * end * 2.6 * std::sqrt(q) * (1 - q) -
+         0.08 * end * (1 - q);
 }
 
 // The face --------------------------------------------------------------------------------------
@@ -212,7 +261,7 @@ Vec3 turn_lid(Vec3 p, double angle) {
 }
 
 double from_lids(double x, double y) {
-  const double u = (x - kEye.x) / 1.86, v = (y - kEye.y) / 1.42;
+  const double u = (x - kEye.x) / 1.70, v = (y - kEye.y) / 1.30;
   return u * u + v * v;
 }
 
@@ -244,34 +293,43 @@ FacePoint Form::face(double angle, double y, Side side) const {
   p.y = y + lift_at(y);
   // Rows of the eyes and of the mouth follow the edges of lids and lips.
   const double s = along_eye(p.x);
-  p.y += (lid_line(p.x) - kEye.y) * bump(0, y, 0, kEye.y, 1, 1.3) *
+  p.y += (lid_line(p.x) - kEye.y) * smooth_step(2.4, 0.7, std::abs(y - kEye.y)) *
          smooth_step(2.2, 1.2, std::abs(s)) * front_mask;
-  p.y += (mouth_line(p.x) - kMouthY - lift_at(kMouthY)) * bump(0, y, 0, kMouthY, 1, 1.2) *
+  p.y += (mouth_line(p.x) - kMouthY - lift_at(kMouthY)) *
+         smooth_step(2.6, 0.9, std::abs(y - kMouthY)) *
          smooth_step(1.9, 1.1, p.x / kMouthHalfWidth) * front_mask;
 
-  p.z += front_mask * relief(p.x, p.y);
-  // Lips roll inwards at the line where they meet.
-  const double from_line = p.y - mouth_line(p.x);
-  const double roll = smooth_step(1.12, 0.80, p.x / kMouthHalfWidth);
-  p.z -= front_mask * 0.36 * bump(0, from_line, 0, 0, 1, 0.17) * (0.35 + 0.65 * roll) *
-         smooth_step(1.35, 0.9, p.x / kMouthHalfWidth);
+  p.z += front_mask * (relief(p.x, p.y) + lips(p.x, p.y));
+  // Below and behind the jaw the neck is narrower.
+  if (p.y < 0) {
+    const double neck = smooth_step(0.6, -1.4, inside_jaw(p.y, p.z)) * smooth_step(-5, -0.5, p.z) *
+                        smooth_step(-1.8, -5.5, p.y) * smooth_step(-15.5, -12.0, p.y);
+    p.x *= 1 - 0.15 * neck;
+  }
   // The collar of a shirt.
   const double cloth = 0.20 * smooth_step(-0.10, 0.12, kCollarY - y) *
                        mix(0.7, 1, bump(0, y, 0, kCollarY - 0.35, 1, 0.3));
   p.x += cloth * sine;
   p.z += cloth * cosine;
   p.y += (0.020 * p.x * p.x + 0.9 * smooth_step(3, -5, p.z)) * bump(0, y, 0, kCollarY, 1, 1.6);
-  // The tip of the nose hangs a little over its root.
-  p.y -= front_mask * 0.28 * person_.nose * bump(p.x, y, 0, -2.85, 0.9, 0.55);
+  // The tip of the nose hangs a little over its root, and nostrils go up into it.
+  p.y -= front_mask * 0.24 * person_.nose * bump(p.x, y, 0, -2.95, 0.9, 0.50);
+  p.y -= front_mask * 0.12 * bump(p.x, y, 1.1 * person_.nose_width, -3.2, 0.35, 0.30);
+  const double nostril = front_mask * bump(p.x, y, 0.58 * person_.nose_width, -3.52, 0.24, 0.17);
+  p.y += 0.20 * nostril;
+  p.z -= 0.35 * nostril;
 
   // Lids lie on a ball around the eye, and the face runs smoothly into it.
-  const double dx = p.x - kEye.x, dy = p.y - kEye.y;
-  if (front_mask > 0 && from_lids(p.x, p.y) < 4) {
+  const double dx = p.x - kEye.x, dy = p.y - kEye.y, from = from_lids(p.x, p.y);
+  if (front_mask > 0 && from < 5) {
     const double r = std::sqrt(dx * dx + dy * dy), edge = 0.95 * kLidRadius;
     const double steep = edge / std::sqrt(kLidRadius * kLidRadius - edge * edge);
     double ball = kEye.z + std::sqrt(kLidRadius * kLidRadius - std::min(r * r, edge * edge));
     if (r > edge) ball -= (r - edge) * steep;
     p.z = mix(p.z, smooth_max(p.z, ball, 0.8), front_mask);
+    p.z = mix(p.z, ball,
+              front_mask * mix(smooth_step(1.2, 0.7, from), smooth_step(1.5, 0.3, from),
+                               smooth_step(0.1, -0.5, dy)));
   }
 
   FacePoint out;
@@ -284,7 +342,12 @@ FacePoint Form::face(double angle, double y, Side side) const {
   const double at_edge = exact_atan2(line - kEye.y, edge_z);
   const double here = exact_atan2(dy, std::max(p.z - kEye.z, 0.05));
   if (side == Side::kAbove) {
-    out.lid = upper_opening(p.x) * (1 - clamp01((here - at_edge) / 0.98));
+    // The part below the crease turns as a whole; the rest is folded up there.
+    const double up = here - at_edge;
+    out.lid = upper_opening(p.x) * (1 - smooth_step(0.10, 1.02, up));
+    const double fold =
+        0.10 * bump(up, 0, 0.62, 0, 0.15, 1) * smooth_step(0.1, 0.4, up) * (1 - s * s);
+    out.closed = kEye + (p - kEye) * (1 - fold / kLidRadius);
   } else {
     out.lid = lower_opening(p.x) * (1 - smooth_step(0, 0.75, at_edge - here));
   }
@@ -301,23 +364,18 @@ Color Form::skin_color(Vec3 p, double row, double lid) const {
   Color c = skin;
   const double red =
       0.34 * bump(x, p.y, 4.4, -2.5, 1.7, 1.3) + 0.34 * bump(x, p.y, 0, -2.7, 1.1, 0.8) +
-      0.20 * bump(x, p.y, 0, -9.4, 1.6, 0.9) + 0.22 * bump(x, p.y, 3.2, 1.6, 1.7, 0.8);
+      0.20 * bump(x, p.y, 0, -9.4, 1.6, 0.9) + 0.06 * bump(x, p.y, 3.2, 1.6, 1.7, 0.8);
   c = mix(c, blush, std::min(red, 0.8) * in_front);
   // Nostrils.
-  c = mix(c, {70, 30, 28}, 0.75 * bump(x, p.y, 0.60, -3.66, 0.30, 0.16) * in_front);
-  // Lips: between two curves that meet at the corners.
-  const double s = x / (kMouthHalfWidth * 1.03);
-  if (s < 1 && p.z > 4) {
-    const double line = mouth_line(p.x), end = 1 - s * s;
-    const double bow =
-        0.72 + 0.20 * bump(s, 0, 0.30, 0, 0.22, 1) - 0.10 * bump(s, 0, 0, 0, 0.10, 1);
-    const double top = bow * exact_pow(end, 0.75) * mix(1, person_.lips, 0.5);
-    const double bottom = 0.98 * exact_pow(end, 0.60) * mix(1, person_.lips, 0.5);
-    const double d = p.y - line;
-    const double inside = d > 0 ? smooth_step(top + 0.13, top - 0.13, d)
-                                : smooth_step(bottom + 0.14, bottom - 0.12, -d);
-    c = mix(c, person_.lip, inside * smooth_step(0, 0.12, end));
-    c = mix(c, mix(person_.lip, {60, 16, 20}, 0.55), inside * bump(0, d, 0, 0, 1, 0.10));
+  c = mix(c, {58, 24, 22},
+          0.85 * bump(x, p.y, 0.58 * person_.nose_width, -3.58, 0.23, 0.17) * in_front);
+  // Lips.
+  if (x < 1.06 * kMouthHalfWidth && p.z > 4) {
+    const double d = p.y - mouth_line(p.x);
+    const double height = lip_height(x, d > 0 ? 1 : -1);
+    const double inside = smooth_step(height + 0.07, height + 0.02, std::abs(d));
+    c = mix(c, person_.lip, inside);
+    c = mix(c, mix(person_.lip, {60, 16, 20}, 0.6), inside * bump(0, d, 0, 0, 1, 0.07));
   }
   // Edges of the upper lids are dark with lashes.
   if (lid > 0) {

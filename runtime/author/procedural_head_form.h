@@ -38,14 +38,14 @@ Person make_person(uint64_t seed);
 
 // Landmarks -------------------------------------------------------------------------------------
 
-constexpr Vec3 kEye = {3.3, 0.3, 6.5};  // center of the left eyeball
-constexpr double kEyeRadius = 1.85;
-constexpr double kLidRadius = 1.98;     // outside of the lids
-constexpr double kEyeHalfWidth = 1.70;  // of the opening between the lids
+constexpr Vec3 kEye = {3.2, 0.3, 6.8};  // center of the left eyeball
+constexpr double kEyeRadius = 1.60;
+constexpr double kLidRadius = 1.72;     // outside of the lids
+constexpr double kEyeHalfWidth = 1.52;  // of the opening between the lids
 constexpr double kMouthY = -6.0;
 constexpr double kMouthHalfWidth = 2.45;
 constexpr double kCrownY = 12.6;
-constexpr double kBottomY = -17.5;
+constexpr double kBottomY = -22.0;
 constexpr Vec3 kJawJoint = {0, -1.6, 0.4};
 constexpr double kJawOpenAngle = 22;  // degrees
 
@@ -53,6 +53,11 @@ constexpr double kJawOpenAngle = 22;  // degrees
 struct FacePoint {
   Vec3 closed;
   double lid = 0;  // radians that the neutral pose turns it: upper lid > 0, lower lid < 0
+};
+
+/// A place of the front view; `y` is a row, which features bend.
+struct FrontPlace {
+  double x, y;
 };
 
 enum class Side { kBelow, kAbove };  // of the slits between lids and between lips
@@ -75,6 +80,13 @@ class Form {
   /// Height of the closed lids' edges, and of the row of the mouth, which is bent as well.
   double lid_line(double x) const;
   double mouth_line(double x) const;
+  /// Curves around the slits, `which` 1 above, -1 below: the crease of the lids, `along` -1 ... 1
+  /// from the inner to the outer corner; the border of the lips' red, `out` 0 ... 1 from the middle
+  /// to the corner. 0 is the slit itself.
+  FrontPlace lid_curve(double along, int which) const;
+  FrontPlace lip_curve(double out, int which) const;
+  /// Height of the lips' red above (`which` 1) or below the line between them.
+  double lip_height(double x, int which) const;
   /// Angle by which the neutral pose opens the edges of the lids.
   double upper_opening(double x) const;
   double lower_opening(double x) const;
@@ -88,6 +100,7 @@ class Form {
   /// `cosine` of the angle.
   Section section(double y, double cosine) const;
   double relief(double x, double y) const;
+  double lips(double x, double y) const;
 
   Person person_;
 };

@@ -131,7 +131,7 @@ Skeleton::Skeleton(const Form& form) {
   upper_teeth = fixed("TeethUpper", {0, -5.4, 6.5}, face);
   jaw = maker.add("Jaw", kJawJoint, face, Drive::kJaw, 0, kJawGroup, true);
   lower_teeth = maker.add("TeethLower", {0, -6.8, 6.2}, jaw, Drive::kNone, 0, kJawGroup, true);
-  const double tip = form.face(0, kMouthY, Side::kBelow).closed.z - 1.75;
+  const double tip = form.face(0, kMouthY, Side::kBelow).closed.z - 2.0;
   uint16_t parent = jaw;
   static constexpr const char* kTongueNames[] = {"Tongue01", "Tongue02", "Tongue03"};
   for (int i = 0; i < 3; ++i) {

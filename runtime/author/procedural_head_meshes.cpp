@@ -36,7 +36,7 @@ class MeshMaker {
     if (!make_part(head_.form, part_, lod_, half_)) return false;
     flipped_ = part_ == Part::kEyeRight;
     return number() && make_points(out) && make_layouts(out) && make_faces(out) &&
-           make_weights(out) && (lod_ >= kShapeLods || make_targets(out, used));
+           make_weights(out) && make_targets(out, used);
   }
   bool make_colors(dna::MetadataPair& out);
 
@@ -189,6 +189,13 @@ class MeshMaker {
     return true;
   }
 
+  /// Below the LODs with shapes of the whole face there are those of the lips' edges, so that a
+  /// closed mouth has no slit.
+  double near_lips(const Vertex& v) const {
+    if (v.carrier != Carrier::kSkin || std::abs(v.look.x) > kMouthHalfWidth) return 0;
+    return bump(v.look.y - head_.form.mouth_line(v.look.x), v.depth, 0, 0, 0.35, 0.15);
+  }
+
   Span<Vec3> offsets_of(uint32_t shape) const {
     return offsets_.slice(size_t{shape} * left_count(), left_count());
   }
@@ -268,6 +275,7 @@ void MeshMaker::find_offsets(uint32_t shape, Span<Affine> pose, Span<Vec3> out) 
     }
     Vec3 offset = author::residual(pose.data, influences(weights_[i]), from, target);
     if (half_.on_plane(i) && twin == shape) offset.x = 0;
+    if (lod_ >= kShapeLods) offset = offset * near_lips(v);
     out[i] = is_moved(i, offset) ? offset : Vec3();
   }
 }
@@ -323,10 +331,10 @@ bool fill_channels(const Head& head, Span<const uint8_t> used, Arena& arena, dna
     ++channel;
   }
   for (uint32_t lod = 0; lod < kLodCount; ++lod) {
-    lods.set(lod, static_cast<uint16_t>(lod < kShapeLods ? count : 0));
+    lods.set(lod, static_cast<uint16_t>(count));
   }
   out.bhvr.channels = {lods, inputs, outputs};
-  const auto in_lod = [](size_t lod, size_t) { return lod < kShapeLods; };
+  const auto in_lod = [](size_t, size_t) { return true; };
   return make_lod_map(arena, kLodCount, count, in_lod, out.defn.lod_channels);
 }
 

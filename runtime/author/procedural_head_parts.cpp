@@ -111,9 +111,9 @@ void add_ear(const Form& form, uint32_t lod, HalfMesh& out) {
 
 void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out) {
   // Angle from the middle of the pupil.
-  static constexpr double kFine[] = {0.10, 0.20, 0.225, 0.30, 0.38, 0.45, 0.485, 0.525,
-                                     0.60, 0.75, 0.95,  1.2,  1.5,  1.9,  2.3,   2.7};
-  static constexpr double kPlain[] = {0.21, 0.24, 0.47, 0.52, 0.9, 1.5, 2.2};
+  static constexpr double kFine[] = {0.08, 0.155, 0.172, 0.25, 0.33, 0.39, 0.425, 0.465,
+                                     0.55, 0.70,  0.90,  1.2,  1.5,  1.9,  2.3,   2.7};
+  static constexpr double kPlain[] = {0.155, 0.18, 0.40, 0.465, 0.9, 1.5, 2.2};
   const bool fine = lod < 3;
   const double* angles = fine ? kFine : kPlain;
   const uint32_t rings = fine ? 16 : 7, around = at_lod(48, 8, lod);
@@ -123,18 +123,18 @@ void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out) {
   const double radius = kEyeRadius * kShrunk[lod];
   const Color iris = form.person().iris;
   const auto color = [&](double angle, uint32_t k) -> Color {
-    const Color pupil = {14, 12, 14}, white = {244, 240, 236};
-    if (angle < 0.21) return pupil;
-    if (angle < 0.50) {
-      // Light below, as if it came through the cornea from above; streaks; a dark rim.
-      const double low = 0.5 - 0.5 * exact_sine(2 * kPi * k / around);
-      const double streak = 0.06 * exact_sine(2.0 * kPi * 9 * k / around);
-      Color c = mix(iris, {236, 230, 200}, 0.45 * low + streak);
-      c = mix(c, {18, 18, 22}, 0.45 * (1 - low) * (1 - low));
-      c = mix(c, pupil, 0.35 * smooth_step(0.30, 0.22, angle));
-      return mix(c, {20, 22, 28}, 0.65 * smooth_step(0.40, 0.49, angle));
+    const Color pupil = {14, 12, 14}, white = {228, 222, 216};
+    if (angle < 0.16) return pupil;
+    if (angle < 0.44) {
+      // Darker above, in the shadow of the lid, and at the rim; streaks.
+      const double high = 0.5 + 0.5 * exact_sine(2 * kPi * k / around);
+      const double streak = 0.05 * exact_sine(2.0 * kPi * 13 * k / around);
+      Color c = mix(iris, {206, 196, 160}, 0.26 * (1 - high) + streak);
+      c = mix(c, {18, 18, 22}, 0.50 * high * high);
+      return mix(c, {22, 24, 30}, 0.72 * smooth_step(0.31, 0.43, angle));
     }
-    return mix(white, {214, 150, 140}, 0.8 * smooth_step(0.8, 1.4, angle));
+    return mix(mix(white, iris, 0.12 * smooth_step(0.52, 0.46, angle)), {206, 140, 130},
+               0.8 * smooth_step(0.7, 1.2, angle));
   };
   const uint32_t front =
       out.vertices.add(plain(kEye + Vec3{0, 0, radius}, {14, 12, 14}, 0.5, 0.5, Carrier::kEyeball));
@@ -165,7 +165,7 @@ void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out) {
 }
 
 void add_lashes(const Form& form, uint32_t lod, HalfMesh& out) {
-  const uint32_t columns = at_lod(28, 4, lod) + 1;
+  const uint32_t columns = at_lod(72, 4, lod) + 1;
   const Color dark = mix(form.person().brow_hair, {16, 12, 12}, 0.7);
   // A wedge along the edge of the upper lid: below, tip, above.
   const uint32_t first = out.vertices.count();
@@ -174,11 +174,15 @@ void add_lashes(const Form& form, uint32_t lod, HalfMesh& out) {
       const double s = mix(-0.97, 0.995, static_cast<double>(k) / (columns - 1));
       const double x = kEye.x + s * kEyeHalfWidth;
       const double full = smooth_step(-1.02, -0.55, s) * exact_pow(std::max(0.0, 1 - s * s), 0.30) *
-                          mix(0.55, 1.15, 0.5 + 0.5 * s);
+                          mix(0.5, 1.2, 0.5 + 0.5 * s) *
+                          (lod > 2 ? 0.6
+                           : k % 2 ? 0.35
+                           : k % 4 ? 1
+                                   : 0.8);
       const FacePoint edge = form.face(form.angle_of(x, kEye.y), kEye.y, Side::kAbove);
-      const double radius[] = {kLidRadius - 0.05, kLidRadius + 0.30 * full,
+      const double radius[] = {kLidRadius - 0.05, kLidRadius + 0.36 * full,
                                kLidRadius + 0.08 * full, kLidRadius - 0.03};
-      const double lift[] = {-0.03, 0.075 * full, 0.06, 0.06};
+      const double lift[] = {-0.02, 0.14 * full, 0.035, 0.035};
       const double line_y = form.lid_line(x) - kEye.y, dx = x - kEye.x;
       const double z =
           std::sqrt(std::max(0.05, kLidRadius * kLidRadius - dx * dx - line_y * line_y));
@@ -205,22 +209,26 @@ void add_lashes(const Form& form, uint32_t lod, HalfMesh& out) {
 }
 
 void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
-  const uint32_t columns = at_lod(26, 4, lod) + 1, rows = lod < 3 ? 7 : lod < 5 ? 5 : 3;
+  const uint32_t columns = at_lod(60, 4, lod) + 1, rows = lod < 3 ? 7 : lod < 5 ? 5 : 3;
   const uint32_t first = out.vertices.count();
   for (uint32_t row = 0; row < rows; ++row) {
     for (uint32_t k = 0; k < columns; ++k) {
       const double t = static_cast<double>(k) / (columns - 1);
       const double across = 2.0 * row / (rows - 1) - 1;
-      const double x = mix(1.35, 5.75, t);
-      const double arch = 2.72 + 0.80 * exact_sine(kPi * clamp01(t * 0.72 + 0.04)) - 0.10 * t;
+      const double x = mix(1.25, 5.35, t);
+      const double arch = 2.55 + 0.72 * exact_sine(kPi * clamp01(t * 0.70 + 0.06)) - 0.12 * t;
       const double half = 0.36 * form.person().brow * exact_pow(clamp01((1 - t) * 1.9), 0.75) *
                           exact_pow(clamp01(t * 2.6 + 0.08), 0.6);
-      const double y = arch + across * (half + 0.03);
+      // Hairs lean outwards and end unevenly.
+      const double hair = lod > 2 ? 0 : (k + row) % 2 ? 1 : -1;
+      const double y = arch + across * (half + 0.03) * (1 + 0.06 * hair);
       const FacePoint at = form.face(form.angle_of(x, y), y, Side::kAbove);
       const Vec3 out_of_face = unit({at.closed.x * 0.55, 0.8, at.closed.z});
-      const double raise = 0.20 * (1 - across * across) * clamp01(half * 4) - 0.10;
-      Vertex v = plain(at.closed + out_of_face * raise, form.person().brow_hair, t,
-                       0.5 + 0.5 * across, Carrier::kSkin);
+      const double raise = (0.15 + 0.02 * hair) * (1 - across * across) * clamp01(half * 4) - 0.06;
+      const Color color = mix(form.person().brow_hair, mix(form.person().skin, {40, 26, 20}, 0.5),
+                              0.22 + 0.16 * hair);
+      Vertex v =
+          plain(at.closed + out_of_face * raise, color, t, 0.5 + 0.5 * across, Carrier::kSkin);
       v.look = at.closed;
       out.vertices.add(v);
     }
@@ -319,7 +327,7 @@ void add_teeth(const Form& form, uint32_t lod, HalfMesh& out) {
   const Color white = {240, 233, 218}, gum = {188, 92, 92}, gap = {176, 150, 128};
   for (int lower = 0; lower < 2; ++lower) {
     const double sign = lower ? -1 : 1;
-    const double front = lips.z - (lower ? 0.95 : 0.72), half = lower ? 1.85 : 2.05;
+    const double front = lips.z - (lower ? 1.22 : 0.98), half = lower ? 1.85 : 2.05;
     const double base = kMouthY - (lower ? 0.30 : 0.18);
     const uint32_t first = out.vertices.count();
     for (uint32_t row = 0; row < kRowCount; ++row) {
@@ -375,7 +383,7 @@ void add_teeth(const Form& form, uint32_t lod, HalfMesh& out) {
 
 void add_tongue(const Form& form, uint32_t lod, HalfMesh& out) {
   const uint32_t rows = at_lod(18, 4, lod) + 1, around = at_lod(12, 3, lod) + 1;
-  const double tip_z = form.face(0, kMouthY, Side::kBelow).closed.z - 1.75;
+  const double tip_z = form.face(0, kMouthY, Side::kBelow).closed.z - 2.0;
   const uint32_t first = out.vertices.count();
   for (uint32_t row = 0; row < rows; ++row) {
     const double t = static_cast<double>(row) / rows;  // the tip is one vertex

@@ -81,14 +81,14 @@ JointTurns turns_of(Motion motion) {
   JointTurns t;
   switch (motion) {
     case Motion::kBlink: t.upper_lid = t.lower_lid = -1; break;
-    case Motion::kWide: t.upper_lid = 0.30, t.lower_lid = 0.35; break;
-    case Motion::kSquint: t.upper_lid = -0.26, t.lower_lid = -1.6; break;
-    case Motion::kLookUp: t.upper_lid = 0.20, t.lower_lid = -0.35, t.eye_up = 24; break;
-    case Motion::kLookDown: t.upper_lid = -0.46, t.lower_lid = 0.45, t.eye_up = -26; break;
+    case Motion::kWide: t.upper_lid = 0.34, t.lower_lid = 0.40; break;
+    case Motion::kSquint: t.upper_lid = -0.22, t.lower_lid = -1.15; break;
+    case Motion::kLookUp: t.upper_lid = 0.34, t.lower_lid = -0.35, t.eye_up = 24; break;
+    case Motion::kLookDown: t.upper_lid = -0.54, t.lower_lid = 0.60, t.eye_up = -26; break;
     case Motion::kLookIn: t.eye_out = -26; break;
     case Motion::kLookOut: t.eye_out = 26; break;
-    case Motion::kSmile: t.lower_lid = -0.45; break;
-    case Motion::kCheekSquint: t.lower_lid = -1.1, t.upper_lid = -0.08; break;
+    case Motion::kSmile: t.lower_lid = -0.75, t.upper_lid = -0.08; break;
+    case Motion::kCheekSquint: t.lower_lid = -0.9, t.upper_lid = -0.10; break;
     case Motion::kSneer: t.lower_lid = -0.45, t.upper_lid = -0.06; break;
     case Motion::kJawOpen: t.jaw_open = kJawOpenAngle; break;
     case Motion::kFunnel: t.jaw_open = 8; break;
@@ -184,6 +184,8 @@ double jaw_weight(const Form& form, const Vertex& v) {
   const double apart = std::min(std::abs(p.y - form.mouth_line(p.x)), 2.0);
   double w = mix(by_height, by_lip, exact_pow(std::max(0.0, 1 - s * s), 0.5 + 0.8 * apart));
   w *= smooth_step(-15.6, -10.4, p.y) * smooth_step(-2.5, 3.5, p.z);
+  // The floor of the mouth hangs between chin and throat, which stays.
+  w *= mix(1, 0.25 + 0.75 * smooth_step(2.0, 8.2, p.z), smooth_step(-8.6, -11.8, p.y));
   // The back of the mouth hangs between both jaws.
   return mix(w, 0.45, smooth_step(0.7, 1.0, v.depth));
 }
@@ -211,6 +213,19 @@ struct Window {
   }
 };
 
+/// From the wing of the nose past the corner of the mouth; `beside` it, towards the cheek.
+struct Fold {
+  Vec3 look;
+  double at(double beside) const {
+    constexpr double kFromX = 1.75, kFromY = -3.0, kToX = 3.15, kToY = -5.7;
+    const double dx = kToX - kFromX, dy = kToY - kFromY, size = std::sqrt(dx * dx + dy * dy);
+    const double along = ((look.x - kFromX) * dx + (look.y - kFromY) * dy) / (size * size);
+    const double across = ((look.y - kFromY) * dx - (look.x - kFromX) * dy) / size - beside;
+    const double wide = beside > 0 ? 0.48 : 0.26;
+    return bump(across, along, 0, 0.5, wide, 0.52);
+  }
+};
+
 }  // namespace
 
 Vec3 Shapes::lids(Motion motion, const Vertex& v) const {
@@ -222,9 +237,13 @@ Vec3 Shapes::lids(Motion motion, const Vertex& v) const {
 
 Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
   const Window w = {look};
+  const Fold fold = {look};
   const double line = look.y - form_.mouth_line(look.x);  // height above the mouth
   const double apart = between_corners(look.x);
   const bool above = v.side == Side::kAbove;
+  // Corners take the lips along, the less the nearer to the middle: lines of lips bend, without a kink.
+  const double out = std::min(std::max(look.x, 0.0) / kMouthHalfWidth, 1.1);
+  const double corner = out * out * bump(0, line, 0, 0, 1, 1.45) * smooth_step(4.9, 2.5, look.x);
   Vec3 d;
   const auto add = [&d](double amount, Vec3 way) { d = d + way * amount; };
   switch (motion) {
@@ -234,7 +253,7 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
       break;
     case Motion::kWide: add(w.at(3.2, 3.0, 2.2, 1.0), {0, 0.16, 0}); break;
     case Motion::kSquint:
-      add(w.at(3.4, -1.5, 1.7, 0.9), {0, 0.30, 0.16});
+      add(w.at(3.6, -1.8, 1.8, 1.0), {0, 0.46, 0.30});
       add(w.at(5.4, 0.4, 0.9, 1.2), {-0.18, 0, 0.05});
       add(w.at(3.0, 2.8, 2.0, 0.8), {-0.04, -0.16, 0});
       break;
@@ -247,14 +266,16 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
     case Motion::kLookIn:
     case Motion::kLookOut: break;
     case Motion::kSmile:
-      add(w.at(2.7, -5.95, 1.5, 1.35), {0.76, 0.74, -0.50});
-      add(w.at(1.6, -5.9, 0.95, 1.0), {0.12, 0.20, -0.10});
-      add(w.at(4.3, -2.7, 1.7, 1.5), {0.16, 0.62, 0.46});
-      add(w.at(2.35, -4.1, 0.55, 0.9), {0.10, 0.14, -0.16});  // fold from nose to mouth
-      add(w.at(1.2, -3.0, 0.5, 0.5), {0.12, 0.05, 0});
+      add(corner, {0.74, 0.60, -0.50});
+      add(w.at(0.9, -5.4, 0.9, 0.5), {0.05, 0.06, -0.06});
+      add(w.at(4.1, -2.9, 1.5, 1.25), {0.14, 0.66, 0.50});
+      add(fold.at(0), {0.02, 0.04, -0.20});
+      add(fold.at(0.62), {0.10, 0.20, 0.30});
+      add(w.at(1.3, -3.0, 0.5, 0.5), {0.12, 0.06, 0});
       break;
     case Motion::kFrown:
-      add(w.at(2.6, -6.2, 1.15, 1.15), {0.18, -0.85, -0.12});
+      add(corner, {0.14, -0.66, -0.12});
+      add(w.at(2.7, -6.9, 0.9, 0.8), {0.06, -0.26, 0.06});
       add(w.at(0.0, -6.3, 1.4, 0.9), {0, 0.10, 0.06});
       add(w.at(0.9, -8.9, 1.2, 1.0), {0, 0.22, 0.10});
       break;
@@ -352,10 +373,11 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       add(lips * bump(0, line, 0, 0, 1, 0.5) * apart, {0, 0, 0.16});
       break;
     case Motion::kPucker:
-      add(narrow, {-0.42 * look.x, 0, 0});
-      add(bump(look.x, line, 2.5, 0, 0.9, 1.0), {0, 0, 0.40});
-      add(lips, {0, -0.08 * line, 0.50});
-      add(bump(look.x, line, 0, 0, 2.0, 0.85), {0, 0.16 * line, 0.72});
+      add(narrow, {-0.47 * look.x, 0, 0});
+      add(bump(look.x, line, 2.5, 0, 0.9, 1.0), {0, 0, 0.42});
+      add(lips, {0, -0.08 * line, 0.46});
+      add(bump(look.x, line, 0, 0, 1.9, 0.85), {0, 0.30 * line * apart, 0.50});
+      add(bump(look.x, line, 0, 0, 1.1, 0.8), {0, 0.16 * line, 0.32});
       add(w.at(4.2, -5.2, 1.3, 1.6), {-0.25, 0, -0.12});
       break;
     case Motion::kLessPout:
@@ -368,7 +390,7 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       break;
     case Motion::kRollLower:
       if (above) break;
-      add(bump(look.x, line, 0, -0.28, 2.1, 0.50), {0, 0.26, -0.62});
+      add(bump(look.x, line, 0, -0.28, 2.1, 0.50), {0, 0.26, -0.52});
       add(bump(look.x, line, 0, -1.0, 2.0, 0.55), {0, 0.42, -0.10});
       add(w.at(0, -8.9, 1.6, 1.0), {0, 0.14, 0.06});
       break;
@@ -391,8 +413,8 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       }
       break;
     case Motion::kBrowInnerUp:
-      add(w.at(1.15, 3.05, 1.45, 1.35), {0.06, 1.05, 0.08});
-      add(w.at(1.4, 5.4, 1.9, 1.4), {0, 0.50, 0.02});
+      add(w.at(1.0, 3.05, 1.95, 1.35), {0.04, 0.86, 0.08});
+      add(w.at(1.4, 5.4, 2.1, 1.4), {0, 0.45, 0.02});
       break;
     case Motion::kCheekPuff:
       add(w.at(4.2, -5.2, 1.9, 2.0), {0.95, 0, 1.10});
@@ -419,7 +441,7 @@ Vec3 Shapes::displacement(uint32_t index, const Vertex& v) const {
   }
   // Windows are those of the front view: nothing moves at the back. Inside the mouth the skin
   // follows the lips less and less.
-  d = d * smooth_step(-0.5, 3.0, v.look.z) * (1 - smooth_step(0.08, 0.42, v.depth));
+  d = d * smooth_step(-0.5, 3.0, v.look.z) * (1 - smooth_step(0.14, 0.55, v.depth));
   if (moves_jaw(s.motion)) {
     d = d + (move_with_jaw(turns(index, 1), v.position) - v.position) * jaw_weight(form_, v);
   }

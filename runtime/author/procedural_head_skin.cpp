@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The skin: rows of vertices around the head from the shoulders to the crown, slit between the lids
-// and between the lips; edges of the lids; the inside of the mouth.
+// The skin. Rows and columns of vertices go around the head from the chest to the crown; around each
+// eye and around the mouth a block of them gives way to rings, which run from the block's border over
+// a border of its own (crease of the lids, red of the lips) to the slit between lids or lips:
+//
+//      +--+--+--+--+     k counts the vertices of a ring against the clock as seen from the front,
+//      |\  rings  /|     from the inner corner of the eye, or from the middle below the mouth
+//      +-  -slit- -+     (whose other half is the mirror image), so that 0 < k < n is below the
+//      |/         \|     slit, k = n its outer corner, and what is beyond that above
+//      +--+--+--+--+
 #include <algorithm>
 
 #include "runtime/author/procedural_head_mesh.h"
@@ -8,27 +15,42 @@
 namespace mien::head {
 
 using author::clamp01;
-using author::exact_sine_cosine;
+using author::exact_cosine;
+using author::exact_sine;
 using author::kPi;
 using author::mix;
 using author::smooth_step;
 
 namespace {
 
+struct Rings {
+  uint32_t outside, inside;  // of the border between
+};
+
 // Rows and columns between landmarks, for each LOD.
 struct Grid {
-  uint32_t columns[5];  // front - inner corner of the eye - corner of the mouth - outer corner of
-                        // the eye - side - back
-  uint32_t rows[3];     // bottom - mouth - eyes - crown
-  uint32_t rings;       // into the mouth
+  uint32_t columns[5];  // front - inner side of the eye's block - outer side of the mouth's -
+                        // outer side of the eye's - side - back
+  uint32_t rows[5];     // bottom - mouth's block, half of it - nose - eye's block, half - crown
+  Rings mouth, eye;
+  uint32_t depth;  // rings into the mouth
 };
 constexpr Grid kGrids[kLodCount] = {
-    {{10, 14, 24, 24, 16}, {42, 42, 42}, 8}, {{7, 10, 17, 16, 11}, {29, 30, 28}, 6},
-    {{5, 7, 12, 12, 8}, {20, 22, 20}, 5},    {{4, 5, 9, 9, 6}, {14, 16, 14}, 4},
-    {{3, 4, 6, 6, 5}, {11, 12, 10}, 3},      {{2, 3, 5, 5, 3}, {8, 11, 8}, 3},
-    {{2, 3, 4, 4, 3}, {6, 9, 7}, 3},         {{2, 2, 4, 3, 2}, {5, 8, 6}, 2},
+    {{6, 15, 12, 16, 13}, {34, 10, 20, 9, 32}, {8, 8}, {7, 8}, 9},
+    {{4, 10, 8, 11, 9}, {24, 7, 14, 6, 22}, {6, 5}, {5, 5}, 7},
+    {{3, 7, 6, 8, 7}, {17, 5, 10, 5, 16}, {5, 4}, {4, 4}, 6},
+    {{2, 6, 5, 6, 5}, {12, 4, 7, 4, 12}, {4, 3}, {3, 4}, 5},
+    {{2, 4, 4, 5, 4}, {9, 3, 6, 3, 9}, {3, 3}, {3, 3}, 4},
+    {{1, 4, 3, 4, 3}, {7, 2, 5, 2, 7}, {3, 2}, {2, 3}, 4},
+    {{1, 3, 3, 3, 3}, {6, 2, 4, 2, 5}, {2, 2}, {2, 2}, 4},
+    {{1, 3, 2, 3, 2}, {5, 1, 3, 1, 4}, {2, 2}, {2, 2}, 3},
 };
-constexpr uint32_t kMaxColumns = 96, kMaxRows = 136, kMaxRings = 10;
+constexpr uint32_t kMaxColumns = 64, kMaxRows = 124, kMaxRing = 96, kMaxDepth = 9;
+
+// Blocks that rings fill, in the front view.
+constexpr double kMouthBlockX = 3.6, kMouthBlockLow = -8.0, kMouthBlockHigh = -4.35;
+constexpr double kEyeBlockInner = 0.95, kEyeBlockOuter = 5.75;
+constexpr double kEyeBlockLow = kEye.y - 1.75, kEyeBlockHigh = kEye.y + 2.2;
 
 /// `count` steps from `from` to `to`, closer where `density` is high.
 template <class Density>
@@ -48,6 +70,13 @@ void spread(double from, double to, uint32_t count, const Density& density, doub
   out[count] = to;
 }
 
+/// A place of the form: see Form::face().
+struct Place {
+  double angle, y;
+};
+
+Place between(Place a, Place b, double t) { return {mix(a.angle, b.angle, t), mix(a.y, b.y, t)}; }
+
 class SkinMaker {
  public:
   SkinMaker(const Form& form, uint32_t lod, HalfMesh& out)
@@ -59,118 +88,206 @@ class SkinMaker {
     make_vertices();
     if (out_.failed()) return;
     make_faces();
-    make_lid_edges();
+    make_eye();
     make_mouth();
   }
 
  private:
   void place_columns() {
     const double keys[6] = {0,
-                            form_.angle_of(kEye.x - kEyeHalfWidth, kEye.y),
-                            form_.angle_of(kMouthHalfWidth, kMouthY),
-                            form_.angle_of(kEye.x + kEyeHalfWidth, kEye.y),
+                            form_.angle_of(kEyeBlockInner, kEye.y),
+                            form_.angle_of(kMouthBlockX, kMouthY),
+                            form_.angle_of(kEyeBlockOuter, kEye.y),
                             0.55 * kPi,
                             kPi};
     for (int k = 0; k < 5; ++k) {
       spread(
           keys[k], keys[k + 1], grid_.columns[k], [](double) { return 1.0; }, angles_ + columns_);
       columns_ += grid_.columns[k];
-      if (k == 0) eye_inner_ = columns_;
-      if (k == 1) mouth_corner_ = columns_;
-      if (k == 2) eye_outer_ = columns_;
+      if (k == 0) eye_.left = columns_;
+      if (k == 1) mouth_.right = columns_;
+      if (k == 2) eye_.right = columns_;
     }
   }
 
   void place_rows() {
-    const double keys[4] = {kBottomY, kMouthY, kEye.y, kCrownY};
-    // Few rows go where they are needed most.
-    const bool few = grid_.rows[0] < 10;
-    const double lips = few ? 7 : 2.6, spread_of_lips = few ? 0.75 : 1.3, nose = few ? 3.5 : 1.6;
-    const auto density = [=](double y) {
-      return 1 + lips * bump(0, y, 0, kMouthY, 1, spread_of_lips) +
-             2.4 * bump(0, y, 0, kEye.y + 0.1, 1, 1.5) + nose * bump(0, y, 0, -3.2, 1, 0.9) +
-             1.2 * bump(0, y, 0, -15.6, 1, 0.6) - 0.35 * smooth_step(-12, -14, y) -
-             0.35 * smooth_step(6, 9, y);
+    const double keys[8] = {kBottomY,     kMouthBlockLow, kMouthY,       kMouthBlockHigh,
+                            kEyeBlockLow, kEye.y,         kEyeBlockHigh, kCrownY};
+    const uint32_t counts[7] = {grid_.rows[0], grid_.rows[1], grid_.rows[1], grid_.rows[2],
+                                grid_.rows[3], grid_.rows[3], grid_.rows[4]};
+    const auto density = [](double y) {
+      return 1 + 1.0 * bump(0, y, 0, kMouthBlockLow, 1, 1.6) + 2.2 * bump(0, y, 0, -3.4, 1, 0.5) +
+             0.8 * bump(0, y, 0, kEyeBlockHigh, 1, 1.2) + 1.2 * bump(0, y, 0, -15.6, 1, 0.6) -
+             0.35 * smooth_step(-12, -14, y) - 0.35 * smooth_step(6, 9, y);
     };
-    for (int k = 0; k < 3; ++k) {
-      spread(keys[k], keys[k + 1], grid_.rows[k], density, heights_ + rows_);
-      rows_ += grid_.rows[k];
-      if (k == 0) mouth_row_ = rows_;
-      if (k == 1) eye_row_ = rows_;
+    for (int k = 0; k < 7; ++k) {
+      spread(keys[k], keys[k + 1], counts[k], density, heights_ + rows_);
+      rows_ += counts[k];
+      if (k == 0) mouth_.low = rows_;
+      if (k == 1) mouth_.middle = rows_;
+      if (k == 2) mouth_.high = rows_;
+      if (k == 3) eye_.low = rows_;
+      if (k == 4) eye_.middle = rows_;
+      if (k == 5) eye_.high = rows_;
     }
   }
 
-  /// `side`: of the slit, if the vertex is on one.
-  Vertex skin_vertex(uint32_t row, uint32_t column, Side side) const {
-    const auto side_of = [row, side](uint32_t slit) {
-      return row == slit ? side : row > slit ? Side::kAbove : Side::kBelow;
-    };
-    const Side lid_side = side_of(eye_row_);
-    const FacePoint at = form_.face(angles_[column], heights_[row], lid_side);
+  /// `lid`: the side of the eye's slit; `lip`: that of the mouth's.
+  Vertex skin_vertex(Place place, Side lid, Side lip) const {
+    const FacePoint at = form_.face(place.angle, place.y, lid);
     Vertex v;
     v.closed = at.closed;
-    if (column == 0 || column == columns_) v.closed.x = 0;
     v.look = v.closed;
     v.lid = at.lid;
-    v.edge = in_slit(row, column);
-    v.side = side_of(mouth_row_);
+    v.side = lip;
     v.position = turn_lid(v.closed, v.lid);
-    v.u = 0.5 + 0.5 * angles_[column] / kPi;
-    v.v = (heights_[row] - kBottomY) / (kCrownY - kBottomY);
-    v.color = form_.skin_color(v.closed, heights_[row], v.lid);
+    v.u = 0.5 + 0.5 * place.angle / kPi;
+    v.v = (place.y - kBottomY) / (kCrownY - kBottomY);
+    v.color = form_.skin_color(v.closed, place.y, v.lid);
     return v;
   }
 
-  bool in_slit(uint32_t row, uint32_t column) const {
-    return (row == mouth_row_ && column < mouth_corner_) ||
-           (row == eye_row_ && column > eye_inner_ && column < eye_outer_);
+  uint32_t add_on_plane(Vertex v) {
+    v.closed.x = v.look.x = v.position.x = 0;
+    return out_.vertices.add(v);
   }
 
+  Vertex grid_vertex(uint32_t row, uint32_t column) const {
+    const auto side_of = [row](uint32_t slit) { return row > slit ? Side::kAbove : Side::kBelow; };
+    return skin_vertex({angles_[column], heights_[row]}, side_of(eye_.middle),
+                       side_of(mouth_.middle));
+  }
+
+  struct Block {
+    uint32_t low = 0, middle = 0, high = 0;  // rows
+    uint32_t left = 0, right = 0;            // columns
+    bool has_inside(uint32_t row, uint32_t column) const {
+      return row > low && row < high && column < right && (column > left || left == 0);
+    }
+    bool has_face(uint32_t row, uint32_t column) const {
+      return row >= low && row < high && column >= left && column < right;
+    }
+  };
+
   void make_vertices() {
-    first_ = out_.vertices.count();
     for (uint32_t row = 0; row <= rows_; ++row) {
+      row_start_[row] = out_.vertices.count();
       for (uint32_t column = 0; column <= columns_; ++column) {
-        out_.vertices.add(skin_vertex(row, column, Side::kBelow));
+        if (mouth_.has_inside(row, column) || eye_.has_inside(row, column)) continue;
+        if (column == 0 || column == columns_) {
+          add_on_plane(grid_vertex(row, column));
+        } else {
+          out_.vertices.add(grid_vertex(row, column));
+        }
       }
     }
-    upper_lip_ = out_.vertices.count();
-    for (uint32_t column = 0; column < mouth_corner_; ++column) {
-      out_.vertices.add(skin_vertex(mouth_row_, column, Side::kAbove));
-    }
-    upper_lid_ = out_.vertices.count();
-    for (uint32_t column = eye_inner_ + 1; column < eye_outer_; ++column) {
-      out_.vertices.add(skin_vertex(eye_row_, column, Side::kAbove));
-    }
     // The crown and the bottom are closed with one vertex each.
-    Vertex crown = skin_vertex(rows_, 0, Side::kAbove);
-    crown.closed = {0, kCrownY + 0.02, -0.9};
-    crown.position = crown.look = crown.closed;
+    Vertex crown = grid_vertex(rows_, 0);
+    crown.closed = crown.position = crown.look = {0, kCrownY + 0.02, -0.9};
     crown_ = out_.vertices.add(crown);
-    Vertex bottom = skin_vertex(0, 0, Side::kBelow);
-    bottom.closed = {0, kBottomY, -1.5};
-    bottom.position = bottom.look = bottom.closed;
+    Vertex bottom = grid_vertex(0, 0);
+    bottom.closed = bottom.position = bottom.look = {0, kBottomY, -1.5};
     bottom_ = out_.vertices.add(bottom);
   }
 
-  /// The vertex of a row as faces below or above it see it.
-  uint32_t at(uint32_t row, uint32_t column, Side side) const {
-    if (side == Side::kAbove && in_slit(row, column)) {
-      return row == mouth_row_ ? upper_lip_ + column : upper_lid_ + column - eye_inner_ - 1;
+  uint32_t at(uint32_t row, uint32_t column) const {
+    uint32_t missing = 0;
+    for (const Block& block : {mouth_, eye_}) {
+      if (row <= block.low || row >= block.high || column < block.right) continue;
+      missing += block.left == 0 ? block.right : block.right - block.left - 1;
     }
-    return first_ + row * (columns_ + 1) + column;
+    return row_start_[row] + column - missing;
   }
 
   void make_faces() {
     for (uint32_t row = 0; row < rows_; ++row) {
       for (uint32_t column = 0; column < columns_; ++column) {
-        out_.quad(at(row, column, Side::kAbove), at(row, column + 1, Side::kAbove),
-                  at(row + 1, column + 1, Side::kBelow), at(row + 1, column, Side::kBelow));
+        if (mouth_.has_face(row, column) || eye_.has_face(row, column)) continue;
+        out_.quad(at(row, column), at(row, column + 1), at(row + 1, column + 1),
+                  at(row + 1, column));
       }
     }
     for (uint32_t column = 0; column < columns_; ++column) {
-      out_.triangle(at(rows_, column, Side::kAbove), at(rows_, column + 1, Side::kAbove), crown_);
-      out_.triangle(at(0, column + 1, Side::kAbove), at(0, column, Side::kAbove), bottom_);
+      out_.triangle(at(rows_, column), at(rows_, column + 1), crown_);
+      out_.triangle(at(0, column + 1), at(0, column), bottom_);
     }
+  }
+
+  // Rings ---------------------------------------------------------------------------------------
+
+  struct Corner {
+    uint32_t row, column;
+  };
+
+  /// The vertices of a block's border, in the order of rings.
+  uint32_t border_of(const Block& block, Corner* out) const {
+    uint32_t n = 0;
+    const bool whole = block.left > 0;
+    if (whole) {
+      for (uint32_t r = block.middle; r > block.low; --r) out[n++] = {r, block.left};
+    }
+    for (uint32_t c = block.left; c < block.right; ++c) out[n++] = {block.low, c};
+    for (uint32_t r = block.low; r < block.high; ++r) out[n++] = {r, block.right};
+    for (uint32_t c = block.right; c > block.left; --c) out[n++] = {block.high, c};
+    if (whole) {
+      for (uint32_t r = block.high; r > block.middle; --r) out[n++] = {r, block.left};
+    } else {
+      out[n++] = {block.high, 0};
+    }
+    return n;
+  }
+
+  /// Fills a block up to the slit, whose vertices are `ring_` then. `curve(k, inner)` gives the place
+  /// of a vertex on the border (false) and on the slit (true).
+  template <class Curve>
+  void make_rings(const Block& block, Rings rings, double last, const Curve& curve) {
+    Corner corners[kMaxRing];
+    const bool whole = block.left > 0;
+    ring_size_ = border_of(block, corners);
+    half_ = whole ? ring_size_ / 2 : (ring_size_ - 1) / 2;
+    for (uint32_t k = 0; k < ring_size_; ++k) ring_[k] = at(corners[k].row, corners[k].column);
+    const uint32_t count = rings.outside + rings.inside;
+    for (uint32_t r = 1; r <= count; ++r) {
+      uint32_t next[kMaxRing];
+      for (uint32_t k = 0; k < ring_size_; ++k) {
+        const Place from = {angles_[corners[k].column], heights_[corners[k].row]};
+        Place place;
+        if (r <= rings.outside) {
+          // The last step before the border is short: what happens there happens at every LOD.
+          const double steps = rings.outside - 1;
+          const double t = r == rings.outside ? 1 : steps > 0 ? last * r / steps : last;
+          place = between(from, curve(k, false), t);
+        } else {
+          // Close together where skin rolls inwards.
+          const double left = 1 - static_cast<double>(r - rings.outside) / rings.inside;
+          const double t = 1 - left * left;
+          place = between(curve(k, false), curve(k, true), t);
+        }
+        const Side side = k > half_ ? Side::kAbove : Side::kBelow;
+        const bool on_lids = &block == &eye_;
+        Vertex v = skin_vertex(place, on_lids ? side : Side::kBelow, on_lids ? Side::kAbove : side);
+        v.edge = r == count && k != half_ && !(whole && k == 0);
+        next[k] =
+            !whole && (k == 0 || k + 1 == ring_size_) ? add_on_plane(v) : out_.vertices.add(v);
+      }
+      for (uint32_t k = 0; k + (whole ? 0 : 1) < ring_size_; ++k) {
+        const uint32_t other = (k + 1) % ring_size_;
+        out_.quad(ring_[k], ring_[other], next[other], next[k]);
+      }
+      std::copy(next, next + ring_size_, ring_);
+    }
+  }
+
+  void make_eye() {
+    make_rings(eye_, grid_.eye, 0.86, [this](uint32_t k, bool inner) {
+      const bool above = k > half_;
+      const double along = static_cast<double>(above ? ring_size_ - k : k) / half_;
+      return on_form(
+          form_.lid_curve(mix(2 * along - 1, -exact_cosine(kPi * along), 0.45), inner   ? 0
+                                                                                : above ? 1
+                                                                                        : -1));
+    });
+    if (!out_.failed()) make_lid_edges();
   }
 
   /// From the edge of a lid inwards, until behind the surface of the eyeball.
@@ -185,33 +302,20 @@ class SkinMaker {
   }
 
   void make_lid_edges() {
-    const Color pink = mix(form_.person().skin, {196, 96, 92}, 0.5);
-    const Color dark = mix(form_.person().skin, {50, 26, 24}, 0.75);
-    const uint32_t inner = at(eye_row_, eye_inner_, Side::kBelow);
-    const uint32_t outer = at(eye_row_, eye_outer_, Side::kBelow);
-    const uint32_t inner_deep = lid_edge_vertex(inner, pink);
-    const uint32_t outer_deep = lid_edge_vertex(outer, pink);
-    for (Side side : {Side::kBelow, Side::kAbove}) {
-      uint32_t before = inner, before_deep = inner_deep;
-      for (uint32_t column = eye_inner_ + 1; column <= eye_outer_; ++column) {
-        const bool last = column == eye_outer_;
-        const uint32_t here = at(eye_row_, column, side);
-        const uint32_t deep =
-            last ? outer_deep
-                 : lid_edge_vertex(
-                       here, side == Side::kBelow
-                                 ? pink
-                                 : mix(pink, dark,
-                                       smooth_step(-0.9, -0.3,
-                                                   Form::along_eye(out_.vertices[here].closed.x))));
-        if (side == Side::kBelow) {
-          out_.quad(before, here, deep, before_deep);
-        } else {
-          out_.quad(here, before, before_deep, deep);
-        }
-        before = here;
-        before_deep = deep;
+    const Color pink = mix(form_.person().skin, {196, 96, 92}, 0.5),
+                dark = mix(form_.person().skin, {50, 26, 24}, 0.75);
+    uint32_t deep[kMaxRing];
+    for (uint32_t k = 0; k < ring_size_; ++k) {
+      Color c = pink;
+      if (k > half_) {
+        c = mix(pink, dark,
+                smooth_step(-0.9, -0.3, Form::along_eye(out_.vertices[ring_[k]].closed.x)));
       }
+      deep[k] = lid_edge_vertex(ring_[k], c);
+    }
+    for (uint32_t k = 0; k < ring_size_; ++k) {
+      const uint32_t other = (k + 1) % ring_size_;
+      out_.quad(ring_[k], ring_[other], deep[other], deep[k]);
     }
   }
 
@@ -220,10 +324,10 @@ class SkinMaker {
   /// 0..1.
   uint32_t mouth_vertex(uint32_t from, double out, double depth, bool at_back) {
     static constexpr double kPath[][3] = {
-        {0.00, 0.00, 0.00},  {0.10, 0.16, -0.28}, {0.30, 0.95, -0.52}, {0.48, 1.62, -1.05},
-        {0.66, 1.75, -2.20}, {0.85, 1.25, -4.20}, {1.00, 0.00, -5.40}};
+        {0.00, 0.00, 0.00},  {0.02, 0.00, -0.02}, {0.12, 0.12, -0.40}, {0.30, 0.85, -0.80},
+        {0.48, 1.62, -1.05}, {0.66, 1.75, -2.20}, {0.85, 1.25, -4.20}, {1.00, 0.00, -5.40}};
     int i = 0;
-    while (i < 5 && depth > kPath[i + 1][0]) ++i;
+    while (i < 6 && depth > kPath[i + 1][0]) ++i;
     const double t = (depth - kPath[i][0]) / (kPath[i + 1][0] - kPath[i][0]);
     const double rise = mix(kPath[i][1], kPath[i + 1][1], t);
     const double back = mix(kPath[i][2], kPath[i + 1][2], t);
@@ -240,50 +344,52 @@ class SkinMaker {
     v.v = kMouthV + (v.side == Side::kAbove ? 1 : -1) * 0.012 * depth;
     const Color lip = v.color, wet = {124, 38, 42}, dark = {46, 12, 16};
     v.color =
-        mix(mix(lip, wet, smooth_step(0.05, 0.25, depth)), dark, smooth_step(0.35, 0.9, depth));
+        mix(mix(lip, wet, smooth_step(0.02, 0.25, depth)), dark, smooth_step(0.35, 0.9, depth));
     return out_.vertices.add(v);
   }
 
   void make_mouth() {
-    const uint32_t rings = grid_.rings;
-    const uint32_t corner = at(mouth_row_, mouth_corner_, Side::kBelow);
-    uint32_t corner_chain[kMaxRings + 1], back[kMaxColumns + 1];
-    corner_chain[0] = corner;
-    for (uint32_t k = 1; k <= rings; ++k) {
-      corner_chain[k] = mouth_vertex(corner, 1, depth_of(k), k == rings);
-    }
-    back[mouth_corner_] = corner_chain[rings];
-    for (Side side : {Side::kBelow, Side::kAbove}) {
-      uint32_t before[kMaxRings + 1];
-      for (uint32_t column = 0; column <= mouth_corner_; ++column) {
-        const double out = static_cast<double>(column) / mouth_corner_;
-        uint32_t chain[kMaxRings + 1];
-        chain[0] = at(mouth_row_, column, side);
-        for (uint32_t k = 1; k <= rings; ++k) {
-          if (column == mouth_corner_) {
-            chain[k] = corner_chain[k];
-          } else if (k == rings && side == Side::kAbove) {
-            chain[k] = back[column];
-          } else {
-            chain[k] = mouth_vertex(chain[0], out, depth_of(k), k == rings);
-          }
-          if (column == 0) continue;
-          if (side == Side::kBelow) {
-            out_.quad(before[k - 1], chain[k - 1], chain[k], before[k]);
-          } else {
-            out_.quad(chain[k - 1], before[k - 1], before[k], chain[k]);
-          }
+    make_rings(mouth_, grid_.mouth, 0.90, [this](uint32_t k, bool inner) {
+      const bool above = k > half_;
+      const double out = static_cast<double>(above ? ring_size_ - 1 - k : k) / half_;
+      return on_form(form_.lip_curve(mix(out, exact_sine(kPi / 2 * out), 0.5), inner   ? 0
+                                                                               : above ? 1
+                                                                                       : -1));
+    });
+    if (out_.failed()) return;
+    // Both halves of the ring meet in the back.
+    const uint32_t rings = grid_.depth;
+    uint32_t corner[kMaxDepth + 1], back[kMaxRing];
+    corner[0] = ring_[half_];
+    for (uint32_t d = 1; d <= rings; ++d)
+      corner[d] = mouth_vertex(ring_[half_], 1, depth_of(d), d == rings);
+    uint32_t before[kMaxDepth + 1];
+    for (uint32_t k = 0; k < ring_size_; ++k) {
+      const uint32_t twin = ring_size_ - 1 - k;
+      const double out = static_cast<double>(std::min(k, twin)) / half_;
+      uint32_t chain[kMaxDepth + 1];
+      chain[0] = ring_[k];
+      for (uint32_t d = 1; d <= rings; ++d) {
+        if (k == half_) {
+          chain[d] = corner[d];
+        } else if (d == rings && k > half_) {
+          chain[d] = back[twin];
+        } else {
+          chain[d] = mouth_vertex(ring_[k], out, depth_of(d), d == rings);
         }
-        back[column] = chain[rings];
-        std::copy(chain, chain + rings + 1, before);
+        if (k > 0) out_.quad(before[d - 1], chain[d - 1], chain[d], before[d]);
       }
+      back[k] = chain[rings];
+      std::copy(chain, chain + rings + 1, before);
     }
   }
 
-  /// Rings are closest at the lips.
+  Place on_form(FrontPlace at) const { return {form_.angle_of(at.x, at.y), at.y}; }
+
+  /// The first ring is close to the lips, so that their normals are those of their outside.
   double depth_of(uint32_t ring) const {
-    const double t = static_cast<double>(ring) / grid_.rings;
-    return grid_.rings >= 6 ? t * mix(0.8, 1, t) : t;
+    const double t = (ring - 1.0) / (grid_.depth - 1);
+    return mix(0.02, 1, grid_.depth >= 6 ? t * mix(0.75, 1, t) : t);
   }
 
   static constexpr double kMouthV = (kMouthY - kBottomY) / (kCrownY - kBottomY);
@@ -292,9 +398,11 @@ class SkinMaker {
   const Grid grid_;
   HalfMesh& out_;
   double angles_[kMaxColumns + 1], heights_[kMaxRows + 1];
-  uint32_t columns_ = 0, rows_ = 0;
-  uint32_t eye_inner_ = 0, mouth_corner_ = 0, eye_outer_ = 0, mouth_row_ = 0, eye_row_ = 0;
-  uint32_t first_ = 0, upper_lip_ = 0, upper_lid_ = 0, crown_ = 0, bottom_ = 0;
+  uint32_t row_start_[kMaxRows + 1];
+  uint32_t ring_[kMaxRing];  // the last one made
+  uint32_t ring_size_ = 0, half_ = 0;
+  uint32_t columns_ = 0, rows_ = 0, crown_ = 0, bottom_ = 0;
+  Block mouth_, eye_;
 };
 
 }  // namespace

@@ -68,7 +68,9 @@ Vec3 key_direction() { return kKey.direction; }
 Vec3 light(const Fragment& f, float openness, float key) {
   const Material& m = f.on->surface.material;
   const Vec3 open = bounced(openness, f.color);
-  const float soft = m.softness, nv = saturate(dot(f.normal, f.to_eye));
+  const float soft = m.softness, facing_eye = dot(f.normal, f.to_eye), nv = saturate(facing_eye);
+  // A normal that is turned away belongs to a fold whose other side hides what it would mirror.
+  const float shown = smooth_step(-0.4f, 0.0f, facing_eye);
 
   // Red light goes furthest through skin: it reaches around more, and colors the terminator.
   const float cosine = dot(f.normal, kKey.direction);
@@ -81,12 +83,13 @@ Vec3 light(const Fragment& f, float openness, float key) {
   diffuse += kFill.color * open * wrap(dot(f.normal, kFill.direction), 0.5f);
   diffuse += mix(kSkyBelow, kSkyAbove, 0.5f + 0.5f * f.normal.y) * open;
 
-  const float gloss_open = saturate(openness * 1.2f);
+  const float gloss_open = saturate(openness * 1.2f) * shown;
   Vec3 shine = kKey.color * (highlight(f, kKey, m) * seen * gloss_open * 1.5f);
   shine += kFill.color * (highlight(f, kFill, m) * gloss_open * 1.5f);
   for (const Lamp& rim : kRims) {
     const float edge = 1 - nv, facing = std::max(dot(f.normal, rim.direction) + 0.15f, 0.0f);
-    const float strength = edge * edge * facing * gloss_open;
+    // Not in folds, where the other side stands before it.
+    const float strength = edge * edge * facing * shown * smooth_step(0.35f, 0.85f, openness);
     diffuse += rim.color * (strength * 0.75f);
     shine += rim.color * (strength * edge * 0.10f);
   }
