@@ -1663,7 +1663,7 @@ MIEN_CHECKED MienStatus mien_clip_event(const MienClip* clip, uint32_t index,
                                         MienClipEvent* out_event);
 
 /* Checks that no byte of a clip has changed since it was written and that all curves can be decoded.
- * Reads the whole clip. Uses up to 24 KiB of stack.
+ * Reads the whole clip. Uses up to 36 KiB of stack.
  * Fails with MIEN_ERROR_CLIP_CHECKSUM if bytes have changed, MIEN_ERROR_CLIP_STRUCTURE if a curve cannot
  * be decoded. */
 MIEN_CHECKED MienStatus mien_clip_verify(const MienClip* clip, MienError* error);
@@ -1671,7 +1671,7 @@ MIEN_CHECKED MienStatus mien_clip_verify(const MienClip* clip, MienError* error)
 /* Copies `frame_count` frames, starting at `first_frame`: channel c of frame first_frame + n goes to
  * out_values[n * frame_stride + c]. frame_stride is at least the number of channels; 0 means that
  * number. Each call decodes its first block of 64 frames from the start of the block, so many frames in
- * one call cost less than the same frames one by one. Uses up to 24 KiB of stack.
+ * one call cost less than the same frames one by one. Uses up to 36 KiB of stack.
  * Fails with MIEN_ERROR_INVALID_ARGUMENT if frame_stride is too small, MIEN_ERROR_INDEX if the
  * clip has fewer frames, MIEN_ERROR_CLIP_STRUCTURE if a curve is damaged; its block is zero in
  * `out_values`. */

@@ -45,37 +45,62 @@ uint64_t read_mask(BitReader& reader) {
   return mask;
 }
 
+/// A lane of the cursors that grids or floats have, which becomes the next one of a channel.
+struct Lane {
+  ChannelCursors& of;
+  uint32_t at;
+};
+
+Lane add_lane(BlockDecoder& decoder, BlockMode mode) {
+  const uint32_t place = mode == kBlockGrid ? decoder.grid_count++ : decoder.float_count++;
+  const uint32_t group = place / kCursorLanes;
+  ChannelCursors& cursors =
+      decoder.cursors[mode == kBlockGrid ? group : decoder.cursors.count - 1 - group];
+  if (place % kCursorLanes == 0) {
+    cursors = {};
+    for (uint32_t& unit : cursors.unit) unit = 1;
+    for (uint8_t& turn : cursors.turn) turn = kBlockFrames;
+    for (uint16_t& channel : cursors.channel) channel = static_cast<uint16_t>(decoder.row.count);
+  }
+  return {cursors, place % kCursorLanes};
+}
+
 /// A channel in grid or float mode: leaves the reader at the next channel.
-ChannelCursor read_channel(BitReader& reader, BlockMode mode, uint32_t frame_count) {
-  ChannelCursor cursor = {};
+void read_channel(BitReader& reader, BlockMode mode, uint32_t frame_count, Lane lane) {
+  ChannelCursors& cursors = lane.of;
   const bool linear = reader.take(1) != 0, masked = reader.take(1) != 0;
   const auto parameter = static_cast<uint32_t>(reader.take(mode == kBlockGrid ? 4 : 5));
-  cursor.kind = static_cast<uint8_t>(parameter | (linear ? 0x80 : 0));
-  cursor.mask = (masked ? read_mask(reader) : ~uint64_t{0}) & low_bits(frame_count);
+  const uint64_t samples = (masked ? read_mask(reader) : ~uint64_t{0}) & low_bits(frame_count);
   uint32_t first_width = 32 - parameter;
   if (mode == kBlockGrid) first_width = width_of_code(static_cast<uint32_t>(reader.take(5)));
   const auto first = static_cast<uint32_t>(reader.take(first_width));
-  cursor.last = mode == kBlockGrid ? (first >> 1) ^ (0u - (first & 1)) : first;
-  cursor.before = cursor.last;
+  cursors.last[lane.at] =
+      mode == kBlockGrid ? (first >> 1) ^ (0u - (first & 1)) : first << parameter;
+  cursors.unit[lane.at] =
+      mode == kBlockGrid ? static_cast<uint32_t>(kGridScales[parameter]) : 1u << parameter;
+  cursors.linear[lane.at] = linear ? ~0u : 0;
+  cursors.samples[lane.at] = samples;
 
   // The first sample is a run by itself, of no width: it repeats the prediction.
-  const uint32_t count = bit_count(cursor.mask);
+  const uint32_t count = bit_count(samples);
   const uint32_t residuals = count > 0 ? count - 1 : 0;
   const uint32_t runs = (residuals + kRunSamples - 1) / kRunSamples;
-  cursor.widths = reader.take(runs * kWidthBits) << kWidthBits;
-  cursor.left = 1;
+  const uint64_t widths = reader.take(runs * kWidthBits);
   uint64_t size = 0;
   for (uint32_t r = 0; r < runs; ++r) {
-    const uint32_t samples = r + 1 < runs ? kRunSamples : residuals - r * kRunSamples;
-    size += samples * width_of_code(cursor.widths >> ((r + 1) * kWidthBits) & 31);
+    const uint32_t run = r + 1 < runs ? kRunSamples : residuals - r * kRunSamples;
+    size += run * width_of_code(widths >> (r * kWidthBits) & 31);
   }
-  cursor.bit = static_cast<uint32_t>(reader.bit);
+  cursors.widths[lane.at] = widths << kWidthBits;
+  cursors.left[lane.at] = 1;
+  cursors.turn[lane.at] = 0;
+  cursors.turns = 1;
+  cursors.bit[lane.at] = static_cast<uint32_t>(reader.bit);
   if (size > reader.end - reader.bit) {
     reader.good = false;
   } else {
     reader.bit += size;
   }
-  return cursor;
 }
 
 /// Sets up the cursors; false if the bytes are not a block. This is where all bounds are checked: what
@@ -102,11 +127,9 @@ bool read_block(BlockDecoder& decoder, uint32_t block, uint64_t& slack) {
       if ((bits & 0x7F800000) == 0x7F800000) reader.good = false;
       decoder.row[i] = float_of(bits);
     } else {
-      ChannelCursor cursor = read_channel(reader, mode, decoder.end - decoder.next);
-      cursor.channel = static_cast<uint16_t>(i);
-      const size_t place =
-          mode == kBlockGrid ? decoder.grid_count++ : decoder.cursors.count - ++decoder.float_count;
-      decoder.cursors[place] = cursor;
+      const Lane lane = add_lane(decoder, mode);
+      read_channel(reader, mode, decoder.end - decoder.next, lane);
+      lane.of.channel[lane.at] = static_cast<uint16_t>(i);
     }
     if (!reader.good) return false;
   }
@@ -120,6 +143,7 @@ uint64_t enter_block(BlockDecoder& decoder, uint32_t block) {
   decoder.next = block * kBlockFrames;
   decoder.end = stored - decoder.next < kBlockFrames ? stored : decoder.next + kBlockFrames;
   decoder.grid_count = decoder.float_count = 0;
+  decoder.turns = 1;
   uint64_t slack = 0;
   if (!read_block(decoder, block, slack)) {
     decoder.damaged = true;
@@ -129,61 +153,144 @@ uint64_t enter_block(BlockDecoder& decoder, uint32_t block) {
   return slack;
 }
 
-/// The next sample of a channel.
-inline uint32_t next_sample(ChannelCursor& cursor, const uint8_t* data) {
-  if (cursor.left == 0) {
-    cursor.widths >>= kWidthBits;
-    cursor.left = kRunSamples;
+/// Calls f(cursors) for grids or floats.
+template <class F>
+void for_cursors(BlockDecoder& decoder, BlockMode mode, F&& f) {
+  const bool grid = mode == kBlockGrid;
+  const size_t count =
+      ((grid ? decoder.grid_count : decoder.float_count) + kCursorLanes - 1) / kCursorLanes;
+  ChannelCursors* const first = decoder.cursors.data + (grid ? 0 : decoder.cursors.count - count);
+  for (size_t i = 0; i < count; ++i) f(first[i]);
+}
+
+/// What begins at a frame of the block in a lane: a run, a stretch of zeros, or the rest of a run
+/// after one.
+void turn_lane(ChannelCursors& cursors, uint32_t k, uint32_t frame) {
+  const uint64_t ahead = cursors.samples[k] >> frame;
+  const bool present = (ahead & 1) != 0;
+  const uint64_t other = present ? ~ahead : ahead;
+  uint32_t frames = other != 0 ? lowest_bit(other) : kBlockFrames, width = 0;
+  if (present) {
+    if (cursors.left[k] == 0) {
+      cursors.widths[k] >>= kWidthBits;
+      cursors.left[k] = kRunSamples;
+    }
+    if (frames > cursors.left[k]) frames = cursors.left[k];
+    cursors.left[k] = static_cast<uint8_t>(cursors.left[k] - frames);
+    width = width_of_code(cursors.widths[k] & 31);
   }
-  --cursor.left;
-  const uint32_t width = width_of_code(cursor.widths & 31);
-  const uint64_t window = load_little_endian<uint64_t>(data + (cursor.bit >> 3));
-  const auto code =
-      static_cast<uint32_t>(window >> (cursor.bit & 7) & ((uint64_t{1} << width) - 1));
-  cursor.bit += width;
-  const uint32_t residual = (code >> 1) ^ (0u - (code & 1));
-  const uint32_t slope = cursor.kind >> 7 ? cursor.last - cursor.before : 0;
-  cursor.before = cursor.last;
-  cursor.last += slope + residual;
-  return cursor.last;
+  cursors.present[k] = present ? ~0u : 0;
+  cursors.width[k] = width;
+  cursors.mask[k] = static_cast<uint32_t>(low_bits(width));
+  const uint32_t turn = frame + frames;
+  cursors.turn[k] = static_cast<uint8_t>(turn);
+  if (turn < kBlockFrames) cursors.turns |= uint64_t{1} << turn;
+}
+
+void turn_lanes(BlockDecoder& decoder, uint32_t frame) {
+  const auto turn = [&](ChannelCursors& cursors) {
+    if ((cursors.turns >> frame & 1) == 0) return;
+    constexpr uint64_t kLow7 = 0x7F7F7F7F7F7F7F7F;
+    // Bytes are below 128, so that no carry leaves one.
+    const uint64_t other = load_little_endian<uint64_t>(cursors.turn) ^ (kLow7 / 0x7F * frame);
+    for (uint64_t due = ~(other + kLow7) & ~kLow7; due != 0; due &= due - 1) {
+      turn_lane(cursors, lowest_bit(due) / 8, frame);
+    }
+    decoder.turns |= cursors.turns;
+  };
+  for_cursors(decoder, kBlockGrid, turn);
+  for_cursors(decoder, kBlockFloat, turn);
+}
+
+/// Codes of the residuals at hand.
+void read_codes(const ChannelCursors& cursors, const uint8_t* data, uint32_t* codes) {
+  for (uint32_t k = 0; k < kCursorLanes; ++k) {
+    const uint64_t window = load_little_endian<uint64_t>(data + (cursors.bit[k] >> 3));
+    codes[k] = static_cast<uint32_t>(window >> (cursors.bit[k] & 7)) & cursors.mask[k];
+  }
+}
+
+// Compilers that unroll a loop completely make no vectors of it.
+#if defined(__GNUC__)
+#define MIEN_VECTOR_LOOP _Pragma("GCC unroll 1")
+#else
+#define MIEN_VECTOR_LOOP
+#endif
+
+/// Goes on by a sample in each lane.
+template <BlockMode kMode>
+void add_residuals(ChannelCursors& cursors, const uint32_t* codes) {
+  MIEN_VECTOR_LOOP
+  for (uint32_t k = 0; k < kCursorLanes; ++k) {
+    const uint32_t residual = (codes[k] >> 1) ^ (0u - (codes[k] & 1));
+    const uint32_t change =
+        cursors.slope[k] + (kMode == kBlockGrid ? residual : residual * cursors.unit[k]);
+    cursors.bit[k] += cursors.width[k];
+    cursors.last[k] += change & cursors.present[k];
+    cursors.slope[k] = change & cursors.linear[k];
+  }
 }
 
 void decode_next(BlockDecoder& decoder) {
   const uint32_t frame = decoder.next % kBlockFrames;
-  float* row = decoder.row.data;
-  ChannelCursor* cursor = decoder.cursors.data;
-  for (const ChannelCursor* end = cursor + decoder.grid_count; cursor != end; ++cursor) {
-    float value = 0;
-    if (cursor->mask >> frame & 1) {
-      const auto k = static_cast<int32_t>(next_sample(*cursor, decoder.data));
-      value = static_cast<float>(k) / kGridScales[cursor->kind & 15];
-    }
-    row[cursor->channel] = value;
-  }
-  cursor = decoder.cursors.data + decoder.cursors.count - decoder.float_count;
-  for (const ChannelCursor* end = cursor + decoder.float_count; cursor != end; ++cursor) {
-    uint32_t bits = 0;
-    if (cursor->mask >> frame & 1) {
-      const uint32_t shift = cursor->kind & 31;
-      const uint32_t ordered = next_sample(*cursor, decoder.data) << shift;
-      bits = bits_from_ordered(ordered) & ~0u << shift;
-      if ((bits & 0x7F800000) == 0x7F800000) {
-        bits = 0;
-        decoder.damaged = true;
-      }
-    }
-    row[cursor->channel] = float_of(bits);
-  }
+  if ((decoder.turns >> frame & 1) != 0) turn_lanes(decoder, frame);
+  // All codes first: what was just written in parts is not at once read as a whole.
+  uint32_t codes[cursor_count(kMaxChangingChannels) * kCursorLanes], *end = codes;
+  const auto read = [&end, data = decoder.data](const ChannelCursors& cursors) {
+    read_codes(cursors, data, end);
+    end += kCursorLanes;
+  };
+  for_cursors(decoder, kBlockGrid, read);
+  for_cursors(decoder, kBlockFloat, read);
+  const uint32_t* at = codes;
+  for_cursors(decoder, kBlockGrid, [&at](ChannelCursors& cursors) {
+    add_residuals<kBlockGrid>(cursors, at);
+    at += kCursorLanes;
+  });
+  for_cursors(decoder, kBlockFloat, [&at](ChannelCursors& cursors) {
+    add_residuals<kBlockFloat>(cursors, at);
+    at += kCursorLanes;
+  });
   ++decoder.next;
+}
+
+/// Writes the values of the frame before `next`.
+void write_row(BlockDecoder& decoder) {
+  float* row = decoder.row.data;
+  for_cursors(decoder, kBlockGrid, [row](const ChannelCursors& cursors) {
+    float values[kCursorLanes];
+    MIEN_VECTOR_LOOP
+    for (uint32_t k = 0; k < kCursorLanes; ++k) {
+      const float number = static_cast<float>(static_cast<int32_t>(cursors.last[k]));
+      const float value = number / static_cast<float>(static_cast<int32_t>(cursors.unit[k]));
+      values[k] = float_of(bits_of(value) & cursors.present[k]);
+    }
+    for (uint32_t k = 0; k < kCursorLanes; ++k) row[cursors.channel[k]] = values[k];
+  });
+  uint32_t damaged = 0;
+  for_cursors(decoder, kBlockFloat, [row, &damaged](const ChannelCursors& cursors) {
+    uint32_t bits[kCursorLanes], bad = 0;
+    MIEN_VECTOR_LOOP
+    for (uint32_t k = 0; k < kCursorLanes; ++k) {
+      const uint32_t ordered = cursors.last[k], above = 0u - (ordered >> 31);
+      const uint32_t all = (ordered ^ (~above | 1u << 31)) & (0u - cursors.unit[k]);
+      const uint32_t finite = (all & 0x7F800000) != 0x7F800000 ? cursors.present[k] : 0;
+      bits[k] = all & finite;
+      bad |= finite ^ cursors.present[k];
+    }
+    for (uint32_t k = 0; k < kCursorLanes; ++k) row[cursors.channel[k]] = float_of(bits[k]);
+    damaged |= bad;
+  });
+  if (damaged != 0) decoder.damaged = true;
 }
 
 }  // namespace
 
-void begin_decoding(const Clip& clip, Span<ChannelCursor> cursors, Span<float> row,
+void begin_decoding(const Clip& clip, Span<ChannelCursors> cursors, Span<float> row,
                     BlockDecoder& decoder) {
   decoder = {};
   decoder.clip = &clip;
-  decoder.cursors = cursors.first(clip.changing_count);
+  decoder.cursors = cursors.first(cursor_count(clip.changing_count));
   decoder.row = row.first(clip.changing_count);
 }
 
@@ -193,15 +300,18 @@ void decode_frame(BlockDecoder& decoder, uint32_t frame) {
   const bool same_block =
       decoder.end != 0 && frame / kBlockFrames == (decoder.end - 1) / kBlockFrames;
   if (!same_block || frame + 1 < decoder.next) enter_block(decoder, frame / kBlockFrames);
+  if (decoder.next > frame) return;
   while (decoder.next <= frame) decode_next(decoder);
+  write_row(decoder);
 }
 
 bool read_frames(const Clip& clip, uint32_t first, uint32_t count, float* out, size_t stride) {
   assert(first <= clip.frame_count && count <= clip.frame_count - first);
-  ChannelCursor cursors[kMaxChangingChannels];
-  float row[kMaxChangingChannels], before[kMaxChangingChannels];
+  ChannelCursors cursors[cursor_count(kMaxChangingChannels)];
+  float row[kMaxChangingChannels + 1], before[kMaxChangingChannels];
   BlockDecoder decoder;
-  begin_decoding(clip, {cursors, kMaxChangingChannels}, {row, kMaxChangingChannels}, decoder);
+  begin_decoding(clip, {cursors, cursor_count(kMaxChangingChannels)},
+                 {row, kMaxChangingChannels + 1}, decoder);
   const bool half_rate = clip.has(kClipHalfRate);
   for (uint32_t f = first; f < first + count; ++f, out += stride) {
     const bool is_mean = half_rate && f % 2 == 1;
@@ -225,13 +335,17 @@ Status verify_clip(const Clip& clip, Error& error) {
                 "the bytes are not those that were written: the clip is damaged; fetch it again or "
                 "build it again");
   }
-  ChannelCursor cursors[kMaxChangingChannels];
-  float row[kMaxChangingChannels];
+  ChannelCursors cursors[cursor_count(kMaxChangingChannels)];
+  float row[kMaxChangingChannels + 1];
   BlockDecoder decoder;
-  begin_decoding(clip, {cursors, kMaxChangingChannels}, {row, kMaxChangingChannels}, decoder);
+  begin_decoding(clip, {cursors, cursor_count(kMaxChangingChannels)},
+                 {row, kMaxChangingChannels + 1}, decoder);
   for (uint32_t block = 0; block < clip.block_count(); ++block) {
     const uint64_t slack = enter_block(decoder, block);
-    while (decoder.next < decoder.end) decode_next(decoder);
+    while (decoder.next < decoder.end) {
+      decode_next(decoder);
+      write_row(decoder);
+    }
     if (decoder.damaged || slack >= 8) {
       return fail(error, Status::kClipStructure, kNoOffset,
                   "block %u is damaged; fetch the clip again or build it again", block);

@@ -137,8 +137,8 @@ void catmull_rom(const float* a, const float* b, const float* c, const float* d,
 void place_clip_sampler(Placer& placer, const SamplerLimits& limits, ClipSampler& sampler) {
   const size_t count = limits.changing_channels;
   sampler.values = placer.array<float>(limits.channels, kBlockAlignment);
-  sampler.cursors = placer.array<ChannelCursor>(count, kBlockAlignment);
-  sampler.current = placer.array<float>(count, kBlockAlignment);
+  sampler.cursors = placer.array<ChannelCursors>(cursor_count(count), kBlockAlignment);
+  sampler.current = placer.array<float>(count + 1, kBlockAlignment);
   for (Span<float>& row : sampler.rows) row = placer.array<float>(count, kBlockAlignment);
   sampler.sampled = placer.array<float>(count, kBlockAlignment);
   sampler.block_rows =
@@ -149,11 +149,11 @@ Status start_clip(ClipSampler& sampler, const Clip& clip, const PlayDesc& desc, 
   if (!valid_speed(desc.speed_numerator, desc.speed_denominator)) return bad_speed(error);
   const bool wraps =
       desc.looping == Looping::kLoop || (desc.looping == Looping::kAsClip && clip.has(kClipWraps));
-  if (clip.channel_count > sampler.values.count || clip.changing_count > sampler.cursors.count) {
+  if (clip.channel_count > sampler.values.count || clip.changing_count > sampler.sampled.count) {
     return fail(error, Status::kClipLimit, kNoOffset,
                 "the clip has %u channels, of which %u change; there is room for %zu and %zu",
                 clip.channel_count, clip.changing_count, sampler.values.count,
-                sampler.cursors.count);
+                sampler.sampled.count);
   }
   sampler.clip = &clip;
   sampler.wraps = wraps;
@@ -247,7 +247,11 @@ Span<const float> sample_clip(ClipSampler& sampler) {
     const float *a = row(at - 1), *c = row(at + 1), *d = row(at + 2);
     catmull_rom(a, b, c, d, t, count, out);
   }
-  for (uint32_t i = 0; i < count; ++i) sampler.values[clip.changing(i)] = out[i];
+  const uint8_t* channel = clip.bytes + clip.at.changing;
+  float* const values = sampler.values.data;
+  for (size_t i = 0; i < count; ++i) {
+    values[load_little_endian<uint16_t>(channel + i * sizeof(uint16_t))] = out[i];
+  }
   return sampler.values.first(clip.channel_count);
 }
 

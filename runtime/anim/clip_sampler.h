@@ -46,7 +46,7 @@ struct ClipSampler {
 
   // Frames that were needed last, of changing channels.
   BlockDecoder decoder;
-  Span<ChannelCursor> cursors;
+  Span<ChannelCursors> cursors;
   Span<float> current;  // the decoder's row
   Span<float> rows[kSamplerRows];
   Span<float> sampled;

@@ -3628,7 +3628,7 @@ extern "C" {
     pub fn mien_clip_event(clip: *const MienClip, index: u32, out_event: *mut MienClipEvent) -> MienStatus;
 
     /// Checks that no byte of a clip has changed since it was written and that all curves can be
-    /// decoded. Reads the whole clip. Uses up to 24 KiB of stack.
+    /// decoded. Reads the whole clip. Uses up to 36 KiB of stack.
     ///
     /// Fails with `MIEN_ERROR_CLIP_CHECKSUM` if bytes have changed, `MIEN_ERROR_CLIP_STRUCTURE` if
     /// a curve cannot be decoded.
@@ -3638,7 +3638,7 @@ extern "C" {
     /// n goes to `out_values`\[n \* `frame_stride` + c\]. `frame_stride` is at least the number of
     /// channels; 0 means that number. Each call decodes its first block of 64 frames from the
     /// start of the block, so many frames in one call cost less than the same frames one by one.
-    /// Uses up to 24 KiB of stack.
+    /// Uses up to 36 KiB of stack.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `frame_stride` is too small, `MIEN_ERROR_INDEX`
     /// if the clip has fewer frames, `MIEN_ERROR_CLIP_STRUCTURE` if a curve is damaged; its block
