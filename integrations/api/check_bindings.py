@@ -35,6 +35,7 @@ WITHOUT = {
     "MienClipPlayerDesc.speed_numerator": {"Rust": "ClipPlayer::set_speed()"},
     "MienClipPlayerDesc.speed_denominator": {"Rust": "ClipPlayer::set_speed()"},
     "MienClipPlayerDesc.start_tick": {"Rust": "ClipPlayer::seek()"},
+    "MienAuthorDesc.progress_user": {"Python": "functions keep what they need", "Rust": "closures keep what they need"},
     "MienVertexFormat": {"Python": "the type of an array says it"},
     "file_access": {"JavaScript": "there is no file system"},
     **{name: {"JavaScript": "there is no file system"} for name in (
@@ -46,7 +47,7 @@ WITHOUT = {
         "mien_deformer_instance_deform_batch", "mien_deformer_instance_write_vertices_batch")},
 }
 # Sections of mien.h that a language does without.
-SECTIONS = {language: {"Rigs from meshes"} for language in ("Python", "Rust", "JavaScript")}
+SECTIONS = {language: {"Rigs from meshes"} for language in ("Rust", "JavaScript")}
 # Functions whose own statuses cannot reach a user, who finds no list of them either.
 SILENT = {
     "mien_coordinate_system_name": {"Python", "Rust"},

@@ -12,23 +12,24 @@
 
 `Dna` -> `Rig` -> `Instance` or `Batch`. README.md has more; errors are in `mien.errors`.
 """
-from ._api import (Arithmetic, BakedCheck, BakedInfo, BlendMode, ClipChannel, ClipInfo, ClipPlayerInfo, Compose,
-                   CoordinateSystem, DeformerInfo, Direction, DnaField, DnaInfo, DnaLayer,
-                   FaceWinding, FieldType, FileAccess, Finding, Generate, Generator, Guard,
-                   InstanceStatistics, Interpolation, Isa, Kind, Layer, LayerGroup, LayerSource,
-                   Looping, MixerInfo, MixInfo, MlMasks, Normals, Preset, Retrigger, Reuse, RigInfo,
-                   RigStatistics, RotationOutput, RotationRule, RotationSequence, RotationUnit,
-                   Severity, SolverStackInfo, Stage, Status, Storage, Transition, TranslationUnit,
-                   UnknownLayers, Weights)
+from ._api import (Arithmetic, AuthorFlags, BakedCheck, BakedInfo, BlendMode, BoneKind, ClipChannel,
+                   ClipInfo, ClipPlayerInfo, Compose, CoordinateSystem, DeformerInfo, Direction,
+                   DnaField, DnaInfo, DnaLayer, FaceWinding, FieldType, FileAccess, Finding,
+                   Generate, Generator, Guard, InstanceStatistics, Interpolation, Isa, Kind, Layer,
+                   LayerGroup, LayerSource, Looping, MeshAxis, MixerInfo, MixInfo, MlMasks, Normals,
+                   Preset, Retrigger, Reuse, RigInfo, RigStatistics, RotationOutput, RotationRule,
+                   RotationSequence, RotationUnit, Severity, SolverStackInfo, Stage, Status,
+                   Storage, Symmetry, Transition, TranslationUnit, UnknownLayers, Weights)
 from ._api import VERSION as _VERSION
 from ._library import path as library_path, version
+from .author import AuthorBone, AuthoredRig, author_rig
 from .baked import Baked
 from .batch import Batch
 from .clip import Clip, ClipBinding, ClipEvent, ClipPlayer, TICKS_PER_SECOND
 from .deformer import Deformer, DeformerInstance, Mesh, deform_batch, write_vertices_batch
 from .dna import Dna, coordinate_system, coordinate_system_names, validate
-from .errors import (ArgumentError, BusyError, ClipError, ClosedError, DnaError, Error, FileError,
-                     OutOfMemoryError, OutOfRangeError, UnknownNameError)
+from .errors import (ArgumentError, AuthorError, BusyError, ClipError, ClosedError, DnaError, Error,
+                     FileError, OutOfMemoryError, OutOfRangeError, UnknownNameError)
 from .instance import Instance
 from .mix import Gaze, Mix
 from .mix_parts import (NO_CONTROL, Antagonists, CustomGuard, Landmark, MixLayer, Reaction, Stroke,
@@ -43,8 +44,9 @@ from .solve import (NO_JOINT, AimSolver, CopySolver, CustomSolver, SolverPose, S
 __version__ = _VERSION
 
 __all__ = [
-    "__version__", "AimSolver", "Antagonists", "ArgumentError", "Arithmetic", "Baked",
-    "BakedCheck", "BakedInfo", "Batch", "BlendMode", "BusyError", "Clip", "ClipBinding",
+    "__version__", "AimSolver", "Antagonists", "ArgumentError", "Arithmetic",
+    "AuthorBone", "AuthoredRig", "AuthorError", "AuthorFlags", "author_rig", "Baked",
+    "BakedCheck", "BakedInfo", "Batch", "BlendMode", "BoneKind", "BusyError", "Clip", "ClipBinding",
     "ClipChannel", "ClipError", "ClipEvent", "ClipInfo", "ClipPlayer", "ClipPlayerInfo",
     "ClosedError", "Compose", "coordinate_system", "coordinate_system_names",
     "CoordinateSystem", "CopySolver", "CustomGuard", "CustomSolver", "deform_batch", "Deformer",
@@ -52,13 +54,13 @@ __all__ = [
     "DnaLayer", "Error", "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding",
     "Gaze", "Generate", "Generator", "glare", "Guard", "GuardInfo", "GuardState", "Instance",
     "InstanceStatistics", "Interpolation", "Isa", "isa_available", "isa_name", "Kind",
-    "Landmark", "Layer", "LayerGroup", "LayerSource", "library_path", "Looping", "Mesh", "Mix",
+    "Landmark", "Layer", "LayerGroup", "LayerSource", "library_path", "Looping", "Mesh", "MeshAxis", "Mix",
     "Mixer", "MixerInfo", "MixEvent", "MixInfo", "MixLayer", "MlMasks", "NO_CONTROL",
     "NO_JOINT", "Normals", "OutOfMemoryError", "OutOfRangeError", "Preset", "Reaction",
     "Retrigger", "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationOutput", "RotationRule",
     "RotationSequence", "RotationUnit", "Severity", "SolverPose", "SolverStack",
     "SolverStackInfo", "SolverState", "SpaceSolver", "SpringSolver", "Stage", "Status",
-    "step_mixers", "step_states", "Storage", "Stroke", "ticks", "TICKS_PER_SECOND",
+    "step_mixers", "step_states", "Storage", "Stroke", "Symmetry", "ticks", "TICKS_PER_SECOND",
     "Transition", "TranslationUnit", "TwistSolver", "UnknownLayers", "UnknownNameError",
     "validate", "version", "Weights", "write_vertices_batch",
 ]

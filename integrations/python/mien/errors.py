@@ -106,6 +106,10 @@ class DnaError(Error, ValueError):
     tells where."""
 
 
+class AuthorError(Error, ValueError):
+    """A mesh cannot be rigged, its arrays contradict each other, or `progress` canceled."""
+
+
 class ClipError(Error, ValueError):
     """A clip is damaged or of another kind, or cannot be built of these curves."""
 
@@ -128,6 +132,8 @@ def kind_of(status: int) -> Type[Error]:
         return DnaError
     if 60 <= status <= 69:
         return ClipError
+    if 80 <= status <= 89:
+        return AuthorError
     return Error
 
 

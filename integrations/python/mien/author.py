@@ -1,0 +1,245 @@
+# SPDX-License-Identifier: MIT
+"""Rigs from meshes."""
+from __future__ import annotations
+
+import ctypes
+import json
+from concurrent.futures import Executor
+from operator import index
+from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple
+
+from . import _api
+from ._api import AuthorFlags, BoneKind, MeshAxis, MienError, Symmetry
+from ._library import author
+from ._memory import DnaHandle, numpy, uint32
+from ._threads import call_with_threads
+from .dna import Dna
+from .errors import ArgumentError, fail, raises
+
+_byref = ctypes.byref
+_progress_type: Any = dict(_api.MienAuthorDesc._fields_)["progress"]
+
+
+class AuthorBone(NamedTuple):
+    """A bone of the caller.
+
+    position: in the mesh, not relative to the parent
+    parent:   index of a bone before this one; the first one is its own parent
+    kind:     the first is the root, and facial ones stand in one run
+    """
+
+    name: str
+    position: Sequence[float]
+    parent: int = 0
+    kind: int = BoneKind.FACIAL
+
+
+class AuthoredRig(NamedTuple):
+    """A rig that was made: the file, and what was found and measured (docs/authoring.md, 6)."""
+
+    dna: Dna
+    report: Dict[str, Any]
+
+
+class _Given:
+    """Arrays and names as the library takes them. They have to live as long as the call."""
+
+    def __init__(self) -> None:
+        self.kept: List[Any] = []
+
+    def numbers(self, values: Any, what: str, type_: str, shape: Tuple[Optional[int], ...]) -> Any:
+        """An array of that type and shape, where None stands for any length. Whole numbers are
+        never made of others, nor of those that do not fit."""
+        found = numpy.asarray(values)
+        if found.dtype.kind not in ("uif" if type_.startswith("float") else "ui") and found.size:
+            raise ArgumentError(f"{what} holds {found.dtype}: these have to be "
+                                f"{'numbers' if type_.startswith('float') else 'whole numbers'}")
+        if not found.size and len(shape) != found.ndim:
+            found = found.reshape([0 if n is None else n for n in shape])
+        if found.ndim != len(shape) or any(n not in (None, m) for n, m in zip(shape, found.shape)):
+            wanted = ", ".join("any" if n is None else str(n) for n in shape)
+            raise ArgumentError(f"{what} has the shape {found.shape}: ({wanted}) is needed")
+        if not type_.startswith("float") and found.size:
+            limits = numpy.iinfo(type_)
+            if found.min() < limits.min or found.max() > limits.max:
+                raise ArgumentError(f"{what} holds {found.min()} to {found.max()}: "
+                                    f"{limits.min} to {limits.max} is possible")
+        array = numpy.ascontiguousarray(found, type_)
+        self.kept.append(array)
+        return array
+
+    def text(self, text: str) -> Any:
+        encoded = text.encode("utf-8", "surrogateescape")
+        self.kept.append(encoded)
+        address = ctypes.cast(ctypes.c_char_p(encoded), ctypes.c_void_p)
+        return _api.MienStringView(address, len(encoded))
+
+    def faces(self, faces: Any, mesh: Any) -> None:
+        if hasattr(faces, "dtype"):
+            corners = self.numbers(faces, "faces", "uint32", (None, None))
+            sizes = numpy.full(len(corners), corners.shape[1], "uint32")
+        else:
+            lists = [list(face) for face in faces]
+            sizes = numpy.array([len(face) for face in lists], "uint32")
+            corners = self.numbers([v for face in lists for v in face], "faces", "uint32", (None,))
+        self.kept.append(sizes)
+        mesh.face_sizes = sizes.ctypes.data
+        mesh.face_count = len(sizes)
+        mesh.corners = corners.ctypes.data
+        mesh.corner_count = corners.size
+
+    def shapes(self, shapes: Mapping[str, Any], count: int, mesh: Any) -> None:
+        structs = (_api.MienAuthorShape * len(shapes))()
+        self.kept.append(structs)
+        mesh.shapes = structs
+        mesh.shape_count = len(shapes)
+        for i, (name, shape) in enumerate(shapes.items()):
+            to = structs[i]
+            to.name = self.text(name)
+            if isinstance(shape, tuple):
+                moving = self.numbers(shape[0], f"shape {name!r}", "uint32", (None,))
+                to.positions, to.position_count = moving.ctypes.data, len(moving)
+                moved = self.numbers(shape[1], f"shape {name!r}", "float64", (len(moving), 3))
+            else:
+                moved = self.numbers(shape, f"shape {name!r}", "float64", (count, 3))
+                to.position_count = count
+            to.displacements = moved.ctypes.data
+
+    def objects(self, objects: Sequence[Tuple[str, int]], mesh: Any) -> None:
+        structs = (_api.MienAuthorObject * len(objects))()
+        self.kept.append(structs)
+        mesh.objects = structs
+        mesh.object_count = len(objects)
+        first = 0
+        for i, (name, faces) in enumerate(objects):
+            structs[i].name = self.text(name)
+            structs[i].first_face = uint32(first, "first face")
+            structs[i].face_count = uint32(faces, "number of faces")
+            first += index(faces)
+
+    def bones(self, bones: Sequence[AuthorBone], desc: Any) -> None:
+        structs = (_api.MienAuthorBone * len(bones))()
+        self.kept.append(structs)
+        desc.bones = structs
+        desc.bone_count = len(bones)
+        for i, bone in enumerate(bones):
+            to = structs[i]
+            to.name = self.text(bone.name)
+            position = self.numbers(bone.position, f"bone {bone.name!r}", "float64", (3,))
+            to.position[:] = position.tolist()
+            to.parent, to.kind = uint32(bone.parent, "parent"), uint32(bone.kind, "kind")
+
+    def weights(self, weights: Tuple[Any, Any], count: int, desc: Any) -> None:
+        joints, shares = weights
+        joints = self.numbers(joints, "weights[0]", "uint16", (count, None))
+        shares = self.numbers(shares, "weights[1]", "float32", joints.shape)
+        if desc.influences not in (0, joints.shape[1]):
+            raise ArgumentError(f"weights have {joints.shape[1]} influences, not {desc.influences}")
+        desc.influences = joints.shape[1]
+        desc.weight_joints = joints.ctypes.data
+        desc.weights = shares.ctypes.data
+
+
+@raises("mien_author_rig")
+def author_rig(positions: Any, faces: Any, shapes: Optional[Mapping[str, Any]] = None, *,
+               objects: Optional[Sequence[Tuple[str, int]]] = None, uvs: Any = None,
+               corner_uvs: Any = None, facial_joints: int = 0, influences: int = 0, lods: int = 0,
+               groups: int = 0, seed: int = 1, unit: float = 1.0, up: int = MeshAxis.DEFAULT,
+               front: int = MeshAxis.DEFAULT, symmetry: int = Symmetry.AUTO, flags: int = 0,
+               name: str = "", face_object: str = "",
+               bones: Optional[Sequence[AuthorBone]] = None,
+               weights: Optional[Tuple[Any, Any]] = None,
+               progress: Optional[Callable[[str, float], Any]] = None,
+               executor: Optional[Executor] = None) -> AuthoredRig:
+    """Makes a rig from the mesh of a head: joints, skin weights of every LOD, and for each shape a raw
+    control that moves them. Needs NumPy. See docs/authoring.md.
+
+    positions:     (n, 3), in the unit and axes that `unit`, `up` and `front` tell
+    faces:         positions of the corners, counterclockwise from outside: an array (m, 3) or (m, 4),
+                   or lists of any lengths
+    shapes:        displacements at full value by names: (n, 3), or a pair of (k,) positions that move
+                   and (k, 3). Positions that have moved minus `positions`, that is
+    objects:       names and numbers of faces, in their order; None: all is one
+    uvs:           (u, 2), with an index for each corner in `corner_uvs`
+    facial_joints: 0: 240; influences: 0: 8; lods: 0: 8; groups: in depth, 0: 3
+    unit:          centimeters of one unit of the mesh
+    flags:         `AuthorFlags`, combined with |
+    bones:         of the caller; None: they are placed
+    weights:       of the caller, with bones: a pair of (n, k) numbers of bones and (n, k) weights
+    progress:      called with the name of a step and a share from 0 to 1; what it returns, if true,
+                   cancels. What it raises comes out of the call
+    executor:      threads to work on; the result does not depend on them
+    """
+    if numpy is None:
+        raise ImportError("mien.author_rig() needs NumPy: pip install numpy")
+    given = _Given()
+    mesh = _api.MienAuthorMesh()
+    places = given.numbers(positions, "positions", "float64", (None, 3))
+    mesh.positions = places.ctypes.data
+    mesh.position_count = len(places)
+    given.faces(faces, mesh)
+    given.shapes(shapes or {}, len(places), mesh)
+    if objects is not None:
+        given.objects(objects, mesh)
+    if uvs is not None or corner_uvs is not None:
+        if uvs is None or corner_uvs is None:
+            raise ArgumentError("uvs and corner_uvs go together")
+        coordinates = given.numbers(uvs, "uvs", "float64", (None, 2))
+        corners = given.numbers(corner_uvs, "corner_uvs", "uint32", (mesh.corner_count,))
+        mesh.uvs = coordinates.ctypes.data
+        mesh.uv_count = len(coordinates)
+        mesh.corner_uvs = corners.ctypes.data
+    desc = _api.MienAuthorDesc(
+        facial_joints=uint32(facial_joints, "facial_joints"),
+        influences=uint32(influences, "influences"),
+        lods=uint32(lods, "lods"), groups=uint32(groups, "groups"), seed=index(seed),
+        up=uint32(up, "up"), front=uint32(front, "front"), symmetry=uint32(symmetry, "symmetry"),
+        flags=uint32(flags, "flags"), name=given.text(name), face_object=given.text(face_object),
+        progress=_progress_type())
+    desc.unit = float(unit)
+    if bones is not None:
+        given.bones(bones, desc)
+    if weights is not None:
+        given.weights(weights, len(places), desc)
+    made = _make(mesh, desc, progress, executor)
+    del given  # not before
+    return made
+
+
+def _make(mesh: Any, desc: Any, progress: Optional[Callable[[str, float], Any]],
+          executor: Optional[Executor]) -> AuthoredRig:
+    raised: List[BaseException] = []
+
+    def report_progress(_user: Any, step: int, share: float) -> int:
+        try:
+            assert progress is not None
+            return 1 if progress(ctypes.string_at(step).decode(), share) else 0
+        except BaseException as error:  # must not cross the library
+            raised.append(error)
+            return 1
+
+    if progress is not None:
+        desc.progress = _progress_type(report_progress)
+    library, handle, report, error = author(), DnaHandle(), _api.MienAuthorReport(), MienError()
+    status = 0
+
+    def call(parallel: Any) -> None:
+        nonlocal status
+        if parallel is not None:
+            desc.parallel = ctypes.pointer(parallel._obj)
+        status = library.mien_author_rig(_byref(mesh), _byref(desc), _byref(handle), _byref(report),
+                                         _byref(error))
+
+    call_with_threads(executor, call)
+    if raised:
+        raise raised[0]
+    if status:
+        fail(status, "cannot make a rig", error)
+    try:
+        text = _api.MienStringView()
+        status = library.mien_author_report_json(report, _byref(text))
+        if status:
+            fail(status, "no report")
+        return AuthoredRig(Dna(handle), json.loads(_api.text(text)))
+    finally:
+        library.mien_author_report_close(report)
