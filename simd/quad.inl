@@ -188,8 +188,13 @@ inline Quad square_root4(Quad a) { return xsimd::sqrt(a); }
 inline Quad yzx4(Quad a) {
   return xsimd::swizzle(a, xsimd::batch_constant<QuadBits, 1, 2, 0, 3>());
 }
+#if defined(__wasm__)
+inline Quad higher4(Quad a, Quad b) { return at_least(a, b); }
+inline Quad lower4(Quad a, Quad b) { return at_most(a, b); }
+#else
 inline Quad higher4(Quad a, Quad b) { return xsimd::max(a, b); }
 inline Quad lower4(Quad a, Quad b) { return xsimd::min(a, b); }
+#endif
 inline Quad gather4(const float* from, const uint16_t* at, size_t stride) {
   float first = from[at[0]];
 #if defined(__wasm__)

@@ -70,6 +70,9 @@
 #error "rename xsimd before including it: see above"
 #endif
 #include <xsimd/xsimd.hpp>
+#if defined(__wasm__)
+#include <wasm_simd128.h>
+#endif
 #endif
 
 namespace mien::MIEN_KERNEL_ISA {
@@ -226,6 +229,17 @@ inline Vec divide(Vec a, Vec b) { return vdivq_f32(a, b); }
 inline Vec at_least(Vec v, Vec low) { return select(v > low, v, low); }
 inline Vec at_most(Vec v, Vec high) { return select(v < high, v, high); }
 inline Vec at_most_or_nan(Vec v, Vec high) { return select(high < v, high, v); }
+#elif defined(__wasm__)
+inline Vec square_root(Vec v) { return xsimd::sqrt(v); }
+inline Vec divide(Vec a, Vec b) { return a / b; }
+// Those of x86 below, which Emscripten's headers make of a comparison and a selection of bits.
+inline Vec at_least(Vec v, Vec low) {
+  return __m128(wasm_f32x4_pmax(v128_t(__m128(low)), v128_t(__m128(v))));
+}
+inline Vec at_most(Vec v, Vec high) {
+  return __m128(wasm_f32x4_pmin(v128_t(__m128(high)), v128_t(__m128(v))));
+}
+inline Vec at_most_or_nan(Vec v, Vec high) { return at_most(high, v); }
 #else
 inline Vec square_root(Vec v) { return xsimd::sqrt(v); }
 inline Vec divide(Vec a, Vec b) { return a / b; }

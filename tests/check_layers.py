@@ -92,7 +92,7 @@ SUFFIXES = {".h", ".hpp", ".cpp", ".c", ".inl"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 # An inline function of a C++ header, compiled for AVX2, may be the copy that the linker keeps for
 # CPUs without. C headers have none; <utility> is for index_sequence, a type.
-KERNEL_HEADERS = re.compile(r"(std\w+|string|math|float|assert|limits|arm_neon|immintrin)\.h|utility")
+KERNEL_HEADERS = re.compile(r"(std\w+|string|math|float|assert|limits|arm_neon|immintrin|wasm_simd128)\.h|utility")
 
 
 def layer_of(path):

@@ -9,7 +9,7 @@ import { join } from "node:path";
 import { api, Mien, mien, project } from "../tests/support.mjs";
 
 const FRAMES = 64;
-const ROUNDS = 15;
+const ROUNDS = 40;
 const TURNS = 12;
 const ACTIVE = 0.08; // share of controls that are not 0
 
@@ -51,7 +51,7 @@ function inWebAssembly(rig, frames, rounds) {
     for (const value of bits) hash = Math.imul(hash ^ value, 16777619) >>> 0;
   }
   face.dispose();
-  return { time: median(samples), hash };
+  return { time: Math.min(...samples), hash };
 }
 
 const work = mkdtempSync(join(tmpdir(), "mien-bench-"));

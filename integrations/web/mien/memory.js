@@ -58,6 +58,7 @@ export class Memory {
   #solvers = new Map();
   #lastSolver = 0;
   #thrown = [];
+  #bytes = new Uint8Array(0);
   #data;
 
   /** Instantiates a compiled module. */
@@ -89,7 +90,11 @@ export class Memory {
   }
 
   get data() {
-    if (this.#data?.buffer !== this.buffer) this.#data = new DataView(this.buffer);
+    // Growth empties the bytes of the old buffer. Asking the module for its buffer takes longer.
+    if (!this.#bytes.length) {
+      this.#bytes = new Uint8Array(this.buffer);
+      this.#data = new DataView(this.buffer);
+    }
     return this.#data;
   }
 
@@ -404,7 +409,8 @@ export class Handle {
     const key = rest.length ? `${name} ${rest}` : name;
     const known = this.#views.get(key);
     const { memory } = this;
-    if (!this.#isDisposed && known && known.buffer === memory.buffer) return known;
+    // Growth of the memory empties arrays.
+    if (known?.length && !this.#isDisposed) return known;
     const made = memory.withScratch((scratch) => {
       const out = scratch.take(8);
       this.call(name, ...rest, out);

@@ -294,8 +294,12 @@ export class Instance extends Handle {
 
   /** All stages, or some: Stage.PSD | Stage.JOINTS. */
   evaluate(lod = 0, stages = Stage.ALL) {
-    if (stages === Stage.ALL) this.#run("mien_rig_evaluate", lod);
-    else this.#run("mien_rig_evaluate_stages", lod, stages);
+    const { memory } = this;
+    const { exports } = memory;
+    const status = stages === Stage.ALL
+      ? exports.mien_rig_evaluate(this.#rig.handle, this.handle, lod)
+      : exports.mien_rig_evaluate_stages(this.#rig.handle, this.handle, lod, stages);
+    if (status !== Status.OK) memory.check(status, 0, "mien_rig_evaluate");
   }
 
   evaluateJointGroup(lod, group) {
