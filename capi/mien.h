@@ -167,6 +167,11 @@ enum MienStatusCode {
     MIEN_ERROR_CLIP_CHECKSUM = 64,   /* the bytes are not those that were written */
     MIEN_ERROR_CLIP_VALUE = 65,      /* a value that is not finite */
     MIEN_ERROR_CLIP_LIMIT = 66,      /* more than a clip, player or binding can hold */
+    MIEN_ERROR_MIX_SIGNATURE = 70,   /* not a mix */
+    MIEN_ERROR_MIX_VERSION = 71,     /* written by another version */
+    MIEN_ERROR_MIX_TRUNCATED = 72,   /* the file is shorter than its header states */
+    MIEN_ERROR_MIX_STRUCTURE = 73,   /* sizes or counts contradict each other, or a value is out of range */
+    MIEN_ERROR_MIX_CHECKSUM = 74,    /* the bytes are not those that were written */
     MIEN_ERROR_AUTHOR_MESH = 80,     /* arrays of a mesh, shape or bone contradict each other */
     MIEN_ERROR_AUTHOR_REFUSED = 81,  /* a mesh that cannot be rigged; the message names the rule */
     MIEN_ERROR_AUTHOR_CANCELED = 82 /* the caller's progress function asked to stop */
@@ -2020,6 +2025,56 @@ MIEN_DEFAULT(MienMixDesc, mien_mix_desc_default)
  * out of range; the message names it. */
 MIEN_CHECKED MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc,
                                         MienMix** out_mix, MienError* error);
+
+/* How to open a mix. */
+typedef struct MienMixOpenDesc {
+    size_t struct_size;
+    const MienAllocator* allocator;
+} MienMixOpenDesc;
+MIEN_DEFAULT(MienMixOpenDesc, mien_mix_open_desc_default)
+
+/* Opens a mix for a rig that has the controls which the mix uses; names match as in
+ * mien_clip_binding_create(). Masks of the file leave other controls alone, limits do not hold for them.
+ * Guards and gaze are those that were measured when the mix was created. `rig` may be NULL: then the
+ * raw controls are those of the file, for looking into it or writing it again. `rig` may be destroyed
+ * afterwards. Mixers of a hostile file may be large: MienMixInfo.mixer_bytes tells.
+ * Destroy with mien_mix_destroy().
+ * Fails with MIEN_ERROR_FILE_OPEN or MIEN_ERROR_FILE_READ if the file cannot be read,
+ * MIEN_ERROR_MIX_SIGNATURE, MIEN_ERROR_MIX_VERSION, MIEN_ERROR_MIX_TRUNCATED, MIEN_ERROR_MIX_CHECKSUM or
+ * MIEN_ERROR_MIX_STRUCTURE if it is not a valid mix, MIEN_ERROR_NAME if the rig lacks controls; the
+ * message names them. */
+MIEN_CHECKED MienStatus mien_mix_open_file(const char* path, const MienRig* rig,
+                                           const MienMixOpenDesc* desc, MienMix** out_mix,
+                                           MienError* error);
+
+/* Opens a mix in memory. `bytes` may be released afterwards. `rig` may be NULL. `rig` may be destroyed
+ * afterwards.
+ * Fails like mien_mix_open_file(), but not with MIEN_ERROR_FILE_OPEN or MIEN_ERROR_FILE_READ. */
+MIEN_CHECKED MienStatus mien_mix_open_memory(const void* bytes, size_t size, const MienRig* rig,
+                                             const MienMixOpenDesc* desc, MienMix** out_mix,
+                                             MienError* error);
+
+/* Writes a mix to a file: all that was given to mien_mix_create() and what was measured then, with the names
+ * of the controls that it uses. Equal mixes give the same bytes on every machine, and so does a mix that was
+ * opened. The file is written under a temporary name and renamed, so that a failure leaves `path` unchanged.
+ * Takes memory from the allocator of the mix during the call.
+ * Fails with MIEN_ERROR_MEMORY if there is none, MIEN_ERROR_NAME if two of these controls have the same
+ * name, MIEN_ERROR_FILE_WRITE if the file cannot be written. */
+MIEN_CHECKED MienStatus mien_mix_write_file(const MienMix* mix, const char* path, MienError* error);
+
+/* Writes a mix to memory and returns its size in `out_size`. `buffer` may be NULL with capacity 0 to get
+ * the size only. Writes nothing if `capacity` is too small; `out_size` is set nevertheless.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small, MIEN_ERROR_MEMORY and MIEN_ERROR_NAME
+ * if mien_mix_write_file() would fail with them. */
+MIEN_CHECKED MienStatus mien_mix_write_memory(const MienMix* mix, void* buffer, size_t capacity,
+                                              size_t* out_size, MienError* error);
+
+/* The same as text, for people and version control: a line for each number, with its place in the mix and
+ * the names of controls. Floats have nine digits, which give back their bits. It cannot be opened. Not
+ * terminated. `buffer` may be NULL with capacity 0 to get the size only.
+ * Fails like mien_mix_write_memory(). */
+MIEN_CHECKED MienStatus mien_mix_write_text(const MienMix* mix, void* buffer, size_t capacity,
+                                            size_t* out_size, MienError* error);
 
 /* Destroys a mix. Its mixers go on: the last of them releases it. */
 MIEN_API void mien_mix_destroy(MienMix* mix);

@@ -577,8 +577,6 @@ MienStatus mien_clip_player_sample(MienClipPlayer* player, MienFloatView* out_va
 
 namespace {
 
-constexpr uint32_t kMaxBoundGuiControls = 4096;  // with the one that is always 0
-
 MienStatus new_binding(const Clip& clip, const Rig& rig, const MienClipBindingDesc& desc,
                        const Allocator& allocator, MienClipBinding* out, MienError* error) {
   const size_t scratch_size = desc.matrix_count * sizeof(MatrixEntry) + kBlockAlignment;

@@ -271,6 +271,7 @@ MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc, MienMix*
   MixDesc mix;
   mix.kernels = of.kernels;
   mix.raw_count = of.raw_count;
+  mix.names = &of.names[static_cast<size_t>(Kind::kRawControl)];
   mix.variable_count = known.variable_count;
   const size_t lanes = size_t{of.raw_count} + known.variable_count;
   mix.layers = lists.layers;
@@ -287,7 +288,7 @@ MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc, MienMix*
     mix.max_changing_channels =
         mix.max_channels < kMaxChangingChannels ? mix.max_channels : kMaxChangingChannels;
   }
-  mix.max_bound_gui = of.gui_count < 4095 ? of.gui_count + 1 : 4096;
+  mix.max_bound_gui = bound_gui_limit(of.gui_count);
   mix.plays_backward = known.reverse != 0;
   mix.max_events = known.max_events != 0 ? known.max_events : 64;
   Error detail;

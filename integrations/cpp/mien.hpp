@@ -107,6 +107,7 @@ using ClipOpenDesc = Sized<MienClipOpenDesc>;
 using ClipPlayerDesc = Sized<MienClipPlayerDesc>;
 using ClipBindingDesc = Sized<MienClipBindingDesc>;
 using MixDesc = Sized<MienMixDesc>;
+using MixOpenDesc = Sized<MienMixOpenDesc>;
 using MixerDesc = Sized<MienMixerDesc>;
 using PlayDesc = Sized<MienPlayDesc>;
 using GazeDesc = Sized<MienGazeDesc>;
@@ -969,6 +970,40 @@ class Mix : public Owner<MienMix, mien_mix_destroy> {
       return mien_mix_create(rig.get(), &desc, out, error);
     });
   }
+  /// Without a rig: to look into it, or to write it again.
+  static Result<Mix> open(const char* path, const Rig* rig, const MixOpenDesc& desc = {}) {
+    return make<Mix>([&](MienMix** out, MienError* error) {
+      return mien_mix_open_file(path, rig ? rig->get() : nullptr, &desc, out, error);
+    });
+  }
+  static Result<Mix> open(Span<const unsigned char> bytes, const Rig* rig,
+                          const MixOpenDesc& desc = {}) {
+    return make<Mix>([&](MienMix** out, MienError* error) {
+      return mien_mix_open_memory(bytes.data(), bytes.size(), rig ? rig->get() : nullptr, &desc,
+                                  out, error);
+    });
+  }
+  Result<void> write(const char* path) const {
+    Sized<MienError> error;
+    return {mien_mix_write_file(get(), path, &error), error};
+  }
+  /// Writes to memory and tells how many bytes that took; with an empty buffer, would take.
+  Result<size_t> write(Span<unsigned char> buffer) const {
+    size_t size = 0;
+    Sized<MienError> error;
+    void* const data = buffer.empty() ? nullptr : buffer.data();
+    const MienStatus status = mien_mix_write_memory(get(), data, buffer.size(), &size, &error);
+    return {status, std::move(size), &error};
+  }
+  /// The same as text.
+  Result<size_t> write_text(Span<char> buffer) const {
+    size_t size = 0;
+    Sized<MienError> error;
+    void* const data = buffer.empty() ? nullptr : buffer.data();
+    const MienStatus status = mien_mix_write_text(get(), data, buffer.size(), &size, &error);
+    return {status, std::move(size), &error};
+  }
+
   Result<MienMixInfo> info() const {
     Sized<MienMixInfo> info;
     return {mien_mix_info(get(), &info), std::move(info)};

@@ -141,6 +141,18 @@ void test_mixing() {
 
   const mien::Mix mix = mien::Mix::create(rig, desc).value();
   CHECK(mix.info()->lane_count == raw_count + 1);
+  std::vector<unsigned char> mix_bytes(mix.write(mien::Span<unsigned char>()).value());
+  CHECK(mix.write(mix_bytes).value() == mix_bytes.size() && mix.write("mien_test.mix"));
+  const mien::Mix same = mien::Mix::open(mix_bytes, &rig).value();
+  std::vector<unsigned char> again(mix_bytes.size());
+  CHECK(same.write(again).value() == again.size() && again == mix_bytes);
+  CHECK(mien::Mix::open("mien_test.mix", nullptr)
+            .value()
+            .write(mien::Span<unsigned char>())
+            .value() == again.size());
+  std::vector<char> text(same.write_text({}).value());
+  CHECK(same.write_text(text).value() == text.size() && text.back() == '\n');
+  std::remove("mien_test.mix");
 
   mien::MixerDesc with_stages;
   with_stages.stages = 1;

@@ -44,6 +44,11 @@ const char* status_name(Status status) {
     case Status::kClipChecksum: return "CLIP_CHECKSUM";
     case Status::kClipValue: return "CLIP_VALUE";
     case Status::kClipLimit: return "CLIP_LIMIT";
+    case Status::kMixSignature: return "MIX_SIGNATURE";
+    case Status::kMixVersion: return "MIX_VERSION";
+    case Status::kMixTruncated: return "MIX_TRUNCATED";
+    case Status::kMixStructure: return "MIX_STRUCTURE";
+    case Status::kMixChecksum: return "MIX_CHECKSUM";
     case Status::kAuthorMesh: return "AUTHOR_MESH";
     case Status::kAuthorRefused: return "AUTHOR_REFUSED";
     case Status::kAuthorCanceled: return "AUTHOR_CANCELED";

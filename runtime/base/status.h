@@ -64,6 +64,12 @@ enum class Status : int32_t {
   kClipChecksum = 64,
   kClipValue = 65,
   kClipLimit = 66,
+  // mixes
+  kMixSignature = 70,
+  kMixVersion = 71,
+  kMixTruncated = 72,
+  kMixStructure = 73,
+  kMixChecksum = 74,
   // authoring
   kAuthorMesh = 80,
   kAuthorRefused = 81,

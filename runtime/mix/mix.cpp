@@ -9,7 +9,6 @@
 #include "runtime/base/arena.h"
 #include "runtime/mix/fade.h"
 #include "runtime/mix/stream.h"
-#include "runtime/rig/rig.h"
 
 namespace mien {
 namespace {
@@ -27,13 +26,27 @@ size_t first_beyond(Span<const float> values, float low, float high) {
   return i;
 }
 
-/// Refuses the first lane that does not exist.
-Status check_lane_list(Span<const uint16_t> list, uint32_t lanes, const char* of, size_t index,
-                       Error& error) {
+/// Refuses the first lane that does not exist, or is there twice where each has one value.
+Status check_lane_list(const MixDesc& desc, Span<const uint16_t> list, bool once, const char* of,
+                       size_t index, Error& error) {
+  const uint32_t lanes = desc.raw_count + desc.variable_count;
+  uint64_t seen[kMaxLanes / 64] = {};
   for (size_t i = 0; i < list.count; ++i) {
-    if (list[i] < lanes) continue;
-    return fail(error, Status::kInvalidArgument, kNoOffset,
-                "%s %zu: .lanes[%zu] is %u; lanes are below %u", of, index, i, list[i], lanes);
+    const uint16_t lane = list[i];
+    if (lane >= lanes) {
+      return fail(error, Status::kInvalidArgument, kNoOffset,
+                  "%s %zu: .lanes[%zu] is %u; lanes are below %u", of, index, i, lane, lanes);
+    }
+    uint64_t& word = seen[lane / 64];
+    const uint64_t bit = uint64_t{1} << lane % 64;
+    if (once && (word & bit) != 0) {
+      const bool named = desc.names && lane < desc.raw_count;
+      const Span<const char> name = named ? (*desc.names)[lane] : Span<char>{};
+      return fail(error, Status::kInvalidArgument, kNoOffset,
+                  "%s %zu: .lanes[%zu] is %u%s%.*s, which it lists twice", of, index, i, lane,
+                  named ? ", " : "", static_cast<int>(name.count), name.data ? name.data : "");
+    }
+    word |= bit;
   }
   return Status::kOk;
 }
@@ -97,7 +110,7 @@ Status check_layers(const MixDesc& desc, uint32_t lanes, Error& error) {
     if (layer.lanes.count > lanes) {
       return wrong(error, "layer %zu: %zu lanes; the mix has %u", i, layer.lanes.count, lanes);
     }
-    const Status status = check_lane_list(layer.lanes, lanes, "layer", i, error);
+    const Status status = check_lane_list(desc, layer.lanes, false, "layer", i, error);
     if (status != Status::kOk) return status;
     if (layer.source == LayerSource::kGenerator) {
       if (static_cast<uint32_t>(layer.generator) >= kGenerators || layer.period < 1 ||
@@ -173,12 +186,13 @@ Status check_reactions(const MixDesc& desc, Error& error) {
   return Status::kOk;
 }
 
-Status check_guard(const Guard& guard, size_t i, uint32_t lanes, Error& error) {
+Status check_guard(const MixDesc& desc, size_t i, Error& error) {
+  const Guard& guard = desc.guards[i];
   if (guard.count > kMaxGuardLanes || guard.pair_count > kMaxGuardPairs) {
     return wrong(error, "guard %zu: %u lanes and %u pairs; it has at most %u and %u", i,
                  guard.count, guard.pair_count, kMaxGuardLanes, kMaxGuardPairs);
   }
-  const Status status = check_lane_list({guard.lanes, guard.count}, lanes, "guard", i, error);
+  const Status status = check_lane_list(desc, {guard.lanes, guard.count}, true, "guard", i, error);
   if (status != Status::kOk) return status;
   bool finite =
       first_beyond({guard.gains, guard.count}, -kLargestFloat, kLargestFloat) == guard.count;
@@ -215,7 +229,7 @@ Status check_lanes(const MixDesc& desc, uint32_t lanes, Error& error) {
       return wrong(error, "pose %zu: %zu lanes, %zu values; both must be as many, at most %u", i,
                    pose.lanes.count, pose.values.count, lanes);
     }
-    status = check_lane_list(pose.lanes, lanes, "pose", i, error);
+    status = check_lane_list(desc, pose.lanes, true, "pose", i, error);
     if (status != Status::kOk) return status;
     const size_t beyond = first_beyond(pose.values, -kLargestFloat, kLargestFloat);
     if (beyond != pose.values.count) {
@@ -224,7 +238,7 @@ Status check_lanes(const MixDesc& desc, uint32_t lanes, Error& error) {
     }
   }
   for (size_t i = 0; i < desc.guards.count && status == Status::kOk; ++i) {
-    status = check_guard(desc.guards[i], i, lanes, error);
+    status = check_guard(desc, i, error);
   }
   if (status != Status::kOk) return status;
   for (size_t i = 0; i < desc.antagonists.count; ++i) {
@@ -306,6 +320,9 @@ void place_mix(Placer& placer, const MixDesc& desc, Mix& mix) {
   mix.mirror = placer.array<uint16_t>(desc.mirror.count);
   mix.lower = placer.array<float>(mix.lane_count, kBlockAlignment);
   mix.upper = placer.array<float>(mix.lane_count, kBlockAlignment);
+  if (!desc.names) return;
+  mix.names.first = placer.array<uint32_t>(desc.names->first.count);
+  mix.names.chars = placer.array<char>(desc.names->chars.count);
 }
 
 template <class T>
@@ -340,6 +357,7 @@ void fill_layers(const MixDesc& desc, Mix& mix) {
     layer.stream_frames = from.stream_frames;
     copy_items(from.lanes, layer.lanes);
     copy_items(from.amounts, layer.amounts);
+    layer.has_mask = !from.mask.empty();
     const auto mask_of = [&](uint32_t lane) {
       return from.mask.empty() ? 1.0f : lane < from.mask.count ? from.mask[lane] : 0.0f;
     };
@@ -406,6 +424,11 @@ void fill_mix(const MixDesc& desc, Mix& mix) {
   fill_guards(desc, mix);
   copy_items(desc.antagonists, mix.antagonists);
   copy_items(desc.mirror, mix.mirror);
+  if (desc.names) {
+    copy_items(Span<const uint32_t>(desc.names->first), mix.names.first);
+    copy_items(Span<const char>(desc.names->chars), mix.names.chars);
+  }
+  mix.has_limits = !desc.lower.empty();
   for (uint32_t l = 0; l < mix.used_lanes(); ++l) {
     mix.lower[l] = desc.lower.empty() ? -kLargestFloat : desc.lower[l];
     mix.upper[l] = desc.upper.empty() ? kLargestFloat : desc.upper[l];

@@ -23,6 +23,7 @@
 #include "runtime/base/status.h"
 #include "runtime/mix/gaze.h"
 #include "runtime/mix/guard.h"
+#include "runtime/rig/rig.h"
 #include "simd/kernels.h"
 
 namespace mien {
@@ -91,6 +92,7 @@ struct MixLayer {
   Span<uint16_t> lanes;
   Span<float> amounts;
   Span<float> mask;  // [lane], 0 in the padding
+  bool has_mask;     // one was given
 };
 
 /// The lanes of a pose that are not 0.
@@ -157,10 +159,19 @@ struct AntagonistPair {
 // The mix
 // ------------------------------------------------------------------------------------------------
 
+constexpr uint32_t kMaxBoundGuiControls = 4096;  // with the one that is always 0
+
+/// For MixDesc::max_bound_gui.
+inline uint32_t bound_gui_limit(uint32_t gui_count) {
+  return gui_count < kMaxBoundGuiControls ? gui_count + 1 : kMaxBoundGuiControls;
+}
+
 /// Everything is copied.
 struct MixDesc {
   uint32_t raw_count = 0;       // raw controls of the rig
   uint32_t variable_count = 0;  // pose variables
+  /// Of the raw controls, for messages and mix_file.h. Null: they have none.
+  const NameList* names = nullptr;
   Span<const LayerDesc> layers;
   Span<const PoseDesc> poses;
   Span<const ReactionDesc> reactions;
@@ -215,7 +226,9 @@ struct Mix {
   GazeTable gaze;
   Span<uint16_t> gaze_lanes;  // of the left and of the right eye, then those of the head
   Span<uint16_t> mirror;      // [lane], or empty
+  bool has_limits = false;    // some were given
   Span<float> lower, upper;   // [lane]
+  NameList names;             // of the raw controls, in no order, or none
 
   uint32_t used_lanes() const { return raw_count + variable_count; }
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A snapshot:
 //
-//     | "MIENMIX\n" | version u32 | size u32 | fingerprint of the mix u64 | state |
+//     | "MIENSNP\n" | version u32 | size u32 | fingerprint of the mix u64 | state |
 //
 // Its bytes may come from anywhere. All that is used as an index or takes part in arithmetic of
 // times is checked before anything changes; numbers that are only computed with may have any finite
@@ -15,7 +15,7 @@
 namespace mien {
 namespace {
 
-constexpr char kMagic[8] = {'M', 'I', 'E', 'N', 'M', 'I', 'X', '\n'};
+constexpr char kMagic[8] = {'M', 'I', 'E', 'N', 'S', 'N', 'P', '\n'};
 constexpr uint32_t kVersion = 1;
 constexpr int64_t kMaxNow = INT64_MAX / 4;
 

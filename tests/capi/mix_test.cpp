@@ -2,6 +2,7 @@
 // Mixes and mixers through mien.h: rows reach instances, snapshots continue, wrong arguments, every
 // allocation failing once. What mixing does is tested in tests/mix.
 #include <cmath>
+#include <cstdio>
 #include <functional>
 
 #include "tests/support/counting_allocator.h"
@@ -308,6 +309,10 @@ TEST(Mix, RefusesWhatIsWrong) {
   refused(invalid, [](Scene& s, MienMixDesc&) { s.reaction.stroke_count = 9; });
   refused(invalid, [](Scene& s, MienMixDesc&) { s.reaction.retrigger = 256; });
   refused(invalid, [](Scene& s, MienMixDesc&) { s.stroke.mode = 256; });
+  refused(invalid, [](Scene& s, MienMixDesc&) {
+    static const uint16_t twice[] = {2, 2};
+    s.poses[0].lanes = twice;
+  });
   refused(invalid, [](Scene& s, MienMixDesc&) { s.antagonists.second = 7; });
   refused(invalid, [](Scene&, MienMixDesc& d) { d.variable_count = 5000; });
   refused(invalid, [](Scene&, MienMixDesc& d) { d.layer_count = SIZE_MAX; });
@@ -397,6 +402,136 @@ TEST(Mix, EveryFailedAllocationIsReportedAndNothingLeaks) {
     }
     EXPECT_EQ(made, MIEN_ERROR_MEMORY);
   }
+}
+
+// Files -------------------------------------------------------------------------------------------
+
+Bytes bytes_of(const MixHandle& mix) {
+  size_t size = 0;
+  EXPECT_EQ(mien_mix_write_memory(mix.get(), nullptr, 0, &size, nullptr), MIEN_OK);
+  Bytes bytes(size);
+  EXPECT_EQ(mien_mix_write_memory(mix.get(), bytes.data(), size, &size, nullptr), MIEN_OK);
+  return bytes;
+}
+
+MixHandle opened(const Bytes& bytes, const MienRig* rig, MienStatus expected = MIEN_OK) {
+  MienMix* mix = nullptr;
+  MienError error = sized<MienError>();
+  EXPECT_EQ(mien_mix_open_memory(bytes.data(), bytes.size(), rig, nullptr, &mix, &error), expected)
+      << error.message;
+  EXPECT_EQ(mix == nullptr, expected != MIEN_OK);
+  return MixHandle(mix);
+}
+
+TEST(MixFile, IsOpenedForARigAndMixesTheSame) {
+  const Scene scene;
+  const MixHandle mix = scene.mix();
+  const Bytes bytes = bytes_of(mix);
+  const MixHandle again = opened(bytes, scene.rig.get());
+  EXPECT_EQ(bytes_of(again), bytes);
+  EXPECT_EQ(bytes_of(opened(bytes, nullptr)), bytes);
+  const MixerHandle one = Scene::mixer(mix), other = Scene::mixer(again);
+  for (const MixerHandle* mixer : {&one, &other}) {
+    ASSERT_EQ(scene.play(*mixer), MIEN_OK);
+    ASSERT_EQ(mien_mixer_trigger(mixer->get(), 0, 1.0f, 20 * kStep), MIEN_OK);
+  }
+  for (int i = 0; i < 60; ++i) {
+    ASSERT_EQ(mien_mixer_step(one.get(), kStep, nullptr), MIEN_OK);
+    ASSERT_EQ(mien_mixer_step(other.get(), kStep, nullptr), MIEN_OK);
+    ASSERT_EQ(row_of(one), row_of(other));
+  }
+  PlainRig plain;
+  plain.raw_count = 3;
+  opened(bytes, make_rig(plain).get(), MIEN_ERROR_NAME);
+
+  const std::string path = testing::TempDir() + "/mien_mix_test.mix";
+  ASSERT_EQ(mien_mix_write_file(mix.get(), path.c_str(), nullptr), MIEN_OK);
+  MienMix* from_file = nullptr;
+  ASSERT_EQ(mien_mix_open_file(path.c_str(), scene.rig.get(), nullptr, &from_file, nullptr),
+            MIEN_OK);
+  EXPECT_EQ(bytes_of(MixHandle(from_file)), bytes);
+  std::remove(path.c_str());
+  EXPECT_EQ(mien_mix_open_file(path.c_str(), nullptr, nullptr, &from_file, nullptr),
+            MIEN_ERROR_FILE_OPEN);
+  EXPECT_EQ(from_file, nullptr);
+}
+
+TEST(MixFile, TextIsThatOfTheMix) {
+  const Scene scene;
+  const MixHandle mix = scene.mix();
+  size_t size = 0;
+  ASSERT_EQ(mien_mix_write_text(mix.get(), nullptr, 0, &size, nullptr), MIEN_OK);
+  std::string text(size, '?');
+  ASSERT_EQ(mien_mix_write_text(mix.get(), &text[0], size, &size, nullptr), MIEN_OK);
+  EXPECT_NE(text.find("\nlayers.1.mode screen\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\nposes.0.value variable:0 1\n"), std::string::npos) << text;
+}
+
+TEST(MixFile, RefusesWhatIsWrong) {
+  const Scene scene;
+  const MixHandle mix = scene.mix();
+  const Bytes bytes = bytes_of(mix);
+  MienMix* out = mix.get();
+  size_t size = 9;
+  Bytes little(bytes.size() - 1, 7);
+  EXPECT_EQ(mien_mix_write_memory(mix.get(), little.data(), little.size(), &size, nullptr),
+            MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(size, bytes.size());
+  EXPECT_EQ(little, Bytes(bytes.size() - 1, 7));
+  EXPECT_EQ(mien_mix_write_memory(mix.get(), nullptr, 1, &size, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(size, 0u);
+  EXPECT_EQ(mien_mix_write_text(nullptr, nullptr, 0, &size, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_mix_write_file(mix.get(), nullptr, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_mix_write_file(mix.get(), "/no/such/folder/x.mix", nullptr),
+            MIEN_ERROR_FILE_WRITE);
+  EXPECT_EQ(mien_mix_open_memory(nullptr, 1, nullptr, nullptr, &out, nullptr),
+            MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(out, nullptr);
+  EXPECT_EQ(mien_mix_open_memory(nullptr, 0, nullptr, nullptr, &out, nullptr),
+            MIEN_ERROR_MIX_SIGNATURE);
+  EXPECT_EQ(
+      mien_mix_open_memory(bytes.data(), bytes.size(), reinterpret_cast<const MienRig*>(mix.get()),
+                           nullptr, &out, nullptr),
+      MIEN_ERROR_HANDLE);
+  MienMixOpenDesc desc = sized<MienMixOpenDesc>();
+  desc.struct_size = 1;
+  EXPECT_EQ(mien_mix_open_memory(bytes.data(), bytes.size(), nullptr, &desc, &out, nullptr),
+            MIEN_ERROR_STRUCT_SIZE);
+  Bytes changed = bytes;
+  changed.back() ^= 1;
+  opened(changed, nullptr, MIEN_ERROR_MIX_CHECKSUM);
+}
+
+TEST(MixFile, EveryFailedAllocationIsReportedAndNothingLeaks) {
+  const Scene scene;
+  const Bytes bytes = bytes_of(scene.mix());
+  CountingAllocator counting;
+  const MienAllocator allocator = counting.get();
+  const MienMixOpenDesc desc = desc_with<MienMixOpenDesc>(&allocator);
+  const std::string path = testing::TempDir() + "/mien_mix_memory_test.mix";
+  for (size_t fail_at = 1;; ++fail_at) {
+    counting.restart();
+    counting.fail_at = fail_at;
+    MienMix* mix = nullptr;
+    size_t size = 0;
+    MienStatus status =
+        mien_mix_open_memory(bytes.data(), bytes.size(), scene.rig.get(), &desc, &mix, nullptr);
+    if (status == MIEN_OK) status = mien_mix_write_text(mix, nullptr, 0, &size, nullptr);
+    if (status == MIEN_OK) status = mien_mix_write_file(mix, path.c_str(), nullptr);
+    mien_mix_destroy(mix);
+    if (status == MIEN_OK) {
+      status = mien_mix_open_file(path.c_str(), scene.rig.get(), &desc, &mix, nullptr);
+      mien_mix_destroy(mix);
+    }
+    ASSERT_TRUE(counting.clean()) << counting.first_wrong;
+    if (counting.failed == 0) {
+      EXPECT_EQ(status, MIEN_OK);
+      EXPECT_GT(fail_at, 6u);
+      break;
+    }
+    EXPECT_EQ(status, MIEN_ERROR_MEMORY) << fail_at;
+  }
+  std::remove(path.c_str());
 }
 
 }  // namespace

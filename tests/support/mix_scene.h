@@ -191,9 +191,18 @@ struct MixScene {
       antagonists.push_back({lane(i), lane(i + 1), 0.25f});
     }
 
+    std::string chars;
+    std::vector<uint32_t> ends = {0};
+    for (uint32_t l = 0; l < raws; ++l) {
+      chars += "control" + std::to_string(l);
+      ends.push_back(static_cast<uint32_t>(chars.size()));
+    }
+    const NameList names = {{ends.data(), ends.size()}, {&chars[0], chars.size()}, {}};
+
     MixDesc desc;
     desc.raw_count = raws;
     desc.variable_count = 1;
+    desc.names = &names;
     desc.layers = {layers, kLayers};
     desc.poses = {poses.data(), poses.size()};
     desc.reactions = {&glare, 1};

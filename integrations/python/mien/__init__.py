@@ -29,7 +29,7 @@ from .clip import Clip, ClipBinding, ClipEvent, ClipPlayer, TICKS_PER_SECOND
 from .deformer import Deformer, DeformerInstance, Mesh, deform_batch, write_vertices_batch
 from .dna import Dna, coordinate_system, coordinate_system_names, validate
 from .errors import (ArgumentError, AuthorError, BusyError, ClipError, ClosedError, DnaError, Error,
-                     FileError, OutOfMemoryError, OutOfRangeError, UnknownNameError)
+                     FileError, MixError, OutOfMemoryError, OutOfRangeError, UnknownNameError)
 from .instance import Instance
 from .mix import Gaze, Mix
 from .mix_parts import (NO_CONTROL, Antagonists, CustomGuard, Landmark, MixLayer, Reaction, Stroke,
@@ -55,7 +55,7 @@ __all__ = [
     "Gaze", "Generate", "Generator", "glare", "Guard", "GuardInfo", "GuardState", "Instance",
     "InstanceStatistics", "Interpolation", "Isa", "isa_available", "isa_name", "Kind",
     "Landmark", "Layer", "LayerGroup", "LayerSource", "library_path", "Looping", "Mesh", "MeshAxis", "Mix",
-    "Mixer", "MixerInfo", "MixEvent", "MixInfo", "MixLayer", "MlMasks", "NO_CONTROL",
+    "Mixer", "MixerInfo", "MixError", "MixEvent", "MixInfo", "MixLayer", "MlMasks", "NO_CONTROL",
     "NO_JOINT", "Normals", "OutOfMemoryError", "OutOfRangeError", "Preset", "Reaction",
     "Retrigger", "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationOutput", "RotationRule",
     "RotationSequence", "RotationUnit", "Severity", "SolverPose", "SolverStack",

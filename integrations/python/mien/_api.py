@@ -114,6 +114,16 @@ class Status(IntEnum):
     CLIP_VALUE = 65
     #: more than a clip, player or binding can hold
     CLIP_LIMIT = 66
+    #: not a mix
+    MIX_SIGNATURE = 70
+    #: written by another version
+    MIX_VERSION = 71
+    #: the file is shorter than its header states
+    MIX_TRUNCATED = 72
+    #: sizes or counts contradict each other, or a value is out of range
+    MIX_STRUCTURE = 73
+    #: the bytes are not those that were written
+    MIX_CHECKSUM = 74
     #: arrays of a mesh, shape or bone contradict each other
     AUTHOR_MESH = 80
     #: a mesh that cannot be rigged; the message names the rule
@@ -1960,6 +1970,20 @@ class MienMixDesc(Structure):
         self.max_changing_channels = max_changing_channels
         self.max_events = max_events
         self.reverse = reverse
+        self.allocator = allocator
+
+
+class MienMixOpenDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    allocator: Any
+
+    def __init__(self, *,
+                 allocator: Any = None) -> None:
+        super().__init__(16)
         self.allocator = allocator
 
 
@@ -3874,6 +3898,70 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.MEMORY,
          "there is no memory"),
     ),
+    "mien_mix_open_file": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.NAME,
+         "the rig lacks controls; the message names them"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.FILE_OPEN,
+         "the file cannot be read"),
+        (Status.FILE_READ,
+         "the file cannot be read"),
+        (Status.MIX_SIGNATURE,
+         "it is not a valid mix"),
+        (Status.MIX_VERSION,
+         "it is not a valid mix"),
+        (Status.MIX_TRUNCATED,
+         "it is not a valid mix"),
+        (Status.MIX_STRUCTURE,
+         "it is not a valid mix"),
+        (Status.MIX_CHECKSUM,
+         "it is not a valid mix"),
+    ),
+    "mien_mix_open_memory": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.NAME,
+         "the rig lacks controls; the message names them"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.MIX_SIGNATURE,
+         "it is not a valid mix"),
+        (Status.MIX_VERSION,
+         "it is not a valid mix"),
+        (Status.MIX_TRUNCATED,
+         "it is not a valid mix"),
+        (Status.MIX_STRUCTURE,
+         "it is not a valid mix"),
+        (Status.MIX_CHECKSUM,
+         "it is not a valid mix"),
+    ),
+    "mien_mix_write_file": (
+        (Status.NAME,
+         "two of these controls have the same name"),
+        (Status.MEMORY,
+         "there is none"),
+        (Status.FILE_WRITE,
+         "the file cannot be written"),
+    ),
+    "mien_mix_write_memory": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.NAME,
+         "mien_mix_write_file() would fail with them"),
+        (Status.MEMORY,
+         "there is no memory"),
+    ),
+    "mien_mix_write_text": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.NAME,
+         "mien_mix_write_file() would fail with them"),
+        (Status.MEMORY,
+         "there is no memory"),
+    ),
     "mien_mix_info": (),
     "mien_mix_guard": (
         (Status.INDEX,
@@ -4255,6 +4343,13 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_clip_binding_apply", c_int32, (MienClipBinding, c_void_p, c_size_t, c_void_p, c_size_t)),
     ("mien_mix_create", c_int32, (MienRig, POINTER(MienMixDesc), POINTER(MienMix),
      POINTER(MienError))),
+    ("mien_mix_open_file", c_int32, (c_char_p, MienRig, POINTER(MienMixOpenDesc), POINTER(MienMix),
+     POINTER(MienError))),
+    ("mien_mix_open_memory", c_int32, (c_void_p, c_size_t, MienRig, POINTER(MienMixOpenDesc),
+     POINTER(MienMix), POINTER(MienError))),
+    ("mien_mix_write_file", c_int32, (MienMix, c_char_p, POINTER(MienError))),
+    ("mien_mix_write_memory", c_int32, (MienMix, c_void_p, c_size_t, c_void_p, POINTER(MienError))),
+    ("mien_mix_write_text", c_int32, (MienMix, c_void_p, c_size_t, c_void_p, POINTER(MienError))),
     ("mien_mix_destroy", None, (MienMix,)),
     ("mien_mix_info", c_int32, (MienMix, POINTER(MienMixInfo))),
     ("mien_mix_guard", c_int32, (MienMix, c_uint32, POINTER(MienMixGuardInfo))),
@@ -4439,6 +4534,11 @@ class Library:
     mien_clip_binding_info: Any
     mien_clip_binding_apply: Any
     mien_mix_create: Any
+    mien_mix_open_file: Any
+    mien_mix_open_memory: Any
+    mien_mix_write_file: Any
+    mien_mix_write_memory: Any
+    mien_mix_write_text: Any
     mien_mix_destroy: Any
     mien_mix_info: Any
     mien_mix_guard: Any

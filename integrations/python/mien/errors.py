@@ -114,6 +114,10 @@ class ClipError(Error, ValueError):
     """A clip is damaged or of another kind, or cannot be built of these curves."""
 
 
+class MixError(Error, ValueError):
+    """A mix is damaged, truncated, of another version or of another kind."""
+
+
 _KINDS = {
     Status.INDEX: OutOfRangeError, Status.LOD: OutOfRangeError, Status.NAME: UnknownNameError,
     Status.MEMORY: OutOfMemoryError,
@@ -132,6 +136,8 @@ def kind_of(status: int) -> Type[Error]:
         return DnaError
     if 60 <= status <= 69:
         return ClipError
+    if 70 <= status <= 79:
+        return MixError
     if 80 <= status <= 89:
         return AuthorError
     return Error

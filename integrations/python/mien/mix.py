@@ -9,7 +9,8 @@ from typing import Any, Iterable, List, Optional, Sequence, Tuple
 from . import _api
 from ._api import MienError
 from ._library import lib
-from ._memory import Closable, GazeHandle, MixHandle, new_array, terminated, uint32
+from ._memory import (Closable, GazeHandle, MixHandle, as_bytes, as_path, new_array, terminated,
+                      uint32)
 from .deformer import Deformer
 from .errors import fail, raises
 from .instance import Instance
@@ -89,6 +90,66 @@ class Mix(MixView):
     def mixer(self, seed: int = 0, stages: bool = False) -> Mixer:
         """A new character. seed: of generators; stages: for `Mixer.stage`."""
         return Mixer(self, seed, stages)
+
+    # ---- files ---------------------------------------------------------------------------------
+
+    @classmethod
+    @raises("mien_mix_open_file")
+    def open(cls, path: Any, rig: Optional[Rig], variables: Sequence[str] = ()) -> Mix:
+        """Opens a file for a rig that has the controls of the mix. None: without a rig, for
+        `to_text`. variables: names for the pose variables, which the file does not have."""
+        handle, error = MixHandle(), MienError()
+        status = lib.mien_mix_open_file(as_path(path), rig and rig._open(), None, _byref(handle),
+                                        _byref(error))
+        if status:
+            fail(status, f"cannot open {path}", error, path)
+        return cls._of(handle, variables)
+
+    @classmethod
+    @raises("mien_mix_open_memory")
+    def from_bytes(cls, data: Any, rig: Optional[Rig], variables: Sequence[str] = ()) -> Mix:
+        """The same from memory, which is not needed afterwards."""
+        data = as_bytes(data)
+        handle, error = MixHandle(), MienError()
+        status = lib.mien_mix_open_memory(data, len(data), rig and rig._open(), None,
+                                          _byref(handle), _byref(error))
+        if status:
+            fail(status, "cannot open the bytes", error)
+        return cls._of(handle, variables)
+
+    @classmethod
+    def _of(cls, handle: MixHandle, variables: Sequence[str]) -> Mix:
+        mix = cls.__new__(cls)
+        mix._take(handle, variables)
+        return mix
+
+    @raises("mien_mix_write_file")
+    def save(self, path: Any) -> None:
+        """Writes a file. A failure leaves `path` as it was."""
+        error = MienError()
+        status = lib.mien_mix_write_file(self._open(), as_path(path), _byref(error))
+        if status:
+            fail(status, f"cannot write {path}", error, path)
+
+    @raises("mien_mix_write_memory")
+    def to_bytes(self) -> bytes:
+        """The bytes of the file."""
+        return self._written(lib.mien_mix_write_memory)
+
+    @raises("mien_mix_write_text")
+    def to_text(self) -> str:
+        """The same as text: a line for each number, for people and version control."""
+        return self._written(lib.mien_mix_write_text).decode("utf-8", "surrogateescape")
+
+    def _written(self, write: Any) -> bytes:
+        size, error = ctypes.c_size_t(), MienError()
+        status = write(self._open(), None, 0, _byref(size), _byref(error))
+        if not status:
+            buffer = ctypes.create_string_buffer(size.value)
+            status = write(self._open(), buffer, size.value, _byref(size), _byref(error))
+        if status:
+            fail(status, "cannot write the mix", error)
+        return buffer.raw
 
     # ---- tables measured on a rig --------------------------------------------------------------
 

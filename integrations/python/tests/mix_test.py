@@ -2,6 +2,8 @@
 """Mixes, mixers, gazes and solvers: rows reach instances, what they refer to stays alive, and wrong
 calls raise."""
 import gc
+import pathlib
+import tempfile
 import threading
 import unittest
 
@@ -38,6 +40,29 @@ def scene(**options):
 
 
 class MixTest(unittest.TestCase):
+    def test_files_give_back_the_mix(self):
+        mix, rig = scene(), rig_of(HEAD)
+        data = mix.to_bytes()
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "scene.mix"
+            mix.save(path)
+            same = mien.Mix.open(path, rig, variables=["wonder"])
+            with self.assertRaises(mien.FileError):
+                mix.save(pathlib.Path(folder) / "no" / "scene.mix")
+        self.assertEqual(same.to_bytes(), data)
+        self.assertEqual(mien.Mix.from_bytes(data, None).to_bytes(), data)
+        self.assertIn("poses.0.value mouthSmileLeft 0.5\n", same.to_text().replace(
+            "CTRL_expressions.", ""))
+        mixer = same.mixer()
+        mixer.set_pose_weight(1, 0, 1.0)
+        mixer.set_variable("wonder", 0.0)
+        mixer.step(FRAME)
+        self.assertEqual(mixer.row[-1], 1.0)
+        with self.assertRaises(mien.MixError):
+            mien.Mix.from_bytes(data[:-1], rig)
+        with self.assertRaises(mien.UnknownNameError):
+            mien.Mix.from_bytes(data, rig_of(mien.Preset.SMALL))
+
     def test_layers_reach_the_instance(self):
         face, clip = rig_of(HEAD).instance(), speech()
         mix = scene()

@@ -78,6 +78,16 @@ export declare const Status: {
   readonly CLIP_VALUE: 65;
   /** more than a clip, player or binding can hold */
   readonly CLIP_LIMIT: 66;
+  /** not a mix */
+  readonly MIX_SIGNATURE: 70;
+  /** written by another version */
+  readonly MIX_VERSION: 71;
+  /** the file is shorter than its header states */
+  readonly MIX_TRUNCATED: 72;
+  /** sizes or counts contradict each other, or a value is out of range */
+  readonly MIX_STRUCTURE: 73;
+  /** the bytes are not those that were written */
+  readonly MIX_CHECKSUM: 74;
   /** arrays of a mesh, shape or bone contradict each other */
   readonly AUTHOR_MESH: 80;
   /** a mesh that cannot be rigged; the message names the rule */
@@ -1355,6 +1365,10 @@ export interface MixDesc {
   reverse?: boolean;
 }
 
+/** How to open a mix. */
+export interface MixOpenDesc {
+}
+
 /** Properties of a mix. */
 export interface MixInfo {
   readonly rawControlCount: number;
@@ -2566,6 +2580,26 @@ export interface Exports {
    * out of range; the message names it.
    */
   mien_mix_create(rig: number, desc: number, out_mix: number, error: number): number;
+  /**
+   * Opens a mix in memory. `bytes` may be released afterwards. `rig` may be NULL. `rig` may be destroyed
+   * afterwards.
+   * Fails like mien_mix_open_file(), but not with MIEN_ERROR_FILE_OPEN or MIEN_ERROR_FILE_READ.
+   */
+  mien_mix_open_memory(bytes: number, size: number, rig: number, desc: number, out_mix: number, error: number): number;
+  /**
+   * Writes a mix to memory and returns its size in `out_size`. `buffer` may be NULL with capacity 0 to get
+   * the size only. Writes nothing if `capacity` is too small; `out_size` is set nevertheless.
+   * Fails with MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small, MIEN_ERROR_MEMORY and MIEN_ERROR_NAME
+   * if mien_mix_write_file() would fail with them.
+   */
+  mien_mix_write_memory(mix: number, buffer: number, capacity: number, out_size: number, error: number): number;
+  /**
+   * The same as text, for people and version control: a line for each number, with its place in the mix and
+   * the names of controls. Floats have nine digits, which give back their bits. It cannot be opened. Not
+   * terminated. `buffer` may be NULL with capacity 0 to get the size only.
+   * Fails like mien_mix_write_memory().
+   */
+  mien_mix_write_text(mix: number, buffer: number, capacity: number, out_size: number, error: number): number;
   /** Destroys a mix. Its mixers go on: the last of them releases it. */
   mien_mix_destroy(mix: number): void;
   /** Returns the properties of a mix. */

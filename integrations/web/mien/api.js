@@ -44,6 +44,11 @@ export const Status = Object.freeze({
   CLIP_CHECKSUM: 64,
   CLIP_VALUE: 65,
   CLIP_LIMIT: 66,
+  MIX_SIGNATURE: 70,
+  MIX_VERSION: 71,
+  MIX_TRUNCATED: 72,
+  MIX_STRUCTURE: 73,
+  MIX_CHECKSUM: 74,
   AUTHOR_MESH: 80,
   AUTHOR_REFUSED: 81,
   AUTHOR_CANCELED: 82,
@@ -694,6 +699,8 @@ export const layouts = {
     maxChangingChannels: [80, "u32"],
     maxEvents: [84, "u32"],
     reverse: [88, "bool"],
+  } },
+  MixOpenDesc: { size: 8, sized: true, fields: {
   } },
   MixInfo: { size: 48, sized: true, fields: {
     rawControlCount: [4, "u32"],

@@ -96,6 +96,16 @@ pub const MIEN_ERROR_CLIP_CHECKSUM: MienStatus = 64;
 pub const MIEN_ERROR_CLIP_VALUE: MienStatus = 65;
 /// More than a clip, player or binding can hold.
 pub const MIEN_ERROR_CLIP_LIMIT: MienStatus = 66;
+/// Not a mix.
+pub const MIEN_ERROR_MIX_SIGNATURE: MienStatus = 70;
+/// Written by another version.
+pub const MIEN_ERROR_MIX_VERSION: MienStatus = 71;
+/// The file is shorter than its header states.
+pub const MIEN_ERROR_MIX_TRUNCATED: MienStatus = 72;
+/// Sizes or counts contradict each other, or a value is out of range.
+pub const MIEN_ERROR_MIX_STRUCTURE: MienStatus = 73;
+/// The bytes are not those that were written.
+pub const MIEN_ERROR_MIX_CHECKSUM: MienStatus = 74;
 /// Arrays of a mesh, shape or bone contradict each other.
 pub const MIEN_ERROR_AUTHOR_MESH: MienStatus = 80;
 /// A mesh that cannot be rigged; the message names the rule.
@@ -2053,6 +2063,24 @@ impl Default for MienMixDesc {
     }
 }
 
+/// How to open a mix.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienMixOpenDesc {
+    pub struct_size: usize,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienMixOpenDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
 /// Properties of a mix.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -3722,6 +3750,52 @@ extern "C" {
     /// if a landmark names a mesh, position or joint that does not exist,
     /// `MIEN_ERROR_INVALID_ARGUMENT` if a part of `desc` is out of range; the message names it.
     pub fn mien_mix_create(rig: *const MienRig, desc: *const MienMixDesc, out_mix: *mut *mut MienMix, error: *mut MienError) -> MienStatus;
+
+    /// Opens a mix for a rig that has the controls which the mix uses; names match as in
+    /// `mien_clip_binding_create()`. Masks of the file leave other controls alone, limits do not
+    /// hold for them. Guards and gaze are those that were measured when the mix was created. `rig`
+    /// may be NULL: then the raw controls are those of the file, for looking into it or writing it
+    /// again. `rig` may be destroyed afterwards. Mixers of a hostile file may be large:
+    /// MienMixInfo.`mixer_bytes` tells. Destroy with `mien_mix_destroy()`.
+    ///
+    /// Fails with `MIEN_ERROR_FILE_OPEN` or `MIEN_ERROR_FILE_READ` if the file cannot be read,
+    /// `MIEN_ERROR_MIX_SIGNATURE`, `MIEN_ERROR_MIX_VERSION`, `MIEN_ERROR_MIX_TRUNCATED`,
+    /// `MIEN_ERROR_MIX_CHECKSUM` or `MIEN_ERROR_MIX_STRUCTURE` if it is not a valid mix,
+    /// `MIEN_ERROR_NAME` if the rig lacks controls; the message names them.
+    pub fn mien_mix_open_file(path: *const c_char, rig: *const MienRig, desc: *const MienMixOpenDesc, out_mix: *mut *mut MienMix, error: *mut MienError) -> MienStatus;
+
+    /// Opens a mix in memory. `bytes` may be released afterwards. `rig` may be NULL. `rig` may be
+    /// destroyed afterwards.
+    ///
+    /// Fails like `mien_mix_open_file()`, but not with `MIEN_ERROR_FILE_OPEN` or
+    /// `MIEN_ERROR_FILE_READ`.
+    pub fn mien_mix_open_memory(bytes: *const c_void, size: usize, rig: *const MienRig, desc: *const MienMixOpenDesc, out_mix: *mut *mut MienMix, error: *mut MienError) -> MienStatus;
+
+    /// Writes a mix to a file: all that was given to `mien_mix_create()` and what was measured
+    /// then, with the names of the controls that it uses. Equal mixes give the same bytes on every
+    /// machine, and so does a mix that was opened. The file is written under a temporary name and
+    /// renamed, so that a failure leaves `path` unchanged. Takes memory from the allocator of the
+    /// mix during the call.
+    ///
+    /// Fails with `MIEN_ERROR_MEMORY` if there is none, `MIEN_ERROR_NAME` if two of these controls
+    /// have the same name, `MIEN_ERROR_FILE_WRITE` if the file cannot be written.
+    pub fn mien_mix_write_file(mix: *const MienMix, path: *const c_char, error: *mut MienError) -> MienStatus;
+
+    /// Writes a mix to memory and returns its size in `out_size`. `buffer` may be NULL with
+    /// capacity 0 to get the size only. Writes nothing if `capacity` is too small; `out_size` is
+    /// set nevertheless.
+    ///
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `capacity` is too small, `MIEN_ERROR_MEMORY`
+    /// and `MIEN_ERROR_NAME` if `mien_mix_write_file()` would fail with them.
+    pub fn mien_mix_write_memory(mix: *const MienMix, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
+
+    /// The same as text, for people and version control: a line for each number, with its place in
+    /// the mix and the names of controls. Floats have nine digits, which give back their bits. It
+    /// cannot be opened. Not terminated. `buffer` may be NULL with capacity 0 to get the size
+    /// only.
+    ///
+    /// Fails like `mien_mix_write_memory()`.
+    pub fn mien_mix_write_text(mix: *const MienMix, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
 
     /// Destroys a mix. Its mixers go on: the last of them releases it.
     pub fn mien_mix_destroy(mix: *mut MienMix);

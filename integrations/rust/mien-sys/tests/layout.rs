@@ -733,6 +733,15 @@ fn mien_mix_desc() {
 }
 
 #[test]
+fn mien_mix_open_desc() {
+    use mien_sys::MienMixOpenDesc as S;
+    assert_eq!(size_of::<S>(), 16);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, allocator), 8);
+}
+
+#[test]
 fn mien_mix_info() {
     use mien_sys::MienMixInfo as S;
     assert_eq!(size_of::<S>(), 48);

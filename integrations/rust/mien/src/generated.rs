@@ -84,6 +84,16 @@ impl Status {
     pub const CLIP_VALUE: Self = Self(65);
     /// More than a clip, player or binding can hold.
     pub const CLIP_LIMIT: Self = Self(66);
+    /// Not a mix.
+    pub const MIX_SIGNATURE: Self = Self(70);
+    /// Written by another version.
+    pub const MIX_VERSION: Self = Self(71);
+    /// The file is shorter than its header states.
+    pub const MIX_TRUNCATED: Self = Self(72);
+    /// Sizes or counts contradict each other, or a value is out of range.
+    pub const MIX_STRUCTURE: Self = Self(73);
+    /// The bytes are not those that were written.
+    pub const MIX_CHECKSUM: Self = Self(74);
     /// Arrays of a mesh, shape or bone contradict each other.
     pub const AUTHOR_MESH: Self = Self(80);
     /// A mesh that cannot be rigged; the message names the rule.
@@ -92,7 +102,7 @@ impl Status {
     pub const AUTHOR_CANCELED: Self = Self(82);
 }
 
-numbers!(Status, i32, [(0, "OK"), (1, "NULL_ARGUMENT"), (2, "INVALID_ARGUMENT"), (3, "STRUCT_SIZE"), (4, "HANDLE"), (5, "MISMATCH"), (6, "INDEX"), (7, "LOD"), (8, "NAME"), (9, "ISA"), (10, "MEMORY"), (11, "UNSUPPORTED"), (20, "FILE_OPEN"), (21, "FILE_READ"), (22, "FILE_WRITE"), (30, "DNA_SIGNATURE"), (31, "DNA_VERSION"), (32, "DNA_TRUNCATED"), (33, "DNA_STRUCTURE"), (34, "DNA_REFERENCE"), (35, "DNA_LIMIT"), (36, "DNA_LAYER"), (37, "DNA_VALUE"), (50, "BAKED_SIGNATURE"), (51, "BAKED_VERSION"), (52, "BAKED_TRUNCATED"), (53, "BAKED_STRUCTURE"), (54, "BAKED_CHECKSUM"), (55, "BAKED_PART"), (60, "CLIP_SIGNATURE"), (61, "CLIP_VERSION"), (62, "CLIP_TRUNCATED"), (63, "CLIP_STRUCTURE"), (64, "CLIP_CHECKSUM"), (65, "CLIP_VALUE"), (66, "CLIP_LIMIT"), (80, "AUTHOR_MESH"), (81, "AUTHOR_REFUSED"), (82, "AUTHOR_CANCELED")]);
+numbers!(Status, i32, [(0, "OK"), (1, "NULL_ARGUMENT"), (2, "INVALID_ARGUMENT"), (3, "STRUCT_SIZE"), (4, "HANDLE"), (5, "MISMATCH"), (6, "INDEX"), (7, "LOD"), (8, "NAME"), (9, "ISA"), (10, "MEMORY"), (11, "UNSUPPORTED"), (20, "FILE_OPEN"), (21, "FILE_READ"), (22, "FILE_WRITE"), (30, "DNA_SIGNATURE"), (31, "DNA_VERSION"), (32, "DNA_TRUNCATED"), (33, "DNA_STRUCTURE"), (34, "DNA_REFERENCE"), (35, "DNA_LIMIT"), (36, "DNA_LAYER"), (37, "DNA_VALUE"), (50, "BAKED_SIGNATURE"), (51, "BAKED_VERSION"), (52, "BAKED_TRUNCATED"), (53, "BAKED_STRUCTURE"), (54, "BAKED_CHECKSUM"), (55, "BAKED_PART"), (60, "CLIP_SIGNATURE"), (61, "CLIP_VERSION"), (62, "CLIP_TRUNCATED"), (63, "CLIP_STRUCTURE"), (64, "CLIP_CHECKSUM"), (65, "CLIP_VALUE"), (66, "CLIP_LIMIT"), (70, "MIX_SIGNATURE"), (71, "MIX_VERSION"), (72, "MIX_TRUNCATED"), (73, "MIX_STRUCTURE"), (74, "MIX_CHECKSUM"), (80, "AUTHOR_MESH"), (81, "AUTHOR_REFUSED"), (82, "AUTHOR_CANCELED")]);
 
 pub(crate) fn describe(status: Status) -> &'static str {
     match status.0 {
@@ -131,6 +141,11 @@ pub(crate) fn describe(status: Status) -> &'static str {
         64 => "the bytes are not those that were written",
         65 => "a value that is not finite",
         66 => "more than a clip, player or binding can hold",
+        70 => "not a mix",
+        71 => "written by another version",
+        72 => "the file is shorter than its header states",
+        73 => "sizes or counts contradict each other, or a value is out of range",
+        74 => "the bytes are not those that were written",
         80 => "arrays of a mesh, shape or bone contradict each other",
         81 => "a mesh that cannot be rigged; the message names the rule",
         82 => "the caller's progress function asked to stop",
@@ -2095,6 +2110,43 @@ macro_rules! errors {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a part of `desc` is out of range; the message names it\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if deformer or gaze are of another rig\n\
          - [`Status::INDEX`](crate::Status::INDEX) if a landmark names a mesh, position or joint that does not exist\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+    };
+    (mien_mix_open_file) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::NAME`](crate::Status::NAME) if the rig lacks controls; the message names them\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::FILE_OPEN`](crate::Status::FILE_OPEN) if the file cannot be read\n\
+         - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read\n\
+         - [`Status::MIX_SIGNATURE`](crate::Status::MIX_SIGNATURE) if it is not a valid mix\n\
+         - [`Status::MIX_VERSION`](crate::Status::MIX_VERSION) if it is not a valid mix\n\
+         - [`Status::MIX_TRUNCATED`](crate::Status::MIX_TRUNCATED) if it is not a valid mix\n\
+         - [`Status::MIX_STRUCTURE`](crate::Status::MIX_STRUCTURE) if it is not a valid mix\n\
+         - [`Status::MIX_CHECKSUM`](crate::Status::MIX_CHECKSUM) if it is not a valid mix"
+    };
+    (mien_mix_open_memory) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::NAME`](crate::Status::NAME) if the rig lacks controls; the message names them\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MIX_SIGNATURE`](crate::Status::MIX_SIGNATURE) if it is not a valid mix\n\
+         - [`Status::MIX_VERSION`](crate::Status::MIX_VERSION) if it is not a valid mix\n\
+         - [`Status::MIX_TRUNCATED`](crate::Status::MIX_TRUNCATED) if it is not a valid mix\n\
+         - [`Status::MIX_STRUCTURE`](crate::Status::MIX_STRUCTURE) if it is not a valid mix\n\
+         - [`Status::MIX_CHECKSUM`](crate::Status::MIX_CHECKSUM) if it is not a valid mix"
+    };
+    (mien_mix_write_file) => {
+        "- [`Status::NAME`](crate::Status::NAME) if two of these controls have the same name\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if there is none\n\
+         - [`Status::FILE_WRITE`](crate::Status::FILE_WRITE) if the file cannot be written"
+    };
+    (mien_mix_write_memory) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::NAME`](crate::Status::NAME) if `mien_mix_write_file()` would fail with them\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+    };
+    (mien_mix_write_text) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::NAME`](crate::Status::NAME) if `mien_mix_write_file()` would fail with them\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
     };
     (mien_mix_info) => {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 
-use crate::convert::{index, slice, terminated};
+use crate::convert::{index, path_string, slice, terminated};
 use crate::error::{check, checked};
 use crate::{
     Allocator, BlendMode, Deformer, Error, Generator, Guard, LayerGroup, LayerSource, MixInfo,
     Mixer, Result, Retrigger, Rig, Status,
 };
 use mien_sys as sys;
+use std::ffi::c_void;
+use std::path::Path;
 use std::ptr::{null, null_mut, NonNull};
 use std::sync::Arc;
 
@@ -29,6 +31,15 @@ pub struct MixLayer {
     period: i64,
     delay: i64,
     stream_frames: u32,
+}
+
+/// What a call writes that is first asked for the size.
+fn written(write: impl Fn(*mut c_void, usize, &mut usize) -> Result<()>) -> Result<Vec<u8>> {
+    let mut size = 0;
+    write(null_mut(), 0, &mut size)?;
+    let mut bytes = vec![0u8; size];
+    write(bytes.as_mut_ptr().cast(), size, &mut size)?;
+    Ok(bytes)
 }
 
 fn split(pose: &[(usize, f32)]) -> (Vec<u16>, Vec<f32>) {
@@ -582,13 +593,7 @@ impl MixOptions {
             // SAFETY: live handles, and a sized struct with as many elements as it says.
             checked(|error| unsafe { sys::mien_mix_create(rig.raw(), &desc, &mut handle, error) })
         })?;
-        let handle = NonNull::new(handle).expect("a handle after success");
-        let mut info = sys::MienMixInfo::default();
-        // SAFETY: a live handle and a sized struct.
-        let status = unsafe { sys::mien_mix_info(handle.as_ptr(), &mut info) };
-        let shared = Shared { handle, info: info.into(), allocator: self.allocator.clone() };
-        let mix = Mix { shared: Arc::new(shared) };
-        check(status).map(|()| mix)
+        Mix::adopt(handle, self.allocator.clone())
     }
 }
 
@@ -643,6 +648,95 @@ impl std::fmt::Debug for Mix {
 }
 
 impl Mix {
+    fn adopt(handle: *mut sys::MienMix, allocator: Option<Allocator>) -> Result<Self> {
+        let handle = NonNull::new(handle).expect("a handle after success");
+        let mut info = sys::MienMixInfo::default();
+        // SAFETY: a live handle and a sized struct.
+        let status = unsafe { sys::mien_mix_info(handle.as_ptr(), &mut info) };
+        let shared = Shared { handle, info: info.into(), allocator };
+        let mix = Mix { shared: Arc::new(shared) };
+        check(status).map(|()| mix)
+    }
+
+    /// Opens a file for a rig that has the controls of the mix; without a rig, to look into it with
+    /// [`Mix::to_text`].
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_mix_open_file)]
+    pub fn open(path: impl AsRef<Path>, rig: Option<&Rig>) -> Result<Self> {
+        let path = path_string(path.as_ref())?;
+        let rig = rig.map_or(null(), Rig::raw);
+        let mut handle = null_mut();
+        // SAFETY: a terminated path, and a live rig or none.
+        checked(|error| unsafe {
+            sys::mien_mix_open_file(path.as_ptr(), rig, null(), &mut handle, error)
+        })?;
+        Self::adopt(handle, None)
+    }
+
+    /// The same from memory, which is not needed afterwards.
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_mix_open_memory)]
+    pub fn from_bytes(bytes: &[u8], rig: Option<&Rig>) -> Result<Self> {
+        let rig = rig.map_or(null(), Rig::raw);
+        let mut handle = null_mut();
+        // SAFETY: as many bytes as are told, and a live rig or none.
+        checked(|error| unsafe {
+            sys::mien_mix_open_memory(
+                bytes.as_ptr().cast(),
+                bytes.len(),
+                rig,
+                null(),
+                &mut handle,
+                error,
+            )
+        })?;
+        Self::adopt(handle, None)
+    }
+
+    /// Writes the file. A failure leaves `path` as it was.
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_mix_write_file)]
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
+        let path = path_string(path.as_ref())?;
+        // SAFETY: a live handle and a terminated path.
+        checked(|error| unsafe { sys::mien_mix_write_file(self.raw(), path.as_ptr(), error) })
+    }
+
+    /// The bytes of the file.
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_mix_write_memory)]
+    pub fn to_bytes(&self) -> Result<Vec<u8>> {
+        written(|buffer, capacity, size| {
+            // SAFETY: a live handle and room for `capacity` bytes.
+            checked(|error| unsafe {
+                sys::mien_mix_write_memory(self.raw(), buffer, capacity, size, error)
+            })
+        })
+    }
+
+    /// The same as text: a line for each number, for people and version control.
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_mix_write_text)]
+    pub fn to_text(&self) -> Result<String> {
+        let text = written(|buffer, capacity, size| {
+            // SAFETY: a live handle and room for `capacity` bytes.
+            checked(|error| unsafe {
+                sys::mien_mix_write_text(self.raw(), buffer, capacity, size, error)
+            })
+        })?;
+        Ok(String::from_utf8_lossy(&text).into_owned())
+    }
+
     /// Counts and sizes.
     #[must_use]
     pub fn info(&self) -> &MixInfo {

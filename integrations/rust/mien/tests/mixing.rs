@@ -438,3 +438,21 @@ fn solver_batches_checks_and_panics() {
     assert_eq!(fails(Solver::Aim(AimSolver::default())), Status::INDEX);
     assert_eq!(fails(Solver::Custom(CustomSolver::new(&[], |_, _| {}))), Status::INVALID_ARGUMENT);
 }
+
+#[test]
+fn files_give_back_the_mix() {
+    let head = Head::get();
+    let mix = head.options().create(&head.rig).unwrap();
+    let bytes = mix.to_bytes().unwrap();
+    let same = Mix::from_bytes(&bytes, Some(&head.rig)).unwrap();
+    assert_eq!(same.to_bytes().unwrap(), bytes);
+    assert_eq!(same.info().layer_count, mix.info().layer_count);
+    let path = std::env::temp_dir().join(format!("mien-mixing-{}.mix", std::process::id()));
+    mix.save(&path).unwrap();
+    let looked_into = Mix::open(&path, None).unwrap();
+    std::fs::remove_file(&path).unwrap();
+    assert_eq!(looked_into.to_text().unwrap(), mix.to_text().unwrap());
+    assert_eq!(Mix::open(&path, None).unwrap_err().status(), Status::FILE_OPEN);
+    let short = Mix::from_bytes(&bytes[1..], Some(&head.rig));
+    assert_eq!(short.unwrap_err().status(), Status::MIX_SIGNATURE);
+}

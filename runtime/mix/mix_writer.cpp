@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+
+#include "runtime/base/arena.h"
+#include "runtime/mix/mix_fields.h"
+#include "runtime/mix/mix_file.h"
+
+namespace mien {
+namespace {
+
+/// What bytes and text have in common: elements are copied before they are walked, because a walk
+/// may write them.
+template <class To>
+struct MixOutput {
+  To& to() { return static_cast<To&>(*this); }
+  void count(const char* name, uint32_t number, uint32_t) { to().value(name, number); }
+  void pair(const char* name, uint16_t lane, float value) {
+    to().value(name, lane);
+    to().value(name, value);
+  }
+  void keep(const GazeTable&, const GazeTable*) {}
+  template <class T, class Fields>
+  void list(const char* name, Span<const T> items, uint32_t, Fields fields) {
+    to().value(name, static_cast<uint32_t>(items.count));
+    for (size_t i = 0; i < items.count; ++i) {
+      T item = items[i];
+      to().element(name, i, [&] { fields(item); });
+    }
+  }
+};
+
+/// Counts bytes, and writes those for which there is room.
+struct MixBytes : MixOutput<MixBytes> {
+  const Mix& mix;
+  const LaneMap& map;
+  Span<uint8_t> out;
+  size_t size = 0;
+
+  MixBytes(const Mix& m, const LaneMap& lanes, Span<uint8_t> to) : mix(m), map(lanes), out(to) {}
+
+  void put(const void* bytes, size_t count) {
+    if (size <= out.count && count <= out.count - size && count != 0) {
+      memcpy(out.data + size, bytes, count);
+    }
+    size += count;
+  }
+  template <class T>
+  void value(const char*, T number) {
+    number = to_little_endian(number);
+    put(&number, sizeof(number));
+  }
+  void value(const char*, bool flag) { value("", static_cast<uint8_t>(flag)); }
+  void value(const char*, uint16_t lane) { place("", map.file_lane_of[lane]); }
+  void place(const char*, uint16_t number) {
+    number = to_little_endian(number);
+    put(&number, sizeof(number));
+  }
+  template <class T, class Names>
+  void choice(const char*, T number, const Names&) {
+    value("", static_cast<uint8_t>(number));
+  }
+  void names(const char*, uint32_t) {
+    value("", map.name_count);
+    for (uint32_t i = 0; i < map.name_count; ++i) {
+      const Span<char> name = mix.names[map.lane_of[i]];
+      value("", static_cast<uint32_t>(name.count));
+      put(name.data, name.count);
+    }
+  }
+  void lanes(const char*, Span<const uint16_t> list) {
+    value("", static_cast<uint32_t>(list.count));
+    for (uint16_t lane : list) value("", lane);
+  }
+  void pairs(const char*, Span<const uint16_t> list, Span<const float> values) {
+    lanes("", list);
+    for (float number : values) value("", number);
+  }
+  template <class T, class Otherwise>
+  void row(const char*, Span<const T> numbers, Otherwise) {
+    value("", !numbers.empty());
+    for (size_t i = 0; i < map.lane_of.count && !numbers.empty(); ++i) {
+      value("", numbers[map.lane_of[i]]);
+    }
+  }
+  template <class Fields>
+  void element(const char*, size_t, Fields fields) {
+    fields();
+  }
+};
+
+/// Counts characters, and writes those for which there is room.
+struct MixText : MixOutput<MixText> {
+  const Mix& mix;
+  const LaneMap& map;
+  Span<char> out;
+  size_t size = 0;
+  char path[64] = "";
+
+  MixText(const Mix& m, const LaneMap& lanes, Span<char> to) : mix(m), map(lanes), out(to) {}
+
+  void put(const char* text, size_t count) {
+    if (size <= out.count && count <= out.count - size && count != 0) {
+      memcpy(out.data + size, text, count);
+    }
+    size += count;
+  }
+  void put(const char* text) { put(text, strlen(text)); }
+  void put_lane(uint16_t lane) {
+    char text[16];
+    if (lane >= mix.raw_count) {
+      snprintf(text, sizeof(text), "variable:%u", lane - mix.raw_count);
+      return put(text);
+    }
+    // A name stays in its line, and is no other lane.
+    for (char c : mix.names[lane]) {
+      const bool plain = static_cast<unsigned char>(c) > ' ' && c != '\\' && c != ':' && c != 0x7F;
+      snprintf(text, sizeof(text), plain ? "%c" : "\\x%02X",
+               plain ? c : static_cast<unsigned char>(c));
+      put(text);
+    }
+  }
+  /// Nine digits give back the bits. The decimal point is that of the locale.
+  void put_number(float number) {
+    char text[32];
+    snprintf(text, sizeof(text), "%.9g", static_cast<double>(number));
+    bool pointed = false;
+    for (const char* c = text; *c; ++c) {
+      const bool known = strchr("0123456789+-e", *c) != nullptr;
+      if (known) {
+        put(c, 1);
+      } else if (!pointed) {
+        put(".");
+        pointed = true;
+      }
+    }
+  }
+  void put_number(int64_t number) {
+    char text[32];
+    snprintf(text, sizeof(text), "%" PRId64, number);
+    put(text);
+  }
+  void put_number(uint32_t number) { put_number(int64_t{number}); }
+  void put_number(bool flag) { put(flag ? "true" : "false"); }
+  void put_number(uint16_t lane) { put_lane(lane); }
+
+  void begin(const char* name) {
+    put(path);
+    put(name);
+    put(" ");
+  }
+  template <class T>
+  void value(const char* name, T number) {
+    begin(name);
+    put_number(number);
+    put("\n");
+  }
+  void place(const char* name, uint16_t number) { value(name, uint32_t{number}); }
+  template <class T, size_t N>
+  void choice(const char* name, T number, const char* const (&names)[N]) {
+    begin(name);
+    const auto value = static_cast<size_t>(number);
+    if (value < N) put(names[value]);
+    put("\n");
+  }
+  void names(const char* name, uint32_t) {
+    for (uint32_t i = 0; i < map.name_count; ++i) value(name, map.lane_of[i]);
+  }
+  void pair(const char* name, uint16_t lane, float number) {
+    begin(name);
+    put_lane(lane);
+    put(" ");
+    put_number(number);
+    put("\n");
+  }
+  void lanes(const char* name, Span<const uint16_t> list) {
+    for (uint16_t lane : list) value(name, lane);
+  }
+  void pairs(const char* name, Span<const uint16_t> list, Span<const float> values) {
+    for (size_t i = 0; i < list.count; ++i) pair(name, list[i], values[i]);
+  }
+  template <class T, class Otherwise>
+  void row(const char* name, Span<const T> numbers, Otherwise) {
+    for (size_t i = 0; i < map.lane_of.count && !numbers.empty(); ++i) {
+      begin(name);
+      put_lane(map.lane_of[i]);
+      put(" ");
+      put_number(numbers[map.lane_of[i]]);
+      put("\n");
+    }
+  }
+  template <class Fields>
+  void element(const char* name, size_t index, Fields fields) {
+    const size_t length = strlen(path);
+    snprintf(path + length, sizeof(path) - length, "%s.%zu.", name, index);
+    fields();
+    path[length] = 0;
+  }
+};
+
+/// The description that a mix was made of, as far as it has an effect.
+struct MixContents {
+  MixDesc desc;
+  Span<LayerDesc> layers;
+  Span<PoseDesc> poses;
+  Span<ReactionDesc> reactions;
+  Span<Guard> guards;
+
+  bool fill(const Mix& mix, Arena& arena) {
+    layers = arena.array<LayerDesc>(mix.layers.count);
+    poses = arena.array<PoseDesc>(mix.pose_ends.count);
+    reactions = arena.array<ReactionDesc>(mix.reactions.count);
+    guards = arena.array<Guard>(mix.guards.count);
+    if (layers.count != mix.layers.count || poses.count != mix.pose_ends.count ||
+        reactions.count != mix.reactions.count || guards.count != mix.guards.count) {
+      return false;
+    }
+    for (size_t i = 0; i < layers.count; ++i) {
+      const MixLayer& from = mix.layers[i];
+      LayerDesc& to = layers[i];
+      to.group = from.group;
+      to.mode = from.mode;
+      to.source = from.source;
+      to.flags = from.flags;
+      to.weight = from.weight;
+      if (from.has_mask) to.mask = from.mask.first(mix.used_lanes());
+      to.first_pose = from.first_pose;
+      to.pose_count = from.pose_count;
+      to.lanes = from.lanes;
+      to.amounts = from.amounts;
+      to.generator = from.generator;
+      to.period = from.period;
+      to.delay = from.delay;
+      to.stream_frames = from.stream_frames;
+    }
+    for (uint32_t i = 0, begin = 0; i < poses.count; begin = mix.pose_ends[i++]) {
+      const uint32_t count = mix.pose_ends[i] - begin;
+      poses[i] = {mix.pose_lanes.slice(begin, count), mix.pose_values.slice(begin, count)};
+    }
+    for (size_t i = 0; i < reactions.count; ++i) {
+      const Reaction& from = mix.reactions[i];
+      reactions[i] = {mix.strokes.slice(from.first_stroke, from.end_stroke - from.first_stroke),
+                      from.retrigger,
+                      from.after_guards,
+                      from.cooldown,
+                      from.adapted,
+                      from.adapt_ticks,
+                      from.recover_ticks};
+    }
+    size_t first = 0;
+    for (size_t i = 0; i < guards.count; first += guards[i++].count) {
+      guards[i] = mix.guards[i];
+      for (uint32_t k = 0; k < guards[i].count; ++k) {
+        guards[i].lanes[k] = mix.guard_lanes[first + k];
+      }
+    }
+    desc.variable_count = mix.variable_count;
+    desc.layers = layers;
+    desc.poses = poses;
+    desc.reactions = reactions;
+    desc.guards = guards;
+    desc.gaze = mix.has_gaze ? &mix.gaze : nullptr;
+    desc.antagonists = mix.antagonists;
+    desc.mirror = mix.mirror;
+    if (mix.has_limits) {
+      desc.lower = mix.lower.first(mix.used_lanes());
+      desc.upper = mix.upper.first(mix.used_lanes());
+    }
+    desc.player_count = mix.player_count;
+    desc.max_channels = mix.max_channels;
+    desc.max_changing_channels = mix.max_changing_channels;
+    desc.max_events = mix.max_events;
+    desc.plays_backward = mix.plays_backward;
+    return true;
+  }
+};
+
+/// Finds the lanes that a walk meets.
+struct LaneFinder : MixOutput<LaneFinder> {
+  Span<uint16_t> used;  // [lane of the mix] kNowhere: not yet
+
+  explicit LaneFinder(Span<uint16_t> lanes) : used(lanes) {}
+  template <class T>
+  void value(const char*, T) {}
+  void value(const char*, uint16_t lane) { used[lane] = 0; }
+  void place(const char*, uint16_t) {}
+  template <class T, class Names>
+  void choice(const char*, T, const Names&) {}
+  void names(const char*, uint32_t) {}
+  void lanes(const char*, Span<const uint16_t> list) {
+    for (uint16_t lane : list) used[lane] = 0;
+  }
+  void pairs(const char*, Span<const uint16_t> list, Span<const float>) { lanes("", list); }
+  template <class T, class Otherwise>
+  void row(const char*, Span<const T> numbers, Otherwise otherwise) {
+    for (size_t l = 0; l < numbers.count; ++l) {
+      if (numbers[l] != otherwise(l)) used[l] = 0;
+    }
+  }
+  template <class Fields>
+  void element(const char*, size_t, Fields fields) {
+    fields();
+  }
+};
+
+/// What writing needs, in an arena.
+Status prepare(const Mix& mix, Arena& arena, MixContents& contents, LaneMap& map, Error& error) {
+  map.lane_of = arena.array<uint16_t>(mix.used_lanes() + 1);
+  map.file_lane_of = arena.array<uint16_t>(mix.used_lanes() + 1);  // never nothing
+  if (!map.lane_of.data || !map.file_lane_of.data || !contents.fill(mix, arena)) {
+    return fail(error, Status::kMemory, kNoOffset, "no memory to write a mix");
+  }
+  std::fill(map.file_lane_of.begin(), map.file_lane_of.end(), kNowhere);
+  LaneFinder finder(map.file_lane_of);
+  walk(finder, contents.desc);
+  for (uint16_t l = 0; l < mix.raw_count; ++l) {
+    if (map.file_lane_of[l] != kNowhere) map.lane_of[map.name_count++] = l;
+  }
+  if (map.name_count != 0 && mix.names.count() != mix.raw_count) {
+    return fail(error, Status::kName, kNoOffset,
+                "the controls of the mix have no names to write them by");
+  }
+  uint16_t* const lanes = map.lane_of.data;
+  std::sort(lanes, lanes + map.name_count, [&mix](uint16_t a, uint16_t b) {
+    return compare_names(mix.names[a], mix.names[b]) < 0;
+  });
+  for (uint32_t i = 0; i < map.name_count; ++i) {
+    const Span<char> name = mix.names[lanes[i]];
+    if (name.count > kMaxNameLength) {
+      return fail(error, Status::kName, kNoOffset, "control %u has a name of %zu bytes; %zu fit",
+                  lanes[i], name.count, kMaxNameLength);
+    }
+    if (i == 0 || compare_names(mix.names[lanes[i - 1]], name) != 0) continue;
+    return fail(error, Status::kName, kNoOffset,
+                "two controls that the mix uses are named %.*s: a file could not tell which is "
+                "which",
+                static_cast<int>(name.count), name.data);
+  }
+  map.lane_of.count = size_t{map.name_count} + mix.variable_count;
+  for (uint32_t v = 0; v < mix.variable_count; ++v) {
+    lanes[map.name_count + v] = static_cast<uint16_t>(mix.raw_count + v);
+  }
+  for (uint16_t i = 0; i < map.lane_of.count; ++i) map.file_lane_of[lanes[i]] = i;
+  return Status::kOk;
+}
+
+}  // namespace
+
+Status write_mix(const Mix& mix, Span<uint8_t> out, size_t& size, Error& error) {
+  size = 0;
+  Arena arena(mix.allocator);
+  MixContents contents;
+  LaneMap map;
+  const Status status = prepare(mix, arena, contents, map, error);
+  if (status != Status::kOk) return status;
+  MixBytes writer(mix, map, out);
+  writer.put(kMixMagic, sizeof(kMixMagic));
+  writer.size = kMixHeaderSize;
+  walk(writer, contents.desc);
+  size = writer.size;
+  if (size > out.count) return Status::kOk;
+  store_little_endian(out.data + kAtVersion, kMixVersion);
+  store_little_endian(out.data + kAtSize, uint64_t{size});
+  store_little_endian(out.data + kAtChecksum, clip_checksum(out.data, size));
+  return Status::kOk;
+}
+
+Status write_mix_text(const Mix& mix, Span<char> out, size_t& size, Error& error) {
+  size = 0;
+  Arena arena(mix.allocator);
+  MixContents contents;
+  LaneMap map;
+  const Status status = prepare(mix, arena, contents, map, error);
+  if (status != Status::kOk) return status;
+  MixText writer(mix, map, out);
+  walk(writer, contents.desc);
+  size = writer.size;
+  return Status::kOk;
+}
+
+}  // namespace mien
