@@ -43,7 +43,7 @@ WITHOUT = {
         "mien_baked_open_file", "mien_clip_open_file", "mien_clip_write_file",
         "mien_mix_open_file", "mien_mix_write_file")},
     **{name: {"JavaScript": "mixes are made of their descriptions, which are JSON already"} for name in (
-        "MienMixOpenDesc", "mien_mix_open_memory", "mien_mix_write_memory", "mien_mix_write_text")},
+        "mien_mix_open_memory", "mien_mix_write_memory", "mien_mix_write_text")},
     **{name: {"JavaScript": "a stream reads the caller's bytes, without a copy that has to be kept"}
        for name in ("mien_dna_open_memory", "mien_baked_open_memory", "mien_clip_open_memory")},
     **{name: {"JavaScript": "one by one: threads of a page share no module"} for name in (
