@@ -7,6 +7,7 @@
 #include "simd/joint_kernels.inl"
 #include "simd/mix_kernels.inl"
 #include "simd/pose_kernels.inl"
+#include "simd/rbf_batch_kernels.inl"
 #include "simd/rbf_kernels.inl"
 #include "simd/rotation_kernels.inl"
 #include "simd/vertex_kernels.inl"
@@ -35,6 +36,8 @@ const KernelTable kTable = {kIsa,
                             quaternions_from_angles,
                             twist_swing,
                             rbf_solvers,
+                            rbf_batch,
+                            gather_lanes,
                             joint_locals,
                             joint_tree,
                             add_target,

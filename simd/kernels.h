@@ -274,6 +274,29 @@ struct RbfArgs {
   float* controls;
 };
 
+/// The same for many characters, one lane each, with the same bits. Controls of lane k are
+/// controls[32 * c + k]; results of a solver go to rows[k] + first_control, or to results[k] +
+/// first_lane. For lanes k < lane_count; up to 32 are computed.
+struct RbfBatchArgs {
+  const RbfSolverPlan* solvers;
+  const uint16_t* list;
+  uint32_t count;
+  const uint16_t* inputs;           // control that an input reads
+  const uint16_t* rotation_inputs;  // [block][4][lane]: the same of rotations
+  const float* swings;              // [block][lane]
+  const float* targets;
+  const float* inverses;
+  const float* pose_scales;
+  const float* pose_factors;
+  const float* controls;  // 64-byte aligned, and so are the next three
+  float* rotations;       // [block][lane][4][32]: scratch
+  float* weights[2];      // [pose of the largest solver][32]: scratch
+  float* const* rows;
+  float* const* results;
+  uint32_t block_count;
+  uint32_t lane_count;
+};
+
 /// Local transforms of joints, in blocks of 16 joints, one lane each:
 ///
 ///     neutral   block 0: tx0..tx15 ty tz qx qy qz qw | block 1: ...
@@ -464,6 +487,10 @@ struct KernelTable {
   void (*quaternions_from_angles)(const EulerArgs& args);
   void (*twist_swing)(const TwistSwingArgs& args);
   void (*rbf_solvers)(const RbfArgs& args);
+  void (*rbf_batch)(const RbfBatchArgs& args);
+  /// to[32 * i + k] = from[k][i] for i < count and k < lane_count, 0 for the other k < 32. Rows may lie
+  /// anywhere.
+  void (*gather_lanes)(const float* const* from, uint32_t lane_count, size_t count, float* to);
   void (*joint_locals)(const JointLocalArgs& args);
   void (*joint_tree)(const JointTreeArgs& args);
   void (*add_target)(const TargetArgs& args);

@@ -64,7 +64,7 @@ template <class V>
 }
 
 template <class V>
-inline V weight_of(V x, const RbfSolverPlan& solver) {
+[[gnu::always_inline]] inline V weight_of(V x, const RbfSolverPlan& solver) {
   using M = Make<V>;
   // A radius below zero makes weights grow with the distance: up to 2^60, so that the product with
   // scale and factor of a pose does not overflow.

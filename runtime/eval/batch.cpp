@@ -42,6 +42,10 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
   batch.tasks = placer.array<PacketScratch>(std::min<size_t>(tasks, max_packets(rig, capacity)));
   const size_t layer_width = widest_layer(rig);
   const size_t tile_block_rows = std::min(block_row_count(joints), kMaxTileBlockRows);
+  uint32_t max_poses = 0;
+  for (const RbfSolverPlan& plan : rig.rbf.plans) {
+    max_poses = std::max(max_poses, plan.pose_count);
+  }
   for (size_t i = 0; i < batch.tasks.count; ++i) {
     PacketScratch scratch;
     scratch.controls =
@@ -57,6 +61,12 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
     }
     scratch.ml_weights =
         placer.array<float>(rig.half_storage ? layer_width * kBlockLanes : 0, kBlockAlignment);
+    // A rig whose solvers read what others write solves them one by one.
+    const size_t lanes = rig.rbf.independent ? kBatchLanes : 0;
+    scratch.rbf_rotations = placer.array<float>(rig.rbf.rotations.count * lanes, kBlockAlignment);
+    for (Span<float>& weights : scratch.rbf_weights) {
+      weights = placer.array<float>(max_poses * lanes, kBlockAlignment);
+    }
     if (!placer.measuring()) batch.tasks[i] = scratch;
   }
 }

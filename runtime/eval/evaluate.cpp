@@ -80,18 +80,14 @@ void begin_evaluation(const Rig& rig, Instance& instance, uint32_t lod) {
 
 using Evaluate = void(const Rig& rig, Instance& instance, uint32_t lod);
 
-/// A stage of those instances for which it was asked for and is stale. `writes` holds all controls
-/// that the stage writes, unless it notes changes itself.
-void run(const InstancePacket& packet, uint32_t stage, Evaluate* evaluate_stage,
-         const ControlRange& writes = {}) {
+/// A stage of those instances for which it was asked and is stale; it notes itself what it changes.
+void run(const InstancePacket& packet, uint32_t stage, Evaluate* evaluate_stage) {
   if (stage == 0) return;
   for (uint32_t i = 0; i < packet.count; ++i) {
     Instance& instance = *packet.instances[i];
     if ((instance.stale & stage) == 0) continue;
     instance.stale &= ~Uses{stage};
-    begin_writing(instance, writes);
     evaluate_stage(packet.rig, instance, packet.lod);
-    end_writing(packet.rig, instance, writes, stage);
   }
 }
 
@@ -106,16 +102,18 @@ InstancePacket stale_ones(const InstancePacket& packet, uint32_t stages, Instanc
   return those;
 }
 
-void run_ml(const InstancePacket& packet) {
+/// A stage that takes all those instances at once.
+void run_packet(const InstancePacket& packet, uint32_t stage, const ControlRange& writes,
+                void (*evaluate_stage)(const InstancePacket& those)) {
+  if (stage == 0) return;
   Instance* stale[kBatchLanes];
-  const InstancePacket those = stale_ones(packet, kStageMl, stale);
-  const ControlRange& writes = packet.rig.ml_writes;
+  const InstancePacket those = stale_ones(packet, stage, stale);
   for (uint32_t i = 0; i < those.count; ++i) {
-    stale[i]->stale &= ~Uses{kStageMl};
+    stale[i]->stale &= ~Uses{stage};
     begin_writing(*stale[i], writes);
   }
-  evaluate_ml(those);
-  for (uint32_t i = 0; i < those.count; ++i) end_writing(packet.rig, *stale[i], writes, kStageMl);
+  evaluate_stage(those);
+  for (uint32_t i = 0; i < those.count; ++i) end_writing(packet.rig, *stale[i], writes, stage);
 }
 
 /// Correctives and joints of the instances that need either: it is not known before which of them
@@ -124,7 +122,7 @@ void run_together(const InstancePacket& packet, uint32_t stages) {
   Instance* changed[kBatchLanes];
   const InstancePacket those = stale_ones(packet, stages, changed);
   if (those.count < 2) return;
-  gather_controls(those);
+  gather_controls(those, packet.rig.control_count);
   if (stages & kStagePsd) evaluate_psds_together(those);
   if (stages & kStageJoints) evaluate_joints_together(those);
 }
@@ -139,8 +137,8 @@ void evaluate_packet(const InstancePacket& packet, uint32_t stages) {
     stale |= packet.instances[i]->stale;
   }
   if ((stale & stages) == 0) return;
-  if (stages & kStageMl) run_ml(packet);
-  run(packet, stages & kStageRbf, evaluate_rbf, rig.rbf_writes);
+  run_packet(packet, stages & kStageMl, rig.ml_writes, evaluate_ml);
+  run_packet(packet, stages & kStageRbf, rig.rbf_writes, evaluate_rbf);
   if (packet.scratch) run_together(packet, stages & (kStagePsd | kStageJoints));
   run(packet, stages & kStagePsd, evaluate_psds);
   run(packet, stages & kStageJoints, evaluate_joints);

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // RBF solvers: raw controls -> pose controls (docs/rig-evaluation.md, 6 "RBF solvers").
+#include <algorithm>
+
+#include "runtime/eval/instance_packet.h"
 #include "runtime/eval/stages.h"
 
 namespace mien {
@@ -96,11 +99,10 @@ void solve_rbf(const Rig& rig, Instance& instance, uint32_t index) {
   drive_pose_controls(rig, index, instance);
 }
 
-void evaluate_rbf(const Rig& rig, Instance& instance, uint32_t lod) {
+namespace {
+
+void solve_alone(const Rig& rig, Instance& instance, const Span<uint16_t>& solvers) {
   const RbfTable& rbf = rig.rbf;
-  if (rig.rbf_count == 0) return;  // without a pose control there is nothing to drive
-  const Span<uint16_t> solvers = rbf.lod_solvers.at(lod);
-  if (solvers.empty()) return;
   if (!rbf.independent) {
     for (uint16_t solver : solvers) solve_rbf(rig, instance, solver);
     return;
@@ -110,6 +112,60 @@ void evaluate_rbf(const Rig& rig, Instance& instance, uint32_t lod) {
   run_solvers(rig, instance, solvers, 0,
               static_cast<uint32_t>(rbf.rotations.count / (4 * kBlockLanes)));
   for (uint16_t solver : solvers) drive_pose_controls(rig, solver, instance);
+}
+
+/// Of solvers that do not read what others write.
+void solve_together(const InstancePacket& packet, const Span<uint16_t>& solvers) {
+  const RbfTable& rbf = packet.rig.rbf;
+  const PacketScratch& scratch = *packet.scratch;
+  float *rows[kBatchLanes], *results[kBatchLanes];
+  for (uint32_t i = 0; i < packet.count; ++i) {
+    rows[i] = packet.instances[i]->controls.data;
+    results[i] = packet.instances[i]->rbf_results.data;
+  }
+  uint32_t last = 0;
+  for (const auto* inputs : {&rbf.inputs, &rbf.rotations}) {
+    for (const uint16_t control : *inputs) last = std::max<uint32_t>(last, control);
+  }
+  gather_controls(packet, last + 1);
+  RbfBatchArgs args;
+  args.solvers = rbf.plans.data;
+  args.list = solvers.data;
+  args.count = static_cast<uint32_t>(solvers.count);
+  args.inputs = rbf.inputs.data;
+  args.rotation_inputs = rbf.rotations.data;
+  args.swings = rbf.swings.data;
+  args.targets = rbf.targets.data;
+  args.inverses = rbf.inverses.data;
+  args.pose_scales = rbf.pose_scales.data;
+  args.pose_factors = rbf.pose_factors.data;
+  args.controls = scratch.controls.data;
+  args.rotations = scratch.rbf_rotations.data;
+  args.weights[0] = scratch.rbf_weights[0].data;
+  args.weights[1] = scratch.rbf_weights[1].data;
+  args.rows = rows;
+  args.results = results;
+  args.block_count = static_cast<uint32_t>(rbf.rotations.count / (4 * kBlockLanes));
+  args.lane_count = packet.count;
+  packet.rig.kernels->rbf_batch(args);
+  for (uint32_t i = 0; i < packet.count; ++i) {
+    for (uint16_t solver : solvers) drive_pose_controls(packet.rig, solver, *packet.instances[i]);
+  }
+}
+
+}  // namespace
+
+void evaluate_rbf(const InstancePacket& packet) {
+  const Rig& rig = packet.rig;
+  if (rig.rbf_count == 0) return;  // without a pose control there is nothing to drive
+  const Span<uint16_t> solvers = rig.rbf.lod_solvers.at(packet.lod);
+  if (solvers.empty()) return;
+  // Lanes without an instance cost as much as those with one.
+  if (packet.scratch && rig.rbf.independent && packet.count > 1 &&
+      2 * packet.count >= rig.kernels->batch_step) {
+    return solve_together(packet, solvers);
+  }
+  for (uint32_t i = 0; i < packet.count; ++i) solve_alone(rig, *packet.instances[i], solvers);
 }
 
 }  // namespace mien

@@ -120,14 +120,10 @@ void evaluate_shared_rows(const InstancePacket& packet, const SharedColumns& sha
 }  // namespace
 
 // Unused lanes are 0.
-void gather_controls(const InstancePacket& packet) {
+void gather_controls(const InstancePacket& packet, uint32_t count) {
   const float* from[kBatchLanes];
   for (uint32_t i = 0; i < packet.count; ++i) from[i] = packet.instances[i]->controls.data;
-  float* lanes = packet.scratch->controls.data;
-  for (size_t c = 0; c < packet.rig.control_count; ++c, lanes += kBatchLanes) {
-    for (uint32_t i = 0; i < packet.count; ++i) lanes[i] = from[i][c];
-    for (uint32_t i = packet.count; i < kBatchLanes; ++i) lanes[i] = 0.0f;
-  }
+  packet.rig.kernels->gather_lanes(from, packet.count, count, packet.scratch->controls.data);
 }
 
 void evaluate_psds_together(const InstancePacket& packet) {

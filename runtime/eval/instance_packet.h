@@ -24,14 +24,16 @@ struct BlockList {
 
 /// Scratch memory of a packet.
 struct PacketScratch {
-  Span<float> controls;      // [control][32]
-  Span<uint32_t> changed;    // [corrective] a bit for each of the 32
-  Span<uint8_t> users;       // [column] how many of them use it
-  Span<float> sums;          // [32][packed row of a tile]
-  Span<uint32_t> ends;       // [block row] into blocks
-  Span<BatchBlock> blocks;   // of used columns; those of a block row begin at BlockList::starts
-  Span<float> ml_layers[2];  // [input or output][32] of the widest network layer
-  Span<float> ml_weights;    // of a block of rows, in half storage
+  Span<float> controls;        // [control][32]
+  Span<uint32_t> changed;      // [corrective] a bit for each of the 32
+  Span<uint8_t> users;         // [column] how many of them use it
+  Span<float> sums;            // [32][packed row of a tile]
+  Span<uint32_t> ends;         // [block row] into blocks
+  Span<BatchBlock> blocks;     // of used columns; those of a block row begin at BlockList::starts
+  Span<float> ml_layers[2];    // [input or output][32] of the widest network layer
+  Span<float> ml_weights;      // of a block of rows, in half storage
+  Span<float> rbf_rotations;   // as RbfBatchArgs has them
+  Span<float> rbf_weights[2];  // likewise
 };
 
 struct InstancePacket {
@@ -48,8 +50,8 @@ struct InstancePacket {
 void evaluate_packet(const InstancePacket& packet, uint32_t stages);
 
 // For the pipeline: the PSD stage of all instances of a packet, and their joint stage. The latter is
-// left undone if summing each instance by itself is faster. gather_controls() comes first.
-void gather_controls(const InstancePacket& packet);
+// left undone if summing each instance by itself is faster. gather_controls() of all comes first.
+void gather_controls(const InstancePacket& packet, uint32_t count);
 void evaluate_psds_together(const InstancePacket& packet);
 void evaluate_joints_together(const InstancePacket& packet);
 

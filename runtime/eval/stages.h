@@ -25,9 +25,9 @@ inline void note_written_psds(Instance& instance, Uses uses) {
 
 // Networks (evaluate_neural.cpp) and RBF solvers (evaluate_rbf.cpp) -------------------------------
 
-/// All instances of the packet.
+// Both of all instances of the packet.
 void evaluate_ml(const InstancePacket& packet);
-void evaluate_rbf(const Rig& rig, Instance& instance, uint32_t lod);
+void evaluate_rbf(const InstancePacket& packet);
 /// One solver, whether the LOD lists it or not.
 void solve_rbf(const Rig& rig, Instance& instance, uint32_t solver);
 

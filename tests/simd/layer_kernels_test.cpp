@@ -409,6 +409,140 @@ TEST(RbfSolvers, EveryDistanceFunctionAndCountToTheBit) {
   }
 }
 
+// A batch of solvers of all kinds, whole rotations, swings, twists and plain inputs: each lane has the
+// bits of one character alone, on every instruction set.
+TEST(RbfSolvers, BatchHasTheBitsOfOneByOne) {
+  Random random = Random::from_seed(13, 2);
+  constexpr uint32_t kControls = 40, kPoses = 40, kSolvers = 24, kRows = kSolvers * 48;
+  for (uint32_t lane_count : {2u, 7u, 16u, 29u, 32u}) {
+    std::vector<RbfSolverPlan> plans(kSolvers);
+    std::vector<uint16_t> list, inputs;
+    Aligned targets(size_t{kSolvers} * 48 * 8), inverses(size_t{kSolvers} * 48 * kPoses);
+    Aligned scales(kRows), factors(kRows), swings(kBlockLanes);
+    std::vector<uint16_t> rotation_inputs(4 * kBlockLanes);
+    for (uint16_t& control : rotation_inputs)
+      control = static_cast<uint16_t>(random.below(kControls));
+    for (uint32_t i = 0; i < kBlockLanes; ++i) swings.data[i] = i < 8 ? 1.0f : 0.0f;
+    size_t target = 0, inverse = 0;
+    uint32_t lane = 0, control = kControls;
+    for (uint32_t i = 0; i < kSolvers; ++i) {
+      RbfSolverPlan& plan = plans[i];
+      constexpr uint8_t kKinds[] = {0, 4, 3, 2};
+      plan.angle_inputs = kKinds[i % 4];
+      const uint32_t rotations = random.below(3);  // none, too
+      plan.input_count = plan.angle_inputs ? plan.angle_inputs * rotations : 3 * rotations;
+      plan.first_input = static_cast<uint32_t>(inputs.size());
+      if (i % 4 >= 2) plan.first_input = (i % 4 == 2 ? 0 : 8) + random.below(6);
+      for (uint32_t k = 0; i % 4 < 2 && k < plan.input_count; ++k) {
+        inputs.push_back(static_cast<uint16_t>(random.below(kControls)));
+      }
+      plan.pose_count = random.below(kPoses + 1);
+      plan.first_target = target;
+      plan.first_inverse = inverse;
+      plan.first_lane = lane;
+      const uint32_t stride = (plan.pose_count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
+      target += size_t{stride} * std::max(plan.input_count, 1u);
+      inverse += size_t{stride} * plan.pose_count;
+      lane += stride;
+      plan.first_control = kNoFirstControl;
+      if (random.chance(0.5)) plan.first_control = control, control += plan.pose_count;
+      plan.function = static_cast<uint8_t>(random.below(5));
+      plan.scale = plan.function < 2 ? -0.4f : 0.4f;
+      if (random.chance(0.1)) plan.scale = -plan.scale;
+      plan.threshold = random.chance(0.5) ? -1.0f : 0.01f;
+      plan.interpolative = random.chance(0.5);
+      plan.always_normalize = random.chance(0.5);
+      list.push_back(static_cast<uint16_t>(i));
+    }
+    const auto fill = [&](const Aligned& values, size_t count, double low) {
+      for (size_t i = 0; i < count; ++i)
+        values.data[i] = static_cast<float>(random.between(low, 1));
+    };
+    fill(targets, target, -1);
+    fill(inverses, inverse, -0.2);
+    fill(scales, lane, 0.5);
+    fill(factors, lane, -1);
+
+    for (const RbfSolverPlan& plan : plans) {  // what fills the last block
+      const uint32_t stride = (plan.pose_count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
+      for (uint32_t p = plan.pose_count; p < stride; ++p) {
+        for (uint32_t i = 0; i < std::max(plan.input_count, 1u); ++i) {
+          targets.data[plan.first_target + size_t{i} * stride + p] = NAN;
+        }
+        float* inverse_lane = inverses.data + plan.first_inverse +
+                              size_t{p / kBlockLanes} * plan.pose_count * kBlockLanes +
+                              p % kBlockLanes;
+        for (uint32_t c = 0; c < plan.pose_count; ++c) inverse_lane[c * kBlockLanes] = 0;
+      }
+      for (uint32_t p = 0; p < plan.pose_count && plan.input_count == 0; ++p) {
+        targets.data[plan.first_target + p] = 0;
+      }
+    }
+
+    std::vector<std::vector<float>> controls(lane_count), expected_controls;
+    for (auto& row : controls) {
+      row.resize(control);
+      for (uint32_t c = 0; c < kControls; ++c) row[c] = static_cast<float>(random.between(-1, 1));
+      if (random.chance(0.3)) std::fill(row.begin(), row.begin() + kControls, 0.0f);
+    }
+    for (const KernelTable* table : present()) {
+      SCOPED_TRACE(table->name);
+      std::vector<std::vector<float>> alone = controls, results_alone;
+      for (auto& row : alone) {
+        Aligned fetched(inputs.size() + 1), rotations(4 * kBlockLanes), weights(kRows), out(kRows);
+        for (size_t i = 0; i < inputs.size(); ++i) fetched.data[i] = row[inputs[i]];
+        for (size_t i = 0; i < 4 * kBlockLanes; ++i) rotations.data[i] = row[rotation_inputs[i]];
+        table->rbf_solvers({plans.data(), list.data(), kSolvers, fetched.data, rotations.data,
+                            swings.data, 0, 1, targets.data, inverses.data, scales.data,
+                            factors.data, weights.data, out.data, row.data()});
+        results_alone.emplace_back(out.data, out.data + lane);
+      }
+      std::vector<std::vector<float>> together = controls;
+      std::vector<std::vector<float>> results(lane_count, std::vector<float>(lane));
+      std::vector<float*> rows, out;
+      for (auto& row : together) rows.push_back(row.data());
+      for (auto& row : results) out.push_back(row.data());
+      Aligned lanes(size_t{kControls} * kBatchLanes), parts(4 * kBlockLanes * kBatchLanes),
+          weights(kPoses * kBatchLanes), mixed(kPoses * kBatchLanes);
+      table->gather_lanes(rows.data(), lane_count, kControls, lanes.data);
+      for (uint32_t c = 0; c < kControls; ++c) {
+        for (uint32_t k = 0; k < kBatchLanes; ++k) {
+          ASSERT_EQ(lanes.data[c * kBatchLanes + k], k < lane_count ? together[k][c] : 0.0f);
+        }
+      }
+      table->rbf_batch({plans.data(),
+                        list.data(),
+                        kSolvers,
+                        inputs.data(),
+                        rotation_inputs.data(),
+                        swings.data,
+                        targets.data,
+                        inverses.data,
+                        scales.data,
+                        factors.data,
+                        lanes.data,
+                        parts.data,
+                        {weights.data, mixed.data},
+                        rows.data(),
+                        out.data(),
+                        1,
+                        lane_count});
+      if (expected_controls.empty()) expected_controls = alone;
+      for (uint32_t k = 0; k < lane_count; ++k) {
+        EXPECT_EQ(std::memcmp(alone[k].data(), expected_controls[k].data(), control * 4), 0) << k;
+        ASSERT_EQ(std::memcmp(alone[k].data(), together[k].data(), control * 4), 0) << k;
+        for (const RbfSolverPlan& plan : plans) {
+          if (plan.first_control != kNoFirstControl) continue;
+          ASSERT_EQ(std::memcmp(&results_alone[k][plan.first_lane], &results[k][plan.first_lane],
+                                plan.pose_count * sizeof(float)),
+                    0)
+              << "lane " << k;
+        }
+      }
+    }
+  }
+}
+
 // What fills the last block must count for nothing, with inputs or without.
 TEST(RbfSolvers, LanesWithoutAPoseWeighNothing) {
   Random random = Random::from_seed(15, 1);

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+// RBF solvers for many characters, one lane each: what rbf_kernels.inl does with poses in lanes, with the
+// same operations in the same order.
+
+#pragma once
+
+#include "simd/quad.inl"
+#include "simd/rbf_kernels.inl"
+
+namespace mien::MIEN_KERNEL_ISA {
+namespace {
+
+constexpr size_t kPairLanes = 2 * kWidth;  // a VecPair
+static_assert(kBatchLanes % kPairLanes == 0, "pairs fill the lanes");
+
+// Rows and lanes ----------------------------------------------------------------------------------
+
+/// Columns of four rows into four lanes.
+inline void gather_four(const float* const* from, size_t first, size_t end, float* to) {
+  size_t i = first;
+  for (; i + 4 <= end; i += 4) {
+    Quad a = load4(from[0] + i), b = load4(from[1] + i);
+    Quad c = load4(from[2] + i), d = load4(from[3] + i);
+    transpose4(a, b, c, d);
+    store4(to + i * kBatchLanes, a);
+    store4(to + (i + 1) * kBatchLanes, b);
+    store4(to + (i + 2) * kBatchLanes, c);
+    store4(to + (i + 3) * kBatchLanes, d);
+  }
+  for (; i < end; ++i) {
+    for (size_t k = 0; k < 4; ++k) to[i * kBatchLanes + k] = from[k][i];
+  }
+}
+
+void gather_lanes(const float* const* from, uint32_t lane_count, size_t count, float* to) {
+  constexpr size_t kColumns = 64;  // at a time: their lanes stay in the first-level cache
+  for (size_t first = 0; first < count; first += kColumns) {
+    const size_t end = first + kColumns < count ? first + kColumns : count;
+    size_t k = 0;
+    for (; k + 4 <= lane_count; k += 4) gather_four(from + k, first, end, to + k);
+    for (; k < kBatchLanes; ++k) {
+      for (size_t i = first; i < end; ++i) {
+        to[i * kBatchLanes + k] = k < lane_count ? from[k][i] : 0.0f;
+      }
+    }
+  }
+}
+
+/// to[k][first + i] = from[32 * i + k]
+inline void scatter_lanes(const float* from, size_t count, size_t lane_count, float* const* to,
+                          size_t first) {
+  size_t k = 0;
+  for (; k + 4 <= lane_count; k += 4) {
+    size_t i = 0;
+    for (; i + 4 <= count; i += 4) {
+      const float* rows = from + i * kBatchLanes + k;
+      Quad a = load4(rows), b = load4(rows + kBatchLanes);
+      Quad c = load4(rows + 2 * kBatchLanes), d = load4(rows + 3 * kBatchLanes);
+      transpose4(a, b, c, d);
+      store4(to[k] + first + i, a);
+      store4(to[k + 1] + first + i, b);
+      store4(to[k + 2] + first + i, c);
+      store4(to[k + 3] + first + i, d);
+    }
+    for (; i < count; ++i) {
+      for (size_t j = 0; j < 4; ++j) to[k + j][first + i] = from[i * kBatchLanes + k + j];
+    }
+  }
+  for (; k < lane_count; ++k) {
+    for (size_t i = 0; i < count; ++i) to[k][first + i] = from[i * kBatchLanes + k];
+  }
+}
+
+// Solvers -----------------------------------------------------------------------------------------
+
+/// The numbers of rotation i of a solver, or its plain inputs: rows of 32.
+struct BatchInputs {
+  const float* rows[4];
+};
+
+inline BatchInputs batch_rotation(const RbfSolverPlan& solver, const RbfBatchArgs& args, size_t i) {
+  BatchInputs inputs = {};
+  if (solver.angle_inputs == 4) {
+    const uint16_t* controls = args.inputs + solver.first_input + 4 * i;
+    for (size_t k = 0; k < 4; ++k) inputs.rows[k] = args.controls + controls[k] * kBatchLanes;
+    return inputs;
+  }
+  const float* parts = args.rotations + (solver.first_input + i) * 4 * kBatchLanes;
+  if (solver.angle_inputs == 3) {
+    for (size_t k = 0; k < 3; ++k) inputs.rows[k] = parts + (k + 1) * kBatchLanes;
+  } else {
+    inputs.rows[0] = parts;
+    inputs.rows[1] = parts + 3 * kBatchLanes;
+  }
+  return inputs;
+}
+
+inline VecPair batch_angle(const float* targets, size_t stride, const BatchInputs& inputs,
+                           size_t count, size_t lane) {
+  using M = Make<VecPair>;
+  VecPair dot = M::of(targets[0]) * M::from(inputs.rows[0] + lane);
+  for (size_t k = 1; k < count; ++k) {
+    dot = dot + M::of(targets[k * stride]) * M::from(inputs.rows[k] + lane);
+  }
+  const VecPair u = dot * dot;
+  return quick_arc_cosine((u + u) - M::of(1.0f));
+}
+
+inline VecPair batch_distance(const RbfSolverPlan& solver, const RbfBatchArgs& args,
+                              const float* targets, size_t stride, size_t lane) {
+  using M = Make<VecPair>;
+  if (solver.input_count == 0) return M::of(targets[0]);
+  VecPair sum = M::of(0.0f);
+  if (solver.angle_inputs == 0) {
+    const uint16_t* controls = args.inputs + solver.first_input;
+    for (size_t i = 0; i < solver.input_count; ++i) {
+      const VecPair d =
+          M::of(targets[i * stride]) - M::from(args.controls + controls[i] * kBatchLanes + lane);
+      sum = sum + d * d;
+    }
+    return square_root(sum);
+  }
+  const size_t count = solver.angle_inputs, rotations = solver.input_count / count;
+  if (rotations == 1) {
+    return batch_angle(targets, stride, batch_rotation(solver, args, 0), count, lane);
+  }
+  for (size_t i = 0; i < rotations; ++i) {
+    const VecPair angle = batch_angle(targets + i * count * stride, stride,
+                                      batch_rotation(solver, args, i), count, lane);
+    sum = sum + angle * angle;
+  }
+  return square_root(sum);
+}
+
+/// kPoses results of the inverse times the weights.
+template <size_t kPoses>
+inline void batch_interpolate(const RbfSolverPlan& solver, const RbfBatchArgs& args, size_t pose,
+                              size_t lane) {
+  using M = Make<VecPair>;
+  const size_t count = solver.pose_count;
+  const float* columns[kPoses];
+  VecPair sums[kPoses];
+  for (size_t p = 0; p < kPoses; ++p) {
+    const size_t at = pose + p;
+    columns[p] = args.inverses + solver.first_inverse + at / kBlockLanes * count * kBlockLanes +
+                 at % kBlockLanes;
+    sums[p] = M::of(0.0f);
+  }
+  for (size_t t = 0; t < count; ++t) {
+    const VecPair weight = M::from(args.weights[0] + t * kBatchLanes + lane);
+    for (size_t p = 0; p < kPoses; ++p) {
+      sums[p] = sums[p] + M::of(columns[p][t * kBlockLanes]) * weight;
+    }
+  }
+  for (size_t p = 0; p < kPoses; ++p) {
+    store(args.weights[1] + (pose + p) * kBatchLanes + lane,
+          at_most(at_least(sums[p], M::of(0.0f)), M::of(1.0f)));
+  }
+}
+
+/// As sum_of() of rbf_kernels.inl.
+inline VecPair batch_sum(const float* weights, size_t count) {
+  using M = Make<VecPair>;
+  VecPair sums[kBlockLanes];
+  for (size_t i = 0; i < kBlockLanes; ++i) {
+    sums[i] = i < count ? M::from(weights + i * kBatchLanes) : M::of(0.0f);
+    for (size_t p = i + kBlockLanes; p < count; p += kBlockLanes) {
+      sums[i] = sums[i] + M::from(weights + p * kBatchLanes);
+    }
+  }
+  for (size_t half = kBlockLanes / 2; half > 0; half /= 2) {
+    for (size_t i = 0; i < half; ++i) sums[i] = sums[i] + sums[i + half];
+  }
+  return sums[0];
+}
+
+inline void batch_solver(const RbfSolverPlan& solver, const RbfBatchArgs& args, size_t lane) {
+  using M = Make<VecPair>;
+  const size_t count = solver.pose_count;
+  const size_t stride = (count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
+  for (size_t p = 0; p < count; ++p) {
+    const float* targets = args.targets + solver.first_target + p;
+    const VecPair x = batch_distance(solver, args, targets, stride, lane) * M::of(solver.scale);
+    store(args.weights[0] + p * kBatchLanes + lane, weight_of(x, solver));
+  }
+  if (solver.interpolative) {
+    size_t p = 0;
+    for (; p + 4 <= count; p += 4) batch_interpolate<4>(solver, args, p, lane);
+    for (; p < count; ++p) batch_interpolate<1>(solver, args, p, lane);
+  }
+  float* weights = args.weights[solver.interpolative] + lane;
+  const VecPair zero = M::of(0.0f), one = M::of(1.0f), sum = batch_sum(weights, count);
+  const auto divides = solver.always_normalize ? less(zero, sum) : less(one, sum);
+  VecPair scale = select(divides, divide(one, sum), one);
+  scale = keep(less(scale, M::of(3.4e38f)), scale);  // of weights that all but vanish
+  const VecPair threshold = M::of(solver.threshold);
+  for (size_t p = 0; p < count; ++p) {
+    const VecPair value =
+        M::from(weights + p * kBatchLanes) * scale * M::of(args.pose_scales[solver.first_lane + p]);
+    store(weights + p * kBatchLanes,
+          keep(less(threshold, value), value) * M::of(args.pose_factors[solver.first_lane + p]));
+  }
+}
+
+/// As part_rotations(): one rotation of all lanes.
+inline void batch_part(const RbfBatchArgs& args, size_t rotation, size_t lane) {
+  using M = Make<VecPair>;
+  const uint16_t* inputs =
+      args.rotation_inputs + rotation / kBlockLanes * 4 * kBlockLanes + rotation % kBlockLanes;
+  const auto part = [&](size_t k) {
+    return M::from(args.controls + inputs[k * kBlockLanes] * kBatchLanes + lane);
+  };
+  const VecPair zero = M::of(0.0f), a = part(0), b = part(1), c = part(2), w = part(3);
+  const VecPair length = square_root(a * a + w * w);
+  float* to = args.rotations + rotation * 4 * kBatchLanes + lane;
+  if (args.swings[rotation] > 0.0f) {
+    const VecPair n = zero - length;
+    store(to, zero);
+    store(to + kBatchLanes, divide(w * b - a * c, n));
+    store(to + 2 * kBatchLanes, divide(w * c + a * b, n));
+    store(to + 3 * kBatchLanes, n);
+  } else {
+    store(to, divide(a, length));
+    store(to + kBatchLanes, zero);
+    store(to + 2 * kBatchLanes, zero);
+    store(to + 3 * kBatchLanes, divide(w, length));
+  }
+}
+
+void rbf_batch(const RbfBatchArgs& args) {
+  const size_t lane_count = args.lane_count;
+  for (size_t r = 0; r < size_t{args.block_count} * kBlockLanes; ++r) {
+    for (size_t lane = 0; lane < lane_count; lane += kPairLanes) batch_part(args, r, lane);
+  }
+  for (size_t i = 0; i < args.count; ++i) {
+    const RbfSolverPlan& solver = args.solvers[args.list[i]];
+    if (solver.pose_count == 0) continue;
+    for (size_t lane = 0; lane < lane_count; lane += kPairLanes) batch_solver(solver, args, lane);
+    const bool direct = solver.first_control != kNoFirstControl;
+    scatter_lanes(args.weights[solver.interpolative], solver.pose_count, lane_count,
+                  direct ? args.rows : args.results,
+                  direct ? solver.first_control : solver.first_lane);
+  }
+}
+
+}  // namespace
+}  // namespace mien::MIEN_KERNEL_ISA
