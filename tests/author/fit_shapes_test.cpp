@@ -162,6 +162,20 @@ TEST(FitShapes, TranslationsAloneDoNotTurn) {
   EXPECT_GT(fitted.error(clouds), 2 * Fitted(clouds).error(clouds));
 }
 
+TEST(FitShapes, AJawWithManyVerticesDoesNotHideFacialBones) {
+  Clouds clouds;
+  clouds.bones[5].kind = BoneKind::kJaw;
+  // What the jaw carries moves a hundred times as far as one facial bone, another hardly at all.
+  clouds.add_shape("open", [](uint32_t v) -> Vec3 {
+    return {0, v < 60 ? 0.1 : v < 120 ? 10 : 1e-4, 0};
+  });
+  clouds.finish(1);
+  const Fitted fitted(clouds);
+  EXPECT_TRUE(fitted.motions.active_in(1)[4]);
+  EXPECT_TRUE(fitted.motions.active_in(1)[5]);
+  EXPECT_FALSE(fitted.motions.active_in(1)[6]);
+}
+
 TEST(FitShapes, FacialBonesTurnNoFurtherThanTheLimitAndJawsDo) {
   Clouds clouds;
   FitOptions options;
@@ -218,7 +232,7 @@ TEST(RefitWeights, WeightsThatMadeTheShapesAreFoundAgain) {
     motions.of(i / 4)[4 + i % 4].shift = moves[i];
     motions.active_in(i / 4)[4 + i % 4] = 1;
   }
-  refit_weights(setup.mesh, motions, {}, setup.weights);
+  refit_weights(setup.mesh, motions, {}, {}, setup.weights, setup.weights);
   for (uint16_t i = 0; i < 3; ++i) {
     EXPECT_EQ(setup.joints[i], 4 + i) << "heaviest first";
     EXPECT_NEAR(setup.weight_values[i], made[i], 0.01);
@@ -232,7 +246,7 @@ TEST(RefitWeights, WeightsStayWeights) {
   const std::vector<uint16_t> before = head.joints;
   Fitted fitted(head);
   const double error = fitted.error(head);
-  refit_weights(head.mesh, fitted.motions, {}, head.weights);
+  refit_weights(head.mesh, fitted.motions, {}, {}, head.weights, head.weights);
   EXPECT_LT(fitted.error(head), 0.8 * error);
   for (size_t v = 0; v < head.positions.size(); ++v) {
     double sum = 0;
@@ -250,6 +264,70 @@ TEST(RefitWeights, WeightsStayWeights) {
   }
 }
 
+/// One vertex with these bones, each of which moves by its own shift in the one shape.
+struct OneVertex {
+  AuthorSetup setup;
+  Arena arena{default_allocator()};
+  Motions motions;
+
+  OneVertex(const std::vector<Vec3>& shifts, Vec3 wanted) {
+    setup.add_trunk();
+    setup.add_vertex({1, 1, 1});
+    const uint32_t count = static_cast<uint32_t>(shifts.size());
+    for (uint32_t j = 0; j < count; ++j) {
+      setup.add_bone("b" + std::to_string(j), {double(j), 0, 0}, BoneKind::kFacial, 3);
+      setup.joints.push_back(static_cast<uint16_t>(4 + j));
+      setup.weight_values.push_back(1 / static_cast<float>(count));
+    }
+    setup.add_shape("s", [&](uint32_t) { return wanted; });
+    setup.finish(count);
+    EXPECT_TRUE(make_motions(1, setup.bones.size(), arena, motions));
+    for (uint32_t j = 0; j < count; ++j) {
+      motions.of(0)[4 + j].shift = shifts[j];
+      motions.active_in(0)[4 + j] = 1;
+    }
+  }
+};
+
+TEST(RefitWeights, BonesThatAreSharedTakeWhatIsTooMuch) {
+  OneVertex alone({{2, 0, 0}, {4, 0, 0}}, {1, 0, 0}), helped({{2, 0, 0}, {4, 0, 0}}, {1, 0, 0});
+  refit_weights(alone.setup.mesh, alone.motions, {}, {}, alone.setup.weights, alone.setup.weights);
+  EXPECT_EQ(alone.setup.weight_values, (std::vector<float>{1, 0})) << "the shorter motion alone";
+  const uint16_t head = 2;
+  refit_weights(helped.setup.mesh, helped.motions, {&head, 1}, {}, helped.setup.weights,
+                helped.setup.weights);
+  double moved = 0, sum = 0;
+  for (uint32_t i = 0; i < 2; ++i) {
+    moved += helped.setup.weight_values[i] * helped.motions.of(0)[helped.setup.joints[i]].shift.x;
+    sum += helped.setup.weight_values[i];
+  }
+  EXPECT_NEAR(moved, 1, 0.02);
+  EXPECT_NEAR(sum, 1, 1e-6);
+  EXPECT_TRUE(helped.setup.joints[0] == head || helped.setup.joints[1] == head);
+}
+
+TEST(RefitWeights, OfManyInfluencesThoseStayThatThereIsRoomFor) {
+  // Only the second and the fourth bone make the shape, half of each.
+  const std::vector<Vec3> shifts = {{0, 9, 0}, {2, 0, 0}, {0, -9, 3}, {0, 0, 2}, {5, 0, 9}};
+  OneVertex made(shifts, {1, 0, 1});
+  std::vector<uint16_t> joints(2);
+  std::vector<float> values(2);
+  SkinWeights out = {{joints.data(), 2}, {values.data(), 2}, 2};
+  refit_weights(made.setup.mesh, made.motions, {}, {}, made.setup.weights, out);
+  EXPECT_EQ(std::set<uint16_t>(joints.begin(), joints.end()), (std::set<uint16_t>{5, 7}));
+  EXPECT_NEAR(values[0], 0.5, 0.01);
+  EXPECT_NEAR(values[0] + values[1], 1, 1e-6);
+}
+
+TEST(RefitWeights, RigidVerticesStayRigid) {
+  OneVertex made({{2, 0, 0}}, {1, 0, 0});
+  const uint16_t head = 2;
+  refit_weights(made.setup.mesh, made.motions, {&head, 1}, {}, made.setup.weights,
+                made.setup.weights);
+  EXPECT_EQ(made.setup.joints[0], 4);
+  EXPECT_EQ(made.setup.weight_values[0], 1);
+}
+
 // A face -----------------------------------------------------------------------------------------
 
 TEST(FitShapes, ErrorsFallWithRotationsAlternationsAndBones) {
@@ -265,7 +343,7 @@ TEST(FitShapes, ErrorsFallWithRotationsAlternationsAndBones) {
   EXPECT_LT(Fitted(many).error(many), 1.02 * turned_error);
   double last = turned_error;
   for (int i = 0; i < 3; ++i) {
-    refit_weights(few.mesh, turned_too.motions, {}, few.weights);
+    refit_weights(few.mesh, turned_too.motions, {}, {}, few.weights, few.weights);
     fit_all(turned_too.fitter, few.mesh, few.placement, few.weights, false, {}, turned_too.motions);
     const double error = turned_too.error(few);
     EXPECT_LT(error, 1.02 * last);
@@ -284,8 +362,8 @@ TEST(FitShapes, AnUnusedControlChangesNothing) {
   for (size_t i = 0; i < a.motions.items.count; ++i) {
     EXPECT_EQ(difference(a.motions.items[i], b.motions.items[i]), 0);
   }
-  refit_weights(head.mesh, a.motions, {}, head.weights);
-  refit_weights(more.mesh, b.motions, {}, more.weights);
+  refit_weights(head.mesh, a.motions, {}, {}, head.weights, head.weights);
+  refit_weights(more.mesh, b.motions, {}, {}, more.weights, more.weights);
   EXPECT_EQ(head.weight_values, more.weight_values);
 }
 
@@ -333,8 +411,8 @@ TEST(FitShapes, OrderOfVerticesUnitAndPlaceDoNotMatter) {
       for (int r = 0; r < 3; ++r) EXPECT_LT(length(x.rows[r] - y.rows[r]), 1e-3);
       EXPECT_LT(length((x(at) - at) * scale - (y(there) - there)), 1e-4 * other.mesh.diagonal);
     }
-    refit_weights(head.mesh, a.motions, {}, head.weights);
-    refit_weights(other.mesh, b.motions, {}, other.weights);
+    refit_weights(head.mesh, a.motions, {}, {}, head.weights, head.weights);
+    refit_weights(other.mesh, b.motions, {}, {}, other.weights, other.weights);
     fit_all(a.fitter, head.mesh, head.placement, head.weights, false, {}, a.motions);
     fit_all(b.fitter, other.mesh, other.placement, other.weights, false, {}, b.motions);
   }
@@ -351,8 +429,8 @@ TEST(FitShapes, TheOrderOfTasksDoesNotMatter) {
   make_author_head(6, 16, 4, 1, b);
   const ParallelFor backwards = {nullptr, run_backwards};
   Fitted x(a), y(b, {}, backwards);
-  refit_weights(a.mesh, x.motions, {}, a.weights);
-  refit_weights(b.mesh, y.motions, backwards, b.weights);
+  refit_weights(a.mesh, x.motions, {}, {}, a.weights, a.weights);
+  refit_weights(b.mesh, y.motions, {}, backwards, b.weights, b.weights);
   fit_all(x.fitter, a.mesh, a.placement, a.weights, false, {}, x.motions);
   fit_all(y.fitter, b.mesh, b.placement, b.weights, false, backwards, y.motions);
   EXPECT_EQ(a.weight_values, b.weight_values);

@@ -36,7 +36,7 @@ bool make_motions(size_t shapes, size_t bones, Arena& arena, Motions& out) {
 
 void find_support(const Fitter& fitter, FitLane& lane, Span<uint8_t> active) {
   const Footprints& f = fitter.footprints;
-  double largest = 0;
+  double largest[2] = {};  // of joints for teeth and eyeballs, of facial ones
   for (uint32_t j = 0; j < f.bone_count; ++j) {
     double energy = 0;
     if (f.fitted[j]) {
@@ -46,10 +46,11 @@ void find_support(const Fitter& fitter, FitLane& lane, Span<uint8_t> active) {
       }
     }
     lane.energy[j] = energy;
-    largest = std::max(largest, energy);
+    double& most = largest[f.facial[j]];
+    most = std::max(most, energy);
   }
   for (uint32_t j = 0; j < f.bone_count; ++j) {
-    active[j] = lane.energy[j] > fitter.options.support * largest;
+    active[j] = lane.energy[j] > fitter.options.support * largest[f.facial[j]];
   }
 }
 

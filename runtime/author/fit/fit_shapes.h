@@ -53,7 +53,8 @@ bool make_fitter(Span<const Vec3> positions, const Placement& placement, uint32_
                  const FitOptions& options, Arena& arena, Fitter& out);
 bool make_motions(size_t shapes, size_t bones, Arena& arena, Motions& out);
 
-/// Marks bones with energy under their footprint: sum of w^2 |rest|^2.
+/// Marks bones with energy under their footprint: sum of w^2 |rest|^2. Facial bones are compared with
+/// facial bones: a jaw with thousands of vertices of teeth would hide them.
 void find_support(const Fitter& fitter, FitLane& lane, Span<uint8_t> active);
 
 /// Moves active bones further so that they take up what `lane.rest` still has to do, and leaves what
@@ -67,9 +68,12 @@ void fit_all(Fitter& fitter, const AuthorMesh& mesh, const Placement& placement,
              const SkinWeights& weights, bool given, const ParallelFor& parallel,
              const Motions& out);
 
-/// Weights of each vertex over its own influences that bring it closest to its displacements, all
-/// shapes together: not negative, summing to one, drawn to what they were.
-void refit_weights(const AuthorMesh& mesh, const Motions& motions, const ParallelFor& parallel,
-                   SkinWeights& weights);
+/// Weights of each vertex that bring it closest to its displacements, all shapes together: not
+/// negative, summing to one, drawn to what they were. Of its influences in `from` and the `shared`
+/// bones those stay that `out` has room for; vertices of one influence are left rigid. `out` may be
+/// `from`.
+constexpr uint32_t kMaxSharedBones = 4;
+void refit_weights(const AuthorMesh& mesh, const Motions& motions, Span<const uint16_t> shared,
+                   const ParallelFor& parallel, const SkinWeights& from, SkinWeights& out);
 
 }  // namespace mien::author

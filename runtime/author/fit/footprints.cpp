@@ -7,16 +7,27 @@
 
 namespace mien::author {
 
+namespace {
+
+// Of the translations, as a share of the mean diagonal of the Gram matrix. Footprints overlap widely:
+// with less, neighbors move far and against each other, which only the weights of LOD 0 make up for.
+constexpr double kDamping = 0.3;
+
+}  // namespace
+
 bool make_footprints(size_t vertex_count, const Placement& placement, uint32_t influences,
                      Arena& arena, Footprints& out) {
   const size_t bones = placement.bones.count;
   out.bone_count = static_cast<uint32_t>(bones);
   if (!make(arena, bones + 1, out.starts) || !make(arena, vertex_count * influences, out.entries) ||
       !make(arena, bones * bones, out.gram) || !make(arena, bones, out.moments) ||
-      !make(arena, bones, out.fitted)) {
+      !make(arena, bones, out.fitted) || !make(arena, bones, out.facial)) {
     return false;
   }
-  for (size_t j = 0; j < bones; ++j) out.fitted[j] = is_fitted(placement.bones[j]);
+  for (size_t j = 0; j < bones; ++j) {
+    out.fitted[j] = is_fitted(placement.bones[j]);
+    out.facial[j] = placement.bones[j].kind == BoneKind::kFacial;
+  }
   return true;
 }
 
@@ -93,7 +104,7 @@ void fill_footprints(Span<const Vec3> positions, const SkinWeights& weights,
     trace += out.gram[size_t{j} * out.bone_count + j];
     fitted += out.fitted[j];
   }
-  out.damping = fitted > 0 ? 1e-4 * trace / fitted : 0;
+  out.damping = fitted > 0 ? kDamping * trace / fitted : 0;
 }
 
 }  // namespace mien::author

@@ -35,6 +35,7 @@ struct Footprints {
   Span<double> gram;         // bone_count rows: sums of products of weights; 0 for fixed bones
   Span<Moments> moments;     // per bone
   Span<uint8_t> fitted;      // per bone
+  Span<uint8_t> facial;      // per bone: one of many on the skin, no jaw and no eye
   double damping = 0;        // added to the diagonal of the Gram matrix
 
   Span<Influenced> of(uint32_t bone) const {

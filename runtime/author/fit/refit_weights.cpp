@@ -3,12 +3,14 @@
 
 #include "runtime/author/cholesky.h"
 #include "runtime/author/fit/fit_shapes.h"
+#include "runtime/author/weights/skin_weights.h"
 
 namespace mien::author {
 
 namespace {
 
 constexpr uint32_t kMaxInfluences = 16;
+static_assert(kMaxInfluences >= kMaxAuthorInfluences + kMaxSharedBones, "");
 constexpr uint32_t kVertexBlock = 1024;
 
 /// Least squares over few unknowns that may not become negative: x^T matrix x / 2 - right^T x.
@@ -71,52 +73,77 @@ void solve_nonnegative(const SmallSystem& s, double* x) {
   }
 }
 
-/// Weights below 1e-4 go; the rest sums to one in float, heaviest first.
-void store(const double* x, uint16_t* joints, float* weights, uint32_t m) {
-  uint32_t order[kMaxInfluences];
-  uint16_t old[kMaxInfluences];
-  double kept[kMaxInfluences], sum = 0;
-  for (uint32_t i = 0; i < m; ++i) {
-    order[i] = i;
-    old[i] = joints[i];
-    kept[i] = x[i] < 1e-4 ? 0 : x[i];
-    sum += kept[i];
+/// Least squares of one vertex: unknown i is the weight of joints[i].
+struct VertexWeights {
+  SmallSystem system;
+  uint16_t joints[kMaxInfluences];
+  double x[kMaxInfluences];
+
+  void add(uint16_t joint, double value) {
+    joints[system.size] = joint;
+    x[system.size++] = value;
   }
-  if (!(sum > 0)) return;
-  std::sort(order, order + m, [&](uint32_t a, uint32_t b) {
-    return kept[a] != kept[b] ? kept[a] > kept[b] : old[a] < old[b];
+  bool has(uint16_t joint) const {
+    return std::find(joints, joints + system.size, joint) != joints + system.size;
+  }
+  /// The last one takes the place of unknown i.
+  void remove(uint32_t i) {
+    SmallSystem& s = system;
+    const uint32_t last = --s.size;
+    joints[i] = joints[last];
+    x[i] = x[last];
+    s.right[i] = s.right[last];
+    for (uint32_t k = 0; k <= last; ++k) s.matrix[i][k] = s.matrix[last][k];
+    for (uint32_t k = 0; k < last; ++k) s.matrix[k][i] = s.matrix[k][last];
+    s.matrix[i][i] = s.matrix[last][last];
+  }
+};
+
+/// The heaviest that there is room for, without those below 1e-4; they sum to one in float.
+void store(const VertexWeights& w, uint32_t vertex, SkinWeights& out) {
+  uint16_t* joints = &out.joints[size_t{vertex} * out.m];
+  float* weights = &out.weights[size_t{vertex} * out.m];
+  uint32_t order[kMaxInfluences], count = 0;
+  for (uint32_t i = 0; i < w.system.size; ++i) {
+    if (w.x[i] >= 1e-4) order[count++] = i;
+  }
+  std::sort(order, order + count, [&w](uint32_t a, uint32_t b) {
+    return w.x[a] != w.x[b] ? w.x[a] > w.x[b] : w.joints[a] < w.joints[b];
   });
-  double rest = 1;
-  for (uint32_t i = 0; i < m; ++i) {
-    weights[i] = static_cast<float>(kept[order[i]] / sum);
-    joints[i] = weights[i] > 0 ? old[order[i]] : uint16_t{0};
+  count = std::min(count, out.m);
+  double sum = 0, rest = 1;
+  for (uint32_t i = 0; i < count; ++i) sum += w.x[order[i]];
+  if (!(sum > 0)) return;
+  for (uint32_t i = 0; i < out.m; ++i) {
+    joints[i] = i < count ? w.joints[order[i]] : uint16_t{0};
+    weights[i] = i < count ? static_cast<float>(w.x[order[i]] / sum) : 0;
     rest -= double{weights[i]};
   }
   weights[0] = static_cast<float>(double{weights[0]} + rest);
 }
 
-void refit_vertex(const AuthorMesh& mesh, const Motions& motions, uint32_t v,
-                  SkinWeights& weights) {
-  uint16_t* joints = &weights.joints[size_t{v} * weights.m];
-  float* values = &weights.weights[size_t{v} * weights.m];
-  SmallSystem s;
-  double x[kMaxInfluences];
-  while (s.size < weights.m && values[s.size] > 0) {
-    x[s.size] = double{values[s.size]};
-    ++s.size;
-  }
-  if (s.size < 2) return;
-  const Vec3 p = mesh.positions[v];
-  for (size_t shape = 0; shape < mesh.shapes.count; ++shape) {
+struct RefitTask {
+  const AuthorMesh& mesh;
+  const Motions& motions;
+  Span<const uint16_t> shared;
+  const SkinWeights& from;
+  SkinWeights& out;
+};
+
+/// What all shapes ask of the vertex. False if no bone of its own moves.
+bool sum_shapes(const RefitTask& task, uint32_t v, VertexWeights& w) {
+  SmallSystem& s = w.system;
+  const Vec3 p = task.mesh.positions[v];
+  for (size_t shape = 0; shape < task.mesh.shapes.count; ++shape) {
     Vec3 moved[kMaxInfluences];
     bool moves = false;
     for (uint32_t i = 0; i < s.size; ++i) {
-      if (!motions.active_in(shape)[joints[i]]) continue;
-      moved[i] = motions.of(shape)[joints[i]](p) - p;
+      if (!task.motions.active_in(shape)[w.joints[i]]) continue;
+      moved[i] = task.motions.of(shape)[w.joints[i]](p) - p;
       moves = true;
     }
     if (!moves) continue;
-    const Vec3f wanted = mesh.shapes[shape].displacements[v];
+    const Vec3f wanted = task.mesh.shapes[shape].displacements[v];
     const Vec3 d = {double{wanted.x}, double{wanted.y}, double{wanted.z}};
     for (uint32_t i = 0; i < s.size; ++i) {
       s.right[i] += dot(moved[i], d);
@@ -125,38 +152,57 @@ void refit_vertex(const AuthorMesh& mesh, const Motions& motions, uint32_t v,
   }
   double trace = 0;
   for (uint32_t i = 0; i < s.size; ++i) trace += s.matrix[i][i];
-  if (!(trace > 0)) return;
+  if (!(trace > 0)) return false;
   const double scale = trace / s.size, sum_row = 100.0 * 100.0 * scale, pull = 0.05 * 0.05 * scale;
   for (uint32_t i = 0; i < s.size; ++i) {
-    s.right[i] += sum_row + pull * x[i];
+    s.right[i] += sum_row + pull * w.x[i];
     for (uint32_t k = 0; k <= i; ++k) {
       s.matrix[i][k] += sum_row + (i == k ? pull : 0);
       s.matrix[k][i] = s.matrix[i][k];
     }
   }
-  solve_nonnegative(s, x);
-  store(x, joints, values, s.size);
+  return true;
+}
+
+void refit_vertex(const RefitTask& task, uint32_t v) {
+  VertexWeights w;
+  for (size_t i = size_t{v} * task.from.m; w.system.size < task.from.m; ++i) {
+    if (!(task.from.weights[i] > 0)) break;
+    w.add(task.from.joints[i], double{task.from.weights[i]});
+  }
+  const bool is_rigid = w.system.size < 2;
+  for (size_t i = 0; i < task.shared.count && !is_rigid; ++i) {
+    if (!w.has(task.shared[i])) w.add(task.shared[i], 0);
+  }
+  if (is_rigid || !sum_shapes(task, v, w)) return store(w, v, task.out);
+  solve_nonnegative(w.system, w.x);
+  // One unknown too many at a time goes, the lightest, and the others adapt.
+  for (;;) {
+    uint32_t used = 0, lightest = 0;
+    for (uint32_t i = 0; i < w.system.size; ++i) {
+      if (!(w.x[i] > 0)) continue;
+      if (used++ == 0 || w.x[i] < w.x[lightest]) lightest = i;
+    }
+    if (used <= task.out.m) break;
+    w.remove(lightest);
+    solve_nonnegative(w.system, w.x);
+  }
+  store(w, v, task.out);
 }
 
 }  // namespace
 
-void refit_weights(const AuthorMesh& mesh, const Motions& motions, const ParallelFor& parallel,
-                   SkinWeights& weights) {
-  struct Task {
-    const AuthorMesh& mesh;
-    const Motions& motions;
-    SkinWeights& weights;
-  } task = {mesh, motions, weights};
+void refit_weights(const AuthorMesh& mesh, const Motions& motions, Span<const uint16_t> shared,
+                   const ParallelFor& parallel, const SkinWeights& from, SkinWeights& out) {
+  RefitTask task = {mesh, motions, shared, from, out};
   const uint32_t count = static_cast<uint32_t>(mesh.positions.count);
   run_tasks(
       parallel, (count + kVertexBlock - 1) / kVertexBlock,
       [](void* context, uint32_t block) {
-        const Task& t = *static_cast<const Task*>(context);
+        const RefitTask& t = *static_cast<const RefitTask*>(context);
         const uint32_t end = std::min<uint32_t>(static_cast<uint32_t>(t.mesh.positions.count),
                                                 (block + 1) * kVertexBlock);
-        for (uint32_t v = block * kVertexBlock; v < end; ++v) {
-          refit_vertex(t.mesh, t.motions, v, t.weights);
-        }
+        for (uint32_t v = block * kVertexBlock; v < end; ++v) refit_vertex(t, v);
       },
       &task);
 }

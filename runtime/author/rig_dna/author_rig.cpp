@@ -52,6 +52,18 @@ class RigMaker {
     return measure_fit(mesh_, weights, motions_, targets, options_.parallel, arena_, out);
   }
 
+  /// The head's joint, which stays where it is, and the jaw's may carry every vertex.
+  void refit(const SkinWeights& from, SkinWeights& out) {
+    uint16_t shared[kMaxSharedBones];
+    uint32_t count = 0;
+    for (uint32_t j = 0; j < placement_.bones.count && count < kMaxSharedBones; ++j) {
+      const BoneKind kind = placement_.bones[j].kind;
+      if (kind != BoneKind::kHead && kind != BoneKind::kJaw) continue;
+      shared[count++] = static_cast<uint16_t>(j);
+    }
+    refit_weights(mesh_, motions_, {shared, count}, options_.parallel, from, out);
+  }
+
   /// From here on the shapes of `mesh_` are the expressions.
   bool find_controls() {
     Span<Shape> expressions;
@@ -94,7 +106,7 @@ class RigMaker {
     groups.before = report_.rotations;
     for (uint32_t i = 0; i < options_.fit.alternations && !options_.keep_weights; ++i) {
       if (!starts("weights")) return false;
-      refit_weights(mesh_, motions_, options_.parallel, weights);
+      refit(weights, weights);
       if (!fit_again(groups.before)) return false;
     }
 
@@ -114,7 +126,7 @@ class RigMaker {
     if (!measure(weights, {}, groups.removed)) return false;
     fit_all(fitter, mesh_, placement_, weights, true, options_.parallel, motions_);
     if (!options_.keep_weights && options_.fit.alternations > 0) {
-      refit_weights(mesh_, motions_, options_.parallel, weights);
+      refit(weights, weights);
       fit_all(fitter, mesh_, placement_, weights, true, options_.parallel, motions_);
     }
     return measure(weights, {}, groups.refitted);
@@ -163,7 +175,10 @@ class RigMaker {
     if (!measure(lod.weights, {}, error)) return false;
     report.new_error = error.error;
     if (l > 0 && !options_.keep_weights) {
-      refit_weights(mesh_, motions_, options_.parallel, lod.weights);
+      SkinWeights refitted;
+      if (!make_weights_like(weights[0], scratch_, refitted)) return false;
+      refit(lod.weights, refitted);
+      lod.weights = refitted;
       if (!measure(lod.weights, {}, error)) return false;
     }
     report.joints_error = error.error;

@@ -57,8 +57,9 @@ struct RigReport {
 
 /// Shapes whose names are made of other shapes' names become correctives, the others raw controls.
 /// `weights` holds those of LOD 0, or those of every LOD, each over the bones that it keeps; where
-/// they are missing, dropped bones hand theirs to the nearest one that is left. They are refitted in
-/// place unless the options keep them. Report and view lie in `arena`, and the view refers to names
+/// they are missing, dropped bones hand theirs to the nearest one that is left. They are refitted
+/// unless the options keep them, those of LOD 0 in place; further LODs may have more influences to
+/// choose from than LOD 0. Report and view lie in `arena`, and the view refers to names
 /// in it. False if memory ran out or `go_on` stopped it.
 bool author_rig(const AuthorMesh& mesh, const Placement& placement, Span<SkinWeights> weights,
                 const RigOptions& options, Arena& arena, const Allocator& allocator,

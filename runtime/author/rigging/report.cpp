@@ -296,6 +296,7 @@ void write_fit(const Rigging& rigging, Json& json) {
     json.key("nonzeros").whole(groups.nonzeros);
     json.key("stored").whole(groups.stored);
     json.key("full").whole(groups.full);
+    json.key("outliers").whole(groups.pruned.outliers);
     json.key("padding").open("[");
     for (const double padding : groups.padding) json.number(padding);
     json.close("]");

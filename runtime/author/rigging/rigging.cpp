@@ -190,7 +190,8 @@ Status make_rig(const MeshSource& source, const RiggingOptions& options, Arena& 
       continue;
     }
     WeightOptions weigh;
-    weigh.influences = options.influences;
+    // Shapes choose among more joints where most are gone.
+    weigh.influences = lod > 0 && !mesh.shapes.empty() ? kMaxAuthorInfluences : options.influences;
     weigh.facial_bones = out.placement.lod_facial_counts[lod];
     if (!make_skin_weights(mesh, out.placement, weigh, arena, allocator, lods[lod])) {
       return no_memory(error);

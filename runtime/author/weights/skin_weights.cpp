@@ -14,6 +14,7 @@ namespace mien::author {
 namespace {
 
 constexpr float kLeastWeight = 1e-4f;
+constexpr double kMoves = 1e-3;  // part of the diagonal: what moves less is at rest
 
 /// What weighing the skin needs.
 struct Weighing {
@@ -87,8 +88,8 @@ bool find_nearest_bones(Weighing& w) {
   return true;
 }
 
-/// Shepard's weights of a vertex with support up to the next bone; they sum to one.
-void shepard_weights(const Weighing& w, uint32_t v, InfluenceList& out) {
+/// Weights of a vertex with support up to the next bone; they sum to one.
+void kernel_weights(const Weighing& w, uint32_t v, InfluenceList& out) {
   const uint32_t found = w.counts[v];
   if (found == 0) return;
   const size_t slot = size_t{v} * w.lists;
@@ -100,8 +101,8 @@ void shepard_weights(const Weighing& w, uint32_t v, InfluenceList& out) {
       2 * least);
   double sum = 0, values[kMaxAuthorInfluences];
   for (uint32_t i = 0; i < used; ++i) {
-    const double d = std::max(w.distances[slot + i], least);
-    const double value = reach > d ? (reach - d) / (reach * d) : 0;
+    const double part = w.distances[slot + i] / reach;
+    const double value = part < 1 ? 1 - part * part : 0;
     values[i] = value * value;
     sum += values[i];
   }
@@ -110,12 +111,39 @@ void shepard_weights(const Weighing& w, uint32_t v, InfluenceList& out) {
   }
 }
 
+/// The mask and all else of the skin that a shape moves: below the throat there are no bones, but the
+/// chin pulls at what is there. False if memory ran out.
+bool find_moved(const Weighing& w, Span<uint32_t>& out) {
+  const AuthorMesh& mesh = w.mesh;
+  Span<uint8_t> is_in;
+  if (!make(w.scratch, mesh.positions.count, is_in) ||
+      !make(w.scratch, mesh.positions.count, out)) {
+    return false;
+  }
+  for (const uint32_t v : w.placement.mask) is_in[v] = 1;
+  const double least = kMoves * mesh.diagonal;
+  for (const Shape& shape : mesh.shapes) {
+    for (const uint32_t v : shape.moving) {
+      const Vec3f f = shape.displacements[v];
+      const Vec3 d = {double{f.x}, double{f.y}, double{f.z}};
+      if (mesh.is_skin[v] && dot(d, d) > least * least) is_in[v] = 1;
+    }
+  }
+  size_t count = 0;
+  for (uint32_t v = 0; v < mesh.positions.count; ++v) {
+    if (is_in[v]) out[count++] = v;
+  }
+  out.count = count;
+  return true;
+}
+
 bool weigh_skin(Weighing& w) {
   const AuthorMesh& mesh = w.mesh;
   const NeckCut& cut = w.placement.neck_cut;
   Span<double> from_mask;
-  if (!make(w.scratch, mesh.positions.count, from_mask) ||
-      !surface_distances(mesh, w.graph, w.placement.mask, w.scratch, from_mask)) {
+  Span<uint32_t> sources;
+  if (!make(w.scratch, mesh.positions.count, from_mask) || !find_moved(w, sources) ||
+      !surface_distances(mesh, w.graph, sources, w.scratch, from_mask)) {
     return false;
   }
   double low = std::numeric_limits<double>::infinity();
@@ -127,7 +155,7 @@ bool weigh_skin(Weighing& w) {
   for (uint32_t v = 0; v < mesh.positions.count; ++v) {
     if (!mesh.is_skin[v] || mesh.welded[v] != v) continue;
     InfluenceList facial, list;
-    shepard_weights(w, v, facial);
+    kernel_weights(w, v, facial);
     const double t = facial.count ? clamp01(from_mask[v] / (2 * w.spacing)) : 1;
     const double outside = t * t * (3 - 2 * t);
     for (uint32_t i = 0; i < facial.count; ++i) {

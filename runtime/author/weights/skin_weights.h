@@ -4,9 +4,10 @@
 // A bone is anchored at the nearest place of the mask; D is the length of the way to it along edges,
 // together with the bone's depth below the anchor. The m nearest bones of a vertex share it by
 //
-//     w_j ~ ((R - D_j) / (R D_j))^2,   R: D of the next one
+//     w_j ~ (1 - (D_j / R)^2)^2,   R: D of the next one
 //
-// (Shepard's weights with a radius), so a weight falls to 0 exactly where its bone leaves the list.
+// (the biweight kernel), so a weight and its slope fall to 0 exactly where its bone leaves the list,
+// and are flat at the bone.
 #pragma once
 
 #include "runtime/author/mesh/author_mesh.h"

@@ -68,6 +68,14 @@ TEST(SkinWeights, SumToOneAndStayWithinTheInfluences) {
   }
 }
 
+TEST(SkinWeights, ChangeSlowlyAlongTheSurface) {
+  for (const uint32_t joints : {40u, 120u}) {
+    const Weighed made(procedural_mesh(2, true), joints, 8);
+    EXPECT_LT(made.report.roughness, 2) << joints;
+    EXPECT_GT(made.report.roughness, 0.5) << joints;
+  }
+}
+
 TEST(SkinWeights, OfAFewBonesReachEveryVertex) {
   const Weighed made(procedural_mesh(4, false), 60, 8, 6);
   for (uint32_t v = 0; v < made.read.mesh.positions.count; ++v) {
@@ -94,6 +102,25 @@ TEST(SkinWeights, FadeToTheHeadBehindTheFaceAndToTheNeckBelowIt) {
   for (uint32_t v : made.placement.mask) {
     EXPECT_EQ(made.weight(v, 1) + made.weight(v, 2), 0) << v;
   }
+}
+
+TEST(SkinWeights, OfWhatShapesMoveBelowTheThroatAreThoseOfTheChin) {
+  TestMesh mesh = procedural_mesh(3, true);
+  const Weighed before(mesh, 100, 8);
+  const AuthorMesh& still = before.read.mesh;
+  ASSERT_TRUE(before.placement.neck_cut.exists);
+  // The highest place in front that is all neck: now it follows the jaw.
+  uint32_t chosen = kNone;
+  for (uint32_t v = 0; v < still.positions.count; ++v) {
+    if (before.weight(v, 1) < 0.999 || still.positions[v].z < 0) continue;
+    if (chosen == kNone || still.positions[v].y > still.positions[chosen].y) chosen = v;
+  }
+  ASSERT_NE(chosen, kNone);
+  for (std::vector<double>& shape : mesh.displacements) shape[3 * chosen + 1] = 0;
+  mesh.displacements[0][3 * chosen + 1] = -1;
+  const Weighed after(mesh, 100, 8);
+  EXPECT_EQ(after.weight(chosen, 1) + after.weight(chosen, 2), 0);
+  EXPECT_LE(after.report.worst_sum, 1e-6);
 }
 
 /// Two sheets that touch nowhere but at one edge far away: the air between them is a hair wide.
