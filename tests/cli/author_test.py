@@ -310,6 +310,23 @@ class AuthorTest(ProgramTest):
             source = write("wrong.glb", glb(POSITIONS, FACES, SHAPES, change(where, value)))
             self.fails(INVALID, "author", source, "-o", path("no.dna"))
 
+    def test_files_that_name_the_same_data_again_and_again_are_refused(self):
+        def targets(root):
+            one = root["meshes"][0]["primitives"][0]
+            one["targets"] = one["targets"][:1] * 2000
+            root["meshes"][0]["extras"]["targetNames"] = ["x"]
+
+        def nodes(root):
+            root["nodes"] = [{"mesh": 0}] * 5000
+            root["scenes"] = [{"nodes": list(range(5000))}]
+        for edit in (targets, nodes):
+            source = write("again.glb", glb(POSITIONS, FACES, SHAPES, edit))
+            self.fails(INVALID, "author", source, "-o", path("no.dna"), says="too often")
+        data = bytearray(mshp(POSITIONS, SHAPES))
+        data[12:16] = struct.pack("<I", 4097)
+        self.fails(INVALID, "author", path("head.obj"), "--shapes", write("many.mshp", bytes(data)), "-o",
+                   path("no.dna"), says="4097 shapes")
+
     @unittest.skipUnless(hasattr(os, "mkfifo"), "no pipes with names")
     def test_an_interrupt_ends_with_130_and_leaves_nothing(self):
         pipe = path("pipe.obj")

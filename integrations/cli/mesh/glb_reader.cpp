@@ -21,6 +21,9 @@ using Matrix = std::array<double, 12>;  // 3 rows of 4
 
 constexpr size_t kMaxElements = size_t{1} << 28;
 constexpr int kMaxDepth = 256;
+constexpr size_t kMaxTargets = 4096;  // each takes memory for all positions
+// Nodes and targets may name the same data again and again. Of real files none has a fraction of this.
+constexpr size_t kMaxNumbers = size_t{1} << 22, kMaxNumbersPerByte = 32;
 
 Matrix product(const Matrix& a, const Matrix& b) {
   Matrix out;
@@ -36,7 +39,8 @@ Matrix product(const Matrix& a, const Matrix& b) {
 
 class Glb {
  public:
-  Glb(const std::string& bytes, const std::string& path) : path_(path) {
+  Glb(const std::string& bytes, const std::string& path)
+      : path_(path), numbers_left_(kMaxNumbers + bytes.size() * kMaxNumbersPerByte) {
     const auto word = [&](size_t at) {
       uint32_t value = 0;
       if (bytes.size() < 4 || at > bytes.size() - 4) fail("", "truncated", "get the file again");
@@ -109,8 +113,10 @@ class Glb {
   void copy(size_t view, size_t offset, size_t type, bool normalized, size_t count, size_t width,
             std::vector<double>& out) const;
   /// Numbers of an accessor, `width` per element, with sparse ones.
-  std::vector<double> numbers(size_t accessor, size_t width, const char* what) const;
-  std::vector<uint32_t> indices(size_t accessor, size_t below, const char* what) const;
+  std::vector<double> numbers(size_t accessor, size_t width, const char* what);
+  std::vector<uint32_t> indices(size_t accessor, size_t below, const char* what);
+  /// Fails once far more numbers are read than the file has.
+  void take_numbers(size_t count);
   Matrix local_matrix(const Json& node) const;
   void add_node(size_t index, const Matrix& parent, int depth);
   void add_primitive(const Json& mesh, const Json& primitive, const Matrix& place);
@@ -123,7 +129,15 @@ class Glb {
   std::set<std::string> object_names_;
   std::set<size_t> visited_;
   bool all_have_uvs_ = true;
+  size_t numbers_left_;
 };
+
+void Glb::take_numbers(size_t count) {
+  if (count > numbers_left_) {
+    fail("", "its meshes and targets name the same data too often", "make it smaller");
+  }
+  numbers_left_ -= count;
+}
 
 void Glb::copy(size_t view_index, size_t offset, size_t type, bool normalized, size_t count,
                size_t width, std::vector<double>& out) const {
@@ -176,7 +190,7 @@ void Glb::copy(size_t view_index, size_t offset, size_t type, bool normalized, s
   }
 }
 
-std::vector<double> Glb::numbers(size_t index, size_t width, const char* what) const {
+std::vector<double> Glb::numbers(size_t index, size_t width, const char* what) {
   const Json& accessor = element("accessors", index);
   const char* const types[] = {"", "SCALAR", "VEC2", "VEC3"};
   if (text(accessor, "type") != types[width]) {
@@ -184,6 +198,7 @@ std::vector<double> Glb::numbers(size_t index, size_t width, const char* what) c
          std::string(what) + " should have the type " + types[width]);
   }
   const size_t count = whole(accessor, "count", 0), type = whole(accessor, "componentType", 0);
+  take_numbers(count * width);
   const auto normal = accessor.find("normalized");
   const bool normalized = normal != accessor.end() && normal->is_boolean() && normal->get<bool>();
   std::vector<double> out;
@@ -223,7 +238,7 @@ std::vector<double> Glb::numbers(size_t index, size_t width, const char* what) c
   return out;
 }
 
-std::vector<uint32_t> Glb::indices(size_t accessor, size_t below, const char* what) const {
+std::vector<uint32_t> Glb::indices(size_t accessor, size_t below, const char* what) {
   std::vector<uint32_t> out;
   for (const double value : numbers(accessor, 1, what)) {
     if (!(value >= 0 && value < static_cast<double>(below))) {
@@ -290,6 +305,7 @@ void Glb::add_primitive(const Json& mesh, const Json& primitive, const Matrix& p
   if (primitive.contains("indices")) {
     corners = indices(whole(primitive, "indices", 0), count, "indices");
   } else {
+    take_numbers(count);
     for (size_t v = 0; v < count; ++v) corners.push_back(static_cast<uint32_t>(v));
   }
   corners.resize(corners.size() / 3 * 3);
@@ -330,6 +346,9 @@ void Glb::add_primitive(const Json& mesh, const Json& primitive, const Matrix& p
     if (shape_name.empty()) shape_name = "target_" + std::to_string(t);
     const auto [it, added] = shape_of_.emplace(shape_name, out_.shapes.size());
     if (added) {
+      if (out_.shapes.size() == kMaxTargets) {
+        fail("", "more than " + std::to_string(kMaxTargets) + " morph targets", "make it smaller");
+      }
       out_.shapes.emplace_back();
       out_.shapes.back().name = shape_name;
     }

@@ -17,6 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Every shape takes memory for all positions, whatever it moves.
+constexpr uint32_t kMaxShapes = 4096;
+
 std::string lower_extension(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
   for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -127,6 +130,11 @@ std::vector<MeshShape> read_mshp(const std::string& bytes, size_t position_count
               "made for " + std::to_string(vertices) + " positions, but the mesh has " +
                   std::to_string(position_count),
               "use the mesh that it was made for");
+  }
+  if (count > kMaxShapes) {
+    fail_mesh(path, "byte 12",
+              std::to_string(count) + " shapes, more than " + std::to_string(kMaxShapes),
+              "split them into several files");
   }
   std::vector<MeshShape> shapes;
   std::set<std::string> names;
