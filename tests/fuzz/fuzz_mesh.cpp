@@ -32,8 +32,8 @@ using Bytes = std::vector<uint8_t>;
 using Random = std::minstd_rand;
 
 constexpr uint32_t kRows = 9, kColumns = 10;
-constexpr size_t kLargestMesh = 400, kMostDisplacements = 20000;  // of what is rigged
-constexpr size_t kMostMemory = size_t{64} << 20;                  // for that
+constexpr size_t kLargestMesh = 400, kMaxDisplacements = 20000;  // of what is rigged
+constexpr size_t kMaxMemory = size_t{64} << 20;                  // for that
 
 void require(bool holds, const char* promise) {
   if (holds) return;
@@ -185,7 +185,7 @@ bool is_small(const MeshFile& file) {
   size_t displacements = 0;
   for (const MeshShape& shape : file.shapes) displacements += shape.displacements.size();
   return file.position_count() <= kLargestMesh && file.corners.size() <= 8 * kLargestMesh &&
-         displacements <= kMostDisplacements && file.shapes.size() <= 60;
+         displacements <= kMaxDisplacements && file.shapes.size() <= 60;
 }
 
 /// All controls at 1, every LOD: numbers have to stay finite.
@@ -258,7 +258,7 @@ void rig_mesh(const MeshFile& file, uint8_t options, uint8_t more) {
   mesh.shapes = shapes.data();
   mesh.shape_count = shapes.size();
   CountingAllocator heap;
-  heap.limit = kMostMemory;
+  heap.limit = kMaxMemory;
   if (options >= 240) heap.fail_at = 1 + size_t{more} * 3;
   const MienAllocator allocator = heap.get();
   MienAuthorDesc desc = mien_author_desc_default();
