@@ -12,10 +12,10 @@ using author::fill_index;
 using author::make;
 using author::Text;
 
-bool fill_descriptor(uint64_t seed, Arena& arena, dna::Descriptor& out) {
+bool fill_descriptor(uint64_t seed, const Person& person, Arena& arena, dna::Descriptor& out) {
   out.archetype = 5;  // other
   out.gender = 2;     // other
-  out.age = 30;
+  out.age = static_cast<uint16_t>(20 + 60 * person.age + 0.5);
   out.coordinate_system = {0, 2, 4};  // left, up, front: right-handed
   out.lod_count = kLodCount;
   const Text keys[] = {Text().add("generator"), Text().add("seed")};
@@ -37,7 +37,7 @@ bool make_head(uint64_t seed, Arena& arena, const Allocator& allocator, dna::Dna
   const Skeleton skeleton(form);
   Head head = {form, shapes, skeleton, {}};
   HalfMesh fitted(scratch);
-  return fill_index(arena, out) && fill_descriptor(seed, arena, out.desc) &&
+  return fill_index(arena, out) && fill_descriptor(seed, form.person(), arena, out.desc) &&
          make_part(form, Part::kHead, 1, fitted) &&
          fit_joints(form, shapes, skeleton, fitted, scratch, head.deltas) &&
          fill_controls(head, arena, out) && fill_joints(head, arena, scratch, out) &&

@@ -12,8 +12,9 @@
 namespace mien {
 
 /// A 2.8 file with all layers loaded, like make_synthetic_rig(). The same seed gives the same bytes
-/// wherever doubles are those of IEEE 754. Seed 0 is the designed person; others vary proportions and
-/// colors. Takes about 30 MB from `scratch` during the call. False if memory ran out.
+/// wherever doubles are those of IEEE 754. Seed 0 is the designed person; others differ in skull,
+/// face, hair, age and colors. Takes about 30 MB from `scratch` during the call. False if memory ran
+/// out.
 bool make_procedural_head(uint64_t seed, Arena& arena, const Allocator& scratch, dna::DnaView& out);
 
 }  // namespace mien

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "runtime/author/random.h"
-
 namespace mien::head {
 
 using author::clamp01;
@@ -14,50 +12,6 @@ using author::exact_pow;
 using author::exact_sine_cosine;
 using author::mix;
 using author::smooth_step;
-
-// Persons ---------------------------------------------------------------------------------------
-
-Person make_person(uint64_t seed) {
-  static constexpr Color kSkins[] = {{236, 188, 160}, {198, 140, 106}, {140, 92, 66},
-                                     {245, 206, 184}, {222, 168, 132}, {104, 68, 50}};
-  static constexpr Color kHairs[] = {{74, 46, 32},  {28, 24, 24}, {168, 118, 62},
-                                     {122, 58, 30}, {46, 34, 30}, {150, 146, 142}};
-  static constexpr Color kIrises[] = {{62, 122, 138}, {98, 62, 34}, {82, 110, 66},
-                                      {86, 104, 128}, {54, 36, 26}, {120, 92, 48}};
-  static constexpr Color kShirts[] = {{58, 92, 122}, {150, 70, 62},  {76, 110, 84},
-                                      {96, 84, 118}, {196, 150, 70}, {70, 74, 82}};
-  Person p;
-  uint32_t skin = 0, hair = 0, iris = 0, shirt = 0;
-  if (seed != 0) {
-    Random random = Random::from_seed(seed, 1);
-    const auto about_one = [&random](double spread) { return 1 + random.between(-spread, spread); };
-    p.cranium = about_one(0.03);
-    p.jaw = about_one(0.07);
-    p.chin = about_one(0.25);
-    p.nose = about_one(0.15);
-    p.nose_width = about_one(0.15);
-    p.cheek = about_one(0.3);
-    p.lips = about_one(0.2);
-    p.brow = about_one(0.3);
-    p.ear = about_one(0.1);
-    p.eye_tilt = random.between(-0.06, 0.08);
-    skin = random.below(6);
-    hair = random.below(6);
-    iris = random.below(6);
-    shirt = random.below(6);
-  }
-  p.skin = kSkins[skin];
-  p.hair = kHairs[hair];
-  p.iris = kIrises[iris];
-  p.shirt = kShirts[shirt];
-  p.brow_hair = mix(p.hair, {20, 14, 12}, 0.25);
-  p.lip = mix(redder(mix(p.skin, {0, 0, 0}, 0.10), 0.70), {176, 84, 84}, 0.16);
-  return p;
-}
-
-Color redder(Color c, double amount) {
-  return {c.r, c.g * (1 - 0.46 * amount), c.b * (1 - 0.44 * amount)};
-}
 
 // Sections --------------------------------------------------------------------------------------
 
@@ -152,8 +106,16 @@ Form::Section Form::section(double y, double cosine) const {
                                         {0.6, 7.65}};
   if (y < 0.6)
     s.half_width = mix(s.half_width, interpolate(y, kNape), smooth_step(0.30, -0.45, cosine));
-  s.half_width *= mix(1, person_.jaw, bump(0, y, 0, -8, 1, 3.2));
-  s.half_width *= mix(1, person_.cranium, smooth_step(0, 6, y));
+  const Person& p = person_;
+  s.half_width *= mix(1, p.jaw, bump(0, y, 0, -8.2, 1, 3.2));
+  s.half_width *= mix(1, p.face, bump(0, y, 0, -2.0, 1, 3.0));
+  s.half_width *= mix(1, p.breadth, smooth_step(0, 6, y));
+  s.back = mix(s.back, kCentreZ + (s.back - kCentreZ) * p.length, smooth_step(-10, -2, y));
+  s.front += p.forehead * smooth_step(3.5, 9, y);
+  const double neck = mix(1, p.neck, smooth_step(-9.8, -12.2, y));
+  s.half_width *= neck;
+  s.front = mix(-1.4, s.front, neck);
+  s.back = mix(-1.4, s.back, neck);
   return s;
 }
 
@@ -193,7 +155,7 @@ FrontPlace Form::lid_curve(double along, int which) const {
 
 double Form::upper_opening(double x) const {
   const double s = along_eye(x), inside = std::max(0.0, 1 - s * s);
-  return 0.56 * exact_pow(inside, 0.62) * (1 - 0.08 * s);
+  return 0.56 * person_.eyes * exact_pow(inside, 0.62) * (1 - 0.08 * s);
 }
 
 double Form::lower_opening(double x) const {
@@ -219,18 +181,21 @@ double Form::relief(double x, double y) const {
       {-0.62, 3.3, 0.45, 1.9, 1.25},                    // sockets
       {-0.50, 1.75, 0.35, 0.62, 0.95},                  // inner corners of the eyes
       {0.26, 3.5, 1.85, 1.6, 0.55},                     // skin that hangs over the crease
-      {0.24, 2.8, 3.15, 2.2, 0.75},                     // brow ridge
+      {0.24 + p.brow_ridge, 2.8, 3.15, 2.2, 0.75},      // brow ridge
       {0.86 * p.nose, 1.17 * wing, -3.05, 0.42, 0.48},  // wings of the nose
       {-0.20, 0.86 * wing, -2.42, 0.22, 0.30},          // furrow between tip and wing
       {-0.16, 1.85 * wing, -3.05, 0.32, 0.52},          // behind the wing
       {0.34 * p.cheek, 4.7, -2.0, 1.7, 1.3},            // cheekbones
       {0.22, 2.9, -2.5, 1.2, 1.2},                      // apple of the cheek
       {-0.34 * p.cheek, 5.0, -5.4, 1.3, 1.7},           // hollow of the cheek
-      {0.74, 0, -5.7, 2.5, 1.9},                        // muzzle
-      {-0.10, 2.25, -4.35, 0.35, 0.75},                 // from nose to mouth
+      {0.74 * p.muzzle, 0, -5.7, 2.5, 1.9},             // muzzle
+      {-0.04 - 0.24 * p.age, 2.25, -4.35, 0.30, 0.85},  // from nose to mouth
       {-0.22, 2.75, -6.0, 0.42, 0.55},                  // corners of the mouth
       {-0.13, 0, -4.75, 0.26, 0.55},                    // philtrum
       {0.06, 0.42, -4.85, 0.20, 0.50},                  // its edges
+      {0.10 * p.age, 3.2, -1.35, 1.1, 0.35},            // below the eyes
+      {-0.30 * p.age, 4.6, -4.0, 1.2, 1.2},             // cheeks sink
+      {0.35 * p.age, 3.6, -8.3, 1.3, 1.0},              // jowls
       {-0.42, 0, -7.65, 1.5, 0.50},                     // fold above the chin
       {0.62 * p.chin, 0, -9.2, 1.45, 1.0},              // chin
       {0.20, 1.6, 5.4, 2.6, 1.6},                       // forehead
@@ -266,6 +231,10 @@ double from_lids(double x, double y) {
 }
 
 double off_lids(Vec3 look) { return smooth_step(0.95, 2.2, from_lids(std::abs(look.x), look.y)); }
+
+double Form::raised(double y) const {
+  return y + (person_.height - 1) * std::max(0.0, y - 3) * smooth_step(3, 7, y);
+}
 
 double Form::angle_of(double x, double y) const {
   const Section at = section(y, 1);
@@ -306,6 +275,9 @@ FacePoint Form::face(double angle, double y, Side side) const {
                         smooth_step(-1.8, -5.5, p.y) * smooth_step(-15.5, -12.0, p.y);
     p.x *= 1 - 0.15 * neck;
   }
+  // Long and short chins; high and low skulls.
+  p.y -= person_.chin_drop * smooth_step(-7.3, -9.6, y) * smooth_step(-16.0, -11.5, y);
+  p.y = raised(p.y);
   // The collar of a shirt.
   const double cloth = 0.20 * smooth_step(-0.10, 0.12, kCollarY - y) *
                        mix(0.7, 1, bump(0, y, 0, kCollarY - 0.35, 1, 0.3));

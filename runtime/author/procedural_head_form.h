@@ -27,11 +27,18 @@ inline Color mix(Color a, Color b, double t) {
 /// As if more blood were under the skin; keeps dark skin dark.
 Color redder(Color c, double amount);
 
+enum class HairStyle : uint8_t { kParted, kCropped, kCurly, kReceding, kBob };
+
 /// What differs from seed to seed. Factors are 1 for seed 0.
 struct Person {
-  double cranium = 1, jaw = 1, chin = 1, nose = 1, nose_width = 1, cheek = 1, lips = 1, brow = 1,
+  // Of the skull: its breadth, length and height, the face at the cheekbones and the jaw.
+  double breadth = 1, length = 1, height = 1, face = 1, jaw = 1, neck = 1;
+  double chin = 1, nose = 1, nose_width = 1, cheek = 1, muzzle = 1, lips = 1, eyes = 1, brow = 1,
          ear = 1;
-  double eye_tilt = 0;  // radians by which the outer corner is higher
+  double chin_drop = 0, forehead = 0, brow_ridge = 0;  // cm: longer, farther in front
+  double eye_tilt = 0;   // radians by which the outer corner is higher
+  double age = 1.0 / 6;  // 0 ... 1: 20 ... 80 years
+  HairStyle style = HairStyle::kParted;
   Color skin, lip, hair, brow_hair, iris, shirt;
 };
 Person make_person(uint64_t seed);
@@ -71,6 +78,9 @@ class Form {
   /// `angle`: 0 in front, pi behind; `y`: height of the row. Beyond the ends of the lids' slit both
   /// sides are the same.
   FacePoint face(double angle, double y, Side side) const;
+
+  /// Where a skull of this height has what others have at `y`.
+  double raised(double y) const;
 
   /// The angle at which the row `y` has this |x|, in front.
   double angle_of(double x, double y) const;

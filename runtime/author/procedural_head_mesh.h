@@ -90,6 +90,11 @@ struct HalfMesh {
   bool on_plane(uint32_t vertex) const { return mirrored && vertices[vertex].position.x == 0; }
 };
 
+/// `full` at LOD 0, a tenth or so at the last, never below `least`.
+uint32_t at_lod(uint32_t full, uint32_t least, uint32_t lod);
+/// That stays where it is but for what its carrier does.
+Vertex plain(Vec3 position, Color color, double u, double v, Carrier carrier);
+
 /// These add to `out` and leave it failed if memory ran out; the last one sets normals.
 void add_skin(const Form& form, uint32_t lod, HalfMesh& out);
 void add_ear(const Form& form, uint32_t lod, HalfMesh& out);

@@ -192,7 +192,10 @@ class MeshMaker {
   /// Below the LODs with shapes of the whole face there are those of the lips' edges, so that a
   /// closed mouth has no slit.
   double near_lips(const Vertex& v) const {
-    if (v.carrier != Carrier::kSkin || std::abs(v.look.x) > kMouthHalfWidth) return 0;
+    if (v.carrier != Carrier::kSkin || std::abs(v.look.x) > kMouthHalfWidth ||
+        std::abs(v.look.y - kMouthY) > 1.3) {
+      return 0;
+    }
     return bump(v.look.y - head_.form.mouth_line(v.look.x), v.depth, 0, 0, 0.35, 0.15);
   }
 
@@ -264,6 +267,8 @@ void MeshMaker::find_offsets(uint32_t shape, Span<Affine> pose, Span<Vec3> out) 
   for (uint32_t i = 0; i < left_count(); ++i) {
     const Vertex& v = half_.vertices[i];
     if (v.carrier != Carrier::kSkin) continue;
+    const double share = lod_ < kShapeLods ? 1 : near_lips(v);
+    if (share < 1e-3) continue;
     if (half_.on_plane(i) && twin < shape) {  // the mirror image of what was found already
       out[i] = mirrored(offsets_of(twin)[i]);
       continue;
@@ -275,7 +280,7 @@ void MeshMaker::find_offsets(uint32_t shape, Span<Affine> pose, Span<Vec3> out) 
     }
     Vec3 offset = author::residual(pose.data, influences(weights_[i]), from, target);
     if (half_.on_plane(i) && twin == shape) offset.x = 0;
-    if (lod_ >= kShapeLods) offset = offset * near_lips(v);
+    offset = offset * share;
     out[i] = is_moved(i, offset) ? offset : Vec3();
   }
 }

@@ -17,7 +17,19 @@ using author::smooth_step;
 
 namespace {
 
-/// `full` at LOD 0, a tenth or so at the last, never below `least`.
+/// Rows of equal length are joined by quads; counter-clockwise if rows go up and columns to the
+/// right as seen from outside.
+void join_rows(HalfMesh& out, uint32_t first, uint32_t rows, uint32_t columns) {
+  for (uint32_t row = 0; row + 1 < rows; ++row) {
+    for (uint32_t column = 0; column + 1 < columns; ++column) {
+      const uint32_t at = first + row * columns + column;
+      out.quad(at, at + 1, at + columns + 1, at + columns);
+    }
+  }
+}
+
+}  // namespace
+
 uint32_t at_lod(uint32_t full, uint32_t least, uint32_t lod) {
   static constexpr double kShare[kLodCount] = {1, 0.7, 0.5, 0.38, 0.27, 0.2, 0.15, 0.1};
   return std::max(least, static_cast<uint32_t>(full * kShare[lod] + 0.5));
@@ -32,19 +44,6 @@ Vertex plain(Vec3 position, Color color, double u, double v, Carrier carrier) {
   out.carrier = carrier;
   return out;
 }
-
-/// Rows of equal length are joined by quads; counter-clockwise if rows go up and columns to the
-/// right as seen from outside.
-void join_rows(HalfMesh& out, uint32_t first, uint32_t rows, uint32_t columns) {
-  for (uint32_t row = 0; row + 1 < rows; ++row) {
-    for (uint32_t column = 0; column + 1 < columns; ++column) {
-      const uint32_t at = first + row * columns + column;
-      out.quad(at, at + 1, at + columns + 1, at + columns);
-    }
-  }
-}
-
-}  // namespace
 
 // Ears ------------------------------------------------------------------------------------------
 
@@ -61,7 +60,7 @@ void add_ear(const Form& form, uint32_t lod, HalfMesh& out) {
   const double(*path)[2] = lod < 3 ? kFine : lod < 6 ? kPlain : kPlainest;
   const uint32_t rings = lod < 3 ? 15 : lod < 6 ? 6 : 3, around = at_lod(36, 5, lod);
   const double size = form.person().ear;
-  const double tilt = 0.72;
+  const double tilt = 0.56;
   const Vec3 origin = {form.face(0.53 * kPi, 0.0, Side::kAbove).closed.x + 0.10, -0.6, -0.8};
   const auto [sine, cosine] = exact_sine_cosine(tilt);
   const Vec3 back = {sine, 0, -cosine}, outward = {cosine, 0, sine};
@@ -234,79 +233,6 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
     }
   }
   join_rows(out, first, rows, columns);
-}
-
-// Hair ------------------------------------------------------------------------------------------
-
-void add_hair(const Form& form, uint32_t lod, HalfMesh& out) {
-  out.mirrored = false;  // parted on the left
-  const uint32_t columns = 2 * at_lod(76, 7, lod), rows = at_lod(40, 4, lod) + 1;
-  // Height of the hair line by angle / pi: forehead, temple, in front of the ear, behind it, nape.
-  static constexpr double kLine[][2] = {{0.00, 6.9},  {0.10, 6.75}, {0.19, 6.2},  {0.27, 5.0},
-                                        {0.34, 3.8},  {0.40, 1.9},  {0.45, -0.6}, {0.48, -1.2},
-                                        {0.505, 0.2}, {0.55, 1.9},  {0.60, 0.9},  {0.66, -1.6},
-                                        {0.75, -4.2}, {0.88, -5.7}, {1.00, -6.1}};
-  const auto line_at = [](double share) {
-    int i = 0;
-    while (i < 13 && share > kLine[i + 1][0]) ++i;
-    const double t = clamp01((share - kLine[i][0]) / (kLine[i + 1][0] - kLine[i][0]));
-    return mix(kLine[i][1], kLine[i + 1][1], 0.5 * t + 0.5 * t * t * (3 - 2 * t));
-  };
-  constexpr double kPart = 0.42;  // angle of the parting
-  const Color hair = form.person().hair;
-  const uint32_t first = out.vertices.count();
-  for (uint32_t row = 0; row < rows; ++row) {
-    const double t = static_cast<double>(row) / rows;
-    for (uint32_t k = 0; k < columns; ++k) {
-      const double around = mix(-kPi, kPi, static_cast<double>(k) / columns);
-      const double share = std::abs(around) / kPi, front = smooth_step(0.46, 0.0, share);
-      // Locks: round ridges between furrows, swept away from the parting in front, straight behind.
-      const double from_part = around - kPart;
-      const double sweep = 3.4 * t * front * (from_part < 0 ? 1 : -0.6);
-      const double fade = smooth_step(1.0, 0.55, t);  // towards the crown, where all locks meet
-      const double phase = 1.2 * t * t + 6 * around + 0.9 * exact_sine(2 * around + 0.7) + sweep;
-      const double lock = 2 * std::sqrt(std::abs(exact_sine(phase))) - 1;
-      const double fine = exact_sine(4 * phase + 1.3 * exact_sine(3 * around));
-      // The parting is a furrow from the hair line to near the crown.
-      const double parting = bump(from_part, 0, 0, 0, 0.10, 1) * smooth_step(0.75, 0.35, t);
-      const double line =
-          line_at(share) - 0.10 * front * (lock + 0.5 * fine) +
-          0.35 * bump(from_part, 0, 0, 0, 0.16, 1) -
-          0.30 * front * smooth_step(0.3, -0.7, from_part) * smooth_step(-1.6, -0.7, from_part);
-      const double y = mix(line, kCrownY, 1 - exact_pow(1 - t, 1.35));
-      Vec3 skin = form.face(std::abs(around), y, Side::kAbove).closed;
-      if (around < 0) skin.x = -skin.x;
-      const Vec3 normal = unit(
-          {skin.x / (7.8 * 7.8), (skin.y - 2.5) / (10.2 * 10.2), (skin.z + 0.4) / (9.7 * 9.7)});
-      const double wave = bump(from_part, 0, -0.55, 0, 0.75, 1);  // the sweep over the forehead
-      double thick = mix(0.45, 1.15, smooth_step(0.15, 0.8, t));
-      thick +=
-          1.25 * wave * bump(t, 0, 0.22, 0, 0.24, 1) + 0.35 * front * bump(t, 0, 0.25, 0, 0.2, 1);
-      thick += (0.055 + 0.07 * wave) * lock * fade + 0.04 * fine * fade;
-      thick -= 0.42 * parting;
-      Vec3 at = skin + normal * mix(-0.30, thick, smooth_step(0, 0.11 + 0.05 * front, t));
-      at.y += 0.55 * wave * bump(t, 0, 0.20, 0, 0.2, 1) * smooth_step(0, 0.1, t);
-      Color c =
-          mix(hair, {14, 9, 8},
-              (0.45 * smooth_step(0.1, -0.9, lock) - 0.20 * fine) * fade + 0.20 + 0.3 * parting);
-      c = mix(c, mix(hair, {255, 222, 180}, 0.30), 0.45 * fade * smooth_step(0.3, 0.95, lock));
-      // Texture coordinates as seen from above, so that no seam is needed.
-      const auto [s, cosine] = exact_sine_cosine(around);
-      out.vertices.add(
-          plain(at, c, 0.5 + 0.49 * (1 - t) * s, 0.5 - 0.49 * (1 - t) * cosine, Carrier::kSkull));
-    }
-  }
-  const uint32_t crown =
-      out.vertices.add(plain({0, kCrownY + 1.15, -0.9}, hair, 0.5, 0.5, Carrier::kSkull));
-  for (uint32_t k = 0; k < columns; ++k) {
-    const uint32_t next = (k + 1) % columns;
-    for (uint32_t row = 0; row + 1 < rows; ++row) {
-      const uint32_t low = first + row * columns, high = low + columns;
-      out.quad(low + k, low + next, high + next, high + k);
-    }
-    const uint32_t last = first + (rows - 1) * columns;
-    out.triangle(last + k, last + next, crown);
-  }
 }
 
 // Mouth -----------------------------------------------------------------------------------------

@@ -432,16 +432,19 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
 Vec3 Shapes::displacement(uint32_t index, const Vertex& v) const {
   const Shape s = shape(index);
   Vec3 d;
-  if (s.side == 0) {
-    d = both_sides(s.motion, v);
-  } else if (s.side > 0) {
-    d = one_side(s.motion, v.look, v);
-  } else {
-    d = mirrored(one_side(s.motion, mirrored(v.look), v));
-  }
   // Windows are those of the front view: nothing moves at the back. Inside the mouth the skin
   // follows the lips less and less.
-  d = d * smooth_step(-0.5, 3.0, v.look.z) * (1 - smooth_step(0.14, 0.55, v.depth));
+  const double share = smooth_step(-0.5, 3.0, v.look.z) * (1 - smooth_step(0.14, 0.55, v.depth));
+  if (share > 0) {
+    if (s.side == 0) {
+      d = both_sides(s.motion, v);
+    } else if (s.side > 0) {
+      d = one_side(s.motion, v.look, v);
+    } else {
+      d = mirrored(one_side(s.motion, mirrored(v.look), v));
+    }
+    d = d * share;
+  }
   if (moves_jaw(s.motion)) {
     d = d + (move_with_jaw(turns(index, 1), v.position) - v.position) * jaw_weight(form_, v);
   }

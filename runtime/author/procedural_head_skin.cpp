@@ -183,7 +183,7 @@ class SkinMaker {
     }
     // The crown and the bottom are closed with one vertex each.
     Vertex crown = grid_vertex(rows_, 0);
-    crown.closed = crown.position = crown.look = {0, kCrownY + 0.02, -0.9};
+    crown.closed = crown.position = crown.look = {0, form_.raised(kCrownY + 0.02), -0.9};
     crown_ = out_.vertices.add(crown);
     Vertex bottom = grid_vertex(0, 0);
     bottom.closed = bottom.position = bottom.look = {0, kBottomY, -1.5};

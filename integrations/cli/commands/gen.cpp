@@ -66,7 +66,7 @@ Command add_demo_head_command(CLI::App& app, const Session& session) {
   auto options = std::make_shared<GenOptions>();
   options->preset = "head";
   CLI::App* head = app.add_subcommand("demo-head", "Make a head to look at, with 52 expressions");
-  add_common_options(head, *options, "Other proportions and colors for each number (default: 0)");
+  add_common_options(head, *options, "Another person for each number (default: 0)");
   head->footer(
       "A stylized person: skin, eyes, teeth, tongue, hair, with vertex colors, correctives,\n"
       "wrinkle maps and 8 LODs. Raw controls have the names of ARKit's coefficients;\n"

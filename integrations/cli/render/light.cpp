@@ -47,7 +47,11 @@ float highlight(const Fragment& f, const Lamp& lamp, const Material& material) {
   const Vec3 half = normalized(lamp.direction + f.to_eye, f.normal);
   const float light_half = saturate(dot(lamp.direction, half));
   const float strength = material.reflectance + (1 - material.reflectance) * fresnel(light_half);
-  return strength * glint(f.normal, half, light_half, material.roughness) * cosine;
+  // Two lobes: a sharp one on a soft one, as films on skin and eyes give.
+  const float sharp = glint(f.normal, half, light_half, material.roughness);
+  const float soft =
+      glint(f.normal, half, light_half, std::min(1.0f, material.roughness * 2 + 0.1f));
+  return strength * (0.55f * sharp + 0.45f * soft) * cosine;
 }
 
 /// Light that comes back from the walls of a hollow takes on their color (Jimenez et al. 2016,
@@ -89,7 +93,8 @@ Vec3 light(const Fragment& f, float openness, float key) {
   for (const Lamp& rim : kRims) {
     const float edge = 1 - nv, facing = std::max(dot(f.normal, rim.direction) + 0.15f, 0.0f);
     // Not in folds, where the other side stands before it.
-    const float strength = edge * edge * facing * shown * smooth_step(0.35f, 0.85f, openness);
+    const float strength =
+        edge * edge * edge * facing * shown * smooth_step(0.35f, 0.85f, openness);
     diffuse += rim.color * (strength * 0.75f);
     shine += rim.color * (strength * edge * 0.10f);
   }

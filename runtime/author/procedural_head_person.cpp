@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// Persons: what a seed makes of the designed one. Dimensions differ by about two standard deviations of
+// those that Zhuang and Bradtmiller measured on 3,997 people ("Head-and-face anthropometric survey of
+// U.S. respirator users", J. Occup. Environ. Hyg. 2, 2005): head breadth and length, face width at the
+// cheekbones and at the angles of the jaw, face length, breadth and protrusion of the nose, length of
+// the lips, girth of the neck.
+#include "runtime/author/procedural_head_form.h"
+#include "runtime/author/random.h"
+
+namespace mien::head {
+
+using author::mix;
+
+namespace {
+
+/// -1 ... 1, 0 for seed 0. Steps by the square roots of primes (Richtmyer's sequence), which spreads
+/// seeds evenly: no two of a few dozen come out alike, as random numbers do.
+double axis(uint64_t seed, uint32_t i) {
+  static constexpr uint64_t kRoots[] = {
+      5167115440072839076u,  4354685564936845355u,  14946468407256161813u, 6620516959819538809u,
+      2270897969802886507u,  7436329637833083697u,  7640891576956012808u,  13503953896175478587u,
+      11912009170470909681u, 5840696475078001361u,  11170449401992604703u, 14680500436340154072u,
+      7105036623409894663u,  10473403895298186519u, 1526699215303891257u,  10282925794625328401u,
+      15784041429090275239u, 12564921287827708315u};
+  const uint64_t place = seed * kRoots[i] + (uint64_t{1} << 63);
+  return static_cast<double>(place >> 11) * (2.0 / 9007199254740992.0) - 1;
+}
+
+}  // namespace
+
+Person make_person(uint64_t seed) {
+  static constexpr Color kSkins[] = {{236, 188, 160}, {196, 142, 110}, {134, 92, 70},
+                                     {243, 206, 186}, {220, 168, 134}, {98, 68, 54}};
+  static constexpr Color kHairs[] = {{74, 46, 32},  {28, 24, 24}, {168, 118, 62},
+                                     {122, 58, 30}, {46, 34, 30}, {98, 70, 46}};
+  static constexpr Color kIrises[] = {{62, 122, 138}, {98, 62, 34}, {82, 110, 66},
+                                      {86, 104, 128}, {54, 36, 26}, {120, 92, 48}};
+  static constexpr Color kShirts[] = {{58, 92, 122}, {150, 70, 62},  {76, 110, 84},
+                                      {96, 84, 118}, {196, 150, 70}, {70, 74, 82}};
+  Person p;
+  uint32_t skin = 0, hair = 0, iris = 0, shirt = 0;
+  uint32_t next = 0;
+  const auto by = [seed, &next](double spread) { return spread * axis(seed, next++); };
+  // Those that change most first: their roots keep the first dozens of seeds farthest apart.
+  p.breadth += by(0.11);
+  p.length += by(0.12);
+  p.height += by(0.11);
+  p.jaw += by(0.17);
+  p.chin_drop += by(1.0);
+  p.face += by(0.08);
+  p.neck += by(0.14);
+  p.nose += by(0.24);
+  p.nose_width += by(0.20);
+  p.forehead += by(0.60);
+  p.cheek += by(0.6);
+  p.chin += by(0.45);
+  p.lips += by(0.40);
+  p.brow_ridge += by(0.22);
+  p.muzzle += by(0.25);
+  p.eyes += by(0.10);
+  p.eye_tilt += by(0.06);
+  p.ear += by(0.14);
+  if (seed != 0) {
+    Random random = Random::from_seed(seed, 1);
+    p.age = random.between(0, 1);
+    p.brow = 1 + random.between(-0.3, 0.4);
+    skin = random.below(6);
+    hair = random.below(6);
+    iris = random.below(6);
+    shirt = random.below(6);
+    p.style = static_cast<HairStyle>(random.below(5));
+    if (p.style == HairStyle::kReceding && p.age < 0.4) p.style = HairStyle::kCropped;
+  }
+  p.skin = kSkins[skin];
+  p.hair = mix(kHairs[hair], {158, 154, 150}, author::smooth_step(0.5, 0.95, p.age));
+  p.iris = kIrises[iris];
+  p.shirt = kShirts[shirt];
+  p.lips *= mix(1.03, 0.80, p.age);
+  p.brow_hair = mix(p.hair, {20, 14, 12}, 0.25);
+  p.lip = mix(redder(mix(p.skin, {0, 0, 0}, 0.10), 0.62), {168, 84, 84}, 0.16);
+  return p;
+}
+
+Color redder(Color c, double amount) {
+  return {c.r, c.g * (1 - 0.46 * amount), c.b * (1 - 0.44 * amount)};
+}
+
+}  // namespace mien::head
