@@ -1800,6 +1800,15 @@ MIEN_CHECKED MienStatus mien_clip_binding_create(const MienClip* clip, const Mie
                                                  MienClipBinding** out_clip_binding,
                                                  MienError* error);
 
+/* Gives a matrix that binds clips with the 52 expression names of ARKit, such as those of the Live Link Face
+ * app, to rigs that name raw controls in the other usual way (eyeBlinkL for eyeBlinkLeft). The same for
+ * every rig: channels whose names a rig has need no matrix, and entries whose controls it lacks are left out.
+ * docs/face-capture.md, 3 "ARKit expressions on raw controls" has the reasons for each entry. Writes as
+ * many entries as there is room for; `out_count` tells how many there are. Names are static.
+ * `out_entries` may be NULL if `capacity` is 0. */
+MIEN_CHECKED MienStatus mien_arkit_matrix(MienMatrixEntry* out_entries, size_t capacity,
+                                          size_t* out_count);
+
 /* Destroys a binding. */
 MIEN_API void mien_clip_binding_destroy(MienClipBinding* clip_binding);
 
@@ -1830,6 +1839,20 @@ MIEN_CHECKED MienStatus mien_clip_binding_info(const MienClipBinding* clip_bindi
 MIEN_CHECKED MienStatus mien_clip_binding_apply(const MienClipBinding* clip_binding,
                                                 const float* values, size_t value_count,
                                                 float* raw_controls, size_t raw_control_count);
+
+/* Finds for each channel of a clip the coarsest step that cannot be seen, for MienClipDesc.snaps: of 2^-9 to
+ * 2^-16 the largest of which half moves no vertex that LOD 0 shows farther than the tolerance. `tolerance` is in
+ * millimeters, such as 0.02. Joints count if no mesh is shown. Tried at five values from 0 to 1, and of GUI controls
+ * from -1 on, with all other channels at 0. A channel that drives nothing gets 2^-11, one that
+ * even the finest step moves farther 0. Build a clip with all bits, bind it, and build it again
+ * with these steps. Evaluates and deforms the rig 10 times per channel or more, and takes memory from its
+ * allocator during the call.
+ * Fails with MIEN_ERROR_MISMATCH if `channel_count` is not that of the binding, or the binding is of another
+ * rig, MIEN_ERROR_INVALID_ARGUMENT if `tolerance` is not a number above 0. */
+MIEN_CHECKED MienStatus mien_clip_binding_snaps(const MienClipBinding* clip_binding,
+                                                const MienDeformer* deformer, float tolerance,
+                                                float* out_snaps, size_t channel_count,
+                                                MienError* error);
 
 /* ---- Mix ------------------------------------------------------------------------------------- */
 

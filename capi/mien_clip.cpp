@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "capi/handles.h"
+#include "runtime/anim/arkit_table.h"
 
 using namespace mien;
 using namespace mien::capi;
@@ -649,6 +650,22 @@ MienStatus mien_clip_binding_create(const MienClip* clip, const MienRig* rig,
   made->tag = kClipBindingTag;
   *out_clip_binding = made;
   return succeed(error);
+}
+
+MienStatus mien_arkit_matrix(MienMatrixEntry* out_entries, size_t capacity, size_t* out_count) {
+  if (!out_count) return MIEN_ERROR_NULL_ARGUMENT;
+  *out_count = 0;
+  if (!out_entries && capacity != 0) return MIEN_ERROR_NULL_ARGUMENT;
+  const Span<const ArkitEntry> table = arkit_table();
+  *out_count = table.count;
+  for (size_t i = 0; i < table.count && i < capacity; ++i) {
+    const ArkitEntry& from = table[i];
+    out_entries[i] = {{from.expression, strlen(from.expression)},
+                      {from.control, strlen(from.control)},
+                      from.weight,
+                      0};
+  }
+  return MIEN_OK;
 }
 
 void mien_clip_binding_destroy(MienClipBinding* binding) {

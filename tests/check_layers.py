@@ -28,7 +28,7 @@ GRAPH = {
     "runtime/pose": ["runtime/base", "simd", "runtime/rig"],
     "runtime/solve": ["runtime/base", "runtime/rig", "runtime/anim", "runtime/pose"],
     "runtime/deform": ["runtime/base", "simd", "runtime/rig", "runtime/eval", "runtime/pose"],
-    "runtime/probe": ["runtime/base", "runtime/rig", "runtime/eval", "runtime/mix", "runtime/pose",
+    "runtime/probe": ["runtime/base", "runtime/rig", "runtime/eval", "runtime/anim", "runtime/mix", "runtime/pose",
                       "runtime/deform"],
     "runtime/baked": ["runtime/base", "simd", "runtime/rig", "runtime/eval", "runtime/pose",
                       "runtime/deform"],

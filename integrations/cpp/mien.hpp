@@ -779,6 +779,13 @@ class ClipBinding : public Owner<MienClipBinding, mien_clip_binding_destroy> {
     return mien_clip_binding_apply(get(), values.data(), values.size(), raw_controls.data(),
                                    raw_controls.size());
   }
+  /// For ClipDesc::snaps: steps of which half moves nothing by more than `tolerance` millimeters.
+  Result<void> snaps(const Deformer& deformer, float tolerance, Span<float> out) const {
+    Sized<MienError> error;
+    return {
+        mien_clip_binding_snaps(get(), deformer.get(), tolerance, out.data(), out.size(), &error),
+        error};
+  }
 };
 
 /// Control curves at a constant rate. Immutable: may be used by several threads at once.
@@ -866,6 +873,14 @@ class Clip : public Owner<MienClip, mien_clip_close> {
     });
   }
 };
+
+/// For ClipBindingDesc::matrix of clips with the names of ARKit. Writes as many entries as there is room
+/// for, and tells how many there are.
+inline Result<size_t> arkit_matrix(Span<MienMatrixEntry> out) {
+  size_t count = 0;
+  const MienStatus status = mien_arkit_matrix(out.data(), out.size(), &count);
+  return {status, std::move(count)};
+}
 
 // ---- Mixing -------------------------------------------------------------------------------------
 

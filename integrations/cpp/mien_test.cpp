@@ -139,6 +139,9 @@ void test_mixing() {
   CHECK(mien::Gaze().look_at({0, 0, 1000}, mask).status() == MIEN_ERROR_NULL_ARGUMENT);
 #endif
 
+  std::vector<MienMatrixEntry> matrix(mien::arkit_matrix({}).value());
+  CHECK(mien::arkit_matrix(matrix) && matrix.back().weight > 0);
+
   const mien::Mix mix = mien::Mix::create(rig, desc).value();
   CHECK(mix.info()->lane_count == raw_count + 1);
   std::vector<unsigned char> mix_bytes(mix.write(mien::Span<unsigned char>()).value());

@@ -902,5 +902,23 @@ TEST(CapiClip, EveryAllocationMayFail) {
   EXPECT_EQ(counter.requests, 1u);
 }
 
+TEST(ArkitMatrix, IsWrittenAsFarAsThereIsRoom) {
+  size_t count = 9;
+  ASSERT_EQ(mien_arkit_matrix(nullptr, 0, &count), MIEN_OK);
+  ASSERT_GT(count, 52u);
+  std::vector<MienMatrixEntry> entries(count + 1,
+                                       MienMatrixEntry{{nullptr, 7}, {nullptr, 7}, 9, 9});
+  ASSERT_EQ(mien_arkit_matrix(entries.data(), 1, &count), MIEN_OK);
+  EXPECT_EQ(std::string(entries[0].channel.data, entries[0].channel.count), "eyeBlinkLeft");
+  EXPECT_EQ(std::string(entries[0].control.data, entries[0].control.count), "eyeBlinkL");
+  EXPECT_EQ(entries[1].weight, 9.0f);
+  ASSERT_EQ(mien_arkit_matrix(entries.data(), entries.size(), &count), MIEN_OK);
+  EXPECT_EQ(count + 1, entries.size());
+  EXPECT_EQ(entries.back().weight, 9.0f);
+  EXPECT_EQ(mien_arkit_matrix(nullptr, 1, &count), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(count, 0u);
+  EXPECT_EQ(mien_arkit_matrix(nullptr, 0, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+}
+
 }  // namespace
 }  // namespace mien

@@ -251,6 +251,23 @@ class Choices(ClipTest):
         for word in ("0.001", "1/256", "1/131072", "-1/512", "2048", "nan", "fine", "1/0", ""):
             self.refuse_take(text, "--snap", "--snap", word, code=USAGE)
 
+    def test_steps_that_move_nothing_on_a_rig(self):
+        rig = path("steps.dna")
+        self.ok("demo-head", "-o", rig)
+        rows = "\n".join(f"{i / 60},{i * 0.0123456 % 1},{i * 0.0311 % 1}" for i in range(200))
+        text = "time,jawOpen,unknown\n" + rows + "\n"
+        exact, seen = self.build(text), self.build(text, "--rig", rig, name="seen")
+        coarse = self.build(text, "--rig", rig, "--tolerance", "1", name="coarse")
+        sizes = [self.info(clip)["bytes"] for clip in (exact, seen, coarse)]
+        self.assertEqual(sizes, sorted(sizes, reverse=True))
+        self.assertEqual(self.info(coarse)["snap"], 1 / 512)
+        self.fails(USAGE, "clip", "build", "x", "-o", "y", "--tolerance", "1", says="--rig")
+        self.fails(USAGE, "clip", "build", "x", "-o", "y", "--rig", rig, "--snap", "1/512",
+                   says="--snap")
+        for word in ("0", "-1", "nan", "much"):
+            self.fails(USAGE, "clip", "build", "x", "-o", "y", "--rig", rig, "--tolerance", word,
+                       says="--tolerance")
+
     def test_channels(self):
         text = "time,jawOpen,CTRL_expressions.mouthClose,jawLeft,browUp\n0,1,2,3,4\n"
         self.assertEqual(self.info(self.build(text, "--channels", "jaw*,mouthClose"))["channels"],

@@ -2,12 +2,17 @@
 // mien clip: curves of controls <-> clips.
 #include <charconv>
 #include <cmath>
+#include <memory>
+#include <optional>
 
+#include "integrations/cli/commands/baked_rig.h"
 #include "integrations/cli/commands/options.h"
+#include "integrations/cli/gltf/arkit_controls.h"
 #include "integrations/cli/io/clip_file.h"
 #include "integrations/cli/io/input.h"
 #include "integrations/cli/io/json_writer.h"
 #include "integrations/cli/io/output.h"
+#include "integrations/cli/io/rig_file.h"
 #include "integrations/cli/io/take.h"
 #include "integrations/cli/io/text.h"
 
@@ -16,7 +21,7 @@ namespace mien::cli {
 namespace {
 
 struct BuildOptions {
-  std::string input, rate, snap, loop = "clamp", channels;
+  std::string input, rate, snap, tolerance, rig, loop = "clamp", channels;
   bool resample = false;
   OutputFile output;
 };
@@ -107,8 +112,85 @@ Rate settle_rate(Take& take, const Rate& wanted, bool with_resampling, const Ses
   return rate;
 }
 
+/// Millimeters.
+float parse_tolerance(const std::string& word) {
+  if (word.empty()) return 0.02f;
+  float tolerance = 0;
+  const char* const end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, tolerance);
+  if (error == std::errc() && stop == end && tolerance > 0 && std::isfinite(tolerance)) {
+    return tolerance;
+  }
+  fail_usage("--tolerance \"" + word + "\"", "not a number of millimeters above 0",
+             "give a number such as 0.02");
+}
+
+Clip built(const MienClipDesc& desc, const Take& take) {
+  auto error = sized<MienError>();
+  MienClip* made = nullptr;
+  check(mien_clip_build(&desc, &made, &error), &error, "cannot build clip", take.shown);
+  return Clip(made);
+}
+
+/// A step for each channel of which half moves no vertex of a rig by more than the tolerance.
+std::vector<float> steps_on_rig(const Clip& clip, const std::string& path, float tolerance,
+                                const Session& session) {
+  std::optional<BakedFile> baked;
+  std::optional<RigFile> dna;
+  Rig made;
+  Deformer compiled;
+  const MienRig* rig = nullptr;
+  const MienDeformer* deformer = nullptr;
+  auto error = sized<MienError>();
+  if (is_baked_file(path)) {
+    baked = open_baked_rig(path, LoadOptions{}, RigOptions{});
+    rig = baked->rig.get();
+    deformer = baked->deformer.get();
+  } else {
+    dna = open_rig_file(
+        path, parse_load_options(LoadOptions{}, kEvaluationLayers | MIEN_LAYER_GEOMETRY), session);
+    made = create_rig(*dna, parse_rig_options(RigOptions{}));
+    rig = made.get();
+    MienDeformer* created = nullptr;
+    check(mien_deformer_create(dna->dna.get(), rig, nullptr, &created, &error), &error,
+          "cannot compile geometry", dna->shown);
+    compiled.reset(created);
+    deformer = created;
+  }
+  if (!deformer) {
+    fail(kInvalid, "cannot measure steps", path, "the baked file has no geometry",
+         "bake it with its geometry, or give the DNA file");
+  }
+  const std::vector<MienMatrixEntry> matrix = gltf::arkit_matrix();
+  auto desc = sized<MienClipBindingDesc>();
+  desc.matrix = matrix.data();
+  desc.matrix_count = matrix.size();
+  MienClipBinding* bound = nullptr;
+  check(mien_clip_binding_create(clip.get(), rig, &desc, &bound, &error), &error,
+        "cannot bind clip", path);
+  const std::unique_ptr<MienClipBinding, Destroy<MienClipBinding, mien_clip_binding_destroy>>
+      binding(bound);
+  auto info = sized<MienClipBindingInfo>();
+  check(mien_clip_binding_info(bound, &info), nullptr, "cannot bind clip", path);
+  std::vector<float> steps(info.channel_count);
+  check(mien_clip_binding_snaps(bound, deformer, tolerance, steps.data(), steps.size(), &error),
+        &error, "cannot measure steps", path);
+  if (info.missing_channels.count != 0) {
+    note(session, std::to_string(info.missing_channels.count) +
+                      " channels drive nothing on the rig: they are rounded to 1/2048");
+  }
+  return steps;
+}
+
 void run_build(const BuildOptions& options, const Session& session) {
   const float snap = parse_snap(options.snap);
+  const float tolerance = parse_tolerance(options.tolerance);
+  if (options.rig.empty() && !options.tolerance.empty()) {
+    fail_usage("--tolerance", "no rig to measure on", "add --rig RIG");
+  }
+  if (!options.rig.empty() && !options.snap.empty()) {
+    fail_usage("--snap", "--rig finds the steps", "leave out one of them");
+  }
   const Rate wanted = parse_rate_option(options.rate);
   const size_t loop = parse_word("--loop", options.loop);
   refuse_terminal(options.output.path, session, "a clip");
@@ -128,15 +210,19 @@ void run_build(const BuildOptions& options, const Session& session) {
   desc.values = take.values.data();
   desc.snap = snap;
   desc.looping = loop == 0 ? MIEN_LOOPING_CLAMP : MIEN_LOOPING_WRAP;
+  Clip clip = built(desc, take);
+  std::vector<float> steps;
+  if (!options.rig.empty()) {
+    steps = steps_on_rig(clip, options.rig, tolerance, session);
+    desc.snaps = steps.data();
+    clip = built(desc, take);
+  }
   auto error = sized<MienError>();
-  MienClip* made = nullptr;
-  check(mien_clip_build(&desc, &made, &error), &error, "cannot build clip", take.shown);
-  const Clip clip(made);
   size_t size = 0;
-  check(mien_clip_write_memory(made, nullptr, 0, &size, &error), &error, "cannot build clip",
+  check(mien_clip_write_memory(clip.get(), nullptr, 0, &size, &error), &error, "cannot build clip",
         take.shown);
   std::vector<char> bytes(size);
-  check(mien_clip_write_memory(made, bytes.data(), size, &size, &error), &error,
+  check(mien_clip_write_memory(clip.get(), bytes.data(), size, &size, &error), &error,
         "cannot build clip", take.shown);
   Output output(options.output.path);
   output.write(bytes.data(), size);
@@ -351,6 +437,14 @@ Command add_clip_command(CLI::App& app, const Session& session) {
                    "Round values to a step of 1/512 to 1/65536, which makes the clip\nseveral "
                    "times smaller (default: keep every bit)")
       ->type_name("STEP");
+  build_app
+      ->add_option(
+          "--rig", build->rig,
+          "Round each channel to the coarsest step that moves no vertex of\nthis rig by more "
+          "than --tolerance")
+      ->type_name("RIG");
+  build_app->add_option("--tolerance", build->tolerance, "In millimeters (default: 0.02)")
+      ->type_name("MM");
   build_app->add_option("--loop", build->loop, "After the last frame: clamp (default) or wrap")
       ->type_name("WORD");
   build_app
@@ -370,6 +464,7 @@ Command add_clip_command(CLI::App& app, const Session& session) {
       "Examples:\n"
       "  mien clip build take.csv -o take.clip\n"
       "  mien clip build take.csv -o small.clip --snap 1/2048 --channels 'jaw*,mouth*'\n"
+      "  mien clip build phone.csv -o phone.clip --rig head.dna --tolerance 0.05\n"
       "  mien clip build phone.csv -o phone.clip --resample --rate 60");
 
   auto info = std::make_shared<ClipOptions>();

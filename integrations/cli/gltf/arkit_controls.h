@@ -15,15 +15,8 @@ constexpr size_t kArkitCount = 52;
 /// In the order of the ARKit documentation.
 extern const char* const kArkitNames[kArkitCount];
 
-/// A raw control of a rig with other names, and its share in an expression.
-struct ArkitMeaning {
-  const char* expression;
-  const char* control;
-  float weight;
-};
-
-/// The table of docs/face-capture.md.
-std::vector<ArkitMeaning> arkit_meanings();
+/// mien_arkit_matrix().
+std::vector<MienMatrixEntry> arkit_matrix();
 
 struct ControlWeight {
   uint32_t control;  // raw

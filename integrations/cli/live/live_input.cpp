@@ -75,14 +75,7 @@ void LiveInput::bind(const MienRig* rig, const cli::Session& session) {
   cli::check(mien_clip_build(&desc, &built, &error), &error, kCannot, to_text(address_));
   const cli::Clip clip(built);
 
-  std::vector<MienMatrixEntry> matrix;
-  const std::vector<gltf::ArkitMeaning> meanings = gltf::arkit_meanings();
-  for (const gltf::ArkitMeaning& meaning : meanings) {
-    matrix.push_back({{meaning.expression, strlen(meaning.expression)},
-                      {meaning.control, strlen(meaning.control)},
-                      meaning.weight,
-                      0});
-  }
+  const std::vector<MienMatrixEntry> matrix = gltf::arkit_matrix();
   auto how = cli::sized<MienClipBindingDesc>();
   how.matrix = matrix.data();
   how.matrix_count = matrix.size();

@@ -64,13 +64,7 @@ const Performance::BoundClip& Performance::clip(const std::string& path, const s
   const std::filesystem::path folder = std::filesystem::path(script_.shown).parent_path();
   BoundClip bound;
   bound.file = open_clip_file((folder / path).string());
-  std::vector<MienMatrixEntry> matrix;
-  for (const gltf::ArkitMeaning& meaning : gltf::arkit_meanings()) {
-    matrix.push_back({{meaning.expression, strlen(meaning.expression)},
-                      {meaning.control, strlen(meaning.control)},
-                      meaning.weight,
-                      0});
-  }
+  const std::vector<MienMatrixEntry> matrix = gltf::arkit_matrix();
   auto desc = sized<MienClipBindingDesc>();
   desc.matrix = matrix.data();
   desc.matrix_count = matrix.size();

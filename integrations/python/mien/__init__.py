@@ -25,7 +25,8 @@ from ._library import path as library_path, version
 from .author import AuthorBone, AuthoredRig, author_rig
 from .baked import Baked
 from .batch import Batch
-from .clip import Clip, ClipBinding, ClipEvent, ClipPlayer, TICKS_PER_SECOND
+from .clip import (Clip, ClipBinding, ClipEvent, ClipPlayer, TICKS_PER_SECOND,
+                   arkit_matrix)
 from .deformer import Deformer, DeformerInstance, Mesh, deform_batch, write_vertices_batch
 from .dna import Dna, coordinate_system, coordinate_system_names, validate
 from .errors import (ArgumentError, AuthorError, BusyError, ClipError, ClosedError, DnaError, Error,
@@ -44,7 +45,7 @@ from .solve import (NO_JOINT, AimSolver, CopySolver, CustomSolver, SolverPose, S
 __version__ = _VERSION
 
 __all__ = [
-    "__version__", "AimSolver", "Antagonists", "ArgumentError", "Arithmetic",
+    "__version__", "AimSolver", "Antagonists", "ArgumentError", "Arithmetic", "arkit_matrix",
     "AuthorBone", "AuthoredRig", "AuthorError", "AuthorFlags", "author_rig", "Baked",
     "BakedCheck", "BakedInfo", "Batch", "BlendMode", "BoneKind", "BusyError", "Clip", "ClipBinding",
     "ClipChannel", "ClipError", "ClipEvent", "ClipInfo", "ClipPlayer", "ClipPlayerInfo",

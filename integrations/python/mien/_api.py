@@ -3883,10 +3883,17 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.CLIP_LIMIT,
          "channels drive more than 4095 GUI controls"),
     ),
+    "mien_arkit_matrix": (),
     "mien_clip_binding_info": (),
     "mien_clip_binding_apply": (
         (Status.INVALID_ARGUMENT,
          "a count is not that of clip and rig"),
+    ),
+    "mien_clip_binding_snaps": (
+        (Status.INVALID_ARGUMENT,
+         "`tolerance` is not a number above 0"),
+        (Status.MISMATCH,
+         "`channel_count` is not that of the binding, or the binding is of another rig"),
     ),
     "mien_mix_create": (
         (Status.INVALID_ARGUMENT,
@@ -4338,9 +4345,12 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_clip_player_sample", c_int32, (MienClipPlayer, POINTER(MienFloatView))),
     ("mien_clip_binding_create", c_int32, (MienClip, MienRig, POINTER(MienClipBindingDesc),
      POINTER(MienClipBinding), POINTER(MienError))),
+    ("mien_arkit_matrix", c_int32, (POINTER(MienMatrixEntry), c_size_t, c_void_p)),
     ("mien_clip_binding_destroy", None, (MienClipBinding,)),
     ("mien_clip_binding_info", c_int32, (MienClipBinding, POINTER(MienClipBindingInfo))),
     ("mien_clip_binding_apply", c_int32, (MienClipBinding, c_void_p, c_size_t, c_void_p, c_size_t)),
+    ("mien_clip_binding_snaps", c_int32, (MienClipBinding, MienDeformer, c_float, c_void_p,
+     c_size_t, POINTER(MienError))),
     ("mien_mix_create", c_int32, (MienRig, POINTER(MienMixDesc), POINTER(MienMix),
      POINTER(MienError))),
     ("mien_mix_open_file", c_int32, (c_char_p, MienRig, POINTER(MienMixOpenDesc), POINTER(MienMix),
@@ -4530,9 +4540,11 @@ class Library:
     mien_clip_player_next_event: Any
     mien_clip_player_sample: Any
     mien_clip_binding_create: Any
+    mien_arkit_matrix: Any
     mien_clip_binding_destroy: Any
     mien_clip_binding_info: Any
     mien_clip_binding_apply: Any
+    mien_clip_binding_snaps: Any
     mien_mix_create: Any
     mien_mix_open_file: Any
     mien_mix_open_memory: Any

@@ -248,6 +248,20 @@ class Clip(Closable):
         return ClipBinding(self, rig, matrix)
 
 
+@raises("mien_arkit_matrix")
+def arkit_matrix() -> List[Tuple[str, str, float]]:
+    """For `Clip.bind`: entries (expression, raw control, weight) that bind clips with the names of
+    ARKit to rigs that name their controls in the other usual way, eyeBlinkL for eyeBlinkLeft."""
+    count = ctypes.c_size_t()
+    status = lib.mien_arkit_matrix(None, 0, _byref(count))
+    entries = (_api.MienMatrixEntry * count.value)()
+    if not status:
+        status = lib.mien_arkit_matrix(entries, count.value, _byref(count))
+    if status:
+        fail(status, "no table")
+    return [(text(e.channel), text(e.control), e.weight) for e in entries]
+
+
 def _fraction(speed: Any) -> Tuple[int, int]:
     found = Fraction(speed).limit_denominator(1 << 20)
     return _int(found.numerator, 32, "speed"), found.denominator
@@ -322,7 +336,8 @@ class ClipBinding(Closable):
     """Which channel of a clip drives which raw control of a rig. Immutable: any number of threads
     may use it. Needs neither clip nor rig."""
 
-    __slots__ = ("controls", "missing_channels", "extra_controls", "missing_entries")
+    __slots__ = ("channel_count", "controls", "missing_channels", "extra_controls",
+                 "missing_entries")
 
     @raises("mien_clip_binding_create")
     def __init__(self, clip: Clip, rig: Any, matrix: Iterable[Tuple[str, str, float]] = ()) -> None:
@@ -344,6 +359,8 @@ class ClipBinding(Closable):
         status = lib.mien_clip_binding_info(handle, _byref(info))
         if status:
             fail(status, "no info")
+        #: Channels of the clip.
+        self.channel_count: int = info.channel_count
         #: Raw controls that are driven.
         self.controls: List[int] = _numbers(info.controls)
         #: Channels that drive nothing.
@@ -366,6 +383,18 @@ class ClipBinding(Closable):
         del held
         if status:
             fail(status, f"cannot apply {count} values")
+
+    @raises("mien_clip_binding_snaps")
+    def find_snaps(self, deformer: Any, tolerance: float = 0.02) -> List[float]:
+        """For `snaps` of `Clip.build`: per channel the coarsest step of which half moves no vertex
+        of a `Deformer` by more than `tolerance` millimeters. Takes some time."""
+        steps = (ctypes.c_float * self.channel_count)()
+        error = MienError()
+        status = lib.mien_clip_binding_snaps(self._open(), deformer._open(), float(tolerance), steps,
+                                             self.channel_count, _byref(error))
+        if status:
+            fail(status, "no steps", error)
+        return list(steps)
 
 
 def _numbers(view: Any) -> List[int]:

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import mien
 
-from support import needs_numpy, numpy
+from support import needs_numpy, numpy, rig_of
 
 NAMES = ["jawOpen", "nobody", "joy"]
 ROWS = [[0.0, 1.0, 0.25], [0.5, 1.0, 0.75], [0.75, 1.0, 0.1]]
@@ -133,6 +133,12 @@ class ClipTest(unittest.TestCase):
         self.assertEqual(face["mouthSmileLeft"], 0.375)
         with self.assertRaises(mien.ArgumentError):
             binding.apply([1.0], face)
+
+    def test_the_table_of_arkit_binds(self):
+        matrix = mien.arkit_matrix()
+        self.assertIn(("mouthSmileLeft", "mouthCornerPullL", 1.0), matrix)
+        clip = mien.Clip.build(["mouthSmileLeft"], [0.5])
+        clip.bind(rig_of(mien.Preset.SMALL), matrix)
 
 
 if __name__ == "__main__":

@@ -2558,6 +2558,15 @@ export interface Exports {
    * drive more than 4095 GUI controls.
    */
   mien_clip_binding_create(clip: number, rig: number, desc: number, out_clip_binding: number, error: number): number;
+  /**
+   * Gives a matrix that binds clips with the 52 expression names of ARKit, such as those of the Live Link Face
+   * app, to rigs that name raw controls in the other usual way (eyeBlinkL for eyeBlinkLeft). The same for
+   * every rig: channels whose names a rig has need no matrix, and entries whose controls it lacks are left out.
+   * docs/face-capture.md, 3 "ARKit expressions on raw controls" has the reasons for each entry. Writes as
+   * many entries as there is room for; `out_count` tells how many there are. Names are static.
+   * `out_entries` may be NULL if `capacity` is 0.
+   */
+  mien_arkit_matrix(out_entries: number, capacity: number, out_count: number): number;
   /** Destroys a binding. */
   mien_clip_binding_destroy(clip_binding: number): void;
   /** Returns what a binding found. */
@@ -2571,6 +2580,18 @@ export interface Exports {
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if a count is not that of clip and rig.
    */
   mien_clip_binding_apply(clip_binding: number, values: number, value_count: number, raw_controls: number, raw_control_count: number): number;
+  /**
+   * Finds for each channel of a clip the coarsest step that cannot be seen, for MienClipDesc.snaps: of 2^-9 to
+   * 2^-16 the largest of which half moves no vertex that LOD 0 shows farther than the tolerance. `tolerance` is in
+   * millimeters, such as 0.02. Joints count if no mesh is shown. Tried at five values from 0 to 1, and of GUI controls
+   * from -1 on, with all other channels at 0. A channel that drives nothing gets 2^-11, one that
+   * even the finest step moves farther 0. Build a clip with all bits, bind it, and build it again
+   * with these steps. Evaluates and deforms the rig 10 times per channel or more, and takes memory from its
+   * allocator during the call.
+   * Fails with MIEN_ERROR_MISMATCH if `channel_count` is not that of the binding, or the binding is of another
+   * rig, MIEN_ERROR_INVALID_ARGUMENT if `tolerance` is not a number above 0.
+   */
+  mien_clip_binding_snaps(clip_binding: number, deformer: number, tolerance: number, out_snaps: number, channel_count: number, error: number): number;
   /**
    * Creates a mix for a rig. `desc` is required. `rig` may be destroyed afterwards, and so may the
    * deformer. Measuring guards takes time: it evaluates and deforms the rig at LOD 0 for each raw control

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Clips: curves of named channels, played and bound to rigs.
-import { TICKS_PER_SECOND } from "./api.js";
+import { layouts, TICKS_PER_SECOND } from "./api.js";
 import { Handle, makeHandle } from "./memory.js";
 
 export class Clip extends Handle {
@@ -173,4 +173,33 @@ export class ClipBinding extends Handle {
       this.call("mien_clip_binding_apply", inside, values.length, raw.byteOffset, raw.length);
     });
   }
+
+  /** Steps for ClipDesc.snaps of which half moves nothing by more than `tolerance` millimeters. */
+  findSnaps(deformer, tolerance = 0.02) {
+    const { memory } = this;
+    return memory.withScratch((scratch) => {
+      const error = scratch.out("Error");
+      const count = this.info.channelCount;
+      const out = scratch.take(Math.max(1, count) * 4);
+      memory.check(memory.exports.mien_clip_binding_snaps(
+        this.handle, deformer.handle, tolerance, out, count, error), error);
+      return memory.array("f32", out, count).slice();
+    });
+  }
+}
+
+/** For ClipBindingDesc.matrix of clips with the names of ARKit. */
+export function arkitMatrix(memory) {
+  return memory.withScratch((scratch) => {
+    const find = (entries, capacity) => {
+      const out = scratch.take(4);
+      memory.check(memory.exports.mien_arkit_matrix(entries, capacity, out), 0, "mien_arkit_matrix");
+      return memory.data.getUint32(out, true);
+    };
+    const { size } = layouts.MatrixEntry;
+    const count = find(0, 0);
+    const entries = scratch.take(count * size);
+    find(entries, count);
+    return Array.from({ length: count }, (_, i) => memory.read("MatrixEntry", entries + i * size));
+  });
 }

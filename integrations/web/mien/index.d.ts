@@ -10,7 +10,7 @@
 // read them again in each frame, and copy with slice() what you keep. Failures throw a MienError. Descriptions
 // of options, units and formulas are those of mien.h, in api.d.ts.
 import type {
-  BatchDesc, ClipBindingDesc, ClipChannel, ClipDesc, ClipEvent, ClipInfo, ClipPlayerDesc, ClipPlayerInfo,
+  MatrixEntry, BatchDesc, ClipBindingDesc, ClipChannel, ClipDesc, ClipEvent, ClipInfo, ClipPlayerDesc, ClipPlayerInfo,
   CoordinateSystem, DeformerDesc, DeformerInfo, DeformerInstanceDesc, DnaDesc, DnaField, DnaInfo, DnaLayer,
   Exports, Finding, GazeDesc, GazeRest, GazeTarget, GenerateDesc, GuardState, InstanceStatistics, Isa, Kind, Mesh,
   MixDesc, MixGuardInfo, MixInfo, MixReaction, MixStroke, MixerDesc, MixerInfo, Normals, PlayDesc, Preset, Reuse,
@@ -123,6 +123,9 @@ export class Mien {
   openClip(source: Source): Promise<Clip>;
   /** Builds a clip of curves. channelCount and frameCount follow from names and values. */
   buildClip(desc: ClipDesc): Clip;
+  /** For ClipBindingDesc.matrix: binds clips with the names of ARKit to rigs that name raw controls in the other
+   * usual way, eyeBlinkL for eyeBlinkLeft. */
+  arkitMatrix(): MatrixEntry[];
   /** A response to a light in the eyes. Its five poses: lids closed; squint and lowered brows; gaze turned away;
    * narrow pupils; head turned away. An empty one leaves its part out. */
   glare(poses: readonly Pose[]): Reaction;
@@ -330,6 +333,9 @@ export interface ClipBinding extends Handle {
   readonly info: BindingInfo;
   /** Sets the raw controls that the clip drives. `values` are those of a player. */
   apply(values: Float32Array, instance: Instance): void;
+  /** For ClipDesc.snaps: the coarsest steps of which half moves no vertex by more than `tolerance` millimeters, 0.02
+   * unless given. */
+  findSnaps(deformer: Deformer, tolerance?: number): Float32Array;
 }
 export const ClipBinding: { readonly prototype: ClipBinding };
 

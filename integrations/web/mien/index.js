@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Mien in JavaScript: facial rigs in browsers, workers and Node.js. index.d.ts is the manual.
 import { Layer, Status } from "./api.js";
-import { Clip } from "./clip.js";
+import { arkitMatrix, Clip } from "./clip.js";
 import { coordinateSystemNames, Dna, validate } from "./dna.js";
 import { errorOf } from "./errors.js";
 import { Memory } from "./memory.js";
@@ -128,6 +128,11 @@ export class Mien {
 
   buildClip(desc) {
     return Clip.build(this.#memory, desc);
+  }
+
+  /** For rigs that name raw controls in the other usual way than ARKit does. */
+  arkitMatrix() {
+    return arkitMatrix(this.#memory);
   }
 
   glare(poses) {

@@ -3727,6 +3727,15 @@ extern "C" {
     /// if channels drive more than 4095 GUI controls.
     pub fn mien_clip_binding_create(clip: *const MienClip, rig: *const MienRig, desc: *const MienClipBindingDesc, out_clip_binding: *mut *mut MienClipBinding, error: *mut MienError) -> MienStatus;
 
+    /// Gives a matrix that binds clips with the 52 expression names of ARKit, such as those of the
+    /// Live Link Face app, to rigs that name raw controls in the other usual way (eyeBlinkL for
+    /// eyeBlinkLeft). The same for every rig: channels whose names a rig has need no matrix, and
+    /// entries whose controls it lacks are left out. docs/face-capture.md, 3 "ARKit expressions on
+    /// raw controls" has the reasons for each entry. Writes as many entries as there is room for;
+    /// `out_count` tells how many there are. Names are static. `out_entries` may be NULL if
+    /// `capacity` is 0.
+    pub fn mien_arkit_matrix(out_entries: *mut MienMatrixEntry, capacity: usize, out_count: *mut usize) -> MienStatus;
+
     /// Destroys a binding.
     pub fn mien_clip_binding_destroy(clip_binding: *mut MienClipBinding);
 
@@ -3741,6 +3750,20 @@ extern "C" {
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if a count is not that of clip and rig.
     pub fn mien_clip_binding_apply(clip_binding: *const MienClipBinding, values: *const f32, value_count: usize, raw_controls: *mut f32, raw_control_count: usize) -> MienStatus;
+
+    /// Finds for each channel of a clip the coarsest step that cannot be seen, for
+    /// MienClipDesc.snaps: of 2^-9 to 2^-16 the largest of which half moves no vertex that LOD 0
+    /// shows farther than the tolerance. `tolerance` is in millimeters, such as 0.02. Joints count
+    /// if no mesh is shown. Tried at five values from 0 to 1, and of GUI controls from -1 on, with
+    /// all other channels at 0. A channel that drives nothing gets 2^-11, one that even the finest
+    /// step moves farther 0. Build a clip with all bits, bind it, and build it again with these
+    /// steps. Evaluates and deforms the rig 10 times per channel or more, and takes memory from
+    /// its allocator during the call.
+    ///
+    /// Fails with `MIEN_ERROR_MISMATCH` if `channel_count` is not that of the binding, or the
+    /// binding is of another rig, `MIEN_ERROR_INVALID_ARGUMENT` if `tolerance` is not a number
+    /// above 0.
+    pub fn mien_clip_binding_snaps(clip_binding: *const MienClipBinding, deformer: *const MienDeformer, tolerance: f32, out_snaps: *mut f32, channel_count: usize, error: *mut MienError) -> MienStatus;
 
     /// Creates a mix for a rig. `desc` is required. `rig` may be destroyed afterwards, and so may
     /// the deformer. Measuring guards takes time: it evaluates and deforms the rig at LOD 0 for

@@ -3,7 +3,7 @@
 use crate::convert::{bytes, empty_string, index, path_string, slice, utf8};
 use crate::error::{check, checked};
 use crate::stream::with_stream;
-use crate::{Allocator, ClipInfo, ClipPlayer, Error, Interpolation, Looping, Result, Rig, Status};
+use crate::{Allocator, ClipInfo, ClipPlayer, Deformer, Error, Interpolation, Looping, Result, Rig, Status};
 use mien_sys as sys;
 use std::borrow::Cow;
 use std::io::{Read, Seek};
@@ -228,6 +228,24 @@ impl<'a> ClipOptions<'a> {
         })?;
         Clip::adopt(handle, self.allocator.clone())
     }
+}
+
+/// For [`Clip::bind`]: entries (expression, raw control, weight) that bind clips with the names of
+/// ARKit to rigs that name their controls in the other usual way, `eyeBlinkL` for `eyeBlinkLeft`.
+#[must_use]
+pub fn arkit_matrix() -> Vec<(&'static str, &'static str, f32)> {
+    let mut count = 0;
+    // SAFETY: no room is told, and none is used.
+    let mut status = unsafe { sys::mien_arkit_matrix(null_mut(), 0, &mut count) };
+    let mut entries = vec![sys::MienMatrixEntry::default(); count];
+    if status == 0 {
+        // SAFETY: room for as many entries as are told.
+        status = unsafe { sys::mien_arkit_matrix(entries.as_mut_ptr(), count, &mut count) };
+    }
+    assert_eq!(status, 0, "mien_arkit_matrix() fails with wrong arguments only");
+    // SAFETY: names are static.
+    let text = |name: sys::MienStringView| unsafe { utf8(bytes(name)) };
+    entries.iter().map(|e| (text(e.channel), text(e.control), e.weight)).collect()
 }
 
 /// Text as C takes it; valid as long as `text`.
@@ -568,6 +586,28 @@ impl ClipBinding {
     #[must_use]
     pub fn missing_entry_count(&self) -> usize {
         self.info.missing_entry_count as usize
+    }
+
+    /// Per channel the coarsest step, for [`ClipOptions::snaps`], of which half moves no vertex by more
+    /// than `tolerance` millimeters.
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_clip_binding_snaps)]
+    pub fn find_snaps(&self, deformer: &Deformer, tolerance: f32) -> Result<Vec<f32>> {
+        let mut steps = vec![0.0; self.info.channel_count as usize];
+        // SAFETY: live handles, and an array with its length.
+        checked(|error| unsafe {
+            sys::mien_clip_binding_snaps(
+                self.handle.as_ptr(),
+                deformer.raw(),
+                tolerance,
+                steps.as_mut_ptr(),
+                steps.len(),
+                error,
+            )
+        })?;
+        Ok(steps)
     }
 
     /// Writes the raw controls that are driven, and no others. `values` are one per channel, as from

@@ -2100,11 +2100,18 @@ macro_rules! errors {
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
          - [`Status::CLIP_LIMIT`](crate::Status::CLIP_LIMIT) if channels drive more than 4095 GUI controls"
     };
+    (mien_arkit_matrix) => {
+        "- none with valid arguments"
+    };
     (mien_clip_binding_info) => {
         "- none with valid arguments"
     };
     (mien_clip_binding_apply) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a count is not that of clip and rig"
+    };
+    (mien_clip_binding_snaps) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `tolerance` is not a number above 0\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if `channel_count` is not that of the binding, or the binding is of another rig"
     };
     (mien_mix_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a part of `desc` is out of range; the message names it\n\

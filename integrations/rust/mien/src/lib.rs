@@ -72,7 +72,7 @@ mod vertex_output;
 pub use allocator::Allocator;
 pub use baked::{Baked, BakedOptions};
 pub use batch::Batch;
-pub use clip::{Clip, ClipBinding, ClipChannel, ClipEvent, ClipOptions, TICKS_PER_SECOND};
+pub use clip::{arkit_matrix, Clip, ClipBinding, ClipChannel, ClipEvent, ClipOptions, TICKS_PER_SECOND};
 pub use clip_player::ClipPlayer;
 pub use deformer::{Deformer, DeformerOptions, Mesh};
 pub use deformer_instance::{DeformerInstance, DeformerInstanceOptions};
