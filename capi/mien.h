@@ -1847,8 +1847,8 @@ MIEN_CHECKED MienStatus mien_clip_binding_apply(const MienClipBinding* clip_bind
  * even the finest step moves farther 0. Build a clip with all bits, bind it, and build it again
  * with these steps. Evaluates and deforms the rig 10 times per channel or more, and takes memory from its
  * allocator during the call.
- * Fails with MIEN_ERROR_MISMATCH if `channel_count` is not that of the binding, or the binding is of another
- * rig, MIEN_ERROR_INVALID_ARGUMENT if `tolerance` is not a number above 0. */
+ * Fails with MIEN_ERROR_MEMORY if there is none, MIEN_ERROR_MISMATCH if `channel_count` is not that of the
+ * binding, or the binding is of another rig, MIEN_ERROR_INVALID_ARGUMENT if `tolerance` is not a number above 0. */
 MIEN_CHECKED MienStatus mien_clip_binding_snaps(const MienClipBinding* clip_binding,
                                                 const MienDeformer* deformer, float tolerance,
                                                 float* out_snaps, size_t channel_count,

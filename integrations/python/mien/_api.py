@@ -3894,6 +3894,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "`tolerance` is not a number above 0"),
         (Status.MISMATCH,
          "`channel_count` is not that of the binding, or the binding is of another rig"),
+        (Status.MEMORY,
+         "there is none"),
     ),
     "mien_mix_create": (
         (Status.INVALID_ARGUMENT,

@@ -3760,9 +3760,9 @@ extern "C" {
     /// steps. Evaluates and deforms the rig 10 times per channel or more, and takes memory from
     /// its allocator during the call.
     ///
-    /// Fails with `MIEN_ERROR_MISMATCH` if `channel_count` is not that of the binding, or the
-    /// binding is of another rig, `MIEN_ERROR_INVALID_ARGUMENT` if `tolerance` is not a number
-    /// above 0.
+    /// Fails with `MIEN_ERROR_MEMORY` if there is none, `MIEN_ERROR_MISMATCH` if `channel_count`
+    /// is not that of the binding, or the binding is of another rig, `MIEN_ERROR_INVALID_ARGUMENT`
+    /// if `tolerance` is not a number above 0.
     pub fn mien_clip_binding_snaps(clip_binding: *const MienClipBinding, deformer: *const MienDeformer, tolerance: f32, out_snaps: *mut f32, channel_count: usize, error: *mut MienError) -> MienStatus;
 
     /// Creates a mix for a rig. `desc` is required. `rig` may be destroyed afterwards, and so may

@@ -2111,7 +2111,8 @@ macro_rules! errors {
     };
     (mien_clip_binding_snaps) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `tolerance` is not a number above 0\n\
-         - [`Status::MISMATCH`](crate::Status::MISMATCH) if `channel_count` is not that of the binding, or the binding is of another rig"
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if `channel_count` is not that of the binding, or the binding is of another rig\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if there is none"
     };
     (mien_mix_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a part of `desc` is out of range; the message names it\n\
