@@ -310,6 +310,24 @@ class AuthorTest(ProgramTest):
             source = write("wrong.glb", glb(POSITIONS, FACES, SHAPES, change(where, value)))
             self.fails(INVALID, "author", source, "-o", path("no.dna"))
 
+    def test_a_body_is_cropped_to_its_head(self):
+        n = len(POSITIONS)
+        body = [(4 * x, y - 40, z) for x, y, z in POSITIONS]
+        faces = FACES + [tuple(v + n for v in face) for face in FACES]
+        write("body.obj", obj(POSITIONS + body, faces, {0: "skin", len(FACES): "body"}))
+        options = ("--joints", "20", "--lods", "1")
+        self.author(path("head.obj"), *options, name="head")
+        report = self.author(path("body.obj"), "--crop=,,-20,,,", *options, name="cropped")
+        head = json.loads(read("head.json"))
+        self.assertEqual(report["mesh"]["loose_positions"], n)
+        self.assertEqual([b["position"] for b in report["bones"]], [b["position"] for b in head["bones"]])
+        self.assertEqual(report["mask"], head["mask"])
+        for box in ("1", "1,2,3,4,5", "1,2,3,4,5,6,7", "2,1,,,,", "x,1,,,,", "nan,,,,,"):
+            self.fails(USAGE, "author", path("body.obj"), "--crop=" + box, "-o", path("no.dna"),
+                       says="--crop")
+        self.fails(INVALID, "author", path("body.obj"), "--crop=900,901,,,,", "-o", path("no.dna"),
+                   says="no face")
+
     def test_files_that_name_the_same_data_again_and_again_are_refused(self):
         def targets(root):
             one = root["meshes"][0]["primitives"][0]

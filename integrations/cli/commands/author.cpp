@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // mien author: a rig from a mesh.
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -30,7 +32,7 @@ struct AuthorCommand {
   std::string mesh, shapes, unit, object;
   std::string joints = "240", influences = "8", lods = "8", seed = "1", groups = "3", threads = "0";
   std::string symmetry = "auto", residual = "targets", up = "y", front = "z";
-  std::string report, images;
+  std::string report, images, crop;
   bool paper = false, no_neck_cut = false, mask_from_shapes = false, area_density = false;
   OutputFile output;
 };
@@ -69,6 +71,81 @@ MienAuthorDesc parse_options(const AuthorCommand& command) {
   if (parse_word("--residual", command.residual) == 1) desc.flags |= MIEN_AUTHOR_NO_TARGETS;
   desc.face_object = {command.object.data(), command.object.size()};
   return desc;
+}
+
+/// What is kept of a mesh, in its unit and axes.
+struct Crop {
+  double low[3] = {-INFINITY, -INFINITY, -INFINITY}, high[3] = {INFINITY, INFINITY, INFINITY};
+
+  bool holds(const double* p) const {
+    for (int i = 0; i < 3; ++i) {
+      if (!(p[i] >= low[i] && p[i] <= high[i])) return false;
+    }
+    return true;
+  }
+};
+
+/// "-1,1,5,,," keeps what is within 1 of the middle and above 5.
+Crop parse_crop(const std::string& text) {
+  Crop crop;
+  const auto wrong = [&](const std::string& why) {
+    fail_usage("--crop \"" + text + "\"", why,
+               "give X0,X1,Y0,Y1,Z0,Z1 in the unit of the mesh, nothing where there is no limit: "
+               "-1,1,5,,,");
+  };
+  size_t at = 0;
+  for (int i = 0; i < 6; ++i) {
+    const size_t comma = text.find(',', at);
+    if ((comma == std::string::npos) != (i == 5)) wrong("these are not six numbers");
+    const std::string word = text.substr(at, comma - at);
+    at = comma + 1;
+    if (word.empty()) continue;
+    char* end = nullptr;
+    const double value = std::strtod(word.c_str(), &end);
+    if (end != word.c_str() + word.size() || !std::isfinite(value)) {
+      wrong("\"" + word + "\" is not a number");
+    }
+    (i % 2 == 0 ? crop.low : crop.high)[i / 2] = value;
+  }
+  for (int i = 0; i < 3; ++i) {
+    if (crop.low[i] >= crop.high[i]) wrong("nothing lies between these");
+  }
+  return crop;
+}
+
+/// Leaves out faces with a corner outside. Positions keep their numbers, which shapes go by.
+void crop_mesh(const Crop& crop, const std::string& path, MeshFile& mesh) {
+  MeshFile kept;
+  size_t corner = 0, face = 0;
+  for (const MeshObject& object : mesh.objects) {
+    MeshObject part = {object.name, static_cast<uint32_t>(kept.face_sizes.size()), 0};
+    for (uint32_t f = 0; f < object.face_count; ++f) {
+      const uint32_t size = mesh.face_sizes[face++];
+      const uint32_t* corners = mesh.corners.data() + corner;
+      const bool inside = std::all_of(corners, corners + size, [&](uint32_t v) {
+        return crop.holds(&mesh.positions[size_t{3} * v]);
+      });
+      if (inside) {
+        kept.face_sizes.push_back(size);
+        kept.corners.insert(kept.corners.end(), corners, corners + size);
+        if (!mesh.corner_uvs.empty()) {
+          const uint32_t* uvs = mesh.corner_uvs.data() + corner;
+          kept.corner_uvs.insert(kept.corner_uvs.end(), uvs, uvs + size);
+        }
+        ++part.face_count;
+      }
+      corner += size;
+    }
+    if (part.face_count > 0) kept.objects.push_back(part);
+  }
+  if (kept.face_sizes.empty()) {
+    fail_mesh(shown_name(path), "", "no face of it lies within --crop",
+              "the limits are in the unit and axes of the mesh");
+  }
+  mesh.face_sizes = std::move(kept.face_sizes);
+  mesh.corners = std::move(kept.corners);
+  mesh.corner_uvs = std::move(kept.corner_uvs);
+  mesh.objects = std::move(kept.objects);
 }
 
 /// The mesh as the library takes it; refers to `file`.
@@ -187,7 +264,9 @@ void note_oddities(const AuthorCommand& command, const Json& report, const Sessi
     note(session, "the face has room for " + std::to_string(facial) + " facial joints only");
   }
   if (report["face_only"].get<bool>()) {
-    note(session, "a face without a back of the head: all of it is rigged");
+    note(session,
+         "a face without a back of the head: all of it is rigged; of a body, keep the head "
+         "with --crop");
   } else if (report["throat"].is_null() && !command.no_neck_cut) {
     note(session, "no throat found below the nose: the face mask is not cut off from the neck");
   }
@@ -232,6 +311,7 @@ std::vector<AuthorImage> draw_images(const AuthorCommand& command, const MienAut
 
 void run(const AuthorCommand& command, const Session& session) {
   MienAuthorDesc desc = parse_options(command);
+  const Crop crop = command.crop.empty() ? Crop{} : parse_crop(command.crop);
   refuse_terminal(command.output.path, session, "a DNA file");
   std::vector<std::string> inputs = {command.mesh};
   if (!command.shapes.empty()) inputs.push_back(command.shapes);
@@ -245,6 +325,7 @@ void run(const AuthorCommand& command, const Session& session) {
   auto interrupt = std::make_unique<EndOnInterrupt>();
   MeshFile file = read_mesh_file(command.mesh);
   if (!command.shapes.empty()) file.shapes = read_shapes(command.shapes, file);
+  if (!command.crop.empty()) crop_mesh(crop, command.mesh, file);
   // glTF is in meters.
   if (command.unit.empty()) desc.unit = file.in_meters ? 100 : 1;
 
@@ -320,6 +401,12 @@ Command add_author_command(CLI::App& app, const Session& session) {
                    "The face mask is what shapes move: for what is not human");
   author->add_flag("--area-density", options->area_density,
                    "Vertices count by the area around them: for scans");
+  author
+      ->add_option(
+          "--crop", options->crop,
+          "Keep the faces within X0,X1,Y0,Y1,Z0,Z1, in the unit and\naxes of MESH; nothing "
+          "where there is no limit:\n-1,1,5,,,")
+      ->type_name("BOX");
   author->add_option("--threads", options->threads, "0 (default): as many as the machine has")
       ->type_name("N");
   author->add_option("--report", options->report, "Write what was found and measured as JSON")
@@ -338,6 +425,7 @@ Command add_author_command(CLI::App& app, const Session& session) {
       "  mien author head.obj --shapes expressions/ -o head.dna --report report.json\n"
       "  mien author head.obj --joints 120 -o head.dna --pictures images/\n"
       "  mien author head.glb -o head.dna\n"
+      "  mien author body.obj --unit dm --crop -1,1,5,,, -o head.dna\n"
       "  mien author scan.obj --unit mm --up z --front -y -o head.dna");
   return {author, [options, &session] { run(*options, session); }};
 }
