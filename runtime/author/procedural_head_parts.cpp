@@ -250,7 +250,7 @@ void add_teeth(const Form& form, uint32_t lod, HalfMesh& out) {
   for (double w : kWidths) total += w;
 
   const Vec3 lips = form.face(0, kMouthY, Side::kBelow).closed;
-  const Color white = {240, 233, 218}, gum = {188, 92, 92}, gap = {176, 150, 128};
+  const Color white = {240, 233, 218}, gum = {188, 92, 92}, gap = {196, 172, 150};
   for (int lower = 0; lower < 2; ++lower) {
     const double sign = lower ? -1 : 1;
     const double front = lips.z - (lower ? 1.22 : 0.98), half = lower ? 1.85 : 2.05;
@@ -277,7 +277,7 @@ void add_teeth(const Form& form, uint32_t lod, HalfMesh& out) {
         if (k == 0) at.x = 0;
         Color color = row <= 2 || row == 9 ? gum : white;
         if (row >= 3 && row <= 5) color = mix(gap, color, 0.35 + 0.65 * round);
-        color = mix(color, {90, 60, 54}, 0.55 * smooth_step(0.35, 1, share));
+        color = mix(color, {84, 44, 42}, 0.75 * smooth_step(0.35, 1, share));
         if (k == columns - 1) color = {92, 34, 36};  // its end is dark
         out.vertices.add(plain(at, color, share, (row + 10 * lower) / 20.0,
                                lower ? Carrier::kLowerTeeth : Carrier::kUpperTeeth));

@@ -309,8 +309,8 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
       add(w.at(1.2, 2.6, 0.9, 0.9), {-0.16, -0.16, 0.14});
       break;
     case Motion::kBrowOuterUp:
-      add(w.at(4.4, 3.2, 1.6, 1.35), {0.04, 0.95, 0});
-      add(w.at(4.2, 5.4, 1.8, 1.3), {0, 0.45, 0});
+      add(w.at(4.1, 3.2, 2.2, 1.45), {0.02, 0.84, 0.04});
+      add(w.at(4.0, 5.4, 2.0, 1.3), {0, 0.42, 0});
       break;
     case Motion::kSneer:
       add(w.at(1.25, -3.0, 0.85, 0.95), {0.10, 0.52, 0.10});
@@ -373,7 +373,9 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       add(lips * bump(0, line, 0, 0, 1, 0.5) * apart, {0, 0, 0.16});
       break;
     case Motion::kPucker:
-      add(narrow, {-0.47 * look.x, 0, 0});
+      add(narrow, {-0.46 * look.x, 0, 0});
+      // Thinner towards the corners, so that the lips are round and not a box.
+      add(bump(look.x, line, 2.4, 0, 1.1, 1.0), {0, -0.55 * line, 0});
       add(bump(look.x, line, 2.5, 0, 0.9, 1.0), {0, 0, 0.42});
       add(lips, {0, -0.08 * line, 0.46});
       add(bump(look.x, line, 0, 0, 1.9, 0.85), {0, 0.30 * line * apart, 0.50});
@@ -425,7 +427,10 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
     case Motion::kTongueOut: add(lips * apart, {0, above ? 0.16 : -0.30, 0.12}); break;
     default: break;
   }
-  d.x *= clamp01(look.x / 0.8);  // the middle stays there
+  // The middle stays there; what is drawn in by a share of x does so by itself.
+  const bool by_share =
+      motion == Motion::kPucker || motion == Motion::kFunnel || motion == Motion::kLessPout;
+  if (!by_share) d.x *= clamp01(look.x / 0.8);
   return d * off_lids(look);
 }
 

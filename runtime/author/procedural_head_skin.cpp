@@ -290,13 +290,18 @@ class SkinMaker {
     if (!out_.failed()) make_lid_edges();
   }
 
-  /// From the edge of a lid inwards, until behind the surface of the eyeball.
+  /// From the edge of a lid inwards, until behind the surface of the eyeball; in the inner corner over
+  /// it to the other lid's, which gives the pink flesh that is there.
   uint32_t lid_edge_vertex(uint32_t from, Color color) {
     Vertex v = out_.vertices[from];
     const Vec3 out = v.closed - kEye;
-    v.closed = kEye + out * ((kEyeRadius - 0.12) / std::max(length(out), kEyeRadius));
+    const double flesh = smooth_step(-0.74, -0.90, Form::along_eye(v.closed.x));
+    const double radius = mix(kEyeRadius - 0.12, kEyeRadius + 0.04, flesh);
+    v.closed = kEye + out * (radius / std::max(length(out), kEyeRadius));
+    const double middle = 0.5 * (form_.upper_opening(v.closed.x) + form_.lower_opening(v.closed.x));
+    v.lid = mix(v.lid, middle, flesh);
     v.position = turn_lid(v.closed, v.lid);
-    v.color = color;
+    v.color = mix(color, {198, 112, 104}, flesh);
     v.v += v.lid < 0 ? 0.004 : -0.004;
     return out_.vertices.add(v);
   }
@@ -344,7 +349,7 @@ class SkinMaker {
     v.v = kMouthV + (v.side == Side::kAbove ? 1 : -1) * 0.012 * depth;
     const Color lip = v.color, wet = {124, 38, 42}, dark = {46, 12, 16};
     v.color =
-        mix(mix(lip, wet, smooth_step(0.02, 0.25, depth)), dark, smooth_step(0.35, 0.9, depth));
+        mix(mix(lip, wet, smooth_step(0.02, 0.25, depth)), dark, smooth_step(0.16, 0.60, depth));
     return out_.vertices.add(v);
   }
 

@@ -234,7 +234,7 @@ uint64_t hash_of(const std::vector<uint8_t>& bytes) {
 }
 
 TEST(ProceduralHead, HasTheSameBytesOnEveryPlatform) {
-  const uint64_t expected[] = {11416136723683533337u, 1024855664130746759u};
+  const uint64_t expected[] = {9069850725718075308u, 15435544159082629910u};
   for (uint64_t seed = 0; seed < 2; ++seed) {
     EXPECT_EQ(hash_of(write_dna(generate_dna(MIEN_PRESET_HEAD, seed).get())), expected[seed])
         << "seed " << seed << ": if the head was meant to change, record the new number";
@@ -392,7 +392,8 @@ TEST(ProceduralHead, SkinHasNoHolesButTheEyes) {
       const Vec3 p = point(mesh.positions, edge[0]);
       const Vec3 eye = {p.x < 0 ? -kEye.x : kEye.x, kEye.y, kEye.z};
       const bool in_ear = std::abs(p.x) > 5 && p.z < 2;
-      const bool behind_lid = length(p - eye) < head::kEyeRadius;
+      // In the inner corner flesh lies on the ball.
+      const bool behind_lid = length(p - eye) < head::kEyeRadius + 0.06;
       EXPECT_TRUE(in_ear || behind_lid) << lod << ": " << p.x << " " << p.y << " " << p.z;
     }
   }
@@ -538,7 +539,10 @@ TEST(ProceduralHead, LidsNeverCutIntoTheEyeball) {
         double least = 1e9;
         for (uint32_t i = 0; i < half.mesh.vertices.count(); ++i) {
           const head::Vertex& v = half.mesh.vertices[i];
-          if (v.lid == 0 || length(v.closed - kEye) < head::kEyeRadius) continue;  // inner edge
+          // Inner edges go behind the ball's surface; in the inner corner their flesh lies on it.
+          const bool corner = head::Form::along_eye(v.closed.x) < -0.7;
+          const double out = length(v.closed - kEye) - head::kEyeRadius;
+          if (v.lid == 0 || out < (corner ? 0.05 : 0)) continue;
           least = std::min(least, length(lids[i] - kEye));
         }
         EXPECT_GT(least, head::kEyeRadius + 0.02) << name << " " << value << " LOD " << lod;
