@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "runtime/base/bits.h"
+#include "runtime/base/vectors.h"
 
 namespace mien {
 namespace {
@@ -209,13 +210,6 @@ void read_codes(const ChannelCursors& cursors, const uint8_t* data, uint32_t* co
     codes[k] = static_cast<uint32_t>(window >> (cursors.bit[k] & 7)) & cursors.mask[k];
   }
 }
-
-// Compilers that unroll a loop completely make no vectors of it.
-#if defined(__GNUC__)
-#define MIEN_VECTOR_LOOP _Pragma("GCC unroll 1")
-#else
-#define MIEN_VECTOR_LOOP
-#endif
 
 /// Goes on by a sample in each lane.
 template <BlockMode kMode>

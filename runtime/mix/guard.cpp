@@ -5,16 +5,26 @@
 #include <cmath>
 
 #include "runtime/base/bits.h"
+#include "runtime/base/vectors.h"
 
 namespace mien {
 namespace {
 
-/// The guard's lanes of a row, then zeros.
+constexpr uint32_t kQuad = 4;
+
+/// The guard's lanes of a row, then zeros up to a multiple of four.
 struct Values {
   float of[kMaxGuardLanes];
 
-  Values(const Guard& guard, const float* row) : of() {
-    for (uint32_t i = 0; i < guard.count; ++i) of[i] = row[guard.lanes[i]];
+  Values(const Guard& guard, const float* row) {
+    const uint16_t* const at = guard.lanes;
+    uint32_t i = 0;
+    for (; i + kQuad <= guard.count; i += kQuad) {
+      store_four(of + i, row[at[i]], row[at[i + 1]], row[at[i + 2]], row[at[i + 3]]);
+    }
+    if (i == guard.count) return;
+    const auto value = [&](uint32_t k) { return i + k < guard.count ? row[at[i + k]] : 0.0f; };
+    store_four(of + i, value(0), value(1), value(2), value(3));
   }
 };
 
@@ -24,9 +34,9 @@ float lower(float a, float b) { return a < b ? a : b; }
 
 float distance(const Guard& guard, const Values& values) {
   // Four sums at a time, which compilers make a vector.
-  float sums[4] = {};
-  for (uint32_t i = 0; i < guard.count; i += 4) {
-    for (uint32_t k = 0; k < 4; ++k) sums[k] += guard.gains[i + k] * values.of[i + k];
+  float sums[kQuad] = {};
+  for (uint32_t i = 0; i < guard.count; i += kQuad) {
+    for (uint32_t k = 0; k < kQuad; ++k) sums[k] += guard.gains[i + k] * values.of[i + k];
   }
   float pairs = guard.rest;
   for (uint32_t i = 0; i < guard.pair_count; ++i) {
@@ -53,7 +63,8 @@ void hold_guard(const Guard& guard, const float* protected_row, float closed, fl
   Values values(guard, row);
   float excess = distance(guard, values) - std::max(closed, 0.0f) - guard.tolerance;
   if (!(excess > 0)) return;
-  uint32_t pairs_of[kMaxGuardLanes] = {};  // bit p: pair p has the lane
+  uint32_t pairs_of[kMaxGuardLanes];  // bit p: pair p has the lane
+  for (uint32_t i = 0; i < guard.count; ++i) pairs_of[i] = 0;
   for (uint32_t p = 0; p < guard.pair_count; ++p) {
     pairs_of[guard.pairs[p].first] |= 1u << p;
     pairs_of[guard.pairs[p].second] |= 1u << p;

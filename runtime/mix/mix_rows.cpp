@@ -10,19 +10,20 @@ void blend_lanes(const Mix& mix, BlendMode mode, Span<const uint16_t> lanes, con
                  const float* mask, float weight, float* row) {
   if (weight == 0.0f) return;
   // Gathered, so that there is one definition of blending.
-  struct alignas(kBlockAlignment) Lanes {
-    float x[kLaneStep], mask[kLaneStep], row[kLaneStep];
-  } some = {};
   for (size_t first = 0; first < lanes.count; first += kLaneStep) {
     const size_t count = lanes.count - first < kLaneStep ? lanes.count - first : kLaneStep;
+    // Three arrays: compilers clear a larger one by an instruction that is slow to begin.
+    alignas(kBlockAlignment) float some_x[kLaneStep] = {};
+    alignas(kBlockAlignment) float some_mask[kLaneStep] = {};
+    alignas(kBlockAlignment) float some_row[kLaneStep] = {};
     for (size_t i = 0; i < count; ++i) {
       const uint16_t lane = lanes[first + i];
-      some.x[i] = values[first + i];
-      some.mask[i] = mask ? mask[lane] : 1.0f;
-      some.row[i] = row[lane];
+      some_x[i] = values[first + i];
+      some_mask[i] = mask ? mask[lane] : 1.0f;
+      some_row[i] = row[lane];
     }
-    mix.kernels->blend_row({some.x, nullptr, some.mask, some.row, kLaneStep, weight, mode});
-    for (size_t i = 0; i < count; ++i) row[lanes[first + i]] = some.row[i];
+    mix.kernels->blend_row({some_x, nullptr, some_mask, some_row, kLaneStep, weight, mode});
+    for (size_t i = 0; i < count; ++i) row[lanes[first + i]] = some_row[i];
   }
 }
 

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// How compilers make vectors of plain loops.
+#pragma once
+
+#include <cstring>
+
+// Before a loop of few, known turns over arrays: g++ would unroll it completely, and then make none.
+#if defined(__GNUC__)
+#define MIEN_VECTOR_LOOP _Pragma("GCC unroll 1")
+#else
+#define MIEN_VECTOR_LOOP
+#endif
+
+namespace mien {
+
+/// Four floats at once: a vector that is loaded soon after would wait for four stores.
+inline void store_four(float* to, float a, float b, float c, float d) {
+#if defined(__GNUC__)
+  typedef float Four __attribute__((vector_size(4 * sizeof(float))));
+  const Four four = {a, b, c, d};
+#else
+  const float four[4] = {a, b, c, d};
+#endif
+  memcpy(to, &four, sizeof(four));
+}
+
+}  // namespace mien
