@@ -79,8 +79,9 @@ PROGRAM_GRAPH = {
     "live": ["mien.h", "io", "gltf"],  # packets of live sources -> rows of controls
     "mesh": ["mien.h", "io"],          # meshes and shapes from files, for `mien author`
     "play": ["mien.h", "io", "gltf"],  # scenes of `mien play`
+    "view": ["io"],                    # the page of the viewer, served on this machine
     "commands": ["mien.h", "mien_author.h", "math", "io", "render", "gltf", "scene", "mesh", "play", "live",
-                 "bench/csr_matrix.h"],
+                 "view", "bench/csr_matrix.h"],
     "": ["mien.h", "mien_author.h", "io", "commands"],  # main.cpp, without_author.cpp
 }
 

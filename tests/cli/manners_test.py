@@ -31,7 +31,7 @@ def setUpModule():
 
 
 COMMANDS = ("info", "validate", "eval", "convert", "gen", "demo-head", "export", "render", "inspect", "bake", "bench",
-            "completion", "help", "clip", "clip build", "clip info", "clip verify", "clip export")
+            "view", "completion", "help", "clip", "clip build", "clip info", "clip verify", "clip export")
 
 
 class Help(ProgramTest):

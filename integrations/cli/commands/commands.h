@@ -38,6 +38,7 @@ Command add_play_command(CLI::App& app, const Session& session);
 Command add_bench_command(CLI::App& app, const Session& session);
 Command add_render_command(CLI::App& app, const Session& session);
 Command add_inspect_command(CLI::App& app, const Session& session);
+Command add_view_command(CLI::App& app, const Session& session);
 Command add_completion_command(CLI::App& app);
 Command add_help_command(CLI::App& app);
 

@@ -92,6 +92,17 @@ std::string read_rig_stream(const std::string& path) {
               {kMaxRigBytes, "4 GiB", "no rig is that large; check what was given", judge});
 }
 
+std::string read_viewable(const std::string& path) {
+  const auto judge = [](const std::string& text, size_t) {
+    if (text.size() < 8) return Verdict::kUndecided;
+    return text.compare(0, 3, "DNA") == 0 || text.compare(0, 4, "glTF") == 0 || is_baked_bytes(text)
+               ? Verdict::kWanted
+               : Verdict::kOther;
+  };
+  return read(path, "cannot view",
+              {kMaxMeshBytes, "2 GiB", "a page has no room for it; leave out LODs", judge});
+}
+
 std::string read_clip_stream(const std::string& path) {
   const auto judge = [](const std::string& text, size_t) {
     if (text.size() < 8) return Verdict::kUndecided;

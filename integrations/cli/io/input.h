@@ -25,6 +25,10 @@ bool is_stream(const std::string& path);
 /// returned, for the library to refuse.
 std::string read_rig_stream(const std::string& path);
 
+/// A file or stream that should hold a DNA file, a baked file or a GLB. Of another one the beginning is
+/// returned.
+std::string read_viewable(const std::string& path);
+
 /// The bytes of a stream that should hold a clip. Of another one the beginning is returned.
 std::string read_clip_stream(const std::string& path);
 

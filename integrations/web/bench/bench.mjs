@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // bench.mjs [RIG.dna]: evaluation in WebAssembly and in the native library: the same frames, one after the
-// other, on one thread, in turns. Then a frame of the generated head: evaluation and deformation. Needs
-// ./dev build and ./dev web --build. The default rig is the golden head, else a generated one.
+// other, on one thread, in turns. Then a frame of the generated head: evaluation and deformation, in Node.js and
+// in the viewer in Chromium, without what draws. Needs ./dev build and ./dev web --build. The default rig is the golden head, else a generated one.
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { serve } from "../serve.mjs";
+import { findChromium, Page } from "../tests/browser.mjs";
 import { api, Mien, mien, project } from "../tests/support.mjs";
 
 const FRAMES = 64;
@@ -52,6 +54,36 @@ function inWebAssembly(rig, frames, rounds) {
   }
   face.dispose();
   return { time: Math.min(...samples), hash };
+}
+
+/** Frames of the viewer: evaluation, and deformation into buffers of three.js. */
+async function inChromium(chromium, folder) {
+  const server = await serve(folder);
+  const page = await Page.open(chromium, { width: 800, height: 400 });
+  try {
+    await page.goto(server.url);
+    await page.until("() => document.body.dataset.ready", "loaded");
+    const { times, vertices, controls } = await page.run(async () => {
+      await window.viewer.openHead();
+      const { model } = window.viewer;
+      const times = [];
+      for (let frame = 0; frame < 300; ++frame) {
+        model.face.rawControls.forEach((_, i, raw) => { raw[i] = 0.5 + 0.5 * Math.sin(frame * 0.1 + i); });
+        const start = performance.now();
+        model.face.evaluate(0);
+        model.object.pose();
+        times.push(performance.now() - start);
+      }
+      const shown = model.object.children.filter((mesh) => mesh.visible);
+      const vertices = shown.reduce((sum, mesh) => sum + mesh.userData.vertexCount, 0);
+      return { times, vertices, controls: model.face.rawControls.length };
+    });
+    console.log(`viewer in Chromium, all ${controls} controls active: ${median(times).toFixed(2)} ms of script per frame ` +
+      `for ${vertices} vertices, at most ${Math.max(...times).toFixed(1)} ms`);
+  } finally {
+    await page.close();
+    server.close();
+  }
 }
 
 const work = mkdtempSync(join(tmpdir(), "mien-bench-"));
@@ -118,6 +150,10 @@ try {
   }
   console.log(`generated head, all ${face.rawControls.length} controls active: ${(median(evaluation) * 1000).toFixed(0)} us ` +
     `evaluation, ${median(deformation).toFixed(2)} ms for ${vertices} vertices with recomputed normals`);
+
+  const folder = join(project, "build/web/viewer");
+  const chromium = existsSync(folder) && findChromium();
+  if (chromium) await inChromium(chromium, folder);
 } finally {
   rmSync(work, { recursive: true });
 }

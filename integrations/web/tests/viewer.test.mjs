@@ -247,7 +247,63 @@ test("poses are downloaded in the form that they are opened in", options, async 
   page.errors.length = 0;
 });
 
+/** The bytes that a button downloads. */
+const downloaded = async (id) => Uint8Array.from(await page.run(async (button) => {
+  const create = URL.createObjectURL;
+  const made = new Promise((resolve) => { URL.createObjectURL = (blob) => { resolve(blob); return create(blob); }; });
+  document.getElementById(button).click();
+  const bytes = new Uint8Array(await (await made).arrayBuffer());
+  URL.createObjectURL = create;
+  return Array.from(bytes);
+}, id));
+
+test("poses are recorded over time, in a form that the page and the program play", options, async () => {
+  await open(baked);
+  await page.run(() => document.getElementById("record").click());
+  assert.equal(await text("record"), "Stop and download");
+  await page.run(async () => {
+    const end = performance.now() + 500;
+    while (performance.now() < end) {
+      window.viewer.model.face.controls.jawOpen = 1 - (end - performance.now()) / 500;
+      window.viewer.pose();
+      await new Promise(requestAnimationFrame);
+    }
+  });
+  const bytes = await downloaded("record");
+  assert.equal(await text("record"), "Record");
+  const file = join(work, "take.json");
+  writeFileSync(file, bytes);
+  const { rate, frames: list } = JSON.parse(Buffer.from(bytes).toString());
+  assert.equal(rate, 60);
+  assert.ok(list.length > 20 && list.length < 600, `${list.length} frames`);
+  const jaws = list.map(({ raw }) => raw.jawOpen ?? raw["CTRL_expressions.jawOpen"] ?? 0);
+  assert.ok(jaws.at(-1) > 0.5 && jaws.every((value, i) => i === 0 || value >= jaws[i - 1]));
+  list.forEach(({ time }, i) => assert.equal(time, i / 60));
+  mien(["eval", baked, "--input", file, "--quiet"]);
+  await open(file);
+  assert.match(await text("file"), /1 controls played/);
+  await page.run(() => document.getElementById("play").click());
+});
+
+test("the shown head is downloaded as GLB, and opens again", options, async () => {
+  await open(baked);
+  await slide("jawOpen", 0.7);
+  await frames();
+  const shown = await numbers("window.viewer.model.object.children.find((mesh) => mesh.visible).geometry.attributes.position.array.slice(0, 300)");
+  const bytes = await downloaded("save-glb");
+  const file = join(work, "shown.glb");
+  writeFileSync(file, bytes);
+  await open(file);
+  assert.match(await text("facts"), /^0 morph targets, \d/);
+  assert.ok(await page.run(() => document.getElementById("save-glb").hidden));
+  const heights = await numbers("(() => { let p; window.viewer.model.object.traverse((m) => { p ??= m.isMesh ? m.geometry.attributes.position.array.slice(0, 300) : undefined; }); return p; })()");
+  // The rig is in centimeters, y up.
+  for (let i = 1; i < 300; i += 3) assert.ok(Math.abs(heights[i] - shown[i] / 100) < 1e-6);
+  assert.deepEqual(page.errors, []);
+});
+
 test("a Live Link Face recording plays, and one that does not fit says so", options, async () => {
+  await open(baked);
   const csv = join(work, "take.csv");
   const rows = Array.from({ length: 30 }, (_, i) => `00:00:00:${String(i).padStart(2, "0")}.000,2,${i / 30},0.5`);
   writeFileSync(csv, ["Timecode,BlendShapeCount,JawOpen,MouthFunnel", ...rows, ""].join("\n"));

@@ -5,6 +5,7 @@ import { readCsv, readJson } from "./files.js";
 import { GlbModel, RigModel } from "./models.js";
 import { Panel } from "./panel.js";
 import { PRESETS } from "./presets.js";
+import { exportGlb, Recording } from "./record.js";
 import { HeatMap, Stage } from "./stage.js";
 
 const $ = (id) => document.getElementById(id);
@@ -23,6 +24,7 @@ let mien = null;
 let model = null;
 let opened = null; // name and bytes of the model
 let take = null; // what plays: clip, player, binding
+let recording = null;
 let dirty = false;
 
 // ---- messages ---------------------------------------------------------------------------------------
@@ -82,7 +84,8 @@ async function openModel(name, bytes) {
   panel.show(model);
   showPresets();
   for (const id of ["pose", "view", "sliders"]) $(id).hidden = false;
-  $("inspect").hidden = isGlb;
+  $("inspect").hidden = $("save-glb").hidden = isGlb;
+  dropRecording();
   $("play").hidden = $("time-row").hidden = true;
   $("facts").textContent = model.facts;
   say(name);
@@ -178,8 +181,30 @@ stage.beforeDraw = (time) => {
     if (model.rig) afterUpdate();
     panel.refresh();
   }
-  return take?.isPlaying ?? false;
+  if (recording && !recording.take(time, model.pose())) endRecording();
+  return take?.isPlaying || recording !== null;
 };
+
+/** Poses from now on, until the button is pressed again. */
+function record() {
+  recording = new Recording();
+  $("record").textContent = "Stop and download";
+  $("record").setAttribute("aria-pressed", "true");
+  stage.request();
+}
+
+function endRecording() {
+  const { frames } = recording;
+  const text = recording.json();
+  dropRecording();
+  if (frames.length) download("take.json", text);
+}
+
+function dropRecording() {
+  recording = null;
+  $("record").textContent = "Record";
+  $("record").setAttribute("aria-pressed", "false");
+}
 
 function afterUpdate() {
   if ($("heat").checked && $("skinning").value === "mien") {
@@ -221,9 +246,9 @@ function showPresets() {
   $("presets").hidden = buttons.length === 0;
 }
 
-function download(name, text) {
+function download(name, content, type = "application/json") {
   const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([text], { type: "application/json" }));
+  link.href = URL.createObjectURL(new Blob([content], { type }));
   link.download = name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
@@ -358,6 +383,10 @@ $("neutral").addEventListener("click", () => {
 $("save").addEventListener("click", () => {
   download("pose.json", `${JSON.stringify({ frames: [{ raw: model.pose() }] }, null, 2)}\n`);
 });
+$("save-glb").addEventListener("click", () => attempt("The head could not be exported", async () => {
+  download("head.glb", await exportGlb(model), "model/gltf-binary");
+}));
+$("record").addEventListener("click", () => (recording ? endRecording() : record()));
 $("play").addEventListener("click", () => (take.isPlaying ? stop() : play()));
 $("time").addEventListener("input", () => {
   stop();

@@ -22,6 +22,13 @@ function* filesOf(archive) {
   }
 }
 
+/** Whether a package is for this machine: some bring programs, a package for each. */
+function fits({ os, cpu, libc }) {
+  const { glibcVersionRuntime } = process.report.getReport().header;
+  return (!os || os.includes(process.platform)) && (!cpu || cpu.includes(process.arch)) &&
+    (!libc || libc.includes(glibcVersionRuntime ? "glibc" : "musl"));
+}
+
 async function fetchPackage(name, { version, integrity }, folder) {
   const address = `${registry}/${name}/-/${name.split("/").pop()}-${version}.tgz`;
   const answer = await fetch(address, { signal: AbortSignal.timeout(30000) });
@@ -44,7 +51,7 @@ const [lockFile, target] = process.argv.slice(2);
 const lock = JSON.parse(readFileSync(lockFile, "utf8"));
 try {
   for (const [path, entry] of Object.entries(lock.packages)) {
-    if (path) await fetchPackage(path.replace(/^.*node_modules\//, ""), entry, join(target, path));
+    if (path && fits(entry)) await fetchPackage(path.replace(/^.*node_modules\//, ""), entry, join(target, path));
   }
   copyFileSync(lockFile, join(target, "package-lock.json"));
 } catch (error) {

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// mien view: the viewer of integrations/web, served on this machine with a file in it.
+#include <cstdio>
+#include <filesystem>
+
+#include "integrations/cli/commands/options.h"
+#include "integrations/cli/io/baked_file.h"
+#include "integrations/cli/io/input.h"
+#include "integrations/cli/view/page.h"
+
+namespace mien::cli {
+
+namespace {
+
+struct ViewOptions {
+  std::string file, port, page;
+  bool no_open = false;
+};
+
+/// So that a damaged file is refused here, where its place is told, and not in the page.
+void check_rig(const std::string& bytes, const std::string& shown) {
+  auto error = sized<MienError>();
+  if (is_baked_bytes(bytes)) {
+    MienBaked* baked = nullptr;
+    const MienStatus status =
+        mien_baked_open_memory(bytes.data(), bytes.size(), nullptr, &baked, &error);
+    check(status, &error, "cannot view", shown);
+    mien_baked_close(baked);
+  } else if (bytes.compare(0, 3, "DNA") == 0) {
+    MienDna* dna = nullptr;
+    const MienStatus status =
+        mien_dna_open_memory(bytes.data(), bytes.size(), nullptr, &dna, &error);
+    check(status, &error, "cannot view", shown);
+    mien_dna_close(dna);
+  } else if (bytes.compare(0, 4, "glTF") != 0) {
+    fail(kInvalid, "cannot view", shown, "it is no DNA file, baked file or GLB",
+         "check what was given; poses and takes are dropped on the page");
+  }
+}
+
+/// Everything but letters, digits and - . _ ~ as %XX.
+std::string url_encoded(const std::string& text) {
+  std::string encoded;
+  for (const char c : text) {
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                       c == '-' || c == '.' || c == '_' || c == '~';
+    char hex[4];
+    std::snprintf(hex, sizeof(hex), "%%%02X", static_cast<unsigned>(static_cast<unsigned char>(c)));
+    encoded += plain ? std::string(1, c) : hex;
+  }
+  return encoded;
+}
+
+/// What the page calls the file; it tells GLB by the ending.
+std::string name_of(const std::string& path, const std::string& bytes) {
+  const std::string name =
+      path == "-" ? "standard-input" : std::filesystem::path(path).filename().string();
+  const bool is_glb = bytes.compare(0, 4, "glTF") == 0;
+  const bool says_glb = name.size() > 4 && name.compare(name.size() - 4, 4, ".glb") == 0;
+  return is_glb && !says_glb ? name + ".glb" : name;
+}
+
+void run(const ViewOptions& options, const Session& session) {
+  view::require_server();
+  uint64_t port = 0;
+  if (!options.port.empty()) {
+    port = parse_number("--port", options.port, 65535);
+    if (port == 0) fail_usage("--port 0", "no port has this number", "leave it out for a free one");
+  }
+  std::string address = "/";
+  view::Files files = view::load_page(options.page);
+  if (!options.file.empty()) {
+    std::string bytes = read_viewable(options.file);
+    check_rig(bytes, shown_name(options.file));
+    const std::string name = name_of(options.file, bytes);
+    files["/rig/" + name] = {"application/octet-stream", std::move(bytes)};
+    // The page decodes its query, the server the path that is in it.
+    address += "?file=rig/" + url_encoded(url_encoded(name));
+  }
+  view::serve(files, static_cast<uint16_t>(port), [&](uint16_t found) {
+    const std::string url = "http://127.0.0.1:" + std::to_string(found) + address;
+    std::printf("%s\n", url.c_str());
+    std::fflush(stdout);
+    if (!options.no_open && !view::open_browser(url)) {
+      note(session, "no browser could be started: open this address in one");
+    }
+    note(session, "Ctrl+C ends it");
+  });
+}
+
+}  // namespace
+
+Command add_view_command(CLI::App& app, const Session& session) {
+  auto options = std::make_shared<ViewOptions>();
+  CLI::App* view = app.add_subcommand("view", "Look at a rig in the browser, with sliders");
+  view->add_option("FILE", options->file,
+                   "DNA file, baked rig or GLB; - reads standard input. Default: an empty page")
+      ->type_name("");
+  view->add_option("--port", options->port, "Port of 127.0.0.1 (default: a free one)")
+      ->type_name("N");
+  view->add_flag("--no-open", options->no_open, "Print the address, and open no browser");
+  view->add_option("--page", options->page,
+                   "Folder of the viewer (default: beside the program, installed or built)")
+      ->type_name("FOLDER");
+  view->footer(
+      "Serves the viewer on this machine until it is interrupted, and opens the browser. The file "
+      "is\n"
+      "read once and goes to the page alone; nothing leaves the machine. Other users of the\n"
+      "machine can open the address too.\n\n"
+      "Examples:\n"
+      "  mien view head.dna\n"
+      "  mien view head.rig --port 8000 --no-open\n"
+      "  mien gen --preset medium -o - | mien view -");
+  return {view, [options, &session] { run(*options, session); }};
+}
+
+}  // namespace mien::cli

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// The page that shows rigs, as `./dev web build` makes it or an installation has it.
+#pragma once
+
+#include <string>
+
+#include "integrations/cli/view/viewer_server.h"
+
+namespace mien::view {
+
+/// The files of the page. `folder` is where it is, or empty: beside the program, installed or built.
+Files load_page(const std::string& folder);
+
+}  // namespace mien::view

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/cli/view/viewer_server.h"
+
+#include <fcntl.h>
+#include <httplib.h>
+#include <spawn.h>
+#include <sys/socket.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <thread>
+
+#include "integrations/cli/io/failure.h"
+
+extern char** environ;
+
+namespace mien::view {
+
+namespace {
+
+constexpr const char* kHost = "127.0.0.1";
+
+/// What ends the program. Blocked, so that threads inherit it and one place waits for them.
+sigset_t ending_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, number);
+  return set;
+}
+
+bool is_own_host(const std::string& host, int port) {
+  const std::string suffix = ":" + std::to_string(port);
+  return host == kHost + suffix || host == "localhost" + suffix;
+}
+
+void refuse(httplib::Response& response, int status, const char* why) {
+  response.status = status;
+  response.set_content(why, "text/plain");
+}
+
+void answer(const Files& files, int port, const httplib::Request& request,
+            httplib::Response& response) {
+  if (!is_own_host(request.get_header_value("Host"), port)) {
+    return refuse(response, 403, "this is another host\n");
+  }
+  if (request.method != "GET") {
+    response.set_header("Allow", "GET");
+    return refuse(response, 405, "GET only\n");
+  }
+  const auto found = files.find(request.path == "/" ? "/index.html" : request.path);
+  if (found == files.end()) return refuse(response, 404, "there is no such file\n");
+  const std::string& bytes = found->second.bytes;
+  response.status = 200;
+  response.set_content_provider(bytes.size(), found->second.type.c_str(),
+                                [&bytes](size_t offset, size_t size, httplib::DataSink& sink) {
+                                  return sink.write(bytes.data() + offset,
+                                                    std::min(size, size_t{1} << 20));
+                                });
+}
+
+/// Threads of this process go on when a browser goes away.
+void ignore_broken_pipes() { std::signal(SIGPIPE, SIG_IGN); }
+
+}  // namespace
+
+void require_server() {}
+
+void serve(const Files& files, uint16_t wanted_port, const std::function<void(uint16_t)>& started) {
+  httplib::Server server;
+  server.new_task_queue = [] { return new httplib::ThreadPool(4); };
+  server.set_payload_max_length(4096);
+  server.set_read_timeout(10, 0);
+  server.set_keep_alive_timeout(2);
+  // Not SO_REUSEPORT, its default: two servers would share a port.
+  server.set_socket_options([](socket_t socket) {
+    const int yes = 1;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+  });
+  // The page may use shared memory, and no other page may use the files.
+  server.set_default_headers({{"Cache-Control", "no-store"},
+                              {"Cross-Origin-Embedder-Policy", "require-corp"},
+                              {"Cross-Origin-Opener-Policy", "same-origin"},
+                              {"Cross-Origin-Resource-Policy", "same-origin"},
+                              {"Referrer-Policy", "no-referrer"},
+                              {"X-Content-Type-Options", "nosniff"}});
+  int port = wanted_port;
+  if (wanted_port == 0) {
+    port = server.bind_to_any_port(kHost);
+  } else if (!server.bind_to_port(kHost, wanted_port)) {
+    port = -1;
+  }
+  if (port <= 0) {
+    const std::string where =
+        wanted_port == 0 ? "a free port" : "port " + std::to_string(wanted_port);
+    cli::fail(cli::kFile, "cannot listen", std::string(kHost) + ", " + where,
+              "it is taken or not allowed", "choose another one with --port");
+  }
+  server.set_pre_routing_handler(
+      [&files, port](const httplib::Request& request, httplib::Response& response) {
+        answer(files, port, request, response);
+        return httplib::Server::HandlerResponse::Handled;
+      });
+
+  const sigset_t ending = ending_signals();
+  pthread_sigmask(SIG_BLOCK, &ending, nullptr);
+  ignore_broken_pipes();
+  std::thread listener([&server] { server.listen_after_bind(); });
+  // stop() does nothing before it runs.
+  while (!server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  started(static_cast<uint16_t>(port));
+  int number = 0;
+  sigwait(&ending, &number);
+  server.stop();
+  listener.join();
+}
+
+bool open_browser(const std::string& url) {
+#if defined(__APPLE__)
+  const char* const program = "open";
+#else
+  const char* const program = "xdg-open";
+  // Without a desktop it would show the page in the terminal, if at all.
+  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return false;
+#endif
+  posix_spawn_file_actions_t files;
+  posix_spawnattr_t attributes;
+  if (posix_spawn_file_actions_init(&files) != 0) return false;
+  if (posix_spawnattr_init(&attributes) != 0) {
+    posix_spawn_file_actions_destroy(&files);
+    return false;
+  }
+  for (const int descriptor : {0, 1, 2}) {
+    posix_spawn_file_actions_addopen(&files, descriptor, "/dev/null", O_RDWR, 0);
+  }
+  // In a group of its own, so that Ctrl+C ends this program and not the browser.
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+  std::string name = program, address = url;
+  char* arguments[] = {name.data(), address.data(), nullptr};
+  std::signal(SIGCHLD, SIG_IGN);  // this program does not wait for it
+  pid_t child = 0;
+  const int failed = posix_spawnp(&child, program, &files, &attributes, arguments, environ);
+  posix_spawn_file_actions_destroy(&files);
+  posix_spawnattr_destroy(&attributes);
+  return failed == 0;
+}
+
+}  // namespace mien::view

@@ -1,0 +1,204 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""`mien view`: the page and the file go to this machine's browser, and nothing else goes anywhere.
+
+    cli_view_test.py path/to/mien [unittest options]      (or MIEN_BIN=path/to/mien)
+"""
+import http.client
+import os
+import signal
+import socket
+import stat
+import subprocess
+import sys
+import time
+import unittest
+from urllib.parse import parse_qs, quote, urlsplit
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+import program  # noqa: E402
+from program import USAGE, INVALID, FILE, ProgramTest, main, make, make_folder, path, read, run, write  # noqa: E402
+
+WITHOUT_SERVER = ""
+PAGE = {"index.html": b"<!doctype html><title>page</title>", "viewer.js": b"export {};\n",
+        "viewer.css": b"body {}\n", "mien/mien.wasm": b"\0asm\1\0\0\0", "three/LICENSE": b"secret"}
+
+
+def setUpModule():
+    global WITHOUT_SERVER
+    make_folder()
+    make("gen", "-o", path("tiny.dna"), "--preset", "tiny")
+    make("bake", path("tiny.dna"), "-o", path("tiny.rig"))
+    for name, content in PAGE.items():
+        os.makedirs(os.path.dirname(path("page/" + name)), exist_ok=True)
+        write("page/" + name, content)
+    write("secret.js", "secret")
+    os.symlink(path("secret.js"), path("page/linked.js"))
+    said = run("view", "--page", path("nowhere")).stderr
+    if "no web server" in said:
+        WITHOUT_SERVER = "NOT TESTED: mien view; this build has no cpp-httplib"
+
+
+class View(ProgramTest):
+    running = None
+
+    def setUp(self):
+        if WITHOUT_SERVER:
+            self.skipTest(WITHOUT_SERVER)
+
+    def start(self, *arguments, env=None, stdin=None, opens=False):
+        """A running program, and its address."""
+        self.end()
+        options = [] if opens else ["--no-open"]
+        self.running = subprocess.Popen(
+            [program.mien, "view", "--page", path("page"), *options, *arguments], stdin=stdin,
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, env={**os.environ, **(env or {})})
+        self.addCleanup(self.end)
+        url = self.running.stdout.readline().decode().strip()
+        self.assertTrue(url.startswith("http://127.0.0.1:"), url)
+        self.port = urlsplit(url).port
+        return url
+
+    def end(self):
+        running, self.running = self.running, None
+        if running is not None:
+            if running.poll() is None:
+                running.kill()
+            running.communicate()
+
+    def ask(self, where, method="GET", **headers):
+        """(status, headers, body)"""
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=20)
+        try:
+            connection.putrequest(method, where, skip_host="Host" in headers)
+            for name, value in headers.items():
+                if value is not None:
+                    connection.putheader(name, value)
+            connection.endheaders()
+            answer = connection.getresponse()
+            return answer.status, answer.headers, answer.read()
+        finally:
+            connection.close()
+
+    def test_the_page_and_the_file_are_served(self):
+        url = self.start(path("tiny.dna"))
+        wanted = parse_qs(urlsplit(url).query)["file"][0]
+        for name, kind, content in (
+                ("/", "text/html", PAGE["index.html"]), ("/index.html", "text/html", PAGE["index.html"]),
+                ("/viewer.js", "text/javascript", PAGE["viewer.js"]), ("/viewer.css", "text/css", PAGE["viewer.css"]),
+                ("/mien/mien.wasm", "application/wasm", PAGE["mien/mien.wasm"]),
+                ("/" + wanted, "application/octet-stream", read("tiny.dna"))):
+            status, headers, body = self.ask(name)
+            self.assertEqual((status, body), (200, content), name)
+            self.assertEqual(headers["Content-Type"].split(";")[0], kind)
+            self.assertEqual(headers["X-Content-Type-Options"], "nosniff")
+            self.assertEqual(headers["Cross-Origin-Resource-Policy"], "same-origin")
+
+    def test_nothing_else_is_served(self):
+        self.start(path("tiny.dna"))
+        for where in ("/three/LICENSE", "/linked.js", "/../secret.js", "/%2e%2e/secret.js", "/mien/../../secret.js",
+                      "/mien", "/mien/", "//etc/passwd", "/etc/passwd", "/rig/", "/rig/other.dna", "/rig/..%2ftiny.dna",
+                      "/" + "a" * 7000, "/viewer.js%00", "/viewer.js/"):
+            status, _, body = self.ask(where)
+            self.assertIn(status, (400, 404, 414), where)
+            self.assertNotIn(b"secret", body)
+            self.assertNotIn(b"root:", body)
+        self.assertEqual(self.ask("/viewer.js")[0], 200)
+
+    def test_other_hosts_are_refused(self):
+        self.start(path("tiny.dna"))
+        for host in ("evil.example", f"evil.example:{self.port}", "127.0.0.1", "127.0.0.1:1", "localhost", None,
+                     f"127.0.0.1.evil.example:{self.port}", f"0.0.0.0:{self.port}"):
+            status, _, body = self.ask("/rig/tiny.dna", Host=host)
+            self.assertIn(status, (400, 403), host)
+            self.assertLess(len(body), 100)
+        for host in (f"127.0.0.1:{self.port}", f"localhost:{self.port}"):
+            self.assertEqual(self.ask("/", Host=host)[0], 200)
+
+    def test_only_get(self):
+        self.start()
+        for method in ("HEAD", "POST", "PUT", "DELETE", "OPTIONS", "PATCH"):
+            status, headers, _ = self.ask("/viewer.js", method)
+            self.assertEqual(status, 405, method)
+            self.assertEqual(headers["Allow"], "GET")
+        self.assertIn(self.ask("/viewer.js", "BREW")[0], (400, 405))
+
+    def test_garbage_leaves_it_alive(self):
+        self.start()
+        for garbage in (b"", b"\r\n\r\n", b"GET\r\n\r\n", b"\xff\xfe\0\0" * 100, b"GET / HTTP/1.1\r\n" + b"x: y\r\n" * 5000,
+                        b"POST / HTTP/1.1\r\nContent-Length: 99999999999\r\n\r\n"):
+            with socket.create_connection(("127.0.0.1", self.port), timeout=20) as one:
+                try:
+                    one.sendall(garbage)
+                    one.shutdown(socket.SHUT_WR)
+                except OSError:
+                    pass  # it has hung up already
+        self.assertEqual(self.ask("/")[0], 200)
+
+    def test_it_ends_by_a_signal(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            self.start(path("tiny.rig"))
+            self.running.send_signal(number)
+            self.assertEqual(self.running.wait(timeout=20), 0)
+            self.assertEqual(self.running.stderr.read().decode(), "mien: note: Ctrl+C ends it\n")
+            with self.assertRaises(OSError):
+                self.ask("/")
+
+    def test_names_of_files_survive(self):
+        name = path("ä 100% #&?.dna")
+        write(name, read("tiny.dna"))
+        url = self.start(name)
+        wanted = parse_qs(urlsplit(url).query)["file"][0]
+        self.assertEqual(wanted, "rig/" + quote(os.path.basename(name), safe="-._~"))
+        self.assertEqual(self.ask("/" + wanted)[2], read("tiny.dna"))
+
+    def test_standard_input_and_glb(self):
+        with open(path("tiny.rig"), "rb") as file:
+            self.start("-", stdin=file)
+        self.assertEqual(self.ask("/rig/standard-input")[2], read("tiny.rig"))
+        self.end()
+        write("head.model", b"glTF\2\0\0\0\14\0\0\0")
+        self.assertTrue(self.start(path("head.model")).endswith("?file=rig/head.model.glb"))
+
+    def test_a_port_is_chosen_and_may_be_taken(self):
+        with socket.socket() as one:
+            one.bind(("127.0.0.1", 0))
+            free = one.getsockname()[1]
+        self.assertEqual(urlsplit(self.start("--port", str(free))).port, free)
+        self.fails(FILE, "view", "--page", path("page"), "--port", str(free), "--no-open", says=f"port {free}")
+        for wrong in ("0", "65536", "-1", "x"):
+            self.fails(USAGE, "view", "--page", path("page"), "--port", wrong, "--no-open", says="--port")
+
+    def test_it_listens_on_this_machine_alone(self):
+        self.start()
+        with open("/proc/net/tcp", encoding="ascii") as table:
+            listening = [line.split()[1] for line in table if line.split()[3] == "0A"]
+        hosts = [place.split(":")[0] for place in listening if int(place.split(":")[1], 16) == self.port]
+        self.assertEqual(hosts, ["0100007F" if sys.byteorder == "little" else "7F000001"])
+
+    def test_the_browser_gets_the_address(self):
+        os.makedirs(path("bin"), exist_ok=True)
+        opener = write("bin/xdg-open", f"#!/bin/sh\nprintf '%s' \"$1\" > {path('asked.tmp')}\n"
+                                       f"mv {path('asked.tmp')} {path('asked')}\n")
+        os.chmod(opener, stat.S_IRWXU)
+        where = {"PATH": path("bin") + os.pathsep + os.environ["PATH"], "DISPLAY": ":99"}
+        url = self.start(path("tiny.dna"), env=where, opens=True)
+        for _ in range(200):
+            if os.path.exists(path("asked")):
+                break
+            time.sleep(0.05)
+        self.assertEqual(read("asked").decode(), url)
+
+    def test_what_is_no_rig_is_refused_before_anything_is_served(self):
+        rig = read("tiny.dna")
+        for name, content in (("empty", b""), ("text.csv", b"time,jawOpen\n0,1\n"), ("cut.dna", rig[:len(rig) // 2]),
+                              ("cut.rig", read("tiny.rig")[:200])):
+            self.fails(INVALID, "view", "--page", path("page"), write(name, content), "--no-open", says=name)
+        self.fails(FILE, "view", "--page", path("page"), path("missing.dna"), says="missing.dna")
+
+    def test_a_missing_page_is_told_with_what_to_do(self):
+        self.fails(FILE, "view", "--page", path("bin-nowhere"), says="dev web build")
+
+
+if __name__ == "__main__":
+    main()
