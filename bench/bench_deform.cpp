@@ -5,12 +5,10 @@
 // joints.
 #include <algorithm>
 #include <cmath>
-#include <condition_variable>
-#include <mutex>
 #include <random>
-#include <thread>
 
 #include "bench/bench_support.h"
+#include "bench/thread_pool.h"
 #include "capi/dna_handle.h"
 
 namespace mien::bench {
@@ -193,66 +191,8 @@ void packet(benchmark::State& state, uint32_t isa, bool together) {
   count_vertices(state, kCharacters);
 }
 
-/// Threads that wait for work; the caller works too.
-class Pool {
- public:
-  explicit Pool(unsigned helpers) {
-    for (unsigned i = 0; i < helpers; ++i) threads_.emplace_back([this] { help(); });
-  }
-  ~Pool() {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      over_ = true;
-    }
-    wake_.notify_all();
-    for (std::thread& thread : threads_) thread.join();
-  }
-  MienParallelFor interface() { return {this, run}; }
-
- private:
-  struct Work {
-    uint32_t count = 0;
-    void (*task)(void*, uint32_t) = nullptr;
-    void* context = nullptr;
-  };
-  static void run(void* user, uint32_t count, void (*task)(void*, uint32_t), void* context) {
-    Pool& pool = *static_cast<Pool*>(user);
-    std::unique_lock<std::mutex> lock(pool.mutex_);
-    pool.work_ = {count, task, context};
-    pool.next_ = pool.done_ = 0;
-    pool.wake_.notify_all();
-    pool.take(lock);
-    pool.finished_.wait(lock, [&] { return pool.done_ == count; });
-    pool.work_ = {};
-  }
-  void take(std::unique_lock<std::mutex>& lock) {
-    while (next_ < work_.count) {
-      const uint32_t index = next_++;
-      const Work work = work_;
-      lock.unlock();
-      work.task(work.context, index);
-      lock.lock();
-      if (++done_ == work.count) finished_.notify_all();
-    }
-  }
-  void help() {
-    std::unique_lock<std::mutex> lock(mutex_);
-    while (!over_) {
-      wake_.wait(lock, [&] { return over_ || next_ < work_.count; });
-      take(lock);
-    }
-  }
-
-  std::mutex mutex_;
-  std::condition_variable wake_, finished_;
-  std::vector<std::thread> threads_;
-  Work work_;
-  uint32_t next_ = 0, done_ = 0;
-  bool over_ = false;
-};
-
 void threaded_frame(benchmark::State& state, uint32_t isa, unsigned threads) {
-  Pool pool(threads - 1);
+  ThreadPool pool(threads - 1);
   const MienParallelFor parallel = pool.interface();
   frame(state, isa, 100, &parallel);
 }

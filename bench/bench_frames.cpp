@@ -6,15 +6,18 @@
 // Counters: `frame` is the time of a frame in seconds (an iteration is 64 frames), `of_full` that
 // time by the one of a full evaluation in the same run, `moving` the number of raw controls that
 // change from frame to frame, `touched` the share of the joint rows whose groups read a control or
-// a corrective that changes, `per_character` a packet's time by its number.
+// a corrective that changes, `per_character` a packet's time by its number, `speedup` how much faster a
+// packet is on two threads that wait for it.
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <memory>
 #include <random>
 
 #include "bench/bench_support.h"
+#include "bench/thread_pool.h"
 
 namespace mien::bench {
 namespace {
@@ -199,36 +202,73 @@ void frames(benchmark::State& state, uint32_t isa, Moving moving) {
   state.counters["touched"] = touched_share(clip, full_rig.get(), full.get());
 }
 
-/// Characters with controls of their own, in one call or in one for each.
-void packet(benchmark::State& state, uint32_t isa, uint32_t count, double activity, bool together) {
-  const auto rig = rig_of(isa, MIEN_REUSE_NOTHING);
-  std::mt19937 random(7);
+/// Characters with controls of their own, and a batch for them.
+struct Characters {
+  std::unique_ptr<MienRig, Destroy> rig;
   std::vector<std::unique_ptr<MienInstance, Destroy>> owners;
   std::vector<MienInstance*> instances;
-  for (uint32_t i = 0; i < count; ++i) {
-    owners.push_back(instance_of(rig.get()));
-    instances.push_back(owners.back().get());
-    const MienMutableFloatView raw = raw_of(instances.back());
-    const std::vector<float> values = draw(raw.count, activity, random);
-    std::copy(values.begin(), values.end(), raw.data);
+  std::vector<uint32_t> lods;
+  std::unique_ptr<MienBatch, Destroy> batch;
+
+  Characters(uint32_t isa, uint32_t count, double activity, uint32_t tasks)
+      : rig(rig_of(isa, MIEN_REUSE_NOTHING)), lods(count, 0) {
+    std::mt19937 random(7);
+    for (uint32_t i = 0; i < count; ++i) {
+      owners.push_back(instance_of(rig.get()));
+      instances.push_back(owners.back().get());
+      const MienMutableFloatView raw = raw_of(instances.back());
+      const std::vector<float> values = draw(raw.count, activity, random);
+      std::copy(values.begin(), values.end(), raw.data);
+    }
+    MienError error = sized<MienError>();
+    MienBatch* made = nullptr;
+    MienBatchDesc desc = mien_batch_desc_default();
+    desc.capacity = count;
+    desc.tasks = tasks;
+    require(mien_batch_create(rig.get(), &desc, &made, &error), error);
+    batch.reset(made);
   }
-  MienError error = sized<MienError>();
-  MienBatch* made = nullptr;
-  MienBatchDesc desc = mien_batch_desc_default();
-  desc.capacity = count;
-  require(mien_batch_create(rig.get(), &desc, &made, &error), error);
-  const std::unique_ptr<MienBatch, Destroy> batch(made);
-  const std::vector<uint32_t> lods(count, 0);
+  void evaluate(const MienParallelFor* parallel) {
+    benchmark::DoNotOptimize(
+        mien_rig_evaluate_batch(rig.get(), batch.get(), instances.data(), lods.data(),
+                                static_cast<uint32_t>(instances.size()), MIEN_STAGE_ALL, parallel));
+    benchmark::ClobberMemory();
+  }
+};
+
+/// In one call on two threads. `speedup` is the time of the same call on one by that, turn by turn; it
+/// tells something only while nothing else runs.
+void packet_on_threads(benchmark::State& state, uint32_t isa, uint32_t count, double activity) {
+  Characters characters(isa, count, activity, 2);
+  ThreadPool pool(1);
+  const MienParallelFor parallel = pool.interface();
+  const auto time_of = [&characters](const MienParallelFor* threads) {
+    const auto start = std::chrono::steady_clock::now();
+    characters.evaluate(threads);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  double one = 0, two = 0;
+  for (auto _ : state) {
+    one += time_of(nullptr);
+    const double seconds = time_of(&parallel);
+    two += seconds;
+    state.SetIterationTime(seconds);
+  }
+  state.counters["speedup"] = one / two;
+}
+
+/// In one call or in one for each.
+void packet(benchmark::State& state, uint32_t isa, uint32_t count, double activity, bool together) {
+  Characters characters(isa, count, activity, 1);
   for (auto _ : state) {
     if (together) {
-      benchmark::DoNotOptimize(mien_rig_evaluate_batch(
-          rig.get(), batch.get(), instances.data(), lods.data(), count, MIEN_STAGE_ALL, nullptr));
+      characters.evaluate(nullptr);
     } else {
-      for (MienInstance* one : instances) {
-        benchmark::DoNotOptimize(mien_rig_evaluate(rig.get(), one, 0));
+      for (MienInstance* one : characters.instances) {
+        benchmark::DoNotOptimize(mien_rig_evaluate(characters.rig.get(), one, 0));
       }
+      benchmark::ClobberMemory();
     }
-    benchmark::ClobberMemory();
   }
   using benchmark::Counter;
   state.counters["per_character"] =
@@ -257,6 +297,10 @@ const int kRegistered = [] {
                                      percent / 100.0, true);
         benchmark::RegisterBenchmark(("one_by_one_" + which).c_str(), packet, isa, count,
                                      percent / 100.0, false);
+        if (count == 1) continue;
+        benchmark::RegisterBenchmark(("two_threads_" + which).c_str(), packet_on_threads, isa,
+                                     count, percent / 100.0)
+            ->UseManualTime();
       }
     }
   }

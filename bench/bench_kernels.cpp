@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Kernels by themselves. Dense layers against what the core could do: the peak is measured in the
-// same run, by multiply-adds that touch no memory, and `of_peak` is the share of it that a layer
-// reaches. Products of padding do not count.
+// Kernels by themselves. Dense layers, for one character and for 32 at once, against what the core could
+// do: the peak is measured in the same run, by multiply-adds that touch no memory, and `of_peak` is the
+// share of it that a layer reaches. Products of padding do not count. Times are those of the processor:
+// what else runs on the machine does not count.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <vector>
 
 #include "bench/bench_support.h"
@@ -54,6 +55,8 @@ MIEN_PEAK(scalar_peak, , float, "w", 0.5f, MIEN_SCALAR)
 MIEN_PEAK(neon_peak, , float32x4_t, "w", vdupq_n_f32(0.5f), MIEN_NEON)
 #endif
 
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
 /// Floating-point operations per second, the best of several tries.
 double measure_peak(Isa isa) {
   void (*run)(size_t) = scalar_peak;
@@ -68,10 +71,10 @@ double measure_peak(Isa isa) {
   constexpr size_t kRounds = 200000;
   double best = 0;
   for (int i = 0; i < 15; ++i) {
-    const auto start = std::chrono::steady_clock::now();
+    const double start = processor_seconds();
     run(kRounds);
-    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-    best = std::max(best, 2 * kSums * width * kRounds / time.count());
+    const double time = processor_seconds() - start;
+    if (time > 0) best = std::max(best, 2 * kSums * width * kRounds / time);
   }
   return best;
 }
@@ -90,11 +93,13 @@ T* aligned(std::vector<T>& storage, size_t count) {
   return storage.data() + (past ? 64 / sizeof(T) - past : 0);
 }
 
-void dense_layer(benchmark::State& state, const KernelTable* kernels, uint32_t inputs,
-                 uint32_t outputs, bool halves) {
+/// `characters` is 1, or up to kBatchLanes for a batch.
+void dense(benchmark::State& state, const KernelTable* kernels, uint32_t inputs, uint32_t outputs,
+           bool halves, uint32_t characters) {
   const uint32_t rows = (outputs + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
   const size_t count = size_t{rows} * inputs;
-  std::vector<float> value_storage, bias_storage, output_storage, in(inputs);
+  const uint32_t lanes = characters == 1 ? 1 : kBatchLanes;
+  std::vector<float> value_storage, bias_storage, output_storage, input_storage, scratch_storage;
   std::vector<uint16_t> half_storage;
   float* values = aligned(value_storage, halves ? 0 : count);
   uint16_t* half_values = aligned(half_storage, halves ? count : 0);
@@ -106,28 +111,41 @@ void dense_layer(benchmark::State& state, const KernelTable* kernels, uint32_t i
       values[i] = value;
     }
   }
-  for (uint32_t i = 0; i < inputs; ++i) in[i] = std::cos(static_cast<float>(i));
-  DenseLayerArgs args = {};
-  args.values = values;
-  if (halves) args.values = half_values;
-  args.biases = aligned(bias_storage, rows);
-  args.inputs = in.data();
-  args.outputs = aligned(output_storage, rows);
-  args.column_count = inputs;
-  args.row_count = outputs;
-  args.halves = halves;
-  args.function = 1;
+  float* in = aligned(input_storage, size_t{inputs} * lanes);
+  for (uint32_t i = 0; i < inputs * lanes; ++i) in[i] = std::cos(static_cast<float>(i));
+  const auto fill = [&](auto& args) {
+    args.values = values;
+    if (halves) args.values = half_values;
+    args.biases = aligned(bias_storage, rows);
+    args.inputs = in;
+    args.outputs = aligned(output_storage, size_t{rows} * lanes);
+    args.column_count = inputs;
+    args.row_count = outputs;
+    args.halves = halves;
+    args.function = 1;
+  };
+  DenseLayerArgs layer = {};
+  DenseBatchArgs batch = {};
+  fill(layer);
+  if (characters > 1) fill(batch);
+  batch.lane_count = characters;
+  batch.scratch = aligned(scratch_storage, size_t{inputs} * kBlockLanes);
   const double most = peak(kernels->isa);
-  const auto start = std::chrono::steady_clock::now();
+  const double start = processor_seconds();
   for (auto _ : state) {
-    kernels->dense_layer(args);
+    if (characters == 1) {
+      kernels->dense_layer(layer);
+    } else {
+      kernels->dense_batch(batch);
+    }
     benchmark::ClobberMemory();
   }
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-  const double operations = 2.0 * inputs * outputs * static_cast<double>(state.iterations());
-  state.counters["gflops"] = operations / time.count() / 1e9;
+  const double time = processor_seconds() - start;
+  const double operations =
+      2.0 * inputs * outputs * characters * static_cast<double>(state.iterations());
+  state.counters["gflops"] = operations / time / 1e9;
   state.counters["peak"] = most / 1e9;
-  state.counters["of_peak"] = operations / time.count() / most;
+  state.counters["of_peak"] = operations / time / most;
 }
 
 const int kRegistered = [] {
@@ -139,10 +157,13 @@ const int kRegistered = [] {
     if (!kernels) continue;
     for (const auto& size : sizes) {
       for (bool halves : {false, true}) {
-        const std::string name = std::string("dense/") + kernels->name + "/" +
-                                 std::to_string(size[0]) + "x" + std::to_string(size[1]) +
-                                 (halves ? "/f16" : "/f32");
-        benchmark::RegisterBenchmark(name.c_str(), dense_layer, kernels, size[0], size[1], halves);
+        for (uint32_t characters : {1u, kBatchLanes}) {
+          const std::string name = std::string(characters == 1 ? "dense/" : "dense_of_32/") +
+                                   kernels->name + "/" + std::to_string(size[0]) + "x" +
+                                   std::to_string(size[1]) + (halves ? "/f16" : "/f32");
+          benchmark::RegisterBenchmark(name.c_str(), dense, kernels, size[0], size[1], halves,
+                                       characters);
+        }
       }
     }
   }

@@ -29,13 +29,21 @@ inline Vec logistic(Vec v) {
 inline Vec activate(Vec v, uint8_t function, Vec alpha) {
   const Vec zero = broadcast(0.0f);
   switch (function) {
-    case 1: return select(less(v, zero), zero, v);
     case 2: return select(less(v, zero), alpha * v, v);
     case 3: return hyperbolic_tangent(v);
     case 4: return logistic(v);
     default: return v;
   }
 }
+
+/// The bias of a row, saturation, and max(0, v) if that is the activation: a pass over all rows is left
+/// for the others.
+struct Finish {
+  Vec lowest, highest = broadcast(3.40282347e38f);
+  explicit Finish(uint8_t function) : lowest(broadcast(function == 1 ? 0.0f : -3.40282347e38f)) {}
+  Vec operator()(Vec sum, Vec bias) const { return at_most(at_least(sum + bias, lowest), highest); }
+};
+inline bool is_finished(uint8_t function) { return function < 2 || function > 4; }
 
 inline Vec load_weights(const float* from) { return load(from); }
 inline Vec load_weights(const uint16_t* from) { return load_half(from); }
@@ -60,7 +68,10 @@ inline void sum_rows(const Weight* values, const DenseLayerArgs& args, size_t fi
     const Vec last = broadcast(args.inputs[c]);
     ((even[K] = How::mul_add(load_weights(rows[K] + c * kBlockLanes), last, even[K])), ...);
   }
-  (store(args.outputs + (first_vec + K) * kWidth, saturate(even[K] + odd[K])), ...);
+  const Finish finish(args.function);
+  (store(args.outputs + (first_vec + K) * kWidth,
+         finish(even[K] + odd[K], load(args.biases + (first_vec + K) * kWidth))),
+   ...);
 }
 
 // Two sums each, and two inputs, have to fit the registers.
@@ -104,10 +115,10 @@ void sum_layer(const DenseLayerArgs& args) {
 
 void dense_layer(const DenseLayerArgs& args) {
   args.portable ? sum_layer<AsPortable>(args) : sum_layer<AsFast>(args);
+  if (is_finished(args.function)) return;
   const Vec alpha = broadcast(args.alpha);
   for (size_t r = 0; r < args.row_count; r += kWidth) {
-    const Vec sum = saturate(load(args.outputs + r) + load(args.biases + r));
-    store(args.outputs + r, saturate(activate(sum, args.function, alpha)));
+    store(args.outputs + r, saturate(activate(load(args.outputs + r), args.function, alpha)));
   }
 }
 
@@ -129,33 +140,60 @@ inline void sum_columns(const float* weights, const float* inputs, size_t first_
   for (size_t c = first_column; c < column_count; c += 2) {
     const Vec a = load(inputs + c * kBatchLanes), b = load(inputs + c * kBatchLanes + kWidth);
     const float* const column = weights + c * kBlockLanes;
-    const Vec weight[] = {broadcast(column[R])...};
-    ((sum[R].a = How::mul_add(weight[R], a, sum[R].a)), ...);
-    ((sum[R].b = How::mul_add(weight[R], b, sum[R].b)), ...);
+    // Row by row: compilers would load all weights first, for which there are no registers left.
+    const auto add = [&](VecPair& to, float value) {
+      const Vec weight = broadcast(value);
+      to.a = How::mul_add(weight, a, to.a);
+      to.b = How::mul_add(weight, b, to.b);
+    };
+    (add(sum[R], column[R]), ...);
   }
   ((sums[R] = sum[R]), ...);
 }
 
-/// Eight sums hide the wait for each other, and with two inputs and a weight they fit 16 registers.
+// Two vectors of sums for each row, two inputs and a weight have to fit the registers.
+#if defined(MIEN_KERNEL_AVX512) || defined(MIEN_KERNEL_NEON)
+constexpr size_t kMaxDenseRows = 8;
+#else
+constexpr size_t kMaxDenseRows = 6;
+#endif
+
+/// Rows `row` ... and lanes `lane` ...; `weights` are those of the first row.
+template <class How, size_t kRows>
+inline void sum_batch_rows(const DenseBatchArgs& args, const float* weights, size_t row,
+                           size_t lane, const Finish& finish) {
+  constexpr std::make_index_sequence<kRows> kEach;
+  VecPair even[kRows], odd[kRows];
+  sum_columns<How>(weights, args.inputs + lane, 0, args.column_count, even, kEach);
+  sum_columns<How>(weights, args.inputs + lane, 1, args.column_count, odd, kEach);
+  for (size_t r = 0; r < kRows; ++r) {
+    const VecPair sum = even[r] + odd[r];
+    const Vec bias = broadcast(args.biases[row + r]);
+    store(args.outputs + (row + r) * kBatchLanes + lane,
+          VecPair{finish(sum.a, bias), finish(sum.b, bias)});
+  }
+}
+
+/// Sums are more than a core has multiply-adds under way.
 template <class How, class Weight>
 void sum_batch(const DenseBatchArgs& args) {
-  constexpr size_t kRows = 4;
-  constexpr std::make_index_sequence<kRows> kEach;
   const size_t column_count = args.column_count, row_count = args.row_count;
   const Weight* values = static_cast<const Weight*>(args.values);
+  const Finish finish(args.function);
   for (size_t block = 0; block < row_count; block += kBlockLanes) {
-    const float* const weights = block_weights(values + block * column_count, args);
-    for (size_t row = block; row < block + kBlockLanes && row < row_count; row += kRows) {
+    const float* weights = block_weights(values + block * column_count, args);
+    const size_t end = block + kBlockLanes < row_count ? block + kBlockLanes : row_count;
+    for (size_t row = block; row < end;) {
+      const bool many = end - row > 4;  // what is computed ends with the block
       for (size_t lane = 0; lane < args.lane_count; lane += 2 * kWidth) {
-        VecPair even[kRows], odd[kRows];
-        const float* const at = weights + (row - block);
-        sum_columns<How>(at, args.inputs + lane, 0, column_count, even, kEach);
-        sum_columns<How>(at, args.inputs + lane, 1, column_count, odd, kEach);
-        for (size_t r = 0; r < kRows; ++r) {
-          const VecPair sum = even[r] + odd[r];
-          store(args.outputs + (row + r) * kBatchLanes + lane, {saturate(sum.a), saturate(sum.b)});
+        if (many) {
+          sum_batch_rows<How, kMaxDenseRows>(args, weights, row, lane, finish);
+        } else {
+          sum_batch_rows<How, 4>(args, weights, row, lane, finish);
         }
       }
+      weights += many ? kMaxDenseRows : 4;
+      row += many ? kMaxDenseRows : 4;
     }
   }
 }
@@ -167,12 +205,12 @@ void sum_batch(const DenseBatchArgs& args) {
 
 void dense_batch(const DenseBatchArgs& args) {
   args.portable ? sum_batch<AsPortable>(args) : sum_batch<AsFast>(args);
+  if (is_finished(args.function)) return;
   const Vec alpha = broadcast(args.alpha);
   for (size_t r = 0; r < args.row_count; ++r) {
-    const Vec bias = broadcast(args.biases[r]);
     for (size_t lane = 0; lane < args.lane_count; lane += kWidth) {
       float* const at = args.outputs + r * kBatchLanes + lane;
-      store(at, saturate(activate(saturate(load(at) + bias), args.function, alpha)));
+      store(at, saturate(activate(load(at), args.function, alpha)));
     }
   }
 }
