@@ -18,11 +18,10 @@ namespace {
 
 constexpr const char* kCannot = "cannot play scene";
 
-bool same_word(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
-    return std::tolower(static_cast<unsigned char>(x)) ==
-           std::tolower(static_cast<unsigned char>(y));
-  });
+std::string in_small_letters(std::string_view word) {
+  std::string small(word);
+  for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return small;
 }
 
 bool is_variable_name(const std::string& name) {
@@ -35,17 +34,19 @@ bool is_variable_name(const std::string& name) {
 RigLanes::RigLanes(const MienRig* rig) {
   for (uint32_t i = 0; i < rig_count(rig, MIEN_KIND_RAW_CONTROL); ++i) {
     controls_.push_back(rig_name(rig, MIEN_KIND_RAW_CONTROL, i));
+    by_name_.emplace(controls_.back(), i);
+    by_short_name_.emplace(in_small_letters(short_name(controls_.back())), i);
   }
 }
 
 bool RigLanes::find_control(const std::string& name, size_t& index) const {
-  for (index = 0; index < controls_.size(); ++index) {
-    if (controls_[index] == name) return true;
+  auto found = by_name_.find(name);
+  if (found == by_name_.end()) {
+    found = by_short_name_.find(in_small_letters(name));
+    if (found == by_short_name_.end()) return false;
   }
-  for (index = 0; index < controls_.size(); ++index) {
-    if (same_word(short_name(controls_[index]), name)) return true;
-  }
-  return false;
+  index = found->second;
+  return true;
 }
 
 uint16_t RigLanes::variable(const std::string& name) {

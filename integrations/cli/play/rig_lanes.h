@@ -2,6 +2,7 @@
 // Lanes of a mix by the names that a scene gives them: the raw controls of a rig, then variables.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,8 @@ class RigLanes {
   bool find_control(const std::string& name, size_t& index) const;
 
   std::vector<std::string> controls_, variables_;
+  // By name, and by short name in small letters; the first of equal ones.
+  std::map<std::string, size_t> by_name_, by_short_name_;
 };
 
 /// Raw controls that opposite halves of one GUI control drive.
