@@ -307,7 +307,8 @@ TEST(Render, WireframesLeaveOutInnerEdges) {
   EXPECT_LT(diagonal(), plain * 0.85);
   const uint8_t inner[] = {4, 1};
   surface.inner_edges = inner;
-  EXPECT_EQ(diagonal(), plain);
+  // Both triangles are shaded on their own then, at places that differ by parts of a pixel.
+  EXPECT_NEAR(diagonal(), plain, 1);
 }
 
 TEST(Render, SurvivesBrokenSurfaces) {
