@@ -160,6 +160,21 @@ class AuthorTest(ProgramTest):
             self.assertAlmostEqual(error, errors[0][0], delta=0.01)
             self.assertAlmostEqual(throat, errors[0][1], places=3)
 
+    def test_a_target_without_data_moves_nothing(self):
+        def empty(root):
+            target = root["meshes"][0]["primitives"][0]["targets"][1]["POSITION"]
+            del root["accessors"][target]["bufferView"]
+        write("zeros.glb", glb(POSITIONS, FACES, SHAPES, empty))
+        report = self.author(path("zeros.glb"), "--joints", "20", "--lods", "1")
+        self.assertEqual(set(report["fit"]["per_shape"]), set(SHAPES))
+
+    def test_morph_targets_that_the_program_exports_come_back(self):
+        self.ok("demo-head", "-o", path("demo.dna"))
+        self.ok("export", path("demo.dna"), "--lod", "6", "--bake-arkit", "-o", path("demo.glb"))
+        report = self.author(path("demo.glb"), "--joints", "30", "--lods", "1")
+        self.assertEqual(len(report["fit"]["per_shape"]), 52)
+        self.assertLess(report["fit"]["error"], 0.2)
+
     def test_unit_and_axes_change_nothing_but_those_of_the_file(self):
         turned = [(10 * x, -10 * z, 10 * y) for x, y, z in POSITIONS]
         write("turned.obj", obj(turned, FACES))
@@ -179,6 +194,12 @@ class AuthorTest(ProgramTest):
             self.author(path("head.glb"), "--joints", "30", "--lods", "2", "--threads", threads)
             files.append(read("out.dna"))
         self.assertEqual(files[0], files[1])
+
+    def test_a_head_that_is_upside_down_is_noted(self):
+        turned = write("down.obj", obj([(-x, -y, z) for x, y, z in POSITIONS], FACES))
+        options = ("--joints", "10", "--lods", "1", "-o", path("down.dna"))
+        self.assertIn("--up", run("author", turned, *options).stderr)
+        self.assertNotIn("--up", run("author", turned, "--up=-y", *options).stderr)
 
     def test_objects_become_meshes(self):
         positions = POSITIONS + [(1, 0, 3), (2, 0, 3), (1, 1, 3)]

@@ -268,7 +268,9 @@ void note_oddities(const AuthorCommand& command, const Json& report, const Sessi
          "a face without a back of the head: all of it is rigged; of a body, keep the head "
          "with --crop");
   } else if (report["throat"].is_null() && !command.no_neck_cut) {
-    note(session, "no throat found below the nose: the face mask is not cut off from the neck");
+    note(session,
+         "no throat found below the nose: the face mask is not cut off from the neck; if the mesh "
+         "is turned, say how with --up and --front");
   }
 }
 

@@ -205,11 +205,9 @@ std::vector<double> Glb::numbers(size_t index, size_t width, const char* what) {
   if (accessor.contains("bufferView")) {
     copy(whole(accessor, "bufferView", 0), whole(accessor, "byteOffset", 0), type, normalized,
          count, width, out);
-  } else if (!accessor.contains("sparse") && count > 0) {
-    fail("accessor " + std::to_string(index), "it has no data that can be read",
-         "export it without compression");
   } else {
-    // A sparse accessor alone: bounded by what others of the file hold.
+    // Zeros, as of targets that do not move a mesh, and sparse ones over them: bounded by what others
+    // of the file hold.
     if (count > binary_.size())
       fail("accessor " + std::to_string(index), "it is larger than the file");
     out.assign(count * width, 0);
