@@ -319,6 +319,18 @@ TEST(RefitWeights, OfManyInfluencesThoseStayThatThereIsRoomFor) {
   EXPECT_NEAR(values[0] + values[1], 1, 1e-6);
 }
 
+TEST(RefitWeights, MotionsBeyondDoublesLeaveTheWeights) {
+  for (const double far : {1e160, 1e300, HUGE_VAL}) {
+    OneVertex made({{far, 0, 0}, {0, far, 0}, {-far, 1, 0}}, {1, 0, 1});
+    std::vector<uint16_t> joints(2);
+    std::vector<float> values(2);
+    SkinWeights out = {{joints.data(), 2}, {values.data(), 2}, 2};
+    refit_weights(made.setup.mesh, made.motions, {}, {}, made.setup.weights, out);
+    EXPECT_EQ(joints, (std::vector<uint16_t>{4, 5})) << far;
+    EXPECT_EQ(values, (std::vector<float>{0.5f, 0.5f})) << far;
+  }
+}
+
 TEST(RefitWeights, RigidVerticesStayRigid) {
   OneVertex made({{2, 0, 0}}, {1, 0, 0});
   const uint16_t head = 2;

@@ -99,8 +99,9 @@ struct VertexWeights {
   }
 };
 
-/// The heaviest that there is room for, without those below 1e-4; they sum to one in float.
-void store(const VertexWeights& w, uint32_t vertex, SkinWeights& out) {
+/// The heaviest that there is room for, without those below 1e-4; they sum to one in float. False if
+/// there are none, as after numbers beyond what doubles hold.
+bool store(const VertexWeights& w, uint32_t vertex, SkinWeights& out) {
   uint16_t* joints = &out.joints[size_t{vertex} * out.m];
   float* weights = &out.weights[size_t{vertex} * out.m];
   uint32_t order[kMaxInfluences], count = 0;
@@ -113,13 +114,14 @@ void store(const VertexWeights& w, uint32_t vertex, SkinWeights& out) {
   count = std::min(count, out.m);
   double sum = 0, rest = 1;
   for (uint32_t i = 0; i < count; ++i) sum += w.x[order[i]];
-  if (!(sum > 0)) return;
+  if (!(sum > 0)) return false;
   for (uint32_t i = 0; i < out.m; ++i) {
     joints[i] = i < count ? w.joints[order[i]] : uint16_t{0};
     weights[i] = i < count ? static_cast<float>(w.x[order[i]] / sum) : 0;
     rest -= double{weights[i]};
   }
   weights[0] = static_cast<float>(double{weights[0]} + rest);
+  return true;
 }
 
 struct RefitTask {
@@ -164,17 +166,26 @@ bool sum_shapes(const RefitTask& task, uint32_t v, VertexWeights& w) {
   return true;
 }
 
-void refit_vertex(const RefitTask& task, uint32_t v) {
+VertexWeights weights_of(const SkinWeights& from, uint32_t v) {
   VertexWeights w;
-  for (size_t i = size_t{v} * task.from.m; w.system.size < task.from.m; ++i) {
-    if (!(task.from.weights[i] > 0)) break;
-    w.add(task.from.joints[i], double{task.from.weights[i]});
+  for (size_t i = size_t{v} * from.m; w.system.size < from.m; ++i) {
+    if (!(from.weights[i] > 0)) break;
+    w.add(from.joints[i], double{from.weights[i]});
   }
+  return w;
+}
+
+void refit_vertex(const RefitTask& task, uint32_t v) {
+  const VertexWeights given = weights_of(task.from, v);
+  VertexWeights w = given;
   const bool is_rigid = w.system.size < 2;
   for (size_t i = 0; i < task.shared.count && !is_rigid; ++i) {
     if (!w.has(task.shared[i])) w.add(task.shared[i], 0);
   }
-  if (is_rigid || !sum_shapes(task, v, w)) return store(w, v, task.out);
+  if (is_rigid || !sum_shapes(task, v, w)) {
+    store(given, v, task.out);
+    return;
+  }
   solve_nonnegative(w.system, w.x);
   // One unknown too many at a time goes, the lightest, and the others adapt.
   for (;;) {
@@ -187,7 +198,7 @@ void refit_vertex(const RefitTask& task, uint32_t v) {
     w.remove(lightest);
     solve_nonnegative(w.system, w.x);
   }
-  store(w, v, task.out);
+  if (!store(w, v, task.out)) store(given, v, task.out);
 }
 
 }  // namespace

@@ -20,7 +20,15 @@ Status no_memory(Error& error) {
 
 bool is_caller(const RiggingOptions& options) { return !options.bones.empty(); }
 
-Status check_bones(const RiggingOptions& options, Error& error) {
+/// Whether expressions move the bone. Those above it were checked.
+bool is_moved(Span<const OwnBone> bones, uint32_t b) {
+  Bone bone;
+  bone.kind = bones[b].kind;
+  return is_fitted(bone);
+}
+
+/// `moves`: there are expressions to fit.
+Status check_bones(const RiggingOptions& options, bool moves, Error& error) {
   const Span<const OwnBone> bones = options.bones;
   if (bones.count > kMaxBones) {
     return fail(error, Status::kAuthorRefused, kNoOffset, "%zu bones: %u are allowed", bones.count,
@@ -49,6 +57,13 @@ Status check_bones(const RiggingOptions& options, Error& error) {
       return fail(error, Status::kAuthorMesh, kNoOffset,
                   "bone %u has parent %u: bone 0 is its own, others have one before them", b,
                   bone.parent);
+    }
+    if (moves && is_moved(bones, bone.parent)) {
+      return fail(
+          error, Status::kAuthorRefused, kNoOffset,
+          "bone %u hangs below bone %u, which moves with expressions: shapes can be fitted to "
+          "bones below still ones only",
+          b, bone.parent);
     }
     roots += bone.kind == BoneKind::kRoot;
     facial_runs +=
@@ -167,7 +182,8 @@ Status make_rig(const MeshSource& source, const RiggingOptions& options, Arena& 
   const auto canceled = [&] { return fail(error, Status::kAuthorCanceled, kNoOffset, "canceled"); };
   if (!steps.go_on("mesh", 0)) return canceled();
   Status status = read_mesh(source, arena, allocator, out.read, error);
-  if (status == Status::kOk && is_caller(options)) status = check_bones(options, error);
+  if (status == Status::kOk && is_caller(options))
+    status = check_bones(options, !out.read.mesh.shapes.empty(), error);
   if (status != Status::kOk) return status;
 
   if (!steps.go_on("bones", 0.05)) return canceled();

@@ -34,6 +34,47 @@ struct Weighing {
   Span<uint8_t> counts = {};
 };
 
+/// The shortest ways to a vertex that are known while the search goes on: of as many bones as it may
+/// keep. What is not among them need not be queued.
+struct ShortestWays {
+  uint32_t capacity = 0;
+  Span<uint16_t> bones = {};
+  Span<double> distances = {};
+  Span<uint8_t> counts = {};
+
+  bool make(size_t vertices, uint32_t bones_each, Arena& arena) {
+    capacity = bones_each;
+    return author::make(arena, vertices * capacity, bones) &&
+           author::make(arena, vertices * capacity, distances) &&
+           author::make(arena, vertices, counts);
+  }
+  /// False if the vertex knows a way as short, or enough bones that are nearer.
+  bool offer(uint32_t v, uint32_t bone, double distance) {
+    uint16_t* list = bones.data + size_t{v} * capacity;
+    double* ways = distances.data + size_t{v} * capacity;
+    uint32_t at = 0, farthest = 0;
+    for (; at < counts[v] && list[at] != bone; ++at) {
+      const bool is_farther =
+          ways[at] != ways[farthest] ? ways[at] > ways[farthest] : list[at] > list[farthest];
+      if (is_farther) farthest = at;
+    }
+    if (at < counts[v]) {
+      if (distance >= ways[at]) return false;
+    } else if (at < capacity) {
+      ++counts[v];
+    } else {
+      // The queue takes the lower number first of bones that are equally far.
+      if (distance > ways[farthest] || (distance == ways[farthest] && bone > list[farthest])) {
+        return false;
+      }
+      at = farthest;
+    }
+    list[at] = static_cast<uint16_t>(bone);
+    ways[at] = distance;
+    return true;
+  }
+};
+
 /// Ways from every bone at once, nearest first; each vertex passes on a bone only if it keeps it.
 bool find_nearest_bones(Weighing& w) {
   const size_t n = w.mesh.positions.count;
@@ -41,9 +82,10 @@ bool find_nearest_bones(Weighing& w) {
   Span<uint32_t> places;
   Span<Vec3> points;
   PointTree tree;
-  if (!make(w.scratch, n * w.lists, w.near) || !make(w.scratch, n * w.lists, w.distances) ||
-      !make(w.scratch, n, w.counts) || !make(w.scratch, w.facial, depths) ||
-      !make(w.scratch, w.placement.mask.count, places) ||
+  ShortestWays shortest;
+  if (!shortest.make(n, w.lists, w.scratch) || !make(w.scratch, n * w.lists, w.near) ||
+      !make(w.scratch, n * w.lists, w.distances) || !make(w.scratch, n, w.counts) ||
+      !make(w.scratch, w.facial, depths) || !make(w.scratch, w.placement.mask.count, places) ||
       !make(w.scratch, w.placement.mask.count, points)) {
     return false;
   }
@@ -82,7 +124,9 @@ bool find_nearest_bones(Weighing& w) {
       const uint32_t to = w.graph.neighbors[e];
       if (w.counts[to] == w.lists || has(to, step.label)) continue;
       const double way = step.way + w.graph.lengths[e], depth = depths[step.label];
-      if (!heap.push({std::sqrt(way * way + depth * depth), to, step.label, way})) return false;
+      const double distance = std::sqrt(way * way + depth * depth);
+      if (!shortest.offer(to, step.label, distance)) continue;
+      if (!heap.push({distance, to, step.label, way})) return false;
     }
   }
   return true;

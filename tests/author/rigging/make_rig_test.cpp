@@ -175,7 +175,15 @@ TEST(MakeRig, TakesTheCallersBonesAndWeights) {
   EXPECT_EQ(refused(3, wrong), Status::kAuthorMesh);
   wrong = bones[1];
   wrong.kind = BoneKind::kFacial;
+  EXPECT_EQ(refused(1, wrong), Status::kAuthorRefused) << "facial bones below one that moves";
+  wrong.kind = BoneKind::kJaw;
+  EXPECT_EQ(refused(1, wrong), Status::kAuthorRefused);
+  wrong.kind = BoneKind::kFace;
   EXPECT_EQ(refused(1, wrong), Status::kOk);
+  const OwnBone head = bones[1];
+  bones[1].kind = BoneKind::kFacial;
+  EXPECT_EQ(Made(procedural_mesh(5, false), options).status, Status::kOk) << "nothing moves";
+  bones[1] = head;
   wrong.kind = BoneKind::kRoot;
   EXPECT_EQ(refused(1, wrong), Status::kAuthorMesh);
 }
