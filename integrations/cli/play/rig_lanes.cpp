@@ -71,8 +71,9 @@ LaneValues RigLanes::lanes(const NamedValues& values, const std::string& where) 
   LaneValues found;
   for (const auto& [lane, value] : sorted) {
     if (!found.lanes.empty() && found.lanes.back() == lane) {
-      fail(kInvalid, kCannot, where, "\"" + controls_[lane] + "\" is there twice",
-           "leave one of them out");
+      const size_t variable = lane - std::min<size_t>(lane, controls_.size());
+      const std::string& name = lane < controls_.size() ? controls_[lane] : variables_[variable];
+      fail(kInvalid, kCannot, where, "\"" + name + "\" is there twice", "leave one of them out");
     }
     found.lanes.push_back(lane);
     found.values.push_back(value);
