@@ -13,6 +13,9 @@ struct Allocator {
   void* user = nullptr;
   void* (*allocate)(void* user, size_t size, size_t alignment) = nullptr;
   void (*release)(void* user, void* block, size_t size, size_t alignment) = nullptr;
+  /// The least that an Arena asks for at a time. 0: each of its arrays is a block of its own, so that
+  /// tests can let any of them fail.
+  size_t arena_chunk = 16 * 1024;
 
   /// Null also if the allocator gave a misaligned block, which goes back to it.
   void* get(size_t size, size_t alignment) const {

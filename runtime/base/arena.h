@@ -38,7 +38,7 @@ class Arena {
   /// Null if memory ran out.
   void* allocate(size_t size, size_t alignment) {
     size_t at = align_up(used_, alignment);
-    if (!chunk_ || at > chunk_->size || size > chunk_->size - at) {
+    if (!chunk_ || allocator_.arena_chunk == 0 || at > chunk_->size || size > chunk_->size - at) {
       if (!grow(size)) return nullptr;
       at = align_up(used_, alignment);
     }
@@ -81,8 +81,10 @@ class Arena {
   bool grow(size_t size) {
     if (size > SIZE_MAX / 2) return false;
     size_t wanted = size + sizeof(Chunk) + kBlockAlignment;
-    for (size_t step : {kSmallestChunk, reserved_ / 2, expected_}) {
-      if (wanted < step) wanted = step;
+    if (allocator_.arena_chunk != 0) {
+      for (size_t step : {allocator_.arena_chunk, reserved_ / 2, expected_}) {
+        if (wanted < step) wanted = step;
+      }
     }
     wanted = align_up(wanted, kBlockAlignment);
     expected_ = 0;
@@ -93,8 +95,6 @@ class Arena {
     reserved_ += wanted;
     return true;
   }
-
-  static constexpr size_t kSmallestChunk = 16 * 1024;
 
   Allocator allocator_;
   Chunk* chunk_ = nullptr;

@@ -332,9 +332,10 @@ Status fill_ml(const DnaView& view, Arena& scratch, Rig& rig, Error& error) {
   Span<uint32_t> first_layer = scratch.array<uint32_t>(view.mlbh.networks.count);
   Span<uint32_t> position = scratch.array<uint32_t>(rig.joint_count);
   Span<StepNumbers> numbers = scratch.array<StepNumbers>(view.mlbe.types.count);
-  bool memory = (masks.data || !masks.count) && (first_layer.data || !first_layer.count) &&
-                (position.data || !rig.joint_count) && (numbers.data || !view.mlbe.types.count) &&
-                masks.count == view.mlbh.networks.count;
+  // What was not to be had has no elements.
+  bool memory = masks.count == view.mlbh.networks.count &&
+                first_layer.count == view.mlbh.networks.count &&
+                position.count == rig.joint_count && numbers.count == view.mlbe.types.count;
   uint32_t first_step = 0;
   for (uint32_t t = 0; t < view.mlbe.types.count && memory; ++t) {
     memory = number_steps(view.mlbe.types[t], first_step, scratch, numbers[t]);

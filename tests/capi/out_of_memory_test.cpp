@@ -336,6 +336,33 @@ TEST_F(OutOfMemory, WriteFile) {
   EXPECT_TRUE(counter.clean()) << counter.first_wrong;
 }
 
+// What a lower version leaves out is checked for, which takes memory.
+TEST_F(OutOfMemory, WriteALowerVersion) {
+  const Bytes tiny = tiny_file();
+  CountingAllocator counter;
+  const MienAllocator allocator = counter.get();
+  MienDna* dna = nullptr;
+  ASSERT_EQ(opener(tiny).make(&allocator, &dna, nullptr), MIEN_OK);
+  MienWriteDesc desc = sized<MienWriteDesc>();
+  desc.version = 4;
+  desc.unknown_layers = MIEN_UNKNOWN_LAYERS_DROP;
+  counter.restart();
+  size_t size = 0;
+  ASSERT_EQ(mien_dna_write_memory(dna, &desc, nullptr, 0, &size, nullptr), MIEN_OK);
+  const size_t requests = counter.requests, bytes = counter.bytes;
+  ASSERT_GT(requests, 0u);
+  for (size_t k = 1; k <= requests; ++k) {
+    counter.restart();
+    counter.fail_at = k;
+    MienError error = sized<MienError>();
+    EXPECT_EQ(mien_dna_write_memory(dna, &desc, nullptr, 0, &size, &error), MIEN_ERROR_MEMORY);
+    EXPECT_NE(error.message[0], 0);
+    EXPECT_EQ(counter.bytes, bytes);
+  }
+  mien_dna_close(dna);
+  EXPECT_TRUE(counter.clean()) << counter.first_wrong;
+}
+
 // Views and look-ups while memory is out ----------------------------------------------------------
 
 TEST_F(OutOfMemory, NothingElseAllocates) {
