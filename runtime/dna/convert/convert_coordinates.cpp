@@ -38,7 +38,7 @@ class CoordinateConverter {
   CoordinateConverter(DnaView& view, const CoordinateSystem& from, const CoordinateSystem& to,
                       Arena& arena, Error& error)
       : view_(view), from_(from), to_(resolve_system(from, to)),
-        change_(coordinate_change(from, to_)), arrays_(arena), arena_(arena), error_(error) {}
+        change_(coordinate_change(from, to_)), arrays_(view, arena), arena_(arena), error_(error) {}
 
   Status run() {
     if (same_system(from_, to_)) return Status::kOk;
@@ -140,13 +140,13 @@ class CoordinateConverter {
     if (!negated) return rename(table.input_indices, "bhvr.animatedMaps.conditionals.inputIndices");
     const auto sign = [&](uint32_t r) { return controls_.read(inputs[r]).sign; };
     const Array<float> from = table.from_values, to = table.to_values;
-    table.from_values = arrays_.make<float>(
-        inputs.count, [&](uint32_t r) { return sign(r) < 0 ? -to[r] : from[r]; });
-    table.to_values = arrays_.make<float>(
-        inputs.count, [&](uint32_t r) { return sign(r) < 0 ? -from[r] : to[r]; });
+    table.from_values =
+        arrays_.remake(from, [&](uint32_t r) { return sign(r) < 0 ? -to[r] : from[r]; });
+    table.to_values =
+        arrays_.remake(to, [&](uint32_t r) { return sign(r) < 0 ? -from[r] : to[r]; });
     const Array<float> slopes = table.slope_values;
-    table.slope_values = arrays_.make<float>(
-        inputs.count, [&](uint32_t r) { return sign(r) < 0 ? -slopes[r] : slopes[r]; });
+    table.slope_values =
+        arrays_.remake(slopes, [&](uint32_t r) { return sign(r) < 0 ? -slopes[r] : slopes[r]; });
     table.input_indices = arrays_.map(inputs, [this](uint16_t c) { return read(c); });
     return Status::kOk;
   }
@@ -207,6 +207,7 @@ class CoordinateConverter {
           values.set(i, scaled(group.values[i] * signs[c], factor));
         }
       }
+      arrays_.keep_offset<float>(values, group.values);
       group.values = values;
     }
     if (moves)
@@ -250,7 +251,7 @@ class CoordinateConverter {
     if (same) return Status::kOk;
     if (negates) {
       const Array<float> old = solver.raw_control_values;
-      solver.raw_control_values = arrays_.make<float>(old.count, [&](uint32_t i) {
+      solver.raw_control_values = arrays_.remake(old, [&](uint32_t i) {
         return controls_.read(inputs[i % inputs.count]).sign < 0 ? -old[i] : old[i];
       });
     }
@@ -284,7 +285,7 @@ class CoordinateConverter {
     }
     if (has_axis) solver.twist_axis = change_.to[solver.twist_axis];
     const Array<float> old = solver.raw_control_values;
-    solver.raw_control_values = arrays_.make<float>(old.count, [&](uint32_t i) {
+    solver.raw_control_values = arrays_.remake(old, [&](uint32_t i) {
       const uint32_t input = i % inputs.count, part = input % 4, first = i - part;
       if (input / 4 >= quaternions || part == 3) return old[i];
       const uint16_t four[4] = {inputs[input - part], inputs[input - part + 1],
@@ -425,7 +426,7 @@ class CoordinateConverter {
     const MlJoints& joints = view_.mlbe.joints;
     const MlJointWidths widths = ml_joint_widths(joints);
     const uint32_t attributes = widths.all();
-    if (!moves || attributes == 0) return Status::kOk;
+    if (!moves) return Status::kOk;
     Span<uint8_t> parts = arena_.array<uint8_t>(size_t{view_.defn.joint_names.count} * 2);
     if (view_.defn.joint_names.count && !parts.data) return arrays_.run_out();
     for (uint32_t i = 0; i < joints.output_indices.count; ++i) {

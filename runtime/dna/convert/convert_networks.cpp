@@ -186,19 +186,18 @@ class NetworkConverter {
       NetworkLayer& layer = network.layers[0];
       const Array<float> old = layer.weights;
       const uint32_t columns = static_cast<uint32_t>(ends.signs.count);
-      layer.weights = arrays_.make<float>(
-          old.count, [&](uint32_t i) { return ends.signs[i % columns] < 0 ? -old[i] : old[i]; });
+      layer.weights = arrays_.remake(
+          old, [&](uint32_t i) { return ends.signs[i % columns] < 0 ? -old[i] : old[i]; });
     }
     if (ends.scales) {
       NetworkLayer& layer = network.layers[network.layers.count - 1];
       const auto unit = [&](uint32_t row) { return ends.units[row] == 0 ? 1.0 : ends.units[row]; };
       const Array<float> weights = layer.weights, biases = layer.biases;
       const uint32_t columns = weights.count / biases.count;
-      layer.biases =
-          arrays_.make<float>(biases.count, [&](uint32_t r) { return scaled(biases[r], unit(r)); });
+      layer.biases = arrays_.remake(biases, [&](uint32_t r) { return scaled(biases[r], unit(r)); });
       if (columns != 0) {
-        layer.weights = arrays_.make<float>(
-            weights.count, [&](uint32_t i) { return scaled(weights[i], unit(i / columns)); });
+        layer.weights = arrays_.remake(
+            weights, [&](uint32_t i) { return scaled(weights[i], unit(i / columns)); });
       }
     }
     network.input_indices =

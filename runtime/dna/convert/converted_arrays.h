@@ -9,6 +9,7 @@
 #include "runtime/base/coordinate_system.h"
 #include "runtime/base/status.h"
 #include "runtime/dna/format/dna_schema.h"
+#include "runtime/dna/format/dna_view.h"
 
 namespace mien::dna {
 
@@ -24,10 +25,12 @@ inline float scaled(float value, double factor) {
   return static_cast<float>(product);
 }
 
-/// New arrays are empty once memory has run out.
+/// New arrays are empty once memory has run out. Those that have the numbers of an old one in their
+/// order get its offset in the file, for messages.
 class ConvertedArrays {
  public:
-  explicit ConvertedArrays(Arena& arena) : arena_(arena) {}
+  ConvertedArrays(DnaView& view, Arena& arena)
+      : view_(view), file_segments_(view.segments), arena_(arena) {}
 
   bool out_of_memory() const { return out_of_memory_; }
   /// Records that memory ran out; the pass reports it at its end.
@@ -53,10 +56,29 @@ class ConvertedArrays {
     return array;
   }
 
+  /// The same, where number i takes the place of old[i].
+  template <class T, class F>
+  Array<T> remake(const Array<T>& old, F&& f) {
+    const Array<T> array = make<T>(old.count, f);
+    keep_offset(array, old);
+    return array;
+  }
+
+  template <class T>
+  void keep_offset(const Array<T>& array, const Array<T>& old) {
+    // Looked up in the file alone: the list of arrays grows with each of them.
+    const uint64_t offset = view_.offset_of(old.data, file_segments_);
+    if (!array.data || offset == kNoOffset) return;
+    const Span<FileSegment> segment = arena_.array<FileSegment>(1);
+    if (!segment.data) return void(run_out());
+    segment[0] = {array.data, offset, array.count * sizeof(T), view_.segments};
+    view_.segments = segment.data;
+  }
+
   /// f(number) for each number.
   template <class T, class F>
   Array<T> map(const Array<T>& old, F&& f) {
-    return make<T>(old.count, [&](uint32_t i) { return f(old[i]); });
+    return remake(old, [&](uint32_t i) { return f(old[i]); });
   }
 
   /// The same, but `old` itself if all numbers stay.
@@ -89,6 +111,8 @@ class ConvertedArrays {
   }
 
  private:
+  DnaView& view_;
+  const FileSegment* file_segments_;  // of what was read, none of what was made here
   Arena& arena_;
   bool out_of_memory_ = false;
 };

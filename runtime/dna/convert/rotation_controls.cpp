@@ -144,7 +144,6 @@ Status RotationControls::add_ml_joints(const DnaView& view, const CoordinateChan
   const MlJoints& joints = view.mlbe.joints;
   const MlJointWidths widths = ml_joint_widths(joints);
   const uint32_t attributes = widths.all(), joint_count = view.defn.joint_names.count;
-  if (attributes == 0 || joints.output_indices.count == 0) return Status::kOk;
   ml_ = arena.array<Role>(view.mlbh.control_names.count);
   Span<uint8_t> turned = arena.array<uint8_t>(joint_count);
   if (ml_.count != view.mlbh.control_names.count || turned.count != joint_count) {

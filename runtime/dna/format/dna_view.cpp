@@ -19,7 +19,7 @@ uint32_t close_layer_mask(uint32_t layers) {
   return layers | kLayerDescriptor;
 }
 
-uint64_t DnaView::offset_of(const void* address) const {
+uint64_t DnaView::offset_of(const void* address, const FileSegment* first) const {
   const uintptr_t at = reinterpret_cast<uintptr_t>(address);
   const auto within = [&](const uint8_t* data, size_t size) {
     const uintptr_t begin = reinterpret_cast<uintptr_t>(data);
@@ -27,7 +27,7 @@ uint64_t DnaView::offset_of(const void* address) const {
   };
   const auto from = [&](const uint8_t* data) { return at - reinterpret_cast<uintptr_t>(data); };
   if (within(file, file_size)) return from(file);
-  for (const FileSegment* segment = segments; segment; segment = segment->next) {
+  for (const FileSegment* segment = first; segment; segment = segment->next) {
     if (within(segment->data, segment->size)) return segment->offset + from(segment->data);
   }
   return kNoOffset;

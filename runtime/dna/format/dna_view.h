@@ -88,7 +88,8 @@ struct IndexEntry {
   uint32_t offset = 0;  // in the file
 };
 
-/// A part of a file that was read from a stream into the arena.
+/// Memory in the arena that has an offset in the file: a part that was read from a stream, or an array
+/// that was converted.
 struct FileSegment {
   const uint8_t* data = nullptr;
   uint64_t offset = 0;
@@ -121,16 +122,18 @@ struct DnaView {
   /// is (whose control numbers start behind them).
   uint32_t ml_control_count = 0;
 
-  /// The file, to turn addresses into offsets: whole, or what was read of a stream. Both are null if
-  /// the view was made here.
+  /// The file, to turn addresses into offsets: whole, or null; and segments. Both are null if the view
+  /// was made here.
   const uint8_t* file = nullptr;
   const FileSegment* segments = nullptr;
   size_t file_size = 0;
 
   bool has(uint32_t layers) const { return (loaded & layers) != 0; }
 
-  /// Byte offset of an address within the file, else kNoOffset.
-  uint64_t offset_of(const void* address) const;
+  /// Byte offset of an address within the file or a segment, else kNoOffset.
+  uint64_t offset_of(const void* address) const { return offset_of(address, segments); }
+  /// The same with other segments.
+  uint64_t offset_of(const void* address, const FileSegment* first) const;
 
   /// Number of the first PSD, ML and RBF control (docs/dna-format.md, 8.3 "Control numbers"), and
   /// of all controls.

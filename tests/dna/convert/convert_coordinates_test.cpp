@@ -655,6 +655,17 @@ TEST_F(ConversionRefused, AControlIsTwoPartsOfARotation) {
   expect(mirrored, "is part of two rotations");
 }
 
+TEST_F(ConversionRefused, ASolverReadsAControlAsTwoParts) {
+  tiny.twsw = {};
+  dna::RbfSolver& solver = tiny.rbfb.solvers[0];
+  solver.distance_method = 1;  // of quaternions
+  solver.raw_control_indices = dna::be<uint16_t>(arena, {0, 1, 2, 0});
+  const dna::NewArray<float> values = dna::new_array<float>(arena, 4 * solver.pose_indices.count);
+  for (uint32_t i = 0; i < values.count; ++i) values.set(i, i % 4 == 3 ? 1.0f : 0.0f);
+  solver.raw_control_values = values;
+  expect(mirrored, "is part of two rotations");
+}
+
 TEST_F(ConversionRefused, ACorrectiveReadsASign) {
   tiny.bhvr.controls.psds.columns = dna::be<uint16_t>(arena, {0, 5, 0, 6});
   expect(mirrored, "bhvr.controls.psds.columns[");
@@ -704,7 +715,81 @@ TEST_F(ConversionRefused, ATanhHasNoUnit) {
 TEST_F(ConversionRefused, PartOfAVector) {
   tiny.mlbe.joints.output_indices = dna::be<uint16_t>(arena, {20, 21, 27, 28});
   tiny.twsw = {};
-  expect(named("unreal"), "gets only a part of its translation");
+  expect(named("unreal"), "joint 2 gets only a part of its translation");
+  tiny.mlbe.joints.output_indices = dna::be<uint16_t>(arena, {0, 1, 7, 8});
+  expect(named("unreal"), "joint 0 gets only a part of its translation");
+  tiny.mlbe.joints.output_indices = dna::be<uint16_t>(arena, {7, 8, 17, 18});
+  expect(named("unreal"), "joint 0 gets only a part of its scale");
+}
+
+// Controls 5, 6 and 7 are a translation of their own here: to other axes they have no equivalent.
+class LostControls : public ConversionRefused {
+ protected:
+  void SetUp() override {
+    tiny.mlbe.joints.output_indices = dna::be<uint16_t>(arena, {20, 21, 22, 27});
+    tiny.twsw = {};
+    const Bytes bytes = write_view(tiny);
+    ASSERT_TRUE(open_in_system(bytes, mirrored));
+  }
+};
+
+TEST_F(LostControls, AMapReadsOne) {
+  tiny.bhvr.maps.conditionals.input_indices = dna::be<uint16_t>(arena, {5});
+  expect(mirrored, "bhvr.animatedMaps.conditionals.inputIndices[0]");
+}
+
+TEST_F(LostControls, AJointGroupReadsOne) {
+  tiny.bhvr.joints.groups[1].input_indices = dna::be<uint16_t>(arena, {0, 1, 6});
+  expect(mirrored, "bhvr.joints.jointGroups[1].inputIndices[2]");
+}
+
+TEST_F(LostControls, APoseReadsOne) {
+  tiny.rbfe.poses[1].input_control_indices = dna::be<uint16_t>(arena, {7});
+  expect(mirrored, "rbfe.poses[1].inputControlIndices[0]");
+}
+
+TEST_F(LostControls, APoseWritesOne) {
+  tiny.rbfe.poses[1].output_control_indices = dna::be<uint16_t>(arena, {5});
+  tiny.rbfe.poses[1].output_control_weights = dna::be<float>(arena, {1});
+  expect(mirrored, "rbfe.poses[1].outputControlIndices[0]");
+}
+
+TEST_F(LostControls, TwoJointsFollowOne) {
+  tiny.mlbe.joints.input_indices = dna::be<uint16_t>(arena, {5, 6, 7, 7});
+  expect(mirrored, "moves another joint too");
+}
+
+TEST_F(LostControls, AJointFollowsARawControl) {
+  tiny.mlbe.joints.input_indices = dna::be<uint16_t>(arena, {5, 6, 7, 1});
+  expect(mirrored, "is no ML control");
+}
+
+// Arrays that were converted are no longer in the file; what is wrong with them is.
+TEST(CoordinateConversion, MessagesNameTheByteOfTheFile) {
+  Arena arena(default_allocator());
+  dna::DnaView tiny = dna::tiny_rig(arena);
+  const float nan = std::nanf("");
+  tiny.geom.meshes[0].positions.xs = dna::be<float>(arena, {0, 1, 2, 0, nan, 2});
+  const Bytes bytes = write_view(tiny);
+  const DnaHandle original = open_dna(bytes);
+  MienCoordinateSystem meters = system_of(original.get());
+  meters.translation_unit = MIEN_TRANSLATION_UNIT_METERS;
+  const DnaHandle converted = open_in_system(bytes, meters);
+  ASSERT_TRUE(original && converted);
+  EXPECT_NE(converted->view.geom.meshes[0].positions.xs[1],
+            original->view.geom.meshes[0].positions.xs[1]);
+  const auto offset = [](const DnaHandle& dna) {
+    MienError error = sized<MienError>();
+    MienDeformer* deformer = nullptr;
+    EXPECT_EQ(
+        mien_deformer_create(dna.get(), create_rig(dna.get()).get(), nullptr, &deformer, &error),
+        MIEN_ERROR_DNA_VALUE);
+    return error.byte_offset;
+  };
+  EXPECT_EQ(offset(converted), offset(original));
+  uint32_t bits = 0;
+  for (int i = 0; i < 4; ++i) bits = bits << 8 | bytes.at(offset(converted) + i);
+  EXPECT_EQ(bits & 0x7FC00000, 0x7FC00000u) << "the NaN";
 }
 
 TEST(CoordinateConversion, WrongArguments) {
