@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a clip: opened, verified, played in every way (tests/support/exercise_clip.h), bound
-// to a rig. An input is a clip. Those to start from are made here; mutations keep the size and often
-// the checksum right, so that they get far.
+// to a rig, built again from what it gives. An input is a clip. Those to start from are made here;
+// mutations keep the size and often the checksum right, so that they get far.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -160,6 +160,79 @@ void use_by_handle(const uint8_t* data, size_t size) {
   mien_clip_player_destroy(player);
 }
 
+using Rows = std::vector<float>;
+
+/// False if a curve is damaged.
+bool read_all(const Clip& clip, Rows& rows) {
+  rows.assign(size_t{clip.frame_count} * clip.channel_count, 0);
+  return read_frames(clip, 0, clip.frame_count, rows.data(), clip.channel_count);
+}
+
+/// Exported and built again it is the same clip, unless it has a name twice.
+void rebuild(const uint8_t* data, size_t size) {
+  constexpr size_t kMaxValues = 1 << 14, kMaxNames = 1 << 10;
+  Clip clip;
+  Error error;
+  if (open_clip(data, size, clip, error) != Status::kOk || clip.event_count > kMaxNames) return;
+  if (size_t{clip.frame_count} * clip.channel_count > kMaxValues || clip.name_count > kMaxNames)
+    return;
+  Rows rows, again;
+  if (!read_all(clip, rows)) return;
+  std::vector<Span<const char>> names, event_names;
+  for (uint32_t c = 0; c < clip.channel_count; ++c) names.push_back(clip.name(c));
+  // An event may be called like a channel.
+  for (uint32_t n = 0; n < clip.name_count; ++n) event_names.push_back(clip.name(n));
+  std::vector<ClipEventDesc> events;
+  for (uint32_t e = 0; e < clip.event_count; ++e) {
+    const ClipEvent event = clip.event(e);
+    uint32_t name = 0;
+    while (event_names[name].data != event.name.data ||
+           event_names[name].count != event.name.count) {
+      ++name;
+    }
+    events.push_back({event.tick, name, event.value});
+  }
+  ClipDesc desc;
+  desc.rate_numerator = clip.rate_numerator;
+  desc.rate_denominator = clip.rate_denominator;
+  desc.frame_count = clip.frame_count;
+  desc.values = rows.data();
+  desc.names = {names.data(), names.size()};
+  desc.events = {events.data(), events.size()};
+  desc.event_names = {event_names.data(), event_names.size()};
+  desc.wraps = clip.has(kClipWraps);
+  desc.is_delta = clip.has(kClipIsDelta);
+  ClipBytes made;
+  const Status status = build_clip(desc, default_allocator(), {}, made, error);
+  if (status == Status::kName) return;
+  Clip built;
+  if (status != Status::kOk || open_clip(made.bytes, made.size, built, error) != Status::kOk ||
+      !read_all(built, again)) {
+    fprintf(stderr, "not rebuilt: %s\n", error.message);
+    abort();
+  }
+  bool same = memcmp(rows.data(), again.data(), rows.size() * sizeof(float)) == 0 &&
+              rows.size() == again.size() && built.event_count == clip.event_count &&
+              built.ticks_per_frame == clip.ticks_per_frame &&
+              built.has(kClipWraps) == desc.wraps && built.has(kClipIsDelta) == desc.is_delta;
+  const auto same_name = [](Span<const char> a, Span<const char> b) {
+    return a.count == b.count && memcmp(a.data, b.data, a.count) == 0;
+  };
+  for (uint32_t c = 0; same && c < clip.channel_count; ++c) {
+    same = same_name(clip.name(c), built.name(c));
+  }
+  for (uint32_t e = 0; same && e < clip.event_count; ++e) {
+    const ClipEvent a = clip.event(e), b = built.event(e);
+    same = a.tick == b.tick && same_name(a.name, b.name) &&
+           memcmp(&a.value, &b.value, sizeof(float)) == 0;
+  }
+  release_clip(made);
+  if (!same) {
+    fprintf(stderr, "rebuilt as another clip\n");
+    abort();
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
@@ -220,5 +293,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   }
   bind(data, size);
   use_by_handle(data, size);
+  rebuild(data, size);
   return 0;
 }

@@ -45,6 +45,8 @@ void make_packet(uint8_t* bytes, uint8_t frame) {
 
 }  // namespace
 
+extern "C" int LLVMFuzzerInitialize(int*, char***) { return 0; }
+
 extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max_size,
                                           unsigned int seed) {
   constexpr size_t kOne = 3 + kPacket;
