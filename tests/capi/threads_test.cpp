@@ -12,7 +12,7 @@
 namespace mien {
 namespace {
 
-constexpr int kThreads = 16;
+constexpr int kThreads = 32;
 
 /// Runs `body(t)` on all threads, none of which begins before all are there.
 void on_threads(int count, const std::function<void(int)>& body) {
@@ -42,7 +42,7 @@ uint32_t animate(Character& character, int seed, int frame, uint32_t lods) {
 }
 
 TEST(CapiThreads, InstancesOfOneRigDoNotDisturbEachOther) {
-  constexpr int kFrames = 12;
+  constexpr int kFrames = 6;
   const RigHandle rig = small_rig();
   const uint32_t lods = info_of(rig).lod_count;
   ASSERT_GT(lods, 1u);

@@ -195,6 +195,24 @@ TEST(Work, CountsWhatIsRepeated) {
   EXPECT_NEAR(double(rbf[1] - rbf[0]), 10 * 6 * 20000.0, 10 * 1000);
 }
 
+// A step for four products of interpolation, at the one LOD that runs the solver.
+TEST(Work, CountsInterpolation) {
+  Arena arena(default_allocator());
+  uint64_t steps[2];
+  for (const bool interpolative : {false, true}) {
+    DnaView view = dna::tiny_rig(arena);
+    many_poses(arena, view, 80, interpolative);
+    dna::RbfSolver& solver = view.rbfb.solvers[0];
+    solver.raw_control_indices = counted(arena, 1, 0, 0);
+    solver.raw_control_values = zeros(arena, 80);
+    view.rbfb.solvers.count = 1;
+    const RigHandle rig = create_rig(open_dna(write_view(view)).get());
+    ASSERT_TRUE(rig);
+    steps[interpolative] = count_rbf_steps(*capi::object(rig.get()), ~uint64_t{0});
+  }
+  EXPECT_EQ(steps[1] - steps[0], 80u * 80 / 4);
+}
+
 // Rigs that people make are far away from the limits.
 TEST(Work, OrdinaryRigsTakeATenthAtMost) {
   const auto expect_little = [](const MienDna* dna) {

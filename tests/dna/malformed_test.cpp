@@ -347,6 +347,31 @@ TEST(Container, MissingLayersReadAsDefaultsUnlessOthersNeedThem) {
 }
 
 // Blocks: mesh, network and solver.
+// The path, with the index of each list on the way.
+TEST(Container, MessagesNameTheFieldThatIsCut) {
+  Arena arena(default_allocator());
+  const Bytes good = dna::written(dna::tiny_rig(arena));
+  const DnaHandle dna = open_dna(good);
+  const dna::DnaView& view = dna->view;
+  const struct {
+    const uint8_t* array;
+    const char* path;
+  } fields[] = {
+      {view.bhvr.joints.groups[1].values.data, "bhvr.joints.jointGroups[1].values: "},
+      {view.mlbh.networks[0].layers[1].weights.data, "mlbh.neuralNetworks[0].layers[1].weights: "},
+      {view.mlbe.types[0].operations[1][0].parameters.data, "[0].operations[1][0].parameters: "},
+  };
+  for (const auto& field : fields) {
+    Bytes bytes = good;
+    dna::set32(bytes, view.offset_of(field.array) - 4, 0x7FFFFFFF);
+    MienError error = sized<MienError>();
+    MienDna* made = nullptr;
+    EXPECT_NE(mien_dna_open_memory(bytes.data(), bytes.size(), nullptr, &made, &error), MIEN_OK);
+    EXPECT_NE(strstr(error.message, field.path), nullptr) << error.message;
+    mien_dna_close(made);
+  }
+}
+
 TEST(Container, BlocksThatEndBeforeTheyBeginOrTooLate) {
   const Bytes good = tiny_file(8);
   for (const char* code : {"geom", "mlbh", "rbfb"}) {

@@ -300,6 +300,18 @@ TEST(DnaCheckExtensionsTest, TooManyControlNames) {
 
 // What is allowed -------------------------------------------------------------------------------
 
+TEST(DnaCheckExtensionsTest, DistancesOfRotationsTakeFourControls) {
+  Arena arena(default_allocator());
+  DnaView view = tiny_rig(arena);
+  RbfSolver& rotations = solver(view);
+  rotations.distance_method = 1;
+  rotations.raw_control_indices = be(arena, U16{0, 1, 2, 0});
+  const NewArray<float> values = new_array<float>(arena, 4 * rotations.pose_indices.count);
+  for (uint32_t i = 0; i < values.count; ++i) values.set(i, i % 4 == 3 ? 1.0f : 0.0f);
+  rotations.raw_control_values = values;
+  expect_no_findings(view);
+}
+
 TEST(DnaCheckExtensionsTest, NetworksMayStandAlone) {
   Arena arena(default_allocator());
   DnaView view = tiny_rig(arena);

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+// One count or index of a rig or deformer at a time that contradicts the others: each is found.
+#include <gtest/gtest.h>
+
+#include "tests/support/baked_bytes.h"
+#include "tests/support/random_layer_rig.h"
+
+namespace mien {
+namespace {
+
+using Bytes = std::vector<uint8_t>;
+
+/// Zeros for arrays that are longer than those of any rig here.
+template <class T>
+Span<T> zeros(size_t count) {
+  static std::vector<T> memory;
+  memory.assign(std::max(memory.size(), count), T{});
+  return {memory.data(), count};
+}
+
+/// Panels of `rows` block rows each.
+Span<JointPanel> panels_of(uint32_t count, uint32_t rows) {
+  const Span<JointPanel> panels = zeros<JointPanel>(count + 1);
+  for (uint32_t p = 0; p <= count; ++p) panels[p].first_block_row = p * rows;
+  return panels;
+}
+
+/// A random rig of everything, for which `wanted` holds.
+template <class F>
+Bytes layers_with(bool quaternions, bool half, F&& wanted) {
+  MienRigDesc desc = sized<MienRigDesc>();
+  desc.rotation_output = quaternions ? MIEN_ROTATION_OUTPUT_QUATERNION : MIEN_ROTATION_OUTPUT_EULER;
+  desc.storage = half ? MIEN_STORAGE_16_BIT : MIEN_STORAGE_32_BIT;
+  for (uint64_t seed = 1; seed < 400; ++seed) {
+    Random random = Random::from_seed(91, seed);
+    const LayerFile file(random_layer_rig(random, false));
+    const RigHandle rig = create_rig(file.dna.get(), desc);
+    if (wanted(*capi::object(rig.get()))) return bake(rig.get());
+  }
+  ADD_FAILURE() << "no rig is like that";
+  return {};
+}
+
+const RbfSolverPlan* plan_with_parts(const Rig& rig) {
+  for (const RbfSolverPlan& plan : rig.rbf.plans) {
+    if (takes_parts(plan) && plan.input_count != 0) return &plan;
+  }
+  return nullptr;
+}
+bool has_inverses(const Rig& rig) { return !rig.rbf.inverses.empty(); }
+MlStep* step_on_steps(const Rig& rig) {
+  for (MlStep& step : rig.ml.steps) {
+    if (step.layer_count != 0 && step.gather_count == 0 && step.dependency_count != 0) return &step;
+  }
+  return nullptr;
+}
+struct Contradiction {
+  const char* what;
+  void (*make)(Rig& rig);
+};
+
+void expect_found(const Bytes& file, std::initializer_list<Contradiction> all) {
+  ASSERT_FALSE(file.empty());
+  for (const Contradiction& contradiction : all) {
+    SCOPED_TRACE(contradiction.what);
+    OpenBaked opened(file);
+    Rig& rig = const_cast<Rig&>(opened.arrays());
+    Error error;
+    ASSERT_EQ(check_rig(rig, file.size(), true, error), Status::kOk) << error.message;
+    contradiction.make(rig);
+    EXPECT_EQ(check_rig(rig, file.size(), true, error), Status::kBakedStructure);
+    EXPECT_NE(error.message[0], 0);
+  }
+}
+
+TEST(CheckBakedRig, CountsNamesAndLists) {
+  expect_found(
+      tiny_baked(),
+      {
+          {"two equal axes", [](Rig& r) { r.rotation.axes[2] = r.rotation.axes[1]; }},
+          {"two other equal axes", [](Rig& r) { r.rotation.axes[2] = r.rotation.axes[0]; }},
+          {"no names", [](Rig& r) { r.names[0].first = {}; }},
+          {"names fewer than controls", [](Rig& r) { --r.names[1].first.count; }},
+          {"names not in order",
+           [](Rig& r) { std::swap(r.names[1].sorted[0], r.names[1].sorted[1]); }},
+          {"a name behind one that it begins",
+           [](Rig& r) {
+             NameList& names = r.names[size_t(Kind::kRawControl)];
+             memcpy(names.chars.data, "aba", 3);
+             names.first[1] = 2;
+             names.first[2] = names.first[3] = 3;
+             for (uint32_t i = 0; i < 3; ++i) names.sorted[i] = i;
+           }},
+          {"equal names, the later one first",
+           [](Rig& r) {
+             NameList& names = r.names[size_t(Kind::kRawControl)];
+             for (uint32_t& first : names.first) first = 0;
+             for (uint32_t i = 0; i < 3; ++i) names.sorted[i] = 2 - i;
+           }},
+          {"a list without rows", [](Rig& r) { r.lod_joints.first = {}; }},
+          {"no rows of raw to GUI controls", [](Rig& r) { r.raw_to_gui.first_row = {}; }},
+          {"a run of correctives in a run",
+           [](Rig& r) {
+             r.psds.run_lengths[1] = 1, r.psds.run_lengths[0] = 2;
+             r.psds.first_input[1] += 1;
+           }},
+          {"a run that ends early",
+           [](Rig& r) { r.psds.run_lengths[0] = 2, r.psds.first_input[1] -= 1; }},
+      });
+}
+
+// Names may be the same, and those of networks may be missing.
+TEST(CheckBakedRig, WhatIsNoContradiction) {
+  OpenBaked opened(tiny_baked());
+  Rig& rig = const_cast<Rig&>(opened.arrays());
+  NameList& raw = rig.names[size_t(Kind::kRawControl)];
+  for (uint32_t& first : raw.first) first = 0;
+  for (uint32_t i = 0; i < raw.sorted.count; ++i) raw.sorted[i] = i;
+  NameList& ml = rig.names[size_t(Kind::kMlControl)];
+  ASSERT_GT(rig.ml_count, 0u);
+  ml.first.count = 1;
+  ml.first[0] = 0;
+  ml.sorted.count = 0;
+  Error error;
+  EXPECT_EQ(check_rig(rig, opened.bytes.size(), true, error), Status::kOk) << error.message;
+}
+
+TEST(CheckBakedRig, JointMatrix) {
+  expect_found(
+      tiny_baked(),
+      {
+          {"more block rows than can be numbered",
+           [](Rig& r) { r.joints.panels = panels_of(kMaxBlockRows / 256 + 1, 256); }},
+          {"more panels than marks",
+           [](Rig& r) {
+             r.joints.panels = panels_of(500, 2);
+             r.joints.panel_shift = 0;
+           }},
+          {"no panels", [](Rig& r) { r.joints.panels = {}; }},
+          {"too many panels", [](Rig& r) { r.joints.panels.count = kMaxBlockRows + 2; }},
+          {"columns end before the blocks do",
+           [](Rig& r) { r.joints.first_block[r.joints.columns.count] -= 2; }},
+          {"values of the other form", [](Rig& r) { r.joints.fixed_values = zeros<int16_t>(8); }},
+          {"scales of the other form", [](Rig& r) { r.joints.scales = zeros<float>(8); }},
+          {"no values", [](Rig& r) { r.joints.values = {}; }},
+          {"a part of a block", [](Rig& r) { --r.joints.values.count; }},
+      });
+  expect_found(layers_with(false, true, [](const Rig& r) { return !r.joints.scales.empty(); }),
+               {{"scales are missing", [](Rig& r) { --r.joints.scales.count; }},
+                {"values of the other form", [](Rig& r) { r.joints.values = zeros<float>(8); }}});
+}
+
+TEST(CheckBakedRig, Rotations) {
+  const auto wanted = [](const Rig& r) {
+    return !r.rotations.turns.empty() && !r.rotations.angle_joints.empty();
+  };
+  expect_found(
+      layers_with(true, false, wanted),
+      {
+          {"groups are missing", [](Rig& r) { --r.rotations.groups.count; }},
+          {"not even an end of steps", [](Rig& r) { r.rotations.first_steps.count = 0; }},
+          {"LODs are missing", [](Rig& r) { --r.rotations.blocks_at_lod.count; }},
+          {"a block too few", [](Rig& r) { --r.rotations.first_steps.count; }},
+          {"blocks without steps", [](Rig& r) { --r.rotations.steps_at_lod.count; }},
+          {"lanes without steps", [](Rig& r) { --r.rotations.lane_steps_at_lod.count; }},
+          {"a quaternion too few", [](Rig& r) { --r.rotations.values.count; }},
+          {"steps that fall", [](Rig& r) { r.rotations.first_steps[0] = 1; }},
+          {"a block that is not there",
+           [](Rig& r) { r.rotations.blocks_at_lod[0] = r.rotations.block_count() + 1; }},
+          {"more steps than a block has", [](Rig& r) { r.rotations.steps_at_lod[0] = 0xFFFF; }},
+          {"angles of a joint that is not there",
+           [](Rig& r) { r.rotations.angle_joints[0].joint = 0xFFFF; }},
+          {"a turn of a joint that is not there",
+           [](Rig& r) { r.rotations.turns[0].joint = 0xFFFF; }},
+          {"a turn in a lane that is not there",
+           [](Rig& r) { r.rotations.turns[0].lane = 1 << 20; }},
+          {"a control that is not there", [](Rig& r) { r.rotations.columns[0] = 0xFFFF; }},
+          {"a group that skips angles", [](Rig& r) { ++r.rotations.groups[0].first_angle_joint; }},
+          {"a group that skips turns", [](Rig& r) { ++r.rotations.groups[0].first_turn; }},
+          {"more angles than groups have", [](Rig& r) { --r.rotations.angle_joints.count; }},
+      });
+  expect_found(tiny_baked(), {{"angles become quaternions, which nobody asked for",
+                               [](Rig& r) { r.rotations.angle_joints = zeros<AngleJoint>(1); }}});
+}
+
+TEST(CheckBakedRig, RbfSolvers) {
+  const auto wanted = [](const Rig& r) { return plan_with_parts(r) && has_inverses(r); };
+  expect_found(layers_with(false, false, wanted),
+               {
+                   {"half of a rotation",
+                    [](Rig& r) { ++const_cast<RbfSolverPlan*>(plan_with_parts(r))->input_count; }},
+                   {"rotations are missing",
+                    [](Rig& r) {
+                      r.rbf.swings.count -= kBlockLanes;
+                      r.rbf.rotations.count -= 4 * kBlockLanes;
+                      for (RbfSolverPlan& plan : r.rbf.plans) {
+                        if (takes_parts(plan))
+                          plan.input_count = uint16_t(plan.input_count + 8 * plan.angle_inputs);
+                      }
+                    }},
+                   {"scales of poses are missing",
+                    [](Rig& r) {
+                      --r.rbf.pose_scales.count;
+                      --r.rbf.pose_factors.count;
+                    }},
+                   {"targets are missing", [](Rig& r) { --r.rbf.targets.count; }},
+                   {"inverses are missing", [](Rig& r) { --r.rbf.inverses.count; }},
+                   {"a solver without plan", [](Rig& r) { --r.rbf.plans.count; }},
+                   {"a part of a block of rotations", [](Rig& r) { --r.rbf.rotations.count; }},
+                   {"a swing too few", [](Rig& r) { --r.rbf.swings.count; }},
+                   {"a factor too few", [](Rig& r) { --r.rbf.pose_factors.count; }},
+                   {"a control that is not there", [](Rig& r) { r.rbf.rotations[0] = 0xFFFF; }},
+                   {"no poses, not even their end", [](Rig& r) { r.rbf.first_input = {}; }},
+               });
+}
+
+TEST(CheckBakedRig, LearnedBehavior) {
+  expect_found(layers_with(false, false, step_on_steps),
+               {
+                   {"layers wider than the widest", [](Rig& r) { r.ml.widest_layer = 0; }},
+                   {"a layer that makes nothing of something",
+                    [](Rig& r) { r.ml.layers[r.ml.layers.count - 1].output_count = 0; }},
+                   {"a layer that makes nothing of nothing",
+                    [](Rig& r) {
+                      NetworkLayer& layer = r.ml.layers[r.ml.layers.count - 1];
+                      layer.output_count = layer.input_count = 0;
+                    }},
+                   {"a step gathers more than the widest layer",
+                    [](Rig& r) {
+                      r.ml.controls = zeros<uint16_t>(1 << 16);
+                      step_on_steps(r)->gather_count = r.ml.widest_layer + 1;
+                    }},
+                   {"a step takes more than the widest layer",
+                    [](Rig& r) {
+                      r.ml.buffer_size = 1 << 20;
+                      const MlStep& step = *step_on_steps(r);
+                      r.ml.dependencies[step.first_dependency].count = r.ml.widest_layer + 1;
+                      r.ml.dependencies[step.first_dependency].first = 0;
+                    }},
+                   {"steps share what they depend on",
+                    [](Rig& r) {
+                      for (MlStep& step : r.ml.steps) {
+                        step.first_dependency = 0;
+                        step.dependency_count = static_cast<uint32_t>(r.ml.dependencies.count);
+                        step.gather_count = 1;
+                        step.layer_count = 1;
+                      }
+                    }},
+                   {"steps share what they gather",
+                    [](Rig& r) {
+                      for (MlStep& step : r.ml.steps) {
+                        step.first_gather = 0;
+                        step.gather_count =
+                            std::min(r.ml.widest_layer, static_cast<uint32_t>(r.ml.controls.count));
+                      }
+                    }},
+                   {"a system with two equal axes",
+                    [](Rig& r) {
+                      r.ml.converts = true;
+                      for (uint8_t i = 0; i < 3; ++i)
+                        r.ml.change.from[i] = i, r.ml.change.to[i] = 0;
+                    }},
+               });
+}
+
+TEST(CheckBakedDeformer, CountsAndIndices) {
+  Arena arena(default_allocator());
+  const DnaHandle dna = open_dna(write_view(dna::tiny_rig(arena)));
+  const RigHandle rig = create_rig(dna.get());
+  const Bytes file = bake(rig.get(), create_deformer(dna.get(), rig.get()).get());
+  struct {
+    const char* what;
+    void (*make)(Deformer& deformer, DeformMesh& mesh);
+  } const all[] = {
+      {"a joint twice",
+       [](Deformer& d, DeformMesh&) { d.skeleton.order[1] = d.skeleton.order[0]; }},
+      {"neutral pose", [](Deformer& d, DeformMesh&) { --d.skeleton.neutral.count; }},
+      {"bind matrices", [](Deformer& d, DeformMesh&) { --d.skeleton.bind.count; }},
+      {"inverse bind matrices", [](Deformer& d, DeformMesh&) { --d.skeleton.inverse_bind.count; }},
+      {"angles that are quaternions",
+       [](Deformer& d, DeformMesh&) {
+         d.skeleton.compose = Compose::kEulerAdd;
+         d.skeleton.joint_attributes = 10;
+       }},
+      {"targets behind the last block",
+       [](Deformer&, DeformMesh& m) { --m.first_target_run[m.block_count()]; }},
+      {"more faces than can be numbered",
+       [](Deformer&, DeformMesh& m) { m.faces.count = SIZE_MAX / 4 * 4; }},
+      {"a vertex of no position",
+       [](Deformer&, DeformMesh& m) { --m.first_vertex[m.position_count]; }},
+      {"normals that are no choice",
+       [](Deformer& d, DeformMesh&) { d.normals = Normals::kDefault; }},
+  };
+  for (const auto& contradiction : all) {
+    SCOPED_TRACE(contradiction.what);
+    OpenBaked opened(file);
+    Deformer& deformer = const_cast<Deformer&>(opened.deformer_arrays());
+    Error error;
+    ASSERT_EQ(check_deformer(deformer, true, error), Status::kOk) << error.message;
+    contradiction.make(deformer, deformer.meshes[0]);
+    EXPECT_EQ(check_deformer(deformer, true, error), Status::kBakedStructure);
+  }
+}
+
+}  // namespace
+}  // namespace mien
