@@ -399,7 +399,7 @@ class Bench(ProgramTest):
 
     def test_json(self):
         result = self.json("bench", path("tiny.dna"), "--quick", "--json", "--isa", "all")
-        self.assertEqual(list(result), ["rig", "cpu", "compiler", "csr", "rows"])
+        self.assertEqual(list(result), ["rig", "cpu", "compiler", "csr", "rows", "frames"])
         lods = self.json("info", path("tiny.dna"), "--json")["lod_count"]
         self.assertEqual([row["lod"] for row in result["csr"]], list(range(lods)))
         for row in result["csr"]:
@@ -434,6 +434,21 @@ class Bench(ProgramTest):
             self.assertEqual(max(by_activity), by_activity[-1])
         self.assertGreater(max(max(of_all) for of_all in touched.values()), 0)
 
+    def test_frames_of_a_file_with_geometry(self):
+        result = self.json("bench", path("tiny.dna"), "--quick", "--json", "--isa", "all")
+        isas = list(dict.fromkeys(row["isa"] for row in result["rows"]))
+        self.assertEqual([(row["isa"], row["characters"]) for row in result["frames"]],
+                         [(isa, count) for isa in isas for count in (1, 64)])
+        for row in result["frames"]:
+            for stage in ("evaluate_ns", "pose_ns", "deform_ns"):
+                self.assertGreater(row[stage], 0)
+        text = self.ok("bench", path("tiny.dna"), "--quick", "--isa", "scalar").stdout.decode()
+        self.assertIn("Whole frames at LOD 0", text)
+        self.assertRegex(text, r"\nscalar( +[0-9.]+){4} +1\.0( +[0-9.]+){5}\n$")
+        result = self.json("bench", path("tiny.dna"), "--quick", "--json", "--lods", "0",
+                           "--layers", "behavior")
+        self.assertEqual(result["frames"], [])
+
     def test_one_instruction_set_and_one_lod(self):
         result = self.json("bench", path("tiny.dna"), "--quick", "--json", "--isa", "scalar", "--lods", "0")
         self.assertEqual({row["isa"] for row in result["rows"]}, {"scalar"})
@@ -448,7 +463,7 @@ class Bench(ProgramTest):
     def test_text(self):
         text = self.ok("bench", path("tiny.dna"), "--quick", "--lods", "0", "--isa", "scalar").stdout.decode()
         self.assertIn("x CSR", text)
-        self.assertEqual(len([line for line in text.splitlines() if line.startswith("scalar")]), 6)
+        self.assertEqual(len([line for line in text.splitlines() if line.startswith("scalar")]), 7)
         self.fails(USAGE, "bench", path("tiny.dna"), "--layers", "definition")
 
 

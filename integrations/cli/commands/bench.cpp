@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// mien bench: evaluation times per LOD and instruction set, compared with a plain sparse matrix.
+// mien bench: evaluation times per LOD and instruction set, compared with a plain sparse matrix, and
+// times of whole frames.
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <optional>
 
 #include "integrations/cli/commands/baked_rig.h"
+#include "integrations/cli/commands/bench_frame.h"
 #include "integrations/cli/commands/bench_measurement.h"
 #include "integrations/cli/io/dna_fields.h"
 #include "integrations/cli/io/json_writer.h"
@@ -42,7 +45,9 @@ std::string compiler_name() {
 #endif
 }
 
-void write_json(const Measurement& measured, const std::string& name) {
+using FrameRows = std::vector<FrameRow>;
+
+void write_json(const Measurement& measured, const FrameRows& frames, const std::string& name) {
   Output output("-");
   JsonWriter json(output);
   using Layout = JsonWriter::Layout;
@@ -83,6 +88,22 @@ void write_json(const Measurement& measured, const std::string& name) {
     json.end_object();
   }
   json.end_array();
+  json.key("frames");
+  json.begin_array(Layout::kLines);
+  for (const FrameRow& row : frames) {
+    json.begin_object();
+    json.member("isa", mien_isa_name(row.info.isa));
+    json.member("storage", row.info.storage == MIEN_STORAGE_16_BIT ? "f16" : "f32");
+    json.member("characters", row.characters);
+    json.key("evaluate_ns");
+    json.fixed(row.evaluate_ns, 1);
+    json.key("pose_ns");
+    json.fixed(row.pose_ns, 1);
+    json.key("deform_ns");
+    json.fixed(row.deform_ns, 1);
+    json.end_object();
+  }
+  json.end_array();
   json.end_object();
   json.finish();
   output.commit();
@@ -100,12 +121,46 @@ std::string times_text(const BenchRow& row, double csr_ns) {
 }
 
 /// As in the table of README.md.
-std::string row_name(const Engine& engine) {
-  const bool half = engine.info.storage == MIEN_STORAGE_16_BIT;
-  return mien_isa_name(engine.info.isa) + std::string(half ? ", 16 bits" : "");
+std::string row_name(const MienRigInfo& info) {
+  const bool half = info.storage == MIEN_STORAGE_16_BIT;
+  return mien_isa_name(info.isa) + std::string(half ? ", 16 bits" : "");
 }
 
-void write_text(const Measurement& measured, const std::string& name, const Session& session) {
+void write_frames(const FrameRows& frames, Output& output, bool colors) {
+  if (frames.empty()) return;
+  output.write(
+      "\nWhole frames at LOD 0, 25 % active, microseconds per character: evaluation, matrices of "
+      "the "
+      "joints,\nall meshes with skinned normals, and their sum. x scalar: the scalar sum / this "
+      "sum, in "
+      "the same run.\n\n");
+  char line[160];
+  const char* columns = "    evaluate       pose     deform      frame  x scalar";
+  std::snprintf(line, sizeof(line), "%-15s  %53s  %53s\n", "", "1 character              ",
+                "64 characters             ");
+  output.write(paint(line, Style::kBold, colors));
+  std::snprintf(line, sizeof(line), "%-15s", "");
+  output.write(paint(line + std::string(columns) + columns, Style::kBold, colors) + "\n");
+  constexpr size_t kColumns = std::size(kFrameCharacters);
+  const bool has_scalar = frames[0].info.isa == MIEN_ISA_SCALAR;
+  for (size_t i = 0; i < frames.size(); i += kColumns) {
+    std::snprintf(line, sizeof(line), "%-15s", row_name(frames[i].info).c_str());
+    std::string text = line;
+    for (size_t k = 0; k < kColumns; ++k) {
+      const FrameRow& row = frames[i + k];
+      std::snprintf(line, sizeof(line), "  %10.2f %10.2f %10.2f %10.2f", row.evaluate_ns / 1000,
+                    row.pose_ns / 1000, row.deform_ns / 1000, row.frame_ns() / 1000);
+      text += line;
+      const double ratio = frames[k].frame_ns() / std::max(row.frame_ns(), 1.0);
+      std::snprintf(line, sizeof(line), has_scalar ? " %9.1f" : "         -", ratio);
+      text += line;
+    }
+    output.write(text + "\n");
+  }
+}
+
+void write_text(const Measurement& measured, const FrameRows& frames, const std::string& name,
+                const Session& session) {
   Output output("-");
   const bool colors = session.terminal.out_colors;
   const size_t samples = measured.rows.empty() ? 0 : measured.rows[0].joints_samples.size();
@@ -141,8 +196,8 @@ void write_text(const Measurement& measured, const std::string& name, const Sess
       const BenchRow* row = &measured.rows[i];
       if (row->instances == kManyInstances) break;
       if (row->lod != lod) continue;
-      std::snprintf(line, sizeof(line), "%-15s %3u %4.0f %%", row_name(*row->engine).c_str(), lod,
-                    100 * kActivities[row->activity]);
+      std::snprintf(line, sizeof(line), "%-15s %3u %4.0f %%", row_name(row->engine->info).c_str(),
+                    lod, 100 * kActivities[row->activity]);
       output.write(line + times_text(row[0], csr_ns) + times_text(row[1], csr_ns) +
                    times_text(row[2], csr_ns) + "\n");
     }
@@ -152,10 +207,11 @@ void write_text(const Measurement& measured, const std::string& name, const Sess
   output.write(paint(line, Style::kBold, colors));
   for (const BenchRow& row : measured.rows) {
     if (row.instances != kManyInstances) continue;
-    std::snprintf(line, sizeof(line), "%-15s %3u %4.0f %%", row_name(*row.engine).c_str(), row.lod,
-                  100 * kActivities[row.activity]);
+    std::snprintf(line, sizeof(line), "%-15s %3u %4.0f %%", row_name(row.engine->info).c_str(),
+                  row.lod, 100 * kActivities[row.activity]);
     output.write(line + times_text(row, csr_ns_at(row.lod)) + "\n");
   }
+  write_frames(frames, output, colors);
   output.commit();
 }
 
@@ -171,7 +227,8 @@ std::vector<MienRigDesc> choose_rigs(RigOptions& options) {
 }
 
 void run(BenchOptions options, const Session& session) {
-  const MienDnaDesc desc = parse_load_options(options.load, kEvaluationLayers);
+  const MienDnaDesc desc =
+      parse_load_options(options.load, kEvaluationLayers | MIEN_LAYER_GEOMETRY);
   require_behavior(desc);
   const std::vector<MienRigDesc> descs = choose_rigs(options.evaluation);
 
@@ -204,12 +261,18 @@ void run(BenchOptions options, const Session& session) {
     return lods;
   };
   Measurement measured = prepare_measurement(source, descs, choose_lods);
-  measure(measured, options.quick ? kQuickPlan : kFullPlan, session);
+  const BenchPlan& plan = options.quick ? kQuickPlan : kFullPlan;
+  measure(measured, plan, session);
+  FrameRows frames;
+  if (dna && (desc.layers & MIEN_LAYER_GEOMETRY) != 0) {
+    frames =
+        measure_frames(*dna, descs, {plan.min_rounds, plan.max_rounds, plan.seconds / 4}, session);
+  }
   const std::string name = dna ? read_string(*dna, "desc.name") : source.shown;
   if (options.json) {
-    write_json(measured, name);
+    write_json(measured, frames, name);
   } else {
-    write_text(measured, name, session);
+    write_text(measured, frames, name, session);
   }
 }
 
@@ -232,7 +295,8 @@ Command add_bench_command(CLI::App& app, const Session& session) {
       "middle and the coarsest LOD; --lods names others, --json has all. CSR is the joint matrix "
       "of\n"
       "the LOD in compressed sparse rows, one scalar dot product per row, measured in the same "
-      "run.\n\n"
+      "run.\n"
+      "A DNA file with geometry also gives whole frames: evaluation, joint matrices, meshes.\n\n"
       "Examples:\n"
       "  mien bench head.dna --quick\n"
       "  mien bench head.dna --isa all --json > times.json\n"
