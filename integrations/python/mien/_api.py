@@ -565,9 +565,9 @@ class Preset(IntEnum):
     BODY = 4
     #: a stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit as
     #: raw controls with their names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the
-    #: designed head, other seeds vary proportions and colors. Vertex colors are in the metadata:
-    #: key "mien.colors.<mesh name>", value base64 of 3 bytes (sRGB) per vertex position of the
-    #: mesh.
+    #: designed head, other seeds are other people: skull, nose, jaw, age, hair and colors. Vertex
+    #: colors are in the metadata: key "mien.colors.<mesh name>", value base64 of 3 bytes (sRGB)
+    #: per vertex position of the mesh.
     HEAD = 5
 
 

@@ -416,8 +416,9 @@ pub const MIEN_PRESET_LARGE: u32 = 3;
 pub const MIEN_PRESET_BODY: u32 = 4;
 /// A stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit as raw
 /// controls with their names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the designed
-/// head, other seeds vary proportions and colors. Vertex colors are in the metadata: key
-/// "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per vertex position of the mesh.
+/// head, other seeds are other people: skull, nose, jaw, age, hair and colors. Vertex colors are
+/// in the metadata: key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per vertex
+/// position of the mesh.
 pub const MIEN_PRESET_HEAD: u32 = 5;
 
 // enum MienGenerate
