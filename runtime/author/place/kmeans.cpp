@@ -18,9 +18,7 @@ double squared_distance(Vec3 a, Vec3 b) {
 }
 
 /// One run with its memory.
-struct Run {
-  const KMeansProblem& problem;
-  Span<Vec3> means;
+struct RunArrays {
   Span<uint32_t> group;    // per point
   Span<uint32_t> sizes;    // points of each group
   Span<double> distances;  // per point, squared, to its mean
@@ -28,6 +26,11 @@ struct Run {
   Span<double> sum_weights;
   Span<uint32_t> neighbors;  // per mean, the others by distance
   Span<double> gaps;         // beside neighbors
+};
+
+struct Run : RunArrays {
+  const KMeansProblem& problem;
+  Span<Vec3> means;
 
   uint32_t n() const { return static_cast<uint32_t>(problem.points.count); }
   uint32_t k() const { return static_cast<uint32_t>(means.count); }
@@ -212,7 +215,7 @@ void Run::fill_empty_groups() {
   }
 }
 
-bool make_run(const KMeansProblem& problem, Arena& arena, Run& run) {
+bool make_arrays(const KMeansProblem& problem, Arena& arena, RunArrays& run) {
   const size_t n = problem.points.count, k = problem.free_means + problem.plane_means;
   return make(arena, n, run.group) && make(arena, k, run.sizes) && make(arena, n, run.distances) &&
          make(arena, k, run.sums) && make(arena, k, run.sum_weights) &&
@@ -222,22 +225,16 @@ bool make_run(const KMeansProblem& problem, Arena& arena, Run& run) {
 struct Task {
   const KMeansProblem* problem;
   uint64_t seed;
-  const Allocator* allocator;
   Span<KMeansRun> runs;
+  Span<RunArrays> arrays;  // per run
   double cut[2];
-  Span<uint8_t> failed;  // per run
 };
 
 void run_one(void* context, uint32_t index) {
   Task& task = *static_cast<Task*>(context);
   const KMeansProblem& problem = *task.problem;
   KMeansRun& out = task.runs[index];
-  Arena arena(*task.allocator);
-  Run run = {problem, out.means, {}, {}, {}, {}, {}, {}, {}};
-  if (!make_run(problem, arena, run)) {
-    task.failed[index] = 1;
-    return;
-  }
+  Run run = {task.arrays[index], problem, out.means};
   Random random = Random::from_seed(task.seed, 0x6B6D65616E73u + index);
   for (uint32_t plane = 0; plane < 2; ++plane) {
     const uint32_t from = plane ? problem.free_means : 0, to = plane ? run.k() : problem.free_means;
@@ -273,18 +270,19 @@ bool run_kmeans(const KMeansProblem& problem, uint64_t seed, const ParallelFor& 
   Arena scratch(allocator);
   const uint32_t n = static_cast<uint32_t>(problem.points.count);
   Span<double> sorted;
-  Task task = {&problem, seed, &allocator, runs, {}, {}};
-  if (!make(scratch, n, sorted) || !make(scratch, runs.count, task.failed)) return false;
-  for (KMeansRun& run : runs) {
-    if (!make(arena, problem.free_means + problem.plane_means, run.means)) return false;
+  // Before the tasks: the caller's allocator serves the calling thread.
+  Task task = {&problem, seed, runs, {}, {}};
+  if (!make(scratch, n, sorted) || !make(scratch, runs.count, task.arrays)) return false;
+  for (uint32_t i = 0; i < runs.count; ++i) {
+    if (!make(arena, problem.free_means + problem.plane_means, runs[i].means) ||
+        !make_arrays(problem, scratch, task.arrays[i])) {
+      return false;
+    }
   }
   for (uint32_t i = 0; i < n; ++i) sorted[i] = problem.density[i];
   std::sort(sorted.begin(), sorted.end());
   task.cut[0] = task.cut[1] = sorted[n / 2];
   run_tasks(parallel, static_cast<uint32_t>(runs.count), run_one, &task);
-  for (uint8_t failed : task.failed) {
-    if (failed) return false;
-  }
   return true;
 }
 
