@@ -239,6 +239,11 @@ void fill_rotations(const dna::DnaView& view, const RotationPlan& plan, Rig& rig
       table.lane_steps_at_lod[at * kBlockLanes + lane] = static_cast<float>(used[l]);
     }
   }
+  for (const GroupRotations& group : plan.groups) {
+    const Span<RotationOutput> turns = table.turns.slice(group.first_turn, group.turn_count);
+    std::sort(turns.begin(), turns.end(),
+              [](const RotationOutput& a, const RotationOutput& b) { return a.lane < b.lane; });
+  }
   for (const PlannedTurn& turn : plan.turns) {
     const dna::JointGroup& group = view.bhvr.joints.groups[turn.group];
     const uint32_t first = plan.first_columns[turn.group];

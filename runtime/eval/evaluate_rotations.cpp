@@ -18,32 +18,45 @@ void write_rotation(const Rig& rig, Instance& instance, uint32_t joint, const fl
   if (rig.quaternion_outputs) out[3] = lane[3 * kBlockLanes];
 }
 
-/// Computes the turns of all groups that a LOD has, and writes those of some.
-void turn_joints(const Rig& rig, Instance& instance, uint32_t lod,
-                 const Span<RotationOutput>& turns) {
+/// Computes the turns of some blocks.
+void turn_blocks(const Rig& rig, Instance& instance, uint32_t lod, uint32_t first, uint32_t count) {
   const RotationTable& table = rig.rotations;
-  if (turns.empty() || table.blocks_at_lod[lod] == 0) return;
-  const size_t first_block = size_t{lod} * table.block_count();
+  const size_t first_of_lod = size_t{lod} * table.block_count() + first;
   QuaternionJointArgs args;
   args.halves = rig.half_storage;
   args.values = args.halves ? static_cast<const void*>(table.halves.data) : table.values.data;
   args.columns = table.columns.data;
-  args.first_steps = table.first_steps.data;
-  args.step_counts = table.steps_at_lod.data + first_block;
-  args.lane_steps = table.lane_steps_at_lod.data + first_block * kBlockLanes;
+  args.first_steps = table.first_steps.data + first;
+  args.step_counts = table.steps_at_lod.data + first_of_lod;
+  args.lane_steps = table.lane_steps_at_lod.data + first_of_lod * kBlockLanes;
   args.controls = instance.controls.data;
-  args.rotations = instance.rotations.data;
-  args.block_count = table.blocks_at_lod[lod];
+  args.rotations = instance.rotations.data + size_t{first} * 4 * kBlockLanes;
+  args.block_count = count;
   rig.kernels->quaternion_joints(args);
   if (!rig.quaternion_outputs) {
     rig.kernels->angles_from_quaternions(
-        {euler_form(rig.rotation), args.rotations, args.rotations, args.block_count * kBlockLanes});
+        {euler_form(rig.rotation), args.rotations, args.rotations, count * kBlockLanes});
   }
+}
+
+/// Computes and writes the turns of one group, or of all.
+void turn_joints(const Rig& rig, Instance& instance, uint32_t lod,
+                 const Span<RotationOutput>& turns) {
+  const RotationTable& table = rig.rotations;
+  const uint32_t blocks = table.blocks_at_lod[lod];
+  const bool all = turns.count == table.turns.count;
+  if (all && blocks != 0) turn_blocks(rig, instance, lod, 0, blocks);
+  uint32_t turned = blocks;
   for (const RotationOutput& turn : turns) {
     if ((turn.lods >> lod & 1) == 0) continue;
+    const uint32_t block = turn.lane / kBlockLanes;
+    if (block >= blocks) continue;
+    // Those of a group are in order of their lanes.
+    if (!all && block != turned) turn_blocks(rig, instance, lod, block, 1);
+    turned = block;
     write_rotation(
         rig, instance, turn.joint,
-        args.rotations + turn.lane / kBlockLanes * 4 * kBlockLanes + turn.lane % kBlockLanes);
+        instance.rotations.data + size_t{block} * 4 * kBlockLanes + turn.lane % kBlockLanes);
   }
 }
 

@@ -107,7 +107,7 @@ struct GroupRotations {
 struct RotationTable {
   Span<GroupRotations> groups;  // one for each joint group
   Span<AngleJoint> angle_joints;
-  Span<RotationOutput> turns;     // by group; a later one for the same joint counts
+  Span<RotationOutput> turns;     // by group, then lane; a later one for the same joint counts
   Span<uint32_t> blocks_at_lod;   // leading blocks
   Span<uint32_t> first_steps;     // [block] into steps, one more at the end
   Span<uint32_t> steps_at_lod;    // [lod][block]: the most that a lane uses
