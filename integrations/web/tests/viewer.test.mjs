@@ -319,6 +319,30 @@ test("a Live Link Face recording plays, and one that does not fit says so", opti
   page.errors.length = 0;
 });
 
+test("expressions of ARKit drive rigs with other names, by sliders and recordings", options, async () => {
+  const other = join(work, "other.dna");
+  mien(["gen", "--preset", "medium", "-o", other, "--quiet"]);
+  await open(other);
+  const raw = (name) => page.run((of) => window.viewer.model.face.controls[`CTRL_expressions.${of}`], name);
+  await choose("kind", "arkit");
+  await slide("eyeBlinkLeft", 0.75);
+  await frames();
+  assert.equal(await raw("eyeBlinkL"), 0.75);
+  assert.equal(await raw("eyeBlinkR"), 0);
+  await page.run(() => document.getElementById("neutral").click());
+  await frames();
+  assert.equal(await raw("eyeBlinkL"), 0);
+  assert.equal(await page.run(() => window.viewer.model.arkit.values.every((value) => value === 0)), true);
+  const csv = join(work, "blink.csv");
+  writeFileSync(csv, "Timecode,BlendShapeCount,EyeBlinkLeft\n00:00:00:00.000,1,0.5\n00:00:00:01.000,1,0.5\n");
+  await open(csv);
+  assert.match(await text("file"), /1 controls played/);
+  assert.equal(await raw("eyeBlinkL"), 0.5);
+  await open(baked);
+  assert.equal(await page.run(() => window.viewer.model.arkit), null, "its controls have these names");
+  assert.deepEqual(page.errors, []);
+});
+
 test("a GLB opens with its morph targets", options, async () => {
   await open(join(work, "head.glb"));
   assert.match(await text("facts"), /\d+ morph targets/);

@@ -2,6 +2,7 @@
 // What can be opened: a rig, whose controls Mien evaluates, or a GLB, whose morph targets are its controls.
 import { Isa, Kind } from "mien";
 import { FaceObject } from "mien/three";
+import { ArkitControls } from "./arkit.js";
 
 /** A rig of a DNA file or a baked file. */
 export class RigModel {
@@ -9,23 +10,27 @@ export class RigModel {
     const rig = await mien.openRig(bytes, { isa });
     try {
       if (!rig.deformer) throw new Error("this rig has no meshes to show: it was written or baked without geometry");
-      return new RigModel(rig, { skinning, showFilms });
+      return new RigModel(mien, rig, { skinning, showFilms });
     } catch (error) {
       rig.dispose();
       throw error;
     }
   }
 
-  constructor(rig, options) {
+  constructor(mien, rig, options) {
     this.rig = rig;
     this.object = new FaceObject(rig, options);
     this.face = this.object.face;
     this.times = { evaluation: 0, deformation: 0 };
     this.kinds = [["raw", "Raw controls"]];
-    if (rig.count(Kind.GUI_CONTROL)) this.kinds.push(["gui", "GUI controls"]);
+    this.hasGui = rig.count(Kind.GUI_CONTROL) !== 0;
+    if (this.hasGui) this.kinds.push(["gui", "GUI controls"]);
+    this.arkit = ArkitControls.of(mien, rig);
+    if (this.arkit) this.kinds.push(["arkit", "ARKit expressions"]);
   }
 
   names(kind) {
+    if (kind === "arkit") return this.arkit.names;
     return this.rig.names(kind === "gui" ? Kind.GUI_CONTROL : Kind.RAW_CONTROL);
   }
 
@@ -34,13 +39,15 @@ export class RigModel {
   }
 
   values(kind) {
+    if (kind === "arkit") return this.arkit.values;
     return kind === "gui" ? this.face.guiControls : this.face.rawControls;
   }
 
   set(kind, index, value) {
-    this.values(kind)[index] = value;
+    if (kind === "arkit") this.arkit.set(index, value, this.face);
+    else this.values(kind)[index] = value;
     if (kind === "gui") this.face.mapGuiToRaw();
-    else if (this.kinds.length > 1) this.face.mapRawToGui();
+    else if (this.hasGui) this.face.mapRawToGui();
   }
 
   /** Raw controls by name; names that the rig lacks are returned. */
@@ -52,7 +59,8 @@ export class RigModel {
       if (index === undefined) missing.push(name);
       else this.face.rawControls[index] = value;
     }
-    if (this.kinds.length > 1) this.face.mapRawToGui();
+    if (this.hasGui) this.face.mapRawToGui();
+    this.arkit?.reset();
     return missing;
   }
 
@@ -114,6 +122,7 @@ export class RigModel {
   }
 
   dispose() {
+    this.arkit?.dispose();
     this.object.dispose();
     this.rig.dispose();
   }

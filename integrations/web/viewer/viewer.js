@@ -98,7 +98,7 @@ async function openTake({ names, values, rate }) {
 }
 
 function openClip(clip) {
-  const binding = clip.bind(model.rig);
+  const binding = clip.bind(model.rig, { matrix: mien.arkitMatrix() });
   if (binding.info.controls.length === 0) {
     for (const object of [binding, clip]) object.dispose();
     throw new Error("none of its channels is a control of this rig");

@@ -244,7 +244,7 @@ pub fn arkit_matrix() -> Vec<(&'static str, &'static str, f32)> {
     }
     assert_eq!(status, 0, "mien_arkit_matrix() fails with wrong arguments only");
     // SAFETY: names are static.
-    let text = |name: sys::MienStringView| unsafe { utf8(bytes(name)) };
+    let text = |name| std::str::from_utf8(unsafe { bytes(name) }).unwrap_or_default();
     entries.iter().map(|e| (text(e.channel), text(e.control), e.weight)).collect()
 }
 
