@@ -265,7 +265,8 @@ TEST(CheckBakedRig, LearnedBehavior) {
 
 TEST(CheckBakedDeformer, CountsAndIndices) {
   Arena arena(default_allocator());
-  const DnaHandle dna = open_dna(write_view(dna::tiny_rig(arena)));
+  const Bytes bytes = write_view(dna::tiny_rig(arena));
+  const DnaHandle dna = open_dna(bytes);
   const RigHandle rig = create_rig(dna.get());
   const Bytes file = bake(rig.get(), create_deformer(dna.get(), rig.get()).get());
   struct {
