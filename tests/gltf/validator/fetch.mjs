@@ -17,7 +17,8 @@ function* filesOf(archive) {
     const prefix = text(at + 345, 155);
     const name = (prefix ? prefix + "/" : "") + text(at, 100);
     const type = text(at + 156, 1);
-    if (type === "" || type === "0") yield { name, bytes: archive.subarray(at + 512, at + 512 + size) };
+    const runs = (parseInt(text(at + 100, 8), 8) & 0o100) !== 0;
+    if (type === "" || type === "0") yield { name, runs, bytes: archive.subarray(at + 512, at + 512 + size) };
     at += 512 + Math.ceil(size / 512) * 512;
   }
 }
@@ -38,12 +39,12 @@ async function fetchPackage(name, { version, integrity }, folder) {
   if (found !== integrity) throw new Error(`${address}: the checksum is ${found}, not ${integrity}`);
 
   rmSync(folder, { recursive: true, force: true });
-  for (const { name: path, bytes } of filesOf(gunzipSync(packed))) {
+  for (const { name: path, runs, bytes } of filesOf(gunzipSync(packed))) {
     // Everything in a package lies in one folder, usually "package".
     const inside = normalize(path.replace(/^[^/]*\//, ""));
     if (inside.startsWith("..") || inside.startsWith("/")) throw new Error(`${address}: ${path}`);
     mkdirSync(dirname(join(folder, inside)), { recursive: true });
-    writeFileSync(join(folder, inside), bytes);
+    writeFileSync(join(folder, inside), bytes, { mode: runs ? 0o755 : 0o644 });
   }
 }
 
