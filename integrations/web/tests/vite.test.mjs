@@ -42,8 +42,8 @@ test("a project of Vite with the package builds and shows the head", { skip: mis
     mien(["demo-head", "-o", join(work, "public/head.dna"), "--quiet"]);
     writeFileSync(join(work, "package.json"), '{"type": "module"}');
     writeFileSync(join(work, "vite.config.js"), 'export default { build: { target: "es2022" } };\n');
-    writeFileSync(join(work, "index.html"), '<!doctype html><canvas id="canvas" width="256" height="256"></canvas>' +
-      '<script type="module" src="main.js"></script>\n');
+    writeFileSync(join(work, "index.html"), '<!doctype html><link rel="icon" href="data:,">' +
+      '<canvas id="canvas" width="256" height="256"></canvas><script type="module" src="main.js"></script>\n');
     const { embedded } = /```js\n(?<embedded>const mien = await Mien\.load\(\);\n.*?)```/s
       .exec(readFileSync(join(project, "README.md"), "utf8")).groups;
     writeFileSync(join(work, "main.js"), `
