@@ -21,7 +21,7 @@ SOURCES = {
     "C++": ["cpp/*.hpp"],
     "Python": ["python/mien/[a-z]*.py", "python/mien/_[!a]*.py"],
     "Rust": ["rust/mien/src/**/*.rs"],
-    "JavaScript": ["web/mien/[b-z]*.js"],
+    "JavaScript": ["web/mien/*.js"],
 }
 GENERATED = {"Python": "python/mien/_api.py", "Rust": "rust/mien/src/generated.rs",
              "JavaScript": "web/mien/api.js"}
@@ -35,22 +35,18 @@ WITHOUT = {
     "MienClipPlayerDesc.speed_numerator": {"Rust": "ClipPlayer::set_speed()"},
     "MienClipPlayerDesc.speed_denominator": {"Rust": "ClipPlayer::set_speed()"},
     "MienClipPlayerDesc.start_tick": {"Rust": "ClipPlayer::seek()"},
-    "MienAuthorDesc.progress_user": {"Python": "functions keep what they need", "Rust": "closures keep what they need"},
+    "MienAuthorDesc.progress_user": {"Python": "functions keep what they need"},
     "MienVertexFormat": {"Python": "the type of an array says it"},
     "file_access": {"JavaScript": "there is no file system"},
     **{name: {"JavaScript": "there is no file system"} for name in (
         "mien_dna_open_file", "mien_dna_write_file", "mien_dna_validate_file", "mien_bake_file",
         "mien_baked_open_file", "mien_clip_open_file", "mien_clip_write_file",
         "mien_mix_open_file", "mien_mix_write_file")},
-    **{name: {"JavaScript": "mixes are made of their descriptions, which are JSON already"} for name in (
-        "mien_mix_open_memory", "mien_mix_write_memory", "mien_mix_write_text")},
     **{name: {"JavaScript": "a stream reads the caller's bytes, without a copy that has to be kept"}
        for name in ("mien_dna_open_memory", "mien_baked_open_memory", "mien_clip_open_memory")},
     **{name: {"JavaScript": "one by one: threads of a page share no module"} for name in (
         "mien_deformer_instance_deform_batch", "mien_deformer_instance_write_vertices_batch")},
 }
-# Sections of mien.h that a language does without.
-SECTIONS = {language: {"Rigs from meshes"} for language in ("Rust", "JavaScript")}
 # Functions whose own statuses cannot reach a user, who finds no list of them either.
 SILENT = {
     "mien_coordinate_system_name": {"Python", "Rust"},
@@ -147,9 +143,6 @@ def safe_name(language, enum):
 
 def problems_of(api, binding):
     language = binding.language
-    api = {kind: [entry for entry in entries if not isinstance(entry, dict) or
-                  entry.get("section") not in SECTIONS.get(language, ())]
-           if isinstance(entries, list) else entries for kind, entries in api.items()}
     functions = [function["name"] for function in api["functions"]]
 
     def missing(name, what, is_there, plain=None):

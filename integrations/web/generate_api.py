@@ -75,7 +75,7 @@ def field_kind(field):
         to = plain(kind["to"])
         if to["kind"] == "handle":
             return "handle"
-        if to["kind"] == "void":
+        if to["kind"] == "void" or to.get("name") in INTERNAL - set(VIEWS):
             return "u32"
         if to["kind"] == "struct":
             return "*" + (VIEWS[to["name"]][0] if to["name"] in VIEWS else script_name(to["name"]))

@@ -1,3 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Tells the linker which imports the page gives; their bodies are in mien/memory.js.
-mergeInto(LibraryManager.library, {mien_web_read: function() {}, mien_web_solve: function() {}});
+mergeInto(LibraryManager.library, {
+  mien_web_read: function() {}, mien_web_solve: function() {}, mien_web_progress: function() {},
+});

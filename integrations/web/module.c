@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
- * What the WebAssembly module has besides the libraries: streams that JavaScript reads,
- * and solvers that it runs. */
+ * What the WebAssembly module has besides the libraries: streams that JavaScript reads, solvers that it
+ * runs, and progress that it is told. Function pointers are not for JavaScript to write. */
 #include "capi/mien.h"
 
 /* Copies `size` bytes at `offset` of file `user` to `buffer`; see mien/memory.js. */
 size_t mien_web_read(void* user, uint64_t offset, void* buffer, size_t size);
 
-/* Fills a stream: function pointers are not for JavaScript to write. */
+/* Fills a stream. */
 void mien_web_stream(MienStream* out_stream, void* user, uint64_t size);
 
 void mien_web_stream(MienStream* out_stream, void* user, uint64_t size) {
@@ -22,3 +22,11 @@ void mien_web_solve(void* user, const MienSolverCall* call);
 uintptr_t mien_web_solver(void);
 
 uintptr_t mien_web_solver(void) { return (uintptr_t)mien_web_solve; }
+
+/* Tells the function `user` of a progress; see mien/memory.js. */
+int32_t mien_web_progress(void* user, const char* step, double share);
+
+/* For MienAuthorDesc.progress. */
+uintptr_t mien_web_progress_function(void);
+
+uintptr_t mien_web_progress_function(void) { return (uintptr_t)mien_web_progress; }

@@ -1816,7 +1816,7 @@ export interface AuthorDesc {
   /** beside weight_joints; both or neither, and only with `bones` */
   weights?: Float32Array | readonly number[];
   /** may be NULL */
-  parallel?: ParallelFor;
+  parallel?: number;
   /** passed to the next function */
   progressUser?: number;
   /**

@@ -923,7 +923,7 @@ export const layouts = {
     boneCount: [76, "u32"],
     weightJoints: [80, "*u16"],
     weights: [84, "*f32"],
-    parallel: [88, "*ParallelFor"],
+    parallel: [88, "u32"],
     progressUser: [92, "u32"],
     progress: [96, "u32"],
   } },

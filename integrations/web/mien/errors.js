@@ -25,10 +25,13 @@ export class FileError extends MienError {}
 export class DnaError extends MienError {}
 export class BakedError extends MienError {}
 export class ClipError extends MienError {}
+export class MixError extends MienError {}
+export class AuthorError extends MienError {}
 
 // Names that minifiers leave alone.
 const classes = {
-  MienError, ArgumentError, MienMemoryError, UnsupportedError, FileError, DnaError, BakedError, ClipError,
+  MienError, ArgumentError, MienMemoryError, UnsupportedError, FileError, DnaError, BakedError, ClipError, MixError,
+  AuthorError,
 };
 for (const [name, error] of Object.entries(classes)) {
   Object.defineProperty(error.prototype, "name", { value: name, configurable: true, writable: true });
@@ -43,6 +46,8 @@ export function errorOf(status, message, byteOffset) {
   else if (status < 30) family = FileError;
   else if (status < 50) family = DnaError;
   else if (status < 60) family = BakedError;
-  else if (status < 80) family = ClipError;
+  else if (status < 70) family = ClipError;
+  else if (status < 80) family = MixError;
+  else if (status < 100) family = AuthorError;
   return new family(status, message, byteOffset);
 }

@@ -17,6 +17,7 @@ import type {
   RigDesc, RigInfo, RigStatistics, SolverInput, SolverStackDesc, SolverStackInfo, SpringSolver, Stage, Status,
   TwistSolver, WriteDesc, BakedCheck, AimSolver as AimSolverDesc, BlendMode, CopySolver as CopySolverDesc,
   Generator as GeneratorKind, LayerGroup, LayerSource, MixLayer as MixLayerDesc,
+  AuthorBone as AuthorBoneDesc, AuthorDesc,
 } from "./api.js";
 
 export * from "./api.js";
@@ -52,6 +53,10 @@ export class DnaError extends MienError {}
 export class BakedError extends MienError {}
 /** The bytes of a clip are not valid. */
 export class ClipError extends MienError {}
+/** The bytes of a mix are not valid. */
+export class MixError extends MienError {}
+/** No rig can be made of a mesh, or it was canceled. */
+export class AuthorError extends MienError {}
 
 /** What has memory in the module. Using it after dispose() throws. */
 interface Handle {
@@ -123,6 +128,9 @@ export class Mien {
   openClip(source: Source): Promise<Clip>;
   /** Builds a clip of curves. channelCount and frameCount follow from names and values. */
   buildClip(desc: ClipDesc): Clip;
+  /** Opens bytes that Mix.write() gave, for a rig that has the controls which the mix uses, by their names; without
+   * a rig to look into it. `variables`: names for its pose variables, in their order. */
+  openMix(source: Source, rig?: Rig | null, options?: { variables?: readonly string[] }): Promise<Mix>;
   /** For ClipBindingDesc.matrix: binds clips with the names of ARKit to rigs that name raw controls in the other
    * usual way, eyeBlinkL for eyeBlinkLeft. */
   arkitMatrix(): MatrixEntry[];
@@ -133,8 +141,59 @@ export class Mien {
   validate(source: Source): Promise<Report>;
   /** Generates a rig: generate(Preset.HEAD) is a head to look at. */
   generate(preset: Preset, options?: Omit<GenerateDesc, "preset">): Dna;
+  /** Makes a rig for the mesh of a head, with a raw control for each shape: joints, skin weights of each LOD and
+   * their motion. Not in the module that opens baked files only. This takes seconds to minutes, so call it in a
+   * worker, and end the worker to cancel from outside. docs/authoring.md says what it does. */
+  authorRig(mesh: AuthorMesh, options?: AuthorOptions): AuthoredRig;
   /** The rig of an open DNA file, which may be disposed afterwards. */
   createRig(dna: Dna, options?: CreateRigOptions): Rig;
+}
+
+type Numbers = readonly number[] | Float32Array | Float64Array;
+type Integers = readonly number[] | Uint8Array | Uint16Array | Uint32Array | Int32Array;
+
+/** The mesh of a head, in the unit and axes of AuthorOptions. */
+export interface AuthorMesh {
+  /** Three per position. */
+  positions: Numbers;
+  /** Positions of the corners, counterclockwise from outside: triangles one after the other, or an array per face. */
+  faces: Integers | readonly (readonly number[] | Uint32Array)[];
+  /** Corners of each face, if `faces` has them one after the other. Default: all are triangles. */
+  faceSizes?: Integers;
+  /** Two per UV: one UV for each position, or as `cornerUvs` says. */
+  uvs?: Numbers;
+  /** One per corner. */
+  cornerUvs?: Integers;
+  /** Parts with names, in the order of the faces; they become meshes. Default: one. */
+  objects?: readonly { name: string; faceCount: number }[];
+  /** Expressions by name: what is added to all positions at value 1, three numbers each, or to some of them. */
+  shapes?: Readonly<Record<string, Numbers | { positions: Integers; displacements: Numbers }>>;
+}
+
+/** A bone of yours. `parent` is 0 and `kind` BoneKind.FACIAL by default. */
+export interface AuthorBone extends Omit<AuthorBoneDesc, "name" | "position"> {
+  name: string;
+  /** In the mesh, not relative to the parent. */
+  position: readonly number[] | Float32Array | Float64Array;
+}
+
+/** As in AuthorDesc; `seed` is 1 by default. */
+export interface AuthorOptions extends Omit<AuthorDesc,
+  "bones" | "boneCount" | "weightJoints" | "weights" | "parallel" | "progress" | "progressUser"> {
+  /** Bones of yours, instead of those that would be placed. */
+  bones?: readonly AuthorBone[];
+  /** Skin weights of yours, with `bones`: as many joints and weights for each position. */
+  weights?: { joints: Integers; weights: Numbers };
+  /** Is told which step begins, and a share from 0 to 1. If it returns true, authorRig() throws an AuthorError with
+   * Status.AUTHOR_CANCELED; what it throws comes out as it is. */
+  progress?: (step: string, share: number) => boolean | void;
+}
+
+export interface AuthoredRig {
+  /** To be written, made a rig of, and disposed. */
+  readonly dna: Dna;
+  /** What was found and measured: docs/authoring.md, 6. */
+  readonly report: Readonly<Record<string, any>>;
 }
 
 /** An open DNA file. */
@@ -458,6 +517,11 @@ export interface Mix extends Handle {
   guard(index: number): MixGuardInfo;
   /** A character. */
   mixer(desc?: MixerDesc): Mixer;
+  /** The bytes of a file, for Mien.openMix(): what was given and what was measured, so guards need no meshes. Names of
+   * pose variables are not in it. */
+  write(): Uint8Array;
+  /** The same as text, for people and version control. */
+  toText(): string;
 }
 export const Mix: { readonly prototype: Mix };
 

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Mien in JavaScript: facial rigs in browsers, workers and Node.js. index.d.ts is the manual.
 import { Layer, Status } from "./api.js";
+import { authorRig } from "./author.js";
 import { arkitMatrix, Clip } from "./clip.js";
 import { coordinateSystemNames, Dna, validate } from "./dna.js";
 import { errorOf } from "./errors.js";
 import { Memory } from "./memory.js";
-import { glare } from "./mix.js";
+import { glare, Mix } from "./mix.js";
 import { isBaked, Rig } from "./rig.js";
 
 export * from "./api.js";
 export {
-  ArgumentError, BakedError, ClipError, DnaError, FileError, MienError, MienMemoryError, UnsupportedError,
+  ArgumentError, AuthorError, BakedError, ClipError, DnaError, FileError, MienError, MienMemoryError, MixError,
+  UnsupportedError,
 } from "./errors.js";
 export { Clip, ClipBinding, ClipPlayer } from "./clip.js";
 export { Deformer, DeformerInstance } from "./deformer.js";
@@ -130,6 +132,11 @@ export class Mien {
     return Clip.build(this.#memory, desc);
   }
 
+  /** A mix that Mix.write() wrote, for a rig; without one to look into it. */
+  async openMix(source, rig = null, options = {}) {
+    return Mix.open(this.#memory, await bytesOf(source), rig, options);
+  }
+
   /** For rigs that name raw controls in the other usual way than ARKit does. */
   arkitMatrix() {
     return arkitMatrix(this.#memory);
@@ -150,6 +157,14 @@ export class Mien {
       throw errorOf(Status.UNSUPPORTED, "this module opens baked files only: load the other one to generate rigs");
     }
     return Dna.generate(this.#memory, { preset, ...options });
+  }
+
+  /** A rig for the mesh of a head: { dna, report }. */
+  authorRig(mesh, options = {}) {
+    if (!this.exports.mien_author_rig) {
+      throw errorOf(Status.UNSUPPORTED, "this module opens baked files only: load the other one to make rigs");
+    }
+    return authorRig(this.#memory, mesh, options);
   }
 
   /** The rig of an open DNA file, which may be disposed afterwards. */

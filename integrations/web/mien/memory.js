@@ -54,9 +54,9 @@ export class Memory {
   /** Files that streams of the module read. */
   #files = new Map();
   #lastFile = 0;
-  /** Functions of custom solvers, and what they threw in the steps under way. */
-  #solvers = new Map();
-  #lastSolver = 0;
+  /** Functions of the caller that the module calls by number, and what they threw in the calls under way. */
+  #functions = new Map();
+  #lastFunction = 0;
   #thrown = [];
   #bytes = new Uint8Array(0);
   #data;
@@ -69,6 +69,7 @@ export class Memory {
       env: {
         mien_web_read: (file, offset, buffer, size) => memory.#read(file, Number(offset), buffer, size),
         mien_web_solve: (solver, call) => memory.#solve(solver, call),
+        mien_web_progress: (progress, step, share) => memory.#progress(progress, step, share),
         emscripten_notify_memory_growth() {},
       },
       wasi_snapshot_preview1: {
@@ -133,40 +134,54 @@ export class Memory {
     }
   }
 
-  /** Takes a function for custom solvers: solve(call) with a struct SolverCall. Returns its number. */
-  addSolver(solve) {
-    this.#solvers.set(++this.#lastSolver, solve);
-    return this.#lastSolver;
+  /** Takes a function that the module will call. Returns its number, for addresses named `user`. */
+  addFunction(call) {
+    this.#functions.set(++this.#lastFunction, call);
+    return this.#lastFunction;
   }
 
-  removeSolver(solver) {
-    this.#solvers.delete(solver);
+  removeFunction(number) {
+    this.#functions.delete(number);
   }
 
   // What a function throws must not cross the module, whose stack it would leave as it is.
-  #solve(solver, address) {
+  #guarded(call, otherwise) {
     const thrown = this.#thrown.at(-1);
-    if (thrown.length) return;
+    if (thrown.length) return otherwise;
     try {
-      const call = this.read("SolverCall", address);
-      const { size } = layouts.SolverPose;
-      const poses = Array.from({ length: call.poseCount }, (_, i) => this.read("SolverPose", call.poses + i * size));
-      this.#solvers.get(solver)({ ...call, poses });
+      return call();
     } catch (error) {
       thrown.push(error);
+      return otherwise;
     }
   }
 
-  /** As withScratch(); throws what custom solvers threw. */
-  withSolvers(run) {
+  #solve(solver, address) {
+    this.#guarded(() => {
+      const call = this.read("SolverCall", address);
+      const { size } = layouts.SolverPose;
+      const poses = Array.from({ length: call.poseCount }, (_, i) => this.read("SolverPose", call.poses + i * size));
+      this.#functions.get(solver)({ ...call, poses });
+    });
+  }
+
+  #progress(progress, step, share) {
+    return this.#guarded(() => (this.#functions.get(progress)(this.terminatedText(step), share) ? 1 : 0), 1);
+  }
+
+  /** As withScratch(), for calls of functions of the caller; throws what they threw. */
+  withFunctions(run) {
     const thrown = [];
     this.#thrown.push(thrown);
     try {
-      this.withScratch(run);
+      const result = this.withScratch(run);
+      if (thrown.length) throw thrown[0];
+      return result;
+    } catch (error) {
+      throw thrown.length ? thrown[0] : error;
     } finally {
       this.#thrown.pop();
     }
-    if (thrown.length) throw thrown[0];
   }
 
   /** Calls run(scratch) with memory that is released afterwards. */

@@ -39,6 +39,19 @@ export class Mix extends Handle {
       memory.exports.mien_mix_create(rig.handle, scratch.struct("MixDesc", desc), out, error)), variables);
   }
 
+  /** Opens bytes that write() gave. */
+  static open(memory, bytes, rig, { variables = [] } = {}) {
+    const mix = new Mix(memory, makeHandle(memory, (out, error, scratch) =>
+      memory.exports.mien_mix_open_memory(scratch.array("u8", bytes), bytes.length, rig ? rig.handle : 0,
+        scratch.struct("MixOpenDesc"), out, error)), variables);
+    const { variableCount } = mix.info;
+    if (variables.length && variables.length !== variableCount) {
+      mix.dispose();
+      throw errorOf(Status.MISMATCH, `${variables.length} names for ${variableCount} pose variables`);
+    }
+    return mix;
+  }
+
   constructor(memory, handle, variables) {
     super(memory, handle, "mien_mix_destroy");
     this.#variables = new Map(variables.map((name, i) => [name, i]));
@@ -60,6 +73,21 @@ export class Mix extends Handle {
   /** A character. */
   mixer(desc = {}) {
     return new Mixer(this.memory, this, desc);
+  }
+
+  #written(name) {
+    return this.bytes((buffer, capacity, size, error) =>
+      this.memory.exports[name](this.handle, buffer, capacity, size, error));
+  }
+
+  /** The bytes of a file. */
+  write() {
+    return this.#written("mien_mix_write_memory");
+  }
+
+  /** The same as text, for people. */
+  toText() {
+    return new TextDecoder().decode(this.#written("mien_mix_write_text"));
   }
 }
 

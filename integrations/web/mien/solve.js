@@ -23,7 +23,7 @@ function describe(memory, solver, laneCount, functions) {
   if (kind !== "custom") return solver;
   const { solve, stateFloats = 0, ...rest } = given;
   if (typeof solve !== "function") throw new TypeError("a custom solver needs a function solve(poses, ticks)");
-  const user = memory.addSolver((call) => solve(
+  const user = memory.addFunction((call) => solve(
     call.poses.map((pose) => poseOf(memory, pose, call.jointCount, { laneCount, stateFloats, ...rest })), call.ticks));
   functions.push(user);
   return { ...solver, custom: { ...rest, user, solve: memory.exports.mien_web_solver(), stateBytes: 4 * stateFloats } };
@@ -51,14 +51,14 @@ export class SolverStack extends Handle {
         deformer.handle, scratch.struct("SolverStackDesc", { ...desc, laneCount, solvers: given }), out, error));
       return new SolverStack(memory, handle, functions);
     } catch (error) {
-      for (const user of functions) memory.removeSolver(user);
+      for (const user of functions) memory.removeFunction(user);
       throw error;
     }
   }
 
   constructor(memory, handle, functions) {
     super(memory, handle, "mien_solver_stack_destroy", () => {
-      for (const user of functions) memory.removeSolver(user);
+      for (const user of functions) memory.removeFunction(user);
     });
   }
 
@@ -82,7 +82,7 @@ export class SolverState extends Handle {
 
   step(pose, ticks, input = {}) {
     const { memory } = this;
-    memory.withSolvers((scratch) =>
+    memory.withFunctions((scratch) =>
       this.call("mien_solver_state_step", pose.handle, scratch.struct("SolverInput", input), BigInt(ticks)));
   }
 
@@ -92,7 +92,7 @@ export class SolverState extends Handle {
       throw errorOf(Status.MISMATCH, `${states.length} states need as many poses and inputs`);
     }
     const { memory } = states[0];
-    memory.withSolvers((scratch) => {
+    memory.withFunctions((scratch) => {
       memory.check(memory.exports.mien_solver_state_step_batch(handlesOf(scratch, states), handlesOf(scratch, poses),
         inputs ? scratch.structs("SolverInput", inputs) : 0, states.length, BigInt(ticks)), 0,
       "mien_solver_state_step_batch");

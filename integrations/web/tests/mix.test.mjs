@@ -9,7 +9,7 @@ import { test } from "node:test";
 import { api, Mien, packageFolder, program, project, sameBits } from "./support.mjs";
 
 const {
-  ArgumentError, BlendMode, Generator, Guard, Kind, LayerGroup, MixLayer, Mixer, Preset, SolverState, Status, ticks,
+  ArgumentError, BlendMode, Generator, Guard, Kind, LayerGroup, MixError, MixLayer, Mixer, Preset, SolverState, Status, ticks,
   Transition,
 } = api;
 const mien = await Mien.load();
@@ -453,4 +453,51 @@ test("wrong solvers and wrong steps throw", () => {
   assert.throws(() => state.undeclared, fails(Status.INVALID_ARGUMENT));
   assert.throws(() => state.outputs(1), fails(Status.INDEX));
   for (const object of [state, stack]) object.dispose();
+});
+
+test("a mix that was written opens again, with what was measured, and steps to the same bits", async () => {
+  const [clip, mix] = [speech(), scene({ guards: Guard.LIPS })];
+  const bytes = mix.write();
+  const again = await mien.openMix(new Blob([bytes]), rig, { variables: ["wonder"] });
+  assert.deepEqual(again.write(), bytes);
+  assert.deepEqual(again.info, mix.info);
+  assert.equal(again.guard(0).rest, mix.guard(0).rest);
+  const rows = [mix, again].map((one) => {
+    const [face, mixer] = [rig.instance(), one.mixer({ seed: 3 })];
+    mixer.play(0, clip, clip.bind(rig), CUT);
+    mixer.setPoseWeight(1, 0, 1);
+    mixer.setVariable("wonder", 0.25);
+    for (let i = 0; i < 30; ++i) mixer.step(FRAME, face);
+    return mixer.row.slice();
+  });
+  assert.ok(sameBits(...rows) && rows[0].some((value) => value > 0.1));
+  const alone = await mien.openMix(bytes); // without a rig: for looking into it
+  assert.deepEqual(alone.write(), bytes);
+  const text = mix.toText();
+  assert.match(text, /^\S.*\n/);
+  assert.match(text, /mouthSmileLeft/);
+  assert.ok(text.endsWith("\n"));
+  for (const object of [mix, again, alone, clip]) object.dispose();
+});
+
+test("mixes for other rigs, and bytes that are none, are refused", async () => {
+  const mix = scene();
+  const bytes = mix.write();
+  const fails = (type, status) => (error) => error instanceof type && error.status === status;
+  const other = mien.createRig(mien.generate(Preset.TINY));
+  await assert.rejects(mien.openMix(bytes, other), (error) =>
+    fails(ArgumentError, Status.NAME)(error) && /mouthSmileLeft|browInnerUp|eye/.test(error.message));
+  await assert.rejects(mien.openMix(bytes, rig, { variables: ["a", "b"] }), fails(ArgumentError, Status.MISMATCH));
+  await assert.rejects(mien.openMix(new Uint8Array(100), rig), fails(MixError, Status.MIX_SIGNATURE));
+  await assert.rejects(mien.openMix(new Uint8Array(0), rig), MixError);
+  await assert.rejects(mien.openMix(bytes.subarray(0, -1), rig), fails(MixError, Status.MIX_TRUNCATED));
+  const flipped = bytes.slice();
+  flipped[bytes.length >> 1] ^= 1;
+  await assert.rejects(mien.openMix(flipped, rig), fails(MixError, Status.MIX_CHECKSUM));
+  rig.instance().dispose();
+  const gone = mien.createRig(mien.generate(Preset.TINY));
+  gone.dispose();
+  await assert.rejects(mien.openMix(bytes, gone), fails(ArgumentError, Status.HANDLE));
+  mix.dispose();
+  assert.throws(() => mix.write(), fails(ArgumentError, Status.HANDLE));
 });

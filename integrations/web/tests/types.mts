@@ -2,10 +2,10 @@
 // What users write, compiled with every check of TypeScript and never run. Lines below @ts-expect-error must not
 // compile.
 import {
-  BlendMode, DnaError, Generator, Guard, Isa, Kind, LayerGroup, Mien, MienError, Mixer, MixLayer, Normals, Preset,
-  Stage, TICKS_PER_SECOND, ticks,
+  AuthorFlags, BlendMode, BoneKind, DnaError, Generator, Guard, Isa, Kind, LayerGroup, MeshAxis, Mien, MienError, Mixer, MixLayer,
+  Normals, Preset, Stage, Symmetry, TICKS_PER_SECOND, ticks,
 } from "mien";
-import type { Clip, Mesh, MixerEvent, Reaction, Rig, RigInfo } from "mien";
+import type { Clip, Mesh, Mix, MixerEvent, Reaction, Rig, RigInfo } from "mien";
 import { FaceObject, GltfFace } from "mien/three";
 import { MeshBasicMaterial, PerspectiveCamera, Scene } from "three";
 
@@ -83,6 +83,24 @@ export function mixing(mien: Mien, rig: Rig, clip: Clip): number {
   // @ts-expect-error: modes are those of BlendMode
   MixLayer.clip({ mode: 77 });
   return events.length + mixer.guard(0).distance;
+}
+
+export async function files(mien: Mien, rig: Rig, mix: Mix): Promise<string> {
+  using again: Mix = await mien.openMix(mix.write(), rig, { variables: ["x"] });
+  const triangle = new Float32Array(9);
+  const { dna, report } = mien.authorRig({
+    positions: triangle, faces: new Uint16Array([0, 1, 2]), uvs: [0, 0, 0, 1, 1, 0],
+    shapes: { smile: triangle, puff: { positions: [1], displacements: [0, 0, 1] } },
+  }, {
+    facialJoints: 100, symmetry: Symmetry.OFF, flags: AuthorFlags.PAPER | AuthorFlags.NO_TARGETS, up: MeshAxis.Z,
+    bones: [{ name: "root", position: [0, 0, 0], kind: BoneKind.ROOT }],
+    progress: (step, share) => { console.log(step, share); },
+  });
+  // @ts-expect-error: a misspelled option
+  mien.authorRig({ positions: triangle, faces: [0, 1, 2] }, { joints: 100 });
+  // @ts-expect-error: a mesh has faces
+  mien.authorRig({ positions: triangle });
+  return again.toText() + String(report["mesh"]) + dna.info.lodCount;
 }
 
 export function show(rig: Rig, scene: Scene, camera: PerspectiveCamera): void {

@@ -3,7 +3,9 @@
 use crate::convert::{bytes, empty_string, index, path_string, slice, utf8};
 use crate::error::{check, checked};
 use crate::stream::with_stream;
-use crate::{Allocator, ClipInfo, ClipPlayer, Deformer, Error, Interpolation, Looping, Result, Rig, Status};
+use crate::{
+    Allocator, ClipInfo, ClipPlayer, Deformer, Error, Interpolation, Looping, Result, Rig, Status,
+};
 use mien_sys as sys;
 use std::borrow::Cow;
 use std::io::{Read, Seek};

@@ -68,7 +68,7 @@ impl<'bytes> Dna<'bytes> {
         OpenOptions::new().open_bytes(bytes)
     }
 
-    fn created(
+    pub(crate) fn created(
         allocator: Option<&Allocator>,
         call: impl FnOnce(*const sys::MienAllocator, *mut *mut sys::MienDna, *mut sys::MienError) -> i32,
     ) -> Result<Self> {

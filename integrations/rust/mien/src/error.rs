@@ -80,7 +80,7 @@ impl From<Error> for std::io::Error {
         let kind = match error.status().0 {
             1..=9 => ErrorKind::InvalidInput,
             10..=19 => ErrorKind::OutOfMemory,
-            30..=69 => ErrorKind::InvalidData,
+            30..=81 => ErrorKind::InvalidData,
             _ => ErrorKind::Other,
         };
         std::io::Error::new(kind, error)

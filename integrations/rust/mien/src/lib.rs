@@ -49,6 +49,7 @@
 mod generated;
 
 mod allocator;
+mod author;
 mod baked;
 mod batch;
 mod clip;
@@ -70,9 +71,12 @@ mod threads;
 mod vertex_output;
 
 pub use allocator::Allocator;
+pub use author::{AuthorBone, AuthorMesh, AuthorOptions, AuthorShape, AuthoredRig};
 pub use baked::{Baked, BakedOptions};
 pub use batch::Batch;
-pub use clip::{arkit_matrix, Clip, ClipBinding, ClipChannel, ClipEvent, ClipOptions, TICKS_PER_SECOND};
+pub use clip::{
+    arkit_matrix, Clip, ClipBinding, ClipChannel, ClipEvent, ClipOptions, TICKS_PER_SECOND,
+};
 pub use clip_player::ClipPlayer;
 pub use deformer::{Deformer, DeformerOptions, Mesh};
 pub use deformer_instance::{DeformerInstance, DeformerInstanceOptions};
