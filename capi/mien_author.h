@@ -152,10 +152,12 @@ enum MienAuthorFlags {
     MIEN_AUTHOR_NO_NECK_CUT = 2,      /* the face mask may have parts of the neck */
     MIEN_AUTHOR_MASK_FROM_SHAPES = 4, /* the face mask is what shapes move: for what is not human */
     MIEN_AUTHOR_AREA_DENSITY = 8,     /* positions count by the area around them: for scans */
-    MIEN_AUTHOR_NO_TARGETS = 16       /* what joints cannot do is left out, not written as targets */
+    MIEN_AUTHOR_NO_TARGETS = 16,      /* what joints cannot do is left out, not written as targets */
+    MIEN_AUTHOR_GROUP_IN_SPACE = 32   /* groups by distance in space, not in depth: to compare with */
 };
 
-/* How a mesh is rigged. */
+/* How a mesh is rigged. Bones, weights, depth_groups, mask, lod_joints, bone_groups and bone_motions
+ * are results of the caller, each in place of one stage. */
 typedef struct MienAuthorDesc {
     size_t struct_size;
     uint32_t facial_joints;            /* 1 to 7000. 0: 240 */
@@ -181,6 +183,20 @@ typedef struct MienAuthorDesc {
      * never falls. Returns 0 to go on; anything else cancels. May be NULL. */
     int32_t(MIEN_CALLBACK* progress)(void* user, const char* step, double share);
     const MienAllocator* allocator;
+    const uint8_t* depth_groups;       /* one per position of the mesh: its group in depth, below `groups`,
+                                          0 in front. NULL: found */
+    const uint8_t* mask;               /* one per position of the mesh: not 0 where facial bones are
+                                          placed. NULL: found */
+    const uint32_t* lod_joints;        /* facial joints of each of `lods` LODs at most, as mirrored pairs
+                                          stay together; never rising, and the first has all. NULL: 240,
+                                          160, 110, 75, 50, 32, 20, 12, scaled to facial_joints */
+    const uint32_t* bone_groups;       /* joint group of each of `bones`, 0 to 255. NULL: found */
+    const double* bone_motions;        /* for each shape, for each of `bones` the motion at full value:
+                                          translation, then degrees about X, Y, Z, applied in this order,
+                                          in the unit and axes of the mesh. NULL: fitted to the shapes */
+    uint32_t joint_groups;             /* 1 to 24. 0: as many as have 75 rows each */
+    uint32_t overlap_correctives;      /* correctives for pairs of shapes that double their motion, at
+                                          most as many. 0: none */
 } MienAuthorDesc;
 MIEN_DEFAULT(MienAuthorDesc, mien_author_desc_default)
 
@@ -189,7 +205,8 @@ MIEN_DEFAULT(MienAuthorDesc, mien_author_desc_default)
  * axes of the mesh, in centimeters; positions keep their order, without those in no face. The same
  * mesh, options and seed give the same bytes on any number of threads. `mesh` is required;
  * `out_report` may be NULL. Close with mien_dna_close() and mien_author_report_close().
- * Fails with MIEN_ERROR_AUTHOR_MESH if the arrays of the mesh, bones or weights contradict each other,
+ * Fails with MIEN_ERROR_AUTHOR_MESH if the arrays of the mesh or of the caller's results contradict
+ * each other,
  * MIEN_ERROR_AUTHOR_REFUSED if the mesh cannot be rigged, MIEN_ERROR_AUTHOR_CANCELED if `progress`
  * said so, MIEN_ERROR_DNA_LIMIT if the file would be too large.
  * See docs/authoring.md, 1 "What goes in and what comes out". */

@@ -101,6 +101,10 @@ MienStatus check_mesh(const MienAuthorMesh& mesh, MienError* error) {
   return MIEN_OK;
 }
 
+size_t lod_count(const MienAuthorDesc& desc) {
+  return desc.lods ? desc.lods : author::PlaceOptions().lods;
+}
+
 MienStatus check_options(const MienAuthorDesc& desc, MienError* error) {
   MienStatus status =
       check_fields({{"MienAuthorDesc.facial_joints", desc.facial_joints, kMaxFacialJoints},
@@ -110,7 +114,8 @@ MienStatus check_options(const MienAuthorDesc& desc, MienError* error) {
                     {"MienAuthorDesc.up", desc.up, MIEN_MESH_AXIS_MINUS_Z},
                     {"MienAuthorDesc.front", desc.front, MIEN_MESH_AXIS_MINUS_Z},
                     {"MienAuthorDesc.symmetry", desc.symmetry, MIEN_SYMMETRY_OFF},
-                    {"MienAuthorDesc.flags", desc.flags, 31}},
+                    {"MienAuthorDesc.flags", desc.flags, 63},
+                    {"MienAuthorDesc.joint_groups", desc.joint_groups, author::kMaxRegions}},
                    error);
   if (status != MIEN_OK) return status;
   if (desc.groups == 1) {
@@ -143,6 +148,22 @@ MienStatus check_options(const MienAuthorDesc& desc, MienError* error) {
       (!desc.weights || !desc.weight_joints || desc.bone_count == 0)) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
                       "MienAuthorDesc.weights and .weight_joints go together, and with bones");
+  }
+  if ((desc.bone_groups || desc.bone_motions) && desc.bone_count == 0) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienAuthorDesc.bone_groups and .bone_motions go with bones");
+  }
+  const size_t lods = lod_count(desc);
+  for (size_t lod = 0; desc.lod_joints && lod < lods; ++lod) {
+    if (desc.lod_joints[lod] > 0 &&
+        (lod == 0 || desc.lod_joints[lod] <= desc.lod_joints[lod - 1])) {
+      continue;
+    }
+    return give_error(
+        error, MIEN_ERROR_INVALID_ARGUMENT,
+        "MienAuthorDesc.lod_joints is %u for LOD %zu: each LOD has joints, and no more "
+        "than the one before it",
+        desc.lod_joints[lod], lod);
   }
   if (desc.parallel && !desc.parallel->run) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "MienParallelFor.run is NULL");
@@ -224,6 +245,7 @@ bool read_input(const MienAuthorMesh& mesh, const MienAuthorDesc& desc, Arena& a
   place.neck_cut = (desc.flags & MIEN_AUTHOR_NO_NECK_CUT) == 0;
   place.mask_from_shapes = (desc.flags & MIEN_AUTHOR_MASK_FROM_SHAPES) != 0;
   place.area_density = (desc.flags & MIEN_AUTHOR_AREA_DENSITY) != 0;
+  place.group_in_space = (desc.flags & MIEN_AUTHOR_GROUP_IN_SPACE) != 0;
   options.residual_targets = (desc.flags & MIEN_AUTHOR_NO_TARGETS) == 0;
   if (desc.name.count) options.name = name_of(desc.name);
   options.bones = bones;
@@ -231,6 +253,15 @@ bool read_input(const MienAuthorMesh& mesh, const MienAuthorDesc& desc, Arena& a
     const size_t count = mesh.position_count * options.influences;
     options.weights = {{desc.weight_joints, count}, {desc.weights, count}};
   }
+  if (desc.depth_groups) options.depth_groups = {desc.depth_groups, mesh.position_count};
+  if (desc.mask) options.mask = {desc.mask, mesh.position_count};
+  if (desc.lod_joints) place.lod_joints = {desc.lod_joints, place.lods};
+  if (desc.bone_groups) options.bone_groups = {desc.bone_groups, desc.bone_count};
+  if (desc.bone_motions) {
+    options.bone_motions = {desc.bone_motions, 6 * desc.bone_count * mesh.shape_count};
+  }
+  options.joint_groups = desc.joint_groups;
+  options.overlap_correctives = desc.overlap_correctives;
   return true;
 }
 

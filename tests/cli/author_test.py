@@ -280,7 +280,8 @@ class AuthorTest(ProgramTest):
     def test_wrong_usage_is_told_before_anything_is_read(self):
         for option in (("--joints", "0"), ("--joints", "x"), ("--influences", "13"), ("--lods", "9"),
                        ("--lods", "0"), ("--unit", "inch"), ("--up", "w"), ("--front", "y"),
-                       ("--symmetry", "maybe"), ("--residual", "some"), ("--groups", "1")):
+                       ("--symmetry", "maybe"), ("--residual", "some"), ("--groups", "1"),
+                       ("--metric", "width"), ("--overlap-correctives", "10001")):
             self.fails(USAGE, "author", path("missing.obj"), *option, "-o", path("no.dna"))
         self.fails(FILE, "author", path("missing.obj"), "-o", path("no.dna"))
         self.fails(FILE, "author", path("head.obj"), "--shapes", path("missing"), "-o", path("no.dna"))

@@ -31,7 +31,8 @@ constexpr int kInterrupted = 130;  // as shells say of a program that Ctrl-C end
 struct AuthorCommand {
   std::string mesh, shapes, unit, object;
   std::string joints = "240", influences = "8", lods = "8", seed = "1", groups = "3", threads = "0";
-  std::string symmetry = "auto", residual = "targets", up = "y", front = "z";
+  std::string symmetry = "auto", residual = "targets", metric = "depth", up = "y", front = "z";
+  std::string overlaps = "0";
   std::string report, images, crop;
   bool paper = false, no_neck_cut = false, mask_from_shapes = false, area_density = false;
   OutputFile output;
@@ -69,6 +70,8 @@ MienAuthorDesc parse_options(const AuthorCommand& command) {
   if (command.mask_from_shapes) desc.flags |= MIEN_AUTHOR_MASK_FROM_SHAPES;
   if (command.area_density) desc.flags |= MIEN_AUTHOR_AREA_DENSITY;
   if (parse_word("--residual", command.residual) == 1) desc.flags |= MIEN_AUTHOR_NO_TARGETS;
+  if (parse_word("--metric", command.metric) == 1) desc.flags |= MIEN_AUTHOR_GROUP_IN_SPACE;
+  desc.overlap_correctives = parse_count("--overlap-correctives", command.overlaps, 0, 10000);
   desc.face_object = {command.object.data(), command.object.size()};
   return desc;
 }
@@ -384,6 +387,11 @@ Command add_author_command(CLI::App& app, const Session& session) {
       ->add_option("--residual", options->residual,
                    "What joints cannot do: targets (default), or off to leave it out")
       ->type_name("NAME");
+  author
+      ->add_option("--overlap-correctives", options->overlaps,
+                   "Correctives for pairs of shapes that double their motion,\nat most as many "
+                   "(default: 0)")
+      ->type_name("N");
   author->add_flag("--paper", options->paper,
                    "The published method alone: no symmetry, no weights by motion");
   author->add_option("--unit", options->unit, "Of MESH: cm (default of OBJ), m (of GLB), mm or dm")
@@ -398,6 +406,10 @@ Command add_author_command(CLI::App& app, const Session& session) {
       ->add_option("--groups", options->groups,
                    "Groups in depth, the front one is the face (default: 3)")
       ->type_name("N");
+  author
+      ->add_option("--metric", options->metric,
+                   "What groups are near in: depth (default), or euclid3 to\ncompare with")
+      ->type_name("NAME");
   author->add_flag("--no-neck-cut", options->no_neck_cut, "Leave the neck in the face mask");
   author->add_flag("--mask-from-shapes", options->mask_from_shapes,
                    "The face mask is what shapes move: for what is not human");

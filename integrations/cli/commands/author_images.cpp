@@ -211,7 +211,8 @@ std::vector<AuthorImage> draw_author_images(const MadeRig& made, const Session& 
   const std::vector<Bone> bones = read_bones(source, report);
   std::vector<AuthorImage> images;
   Progress progress(session, "image", 6);
-  if (!report["groups"].is_null()) {
+  // Groups in space have no borders in depth to draw them by.
+  if (!report["groups"].is_null() && !report["groups"]["borders"].empty()) {
     images.push_back({"groups.png", draw_groups(source, report["groups"])});
   }
   progress.at(1);

@@ -45,6 +45,7 @@ const OptionWords kOptionWords[] = {
     {"--loop", {"clamp", "wrap"}},
     {"--symmetry", {"auto", "on", "off"}},
     {"--residual", {"targets", "off"}},
+    {"--metric", {"depth", "euclid3"}},
     {"--unit", {"cm", "m", "mm", "dm"}},
     {"--up", {"x", "y", "z", "-x", "-y", "-z"}},
     {"--front", {"x", "y", "z", "-x", "-y", "-z"}},

@@ -628,6 +628,8 @@ class AuthorFlags(IntFlag):
     AREA_DENSITY = 8
     #: what joints cannot do is left out, not written as targets
     NO_TARGETS = 16
+    #: groups by distance in space, not in depth: to compare with
+    GROUP_IN_SPACE = 32
 
 
 class MienDna(c_void_p):
@@ -2600,6 +2602,13 @@ class MienAuthorDesc(Structure):
         ("progress_user", c_void_p),
         ("progress", CFUNCTYPE(c_int32, c_void_p, c_void_p, c_double)),
         ("allocator", POINTER(MienAllocator)),
+        ("depth_groups", c_void_p),
+        ("mask", c_void_p),
+        ("lod_joints", c_void_p),
+        ("bone_groups", c_void_p),
+        ("bone_motions", c_void_p),
+        ("joint_groups", c_uint32),
+        ("overlap_correctives", c_uint32),
     ]
     struct_size: Any
     facial_joints: Any
@@ -2622,6 +2631,13 @@ class MienAuthorDesc(Structure):
     progress_user: Any
     progress: Any
     allocator: Any
+    depth_groups: Any
+    mask: Any
+    lod_joints: Any
+    bone_groups: Any
+    bone_motions: Any
+    joint_groups: Any
+    overlap_correctives: Any
 
     def __init__(self, *,
                  facial_joints: int = 0,
@@ -2643,8 +2659,15 @@ class MienAuthorDesc(Structure):
                  parallel: Any = None,
                  progress_user: Any = None,
                  progress: Any = None,
-                 allocator: Any = None) -> None:
-        super().__init__(152)
+                 allocator: Any = None,
+                 depth_groups: Any = None,
+                 mask: Any = None,
+                 lod_joints: Any = None,
+                 bone_groups: Any = None,
+                 bone_motions: Any = None,
+                 joint_groups: int = 0,
+                 overlap_correctives: int = 0) -> None:
+        super().__init__(200)
         self.facial_joints = facial_joints
         self.influences = influences
         self.lods = lods
@@ -2665,6 +2688,13 @@ class MienAuthorDesc(Structure):
         self.progress_user = progress_user
         self.progress = progress
         self.allocator = allocator
+        self.depth_groups = depth_groups
+        self.mask = mask
+        self.lod_joints = lod_joints
+        self.bone_groups = bone_groups
+        self.bone_motions = bone_motions
+        self.joint_groups = joint_groups
+        self.overlap_correctives = overlap_correctives
 
 
 class CoordinateSystem(NamedTuple):
@@ -4167,7 +4197,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.DNA_LIMIT,
          "the file would be too large"),
         (Status.AUTHOR_MESH,
-         "the arrays of the mesh, bones or weights contradict each other"),
+         "the arrays of the mesh or of the caller's results contradict each other"),
         (Status.AUTHOR_REFUSED,
          "the mesh cannot be rigged"),
         (Status.AUTHOR_CANCELED,

@@ -140,6 +140,40 @@ class _Given:
         desc.weights = shares.ctypes.data
 
 
+    def results(self, count: int, names: Sequence[str], desc: Any, *, depth_groups: Any, mask: Any,
+                lod_joints: Any, bone_groups: Any, bone_motions: Any) -> None:
+        """Results of the caller in place of stages."""
+        if depth_groups is not None:
+            groups = self.numbers(depth_groups, "depth_groups", "uint8", (count,))
+            desc.depth_groups = groups.ctypes.data
+        if mask is not None:
+            marks = numpy.asarray(mask)
+            if marks.dtype == bool:
+                marks = marks.astype("uint8")
+            desc.mask = self.numbers(marks, "mask", "uint8", (count,)).ctypes.data
+        if lod_joints is not None:
+            joints = self.numbers(lod_joints, "lod_joints", "uint32", (None,))
+            if desc.lods not in (0, len(joints)) or not len(joints):
+                raise ArgumentError(f"lod_joints has {len(joints)} LODs, not {desc.lods or 8}")
+            desc.lods = len(joints)
+            desc.lod_joints = joints.ctypes.data
+        bones = desc.bone_count
+        if bone_groups is not None:
+            groups = self.numbers(bone_groups, "bone_groups", "uint32", (bones,))
+            desc.bone_groups = groups.ctypes.data
+        if bone_motions is not None:
+            unknown = sorted(set(bone_motions) - set(names))
+            if unknown:
+                raise ArgumentError(f"bone_motions has {unknown[0]!r}, which is no shape")
+            motions = numpy.zeros((len(names), bones, 6))
+            for i, name in enumerate(names):
+                if name in bone_motions:
+                    motions[i] = self.numbers(bone_motions[name], f"bone_motions[{name!r}]",
+                                              "float64", (bones, 6))
+            self.kept.append(motions)
+            desc.bone_motions = motions.ctypes.data
+
+
 @raises("mien_author_rig")
 def author_rig(positions: Any, faces: Any, shapes: Optional[Mapping[str, Any]] = None, *,
                objects: Optional[Sequence[Tuple[str, int]]] = None, uvs: Any = None,
@@ -148,7 +182,11 @@ def author_rig(positions: Any, faces: Any, shapes: Optional[Mapping[str, Any]] =
                front: int = MeshAxis.DEFAULT, symmetry: int = Symmetry.AUTO, flags: int = 0,
                name: str = "", face_object: str = "",
                bones: Optional[Sequence[AuthorBone]] = None,
-               weights: Optional[Tuple[Any, Any]] = None,
+               weights: Optional[Tuple[Any, Any]] = None, depth_groups: Any = None,
+               mask: Any = None, lod_joints: Optional[Sequence[int]] = None,
+               bone_groups: Optional[Sequence[int]] = None,
+               bone_motions: Optional[Mapping[str, Any]] = None, joint_groups: int = 0,
+               overlap_correctives: int = 0,
                progress: Optional[Callable[[str, float], Any]] = None,
                executor: Optional[Executor] = None) -> AuthoredRig:
     """Makes a rig from the mesh of a head: joints, skin weights of every LOD, and for each shape a raw
@@ -166,6 +204,14 @@ def author_rig(positions: Any, faces: Any, shapes: Optional[Mapping[str, Any]] =
     flags:         `AuthorFlags`, combined with |
     bones:         of the caller; None: they are placed
     weights:       of the caller, with bones: a pair of (n, k) numbers of bones and (n, k) weights
+    depth_groups:  of the caller: (n,) group in depth of each position, 0 in front
+    mask:          of the caller: (n,) whether facial bones are placed there
+    lod_joints:    facial joints of each LOD at most, as pairs stay together; the first one has all
+    bone_groups:   of the caller, with bones: the joint group of each, 0 to 255
+    bone_motions:  of the caller, with bones: for names of shapes (b, 6) what each bone does at full
+                   value: translation, then degrees about X, Y and Z. Of other shapes: nothing
+    joint_groups:  how many are found, 1 to 24; 0: as many as have 75 rows each
+    overlap_correctives: for pairs of shapes that double their motion, at most as many
     progress:      called with the name of a step and a share from 0 to 1; what it returns, if true,
                    cancels. What it raises comes out of the call
     executor:      threads to work on; the result does not depend on them
@@ -193,6 +239,8 @@ def author_rig(positions: Any, faces: Any, shapes: Optional[Mapping[str, Any]] =
         facial_joints=uint32(facial_joints, "facial_joints"),
         influences=uint32(influences, "influences"),
         lods=uint32(lods, "lods"), groups=uint32(groups, "groups"), seed=index(seed),
+        joint_groups=uint32(joint_groups, "joint_groups"),
+        overlap_correctives=uint32(overlap_correctives, "overlap_correctives"),
         up=uint32(up, "up"), front=uint32(front, "front"), symmetry=uint32(symmetry, "symmetry"),
         flags=uint32(flags, "flags"), name=given.text(name), face_object=given.text(face_object),
         progress=_progress_type())
@@ -201,6 +249,8 @@ def author_rig(positions: Any, faces: Any, shapes: Optional[Mapping[str, Any]] =
         given.bones(bones, desc)
     if weights is not None:
         given.weights(weights, len(places), desc)
+    given.results(len(places), list(shapes or {}), desc, depth_groups=depth_groups, mask=mask,
+                  lod_joints=lod_joints, bone_groups=bone_groups, bone_motions=bone_motions)
     made = _make(mesh, desc, progress, executor)
     del given  # not before
     return made

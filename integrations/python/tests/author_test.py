@@ -110,6 +110,55 @@ class Author(unittest.TestCase):
         self.refused("with bones", weights=(joints, weights))
         self.refused("bone 'left'", bones=bones[:2] + [bones[2]._replace(position=(1, 2))])
 
+    def test_each_stage_takes_the_result_of_the_caller(self):
+        count, front = len(self.positions), self.positions[:, 2]
+        mask = (front > 5) & (self.positions[:, 1] > -6)
+        _, report = self.make(mask=mask)
+        self.assertEqual(report["mask"], numpy.flatnonzero(mask).tolist())
+        groups = numpy.where(front > 6, 0, numpy.where(front > -3, 1, 2))
+        _, report = self.make(depth_groups=groups)
+        self.assertEqual(sum(report["groups"]["counts"]), report["mesh"]["vertices"])
+        self.assertEqual(report["groups"]["counts"], numpy.bincount(groups).tolist())
+        self.assertEqual(report["groups"]["borders"], [])
+        _, report = self.make(lods=0, lod_joints=[12, 7, 4], symmetry=mien.Symmetry.OFF)
+        self.assertEqual([lod["facial_joints"] for lod in report["lods"]], [12, 7, 4])
+
+        bones = [mien.AuthorBone("root", (0, 0, 0), 0, mien.BoneKind.ROOT),
+                 mien.AuthorBone("left", (4, 0, 7)), mien.AuthorBone("right", (-4, 0, 7))]
+        motions = {"smile": [[0] * 6, [0.5, 1, 0, 0, 0, 10], [-0.5, 1, 0, 0, 0, -10]]}
+        dna, report = self.make(shapes=self.shapes, bones=bones, bone_groups=[0, 7, 3],
+                                bone_motions=motions)
+        self.assertEqual(report["joint_groups"]["groups"], 2)
+        rig = mien.Rig(dna)
+        face = rig.instance()
+        face["smile"] = 1
+        face.evaluate()
+        numpy.testing.assert_array_equal(
+            numpy.asarray(face.joints).reshape(3, -1)[:, :6], numpy.float32(motions["smile"]))
+        face.reset()
+        face["puff"] = 1
+        face.evaluate()
+        self.assertFalse(numpy.any(face.joints))
+        shapes = {**self.shapes, "grin": self.shapes["smile"]}
+        dna, report = self.make(shapes=shapes, overlap_correctives=5)
+        self.assertEqual(report["fit"]["correctives"], 1)
+
+        self.refused("mask has the shape", mask=mask[1:])
+        self.refused("depth_groups holds 0 to 300", depth_groups=[300] + [0] * (count - 1))
+        self.refused("group 3", depth_groups=[3] * count, exception=mien.AuthorError)
+        self.refused("0 of 672", mask=[False] * count, exception=mien.AuthorError)
+        self.refused("lod_joints", lods=0, lod_joints=[5, 6])
+        self.refused("lod_joints has 2 LODs, not 1", lod_joints=[5, 6])
+        self.refused("with bones", bone_groups=[])
+        self.refused("bone_groups has the shape", bones=bones, bone_groups=[0, 1])
+        self.refused("joint group 256", bones=bones, bone_groups=[0, 1, 256],
+                     exception=mien.AuthorError)
+        self.refused("'frown', which is no shape", shapes=self.shapes, bones=bones,
+                     bone_motions={"frown": motions["smile"]})
+        self.refused("bone 0 moves", shapes=self.shapes, bones=bones,
+                     bone_motions={"smile": numpy.ones((3, 6))}, exception=mien.AuthorError)
+        self.refused("joint_groups", joint_groups=25)
+
     def test_objects_and_uvs_arrive(self):
         corners = self.faces.size
         dna, report = self.make(objects=[("skin", len(self.faces) - 20), ("cap", 20)],

@@ -615,6 +615,8 @@ export declare const AuthorFlags: {
   readonly AREA_DENSITY: 8;
   /** what joints cannot do is left out, not written as targets */
   readonly NO_TARGETS: 16;
+  /** groups by distance in space, not in depth: to compare with */
+  readonly GROUP_IN_SPACE: 32;
 };
 export type AuthorFlags = number;
 
@@ -1782,7 +1784,10 @@ export interface AuthorBone {
   kind?: BoneKind;
 }
 
-/** How a mesh is rigged. */
+/**
+ * How a mesh is rigged. Bones, weights, depth_groups, mask, lod_joints, bone_groups and bone_motions
+ * are results of the caller, each in place of one stage.
+ */
 export interface AuthorDesc {
   /** 1 to 7000. 0: 240 */
   facialJoints?: number;
@@ -1823,6 +1828,26 @@ export interface AuthorDesc {
    * Called on the calling thread with the name of the step that begins and a share from 0 to 1 that never falls. Returns 0 to go on; anything else cancels. May be NULL.
    */
   progress?: number;
+  /**
+   * one per position of the mesh: its group in depth, below `groups`, 0 in front. NULL: found
+   */
+  depthGroups?: Uint8Array | readonly number[];
+  /** one per position of the mesh: not 0 where facial bones are placed. NULL: found */
+  mask?: Uint8Array | readonly number[];
+  /**
+   * facial joints of each of `lods` LODs at most, as mirrored pairs stay together; never rising, and the first has all. NULL: 240, 160, 110, 75, 50, 32, 20, 12, scaled to facial_joints
+   */
+  lodJoints?: Uint32Array | readonly number[];
+  /** joint group of each of `bones`, 0 to 255. NULL: found */
+  boneGroups?: Uint32Array | readonly number[];
+  /**
+   * for each shape, for each of `bones` the motion at full value: translation, then degrees about X, Y, Z, applied in this order, in the unit and axes of the mesh. NULL: fitted to the shapes
+   */
+  boneMotions?: Float64Array | readonly number[];
+  /** 1 to 24. 0: as many as have 75 rows each */
+  jointGroups?: number;
+  /** correctives for pairs of shapes that double their motion, at most as many. 0: none */
+  overlapCorrectives?: number;
 }
 
 /**
@@ -2869,7 +2894,8 @@ export interface Exports {
    * axes of the mesh, in centimeters; positions keep their order, without those in no face. The same
    * mesh, options and seed give the same bytes on any number of threads. `mesh` is required;
    * `out_report` may be NULL. Close with mien_dna_close() and mien_author_report_close().
-   * Fails with MIEN_ERROR_AUTHOR_MESH if the arrays of the mesh, bones or weights contradict each other,
+   * Fails with MIEN_ERROR_AUTHOR_MESH if the arrays of the mesh or of the caller's results contradict
+   * each other,
    * MIEN_ERROR_AUTHOR_REFUSED if the mesh cannot be rigged, MIEN_ERROR_AUTHOR_CANCELED if `progress`
    * said so, MIEN_ERROR_DNA_LIMIT if the file would be too large.
    * See docs/authoring.md, 1 "What goes in and what comes out".

@@ -328,6 +328,7 @@ export const AuthorFlags = Object.freeze({
   MASK_FROM_SHAPES: 4,
   AREA_DENSITY: 8,
   NO_TARGETS: 16,
+  GROUP_IN_SPACE: 32,
 });
 
 // Of each struct the size, whether it begins with struct_size, and of each field its offset,
@@ -906,7 +907,7 @@ export const layouts = {
     parent: [32, "u32"],
     kind: [36, "u32"],
   } },
-  AuthorDesc: { size: 104, sized: true, fields: {
+  AuthorDesc: { size: 136, sized: true, fields: {
     facialJoints: [4, "u32"],
     influences: [8, "u32"],
     lods: [12, "u32"],
@@ -926,5 +927,12 @@ export const layouts = {
     parallel: [88, "u32"],
     progressUser: [92, "u32"],
     progress: [96, "u32"],
+    depthGroups: [104, "*u8"],
+    mask: [108, "*u8"],
+    lodJoints: [112, "*u32"],
+    boneGroups: [116, "*u32"],
+    boneMotions: [120, "*f64"],
+    jointGroups: [124, "u32"],
+    overlapCorrectives: [128, "u32"],
   } },
 };

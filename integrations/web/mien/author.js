@@ -74,8 +74,18 @@ function meshOf({ positions, faces, faceSizes, uvs, cornerUvs, objects, shapes =
 }
 
 /** The fields of a struct AuthorDesc. */
-function descOf({ bones, weights, ...rest }, positionCount) {
+function descOf({ bones, weights, ...rest }, positionCount, shapeCount) {
   const given = { seed: 1, ...rest };
+  const boneCount = bones?.length ?? 0;
+  for (const [name, width, count] of [["depthGroups", 1, positionCount], ["mask", 1, positionCount],
+    ["boneGroups", 1, boneCount], ["boneMotions", 6, boneCount * shapeCount]]) {
+    if (given[name]) numbers(given[name], name, width, count);
+  }
+  for (const name of ["depthGroups", "mask"]) if (given[name]) indices(given[name], name, 1, positionCount, 255);
+  if (given.lodJoints) {
+    given.lods ||= indices(given.lodJoints, "lodJoints", 1).length;
+    if (!given.lods || given.lods !== given.lodJoints.length) throw wrong("lodJoints are not one for each LOD");
+  }
   if (bones) {
     given.bones = bones.map(({ name, position, parent = 0, kind = BoneKind.FACIAL }) =>
       ({ name, position: numbers(position, `position of bone "${name}"`, 3, 1), parent, kind }));
@@ -100,7 +110,7 @@ function descOf({ bones, weights, ...rest }, positionCount) {
 export function authorRig(memory, mesh, { progress, ...options } = {}) {
   const { exports } = memory;
   const givenMesh = meshOf(mesh);
-  const desc = descOf(options, givenMesh.positionCount);
+  const desc = descOf(options, givenMesh.positionCount, givenMesh.shapes.length);
   if (progress) {
     desc.progress = exports.mien_web_progress_function();
     desc.progressUser = memory.addFunction(progress);

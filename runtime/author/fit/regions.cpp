@@ -183,6 +183,24 @@ bool find_regions(const Placement& placement, const Footprints& footprints, cons
   return true;
 }
 
+bool take_regions(const Placement& placement, Span<const uint8_t> own, Arena& arena,
+                  JointRegions& out) {
+  const Span<const Bone> bones = placement.bones;
+  if (!make(arena, bones.count, out.region)) return false;
+  bool used[kMaxOwnRegions] = {};
+  for (size_t j = 0; j < bones.count; ++j) used[own[j]] |= is_fitted(bones[j]);
+  uint16_t number[kMaxOwnRegions];
+  out.count = 0;
+  for (uint32_t r = 0; r < kMaxOwnRegions; ++r) {
+    number[r] = static_cast<uint16_t>(out.count);
+    out.count += used[r];
+  }
+  for (size_t j = 0; j < bones.count; ++j) {
+    out.region[j] = is_fitted(bones[j]) ? number[own[j]] : JointRegions::kNoRegion;
+  }
+  return true;
+}
+
 double effect_of(const Bone& bone, const Moments& moments, const Affine& motion) {
   const Vec3 shift = motion(bone.position) - bone.position;
   if (!(moments.mass > 0)) return length(shift);
@@ -199,7 +217,7 @@ PruneReport prune(const Placement& placement, const Footprints& footprints,
   const Span<Affine> moves = motions.of(control);
   const Span<uint8_t> active = motions.active_in(control);
   double all = 0;
-  double of_region[kMaxRegions + 1] = {};  // one more for bones on the plane
+  double of_region[kMaxOwnRegions] = {};
   const auto effect = [&](uint32_t j) {
     return effect_of(placement.bones[j], footprints.moments[j], moves[j]);
   };

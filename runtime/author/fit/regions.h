@@ -16,7 +16,8 @@ struct JointRegions {
 
 /// Rows of a group from which on padding to 4 rows costs less than 2 %.
 constexpr uint32_t kRowsPerGroup = 75;
-constexpr uint32_t kMaxRegions = 24;
+constexpr uint32_t kMaxRegions = 24;      // that are found
+constexpr uint32_t kMaxOwnRegions = 256;  // of a caller
 
 /// Average linkage of fitted bones on distance and likeness of motion; the halves of a symmetric
 /// face get mirrored regions. As many regions as leave each kRowsPerGroup rows, if `wanted` is 0;
@@ -24,6 +25,11 @@ constexpr uint32_t kMaxRegions = 24;
 /// False if memory ran out.
 bool find_regions(const Placement& placement, const Footprints& footprints, const Motions& motions,
                   uint32_t wanted, Arena& arena, const Allocator& allocator, JointRegions& out);
+
+/// The caller's regions, one number for each bone, below kMaxOwnRegions. Those without fitted bones
+/// are left out. False if memory ran out.
+bool take_regions(const Placement& placement, Span<const uint8_t> own, Arena& arena,
+                  JointRegions& out);
 
 /// Length of what a bone's motion does to its footprint: of its translation, and of its rotation
 /// times the root mean square arm.

@@ -58,6 +58,7 @@ struct Shape {
   Name name;
   Span<const Vec3f> displacements;  // of every vertex
   Span<const uint32_t> moving;      // vertices with a displacement, ascending
+  uint32_t number = 0;              // in the source
 };
 
 /// The input, checked: finite positions, indices in range, faces of three corners or more.

@@ -258,6 +258,7 @@ bool add_shapes(const MeshSource& source, double smallest, Arena& arena, Arena& 
     if (!copy_name(arena, from.name, shapes[s].name)) return false;
     shapes[s].displacements = displacements;
     shapes[s].moving = kept;
+    shapes[s].number = static_cast<uint32_t>(s);
   }
   out.mesh.shapes = shapes;
   return true;

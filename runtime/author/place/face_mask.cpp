@@ -49,39 +49,46 @@ Status find_skin(Placing& placing) {
   return Status::kOk;
 }
 
-Status group_in_depth(Placing& placing) {
+namespace {
+
+void count_groups(Placing& placing) {
   PlaceReport& report = placing.report;
-  const Vec3 size = placing.box.size();
-  const size_t n = placing.points.count;
+  report.group_count = placing.options.groups;
+  for (const uint8_t group : placing.group) ++report.group_sizes[group];
+}
+
+Status take_groups(Placing& placing) {
   const uint32_t groups = placing.options.groups;
-  report.face_only = size.z / size.x < kFaceOnlyDepth;
-  if (report.face_only) return Status::kOk;
-  if (n < groups) {
-    return fail(placing.error, Status::kAuthorRefused, kNoOffset,
-                "the skin has %zu places: %u groups in depth need as many", n, groups);
-  }
-  Span<double> depths, weights;
-  if (!make(placing.scratch, n, depths) || !make(placing.scratch, n, placing.group)) {
-    return no_memory(placing);
-  }
-  for (size_t i = 0; i < n; ++i) depths[i] = placing.points[i].z;
-  if (placing.options.area_density) {
-    if (!make(placing.scratch, n, weights)) return no_memory(placing);
-    for (size_t i = 0; i < n; ++i) {
-      weights[i] = placing.areas[placing.skin[i]] + 1e-12 * size.x * size.y;
+  for (size_t i = 0; i < placing.group.count; ++i) {
+    const uint8_t group = placing.options.own_groups[placing.skin[i]];
+    if (group >= groups) {
+      return fail(placing.error, Status::kAuthorMesh, kNoOffset,
+                  "a position of the face is in group %u in depth: there are %u", group, groups);
     }
+    placing.group[i] = group;
   }
+  count_groups(placing);
+  return Status::kOk;
+}
+
+/// Groups as intervals of z.
+Status link_depths(Placing& placing, Span<const double> weights) {
+  PlaceReport& report = placing.report;
+  const uint32_t groups = placing.options.groups;
+  const size_t n = placing.points.count;
+  Span<double> depths;
+  if (!make(placing.scratch, n, depths)) return no_memory(placing);
+  for (size_t i = 0; i < n; ++i) depths[i] = placing.points[i].z;
   if (!link_on_line(depths, weights, placing.arena, placing.scratch, report.linkage)) {
     return no_memory(placing);
   }
   uint32_t starts[kMaxGroups];
   report.linkage.group_starts(groups, starts);
-  report.group_count = groups;
+  report.border_count = groups - 1;
   for (uint32_t g = 0; g < groups; ++g) {
     // Groups ascend in z; the front one is the last.
     const uint32_t from = starts[groups - 1 - g];
     const size_t to = g == 0 ? n : starts[groups - g];
-    report.group_sizes[g] = static_cast<uint32_t>(to) - from;
     for (size_t i = from; i < to; ++i)
       placing.group[report.linkage.order[i]] = static_cast<uint8_t>(g);
     if (g + 1 < groups) {
@@ -89,6 +96,40 @@ Status group_in_depth(Placing& placing) {
           (depths[report.linkage.order[from]] + depths[report.linkage.order[from - 1]]) / 2;
     }
   }
+  return Status::kOk;
+}
+
+}  // namespace
+
+Status group_in_depth(Placing& placing) {
+  const PlaceOptions& options = placing.options;
+  PlaceReport& report = placing.report;
+  const Vec3 size = placing.box.size();
+  const size_t n = placing.points.count;
+  report.face_only = options.own_groups.empty() && size.z / size.x < kFaceOnlyDepth;
+  if (report.face_only) return Status::kOk;
+  if (n < options.groups) {
+    return fail(placing.error, Status::kAuthorRefused, kNoOffset,
+                "the skin has %zu places: %u groups in depth need as many", n, options.groups);
+  }
+  if (!make(placing.scratch, n, placing.group)) return no_memory(placing);
+  if (!options.own_groups.empty()) return take_groups(placing);
+  Span<double> weights;
+  if (options.area_density) {
+    if (!make(placing.scratch, n, weights)) return no_memory(placing);
+    for (size_t i = 0; i < n; ++i) {
+      weights[i] = placing.areas[placing.skin[i]] + 1e-12 * size.x * size.y;
+    }
+  }
+  if (options.group_in_space) {
+    if (!link_in_space(placing.points, weights, options.groups, placing.arena, placing.scratch,
+                       report.linkage, placing.group)) {
+      return no_memory(placing);
+    }
+  } else if (Status status = link_depths(placing, weights); status != Status::kOk) {
+    return status;
+  }
+  count_groups(placing);
   return Status::kOk;
 }
 
@@ -110,6 +151,21 @@ Status find_moving(Placing& placing, Span<uint8_t>& out) {
     }
   }
   for (size_t i = 0; i < placing.skin.count; ++i) out[i] = moves[placing.skin[i]];
+  return Status::kOk;
+}
+
+/// Places of which a copy is in the caller's mask.
+Status take_mask(Placing& placing, Span<uint8_t>& out) {
+  const AuthorMesh& mesh = placing.mesh;
+  Span<uint8_t> marked;
+  if (!make(placing.scratch, mesh.positions.count, marked) ||
+      !make(placing.scratch, placing.skin.count, out)) {
+    return no_memory(placing);
+  }
+  for (size_t v = 0; v < marked.count; ++v) {
+    if (placing.options.own_mask[v]) marked[mesh.welded[v]] = 1;
+  }
+  for (size_t i = 0; i < placing.skin.count; ++i) out[i] = marked[placing.skin[i]];
   return Status::kOk;
 }
 
@@ -146,11 +202,13 @@ Status find_mask(Placing& placing) {
   const auto above_cut = [&](size_t i) {
     return !report.throat.found || report.throat.cut().above(placing.points[i]) >= 0;
   };
-  Span<uint8_t> moving;
-  if (!placing.mesh.shapes.empty() && !options.paper) {
+  Span<uint8_t> moving, given;
+  if (!options.own_mask.empty()) {
+    if (Status status = take_mask(placing, given); status != Status::kOk) return status;
+  } else if (!placing.mesh.shapes.empty() && !options.paper) {
     if (Status status = find_moving(placing, moving); status != Status::kOk) return status;
   }
-  if (options.mask_from_shapes) {
+  if (options.mask_from_shapes && given.empty()) {
     if (moving.empty()) {
       return fail(placing.error, Status::kAuthorRefused, kNoOffset,
                   "the mask is to come from shapes, but there are none to use");
@@ -160,7 +218,9 @@ Status find_mask(Placing& placing) {
   size_t count = 0;
   for (size_t i = 0; i < n; ++i) {
     const bool front = report.face_only || placing.group[i] == 0;
-    bool in = options.mask_from_shapes ? moving[i] != 0 : front && above_cut(i);
+    bool in = !given.empty()             ? given[i] != 0
+              : options.mask_from_shapes ? moving[i] != 0
+                                         : front && above_cut(i);
     if (!in && !moving.empty() && moving[i] && above_cut(i)) {
       in = true;
       ++report.added_by_shapes;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "runtime/base/arena.h"
+#include "runtime/base/vector.h"
 
 namespace mien::author {
 
@@ -28,5 +29,13 @@ struct Linkage {
 /// Weights: empty for 1 each. `values` is not empty. False if memory ran out.
 bool link_on_line(Span<const double> values, Span<const double> weights, Arena& arena,
                   Arena& scratch, Linkage& out);
+
+/// Average linkage on distances in space, to compare with. With more than kMaxLinked points, cells of
+/// neighbors are linked, each as a point at its mean with their weight. `group` gets the number of
+/// each point's group, those with the largest mean z first; boundaries of the merges mean nothing.
+/// At least `groups` points. False if memory ran out.
+bool link_in_space(Span<const Vec3> points, Span<const double> weights, uint32_t groups,
+                   Arena& arena, Arena& scratch, Linkage& out, Span<uint8_t> group);
+constexpr uint32_t kMaxLinked = 2048;
 
 }  // namespace mien::author

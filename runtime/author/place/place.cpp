@@ -124,7 +124,7 @@ Status rank_units(Placing& placing, const KMeansRun& chosen, Facial& facial) {
     if (placing.symmetric) p.x += placing.plane;
     units[rank] = {p, joints[order[rank]] == 2};
   }
-  joint_ladder(total, counts);
+  joint_ladder(total, placing.options.lod_joints, counts);
   for (uint32_t lod = 0; lod < counts.count; ++lod) {
     uint32_t kept = 0, rank = 0;
     while (rank < k && (rank == 0 || kept + joints[order[rank]] <= counts[lod])) {

@@ -22,6 +22,11 @@ struct PlaceOptions {
   bool neck_cut = true;
   bool mask_from_shapes = false;  // the mask is what shapes move, and two rings around it
   bool area_density = false;      // vertices count by their area: for scans
+  bool group_in_space = false;    // groups by distance in space, to compare with
+  // Of the caller, in place of what would be found; empty: found.
+  Span<const uint8_t> own_groups;   // per vertex: 0 in front, below `groups`
+  Span<const uint8_t> own_mask;     // per vertex: not 0 where facial bones are placed
+  Span<const uint32_t> lod_joints;  // per LOD: facial joints at most; the first one keeps all
 };
 
 /// How the neck was told from the head.
@@ -35,7 +40,8 @@ struct PlaceReport {
   Linkage linkage;         // of all places in depth
   uint32_t group_count = 0;
   uint32_t group_sizes[kMaxGroups] = {};  // front first, of places
-  double borders[kMaxGroups] = {};        // z between groups, front first: group_count - 1
+  uint32_t border_count = 0;              // 0 where groups are no intervals of z
+  double borders[kMaxGroups] = {};        // z between groups, front first
   NeckSplit neck_split = NeckSplit::kNoNeck;
   Vec3 head_mean, neck_mean;
   Throat throat;

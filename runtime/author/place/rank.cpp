@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/author/place/rank.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "runtime/author/dna_making.h"
@@ -85,6 +86,12 @@ void joint_ladder(uint32_t top, Span<uint32_t> out) {
     if (lod > 0 && count >= out[lod - 1]) count = out[lod - 1] > 1 ? out[lod - 1] - 1 : 1;
     out[lod] = count > top ? top : count;
   }
+}
+
+void joint_ladder(uint32_t top, Span<const uint32_t> own, Span<uint32_t> out) {
+  if (own.empty()) return joint_ladder(top, out);
+  out[0] = top;
+  for (size_t lod = 1; lod < out.count; ++lod) out[lod] = std::min(own[lod], out[lod - 1]);
 }
 
 }  // namespace mien::author

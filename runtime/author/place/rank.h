@@ -19,4 +19,7 @@ bool rank_by_deletion(Span<const Vec3> points, Span<const double> weights, Span<
 /// falling by one at least down to 1, and 6 or more where `top` allows it.
 void joint_ladder(uint32_t top, Span<uint32_t> out);
 
+/// The caller's ladder if there is one, without more joints than there are; the first LOD has all.
+void joint_ladder(uint32_t top, Span<const uint32_t> own, Span<uint32_t> out);
+
 }  // namespace mien::author

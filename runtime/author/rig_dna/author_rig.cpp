@@ -11,6 +11,8 @@ namespace mien::author {
 
 namespace {
 
+constexpr uint32_t kMaxControls = 65535;  // as their numbers have 16 bits
+
 void measure_groups(const dna::Joints& joints, GroupReport& report) {
   constexpr uint32_t kBlocks[3] = {4, 8, 16};
   uint64_t padded[3] = {};
@@ -38,7 +40,9 @@ class RigMaker {
         report_(report), model_{mesh_, placement, options.name, {}, {}, {}, {}, {}, {}} {}
 
   bool make(Span<SkinWeights> weights, dna::DnaView& out) {
-    return find_controls() && fit(weights[0]) && round() && make_lods(weights) && write(out);
+    return find_controls() && make_deltas() &&
+           (options_.own_motions.empty() ? fit(weights[0]) : take_motions(weights[0])) &&
+           make_lods(weights) && write(out);
   }
 
  private:
@@ -72,8 +76,10 @@ class RigMaker {
     mesh_.shapes = expressions;
     if (options_.overlap_correctives > 0) {
       Arena for_pairs(allocator_);
-      if (!add_overlaps(mesh_, options_.overlap_correctives, options_.parallel, scratch_, for_pairs,
-                        combinations)) {
+      const uint32_t room = kMaxControls - static_cast<uint32_t>(expressions.count) -
+                            static_cast<uint32_t>(combinations.count);
+      if (!add_overlaps(mesh_, std::min(options_.overlap_correctives, room), options_.parallel,
+                        scratch_, for_pairs, combinations)) {
         return false;
       }
     }
@@ -81,10 +87,15 @@ class RigMaker {
     return true;
   }
 
-  bool fit(SkinWeights& weights) {
+  bool make_deltas() {
     const size_t bones = placement_.bones.count;
-    if (!starts("fit") || !make_motions(mesh_.shapes.count, bones, scratch_, motions_))
-      return false;
+    model_.deltas.joint_count = static_cast<uint32_t>(bones);
+    return author::make(scratch_, model_.control_count() * bones, model_.deltas.items) &&
+           make_motions(mesh_.shapes.count, bones, scratch_, motions_);
+  }
+
+  bool fit(SkinWeights& weights) {
+    if (!starts("fit")) return false;
     if (mesh_.shapes.empty()) return true;
     Arena for_fit(allocator_);
     Fitter fitter;
@@ -110,11 +121,7 @@ class RigMaker {
       if (!fit_again(groups.before)) return false;
     }
 
-    if (!starts("groups") ||
-        !find_regions(placement_, fitter.footprints, motions_, options_.regions, scratch_,
-                      allocator_, model_.regions)) {
-      return false;
-    }
+    if (!starts("groups") || !group_bones(fitter.footprints)) return false;
     for (size_t s = 0; s < mesh_.shapes.count; ++s) {
       const PruneReport pruned =
           prune(placement_, fitter.footprints, model_.regions,
@@ -129,15 +136,43 @@ class RigMaker {
       refit(weights, weights);
       fit_all(fitter, mesh_, placement_, weights, true, options_.parallel, motions_);
     }
+    // From here on motions are what the numbers of the file mean.
+    deltas_of_motions(placement_, mesh_.frame, motions_, model_.deltas);
     return measure(weights, {}, groups.refitted);
   }
 
-  /// From here on motions are what the numbers of the file mean.
-  bool round() {
+  bool group_bones(const Footprints& footprints) {
+    return options_.own_regions.empty()
+               ? find_regions(placement_, footprints, motions_, options_.regions, scratch_,
+                              allocator_, model_.regions)
+               : take_regions(placement_, options_.own_regions, scratch_, model_.regions);
+  }
+
+  /// The caller's motions as they are; weights adapt to them.
+  bool take_motions(SkinWeights& weights) {
     const size_t bones = placement_.bones.count;
-    model_.deltas.joint_count = static_cast<uint32_t>(bones);
-    if (!author::make(scratch_, model_.control_count() * bones, model_.deltas.items)) return false;
-    deltas_of_motions(placement_, mesh_.frame, motions_, model_.deltas);
+    for (uint32_t s = 0; s < mesh_.shapes.count; ++s) {
+      const Span<const JointDelta> given =
+          options_.own_motions.slice(mesh_.shapes[s].number * bones, bones);
+      for (uint32_t j = 0; j < bones; ++j) {
+        model_.deltas.at(s, j) = given[j];
+        motions_.active_in(s)[j] = !given[j].is_zero();
+      }
+      pose_bones(placement_, mesh_.frame, model_.deltas, {&s, 1}, motions_.of(s));
+    }
+    if (!starts("weights") || !measure(weights, {}, report_.translations)) return false;
+    report_.rotations = report_.translations;
+    if (!options_.keep_weights) refit(weights, weights);
+    Arena for_regions(allocator_);
+    Footprints footprints;
+    if (!starts("groups") ||
+        !make_footprints(mesh_.positions.count, placement_, weights.m, for_regions, footprints)) {
+      return false;
+    }
+    fill_footprints(mesh_.positions, weights, options_.parallel, footprints);
+    GroupReport& groups = report_.groups;
+    if (!group_bones(footprints) || !measure(weights, {}, groups.before)) return false;
+    groups.removed = groups.refitted = groups.before;
     return true;
   }
 

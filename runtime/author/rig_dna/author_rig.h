@@ -18,6 +18,9 @@ struct RigOptions {
   double least_effect = 2e-4;        // of an entry of the matrix; in shares of the diagonal
   uint32_t overlap_correctives = 0;  // at most as many, for pairs that double their motion
   bool keep_weights = false;         // the weights are the caller's own: fit motions only
+  Span<const uint8_t> own_regions;   // one per bone; empty: found
+  Span<const JointDelta>
+      own_motions;  // by source shape, then bone, in the file's frame; empty: fitted
   Name name = {"head", 4};
   ParallelFor parallel;
   void* user = nullptr;

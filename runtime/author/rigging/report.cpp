@@ -181,7 +181,7 @@ void write_groups(const PlaceReport& place, Json& json) {
   for (uint32_t g = 0; g < place.group_count; ++g) json.whole(place.group_sizes[g]);
   json.close("]");
   json.key("borders").open("[");
-  for (uint32_t g = 0; g + 1 < place.group_count; ++g) json.number(place.borders[g]);
+  for (uint32_t g = 0; g < place.border_count; ++g) json.number(place.borders[g]);
   json.close("]");
   json.key("merge_distances").open("[");
   for (const Merge& merge : place.linkage.merges) json.number(merge.distance);

@@ -100,7 +100,7 @@ Status take_bones(const MeshSource& source, const RiggingOptions& options, Arena
     bone.rank = out.facial_count++;
   }
   // The caller's order is the rank.
-  joint_ladder(out.facial_count, counts);
+  joint_ladder(out.facial_count, options.place.lod_joints, counts);
   out.bones = bones;
   out.lod_facial_counts = counts;
   out.symmetric = false;
@@ -151,6 +151,58 @@ Status take_weights(const MeshSource& source, const RiggingOptions& options, con
   return Status::kOk;
 }
 
+/// Values of the source's positions as those of the mesh's vertices.
+Status take_bytes(const Rigging& rigging, Span<const uint8_t> own, Arena& arena,
+                  Span<const uint8_t>& out, Error& error) {
+  const Span<const uint32_t> sources = rigging.read.source_vertices;
+  Span<uint8_t> bytes;
+  if (!make(arena, own.empty() ? 0 : sources.count, bytes)) return no_memory(error);
+  for (size_t v = 0; v < bytes.count; ++v) bytes[v] = own[sources[v]];
+  out = bytes;
+  return Status::kOk;
+}
+
+Status take_groups(const RiggingOptions& options, Arena& arena, Span<const uint8_t>& out,
+                   Error& error) {
+  Span<uint8_t> groups;
+  if (!make(arena, options.bone_groups.count, groups)) return no_memory(error);
+  for (size_t b = 0; b < groups.count; ++b) {
+    const uint32_t group = options.bone_groups[b];
+    if (group >= kMaxOwnRegions) {
+      return fail(error, Status::kAuthorMesh, kNoOffset,
+                  "bone %zu is in joint group %u: 0 to %u are allowed", b, group,
+                  kMaxOwnRegions - 1);
+    }
+    groups[b] = static_cast<uint8_t>(group);
+  }
+  out = groups;
+  return Status::kOk;
+}
+
+Status take_motions(const MeshSource& source, const RiggingOptions& options, Arena& arena,
+                    Span<const JointDelta>& out, Error& error) {
+  const size_t bones = options.bones.count;
+  Span<JointDelta> deltas;
+  if (!make(arena, options.bone_motions.count / 6, deltas)) return no_memory(error);
+  for (size_t i = 0; i < deltas.count; ++i) {
+    const size_t shape = i / bones;
+    const uint32_t b = static_cast<uint32_t>(i % bones);
+    for (size_t k = 0; k < 6; ++k) {
+      const double value = options.bone_motions[6 * i + k] * (k < 3 ? source.unit : 1);
+      if (!(std::abs(value) < 1e15)) {
+        return fail(error, Status::kAuthorMesh, kNoOffset,
+                    "the motion of bone %u for shape %zu is not finite", b, shape);
+      }
+      (k < 3 ? deltas[i].translation[k] : deltas[i].rotation[k - 3]) = static_cast<float>(value);
+    }
+    if (deltas[i].is_zero() || is_moved(options.bones, b)) continue;
+    return fail(error, Status::kAuthorMesh, kNoOffset,
+                "bone %u moves for shape %zu: only facial bones, jaws and eyes do", b, shape);
+  }
+  out = deltas;
+  return Status::kOk;
+}
+
 struct Steps {
   const RiggingOptions* options;
   bool stopped = false;
@@ -188,8 +240,15 @@ Status make_rig(const MeshSource& source, const RiggingOptions& options, Arena& 
 
   if (!steps.go_on("bones", 0.05)) return canceled();
   const AuthorMesh& mesh = out.read.mesh;
-  status = place_bones(mesh, options.place, options.parallel, arena, allocator, out.placement,
-                       out.place, error);
+  PlaceOptions place = options.place;
+  status = take_bytes(out, options.depth_groups, arena, place.own_groups, error);
+  if (status == Status::kOk) status = take_bytes(out, options.mask, arena, place.own_mask, error);
+  RigOptions rig;
+  if (status == Status::kOk) status = take_groups(options, arena, rig.own_regions, error);
+  if (status == Status::kOk) status = take_motions(source, options, arena, rig.own_motions, error);
+  if (status != Status::kOk) return status;
+  status =
+      place_bones(mesh, place, options.parallel, arena, allocator, out.placement, out.place, error);
   if (status == Status::kOk && is_caller(options)) {
     status = take_bones(source, options, arena, out.placement, error);
   }
@@ -219,7 +278,8 @@ Status make_rig(const MeshSource& source, const RiggingOptions& options, Arena& 
     return no_memory(error);
   }
 
-  RigOptions rig;
+  rig.regions = options.joint_groups;
+  rig.overlap_correctives = options.overlap_correctives;
   rig.residual_targets = options.residual_targets;
   rig.keep_weights = own_weights;
   rig.name = options.name;

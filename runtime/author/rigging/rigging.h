@@ -24,12 +24,19 @@ struct OwnWeights {
 };
 
 struct RiggingOptions {
-  PlaceOptions place;
+  PlaceOptions place;  // but for own_groups and own_mask
   uint32_t influences = 8;
   bool residual_targets = true;
   Name name = {"head", 4};
   Span<const OwnBone> bones;  // empty: placed
   OwnWeights weights;         // empty: made
+  // Of the caller; empty: found. One for each position of the source:
+  Span<const uint8_t> depth_groups, mask;
+  Span<const uint32_t> bone_groups;  // one for each of `bones`
+  // Six for each shape and each of `bones`: translation, degrees; in the caller's frame and unit.
+  Span<const double> bone_motions;
+  uint32_t joint_groups = 0;         // 0: as many as are large enough
+  uint32_t overlap_correctives = 0;  // at most as many
   ParallelFor parallel;
   void* user = nullptr;
   /// Called on the calling thread before each step; false stops. Null: never.

@@ -14,20 +14,22 @@ namespace mien::author {
 namespace {
 
 /// Average linkage by its definition: the matrix of all distances, two closest groups merged, the
-/// distances to the others averaged. Returns the group of each point when `count` are left.
+/// distances to the others averaged. Keeps the group of each point when as many are left as asked for.
 struct General {
-  std::vector<uint32_t> group;
+  std::map<uint32_t, std::vector<uint32_t>> groups;  // by how many are left
   std::vector<double> merges;
 
-  General(const std::vector<double>& values, const std::vector<double>& weights, uint32_t count) {
-    const size_t n = values.size();
-    group.resize(n);
+  template <class Apart>
+  General(const Apart& apart, const std::vector<double>& weights,
+          const std::vector<uint32_t>& counts) {
+    const size_t n = weights.size();
+    std::vector<uint32_t> group(n);
     std::vector<std::vector<double>> distance(n, std::vector<double>(n));
     std::vector<double> size = weights;
     std::vector<bool> alive(n, true);
     for (size_t a = 0; a < n; ++a) {
       group[a] = static_cast<uint32_t>(a);
-      for (size_t b = 0; b < n; ++b) distance[a][b] = std::abs(values[a] - values[b]);
+      for (size_t b = 0; b < n; ++b) distance[a][b] = apart(a, b);
     }
     // The nearest other group of each, so that a step is O(n).
     std::vector<size_t> near(n);
@@ -39,7 +41,11 @@ struct General {
       }
     };
     for (size_t a = 0; a < n; ++a) find(a);
-    for (size_t left = n; left > 1; --left) {
+    for (size_t left = n;; --left) {
+      if (std::count(counts.begin(), counts.end(), left)) {
+        groups[static_cast<uint32_t>(left)] = group;
+      }
+      if (left == 1) break;
       size_t a = n;
       for (size_t c = 0; c < n; ++c) {
         if (alive[c] && (a == n || distance[c][near[c]] < distance[a][near[a]])) a = c;
@@ -53,9 +59,7 @@ struct General {
             (size[a] * distance[a][c] + size[b] * distance[b][c]) / (size[a] + size[b]);
       }
       size[a] += size[b];
-      if (left > count) {
-        for (uint32_t& g : group) g = g == b ? static_cast<uint32_t>(a) : g;
-      }
+      for (uint32_t& g : group) g = g == b ? static_cast<uint32_t>(a) : g;
       for (size_t c = 0; c < n; ++c) {
         if (alive[c] && (c == a || near[c] == a || near[c] == b)) find(c);
         if (alive[c] && c != a && distance[c][a] < distance[c][near[c]]) near[c] = a;
@@ -98,21 +102,25 @@ struct Values {
 };
 
 TEST(Linkage, GivesThePartitionsOfTheGeneralMethod) {
+  const size_t n = 1500;
+  const std::vector<uint32_t> counts = {2, 3, 5, 10, 50};
   for (uint64_t seed = 0; seed < 20; ++seed) {
-    const size_t n = seed == 0 ? 1500 : 300;
     const Values made(seed, n, seed % 2 == 1);
     Arena arena(default_allocator());
     Linkage linkage;
     ASSERT_TRUE(
         link_on_line({made.values.data(), n}, {made.weights.data(), n}, arena, arena, linkage));
     ASSERT_EQ(linkage.merges.count, n - 1);
-    for (const uint32_t count : {2u, 3u, 5u, 10u, 50u}) {
-      const General general(made.values, made.weights, count);
-      EXPECT_TRUE(same_partition(groups_of(linkage, count), general.group)) << seed << " " << count;
-      for (size_t m = 0; m < n - 1; ++m) {
-        EXPECT_NEAR(linkage.merges[m].distance, general.merges[m], 1e-9) << seed << " " << m;
-      }
-      if (n == 1500 && count == 5) break;  // the slow ones once
+    const auto apart = [&](size_t a, size_t b) {
+      return std::abs(made.values[a] - made.values[b]);
+    };
+    General general(apart, made.weights, counts);
+    for (const uint32_t count : counts) {
+      EXPECT_TRUE(same_partition(groups_of(linkage, count), general.groups[count]))
+          << seed << " " << count;
+    }
+    for (size_t m = 0; m < n - 1; ++m) {
+      EXPECT_NEAR(linkage.merges[m].distance, general.merges[m], 1e-9) << seed << " " << m;
     }
   }
 }
@@ -147,6 +155,71 @@ TEST(Linkage, DoesNotDependOnTheOrderOfPoints) {
   std::vector<uint32_t> turned = groups_of(other, 7);
   std::reverse(turned.begin(), turned.end());
   EXPECT_EQ(groups_of(one, 7), turned);
+}
+
+struct InSpace {
+  Arena arena{default_allocator()}, scratch{default_allocator()};
+  Linkage linkage;
+  std::vector<uint8_t> group;
+
+  InSpace(const std::vector<Vec3>& points, const std::vector<double>& weights, uint32_t groups)
+      : group(points.size()) {
+    EXPECT_TRUE(link_in_space({points.data(), points.size()}, {weights.data(), weights.size()},
+                              groups, arena, scratch, linkage, {group.data(), group.size()}));
+  }
+  std::vector<uint32_t> numbers() const { return {group.begin(), group.end()}; }
+};
+
+TEST(LinkInSpace, GivesThePartitionOfTheGeneralMethod) {
+  for (uint64_t seed = 0; seed < 10; ++seed) {
+    Random random = Random::from_seed(seed, 3);
+    std::vector<Vec3> points(300);
+    std::vector<double> weights;
+    for (Vec3& p : points) {
+      p = {random.real(), 2 * random.real(), 3 * random.real()};
+      weights.push_back(seed % 2 ? 1 : 0.1 + random.real());
+    }
+    const auto apart = [&](size_t a, size_t b) { return length(points[a] - points[b]); };
+    const std::vector<uint32_t> counts = {1, 2, 3, 5, 16};
+    General general(apart, weights, counts);
+    for (const uint32_t count : counts) {
+      const InSpace ours(points, weights, count);
+      EXPECT_TRUE(same_partition(ours.numbers(), general.groups[count])) << seed << " " << count;
+      ASSERT_EQ(ours.linkage.merges.count, general.merges.size());
+      for (size_t m = 0; m < general.merges.size(); ++m) {
+        EXPECT_NEAR(ours.linkage.merges[m].distance, general.merges[m], 1e-9);
+      }
+      // Front first.
+      std::vector<double> depth(count), size(count);
+      for (size_t i = 0; i < points.size(); ++i) {
+        depth[ours.group[i]] += points[i].z;
+        size[ours.group[i]] += 1;
+      }
+      for (uint32_t g = 1; g < count; ++g) {
+        EXPECT_GE(depth[g - 1] / size[g - 1], depth[g] / size[g]);
+      }
+    }
+  }
+}
+
+TEST(LinkInSpace, FindsClustersAmongMorePointsThanAreLinked) {
+  Random random = Random::from_seed(1, 1);
+  std::vector<Vec3> points;
+  for (uint32_t i = 0; i < kMaxLinked + 1000; ++i) {
+    const double at = i % 3;
+    points.push_back({10 * at + random.real(), random.real(), -20 * at + random.real()});
+  }
+  const InSpace ours(points, {}, 3);
+  EXPECT_EQ(ours.linkage.merges.count, kMaxLinked - 1);
+  uint32_t wrong = 0;
+  for (uint32_t i = 0; i < points.size(); ++i) wrong += ours.group[i] != i % 3;
+  EXPECT_LE(wrong, 2u) << "two cells may reach from one cluster to the next";
+}
+
+TEST(LinkInSpace, TakesPointsAtOnePlace) {
+  const InSpace ours(std::vector<Vec3>(5, Vec3{1, 2, 3}), {}, 3);
+  EXPECT_EQ(ours.linkage.merges.count, 4u);
+  for (const uint8_t group : ours.group) EXPECT_LT(group, 3);
 }
 
 }  // namespace

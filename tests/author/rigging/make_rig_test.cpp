@@ -188,6 +188,122 @@ TEST(MakeRig, TakesTheCallersBonesAndWeights) {
   EXPECT_EQ(refused(1, wrong), Status::kAuthorMesh);
 }
 
+/// A root and three facial bones.
+std::vector<OwnBone> few_bones() {
+  return {{{"root", 4}, {0, 0, 0}, 0, BoneKind::kRoot},
+          {{"left", 4}, {3, -5, 8}, 0, BoneKind::kFacial},
+          {{"right", 5}, {-3, -5, 8}, 0, BoneKind::kFacial},
+          {{"chin", 4}, {0, -9, 8}, 0, BoneKind::kFacial}};
+}
+
+TEST(MakeRig, TakesTheCallersGroupsMaskAndLadder) {
+  TestMesh mesh = procedural_mesh(5, true);
+  const size_t n = mesh.positions.size() / 3;
+  std::vector<uint8_t> groups(n), mask(n);
+  for (size_t v = 0; v < n; ++v) {
+    const double y = mesh.positions[3 * v + 1], z = mesh.positions[3 * v + 2];
+    groups[v] = z > 5 ? 0 : z > -4 ? 1 : 2;
+    mask[v] = z > 3 && y > 2;  // without what shapes move further down
+  }
+  RiggingOptions options;
+  options.place.lods = 3;
+  const uint32_t ladder[] = {40, 13, 13};
+  options.place.lod_joints = {ladder, 3};
+  options.depth_groups = {groups.data(), n};
+  options.mask = {mask.data(), n};
+  const Made made(mesh, options);
+  ASSERT_EQ(made.status, Status::kOk) << made.why();
+  size_t in_mask = 0, sizes = 0;
+  for (size_t v = 0; v < n; ++v) in_mask += mask[v];
+  EXPECT_EQ(made.rigging.placement.mask.count, in_mask);
+  for (const uint32_t v : made.rigging.placement.mask) {
+    EXPECT_TRUE(mask[made.rigging.read.source_vertices[v]]);
+  }
+  for (uint32_t g = 0; g < 3; ++g) sizes += made.rigging.place.group_sizes[g];
+  EXPECT_LE(sizes, n);
+  EXPECT_GT(made.rigging.place.group_sizes[0], 0u);
+  EXPECT_EQ(made.rigging.place.border_count, 0u);
+  const Span<const uint32_t> counts = made.rigging.placement.lod_facial_counts;
+  EXPECT_EQ(counts[0], 40u);
+  EXPECT_GE(counts[1], 12u);
+  EXPECT_LE(counts[1], 13u);
+  EXPECT_EQ(counts[2], counts[1]);
+
+  groups[7] = 3;
+  EXPECT_EQ(Made(mesh, options).status, Status::kAuthorMesh);
+  groups[7] = 0;
+  std::fill(mask.begin(), mask.end(), uint8_t{0});
+  EXPECT_EQ(Made(mesh, options).status, Status::kAuthorRefused);
+}
+
+TEST(MakeRig, GroupsInSpaceOnlyWhereItIsTold) {
+  RiggingOptions options;
+  options.place.group_in_space = true;
+  const Made space(procedural_mesh(5, false), options), depth(procedural_mesh(5, false));
+  ASSERT_EQ(space.status, Status::kOk) << space.why();
+  EXPECT_EQ(space.rigging.place.border_count, 0u);
+  EXPECT_EQ(depth.rigging.place.border_count, 2u);
+  EXPECT_NE(space.rigging.place.group_sizes[0], depth.rigging.place.group_sizes[0]);
+}
+
+TEST(MakeRig, WritesTheCallersMotionsAndJointGroupsAsTheyAre) {
+  TestMesh mesh = procedural_mesh(5, true);
+  mesh.shape_names.resize(2);
+  mesh.displacements.resize(2);
+  mesh.unit = 10;
+  for (double& x : mesh.positions) x /= 10;
+  std::vector<OwnBone> bones = few_bones();
+  for (OwnBone& bone : bones) {
+    for (double& x : bone.position) x /= 10;
+  }
+  std::vector<double> motions(2 * 4 * 6);
+  for (size_t b = 1; b < 4; ++b) {
+    motions[(4 + b) * 6 + 0] = 0.125 * static_cast<double>(b);  // the second shape
+    motions[(4 + b) * 6 + 5] = 7;
+  }
+  const uint32_t groups[] = {0, 200, 9, 200};
+  RiggingOptions options;
+  options.place.lods = 1;
+  options.bones = {bones.data(), bones.size()};
+  options.bone_motions = {motions.data(), motions.size()};
+  options.bone_groups = {groups, 4};
+  const Made made(mesh, options);
+  ASSERT_EQ(made.status, Status::kOk) << made.why();
+  const dna::List<dna::JointGroup>& found = made.rigging.dna.bhvr.joints.groups;
+  ASSERT_EQ(found.count, 2u);
+  EXPECT_EQ(found[0].joint_indices.count, 1u);  // group 9
+  EXPECT_EQ(found[0].joint_indices[0], 2u);
+  ASSERT_EQ(found[1].output_indices.count, 4u);
+  EXPECT_EQ(found[1].output_indices[0], 9u);
+  ASSERT_EQ(found[1].input_indices.count, 1u);
+  EXPECT_EQ(found[1].input_indices[0], 1u);
+  EXPECT_EQ(found[1].values[0], 1.25f);  // centimeters
+  EXPECT_EQ(found[1].values[1], 7.0f);
+  EXPECT_EQ(found[1].values[2], 3.75f);
+  EXPECT_EQ(made.rigging.rig.groups.pruned.outliers, 0u);
+
+  motions[0] = 1;
+  EXPECT_EQ(Made(mesh, options).status, Status::kAuthorMesh) << "the root does not move";
+  motions[0] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(Made(mesh, options).status, Status::kAuthorMesh);
+  motions[0] = 0;
+  const uint32_t too_many[] = {0, 1, 256, 3};
+  options.bone_groups = {too_many, 4};
+  EXPECT_EQ(Made(mesh, options).status, Status::kAuthorMesh);
+}
+
+TEST(MakeRig, MakesCorrectivesForPairsThatOverlapWhereItIsTold) {
+  RiggingOptions options;
+  options.place.lods = 1;
+  const Made without(procedural_mesh(6, true), options, 20);
+  EXPECT_EQ(without.rigging.rig.correctives.made, 0u);
+  options.overlap_correctives = 3;
+  const Made with(procedural_mesh(6, true), options, 20);
+  ASSERT_EQ(with.status, Status::kOk) << with.why();
+  EXPECT_EQ(with.rigging.rig.correctives.made, 3u);
+  EXPECT_EQ(with.rigging.dna.bhvr.controls.psd_count, 3u);
+}
+
 TEST(MakeRig, NamesWhatIsWrongWithAMesh) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   struct Case {

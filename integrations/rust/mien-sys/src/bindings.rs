@@ -464,6 +464,8 @@ pub const MIEN_AUTHOR_MASK_FROM_SHAPES: u32 = 4;
 pub const MIEN_AUTHOR_AREA_DENSITY: u32 = 8;
 /// What joints cannot do is left out, not written as targets.
 pub const MIEN_AUTHOR_NO_TARGETS: u32 = 16;
+/// Groups by distance in space, not in depth: to compare with.
+pub const MIEN_AUTHOR_GROUP_IN_SPACE: u32 = 32;
 
 /// A checked, read-only view of a DNA file. Immutable.
 #[repr(C)]
@@ -2798,7 +2800,8 @@ impl Default for MienAuthorBone {
     }
 }
 
-/// How a mesh is rigged.
+/// How a mesh is rigged. Bones, weights, `depth_groups`, mask, `lod_joints`, `bone_groups` and
+/// `bone_motions` are results of the caller, each in place of one stage.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienAuthorDesc {
@@ -2842,6 +2845,24 @@ pub struct MienAuthorDesc {
     /// that never falls. Returns 0 to go on; anything else cancels. May be NULL.
     pub progress: Option<unsafe extern "C" fn(user: *mut c_void, step: *const c_char, share: f64) -> i32>,
     pub allocator: *const MienAllocator,
+    /// One per position of the mesh: its group in depth, below `groups`, 0 in front. NULL: found.
+    pub depth_groups: *const u8,
+    /// One per position of the mesh: not 0 where facial bones are placed. NULL: found.
+    pub mask: *const u8,
+    /// Facial joints of each of `lods` LODs at most, as mirrored pairs stay together; never
+    /// rising, and the first has all. NULL: 240, 160, 110, 75, 50, 32, 20, 12, scaled to
+    /// `facial_joints`.
+    pub lod_joints: *const u32,
+    /// Joint group of each of `bones`, 0 to 255. NULL: found.
+    pub bone_groups: *const u32,
+    /// For each shape, for each of `bones` the motion at full value: translation, then degrees
+    /// about X, Y, Z, applied in this order, in the unit and axes of the mesh. NULL: fitted to the
+    /// shapes.
+    pub bone_motions: *const f64,
+    /// 1 to 24. 0: as many as have 75 rows each.
+    pub joint_groups: u32,
+    /// Correctives for pairs of shapes that double their motion, at most as many. 0: none.
+    pub overlap_correctives: u32,
 }
 
 impl Default for MienAuthorDesc {
@@ -4089,8 +4110,8 @@ extern "C" {
     /// of threads. `mesh` is required; `out_report` may be NULL. Close with `mien_dna_close()` and
     /// `mien_author_report_close()`.
     ///
-    /// Fails with `MIEN_ERROR_AUTHOR_MESH` if the arrays of the mesh, bones or weights contradict
-    /// each other, `MIEN_ERROR_AUTHOR_REFUSED` if the mesh cannot be rigged,
+    /// Fails with `MIEN_ERROR_AUTHOR_MESH` if the arrays of the mesh or of the caller's results
+    /// contradict each other, `MIEN_ERROR_AUTHOR_REFUSED` if the mesh cannot be rigged,
     /// `MIEN_ERROR_AUTHOR_CANCELED` if `progress` said so, `MIEN_ERROR_DNA_LIMIT` if the file
     /// would be too large.
     ///

@@ -1109,7 +1109,7 @@ fn mien_author_bone() {
 #[test]
 fn mien_author_desc() {
     use mien_sys::MienAuthorDesc as S;
-    assert_eq!(size_of::<S>(), 152);
+    assert_eq!(size_of::<S>(), 200);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
     assert_eq!(offset!(S, facial_joints), 8);
@@ -1132,4 +1132,11 @@ fn mien_author_desc() {
     assert_eq!(offset!(S, progress_user), 128);
     assert_eq!(offset!(S, progress), 136);
     assert_eq!(offset!(S, allocator), 144);
+    assert_eq!(offset!(S, depth_groups), 152);
+    assert_eq!(offset!(S, mask), 160);
+    assert_eq!(offset!(S, lod_joints), 168);
+    assert_eq!(offset!(S, bone_groups), 176);
+    assert_eq!(offset!(S, bone_motions), 184);
+    assert_eq!(offset!(S, joint_groups), 192);
+    assert_eq!(offset!(S, overlap_correctives), 196);
 }

@@ -110,6 +110,13 @@ pub struct AuthorOptions<'a> {
     face_object: &'a str,
     bones: &'a [AuthorBone<'a>],
     weights: Option<(&'a [u16], &'a [f32])>,
+    depth_groups: Option<&'a [u8]>,
+    mask: Option<&'a [u8]>,
+    lod_joints: Option<&'a [u32]>,
+    bone_groups: Option<&'a [u32]>,
+    bone_motions: Option<&'a [[f64; 6]]>,
+    joint_groups: usize,
+    overlap_correctives: usize,
     allocator: Option<Allocator>,
 }
 
@@ -130,6 +137,13 @@ impl Default for AuthorOptions<'_> {
             face_object: "",
             bones: &[],
             weights: None,
+            depth_groups: None,
+            mask: None,
+            lod_joints: None,
+            bone_groups: None,
+            bone_motions: None,
+            joint_groups: 0,
+            overlap_correctives: 0,
             allocator: None,
         }
     }
@@ -317,6 +331,49 @@ impl<'a> AuthorOptions<'a> {
         self
     }
 
+    /// Groups in depth of yours, one for each position: 0 in front.
+    pub fn depth_groups(mut self, groups: &'a [u8]) -> Self {
+        self.depth_groups = Some(groups);
+        self
+    }
+
+    /// A mask of yours, one for each position: not 0 where facial bones are placed.
+    pub fn mask(mut self, mask: &'a [u8]) -> Self {
+        self.mask = Some(mask);
+        self
+    }
+
+    /// Facial joints of each LOD at most, as mirrored pairs stay together. The first one has all.
+    pub fn lod_joints(mut self, counts: &'a [u32]) -> Self {
+        self.lod_joints = Some(counts);
+        self
+    }
+
+    /// Joint groups of yours, with [`bones`](Self::bones): one for each, 0 to 255.
+    pub fn bone_groups(mut self, groups: &'a [u32]) -> Self {
+        self.bone_groups = Some(groups);
+        self
+    }
+
+    /// Motions of yours, with [`bones`](Self::bones): for each shape, for each bone its translation at
+    /// full value, then degrees about X, Y and Z.
+    pub fn bone_motions(mut self, motions: &'a [[f64; 6]]) -> Self {
+        self.bone_motions = Some(motions);
+        self
+    }
+
+    /// Joint groups to find: 1 to 24; 0 means as many as have 75 rows each.
+    pub fn joint_groups(mut self, count: usize) -> Self {
+        self.joint_groups = count;
+        self
+    }
+
+    /// Correctives for pairs of shapes that double their motion, at most as many; none by default.
+    pub fn overlap_correctives(mut self, count: usize) -> Self {
+        self.overlap_correctives = count;
+        self
+    }
+
     /// Where memory comes from.
     pub fn allocator(mut self, allocator: &Allocator) -> Self {
         self.allocator = Some(allocator.clone());
@@ -378,6 +435,28 @@ impl<'a> AuthorOptions<'a> {
         Ok((influences, joints.as_ptr(), weights.as_ptr()))
     }
 
+    /// How many LODs there are, if each result of the caller is as long as it has to be.
+    fn check_results(&self, mesh: &sys::MienAuthorMesh) -> Result<usize> {
+        let of =
+            |length: Option<usize>, wanted: usize| length.map_or(true, |count| count == wanted);
+        let bones = self.bones.len();
+        if !of(self.depth_groups.map(<[u8]>::len), mesh.position_count)
+            || !of(self.mask.map(<[u8]>::len), mesh.position_count)
+        {
+            return wrong("depth_groups, mask: not one for each position");
+        }
+        if !of(self.bone_groups.map(<[u32]>::len), bones)
+            || !of(self.bone_motions.map(<[[f64; 6]]>::len), bones.saturating_mul(mesh.shape_count))
+        {
+            return wrong("bone_groups, bone_motions: not one for each bone");
+        }
+        let lods = self.lod_joints.map_or(self.lods, <[u32]>::len);
+        if self.lod_joints.is_some() && (lods == 0 || self.lods != 0 && self.lods != lods) {
+            return wrong("lod_joints: not one for each LOD");
+        }
+        Ok(lods)
+    }
+
     fn run<P: FnMut(&str, f64) -> ControlFlow<()>>(
         &self,
         mesh: &sys::MienAuthorMesh,
@@ -385,6 +464,7 @@ impl<'a> AuthorOptions<'a> {
         run: impl FnMut(usize, Work<'_>),
     ) -> Result<AuthoredRig> {
         let bones = self.bones_of_c();
+        let lods = self.check_results(mesh)?;
         let (influences, weight_joints, weights) = self.weights_of_c(mesh.position_count)?;
         let mut report = Progress { report, panic: None };
         let user = (&mut report as *mut Progress<P>).cast();
@@ -395,7 +475,7 @@ impl<'a> AuthorOptions<'a> {
                 let desc = sys::MienAuthorDesc {
                     facial_joints: index(self.facial_joints),
                     influences: index(influences),
-                    lods: index(self.lods),
+                    lods: index(lods),
                     groups: index(self.groups),
                     seed: self.seed,
                     unit: self.unit,
@@ -413,6 +493,13 @@ impl<'a> AuthorOptions<'a> {
                     progress_user: user,
                     progress: Some(progress::<P>),
                     allocator,
+                    depth_groups: self.depth_groups.map_or(null(), <[u8]>::as_ptr),
+                    mask: self.mask.map_or(null(), <[u8]>::as_ptr),
+                    lod_joints: self.lod_joints.map_or(null(), <[u32]>::as_ptr),
+                    bone_groups: self.bone_groups.map_or(null(), <[u32]>::as_ptr),
+                    bone_motions: self.bone_motions.map_or(null(), |m| m.as_ptr().cast()),
+                    joint_groups: index(self.joint_groups),
+                    overlap_correctives: index(self.overlap_correctives),
                     ..Default::default()
                 };
                 // SAFETY: sized structs; what they point to lives until this function returns, and is

@@ -982,9 +982,11 @@ impl AuthorFlags {
     pub const AREA_DENSITY: Self = Self(8);
     /// What joints cannot do is left out, not written as targets.
     pub const NO_TARGETS: Self = Self(16);
+    /// Groups by distance in space, not in depth: to compare with.
+    pub const GROUP_IN_SPACE: Self = Self(32);
 }
 
-flags!(AuthorFlags, u32, [(1, "PAPER"), (2, "NO_NECK_CUT"), (4, "MASK_FROM_SHAPES"), (8, "AREA_DENSITY"), (16, "NO_TARGETS")]);
+flags!(AuthorFlags, u32, [(1, "PAPER"), (2, "NO_NECK_CUT"), (4, "MASK_FROM_SHAPES"), (8, "AREA_DENSITY"), (16, "NO_TARGETS"), (32, "GROUP_IN_SPACE")]);
 
 /// Axes, units and rotation conventions of a rig. Any handedness is allowed.
 ///
@@ -2297,7 +2299,7 @@ macro_rules! errors {
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the file would be too large\n\
-         - [`Status::AUTHOR_MESH`](crate::Status::AUTHOR_MESH) if the arrays of the mesh, bones or weights contradict each other\n\
+         - [`Status::AUTHOR_MESH`](crate::Status::AUTHOR_MESH) if the arrays of the mesh or of the caller's results contradict each other\n\
          - [`Status::AUTHOR_REFUSED`](crate::Status::AUTHOR_REFUSED) if the mesh cannot be rigged\n\
          - [`Status::AUTHOR_CANCELED`](crate::Status::AUTHOR_CANCELED) if `progress` said so"
     };

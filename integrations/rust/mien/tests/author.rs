@@ -147,6 +147,55 @@ fn all_ways_to_give_the_same_mesh_give_the_same_bytes_on_any_number_of_threads()
 }
 
 #[test]
+fn each_stage_takes_the_result_of_the_caller() {
+    let egg = Egg::new();
+    let [smile, puff] = egg.shapes();
+    let shapes = [smile, puff, AuthorShape { name: "grin", ..smile }]; // as smile, which it doubles
+    let mesh = egg.mesh(&shapes);
+    let bone = |name, position, kind| AuthorBone { name, position, parent: 0, kind };
+    let bones = [
+        bone("root", [0.0; 3], BoneKind::ROOT),
+        bone("left", [4.0, 0.0, 7.0], BoneKind::FACIAL),
+        bone("right", [-4.0, 0.0, 7.0], BoneKind::FACIAL),
+    ];
+    let mask: Vec<u8> = egg.positions.iter().map(|p| (p[2] > 5.0).into()).collect();
+    let groups: Vec<u8> = egg.positions.iter().map(|p| if p[2] > 5.0 { 0 } else { 1 }).collect();
+    let mut motions = [[0.0; 6]; 9];
+    motions[1] = [0.5, 1.0, 0.0, 0.0, 0.0, 10.0];
+    let options = AuthorOptions::new()
+        .bones(&bones)
+        .lod_joints(&[2, 1])
+        .mask(&mask)
+        .depth_groups(&groups)
+        .groups(2)
+        .bone_groups(&[0, 7, 3])
+        .bone_motions(&motions)
+        .joint_groups(2)
+        .overlap_correctives(1);
+    let made = options.make(&mesh).unwrap();
+    let rig = Rig::new(&made.dna).unwrap();
+    assert!(made.report.contains("\"lods\":[{\"facial_joints\":2"));
+    assert!(made.report.contains("\"correctives\":1"));
+    let values = made.dna.read_floats("bhvr.joints.jointGroups[1].values").unwrap();
+    assert_eq!(values[0], 0.5);
+
+    let wrong = Status::INVALID_ARGUMENT;
+    refused(wrong, "mask", &mesh, &options.clone().mask(&mask[1..]));
+    refused(wrong, "depth_groups", &mesh, &options.clone().depth_groups(&[]));
+    refused(wrong, "bone_motions", &mesh, &options.clone().bone_motions(&motions[1..]));
+    refused(wrong, "bone_groups", &mesh, &options.clone().bone_groups(&[0, 1]));
+    refused(wrong, "lod_joints", &mesh, &options.clone().lods(3));
+    refused(wrong, "lod_joints", &mesh, &options.clone().lod_joints(&[1, 2]));
+    refused(wrong, "joint_groups", &mesh, &options.clone().joint_groups(25));
+    refused(
+        Status::AUTHOR_MESH,
+        "joint group 256",
+        &mesh,
+        &options.clone().bone_groups(&[0, 1, 256]),
+    );
+}
+
+#[test]
 fn bones_weights_objects_and_uvs_of_the_caller_arrive() {
     let egg = Egg::new();
     let bone = |name, position, parent, kind| AuthorBone { name, position, parent, kind };
