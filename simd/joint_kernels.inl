@@ -131,10 +131,10 @@ inline void add_pairs(const Value* values, const uint16_t* block_rows, size_t co
 template <class Value>
 inline void expect(const Value* values, const uint16_t* block_rows, const JointRun& run) {
   constexpr size_t kLine = 64 / sizeof(Value), kLines = 4;
-  const Value* const pairs = values + size_t{run.first_pair} * kJointBlockRows;
+  const Value* const pairs = values + size_t{run.start.first_pair} * kJointBlockRows;
   for (size_t i = 0; i < kLines; ++i) __builtin_prefetch(pairs + i * kLine);
-  __builtin_prefetch(values + size_t{run.first_single} * kJointBlockRows);
-  __builtin_prefetch(block_rows + run.pair_entry);
+  __builtin_prefetch(values + size_t{run.start.first_single} * kJointBlockRows);
+  __builtin_prefetch(block_rows + run.start.pair_entry);
 }
 
 template <class How, class Value>
@@ -146,10 +146,10 @@ inline void add_columns(const JointColumnsArgs& args) {
   const JointRun* const end = args.runs + args.run_count;
   for (const JointRun* run = args.runs; run < end; ++run) {
     expect(values, block_rows, run[run + 1 < end]);
-    add_pairs<How>(values + size_t{run->first_pair} * kJointBlockRows, block_rows + run->pair_entry,
-                   run->pair_count, sums, run->input);
-    add_singles<How>(values + size_t{run->first_single} * kJointBlockRows,
-                     block_rows + run->single_entry, run->single_count, sums,
+    add_pairs<How>(values + size_t{run->start.first_pair} * kJointBlockRows,
+                   block_rows + run->start.pair_entry, run->pair_count, sums, run->input);
+    add_singles<How>(values + size_t{run->start.first_single} * kJointBlockRows,
+                     block_rows + run->start.single_entry, run->single_count, sums,
                      broadcast_block(run->input));
   }
 }

@@ -23,10 +23,15 @@ constexpr uint32_t kBlockRowUnit = 4;
 /// Bits of the number of an even block row: of a pair's number no others are looked at.
 constexpr uint32_t kPairBlockRows = 0x10000 - 2 * kBlockRowUnit;
 
-/// What of a column of a joint matrix is multiplied by its input, and where it stands.
+/// Where a column of a joint matrix stands: blocks, and entries in `block_rows`.
+struct JointColumn {
+  uint32_t first_pair, pair_entry, first_single, single_entry;
+};
+
+/// What of a column is multiplied by its input.
 struct JointRun {
-  uint32_t first_pair, pair_entry, pair_count;  // blocks; entries in `block_rows`
-  uint32_t first_single, single_entry, single_count;
+  JointColumn start;
+  uint32_t pair_count, single_count;
   float input;
 };
 

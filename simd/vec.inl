@@ -199,6 +199,23 @@ inline void store(float* to, Vec value) { value.store_unaligned(to); }
 inline void store_first(float* to, Vec value, size_t count) {
 #if defined(MIEN_KERNEL_AVX512)
   _mm512_mask_storeu_ps(to, static_cast<__mmask16>((1u << count) - 1), value);
+#elif defined(__SSE2__)
+#if defined(MIEN_KERNEL_AVX2)
+  __m128 four = _mm256_castps256_ps128(value);
+  if (count & 4) {
+    _mm_storeu_ps(to, four);
+    four = _mm256_extractf128_ps(value, 1);
+    to += 4;
+  }
+#else
+  __m128 four = value;
+#endif
+  if (count & 2) {
+    _mm_storel_pi(reinterpret_cast<__m64*>(to), four);
+    four = _mm_movehl_ps(four, four);
+    to += 2;
+  }
+  if (count & 1) _mm_store_ss(to, four);
 #else
   float lanes[kWidth];
   store(lanes, value);

@@ -9,7 +9,7 @@ namespace mien {
 namespace {
 
 /// To be raised whenever the list of numbers or arrays, or the meaning of one, changes.
-constexpr uint32_t kRigPartVersion = 3;
+constexpr uint32_t kRigPartVersion = 4;
 
 template <class AnyRig, class Visitor>
 void visit_numbers(AnyRig& rig, Visitor& visitor) {
@@ -80,8 +80,7 @@ void visit_arrays(AnyRig& rig, Visitor& visitor) {
   }
   each(rig.joint_parents);
   for (auto& names : rig.names) each(names.first, names.sorted);
-  each(joints.columns, joints.column_of_control, joints.first_block, joints.first_entry,
-       joints.panels, joints.targets);
+  each(joints.columns, joints.column_of_control, joints.starts, joints.panels, joints.targets);
   each(joints.panels_at_lod, joints.targets_at_lod, joints.group_rows_at_lod);
   each(joints.parts, joints.block_rows);
 
@@ -98,8 +97,8 @@ void visit_arrays(AnyRig& rig, Visitor& visitor) {
 }
 
 // Sums of their fields: padding would give one rig two images. No size depends on that of a pointer.
-static_assert(sizeof(ColumnPart) == 4 && sizeof(JointPanel) == 8 && sizeof(JointTarget) == 6 &&
-                  sizeof(AngleJoint) == 4,
+static_assert(sizeof(JointColumn) == 16 && sizeof(ColumnPart) == 4 && sizeof(JointPanel) == 8 &&
+                  sizeof(JointTarget) == 6 && sizeof(AngleJoint) == 4,
               "");
 static_assert(sizeof(GroupRotations) == 16 && sizeof(RotationOutput) == 16 &&
                   sizeof(RbfSolver) == 4,

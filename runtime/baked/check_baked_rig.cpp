@@ -307,8 +307,7 @@ bool check_tiles(const JointMatrix& joints) {
     if (panel == 0 && end == joints.panel_count()) return fit(joints.block_rows, 0, end_block_row);
     for (size_t k = 0; k < joints.columns.count; ++k) {
       const ColumnPart from = joints.part(k, panel), to = joints.part(k, end);
-      const size_t pairs = joints.first_entry[k];
-      const size_t singles = pairs + joints.part(k, joints.panel_count()).pairs;
+      const size_t pairs = joints.starts[k].pair_entry, singles = joints.starts[k].single_entry;
       for (const auto& [first, last] : {std::pair(pairs + from.pairs, pairs + to.pairs),
                                         std::pair(singles + from.singles, singles + to.singles)}) {
         good &= fit(joints.block_rows.slice(first, last - first), first_block_row, end_block_row);
@@ -322,12 +321,10 @@ bool check_blocks(const RigChecker& c, size_t blocks) {
   const JointMatrix& joints = c.rig.joints;
   const size_t entries = joints.block_rows.count, columns = joints.columns.count;
   const size_t ends = joints.panels.count;
-  if (!c.ok(joints.first_block.count == columns + 1 && joints.first_entry.count == columns + 1 &&
-                is_runs(joints.first_block, columns, blocks) &&
-                joints.first_block[columns] == blocks &&
-                is_runs(joints.first_entry, columns, entries) &&
-                joints.first_entry[columns] == entries && joints.parts.count == columns * ends &&
-                below(joints.columns, c.rig.control_count),
+  if (!c.ok(joints.starts.count == columns + 1 && joints.starts[0].first_pair == 0 &&
+                joints.starts[0].pair_entry == 0 && joints.starts[columns].first_pair == blocks &&
+                joints.starts[columns].pair_entry == entries &&
+                joints.parts.count == columns * ends && below(joints.columns, c.rig.control_count),
             "columns of the joint matrix")) {
     return false;
   }
@@ -343,11 +340,13 @@ bool check_blocks(const RigChecker& c, size_t blocks) {
   for (size_t k = 0; k < columns; ++k) {
     const ColumnPart* parts = joints.parts.data + k * ends;
     const uint32_t pairs = parts[ends - 1].pairs, singles = parts[ends - 1].singles;
-    const uint32_t count = joints.first_entry[k + 1] - joints.first_entry[k];
-    const uint32_t first_block = joints.first_block[k];
-    good &= count != 0 && pairs + singles == count && (parts[0].pairs | parts[0].singles) == 0;
-    good &= first_block % 2 == 0 &&
-            joints.first_block[k + 1] - first_block == 2 * (pairs + (singles + 1) / 2);
+    const JointColumn &start = joints.starts[k], &next = joints.starts[k + 1];
+    good &= pairs + singles != 0 && (parts[0].pairs | parts[0].singles) == 0;
+    good &= start.single_entry == uint64_t{start.pair_entry} + pairs &&
+            next.pair_entry == uint64_t{start.single_entry} + singles;
+    good &= start.first_pair % 2 == 0 &&
+            start.first_single == uint64_t{start.first_pair} + 2 * pairs &&
+            next.first_pair == uint64_t{start.first_single} + (singles + 1) / 2 * 2;
     if (k + 1 < columns) falls += size_t{pairs != 0} + (singles != 0);
   }
   return c.ok(good && count_falls(joints.parts) == falls && check_tiles(joints),

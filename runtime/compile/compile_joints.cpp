@@ -354,6 +354,7 @@ void place_columns(JointPlan& plan, JointMatrix& joints) {
     if (pairs + singles == 0) continue;
     joints.columns[k] = static_cast<uint16_t>(control);
     joints.column_of_control[control] = k;
+    joints.starts[k++] = {block, entry, block + 2 * pairs, entry + pairs};
     column.blocks[1] = block;
     column.blocks[0] = block + 2 * pairs;
     column.entries[1] = entry;
@@ -367,16 +368,16 @@ void place_columns(JointPlan& plan, JointMatrix& joints) {
       }
       ++block;
     }
-    joints.first_block[++k] = block;
-    joints.first_entry[k] = entry;
   }
+  joints.starts[k] = {block, entry, block, entry};
 }
 
-/// Where the panels begin in a column, whose single blocks begin at `first_single`.
-void fill_parts(size_t k, uint32_t first_single, JointMatrix& joints) {
+/// Where the panels begin in a column.
+void fill_parts(size_t k, JointMatrix& joints) {
   const uint32_t panel_count = joints.panel_count();
   ColumnPart* parts = joints.parts.data + k * joints.panels.count;
-  const uint32_t first = joints.first_entry[k], end = joints.first_entry[k + 1];
+  const uint32_t first = joints.starts[k].pair_entry, end = joints.starts[k + 1].pair_entry;
+  const uint32_t first_single = joints.starts[k].single_entry;
   uint32_t pair = first, single = first_single;
   for (uint32_t c = 0; c < panel_count; ++c) {
     parts[c] = {static_cast<uint16_t>(pair - first), static_cast<uint16_t>(single - first_single)};
@@ -445,8 +446,7 @@ void place_joints(const dna::DnaView& view, const JointPlan& plan, Placer& place
   joints.block_rows = placer.array<uint16_t>(plan.entry_count);
   joints.columns = placer.array<uint16_t>(plan.column_count);
   joints.column_of_control = placer.array<uint32_t>(rig.control_count);
-  joints.first_block = placer.array<uint32_t>(plan.column_count + 1);
-  joints.first_entry = placer.array<uint32_t>(plan.column_count + 1);
+  joints.starts = placer.array<JointColumn>(plan.column_count + 1);
   joints.parts = placer.array<ColumnPart>(plan.column_count * plan.panel_ends);
   joints.panels = placer.array<JointPanel>(plan.panel_ends);
   joints.panels_at_lod = placer.array<uint32_t>(rig.lod_count);
@@ -513,7 +513,7 @@ void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach,
         }
       });
   for (size_t k = 0; k < joints.columns.count; ++k) {
-    fill_parts(k, plan.columns[joints.columns[k]].entries[1], joints);
+    fill_parts(k, joints);
   }
 }
 

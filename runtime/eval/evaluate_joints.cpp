@@ -14,19 +14,14 @@
 namespace mien {
 namespace {
 
-/// The part of a column that lies in panels of a tile.
-JointRun run_of(const JointMatrix& joints, const JointTile& tile, uint32_t column, float input) {
-  const ColumnPart* parts = joints.parts.data + size_t{column} * joints.panels.count;
-  const ColumnPart from = parts[tile.first_panel], to = parts[tile.end_panel];
-  const uint32_t pairs = parts[joints.panel_count()].pairs;
-  const uint32_t block = joints.first_block[column], entry = joints.first_entry[column];
-  return {block + 2 * from.pairs,
-          entry + from.pairs,
-          static_cast<uint32_t>(to.pairs - from.pairs),
-          block + 2 * pairs + from.singles,
-          entry + pairs + from.singles,
-          static_cast<uint32_t>(to.singles - from.singles),
-          input};
+/// What of a column comes before the tile.
+inline void skip(const ColumnPart& before, JointRun& run) {
+  run.start.first_pair += 2 * before.pairs;
+  run.start.pair_entry += before.pairs;
+  run.start.first_single += before.singles;
+  run.start.single_entry += before.singles;
+  run.pair_count -= before.pairs;
+  run.single_count -= before.singles;
 }
 
 /// Adds the columns from `first_column` on whose controls are not 0, in order.
@@ -43,28 +38,44 @@ void add_columns(const Rig& rig, const Instance& instance, const JointTile& tile
   args.block_rows = joints.block_rows.data;
   args.runs = runs;
   args.sums = tile.sums - size_t{tile.first_block_row} * kJointBlockRows;
-  args.run_count = 0;
   args.portable = rig.portable;
-  const uint32_t first_control = joints.columns[first_column];
-  const float* controls = instance.controls.data;
-  for (uint32_t first = first_control / 64 * 64; first < rig.control_count; first += 64 * kWords) {
+  // In names of their own: for all the compiler knows, runs could lie in the rig.
+  const JointColumn* const starts = joints.starts.data;
+  const ColumnPart* const parts = joints.parts.data;
+  const uint32_t* const column_of_control = joints.column_of_control.data;
+  const size_t panel_ends = joints.panels.count;
+  const uint32_t first_panel = tile.first_panel, end_panel = tile.end_panel;
+  const uint32_t first_control = joints.columns[first_column], control_count = rig.control_count;
+  const float* const controls = instance.controls.data;
+  JointRun* run = runs;
+  const auto add_runs = [&] {
+    args.run_count = static_cast<uint32_t>(run - runs);
+    kernel(args);
+    run = runs;
+  };
+  for (uint32_t first = first_control / 64 * 64; first < control_count; first += 64 * kWords) {
     uint64_t words[kWords];
-    const uint32_t count = std::min(rig.control_count - first, 64 * kWords);
+    const uint32_t count = std::min(control_count - first, 64 * kWords);
     rig.kernels->nonzero({controls + first, words, count});
     if (first < first_control) words[0] &= ~uint64_t{0} << (first_control - first);
     for (uint32_t w = 0; w * 64 < count; ++w) {
       for (uint64_t bits = words[w]; bits != 0; bits &= bits - 1) {
         const uint32_t control = first + w * 64 + lowest_bit(bits);
-        const uint32_t column = joints.column_of_control[control];
+        const uint32_t column = column_of_control[control];
         if (column == kNoColumn) continue;
-        runs[args.run_count++] = run_of(joints, tile, column, controls[control]);
-        if (args.run_count < kMaxRuns) continue;
-        kernel(args);
-        args.run_count = 0;
+        // The part of the column that lies in the panels of the tile.
+        const ColumnPart* const part = parts + column * panel_ends;
+        const ColumnPart end = part[end_panel];
+        run->start = starts[column];
+        run->pair_count = end.pairs;
+        run->single_count = end.singles;
+        run->input = controls[control];
+        if (first_panel != 0) skip(part[first_panel], *run);
+        if (++run == runs + kMaxRuns) add_runs();
       }
     }
   }
-  kernel(args);
+  add_runs();
 }
 
 /// Calls f(target, number of rows as a constant) for the targets of a panel that a LOD writes; with

@@ -68,8 +68,7 @@ struct JointMatrix {
   Span<uint16_t> block_rows;         // [entry]: an entry for each pair and each single block
   Span<uint16_t> columns;            // [column] control, ascending
   Span<uint32_t> column_of_control;  // [control] or kNoColumn
-  Span<uint32_t> first_block;        // [column], one more at the end
-  Span<uint32_t> first_entry;        // [column] into block_rows, one more at the end
+  Span<JointColumn> starts;          // [column], one more at the end
   Span<ColumnPart> parts;        // [column][panel], one more at the end of each column: what of the
                                  // column comes before the panel
   Span<JointPanel> panels;       // one more at the end
@@ -118,17 +117,17 @@ struct JointMatrix {
   template <class F>
   void for_each_block(size_t column, uint32_t panel_end, F&& f) const {
     const ColumnPart& before = part(column, panel_end);
-    const uint32_t pairs = part(column, panel_count()).pairs;
-    const uint16_t* entry = block_rows.data + first_entry[column];
-    uint32_t block = first_block[column];
+    const JointColumn& start = starts[column];
+    const uint16_t* entry = block_rows.data + start.pair_entry;
     for (uint32_t i = 0; i < before.pairs; ++i) {
       const uint32_t block_row = (entry[i] & kPairBlockRows) / kBlockRowUnit;
-      f(block + 2 * i, block_row);
-      f(block + 2 * i + 1, block_row + 1);
+      f(start.first_pair + 2 * i, block_row);
+      f(start.first_pair + 2 * i + 1, block_row + 1);
     }
-    entry += pairs;
-    block += 2 * pairs;
-    for (uint32_t i = 0; i < before.singles; ++i) f(block + i, entry[i] / kBlockRowUnit);
+    entry = block_rows.data + start.single_entry;
+    for (uint32_t i = 0; i < before.singles; ++i) {
+      f(start.first_single + i, entry[i] / kBlockRowUnit);
+    }
   }
 };
 

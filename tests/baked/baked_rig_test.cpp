@@ -180,7 +180,7 @@ TEST(BakedRig, BlocksStayInTheirTiles) {
   const uint32_t end_of_first = joints.panels[joints.tile_end(0)].first_block_row;
   const uint32_t first_of_last = joints.panels[last_tile].first_block_row;
   const uint32_t last = joints.panels[joints.panel_count()].first_block_row - 1;
-  const size_t early = 0, late = joints.first_entry[1] - 1;  // of the first column
+  const size_t early = 0, late = joints.starts[1].pair_entry - 1;  // of the first column
   ASSERT_LT(joints.block_rows[early], end_of_first * kBlockRowUnit);
   ASSERT_GE(joints.block_rows[late], first_of_last * kBlockRowUnit);
   const auto status_with = [&](size_t piece, uint32_t block) {
@@ -246,7 +246,7 @@ TEST(BakedRig, SumsOutsideOfTheLodReachNobody) {
     const uint32_t pairs = joints.part(k, panels).pairs;
     if (pairs == 0) continue;
     const uint32_t block = first + (k % 2 ? 0 : (end - first) / 4 * 2);
-    joints.block_rows[joints.first_entry[k] + pairs - 1] =
+    joints.block_rows[joints.starts[k].pair_entry + pairs - 1] =
         static_cast<uint16_t>(block * kBlockRowUnit);
     ++moved;
   }
@@ -266,7 +266,7 @@ TEST(BakedRig, PairsBeginWithEvenBlocks) {
   for (size_t k = 0; k < joints.columns.count; ++k) {
     const uint32_t pairs = joints.part(k, joints.panel_count()).pairs;
     for (uint32_t i = 0; i < pairs; ++i)
-      joints.block_rows[joints.first_entry[k] + i] += kBlockRowUnit;
+      joints.block_rows[joints.starts[k].pair_entry + i] += kBlockRowUnit;
   }
   for (uint32_t isa : present_isas()) {
     const ExerciseBaked life = exercise_baked(file.bytes.data(), file.bytes.size(), isa);

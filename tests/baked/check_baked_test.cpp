@@ -139,7 +139,7 @@ TEST(CheckBakedRig, JointMatrix) {
           {"no panels", [](Rig& r) { r.joints.panels = {}; }},
           {"too many panels", [](Rig& r) { r.joints.panels.count = kMaxBlockRows + 2; }},
           {"columns end before the blocks do",
-           [](Rig& r) { r.joints.first_block[r.joints.columns.count] -= 2; }},
+           [](Rig& r) { r.joints.starts[r.joints.columns.count].first_pair -= 2; }},
           {"values of the other form", [](Rig& r) { r.joints.fixed_values = zeros<int16_t>(8); }},
           {"scales of the other form", [](Rig& r) { r.joints.scales = zeros<float>(8); }},
           {"no values", [](Rig& r) { r.joints.values = {}; }},

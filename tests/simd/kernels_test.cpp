@@ -85,10 +85,12 @@ class JointMatrix {
       if (k % kUnknown == 0) {
         const uint32_t skipped_pairs = pair_count ? random() % 2 : 0;
         const uint32_t skipped_singles = single_count ? random() % 2 : 0;
-        runs_.push_back({block + 2 * skipped_pairs, entry + skipped_pairs,
-                         pair_count - skipped_pairs, block + 2 * pair_count + skipped_singles,
-                         entry + pair_count + skipped_singles, single_count - skipped_singles,
-                         awkward_number()});
+        runs_.push_back(
+            {{block + 2 * skipped_pairs, entry + skipped_pairs,
+              block + 2 * pair_count + skipped_singles, entry + pair_count + skipped_singles},
+             pair_count - skipped_pairs,
+             single_count - skipped_singles,
+             awkward_number()});
       }
       block += 2 * pair_count + single_count + single_count % 2;
     }
@@ -190,14 +192,14 @@ class JointMatrix {
     for (size_t i = 0; i < runs_.size(); ++i) {
       const JointRun& run = runs_[i];
       for (uint32_t p = 0; p < run.pair_count; ++p) {
-        const size_t number = block_rows_[run.pair_entry + p] & kPairBlockRows;
+        const size_t number = block_rows_[run.start.pair_entry + p] & kPairBlockRows;
         const size_t block_row = number / kBlockRowUnit - kFirstBlockRow;
-        f(i, run.first_pair + 2 * p, block_row);
-        f(i, run.first_pair + 2 * p + 1, block_row + 1);
+        f(i, run.start.first_pair + 2 * p, block_row);
+        f(i, run.start.first_pair + 2 * p + 1, block_row + 1);
       }
       for (uint32_t p = 0; p < run.single_count; ++p) {
-        f(i, run.first_single + p,
-          block_rows_[run.single_entry + p] / kBlockRowUnit - kFirstBlockRow);
+        f(i, run.start.first_single + p,
+          block_rows_[run.start.single_entry + p] / kBlockRowUnit - kFirstBlockRow);
       }
     }
   }
