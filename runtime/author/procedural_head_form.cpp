@@ -25,15 +25,15 @@ namespace {
 // y, half width, front, back, exponent
 constexpr int kKnotColumns = 5;
 constexpr double kKnots[][kKnotColumns] = {
-    {-22.0, 4.0, 2.4, -4.6, 2.2},    {-21.5, 6.4, 3.9, -6.3, 2.2},  {-20.6, 8.5, 4.9, -7.7, 2.25},
-    {-19.4, 9.5, 5.15, -8.4, 2.3},   {-18.2, 9.0, 4.9, -8.4, 2.25}, {-17.0, 7.2, 4.4, -7.9, 2.15},
-    {-15.8, 5.45, 3.85, -7.1, 2.05}, {-14.4, 4.85, 3.6, -6.5, 2.0}, {-12.6, 4.7, 3.9, -6.1, 2.0},
-    {-11.5, 4.7, 4.75, -5.95, 2.0},  {-10.9, 4.65, 6.6, -5.9, 2.0}, {-10.3, 4.75, 8.15, -5.9, 2.0},
-    {-9.2, 5.45, 8.7, -6.0, 2.05},   {-8.0, 5.8, 8.62, -6.3, 2.05}, {-6.0, 6.4, 8.8, -6.9, 2.1},
-    {-4.0, 6.95, 9.0, -7.8, 2.15},   {-1.5, 7.4, 9.15, -8.9, 2.2},  {0.6, 7.65, 9.25, -9.6, 2.25},
-    {3.0, 7.85, 9.5, -10.0, 2.3},    {5.0, 7.85, 9.35, -10.1, 2.3}, {7.5, 7.45, 8.6, -9.7, 2.25},
-    {9.8, 6.3, 7.0, -8.5, 2.2},      {11.4, 4.6, 4.7, -6.6, 2.15},  {12.25, 2.7, 2.2, -4.0, 2.1},
-    {12.6, 0.6, -0.3, -1.5, 2.0},
+    {-22.0, 12.9, 5.5, -9.0, 2.5},  {-21.6, 13.05, 5.5, -9.1, 2.5},  {-20.6, 13.0, 5.0, -9.1, 2.5},
+    {-19.4, 12.7, 4.5, -9.1, 2.45}, {-18.3, 11.6, 3.95, -8.8, 2.35}, {-17.4, 9.9, 3.5, -8.4, 2.25},
+    {-16.6, 7.9, 3.3, -7.9, 2.15},  {-15.8, 6.2, 3.3, -7.4, 2.05},   {-14.4, 5.25, 3.5, -6.8, 2.0},
+    {-12.6, 5.1, 3.9, -6.4, 2.0},   {-11.5, 5.1, 4.95, -6.2, 2.0},   {-10.9, 5.0, 7.0, -6.1, 2.05},
+    {-10.3, 5.15, 8.45, -6.1, 2.1}, {-9.2, 5.75, 8.85, -6.2, 2.1},   {-8.0, 6.1, 8.7, -6.4, 2.1},
+    {-6.0, 6.6, 8.85, -6.9, 2.1},   {-4.0, 7.0, 9.0, -7.8, 2.15},    {-1.5, 7.4, 9.15, -8.9, 2.2},
+    {0.6, 7.65, 9.25, -9.6, 2.25},  {3.0, 7.85, 9.5, -10.0, 2.3},    {5.0, 7.85, 9.35, -10.1, 2.3},
+    {7.5, 7.45, 8.6, -9.7, 2.25},   {9.8, 6.3, 7.0, -8.5, 2.2},      {11.4, 4.6, 4.7, -6.6, 2.15},
+    {12.25, 2.7, 2.2, -4.0, 2.1},   {12.6, 0.6, -0.3, -1.5, 2.0},
 };
 constexpr int kKnotCount = sizeof(kKnots) / sizeof(kKnots[0]);
 
@@ -73,12 +73,6 @@ double smooth_max(double a, double b, double width) {
   return std::max(a, b) + 0.25 * width * h * h;
 }
 
-/// Like a bump of width 1 with a broader top.
-double round_ridge(double x) {
-  const double u = x * x;
-  return u > 40 ? 0 : exact_exp(-u * u / (u + 0.35));
-}
-
 constexpr double kCollarY = -16.1;
 
 /// How far a place is inside the jaw, in the view from the side: its border runs from the chin to
@@ -100,10 +94,10 @@ Form::Section Form::section(double y, double cosine) const {
   };
   Section s = {at(1), at(2), at(3), at(4)};
   // The nape has no jaw.
-  static constexpr double kNape[][2] = {{-22.0, 4.0},  {-21.5, 6.4}, {-20.6, 8.5}, {-19.4, 9.5},
-                                        {-18.2, 9.0},  {-17.0, 7.3}, {-15.4, 5.5}, {-13.6, 4.8},
-                                        {-10.5, 4.75}, {-7.5, 5.3},  {-4.5, 6.35}, {-1.5, 7.25},
-                                        {0.6, 7.65}};
+  static constexpr double kNape[][2] = {{-22.0, 12.9}, {-21.6, 13.05}, {-20.6, 13.0}, {-19.4, 12.7},
+                                        {-18.3, 11.6}, {-17.4, 10.1},  {-16.6, 8.5},  {-15.6, 6.6},
+                                        {-13.6, 5.2},  {-10.5, 5.15},  {-7.5, 5.5},   {-4.5, 6.35},
+                                        {-1.5, 7.25},  {0.6, 7.65}};
   if (y < 0.6)
     s.half_width = mix(s.half_width, interpolate(y, kNape), smooth_step(0.30, -0.45, cosine));
   const Person& p = person_;
@@ -163,28 +157,47 @@ double Form::lower_opening(double x) const {
   return -0.21 * exact_pow(inside, 0.80) * (1 + 0.16 * s);
 }
 
+/// The nose above the face around it: a dome in each row, with steep sides where the wings are.
+double Form::nose(double x, double y) const {
+  const Person& p = person_;
+  // y, height of the ridge, half width, steepness of the sides (less is steeper)
+  static constexpr double kRows[][4] = {
+      {-4.9, 0.00, 0.8, 1.20},   {-4.6, 0.30, 1.15, 1.00},  {-4.35, 0.86, 1.42, 0.75},
+      {-4.12, 1.50, 1.54, 0.56}, {-3.85, 2.02, 1.59, 0.50}, {-3.5, 2.27, 1.60, 0.52},
+      {-3.1, 2.30, 1.56, 0.62},  {-2.7, 2.16, 1.47, 0.95},  {-2.2, 1.86, 1.38, 1.25},
+      {-1.5, 1.44, 1.30, 1.50},  {-0.6, 0.98, 1.20, 1.65},  {0.4, 0.62, 1.08, 1.65},
+      {1.3, 0.42, 1.20, 1.60},   {2.4, 0.26, 1.8, 1.50},    {4.2, 0.00, 2.2, 1.50}};
+  constexpr int kCount = sizeof(kRows) / sizeof(kRows[0]);
+  const double at_x = std::abs(x) / p.nose_width;
+  // The rim of the nostril is an arch.
+  const double row = y - 0.16 * bump(at_x, y, kNostril.x, kNostril.y - 0.05, 0.36, 0.45);
+  const auto at = [row](int column) {
+    return interpolate(row, kRows[0], kRows[0] + column, 4, kCount);
+  };
+  const double t = at_x / at(2);
+  // Its foot is round: the dome goes to 0 a little outside.
+  const double left = 1 - t * t, above = 0.5 * (left + std::sqrt(left * left + 0.006));
+  double z = t < 1.4 ? at(1) * exact_pow(above, at(3)) * smooth_step(1.4, 1.0, t) : 0;
+  // The wing is a ball of its own, behind a furrow that runs around it from the tip to the cheek.
+  const double dx = at_x - 1.20, dy = y + 3.42, apart = std::sqrt(dx * dx + 0.8 * dy * dy) - 0.50;
+  z += 0.27 * bump(dx, dy, 0, 0, 0.32, 0.36);
+  z -= 0.26 * bump(apart, 0, 0, 0, 0.14, 1) * smooth_step(-0.50, 0.05, dy) * (t < 1);
+  return p.nose * z;
+}
+
 double Form::relief(double x, double y) const {
   const Person& p = person_;
-  // Ridge of the nose, its height and its half width.
-  static constexpr double kRidge[][2] = {{-4.15, 0.0},  {-3.8, 0.22}, {-3.45, 1.0}, {-3.1, 1.75},
-                                         {-2.65, 2.05}, {-2.0, 1.66}, {-1.0, 1.18}, {0.4, 0.62},
-                                         {1.3, 0.38},   {2.4, 0.30},  {4.4, 0.0}};
-  static constexpr double kWidth[][2] = {{-3.8, 0.50}, {-3.3, 0.80}, {-2.7, 0.95}, {-1.5, 0.70},
-                                         {0.4, 0.62},  {2.2, 1.0},   {4.0, 1.6}};
-  double z =
-      p.nose * interpolate(y, kRidge) * round_ridge(x / (p.nose_width * interpolate(y, kWidth)));
+  double z = nose(x, y);
   struct Bump {
     double amount, cx, cy, sx, sy;
   };
   const double wing = p.nose_width;
   const Bump bumps[] = {
-      {-0.62, 3.3, 0.45, 1.9, 1.25},                    // sockets
-      {-0.50, 1.75, 0.35, 0.62, 0.95},                  // inner corners of the eyes
-      {0.26, 3.5, 1.85, 1.6, 0.55},                     // skin that hangs over the crease
-      {0.24 + p.brow_ridge, 2.8, 3.15, 2.2, 0.75},      // brow ridge
-      {0.86 * p.nose, 1.17 * wing, -3.05, 0.42, 0.48},  // wings of the nose
-      {-0.20, 0.86 * wing, -2.42, 0.22, 0.30},          // furrow between tip and wing
-      {-0.16, 1.85 * wing, -3.05, 0.32, 0.52},          // behind the wing
+      {-0.50, 3.3, 0.25, 1.9, 1.30},                    // sockets
+      {-0.20, 1.75, 0.15, 0.62, 0.95},                  // inner corners of the eyes
+      {0.30, 3.6, 1.75, 1.6, 0.75},                     // skin that hangs over the crease
+      {0.22 + p.brow_ridge, 2.6, 2.85, 2.2, 0.85},      // brow ridge
+      {-0.12, 1.84 * wing, -3.6, 0.26, 0.50},           // behind the wing of the nose
       {0.34 * p.cheek, 4.7, -2.0, 1.7, 1.3},            // cheekbones
       {0.22, 2.9, -2.5, 1.2, 1.2},                      // apple of the cheek
       {-0.34 * p.cheek, 5.0, -5.4, 1.3, 1.7},           // hollow of the cheek
@@ -242,6 +255,20 @@ double Form::angle_of(double x, double y) const {
   return exact_atan2(s, std::sqrt(1 - s * s));
 }
 
+double Form::x_of(double angle, double y) const {
+  const Section at = section(y, 1);
+  return at.half_width * exact_pow(std::max(exact_sine_cosine(angle).sine, 0.0), 2 / at.exponent);
+}
+
+double Form::fold_x(double y) const {
+  static constexpr double kFold[][2] = {{-8.0, 3.60},  {-6.6, 3.42}, {-5.6, 3.05}, {-4.9, 2.45},
+                                        {-4.4, 1.86},  {-4.1, 1.66}, {-3.5, 1.65}, {-3.1, 1.61},
+                                        {-2.7, 1.58},  {-2.2, 1.80}, {-1.5, 2.45}, {0.0, 3.0},
+                                        {kEye.y, 3.60}};
+  return interpolate(y, kFold) +
+         1.6 * (person_.nose_width - 1) * smooth_step(-5.6, -4.2, y) * smooth_step(-1.2, -2.4, y);
+}
+
 FacePoint Form::face(double angle, double y, Side side) const {
   const auto [sine, cosine] = exact_sine_cosine(angle);
   const Section at = section(y, cosine);
@@ -283,14 +310,8 @@ FacePoint Form::face(double angle, double y, Side side) const {
                        mix(0.7, 1, bump(0, y, 0, kCollarY - 0.35, 1, 0.3));
   p.x += cloth * sine;
   p.z += cloth * cosine;
-  p.y += (0.020 * p.x * p.x + 0.9 * smooth_step(3, -5, p.z)) * bump(0, y, 0, kCollarY, 1, 1.6);
-  // The tip of the nose hangs a little over its root, and nostrils go up into it.
-  p.y -= front_mask * 0.24 * person_.nose * bump(p.x, y, 0, -2.95, 0.9, 0.50);
-  p.y -= front_mask * 0.12 * bump(p.x, y, 1.1 * person_.nose_width, -3.2, 0.35, 0.30);
-  const double nostril = front_mask * bump(p.x, y, 0.58 * person_.nose_width, -3.52, 0.24, 0.17);
-  p.y += 0.20 * nostril;
-  p.z -= 0.35 * nostril;
-
+  p.y += (0.020 * std::min(p.x * p.x, 50.0) + 0.9 * smooth_step(3, -5, p.z)) *
+         bump(0, y, 0, kCollarY, 1, 1.6);
   // Lids lie on a ball around the eye, and the face runs smoothly into it.
   const double dx = p.x - kEye.x, dy = p.y - kEye.y, from = from_lids(p.x, p.y);
   if (front_mask > 0 && from < 5) {
@@ -299,9 +320,14 @@ FacePoint Form::face(double angle, double y, Side side) const {
     double ball = kEye.z + std::sqrt(kLidRadius * kLidRadius - std::min(r * r, edge * edge));
     if (r > edge) ball -= (r - edge) * steep;
     p.z = mix(p.z, smooth_max(p.z, ball, 0.8), front_mask);
+    // Above the crease skin hangs from the brow.
+    const double above = p.y - lid_line(p.x);
+    const double hood = smooth_step(1.35, 0.62, above / (0.42 + 0.46 * std::max(0.0, 1 - s * s)));
+    const double inner = smooth_step(-1.22, -0.90, s);
     p.z = mix(p.z, ball,
-              front_mask * mix(smooth_step(1.2, 0.7, from), smooth_step(1.5, 0.3, from),
-                               smooth_step(0.1, -0.5, dy)));
+              front_mask * hood * inner *
+                  mix(smooth_step(1.2, 0.7, from), smooth_step(1.5, 0.3, from),
+                      smooth_step(0.1, -0.5, dy)));
   }
 
   FacePoint out;
@@ -335,12 +361,9 @@ Color Form::skin_color(Vec3 p, double row, double lid) const {
   const Color blush = redder(skin, 0.85);
   Color c = skin;
   const double red =
-      0.34 * bump(x, p.y, 4.4, -2.5, 1.7, 1.3) + 0.34 * bump(x, p.y, 0, -2.7, 1.1, 0.8) +
+      0.20 * bump(x, p.y, 4.6, -2.3, 2.1, 1.7) + 0.34 * bump(x, p.y, 0, -3.2, 1.2, 0.8) +
       0.20 * bump(x, p.y, 0, -9.4, 1.6, 0.9) + 0.06 * bump(x, p.y, 3.2, 1.6, 1.7, 0.8);
   c = mix(c, blush, std::min(red, 0.8) * in_front);
-  // Nostrils.
-  c = mix(c, {58, 24, 22},
-          0.85 * bump(x, p.y, 0.58 * person_.nose_width, -3.58, 0.23, 0.17) * in_front);
   // Lips.
   if (x < 1.06 * kMouthHalfWidth && p.z > 4) {
     const double d = p.y - mouth_line(p.x);

@@ -47,8 +47,9 @@ Person make_person(uint64_t seed);
 
 constexpr Vec3 kEye = {3.2, 0.3, 6.8};  // center of the left eyeball
 constexpr double kEyeRadius = 1.60;
-constexpr double kLidRadius = 1.72;     // outside of the lids
-constexpr double kEyeHalfWidth = 1.52;  // of the opening between the lids
+constexpr double kLidRadius = 1.72;          // outside of the lids
+constexpr double kEyeHalfWidth = 1.52;       // of the opening between the lids
+constexpr Vec3 kNostril = {0.80, -3.97, 0};  // of a nose of width 1, seen from the front
 constexpr double kMouthY = -6.0;
 constexpr double kMouthHalfWidth = 2.45;
 constexpr double kCrownY = 12.6;
@@ -84,6 +85,10 @@ class Form {
 
   /// The angle at which the row `y` has this |x|, in front.
   double angle_of(double x, double y) const;
+  /// The |x| of this angle in the row `y`, in front.
+  double x_of(double angle, double y) const;
+  /// |x| of the line from the wing of the nose past the corner of the mouth to the chin.
+  double fold_x(double y) const;
 
   /// -1 at the inner corner of the eye, 1 at the outer one.
   static double along_eye(double x) { return (x - kEye.x) / kEyeHalfWidth; }
@@ -110,6 +115,7 @@ class Form {
   /// `cosine` of the angle.
   Section section(double y, double cosine) const;
   double relief(double x, double y) const;
+  double nose(double x, double y) const;
   double lips(double x, double y) const;
 
   Person person_;

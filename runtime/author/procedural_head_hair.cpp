@@ -52,18 +52,79 @@ double hair_line(const Style& style, double share) {
   return mix(y, style.hang - 0.8 * smooth_step(0.5, 1, share), smooth_step(0.27, 0.37, share));
 }
 
-}  // namespace
+class HairMaker {
+ public:
+  HairMaker(const Form& form, uint32_t lod, HalfMesh& out)
+      : form_(form), lod_(lod), out_(out), style_(style_of(form.person().style)),
+        parted_(std::min(style_.wave * 2, 1.0)) {}
 
-void add_hair(const Form& form, uint32_t lod, HalfMesh& out) {
-  out.mirrored = false;  // parted on the left
-  const uint32_t columns = 2 * at_lod(84, 7, lod), rows = at_lod(38, 4, lod) + 1;
-  constexpr double kPart = 0.42;   // angle of the parting
-  constexpr double kSkull = -1.0;  // hair hangs from here on
-  const Style style = style_of(form.person().style);
-  const bool curly = form.person().style == HairStyle::kCurly;
-  const double parted = std::min(style.wave * 2, 1.0);
-  const Color hair = form.person().hair;
-  const uint32_t first = out.vertices.count();
+  void make() {
+    out_.mirrored = false;  // parted on the left
+    make_cap();
+    if (lod_ < 3 && !out_.failed()) make_strips();
+  }
+
+ private:
+  static constexpr double kPart = 0.42;   // angle of the parting
+  static constexpr double kSkull = -1.0;  // hair hangs from here on
+
+  struct Root {
+    Vec3 skin, normal;
+    double below;  // how far hair hangs there
+  };
+  /// Where the skull is at `t` of the way from the hair line, moved by `beyond`, to the crown; `t`
+  /// below 0 is in front of the line.
+  Root root_at(double around, double t, double beyond) const {
+    const double share = std::abs(around) / kPi;
+    const double line = hair_line(style_, share) + beyond;
+    const double y = t < 0 ? line + 8 * t : mix(line, kCrownY, 1 - exact_pow(1 - t, 1.35));
+    const bool hangs = style_.hang < 0;
+    Root root;
+    root.skin = form_.face(std::abs(around), std::max(y, hangs ? kSkull : y), Side::kAbove).closed;
+    root.below = hangs ? std::max(0.0, kSkull - y) : 0.0;
+    root.skin.y -= root.below;
+    if (around < 0) root.skin.x = -root.skin.x;
+    const Vec3 p = root.skin;
+    root.normal = unit({p.x / (7.8 * 7.8), (std::max(p.y, kSkull) - 2.5) / (10.2 * 10.2),
+                        (p.z + 0.4) / (9.7 * 9.7)});
+    return root;
+  }
+
+  /// Height of the hair above the skull, without locks.
+  double thickness(double around, double t, const Root& root) const {
+    const double share = std::abs(around) / kPi, front = smooth_step(0.46, 0.0, share);
+    const double wave = wave_at(around);
+    double thick = mix(style_.low, style_.high, smooth_step(0.15, 0.8, t));
+    thick += 1.25 * wave * bump(t, 0, 0.22, 0, 0.24, 1) +
+             0.35 * style_.wave * front * bump(t, 0, 0.25, 0, 0.2, 1);
+    // Hair that hangs covers the ears and turns in at its end.
+    if (root.below > 0) {
+      thick += 0.75 * smooth_step(0, 2.5, root.below) - 0.9 * smooth_step(4.6, 6.6, root.below);
+    }
+    if (style_.hang < 0) thick += 0.8 * bump(share, root.skin.y, 0.52, 0.5, 0.10, 3);
+    return thick;
+  }
+  double wave_at(double around) const {
+    return style_.wave * bump(around - kPart, 0, -0.55, 0, 0.75, 1);
+  }
+
+  void make_cap();
+  void make_strips();
+  void make_strip(uint32_t number, double from, double to, double start, double end, double wide,
+                  double raise);
+
+  const Form& form_;
+  const uint32_t lod_;
+  HalfMesh& out_;
+  const Style style_;
+  const double parted_;
+};
+
+void HairMaker::make_cap() {
+  const uint32_t columns = 2 * at_lod(60, 7, lod_), rows = at_lod(26, 4, lod_) + 1;
+  const bool curly = form_.person().style == HairStyle::kCurly;
+  const Color hair = form_.person().hair;
+  const uint32_t first = out_.vertices.count();
   for (uint32_t row = 0; row < rows; ++row) {
     const double t = static_cast<double>(row) / rows;
     for (uint32_t k = 0; k < columns; ++k) {
@@ -71,72 +132,147 @@ void add_hair(const Form& form, uint32_t lod, HalfMesh& out) {
       const double share = std::abs(around) / kPi, front = smooth_step(0.46, 0.0, share);
       // Locks: round ridges between furrows, swept away from the parting in front, straight behind.
       const double from_part = around - kPart;
-      const double sweep = 3.4 * t * front * parted * (from_part < 0 ? 1 : -0.6);
+      const double sweep = 3.4 * t * front * parted_ * (from_part < 0 ? 1 : -0.6);
       const double fade = smooth_step(1.0, 0.55, t);  // towards the crown, where all locks meet
       const double phase =
-          1.2 * t * t + style.locks * around + 0.9 * exact_sine(2 * around + 0.7) + sweep;
+          1.2 * t * t + style_.locks * around + 0.9 * exact_sine(2 * around + 0.7) + sweep;
       double lock = 2 * std::sqrt(std::abs(exact_sine(phase))) - 1;
-      double fine = exact_sine(style.strands * phase + 1.3 * exact_sine(3 * around));
+      double fine = exact_sine(style_.strands * phase + 1.3 * exact_sine(3 * around));
       if (curly) {
         lock = exact_sine(11 * around + 3 * exact_sine(9 * t)) * exact_sine(26 * t + 2 * lock);
         fine = exact_sine(23 * around + 40 * t);
       }
       // The parting is a furrow from the hair line to near the crown.
       const double parting =
-          parted * bump(from_part, 0, 0, 0, 0.10, 1) * smooth_step(0.75, 0.35, t);
-      const double line = hair_line(style, share) -
-                          front * (1.6 * style.lock * lock + 2.5 * style.strand * fine) +
-                          parted * 0.35 * bump(from_part, 0, 0, 0, 0.16, 1) -
-                          parted * 0.30 * front * smooth_step(0.3, -0.7, from_part) *
-                              smooth_step(-1.6, -0.7, from_part);
-      const double y = mix(line, kCrownY, 1 - exact_pow(1 - t, 1.35));
-      Vec3 skin =
-          form.face(std::abs(around), std::max(y, style.hang < 0 ? kSkull : y), Side::kAbove)
-              .closed;
-      const double below = style.hang < 0 ? std::max(0.0, kSkull - y) : 0.0;
-      skin.y -= below;
-      if (around < 0) skin.x = -skin.x;
-      const Vec3 normal =
-          unit({skin.x / (7.8 * 7.8), (std::max(skin.y, kSkull) - 2.5) / (10.2 * 10.2),
-                (skin.z + 0.4) / (9.7 * 9.7)});
-      const double wave = style.wave * bump(from_part, 0, -0.55, 0, 0.75, 1);
-      double thick = mix(style.low, style.high, smooth_step(0.15, 0.8, t));
-      thick += 1.25 * wave * bump(t, 0, 0.22, 0, 0.24, 1) +
-               0.35 * style.wave * front * bump(t, 0, 0.25, 0, 0.2, 1);
-      thick += (style.lock * (1 + 0.4 * wave) * lock + style.strand * fine) * fade;
+          parted_ * bump(from_part, 0, 0, 0, 0.10, 1) * smooth_step(0.75, 0.35, t);
+      const double beyond = -front * (1.6 * style_.lock * lock + 2.5 * style_.strand * fine) +
+                            parted_ * 0.35 * bump(from_part, 0, 0, 0, 0.16, 1) -
+                            parted_ * 0.30 * front * smooth_step(0.3, -0.7, from_part) *
+                                smooth_step(-1.6, -0.7, from_part);
+      const Root root = root_at(around, t, beyond);
+      const double wave = wave_at(around);
+      double thick = thickness(around, t, root);
+      thick +=
+          ((lod_ < 3 ? 0.5 : 1) * style_.lock * (1 + 0.4 * wave) * lock + style_.strand * fine) *
+          fade;
       thick -= 0.42 * parting;
-      // Hair that hangs covers the ears and turns in at its end.
-      if (below > 0)
-        thick += 0.75 * smooth_step(0, 2.5, below) - 0.9 * smooth_step(4.6, 6.6, below);
-      if (style.hang < 0) thick += 0.8 * bump(share, skin.y, 0.52, 0.5, 0.10, 3);
-      const double root =
-          style.hang < 0 && share > 0.35 ? 1 : smooth_step(0, 0.10 + 0.05 * front, t);
-      Vec3 at = skin + normal * mix(-0.30, thick, root);
+      const double grown =
+          style_.hang < 0 && share > 0.35 ? 1 : smooth_step(0, 0.10 + 0.05 * front, t);
+      Vec3 at = root.skin + root.normal * mix(-0.30, thick, grown);
       at.y += 0.55 * wave * bump(t, 0, 0.20, 0, 0.2, 1) * smooth_step(0, 0.1, t);
       Color c =
           mix(hair, {14, 9, 8},
               (0.45 * smooth_step(0.1, -0.9, lock) - 0.24 * fine) * fade + 0.22 + 0.3 * parting);
       c = mix(c, mix(hair, {255, 222, 180}, 0.25), 0.40 * fade * smooth_step(0.3, 0.95, lock));
       // Short hair lets the skin through where it begins.
-      c = mix(c, mix(hair, form.person().skin, 0.45),
-              smooth_step(0.3, 0.15, style.low) * smooth_step(0.12, 0.0, t));
+      c = mix(c, mix(hair, form_.person().skin, 0.45),
+              smooth_step(0.3, 0.15, style_.low) * smooth_step(0.12, 0.0, t));
       // Texture coordinates as seen from above, so that no seam is needed.
       const auto [s, cosine] = exact_sine_cosine(around);
-      out.vertices.add(
+      out_.vertices.add(
           plain(at, c, 0.5 + 0.49 * (1 - t) * s, 0.5 - 0.49 * (1 - t) * cosine, Carrier::kSkull));
     }
   }
-  const uint32_t crown = out.vertices.add(
-      plain({0, form.raised(kCrownY) + style.high, -0.9}, hair, 0.5, 0.5, Carrier::kSkull));
+  const uint32_t crown = out_.vertices.add(
+      plain({0, form_.raised(kCrownY) + style_.high, -0.9}, hair, 0.5, 0.5, Carrier::kSkull));
   for (uint32_t k = 0; k < columns; ++k) {
     const uint32_t next = (k + 1) % columns;
     for (uint32_t row = 0; row + 1 < rows; ++row) {
       const uint32_t low = first + row * columns, high = low + columns;
-      out.quad(low + k, low + next, high + next, high + k);
+      out_.quad(low + k, low + next, high + next, high + k);
     }
     const uint32_t last = first + (rows - 1) * columns;
-    out.triangle(last + k, last + next, crown);
+    out_.triangle(last + k, last + next, crown);
   }
 }
+
+/// A lock as a strip that is bent across, from (`from`, `start`) to (`to`, `end`): angle and `t`.
+void HairMaker::make_strip(uint32_t number, double from, double to, double start, double end,
+                           double wide, double raise) {
+  constexpr uint32_t kMaxSteps = 8;
+  const uint32_t steps = lod_ == 0 ? (start - end > 0.3 ? 7 : 4) : lod_ == 1 ? 4 : 3;
+  Vec3 path[kMaxSteps + 1], normals[kMaxSteps + 1];
+  double bend = 0.5 * scatter(number + 40) * std::abs(start - end);
+  for (uint32_t i = 0; i <= steps; ++i) {
+    const double s = static_cast<double>(i) / steps;
+    const double around = mix(from, to, 1 - (1 - s) * (1 - s)) + 0.25 * bend * s * (1 - s);
+    const double t = mix(start, end, s);
+    const Root root = root_at(around, t, 0);
+    double high = thickness(around, std::max(t, 0.0), root);
+    const double wave = wave_at(around);
+    high += (raise + 0.16 * wave) * exact_sine(kPi * clamp01(0.15 + 0.72 * s));
+    path[i] = root.skin + root.normal * high;
+    path[i].y += 0.55 * wave * bump(t, 0, 0.20, 0, 0.2, 1) * smooth_step(0, 0.1, t);
+    normals[i] = root.normal;
+  }
+  const Color hair = form_.person().hair;
+  const double shade = scatter(number + 80);
+  const Color light = mix(hair, {255, 222, 180}, 0.16 + 0.08 * shade),
+              dark = mix(hair, {14, 9, 8}, 0.34 - 0.12 * shade);
+  const auto add = [&](Vec3 at, Color c, double u, double v) {
+    return out_.vertices.add(plain(at, c, u, v, Carrier::kSkull));
+  };
+  uint32_t before[3] = {0, 0, 0};
+  for (uint32_t i = 0; i < steps; ++i) {
+    const double s = static_cast<double>(i) / steps;
+    const Vec3 along = path[i + 1] - path[i > 0 ? i - 1 : 0];
+    const Vec3 across = unit(cross(along, normals[i]));
+    const double half = wide * mix(0.55, 1, smooth_step(0, 0.35, s)) * smooth_step(1.15, 0.45, s);
+    const Vec3 down = normals[i] * (-0.30 * half);
+    const Color edge = mix(dark, hair, 0.35 * s), ridge = mix(hair, light, exact_sine(kPi * s));
+    const uint32_t here[3] = {add(path[i] - across * half + down, edge, 0.45, s),
+                              add(path[i], ridge, 0.5, s),
+                              add(path[i] + across * half + down, edge, 0.55, s)};
+    for (int k = 0; i > 0 && k < 2; ++k) {
+      out_.quad(before[k], before[k + 1], here[k + 1], here[k]);
+    }
+    std::copy(here, here + 3, before);
+  }
+  const uint32_t tip = add(path[steps], mix(hair, dark, 0.3), 0.5, 1);
+  out_.triangle(before[0], before[1], tip);
+  out_.triangle(before[1], before[2], tip);
+}
+
+/// Layers of locks, those of the lowest at the hair line, like shingles.
+void HairMaker::make_strips() {
+  const bool is_short = style_.high < 0.5, curly = form_.person().style == HairStyle::kCurly;
+  const uint32_t layers = is_short || curly ? 5 : 3;
+  const double share = lod_ == 0 ? 1 : lod_ == 1 ? 0.7 : 0.5;
+  uint32_t number = 0;
+  for (uint32_t layer = 0; layer < layers; ++layer) {
+    const double low = static_cast<double>(layer) / layers;
+    const uint32_t count =
+        static_cast<uint32_t>(share * (is_short || curly ? 60 : 64) * mix(1, 0.40, low));
+    for (uint32_t i = 0; i < count; ++i, ++number) {
+      double to = mix(-kPi, kPi, (i + 0.5 + 0.4 * scatter(number)) / count);
+      const double front = smooth_step(0.46, 0.15, std::abs(to) / kPi);
+      double end = 0.85 * low - 0.02 - 0.04 * front + 0.045 * scatter(number + 1000);
+      double size = (is_short ? 0.20 : curly ? 0.22 : 0.55) * (1 + 0.25 * scatter(number + 2000));
+      double from = to, raise = is_short ? 0.10 : 0.16;
+      if (curly) {
+        from += 0.45 * scatter(number + 3000);
+        raise = 0.30 + 0.15 * scatter(number + 4000);
+      } else if (parted_ > 0) {
+        // From the parting to the side.
+        const double away = to - kPart;
+        from = mix(to, kPart + (away < 0 ? -0.10 : 0.10), front * 0.75);
+        if (std::abs(away) < 0.12) continue;
+      } else {
+        from += 0.10 * scatter(number + 3000);
+      }
+      const double start = std::min(end + size, 0.93);
+      if (start - end < 0.06) continue;
+      const double wide = (is_short ? 0.26
+                           : curly  ? 0.42
+                                    : 0.46) *
+                          (1 + 0.3 * scatter(number + 5000)) * mix(1, 0.75, low) / std::sqrt(share);
+      make_strip(number, from, to, start, end, wide, raise + 0.05 * scatter(number + 6000));
+    }
+  }
+}
+
+}  // namespace
+
+void add_hair(const Form& form, uint32_t lod, HalfMesh& out) { HairMaker(form, lod, out).make(); }
 
 }  // namespace mien::head

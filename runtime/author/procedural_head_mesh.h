@@ -92,6 +92,11 @@ struct HalfMesh {
 
 /// `full` at LOD 0, a tenth or so at the last, never below `least`.
 uint32_t at_lod(uint32_t full, uint32_t least, uint32_t lod);
+/// Rows of equal length are joined by quads; counter-clockwise if rows go up and columns to the
+/// right as seen from outside.
+void join_rows(HalfMesh& out, uint32_t first, uint32_t rows, uint32_t columns);
+/// -1 ... 1: unrelated for each `i`.
+double scatter(uint32_t i);
 /// That stays where it is but for what its carrier does.
 Vertex plain(Vec3 position, Color color, double u, double v, Carrier carrier);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everything but the skin: ears, eyeballs, brows, lashes, hair, teeth and tongue.
+// Ears, eyeballs, teeth and tongue; what all parts share.
 #include <algorithm>
 
 #include "runtime/author/procedural_head_mesh.h"
@@ -15,10 +15,6 @@ using author::kPi;
 using author::mix;
 using author::smooth_step;
 
-namespace {
-
-/// Rows of equal length are joined by quads; counter-clockwise if rows go up and columns to the
-/// right as seen from outside.
 void join_rows(HalfMesh& out, uint32_t first, uint32_t rows, uint32_t columns) {
   for (uint32_t row = 0; row + 1 < rows; ++row) {
     for (uint32_t column = 0; column + 1 < columns; ++column) {
@@ -28,11 +24,15 @@ void join_rows(HalfMesh& out, uint32_t first, uint32_t rows, uint32_t columns) {
   }
 }
 
-}  // namespace
-
 uint32_t at_lod(uint32_t full, uint32_t least, uint32_t lod) {
   static constexpr double kShare[kLodCount] = {1, 0.7, 0.5, 0.38, 0.27, 0.2, 0.15, 0.1};
   return std::max(least, static_cast<uint32_t>(full * kShare[lod] + 0.5));
+}
+
+double scatter(uint32_t i) {
+  uint32_t h = i * 2654435761u;
+  h = (h ^ h >> 15) * 2246822519u;
+  return static_cast<double>((h ^ h >> 13) >> 8) * (2.0 / 16777216) - 1;
 }
 
 Vertex plain(Vec3 position, Color color, double u, double v, Carrier carrier) {
@@ -59,7 +59,7 @@ void add_ear(const Form& form, uint32_t lod, HalfMesh& out) {
   static constexpr double kPlainest[][2] = {{0.0, -0.2}, {1.0, 0.1}, {0.5, -1.2}};
   const double(*path)[2] = lod < 3 ? kFine : lod < 6 ? kPlain : kPlainest;
   const uint32_t rings = lod < 3 ? 15 : lod < 6 ? 6 : 3, around = at_lod(36, 5, lod);
-  const double size = form.person().ear;
+  const double size = 1.2 * form.person().ear;
   const double tilt = 0.56;
   const Vec3 origin = {form.face(0.53 * kPi, 0.0, Side::kAbove).closed.x + 0.10, -0.6, -0.8};
   const auto [sine, cosine] = exact_sine_cosine(tilt);
@@ -163,121 +163,78 @@ void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out) {
   for (uint32_t k = 0; k < around; ++k) out.triangle(before + (k + 1) % around, before + k, pole);
 }
 
-void add_lashes(const Form& form, uint32_t lod, HalfMesh& out) {
-  const uint32_t columns = at_lod(72, 4, lod) + 1;
-  const Color dark = mix(form.person().brow_hair, {16, 12, 12}, 0.7);
-  // A wedge along the edge of the upper lid: below, tip, above.
-  const uint32_t first = out.vertices.count();
-  for (uint32_t row = 0; row < 4; ++row) {
-    for (uint32_t k = 0; k < columns; ++k) {
-      const double s = mix(-0.97, 0.995, static_cast<double>(k) / (columns - 1));
-      const double x = kEye.x + s * kEyeHalfWidth;
-      const double full = smooth_step(-1.02, -0.55, s) * exact_pow(std::max(0.0, 1 - s * s), 0.30) *
-                          mix(0.5, 1.2, 0.5 + 0.5 * s) *
-                          (lod > 2 ? 0.6
-                           : k % 2 ? 0.35
-                           : k % 4 ? 1
-                                   : 0.8);
-      const FacePoint edge = form.face(form.angle_of(x, kEye.y), kEye.y, Side::kAbove);
-      const double radius[] = {kLidRadius - 0.05, kLidRadius + 0.36 * full,
-                               kLidRadius + 0.08 * full, kLidRadius - 0.03};
-      const double lift[] = {-0.02, 0.14 * full, 0.035, 0.035};
-      const double line_y = form.lid_line(x) - kEye.y, dx = x - kEye.x;
-      const double z =
-          std::sqrt(std::max(0.05, kLidRadius * kLidRadius - dx * dx - line_y * line_y));
-      Vec3 at = Vec3{dx, line_y, z};
-      at = kEye + at * (radius[row] / std::sqrt(dot(at, at)));
-      at = turn_lid(at, lift[row]);
-      at.x += row == 1 ? 0.10 * s * full : 0;
-      Vertex v = plain(at, dark, static_cast<double>(k) / (columns - 1), row / 3.0, Carrier::kSkin);
-      v.look = edge.closed;
-      v.lid = form.upper_opening(x);
-      v.position = turn_lid(v.closed, v.lid);
-      out.vertices.add(v);
-    }
-  }
-  join_rows(out, first, 4, columns);
-  // Behind, and at both ends.
-  for (uint32_t k = 0; k + 1 < columns; ++k) {
-    const uint32_t low = first + k, high = first + 3 * columns + k;
-    out.quad(high, high + 1, low + 1, low);
-  }
-  out.quad(first, first + columns, first + 2 * columns, first + 3 * columns);
-  const uint32_t end = first + columns - 1;
-  out.quad(end, end + 3 * columns, end + 2 * columns, end + columns);
-}
-
-void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
-  const uint32_t columns = at_lod(60, 4, lod) + 1, rows = lod < 3 ? 7 : lod < 5 ? 5 : 3;
-  const uint32_t first = out.vertices.count();
-  for (uint32_t row = 0; row < rows; ++row) {
-    for (uint32_t k = 0; k < columns; ++k) {
-      const double t = static_cast<double>(k) / (columns - 1);
-      const double across = 2.0 * row / (rows - 1) - 1;
-      const double x = mix(1.25, 5.35, t);
-      const double arch = 2.55 + 0.72 * exact_sine(kPi * clamp01(t * 0.70 + 0.06)) - 0.12 * t;
-      const double half = 0.36 * form.person().brow * exact_pow(clamp01((1 - t) * 1.9), 0.75) *
-                          exact_pow(clamp01(t * 2.6 + 0.08), 0.6);
-      // Hairs lean outwards and end unevenly.
-      const double hair = lod > 2 ? 0 : (k + row) % 2 ? 1 : -1;
-      const double y = arch + across * (half + 0.03) * (1 + 0.06 * hair);
-      const FacePoint at = form.face(form.angle_of(x, y), y, Side::kAbove);
-      const Vec3 out_of_face = unit({at.closed.x * 0.55, 0.8, at.closed.z});
-      const double raise = (0.15 + 0.02 * hair) * (1 - across * across) * clamp01(half * 4) - 0.06;
-      const Color color = mix(form.person().brow_hair, mix(form.person().skin, {40, 26, 20}, 0.5),
-                              0.22 + 0.16 * hair);
-      Vertex v =
-          plain(at.closed + out_of_face * raise, color, t, 0.5 + 0.5 * across, Carrier::kSkin);
-      v.look = at.closed;
-      out.vertices.add(v);
-    }
-  }
-  join_rows(out, first, rows, columns);
-}
-
 // Mouth -----------------------------------------------------------------------------------------
 
+namespace {
+
+/// Angle of an ellipse with these half axes at a share 0 ... 1 of its quarter's length.
+double ellipse_angle(double a, double b, double share) {
+  constexpr int kSteps = 64;
+  double lengths[kSteps + 1] = {0};
+  for (int i = 0; i < kSteps; ++i) {
+    const auto [s, c] = exact_sine_cosine(kPi / 2 * (i + 0.5) / kSteps);
+    lengths[i + 1] = lengths[i] + std::sqrt(a * a * c * c + b * b * s * s);
+  }
+  int i = 0;
+  while (i < kSteps - 1 && lengths[i + 1] < share * lengths[kSteps]) ++i;
+  const double t = (share * lengths[kSteps] - lengths[i]) / (lengths[i + 1] - lengths[i]);
+  return kPi / 2 * (i + t) / kSteps;
+}
+
+}  // namespace
+
 void add_teeth(const Form& form, uint32_t lod, HalfMesh& out) {
-  static constexpr double kWidths[] = {0.44, 0.35, 0.39, 0.35, 0.35, 0.48, 0.46};
+  // From the middle: two incisors, canine, two premolars, two molars.
+  static constexpr double kWidths[2][7] = {{0.86, 0.66, 0.76, 0.70, 0.68, 0.96, 0.70},
+                                           {0.54, 0.60, 0.68, 0.70, 0.72, 1.05, 0.70}};
   // Height from the edge of the lips, offset from the arc; gum, tooth, edge, back.
-  static constexpr double kRows[][2] = {
-      {1.45, -0.12}, {0.98, 0.07},   {0.62, 0.06},   {0.56, 0.00},  {0.25, 0.07},
-      {-0.05, 0.05}, {-0.14, -0.04}, {-0.10, -0.20}, {0.55, -0.36}, {1.45, -0.46}};
+  static constexpr double kRows[][2] = {{1.55, -0.16}, {1.15, 0.05}, {0.80, 0.085},  {0.75, 0.02},
+                                        {0.42, 0.09},  {0.02, 0.08}, {-0.13, -0.01}, {-0.10, -0.20},
+                                        {0.60, -0.38}, {1.55, -0.50}};
   constexpr uint32_t kRowCount = 10;
+  // Columns of a tooth are close together at the gaps: its face is flat.
+  static constexpr double kSix[] = {0, 0.06, 0.22, 0.5, 0.78, 0.94}, kFour[] = {0, 0.12, 0.5, 0.88},
+                          kTwo[] = {0, 0.5};
   const uint32_t per_tooth = lod == 0 ? 6 : lod < 3 ? 4 : lod < 5 ? 2 : 1;
+  const double* columns_at = lod == 0 ? kSix : lod < 3 ? kFour : kTwo;
   const uint32_t columns = 7 * per_tooth + 1;
-  double total = 0;
-  for (double w : kWidths) total += w;
 
   const Vec3 lips = form.face(0, kMouthY, Side::kBelow).closed;
-  const Color white = {240, 233, 218}, gum = {188, 92, 92}, gap = {196, 172, 150};
+  const Color white = {244, 236, 218}, gum = {200, 108, 102}, gap = {204, 170, 140};
   for (int lower = 0; lower < 2; ++lower) {
+    double total = 0;
+    for (double w : kWidths[lower]) total += w;
     const double sign = lower ? -1 : 1;
-    const double front = lips.z - (lower ? 1.22 : 0.98), half = lower ? 1.85 : 2.05;
+    const double front = lips.z - (lower ? 1.20 : 0.98), half = lower ? 2.35 : 2.60;
+    const double deep = lower ? 3.5 : 3.7;
     const double base = kMouthY - (lower ? 0.30 : 0.18);
     const uint32_t first = out.vertices.count();
     for (uint32_t row = 0; row < kRowCount; ++row) {
       double start = 0;
       for (uint32_t k = 0; k < columns; ++k) {
         const uint32_t tooth = std::min(k / per_tooth, 6u);
-        if (k % per_tooth == 0 && k > 0) start += kWidths[k / per_tooth - 1];
-        const double within = k % per_tooth / static_cast<double>(per_tooth);
-        const double share = (start + (k < columns - 1 ? within * kWidths[tooth] : 0)) / total;
+        if (k % per_tooth == 0 && k > 0) start += kWidths[lower][k / per_tooth - 1];
+        const double within = columns_at[k % per_tooth];
+        const double share =
+            (start + (k < columns - 1 ? within * kWidths[lower][tooth] : 0)) / total;
         // 0 at the gap between two teeth, 1 in the middle of one.
         const double middle = k == 0 || k == columns - 1 ? 0.0 : exact_sine(kPi * within);
-        const double round = per_tooth > 1 ? exact_pow(middle, 0.5) : 1;
-        const auto [s, c] = exact_sine_cosine(share * kPi / 2);
+        const double round = per_tooth > 1 ? exact_pow(middle, 0.4) : 1;
+        const auto [s, c] = exact_sine_cosine(ellipse_angle(half, deep, share));
         double y = kRows[row][0], offset = kRows[row][1];
-        if (row == 2 || row == 3) y += 0.12 * (round - 0.6);
-        if (row >= 3 && row <= 6) offset -= 0.09 * (1 - round);
-        if (row == 5 || row == 6) y += 0.05 * (1 - round);
-        if (tooth == 2 && row >= 5 && row <= 7) y -= 0.05 * round;
-        if (share > 0.62 && row >= 5 && row <= 7) y += 0.08;
-        Vec3 at = {(half + offset) * s, base + sign * y, front - 3.1 * (1 - c) + offset * c};
+        // Gums end in arches, with points between the teeth.
+        if (row == 2 || row == 3) y += 0.17 * (round - 0.75);
+        if (row >= 3 && row <= 6) offset -= (row == 4 ? 0.06 : 0.09) * (1 - round);
+        if (row == 5 || row == 6) y += 0.06 * (1 - round);
+        if (tooth == 2 && row >= 5 && row <= 7) y -= 0.05 * middle;
+        if (tooth == 1 && !lower && row >= 5 && row <= 7) y += 0.05;
+        if (share > 0.60 && row >= 5 && row <= 7) y += 0.08;
+        Vec3 at = {(half + offset) * s, base + sign * y, front - deep * (1 - c) + offset * c};
         if (k == 0) at.x = 0;
         Color color = row <= 2 || row == 9 ? gum : white;
-        if (row >= 3 && row <= 5) color = mix(gap, color, 0.35 + 0.65 * round);
-        color = mix(color, {84, 44, 42}, 0.75 * smooth_step(0.35, 1, share));
+        if (row == 2) color = mix(gum, {214, 134, 122}, 0.6);
+        if (row >= 3 && row <= 5) color = mix(gap, color, 0.30 + 0.70 * round);
+        color = mix(color, {92, 46, 42}, 0.70 * smooth_step(0.40, 1, share));
         if (k == columns - 1) color = {92, 34, 36};  // its end is dark
         out.vertices.add(plain(at, color, share, (row + 10 * lower) / 20.0,
                                lower ? Carrier::kLowerTeeth : Carrier::kUpperTeeth));
@@ -317,10 +274,10 @@ void add_tongue(const Form& form, uint32_t lod, HalfMesh& out) {
     const double y =
         kMouthY - 1.55 + 1.05 * exact_sine(kPi * clamp01(0.12 + 0.62 * t)) * (1 - 0.25 * t);
     const double taper = exact_pow(1 - t * t * t, 0.5);
-    const double half = 1.45 * mix(1.0, 0.86, t) * taper, thick = 0.50 * mix(1.2, 0.8, t) * taper;
+    const double half = 1.60 * mix(1.0, 0.86, t) * taper, thick = 0.50 * mix(1.2, 0.8, t) * taper;
     for (uint32_t k = 0; k < around; ++k) {
       const auto [s, c] = exact_sine_cosine(kPi * (static_cast<double>(k) / (around - 1) - 0.5));
-      const double groove = 0.14 * bump(c, 0, 0, 0, 0.35, 1) * (s > 0) * (1 - t);
+      const double groove = 0.22 * bump(c, 0, 0, 0, 0.35, 1) * (s > 0) * (1 - 0.8 * t);
       Vec3 at = {half * c, y + thick * s - groove, z};
       if (k == 0 || k == around - 1) at.x = 0;
       Color color = mix({196, 92, 96}, {120, 44, 50}, 0.8 * (1 - t));
@@ -340,6 +297,46 @@ void add_tongue(const Form& form, uint32_t lod, HalfMesh& out) {
     out.triangle(at, at + 1, front);
     if (k > 0) out.triangle(first, first + k + 1, first + k);
   }
+}
+
+// Together --------------------------------------------------------------------------------------
+
+void set_normals(HalfMesh& mesh) {
+  for (const Face& f : mesh.faces.span()) {
+    // Area-weighted, from the diagonals of a quad.
+    const auto at = [&](int i) { return mesh.vertices[f.corners[i]].position; };
+    const Vec3 a = f.count == 4 ? at(2) - at(0) : at(1) - at(0);
+    const Vec3 b = f.count == 4 ? at(3) - at(1) : at(2) - at(0);
+    const Vec3 n = cross(a, b);
+    for (uint32_t i = 0; i < f.count; ++i) {
+      Vertex& v = mesh.vertices[f.corners[i]];
+      v.normal = v.normal + n;
+    }
+  }
+  for (uint32_t i = 0; i < mesh.vertices.count(); ++i) {
+    Vertex& v = mesh.vertices[i];
+    if (mesh.on_plane(i)) v.normal.x = 0;
+    v.normal = length(v.normal) > 0 ? unit(v.normal) : Vec3{0, 1, 0};
+  }
+}
+
+bool make_part(const Form& form, Part part, uint32_t lod, HalfMesh& out) {
+  switch (part) {
+    case Part::kHead:
+      add_skin(form, lod, out);
+      if (!out.failed()) add_ear(form, lod, out);
+      break;
+    case Part::kTeeth: add_teeth(form, lod, out); break;
+    case Part::kTongue: add_tongue(form, lod, out); break;
+    case Part::kEyeLeft:
+    case Part::kEyeRight: add_eyeball(form, lod, out); break;
+    case Part::kHair: add_hair(form, lod, out); break;
+    case Part::kBrows: add_brow(form, lod, out); break;
+    case Part::kLashes: add_lashes(form, lod, out); break;
+  }
+  if (out.failed()) return false;
+  set_normals(out);
+  return true;
 }
 
 }  // namespace mien::head

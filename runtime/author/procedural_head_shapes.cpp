@@ -439,7 +439,7 @@ Vec3 Shapes::displacement(uint32_t index, const Vertex& v) const {
   Vec3 d;
   // Windows are those of the front view: nothing moves at the back. Inside the mouth the skin
   // follows the lips less and less.
-  const double share = smooth_step(-0.5, 3.0, v.look.z) * (1 - smooth_step(0.14, 0.55, v.depth));
+  const double share = smooth_step(-0.5, 3.0, v.look.z) * (1 - smooth_step(0.20, 0.80, v.depth));
   if (share > 0) {
     if (s.side == 0) {
       d = both_sides(s.motion, v);

@@ -34,21 +34,22 @@ struct Grid {
   uint32_t rows[5];     // bottom - mouth's block, half of it - nose - eye's block, half - crown
   Rings mouth, eye;
   uint32_t depth;  // rings into the mouth
+  bool nostril;
 };
 constexpr Grid kGrids[kLodCount] = {
-    {{6, 15, 12, 16, 13}, {34, 10, 20, 9, 32}, {8, 8}, {7, 8}, 9},
-    {{4, 10, 8, 11, 9}, {24, 7, 14, 6, 22}, {6, 5}, {5, 5}, 7},
-    {{3, 7, 6, 8, 7}, {17, 5, 10, 5, 16}, {5, 4}, {4, 4}, 6},
-    {{2, 6, 5, 6, 5}, {12, 4, 7, 4, 12}, {4, 3}, {3, 4}, 5},
-    {{2, 4, 4, 5, 4}, {9, 3, 6, 3, 9}, {3, 3}, {3, 3}, 4},
-    {{1, 4, 3, 4, 3}, {7, 2, 5, 2, 7}, {3, 2}, {2, 3}, 4},
-    {{1, 3, 3, 3, 3}, {6, 2, 4, 2, 5}, {2, 2}, {2, 2}, 4},
-    {{1, 3, 2, 3, 2}, {5, 1, 3, 1, 4}, {2, 2}, {2, 2}, 3},
+    {{8, 13, 12, 15, 11}, {31, 10, 20, 9, 26}, {8, 8}, {7, 8}, 9, true},
+    {{6, 8, 8, 11, 8}, {22, 7, 14, 6, 19}, {6, 5}, {5, 5}, 7, true},
+    {{4, 6, 6, 8, 6}, {16, 5, 10, 5, 14}, {5, 4}, {4, 4}, 6, true},
+    {{2, 6, 5, 6, 5}, {12, 4, 7, 4, 12}, {4, 3}, {3, 4}, 5, false},
+    {{2, 4, 4, 5, 4}, {9, 3, 6, 3, 9}, {3, 3}, {3, 3}, 4, false},
+    {{1, 4, 3, 4, 3}, {7, 2, 5, 2, 7}, {3, 2}, {2, 3}, 4, false},
+    {{1, 3, 3, 3, 3}, {6, 2, 4, 2, 5}, {2, 2}, {2, 2}, 4, false},
+    {{1, 3, 2, 3, 2}, {5, 1, 3, 1, 4}, {2, 2}, {2, 2}, 3, false},
 };
 constexpr uint32_t kMaxColumns = 64, kMaxRows = 124, kMaxRing = 96, kMaxDepth = 9;
 
 // Blocks that rings fill, in the front view.
-constexpr double kMouthBlockX = 3.6, kMouthBlockLow = -8.0, kMouthBlockHigh = -4.35;
+constexpr double kMouthBlockX = 3.6, kMouthBlockLow = -8.0, kMouthBlockHigh = -4.72;
 constexpr double kEyeBlockInner = 0.95, kEyeBlockOuter = 5.75;
 constexpr double kEyeBlockLow = kEye.y - 1.75, kEyeBlockHigh = kEye.y + 2.2;
 
@@ -85,10 +86,12 @@ class SkinMaker {
   void make() {
     place_columns();
     place_rows();
+    if (grid_.nostril) place_nostril();
     make_vertices();
     if (out_.failed()) return;
     make_faces();
     make_eye();
+    if (grid_.nostril && !out_.failed()) make_nostril();
     make_mouth();
   }
 
@@ -110,15 +113,35 @@ class SkinMaker {
     }
   }
 
+  /// Columns below the eyes are bent: one runs along the wing of the nose, one from there past the
+  /// corner of the mouth to the chin.
+  Place place_at(uint32_t row, uint32_t column) const {
+    const double y = heights_[row], angle = angles_[column];
+    if (column == 0 || column >= eye_.right || y <= kMouthBlockLow || y >= kEye.y)
+      return {angle, y};
+    const double wing = mix(kEyeBlockInner, 1.25 * form_.person().nose_width,
+                            smooth_step(-1.4, -3.2, y) * smooth_step(-5.6, -4.4, y));
+    const double from[4] = {0, form_.x_of(angles_[eye_.left], y),
+                            form_.x_of(angles_[mouth_.right], y),
+                            form_.x_of(angles_[eye_.right], y)};
+    const double to[4] = {0, from[1] + wing - kEyeBlockInner,
+                          from[2] + form_.fold_x(y) - kMouthBlockX, from[3]};
+    const int part = column < eye_.left ? 0 : column < mouth_.right ? 1 : 2;
+    const double x = form_.x_of(angle, y);
+    const double t = (x - from[part]) / (from[part + 1] - from[part]);
+    return {form_.angle_of(mix(to[part], to[part + 1], t), y), y};
+  }
+
   void place_rows() {
     const double keys[8] = {kBottomY,     kMouthBlockLow, kMouthY,       kMouthBlockHigh,
                             kEyeBlockLow, kEye.y,         kEyeBlockHigh, kCrownY};
     const uint32_t counts[7] = {grid_.rows[0], grid_.rows[1], grid_.rows[1], grid_.rows[2],
                                 grid_.rows[3], grid_.rows[3], grid_.rows[4]};
     const auto density = [](double y) {
-      return 1 + 1.0 * bump(0, y, 0, kMouthBlockLow, 1, 1.6) + 2.2 * bump(0, y, 0, -3.4, 1, 0.5) +
-             0.8 * bump(0, y, 0, kEyeBlockHigh, 1, 1.2) + 1.2 * bump(0, y, 0, -15.6, 1, 0.6) -
-             0.35 * smooth_step(-12, -14, y) - 0.35 * smooth_step(6, 9, y);
+      return 1 + 1.0 * bump(0, y, 0, kMouthBlockLow, 1, 1.6) +
+             3.2 * bump(0, y, 0, kNostril.y, 1, 0.45) + 0.8 * bump(0, y, 0, kEyeBlockHigh, 1, 1.2) +
+             0.9 * bump(0, y, 0, -16.6, 1, 1.3) - 0.35 * smooth_step(-12, -14, y) -
+             0.35 * smooth_step(6, 9, y);
     };
     for (int k = 0; k < 7; ++k) {
       spread(keys[k], keys[k + 1], counts[k], density, heights_ + rows_);
@@ -130,6 +153,25 @@ class SkinMaker {
       if (k == 4) eye_.middle = rows_;
       if (k == 5) eye_.high = rows_;
     }
+  }
+
+  /// The rows and columns around the nostril.
+  void place_nostril() {
+    const double wide = form_.person().nose_width;
+    const auto x_at = [&](uint32_t column) {
+      const Place at = place_at(nostril_.middle, column);
+      return form_.x_of(at.angle, at.y);
+    };
+    for (uint32_t r = mouth_.high; r < eye_.low; ++r) {
+      if (heights_[r] < kNostril.y - 0.34) nostril_.low = r;
+      if (heights_[r] < kNostril.y) nostril_.middle = r;
+      if (heights_[r] < kNostril.y + 0.26) nostril_.high = r + 1;
+    }
+    nostril_.low = std::max(nostril_.low, mouth_.high);
+    nostril_.left = 1;
+    while (x_at(nostril_.left + 1) < 0.34 * wide) ++nostril_.left;
+    nostril_.right = nostril_.left + 2;
+    while (x_at(nostril_.right) < 1.22 * wide) ++nostril_.right;
   }
 
   /// `lid`: the side of the eye's slit; `lip`: that of the mouth's.
@@ -144,6 +186,11 @@ class SkinMaker {
     v.u = 0.5 + 0.5 * place.angle / kPi;
     v.v = (place.y - kBottomY) / (kCrownY - kBottomY);
     v.color = form_.skin_color(v.closed, place.y, v.lid);
+    if (!grid_.nostril) {
+      v.color = mix(v.color, {58, 24, 22},
+                    0.85 * bump(std::abs(v.closed.x), v.closed.y,
+                                kNostril.x * form_.person().nose_width, kNostril.y, 0.28, 0.14));
+    }
     return v;
   }
 
@@ -154,8 +201,7 @@ class SkinMaker {
 
   Vertex grid_vertex(uint32_t row, uint32_t column) const {
     const auto side_of = [row](uint32_t slit) { return row > slit ? Side::kAbove : Side::kBelow; };
-    return skin_vertex({angles_[column], heights_[row]}, side_of(eye_.middle),
-                       side_of(mouth_.middle));
+    return skin_vertex(place_at(row, column), side_of(eye_.middle), side_of(mouth_.middle));
   }
 
   struct Block {
@@ -173,7 +219,10 @@ class SkinMaker {
     for (uint32_t row = 0; row <= rows_; ++row) {
       row_start_[row] = out_.vertices.count();
       for (uint32_t column = 0; column <= columns_; ++column) {
-        if (mouth_.has_inside(row, column) || eye_.has_inside(row, column)) continue;
+        if (mouth_.has_inside(row, column) || eye_.has_inside(row, column) ||
+            nostril_.has_inside(row, column)) {
+          continue;
+        }
         if (column == 0 || column == columns_) {
           add_on_plane(grid_vertex(row, column));
         } else {
@@ -192,7 +241,7 @@ class SkinMaker {
 
   uint32_t at(uint32_t row, uint32_t column) const {
     uint32_t missing = 0;
-    for (const Block& block : {mouth_, eye_}) {
+    for (const Block& block : {mouth_, eye_, nostril_}) {
       if (row <= block.low || row >= block.high || column < block.right) continue;
       missing += block.left == 0 ? block.right : block.right - block.left - 1;
     }
@@ -202,7 +251,10 @@ class SkinMaker {
   void make_faces() {
     for (uint32_t row = 0; row < rows_; ++row) {
       for (uint32_t column = 0; column < columns_; ++column) {
-        if (mouth_.has_face(row, column) || eye_.has_face(row, column)) continue;
+        if (mouth_.has_face(row, column) || eye_.has_face(row, column) ||
+            nostril_.has_face(row, column)) {
+          continue;
+        }
         out_.quad(at(row, column), at(row, column + 1), at(row + 1, column + 1),
                   at(row + 1, column));
       }
@@ -250,7 +302,7 @@ class SkinMaker {
     for (uint32_t r = 1; r <= count; ++r) {
       uint32_t next[kMaxRing];
       for (uint32_t k = 0; k < ring_size_; ++k) {
-        const Place from = {angles_[corners[k].column], heights_[corners[k].row]};
+        const Place from = place_at(corners[k].row, corners[k].column);
         Place place;
         if (r <= rings.outside) {
           // The last step before the border is short: what happens there happens at every LOD.
@@ -265,8 +317,9 @@ class SkinMaker {
         }
         const Side side = k > half_ ? Side::kAbove : Side::kBelow;
         const bool on_lids = &block == &eye_;
-        Vertex v = skin_vertex(place, on_lids ? side : Side::kBelow, on_lids ? Side::kAbove : side);
-        v.edge = r == count && k != half_ && !(whole && k == 0);
+        Vertex v = skin_vertex(place, on_lids ? side : Side::kBelow,
+                               &block == &mouth_ ? side : Side::kAbove);
+        v.edge = &block != &nostril_ && r == count && k != half_ && !(whole && k == 0);
         next[k] =
             !whole && (k == 0 || k + 1 == ring_size_) ? add_on_plane(v) : out_.vertices.add(v);
       }
@@ -324,6 +377,48 @@ class SkinMaker {
     }
   }
 
+  void make_nostril() {
+    const double wide = form_.person().nose_width;
+    make_rings(nostril_, {2, 1}, 0.5, [&](uint32_t k, bool inner) {
+      const auto [s, c] = author::exact_sine_cosine(kPi + 2 * kPi * k / ring_size_);
+      const double size = inner ? 1 : 1.22;
+      return on_form({wide * (kNostril.x + size * (0.34 * c + 0.04 * s)),
+                      kNostril.y + size * (0.165 * s + 0.03 * c)});
+    });
+    if (out_.failed()) return;
+    // In there it goes up and back.
+    static constexpr double kPath[][4] = {// size, up, back, darkness
+                                          {0.97, 0.05, 0.02, 0.45},
+                                          {0.85, 0.22, 0.10, 0.85},
+                                          {0.50, 0.48, 0.24, 1.0}};
+    Vec3 middle;
+    for (uint32_t k = 0; k < ring_size_; ++k) {
+      middle = middle + out_.vertices[ring_[k]].closed * (1.0 / ring_size_);
+    }
+    const Color dark = mix(redder(form_.person().skin, 0.9), {34, 10, 10}, 0.86);
+    const auto inside = [&](uint32_t from, const double(&step)[4]) {
+      Vertex v = out_.vertices[from];
+      v.closed = middle + (v.closed - middle) * step[0] + Vec3{0, step[1], -step[2]};
+      v.position = v.closed;
+      v.color = mix(form_.skin_color(v.look, v.look.y, 0), dark, step[3]);
+      return out_.vertices.add(v);
+    };
+    uint32_t rim[kMaxRing], next[kMaxRing];
+    std::copy(ring_, ring_ + ring_size_, rim);
+    for (const auto& step : kPath) {
+      for (uint32_t k = 0; k < ring_size_; ++k) next[k] = inside(rim[k], step);
+      for (uint32_t k = 0; k < ring_size_; ++k) {
+        const uint32_t other = (k + 1) % ring_size_;
+        out_.quad(ring_[k], ring_[other], next[other], next[k]);
+      }
+      std::copy(next, next + ring_size_, ring_);
+    }
+    const uint32_t end = inside(rim[0], {0, 0.50, 0.26, 1.0});
+    for (uint32_t k = 0; k < ring_size_; ++k) {
+      out_.triangle(ring_[k], ring_[(k + 1) % ring_size_], end);
+    }
+  }
+
   /// One ring into the mouth from a vertex of the lips. Above: behind the lip, up in front of the
   /// gums, along the palate and down to the throat; below likewise. `out`: towards the corner,
   /// 0..1.
@@ -342,14 +437,14 @@ class SkinMaker {
     v.closed.y += up * rise * open - 0.5 * smooth_step(0.6, 1, depth);
     // Cheeks curve away beside the corners: straight in there first.
     v.closed.z += back - 0.75 * smooth_step(0, 0.35, depth) * out * out;
-    v.closed.x *= 1 + 0.22 * smooth_step(0.25, 0.7, depth);
+    v.closed.x *= 1 + 0.30 * smooth_step(0.20, 0.7, depth);
     v.position = v.closed;
     v.edge = false;
     v.depth = depth;
     v.v = kMouthV + (v.side == Side::kAbove ? 1 : -1) * 0.012 * depth;
-    const Color lip = v.color, wet = {124, 38, 42}, dark = {46, 12, 16};
+    const Color lip = v.color, wet = {168, 78, 76}, dark = {58, 16, 20};
     v.color =
-        mix(mix(lip, wet, smooth_step(0.02, 0.25, depth)), dark, smooth_step(0.16, 0.60, depth));
+        mix(mix(lip, wet, smooth_step(0.02, 0.20, depth)), dark, smooth_step(0.30, 0.85, depth));
     return out_.vertices.add(v);
   }
 
@@ -407,49 +502,11 @@ class SkinMaker {
   uint32_t ring_[kMaxRing];  // the last one made
   uint32_t ring_size_ = 0, half_ = 0;
   uint32_t columns_ = 0, rows_ = 0, crown_ = 0, bottom_ = 0;
-  Block mouth_, eye_;
+  Block mouth_, eye_, nostril_;
 };
 
 }  // namespace
 
 void add_skin(const Form& form, uint32_t lod, HalfMesh& out) { SkinMaker(form, lod, out).make(); }
-
-void set_normals(HalfMesh& mesh) {
-  for (const Face& f : mesh.faces.span()) {
-    // Area-weighted, from the diagonals of a quad.
-    const auto at = [&](int i) { return mesh.vertices[f.corners[i]].position; };
-    const Vec3 a = f.count == 4 ? at(2) - at(0) : at(1) - at(0);
-    const Vec3 b = f.count == 4 ? at(3) - at(1) : at(2) - at(0);
-    const Vec3 n = cross(a, b);
-    for (uint32_t i = 0; i < f.count; ++i) {
-      Vertex& v = mesh.vertices[f.corners[i]];
-      v.normal = v.normal + n;
-    }
-  }
-  for (uint32_t i = 0; i < mesh.vertices.count(); ++i) {
-    Vertex& v = mesh.vertices[i];
-    if (mesh.on_plane(i)) v.normal.x = 0;
-    v.normal = length(v.normal) > 0 ? unit(v.normal) : Vec3{0, 1, 0};
-  }
-}
-
-bool make_part(const Form& form, Part part, uint32_t lod, HalfMesh& out) {
-  switch (part) {
-    case Part::kHead:
-      add_skin(form, lod, out);
-      if (!out.failed()) add_ear(form, lod, out);
-      break;
-    case Part::kTeeth: add_teeth(form, lod, out); break;
-    case Part::kTongue: add_tongue(form, lod, out); break;
-    case Part::kEyeLeft:
-    case Part::kEyeRight: add_eyeball(form, lod, out); break;
-    case Part::kHair: add_hair(form, lod, out); break;
-    case Part::kBrows: add_brow(form, lod, out); break;
-    case Part::kLashes: add_lashes(form, lod, out); break;
-  }
-  if (out.failed()) return false;
-  set_normals(out);
-  return true;
-}
 
 }  // namespace mien::head
