@@ -107,7 +107,8 @@ struct Binder {
       const bool changes =
           next_changing < clip.changing_count && clip.changing(next_changing) == channel;
       append(changes ? binding.copies : binding.constants,
-             BoundCopy{source, static_cast<uint16_t>(target)});
+             BoundCopy{source, static_cast<uint16_t>(target),
+                       static_cast<uint16_t>(changes ? next_changing : 0)});
     } else {
       append(binding.terms, BoundTerm{source, 0, 1});
       add_sum(target, binding.terms.count - 1);

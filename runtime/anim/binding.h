@@ -28,6 +28,7 @@ struct MatrixEntry {
 
 struct BoundCopy {
   uint16_t channel, control;
+  uint16_t changing;  // number of the channel among those that change, if it does
 };
 
 /// A raw control or GUI control that is the sum of weight * value, in the order of the matrix.

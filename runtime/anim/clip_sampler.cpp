@@ -223,10 +223,10 @@ bool next_event(EventRange& range, ClipEvent& event) {
   return true;
 }
 
-Span<const float> sample_clip(ClipSampler& sampler) {
+Span<const float> sample_changing(ClipSampler& sampler) {
   const Clip& clip = *sampler.clip;
   const size_t count = clip.changing_count;
-  if (count == 0) return sampler.values.first(clip.channel_count);
+  if (count == 0) return {};
   const int64_t last = int64_t{clip.frame_count} - 1;
   const int64_t at = sampler.tick / clip.ticks_per_frame;
   const int64_t past = sampler.tick % clip.ticks_per_frame;
@@ -247,9 +247,15 @@ Span<const float> sample_clip(ClipSampler& sampler) {
     const float *a = row(at - 1), *c = row(at + 1), *d = row(at + 2);
     catmull_rom(a, b, c, d, t, count, out);
   }
+  return sampler.sampled.first(count);
+}
+
+Span<const float> sample_clip(ClipSampler& sampler) {
+  const Clip& clip = *sampler.clip;
+  const Span<const float> out = sample_changing(sampler);
   const uint8_t* channel = clip.bytes + clip.at.changing;
   float* const values = sampler.values.data;
-  for (size_t i = 0; i < count; ++i) {
+  for (size_t i = 0; i < out.count; ++i) {
     values[load_little_endian<uint16_t>(channel + i * sizeof(uint16_t))] = out[i];
   }
   return sampler.values.first(clip.channel_count);

@@ -96,6 +96,9 @@ EventRange advance_clip(ClipSampler& sampler, int64_t ticks);
 /// loops passes any number of them.
 bool next_event(EventRange& range, ClipEvent& event);
 
+/// The same of the channels that change, in their order; `values` stays as it is.
+Span<const float> sample_changing(ClipSampler& sampler);
+
 /// The values of all channels at the sampler's position, which stay until the next call. At a frame
 /// they have its bits; between two frames they are between their values. Always finite; a damaged
 /// block gives zeros and sets `decoder.damaged`.

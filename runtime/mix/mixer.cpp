@@ -46,7 +46,7 @@ void place_mixer(Placer& placer, const Mix& mix, bool stages, Mixer& mixer) {
     Player player;
     place_clip_sampler(placer, {mix.max_channels, mix.max_changing_channels, mix.plays_backward},
                        player.sampler);
-    player.row = placer.array<float>(layer_row_floats(mix), kBlockAlignment);
+    player.rows = placer.array<float>(size_t{3} * mix.lane_count, kBlockAlignment);
     if (!placer.measuring()) mixer.players[i] = player;
   }
   mixer.streams = placer.array<RowStream*>(mix.layers.count);
@@ -75,9 +75,9 @@ uint32_t find_free_player(const Mixer& mixer) {
 
 void set_cover(Mixer& mixer, Player& player) {
   const Mix& mix = *mixer.mix;
-  memset(player.row.data, 0, player.row.count * sizeof(float));
+  memset(player.rows.data, 0, player.rows.count * sizeof(float));
   for (uint16_t lane : player.source.binding->controls) {
-    player.row[mix.lane_count + played_lane(mix, player, lane)] = 1.0f;
+    player.rows[mix.lane_count + played_lane(mix, player, lane)] = 1.0f;
   }
 }
 
@@ -170,7 +170,7 @@ Status start_player(Mixer& mixer, Player& player, const ClipSource& source, cons
   player.mirrored = mirrored;
   player.used = true;
   set_cover(mixer, player);
-  sample_player(mixer, player, true);
+  for (uint32_t row = 0; row < 2; ++row) sample_player(mixer, player, row, true);
   return Status::kOk;
 }
 
@@ -203,6 +203,7 @@ Status play_clip(Mixer& mixer, uint32_t index, const ClipSource& source, const L
   uint32_t target = unused;
   if (occupied) target = crosses ? (unused != kNone ? unused : after_release) : layer.current;
   Player& player = mixer.players[target];
+  keep_shown(mixer, index);
   status = start_player(mixer, player, source, desc.play, desc.mirrored, error);
   if (status != Status::kOk) return status;
 
@@ -212,14 +213,14 @@ Status play_clip(Mixer& mixer, uint32_t index, const ClipSource& source, const L
   if (crosses) {
     // If a crossfade was under way, what it had reached leads over to the player that stays.
     if (fade_value(layer.cross, now) != 1.0f) {
-      start_offsets(mixer, index, mixer.players[layer.current].row.data, now, ticks);
+      start_offsets(mixer, index, mixer.players[layer.current].rows.data, now, ticks);
     }
     layer.previous = layer.current;
     set_fade(layer.cross, 0.0f);
     start_fade(layer.cross, now, 1.0f, ticks);
   } else {
     set_fade(layer.cross, 1.0f);
-    start_offsets(mixer, index, player.row.data, now, shown ? ticks : 0);
+    start_offsets(mixer, index, player.rows.data, now, shown ? ticks : 0);
   }
   layer.current = static_cast<uint16_t>(target);
   if (!occupied) set_fade(layer.presence, 0.0f);

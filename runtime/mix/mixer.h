@@ -65,7 +65,7 @@ struct LayerState {
   uint16_t current, previous;          // players or kNoPlayer
   uint8_t shown_count;                 // how many of the last rows are there: 0, 1, 2
   uint8_t newest;                      // which one is
-  uint8_t zeros[2];
+  uint8_t in_player[2];                // 1: it is the row of the current player, see keep_shown()
 };
 
 /// A player as a snapshot has it.
@@ -89,7 +89,7 @@ struct Player {
   ClipSource source;
   bool used = false, mirrored = false;
   ClipSampler sampler;
-  Span<float> row;  // [value of a lane], then [cover of a lane]
+  Span<float> rows;  // [value of a lane], then [cover of a lane], then [value] of another step
 };
 
 /// An event of a clip that the last step passed.
@@ -209,11 +209,13 @@ void step_mixers(Span<Mixer* const> mixers, int64_t ticks, float* const* outs, s
                  uint64_t* active, size_t active_stride);
 
 // For play_clip() and snapshots: what a clip must be like for a layer; a player that begins, with its
-// row; and its row at the time that it has, with or without what never changes.
+// rows; one of them at the time that it has, with or without what never changes; and a copy of what the
+// layer has shown last, for when its player is gone.
 Status check_source(const Mix& mix, uint32_t layer, const ClipSource& source, Error& error);
 Status start_player(Mixer& mixer, Player& player, const ClipSource& source, const PlayDesc& desc,
                     bool mirrored, Error& error);
-void sample_player(Mixer& mixer, Player& player, bool constants);
+void sample_player(Mixer& mixer, Player& player, uint32_t row, bool constants);
+void keep_shown(Mixer& mixer, uint32_t layer);
 
 // Snapshots (snapshot.cpp)
 // ------------------------------------------------------------------------------------------------

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/mix/mixer_layers.h"
 
+#include <cstring>
+
 namespace mien {
 
 bool has_rows(const MixLayer& layer) {
@@ -14,7 +16,8 @@ size_t layers_with_rows(const Mix& mix, size_t end) {
 }
 
 size_t shown_floats(const Mix& mix, uint32_t layer) {
-  return mix.layers[layer].source == LayerSource::kStream ? mix.lane_count : layer_row_floats(mix);
+  if (mix.layers[layer].source == LayerSource::kClip) return layer_row_floats(mix);
+  return (mix.layers[layer].lanes.count + kLaneStep - 1) / kLaneStep * kLaneStep;
 }
 
 float* layer_row(Mixer& mixer, uint32_t layer, uint32_t row) {
@@ -46,16 +49,36 @@ void release_player(Mixer& mixer, uint16_t& player) {
   player = kNoPlayer;
 }
 
-void sample_player(Mixer& mixer, Player& player, bool constants) {
+void sample_player(Mixer& mixer, Player& player, uint32_t row, bool constants) {
   const Mix& mix = *mixer.mix;
-  const Span<const float> values = sample_clip(player.sampler);
   const Binding& binding = *player.source.binding;
-  if (!player.mirrored) {
-    apply_binding(binding, values, mixer.gui, player.row.first(mix.raw_count), constants);
+  float* const values = player_values(mix, player, row);
+  if (!player.mirrored && !constants && binding.sums.empty()) {
+    const Span<const float> changing = sample_changing(player.sampler);
+    for (const BoundCopy& copy : binding.copies) values[copy.control] = changing[copy.changing];
     return;
   }
-  apply_binding(binding, values, mixer.gui, mixer.scratch.first(mix.raw_count));
-  for (uint16_t lane : binding.controls) player.row[mix.mirror[lane]] = mixer.scratch[lane];
+  const Span<const float> channels = sample_clip(player.sampler);
+  if (!player.mirrored) {
+    apply_binding(binding, channels, mixer.gui, {values, mix.raw_count}, constants);
+    return;
+  }
+  apply_binding(binding, channels, mixer.gui, mixer.scratch.first(mix.raw_count));
+  for (uint16_t lane : binding.controls) values[mix.mirror[lane]] = mixer.scratch[lane];
+}
+
+void keep_shown(Mixer& mixer, uint32_t index) {
+  const Mix& mix = *mixer.mix;
+  LayerState& layer = mixer.layers[index];
+  const size_t bytes = mix.lane_count * sizeof(float);
+  for (uint32_t k = 0; k < 2; ++k) {
+    if (!layer.in_player[k]) continue;
+    layer.in_player[k] = 0;
+    const Player& player = mixer.players[layer.current];
+    float* const shown = layer_row(mixer, index, kShown0 + k);
+    memcpy(shown, player_values(mix, player, k), bytes);
+    memcpy(shown + mix.lane_count, player_cover(mix, player), bytes);
+  }
 }
 
 }  // namespace mien

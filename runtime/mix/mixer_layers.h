@@ -12,8 +12,17 @@ bool has_rows(const MixLayer& layer);
 /// Of the first `end` layers.
 size_t layers_with_rows(const Mix& mix, size_t end);
 inline size_t layer_row_floats(const Mix& mix) { return size_t{2} * mix.lane_count; }
-/// Of what a layer shows: streams cover the same lanes all the time.
+/// Of what a layer shows: values and cover of all lanes, or values of the channels of a stream, which
+/// cover the same lanes all the time.
 size_t shown_floats(const Mix& mix, uint32_t layer);
+
+/// One of the two rows of values of a player, and which lanes it covers.
+inline float* player_values(const Mix& mix, const Player& player, uint32_t row) {
+  return player.rows.data + (row == 0 ? 0 : 2 * size_t{mix.lane_count});
+}
+inline const float* player_cover(const Mix& mix, const Player& player) {
+  return player.rows.data + mix.lane_count;
+}
 
 float* layer_row(Mixer& mixer, uint32_t layer, uint32_t row);
 QuinticRows quintic_rows(Mixer& mixer, uint32_t layer);

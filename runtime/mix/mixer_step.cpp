@@ -52,20 +52,21 @@ float* next_shown_row(Mixer& mixer, uint32_t index, int64_t ticks) {
   return layer_row(mixer, index, kShown0 + layer.newest);
 }
 
+bool has_offsets(const Mixer& mixer, LayerState& layer) {
+  if (mixer.header->now - layer.offset_start >= layer.offset_ticks) layer.offset_ticks = 0;
+  return layer.offset_ticks != 0;
+}
+
 void add_offsets(Mixer& mixer, uint32_t index, float* shown) {
   LayerState& layer = mixer.layers[index];
-  if (layer.offset_ticks == 0) return;
+  if (!has_offsets(mixer, layer)) return;
   const int64_t elapsed = mixer.header->now - layer.offset_start;
-  if (elapsed >= layer.offset_ticks) {
-    layer.offset_ticks = 0;
-    return;
-  }
   mixer.mix->kernels->add_quintics(quintic_rows(mixer, index),
                                    fraction_of(elapsed, layer.offset_ticks),
                                    shown_floats(*mixer.mix, index), shown);
 }
 
-/// `cover` may be null: the layer's mask leaves out what its source has no value for.
+/// `cover` may be null: the layer's mask leaves out what its poses have no value for.
 void blend(Mixer& mixer, uint32_t index, float weight, const float* values, const float* cover) {
   const MixLayer& layer = mixer.mix->layers[index];
   mixer.mix->kernels->blend_row(
@@ -79,7 +80,7 @@ void mix_clip_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
   if (layer.presence.target == 0.0f && fade_value(layer.presence, now) == 0.0f) {
     release_player(mixer, layer.current);
     release_player(mixer, layer.previous);
-    layer.shown_count = 0;
+    layer.shown_count = layer.in_player[0] = layer.in_player[1] = 0;
     return;
   }
   const float weight = layer_weight(layer, mixer.mix->layers[index].mode, now);
@@ -87,22 +88,30 @@ void mix_clip_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
     layer.shown_count = 0;  // its rows are not known
     return;
   }
+  const Mix& mix = *mixer.mix;
   Player& current = mixer.players[layer.current];
-  sample_player(mixer, current, false);
   float s = fade_value(layer.cross, now);
   s = s < 1.0f ? (s > 0.0f ? s : 0.0f) : 1.0f;
   if (s == 1.0f) release_player(mixer, layer.previous);
   float* shown = next_shown_row(mixer, index, ticks);
+  if (layer.previous == kNoPlayer && !has_offsets(mixer, layer)) {
+    sample_player(mixer, current, layer.newest, false);
+    layer.in_player[layer.newest] = 1;
+    blend(mixer, index, weight, player_values(mix, current, layer.newest),
+          player_cover(mix, current));
+    return;
+  }
+  layer.in_player[layer.newest] = 0;
+  sample_player(mixer, current, 0, false);
   if (layer.previous != kNoPlayer) {
     Player& previous = mixer.players[layer.previous];
-    sample_player(mixer, previous, false);
-    mixer.mix->kernels->cross_rows(previous.row.data, current.row.data, s, current.row.count,
-                                   shown);
+    sample_player(mixer, previous, 0, false);
+    mix.kernels->cross_rows(previous.rows.data, current.rows.data, s, layer_row_floats(mix), shown);
   } else {
-    memcpy(shown, current.row.data, current.row.count * sizeof(float));
+    memcpy(shown, current.rows.data, layer_row_floats(mix) * sizeof(float));
   }
   add_offsets(mixer, index, shown);
-  blend(mixer, index, weight, shown, shown + mixer.mix->lane_count);
+  blend(mixer, index, weight, shown, shown + mix.lane_count);
 }
 
 void mix_stream_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
@@ -111,7 +120,10 @@ void mix_stream_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
   LayerState& state = mixer.layers[index];
   RowStream& stream = *mixer.streams[index];
   const int64_t now = mixer.header->now;
-  const StreamSample sample = sample_stream(stream, now - layer.delay, mixer.scratch.data);
+  float* const row = mixer.layer_row.data;
+  const size_t floats = shown_floats(mix, index);
+  memset(row, 0, floats * sizeof(float));
+  const StreamSample sample = sample_stream(stream, now - layer.delay, row);
   if (sample == StreamSample::kNone) return;
   if (sample == StreamSample::kLost) {
     const int64_t lost = stream.last_tick + kStreamAhead + layer.delay;
@@ -119,9 +131,6 @@ void mix_stream_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
   } else if (state.presence.target != 1.0f) {
     start_fade(state.presence, now - ticks, 1.0f, kStreamFade);
   }
-  float* row = mixer.layer_row.data;
-  memset(row, 0, mix.lane_count * sizeof(float));
-  for (size_t i = 0; i < layer.lanes.count; ++i) row[layer.lanes[i]] = mixer.scratch[i];
   const float weight = layer_weight(state, layer.mode, now);
   if (weight == 0.0f) {
     state.shown_count = 0;
@@ -131,9 +140,9 @@ void mix_stream_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
     start_offsets(mixer, index, row, now - ticks, kStreamLeadOver);
   }
   float* shown = next_shown_row(mixer, index, ticks);
-  memcpy(shown, row, mix.lane_count * sizeof(float));
+  memcpy(shown, row, floats * sizeof(float));
   add_offsets(mixer, index, shown);
-  blend(mixer, index, weight, shown, nullptr);
+  blend_lanes(mix, layer.mode, layer.lanes, shown, layer.mask.data, weight, mixer.row.data);
 }
 
 void mix_generator(Mixer& mixer, uint32_t index, int64_t ticks) {
@@ -260,9 +269,9 @@ void hold_guards(Mixer& mixer, int64_t ticks) {
 
 void net_antagonists(const Mix& mix, float* row) {
   for (const AntagonistPair& pair : mix.antagonists) {
-    const float a = row[pair.a], b = row[pair.b];
-    if (!(a > 0.0f && b > 0.0f)) continue;
-    const float both = pair.stiffness * (a < b ? a : b);
+    // Without branches: which pairs meet is hard to foretell.
+    const float a = row[pair.a], b = row[pair.b], smaller = a < b ? a : b;
+    const float both = pair.stiffness * (smaller > 0.0f ? smaller : 0.0f);
     row[pair.a] = a - both;
     row[pair.b] = b - both;
   }

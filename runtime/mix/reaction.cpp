@@ -6,15 +6,14 @@
 namespace mien {
 namespace {
 
-/// A Fade whose ticks are a time constant.
-float lag_value(const Fade& lag, int64_t now) {
-  if (lag.ticks <= 0 || lag.offset.c0 == 0.0f) return lag.target;
-  const int64_t elapsed = now > lag.start ? now - lag.start : 0;
-  return lag.target + lag.offset.c0 * decay(fraction_of(elapsed, lag.ticks));
+/// The share of its offset that a lag, a Fade whose ticks are a time constant, has left; 0: it has ended.
+float lag_left(const Fade& lag, int64_t now) {
+  if (lag.ticks <= 0) return 0.0f;
+  return now > lag.start ? decay(fraction_of(now - lag.start, lag.ticks)) : 1.0f;
 }
 
-bool lag_ended(const Fade& lag, int64_t now) {
-  return lag.ticks <= 0 || decay(fraction_of(now - lag.start, lag.ticks)) == 0.0f;
+float lag_value(const Fade& lag, int64_t now) {
+  return lag.offset.c0 == 0.0f ? lag.target : lag.target + lag.offset.c0 * lag_left(lag, now);
 }
 
 void start_lag(Fade& lag, int64_t now, float target, int64_t time_constant) {
@@ -50,7 +49,7 @@ void advance_stroke(const Stroke& stroke, const ReactionState& reaction, int64_t
     }
   }
   if (state.phase != kStrokeFalls) return;
-  const bool ended = stroke.lags ? lag_ended(state.envelope, now)
+  const bool ended = stroke.lags ? lag_left(state.envelope, now) == 0.0f
                                  : now - state.envelope.start >= state.envelope.ticks;
   if (!ended) return;
   set_fade(state.envelope, 0.0f);
@@ -127,8 +126,9 @@ void mix_reactions(const Mix& mix, int64_t now, bool after_guards, Span<Reaction
     if (now >= state.stimulus_end && state.gain.target != 1.0f) {
       start_lag(state.gain, state.stimulus_end, 1.0f, reaction.recover_ticks);
     }
-    const float gain = lag_value(state.gain, now);
-    bool running = state.gain.target != 1.0f || !lag_ended(state.gain, now);
+    const float left = lag_left(state.gain, now);
+    const float gain = state.gain.target + state.gain.offset.c0 * left;
+    bool running = state.gain.target != 1.0f || left != 0.0f;
     for (uint32_t s = reaction.first_stroke; s < reaction.end_stroke; ++s) {
       const Stroke& stroke = mix.strokes[s];
       advance_stroke(stroke, state, now, strokes[s]);

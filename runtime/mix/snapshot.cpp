@@ -16,7 +16,7 @@ namespace mien {
 namespace {
 
 constexpr char kMagic[8] = {'M', 'I', 'E', 'N', 'S', 'N', 'P', '\n'};
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 constexpr int64_t kMaxNow = INT64_MAX / 4;
 
 struct SnapshotHeader {
@@ -72,7 +72,8 @@ bool is_layer(const Mixer& mixer, const SavedState& saved, uint32_t index, uint6
   }
   return (layer.current != kNoPlayer || layer.previous == kNoPlayer) && is_fade(layer.weight) &&
          is_fade(layer.presence) && is_fade(layer.cross) && layer.shown_count <= 2 &&
-         layer.newest <= 1 && is_duration(layer.shown_ticks) && is_time(layer.offset_start) &&
+         layer.newest <= 1 && layer.in_player[0] == 0 && layer.in_player[1] == 0 &&
+         is_duration(layer.shown_ticks) && is_time(layer.offset_start) &&
          is_duration(layer.offset_ticks);
 }
 
@@ -207,6 +208,7 @@ Status take_snapshot(Mixer& mixer, Span<uint8_t> out, Error& error) {
     return fail(error, Status::kInvalidArgument, kNoOffset, "%zu bytes for a snapshot of %zu",
                 out.count, snapshot_size(*mixer.mix));
   }
+  for (uint32_t i = 0; i < mixer.layers.count; ++i) keep_shown(mixer, i);
   for (uint32_t i = 0; i < mixer.players.count; ++i) {
     mixer.player_states[i] = mixer.players[i].used ? saved_player(mixer.players[i]) : PlayerState{};
   }

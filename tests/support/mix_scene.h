@@ -63,11 +63,10 @@ struct SceneClip {
     scene_requires(build_clip(desc, default_allocator(), {}, file, error));
     scene_requires(open_clip(file.bytes, file.size, clip, error));
     binding.raw_count = binding.channel_count = raw_count;
-    for (uint32_t i = 0, c = 0; c < raw_count; ++c) {
+    for (uint16_t i = 0, c = 0; c < raw_count; ++c) {
       const bool changes = i < clip.changing_count && clip.changing(i) == c;
-      i += changes;
-      (changes ? copies_ : constants_)
-          .push_back({static_cast<uint16_t>(c), static_cast<uint16_t>(c)});
+      (changes ? copies_ : constants_).push_back({c, c, i});
+      i = static_cast<uint16_t>(i + changes);
     }
     binding.copies = {copies_.data(), copies_.size()};
     binding.constants = {constants_.data(), constants_.size()};

@@ -27,13 +27,16 @@ struct BoundClip {
 
   explicit BoundClip(ClipInput input, uint32_t raw_count, std::vector<uint16_t> lanes = {})
       : made(std::move(input)), controls_(std::move(lanes)) {
-    for (uint32_t c = 0; c < made.clip.channel_count; ++c) {
-      if (controls_.size() <= c) controls_.push_back(static_cast<uint16_t>(c));
-      copies_.push_back({static_cast<uint16_t>(c), controls_[c]});
+    for (uint16_t c = 0, i = 0; c < made.clip.channel_count; ++c) {
+      if (controls_.size() <= c) controls_.push_back(c);
+      const bool changes = i < made.clip.changing_count && made.clip.changing(i) == c;
+      (changes ? copies_ : constants_).push_back({c, controls_[c], i});
+      i = static_cast<uint16_t>(i + changes);
     }
     binding.raw_count = raw_count;
     binding.channel_count = made.clip.channel_count;
     binding.copies = {copies_.data(), copies_.size()};
+    binding.constants = {constants_.data(), constants_.size()};
     binding.controls = {controls_.data(), controls_.size()};
     source = {++last_id(), &made.clip, &binding};
   }
@@ -44,7 +47,7 @@ struct BoundClip {
     return id;
   }
   std::vector<uint16_t> controls_;
-  std::vector<BoundCopy> copies_;
+  std::vector<BoundCopy> copies_, constants_;
 };
 
 /// A description that owns what it refers to.
