@@ -2198,6 +2198,19 @@ typedef struct MienGazeTarget {
     float front;
 } MienGazeTarget;
 
+/* What was measured of the eyes. */
+typedef struct MienGazeInfo {
+    size_t struct_size;
+    MienGazeTarget left_eye; /* their middles, about which they turn */
+    MienGazeTarget right_eye;
+    float fit_error;         /* degrees, the largest that was found where both directions turn at once */
+    uint32_t reserved;       /* 0 */
+} MienGazeInfo;
+MIEN_DEFAULT(MienGazeInfo, mien_gaze_info_default)
+
+/* Returns where the eyes are, so that a target can be placed before them. */
+MIEN_CHECKED MienStatus mien_gaze_info(const MienGaze* gaze, MienGazeInfo* out_info);
+
 /* The part of a gaze that is beyond the reach of the eyes, for the head to turn: tangents of angles, the
  * mean of both eyes. */
 typedef struct MienGazeRest {

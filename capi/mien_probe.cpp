@@ -138,6 +138,18 @@ void mien_gaze_destroy(MienGaze* gaze) {
   allocator.put(gaze, sizeof(MienGaze), alignof(MienGaze));
 }
 
+MienStatus mien_gaze_info(const MienGaze* gaze, MienGazeInfo* out_info) {
+  if (MienStatus status = clear_struct(out_info)) return status;
+  if (MienStatus status = check(gaze)) return status;
+  const auto middle = [](const GazeEye& eye) {
+    return MienGazeTarget{eye.center[0], eye.center[1], eye.center[2]};
+  };
+  const GazeTable& table = gaze->table;
+  write_struct(out_info, MienGazeInfo{sizeof(MienGazeInfo), middle(table.eyes[0]),
+                                      middle(table.eyes[1]), table.fit_error, 0});
+  return MIEN_OK;
+}
+
 MienStatus mien_gaze_look_at(const MienGaze* gaze, const MienGazeTarget* target, float* row,
                              size_t row_count, MienGazeRest* out_rest) {
   if (out_rest) *out_rest = {0, 0};

@@ -1073,6 +1073,10 @@ class Gaze : public Owner<MienGaze, mien_gaze_destroy> {
       return mien_gaze_create(deformer.get(), &desc, out, error);
     });
   }
+  Result<MienGazeInfo> info() const {
+    Sized<MienGazeInfo> info;
+    return {mien_gaze_info(get(), &info), std::move(info)};
+  }
   Status look_at(const MienGazeTarget& target, Span<float> row,
                  MienGazeRest* rest = nullptr) const {
     return mien_gaze_look_at(get(), &target, row.data(), row.size(), rest);

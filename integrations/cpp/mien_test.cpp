@@ -136,6 +136,7 @@ void test_mixing() {
   CHECK(mien::Mix::mirror(deformer, mirror) && mirror[raw_count] == raw_count);
 #ifndef MIEN_EXCEPTIONS
   CHECK(mien::Gaze::create(deformer).status() == MIEN_ERROR_NAME);  // this rig has no such eyes
+  CHECK(mien::Gaze().info().status() == MIEN_ERROR_NULL_ARGUMENT);
   CHECK(mien::Gaze().look_at({0, 0, 1000}, mask).status() == MIEN_ERROR_NULL_ARGUMENT);
 #endif
 

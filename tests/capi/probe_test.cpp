@@ -115,6 +115,27 @@ TEST(Gaze, TurnsTheEyesToATarget) {
   EXPECT_EQ(row, before);
 }
 
+TEST(Gaze, TellsWhereTheEyesAre) {
+  GazeHandle gaze;
+  std::string message;
+  ASSERT_EQ(create_gaze(sized<MienGazeDesc>(), gaze, message), MIEN_OK) << message;
+  MienGazeInfo info = sized<MienGazeInfo>();
+  ASSERT_EQ(mien_gaze_info(gaze.get(), &info), MIEN_OK);
+  EXPECT_NEAR(info.left_eye.left, 32, 5);
+  EXPECT_NEAR(info.right_eye.left, -info.left_eye.left, 0.01f);
+  EXPECT_EQ(info.right_eye.up, info.left_eye.up);
+  EXPECT_LT(info.fit_error, 1);
+  // Straight ahead of them no control is needed.
+  std::vector<float> row(head().controls.size());
+  const MienGazeTarget ahead = {0, info.left_eye.up, 1e6f};
+  ASSERT_EQ(mien_gaze_look_at(gaze.get(), &ahead, row.data(), row.size(), nullptr), MIEN_OK);
+  for (float value : row) EXPECT_NEAR(value, 0, 1e-3f);
+  EXPECT_EQ(mien_gaze_info(gaze.get(), nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_gaze_info(nullptr, &info), MIEN_ERROR_NULL_ARGUMENT);
+  info.struct_size = 4;
+  EXPECT_EQ(mien_gaze_info(gaze.get(), &info), MIEN_ERROR_STRUCT_SIZE);
+}
+
 TEST(Gaze, TakesJointsByName) {
   GazeHandle gaze;
   std::string message;

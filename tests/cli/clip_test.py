@@ -105,6 +105,20 @@ class RoundTrip(ClipTest):
         self.assertEqual([bits(v) for v in self.rows(clip)[1][0][1:]],
                          [bits(1) + 1, 0x80000000, bits(2)])
 
+    def test_differences_from_a_frame_and_from_a_clip(self):
+        table = "time,a,b\n0,0.5,1\n1,0.75,1\n2,0.25,3\n"
+        rows = lambda *options: [row[1:] for row in self.rows(self.build(table, *options))[1]]
+        self.assertEqual(rows("--minus", "0"), [[0, 0], [0.25, 0], [-0.25, 2]])
+        self.assertEqual(rows("--minus", "2"), [[0.25, -2], [0.5, -2], [0, 0]])
+        self.assertEqual(rows("--minus", "nothing"), [[0.5, 1], [0.75, 1], [0.25, 3]])
+        # A shorter one, whose last frame stays, without a channel.
+        base = self.build("time,x,a\n0,9,0.5\n1,9,0.25\n", name="base")
+        self.assertEqual(rows("--minus", base), [[0, 1], [0.5, 1], [0, 3]])
+        self.assertIn(b"differences", self.ok("clip", "info", path("take.clip")).stdout)
+        self.refuse_take(table, "no frame 3", "--minus", "3")
+        self.refuse_take("time,c\n0,1\n", "in common", "--minus", base)
+        self.refuse_take(table, "none.clip", "--minus", "none.clip", code=FILE)
+
     def test_csv_in_the_dialects_of_programs(self):
         plain = self.build("time,a,b\n0,1,2\n1,3,4\n", name="plain")
         for text in ("time,a,b\r\n0,1,2\r\n1,3,4\r\n", "\ufefftime,a,b\n0,1,2\n1,3,4",

@@ -216,6 +216,55 @@ class PlayTest(unittest.TestCase):
         self.assertAlmostEqual(stages[1][1], 0.85, 5)
         self.assertEqual(stages[-1][1], played.value("mouthSmileLeft", 60))
 
+    def test_a_clip_and_its_differences_give_the_whole_back(self):  # B3
+        rows = "".join(f"{k / 60!r},{(k * 7 % 61) / 61!r}\n" for k in range(61))
+        write("nod.csv", "time,jawOpen\n" + rows)
+        write("calm.csv", "time,jawOpen\n" + "".join(f"{k / 60!r},{k / 97!r}\n" for k in range(61)))
+        for command in (["calm.csv", "-o", path("calm.clip")],
+                        ["nod.csv", "-o", path("more.clip"), "--minus", path("calm.clip")]):
+            done = run("clip", "build", path(command[0]), *command[1:])
+            self.assertEqual(done.returncode, DONE, done.stderr.decode())
+        layer = lambda name, **change: {"name": name, "source": {"clip": name + ".clip"}, **change}
+        scene = {"seconds": 1, "layers": [layer("calm"), layer("more", mode="add")]}
+        played = self.play(scene)
+        for f in range(61):
+            self.assertAlmostEqual(played.value("jawOpen", f), f * 7 % 61 / 61, delta=1.2e-7)
+        self.refused({"layers": [layer("more")]}, "differences")
+
+    def test_eyes_look_at_a_place(self):
+        eyes = {"name": "eyes", "group": "life", "source": {"generator": "gaze"}}
+        scene = {"seconds": 2, "layers": [eyes], "events": [
+            {"time": 1, "variable": "gaze.x", "value": 0.3},
+            {"time": 1.5, "variable": "gaze.x", "value": 3}]}
+        played = self.play(scene, "--stages", "gaze.x")
+        self.assertEqual(played.variables, ["gaze.x", "gaze.y", "gaze.z", "head.left", "head.up"])
+        out, into = ([played.value(name, f) for f in range(121)]
+                     for name in ("eyeLookOutLeft", "eyeLookInRight"))
+        # Ahead they converge on a meter; a saccade begins at 1 s and takes about 60 ms.
+        self.assertEqual(out[59], 0)
+        self.assertGreater(played.value("eyeLookInLeft", 59), 0)
+        self.assertEqual(out[60], 0)
+        self.assertGreater(out[62], 0)
+        self.assertGreater(out[66], 0.2)
+        self.assertGreater(into[66], out[66])
+        self.assertEqual(out[66], out[80])
+        variables = [frame["variables"] for frame in played.frames]
+        for f, (x, y, z) in ((59, (0, 0, 1)), (80, (0.3, 0, 1)), (120, (3, 0, 1))):
+            for value, wanted in zip(variables[f], (x, y, z)):
+                self.assertAlmostEqual(value, wanted, 5)
+        self.assertAlmostEqual(played.frames[80]["stages"]["gaze.x"][0][1], 0.3, 5)
+        # What is beyond the reach of the eyes is left for the head.
+        self.assertEqual(variables[80][3], 0)
+        self.assertGreater(variables[120][3], 1)
+        # A light turns the eyes away: the reaction adds to the place.
+        scene = {"seconds": 1, "layers": [eyes],
+                 "reactions": [{"name": "glare", "preset": "glare"}],
+                 "events": [{"time": 0, "trigger": "glare", "hold": 1}]}
+        played = self.play(scene)
+        self.assertGreater(played.value("eyeLookDownLeft", 59), 0.1)
+        below = dict(zip(played.variables, played.frames[59]["variables"]))["gaze.y"]
+        self.assertTrue(-0.4 < below < -0.2, below)
+
     def test_stages_are_in_the_order_in_which_they_act(self):
         """Reactions come before the layers of life that follow all others."""
         blink = {"name": "blink", "group": "life", "mode": "max", "source": {"generator": "blink"}}
@@ -356,6 +405,12 @@ class PlayTest(unittest.TestCase):
                 (joy(source={"poses": {"p": {"jawOpen": "x"}}}), "expected a number"),
                 (joy(source={"poses": {"p": {}}, "weights": {"q": 1}}), "no pose"),
                 (joy(source={"generator": "noise"}), "controls"),
+                (joy(source={"generator": "gaze", "eyes": ["a"]}), "not two"),
+                (joy(source={"generator": "gaze", "eyes": ["a", "b"]}), "no joints"),
+                (joy(source={"generator": "gaze", "period": 1}), '"period"'),
+                ({"layers": [{"name": n, "source": {"generator": "gaze"}} for n in "ab"]}, "several"),
+                ({"layers": [{"name": "e", "source": {"generator": "gaze"}},
+                             {**JOY, "source": {"poses": {"p": {"gaze.x": 1}}}}]}, "add or override"),
                 ({"layers": [TALK, TALK]}, "there twice"), ({"layers": [TALK] * 17}, "16"),
                 ({"layers": [{**TALK, "source": {"clip": ""}}]}, "empty"),
                 ({"guards": ["lisp"]}, '"lips"'), ({"seconds": -1}, "seconds"),

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 
 namespace mien {
@@ -14,6 +15,12 @@ inline size_t rounds(size_t usual, size_t many) {
   if (!wanted) return usual;
   const unsigned long long count = std::strtoull(wanted, nullptr, 10);
   return count > 1 ? static_cast<size_t>(count) : many;
+}
+
+/// Where random numbers of such a test begin.
+inline uint32_t first_seed() {
+  const char* wanted = std::getenv("MIEN_LONG_SEED");
+  return wanted ? static_cast<uint32_t>(std::strtoul(wanted, nullptr, 10)) : 1;
 }
 
 }  // namespace mien

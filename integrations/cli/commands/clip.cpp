@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // mien clip: curves of controls <-> clips.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -21,7 +22,7 @@ namespace mien::cli {
 namespace {
 
 struct BuildOptions {
-  std::string input, rate, snap, tolerance, rig, loop = "clamp", channels;
+  std::string input, rate, snap, tolerance, rig, loop = "clamp", channels, minus;
   bool resample = false;
   OutputFile output;
 };
@@ -182,6 +183,54 @@ std::vector<float> steps_on_rig(const Clip& clip, const std::string& path, float
   return steps;
 }
 
+/// Subtracts, channel by channel, a frame of the take or the frames of a clip, of which the last one stays.
+void subtract(Take& take, const std::string& minus, const Session& session) {
+  const size_t channels = take.names.size();
+  if (minus == "nothing") return;
+  size_t frame = 0;
+  const char* const end = minus.data() + minus.size();
+  const auto [stop, error] = std::from_chars(minus.data(), end, frame);
+  if (error == std::errc() && stop == end) {
+    if (frame >= take.row_count) {
+      fail(kInvalid, "cannot build clip", take.shown,
+           "there is no frame " + minus + ", only " + grouped(take.row_count),
+           "give a lower number to --minus");
+    }
+    const std::vector<float> row(take.values.begin() + static_cast<long>(frame * channels),
+                                 take.values.begin() + static_cast<long>((frame + 1) * channels));
+    for (size_t i = 0; i < take.values.size(); ++i) take.values[i] -= row[i % channels];
+    return;
+  }
+  const ClipFile from = open_clip_file(minus);
+  const std::vector<std::string> names = channel_names(from);
+  std::vector<size_t> at(channels, names.size());
+  size_t known = 0;
+  for (size_t c = 0; c < channels; ++c) {
+    const auto found = std::find(names.begin(), names.end(), take.names[c]);
+    at[c] = static_cast<size_t>(found - names.begin());
+    known += found != names.end();
+  }
+  if (known == 0) {
+    fail(kInvalid, "cannot build clip", take.shown,
+         "it has no channel in common with " + one_line(from.shown), "name another clip");
+  }
+  if (known < channels) {
+    note(session, one_line(from.shown) + ": lacks " + grouped(channels - known) + " of " +
+                      grouped(channels) + " channels, from which nothing is subtracted");
+  }
+  const auto use = [&](size_t row, const float* values) {
+    for (size_t c = 0; c < channels; ++c) {
+      if (at[c] < names.size()) take.values[row * channels + c] -= values[at[c]];
+    }
+  };
+  for_each_frame(from, [&](uint32_t f, const float* values) {
+    if (f < take.row_count) use(f, values);
+    for (size_t row = f + 1; f + 1 == from.info.frame_count && row < take.row_count; ++row) {
+      use(row, values);
+    }
+  });
+}
+
 void run_build(const BuildOptions& options, const Session& session) {
   const float snap = parse_snap(options.snap);
   const float tolerance = parse_tolerance(options.tolerance);
@@ -198,6 +247,7 @@ void run_build(const BuildOptions& options, const Session& session) {
   Take take = parse_take(read_text(options.input, "cannot read take"), shown_name(options.input));
   if (!options.channels.empty()) keep_channels(take, options.channels);
   const Rate rate = settle_rate(take, wanted, options.resample, session);
+  if (!options.minus.empty()) subtract(take, options.minus, session);
 
   std::vector<MienStringView> names;
   for (const std::string& name : take.names) names.push_back({name.data(), name.size()});
@@ -209,6 +259,7 @@ void run_build(const BuildOptions& options, const Session& session) {
   desc.names = names.data();
   desc.values = take.values.data();
   desc.snap = snap;
+  desc.is_delta = options.minus.empty() ? 0 : 1;
   desc.looping = loop == 0 ? MIEN_LOOPING_CLAMP : MIEN_LOOPING_WRAP;
   Clip clip = built(desc, take);
   std::vector<float> steps;
@@ -451,6 +502,12 @@ Command add_clip_command(CLI::App& app, const Session& session) {
       ->add_option("--channels", build->channels,
                    "Only these, with commas between; * stands for any characters")
       ->type_name("LIST");
+  build_app
+      ->add_option(
+          "--minus", build->minus,
+          "Make a clip of differences, for layers that add: from a frame of\nIN (its number, "
+          "from 0 on), from another clip frame by frame, or\nnothing if IN has differences")
+      ->type_name("FROM");
   build_app->add_flag("--resample", build->resample,
                       "Interpolate rows that do not lie on a constant rate");
   build_app->footer(
@@ -464,6 +521,7 @@ Command add_clip_command(CLI::App& app, const Session& session) {
       "Examples:\n"
       "  mien clip build take.csv -o take.clip\n"
       "  mien clip build take.csv -o small.clip --snap 1/2048 --channels 'jaw*,mouth*'\n"
+      "  mien clip build nod.csv -o nod.clip --minus 0\n"
       "  mien clip build phone.csv -o phone.clip --rig head.dna --tolerance 0.05\n"
       "  mien clip build phone.csv -o phone.clip --resample --rate 60");
 

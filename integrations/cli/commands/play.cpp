@@ -171,7 +171,9 @@ void run(const PlayOptions& options, const Session& session) {
     meshes = baked->deformer.get();
     name = baked->shown;
   } else {
-    const uint32_t geometry = script.guards ? uint32_t{MIEN_LAYER_GEOMETRY} : 0;
+    const bool measured =
+        script.guards != 0 || std::any_of(script.layers.begin(), script.layers.end(), is_gaze);
+    const uint32_t geometry = measured ? uint32_t{MIEN_LAYER_GEOMETRY} : 0;
     dna =
         open_rig_file(options.rig, parse_load_options(load, kEvaluationLayers | geometry), session);
     made = create_rig(*dna, parse_rig_options(evaluation));
@@ -332,6 +334,9 @@ Command add_play_command(CLI::App& app, const Session& session) {
       "     {\"time\": 1, \"layer\": \"joy\", \"weight\": 1, \"fade\": 0.4},\n"
       "     {\"time\": 2, \"layer\": \"talk\", \"play\": {\"clip\": \"other.clip\"}},\n"
       "     {\"time\": 3, \"trigger\": \"glare\", \"strength\": 1, \"hold\": 1.5}]}\n\n"
+      "{\"generator\": \"gaze\"} turns the eyes to a place, the variables gaze.x, gaze.y and "
+      "gaze.z: "
+      "meters to the left, up and to the front of the middle of the eyes.\n"
       "Clips are found from the folder of the scene. Channels with the names of ARKit drive rigs "
       "that have other names by the table of docs/face-capture.md.\n\n"
       "Examples:\n"

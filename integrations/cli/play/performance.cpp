@@ -27,6 +27,7 @@ const NamedValues kSquintControls = {{"eyeSquintLeft", 0.8f},   {"eyeSquintRight
                                      {"browDownLeft", 0.7f},    {"browDownRight", 0.7f},
                                      {"eyeSquintInnerL", 0.8f}, {"eyeSquintInnerR", 0.8f},
                                      {"browDownL", 0.7f},       {"browDownR", 0.7f}};
+const char* const kGazeVariables[] = {"gaze.x", "gaze.y", "gaze.z", "head.left", "head.up"};
 const NamedValues kPupilControls = {{"eyePupilNarrowL", 1}, {"eyePupilNarrowR", 1}};
 
 int64_t ticks_of(double seconds) {
@@ -49,6 +50,7 @@ Performance::Performance(const Script& script, const MienRig* rig, const MienDef
   MienFloatView initial{};
   check(mien_rig_initial_raw_controls(rig, &initial), nullptr, kCannot, script.shown);
   initial_.assign(initial.data, initial.data + initial.count);
+  find_eyes(deformer);
   add_layers();
   for (size_t r = 0; r < script.reactions.size(); ++r) add_glare();
   for (const EventScript& event : script.events) {
@@ -85,6 +87,61 @@ const Performance::BoundClip& Performance::clip(const std::string& path, const s
   return clips_.emplace(path, std::move(bound)).first->second;
 }
 
+/// Eyes look at gaze.x, gaze.y and gaze.z: meters to the left, up and to the front of their middle.
+void Performance::find_eyes(const MienDeformer* deformer) {
+  const std::vector<LayerScript>& layers = script_.layers;
+  const auto layer = std::find_if(layers.begin(), layers.end(), is_gaze);
+  if (layer == layers.end()) return;
+  if (!deformer) {
+    fail(kInvalid, kCannot, script_.shown, "the rig has no geometry to measure its eyes on",
+         "leave out the generator gaze");
+  }
+  auto desc = sized<MienGazeDesc>();
+  if (!layer->eyes.empty()) {
+    desc.left_eye = layer->eyes[0].c_str();
+    desc.right_eye = layer->eyes[1].c_str();
+  }
+  auto error = sized<MienError>();
+  MienGaze* gaze = nullptr;
+  const MienStatus status = mien_gaze_create(deformer, &desc, &gaze, &error);
+  if (status == MIEN_ERROR_NAME) {
+    fail(kInvalid, kCannot, script_.shown, "the rig has no joints of these names for the eyes",
+         "name them: \"eyes\": [LEFT, RIGHT]");
+  }
+  checked(status, error, script_.shown);
+  gaze_.reset(gaze);
+  auto info = sized<MienGazeInfo>();
+  check(mien_gaze_info(gaze, &info), nullptr, kCannot, script_.shown);
+  const MienGazeTarget &left = info.left_eye, &right = info.right_eye;
+  const float middle[] = {(left.left + right.left) / 2, (left.up + right.up) / 2,
+                          (left.front + right.front) / 2};
+  for (size_t i = 0; i < std::size(middle); ++i) {
+    gaze_places_[lanes_.variable(kGazeVariables[i])] = {1000, middle[i]};
+  }
+}
+
+/// Values of a scene that a layer blends by `mode`.
+LaneValues Performance::of_mixer(LaneValues values, uint32_t mode, const std::string& where) const {
+  for (size_t i = 0; i < values.lanes.size(); ++i) {
+    const auto found = gaze_places_.find(values.lanes[i]);
+    if (found == gaze_places_.end()) continue;
+    const GazePlace& place = found->second;
+    if (mode != MIEN_BLEND_MODE_ADD && mode != MIEN_BLEND_MODE_OVERRIDE) {
+      fail(kInvalid, kCannot, where, "places to look at are added or overridden",
+           "use the mode add or override");
+    }
+    values.values[i] =
+        values.values[i] * place.scale + (mode == MIEN_BLEND_MODE_OVERRIDE ? place.offset : 0.0f);
+  }
+  return values;
+}
+
+float Performance::of_scene(size_t lane, float value) const {
+  const auto found = gaze_places_.find(lane);
+  if (found == gaze_places_.end()) return value;
+  return (value - found->second.offset) / found->second.scale;
+}
+
 uint32_t Performance::add_pose(LaneValues values) {
   pose_values_.push_back(std::move(values));
   const LaneValues& kept = pose_values_.back();
@@ -114,7 +171,8 @@ void Performance::add_layers() {
       layer.first_pose = static_cast<uint32_t>(poses_.size());
       layer.pose_count = static_cast<uint32_t>(from.poses.size());
       for (const PoseScript& pose : from.poses) {
-        add_pose(lanes_.lanes(pose.values, where + ".source.poses." + pose.name));
+        const std::string name = where + ".source.poses." + pose.name;
+        add_pose(of_mixer(lanes_.lanes(pose.values, name), from.mode, name));
       }
     }
     if (from.source == MIEN_LAYER_SOURCE_STREAM) {
@@ -123,7 +181,11 @@ void Performance::add_layers() {
       layer.delay = ticks_of(stream_.delay);
       layer.stream_frames = 256;
     }
-    if (from.source == MIEN_LAYER_SOURCE_GENERATOR) {
+    if (is_gaze(from)) {
+      for (const char* name : kGazeVariables)
+        parts.generated.lanes.push_back(lanes_.variable(name));
+      parts.generated.values = {from.jitter, from.jitter, 0, 1, 1};
+    } else if (from.source == MIEN_LAYER_SOURCE_GENERATOR) {
       const bool blinks = from.generator == MIEN_GENERATOR_BLINK;
       parts.generated = from.controls.empty()
                             ? lanes_.present(blinks ? kBlinkControls : kBreathControls)
@@ -134,6 +196,9 @@ void Performance::add_layers() {
         fail(kInvalid, kCannot, where, "the rig has no controls that blink",
              "name them: \"controls\": {NAME: 1}");
       }
+      parts.generated = of_mixer(std::move(parts.generated), from.mode, where);
+    }
+    if (from.source == MIEN_LAYER_SOURCE_GENERATOR) {
       layer.generator = from.generator;
       layer.period = ticks_of(from.period);
       layer.lanes = parts.generated.lanes.data();
@@ -167,11 +232,12 @@ void Performance::order_stages() {
 void Performance::add_glare() {
   LaneValues pupils = lanes_.present(kPupilControls);
   if (pupils.lanes.empty()) pupils = {{lanes_.variable("pupil")}, {-1}};
-  const LaneValues poses[] = {lanes_.present(kBlinkControls),
-                              lanes_.present(kSquintControls),
-                              {{lanes_.variable("gaze.y")}, {-0.4f}},
-                              pupils,
-                              {{lanes_.variable("head.turn")}, {0.3f}}};
+  const LaneValues poses[] = {
+      lanes_.present(kBlinkControls),
+      lanes_.present(kSquintControls),
+      of_mixer({{lanes_.variable("gaze.y")}, {-0.4f}}, MIEN_BLEND_MODE_ADD, script_.shown),
+      pupils,
+      {{lanes_.variable("head.turn")}, {0.3f}}};
   const uint32_t first = add_pose(poses[0]);
   for (size_t i = 1; i < std::size(poses); ++i) add_pose(poses[i]);
   strokes_.emplace_back(std::size(poses));
@@ -183,7 +249,13 @@ void Performance::add_glare() {
 
 void Performance::make_mix(const MienDeformer* deformer) {
   std::vector<MienMixAntagonists> antagonists;
-  if (script_.antagonists) antagonists = find_antagonists(rig_);
+  if (script_.antagonists) {
+    size_t count = 0;
+    check(mien_mix_antagonists(rig_, nullptr, 0, &count), nullptr, kCannot, script_.shown);
+    antagonists.resize(count);
+    check(mien_mix_antagonists(rig_, antagonists.data(), count, &count), nullptr, kCannot,
+          script_.shown);
+  }
   // Tables of GUI controls end in 0 to 1 for every raw control; parts of rotations reach further.
   std::vector<float> lower(lanes_.count(), -1e6f), upper(lanes_.count(), 1e6f);
   for (size_t i = 0; i < lanes_.controls().size(); ++i) {
@@ -203,6 +275,7 @@ void Performance::make_mix(const MienDeformer* deformer) {
   if (script_.limits) desc.lower = lower.data(), desc.upper = upper.data();
   desc.deformer = script_.guards ? deformer : nullptr;
   desc.guards = script_.guards;
+  desc.gaze = gaze_.get();
   desc.variable_count = static_cast<uint32_t>(lanes_.variables().size());
   desc.max_events = 1024;
   desc.reverse = 1;
@@ -253,6 +326,12 @@ void Performance::play(uint32_t layer, const ClipScript& what, uint32_t transiti
 }
 
 void Performance::start() {
+  for (const auto& [lane, place] : gaze_places_) {
+    const auto variable = static_cast<uint32_t>(lane - lanes_.controls().size());
+    const float ahead = lane == lanes_.variable("gaze.z") ? 1.0f : 0.0f;
+    checked(mien_mixer_set_variable(mixer_.get(), variable, ahead * place.scale + place.offset),
+            sized<MienError>(), script_.shown);
+  }
   for (uint32_t l = 0; l < script_.layers.size(); ++l) {
     const LayerScript& layer = script_.layers[l];
     const std::string where = script_.shown + ".layers[" + std::to_string(l) + "]";
@@ -305,9 +384,11 @@ void Performance::apply(const EventScript& event) {
               event.where);
       break;
     case EventKind::kVariable: {
-      const size_t lane = lanes_.variable(event.variable);
+      const uint16_t lane = lanes_.variable(event.variable);
+      const float value =
+          of_mixer({{lane}, {event.weight}}, MIEN_BLEND_MODE_OVERRIDE, event.where).values[0];
       checked(mien_mixer_set_variable(mixer, static_cast<uint32_t>(lane - lanes_.controls().size()),
-                                      event.weight),
+                                      value),
               error, event.where);
       break;
     }
@@ -362,6 +443,8 @@ void Performance::run(double rate, double seconds, const std::function<bool(int6
     for (size_t i = 0; i < initial_.size(); ++i) {
       if (initial_[i] != 0 && row[i] == 0) row[i] = initial_[i];
     }
+    for (const auto& place : gaze_places_)
+      row[place.first] = of_scene(place.first, row[place.first]);
     use(f, time, row.data());
   }
 }
@@ -371,7 +454,7 @@ std::vector<float> Performance::stage_values(uint16_t lane) const {
   for (const uint32_t number : stage_numbers_) {
     MienFloatView view{};
     check(mien_mixer_stage(mixer_.get(), number, &view), nullptr, kCannot, script_.shown);
-    values.push_back(view.data[lane]);
+    values.push_back(of_scene(lane, view.data[lane]));
   }
   return values;
 }

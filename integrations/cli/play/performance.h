@@ -16,6 +16,7 @@
 namespace mien::cli {
 
 using Mix = std::unique_ptr<MienMix, Destroy<MienMix, mien_mix_destroy>>;
+using Gaze = std::unique_ptr<MienGaze, Destroy<MienGaze, mien_gaze_destroy>>;
 using Mixer = std::unique_ptr<MienMixer, Destroy<MienMixer, mien_mixer_destroy>>;
 using ClipBinding =
     std::unique_ptr<MienClipBinding, Destroy<MienClipBinding, mien_clip_binding_destroy>>;
@@ -47,8 +48,8 @@ struct GuardFrame {
 
 class Performance {
  public:
-  /// `deformer` is where guards are measured; it may be null if the scene has none. `stream` is for a live
-  /// layer.
+  /// `deformer` is where guards and eyes are measured; it may be null if the scene has none. `stream` is for
+  /// a live layer.
   Performance(const Script& script, const MienRig* rig, const MienDeformer* deformer,
               const StreamScript& stream, const Session& session);
 
@@ -81,9 +82,16 @@ class Performance {
     std::vector<float> mask;
     LaneValues generated;
   };
+  /// Scenes give places in meters from the middle of the eyes, mixers have millimeters of the model.
+  struct GazePlace {
+    float scale = 1, offset = 0;
+  };
 
   const BoundClip& clip(const std::string& path, const std::string& where);
   uint32_t add_pose(LaneValues values);
+  LaneValues of_mixer(LaneValues values, uint32_t mode, const std::string& where) const;
+  float of_scene(size_t lane, float value) const;
+  void find_eyes(const MienDeformer* deformer);
   void add_layers();
   void add_glare();
   void order_stages();
@@ -106,11 +114,13 @@ class Performance {
   std::vector<MienMixPose> poses_;
   std::vector<MienMixLayer> layers_;
   std::vector<MienMixReaction> reactions_;
-  std::vector<float> initial_;  // raw controls that are not 0 at the beginning
+  std::map<size_t, GazePlace> gaze_places_;  // of lanes; empty: nothing turns the eyes
+  std::vector<float> initial_;               // raw controls that are not 0 at the beginning
   std::vector<std::string> stages_;
   std::vector<uint32_t> stage_numbers_;  // of each, for mien_mixer_stage()
   std::vector<FiredEvent> events_;
   std::vector<GuardFacts> guards_;
+  Gaze gaze_;
   Mix mix_;
   Mixer mixer_;
   int64_t now_ = 0;

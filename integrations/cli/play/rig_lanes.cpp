@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <iterator>
 
 #include "integrations/cli/io/controls.h"
 #include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/handles.h"
 #include "integrations/cli/io/nearest_name.h"
 #include "integrations/cli/io/rig_file.h"
 #include "integrations/cli/io/text.h"
@@ -25,7 +23,7 @@ std::string in_small_letters(std::string_view word) {
 }
 
 bool is_variable_name(const std::string& name) {
-  return name == "pupil" || name == "breath" || name == "head.turn" ||
+  return name == "pupil" || name == "breath" || name.compare(0, 5, "head.") == 0 ||
          name.compare(0, 5, "gaze.") == 0 || name.compare(0, 5, "user.") == 0;
 }
 
@@ -111,46 +109,6 @@ std::vector<float> RigLanes::mask(const std::vector<std::string>& patterns, bool
          nearest_question(pattern, controls_, "'mien info RIG --names raw' lists the names"));
   }
   return mask;
-}
-
-std::vector<MienMixAntagonists> find_antagonists(const MienRig* rig) {
-  auto error = sized<MienError>();
-  MienInstance* made = nullptr;
-  check(mien_instance_create(rig, nullptr, &made, &error), &error, kCannot, "");
-  const Instance instance(made);
-  MienMutableFloatView gui{}, raw{};
-  check(mien_instance_gui_controls(made, &gui), nullptr, kCannot, "");
-  check(mien_instance_raw_controls(made, &raw), nullptr, kCannot, "");
-  const auto driven = [&](size_t control, float value) {
-    check(mien_instance_reset(made), nullptr, kCannot, "");
-    gui.data[control] = value;
-    check(mien_rig_map_gui_to_raw(rig, made), nullptr, kCannot, "");
-    std::vector<uint16_t> lanes;
-    for (size_t i = 0; i < raw.count; ++i) {
-      if (raw.data[i] > 0) lanes.push_back(static_cast<uint16_t>(i));
-    }
-    return lanes;
-  };
-  const std::vector<uint16_t> rest = gui.count ? driven(0, 0) : std::vector<uint16_t>();
-  const auto beside = [](const std::vector<uint16_t>& all, const std::vector<uint16_t>& without) {
-    std::vector<uint16_t> left;
-    std::set_difference(all.begin(), all.end(), without.begin(), without.end(),
-                        std::back_inserter(left));
-    return left;
-  };
-  std::vector<MienMixAntagonists> pairs;
-  for (size_t g = 0; g < gui.count; ++g) {
-    const std::vector<uint16_t> up = beside(driven(g, 1), rest), down = beside(driven(g, -1), rest);
-    for (uint16_t a : beside(up, down)) {
-      for (uint16_t b : beside(down, up)) {
-        const auto same = [&](const MienMixAntagonists& pair) {
-          return (pair.first == a && pair.second == b) || (pair.first == b && pair.second == a);
-        };
-        if (std::none_of(pairs.begin(), pairs.end(), same)) pairs.push_back({a, b, 1});
-      }
-    }
-  }
-  return pairs;
 }
 
 }  // namespace mien::cli

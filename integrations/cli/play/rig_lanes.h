@@ -25,7 +25,7 @@ class RigLanes {
   size_t count() const { return controls_.size() + variables_.size(); }
 
   /// A raw control by its name or by its short name without regard to case; else a variable that scenes
-  /// know (pupil, breath, head.turn, gaze., user.), which may be new. Exit code 2 with the nearest name.
+  /// know (pupil, breath, head., gaze., user.), which may be new. Exit code 2 with the nearest name.
   uint16_t lane(const std::string& name, const std::string& where);
   /// The variable of a name, which may be new.
   uint16_t variable(const std::string& name);
@@ -43,8 +43,5 @@ class RigLanes {
   // By name, and by short name in small letters; the first of equal ones.
   std::map<std::string, size_t> by_name_, by_short_name_;
 };
-
-/// Raw controls that opposite halves of one GUI control drive.
-std::vector<MienMixAntagonists> find_antagonists(const MienRig* rig);
 
 }  // namespace mien::cli

@@ -21,7 +21,7 @@ constexpr double kLongestSeconds = 24 * 3600;
 
 const Words kGroups = {"base", "speech", "emotion", "reaction", "life"};
 const Words kModes = {"override", "add", "screen", "max", "scale"};
-const Words kGenerators = {"blink", "breath", "noise"};
+const Words kGenerators = {"blink", "breath", "noise", "gaze"};
 const Words kTransitions = {"inertial", "crossfade", "cut"};
 const Words kGuards = {"lips", "lids", "teeth"};
 
@@ -116,8 +116,19 @@ void read_poses(const Node& source, LayerScript& layer) {
 }
 
 void read_generator(const Node& source, LayerScript& layer) {
-  source.require_object({"generator", "period", "controls"});
+  source.require_object({"generator", "period", "controls", "eyes", "jitter"});
   layer.generator = source.at("generator").word(kGenerators);
+  if (layer.generator == MIEN_GENERATOR_GAZE) {
+    source.require_object({"generator", "eyes", "jitter"});
+    layer.period = 0.25;
+    if (source.has("jitter")) layer.jitter = static_cast<float>(source.at("jitter").number(0, 5));
+    if (!source.has("eyes")) return;
+    const Node eyes = source.at("eyes");
+    if (eyes.count() != 2) eyes.wrong("these are not two", "name the joints of left and right eye");
+    for (size_t i = 0; i < 2; ++i) layer.eyes.push_back(eyes.at(i).text());
+    return;
+  }
+  source.require_object({"generator", "period", "controls"});
   if (source.has("period")) layer.period = source.at("period").number(0.02, 3600);
   if (source.has("controls")) layer.controls = read_values(source.at("controls"));
   if (layer.generator == MIEN_GENERATOR_NOISE && layer.controls.empty()) {
@@ -279,6 +290,9 @@ Script parse_script(const std::string& text, const std::string& shown, bool live
                             "add --live livelink://:11111 or --live vmc://:39539");
   }
   if (lives > 1) root.at("layers").wrong("several are live", "leave one of them");
+  if (std::count_if(script.layers.begin(), script.layers.end(), is_gaze) > 1) {
+    root.at("layers").wrong("several turn the eyes", "leave one of them");
+  }
   if (lives == 0 && live) {
     if (script.layers.size() == 16) {
       root.at("layers").wrong("there is no room for the live layer", "leave one out");

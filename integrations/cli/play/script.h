@@ -39,6 +39,8 @@ struct LayerScript {
   uint32_t generator = MIEN_GENERATOR_BLINK;
   double period = 4;
   NamedValues controls;  // that the generator moves, with amounts; empty: those it usually moves
+  float jitter = 0;      // of a gaze, degrees
+  std::vector<std::string> eyes;  // joints of a gaze; empty: those that heads usually have
 };
 
 enum class EventKind { kWeight, kWeights, kPlay, kStop, kTrigger, kVariable };
@@ -57,6 +59,11 @@ struct EventScript {
   double hold = 0;
   std::string variable;
 };
+
+/// Whether a layer turns the eyes.
+inline bool is_gaze(const LayerScript& layer) {
+  return layer.source == MIEN_LAYER_SOURCE_GENERATOR && layer.generator == MIEN_GENERATOR_GAZE;
+}
 
 struct Script {
   std::string shown;

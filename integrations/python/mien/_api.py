@@ -2074,6 +2074,24 @@ class MienGazeTarget(Structure):
     front: Any
 
 
+class MienGazeInfo(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("left_eye", MienGazeTarget),
+        ("right_eye", MienGazeTarget),
+        ("fit_error", c_float),
+        ("reserved", c_uint32),
+    ]
+    struct_size: Any
+    left_eye: Any
+    right_eye: Any
+    fit_error: Any
+    reserved: Any
+
+    def __init__(self) -> None:
+        super().__init__(40)
+
+
 class MienGazeRest(Structure):
     _fields_ = [
         ("left", c_float),
@@ -4030,6 +4048,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.MEMORY,
          "there is no memory"),
     ),
+    "mien_gaze_info": (),
     "mien_gaze_look_at": (
         (Status.INVALID_ARGUMENT,
          "the target is not finite"),
@@ -4404,6 +4423,7 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_gaze_create", c_int32, (MienDeformer, POINTER(MienGazeDesc), POINTER(MienGaze),
      POINTER(MienError))),
     ("mien_gaze_destroy", None, (MienGaze,)),
+    ("mien_gaze_info", c_int32, (MienGaze, POINTER(MienGazeInfo))),
     ("mien_gaze_look_at", c_int32, (MienGaze, POINTER(MienGazeTarget), c_void_p, c_size_t,
      POINTER(MienGazeRest))),
     ("mien_mixer_create", c_int32, (MienMix, POINTER(MienMixerDesc), POINTER(MienMixer),
@@ -4592,6 +4612,7 @@ class Library:
     mien_mix_mask: Any
     mien_gaze_create: Any
     mien_gaze_destroy: Any
+    mien_gaze_info: Any
     mien_gaze_look_at: Any
     mien_mixer_create: Any
     mien_mixer_destroy: Any

@@ -217,6 +217,17 @@ class Gaze(Closable):
             fail(status, "cannot make a gaze", error)
         self._handle = handle
 
+    @property
+    @raises("mien_gaze_info")
+    def eyes(self) -> Tuple[Tuple[float, float, float], Tuple[float, float, float]]:
+        """The middles of the left and the right eye, given like targets of `look_at`."""
+        info = _api.MienGazeInfo()
+        status = lib.mien_gaze_info(self._open(), _byref(info))
+        if status:
+            fail(status, "no info")
+        left, right = info.left_eye, info.right_eye
+        return (left.left, left.up, left.front), (right.left, right.up, right.front)
+
     @raises("mien_gaze_look_at")
     def look_at(self, target: Tuple[float, float, float],
                 instance: Instance) -> Tuple[float, float]:

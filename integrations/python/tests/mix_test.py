@@ -280,6 +280,8 @@ class MixTest(unittest.TestCase):
         rig, deformer = rig_of(HEAD), deformer_of()
         gaze, face = mien.Gaze(deformer), rig.instance()
         deformer.close()
+        left, right = gaze.eyes
+        self.assertAlmostEqual(left[0], -right[0], 3)
         rest = gaze.look_at((100.0, 1700.0, 1000.0), face)
         self.assertGreater(face["eyeLookOutLeft"], 0.0)
         self.assertEqual(len(rest), 2)

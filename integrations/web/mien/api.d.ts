@@ -1425,6 +1425,15 @@ export interface GazeTarget {
   front?: number;
 }
 
+/** What was measured of the eyes. */
+export interface GazeInfo {
+  /** their middles, about which they turn */
+  readonly leftEye: GazeTarget;
+  readonly rightEye: GazeTarget;
+  /** degrees, the largest that was found where both directions turn at once */
+  readonly fitError: number;
+}
+
 /**
  * The part of a gaze that is beyond the reach of the eyes, for the head to turn: tangents of angles, the
  * mean of both eyes.
@@ -2696,6 +2705,8 @@ export interface Exports {
   mien_gaze_create(deformer: number, desc: number, out_gaze: number, error: number): number;
   /** Destroys a gaze. */
   mien_gaze_destroy(gaze: number): void;
+  /** Returns where the eyes are, so that a target can be placed before them. */
+  mien_gaze_info(gaze: number, out_info: number): number;
   /**
    * Sets the raw controls of a row so that both eyes look at a target. Near targets make eyes converge.
    * `out_rest` may be NULL. Does not allocate or lock.

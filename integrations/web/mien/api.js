@@ -732,6 +732,11 @@ export const layouts = {
     up: [4, "f32"],
     front: [8, "f32"],
   } },
+  GazeInfo: { size: 36, sized: true, fields: {
+    leftEye: [4, "GazeTarget"],
+    rightEye: [16, "GazeTarget"],
+    fitError: [28, "f32"],
+  } },
   GazeRest: { size: 8, sized: false, fields: {
     left: [0, "f32"],
     up: [4, "f32"],

@@ -12,7 +12,7 @@
 import type {
   MatrixEntry, BatchDesc, ClipBindingDesc, ClipChannel, ClipDesc, ClipEvent, ClipInfo, ClipPlayerDesc, ClipPlayerInfo,
   CoordinateSystem, DeformerDesc, DeformerInfo, DeformerInstanceDesc, DnaDesc, DnaField, DnaInfo, DnaLayer,
-  Exports, Finding, GazeDesc, GazeRest, GazeTarget, GenerateDesc, GuardState, InstanceStatistics, Isa, Kind, Mesh,
+  Exports, Finding, GazeDesc, GazeInfo, GazeRest, GazeTarget, GenerateDesc, GuardState, InstanceStatistics, Isa, Kind, Mesh,
   MixDesc, MixGuardInfo, MixInfo, MixReaction, MixStroke, MixerDesc, MixerInfo, Normals, PlayDesc, Preset, Reuse,
   RigDesc, RigInfo, RigStatistics, SolverInput, SolverStackDesc, SolverStackInfo, SpringSolver, Stage, Status,
   TwistSolver, WriteDesc, BakedCheck, AimSolver as AimSolverDesc, BlendMode, CopySolver as CopySolverDesc,
@@ -584,6 +584,8 @@ export const Mixer: {
 
 /** Which raw controls turn the eyes of a rig, and how far. */
 export interface Gaze extends Handle {
+  /** Where the eyes are. */
+  readonly info: GazeInfo;
   /** Sets the raw controls of an instance so that both eyes look at a place, in millimeters. Returns what is
    * beyond the reach of the eyes, for the head to turn: tangents of angles. */
   lookAt(target: GazeTarget, instance: Instance): GazeRest;

@@ -279,6 +279,10 @@ export class Gaze extends Handle {
     super(memory, handle, "mien_gaze_destroy");
   }
 
+  get info() {
+    return this.struct("mien_gaze_info", "GazeInfo");
+  }
+
   lookAt(target, instance) {
     const { memory } = this;
     return memory.withScratch((scratch) => {

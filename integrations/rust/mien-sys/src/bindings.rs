@@ -2184,6 +2184,30 @@ impl Default for MienGazeTarget {
     }
 }
 
+/// What was measured of the eyes.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienGazeInfo {
+    pub struct_size: usize,
+    /// Their middles, about which they turn.
+    pub left_eye: MienGazeTarget,
+    pub right_eye: MienGazeTarget,
+    /// Degrees, the largest that was found where both directions turn at once.
+    pub fit_error: f32,
+    /// 0.
+    pub reserved: u32,
+}
+
+impl Default for MienGazeInfo {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
 /// The part of a gaze that is beyond the reach of the eyes, for the head to turn: tangents of
 /// angles, the mean of both eyes.
 #[repr(C)]
@@ -3895,6 +3919,9 @@ extern "C" {
 
     /// Destroys a gaze.
     pub fn mien_gaze_destroy(gaze: *mut MienGaze);
+
+    /// Returns where the eyes are, so that a target can be placed before them.
+    pub fn mien_gaze_info(gaze: *const MienGaze, out_info: *mut MienGazeInfo) -> MienStatus;
 
     /// Sets the raw controls of a row so that both eyes look at a target. Near targets make eyes
     /// converge. `out_rest` may be NULL. Does not allocate or lock.

@@ -795,6 +795,18 @@ fn mien_gaze_target() {
 }
 
 #[test]
+fn mien_gaze_info() {
+    use mien_sys::MienGazeInfo as S;
+    assert_eq!(size_of::<S>(), 40);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, struct_size), 0);
+    assert_eq!(offset!(S, left_eye), 8);
+    assert_eq!(offset!(S, right_eye), 20);
+    assert_eq!(offset!(S, fit_error), 32);
+    assert_eq!(offset!(S, reserved), 36);
+}
+
+#[test]
 fn mien_gaze_rest() {
     use mien_sys::MienGazeRest as S;
     assert_eq!(size_of::<S>(), 8);

@@ -2183,6 +2183,9 @@ macro_rules! errors {
          - [`Status::NAME`](crate::Status::NAME) if there are no such joints\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
     };
+    (mien_gaze_info) => {
+        "- none with valid arguments"
+    };
     (mien_gaze_look_at) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the target is not finite\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if `row_count` is less than the raw controls"

@@ -907,6 +907,18 @@ impl Gaze {
         Ok(Self { handle: NonNull::new(handle).expect("a handle after success") })
     }
 
+    /// The middles of the left and the right eye, given like places of [`Gaze::look_at`].
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_gaze_info)]
+    pub fn eyes(&self) -> Result<[[f32; 3]; 2]> {
+        let mut info = sys::MienGazeInfo::default();
+        // SAFETY: a live handle and a sized struct.
+        check(unsafe { sys::mien_gaze_info(self.handle.as_ptr(), &mut info) })?;
+        Ok([info.left_eye, info.right_eye].map(|eye| [eye.left, eye.up, eye.front]))
+    }
+
     /// Sets the raw controls of a row so that both eyes look at a place: millimeters to the left, up
     /// and to the front, in the model space of the rig before its head moves. Returns what is beyond
     /// the reach of the eyes, for the head to turn: tangents of angles to the left and up.

@@ -245,6 +245,8 @@ fn guards_and_tables_measure_the_rig() {
     assert!((mixer.row()[jaw] - 0.6).abs() < 1e-5);
 
     let gaze = Gaze::new(&head.deformer, None).unwrap();
+    let [left, right] = gaze.eyes().unwrap();
+    assert!(left[0] > 0.0 && left[0] + right[0] < 0.01);
     let mut row = vec![0.0; lanes];
     gaze.look_at([100.0, 1700.0, 1000.0], &mut row).unwrap();
     assert!(row[head.lane("eyeLookOutLeft")] > 0.0);
