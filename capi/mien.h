@@ -1597,7 +1597,8 @@ MIEN_API void mien_clip_close(MienClip* clip);
 
 /* Writes a clip to a file. The file is written under a temporary name and renamed, so that a failure
  * leaves `path` unchanged.
- * Fails with MIEN_ERROR_FILE_WRITE if the file cannot be written. */
+ * Fails with MIEN_ERROR_FILE_WRITE if the file cannot be written, MIEN_ERROR_MEMORY if the allocator of
+ * the clip returns NULL. */
 MIEN_CHECKED MienStatus mien_clip_write_file(const MienClip* clip, const char* path,
                                              MienError* error);
 
@@ -2158,7 +2159,8 @@ MIEN_CHECKED MienStatus mien_mix_antagonists(const MienRig* rig, MienMixAntagoni
  * are counterparts if their names differ only in Left and Right or L and R and their motions agree, or
  * if they move joints in mirrored ways. Others, and lanes beyond the raw controls, map to themselves.
  * Evaluates the rig once for each raw control, and takes memory from its allocator during the call.
- * Fails with MIEN_ERROR_MISMATCH if `lane_count` is less than the raw controls. */
+ * Fails with MIEN_ERROR_MEMORY if that returns NULL, MIEN_ERROR_MISMATCH if `lane_count` is less than the
+ * raw controls. */
 MIEN_CHECKED MienStatus mien_mix_mirror(const MienDeformer* deformer, uint16_t* out_lanes,
                                         size_t lane_count, MienError* error);
 
@@ -2166,8 +2168,8 @@ MIEN_CHECKED MienStatus mien_mix_mirror(const MienDeformer* deformer, uint16_t* 
  * some joint groups; a millimeter counts as much as a degree. Controls that move no joint, and lanes
  * beyond the raw controls, get `otherwise_weight`. Evaluates the rig once for each raw control and
  * group, and takes memory from its allocator during the call.
- * Fails with MIEN_ERROR_INDEX if a group does not exist, MIEN_ERROR_MISMATCH if `lane_count` is less
- * than the raw controls. */
+ * Fails with MIEN_ERROR_MEMORY if that returns NULL, MIEN_ERROR_INDEX if a group does not exist,
+ * MIEN_ERROR_MISMATCH if `lane_count` is less than the raw controls. */
 MIEN_CHECKED MienStatus mien_mix_mask(const MienRig* rig, const uint32_t* groups, size_t group_count,
                                       float otherwise_weight, float* out_mask, size_t lane_count,
                                       MienError* error);

@@ -3867,6 +3867,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "it is not a valid clip"),
     ),
     "mien_clip_write_file": (
+        (Status.MEMORY,
+         "the allocator of the clip returns NULL"),
         (Status.FILE_WRITE,
          "the file cannot be written"),
     ),
@@ -4032,12 +4034,16 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     "mien_mix_mirror": (
         (Status.MISMATCH,
          "`lane_count` is less than the raw controls"),
+        (Status.MEMORY,
+         "that returns NULL"),
     ),
     "mien_mix_mask": (
         (Status.MISMATCH,
          "`lane_count` is less than the raw controls"),
         (Status.INDEX,
          "a group does not exist"),
+        (Status.MEMORY,
+         "that returns NULL"),
     ),
     "mien_gaze_create": (
         (Status.INVALID_ARGUMENT,

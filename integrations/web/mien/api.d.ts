@@ -2684,7 +2684,8 @@ export interface Exports {
    * are counterparts if their names differ only in Left and Right or L and R and their motions agree, or
    * if they move joints in mirrored ways. Others, and lanes beyond the raw controls, map to themselves.
    * Evaluates the rig once for each raw control, and takes memory from its allocator during the call.
-   * Fails with MIEN_ERROR_MISMATCH if `lane_count` is less than the raw controls.
+   * Fails with MIEN_ERROR_MEMORY if that returns NULL, MIEN_ERROR_MISMATCH if `lane_count` is less than the
+   * raw controls.
    */
   mien_mix_mirror(deformer: number, out_lanes: number, lane_count: number, error: number): number;
   /**
@@ -2692,8 +2693,8 @@ export interface Exports {
    * some joint groups; a millimeter counts as much as a degree. Controls that move no joint, and lanes
    * beyond the raw controls, get `otherwise_weight`. Evaluates the rig once for each raw control and
    * group, and takes memory from its allocator during the call.
-   * Fails with MIEN_ERROR_INDEX if a group does not exist, MIEN_ERROR_MISMATCH if `lane_count` is less
-   * than the raw controls.
+   * Fails with MIEN_ERROR_MEMORY if that returns NULL, MIEN_ERROR_INDEX if a group does not exist,
+   * MIEN_ERROR_MISMATCH if `lane_count` is less than the raw controls.
    */
   mien_mix_mask(rig: number, groups: number, group_count: number, otherwise_weight: number, out_mask: number, lane_count: number, error: number): number;
   /**

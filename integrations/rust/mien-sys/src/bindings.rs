@@ -3666,7 +3666,8 @@ extern "C" {
     /// Writes a clip to a file. The file is written under a temporary name and renamed, so that a
     /// failure leaves `path` unchanged.
     ///
-    /// Fails with `MIEN_ERROR_FILE_WRITE` if the file cannot be written.
+    /// Fails with `MIEN_ERROR_FILE_WRITE` if the file cannot be written, `MIEN_ERROR_MEMORY` if
+    /// the allocator of the clip returns NULL.
     pub fn mien_clip_write_file(clip: *const MienClip, path: *const c_char, error: *mut MienError) -> MienStatus;
 
     /// Writes a clip to memory and returns its size in `out_size`. `buffer` may be NULL with
@@ -3897,7 +3898,8 @@ extern "C" {
     /// lanes beyond the raw controls, map to themselves. Evaluates the rig once for each raw
     /// control, and takes memory from its allocator during the call.
     ///
-    /// Fails with `MIEN_ERROR_MISMATCH` if `lane_count` is less than the raw controls.
+    /// Fails with `MIEN_ERROR_MEMORY` if that returns NULL, `MIEN_ERROR_MISMATCH` if `lane_count`
+    /// is less than the raw controls.
     pub fn mien_mix_mirror(deformer: *const MienDeformer, out_lanes: *mut u16, lane_count: usize, error: *mut MienError) -> MienStatus;
 
     /// Writes a mask for each raw control: the share of its joint motion, at value 1 and LOD 0,
@@ -3905,8 +3907,8 @@ extern "C" {
     /// no joint, and lanes beyond the raw controls, get `otherwise_weight`. Evaluates the rig once
     /// for each raw control and group, and takes memory from its allocator during the call.
     ///
-    /// Fails with `MIEN_ERROR_INDEX` if a group does not exist, `MIEN_ERROR_MISMATCH` if
-    /// `lane_count` is less than the raw controls.
+    /// Fails with `MIEN_ERROR_MEMORY` if that returns NULL, `MIEN_ERROR_INDEX` if a group does not
+    /// exist, `MIEN_ERROR_MISMATCH` if `lane_count` is less than the raw controls.
     pub fn mien_mix_mask(rig: *const MienRig, groups: *const u32, group_count: usize, otherwise_weight: f32, out_mask: *mut f32, lane_count: usize, error: *mut MienError) -> MienStatus;
 
     /// Creates a gaze by measuring how raw controls turn the eyes: evaluates the rig twice per raw

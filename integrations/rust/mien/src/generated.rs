@@ -2046,7 +2046,8 @@ macro_rules! errors {
          - [`Status::CLIP_STRUCTURE`](crate::Status::CLIP_STRUCTURE) if it is not a valid clip"
     };
     (mien_clip_write_file) => {
-        "- [`Status::FILE_WRITE`](crate::Status::FILE_WRITE) if the file cannot be written"
+        "- [`Status::MEMORY`](crate::Status::MEMORY) if the allocator of the clip returns NULL\n\
+         - [`Status::FILE_WRITE`](crate::Status::FILE_WRITE) if the file cannot be written"
     };
     (mien_clip_write_memory) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range"
@@ -2172,11 +2173,13 @@ macro_rules! errors {
         "- none with valid arguments"
     };
     (mien_mix_mirror) => {
-        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `lane_count` is less than the raw controls"
+        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `lane_count` is less than the raw controls\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if that returns NULL"
     };
     (mien_mix_mask) => {
         "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `lane_count` is less than the raw controls\n\
-         - [`Status::INDEX`](crate::Status::INDEX) if a group does not exist"
+         - [`Status::INDEX`](crate::Status::INDEX) if a group does not exist\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if that returns NULL"
     };
     (mien_gaze_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if one of the four directions has no raw control that turns an eye steadily farther\n\

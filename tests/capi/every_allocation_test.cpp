@@ -1,0 +1,585 @@
+// SPDX-License-Identifier: MIT
+// Each public function that says it may lack memory, with every one of its requests failing in turn. The list
+// is compared with the interface as data, so a function that is added later has to be added here.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/support/counting_allocator.h"
+#include "tests/support/dna_bytes.h"
+#include "tests/support/memory_stream.h"
+#include "tests/support/mesh_source.h"
+#include "tests/support/rig_handles.h"
+#include "tests/support/tiny_rig.h"
+
+namespace mien {
+namespace {
+
+namespace fs = std::filesystem;
+using Bytes = std::vector<uint8_t>;
+
+/// Functions of mien_api.json whose statuses include MEMORY. Lines as integrations/api/dump_api.py writes
+/// them: a function's name stands before its statuses.
+std::set<std::string> functions_that_take_memory() {
+  std::ifstream in(MIEN_API_FILE);
+  std::set<std::string> found;
+  std::string line, name, function;
+  while (std::getline(in, line)) {
+    const size_t at = line.find("\"name\": \"");
+    if (at != std::string::npos) name = line.substr(at + 9, line.find('"', at + 9) - at - 9);
+    if (line.find("\"library\": \"") != std::string::npos) function = name;
+    if (name == "MIEN_ERROR_MEMORY" && !function.empty()) found.insert(function);
+  }
+  return found;
+}
+
+template <class Object>
+struct Owned {
+  Object* object = nullptr;
+  void (*destroy)(Object*);
+
+  explicit Owned(void (*with)(Object*)) : destroy(with) {}
+  ~Owned() { destroy(object); }
+  Owned(const Owned&) = delete;
+  Owned& operator=(const Owned&) = delete;
+};
+
+/// An object of each kind, all from one allocator that counts.
+struct World {
+  CountingAllocator memory;
+  const MienAllocator allocator = memory.get();
+  const fs::path folder = fs::path(testing::TempDir()) / "mien_every_allocation_test";
+  Owned<MienDna> dna{mien_dna_close};
+  Owned<MienDna> tiny{mien_dna_close};  // with layers that lower versions lack
+  Owned<MienRig> rig{mien_rig_destroy};
+  Owned<MienDeformer> deformer{mien_deformer_destroy};
+  Owned<MienBaked> baked{mien_baked_close};
+  Owned<MienRig> baked_rig{mien_rig_destroy};
+  Owned<MienClip> clip{mien_clip_close};
+  Owned<MienClipBinding> binding{mien_clip_binding_destroy};
+  Owned<MienMix> mix{mien_mix_destroy};
+  Owned<MienSolverStack> stack{mien_solver_stack_destroy};
+  Owned<MienDeformer> head_deformer{mien_deformer_destroy};  // with eyes
+  Bytes dna_bytes, tiny_bytes, baked_bytes, clip_bytes, mix_bytes;
+  uint32_t raw_count = 0;
+  std::vector<std::string> names;
+  std::vector<MienStringView> name_views;
+  std::vector<float> values;
+  MienClipEvent event = {0, {"word", 4}, 0.5f, 0};
+  MienMixLayer layer = {};
+  MienAimSolver aim = {};
+  MienSolver solver = {};
+
+  template <class Desc>
+  Desc desc() const {
+    return desc_with<Desc>(&allocator);
+  }
+  std::string path(const char* name) const { return (folder / name).u8string(); }
+
+  MienClipDesc clip_desc() const {
+    auto wanted = desc<MienClipDesc>();
+    wanted.frame_count = 70;
+    wanted.channel_count = 2;
+    wanted.names = name_views.data();
+    wanted.values = values.data();
+    wanted.events = &event;
+    wanted.event_count = 1;
+    return wanted;
+  }
+  MienMixDesc mix_desc() const {
+    auto wanted = desc<MienMixDesc>();
+    wanted.layers = &layer;
+    wanted.layer_count = 1;
+    wanted.deformer = deformer.object;
+    wanted.guards = MIEN_GUARD_ALL;
+    return wanted;
+  }
+  MienSolverStackDesc stack_desc() const {
+    auto wanted = desc<MienSolverStackDesc>();
+    wanted.solvers = &solver;
+    wanted.solver_count = 1;
+    wanted.lane_count = 6;
+    wanted.check_writes = 1;
+    return wanted;
+  }
+
+  World() {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    auto generate = desc<MienGenerateDesc>();
+    generate.preset = MIEN_PRESET_SMALL;
+    generate.seed = 1;
+    done(mien_dna_generate(&generate, &dna.object, nullptr));
+    const auto of_rig = desc<MienRigDesc>();
+    done(mien_rig_create(dna.object, &of_rig, &rig.object, nullptr));
+    const auto of_deformer = desc<MienDeformerDesc>();
+    done(mien_deformer_create(dna.object, rig.object, &of_deformer, &deformer.object, nullptr));
+    dna_bytes = write_dna(dna.object);
+    Arena arena(default_allocator());
+    tiny_bytes = dna::written(dna::tiny_rig(arena));
+    const auto of_tiny = desc<MienDnaDesc>();
+    done(mien_dna_open_memory(tiny_bytes.data(), tiny_bytes.size(), &of_tiny, &tiny.object,
+                              nullptr));
+    size_t size = 0;
+    done(mien_bake_memory(rig.object, deformer.object, nullptr, 0, &size, nullptr));
+    baked_bytes.resize(size);
+    done(mien_bake_memory(rig.object, deformer.object, baked_bytes.data(), size, &size, nullptr));
+    const auto of_baked = desc<MienBakedDesc>();
+    done(mien_baked_open_memory(baked_bytes.data(), size, &of_baked, &baked.object, nullptr));
+    const auto of_baked_rig = desc<MienBakedRigDesc>();
+    done(mien_rig_from_baked(baked.object, &of_baked_rig, &baked_rig.object, nullptr));
+
+    done(mien_rig_count(rig.object, MIEN_KIND_RAW_CONTROL, &raw_count));
+    for (uint32_t i = 0; i < 2; ++i) {
+      MienStringView name;
+      done(mien_rig_name(rig.object, MIEN_KIND_RAW_CONTROL, i, &name));
+      names.emplace_back(name.data, name.count);
+    }
+    for (const std::string& name : names) name_views.push_back({name.data(), name.size()});
+    for (size_t i = 0; i < 140; ++i) values.push_back(static_cast<float>(i % 97) / 128);
+    const MienClipDesc of_clip = clip_desc();
+    done(mien_clip_build(&of_clip, &clip.object, nullptr));
+    done(mien_clip_write_memory(clip.object, nullptr, 0, &size, nullptr));
+    clip_bytes.resize(size);
+    done(mien_clip_write_memory(clip.object, clip_bytes.data(), size, &size, nullptr));
+    const auto of_binding = desc<MienClipBindingDesc>();
+    done(mien_clip_binding_create(clip.object, rig.object, &of_binding, &binding.object, nullptr));
+
+    layer.weight = 1;
+    const MienMixDesc of_mix = mix_desc();
+    done(mien_mix_create(rig.object, &of_mix, &mix.object, nullptr));
+    done(mien_mix_write_memory(mix.object, nullptr, 0, &size, nullptr));
+    mix_bytes.resize(size);
+    done(mien_mix_write_memory(mix.object, mix_bytes.data(), size, &size, nullptr));
+    aim.joint = 1;
+    aim.target_joint = MIEN_NO_JOINT;
+    aim.axis[2] = 1;
+    aim.cone_degrees = 40;
+    aim.weight = 1;
+    solver.aim = &aim;
+    const MienSolverStackDesc of_stack = stack_desc();
+    done(mien_solver_stack_create(deformer.object, &of_stack, &stack.object, nullptr));
+
+    const DnaHandle head = generate_dna(MIEN_PRESET_HEAD, 0);
+    const RigHandle head_rig = create_rig(head.get());
+    done(mien_deformer_create(head.get(), head_rig.get(), nullptr, &head_deformer.object, nullptr));
+
+    for (const auto& [name, bytes] : {std::pair{"a.dna", &dna_bytes},
+                                      {"a.mien", &baked_bytes},
+                                      {"a.clip", &clip_bytes},
+                                      {"a.mix", &mix_bytes}}) {
+      std::ofstream out(folder / name, std::ios::binary);
+      out.write(reinterpret_cast<const char*>(bytes->data()),
+                static_cast<std::streamsize>(bytes->size()));
+    }
+  }
+  ~World() { fs::remove_all(folder); }
+
+ private:
+  static void done(MienStatus status) { ASSERT_STREQ(mien_status_name(status), "OK"); }
+};
+
+/// What a call made is destroyed at once; NULL if it failed.
+template <class Object, class Make>
+MienStatus made_and_destroyed(void (*destroy)(Object*), const Make& make) {
+  Object* object = reinterpret_cast<Object*>(&destroy);  // to be overwritten
+  const MienStatus status = make(&object);
+  EXPECT_EQ(object == nullptr, status != MIEN_OK);
+  destroy(object);
+  return status;
+}
+
+template <class Open>
+MienStatus opened_as_stream(const Bytes& bytes, const Open& open) {
+  MemoryStream source(bytes);
+  const Stream stream = source.get();
+  const MienStream given = {stream.user, stream.size, stream.read};
+  return open(&given);
+}
+
+struct Call {
+  const char* function;
+  std::function<MienStatus(MienError*)> run;
+};
+
+/// The procedural head at its last LOD, with expressions.
+struct AuthorInput {
+  author::TestMesh mesh = author::procedural_mesh(7, true);
+  std::vector<MienAuthorShape> shapes;
+  MienAuthorMesh given = sized<MienAuthorMesh>();
+
+  AuthorInput() {
+    for (size_t s = 0; s < mesh.shape_names.size(); ++s) {
+      MienAuthorShape shape = {};
+      shape.name = {mesh.shape_names[s].data(), mesh.shape_names[s].size()};
+      shape.displacements = mesh.displacements[s].data();
+      shape.position_count = mesh.displacements[s].size() / 3;
+      shapes.push_back(shape);
+    }
+    given.positions = mesh.positions.data();
+    given.position_count = mesh.positions.size() / 3;
+    given.face_sizes = mesh.face_sizes.data();
+    given.face_count = mesh.face_sizes.size();
+    given.corners = mesh.corners.data();
+    given.corner_count = mesh.corners.size();
+    given.shapes = shapes.data();
+    given.shape_count = shapes.size();
+  }
+};
+
+std::vector<Call> calls_of_dna(const World& w) {
+  const auto opened = [](const auto& make) { return made_and_destroyed(mien_dna_close, make); };
+  const auto reported = [](const auto& make) {
+    return made_and_destroyed(mien_report_destroy, make);
+  };
+  return {
+      {"mien_dna_open_file",
+       [&w, opened](MienError* error) {
+         const auto desc = w.desc<MienDnaDesc>();
+         return opened([&](MienDna** out) {
+           return mien_dna_open_file(w.path("a.dna").c_str(), &desc, out, error);
+         });
+       }},
+      {"mien_dna_open_memory",
+       [&w, opened](MienError* error) {
+         const auto desc = w.desc<MienDnaDesc>();
+         return opened([&](MienDna** out) {
+           return mien_dna_open_memory(w.dna_bytes.data(), w.dna_bytes.size(), &desc, out, error);
+         });
+       }},
+      {"mien_dna_open_stream",
+       [&w, opened](MienError* error) {
+         const auto desc = w.desc<MienDnaDesc>();
+         return opened_as_stream(w.dna_bytes, [&](const MienStream* stream) {
+           return opened(
+               [&](MienDna** out) { return mien_dna_open_stream(stream, &desc, out, error); });
+         });
+       }},
+      {"mien_dna_write_file",
+       [&w](MienError* error) {
+         return mien_dna_write_file(w.dna.object, w.path("b").c_str(), nullptr, error);
+       }},
+      {"mien_dna_write_memory",
+       [&w](MienError* error) {
+         // What a lower version leaves out is checked for.
+         MienWriteDesc desc = sized<MienWriteDesc>();
+         desc.version = 4;
+         desc.unknown_layers = MIEN_UNKNOWN_LAYERS_DROP;
+         size_t size;
+         return mien_dna_write_memory(w.tiny.object, &desc, nullptr, 0, &size, error);
+       }},
+      {"mien_dna_validate_file",
+       [&w, reported](MienError* error) {
+         const auto desc = w.desc<MienValidateDesc>();
+         return reported([&](MienReport** out) {
+           return mien_dna_validate_file(w.path("a.dna").c_str(), &desc, out, error);
+         });
+       }},
+      {"mien_dna_validate_memory",
+       [&w, reported](MienError* error) {
+         const auto desc = w.desc<MienValidateDesc>();
+         return reported([&](MienReport** out) {
+           return mien_dna_validate_memory(w.dna_bytes.data(), w.dna_bytes.size(), &desc, out,
+                                           error);
+         });
+       }},
+      {"mien_dna_generate",
+       [&w, opened](MienError* error) {
+         auto desc = w.desc<MienGenerateDesc>();
+         desc.preset = MIEN_PRESET_SMALL;
+         return opened([&](MienDna** out) { return mien_dna_generate(&desc, out, error); });
+       }},
+  };
+}
+
+std::vector<Call> calls_of_rigs(const World& w) {
+  return {
+      {"mien_rig_create",
+       [&w](MienError* error) {
+         const auto desc = w.desc<MienRigDesc>();
+         return made_and_destroyed(mien_rig_destroy, [&](MienRig** out) {
+           return mien_rig_create(w.dna.object, &desc, out, error);
+         });
+       }},
+      {"mien_instance_create",
+       [&w](MienError* error) {
+         const auto desc = w.desc<MienInstanceDesc>();
+         return made_and_destroyed(mien_instance_destroy, [&](MienInstance** out) {
+           return mien_instance_create(w.rig.object, &desc, out, error);
+         });
+       }},
+      {"mien_batch_create",
+       [&w](MienError* error) {
+         const MienBatchDesc desc = batch_desc(20, 3, &w.allocator);
+         return made_and_destroyed(mien_batch_destroy, [&](MienBatch** out) {
+           return mien_batch_create(w.rig.object, &desc, out, error);
+         });
+       }},
+      {"mien_deformer_create",
+       [&w](MienError* error) {
+         auto desc = w.desc<MienDeformerDesc>();
+         desc.with_tangents = 1;
+         return made_and_destroyed(mien_deformer_destroy, [&](MienDeformer** out) {
+           return mien_deformer_create(w.dna.object, w.rig.object, &desc, out, error);
+         });
+       }},
+      {"mien_deformer_instance_create",
+       [&w](MienError* error) {
+         const auto desc = w.desc<MienDeformerInstanceDesc>();
+         return made_and_destroyed(mien_deformer_instance_destroy, [&](MienDeformerInstance** out) {
+           return mien_deformer_instance_create(w.deformer.object, &desc, out, error);
+         });
+       }},
+      {"mien_bake_file",
+       [&w](MienError* error) {
+         return mien_bake_file(w.rig.object, w.deformer.object, w.path("b").c_str(), error);
+       }},
+      {"mien_baked_open_file",
+       [&w](MienError* error) {
+         auto desc = w.desc<MienBakedDesc>();
+         desc.file_access = MIEN_FILE_READ;
+         return made_and_destroyed(mien_baked_close, [&](MienBaked** out) {
+           return mien_baked_open_file(w.path("a.mien").c_str(), &desc, out, error);
+         });
+       }},
+      {"mien_baked_open_memory",
+       [&w](MienError* error) {
+         const auto desc = w.desc<MienBakedDesc>();
+         return made_and_destroyed(mien_baked_close, [&](MienBaked** out) {
+           return mien_baked_open_memory(w.baked_bytes.data(), w.baked_bytes.size(), &desc, out,
+                                         error);
+         });
+       }},
+      {"mien_baked_open_stream",
+       [&w](MienError* error) {
+         const auto desc = w.desc<MienBakedDesc>();
+         return opened_as_stream(w.baked_bytes, [&](const MienStream* stream) {
+           return made_and_destroyed(mien_baked_close, [&](MienBaked** out) {
+             return mien_baked_open_stream(stream, &desc, out, error);
+           });
+         });
+       }},
+      {"mien_rig_from_baked",
+       [&w](MienError* error) {
+         const auto desc = w.desc<MienBakedRigDesc>();
+         return made_and_destroyed(mien_rig_destroy, [&](MienRig** out) {
+           return mien_rig_from_baked(w.baked.object, &desc, out, error);
+         });
+       }},
+      {"mien_deformer_from_baked",
+       [&w](MienError* error) {
+         const auto desc = w.desc<MienBakedDeformerDesc>();
+         return made_and_destroyed(mien_deformer_destroy, [&](MienDeformer** out) {
+           return mien_deformer_from_baked(w.baked.object, w.baked_rig.object, &desc, out, error);
+         });
+       }},
+  };
+}
+
+std::vector<Call> calls_of_clips(const World& w) {
+  const auto opened = [](const auto& make) { return made_and_destroyed(mien_clip_close, make); };
+  return {
+      {"mien_clip_build",
+       [&w, opened](MienError* error) {
+         const MienClipDesc desc = w.clip_desc();
+         return opened([&](MienClip** out) { return mien_clip_build(&desc, out, error); });
+       }},
+      {"mien_clip_open_file",
+       [&w, opened](MienError* error) {
+         auto desc = w.desc<MienClipOpenDesc>();
+         desc.file_access = MIEN_FILE_READ;
+         return opened([&](MienClip** out) {
+           return mien_clip_open_file(w.path("a.clip").c_str(), &desc, out, error);
+         });
+       }},
+      {"mien_clip_open_memory",
+       [&w, opened](MienError* error) {
+         const auto desc = w.desc<MienClipOpenDesc>();
+         return opened([&](MienClip** out) {
+           return mien_clip_open_memory(w.clip_bytes.data(), w.clip_bytes.size(), &desc, out,
+                                        error);
+         });
+       }},
+      {"mien_clip_open_stream",
+       [&w, opened](MienError* error) {
+         const auto desc = w.desc<MienClipOpenDesc>();
+         return opened_as_stream(w.clip_bytes, [&](const MienStream* stream) {
+           return opened(
+               [&](MienClip** out) { return mien_clip_open_stream(stream, &desc, out, error); });
+         });
+       }},
+      {"mien_clip_write_file",
+       [&w](MienError* error) {
+         return mien_clip_write_file(w.clip.object, w.path("b").c_str(), error);
+       }},
+      {"mien_clip_player_create",
+       [&w](MienError* error) {
+         const auto desc = w.desc<MienClipPlayerDesc>();
+         return made_and_destroyed(mien_clip_player_destroy, [&](MienClipPlayer** out) {
+           return mien_clip_player_create(w.clip.object, &desc, out, error);
+         });
+       }},
+      {"mien_clip_binding_create",
+       [&w](MienError* error) {
+         const auto desc = w.desc<MienClipBindingDesc>();
+         return made_and_destroyed(mien_clip_binding_destroy, [&](MienClipBinding** out) {
+           return mien_clip_binding_create(w.clip.object, w.rig.object, &desc, out, error);
+         });
+       }},
+      {"mien_clip_binding_snaps",
+       [&w](MienError* error) {
+         float snaps[2];
+         return mien_clip_binding_snaps(w.binding.object, w.deformer.object, 0.02f, snaps, 2,
+                                        error);
+       }},
+  };
+}
+
+std::vector<Call> calls_of_mixes(const World& w) {
+  const auto made = [](const auto& make) { return made_and_destroyed(mien_mix_destroy, make); };
+  return {
+      {"mien_mix_create",
+       [&w, made](MienError* error) {
+         const MienMixDesc desc = w.mix_desc();
+         return made(
+             [&](MienMix** out) { return mien_mix_create(w.rig.object, &desc, out, error); });
+       }},
+      {"mien_mix_open_file",
+       [&w, made](MienError* error) {
+         const auto desc = w.desc<MienMixOpenDesc>();
+         return made([&](MienMix** out) {
+           return mien_mix_open_file(w.path("a.mix").c_str(), w.rig.object, &desc, out, error);
+         });
+       }},
+      {"mien_mix_open_memory",
+       [&w, made](MienError* error) {
+         const auto desc = w.desc<MienMixOpenDesc>();
+         return made([&](MienMix** out) {
+           return mien_mix_open_memory(w.mix_bytes.data(), w.mix_bytes.size(), w.rig.object, &desc,
+                                       out, error);
+         });
+       }},
+      {"mien_mix_write_file",
+       [&w](MienError* error) {
+         return mien_mix_write_file(w.mix.object, w.path("b").c_str(), error);
+       }},
+      {"mien_mix_write_memory",
+       [&w](MienError* error) {
+         Bytes bytes(w.mix_bytes.size());
+         size_t size;
+         return mien_mix_write_memory(w.mix.object, bytes.data(), bytes.size(), &size, error);
+       }},
+      {"mien_mix_write_text",
+       [&w](MienError* error) {
+         size_t size;
+         return mien_mix_write_text(w.mix.object, nullptr, 0, &size, error);
+       }},
+      {"mien_mix_mirror",
+       [&w](MienError* error) {
+         std::vector<uint16_t> lanes(w.raw_count);
+         return mien_mix_mirror(w.deformer.object, lanes.data(), lanes.size(), error);
+       }},
+      {"mien_mix_mask",
+       [&w](MienError* error) {
+         std::vector<float> mask(w.raw_count);
+         const uint32_t group = 0;
+         return mien_mix_mask(w.rig.object, &group, 1, 0, mask.data(), mask.size(), error);
+       }},
+      {"mien_gaze_create",
+       [&w](MienError* error) {
+         const auto desc = w.desc<MienGazeDesc>();
+         return made_and_destroyed(mien_gaze_destroy, [&](MienGaze** out) {
+           return mien_gaze_create(w.head_deformer.object, &desc, out, error);
+         });
+       }},
+      {"mien_mixer_create",
+       [&w](MienError* error) {
+         const auto desc = w.desc<MienMixerDesc>();
+         return made_and_destroyed(mien_mixer_destroy, [&](MienMixer** out) {
+           return mien_mixer_create(w.mix.object, &desc, out, error);
+         });
+       }},
+      {"mien_solver_stack_create",
+       [&w](MienError* error) {
+         const MienSolverStackDesc desc = w.stack_desc();
+         return made_and_destroyed(mien_solver_stack_destroy, [&](MienSolverStack** out) {
+           return mien_solver_stack_create(w.deformer.object, &desc, out, error);
+         });
+       }},
+      {"mien_solver_state_create",
+       [&w](MienError* error) {
+         const auto desc = w.desc<MienSolverStateDesc>();
+         return made_and_destroyed(mien_solver_state_destroy, [&](MienSolverState** out) {
+           return mien_solver_state_create(w.stack.object, &desc, out, error);
+         });
+       }},
+  };
+}
+
+std::vector<Call> calls_of_authoring(const World& w, const AuthorInput& input) {
+  return {
+      {"mien_author_rig",
+       [&](MienError* error) {
+         auto desc = w.desc<MienAuthorDesc>();
+         desc.facial_joints = 6;
+         desc.lods = 2;
+         desc.influences = 4;
+         return made_and_destroyed(mien_dna_close, [&](MienDna** out) {
+           return made_and_destroyed(mien_author_report_close, [&](MienAuthorReport** report) {
+             return mien_author_rig(&input.given, &desc, out, report, error);
+           });
+         });
+       }},
+  };
+}
+
+/// Requests that the call makes.
+size_t survive_every_failure(World& world, const Call& call) {
+  SCOPED_TRACE(call.function);
+  CountingAllocator& memory = world.memory;
+  const size_t live = memory.live, bytes = memory.bytes;
+  for (size_t k = 1;; ++k) {
+    for (const bool keep_failing : {false, true}) {
+      memory.restart();
+      memory.fail_at = k;
+      memory.keep_failing = keep_failing;
+      MienError error = sized<MienError>();
+      const MienStatus status = call.run(&error);
+      EXPECT_STREQ(mien_status_name(status), memory.failed ? "MEMORY" : "OK")
+          << "request " << k << ": " << error.message;
+      EXPECT_EQ(memory.live, live) << "request " << k;
+      EXPECT_EQ(memory.bytes, bytes) << "request " << k;
+      EXPECT_EQ(memory.first_wrong, "");
+      if (memory.failed) {
+        EXPECT_NE(error.message[0], 0);
+      }
+    }
+    memory.fail_at = 0;
+    if (memory.failed == 0) return k - 1;
+  }
+}
+
+TEST(EveryAllocation, MayFailUnderEveryFunctionThatTakesMemory) {
+  World world;
+  const AuthorInput input;
+  ASSERT_FALSE(HasFailure());
+  std::set<std::string> called;
+  for (const auto& calls : {calls_of_dna(world), calls_of_rigs(world), calls_of_clips(world),
+                            calls_of_mixes(world), calls_of_authoring(world, input)}) {
+    for (const Call& call : calls) {
+      const size_t requests = survive_every_failure(world, call);
+      EXPECT_GT(requests, 0u) << call.function;
+      printf("%s: %zu requests\n", call.function, requests);
+      called.insert(call.function);
+    }
+  }
+  EXPECT_EQ(called, functions_that_take_memory()) << "see mien_api.json";
+}
+
+}  // namespace
+}  // namespace mien
