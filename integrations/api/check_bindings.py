@@ -44,7 +44,7 @@ WITHOUT = {
         "mien_mix_open_file", "mien_mix_write_file")},
     **{name: {"JavaScript": "a stream reads the caller's bytes, without a copy that has to be kept"}
        for name in ("mien_dna_open_memory", "mien_baked_open_memory", "mien_clip_open_memory")},
-    **{name: {"JavaScript": "one by one: threads of a page share no module"} for name in (
+    **{name: {"JavaScript": "one by one, each on several threads if it is large"} for name in (
         "mien_deformer_instance_deform_batch", "mien_deformer_instance_write_vertices_batch")},
 }
 # Functions whose own statuses cannot reach a user, who finds no list of them either.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// serve.mjs FOLDER [PORT]: serves the files of a folder on 127.0.0.1. Port 0 is any free one.
+// serve.mjs FOLDER [PORT]: serves the files of a folder on 127.0.0.1, with the headers that give pages shared memory.
+// Port 0 is any free one.
 import { createReadStream, statSync } from "node:fs";
 import { createServer } from "node:http";
 import { extname, join, normalize } from "node:path";
@@ -34,7 +35,8 @@ export function serve(folder, port = 0) {
     }
     response.writeHead(200, {
       "Content-Type": TYPES[extname(file)] ?? "application/octet-stream", "Content-Length": found.size,
-      "Cache-Control": "no-cache",
+      "Cache-Control": "no-cache", "Cross-Origin-Opener-Policy": "same-origin",
+      "Cross-Origin-Embedder-Policy": "require-corp", "Cross-Origin-Resource-Policy": "same-origin",
     });
     if (request.method === "HEAD") response.end();
     else createReadStream(file).pipe(response);

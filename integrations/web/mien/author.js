@@ -110,7 +110,9 @@ function descOf({ bones, weights, ...rest }, positionCount, shapeCount) {
 export function authorRig(memory, mesh, { progress, ...options } = {}) {
   const { exports } = memory;
   const givenMesh = meshOf(mesh);
-  const desc = descOf(options, givenMesh.positionCount, givenMesh.shapes.length);
+  const desc = {
+    ...descOf(options, givenMesh.positionCount, givenMesh.shapes.length), parallel: memory.parallel,
+  };
   if (progress) {
     desc.progress = exports.mien_web_progress_function();
     desc.progressUser = memory.addFunction(progress);

@@ -132,7 +132,7 @@ export class DeformerInstance extends Handle {
   }
 
   deform(mesh, normals = Normals.DEFAULT) {
-    this.call("mien_deformer_instance_deform", mesh, normals, 0);
+    this.call("mien_deformer_instance_deform", mesh, normals, this.memory.parallel);
   }
 
   positions(mesh) {
@@ -161,7 +161,7 @@ export class DeformerInstance extends Handle {
         positions: { data: this.#output, stride: 12 },
         normals: normals ? { data: this.#output + size, stride: 12 } : undefined,
       });
-      this.call("mien_deformer_instance_write_vertices", mesh, kind, output, 0);
+      this.call("mien_deformer_instance_write_vertices", mesh, kind, output, memory.parallel);
     });
     positions.set(memory.array("f32", this.#output, 3 * vertexCount));
     normals?.set(memory.array("f32", this.#output + size, 3 * vertexCount));

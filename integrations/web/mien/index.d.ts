@@ -71,8 +71,12 @@ interface Handle {
 export interface LoadOptions {
   /** The module, instead of that of the package: an address, bytes, or a module that is compiled already. */
   wasm?: Source | WebAssembly.Module;
-  /** Load the smaller module, which opens baked files only. */
+  /** Load the smaller module, which opens baked files only, on one thread. */
   bakedOnly?: boolean;
+  /** Threads that work on batches, large meshes and rigs from meshes, with the one that calls: 1 (default) to 64, or
+   * true for as many as the machine has. They are workers that share the memory of the module, which pages may have
+   * with the headers COOP and COEP; without them there is one. Results are the same bits. */
+  threads?: number | true;
 }
 
 /** Options of rigs that are made from a DNA file. */
@@ -114,6 +118,8 @@ export class Mien {
   private constructor();
   static load(options?: LoadOptions): Promise<Mien>;
   readonly exports: Exports;
+  /** Threads that work, with the one that calls. */
+  readonly threads: number;
   /** "0.1.0" */
   readonly version: string;
   /** Memory of the module. It grows and never shrinks. */

@@ -8,6 +8,7 @@ import { errorOf } from "./errors.js";
 import { Memory } from "./memory.js";
 import { glare, Mix } from "./mix.js";
 import { isBaked, Rig } from "./rig.js";
+import { canShare, machineThreads } from "./threads.js";
 
 export * from "./api.js";
 export {
@@ -22,6 +23,7 @@ export { MixLayer, ticks } from "./mix_parts.js";
 export { Batch, Instance, Rig } from "./rig.js";
 export { SolverStack, SolverState } from "./solve.js";
 
+const MOST_THREADS = 64;
 const isNode = typeof process === "object" && !!process.versions?.node && process.type !== "renderer";
 
 /** Bytes of a source: an address, a file of a browser, a response, or bytes as they are. */
@@ -67,16 +69,29 @@ export class Mien {
   #memory;
 
   /** Loads the WebAssembly module: the one of the package, or `wasm`. */
-  static async load({ wasm, bakedOnly = false } = {}) {
-    // Bundlers find the files by these two expressions.
-    const source = wasm ?? (bakedOnly
-      ? new URL("./mien-runtime.wasm", import.meta.url)
-      : new URL("./mien.wasm", import.meta.url));
-    return new Mien(await Memory.instantiate(await compiled(source)));
+  static async load({ wasm, bakedOnly = false, threads = 1 } = {}) {
+    const wanted = threads === true ? Math.min(await machineThreads(), MOST_THREADS) : threads;
+    if (!Number.isInteger(wanted) || wanted < 1 || wanted > MOST_THREADS) {
+      throw new RangeError(`threads: true or 1 to ${MOST_THREADS}, not ${threads}`);
+    }
+    let source = wasm;
+    // Bundlers find the files by these expressions.
+    if (source === undefined && bakedOnly) source = new URL("./mien-runtime.wasm", import.meta.url);
+    else if (source === undefined && wanted > 1 && canShare()) source = new URL("./mien-threads.wasm", import.meta.url);
+    else source ??= new URL("./mien.wasm", import.meta.url);
+    const module = await compiled(source);
+    const memory = await Memory.instantiate(module);
+    if (memory.isShared && wanted > 1) await memory.startThreads(module, wanted);
+    return new Mien(memory);
   }
 
   constructor(memory) {
     this.#memory = memory;
+  }
+
+  /** Threads that work, with the one that calls. */
+  get threads() {
+    return this.#memory.threads;
   }
 
   /** The functions of the C interface, and the memory. */

@@ -3,6 +3,8 @@
 // is a new one and typed arrays over the old one are empty, so they are made anew where they are used.
 import { layouts, Status } from "./api.js";
 import { errorOf } from "./errors.js";
+import { importsOf, sharedMemory } from "./system.js";
+import { startThreads } from "./threads.js";
 
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();
@@ -60,30 +62,37 @@ export class Memory {
   #thrown = [];
   #bytes = new Uint8Array(0);
   #data;
+  #isShared = false;
+  /** Address of the MienParallelFor for calls; 0: there are no workers. */
+  parallel = 0;
+  /** Threads that do tasks, with the one that calls. */
+  threads = 1;
 
   /** Instantiates a compiled module. */
   static async instantiate(module) {
     const memory = new Memory();
-    // What the C library asks of a system; the environment is empty.
-    const imports = {
-      env: {
-        mien_web_read: (file, offset, buffer, size) => memory.#read(file, Number(offset), buffer, size),
-        mien_web_solve: (solver, call) => memory.#solve(solver, call),
-        mien_web_progress: (progress, step, share) => memory.#progress(progress, step, share),
-        emscripten_notify_memory_growth() {},
-      },
-      wasi_snapshot_preview1: {
-        environ_sizes_get(count, size) {
-          memory.data.setUint32(count, 0, true);
-          memory.data.setUint32(size, 0, true);
-          return 0;
-        },
-        environ_get: () => 0,
-      },
-    };
-    memory.exports = (await WebAssembly.instantiate(module, imports)).exports;
-    memory.exports._initialize?.();
+    const shared = sharedMemory(module);
+    const imports = importsOf(module, () => shared ?? memory.exports.memory, {
+      mien_web_read: (file, offset, buffer, size) => memory.#read(file, Number(offset), buffer, size),
+      mien_web_solve: (solver, call) => memory.#solve(solver, call),
+      mien_web_progress: (progress, step, share) => memory.#progress(progress, step, share),
+    });
+    const { exports } = await WebAssembly.instantiate(module, imports);
+    memory.exports = shared ? { ...exports, memory: shared } : exports;
+    memory.#isShared = shared !== null;
+    (exports._initialize ?? exports.__wasm_call_ctors)?.();
     return memory;
+  }
+
+  get isShared() {
+    return this.#isShared;
+  }
+
+  /** Lets workers do tasks of calls. */
+  async startThreads(module, threads) {
+    await startThreads(this, module, threads - 1);
+    this.parallel = this.exports.mien_web_threads();
+    this.threads = threads;
   }
 
   get buffer() {
@@ -91,8 +100,9 @@ export class Memory {
   }
 
   get data() {
-    // Growth empties the bytes of the old buffer. Asking the module for its buffer takes longer.
-    if (!this.#bytes.length) {
+    // Growth empties the bytes of the old buffer, unless it is shared: that one only ends too early. Asking the
+    // module for its buffer takes longer.
+    if (!this.#bytes.length || (this.#isShared && this.#bytes.buffer !== this.buffer)) {
       this.#bytes = new Uint8Array(this.buffer);
       this.#data = new DataView(this.buffer);
     }
@@ -106,13 +116,18 @@ export class Memory {
 
   /** Copies text out of memory. */
   text(address, count) {
-    return decoder.decode(new Uint8Array(this.buffer, address, count));
+    return this.#decoded(new Uint8Array(this.buffer, address, count));
   }
 
   terminatedText(address, most = 2 ** 20) {
     const bytes = new Uint8Array(this.buffer, address, Math.min(most, this.buffer.byteLength - address));
     const end = bytes.indexOf(0);
-    return decoder.decode(end < 0 ? bytes : bytes.subarray(0, end));
+    return this.#decoded(end < 0 ? bytes : bytes.subarray(0, end));
+  }
+
+  // Decoders take no shared memory.
+  #decoded(bytes) {
+    return decoder.decode(this.#isShared ? bytes.slice() : bytes);
   }
 
   #read(file, offset, buffer, size) {

@@ -161,7 +161,7 @@ export class Rig extends Handle {
     const { memory } = this;
     return memory.withScratch((scratch) => {
       const out = scratch.take(8);
-      this.call("mien_batch_bytes", scratch.struct("BatchDesc", desc), out);
+      this.call("mien_batch_bytes", scratch.struct("BatchDesc", { tasks: memory.threads, ...desc }), out);
       return Number(memory.data.getBigUint64(out, true));
     });
   }
@@ -320,7 +320,7 @@ export class Batch extends Handle {
 
   constructor(memory, rig, desc) {
     super(memory, makeHandle(memory, (out, error, scratch) =>
-      memory.exports.mien_batch_create(rig.handle, scratch.struct("BatchDesc", desc), out, error)),
+      memory.exports.mien_batch_create(rig.handle, scratch.struct("BatchDesc", { tasks: memory.threads, ...desc }), out, error)),
     "mien_batch_destroy");
     this.#rig = rig;
   }
@@ -332,7 +332,7 @@ export class Batch extends Handle {
       const handles = scratch.array("u32", instances.map((instance) => instance.handle));
       const each = scratch.array("u32", instances.map((_, i) => (typeof lods === "number" ? lods : lods[i])));
       memory.check(memory.exports.mien_rig_evaluate_batch(this.#rig.handle, this.handle, handles, each,
-        instances.length, stages, 0), 0, "mien_rig_evaluate_batch");
+        instances.length, stages, memory.parallel), 0, "mien_rig_evaluate_batch");
     });
   }
 }

@@ -10,7 +10,7 @@ import { FaceObject, GltfFace } from "mien/three";
 import { MeshBasicMaterial, PerspectiveCamera, Scene } from "three";
 
 export async function use(file: File): Promise<number> {
-  const mien: Mien = await Mien.load({ bakedOnly: false });
+  const mien: Mien = await Mien.load({ bakedOnly: false, threads: true });
   const rig: Rig = await mien.openRig(file, { isa: Isa.SSE2, system: "gltf", lods: 1 });
   const info: RigInfo = rig.info;
   const face = rig.instance();

@@ -352,6 +352,22 @@ test("a GLB opens with its morph targets", options, async () => {
   assert.deepEqual(page.errors, []);
 });
 
+test("threads share the memory of the page and show the same vertices", options, async () => {
+  const shown = async () => {
+    await open(baked);
+    await slide("jawOpen", 0.6);
+    await frames();
+    return numbers("window.viewer.model.object.children[0].geometry.attributes.position.array.subarray(0, 30000)");
+  };
+  const alone = await shown();
+  await page.goto(`${server.url}?threads=3`);
+  await page.until("() => location.search && document.body.dataset.ready", "loaded");
+  const together = await shown();
+  assert.deepEqual(await page.run(() => [crossOriginIsolated, window.viewer.mien.threads]), [true, 3]);
+  assert.ok(sameBits(together, alone));
+  assert.deepEqual(page.errors, []);
+});
+
 test("files of the place of the page open by address", options, async () => {
   assert.ok(readdirSync(folder).includes("index.html"));
   await page.goto(`${server.url}?file=none.dna`);
@@ -360,7 +376,7 @@ test("files of the place of the page open by address", options, async () => {
   page.errors.length = 0;
 });
 
-test("10,000 frames take no more memory", options, async () => {
+test("10,000 frames and 100 reopenings take no more memory", options, async () => {
   await open(baked);
   const measure = () => page.run(() => { window.gc(); return [window.viewer.mien.memoryBytes, performance.memory.usedJSHeapSize]; });
   const run = (count) => page.run((wanted) => {
@@ -377,6 +393,17 @@ test("10,000 frames take no more memory", options, async () => {
   const [moduleAfter, heapAfter] = await measure();
   assert.equal(moduleAfter, module);
   assert.ok(heapAfter - heap < 2e6, `the heap grew by ${heapAfter - heap} bytes`);
+  const reopen = (count) => page.run(async (wanted) => {
+    const bytes = window.viewer.model.rig.bake();
+    for (let i = 0; i < wanted; ++i) await window.viewer.openBytes("head.rig", bytes);
+    return [document.getElementById("error").hidden, document.querySelectorAll("#list li").length];
+  }, count);
+  await reopen(5);
+  const [before, heapBefore] = await measure();
+  assert.deepEqual(await reopen(100), [true, 52]);
+  const [afterwards, heapAfterwards] = await measure();
+  assert.equal(afterwards, before);
+  assert.ok(heapAfterwards - heapBefore < 4e6, `the heap grew by ${heapAfterwards - heapBefore} bytes`);
 });
 
 test("the page is used by keyboard alone", options, async () => {

@@ -63,7 +63,8 @@ async function attempt(what, task) {
 // ---- opening ----------------------------------------------------------------------------------------
 
 async function loadModule() {
-  mien ??= await Mien.load();
+  // On one thread unless the address says ?threads=N: a head of this size gains little.
+  mien ??= await Mien.load({ threads: Number(new URLSearchParams(location.search).get("threads") ?? 1) });
 }
 
 async function openModel(name, bytes) {
