@@ -184,7 +184,7 @@ def main():
     options = parser.parse_args()
     program = options.program.resolve()
     options.findings.mkdir(parents=True, exist_ok=True)
-    runs, found = {}, []
+    runs, found = {command.split()[0]: 0 for command in COMMANDS}, []
     with tempfile.TemporaryDirectory() as scratch:
         made = pathlib.Path(scratch) / "inputs"
         made.mkdir()
@@ -192,19 +192,24 @@ def main():
         end = time.monotonic() + options.seconds
         seeds = iter(range(options.seed * 1000000, 1 << 62))
 
+        def counts():
+            return f"{sum(runs.values())} runs, seed {options.seed}: " + ", ".join(
+                f"{command} {count}" for command, count in sorted(runs.items()))
+
         def work():
             while time.monotonic() < end and len(found) < 20:
                 command, what = one_run(program, inputs, next(seeds), scratch, options.findings)
-                runs[command] = runs.get(command, 0) + 1
+                runs[command] += 1
                 if what:
                     found.append(what)
                     print(what[:3000], flush=True)
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-            for future in [pool.submit(work) for _ in range(options.jobs)]:
-                future.result()
-    print(f"{sum(runs.values())} runs, seed {options.seed}: "
-          + ", ".join(f"{command} {count}" for command, count in sorted(runs.items())))
-    print(f"{len(found)} findings")
+            workers = [pool.submit(work) for _ in range(options.jobs)]
+            while concurrent.futures.wait(workers, timeout=60).not_done:
+                print(counts(), flush=True)
+            for worker in workers:
+                worker.result()
+    print(f"{counts()}; {len(found)} findings")
     sys.exit(1 if found else 0)
 
 
