@@ -44,14 +44,18 @@ struct BlendScale {
 template <bool kReplaces, class Added, class Cover>
 void blend_lanes(const BlendArgs& args, Added added, Cover cover) {
   const Vec weight = broadcast(args.weight), zero = broadcast(0.0f), one = broadcast(1.0f);
-  for (size_t i = 0; i < args.count; i += kWidth) {
-    const Vec o = load(args.row + i), x = load(args.x + i), c = cover(i);
-    const Vec a = weight * load(args.mask + i);
+  // Read once: what is stored could be the arguments, for all that compilers know.
+  const float *const values = args.x, *const mask = args.mask;
+  float* const row = args.row;
+  const size_t count = args.count;
+  for (size_t i = 0; i < count; i += kWidth) {
+    const Vec o = load(row + i), x = load(values + i), c = cover(i);
+    const Vec a = weight * load(mask + i);
     const Vec more = added(o, x, c, a);
     // -0 + 0 would be 0.
     Vec mixed = select(equal(more, zero), o, o + more);
     if (kReplaces) mixed = select(equal(a * c, one), x, mixed);
-    store(args.row + i, mixed);
+    store(row + i, mixed);
   }
 }
 

@@ -301,6 +301,7 @@ void place_mix(Placer& placer, const MixDesc& desc, Mix& mix) {
   size_t values = 0;
   for (const PoseDesc& pose : desc.poses) values += pose.lanes.count;
   mix.pose_ends = placer.array<uint32_t>(desc.poses.count);
+  mix.pose_runs = placer.array<uint8_t>(desc.poses.count);
   mix.pose_lanes = placer.array<uint16_t>(values);
   mix.pose_values = placer.array<float>(values);
   size_t strokes = 0;
@@ -411,6 +412,10 @@ void fill_mix(const MixDesc& desc, Mix& mix) {
     copy_items(pose.lanes, mix.pose_lanes.slice(end, pose.lanes.count));
     copy_items(pose.values, mix.pose_values.slice(end, pose.values.count));
     mix.pose_ends[i] = end += static_cast<uint32_t>(pose.lanes.count);
+    mix.pose_runs[i] = pose.lanes.count != 0;
+    for (size_t k = 1; k < pose.lanes.count; ++k) {
+      if (pose.lanes[k] != pose.lanes[k - 1] + 1) mix.pose_runs[i] = 0;
+    }
   }
   uint32_t stroke = 0;
   for (size_t i = 0; i < desc.reactions.count; ++i) {

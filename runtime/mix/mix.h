@@ -214,6 +214,7 @@ struct Mix {
 
   Span<MixLayer> layers;
   Span<uint32_t> pose_ends;  // [pose] into pose_lanes and pose_values
+  Span<uint8_t> pose_runs;   // [pose] 1: each of its lanes is the one after that before
   Span<uint16_t> pose_lanes;
   Span<float> pose_values;
   Span<Reaction> reactions;

@@ -165,6 +165,11 @@ void mix_generator(Mixer& mixer, uint32_t index, int64_t ticks) {
               layer_weight(mixer.layers[index], layer.mode, now), mixer.row.data);
 }
 
+/// Compilers make vectors of it.
+void add_scaled(const float* __restrict from, float scale, size_t count, float* __restrict to) {
+  for (size_t i = 0; i < count; ++i) to[i] += scale * from[i];
+}
+
 void mix_pose_layer(Mixer& mixer, uint32_t index) {
   const Mix& mix = *mixer.mix;
   const MixLayer& layer = mix.layers[index];
@@ -185,9 +190,13 @@ void mix_pose_layer(Mixer& mixer, uint32_t index) {
     if (!(w > 0.0f)) continue;
     const uint32_t pose = layer.first_pose + p;
     const uint32_t begin = pose == 0 ? 0 : mix.pose_ends[pose - 1];
-    for (uint32_t k = begin; k < mix.pose_ends[pose]; ++k) {
-      row[mix.pose_lanes[k]] += w * mix.pose_values[k];
+    const uint32_t end = mix.pose_ends[pose];
+    const float* const values = mix.pose_values.data;
+    if (mix.pose_runs[pose]) {
+      add_scaled(values + begin, w, end - begin, row + mix.pose_lanes[begin]);
+      continue;
     }
+    for (uint32_t k = begin; k < end; ++k) row[mix.pose_lanes[k]] += w * values[k];
   }
   blend(mixer, index, weight, row, nullptr);
 }

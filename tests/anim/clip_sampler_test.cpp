@@ -60,7 +60,7 @@ class AnyOrder : public testing::TestWithParam<int> {
   }
 };
 
-TEST_P(AnyOrder, ForwardBackwardAndAtRandomGivesTheBitsOfTheFrames) {
+TEST_P(AnyOrder, ForwardBackwardAndAtRandomGivesTheBitsOfTheFrames) {  // A1
   const Curves expected = curves();
   const MadeClip made((ClipInput(expected)));
   const int64_t frame = made.clip.ticks_per_frame;
@@ -492,7 +492,7 @@ std::vector<int> on_the_way(const Clip& clip, int64_t length, int64_t from, int6
   return all;
 }
 
-TEST(ClipEvents, AreAsManyAsThereAreArrivalsInTheirOrder) {
+TEST(ClipEvents, AreAsManyAsThereAreArrivalsInTheirOrder) {  // A6
   Random random = Random::from_seed(6, 6);
   const int64_t length = 5 * ticks_per_frame(60, 1);
   const auto below_length = [&] { return int64_t{random.below(static_cast<uint32_t>(length))}; };

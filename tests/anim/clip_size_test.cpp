@@ -33,7 +33,7 @@ double capture_ratio(uint32_t snap) {
     printf("%7.2f  (at least %.1f)  %s\n", measured, double(gate), #value); \
   } while (false)
 
-TEST(ClipSize, Lossless) {
+TEST(ClipSize, Lossless) {  // A2
   EXPECT_RATIO(15, ratio(authored_keys(kSeed, kFrames)));
   EXPECT_RATIO(20, ratio(clean_solve(kSeed, kFrames)));
   EXPECT_RATIO(7, ratio(noisy_solve(kSeed, kFrames)));
@@ -41,7 +41,7 @@ TEST(ClipSize, Lossless) {
   EXPECT_RATIO(2.4, capture_ratio(kNoSnap));
 }
 
-TEST(ClipSize, LosslessOfSourcesWithFewDigits) {
+TEST(ClipSize, LosslessOfSourcesWithFewDigits) {  // A2
   EXPECT_RATIO(10, ratio(rounded_to(phone_capture(kSeed, kFrames), 1000)));
   EXPECT_RATIO(10, ratio(rounded_to(phone_capture(kSeed, kFrames), 1024)));
   EXPECT_RATIO(10, ratio(rounded_to(clean_solve(kSeed, kFrames), 10000)));
@@ -52,7 +52,7 @@ TEST(ClipSize, LosslessOfSourcesWithFewDigits) {
   EXPECT_RATIO(5, ratio(rounded_to_half(phone_capture(kSeed, kFrames))));
 }
 
-TEST(ClipSize, Snapped) {
+TEST(ClipSize, Snapped) {  // A2
   EXPECT_RATIO(50, ratio(authored_keys(kSeed, kFrames), kDefaultSnap));
   EXPECT_RATIO(60, ratio(clean_solve(kSeed, kFrames), kDefaultSnap));
   EXPECT_RATIO(20, ratio(noisy_solve(kSeed, kFrames), kDefaultSnap));
@@ -75,7 +75,7 @@ double one_precision_bytes(const Curves& curves) {
   return bits / 8;
 }
 
-TEST(ClipSize, SnappedIsSmallerThanOnePrecisionForEachChannel) {
+TEST(ClipSize, SnappedIsSmallerThanOnePrecisionForEachChannel) {  // A3
   const auto share = [](const Curves& curves) {
     return one_precision_bytes(curves) /
            static_cast<double>(ClipInput(curves, kDefaultSnap).build().size());

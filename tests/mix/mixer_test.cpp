@@ -301,6 +301,32 @@ TEST(Poses, AddUpAndAreLimitedToASumOfOne) {
   EXPECT_TRUE(same_bits(own.step(kStep), {0.5f, 0, 0.75f, 0.5f, 0, 0}));
 }
 
+TEST(Poses, GiveTheSameInAnyOrderOfTheirLanes) {
+  std::vector<uint16_t> lanes;  // one after the other
+  std::vector<float> values;
+  for (uint16_t l = 2; l < kLanes - 1; ++l) {
+    lanes.push_back(l);
+    values.push_back(static_cast<float>(l * 7 % 11) / 11);
+  }
+  const auto row_of = [&] {
+    MixInput input(kLanes);
+    input.add(BlendMode::kOverride, LayerSource::kPoses).pose_count = 2;
+    input.add_pose(lanes, values);
+    input.add_pose({1, 4}, {0.3f, 0.7f});
+    const MixHandle mix = make_mix(input);
+    OwnMixer own(mix);
+    own.pose(0, 0, 0.3f);
+    own.pose(0, 1, 0.6f);
+    return own.step(kStep);
+  };
+  const Row ascending = row_of();
+  EXPECT_EQ(ascending[0], 0);
+  EXPECT_GT(ascending[4], 0.4f);
+  std::reverse(lanes.begin(), lanes.end());
+  std::reverse(values.begin(), values.end());
+  EXPECT_TRUE(same_bits(row_of(), ascending));
+}
+
 TEST(Poses, LeaveAloneLanesThatNoneOfThemHas) {
   const BoundClip base(random_input(18), kLanes);
   MixInput input(kLanes);

@@ -339,7 +339,7 @@ TEST(ProbeGuards, FailsWithoutALeakWhereverMemoryRunsOut) {
 
 // Speech under emotion ----------------------------------------------------------------------------
 
-TEST(GuardedSpeech, LipsStayClosedAndMostOfTheEmotionStays) {
+TEST(GuardedSpeech, LipsStayClosedAndMostOfTheEmotionStays) {  // E1 to E3
   for (uint64_t seed : kSeeds) {
     GuardedHead& h = head(seed);
     const std::vector<Pose> poses = poses_of(kClosedLips, h);
@@ -356,7 +356,7 @@ TEST(GuardedSpeech, LipsStayClosedAndMostOfTheEmotionStays) {
   }
 }
 
-TEST(GuardedSpeech, LowerLipStaysAtTheTeeth) {
+TEST(GuardedSpeech, LowerLipStaysAtTheTeeth) {  // E4
   for (uint64_t seed : kSeeds) {
     GuardedHead& h = head(seed);
     const Outcome o = try_emotions(h, poses_of(kLipToTeeth, h), {Kind::kLipToTeeth});
@@ -368,7 +368,7 @@ TEST(GuardedSpeech, LowerLipStaysAtTheTeeth) {
   }
 }
 
-TEST(GuardedSpeech, LidsStayAsShutAsABlinkHasThem) {
+TEST(GuardedSpeech, LidsStayAsShutAsABlinkHasThem) {  // E4
   for (uint64_t seed : kSeeds) {
     GuardedHead& h = head(seed);
     const PoseText blinks[] = {"eyeBlink .8", "eyeBlink .9, mouthSmile .4", "eyeBlink 1"};
@@ -399,7 +399,7 @@ Pose speech_at(const GuardedHead& h, double seconds) {
   return pose;
 }
 
-TEST(GuardedSpeech, NoLaneIsFasterThanItsSourcesByMoreThanTheGuardsSpeed) {
+TEST(GuardedSpeech, NoLaneIsFasterThanItsSourcesByMoreThanTheGuardsSpeed) {  // E5
   GuardedHead& h = head(0);
   for (double dt : {0.001, 1 / 60.0}) {
     double fastest = 0, fastest_source = 0, fastest_gain = 0;
@@ -449,7 +449,7 @@ TEST(GuardedSpeech, NoLaneIsFasterThanItsSourcesByMoreThanTheGuardsSpeed) {
   }
 }
 
-TEST(GuardedSpeech, AGuardThatIsNotActiveChangesNoBit) {
+TEST(GuardedSpeech, AGuardThatIsNotActiveChangesNoBit) {  // E6
   GuardedHead& h = head(0);
   const Pose open = pose_of("jawOpen .7", h.controls);
   for (const Pose& emotion : emotions_of(h.controls)) {

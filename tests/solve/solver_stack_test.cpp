@@ -82,7 +82,7 @@ std::vector<double> reference(const Skeleton& skeleton, const float* locals) {
   return models;
 }
 
-TEST(SolverStack, ModelMatricesAreThoseOfADoubleReference) {
+TEST(SolverStack, ModelMatricesAreThoseOfADoubleReference) {  // H1
   SolvedRig rig(3, 24);
   std::vector<uint16_t> roots;
   for (uint16_t j = 0; j < rig.joint_count(); ++j) {
@@ -113,7 +113,7 @@ TEST(SolverStack, ModelMatricesAreThoseOfADoubleReference) {
   EXPECT_GT(worst, 0);
 }
 
-TEST(SolverStack, UpdatesOfPartsHaveTheBitsOfAFullOne) {
+TEST(SolverStack, UpdatesOfPartsHaveTheBitsOfAFullOne) {  // H1
   SolvedRig rig(5, 30);
   std::mt19937 random(2);
   for (uint16_t joint = 0; joint < rig.joint_count(); ++joint) {
@@ -197,7 +197,7 @@ TEST(SolverStack, SolversSeeWhatEarlierOnesMoved) {
 
 // Order -----------------------------------------------------------------------------------------------
 
-TEST(SolverStack, RefusesToReadWhatALaterSolverMoves) {
+TEST(SolverStack, RefusesToReadWhatALaterSolverMoves) {  // H5
   SolvedRig rig(9, 20);
   const uint16_t joint = rig.joint_with_children(), child = rig.child_of(joint);
   const uint16_t other = rig.leaf();
@@ -244,7 +244,7 @@ TEST(SolverStack, GivesTheMatricesOfTheLastStep) {
   }
 }
 
-TEST(SolverStack, NamesASolverThatWritesWhatItDidNotDeclare) {
+TEST(SolverStack, NamesASolverThatWritesWhatItDidNotDeclare) {  // H5
   SolvedRig rig(10, 20);
   const uint16_t joint = rig.leaf();
   Shaker shaker = {{joint, rig.joint_with_children()}, 2};

@@ -85,7 +85,7 @@ struct AimCase {
   }
 };
 
-TEST(Aim, ReachesTheTarget) {
+TEST(Aim, ReachesTheTarget) {  // H4
   for (uint32_t seed = 0; seed < 100; ++seed) {
     AimCase c(seed);
     const Vec3 before = c.at(), target = before + random_direction(c.random) * 20;
@@ -95,7 +95,7 @@ TEST(Aim, ReachesTheTarget) {
   }
 }
 
-TEST(Aim, StopsAtTheEdgeOfItsCone) {
+TEST(Aim, StopsAtTheEdgeOfItsCone) {  // H4
   const double cone = 0.4;
   int outside = 0;
   for (uint32_t seed = 0; seed < 100; ++seed) {
@@ -191,7 +191,7 @@ struct SpaceCase {
   Rotation turned() { return rotation_of(rig.model(space.joint)); }
 };
 
-TEST(SpaceSwitch, HoldsTheJointWhereItIsAndEasesItOver) {
+TEST(SpaceSwitch, HoldsTheJointWhereItIsAndEasesItOver) {  // H2
   for (uint32_t seed = 0; seed < 20; ++seed) {
     SpaceCase c(seed, kSecond / 2);
     c.rig.pose(seed, 0);
@@ -329,7 +329,7 @@ TEST(Spring, FollowsTheSolutionOfItsEquation) {
   }
 }
 
-TEST(Spring, EnergyNeverGrowsWhateverTheStep) {
+TEST(Spring, EnergyNeverGrowsWhateverTheStep) {  // H3
   for (float frequency : {0.5f, 3.0f, 50.0f, 500.0f}) {
     for (float damping : {0.0f, 0.05f, 1.0f, 4.0f}) {
       for (int64_t ticks : {kMillisecond / 10, kMillisecond, kSecond / 60, kSecond / 7, kSecond}) {
@@ -346,7 +346,7 @@ TEST(Spring, EnergyNeverGrowsWhateverTheStep) {
   }
 }
 
-TEST(Spring, EndsAtTheSamePlaceHoweverASecondIsDivided) {
+TEST(Spring, EndsAtTheSamePlaceHoweverASecondIsDivided) {  // H3
   SpringCase whole(3, 0.1f);
   whole.start({1, 2, 3}, {0, -5, 0});
   whole.step(kSecond);
@@ -507,7 +507,7 @@ TEST(Copy, OfTheNeutralPoseIsTheNeutralPose) {
 
 // All of them -----------------------------------------------------------------------------------------
 
-TEST(Solvers, ABatchHasTheBitsOfSingleCharacters) {
+TEST(Solvers, ABatchHasTheBitsOfSingleCharacters) {  // H6
   SolvedRig rig(13, 40);
   const Skeleton& skeleton = rig.skeleton;
   AimSolver aim;
