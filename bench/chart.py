@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: MIT
 """Turns what `mien bench --json` printed into the table and the chart of README.md.
 
-    chart.py record BENCH.json...   keeps LOD 0 of these runs (one file for each storage) in
-                                    bench/results/CPU.json, then does what readme does
+    chart.py record BENCH.json... NAME=BENCH.json...
+                                    keeps LOD 0 of these runs (one file for each storage of the rig
+                                    of the table, then other rigs) in bench/results/CPU.json, then
+                                    does what readme does
     chart.py readme                 writes the table between the marks of README.md, and the charts
     chart.py check                  fails if README.md or a chart is not what the results give
 """
@@ -23,6 +25,10 @@ COLUMNS = [("5 %", 0.05, 1, False), ("8 %", 0.08, 1, False), ("25 %", 0.25, 1, F
            ("50 %", 0.5, 1, False), ("100 %", 1.0, 1, False),
            ("64 instances, 25 %", 0.25, 64, False), ("64 instances, same controls, 25 %", 0.25, 64, True),
            ("512 instances, 8 %", 0.08, 512, False)]
+# The same of other rigs: no CSR, as the joint matrix is a small part of them.
+OTHER_COLUMNS = [("25 %", 0.25, 1, False), ("100 %", 1.0, 1, False),
+                 ("64 instances, 25 %", 0.25, 64, False)]
+FRAME_COLUMNS = [("frame", 1), ("frame, 64 characters", 64)]
 # For bars on light and on dark pages.
 COLORS = {"scalar": "#8b949e", "sse2": "#bf8700", "avx2": "#2f81f7", "avx512": "#8957e5",
            "neon": "#2da44e"}
@@ -51,6 +57,43 @@ def series(result):
     return found
 
 
+def other_series(run):
+    """[(label, instruction set, {column: (nanoseconds, times as fast as scalar)})]"""
+    found, scalar = [], {}
+    for isa in dict.fromkeys(row["isa"] for row in run["rows"]):
+        times = {}
+        for name, *wanted in OTHER_COLUMNS:
+            for row in run["rows"]:
+                if row["isa"] == isa and wanted == [
+                        row["activity"], row["characters"], row["shared_controls"]]:
+                    times[name] = row["evaluate_ns"]
+        for name, characters in FRAME_COLUMNS:
+            for row in run["frames"]:
+                if row["isa"] == isa and row["characters"] == characters:
+                    times[name] = row["evaluate_ns"] + row["pose_ns"] + row["deform_ns"]
+        scalar = scalar or times
+        found.append((isa, isa, {name: (ns, scalar[name] / ns) for name, ns in times.items()}))
+    return found
+
+
+def other_table(result):
+    """Rigs of other kinds: bodies, networks."""
+    others = result.get("others", [])
+    if not others:
+        return []
+    names = [name for name, *_ in OTHER_COLUMNS + FRAME_COLUMNS]
+    lines = ["", "Other rigs, LOD 0: all stages, and whole frames (evaluation, matrices, all meshes with "
+             "skinned normals) at 25 %,", "microseconds per character; behind them, how many times as "
+             "fast as scalar code.", "",
+             "| |" + "|".join(f" {name} " for name in names) + "|", "|---|" + "---|" * len(names)]
+    for run in others:
+        for label, _, values in other_series(run):
+            cells = [f" {values[name][0] / 1000:.1f} ({values[name][1]:.1f}x) "
+                     if name in values else " " for name in names]
+            lines.append(f"| {run['name']}, {label} |" + "|".join(cells) + "|")
+    return lines
+
+
 def table(result):
     run = result["runs"][0]
     lines = [f"{run['cpu']}, {run['compiler']}, one core: LOD 0 of \"{run['rig']}\", all stages, "
@@ -65,20 +108,16 @@ def table(result):
         cells = [f" {values[name][0] / 1000:.1f} ({values[name][1]:.1f}x) "
                  if name in values else " " for name, *_ in COLUMNS]
         lines.append(f"| {label} |" + "|".join(cells) + "|")
-    return lines
+    return lines + other_table(result)
 
 
-def chart(result):
-    rows = series(result)
-    names = [name for name, *_ in COLUMNS if any(name in values for _, _, values in rows)]
+def bars(title, rows, names, y):
+    """Bars of all rows for each column, and where they end."""
+    names = [name for name in names if any(name in values for _, _, values in rows)]
     most = max((v[1] for _, _, values in rows for v in values.values()), default=1.0)
     left, bar, gap, wide = 180, 14, 14, 460
-    height = 40 + len(names) * (len(rows) * bar + gap)
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="760" height="{height}" '
-           f'viewBox="0 0 760 {height}" font-family="sans-serif" font-size="12">',
-           "<style>text{fill:#57606a}@media(prefers-color-scheme:dark){text{fill:#adbac7}}</style>",
-           '<text x="8" y="20">Whole evaluation, times as fast as compressed sparse rows</text>']
-    y = 36
+    out = [f'<text x="8" y="{y}">{html.escape(title)}</text>']
+    y += 16
     for name in names:
         out.append(f'<text x="8" y="{y + len(rows) * bar / 2 + 4:.0f}">{html.escape(name)}</text>')
         for label, isa, values in rows:
@@ -91,7 +130,21 @@ def chart(result):
                            f'{times:.1f} {html.escape(label)}</text>')
             y += bar
         y += gap
-    return "\n".join(out + ["</svg>", ""])
+    return out, y
+
+
+def chart(result):
+    out, y = bars("Whole evaluation, times as fast as compressed sparse rows", series(result),
+                  [name for name, *_ in COLUMNS], 20)
+    for run in result.get("others", []):
+        more, y = bars(f"{run['name']}, times as fast as scalar code", other_series(run),
+                       [name for name, *_ in OTHER_COLUMNS + FRAME_COLUMNS], y + 20)
+        out += more
+    height = y + 4
+    head = [f'<svg xmlns="http://www.w3.org/2000/svg" width="760" height="{height}" '
+            f'viewBox="0 0 760 {height}" font-family="sans-serif" font-size="12">',
+            "<style>text{fill:#57606a}@media(prefers-color-scheme:dark){text{fill:#adbac7}}</style>"]
+    return "\n".join(head + out + ["</svg>", ""])
 
 
 def results():
@@ -122,10 +175,16 @@ def write_all():
 
 
 def record(files):
-    runs = [trimmed(json.loads(Path(file).read_text(encoding="utf-8"))) for file in files]
+    runs, others = [], []
+    for file in files:
+        name, _, path = file.rpartition("=")
+        run = trimmed(json.loads(Path(path).read_text(encoding="utf-8")))
+        (others if name else runs).append({"name": name, **run} if name else run)
+    if not runs:
+        sys.exit(__doc__)
     name = re.sub(r"[^a-z0-9]+", "-", runs[0]["cpu"].lower()).strip("-") or "unknown"
     RESULTS.mkdir(exist_ok=True)
-    (RESULTS / f"{name}.json").write_text(json.dumps({"runs": runs}, indent=1) + "\n",
+    (RESULTS / f"{name}.json").write_text(json.dumps({"runs": runs, "others": others}, indent=1) + "\n",
                                           encoding="utf-8")
     write_all()
     print(f"wrote bench/results/{name}.json, its chart and README.md")

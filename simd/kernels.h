@@ -215,18 +215,22 @@ struct EulerArgs {
 /// Twists and swings (docs/rig-evaluation.md, 7 "Twist and swing"), in blocks of 16 outputs, one lane
 /// each, 64-byte aligned:
 ///
-///     inputs      block 0: x y z w of the input, ux uy uz, blend, swing | block 1: ...
+///     inputs      block 0: controls of x y z w | block 1: ...
+///     lanes       block 0: ux uy uz, blend, swing | block 1: ...
 ///     rotations   block 0: x y z w | block 1: ...
 ///
 /// (ux uy uz) selects the axis of the twist: 1 there, or -1 for its inverse, else 0. `swing` is 1 for
-/// the outputs of a swing, where the twist is inverted, else 0. Lengths of inputs are 1e-9 ... 1e9, or
-/// 0. Nothing is fused, as above.
+/// the outputs of a swing, where the twist is inverted, else 0. Inputs are used as they are, unless
+/// their length is beyond 1e-9 ... 1e9: then they are made unit. 0 is the identity. Nothing is fused,
+/// as above.
 struct TwistSwingArgs {
-  const float* inputs;
+  const uint16_t* inputs;
+  const float* lanes;
+  const float* controls;
   float* rotations;
-  uint32_t count;  // of outputs, as above
+  uint32_t block_count;
 };
-constexpr uint32_t kTwistSwingRows = 9;
+constexpr uint32_t kTwistSwingRows = 5;
 
 /// An RBF solver. Its poses are lanes, in blocks of 16:
 ///

@@ -185,59 +185,123 @@ void quaternions_from_angles(const EulerArgs& args) {
 // Twists and swings -------------------------------------------------------------------------------
 
 /// From q (t = 0) to the identity (t = 1) and beyond, the short way.
-inline VecQuaternion slerp_to_identity(const VecQuaternion& q, Vec t) {
+template <class V>
+[[gnu::always_inline]] inline LaneQuaternion<V> slerp_to_identity(const LaneQuaternion<V>& q, V t) {
+  using M = Make<V>;
   constexpr float kParallel = 1.0f - 1.0f / (1 << 23);
-  const Vec zero = broadcast(0.0f), one = broadcast(1.0f);
-  const Vec c = absolute(q.w), s = one - t, angle = arc_cosine(c);
-  const Vec sine = square_root((one - c) * (one + c));
-  VecPair sines, cosines;
-  sine_cosine(VecPair{s * angle, t * angle}, sines, cosines);
-  const Mask parallel = less(broadcast(kParallel), c);
-  const Vec from = select(parallel, s, divide(sines.a, sine));
-  const Vec to = select(parallel, t, divide(sines.b, sine));
+  const V zero = M::of(0.0f), one = M::of(1.0f);
+  const V c = absolute(q.w), s = one - t, angle = arc_cosine(c);
+  const V sine = square_root((one - c) * (one + c));
+  V from_sine, to_sine, cosine;
+  sine_cosine(s * angle, from_sine, cosine);
+  sine_cosine(t * angle, to_sine, cosine);
+  const auto parallel = less(M::of(kParallel), c);
+  const V from = select(parallel, s, divide(from_sine, sine));
+  const V to = select(parallel, t, divide(to_sine, sine));
   return {q.x * from, q.y * from, q.z * from, q.w * from + select(less(q.w, zero), zero - to, to)};
 }
 
 /// conjugate / squared length; the identity for 0.
-inline VecQuaternion inverse(const VecQuaternion& q) {
-  const Vec zero = broadcast(0.0f), squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-  const Mask has = less(zero, squared);
+template <class V>
+inline LaneQuaternion<V> inverse(const LaneQuaternion<V>& q) {
+  const V zero = Make<V>::of(0.0f), squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  const auto has = less(zero, squared);
   return {keep(has, divide(zero - q.x, squared)), keep(has, divide(zero - q.y, squared)),
           keep(has, divide(zero - q.z, squared)),
-          select(has, divide(q.w, squared), broadcast(1.0f))};
+          select(has, divide(q.w, squared), Make<V>::of(1.0f))};
 }
 
-inline VecQuaternion select(Mask m, const VecQuaternion& a, const VecQuaternion& b) {
-  return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z), select(m, a.w, b.w)};
+constexpr float kShortest = 1e-18f, kLongest = 1e18f;  // squared
+
+/// The squares of what is far from unit length would overflow, or vanish: it is made unit.
+template <class V>
+[[gnu::noinline]] void bound_lanes(LaneQuaternion<V>& q) {
+  constexpr size_t kCount = sizeof(V) / sizeof(float);
+  alignas(64) float lanes[4][kCount];
+  V* const parts[] = {&q.x, &q.y, &q.z, &q.w};
+  for (size_t k = 0; k < 4; ++k) store(lanes[k], *parts[k]);
+  for (size_t i = 0; i < kCount; ++i) {
+    const float x = lanes[0][i], y = lanes[1][i], z = lanes[2][i], w = lanes[3][i];
+    const float squared = x * x + y * y + z * z + w * w;
+    if (squared > kShortest && squared < kLongest) continue;
+    double length = 0;
+    for (const auto& part : lanes) length += double{part[i]} * double{part[i]};
+    length = __builtin_sqrt(length);
+    if ((length > 1e-9 && length < 1e9) || !(length > 0)) continue;
+    for (auto& part : lanes) part[i] = static_cast<float>(double{part[i]} / length);
+  }
+  for (size_t k = 0; k < 4; ++k) *parts[k] = Make<V>::from(lanes[k]);
+}
+
+template <class V>
+inline LaneQuaternion<V> bounded(LaneQuaternion<V> q) {
+  using M = Make<V>;
+  const V zero = M::of(0.0f), squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  const V size = absolute(q.x) + absolute(q.y) + absolute(q.z) + absolute(q.w);
+  const V small = select(less(M::of(kShortest), squared), zero, size);
+  const V far = select(less(squared, M::of(kLongest)), small, M::of(1.0f));
+  if (__builtin_expect(any(less(zero, far)), false)) bound_lanes(q);
+  return q;
+}
+
+/// Calls f(vector) for the one or two that V is.
+template <class V, class F>
+inline V each_vector(F&& f) {
+  if constexpr (sizeof(V) == sizeof(Vec)) {
+    return f(0);
+  } else {
+    return {f(0), f(1)};
+  }
+}
+
+/// What one vector waits for, another has ready: two together take little longer than one.
+template <class V>
+[[gnu::always_inline]] inline void twist_swing_lanes(const TwistSwingArgs& args, size_t lane) {
+  using M = Make<V>;
+  const auto at = [lane](size_t vec, size_t rows, size_t row) {
+    const size_t l = lane + vec * kWidth;
+    return (l / kBlockLanes * rows + row) * kBlockLanes + l % kBlockLanes;
+  };
+  const auto row = [&](size_t r) {
+    return each_vector<V>(
+        [&](size_t vec) { return load(args.lanes + at(vec, kTwistSwingRows, r)); });
+  };
+  const auto input = [&](size_t k) {
+    return each_vector<V>(
+        [&](size_t vec) { return gather(args.controls, args.inputs + at(vec, 4, k)); });
+  };
+  const V zero = M::of(0.0f), one = M::of(1.0f);
+  const auto q = bounded(LaneQuaternion<V>{input(0), input(1), input(2), input(3)});
+  LaneQuaternion<V> twist = {q.x * row(0), q.y * row(1), q.z * row(2), q.w};
+  const V squared = twist.x * twist.x + twist.y * twist.y + twist.z * twist.z + twist.w * twist.w;
+  const V length = square_root(squared);
+  const auto has = less(zero, squared), swing = less(zero, row(4));
+  twist = {keep(has, divide(twist.x, length)), keep(has, divide(twist.y, length)),
+           keep(has, divide(twist.z, length)), select(has, divide(twist.w, length), one)};
+  const auto rest = inverse(multiply(q, twist));
+  const auto part = slerp_to_identity(
+      LaneQuaternion<V>{select(swing, rest.x, twist.x), select(swing, rest.y, twist.y),
+                        select(swing, rest.z, twist.z), select(swing, rest.w, twist.w)},
+      row(3));
+  const LaneQuaternion<V> before = {keep(swing, twist.x), keep(swing, twist.y),
+                                    keep(swing, twist.z), select(swing, twist.w, one)};
+  const auto out = multiply(before, part);
+  const V* const parts[] = {&out.x, &out.y, &out.z, &out.w};
+  for (size_t k = 0; k < 4; ++k) {
+    if constexpr (sizeof(V) == sizeof(Vec)) {
+      store(args.rotations + at(0, 4, k), *parts[k]);
+    } else {
+      store(args.rotations + at(0, 4, k), parts[k]->a);
+      store(args.rotations + at(1, 4, k), parts[k]->b);
+    }
+  }
 }
 
 void twist_swing(const TwistSwingArgs& args) {
-  using L = Lanes<Vec>;
-  const Vec zero = broadcast(0.0f), one = broadcast(1.0f);
-  const VecQuaternion identity = {zero, zero, zero, one};
-  for (size_t i = 0; i < args.count; i += kBlockLanes) {
-    for (size_t lane = 0; lane < kBlockLanes && i + lane < args.count; lane += kWidth) {
-      const float* in = args.inputs + i * kTwistSwingRows + lane;
-      const VecQuaternion q = load_quaternion(in);
-      VecQuaternion twist = {q.x * L::row(in, 4), q.y * L::row(in, 5), q.z * L::row(in, 6), q.w};
-      const Vec squared =
-          twist.x * twist.x + twist.y * twist.y + twist.z * twist.z + twist.w * twist.w;
-      const Vec length = square_root(squared);
-      twist = select(less(zero, squared),
-                     VecQuaternion{divide(twist.x, length), divide(twist.y, length),
-                                   divide(twist.z, length), divide(twist.w, length)},
-                     identity);
-      const Mask swing = less(zero, L::row(in, 8));
-      const VecQuaternion whole = select(swing, inverse(multiply(q, twist)), twist);
-      const VecQuaternion part = slerp_to_identity(whole, L::row(in, 7));
-      const VecQuaternion out = multiply(select(swing, twist, identity), part);
-      float* to = args.rotations + i * 4 + lane;
-      L::put(to, 0, out.x);
-      L::put(to, 1, out.y);
-      L::put(to, 2, out.z);
-      L::put(to, 3, out.w);
-    }
-  }
+  const size_t count = size_t{args.block_count} * kBlockLanes;
+  size_t lane = 0;
+  for (; lane + kWidth < count; lane += 2 * kWidth) twist_swing_lanes<VecPair>(args, lane);
+  if (lane < count) twist_swing_lanes<Vec>(args, lane);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace mien {
 namespace {
 
 /// To be raised whenever the list of numbers or arrays, or the meaning of one, changes.
-constexpr uint32_t kRigPartVersion = 4;
+constexpr uint32_t kRigPartVersion = 5;
 
 template <class AnyRig, class Visitor>
 void visit_numbers(AnyRig& rig, Visitor& visitor) {
@@ -70,7 +70,8 @@ void visit_arrays(AnyRig& rig, Visitor& visitor) {
   each(rig.channels.inputs, rig.channels.outputs, rig.channels.count_at_lod);
   each(rotations.groups, rotations.angle_joints, rotations.turns, rotations.blocks_at_lod);
   each(rotations.first_steps, rotations.steps_at_lod, rotations.columns);
-  each(rig.twist_swing.setups, rig.twist_swing.outputs);
+  each(rig.twist_swing.setups, rig.twist_swing.outputs, rig.twist_swing.blocks_at_lod);
+  each(rig.twist_swing.inputs);
   each(rbf.plans, rbf.solvers, rbf.inputs, rbf.rotations, rbf.poses, rbf.first_input);
   each(rbf.first_output, rbf.pose_inputs, rbf.pose_outputs);
   each(ml.steps, ml.layers, ml.controls, ml.dependencies, ml.limits, ml.joints);
@@ -92,7 +93,7 @@ void visit_arrays(AnyRig& rig, Visitor& visitor) {
   }
   each(rig.psds.weights, rbf.swings, rbf.pose_scales, rbf.pose_factors, rbf.pose_weights);
   each(rbf.targets, rbf.inverses, ml.default_is_one, ml.biases, ml.values, ml.halves);
-  each(rotations.lane_steps_at_lod, rotations.values, rotations.halves);
+  each(rotations.lane_steps_at_lod, rotations.values, rotations.halves, rig.twist_swing.lanes);
   each(joints.scales, joints.values, joints.fixed_values);
 }
 
@@ -106,7 +107,7 @@ static_assert(sizeof(GroupRotations) == 16 && sizeof(RotationOutput) == 16 &&
 static_assert(sizeof(RbfSolverPlan) == 48, "");
 static_assert(sizeof(NetworkLayer) == 32 && sizeof(MlDependency) == 16, "");
 static_assert(sizeof(MlStep) == 56 && sizeof(MlJoint) == 24, "");
-static_assert(sizeof(TwistSwing) == 28 && sizeof(TwistSwingOutput) == 16, "");
+static_assert(sizeof(TwistSwing) == 8, "");
 
 template <class AnyRig, class Visitor>
 void visit(AnyRig& rig, Visitor& visitor) {

@@ -414,18 +414,18 @@ bool check_rotations(const RigChecker& c) {
 bool check_twists(const RigChecker& c) {
   const Rig& rig = c.rig;
   const TwistSwingTable& table = rig.twist_swing;
-  bool good = true;
-  for (const TwistSwingOutput& output : table.outputs) good &= output.joint < rig.joint_count;
+  const uint64_t blocks = padded(table.outputs.count) / kBlockLanes, lanes = blocks * kBlockLanes;
+  bool good = table.inputs.count == 4 * lanes && table.lanes.count == kTwistSwingRows * lanes &&
+              table.blocks_at_lod.count == rig.lod_count &&
+              below(table.inputs, rig.control_count) && below(table.blocks_at_lod, blocks + 1);
+  for (const RotationOutput& output : table.outputs) {
+    good &= output.joint < rig.joint_count && output.lane < lanes;
+  }
   uint64_t at = 0;
   for (const TwistSwing& setup : table.setups) {
-    for (const uint16_t input : setup.inputs) good &= input < rig.control_count;
-    good &= setup.axis < 3 && is_flag(setup.has_swing);
-    good &= setup.swing_count == 0 || setup.first_swing == at;
-    at += setup.swing_count;
-    good &= setup.first_twist == at;
-    at += setup.twist_count;
-    good &= setup.first_swing <= table.outputs.count && at <= table.outputs.count;
-    if (!good) break;
+    good &= setup.first_output == at;
+    at += setup.output_count;
+    good &= at <= table.outputs.count;
   }
   return c.ok(good, "twists and swings");
 }

@@ -17,6 +17,17 @@ inline uint32_t lowest_bit(uint64_t bits) {
 #endif
 }
 
+/// The number of the highest bit that is set; there must be one.
+inline uint32_t highest_bit(uint64_t bits) {
+#if defined(__GNUC__)
+  return 63 - static_cast<uint32_t>(__builtin_clzll(bits));
+#else
+  uint32_t at = 63;
+  while (!(bits >> at & 1)) --at;
+  return at;
+#endif
+}
+
 inline uint32_t bit_count(uint64_t bits) {
 #if defined(__GNUC__)
   return static_cast<uint32_t>(__builtin_popcountll(bits));

@@ -540,7 +540,7 @@ void fill_variable_joint_values(const dna::DnaView& view, Rig& rig) {
         }
       }
     }
-    for (const TwistSwingOutput& output : rig.twist_swing.outputs) {
+    for (const RotationOutput& output : rig.twist_swing.outputs) {
       if (output.lods >> l & 1) mark_rotation(output.joint);
     }
     for (const MlJoint& joint : rig.ml.joints) {

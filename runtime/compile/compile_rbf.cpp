@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "runtime/base/bits.h"
 #include "runtime/compile/compile_rig.h"
 #include "runtime/rig/work.h"
 
@@ -418,9 +420,14 @@ void place_twists_and_swings(const dna::DnaView& view, Placer& placer, Rig& rig)
   size_t outputs = 0;
   for (const dna::Swing& swing : twsw.swings) outputs += swing.output_joint_indices.count;
   for (const dna::Twist& twist : twsw.twists) outputs += twist.output_joint_indices.count;
+  const size_t lanes = align_up(outputs, kBlockLanes);
+  TwistSwingTable& table = rig.twist_swing;
   // A set-up for each swing and each twist that follows none.
-  rig.twist_swing.setups = placer.array<TwistSwing>(size_t{twsw.swings.count} + twsw.twists.count);
-  rig.twist_swing.outputs = placer.array<TwistSwingOutput>(outputs);
+  table.setups = placer.array<TwistSwing>(size_t{twsw.swings.count} + twsw.twists.count);
+  table.outputs = placer.array<RotationOutput>(outputs);
+  table.blocks_at_lod = placer.array<uint32_t>(rig.lod_count);
+  table.inputs = placer.array<uint16_t>(4 * lanes);
+  table.lanes = placer.array<float>(kTwistSwingRows * lanes, kBlockAlignment);
 }
 
 Status fill_twists_and_swings(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error) {
@@ -462,41 +469,67 @@ Status fill_twists_and_swings(const dna::DnaView& view, Arena& scratch, Rig& rig
     return a.swing != b.swing ? a.swing < b.swing : a.twist < b.twist;
   });
 
-  uint32_t setup_count = 0, output = 0, next = 0;
-  const auto add_setup = [&](const dna::Array<uint16_t>& inputs, uint16_t axis) {
-    TwistSwing setup = {};
-    for (uint32_t i = 0; i < 4; ++i) setup.inputs[i] = inputs[i];
-    setup.axis = static_cast<uint8_t>(axis);
-    return setup;
+  // Lanes of the outputs that more LODs reach come first.
+  uint32_t next_lane[kMaxLods + 1] = {};
+  const auto reach_of = [&](uint16_t joint) {
+    return std::min(highest_bit(joint_lods[joint]) + 1, kMaxLods);
   };
-  const auto add_outputs = [&](const auto& from) {
+  const auto count_outputs = [&](const auto& from) {
+    const auto& joints = from.output_joint_indices;
+    for (uint32_t i = 0; i < joints.count; ++i) ++next_lane[reach_of(joints[i])];
+  };
+  for (const dna::Swing& swing : twsw.swings) count_outputs(swing);
+  for (const dna::Twist& twist : twsw.twists) count_outputs(twist);
+  for (uint32_t reach = kMaxLods + 1, lane = 0; reach-- > 0;) {
+    if (reach < rig.lod_count) {
+      table.blocks_at_lod[reach] = static_cast<uint32_t>(align_up(lane, kBlockLanes)) / kBlockLanes;
+    }
+    lane += std::exchange(next_lane[reach], lane);
+  }
+
+  uint32_t setup_count = 0, output = 0, next = 0;
+  const auto add_outputs = [&](const auto& from, const auto& inputs, uint32_t axis, bool has_swing,
+                               bool swing) {
     for (uint32_t i = 0; i < from.output_joint_indices.count; ++i) {
       const uint16_t joint = from.output_joint_indices[i];
-      const float blend = std::min(std::max(from.blend_weights[i], -kMaxBlend), kMaxBlend);
-      table.outputs[output++] = {joint_lods[joint], blend, joint, 0};
+      const uint32_t lane = next_lane[reach_of(joint)]++;
+      table.outputs[output++] = {joint_lods[joint], lane, joint, 0};
+      const size_t block = lane / kBlockLanes;
+      uint16_t* input = table.inputs.data + block * 4 * kBlockLanes + lane % kBlockLanes;
+      for (uint32_t k = 0; k < 4; ++k) input[size_t{k} * kBlockLanes] = inputs[k];
+      float* rows = table.lanes.data + block * kTwistSwingRows * kBlockLanes + lane % kBlockLanes;
+      rows[size_t{axis} * kBlockLanes] = has_swing ? -1.0f : 1.0f;
+      rows[3 * kBlockLanes] = std::min(std::max(from.blend_weights[i], -kMaxBlend), kMaxBlend);
+      rows[4 * kBlockLanes] = swing ? 1.0f : 0.0f;
     }
-    return from.output_joint_indices.count;
+  };
+  const auto end_setup = [&](uint32_t first_output) {
+    table.setups[setup_count++] = {first_output, output - first_output};
   };
   for (uint32_t s = 0; s < twsw.swings.count; ++s) {
     const dna::Swing& swing = twsw.swings[s];
-    TwistSwing setup = add_setup(swing.input_control_indices, swing.twist_axis);
-    setup.has_swing = true;
-    setup.first_swing = output;
-    setup.swing_count = add_outputs(swing);
-    setup.first_twist = output;
+    const uint32_t first_output = output;
+    const auto& inputs = swing.input_control_indices;
+    add_outputs(swing, inputs, swing.twist_axis, true, true);
     for (; next < twists.count && twists[next].swing == s; ++next) {
-      setup.twist_count += add_outputs(twsw.twists[twists[next].twist]);
+      add_outputs(twsw.twists[twists[next].twist], inputs, swing.twist_axis, true, false);
     }
-    table.setups[setup_count++] = setup;
+    end_setup(first_output);
   }
   for (; next < twists.count; ++next) {
     const dna::Twist& twist = twsw.twists[twists[next].twist];
-    TwistSwing setup = add_setup(twist.input_control_indices, twist.twist_axis);
-    setup.first_twist = output;
-    setup.twist_count = add_outputs(twist);
-    table.setups[setup_count++] = setup;
+    const uint32_t first_output = output;
+    add_outputs(twist, twist.input_control_indices, twist.twist_axis, false, false);
+    end_setup(first_output);
   }
   table.setups.count = setup_count;
+  // What fills the last block reads what the first lane of it reads.
+  for (size_t lane = output; lane % kBlockLanes != 0; ++lane) {
+    for (size_t k = 0; k < 4; ++k) {
+      uint16_t* inputs = table.inputs.data + (lane / kBlockLanes * 4 + k) * kBlockLanes;
+      inputs[lane % kBlockLanes] = inputs[0];
+    }
+  }
   return Status::kOk;
 }
 

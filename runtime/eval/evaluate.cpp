@@ -169,7 +169,7 @@ void evaluate_rbf_solver(const Rig& rig, Instance& instance, uint32_t lod, uint3
 
 void evaluate_twist_swing(const Rig& rig, Instance& instance, uint32_t lod, uint32_t setup) {
   enter_lod(rig, instance, lod);
-  apply_twists_and_swings(rig, instance, lod, rig.twist_swing.setups.slice(setup, 1));
+  apply_twists_and_swings(rig, instance, lod, setup, 1);
   instance.stale |= kStageJoints | kAllPanels;
 }
 

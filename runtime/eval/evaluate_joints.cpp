@@ -178,7 +178,8 @@ void begin_joints(const Rig& rig, Instance& instance, uint32_t lod) {
 
 void finish_joints(const Rig& rig, Instance& instance, uint32_t lod) {
   evaluate_rotations(rig, instance, lod, 0, rig.joints.group_count);
-  apply_twists_and_swings(rig, instance, lod, rig.twist_swing.setups);
+  apply_twists_and_swings(rig, instance, lod, 0,
+                          static_cast<uint32_t>(rig.twist_swing.setups.count));
   add_ml_joints(rig, instance, lod);
   instance.stale &= ~(Uses{kStageJoints} | kAllPanels);
 }

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rotations of joints: quaternions out of angles, joints represented by quaternions, twists and
 // swings (docs/rig-evaluation.md, 4.6 to 4.8, 7).
-#include <algorithm>
-#include <cmath>
-
 #include "runtime/eval/stages.h"
 
 namespace mien {
@@ -39,24 +36,35 @@ void turn_blocks(const Rig& rig, Instance& instance, uint32_t lod, uint32_t firs
   }
 }
 
-/// Computes and writes the turns of one group, or of all.
-void turn_joints(const Rig& rig, Instance& instance, uint32_t lod,
-                 const Span<RotationOutput>& turns) {
-  const RotationTable& table = rig.rotations;
-  const uint32_t blocks = table.blocks_at_lod[lod];
-  const bool all = turns.count == table.turns.count;
-  if (all && blocks != 0) turn_blocks(rig, instance, lod, 0, blocks);
-  uint32_t turned = blocks;
-  for (const RotationOutput& turn : turns) {
-    if ((turn.lods >> lod & 1) == 0) continue;
-    const uint32_t block = turn.lane / kBlockLanes;
+/// Computes twists and swings of some blocks.
+void twist_blocks(const Rig& rig, Instance& instance, uint32_t first, uint32_t count) {
+  const TwistSwingTable& table = rig.twist_swing;
+  float* rotations = instance.rotations.data + size_t{first} * 4 * kBlockLanes;
+  rig.kernels->twist_swing({table.inputs.data + size_t{first} * 4 * kBlockLanes,
+                            table.lanes.data + size_t{first} * kTwistSwingRows * kBlockLanes,
+                            instance.controls.data, rotations, count});
+  if (!rig.quaternion_outputs) {
+    rig.kernels->angles_from_quaternions(
+        {euler_form(rig.rotation), rotations, rotations, count * kBlockLanes});
+  }
+}
+
+/// Computes and writes outputs of the first `blocks` blocks, all of them or some:
+/// compute(first block, count).
+template <class F>
+void write_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32_t blocks, bool all,
+                     const Span<RotationOutput>& outputs, F&& compute) {
+  if (all && blocks != 0) compute(0, blocks);
+  uint32_t computed = blocks;
+  for (const RotationOutput& output : outputs) {
+    if ((output.lods >> lod & 1) == 0) continue;
+    const uint32_t block = output.lane / kBlockLanes;
     if (block >= blocks) continue;
-    // Those of a group are in order of their lanes.
-    if (!all && block != turned) turn_blocks(rig, instance, lod, block, 1);
-    turned = block;
+    if (!all && block != computed) compute(block, 1);
+    computed = block;
     write_rotation(
-        rig, instance, turn.joint,
-        instance.rotations.data + size_t{block} * 4 * kBlockLanes + turn.lane % kBlockLanes);
+        rig, instance, output.joint,
+        instance.rotations.data + size_t{block} * 4 * kBlockLanes + output.lane % kBlockLanes);
   }
 }
 
@@ -87,59 +95,6 @@ class AngleBlock {
   alignas(kBlockAlignment) float rows_[4 * kBlockLanes] = {};
 };
 
-/// Inputs need not be unit, but squares of what is far from it would overflow, or vanish.
-Quaternion bounded(const Quaternion& q) {
-  const float squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-  if (squared > 1e-18f && squared < 1e18f) return q;
-  const double x = q.x, y = q.y, z = q.z, w = q.w;
-  const double length = std::sqrt(x * x + y * y + z * z + w * w);
-  if ((length > 1e-9 && length < 1e9) || !(length > 0)) return q;
-  return {static_cast<float>(x / length), static_cast<float>(y / length),
-          static_cast<float>(z / length), static_cast<float>(w / length)};
-}
-
-/// Outputs of twists and swings, sixteen at a time. They read controls alone, so their order counts
-/// only where two of them write the same joint.
-class TwistSwingBlock {
- public:
-  TwistSwingBlock(const Rig& rig, Instance& instance) : rig_(rig), instance_(instance) {}
-
-  void add(const Quaternion& q, uint32_t axis, bool inverted, const TwistSwingOutput& out,
-           bool swing) {
-    float* lane = inputs_ + count_;
-    lane[0] = q.x;
-    lane[kBlockLanes] = q.y;
-    lane[2 * kBlockLanes] = q.z;
-    lane[3 * kBlockLanes] = q.w;
-    for (uint32_t k = 0; k < 3; ++k) lane[(4 + k) * kBlockLanes] = 0;
-    lane[(4 + axis) * kBlockLanes] = inverted ? -1.0f : 1.0f;
-    lane[7 * kBlockLanes] = out.blend;
-    lane[8 * kBlockLanes] = swing ? 1.0f : 0.0f;
-    joints_[count_++] = out.joint;
-    if (count_ == kBlockLanes) flush();
-  }
-  void flush() {
-    if (count_ == 0) return;
-    rig_.kernels->twist_swing({inputs_, rotations_, count_});
-    if (!rig_.quaternion_outputs) {
-      rig_.kernels->angles_from_quaternions(
-          {euler_form(rig_.rotation), rotations_, rotations_, count_});
-    }
-    for (uint32_t i = 0; i < count_; ++i) {
-      write_rotation(rig_, instance_, joints_[i], rotations_ + i);
-    }
-    count_ = 0;
-  }
-
- private:
-  const Rig& rig_;
-  Instance& instance_;
-  uint32_t count_ = 0;
-  alignas(kBlockAlignment) float inputs_[kTwistSwingRows * kBlockLanes] = {};
-  alignas(kBlockAlignment) float rotations_[4 * kBlockLanes];
-  uint16_t joints_[kBlockLanes];
-};
-
 }  // namespace
 
 EulerForm euler_form(const RotationConvention& convention) {
@@ -159,9 +114,11 @@ void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32
   if (group_count == 0) return;
   const GroupRotations &first = table.groups[first_group],
                        &last = table.groups[first_group + group_count - 1];
-  turn_joints(
-      rig, instance, lod,
-      table.turns.slice(first.first_turn, last.first_turn + last.turn_count - first.first_turn));
+  // Those of a group are in order of their lanes.
+  write_rotations(
+      rig, instance, lod, table.blocks_at_lod[lod], group_count == table.groups.count,
+      table.turns.slice(first.first_turn, last.first_turn + last.turn_count - first.first_turn),
+      [&](uint32_t block, uint32_t count) { turn_blocks(rig, instance, lod, block, count); });
   if (table.angle_joints.empty()) return;
   AngleBlock block(rig, instance);
   for (uint32_t group = first_group; group < first_group + group_count; ++group) {
@@ -176,24 +133,17 @@ void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32
   block.flush();
 }
 
-void apply_twists_and_swings(const Rig& rig, Instance& instance, uint32_t lod,
-                             const Span<TwistSwing>& setups) {
-  if (setups.empty()) return;
+void apply_twists_and_swings(const Rig& rig, Instance& instance, uint32_t lod, uint32_t first_setup,
+                             uint32_t setup_count) {
   const TwistSwingTable& table = rig.twist_swing;
-  const float* c = instance.controls.data;
-  TwistSwingBlock block(rig, instance);
-  for (const TwistSwing& setup : setups) {
-    const Quaternion q =
-        bounded({c[setup.inputs[0]], c[setup.inputs[1]], c[setup.inputs[2]], c[setup.inputs[3]]});
-    const auto add = [&](uint32_t first, uint32_t count, bool swing) {
-      for (const TwistSwingOutput& out : table.outputs.slice(first, count)) {
-        if (out.lods >> lod & 1) block.add(q, setup.axis, setup.has_swing, out, swing);
-      }
-    };
-    add(setup.first_swing, setup.swing_count, true);
-    add(setup.first_twist, setup.twist_count, false);
-  }
-  block.flush();
+  if (setup_count == 0) return;
+  const TwistSwing &first = table.setups[first_setup],
+                   &last = table.setups[first_setup + setup_count - 1];
+  write_rotations(
+      rig, instance, lod, table.blocks_at_lod[lod], setup_count == table.setups.count,
+      table.outputs.slice(first.first_output,
+                          last.first_output + last.output_count - first.first_output),
+      [&](uint32_t block, uint32_t count) { twist_blocks(rig, instance, block, count); });
 }
 
 }  // namespace mien

@@ -22,8 +22,8 @@ void place_instance(const Rig& rig, Placer& placer, Instance& instance) {
   const ControlRange &ml = rig.ml_writes, &rbf = rig.rbf_writes;
   instance.before_writing =
       placer.array<float>(std::max(ml.end - ml.first, rbf.end - rbf.first), kBlockAlignment);
-  instance.rotations =
-      placer.array<float>(size_t{rig.rotations.block_count()} * 4 * kBlockLanes, kBlockAlignment);
+  const size_t blocks = std::max(rig.rotations.block_count(), rig.twist_swing.block_count());
+  instance.rotations = placer.array<float>(blocks * 4 * kBlockLanes, kBlockAlignment);
   instance.ml_values = placer.array<float>(rig.ml.buffer_size, kBlockAlignment);
   for (Span<float>& layer : instance.ml_layers) {
     layer = placer.array<float>(align_up(rig.ml.widest_layer, kBlockLanes), kBlockAlignment);

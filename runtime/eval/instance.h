@@ -30,7 +30,7 @@ struct Instance {
   Span<float> before_writing;                // scratch: controls that a stage writes
   Uses stale = 0;                            // stages and row panels that must be evaluated
 
-  Span<float> rotations;      // scratch: of the blocks of RotationTable
+  Span<float> rotations;      // scratch: of the blocks of RotationTable, or of TwistSwingTable
   Span<float> ml_values;      // outputs of the ML steps, for later steps
   Span<float> ml_layers[2];   // scratch: in and out of the widest network layer
   Span<float> rbf_inputs;     // scratch: of all solvers

@@ -71,9 +71,9 @@ void finish_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTi
 /// The rotations of neighboring groups, once their rows are written.
 void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32_t first_group,
                         uint32_t group_count);
-/// Set-ups in order.
-void apply_twists_and_swings(const Rig& rig, Instance& instance, uint32_t lod,
-                             const Span<TwistSwing>& setups);
+/// Neighboring set-ups, in order.
+void apply_twists_and_swings(const Rig& rig, Instance& instance, uint32_t lod, uint32_t first_setup,
+                             uint32_t setup_count);
 /// A convention as kernels take it.
 EulerForm euler_form(const RotationConvention& convention);
 

@@ -222,27 +222,23 @@ struct MlTable {
   Matrix3 to_rig;                     // the change of axes, for row vectors
 };
 
-/// Joints that follow a quaternion input: what swings with it, what twists with it
-/// (docs/rig-evaluation.md, 7 "Twist and swing"). A twist alone has no swing outputs.
+/// Joints that follow a quaternion input: what swings with it, then what twists with it
+/// (docs/rig-evaluation.md, 7 "Twist and swing").
 struct TwistSwing {
-  uint16_t inputs[4];  // control numbers of x y z w
-  uint8_t axis;        // of the swing if there is one
-  bool has_swing;
-  uint8_t zeros[2];
-  uint32_t first_swing, swing_count;  // into TwistSwingTable::outputs
-  uint32_t first_twist, twist_count;
+  uint32_t first_output, output_count;  // into TwistSwingTable::outputs
 };
 
-struct TwistSwingOutput {
-  uint64_t lods;  // bit l: the joint exists at LOD l
-  float blend;
-  uint16_t joint;
-  uint16_t zero;
-};
-
+/// The outputs of all set-ups are packed into blocks of kBlockLanes, one lane each, as simd/kernels.h
+/// draws them, those that more LODs reach first. They read controls alone, so their order counts only
+/// where two of them write the same joint.
 struct TwistSwingTable {
   Span<TwistSwing> setups;
-  Span<TwistSwingOutput> outputs;
+  Span<RotationOutput> outputs;  // in order; a later one for the same joint counts
+  Span<uint32_t> blocks_at_lod;  // leading blocks
+  Span<uint16_t> inputs;         // [block][x y z w][lane]: control that it reads
+  Span<float> lanes;             // [block][row][lane]
+
+  uint32_t block_count() const { return static_cast<uint32_t>(inputs.count / (4 * kBlockLanes)); }
 };
 
 /// Channel i copies a control: the first count_at_lod[l] entries do at LOD l.

@@ -80,7 +80,7 @@ template <class F>
 void joint_reads(const Rig& rig, F&& f) {
   each_of(rig.joints.columns, f);
   each_of(rig.rotations.columns, f);
-  for (const TwistSwing& setup : rig.twist_swing.setups) each_of(setup.inputs, f);
+  each_of(rig.twist_swing.inputs, f);
   for (const MlJoint& joint : rig.ml.joints) each_of_joint(rig.ml, joint, f);
 }
 

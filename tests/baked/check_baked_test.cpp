@@ -150,6 +150,24 @@ TEST(CheckBakedRig, JointMatrix) {
                 {"values of the other form", [](Rig& r) { r.joints.values = zeros<float>(8); }}});
 }
 
+TEST(CheckBakedRig, TwistsAndSwings) {
+  expect_found(
+      layers_with(false, false, [](const Rig& r) { return r.twist_swing.setups.count > 1; }),
+      {
+          {"LODs are missing", [](Rig& r) { --r.twist_swing.blocks_at_lod.count; }},
+          {"a LOD with more blocks than there are",
+           [](Rig& r) { r.twist_swing.blocks_at_lod[0] = r.twist_swing.block_count() + 1; }},
+          {"an input too few", [](Rig& r) { --r.twist_swing.inputs.count; }},
+          {"a row too few", [](Rig& r) { --r.twist_swing.lanes.count; }},
+          {"an input that is no control", [](Rig& r) { r.twist_swing.inputs[0] = 0xFFFF; }},
+          {"a joint that is none", [](Rig& r) { r.twist_swing.outputs[0].joint = 0xFFFF; }},
+          {"a lane that is none", [](Rig& r) { r.twist_swing.outputs[0].lane = 1 << 20; }},
+          {"a set-up that skips outputs", [](Rig& r) { ++r.twist_swing.setups[1].first_output; }},
+          {"a set-up with too many outputs",
+           [](Rig& r) { ++r.twist_swing.setups[r.twist_swing.setups.count - 1].output_count; }},
+      });
+}
+
 TEST(CheckBakedRig, Rotations) {
   const auto wanted = [](const Rig& r) {
     return !r.rotations.turns.empty() && !r.rotations.angle_joints.empty();

@@ -259,81 +259,125 @@ Quad twist_or_swing(const Quad& q, int axis, bool inverted, bool swing, double b
   return product(twist, slerp_to_identity(rest, blend));
 }
 
+/// Lanes that read controls in an order of their own.
+struct TwistsAndSwings {
+  explicit TwistsAndSwings(uint32_t lanes)
+      : count((lanes + kBlockLanes - 1) / kBlockLanes * kBlockLanes), rows(kTwistSwingRows, lanes),
+        rotations(4, lanes), inputs(4 * count), controls(4 * count) {
+    for (size_t i = 0; i < inputs.size(); ++i) {
+      inputs[i] = static_cast<uint16_t>(inputs.size() - 1 - i);
+    }
+  }
+  float& input(size_t lane, size_t k) {
+    return controls[inputs[(lane / kBlockLanes * 4 + k) * kBlockLanes + lane % kBlockLanes]];
+  }
+  void set(size_t lane, size_t axis, bool inverted, double blend, bool swing) {
+    rows.at(lane, axis) = inverted ? -1.0f : 1.0f;
+    rows.at(lane, 3) = static_cast<float>(blend);
+    rows.at(lane, 4) = swing ? 1.0f : 0.0f;
+  }
+  void run_everywhere() {
+    mien::run_everywhere(rotations, count, 4, [&](const KernelTable& table) {
+      table.twist_swing({inputs.data(), rows.data, controls.data(), rotations.data,
+                         static_cast<uint32_t>(count / kBlockLanes)});
+    });
+  }
+  size_t count;
+  Block rows, rotations;
+  std::vector<uint16_t> inputs;
+  std::vector<float> controls;
+};
+
 TEST(TwistSwingKernel, EveryKindAxisBlendAndCount) {
   Random random = Random::from_seed(72, 6);
   for (uint32_t count : {1u, 4u, 7u, 8u, 13u, 16u, 33u, 400u}) {
-    Block inputs(kTwistSwingRows, count), rotations(4, count);
+    TwistsAndSwings lanes(count);
     std::vector<Quad> expected;
     for (size_t i = 0; i < count; ++i) {
       Quad q;
       for (double& part : q) part = random.between(-1, 1);
       if (random.chance(0.2)) q = {q[0] * 1e-4, q[1] * 1e-4, q[2] * 1e-4, q[3]};  // nearly none
       q = scaled(q, 1 / length(q));
-      for (int k = 0; k < 4; ++k) inputs.at(i, k) = static_cast<float>(q[k]);
+      for (int k = 0; k < 4; ++k) lanes.input(i, k) = static_cast<float>(q[k]);
       const int axis = static_cast<int>(random.below(3));
       const bool swing = random.chance(0.5), inverted = swing || random.chance(0.5);
       constexpr double kBlends[] = {0, 0.25, 0.5, 0.8125, 1, 1.5, -0.5};
       const double blend = kBlends[random.below(7)];
-      inputs.at(i, 4 + axis) = inverted ? -1.0f : 1.0f;
-      inputs.at(i, 7) = static_cast<float>(blend);
-      inputs.at(i, 8) = swing ? 1.0f : 0.0f;
-      for (int k = 0; k < 4; ++k) q[k] = inputs.at(i, k);
+      lanes.set(i, axis, inverted, blend, swing);
+      for (int k = 0; k < 4; ++k) q[k] = lanes.input(i, k);
       expected.push_back(twist_or_swing(q, axis, inverted, swing, blend));
     }
-    run_everywhere(rotations, count, 4, [&](const KernelTable& table) {
-      table.twist_swing({inputs.data, rotations.data, count});
-    });
+    lanes.run_everywhere();
     for (size_t i = 0; i < count; ++i) {
       for (int k = 0; k < 4; ++k) {
-        ASSERT_NEAR(rotations.at(i, k), expected[i][k], 2e-6) << "lane " << i << ", part " << k;
+        ASSERT_NEAR(lanes.rotations.at(i, k), expected[i][k], 2e-6)
+            << "lane " << i << ", part " << k;
       }
     }
   }
 }
 
 TEST(TwistSwingKernel, EndsOfTheBlendAreExact) {
-  Block inputs(kTwistSwingRows, 2), rotations(4, 2);
+  TwistsAndSwings lanes(2);
   for (size_t i = 0; i < 2; ++i) {
-    inputs.at(i, 1) = 0.6f;
-    inputs.at(i, 3) = 0.8f;
-    inputs.at(i, 5) = 1;
-    inputs.at(i, 7) = static_cast<float>(i);  // the whole twist; the identity
+    lanes.input(i, 1) = 0.6f;
+    lanes.input(i, 3) = 0.8f;
+    lanes.set(i, 1, false, static_cast<double>(i), false);  // the whole twist; the identity
   }
-  run_everywhere(rotations, 2, 4, [&](const KernelTable& table) {
-    table.twist_swing({inputs.data, rotations.data, 2});
-  });
-  EXPECT_FLOAT_EQ(rotations.at(0, 1), 0.6f);
-  EXPECT_FLOAT_EQ(rotations.at(0, 3), 0.8f);
-  for (int k = 0; k < 3; ++k) EXPECT_EQ(rotations.at(1, k), 0);
-  EXPECT_FLOAT_EQ(rotations.at(1, 3), 1);
+  lanes.run_everywhere();
+  EXPECT_FLOAT_EQ(lanes.rotations.at(0, 1), 0.6f);
+  EXPECT_FLOAT_EQ(lanes.rotations.at(0, 3), 0.8f);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(lanes.rotations.at(1, k), 0);
+  EXPECT_FLOAT_EQ(lanes.rotations.at(1, 3), 1);
+}
+
+// Whose squares are hardly floats, or none.
+TEST(TwistSwingKernel, MakesInputsUnitThatAreFarFromIt) {
+  for (float size : {1e-35f, 1e-30f, 1e-12f, 1e12f, 1e30f, 1e38f}) {
+    TwistsAndSwings unit(32), lanes(32);
+    for (size_t i = 0; i < 32; ++i) {
+      const bool far = i % 3 == 0;  // beside others that are unit
+      const float parts[] = {0.1f, -0.7f, 0.1f, 0.7f};
+      for (int k = 0; k < 4; ++k) {
+        unit.input(i, k) = parts[k];
+        lanes.input(i, k) = far ? parts[k] * size : parts[k];
+      }
+      for (auto* both : {&unit, &lanes}) both->set(i, i % 3, i % 2 != 0, 0.3, i % 2 != 0);
+    }
+    unit.run_everywhere();
+    lanes.run_everywhere();
+    for (size_t i = 0; i < 32; ++i) {
+      for (int k = 0; k < 4; ++k) {
+        ASSERT_NEAR(lanes.rotations.at(i, k), unit.rotations.at(i, k), 2e-6) << size << " " << i;
+      }
+    }
+  }
 }
 
 // No part on the axis and w 0; no input at all; lengths far from 1; blends far from 0 ... 1.
 TEST(TwistSwingKernel, GivesFiniteResultsForExtremeInputs) {
   Random random = Random::from_seed(72, 7);
   constexpr uint32_t kCount = 1600;
-  Block inputs(kTwistSwingRows, kCount), rotations(4, kCount), angles(4, kCount);
-  constexpr float kLengths[] = {1e-9f, 1e-5f, 1, 1e5f, 1e9f};
+  TwistsAndSwings lanes(kCount);
+  Block angles(4, kCount);
+  constexpr float kLengths[] = {1e-9f, 1e-5f, 1, 1e5f, 1e9f, 1e-38f, 1e38f};
   constexpr float kBlends[] = {0, 1, -1e9f, 1e9f, 0.5f, 300};
   for (size_t i = 0; i < kCount; ++i) {
-    const float size = kLengths[random.below(5)];
+    const float size = kLengths[random.below(7)];
     for (int k = 0; k < 4; ++k) {
-      inputs.at(i, k) =
+      lanes.input(i, k) =
           random.chance(0.4) ? 0.0f : static_cast<float>(random.between(-0.5, 0.5)) * size;
     }
-    inputs.at(i, 4 + random.below(3)) = random.chance(0.5) ? -1.0f : 1.0f;
-    inputs.at(i, 7) = kBlends[random.below(6)];
-    inputs.at(i, 8) = random.chance(0.5) ? 1.0f : 0.0f;
+    const uint32_t axis = random.below(3);
+    lanes.set(i, axis, random.chance(0.5), kBlends[random.below(6)], random.chance(0.5));
   }
-  run_everywhere(rotations, kCount, 4, [&](const KernelTable& table) {
-    table.twist_swing({inputs.data, rotations.data, kCount});
-  });
+  lanes.run_everywhere();
   const EulerForm form = random_form(random, 2);
   run_everywhere(angles, kCount, 3, [&](const KernelTable& table) {
-    table.angles_from_quaternions({form, rotations.data, angles.data, kCount});
+    table.angles_from_quaternions({form, lanes.rotations.data, angles.data, kCount});
   });
   for (size_t i = 0; i < kCount; ++i) {
-    for (int k = 0; k < 4; ++k) ASSERT_TRUE(std::isfinite(rotations.at(i, k))) << i;
+    for (int k = 0; k < 4; ++k) ASSERT_TRUE(std::isfinite(lanes.rotations.at(i, k))) << i;
     for (int k = 0; k < 3; ++k) ASSERT_TRUE(std::isfinite(angles.at(i, k))) << i;
   }
 }
