@@ -132,14 +132,16 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
       const Arch at = arch_at(t);
       const double raise =
           strands ? 0.05 * (1 - across * across) - 0.03 : 0.14 * (1 - across * across) - 0.05;
-      const Color color = mix(hair_color, skin, strands ? mix(0.80, 0.55, clamp01(4 * t)) : 0.16);
+      const double thin =
+          strands ? mix(0.28 - 0.06 * lod, 1, std::max(across * across, 1 - clamp01(3 * t))) : 0.16;
+      const Color color = mix(hair_color, skin, thin);
       out.vertices.add(place(at.x, at.y + across * at.half * (strands ? 0.8 : 1), raise, color, t,
                              0.5 + 0.5 * across));
     }
   }
   join_rows(out, first, rows, columns);
   if (!strands) return;
-  const uint32_t hairs = at_lod(150, 40, lod);
+  const uint32_t hairs = lod == 0 ? 150 : lod == 1 ? 84 : 48;
   for (uint32_t i = 0; i < hairs; ++i) {
     // They lean outwards, the inner ones up, and lie down towards the tail.
     const double t = clamp01((i + 0.5) / hairs + 0.02 * scatter(i + 300));
@@ -157,7 +159,7 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
     hair.middle =
         place(x + 0.5 * size * c, y + 0.5 * size * s, 0.055, color, t, 0.55 + 0.4 * across);
     hair.tip = place(x + size * c, y + size * (s - 0.15), 0.02, color, t, 0.6 + 0.4 * across);
-    const double wide = 0.034 * (hairs < 100 ? 1.4 : 1);
+    const double wide = 0.028 * (hairs < 100 ? 1.4 : 1);
     hair.wide = {s * wide, -c * wide, 0};
     add_hair(hair, out);
   }

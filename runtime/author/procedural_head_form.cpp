@@ -298,9 +298,9 @@ FacePoint Form::face(double angle, double y, Side side) const {
   p.z += front_mask * (relief(p.x, p.y) + lips(p.x, p.y));
   // Below and behind the jaw the neck is narrower.
   if (p.y < 0) {
-    const double neck = smooth_step(0.6, -1.4, inside_jaw(p.y, p.z)) * smooth_step(-5, -0.5, p.z) *
+    const double neck = smooth_step(0.8, -1.9, inside_jaw(p.y, p.z)) * smooth_step(-5, -0.5, p.z) *
                         smooth_step(-1.8, -5.5, p.y) * smooth_step(-15.5, -12.0, p.y);
-    p.x *= 1 - 0.15 * neck;
+    p.x *= 1 - 0.10 * neck;
   }
   // Long and short chins; high and low skulls.
   p.y -= person_.chin_drop * smooth_step(-7.3, -9.6, y) * smooth_step(-16.0, -11.5, y);

@@ -121,7 +121,7 @@ class HairMaker {
 };
 
 void HairMaker::make_cap() {
-  const uint32_t columns = 2 * at_lod(60, 7, lod_), rows = at_lod(26, 4, lod_) + 1;
+  const uint32_t columns = 2 * at_lod(56, 7, lod_), rows = at_lod(24, 4, lod_) + 1;
   const bool curly = form_.person().style == HairStyle::kCurly;
   const Color hair = form_.person().hair;
   const uint32_t first = out_.vertices.count();
@@ -145,7 +145,9 @@ void HairMaker::make_cap() {
       // The parting is a furrow from the hair line to near the crown.
       const double parting =
           parted_ * bump(from_part, 0, 0, 0, 0.10, 1) * smooth_step(0.75, 0.35, t);
-      const double beyond = -front * (1.6 * style_.lock * lock + 2.5 * style_.strand * fine) +
+      // Where there are strips their ends cover the cap's border.
+      const double beyond = (lod_ < 3 ? 0.30 * front : 0) -
+                            front * (1.6 * style_.lock * lock + 2.5 * style_.strand * fine) +
                             parted_ * 0.35 * bump(from_part, 0, 0, 0, 0.16, 1) -
                             parted_ * 0.30 * front * smooth_step(0.3, -0.7, from_part) *
                                 smooth_step(-1.6, -0.7, from_part);
@@ -246,7 +248,7 @@ void HairMaker::make_strips() {
     for (uint32_t i = 0; i < count; ++i, ++number) {
       double to = mix(-kPi, kPi, (i + 0.5 + 0.4 * scatter(number)) / count);
       const double front = smooth_step(0.46, 0.15, std::abs(to) / kPi);
-      double end = 0.85 * low - 0.02 - 0.04 * front + 0.045 * scatter(number + 1000);
+      double end = 0.85 * low - 0.02 - 0.055 * front + 0.045 * scatter(number + 1000);
       double size = (is_short ? 0.20 : curly ? 0.22 : 0.55) * (1 + 0.25 * scatter(number + 2000));
       double from = to, raise = is_short ? 0.10 : 0.16;
       if (curly) {

@@ -102,7 +102,6 @@ Vertex plain(Vec3 position, Color color, double u, double v, Carrier carrier);
 
 /// These add to `out` and leave it failed if memory ran out; the last one sets normals.
 void add_skin(const Form& form, uint32_t lod, HalfMesh& out);
-void add_ear(const Form& form, uint32_t lod, HalfMesh& out);
 void add_teeth(const Form& form, uint32_t lod, HalfMesh& out);
 void add_tongue(const Form& form, uint32_t lod, HalfMesh& out);
 void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ears, eyeballs, teeth and tongue; what all parts share.
+// Eyeballs, teeth and tongue; what all parts share.
 #include <algorithm>
 
 #include "runtime/author/procedural_head_mesh.h"
@@ -43,67 +43,6 @@ Vertex plain(Vec3 position, Color color, double u, double v, Carrier carrier) {
   out.v = v;
   out.carrier = carrier;
   return out;
-}
-
-// Ears ------------------------------------------------------------------------------------------
-
-void add_ear(const Form& form, uint32_t lod, HalfMesh& out) {
-  // Share of the outline's radius, and height above the plane of the ear: from the bowl to the rim
-  // and behind it back to the head.
-  static constexpr double kFine[][2] = {{0.00, -0.50}, {0.22, -0.46}, {0.38, -0.26}, {0.50, -0.02},
-                                        {0.60, 0.05},  {0.70, -0.05}, {0.79, -0.10}, {0.86, 0.08},
-                                        {0.93, 0.24},  {0.99, 0.20},  {1.03, 0.04},  {1.00, -0.16},
-                                        {0.88, -0.34}, {0.66, -0.75}, {0.45, -1.30}};
-  static constexpr double kPlain[][2] = {{0.00, -0.45}, {0.45, -0.15}, {0.90, 0.15},
-                                         {1.02, 0.02},  {0.80, -0.45}, {0.50, -1.20}};
-  static constexpr double kPlainest[][2] = {{0.0, -0.2}, {1.0, 0.1}, {0.5, -1.2}};
-  const double(*path)[2] = lod < 3 ? kFine : lod < 6 ? kPlain : kPlainest;
-  const uint32_t rings = lod < 3 ? 15 : lod < 6 ? 6 : 3, around = at_lod(36, 5, lod);
-  const double size = 1.2 * form.person().ear;
-  const double tilt = 0.56;
-  const Vec3 origin = {form.face(0.53 * kPi, 0.0, Side::kAbove).closed.x + 0.10, -0.6, -0.8};
-  const auto [sine, cosine] = exact_sine_cosine(tilt);
-  const Vec3 back = {sine, 0, -cosine}, outward = {cosine, 0, sine};
-  const Vec3 up = unit({0.10, 1, -0.16});
-
-  const Color skin = form.person().skin, red = redder(skin, 0.45);
-  uint32_t before[64], here[64];
-  for (uint32_t r = 0; r < rings; ++r) {
-    for (uint32_t k = 0; k < around; ++k) {
-      const double angle = 2 * kPi * k / around;
-      const auto [s, c] = exact_sine_cosine(angle);
-      const double low = smooth_step(0.2, -1, s);
-      const double p = c * (c > 0 ? mix(1.65, 1.05, low) : mix(0.95, 0.80, low));
-      const double q = s * (s > 0 ? 2.4 : 2.1);
-      const double share = path[r][0];
-      // The rim fades towards the lobe and where the ear grows out of the head.
-      const double rim =
-          mix(1, 0.25, std::max(smooth_step(-0.3, -0.9, s), smooth_step(-0.4, -1, c)));
-      double height = path[r][1] * (path[r][1] > 0 ? rim : 1);
-      if (path[r][0] < 0.6 && r < rings / 2) height *= mix(1, 0.35, low);
-      const Vec3 at =
-          origin + back * (p * share * size) + up * (q * share * size) + outward * (height * size);
-      const double shade = path[r][1] < -0.2 && r < rings / 2 ? 1 : 0;
-      Vertex v =
-          plain(at, mix(mix(skin, red, 0.8), redder(mix(skin, {0, 0, 0}, 0.35), 0.5), 0.7 * shade),
-                0.03 + 0.06 * (c * share * 0.5 + 0.5), 0.9 + 0.08 * (s * share * 0.5 + 0.5),
-                Carrier::kSkin);
-      if (r == 0 && k > 0) {
-        here[k] = here[0];
-      } else {
-        here[k] = out.vertices.add(v);
-      }
-    }
-    for (uint32_t k = 0; r > 0 && k < around; ++k) {
-      const uint32_t next = (k + 1) % around;
-      if (r == 1) {
-        out.triangle(before[k], here[k], here[next]);
-      } else {
-        out.quad(before[k], here[k], here[next], before[next]);
-      }
-    }
-    std::copy(here, here + around, before);
-  }
 }
 
 // Eyes ------------------------------------------------------------------------------------------
@@ -234,7 +173,7 @@ void add_teeth(const Form& form, uint32_t lod, HalfMesh& out) {
         Color color = row <= 2 || row == 9 ? gum : white;
         if (row == 2) color = mix(gum, {214, 134, 122}, 0.6);
         if (row >= 3 && row <= 5) color = mix(gap, color, 0.30 + 0.70 * round);
-        color = mix(color, {92, 46, 42}, 0.70 * smooth_step(0.40, 1, share));
+        color = mix(color, {84, 38, 36}, 0.90 * smooth_step(0.35, 0.95, share));
         if (k == columns - 1) color = {92, 34, 36};  // its end is dark
         out.vertices.add(plain(at, color, share, (row + 10 * lower) / 20.0,
                                lower ? Carrier::kLowerTeeth : Carrier::kUpperTeeth));
@@ -273,12 +212,12 @@ void add_tongue(const Form& form, uint32_t lod, HalfMesh& out) {
     const double z = mix(2.0, tip_z, t);
     const double y =
         kMouthY - 1.55 + 1.05 * exact_sine(kPi * clamp01(0.12 + 0.62 * t)) * (1 - 0.25 * t);
-    const double taper = exact_pow(1 - t * t * t, 0.5);
+    const double taper = exact_pow(1 - t * t * t * t, 0.5);
     const double half = 1.60 * mix(1.0, 0.86, t) * taper, thick = 0.50 * mix(1.2, 0.8, t) * taper;
     for (uint32_t k = 0; k < around; ++k) {
       const auto [s, c] = exact_sine_cosine(kPi * (static_cast<double>(k) / (around - 1) - 0.5));
       const double groove = 0.22 * bump(c, 0, 0, 0, 0.35, 1) * (s > 0) * (1 - 0.8 * t);
-      Vec3 at = {half * c, y + thick * s - groove, z};
+      Vec3 at = {half * exact_pow(std::max(c, 0.0), 0.6), y + thick * s - groove, z};
       if (k == 0 || k == around - 1) at.x = 0;
       Color color = mix({196, 92, 96}, {120, 44, 50}, 0.8 * (1 - t));
       color = mix(color, {150, 58, 66}, 0.5 * bump(c, 0, 0, 0, 0.3, 1) * (s > 0));
@@ -322,10 +261,7 @@ void set_normals(HalfMesh& mesh) {
 
 bool make_part(const Form& form, Part part, uint32_t lod, HalfMesh& out) {
   switch (part) {
-    case Part::kHead:
-      add_skin(form, lod, out);
-      if (!out.failed()) add_ear(form, lod, out);
-      break;
+    case Part::kHead: add_skin(form, lod, out); break;
     case Part::kTeeth: add_teeth(form, lod, out); break;
     case Part::kTongue: add_tongue(form, lod, out); break;
     case Part::kEyeLeft:

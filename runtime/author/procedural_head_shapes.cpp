@@ -266,7 +266,9 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
     case Motion::kLookIn:
     case Motion::kLookOut: break;
     case Motion::kSmile:
-      add(corner, {0.74, 0.60, -0.50});
+      // The line of the lips bends up at its ends; its middle loses the bow.
+      add(corner, {0.74, 0.60 * mix(0.60, 1, out), -0.50});
+      add(bump(look.x, line, 0, 0, 0.9, 0.6), {0, 0.04, 0});
       add(w.at(0.9, -5.4, 0.9, 0.5), {0.05, 0.06, -0.06});
       add(w.at(4.1, -2.9, 1.5, 1.25), {0.14, 0.66, 0.50});
       add(fold.at(0), {0.02, 0.04, -0.20});

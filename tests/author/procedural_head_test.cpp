@@ -234,7 +234,7 @@ uint64_t hash_of(const std::vector<uint8_t>& bytes) {
 }
 
 TEST(ProceduralHead, HasTheSameBytesOnEveryPlatform) {
-  const uint64_t expected[] = {17964347231361269806u, 10449499317338934961u};
+  const uint64_t expected[] = {2339260512760216486u, 15549583029976754671u};
   for (uint64_t seed = 0; seed < 2; ++seed) {
     EXPECT_EQ(hash_of(write_dna(generate_dna(MIEN_PRESET_HEAD, seed).get())), expected[seed])
         << "seed " << seed << ": if the head was meant to change, record the new number";
@@ -377,8 +377,7 @@ TEST(ProceduralHead, TrianglesHaveAreaAndOrientedEdges) {
   }
 }
 
-/// No holes: what is open ends at the hair line, behind brows and lashes, or where ears and hair
-/// go into the head.
+/// No holes: what is open ends behind the lids.
 TEST(ProceduralHead, SkinHasNoHolesButTheEyes) {
   const Head& head = the_head();
   for (uint32_t lod = 0; lod < kLodCount; ++lod) {
@@ -391,10 +390,9 @@ TEST(ProceduralHead, SkinHasNoHolesButTheEyes) {
       if (edges.count({edge[1], edge[0]})) continue;
       const Vec3 p = point(mesh.positions, edge[0]);
       const Vec3 eye = {p.x < 0 ? -kEye.x : kEye.x, kEye.y, kEye.z};
-      const bool in_ear = std::abs(p.x) > 5 && p.z < 2;
       // In the inner corner flesh lies on the ball.
       const bool behind_lid = length(p - eye) < head::kEyeRadius + 0.06;
-      EXPECT_TRUE(in_ear || behind_lid) << lod << ": " << p.x << " " << p.y << " " << p.z;
+      EXPECT_TRUE(behind_lid) << lod << ": " << p.x << " " << p.y << " " << p.z;
     }
   }
 }
@@ -629,11 +627,10 @@ TEST(ProceduralHead, TeethAndTongueStayInTheClosedMouth) {
         if (p.z > 0 && std::abs(p.x) < 4 && p.y < -3 && p.y > -11) near.push_back(t);
       }
       for (Part part : {Part::kTeeth, Part::kTongue}) {
-        size_t outside = 0;
         for (const Vec3& p : head.pose(part, lod, values)) {
-          outside += front_at(skin, near, p.x, p.y) <= p.z;
+          const double skin_z = front_at(skin, near, p.x, p.y);
+          EXPECT_GT(skin_z, p.z) << name << " LOD " << lod << " at " << p.x << " " << p.y;
         }
-        EXPECT_EQ(outside, 0u) << name << " LOD " << lod;
       }
     }
   }

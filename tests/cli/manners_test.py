@@ -116,9 +116,9 @@ class Terminal(ProgramTest):
 class Numbers(ProgramTest):
     def test_large_numbers_have_separators_and_sizes_units(self):
         text = self.ok("info", path("head.dna")).stdout.decode()
-        self.assertRegex(text, r"size +12\.4 MB, mapped; \d+\.\d MB of memory")
-        self.assertRegex(text, r"vertices +71,837\n")
-        self.assertRegex(text, r"geom +1\.1 +344,484 +12,094,428\n")
+        self.assertRegex(text, r"size +12\.5 MB, mapped; \d+\.\d MB of memory")
+        self.assertRegex(text, r"vertices +72,515\n")
+        self.assertRegex(text, r"geom +1\.1 +347,196 +12,123,028\n")
 
     def test_inspect_states_its_order_and_leaves_out_what_is_tiny(self):
         text = self.ok("inspect", path("small.dna"), "jawOpen").stdout.decode()

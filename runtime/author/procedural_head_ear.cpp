@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// The ear: rings of the skin run around its root, from there over the rim into the bowl.
+#include "runtime/author/procedural_head_skin.h"
+
+namespace mien::head {
+
+using author::exact_sine_cosine;
+using author::kPi;
+using author::mix;
+using author::smooth_step;
+
+/// The place on the head below a place of the root's outline.
+Place SkinMaker::ear_root(double sine, double cosine, double size) const {
+  const double p = cosine * (cosine > 0 ? 0.62 : 0.92), q = sine * (sine > 0 ? 1.75 : 1.70);
+  const Vec3 at =
+      ear_.origin + ear_.back * (p * size * ear_.size) + ear_.up * (q * size * ear_.size);
+  // Its height does not change with the angle by much, its depth does.
+  double low = 0.25 * kPi, high = 0.85 * kPi;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = 0.5 * (low + high);
+    (form_.face(middle, at.y, Side::kAbove).closed.z > at.z ? low : high) = middle;
+  }
+  return {0.5 * (low + high), at.y};
+}
+
+void SkinMaker::place_ear() {
+  ear_.size = 1.2 * form_.person().ear;
+  const auto [sine, cosine] = exact_sine_cosine(0.56);
+  ear_.back = {sine, 0, -cosine};
+  ear_.outward = {cosine, 0, sine};
+  ear_.up = unit({0.10, 1, -0.16});
+  ear_.origin = {form_.face(0.53 * kPi, 0.0, Side::kAbove).closed.x + 0.10, -0.75, -0.8};
+  // The same rows and columns for everyone: room for the largest ear.
+  constexpr double kTop = 2.05, kBottom = -3.45;
+  for (uint32_t r = 0; r < rows_; ++r) {
+    if (heights_[r] < kBottom) ear_block_.low = r;
+    if (heights_[r] < 0.5 * (kBottom + kTop)) ear_block_.middle = r;
+    if (heights_[r] < kTop) ear_block_.high = r + 1;
+  }
+  ear_block_.middle = std::max(ear_block_.middle, ear_block_.low + 1);
+  ear_block_.high = std::max(ear_block_.high, ear_block_.middle + 1);
+  ear_block_.left = eye_.right + grid_.columns[3] * 7 / 10;
+  ear_block_.right = eye_.right + grid_.columns[3] + (grid_.columns[4] > 6 ? 1 : 0);
+}
+
+void SkinMaker::make_ear() {
+  // Share of the outline's radius, height above the plane of the ear, and at least above the head
+  // where the ear grows out of it: behind, over the rim, into the bowl.
+  static constexpr double kFine[][3] = {
+      {0.90, -0.34, 0.04}, {1.00, -0.16, 0.08},  {1.03, 0.04, 0.13},   {0.99, 0.20, 0.17},
+      {0.93, 0.24, 0.17},  {0.86, 0.08, 0.10},   {0.79, -0.10, 0.02},  {0.70, -0.05, 0.0},
+      {0.60, 0.05, -0.02}, {0.50, -0.02, -0.12}, {0.38, -0.26, -0.30}, {0.22, -0.46, -0.46}};
+  static constexpr double kPlain[][3] = {
+      {1.02, 0.02, 0.12}, {0.92, 0.17, 0.15}, {0.60, -0.05, 0.0}, {0.35, -0.28, -0.30}};
+  static constexpr double kPlainest[][3] = {{1.0, 0.1, 0.12}, {0.5, -0.1, -0.05}};
+  const double(*path)[3] = lod_ < 3 ? kFine : lod_ < 6 ? kPlain : kPlainest;
+  const uint32_t rings = lod_ < 3 ? 12 : lod_ < 6 ? 4 : 2;
+  const auto turn = [&](uint32_t k) { return exact_sine_cosine(kPi + 2 * kPi * k / ring_size_); };
+  make_rings(ear_block_, {lod_ < 3 ? 2u : 1u, lod_ < 6 ? 1u : 0u}, 0.5,
+             [&](uint32_t k, bool inner) {
+               const auto [s, c] = turn(k);
+               return ear_root(s, c, inner || lod_ >= 6 ? 1 : 1.14);
+             });
+  if (out_.failed()) return;
+
+  const Color skin = form_.person().skin, red = redder(skin, 0.45);
+  const Color rosy = mix(skin, red, 0.8), deep = redder(mix(skin, {0, 0, 0}, 0.35), 0.5);
+  const double middle_u = 0.5 + 0.5 * 0.53, middle_v = out_.vertices[ring_[0]].v;
+  uint32_t root[kMaxRing], next[kMaxRing];
+  std::copy(ring_, ring_ + ring_size_, root);
+  const auto place = [&](uint32_t k, const double(&step)[3], uint32_t r) {
+    const auto [s, c] = turn(k);
+    const double low = smooth_step(0.2, -1, s);
+    const double p = c * (c > 0 ? mix(1.65, 1.05, low) : mix(0.95, 0.80, low));
+    const double q = s * (s > 0 ? 2.4 : 2.1);
+    // The rim fades towards the lobe and where the ear grows out of the head.
+    const double rim = mix(1, 0.25, std::max(smooth_step(-0.3, -0.9, s), smooth_step(-0.4, -1, c)));
+    double height = step[1] * (step[1] > 0 ? rim : 1);
+    if (step[0] < 0.6) height *= mix(1, 0.35, low);
+    const double size = ear_.size;
+    const Vertex& from = out_.vertices[root[k]];
+    Vec3 at = ear_.origin + ear_.back * (p * step[0] * size) + ear_.up * (q * step[0] * size) +
+              ear_.outward * (height * size);
+    // In front the rim ends in the cheek, with a flap before the bowl.
+    const double in_front = smooth_step(-0.1, -0.75, c) * smooth_step(0.75, 0.35, s);
+    const double flap = 0.20 * in_front * bump(s, step[0], -0.15, 0.80, 0.35, 0.16);
+    const double least = step[2] * (step[2] > 0 ? mix(1, 0.2, in_front) : 1) + flap;
+    at.x = std::max(at.x, from.closed.x + least * size);
+    const double left = 1 - (r + 1.0) / (rings + 1);
+    const double shade = smooth_step(-0.05, -0.4, step[1]) * (r > rings / 2);
+    return plain(at, mix(mix(from.color, rosy, std::min(1.0, 0.4 * (r + 1))), deep, 0.7 * shade),
+                 mix(middle_u, from.u, left), mix(middle_v, from.v, left), Carrier::kSkin);
+  };
+  for (uint32_t r = 0; r < rings; ++r) {
+    for (uint32_t k = 0; k < ring_size_; ++k) next[k] = out_.vertices.add(place(k, path[r], r));
+    for (uint32_t k = 0; k < ring_size_; ++k) {
+      const uint32_t other = (k + 1) % ring_size_;
+      out_.quad(ring_[k], ring_[other], next[other], next[k]);
+    }
+    std::copy(next, next + ring_size_, ring_);
+  }
+  static constexpr double kEnd[] = {0, -0.50, -0.50};
+  Vertex end = place(0, kEnd, rings - 1);
+  end.color = lod_ < 6 ? mix(rosy, deep, 0.7) : rosy;
+  const uint32_t middle = out_.vertices.add(end);
+  for (uint32_t k = 0; k < ring_size_; ++k) {
+    out_.triangle(ring_[k], ring_[(k + 1) % ring_size_], middle);
+  }
+}
+
+}  // namespace mien::head
