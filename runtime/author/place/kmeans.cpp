@@ -6,58 +6,15 @@
 
 #include "runtime/author/dna_making.h"
 #include "runtime/author/mesh/point_tree.h"
-#include "runtime/author/random.h"
+#include "runtime/author/place/kmeans_run.h"
 
 namespace mien::author {
-
-namespace {
-
-double squared_distance(Vec3 a, Vec3 b) {
-  const Vec3 d = a - b;
-  return dot(d, d);
-}
-
-/// One run with its memory.
-struct RunArrays {
-  Span<uint32_t> group;    // per point
-  Span<uint32_t> sizes;    // points of each group
-  Span<double> distances;  // per point, squared, to its mean
-  Span<Vec3> sums;         // per mean
-  Span<double> sum_weights;
-  Span<uint32_t> neighbors;  // per mean, the others by distance
-  Span<double> gaps;         // beside neighbors
-};
-
-struct Run : RunArrays {
-  const KMeansProblem& problem;
-  Span<Vec3> means;
-
-  uint32_t n() const { return static_cast<uint32_t>(problem.points.count); }
-  uint32_t k() const { return static_cast<uint32_t>(means.count); }
-  bool on_plane(uint32_t mean) const { return mean >= problem.free_means; }
-  Vec3 held(uint32_t mean, Vec3 at) const {
-    if (on_plane(mean)) at.x = 0;
-    return at;
-  }
-  /// Free means of a symmetric problem start beside the plane, plane means at it.
-  bool may_start(bool plane, Vec3 at) const {
-    return problem.plane_means == 0 || (at.x <= problem.plane_width) == plane;
-  }
-
-  void start_dense(bool plane, uint32_t from, uint32_t to, Span<const double> cut, Random* random);
-  void start_plus_plus(bool plane, uint32_t from, uint32_t to, Random& random);
-  void sort_neighbors();
-  bool assign();
-  double objective() const;
-  void move_means();
-  void fill_empty_groups();
-};
 
 // Starts: distances hold the squared distance to the means chosen so far -------------------------
 
 /// cut[0]: density that half of the points have; cut[1]: the median of those.
-void Run::start_dense(bool plane, uint32_t from, uint32_t to, Span<const double> cut,
-                      Random* random) {
+void LloydRun::start_dense(bool plane, uint32_t from, uint32_t to, Span<const double> cut,
+                           Random* random) {
   const auto candidate = [&](uint32_t i) {
     return may_start(plane, problem.points[i]) && problem.density[i] >= cut[0];
   };
@@ -93,24 +50,38 @@ void Run::start_dense(bool plane, uint32_t from, uint32_t to, Span<const double>
   }
 }
 
-void Run::start_plus_plus(bool plane, uint32_t from, uint32_t to, Random& random) {
+/// Of several candidates, each with the probability of its share of the sum of squared distances, the
+/// one that leaves the least sum.
+void LloydRun::start_plus_plus(bool plane, uint32_t from, uint32_t to, Random& random) {
+  uint32_t candidates = 2;
+  for (uint32_t left = to - from; left > 2; left = left * 3 / 8) ++candidates;  // 2 + log(means)
   for (uint32_t i = 0; i < n(); ++i) distances[i] = may_start(plane, problem.points[i]) ? 1 : 0;
   for (uint32_t mean = from; mean < to; ++mean) {
     double total = 0;
-    for (uint32_t i = 0; i < n(); ++i) total += problem.weights[i] * distances[i];
-    const double drawn = random.real() * total;
-    uint32_t chosen = n();
-    double passed = 0;
-    for (uint32_t i = 0; i < n() && (chosen == n() || passed <= drawn); ++i) {
-      const double share = problem.weights[i] * distances[i];
-      if (share > 0) chosen = i;
-      passed += share;
+    for (uint32_t i = 0; i < n(); ++i) {
+      total += problem.weights[i] * distances[i];
+      passed[i] = total;
     }
-    // Nothing left to choose from: an empty group, to be filled later.
-    means[mean] = held(mean, problem.points[chosen == n() ? 0 : chosen]);
+    double least = std::numeric_limits<double>::infinity();
+    Vec3 best;
+    for (uint32_t c = 0; c < candidates; ++c) {
+      const double drawn = random.real() * total;
+      const double* found = std::upper_bound(passed.begin(), passed.end(), drawn);
+      if (found == passed.end()) found = std::lower_bound(passed.begin(), passed.end(), total);
+      // Nothing left to choose from: an empty group, to be filled later.
+      const Vec3 at = held(mean, problem.points[total > 0 ? found - passed.begin() : 0]);
+      double sum = 0;
+      for (uint32_t i = 0; i < n() && mean > from; ++i) {
+        sum += problem.weights[i] * std::min(distances[i], squared_distance(problem.points[i], at));
+      }
+      if (!(sum < least)) continue;
+      least = sum;
+      best = at;
+    }
+    means[mean] = best;
     for (uint32_t i = 0; i < n(); ++i) {
       if (!may_start(plane, problem.points[i])) continue;
-      const double d = squared_distance(problem.points[i], means[mean]);
+      const double d = squared_distance(problem.points[i], best);
       distances[i] = mean == from ? d : std::min(distances[i], d);
     }
   }
@@ -118,28 +89,26 @@ void Run::start_plus_plus(bool plane, uint32_t from, uint32_t to, Random& random
 
 // Lloyd's rounds -------------------------------------------------------------------------------------
 
-void Run::sort_neighbors() {
+void LloydRun::sort_neighbors() {
   const uint32_t others = k() - 1;
   for (uint32_t a = 0; a < k(); ++a) {
-    uint32_t* list = neighbors.data + size_t{a} * others;
     uint32_t count = 0;
     for (uint32_t b = 0; b < k(); ++b) {
-      if (b != a) list[count++] = b;
+      if (b != a) row[count++] = {squared_distance(means[b], means[a]), b};
     }
-    const Vec3 at = means[a];
-    std::sort(list, list + others, [&](uint32_t b, uint32_t c) {
-      const double to_b = squared_distance(means[b], at), to_c = squared_distance(means[c], at);
-      return to_b != to_c ? to_b < to_c : b < c;
+    std::sort(row.data, row.data + others, [](const Gap& x, const Gap& y) {
+      return x.distance != y.distance ? x.distance < y.distance : x.mean < y.mean;
     });
     for (uint32_t i = 0; i < others; ++i) {
-      gaps[size_t{a} * others + i] = squared_distance(means[list[i]], at);
+      neighbors[size_t{a} * others + i] = row[i].mean;
+      gaps[size_t{a} * others + i] = row[i].distance;
     }
   }
 }
 
 /// True if a point changed its group. A mean that is more than twice as far from a point's mean as the
 /// point is cannot be nearer, so the search among sorted neighbors ends early.
-bool Run::assign() {
+bool LloydRun::assign() {
   sort_neighbors();
   const uint32_t others = k() - 1;
   bool changed = false;
@@ -169,13 +138,13 @@ bool Run::assign() {
   return changed;
 }
 
-double Run::objective() const {
+double LloydRun::objective() const {
   double sum = 0;
   for (uint32_t i = 0; i < n(); ++i) sum += problem.weights[i] * distances[i];
   return sum;
 }
 
-void Run::move_means() {
+void LloydRun::move_means() {
   for (Vec3& sum : sums) sum = {};
   for (double& weight : sum_weights) weight = 0;
   for (uint32_t i = 0; i < n(); ++i) {
@@ -187,8 +156,33 @@ void Run::move_means() {
   }
 }
 
+/// All points into groups, by the means as they are.
+void LloydRun::gather() {
+  for (uint32_t& g : group) g = 0;
+  for (uint32_t& size : sizes) size = 0;
+  sizes[0] = n();
+  for (uint32_t i = 0; i < n(); ++i) distances[i] = squared_distance(problem.points[i], means[0]);
+  assign();
+}
+
+/// Rounds until no point changes its group.
+void LloydRun::lloyd(KMeansRun& out) {
+  double before = std::numeric_limits<double>::infinity();
+  for (uint32_t round = 0; round < kMaxRounds; ++round, ++out.rounds) {
+    fill_empty_groups();
+    move_means();
+    const bool changed = assign();
+    out.objective = objective();
+    // The last digits may differ although no group changed.
+    if (out.objective > before * (1 + 1e-12)) out.never_rose = false;
+    before = out.objective;
+    out.converged = !changed;
+    if (!changed) break;
+  }
+}
+
 /// The worst served point becomes a group of its own.
-void Run::fill_empty_groups() {
+void LloydRun::fill_empty_groups() {
   for (uint32_t c = 0; c < k(); ++c) {
     if (sizes[c] > 0) continue;
     double worst = 0;
@@ -215,12 +209,7 @@ void Run::fill_empty_groups() {
   }
 }
 
-bool make_arrays(const KMeansProblem& problem, Arena& arena, RunArrays& run) {
-  const size_t n = problem.points.count, k = problem.free_means + problem.plane_means;
-  return make(arena, n, run.group) && make(arena, k, run.sizes) && make(arena, n, run.distances) &&
-         make(arena, k, run.sums) && make(arena, k, run.sum_weights) &&
-         make(arena, k * (k - 1), run.neighbors) && make(arena, k * (k - 1), run.gaps);
-}
+namespace {
 
 struct Task {
   const KMeansProblem* problem;
@@ -234,7 +223,7 @@ void run_one(void* context, uint32_t index) {
   Task& task = *static_cast<Task*>(context);
   const KMeansProblem& problem = *task.problem;
   KMeansRun& out = task.runs[index];
-  Run run = {task.arrays[index], problem, out.means};
+  LloydRun run = {task.arrays[index], problem, out.means};
   Random random = Random::from_seed(task.seed, 0x6B6D65616E73u + index);
   for (uint32_t plane = 0; plane < 2; ++plane) {
     const uint32_t from = plane ? problem.free_means : 0, to = plane ? run.k() : problem.free_means;
@@ -246,24 +235,19 @@ void run_one(void* context, uint32_t index) {
                       out.start == Start::kDenseSpreadRandom ? &random : nullptr);
     }
   }
-  for (uint32_t i = 0; i < run.n(); ++i) run.group[i] = 0;
-  run.sizes[0] = run.n();
-  run.assign();
-  double before = std::numeric_limits<double>::infinity();
-  for (; out.rounds < kMaxRounds; ++out.rounds) {
-    run.fill_empty_groups();
-    run.move_means();
-    const bool changed = run.assign();
-    out.objective = run.objective();
-    // The last digits may differ although no group changed.
-    if (out.objective > before * (1 + 1e-12)) out.never_rose = false;
-    before = out.objective;
-    out.converged = !changed;
-    if (!changed) break;
-  }
+  run.gather();
+  run.lloyd(out);
 }
 
 }  // namespace
+
+bool make_arrays(const KMeansProblem& problem, Arena& arena, RunArrays& run) {
+  const size_t n = problem.points.count, k = problem.free_means + problem.plane_means;
+  return make(arena, k, run.row) && make(arena, n, run.passed) && make(arena, n, run.group) &&
+         make(arena, k, run.sizes) && make(arena, n, run.distances) && make(arena, k, run.sums) &&
+         make(arena, k, run.sum_weights) && make(arena, k * (k - 1), run.neighbors) &&
+         make(arena, k * (k - 1), run.gaps);
+}
 
 bool run_kmeans(const KMeansProblem& problem, uint64_t seed, const ParallelFor& parallel,
                 Arena& arena, const Allocator& allocator, Span<KMeansRun> runs) {

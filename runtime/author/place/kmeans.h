@@ -26,7 +26,9 @@ struct KMeansProblem {
 enum class Start : uint8_t {
   kDenseSpread,        // as the paper: dense regions, well separated
   kDenseSpreadRandom,  // the same from a random first point
-  kPlusPlus            // each with the probability of its squared distance from those before
+  kPlusPlus,           // several with the probability of their squared distance from those before;
+                       // the one that leaves least
+  kSwaps               // from another run: means that are hardly missed move to where they are
 };
 
 struct KMeansRun {
@@ -44,6 +46,11 @@ constexpr uint32_t kMaxRounds = 300;
 /// bits for any threads. False if memory ran out.
 bool run_kmeans(const KMeansProblem& problem, uint64_t seed, const ParallelFor& parallel,
                 Arena& arena, const Allocator& allocator, Span<KMeansRun> runs);
+
+/// Goes on from `from`: as long as the sum falls, means whose loss costs least move into groups that
+/// gain most from a second one, and rounds follow. The same memory and bits as for run_kmeans().
+bool improve_kmeans(const KMeansProblem& problem, const KMeansRun& from, Arena& arena,
+                    const Allocator& allocator, KMeansRun& out);
 
 /// For each point the nearest mean and the next nearest (the same if there is one mean only).
 void nearest_means(Span<const Vec3> points, Span<const Vec3> means, Span<uint32_t> nearest,

@@ -17,6 +17,7 @@ namespace {
 // Of the width of the mask: what is nearer to the plane lies on it.
 constexpr double kOnPlane = 0.02;
 constexpr double kLeastMotionWeight = 0.15;
+constexpr double kCheapWork = 4e6;  // points times means times runs
 
 /// Facial bones of one mean, in the order of their rank.
 struct Unit {
@@ -142,18 +143,35 @@ Status rank_units(Placing& placing, const KMeansRun& chosen, Facial& facial) {
 Status find_facial(Placing& placing, const Allocator& allocator, Facial& facial) {
   PlaceReport& report = placing.report;
   if (Status status = pose_problem(placing, facial.problem); status != Status::kOk) return status;
-  report.run_count = kRuns;
-  for (uint32_t r = 0; r < kRuns; ++r) {
+  // Few points and means have many bad ends, but runs cost next to nothing.
+  const double work = static_cast<double>(facial.problem.points.count) *
+                      (facial.problem.free_means + facial.problem.plane_means);
+  const double affordable = kCheapWork / work;
+  const uint32_t runs = placing.options.paper || affordable < kRuns ? kRuns
+                        : affordable > kMaxRuns                     ? kMaxRuns
+                                                : static_cast<uint32_t>(affordable);
+  report.run_count = runs;
+  for (uint32_t r = 0; r < runs; ++r) {
     report.runs[r].start = r == 0                  ? Start::kDenseSpread
                            : placing.options.paper ? Start::kDenseSpreadRandom
                                                    : Start::kPlusPlus;
   }
   if (!run_kmeans(facial.problem, placing.options.seed, placing.parallel, placing.arena, allocator,
-                  {report.runs, kRuns})) {
+                  {report.runs, runs})) {
     return no_memory(placing);
   }
-  for (uint32_t r = 1; r < kRuns; ++r) {
+  for (uint32_t r = 1; r < runs; ++r) {
     if (report.runs[r].objective < report.runs[report.chosen_run].objective) report.chosen_run = r;
+  }
+  if (!placing.options.paper) {
+    if (!improve_kmeans(facial.problem, report.runs[report.chosen_run], placing.arena, allocator,
+                        report.runs[runs])) {
+      return no_memory(placing);
+    }
+    if (report.runs[runs].objective < report.runs[report.chosen_run].objective) {
+      report.chosen_run = runs;
+    }
+    report.run_count = runs + 1;
   }
   return rank_units(placing, report.runs[report.chosen_run], facial);
 }

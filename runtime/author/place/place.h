@@ -33,7 +33,7 @@ struct PlaceOptions {
 enum class NeckSplit : uint8_t { kNoNeck, kLinkage, kAreaLinkage, kPlane };
 
 constexpr uint32_t kMaxGroups = 16;
-constexpr uint32_t kRuns = 8;
+constexpr uint32_t kRuns = 8, kMaxRuns = 32;  // and one more, which goes on from the best
 
 struct PlaceReport {
   bool face_only = false;  // no back of the head: no groups
@@ -48,7 +48,7 @@ struct PlaceReport {
   uint32_t mask_places = 0, added_by_shapes = 0;
   double symmetry_error = 0;  // mean distance of mirrored places to the mesh, part of the diagonal
   uint32_t asked_joints = 0;
-  KMeansRun runs[kRuns];
+  KMeansRun runs[kMaxRuns + 1];
   uint32_t run_count = 0, chosen_run = 0;
   double spacing = 0;                 // median distance of a facial bone to the nearest other
   double uncovered = 0;               // part of the mask farther than twice that from all bones

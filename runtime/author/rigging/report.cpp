@@ -169,6 +169,7 @@ const char* start_name(Start start) {
     case Start::kDenseSpread: return "dense_spread";
     case Start::kDenseSpreadRandom: return "dense_spread_random";
     case Start::kPlusPlus: return "kmeans++";
+    case Start::kSwaps: return "swaps";
   }
   return "";
 }
