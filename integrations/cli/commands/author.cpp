@@ -262,6 +262,12 @@ void note_oddities(const AuthorCommand& command, const Json& report, const Sessi
     note(session, "the face's mesh measures " + std::to_string(size) +
                       " cm from corner to corner; choose the unit with --unit");
   }
+  const double next = report["mesh"]["next_area"].get<double>();
+  if (next > 0.5) {
+    note(session, "another surface has " + std::to_string(std::lround(100 * next)) +
+                      " % of the area of the face's: one face is rigged, the rest follows it or is "
+                      "rigid; choose with --face-object or --crop");
+  }
   const uint64_t facial = report["facial_joints"].get<uint64_t>();
   if (facial < parse_number("--joints", command.joints, 7000)) {
     note(session, "the face has room for " + std::to_string(facial) + " facial joints only");

@@ -76,6 +76,7 @@ struct AuthorMesh {
   Span<const uint32_t> component;  // per vertex: connected component of the welded mesh
   uint32_t component_count = 0;
   Span<const uint8_t> is_skin;  // per vertex: of the surface that facial bones move
+  double next_area = 0;         // of the largest other component, in shares of the skin's
 
   Span<const Part> parts;
   Span<const Shape> shapes;

@@ -269,11 +269,12 @@ bool choose_skin(const MeshSource& source, Arena& arena, Arena& scratch, AuthorM
                  uint32_t& out_component) {
   const size_t n = mesh.positions.count;
   Span<double> areas, motion;
-  Span<double> totals[2];
+  Span<double> totals[2], all_areas;
   Span<uint8_t> is_skin;
   if (!make(scratch, n, areas) || !make(scratch, n, motion) ||
       !make(scratch, mesh.component_count, totals[0]) ||
-      !make(scratch, mesh.component_count, totals[1]) || !make(arena, n, is_skin)) {
+      !make(scratch, mesh.component_count, totals[1]) ||
+      !make(scratch, mesh.component_count, all_areas) || !make(arena, n, is_skin)) {
     return false;
   }
   vertex_areas(mesh, areas);
@@ -299,7 +300,14 @@ bool choose_skin(const MeshSource& source, Arena& arena, Arena& scratch, AuthorM
     const double* b[2] = {&totals[1][c], &totals[1][out_component]};
     if (*a[0] > *a[1] || (*a[0] == *a[1] && *b[0] > *b[1])) out_component = c;
   }
-  for (uint32_t v = 0; v < n; ++v) is_skin[v] = mesh.component[v] == out_component;
+  for (uint32_t v = 0; v < n; ++v) {
+    is_skin[v] = mesh.component[v] == out_component;
+    all_areas[mesh.component[v]] += areas[v];
+  }
+  for (uint32_t c = 0; c < mesh.component_count && named; ++c) {
+    if (c == out_component || !(all_areas[out_component] > 0)) continue;
+    mesh.next_area = std::max(mesh.next_area, all_areas[c] / all_areas[out_component]);
+  }
   mesh.is_skin = is_skin;
   return true;
 }

@@ -31,13 +31,27 @@ void measure_groups(const dna::Joints& joints, GroupReport& report) {
   }
 }
 
+/// Diagonal of the box of the mask: what else the mesh has, as a body, does not change what counts as
+/// small on the face.
+double size_of_face(const AuthorMesh& mesh, const Placement& placement) {
+  if (placement.mask.empty()) return mesh.diagonal;
+  Vec3 low = mesh.positions[placement.mask[0]], high = low;
+  for (const uint32_t v : placement.mask) {
+    const Vec3 p = mesh.positions[v];
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return length(high - low);
+}
+
 class RigMaker {
  public:
   RigMaker(const AuthorMesh& mesh, const Placement& placement, const RigOptions& options,
            Arena& arena, const Allocator& allocator, RigReport& report)
       : mesh_(mesh), placement_(placement), options_(options), arena_(arena), scratch_(allocator),
         allocator_(allocator),
-        report_(report), model_{mesh_, placement, options.name, {}, {}, {}, {}, {}, {}} {}
+        report_(report), model_{mesh_, placement, options.name, {}, {}, {}, {}, {}, {}},
+        face_size_(size_of_face(mesh, placement)) {}
 
   bool make(Span<SkinWeights> weights, dna::DnaView& out) {
     return find_controls() && make_deltas() &&
@@ -124,8 +138,8 @@ class RigMaker {
     if (!starts("groups") || !group_bones(fitter.footprints)) return false;
     for (size_t s = 0; s < mesh_.shapes.count; ++s) {
       const PruneReport pruned =
-          prune(placement_, fitter.footprints, model_.regions,
-                options_.least_effect * mesh_.diagonal, options_.full_groups, s, motions_);
+          prune(placement_, fitter.footprints, model_.regions, options_.least_effect * face_size_,
+                options_.full_groups, s, motions_);
       groups.pruned.outliers += pruned.outliers;
       groups.pruned.faint += pruned.faint;
     }
@@ -197,8 +211,8 @@ class RigMaker {
     report.joints = static_cast<uint32_t>(placement_.bones.count) - placement_.facial_count + kept;
     lod.weights = weights[l < weights.count ? l : 0];
     FitError error;
+    SkinWeights collapsed;
     if (l > 0) {
-      SkinWeights collapsed;
       if (!make_weights_like(weights[0], scratch_, collapsed) ||
           !collapse_weights(placement_, kept, weights[0], scratch_, collapsed) ||
           !measure(collapsed, {}, error)) {
@@ -214,7 +228,10 @@ class RigMaker {
       if (!make_weights_like(weights[0], scratch_, refitted)) return false;
       refit(lod.weights, refitted);
       lod.weights = refitted;
-      if (!measure(lod.weights, {}, error)) return false;
+      if (!measure(refitted, {}, error) ||
+          (report.collapsed_error < report.new_error && !try_collapsed(collapsed, lod, error))) {
+        return false;
+      }
     }
     report.joints_error = error.error;
     if (l == 0) report_.joints = error;
@@ -226,14 +243,29 @@ class RigMaker {
     return true;
   }
 
+  /// Refits the other start, too, and keeps it if less is left.
+  bool try_collapsed(const SkinWeights& collapsed, LodModel& lod, FitError& error) {
+    SkinWeights refitted;
+    FitError found;
+    if (!make_weights_like(collapsed, scratch_, refitted)) return false;
+    refit(collapsed, refitted);
+    if (!measure(refitted, {}, found)) return false;
+    if (found.error < error.error) {
+      lod.weights = refitted;
+      error = found;
+    }
+    return true;
+  }
+
   /// LOD 0 has targets for all controls, LOD 1 for the expressions that need them most.
   bool make_shape_targets(uint32_t l, LodModel& lod) {
     Span<Target> targets, all;
-    if (!make_targets(mesh_, lod.weights, motions_, options_.residual_threshold * mesh_.diagonal,
+    if (!make_targets(mesh_, lod.weights, motions_, options_.residual_threshold * face_size_,
                       options_.parallel, scratch_, targets)) {
       return false;
     }
     if (l == 0) {
+      report_.target_threshold = options_.residual_threshold * face_size_;
       size_t moving = 0;
       for (uint32_t s = 0; s < targets.count; ++s) {
         moving += mesh_.shapes[s].moving.count;
@@ -295,8 +327,8 @@ class RigMaker {
     fill_footprints(mesh_.positions, weights, options_.parallel, fitter.footprints);
     CorrectiveInput input = {fitter, mesh_, placement_, weights, model_.regions, {}, 0, -1, {}};
     input.combinations = model_.combinations;
-    input.least_effect = options_.least_effect * mesh_.diagonal;
-    if (options_.residual_targets) input.threshold = options_.residual_threshold * mesh_.diagonal;
+    input.least_effect = options_.least_effect * face_size_;
+    if (options_.residual_targets) input.threshold = options_.residual_threshold * face_size_;
     input.parallel = options_.parallel;
     return fit_correctives(input, scratch_, allocator_, model_.deltas, targets,
                            report_.correctives);
@@ -323,6 +355,7 @@ class RigMaker {
   const Allocator& allocator_;
   RigReport& report_;
   RigModel model_;
+  double face_size_;
   Motions motions_;
   Span<Target> targets_;  // of LOD 0, by control
 };

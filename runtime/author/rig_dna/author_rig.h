@@ -11,11 +11,12 @@ namespace mien::author {
 
 struct RigOptions {
   FitOptions fit;
-  bool residual_targets = true;      // what joints cannot do becomes blend shape targets
-  double residual_threshold = 1e-3;  // shorter offsets are left out; in shares of the diagonal
-  uint32_t regions = 0;              // joint groups; 0: as many as have kRowsPerGroup rows each
-  bool full_groups = true;           // a control moves all joints of the regions that it owns
-  double least_effect = 2e-4;        // of an entry of the matrix; in shares of the diagonal
+  bool residual_targets = true;  // what joints cannot do becomes blend shape targets
+  double residual_threshold =
+      1e-3;                    // shorter offsets are left out; in shares of the face's diagonal
+  uint32_t regions = 0;        // joint groups; 0: as many as have kRowsPerGroup rows each
+  bool full_groups = true;     // a control moves all joints of the regions that it owns
+  double least_effect = 2e-4;  // of an entry of the matrix; likewise
   uint32_t overlap_correctives = 0;  // at most as many, for pairs that double their motion
   bool keep_weights = false;         // the weights are the caller's own: fit motions only
   Span<const uint8_t> own_regions;   // one per bone; empty: found
@@ -41,7 +42,7 @@ struct LodReport {
   uint32_t joints = 0, channels = 0;
   double collapsed_error = 0;  // with dropped bones' weights on the nearest bone that is left
   double new_error = 0;        // with new weights
-  double joints_error = 0;     // with weights refitted to the shapes
+  double joints_error = 0;     // with the better of both, refitted to the shapes
   double error = 0;            // of the file, with blend shapes
 };
 
@@ -53,6 +54,7 @@ struct RigReport {
   FitError rig;           // with blend shapes: of the file
   CorrectiveReport correctives;
   uint32_t target_count = 0, target_vertices = 0;  // of expressions
+  double target_threshold = 0;                     // shorter offsets were left out
   double target_share = 0;  // of the displacements of moving vertices, those with an offset
   GroupReport groups;
   Span<LodReport> lods;

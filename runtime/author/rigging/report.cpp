@@ -243,6 +243,18 @@ void write_bones(const Rigging& rigging, Json& json) {
   json.close("]");
 }
 
+void write_weights(const char* key, const WeightReport& weights, Json& json) {
+  json.key(key).open("{");
+  json.key("influences").whole(weights.max_influences);
+  json.key("worst_sum").number(weights.worst_sum);
+  json.key("split_supports").whole(weights.split_supports);
+  json.key("roughness").number(weights.roughness);
+  json.key("idle_bones").whole(weights.idle_bones);
+  json.key("rigid_components").whole(weights.rigid_components);
+  json.key("following_components").whole(weights.following_components);
+  json.close("}");
+}
+
 bool write_mask(const MeshSource& source, const Rigging& rigging, Arena& arena, Json& json) {
   Span<uint8_t> in;
   if (!make(arena, source.positions.count / 3, in)) return false;
@@ -286,6 +298,7 @@ void write_fit(const Rigging& rigging, Json& json) {
     }
     json.key("correctives").whole(rig.correctives.given + rig.correctives.made);
     json.key("targets").whole(rig.target_count);
+    json.key("target_threshold").number(rig.target_threshold);
     json.key("target_vertices").whole(rig.target_vertices);
     json.key("target_share").number(rig.target_share);
     json.close("}");
@@ -345,6 +358,7 @@ bool write_report(const MeshSource& source, const RiggingOptions& options, const
   json.key("objects").whole(mesh.parts.count);
   json.key("components").whole(mesh.component_count);
   json.key("shapes").whole(mesh.shapes.count);
+  json.key("next_area").number(mesh.next_area);
   json.key("diagonal").number(mesh.diagonal);
   json.close("}");
   json.key("seed").whole(options.place.seed);
@@ -379,16 +393,8 @@ bool write_report(const MeshSource& source, const RiggingOptions& options, const
     json.word("null");
   }
   json.key("eyes").whole(place.eye_joints);
-  json.key("weights").open("{");
-  const WeightReport& weights = rigging.made_weights;
-  json.key("influences").whole(weights.max_influences);
-  json.key("worst_sum").number(weights.worst_sum);
-  json.key("split_supports").whole(weights.split_supports);
-  json.key("roughness").number(weights.roughness);
-  json.key("idle_bones").whole(weights.idle_bones);
-  json.key("rigid_components").whole(weights.rigid_components);
-  json.key("following_components").whole(weights.following_components);
-  json.close("}");
+  write_weights("weights", rigging.made_weights, json);
+  if (!mesh.shapes.empty()) write_weights("fitted_weights", rigging.fitted_weights, json);
   write_fit(rigging, json);
   write_bones(rigging, json);
   if (!write_mask(source, rigging, arena, json)) return false;

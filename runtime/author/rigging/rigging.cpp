@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/author/rigging/rigging.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "runtime/author/dna_making.h"
@@ -258,21 +259,27 @@ Status make_rig(const MeshSource& source, const RiggingOptions& options, Arena& 
   const bool own_weights = options.weights.weights.count > 0;
   Span<SkinWeights> lods;
   if (!make(arena, own_weights ? 1 : options.place.lods, lods)) return no_memory(error);
-  for (uint32_t lod = 0; lod < lods.count; ++lod) {
-    if (own_weights) {
-      status = take_weights(source, options, out, arena, lods[0], error);
-      if (status != Status::kOk) return status;
-      continue;
+  if (own_weights) {
+    status = take_weights(source, options, out, arena, lods[0], error);
+    if (status != Status::kOk) return status;
+  }
+  for (uint32_t first = 0; first < lods.count && !own_weights; first += kWeightLanes) {
+    const uint32_t count =
+        std::min<uint32_t>(static_cast<uint32_t>(lods.count) - first, kWeightLanes);
+    WeightOptions weigh[kWeightLanes];
+    for (uint32_t l = 0; l < count; ++l) {
+      // Shapes choose among more joints where most are gone.
+      const bool chooses = first + l > 0 && !mesh.shapes.empty();
+      weigh[l].influences = chooses ? kMaxAuthorInfluences : options.influences;
+      weigh[l].facial_bones = out.placement.lod_facial_counts[first + l];
     }
-    WeightOptions weigh;
-    // Shapes choose among more joints where most are gone.
-    weigh.influences = lod > 0 && !mesh.shapes.empty() ? kMaxAuthorInfluences : options.influences;
-    weigh.facial_bones = out.placement.lod_facial_counts[lod];
-    if (!make_skin_weights(mesh, out.placement, weigh, arena, allocator, lods[lod])) {
+    if (!make_lod_weights(mesh, out.placement, {weigh, count}, options.parallel, arena, allocator,
+                          lods.slice(first, count))) {
       return no_memory(error);
     }
-    if (!steps.go_on("weights", 0.15 + 0.15 * (lod + 1.0) / static_cast<double>(lods.count)))
+    if (!steps.go_on("weights", 0.15 + 0.15 * (first + count) / static_cast<double>(lods.count))) {
       return canceled();
+    }
   }
   if (!measure_weights(mesh, out.placement, lods[0], allocator, out.made_weights)) {
     return no_memory(error);
@@ -291,6 +298,10 @@ Status make_rig(const MeshSource& source, const RiggingOptions& options, Arena& 
     return steps.stopped ? canceled() : no_memory(error);
   }
   out.weights = lods[0];
+  if (!mesh.shapes.empty() &&
+      !measure_weights(mesh, out.placement, lods[0], allocator, out.fitted_weights)) {
+    return no_memory(error);
+  }
   return Status::kOk;
 }
 

@@ -47,8 +47,8 @@ struct Rigging {
   ReadMesh read;
   Placement placement;
   PlaceReport place;
-  SkinWeights weights;  // of LOD 0, as they are written
-  WeightReport made_weights;
+  SkinWeights weights;                        // of LOD 0, as they are written
+  WeightReport made_weights, fitted_weights;  // before and after the fit to shapes
   RigReport rig;
   dna::DnaView dna;
 };

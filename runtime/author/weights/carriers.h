@@ -39,4 +39,12 @@ InfluenceList load(uint32_t vertex, const SkinWeights& from);
 bool carry_components(const AuthorMesh& mesh, const Placement& placement, uint32_t head,
                       Arena& scratch, SkinWeights& out, WeightReport* report);
 
+/// Median distance of the first facial bones to the nearest other; of the diagonal where there is one
+/// bone. False if memory ran out.
+bool find_median_spacing(const Placement& placement, uint32_t facial, double diagonal,
+                         Arena& scratch, double& out);
+
+/// The first bone of a kind, or `otherwise`.
+uint32_t bone_of_kind(const Placement& placement, BoneKind kind, uint32_t otherwise);
+
 }  // namespace mien::author

@@ -2,6 +2,7 @@
 #include "runtime/author/weights/skin_weights.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "runtime/author/dna_making.h"
@@ -286,33 +287,6 @@ bool connect_supports(Weighing& w) {
   return true;
 }
 
-/// False if memory ran out.
-bool find_median_spacing(const Placement& placement, uint32_t facial, double diagonal,
-                         Arena& scratch, double& out) {
-  Span<double> gaps;
-  out = diagonal / 4;
-  if (facial < 2) return true;
-  if (!make(scratch, facial, gaps)) return false;
-  for (uint32_t a = 0; a < facial; ++a) {
-    gaps[a] = std::numeric_limits<double>::infinity();
-    for (uint32_t b = 0; b < facial; ++b) {
-      if (a == b) continue;
-      gaps[a] = std::min(gaps[a], length(placement.bones[placement.first_facial + a].position -
-                                         placement.bones[placement.first_facial + b].position));
-    }
-  }
-  std::sort(gaps.begin(), gaps.end());
-  out = std::max(gaps[facial / 2], 1e-6 * diagonal);
-  return true;
-}
-
-uint32_t bone_of_kind(const Placement& placement, BoneKind kind, uint32_t otherwise) {
-  for (uint32_t b = 0; b < placement.bones.count; ++b) {
-    if (placement.bones[b].kind == kind) return b;
-  }
-  return otherwise;
-}
-
 }  // namespace
 
 double InfluenceList::sum() const {
@@ -357,13 +331,19 @@ InfluenceList load(uint32_t vertex, const SkinWeights& from) {
   return list;
 }
 
-bool make_skin_weights(const AuthorMesh& mesh, const Placement& placement,
-                       const WeightOptions& options, Arena& arena, const Allocator& allocator,
-                       SkinWeights& out) {
+namespace {
+
+bool make_slots(const AuthorMesh& mesh, uint32_t influences, Arena& arena, SkinWeights& out) {
+  out.m = influences;
+  const size_t count = mesh.positions.count * influences;
+  return make(arena, count, out.joints) && make(arena, count, out.weights);
+}
+
+/// Fills `out`, which has its memory.
+bool weigh(const AuthorMesh& mesh, const Placement& placement, const WeightOptions& options,
+           const Allocator& allocator, SkinWeights& out) {
   Arena scratch(allocator);
   const size_t n = mesh.positions.count;
-  out.m = options.influences;
-  if (!make(arena, n * out.m, out.joints) || !make(arena, n * out.m, out.weights)) return false;
   Weighing w = {mesh, placement, scratch, out};
   w.facial = std::min(options.facial_bones, placement.facial_count);
   w.lists = out.m + 1;
@@ -385,95 +365,82 @@ bool make_skin_weights(const AuthorMesh& mesh, const Placement& placement,
   return carry_components(mesh, placement, w.head, scratch, out, nullptr);
 }
 
-bool measure_weights(const AuthorMesh& mesh, const Placement& placement, const SkinWeights& weights,
-                     const Allocator& allocator, WeightReport& out) {
-  out = WeightReport();
-  Arena scratch(allocator);
-  const size_t n = mesh.positions.count;
-  const uint32_t m = weights.m;
-  SurfaceGraph graph;
-  Span<uint32_t> seen, stack, dominant, pieces;
-  Span<double> steps;
-  if (!make_surface_graph(mesh, scratch, scratch, graph) || !make(scratch, n, seen) ||
-      !make(scratch, n, stack) || !make(scratch, placement.bones.count, dominant) ||
-      !make(scratch, placement.bones.count, pieces) ||
-      !make(scratch, graph.neighbors.count, steps)) {
-    return false;
+/// Memory of one task: the caller's allocator serves the calling thread only. Nothing is given back
+/// before all of it.
+struct Block {
+  uint8_t* data = nullptr;
+  size_t size = 0, used = 0;
+
+  Allocator allocator(size_t arena_chunk) {
+    return {this,
+            [](void* user, size_t wanted, size_t alignment) -> void* {
+              Block& block = *static_cast<Block*>(user);
+              const size_t at = align_up(block.used, alignment);
+              if (at > block.size || wanted > block.size - at) return nullptr;
+              block.used = at + wanted;
+              return block.data + at;
+            },
+            [](void*, void*, size_t, size_t) {}, arena_chunk};
   }
-  for (uint32_t v = 0; v < n; ++v) {
-    double sum = 0;
-    uint32_t used = 0;
-    for (uint32_t i = 0; i < m; ++i) {
-      const float weight = weights.weights[size_t{v} * m + i];
-      sum += double{weight};
-      used += weight > 0;
-    }
-    out.worst_sum = std::max(out.worst_sum, std::abs(sum - 1));
-    out.max_influences = std::max(out.max_influences, used);
-    if (mesh.is_skin[v] && m > 0) ++dominant[weights.joints[size_t{v} * m]];
-  }
-  const auto weight_of = [&](uint32_t v, uint32_t bone) {
-    for (uint32_t i = 0; i < m; ++i) {
-      if (weights.joints[size_t{v} * m + i] == bone && weights.weights[size_t{v} * m + i] > 0) {
-        return double{weights.weights[size_t{v} * m + i]};
-      }
-    }
-    return 0.0;
+};
+
+/// What weighing mostly needs, with room for queues that grow.
+size_t likely_memory(const AuthorMesh& mesh, uint32_t influences) {
+  const size_t lists = influences + 1;
+  return mesh.positions.count * (lists * 64 + 512) + mesh.triangles.count * 64 + 65536;
+}
+
+}  // namespace
+
+bool make_skin_weights(const AuthorMesh& mesh, const Placement& placement,
+                       const WeightOptions& options, Arena& arena, const Allocator& allocator,
+                       SkinWeights& out) {
+  return make_slots(mesh, options.influences, arena, out) &&
+         weigh(mesh, placement, options, allocator, out);
+}
+
+bool make_lod_weights(const AuthorMesh& mesh, const Placement& placement,
+                      Span<const WeightOptions> options, const ParallelFor& parallel, Arena& arena,
+                      const Allocator& allocator, Span<SkinWeights> out) {
+  assert(options.count <= kWeightLanes);
+  struct Lane {
+    Block block;
+    bool done = false;
   };
-  // Pieces of each facial bone's vertices on the skin.
-  uint32_t stamp = 0;
-  for (uint32_t b = placement.first_facial; b < placement.first_facial + placement.facial_count;
-       ++b) {
-    ++stamp;
-    for (uint32_t v = 0; v < n; ++v) {
-      if (!mesh.is_skin[v] || mesh.welded[v] != v || seen[v] == stamp || !(weight_of(v, b) > 0)) {
-        continue;
-      }
-      ++pieces[b];
-      uint32_t count = 0;
-      stack[count++] = v;
-      seen[v] = stamp;
-      while (count > 0) {
-        const uint32_t from = stack[--count];
-        for (uint32_t e = graph.starts[from]; e < graph.starts[from + 1]; ++e) {
-          const uint32_t to = graph.neighbors[e];
-          if (seen[to] == stamp || !(weight_of(to, b) > 0)) continue;
-          seen[to] = stamp;
-          stack[count++] = to;
-        }
-      }
+  struct Task {
+    const AuthorMesh& mesh;
+    const Placement& placement;
+    Span<const WeightOptions> options;
+    Span<SkinWeights> out;
+    size_t arena_chunk;
+    Lane lanes[kWeightLanes] = {};
+  } task = {mesh, placement, options, out, allocator.arena_chunk};
+  for (size_t l = 0; l < out.count; ++l) {
+    if (!make_slots(mesh, options[l].influences, arena, out[l])) return false;
+  }
+  Arena blocks(allocator);
+  if (parallel.run && out.count > 1) {
+    for (size_t l = 0; l < out.count; ++l) {
+      Block& block = task.lanes[l].block;
+      block.size = likely_memory(mesh, options[l].influences);
+      block.data = static_cast<uint8_t*>(blocks.allocate(block.size, kBlockAlignment));
+      if (!block.data) return false;
     }
-    out.split_supports += pieces[b] > 1;
-    out.idle_bones += dominant[b] == 0;
+    run_tasks(
+        parallel, static_cast<uint32_t>(out.count),
+        [](void* context, uint32_t l) {
+          Task& t = *static_cast<Task*>(context);
+          t.lanes[l].done = weigh(t.mesh, t.placement, t.options[l],
+                                  t.lanes[l].block.allocator(t.arena_chunk), t.out[l]);
+        },
+        &task);
+    blocks.clear();
   }
-  double spacing = 0;
-  if (!find_median_spacing(placement, placement.facial_count, mesh.diagonal, scratch, spacing)) {
-    return false;
+  // One after the other, or where more was needed than is likely.
+  for (size_t l = 0; l < out.count; ++l) {
+    if (!task.lanes[l].done && !weigh(mesh, placement, options[l], allocator, out[l])) return false;
   }
-  size_t edges = 0;
-  for (uint32_t v = 0; v < n; ++v) {
-    for (uint32_t e = graph.starts[v]; e < graph.starts[v + 1] && mesh.is_skin[v]; ++e) {
-      const uint32_t to = graph.neighbors[e];
-      if (to < v || !(graph.lengths[e] > 0)) continue;
-      double difference = 0;
-      for (uint32_t i = 0; i < m; ++i) {
-        const uint32_t a = weights.joints[size_t{v} * m + i],
-                       b = weights.joints[size_t{to} * m + i];
-        const double in_a = double{weights.weights[size_t{v} * m + i]};
-        const double in_b = double{weights.weights[size_t{to} * m + i]};
-        if (in_a > 0) difference += std::abs(in_a - weight_of(to, a));
-        if (in_b > 0 && !(weight_of(v, b) > 0)) difference += in_b;
-      }
-      steps[edges++] = difference * spacing / graph.lengths[e];
-    }
-  }
-  if (edges > 0) {
-    std::sort(steps.data, steps.data + edges);
-    out.roughness = steps[std::min(edges - 1, edges * 95 / 100)];
-  }
-  const uint32_t head = bone_of_kind(placement, BoneKind::kHead, 0);
-  SkinWeights none;
-  return carry_components(mesh, placement, head, scratch, none, &out);
+  return true;
 }
 
 }  // namespace mien::author

@@ -41,6 +41,14 @@ bool make_skin_weights(const AuthorMesh& mesh, const Placement& placement,
                        const WeightOptions& options, Arena& arena, const Allocator& allocator,
                        SkinWeights& out);
 
+constexpr uint32_t kWeightLanes = 4;  // LODs that are weighed at once at most
+
+/// The same for up to kWeightLanes LODs, each with its options, in parallel. The bits are those of
+/// one after the other.
+bool make_lod_weights(const AuthorMesh& mesh, const Placement& placement,
+                      Span<const WeightOptions> options, const ParallelFor& parallel, Arena& arena,
+                      const Allocator& allocator, Span<SkinWeights> out);
+
 /// Measures weights, also those of a caller. False if memory ran out.
 bool measure_weights(const AuthorMesh& mesh, const Placement& placement, const SkinWeights& weights,
                      const Allocator& allocator, WeightReport& out);
