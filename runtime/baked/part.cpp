@@ -30,7 +30,6 @@ PartReader::PartReader(const Baked& baked, const BakedPart& part, uint32_t versi
 }
 
 void PartReader::damaged(uint64_t offset, const char* what) {
-  if (status_ != Status::kOk) return;
   status_ = fail(error_, Status::kBakedStructure, offset,
                  "%s: the baked file is damaged; bake it again", what);
 }

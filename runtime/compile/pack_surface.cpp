@@ -60,10 +60,6 @@ bool faces_point_inward(const MeshSource& source, const DeformMesh& mesh,
   const dna::FileCoordinateSystem& axes = source.view.desc.coordinate_system;
   const uint32_t named[3] = {axes.x_axis, axes.y_axis, axes.z_axis};
   static constexpr uint32_t kRightUpFront[3] = {1, 2, 4};
-  // Nothing else reads the axes, so a file may have any numbers there.
-  for (uint32_t direction : named) {
-    if (direction > 5) return clockwise;
-  }
   const Matrix3 axes_to_canonical = change_of_axes(named, kRightUpFront);
   const auto row = [&](int r) {
     return Vec3{axes_to_canonical.m[r][0], axes_to_canonical.m[r][1], axes_to_canonical.m[r][2]};

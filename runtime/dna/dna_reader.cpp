@@ -552,7 +552,7 @@ class DnaReader {
 
   // A section ends where the next one in the file begins; the last one before the end marker.
   size_t section_end(int section) const {
-    size_t end = size_ >= kSectionTableEnd + 3 ? size_ - 3 : size_;
+    size_t end = size_ - 3;  // sections in seven places take more
     if (end < sections_[section]) end = sections_[section];
     for (int other = 0; other < kSectionCount; ++other) {
       if (other == kSBehavior) continue;
@@ -563,9 +563,10 @@ class DnaReader {
 
   void check_end_marker() {
     const size_t at = geometry_end_;
-    const uint8_t* marker = size_ - at < 3 ? nullptr : fetch(at, 3);
-    if (size_ - at >= 3 && !marker) return;
-    if (!marker || memcmp(marker, "AND", 3) != 0) {
+    const uint8_t* marker =
+        fetch(at, 3);  // a geometry that was read ends three bytes before the file
+    if (!marker) return;
+    if (memcmp(marker, "AND", 3) != 0) {
       report(Status::kDnaStructure, at, "",
              "the end marker \"AND\" is missing: the file is truncated or damaged");
     } else if (sink_.thorough && size_ - at > 3) {

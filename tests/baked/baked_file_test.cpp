@@ -478,6 +478,20 @@ TEST(BakedFile, MissingPartsAreReported) {
   }
 }
 
+TEST(BakedFile, PartsThatGoOnBehindTheirArraysAreRefused) {
+  const Bytes whole = TinyObjects().baked();
+  for (size_t longer = 0; longer < 2; ++longer) {
+    std::vector<std::pair<BakedPart, Bytes>> parts = {part_of(whole, 0), part_of(whole, 1)};
+    parts[longer].second.resize(parts[longer].second.size() + 128);
+    const AlignedBytes file(file_of_parts(parts));
+    const BakedHandle baked = open_baked(file);
+    const RigHandle rig =
+        rig_of(baked, MIEN_ISA_BEST, longer == 0 ? MIEN_ERROR_BAKED_STRUCTURE : MIEN_OK);
+    if (!rig) continue;
+    EXPECT_FALSE(deformer_of(baked, rig, MIEN_ISA_BEST, MIEN_ERROR_BAKED_STRUCTURE));
+  }
+}
+
 TEST(BakedFile, TwoRigsAreRefused) {
   const Bytes whole = TinyObjects().baked();
   const AlignedBytes file(file_of_parts({part_of(whole, 0), part_of(whole, 0)}));

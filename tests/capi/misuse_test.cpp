@@ -287,6 +287,9 @@ TEST_F(Misuse, NullInputs) {
 // Structs that only grow --------------------------------------------------------------------------
 
 /// Every size but the right one; `call` takes the struct and an error.
+/// What is found in a struct whose size was never set: no call may take it for one.
+constexpr size_t kNeverSet[] = {4097, 65536, 0xCCCCCCCC, SIZE_MAX / 2, SIZE_MAX};
+
 template <class Desc, class Call>
 void check_input_struct(Call&& call) {
   Longer<Desc> longer;
@@ -303,6 +306,13 @@ void check_input_struct(Call&& call) {
     Desc shorter = sized<Desc>();
     shorter.struct_size = size;
     EXPECT_EQ(call(&shorter, nullptr), MIEN_ERROR_STRUCT_SIZE) << size;
+  }
+  for (const size_t size : kNeverSet) {
+    // Zeros behind it, as far as a call could be led to look.
+    alignas(Desc) uint8_t memory[8192] = {};
+    Desc* never_set = reinterpret_cast<Desc*>(memory);
+    never_set->struct_size = size;
+    EXPECT_EQ(call(never_set, nullptr), MIEN_ERROR_STRUCT_SIZE) << size;
   }
   EXPECT_EQ(call(static_cast<const Desc*>(nullptr), nullptr), MIEN_OK);
 }
@@ -370,6 +380,14 @@ void check_output_struct(Call&& call) {
     EXPECT_EQ(call(&shorter), MIEN_ERROR_STRUCT_SIZE) << size;
     EXPECT_EQ(memcmp(&shorter, &before, sizeof(Out)), 0) << "its size is not to be trusted";
   }
+  for (const size_t size : kNeverSet) {
+    Bytes memory(8192, 0xCC);
+    memcpy(memory.data(), &exact, sizeof(Out));
+    reinterpret_cast<Out*>(memory.data())->struct_size = size;
+    const Bytes before = memory;
+    EXPECT_EQ(call(reinterpret_cast<Out*>(memory.data())), MIEN_ERROR_STRUCT_SIZE) << size;
+    EXPECT_EQ(memory, before) << size;
+  }
 }
 
 TEST_F(Misuse, OutputStructs) {
@@ -425,6 +443,14 @@ TEST_F(Misuse, ErrorsOfTheWrongSizeEndTheCall) {
       const MienError before = error;
       EXPECT_EQ(call(&error), MIEN_ERROR_STRUCT_SIZE);
       EXPECT_EQ(memcmp(&error, &before, sizeof(error)), 0);
+    }
+    for (const size_t never_set : kNeverSet) {
+      Bytes memory(8192, 0xCC);
+      MienError* error = reinterpret_cast<MienError*>(memory.data());
+      error->struct_size = never_set;
+      const Bytes before = memory;
+      EXPECT_EQ(call(error), MIEN_ERROR_STRUCT_SIZE);
+      EXPECT_EQ(memory, before) << never_set;
     }
   }
   EXPECT_EQ(opened, nullptr);

@@ -420,5 +420,104 @@ TEST_F(ReportTest, AgreesOnBadlyDamagedFiles) {
   }
 }
 
+// A 99 is put everywhere in a file, then a NaN. Those who tell that they found it have to tell where.
+TEST_F(ReportTest, SingleNumbersAreToldWhereTheyStand) {
+  const Bytes good = written(tiny_rig(arena));
+  std::set<std::string> found;
+  const auto expect_place = [&](const Bytes& bad, const char* message, size_t at) {
+    for (const Found& f : Report(bad).findings) {
+      if (f.message.rfind(message, 0) != 0 || f.byte_offset == MIEN_NO_OFFSET) continue;
+      // dsce has four bytes for a number, or one.
+      const bool is_wide = f.field.rfind("dsce.rotationS", 0) == 0;
+      const bool is_byte = f.field == "dsce.faceWindingOrder";
+      EXPECT_EQ(f.byte_offset, is_wide ? at - 2 : is_byte ? at + 1 : at) << f.field;
+      found.insert(f.field);
+    }
+  };
+  for (size_t at = 0; at + 2 <= good.size(); ++at) {
+    Bytes bad = good;
+    bad[at] = 0;
+    bad[at + 1] = 99;
+    expect_place(bad, "is 99", at);
+    if (at + 4 > good.size()) continue;
+    bad = good;
+    set32(bad, at, 0x7FC00000);
+    expect_place(bad, "is nan", at);
+  }
+  const std::set<std::string> expected = {
+      "desc.archetype",
+      "desc.coordinateSystem.xAxis",
+      "desc.coordinateSystem.yAxis",
+      "desc.coordinateSystem.zAxis",
+      "desc.gender",
+      "desc.lodCount",
+      "desc.rotationUnit",
+      "desc.translationUnit",
+      "dsce.rotationSequence",
+      "dsce.rotationSign.x",
+      "dsce.rotationSign.y",
+      "dsce.rotationSign.z",
+      "dsce.faceWindingOrder",
+      "geom.meshes[0].blendShapeTargets[0].blendShapeChannelIndex",
+      "mlbe.mlbJoints.parameterValues[0]",
+      "mlbe.mlbJoints.parameterValues[1]",
+      "mlbe.mlbJoints.parameterValues[2]",
+      "mlbe.mlbTypeData[0].operations[0][0].operationType",
+      "mlbe.mlbTypeData[0].operations[1][0].operationType",
+      "mlbe.mlbTypeData[0].operations[2][0].operationType",
+      "mlbh.neuralNetworks[0].layers[0].functionId",
+      "mlbh.neuralNetworks[0].layers[1].functionId",
+      "rbfb.poses[0].scale",
+      "rbfb.poses[1].scale",
+      "rbfb.solvers[0].automaticRadius",
+      "rbfb.solvers[0].distanceMethod",
+      "rbfb.solvers[0].functionType",
+      "rbfb.solvers[0].normalizeMethod",
+      "rbfb.solvers[0].radius",
+      "rbfb.solvers[0].solverType",
+      "rbfb.solvers[0].twistAxis",
+      "rbfb.solvers[0].weightThreshold",
+      "twsw.swings[0].twistAxis",
+      "twsw.twists[0].twistAxis"};
+  EXPECT_EQ(found, expected);
+}
+
+// Version 2.1: behavior has no bytes of its own, and the descriptor may come behind everything else.
+TEST_F(ReportTest, SectionsOfTheOldestVersion) {
+  const Bytes good = written(view, 1);
+  const size_t usual = Report(good).findings.size();  // of controls whose layers it cannot have
+  Bytes bad = good;
+  set32(bad, 7 + 4 * 2, number32(good, 7));
+  const Report elsewhere(bad);
+  ASSERT_EQ(elsewhere.findings.size(), usual + 1) << elsewhere.text();
+  EXPECT_EQ(elsewhere.findings[0].byte_offset, 15u);
+  EXPECT_EQ(elsewhere.findings[0].status, MIEN_OK);
+
+  const size_t begin = number32(good, 7), end = number32(good, 7 + 4);
+  bad = good;
+  set32(bad, 7, static_cast<uint32_t>(good.size()));
+  bad.insert(bad.end(), good.begin() + static_cast<ptrdiff_t>(begin),
+             good.begin() + static_cast<ptrdiff_t>(end));
+  bad.insert(bad.end(), {'A', 'N', 'D'});
+  const Report behind(bad);
+  EXPECT_EQ(behind.errors, 0u) << behind.text();
+  ASSERT_EQ(behind.of("geom").size(), 1u) << behind.text();
+  EXPECT_EQ(behind.of("geom")[0].message, "3 bytes at the end of this layer are of no known use");
+}
+
+// The code of a layer is whatever four bytes the file has.
+TEST_F(ReportTest, MessagesArePrintable) {
+  std::vector<Layer> layers = layers_of(written(view));
+  layers.push_back(layer("\x1B[2\xFF 1.0", {1}));
+  Bytes file = file_of(8, layers);
+  const size_t entry = 11 + 16 * (layers.size() - 1);
+  ASSERT_EQ(memcmp(file.data() + entry, "\x1B[2\xFF", 4), 0);
+  set32(file, entry + 8, 3);  // within the header
+  const Report report(file);
+  ASSERT_EQ(report.errors, 1u);
+  EXPECT_NE(report.findings[0].message.find("(?[2?)"), std::string::npos) << report.text();
+  EXPECT_NE(std::string(Refusal(file).error.message).find("(?[2?)"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace mien::dna

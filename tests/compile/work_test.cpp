@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -14,6 +13,7 @@
 #include "runtime/baked/baked_objects.h"
 #include "runtime/deform/deformer_instance.h"
 #include "tests/support/baked_bytes.h"
+#include "tests/support/cpu_time.h"
 #include "tests/support/golden.h"
 #include "tests/support/many_rigs.h"
 
@@ -190,7 +190,9 @@ TEST(Work, CountsWhatIsRepeated) {
   for (int i = 0; i < 2; ++i) count(kAsked[0], 10u << i, rbf[i], ml[i]);
   EXPECT_NEAR(double(ml[1] - ml[0]), 2 * 10 * 4 * 4001.0, 1) << "four steps an addition";
   for (int i = 0; i < 2; ++i) count(kAsked[1], 10u << i, rbf[i], ml[i]);
-  EXPECT_NEAR(double(ml[1] - ml[0]), 2 * 10 * 4000 * 11.0, 20000) << "half a step a product";
+  // At two LODs: what is gathered, what comes out, half a step a product with eight for the output,
+  // and 32 each for the step and for its layer.
+  EXPECT_EQ(ml[1] - ml[0], 2 * 10 * (32 + 12 + 4000 + 32 + 4000 * (12 + 8) / 2u));
   for (int i = 0; i < 2; ++i) count(kAsked[2], 10u << i, rbf[i], ml[i]);
   EXPECT_NEAR(double(rbf[1] - rbf[0]), 10 * 6 * 20000.0, 10 * 1000);
 }
@@ -211,6 +213,46 @@ TEST(Work, CountsInterpolation) {
     steps[interpolative] = count_rbf_steps(*capi::object(rig.get()), ~uint64_t{0});
   }
   EXPECT_EQ(steps[1] - steps[0], 80u * 80 / 4);
+}
+
+// Per eight poses, a step for four inputs of each, and four for its weight; then one for each input.
+TEST(Work, CountsDistances) {
+  Arena arena(default_allocator());
+  const auto count = [&](uint32_t inputs) {
+    DnaView view = dna::tiny_rig(arena);
+    many_poses(arena, view, 16, false);
+    dna::RbfSolver& solver = view.rbfb.solvers[0];
+    solver.raw_control_indices = counted(arena, inputs, 0, 0);
+    solver.raw_control_values = zeros(arena, 16 * size_t{inputs});
+    view.rbfb.solvers.count = 1;
+    const RigHandle rig = create_rig(open_dna(write_view(view)).get());
+    return count_rbf_steps(*capi::object(rig.get()), ~uint64_t{0});
+  };
+  EXPECT_EQ(count(80) - count(40), 16u * (20 - 10) + 40);
+}
+
+// Values that come from operations are fetched, four steps for each operation and one for each value;
+// those of controls are gathered, a step each.
+TEST(Work, CountsWhatOperationsHandOn) {
+  Arena arena(default_allocator());
+  constexpr uint32_t kValues = 12, kRuns = 10, kLods = 2;
+  uint64_t steps[2];
+  for (const uint16_t set : {uint16_t{0}, uint16_t{1}}) {  // of the gather, of the first network
+    DnaView view = dna::tiny_rig(arena);
+    set_network(arena, view, kValues);
+    MlOperation run;
+    run.type = static_cast<uint16_t>(dna::MlOperationType::kMlp);
+    run.parameters = be<uint32_t>(arena, {0});
+    run.set_dependencies = be<uint16_t>(arena, {set});
+    run.operation_dependencies = be<uint16_t>(arena, {0});
+    const Span<MlOperation> runs = arena.array<MlOperation>(kRuns);
+    for (MlOperation& operation : runs) operation = run;
+    set_operations(arena, view, {runs.data, kRuns});
+    const RigHandle rig = create_rig(open_dna(write_view(view)).get());
+    ASSERT_TRUE(rig);
+    steps[set] = count_ml_steps(*capi::object(rig.get()), ~uint64_t{0});
+  }
+  EXPECT_EQ(steps[1] - steps[0], kLods * kRuns * (4 + kValues - kValues));
 }
 
 // Rigs that people make are far away from the limits.
@@ -287,13 +329,13 @@ TEST(Work, BakedRigsAreHeldToTheirBytes) {
 
 // Files from elsewhere ---------------------------------------------------------------------------
 
-double seconds() { return double(clock()) / CLOCKS_PER_SEC; }
-
 /// 100 ms for each MiB, of which a smaller file has one.
 double bound(size_t bytes) { return 0.1 * std::max(1.0, double(bytes) / (1 << 20)); }
 
-// Time of the processor depends on what else runs: a file that was not bounded took 100 times it.
-// Under sanitizers and emulators time says less still.
+// That tables ask for no more than they may is counted, above. What nobody counts, such as a loop over
+// all pairs somewhere between opening and the last vertex, shows in time alone. So this is a clock: time
+// of the processor, several times the bound where files that were not bounded took 100 times it, and the
+// best of three. Under sanitizers and emulators time says less still.
 #if defined(__has_feature)
 #define MIEN_HAS_FEATURE(name) __has_feature(name)
 #else
@@ -310,6 +352,8 @@ struct Course {
   MienStatus status = MIEN_OK;
   std::string message;
   double open = 0, rig = 0, deformer = 0, frames = 0;
+
+  double seconds() const { return open + rig + deformer + frames; }
 };
 
 void run_frames(const MienRig* rig, const MienDeformer* deformer, Course& course) {
@@ -328,7 +372,7 @@ void run_frames(const MienRig* rig, const MienDeformer* deformer, Course& course
   (void)mien_instance_gui_controls(instance, &gui);
   (void)mien_instance_raw_controls(instance, &raw);
   for (size_t i = 0; i < gui.count; ++i) gui.data[i] = 0.25f + 0.5f * float(i % 2);
-  const double begin = seconds();
+  const double begin = cpu_seconds();
   for (uint32_t lod = 0; lod < info.lod_count; ++lod) {
     (void)mien_rig_map_gui_to_raw(rig, instance);
     for (size_t i = 0; i < raw.count; ++i) raw.data[i] = 0.25f + 0.5f * float((i + lod) % 2);
@@ -339,7 +383,7 @@ void run_frames(const MienRig* rig, const MienDeformer* deformer, Course& course
       EXPECT_EQ(mien_deformer_instance_deform(pose, m, MIEN_NORMALS_RECOMPUTED, nullptr), MIEN_OK);
     }
   }
-  course.frames = seconds() - begin;
+  course.frames = cpu_seconds() - begin;
   mien_deformer_instance_destroy(pose);
   mien_instance_destroy(instance);
 }
@@ -351,10 +395,10 @@ Course run(const Bytes& file) {
   MienDna* dna = nullptr;
   MienRig* rig = nullptr;
   MienDeformer* deformer = nullptr;
-  double at = seconds();
+  double at = cpu_seconds();
   const auto lap = [&](double& lap_seconds) {
-    lap_seconds = seconds() - at;
-    at = seconds();
+    lap_seconds = cpu_seconds() - at;
+    at = cpu_seconds();
   };
   course.status = mien_dna_open_memory(file.data(), file.size(), nullptr, &dna, &error);
   lap(course.open);
@@ -380,13 +424,15 @@ Bytes read_bytes(const std::filesystem::path& path) {
 }
 
 void expect_within_bound(const std::string& name, const Bytes& file) {
-  const Course c = run(file);
+  Course c = run(file);
+  for (int again = 0; again < 2 && c.seconds() > kSlack * bound(file.size()); ++again)
+    c = run(file);
   printf(
       "%-32s %8zu bytes, %4.0f ms allowed: open %4.0f rig %4.0f deformer %4.0f frames %4.0f; "
       "%d %s\n",
       name.c_str(), file.size(), 1e3 * bound(file.size()), 1e3 * c.open, 1e3 * c.rig,
       1e3 * c.deformer, 1e3 * c.frames, c.status, c.message.c_str());
-  EXPECT_LE(c.open + c.rig + c.deformer + c.frames, kSlack * bound(file.size())) << name;
+  EXPECT_LE(c.seconds(), kSlack * bound(file.size())) << name;
 }
 
 // The files below, made anew, for those who do not have them. What the tables repeat is in the tests

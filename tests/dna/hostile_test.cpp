@@ -3,8 +3,7 @@
 // file, and no buffer is smaller than what is put into it.
 #include <gtest/gtest.h>
 
-#include <ctime>
-
+#include "tests/support/cpu_time.h"
 #include "tests/support/dna_bytes.h"
 #include "tests/support/exercise_dna.h"
 #include "tests/support/tiny_rig.h"
@@ -248,9 +247,21 @@ TEST(HostileFilesBuffers, JointsWithoutOperations) {
   expect_life(dna::written(view), "joints without operations");
 }
 
+// The first control of a rotation is checked where files are; that there are three more is not.
+TEST(HostileFilesBuffers, RotationsThatGoOnPastTheLastControl) {
+  for (const uint16_t first : {7, 8, 10}) {
+    Arena arena(default_allocator());
+    dna::DnaView view = dna::tiny_rig(arena);
+    ASSERT_EQ(view.control_count(), 11u);
+    view.mlbe.joints.input_indices = dna::be<uint16_t>(arena, {first, 6, 7, 8});
+    expect_life(dna::written(view), "a rotation that goes on past the last control");
+  }
+}
+
 // Time -----------------------------------------------------------------------------------------
 
-// Half of the columns stop at LOD 0: putting the others in front of them is no quadratic affair.
+// Half of the columns stop at LOD 0: putting the others in front of them is no quadratic affair, which
+// would take 10^10 steps. Nothing counts them, so this is time of the processor, the best of three.
 TEST(HostileFilesTime, ColumnsOfAQuaternionJoint) {
   constexpr uint32_t kColumns = 200000;
   Arena arena(default_allocator());
@@ -268,9 +279,12 @@ TEST(HostileFilesTime, ColumnsOfAQuaternionJoint) {
   LifeOptions options;
   options.validate = false;
   const Bytes file = dna::written(view);
-  const clock_t begin = clock();
-  expect_life(file, "columns of a quaternion joint", options);
-  const double seconds = double(clock() - begin) / CLOCKS_PER_SEC;
+  double seconds = 3;
+  for (int i = 0; i < 3 && seconds >= 3; ++i) {
+    const double begin = cpu_seconds();
+    expect_life(file, "columns of a quaternion joint", options);
+    seconds = cpu_seconds() - begin;
+  }
   EXPECT_LT(seconds, 3) << "for a file of " << file.size() << " bytes";
 }
 

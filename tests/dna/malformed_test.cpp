@@ -272,6 +272,22 @@ TEST(Container, LayersThatOverlap) {
   expect_refused(file, MIEN_ERROR_DNA_STRUCTURE, "within another");
 }
 
+// They share no bytes with the others, wherever they are said to begin.
+TEST(Container, EmptyLayersMayBeginAnywhere) {
+  std::vector<dna::Layer> layers = dna::layers_of(tiny_file(8));
+  layers.push_back(dna::layer("abce 1.0"));  // in one place with the next, and as large
+  layers.push_back(dna::layer("abcd 1.0"));
+  Bytes file = dna::file_of(8, layers);
+  const size_t entry = entry_of(file, "abcd");
+  const auto end = static_cast<uint32_t>(file.size());
+  for (uint32_t offset : {0u, 11u, dna::number32(file, entry_of(file, "bhvr") + 8) + 5, end}) {
+    dna::set32(file, entry + 8, offset);
+    expect_accepted(file);
+  }
+  dna::set32(file, entry + 8, end + 1);
+  expect_refused(file, MIEN_ERROR_DNA_TRUNCATED);
+}
+
 TEST(Container, LayersThatComeTwice) {
   std::vector<dna::Layer> layers = dna::layers_of(tiny_file(8));
   layers.push_back(layers[1]);

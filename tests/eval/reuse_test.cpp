@@ -6,7 +6,7 @@
 // nothing, go through the same random calls and are compared after each. Some calls evaluate the
 // first ones of several pairs as a batch.
 //
-//     MIEN_TWIN_SEQUENCES=1000000 eval_tests --gtest_filter='Reuse.Twins*'    the long form
+//     MIEN_LONG_TESTS=1 eval_tests --gtest_filter='Reuse.*'                   10^6 sequences
 //     MIEN_TWIN_FIRST=12345 MIEN_TWIN_SEQUENCES=1 eval_tests ...              one that failed
 #include <gtest/gtest.h>
 
@@ -14,6 +14,7 @@
 #include <cstdlib>
 
 #include "tests/support/golden.h"
+#include "tests/support/long_run.h"
 #include "tests/support/many_rigs.h"
 #include "tests/support/random_layer_rig.h"
 
@@ -223,8 +224,8 @@ uint64_t number_from(const char* variable, uint64_t otherwise) {
 template <class MakeFile>
 void run_twins(uint64_t stream, double share, uint64_t least, MakeFile&& make_file) {
   constexpr uint64_t kSequences = 64;
-  const auto wanted =
-      static_cast<uint64_t>(share * static_cast<double>(number_from("MIEN_TWIN_SEQUENCES", 0)));
+  const auto wanted = static_cast<uint64_t>(
+      share * static_cast<double>(number_from("MIEN_TWIN_SEQUENCES", rounds(0, 1000000))));
   const uint64_t first = number_from("MIEN_TWIN_FIRST", 0);
   const uint64_t runs = (std::max(wanted, least) + kSequences - 1) / kSequences;
   for (uint64_t run = first; run < first + runs; ++run) {
@@ -280,6 +281,33 @@ TEST(Reuse, TwinsOfGoldenRigs) {
   const std::vector<std::string> names = golden::present_names();
   run_twins(600, 0.15, 64 * names.size(),
             [&](Random&, uint64_t run) { return golden::read_rig(names[run % names.size()]); });
+}
+
+// More panels of the joint matrix than there are marks for: several share one.
+TEST(Reuse, TwinsOfPanelsThatShareMarks) {
+  Random random = Random::from_seed(700, 1);
+  LayerRig layers;
+  layers.base.lod_count = 33;
+  layers.base.raw_count = 6;
+  layers.base.joint_count = 220;
+  PlainGroup group;
+  for (uint16_t c = 0; c < layers.base.raw_count; ++c) group.inputs.push_back(c);
+  for (uint16_t r = 0; r < 9 * layers.base.joint_count; ++r) group.outputs.push_back(r);
+  for (uint16_t l = 0; l < layers.base.lod_count; ++l) {
+    group.lods.push_back(static_cast<uint16_t>(group.outputs.size() - 56 * l));
+  }
+  for (size_t i = 0; i < group.inputs.size() * group.outputs.size(); ++i) {
+    group.values.push_back(static_cast<float>(random.between(-1, 1)));
+  }
+  layers.base.groups = {group};
+  const LayerFile file(layers);
+  const RigHandle rig = create_rig(file.dna.get());
+  ASSERT_TRUE(rig);
+  EXPECT_GT(capi::object(rig.get())->joints.panel_shift, 0u);
+  TwinRun twins(file.dna.get(), sized<MienRigDesc>());
+  for (uint64_t i = 0; i < 100 && !testing::Test::HasFailure(); ++i) {
+    twins.run(Random::from_seed(701, i));
+  }
 }
 
 // Calls that once kept what they should not ------------------------------------------------------

@@ -49,6 +49,12 @@ inline void expect_found(const Damage& damage) {
   EXPECT_TRUE(check(view, all, true));
   EXPECT_TRUE(all.has(damage.status, damage.field)) << all.text();
 
+  // Those who have enough of one hear no more.
+  KeptFindings one;
+  one.enough = 1;
+  EXPECT_FALSE(check(view, one, true) && one.errors() == 0);
+  EXPECT_EQ(one.findings.size(), 1u);
+
   KeptFindings first;
   first.enough = 1;
   if (damage.status == Status::kOk) {

@@ -3,6 +3,7 @@
 // directions that axes point to, in double precision, with no code of the library.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -31,6 +32,20 @@ inline Mat3 transposed(const Mat3& a) {
     for (int c = 0; c < 3; ++c) t.m[r][c] = a.m[c][r];
   }
   return t;
+}
+
+/// The system that a rig is in.
+inline MienCoordinateSystem system_of(const MienDna* dna) {
+  MienDnaInfo info = sized<MienDnaInfo>();
+  EXPECT_EQ(mien_dna_info(dna, &info), MIEN_OK);
+  MienCoordinateSystem out = sized<MienCoordinateSystem>();
+  std::copy(info.axes, info.axes + 3, out.axes);
+  std::copy(info.rotation_signs, info.rotation_signs + 3, out.rotation_signs);
+  out.translation_unit = info.translation_unit;
+  out.rotation_unit = info.rotation_unit;
+  out.rotation_sequence = info.rotation_sequence;
+  out.face_winding = info.face_winding;
+  return out;
 }
 
 /// A rig's system as mien_dna_info() tells it.

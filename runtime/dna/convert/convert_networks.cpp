@@ -76,8 +76,8 @@ class NetworkConverter {
     if (known != sign) refuse(n, "reads inputs that change their signs in different ways");
   }
 
+  /// `place` is that of an output: the checks count those of networks, and scatters end with them.
   void note_output(uint32_t n, size_t place, uint32_t control) {
-    if (place >= ends_[n].units.count) return;
     if (control < view_.first_psd() && !controls_.read(control).same(control)) {
       return refuse(n, "writes a control that is part of a quaternion input");
     }

@@ -517,8 +517,7 @@ class LodSelector {
       Span<Span<uint8_t>> sets = operations_[t] = make<Span<uint8_t>>(type.operations.count);
       for (uint32_t s = 0; s < sets.count && !out_of_memory_; ++s) {
         const size_t count = type.operations[s].count;
-        sets[s] = s < type.lod_operations.count ? marked(type.lod_operations[s], count)
-                                                : make<uint8_t>(count);
+        sets[s] = marked(type.lod_operations[s], count);
       }
       if (out_of_memory_) return;
       for (uint32_t s = static_cast<uint32_t>(sets.count); s-- > 0;) {
@@ -542,7 +541,7 @@ class LodSelector {
       for (uint32_t s = 0; s < numbers.count; ++s) {
         numbers[s] = number(operations_[t][s]);
         if (out_of_memory_) return;
-        if (s < type.lod_operations.count) select_map(type.lod_operations[s], numbers[s]);
+        select_map(type.lod_operations[s], numbers[s]);
         keep_survivors(type.operations[s], numbers[s]);
         for (MlOperation& operation : type.operations[s]) {
           NewArray<uint16_t> dependencies =
@@ -563,7 +562,7 @@ class LodSelector {
 
   // Network number, then for each of its layers one row limit per LOD.
   Array<uint32_t> mlp_parameters(Array<uint32_t> old, uint32_t old_lod_count) {
-    const uint32_t layers = old_lod_count ? (old.count - 1) / old_lod_count : 0;
+    const uint32_t layers = (old.count - 1) / old_lod_count;
     NewArray<uint32_t> parameters = make_array<uint32_t>(1 + size_t{layers} * count_);
     if (out_of_memory_) return {};
     parameters.set(0, networks_[old[0]]);

@@ -96,7 +96,7 @@ Status RotationControls::add_quaternion(const DnaView& view, const CoordinateCha
 Status RotationControls::add_named(const DnaView& view, const CoordinateChange& change,
                                    Error& error) {
   const List<String>& names = view.defn.raw_control_names;
-  for (uint32_t i = 0; i + 4 <= names.count && i + 4 <= 65536; ++i) {
+  for (uint32_t i = 0; i + 4 <= names.count; ++i) {
     const uint16_t four[4] = {static_cast<uint16_t>(i), static_cast<uint16_t>(i + 1),
                               static_cast<uint16_t>(i + 2), static_cast<uint16_t>(i + 3)};
     if (!named_as_quaternion(names, four, true)) continue;

@@ -286,6 +286,67 @@ INSTANTIATE_TEST_SUITE_P(Network, DnaCheckExtensions, testing::ValuesIn(kNetwork
                          damage_name);
 
 // Names of ML and RBF controls count twice: as names, and among all controls.
+// Representations, directions of axes and the sequence become enumerations and places in tables.
+TEST(DnaCheckExtensionsTest, ValuesOfMlJointsAreInRange) {
+  // Signs, keys 6 to 8, may be anything: evaluation takes what is not 1 for -1.
+  const uint16_t last[10] = {0, 1, 0, 5, 5, 5, 65535, 65535, 65535, 5};
+  for (uint32_t key = 0; key < 10; ++key) {
+    for (uint32_t value = 0; value <= last[key] + 1u && value <= 65535;
+         value += last[key] > 5 ? 13107 : 1) {
+      Arena arena(default_allocator());
+      DnaView view = tiny_rig(arena);
+      MlJoints& joints = view.mlbe.joints;
+      joints.parameter_keys = be(arena, U16{0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
+      const NewArray<uint16_t> values = new_array<uint16_t>(arena, 10);
+      for (uint32_t k = 0; k < 10; ++k) values.set(k, k == 1 || k == 3);
+      values.set(key, static_cast<uint16_t>(value));
+      joints.parameter_values = values;
+      joints.output_indices = joints.input_indices = {};
+      KeptFindings report;
+      check(view, report, false);
+      const std::string field = "mlbe.mlbJoints.parameterValues[" + std::to_string(key) + "]";
+      EXPECT_EQ(report.has(kValue, field), value > last[key]) << value << "\n" << report.text();
+      EXPECT_EQ(report.errors(), value > last[key]);
+    }
+  }
+}
+
+// Of those that a network depends on, gathers come first: others count where nothing is gathered.
+TEST(DnaCheckExtensionsTest, NetworksTakeWhatIsGathered) {
+  Arena arena(default_allocator());
+  DnaView view = tiny_rig(arena);
+  operation(view, 2) =
+      operation(view, 1);  // of two inputs; the network before it gives four values
+  operation(view, 2).set_dependencies = be(arena, U16{1, 0});
+  operation(view, 2).operation_dependencies = be(arena, U16{0, 0});
+  KeptFindings report;
+  EXPECT_TRUE(check(view, report, false));
+  EXPECT_EQ(report.errors(), 0u) << report.text();
+  operation(view, 2).set_dependencies = be(arena, U16{1});
+  operation(view, 2).operation_dependencies = be(arena, U16{0});
+  check(view, report, false);
+  EXPECT_TRUE(report.has(kStructure, "mlbe.mlbTypeData[0].operations[2][0].parameters"));
+}
+
+// What is wrong itself gives nothing to those that depend on it.
+TEST(DnaCheckExtensionsTest, SumsOfWhatGivesNothing) {
+  const auto expect = [](uint16_t type, U32 parameters) {
+    Arena arena(default_allocator());
+    DnaView view = tiny_rig(arena);
+    operation(view, 1).type = type;
+    operation(view, 1).parameters = be(arena, parameters);
+    operation(view, 2).type = 4;
+    operation(view, 2).parameters = be(arena, U32{1, 0x3f800000});
+    KeptFindings report;
+    check(view, report, true);
+    EXPECT_TRUE(report.has(kStructure, "mlbe.mlbTypeData[0].operations[2][0].parameters"))
+        << report.text();
+  };
+  expect(4, {});   // a sum
+  expect(3, {});   // a network without its number
+  expect(3, {1});  // one that is not there
+}
+
 TEST(DnaCheckExtensionsTest, TooManyControlNames) {
   Arena arena(default_allocator());
   DnaView view = tiny_rig(arena);

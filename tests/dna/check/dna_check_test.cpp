@@ -24,9 +24,12 @@ TEST(DnaCheckTest, NothingIsClean) {
     DnaView view;
     view.loaded = loaded;
     view.desc.coordinate_system = {1, 2, 4};
-    KeptFindings report;
-    EXPECT_TRUE(check(view, report, true));
-    EXPECT_EQ(report.findings.size(), 0u) << report.text();
+    for (const uint16_t lods : {0, 2}) {  // of which nothing has a list
+      view.desc.lod_count = lods;
+      KeptFindings report;
+      EXPECT_TRUE(check(view, report, true));
+      EXPECT_EQ(report.findings.size(), 0u) << report.text();
+    }
   }
 }
 
@@ -58,6 +61,14 @@ const Damage kDefinitionCases[] = {
     {"SingularAxes", kWarning, "desc.coordinateSystem",
      [](DnaView& v, Arena&) {
        v.desc.coordinate_system = {1, 0, 4};
+     }},
+    {"SingularAxesYZ", kWarning, "desc.coordinateSystem",
+     [](DnaView& v, Arena&) {
+       v.desc.coordinate_system = {1, 4, 5};
+     }},
+    {"SingularAxesZX", kWarning, "desc.coordinateSystem",
+     [](DnaView& v, Arena&) {
+       v.desc.coordinate_system = {1, 2, 0};
      }},
     {"DuplicateMetadata", kWarning, "desc.metadata[2].key",
      [](DnaView& v, Arena& a) {
@@ -102,6 +113,10 @@ const Damage kDefinitionCases[] = {
        v.defn.lod_joints.indices[0] = be(a, U16{0, 2});
      }},
 
+    {"TooManyJointsForTheirValues", kLimit, "defn.jointNames",
+     [](DnaView& v, Arena& a) { v.defn.joint_names = many_names(a, 65536 / 9 + 1); }},
+    {"AsManyJointsAsHaveNumbers", kLimit, "defn.jointNames",
+     [](DnaView& v, Arena& a) { v.defn.joint_names = many_names(a, 65535); }},
     {"TooManyGuiControls", kLimit, "defn.guiControlNames",
      [](DnaView& v, Arena& a) { v.defn.gui_control_names = many_names(a, 65536); }},
     {"TooManyRawControls", kLimit, "defn.rawControlNames",
@@ -268,6 +283,10 @@ const Damage kBehaviorCases[] = {
      }},
     {"GroupLacksJoint", kWarning, "bhvr.joints.jointGroups[1].jointIndices",
      [](DnaView& v, Arena& a) { group(v, 1).joint_indices = be(a, U16{0}); }},
+    {"RowsOfManyGroups", kWarning, "bhvr.joints.jointGroups[1].outputIndices",
+     [](DnaView& v, Arena& a) {
+       v.bhvr.joints.groups = list<JointGroup>(a, {group(v, 0), group(v, 0), group(v, 1)});
+     }},
     {"RowCount", kWarning, "bhvr.joints.rowCount",
      [](DnaView& v, Arena&) { v.bhvr.joints.row_count = 26; }},
     {"ColCount", kWarning, "bhvr.joints.colCount",
@@ -445,6 +464,12 @@ TEST(DnaCheckTest, ControlsOfLayersNotLoaded) {
   KeptFindings lenient;
   EXPECT_TRUE(check(view, lenient, false));
   EXPECT_EQ(lenient.findings.size(), 0u) << lenient.text();
+  // Those that are there are not told of.
+  view.bhvr.joints.col_count = 13;
+  KeptFindings thorough;
+  EXPECT_TRUE(check(view, thorough, true));
+  ASSERT_EQ(thorough.findings.size(), 1u) << thorough.text();
+  EXPECT_TRUE(thorough.has(kWarning, "bhvr.joints.jointGroups[1].inputIndices"));
 }
 
 // Correctives of correctives: circles are left to the compilation of a rig ------------------------

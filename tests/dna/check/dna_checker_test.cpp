@@ -50,6 +50,52 @@ TEST(DnaCheckerTest, OffsetsOfSingleNumbers) {
   EXPECT_EQ(report.findings[1].byte_offset, 82u);
 }
 
+// Of chosen LODs, too. Behind the only list lies one that would be told of.
+TEST(DnaCheckerTest, ListsThatAreNotThereAreNotLookedAt) {
+  Arena arena(default_allocator());
+  DnaView view = tiny_rig(arena);
+  LodMap& map = view.defn.lod_channels;
+  const Span<Array<uint16_t>> lists = arena.array<Array<uint16_t>>(8);
+  lists[0] = map.indices[0];
+  lists[7] = be<uint16_t>(arena, {500});
+  map.indices = {lists.data, 1};
+  map.lods = be<uint16_t>(arena, {0, 7});
+  for (const uint64_t lods : {0, 1, 2, 3}) {
+    KeptFindings report;
+    check_definition(view, report.sink(false), lods);
+    ASSERT_EQ(report.findings.size(), 1u) << report.text();
+    EXPECT_EQ(report.findings[0].field, "defn.lodBlendShapeMapping.lods");
+  }
+}
+
+// More fields than findings are counted for.
+TEST(DnaCheckerTest, EveryFieldIsToldOfOnce) {
+  DnaView view;
+  KeptFindings report;
+  const FindingSink sink = report.sink(false);
+  Checker checker(view, sink, 0);
+  std::vector<std::string> names;
+  for (int i = 0; i < 120; ++i) names.push_back("field" + std::to_string(i));
+  for (const std::string& name : names) {
+    checker.error(Field{nullptr, name.c_str()}, Status::kDnaValue, kNoOffset, "is wrong");
+  }
+  EXPECT_TRUE(checker.finish());
+  ASSERT_EQ(report.findings.size(), names.size());
+  for (size_t i = 0; i < names.size(); ++i) EXPECT_EQ(report.findings[i].field, names[i]);
+}
+
+TEST(DnaCheckerTest, LongPathsAreCut) {
+  DnaView view;
+  KeptFindings report;
+  const FindingSink sink = report.sink(false);
+  Checker checker(view, sink, 0);
+  const std::string part(150, 'p');
+  const Field outer{nullptr, part.c_str(), 7}, inner{&outer, part.c_str(), 8};
+  checker.error(Field{&inner, "values", 9}, Status::kDnaValue, kNoOffset, "is wrong");
+  ASSERT_EQ(report.findings.size(), 1u);
+  EXPECT_EQ(report.findings[0].field, (part + "[7]." + part).substr(0, 199));
+}
+
 // One array or a thousand records: what is the same field but for list numbers fills no report.
 TEST(DnaCheckerTest, FloodsAreCut) {
   Arena arena(default_allocator());

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/support/golden.h"
+#include "tests/support/layer_rig.h"
 #include "tests/support/other_system.h"
 #include "tests/support/random_space_rig.h"
 #include "tests/support/tiny_rig.h"
@@ -32,20 +33,6 @@ MienCoordinateSystem to_public(const CoordinateSystem& system) {
   out.rotation_rule = static_cast<uint32_t>(system.rotation_rule);
   out.rotation_sequence = system.rotation_sequence;
   out.face_winding = system.face_winding;
-  return out;
-}
-
-/// The system that a rig is in.
-MienCoordinateSystem system_of(const MienDna* dna) {
-  MienDnaInfo info = sized<MienDnaInfo>();
-  EXPECT_EQ(mien_dna_info(dna, &info), MIEN_OK);
-  MienCoordinateSystem out = sized<MienCoordinateSystem>();
-  std::copy(info.axes, info.axes + 3, out.axes);
-  std::copy(info.rotation_signs, info.rotation_signs + 3, out.rotation_signs);
-  out.translation_unit = info.translation_unit;
-  out.rotation_unit = info.rotation_unit;
-  out.rotation_sequence = info.rotation_sequence;
-  out.face_winding = info.face_winding;
   return out;
 }
 
@@ -292,6 +279,49 @@ TEST(CoordinateConversion, ColumnsFollowIntoAnyOrder) {
     }
   }
   EXPECT_GT(changed, 100u);
+}
+
+// Each direction by itself, with nothing else changed, is another system.
+TEST(CoordinateConversion, OneAxisMirrored) {
+  Arena arena(default_allocator());
+  const Bytes bytes = write_view(dna::tiny_rig(arena));
+  const DnaHandle original = open_dna(bytes);
+  for (int axis = 0; axis < 3; ++axis) {
+    MienCoordinateSystem system = system_of(original.get());
+    system.axes[axis] ^= 1;
+    const DnaHandle converted = open_in_system(bytes, system);
+    ASSERT_TRUE(converted);
+    EXPECT_EQ(system_of(converted.get()).axes[axis], system.axes[axis]);
+    const dna::Vec3Array &before = original->view.geom.meshes[0].positions,
+                         &after = converted->view.geom.meshes[0].positions;
+    const dna::Array<float> from[3] = {before.xs, before.ys, before.zs};
+    const dna::Array<float> to[3] = {after.xs, after.ys, after.zs};
+    for (int a = 0; a < 3; ++a) {
+      for (uint32_t v = 0; v < from[a].count; ++v) {
+        EXPECT_EQ(to[a][v], a == axis ? -from[a][v] : from[a][v]) << axis << ", vertex " << v;
+      }
+    }
+  }
+}
+
+// A third row is added where a column turns about two axes, not where two columns turn about one each.
+TEST(CoordinateConversion, RowsAreAddedWhereTheyAreNotZero) {
+  LayerRig rig;
+  rig.base.raw_count = 2;
+  rig.base.joint_count = 1;
+  const auto rows_of = [&](const std::vector<uint16_t>& outputs, const std::vector<float>& values) {
+    rig.base.groups = {{{static_cast<uint16_t>(outputs.size())}, {0, 1}, outputs, values}};
+    const LayerFile file(rig);
+    MienCoordinateSystem reordered = system_of(file.dna.get());
+    reordered.rotation_sequence = MIEN_ROTATION_SEQUENCE_YXZ;
+    reordered.rotation_rule = MIEN_ROTATION_RULE_PER_COLUMN;
+    const DnaHandle dna = open_in_system(file.bytes, reordered);
+    return dna ? dna->view.bhvr.joints.groups[0].output_indices.count : 0;
+  };
+  EXPECT_EQ(rows_of({3, 4, 0}, {0, 10, 10, 0, 5, 5}), 3u);
+  EXPECT_EQ(rows_of({3, 4, 0}, {10, 0, 10, 0, 5, 5}), 4u);
+  rig.base.joint_count = 2;  // whose rows come in any order
+  EXPECT_EQ(rows_of({12, 13, 3, 4}, {10, 0, 10, 0, 10, 0, 10, 0}), 6u);
 }
 
 TEST(CoordinateConversion, GeneratedRigsMoveTheSameInEveryNamedSystem) {

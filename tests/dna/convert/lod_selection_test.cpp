@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/layer_rig.h"
 #include "tests/support/lod_cuts.h"
 
 namespace mien {
@@ -420,6 +421,81 @@ TEST(LodSelection, VerticesWithoutInfluencesFollowTheRoot) {
     ASSERT_EQ(vertex.weights.count, 1u) << mask;
     EXPECT_EQ(vertex.weights[0], 1.0f);
     EXPECT_EQ(vertex.joint_indices[0], 0);
+  }
+}
+
+TEST(LodSelection, FilesWithoutJoints) {
+  Arena arena(default_allocator());
+  LayerRig rig;
+  rig.base.lod_count = 2;
+  rig.base.raw_count = 1;
+  dna::DnaView view = to_view(rig, arena);
+  ASSERT_EQ(view.defn.joint_names.count, 0u);
+  dna::Mesh mesh;
+  const dna::Array<float> zero = dna::be<float>(arena, {0});
+  mesh.positions = {zero, zero, zero};
+  mesh.skin_weights = dna::list<dna::VertexSkinWeights>(arena, {{}});
+  view.geom.meshes = dna::list<dna::Mesh>(arena, {mesh});
+  view.defn.mesh_names = dna::list<dna::String>(arena, {dna::text("m")});
+  view.defn.lod_meshes = {dna::be<uint16_t>(arena, {0, 0}),
+                          dna::list<dna::Array<uint16_t>>(arena, {dna::be<uint16_t>(arena, {0})})};
+  const Bytes bytes = write_view(view);
+  for (const uint64_t mask : {1, 2}) {
+    const DnaHandle cut = open_dna(bytes, mask);
+    ASSERT_TRUE(cut);
+    EXPECT_EQ(cut->view.defn.joint_hierarchy.count, 0u);
+    ASSERT_EQ(cut->view.geom.meshes.count, 1u);
+    EXPECT_EQ(cut->view.geom.meshes[0].skin_weights[0].weights.count, 0u);
+  }
+}
+
+// More entries than a file can have LODs: a report warns of them, nothing else reads them.
+TEST(LodSelection, ListsOfMoreLodsThanThereAre) {
+  Arena arena(default_allocator());
+  dna::DnaView view = dna::tiny_rig(arena);
+  const Bytes sound = write_view(view);
+  const dna::NewArray<uint16_t> channels = dna::new_array<uint16_t>(arena, 100);
+  for (uint32_t l = 0; l < 100; ++l) channels.set(l, l != 0);
+  view.defn.lod_channels.lods = channels;
+  const Bytes bytes = write_view(view);
+  for (const uint64_t mask : {1, 2}) {
+    const DnaHandle cut = open_dna(bytes, mask), expected = open_dna(sound, mask);
+    ASSERT_TRUE(cut);
+    EXPECT_EQ(strings_of(cut->view.defn.channel_names),
+              strings_of(expected->view.defn.channel_names));
+  }
+  LayerRig rig;  // of which LODs 0 and 2 are kept
+  rig.base.lod_count = 3;
+  rig.base.raw_count = rig.base.channel_count = 1;
+  rig.base.channel_inputs = rig.base.channel_outputs = {0};
+  rig.base.channel_lods.assign(100, 0);
+  rig.base.channel_lods[0] = rig.base.channel_lods[1] = 1;
+  const DnaHandle cut = open_dna(write_view(to_view(rig, arena)), 5);
+  ASSERT_TRUE(cut);
+  const dna::Array<uint16_t>& rows = cut->view.bhvr.channels.lods;
+  ASSERT_EQ(rows.count, 2u);
+  EXPECT_EQ(rows[0], 1);
+  EXPECT_EQ(rows[1], 0);
+}
+
+// What is left makes up for what is gone, also where the weights of the file have another sum than 1.
+TEST(LodSelection, WeightsThatAreLeftAreScaled) {
+  Arena arena(default_allocator());
+  dna::DnaView view = dna::tiny_rig(arena);
+  dna::VertexSkinWeights& given = view.geom.meshes[0].skin_weights[3];
+  given.joint_indices = dna::be<uint16_t>(arena, {2, 0, 1});  // 2, the tongue, has LOD 0 only
+  const std::vector<std::vector<float>> cases[] = {{{0.5f, 0.125f, 0.375f}, {0.25f, 0.75f}},
+                                                   {{1.5f, 0.25f, 0.25f}, {0.5f, 0.5f}}};
+  for (const auto& c : cases) {
+    given.weights = dna::be<float>(arena, {c[0][0], c[0][1], c[0][2]});
+    const Bytes bytes = write_view(view);
+    const DnaHandle cut = open_dna(bytes, 2);
+    const dna::VertexSkinWeights& vertex = cut->view.geom.meshes[0].skin_weights[3];
+    ASSERT_EQ(vertex.weights.count, 2u);
+    for (uint32_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(vertex.joint_indices[i], i);
+      EXPECT_EQ(vertex.weights[i], c[1][i]);
+    }
   }
 }
 

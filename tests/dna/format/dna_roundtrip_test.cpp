@@ -263,6 +263,8 @@ TEST(DnaVersions, WhatWouldNotOpenIsNotWritten) {
   Arena arena(default_allocator());
   DnaView view = tiny_rig(arena);
   view.mlbh.networks[0].input_indices = {};  // the gather has them
+  // A second mistake, which is not told: more outputs than values.
+  view.mlbh.networks[0].output_indices = be<uint16_t>(arena, {5, 6, 7, 8, 5, 6, 7, 8, 5, 6, 7, 8});
   std::string message;
   for (uint16_t version = 1; version <= 8; ++version) {
     const bool needs_operations = version >= 3 && version < 6;
