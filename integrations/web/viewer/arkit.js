@@ -32,6 +32,13 @@ export class ArkitControls {
     this.binding.apply(this.row, face);
   }
 
+  /** A row of the binding with one expression at 1. */
+  rowOf(index) {
+    const row = new Float32Array(this.row.length);
+    row[this.channels[index]] = 1;
+    return row;
+  }
+
   reset() {
     this.values.fill(0);
     this.row.fill(0);

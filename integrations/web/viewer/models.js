@@ -148,7 +148,11 @@ export class GlbModel {
       }
     });
     this.list = [...this.targets.keys()];
-    this.current = new Float32Array(this.list.length);
+    // As the file has them.
+    this.current = Float32Array.from(this.list, (name) => {
+      const [mesh, target] = this.targets.get(name)[0];
+      return mesh.morphTargetInfluences[target];
+    });
     this.kinds = [["raw", "Morph targets"]];
   }
 
