@@ -225,13 +225,13 @@ class AuthorTest(ProgramTest):
         for megabytes in range(16, 128, 4):
             limit = megabytes << 20
             done = run("author", path("head.glb"), "--joints", "60", "--lods", "4", "--threads", "1", "-o",
-                       path("no.dna"), "--report", path("no.json"),
+                       path("little.dna"), "--report", path("little.json"),
                        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
             if done.returncode in (DONE, INTERNAL):
                 codes.add(done.returncode)
             if done.returncode == INTERNAL:
                 self.assertIn("memory", done.stderr)
-                self.assertFalse(os.path.exists(path("no.dna")) or os.path.exists(path("no.json")))
+                self.assertFalse(os.path.exists(path("little.dna")) or os.path.exists(path("little.json")))
             if done.returncode == DONE:
                 break
         if not codes:
