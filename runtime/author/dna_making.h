@@ -118,4 +118,31 @@ bool make_lod_map(Arena& arena, size_t lod_count, size_t element_count, const In
   return true;
 }
 
+/// A group of `rows` (9 * joint + attribute, those of a joint in a run) and `columns`, with the value
+/// that `value(column, row)` tells.
+template <class Value>
+bool make_joint_group(Arena& arena, dna::Array<uint16_t> lod_rows, Span<const uint16_t> rows,
+                      Span<const uint16_t> columns, const Value& value, dna::JointGroup& out) {
+  size_t joints = 0;
+  const auto begins = [&rows](size_t r) { return r == 0 || rows[r] / 9 != rows[r - 1] / 9; };
+  for (size_t r = 0; r < rows.count; ++r) joints += begins(r);
+  dna::NewArray<uint16_t> inputs, outputs, members;
+  dna::NewArray<float> values;
+  if (!make(arena, columns.count, inputs) || !make(arena, rows.count, outputs) ||
+      !make(arena, rows.count * columns.count, values) || !make(arena, joints, members)) {
+    return false;
+  }
+  for (size_t c = 0; c < columns.count; ++c) inputs.set(c, columns[c]);
+  size_t member = 0;
+  for (size_t r = 0; r < rows.count; ++r) {
+    outputs.set(r, rows[r]);
+    if (begins(r)) members.set(member++, static_cast<uint16_t>(rows[r] / 9));
+    for (size_t c = 0; c < columns.count; ++c) {
+      values.set(r * columns.count + c, value(columns[c], rows[r]));
+    }
+  }
+  out = {lod_rows, inputs, outputs, values, members};
+  return true;
+}
+
 }  // namespace mien::author

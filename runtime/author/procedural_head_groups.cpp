@@ -50,7 +50,7 @@ bool fill_group(const Head& head, uint32_t group, Arena& arena, Span<uint16_t> r
     const JointDelta& d = head.deltas.at(shape, row / 9);
     return row % 9 < 3 ? d.translation[row % 9] : d.rotation[row % 9 - 3];
   };
-  uint32_t rows = 0, columns = 0, joints = 0;
+  uint32_t rows = 0, columns = 0;
   uint32_t rows_of_tier[kLodCount] = {};
   for (uint32_t tier = 0; tier < kLodCount; ++tier) {
     for (uint32_t j = 0; j < skeleton.count; ++j) {
@@ -68,32 +68,13 @@ bool fill_group(const Head& head, uint32_t group, Arena& arena, Span<uint16_t> r
     for (uint32_t r = 0; r < rows; ++r) moves |= value(s, row_buffer[r]) != 0;
     if (moves) column_buffer[columns++] = static_cast<uint16_t>(s);
   }
-  for (uint32_t r = 0; r < rows; ++r) {
-    joints += r == 0 || row_buffer[r] / 9 != row_buffer[r - 1] / 9;
-  }
-
-  dna::NewArray<uint16_t> lods, inputs, outputs, members;
-  dna::NewArray<float> values;
-  if (!make(arena, kLodCount, lods) || !make(arena, columns, inputs) ||
-      !make(arena, rows, outputs) || !make(arena, size_t{rows} * columns, values) ||
-      !make(arena, joints, members)) {
-    return false;
-  }
+  dna::NewArray<uint16_t> lods;
+  if (!make(arena, kLodCount, lods)) return false;
   for (uint32_t lod = 0; lod < kLodCount; ++lod) {
     lods.set(lod, static_cast<uint16_t>(rows_of_tier[kLodCount - 1 - lod]));
   }
-  for (uint32_t c = 0; c < columns; ++c) inputs.set(c, column_buffer[c]);
-  uint32_t member = 0;
-  for (uint32_t r = 0; r < rows; ++r) {
-    outputs.set(r, row_buffer[r]);
-    const bool first = r == 0 || row_buffer[r] / 9 != row_buffer[r - 1] / 9;
-    if (first) members.set(member++, static_cast<uint16_t>(row_buffer[r] / 9));
-    for (uint32_t c = 0; c < columns; ++c) {
-      values.set(size_t{r} * columns + c, value(column_buffer[c], row_buffer[r]));
-    }
-  }
-  out = {lods, inputs, outputs, values, members};
-  return true;
+  return author::make_joint_group(arena, lods, row_buffer.first(rows), column_buffer.first(columns),
+                                  value, out);
 }
 
 }  // namespace

@@ -66,18 +66,16 @@ bool fill_group(const RigModel& rig, uint32_t region, Arena& arena, Span<uint16_
   };
   dna::NewArray<uint16_t> lod_rows;
   if (!make(arena, lods, lod_rows)) return false;
-  uint32_t rows = 0, columns = 0, joints = 0;
+  uint32_t rows = 0, columns = 0;
   for (uint32_t lod = lods; lod-- > 0;) {
     for (uint32_t j = 0; j < bones; ++j) {
       const bool is_new = rig.in_lod(j, lod) && (lod + 1 == lods || !rig.in_lod(j, lod + 1));
       if (!is_new || rig.regions.region[j] != region) continue;
-      const uint32_t before = rows;
       for (uint32_t a = 0; a < 6; ++a) {
         bool moves = false;
         for (uint32_t c = 0; c < controls && !moves; ++c) moves = value(c, j * 9 + a) != 0;
         if (moves) row_buffer[rows++] = static_cast<uint16_t>(j * 9 + a);
       }
-      joints += rows > before;
     }
     lod_rows.set(lod, static_cast<uint16_t>(rows));
   }
@@ -86,24 +84,8 @@ bool fill_group(const RigModel& rig, uint32_t region, Arena& arena, Span<uint16_
     for (uint32_t r = 0; r < rows && !moves; ++r) moves = value(c, row_buffer[r]) != 0;
     if (moves) column_buffer[columns++] = static_cast<uint16_t>(c);
   }
-  dna::NewArray<uint16_t> inputs, outputs, members;
-  dna::NewArray<float> values;
-  if (!make(arena, columns, inputs) || !make(arena, rows, outputs) ||
-      !make(arena, size_t{rows} * columns, values) || !make(arena, joints, members)) {
-    return false;
-  }
-  for (uint32_t c = 0; c < columns; ++c) inputs.set(c, column_buffer[c]);
-  uint32_t member = 0;
-  for (uint32_t r = 0; r < rows; ++r) {
-    outputs.set(r, row_buffer[r]);
-    const bool first = r == 0 || row_buffer[r] / 9 != row_buffer[r - 1] / 9;
-    if (first) members.set(member++, static_cast<uint16_t>(row_buffer[r] / 9));
-    for (uint32_t c = 0; c < columns; ++c) {
-      values.set(size_t{r} * columns + c, value(column_buffer[c], row_buffer[r]));
-    }
-  }
-  out = {lod_rows, inputs, outputs, values, members};
-  return true;
+  return make_joint_group(arena, lod_rows, row_buffer.first(rows), column_buffer.first(columns),
+                          value, out);
 }
 
 bool fill_correctives(const RigModel& rig, Arena& arena, dna::Controls& out) {
