@@ -108,7 +108,7 @@ void SkinMaker::place_nostril() {
   }
   nostril_.low = std::max(nostril_.low, mouth_.high);
   nostril_.left = std::max(1u, grid_.columns[0] / 4);
-  nostril_.right = grid_.columns[0];
+  nostril_.right = grid_.columns[0] + 2 + grid_.columns[1] / 6;
 }
 
 Vertex SkinMaker::skin_vertex(Place place, Side lid, Side lip) const {

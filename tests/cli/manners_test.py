@@ -117,8 +117,8 @@ class Numbers(ProgramTest):
     def test_large_numbers_have_separators_and_sizes_units(self):
         text = self.ok("info", path("head.dna")).stdout.decode()
         self.assertRegex(text, r"size +12\.5 MB, mapped; \d+\.\d MB of memory")
-        self.assertRegex(text, r"vertices +72,515\n")
-        self.assertRegex(text, r"geom +1\.1 +347,196 +12,123,028\n")
+        self.assertRegex(text, r"vertices +72,631\n")
+        self.assertRegex(text, r"geom +1\.1 +347,660 +12,160,628\n")
 
     def test_inspect_states_its_order_and_leaves_out_what_is_tiny(self):
         text = self.ok("inspect", path("small.dna"), "jawOpen").stdout.decode()
