@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/baked_bytes.h"
+#include "tests/support/long_run.h"
 #include "tests/support/many_rigs.h"
 #include "tests/support/random_layer_rig.h"
 
@@ -124,7 +125,7 @@ TEST(BakedRig, AnyChangeIsRefusedOrDoesNoHarm) {
   size_t refused = 0, survived = 0;
   for (const Bytes& whole : {tiny_baked(), ml_baked()}) {
     const AlignedBytes file(whole);
-    for (size_t at = 0; at < whole.size(); ++at) {
+    for (size_t at = 0; at < whole.size(); at += byte_stride()) {
       for (const int change : {1 << at % 8, 0xFF, -1}) {
         const auto byte = static_cast<uint8_t>(change < 0 ? 0xFF : whole[at] ^ change);
         file.data()[at] = byte;

@@ -4,6 +4,7 @@
 // it are still in use elsewhere.
 #include <atomic>
 #include <functional>
+#include <new>
 #include <thread>
 
 #include "tests/support/deform_rig.h"
@@ -128,11 +129,11 @@ struct CountingAllocator {
     CountingAllocator& self = *static_cast<CountingAllocator*>(user);
     self.live_bytes += static_cast<int64_t>(size);
     ++self.calls;
-    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    return ::operator new (size, std::align_val_t{alignment}, std::nothrow);
   }
-  static void release(void* user, void* block, size_t size, size_t) {
+  static void release(void* user, void* block, size_t size, size_t alignment) {
     static_cast<CountingAllocator*>(user)->live_bytes -= static_cast<int64_t>(size);
-    free(block);
+    ::operator delete (block, std::align_val_t{alignment});
   }
 };
 

@@ -255,6 +255,28 @@ TEST(Work, CountsWhatOperationsHandOn) {
   EXPECT_EQ(steps[1] - steps[0], kLods * kRuns * (4 + kValues - kValues));
 }
 
+// Each matrix is inverted where the one before it was.
+TEST(Work, InversionTakesTheMemoryOfOneSolver) {
+  constexpr uint32_t kPoses = 80;
+  constexpr size_t kMatrix = size_t{2} * kPoses * kPoses * sizeof(double);
+  size_t scratch[2];
+  for (const bool many : {false, true}) {
+    Arena arena(default_allocator());
+    DnaView view = dna::tiny_rig(arena);
+    many_poses(arena, view, kPoses, true);
+    if (!many) view.rbfb.solvers.count = 1;
+    const Bytes bytes = write_view(view);
+    const DnaHandle dna = open_dna(bytes);
+    CountingAllocator counter;
+    const MienAllocator allocator = counter.get();
+    const RigHandle rig = create_rig(dna.get(), desc_with<MienRigDesc>(&allocator));
+    ASSERT_TRUE(rig);
+    scratch[many] = counter.peak - counter.bytes;  // beside the rig, which stays
+  }
+  EXPECT_GE(scratch[false], kMatrix);
+  EXPECT_LT(scratch[true], scratch[false] + kMatrix);
+}
+
 // Rigs that people make are far away from the limits.
 TEST(Work, OrdinaryRigsTakeATenthAtMost) {
   const auto expect_little = [](const MienDna* dna) {

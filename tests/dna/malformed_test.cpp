@@ -14,6 +14,7 @@
 #include "runtime/dna/format/dna_view.h"
 #include "tests/support/dna_bytes.h"
 #include "tests/support/exercise_dna.h"
+#include "tests/support/long_run.h"
 #include "tests/support/rig_handles.h"
 #include "tests/support/tiny_rig.h"
 
@@ -125,8 +126,8 @@ TEST_P(Version, GoodFilesLiveToTheEnd) {
 TEST_P(Version, EveryByteOfASmallFile) {
   const Bytes good = tiny_file(GetParam());
   Survivor survivor;
-  break_everywhere(good, 1, survivor);
-  EXPECT_GT(survivor.lives(), 9 * good.size());
+  break_everywhere(good, byte_stride(), survivor);
+  EXPECT_GT(survivor.lives(), 9 * good.size() / byte_stride());
   // Floats and strings may hold anything: not all that is broken is refused.
   EXPECT_GT(survivor.opened(), survivor.lives() / 20);
   EXPECT_LT(survivor.opened(), survivor.lives());
@@ -196,7 +197,7 @@ TEST_P(Version, CountsInsideLayers) {
   const Bytes good = tiny_file(GetParam());
   const uint32_t size = static_cast<uint32_t>(good.size());
   Survivor survivor;
-  for (size_t at = 7; at + 4 <= good.size(); ++at) {
+  for (size_t at = 7; at + 4 <= good.size(); at += byte_stride()) {
     if (dna::number32(good, at) > 64) continue;
     for (uint32_t value : {dna::number32(good, at) + 1, size, 0x10000u, 0x7FFFFFFFu, 0xFFFFFFFFu}) {
       Bytes bad = good;

@@ -2,7 +2,6 @@
 // Any bytes as a mesh: read as OBJ, GLB, .target or .mshp, rigged if it is small, and the rig compiled,
 // evaluated and deformed. An input is two bytes of options and a file; shapes are for a mesh made here.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -17,6 +16,7 @@
 #include "integrations/cli/mesh/mesh_file.h"
 #include "tests/fuzz/time_limit.h"
 #include "tests/support/counting_allocator.h"
+#include "tests/support/cpu_time.h"
 
 extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
 
@@ -358,11 +358,9 @@ extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size < 2) return 0;
-  const auto start = std::chrono::steady_clock::now();
+  const double start = cpu_seconds();
   std::string broken;
-  const auto seconds = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
+  const auto seconds = [&] { return cpu_seconds() - start; };
   const std::string bytes(reinterpret_cast<const char*>(data + 2), size - 2);
   try {
     const MeshFile mesh = read_any(bytes);

@@ -23,4 +23,13 @@ inline uint32_t first_seed() {
   return wanted ? static_cast<uint32_t>(std::strtoul(wanted, nullptr, 10)) : 1;
 }
 
+/// Tests that change every byte of a file change every byte_stride()-th: all of them, unless
+/// MIEN_BYTE_STRIDE says otherwise. That is for emulated CPUs, where all of them take hours. It is odd
+/// there, so that each bit of a byte has its turn.
+inline size_t byte_stride() {
+  const char* wanted = std::getenv("MIEN_BYTE_STRIDE");
+  const unsigned long long stride = wanted ? std::strtoull(wanted, nullptr, 10) : 1;
+  return stride != 0 ? static_cast<size_t>(stride) : 1;
+}
+
 }  // namespace mien
