@@ -102,8 +102,8 @@ class Bake(ProgramTest):
                 ("cut", whole[:-64], "ends after"), ("head", whole[:40], "within its header"),
                 ("version", whole[:12] + b"\x63" + whole[13:], "version"),
                 ("order", whole[:8] + whole[8:12][::-1] + whole[12:], "byte order"),
-                ("table", whole[:-64 * (len(whole) // 128)][:4096].ljust(len(whole), b"\xff"),
-                 "baked file is damaged")):
+                ("table", whole[:1024].ljust(len(whole), b"\xff"), "another kind of machine"),
+                ("arrays", whole[:8192].ljust(len(whole), b"\xff"), "baked file is damaged")):
             write(name + ".rig", content)
             for command in ("info", "eval"):
                 more = ["--input", path("frames.json")] if command == "eval" else []
