@@ -2,16 +2,18 @@
 # SPDX-License-Identifier: MIT
 """Turns what `mien bench --json` printed into the table and the chart of README.md.
 
-    chart.py record BENCH.json... NAME=BENCH.json...
-                                    keeps LOD 0 of these runs (one file for each storage of the rig
-                                    of the table, then other rigs) in bench/results/CPU.json, then
-                                    does what readme does
+    chart.py record BENCH.json,... ... NAME=BENCH.json,... ...
+                                    keeps LOD 0 of these runs in bench/results/CPU.json: the rig of
+                                    the table with each storage, then other rigs. Of several files
+                                    with commas between, which are runs of the same, the medians.
+                                    Then does what readme does
     chart.py readme                 writes the table between the marks of README.md, and the charts
     chart.py check                  fails if README.md or a chart is not what the results give
 """
 import html
 import json
 import re
+import statistics
 import sys
 from pathlib import Path
 
@@ -38,6 +40,23 @@ def trimmed(run):
     """LOD 0 is what the README shows; the rest need not be kept."""
     return {key: [row for row in value if row["lod"] == 0] if key in ("csr", "rows") else value
             for key, value in run.items()}
+
+
+def medians(paths):
+    """One run, with the medians of several, their number, and by how much of it a time of evaluation
+    differs between the fastest and the slowest, in the middle."""
+    runs = [trimmed(json.loads(Path(path).read_text(encoding="utf-8"))) for path in paths]
+    spreads = []
+    for key in ("csr", "rows", "frames"):
+        for rows in zip(*(run.get(key, []) for run in runs), strict=True):
+            times = {field: [row[field] for row in rows] for field in rows[0] if field.endswith("_ns")}
+            if len({json.dumps({k: v for k, v in row.items() if k not in times}) for row in rows}) > 1:
+                sys.exit("chart.py: these are not runs of the same: " + ", ".join(paths))
+            rows[0].update((field, statistics.median(values)) for field, values in times.items())
+            if "evaluate_ns" in times:
+                spreads.append((max(times["evaluate_ns"]) - min(times["evaluate_ns"])) /
+                               rows[0]["evaluate_ns"])
+    return {**runs[0], "runs": len(runs), "spread": statistics.median(spreads)}
 
 
 def series(result):
@@ -94,6 +113,15 @@ def other_table(result):
     return lines
 
 
+def of_runs(result):
+    run = result["runs"][0]
+    if run.get("runs", 1) == 1:
+        return []
+    spread = statistics.median(r["spread"] for r in result["runs"] + result["others"])
+    return [f"Medians of {run['runs']} runs; the slowest and the fastest are {100 * spread:.0f} % apart, in the "
+            "median of all times."]
+
+
 def table(result):
     run = result["runs"][0]
     lines = [f"{run['cpu']}, {run['compiler']}, one core: LOD 0 of \"{run['rig']}\", all stages, "
@@ -101,7 +129,8 @@ def table(result):
              "share of raw controls that are active; behind them, how many times as fast as the "
              "joint matrix in compressed",
              f"sparse rows ({run['csr'][0]['joints_ns'] / 1000:.0f} us), which skips no control that "
-             "is zero. `mien bench` prints the same rows.", "",
+             "is zero. `mien bench` prints the same rows.",
+             *of_runs(result), "",
              "| |" + "|".join(f" {name} " for name, *_ in COLUMNS) + "|",
              "|---|" + "---|" * len(COLUMNS)]
     for label, _, values in series(result):
@@ -177,8 +206,8 @@ def write_all():
 def record(files):
     runs, others = [], []
     for file in files:
-        name, _, path = file.rpartition("=")
-        run = trimmed(json.loads(Path(path).read_text(encoding="utf-8")))
+        name, _, paths = file.rpartition("=")
+        run = medians(paths.split(","))
         (others if name else runs).append({"name": name, **run} if name else run)
     if not runs:
         sys.exit(__doc__)
