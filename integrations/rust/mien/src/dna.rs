@@ -11,6 +11,7 @@ use mien_sys as sys;
 use std::borrow::Cow;
 use std::io::{Read, Seek};
 use std::marker::PhantomData;
+use std::mem::replace;
 use std::os::raw::c_void;
 use std::path::Path;
 use std::ptr::{null, null_mut, NonNull};
@@ -72,9 +73,18 @@ impl<'bytes> Dna<'bytes> {
         allocator: Option<&Allocator>,
         call: impl FnOnce(*const sys::MienAllocator, *mut *mut sys::MienDna, *mut sys::MienError) -> i32,
     ) -> Result<Self> {
-        let mut handle = null_mut();
-        Allocator::with(allocator, |raw| checked(|error| call(raw, &mut handle, error)))?;
-        let handle = NonNull::new(handle).expect("a handle after success");
+        /// Closes what was opened if `call` panics.
+        struct Opened(*mut sys::MienDna);
+        impl Drop for Opened {
+            fn drop(&mut self) {
+                // SAFETY: closed once; null is allowed.
+                unsafe { sys::mien_dna_close(self.0) }
+            }
+        }
+        let mut opened = Opened(null_mut());
+        Allocator::with(allocator, |raw| checked(|error| call(raw, &mut opened.0, error)))?;
+        let handle =
+            NonNull::new(replace(&mut opened.0, null_mut())).expect("a handle after success");
         let mut info = sys::MienDnaInfo::default();
         // SAFETY: a live handle and a sized struct.
         let status = unsafe { sys::mien_dna_info(handle.as_ptr(), &mut info) };

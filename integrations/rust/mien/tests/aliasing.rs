@@ -35,6 +35,9 @@ unsafe fn create(allocator: *const MienAllocator, bytes: *const u8) -> *mut c_vo
 }
 
 unsafe fn destroy(handle: *mut c_void) {
+    if handle.is_null() {
+        return; // as the library does
+    }
     let (size, alignment) = (std::mem::size_of::<Object>(), 64);
     match handle.cast::<Object>().read().allocator {
         Some(given) => given.release.unwrap()(given.user, handle, size, alignment),
