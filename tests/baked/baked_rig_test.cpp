@@ -350,10 +350,11 @@ TEST(BakedRig, MemoryOfInstancesIsWhatStepsAndLayersAskFor) {
   ASSERT_EQ(exercise_baked(AlignedBytes(file).data(), file.size()).opened, MIEN_OK);
   // Numbers lie at the begin of a part, 8 bytes each: all that read like one of the two.
   uint32_t refused = 0;
-  const auto* parts = reinterpret_cast<const BakedPart*>(file.data() + sizeof(BakedHeader));
-  for (uint32_t i = 0; i < parts[0].number_count; ++i) {
+  BakedPart part;
+  memcpy(&part, file.data() + sizeof(BakedHeader), sizeof(part));
+  for (uint32_t i = 0; i < part.number_count; ++i) {
     std::vector<uint8_t> changed = file;
-    uint8_t* const at = changed.data() + parts[0].offset + size_t{i} * sizeof(uint64_t);
+    uint8_t* const at = changed.data() + part.offset + size_t{i} * sizeof(uint64_t);
     uint32_t number = 0;
     memcpy(&number, at, sizeof(number));
     if (number != kept && number != buffer) continue;
