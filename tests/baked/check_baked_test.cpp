@@ -303,14 +303,17 @@ TEST(CheckBakedDeformer, CountsAndIndices) {
        }},
       {"targets behind the last block",
        [](Deformer&, DeformMesh& m) { --m.first_target_run[m.block_count()]; }},
-      {"more faces than can be numbered",
-       [](Deformer&, DeformMesh& m) { m.faces.count = SIZE_MAX / 4 * 4; }},
       {"a vertex of no position",
        [](Deformer&, DeformMesh& m) { --m.first_vertex[m.position_count]; }},
       {"normals that are no choice",
        [](Deformer& d, DeformMesh&) { d.normals = Normals::kDefault; }},
+      {"more faces than can be numbered",
+       [](Deformer&, DeformMesh& m) { m.faces.count = SIZE_MAX / 4 * 4; }},
   };
+  // Where sizes have 32 bits, faces cannot be as many as the last says.
+  size_t left = std::size(all) - (sizeof(size_t) == 4);
   for (const auto& contradiction : all) {
+    if (left-- == 0) break;
     SCOPED_TRACE(contradiction.what);
     OpenBaked opened(file);
     Deformer& deformer = const_cast<Deformer&>(opened.deformer_arrays());
