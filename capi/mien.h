@@ -49,9 +49,9 @@
  *   Structs    Structs that begin with struct_size are extended at their end by later releases.
  *              Initialize them with their default function, or zero them and set struct_size to
  *              sizeof: zero is the default of every field. A desc or allocator may be NULL, which
- *              means all defaults. A struct shorter than in the release that introduced it, or an
- *              input with nonzero fields that the library does not know, gives
- *              MIEN_ERROR_STRUCT_SIZE; unknown fields of outputs are set to zero.
+ *              means all defaults. A struct shorter than in the release that introduced it or
+ *              longer than 4096 bytes, or an input with nonzero fields that the library does not
+ *              know, gives MIEN_ERROR_STRUCT_SIZE; unknown fields of outputs are set to zero.
  *   Enums      Parameters and fields that hold an enum value are fixed-width integers, because the
  *              size of a C enum is not fixed.
  *   Misuse     A NULL handle, a wrong index and a handle of the wrong kind return a status. Using
@@ -134,7 +134,8 @@ enum MienStatusCode {
     MIEN_OK = 0,
     MIEN_ERROR_NULL_ARGUMENT = 1,    /* a required pointer is NULL */
     MIEN_ERROR_INVALID_ARGUMENT = 2, /* a value outside its range, or a buffer that is too small */
-    MIEN_ERROR_STRUCT_SIZE = 3,      /* struct_size is too small, or unknown fields are not zero */
+    MIEN_ERROR_STRUCT_SIZE = 3,      /* struct_size is too small or above 4096, or unknown fields are
+                                        not zero */
     MIEN_ERROR_HANDLE = 4,           /* a handle of the wrong kind */
     MIEN_ERROR_MISMATCH = 5,         /* objects that do not belong together */
     MIEN_ERROR_INDEX = 6,            /* an index past the end */

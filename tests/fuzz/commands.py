@@ -136,7 +136,7 @@ def one_run(program, inputs, seed, scratch, findings):
         if kind == damaged:
             binary = kind in ("rig", "baked", "clip", "glb")
             data = damage_binary(rng, data, inputs[kind]) if binary else damage_text(rng, data)
-        name = f"{kind}.{'obj' if kind == 'obj' else 'glb' if kind == 'glb' else 'in'}"
+        name = f"{kind}.{kind if kind in ('obj', 'glb') else 'in'}"
         (folder / name).write_bytes(data)
         return name
     arguments = shlex.split(re.sub(r"{([\w:]+)}", fill, command))

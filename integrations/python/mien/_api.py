@@ -48,7 +48,7 @@ class Status(IntEnum):
     NULL_ARGUMENT = 1
     #: a value outside its range, or a buffer that is too small
     INVALID_ARGUMENT = 2
-    #: struct_size is too small, or unknown fields are not zero
+    #: struct_size is too small or above 4096, or unknown fields are not zero
     STRUCT_SIZE = 3
     #: a handle of the wrong kind
     HANDLE = 4

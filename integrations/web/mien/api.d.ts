@@ -12,7 +12,7 @@ export declare const Status: {
   readonly NULL_ARGUMENT: 1;
   /** a value outside its range, or a buffer that is too small */
   readonly INVALID_ARGUMENT: 2;
-  /** struct_size is too small, or unknown fields are not zero */
+  /** struct_size is too small or above 4096, or unknown fields are not zero */
   readonly STRUCT_SIZE: 3;
   /** a handle of the wrong kind */
   readonly HANDLE: 4;

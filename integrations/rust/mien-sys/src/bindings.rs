@@ -30,7 +30,7 @@ pub const MIEN_OK: MienStatus = 0;
 pub const MIEN_ERROR_NULL_ARGUMENT: MienStatus = 1;
 /// A value outside its range, or a buffer that is too small.
 pub const MIEN_ERROR_INVALID_ARGUMENT: MienStatus = 2;
-/// `struct_size` is too small, or unknown fields are not zero.
+/// `struct_size` is too small or above 4096, or unknown fields are not zero.
 pub const MIEN_ERROR_STRUCT_SIZE: MienStatus = 3;
 /// A handle of the wrong kind.
 pub const MIEN_ERROR_HANDLE: MienStatus = 4;

@@ -18,7 +18,7 @@ impl Status {
     pub const NULL_ARGUMENT: Self = Self(1);
     /// A value outside its range, or a buffer that is too small.
     pub const INVALID_ARGUMENT: Self = Self(2);
-    /// `struct_size` is too small, or unknown fields are not zero.
+    /// `struct_size` is too small or above 4096, or unknown fields are not zero.
     pub const STRUCT_SIZE: Self = Self(3);
     /// A handle of the wrong kind.
     pub const HANDLE: Self = Self(4);
@@ -108,7 +108,7 @@ pub(crate) fn describe(status: Status) -> &'static str {
     match status.0 {
         1 => "a required pointer is NULL",
         2 => "a value outside its range, or a buffer that is too small",
-        3 => "struct_size is too small, or unknown fields are not zero",
+        3 => "struct_size is too small or above 4096, or unknown fields are not zero",
         4 => "a handle of the wrong kind",
         5 => "objects that do not belong together",
         6 => "an index past the end",
