@@ -141,6 +141,11 @@ void frame(benchmark::State& state, uint32_t isa, uint32_t channels,
     character.update();
     require(mien_deformer_instance_deform(character.pose, 0, MIEN_NORMALS_RECOMPUTED, parallel));
   }
+  MienMesh mesh = sized<MienMesh>();
+  require(mien_deformer_mesh(deformer_for(isa), 0, &mesh));
+  state.counters["positions"] = mesh.position_count;
+  state.counters["deltas"] = mesh.delta_count;
+  state.counters["joints"] = static_cast<double>(character.joints.size() / 9);
   count_vertices(state);
 }
 

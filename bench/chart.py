@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Turns what `mien bench --json` printed into the table and the chart of README.md.
+"""Turns what benchmarks printed into the tables and the chart of README.md.
 
-    chart.py record BENCH.json,... ... NAME=BENCH.json,... ...
-                                    keeps LOD 0 of these runs in bench/results/CPU.json: the rig of
-                                    the table with each storage, then other rigs. Of several files
-                                    with commas between, which are runs of the same, the medians.
-                                    Then does what readme does
-    chart.py readme                 writes the table between the marks of README.md, and the charts
+    chart.py record BENCH.json,... ... NAME=BENCH.json,... ... PARTS.json ...
+                                    keeps results in bench/results/CPU.json, then does what readme
+                                    does. BENCH.json is what `mien bench --json` printed; LOD 0 is
+                                    kept: the rig of the table with each storage, then other rigs.
+                                    Of several files with commas between, which are runs of the
+                                    same, the medians. PARTS.json is what a bench_* program printed
+                                    as JSON, with repetitions
+    chart.py readme                 writes the tables between the marks of README.md, and the charts
     chart.py check                  fails if README.md or a chart is not what the results give
 """
 import html
@@ -20,7 +22,6 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "bench" / "results"
 README = ROOT / "README.md"
-BEGIN, END = "<!-- bench:begin -->", "<!-- bench:end -->"
 
 # Heading, activity, instances, whether all have the same active controls.
 COLUMNS = [("5 %", 0.05, 1, False), ("8 %", 0.08, 1, False), ("25 %", 0.25, 1, False),
@@ -57,6 +58,22 @@ def medians(paths):
                 spreads.append((max(times["evaluate_ns"]) - min(times["evaluate_ns"])) /
                                rows[0]["evaluate_ns"])
     return {**runs[0], "runs": len(runs), "spread": statistics.median(spreads)}
+
+
+def parts(printed):
+    """Medians and coefficients of variation of a bench_* program: {benchmark: {"ns", "cv", counters}}."""
+    to_ns = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
+    found = {}
+    for row in printed["benchmarks"]:
+        part = found.setdefault(row["run_name"].replace("/real_time", ""), {})
+        if row.get("aggregate_name") == "median":
+            part.update((key, value) for key, value in row.items()
+                        if isinstance(value, float) and not key.endswith("_time"))
+            part["ns"] = row["real_time"] * to_ns[row["time_unit"]]
+            part["runs"] = row["repetitions"]
+        elif row.get("aggregate_name") == "cv":
+            part["cv"] = row["real_time"]
+    return found
 
 
 def series(result):
@@ -137,7 +154,38 @@ def table(result):
         cells = [f" {values[name][0] / 1000:.1f} ({values[name][1]:.1f}x) "
                  if name in values else " " for name, *_ in COLUMNS]
         lines.append(f"| {label} |" + "|".join(cells) + "|")
-    return lines + other_table(result)
+    return lines + other_table(result) + loading(result)
+
+
+def loading(result):
+    """How long it takes until a rig can be evaluated."""
+    measured = result.get("parts", {})
+    if "baked/map" not in measured:
+        return []
+    opened, compiled = measured["baked/map"], measured["compile/all_lods"]
+    return ["", f"A baked file of \"{result['runs'][0]['rig']}\" opens in {opened['ns'] / 1000:.0f} us, the "
+            f"DNA file compiles in {compiled['ns'] / 1e6:.1f} ms", f"(`bench_load`: medians of {opened['runs']} "
+            f"runs, {100 * max(opened['cv'], compiled['cv']):.0f} % coefficient of variation)."]
+
+
+def deformer_table(result):
+    measured = result.get("parts", {})
+    isas = [isa for isa in COLORS if f"frame/{isa}" in measured]
+    if not isas:
+        return []
+    frame = measured[f"frame/{isas[0]}"]
+    rows = [("skin", "positions, million per second", lambda part: f"{part['vertices'] / 1e6:.0f}"),
+            ("skin_and_normals", "with skinned normals", lambda part: f"{part['vertices'] / 1e6:.0f}"),
+            ("frame", f"frame: {frame['joints']:.0f} joints, {frame['deltas']:,.0f} deltas, skinning, "
+             "recomputed normals; without rig evaluation", lambda part: f"{part['ns'] / 1000:.0f} us")]
+    lines = [f"| head of {frame['positions']:,.0f} positions, 8 influences each |" +
+             "|".join(f" {isa} " for isa in isas) + "|", "|---|" + "---|" * len(isas)]
+    for name, label, text in rows:
+        lines.append(f"| {label} |" + "|".join(f" {text(measured[f'{name}/{isa}'])} " for isa in isas) + "|")
+    spread = max(measured[f"{name}/{isa}"]["cv"] for name, *_ in rows for isa in isas)
+    run = result["runs"][0]
+    return lines + ["", f"{run['cpu']}, {run['compiler']}, one core: medians of {frame['runs']} runs of "
+                    f"`bench_deform`, coefficients of variation up to {100 * spread:.0f} %."]
 
 
 def bars(title, rows, names, y):
@@ -181,47 +229,58 @@ def results():
             for path in sorted(RESULTS.glob("*.json"))]
 
 
-def block():
-    lines = [BEGIN]
+def speed():
+    lines = []
     for path, result in results():
         picture = path.with_suffix(".svg").relative_to(ROOT).as_posix()
         lines += table(result) + ["", f"![Times as fast as compressed sparse rows]({picture})", ""]
-    return "\n".join(lines + [END])
+    return lines
 
 
-def readme_with_block(text):
-    if text.count(BEGIN) != 1 or text.count(END) != 1:
-        sys.exit(f"chart.py: README.md needs {BEGIN} and {END} once each")
-    head, rest = text.split(BEGIN)
-    return head + block() + rest.split(END)[1]
+def deformers():
+    return [line for _, result in results() for line in deformer_table(result) + [""]]
+
+
+def readme_with_tables(text):
+    for name, lines in (("bench", speed()), ("bench-deform", deformers())):
+        begin, end = f"<!-- {name}:begin -->", f"<!-- {name}:end -->"
+        if text.count(begin) != 1 or text.count(end) != 1:
+            sys.exit(f"chart.py: README.md needs {begin} and {end} once each")
+        head, rest = text.split(begin)
+        text = head + "\n".join([begin, *lines, end]) + rest.split(end)[1]
+    return text
 
 
 def write_all():
     for path, result in results():
         path.with_suffix(".svg").write_text(chart(result), encoding="utf-8")
     text = README.read_text(encoding="utf-8")
-    README.write_text(readme_with_block(text), encoding="utf-8")
+    README.write_text(readme_with_tables(text), encoding="utf-8")
 
 
 def record(files):
-    runs, others = [], []
+    runs, others, measured = [], [], {}
     for file in files:
         name, _, paths = file.rpartition("=")
-        run = medians(paths.split(","))
-        (others if name else runs).append({"name": name, **run} if name else run)
+        first = json.loads(Path(paths.split(",")[0]).read_text(encoding="utf-8"))
+        if "benchmarks" in first:
+            measured.update(parts(first))
+        else:
+            run = medians(paths.split(","))
+            (others if name else runs).append({"name": name, **run} if name else run)
     if not runs:
         sys.exit(__doc__)
     name = re.sub(r"[^a-z0-9]+", "-", runs[0]["cpu"].lower()).strip("-") or "unknown"
     RESULTS.mkdir(exist_ok=True)
-    (RESULTS / f"{name}.json").write_text(json.dumps({"runs": runs, "others": others}, indent=1) + "\n",
-                                          encoding="utf-8")
+    (RESULTS / f"{name}.json").write_text(json.dumps({"runs": runs, "others": others, "parts": measured},
+                                                     indent=1) + "\n", encoding="utf-8")
     write_all()
     print(f"wrote bench/results/{name}.json, its chart and README.md")
 
 
 def check():
     text = README.read_text(encoding="utf-8")
-    wrong = [] if readme_with_block(text) == text else ["README.md"]
+    wrong = [] if readme_with_tables(text) == text else ["README.md"]
     for path, result in results():
         picture = path.with_suffix(".svg")
         if not picture.exists() or picture.read_text(encoding="utf-8") != chart(result):

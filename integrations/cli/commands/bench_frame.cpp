@@ -86,7 +86,7 @@ void sample_frame(const FramePacket& packet, uint32_t characters, FrameSamples& 
                                             packet.instance_handles.data(), packet.lods.data(),
                                             characters, MIEN_STAGE_ALL, nullptr);
   };
-  const auto pose = [&] {
+  const auto update = [&] {
     for (uint32_t i = 0; i < characters; ++i) {
       failed |= mien_deformer_instance_update(packet.pose_handles[i], packet.instance_handles[i]);
     }
@@ -97,9 +97,14 @@ void sample_frame(const FramePacket& packet, uint32_t characters, FrameSamples& 
                                                     MIEN_NORMALS_SKINNED, nullptr);
     }
   };
-  samples.evaluate.push_back(time_per_pass(evaluate) / characters);
-  samples.pose.push_back(time_per_pass(pose) / characters);
-  samples.deform.push_back(time_per_pass(deform) / characters);
+  // The first pass fetches what the frames of other rows have displaced from the caches.
+  const auto time = [&](const auto& pass) {
+    pass();
+    return time_per_pass(pass) / characters;
+  };
+  samples.evaluate.push_back(time(evaluate));
+  samples.pose.push_back(time(update));
+  samples.deform.push_back(time(deform));
   if (failed != MIEN_OK) check(failed, nullptr, kCannot, "");
 }
 
