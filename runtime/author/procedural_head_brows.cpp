@@ -16,10 +16,11 @@ using author::smooth_step;
 
 namespace {
 
-/// A hair: a strip from its root to its tip, where it ends in a point.
+/// A hair: a strip that ends in a point at its tip, and at its root if it is `fine`.
 struct Hair {
   Vertex root, middle, tip;
-  Vec3 wide;  // half width at the root
+  Vec3 wide;  // half width at its thickest
+  bool fine = false;
 };
 
 void add_hair(const Hair& hair, HalfMesh& out) {
@@ -28,6 +29,13 @@ void add_hair(const Hair& hair, HalfMesh& out) {
     v.closed = v.closed + step;
     return out.vertices.add(v);
   };
+  if (hair.fine) {
+    const uint32_t root = out.vertices.add(hair.root);
+    const uint32_t c = beside(hair.middle, hair.wide * -1.0), d = beside(hair.middle, hair.wide);
+    out.triangle(root, d, c);
+    out.triangle(c, d, out.vertices.add(hair.tip));
+    return;
+  }
   const uint32_t a = beside(hair.root, hair.wide * -1.0), b = beside(hair.root, hair.wide);
   const uint32_t c = beside(hair.middle, hair.wide * -0.7),
                  d = beside(hair.middle, hair.wide * 0.7);
@@ -141,7 +149,7 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
   }
   join_rows(out, first, rows, columns);
   if (!strands) return;
-  const uint32_t hairs = lod == 0 ? 150 : lod == 1 ? 84 : 48;
+  const uint32_t hairs = lod == 0 ? 190 : lod == 1 ? 100 : 56;
   for (uint32_t i = 0; i < hairs; ++i) {
     // They lean outwards, the inner ones up, and lie down towards the tail.
     const double t = clamp01((i + 0.5) / hairs + 0.02 * scatter(i + 300));
@@ -159,7 +167,8 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
     hair.middle =
         place(x + 0.5 * size * c, y + 0.5 * size * s, 0.055, color, t, 0.55 + 0.4 * across);
     hair.tip = place(x + size * c, y + size * (s - 0.15), 0.02, color, t, 0.6 + 0.4 * across);
-    const double wide = 0.028 * (hairs < 100 ? 1.4 : 1);
+    const double wide = lod == 0 ? 0.016 : lod == 1 ? 0.022 : 0.03;
+    hair.fine = true;
     hair.wide = {s * wide, -c * wide, 0};
     add_hair(hair, out);
   }

@@ -28,10 +28,10 @@ constexpr double kKnots[][kKnotColumns] = {
     {-22.0, 12.9, 5.5, -9.0, 2.5},  {-21.6, 13.05, 5.5, -9.1, 2.5},  {-20.6, 13.0, 5.0, -9.1, 2.5},
     {-19.4, 12.7, 4.5, -9.1, 2.45}, {-18.3, 11.6, 3.95, -8.8, 2.35}, {-17.4, 9.9, 3.5, -8.4, 2.25},
     {-16.6, 7.9, 3.3, -7.9, 2.15},  {-15.8, 6.2, 3.3, -7.4, 2.05},   {-14.4, 5.25, 3.5, -6.8, 2.0},
-    {-12.6, 5.1, 3.9, -6.4, 2.0},   {-11.5, 5.1, 4.95, -6.2, 2.0},   {-10.9, 5.0, 7.0, -6.1, 2.05},
-    {-10.3, 5.15, 8.45, -6.1, 2.1}, {-9.2, 5.75, 8.85, -6.2, 2.1},   {-8.0, 6.1, 8.7, -6.4, 2.1},
-    {-6.0, 6.6, 8.85, -6.9, 2.1},   {-4.0, 7.0, 9.0, -7.8, 2.15},    {-1.5, 7.4, 9.15, -8.9, 2.2},
-    {0.6, 7.65, 9.25, -9.6, 2.25},  {3.0, 7.85, 9.5, -10.0, 2.3},    {5.0, 7.85, 9.35, -10.1, 2.3},
+    {-12.6, 5.1, 3.9, -6.4, 2.0},   {-11.5, 5.2, 4.95, -6.2, 2.0},   {-10.9, 5.3, 7.0, -6.1, 2.05},
+    {-10.3, 5.8, 8.5, -6.1, 1.9},   {-9.2, 6.2, 8.9, -6.2, 2.0},     {-8.0, 6.42, 8.8, -6.4, 2.1},
+    {-6.0, 6.7, 8.85, -6.9, 2.3},   {-4.0, 7.1, 9.0, -7.8, 2.45},    {-1.5, 7.4, 9.1, -8.9, 2.5},
+    {0.6, 7.65, 9.25, -9.6, 2.3},   {3.0, 7.85, 9.5, -10.0, 2.3},    {5.0, 7.85, 9.35, -10.1, 2.3},
     {7.5, 7.45, 8.6, -9.7, 2.25},   {9.8, 6.3, 7.0, -8.5, 2.2},      {11.4, 4.6, 4.7, -6.6, 2.15},
     {12.25, 2.7, 2.2, -4.0, 2.1},   {12.6, 0.6, -0.3, -1.5, 2.0},
 };
@@ -124,7 +124,8 @@ double Form::mouth_line(double x) const {
 double Form::lip_height(double x, int which) const {
   const double s = std::min(std::abs(x) / (1.04 * kMouthHalfWidth), 1.0), end = 1 - s * s;
   const double full = mix(1, person_.lips, 0.5);
-  if (which < 0) return 0.76 * full * exact_pow(end, 0.54);
+  if (which < 0)
+    return full * (0.76 * exact_pow(end, 0.44) - 0.08 * bump(s, 0, 0, 0, 0.30, 1) * end);
   const double bow = 0.60 + 0.12 * bump(s, 0, 0.26, 0, 0.20, 1) - 0.07 * bump(s, 0, 0, 0, 0.10, 1);
   return bow * full * exact_pow(end, 0.8);
 }
@@ -160,28 +161,33 @@ double Form::lower_opening(double x) const {
 /// The nose above the face around it: a dome in each row, with steep sides where the wings are.
 double Form::nose(double x, double y) const {
   const Person& p = person_;
-  // y, height of the ridge, half width, steepness of the sides (less is steeper)
-  static constexpr double kRows[][4] = {
-      {-4.9, 0.00, 0.8, 1.20},   {-4.6, 0.30, 1.15, 1.00},  {-4.35, 0.86, 1.42, 0.75},
-      {-4.12, 1.50, 1.54, 0.56}, {-3.85, 2.02, 1.59, 0.50}, {-3.5, 2.27, 1.60, 0.52},
-      {-3.1, 2.30, 1.56, 0.62},  {-2.7, 2.16, 1.47, 0.95},  {-2.2, 1.86, 1.38, 1.25},
-      {-1.5, 1.44, 1.30, 1.50},  {-0.6, 0.98, 1.20, 1.65},  {0.4, 0.62, 1.08, 1.65},
-      {1.3, 0.42, 1.20, 1.60},   {2.4, 0.26, 1.8, 1.50},    {4.2, 0.00, 2.2, 1.50}};
+  // y, height of the ridge, half width, steepness of the sides (less is steeper), bluntness
+  static constexpr double kRows[][5] = {
+      {-4.9, 0.00, 0.9, 1.20, 0},    {-4.6, 0.28, 1.15, 1.00, 0},   {-4.35, 0.84, 1.42, 0.80, 0},
+      {-4.12, 1.48, 1.60, 0.66, 0},  {-3.85, 2.00, 1.68, 0.64, 0},  {-3.5, 2.32, 1.74, 0.78, 0.2},
+      {-3.1, 2.40, 1.76, 1.30, 0.8}, {-2.7, 2.30, 1.74, 1.90, 1.1}, {-2.2, 2.00, 1.74, 2.00, 0.8},
+      {-1.5, 1.54, 1.70, 2.00, 0.3}, {-0.6, 1.00, 1.66, 2.00, 0},   {0.4, 0.50, 1.65, 2.10, 0},
+      {1.3, 0.28, 1.70, 2.00, 0},    {2.4, 0.22, 2.2, 1.80, 0},     {4.2, 0.00, 2.4, 1.50, 0}};
   constexpr int kCount = sizeof(kRows) / sizeof(kRows[0]);
   const double at_x = std::abs(x) / p.nose_width;
   // The rim of the nostril is an arch.
   const double row = y - 0.16 * bump(at_x, y, kNostril.x, kNostril.y - 0.05, 0.36, 0.45);
   const auto at = [row](int column) {
-    return interpolate(row, kRows[0], kRows[0] + column, 4, kCount);
+    return interpolate(row, kRows[0], kRows[0] + column, 5, kCount);
   };
   const double t = at_x / at(2);
   // Its foot is round: the dome goes to 0 a little outside.
   const double left = 1 - t * t, above = 0.5 * (left + std::sqrt(left * left + 0.006));
-  double z = t < 1.4 ? at(1) * exact_pow(above, at(3)) * smooth_step(1.4, 1.0, t) : 0;
+  double z = 0;
+  if (t < 1.4) {
+    const double blunt = 1 + at(4) * std::min(t * t, 1.0);
+    z = at(1) * exact_pow(above, at(3)) * blunt * smooth_step(1.4, 1.0, t);
+  }
   // The wing is a ball of its own, behind a furrow that runs around it from the tip to the cheek.
   const double dx = at_x - 1.20, dy = y + 3.42, apart = std::sqrt(dx * dx + 0.8 * dy * dy) - 0.50;
   z += 0.27 * bump(dx, dy, 0, 0, 0.32, 0.36);
-  z -= 0.26 * bump(apart, 0, 0, 0, 0.14, 1) * smooth_step(-0.50, 0.05, dy) * (t < 1);
+  z -= 0.26 * bump(apart, 0, 0, 0, 0.14, 1) * smooth_step(-0.50, 0.05, dy) *
+       smooth_step(1.05, 0.75, t);
   return p.nose * z;
 }
 
@@ -194,14 +200,15 @@ double Form::relief(double x, double y) const {
   const double wing = p.nose_width;
   const Bump bumps[] = {
       {-0.50, 3.3, 0.25, 1.9, 1.30},                    // sockets
-      {-0.20, 1.75, 0.15, 0.62, 0.95},                  // inner corners of the eyes
+      {-0.10, 1.75, 0.15, 0.62, 0.95},                  // inner corners of the eyes
+      {0.48, 2.3, 1.60, 0.95, 0.55},                    // below the inner end of the brow
       {0.30, 3.6, 1.75, 1.6, 0.75},                     // skin that hangs over the crease
       {0.22 + p.brow_ridge, 2.6, 2.85, 2.2, 0.85},      // brow ridge
       {-0.12, 1.84 * wing, -3.6, 0.26, 0.50},           // behind the wing of the nose
       {0.34 * p.cheek, 4.7, -2.0, 1.7, 1.3},            // cheekbones
       {0.22, 2.9, -2.5, 1.2, 1.2},                      // apple of the cheek
       {-0.34 * p.cheek, 5.0, -5.4, 1.3, 1.7},           // hollow of the cheek
-      {0.74 * p.muzzle, 0, -5.7, 2.5, 1.9},             // muzzle
+      {0.50 + 0.74 * p.muzzle, 0, -5.7, 2.6, 1.9},      // muzzle
       {-0.04 - 0.24 * p.age, 2.25, -4.35, 0.30, 0.85},  // from nose to mouth
       {-0.22, 2.75, -6.0, 0.42, 0.55},                  // corners of the mouth
       {-0.13, 0, -4.75, 0.26, 0.55},                    // philtrum
@@ -209,8 +216,8 @@ double Form::relief(double x, double y) const {
       {0.10 * p.age, 3.2, -1.35, 1.1, 0.35},            // below the eyes
       {-0.30 * p.age, 4.6, -4.0, 1.2, 1.2},             // cheeks sink
       {0.35 * p.age, 3.6, -8.3, 1.3, 1.0},              // jowls
-      {-0.42, 0, -7.65, 1.5, 0.50},                     // fold above the chin
-      {0.62 * p.chin, 0, -9.2, 1.45, 1.0},              // chin
+      {-0.50, 0, -7.65, 1.6, 0.55},                     // fold above the chin
+      {0.12 + 0.62 * p.chin, 0, -9.2, 1.6, 1.1},        // chin
       {0.20, 1.6, 5.4, 2.6, 1.6},                       // forehead
       {-0.25, 6.4, 2.2, 1.0, 1.8},                      // temples
   };
@@ -262,8 +269,8 @@ double Form::x_of(double angle, double y) const {
 
 double Form::fold_x(double y) const {
   static constexpr double kFold[][2] = {{-8.0, 3.60},  {-6.6, 3.42}, {-5.6, 3.05}, {-4.9, 2.45},
-                                        {-4.4, 1.86},  {-4.1, 1.66}, {-3.5, 1.65}, {-3.1, 1.61},
-                                        {-2.7, 1.58},  {-2.2, 1.80}, {-1.5, 2.45}, {0.0, 3.0},
+                                        {-4.4, 1.88},  {-4.1, 1.73}, {-3.5, 1.74}, {-3.1, 1.68},
+                                        {-2.7, 1.66},  {-2.2, 1.82}, {-1.5, 2.45}, {0.0, 3.0},
                                         {kEye.y, 3.60}};
   return interpolate(y, kFold) +
          1.6 * (person_.nose_width - 1) * smooth_step(-5.6, -4.2, y) * smooth_step(-1.2, -2.4, y);
@@ -302,9 +309,20 @@ FacePoint Form::face(double angle, double y, Side side) const {
                         smooth_step(-1.8, -5.5, p.y) * smooth_step(-15.5, -12.0, p.y);
     p.x *= 1 - 0.10 * neck;
   }
+  // The muscle from behind the ear to the breast bone, and the larynx.
+  if (cosine > -0.1 && p.y < -8 && p.y > -17) {
+    const double down = (-5.0 - p.y) / 11.2;
+    const double muscle = 0.24 * bump(p.x, 0, mix(5.3, 0.9, down), 0, 0.75, 1) *
+                          smooth_step(0.40, 0.65, down) * smooth_step(1.06, 0.90, down);
+    p.x += muscle * sine;
+    p.z += muscle * cosine + 0.20 * bump(p.x, p.y, 0, -13.3, 0.8, 1.1) -
+           0.28 * bump(p.x, p.y, 0, -16.0, 0.8, 0.7);
+  }
   // Long and short chins; high and low skulls.
   p.y -= person_.chin_drop * smooth_step(-7.3, -9.6, y) * smooth_step(-16.0, -11.5, y);
   p.y = raised(p.y);
+  // The bust is cut along an arch: deep at the breast bone, high at the shoulders.
+  p.y += 0.012 * p.x * p.x * smooth_step(-16.5, kBottomY, y);
   // The collar of a shirt.
   const double cloth = 0.20 * smooth_step(-0.10, 0.12, kCollarY - y) *
                        mix(0.7, 1, bump(0, y, 0, kCollarY - 0.35, 1, 0.3));

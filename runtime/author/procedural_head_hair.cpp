@@ -52,6 +52,11 @@ double hair_line(const Style& style, double share) {
   return mix(y, style.hang - 0.8 * smooth_step(0.5, 1, share), smooth_step(0.27, 0.37, share));
 }
 
+/// A hair from (`around`, `t`) to (`to_around`, `to`), thin at both ends.
+struct Strand {
+  double around, t, to_around, to;
+};
+
 class HairMaker {
  public:
   HairMaker(const Form& form, uint32_t lod, HalfMesh& out)
@@ -62,6 +67,7 @@ class HairMaker {
     out_.mirrored = false;  // parted on the left
     make_cap();
     if (lod_ < 3 && !out_.failed()) make_strips();
+    if (lod_ < 3 && !out_.failed()) make_border();
   }
 
  private:
@@ -110,6 +116,8 @@ class HairMaker {
 
   void make_cap();
   void make_strips();
+  void make_border();
+  void make_strand(const Strand& strand, double wide, double shade);
   void make_strip(uint32_t number, double from, double to, double start, double end, double wide,
                   double raise);
 
@@ -248,7 +256,7 @@ void HairMaker::make_strips() {
     for (uint32_t i = 0; i < count; ++i, ++number) {
       double to = mix(-kPi, kPi, (i + 0.5 + 0.4 * scatter(number)) / count);
       const double front = smooth_step(0.46, 0.15, std::abs(to) / kPi);
-      double end = 0.85 * low - 0.02 - 0.055 * front + 0.045 * scatter(number + 1000);
+      double end = 0.85 * low + 0.035 + 0.045 * scatter(number + 1000);
       double size = (is_short ? 0.20 : curly ? 0.22 : 0.55) * (1 + 0.25 * scatter(number + 2000));
       double from = to, raise = is_short ? 0.10 : 0.16;
       if (curly) {
@@ -273,7 +281,61 @@ void HairMaker::make_strips() {
   }
 }
 
+void HairMaker::make_strand(const Strand& strand, double wide, double shade) {
+  const Color hair = form_.person().hair, skin = form_.person().skin;
+  const auto point = [&](double share) {
+    const double t = mix(strand.t, strand.to, share);
+    const double around = mix(strand.around, strand.to_around, share);
+    const Root root = root_at(around, t, 0);
+    const double over = smooth_step(-0.01, 0.13, t);
+    return root.skin +
+           root.normal * mix(0.02, thickness(around, std::max(t, 0.0), root) + 0.03, over);
+  };
+  const auto color = [&](double share) {
+    const double t = mix(strand.t, strand.to, share);
+    return mix(mix(hair, {14, 9, 8}, 0.25 + 0.2 * shade), mix(hair, skin, 0.62),
+               smooth_step(0.05, -0.04, t));
+  };
+  const Vec3 root = point(0), middle = point(0.5), tip = point(1);
+  const Vec3 across = unit(cross(tip - root, middle)) * wide;
+  const auto add = [&](Vec3 at, double share, double v) {
+    return out_.vertices.add(plain(at, color(share), v, share, Carrier::kSkull));
+  };
+  const uint32_t a = add(root, 0, 0.5), b = add(middle - across, 0.5, 0.45),
+                 c = add(middle + across, 0.5, 0.55), d = add(tip, 1, 0.5);
+  out_.triangle(a, b, c);
+  out_.triangle(c, b, d);
+}
+
+/// Single hairs along the line: in front they grow out of it, behind they hang over it.
+void HairMaker::make_border() {
+  const uint32_t count = lod_ == 0 ? 700 : lod_ == 1 ? 320 : 140;
+  const double wide = lod_ == 0 ? 0.025 : lod_ == 1 ? 0.04 : 0.06;
+  for (uint32_t i = 0; i < count; ++i) {
+    const double around = mix(-kPi, kPi, (i + 0.5 + 0.45 * scatter(i + 9000)) / count);
+    const double share = std::abs(around) / kPi;
+    if (style_.hang < 0 && share > 0.30) continue;
+    const double jitter = scatter(i + 10000), size = 1 + 0.35 * scatter(i + 11000);
+    const double side = around < kPart ? -1 : 1;
+    Strand strand;
+    if (share < 0.40) {
+      strand = {around, -0.030 + 0.030 * jitter, around + side * 0.07 * (0.4 + parted_),
+                0.09 * size};
+    } else {
+      strand = {around, 0.075 + 0.030 * jitter, around + 0.02 * scatter(i + 12000),
+                -0.012 - 0.030 * size * (0.6 + 0.4 * jitter)};
+    }
+    make_strand(strand, wide, scatter(i + 13000));
+  }
+}
+
 }  // namespace
+
+double scalp(const Form& form, double angle, double y) {
+  const Style style = style_of(form.person().style);
+  if (style.hang < 0 && angle > 0.3 * kPi) return 0;
+  return smooth_step(-0.55, 0.55, y - hair_line(style, angle / kPi));
+}
 
 void add_hair(const Form& form, uint32_t lod, HalfMesh& out) { HairMaker(form, lod, out).make(); }
 

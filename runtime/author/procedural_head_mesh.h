@@ -109,6 +109,8 @@ void add_hair(const Form& form, uint32_t lod, HalfMesh& out);
 void add_brow(const Form& form, uint32_t lod, HalfMesh& out);
 void add_lashes(const Form& form, uint32_t lod, HalfMesh& out);
 void set_normals(HalfMesh& mesh);
+/// How much hair shows through the skin at a place of the form: 0 below the hair line, 1 under it.
+double scalp(const Form& form, double angle, double y);
 
 /// All of the above for one part. Both eyes are the left one.
 bool make_part(const Form& form, Part part, uint32_t lod, HalfMesh& out);

@@ -146,7 +146,7 @@ void add_teeth(const Form& form, uint32_t lod, HalfMesh& out) {
     const double sign = lower ? -1 : 1;
     const double front = lips.z - (lower ? 1.20 : 0.98), half = lower ? 2.35 : 2.60;
     const double deep = lower ? 3.5 : 3.7;
-    const double base = kMouthY - (lower ? 0.30 : 0.18);
+    const double base = kMouthY - (lower ? 0.30 : 0.19);
     const uint32_t first = out.vertices.count();
     for (uint32_t row = 0; row < kRowCount; ++row) {
       double start = 0;
@@ -204,7 +204,7 @@ void add_teeth(const Form& form, uint32_t lod, HalfMesh& out) {
 }
 
 void add_tongue(const Form& form, uint32_t lod, HalfMesh& out) {
-  const uint32_t rows = at_lod(18, 4, lod) + 1, around = at_lod(12, 3, lod) + 1;
+  const uint32_t rows = at_lod(24, 4, lod) + 1, around = at_lod(14, 3, lod) + 1;
   const double tip_z = form.face(0, kMouthY, Side::kBelow).closed.z - 2.0;
   const uint32_t first = out.vertices.count();
   for (uint32_t row = 0; row < rows; ++row) {
@@ -212,15 +212,23 @@ void add_tongue(const Form& form, uint32_t lod, HalfMesh& out) {
     const double z = mix(2.0, tip_z, t);
     const double y =
         kMouthY - 1.55 + 1.05 * exact_sine(kPi * clamp01(0.12 + 0.62 * t)) * (1 - 0.25 * t);
-    const double taper = exact_pow(1 - t * t * t * t, 0.5);
-    const double half = 1.60 * mix(1.0, 0.86, t) * taper, thick = 0.50 * mix(1.2, 0.8, t) * taper;
+    // Broad behind, narrower from the middle on, round at the tip.
+    const double end = clamp01((t - 0.70) / 0.30), taper = std::sqrt(1 - 0.98 * end * end);
+    const double half = mix(1.66, 1.30, smooth_step(0.2, 0.9, t)) * taper;
+    const double thick = 0.52 * mix(1.25, 0.62, t) * std::sqrt(taper);
     for (uint32_t k = 0; k < around; ++k) {
       const auto [s, c] = exact_sine_cosine(kPi * (static_cast<double>(k) / (around - 1) - 0.5));
-      const double groove = 0.22 * bump(c, 0, 0, 0, 0.35, 1) * (s > 0) * (1 - 0.8 * t);
-      Vec3 at = {half * exact_pow(std::max(c, 0.0), 0.6), y + thick * s - groove, z};
+      // A furrow along the middle, which ends before the tip; sides that curl up a little.
+      const double top = std::max(s, 0.0), furrow = bump(c, 0, 0, 0, 0.30, 1) * top;
+      const double rise = 0.16 * bump(c, 0, 0.86, 0, 0.22, 1) * top - 0.20 * furrow;
+      Vec3 at = {half * exact_pow(std::max(c, 0.0), 0.7),
+                 y + thick * s + rise * smooth_step(0.98, 0.60, t), z};
       if (k == 0 || k == around - 1) at.x = 0;
-      Color color = mix({196, 92, 96}, {120, 44, 50}, 0.8 * (1 - t));
-      color = mix(color, {150, 58, 66}, 0.5 * bump(c, 0, 0, 0, 0.3, 1) * (s > 0));
+      // Papillae: pale and uneven above, smooth and redder at the border and below.
+      Color color = mix({198, 96, 98}, {120, 44, 50}, 0.8 * (1 - t));
+      const double grain = 0.5 + 0.5 * scatter(row * 64 + k);
+      color = mix(color, {226, 152, 144}, (0.12 + 0.30 * grain) * top * smooth_step(0.15, 0.5, t));
+      color = mix(color, {150, 58, 66}, 0.45 * furrow + 0.25 * std::max(-s, 0.0));
       Vertex v = plain(at, color, 0.5 + 0.5 * k / (around - 1.0), t, Carrier::kTongue);
       v.along = t;
       out.vertices.add(v);

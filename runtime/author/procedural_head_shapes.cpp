@@ -319,7 +319,13 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
       add(w.at(1.05, -0.5, 0.8, 1.1), {-0.06, 0.26, 0.14});
       add(w.at(2.6, -2.6, 1.2, 1.2), {0, 0.30, 0.20});
       add(w.at(1.3, 2.8, 1.1, 0.9), {-0.14, -0.34, 0.06});
-      if (above) add(bump(look.x, line, 1.3, 0.5, 1.2, 1.3) * std::sqrt(apart), {0.05, 0.40, 0.08});
+      add(fold.at(0), {0, 0.05, -0.12});
+      add(fold.at(0.62), {0, 0.10, 0.14});
+      // The lip is pulled up from above; its edge hardly leaves the other one.
+      if (above) {
+        add(bump(look.x, line, 1.5, 1.0, 1.3, 1.0) * mix(0.12, 1, smooth_step(0, 0.8, line)),
+            {0.05, 0.42, 0.10});
+      }
       break;
     case Motion::kMouthLeft:
       add(bump(look.x, look.y, 0.3, kMouthY, 3.2, 2.0), {1.05, 0.02, -0.06});
@@ -375,12 +381,12 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       add(lips * bump(0, line, 0, 0, 1, 0.5) * apart, {0, 0, 0.16});
       break;
     case Motion::kPucker:
-      add(narrow, {-0.46 * look.x, 0, 0});
+      add(narrow, {-0.43 * look.x, 0, 0});
       // Thinner towards the corners, so that the lips are round and not a box.
-      add(bump(look.x, line, 2.4, 0, 1.1, 1.0), {0, -0.55 * line, 0});
+      add(bump(look.x, line, 2.4, 0, 1.0, 1.0), {0, -0.40 * line, 0});
       add(bump(look.x, line, 2.5, 0, 0.9, 1.0), {0, 0, 0.42});
       add(lips, {0, -0.08 * line, 0.46});
-      add(bump(look.x, line, 0, 0, 1.9, 0.85), {0, 0.30 * line * apart, 0.50});
+      add(bump(look.x, line, 0, 0, 1.9, 1.1), {0, 0.36 * line * apart, 0.55});
       add(bump(look.x, line, 0, 0, 1.1, 0.8), {0, 0.16 * line, 0.32});
       add(w.at(4.2, -5.2, 1.3, 1.6), {-0.25, 0, -0.12});
       break;

@@ -122,6 +122,7 @@ Vertex SkinMaker::skin_vertex(Place place, Side lid, Side lip) const {
   v.u = 0.5 + 0.5 * place.angle / kPi;
   v.v = (place.y - kBottomY) / (kCrownY - kBottomY);
   v.color = form_.skin_color(v.closed, place.y, v.lid);
+  v.color = mix(v.color, form_.person().hair, 0.6 * scalp(form_, place.angle, place.y));
   if (!grid_.nostril) {
     v.color = mix(v.color, {58, 24, 22},
                   0.85 * bump(std::abs(v.closed.x), v.closed.y,

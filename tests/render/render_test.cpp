@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -177,8 +178,9 @@ TEST(Render, SphereLooksLikeOneThatIsTraced) {
         f.normal = f.place - center;
         f.to_eye = -ray;
         f.color = to_linear(surface.material.color);
-        const float key = dot(f.normal, key_direction()) > 0 ? 1.0f : 0.0f;
-        sum += tone(light(f, 1, key));
+        Arriving arriving;
+        arriving.key = dot(f.normal, key_direction()) > 0 ? 1.0f : 0.0f;
+        sum += tone(light(f, 1, arriving));
       }
       traced.set(x, y, to_srgb(sum * (1.0f / (kSub * kSub))));
     }
@@ -291,6 +293,44 @@ TEST(Render, HollowsAreDarker) {
   options.width = options.height = 96;
   const Image image = render_image({mesh.surface()}, camera_of(mesh, 96), options);
   EXPECT_LT(image.at(48, 48).g, image.at(20, 48).g * 0.75);
+}
+
+/// The brightest pixel of the ball's right border: what the rim light from behind makes of it.
+int brightest_at_the_right(const Image& image) {
+  int most = 0;
+  for (int y = image.height / 4; y < image.height * 3 / 4; ++y) {
+    for (int x = image.width * 3 / 4; x < image.width * 86 / 100; ++x)
+      most = std::max(most, int(image.at(x, y).g));
+  }
+  return most;
+}
+
+TEST(Render, RimLightDoesNotReachWhatStandsInItsShadow) {
+  const Mesh ball = sphere(48, 64);
+  Surface dark = ball.surface();
+  dark.material.color = {40, 40, 40};
+  // A plate between the ball and the lamp behind it, turned towards both.
+  Mesh plate = sphere(2, 4);
+  plate.positions.clear();
+  plate.normals.clear();
+  const Vec3 to_lamp = rim_direction(0), aside = normalized(cross({0, 1, 0}, to_lamp), {});
+  const Vec3 up = cross(to_lamp, aside);
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 p = to_lamp * 4.0f + aside * (i % 2 ? 2.0f : -2.0f) + up * (i / 2 ? 2.0f : -2.0f);
+    plate.positions.insert(plate.positions.end(), {p.x, p.y, p.z});
+  }
+  plate.triangles = {0, 1, 3, 0, 3, 2};
+  RenderOptions options;
+  options.width = options.height = 96;
+  options.scale = 3;
+  options.backdrop = {{0, 0, 0}, {0, 0, 0}};
+  const Camera camera = camera_of(ball, 96);
+  Surface wall = plate.surface();
+  wall.material.color = {0, 0, 0};
+  const int open = brightest_at_the_right(render_image({dark}, camera, options));
+  const int shadowed = brightest_at_the_right(render_image({dark, wall}, camera, options));
+  EXPECT_GT(open, 60);
+  EXPECT_LT(shadowed, open * 0.75);
 }
 
 TEST(Render, WireframesLeaveOutInnerEdges) {

@@ -13,8 +13,9 @@ struct Lamp {
 
 const Lamp kKey = {normalized(Vec3{-0.52f, 0.58f, 0.74f}, {}), {1.16f, 1.07f, 0.97f}};
 const Lamp kFill = {normalized(Vec3{0.85f, 0.05f, 0.62f}, {}), {0.13f, 0.155f, 0.19f}};
-const Lamp kRims[] = {{normalized(Vec3{0.82f, 0.42f, -0.62f}, {}), {0.95f, 1.08f, 1.25f}},
-                      {normalized(Vec3{-0.80f, 0.30f, -0.75f}, {}), {0.42f, 0.46f, 0.52f}}};
+const Lamp kRims[kRimCount] = {
+    {normalized(Vec3{0.82f, 0.42f, -0.62f}, {}), {0.95f, 1.08f, 1.25f}},
+    {normalized(Vec3{-0.80f, 0.30f, -0.75f}, {}), {0.42f, 0.46f, 0.52f}}};
 constexpr Vec3 kSkyAbove = {0.27f, 0.30f, 0.345f};
 constexpr Vec3 kSkyBelow = {0.13f, 0.105f, 0.092f};
 
@@ -65,11 +66,24 @@ Vec3 bounced(float openness, Vec3 color) {
   return {one(color.x), one(color.y), one(color.z)};
 }
 
+/// Light from behind shows on edges; not in folds, where the other side stands before it.
+float rim_strength(const Fragment& f, float openness, const Lamp& rim) {
+  const float facing_eye = dot(f.normal, f.to_eye), edge = 1 - saturate(facing_eye);
+  const float facing = std::max(dot(f.normal, rim.direction) + 0.15f, 0.0f);
+  return edge * edge * edge * facing * smooth_step(-0.4f, 0.0f, facing_eye) *
+         smooth_step(0.35f, 0.85f, openness);
+}
+
 }  // namespace
 
 Vec3 key_direction() { return kKey.direction; }
+Vec3 rim_direction(int rim) { return kRims[rim].direction; }
 
-Vec3 light(const Fragment& f, float openness, float key) {
+bool has_rim(const Fragment& f, float openness, int rim) {
+  return rim_strength(f, openness, kRims[rim]) > 1e-3f;
+}
+
+Vec3 light(const Fragment& f, float openness, const Arriving& arriving) {
   const Material& m = f.on->surface.material;
   const Vec3 open = bounced(openness, f.color);
   const float soft = m.softness, facing_eye = dot(f.normal, f.to_eye), nv = saturate(facing_eye);
@@ -79,7 +93,7 @@ Vec3 light(const Fragment& f, float openness, float key) {
   // Red light goes furthest through skin: it reaches around more, and colors the terminator.
   const float cosine = dot(f.normal, kKey.direction);
   // Where a surface turns away it shades itself; there the cosine decides, not the map.
-  const float seen = std::max(key, 1 - smooth_step(-soft, 0.2f, cosine));
+  const float seen = std::max(arriving.key, 1 - smooth_step(-soft, 0.2f, cosine));
   const float bleed = 0.5f * soft * seen * (1 - seen);
   const Vec3 around = {wrap(cosine, soft) * (seen + bleed), wrap(cosine, soft * 0.55f) * seen,
                        wrap(cosine, soft * 0.42f) * (seen - 0.3f * bleed)};
@@ -90,13 +104,12 @@ Vec3 light(const Fragment& f, float openness, float key) {
   const float gloss_open = saturate(openness * 1.2f) * shown;
   Vec3 shine = kKey.color * (highlight(f, kKey, m) * seen * gloss_open * 1.5f);
   shine += kFill.color * (highlight(f, kFill, m) * gloss_open * 1.5f);
-  for (const Lamp& rim : kRims) {
-    const float edge = 1 - nv, facing = std::max(dot(f.normal, rim.direction) + 0.15f, 0.0f);
-    // Not in folds, where the other side stands before it.
-    const float strength =
-        edge * edge * edge * facing * shown * smooth_step(0.35f, 0.85f, openness);
+  for (int i = 0; i < kRimCount; ++i) {
+    const Lamp& rim = kRims[i];
+    const float turned = 1 - smooth_step(-0.15f, 0.25f, dot(f.normal, rim.direction));
+    const float strength = rim_strength(f, openness, rim) * std::max(arriving.rims[i], turned);
     diffuse += rim.color * (strength * 0.75f);
-    shine += rim.color * (strength * edge * 0.10f);
+    shine += rim.color * (strength * (1 - nv) * 0.10f);
   }
   // The sky in a wet surface.
   shine += kSkyAbove * ((m.reflectance + (1 - m.reflectance) * fresnel(nv)) * (1 - m.roughness) *

@@ -8,11 +8,23 @@
 
 namespace mien::render {
 
-/// Towards the key light, in view space.
-math::Vec3 key_direction();
+constexpr int kRimCount = 2;
 
-/// Linear color of a fragment that is `openness` open to the sky and gets `key` of the key light.
-math::Vec3 light(const Fragment& fragment, float openness, float key);
+/// Towards the key light and towards a rim light, in view space.
+math::Vec3 key_direction();
+math::Vec3 rim_direction(int rim);
+
+/// What of the light of lamps arrives, 0..1 each.
+struct Arriving {
+  float key = 1;
+  float rims[kRimCount] = {1, 1};
+};
+
+/// Whether a rim light can be seen on the fragment at all.
+bool has_rim(const Fragment& fragment, float openness, int rim);
+
+/// Linear color of a fragment that is `openness` open to the sky.
+math::Vec3 light(const Fragment& fragment, float openness, const Arriving& arriving);
 
 /// A soft shoulder instead of a cut above 1.
 math::Vec3 tone(math::Vec3 linear);

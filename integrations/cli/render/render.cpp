@@ -161,7 +161,9 @@ Image render_image(const std::vector<Surface>& surfaces, const Camera& camera,
   Visibility seen;
   seen.reset(options.width, options.height, options.samples);
   for (const PlacedSurface& surface : scene.surfaces()) draw(surface.triangles(), lens, seen);
-  const ShadowMap shadow(scene, key_direction(), kShadowSize);
+  const ShadowMap key(scene, key_direction(), kShadowSize);
+  const ShadowMap rims[kRimCount] = {{scene, rim_direction(0), kShadowSize},
+                                     {scene, rim_direction(1), kShadowSize}};
 
   PixelLayer layer{options.width, options.height, {}, {}, {}};
   layer.distance.resize(size_t(options.width) * size_t(options.height));
@@ -201,7 +203,13 @@ Image render_image(const std::vector<Surface>& surfaces, const Camera& camera,
         const bool known = &patch == patches.begin();
         const Fragment f = known ? layer_fragment(scene, layer, pixel, patch.number, ray)
                                  : scene.fragment(patch.number, ray);
-        Vec3 color = tone(light(f, openness[pixel], shadow.light_at(f.place, f.normal)));
+        Arriving arriving;
+        arriving.key = key.light_at(f.place, f.normal);
+        for (int i = 0; i < kRimCount; ++i) {
+          if (has_rim(f, openness[pixel], i))
+            arriving.rims[i] = rims[i].light_at(f.place, f.normal);
+        }
+        Vec3 color = tone(light(f, openness[pixel], arriving));
         if (options.wireframe) color = mix(color, kWire, wire_cover(f, lens, px, py));
         sum += color * float(patch.samples);
       }
