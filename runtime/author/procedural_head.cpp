@@ -39,7 +39,7 @@ bool make_head(uint64_t seed, Arena& arena, const Allocator& allocator, dna::Dna
   HalfMesh fitted(scratch);
   return fill_index(arena, out) && fill_descriptor(seed, form.person(), arena, out.desc) &&
          make_part(form, Part::kHead, 1, fitted) &&
-         fit_joints(form, shapes, skeleton, fitted, scratch, head.deltas) &&
+         fit_joints(shapes, skeleton, fitted, scratch, head.deltas) &&
          fill_controls(head, arena, out) && fill_joints(head, arena, scratch, out) &&
          fill_meshes(head, arena, allocator, 2, out);
 }

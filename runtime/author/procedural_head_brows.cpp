@@ -140,8 +140,10 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
       const Arch at = arch_at(t);
       const double raise =
           strands ? 0.05 * (1 - across * across) - 0.03 : 0.14 * (1 - across * across) - 0.05;
-      const double thin =
-          strands ? mix(0.28 - 0.06 * lod, 1, std::max(across * across, 1 - clamp01(3 * t))) : 0.16;
+      // The border fades into the skin; without hairs, less, as there are few rows.
+      const double fade = std::max(across * across, 1 - clamp01(3 * t));
+      const double thin = strands ? mix(0.28 - 0.06 * lod, 1, fade)
+                                  : mix(0.24, rows > 3 ? 0.80 : 0.60, fade * fade);
       const Color color = mix(hair_color, skin, thin);
       out.vertices.add(place(at.x, at.y + across * at.half * (strands ? 0.8 : 1), raise, color, t,
                              0.5 + 0.5 * across));

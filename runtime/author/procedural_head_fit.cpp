@@ -68,8 +68,8 @@ void pose_joints(const Skeleton& skeleton, const JointDeltas& deltas, const uint
   }
 }
 
-bool fit_joints(const Form& form, const Shapes& shapes, const Skeleton& skeleton,
-                const HalfMesh& mesh, Arena& scratch, JointDeltas& out) {
+bool fit_joints(const Shapes& shapes, const Skeleton& skeleton, const HalfMesh& mesh,
+                Arena& scratch, JointDeltas& out) {
   const uint32_t joints = skeleton.count, shape_count = shapes.count();
   out.joint_count = joints;
   Span<Weights> weights;
@@ -96,7 +96,7 @@ bool fit_joints(const Form& form, const Shapes& shapes, const Skeleton& skeleton
   const auto is_fitted = [&](uint16_t j) { return skeleton.joints[j].drive == Drive::kFit; };
   const auto twin = [&](uint16_t j) { return skeleton.joints[j].twin; };
   for (uint32_t i = 0; i < mesh.vertices.count(); ++i) {
-    weights[i] = weigh(form, skeleton, 0, mesh.vertices[i], mesh.on_plane(i));
+    weights[i] = weigh(skeleton, 0, mesh.vertices[i], mesh.on_plane(i));
     const Weights& w = weights[i];
     for (uint32_t a = 0; a < w.count; ++a) {
       for (uint32_t b = 0; b < w.count; ++b) {

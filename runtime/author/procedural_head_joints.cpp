@@ -271,8 +271,7 @@ void share(const Skeleton& skeleton, uint32_t lod, bool below, Vec3 at, double t
 
 }  // namespace
 
-Weights weigh(const Form& form, const Skeleton& skeleton, uint32_t lod, const Vertex& v,
-              bool on_plane) {
+Weights weigh(const Skeleton& skeleton, uint32_t lod, const Vertex& v, bool on_plane) {
   Weigher weigher;
   switch (v.carrier) {
     case Carrier::kSkull: weigher.add(skeleton.head, 1); break;
@@ -302,7 +301,7 @@ Weights weigh(const Form& form, const Skeleton& skeleton, uint32_t lod, const Ve
         weigher.add(skeleton.lower_lid[0], lid);
         rest = std::max(0.0, 1 - lid);
       }
-      const double jaw = jaw_weight(form, v) * rest;
+      const double jaw = jaw_weight(v) * rest;
       // The fewer joints, the farther each reaches.
       static constexpr double kReach[kLodCount] = {1, 1.05, 1.15, 1.25, 1.35, 1.5, 1.6, 1.8};
       const double near = 1.5 * kReach[lod], far = 3.6 * kReach[lod];

@@ -53,7 +53,6 @@ struct Weights {
 };
 
 /// With the joints of a LOD. `on_plane` vertices get weights that are symmetric to the last bit.
-Weights weigh(const Form& form, const Skeleton& skeleton, uint32_t lod, const Vertex& vertex,
-              bool on_plane);
+Weights weigh(const Skeleton& skeleton, uint32_t lod, const Vertex& vertex, bool on_plane);
 
 }  // namespace mien::head

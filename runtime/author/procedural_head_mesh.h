@@ -27,9 +27,10 @@ struct Vertex {
   Vec3 look;      // the place on the face whose motion it follows (lips for the mouth's inside)
   Vec3 normal;
   double u = 0, v = 0;
-  double lid = 0;    // see FacePoint
-  double depth = 0;  // into the mouth: 0 on the face, 1 at its back
-  double along = 0;  // tongue: 0 root, 1 tip
+  double lid = 0;          // see FacePoint
+  double above_mouth = 0;  // height of `look` above the line between the lips
+  double depth = 0;        // into the mouth: 0 on the face, 1 at its back
+  double along = 0;        // tongue: 0 root, 1 tip
   Color color;
   Side side = Side::kAbove;
   bool edge = false;  // of a slit, where it has to meet the other side
@@ -100,7 +101,7 @@ double scatter(uint32_t i);
 /// That stays where it is but for what its carrier does.
 Vertex plain(Vec3 position, Color color, double u, double v, Carrier carrier);
 
-/// These add to `out` and leave it failed if memory ran out; the last one sets normals.
+/// These add to `out` and leave it failed if memory ran out. The last ones complete what is there.
 void add_skin(const Form& form, uint32_t lod, HalfMesh& out);
 void add_teeth(const Form& form, uint32_t lod, HalfMesh& out);
 void add_tongue(const Form& form, uint32_t lod, HalfMesh& out);

@@ -54,7 +54,7 @@ class MeshMaker {
     count_ = left_count();
     for (uint32_t i = 0; i < left_count(); ++i) twin_[i] = has_twin(i) ? count_++ : i;
     for (uint32_t i = 0; i < left_count(); ++i) {
-      weights_[i] = weigh(head_.form, head_.skeleton, lod_, half_.vertices[i], half_.on_plane(i));
+      weights_[i] = weigh(head_.skeleton, lod_, half_.vertices[i], half_.on_plane(i));
     }
     return true;
   }
@@ -196,7 +196,7 @@ class MeshMaker {
         std::abs(v.look.y - kMouthY) > 1.3) {
       return 0;
     }
-    return bump(v.look.y - head_.form.mouth_line(v.look.x), v.depth, 0, 0, 0.35, 0.15);
+    return bump(v.above_mouth, v.depth, 0, 0, 0.35, 0.15);
   }
 
   Span<Vec3> offsets_of(uint32_t shape) const {

@@ -280,6 +280,7 @@ bool make_part(const Form& form, Part part, uint32_t lod, HalfMesh& out) {
   }
   if (out.failed()) return false;
   set_normals(out);
+  for (Vertex& v : out.vertices.span()) v.above_mouth = v.look.y - form.mouth_line(v.look.x);
   return true;
 }
 

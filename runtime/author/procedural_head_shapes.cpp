@@ -175,13 +175,13 @@ JointTurns Shapes::turns(uint32_t index, int side) const {
 
 // Jaw -------------------------------------------------------------------------------------------
 
-double jaw_weight(const Form& form, const Vertex& v) {
+double jaw_weight(const Vertex& v) {
   const Vec3 p = v.look;
   const double s = std::abs(p.x) / kMouthHalfWidth;
   const double by_height = smooth_step(-4.0, -8.6, p.y);
   const double by_lip = v.side == Side::kBelow ? 1 : 0;
   // Round at the corners of the mouth, softer away from the lips.
-  const double apart = std::min(std::abs(p.y - form.mouth_line(p.x)), 2.0);
+  const double apart = std::min(std::abs(v.above_mouth), 2.0);
   double w = mix(by_height, by_lip, exact_pow(std::max(0.0, 1 - s * s), 0.5 + 0.8 * apart));
   w *= smooth_step(-15.6, -10.4, p.y) * smooth_step(-2.5, 3.5, p.z);
   // The floor of the mouth hangs between chin and throat, which stays.
@@ -238,7 +238,7 @@ Vec3 Shapes::lids(Motion motion, const Vertex& v) const {
 Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
   const Window w = {look};
   const Fold fold = {look};
-  const double line = look.y - form_.mouth_line(look.x);  // height above the mouth
+  const double line = v.above_mouth;
   const double apart = between_corners(look.x);
   const bool above = v.side == Side::kAbove;
   // Corners take the lips along, the less the nearer to the middle: lines of lips bend, without a kink.
@@ -349,7 +349,7 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
 Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
   const Vec3 look = v.look;
   const Window w = {look};
-  const double line = look.y - form_.mouth_line(look.x), apart = between_corners(look.x);
+  const double line = v.above_mouth, apart = between_corners(look.x);
   const bool above = v.side == Side::kAbove;
   const double lips = bump(look.x, line, 0, 0, 2.7, 1.5);
   const double narrow = smooth_step(5.0, 2.2, look.x) * bump(0, line, 0, 0, 1, 1.5);
@@ -459,7 +459,7 @@ Vec3 Shapes::displacement(uint32_t index, const Vertex& v) const {
     d = d * share;
   }
   if (moves_jaw(s.motion)) {
-    d = d + (move_with_jaw(turns(index, 1), v.position) - v.position) * jaw_weight(form_, v);
+    d = d + (move_with_jaw(turns(index, 1), v.position) - v.position) * jaw_weight(v);
   }
   if (s.side >= 0) {
     const bool undo = s.motion == Motion::kKeepLidsShut;

@@ -86,7 +86,7 @@ struct JointTurns {
 };
 
 /// How much the jaw carries the place.
-double jaw_weight(const Form& form, const Vertex& v);
+double jaw_weight(const Vertex& v);
 
 /// Where the jaw's motion takes `p`.
 Vec3 move_with_jaw(const JointTurns& turns, Vec3 p);

@@ -107,7 +107,7 @@ void SkinMaker::place_nostril() {
     if (heights_[r] < kNostril.y + 0.26) nostril_.high = r + 1;
   }
   nostril_.low = std::max(nostril_.low, mouth_.high);
-  nostril_.left = std::max(1u, grid_.columns[0] / 4);
+  nostril_.left = std::max(1u, grid_.columns[0] / 6);
   nostril_.right = grid_.columns[0] + 2 + grid_.columns[1] / 6;
 }
 
