@@ -39,7 +39,7 @@ class Arena {
   void* allocate(size_t size, size_t alignment) {
     size_t at = align_up(used_, alignment);
     if (!chunk_ || allocator_.arena_chunk == 0 || at > chunk_->size || size > chunk_->size - at) {
-      if (!grow(size)) return nullptr;
+      if (!grow(size, alignment)) return nullptr;
       at = align_up(used_, alignment);
     }
     used_ = at + size;
@@ -78,15 +78,16 @@ class Arena {
 
   // Chunks grow with the memory already taken: a large file needs few of them, and the unused end
   // of the last one stays a fraction of the total.
-  bool grow(size_t size) {
+  bool grow(size_t size, size_t alignment) {
     if (size > SIZE_MAX / 2) return false;
-    size_t wanted = size + sizeof(Chunk) + kBlockAlignment;
+    size_t wanted = align_up(sizeof(Chunk), alignment) + size;
     if (allocator_.arena_chunk != 0) {
+      wanted += kBlockAlignment;
       for (size_t step : {allocator_.arena_chunk, reserved_ / 2, expected_}) {
         if (wanted < step) wanted = step;
       }
+      wanted = align_up(wanted, kBlockAlignment);
     }
-    wanted = align_up(wanted, kBlockAlignment);
     expected_ = 0;
     void* memory = allocator_.get(wanted, kBlockAlignment);
     if (!memory) return false;

@@ -54,6 +54,9 @@ struct World {
   CountingAllocator memory;
   const MienAllocator allocator = memory.get();
   const fs::path folder = fs::path(testing::TempDir()) / "mien_every_allocation_test";
+  const std::string dna_file = path("a.dna"), baked_file = path("a.mien"),
+                    clip_file = path("a.clip");
+  const std::string mix_file = path("a.mix"), written_file = path("b");
   Owned<MienDna> dna{mien_dna_close};
   Owned<MienDna> tiny{mien_dna_close};  // with layers that lower versions lack
   Owned<MienRig> rig{mien_rig_destroy};
@@ -169,11 +172,11 @@ struct World {
     const RigHandle head_rig = create_rig(head.get());
     done(mien_deformer_create(head.get(), head_rig.get(), nullptr, &head_deformer.object, nullptr));
 
-    for (const auto& [name, bytes] : {std::pair{"a.dna", &dna_bytes},
-                                      {"a.mien", &baked_bytes},
-                                      {"a.clip", &clip_bytes},
-                                      {"a.mix", &mix_bytes}}) {
-      std::ofstream out(folder / name, std::ios::binary);
+    for (const auto& [file, bytes] : {std::pair{&dna_file, &dna_bytes},
+                                      {&baked_file, &baked_bytes},
+                                      {&clip_file, &clip_bytes},
+                                      {&mix_file, &mix_bytes}}) {
+      std::ofstream out(fs::u8path(*file), std::ios::binary);
       out.write(reinterpret_cast<const char*>(bytes->data()),
                 static_cast<std::streamsize>(bytes->size()));
     }
@@ -194,18 +197,35 @@ MienStatus made_and_destroyed(void (*destroy)(Object*), const Make& make) {
   return status;
 }
 
-template <class Open>
-MienStatus opened_as_stream(const Bytes& bytes, const Open& open) {
-  MemoryStream source(bytes);
-  const Stream stream = source.get();
-  const MienStream given = {stream.user, stream.size, stream.read};
-  return open(&given);
-}
-
 struct Call {
   const char* function;
   std::function<MienStatus(MienError*)> run;
 };
+
+template <class Function, class... Given>
+auto calls(Function function, Given... given) {
+  return [=](MienError* error) { return function(given..., error); };
+}
+
+/// A function that takes, behind what is given, a description, the object that it makes, and an error.
+template <class Object, class Desc, class Function, class... Given>
+auto makes(void (*destroy)(Object*), const Desc& desc, Function make, Given... given) {
+  return [=](MienError* error) {
+    return made_and_destroyed(destroy,
+                              [&](Object** out) { return make(given..., &desc, out, error); });
+  };
+}
+
+/// The same, of a stream of `bytes`.
+template <class Object, class Desc, class Function>
+auto opens(void (*destroy)(Object*), const Desc& desc, Function open, const Bytes& bytes) {
+  return [=, &bytes](MienError* error) {
+    MemoryStream source(bytes);
+    const Stream stream = source.get();
+    const MienStream given = {stream.user, stream.size, stream.read};
+    return makes(destroy, desc, open, &given)(error);
+  };
+}
 
 /// The procedural head at its last LOD, with expressions.
 struct AuthorInput {
@@ -233,204 +253,86 @@ struct AuthorInput {
 };
 
 std::vector<Call> calls_of_dna(const World& w) {
-  const auto opened = [](const auto& make) { return made_and_destroyed(mien_dna_close, make); };
-  const auto reported = [](const auto& make) {
-    return made_and_destroyed(mien_report_destroy, make);
-  };
+  auto small = w.desc<MienGenerateDesc>();
+  small.preset = MIEN_PRESET_SMALL;
+  // What a lower version leaves out is checked for.
+  auto lower = sized<MienWriteDesc>();
+  lower.version = 4;
+  lower.unknown_layers = MIEN_UNKNOWN_LAYERS_DROP;
   return {
       {"mien_dna_open_file",
-       [&w, opened](MienError* error) {
-         const auto desc = w.desc<MienDnaDesc>();
-         return opened([&](MienDna** out) {
-           return mien_dna_open_file(w.path("a.dna").c_str(), &desc, out, error);
-         });
-       }},
-      {"mien_dna_open_memory",
-       [&w, opened](MienError* error) {
-         const auto desc = w.desc<MienDnaDesc>();
-         return opened([&](MienDna** out) {
-           return mien_dna_open_memory(w.dna_bytes.data(), w.dna_bytes.size(), &desc, out, error);
-         });
-       }},
+       makes(mien_dna_close, w.desc<MienDnaDesc>(), mien_dna_open_file, w.dna_file.c_str())},
+      {"mien_dna_open_memory", makes(mien_dna_close, w.desc<MienDnaDesc>(), mien_dna_open_memory,
+                                     w.dna_bytes.data(), w.dna_bytes.size())},
       {"mien_dna_open_stream",
-       [&w, opened](MienError* error) {
-         const auto desc = w.desc<MienDnaDesc>();
-         return opened_as_stream(w.dna_bytes, [&](const MienStream* stream) {
-           return opened(
-               [&](MienDna** out) { return mien_dna_open_stream(stream, &desc, out, error); });
-         });
-       }},
+       opens(mien_dna_close, w.desc<MienDnaDesc>(), mien_dna_open_stream, w.dna_bytes)},
       {"mien_dna_write_file",
-       [&w](MienError* error) {
-         return mien_dna_write_file(w.dna.object, w.path("b").c_str(), nullptr, error);
-       }},
+       calls(mien_dna_write_file, w.dna.object, w.written_file.c_str(), nullptr)},
       {"mien_dna_write_memory",
-       [&w](MienError* error) {
-         // What a lower version leaves out is checked for.
-         MienWriteDesc desc = sized<MienWriteDesc>();
-         desc.version = 4;
-         desc.unknown_layers = MIEN_UNKNOWN_LAYERS_DROP;
+       [&w, lower](MienError* error) {
          size_t size;
-         return mien_dna_write_memory(w.tiny.object, &desc, nullptr, 0, &size, error);
+         return mien_dna_write_memory(w.tiny.object, &lower, nullptr, 0, &size, error);
        }},
-      {"mien_dna_validate_file",
-       [&w, reported](MienError* error) {
-         const auto desc = w.desc<MienValidateDesc>();
-         return reported([&](MienReport** out) {
-           return mien_dna_validate_file(w.path("a.dna").c_str(), &desc, out, error);
-         });
-       }},
+      {"mien_dna_validate_file", makes(mien_report_destroy, w.desc<MienValidateDesc>(),
+                                       mien_dna_validate_file, w.dna_file.c_str())},
       {"mien_dna_validate_memory",
-       [&w, reported](MienError* error) {
-         const auto desc = w.desc<MienValidateDesc>();
-         return reported([&](MienReport** out) {
-           return mien_dna_validate_memory(w.dna_bytes.data(), w.dna_bytes.size(), &desc, out,
-                                           error);
-         });
-       }},
-      {"mien_dna_generate",
-       [&w, opened](MienError* error) {
-         auto desc = w.desc<MienGenerateDesc>();
-         desc.preset = MIEN_PRESET_SMALL;
-         return opened([&](MienDna** out) { return mien_dna_generate(&desc, out, error); });
-       }},
+       makes(mien_report_destroy, w.desc<MienValidateDesc>(), mien_dna_validate_memory,
+             w.dna_bytes.data(), w.dna_bytes.size())},
+      {"mien_dna_generate", makes(mien_dna_close, small, mien_dna_generate)},
   };
 }
 
 std::vector<Call> calls_of_rigs(const World& w) {
+  auto tangents = w.desc<MienDeformerDesc>();
+  tangents.with_tangents = 1;
+  auto copied = w.desc<MienBakedDesc>();
+  copied.file_access = MIEN_FILE_READ;
   return {
       {"mien_rig_create",
-       [&w](MienError* error) {
-         const auto desc = w.desc<MienRigDesc>();
-         return made_and_destroyed(mien_rig_destroy, [&](MienRig** out) {
-           return mien_rig_create(w.dna.object, &desc, out, error);
-         });
-       }},
-      {"mien_instance_create",
-       [&w](MienError* error) {
-         const auto desc = w.desc<MienInstanceDesc>();
-         return made_and_destroyed(mien_instance_destroy, [&](MienInstance** out) {
-           return mien_instance_create(w.rig.object, &desc, out, error);
-         });
-       }},
+       makes(mien_rig_destroy, w.desc<MienRigDesc>(), mien_rig_create, w.dna.object)},
+      {"mien_instance_create", makes(mien_instance_destroy, w.desc<MienInstanceDesc>(),
+                                     mien_instance_create, w.rig.object)},
       {"mien_batch_create",
-       [&w](MienError* error) {
-         const MienBatchDesc desc = batch_desc(20, 3, &w.allocator);
-         return made_and_destroyed(mien_batch_destroy, [&](MienBatch** out) {
-           return mien_batch_create(w.rig.object, &desc, out, error);
-         });
-       }},
+       makes(mien_batch_destroy, batch_desc(20, 3, &w.allocator), mien_batch_create, w.rig.object)},
       {"mien_deformer_create",
-       [&w](MienError* error) {
-         auto desc = w.desc<MienDeformerDesc>();
-         desc.with_tangents = 1;
-         return made_and_destroyed(mien_deformer_destroy, [&](MienDeformer** out) {
-           return mien_deformer_create(w.dna.object, w.rig.object, &desc, out, error);
-         });
-       }},
+       makes(mien_deformer_destroy, tangents, mien_deformer_create, w.dna.object, w.rig.object)},
       {"mien_deformer_instance_create",
-       [&w](MienError* error) {
-         const auto desc = w.desc<MienDeformerInstanceDesc>();
-         return made_and_destroyed(mien_deformer_instance_destroy, [&](MienDeformerInstance** out) {
-           return mien_deformer_instance_create(w.deformer.object, &desc, out, error);
-         });
-       }},
+       makes(mien_deformer_instance_destroy, w.desc<MienDeformerInstanceDesc>(),
+             mien_deformer_instance_create, w.deformer.object)},
       {"mien_bake_file",
-       [&w](MienError* error) {
-         return mien_bake_file(w.rig.object, w.deformer.object, w.path("b").c_str(), error);
-       }},
+       calls(mien_bake_file, w.rig.object, w.deformer.object, w.written_file.c_str())},
       {"mien_baked_open_file",
-       [&w](MienError* error) {
-         auto desc = w.desc<MienBakedDesc>();
-         desc.file_access = MIEN_FILE_READ;
-         return made_and_destroyed(mien_baked_close, [&](MienBaked** out) {
-           return mien_baked_open_file(w.path("a.mien").c_str(), &desc, out, error);
-         });
-       }},
+       makes(mien_baked_close, copied, mien_baked_open_file, w.baked_file.c_str())},
       {"mien_baked_open_memory",
-       [&w](MienError* error) {
-         const auto desc = w.desc<MienBakedDesc>();
-         return made_and_destroyed(mien_baked_close, [&](MienBaked** out) {
-           return mien_baked_open_memory(w.baked_bytes.data(), w.baked_bytes.size(), &desc, out,
-                                         error);
-         });
-       }},
+       makes(mien_baked_close, w.desc<MienBakedDesc>(), mien_baked_open_memory,
+             w.baked_bytes.data(), w.baked_bytes.size())},
       {"mien_baked_open_stream",
-       [&w](MienError* error) {
-         const auto desc = w.desc<MienBakedDesc>();
-         return opened_as_stream(w.baked_bytes, [&](const MienStream* stream) {
-           return made_and_destroyed(mien_baked_close, [&](MienBaked** out) {
-             return mien_baked_open_stream(stream, &desc, out, error);
-           });
-         });
-       }},
+       opens(mien_baked_close, w.desc<MienBakedDesc>(), mien_baked_open_stream, w.baked_bytes)},
       {"mien_rig_from_baked",
-       [&w](MienError* error) {
-         const auto desc = w.desc<MienBakedRigDesc>();
-         return made_and_destroyed(mien_rig_destroy, [&](MienRig** out) {
-           return mien_rig_from_baked(w.baked.object, &desc, out, error);
-         });
-       }},
+       makes(mien_rig_destroy, w.desc<MienBakedRigDesc>(), mien_rig_from_baked, w.baked.object)},
       {"mien_deformer_from_baked",
-       [&w](MienError* error) {
-         const auto desc = w.desc<MienBakedDeformerDesc>();
-         return made_and_destroyed(mien_deformer_destroy, [&](MienDeformer** out) {
-           return mien_deformer_from_baked(w.baked.object, w.baked_rig.object, &desc, out, error);
-         });
-       }},
+       makes(mien_deformer_destroy, w.desc<MienBakedDeformerDesc>(), mien_deformer_from_baked,
+             w.baked.object, w.baked_rig.object)},
   };
 }
 
 std::vector<Call> calls_of_clips(const World& w) {
-  const auto opened = [](const auto& make) { return made_and_destroyed(mien_clip_close, make); };
+  auto copied = w.desc<MienClipOpenDesc>();
+  copied.file_access = MIEN_FILE_READ;
   return {
-      {"mien_clip_build",
-       [&w, opened](MienError* error) {
-         const MienClipDesc desc = w.clip_desc();
-         return opened([&](MienClip** out) { return mien_clip_build(&desc, out, error); });
-       }},
+      {"mien_clip_build", makes(mien_clip_close, w.clip_desc(), mien_clip_build)},
       {"mien_clip_open_file",
-       [&w, opened](MienError* error) {
-         auto desc = w.desc<MienClipOpenDesc>();
-         desc.file_access = MIEN_FILE_READ;
-         return opened([&](MienClip** out) {
-           return mien_clip_open_file(w.path("a.clip").c_str(), &desc, out, error);
-         });
-       }},
+       makes(mien_clip_close, copied, mien_clip_open_file, w.clip_file.c_str())},
       {"mien_clip_open_memory",
-       [&w, opened](MienError* error) {
-         const auto desc = w.desc<MienClipOpenDesc>();
-         return opened([&](MienClip** out) {
-           return mien_clip_open_memory(w.clip_bytes.data(), w.clip_bytes.size(), &desc, out,
-                                        error);
-         });
-       }},
+       makes(mien_clip_close, w.desc<MienClipOpenDesc>(), mien_clip_open_memory,
+             w.clip_bytes.data(), w.clip_bytes.size())},
       {"mien_clip_open_stream",
-       [&w, opened](MienError* error) {
-         const auto desc = w.desc<MienClipOpenDesc>();
-         return opened_as_stream(w.clip_bytes, [&](const MienStream* stream) {
-           return opened(
-               [&](MienClip** out) { return mien_clip_open_stream(stream, &desc, out, error); });
-         });
-       }},
-      {"mien_clip_write_file",
-       [&w](MienError* error) {
-         return mien_clip_write_file(w.clip.object, w.path("b").c_str(), error);
-       }},
-      {"mien_clip_player_create",
-       [&w](MienError* error) {
-         const auto desc = w.desc<MienClipPlayerDesc>();
-         return made_and_destroyed(mien_clip_player_destroy, [&](MienClipPlayer** out) {
-           return mien_clip_player_create(w.clip.object, &desc, out, error);
-         });
-       }},
-      {"mien_clip_binding_create",
-       [&w](MienError* error) {
-         const auto desc = w.desc<MienClipBindingDesc>();
-         return made_and_destroyed(mien_clip_binding_destroy, [&](MienClipBinding** out) {
-           return mien_clip_binding_create(w.clip.object, w.rig.object, &desc, out, error);
-         });
-       }},
+       opens(mien_clip_close, w.desc<MienClipOpenDesc>(), mien_clip_open_stream, w.clip_bytes)},
+      {"mien_clip_write_file", calls(mien_clip_write_file, w.clip.object, w.written_file.c_str())},
+      {"mien_clip_player_create", makes(mien_clip_player_destroy, w.desc<MienClipPlayerDesc>(),
+                                        mien_clip_player_create, w.clip.object)},
+      {"mien_clip_binding_create", makes(mien_clip_binding_destroy, w.desc<MienClipBindingDesc>(),
+                                         mien_clip_binding_create, w.clip.object, w.rig.object)},
       {"mien_clip_binding_snaps",
        [&w](MienError* error) {
          float snaps[2];
@@ -441,33 +343,14 @@ std::vector<Call> calls_of_clips(const World& w) {
 }
 
 std::vector<Call> calls_of_mixes(const World& w) {
-  const auto made = [](const auto& make) { return made_and_destroyed(mien_mix_destroy, make); };
   return {
-      {"mien_mix_create",
-       [&w, made](MienError* error) {
-         const MienMixDesc desc = w.mix_desc();
-         return made(
-             [&](MienMix** out) { return mien_mix_create(w.rig.object, &desc, out, error); });
-       }},
-      {"mien_mix_open_file",
-       [&w, made](MienError* error) {
-         const auto desc = w.desc<MienMixOpenDesc>();
-         return made([&](MienMix** out) {
-           return mien_mix_open_file(w.path("a.mix").c_str(), w.rig.object, &desc, out, error);
-         });
-       }},
+      {"mien_mix_create", makes(mien_mix_destroy, w.mix_desc(), mien_mix_create, w.rig.object)},
+      {"mien_mix_open_file", makes(mien_mix_destroy, w.desc<MienMixOpenDesc>(), mien_mix_open_file,
+                                   w.mix_file.c_str(), w.rig.object)},
       {"mien_mix_open_memory",
-       [&w, made](MienError* error) {
-         const auto desc = w.desc<MienMixOpenDesc>();
-         return made([&](MienMix** out) {
-           return mien_mix_open_memory(w.mix_bytes.data(), w.mix_bytes.size(), w.rig.object, &desc,
-                                       out, error);
-         });
-       }},
-      {"mien_mix_write_file",
-       [&w](MienError* error) {
-         return mien_mix_write_file(w.mix.object, w.path("b").c_str(), error);
-       }},
+       makes(mien_mix_destroy, w.desc<MienMixOpenDesc>(), mien_mix_open_memory, w.mix_bytes.data(),
+             w.mix_bytes.size(), w.rig.object)},
+      {"mien_mix_write_file", calls(mien_mix_write_file, w.mix.object, w.written_file.c_str())},
       {"mien_mix_write_memory",
        [&w](MienError* error) {
          Bytes bytes(w.mix_bytes.size());
@@ -491,44 +374,24 @@ std::vector<Call> calls_of_mixes(const World& w) {
          return mien_mix_mask(w.rig.object, &group, 1, 0, mask.data(), mask.size(), error);
        }},
       {"mien_gaze_create",
-       [&w](MienError* error) {
-         const auto desc = w.desc<MienGazeDesc>();
-         return made_and_destroyed(mien_gaze_destroy, [&](MienGaze** out) {
-           return mien_gaze_create(w.head_deformer.object, &desc, out, error);
-         });
-       }},
+       makes(mien_gaze_destroy, w.desc<MienGazeDesc>(), mien_gaze_create, w.head_deformer.object)},
       {"mien_mixer_create",
-       [&w](MienError* error) {
-         const auto desc = w.desc<MienMixerDesc>();
-         return made_and_destroyed(mien_mixer_destroy, [&](MienMixer** out) {
-           return mien_mixer_create(w.mix.object, &desc, out, error);
-         });
-       }},
-      {"mien_solver_stack_create",
-       [&w](MienError* error) {
-         const MienSolverStackDesc desc = w.stack_desc();
-         return made_and_destroyed(mien_solver_stack_destroy, [&](MienSolverStack** out) {
-           return mien_solver_stack_create(w.deformer.object, &desc, out, error);
-         });
-       }},
-      {"mien_solver_state_create",
-       [&w](MienError* error) {
-         const auto desc = w.desc<MienSolverStateDesc>();
-         return made_and_destroyed(mien_solver_state_destroy, [&](MienSolverState** out) {
-           return mien_solver_state_create(w.stack.object, &desc, out, error);
-         });
-       }},
+       makes(mien_mixer_destroy, w.desc<MienMixerDesc>(), mien_mixer_create, w.mix.object)},
+      {"mien_solver_stack_create", makes(mien_solver_stack_destroy, w.stack_desc(),
+                                         mien_solver_stack_create, w.deformer.object)},
+      {"mien_solver_state_create", makes(mien_solver_state_destroy, w.desc<MienSolverStateDesc>(),
+                                         mien_solver_state_create, w.stack.object)},
   };
 }
 
 std::vector<Call> calls_of_authoring(const World& w, const AuthorInput& input) {
+  auto desc = w.desc<MienAuthorDesc>();
+  desc.facial_joints = 6;
+  desc.lods = 2;
+  desc.influences = 4;
   return {
       {"mien_author_rig",
-       [&](MienError* error) {
-         auto desc = w.desc<MienAuthorDesc>();
-         desc.facial_joints = 6;
-         desc.lods = 2;
-         desc.influences = 4;
+       [&input, desc](MienError* error) {
          return made_and_destroyed(mien_dna_close, [&](MienDna** out) {
            return made_and_destroyed(mien_author_report_close, [&](MienAuthorReport** report) {
              return mien_author_rig(&input.given, &desc, out, report, error);

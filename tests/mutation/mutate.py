@@ -4,15 +4,17 @@
 notices.
 
     mutate.py BUILD [--count N] [--first K] [--seed S]    N faults of the shuffled list, from K on
+    mutate.py BUILD --headers [...]                       the same in headers, which takes longer
     mutate.py BUILD --plant PLACE FAULT                   one, such as dna/dna_reader.cpp:557 "0 -> 1"
     mutate.py BUILD --show NUMBER                         one fault as a difference
 
-BUILD is a build with its tests. Neither it nor the sources are changed: a changed source is compiled aside
-and linked in front of what it replaces. Faults: comparisons, logic, sums, numbers, and checks that are left
+BUILD is a build with its tests. Neither it nor the sources are changed: a changed source, or what includes a
+changed header, is compiled aside and linked in front of what it replaces. Faults: comparisons, logic, sums, numbers, and checks that are left
 out. Some change nothing that anybody could see; the others ask for a test. The slow tests, of damage byte
 by byte and of generated rigs, run with --slow only. survivors.md tells what came of it.
 """
 import argparse
+import concurrent.futures
 import os
 import pathlib
 import random
@@ -44,10 +46,10 @@ def code_of(line):
     return re.sub(r"//.*", lambda m: " " * len(m[0]), line)
 
 
-def faults():
-    """(file, line number, new line, kind), all there are."""
+def faults(kind):
+    """(file, line number, new line, kind), all there are in files of this kind, cpp or h."""
     found = []
-    paths = sorted(p for folder in FOLDERS for p in (ROOT / folder).rglob("*.cpp"))
+    paths = sorted(p for folder in FOLDERS for p in (ROOT / folder).rglob(f"*.{kind}"))
     for path in paths:
         for number, line in enumerate(path.read_text().splitlines()):
             code = code_of(line)
@@ -70,45 +72,61 @@ def command_of(build, target):
     return commands[-1]
 
 
-def object_of(build, path):
-    listed = subprocess.run(["ninja", "-C", build, "-t", "targets", "all"], check=True,
-                            stdout=subprocess.PIPE, text=True).stdout
-    name = str(path.relative_to(ROOT / "runtime"))
-    match = re.search(rf"^(runtime/\S*{re.escape(name)}\.o):", listed, re.MULTILINE)
-    return match and match[1]
+def objects_of(build, path):
+    """Objects of the library: of this source, or of all that include this header."""
+    if path.suffix == ".cpp":
+        listed = subprocess.run(["ninja", "-C", build, "-t", "targets", "all"], check=True,
+                                stdout=subprocess.PIPE, text=True).stdout
+        name = str(path.relative_to(ROOT / "runtime"))
+        return re.findall(rf"^(runtime/\S*{re.escape(name)}\.o):", listed, re.MULTILINE)
+    listed = subprocess.run(["ninja", "-C", build, "-t", "deps"], check=True, stdout=subprocess.PIPE,
+                            text=True).stdout
+    name = str(path.relative_to(ROOT))
+    return [entry.split(":")[0] for entry in listed.split("\n\n")
+            if entry.startswith(("runtime/", "capi/")) and "author" not in entry.split(":")[0]
+            and re.search(rf"/{re.escape(name)}$", entry, re.MULTILINE)]
 
 
-def compile_fault(build, folder, path, number, new):
-    """The object of the changed source, or None: some faults do not compile."""
-    target = object_of(build, path)
-    if not target:
-        return None
-    lines = path.read_text().splitlines()
-    lines[number] = new
-    # Beside the original for the sake of relative includes there are none: all begin at the root.
-    source = folder / "mutant.cpp"
-    source.write_text("\n".join(lines) + "\n")
+def compile_one(build, folder, target, source, out):
     words = shlex.split(command_of(build, target))
     if os.path.basename(words[0]) == "ccache":
         words = words[1:]
-    out = folder / "mutant.o"
     words[words.index("-o") + 1] = str(out)
-    words[words.index("-c") + 1] = str(source)
+    if source:
+        words[words.index("-c") + 1] = str(source)
     if "-MF" in words:
-        words[words.index("-MF") + 1] = str(folder / "mutant.d")
+        words[words.index("-MF") + 1] = f"{out}.d"
+    words[1:1] = [f"-I{folder}"]
     words = [word for word in words if word != "-Werror"] + ["-w", "-O0"]
-    done = subprocess.run(words, cwd=build, check=False, stdout=subprocess.DEVNULL,
-                          stderr=subprocess.DEVNULL)
-    return out if done.returncode == 0 else None
+    return subprocess.run(words, cwd=build, check=False, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.DEVNULL).returncode == 0
 
 
-def link(build, folder, test, mutant):
+def compile_fault(build, folder, path, number, new):
+    """The objects of what is changed, or none: some faults do not compile."""
+    lines = path.read_text().splitlines()
+    lines[number] = new
+    # Includes begin at the root, so a changed header goes before the one of the sources.
+    changed = folder / (path.relative_to(ROOT) if path.suffix == ".h" else "mutant.cpp")
+    changed.parent.mkdir(parents=True, exist_ok=True)
+    changed.write_text("\n".join(lines) + "\n")
+    source = changed if path.suffix == ".cpp" else None
+    made = []
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        tasks = []
+        for i, target in enumerate(objects_of(build, path)):
+            made.append(folder / f"mutant{i}.o")
+            tasks.append(pool.submit(compile_one, build, folder, target, source, made[-1]))
+        return made if all([task.result() for task in tasks]) else []
+
+
+def link(build, folder, test, mutants):
     command = command_of(build, f"tests/{test}").replace(": && ", "", 1)
     command = re.sub(r" && :$", "", command)
     words = shlex.split(command)
-    at = words.index("-o")
-    words[at + 1] = str(folder / test)
-    words[at:at] = ["-Wl,--allow-multiple-definition", str(mutant)]
+    words[words.index("-o") + 1] = str(folder / test)
+    # In front of the tests too, which have the inline functions of headers.
+    words[1:1] = ["-Wl,--allow-multiple-definition", *map(str, mutants)]
     subprocess.run(words, cwd=build, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
@@ -117,14 +135,14 @@ def limit():
     resource.setrlimit(resource.RLIMIT_CPU, (CPU_SECONDS, CPU_SECONDS))
 
 
-def killer(build, folder, mutant, slow):
+def killer(build, folder, mutants, slow):
     """The test that notices, or None."""
     environment = dict(os.environ, LLVM_PROFILE_FILE="/dev/null")
     for chosen in [f"-{SLOW}", SLOW][: 1 + slow]:
         for test in TESTS:
             program = folder / test
             if not program.exists():
-                link(build, folder, test, mutant)
+                link(build, folder, test, mutants)
             result = subprocess.run([program, "--gtest_fail_fast", "--gtest_brief=1",
                                      f"--gtest_filter={chosen}"], check=False, env=environment, cwd=folder,
                                     preexec_fn=limit, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
@@ -148,9 +166,10 @@ def main():
     parser.add_argument("--show", type=int)
     parser.add_argument("--plant", nargs=2, metavar=("PLACE", "FAULT"))
     parser.add_argument("--slow", action="store_true")
+    parser.add_argument("--headers", action="store_true")
     arguments = parser.parse_args()
     build = arguments.build.resolve()
-    shuffled = faults()
+    shuffled = faults("h" if arguments.headers else "cpp")
     random.Random(arguments.seed).shuffle(shuffled)
     if arguments.show is not None:
         path, number, new, kind = shuffled[arguments.show]
@@ -168,11 +187,11 @@ def main():
             continue
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
-            mutant = compile_fault(build, folder, path, number, new)
-            if not mutant:
+            mutants = compile_fault(build, folder, path, number, new)
+            if not mutants:
                 continue
             planted += 1
-            noticed = killer(build, folder, mutant, arguments.slow)
+            noticed = killer(build, folder, mutants, arguments.slow)
         survived += noticed is None
         print(f"{i} {path.relative_to(ROOT)}:{number + 1} {kind}: {noticed or 'SURVIVED: ' + new.strip()}",
               flush=True)
