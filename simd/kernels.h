@@ -189,6 +189,23 @@ struct QuaternionJointArgs {
   bool halves;
 };
 
+/// The same for joints (lanes) `first` and on for many characters, with the same bits: controls of
+/// character k are controls[32 * c + k]. For k < lane_count:
+///
+///     rotations   joint: characters 0..15: x0..x15 y z w | characters 16..31, if there are any | next joint
+struct QuaternionBatchArgs {
+  const void* values;  // as above, and so are the others but for what has a comment
+  const uint16_t* columns;
+  const uint32_t* first_steps;
+  const uint32_t* step_counts;
+  const float* lane_steps;
+  const float* controls;  // 64-byte aligned
+  float* rotations;
+  uint32_t first, count;  // joints
+  uint32_t lane_count;    // characters
+  bool halves;
+};
+
 /// Euler angles as files have them (docs/rig-evaluation.md, 4.6 "Euler angles and quaternions").
 struct EulerForm {
   uint8_t axes[3];        // first, second, third axis to turn about
@@ -202,7 +219,7 @@ struct EulerForm {
 ///     quaternions   block 0: x0..x15 y0..y15 z0..z15 w0..w15 | block 1: ...
 ///     angles        block 0: x0..x15 y0..y15 z0..z15 *       | block 1: ...
 ///
-/// Quaternions need not be unit: lengths up to 1e18 and down to 1e-18 have the angles of the unit one, 0
+/// Quaternions need not be unit: lengths up to 1e9 and down to 1e-9 have the angles of the unit one, 0
 /// those of the identity. Angles are any finite ones. Nothing is fused: every instruction set gives the
 /// same bits. Arrays are 64-byte aligned.
 struct EulerArgs {
@@ -221,8 +238,8 @@ struct EulerArgs {
 ///
 /// (ux uy uz) selects the axis of the twist: 1 there, or -1 for its inverse, else 0. `swing` is 1 for
 /// the outputs of a swing, where the twist is inverted, else 0. Inputs are used as they are, unless
-/// their length is beyond 1e-9 ... 1e9: then they are made unit. 0 is the identity. Nothing is fused,
-/// as above.
+/// their length is beyond 1e-9 ... 1e9: then they are made unit, and so is what comes out. 0 is the
+/// identity. Nothing is fused, as above.
 struct TwistSwingArgs {
   const uint16_t* inputs;
   const float* lanes;
@@ -231,6 +248,17 @@ struct TwistSwingArgs {
   uint32_t block_count;
 };
 constexpr uint32_t kTwistSwingRows = 5;
+
+/// The same for outputs `first` and on for many characters, with controls and rotations as
+/// QuaternionBatchArgs has them.
+struct TwistSwingBatchArgs {
+  const uint16_t* inputs;
+  const float* lanes;
+  const float* controls;
+  float* rotations;
+  uint32_t first, count;  // outputs
+  uint32_t lane_count;    // characters
+};
 
 /// An RBF solver. Its poses are lanes, in blocks of 16:
 ///
@@ -495,6 +523,12 @@ struct KernelTable {
   void (*angles_from_quaternions)(const EulerArgs& args);
   void (*quaternions_from_angles)(const EulerArgs& args);
   void (*twist_swing)(const TwistSwingArgs& args);
+  void (*quaternion_batch)(const QuaternionBatchArgs& args);
+  void (*twist_swing_batch)(const TwistSwingBatchArgs& args);
+  /// rows[k][first ...] = the rotation of character k, in blocks of characters as above: four numbers,
+  /// or three angles.
+  void (*scatter_rotation)(const float* rotation, uint32_t lane_count, size_t first,
+                           bool quaternions, float* const* rows);
   void (*rbf_solvers)(const RbfArgs& args);
   void (*rbf_batch)(const RbfBatchArgs& args);
   /// to[32 * i + k] = from[k][i] for i < count and k < lane_count, 0 for the other k < 32. Rows may lie

@@ -170,7 +170,9 @@ template <class V>
     r = M::from(rests);
     sum = M::from(sums);
   }
-  const V r2 = r * r;
+  // Up to 2^-14 the sine is r, and the cosine 1. Powers would be too small for normal numbers from 2^-31
+  // on, which takes processors a hundred cycles. What is not a number stays so.
+  const V bounded = at_least(M::of(0x1p-14f), absolute(r)), r2 = bounded * bounded;
   const V s = r + (r * r2) * (M::of(-0.166666552f) +
                               r2 * (M::of(0.00833218824f) + r2 * M::of(-0.000195180954f)));
   const V c = (M::of(1.0f) - r2 * M::of(0.5f)) +
@@ -183,17 +185,14 @@ template <class V>
   cosine = flip_sign(flip_sign(select(swapped, s, c), upper), odd);
 }
 
-// The angle of (x, y), -pi ... pi, with the signs of zeros as C has them: the smaller by the larger
-// magnitude, a minimax polynomial within 2e-8, and what the octant adds to it. Not a number if both
-// are infinite.
-template <class V>
-[[gnu::always_inline]] inline V arc_tangent(V y, V x) {
+// The smaller by the larger magnitude, and a minimax polynomial within 2e-8. `steep` tells whether y is
+// the larger one.
+template <class V, class Lanes>
+[[gnu::always_inline]] inline V arc_tangent_of_octant(V ay, V ax, Lanes& steep) {
   using M = Make<V>;
-  const V zero = M::of(0.0f), one = M::of(1.0f), smallest = M::of(0x1p-149f);
-  const V ax = absolute(x), ay = absolute(y);
-  const auto steep = less(ax, ay);
+  steep = less(ax, ay);
   const V low = select(steep, ax, ay), high = select(steep, ay, ax);
-  const V a = divide(low, high + keep(less(high, smallest), one));
+  const V a = divide(low, high + keep(less(high, M::of(0x1p-149f)), M::of(1.0f)));
   // Up to 2^-14 the series is a. Its powers would be too small for normal numbers from 2^-16 on, which
   // takes processors a hundred cycles.
   const V bounded = at_least(a, M::of(0x1p-14f)), u = bounded * bounded, u2 = u * u;
@@ -201,10 +200,29 @@ template <class V>
                  (M::of(0.0432025157f) * u + M::of(-0.0755155608f));
   const V rest = (M::of(0.106657512f) * u + M::of(-0.14211002f)) * u2 +
                  (M::of(0.199937671f) * u + M::of(-0.333331525f));
-  const V t = a + (a * u) * (even * (u2 * u2) + rest);
-  const V signed_t = flip_sign(t, x);
+  return a + (a * u) * (even * (u2 * u2) + rest);
+}
+
+// The angle of (x, y), -pi ... pi, with the signs of zeros as C has them: that of the octant, and what
+// the octant adds to it. Not a number if both are infinite.
+template <class V>
+[[gnu::always_inline]] inline V arc_tangent(V y, V x) {
+  using M = Make<V>;
+  const V zero = M::of(0.0f), one = M::of(1.0f);
+  auto steep = less(zero, zero);
+  const V signed_t = flip_sign(arc_tangent_of_octant(absolute(y), absolute(x), steep), x);
   const V base = select(steep, M::of(kHalfPi), keep(less(with_sign(one, x), zero), M::of(kPi)));
   const V added = select(steep, zero - signed_t, signed_t);
+  return with_sign(base + (added + base * M::of(kPiRest)), y);
+}
+
+// The same for x >= 0.
+template <class V>
+[[gnu::always_inline]] inline V arc_tangent_of_right_half(V y, V x) {
+  using M = Make<V>;
+  auto steep = less(x, x);
+  const V t = arc_tangent_of_octant(absolute(y), x, steep);
+  const V base = keep(steep, M::of(kHalfPi)), added = select(steep, M::of(0.0f) - t, t);
   return with_sign(base + (added + base * M::of(kPiRest)), y);
 }
 

@@ -95,41 +95,73 @@ inline BatchInputs batch_rotation(const RbfSolverPlan& solver, const RbfBatchArg
   return inputs;
 }
 
-inline VecPair batch_angle(const float* targets, size_t stride, const BatchInputs& inputs,
-                           size_t count, size_t lane) {
+/// The dot product of kCount numbers, in registers, and those of a target.
+template <size_t kCount>
+inline VecPair batch_angle(const float* targets, size_t stride, const VecPair* inputs) {
   using M = Make<VecPair>;
-  VecPair dot = M::of(targets[0]) * M::from(inputs.rows[0] + lane);
-  for (size_t k = 1; k < count; ++k) {
-    dot = dot + M::of(targets[k * stride]) * M::from(inputs.rows[k] + lane);
-  }
+  VecPair dot = M::of(targets[0]) * inputs[0];
+  for (size_t k = 1; k < kCount; ++k) dot = dot + M::of(targets[k * stride]) * inputs[k];
   const VecPair u = dot * dot;
   return quick_arc_cosine((u + u) - M::of(1.0f));
 }
 
-inline VecPair batch_distance(const RbfSolverPlan& solver, const RbfBatchArgs& args,
-                              const float* targets, size_t stride, size_t lane) {
+/// Distances of kCount numbers per rotation. One rotation stays in registers for all poses; of several
+/// the squares are summed, one after the other.
+template <size_t kCount, class Weigh>
+inline void weigh_angles(const RbfSolverPlan& solver, const RbfBatchArgs& args, size_t stride,
+                         size_t lane, const Weigh& weigh) {
   using M = Make<VecPair>;
-  if (solver.input_count == 0) return M::of(targets[0]);
-  VecPair sum = M::of(0.0f);
-  if (solver.angle_inputs == 0) {
-    const uint16_t* controls = args.inputs + solver.first_input;
+  const size_t rotations = solver.input_count / kCount, count = solver.pose_count;
+  const float* targets = args.targets + solver.first_target;
+  float* const weights = args.weights[0] + lane;
+  for (size_t i = 0; i < rotations; ++i, targets += kCount * stride) {
+    const BatchInputs rows = batch_rotation(solver, args, i);
+    VecPair inputs[kCount];
+    for (size_t k = 0; k < kCount; ++k) inputs[k] = M::from(rows.rows[k] + lane);
+    const bool first = i == 0, last = i + 1 == rotations;
+    for (size_t p = 0; p < count; ++p) {
+      VecPair d = batch_angle<kCount>(targets + p, stride, inputs);
+      float* const at = weights + p * kBatchLanes;
+      if (rotations != 1) {
+        d = (first ? M::of(0.0f) : M::from(at)) + d * d;
+        if (last) d = square_root(d);
+      }
+      store(at, last ? weigh(d) : d);
+    }
+  }
+}
+
+template <class Weigh>
+inline void weigh_differences(const RbfSolverPlan& solver, const RbfBatchArgs& args, size_t stride,
+                              size_t lane, const Weigh& weigh) {
+  using M = Make<VecPair>;
+  const uint16_t* const controls = args.inputs + solver.first_input;
+  for (size_t p = 0; p < solver.pose_count; ++p) {
+    const float* const targets = args.targets + solver.first_target + p;
+    VecPair sum = M::of(0.0f);
     for (size_t i = 0; i < solver.input_count; ++i) {
       const VecPair d =
           M::of(targets[i * stride]) - M::from(args.controls + controls[i] * kBatchLanes + lane);
       sum = sum + d * d;
     }
-    return square_root(sum);
+    if (solver.input_count == 0) sum = M::of(targets[0]);
+    store(args.weights[0] + p * kBatchLanes + lane,
+          weigh(solver.input_count == 0 ? sum : square_root(sum)));
   }
-  const size_t count = solver.angle_inputs, rotations = solver.input_count / count;
-  if (rotations == 1) {
-    return batch_angle(targets, stride, batch_rotation(solver, args, 0), count, lane);
+}
+
+template <class Weigh>
+inline void weigh_poses(const RbfSolverPlan& solver, const RbfBatchArgs& args, size_t lane,
+                        const Weigh& weigh) {
+  const size_t stride = (solver.pose_count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
+  if (solver.input_count == 0 || solver.angle_inputs == 0) {
+    return weigh_differences(solver, args, stride, lane, weigh);
   }
-  for (size_t i = 0; i < rotations; ++i) {
-    const VecPair angle = batch_angle(targets + i * count * stride, stride,
-                                      batch_rotation(solver, args, i), count, lane);
-    sum = sum + angle * angle;
+  switch (solver.angle_inputs) {
+    case 2: return weigh_angles<2>(solver, args, stride, lane, weigh);
+    case 3: return weigh_angles<3>(solver, args, stride, lane, weigh);
+    default: return weigh_angles<4>(solver, args, stride, lane, weigh);
   }
-  return square_root(sum);
 }
 
 /// kPoses results of the inverse times the weights.
@@ -158,18 +190,18 @@ inline void batch_interpolate(const RbfSolverPlan& solver, const RbfBatchArgs& a
   }
 }
 
-/// As sum_of() of rbf_kernels.inl.
+/// As sum_of() of rbf_kernels.inl; lanes that it adds without a pose are 0, and left out.
 inline VecPair batch_sum(const float* weights, size_t count) {
   using M = Make<VecPair>;
   VecPair sums[kBlockLanes];
-  for (size_t i = 0; i < kBlockLanes; ++i) {
-    sums[i] = i < count ? M::from(weights + i * kBatchLanes) : M::of(0.0f);
+  for (size_t i = 0; i < kBlockLanes && i < count; ++i) {
+    sums[i] = M::from(weights + i * kBatchLanes);
     for (size_t p = i + kBlockLanes; p < count; p += kBlockLanes) {
       sums[i] = sums[i] + M::from(weights + p * kBatchLanes);
     }
   }
   for (size_t half = kBlockLanes / 2; half > 0; half /= 2) {
-    for (size_t i = 0; i < half; ++i) sums[i] = sums[i] + sums[i + half];
+    for (size_t i = 0; i < half && i + half < count; ++i) sums[i] = sums[i] + sums[i + half];
   }
   return sums[0];
 }
@@ -177,16 +209,17 @@ inline VecPair batch_sum(const float* weights, size_t count) {
 inline void batch_solver(const RbfSolverPlan& solver, const RbfBatchArgs& args, size_t lane) {
   using M = Make<VecPair>;
   const size_t count = solver.pose_count;
-  const size_t stride = (count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
-  for (size_t p = 0; p < count; ++p) {
-    const float* targets = args.targets + solver.first_target + p;
-    const VecPair x = batch_distance(solver, args, targets, stride, lane) * M::of(solver.scale);
-    store(args.weights[0] + p * kBatchLanes + lane, weight_of(x, solver));
-  }
+  with_weight<VecPair>(solver,
+                       [&](const auto& weight_of) { weigh_poses(solver, args, lane, weight_of); });
   if (solver.interpolative) {
     size_t p = 0;
     for (; p + 4 <= count; p += 4) batch_interpolate<4>(solver, args, p, lane);
-    for (; p < count; ++p) batch_interpolate<1>(solver, args, p, lane);
+    switch (count - p) {
+      case 1: batch_interpolate<1>(solver, args, p, lane); break;
+      case 2: batch_interpolate<2>(solver, args, p, lane); break;
+      case 3: batch_interpolate<3>(solver, args, p, lane); break;
+      default: break;
+    }
   }
   float* weights = args.weights[solver.interpolative] + lane;
   const VecPair zero = M::of(0.0f), one = M::of(1.0f), sum = batch_sum(weights, count);
@@ -194,11 +227,11 @@ inline void batch_solver(const RbfSolverPlan& solver, const RbfBatchArgs& args, 
   VecPair scale = select(divides, divide(one, sum), one);
   scale = keep(less(scale, M::of(3.4e38f)), scale);  // of weights that all but vanish
   const VecPair threshold = M::of(solver.threshold);
+  const float* const pose_scales = args.pose_scales + solver.first_lane;
+  const float* const pose_factors = args.pose_factors + solver.first_lane;
   for (size_t p = 0; p < count; ++p) {
-    const VecPair value =
-        M::from(weights + p * kBatchLanes) * scale * M::of(args.pose_scales[solver.first_lane + p]);
-    store(weights + p * kBatchLanes,
-          keep(less(threshold, value), value) * M::of(args.pose_factors[solver.first_lane + p]));
+    const VecPair value = M::from(weights + p * kBatchLanes) * scale * M::of(pose_scales[p]);
+    store(weights + p * kBatchLanes, keep(less(threshold, value), value) * M::of(pose_factors[p]));
   }
 }
 

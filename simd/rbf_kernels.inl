@@ -63,26 +63,34 @@ template <class V>
   return square_root(sum);
 }
 
-template <class V>
-[[gnu::always_inline]] inline V weight_of(V x, const RbfSolverPlan& solver) {
+/// Calls f(weight of a distance), with the choice of the function made once for all distances.
+template <class V, class F>
+[[gnu::always_inline]] inline void with_weight(const RbfSolverPlan& solver, F&& f) {
   using M = Make<V>;
   // A radius below zero makes weights grow with the distance: up to 2^60, so that the product with
   // scale and factor of a pose does not overflow.
   constexpr float kMax = 60, kMaxWeight = 1.152921505e18f;
+  const V scale = M::of(solver.scale);
   if (solver.function < 2) {
-    return power_of_two_or_zero(solver.scale > 0 ? at_most_or_nan(x, M::of(kMax)) : x);
+    const V most = M::of(solver.scale > 0 ? kMax : __builtin_inff());
+    return f([=](V d) { return power_of_two_or_zero(at_most_or_nan(d * scale, most)); });
   }
-  V power = x;
-  for (int n = 2; n < solver.function; ++n) power = power * (x * x);
-  return at_most(at_least(M::of(1.0f) - power, M::of(0.0f)), M::of(kMaxWeight));
+  const int exponent = solver.function;
+  f([=](V d) {
+    const V x = d * scale;
+    V power = x;
+    for (int n = 2; n < exponent; ++n) power = power * (x * x);
+    return at_most(at_least(M::of(1.0f) - power, M::of(0.0f)), M::of(kMaxWeight));
+  });
 }
 
 template <class V>
 inline void weigh_lanes(const RbfSolverPlan& solver, const RbfArgs& args, size_t lane,
                         size_t stride) {
-  const float* targets = args.targets + solver.first_target + lane;
-  const V x = distance<V>(solver, args, targets, stride) * Make<V>::of(solver.scale);
-  store(args.weights + solver.first_lane + lane, weight_of(x, solver));
+  const V d = distance<V>(solver, args, args.targets + solver.first_target + lane, stride);
+  with_weight<V>(solver, [&](const auto& weight_of) {
+    store(args.weights + solver.first_lane + lane, weight_of(d));
+  });
 }
 
 void weigh_poses(const RbfSolverPlan& solver, const RbfArgs& args) {

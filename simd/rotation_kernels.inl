@@ -24,14 +24,12 @@ inline VecQuaternion load_quaternion(const uint16_t* at) {
           load_half(at + 3 * kBlockLanes)};
 }
 
-// The blend is made unit by a true root and division: estimates would bend the joints. With weight 0
-// it is the identity, exactly.
-inline VecQuaternion blend_with_identity(const VecQuaternion& q, Vec t) {
-  const Vec one = broadcast(1.0f);
-  const VecQuaternion b = {t * q.x, t * q.y, t * q.z, t * q.w + (one - t)};
-  const Vec length = square_root(b.x * b.x + b.y * b.y + b.z * b.z + b.w * b.w);
-  const Vec scale = divide(one, length);
-  return {b.x * scale, b.y * scale, b.z * scale, b.w * scale};
+/// By a true root and division: estimates would bend the joints.
+template <class V>
+inline LaneQuaternion<V> made_unit(const LaneQuaternion<V>& q) {
+  const V length = square_root(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+  const V scale = divide(Make<V>::of(1.0f), length);
+  return {q.x * scale, q.y * scale, q.z * scale, q.w * scale};
 }
 
 template <class V>
@@ -41,48 +39,77 @@ inline LaneQuaternion<V> multiply(const LaneQuaternion<V>& a, const LaneQuaterni
       a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
-// Controls this large turn no joint any further. Up to 2^24, 1 - weight is exact, so that the
-// identity blended with itself never vanishes.
-inline Vec bounded(Vec weight) {
-  constexpr float kLargest = 1e7f;
-  return at_most(at_least(weight, broadcast(-kLargest)), broadcast(kLargest));
-}
-
 // Joints represented by quaternions ---------------------------------------------------------------
 
+// Controls this large turn no joint any further. Up to 2^24, 1 - weight is exact, so that the
+// identity blended with itself never vanishes.
+template <class V>
+inline V bounded(V weight) {
+  constexpr float kLargest = 1e7f;
+  return at_most(at_least(weight, Make<V>::of(-kLargest)), Make<V>::of(kLargest));
+}
+
+// Blends with weights of 0 to 1 are between 0.7 and 1 long, so their product is made unit at its end
+// only; before that after other weights, and after so many steps.
+constexpr size_t kStepsUntilUnit = 32;
+
+/// The product, so far, of the steps of some joints or characters. What happens to a lane depends on
+/// that lane alone.
+template <class V>
+struct Turn {
+  using M = Make<V>;
+  LaneQuaternion<V> product = {M::of(0.0f), M::of(0.0f), M::of(0.0f), M::of(1.0f)};
+
+  /// Turns by the quaternion blended with the identity. With weight 0 that is the identity, exactly.
+  void add(const LaneQuaternion<V>& q, V weight) {
+    const V one = M::of(1.0f), half = M::of(0.5f);
+    product = multiply({weight * q.x, weight * q.y, weight * q.z, weight * q.w + (one - weight)},
+                       product);
+    const auto beyond = less(half, absolute(weight - half));
+    if (__builtin_expect(any(beyond), false)) make_unit(beyond);
+  }
+  template <class Lanes>
+  void make_unit(const Lanes& lanes) {
+    const LaneQuaternion<V> unit = made_unit(product);
+    product = {select(lanes, unit.x, product.x), select(lanes, unit.y, product.y),
+               select(lanes, unit.z, product.z), select(lanes, unit.w, product.w)};
+  }
+  void put(float* out) const {
+    const LaneQuaternion<V> unit = made_unit(product);
+    store(out, without_sign_of_zero(unit.x));
+    store(out + kBlockLanes, without_sign_of_zero(unit.y));
+    store(out + 2 * kBlockLanes, without_sign_of_zero(unit.z));
+    store(out + 3 * kBlockLanes, without_sign_of_zero(unit.w));
+  }
+  // Products with identities, which others may skip, differ in it. (0 + -0 depends on how the host rounds.)
+  static V without_sign_of_zero(V v) { return keep(less(M::of(0.0f), absolute(v)), v); }
+};
+
 template <class Value>
-inline VecQuaternion product_of_steps(const QuaternionJointArgs& args, size_t block, size_t lane) {
+inline void turn_joints(const QuaternionJointArgs& args, size_t block, size_t lane) {
   const size_t first = args.first_steps[block], count = args.step_counts[block];
   const Value* values = static_cast<const Value*>(args.values) + first * 4 * kBlockLanes + lane;
   const uint16_t* columns = args.columns + first * kBlockLanes + lane;
   const Vec zero = broadcast(0.0f), lane_steps = load(args.lane_steps + block * kBlockLanes + lane);
-  VecQuaternion product = {zero, zero, zero, broadcast(1.0f)};
+  Turn<Vec> turn;
   for (size_t s = 0; s < count; ++s, values += 4 * kBlockLanes, columns += kBlockLanes) {
     const Mask used = less(broadcast(static_cast<float>(s)), lane_steps);
     const Vec weight = keep(used, bounded(gather(args.controls, columns)));
-    if (!any(less(zero, absolute(weight)))) continue;  // identities
-    product = multiply(blend_with_identity(load_quaternion(values), weight), product);
+    if (any(less(zero, absolute(weight)))) turn.add(load_quaternion(values), weight);
+    if (s % kStepsUntilUnit == kStepsUntilUnit - 1) turn.make_unit(used);
   }
-  // Products with identities, which others may skip, differ in the sign of zeros.
-  return {product.x + zero, product.y + zero, product.z + zero, product.w + zero};
+  turn.put(args.rotations + block * 4 * kBlockLanes + lane);
 }
 
 template <class Value>
-void turn(const QuaternionJointArgs& args) {
+void turn_joints(const QuaternionJointArgs& args) {
   for (size_t block = 0; block < args.block_count; ++block) {
-    for (size_t lane = 0; lane < kBlockLanes; lane += kWidth) {
-      const VecQuaternion q = product_of_steps<Value>(args, block, lane);
-      float* out = args.rotations + block * 4 * kBlockLanes + lane;
-      store(out, q.x);
-      store(out + kBlockLanes, q.y);
-      store(out + 2 * kBlockLanes, q.z);
-      store(out + 3 * kBlockLanes, q.w);
-    }
+    for (size_t lane = 0; lane < kBlockLanes; lane += kWidth) turn_joints<Value>(args, block, lane);
   }
 }
 
 void quaternion_joints(const QuaternionJointArgs& args) {
-  args.halves ? turn<uint16_t>(args) : turn<float>(args);
+  args.halves ? turn_joints<uint16_t>(args) : turn_joints<float>(args);
 }
 
 // Euler angles ------------------------------------------------------------------------------------
@@ -131,8 +158,8 @@ template <class V>
   const V z = L::row(from, form.axes[2]), w = L::row(from, 3);
   const V u1 = w + y, v1 = x - z, u2 = w - y, v2 = x + z;
   const V n1 = u1 * u1 + v1 * v1, n2 = u2 * u2 + v2 * v2;
-  const V wy = w * y - x * z, cosine = square_root(n1) * square_root(n2);
-  const V second = arc_tangent(wy + wy, cosine) * parity;
+  const V wy = w * y - x * z, cosine = square_root(n1 * n2);
+  const V second = arc_tangent_of_right_half(wy + wy, cosine) * parity;
   const V uu = u1 * u2, uv = u2 * v1, vu = u1 * v2, vv = v1 * v2;
   const V first = arc_tangent(vu + uv, uu - vv);
   // At a pole one pair is left, and with it a - c or a + c.
@@ -184,6 +211,17 @@ void quaternions_from_angles(const EulerArgs& args) {
 
 // Twists and swings -------------------------------------------------------------------------------
 
+/// Up to a quarter turn by the series alone.
+template <class V>
+[[gnu::always_inline]] inline V sine_of(V x) {
+  const V near = bounded_sine(x);
+  const auto far = less(Make<V>::of(kHalfPi), absolute(x));
+  if (__builtin_expect(!any(far), true)) return near;
+  V sine, cosine;
+  sine_cosine(x, sine, cosine);
+  return select(far, sine, near);
+}
+
 /// From q (t = 0) to the identity (t = 1) and beyond, the short way.
 template <class V>
 [[gnu::always_inline]] inline LaneQuaternion<V> slerp_to_identity(const LaneQuaternion<V>& q, V t) {
@@ -191,24 +229,22 @@ template <class V>
   constexpr float kParallel = 1.0f - 1.0f / (1 << 23);
   const V zero = M::of(0.0f), one = M::of(1.0f);
   const V c = absolute(q.w), s = one - t, angle = arc_cosine(c);
-  const V sine = square_root((one - c) * (one + c));
-  V from_sine, to_sine, cosine;
-  sine_cosine(s * angle, from_sine, cosine);
-  sine_cosine(t * angle, to_sine, cosine);
+  const V scale = divide(one, square_root((one - c) * (one + c)));
   const auto parallel = less(M::of(kParallel), c);
-  const V from = select(parallel, s, divide(from_sine, sine));
-  const V to = select(parallel, t, divide(to_sine, sine));
+  const V from = select(parallel, s, sine_of(s * angle) * scale);
+  const V to = select(parallel, t, sine_of(t * angle) * scale);
   return {q.x * from, q.y * from, q.z * from, q.w * from + select(less(q.w, zero), zero - to, to)};
 }
 
 /// conjugate / squared length; the identity for 0.
 template <class V>
 inline LaneQuaternion<V> inverse(const LaneQuaternion<V>& q) {
-  const V zero = Make<V>::of(0.0f), squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  using M = Make<V>;
+  const V zero = M::of(0.0f), squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
   const auto has = less(zero, squared);
-  return {keep(has, divide(zero - q.x, squared)), keep(has, divide(zero - q.y, squared)),
-          keep(has, divide(zero - q.z, squared)),
-          select(has, divide(q.w, squared), Make<V>::of(1.0f))};
+  const V scale = divide(M::of(1.0f), squared);
+  return {keep(has, (zero - q.x) * scale), keep(has, (zero - q.y) * scale),
+          keep(has, (zero - q.z) * scale), select(has, q.w * scale, M::of(1.0f))};
 }
 
 constexpr float kShortest = 1e-18f, kLongest = 1e18f;  // squared
@@ -254,10 +290,33 @@ inline V each_vector(F&& f) {
   }
 }
 
+/// The twist of q about the axis u, or its swing, on the way to the identity.
+template <class V>
+[[gnu::always_inline]] inline LaneQuaternion<V> twist_or_swing(LaneQuaternion<V> q, const V (&u)[3],
+                                                               V blend, V is_swing) {
+  using M = Make<V>;
+  const V zero = M::of(0.0f), one = M::of(1.0f);
+  q = bounded(q);
+  LaneQuaternion<V> twist = {q.x * u[0], q.y * u[1], q.z * u[2], q.w};
+  const V squared = twist.x * twist.x + twist.y * twist.y + twist.z * twist.z + twist.w * twist.w;
+  const V scale = divide(one, square_root(squared));
+  const auto has = less(zero, squared), swing = less(zero, is_swing);
+  twist = {keep(has, twist.x * scale), keep(has, twist.y * scale), keep(has, twist.z * scale),
+           select(has, twist.w * scale, one)};
+  if (!any(swing)) return bounded(slerp_to_identity(twist, blend));
+  const auto rest = inverse(multiply(q, twist));
+  const auto part = slerp_to_identity(
+      LaneQuaternion<V>{select(swing, rest.x, twist.x), select(swing, rest.y, twist.y),
+                        select(swing, rest.z, twist.z), select(swing, rest.w, twist.w)},
+      blend);
+  const auto both = multiply(twist, part);
+  return bounded(LaneQuaternion<V>{select(swing, both.x, part.x), select(swing, both.y, part.y),
+                                   select(swing, both.z, part.z), select(swing, both.w, part.w)});
+}
+
 /// What one vector waits for, another has ready: two together take little longer than one.
 template <class V>
 [[gnu::always_inline]] inline void twist_swing_lanes(const TwistSwingArgs& args, size_t lane) {
-  using M = Make<V>;
   const auto at = [lane](size_t vec, size_t rows, size_t row) {
     const size_t l = lane + vec * kWidth;
     return (l / kBlockLanes * rows + row) * kBlockLanes + l % kBlockLanes;
@@ -270,22 +329,8 @@ template <class V>
     return each_vector<V>(
         [&](size_t vec) { return gather(args.controls, args.inputs + at(vec, 4, k)); });
   };
-  const V zero = M::of(0.0f), one = M::of(1.0f);
-  const auto q = bounded(LaneQuaternion<V>{input(0), input(1), input(2), input(3)});
-  LaneQuaternion<V> twist = {q.x * row(0), q.y * row(1), q.z * row(2), q.w};
-  const V squared = twist.x * twist.x + twist.y * twist.y + twist.z * twist.z + twist.w * twist.w;
-  const V length = square_root(squared);
-  const auto has = less(zero, squared), swing = less(zero, row(4));
-  twist = {keep(has, divide(twist.x, length)), keep(has, divide(twist.y, length)),
-           keep(has, divide(twist.z, length)), select(has, divide(twist.w, length), one)};
-  const auto rest = inverse(multiply(q, twist));
-  const auto part = slerp_to_identity(
-      LaneQuaternion<V>{select(swing, rest.x, twist.x), select(swing, rest.y, twist.y),
-                        select(swing, rest.z, twist.z), select(swing, rest.w, twist.w)},
-      row(3));
-  const LaneQuaternion<V> before = {keep(swing, twist.x), keep(swing, twist.y),
-                                    keep(swing, twist.z), select(swing, twist.w, one)};
-  const auto out = multiply(before, part);
+  const auto out = twist_or_swing(LaneQuaternion<V>{input(0), input(1), input(2), input(3)},
+                                  {row(0), row(1), row(2)}, row(3), row(4));
   const V* const parts[] = {&out.x, &out.y, &out.z, &out.w};
   for (size_t k = 0; k < 4; ++k) {
     if constexpr (sizeof(V) == sizeof(Vec)) {
@@ -302,6 +347,108 @@ void twist_swing(const TwistSwingArgs& args) {
   size_t lane = 0;
   for (; lane + kWidth < count; lane += 2 * kWidth) twist_swing_lanes<VecPair>(args, lane);
   if (lane < count) twist_swing_lanes<Vec>(args, lane);
+}
+
+// Batches: lanes are characters, and what a joint has is the same for all of them ----------------------
+
+/// The first of the lanes that for_each_vector() stands at in rows of quaternions.
+inline size_t lane_at(size_t at) { return at / (4 * kBlockLanes) * kBlockLanes + at % kBlockLanes; }
+
+inline float value_at(const float* from) { return *from; }
+inline float value_at(const uint16_t* from) {
+  // As the scalar load_half() of vec.inl.
+  return float_of((*from & 0x8000u) << 16 | (*from & 0x7FFFu) << 13) * 0x1p112f;
+}
+
+template <class V, class Value>
+[[gnu::always_inline]] inline void turn_characters(const QuaternionBatchArgs& args, size_t joint,
+                                                   size_t lane, float* out) {
+  using M = Make<V>;
+  const size_t block = joint / kBlockLanes, first = args.first_steps[block];
+  const size_t count = args.step_counts[block], joint_lane = joint % kBlockLanes;
+  const float steps = args.lane_steps[joint];
+  const Value* values =
+      static_cast<const Value*>(args.values) + first * 4 * kBlockLanes + joint_lane;
+  const uint16_t* columns = args.columns + first * kBlockLanes + joint_lane;
+  const V zero = M::of(0.0f);
+  Turn<V> turn;
+  for (size_t s = 0; s < count && static_cast<float>(s) < steps; ++s) {
+    const V weight = bounded(M::from(args.controls + size_t{*columns} * kBatchLanes + lane));
+    if (any(less(zero, absolute(weight)))) {
+      turn.add(
+          {M::of(value_at(values)), M::of(value_at(values + kBlockLanes)),
+           M::of(value_at(values + 2 * kBlockLanes)), M::of(value_at(values + 3 * kBlockLanes))},
+          weight);
+    }
+    if (s % kStepsUntilUnit == kStepsUntilUnit - 1) turn.product = made_unit(turn.product);
+    values += 4 * kBlockLanes;
+    columns += kBlockLanes;
+  }
+  turn.put(out);
+}
+
+template <class Value>
+void turn_characters(const QuaternionBatchArgs& args) {
+  const size_t blocks = (args.lane_count + kBlockLanes - 1) / kBlockLanes;
+  for (size_t i = 0; i < args.count; ++i) {
+    float* const out = args.rotations + i * blocks * 4 * kBlockLanes;
+    for_each_vector(args.lane_count, 4, [&](size_t at, auto make) {
+      using V = decltype(make.of(0.0f));
+      turn_characters<V, Value>(args, args.first + i, lane_at(at), out + at);
+    });
+  }
+}
+
+void quaternion_batch(const QuaternionBatchArgs& args) {
+  args.halves ? turn_characters<uint16_t>(args) : turn_characters<float>(args);
+}
+
+void twist_swing_batch(const TwistSwingBatchArgs& args) {
+  const size_t blocks = (args.lane_count + kBlockLanes - 1) / kBlockLanes;
+  for (size_t i = 0; i < args.count; ++i) {
+    float* const out = args.rotations + i * blocks * 4 * kBlockLanes;
+    const size_t output = args.first + i, block = output / kBlockLanes;
+    const uint16_t* const inputs = args.inputs + block * 4 * kBlockLanes + output % kBlockLanes;
+    const float* const lanes =
+        args.lanes + block * kTwistSwingRows * kBlockLanes + output % kBlockLanes;
+    for_each_vector(args.lane_count, 4, [&](size_t at, auto make) {
+      using V = decltype(make.of(0.0f));
+      const size_t lane = lane_at(at);
+      const auto row = [&](size_t r) { return make.of(lanes[r * kBlockLanes]); };
+      const auto input = [&](size_t k) {
+        return make.from(args.controls + size_t{inputs[k * kBlockLanes]} * kBatchLanes + lane);
+      };
+      const auto q = twist_or_swing(LaneQuaternion<V>{input(0), input(1), input(2), input(3)},
+                                    {row(0), row(1), row(2)}, row(3), row(4));
+      store(out + at, q.x);
+      store(out + at + kBlockLanes, q.y);
+      store(out + at + 2 * kBlockLanes, q.z);
+      store(out + at + 3 * kBlockLanes, q.w);
+    });
+  }
+}
+
+void scatter_rotation(const float* rotation, uint32_t lane_count, size_t first, bool quaternions,
+                      float* const* rows) {
+  size_t k = 0;
+  for (; k + 4 <= lane_count; k += 4) {
+    const float* const at = rotation + k / kBlockLanes * 4 * kBlockLanes + k % kBlockLanes;
+    Quad a = load4(at), b = load4(at + kBlockLanes);
+    Quad c = load4(at + 2 * kBlockLanes), d = load4(at + 3 * kBlockLanes);
+    transpose4(a, b, c, d);
+    const Quad* const quads[] = {&a, &b, &c, &d};
+    for (size_t i = 0; i < 4; ++i) {
+      if (quaternions) {
+        store4(rows[k + i] + first, *quads[i]);
+      } else {
+        store3(rows[k + i] + first, *quads[i]);
+      }
+    }
+  }
+  for (; k < lane_count; ++k) {
+    const float* const at = rotation + k / kBlockLanes * 4 * kBlockLanes + k % kBlockLanes;
+    for (size_t i = 0; i < (quaternions ? 4 : 3); ++i) rows[k][first + i] = at[i * kBlockLanes];
+  }
 }
 
 }  // namespace

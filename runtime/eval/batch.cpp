@@ -36,6 +36,8 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
   batch.block_list.starts = placer.array<uint32_t>(size_t{block_row_count(joints)} + 1);
   batch.block_list.raw_ends = placer.array<uint32_t>(block_row_count(joints));
   batch.block_list.blocks = placer.array<BatchBlock>(block_count);
+  batch.lane_order.turns = placer.array<uint32_t>(rig.rotations.turns.count);
+  batch.lane_order.twists = placer.array<uint32_t>(rig.twist_swing.outputs.count);
   batch.order = placer.array<Instance*>(capacity);
   batch.lods = placer.array<uint32_t>(capacity);
   batch.first_of_packet = placer.array<uint32_t>(max_packets(rig, capacity) + 1);
@@ -67,6 +69,9 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
     for (Span<float>& weights : scratch.rbf_weights) {
       weights = placer.array<float>(max_poses * lanes, kBlockAlignment);
     }
+    const bool turns = rig.rotations.turns.count + rig.twist_swing.outputs.count != 0;
+    scratch.rotations =
+        placer.array<float>(turns ? kBlockLanes * 4 * kBatchLanes : 0, kBlockAlignment);
     if (!placer.measuring()) batch.tasks[i] = scratch;
   }
 }
@@ -99,6 +104,24 @@ void fill_block_list(const Rig& rig, BlockList& list) {
   starts[0] = 0;
 }
 
+bool has_joint_twice(const Span<RotationOutput>& outputs) {
+  for (size_t i = 0; i < outputs.count; ++i) {
+    for (size_t k = 0; k < i; ++k) {
+      if (outputs[k].joint == outputs[i].joint) return true;
+    }
+  }
+  return false;
+}
+
+void order_lanes(const Span<RotationOutput>& outputs, Span<uint32_t>& order) {
+  if (has_joint_twice(outputs)) order.count = 0;
+  for (uint32_t i = 0; i < order.count; ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    const uint32_t of_a = outputs[a].lane, of_b = outputs[b].lane;
+    return of_a != of_b ? of_a < of_b : a < b;
+  });
+}
+
 }  // namespace
 
 size_t batch_size(const Rig& rig, uint32_t capacity, uint32_t tasks) {
@@ -123,6 +146,8 @@ Batch* create_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, const All
   rig.owners.fetch_add(1, std::memory_order_relaxed);
 
   fill_block_list(rig, batch->block_list);
+  order_lanes(rig.rotations.turns, batch->lane_order.turns);
+  order_lanes(rig.twist_swing.outputs, batch->lane_order.twists);
   return batch;
 }
 
@@ -163,7 +188,7 @@ void evaluate_batch(Batch& batch, Instance* const* instances, const uint32_t* lo
     for (uint32_t c = index; c < b.packet_count; c += b.task_count) {
       const uint32_t first = b.first_of_packet[c], end = b.first_of_packet[c + 1];
       evaluate_packet({*b.rig, b.lods[first], b.order.data + first, end - first, &b.block_list,
-                       &b.tasks[index]},
+                       &b.lane_order, &b.tasks[index]},
                       b.stages);
     }
   };

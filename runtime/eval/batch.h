@@ -17,6 +17,7 @@ struct Batch {
   size_t block_size = 0;
 
   BlockList block_list;
+  LaneOrder lane_order;
   Span<PacketScratch> tasks;
 
   // Of the current evaluation.

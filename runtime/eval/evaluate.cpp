@@ -30,6 +30,7 @@ bool same_bits(const float* a, const float* b, size_t count) {
 /// (kNoStage). `previous` has their values from before, and then those from now.
 void note_changes(const Rig& rig, Instance& instance, const ControlRange& range, float* previous,
                   uint32_t writer) {
+  if (rig.always_evaluate) return;  // everything is stale when an evaluation begins
   const float* now = instance.controls.data + range.first;
   const uint32_t count = range.end - range.first;
   if (same_bits(previous, now, count)) return;
@@ -44,11 +45,13 @@ void note_changes(const Rig& rig, Instance& instance, const ControlRange& range,
 }
 
 /// Before a stage, or part of one, writes controls of a range, and after.
-void begin_writing(Instance& instance, const ControlRange& range) {
+void begin_writing(const Rig& rig, Instance& instance, const ControlRange& range) {
+  if (rig.always_evaluate) return;
   const float* controls = instance.controls.data;
   std::copy(controls + range.first, controls + range.end, instance.before_writing.data);
 }
 void end_writing(const Rig& rig, Instance& instance, const ControlRange& range, uint32_t writer) {
+  if (rig.always_evaluate) return;
   note_changes(rig, instance, range, instance.before_writing.data, writer);
   // Raw controls among them were not changed by the caller.
   const uint32_t raw_end = std::min(range.end, rig.raw_count);
@@ -110,7 +113,7 @@ void run_packet(const InstancePacket& packet, uint32_t stage, const ControlRange
   const InstancePacket those = stale_ones(packet, stage, stale);
   for (uint32_t i = 0; i < those.count; ++i) {
     stale[i]->stale &= ~Uses{stage};
-    begin_writing(*stale[i], writes);
+    begin_writing(packet.rig, *stale[i], writes);
   }
   evaluate_stage(those);
   for (uint32_t i = 0; i < those.count; ++i) end_writing(packet.rig, *stale[i], writes, stage);
@@ -148,7 +151,7 @@ void evaluate_packet(const InstancePacket& packet, uint32_t stages) {
 
 void evaluate(const Rig& rig, Instance& instance, uint32_t lod, uint32_t stages) {
   Instance* const one = &instance;
-  evaluate_packet({rig, lod, &one, 1, nullptr, nullptr}, stages);
+  evaluate_packet({rig, lod, &one, 1, nullptr, nullptr, nullptr}, stages);
 }
 
 // Parts of a stage leave the rest of it as it was: the whole stage is stale afterwards. ------------
@@ -162,7 +165,7 @@ void evaluate_joint_group(const Rig& rig, Instance& instance, uint32_t lod, uint
 
 void evaluate_rbf_solver(const Rig& rig, Instance& instance, uint32_t lod, uint32_t solver) {
   begin_evaluation(rig, instance, lod);
-  begin_writing(instance, rig.rbf_writes);
+  begin_writing(rig, instance, rig.rbf_writes);
   solve_rbf(rig, instance, solver);
   end_writing(rig, instance, rig.rbf_writes, kNoStage);
 }

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "runtime/base/bits.h"
+#include "runtime/eval/instance_packet.h"
 #include "runtime/eval/stages.h"
 
 namespace mien {
@@ -176,22 +177,29 @@ void begin_joints(const Rig& rig, Instance& instance, uint32_t lod) {
   clear_ml_joints(rig, instance, lod);
 }
 
-void finish_joints(const Rig& rig, Instance& instance, uint32_t lod) {
-  evaluate_rotations(rig, instance, lod, 0, rig.joints.group_count);
-  apply_twists_and_swings(rig, instance, lod, 0,
-                          static_cast<uint32_t>(rig.twist_swing.setups.count));
-  add_ml_joints(rig, instance, lod);
-  instance.stale &= ~(Uses{kStageJoints} | kAllPanels);
-}
-
-void evaluate_joints(const Rig& rig, Instance& instance, uint32_t lod) {
+void evaluate_stale_rows(const Rig& rig, Instance& instance, uint32_t lod) {
   // ML joints must not be added twice to the same rows. Where rows of several panels write the same
   // value, the last one has to write last.
   const bool all = !rig.ml.joints.empty() || rig.joints.contested;
   const Uses panels = all ? kAllPanels : instance.stale & kAllPanels;
-  begin_joints(rig, instance, lod);
   evaluate_joint_rows(rig, instance, lod, panels, kAllGroups);
-  finish_joints(rig, instance, lod);
+}
+
+void finish_joints(const InstancePacket& packet) {
+  turn_joints(packet);
+  twist_joints(packet);
+  for (uint32_t i = 0; i < packet.count; ++i) {
+    Instance& instance = *packet.instances[i];
+    add_ml_joints(packet.rig, instance, packet.lod);
+    instance.stale &= ~(Uses{kStageJoints} | kAllPanels);
+  }
+}
+
+void evaluate_joints(const Rig& rig, Instance& instance, uint32_t lod) {
+  begin_joints(rig, instance, lod);
+  evaluate_stale_rows(rig, instance, lod);
+  Instance* const one = &instance;
+  finish_joints({rig, lod, &one, 1, nullptr, nullptr, nullptr});
 }
 
 }  // namespace mien

@@ -104,10 +104,7 @@ void run_networks(const InstancePacket& packet, const MlStep& step, const float*
   for (uint32_t i = 0; i < packet.count; ++i) {
     if (masks[i] > 0.0f) running[those.count++] = packet.instances[i];
   }
-  // Lanes without an instance cost as much as those with one.
-  if (packet.scratch && 2 * those.count >= packet.rig.kernels->batch_step && those.count > 1) {
-    return run_network_together(those, step);
-  }
+  if (fills_lanes(those)) return run_network_together(those, step);
   for (uint32_t i = 0; i < those.count; ++i) run_network(packet.rig, *running[i], step);
 }
 

@@ -148,8 +148,11 @@ void solve_together(const InstancePacket& packet, const Span<uint16_t>& solvers)
   args.block_count = static_cast<uint32_t>(rbf.rotations.count / (4 * kBlockLanes));
   args.lane_count = packet.count;
   packet.rig.kernels->rbf_batch(args);
-  for (uint32_t i = 0; i < packet.count; ++i) {
-    for (uint16_t solver : solvers) drive_pose_controls(packet.rig, solver, *packet.instances[i]);
+  for (uint16_t solver : solvers) {
+    if (rbf.plans[solver].first_control != kNoFirstControl) continue;
+    for (uint32_t i = 0; i < packet.count; ++i) {
+      drive_pose_controls(packet.rig, solver, *packet.instances[i]);
+    }
   }
 }
 
@@ -160,11 +163,7 @@ void evaluate_rbf(const InstancePacket& packet) {
   if (rig.rbf_count == 0) return;  // without a pose control there is nothing to drive
   const Span<uint16_t> solvers = rig.rbf.lod_solvers.at(packet.lod);
   if (solvers.empty()) return;
-  // Lanes without an instance cost as much as those with one.
-  if (packet.scratch && rig.rbf.independent && packet.count > 1 &&
-      2 * packet.count >= rig.kernels->batch_step) {
-    return solve_together(packet, solvers);
-  }
+  if (rig.rbf.independent && fills_lanes(packet)) return solve_together(packet, solvers);
   for (uint32_t i = 0; i < packet.count; ++i) solve_alone(rig, *packet.instances[i], solvers);
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Rotations of joints: quaternions out of angles, joints represented by quaternions, twists and
 // swings (docs/rig-evaluation.md, 4.6 to 4.8, 7).
+#include "runtime/eval/instance_packet.h"
 #include "runtime/eval/stages.h"
 
 namespace mien {
 namespace {
+
+// One character: lanes are joints -----------------------------------------------------------------
 
 /// Writes a lane of a block to its joint, in the form of the rig's outputs.
 void write_rotation(const Rig& rig, Instance& instance, uint32_t joint, const float* lane) {
@@ -108,10 +111,12 @@ EulerForm euler_form(const RotationConvention& convention) {
   return form;
 }
 
-void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32_t first_group,
-                        uint32_t group_count) {
+namespace {
+
+/// Turns of neighboring groups.
+void turn_groups(const Rig& rig, Instance& instance, uint32_t lod, uint32_t first_group,
+                 uint32_t group_count) {
   const RotationTable& table = rig.rotations;
-  if (group_count == 0) return;
   const GroupRotations &first = table.groups[first_group],
                        &last = table.groups[first_group + group_count - 1];
   // Those of a group are in order of their lanes.
@@ -119,6 +124,12 @@ void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32
       rig, instance, lod, table.blocks_at_lod[lod], group_count == table.groups.count,
       table.turns.slice(first.first_turn, last.first_turn + last.turn_count - first.first_turn),
       [&](uint32_t block, uint32_t count) { turn_blocks(rig, instance, lod, block, count); });
+}
+
+/// Angles of neighboring groups, if outputs are quaternions.
+void convert_angles(const Rig& rig, Instance& instance, uint32_t lod, uint32_t first_group,
+                    uint32_t group_count) {
+  const RotationTable& table = rig.rotations;
   if (table.angle_joints.empty()) return;
   AngleBlock block(rig, instance);
   for (uint32_t group = first_group; group < first_group + group_count; ++group) {
@@ -133,6 +144,15 @@ void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32
   block.flush();
 }
 
+}  // namespace
+
+void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32_t first_group,
+                        uint32_t group_count) {
+  if (group_count == 0) return;
+  turn_groups(rig, instance, lod, first_group, group_count);
+  convert_angles(rig, instance, lod, first_group, group_count);
+}
+
 void apply_twists_and_swings(const Rig& rig, Instance& instance, uint32_t lod, uint32_t first_setup,
                              uint32_t setup_count) {
   const TwistSwingTable& table = rig.twist_swing;
@@ -144,6 +164,98 @@ void apply_twists_and_swings(const Rig& rig, Instance& instance, uint32_t lod, u
       table.outputs.slice(first.first_output,
                           last.first_output + last.output_count - first.first_output),
       [&](uint32_t block, uint32_t count) { twist_blocks(rig, instance, block, count); });
+}
+
+// Many characters: they are lanes -----------------------------------------------------------------
+
+namespace {
+
+/// Computes and writes the outputs of the first `blocks` blocks, as many at a time as the scratch
+/// memory holds: compute(first lane, count).
+template <class F>
+void write_rotations_together(const InstancePacket& packet, uint32_t blocks,
+                              const Span<RotationOutput>& outputs, const Span<uint32_t>& order,
+                              F&& compute) {
+  const Rig& rig = packet.rig;
+  float* const rotations = packet.scratch->rotations.data;
+  const uint32_t lanes = static_cast<uint32_t>(align_up(packet.count, kBlockLanes));
+  float* rows[kBatchLanes];
+  for (uint32_t k = 0; k < packet.count; ++k) rows[k] = packet.instances[k]->joints.data;
+  for (size_t begin = 0, end; begin < order.count; begin = end) {
+    const uint32_t first = outputs[order[begin]].lane, block = first / kBlockLanes;
+    if (block >= blocks) break;
+    for (end = begin + 1; end < order.count; ++end) {
+      if (outputs[order[end]].lane / kBlockLanes != block) break;
+    }
+    const uint32_t count = outputs[order[end - 1]].lane - first + 1;
+    compute(first, count);
+    if (!rig.quaternion_outputs) {
+      rig.kernels->angles_from_quaternions(
+          {euler_form(rig.rotation), rotations, rotations, count * lanes});
+    }
+    for (size_t i = begin; i < end; ++i) {
+      const RotationOutput& output = outputs[order[i]];
+      if ((output.lods >> packet.lod & 1) == 0) continue;
+      rig.kernels->scatter_rotation(rotations + size_t{output.lane - first} * 4 * lanes,
+                                    packet.count, size_t{output.joint} * rig.joint_attributes + 3,
+                                    rig.quaternion_outputs, rows);
+    }
+  }
+}
+
+void turn_together(const InstancePacket& packet) {
+  const Rig& rig = packet.rig;
+  const RotationTable& table = rig.rotations;
+  const size_t first_of_lod = size_t{packet.lod} * table.block_count();
+  QuaternionBatchArgs args;
+  args.halves = rig.half_storage;
+  args.values = args.halves ? static_cast<const void*>(table.halves.data) : table.values.data;
+  args.columns = table.columns.data;
+  args.first_steps = table.first_steps.data;
+  args.step_counts = table.steps_at_lod.data + first_of_lod;
+  args.lane_steps = table.lane_steps_at_lod.data + first_of_lod * kBlockLanes;
+  args.controls = packet.scratch->controls.data;
+  args.rotations = packet.scratch->rotations.data;
+  args.lane_count = packet.count;
+  write_rotations_together(packet, table.blocks_at_lod[packet.lod], table.turns,
+                           packet.lane_order->turns, [&](uint32_t first, uint32_t count) {
+                             args.first = first;
+                             args.count = count;
+                             rig.kernels->quaternion_batch(args);
+                           });
+}
+
+void twist_together(const InstancePacket& packet) {
+  const TwistSwingTable& table = packet.rig.twist_swing;
+  write_rotations_together(
+      packet, table.blocks_at_lod[packet.lod], table.outputs, packet.lane_order->twists,
+      [&](uint32_t first, uint32_t count) {
+        packet.rig.kernels->twist_swing_batch(
+            {table.inputs.data, table.lanes.data, packet.scratch->controls.data,
+             packet.scratch->rotations.data, first, count, packet.count});
+      });
+}
+
+}  // namespace
+
+void turn_joints(const InstancePacket& packet) {
+  const Rig& rig = packet.rig;
+  const uint32_t groups = rig.joints.group_count;
+  if (groups == 0) return;
+  const bool together = fills_lanes(packet) && !packet.lane_order->turns.empty();
+  if (together) turn_together(packet);
+  for (uint32_t i = 0; i < packet.count; ++i) {
+    if (!together) turn_groups(rig, *packet.instances[i], packet.lod, 0, groups);
+    convert_angles(rig, *packet.instances[i], packet.lod, 0, groups);
+  }
+}
+
+void twist_joints(const InstancePacket& packet) {
+  if (fills_lanes(packet) && !packet.lane_order->twists.empty()) return twist_together(packet);
+  const auto setups = static_cast<uint32_t>(packet.rig.twist_swing.setups.count);
+  for (uint32_t i = 0; i < packet.count; ++i) {
+    apply_twists_and_swings(packet.rig, *packet.instances[i], packet.lod, 0, setups);
+  }
 }
 
 }  // namespace mien

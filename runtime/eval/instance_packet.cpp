@@ -147,15 +147,18 @@ void evaluate_psds_together(const InstancePacket& packet) {
 }
 
 void evaluate_joints_together(const InstancePacket& packet) {
-  const SharedColumns shared = find_shared_columns(packet);
-  if (shared.column_end == 0) return;
   for (uint32_t i = 0; i < packet.count; ++i) {
     begin_joints(packet.rig, *packet.instances[i], packet.lod);
   }
-  evaluate_shared_rows(packet, shared);
-  for (uint32_t i = 0; i < packet.count; ++i) {
-    finish_joints(packet.rig, *packet.instances[i], packet.lod);
+  const SharedColumns shared = find_shared_columns(packet);
+  if (shared.column_end != 0) {
+    evaluate_shared_rows(packet, shared);
+  } else {
+    for (uint32_t i = 0; i < packet.count; ++i) {
+      evaluate_stale_rows(packet.rig, *packet.instances[i], packet.lod);
+    }
   }
+  finish_joints(packet);
 }
 
 }  // namespace mien

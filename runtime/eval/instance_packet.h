@@ -6,7 +6,7 @@
 //     each instance:       what changed
 //     the packet:          ML: networks that many instances run
 //     each instance:       RBF
-//     the packet (batch):  PSD; of the joint matrix the columns that many instances use
+//     the packet (batch):  PSD; of the joint matrix the columns that many instances use; rotations
 //     each instance:       PSD, joints, blend shapes, animated maps: what is left
 #pragma once
 
@@ -22,6 +22,12 @@ struct BlockList {
   uint32_t raw_columns = 0;  // columns of raw controls
 };
 
+/// Rotations that were compiled into lanes, in order of these: indices into RotationTable::turns and
+/// TwistSwingTable::outputs. Empty if a joint has two of a table: then the order of the table counts.
+struct LaneOrder {
+  Span<uint32_t> turns, twists;
+};
+
 /// Scratch memory of a packet.
 struct PacketScratch {
   Span<float> controls;        // [control][32]
@@ -34,6 +40,7 @@ struct PacketScratch {
   Span<float> ml_weights;      // of a block of rows, in half storage
   Span<float> rbf_rotations;   // as RbfBatchArgs has them
   Span<float> rbf_weights[2];  // likewise
+  Span<float> rotations;       // of kBlockLanes joints, as QuaternionBatchArgs has them
 };
 
 struct InstancePacket {
@@ -43,14 +50,20 @@ struct InstancePacket {
   uint32_t count;              // up to kBatchLanes
   // Null in a single evaluation.
   const BlockList* block_list;
+  const LaneOrder* lane_order;
   const PacketScratch* scratch;
 };
+
+/// Whether what takes a lane for each instance pays: lanes without one cost as much.
+inline bool fills_lanes(const InstancePacket& packet) {
+  return packet.scratch && packet.count > 1 && 2 * packet.count >= packet.rig.kernels->batch_step;
+}
 
 /// The pipeline. Stages as for evaluate().
 void evaluate_packet(const InstancePacket& packet, uint32_t stages);
 
-// For the pipeline: the PSD stage of all instances of a packet, and their joint stage. The latter is
-// left undone if summing each instance by itself is faster. gather_controls() of all comes first.
+// For the pipeline: the PSD stage of all instances of a packet, and their joint stage.
+// gather_controls() of all comes first.
 void gather_controls(const InstancePacket& packet, uint32_t count);
 void evaluate_psds_together(const InstancePacket& packet);
 void evaluate_joints_together(const InstancePacket& packet);

@@ -39,10 +39,12 @@ constexpr uint32_t kAllGroups = ~uint32_t{0};
 /// where that is enough.
 void evaluate_joints(const Rig& rig, Instance& instance, uint32_t lod);
 
-/// The joint stage without the rows of the joint matrix: what comes before them, and after them.
-/// Then neither the stage nor any panel is stale.
+/// The joint stage by its parts: what comes before the rows of the joint matrix, the rows of stale
+/// panels, and, of all instances of a packet, what comes after them. Then neither the stage nor any panel
+/// is stale.
 void begin_joints(const Rig& rig, Instance& instance, uint32_t lod);
-void finish_joints(const Rig& rig, Instance& instance, uint32_t lod);
+void evaluate_stale_rows(const Rig& rig, Instance& instance, uint32_t lod);
+void finish_joints(const InstancePacket& packet);
 
 /// Rows of the panels in `panels` (bits of Uses): of one group, or of all.
 void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, Uses panels,
@@ -68,7 +70,12 @@ void finish_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTi
 
 // Rotations of joints (evaluate_rotations.cpp) ----------------------------------------------------
 
-/// The rotations of neighboring groups, once their rows are written.
+/// The rotations of all groups, once their rows are written, and all twists and swings. In a batch
+/// the scratch memory has the controls.
+void turn_joints(const InstancePacket& packet);
+void twist_joints(const InstancePacket& packet);
+
+/// The rotations of neighboring groups.
 void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32_t first_group,
                         uint32_t group_count);
 /// Neighboring set-ups, in order.

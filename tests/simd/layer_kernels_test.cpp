@@ -204,7 +204,7 @@ TEST(DenseLayer, HalvesGiveWhatTheirFloatsGive) {
 TEST(QuaternionJointsKernel, ProductOfTheBlendsOfEachLane) {
   Random random = Random::from_seed(12, 1);
   constexpr uint32_t kFloats = 4 * kBlockLanes, kControls = 19;
-  for (uint32_t most : {0u, 1u, 2u, 17u}) {
+  for (uint32_t most : {0u, 1u, 2u, 17u, 70u}) {
     for (uint32_t blocks : {1u, 3u}) {
       const size_t steps = size_t{blocks} * (most + 1);
       Aligned values(steps * kFloats), rotations(blocks * kFloats),

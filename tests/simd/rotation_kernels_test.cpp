@@ -108,7 +108,7 @@ TEST(EulerKernels, DescribeTheRotationInEveryFormAndCount) {
       const EulerForm form = random_form(random, sequence);
       Block quaternions(4, count), angles(4, count);
       for (size_t i = 0; i < count; ++i) {
-        const double size = std::exp(random.between(-30, 30));
+        const double size = std::exp(random.between(-20, 20));
         for (int k = 0; k < 4; ++k) {
           quaternions.at(i, k) = static_cast<float>(random.between(-1, 1) * size);
         }
@@ -312,6 +312,147 @@ TEST(TwistSwingKernel, EveryKindAxisBlendAndCount) {
       for (int k = 0; k < 4; ++k) {
         ASSERT_NEAR(lanes.rotations.at(i, k), expected[i][k], 2e-6)
             << "lane " << i << ", part " << k;
+      }
+    }
+  }
+}
+
+/// Rows of 32 characters, aligned, with numbers of their own in the first `count`.
+struct Characters {
+  Characters(Random& random, size_t control_count, size_t count, double low, double high)
+      : storage(control_count * kBatchLanes + 16) {
+    const size_t past = reinterpret_cast<uintptr_t>(storage.data()) / sizeof(float) % 16;
+    controls = storage.data() + (past ? 16 - past : 0);
+    for (size_t c = 0; c < control_count; ++c) {
+      for (size_t k = 0; k < count; ++k) {
+        controls[c * kBatchLanes + k] = static_cast<float>(random.between(low, high));
+      }
+    }
+  }
+  std::vector<float> of(size_t character, size_t control_count) const {
+    std::vector<float> own(control_count);
+    for (size_t c = 0; c < control_count; ++c) own[c] = controls[c * kBatchLanes + character];
+    return own;
+  }
+  std::vector<float> storage;
+  float* controls;
+};
+
+/// Expects lanes `first` ... of a character in `together` to have the bits of those in `alone`.
+void expect_character(const Block& together, size_t characters, size_t character,
+                      const Block& alone, size_t first, size_t count) {
+  const size_t blocks = (characters + kBlockLanes - 1) / kBlockLanes;
+  for (size_t i = 0; i < count; ++i) {
+    const size_t lane = i * blocks * kBlockLanes + character;
+    for (uint32_t k = 0; k < 4; ++k) {
+      const float a = const_cast<Block&>(together).at(lane, k);
+      const float b = const_cast<Block&>(alone).at(first + i, k);
+      ASSERT_EQ(std::memcmp(&a, &b, sizeof(a)), 0)
+          << "lane " << first + i << ", character " << character << ": " << a << " and " << b;
+    }
+  }
+}
+
+TEST(TwistSwingKernel, CharactersInLanesHaveTheBitsOfOne) {
+  Random random = Random::from_seed(72, 8);
+  constexpr uint32_t kLanes = 23, kFirst = 3, kCount = 19;
+  TwistsAndSwings lanes(kLanes);
+  for (size_t i = 0; i < kLanes; ++i) {
+    const bool swing = random.chance(0.4);
+    lanes.set(i, random.below(3), swing || random.chance(0.5), random.between(-0.2, 1.2), swing);
+  }
+  for (uint32_t count : {1u, 5u, 16u, 17u, 32u}) {
+    for (double size : {0.0, 1e-12, 1.0, 1e12}) {
+      const Characters characters(random, lanes.controls.size(), count, -size, size);
+      for (const KernelTable* table : present()) {
+        SCOPED_TRACE(table->name);
+        Block together(4, size_t{kCount} * 32);
+        table->twist_swing_batch({lanes.inputs.data(), lanes.rows.data, characters.controls,
+                                  together.data, kFirst, kCount, count});
+        for (uint32_t k = 0; k < count; ++k) {
+          lanes.controls = characters.of(k, lanes.controls.size());
+          table->twist_swing({lanes.inputs.data(), lanes.rows.data, lanes.controls.data(),
+                              lanes.rotations.data,
+                              static_cast<uint32_t>(lanes.count / kBlockLanes)});
+          expect_character(together, count, k, lanes.rotations, kFirst, kCount);
+        }
+      }
+    }
+  }
+}
+
+TEST(QuaternionBatchKernel, CharactersInLanesHaveTheBitsOfOne) {
+  Random random = Random::from_seed(72, 9);
+  constexpr uint32_t kJoints = 2 * kBlockLanes, kFirst = 5, kCount = 22, kControls = 30;
+  for (uint32_t most : {1u, 6u, 70u}) {
+    const size_t steps = size_t{2} * most;
+    Block values(4, steps * kBlockLanes), lane_steps(1, kJoints), alone(4, kJoints);
+    std::vector<uint16_t> columns(steps * kBlockLanes);
+    const std::vector<uint32_t> first_steps = {0, most}, step_counts = {most, most};
+    for (uint16_t& column : columns) column = static_cast<uint16_t>(random.below(kControls));
+    for (size_t i = 0; i < steps * kBlockLanes; ++i) {
+      Quad q = {random.between(-1, 1), random.between(-1, 1), random.between(-1, 1),
+                random.between(0, 1)};
+      q = scaled(q, 1 / length(q));
+      for (int k = 0; k < 4; ++k) values.at(i, k) = static_cast<float>(q[k]);
+    }
+    for (uint32_t i = 0; i < kJoints; ++i) {
+      lane_steps.at(i, 0) = static_cast<float>(random.below(most + 1));
+    }
+    for (uint32_t count : {1u, 7u, 16u, 31u}) {
+      for (double high : {0.0, 1.0, 2e7}) {
+        const Characters characters(random, kControls, count, high > 1 ? -high : 0, high);
+        for (const KernelTable* table : present()) {
+          SCOPED_TRACE(table->name);
+          Block together(4, size_t{kCount} * 32);
+          QuaternionBatchArgs batch = {values.data,
+                                       columns.data(),
+                                       first_steps.data(),
+                                       step_counts.data(),
+                                       lane_steps.data,
+                                       characters.controls,
+                                       together.data,
+                                       kFirst,
+                                       kCount,
+                                       count,
+                                       false};
+          table->quaternion_batch(batch);
+          for (uint32_t k = 0; k < count; ++k) {
+            const std::vector<float> controls = characters.of(k, kControls);
+            table->quaternion_joints({values.data, columns.data(), first_steps.data(),
+                                      step_counts.data(), lane_steps.data, controls.data(),
+                                      alone.data, 2, false});
+            expect_character(together, count, k, alone, kFirst, kCount);
+          }
+        }
+      }
+    }
+  }
+}
+
+// Rows lie anywhere, and what is beside a rotation stays.
+TEST(ScatterRotationKernel, WritesTheNumbersOfEachCharacterAndNoMore) {
+  Random random = Random::from_seed(72, 10);
+  for (uint32_t count : {1u, 4u, 15u, 19u, 32u}) {
+    for (bool quaternions : {false, true}) {
+      Block rotation(4, 32);
+      for (size_t i = 0; i < 32; ++i) {
+        for (uint32_t k = 0; k < 4; ++k) {
+          rotation.at(i, k) = static_cast<float>(random.between(-1, 1));
+        }
+      }
+      for (const KernelTable* table : present()) {
+        std::vector<std::vector<float>> rows(count, std::vector<float>(9, 7.0f));
+        std::vector<float*> at;
+        for (auto& row : rows) at.push_back(row.data() + 1);
+        table->scatter_rotation(rotation.data, count, 2, quaternions, at.data());
+        for (uint32_t c = 0; c < count; ++c) {
+          for (uint32_t i = 0; i < 9; ++i) {
+            const bool written = i >= 3 && i < (quaternions ? 7u : 6u);
+            ASSERT_EQ(rows[c][i], written ? rotation.at(c, i - 3) : 7.0f)
+                << table->name << ", character " << c << ", number " << i;
+          }
+        }
       }
     }
   }
