@@ -197,6 +197,8 @@ typedef struct MienAuthorDesc {
     uint32_t joint_groups;             /* 1 to 24. 0: as many as have 75 rows each */
     uint32_t overlap_correctives;      /* correctives for pairs of shapes that double their motion, at
                                           most as many. 0: none */
+    double lod_triangles;              /* share of its triangles that each further LOD keeps of the LOD
+                                          before: above 0, at most 1. 0: 0.5. 1: all */
 } MienAuthorDesc;
 MIEN_DEFAULT(MienAuthorDesc, mien_author_desc_default)
 

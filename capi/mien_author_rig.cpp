@@ -126,6 +126,11 @@ MienStatus check_options(const MienAuthorDesc& desc, MienError* error) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
                       "MienAuthorDesc.unit is no positive number of centimeters");
   }
+  if (!(desc.lod_triangles >= 0 && desc.lod_triangles <= 1)) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienAuthorDesc.lod_triangles is %g: it is a share, at most 1",
+                      desc.lod_triangles);
+  }
   if (direction_of(desc.up, MIEN_MESH_AXIS_Y).axis ==
       direction_of(desc.front, MIEN_MESH_AXIS_Z).axis) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
@@ -262,6 +267,7 @@ bool read_input(const MienAuthorMesh& mesh, const MienAuthorDesc& desc, Arena& a
   }
   options.joint_groups = desc.joint_groups;
   options.overlap_correctives = desc.overlap_correctives;
+  if (desc.lod_triangles > 0) options.lod_triangles = desc.lod_triangles;
   return true;
 }
 

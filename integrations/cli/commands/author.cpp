@@ -32,7 +32,7 @@ struct AuthorCommand {
   std::string mesh, shapes, unit, object;
   std::string joints = "240", influences = "8", lods = "8", seed = "1", groups = "3", threads = "0";
   std::string symmetry = "auto", residual = "targets", metric = "depth", up = "y", front = "z";
-  std::string overlaps = "0";
+  std::string overlaps = "0", lod_triangles = "0.5";
   std::string report, images, crop;
   bool paper = false, no_neck_cut = false, mask_from_shapes = false, area_density = false;
   OutputFile output;
@@ -45,12 +45,21 @@ uint32_t parse_count(const char* option, const std::string& word, uint32_t least
              "give " + std::to_string(least) + " to " + std::to_string(most));
 }
 
+double parse_share(const char* option, const std::string& word) {
+  char* end = nullptr;
+  const double share = std::strtod(word.c_str(), &end);
+  if (!word.empty() && *end == 0 && share > 0 && share <= 1) return share;
+  fail_usage(std::string(option) + " \"" + word + "\"", "this is not a number above 0, up to 1",
+             "give a share: 0.5 keeps half, 1 keeps all");
+}
+
 /// The options, parsed before any file is opened.
 MienAuthorDesc parse_options(const AuthorCommand& command) {
   auto desc = sized<MienAuthorDesc>();
   desc.facial_joints = parse_count("--joints", command.joints, 1, 7000);
   desc.influences = parse_count("--influences", command.influences, 1, 12);
   desc.lods = parse_count("--lods", command.lods, 1, 8);
+  desc.lod_triangles = parse_share("--lod-triangles", command.lod_triangles);
   desc.groups = parse_count("--groups", command.groups, 2, 16);
   desc.seed = parse_number("--seed", command.seed, UINT64_MAX);
   desc.symmetry =
@@ -385,6 +394,11 @@ Command add_author_command(CLI::App& app, const Session& session) {
       ->type_name("N");
   author->add_option("--lods", options->lods, "Levels of detail: 1 to 8 (default: 8)")
       ->type_name("N");
+  author
+      ->add_option("--lod-triangles", options->lod_triangles,
+                   "Share of the triangles that each LOD keeps of the one\nbefore; 1 keeps all "
+                   "(default: 0.5)")
+      ->type_name("SHARE");
   author->add_option("--seed", options->seed, "Of the search for joints (default: 1)")
       ->type_name("N");
   author->add_option("--symmetry", options->symmetry, "Mirror joints: auto (default), on or off")

@@ -179,22 +179,59 @@ Image draw_bones(const Source& source, const std::vector<Bone>& bones, float spa
   return sheet.image();
 }
 
-Image draw_lods(const Source& source, const std::vector<Bone>& bones, const Json& report) {
+/// The expression that moves most, if there is one.
+const MeshShape* find_strongest(const MeshFile& mesh) {
+  const MeshShape* strongest = nullptr;
+  double most = 0;
+  for (const MeshShape& shape : mesh.shapes) {
+    double energy = 0;
+    for (const double d : shape.displacements) energy += d * d;
+    if (!(energy > most)) continue;
+    most = energy;
+    strongest = &shape;
+  }
+  return strongest;
+}
+
+/// Each LOD at rest with its joints, and in the expression that moves most.
+Image draw_lods(const MadeRig& made, const Source& source, const std::vector<Bone>& bones,
+                const Session& session) {
+  const Json& report = made.report;
   const Json& lods = report["lods"];
-  const std::vector<uint8_t> colors = plain_colors(source);
-  const Studio studio(source, kSmallTile);
+  Studio studio(source, kSmallTile);
   const Camera camera = studio.camera(kFront);
-  const Image plain = studio.draw(colors, camera);
-  render::Sheet sheet = studio.sheet(lods.size(), 4);
+  const MeshShape* shape = find_strongest(made.mesh);
+  Frame posed;
+  uint32_t control = 0;
+  if (shape && mien_rig_find(made.scene.rig.get(), MIEN_KIND_RAW_CONTROL, shape->name.c_str(),
+                             &control) == MIEN_OK) {
+    posed.raw.push_back({control, 1.0f});
+  }
+  const size_t rows = posed.raw.empty() ? 1 : 2;
+  render::Sheet sheet = studio.sheet(rows * lods.size(), std::min(lods.size(), size_t{4}));
   const float spacing = report["spacing"].get<float>();
   const float radius = std::max(dot_radius(studio, camera, spacing), 2.5f);
-  for (size_t lod = 0; lod < lods.size(); ++lod) {
-    Image image = plain;
-    const size_t count = lods[lod]["facial_joints"].get<size_t>();
-    mark_facial(image, bones, studio, camera, count, spacing, radius);
-    sheet.add(image,
-              "LOD " + std::to_string(lod) + ": " + std::to_string(count) + " facial joints");
+  const auto draw = [&](size_t lod, const Frame& frame, bool wireframe) {
+    show_lod(made.scene, static_cast<uint32_t>(lod), session);
+    pose_scene(made.scene, frame);
+    studio.options.wireframe = wireframe;
+    return render_image(made.scene.surfaces(), camera, studio.options);
+  };
+  for (size_t first = 0; first < lods.size(); first += 4) {
+    const size_t end = std::min(first + 4, lods.size());
+    for (size_t lod = first; lod < end; ++lod) {
+      Image image = draw(lod, {}, true);
+      const size_t count = lods[lod]["facial_joints"].get<size_t>();
+      mark_facial(image, bones, studio, camera, count, spacing, radius);
+      sheet.add(image,
+                "LOD " + std::to_string(lod) + ": " + std::to_string(count) + " facial joints");
+    }
+    for (size_t lod = first; lod < end && rows == 2; ++lod) {
+      sheet.add(draw(lod, posed, false),
+                std::to_string(lods[lod]["triangles"].get<size_t>()) + " triangles");
+    }
   }
+  show_lod(made.scene, 0, session);
   return sheet.image();
 }
 
@@ -221,7 +258,7 @@ std::vector<AuthorImage> draw_author_images(const MadeRig& made, const Session& 
   images.push_back({"bones.png", draw_bones(source, bones, report["spacing"].get<float>())});
   progress.at(3);
   if (report["lods"].size() > 1) {
-    images.push_back({"lods.png", draw_lods(source, bones, report)});
+    images.push_back({"lods.png", draw_lods(made, source, bones, session)});
   }
   progress.at(4);
   images.push_back({"weights.png", draw_weights(made, source, bones)});

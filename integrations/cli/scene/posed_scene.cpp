@@ -197,6 +197,17 @@ void map_scene(PosedScene& scene, const PosedSceneOptions& options) {
   }
 }
 
+/// Of the meshes of one LOD.
+void make_pose(PosedScene& scene) {
+  auto error = sized<MienError>();
+  auto desc = sized<MienDeformerInstanceDesc>();
+  desc.lods = uint64_t{1} << scene.rig_lod;
+  MienDeformerInstance* pose = nullptr;
+  check(mien_deformer_instance_create(scene.deformer.get(), &desc, &pose, &error), &error, kCannot,
+        scene.shown);
+  scene.pose.reset(pose);
+}
+
 /// What is the same whatever the rig came from.
 PosedScene finish_scene(PosedScene scene, const PosedSceneOptions& options,
                         const Session& session) {
@@ -214,12 +225,7 @@ PosedScene finish_scene(PosedScene scene, const PosedSceneOptions& options,
          "give a rig with meshes; see 'mien info'");
   }
 
-  auto desc = sized<MienDeformerInstanceDesc>();
-  desc.lods = uint64_t{1} << scene.rig_lod;
-  MienDeformerInstance* pose = nullptr;
-  check(mien_deformer_instance_create(scene.deformer.get(), &desc, &pose, &error), &error, kCannot,
-        scene.shown);
-  scene.pose.reset(pose);
+  make_pose(scene);
   choose_meshes(scene, options, session);
   return scene;
 }
@@ -248,6 +254,13 @@ PosedScene open_scene(RigFile file, const Session& session) {
   scene.file = std::move(file);
   compile_scene(scene);
   return finish_scene(std::move(scene), {}, session);
+}
+
+void show_lod(PosedScene& scene, uint32_t lod, const Session& session) {
+  scene.lod = scene.rig_lod = lod;
+  scene.meshes.clear();
+  make_pose(scene);
+  choose_meshes(scene, {}, session);
 }
 
 void pose_scene(PosedScene& scene, const Frame& frame) {

@@ -62,6 +62,9 @@ PosedScene open_scene(const PosedSceneOptions& options, const Session& session);
 /// LOD 0 of a DNA that is open, with all meshes that look right without textures.
 PosedScene open_scene(RigFile file, const Session& session);
 
+/// Another LOD of a scene that was opened from a DNA that has it.
+void show_lod(PosedScene& scene, uint32_t lod, const Session& session);
+
 /// Sets the controls of a frame, evaluates and deforms.
 void pose_scene(PosedScene& scene, const Frame& frame);
 

@@ -2627,6 +2627,7 @@ class MienAuthorDesc(Structure):
         ("bone_motions", c_void_p),
         ("joint_groups", c_uint32),
         ("overlap_correctives", c_uint32),
+        ("lod_triangles", c_double),
     ]
     struct_size: Any
     facial_joints: Any
@@ -2656,6 +2657,7 @@ class MienAuthorDesc(Structure):
     bone_motions: Any
     joint_groups: Any
     overlap_correctives: Any
+    lod_triangles: Any
 
     def __init__(self, *,
                  facial_joints: int = 0,
@@ -2684,8 +2686,9 @@ class MienAuthorDesc(Structure):
                  bone_groups: Any = None,
                  bone_motions: Any = None,
                  joint_groups: int = 0,
-                 overlap_correctives: int = 0) -> None:
-        super().__init__(200)
+                 overlap_correctives: int = 0,
+                 lod_triangles: int = 0) -> None:
+        super().__init__(208)
         self.facial_joints = facial_joints
         self.influences = influences
         self.lods = lods
@@ -2713,6 +2716,7 @@ class MienAuthorDesc(Structure):
         self.bone_motions = bone_motions
         self.joint_groups = joint_groups
         self.overlap_correctives = overlap_correctives
+        self.lod_triangles = lod_triangles
 
 
 class CoordinateSystem(NamedTuple):

@@ -186,7 +186,7 @@ def author_rig(positions: Any, faces: Any, shapes: Optional[Mapping[str, Any]] =
                mask: Any = None, lod_joints: Optional[Sequence[int]] = None,
                bone_groups: Optional[Sequence[int]] = None,
                bone_motions: Optional[Mapping[str, Any]] = None, joint_groups: int = 0,
-               overlap_correctives: int = 0,
+               overlap_correctives: int = 0, lod_triangles: float = 0.5,
                progress: Optional[Callable[[str, float], Any]] = None,
                executor: Optional[Executor] = None) -> AuthoredRig:
     """Makes a rig from the mesh of a head: joints, skin weights of every LOD, and for each shape a raw
@@ -212,6 +212,7 @@ def author_rig(positions: Any, faces: Any, shapes: Optional[Mapping[str, Any]] =
                    value: translation, then degrees about X, Y and Z. Of other shapes: nothing
     joint_groups:  how many are found, 1 to 24; 0: as many as have 75 rows each
     overlap_correctives: for pairs of shapes that double their motion, at most as many
+    lod_triangles: share of its triangles that each further LOD keeps of the LOD before; 1: all
     progress:      called with the name of a step and a share from 0 to 1; what it returns, if true,
                    cancels. What it raises comes out of the call
     executor:      threads to work on; the result does not depend on them
@@ -241,6 +242,7 @@ def author_rig(positions: Any, faces: Any, shapes: Optional[Mapping[str, Any]] =
         lods=uint32(lods, "lods"), groups=uint32(groups, "groups"), seed=index(seed),
         joint_groups=uint32(joint_groups, "joint_groups"),
         overlap_correctives=uint32(overlap_correctives, "overlap_correctives"),
+        lod_triangles=float(lod_triangles),
         up=uint32(up, "up"), front=uint32(front, "front"), symmetry=uint32(symmetry, "symmetry"),
         flags=uint32(flags, "flags"), name=given.text(name), face_object=given.text(face_object),
         progress=_progress_type())

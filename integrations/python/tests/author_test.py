@@ -159,6 +159,16 @@ class Author(unittest.TestCase):
                      bone_motions={"smile": numpy.ones((3, 6))}, exception=mien.AuthorError)
         self.refused("joint_groups", joint_groups=25)
 
+    def test_further_lods_keep_the_share_of_triangles_that_is_asked_for(self):
+        triangles = [[lod["triangles"] for lod in
+                      self.make(lods=3, lod_triangles=share).report["lods"]]
+                     for share in (0.5, 0.25, 1)]
+        for counts, share in zip(triangles, (0.5, 0.25, 1)):
+            self.assertAlmostEqual(counts[1] / counts[0], share, delta=0.01)
+            self.assertAlmostEqual(counts[2] / counts[1], share, delta=0.03)
+        for wrong in (-0.5, 1.5, float("nan")):
+            self.refused("lod_triangles", lod_triangles=wrong)
+
     def test_objects_and_uvs_arrive(self):
         corners = self.faces.size
         dna, report = self.make(objects=[("skin", len(self.faces) - 20), ("cap", 20)],

@@ -1857,6 +1857,10 @@ export interface AuthorDesc {
   jointGroups?: number;
   /** correctives for pairs of shapes that double their motion, at most as many. 0: none */
   overlapCorrectives?: number;
+  /**
+   * share of its triangles that each further LOD keeps of the LOD before: above 0, at most 1. 0: 0.5. 1: all
+   */
+  lodTriangles?: number;
 }
 
 /**

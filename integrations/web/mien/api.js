@@ -912,7 +912,7 @@ export const layouts = {
     parent: [32, "u32"],
     kind: [36, "u32"],
   } },
-  AuthorDesc: { size: 136, sized: true, fields: {
+  AuthorDesc: { size: 144, sized: true, fields: {
     facialJoints: [4, "u32"],
     influences: [8, "u32"],
     lods: [12, "u32"],
@@ -939,5 +939,6 @@ export const layouts = {
     boneMotions: [120, "*f64"],
     jointGroups: [124, "u32"],
     overlapCorrectives: [128, "u32"],
+    lodTriangles: [136, "f64"],
   } },
 };

@@ -67,11 +67,15 @@ class RigMaker {
   }
 
   bool measure(const SkinWeights& weights, Span<const Target> targets, FitError& out) {
-    return measure_fit(mesh_, weights, motions_, targets, options_.parallel, arena_, out);
+    return measure(mesh_, weights, targets, out);
+  }
+  bool measure(const AuthorMesh& mesh, const SkinWeights& weights, Span<const Target> targets,
+               FitError& out) {
+    return measure_fit(mesh, weights, motions_, targets, options_.parallel, arena_, out);
   }
 
   /// The head's joint, which stays where it is, and the jaw's may carry every vertex.
-  void refit(const SkinWeights& from, SkinWeights& out) {
+  void refit(const AuthorMesh& mesh, const SkinWeights& from, SkinWeights& out) {
     uint16_t shared[kMaxSharedBones];
     uint32_t count = 0;
     for (uint32_t j = 0; j < placement_.bones.count && count < kMaxSharedBones; ++j) {
@@ -79,7 +83,7 @@ class RigMaker {
       if (kind != BoneKind::kHead && kind != BoneKind::kJaw) continue;
       shared[count++] = static_cast<uint16_t>(j);
     }
-    refit_weights(mesh_, motions_, {shared, count}, options_.parallel, from, out);
+    refit_weights(mesh, motions_, {shared, count}, options_.parallel, from, out);
   }
 
   /// From here on the shapes of `mesh_` are the expressions.
@@ -131,7 +135,7 @@ class RigMaker {
     groups.before = report_.rotations;
     for (uint32_t i = 0; i < options_.fit.alternations && !options_.keep_weights; ++i) {
       if (!starts("weights")) return false;
-      refit(weights, weights);
+      refit(mesh_, weights, weights);
       if (!fit_again(groups.before)) return false;
     }
 
@@ -147,7 +151,7 @@ class RigMaker {
     if (!measure(weights, {}, groups.removed)) return false;
     fit_all(fitter, mesh_, placement_, weights, true, options_.parallel, motions_);
     if (!options_.keep_weights && options_.fit.alternations > 0) {
-      refit(weights, weights);
+      refit(mesh_, weights, weights);
       fit_all(fitter, mesh_, placement_, weights, true, options_.parallel, motions_);
     }
     // From here on motions are what the numbers of the file mean.
@@ -176,7 +180,7 @@ class RigMaker {
     }
     if (!starts("weights") || !measure(weights, {}, report_.translations)) return false;
     report_.rotations = report_.translations;
-    if (!options_.keep_weights) refit(weights, weights);
+    if (!options_.keep_weights) refit(mesh_, weights, weights);
     Arena for_regions(allocator_);
     Footprints footprints;
     if (!starts("groups") ||
@@ -209,47 +213,90 @@ class RigMaker {
     LodReport& report = report_.lods[l];
     const uint32_t kept = placement_.lod_facial_counts[l];
     report.joints = static_cast<uint32_t>(placement_.bones.count) - placement_.facial_count + kept;
-    lod.weights = weights[l < weights.count ? l : 0];
+    Arena for_lod(allocator_);
+    AuthorMesh mesh = mesh_;
+    if (!take_mesh(l, for_lod, mesh, lod, report) ||
+        !take_rows(weights[l < weights.count ? l : 0], lod, lod.weights)) {
+      return false;
+    }
     FitError error;
-    SkinWeights collapsed;
+    SkinWeights finest, collapsed;
     if (l > 0) {
-      if (!make_weights_like(weights[0], scratch_, collapsed) ||
-          !collapse_weights(placement_, kept, weights[0], scratch_, collapsed) ||
-          !measure(collapsed, {}, error)) {
+      if (!take_rows(weights[0], lod, finest) || !make_weights_like(finest, scratch_, collapsed) ||
+          !collapse_weights(placement_, kept, finest, scratch_, collapsed) ||
+          !measure(mesh, collapsed, {}, error)) {
         return false;
       }
       report.collapsed_error = error.error;
       if (l >= weights.count) lod.weights = collapsed;
     }
-    if (!measure(lod.weights, {}, error)) return false;
+    if (!measure(mesh, lod.weights, {}, error)) return false;
     report.new_error = error.error;
     if (l > 0 && !options_.keep_weights) {
       SkinWeights refitted;
-      if (!make_weights_like(weights[0], scratch_, refitted)) return false;
-      refit(lod.weights, refitted);
+      if (!make_weights_like(finest, scratch_, refitted)) return false;
+      refit(mesh, lod.weights, refitted);
       lod.weights = refitted;
-      if (!measure(refitted, {}, error) ||
-          (report.collapsed_error < report.new_error && !try_collapsed(collapsed, lod, error))) {
+      if (!measure(mesh, refitted, {}, error) || (report.collapsed_error < report.new_error &&
+                                                  !try_collapsed(mesh, collapsed, lod, error))) {
         return false;
       }
     }
     report.joints_error = error.error;
     if (l == 0) report_.joints = error;
-    if (l < 2 && options_.residual_targets && !make_shape_targets(l, lod)) return false;
+    if (l < 2 && options_.residual_targets && !make_shape_targets(l, mesh, lod)) return false;
     if (l == 0 && (!add_correctives(lod.weights) || !list_channels())) return false;
-    if (!measure(lod.weights, lod.targets, error)) return false;
+    if (!measure(mesh, lod.weights, lod.targets, error)) return false;
     report.error = error.error;
     if (l == 0) report_.rig = error;
     return true;
   }
 
+  /// The mesh of the LOD, with the displacements of its vertices in `arena`.
+  bool take_mesh(uint32_t l, Arena& arena, AuthorMesh& mesh, LodModel& lod, LodReport& report) {
+    lod.mesh = &mesh_;
+    if (l < options_.lod_meshes.count) {
+      const LodMesh& own = options_.lod_meshes[l];
+      report.surface_rms = own.rms;
+      report.surface_max = own.max;
+      if (!own.vertices.empty()) {
+        lod.mesh = &own.mesh;
+        lod.vertices = own.vertices;
+        mesh = own.mesh;
+        if (!take_shapes(mesh_.shapes, own.vertices, arena, mesh.shapes)) return false;
+      }
+    }
+    report.vertices = mesh.positions.count;
+    report.triangles = mesh.triangles.count / 3;
+    return true;
+  }
+
+  /// The rows of the LOD's vertices.
+  bool take_rows(const SkinWeights& all, const LodModel& lod, SkinWeights& out) {
+    out = all;
+    if (lod.vertices.empty()) return true;
+    const size_t count = lod.vertices.count, m = all.m;
+    if (!author::make(scratch_, count * m, out.joints) ||
+        !author::make(scratch_, count * m, out.weights)) {
+      return false;
+    }
+    for (size_t v = 0; v < count; ++v) {
+      for (size_t i = 0; i < m; ++i) {
+        out.joints[v * m + i] = all.joints[lod.vertices[v] * m + i];
+        out.weights[v * m + i] = all.weights[lod.vertices[v] * m + i];
+      }
+    }
+    return true;
+  }
+
   /// Refits the other start, too, and keeps it if less is left.
-  bool try_collapsed(const SkinWeights& collapsed, LodModel& lod, FitError& error) {
+  bool try_collapsed(const AuthorMesh& mesh, const SkinWeights& collapsed, LodModel& lod,
+                     FitError& error) {
     SkinWeights refitted;
     FitError found;
     if (!make_weights_like(collapsed, scratch_, refitted)) return false;
-    refit(collapsed, refitted);
-    if (!measure(refitted, {}, found)) return false;
+    refit(mesh, collapsed, refitted);
+    if (!measure(mesh, refitted, {}, found)) return false;
     if (found.error < error.error) {
       lod.weights = refitted;
       error = found;
@@ -258,9 +305,9 @@ class RigMaker {
   }
 
   /// LOD 0 has targets for all controls, LOD 1 for the expressions that need them most.
-  bool make_shape_targets(uint32_t l, LodModel& lod) {
+  bool make_shape_targets(uint32_t l, const AuthorMesh& mesh, LodModel& lod) {
     Span<Target> targets, all;
-    if (!make_targets(mesh_, lod.weights, motions_, options_.residual_threshold * face_size_,
+    if (!make_targets(mesh, lod.weights, motions_, options_.residual_threshold * face_size_,
                       options_.parallel, scratch_, targets)) {
       return false;
     }

@@ -5,6 +5,7 @@
 #include "runtime/author/fit/correctives.h"
 #include "runtime/author/fit/regions.h"
 #include "runtime/author/fit/targets.h"
+#include "runtime/author/mesh/simplify.h"
 #include "runtime/dna/format/dna_view.h"
 
 namespace mien::author {
@@ -21,7 +22,8 @@ struct RigOptions {
   bool keep_weights = false;         // the weights are the caller's own: fit motions only
   Span<const uint8_t> own_regions;   // one per bone; empty: found
   Span<const JointDelta>
-      own_motions;  // by source shape, then bone, in the file's frame; empty: fitted
+      own_motions;                 // by source shape, then bone, in the file's frame; empty: fitted
+  Span<const LodMesh> lod_meshes;  // one for each LOD; empty: all LODs have the whole mesh
   Name name = {"head", 4};
   ParallelFor parallel;
   void* user = nullptr;
@@ -38,8 +40,11 @@ struct GroupReport {
   FitError before, removed, refitted;  // errors of the joints around the pruning
 };
 
+/// Errors are those of its own vertices.
 struct LodReport {
   uint32_t joints = 0, channels = 0;
+  size_t vertices = 0, triangles = 0;
+  double surface_rms = 0, surface_max = 0;  // distances of the vertices of LOD 0
   double collapsed_error = 0;  // with dropped bones' weights on the nearest bone that is left
   double new_error = 0;        // with new weights
   double joints_error = 0;     // with the better of both, refitted to the shapes
@@ -61,7 +66,8 @@ struct RigReport {
 };
 
 /// Shapes whose names are made of other shapes' names become correctives, the others raw controls.
-/// `weights` holds those of LOD 0, or those of every LOD, each over the bones that it keeps; where
+/// `weights` holds those of LOD 0, or those of every LOD, each over the bones that it keeps and of all
+/// vertices of `mesh`; where
 /// they are missing, dropped bones hand theirs to the nearest one that is left. They are refitted
 /// unless the options keep them, those of LOD 0 in place; further LODs may have more influences to
 /// choose from than LOD 0. Report and view lie in `arena`, and the view refers to names

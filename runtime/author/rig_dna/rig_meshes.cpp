@@ -26,10 +26,20 @@ void find_normals(const AuthorMesh& mesh, Span<Vec3> out) {
   for (size_t v = 0; v < out.count; ++v) out[v] = out[mesh.welded[v]];
 }
 
+/// A coarse surface is shaded like the fine one, but for folds that it has no more.
+void take_normals(const LodModel& lod, Span<const Vec3> finest, Span<Vec3> out) {
+  find_normals(*lod.mesh, out);
+  for (size_t v = 0; v < lod.vertices.count; ++v) {
+    const Vec3 n = finest[lod.vertices[v]];
+    if (dot(n, out[v]) > 0.7) out[v] = n;
+  }
+}
+
 class MeshMaker {
  public:
-  MeshMaker(const RigModel& rig, const Part& part, size_t lod, Arena& arena, Arena& scratch)
-      : rig_(rig), mesh_(rig.mesh), part_(part), lod_(lod), arena_(arena), scratch_(scratch) {}
+  MeshMaker(const RigModel& rig, size_t part, size_t lod, Arena& arena, Arena& scratch)
+      : rig_(rig), mesh_(*rig.lods[lod].mesh), part_(mesh_.parts[part]), lod_(lod), arena_(arena),
+        scratch_(scratch) {}
 
   bool make(Span<const Vec3> normals, dna::Mesh& out) {
     return make_points(normals, out) && make_corners(out) && make_weights(out) && make_targets(out);
@@ -226,20 +236,23 @@ bool fill_meshes(const RigModel& rig, Arena& arena, const Allocator& allocator, 
   Arena scratch(allocator);
   const Span<const Part> parts = rig.mesh.parts;
   const size_t count = parts.count * rig.lod_count();
-  Span<Vec3> normals;
+  Span<Vec3> finest, own;
   if (!make(arena, count, out.geom.meshes) || !make(arena, count, out.defn.mesh_names) ||
-      !make(scratch, rig.mesh.positions.count, normals)) {
+      !make(scratch, rig.mesh.positions.count, finest) ||
+      !make(scratch, rig.mesh.positions.count, own)) {
     return false;
   }
-  find_normals(rig.mesh, normals);
+  find_normals(rig.mesh, finest);
   for (size_t m = 0; m < count; ++m) {
-    const Part& part = parts[m % parts.count];
-    const size_t lod = m / parts.count;
+    const size_t part = m % parts.count, lod = m / parts.count;
+    const Span<Vec3> normals = own.first(rig.lods[lod].mesh->positions.count);
+    if (part == 0) take_normals(rig.lods[lod], finest, normals);
     Text suffix;
     suffix.add("_lod").add(uint64_t{lod}).add("_mesh");
     Arena for_mesh(allocator);
     MeshMaker maker(rig, part, lod, arena, for_mesh);
-    if (!join_text(arena, {part.name, {suffix.chars, suffix.count}}, out.defn.mesh_names[m]) ||
+    if (!join_text(arena, {parts[part].name, {suffix.chars, suffix.count}},
+                   out.defn.mesh_names[m]) ||
         !maker.make(normals, out.geom.meshes[m])) {
       return false;
     }

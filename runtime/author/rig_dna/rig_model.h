@@ -14,8 +14,10 @@ namespace mien::author {
 
 /// The mesh at one LOD.
 struct LodModel {
-  SkinWeights weights;         // of all vertices of the author mesh
-  Span<const Target> targets;  // by control; empty: none
+  const AuthorMesh* mesh = nullptr;
+  Span<const uint32_t> vertices;  // of LOD 0; empty: all of them
+  SkinWeights weights;            // of its vertices
+  Span<const Target> targets;     // by control; empty: none
 };
 
 /// Controls are the expressions, which are the shapes of `mesh`, and then the combinations.

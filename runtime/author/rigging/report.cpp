@@ -329,8 +329,12 @@ void write_fit(const Rigging& rigging, Json& json) {
     if (lod < rigging.place.lod_objectives.count && rigging.place.run_count > 0) {
       json.key("objective").number(rigging.place.lod_objectives[lod]);
     }
-    if (!mesh.shapes.empty() && lod < rig.lods.count) {
-      const LodReport& report = rig.lods[lod];
+    const LodReport& report = rig.lods[lod];
+    json.key("vertices").whole(report.vertices);
+    json.key("triangles").whole(report.triangles);
+    json.key("surface_rms").number(report.surface_rms);
+    json.key("surface_max").number(report.surface_max);
+    if (!mesh.shapes.empty()) {
       json.key("error").number(report.error);
       json.key("joints_error").number(report.joints_error);
       json.key("collapsed_error").number(report.collapsed_error);

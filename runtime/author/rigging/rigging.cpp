@@ -285,6 +285,14 @@ Status make_rig(const MeshSource& source, const RiggingOptions& options, Arena& 
     return no_memory(error);
   }
 
+  if (!steps.go_on("meshes of LODs", 0.3)) return canceled();
+  Span<LodMesh> lod_meshes;
+  SimplifyOptions simplify;
+  simplify.share = options.lod_triangles;
+  simplify.lods = options.place.lods;
+  if (!make_lod_meshes(mesh, simplify, arena, allocator, lod_meshes)) return no_memory(error);
+  rig.lod_meshes = lod_meshes;
+
   rig.regions = options.joint_groups;
   rig.overlap_correctives = options.overlap_correctives;
   rig.residual_targets = options.residual_targets;

@@ -26,6 +26,7 @@ struct OwnWeights {
 struct RiggingOptions {
   PlaceOptions place;  // but for own_groups and own_mask
   uint32_t influences = 8;
+  double lod_triangles = 0.5;  // share that each LOD keeps of those of the one before
   bool residual_targets = true;
   Name name = {"head", 4};
   Span<const OwnBone> bones;  // empty: placed

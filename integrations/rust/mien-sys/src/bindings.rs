@@ -2887,6 +2887,9 @@ pub struct MienAuthorDesc {
     pub joint_groups: u32,
     /// Correctives for pairs of shapes that double their motion, at most as many. 0: none.
     pub overlap_correctives: u32,
+    /// Share of its triangles that each further LOD keeps of the LOD before: above 0, at most 1.
+    /// 0: 0.5. 1: all.
+    pub lod_triangles: f64,
 }
 
 impl Default for MienAuthorDesc {

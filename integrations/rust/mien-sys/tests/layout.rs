@@ -1121,7 +1121,7 @@ fn mien_author_bone() {
 #[test]
 fn mien_author_desc() {
     use mien_sys::MienAuthorDesc as S;
-    assert_eq!(size_of::<S>(), 200);
+    assert_eq!(size_of::<S>(), 208);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
     assert_eq!(offset!(S, facial_joints), 8);
@@ -1151,4 +1151,5 @@ fn mien_author_desc() {
     assert_eq!(offset!(S, bone_motions), 184);
     assert_eq!(offset!(S, joint_groups), 192);
     assert_eq!(offset!(S, overlap_correctives), 196);
+    assert_eq!(offset!(S, lod_triangles), 200);
 }

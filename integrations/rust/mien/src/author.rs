@@ -117,6 +117,7 @@ pub struct AuthorOptions<'a> {
     bone_motions: Option<&'a [[f64; 6]]>,
     joint_groups: usize,
     overlap_correctives: usize,
+    lod_triangles: f64,
     allocator: Option<Allocator>,
 }
 
@@ -144,6 +145,7 @@ impl Default for AuthorOptions<'_> {
             bone_motions: None,
             joint_groups: 0,
             overlap_correctives: 0,
+            lod_triangles: 0.0,
             allocator: None,
         }
     }
@@ -374,6 +376,13 @@ impl<'a> AuthorOptions<'a> {
         self
     }
 
+    /// Share of its triangles that each further LOD keeps of the LOD before, at most 1, which keeps all;
+    /// 0 means 0.5.
+    pub fn lod_triangles(mut self, share: f64) -> Self {
+        self.lod_triangles = share;
+        self
+    }
+
     /// Where memory comes from.
     pub fn allocator(mut self, allocator: &Allocator) -> Self {
         self.allocator = Some(allocator.clone());
@@ -500,6 +509,7 @@ impl<'a> AuthorOptions<'a> {
                     bone_motions: self.bone_motions.map_or(null(), |m| m.as_ptr().cast()),
                     joint_groups: index(self.joint_groups),
                     overlap_correctives: index(self.overlap_correctives),
+                    lod_triangles: self.lod_triangles,
                     ..Default::default()
                 };
                 // SAFETY: sized structs; what they point to lives until this function returns, and is

@@ -171,7 +171,8 @@ fn each_stage_takes_the_result_of_the_caller() {
         .bone_groups(&[0, 7, 3])
         .bone_motions(&motions)
         .joint_groups(2)
-        .overlap_correctives(1);
+        .overlap_correctives(1)
+        .lod_triangles(0.25);
     let made = options.make(&mesh).unwrap();
     let rig = Rig::new(&made.dna).unwrap();
     assert!(made.report.contains("\"lods\":[{\"facial_joints\":2"));
@@ -187,6 +188,7 @@ fn each_stage_takes_the_result_of_the_caller() {
     refused(wrong, "lod_joints", &mesh, &options.clone().lods(3));
     refused(wrong, "lod_joints", &mesh, &options.clone().lod_joints(&[1, 2]));
     refused(wrong, "joint_groups", &mesh, &options.clone().joint_groups(25));
+    refused(wrong, "lod_triangles", &mesh, &options.clone().lod_triangles(1.5));
     refused(
         Status::AUTHOR_MESH,
         "joint group 256",

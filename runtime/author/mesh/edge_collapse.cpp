@@ -1,0 +1,547 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/author/mesh/edge_collapse.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "runtime/author/dna_making.h"
+#include "runtime/author/mesh/topology.h"
+
+namespace mien::author {
+
+namespace {
+
+// A step along the surface costs as much as one of 3 % of its length away from it: where the surface
+// is flat, short edges go first.
+constexpr double kAlong = 1e-3;
+constexpr double kBorder = 10, kSeam = 1;  // weights of leaving a border or a seam sideways
+constexpr double kLeastTurn = 0.2;         // cosine between a triangle and how it lay a LOD before
+constexpr double kLeastShape = 0.05;       // 1: equilateral, 0: a line
+
+/// 1 for an equilateral triangle, 0 for a line.
+double shape_of(Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 ab = b - a, bc = c - b, ca = a - c;
+  const double squares = dot(ab, ab) + dot(bc, bc) + dot(ca, ca);
+  return squares > 0 ? 3.4641016151377544 * length(cross(ab, c - a)) / squares : 0;
+}
+
+}  // namespace
+
+bool EdgeCollapse::make(const AuthorMesh& mesh, Span<const Shape> poses, Arena& arena,
+                        const Allocator& allocator) {
+  Arena scratch(allocator);
+  mesh_ = &mesh;
+  poses_ = poses;
+  const size_t n = mesh.positions.count;
+  Span<uint32_t> vertex_places;
+  if (!author::make(arena, n, first_) || !author::make(arena, n, valence_) ||
+      !author::make(arena, n, locked_) || !author::make(arena, n, border_) ||
+      !author::make(arena, n * (poses.count + 1), quadrics_) || !author::make(arena, n, areas_) ||
+      !author::make(arena, n, costs_) || !author::make(arena, n, targets_) ||
+      !author::make(arena, n, slots_) || !author::make(arena, n, heap_) ||
+      !author::make(arena, mesh.component_count, component_counts_) ||
+      !find_places(scratch, vertex_places) || !make_triangles(vertex_places, arena) ||
+      !make_charts(arena, scratch) || !classify_edges(scratch)) {
+    return false;
+  }
+  const Box box = bounding_box(mesh.positions);
+  center_ = (box.low + box.high) * 0.5;
+  make_quadrics();
+  return true;
+}
+
+/// Joins vertices at one place where the border of one chart runs back along that of another.
+bool EdgeCollapse::find_places(Arena& scratch, Span<uint32_t>& vertex_places) const {
+  struct Edge {
+    uint32_t low, high;  // welded
+    uint32_t from, to;   // vertices
+    bool operator<(const Edge& other) const {
+      if (low != other.low) return low < other.low;
+      if (high != other.high) return high < other.high;
+      return from != other.from ? from < other.from : to < other.to;
+    }
+  };
+  const AuthorMesh& mesh = *mesh_;
+  Span<Edge> edges;
+  if (!author::make(scratch, mesh.positions.count, vertex_places) ||
+      !author::make(scratch, mesh.corners.count, edges)) {
+    return false;
+  }
+  for (uint32_t v = 0; v < vertex_places.count; ++v) vertex_places[v] = v;
+  size_t count = 0;
+  for (size_t f = 0; f + 1 < mesh.face_starts.count; ++f) {
+    const uint32_t first = mesh.face_starts[f], end = mesh.face_starts[f + 1];
+    for (uint32_t c = first; c < end; ++c) {
+      const uint32_t from = mesh.corners[c], to = mesh.corners[c + 1 < end ? c + 1 : first];
+      const uint32_t a = mesh.welded[from], b = mesh.welded[to];
+      if (a != b) edges[count++] = {std::min(a, b), std::max(a, b), from, to};
+    }
+  }
+  std::sort(edges.data, edges.data + count);
+  const auto root = [&vertex_places](uint32_t v) {
+    while (vertex_places[v] != v) v = vertex_places[v] = vertex_places[vertex_places[v]];
+    return v;
+  };
+  const auto join = [&](uint32_t a, uint32_t b) {
+    a = root(a);
+    b = root(b);
+    vertex_places[std::max(a, b)] = std::min(a, b);
+  };
+  for (size_t i = 0, end = 0; i < count; i = end) {
+    while (end < count && edges[end].low == edges[i].low && edges[end].high == edges[i].high) ++end;
+    // Borders: edges that no face runs back along between the same vertices.
+    const Edge* borders[2] = {};
+    uint32_t found = 0;
+    for (size_t k = i; k < end && end - i <= kMaxRing; ++k) {
+      bool is_border = true;
+      for (size_t o = i; o < end && is_border; ++o) {
+        is_border = edges[o].from != edges[k].to || edges[o].to != edges[k].from;
+      }
+      if (!is_border) continue;
+      if (found < 2) borders[found] = &edges[k];
+      ++found;
+    }
+    if (found != 2 || mesh.welded[borders[0]->from] != mesh.welded[borders[1]->to]) continue;
+    join(borders[0]->from, borders[1]->to);
+    join(borders[0]->to, borders[1]->from);
+  }
+  for (uint32_t v = 0; v < vertex_places.count; ++v) vertex_places[v] = root(v);
+  return true;
+}
+
+bool EdgeCollapse::make_triangles(Span<const uint32_t> vertex_places, Arena& arena) {
+  const AuthorMesh& mesh = *mesh_;
+  const size_t faces = mesh.face_starts.count - 1;
+  size_t most = 0;
+  for (size_t f = 0; f < faces; ++f) most += mesh.face_starts[f + 1] - mesh.face_starts[f] - 2;
+  if (!author::make(arena, faces + 1, face_triangles_) || !author::make(arena, 3 * most, places_) ||
+      !author::make(arena, 3 * most, vertices_) || !author::make(arena, 3 * most, sources_) ||
+      !author::make(arena, 3 * most, next_) || !author::make(arena, most, facing_) ||
+      !author::make(arena, most, alive_)) {
+    return false;
+  }
+  for (uint32_t& c : first_) c = kNone;
+  uint32_t count = 0;
+  for (size_t f = 0; f < faces; ++f) {
+    face_triangles_[f] = count;
+    for (uint32_t k = mesh.face_starts[f] + 2; k < mesh.face_starts[f + 1]; ++k) {
+      const uint32_t corners[3] = {mesh.face_starts[f], k - 1, k};
+      uint32_t places[3];
+      for (int i = 0; i < 3; ++i) places[i] = vertex_places[mesh.corners[corners[i]]];
+      if (places[0] == places[1] || places[1] == places[2] || places[2] == places[0]) continue;
+      for (uint32_t i = 0; i < 3; ++i) {
+        const uint32_t c = 3 * count + i;
+        places_[c] = places[i];
+        vertices_[c] = mesh.corners[corners[i]];
+        sources_[c] = corners[i];
+        next_[c] = first_[places[i]];
+        first_[places[i]] = c;
+        ++valence_[places[i]];
+      }
+      ++component_counts_[mesh.component[places[0]]];
+      alive_[count++] = 1;
+    }
+  }
+  face_triangles_[faces] = alive_count_ = count;
+  alive_.count = facing_.count = count;
+  places_.count = 3 * size_t{count};
+  return true;
+}
+
+/// Corners of one part that have the same texture coordinate get the same number: files often have
+/// a coordinate of its own for each corner.
+bool EdgeCollapse::make_charts(Arena& arena, Arena& scratch) {
+  const AuthorMesh& mesh = *mesh_;
+  Span<uint32_t> order;
+  const size_t corners = places_.count;
+  if (!author::make(arena, corners, charts_) || !author::make(scratch, corners, order))
+    return false;
+  uint32_t face = 0, p = 0;
+  for (uint32_t t = 0; t < alive_.count; ++t) {
+    while (face_triangles_[face + 1] <= t) ++face;
+    while (mesh.parts[p].first_face + mesh.parts[p].face_count <= face) ++p;
+    for (uint32_t i = 0; i < 3; ++i) charts_[3 * t + i] = p;
+  }
+  if (mesh.corner_uvs.empty()) return true;
+  const auto uv = [&](uint32_t c) { return mesh.uvs[mesh.corner_uvs[sources_[c]]]; };
+  const auto compare = [&](uint32_t a, uint32_t b) {
+    if (charts_[a] != charts_[b]) return charts_[a] < charts_[b] ? -1 : 1;
+    const Uv x = uv(a), y = uv(b);
+    if (x.u != y.u) return x.u < y.u ? -1 : 1;
+    return x.v != y.v ? (x.v < y.v ? -1 : 1) : 0;
+  };
+  for (uint32_t c = 0; c < corners; ++c) order[c] = c;
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    const int sign = compare(a, b);
+    return sign != 0 ? sign < 0 : a < b;
+  });
+  Span<uint32_t> numbers;
+  if (!author::make(scratch, corners, numbers)) return false;
+  for (size_t i = 1; i < corners; ++i) {
+    numbers[i] = numbers[i - 1] + (compare(order[i - 1], order[i]) != 0);
+  }
+  for (size_t i = 0; i < corners; ++i) charts_[order[i]] = numbers[i];
+  return true;
+}
+
+/// Borders, and places where the surface is none: these stay.
+bool EdgeCollapse::classify_edges(Arena& scratch) {
+  struct Edge {
+    uint32_t low, high, corner;
+    bool operator<(const Edge& other) const {
+      if (low != other.low) return low < other.low;
+      return high != other.high ? high < other.high : corner < other.corner;
+    }
+  };
+  Span<Edge> edges;
+  Span<uint8_t> borders;
+  if (!author::make(scratch, places_.count, edges) ||
+      !author::make(scratch, first_.count, borders)) {
+    return false;
+  }
+  for (uint32_t c = 0; c < places_.count; ++c) {
+    const uint32_t a = places_[c], b = places_[next_corner(c)];
+    edges[c] = {std::min(a, b), std::max(a, b), c};
+  }
+  std::sort(edges.begin(), edges.end());
+  for (size_t i = 0, end = 0; i < edges.count; i = end) {
+    const Edge& e = edges[i];
+    while (end < edges.count && edges[end].low == e.low && edges[end].high == e.high) ++end;
+    // Both triangles of an edge run along it, in opposite directions.
+    const bool is_odd =
+        end - i > 2 || (end - i == 2 && places_[e.corner] == places_[edges[i + 1].corner]);
+    if (is_odd) locked_[e.low] = locked_[e.high] = 1;
+    if (end - i == 1) {
+      for (const uint32_t place : {e.low, e.high}) {
+        border_[place] = 1;
+        borders[place] = static_cast<uint8_t>(std::min(borders[place] + 1, 3));
+      }
+    }
+  }
+  for (uint32_t place = 0; place < first_.count; ++place) {
+    if (valence_[place] == 0) continue;
+    if (valence_[place] > kMaxRing || (border_[place] && borders[place] != 2) ||
+        (!locked_[place] && !is_one_fan(place))) {
+      locked_[place] = 1;
+    }
+  }
+  return true;
+}
+
+/// Whether triangles around the place hang together by edges.
+bool EdgeCollapse::is_one_fan(uint32_t place) {
+  Ring ring;
+  find_ring(place, ring);
+  bool reached[kMaxRing] = {true};
+  uint32_t count = 1;
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (uint32_t i = 0; i < ring.corner_count; ++i) {
+      for (uint32_t k = 0; k < ring.corner_count && !reached[i]; ++k) {
+        if (!reached[k]) continue;
+        const uint32_t a = ring.corners[i], b = ring.corners[k];
+        reached[i] = places_[next_corner(a)] == places_[third_corner(b)] ||
+                     places_[third_corner(a)] == places_[next_corner(b)];
+        count += reached[i];
+        grows = grows || reached[i];
+      }
+    }
+  }
+  return count == ring.corner_count;
+}
+
+void EdgeCollapse::make_quadrics() {
+  const size_t poses = poses_.count + 1;
+  for (uint32_t t = 0; t < alive_.count; ++t) {
+    for (size_t pose = 0; pose < poses; ++pose) {
+      const Vec3 n = normal_of(t, kNone, kNone, pose);
+      const double twice = length(n);
+      if (!(twice > 0)) continue;
+      for (uint32_t c = 3 * t; c < 3 * t + 3; ++c) {
+        quadrics_[places_[c] * poses + pose].add_plane(n * (1 / twice), at(places_[c], pose),
+                                                       twice / 6);
+        if (pose == 0) areas_[places_[c]] += twice / 6;
+      }
+    }
+    for (uint32_t c = 3 * t; c < 3 * t + 3; ++c) {
+      // The corner across the edge, if there is one, tells what kind of edge it is.
+      const uint32_t a = places_[c], b = places_[next_corner(c)];
+      uint32_t across = kNone;
+      for (uint32_t other = first_[a]; other != kNone && valence_[a] <= kMaxRing;
+           other = next_[other]) {
+        if (other != c && places_[third_corner(other)] == b) across = other;
+      }
+      if (across == kNone) {
+        if (border_[a] && border_[b]) add_border(c, kBorder);
+      } else if (charts_[across] != charts_[c] ||
+                 charts_[third_corner(across)] != charts_[next_corner(c)]) {
+        add_border(c, kSeam);
+      }
+    }
+  }
+}
+
+/// Moving off the edge, within the triangle, costs.
+void EdgeCollapse::add_border(uint32_t corner, double weight) {
+  const size_t poses = poses_.count + 1;
+  const uint32_t a = places_[corner], b = places_[next_corner(corner)];
+  for (size_t pose = 0; pose < poses; ++pose) {
+    const Vec3 along = at(b, pose) - at(a, pose);
+    const Vec3 n = normalized(cross(along, normal_of(corner / 3, kNone, kNone, pose)));
+    for (const uint32_t place : {a, b}) {
+      quadrics_[place * poses + pose].add_plane(n, at(place, pose), weight * dot(along, along));
+    }
+  }
+}
+
+Vec3 EdgeCollapse::at(uint32_t place, size_t pose) const {
+  const Vec3 rest = mesh_->positions[place] - center_;
+  if (pose == 0) return rest;
+  const Vec3f d = poses_[pose - 1].displacements[place];
+  return rest + Vec3{double{d.x}, double{d.y}, double{d.z}};
+}
+
+/// Twice its area long; as if place `moved` were at `to`.
+Vec3 EdgeCollapse::normal_of(uint32_t triangle, uint32_t moved, uint32_t to, size_t pose) const {
+  Vec3 p[3];
+  for (uint32_t i = 0; i < 3; ++i) {
+    const uint32_t place = places_[3 * triangle + i];
+    p[i] = at(place == moved ? to : place, pose);
+  }
+  return cross(p[1] - p[0], p[2] - p[0]);
+}
+
+/// Also takes triangles that are gone out of the list of the place, which has kMaxRing at most.
+void EdgeCollapse::find_ring(uint32_t place, Ring& ring) {
+  ring.corner_count = ring.place_count = 0;
+  uint32_t* link = &first_[place];
+  while (*link != kNone) {
+    const uint32_t c = *link;
+    if (!alive_[c / 3]) {
+      *link = next_[c];
+      continue;
+    }
+    ring.corners[ring.corner_count++] = c;
+    for (const uint32_t other : {places_[next_corner(c)], places_[third_corner(c)]}) {
+      if (!ring.has(other)) ring.places[ring.place_count++] = other;
+    }
+    link = &next_[c];
+  }
+}
+
+/// False if a chart at the ring's place has no corner on an edge to v, or two.
+bool EdgeCollapse::map_charts(const Ring& ring, uint32_t v, ChartMap& map) const {
+  for (uint32_t i = 0; i < ring.corner_count; ++i) {
+    const uint32_t c = ring.corners[i];
+    const uint32_t at_v = places_[next_corner(c)] == v    ? next_corner(c)
+                          : places_[third_corner(c)] == v ? third_corner(c)
+                                                          : kNone;
+    if (at_v == kNone) continue;
+    uint32_t k = 0;
+    while (k < map.count && map.from[k] != charts_[c]) ++k;
+    if (k < map.count) {
+      if (charts_[map.to[k]] != charts_[at_v]) return false;
+    } else {
+      map.from[map.count] = charts_[c];
+      map.to[map.count++] = at_v;
+    }
+  }
+  for (uint32_t i = 0; i < ring.corner_count; ++i) {
+    const uint32_t chart = charts_[ring.corners[i]];
+    uint32_t k = 0;
+    while (k < map.count && map.from[k] != chart) ++k;
+    if (k == map.count) return false;
+  }
+  return true;
+}
+
+bool EdgeCollapse::may_collapse(uint32_t u, const Ring& ring, uint32_t v) {
+  if (valence_[v] > kMaxRing) return false;
+  uint32_t shared = 0, across[2] = {kNone, kNone};  // triangles of the edge; their third places
+  for (uint32_t i = 0; i < ring.corner_count; ++i) {
+    const uint32_t a = places_[next_corner(ring.corners[i])];
+    const uint32_t b = places_[third_corner(ring.corners[i])];
+    if (a != v && b != v) continue;
+    if (shared == 2) return false;
+    across[shared++] = a == v ? b : a;
+  }
+  if (shared != (border_[u] ? 1u : 2u) || (border_[u] && !border_[v])) return false;
+  if (valence_[u] + valence_[v] - 2 * shared > kMaxRing) return false;
+  // Places beside both ends lie across the edge, or the surface would touch itself.
+  Ring other;
+  find_ring(v, other);
+  uint32_t common = 0;
+  for (uint32_t i = 0; i < ring.place_count; ++i) common += other.has(ring.places[i]);
+  if (common != shared) return false;
+  if (shared == 2) {
+    for (uint32_t i = 0; i < other.corner_count; ++i) {
+      const uint32_t a = places_[next_corner(other.corners[i])];
+      const uint32_t b = places_[third_corner(other.corners[i])];
+      if ((a == across[0] && b == across[1]) || (a == across[1] && b == across[0])) return false;
+    }
+  }
+  ChartMap map;
+  return map_charts(ring, v, map) && keeps_facing(u, ring, v, map);
+}
+
+/// No triangle may turn over, on the surface or in its texture, or become a splinter.
+bool EdgeCollapse::keeps_facing(uint32_t u, const Ring& ring, uint32_t v,
+                                const ChartMap& map) const {
+  for (uint32_t i = 0; i < ring.corner_count; ++i) {
+    const uint32_t c = ring.corners[i], a = next_corner(c), b = third_corner(c);
+    if (places_[a] == v || places_[b] == v) continue;
+    const Vec3 n = normalized(normal_of(c / 3, u, v, 0));
+    if (is_zero(n) || (!is_zero(facing_[c / 3]) && dot(n, facing_[c / 3]) < kLeastTurn)) {
+      return false;
+    }
+    const Vec3 p = at(places_[a], 0), q = at(places_[b], 0);
+    const double shape = shape_of(at(v, 0), p, q);
+    if (shape < kLeastShape && shape < shape_of(at(u, 0), p, q)) return false;
+    if (mesh_->corner_uvs.empty()) continue;
+    const auto uv = [this](uint32_t corner) {
+      const Uv x = mesh_->uvs[mesh_->corner_uvs[sources_[corner]]];
+      return Vec3{double{x.u}, double{x.v}, 0};
+    };
+    uint32_t k = 0;
+    while (map.from[k] != charts_[c]) ++k;
+    const double before = cross(uv(a) - uv(c), uv(b) - uv(c)).z;
+    const double after = cross(uv(a) - uv(map.to[k]), uv(b) - uv(map.to[k])).z;
+    if (before * after < 0) return false;
+  }
+  return true;
+}
+
+double EdgeCollapse::cost(uint32_t u, uint32_t v) const {
+  const size_t poses = poses_.count + 1;
+  double sum = 0;
+  for (size_t pose = 0; pose < poses; ++pose) {
+    const Vec3 to = at(v, pose), step = to - at(u, pose);
+    sum += std::max(0.0, quadrics_[u * poses + pose].at(to)) +
+           std::max(0.0, quadrics_[v * poses + pose].at(to)) + kAlong * areas_[u] * dot(step, step);
+  }
+  return sum;
+}
+
+void EdgeCollapse::refresh(uint32_t u) {
+  remove(u);
+  if (locked_[u] || valence_[u] == 0 || valence_[u] > kMaxRing) return;
+  Ring ring;
+  find_ring(u, ring);
+  double costs[2 * kMaxRing];
+  for (uint32_t i = 0; i < ring.place_count; ++i) costs[i] = cost(u, ring.places[i]);
+  // The cheapest first: most may collapse.
+  for (uint32_t tried = 0; tried < ring.place_count; ++tried) {
+    uint32_t best = tried;
+    for (uint32_t i = tried + 1; i < ring.place_count; ++i) {
+      if (costs[i] < costs[best] || (costs[i] == costs[best] && ring.places[i] < ring.places[best]))
+        best = i;
+    }
+    std::swap(costs[tried], costs[best]);
+    std::swap(ring.places[tried], ring.places[best]);
+    if (!(costs[tried] < std::numeric_limits<double>::infinity())) return;
+    if (!may_collapse(u, ring, ring.places[tried])) continue;
+    costs_[u] = costs[tried];
+    targets_[u] = ring.places[tried];
+    slots_[u] = heap_count_ + 1;
+    heap_[heap_count_++] = u;
+    sift(heap_count_ - 1);
+    return;
+  }
+}
+
+void EdgeCollapse::collapse(uint32_t u) {
+  const uint32_t v = targets_[u];
+  Ring ring;
+  ChartMap map;
+  find_ring(u, ring);
+  map_charts(ring, v, map);
+  for (uint32_t i = 0; i < ring.corner_count; ++i) {
+    const uint32_t c = ring.corners[i], a = next_corner(c), b = third_corner(c);
+    if (places_[a] == v || places_[b] == v) {
+      alive_[c / 3] = 0;
+      --alive_count_;
+      --component_counts_[mesh_->component[u]];
+      --valence_[places_[a]];
+      --valence_[places_[b]];
+      continue;
+    }
+    uint32_t k = 0;
+    while (map.from[k] != charts_[c]) ++k;
+    places_[c] = v;
+    vertices_[c] = vertices_[map.to[k]];
+    sources_[c] = sources_[map.to[k]];
+    charts_[c] = charts_[map.to[k]];
+    next_[c] = first_[v];
+    first_[v] = c;
+    ++valence_[v];
+  }
+  first_[u] = kNone;
+  valence_[u] = 0;
+  const size_t poses = poses_.count + 1;
+  for (size_t pose = 0; pose < poses; ++pose) {
+    quadrics_[v * poses + pose].add(quadrics_[u * poses + pose]);
+  }
+  areas_[v] += areas_[u];
+  remove(u);
+  refresh(v);
+  find_ring(v, ring);
+  for (uint32_t i = 0; i < ring.place_count; ++i) refresh(ring.places[i]);
+}
+
+void EdgeCollapse::reduce(uint32_t wanted, Span<const uint32_t> floors) {
+  if (alive_count_ <= wanted) return;
+  for (uint32_t t = 0; t < alive_.count; ++t) {
+    if (alive_[t]) facing_[t] = normalized(normal_of(t, kNone, kNone, 0));
+  }
+  // All anew: what an earlier floor held back may go now.
+  for (uint32_t place = 0; place < first_.count; ++place) refresh(place);
+  while (alive_count_ > wanted && heap_count_ > 0) {
+    const uint32_t u = heap_[0];
+    const uint32_t component = mesh_->component[u];
+    if (component_counts_[component] < floors[component] + 2) {
+      remove(u);
+      continue;
+    }
+    // Places two edges away may have changed since.
+    Ring ring;
+    find_ring(u, ring);
+    if (may_collapse(u, ring, targets_[u])) {
+      collapse(u);
+    } else {
+      refresh(u);
+    }
+  }
+}
+
+/// Slot 0 of a place that is not in the heap.
+void EdgeCollapse::sift(uint32_t slot) {
+  const uint32_t place = heap_[slot];
+  while (slot > 0 && before(place, heap_[(slot - 1) / 2])) {
+    heap_[slot] = heap_[(slot - 1) / 2];
+    slots_[heap_[slot]] = slot + 1;
+    slot = (slot - 1) / 2;
+  }
+  for (;;) {
+    uint32_t child = 2 * slot + 1;
+    if (child >= heap_count_) break;
+    if (child + 1 < heap_count_ && before(heap_[child + 1], heap_[child])) ++child;
+    if (!before(heap_[child], place)) break;
+    heap_[slot] = heap_[child];
+    slots_[heap_[slot]] = slot + 1;
+    slot = child;
+  }
+  heap_[slot] = place;
+  slots_[place] = slot + 1;
+}
+
+void EdgeCollapse::remove(uint32_t place) {
+  const uint32_t slot = slots_[place];
+  if (slot == 0) return;
+  slots_[place] = 0;
+  const uint32_t last = heap_[--heap_count_];
+  if (last == place) return;
+  heap_[slot - 1] = last;
+  sift(slot - 1);
+}
+
+}  // namespace mien::author

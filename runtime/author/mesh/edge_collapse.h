@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// A mesh that loses one place after the other, always the one that costs least.
+//
+// Triangles are fans of the faces. Each corner lies at a place, and has a vertex and a texture
+// coordinate. A place is a vertex, or several along a seam where two borders are one: shells that only
+// touch have places of their own. Where u collapses onto v, triangles that have both go; the others get the
+// corner at v that lies in the same chart: so u goes only if edges to v have corners of all charts
+// at u, and the chart stays whole.
+#pragma once
+
+#include "runtime/author/mesh/author_mesh.h"
+#include "runtime/author/mesh/quadric.h"
+#include "runtime/base/arena.h"
+
+namespace mien::author {
+
+class EdgeCollapse {
+ public:
+  /// Keeps `mesh`. Displacements of `poses` count as the surface at rest does. False if memory ran out.
+  bool make(const AuthorMesh& mesh, Span<const Shape> poses, Arena& arena,
+            const Allocator& allocator);
+
+  /// Collapses edges until `wanted` triangles are left, or no edge may go. Component c keeps
+  /// `floors[c]`.
+  void reduce(uint32_t wanted, Span<const uint32_t> floors);
+
+  uint32_t triangle_count() const { return alive_count_; }
+  Span<const uint32_t> component_counts() const { return component_counts_; }
+  /// Triangles of face f are first_triangle(f) to first_triangle(f + 1).
+  uint32_t first_triangle(uint32_t face) const { return face_triangles_[face]; }
+  bool is_alive(uint32_t triangle) const { return alive_[triangle] != 0; }
+  /// Of one corner of a triangle.
+  uint32_t vertex(uint32_t corner) const { return vertices_[corner]; }
+  /// The corner of the mesh whose texture coordinate it has.
+  uint32_t source_corner(uint32_t corner) const { return sources_[corner]; }
+
+ private:
+  static constexpr uint32_t kMaxRing = 48;  // triangles around a place that takes part
+
+  /// The triangles around a place and the places beside it.
+  struct Ring {
+    uint32_t corners[kMaxRing], places[2 * kMaxRing];
+    uint32_t corner_count = 0, place_count = 0;
+
+    bool has(uint32_t place) const {
+      for (uint32_t i = 0; i < place_count; ++i) {
+        if (places[i] == place) return true;
+      }
+      return false;
+    }
+  };
+  /// What a corner at u becomes at v.
+  struct ChartMap {
+    uint32_t from[2], to[2];  // charts; corners
+    uint32_t count = 0;
+  };
+
+  bool find_places(Arena& scratch, Span<uint32_t>& vertex_places) const;
+  bool make_triangles(Span<const uint32_t> vertex_places, Arena& arena);
+  bool make_charts(Arena& arena, Arena& scratch);
+  bool classify_edges(Arena& scratch);
+  bool is_one_fan(uint32_t place);
+  void make_quadrics();
+  void add_border(uint32_t corner, double weight);
+
+  uint32_t next_corner(uint32_t c) const { return c % 3 == 2 ? c - 2 : c + 1; }
+  uint32_t third_corner(uint32_t c) const { return c % 3 == 0 ? c + 2 : c - 1; }
+  /// Pose 0 is at rest.
+  Vec3 at(uint32_t place, size_t pose) const;
+  Vec3 normal_of(uint32_t triangle, uint32_t moved, uint32_t to, size_t pose) const;
+  void find_ring(uint32_t place, Ring& ring);
+  bool map_charts(const Ring& ring, uint32_t v, ChartMap& map) const;
+  bool may_collapse(uint32_t u, const Ring& ring, uint32_t v);
+  bool keeps_facing(uint32_t u, const Ring& ring, uint32_t v, const ChartMap& map) const;
+  double cost(uint32_t u, uint32_t v) const;
+  /// Finds the cheapest collapse of u and enters it into the heap.
+  void refresh(uint32_t u);
+  void collapse(uint32_t u);
+
+  bool before(uint32_t a, uint32_t b) const {
+    return costs_[a] != costs_[b] ? costs_[a] < costs_[b] : a < b;
+  }
+  void sift(uint32_t slot);
+  void remove(uint32_t place);
+
+  const AuthorMesh* mesh_ = nullptr;
+  Span<const Shape> poses_;
+  Vec3 center_;
+
+  Span<uint32_t> face_triangles_;               // per face, and the end
+  Span<uint32_t> places_, vertices_, sources_;  // per corner of a triangle
+  Span<uint32_t> charts_;                       // per corner: equal within a chart around a place
+  Span<uint32_t> next_;                         // per corner: another one at the same place
+  Span<Vec3> facing_;                           // per triangle: its normal when reduce() began
+  Span<uint8_t> alive_;                         // per triangle
+  uint32_t alive_count_ = 0;
+  Span<uint32_t> component_counts_;  // triangles
+
+  // Per vertex; in use for those that are the first at their place.
+  Span<uint32_t> first_, valence_;
+  Span<uint8_t> locked_, border_;
+  Span<Quadric> quadrics_;  // one for each pose
+  Span<double> areas_, costs_;
+  Span<uint32_t> targets_, slots_;
+  Span<uint32_t> heap_;
+  uint32_t heap_count_ = 0;
+};
+
+}  // namespace mien::author

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Meshes with fewer triangles: edges collapse onto one of their ends, those first that change the
+// surface least (M. Garland, P. S. Heckbert, "Surface Simplification Using Quadric Error Metrics",
+// 1997), at rest and in some of the expressions together (A. Mohr, M. Gleicher, "Deformation
+// Sensitive Decimation", 2003). What is left is a subset of the vertices, where they were.
+#pragma once
+
+#include "runtime/author/mesh/author_mesh.h"
+#include "runtime/base/arena.h"
+
+namespace mien::author {
+
+struct SimplifyOptions {
+  double share = 0.5;      // of the triangles that each LOD keeps of the one before
+  uint32_t lods = 1;       // with LOD 0, which keeps all
+  uint32_t max_poses = 8;  // expressions that count beside the mesh at rest
+};
+
+struct LodMesh {
+  AuthorMesh mesh;                // without shapes; texture coordinates are those of LOD 0
+  Span<const uint32_t> vertices;  // of LOD 0, ascending; empty: all of them
+  double rms = 0, max = 0;        // distances of the vertices of LOD 0 to the surface
+};
+
+/// The mesh at each LOD. LOD 0 is `mesh`; further ones have triangles only, and the vertices of each
+/// are among those of the one before. Borders and seams of texture coordinates collapse only along
+/// themselves, no triangle turns over, edges of two triangles stay such, and every component keeps
+/// its share, and eight triangles. A LOD has more than asked for where nothing else may go.
+/// False if memory ran out.
+bool make_lod_meshes(const AuthorMesh& mesh, const SimplifyOptions& options, Arena& arena,
+                     const Allocator& allocator, Span<LodMesh>& out);
+
+/// The displacements of some vertices of each shape. False if memory ran out.
+bool take_shapes(Span<const Shape> shapes, Span<const uint32_t> vertices, Arena& arena,
+                 Span<const Shape>& out);
+
+}  // namespace mien::author
