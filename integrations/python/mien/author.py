@@ -242,11 +242,11 @@ def author_rig(positions: Any, faces: Any, shapes: Optional[Mapping[str, Any]] =
         lods=uint32(lods, "lods"), groups=uint32(groups, "groups"), seed=index(seed),
         joint_groups=uint32(joint_groups, "joint_groups"),
         overlap_correctives=uint32(overlap_correctives, "overlap_correctives"),
-        lod_triangles=float(lod_triangles),
         up=uint32(up, "up"), front=uint32(front, "front"), symmetry=uint32(symmetry, "symmetry"),
         flags=uint32(flags, "flags"), name=given.text(name), face_object=given.text(face_object),
         progress=_progress_type())
     desc.unit = float(unit)
+    desc.lod_triangles = float(lod_triangles)
     if bones is not None:
         given.bones(bones, desc)
     if weights is not None:
