@@ -141,7 +141,8 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
       const double raise =
           strands ? 0.05 * (1 - across * across) - 0.03 : 0.14 * (1 - across * across) - 0.05;
       // The border fades into the skin; without hairs, less, as there are few rows.
-      const double fade = std::max(across * across, 1 - clamp01(3 * t));
+      const double square = across * across;
+      const double fade = std::max(strands ? square * square : square, 1 - clamp01(3 * t));
       const double thin = strands ? mix(0.28 - 0.06 * lod, 1, fade)
                                   : mix(0.24, rows > 3 ? 0.80 : 0.60, fade * fade);
       const Color color = mix(hair_color, skin, thin);
@@ -163,7 +164,7 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
     const auto [s, c] = exact_sine_cosine(lean);
     const double x = at.x - 0.3 * size * c, y = at.y + across * at.half - 0.3 * size * s;
     const Color color =
-        mix(hair_color, mix(skin, {60, 40, 30}, 0.4), 0.14 + 0.14 * scatter(i + 700));
+        mix(hair_color, mix(skin, {60, 40, 30}, 0.4), 0.22 + 0.16 * scatter(i + 700));
     Hair hair;
     hair.root = place(x, y, 0.0, color, t, 0.5 + 0.4 * across);
     hair.middle =

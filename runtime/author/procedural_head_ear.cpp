@@ -49,7 +49,7 @@ void SkinMaker::make_ear() {
   static constexpr double kFine[][3] = {
       {0.90, -0.34, 0.04}, {1.00, -0.16, 0.08},  {1.03, 0.04, 0.13},   {0.99, 0.20, 0.17},
       {0.93, 0.24, 0.17},  {0.86, 0.08, 0.10},   {0.79, -0.10, 0.02},  {0.70, -0.05, 0.0},
-      {0.60, 0.05, -0.02}, {0.50, -0.02, -0.12}, {0.38, -0.26, -0.30}, {0.22, -0.46, -0.46}};
+      {0.60, 0.05, -0.02}, {0.50, -0.02, -0.12}, {0.38, -0.20, -0.24}, {0.22, -0.32, -0.36}};
   static constexpr double kPlain[][3] = {
       {1.02, 0.02, 0.12}, {0.92, 0.17, 0.15}, {0.60, -0.05, 0.0}, {0.35, -0.28, -0.30}};
   static constexpr double kPlainest[][3] = {{1.0, 0.1, 0.12}, {0.5, -0.1, -0.05}};
@@ -83,7 +83,7 @@ void SkinMaker::make_ear() {
               ear_.outward * (height * size);
     // In front the rim ends in the cheek, with a flap before the bowl.
     const double in_front = smooth_step(-0.1, -0.75, c) * smooth_step(0.75, 0.35, s);
-    const double flap = 0.20 * in_front * bump(s, step[0], -0.15, 0.80, 0.35, 0.16);
+    const double flap = 0.13 * in_front * bump(s, step[0], -0.15, 0.80, 0.35, 0.16);
     const double least = step[2] * (step[2] > 0 ? mix(1, 0.2, in_front) : 1) + flap;
     at.x = std::max(at.x, from.closed.x + least * size);
     const double left = 1 - (r + 1.0) / (rings + 1);
@@ -99,7 +99,7 @@ void SkinMaker::make_ear() {
     }
     std::copy(next, next + ring_size_, ring_);
   }
-  static constexpr double kEnd[] = {0, -0.50, -0.50};
+  static constexpr double kEnd[] = {0, -0.40, -0.42};
   Vertex end = place(0, kEnd, rings - 1);
   end.color = lod_ < 6 ? mix(rosy, deep, 0.7) : rosy;
   const uint32_t middle = out_.vertices.add(end);

@@ -163,8 +163,8 @@ double Form::nose(double x, double y) const {
   const Person& p = person_;
   // y, height of the ridge, half width, steepness of the sides (less is steeper), bluntness
   static constexpr double kRows[][5] = {
-      {-4.9, 0.00, 0.9, 1.20, 0},    {-4.6, 0.28, 1.15, 1.00, 0},   {-4.35, 0.84, 1.42, 0.80, 0},
-      {-4.12, 1.48, 1.60, 0.66, 0},  {-3.85, 2.00, 1.68, 0.64, 0},  {-3.5, 2.32, 1.74, 0.78, 0.2},
+      {-4.9, 0.00, 0.6, 1.20, 0},    {-4.6, 0.24, 0.88, 1.00, 0},   {-4.35, 0.80, 1.18, 0.76, 0},
+      {-4.12, 1.46, 1.44, 0.62, 0},  {-3.85, 2.00, 1.64, 0.58, 0},  {-3.5, 2.32, 1.74, 0.70, 0.2},
       {-3.1, 2.40, 1.76, 1.30, 0.8}, {-2.7, 2.30, 1.74, 1.90, 1.1}, {-2.2, 2.00, 1.74, 2.00, 0.8},
       {-1.5, 1.54, 1.70, 2.00, 0.3}, {-0.6, 1.00, 1.66, 2.00, 0},   {0.4, 0.50, 1.65, 2.10, 0},
       {1.3, 0.28, 1.70, 2.00, 0},    {2.4, 0.22, 2.2, 1.80, 0},     {4.2, 0.00, 2.4, 1.50, 0}};
@@ -184,10 +184,10 @@ double Form::nose(double x, double y) const {
     z = at(1) * exact_pow(above, at(3)) * blunt * smooth_step(1.4, 1.0, t);
   }
   // The wing is a ball of its own, behind a furrow that runs around it from the tip to the cheek.
-  const double dx = at_x - 1.20, dy = y + 3.42, apart = std::sqrt(dx * dx + 0.8 * dy * dy) - 0.50;
-  z += 0.27 * bump(dx, dy, 0, 0, 0.32, 0.36);
-  z -= 0.26 * bump(apart, 0, 0, 0, 0.14, 1) * smooth_step(-0.50, 0.05, dy) *
-       smooth_step(1.05, 0.75, t);
+  const double dx = at_x - 1.34, dy = y + 3.52, apart = std::sqrt(dx * dx + 0.8 * dy * dy) - 0.52;
+  z += 0.25 * bump(dx, dy, 0, 0, 0.36, 0.42);
+  z -= 0.34 * bump(apart, 0, 0, 0, 0.15, 1) * smooth_step(-0.50, 0.05, dy) *
+       mix(0.25, 1, smooth_step(-0.45, 0.15, dx)) * smooth_step(1.10, 0.85, t);
   return p.nose * z;
 }
 
@@ -201,10 +201,10 @@ double Form::relief(double x, double y) const {
   const Bump bumps[] = {
       {-0.50, 3.3, 0.25, 1.9, 1.30},                    // sockets
       {-0.10, 1.75, 0.15, 0.62, 0.95},                  // inner corners of the eyes
-      {0.48, 2.3, 1.60, 0.95, 0.55},                    // below the inner end of the brow
+      {0.26, 3.0, 1.40, 1.20, 0.50},                    // below the brow
       {0.30, 3.6, 1.75, 1.6, 0.75},                     // skin that hangs over the crease
       {0.22 + p.brow_ridge, 2.6, 2.85, 2.2, 0.85},      // brow ridge
-      {-0.12, 1.84 * wing, -3.6, 0.26, 0.50},           // behind the wing of the nose
+      {-0.20, 1.86 * wing, -3.6, 0.26, 0.55},           // behind the wing of the nose
       {0.34 * p.cheek, 4.7, -2.0, 1.7, 1.3},            // cheekbones
       {0.22, 2.9, -2.5, 1.2, 1.2},                      // apple of the cheek
       {-0.34 * p.cheek, 5.0, -5.4, 1.3, 1.7},           // hollow of the cheek
@@ -316,7 +316,7 @@ FacePoint Form::face(double angle, double y, Side side) const {
                           smooth_step(0.40, 0.65, down) * smooth_step(1.06, 0.90, down);
     p.x += muscle * sine;
     p.z += muscle * cosine + 0.20 * bump(p.x, p.y, 0, -13.3, 0.8, 1.1) -
-           0.28 * bump(p.x, p.y, 0, -16.0, 0.8, 0.7);
+           0.22 * bump(p.x, p.y, 0, -15.2, 0.8, 0.5);
   }
   // Long and short chins; high and low skulls.
   p.y -= person_.chin_drop * smooth_step(-7.3, -9.6, y) * smooth_step(-16.0, -11.5, y);
@@ -340,7 +340,7 @@ FacePoint Form::face(double angle, double y, Side side) const {
     p.z = mix(p.z, smooth_max(p.z, ball, 0.8), front_mask);
     // Above the crease skin hangs from the brow.
     const double above = p.y - lid_line(p.x);
-    const double hood = smooth_step(1.35, 0.62, above / (0.42 + 0.46 * std::max(0.0, 1 - s * s)));
+    const double hood = smooth_step(1.12, 0.52, above / (0.42 + 0.46 * std::max(0.0, 1 - s * s)));
     const double inner = smooth_step(-1.22, -0.90, s);
     p.z = mix(p.z, ball,
               front_mask * hood * inner *

@@ -314,7 +314,8 @@ void HairMaker::make_border() {
   for (uint32_t i = 0; i < count; ++i) {
     const double around = mix(-kPi, kPi, (i + 0.5 + 0.45 * scatter(i + 9000)) / count);
     const double share = std::abs(around) / kPi;
-    if (style_.hang < 0 && share > 0.30) continue;
+    // None over the ears, nor where hair hangs.
+    if (style_.hang < 0 ? share > 0.30 : share > 0.47 && share < 0.555) continue;
     const double jitter = scatter(i + 10000), size = 1 + 0.35 * scatter(i + 11000);
     const double side = around < kPart ? -1 : 1;
     Strand strand;

@@ -329,8 +329,8 @@ TEST(Render, RimLightDoesNotReachWhatStandsInItsShadow) {
   wall.material.color = {0, 0, 0};
   const int open = brightest_at_the_right(render_image({dark}, camera, options));
   const int shadowed = brightest_at_the_right(render_image({dark, wall}, camera, options));
-  EXPECT_GT(open, 60);
-  EXPECT_LT(shadowed, open * 0.75);
+  EXPECT_GT(open, 50);
+  EXPECT_LT(shadowed, open * 0.85);
 }
 
 TEST(Render, WireframesLeaveOutInnerEdges) {

@@ -14,7 +14,7 @@ struct Lamp {
 const Lamp kKey = {normalized(Vec3{-0.52f, 0.58f, 0.74f}, {}), {1.16f, 1.07f, 0.97f}};
 const Lamp kFill = {normalized(Vec3{0.85f, 0.05f, 0.62f}, {}), {0.13f, 0.155f, 0.19f}};
 const Lamp kRims[kRimCount] = {
-    {normalized(Vec3{0.82f, 0.42f, -0.62f}, {}), {0.95f, 1.08f, 1.25f}},
+    {normalized(Vec3{0.82f, 0.42f, -0.62f}, {}), {0.82f, 0.93f, 1.08f}},
     {normalized(Vec3{-0.80f, 0.30f, -0.75f}, {}), {0.42f, 0.46f, 0.52f}}};
 constexpr Vec3 kSkyAbove = {0.27f, 0.30f, 0.345f};
 constexpr Vec3 kSkyBelow = {0.13f, 0.105f, 0.092f};
@@ -111,9 +111,10 @@ Vec3 light(const Fragment& f, float openness, const Arriving& arriving) {
     diffuse += rim.color * (strength * 0.75f);
     shine += rim.color * (strength * (1 - nv) * 0.10f);
   }
-  // The sky in a wet surface.
-  shine += kSkyAbove * ((m.reflectance + (1 - m.reflectance) * fresnel(nv)) * (1 - m.roughness) *
-                        gloss_open * (0.35f + 0.65f * saturate(f.normal.y)));
+  // The sky in a wet surface; what the key light does not reach, such as molars, sees little of it.
+  shine +=
+      kSkyAbove * ((m.reflectance + (1 - m.reflectance) * fresnel(nv)) * (1 - m.roughness) *
+                   gloss_open * (0.25f + 0.75f * seen) * (0.35f + 0.65f * saturate(f.normal.y)));
   return f.color * diffuse + shine;
 }
 
