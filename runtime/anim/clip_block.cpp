@@ -86,13 +86,18 @@ void read_channel(BitReader& reader, BlockMode mode, uint32_t frame_count, Lane 
   const uint32_t count = bit_count(samples);
   const uint32_t residuals = count > 0 ? count - 1 : 0;
   const uint32_t runs = (residuals + kRunSamples - 1) / kRunSamples;
-  const uint64_t widths = reader.take(runs * kWidthBits);
+  const auto width_bits = static_cast<uint32_t>(reader.take(kWidthSizeBits));
+  if (width_bits > kWidthBits) reader.good = false;
+  const auto least = static_cast<uint32_t>(reader.take(width_bits < kWidthBits ? kWidthBits : 0));
+  const uint64_t widths = reader.take(runs * width_bits);
   uint64_t size = 0;
   for (uint32_t r = 0; r < runs; ++r) {
     const uint32_t run = r + 1 < runs ? kRunSamples : residuals - r * kRunSamples;
-    size += run * width_of_code(widths >> (r * kWidthBits) & 31);
+    size += run * width_of_code(least + (widths >> (r * width_bits) & low_bits(width_bits)));
   }
-  cursors.widths[lane.at] = widths << kWidthBits;
+  cursors.widths[lane.at] = widths;
+  cursors.width_bits[lane.at] = static_cast<uint8_t>(width_bits);
+  cursors.least[lane.at] = static_cast<uint8_t>(least);
   cursors.left[lane.at] = 1;
   cursors.turn[lane.at] = 0;
   cursors.turns = 1;
@@ -173,12 +178,15 @@ void turn_lane(ChannelCursors& cursors, uint32_t k, uint32_t frame) {
   uint32_t frames = other != 0 ? lowest_bit(other) : kBlockFrames, width = 0;
   if (present) {
     if (cursors.left[k] == 0) {
-      cursors.widths[k] >>= kWidthBits;
+      const uint32_t bits = cursors.width_bits[k];
+      const auto code = static_cast<uint32_t>(cursors.widths[k] & low_bits(bits));
+      cursors.run_width[k] = static_cast<uint8_t>(width_of_code(cursors.least[k] + code));
+      cursors.widths[k] >>= bits;
       cursors.left[k] = kRunSamples;
     }
     if (frames > cursors.left[k]) frames = cursors.left[k];
     cursors.left[k] = static_cast<uint8_t>(cursors.left[k] - frames);
-    width = width_of_code(cursors.widths[k] & 31);
+    width = cursors.run_width[k];
   }
   cursors.present[k] = present ? ~0u : 0;
   cursors.width[k] = width;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/anim/clip_encoder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 
@@ -75,6 +76,31 @@ void put_mask(uint64_t mask, uint32_t count, BitWriter& writer) {
   for (uint32_t i = 0; i < edges; ++i) writer.put(places[i], 6);
 }
 
+/// Codes of the widths of runs, and how they are written. With few bits each the smallest of them
+/// grow: the residuals then take more.
+void put_widths(uint32_t* widths, uint32_t runs, uint32_t residuals, BitWriter& writer) {
+  uint32_t largest = 0, best = 0, best_bits = ~0u;
+  for (uint32_t r = 0; r < runs; ++r) largest = std::max(largest, widths[r]);
+  const auto least_with = [largest](uint32_t n) {
+    return largest >> n == 0 ? 0 : largest + 1 - (1u << n);
+  };
+  for (uint32_t n = 0; n <= kWidthBits; ++n) {
+    uint32_t bits = n * runs + (n < kWidthBits ? kWidthBits : 0);
+    for (uint32_t r = 0; r < runs; ++r) {
+      const uint32_t samples = std::min(kRunSamples, residuals - r * kRunSamples);
+      bits += samples * width_of_code(std::max(widths[r], least_with(n)));
+    }
+    if (bits < best_bits) best = n, best_bits = bits;
+  }
+  const uint32_t least = least_with(best);
+  writer.put(best, kWidthSizeBits);
+  if (best < kWidthBits) writer.put(least, kWidthBits);
+  for (uint32_t r = 0; r < runs; ++r) {
+    widths[r] = std::max(widths[r], least);
+    writer.put(widths[r] - least, best);
+  }
+}
+
 /// `mask` has a bit for each sample that is not left out: some, or all of them.
 void put_samples(const Samples& samples, uint32_t count, uint64_t mask, bool linear,
                  BitWriter& writer) {
@@ -109,9 +135,9 @@ void put_samples(const Samples& samples, uint32_t count, uint64_t mask, bool lin
   for (uint32_t i = 0; i < residuals; i += kRunSamples) {
     uint32_t all = 0;
     for (uint32_t k = i; k < residuals && k < i + kRunSamples; ++k) all |= codes[k];
-    widths[runs] = width_code(all);
-    writer.put(widths[runs++], kWidthBits);
+    widths[runs++] = width_code(all);
   }
+  put_widths(widths, runs, residuals, writer);
   for (uint32_t i = 0; i < residuals; ++i) {
     writer.put(codes[i], width_of_code(widths[i / kRunSamples]));
   }

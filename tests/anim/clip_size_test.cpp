@@ -47,9 +47,11 @@ TEST(ClipSize, LosslessOfSourcesWithFewDigits) {  // A2
   EXPECT_RATIO(10, ratio(rounded_to(clean_solve(kSeed, kFrames), 10000)));
   EXPECT_RATIO(7, ratio(rounded_to_half(noisy_solve(kSeed, kFrames))));
   EXPECT_RATIO(7, ratio(rounded_to_half(dense_noise(kSeed, kFrames))));
-  // Captures keep their noise in four decimals and in halves: less than for the others.
-  EXPECT_RATIO(7, ratio(rounded_to(phone_capture(kSeed, kFrames), 10000)));
-  EXPECT_RATIO(5, ratio(rounded_to_half(phone_capture(kSeed, kFrames))));
+  // Captures keep much of their noise in four decimals and in halves: less than 10 and 7. What linear
+  // predictions leave of them would allow 11.5 and 8.3 if widths, masks and first samples took no
+  // room and each residual no more than its entropy.
+  EXPECT_RATIO(8.5, ratio(rounded_to(phone_capture(kSeed, kFrames), 10000)));
+  EXPECT_RATIO(5.5, ratio(rounded_to_half(phone_capture(kSeed, kFrames))));
 }
 
 TEST(ClipSize, Snapped) {  // A2
@@ -83,7 +85,7 @@ TEST(ClipSize, SnappedIsSmallerThanOnePrecisionForEachChannel) {  // A3
   EXPECT_RATIO(6, share(authored_keys(kSeed, kFrames)));
   EXPECT_RATIO(6, share(clean_solve(kSeed, kFrames)));
   EXPECT_RATIO(4, share(noisy_solve(kSeed, kFrames)));
-  EXPECT_RATIO(1.5, share(dense_noise(kSeed, kFrames)));
+  EXPECT_RATIO(1.6, share(dense_noise(kSeed, kFrames)));
   EXPECT_RATIO(2, share(phone_capture(kSeed, kFrames)));
 }
 
@@ -130,12 +132,15 @@ TEST(ClipCurves, HaveTheStatisticsOfRealMaterial) {
   EXPECT_GE(solve.median, 35u) << "a solver leaves more controls away from zero";
   EXPECT_LE(solve.max, 66u);
   EXPECT_GE(statistics(dense_noise(kSeed, kFrames)).median, 101u);
+  double nonzero = 0;
   for (uint64_t seed = 1; seed <= 10; ++seed) {
     const Statistics capture = statistics(phone_capture(seed, kFrames));
-    EXPECT_NEAR(capture.nonzero, 0.5, 0.1);
+    nonzero += capture.nonzero / 10;
+    EXPECT_NEAR(capture.nonzero, 0.5, 0.06);
     EXPECT_GE(capture.random_bits, 19u);
     EXPECT_LE(capture.random_bits, 21u);
   }
+  EXPECT_NEAR(nonzero, 0.5, 0.02);
 }
 
 }  // namespace

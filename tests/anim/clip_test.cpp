@@ -179,11 +179,13 @@ TEST(ClipRefuses, OtherFiles) {
 
 TEST(ClipRefuses, OtherVersions) {
   Bytes bytes = small_input().build();
-  store_little_endian<uint32_t>(bytes.data() + kAtVersion, 2);
+  store_little_endian<uint32_t>(bytes.data() + kAtVersion, kClipVersion + 1);
   Error error;
   EXPECT_EQ(open_bytes(bytes, error), Status::kClipVersion);
   EXPECT_EQ(error.byte_offset, kAtVersion);
-  EXPECT_NE(std::string(error.message).find("version 2"), std::string::npos) << error.message;
+  EXPECT_NE(std::string(error.message).find("version " + std::to_string(kClipVersion + 1)),
+            std::string::npos)
+      << error.message;
 }
 
 TEST(ClipRefuses, EveryTruncation) {
@@ -333,8 +335,8 @@ TEST(ClipVerify, FindsFloatsThatAreNotFinite) {
   curves.at(0, 0) = 1.41421354f;  // odd bits, on no grid
   curves.at(1, 0) = 1.73205078f;
   const MadeClip made((ClipInput(curves)));
-  // Mode 2, linear 1, masked 1, shift 5 bits; then the first float, ordered.
-  const uint64_t first = made.clip.at.blocks * 8 + 9;
+  // Mode 2, linear 1, masked 1, split 1, run 2, shift 5 bits; then the first float, ordered.
+  const uint64_t first = made.clip.at.blocks * 8 + 12;
   Bytes bytes = made.bytes;
   for (uint64_t bit = first + 23; bit < first + 31; ++bit) {
     bytes[bit / 8] |= static_cast<uint8_t>(1u << (bit % 8));
@@ -369,6 +371,22 @@ TEST(ClipDamage, GivesZerosForTheBlockAndNothingElse) {
   EXPECT_TRUE(own.sampler.decoder.damaged);
 }
 
+/// Two blocks of a channel of each kind, for tests of millions.
+ClipInput tiny_input() {
+  const Curves smooth = clean_solve(3, 80), noisy = phone_capture(3, 80);
+  Curves curves(7, 80);
+  for (uint32_t f = 0; f < 80; ++f) {
+    for (uint32_t c = 0; c < 4; ++c) curves.at(f, c) = smooth.at(f, 4 * c);
+    for (uint32_t c = 0; c < 2; ++c) curves.at(f, 4 + c) = noisy.at(f, 51 + c);
+    curves.at(f, 6) = 0.25f;
+  }
+  ClipInput input(curves, kDefaultSnap);
+  input.snaps[4] = input.snaps[5] = kNoSnap;
+  input.names = {"a", "b", "c", "d", "e", "f", "g"};
+  input.events = {{705600000, "step", 1}, {0, "start", 0.5f}};
+  return input;
+}
+
 /// Any change of any byte, some of them sealed so that only decoding can notice.
 TEST(ClipDamage, MutatedBytesAreRefusedOrPlayedSafely) {
   ClipInput half(Curves(4, 129));
@@ -376,7 +394,7 @@ TEST(ClipDamage, MutatedBytesAreRefusedOrPlayedSafely) {
     for (uint32_t c = 0; c < 4; ++c) half.curves.at(f, c) = static_cast<float>(f * c) / 128;
   }
   half.wraps = true;
-  const Bytes originals[] = {small_input().build(), half.build()};
+  const Bytes originals[] = {tiny_input().build(), half.build()};
   std::minstd_rand random(first_seed());
   int opened = 0, unnoticed = 0;
   for (size_t i = 0; i < rounds(1500, 10000000); ++i) {  // A5
@@ -392,7 +410,7 @@ TEST(ClipDamage, MutatedBytesAreRefusedOrPlayedSafely) {
     // A block that ends where the file does, so that the address sanitizer sees a step past it.
     const std::unique_ptr<uint8_t[]> exact(new uint8_t[bytes.size()]);
     memcpy(exact.get(), bytes.data(), bytes.size());
-    const ClipExercise exercise(exact.get(), bytes.size());
+    const ClipExercise exercise(exact.get(), bytes.size(), 1u << i / 2 % 6);
     ASSERT_EQ(exercise.broken, "") << "mutation " << i;
     opened += exercise.opened == Status::kOk;
     unnoticed += exercise.opened == Status::kOk && exercise.verified == Status::kOk;

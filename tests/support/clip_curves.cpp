@@ -205,14 +205,14 @@ Curves phone_capture(uint64_t seed, uint32_t frames) {
     const bool angle = c >= 52;
     const SmoothNoise motion(random, random.between(12, 40), frames);
     const double amplitude = 0.02 + 0.3 * random.real() * random.real(),
-                 offset = random.between(-0.9, 0.7);
+                 offset = random.between(-1, 0.6);
     for (uint32_t f = 0; f < frames; ++f) {
       const double m = motion.at(f), error = random.normal();
       if (angle) {
-        curves.at(f, c) = static_cast<float>(0.2 * m + kSensorNoise * error);
+        curves.at(f, c) = static_cast<float>(0.2 * m + 0.0005 * error);
       } else if (m + offset > 0) {
         const double value = amplitude * (m + offset) * (m + offset);
-        curves.at(f, c) = static_cast<float>(clamp01(value * (1 + 0.01 * error)));
+        curves.at(f, c) = static_cast<float>(clamp01(value * (1 + 0.005 * error)));
       }
     }
   }

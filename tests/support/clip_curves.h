@@ -48,8 +48,10 @@ Curves noisy_solve(uint64_t seed, uint32_t frames);
 Curves dense_noise(uint64_t seed, uint32_t frames);
 
 /// A take of a phone: coefficients between 0 and 1, small more often than large, zero half of the
-/// time and else with an error of a percent; angles in radians that are never at rest.
-/// kCaptureChannels channels.
+/// time and else with an error of half a percent; angles in radians that are never at rest.
+/// kCaptureChannels channels. The errors are such that the coder for which the sizes of ten real takes
+/// are known (runs of 16, widths of 6 bits, masks of 64) makes the same of ten of these: 2.45 times
+/// smaller where it was 2.46, 10.9 where it was 11.0 rounded to 1/2048.
 Curves phone_capture(uint64_t seed, uint32_t frames);
 
 /// Rounded to a multiple of 1 / `scale`, as from a file of decimals or a sensor of few bits.
