@@ -33,7 +33,7 @@ bool fill_descriptor(uint64_t seed, const Person& person, Arena& arena, dna::Des
 bool make_head(uint64_t seed, Arena& arena, const Allocator& allocator, dna::DnaView& out) {
   Arena scratch(allocator);
   const Form form(make_person(seed));
-  const Shapes shapes(form);
+  const Shapes shapes;
   const Skeleton skeleton(form);
   Head head = {form, shapes, skeleton, {}};
   HalfMesh fitted(scratch);

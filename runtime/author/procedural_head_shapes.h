@@ -94,7 +94,7 @@ Vec3 move_with_jaw(const JointTurns& turns, Vec3 p);
 /// All expressions, then the correctives.
 class Shapes {
  public:
-  explicit Shapes(const Form& form) : form_(form) { corrective_count_ = list_correctives(list_); }
+  Shapes() { corrective_count_ = list_correctives(list_); }
 
   uint32_t corrective_count() const { return corrective_count_; }
   uint32_t count() const { return kExpressionCount + corrective_count_; }
@@ -116,7 +116,6 @@ class Shapes {
   Vec3 both_sides(Motion motion, const Vertex& v) const;
   Vec3 lids(Motion motion, const Vertex& v) const;
 
-  const Form& form_;
   Corrective list_[kMaxCorrectives];
   uint32_t corrective_count_ = 0;
 };
