@@ -4,6 +4,8 @@
 // U.S. respirator users", J. Occup. Environ. Hyg. 2, 2005): head breadth and length, face width at the
 // cheekbones and at the angles of the jaw, face length, breadth and protrusion of the nose, length of
 // the lips, girth of the neck.
+#include <algorithm>
+
 #include "runtime/author/procedural_head_form.h"
 #include "runtime/author/random.h"
 
@@ -76,6 +78,8 @@ Person make_person(uint64_t seed) {
   p.iris = kIrises[iris];
   p.shirt = kShirts[shirt];
   p.lips *= mix(1.03, 0.80, p.age);
+  // A wide jaw below a narrow face is out of all proportion.
+  p.jaw = std::min(p.jaw, p.face + 0.10);
   p.brow_hair = mix(p.hair, {20, 14, 12}, 0.25);
   p.lip = mix(redder(mix(p.skin, {0, 0, 0}, 0.10), 0.62), {168, 84, 84}, 0.16);
   return p;
