@@ -719,8 +719,7 @@ TEST(ProceduralHead, EveryControlMovesSomethingAtEveryLod) {
 /// What evaluation gives is what the shapes say: exactly at LODs with blend shapes, nearly below.
 TEST(ProceduralHead, EvaluationReproducesTheShapes) {
   Head& head = the_head();
-  const head::Form form(head::make_person(0));
-  const head::Shapes shapes(form);
+  const head::Shapes shapes;
   for (uint32_t lod : {0u, 1u, 2u, 4u}) {
     const Half half(lod);
     double squares = 0, errors = 0;

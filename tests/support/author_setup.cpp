@@ -136,7 +136,7 @@ void make_author_head(uint32_t lod, uint32_t bones, uint32_t influences, uint32_
                       AuthorSetup& out) {
   Arena arena(default_allocator());
   const head::Form form(head::make_person(0));
-  const head::Shapes shapes(form);
+  const head::Shapes shapes;
   head::HalfMesh half(arena);
   ASSERT_TRUE(head::make_part(form, head::Part::kHead, lod, half));
   std::vector<uint32_t> twin, left;  // vertex of the other half; of each vertex, its left one
