@@ -162,6 +162,39 @@ void add_columns(const JointColumnsArgs& args) {
 void joint_columns(const JointColumnsArgs& args) { add_columns<float>(args); }
 void joint_columns_fixed(const JointColumnsArgs& args) { add_columns<int16_t>(args); }
 
+// Here sums stay in registers, and what is read is values and inputs: for matrices with many columns of few
+// blocks, most of them in use.
+template <class How, class Value>
+inline void sum_rows(const JointRowsArgs& args) {
+  const Value* const values = static_cast<const Value*>(args.values);
+  const float* const inputs = args.inputs;
+  constexpr size_t kVecs = kJointBlockRows / kBlockWidth;
+  const InputBlock* block = args.blocks + args.first_blocks[0];
+  for (size_t b = 0; b < args.block_row_count; ++b) {
+    BlockVec sums[kVecs];
+    for (BlockVec& sum : sums) sum = broadcast_block(0.0f);
+    for (const InputBlock* const end = args.blocks + args.first_blocks[b + 1]; block != end;
+         ++block) {
+      const Value* const from = values + size_t{block->block} * kJointBlockRows;
+      const BlockVec input = broadcast_block(inputs[block->input]);
+      for (size_t v = 0; v < kVecs; ++v) {
+        sums[v] = How::mul_add(load_block(from + v * kBlockWidth), input, sums[v]);
+      }
+    }
+    for (size_t v = 0; v < kVecs; ++v) {
+      store_block(args.sums + b * kJointBlockRows + v * kBlockWidth, sums[v]);
+    }
+  }
+}
+
+template <class Value>
+void sum_rows(const JointRowsArgs& args) {
+  args.portable ? sum_rows<AsPortable, Value>(args) : sum_rows<AsFast, Value>(args);
+}
+
+void joint_rows(const JointRowsArgs& args) { sum_rows<float>(args); }
+void joint_rows_fixed(const JointRowsArgs& args) { sum_rows<int16_t>(args); }
+
 // What became -0 is made 0: in a batch, who takes no part in a column adds 0 times its value.
 void finish_sums(float* sums, const float* scales, size_t count) {
   for (size_t i = 0; i < count; i += kWidth) {
@@ -196,7 +229,7 @@ inline void sum_block_row(const JointBatchArgs& args, size_t first, size_t lane,
                           std::index_sequence<R...>) {
   const Value* const values = static_cast<const Value*>(args.values);
   const float* const inputs = args.inputs + lane;
-  const BatchBlock* const blocks = args.blocks;
+  const InputBlock* const blocks = args.blocks;
   const size_t block_count = args.block_count;
   alignas(32) float made[kJointBlockRows];
   Vec a[] = {(static_cast<void>(R), broadcast(0.0f))...};

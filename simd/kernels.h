@@ -57,14 +57,30 @@ struct JointColumnsArgs {
   bool portable;  // products are rounded before they are added, on every instruction set
 };
 
-/// Characters that a batch evaluates together, one lane each.
-constexpr uint32_t kBatchLanes = 32;
-
-/// A block of a joint matrix and the row of inputs that it is multiplied by.
-struct BatchBlock {
+/// A block of a joint matrix, and the number of its input.
+struct InputBlock {
   uint32_t block;
   uint32_t input;
 };
+
+/// The sums of neighboring block rows, each of its own blocks, which are in order of the columns:
+///
+///     sums[8 * b + r] = the sum over i of values(blocks[i].block, r) * inputs[blocks[i].input]
+///
+/// for first_blocks[b] <= i < first_blocks[b + 1]: those of joint_columns, plus 0 times columns that
+/// have no run.
+struct JointRowsArgs {
+  const void* values;            // as for joint_columns
+  const uint32_t* first_blocks;  // [block row], one more at the end
+  const InputBlock* blocks;
+  const float* inputs;
+  float* sums;  // 64-byte aligned
+  uint32_t block_row_count;
+  bool portable;  // as above
+};
+
+/// Characters that a batch evaluates together, one lane each.
+constexpr uint32_t kBatchLanes = 32;
 
 /// Which values are not 0: bit i % 64 of words[i / 64]. Bits past the last value are 0.
 struct NonzeroArgs {
@@ -112,7 +128,7 @@ struct PsdBatchArgs {
 /// starting from 0: as joint_columns does, with the same bits.
 struct JointBatchArgs {
   const void* values;  // as for joint_columns
-  const BatchBlock* blocks;
+  const InputBlock* blocks;
   const float* inputs;  // 64-byte aligned
   float* sums;          // 32-byte aligned
   size_t stride;        // a multiple of 8
@@ -508,6 +524,8 @@ struct KernelTable {
   const char* name;
   void (*joint_columns)(const JointColumnsArgs& args);        // of floats
   void (*joint_columns_fixed)(const JointColumnsArgs& args);  // of 16-bit integers
+  void (*joint_rows)(const JointRowsArgs& args);
+  void (*joint_rows_fixed)(const JointRowsArgs& args);
   void (*joint_batch)(const JointBatchArgs& args);
   void (*joint_batch_fixed)(const JointBatchArgs& args);
   uint32_t batch_step;  // lanes that these and dense_batch take at a time

@@ -9,7 +9,7 @@ namespace mien {
 namespace {
 
 /// To be raised whenever the list of numbers or arrays, or the meaning of one, changes.
-constexpr uint32_t kRigPartVersion = 5;
+constexpr uint32_t kRigPartVersion = 6;
 
 template <class AnyRig, class Visitor>
 void visit_numbers(AnyRig& rig, Visitor& visitor) {
@@ -83,7 +83,7 @@ void visit_arrays(AnyRig& rig, Visitor& visitor) {
   for (auto& names : rig.names) each(names.first, names.sorted);
   each(joints.columns, joints.column_of_control, joints.starts, joints.panels, joints.targets);
   each(joints.panels_at_lod, joints.targets_at_lod, joints.group_rows_at_lod);
-  each(joints.parts, joints.block_rows);
+  each(joints.parts, joints.block_rows, joints.first_row_blocks, joints.row_blocks);
 
   // Any values of these are safe.
   for (auto& names : rig.names) each(names.chars);
@@ -99,7 +99,7 @@ void visit_arrays(AnyRig& rig, Visitor& visitor) {
 
 // Sums of their fields: padding would give one rig two images. No size depends on that of a pointer.
 static_assert(sizeof(JointColumn) == 16 && sizeof(ColumnPart) == 4 && sizeof(JointPanel) == 8 &&
-                  sizeof(JointTarget) == 6 && sizeof(AngleJoint) == 4,
+                  sizeof(JointTarget) == 6 && sizeof(AngleJoint) == 4 && sizeof(InputBlock) == 8,
               "");
 static_assert(sizeof(GroupRotations) == 16 && sizeof(RotationOutput) == 16 &&
                   sizeof(RbfSolver) == 4,

@@ -317,6 +317,25 @@ bool check_tiles(const JointMatrix& joints) {
   return good;
 }
 
+/// As many as the columns have: what is summed takes no longer than they do.
+bool check_blocks_by_row(const RigChecker& c, size_t blocks) {
+  const JointMatrix& joints = c.rig.joints;
+  const Span<uint32_t>& first = joints.first_row_blocks;
+  if (first.empty()) return c.ok(joints.row_blocks.empty(), "blocks by block row");
+  const uint32_t block_rows = joints.panels[joints.panel_count()].first_block_row;
+  Extent<uint32_t> block, input;
+  for (const InputBlock& of_row : joints.row_blocks) {
+    block.add(of_row.block);
+    input.add(of_row.input);
+  }
+  return c.ok(
+      joints.fits_tile() && first.count == size_t{block_rows} + 1 &&
+          joints.row_blocks.count <= blocks &&
+          is_runs(first, block_rows, joints.row_blocks.count) &&
+          (joints.row_blocks.empty() || (block.max < blocks && input.max < c.rig.control_count)),
+      "blocks by block row");
+}
+
 bool check_blocks(const RigChecker& c, size_t blocks) {
   const JointMatrix& joints = c.rig.joints;
   const size_t entries = joints.block_rows.count, columns = joints.columns.count;
@@ -370,7 +389,8 @@ bool check_joints(const RigChecker& c) {
   return c.ok(stored && values % kJointBlockRows == 0, "values of the joint matrix") &&
          c.ok(joints.group_rows_at_lod.count == uint64_t{joints.group_count} * rig.lod_count,
               "joint groups") &&
-         check_targets(c) && check_blocks(c, values / kJointBlockRows);
+         check_targets(c) && check_blocks(c, values / kJointBlockRows) &&
+         check_blocks_by_row(c, values / kJointBlockRows);
 }
 
 // Rotations ---------------------------------------------------------------------------------------

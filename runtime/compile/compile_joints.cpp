@@ -145,6 +145,7 @@ Status count_blocks(const dna::DnaView& view, Arena& scratch, JointPlan& plan, E
     plan.column_count += pairs + singles != 0;
     plan.entry_count += pairs + singles;
     plan.block_count += size_t{2} * (pairs + (singles + 1) / 2);
+    plan.used_blocks += size_t{2} * pairs + singles;
   }
   return Status::kOk;
 }
@@ -389,6 +390,13 @@ void fill_parts(size_t k, JointMatrix& joints) {
                         static_cast<uint16_t>(single - first_single)};
 }
 
+/// Beside values, a list by block rows takes 8 bytes for each block.
+bool lists_by_row(const JointPlan& plan) {
+  constexpr size_t kFewBlocks = 4;  // of a column
+  return plan.block_row_count() <= kMaxTileBlockRows &&
+         plan.block_count <= kFewBlocks * plan.column_count;
+}
+
 void place_variable_values(const dna::DnaView& view, Placer& placer, Rig& rig) {
   size_t total = 0;
   for (uint32_t l = 0; l < rig.lod_count; ++l) {
@@ -447,6 +455,10 @@ void place_joints(const dna::DnaView& view, const JointPlan& plan, Placer& place
   joints.columns = placer.array<uint16_t>(plan.column_count);
   joints.column_of_control = placer.array<uint32_t>(rig.control_count);
   joints.starts = placer.array<JointColumn>(plan.column_count + 1);
+  if (lists_by_row(plan)) {
+    joints.first_row_blocks = placer.array<uint32_t>(size_t{plan.block_row_count()} + 1);
+    joints.row_blocks = placer.array<InputBlock>(plan.used_blocks);
+  }
   joints.parts = placer.array<ColumnPart>(plan.column_count * plan.panel_ends);
   joints.panels = placer.array<JointPanel>(plan.panel_ends);
   joints.panels_at_lod = placer.array<uint32_t>(rig.lod_count);
@@ -514,6 +526,9 @@ void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach,
       });
   for (size_t k = 0; k < joints.columns.count; ++k) {
     fill_parts(k, joints);
+  }
+  if (!joints.first_row_blocks.empty()) {
+    list_blocks_by_row(joints, joints.first_row_blocks, joints.row_blocks);
   }
 }
 

@@ -63,6 +63,7 @@ struct JointPlan {
   Span<PlannedRows> rows;           // by block row
   Span<uint32_t> first_rows;        // [block row] into rows, one more at the end
   Span<uint8_t> block_row_reaches;  // never rises
+  size_t used_blocks = 0;           // those of block_count that are no filling
   size_t block_count = 0, entry_count = 0, column_count = 0, target_count = 0;
   uint32_t panel_size = 0;      // block rows
   size_t panel_ends = 0;        // panels, and one more

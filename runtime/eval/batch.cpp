@@ -35,7 +35,7 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
   placer.array<Batch>(1);
   batch.block_list.starts = placer.array<uint32_t>(size_t{block_row_count(joints)} + 1);
   batch.block_list.raw_ends = placer.array<uint32_t>(block_row_count(joints));
-  batch.block_list.blocks = placer.array<BatchBlock>(block_count);
+  batch.block_list.blocks = placer.array<InputBlock>(block_count);
   batch.lane_order.turns = placer.array<uint32_t>(rig.rotations.turns.count);
   batch.lane_order.twists = placer.array<uint32_t>(rig.twist_swing.outputs.count);
   batch.order = placer.array<Instance*>(capacity);
@@ -57,7 +57,7 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
     scratch.sums =
         placer.array<float>(tile_block_rows * kJointBlockRows * kBatchLanes, kBlockAlignment);
     scratch.ends = placer.array<uint32_t>(block_row_count(joints));
-    scratch.blocks = placer.array<BatchBlock>(block_count);
+    scratch.blocks = placer.array<InputBlock>(block_count);
     for (Span<float>& layer : scratch.ml_layers) {
       layer = placer.array<float>(layer_width * kBatchLanes, kBlockAlignment);
     }
@@ -78,30 +78,12 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
 
 void fill_block_list(const Rig& rig, BlockList& list) {
   const JointMatrix& joints = rig.joints;
-  const uint32_t block_rows = block_row_count(joints), panels = joints.panel_count();
-  uint32_t* starts = list.starts.data;
-  for (size_t k = 0; k < joints.columns.count; ++k) {
-    joints.for_each_block(k, panels,
-                          [&](uint32_t, uint32_t block_row) { ++starts[block_row + 1]; });
+  list_blocks_by_row(joints, list.starts, list.blocks);
+  for (const uint16_t control : joints.columns) list.raw_columns += control < rig.raw_count;
+  for (size_t b = 0; b < list.raw_ends.count; ++b) {
+    uint32_t& end = list.raw_ends[b] = list.starts[b];
+    while (end < list.starts[b + 1] && list.blocks[end].input < rig.raw_count) ++end;
   }
-  for (uint32_t b = 0; b < block_rows; ++b) starts[b + 1] += starts[b];
-  // Filling moves each start to that of the next block row: they are moved back afterwards.
-  for (size_t k = 0; k < joints.columns.count; ++k) {
-    const uint32_t control = joints.columns[k];
-    if (control < rig.raw_count) {
-      ++list.raw_columns;
-    } else if (k == list.raw_columns) {
-      std::copy(starts, starts + block_rows, list.raw_ends.data);
-    }
-    joints.for_each_block(k, panels, [&](uint32_t block, uint32_t block_row) {
-      list.blocks[starts[block_row]++] = {block, control};
-    });
-  }
-  if (list.raw_columns == joints.columns.count) {
-    std::copy(starts, starts + block_rows, list.raw_ends.data);
-  }
-  for (uint32_t b = block_rows; b > 0; --b) starts[b] = starts[b - 1];
-  starts[0] = 0;
 }
 
 bool has_joint_twice(const Span<RotationOutput>& outputs) {

@@ -79,6 +79,36 @@ void add_columns(const Rig& rig, const Instance& instance, const JointTile& tile
   add_runs();
 }
 
+/// Whether summing block row by block row, zeros and all, is faster than column by column: from half the
+/// columns on, where rows are listed.
+bool sums_by_row(const Rig& rig, const Instance& instance) {
+  constexpr uint32_t kWords = 16;
+  if (rig.joints.row_blocks.empty()) return false;
+  size_t active = 0;
+  for (uint32_t first = 0; first < rig.control_count; first += 64 * kWords) {
+    uint64_t words[kWords];
+    const uint32_t count = std::min(rig.control_count - first, 64 * kWords);
+    rig.kernels->nonzero({instance.controls.data + first, words, count});
+    for (uint32_t w = 0; w * 64 < count; ++w) active += bit_count(words[w]);
+  }
+  return 2 * active >= rig.joints.columns.count;
+}
+
+void sum_by_row(const Rig& rig, const Instance& instance, const JointTile& tile) {
+  const JointMatrix& joints = rig.joints;
+  const uint32_t first = joints.panels[tile.first_panel].first_block_row;
+  const bool fixed = joints.values.empty();
+  JointRowsArgs args;
+  args.values = fixed ? static_cast<const void*>(joints.fixed_values.data) : joints.values.data;
+  args.first_blocks = joints.first_row_blocks.data + first;
+  args.blocks = joints.row_blocks.data;
+  args.inputs = instance.controls.data;
+  args.sums = tile.of_panel(joints, tile.first_panel);
+  args.block_row_count = joints.panels[tile.end_panel].first_block_row - first;
+  args.portable = rig.portable;
+  (fixed ? rig.kernels->joint_rows_fixed : rig.kernels->joint_rows)(args);
+}
+
 /// Calls f(target, number of rows as a constant) for the targets of a panel that a LOD writes; with
 /// the number of panels instead, for those of all panels.
 template <class F>
@@ -150,6 +180,7 @@ void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, Uses 
     return (panels >> panel_bit(joints, panel) & 1) != 0 &&
            (only_group == kAllGroups || holds_group(joints, panel, only_group));
   };
+  const bool by_row = sums_by_row(rig, instance);
   // Each run of panels goes over all columns: a few panels more cost less than another run.
   constexpr uint32_t kBridge = 4;
   // 32 KiB: with 8 KiB for the runs of columns, the largest stack use of evaluation.
@@ -168,8 +199,13 @@ void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, Uses 
       if (wanted(n)) c = n + 1;
     }
     tile.end_panel = c;
-    std::fill(tile.of_panel(joints, tile.first_panel), tile.of_panel(joints, c), 0.0f);
-    finish_tile(rig, instance, lod, tile, 0, only_group);
+    if (by_row) {
+      sum_by_row(rig, instance, tile);
+    } else {
+      std::fill(tile.of_panel(joints, tile.first_panel), tile.of_panel(joints, c), 0.0f);
+    }
+    const auto columns = static_cast<uint32_t>(joints.columns.count);
+    finish_tile(rig, instance, lod, tile, by_row ? columns : 0, only_group);
   }
 }
 

@@ -63,7 +63,7 @@ void list_shared_columns(const InstancePacket& packet, const SharedColumns& shar
   const Span<uint32_t>& starts = packet.block_list->starts;
   uint32_t* ends = packet.scratch->ends.data;
   std::copy(starts.begin(), starts.end() - 1, ends);
-  BatchBlock* blocks = packet.scratch->blocks.data;
+  InputBlock* blocks = packet.scratch->blocks.data;
   for (uint32_t k = 0; k < shared.column_end; ++k) {
     if (packet.scratch->users[k] == 0) continue;
     const uint32_t control = joints.columns[k];
@@ -81,7 +81,7 @@ void evaluate_shared_rows(const InstancePacket& packet, const SharedColumns& sha
   // Unused blocks are summed as well, unless a list without them is much shorter.
   const bool listed = shared.blocks < shared.all / 2;
   if (listed) list_shared_columns(packet, shared);
-  const BatchBlock* blocks = listed ? packet.scratch->blocks.data : list.blocks.data;
+  const InputBlock* blocks = listed ? packet.scratch->blocks.data : list.blocks.data;
   const uint32_t* ends = list.starts.data + 1;
   if (shared.column_end == list.raw_columns) ends = list.raw_ends.data;
   if (listed) ends = packet.scratch->ends.data;

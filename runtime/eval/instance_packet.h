@@ -18,7 +18,7 @@ namespace mien {
 struct BlockList {
   Span<uint32_t> starts;     // [block row] into blocks, one more at the end
   Span<uint32_t> raw_ends;   // [block row] where the columns of raw controls end
-  Span<BatchBlock> blocks;   // kBatchAhead more at the end
+  Span<InputBlock> blocks;   // kBatchAhead more at the end
   uint32_t raw_columns = 0;  // columns of raw controls
 };
 
@@ -35,7 +35,7 @@ struct PacketScratch {
   Span<uint8_t> users;         // [column] how many of them use it
   Span<float> sums;            // [32][packed row of a tile]
   Span<uint32_t> ends;         // [block row] into blocks
-  Span<BatchBlock> blocks;     // of used columns; those of a block row begin at BlockList::starts
+  Span<InputBlock> blocks;     // of used columns; those of a block row begin at BlockList::starts
   Span<float> ml_layers[2];    // [input or output][32] of the widest network layer
   Span<float> ml_weights;      // of a block of rows, in half storage
   Span<float> rbf_rotations;   // as RbfBatchArgs has them

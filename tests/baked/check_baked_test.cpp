@@ -144,6 +144,13 @@ TEST(CheckBakedRig, JointMatrix) {
           {"scales of the other form", [](Rig& r) { r.joints.scales = zeros<float>(8); }},
           {"no values", [](Rig& r) { r.joints.values = {}; }},
           {"a part of a block", [](Rig& r) { --r.joints.values.count; }},
+          {"blocks without block rows", [](Rig& r) { r.joints.first_row_blocks = {}; }},
+          {"a block row too few", [](Rig& r) { --r.joints.first_row_blocks.count; }},
+          {"a block row that ends before it begins",
+           [](Rig& r) { r.joints.first_row_blocks[1] = 1u << 20; }},
+          {"more blocks than there are", [](Rig& r) { r.joints.row_blocks.count <<= 8; }},
+          {"a block that is none", [](Rig& r) { r.joints.row_blocks[0].block = 1u << 20; }},
+          {"an input that is no control", [](Rig& r) { r.joints.row_blocks[0].input = 0xFFFF; }},
       });
   expect_found(layers_with(false, true, [](const Rig& r) { return !r.joints.scales.empty(); }),
                {{"scales are missing", [](Rig& r) { --r.joints.scales.count; }},

@@ -140,7 +140,7 @@ class JointMatrix {
     args.stride = stride;
     args.lane_count = lane_count;
     for (uint32_t b = 0; b < block_row_count_; ++b) {
-      std::vector<BatchBlock> blocks;
+      std::vector<InputBlock> blocks;
       for_each_block([&](size_t i, size_t block, size_t block_row) {
         if (block_row == b) {
           blocks.push_back({static_cast<uint32_t>(block), static_cast<uint32_t>(i)});
@@ -159,6 +159,36 @@ class JointMatrix {
         EXPECT_EQ(sums[k * stride + sum_count() + i], 0.0f);
     }
     return result;
+  }
+
+  /// Sums of one character, all block rows in one call, from 0; nothing beside them is touched.
+  std::vector<float> run_rows(const KernelTable& kernels) {
+    const float untouched = 12345.0f;
+    std::vector<float> storage(16 + kGuard + sum_count() + kGuard, untouched), inputs;
+    float* const sums = aligned(storage.data()) + kGuard;
+    for (const JointRun& run : runs_) inputs.push_back(run.input);
+    std::vector<InputBlock> blocks(3);  // of block rows before
+    std::vector<uint32_t> first_blocks = {3};
+    for (uint32_t b = 0; b < block_row_count_; ++b) {
+      for_each_block([&](size_t i, size_t block, size_t block_row) {
+        if (block_row != b) return;
+        blocks.push_back({static_cast<uint32_t>(block), static_cast<uint32_t>(i)});
+      });
+      first_blocks.push_back(static_cast<uint32_t>(blocks.size()));
+    }
+    JointRowsArgs args = {};
+    args.values = values();
+    args.first_blocks = first_blocks.data();
+    args.blocks = blocks.data();
+    args.inputs = inputs.data();
+    args.sums = sums;
+    args.block_row_count = block_row_count_;
+    (fixed_ ? kernels.joint_rows_fixed : kernels.joint_rows)(args);
+    for (size_t i = 0; i < kGuard; ++i) {
+      EXPECT_EQ(sums[-1 - static_cast<ptrdiff_t>(i)], untouched);
+      EXPECT_EQ(sums[sum_count() + i], untouched);
+    }
+    return {sums, sums + sum_count()};
   }
 
   /// Starts from 0, with the inputs of one of the characters above.
@@ -293,6 +323,18 @@ TEST(JointColumnsKernel, CloseToDoublePrecision) {
 TEST(JointColumnsKernel, TestDataTellsTheFamiliesApart) {
   JointMatrix matrix(300, 5, false);
   EXPECT_NE(matrix.expected<float>(fused), matrix.expected<float>(rounded_twice));
+}
+
+TEST(JointRowsKernel, BitEqualToColumns) {
+  for_each_matrix([](JointMatrix& matrix, const KernelTable& kernels) {
+    for (uint32_t k : {0u, 3u}) {
+      matrix.become(k);
+      const std::vector<float> columns = matrix.run(kernels), rows = matrix.run_rows(kernels);
+      for (size_t i = 0; i < columns.size(); ++i) {
+        ASSERT_EQ(bits_of(rows[i] + 0.0f), bits_of(columns[i] + 0.0f)) << "sum " << i;
+      }
+    }
+  });
 }
 
 TEST(JointBatchKernel, BitEqualToColumns) {
