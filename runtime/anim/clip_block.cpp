@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cstring>
 
-#include "runtime/base/bits.h"
 #include "runtime/base/vectors.h"
 
 namespace mien {

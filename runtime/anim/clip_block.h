@@ -34,6 +34,7 @@
 #pragma once
 
 #include "runtime/anim/clip.h"
+#include "runtime/base/bits.h"
 
 namespace mien {
 
@@ -47,17 +48,6 @@ constexpr uint32_t kWidthBits = 5;  // at most
 constexpr uint32_t kWidthSizeBits = 3;
 
 inline uint32_t width_of_code(uint32_t code) { return code >= 31 ? 32 : code; }
-
-inline uint32_t bits_of(float value) {
-  uint32_t bits;
-  memcpy(&bits, &value, sizeof(bits));
-  return bits;
-}
-inline float float_of(uint32_t bits) {
-  float value;
-  memcpy(&value, &bits, sizeof(value));
-  return value;
-}
 
 /// Floats as numbers in the same order; -0 is just below +0.
 inline uint32_t ordered_from_bits(uint32_t bits) { return bits >> 31 ? ~bits : bits | 1u << 31; }

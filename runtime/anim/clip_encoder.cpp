@@ -5,7 +5,6 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "runtime/base/bits.h"
 
 namespace mien {
 namespace {

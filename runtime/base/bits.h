@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Sets of bits.
+// Sets of bits, and the bits of floats.
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 namespace mien {
 
@@ -36,6 +37,17 @@ inline uint32_t bit_count(uint64_t bits) {
   for (; bits != 0; bits &= bits - 1) ++count;
   return count;
 #endif
+}
+
+inline uint32_t bits_of(float value) {
+  uint32_t bits;
+  memcpy(&bits, &value, sizeof(bits));
+  return bits;
+}
+inline float float_of(uint32_t bits) {
+  float value;
+  memcpy(&value, &bits, sizeof(value));
+  return value;
 }
 
 }  // namespace mien

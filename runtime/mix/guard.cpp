@@ -94,9 +94,10 @@ void ease_guards(const float* free_row, const float* protected_row, uint32_t cou
     const float eased = held[i] + lower(higher(wanted - held[i], -max_change), max_change);
     const float change = free_row[i] - protected_row[i];
     const float now = lower(higher(eased, lower(change, 0.0f)), higher(change, 0.0f));
-    const float moved = free_row[i] - now;
     held[i] = now;
-    row[i] = now == wanted ? kept : moved;
+    // By bits: a branch would keep compilers from making vectors of the loop.
+    const uint32_t same = now == wanted ? ~0u : 0;
+    row[i] = float_of((bits_of(kept) & same) | (bits_of(free_row[i] - now) & ~same));
   }
 }
 

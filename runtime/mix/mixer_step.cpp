@@ -261,7 +261,7 @@ void hold_guards(Mixer& mixer, int64_t ticks) {
   if (mix.guards.empty()) return;
   const size_t count = mix.guarded.count;
   gather_guarded(mixer, kFree);
-  gather_guarded(mixer, kHeldBack);
+  memcpy(guarded_row(mixer, kHeldBack), guarded_row(mixer, kFree), count * sizeof(float));
   const float* const before = guarded_row(mixer, kProtected);
   float* const row = guarded_row(mixer, kHeldBack);
   const float speech = speech_weight(mixer);
