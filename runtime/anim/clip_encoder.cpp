@@ -5,7 +5,6 @@
 #include <cmath>
 #include <initializer_list>
 
-
 namespace mien {
 namespace {
 
