@@ -12,10 +12,20 @@
 #include "runtime/author/fit/procrustes.h"
 #include "runtime/author/fit/targets.h"
 #include "runtime/author/random.h"
+#include "runtime/author/weights/skin_weights.h"
 #include "tests/support/author_setup.h"
 
 namespace mien::author {
 namespace {
+
+void refit(const AuthorMesh& mesh, const Motions& motions, Span<const uint16_t> shared,
+           const ParallelFor& parallel, const SkinWeights& from, SkinWeights& out,
+           double smoothness = 0) {
+  Arena arena(default_allocator());
+  SurfaceGraph graph;
+  ASSERT_TRUE(make_surface_graph(mesh, arena, arena, graph));
+  ASSERT_TRUE(refit_weights(mesh, graph, motions, shared, smoothness, parallel, arena, from, out));
+}
 
 double difference(const Affine& a, const Affine& b) {
   double sum = length(a.shift - b.shift);
@@ -232,7 +242,7 @@ TEST(RefitWeights, WeightsThatMadeTheShapesAreFoundAgain) {
     motions.of(i / 4)[4 + i % 4].shift = moves[i];
     motions.active_in(i / 4)[4 + i % 4] = 1;
   }
-  refit_weights(setup.mesh, motions, {}, {}, setup.weights, setup.weights);
+  refit(setup.mesh, motions, {}, {}, setup.weights, setup.weights);
   for (uint16_t i = 0; i < 3; ++i) {
     EXPECT_EQ(setup.joints[i], 4 + i) << "heaviest first";
     EXPECT_NEAR(setup.weight_values[i], made[i], 0.01);
@@ -246,7 +256,7 @@ TEST(RefitWeights, WeightsStayWeights) {
   const std::vector<uint16_t> before = head.joints;
   Fitted fitted(head);
   const double error = fitted.error(head);
-  refit_weights(head.mesh, fitted.motions, {}, {}, head.weights, head.weights);
+  refit(head.mesh, fitted.motions, {}, {}, head.weights, head.weights);
   EXPECT_LT(fitted.error(head), 0.8 * error);
   for (size_t v = 0; v < head.positions.size(); ++v) {
     double sum = 0;
@@ -291,11 +301,11 @@ struct OneVertex {
 
 TEST(RefitWeights, BonesThatAreSharedTakeWhatIsTooMuch) {
   OneVertex alone({{2, 0, 0}, {4, 0, 0}}, {1, 0, 0}), helped({{2, 0, 0}, {4, 0, 0}}, {1, 0, 0});
-  refit_weights(alone.setup.mesh, alone.motions, {}, {}, alone.setup.weights, alone.setup.weights);
+  refit(alone.setup.mesh, alone.motions, {}, {}, alone.setup.weights, alone.setup.weights);
   EXPECT_EQ(alone.setup.weight_values, (std::vector<float>{1, 0})) << "the shorter motion alone";
   const uint16_t head = 2;
-  refit_weights(helped.setup.mesh, helped.motions, {&head, 1}, {}, helped.setup.weights,
-                helped.setup.weights);
+  refit(helped.setup.mesh, helped.motions, {&head, 1}, {}, helped.setup.weights,
+        helped.setup.weights);
   double moved = 0, sum = 0;
   for (uint32_t i = 0; i < 2; ++i) {
     moved += helped.setup.weight_values[i] * helped.motions.of(0)[helped.setup.joints[i]].shift.x;
@@ -313,7 +323,7 @@ TEST(RefitWeights, OfManyInfluencesThoseStayThatThereIsRoomFor) {
   std::vector<uint16_t> joints(2);
   std::vector<float> values(2);
   SkinWeights out = {{joints.data(), 2}, {values.data(), 2}, 2};
-  refit_weights(made.setup.mesh, made.motions, {}, {}, made.setup.weights, out);
+  refit(made.setup.mesh, made.motions, {}, {}, made.setup.weights, out);
   EXPECT_EQ(std::set<uint16_t>(joints.begin(), joints.end()), (std::set<uint16_t>{5, 7}));
   EXPECT_NEAR(values[0], 0.5, 0.01);
   EXPECT_NEAR(values[0] + values[1], 1, 1e-6);
@@ -325,7 +335,7 @@ TEST(RefitWeights, MotionsBeyondDoublesLeaveTheWeights) {
     std::vector<uint16_t> joints(2);
     std::vector<float> values(2);
     SkinWeights out = {{joints.data(), 2}, {values.data(), 2}, 2};
-    refit_weights(made.setup.mesh, made.motions, {}, {}, made.setup.weights, out);
+    refit(made.setup.mesh, made.motions, {}, {}, made.setup.weights, out);
     EXPECT_EQ(joints, (std::vector<uint16_t>{4, 5})) << far;
     EXPECT_EQ(values, (std::vector<float>{0.5f, 0.5f})) << far;
   }
@@ -334,8 +344,7 @@ TEST(RefitWeights, MotionsBeyondDoublesLeaveTheWeights) {
 TEST(RefitWeights, RigidVerticesStayRigid) {
   OneVertex made({{2, 0, 0}}, {1, 0, 0});
   const uint16_t head = 2;
-  refit_weights(made.setup.mesh, made.motions, {&head, 1}, {}, made.setup.weights,
-                made.setup.weights);
+  refit(made.setup.mesh, made.motions, {&head, 1}, {}, made.setup.weights, made.setup.weights);
   EXPECT_EQ(made.setup.joints[0], 4);
   EXPECT_EQ(made.setup.weight_values[0], 1);
 }
@@ -355,7 +364,7 @@ TEST(FitShapes, ErrorsFallWithRotationsAlternationsAndBones) {
   EXPECT_LT(Fitted(many).error(many), 1.02 * turned_error);
   double last = turned_error;
   for (int i = 0; i < 3; ++i) {
-    refit_weights(few.mesh, turned_too.motions, {}, {}, few.weights, few.weights);
+    refit(few.mesh, turned_too.motions, {}, {}, few.weights, few.weights);
     fit_all(turned_too.fitter, few.mesh, few.placement, few.weights, false, {}, turned_too.motions);
     const double error = turned_too.error(few);
     EXPECT_LT(error, 1.02 * last);
@@ -374,8 +383,8 @@ TEST(FitShapes, AnUnusedControlChangesNothing) {
   for (size_t i = 0; i < a.motions.items.count; ++i) {
     EXPECT_EQ(difference(a.motions.items[i], b.motions.items[i]), 0);
   }
-  refit_weights(head.mesh, a.motions, {}, {}, head.weights, head.weights);
-  refit_weights(more.mesh, b.motions, {}, {}, more.weights, more.weights);
+  refit(head.mesh, a.motions, {}, {}, head.weights, head.weights);
+  refit(more.mesh, b.motions, {}, {}, more.weights, more.weights);
   EXPECT_EQ(head.weight_values, more.weight_values);
 }
 
@@ -423,8 +432,8 @@ TEST(FitShapes, OrderOfVerticesUnitAndPlaceDoNotMatter) {
       for (int r = 0; r < 3; ++r) EXPECT_LT(length(x.rows[r] - y.rows[r]), 1e-3);
       EXPECT_LT(length((x(at) - at) * scale - (y(there) - there)), 1e-4 * other.mesh.diagonal);
     }
-    refit_weights(head.mesh, a.motions, {}, {}, head.weights, head.weights);
-    refit_weights(other.mesh, b.motions, {}, {}, other.weights, other.weights);
+    refit(head.mesh, a.motions, {}, {}, head.weights, head.weights);
+    refit(other.mesh, b.motions, {}, {}, other.weights, other.weights);
     fit_all(a.fitter, head.mesh, head.placement, head.weights, false, {}, a.motions);
     fit_all(b.fitter, other.mesh, other.placement, other.weights, false, {}, b.motions);
   }
@@ -441,8 +450,8 @@ TEST(FitShapes, TheOrderOfTasksDoesNotMatter) {
   make_author_head(6, 16, 4, 1, b);
   const ParallelFor backwards = {nullptr, run_backwards};
   Fitted x(a), y(b, {}, backwards);
-  refit_weights(a.mesh, x.motions, {}, {}, a.weights, a.weights);
-  refit_weights(b.mesh, y.motions, {}, backwards, b.weights, b.weights);
+  refit(a.mesh, x.motions, {}, {}, a.weights, a.weights);
+  refit(b.mesh, y.motions, {}, backwards, b.weights, b.weights);
   fit_all(x.fitter, a.mesh, a.placement, a.weights, false, {}, x.motions);
   fit_all(y.fitter, b.mesh, b.placement, b.weights, false, backwards, y.motions);
   EXPECT_EQ(a.weight_values, b.weight_values);
@@ -489,6 +498,29 @@ TEST(MakeTargets, OffsetsBelowTheThresholdAreLeftOut) {
       measure_fit(head.mesh, head.weights, fitted.motions, targets, {}, fitted.arena, error));
   // What is left out is short; skinning may turn it but hardly stretches it.
   EXPECT_LT(error.max, 1.05e-3);
+}
+
+TEST(RefitWeights, SmoothnessDrawsNeighborsTogether) {
+  const auto roughness = [](double smoothness, double* error) {
+    AuthorSetup head;
+    make_author_head(5, 40, 6, 1, head);
+    Fitted fitted(head);
+    refit(head.mesh, fitted.motions, {}, {}, head.weights, head.weights, smoothness);
+    WeightReport report;
+    EXPECT_TRUE(
+        measure_weights(head.mesh, head.placement, head.weights, default_allocator(), report));
+    EXPECT_LE(report.worst_sum, 1e-6);
+    EXPECT_LE(report.max_influences, 6u);
+    *error = fitted.error(head);
+    return report.roughness;
+  };
+  double without = 0, with = 0, more = 0;
+  const double rough = roughness(0, &without), smooth = roughness(0.5, &with);
+  EXPECT_LT(smooth, 0.85 * rough);
+  EXPECT_LT(roughness(5, &more), smooth);
+  EXPECT_LT(without, with) << "it costs";
+  EXPECT_LT(with, 1.5 * without);
+  EXPECT_LT(with, more);
 }
 
 }  // namespace

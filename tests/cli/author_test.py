@@ -247,6 +247,31 @@ class AuthorTest(ProgramTest):
         self.assertEqual(report["mesh"]["objects"], 2)
         self.assertIn("brow", " ".join(self.names("out.dna", "meshes")))
 
+    def test_shapes_of_another_mesh_are_noted(self):
+        options = ("--joints", "10", "--lods", "1", "-o", path("odd.dna"))
+        self.assertNotIn("is it of this mesh", run("author", path("head.glb"), *options).stderr)
+        # The same numbers of positions, but of others.
+        count = len(POSITIONS)
+        most = sorted(range(count), key=lambda v: sum(x * x for x in SHAPES["smile"][v]))[-count // 10:]
+        others = random.Random(3).sample(range(count), len(most))
+        moved = {to: SHAPES["smile"][v] for v, to in zip(most, others)}
+        os.makedirs(path("foreign"), exist_ok=True)
+        write("foreign/smile.target", "".join(f"{v} {d[0]} {d[1]} {d[2]}\n" for v, d in moved.items()))
+        done = run("author", path("head.obj"), "--shapes", path("foreign"), *options)
+        self.assertIn("shape smile moves neighbors in different directions", done.stderr)
+
+    def test_further_lods_keep_the_share_of_triangles_that_is_asked_for(self):
+        for share, low, high in (("0.5", 0.49, 0.52), ("0.2", 0.19, 0.22), ("1", 1, 1)):
+            report = self.author(path("head.glb"), "--joints", "20", "--lods", "2",
+                                 "--lod-triangles", share)
+            fine, coarse = report["lods"]
+            self.assertTrue(low <= coarse["triangles"] / fine["triangles"] <= high)
+            self.assertEqual(coarse["vertices"] < fine["vertices"], share != "1")
+            self.assertEqual(coarse["surface_rms"] > 0, share != "1")
+        for wrong in ("0", "-1", "1.5", "nan", "half", ""):
+            self.fails(USAGE, "author", path("head.glb"), "--lod-triangles", wrong, "-o", path("no.dna"),
+                       says="--lod-triangles")
+
     def pictures(self, name):
         return sorted(os.listdir(path(name)))
 

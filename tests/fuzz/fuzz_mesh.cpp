@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "capi/mien_author.h"
+#include "integrations/cli/commands/mesh_view.h"
 #include "integrations/cli/io/failure.h"
 #include "integrations/cli/io/input.h"
-#include "integrations/cli/mesh/mesh_file.h"
 #include "tests/fuzz/time_limit.h"
 #include "tests/support/counting_allocator.h"
 #include "tests/support/cpu_time.h"
@@ -231,32 +231,7 @@ void exercise(const MienDna* dna) {
 }
 
 void rig_mesh(const MeshFile& file, uint8_t options, uint8_t more) {
-  std::vector<MienAuthorObject> objects;
-  std::vector<MienAuthorShape> shapes;
-  for (const cli::MeshObject& object : file.objects) {
-    objects.push_back(
-        {{object.name.data(), object.name.size()}, object.first_face, object.face_count});
-  }
-  for (const MeshShape& shape : file.shapes) {
-    shapes.push_back({{shape.name.data(), shape.name.size()},
-                      shape.vertices.empty() ? nullptr : shape.vertices.data(),
-                      shape.displacements.size() / 3,
-                      shape.displacements.data()});
-  }
-  MienAuthorMesh mesh = mien_author_mesh_default();
-  mesh.positions = file.positions.data();
-  mesh.position_count = file.position_count();
-  mesh.face_sizes = file.face_sizes.data();
-  mesh.face_count = file.face_sizes.size();
-  mesh.corners = file.corners.data();
-  mesh.corner_count = file.corners.size();
-  mesh.uvs = file.uvs.data();
-  mesh.uv_count = file.uvs.size() / 2;
-  mesh.corner_uvs = file.corner_uvs.empty() ? nullptr : file.corner_uvs.data();
-  mesh.objects = objects.data();
-  mesh.object_count = objects.size();
-  mesh.shapes = shapes.data();
-  mesh.shape_count = shapes.size();
+  const cli::MeshView view(file);
   CountingAllocator heap;
   heap.limit = kMaxMemory;
   if (options >= 240) heap.fail_at = 1 + size_t{more} * 3;
@@ -272,7 +247,7 @@ void rig_mesh(const MeshFile& file, uint8_t options, uint8_t more) {
   MienDna* dna = nullptr;
   MienAuthorReport* report = nullptr;
   MienError error = mien_error_default();
-  const MienStatus status = mien_author_rig(&mesh, &desc, &dna, &report, &error);
+  const MienStatus status = mien_author_rig(&view.mesh, &desc, &dna, &report, &error);
   if (status == MIEN_OK) {
     MienStringView json;
     require(mien_author_report_json(report, &json) == MIEN_OK, "a report");

@@ -9,13 +9,13 @@
 
 #include "capi/mien_author.h"
 #include "integrations/cli/commands/author_images.h"
+#include "integrations/cli/commands/mesh_view.h"
 #include "integrations/cli/commands/options.h"
 #include "integrations/cli/io/input.h"
 #include "integrations/cli/io/output.h"
 #include "integrations/cli/io/text.h"
 #include "integrations/cli/io/thread_pool.h"
 #include "integrations/cli/io/write_dna.h"
-#include "integrations/cli/mesh/mesh_file.h"
 #include "integrations/cli/render/png.h"
 
 namespace mien::cli {
@@ -160,39 +160,6 @@ void crop_mesh(const Crop& crop, const std::string& path, MeshFile& mesh) {
   mesh.objects = std::move(kept.objects);
 }
 
-/// The mesh as the library takes it; refers to `file`.
-struct MeshView {
-  MienAuthorMesh mesh = sized<MienAuthorMesh>();
-  std::vector<MienAuthorObject> objects;
-  std::vector<MienAuthorShape> shapes;
-
-  explicit MeshView(const MeshFile& file) {
-    for (const MeshObject& object : file.objects) {
-      objects.push_back(
-          {{object.name.data(), object.name.size()}, object.first_face, object.face_count});
-    }
-    for (const MeshShape& shape : file.shapes) {
-      shapes.push_back({{shape.name.data(), shape.name.size()},
-                        shape.vertices.empty() ? nullptr : shape.vertices.data(),
-                        shape.displacements.size() / 3,
-                        shape.displacements.data()});
-    }
-    mesh.positions = file.positions.data();
-    mesh.position_count = file.position_count();
-    mesh.face_sizes = file.face_sizes.data();
-    mesh.face_count = file.face_sizes.size();
-    mesh.corners = file.corners.data();
-    mesh.corner_count = file.corners.size();
-    mesh.uvs = file.uvs.data();
-    mesh.uv_count = file.uvs.size() / 2;
-    mesh.corner_uvs = file.corner_uvs.empty() ? nullptr : file.corner_uvs.data();
-    mesh.objects = objects.data();
-    mesh.object_count = objects.size();
-    mesh.shapes = shapes.data();
-    mesh.shape_count = shapes.size();
-  }
-};
-
 /// Progress on the terminal, and the time of each step.
 struct Watch {
   using Clock = std::chrono::steady_clock;
@@ -265,11 +232,17 @@ Made make_rig(const AuthorCommand& command, MienAuthorDesc desc, const MeshFile&
 }
 
 /// Hints about what is not wrong, but rarely meant.
-void note_oddities(const AuthorCommand& command, const Json& report, const Session& session) {
+void note_oddities(const AuthorCommand& command, const MeshFile& mesh, const Json& report,
+                   const Session& session) {
   const double size = report["mesh"]["diagonal"].get<double>();
   if (size < 10 || size > 300) {
     note(session, "the face's mesh measures " + std::to_string(size) +
                       " cm from corner to corner; choose the unit with --unit");
+  }
+  for (const MeshShape& shape : mesh.shapes) {
+    if (find_incoherence(mesh, shape) < 0.5) continue;
+    note(session,
+         "shape " + shape.name + " moves neighbors in different directions; is it of this mesh?");
   }
   const double next = report["mesh"]["next_area"].get<double>();
   if (next > 0.5) {
@@ -350,7 +323,7 @@ void run(const AuthorCommand& command, const Session& session) {
   if (command.unit.empty()) desc.unit = file.in_meters ? 100 : 1;
 
   Made made = make_rig(command, desc, file, session);
-  note_oddities(command, made.report, session);
+  note_oddities(command, file, made.report, session);
   std::vector<AuthorImage> made_images;
   if (!command.images.empty()) made_images = draw_images(command, desc, file, made, session);
   interrupt.reset();  // files that are being written have a handler of their own

@@ -67,8 +67,13 @@ void Source::paint_eyes() {
 }
 
 void Source::find_points() {
-  math::Box face, near;
+  math::Box face, near, all;
   for (const uint32_t v : mask_) face.add(position(v));
+  for (const Object& object : objects_) {
+    for (const uint32_t v : object.triangles) all.add(position(v));
+  }
+  // A face may be little of a head, as that of an animal with a long muzzle.
+  const bool is_head = face.empty() || length(all.size()) < 4 * length(face.size());
   const Vec3 margin = face.size() * 0.85f;
   near.add(face.min - margin);
   near.add(face.max + margin);
@@ -77,7 +82,7 @@ void Source::find_points() {
       const Vec3 p = position(v);
       const bool inside = p.x >= near.min.x && p.y >= near.min.y && p.z >= near.min.z &&
                           p.x <= near.max.x && p.y <= near.max.y && p.z <= near.max.z;
-      if (inside || face.empty()) points_.push_back(p);
+      if (inside || is_head) points_.push_back(p);
     }
   }
 }

@@ -203,4 +203,26 @@ std::vector<MeshShape> read_shapes(const std::string& path, const MeshFile& mesh
   return std::move(other.shapes);
 }
 
+double find_incoherence(const MeshFile& mesh, const MeshShape& shape) {
+  std::vector<double> moved(mesh.positions.size());
+  for (size_t i = 0; i < shape.displacements.size() / 3; ++i) {
+    const size_t v = shape.vertices.empty() ? i : shape.vertices[i];
+    std::copy_n(&shape.displacements[3 * i], 3, &moved[3 * v]);
+  }
+  double apart = 0, all = 0;
+  size_t first = 0;
+  for (const uint32_t size : mesh.face_sizes) {
+    for (size_t k = 0; k < size; ++k) {
+      const double* a = &moved[3 * size_t{mesh.corners[first + k]}];
+      const double* b = &moved[3 * size_t{mesh.corners[first + (k + 1) % size]}];
+      for (int i = 0; i < 3; ++i) {
+        apart += (a[i] - b[i]) * (a[i] - b[i]);
+        all += a[i] * a[i] + b[i] * b[i];
+      }
+    }
+    first += size;
+  }
+  return all > 0 ? apart / all : 0;
+}
+
 }  // namespace mien::cli

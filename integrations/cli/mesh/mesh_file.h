@@ -40,6 +40,10 @@ MeshFile read_mesh_file(const std::string& path);
 /// .mshp; the morph targets of a GLB with the same positions.
 std::vector<MeshShape> read_shapes(const std::string& path, const MeshFile& mesh);
 
+/// How much neighbors move apart in a shape: near 0 where they move together, 1 where they have nothing
+/// to do with each other, as in a shape of another mesh.
+double find_incoherence(const MeshFile& mesh, const MeshShape& shape);
+
 // Of each format; `path` is for messages ----------------------------------------------------------
 
 MeshFile read_obj(const std::string& bytes, const std::string& path);

@@ -8,6 +8,7 @@
 
 #include "runtime/author/fit/footprints.h"
 #include "runtime/author/joint_motion.h"
+#include "runtime/author/mesh/topology.h"
 
 namespace mien::author {
 
@@ -15,8 +16,10 @@ struct FitOptions {
   bool rotations = true;
   uint32_t sweeps = 4;        // of block descent over the bones
   uint32_t alternations = 2;  // refits of the weights, each followed by a new fit; 0 keeps weights
-  double support = 1e-3;      // share of the largest energy from which on a bone moves with a shape
-  double max_degrees = 30;    // rotation of a facial bone by one shape
+  double smoothness = 0.17;   // of the weights of LOD 0, for each edge between two bones
+  double lod_smoothness = 0.05;  // of further LODs, whose joints have more to make up for
+  double support = 1e-3;    // share of the largest energy from which on a bone moves with a shape
+  double max_degrees = 30;  // rotation of a facial bone by one shape
 };
 
 struct Motions {
@@ -70,10 +73,21 @@ void fit_all(Fitter& fitter, const AuthorMesh& mesh, const Placement& placement,
 
 /// Weights of each vertex that bring it closest to its displacements, all shapes together: not
 /// negative, summing to one, drawn to what they were. Of its influences in `from` and the `shared`
-/// bones those stay that `out` has room for; vertices of one influence are left rigid. `out` may be
-/// `from`.
+/// bones those stay that `out` has room for; vertices of one influence are left rigid. With
+/// `smoothness` they are drawn to those of their neighbors, the more the higher it is. `out` may be
+/// `from`. False if memory ran out.
 constexpr uint32_t kMaxSharedBones = 4;
-void refit_weights(const AuthorMesh& mesh, const Motions& motions, Span<const uint16_t> shared,
-                   const ParallelFor& parallel, const SkinWeights& from, SkinWeights& out);
+bool refit_weights(const AuthorMesh& mesh, const SurfaceGraph& graph, const Motions& motions,
+                   Span<const uint16_t> shared, double smoothness, const ParallelFor& parallel,
+                   Arena& scratch, const SkinWeights& from, SkinWeights& out);
+
+/// The weights of LOD 0, as smooth as the options say, and every bone's in one piece.
+bool refit_finest(const AuthorMesh& mesh, const Placement& placement, const Motions& motions,
+                  Span<const uint16_t> shared, const FitOptions& options,
+                  const ParallelFor& parallel, const Allocator& allocator, SkinWeights& weights);
+/// Those of a further LOD.
+bool refit_lod(const AuthorMesh& mesh, const Motions& motions, Span<const uint16_t> shared,
+               const FitOptions& options, const ParallelFor& parallel, const Allocator& allocator,
+               const SkinWeights& from, SkinWeights& out);
 
 }  // namespace mien::author

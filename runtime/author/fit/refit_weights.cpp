@@ -2,8 +2,9 @@
 #include <algorithm>
 
 #include "runtime/author/cholesky.h"
+#include "runtime/author/dna_making.h"
 #include "runtime/author/fit/fit_shapes.h"
-#include "runtime/author/weights/skin_weights.h"
+#include "runtime/author/weights/carriers.h"
 
 namespace mien::author {
 
@@ -12,6 +13,11 @@ namespace {
 constexpr uint32_t kMaxInfluences = 16;
 static_assert(kMaxInfluences >= kMaxAuthorInfluences + kMaxSharedBones, "");
 constexpr uint32_t kVertexBlock = 1024;
+// Rounds after the first, in which vertices are drawn to what their neighbors got in the one before.
+constexpr uint32_t kSmoothRounds = 4;
+// What hardly moves is smoothed as if it moved by this much of what vertices do in the mean: there
+// shapes tell little about weights.
+constexpr double kTypical = 4;
 
 /// Least squares over few unknowns that may not become negative: x^T matrix x / 2 - right^T x.
 struct SmallSystem {
@@ -126,11 +132,40 @@ bool store(const VertexWeights& w, uint32_t vertex, SkinWeights& out) {
 
 struct RefitTask {
   const AuthorMesh& mesh;
+  const SurfaceGraph& graph;
   const Motions& motions;
   Span<const uint16_t> shared;
   const SkinWeights& from;
+  SkinWeights before;  // of the last round; empty in the first
+  double smoothness = 0;
+  double typical = 0;  // squared displacements of a vertex, all shapes together, in the mean
   SkinWeights& out;
 };
+
+double weight_of(const SkinWeights& weights, uint32_t vertex, uint16_t joint) {
+  for (size_t i = size_t{vertex} * weights.m; i < size_t{vertex + 1} * weights.m; ++i) {
+    if (weights.joints[i] == joint && weights.weights[i] > 0) return double{weights.weights[i]};
+  }
+  return 0;
+}
+
+/// What the neighbors have of each joint, in the mean. False without neighbors.
+bool find_neighbors_mean(const RefitTask& task, uint32_t v, const VertexWeights& w, double* mean) {
+  const uint32_t place = task.mesh.welded[v];
+  const uint32_t first = task.graph.starts[place], end = task.graph.starts[place + 1];
+  if (first == end) return false;
+  double sum = 0;
+  for (uint32_t i = 0; i < w.system.size; ++i) mean[i] = 0;
+  for (uint32_t e = first; e < end; ++e) {
+    const double share = 1 / task.graph.lengths[e];
+    sum += share;
+    for (uint32_t i = 0; i < w.system.size; ++i) {
+      mean[i] += share * weight_of(task.before, task.graph.neighbors[e], w.joints[i]);
+    }
+  }
+  for (uint32_t i = 0; i < w.system.size; ++i) mean[i] /= sum;
+  return true;
+}
 
 /// What all shapes ask of the vertex. False if no bone of its own moves.
 bool sum_shapes(const RefitTask& task, uint32_t v, VertexWeights& w) {
@@ -156,10 +191,14 @@ bool sum_shapes(const RefitTask& task, uint32_t v, VertexWeights& w) {
   for (uint32_t i = 0; i < s.size; ++i) trace += s.matrix[i][i];
   if (!(trace > 0)) return false;
   const double scale = trace / s.size, sum_row = 100.0 * 100.0 * scale, pull = 0.05 * 0.05 * scale;
+  double mean[kMaxInfluences];
+  const double smooth = task.before.m > 0 && find_neighbors_mean(task, v, w, mean)
+                            ? task.smoothness * (scale + kTypical * task.typical)
+                            : 0;
   for (uint32_t i = 0; i < s.size; ++i) {
-    s.right[i] += sum_row + pull * w.x[i];
+    s.right[i] += sum_row + pull * w.x[i] + (smooth > 0 ? smooth * mean[i] : 0);
     for (uint32_t k = 0; k <= i; ++k) {
-      s.matrix[i][k] += sum_row + (i == k ? pull : 0);
+      s.matrix[i][k] += sum_row + (i == k ? pull + smooth : 0);
       s.matrix[k][i] = s.matrix[i][k];
     }
   }
@@ -203,19 +242,89 @@ void refit_vertex(const RefitTask& task, uint32_t v) {
 
 }  // namespace
 
-void refit_weights(const AuthorMesh& mesh, const Motions& motions, Span<const uint16_t> shared,
-                   const ParallelFor& parallel, const SkinWeights& from, SkinWeights& out) {
-  RefitTask task = {mesh, motions, shared, from, out};
+bool refit_weights(const AuthorMesh& mesh, const SurfaceGraph& graph, const Motions& motions,
+                   Span<const uint16_t> shared, double smoothness, const ParallelFor& parallel,
+                   Arena& scratch, const SkinWeights& from, SkinWeights& out) {
+  SkinWeights given = from, before;
+  before.m = out.m;
+  if (!make(scratch, from.joints.count, given.joints) ||
+      !make(scratch, from.weights.count, given.weights) ||
+      !make(scratch, out.joints.count, before.joints) ||
+      !make(scratch, out.weights.count, before.weights)) {
+    return false;
+  }
+  std::copy(from.joints.begin(), from.joints.end(), given.joints.begin());
+  std::copy(from.weights.begin(), from.weights.end(), given.weights.begin());
+  RefitTask task = {mesh, graph, motions, shared, given, {}, smoothness, 0, out};
+  for (const Shape& shape : mesh.shapes) {
+    for (const uint32_t v : shape.moving) {
+      const Vec3f d = shape.displacements[v];
+      task.typical += double{d.x} * d.x + double{d.y} * d.y + double{d.z} * d.z;
+    }
+  }
+  task.typical /= static_cast<double>(mesh.positions.count);
   const uint32_t count = static_cast<uint32_t>(mesh.positions.count);
-  run_tasks(
-      parallel, (count + kVertexBlock - 1) / kVertexBlock,
-      [](void* context, uint32_t block) {
-        const RefitTask& t = *static_cast<const RefitTask*>(context);
-        const uint32_t end = std::min<uint32_t>(static_cast<uint32_t>(t.mesh.positions.count),
-                                                (block + 1) * kVertexBlock);
-        for (uint32_t v = block * kVertexBlock; v < end; ++v) refit_vertex(t, v);
-      },
-      &task);
+  const uint32_t rounds = smoothness > 0 ? kSmoothRounds : 0;
+  for (uint32_t round = 0; round <= rounds; ++round) {
+    if (round > 0) {
+      std::copy(out.joints.begin(), out.joints.end(), before.joints.begin());
+      std::copy(out.weights.begin(), out.weights.end(), before.weights.begin());
+      task.before = before;
+    }
+    run_tasks(
+        parallel, (count + kVertexBlock - 1) / kVertexBlock,
+        [](void* context, uint32_t block) {
+          const RefitTask& t = *static_cast<const RefitTask*>(context);
+          const uint32_t end = std::min<uint32_t>(static_cast<uint32_t>(t.mesh.positions.count),
+                                                  (block + 1) * kVertexBlock);
+          for (uint32_t v = block * kVertexBlock; v < end; ++v) refit_vertex(t, v);
+        },
+        &task);
+  }
+  return true;
+}
+
+namespace {
+
+/// Of the edges of the mask.
+double mean_length(const Placement& placement, const SurfaceGraph& graph, double otherwise) {
+  double sum = 0;
+  size_t count = 0;
+  for (const uint32_t v : placement.mask) {
+    for (uint32_t e = graph.starts[v]; e < graph.starts[v + 1]; ++e) sum += graph.lengths[e];
+    count += graph.starts[v + 1] - graph.starts[v];
+  }
+  return sum > 0 ? sum / static_cast<double>(count) : otherwise;
+}
+
+}  // namespace
+
+bool refit_finest(const AuthorMesh& mesh, const Placement& placement, const Motions& motions,
+                  Span<const uint16_t> shared, const FitOptions& options,
+                  const ParallelFor& parallel, const Allocator& allocator, SkinWeights& weights) {
+  Arena scratch(allocator);
+  SurfaceGraph graph;
+  double spacing = 0;
+  if (!make_surface_graph(mesh, scratch, scratch, graph) ||
+      !find_median_spacing(placement, placement.facial_count, mesh.diagonal, scratch, spacing)) {
+    return false;
+  }
+  // The more edges lie between two bones, the less may change along each.
+  const double edges = spacing / mean_length(placement, graph, mesh.diagonal);
+  return refit_weights(mesh, graph, motions, shared, options.smoothness * edges, parallel, scratch,
+                       weights, weights) &&
+         connect_supports(mesh, graph, placement, bone_of_kind(placement, BoneKind::kHead, 0),
+                          scratch, weights);
+}
+
+bool refit_lod(const AuthorMesh& mesh, const Motions& motions, Span<const uint16_t> shared,
+               const FitOptions& options, const ParallelFor& parallel, const Allocator& allocator,
+               const SkinWeights& from, SkinWeights& out) {
+  Arena scratch(allocator);
+  SurfaceGraph graph;
+  return make_surface_graph(mesh, scratch, scratch, graph) &&
+         refit_weights(mesh, graph, motions, shared, options.lod_smoothness, parallel, scratch,
+                       from, out);
 }
 
 }  // namespace mien::author

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "runtime/author/dna_making.h"
-#include "runtime/author/mesh/point_tree.h"
+#include "runtime/author/mesh/surface_tree.h"
 
 namespace mien::author {
 
@@ -135,35 +135,25 @@ Status group_in_depth(Placing& placing) {
 
 namespace {
 
-/// Places that a shape moves by more than the least amount; null if memory ran out.
-Status find_moving(Placing& placing, Span<uint8_t>& out) {
+/// Places of which a copy is in the caller's mask; without one, those that a shape moves by more than
+/// the least amount.
+Status mark_places(Placing& placing, Span<uint8_t>& out) {
   const AuthorMesh& mesh = placing.mesh;
-  Span<uint8_t> moves;
-  if (!make(placing.scratch, mesh.positions.count, moves) ||
-      !make(placing.scratch, placing.skin.count, out)) {
-    return no_memory(placing);
-  }
-  const double least = kMoves * mesh.diagonal;
-  for (const Shape& shape : mesh.shapes) {
-    for (uint32_t v : shape.moving) {
-      const Vec3f d = shape.displacements[v];
-      if (length({d.x, d.y, d.z}) > least) moves[mesh.welded[v]] = 1;
-    }
-  }
-  for (size_t i = 0; i < placing.skin.count; ++i) out[i] = moves[placing.skin[i]];
-  return Status::kOk;
-}
-
-/// Places of which a copy is in the caller's mask.
-Status take_mask(Placing& placing, Span<uint8_t>& out) {
-  const AuthorMesh& mesh = placing.mesh;
+  const Span<const uint8_t> own = placing.options.own_mask;
   Span<uint8_t> marked;
   if (!make(placing.scratch, mesh.positions.count, marked) ||
       !make(placing.scratch, placing.skin.count, out)) {
     return no_memory(placing);
   }
-  for (size_t v = 0; v < marked.count; ++v) {
-    if (placing.options.own_mask[v]) marked[mesh.welded[v]] = 1;
+  for (size_t v = 0; v < own.count; ++v) {
+    if (own[v]) marked[mesh.welded[v]] = 1;
+  }
+  const double least = kMoves * mesh.diagonal;
+  for (size_t s = 0; s < mesh.shapes.count && own.empty(); ++s) {
+    for (const uint32_t v : mesh.shapes[s].moving) {
+      const Vec3f d = mesh.shapes[s].displacements[v];
+      if (length({d.x, d.y, d.z}) > least) marked[mesh.welded[v]] = 1;
+    }
   }
   for (size_t i = 0; i < placing.skin.count; ++i) out[i] = marked[placing.skin[i]];
   return Status::kOk;
@@ -204,9 +194,9 @@ Status find_mask(Placing& placing) {
   };
   Span<uint8_t> moving, given;
   if (!options.own_mask.empty()) {
-    if (Status status = take_mask(placing, given); status != Status::kOk) return status;
+    if (Status status = mark_places(placing, given); status != Status::kOk) return status;
   } else if (!placing.mesh.shapes.empty() && !options.paper) {
-    if (Status status = find_moving(placing, moving); status != Status::kOk) return status;
+    if (Status status = mark_places(placing, moving); status != Status::kOk) return status;
   }
   if (options.mask_from_shapes && given.empty()) {
     if (moving.empty()) {
@@ -241,78 +231,28 @@ Status find_mask(Placing& placing) {
   return Status::kOk;
 }
 
-namespace {
-
-/// Squared distance of `p` to the triangle.
-double squared_distance_to(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
-  const auto to = [&](Vec3 q) { return dot(p - q, p - q); };
-  const Vec3 ab = b - a, ac = c - a, ap = p - a;
-  const Vec3 normal = cross(ab, ac);
-  const double area = dot(normal, normal);
-  if (area > 0) {
-    const double v = dot(cross(ap, ac), normal) / area, w = dot(cross(ab, ap), normal) / area;
-    if (v >= 0 && w >= 0 && v + w <= 1) {
-      const double height = dot(ap, normal);
-      return height * height / area;
-    }
-  }
-  double best = to(a);
-  const Vec3 ends[3][2] = {{a, b}, {b, c}, {c, a}};
-  for (const auto& end : ends) {
-    const Vec3 along = end[1] - end[0];
-    const double size = dot(along, along);
-    double t = size > 0 ? dot(p - end[0], along) / size : 0;
-    t = t < 0 ? 0 : t > 1 ? 1 : t;
-    best = std::min(best, to(end[0] + along * t));
-  }
-  return best;
-}
-
-}  // namespace
-
 Status find_symmetry(Placing& placing) {
   if (placing.options.paper || placing.options.symmetry == Symmetry::kOff) return Status::kOk;
   const AuthorMesh& mesh = placing.mesh;
-  // Triangles around each place.
-  Span<uint32_t> starts, around;
-  PointTree tree;
-  if (!make(placing.scratch, mesh.positions.count + 1, starts) ||
-      !make(placing.scratch, mesh.triangles.count, around) ||
-      !tree.build(placing.points, placing.scratch)) {
+  Span<uint32_t> triangles;
+  SurfaceTree surface;
+  if (!make(placing.scratch, mesh.triangles.count, triangles)) return no_memory(placing);
+  size_t count = 0;
+  for (size_t t = 0; t < mesh.triangles.count; t += 3) {
+    if (!mesh.is_skin[mesh.triangles[t]]) continue;
+    for (size_t k = 0; k < 3; ++k) triangles[count++] = mesh.triangles[t + k];
+  }
+  if (count == 0) return Status::kOk;
+  if (!surface.build(mesh.positions, triangles.first(count), placing.scratch)) {
     return no_memory(placing);
   }
-  const auto first_at = [&](size_t corner) { return mesh.welded[mesh.triangles[corner]]; };
-  for (size_t c = 0; c < mesh.triangles.count; ++c) ++starts[first_at(c) + 1];
-  for (size_t v = 0; v + 1 < starts.count; ++v) starts[v + 1] += starts[v];
-  for (size_t c = mesh.triangles.count; c-- > 0;) {
-    around[--starts[first_at(c) + 1]] = static_cast<uint32_t>(c / 3);
-  }
-  // starts[v + 1] is now where the triangles of v begin; the next entry is where they end.
-  const auto begin_of = [&](uint32_t v) { return starts[v + 1]; };
-  const auto end_of = [&](uint32_t v) {
-    return v + 2 < starts.count ? starts[v + 2] : static_cast<uint32_t>(around.count);
-  };
   double sum = 0;
   Vec3 low = placing.points[placing.mask[0]], high = low;
   for (uint32_t i : placing.mask) {
     const Vec3 p = placing.points[i];
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    const Vec3 mirrored = {2 * placing.plane - p.x, p.y, p.z};
-    constexpr uint32_t kNearest = 4;
-    Near near[kNearest];
-    const uint32_t found = tree.nearest(mirrored, kNearest, near);
-    double best = near[0].squared_distance;
-    for (uint32_t f = 0; f < found && best > 0; ++f) {
-      const uint32_t v = placing.skin[near[f].point];
-      for (uint32_t t = begin_of(v); t < end_of(v); ++t) {
-        const uint32_t* corner = mesh.triangles.data + size_t{3} * around[t];
-        best = std::min(best,
-                        squared_distance_to(mirrored, mesh.positions[corner[0]],
-                                            mesh.positions[corner[1]], mesh.positions[corner[2]]));
-      }
-    }
-    sum += std::sqrt(best);
+    sum += surface.distance({2 * placing.plane - p.x, p.y, p.z});
   }
   placing.report.symmetry_error =
       sum / static_cast<double>(placing.mask.count) / length(high - low);

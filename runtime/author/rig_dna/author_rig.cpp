@@ -75,7 +75,7 @@ class RigMaker {
   }
 
   /// The head's joint, which stays where it is, and the jaw's may carry every vertex.
-  void refit(const AuthorMesh& mesh, const SkinWeights& from, SkinWeights& out) {
+  bool refit(const AuthorMesh& mesh, const SkinWeights& from, SkinWeights& out) {
     uint16_t shared[kMaxSharedBones];
     uint32_t count = 0;
     for (uint32_t j = 0; j < placement_.bones.count && count < kMaxSharedBones; ++j) {
@@ -83,7 +83,10 @@ class RigMaker {
       if (kind != BoneKind::kHead && kind != BoneKind::kJaw) continue;
       shared[count++] = static_cast<uint16_t>(j);
     }
-    refit_weights(mesh, motions_, {shared, count}, options_.parallel, from, out);
+    return &mesh == &mesh_ ? refit_finest(mesh, placement_, motions_, {shared, count}, options_.fit,
+                                          options_.parallel, allocator_, out)
+                           : refit_lod(mesh, motions_, {shared, count}, options_.fit,
+                                       options_.parallel, allocator_, from, out);
   }
 
   /// From here on the shapes of `mesh_` are the expressions.
@@ -135,8 +138,7 @@ class RigMaker {
     groups.before = report_.rotations;
     for (uint32_t i = 0; i < options_.fit.alternations && !options_.keep_weights; ++i) {
       if (!starts("weights")) return false;
-      refit(mesh_, weights, weights);
-      if (!fit_again(groups.before)) return false;
+      if (!refit(mesh_, weights, weights) || !fit_again(groups.before)) return false;
     }
 
     if (!starts("groups") || !group_bones(fitter.footprints)) return false;
@@ -151,7 +153,7 @@ class RigMaker {
     if (!measure(weights, {}, groups.removed)) return false;
     fit_all(fitter, mesh_, placement_, weights, true, options_.parallel, motions_);
     if (!options_.keep_weights && options_.fit.alternations > 0) {
-      refit(mesh_, weights, weights);
+      if (!refit(mesh_, weights, weights)) return false;
       fit_all(fitter, mesh_, placement_, weights, true, options_.parallel, motions_);
     }
     // From here on motions are what the numbers of the file mean.
@@ -180,7 +182,7 @@ class RigMaker {
     }
     if (!starts("weights") || !measure(weights, {}, report_.translations)) return false;
     report_.rotations = report_.translations;
-    if (!options_.keep_weights) refit(mesh_, weights, weights);
+    if (!options_.keep_weights && !refit(mesh_, weights, weights)) return false;
     Arena for_regions(allocator_);
     Footprints footprints;
     if (!starts("groups") ||
@@ -234,8 +236,9 @@ class RigMaker {
     report.new_error = error.error;
     if (l > 0 && !options_.keep_weights) {
       SkinWeights refitted;
-      if (!make_weights_like(finest, scratch_, refitted)) return false;
-      refit(mesh, lod.weights, refitted);
+      if (!make_weights_like(finest, scratch_, refitted) || !refit(mesh, lod.weights, refitted)) {
+        return false;
+      }
       lod.weights = refitted;
       if (!measure(mesh, refitted, {}, error) || (report.collapsed_error < report.new_error &&
                                                   !try_collapsed(mesh, collapsed, lod, error))) {
@@ -294,8 +297,9 @@ class RigMaker {
                      FitError& error) {
     SkinWeights refitted;
     FitError found;
-    if (!make_weights_like(collapsed, scratch_, refitted)) return false;
-    refit(mesh, collapsed, refitted);
+    if (!make_weights_like(collapsed, scratch_, refitted) || !refit(mesh, collapsed, refitted)) {
+      return false;
+    }
     if (!measure(mesh, refitted, {}, found)) return false;
     if (found.error < error.error) {
       lod.weights = refitted;

@@ -214,79 +214,6 @@ bool weigh_skin(Weighing& w) {
   return true;
 }
 
-/// A bone's vertices are in one piece: what lies apart goes to the other bones there.
-bool connect_supports(Weighing& w) {
-  const AuthorMesh& mesh = w.mesh;
-  const size_t n = mesh.positions.count;
-  const uint32_t m = w.out.m;
-  Span<uint32_t> starts, members, stack;
-  Span<uint32_t> seen;  // by which bone and piece
-  if (!make(w.scratch, w.placement.bones.count + 2, starts) || !make(w.scratch, n * m, members) ||
-      !make(w.scratch, n, stack) || !make(w.scratch, n, seen)) {
-    return false;
-  }
-  const auto is_place = [&](uint32_t v) { return mesh.is_skin[v] && mesh.welded[v] == v; };
-  const auto slot_of = [&](uint32_t v, uint32_t bone) -> uint32_t {
-    for (uint32_t i = 0; i < m; ++i) {
-      if (w.out.joints[size_t{v} * m + i] == bone && w.out.weights[size_t{v} * m + i] > 0) return i;
-    }
-    return kNone;
-  };
-  for (int fill = 0; fill < 2; ++fill) {
-    for (uint32_t v = 0; v < n; ++v) {
-      for (uint32_t i = 0; i < m && is_place(v); ++i) {
-        if (!(w.out.weights[size_t{v} * m + i] > 0)) continue;
-        const uint32_t bone = w.out.joints[size_t{v} * m + i];
-        if (fill) {
-          members[starts[bone + 1]++] = v;
-        } else {
-          ++starts[bone + 2];
-        }
-      }
-    }
-    for (size_t b = 0; b + 1 < starts.count && !fill; ++b) starts[b + 1] += starts[b];
-  }
-  uint32_t piece = 0;
-  for (uint32_t b = w.placement.first_facial; b < w.placement.first_facial + w.facial; ++b) {
-    const uint32_t first_piece = piece + 1;
-    uint32_t best_piece = 0;
-    float best = 0;
-    for (uint32_t i = starts[b]; i < starts[b + 1]; ++i) {
-      if (seen[members[i]] >= first_piece) continue;
-      ++piece;
-      uint32_t count = 0;
-      stack[count++] = members[i];
-      seen[members[i]] = piece;
-      while (count > 0) {
-        const uint32_t v = stack[--count];
-        const float weight = w.out.weights[size_t{v} * m + slot_of(v, b)];
-        if (weight > best) {
-          best = weight;
-          best_piece = piece;
-        }
-        for (uint32_t e = w.graph.starts[v]; e < w.graph.starts[v + 1]; ++e) {
-          const uint32_t to = w.graph.neighbors[e];
-          if (seen[to] >= first_piece || slot_of(to, b) == kNone) continue;
-          seen[to] = piece;
-          stack[count++] = to;
-        }
-      }
-    }
-    if (piece <= first_piece) continue;
-    for (uint32_t i = starts[b]; i < starts[b + 1]; ++i) {
-      const uint32_t v = members[i];
-      if (seen[v] == best_piece) continue;
-      InfluenceList list = load(v, w.out);
-      for (uint32_t k = 0; k < list.count; ++k) {
-        if (list.joints[k] == b) list.values[k] = 0;
-      }
-      if (list.sum() <= 0) list.add(w.head, 1);
-      store(list, v, w.out);
-    }
-  }
-  return true;
-}
-
 }  // namespace
 
 double InfluenceList::sum() const {
@@ -343,7 +270,6 @@ bool make_slots(const AuthorMesh& mesh, uint32_t influences, Arena& arena, SkinW
 bool weigh(const AuthorMesh& mesh, const Placement& placement, const WeightOptions& options,
            const Allocator& allocator, SkinWeights& out) {
   Arena scratch(allocator);
-  const size_t n = mesh.positions.count;
   Weighing w = {mesh, placement, scratch, out};
   w.facial = std::min(options.facial_bones, placement.facial_count);
   w.lists = out.m + 1;
@@ -351,16 +277,8 @@ bool weigh(const AuthorMesh& mesh, const Placement& placement, const WeightOptio
   w.neck = bone_of_kind(placement, BoneKind::kNeck, w.head);
   if (!find_median_spacing(placement, w.facial, mesh.diagonal, scratch, w.spacing) ||
       !make_surface_graph(mesh, scratch, scratch, w.graph) || !find_nearest_bones(w) ||
-      !weigh_skin(w) || !connect_supports(w)) {
+      !weigh_skin(w) || !connect_supports(mesh, w.graph, placement, w.head, scratch, out)) {
     return false;
-  }
-  for (uint32_t v = 0; v < n; ++v) {
-    const uint32_t place = mesh.welded[v];
-    if (!mesh.is_skin[v] || place == v) continue;
-    for (uint32_t i = 0; i < out.m; ++i) {
-      out.joints[size_t{v} * out.m + i] = out.joints[size_t{place} * out.m + i];
-      out.weights[size_t{v} * out.m + i] = out.weights[size_t{place} * out.m + i];
-    }
   }
   return carry_components(mesh, placement, w.head, scratch, out, nullptr);
 }

@@ -49,6 +49,12 @@ bool make_lod_weights(const AuthorMesh& mesh, const Placement& placement,
                       Span<const WeightOptions> options, const ParallelFor& parallel, Arena& arena,
                       const Allocator& allocator, Span<SkinWeights> out);
 
+/// Facial bones keep the piece of their vertices in which they weigh most; what lies apart goes to the
+/// other bones there, or to `head`. Vertices at one place get the weights of the first. False if memory
+/// ran out.
+bool connect_supports(const AuthorMesh& mesh, const SurfaceGraph& graph, const Placement& placement,
+                      uint32_t head, Arena& scratch, SkinWeights& out);
+
 /// Measures weights, also those of a caller. False if memory ran out.
 bool measure_weights(const AuthorMesh& mesh, const Placement& placement, const SkinWeights& weights,
                      const Allocator& allocator, WeightReport& out);

@@ -61,6 +61,18 @@ TEST(MakeRig, GivesTheSameBytesOnAnyNumberOfThreads) {
   EXPECT_EQ(one.report, eight.report);
 }
 
+TEST(MakeRig, FittedWeightsAreInOnePieceAndSmooth) {
+  RiggingOptions options;
+  options.place.lods = 1;
+  const Made made(procedural_mesh(4, true), options);
+  ASSERT_EQ(made.status, Status::kOk) << made.why();
+  const WeightReport& report = made.rigging.fitted_weights;
+  EXPECT_EQ(report.split_supports, 0u);
+  EXPECT_LE(report.worst_sum, 1e-6);
+  EXPECT_LT(report.roughness, 2.6);
+  EXPECT_LT(made.rigging.rig.joints.error, 0.1);
+}
+
 TEST(MakeRig, WithoutShapesPlacesAndWeighsOnly) {
   const Made made(procedural_mesh(5, false));
   ASSERT_EQ(made.status, Status::kOk) << made.why();
