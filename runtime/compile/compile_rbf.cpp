@@ -123,9 +123,9 @@ void fill_inverse(RbfTable& rbf, const RbfSolverPlan& s, const Span<double>& scr
   float* blocks = rbf.inverses.data + s.first_inverse;
   for (uint32_t r = 0; r < n; ++r) {
     for (uint32_t c = 0; c < n; ++c) {
-      const double v = m[r * width + first + c];
+      const auto v = static_cast<float>(m[r * width + first + c]);
       blocks[(size_t{r / kBlockLanes} * n + c) * kBlockLanes + r % kBlockLanes] =
-          std::isfinite(v) ? static_cast<float>(v) : 0.0f;
+          std::isfinite(v) ? v : 0.0f;
     }
   }
 }

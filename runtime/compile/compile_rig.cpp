@@ -302,8 +302,7 @@ void fill_lod_lists(const LodMap& map, LodLists& lists) {
 }
 
 uint64_t compile_budget(const DnaView& view, const Rig& rig) {
-  const uint64_t bytes = view.file_size ? view.file_size : dna::encoded_size(view, {});
-  return work_budget(std::min<uint64_t>(bytes, rig.block_size));
+  return work_budget(std::min<uint64_t>(view.file_size, rig.block_size));
 }
 
 Status compile_rig(const DnaView& view, const CompileOptions& options, const Allocator& allocator,

@@ -104,6 +104,11 @@ TEST(CheckBakedRig, CountsNamesAndLists) {
              r.psds.run_lengths[1] = 1, r.psds.run_lengths[0] = 2;
              r.psds.first_input[1] += 1;
            }},
+          {"a run that is longer further in",
+           [](Rig& r) {
+             static uint16_t lengths[2] = {2, 2};
+             r.psds.run_lengths = {lengths, 2};
+           }},
           {"a run that ends early",
            [](Rig& r) { r.psds.run_lengths[0] = 2, r.psds.first_input[1] -= 1; }},
       });
@@ -121,6 +126,8 @@ TEST(CheckBakedRig, WhatIsNoContradiction) {
   ml.first.count = 1;
   ml.first[0] = 0;
   ml.sorted.count = 0;
+  ASSERT_FALSE(rig.ml.joints.empty());
+  rig.ml.joints[0].rotation_control = kNoControl;
   Error error;
   EXPECT_EQ(check_rig(rig, opened.bytes.size(), true, error), Status::kOk) << error.message;
 }
@@ -271,6 +278,14 @@ TEST(CheckBakedRig, LearnedBehavior) {
                         step.layer_count = 1;
                       }
                     }},
+                   {"steps share what they depend on and run nothing",
+                    [](Rig& r) {
+                      for (MlStep& step : r.ml.steps) {
+                        step.first_dependency = 0;
+                        step.dependency_count = static_cast<uint32_t>(r.ml.dependencies.count);
+                        step.layer_count = 0;
+                      }
+                    }},
                    {"steps share what they gather",
                     [](Rig& r) {
                       for (MlStep& step : r.ml.steps) {
@@ -308,6 +323,8 @@ TEST(CheckBakedDeformer, CountsAndIndices) {
          d.skeleton.compose = Compose::kEulerAdd;
          d.skeleton.joint_attributes = 10;
        }},
+      {"runs of targets without an end",
+       [](Deformer&, DeformMesh& m) { --m.first_target_run.count; }},
       {"targets behind the last block",
        [](Deformer&, DeformMesh& m) { --m.first_target_run[m.block_count()]; }},
       {"a vertex of no position",

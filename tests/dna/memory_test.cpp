@@ -31,8 +31,18 @@ Bytes tiny(uint16_t version = 8) {
   return written(tiny_rig(arena), version);
 }
 
+/// Choosing LOD 1 drops weights of a vertex, and the LODs turn the tongue in different orders.
+Bytes cut_differently() {
+  Arena arena(default_allocator());
+  DnaView view = tiny_rig(arena);
+  view.bhvr.joints.groups[1].lods = be<uint16_t>(arena, {4, 1});
+  view.geom.meshes[0].skin_weights[3] = {be<float>(arena, {0.5f, 0.5f}),
+                                         be<uint16_t>(arena, {2, 0})};
+  return written(view);
+}
+
 std::vector<Bytes> files() {
-  std::vector<Bytes> found = {tiny(), tiny(1)};
+  std::vector<Bytes> found = {tiny(), tiny(1), tiny(4), cut_differently()};
   for (uint64_t seed : {1, 2}) {
     Random random = Random::from_seed(14, seed);
     found.push_back(LayerFile(random_layer_rig(random, false, seed == 2)).bytes);

@@ -123,6 +123,13 @@ const Damage kDefinitionCases[] = {
      [](DnaView& v, Arena& a) { v.defn.raw_control_names = many_names(a, 65536); }},
     {"TooManyJoints", kLimit, "defn.jointNames",
      [](DnaView& v, Arena& a) { v.defn.joint_names = many_names(a, 65536); }},
+    {"TooManyJointsWithParents", kLimit, "defn.jointNames",
+     [](DnaView& v, Arena& a) {
+       v.defn.joint_names = many_names(a, 65536);
+       const NewArray<uint16_t> parents = new_array<uint16_t>(a, 65536);
+       for (uint32_t j = 0; j < parents.count; ++j) parents.set(j, 0);
+       v.defn.joint_hierarchy = parents;
+     }},
     {"TooManyChannels", kLimit, "defn.blendShapeChannelNames",
      [](DnaView& v, Arena& a) { v.defn.channel_names = many_names(a, 65536); }},
     {"TooManyMaps", kLimit, "defn.animatedMapNames",

@@ -151,5 +151,37 @@ TEST(DnaCheckerTest, StopsWhenTheSinkHasEnough) {
   }
 }
 
+// Within a list, too.
+TEST(DnaCheckerTest, StopsWithinALoop) {
+  const auto expect = [](void (*damage)(DnaView&, Arena&), const char* field, size_t all) {
+    for (const size_t enough : {SIZE_MAX, size_t{1}}) {
+      Arena arena(default_allocator());
+      DnaView view = tiny_rig(arena);
+      damage(view, arena);
+      KeptFindings report;
+      report.enough = enough;
+      EXPECT_EQ(check(view, report, true), enough != 1);
+      ASSERT_EQ(report.findings.size(), std::min(all, enough)) << report.text();
+      EXPECT_EQ(report.findings[0].field, field);
+    }
+  };
+  // Controls of a layer that is not loaded.
+  expect(
+      [](DnaView& view, Arena& arena) {
+        view.bhvr.joints.groups[1].input_indices = be<uint16_t>(arena, {9, 4, 10});
+        view.loaded &= ~uint32_t{kLayerRbf};
+        view.rbfb = {};
+        view.rbfe = {};
+      },
+      "bhvr.joints.jointGroups[1].inputIndices", 2);
+  expect(
+      [](DnaView& view, Arena& arena) {
+        MlOperation& scatter = view.mlbe.types[0].operations[2][0];
+        scatter.set_dependencies = be<uint16_t>(arena, {7, 8});
+        scatter.operation_dependencies = be<uint16_t>(arena, {0, 0});
+      },
+      "mlbe.mlbTypeData[0].operations[2][0].mlOperationSetDependencyIndices", 2);
+}
+
 }  // namespace
 }  // namespace mien::dna

@@ -195,5 +195,32 @@ TEST_F(ConvertNetworks, WhatMovesJointsIsReadByNoOtherOperation) {
   expect_refused(meters, "moves joints, and other operations read it too");
 }
 
+// What moves a joint is in the joint's own system as long as networks run.
+TEST_F(ConvertNetworks, WhatMovesJointsIsReadAsItIs) {
+  rig.networks = {network({6, 0}, {9})};
+  move_joint();
+  const DnaHandle dna = converted(mirrored);
+  ASSERT_TRUE(dna);
+  for (const float weight : floats(dna, kWeights, 2)) EXPECT_EQ(weight, 0.5f);
+}
+
+TEST_F(ConvertNetworks, TheFirstThatCannotFollowIsTold) {
+  rig.networks = {network({0}, {2}), network({0}, {3})};
+  expect_refused(mirrored, "mlbh.neuralNetworks[0]");
+}
+
+// More is scattered than the network gives.
+TEST_F(ConvertNetworks, WhatNoOutputWritesHasNoUnit) {
+  rig.networks = {network({0}, {6, 7})};
+  rig.networks[0].inputs = rig.networks[0].outputs = {};
+  rig.operations = {{{Operation::kGather, {0}, {}}},
+                    {{Operation::kMlp, {0}, {{0, 0}}}},
+                    {{Operation::kScatter, {6, 7, 8}, {{1, 0}}}}};
+  move_joint();
+  const DnaHandle dna = converted(meters);
+  ASSERT_TRUE(dna);
+  for (const float bias : floats(dna, kBiases, 2)) EXPECT_FLOAT_EQ(bias, 0.0025f);
+}
+
 }  // namespace
 }  // namespace mien
