@@ -235,7 +235,7 @@ TEST(LoadOnly, UnknownLayersAreCarriedUnread) {
 
 // The guard bites: each layer, forbidden, is missed by a selection that names it.
 TEST(LoadOnlyDeathTest, AForbiddenLayerThatIsChosenFaults) {
-  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  testing::FLAGS_gtest_death_test_style = "fast";
   const SpreadFile spread;
   for (const SpreadFile::Place& place : spread.places) {
     if (place.code == "abcd") continue;
@@ -431,7 +431,7 @@ TEST_P(LargeFileLods, UnchosenMeshesAndRowsAreNotTouched) {
 }
 
 TEST(LoadOnlyDeathTest, AForbiddenMeshThatIsChosenFaults) {
-  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  testing::FLAGS_gtest_death_test_style = "fast";
   EXPECT_EXIT(
       {
         const Bytes bytes = write_dna(generate_dna(MIEN_PRESET_SMALL, 1).get());
