@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files of shapes that nobody makes, but that the checks let pass: each lives its life, or is refused
+// Valid files of shapes that no tool makes: each goes through its whole life, or is refused
 // with the status of the limit that it exceeds.
 #include <gtest/gtest.h>
 
