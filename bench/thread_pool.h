@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Threads for benchmarks, as a host has them: they exist before the clock starts.
+// Threads for benchmarks, as a host has them: they exist before the clock starts, and look for more work
+// for a while before they sleep.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -37,11 +39,25 @@ class ThreadPool {
     ThreadPool& pool = *static_cast<ThreadPool*>(user);
     std::unique_lock<std::mutex> lock(pool.mutex_);
     pool.work_ = {count, task, context};
-    pool.next_ = pool.done_ = 0;
+    pool.next_ = 0;
+    pool.done_ = 0;
+    ++pool.posted_;
     pool.wake_.notify_all();
     pool.take(lock);
+    lock.unlock();
+    spin_until([&] { return pool.done_ == count; });
+    lock.lock();
     pool.finished_.wait(lock, [&] { return pool.done_ == count; });
     pool.work_ = {};
+  }
+  /// Up to some tens of microseconds: to sleep and to be woken takes longer than a batch.
+  template <class Condition>
+  static void spin_until(Condition&& is_met) {
+    for (int i = 0; i < 2000 && !is_met(); ++i) {
+#if defined(__x86_64__)
+      __builtin_ia32_pause();
+#endif
+    }
   }
   void take(std::unique_lock<std::mutex>& lock) {
     while (next_ < work_.count) {
@@ -54,9 +70,13 @@ class ThreadPool {
     }
   }
   void help() {
-    std::unique_lock<std::mutex> lock(mutex_);
-    while (!over_) {
-      wake_.wait(lock, [&] { return over_ || next_ < work_.count; });
+    uint32_t seen = 0;
+    for (;;) {
+      spin_until([&] { return posted_ != seen; });
+      std::unique_lock<std::mutex> lock(mutex_);
+      wake_.wait(lock, [&] { return over_ || posted_ != seen; });
+      if (over_) return;
+      seen = posted_;
       take(lock);
     }
   }
@@ -65,7 +85,8 @@ class ThreadPool {
   std::condition_variable wake_, finished_;
   std::vector<std::thread> threads_;
   Work work_;
-  uint32_t next_ = 0, done_ = 0;
+  uint32_t next_ = 0;
+  std::atomic<uint32_t> done_{0}, posted_{0};  // tasks of the work; works so far
   bool over_ = false;
 };
 

@@ -552,6 +552,9 @@ struct KernelTable {
   /// to[32 * i + k] = from[k][i] for i < count and k < lane_count, 0 for the other k < 32. Rows may lie
   /// anywhere.
   void (*gather_lanes)(const float* const* from, uint32_t lane_count, size_t count, float* to);
+  /// to[k][first + i] = from[32 * i + k] for i < count and k < lane_count.
+  void (*scatter_lanes)(const float* from, size_t count, size_t lane_count, float* const* to,
+                        size_t first);
   void (*joint_locals)(const JointLocalArgs& args);
   void (*joint_tree)(const JointTreeArgs& args);
   void (*add_target)(const TargetArgs& args);

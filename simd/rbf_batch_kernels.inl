@@ -46,9 +46,8 @@ void gather_lanes(const float* const* from, uint32_t lane_count, size_t count, f
   }
 }
 
-/// to[k][first + i] = from[32 * i + k]
-inline void scatter_lanes(const float* from, size_t count, size_t lane_count, float* const* to,
-                          size_t first) {
+void scatter_lanes(const float* from, size_t count, size_t lane_count, float* const* to,
+                   size_t first) {
   size_t k = 0;
   for (; k + 4 <= lane_count; k += 4) {
     size_t i = 0;

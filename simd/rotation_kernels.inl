@@ -351,8 +351,14 @@ void twist_swing(const TwistSwingArgs& args) {
 
 // Batches: lanes are characters, and what a joint has is the same for all of them ----------------------
 
-/// The first of the lanes that for_each_vector() stands at in rows of quaternions.
-inline size_t lane_at(size_t at) { return at / (4 * kBlockLanes) * kBlockLanes + at % kBlockLanes; }
+/// Calls f(first lane, where its rotation is in rows of quaternions). One vector at a time: two would not fit
+/// the registers.
+template <class F>
+inline void for_each_lane(size_t count, F&& f) {
+  for (size_t i = 0; i < count; i += kWidth) {
+    f(i, i / kBlockLanes * 4 * kBlockLanes + i % kBlockLanes);
+  }
+}
 
 inline float value_at(const float* from) { return *from; }
 inline float value_at(const uint16_t* from) {
@@ -360,25 +366,24 @@ inline float value_at(const uint16_t* from) {
   return float_of((*from & 0x8000u) << 16 | (*from & 0x7FFFu) << 13) * 0x1p112f;
 }
 
-template <class V, class Value>
-[[gnu::always_inline]] inline void turn_characters(const QuaternionBatchArgs& args, size_t joint,
-                                                   size_t lane, float* out) {
-  using M = Make<V>;
+template <class Value>
+inline void turn_characters(const QuaternionBatchArgs& args, size_t joint, size_t lane,
+                            float* out) {
   const size_t block = joint / kBlockLanes, first = args.first_steps[block];
   const size_t count = args.step_counts[block], joint_lane = joint % kBlockLanes;
   const float steps = args.lane_steps[joint];
   const Value* values =
       static_cast<const Value*>(args.values) + first * 4 * kBlockLanes + joint_lane;
   const uint16_t* columns = args.columns + first * kBlockLanes + joint_lane;
-  const V zero = M::of(0.0f);
-  Turn<V> turn;
+  const Vec zero = broadcast(0.0f);
+  Turn<Vec> turn;
   for (size_t s = 0; s < count && static_cast<float>(s) < steps; ++s) {
-    const V weight = bounded(M::from(args.controls + size_t{*columns} * kBatchLanes + lane));
+    const Vec weight = bounded(load(args.controls + size_t{*columns} * kBatchLanes + lane));
     if (any(less(zero, absolute(weight)))) {
-      turn.add(
-          {M::of(value_at(values)), M::of(value_at(values + kBlockLanes)),
-           M::of(value_at(values + 2 * kBlockLanes)), M::of(value_at(values + 3 * kBlockLanes))},
-          weight);
+      turn.add({broadcast(value_at(values)), broadcast(value_at(values + kBlockLanes)),
+                broadcast(value_at(values + 2 * kBlockLanes)),
+                broadcast(value_at(values + 3 * kBlockLanes))},
+               weight);
     }
     if (s % kStepsUntilUnit == kStepsUntilUnit - 1) turn.product = made_unit(turn.product);
     values += 4 * kBlockLanes;
@@ -392,9 +397,8 @@ void turn_characters(const QuaternionBatchArgs& args) {
   const size_t blocks = (args.lane_count + kBlockLanes - 1) / kBlockLanes;
   for (size_t i = 0; i < args.count; ++i) {
     float* const out = args.rotations + i * blocks * 4 * kBlockLanes;
-    for_each_vector(args.lane_count, 4, [&](size_t at, auto make) {
-      using V = decltype(make.of(0.0f));
-      turn_characters<V, Value>(args, args.first + i, lane_at(at), out + at);
+    for_each_lane(args.lane_count, [&](size_t lane, size_t at) {
+      turn_characters<Value>(args, args.first + i, lane, out + at);
     });
   }
 }
@@ -411,14 +415,12 @@ void twist_swing_batch(const TwistSwingBatchArgs& args) {
     const uint16_t* const inputs = args.inputs + block * 4 * kBlockLanes + output % kBlockLanes;
     const float* const lanes =
         args.lanes + block * kTwistSwingRows * kBlockLanes + output % kBlockLanes;
-    for_each_vector(args.lane_count, 4, [&](size_t at, auto make) {
-      using V = decltype(make.of(0.0f));
-      const size_t lane = lane_at(at);
-      const auto row = [&](size_t r) { return make.of(lanes[r * kBlockLanes]); };
+    const auto row = [&](size_t r) { return broadcast(lanes[r * kBlockLanes]); };
+    for_each_lane(args.lane_count, [&](size_t lane, size_t at) {
       const auto input = [&](size_t k) {
-        return make.from(args.controls + size_t{inputs[k * kBlockLanes]} * kBatchLanes + lane);
+        return load(args.controls + size_t{inputs[k * kBlockLanes]} * kBatchLanes + lane);
       };
-      const auto q = twist_or_swing(LaneQuaternion<V>{input(0), input(1), input(2), input(3)},
+      const auto q = twist_or_swing(VecQuaternion{input(0), input(1), input(2), input(3)},
                                     {row(0), row(1), row(2)}, row(3), row(4));
       store(out + at, q.x);
       store(out + at + kBlockLanes, q.y);

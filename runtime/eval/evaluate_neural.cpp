@@ -16,8 +16,9 @@ bool is_active(uint64_t lods, uint32_t lod) { return lods >> lod & 1; }
 void gather(const Rig& rig, Instance& instance, const MlStep& step, float* inputs) {
   const MlTable& ml = rig.ml;
   if (step.gather_count != 0) {
+    const float* const controls = instance.controls.data;
     for (uint16_t control : ml.controls.slice(step.first_gather, step.gather_count)) {
-      *inputs++ = instance.controls[control];
+      *inputs++ = controls[control];
     }
     return;
   }
@@ -69,17 +70,14 @@ void run_network_together(const InstancePacket& those, const MlStep& step) {
   float* in = scratch.ml_layers[0].data;
   float* out = scratch.ml_layers[1].data;
   const uint32_t input_count = rig.ml.layers[step.first_layer].input_count;
-  const uint32_t batch_step = rig.kernels->batch_step;
-  const uint32_t lane_end = (those.count + batch_step - 1) / batch_step * batch_step;
+  float *inputs[kBatchLanes], *outputs[kBatchLanes];
   for (uint32_t k = 0; k < those.count; ++k) {
     Instance& instance = *those.instances[k];
-    float* inputs = instance.ml_layers[0].data;
-    gather(rig, instance, step, inputs);
-    for (uint32_t i = 0; i < input_count; ++i) in[size_t{i} * kBatchLanes + k] = inputs[i];
+    inputs[k] = instance.ml_layers[0].data;
+    outputs[k] = instance.ml_values.data + step.first_output;
+    gather(rig, instance, step, inputs[k]);
   }
-  for (uint32_t k = those.count; k < lane_end; ++k) {
-    for (uint32_t i = 0; i < input_count; ++i) in[size_t{i} * kBatchLanes + k] = 0;
-  }
+  rig.kernels->gather_lanes(inputs, those.count, input_count, in);
   for (uint32_t l = 0; l < step.layer_count; ++l) {
     auto args = layer_args<DenseBatchArgs>(rig, rig.ml.layers[step.first_layer + l]);
     args.inputs = in;
@@ -89,10 +87,7 @@ void run_network_together(const InstancePacket& those, const MlStep& step) {
     rig.kernels->dense_batch(args);
     std::swap(in, out);
   }
-  for (uint32_t k = 0; k < those.count; ++k) {
-    float* values = those.instances[k]->ml_values.data + step.first_output;
-    for (uint32_t i = 0; i < step.output_count; ++i) values[i] = in[size_t{i} * kBatchLanes + k];
-  }
+  rig.kernels->scatter_lanes(in, step.output_count, those.count, outputs, 0);
 }
 
 /// A network step of those instances whose mask lets it run.
@@ -135,10 +130,15 @@ void scatter(const Rig& rig, Instance& instance, const MlStep& step, uint32_t lo
   const float* values = instance.ml_values.data + step.first_output;
   const uint32_t count =
       std::min({step.scatter_count, step.output_count, ml.limits[step.first_limit + lod]});
+  const uint16_t* const to = ml.controls.data + step.first_scatter;
+  float* const controls = instance.controls.data;
+  if (mask == 1.0f) {
+    for (uint32_t i = 0; i < count; ++i) controls[to[i]] = values[i];
+    return;
+  }
   for (uint32_t i = 0; i < count; ++i) {
-    const uint16_t control = ml.controls[step.first_scatter + i];
-    const float rest = ml.default_is_one[control] ? 1.0f : 0.0f;
-    instance.controls[control] = mask == 1.0f ? values[i] : rest + mask * (values[i] - rest);
+    const float rest = ml.default_is_one[to[i]] ? 1.0f : 0.0f;
+    controls[to[i]] = rest + mask * (values[i] - rest);
   }
 }
 

@@ -510,6 +510,17 @@ TEST(RbfSolvers, BatchHasTheBitsOfOneByOne) {
           ASSERT_EQ(lanes.data[c * kBatchLanes + k], k < lane_count ? together[k][c] : 0.0f);
         }
       }
+      // And back, behind one number that stays and before another.
+      std::vector<std::vector<float>> back(lane_count, std::vector<float>(kControls + 2, 7.0f));
+      std::vector<float*> back_rows;
+      for (auto& row : back) back_rows.push_back(row.data());
+      table->scatter_lanes(lanes.data, kControls, lane_count, back_rows.data(), 1);
+      for (uint32_t k = 0; k < lane_count; ++k) {
+        EXPECT_EQ(back[k].front(), 7.0f);
+        EXPECT_EQ(back[k].back(), 7.0f);
+        EXPECT_TRUE(
+            std::equal(together[k].begin(), together[k].begin() + kControls, back[k].begin() + 1));
+      }
       table->rbf_batch({plans.data(),
                         list.data(),
                         kSolvers,
