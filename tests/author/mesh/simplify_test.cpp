@@ -90,9 +90,9 @@ struct OpenBox {
 };
 
 TEST(Simplify, EachLodKeepsItsShareOfTheTriangles) {
-  const Lods made(procedural_mesh(2, true), 0.5, 6);
+  const Lods made(procedural_mesh(4, true), 0.5, 5);
   const double all = static_cast<double>(made.triangles(0));
-  for (size_t lod = 1; lod < 6; ++lod) {
+  for (size_t lod = 1; lod < 5; ++lod) {
     EXPECT_NEAR(made.triangles(lod), all * std::pow(0.5, lod), 2) << lod;
     EXPECT_EQ(made.at(lod).face_starts.count, made.triangles(lod) + 1);
     EXPECT_GE(made.lods[lod].rms, made.lods[lod - 1].rms);
@@ -152,7 +152,7 @@ TEST(Simplify, ASphereStaysClosedAndFacesOutward) {
 }
 
 TEST(Simplify, NoTriangleOfAHeadTurnsOver) {
-  const Lods made(procedural_mesh(3, true), 0.5, 5);
+  const Lods made(procedural_mesh(4, true), 0.5, 4);
   SurfaceTree tree;
   for (size_t lod = 1; lod < made.lods.count; ++lod) {
     const AuthorMesh& mesh = made.at(lod);

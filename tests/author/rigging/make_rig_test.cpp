@@ -64,7 +64,7 @@ TEST(MakeRig, GivesTheSameBytesOnAnyNumberOfThreads) {
 TEST(MakeRig, FittedWeightsAreInOnePieceAndSmooth) {
   RiggingOptions options;
   options.place.lods = 1;
-  const Made made(procedural_mesh(4, true), options);
+  const Made made(procedural_mesh(5, true), options);
   ASSERT_EQ(made.status, Status::kOk) << made.why();
   const WeightReport& report = made.rigging.fitted_weights;
   EXPECT_EQ(report.split_supports, 0u);

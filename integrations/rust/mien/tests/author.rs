@@ -174,7 +174,7 @@ fn each_stage_takes_the_result_of_the_caller() {
         .overlap_correctives(1)
         .lod_triangles(0.25);
     let made = options.make(&mesh).unwrap();
-    let rig = Rig::new(&made.dna).unwrap();
+    Rig::new(&made.dna).unwrap();
     assert!(made.report.contains("\"lods\":[{\"facial_joints\":2"));
     assert!(made.report.contains("\"correctives\":1"));
     let values = made.dna.read_floats("bhvr.joints.jointGroups[1].values").unwrap();
