@@ -339,6 +339,29 @@ TEST(ClipTime, ItDoesNotMatterHowTimeIsCutIntoSteps) {
   }
 }
 
+/// Instead of sync groups: docs/mixing.md, 10 "Limits of this release".
+TEST(ClipTime, LoopsOfDifferentLengthsKeepStepAtTheFractionOfTheirFrames) {
+  ClipInput walk(phone_capture(1, 100)), breath(phone_capture(2, 153));
+  walk.wraps = breath.wraps = true;
+  const MadeClip first(walk), second(breath);
+  PlayDesc desc;
+  desc.start_tick = first.clip.length(true) / 4;
+  OwnSampler leads(first.clip, desc);
+  desc.start_tick = second.clip.length(true) / 4;
+  desc.speed_numerator = 153;
+  desc.speed_denominator = 100;
+  OwnSampler follows(second.clip, desc);
+  Random random = Random::from_seed(5, 6);
+  for (int i = 0; i < 2000; ++i) {
+    const int64_t ticks = random.below(2000000000);
+    advance_clip(leads.sampler, ticks);
+    advance_clip(follows.sampler, ticks);
+    ASSERT_EQ(follows.sampler.loops, leads.sampler.loops) << i;
+    ASSERT_EQ(follows.sampler.tick, leads.sampler.tick * 153 / 100) << i;
+  }
+  EXPECT_GT(leads.sampler.loops, 1000);
+}
+
 TEST(ClipTime, SpeedMayChangeOnTheWay) {
   const MadeClip made((ClipInput(phone_capture(1, 100))));
   OwnSampler own(made.clip);
