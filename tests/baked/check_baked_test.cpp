@@ -104,14 +104,20 @@ TEST(CheckBakedRig, CountsNamesAndLists) {
              r.psds.run_lengths[1] = 1, r.psds.run_lengths[0] = 2;
              r.psds.first_input[1] += 1;
            }},
-          {"a run that is longer further in",
-           [](Rig& r) {
-             static uint16_t lengths[2] = {2, 2};
-             r.psds.run_lengths = {lengths, 2};
-           }},
           {"a run that ends early",
            [](Rig& r) { r.psds.run_lengths[0] = 2, r.psds.first_input[1] -= 1; }},
       });
+}
+
+TEST(CheckBakedRig, RunsOfCorrectives) {
+  expect_found(bake(create_rig(generate_dna(MIEN_PRESET_SMALL, 3).get()).get()),
+               {{"a run that is longer further in", [](Rig& r) {
+                   const PsdTable& psds = r.psds;
+                   size_t e = 0;
+                   while (e + 1 < psds.run_lengths.count && psds.run_lengths[e] < 3) ++e;
+                   ASSERT_LT(e + 1, psds.run_lengths.count);
+                   --psds.run_lengths[e + 1];
+                 }}});
 }
 
 // Names may be the same, and those of networks may be missing.

@@ -219,6 +219,17 @@ TEST(Lods, Statistics) {
   }
   MienRigStatistics s = sized<MienRigStatistics>();
   EXPECT_EQ(mien_rig_statistics(rig.get(), 3, &s), MIEN_ERROR_LOD);
+
+  // Half as many bytes are fetched for values of 16 bits.
+  Arena arena(default_allocator());
+  const std::vector<uint8_t> file = write_view(to_view(lod_rig(), arena));
+  const DnaHandle dna = open_dna(file);
+  MienRigDesc desc = sized<MienRigDesc>();
+  desc.storage = MIEN_STORAGE_16_BIT;
+  const RigHandle half = create_rig(dna.get(), desc);
+  ASSERT_EQ(mien_rig_statistics(half.get(), 0, &s), MIEN_OK);
+  EXPECT_GE(s.joint_entry_count, 8u);
+  EXPECT_EQ(s.joint_byte_count, s.joint_entry_count / 8 * (8 * sizeof(int16_t) + 2));
 }
 
 // An instance tells what its controls make evaluation fetch.

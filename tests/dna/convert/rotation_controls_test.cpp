@@ -202,6 +202,10 @@ TEST_F(RotationControls, UnknownParametersOfMlJointsStay) {
   ASSERT_EQ(joints.parameter_keys.count, 11u) << "the system behind them";
   EXPECT_EQ(joints.parameter_keys[3], 12u);
   EXPECT_EQ(joints.parameter_values[3], 7u);
+  const std::vector<uint8_t> again = write_dna(dna.get());
+  const DnaHandle back = open_in_system(again, turned);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->view.mlbe.joints.parameter_values[3], 7u);
 }
 
 // Rows without columns have no numbers to convert.
