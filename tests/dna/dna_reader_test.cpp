@@ -81,6 +81,16 @@ TEST_F(DnaReader, AMeshThatIsPassedOverEndsWithinTheFile) {
   expect(file_of(8, layers), lods(2), Status::kDnaStructure, "block size");
 }
 
+// As many records as there is room for: of the smallest kind, which have no bytes but their size.
+TEST_F(DnaReader, EmptyNamesTakeFourBytesEach) {
+  tiny.mlbh = {};
+  tiny.mlbe = {};
+  tiny.twsw = {};
+  tiny.mlbh.control_names = {arena.array<String>(5000).data, 5000};
+  EXPECT_EQ(open(written(tiny), {}), Status::kOk) << error.message;
+  EXPECT_EQ(read.mlbh.control_names.count, 5000u);
+}
+
 TEST_F(DnaReader, MoreLodsThanThereAreBits) {
   for (const uint16_t count : {64, 65, 65535}) {
     tiny.desc.lod_count = count;
