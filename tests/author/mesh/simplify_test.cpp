@@ -153,7 +153,6 @@ TEST(Simplify, ASphereStaysClosedAndFacesOutward) {
 
 TEST(Simplify, NoTriangleOfAHeadTurnsOver) {
   const Lods made(procedural_mesh(4, true), 0.5, 4);
-  SurfaceTree tree;
   for (size_t lod = 1; lod < made.lods.count; ++lod) {
     const AuthorMesh& mesh = made.at(lod);
     std::vector<Vec3> normals(made.at(0).positions.count);
