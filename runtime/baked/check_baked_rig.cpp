@@ -323,17 +323,19 @@ bool check_blocks_by_row(const RigChecker& c, size_t blocks) {
   const Span<uint32_t>& first = joints.first_row_blocks;
   if (first.empty()) return c.ok(joints.row_blocks.empty(), "blocks by block row");
   const uint32_t block_rows = joints.panels[joints.panel_count()].first_block_row;
+  if (!c.ok(joints.fits_tile() && first.count == size_t{block_rows} + 1 &&
+                joints.row_blocks.count <= blocks &&
+                is_runs(first, block_rows, joints.row_blocks.count),
+            "blocks by block row")) {
+    return false;
+  }
   Extent<uint32_t> block, input;
   for (const InputBlock& of_row : joints.row_blocks) {
     block.add(of_row.block);
     input.add(of_row.input);
   }
-  return c.ok(
-      joints.fits_tile() && first.count == size_t{block_rows} + 1 &&
-          joints.row_blocks.count <= blocks &&
-          is_runs(first, block_rows, joints.row_blocks.count) &&
-          (joints.row_blocks.empty() || (block.max < blocks && input.max < c.rig.control_count)),
-      "blocks by block row");
+  return c.ok(joints.row_blocks.empty() || (block.max < blocks && input.max < c.rig.control_count),
+              "blocks by block row");
 }
 
 bool check_blocks(const RigChecker& c, size_t blocks) {

@@ -20,6 +20,7 @@ class ConvertNetworks : public testing::Test {
  protected:
   LayerRig rig;
   MienCoordinateSystem mirrored = sized<MienCoordinateSystem>(), meters;
+  std::vector<std::vector<uint8_t>> files;  // what has been converted points into them
 
   void SetUp() override {
     rig.base.lod_count = 1;
@@ -56,7 +57,9 @@ class ConvertNetworks : public testing::Test {
 
   DnaHandle converted(const MienCoordinateSystem& system) {
     const LayerFile file(rig);
-    return file.dna ? open_in_system(file.bytes, system) : nullptr;
+    if (!file.dna) return nullptr;
+    files.push_back(file.bytes);
+    return open_in_system(files.back(), system);
   }
   void expect_refused(const MienCoordinateSystem& system, const char* words) {
     const LayerFile file(rig);
