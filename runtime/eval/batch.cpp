@@ -86,18 +86,13 @@ void fill_block_list(const Rig& rig, BlockList& list) {
   }
 }
 
-bool has_joint_twice(const Span<RotationOutput>& outputs) {
-  for (size_t i = 0; i < outputs.count; ++i) {
-    for (size_t k = 0; k < i; ++k) {
-      if (outputs[k].joint == outputs[i].joint) return true;
-    }
-  }
-  return false;
-}
-
 void order_lanes(const Span<RotationOutput>& outputs, Span<uint32_t>& order) {
-  if (has_joint_twice(outputs)) order.count = 0;
   for (uint32_t i = 0; i < order.count; ++i) order[i] = i;
+  std::sort(order.begin(), order.end(),
+            [&](uint32_t a, uint32_t b) { return outputs[a].joint < outputs[b].joint; });
+  for (size_t i = 1; i < order.count; ++i) {
+    if (outputs[order[i - 1]].joint == outputs[order[i]].joint) order.count = 0;  // has one twice
+  }
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
     const uint32_t of_a = outputs[a].lane, of_b = outputs[b].lane;
     return of_a != of_b ? of_a < of_b : a < b;
