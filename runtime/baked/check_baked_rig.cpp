@@ -544,7 +544,8 @@ bool check_step_inputs(const RigChecker& c, const MlStep& step, uint64_t& widest
   const MlTable& ml = c.rig.ml;
   bool good = fits(step.first_dependency, step.dependency_count, ml.dependencies.count) &&
               fits(step.first_gather, step.gather_count, ml.controls.count) &&
-              step.gather_count <= ml.widest_layer;
+              // A sum reads controls where they are, a network from the buffer.
+              (step.layer_count == 0 || step.gather_count <= ml.widest_layer);
   uint64_t taken = 0, most = step.gather_count;
   for (uint32_t d = 0; good && d < step.dependency_count; ++d) {
     const MlDependency& from = ml.dependencies[step.first_dependency + d];

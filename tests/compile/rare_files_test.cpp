@@ -72,6 +72,17 @@ const Rare kRare[] = {
        v.mlbe.types[0].operations[1] = list<MlOperation>(a, {operation(v, 1), sum});
        v.mlbe.types[0].lod_operations[1] = both_lods(a, {0, 1});
      }},
+    {"ASumOfControlsWithoutNetworks", MIEN_OK, MIEN_OK,
+     [](DnaView& v, Arena& a) {
+       v.mlbh.networks = {};
+       v.mlbh.lod_networks = {};
+       v.mlbh.mesh_regions = {};
+       v.mlbe.joints = {};
+       dna::MlType& type = v.mlbe.types[0];
+       type.operations = list<dna::List<MlOperation>>(
+           a, {type.operations[0], list<MlOperation>(a, {sum_of(a, 2, 0)})});
+       type.lod_operations = list<dna::LodMap>(a, {both_lods(a, {0}), both_lods(a, {0})});
+     }},
     {"AScatterOfASum", MIEN_OK, MIEN_OK,
      [](DnaView& v, Arena& a) { operation(v, 1) = sum_of(a, 2, 0); }},
     {"ASumOfWhatIsScattered", MIEN_OK, MIEN_OK,
@@ -144,6 +155,7 @@ TEST_P(RareFiles, LiveOrAreRefused) {
   for (const uint64_t lods : {0, 1, 2}) {
     LifeOptions options;
     options.lods = lods;
+    options.twins = true;
     const Life life = live(file.data(), file.size(), options);
     EXPECT_EQ(life.broken, "");
     EXPECT_EQ(life.opened, MIEN_OK) << life.message;
