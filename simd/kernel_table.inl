@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // All kernels of one instruction set, and their table: the only name its object file exports.
 
+#include "simd/clip_kernels.inl"
 #include "simd/control_kernels.inl"
 #include "simd/deform_kernels.inl"
 #include "simd/dense_kernels.inl"
@@ -54,6 +55,8 @@ const KernelTable kTable = {kIsa,
                             blend_row,
                             cross_rows,
                             add_quintics,
-                            limit_row};
+                            limit_row,
+                            next_samples,
+                            sample_values};
 
 }  // namespace mien::MIEN_KERNEL_ISA

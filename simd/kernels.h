@@ -519,6 +519,30 @@ struct QuinticRows {
   float *c0, *c1, *c2, *rate;
 };
 
+constexpr uint32_t kClipLanes = 8;
+
+/// Where decoding of eight channels of a block of a clip stands (runtime/anim/clip_block.h).
+struct ClipLanes {
+  uint32_t bit[kClipLanes];      // of the block: the next sample
+  uint32_t width[kClipLanes];    // of the samples of the run at hand; 0 where none is coded
+  uint32_t mask[kClipLanes];     // so many ones
+  uint32_t last[kClipLanes];     // grid: k; float: ordered, without its shift
+  uint32_t slope[kClipLanes];    // what the prediction adds to it
+  uint32_t linear[kClipLanes];   // all ones or 0
+  uint32_t present[kClipLanes];  // all ones if the frame has a sample, 0 if it is zero
+  uint32_t unit[kClipLanes];     // float: 1 << shift; grid: 0
+  float scale[kClipLanes];       // of a grid, else 1
+  // Looked at where a run or a stretch of zeros begins.
+  uint64_t widths[kClipLanes];   // codes of the runs to come without the least, lowest first
+  uint64_t samples[kClipLanes];  // bit f: frame f of the block has one
+  uint8_t width_bits[kClipLanes], least[kClipLanes];  // of the codes of widths
+  uint8_t run_width[kClipLanes];                      // of the run at hand
+  uint8_t left[kClipLanes];                           // samples of it after this stretch
+  uint8_t turn[kClipLanes];  // frame of the block where the next run or stretch begins
+  uint64_t turns;            // bit f: that of some lane is f, or was; 0: all are constants
+};
+static_assert(sizeof(ClipLanes) == kClipLanes * 58, "no padding");
+
 struct KernelTable {
   Isa isa;
   const char* name;
@@ -571,6 +595,10 @@ struct KernelTable {
   void (*add_quintics)(const QuinticRows& quintics, float u, size_t count, float* row);
   /// What is not a number becomes the lower limit; -0 within the limits stays.
   void (*limit_row)(const float* lower, const float* upper, size_t count, float* row);
+  /// Goes on by a sample in each lane of a block.
+  void (*next_samples)(const uint8_t* block, ClipLanes* groups, size_t count);
+  /// row[kClipLanes * group + lane] = value. False if one would not be finite, which gives 0.
+  bool (*sample_values)(const ClipLanes* groups, size_t count, float* row);
 };
 
 /// The table of an instruction set; null if this build or this CPU lacks it. kBest gives the best

@@ -2,9 +2,6 @@
 #include "runtime/anim/clip_block.h"
 
 #include <cassert>
-#include <cstring>
-
-#include "runtime/base/vectors.h"
 
 namespace mien {
 namespace {
@@ -45,41 +42,36 @@ uint64_t read_mask(BitReader& reader) {
   return mask;
 }
 
-/// A lane of the cursors that grids or floats have, which becomes the next one of a channel.
 struct Lane {
-  ChannelCursors& of;
+  ClipLanes& of;
   uint32_t at;
 };
 
-Lane add_lane(BlockDecoder& decoder, BlockMode mode) {
-  const uint32_t place = mode == kBlockGrid ? decoder.grid_count++ : decoder.float_count++;
-  const uint32_t group = place / kCursorLanes;
-  ChannelCursors& cursors =
-      decoder.cursors[mode == kBlockGrid ? group : decoder.cursors.count - 1 - group];
-  if (place % kCursorLanes == 0) {
-    cursors = {};
-    for (uint32_t& unit : cursors.unit) unit = 1;
-    for (uint8_t& turn : cursors.turn) turn = kBlockFrames;
-    for (uint16_t& channel : cursors.channel) channel = static_cast<uint16_t>(decoder.row.count);
-  }
-  return {cursors, place % kCursorLanes};
+/// A channel whose value does not change in the block.
+void set_constant(float value, Lane lane) {
+  lane.of.last[lane.at] = ordered_from_bits(bits_of(value));
+  lane.of.present[lane.at] = ~0u;
 }
 
 /// A channel in grid or float mode: leaves the reader at the next channel.
 void read_channel(BitReader& reader, BlockMode mode, uint32_t frame_count, Lane lane) {
-  ChannelCursors& cursors = lane.of;
+  ClipLanes& lanes = lane.of;
   const bool linear = reader.take(1) != 0, masked = reader.take(1) != 0;
   const auto parameter = static_cast<uint32_t>(reader.take(mode == kBlockGrid ? 4 : 5));
   const uint64_t samples = (masked ? read_mask(reader) : ~uint64_t{0}) & low_bits(frame_count);
   uint32_t first_width = 32 - parameter;
   if (mode == kBlockGrid) first_width = width_of_code(static_cast<uint32_t>(reader.take(5)));
   const auto first = static_cast<uint32_t>(reader.take(first_width));
-  cursors.last[lane.at] =
-      mode == kBlockGrid ? (first >> 1) ^ (0u - (first & 1)) : first << parameter;
-  cursors.unit[lane.at] =
-      mode == kBlockGrid ? static_cast<uint32_t>(kGridScales[parameter]) : 1u << parameter;
-  cursors.linear[lane.at] = linear ? ~0u : 0;
-  cursors.samples[lane.at] = samples;
+  if (mode == kBlockGrid) {
+    lanes.last[lane.at] = (first >> 1) ^ (0u - (first & 1));
+    lanes.unit[lane.at] = 0;
+    lanes.scale[lane.at] = kGridScales[parameter];
+  } else {
+    lanes.last[lane.at] = first;
+    lanes.unit[lane.at] = 1u << parameter;
+  }
+  lanes.linear[lane.at] = linear ? ~0u : 0;
+  lanes.samples[lane.at] = samples;
 
   // The first sample is a run by itself, of no width: it repeats the prediction.
   const uint32_t count = bit_count(samples);
@@ -94,13 +86,13 @@ void read_channel(BitReader& reader, BlockMode mode, uint32_t frame_count, Lane 
     const uint32_t run = r + 1 < runs ? kRunSamples : residuals - r * kRunSamples;
     size += run * width_of_code(least + (widths >> (r * width_bits) & low_bits(width_bits)));
   }
-  cursors.widths[lane.at] = widths;
-  cursors.width_bits[lane.at] = static_cast<uint8_t>(width_bits);
-  cursors.least[lane.at] = static_cast<uint8_t>(least);
-  cursors.left[lane.at] = 1;
-  cursors.turn[lane.at] = 0;
-  cursors.turns = 1;
-  cursors.bit[lane.at] = static_cast<uint32_t>(reader.bit);
+  lanes.widths[lane.at] = widths;
+  lanes.width_bits[lane.at] = static_cast<uint8_t>(width_bits);
+  lanes.least[lane.at] = static_cast<uint8_t>(least);
+  lanes.left[lane.at] = 1;
+  lanes.turn[lane.at] = 0;
+  lanes.turns = 1;
+  lanes.bit[lane.at] = static_cast<uint32_t>(reader.bit);
   if (size > reader.end - reader.bit) {
     reader.good = false;
   } else {
@@ -108,7 +100,7 @@ void read_channel(BitReader& reader, BlockMode mode, uint32_t frame_count, Lane 
   }
 }
 
-/// Sets up the cursors; false if the bytes are not a block. This is where all bounds are checked: what
+/// Sets up the lanes; false if the bytes are not a block. This is where all bounds are checked: what
 /// is decoded later lies within the widths that were added up here. `slack` is the number of bits
 /// after the last channel.
 bool read_block(BlockDecoder& decoder, uint32_t block, uint64_t& slack) {
@@ -124,17 +116,14 @@ bool read_block(BlockDecoder& decoder, uint32_t block, uint64_t& slack) {
   decoder.data = clip.bytes + clip.at.blocks + begin;
   BitReader reader = {decoder.data, 0, uint64_t{end - begin} * 8};
   for (uint32_t i = 0; i < clip.changing_count; ++i) {
+    const Lane lane = {decoder.groups[i / kClipLanes], i % kClipLanes};
     const auto mode = static_cast<BlockMode>(reader.take(2));
-    if (mode == kBlockZero) {
-      decoder.row[i] = 0;
-    } else if (mode == kBlockConstant) {
+    if (mode == kBlockConstant) {
       const auto bits = static_cast<uint32_t>(reader.take(32));
       if ((bits & 0x7F800000) == 0x7F800000) reader.good = false;
-      decoder.row[i] = float_of(bits);
-    } else {
-      const Lane lane = add_lane(decoder, mode);
+      set_constant(float_of(bits), lane);
+    } else if (mode != kBlockZero) {
       read_channel(reader, mode, decoder.end - decoder.next, lane);
-      lane.of.channel[lane.at] = static_cast<uint16_t>(i);
     }
     if (!reader.good) return false;
   }
@@ -142,185 +131,117 @@ bool read_block(BlockDecoder& decoder, uint32_t block, uint64_t& slack) {
   return true;
 }
 
+/// Lanes of zeros.
+void clear_groups(BlockDecoder& decoder) {
+  for (ClipLanes& group : decoder.groups) {
+    group = {};
+    for (uint32_t k = 0; k < kClipLanes; ++k) {
+      group.unit[k] = 1;
+      group.scale[k] = 1;
+      group.turn[k] = kBlockFrames;
+    }
+  }
+}
+
 uint64_t enter_block(BlockDecoder& decoder, uint32_t block) {
-  const Clip& clip = *decoder.clip;
-  const uint32_t stored = clip.stored_frame_count();
+  const uint32_t stored = decoder.clip->stored_frame_count();
   decoder.next = block * kBlockFrames;
   decoder.end = stored - decoder.next < kBlockFrames ? stored : decoder.next + kBlockFrames;
-  decoder.grid_count = decoder.float_count = 0;
   decoder.turns = 1;
   uint64_t slack = 0;
+  clear_groups(decoder);
   if (!read_block(decoder, block, slack)) {
     decoder.damaged = true;
-    decoder.grid_count = decoder.float_count = 0;
-    for (float& value : decoder.row) value = 0;
+    clear_groups(decoder);
   }
   return slack;
 }
 
-/// Calls f(cursors) for grids or floats.
-template <class F>
-void for_cursors(BlockDecoder& decoder, BlockMode mode, F&& f) {
-  const bool grid = mode == kBlockGrid;
-  const size_t count =
-      ((grid ? decoder.grid_count : decoder.float_count) + kCursorLanes - 1) / kCursorLanes;
-  ChannelCursors* const first = decoder.cursors.data + (grid ? 0 : decoder.cursors.count - count);
-  for (size_t i = 0; i < count; ++i) f(first[i]);
-}
-
 /// What begins at a frame of the block in a lane: a run, a stretch of zeros, or the rest of a run
 /// after one.
-void turn_lane(ChannelCursors& cursors, uint32_t k, uint32_t frame) {
-  const uint64_t ahead = cursors.samples[k] >> frame;
+void turn_lane(ClipLanes& lanes, uint32_t k, uint32_t frame) {
+  const uint64_t ahead = lanes.samples[k] >> frame;
   const bool present = (ahead & 1) != 0;
   const uint64_t other = present ? ~ahead : ahead;
   uint32_t frames = other != 0 ? lowest_bit(other) : kBlockFrames, width = 0;
   if (present) {
-    if (cursors.left[k] == 0) {
-      const uint32_t bits = cursors.width_bits[k];
-      const auto code = static_cast<uint32_t>(cursors.widths[k] & low_bits(bits));
-      cursors.run_width[k] = static_cast<uint8_t>(width_of_code(cursors.least[k] + code));
-      cursors.widths[k] >>= bits;
-      cursors.left[k] = kRunSamples;
+    if (lanes.left[k] == 0) {
+      const uint32_t bits = lanes.width_bits[k];
+      const auto code = static_cast<uint32_t>(lanes.widths[k] & low_bits(bits));
+      lanes.run_width[k] = static_cast<uint8_t>(width_of_code(lanes.least[k] + code));
+      lanes.widths[k] >>= bits;
+      lanes.left[k] = kRunSamples;
     }
-    if (frames > cursors.left[k]) frames = cursors.left[k];
-    cursors.left[k] = static_cast<uint8_t>(cursors.left[k] - frames);
-    width = cursors.run_width[k];
+    if (frames > lanes.left[k]) frames = lanes.left[k];
+    lanes.left[k] = static_cast<uint8_t>(lanes.left[k] - frames);
+    width = lanes.run_width[k];
   }
-  cursors.present[k] = present ? ~0u : 0;
-  cursors.width[k] = width;
-  cursors.mask[k] = static_cast<uint32_t>(low_bits(width));
+  lanes.present[k] = present ? ~0u : 0;
+  lanes.width[k] = width;
+  lanes.mask[k] = static_cast<uint32_t>(low_bits(width));
   const uint32_t turn = frame + frames;
-  cursors.turn[k] = static_cast<uint8_t>(turn);
-  if (turn < kBlockFrames) cursors.turns |= uint64_t{1} << turn;
+  lanes.turn[k] = static_cast<uint8_t>(turn);
+  if (turn < kBlockFrames) lanes.turns |= uint64_t{1} << turn;
 }
 
 void turn_lanes(BlockDecoder& decoder, uint32_t frame) {
-  const auto turn = [&](ChannelCursors& cursors) {
-    if ((cursors.turns >> frame & 1) == 0) return;
+  for (ClipLanes& group : decoder.groups) {
+    if ((group.turns >> frame & 1) == 0) continue;
     constexpr uint64_t kLow7 = 0x7F7F7F7F7F7F7F7F;
     // Bytes are below 128, so that no carry leaves one.
-    const uint64_t other = load_little_endian<uint64_t>(cursors.turn) ^ (kLow7 / 0x7F * frame);
+    const uint64_t other = load_little_endian<uint64_t>(group.turn) ^ (kLow7 / 0x7F * frame);
     for (uint64_t due = ~(other + kLow7) & ~kLow7; due != 0; due &= due - 1) {
-      turn_lane(cursors, lowest_bit(due) / 8, frame);
+      turn_lane(group, lowest_bit(due) / 8, frame);
     }
-    decoder.turns |= cursors.turns;
-  };
-  for_cursors(decoder, kBlockGrid, turn);
-  for_cursors(decoder, kBlockFloat, turn);
-}
-
-/// Codes of the residuals at hand.
-void read_codes(const ChannelCursors& cursors, const uint8_t* data, uint32_t* codes) {
-  for (uint32_t k = 0; k < kCursorLanes; ++k) {
-    const uint64_t window = load_little_endian<uint64_t>(data + (cursors.bit[k] >> 3));
-    codes[k] = static_cast<uint32_t>(window >> (cursors.bit[k] & 7)) & cursors.mask[k];
-  }
-}
-
-/// Goes on by a sample in each lane.
-template <BlockMode kMode>
-void add_residuals(ChannelCursors& cursors, const uint32_t* codes) {
-  MIEN_VECTOR_LOOP
-  for (uint32_t k = 0; k < kCursorLanes; ++k) {
-    const uint32_t residual = (codes[k] >> 1) ^ (0u - (codes[k] & 1));
-    const uint32_t change =
-        cursors.slope[k] + (kMode == kBlockGrid ? residual : residual * cursors.unit[k]);
-    cursors.bit[k] += cursors.width[k];
-    cursors.last[k] += change & cursors.present[k];
-    cursors.slope[k] = change & cursors.linear[k];
+    decoder.turns |= group.turns;
   }
 }
 
 void decode_next(BlockDecoder& decoder) {
   const uint32_t frame = decoder.next % kBlockFrames;
   if ((decoder.turns >> frame & 1) != 0) turn_lanes(decoder, frame);
-  // All codes first: what was just written in parts is not at once read as a whole.
-  uint32_t codes[cursor_count(kMaxChangingChannels) * kCursorLanes], *end = codes;
-  const auto read = [&end, data = decoder.data](const ChannelCursors& cursors) {
-    read_codes(cursors, data, end);
-    end += kCursorLanes;
-  };
-  for_cursors(decoder, kBlockGrid, read);
-  for_cursors(decoder, kBlockFloat, read);
-  const uint32_t* at = codes;
-  for_cursors(decoder, kBlockGrid, [&at](ChannelCursors& cursors) {
-    add_residuals<kBlockGrid>(cursors, at);
-    at += kCursorLanes;
-  });
-  for_cursors(decoder, kBlockFloat, [&at](ChannelCursors& cursors) {
-    add_residuals<kBlockFloat>(cursors, at);
-    at += kCursorLanes;
-  });
+  decoder.kernels->next_samples(decoder.data, decoder.groups.data, decoder.groups.count);
   ++decoder.next;
 }
 
-/// Writes the values of the frame before `next`.
-void write_row(BlockDecoder& decoder) {
-  float* row = decoder.row.data;
-  for_cursors(decoder, kBlockGrid, [row](const ChannelCursors& cursors) {
-    float values[kCursorLanes];
-    MIEN_VECTOR_LOOP
-    for (uint32_t k = 0; k < kCursorLanes; ++k) {
-      const float number = static_cast<float>(static_cast<int32_t>(cursors.last[k]));
-      const float value = number / static_cast<float>(static_cast<int32_t>(cursors.unit[k]));
-      values[k] = float_of(bits_of(value) & cursors.present[k]);
-    }
-    for (uint32_t k = 0; k < kCursorLanes; ++k) row[cursors.channel[k]] = values[k];
-  });
-  uint32_t damaged = 0;
-  for_cursors(decoder, kBlockFloat, [row, &damaged](const ChannelCursors& cursors) {
-    uint32_t bits[kCursorLanes], bad = 0;
-    MIEN_VECTOR_LOOP
-    for (uint32_t k = 0; k < kCursorLanes; ++k) {
-      const uint32_t ordered = cursors.last[k], above = 0u - (ordered >> 31);
-      const uint32_t all = (ordered ^ (~above | 1u << 31)) & (0u - cursors.unit[k]);
-      const uint32_t finite = (all & 0x7F800000) != 0x7F800000 ? cursors.present[k] : 0;
-      bits[k] = all & finite;
-      bad |= finite ^ cursors.present[k];
-    }
-    for (uint32_t k = 0; k < kCursorLanes; ++k) row[cursors.channel[k]] = float_of(bits[k]);
-    damaged |= bad;
-  });
-  if (damaged != 0) decoder.damaged = true;
+/// The values of the frame before `next`.
+void write_row(BlockDecoder& decoder, float* row) {
+  if (decoder.kernels->sample_values(decoder.groups.data, decoder.groups.count, row)) return;
+  decoder.damaged = true;
 }
 
 }  // namespace
 
-void begin_decoding(const Clip& clip, Span<ChannelCursors> cursors, Span<float> row,
+void begin_decoding(const Clip& clip, const KernelTable& kernels, Span<ClipLanes> groups,
                     BlockDecoder& decoder) {
   decoder = {};
   decoder.clip = &clip;
-  decoder.cursors = cursors.first(cursor_count(clip.changing_count));
-  decoder.row = row.first(clip.changing_count);
+  decoder.kernels = &kernels;
+  decoder.groups = groups.first(clip_groups(clip.changing_count));
 }
 
-void decode_frame(BlockDecoder& decoder, uint32_t frame) {
+void decode_frame(BlockDecoder& decoder, uint32_t frame, float* row) {
   if (decoder.clip->changing_count == 0) return;
-  // The frame before `next` is still in the row.
+  // The lanes still have the frame before `next`.
   const bool same_block =
       decoder.end != 0 && frame / kBlockFrames == (decoder.end - 1) / kBlockFrames;
   if (!same_block || frame + 1 < decoder.next) enter_block(decoder, frame / kBlockFrames);
-  if (decoder.next > frame) return;
   while (decoder.next <= frame) decode_next(decoder);
-  write_row(decoder);
+  write_row(decoder, row);
 }
 
 bool read_frames(const Clip& clip, uint32_t first, uint32_t count, float* out, size_t stride) {
   assert(first <= clip.frame_count && count <= clip.frame_count - first);
-  ChannelCursors cursors[cursor_count(kMaxChangingChannels)];
-  float row[kMaxChangingChannels + 1], before[kMaxChangingChannels];
+  ClipLanes groups[clip_groups(kMaxChangingChannels)];
+  float row[kMaxChangingChannels], before[kMaxChangingChannels];
   BlockDecoder decoder;
-  begin_decoding(clip, {cursors, cursor_count(kMaxChangingChannels)},
-                 {row, kMaxChangingChannels + 1}, decoder);
+  begin_decoding(clip, *kernels_for(Isa::kBest), {groups, clip_groups(kMaxChangingChannels)},
+                 decoder);
   const bool half_rate = clip.has(kClipHalfRate);
   for (uint32_t f = first; f < first + count; ++f, out += stride) {
     const bool is_mean = half_rate && f % 2 == 1;
-    if (is_mean) {
-      decode_frame(decoder, f / 2);
-      memcpy(before, row, sizeof(float) * clip.changing_count);
-    }
-    decode_frame(decoder, half_rate ? (f + 1) / 2 : f);
+    if (is_mean) decode_frame(decoder, f / 2, before);
+    decode_frame(decoder, half_rate ? (f + 1) / 2 : f, row);
     for (uint32_t c = 0; c < clip.channel_count; ++c) out[c] = clip.rest(c);
     for (uint32_t i = 0; i < clip.changing_count; ++i) {
       out[clip.changing(i)] = is_mean ? half_rate_mean(before[i], row[i]) : row[i];
@@ -336,16 +257,16 @@ Status verify_clip(const Clip& clip, Error& error) {
                 "the bytes are not those that were written: the clip is damaged; fetch it again or "
                 "build it again");
   }
-  ChannelCursors cursors[cursor_count(kMaxChangingChannels)];
-  float row[kMaxChangingChannels + 1];
+  ClipLanes groups[clip_groups(kMaxChangingChannels)];
+  float row[kMaxChangingChannels];
   BlockDecoder decoder;
-  begin_decoding(clip, {cursors, cursor_count(kMaxChangingChannels)},
-                 {row, kMaxChangingChannels + 1}, decoder);
+  begin_decoding(clip, *kernels_for(Isa::kBest), {groups, clip_groups(kMaxChangingChannels)},
+                 decoder);
   for (uint32_t block = 0; block < clip.block_count(); ++block) {
     const uint64_t slack = enter_block(decoder, block);
     while (decoder.next < decoder.end) {
       decode_next(decoder);
-      write_row(decoder);
+      write_row(decoder, row);
     }
     if (decoder.damaged || slack >= 8) {
       return fail(error, Status::kClipStructure, kNoOffset,

@@ -35,6 +35,7 @@
 
 #include "runtime/anim/clip.h"
 #include "runtime/base/bits.h"
+#include "simd/kernels.h"
 
 namespace mien {
 
@@ -55,64 +56,36 @@ inline uint32_t bits_from_ordered(uint32_t ordered) {
   return ordered >> 31 ? ordered & ~(1u << 31) : ~ordered;
 }
 
-constexpr uint32_t kCursorLanes = 8;
-
-/// Where decoding of eight channels of a block stands, all of them grids or all floats: arrays, so
-/// that compilers make vectors of them.
-struct ChannelCursors {
-  uint32_t bit[kCursorLanes];      // of the block: the next sample
-  uint32_t width[kCursorLanes];    // of the samples of the run at hand; 0 where zeros are left out
-  uint32_t mask[kCursorLanes];     // so many ones
-  uint32_t last[kCursorLanes];     // grid: k; float: ordered, with the shift undone
-  uint32_t slope[kCursorLanes];    // what the prediction adds to it
-  uint32_t linear[kCursorLanes];   // all ones or 0
-  uint32_t present[kCursorLanes];  // all ones if the frame has a sample, else 0
-  uint32_t unit[kCursorLanes];     // grid: scale; float: 1 << shift
-  // Looked at where a run or a stretch of zeros begins.
-  uint64_t widths[kCursorLanes];   // codes of the runs to come without the least, lowest first
-  uint64_t samples[kCursorLanes];  // bit f: frame f of the block has one
-  uint16_t channel[kCursorLanes];  // i-th changing channel
-  uint8_t width_bits[kCursorLanes], least[kCursorLanes];  // of the codes of widths
-  uint8_t run_width[kCursorLanes];                        // of the run at hand
-  uint8_t left[kCursorLanes];                             // samples of it after this stretch
-  uint8_t turn[kCursorLanes];  // frame of the block where the next run or stretch begins
-  uint64_t turns;              // bit f: that of some lane is f, or was
-};
-static_assert(sizeof(ChannelCursors) == kCursorLanes * 56, "no padding");
-
-/// Grids and floats do not share one.
-constexpr size_t cursor_count(size_t changing) {
-  return (changing + kCursorLanes - 1) / kCursorLanes + 1;
-}
+/// Groups of lanes: the i-th changing channel is lane i % kClipLanes of group i / kClipLanes.
+constexpr size_t clip_groups(size_t changing) { return (changing + kClipLanes - 1) / kClipLanes; }
+/// Floats of a row of changing channels: whole groups are written.
+constexpr size_t clip_row_floats(size_t changing) { return clip_groups(changing) * kClipLanes; }
 
 /// Decodes stored frames. Going on to a later frame of a block decodes those between; any other
 /// frame costs decoding its block from the beginning.
 struct BlockDecoder {
   const Clip* clip = nullptr;
-  Span<ChannelCursors> cursors;  // channels in grids from the first on, in floats from the last
-  Span<float> row;               // [changing channel] the frame before `next`
-  uint32_t grid_count = 0;       // channels
-  uint32_t float_count = 0;
-  uint64_t turns = 0;             // of all cursors
+  const KernelTable* kernels = nullptr;
+  Span<ClipLanes> groups;
+  uint64_t turns = 0;             // of all groups
   const uint8_t* data = nullptr;  // of the block
   uint32_t next = 0;              // stored frame that is decoded next,
   uint32_t end = 0;               // one of the block if it is below this
   bool damaged = false;           // some block was not what a block is; it gave zeros
 };
 
-/// The memory stays in use: cursor_count() of the changing channels, and a row of one float more, where
-/// lanes write that no channel has.
-void begin_decoding(const Clip& clip, Span<ChannelCursors> cursors, Span<float> row,
+/// The memory stays in use: clip_groups() of the changing channels.
+void begin_decoding(const Clip& clip, const KernelTable& kernels, Span<ClipLanes> groups,
                     BlockDecoder& decoder);
 
-/// Leaves the values of a stored frame in the row: always finite, whatever the bytes are.
-void decode_frame(BlockDecoder& decoder, uint32_t frame);
+/// Writes the values of a stored frame to clip_row_floats(): always finite, whatever the bytes are.
+void decode_frame(BlockDecoder& decoder, uint32_t frame, float* row);
 
 /// A frame that a half-rate clip does not store, from its neighbors.
 inline float half_rate_mean(float a, float b) { return a * 0.5f + b * 0.5f; }
 
 /// Copies `count` frames from `first` on: frame f of all channels goes to out + (f - first) * stride.
-/// Takes 36 KiB of stack. False if a block was damaged, which gave zeros.
+/// Takes 34 KiB of stack. False if a block was damaged, which gave zeros.
 bool read_frames(const Clip& clip, uint32_t first, uint32_t count, float* out, size_t stride);
 
 /// Whether the bytes are those that were written: the checksum, then every block. kClipChecksum or

@@ -49,13 +49,11 @@ int64_t count_events(const Clip& clip, int64_t tick, bool at_too) {
 
 /// Decodes a whole block for playing backward.
 void fill_block_rows(ClipSampler& sampler, uint32_t block) {
-  BlockDecoder& decoder = sampler.decoder;
   const uint32_t first = block * kBlockFrames;
   const uint32_t left = sampler.clip->stored_frame_count() - first;
   float* row = sampler.block_rows.data;
-  for (uint32_t f = 0; f < kBlockFrames && f < left; ++f, row += decoder.row.count) {
-    decode_frame(decoder, first + f);
-    memcpy(row, decoder.row.data, decoder.row.count * sizeof(float));
+  for (uint32_t f = 0; f < kBlockFrames && f < left; ++f, row += sampler.sampled.count) {
+    decode_frame(sampler.decoder, first + f, row);
   }
   sampler.block_of_rows = block;
 }
@@ -68,13 +66,9 @@ void copy_frame(ClipSampler& sampler, uint32_t frame, float* row) {
   if (!sampler.block_rows.empty() && goes_back && block != sampler.block_of_rows) {
     fill_block_rows(sampler, block);
   }
-  const float* from = decoder.row.data;
-  if (block == sampler.block_of_rows) {
-    from = sampler.block_rows.data + frame % kBlockFrames * decoder.row.count;
-  } else {
-    decode_frame(decoder, frame);
-  }
-  memcpy(row, from, decoder.row.count * sizeof(float));
+  if (block != sampler.block_of_rows) return decode_frame(decoder, frame, row);
+  const size_t count = sampler.sampled.count;
+  memcpy(row, sampler.block_rows.data + frame % kBlockFrames * count, count * sizeof(float));
 }
 
 /// The values of a frame. They stay until kSamplerRows other frames were needed, among them the
@@ -98,7 +92,7 @@ const float* frame_row(ClipSampler& sampler, uint32_t frame) {
   }
   const Span<float>& row = sampler.rows[oldest];
   if (a) {
-    for (size_t i = 0; i < sampler.decoder.row.count; ++i) row[i] = half_rate_mean(a[i], b[i]);
+    for (size_t i = 0; i < row.count; ++i) row[i] = half_rate_mean(a[i], b[i]);
   } else {
     copy_frame(sampler, half_rate ? frame / 2 : frame, row.data);
   }
@@ -135,10 +129,10 @@ void catmull_rom(const float* a, const float* b, const float* c, const float* d,
 }  // namespace
 
 void place_clip_sampler(Placer& placer, const SamplerLimits& limits, ClipSampler& sampler) {
-  const size_t count = limits.changing_channels;
+  const size_t count = clip_row_floats(limits.changing_channels);
+  sampler.kernels = limits.kernels ? limits.kernels : kernels_for(Isa::kBest);
   sampler.values = placer.array<float>(limits.channels, kBlockAlignment);
-  sampler.cursors = placer.array<ChannelCursors>(cursor_count(count), kBlockAlignment);
-  sampler.current = placer.array<float>(count + 1, kBlockAlignment);
+  sampler.groups = placer.array<ClipLanes>(clip_groups(limits.changing_channels), kBlockAlignment);
   for (Span<float>& row : sampler.rows) row = placer.array<float>(count, kBlockAlignment);
   sampler.sampled = placer.array<float>(count, kBlockAlignment);
   sampler.block_rows =
@@ -162,7 +156,7 @@ Status start_clip(ClipSampler& sampler, const Clip& clip, const PlayDesc& desc, 
   sampler.speed_denominator = desc.speed_denominator;
   sampler.interpolation = desc.interpolation;
   sampler.backward = desc.speed_numerator < 0;
-  begin_decoding(clip, sampler.cursors, sampler.current, sampler.decoder);
+  begin_decoding(clip, *sampler.kernels, sampler.groups, sampler.decoder);
   for (uint32_t& frame : sampler.row_frames) frame = kNoFrame;
   sampler.block_of_rows = kNoFrame;
   for (uint32_t c = 0; c < clip.channel_count; ++c) sampler.values[c] = clip.rest(c);

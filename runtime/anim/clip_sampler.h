@@ -46,8 +46,8 @@ struct ClipSampler {
 
   // Frames that were needed last, of changing channels.
   BlockDecoder decoder;
-  Span<ChannelCursors> cursors;
-  Span<float> current;  // the decoder's row
+  const KernelTable* kernels = nullptr;
+  Span<ClipLanes> groups;  // of the decoder
   Span<float> rows[kSamplerRows];
   Span<float> sampled;
   uint32_t row_frames[kSamplerRows] = {};
@@ -63,6 +63,7 @@ struct SamplerLimits {
   /// Takes 256 bytes more per changing channel, and makes a frame backward as cheap as one forward;
   /// otherwise each frame backward decodes half a block on average.
   bool reverse = false;
+  const KernelTable* kernels = nullptr;  // null: the best; the results are the same with any
 };
 
 void place_clip_sampler(Placer& placer, const SamplerLimits& limits, ClipSampler& sampler);

@@ -45,6 +45,31 @@ Curves one_channel(std::initializer_list<float> values) {
   return curves;
 }
 
+// Instruction sets -----------------------------------------------------------------------------------
+
+TEST(ClipSampler, GivesTheSameBitsOnEveryInstructionSet) {
+  // Grids, floats and constants side by side in a group of lanes, zeros, and a last group in part.
+  Curves curves = phone_capture(6, 150);
+  for (uint32_t f = 0; f < curves.frames; ++f) {
+    for (uint32_t c = 0; c < curves.channels; c += 3) {
+      curves.at(f, c) = static_cast<float>(static_cast<int>(curves.at(f, c) * 1024)) / 1024;
+    }
+    curves.at(f, 1) = f < 64 ? -0.25f : f < 128 ? 0.0f : 0.5f;
+    curves.at(f, 4) = -1e30f * curves.at(f, 4);
+  }
+  const MadeClip made{ClipInput(curves)};
+  ASSERT_NE(made.clip.changing_count % kClipLanes, 0u);
+  for (uint32_t isa = 1; isa < kIsaCount; ++isa) {
+    const KernelTable* const kernels = kernels_for(static_cast<Isa>(isa));
+    if (!kernels) continue;
+    OwnSampler own(
+        SamplerLimits{made.clip.channel_count, made.clip.changing_count, false, kernels});
+    Error error;
+    ASSERT_EQ(start_clip(own.sampler, made.clip, {}, error), Status::kOk);
+    for (uint32_t f = 0; f < curves.frames; ++f) expect_frame(own.at_frame(f), curves, f);
+  }
+}
+
 // Order of frames ------------------------------------------------------------------------------------
 
 class AnyOrder : public testing::TestWithParam<int> {

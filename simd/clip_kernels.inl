@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Samples of clips: eight channels at a time, as plain loops that compilers make vectors of.
+
+#pragma once
+
+#include "simd/vec.inl"
+
+// Before a loop of few, known turns: g++ would unroll it completely, and then make no vectors.
+#if defined(__GNUC__)
+#define MIEN_LANES _Pragma("GCC unroll 1")
+#else
+#define MIEN_LANES
+#endif
+
+namespace mien::MIEN_KERNEL_ISA {
+namespace {
+
+inline uint64_t load_window(const uint8_t* from) {
+  uint64_t bits;
+  __builtin_memcpy(&bits, from, sizeof(bits));
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+  bits = __builtin_bswap64(bits);
+#endif
+  return bits;
+}
+
+/// Codes of the residuals at hand.
+inline void read_codes(const ClipLanes& lanes, const uint8_t* block, uint32_t* codes) {
+  for (uint32_t k = 0; k < kClipLanes; ++k) {
+    const uint64_t window = load_window(block + (lanes.bit[k] >> 3));
+    codes[k] = static_cast<uint32_t>(window >> (lanes.bit[k] & 7)) & lanes.mask[k];
+  }
+}
+
+inline void add_residuals(const uint32_t* codes, ClipLanes& lanes) {
+  MIEN_LANES
+  for (uint32_t k = 0; k < kClipLanes; ++k) {
+    const uint32_t residual = (codes[k] >> 1) ^ (0u - (codes[k] & 1));
+    const uint32_t change = lanes.slope[k] + residual;
+    lanes.bit[k] += lanes.width[k];
+    lanes.last[k] += change & lanes.present[k];
+    lanes.slope[k] = change & lanes.linear[k];
+  }
+}
+
+void next_samples(const uint8_t* block, ClipLanes* groups, size_t count) {
+  // All codes of some groups first: what was just written in parts is not at once read as a whole.
+  constexpr size_t kGroups = 8;
+  uint32_t codes[kGroups][kClipLanes];
+  for (size_t first = 0; first < count; first += kGroups) {
+    const size_t some = count - first < kGroups ? count - first : kGroups;
+    ClipLanes* const lanes = groups + first;
+    for (size_t g = 0; g < some; ++g) {
+      if (lanes[g].turns != 0) read_codes(lanes[g], block, codes[g]);
+    }
+    for (size_t g = 0; g < some; ++g) {
+      if (lanes[g].turns != 0) add_residuals(codes[g], lanes[g]);
+    }
+  }
+}
+
+bool sample_values(const ClipLanes* groups, size_t count, float* row) {
+  uint32_t damaged = 0;
+  for (size_t g = 0; g < count; ++g, row += kClipLanes) {
+    const ClipLanes& lanes = groups[g];
+    uint32_t bits[kClipLanes], bad = 0;
+    MIEN_LANES
+    for (uint32_t k = 0; k < kClipLanes; ++k) {
+      const uint32_t unit = lanes.unit[k], ordered = lanes.last[k] * unit;
+      const uint32_t above = 0u - (ordered >> 31);
+      const uint32_t number = (ordered ^ (~above | 1u << 31)) & (0u - unit);
+      const float part = static_cast<float>(static_cast<int32_t>(lanes.last[k])) / lanes.scale[k];
+      uint32_t part_bits;
+      __builtin_memcpy(&part_bits, &part, sizeof(part));
+      // By bits: compilers would make branches of conditions, and then no vectors.
+      const uint32_t grid = 0u - static_cast<uint32_t>(unit == 0);
+      const uint32_t all = (part_bits & grid) | (number & ~grid);
+      const uint32_t special = 0u - static_cast<uint32_t>((all & 0x7F800000) == 0x7F800000);
+      const uint32_t finite = lanes.present[k] & ~special;
+      bits[k] = all & finite;
+      bad |= finite ^ lanes.present[k];
+    }
+    __builtin_memcpy(row, bits, sizeof(bits));
+    damaged |= bad;
+  }
+  return damaged == 0;
+}
+
+}  // namespace
+}  // namespace mien::MIEN_KERNEL_ISA
+
+#undef MIEN_LANES
