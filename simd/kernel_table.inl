@@ -2,6 +2,7 @@
 // All kernels of one instruction set, and their table: the only name its object file exports.
 
 #include "simd/clip_kernels.inl"
+#include "simd/compile_kernels.inl"
 #include "simd/control_kernels.inl"
 #include "simd/deform_kernels.inl"
 #include "simd/dense_kernels.inl"
@@ -52,6 +53,7 @@ const KernelTable kTable = {kIsa,
                             face_areas,
                             sum_normals,
                             write_vertices,
+                            read_block_rows,
                             blend_row,
                             cross_rows,
                             add_quintics,

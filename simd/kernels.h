@@ -57,6 +57,17 @@ struct JointColumnsArgs {
   bool portable;  // products are rounded before they are added, on every instruction set
 };
 
+/// Rows of a file, which are big-endian floats at any address, to blocks of a joint matrix:
+///
+///     blocks[8 * c + r] = rows[r][c]    for c < count
+///
+/// Infinities become the largest float of their sign, NaN the lowest. Reads nothing behind the rows.
+struct BlockRowsArgs {
+  const uint8_t* rows[kJointBlockRows];
+  float* blocks;  // 16-byte aligned
+  size_t count;
+};
+
 /// A block of a joint matrix, and the number of its input.
 struct InputBlock {
   uint32_t block;
@@ -586,6 +597,7 @@ struct KernelTable {
   void (*face_areas)(const AreaArgs& args);
   void (*sum_normals)(const NormalArgs& args);
   void (*write_vertices)(const VertexArgs& args);
+  void (*read_block_rows)(const BlockRowsArgs& args);
   // Rows of a mix: 64-byte aligned, counts are multiples of 16. Every lane is computed alone and
   // nothing is fused, so all instruction sets give the same bits.
   void (*blend_row)(const BlendArgs& args);

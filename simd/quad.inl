@@ -40,6 +40,16 @@ template <class F>
 inline Quad lanes4(F&& f) {
   return {{f(0), f(1), f(2), f(3)}};
 }
+inline Quad load_big_endian4(const uint8_t* from) {
+  return lanes4([&](int i) {
+    uint32_t bits;
+    __builtin_memcpy(&bits, from + 4 * i, sizeof(bits));
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    bits = __builtin_bswap32(bits);
+#endif
+    return float_of(bits);
+  });
+}
 inline Quad load4(const float* from) { return {{from[0], from[1], from[2], from[3]}}; }
 inline void store4(float* to, const Quad& q) {
   for (int i = 0; i < 4; ++i) to[i] = q.v[i];
@@ -125,6 +135,9 @@ inline void store3(float* to, Quad q) {
   vst1_f32(to, vget_low_f32(q));
   vst1q_lane_f32(to + 2, q, 2);
 }
+inline Quad load_big_endian4(const uint8_t* from) {
+  return vreinterpretq_f32_u8(vrev32q_u8(vld1q_u8(from)));
+}
 inline Quad mul_add4(Quad a, Quad b, Quad c) { return vfmaq_f32(c, a, b); }
 inline Quad mul_sub4(Quad a, Quad b, Quad c) { return vfmaq_f32(vnegq_f32(c), a, b); }
 inline Quad divide4(Quad a, Quad b) { return divide(a, b); }
@@ -163,6 +176,16 @@ inline void transpose4(Quad& a, Quad& b, Quad& c, Quad& d) {
 inline void store3(float* to, Quad q) {
   _mm_storel_pi(reinterpret_cast<__m64*>(to), q);
   _mm_store_ss(to + 2, _mm_movehl_ps(q, q));
+}
+inline Quad load_big_endian4(const uint8_t* from) {
+  const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+#if defined(MIEN_KERNEL_SSE2)
+  const __m128i pairs = _mm_or_si128(_mm_slli_epi16(bytes, 8), _mm_srli_epi16(bytes, 8));
+  return _mm_castsi128_ps(_mm_shufflehi_epi16(_mm_shufflelo_epi16(pairs, 0xB1), 0xB1));
+#else
+  const __m128i order = _mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12);
+  return _mm_castsi128_ps(_mm_shuffle_epi8(bytes, order));
+#endif
 }
 // In one lane: dividing four takes as long, and so do four roots.
 inline Quad normalized4(Quad q, float& squared) {

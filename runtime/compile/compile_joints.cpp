@@ -42,11 +42,13 @@ void for_each_panel(const JointPlan& plan, F&& f) {
 
 /// Where rows stand in the file.
 struct FileRows {
-  const uint8_t* at[kJointBlockRows];
+  const uint8_t* at[kJointBlockRows];  // behind the last one it stands again
   uint32_t count;
 
   FileRows(const dna::JointGroup& group, const PlannedRows& rows) : count(rows.row_count) {
-    for (uint32_t k = 0; k < count; ++k) at[k] = row_values(group, rows.rows[k]);
+    for (uint32_t k = 0; k < kJointBlockRows; ++k) {
+      at[k] = row_values(group, rows.rows[std::min(k, count - 1)]);
+    }
   }
   const uint8_t* value(uint32_t row, uint32_t column) const {
     return at[row] + size_t{column} * sizeof(float);
@@ -57,21 +59,30 @@ uint32_t words_of(const dna::JointGroup& group) {
   return (group.input_indices.count + kWordBits - 1) / kWordBits;
 }
 
+/// used[c]: not zero if some of the rows is not zero in column `first` + c. A count that the compiler
+/// knows, so that it makes vector code.
+template <uint32_t kCount>
+void merge_columns(const FileRows& rows, uint32_t first, uint32_t* used) {
+  uint32_t merged[kCount];
+  for (uint32_t c = 0; c < kCount; ++c) {
+    uint32_t bits = 0;
+    for (uint32_t k = 0; k < kJointBlockRows; ++k) bits |= file_bits(rows.value(k, first + c));
+    merged[c] = magnitude(bits);
+  }
+  memcpy(used, merged, sizeof(merged));
+}
+
 /// Bit c: some of the rows is not zero in column `first` + c, of `count` columns.
 uint64_t columns_used(const FileRows& rows, uint32_t first, uint32_t count) {
   uint32_t used[kWordBits] = {};
-  for (uint32_t k = 0; k < rows.count; ++k) {
-    const uint8_t* row = rows.value(k, first);
-    uint32_t c = 0;
-    for (; c + kStrip <= count; c += kStrip) {
-      for (uint32_t i = 0; i < kStrip; ++i) used[c + i] |= magnitude_bits(row + size_t{c + i} * 4);
-    }
-    for (; c < count; ++c) used[c] |= magnitude_bits(row + size_t{c} * 4);
-  }
+  uint32_t c = 0;
+  for (; c + kStrip <= count; c += kStrip) merge_columns<kStrip>(rows, first + c, used + c);
+  for (; c + 4 <= count; c += 4) merge_columns<4>(rows, first + c, used + c);
+  for (; c < count; ++c) merge_columns<1>(rows, first + c, used + c);
   uint8_t flags[kWordBits];
-  for (uint32_t c = 0; c < kWordBits; ++c) flags[c] = used[c] != 0;
+  for (c = 0; c < kWordBits; ++c) flags[c] = used[c] != 0;
   uint64_t bits = 0;
-  for (uint32_t c = 0; c < kWordBits; c += 8) {
+  for (c = 0; c < kWordBits; c += 8) {
     // The product brings byte i, which is 0 or 1, to bit 56 + i.
     uint64_t bytes = 0;
     for (uint32_t i = 0; i < 8; ++i) bytes |= uint64_t{flags[c + i]} << 8 * i;
@@ -98,50 +109,63 @@ Status find_blocks(const dna::DnaView& view, Arena& scratch, JointPlan& plan, Er
   return Status::kOk;
 }
 
-/// Calls f(rows, where they stand, column of their group, control's column, first) for everything
-/// that is not all zeros, by ascending block rows. `first` is false if the block row has a block of
-/// the control already: other rows, or the same ones if the group lists the control once more.
-/// Needs plan.blocks; end_block_row of a control tells what came before.
+/// Calls f(column of the group, control) for the blocks of rows; `word` is the first of theirs.
+/// Returns the first word of the next rows.
 template <class F>
-void for_each_block(const dna::DnaView& view, const JointPlan& plan, F&& f) {
-  for (PlannedColumn& column : plan.columns) column.end_block_row = 0;
-  const uint64_t* word = plan.blocks.data;
-  for (const PlannedRows& rows : plan.rows) {
-    const dna::JointGroup& group = view.bhvr.joints.groups[rows.group];
-    const FileRows file(group, rows);
-    for (uint32_t from = 0; from < group.input_indices.count; from += kWordBits) {
-      for (uint64_t bits = *word++; bits != 0; bits &= bits - 1) {
-        const uint32_t c = from + lowest_bit(bits);
-        PlannedColumn& column = plan.columns[group.input_indices[c]];
-        f(rows, file, c, column, column.end_block_row != rows.block_row + 1);
-        column.end_block_row = rows.block_row + 1;
-      }
+const uint64_t* for_each_block(const dna::Array<uint16_t>& inputs, const uint64_t* word, F&& f) {
+  for (uint32_t from = 0; from < inputs.count; from += kWordBits) {
+    for (uint64_t bits = *word++; bits != 0; bits &= bits - 1) {
+      const uint32_t c = from + lowest_bit(bits);
+      f(c, inputs[c]);
     }
   }
+  return word;
 }
 
 /// Finds the blocks that make pairs, and counts both kinds.
-Status count_blocks(const dna::DnaView& view, Arena& scratch, JointPlan& plan, Error& error) {
+Status pair_blocks(const dna::DnaView& view, const Rig& rig, Arena& scratch, JointPlan& plan,
+                   Error& error) {
   size_t most = 0;
   for (uint64_t word : plan.blocks) most += bit_count(word);
-  plan.paired = scratch.array<uint64_t>((most + kWordBits - 1) / kWordBits);
-  if (most && !plan.paired.data) return no_scratch(error);
-  uint32_t block = 0;
-  for_each_block(
-      view, plan,
-      [&](const PlannedRows& rows, const FileRows&, uint32_t, PlannedColumn& column, bool first) {
-        if (!first) return;
-        // Without branches: nobody foresees what is a pair.
-        const uint32_t pair = rows.block_row % 2 & uint32_t{column.end_block_row == rows.block_row};
-        column.blocks[0] += 1 - 2 * pair;
-        column.blocks[1] += 2 * pair;
-        for (uint32_t half : {block, column.block}) {
-          plan.paired[half / kWordBits] |= uint64_t{pair} << half % kWordBits;
-        }
-        column.block = block++;
-      });
+  const uint32_t block_row_count = plan.block_row_count();
+  const Span<uint8_t> halves_of_control = scratch.array<uint8_t>(rig.control_count);
+  plan.halves = scratch.array<BlockHalves>(most);
+  plan.first_halves = scratch.array<uint32_t>(block_row_count / 2 + 1);
+  plan.places = scratch.array<uint32_t>(rig.control_count);
+  if ((rig.control_count && (!halves_of_control.data || !plan.places.data)) ||
+      (most && !plan.halves.data) || !plan.first_halves.data) {
+    return no_scratch(error);
+  }
+  uint8_t* const halves_of = halves_of_control.data;
+  BlockHalves* const found = plan.halves.data;
+  uint32_t end = 0;
+  const uint64_t* word = plan.blocks.data;
+  for (uint32_t b = 0; b < block_row_count; b += 2) {
+    for (uint32_t i = plan.first_rows[b]; i < plan.first_rows[b + 2]; ++i) {
+      PlannedRows& rows = plan.rows[i];
+      const uint32_t half = 1 + rows.block_row % 2;
+      uint32_t again = 0;
+      // Without branches: nobody foresees what is a pair.
+      word = for_each_block(view.bhvr.joints.groups[rows.group].input_indices, word,
+                            [&](uint32_t, uint32_t control) {
+                              const uint32_t halves = halves_of[control];
+                              found[end].control = static_cast<uint16_t>(control);
+                              end += halves == 0;
+                              again |= halves & half;
+                              halves_of[control] = static_cast<uint8_t>(halves | half);
+                            });
+      rows.whole = rows.row_count == kJointBlockRows && again == 0;
+    }
+    for (uint32_t k = plan.first_halves[b / 2]; k < end; ++k) {
+      uint8_t& halves = halves_of[found[k].control];
+      found[k].halves = halves;
+      ++plan.columns[found[k].control].entries[halves == kBothHalves];
+      halves = 0;
+    }
+    plan.first_halves[b / 2 + 1] = end;
+  }
   for (const PlannedColumn& column : plan.columns) {
-    const uint32_t pairs = column.pairs(), singles = column.singles();
+    const uint32_t pairs = column.entries[1], singles = column.entries[0];
     plan.column_count += pairs + singles != 0;
     plan.entry_count += pairs + singles;
     plan.block_count += size_t{2} * (pairs + (singles + 1) / 2);
@@ -278,43 +302,38 @@ void expect(const float* to) {
 #endif
 }
 
-/// Infinities become the largest float of their sign, NaN the lowest: 0 times an entry has to be 0,
-/// as a batch multiplies where a single evaluation skips.
-float finite(float value) {
-  const float low = value > -kLargestFloat ? value : -kLargestFloat;
-  return low < kLargestFloat ? low : kLargestFloat;
-}
-float entry_of(const FileRows& file, uint32_t row, uint32_t column) {
-  return finite(load_big_endian<float>(file.value(row, column)));
-}
+/// Blocks of up to 64 columns, as all their rows would stand alone in their block row.
+struct BlockTile {
+  alignas(kBlockAlignment) float blocks[kWordBits * kJointBlockRows];
 
-/// The memory of a block is not initialized.
-void add_block(const PlannedRows& rows, const FileRows& file, uint32_t column, bool first,
-               float* block) {
-  if (first && file.count == kJointBlockRows) {
-    for (uint32_t k = 0; k < kJointBlockRows; ++k) {
-      block[k] = entry_of(file, k, column);
-    }
-    return;
-  }
-  float* const own = block + rows.first_in_block;
-  if (!first) {
+  void read(const KernelTable& kernels, const PlannedRows& rows, const FileRows& file,
+            uint32_t from, uint32_t count) {
+    static constexpr uint8_t kZeros[kWordBits * sizeof(float)] = {};
+    BlockRowsArgs args;
+    std::fill(args.rows, args.rows + kJointBlockRows, kZeros);
     for (uint32_t k = 0; k < file.count; ++k) {
-      own[k] = finite(own[k] + entry_of(file, k, column));
+      args.rows[rows.first_in_block + k] = file.value(k, from);
     }
-    return;
+    args.blocks = blocks;
+    args.count = count;
+    kernels.read_block_rows(args);
   }
-  std::fill(block, own, 0.0f);
-  for (uint32_t k = 0; k < file.count; ++k) own[k] = entry_of(file, k, column);
-  std::fill(own + file.count, block + kJointBlockRows, 0.0f);
+};
+
+/// Adds the rows to a block that others have begun.
+void add_rows(const PlannedRows& rows, const float* from, float* block) {
+  const uint32_t end = rows.first_in_block + rows.row_count;
+  for (uint32_t r = rows.first_in_block; r < end; ++r) {
+    // Both are finite, so the sum may be infinite, but not NaN.
+    block[r] = std::clamp(block[r] + from[r], -kLargestFloat, kLargestFloat);
+  }
 }
 
-void add_fixed_block(const PlannedRows& rows, const FileRows& file, uint32_t column,
-                     const float* block_row_scales, int16_t* block) {
-  block += rows.first_in_block;
-  const float* scales = block_row_scales + rows.first_in_block;
-  for (uint32_t k = 0; k < file.count; ++k) {
-    block[k] = add_fixed(block[k], load_big_endian<float>(file.value(k, column)), scales[k]);
+void add_fixed_rows(const PlannedRows& rows, const float* from, const float* scales,
+                    int16_t* block) {
+  const uint32_t end = rows.first_in_block + rows.row_count;
+  for (uint32_t r = rows.first_in_block; r < end; ++r) {
+    block[r] = add_fixed(block[r], from[r], scales[r]);
   }
 }
 
@@ -327,14 +346,12 @@ void mark_reach(const PlannedRows& rows, const FileRows& file, uint32_t column,
 }
 
 /// Rows that are not in the matrix (they turn joints, or are overridden) mark what they read, too.
-void mark_other_rows(const dna::DnaView& view, const JointPlan& plan, const Rig& rig,
-                     Span<uint8_t> reach) {
+void mark_other_rows(const dna::DnaView& view, const JointPlan& plan, Span<uint8_t> reach) {
   size_t at = 0;
   for (const dna::JointGroup& group : view.bhvr.joints.groups) {
     for (uint32_t r = 0; r < group.output_indices.count; ++r) {
-      if (plan.uses[at++] != kUnused) continue;
-      if (is_zero(group, r)) continue;
-      const uint8_t row_reach = lod_reach(group.lods, rig.lod_count, r);
+      const uint8_t row_reach = plan.reaches[at];
+      if (plan.uses[at++] != kUnused || is_zero(group, r)) continue;
       const uint8_t* values = row_values(group, r);
       for (uint32_t c = 0; c < group.input_indices.count; ++c) {
         if (magnitude_bits(values + size_t{c} * sizeof(float)) == 0) continue;
@@ -351,7 +368,7 @@ void place_columns(JointPlan& plan, JointMatrix& joints) {
   std::fill(joints.column_of_control.begin(), joints.column_of_control.end(), kNoColumn);
   for (uint32_t control = 0; control < plan.columns.count; ++control) {
     PlannedColumn& column = plan.columns[control];
-    const uint32_t pairs = column.pairs(), singles = column.singles();
+    const uint32_t pairs = column.entries[1], singles = column.entries[0];
     if (pairs + singles == 0) continue;
     joints.columns[k] = static_cast<uint16_t>(control);
     joints.column_of_control[control] = k;
@@ -373,28 +390,115 @@ void place_columns(JointPlan& plan, JointMatrix& joints) {
   joints.starts[k] = {block, entry, block, entry};
 }
 
-/// Where the panels begin in a column.
-void fill_parts(size_t k, JointMatrix& joints) {
-  const uint32_t panel_count = joints.panel_count();
-  ColumnPart* parts = joints.parts.data + k * joints.panels.count;
-  const uint32_t first = joints.starts[k].pair_entry, end = joints.starts[k + 1].pair_entry;
-  const uint32_t first_single = joints.starts[k].single_entry;
-  uint32_t pair = first, single = first_single;
-  for (uint32_t c = 0; c < panel_count; ++c) {
-    parts[c] = {static_cast<uint16_t>(pair - first), static_cast<uint16_t>(single - first_single)};
-    const uint32_t end_block_row = joints.panels[c + 1].first_block_row * kBlockRowUnit;
-    while (pair < first_single && joints.block_rows[pair] < end_block_row) ++pair;
-    while (single < end && joints.block_rows[single] < end_block_row) ++single;
-  }
-  parts[panel_count] = {static_cast<uint16_t>(pair - first),
-                        static_cast<uint16_t>(single - first_single)};
-}
-
 /// Beside values, a list by block rows takes 8 bytes for each block.
 bool lists_by_row(const JointPlan& plan) {
   constexpr size_t kFewBlocks = 4;  // of a column
   return plan.block_row_count() <= kMaxTileBlockRows &&
          plan.block_count <= kFewBlocks * plan.column_count;
+}
+
+/// Where a panel begins in the columns.
+void fill_parts(uint32_t panel, const JointPlan& plan, JointMatrix& joints) {
+  ColumnPart* part = joints.parts.data + panel;
+  for (size_t k = 0; k < joints.columns.count; ++k, part += joints.panels.count) {
+    const PlannedColumn& column = plan.columns[joints.columns[k]];
+    *part = {static_cast<uint16_t>(column.entries[1] - joints.starts[k].pair_entry),
+             static_cast<uint16_t>(column.entries[0] - joints.starts[k].single_entry)};
+  }
+}
+
+/// Places for the blocks of block rows b and b + 1. Blocks that rows do not fill alone begin with
+/// zeros.
+void place_blocks(const JointPlan& plan, uint32_t b, JointMatrix& joints) {
+  bool whole[] = {true, true};
+  for (uint32_t i = plan.first_rows[b]; i < plan.first_rows[b + 2]; ++i) {
+    const PlannedRows& rows = plan.rows[i];
+    whole[rows.block_row % 2] = whole[rows.block_row % 2] && rows.whole;
+  }
+  const bool zeros = !joints.values.empty() && !(whole[0] && whole[1]);
+  // In names of their own: for all the compiler knows, what is written could lie in `plan`.
+  PlannedColumn* const columns = plan.columns.data;
+  uint32_t* const places = plan.places.data;
+  uint16_t* const block_rows = joints.block_rows.data;
+  const BlockHalves* const end = plan.halves.data + plan.first_halves[b / 2 + 1];
+  for (const BlockHalves* at = plan.halves.data + plan.first_halves[b / 2]; at != end; ++at) {
+    PlannedColumn& column = columns[at->control];
+    const uint32_t pair = at->halves == kBothHalves, missing = at->halves == 2;
+    block_rows[column.entries[pair]++] = static_cast<uint16_t>((b + missing) * kBlockRowUnit);
+    const uint32_t place = column.blocks[pair] - missing;
+    places[at->control] = place;
+    column.blocks[pair] += 1 + pair;
+    if (!zeros) continue;
+    for (uint32_t half = 0; half < 2; ++half) {
+      if (whole[half] || !(at->halves >> half & 1)) continue;
+      float* const block = joints.values.data + size_t{place + half} * kJointBlockRows;
+      std::fill(block, block + kJointBlockRows, 0.0f);
+    }
+  }
+}
+
+/// Calls put(place, block) for the blocks of some rows, whose first word in plan.blocks is `word`.
+/// Returns that of the next rows.
+template <class Put>
+const uint64_t* read_blocks(const dna::DnaView& view, const JointPlan& plan,
+                            const PlannedRows& rows, const uint64_t* word,
+                            const Span<uint8_t>& reach, const KernelTable& kernels, Put&& put) {
+  const dna::JointGroup& group = view.bhvr.joints.groups[rows.group];
+  const dna::Array<uint16_t> inputs = group.input_indices;
+  const FileRows file(group, rows);
+  const uint32_t* const places = plan.places.data;
+  const uint32_t half = rows.block_row % 2;
+  const uint8_t farthest = rows.reach();
+  BlockTile tile;
+  for (uint32_t from = 0; from < inputs.count; from += kWordBits) {
+    tile.read(kernels, rows, file, from, std::min(inputs.count - from, kWordBits));
+    for (uint64_t bits = *word++; bits != 0; bits &= bits - 1) {
+      const uint32_t c = lowest_bit(bits), control = inputs[from + c];
+      if (farthest > reach[control]) mark_reach(rows, file, from + c, reach[control]);
+      put(size_t{places[control] + half}, tile.blocks + size_t{c} * kJointBlockRows);
+    }
+  }
+  return word;
+}
+
+const uint64_t* fill_rows(const dna::DnaView& view, const JointPlan& plan, const PlannedRows& rows,
+                          const uint64_t* word, const Span<uint8_t>& reach, const Rig& rig) {
+  const KernelTable& kernels = *rig.kernels;
+  float* const values = rig.joints.values.data;
+  if (rig.half_storage) {
+    const float* scales = rig.joints.scales.data + size_t{rows.block_row} * kJointBlockRows;
+    int16_t* const fixed = rig.joints.fixed_values.data;
+    return read_blocks(view, plan, rows, word, reach, kernels,
+                       [=, &rows](size_t place, const float* block) {
+                         add_fixed_rows(rows, block, scales, fixed + place * kJointBlockRows);
+                       });
+  }
+  if (!rows.whole) {
+    return read_blocks(view, plan, rows, word, reach, kernels,
+                       [=, &rows](size_t place, const float* block) {
+                         add_rows(rows, block, values + place * kJointBlockRows);
+                       });
+  }
+  return read_blocks(view, plan, rows, word, reach, kernels, [=](size_t place, const float* block) {
+    float* const to = values + place * kJointBlockRows;
+    expect(to + 2 * kJointBlockRows);
+    memcpy(to, block, kJointBlockRows * sizeof(float));
+  });
+}
+
+/// The one pass that reads the numbers to keep them.
+void fill_blocks(const dna::DnaView& view, const JointPlan& plan, Span<uint8_t> reach, Rig& rig) {
+  JointMatrix& joints = rig.joints;
+  const uint64_t* word = plan.blocks.data;
+  uint32_t panel = 0;
+  for (uint32_t b = 0; b < plan.block_row_count(); b += 2) {
+    if (joints.panels[panel].first_block_row == b) fill_parts(panel++, plan, joints);
+    place_blocks(plan, b, joints);
+    for (uint32_t i = plan.first_rows[b]; i < plan.first_rows[b + 2]; ++i) {
+      word = fill_rows(view, plan, plan.rows[i], word, reach, rig);
+    }
+  }
+  fill_parts(panel, plan, joints);
 }
 
 void place_variable_values(const dna::DnaView& view, Placer& placer, Rig& rig) {
@@ -424,7 +528,7 @@ Status plan_joints(const dna::DnaView& view, const Rig& rig, Arena& scratch, Joi
   if (rig.control_count && !plan.columns.data) return no_scratch(error);
   Status status = plan_block_rows(view, rig, scratch, plan, error);
   if (status == Status::kOk) status = find_blocks(view, scratch, plan, error);
-  if (status == Status::kOk) status = count_blocks(view, scratch, plan, error);
+  if (status == Status::kOk) status = pair_blocks(view, rig, scratch, plan, error);
   if (status != Status::kOk) return status;
 
   plan.panel_size = panel_size(plan.block_row_count(), plan.block_count, plan.column_count);
@@ -480,7 +584,7 @@ void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach,
           static_cast<uint16_t>(rows_at_lod(groups[g].lods, l));
     }
   }
-  mark_other_rows(view, plan, rig, reach);
+  mark_other_rows(view, plan, reach);
 
   for (uint8_t use : plan.uses) joints.contested |= use == kContested;
   uint32_t panel = 0;
@@ -497,36 +601,7 @@ void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach,
   if (rig.half_storage) fill_scales(view, plan, joints);
 
   place_columns(plan, joints);
-  uint32_t block = 0;
-  for_each_block(
-      view, plan,
-      [&](const PlannedRows& rows, const FileRows& file, uint32_t c, PlannedColumn& column,
-          bool first) {
-        if (first) {
-          // The second half of a pair writes what the first one did: no branches, as above.
-          const uint32_t paired = plan.paired[block / kWordBits] >> block % kWordBits & 1;
-          const uint32_t second = rows.block_row % 2 & paired;
-          uint32_t& entry = column.entries[paired];
-          joints.block_rows[entry - second] =
-              static_cast<uint16_t>((rows.block_row - second) * kBlockRowUnit);
-          entry += 1 - second;
-          column.block = column.blocks[paired]++;
-          ++block;
-        }
-        mark_reach(rows, file, c, reach[groups[rows.group].input_indices[c]]);
-        if (rig.half_storage) {
-          add_fixed_block(rows, file, c,
-                          joints.scales.data + size_t{rows.block_row} * kJointBlockRows,
-                          joints.fixed_values.data + size_t{column.block} * kJointBlockRows);
-        } else {
-          float* const values = joints.values.data + size_t{column.block} * kJointBlockRows;
-          expect(values + kJointBlockRows);
-          add_block(rows, file, c, first, values);
-        }
-      });
-  for (size_t k = 0; k < joints.columns.count; ++k) {
-    fill_parts(k, joints);
-  }
+  fill_blocks(view, plan, reach, rig);
   if (!joints.first_row_blocks.empty()) {
     list_blocks_by_row(joints, joints.first_row_blocks, joints.row_blocks);
   }

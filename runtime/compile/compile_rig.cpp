@@ -2,7 +2,6 @@
 #include "runtime/compile/compile_rig.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
 
 #include "runtime/dna/format/dna_writer.h"
@@ -16,8 +15,6 @@ using dna::DnaView;
 using dna::List;
 using dna::LodMap;
 using dna::String;
-
-constexpr const char* kPsdNameFormat = "psd%u";
 
 // Names -----------------------------------------------------------------------------------------
 
@@ -40,10 +37,13 @@ void for_each_name(const DnaView& view, const Rig& rig, F&& f) {
     for (uint32_t i = 0; i < list.names.count; ++i) f(list.kind, i, list.names[i], String{});
   }
   for (uint32_t i = 0; i < rig.psd_count; ++i) {
-    char text[16];
-    const int n = snprintf(text, sizeof(text), kPsdNameFormat, i);
-    f(Kind::kPsdControl, i, String{reinterpret_cast<uint8_t*>(text), static_cast<uint32_t>(n)},
-      String{});
+    uint8_t text[16];  // "psd" and the number, from the end
+    uint32_t at = sizeof(text);
+    for (uint32_t rest = i; rest != 0 || at == sizeof(text); rest /= 10) {
+      text[--at] = static_cast<uint8_t>('0' + rest % 10);
+    }
+    for (char c : {'d', 's', 'p'}) text[--at] = static_cast<uint8_t>(c);
+    f(Kind::kPsdControl, i, String{text + at, static_cast<uint32_t>(sizeof(text)) - at}, String{});
   }
   uint32_t mask = 0;
   const auto& regions = view.mlbh.mesh_regions.region_names;
@@ -268,7 +268,7 @@ size_t scratch_bytes(const DnaView& view, const Rig& rig) {
   for (const dna::JointGroup& group : view.bhvr.joints.groups) {
     const size_t rows = group.output_indices.count, blocks = rows / kJointBlockRows + 2;
     bytes +=
-        rows * 3 + blocks * (2 * sizeof(PlannedRows) + group.input_indices.count / 4 + 32) + 128;
+        rows * 3 + blocks * (2 * sizeof(PlannedRows) + group.input_indices.count * 5 + 40) + 128;
   }
   return bytes;
 }

@@ -41,25 +41,29 @@ struct PlannedRows {
   uint8_t row_count;
   uint8_t first_in_block;  // packed row of the block row; rows of other groups may follow
   bool contested;
+  bool whole;  // fills its block row, and lists no control twice
 
   uint8_t reach() const { return reaches[0]; }  // of the whole: rows are in order
 };
 
-/// The blocks of a control, single ones and halves of pairs: first how many there are, then where
-/// the next of either kind goes.
-struct PlannedColumn {
-  uint32_t blocks[2];      // [is half of a pair]
-  uint32_t entries[2];     // into JointMatrix::block rows
-  uint32_t end_block_row;  // behind the last one seen
-  uint32_t block;          // the last one seen
+/// What a control has in two neighboring block rows, of which the first has an even number.
+struct BlockHalves {
+  uint16_t control;
+  uint16_t halves;  // bit 0: a block in the first one; bit 1: in the second one
+};
+constexpr uint32_t kBothHalves = 3;
 
-  uint32_t pairs() const { return blocks[1] / 2; }
-  uint32_t singles() const { return blocks[0]; }
+/// The blocks of a control, single ones and pairs: first how many entries there are, then where the
+/// next of either kind goes.
+struct PlannedColumn {
+  uint32_t entries[2];  // [is a pair] into JointMatrix::block_rows
+  uint32_t blocks[2];   // [is a pair]
 };
 
 /// What becomes of the joint groups, in scratch memory: found out once, before anything is placed.
 struct JointPlan {
   Span<uint8_t> uses;               // of all rows of all groups
+  Span<uint8_t> reaches;            // of all rows of all groups: how many LODs, counted from 0
   Span<PlannedRows> rows;           // by block row
   Span<uint32_t> first_rows;        // [block row] into rows, one more at the end
   Span<uint8_t> block_row_reaches;  // never rises
@@ -68,8 +72,10 @@ struct JointPlan {
   uint32_t panel_size = 0;      // block rows
   size_t panel_ends = 0;        // panels, and one more
   Span<PlannedColumn> columns;  // [control]
-  Span<uint64_t> blocks;        // by rows, a bit for each column of their group: not all zeros
-  Span<uint64_t> paired;        // a bit for each block in the order of a scan: half of a pair
+  Span<uint32_t> places;  // [control] its last block of an even block row, or before the odd one's
+  Span<uint64_t> blocks;  // by rows, a bit for each column of their group: not all zeros
+  Span<BlockHalves> halves;     // by pairs of block rows
+  Span<uint32_t> first_halves;  // [block row / 2] into halves, one more at the end
 
   uint32_t block_row_count() const { return static_cast<uint32_t>(block_row_reaches.count); }
 };

@@ -15,13 +15,31 @@ namespace {
 
 // Which rows count ------------------------------------------------------------------------------
 
-/// Of rows with the same output the last one counts, at each LOD anew: a row is overridden where a
-/// later one is reached. Rows of zeros write nothing, so that they override nothing.
-Status choose_rows(const dna::DnaView& view, const Rig& rig, Arena& scratch, Span<uint8_t>& uses,
-                   Error& error) {
+/// How many LODs, counted from 0, reach each row: lod_reach() of all at once.
+Status find_reaches(const dna::DnaView& view, const Rig& rig, Arena& scratch,
+                    Span<uint8_t>& reaches, Error& error) {
   const auto& groups = view.bhvr.joints.groups;
   size_t row_count = 0;
   for (const dna::JointGroup& group : groups) row_count += group.output_indices.count;
+  reaches = scratch.array<uint8_t>(row_count);
+  if (row_count && !reaches.data) return no_scratch(error);
+  uint8_t* rows = reaches.data;
+  for (const dna::JointGroup& group : groups) {
+    const uint32_t count = group.output_indices.count;
+    for (uint32_t l = 0; l < rig.lod_count; ++l) {
+      std::fill_n(rows, std::min(count, rows_at_lod(group.lods, l)), static_cast<uint8_t>(l + 1));
+    }
+    rows += count;
+  }
+  return Status::kOk;
+}
+
+/// Of rows with the same output the last one counts, at each LOD anew: a row is overridden where a
+/// later one is reached. Rows of zeros write nothing, so that they override nothing.
+Status choose_rows(const dna::DnaView& view, const Rig& rig, const Span<uint8_t>& reaches,
+                   Arena& scratch, Span<uint8_t>& uses, Error& error) {
+  const auto& groups = view.bhvr.joints.groups;
+  const size_t row_count = reaches.count;
   uses = scratch.array<uint8_t>(row_count);
   const uint32_t outputs = output_limit(rig);
   Span<uint8_t> overridden = scratch.array<uint8_t>(outputs);  // leading LODs taken by later rows
@@ -35,7 +53,7 @@ Status choose_rows(const dna::DnaView& view, const Rig& rig, Arena& scratch, Spa
     for (uint32_t r = group.output_indices.count; r-- > 0;) {
       --at;
       const uint32_t output = output_of(view, rig, group.output_indices[r]);
-      const uint8_t reach = lod_reach(group.lods, rig.lod_count, r);
+      const uint8_t reach = reaches[at];
       if (output == kNoOutput || reach == 0 || is_zero(group, r)) continue;
       if (reach <= overridden[output]) continue;
       uses[at] = kUsed;
@@ -54,21 +72,18 @@ Status choose_rows(const dna::DnaView& view, const Rig& rig, Arena& scratch, Spa
 
 /// The rows of each group one behind the other: those that the same LODs reach by their outputs, so
 /// that what moves one joint stands together, and is zero together.
-Status order_rows(const dna::DnaView& view, const Rig& rig, Arena& scratch, Span<uint16_t>& order,
-                  Error& error) {
+Status order_rows(const dna::DnaView& view, const Span<uint8_t>& reaches, Arena& scratch,
+                  Span<uint16_t>& order, Error& error) {
   const auto& groups = view.bhvr.joints.groups;
-  size_t row_count = 0;
-  for (const dna::JointGroup& group : groups) row_count += group.output_indices.count;
-  order = scratch.array<uint16_t>(row_count);
-  if (row_count && !order.data) return no_scratch(error);
+  order = scratch.array<uint16_t>(reaches.count);
+  if (reaches.count && !order.data) return no_scratch(error);
   uint16_t* rows = order.data;
+  const uint8_t* reach = reaches.data;
   for (const dna::JointGroup& group : groups) {
     const uint32_t count = group.output_indices.count;
     for (uint32_t r = 0; r < count; ++r) rows[r] = static_cast<uint16_t>(r);
     for (uint32_t begin = 0, end; begin < count; begin = end) {
-      const uint8_t reach = lod_reach(group.lods, rig.lod_count, begin);
-      for (end = begin + 1; end < count; ++end) {
-        if (lod_reach(group.lods, rig.lod_count, end) != reach) break;
+      for (end = begin + 1; end < count && reach[end] == reach[begin]; ++end) {
       }
       std::sort(rows + begin, rows + end, [&](uint16_t a, uint16_t b) {
         const uint32_t of_a = group.output_indices[a], of_b = group.output_indices[b];
@@ -76,15 +91,16 @@ Status order_rows(const dna::DnaView& view, const Rig& rig, Arena& scratch, Span
       });
     }
     rows += count;
+    reach += count;
   }
   return Status::kOk;
 }
 
-/// Calls f(group number, rows, row count, contested) for what shares a block row, group by group:
-/// neighbors of one group that count. A contested row is alone in its block row, so that block rows
-/// in order of their reach write in the right order.
+/// Calls f(group number, reaches of its rows, rows, row count, contested) for what shares a block
+/// row, group by group: neighbors of one group that count. A contested row is alone in its block row,
+/// so that block rows in order of their reach write in the right order.
 template <class F>
-void for_each_rows(const dna::DnaView& view, const Span<uint8_t>& uses, const Span<uint16_t>& order,
+void for_each_rows(const dna::DnaView& view, const JointPlan& plan, const Span<uint16_t>& order,
                    F&& f) {
   size_t first_row = 0;
   const auto& groups = view.bhvr.joints.groups;
@@ -92,16 +108,17 @@ void for_each_rows(const dna::DnaView& view, const Span<uint8_t>& uses, const Sp
     uint16_t rows[kJointBlockRows];
     uint32_t count = 0;
     const uint32_t row_count = groups[g].output_indices.count;
+    const uint8_t* const reaches = plan.reaches.data + first_row;
     for (uint32_t r = 0; r < row_count; ++r) {
       const uint16_t row = order[first_row + r];
-      const uint8_t use = uses[first_row + row];
-      if (use == kContested) f(g, &row, 1u, true);
+      const uint8_t use = plan.uses[first_row + row];
+      if (use == kContested) f(g, reaches, &row, 1u, true);
       if (use != kUsed) continue;
       rows[count++] = row;
-      if (count == kJointBlockRows) f(g, rows, count, false);
+      if (count == kJointBlockRows) f(g, reaches, rows, count, false);
       count %= kJointBlockRows;
     }
-    if (count != 0) f(g, rows, count, false);
+    if (count != 0) f(g, reaches, rows, count, false);
     first_row += row_count;
   }
 }
@@ -196,20 +213,21 @@ uint32_t number_block_rows(Span<BlockRowDraft>& drafts, size_t first, uint32_t n
 
 Status plan_block_rows(const dna::DnaView& view, const Rig& rig, Arena& scratch, JointPlan& plan,
                        Error& error) {
-  Status status = choose_rows(view, rig, scratch, plan.uses, error);
+  Status status = find_reaches(view, rig, scratch, plan.reaches, error);
+  if (status == Status::kOk) {
+    status = choose_rows(view, rig, plan.reaches, scratch, plan.uses, error);
+  }
   Span<uint16_t> order;
-  if (status == Status::kOk) status = order_rows(view, rig, scratch, order, error);
+  if (status == Status::kOk) status = order_rows(view, plan.reaches, scratch, order, error);
   if (status != Status::kOk) return status;
   const auto& groups = view.bhvr.joints.groups;
   size_t count = 0;
   uint32_t begin[kMaxLods + 2] = {};  // rows by reach, the farthest first
-  const auto reach_of = [&](uint32_t g, uint32_t row) {
-    return lod_reach(groups[g].lods, rig.lod_count, row);
-  };
-  for_each_rows(view, plan.uses, order, [&](uint32_t g, const uint16_t* rows, uint32_t, bool) {
-    ++count;
-    ++begin[rig.lod_count - reach_of(g, rows[0]) + 1];
-  });
+  for_each_rows(view, plan, order,
+                [&](uint32_t, const uint8_t* reaches, const uint16_t* rows, uint32_t, bool) {
+                  ++count;
+                  ++begin[rig.lod_count - reaches[rows[0]] + 1];
+                });
   Span<PlannedRows> drafted = scratch.array<PlannedRows>(count);
   Span<BlockRowDraft> drafts = scratch.array<BlockRowDraft>(count);
   Span<GroupSignature> signatures = scratch.array<GroupSignature>(groups.count);
@@ -217,15 +235,16 @@ Status plan_block_rows(const dna::DnaView& view, const Rig& rig, Arena& scratch,
     return no_scratch(error);
   }
   for (uint32_t l = 0; l <= rig.lod_count; ++l) begin[l + 1] += begin[l];
-  for_each_rows(view, plan.uses, order,
-                [&](uint32_t g, const uint16_t* from, uint32_t n, bool contested) {
-                  PlannedRows& rows = drafted[begin[rig.lod_count - reach_of(g, from[0])]++];
-                  rows.group = g;
-                  rows.row_count = static_cast<uint8_t>(n);
-                  rows.contested = contested;
-                  std::copy(from, from + n, rows.rows);
-                  for (uint32_t k = 0; k < n; ++k) rows.reaches[k] = reach_of(g, from[k]);
-                });
+  for_each_rows(
+      view, plan, order,
+      [&](uint32_t g, const uint8_t* reaches, const uint16_t* from, uint32_t n, bool contested) {
+        PlannedRows& rows = drafted[begin[rig.lod_count - reaches[from[0]]]++];
+        rows.group = g;
+        rows.row_count = static_cast<uint8_t>(n);
+        rows.contested = contested;
+        std::copy(from, from + n, rows.rows);
+        for (uint32_t k = 0; k < n; ++k) rows.reaches[k] = reaches[from[k]];
+      });
   for (uint32_t g = 0; g < groups.count; ++g) {
     for (uint32_t c = 0; c < groups[g].input_indices.count; ++c) {
       const uint32_t bit = groups[g].input_indices[c] % 1024;

@@ -24,12 +24,14 @@ inline uint32_t output_limit(const Rig& rig) {
   return rig.joint_value_count() + (rig.quaternion_outputs ? rig.joint_count * 3 : 0);
 }
 
-/// Bits of a big-endian float, but for its sign; zero if it is zero.
-inline uint32_t magnitude_bits(const uint8_t* value) {
+/// Bits of a big-endian float, or of several merged by `or`, but for the sign; zero if all are zero.
+inline uint32_t magnitude(uint32_t bits) { return bits & to_big_endian(uint32_t{0x7FFFFFFF}); }
+inline uint32_t file_bits(const uint8_t* value) {
   uint32_t bits;
   memcpy(&bits, value, sizeof(bits));
-  return bits & to_big_endian(uint32_t{0x7FFFFFFF});
+  return bits;
 }
+inline uint32_t magnitude_bits(const uint8_t* value) { return magnitude(file_bits(value)); }
 
 inline const uint8_t* row_values(const dna::JointGroup& group, uint32_t row) {
   return group.values.data + size_t{row} * group.input_indices.count * sizeof(float);
@@ -42,11 +44,11 @@ inline bool is_zero(const dna::JointGroup& group, uint32_t row) {
   const uint8_t* values = row_values(group, row);
   const uint32_t columns = group.input_indices.count;
   uint32_t c = 0, any = 0;
-  for (; c + kStrip <= columns && any == 0; c += kStrip) {
-    for (uint32_t i = 0; i < kStrip; ++i) any |= magnitude_bits(values + size_t{c + i} * 4);
+  for (; c + kStrip <= columns && magnitude(any) == 0; c += kStrip) {
+    for (uint32_t i = 0; i < kStrip; ++i) any |= file_bits(values + size_t{c + i} * 4);
   }
-  for (; c < columns && any == 0; ++c) any |= magnitude_bits(values + size_t{c} * 4);
-  return any == 0;
+  for (; c < columns && magnitude(any) == 0; ++c) any |= file_bits(values + size_t{c} * 4);
+  return magnitude(any) == 0;
 }
 
 constexpr uint32_t kWordBits = 64;

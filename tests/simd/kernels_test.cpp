@@ -5,10 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -479,6 +481,45 @@ TEST(FinishSumsKernel, ScalesAndSaturates) {
       EXPECT_EQ(scaled[i], expected_scaled[i]) << i;
       EXPECT_EQ(plain[i], expected_plain[i]) << i;
       EXPECT_EQ(bits_of(plain[8 + i]), 0u) << "-0 becomes 0";
+    }
+  }
+}
+
+TEST(ReadBlockRowsKernel, ReadsRowsOfFilesAtAnyAddress) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  const float special[] = {0.0f,      -0.0f,     1e-45f,     -1e-45f,       kLargest,
+                           -kLargest, kInfinity, -kInfinity, std::nanf(""), -std::nanf("")};
+  for (const KernelTable* kernels : present_kernels()) {
+    for (uint32_t count = 0; count <= 21; ++count) {
+      // Rows of this length only, so that a checker of memory sees what is read behind them.
+      std::vector<std::vector<uint8_t>> rows(kJointBlockRows);
+      std::vector<float> expected(size_t{count} * kJointBlockRows);
+      BlockRowsArgs args;
+      for (uint32_t r = 0; r < kJointBlockRows; ++r) {
+        const uint32_t shift = r % 4;  // bytes before the row
+        rows[r].resize(shift + count * 4);
+        for (uint32_t c = 0; c < count; ++c) {
+          const uint32_t i = c * kJointBlockRows + r;
+          const float value = i % 3 == 0 ? special[i / 3 % 10] : 0.37f * static_cast<float>(i) - 9;
+          const uint32_t bits = bits_of(value);
+          for (uint32_t k = 0; k < 4; ++k) {
+            rows[r][shift + c * 4 + k] = static_cast<uint8_t>(bits >> (24 - 8 * k));
+          }
+          expected[i] = value > -kLargest ? (value < kLargest ? value : kLargest) : -kLargest;
+        }
+        args.rows[r] = rows[r].data() + shift;
+      }
+      alignas(64) float blocks[22 * kJointBlockRows];
+      std::fill(std::begin(blocks), std::end(blocks), 7.0f);
+      args.blocks = blocks;
+      args.count = count;
+      kernels->read_block_rows(args);
+      for (size_t i = 0; i < expected.size(); ++i) {
+        ASSERT_EQ(bits_of(blocks[i]), bits_of(expected[i]))
+            << kernels->name << ' ' << count << ' ' << i;
+      }
+      for (size_t i = expected.size(); i < std::size(blocks); ++i) ASSERT_EQ(blocks[i], 7.0f);
     }
   }
 }
