@@ -127,6 +127,15 @@ typedef struct MienAuthorBone {
     uint32_t kind;       /* MIEN_BONE_...: the first is the root, and facial ones stand in one run */
 } MienAuthorBone;
 
+/* Triangles of the caller: a LOD of the mesh. */
+typedef struct MienAuthorLod {
+    const uint32_t* corners;    /* positions of the mesh, three for each triangle, all of one object.
+                                   Objects without triangles are not in the LOD */
+    size_t corner_count;
+    const uint32_t* corner_uvs; /* one per corner. NULL: of the UVs that a position has in the mesh, those
+                                   nearest to each other */
+} MienAuthorLod;
+
 /* Whether the halves of the face are mirror images. */
 enum MienSymmetry {
     MIEN_SYMMETRY_AUTO = 0, /* if mirrored positions lie within 0.5 % of the face from the surface */
@@ -156,8 +165,8 @@ enum MienAuthorFlags {
     MIEN_AUTHOR_GROUP_IN_SPACE = 32   /* groups by distance in space, not in depth: to compare with */
 };
 
-/* How a mesh is rigged. Bones, weights, depth_groups, mask, lod_joints, bone_groups and bone_motions
- * are results of the caller, each in place of one stage. */
+/* How a mesh is rigged. Bones, weights, depth_groups, mask, lod_joints, bone_groups, bone_motions and
+ * lod_meshes are results of the caller, each in place of one stage. */
 typedef struct MienAuthorDesc {
     size_t struct_size;
     uint32_t facial_joints;            /* 1 to 7000. 0: 240 */
@@ -199,6 +208,8 @@ typedef struct MienAuthorDesc {
                                           most as many. 0: none */
     double lod_triangles;              /* share of its triangles that each further LOD keeps of the LOD
                                           before: above 0, at most 1. 0: 0.5. 1: all */
+    const MienAuthorLod* lod_meshes;   /* LOD 1, LOD 2 and so on. NULL: made by lod_triangles */
+    size_t lod_mesh_count;             /* one less than `lods` */
 } MienAuthorDesc;
 MIEN_DEFAULT(MienAuthorDesc, mien_author_desc_default)
 

@@ -159,6 +159,20 @@ MienStatus check_options(const MienAuthorDesc& desc, MienError* error) {
                       "MienAuthorDesc.bone_groups and .bone_motions go with bones");
   }
   const size_t lods = lod_count(desc);
+  if (!is_there(desc.lod_meshes, desc.lod_mesh_count)) {
+    return give_error(error, MIEN_ERROR_NULL_ARGUMENT,
+                      "MienAuthorDesc.lod_meshes is NULL, but its count is not 0");
+  }
+  if (desc.lod_meshes && desc.lod_mesh_count != lods - 1) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienAuthorDesc.lod_meshes has %zu meshes: %zu LODs need %zu",
+                      desc.lod_mesh_count, lods, lods - 1);
+  }
+  for (size_t l = 0; l < desc.lod_mesh_count; ++l) {
+    if (is_there(desc.lod_meshes[l].corners, desc.lod_meshes[l].corner_count)) continue;
+    return give_error(error, MIEN_ERROR_NULL_ARGUMENT,
+                      "MienAuthorLod.corners of LOD %zu is NULL, but its count is not 0", l + 1);
+  }
   for (size_t lod = 0; desc.lod_joints && lod < lods; ++lod) {
     if (desc.lod_joints[lod] > 0 &&
         (lod == 0 || desc.lod_joints[lod] <= desc.lod_joints[lod - 1])) {
@@ -207,8 +221,9 @@ bool read_input(const MienAuthorMesh& mesh, const MienAuthorDesc& desc, Arena& a
   Span<author::ObjectSource> objects;
   Span<author::ShapeSource> shapes;
   Span<author::OwnBone> bones;
+  Span<author::LodSource> lod_meshes;
   if (!make(arena, mesh.object_count, objects) || !make(arena, mesh.shape_count, shapes) ||
-      !make(arena, desc.bone_count, bones)) {
+      !make(arena, desc.bone_count, bones) || !make(arena, desc.lod_mesh_count, lod_meshes)) {
     return false;
   }
   for (size_t o = 0; o < objects.count; ++o) {
@@ -230,6 +245,11 @@ bool read_input(const MienAuthorMesh& mesh, const MienAuthorDesc& desc, Arena& a
                 {bone.position[0], bone.position[1], bone.position[2]},
                 bone.parent,
                 static_cast<author::BoneKind>(bone.kind)};
+  }
+  for (size_t l = 0; l < lod_meshes.count; ++l) {
+    const MienAuthorLod& lod = desc.lod_meshes[l];
+    lod_meshes[l].corners = {lod.corners, lod.corner_count};
+    if (lod.corner_uvs) lod_meshes[l].corner_uvs = {lod.corner_uvs, lod.corner_count};
   }
   source.objects = objects;
   source.shapes = shapes;
@@ -254,6 +274,7 @@ bool read_input(const MienAuthorMesh& mesh, const MienAuthorDesc& desc, Arena& a
   options.residual_targets = (desc.flags & MIEN_AUTHOR_NO_TARGETS) == 0;
   if (desc.name.count) options.name = name_of(desc.name);
   options.bones = bones;
+  options.lod_meshes = lod_meshes;
   if (desc.weights) {
     const size_t count = mesh.position_count * options.influences;
     options.weights = {{desc.weight_joints, count}, {desc.weights, count}};

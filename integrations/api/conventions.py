@@ -135,7 +135,7 @@ class Conventions:
             return None
         names = [f["name"] for f in struct["fields"]]
         per = field["row"]["per"].replace(" ", "_") if field["row"] else ""
-        for wanted in (re.sub("s$", "", field["name"]) + "_count", per + "_count", "count"):
+        for wanted in (re.sub("(?<=sh)es$|s$", "", field["name"]) + "_count", per + "_count", "count"):
             if wanted in names:
                 return wanted
         return None

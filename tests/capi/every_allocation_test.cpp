@@ -232,8 +232,11 @@ struct AuthorInput {
   author::TestMesh mesh = author::procedural_mesh(7, true);
   std::vector<MienAuthorShape> shapes;
   MienAuthorMesh given = sized<MienAuthorMesh>();
+  MienAuthorLod lod = {};  // three corners of the first face
 
   AuthorInput() {
+    lod.corners = mesh.corners.data();
+    lod.corner_count = 3;
     for (size_t s = 0; s < mesh.shape_names.size(); ++s) {
       MienAuthorShape shape = {};
       shape.name = {mesh.shape_names[s].data(), mesh.shape_names[s].size()};
@@ -389,16 +392,20 @@ std::vector<Call> calls_of_authoring(const World& w, const AuthorInput& input) {
   desc.facial_joints = 6;
   desc.lods = 2;
   desc.influences = 4;
-  return {
-      {"mien_author_rig",
-       [&input, desc](MienError* error) {
-         return made_and_destroyed(mien_dna_close, [&](MienDna** out) {
-           return made_and_destroyed(mien_author_report_close, [&](MienAuthorReport** report) {
-             return mien_author_rig(&input.given, &desc, out, report, error);
-           });
-         });
-       }},
+  auto with_lods = desc;
+  with_lods.facial_joints = with_lods.influences = 1;
+  with_lods.lod_meshes = &input.lod;
+  with_lods.lod_mesh_count = 1;
+  const auto rig = [&input](const MienAuthorDesc& given) {
+    return [&input, given](MienError* error) {
+      return made_and_destroyed(mien_dna_close, [&](MienDna** out) {
+        return made_and_destroyed(mien_author_report_close, [&](MienAuthorReport** report) {
+          return mien_author_rig(&input.given, &given, out, report, error);
+        });
+      });
+    };
   };
+  return {{"mien_author_rig", rig(desc)}, {"mien_author_rig", rig(with_lods)}};
 }
 
 /// Requests that the call makes.

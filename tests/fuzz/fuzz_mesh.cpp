@@ -244,6 +244,20 @@ void rig_mesh(const MeshFile& file, uint8_t options, uint8_t more) {
   desc.symmetry = (options >> 1) % 3;
   desc.flags = (options >> 3) % 32;
   desc.allocator = &allocator;
+  std::vector<MienAuthorLod> lods;
+  if (options % 3 == 1) {
+    const size_t corners = view.mesh.corner_count;
+    for (uint32_t l = 1; l < desc.lods; ++l) {
+      MienAuthorLod lod = {};
+      const size_t first = std::min<size_t>(corners, more % 5 * l);
+      lod.corners = view.mesh.corners + first;
+      lod.corner_count = (corners - first) / 3 / l * 3;
+      if (options & 4 && view.mesh.corner_uvs) lod.corner_uvs = view.mesh.corner_uvs + first;
+      lods.push_back(lod);
+    }
+    desc.lod_meshes = lods.data();
+    desc.lod_mesh_count = lods.size();
+  }
   MienDna* dna = nullptr;
   MienAuthorReport* report = nullptr;
   MienError error = mien_error_default();

@@ -2597,6 +2597,17 @@ class MienAuthorBone(Structure):
     kind: Any
 
 
+class MienAuthorLod(Structure):
+    _fields_ = [
+        ("corners", c_void_p),
+        ("corner_count", c_size_t),
+        ("corner_uvs", c_void_p),
+    ]
+    corners: Any
+    corner_count: Any
+    corner_uvs: Any
+
+
 class MienAuthorDesc(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -2628,6 +2639,8 @@ class MienAuthorDesc(Structure):
         ("joint_groups", c_uint32),
         ("overlap_correctives", c_uint32),
         ("lod_triangles", c_double),
+        ("lod_meshes", POINTER(MienAuthorLod)),
+        ("lod_mesh_count", c_size_t),
     ]
     struct_size: Any
     facial_joints: Any
@@ -2658,6 +2671,8 @@ class MienAuthorDesc(Structure):
     joint_groups: Any
     overlap_correctives: Any
     lod_triangles: Any
+    lod_meshes: Any
+    lod_mesh_count: Any
 
     def __init__(self, *,
                  facial_joints: int = 0,
@@ -2687,8 +2702,10 @@ class MienAuthorDesc(Structure):
                  bone_motions: Any = None,
                  joint_groups: int = 0,
                  overlap_correctives: int = 0,
-                 lod_triangles: int = 0) -> None:
-        super().__init__(208)
+                 lod_triangles: int = 0,
+                 lod_meshes: Any = None,
+                 lod_mesh_count: int = 0) -> None:
+        super().__init__(224)
         self.facial_joints = facial_joints
         self.influences = influences
         self.lods = lods
@@ -2717,6 +2734,8 @@ class MienAuthorDesc(Structure):
         self.joint_groups = joint_groups
         self.overlap_correctives = overlap_correctives
         self.lod_triangles = lod_triangles
+        self.lod_meshes = lod_meshes
+        self.lod_mesh_count = lod_mesh_count
 
 
 class CoordinateSystem(NamedTuple):

@@ -140,6 +140,23 @@ class _Given:
         desc.weights = shares.ctypes.data
 
 
+    def lods(self, meshes: Sequence[Any], desc: Any) -> None:
+        structs = (_api.MienAuthorLod * len(meshes))()
+        self.kept.append(structs)
+        if desc.lods not in (0, len(meshes) + 1):
+            raise ArgumentError(f"lod_meshes has {len(meshes)} LODs beside the first, "
+                                f"not {desc.lods - 1}")
+        desc.lods = len(meshes) + 1
+        desc.lod_meshes = structs
+        desc.lod_mesh_count = len(meshes)
+        for i, mesh in enumerate(meshes):
+            faces, uvs = mesh if isinstance(mesh, tuple) else (mesh, None)
+            corners = self.numbers(faces, f"lod_meshes[{i}]", "uint32", (None, 3))
+            structs[i].corners, structs[i].corner_count = corners.ctypes.data, corners.size
+            if uvs is not None:
+                of_corners = self.numbers(uvs, f"UVs of lod_meshes[{i}]", "uint32", corners.shape)
+                structs[i].corner_uvs = of_corners.ctypes.data
+
     def results(self, count: int, names: Sequence[str], desc: Any, *, depth_groups: Any, mask: Any,
                 lod_joints: Any, bone_groups: Any, bone_motions: Any) -> None:
         """Results of the caller in place of stages."""
@@ -187,6 +204,7 @@ def author_rig(positions: Any, faces: Any, shapes: Optional[Mapping[str, Any]] =
                bone_groups: Optional[Sequence[int]] = None,
                bone_motions: Optional[Mapping[str, Any]] = None, joint_groups: int = 0,
                overlap_correctives: int = 0, lod_triangles: float = 0.5,
+               lod_meshes: Optional[Sequence[Any]] = None,
                progress: Optional[Callable[[str, float], Any]] = None,
                executor: Optional[Executor] = None) -> AuthoredRig:
     """Makes a rig from the mesh of a head: joints, skin weights of every LOD, and for each shape a raw
@@ -213,6 +231,8 @@ def author_rig(positions: Any, faces: Any, shapes: Optional[Mapping[str, Any]] =
     joint_groups:  how many are found, 1 to 24; 0: as many as have 75 rows each
     overlap_correctives: for pairs of shapes that double their motion, at most as many
     lod_triangles: share of its triangles that each further LOD keeps of the LOD before; 1: all
+    lod_meshes:    of the caller, instead: (k, 3) positions of the corners of LOD 1, of LOD 2 and so on,
+                   each triangle of one object; or a pair of that and (k, 3) indices of UVs
     progress:      called with the name of a step and a share from 0 to 1; what it returns, if true,
                    cancels. What it raises comes out of the call
     executor:      threads to work on; the result does not depend on them
@@ -253,6 +273,8 @@ def author_rig(positions: Any, faces: Any, shapes: Optional[Mapping[str, Any]] =
         given.weights(weights, len(places), desc)
     given.results(len(places), list(shapes or {}), desc, depth_groups=depth_groups, mask=mask,
                   lod_joints=lod_joints, bone_groups=bone_groups, bone_motions=bone_motions)
+    if lod_meshes is not None:
+        given.lods(lod_meshes, desc)
     made = _make(mesh, desc, progress, executor)
     del given  # not before
     return made

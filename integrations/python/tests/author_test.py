@@ -169,6 +169,34 @@ class Author(unittest.TestCase):
         for wrong in (-0.5, 1.5, float("nan")):
             self.refused("lod_triangles", lod_triangles=wrong)
 
+    def test_meshes_of_lods_are_those_of_the_caller(self):
+        corners = self.faces.size
+        triangles = self.faces[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+        half, few = triangles[::2], triangles[:20]
+        dna, report = self.make(lods=0, lod_meshes=[half, few])
+        self.assertTrue(report["own_lod_meshes"])
+        self.assertEqual([lod["triangles"] for lod in report["lods"]],
+                         [len(triangles), len(half), len(few)])
+        self.assertGreater(report["lods"][2]["surface_max"], 1)
+        layouts = dna["geom.meshes[2].faces[7].layoutIndices"]
+        positions = numpy.stack([dna[f"geom.meshes[2].positions.{k}"] for k in ("xs", "ys", "zs")], 1)
+        numpy.testing.assert_allclose(
+            positions[dna["geom.meshes[2].layouts.positions"][layouts].astype(int)],
+            self.positions[few[7]], rtol=1e-6)
+        uvs = numpy.arange(few.size).reshape(few.shape) % 2
+        dna, _ = self.make(lods=2, lod_meshes=[(few, uvs)], uvs=[[0, 0.25], [1, 0.5]],
+                           corner_uvs=numpy.zeros(corners, int))
+        self.assertEqual(sorted(dna["geom.meshes[1].textureCoordinates.vs"]), [0.25, 0.5])
+
+        self.refused("3 LODs beside the first, not 2", lods=3, lod_meshes=[half, half, few])
+        self.refused(r"lod_meshes\[1\] has the shape", lods=0, lod_meshes=[half, few[:, :2]])
+        self.refused(r"lod_meshes\[0\] holds float64", lods=0, lod_meshes=[half * 1.0])
+        self.refused("UVs of", lods=0, lod_meshes=[(half, half[1:])])
+        refused = mien.AuthorError
+        self.refused("names position 672", lods=0, lod_meshes=[[[0, 1, 672]]], exception=refused)
+        self.refused("LOD 2 has 0 corners", lods=0, lod_meshes=[half, []], exception=refused)
+        self.refused("the mesh has none", lods=0, lod_meshes=[(few, uvs)], exception=refused)
+
     def test_objects_and_uvs_arrive(self):
         corners = self.faces.size
         dna, report = self.make(objects=[("skin", len(self.faces) - 20), ("cap", 20)],

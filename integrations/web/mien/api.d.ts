@@ -1793,9 +1793,22 @@ export interface AuthorBone {
   kind?: BoneKind;
 }
 
+/** Triangles of the caller: a LOD of the mesh. */
+export interface AuthorLod {
+  /**
+   * positions of the mesh, three for each triangle, all of one object. Objects without triangles are not in the LOD
+   */
+  corners?: Uint32Array | readonly number[];
+  cornerCount?: number;
+  /**
+   * one per corner. NULL: of the UVs that a position has in the mesh, those nearest to each other
+   */
+  cornerUvs?: Uint32Array | readonly number[];
+}
+
 /**
- * How a mesh is rigged. Bones, weights, depth_groups, mask, lod_joints, bone_groups and bone_motions
- * are results of the caller, each in place of one stage.
+ * How a mesh is rigged. Bones, weights, depth_groups, mask, lod_joints, bone_groups, bone_motions and
+ * lod_meshes are results of the caller, each in place of one stage.
  */
 export interface AuthorDesc {
   /** 1 to 7000. 0: 240 */
@@ -1861,6 +1874,10 @@ export interface AuthorDesc {
    * share of its triangles that each further LOD keeps of the LOD before: above 0, at most 1. 0: 0.5. 1: all
    */
   lodTriangles?: number;
+  /** LOD 1, LOD 2 and so on. NULL: made by lod_triangles */
+  lodMeshes?: readonly AuthorLod[];
+  /** one less than `lods` */
+  lodMeshCount?: number;
 }
 
 /**

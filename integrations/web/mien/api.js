@@ -912,7 +912,12 @@ export const layouts = {
     parent: [32, "u32"],
     kind: [36, "u32"],
   } },
-  AuthorDesc: { size: 144, sized: true, fields: {
+  AuthorLod: { size: 12, sized: false, fields: {
+    corners: [0, "*u32", "cornerCount"],
+    cornerCount: [4, "u32"],
+    cornerUvs: [8, "*u32"],
+  } },
+  AuthorDesc: { size: 152, sized: true, fields: {
     facialJoints: [4, "u32"],
     influences: [8, "u32"],
     lods: [12, "u32"],
@@ -940,5 +945,7 @@ export const layouts = {
     jointGroups: [124, "u32"],
     overlapCorrectives: [128, "u32"],
     lodTriangles: [136, "f64"],
+    lodMeshes: [144, "*AuthorLod", "lodMeshCount"],
+    lodMeshCount: [148, "u32"],
   } },
 };

@@ -74,7 +74,7 @@ function meshOf({ positions, faces, faceSizes, uvs, cornerUvs, objects, shapes =
 }
 
 /** The fields of a struct AuthorDesc. */
-function descOf({ bones, weights, ...rest }, positionCount, shapeCount) {
+function descOf({ bones, weights, lodMeshes, ...rest }, positionCount, shapeCount) {
   const given = { seed: 1, ...rest };
   const boneCount = bones?.length ?? 0;
   for (const [name, width, count] of [["depthGroups", 1, positionCount], ["mask", 1, positionCount],
@@ -85,6 +85,16 @@ function descOf({ bones, weights, ...rest }, positionCount, shapeCount) {
   if (given.lodJoints) {
     given.lods ||= indices(given.lodJoints, "lodJoints", 1).length;
     if (!given.lods || given.lods !== given.lodJoints.length) throw wrong("lodJoints are not one for each LOD");
+  }
+  if (lodMeshes) {
+    given.lods ||= lodMeshes.length + 1;
+    if (given.lods !== lodMeshes.length + 1) throw wrong("lodMeshes are not one for each LOD but the first");
+    given.lodMeshes = lodMeshes.map((lod, i) => {
+      const { faces, cornerUvs } = ArrayBuffer.isView(lod) || Array.isArray(lod) ? { faces: lod } : lod;
+      const corners = indices(faces, `lodMeshes[${i}]`, 3);
+      if (!cornerUvs) return { corners };
+      return { corners, cornerUvs: indices(cornerUvs, `cornerUvs of lodMeshes[${i}]`, 1, corners.length) };
+    });
   }
   if (bones) {
     given.bones = bones.map(({ name, position, parent = 0, kind = BoneKind.FACIAL }) =>

@@ -185,11 +185,16 @@ export interface AuthorBone extends Omit<AuthorBoneDesc, "name" | "position"> {
 
 /** As in AuthorDesc; `seed` is 1 by default. */
 export interface AuthorOptions extends Omit<AuthorDesc,
-  "bones" | "boneCount" | "weightJoints" | "weights" | "parallel" | "progress" | "progressUser"> {
+  "bones" | "boneCount" | "weightJoints" | "weights" | "lodMeshes" | "lodMeshCount" | "parallel" | "progress" |
+  "progressUser"> {
   /** Bones of yours, instead of those that would be placed. */
   bones?: readonly AuthorBone[];
   /** Skin weights of yours, with `bones`: as many joints and weights for each position. */
   weights?: { joints: Integers; weights: Numbers };
+  /** Meshes of yours of LOD 1, LOD 2 and so on, instead of those that would be made: positions of the corners of
+   * triangles, each of one object. `cornerUvs` has one per corner; by default, of the UVs that a position has in the
+   * mesh, those nearest to each other. */
+  lodMeshes?: readonly (Integers | { faces: Integers; cornerUvs?: Integers })[];
   /** Is told which step begins, and a share from 0 to 1. If it returns true, authorRig() throws an AuthorError with
    * Status.AUTHOR_CANCELED; what it throws comes out as it is. */
   progress?: (step: string, share: number) => boolean | void;

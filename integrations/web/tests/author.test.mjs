@@ -115,6 +115,28 @@ test("the native program makes the same bytes", () => {
   }
 });
 
+test("meshes of LODs are those of the caller", () => {
+  const triangles = Uint32Array.from(mesh.faces.flatMap(([a, b, c, d]) => [a, b, c, a, c, d]));
+  const [half, few] = [triangles.subarray(0, triangles.length / 6 * 3), [...triangles.subarray(0, 27)]];
+  const { dna, report } = mien.authorRig(mesh, { facialJoints: 12, lodMeshes: [half, few] });
+  assert.ok(report.own_lod_meshes);
+  assert.deepEqual(report.lods.map((lod) => lod.triangles), [triangles.length / 3, half.length / 3, 9]);
+  dna.dispose();
+  const textured = { ...mesh, uvs: [0, 0, 0.5, 0.5], cornerUvs: new Uint32Array(mesh.faces.length * 4) };
+  const cornerUvs = new Uint8Array(27).fill(1);
+  const made = mien.authorRig(textured, { facialJoints: 12, lods: 2, lodMeshes: [{ faces: few, cornerUvs }] }).dna;
+  assert.deepEqual([...made.read("geom.meshes[1].textureCoordinates.us")], [0.5]);
+  made.dispose();
+  const refused = (options, words, type = ArgumentError, status = Status.INVALID_ARGUMENT) =>
+    assert.throws(() => bytesOf(mesh, { lods: 0, ...options }), fails(type, status, words));
+  refused({ lods: 2, lodMeshes: [half, few] }, /lodMeshes are not one/);
+  refused({ lodMeshes: [half, few.slice(1)] }, /lodMeshes\[1\] has 26 numbers, which is no multiple of 3/);
+  refused({ lodMeshes: [[0, 1, 1.5]] }, /lodMeshes\[0\]\[2\] is 1.5/);
+  refused({ lodMeshes: [{ faces: few, cornerUvs: [0] }] }, /cornerUvs of lodMeshes\[0\] has 1 numbers, not 27/);
+  refused({ lodMeshes: [half, []] }, /LOD 2 has 0 corners/, AuthorError, Status.AUTHOR_MESH);
+  refused({ lodMeshes: [{ faces: few, cornerUvs }] }, /the mesh has none/, AuthorError, Status.AUTHOR_MESH);
+});
+
 test("bones and weights of the caller are taken", () => {
   const bones = [
     { name: "root", position: [0, 0, 0], kind: BoneKind.ROOT },

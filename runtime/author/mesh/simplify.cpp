@@ -5,7 +5,6 @@
 
 #include "runtime/author/dna_making.h"
 #include "runtime/author/mesh/edge_collapse.h"
-#include "runtime/author/mesh/surface_tree.h"
 
 namespace mien::author {
 
@@ -48,164 +47,33 @@ bool choose_poses(const AuthorMesh& mesh, uint32_t most, Arena& arena, Span<Shap
   return true;
 }
 
-/// What `collapse` has left, as a mesh.
-class Extraction {
- public:
-  Extraction(const AuthorMesh& whole, const EdgeCollapse& collapse, Arena& arena, Arena& scratch)
-      : whole_(whole), left_(collapse), arena_(arena), scratch_(scratch) {}
-
-  bool make(LodMesh& out) {
-    return number_vertices(out) && take_vertices(out) && take_faces(out.vertices, out.mesh);
-  }
-
- private:
-  /// A part of which no face has a triangle, as all of them lie on lines.
-  bool is_odd(const Part& part) const {
-    return left_.first_triangle(part.first_face) ==
-           left_.first_triangle(part.first_face + part.face_count);
-  }
-
-  bool number_vertices(LodMesh& out) {
-    if (!author::make(scratch_, whole_.positions.count, numbers_)) return false;
-    for (const Part& part : whole_.parts) {
-      const uint32_t first = part.first_face, end = first + part.face_count;
-      for (uint32_t t = left_.first_triangle(first); t < left_.first_triangle(end); ++t) {
-        if (!left_.is_alive(t)) continue;
-        for (uint32_t c = 3 * t; c < 3 * t + 3; ++c) numbers_[left_.vertex(c)] = 1;
-        ++faces_;
-        corners_ += 3;
-      }
-      if (!is_odd(part)) continue;
-      const uint32_t from = whole_.face_starts[first], to = whole_.face_starts[end];
-      for (uint32_t c = from; c < to; ++c) numbers_[whole_.corners[c]] = 1;
-      faces_ += part.face_count;
-      corners_ += to - from;
-    }
-    uint32_t count = 0;
-    for (const uint32_t used : numbers_) count += used;
-    Span<uint32_t> vertices;
-    if (!author::make(arena_, count, vertices)) return false;
-    count = 0;
-    for (uint32_t v = 0; v < numbers_.count; ++v) {
-      if (numbers_[v] == 0) continue;
-      vertices[count] = v;
-      numbers_[v] = count++;
-    }
-    out.vertices = vertices;
-    return true;
-  }
-
-  bool take_vertices(LodMesh& out) {
-    const size_t n = out.vertices.count;
-    Span<Vec3> positions;
-    Span<uint32_t> welded, component, first;
-    Span<uint8_t> is_skin;
-    if (!author::make(arena_, n, positions) || !author::make(arena_, n, welded) ||
-        !author::make(arena_, n, component) || !author::make(arena_, n, is_skin) ||
-        !author::make(scratch_, whole_.positions.count, first)) {
-      return false;
-    }
-    for (uint32_t& v : first) v = kNone;
-    for (uint32_t v = 0; v < n; ++v) {
-      const uint32_t from = out.vertices[v];
-      positions[v] = whole_.positions[from];
-      component[v] = whole_.component[from];
-      is_skin[v] = whole_.is_skin[from];
-      uint32_t& place = first[whole_.welded[from]];
-      if (place == kNone) place = v;
-      welded[v] = place;
-    }
-    out.mesh = whole_;
-    out.mesh.shapes = {};
-    out.mesh.positions = positions;
-    out.mesh.welded = welded;
-    out.mesh.component = component;
-    out.mesh.is_skin = is_skin;
-    return true;
-  }
-
-  bool take_faces(Span<const uint32_t> vertices, AuthorMesh& out) {
-    Span<uint32_t> starts, corners, uvs, triangles;
-    Span<Part> parts;
-    if (!author::make(arena_, faces_ + 1, starts) || !author::make(arena_, corners_, corners) ||
-        !author::make(arena_, whole_.corner_uvs.empty() ? 0 : corners_, uvs) ||
-        !author::make(arena_, 3 * size_t{left_.triangle_count()}, triangles) ||
-        !author::make(arena_, whole_.parts.count, parts)) {
-      return false;
-    }
-    size_t face = 0, corner = 0, in_triangles = 0;
-    const auto add = [&](uint32_t vertex, uint32_t source) {
-      if (!uvs.empty()) uvs[corner] = whole_.corner_uvs[source];
-      corners[corner++] = numbers_[vertex];
-    };
-    for (size_t p = 0; p < parts.count; ++p) {
-      const Part& from = whole_.parts[p];
-      Part& part = parts[p];
-      part.name = from.name;
-      part.first_face = static_cast<uint32_t>(face);
-      const uint32_t first = from.first_face, end = first + from.face_count;
-      for (uint32_t t = left_.first_triangle(first); t < left_.first_triangle(end); ++t) {
-        if (!left_.is_alive(t)) continue;
-        for (uint32_t c = 3 * t; c < 3 * t + 3; ++c) {
-          add(left_.vertex(c), left_.source_corner(c));
-          triangles[in_triangles++] = corners[corner - 1];
-        }
-        starts[++face] = static_cast<uint32_t>(corner);
-      }
-      for (uint32_t f = first; f < end && is_odd(from); ++f) {
-        for (uint32_t c = whole_.face_starts[f]; c < whole_.face_starts[f + 1]; ++c) {
-          add(whole_.corners[c], c);
-        }
-        starts[++face] = static_cast<uint32_t>(corner);
-      }
-      part.face_count = static_cast<uint32_t>(face) - part.first_face;
-      part.first_vertex = number_from(vertices, from.first_vertex);
-      part.vertex_count =
-          number_from(vertices, from.first_vertex + from.vertex_count) - part.first_vertex;
-    }
-    out.face_starts = starts;
-    out.corners = corners;
-    out.corner_uvs = uvs;
-    out.triangles = triangles;
-    out.parts = parts;
-    return true;
-  }
-
-  static uint32_t number_from(Span<const uint32_t> vertices, uint32_t vertex) {
-    return static_cast<uint32_t>(std::lower_bound(vertices.begin(), vertices.end(), vertex) -
-                                 vertices.begin());
-  }
-
-  const AuthorMesh& whole_;
-  const EdgeCollapse& left_;
-  Arena& arena_;
-  Arena& scratch_;
-  Span<uint32_t> numbers_;  // per vertex of the whole mesh; of those that stay
-  uint32_t faces_ = 0, corners_ = 0;
-};
-
-/// False if memory ran out.
-bool measure_distances(const AuthorMesh& whole, LodMesh& lod, const Allocator& allocator) {
-  Arena scratch(allocator);
-  Span<uint8_t> is_kept;
-  SurfaceTree tree;
-  if (lod.mesh.triangles.empty()) return true;
-  if (!make(scratch, whole.positions.count, is_kept) ||
-      !tree.build(lod.mesh.positions, lod.mesh.triangles, scratch)) {
+/// What is left of `mesh`. Parts of which no face has a triangle, as all of them lie on lines, stay
+/// as they are.
+bool take_triangles(const AuthorMesh& mesh, const EdgeCollapse& left, Arena& arena,
+                    LodTriangles& out) {
+  Span<uint32_t> corners, uvs, starts;
+  const size_t most = 3 * size_t{left.triangle_count()};
+  if (!make(arena, most, corners) || !make(arena, mesh.corner_uvs.empty() ? 0 : most, uvs) ||
+      !make(arena, mesh.parts.count + 1, starts)) {
     return false;
   }
-  for (const uint32_t v : lod.vertices) is_kept[whole.welded[v]] = 1;
-  double squares = 0;
-  size_t places = 0;
-  for (uint32_t v = 0; v < whole.positions.count; ++v) {
-    if (whole.welded[v] != v) continue;
-    ++places;
-    if (is_kept[v]) continue;
-    const double distance = tree.distance(whole.positions[v]);
-    squares += distance * distance;
-    lod.max = std::max(lod.max, distance);
+  uint32_t count = 0;
+  for (size_t p = 0; p < mesh.parts.count; ++p) {
+    const Part& part = mesh.parts[p];
+    const uint32_t end = left.first_triangle(part.first_face + part.face_count);
+    for (uint32_t t = left.first_triangle(part.first_face); t < end; ++t) {
+      if (!left.is_alive(t)) continue;
+      for (uint32_t c = 3 * t; c < 3 * t + 3; ++c) {
+        if (!uvs.empty()) uvs[count] = mesh.corner_uvs[left.source_corner(c)];
+        corners[count++] = left.vertex(c);
+      }
+    }
+    starts[p + 1] = count;
   }
-  lod.rms = std::sqrt(squares / static_cast<double>(places));
+  out.corners = corners;
+  out.corner_uvs = uvs;
+  out.starts = starts;
+  out.keeps_empty_parts = true;
   return true;
 }
 
@@ -235,8 +103,11 @@ bool make_lod_meshes(const AuthorMesh& mesh, const SimplifyOptions& options, Are
     }
     left.reduce(static_cast<uint32_t>(all * share + 0.5), floors);
     Arena for_lod(allocator);
-    Extraction extraction(mesh, left, arena, for_lod);
-    if (!extraction.make(out[l]) || !measure_distances(mesh, out[l], allocator)) return false;
+    LodTriangles triangles;
+    if (!take_triangles(mesh, left, for_lod, triangles) ||
+        !make_lod_mesh(mesh, triangles, arena, allocator, out[l])) {
+      return false;
+    }
   }
   return true;
 }

@@ -5,8 +5,7 @@
 // Sensitive Decimation", 2003). What is left is a subset of the vertices, where they were.
 #pragma once
 
-#include "runtime/author/mesh/author_mesh.h"
-#include "runtime/base/arena.h"
+#include "runtime/author/mesh/lod_mesh.h"
 
 namespace mien::author {
 
@@ -14,12 +13,6 @@ struct SimplifyOptions {
   double share = 0.5;      // of the triangles that each LOD keeps of the one before
   uint32_t lods = 1;       // with LOD 0, which keeps all
   uint32_t max_poses = 8;  // expressions that count beside the mesh at rest
-};
-
-struct LodMesh {
-  AuthorMesh mesh;                // without shapes; texture coordinates are those of LOD 0
-  Span<const uint32_t> vertices;  // of LOD 0, ascending; empty: all of them
-  double rms = 0, max = 0;        // distances of the vertices of LOD 0 to the surface
 };
 
 /// The mesh at each LOD. LOD 0 is `mesh`; further ones have triangles only, and the vertices of each

@@ -234,30 +234,42 @@ bool fill_channels(const RigModel& rig, Arena& arena, dna::DnaView& out) {
 
 bool fill_meshes(const RigModel& rig, Arena& arena, const Allocator& allocator, dna::DnaView& out) {
   Arena scratch(allocator);
-  const Span<const Part> parts = rig.mesh.parts;
-  const size_t count = parts.count * rig.lod_count();
+  const size_t parts = rig.mesh.parts.count;
   Span<Vec3> finest, own;
+  Span<uint32_t> lods;  // of each mesh
+  if (!make(scratch, parts * rig.lod_count(), lods)) return false;
+  size_t count = 0;
+  for (uint32_t lod = 0; lod < rig.lod_count(); ++lod) {
+    for (const Part& part : rig.lods[lod].mesh->parts) {
+      if (part.face_count > 0) lods[count++] = lod;
+    }
+  }
   if (!make(arena, count, out.geom.meshes) || !make(arena, count, out.defn.mesh_names) ||
       !make(scratch, rig.mesh.positions.count, finest) ||
       !make(scratch, rig.mesh.positions.count, own)) {
     return false;
   }
   find_normals(rig.mesh, finest);
-  for (size_t m = 0; m < count; ++m) {
-    const size_t part = m % parts.count, lod = m / parts.count;
-    const Span<Vec3> normals = own.first(rig.lods[lod].mesh->positions.count);
-    if (part == 0) take_normals(rig.lods[lod], finest, normals);
+  size_t m = 0;
+  for (size_t lod = 0; lod < rig.lod_count(); ++lod) {
+    const AuthorMesh& mesh = *rig.lods[lod].mesh;
+    const Span<Vec3> normals = own.first(mesh.positions.count);
+    take_normals(rig.lods[lod], finest, normals);
     Text suffix;
     suffix.add("_lod").add(uint64_t{lod}).add("_mesh");
-    Arena for_mesh(allocator);
-    MeshMaker maker(rig, part, lod, arena, for_mesh);
-    if (!join_text(arena, {parts[part].name, {suffix.chars, suffix.count}},
-                   out.defn.mesh_names[m]) ||
-        !maker.make(normals, out.geom.meshes[m])) {
-      return false;
+    for (size_t part = 0; part < parts; ++part) {
+      if (mesh.parts[part].face_count == 0) continue;
+      Arena for_mesh(allocator);
+      MeshMaker maker(rig, part, lod, arena, for_mesh);
+      if (!join_text(arena, {mesh.parts[part].name, {suffix.chars, suffix.count}},
+                     out.defn.mesh_names[m]) ||
+          !maker.make(normals, out.geom.meshes[m])) {
+        return false;
+      }
+      ++m;
     }
   }
-  const auto in_lod = [&parts](size_t lod, size_t mesh) { return mesh / parts.count == lod; };
+  const auto in_lod = [&lods](size_t lod, size_t mesh) { return lods[mesh] == lod; };
   return make_lod_map(arena, rig.lod_count(), count, in_lod, out.defn.lod_meshes) &&
          fill_channels(rig, arena, out);
 }

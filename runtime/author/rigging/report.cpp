@@ -368,6 +368,7 @@ bool write_report(const MeshSource& source, const RiggingOptions& options, const
   json.key("seed").whole(options.place.seed);
   json.key("paper").boolean(options.place.paper);
   json.key("own_bones").boolean(!options.bones.empty());
+  json.key("own_lod_meshes").boolean(!options.lod_meshes.empty());
   json.key("own_weights").boolean(!options.weights.weights.empty());
   write_objective(place, json);
   write_throat(place, json);

@@ -247,6 +247,12 @@ Status make_rig(const MeshSource& source, const RiggingOptions& options, Arena& 
   RigOptions rig;
   if (status == Status::kOk) status = take_groups(options, arena, rig.own_regions, error);
   if (status == Status::kOk) status = take_motions(source, options, arena, rig.own_motions, error);
+  Span<LodMesh> lod_meshes;
+  const bool own_lods = !options.lod_meshes.empty();
+  if (status == Status::kOk && own_lods) {
+    status =
+        take_lod_meshes(source, out.read, options.lod_meshes, arena, allocator, lod_meshes, error);
+  }
   if (status != Status::kOk) return status;
   status =
       place_bones(mesh, place, options.parallel, arena, allocator, out.placement, out.place, error);
@@ -286,11 +292,12 @@ Status make_rig(const MeshSource& source, const RiggingOptions& options, Arena& 
   }
 
   if (!steps.go_on("meshes of LODs", 0.3)) return canceled();
-  Span<LodMesh> lod_meshes;
   SimplifyOptions simplify;
   simplify.share = options.lod_triangles;
   simplify.lods = options.place.lods;
-  if (!make_lod_meshes(mesh, simplify, arena, allocator, lod_meshes)) return no_memory(error);
+  if (!own_lods && !make_lod_meshes(mesh, simplify, arena, allocator, lod_meshes)) {
+    return no_memory(error);
+  }
   rig.lod_meshes = lod_meshes;
 
   rig.regions = options.joint_groups;

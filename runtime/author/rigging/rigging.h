@@ -2,7 +2,7 @@
 // From a mesh to a rig: all stages in their order, each of which the caller may replace.
 #pragma once
 
-#include "runtime/author/mesh/mesh_input.h"
+#include "runtime/author/mesh/own_lods.h"
 #include "runtime/author/place/place.h"
 #include "runtime/author/rig_dna/author_rig.h"
 #include "runtime/author/weights/skin_weights.h"
@@ -34,6 +34,7 @@ struct RiggingOptions {
   // Of the caller; empty: found. One for each position of the source:
   Span<const uint8_t> depth_groups, mask;
   Span<const uint32_t> bone_groups;  // one for each of `bones`
+  Span<const LodSource> lod_meshes;  // one for each LOD but LOD 0
   // Six for each shape and each of `bones`: translation, degrees; in the caller's frame and unit.
   Span<const double> bone_motions;
   uint32_t joint_groups = 0;         // 0: as many as are large enough

@@ -304,6 +304,60 @@ TEST(MakeRig, WritesTheCallersMotionsAndJointGroupsAsTheyAre) {
   EXPECT_EQ(Made(mesh, options).status, Status::kAuthorMesh);
 }
 
+/// Every second face of the mesh as triangles, but those of `without`.
+std::vector<uint32_t> half_of(const TestMesh& mesh, uint32_t without = kNone) {
+  std::vector<uint32_t> out;
+  size_t first = 0;
+  for (uint32_t f = 0; f < mesh.face_sizes.size(); first += mesh.face_sizes[f++]) {
+    const bool is_in = without < mesh.objects.size() && f >= mesh.objects[without].first_face &&
+                       f < mesh.objects[without].first_face + mesh.objects[without].face_count;
+    if (f % 2 || is_in) continue;
+    for (size_t k = 2; k < mesh.face_sizes[f]; ++k) {
+      for (const size_t c : {first, first + k - 1, first + k}) out.push_back(mesh.corners[c]);
+    }
+  }
+  return out;
+}
+
+TEST(MakeRig, TakesTheCallersMeshesOfLods) {
+  TestMesh mesh = procedural_mesh(5, true);
+  const uint32_t faces = static_cast<uint32_t>(mesh.face_sizes.size());
+  add_sphere(mesh, 0, -2, 2, 1);
+  const uint32_t all = static_cast<uint32_t>(mesh.face_sizes.size());
+  mesh.objects = {{{"head", 4}, 0, faces}, {{"ball", 4}, faces, all - faces}};
+  for (std::vector<double>& shape : mesh.displacements) shape.resize(mesh.positions.size());
+  const std::vector<uint32_t> first = half_of(mesh), second = half_of(mesh, 1);
+  const LodSource lods[] = {{{first.data(), first.size()}, {}},
+                            {{second.data(), second.size()}, {}}};
+  RiggingOptions options;
+  options.place.lods = 3;
+  options.lod_meshes = {lods, 2};
+  const Made made(mesh, options);
+  ASSERT_EQ(made.status, Status::kOk) << made.why();
+  EXPECT_EQ(made.rigging.rig.lods[1].triangles, first.size() / 3);
+  EXPECT_EQ(made.rigging.rig.lods[2].triangles, second.size() / 3);
+  EXPECT_GT(made.rigging.rig.lods[1].surface_max, 0);
+  EXPECT_LT(made.rigging.rig.lods[1].joints_error, 0.6);
+  const dna::Definition& names = made.rigging.dna.defn;
+  ASSERT_EQ(names.mesh_names.count, 5u) << "the ball is not in LOD 2";
+  const char* const expected[] = {"head_lod0_mesh", "ball_lod0_mesh", "head_lod1_mesh",
+                                  "ball_lod1_mesh", "head_lod2_mesh"};
+  for (uint32_t m = 0; m < 5; ++m) {
+    EXPECT_EQ(std::string(names.mesh_names[m].chars(), names.mesh_names[m].count), expected[m]);
+  }
+  ASSERT_EQ(names.lod_meshes.indices.count, 3u);
+  EXPECT_EQ(names.lod_meshes.indices[2].count, 1u);
+  EXPECT_EQ(names.lod_meshes.indices[2][0], 4u);
+
+  options.parallel.run = run_on_eight;
+  EXPECT_EQ(made.bytes, Made(mesh, options).bytes);
+  std::vector<uint32_t> wrong = first;
+  wrong[7] = 1u << 31;
+  const LodSource spoiled[] = {lods[0], {{wrong.data(), wrong.size()}, {}}};
+  options.lod_meshes = {spoiled, 2};
+  EXPECT_EQ(Made(mesh, options).status, Status::kAuthorMesh);
+}
+
 TEST(MakeRig, MakesCorrectivesForPairsThatOverlapWhereItIsTold) {
   RiggingOptions options;
   options.place.lods = 1;

@@ -2824,8 +2824,29 @@ impl Default for MienAuthorBone {
     }
 }
 
-/// How a mesh is rigged. Bones, weights, `depth_groups`, mask, `lod_joints`, `bone_groups` and
-/// `bone_motions` are results of the caller, each in place of one stage.
+/// Triangles of the caller: a LOD of the mesh.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienAuthorLod {
+    /// Positions of the mesh, three for each triangle, all of one object. Objects without
+    /// triangles are not in the LOD.
+    pub corners: *const u32,
+    pub corner_count: usize,
+    /// One per corner. NULL: of the UVs that a position has in the mesh, those nearest to each
+    /// other.
+    pub corner_uvs: *const u32,
+}
+
+impl Default for MienAuthorLod {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// How a mesh is rigged. Bones, weights, `depth_groups`, mask, `lod_joints`, `bone_groups`,
+/// `bone_motions` and `lod_meshes` are results of the caller, each in place of one stage.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienAuthorDesc {
@@ -2890,6 +2911,10 @@ pub struct MienAuthorDesc {
     /// Share of its triangles that each further LOD keeps of the LOD before: above 0, at most 1.
     /// 0: 0.5. 1: all.
     pub lod_triangles: f64,
+    /// LOD 1, LOD 2 and so on. NULL: made by `lod_triangles`.
+    pub lod_meshes: *const MienAuthorLod,
+    /// One less than `lods`.
+    pub lod_mesh_count: usize,
 }
 
 impl Default for MienAuthorDesc {

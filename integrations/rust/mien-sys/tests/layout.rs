@@ -1119,9 +1119,19 @@ fn mien_author_bone() {
 }
 
 #[test]
+fn mien_author_lod() {
+    use mien_sys::MienAuthorLod as S;
+    assert_eq!(size_of::<S>(), 24);
+    assert_eq!(align_of::<S>(), 8);
+    assert_eq!(offset!(S, corners), 0);
+    assert_eq!(offset!(S, corner_count), 8);
+    assert_eq!(offset!(S, corner_uvs), 16);
+}
+
+#[test]
 fn mien_author_desc() {
     use mien_sys::MienAuthorDesc as S;
-    assert_eq!(size_of::<S>(), 208);
+    assert_eq!(size_of::<S>(), 224);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
     assert_eq!(offset!(S, facial_joints), 8);
@@ -1152,4 +1162,6 @@ fn mien_author_desc() {
     assert_eq!(offset!(S, joint_groups), 192);
     assert_eq!(offset!(S, overlap_correctives), 196);
     assert_eq!(offset!(S, lod_triangles), 200);
+    assert_eq!(offset!(S, lod_meshes), 208);
+    assert_eq!(offset!(S, lod_mesh_count), 216);
 }

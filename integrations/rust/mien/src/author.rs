@@ -63,6 +63,16 @@ pub struct AuthorBone<'a> {
     pub kind: BoneKind,
 }
 
+/// Triangles of yours: a LOD of the mesh.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct AuthorLod<'a> {
+    /// Indices of positions, all of one object. Objects without triangles are not in the LOD.
+    pub triangles: &'a [[u32; 3]],
+    /// An index of `uvs` for each corner; none: of the UVs that a position has in the mesh, those
+    /// nearest to each other.
+    pub uvs: Option<&'a [[u32; 3]]>,
+}
+
 /// A rig that was made.
 #[derive(Debug)]
 #[non_exhaustive]
@@ -118,6 +128,7 @@ pub struct AuthorOptions<'a> {
     joint_groups: usize,
     overlap_correctives: usize,
     lod_triangles: f64,
+    lod_meshes: &'a [AuthorLod<'a>],
     allocator: Option<Allocator>,
 }
 
@@ -146,6 +157,7 @@ impl Default for AuthorOptions<'_> {
             joint_groups: 0,
             overlap_correctives: 0,
             lod_triangles: 0.0,
+            lod_meshes: &[],
             allocator: None,
         }
     }
@@ -383,6 +395,12 @@ impl<'a> AuthorOptions<'a> {
         self
     }
 
+    /// Meshes of yours of LOD 1, LOD 2 and so on, instead of those that would be made.
+    pub fn lod_meshes(mut self, lods: &'a [AuthorLod<'a>]) -> Self {
+        self.lod_meshes = lods;
+        self
+    }
+
     /// Where memory comes from.
     pub fn allocator(mut self, allocator: &Allocator) -> Self {
         self.allocator = Some(allocator.clone());
@@ -444,6 +462,20 @@ impl<'a> AuthorOptions<'a> {
         Ok((influences, joints.as_ptr(), weights.as_ptr()))
     }
 
+    fn lod_meshes_of_c(&self) -> Result<Vec<sys::MienAuthorLod>> {
+        let lod = |lod: &AuthorLod<'_>| {
+            if lod.uvs.map_or(false, |uvs| uvs.len() != lod.triangles.len()) {
+                return wrong("lod_meshes: not UVs for each triangle");
+            }
+            Ok(sys::MienAuthorLod {
+                corners: data(lod.triangles),
+                corner_count: lod.triangles.len().saturating_mul(3),
+                corner_uvs: lod.uvs.map_or(null(), |uvs| uvs.as_ptr().cast()),
+            })
+        };
+        self.lod_meshes.iter().map(lod).collect()
+    }
+
     /// How many LODs there are, if each result of the caller is as long as it has to be.
     fn check_results(&self, mesh: &sys::MienAuthorMesh) -> Result<usize> {
         let of =
@@ -463,7 +495,14 @@ impl<'a> AuthorOptions<'a> {
         if self.lod_joints.is_some() && (lods == 0 || self.lods != 0 && self.lods != lods) {
             return wrong("lod_joints: not one for each LOD");
         }
-        Ok(lods)
+        if self.lod_meshes.is_empty() {
+            return Ok(lods);
+        }
+        let meshes = self.lod_meshes.len() + 1;
+        if lods != 0 && lods != meshes {
+            return wrong("lod_meshes: not one for each LOD but the first");
+        }
+        Ok(meshes)
     }
 
     fn run<P: FnMut(&str, f64) -> ControlFlow<()>>(
@@ -474,6 +513,7 @@ impl<'a> AuthorOptions<'a> {
     ) -> Result<AuthoredRig> {
         let bones = self.bones_of_c();
         let lods = self.check_results(mesh)?;
+        let lod_meshes = self.lod_meshes_of_c()?;
         let (influences, weight_joints, weights) = self.weights_of_c(mesh.position_count)?;
         let mut report = Progress { report, panic: None };
         let user = (&mut report as *mut Progress<P>).cast();
@@ -510,6 +550,8 @@ impl<'a> AuthorOptions<'a> {
                     joint_groups: index(self.joint_groups),
                     overlap_correctives: index(self.overlap_correctives),
                     lod_triangles: self.lod_triangles,
+                    lod_meshes: data(&lod_meshes),
+                    lod_mesh_count: lod_meshes.len(),
                     ..Default::default()
                 };
                 // SAFETY: sized structs; what they point to lives until this function returns, and is

@@ -71,7 +71,7 @@ mod threads;
 mod vertex_output;
 
 pub use allocator::Allocator;
-pub use author::{AuthorBone, AuthorMesh, AuthorOptions, AuthorShape, AuthoredRig};
+pub use author::{AuthorBone, AuthorLod, AuthorMesh, AuthorOptions, AuthorShape, AuthoredRig};
 pub use baked::{Baked, BakedOptions};
 pub use batch::Batch;
 pub use clip::{

@@ -2,8 +2,8 @@
 //! Rigs from meshes: what goes in, what comes out, wrong arrays, cancellation, threads.
 
 use mien::{
-    AuthorBone, AuthorFlags, AuthorMesh, AuthorOptions, AuthorShape, BoneKind, Deformer, Kind,
-    MeshAxis, Rig, Status, Symmetry,
+    AuthorBone, AuthorFlags, AuthorLod, AuthorMesh, AuthorOptions, AuthorShape, BoneKind, Deformer,
+    Kind, MeshAxis, Rig, Status, Symmetry,
 };
 use std::ops::ControlFlow;
 use std::panic::{catch_unwind, AssertUnwindSafe};
@@ -70,7 +70,11 @@ impl Egg {
 }
 
 fn few<'a>() -> AuthorOptions<'a> {
-    AuthorOptions::new().facial_joints(12).lods(1)
+    few_lods(1)
+}
+
+fn few_lods<'a>(lods: usize) -> AuthorOptions<'a> {
+    AuthorOptions::new().facial_joints(12).lods(lods)
 }
 
 fn bytes(mesh: &AuthorMesh<'_>, options: &AuthorOptions<'_>) -> Vec<u8> {
@@ -195,6 +199,49 @@ fn each_stage_takes_the_result_of_the_caller() {
         &mesh,
         &options.clone().bone_groups(&[0, 1, 256]),
     );
+}
+
+#[test]
+fn meshes_of_lods_are_those_of_the_caller() {
+    let egg = Egg::new();
+    let mesh = egg.mesh(&[]);
+    let triangles: Vec<[u32; 3]> = egg
+        .corners
+        .chunks(4)
+        .flat_map(|quad| [[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]])
+        .collect();
+    let half = AuthorLod { triangles: &triangles[..triangles.len() / 2], uvs: None };
+    let few = AuthorLod { triangles: &triangles[..9], uvs: None };
+    let options = few_lods(0);
+    let made = options.clone().lod_meshes(&[half, few]).make(&mesh).unwrap();
+    assert!(made.report.contains("\"own_lod_meshes\":true"));
+    let rig = Rig::new(&made.dna).unwrap();
+    assert_eq!(rig.count(Kind::MESH), 3);
+    let deformer = Deformer::new(&made.dna, &rig).unwrap();
+    assert_eq!(deformer.mesh(1).unwrap().triangles.len(), half.triangles.len());
+    assert_eq!(deformer.mesh(2).unwrap().triangles.len(), 9);
+    let corner_uvs = vec![0; egg.corners.len()];
+    let textured = AuthorMesh { uvs: &[[0.0; 2], [0.5; 2]], corner_uvs: &corner_uvs, ..mesh };
+    let own = AuthorLod { uvs: Some(&[[1; 3]; 9]), ..few };
+    let made = options.clone().lod_meshes(&[own]).make(&textured).unwrap();
+    let us = made.dna.read_floats("geom.meshes[1].textureCoordinates.us").unwrap();
+    assert_eq!(us, [0.5]);
+
+    let wrong = Status::INVALID_ARGUMENT;
+    refused(wrong, "lod_meshes", &mesh, &few_lods(2).lod_meshes(&[half, few]));
+    refused(wrong, "lod_meshes", &mesh, &options.clone().lod_meshes(&[few]).lod_joints(&[12]));
+    let short = AuthorLod { uvs: Some(&[[1; 3]; 8]), ..few };
+    refused(wrong, "UVs", &textured, &options.clone().lod_meshes(&[short]));
+    let bad = Status::AUTHOR_MESH;
+    refused(bad, "the mesh has none", &mesh, &options.clone().lod_meshes(&[own]));
+    refused(
+        bad,
+        "LOD 1 has 0 corners",
+        &mesh,
+        &options.clone().lod_meshes(&[AuthorLod::default()]),
+    );
+    let nowhere = AuthorLod { triangles: &[[0, 1, u32::MAX]], uvs: None };
+    refused(bad, "names position", &mesh, &options.lod_meshes(&[half, nowhere]));
 }
 
 #[test]
