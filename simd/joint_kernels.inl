@@ -195,12 +195,14 @@ void sum_rows(const JointRowsArgs& args) {
 void joint_rows(const JointRowsArgs& args) { sum_rows<float>(args); }
 void joint_rows_fixed(const JointRowsArgs& args) { sum_rows<int16_t>(args); }
 
+inline Vec finished(Vec sum) { return saturate(sum) + broadcast(0.0f); }
+
 // What became -0 is made 0: in a batch, who takes no part in a column adds 0 times its value.
 void finish_sums(float* sums, const float* scales, size_t count) {
   for (size_t i = 0; i < count; i += kWidth) {
     Vec sum = load(sums + i);
     if (scales) sum = sum * load(scales + i);
-    store(sums + i, saturate(sum) + broadcast(0.0f));
+    store(sums + i, finished(sum));
   }
 }
 
@@ -226,7 +228,7 @@ inline const float* block_values(const int16_t* values, float* made) {
 /// Rows `first` ... of lanes `lane` ...: R counts rows.
 template <class How, class Value, size_t... R>
 inline void sum_block_row(const JointBatchArgs& args, size_t first, size_t lane, float* sums,
-                          std::index_sequence<R...>) {
+                          size_t stride, std::index_sequence<R...>) {
   const Value* const values = static_cast<const Value*>(args.values);
   const float* const inputs = args.inputs + lane;
   const InputBlock* const blocks = args.blocks;
@@ -244,9 +246,16 @@ inline void sum_block_row(const JointBatchArgs& args, size_t first, size_t lane,
     ((a[R] = How::mul_add(row[R], xa, a[R])), ...);
     if constexpr (kBatchVecs == 2) ((b[R] = How::mul_add(row[R], xb, b[R])), ...);
   }
+  if (args.finish) {
+    const auto finish = [&](size_t r, Vec sum) {
+      return finished(args.scales ? sum * broadcast(args.scales[first + r]) : sum);
+    };
+    ((a[R] = finish(R, a[R])), ...);
+    if constexpr (kBatchVecs == 2) ((b[R] = finish(R, b[R])), ...);
+  }
   // [row][lane]
-  (store(sums + R * kBatchStep, a[R]), ...);
-  if constexpr (kBatchVecs == 2) (store(sums + R * kBatchStep + kWidth, b[R]), ...);
+  (store(sums + R * stride, a[R]), ...);
+  if constexpr (kBatchVecs == 2) (store(sums + R * stride + kWidth, b[R]), ...);
 }
 
 template <class How, class Value>
@@ -254,10 +263,13 @@ inline void sum_block_row(const JointBatchArgs& args) {
   alignas(64) float rows[kJointBlockRows * kBatchStep];
   const size_t stride = args.stride, lane_count = args.lane_count;
   for (size_t lane = 0; lane < lane_count; lane += kBatchStep) {
+    const size_t row_stride = args.finish ? size_t{kBatchLanes} : kBatchStep;
+    float* const summed = args.finish ? args.sums + lane : rows;
     for (size_t r = 0; r < kJointBlockRows; r += kBatchRows) {
-      sum_block_row<How, Value>(args, r, lane, rows + r * kBatchStep,
+      sum_block_row<How, Value>(args, r, lane, summed + r * row_stride, row_stride,
                                 std::make_index_sequence<kBatchRows>());
     }
+    if (args.finish) continue;
     // Rows become those of a character.
     float* const sums = args.sums + lane * stride;
     if constexpr (kBatchStep == 1) {
@@ -287,6 +299,64 @@ void sum_block_row(const JointBatchArgs& args) {
 
 void joint_batch(const JointBatchArgs& args) { sum_block_row<float>(args); }
 void joint_batch_fixed(const JointBatchArgs& args) { sum_block_row<int16_t>(args); }
+
+/// The first of four rows of four lanes.
+struct FourRows {
+  Quad lanes[4];
+  explicit FourRows(const float* sums)
+      : lanes{load4(sums), load4(sums + kBatchLanes), load4(sums + 2 * kBatchLanes),
+              load4(sums + 3 * kBatchLanes)} {
+    transpose4(lanes[0], lanes[1], lanes[2], lanes[3]);
+  }
+};
+
+template <size_t kRows>
+inline void scatter_target(const float* sums, size_t output, size_t lane_count, float* const* to) {
+  size_t k = 0;
+  for (; k + 4 <= lane_count; k += 4) {
+    if constexpr (kRows == 6) {
+      const FourRows first(sums + k), last(sums + 2 * kBatchLanes + k);  // two rows are in both
+      for (size_t i = 0; i < 4; ++i) {
+        store4(to[k + i] + output, first.lanes[i]);
+        store4(to[k + i] + output + 2, last.lanes[i]);
+      }
+    } else if constexpr (kRows == 3) {
+      Quad a = load4(sums + k), b = load4(sums + kBatchLanes + k);
+      Quad c = load4(sums + 2 * kBatchLanes + k), d = c;
+      transpose4(a, b, c, d);
+      store3(to[k] + output, a);
+      store3(to[k + 1] + output, b);
+      store3(to[k + 2] + output, c);
+      store3(to[k + 3] + output, d);
+    } else {
+      for (size_t i = 0; i < 4; ++i) to[k + i][output] = sums[k + i];
+    }
+  }
+  for (; k < lane_count; ++k) {
+    for (size_t r = 0; r < kRows; ++r) to[k][output + r] = sums[r * kBatchLanes + k];
+  }
+}
+
+template <size_t kRows>
+inline void scatter_each(const ScatterTargetsArgs& args) {
+  float* to[kBatchLanes];  // in memory that no joint value lies in, for all the compiler knows
+  for (size_t k = 0; k < args.lane_count; ++k) to[k] = args.to[k];
+  const size_t lane_count = args.lane_count;
+  const float* const sums = args.sums;
+  const JointTarget* const end = args.targets + args.count;
+  for (const JointTarget* target = args.targets; target != end; ++target) {
+    scatter_target<kRows>(sums + size_t{target->packed_row} * kBatchLanes, target->output,
+                          lane_count, to);
+  }
+}
+
+void scatter_targets(const ScatterTargetsArgs& args) {
+  switch (args.rows) {
+    case 6: return scatter_each<6>(args);
+    case 3: return scatter_each<3>(args);
+    default: return scatter_each<1>(args);
+  }
+}
 
 }  // namespace
 }  // namespace mien::MIEN_KERNEL_ISA

@@ -136,19 +136,40 @@ struct PsdBatchArgs {
 ///
 ///     sums[k * stride + r] += values(blocks[i].block, r) * inputs[32 * blocks[i].input + k]
 ///
-/// starting from 0: as joint_columns does, with the same bits.
+/// starting from 0: as joint_columns does, with the same bits. Or, if nothing is to be added to them, as
+/// finish_sums() makes them, in lanes: sums[32 * r + k].
 struct JointBatchArgs {
   const void* values;  // as for joint_columns
   const InputBlock* blocks;
   const float* inputs;  // 64-byte aligned
-  float* sums;          // 32-byte aligned
+  float* sums;          // 64-byte aligned
   size_t stride;        // a multiple of 8
+  const float* scales;  // [row], or null
+  bool finish;          // with scales, if there are any; in lanes
   uint32_t block_count;
   uint32_t lane_count;
   bool portable;  // as above
 };
 /// Blocks behind the last one that joint_batch may fetch ahead, as a hint: their numbers are read.
 constexpr uint32_t kBatchAhead = 16;
+
+/// Where the sums of neighboring packed rows go, if they are neighbors there, too: six, three or one.
+struct JointTarget {
+  uint16_t packed_row;
+  uint16_t output;  // joint value
+  uint16_t group;   // joint group that the rows are from
+};
+
+/// to[k][target.output + r] = sums[32 * (target.packed_row + r) + k] for all targets, r < rows and
+/// k < lane_count. Where targets overlap, the last one counts.
+struct ScatterTargetsArgs {
+  const float* sums;  // 64-byte aligned
+  const JointTarget* targets;
+  float* const* to;
+  uint32_t count;
+  uint32_t rows;  // 6, 3 or 1
+  uint32_t lane_count;
+};
 
 /// One dense layer of a neural network: outputs[r] = f(sum over c of values(r, c) * inputs[c] +
 /// bias), in blocks of 16 rows. Within a block the 16 values of a column are adjacent:
@@ -563,7 +584,8 @@ struct KernelTable {
   void (*joint_rows_fixed)(const JointRowsArgs& args);
   void (*joint_batch)(const JointBatchArgs& args);
   void (*joint_batch_fixed)(const JointBatchArgs& args);
-  uint32_t batch_step;  // lanes that these and dense_batch take at a time
+  void (*scatter_targets)(const ScatterTargetsArgs& args);
+  uint32_t batch_step;  // lanes that joint_batch and dense_batch take at a time
   void (*nonzero)(const NonzeroArgs& args);
   uint64_t (*psds)(const PsdArgs& args);
   void (*psd_batch)(const PsdBatchArgs& args);

@@ -109,16 +109,16 @@ void sum_by_row(const Rig& rig, const Instance& instance, const JointTile& tile)
   (fixed ? rig.kernels->joint_rows_fixed : rig.kernels->joint_rows)(args);
 }
 
-/// Calls f(target, number of rows as a constant) for the targets of a panel that a LOD writes; with
-/// the number of panels instead, for those of all panels.
+/// Calls f(targets, their count, their rows as a constant) for the targets of a panel that a LOD writes;
+/// with the number of panels instead, for those of all panels.
 template <class F>
-void for_each_target(const Rig& rig, uint32_t lod, uint32_t panel, F&& f) {
+void for_each_kind(const Rig& rig, uint32_t lod, uint32_t panel, F&& f) {
   const JointMatrix& joints = rig.joints;
   const uint16_t* at_lod =
       joints.targets_at_lod.data + size_t{panel} * kTargetKinds * rig.lod_count;
   const JointTarget* targets = joints.targets.data + joints.panels[panel].first_target;
   const auto each = [&](auto rows) {
-    for (uint32_t t = 0; t < at_lod[lod]; ++t) f(targets[t], rows);
+    f(targets, at_lod[lod], rows);
     targets += at_lod[0];
     at_lod += rig.lod_count;
   };
@@ -127,23 +127,28 @@ void for_each_target(const Rig& rig, uint32_t lod, uint32_t panel, F&& f) {
   each(std::integral_constant<size_t, kTargetRows[2]>());
 }
 
-/// Writes the rows of one group, or of all. Where the tile has all panels of the LOD, it is written in
-/// the order of the joint values: in a batch they are not in the cache, and this order is the fastest.
+/// Whether the tile is written in the order of the joint values, as one that has all panels of the LOD
+/// is: in a batch they are not in the cache, and this order is the fastest.
+bool in_order(const JointMatrix& joints, uint32_t lod, const JointTile& tile) {
+  const bool whole = tile.first_panel == 0 && tile.end_panel == joints.panels_at_lod[lod];
+  return whole && joints.fits_tile();
+}
+
+/// Writes the rows of one group, or of all.
 void write_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTile& tile,
                 uint32_t only_group) {
   const JointMatrix& joints = rig.joints;
   float* out = instance.joints_and_angles.data;
   const auto write = [&](uint32_t panel, const float* sums) {
-    const auto copy = [out, sums](const JointTarget& target, auto rows) {
-      memcpy(out + target.output, sums + target.packed_row, rows() * sizeof(float));
-    };
-    if (only_group == kAllGroups) return for_each_target(rig, lod, panel, copy);
-    for_each_target(rig, lod, panel, [&](const JointTarget& target, auto rows) {
-      if (target.group == only_group) copy(target, rows);
+    for_each_kind(rig, lod, panel, [&](const JointTarget* targets, uint32_t count, auto rows) {
+      for (uint32_t t = 0; t < count; ++t) {
+        const JointTarget& target = targets[t];
+        if (only_group != kAllGroups && target.group != only_group) continue;
+        memcpy(out + target.output, sums + target.packed_row, rows() * sizeof(float));
+      }
     });
   };
-  const bool whole = tile.first_panel == 0 && tile.end_panel == joints.panels_at_lod[lod];
-  if (whole && joints.fits_tile()) return write(joints.panel_count(), tile.sums);
+  if (in_order(joints, lod, tile)) return write(joints.panel_count(), tile.sums);
   for (uint32_t c = tile.first_panel; c < tile.end_panel; ++c) {
     write(c, tile.of_panel(joints, c));
   }
@@ -170,6 +175,24 @@ void finish_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTi
   const float* scales = joints.scales.empty() ? nullptr : joints.scales.data + first_row;
   rig.kernels->finish_sums(sums, scales, static_cast<size_t>(end - sums));
   write_tile(rig, instance, lod, tile, only_group);
+}
+
+void write_tile_together(const InstancePacket& packet, const JointTile& tile) {
+  const JointMatrix& joints = packet.rig.joints;
+  float* to[kBatchLanes];
+  for (uint32_t k = 0; k < packet.count; ++k) to[k] = packet.instances[k]->joints_and_angles.data;
+  const auto write = [&](uint32_t panel, size_t packed_row) {
+    const float* const sums = tile.sums + packed_row * kBatchLanes;
+    for_each_kind(packet.rig, packet.lod, panel,
+                  [&](const JointTarget* targets, uint32_t count, auto rows) {
+                    packet.rig.kernels->scatter_targets(
+                        {sums, targets, to, count, static_cast<uint32_t>(rows()), packet.count});
+                  });
+  };
+  if (in_order(joints, packet.lod, tile)) return write(joints.panel_count(), 0);
+  for (uint32_t c = tile.first_panel; c < tile.end_panel; ++c) {
+    write(c, size_t{joints.panels[c].first_block_row - tile.first_block_row} * kJointBlockRows);
+  }
 }
 
 void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, Uses panels,

@@ -73,7 +73,8 @@ void list_shared_columns(const InstancePacket& packet, const SharedColumns& shar
   }
 }
 
-/// Sums the shared columns for all instances, a tile at a time, and lets each add the others.
+/// Sums the shared columns for all instances, a tile at a time, and lets each add the others, if there are
+/// any.
 void evaluate_shared_rows(const InstancePacket& packet, const SharedColumns& shared) {
   const JointMatrix& joints = packet.rig.joints;
   const BlockList& list = *packet.block_list;
@@ -89,11 +90,13 @@ void evaluate_shared_rows(const InstancePacket& packet, const SharedColumns& sha
   const bool fixed = joints.values.empty();
   const auto sum_block_row =
       fixed ? packet.rig.kernels->joint_batch_fixed : packet.rig.kernels->joint_batch;
-  JointBatchArgs args;
+  JointBatchArgs args = {};
   args.values = fixed ? static_cast<const void*>(joints.fixed_values.data) : joints.values.data;
   args.inputs = packet.scratch->controls.data;
   args.lane_count = packet.count;
   args.portable = packet.rig.portable;
+  args.finish = shared.column_end == joints.columns.count;
+  const float* const scales = joints.scales.empty() ? nullptr : joints.scales.data;
   for (uint32_t c = 0; c < panel_end;) {
     const uint32_t tile_end = joints.tile_end(c);
     const uint32_t first = joints.panels[c].first_block_row;
@@ -106,8 +109,14 @@ void evaluate_shared_rows(const InstancePacket& packet, const SharedColumns& sha
       const uint32_t start = list.starts[b];
       args.blocks = blocks + start;
       args.block_count = ends[b] - start;
+      if (scales) args.scales = scales + size_t{b} * kJointBlockRows;
       sum_block_row(args);
-      args.sums += kJointBlockRows;
+      args.sums += args.finish ? kJointBlockRows * kBatchLanes : kJointBlockRows;
+    }
+    if (args.finish) {
+      tile.sums = packet.scratch->sums.data;
+      write_tile_together(packet, tile);
+      continue;
     }
     for (uint32_t i = 0; i < packet.count; ++i) {
       tile.sums = packet.scratch->sums.data + i * args.stride;

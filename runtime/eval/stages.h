@@ -68,6 +68,9 @@ struct JointTile {
 void finish_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTile& tile,
                  uint32_t first_column, uint32_t only_group);
 
+/// Writes all groups of a packet, from finished sums in lanes: [packed row of the tile][32].
+void write_tile_together(const InstancePacket& packet, const JointTile& tile);
+
 // Rotations of joints (evaluate_rotations.cpp) ----------------------------------------------------
 
 /// The rotations of all groups, once their rows are written, and all twists and swings. In a batch

@@ -39,13 +39,6 @@ struct JointPanel {
   uint32_t first_target;  // into JointMatrix::targets
 };
 
-/// Where the sums of neighboring packed rows go, if they are neighbors there, too: six, three or one.
-struct JointTarget {
-  uint16_t packed_row;  // counted from the first one of the panel
-  uint16_t output;      // joint value
-  uint16_t group;       // joint group that the rows are from
-};
-
 /// How many rows the kinds of targets have.
 constexpr uint32_t kTargetRows[] = {6, 3, 1};
 constexpr uint32_t kTargetKinds = 3;
@@ -74,7 +67,7 @@ struct JointMatrix {
   Span<JointPanel> panels;       // one more at the end
   Span<uint32_t> panels_at_lod;  // leading panels
 
-  // By panel: those of six rows, of three, of one; of each kind those that more LODs reach first.
+  // By panel, with packed rows counted from its first one: those of six rows, of three, of one; of each kind those that more LODs reach first.
   // After the last panel, if fits_tile(), once more those of all panels, in order of their outputs,
   // with packed rows counted from the first one of the matrix.
   Span<JointTarget> targets;

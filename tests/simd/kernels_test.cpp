@@ -106,6 +106,12 @@ class JointMatrix {
     for (size_t i = 0; i < sum_count(); ++i) initial_.push_back(awkward_number());
   }
 
+  template <class T>
+  static T* aligned(T* storage) {
+    const uintptr_t address = reinterpret_cast<uintptr_t>(storage);
+    return storage + (64 - address % 64) % 64 / sizeof(T);
+  }
+
   /// Sums by one instruction set; only those of the block rows are written.
   std::vector<float> run(const KernelTable& kernels) {
     const float untouched = 12345.0f;
@@ -161,6 +167,38 @@ class JointMatrix {
         EXPECT_EQ(sums[k * stride + sum_count() + i], 0.0f);
     }
     return result;
+  }
+
+  /// The same, finished and in lanes: [sum][32].
+  std::vector<float> run_batch_in_lanes(const KernelTable& kernels, uint32_t lane_count,
+                                        const float* scales) {
+    std::vector<float> storage(16 + sum_count() * kBatchLanes),
+        inputs(16 + runs_.size() * kBatchLanes);
+    float* const sums = aligned(storage.data());
+    float* const lanes = aligned(inputs.data());
+    for (size_t i = 0; i < runs_.size(); ++i) {
+      for (uint32_t k = 0; k < lane_count; ++k) lanes[i * kBatchLanes + k] = input_of(i, k);
+    }
+    JointBatchArgs args = {};
+    args.values = values();
+    args.inputs = lanes;
+    args.lane_count = lane_count;
+    args.finish = true;
+    for (uint32_t b = 0; b < block_row_count_; ++b) {
+      std::vector<InputBlock> blocks;
+      for_each_block([&](size_t i, size_t block, size_t block_row) {
+        if (block_row == b) {
+          blocks.push_back({static_cast<uint32_t>(block), static_cast<uint32_t>(i)});
+        }
+      });
+      args.block_count = static_cast<uint32_t>(blocks.size());
+      blocks.resize(blocks.size() + kBatchAhead);
+      args.blocks = blocks.data();
+      args.sums = sums + size_t{b} * kJointBlockRows * kBatchLanes;
+      args.scales = scales ? scales + size_t{b} * kJointBlockRows : nullptr;
+      (fixed_ ? kernels.joint_batch_fixed : kernels.joint_batch)(args);
+    }
+    return {sums, sums + sum_count() * kBatchLanes};
   }
 
   /// Sums of one character, all block rows in one call, from 0; nothing beside them is touched.
@@ -240,11 +278,6 @@ class JointMatrix {
     return static_cast<float>((run * 37 + character * 11) % 23) * 0.0437f;
   }
 
-  template <class T>
-  static T* aligned(T* storage) {
-    const uintptr_t address = reinterpret_cast<uintptr_t>(storage);
-    return storage + (64 - address % 64) % 64 / sizeof(T);
-  }
   float* float_values() { return aligned(floats_.data()); }
   int16_t* integer_values() { return aligned(integers_.data()); }
   const void* values() {
@@ -354,6 +387,58 @@ TEST(JointBatchKernel, BitEqualToColumns) {
       }
     }
   });
+}
+
+TEST(JointBatchKernel, FinishesInLanesAsFinishSumsDoes) {
+  for_each_matrix([](JointMatrix& matrix, const KernelTable& kernels) {
+    for (uint32_t lane_count : {1u, 5u, kBatchLanes}) {
+      const std::vector<float> together = matrix.run_batch(kernels, lane_count);
+      const size_t count = together.size() / lane_count, padded = (count + 15) / 16 * 16;
+      std::vector<float> scales(16 + padded), expected(16 + padded);
+      float* const scale = JointMatrix::aligned(scales.data());
+      float* const alone = JointMatrix::aligned(expected.data());
+      for (size_t i = 0; i < count; ++i) scale[i] = static_cast<float>(i % 7) * 0.75f - 1.5f;
+      for (const float* used :
+           {static_cast<const float*>(nullptr), static_cast<const float*>(scale)}) {
+        const std::vector<float> lanes = matrix.run_batch_in_lanes(kernels, lane_count, used);
+        for (uint32_t k = 0; k < lane_count; ++k) {
+          std::copy_n(together.begin() + static_cast<ptrdiff_t>(k * count), count, alone);
+          kernels.finish_sums(alone, used, padded);
+          for (size_t i = 0; i < count; ++i) {
+            ASSERT_EQ(bits_of(lanes[i * kBatchLanes + k]), bits_of(alone[i]))
+                << "character " << k << ", sum " << i;
+          }
+        }
+      }
+    }
+  });
+}
+
+TEST(ScatterTargetsKernel, WritesTheRowsOfTargetsOnly) {
+  constexpr size_t kRows = 40, kOutputs = 64;
+  const JointTarget targets[] = {{7, 50, 0}, {0, 3, 0}, {30, 20, 0}, {9, 22, 0}};
+  alignas(64) float sums[kRows * kBatchLanes];
+  for (size_t i = 0; i < kRows * kBatchLanes; ++i) sums[i] = static_cast<float>(i + 1);
+  for (const KernelTable* kernels : present_kernels()) {
+    SCOPED_TRACE(kernels->name);
+    for (uint32_t rows : {6u, 3u, 1u}) {
+      for (uint32_t lane_count : {1u, 3u, 4u, 7u, kBatchLanes}) {
+        std::vector<float> outputs(kBatchLanes * kOutputs), expected = outputs;
+        float* to[kBatchLanes];
+        for (uint32_t k = 0; k < kBatchLanes; ++k) to[k] = outputs.data() + k * kOutputs;
+        kernels->scatter_targets({sums, targets, to, 4, rows, lane_count});
+        for (const JointTarget& target : targets) {
+          for (uint32_t r = 0; r < rows; ++r) {
+            for (uint32_t k = 0; k < lane_count; ++k) {
+              expected[k * kOutputs + target.output + r] =
+                  sums[(target.packed_row + r) * kBatchLanes + k];
+            }
+          }
+        }
+        EXPECT_EQ(outputs, expected) << rows << " rows, " << lane_count << " characters";
+      }
+    }
+  }
 }
 
 /// Correctives with awkward inputs; some read what others give.
