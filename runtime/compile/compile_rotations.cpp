@@ -106,7 +106,8 @@ void fill_step(const dna::JointGroup& group, const PlannedTurn& turn, uint32_t c
   float angles[3] = {};
   for (int axis = 0; axis < 3; ++axis) {
     if (turn.rows[axis] == kNone) continue;
-    angles[axis] = group.values[size_t{turn.rows[axis]} * group.input_indices.count + column];
+    angles[axis] =
+        saturated(group.values[size_t{turn.rows[axis]} * group.input_indices.count + column]);
   }
   const Quaternion q = quaternion_from_euler(rig.rotation, angles);
   const float sign = q.w < 0 ? -1.0f : 1.0f;

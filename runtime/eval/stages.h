@@ -93,12 +93,4 @@ EulerForm euler_form(const RotationConvention& convention);
 void clear_ml_joints(const Rig& rig, Instance& instance, uint32_t lod);
 void add_ml_joints(const Rig& rig, Instance& instance, uint32_t lod);
 
-// Numbers -----------------------------------------------------------------------------------------
-
-/// To the range of finite floats; NaN becomes the lowest.
-inline float saturated(double value) {
-  if (!(value > -kLargestFloat)) return -kLargestFloat;
-  return value < kLargestFloat ? static_cast<float>(value) : kLargestFloat;
-}
-
 }  // namespace mien

@@ -29,6 +29,12 @@ constexpr uint16_t kNoOutput = 0xFFFF;   // a joint row whose result goes nowher
 constexpr uint32_t kMaxLods = 33;
 constexpr float kLargestFloat = 3.40282347e38f;
 
+/// To the range of finite floats; NaN becomes the lowest.
+inline float saturated(double value) {
+  if (!(value > -kLargestFloat)) return -kLargestFloat;
+  return value < kLargestFloat ? static_cast<float>(value) : kLargestFloat;
+}
+
 /// What exists at each LOD, with LODs that are alike sharing a row.
 struct LodLists {
   Span<uint16_t> row_of_lod;

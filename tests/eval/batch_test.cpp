@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "tests/support/counting_allocator.h"
+#include "tests/support/layer_rig.h"
 #include "tests/support/many_rigs.h"
 
 namespace mien {
@@ -159,7 +160,9 @@ TEST(Batch, OfSeveralTiles) {
 TEST(Batch, OfEntriesThatAreNotFinite) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   constexpr float kLargest = std::numeric_limits<float>::max();
-  PlainRig plain;
+  LayerRig layers;
+  layers.rotations = {0, 1, 0};
+  PlainRig& plain = layers.base;
   plain.raw_count = 4;
   plain.joint_count = 3;
   PlainGroup group;
@@ -171,12 +174,10 @@ TEST(Batch, OfEntriesThatAreNotFinite) {
     for (uint32_t c = 0; c < 5; ++c) group.values.push_back(awkward[(row + 3 * c + row * c) % 7]);
   }
   plain.groups = {group};
-  Arena arena(default_allocator());
-  const std::vector<uint8_t> bytes = write_view(to_view(plain, arena));
-  const DnaHandle dna = open_dna(bytes);
+  const LayerFile file(layers);
   Random random = Random::from_seed(15, 1);
   for_each_rig_desc([&](const MienRigDesc& desc) {
-    InstancePacket packet(dna.get(), desc, 32);
+    InstancePacket packet(file.dna.get(), desc, 32);
     const BatchHandle batch = create_batch(packet.rig, 32);
     for (uint32_t percent : {100, 20, 70}) {
       packet.draw(random, percent, false, 1);
