@@ -233,13 +233,20 @@ Status fill_psds(const dna::DnaView& view, Span<uint8_t> reach, Arena& scratch, 
   // Those of all LODs first, those of the finest last: an input reaches as far as its user. Among
   // them those that depend on fewer others; then by their number of inputs, so that evaluation
   // meets long runs of the same.
-  const auto reach_of = [&](uint32_t p) { return reach[first_psd + p]; };
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    if (reach_of(a) != reach_of(b)) return reach_of(a) > reach_of(b);
-    if (depth[a] != depth[b]) return depth[a] < depth[b];
-    const uint32_t inputs_a = first[a + 1] - first[a], inputs_b = first[b + 1] - first[b];
+  const uint8_t* const psd_reach = reach.data + first_psd;
+  const uint32_t *const first_of = first.data, *const depth_of = depth.data;
+  const auto reach_of = [psd_reach](uint32_t p) { return psd_reach[p]; };
+  const auto before = [psd_reach, first_of, depth_of](uint32_t a, uint32_t b) {
+    if (psd_reach[a] != psd_reach[b]) return psd_reach[a] > psd_reach[b];
+    if (depth_of[a] != depth_of[b]) return depth_of[a] < depth_of[b];
+    const uint32_t inputs_a = first_of[a + 1] - first_of[a];
+    const uint32_t inputs_b = first_of[b + 1] - first_of[b];
     return inputs_a != inputs_b ? inputs_a < inputs_b : a < b;
-  });
+  };
+  // Kahn's order often is this one.
+  if (!std::is_sorted(order.begin(), order.end(), before)) {
+    std::sort(order.begin(), order.end(), before);
+  }
   for (uint32_t i = 0; i < count; ++i) {
     psds.entry_of_psd[order[i]] = static_cast<uint16_t>(i);
     for (uint32_t l = 0; l < reach_of(order[i]); ++l) psds.count_at_lod[l] = i + 1;

@@ -11,6 +11,7 @@ using dna::DnaView;
 using dna::Mesh;
 
 const Mesh kNoMesh;
+const MeshPlan kNoPlan;
 
 /// Meshes that the geometry lacks are empty.
 const Mesh& mesh_at(const DnaView& view, uint32_t m) {
@@ -70,7 +71,7 @@ void place_all(const DnaView& view, const Rig& rig, Span<const MeshPlan> plans, 
   for (uint32_t m = 0; m < rig.mesh_count; ++m) {
     DeformMesh measured;
     DeformMesh& mesh = placer.measuring() ? measured : *new (&deformer.meshes[m]) DeformMesh;
-    place_mesh(mesh_at(view, m), plans[m], tangents, placer, mesh);
+    place_mesh(mesh_at(view, m), m < plans.count ? plans[m] : kNoPlan, tangents, placer, mesh);
   }
 }
 
@@ -84,16 +85,17 @@ Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions
                         const Allocator& allocator, Deformer*& out, Error& error) {
   out = nullptr;
   Arena scratch(allocator);
-  const Span<MeshPlan> plans = scratch.array<MeshPlan>(rig.mesh_count);
-  if (!plans.data && rig.mesh_count != 0) {
-    return fail(error, Status::kMemory, kNoOffset, "no memory to compile %u meshes",
-                rig.mesh_count);
+  // Meshes that the geometry lacks, which are the last, have nothing to plan and to fill.
+  const uint32_t present = std::min(rig.mesh_count, view.geom.meshes.count);
+  const Span<MeshPlan> plans = scratch.array<MeshPlan>(present);
+  if (!plans.data && present != 0) {
+    return fail(error, Status::kMemory, kNoOffset, "no memory to compile %u meshes", present);
   }
   const auto source = [&](uint32_t m) {
     return MeshSource{view, mesh_at(view, m), m, options, scratch, error};
   };
   Status status = Status::kOk;
-  for (uint32_t m = 0; m < rig.mesh_count; ++m) {
+  for (uint32_t m = 0; m < present; ++m) {
     status = plan_mesh(source(m), plans[m]);
     if (status != Status::kOk) return status;
   }
@@ -123,7 +125,7 @@ Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions
   mark_mesh_lods(rig, deformer->meshes);
 
   status = fill_skeleton(rig, options.kernels, options.compose, scratch, deformer->skeleton, error);
-  for (uint32_t m = 0; m < rig.mesh_count && status == Status::kOk; ++m) {
+  for (uint32_t m = 0; m < present && status == Status::kOk; ++m) {
     status = fill_mesh(source(m), plans[m], deformer->meshes[m]);
   }
   if (status != Status::kOk) {

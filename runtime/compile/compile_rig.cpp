@@ -70,6 +70,21 @@ void place_names(const DnaView& view, Placer& placer, Rig& rig) {
   }
 }
 
+/// 0 ... count - 1 by their decimal digits: 0, 1, 10, 100, 101, ..., 11, ..., 2, ...
+void sort_numbers(Span<uint32_t> sorted) {
+  const uint32_t count = static_cast<uint32_t>(sorted.count);
+  uint32_t number = 0;
+  for (uint32_t& next : sorted) {
+    next = number;
+    if (number != 0 && number * 10 < count) {
+      number *= 10;
+    } else {
+      while (number % 10 == 9 || (number != 0 && number + 1 == count)) number /= 10;
+      ++number;
+    }
+  }
+}
+
 void fill_names(const DnaView& view, Rig& rig) {
   for_each_name(view, rig, [&](Kind kind, uint32_t i, const String& a, const String& b) {
     NameList& list = rig.names[size_t(kind)];
@@ -83,13 +98,23 @@ void fill_names(const DnaView& view, Rig& rig) {
     list.sorted[i] = i;
   });
   for (NameList& list : rig.names) {
-    std::sort(list.sorted.begin(), list.sorted.end(), [&](uint32_t x, uint32_t y) {
-      const Span<char> a = list[x], b = list[y];
-      const size_t common = a.count < b.count ? a.count : b.count;
-      const int order = common ? memcmp(a.data, b.data, common) : 0;
+    if (&list == &rig.names[size_t(Kind::kPsdControl)]) {
+      sort_numbers(list.sorted);
+      continue;
+    }
+    const uint32_t* const first = list.first.data;
+    const char* const chars = list.chars.data;
+    const auto less = [first, chars](uint32_t x, uint32_t y) {
+      const size_t a = first[x + 1] - first[x], b = first[y + 1] - first[y];
+      const size_t common = a < b ? a : b;
+      const int order = common ? memcmp(chars + first[x], chars + first[y], common) : 0;
       if (order != 0) return order < 0;
-      return a.count != b.count ? a.count < b.count : x < y;
-    });
+      return a != b ? a < b : x < y;
+    };
+    // Many of one name are in order as they are.
+    if (!std::is_sorted(list.sorted.begin(), list.sorted.end(), less)) {
+      std::sort(list.sorted.begin(), list.sorted.end(), less);
+    }
   }
 }
 
