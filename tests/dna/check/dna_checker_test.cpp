@@ -50,6 +50,31 @@ TEST(DnaCheckerTest, OffsetsOfSingleNumbers) {
   EXPECT_EQ(report.findings[1].byte_offset, 82u);
 }
 
+TEST(DnaCheckerTest, OffsetsBehindArraysAndNames) {
+  Arena arena(default_allocator());
+  DnaView view = tiny_rig(arena);
+  std::vector<uint8_t> file(100);
+  view.file = file.data();
+  view.file_size = file.size();
+  Twist& twist = view.twsw.twists[0];
+  for (size_t i = 0; i < twist.input_control_indices.count; ++i) {
+    store_big_endian(&file[40 + 2 * i], uint16_t{twist.input_control_indices[i]});
+  }
+  twist.input_control_indices.data = &file[40];
+  twist.twist_axis = 3;
+  view.desc.name = {&file[10], 5};
+  view.desc.archetype = 9;
+  KeptFindings report;
+  check(view, report, true);
+  uint64_t axis = 0, archetype = 0;
+  for (const auto& finding : report.findings) {
+    if (finding.field == "twsw.twists[0].twistAxis") axis = finding.byte_offset;
+    if (finding.field == "desc.archetype") archetype = finding.byte_offset;
+  }
+  EXPECT_EQ(axis, 40 + 2 * twist.input_control_indices.count) << report.text();
+  EXPECT_EQ(archetype, 15u) << report.text();
+}
+
 // Of chosen LODs, too. Behind the only list lies one that would be told of.
 TEST(DnaCheckerTest, ListsThatAreNotThereAreNotLookedAt) {
   Arena arena(default_allocator());
