@@ -5,6 +5,7 @@
     cli_play_test.py path/to/mien [unittest options]      (or MIEN_BIN=path/to/mien)
 """
 import json
+import math
 import os
 import shutil
 import struct
@@ -321,6 +322,63 @@ class PlayTest(unittest.TestCase):
             animation, = glb.json["animations"]
             paths = {channel["target"]["path"] for channel in animation["channels"]}
             self.assertIn("rotation", paths)
+
+    def test_the_head_turns_in_a_glb(self):
+        tangent = math.tan(math.radians(30))
+        pose = lambda **values: {"seconds": 0.1, "layers": [{"name": "turn", "source": {
+            "poses": {"turn": {name.replace("_", "."): value for name, value in values.items()}},
+            "weights": {"turn": 1}}}]}
+        self.assertEqual(run("gen", "-o", path("plain.dna"), "-q").returncode, DONE)
+        with open(path("plain.dna"), "rb") as file:
+            named = file.read()
+        with open(path("plain.dna"), "wb") as file:  # without joints of these names
+            file.write(named.replace(b"head", b"hood").replace(b"neck", b"nock"))
+        # (rig, scene, degrees, where the face goes: x to its left or y up)
+        for rig, scene, degrees, axis in (
+                ("head.dna", pose(head_left=tangent / 2, head_turn=tangent / 2), 30, 0),
+                ("head.dna", pose(head_up=tangent), 30, 1),
+                ("head.dna", pose(head_left=1e6), 60, 0),
+                ("plain.dna", pose(head_left=tangent), 30, 0)):
+            done = run("play", write("turn.json", json.dumps(scene)), path(rig), "-q",
+                       "-o", path("turn.glb"), "-o", path("frames.json"), "--force")
+            self.assertEqual(done.returncode, DONE, done.stderr.decode())
+            self.assertTrue(any(name.startswith("head.") for name in load(path("frames.json"))["variables"]))
+            with open(path("turn.glb"), "rb") as file:
+                glb = Glb(file.read())
+            animation, = glb.json["animations"]
+            turned, total = [], 0
+            for channel in animation["channels"]:
+                if channel["target"]["path"] != "rotation":
+                    continue
+                node = glb.json["nodes"][channel["target"]["node"]]
+                sampler = animation["samplers"][channel["sampler"]]
+                x, y, z, w = glb.accessor(sampler["output"])[-1]
+                a, b, c, d = node.get("rotation", (0, 0, 0, 1))
+                total += math.degrees(2 * math.acos(min(1, abs(x * a + y * b + z * c + w * d))))
+                turned.append(node["name"])
+            self.assertAlmostEqual(total, degrees, 2, (rig, turned))
+            wanted = {"C_Neck01", "C_Neck02", "C_Head"} if rig == "head.dna" else {"root"}
+            self.assertEqual(set(turned), wanted)
+            mesh = next(i for i, node in enumerate(glb.json["nodes"]) if "skin" in node)
+            before, after = glb.deformed(mesh), glb.deformed(mesh, 6)
+            nose = max(range(len(before)), key=lambda v: before[v][2])
+            self.assertGreater(after[nose][axis] - before[nose][axis], 0.03)
+
+    def test_the_head_turns_in_pictures(self):
+        look = ["--size", "96", "--samples", "1", "--lod", "5", "--every", "0.1"]
+        event = lambda value: [{"time": 0, "variable": "head.left", "value": value}]
+        self.assertEqual(run("bake", path("head.dna"), "-o", path("turned.rig"), "-q",
+                             "--force").returncode, DONE)
+        for rig in "head.dna", "turned.rig":
+            pictures = []
+            for name, value in ("still", 0), ("left", 0.5), ("right", -0.5), ("again", 0.5):
+                scene = write("turn.json", json.dumps({"seconds": 0, "events": event(value)}))
+                done = run("play", scene, path(rig), "-q", "-o", path(name + ".png"), "--force", *look)
+                self.assertEqual(done.returncode, DONE, done.stderr.decode())
+                with open(path(name + ".png"), "rb") as file:
+                    pictures.append(file.read())
+            self.assertEqual(pictures[1], pictures[3])
+            self.assertEqual(len(set(pictures)), 3)
 
     def test_pictures_are_those_of_the_frames(self):
         look = ["--target", "mouth", "--size", "48x40", "--samples", "1", "--lod", "2"]

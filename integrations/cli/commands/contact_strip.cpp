@@ -90,8 +90,7 @@ StripPlan plan_strip(const StripOptions& options, const std::string& path) {
 }
 
 uint64_t write_strip(const StripPlan& plan, const std::string& target, const Recording& recording,
-                     size_t lane_count, const Captions& captions, const OutputFile& output,
-                     const Session& session) {
+                     const Captions& captions, const OutputFile& output, const Session& session) {
   const std::string& path = output.path;
   const double every = plan.every > 0 ? plan.every : usual_step(recording.times.back());
   const std::vector<size_t> frames = chosen_frames(recording, every);
@@ -107,11 +106,7 @@ uint64_t write_strip(const StripPlan& plan, const std::string& target, const Rec
       aim_camera(scene, finds_face ? "face" : target, plan.view, plan.size);
   const uint32_t controls = rig_count(scene.rig.get(), MIEN_KIND_RAW_CONTROL);
   const auto draw = [&](size_t number) {
-    Frame frame;
-    for (uint32_t i = 0; i < controls; ++i) {
-      frame.raw.push_back({i, recording.rows[number * lane_count + i]});
-    }
-    pose_scene(scene, frame);
+    pose_scene(scene, recording.shown_frame(number, controls));
     return render_image(scene.surfaces(), camera, render);
   };
 

@@ -27,7 +27,6 @@ StripPlan plan_strip(const StripOptions& options, const std::string& path);
 
 /// Draws frames of the recording to `output`, where %04d makes a file of each. Returns the bytes written.
 uint64_t write_strip(const StripPlan& plan, const std::string& target, const Recording& recording,
-                     size_t lane_count, const Captions& captions, const OutputFile& output,
-                     const Session& session);
+                     const Captions& captions, const OutputFile& output, const Session& session);
 
 }  // namespace mien::cli

@@ -120,7 +120,7 @@ void print_report(const gltf::BakeReport& report, FILE* stream) {
 }
 
 /// Raw controls that a baked file has no weight for.
-void note_lost_controls(const ExportedRig& face, const gltf::ArkitControls& controls,
+void note_lost_controls(ExportedRig& face, const gltf::ArkitControls& controls,
                         const std::vector<const Frame*>& frames, const Session& session) {
   std::vector<bool> is_known(rig_count(face.rig.get(), MIEN_KIND_RAW_CONTROL));
   for (const auto& expression : controls.controls) is_known[expression[0].control] = true;
@@ -141,7 +141,7 @@ void note_lost_controls(const ExportedRig& face, const gltf::ArkitControls& cont
                     "for them");
 }
 
-std::string baked_glb(const ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
+std::string baked_glb(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
                       double rate, const ExportOptions& options, const Session& session) {
   const gltf::ArkitControls controls = gltf::find_arkit_controls(*face.source);
   const bool is_posed = !options.settings.empty() || !frames.empty();
@@ -208,7 +208,7 @@ void run(const ExportOptions& options, const Session& session) {
     refuse_replacing(materials, {options.rig});
   }
   try {
-    const ExportedRig face(options.rig, options.lod, session);
+    ExportedRig face(options.rig, options.lod, session);
     note_color_problems(face, session);
     const Frame still = parse_settings(options.settings, face.rig.get(), face.file.shown);
     std::vector<Frame> frames;

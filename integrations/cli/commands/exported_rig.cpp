@@ -84,11 +84,26 @@ ExportedRig::ExportedRig(const std::string& path, const std::string& lod, const 
   pose = gltf::make_deformer_instance(*source);
 }
 
-void ExportedRig::apply(const Frame& frame) const {
+void ExportedRig::apply(const Frame& frame) {
   check(mien_instance_reset(instance.get()), nullptr, kCannot, file.shown);
   apply_frame(frame, rig.get(), instance.get());
   check(mien_rig_evaluate(rig.get(), instance.get(), 0), nullptr, kCannot, file.shown);
   check(mien_deformer_instance_update(pose.get(), instance.get()), nullptr, kCannot, file.shown);
+  head_turned = frame.head.turned();
+  if (!head_turned) return;
+  if (!head) head = std::make_unique<HeadTurn>(rig.get(), deformer.get(), file.shown);
+  head->apply(pose.get(), frame.head);
+}
+
+std::vector<float> ExportedRig::local_transforms() const {
+  if (head_turned) {
+    const MienFloatView turned = head->transforms();
+    return std::vector<float>(turned.data, turned.data + turned.count);
+  }
+  std::vector<float> values(size_t{10} * rig_count(rig.get(), MIEN_KIND_JOINT));
+  check(mien_deformer_instance_local_transforms(pose.get(), values.data(), values.size()), nullptr,
+        kCannot, file.shown);
+  return values;
 }
 
 MienFloatView ExportedRig::channel_weights() const {
@@ -149,7 +164,7 @@ void note_losses(const ExportedRig& face, const gltf::Losses& losses, const Sess
   }
 }
 
-std::string rig_glb(const ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
+std::string rig_glb(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
                     double rate, const GlbOptions& options, const Session& session) {
   gltf::SceneOptions scene_options = face.scene_options(options);
   gltf::RigScene scene;
@@ -167,7 +182,7 @@ std::string rig_glb(const ExportedRig& face, const Frame& still, const std::vect
     for (size_t f = 0; f < frames.size(); ++f) {
       progress.at(f);
       face.apply(frames[f]);
-      recorder.add_frame(face.pose.get(), face.channel_weights());
+      recorder.add_frame(face.local_transforms(), face.channel_weights());
     }
     scene.scene.animation = recorder.finish();
   }

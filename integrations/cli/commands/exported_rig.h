@@ -5,6 +5,7 @@
 #include "integrations/cli/commands/options.h"
 #include "integrations/cli/gltf/rig_scene.h"
 #include "integrations/cli/io/frames.h"
+#include "integrations/cli/scene/head_turn.h"
 
 namespace mien::cli {
 
@@ -28,7 +29,9 @@ class ExportedRig {
   ExportedRig(const std::string& path, const std::string& lod, const Session& session);
 
   /// Evaluates a frame at the finest LOD, and the pose with it.
-  void apply(const Frame& frame) const;
+  void apply(const Frame& frame);
+  /// Ten floats per joint, as mien_deformer_instance_local_transforms() gives them.
+  std::vector<float> local_transforms() const;
 
   MienFloatView channel_weights() const;
   MienFloatView raw_controls() const;
@@ -41,6 +44,8 @@ class ExportedRig {
   Instance instance;
   std::unique_ptr<gltf::RigSource> source;
   DeformerInstance pose;
+  std::unique_ptr<HeadTurn> head;  // null until a frame turns it
+  bool head_turned = false;        // by the last frame
 };
 
 /// Notes for people: colors that are left out, and what glTF has no place for.
@@ -49,7 +54,7 @@ void note_losses(const ExportedRig& face, const gltf::Losses& losses, const Sess
 
 /// A GLB with skeleton, skin and morph targets that opens in the pose `still` and plays `frames`, if there
 /// are any. Throws gltf::ExportError.
-std::string rig_glb(const ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
+std::string rig_glb(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
                     double rate, const GlbOptions& options, const Session& session);
 
 /// The scene with what the options leave of it.

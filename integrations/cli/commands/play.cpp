@@ -111,17 +111,15 @@ void check_outputs(const std::vector<std::string>& outputs, const PlayOptions& o
 }
 
 /// What `mien export --animation` writes of the same frames.
-std::string scene_glb(const PlayOptions& options, const Recording& recording, size_t lane_count,
+std::string scene_glb(const PlayOptions& options, const Recording& recording,
                       const Session& session) {
   try {
-    const ExportedRig face(options.rig, options.strip.scene.lod, session);
+    ExportedRig face(options.rig, options.strip.scene.lod, session);
     note_color_problems(face, session);
     const uint32_t controls = rig_count(face.rig.get(), MIEN_KIND_RAW_CONTROL);
-    std::vector<Frame> frames(recording.times.size());
-    for (size_t f = 0; f < frames.size(); ++f) {
-      for (uint32_t i = 0; i < controls; ++i) {
-        frames[f].raw.push_back({i, recording.rows[f * lane_count + i]});
-      }
+    std::vector<Frame> frames;
+    for (size_t f = 0; f < recording.times.size(); ++f) {
+      frames.push_back(recording.shown_frame(f, controls));
     }
     return rig_glb(face, {}, frames, recording.rate, options.glb, session);
   } catch (const gltf::ExportError& error) {
@@ -217,6 +215,7 @@ void run(const PlayOptions& options, const Session& session) {
     if (outputs.empty()) return;
     recording.times.push_back(time);
     recording.rows.insert(recording.rows.end(), row, row + lane_count);
+    recording.heads.push_back(performance.lanes().head(row));
     std::vector<float> stages;
     for (uint16_t lane : recording.watched) {
       const std::vector<float> values = performance.stage_values(lane);
@@ -231,9 +230,8 @@ void run(const PlayOptions& options, const Session& session) {
 
   for (const std::string& path : outputs) {
     if (ends_with(path, ".png")) {
-      const uint64_t bytes =
-          write_strip(strips.at(path), options.strip.output.target, recording, lane_count,
-                      recording.captions, {path, options.force}, session);
+      const uint64_t bytes = write_strip(strips.at(path), options.strip.output.target, recording,
+                                         recording.captions, {path, options.force}, session);
       note_written(session, path, bytes);
       continue;
     }
@@ -245,7 +243,7 @@ void run(const PlayOptions& options, const Session& session) {
     } else if (ends_with(path, ".svg")) {
       write_svg(performance, recording, output);
     } else if (ends_with(path, ".glb")) {
-      output.write(scene_glb(options, recording, lane_count, session));
+      output.write(scene_glb(options, recording, session));
     } else {
       write_json(name, performance, recording, !all, output);
     }

@@ -2,42 +2,15 @@
 #include "integrations/cli/gltf/bake_skeleton.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "integrations/cli/gltf/rig_skin.h"
+#include "integrations/cli/io/joint_names.h"
 
 namespace mien::gltf {
 
 namespace {
 
 using math::Transform;
-
-/// Whether the name is that of a neck, head or eye: the word, with or without a side, a prefix and a
-/// number.
-bool is_kept_name(const std::string& name) {
-  static const char* const kKept[] = {"neck", "head", "eye", "eyeball", "lefteye", "righteye"};
-  static const char* const kBeside[] = {"l",     "r",      "c",    "m",    "left",
-                                        "right", "facial", "face", "joint"};
-  const auto is_in = [](const std::string& word, const auto& words) {
-    return std::find(std::begin(words), std::end(words), word) != std::end(words);
-  };
-  size_t kept = 0;
-  std::string word;
-  for (size_t i = 0; i <= name.size(); ++i) {
-    const auto letter = static_cast<unsigned char>(i < name.size() ? name[i] : '_');
-    if (std::isalpha(letter)) {
-      word += static_cast<char>(std::tolower(letter));
-      continue;
-    }
-    if (is_in(word, kKept)) {
-      ++kept;
-    } else if (!word.empty() && !is_in(word, kBeside)) {
-      return false;
-    }
-    word.clear();
-  }
-  return kept == 1;
-}
 
 /// For each joint of the rig the nearest kept one among itself and its ancestors, or kNone.
 std::vector<uint32_t> nearest_kept(const std::vector<Joint>& joints,
@@ -74,7 +47,10 @@ std::vector<Joint> kept_joints(const std::vector<Joint>& joints, const std::vect
 void add_bake_skeleton(const RigSource& source, RigScene& scene) {
   const std::vector<Joint> joints = neutral_joints(source);
   std::vector<bool> kept(joints.size());
-  for (size_t j = 0; j < joints.size(); ++j) kept[j] = is_kept_name(joints[j].name);
+  for (size_t j = 0; j < joints.size(); ++j) {
+    kept[j] = cli::is_body_part(joints[j].name,
+                                {"neck", "head", "eye", "eyeball", "lefteye", "righteye"});
+  };
   if (std::find(kept.begin(), kept.end(), true) == kept.end()) return;
   // What hangs from none of them follows the root.
   for (size_t j = 0; j < joints.size(); ++j) kept[j] = kept[j] || joints[j].parent == kNone;

@@ -68,15 +68,19 @@ uint32_t add_material(std::vector<Material>& materials, const Material& material
 
 // Skeleton ----------------------------------------------------------------------------------------
 
-std::vector<Transform> local_transforms(const RigSource& source, const MienDeformerInstance* pose) {
-  std::vector<float> values(size_t{10} * source.count(MIEN_KIND_JOINT));
-  check(mien_deformer_instance_local_transforms(pose, values.data(), values.size()),
-        "cannot read pose");
+std::vector<Transform> transforms_of(const RigSource& source, const std::vector<float>& values) {
   std::vector<Transform> transforms;
   for (size_t i = 0; i < values.size(); i += 10) {
     transforms.push_back(source.transform(values.data() + i));
   }
   return transforms;
+}
+
+std::vector<Transform> local_transforms(const RigSource& source, const MienDeformerInstance* pose) {
+  std::vector<float> values(size_t{10} * source.count(MIEN_KIND_JOINT));
+  check(mien_deformer_instance_local_transforms(pose, values.data(), values.size()),
+        "cannot read pose");
+  return transforms_of(source, values);
 }
 
 // Targets -----------------------------------------------------------------------------------------
@@ -292,10 +296,10 @@ AnimationRecorder::AnimationRecorder(const RigScene& scene, const RigSource& sou
   }
 }
 
-void AnimationRecorder::add_frame(const MienDeformerInstance* pose,
+void AnimationRecorder::add_frame(const std::vector<float>& values,
                                   const MienFloatView& channel_weights) {
   animation_.times.push_back(static_cast<float>(animation_.times.size() / rate_));
-  const std::vector<Transform> locals = local_transforms(source_, pose);
+  const std::vector<Transform> locals = transforms_of(source_, values);
   for (JointTrack& track : animation_.joints) {
     const Transform& local = locals[track.joint];
     Float4 rotation = floats(local.rotation);

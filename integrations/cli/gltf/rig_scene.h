@@ -55,8 +55,8 @@ class AnimationRecorder {
  public:
   AnimationRecorder(const RigScene& scene, const RigSource& source, std::string name, double rate);
 
-  /// `pose` was updated from these channel weights.
-  void add_frame(const MienDeformerInstance* pose, const MienFloatView& channel_weights);
+  /// `transforms`: ten floats per joint, as mien_deformer_instance_local_transforms() gives them.
+  void add_frame(const std::vector<float>& transforms, const MienFloatView& channel_weights);
 
   /// Only what moves: a joint's values that all frames leave at the pose of the scene have no
   /// track.

@@ -15,12 +15,20 @@ struct Assignment {
   float value;
 };
 
+/// Where the head turns, as tangents: 0.1 to the left is 5.7 degrees.
+struct HeadPose {
+  float left = 0, up = 0;
+
+  bool turned() const { return left != 0 || up != 0; }
+};
+
 /// Applied in this order: masks, GUI controls, the mapping to raw controls, raw controls.
 struct Frame {
   std::vector<Assignment> masks;
   std::vector<Assignment> gui;
   bool maps_gui = false;
   std::vector<Assignment> raw;
+  HeadPose head;  // joints that no control moves; not part of FRAMES
 };
 
 /// Checks names, counts and numbers against the rig. `shown` names the input in messages.

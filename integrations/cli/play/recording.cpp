@@ -67,6 +67,14 @@ std::string holders(const Performance& performance, const Recording& recording, 
 
 }  // namespace
 
+Frame Recording::shown_frame(size_t number, size_t raw_count) const {
+  const size_t lane_count = rows.size() / times.size();
+  Frame frame;
+  for (uint32_t i = 0; i < raw_count; ++i) frame.raw.push_back({i, rows[number * lane_count + i]});
+  if (!heads.empty()) frame.head = heads[number];
+  return frame;
+}
+
 void write_json(const std::string& rig_name, const Performance& performance,
                 const Recording& recording, bool stages, Output& output) {
   const std::vector<uint16_t>& watched = recording.watched;

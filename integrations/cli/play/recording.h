@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "integrations/cli/io/frames.h"
 #include "integrations/cli/io/output.h"
 #include "integrations/cli/play/performance.h"
 
@@ -18,6 +19,10 @@ struct Recording {
   std::vector<std::vector<float>> stages;       // [frame][watched lane * stages + stage]
   std::vector<std::vector<GuardFrame>> guards;  // [frame][guard]
   Captions captions;
+  std::vector<HeadPose> heads;  // of each frame, or empty
+
+  /// What images and GLB files show of a frame; `raw` are the first of its lanes.
+  Frame shown_frame(size_t number, size_t raw_count) const;
 };
 
 /// Drops the watched lanes that stay as they are, with their stages.

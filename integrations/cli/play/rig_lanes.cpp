@@ -94,6 +94,16 @@ LaneValues RigLanes::present(const NamedValues& values) const {
   return found;
 }
 
+HeadPose RigLanes::head(const float* row) const {
+  HeadPose head;
+  for (size_t i = 0; i < variables_.size(); ++i) {
+    const float value = row[controls_.size() + i];
+    if (variables_[i] == "head.left" || variables_[i] == "head.turn") head.left += value;
+    if (variables_[i] == "head.up") head.up += value;
+  }
+  return head;
+}
+
 std::vector<float> RigLanes::mask(const std::vector<std::string>& patterns, bool invert,
                                   const std::string& where) const {
   std::vector<float> mask(controls_.size(), invert ? 1.0f : 0.0f);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "capi/mien.h"
+#include "integrations/cli/io/frames.h"
 #include "integrations/cli/play/script.h"
 
 namespace mien::cli {
@@ -32,6 +33,8 @@ class RigLanes {
   LaneValues lanes(const NamedValues& values, const std::string& where);
   /// Those of the names that are raw controls.
   LaneValues present(const NamedValues& values) const;
+  /// Where variables of a row turn the head: to the left by head.left and head.turn, up by head.up.
+  HeadPose head(const float* row) const;
   /// 1 for raw controls whose names match a pattern, else 0; inverted if `invert`.
   std::vector<float> mask(const std::vector<std::string>& patterns, bool invert,
                           const std::string& where) const;

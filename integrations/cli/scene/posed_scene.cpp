@@ -14,29 +14,8 @@ namespace mien::cli {
 namespace {
 
 using math::Vec3;
-using render::Axes;
 
 constexpr const char* kCannot = "cannot draw";
-
-/// Left, up and front in the axes of the file; the usual ones if two axes of the file have the same
-/// direction.
-Axes axes_of(const MienRigInfo& info) {
-  constexpr Vec3 kUnit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  Axes axes;
-  bool left = false, up = false, front = false;
-  for (int i = 0; i < 3; ++i) {
-    switch (info.axes[i]) {
-      case MIEN_DIRECTION_LEFT: axes.left = kUnit[i], left = true; break;
-      case MIEN_DIRECTION_RIGHT: axes.left = -kUnit[i], left = true; break;
-      case MIEN_DIRECTION_UP: axes.up = kUnit[i], up = true; break;
-      case MIEN_DIRECTION_DOWN: axes.up = -kUnit[i], up = true; break;
-      case MIEN_DIRECTION_FRONT: axes.front = kUnit[i], front = true; break;
-      case MIEN_DIRECTION_BACK: axes.front = -kUnit[i], front = true; break;
-      default: break;
-    }
-  }
-  return left && up && front ? axes : Axes{};
-}
 
 /// Which edges of the triangles are not edges of faces. The deformer makes each face a fan about its
 /// first corner, in file order; faces of fewer than three corners have no triangles.
@@ -272,6 +251,12 @@ void pose_scene(PosedScene& scene, const Frame& frame) {
   check(mien_rig_evaluate(scene.rig.get(), instance, scene.rig_lod), nullptr, kCannot, shown);
   if (!pose) return;
   check(mien_deformer_instance_update(pose, instance), nullptr, kCannot, shown);
+  if (frame.head.turned()) {
+    if (!scene.head) {
+      scene.head = std::make_unique<HeadTurn>(scene.rig.get(), scene.deformer.get(), shown);
+    }
+    scene.head->apply(pose, frame.head);
+  }
   for (const SceneMesh& mesh : scene.meshes) {
     check(mien_deformer_instance_deform(pose, mesh.mesh, MIEN_NORMALS_DEFAULT, nullptr), nullptr,
           kCannot, shown);

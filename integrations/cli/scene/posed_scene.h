@@ -12,6 +12,7 @@
 #include "integrations/cli/math/vector.h"
 #include "integrations/cli/render/camera.h"
 #include "integrations/cli/render/render.h"
+#include "integrations/cli/scene/head_turn.h"
 
 namespace mien::cli {
 
@@ -41,8 +42,9 @@ struct PosedScene {
   Instance instance;
   Deformer deformer;  // null without geometry, as is the next
   DeformerInstance pose;
-  uint32_t lod = 0;      // as the file counts
-  uint32_t rig_lod = 0;  // as the rig counts: of a DNA file, no other LOD is loaded
+  std::unique_ptr<HeadTurn> head;  // null until a frame turns it
+  uint32_t lod = 0;                // as the file counts
+  uint32_t rig_lod = 0;            // as the rig counts: of a DNA file, no other LOD is loaded
   std::vector<SceneMesh> meshes;
   render::Axes axes;
 
