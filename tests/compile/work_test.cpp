@@ -356,7 +356,7 @@ double bound(size_t bytes) { return 0.1 * std::max(1.0, double(bytes) / (1 << 20
 
 // That tables ask for no more than they may is counted, above. What nobody counts, such as a loop over
 // all pairs somewhere between opening and the last vertex, shows in time alone. So this is a clock: time
-// of the processor, several times the bound where files that were not bounded took 100 times it, and the
+// of the processor, 2.5 times the bound where files that were not bounded took 100 times it, and the
 // best of three. Under sanitizers and emulators time says less still.
 #if defined(__has_feature)
 #define MIEN_HAS_FEATURE(name) __has_feature(name)
@@ -365,7 +365,7 @@ double bound(size_t bytes) { return 0.1 * std::max(1.0, double(bytes) / (1 << 20
 #endif
 #if defined(__x86_64__) && !defined(_WIN32) && !defined(__SANITIZE_ADDRESS__) && \
     !MIEN_HAS_FEATURE(address_sanitizer)
-constexpr double kSlack = 5;
+constexpr double kSlack = 2.5;
 #else
 constexpr double kSlack = 100;
 #endif
