@@ -1944,6 +1944,9 @@ typedef struct MienMixStroke {
     uint32_t mode;    /* MIEN_BLEND_MODE_... */
     uint32_t is_held; /* boolean: holds as long as the stimulus lasts, and adapts unless is_lag */
     uint32_t is_lag;  /* boolean: moves exponentially; attack and release are time constants */
+    uint32_t is_scaled; /* boolean: by the level of the reaction, which is 1 if mien_mixer_trigger() starts
+                           it */
+    uint32_t reserved;  /* 0 */
 } MienMixStroke;
 
 /* What a trigger does while the reaction runs. */
@@ -1963,6 +1966,8 @@ typedef struct MienMixReaction {
     uint32_t retrigger;           /* MIEN_RETRIGGER_... */
     uint32_t after_guards;        /* boolean: guards leave it alone */
     float adapted;                /* share of the strength that remains after adaptation; 1: all */
+    float level_on;               /* mien_mixer_set_level() with this or more is a stimulus. 0: none is */
+    float level_off;              /* it ends below this, which is at most level_on */
     uint32_t reserved;            /* 0 */
 } MienMixReaction;
 
@@ -2349,6 +2354,14 @@ MIEN_CHECKED MienStatus mien_mixer_trigger(MienMixer* mixer, uint32_t reaction, 
 /* Ends the stimulus of a reaction. Does not allocate or lock.
  * Fails with MIEN_ERROR_INDEX if the reaction does not exist. */
 MIEN_CHECKED MienStatus mien_mixer_release(MienMixer* mixer, uint32_t reaction);
+
+/* Sets the level, 0 ... 1, of what a reaction responds to, such as a brightness. Call it whenever that
+ * changes. From MienMixReaction.level_on on it is a stimulus of strength 1, which lasts until the level was
+ * below level_off for 50 ms: light that flickers is on. Strokes that are scaled follow the level meanwhile,
+ * without overshoot, 90 % of a change in 0.25 s. Does not allocate or lock.
+ * Fails with MIEN_ERROR_INDEX if the reaction does not exist, MIEN_ERROR_INVALID_ARGUMENT if it has no
+ * level_on or `level` is out of range. */
+MIEN_CHECKED MienStatus mien_mixer_set_level(MienMixer* mixer, uint32_t reaction, float level);
 
 /* Queues a row for a stream layer: one value per channel, for time `tick` of the mixer. One thread may call this
  * while another one uses the mixer. `out_accepted` may be NULL; it is 0 for a row that is dropped because

@@ -74,16 +74,14 @@ struct MixLists {
       to.adapted = from.adapted;
       to.adapt_ticks = from.adapt_ticks;
       to.recover_ticks = from.recover_ticks;
+      to.level_on = from.level_on;
+      to.level_off = from.level_off;
       for (size_t s = 0; s < from.stroke_count; ++s, ++stroke) {
         const MienMixStroke& each = from.strokes[s];
-        strokes[stroke] = {each.pose,
-                           static_cast<BlendMode>(each.mode),
-                           each.is_held != 0,
-                           each.is_lag != 0,
-                           0,
-                           each.delay,
-                           each.attack,
-                           each.hold,
+        strokes[stroke] = {each.pose,           static_cast<BlendMode>(each.mode),
+                           each.is_held != 0,   each.is_lag != 0,
+                           each.is_scaled != 0, each.delay,
+                           each.attack,         each.hold,
                            each.release};
       }
     }
@@ -150,7 +148,8 @@ MienStatus check_mix_desc(const MienMixDesc& desc, MienError* error) {
     bool known = reaction.stroke_count <= kMaxStrokes &&
                  reaction.retrigger <= MIEN_RETRIGGER_IGNORE && reaction.reserved == 0;
     for (size_t s = 0; known && s < reaction.stroke_count; ++s) {
-      known = reaction.strokes[s].mode <= MIEN_BLEND_MODE_SCALE;
+      known =
+          reaction.strokes[s].mode <= MIEN_BLEND_MODE_SCALE && reaction.strokes[s].reserved == 0;
     }
     if (!known) {
       return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
@@ -361,9 +360,11 @@ MienStatus mien_mix_glare(uint32_t first_pose, MienMixStroke* out_strokes, size_
   const ReactionDesc reaction = glare_reaction(strokes);
   for (uint32_t i = 0; i < kGlareStrokes; ++i) {
     const Stroke& from = strokes[i];
-    out_strokes[i] = {from.delay,   from.attack, from.hold,
-                      from.release, from.pose,   static_cast<uint32_t>(from.mode),
-                      from.held,    from.lags};
+    out_strokes[i] = {from.delay,  from.attack,
+                      from.hold,   from.release,
+                      from.pose,   static_cast<uint32_t>(from.mode),
+                      from.held,   from.lags,
+                      from.scaled, 0};
   }
   *out_reaction = {reaction.cooldown,
                    reaction.adapt_ticks,
@@ -373,6 +374,8 @@ MienStatus mien_mix_glare(uint32_t first_pose, MienMixStroke* out_strokes, size_
                    static_cast<uint32_t>(reaction.retrigger),
                    0,
                    reaction.adapted,
+                   reaction.level_on,
+                   reaction.level_off,
                    0};
   return MIEN_OK;
 }
@@ -529,6 +532,12 @@ MienStatus mien_mixer_release(MienMixer* mixer, uint32_t reaction) {
   if (MienStatus status = check(mixer)) return status;
   Error detail;
   return end_stimulus(*object(mixer), reaction, detail) == Status::kOk ? MIEN_OK : MIEN_ERROR_INDEX;
+}
+
+MienStatus mien_mixer_set_level(MienMixer* mixer, uint32_t reaction, float level) {
+  if (MienStatus status = check(mixer)) return status;
+  Error detail;
+  return status_of(set_level(*object(mixer), reaction, level, detail));
 }
 
 MienStatus mien_mixer_push(MienMixer* mixer, uint32_t layer, int64_t tick, const float* values,

@@ -915,6 +915,9 @@ class Mixer : public Owner<MienMixer, mien_mixer_destroy> {
     return mien_mixer_trigger(get(), reaction, strength, hold_ticks);
   }
   Status end_stimulus(uint32_t reaction) { return mien_mixer_release(get(), reaction); }
+  Status set_level(uint32_t reaction, float level) {
+    return mien_mixer_set_level(get(), reaction, level);
+  }
   /// Whether the row was accepted: it was not late and there was room.
   Result<bool> push(uint32_t layer, int64_t tick, Span<const float> values) {
     uint32_t accepted = 0;

@@ -116,10 +116,12 @@ void test_mixing() {
   layers[2].source = MIEN_LAYER_SOURCE_STREAM;
   layers[2].lanes = lanes;
   layers[2].lane_count = 1;
-  const MienMixStroke stroke = {0, 100, 0, 100, 0, MIEN_BLEND_MODE_MAX, 1, 0};
+  const MienMixStroke stroke = {0, 100, 0, 100, 0, MIEN_BLEND_MODE_MAX, 1, 0, 1, 0};
   MienMixReaction reaction = {};
   reaction.strokes = &stroke;
   reaction.stroke_count = 1;
+  reaction.adapted = 1;
+  reaction.level_on = 0.5f;
   mien::MixDesc desc;
   desc.layers = layers;
   desc.layer_count = 3;
@@ -165,6 +167,7 @@ void test_mixing() {
   CHECK(mixer.set_pose_weight(1, 0, 1) && mixer.set_variable(0, 0.25f));
   CHECK(mixer.set_weight(0, 0.5f, 10) && mixer.stop(0));
   CHECK(mixer.trigger(0, 1, -1) && mixer.end_stimulus(0));
+  CHECK(other.set_level(0, 0.5f) && other.step(MIEN_TICKS_PER_SECOND) && other.row()[0] == 0.25f);
 #ifndef MIEN_EXCEPTIONS
   CHECK(mixer.set_guard(0, 1).status() == MIEN_ERROR_INDEX);
   CHECK(mixer.guard(0).status() == MIEN_ERROR_INDEX);

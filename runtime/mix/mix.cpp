@@ -164,6 +164,12 @@ Status check_reactions(const MixDesc& desc, Error& error) {
           error, "reaction %zu: .retrigger %u, .adapted %g; rules are 0 ... 2, the latter 0 ... 1",
           i, static_cast<uint32_t>(reaction.retrigger), double{reaction.adapted});
     }
+    if (!within(reaction.level_on, 0.0f, 1.0f) ||
+        !within(reaction.level_off, 0.0f, reaction.level_on)) {
+      return wrong(error,
+                   "reaction %zu: .level_off %g, .level_on %g; they are 0 ... 1, in this order", i,
+                   double{reaction.level_off}, double{reaction.level_on});
+    }
     if (!is_time(reaction.cooldown) || !is_time(reaction.adapt_ticks) ||
         !is_time(reaction.recover_ticks)) {
       return wrong(error, "reaction %zu: .cooldown, .adapt_ticks or .recover_ticks; %s", i,
@@ -422,8 +428,17 @@ void fill_mix(const MixDesc& desc, Mix& mix) {
     const ReactionDesc& from = desc.reactions[i];
     const auto count = static_cast<uint32_t>(from.strokes.count);
     copy_items(from.strokes, mix.strokes.slice(stroke, count));
-    mix.reactions[i] = {stroke,       stroke + count, from.retrigger,   from.after_guards, {},
-                        from.adapted, from.cooldown,  from.adapt_ticks, from.recover_ticks};
+    mix.reactions[i] = {stroke,
+                        stroke + count,
+                        from.retrigger,
+                        from.after_guards,
+                        {},
+                        from.adapted,
+                        from.level_on,
+                        from.level_off,
+                        from.cooldown,
+                        from.adapt_ticks,
+                        from.recover_ticks};
     stroke += count;
   }
   fill_guards(desc, mix);

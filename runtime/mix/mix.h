@@ -112,9 +112,9 @@ constexpr int64_t kUntilReleased = INT64_MAX;
 struct Stroke {
   uint32_t pose;
   BlendMode mode;
-  bool held;  // as long as the stimulus lasts; weaker as the reaction adapts, unless it lags
-  bool lags;  // exponentially; attack and release are time constants. Else by quintics
-  uint8_t zero;
+  bool held;    // as long as the stimulus lasts; weaker as the reaction adapts, unless it lags
+  bool lags;    // exponentially; attack and release are time constants. Else by quintics
+  bool scaled;  // by the level of the reaction
   int64_t delay, attack;
   int64_t hold;  // after the attack, if not held
   int64_t release;
@@ -135,6 +135,8 @@ struct ReactionDesc {
   float adapted = 1;          // what remains of the strength if the stimulus lasts, 0 ... 1
   int64_t adapt_ticks = 0;    // time constants of adaptation and
   int64_t recover_ticks = 0;  // of recovery after it
+  /// A level of level_on or more is a stimulus, until it is below level_off. level_on 0: it has no level.
+  float level_on = 0, level_off = 0;  // 0 ... 1
 };
 
 struct Reaction {
@@ -142,7 +144,7 @@ struct Reaction {
   Retrigger retrigger;
   bool after_guards;
   uint8_t zeros[2];
-  float adapted;
+  float adapted, level_on, level_off;
   int64_t cooldown, adapt_ticks, recover_ticks;
 };
 

@@ -7,7 +7,7 @@
 
 namespace mien {
 
-constexpr uint32_t kMixVersion = 1;
+constexpr uint32_t kMixVersion = 2;
 constexpr size_t kMixHeaderSize = 24;  // with the offsets of ClipHeaderOffset
 constexpr size_t kMaxNameLength = 0xFFFF;
 
@@ -64,11 +64,14 @@ void walk(Walker& w, MixDesc& mix) {
     w.value("adapted", reaction.adapted);
     w.value("adapt_ticks", reaction.adapt_ticks);
     w.value("recover_ticks", reaction.recover_ticks);
+    w.value("level_on", reaction.level_on);
+    w.value("level_off", reaction.level_off);
     w.list("strokes", reaction.strokes, kMaxStrokes, [&w](Stroke& stroke) {
       w.value("pose", stroke.pose);
       w.choice("mode", stroke.mode, kModes);
       w.value("held", stroke.held);
       w.value("lags", stroke.lags);
+      w.value("scaled", stroke.scaled);
       w.value("delay", stroke.delay);
       w.value("attack", stroke.attack);
       w.value("hold", stroke.hold);

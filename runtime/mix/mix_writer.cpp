@@ -246,7 +246,9 @@ struct MixContents {
                       from.cooldown,
                       from.adapted,
                       from.adapt_ticks,
-                      from.recover_ticks};
+                      from.recover_ticks,
+                      from.level_on,
+                      from.level_off};
     }
     size_t first = 0;
     for (size_t i = 0; i < guards.count; first += guards[i++].count) {

@@ -124,7 +124,10 @@ Mixer* create_mixer(const Mix& mix, uint64_t seed, bool stages, const Allocator&
     set_fade(layer.cross, 1.0f);
     layer.current = layer.previous = kNoPlayer;
   }
-  for (ReactionState& reaction : mixer.reactions) set_fade(reaction.gain, 1.0f);
+  for (ReactionState& reaction : mixer.reactions) {
+    set_fade(reaction.gain, 1.0f);
+    reaction.level.target = 1.0f;
+  }
   for (float& activation : mixer.guard_overrides) activation = -1.0f;
   for (GazeState& gaze : mixer.gazes) gaze.large_shift = kNoShift;
   mix.owners.fetch_add(1, std::memory_order_relaxed);
@@ -326,6 +329,21 @@ Status end_stimulus(Mixer& mixer, uint32_t reaction, Error& error) {
                 mixer.reactions.count);
   }
   release_reaction(reaction, mixer.header->now, mixer.reactions);
+  return Status::kOk;
+}
+
+Status set_level(Mixer& mixer, uint32_t reaction, float level, Error& error) {
+  if (reaction >= mixer.reactions.count) {
+    return fail(error, Status::kIndex, kNoOffset, "reaction %u of %zu", reaction,
+                mixer.reactions.count);
+  }
+  if (mixer.mix->reactions[reaction].level_on == 0.0f || !(level >= 0.0f && level <= 1.0f)) {
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "reaction %u: level %g; levels are 0 ... 1, of reactions with .level_on above 0",
+                reaction, double{level});
+  }
+  set_reaction_level(*mixer.mix, reaction, mixer.header->now, level, mixer.reactions,
+                     mixer.strokes);
   return Status::kOk;
 }
 

@@ -181,6 +181,9 @@ Status push_row(Mixer& mixer, uint32_t layer, int64_t tick, Span<const float> va
 /// 0 ... 1. kIndex, kInvalidArgument.
 Status trigger(Mixer& mixer, uint32_t reaction, float strength, int64_t hold_ticks, Error& error);
 Status end_stimulus(Mixer& mixer, uint32_t reaction, Error& error);
+/// Of what a reaction reacts to, 0 ... 1: see set_reaction_level(). kIndex; kInvalidArgument, also for a
+/// reaction without a level.
+Status set_level(Mixer& mixer, uint32_t reaction, float level, Error& error);
 
 /// Activation of a guard, 0 ... 1, or negative: as it finds it itself. kIndex, kInvalidArgument.
 Status set_guard(Mixer& mixer, uint32_t guard, float activation, Error& error);

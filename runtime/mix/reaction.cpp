@@ -56,6 +56,32 @@ void advance_stroke(const Stroke& stroke, const ReactionState& reaction, int64_t
   state.phase = kStrokeRests;
 }
 
+struct LevelAt {
+  float value, push;
+};
+
+LevelAt level_at(const Level& level, int64_t now) {
+  const float u =
+      kLevelRate * fraction_of(now > level.start ? now - level.start : 0, kTicksPerSecond);
+  const float half = decay(0.5f * u), left = half * half;  // so that it ends far below 2^-12
+  if (left == 0.0f) return {level.target, 0.0f};
+  const float both = level.offset + level.push;
+  return {level.target + (level.offset + both * u) * left, (level.push - both * u) * left};
+}
+
+/// At once if nothing shows that it is scaled.
+void aim_level(const Mix& mix, uint32_t index, int64_t now, float target, ReactionState& state,
+               Span<const StrokeState> strokes) {
+  if (state.level.target == target) return;
+  const Reaction& reaction = mix.reactions[index];
+  bool shows = false;
+  for (uint32_t s = reaction.first_stroke; s < reaction.end_stroke; ++s) {
+    shows = shows || (mix.strokes[s].scaled && strokes[s].phase != kStrokeRests);
+  }
+  if (!shows) state.level = {target, 0.0f, 0.0f, 0, now};
+  follow_level(state.level, now, target);
+}
+
 void blend_pose(const Mix& mix, const Stroke& stroke, float weight, float* row) {
   const uint32_t begin = stroke.pose == 0 ? 0 : mix.pose_ends[stroke.pose - 1];
   const uint32_t count = mix.pose_ends[stroke.pose] - begin;
@@ -78,6 +104,13 @@ float decay(float x) {
   return power * sum;
 }
 
+float level_value(const Level& level, int64_t now) { return level_at(level, now).value; }
+
+void follow_level(Level& level, int64_t now, float target) {
+  const LevelAt at = level_at(level, now);
+  level = {target, at.value - target, at.push, 0, now};
+}
+
 void trigger_reaction(const Mix& mix, uint32_t index, int64_t now, float strength,
                       int64_t hold_ticks, Span<ReactionState> states, Span<StrokeState> strokes) {
   const Reaction& reaction = mix.reactions[index];
@@ -85,6 +118,8 @@ void trigger_reaction(const Mix& mix, uint32_t index, int64_t now, float strengt
   const bool running = state.running != 0;
   const bool cooled = !running || now - state.triggered >= reaction.cooldown;
   if (running && reaction.retrigger == Retrigger::kIgnore) return;
+  // Who triggers without a level means all of it.
+  if (!state.level_is_on) aim_level(mix, index, now, 1.0f, state, strokes);
   const int64_t end = hold_ticks == kUntilReleased ? kUntilReleased : now + hold_ticks;
   const bool lasted = running && state.stimulus_end >= now;
   state.stimulus_end = !lasted || end > state.stimulus_end ? end : state.stimulus_end;
@@ -112,8 +147,32 @@ void trigger_reaction(const Mix& mix, uint32_t index, int64_t now, float strengt
   if (began || !running) state.triggered = now;
 }
 
+void set_reaction_level(const Mix& mix, uint32_t index, int64_t now, float level,
+                        Span<ReactionState> states, Span<StrokeState> strokes) {
+  const Reaction& reaction = mix.reactions[index];
+  ReactionState& state = states[index];
+  const bool lasts = state.running && state.stimulus_end > now;
+  if (state.level_is_on && level < reaction.level_off) {
+    // Strokes that are scaled stay at the level they had: their release leads to 0.
+    state.level_is_on = 0;
+    if (lasts && state.stimulus_end > now + kLevelLinger) state.stimulus_end = now + kLevelLinger;
+    return;
+  }
+  if (!state.level_is_on && level < reaction.level_on) return;
+  aim_level(mix, index, now, level, state, strokes);
+  if (state.level_is_on) return;
+  if (lasts) {
+    state.level_is_on = 1;
+    state.stimulus_end = kUntilReleased;
+  } else if (!state.running || reaction.retrigger != Retrigger::kIgnore) {
+    state.level_is_on = 1;
+    trigger_reaction(mix, index, now, 1.0f, kUntilReleased, states, strokes);
+  }
+}
+
 void release_reaction(uint32_t index, int64_t now, Span<ReactionState> states) {
   ReactionState& state = states[index];
+  state.level_is_on = 0;
   if (state.running && state.stimulus_end > now) state.stimulus_end = now;
 }
 
@@ -128,6 +187,7 @@ void mix_reactions(const Mix& mix, int64_t now, bool after_guards, Span<Reaction
     }
     const float left = lag_left(state.gain, now);
     const float gain = state.gain.target + state.gain.offset.c0 * left;
+    const float level = level_value(state.level, now);
     bool running = state.gain.target != 1.0f || left != 0.0f;
     for (uint32_t s = reaction.first_stroke; s < reaction.end_stroke; ++s) {
       const Stroke& stroke = mix.strokes[s];
@@ -136,6 +196,7 @@ void mix_reactions(const Mix& mix, int64_t now, bool after_guards, Span<Reaction
       float weight =
           stroke.lags ? lag_value(strokes[s].envelope, now) : fade_value(strokes[s].envelope, now);
       if (stroke.held && !stroke.lags) weight *= gain;
+      if (stroke.scaled) weight *= level;
       if (weight > 0.0f) blend_pose(mix, stroke, weight < 1.0f ? weight : 1.0f, row);
     }
     state.running = running ? 1 : 0;
@@ -145,11 +206,11 @@ void mix_reactions(const Mix& mix, int64_t now, bool after_guards, Span<Reaction
 void glare_strokes(uint32_t first_pose, Stroke (&strokes)[kGlareStrokes]) {
   constexpr int64_t ms = kTicksPerSecond / 1000;
   const Stroke all[kGlareStrokes] = {
-      {0, BlendMode::kMax, false, false, 0, 60 * ms, 70 * ms, 60 * ms, 220 * ms},
-      {1, BlendMode::kScreen, true, false, 0, 90 * ms, 150 * ms, 0, 400 * ms},
-      {2, BlendMode::kAdd, true, false, 0, 200 * ms, 120 * ms, 0, 350 * ms},
-      {3, BlendMode::kAdd, true, true, 0, 200 * ms, 250 * ms, 0, 500 * ms},
-      {4, BlendMode::kAdd, true, false, 0, 180 * ms, 350 * ms, 0, 600 * ms},
+      {0, BlendMode::kMax, false, false, false, 60 * ms, 70 * ms, 60 * ms, 220 * ms},
+      {1, BlendMode::kScreen, true, false, true, 90 * ms, 150 * ms, 0, 400 * ms},
+      {2, BlendMode::kAdd, true, false, false, 200 * ms, 120 * ms, 0, 350 * ms},
+      {3, BlendMode::kAdd, true, true, true, 200 * ms, 250 * ms, 0, 500 * ms},
+      {4, BlendMode::kAdd, true, false, false, 180 * ms, 350 * ms, 0, 600 * ms},
   };
   for (uint32_t i = 0; i < kGlareStrokes; ++i) {
     strokes[i] = all[i];
@@ -163,6 +224,8 @@ ReactionDesc glare_reaction(const Stroke (&strokes)[kGlareStrokes]) {
   desc.cooldown = kTicksPerSecond / 4;
   desc.adapted = 0.6f;
   desc.adapt_ticks = desc.recover_ticks = kTicksPerSecond * 3 / 2;
+  desc.level_on = 0.5f;
+  desc.level_off = 0.35f;
   return desc;
 }
 

@@ -16,7 +16,7 @@ namespace mien {
 namespace {
 
 constexpr char kMagic[8] = {'M', 'I', 'E', 'N', 'S', 'N', 'P', '\n'};
-constexpr uint32_t kVersion = 2;
+constexpr uint32_t kVersion = 3;
 constexpr int64_t kMaxNow = INT64_MAX / 4;
 
 struct SnapshotHeader {
@@ -109,7 +109,10 @@ Status check_player(const Mixer& mixer, const PlayerState& player, uint32_t laye
 bool is_reaction(const ReactionState& reaction) {
   return is_time(reaction.triggered) &&
          (is_time(reaction.stimulus_end) || reaction.stimulus_end == kUntilReleased) &&
-         is_fade(reaction.gain) && finite({reaction.strength}) && reaction.running <= 1;
+         is_fade(reaction.gain) && finite({reaction.strength}) && reaction.running <= 1 &&
+         is_time(reaction.level.start) && std::fabs(reaction.level.target) <= 1 &&
+         std::fabs(reaction.level.offset) <= 1e6f && std::fabs(reaction.level.push) <= 1e6f &&
+         reaction.level_is_on <= 1;
 }
 
 /// What is left: numbers that are only computed with.

@@ -250,13 +250,39 @@ TEST(Mixer, OutlivesItsMix) {
   EXPECT_TRUE(counting.clean()) << counting.first_wrong;
 }
 
+TEST(Mixer, FollowsTheLevelOfWhatItReactsTo) {
+  Scene scene;
+  scene.stroke.is_scaled = 1;
+  scene.reaction.level_on = 0.5f;
+  scene.reaction.level_off = 0.25f;
+  const MixHandle mix = scene.mix();
+  const MixerHandle mixer = Scene::mixer(mix);
+  ASSERT_EQ(mien_mixer_set_weight(mixer.get(), 3, 0.0f, 0), MIEN_OK);
+  const auto after = [&](float level, int64_t ticks) {
+    EXPECT_EQ(mien_mixer_set_level(mixer.get(), 0, level), MIEN_OK);
+    EXPECT_EQ(mien_mixer_step(mixer.get(), ticks, nullptr), MIEN_OK);
+    return row_of(mixer)[2];
+  };
+  const int64_t while_it_settles = 2 * MIEN_TICKS_PER_SECOND;
+  EXPECT_EQ(after(0.49f, while_it_settles), 0.0f);
+  EXPECT_EQ(after(0.5f, while_it_settles), 0.25f);
+  EXPECT_EQ(after(1.0f, while_it_settles), 0.5f);
+  EXPECT_EQ(after(0.25f, while_it_settles), 0.125f);
+  EXPECT_EQ(after(0.24f, MIEN_TICKS_PER_SECOND / 20), 0.125f) << "it may flicker";
+  EXPECT_EQ(after(0.24f, 6 * kStep), 0.0f);
+}
+
 TEST(Mixer, SnapshotsContinueToTheBit) {
-  const Scene scene;
+  Scene scene;
+  scene.stroke.is_scaled = 1;
+  scene.reaction.level_on = 0.5f;
   const MixHandle mix = scene.mix();
   const MixerHandle one = Scene::mixer(mix), other = Scene::mixer(mix);
   ASSERT_EQ(scene.play(one), MIEN_OK);
   ASSERT_EQ(mien_mixer_trigger(one.get(), 0, 1.0f, 20 * kStep), MIEN_OK);
   ASSERT_EQ(mien_mixer_step(one.get(), 5 * kStep, nullptr), MIEN_OK);
+  ASSERT_EQ(mien_mixer_set_level(one.get(), 0, 0.6f), MIEN_OK);
+  ASSERT_EQ(mien_mixer_step(one.get(), kStep, nullptr), MIEN_OK);
   size_t size = 0;
   ASSERT_EQ(mien_mixer_snapshot(one.get(), nullptr, 0, &size, nullptr), MIEN_OK);
   MienMixInfo info = sized<MienMixInfo>();
@@ -308,6 +334,11 @@ TEST(Mix, RefusesWhatIsWrong) {
   refused(invalid, [](Scene& s, MienMixDesc&) { s.layers[0].weight = 2; });
   refused(invalid, [](Scene& s, MienMixDesc&) { s.reaction.stroke_count = 9; });
   refused(invalid, [](Scene& s, MienMixDesc&) { s.reaction.retrigger = 256; });
+  refused(invalid, [](Scene& s, MienMixDesc&) { s.reaction.level_on = 1.01f; });
+  refused(invalid, [](Scene& s, MienMixDesc&) { s.reaction.level_on = NAN; });
+  refused(invalid, [](Scene& s, MienMixDesc&) { s.reaction.level_off = 0.01f; });
+  refused(invalid, [](Scene& s, MienMixDesc&) { s.reaction.reserved = 1; });
+  refused(invalid, [](Scene& s, MienMixDesc&) { s.stroke.reserved = 1; });
   refused(invalid, [](Scene& s, MienMixDesc&) { s.stroke.mode = 256; });
   refused(invalid, [](Scene& s, MienMixDesc&) {
     static const uint16_t twice[] = {2, 2};
@@ -322,7 +353,8 @@ TEST(Mix, RefusesWhatIsWrong) {
 }
 
 TEST(Mixer, RefusesWhatIsWrong) {
-  const Scene scene;
+  Scene scene;
+  scene.reaction.level_on = 0.5f;
   const MixHandle mix = scene.mix();
   const MixerHandle handle = Scene::mixer(mix);
   MienMixer* mixer = handle.get();
@@ -352,6 +384,16 @@ TEST(Mixer, RefusesWhatIsWrong) {
   EXPECT_EQ(mien_mixer_trigger(mixer, 1, 1, 0), MIEN_ERROR_INDEX);
   EXPECT_EQ(mien_mixer_trigger(mixer, 0, 2, 0), MIEN_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(mien_mixer_release(mixer, 1), MIEN_ERROR_INDEX);
+  EXPECT_EQ(mien_mixer_set_level(mixer, 1, 1), MIEN_ERROR_INDEX);
+  for (float level : {-0.01f, 1.01f, NAN}) {
+    EXPECT_EQ(mien_mixer_set_level(mixer, 0, level), MIEN_ERROR_INVALID_ARGUMENT);
+  }
+  EXPECT_EQ(mien_mixer_set_level(nullptr, 0, 1), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_mixer_set_level(reinterpret_cast<MienMixer*>(mix.get()), 0, 1), MIEN_ERROR_HANDLE);
+  const Scene no_level;
+  const MixHandle plain_mix = no_level.mix();
+  const MixerHandle unlit = Scene::mixer(plain_mix);
+  EXPECT_EQ(mien_mixer_set_level(unlit.get(), 0, 1), MIEN_ERROR_INVALID_ARGUMENT);
   const float values[2] = {};
   EXPECT_EQ(mien_mixer_push(mixer, 2, 0, nullptr, 1, nullptr), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(mien_mixer_push(mixer, 2, 0, values, 2, nullptr), MIEN_ERROR_MISMATCH);

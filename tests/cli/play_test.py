@@ -150,6 +150,24 @@ class PlayTest(unittest.TestCase):
         for f in range(121):
             self.assertAlmostEqual(played.value("jawOpen", f), f / 120, 5)
 
+    def test_a_light_of_some_brightness(self):
+        def squint(*levels, seconds=5):
+            played = self.play({"seconds": seconds, "layers": [TALK],
+                                "reactions": [{"name": "glare", "preset": "glare"}],
+                                "events": [{"time": time, "level": "glare", "value": value}
+                                           for time, value in levels]})
+            return played.curve("eyeSquintLeft")
+        self.assertEqual(max(squint((1, 0.49))), 0)
+        full, half = squint((1, 1), (2, 0.34)), squint((1, 0.5), (2, 0.34))
+        for f in (80, 100, 119):
+            self.assertAlmostEqual(half[f], full[f] / 2, 5)
+        self.assertGreater(full[119], 0.4)
+        self.assertEqual(full[60 * 3:], [0] * 121)
+        # From 0.35 on the light is not gone; it is only less bright.
+        lasts = squint((1, 1), (2, 0.35))
+        self.assertAlmostEqual(lasts[299], 0.35 * squint((1, 1))[299], 3)
+        self.assertGreater(lasts[299], 0.1)
+
     def test_blinks_follow_the_seed(self):
         scene = {"seconds": 20, "layers": [{"name": "blink", "group": "life", "mode": "max",
                                             "source": {"generator": "blink"}}]}
@@ -477,6 +495,8 @@ class PlayTest(unittest.TestCase):
                 (event(layer="joy", play={"clip": "talk.clip"}), "no clip"),
                 (event(layer="talk", weights={"a": 1}), "no poses"),
                 (event(trigger="glare", strength=2), "events[0].strength"),
+                (event(level="glare", value=1.5), "events[0].value"),
+                (event(level="glare"), '"value"'), (event(level="galre", value=1), '"glare"'),
                 (event(variable="x"), '"value"')):
             with self.subTest(says):
                 self.refused(scene, says)

@@ -63,6 +63,7 @@ void use(const Mix& mix) {
   if (!mixer) abort();
   for (uint32_t r = 0; r < mix.reactions.count; ++r) {
     scene_requires(trigger(*mixer, r, 1, kUntilReleased, error));
+    if (mix.reactions[r].level_on > 0) scene_requires(set_level(*mixer, r, 1, error));
   }
   for (uint32_t l = 0; l < mix.layers.count; ++l) {
     for (uint32_t p = 0; p < mix.layers[l].pose_count; ++p) {

@@ -315,6 +315,12 @@ TEST(MixFile, EveryFieldIsInTheBytesAndInTheText) {
       [](GazeMix&, Stroke&, ReactionDesc& r, Guard&, AntagonistPair&) { r.adapted = 0.5f; },
       [](GazeMix&, Stroke&, ReactionDesc& r, Guard&, AntagonistPair&) { r.adapt_ticks = 9; },
       [](GazeMix&, Stroke&, ReactionDesc& r, Guard&, AntagonistPair&) { r.recover_ticks = 9; },
+      [](GazeMix&, Stroke&, ReactionDesc& r, Guard&, AntagonistPair&) { r.level_on = 0.9f; },
+      [](GazeMix&, Stroke&, ReactionDesc& r, Guard&, AntagonistPair&) {
+        r.level_on = 0.9f;
+        r.level_off = 0.8f;
+      },
+      [](GazeMix&, Stroke& s, ReactionDesc&, Guard&, AntagonistPair&) { s.scaled = !s.scaled; },
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.kind = 3; },
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.needs_speech = 1; },
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.rest = 9; },
@@ -353,7 +359,7 @@ TEST(MixFile, TruncatedAndForeignBytesAreRefused) {
   longer.push_back(0);
   EXPECT_EQ(opens(longer, nullptr, mix, error), Status::kMixStructure);
   Bytes other = bytes;
-  other[kAtVersion] = 2;
+  other[kAtVersion] = 1;
   EXPECT_EQ(opens(other, nullptr, mix, error), Status::kMixVersion);
   other = bytes;
   other.back() ^= 1;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "tests/support/mix_setup.h"
 
@@ -67,6 +68,11 @@ void fire(OwnMixer& own, int64_t hold = kUntilReleased, float strength = 1) {
 void let_go(OwnMixer& own) {
   Error error;
   ASSERT_EQ(end_stimulus(own.mixer, 0, error), Status::kOk);
+}
+
+void set_to(OwnMixer& own, float level) {
+  Error error;
+  ASSERT_EQ(set_level(own.mixer, 0, level, error), Status::kOk) << error.message;
 }
 
 /// Rows at each millisecond, from 1 on.
@@ -174,6 +180,142 @@ TEST(Glare, TriggeredAgainOrFlickeringMakesNoJump) {  // D7
   }
 }
 
+TEST(Level, IsAStimulusFromOneThresholdToTheOther) {
+  const FaceMix face;
+  OwnMixer by_level = face.start(), by_hand = face.start();
+  Recording level, hand;
+  for (int ms = 1; ms <= 9000; ++ms) {
+    level.step(by_level);
+    hand.step(by_hand);
+    if (ms == 1000) set_to(by_level, 0.49f);  // too little
+    if (ms == 2000) {
+      set_to(by_level, 1);
+      fire(by_hand);
+    }
+    if (ms == 2500) set_to(by_level, 1);
+    if (ms == 3500) set_to(by_level, 0.34f);
+    if (ms == 3520) set_to(by_level, 0);
+    if (ms == 3550) let_go(by_hand);
+  }
+  for (int ms = 1; ms <= 9000; ++ms) {
+    ASSERT_TRUE(same_bits(level.rows[ms], hand.rows[ms])) << ms;
+  }
+  EXPECT_GT(hand.rows[2500][kSquint], 0.5f);
+}
+
+TEST(Level, ScalesStrokesWithoutAJump) {
+  const FaceMix face;
+  OwnMixer plain = face.start(), lit = face.start();
+  Recording without, with;
+  std::minstd_rand random(5);
+  for (int ms = 1; ms <= 12000; ++ms) {
+    without.step(plain);
+    with.step(lit);
+    if (ms == 1000) set_to(lit, 0.6f);
+    // Then it jumps between all and the least that is a stimulus.
+    if (ms >= 4000 && ms < 6000 && random() % 60 == 0) {
+      set_to(lit, random() % 2 == 0 ? 1.0f : 0.36f);
+    }
+    if (ms == 6000) set_to(lit, 0);
+  }
+  EXPECT_NEAR(with.rows[3999][kPupil], 0.6f * -0.5f, 2e-4f) << "pupils do not adapt";
+  EXPECT_LT(with.rows[1400][kGaze], -0.3f) << "gaze is not scaled";
+  for (int ms = 2; ms <= 12000; ++ms) {
+    const Row &a = without.rows[ms], &b = with.rows[ms];
+    for (uint32_t l = 0; l < kLanes; ++l) {
+      const float changed = (b[l] - with.rows[ms - 1][l]) - (a[l] - without.rows[ms - 1][l]);
+      ASSERT_LE(std::fabs(changed) * 1000, l < 2 ? 30.0f : 12.0f) << ms << ", lane " << l;
+    }
+  }
+  EXPECT_TRUE(same_bits(with.rows[12000], without.rows[12000]));
+}
+
+TEST(Level, ThatFlickersIsALightThatIsOn) {  // D7
+  for (Retrigger rule : {Retrigger::kExtend, Retrigger::kRestart, Retrigger::kIgnore}) {
+    const FaceMix face(rule);
+    OwnMixer steady = face.start(), flickering = face.start();
+    Recording on, flicker;
+    for (int ms = 1; ms <= 9000; ++ms) {
+      on.step(steady);
+      flicker.step(flickering);
+      if (ms == 60 * 33) set_to(steady, 1);
+      if (ms == 105 * 33) set_to(steady, 0);
+      if (ms >= 60 * 33 && ms <= 105 * 33 && ms % 33 == 0) {  // 15 Hz
+        set_to(flickering, ms / 33 % 2 == 0 ? 1.0f : 0.0f);
+      }
+    }
+    for (int ms = 1; ms <= 9000; ++ms) {
+      ASSERT_TRUE(same_bits(on.rows[ms], flicker.rows[ms])) << ms;
+    }
+    EXPECT_LT(on.rows[104 * 33][kPupil], -0.4f);
+  }
+}
+
+TEST(Level, IsFollowedWithoutOvershootAndSlowly) {
+  Level level = {0, 0, 0, 0, 0};
+  std::minstd_rand random(1);
+  float last = 0;
+  double fastest = 0;
+  for (int64_t ms = 1; ms <= 60000; ++ms) {
+    const int64_t now = ms * kMillisecond;
+    const float value = level_value(level, now);
+    ASSERT_GE(value, -1e-6f) << ms;
+    ASSERT_LE(value, 1 + 1e-6f) << ms;
+    fastest = std::max(fastest, std::fabs(double{value} - last) * 1000);
+    last = value;
+    const bool rare = ms < 30000;
+    if (random() % (rare ? 300 : 20) == 0) {
+      follow_level(level, now,
+                   static_cast<float>(rare ? random() % 2 * 1000 : random() % 1000) / 1000);
+      ASSERT_NEAR(level_value(level, now), value, 1e-7f) << ms;
+    }
+  }
+  EXPECT_LE(fastest, kLevelRate / std::exp(1.0) + 0.002);
+  EXPECT_GT(fastest, 5.5) << "the bound is reached";
+  level = {0, 0, 0, 0, 0};
+  follow_level(level, 0, 1);
+  EXPECT_NEAR(level_value(level, 243 * kMillisecond), 0.9, 0.002);
+  EXPECT_EQ(level_value(level, 1100 * kMillisecond), 1.0f);
+}
+
+TEST(Level, DoesNotDependOnHowTimeIsDivided) {  // F3
+  const FaceMix face;
+  OwnMixer coarse = face.start(), fine = face.start();
+  for (int i = 0; i < 200; ++i) {
+    const float levels[] = {0.7f, 0.9f, 0.1f};
+    if (i % 30 == 0) {
+      set_to(coarse, levels[i / 30 % 3]);
+      set_to(fine, levels[i / 30 % 3]);
+    }
+    const Row row = coarse.step(16 * kMillisecond);
+    for (int k = 0; k < 3; ++k) fine.step(4 * kMillisecond);
+    ASSERT_TRUE(same_bits(fine.step(4 * kMillisecond), row)) << i;
+  }
+}
+
+TEST(Level, EndsWithAReleaseUntilItIsSetAgain) {
+  const FaceMix face;
+  OwnMixer lit = face.start();
+  set_to(lit, 1);
+  lit.step(kTicksPerSecond);
+  let_go(lit);
+  EXPECT_EQ(lit.step(kTicksPerSecond)[kGaze], 0.0f);
+  set_to(lit, 1);
+  EXPECT_LT(lit.step(kTicksPerSecond)[kGaze], -0.2f);
+}
+
+TEST(Level, IsIgnoredWhereTriggersAre) {
+  const FaceMix face(Retrigger::kIgnore);
+  OwnMixer lit = face.start();
+  fire(lit, 100 * kMillisecond);
+  lit.step(kTicksPerSecond);
+  set_to(lit, 1);  // the reaction recovers still
+  EXPECT_EQ(lit.step(kTicksPerSecond)[kGaze], 0.0f);
+  lit.step(40 * kTicksPerSecond);
+  set_to(lit, 1);
+  EXPECT_LT(lit.step(kTicksPerSecond)[kGaze], -0.2f);
+}
+
 TEST(Glare, DoesNotDependOnHowTimeIsDivided) {  // F3
   const FaceMix face;
   OwnMixer coarse = face.start(), fine = face.start();
@@ -197,6 +339,11 @@ TEST(Reactions, RefuseWhatDoesNotExist) {
   EXPECT_EQ(trigger(own.mixer, 0, NAN, 0, error), Status::kInvalidArgument);
   EXPECT_EQ(trigger(own.mixer, 0, 1, -1, error), Status::kInvalidArgument);
   EXPECT_EQ(end_stimulus(own.mixer, 1, error), Status::kIndex);
+  EXPECT_EQ(set_level(own.mixer, 1, 1, error), Status::kIndex);
+  for (float level : {1.01f, -0.01f, NAN}) {
+    EXPECT_EQ(set_level(own.mixer, 0, level, error), Status::kInvalidArgument);
+  }
+  EXPECT_EQ(own.mixer.reactions[0].running, 0);
 
   Stroke strokes[kGlareStrokes];
   const auto created = [&](auto&& change) {
@@ -215,6 +362,10 @@ TEST(Reactions, RefuseWhatDoesNotExist) {
   EXPECT_EQ(created([&](ReactionDesc&) { strokes[4].pose = 5; }), Status::kInvalidArgument);
   EXPECT_EQ(created([&](ReactionDesc&) { strokes[0].attack = -1; }), Status::kInvalidArgument);
   EXPECT_EQ(created([&](ReactionDesc& d) { d.adapted = 2; }), Status::kInvalidArgument);
+  EXPECT_EQ(created([](ReactionDesc& d) { d.level_on = 1.5f; }), Status::kInvalidArgument);
+  EXPECT_EQ(created([](ReactionDesc& d) { d.level_off = 0.6f; }), Status::kInvalidArgument);
+  EXPECT_EQ(created([](ReactionDesc& d) { d.level_on = NAN; }), Status::kInvalidArgument);
+  EXPECT_EQ(created([](ReactionDesc& d) { d.level_on = d.level_off = 0; }), Status::kOk);
   EXPECT_EQ(created([&](ReactionDesc& d) { d.cooldown = INT64_MAX; }), Status::kInvalidArgument);
 }
 

@@ -83,6 +83,9 @@ struct Everything {
                         random.below(1000) * kMillisecond, error),
                 Status::kOk);
     }
+    if (random.chance(0.05)) {
+      ASSERT_EQ(set_level(own.mixer, 0, static_cast<float>(random.real()), error), Status::kOk);
+    }
   }
 };
 

@@ -315,6 +315,7 @@ struct SceneActor {
       scene_requires(set_guard(*mixer, guard, 2 * share() - 1, error));
     }
     if (random.chance(0.02)) scene_requires(set_variable(*mixer, 0, share(), error));
+    if (random.chance(0.05)) scene_requires(set_level(*mixer, 0, share(), error));
   }
 
   /// All lanes.

@@ -332,6 +332,8 @@ Command add_play_command(CLI::App& app, const Session& session) {
       "     {\"time\": 1, \"layer\": \"joy\", \"weight\": 1, \"fade\": 0.4},\n"
       "     {\"time\": 2, \"layer\": \"talk\", \"play\": {\"clip\": \"other.clip\"}},\n"
       "     {\"time\": 3, \"trigger\": \"glare\", \"strength\": 1, \"hold\": 1.5}]}\n\n"
+      "{\"time\": 3, \"level\": \"glare\", \"value\": 0.8} says how bright the light is from then "
+      "on: 0.5 or more is a glare, until it is below 0.35.\n"
       "{\"generator\": \"gaze\"} turns the eyes to a place, the variables gaze.x, gaze.y and "
       "gaze.z: "
       "meters to the left, up and to the front of the middle of the eyes.\n"

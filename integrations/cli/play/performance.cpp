@@ -383,6 +383,9 @@ void Performance::apply(const EventScript& event) {
       checked(mien_mixer_trigger(mixer, event.target, event.weight, ticks_of(event.hold)), error,
               event.where);
       break;
+    case EventKind::kLevel:
+      checked(mien_mixer_set_level(mixer, event.target, event.weight), error, event.where);
+      break;
     case EventKind::kVariable: {
       const uint16_t lane = lanes_.variable(event.variable);
       const float value =

@@ -213,7 +213,7 @@ void read_layer_event(const Script& script, const Node& node, EventScript& event
 
 EventScript read_event(const Script& script, const Node& node) {
   node.require_object({"time", "layer", "weight", "weights", "fade", "play", "stop", "transition",
-                       "duration", "trigger", "strength", "hold", "variable", "value"});
+                       "duration", "trigger", "strength", "hold", "level", "variable", "value"});
   EventScript event;
   event.where = node.where;
   event.time = node.at("time").seconds();
@@ -223,6 +223,11 @@ EventScript read_event(const Script& script, const Node& node) {
     event.target = node.at("trigger").word(script.reactions);
     event.weight = node.has("strength") ? static_cast<float>(node.at("strength").number(0, 1)) : 1;
     if (node.has("hold")) event.hold = node.at("hold").seconds();
+  } else if (node.has("level")) {
+    node.require_object({"time", "level", "value"});
+    event.kind = EventKind::kLevel;
+    event.target = node.at("level").word(script.reactions);
+    event.weight = static_cast<float>(node.at("value").number(0, 1));
   } else if (node.has("variable")) {
     node.require_object({"time", "variable", "value"});
     event.kind = EventKind::kVariable;
@@ -319,12 +324,25 @@ Script parse_script(const std::string& text, const std::string& shown, bool live
 }
 
 Captions find_captions(const Script& script) {
+  MienMixStroke strokes[5];
+  MienMixReaction glare;
+  (void)mien_mix_glare(0, strokes, 5, &glare);
+  std::vector<bool> lit(script.reactions.size());
   Captions captions;
   for (const EventScript& event : script.events) {
     switch (event.kind) {
       case EventKind::kTrigger:
         captions.emplace_back(event.time, script.reactions[event.target]);
         break;
+      case EventKind::kLevel: {
+        const float least = lit[event.target] ? glare.level_off : glare.level_on;
+        const bool is_lit = event.weight >= least;
+        if (is_lit && !lit[event.target]) {
+          captions.emplace_back(event.time, script.reactions[event.target]);
+        }
+        lit[event.target] = is_lit;
+        break;
+      }
       case EventKind::kWeights:
         for (const auto& [name, weight] : event.weights) {
           if (weight > 0) captions.emplace_back(event.time, name);

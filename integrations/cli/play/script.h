@@ -43,7 +43,7 @@ struct LayerScript {
   std::vector<std::string> eyes;  // joints of a gaze; empty: those that heads usually have
 };
 
-enum class EventKind { kWeight, kWeights, kPlay, kStop, kTrigger, kVariable };
+enum class EventKind { kWeight, kWeights, kPlay, kStop, kTrigger, kLevel, kVariable };
 
 struct EventScript {
   double time = 0;

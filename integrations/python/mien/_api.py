@@ -1798,6 +1798,8 @@ class MienMixStroke(Structure):
         ("mode", c_uint32),
         ("is_held", c_uint32),
         ("is_lag", c_uint32),
+        ("is_scaled", c_uint32),
+        ("reserved", c_uint32),
     ]
     delay: Any
     attack: Any
@@ -1807,6 +1809,8 @@ class MienMixStroke(Structure):
     mode: Any
     is_held: Any
     is_lag: Any
+    is_scaled: Any
+    reserved: Any
 
 
 class MienMixReaction(Structure):
@@ -1819,6 +1823,8 @@ class MienMixReaction(Structure):
         ("retrigger", c_uint32),
         ("after_guards", c_uint32),
         ("adapted", c_float),
+        ("level_on", c_float),
+        ("level_off", c_float),
         ("reserved", c_uint32),
     ]
     cooldown: Any
@@ -1829,6 +1835,8 @@ class MienMixReaction(Structure):
     retrigger: Any
     after_guards: Any
     adapted: Any
+    level_on: Any
+    level_off: Any
     reserved: Any
 
 
@@ -4145,6 +4153,12 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INDEX,
          "the reaction does not exist"),
     ),
+    "mien_mixer_set_level": (
+        (Status.INVALID_ARGUMENT,
+         "it has no level_on or `level` is out of range"),
+        (Status.INDEX,
+         "the reaction does not exist"),
+    ),
     "mien_mixer_push": (
         (Status.INVALID_ARGUMENT,
          "a value is not finite or `tick` is 2^61 or more"),
@@ -4468,6 +4482,7 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_mixer_guard", c_int32, (MienMixer, c_uint32, POINTER(MienGuardState))),
     ("mien_mixer_trigger", c_int32, (MienMixer, c_uint32, c_float, c_int64)),
     ("mien_mixer_release", c_int32, (MienMixer, c_uint32)),
+    ("mien_mixer_set_level", c_int32, (MienMixer, c_uint32, c_float)),
     ("mien_mixer_push", c_int32, (MienMixer, c_uint32, c_int64, c_void_p, c_size_t, c_void_p)),
     ("mien_mixer_step", c_int32, (MienMixer, c_int64, MienInstance)),
     ("mien_mixer_step_batch", c_int32, (POINTER(MienMixer), POINTER(MienInstance), c_size_t,
@@ -4654,6 +4669,7 @@ class Library:
     mien_mixer_guard: Any
     mien_mixer_trigger: Any
     mien_mixer_release: Any
+    mien_mixer_set_level: Any
     mien_mixer_push: Any
     mien_mixer_step: Any
     mien_mixer_step_batch: Any

@@ -103,6 +103,7 @@ class Stroke(NamedTuple):
 
     is_held: holds as long as the stimulus lasts, instead of for `hold`
     is_lag:  moves exponentially; attack and release are time constants
+    is_scaled: by the level of the reaction, which is 1 if it was triggered
     """
 
     pose: Pose
@@ -113,6 +114,7 @@ class Stroke(NamedTuple):
     release: int = 0
     is_held: bool = False
     is_lag: bool = False
+    is_scaled: bool = False
 
 
 class Reaction(NamedTuple):
@@ -121,6 +123,8 @@ class Reaction(NamedTuple):
     cooldown: ticks; shortest time between two starts of strokes that are not held
     adapted:  share of the strength that remains while the stimulus lasts
     adapt_ticks, recover_ticks: time constants of that and of recovering
+    level_on: `Mixer.set_level` with this or more is a stimulus; 0: none is
+    level_off: it ends below this, which is at most level_on
     """
 
     strokes: Sequence[Stroke]
@@ -130,6 +134,8 @@ class Reaction(NamedTuple):
     adapt_ticks: int = 0
     recover_ticks: int = 0
     after_guards: bool = False
+    level_on: float = 0.0
+    level_off: float = 0.0
 
 
 class Antagonists(NamedTuple):
@@ -179,9 +185,10 @@ def glare(poses: Sequence[Pose]) -> Reaction:
         fail(status, "no glare")
     return Reaction(
         [Stroke(poses[s.pose], s.mode, s.delay, s.attack, s.hold, s.release, bool(s.is_held),
-                bool(s.is_lag)) for s in strokes],
+                bool(s.is_lag), bool(s.is_scaled)) for s in strokes],
         reaction.retrigger, reaction.cooldown, reaction.adapted, reaction.adapt_ticks,
-        reaction.recover_ticks, bool(reaction.after_guards))
+        reaction.recover_ticks, bool(reaction.after_guards), reaction.level_on,
+        reaction.level_off)
 
 
 class Lists:
@@ -273,12 +280,14 @@ class Lists:
         strokes = self.array(_api.MienMixStroke, [_api.MienMixStroke(
             delay=index(s.delay), attack=index(s.attack), hold=index(s.hold),
             release=index(s.release), pose=self.add_pose(s.pose), mode=uint32(s.mode, "mode"),
-            is_held=bool(s.is_held), is_lag=bool(s.is_lag)) for s in from_.strokes])
+            is_held=bool(s.is_held), is_lag=bool(s.is_lag),
+            is_scaled=bool(s.is_scaled)) for s in from_.strokes])
         return _api.MienMixReaction(
             cooldown=index(from_.cooldown), adapt_ticks=index(from_.adapt_ticks),
             recover_ticks=index(from_.recover_ticks), strokes=strokes,
             stroke_count=len(from_.strokes), retrigger=uint32(from_.retrigger, "retrigger"),
-            after_guards=bool(from_.after_guards), adapted=from_.adapted)
+            after_guards=bool(from_.after_guards), adapted=from_.adapted,
+            level_on=from_.level_on, level_off=from_.level_off)
 
     def array(self, kind: Any, items: Sequence[Any]) -> Any:
         array = (kind * len(items))(*items)

@@ -158,6 +158,13 @@ class Mixer(Closable):
         """Ends the stimulus of a reaction."""
         self._call(lib.mien_mixer_release, f"reaction {reaction}", uint32(reaction, "reaction"))
 
+    @raises("mien_mixer_set_level")
+    def set_level(self, reaction: int, level: float) -> None:
+        """The level, 0 to 1, of what a reaction responds to: from `Reaction.level_on` on a stimulus,
+        which ends when it was below `level_off` for 50 ms."""
+        self._call(lib.mien_mixer_set_level, f"reaction {reaction}, level {level}",
+                   uint32(reaction, "reaction"), level)
+
     @raises("mien_mixer_push")
     def push(self, layer: int, tick: int, values: Any) -> bool:
         """Queues a row for a stream layer, for a time of the mixer. Any thread may call this. False

@@ -35,7 +35,8 @@ def scene(**options):
                                 mien.ticks(4), mode=mien.BlendMode.MAX),
     ]
     dazzled = mien.Reaction([mien.Stroke({"eyeSquintLeft": 1.0}, mien.BlendMode.SCREEN,
-                                         attack=FRAME, release=FRAME, is_held=True)])
+                                         attack=FRAME, release=FRAME, is_held=True,
+                                         is_scaled=True)], level_on=0.5, level_off=0.25)
     return mien.Mix(rig_of(HEAD), layers, [dazzled], variables=["wonder"], **options)
 
 
@@ -85,6 +86,10 @@ class MixTest(unittest.TestCase):
         mixer.step(mien.ticks(1), face)
         self.assertEqual(face["eyeSquintLeft"], 1.0)
         mixer.release(0)
+        for level, wanted in ((0.49, 0.0), (0.5, 0.5), (0.25, 0.25), (0.24, 0.0)):
+            mixer.set_level(0, level)
+            mixer.step(mien.ticks(2), face)
+            self.assertEqual(face["eyeSquintLeft"], wanted)
         mixer.set_weight(1, 0.0, FRAME)
         mixer.stop(0)
         mixer.step(mien.ticks(1), face)
@@ -269,6 +274,8 @@ class MixTest(unittest.TestCase):
                 (mien.ArgumentError, lambda: mixer.set_weight(0, float("nan"))),
                 (mien.UnknownNameError, lambda: mixer.set_variable("nobody", 1)),
                 (mien.OutOfRangeError, lambda: mixer.trigger(1)),
+                (mien.OutOfRangeError, lambda: mixer.set_level(1, 1.0)),
+                (mien.ArgumentError, lambda: mixer.set_level(0, 1.5)),
                 (mien.ArgumentError, lambda: mixer.push(2, 0, [1.0, 2.0])),
                 (mien.ArgumentError, lambda: mixer.stage(0)),
                 (mien.ArgumentError, lambda: mixer.step(-1)),
@@ -329,6 +336,9 @@ class MixTest(unittest.TestCase):
                 call()
         dazzled = mien.glare([{"eyeBlinkLeft": 1.0}, {}, {}, {}, {}])
         self.assertEqual(dazzled.strokes[0].delay, mien.ticks(0.06))
+        self.assertEqual([s.is_scaled for s in dazzled.strokes], [False, True, False, True, False])
+        self.assertEqual((dazzled.level_on, dazzled.level_off), (0.5, mien.glare([{}] * 5).level_off))
+        self.assertAlmostEqual(dazzled.level_off, 0.35)
         mixer = mien.Mix(rig, [], [dazzled]).mixer()
         mixer.trigger(0)
         mixer.step(mien.ticks(0.13))

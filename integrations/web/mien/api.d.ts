@@ -1261,6 +1261,8 @@ export interface MixStroke {
   isHeld?: boolean;
   /** moves exponentially; attack and release are time constants */
   isLag?: boolean;
+  /** by the level of the reaction, which is 1 if mien_mixer_trigger() starts it */
+  isScaled?: boolean;
 }
 
 /** What a face does in response to a stimulus, such as a bright light. */
@@ -1280,6 +1282,10 @@ export interface MixReaction {
   afterGuards?: boolean;
   /** share of the strength that remains after adaptation; 1: all */
   adapted?: number;
+  /** mien_mixer_set_level() with this or more is a stimulus. 0: none is */
+  levelOn?: number;
+  /** it ends below this, which is at most level_on */
+  levelOff?: number;
 }
 
 /**
@@ -2803,6 +2809,15 @@ export interface Exports {
    * Fails with MIEN_ERROR_INDEX if the reaction does not exist.
    */
   mien_mixer_release(mixer: number, reaction: number): number;
+  /**
+   * Sets the level, 0 ... 1, of what a reaction responds to, such as a brightness. Call it whenever that
+   * changes. From MienMixReaction.level_on on it is a stimulus of strength 1, which lasts until the level was
+   * below level_off for 50 ms: light that flickers is on. Strokes that are scaled follow the level meanwhile,
+   * without overshoot, 90 % of a change in 0.25 s. Does not allocate or lock.
+   * Fails with MIEN_ERROR_INDEX if the reaction does not exist, MIEN_ERROR_INVALID_ARGUMENT if it has no
+   * level_on or `level` is out of range.
+   */
+  mien_mixer_set_level(mixer: number, reaction: number, level: number): number;
   /**
    * Queues a row for a stream layer: one value per channel, for time `tick` of the mixer. One thread may call this
    * while another one uses the mixer. `out_accepted` may be NULL; it is 0 for a row that is dropped because

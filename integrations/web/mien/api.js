@@ -639,7 +639,7 @@ export const layouts = {
     values: [4, "*f32", "count"],
     count: [8, "u32"],
   } },
-  MixStroke: { size: 48, sized: false, fields: {
+  MixStroke: { size: 56, sized: false, fields: {
     delay: [0, "i64"],
     attack: [8, "i64"],
     hold: [16, "i64"],
@@ -648,8 +648,9 @@ export const layouts = {
     mode: [36, "u32"],
     isHeld: [40, "bool"],
     isLag: [44, "bool"],
+    isScaled: [48, "bool"],
   } },
-  MixReaction: { size: 48, sized: false, fields: {
+  MixReaction: { size: 56, sized: false, fields: {
     cooldown: [0, "i64"],
     adaptTicks: [8, "i64"],
     recoverTicks: [16, "i64"],
@@ -658,6 +659,8 @@ export const layouts = {
     retrigger: [32, "u32"],
     afterGuards: [36, "bool"],
     adapted: [40, "f32"],
+    levelOn: [44, "f32"],
+    levelOff: [48, "f32"],
   } },
   MixAntagonists: { size: 8, sized: false, fields: {
     first: [0, "u16"],

@@ -569,6 +569,9 @@ export interface Mixer extends Handle {
   /** Starts a reaction to a stimulus that lasts `holdTicks`; if negative, until release(). */
   trigger(reaction: number, strength?: number, holdTicks?: number): void;
   release(reaction: number): void;
+  /** The level, 0 to 1, of what a reaction responds to: from `levelOn` on a stimulus, which ends when it was below
+   * `levelOff` for 50 ms. */
+  setLevel(reaction: number, level: number): void;
   /** Queues a row for a stream layer, for a time of the mixer. false: it is not newer than the last one, or the
    * queue is full. */
   push(layer: number, tick: number, values: ArrayLike<number>): boolean;

@@ -191,6 +191,10 @@ export class Mixer extends Handle {
     this.call("mien_mixer_release", reaction);
   }
 
+  setLevel(reaction, level) {
+    this.call("mien_mixer_set_level", reaction, level);
+  }
+
   push(layer, tick, values) {
     const { memory } = this;
     return memory.withScratch((scratch) => {

@@ -42,7 +42,8 @@ function scene(options = {}) {
         { period: ticks(4), mode: BlendMode.MAX }),
     ],
     reactions: [{ strokes: [
-      { pose: { eyeSquintLeft: 1 }, mode: BlendMode.SCREEN, attack: FRAME, release: FRAME, isHeld: true }] }],
+      { pose: { eyeSquintLeft: 1 }, mode: BlendMode.SCREEN, attack: FRAME, release: FRAME, isHeld: true, isScaled: true },
+    ], levelOn: 0.5, levelOff: 0.25 }],
     variables: ["wonder"],
     ...options,
   });
@@ -78,6 +79,11 @@ test("layers, streams and reactions reach the instance", () => {
   mixer.step(ticks(1), face);
   assert.equal(face.controls.eyeSquintLeft, 1);
   mixer.release(0);
+  for (const [level, wanted] of [[0.49, 0], [0.5, 0.5], [0.25, 0.25], [0.24, 0]]) {
+    mixer.setLevel(0, level);
+    mixer.step(ticks(2), face);
+    assert.equal(face.controls.eyeSquintLeft, wanted);
+  }
   mixer.setWeight(1, 0, FRAME);
   mixer.stop(0);
   mixer.step(ticks(1), face);
@@ -320,6 +326,8 @@ test("wrong mixes and wrong calls throw with their status, and change nothing", 
     [Status.INVALID_ARGUMENT, () => mixer.setWeight(0, NaN)],
     [Status.NAME, () => mixer.setVariable("nobody", 1)],
     [Status.INDEX, () => mixer.trigger(1)],
+    [Status.INDEX, () => mixer.setLevel(1, 1)],
+    [Status.INVALID_ARGUMENT, () => mixer.setLevel(0, 1.5)],
     [Status.MISMATCH, () => mixer.push(2, 0, [1, 2])],
     [Status.INVALID_ARGUMENT, () => mixer.stage(0)],
     [Status.INVALID_ARGUMENT, () => mixer.step(-1)],

@@ -1902,6 +1902,10 @@ pub struct MienMixStroke {
     pub is_held: u32,
     /// Moves exponentially; attack and release are time constants.
     pub is_lag: u32,
+    /// By the level of the reaction, which is 1 if `mien_mixer_trigger()` starts it.
+    pub is_scaled: u32,
+    /// 0.
+    pub reserved: u32,
 }
 
 impl Default for MienMixStroke {
@@ -1931,6 +1935,10 @@ pub struct MienMixReaction {
     pub after_guards: u32,
     /// Share of the strength that remains after adaptation; 1: all.
     pub adapted: f32,
+    /// `mien_mixer_set_level()` with this or more is a stimulus. 0: none is.
+    pub level_on: f32,
+    /// It ends below this, which is at most `level_on`.
+    pub level_off: f32,
     /// 0.
     pub reserved: u32,
 }
@@ -4031,6 +4039,16 @@ extern "C" {
     ///
     /// Fails with `MIEN_ERROR_INDEX` if the reaction does not exist.
     pub fn mien_mixer_release(mixer: *mut MienMixer, reaction: u32) -> MienStatus;
+
+    /// Sets the level, 0 ... 1, of what a reaction responds to, such as a brightness. Call it
+    /// whenever that changes. From MienMixReaction.`level_on` on it is a stimulus of strength 1,
+    /// which lasts until the level was below `level_off` for 50 ms: light that flickers is on.
+    /// Strokes that are scaled follow the level meanwhile, without overshoot, 90 % of a change in
+    /// 0.25 s. Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if the reaction does not exist, `MIEN_ERROR_INVALID_ARGUMENT`
+    /// if it has no `level_on` or `level` is out of range.
+    pub fn mien_mixer_set_level(mixer: *mut MienMixer, reaction: u32, level: f32) -> MienStatus;
 
     /// Queues a row for a stream layer: one value per channel, for time `tick` of the mixer. One
     /// thread may call this while another one uses the mixer. `out_accepted` may be NULL; it is 0

@@ -639,7 +639,7 @@ fn mien_mix_pose() {
 #[test]
 fn mien_mix_stroke() {
     use mien_sys::MienMixStroke as S;
-    assert_eq!(size_of::<S>(), 48);
+    assert_eq!(size_of::<S>(), 56);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, delay), 0);
     assert_eq!(offset!(S, attack), 8);
@@ -649,12 +649,14 @@ fn mien_mix_stroke() {
     assert_eq!(offset!(S, mode), 36);
     assert_eq!(offset!(S, is_held), 40);
     assert_eq!(offset!(S, is_lag), 44);
+    assert_eq!(offset!(S, is_scaled), 48);
+    assert_eq!(offset!(S, reserved), 52);
 }
 
 #[test]
 fn mien_mix_reaction() {
     use mien_sys::MienMixReaction as S;
-    assert_eq!(size_of::<S>(), 56);
+    assert_eq!(size_of::<S>(), 64);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, cooldown), 0);
     assert_eq!(offset!(S, adapt_ticks), 8);
@@ -664,7 +666,9 @@ fn mien_mix_reaction() {
     assert_eq!(offset!(S, retrigger), 40);
     assert_eq!(offset!(S, after_guards), 44);
     assert_eq!(offset!(S, adapted), 48);
-    assert_eq!(offset!(S, reserved), 52);
+    assert_eq!(offset!(S, level_on), 52);
+    assert_eq!(offset!(S, level_off), 56);
+    assert_eq!(offset!(S, reserved), 60);
 }
 
 #[test]

@@ -2233,6 +2233,10 @@ macro_rules! errors {
     (mien_mixer_release) => {
         "- [`Status::INDEX`](crate::Status::INDEX) if the reaction does not exist"
     };
+    (mien_mixer_set_level) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if it has no `level_on` or `level` is out of range\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the reaction does not exist"
+    };
     (mien_mixer_push) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a value is not finite or `tick` is 2^61 or more\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if it has another number of channels\n\

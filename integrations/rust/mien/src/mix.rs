@@ -206,6 +206,8 @@ pub struct Stroke {
     pub is_held: bool,
     /// Moves exponentially; attack and release are time constants.
     pub is_lag: bool,
+    /// Scaled by the level of the reaction, which is 1 if it was triggered.
+    pub is_scaled: bool,
 }
 
 /// What a face does in response to a stimulus: [`Mixer::trigger`].
@@ -223,6 +225,10 @@ pub struct Reaction {
     pub adapt_ticks: i64,
     /// Time constant of recovery.
     pub recover_ticks: i64,
+    /// A level of this or more is a stimulus: [`Mixer::set_level`]. 0: none is.
+    pub level_on: f32,
+    /// It ends below this, which is at most `level_on`.
+    pub level_off: f32,
     /// Guards leave it alone.
     pub after_guards: bool,
 }
@@ -236,6 +242,8 @@ impl Default for Reaction {
             adapted: 1.0,
             adapt_ticks: 0,
             recover_ticks: 0,
+            level_on: 0.0,
+            level_off: 0.0,
             after_guards: false,
         }
     }
@@ -264,6 +272,7 @@ impl Reaction {
             release: stroke.release,
             is_held: stroke.is_held != 0,
             is_lag: stroke.is_lag != 0,
+            is_scaled: stroke.is_scaled != 0,
         };
         Ok(Self {
             strokes: strokes.iter().zip(poses).map(stroke).collect(),
@@ -272,6 +281,8 @@ impl Reaction {
             adapted: reaction.adapted,
             adapt_ticks: reaction.adapt_ticks,
             recover_ticks: reaction.recover_ticks,
+            level_on: reaction.level_on,
+            level_off: reaction.level_off,
             after_guards: reaction.after_guards != 0,
         })
     }
@@ -518,6 +529,8 @@ impl MixOptions {
                 mode: stroke.mode.0,
                 is_held: stroke.is_held.into(),
                 is_lag: stroke.is_lag.into(),
+                is_scaled: stroke.is_scaled.into(),
+                reserved: 0,
             })
             .collect();
         let mut first_stroke = 0;
@@ -534,6 +547,8 @@ impl MixOptions {
                 retrigger: reaction.retrigger.0,
                 after_guards: reaction.after_guards.into(),
                 adapted: reaction.adapted,
+                level_on: reaction.level_on,
+                level_off: reaction.level_off,
                 reserved: 0,
             });
         }

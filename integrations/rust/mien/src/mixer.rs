@@ -303,6 +303,17 @@ impl Mixer {
         check(unsafe { sys::mien_mixer_release(self.raw(), index(reaction)) })
     }
 
+    /// Sets the level, 0 to 1, of what a reaction responds to: from
+    /// [`Reaction::level_on`](crate::Reaction::level_on) on a stimulus, which ends when it was below
+    /// `level_off` for 50 ms.
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_mixer_set_level)]
+    pub fn set_level(&mut self, reaction: usize, level: f32) -> Result<()> {
+        check(unsafe { sys::mien_mixer_set_level(self.raw(), index(reaction), level) })
+    }
+
     /// Queues a row for a stream layer, as [`StreamSender::push`] does on another thread.
     ///
     /// # Errors

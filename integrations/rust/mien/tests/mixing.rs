@@ -52,6 +52,7 @@ impl Head {
             attack: FRAME,
             release: FRAME,
             is_held: true,
+            is_scaled: true,
             ..Default::default()
         };
         let lids = [(self.lane("eyeBlinkLeft"), 1.0), (self.lane("eyeBlinkRight"), 1.0)];
@@ -66,7 +67,7 @@ impl Head {
                 MixLayer::generator(Generator::BLINK, &lids, 4 * TICKS_PER_SECOND)
                     .mode(BlendMode::MAX),
             )
-            .reaction(Reaction { strokes: vec![squint], ..Default::default() })
+            .reaction(Reaction { strokes: vec![squint], level_on: 0.5, ..Default::default() })
             .variables(1)
     }
     fn mixer(&self) -> Mixer {
@@ -108,6 +109,11 @@ fn layers_reach_the_instance() {
     mixer.step(TICKS_PER_SECOND, None).unwrap();
     assert_eq!(value(&mixer, "eyeSquintLeft"), 1.0);
     mixer.release(0).unwrap();
+    mixer.step(TICKS_PER_SECOND, None).unwrap();
+    mixer.set_level(0, 0.5).unwrap();
+    mixer.step(TICKS_PER_SECOND, None).unwrap();
+    assert_eq!(value(&mixer, "eyeSquintLeft"), 0.5);
+    mixer.set_level(0, 0.0).unwrap();
     mixer.set_weight(1, 0.0, FRAME).unwrap();
     mixer.stop(0, 0).unwrap();
     mixer.step(TICKS_PER_SECOND, None).unwrap();
@@ -339,6 +345,8 @@ fn wrong_mixes_are_refused() {
     assert_eq!(status(mixer.set_weight(0, f32::NAN, 0)), invalid);
     assert_eq!(status(mixer.set_variable(1, 0.0)), Status::INDEX);
     assert_eq!(status(mixer.trigger(1, 1.0, 0)), Status::INDEX);
+    assert_eq!(status(mixer.set_level(1, 1.0)), Status::INDEX);
+    assert_eq!(status(mixer.set_level(0, 1.5)), invalid);
     assert_eq!(status(mixer.step(-1, None)), invalid);
     assert!(mixer.stage(0).is_err());
 }
