@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
     std::ifstream file(entry.path(), std::ios::binary);
     const std::vector<char> bytes(std::istreambuf_iterator<char>(file), {});
     // To be read when an input ends the program.
-    std::fprintf(stderr, "%s\n", entry.path().filename().c_str());
+    std::fprintf(stderr, "%s\n", entry.path().filename().string().c_str());
     LLVMFuzzerTestOneInput(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
     ++count;
   }
