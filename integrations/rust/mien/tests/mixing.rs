@@ -67,7 +67,12 @@ impl Head {
                 MixLayer::generator(Generator::BLINK, &lids, 4 * TICKS_PER_SECOND)
                     .mode(BlendMode::MAX),
             )
-            .reaction(Reaction { strokes: vec![squint], level_on: 0.5, ..Default::default() })
+            .reaction(Reaction {
+                strokes: vec![squint],
+                level_on: 0.5,
+                level_off: 0.25,
+                ..Default::default()
+            })
             .variables(1)
     }
     fn mixer(&self) -> Mixer {
