@@ -12,6 +12,7 @@ Usage: check_words.py [--self-test] [PROJECT_DIRECTORY]
 """
 import fnmatch
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -127,10 +128,11 @@ def find_words(path, text):
 
 def project_files(root):
     """Tracked files, or all outside of build/ where there is no Git."""
-    done = subprocess.run(["git", "-C", str(root), "ls-files", "-co", "--exclude-standard"],
-                          capture_output=True, text=True)
-    if done.returncode == 0:
-        return [path for path in done.stdout.splitlines() if (root / path).is_file()]
+    if shutil.which("git"):
+        done = subprocess.run(["git", "-C", str(root), "ls-files", "-co", "--exclude-standard"],
+                              capture_output=True, text=True)
+        if done.returncode == 0:
+            return [path for path in done.stdout.splitlines() if (root / path).is_file()]
     return [file.relative_to(root).as_posix() for file in sorted(root.rglob("*"))
             if file.is_file() and not {"build", ".git"} & set(file.relative_to(root).parts)]
 

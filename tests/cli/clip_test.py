@@ -151,6 +151,26 @@ class RoundTrip(ClipTest):
         self.assertEqual((header, [row[1:] for row in rows]), (["time", "b", "a"], [[1, 2], [3, 4]]))
 
 
+    def test_events(self):
+        frames = [{"raw": {"a": k / 4}} for k in range(4)]
+        events = [{"time": 0.05, "layer": "talk", "name": "M", "value": 0.25},
+                  {"tick": 1, "name": "start"}]
+        clip = self.build(json.dumps({"rate": 60, "events": events, "frames": frames}))
+        self.assertIn(b"events            2\n", self.ok("clip", "info", clip).stdout)
+        self.ok("clip", "export", clip, "-o", path("events.json"))
+        with open(path("events.json"), encoding="utf-8") as file:
+            found = json.load(file)["events"]
+        # Seconds are read as 32-bit floats.
+        tick = round(struct.unpack("f", struct.pack("f", 0.05))[0] * 705600000)
+        self.assertEqual([(e["tick"], e["name"], e["value"]) for e in found],
+                         [(1, "start", 0), (tick, "M", 0.25)])
+        self.ok("clip", "build", path("events.json"), "-o", path("again.clip"))
+        with open(clip, "rb") as one, open(path("again.clip"), "rb") as other:
+            self.assertEqual(one.read(), other.read())
+        table = self.ok("clip", "export", clip, "-o", path("events.csv"))
+        self.assertIn("no place for its 2 events", str(table.stderr))
+
+
 class Information(ClipTest):
     def test_json(self):
         rows = "".join(f"{i / 60!r},{i % 7 / 8},0.5\n" for i in range(600))
@@ -395,6 +415,14 @@ class WrongTakes(ClipTest):
                 ({"controls": ["a", "a"], "frames": [{"raw": [1, 2]}]}, "twice"),
                 ({"controls": [1], "frames": [{}]}, "names"),
                 ({"rate": 0, "frames": [{}]}, "rate"), ({"rate": "x", "frames": [{}]}, "rate"),
+                ({"events": 1, "frames": [{}]}, "it is not a list"),
+                ({"events": [1], "frames": [{}]}, "events[0]: expected an object"),
+                ({"events": [{"name": "M"}], "frames": [{}]}, "it has no time"),
+                ({"events": [{"time": 0}], "frames": [{}]}, "it has no name"),
+                ({"events": [{"time": -1, "name": "M"}], "frames": [{}]}, "its time is -1"),
+                ({"events": [{"tick": 0.5, "name": "M"}], "frames": [{}]}, "its tick is 0.5"),
+                ({"events": [{"tick": 0, "nam": "M"}], "frames": [{}]}, "no member \"nam\""),
+                ({"events": [{"time": 1, "name": "M"}], "frames": [{}]}, "after the last of 1 frames"),
                 ({"frames": [{"time": 1}, {"time": 0}]}, "ascend"),
                 ({"frames": [{"time": 1}, {}]}, "time")):
             self.refuse_take(json.dumps(document), says)

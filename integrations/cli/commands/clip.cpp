@@ -231,6 +231,25 @@ void subtract(Take& take, const std::string& minus, const Session& session) {
   });
 }
 
+/// The events of a take, which are within its frames. Names stay in the take.
+std::vector<MienClipEvent> events_of(const Take& take, const Rate& rate) {
+  // As clips round it; of wild rates building says more.
+  const int64_t twice = 2 * int64_t{MIEN_TICKS_PER_SECOND} * rate.denominator / rate.numerator;
+  const int64_t frame = std::max<int64_t>((twice + 1) / 2, 1);
+  std::vector<MienClipEvent> events;
+  for (const TakeEvent& event : take.events) {
+    if (event.tick / frame >= static_cast<int64_t>(take.row_count)) {
+      fail(kInvalid, "cannot build clip",
+           take.shown + ", events[" + std::to_string(events.size()) + "]",
+           "it comes after the last of " + grouped(take.row_count) + " frames, at tick " +
+               std::to_string(event.tick),
+           "leave it out, or add frames");
+    }
+    events.push_back({event.tick, {event.name.data(), event.name.size()}, event.value, 0});
+  }
+  return events;
+}
+
 void run_build(const BuildOptions& options, const Session& session) {
   const float snap = parse_snap(options.snap);
   const float tolerance = parse_tolerance(options.tolerance);
@@ -259,6 +278,9 @@ void run_build(const BuildOptions& options, const Session& session) {
   desc.names = names.data();
   desc.values = take.values.data();
   desc.snap = snap;
+  const std::vector<MienClipEvent> events = events_of(take, rate);
+  desc.events = events.data();
+  desc.event_count = static_cast<uint32_t>(std::min<size_t>(events.size(), UINT32_MAX));
   desc.is_delta = options.minus.empty() ? 0 : 1;
   desc.looping = loop == 0 ? MIEN_LOOPING_CLAMP : MIEN_LOOPING_WRAP;
   Clip clip = built(desc, take);
@@ -411,6 +433,26 @@ void export_csv(const ClipFile& file, Output& output) {
   });
 }
 
+/// The tick counts when a clip is built of them; the time is there for readers.
+void write_events(const ClipFile& file, JsonWriter& json) {
+  json.key("events");
+  json.begin_array(JsonWriter::Layout::kLines);
+  for (uint32_t i = 0; i < file.info.event_count; ++i) {
+    MienClipEvent event = {};
+    check(mien_clip_event(file.clip.get(), i, &event), nullptr, "cannot export clip", file.shown);
+    json.begin_object();
+    json.key("time");
+    json.shortest(static_cast<double>(event.tick) / static_cast<double>(MIEN_TICKS_PER_SECOND));
+    json.key("tick");
+    json.value(event.tick);
+    json.member("name", std::string(event.name.data, event.name.count));
+    json.key("value");
+    json.shortest(static_cast<double>(event.value));
+    json.end_object();
+  }
+  json.end_array();
+}
+
 void export_json(const ClipFile& file, Output& output) {
   const std::vector<std::string> names = channel_names(file);
   const MienClipInfo& info = file.info;
@@ -425,6 +467,7 @@ void export_json(const ClipFile& file, Output& output) {
     json.value(info.rate_denominator);
     json.end_array();
   }
+  if (info.event_count != 0) write_events(file, json);
   json.key("frames");
   json.begin_array(JsonWriter::Layout::kLines);
   for_each_frame(file, [&](uint32_t frame, const float* values) {
@@ -449,7 +492,7 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-void run_export(const ClipOptions& options, const Session&) {
+void run_export(const ClipOptions& options, const Session& session) {
   const std::string& path = options.output.path;
   const bool as_json = ends_with(path, ".json");
   if (!as_json && !ends_with(path, ".csv") && path != "-") {
@@ -457,6 +500,10 @@ void run_export(const ClipOptions& options, const Session&) {
   }
   refuse_replacing(options.output, {options.clip});
   const ClipFile file = open_clip_file(options.clip);
+  if (!as_json && file.info.event_count != 0) {
+    note(session, one_line(file.shown) + ": a table has no place for its " +
+                      grouped(file.info.event_count) + " events; JSON does");
+  }
   Output output(path);
   (as_json ? export_json : export_csv)(file, output);
   output.commit();
@@ -516,7 +563,8 @@ Command add_clip_command(CLI::App& app, const Session& session) {
       "  CSV of the Live Link Face app, 61 channels behind a timecode: every row is\n"
       "             a frame, the channels keep the names of the app\n"
       "  JSON       frames as 'mien eval' takes them and 'mien play' writes them. A\n"
-      "             control that a frame does not name is 0 there\n"
+      "             control that a frame does not name is 0 there. \"events\": [{\"time\":\n"
+      "             seconds, \"name\": NAME, \"value\": number}] become events of the clip\n"
       "Values are the nearest 32-bit floats. Times may be a twentieth of a frame off the rate.\n\n"
       "Examples:\n"
       "  mien clip build take.csv -o take.clip\n"

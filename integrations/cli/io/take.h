@@ -2,6 +2,7 @@
 // Rows of values with names, as recorded or exported: what clips are made of.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,13 @@
 #include "integrations/cli/io/frame_rate.h"
 
 namespace mien::cli {
+
+/// A named moment, such as a phoneme.
+struct TakeEvent {
+  int64_t tick;
+  std::string name;
+  float value;
+};
 
 struct Take {
   std::string shown;  // the file, for messages
@@ -19,6 +27,7 @@ struct Take {
   std::vector<size_t> lines;  // of rows, in the file, if it has lines
   Rate rate;                  // if the file says so
   bool is_live_link = false;  // of the Live Link Face app, whose clock drifts
+  std::vector<TakeEvent> events;
 
   /// "take.csv, row 7", as a table shows its rows, or "take.json, frames[5]".
   std::string row_name(size_t row) const;

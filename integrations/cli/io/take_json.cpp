@@ -6,6 +6,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "capi/mien.h"
 #include "integrations/cli/io/failure.h"
 #include "integrations/cli/io/nearest_name.h"
 #include "integrations/cli/io/take.h"
@@ -22,7 +23,7 @@ using json = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::strin
 constexpr const char* kCannot = "cannot build clip";
 constexpr const char* kExample = "give one JSON object: {\"frames\": [{\"raw\": {NAME: number}}]}";
 
-const std::vector<std::string> kIgnored = {"rig", "variables", "events"};
+const std::vector<std::string> kIgnored = {"rig", "variables"};
 const std::vector<std::string> kIgnoredInFrames = {"variables", "stages"};
 
 bool is_one_of(const std::string& key, const std::vector<std::string>& keys) {
@@ -158,6 +159,52 @@ void read_controls(Reader& reader, const json& controls) {
   }
 }
 
+/// Where the time is a tick, that counts: a time in seconds was read as a 32-bit float.
+int64_t read_tick(const json& event, const std::string& where) {
+  const auto bad = [&](const std::string& what) {
+    fail(kInvalid, kCannot, where, what, "an event has a time in seconds, from 0 on, or a tick");
+  };
+  if (event.contains("tick")) {
+    const json& tick = event["tick"];
+    if (!tick.is_number_integer() || tick.get<int64_t>() < 0) bad("its tick is " + tick.dump());
+    return tick.get<int64_t>();
+  }
+  if (!event.contains("time")) bad("it has no time");
+  const double seconds = static_cast<double>(number(event["time"], where + ".time"));
+  constexpr double kMost = 1e9;  // ticks of as many seconds are 64-bit integers
+  if (!(seconds >= 0 && seconds < kMost)) bad("its time is " + event["time"].dump());
+  return std::llround(seconds * static_cast<double>(MIEN_TICKS_PER_SECOND));
+}
+
+TakeEvent read_event(const json& event, const std::string& where) {
+  constexpr const char* kEvent =
+      "an event is {\"time\": seconds, \"name\": NAME, \"value\": number}";
+  if (!event.is_object()) {
+    fail(kInvalid, kCannot, where, std::string("expected an object, not ") + event.type_name(),
+         kEvent);
+  }
+  for (const auto& [key, value] : event.items()) {
+    if (is_one_of(key, {"time", "tick", "name", "value", "layer"})) continue;
+    fail(kInvalid, kCannot, where, "an event has no member \"" + one_line(key) + "\"",
+         nearest_question(key, {"time", "tick", "name", "value"}, kEvent));
+  }
+  if (!event.contains("name") || !event["name"].is_string() ||
+      event["name"].get<std::string>().empty()) {
+    fail(kInvalid, kCannot, where, "it has no name", kEvent);
+  }
+  const float value = event.contains("value") ? number(event["value"], where + ".value") : 0.0f;
+  return {read_tick(event, where), event["name"].get<std::string>(), value};
+}
+
+void read_events(Reader& reader, const json& events) {
+  const std::string where = reader.take.shown + ", events";
+  if (!events.is_array()) fail(kInvalid, kCannot, where, "it is not a list", "list the events");
+  for (const json& event : events) {
+    const std::string place = where + "[" + std::to_string(reader.take.events.size()) + "]";
+    reader.take.events.push_back(read_event(event, place));
+  }
+}
+
 }  // namespace
 
 Take parse_json_take(std::string_view text, const std::string& shown) {
@@ -174,9 +221,11 @@ Take parse_json_take(std::string_view text, const std::string& shown) {
       take.rate = read_rate(value, shown + ", rate");
     } else if (key == "controls") {
       read_controls(reader, value);
+    } else if (key == "events") {
+      read_events(reader, value);
     } else if (key != "frames" && !is_one_of(key, kIgnored)) {
       fail(kInvalid, kCannot, shown, "the key \"" + one_line(key) + "\" is unknown",
-           nearest_question(key, {"frames", "rate", "controls"}, kExample));
+           nearest_question(key, {"frames", "rate", "controls", "events"}, kExample));
     }
   }
   std::vector<std::vector<float>> rows;
