@@ -559,9 +559,8 @@ TEST(Work, MeshesWithoutGeometryTakeTheirRecordOnly) {
 }
 
 TEST(Work, HostileFilesMeetTheBound) {
-  const char* shared = std::getenv("MIEN_SHARED");
   const std::filesystem::path folder =
-      std::filesystem::path(shared ? shared : "../shared") / "data/hostile";
+      std::filesystem::path(golden::shared_folder()) / "data/hostile";
   if (!std::filesystem::is_directory(folder)) {
     GTEST_SKIP() << "NOT TESTED: hostile files; there is no " << folder.string();
   }

@@ -66,14 +66,16 @@ bool read_record(Reader& in, File& out) {
 
 namespace {
 
-/// MIEN_GOLDEN_FOLDER is tests/golden of the source tree; the build defines it.
-std::filesystem::path head_folder() {
-  const char* shared = std::getenv("MIEN_SHARED");
-  if (shared && *shared) return std::filesystem::path(shared) / "golden";
-  return std::filesystem::path(MIEN_GOLDEN_FOLDER) / "../../../shared/golden";
-}
+std::filesystem::path head_folder() { return std::filesystem::path(shared_folder()) / "golden"; }
 
 }  // namespace
+
+std::string shared_folder() {
+  const char* shared = std::getenv("MIEN_SHARED");
+  if (shared && *shared) return shared;
+  // MIEN_GOLDEN_FOLDER is tests/golden of the source tree; the build defines it.
+  return std::string(MIEN_GOLDEN_FOLDER) + "/../../../shared";
+}
 
 bool has_head() {
   std::error_code error;

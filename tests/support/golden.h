@@ -18,8 +18,11 @@ constexpr const char* kNames[] = {"tiny",     "tiny_v21", "tiny_v22", "tiny_v23"
                                   "tiny_v25", "tiny_v26", "tiny_v27", "small",    "small_rot",
                                   "body",     "ml",       "ml_ext"};
 
-/// One more of production size, too large for the repository: golden/head.dna in the folder that
-/// the environment variable MIEN_SHARED names, by default ../shared beside the source tree.
+/// Data that is not in the repository: the folder that the environment variable MIEN_SHARED names, by
+/// default ../shared beside the source tree. It need not be there.
+std::string shared_folder();
+
+/// One more of production size, too large for the repository: golden/head.dna in shared_folder().
 constexpr const char* kHead = "head";
 bool has_head();
 

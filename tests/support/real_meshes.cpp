@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "runtime/author/random.h"
+#include "tests/support/golden.h"
 
 namespace mien::author {
 
@@ -83,8 +84,7 @@ T take_number(const char*& at) {
 }  // namespace
 
 std::string real_mesh_folder() {
-  const char* shared = std::getenv("MIEN_SHARED");
-  const std::string folder = std::string(shared ? shared : "../shared") + "/data/meshes";
+  const std::string folder = golden::shared_folder() + "/data/meshes";
   return std::filesystem::is_directory(folder) ? folder : std::string();
 }
 
