@@ -1725,7 +1725,7 @@ MIEN_API void mien_clip_player_destroy(MienClipPlayer* clip_player);
 typedef struct MienClipPlayerInfo {
     size_t struct_size;
     int64_t tick;        /* 0 to the length of the clip; with MIEN_LOOPING_WRAP less than the length */
-    int64_t loops;       /* completed since creation or the last seek; negative: backward */
+    int64_t loops;       /* completed since creation or the last seek, 2^61 at most; negative: backward */
     uint32_t looping;    /* MIEN_LOOPING_CLAMP or MIEN_LOOPING_WRAP */
     uint32_t is_damaged; /* boolean: a damaged curve was decoded and gave zeros */
 } MienClipPlayerInfo;
@@ -2375,13 +2375,13 @@ MIEN_CHECKED MienStatus mien_mixer_push(MienMixer* mixer, uint32_t layer, int64_
 
 /* Advances by `ticks`, 0 to 2^40, and mixes. The raw controls go to `instance`, which may be NULL. Does
  * not allocate or lock.
- * Fails with MIEN_ERROR_INVALID_ARGUMENT if `ticks` is out of range, MIEN_ERROR_MISMATCH if the instance
- * has another number of raw controls. */
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if `ticks` is out of range or leads beyond 2^60 ticks (51
+ * years), MIEN_ERROR_MISMATCH if the instance has another number of raw controls. */
 MIEN_CHECKED MienStatus mien_mixer_step(MienMixer* mixer, int64_t ticks, MienInstance* instance);
 
 /* Steps `count` mixers; instances[i] belongs to mixers[i]. `instances` may be NULL. The results are those
- * of single calls. No mixer may occur twice. On failure no mixer has moved.
- * Fails like mien_mixer_step(). */
+ * of single calls. On failure no mixer has moved.
+ * Fails like mien_mixer_step(), and with MIEN_ERROR_INVALID_ARGUMENT if a mixer is listed twice. */
 MIEN_CHECKED MienStatus mien_mixer_step_batch(MienMixer* const* mixers,
                                               MienInstance* const* instances, size_t count,
                                               int64_t ticks);

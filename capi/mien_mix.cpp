@@ -392,7 +392,9 @@ MienStatus status_of(Status status) {
 
 MienStatus check_step(const MienMixer* mixer, const MienInstance* instance, int64_t ticks) {
   if (MienStatus status = check(mixer)) return status;
-  if (ticks < 0 || ticks > kMaxStepTicks) return MIEN_ERROR_INVALID_ARGUMENT;
+  if (ticks < 0 || ticks > kMaxStepTicks || object(mixer)->header->now > kMaxMixerTime - ticks) {
+    return MIEN_ERROR_INVALID_ARGUMENT;
+  }
   if (!instance) return MIEN_OK;
   if (MienStatus status = check(instance)) return status;
   return object(instance)->rig->raw_count == object(mixer)->mix->raw_count ? MIEN_OK
@@ -567,6 +569,12 @@ MienStatus mien_mixer_step_batch(MienMixer* const* mixers, MienInstance* const* 
       return status;
     }
   }
+  size_t marked = 0;
+  while (marked < count && !object(mixers[marked])->in_batch) {
+    object(mixers[marked++])->in_batch = true;
+  }
+  for (size_t i = 0; i < marked; ++i) object(mixers[i])->in_batch = false;
+  if (marked < count) return MIEN_ERROR_INVALID_ARGUMENT;
   for (size_t i = 0; i < count; ++i) step(mixers[i], instances ? instances[i] : nullptr, ticks);
   return MIEN_OK;
 }

@@ -21,15 +21,22 @@ Status bad_speed(Error& error) {
               "a speed is a fraction of whole numbers up to %d, the lower one above 0", kMaxSpeed);
 }
 
-void put_position(ClipSampler& sampler, int64_t tick) {
+/// Returns the loops on the way there from the first one.
+int64_t put_position(ClipSampler& sampler, int64_t tick) {
   if (sampler.wraps) {
     const int64_t rest = tick % sampler.length;
-    sampler.loops += floor_div(tick, sampler.length);
     sampler.tick = rest < 0 ? rest + sampler.length : rest;
-  } else {
-    sampler.tick = tick < 0 ? 0 : tick > sampler.length ? sampler.length : tick;
-    if (sampler.tick != tick) sampler.fraction = 0;
+    return floor_div(tick, sampler.length);
   }
+  sampler.tick = tick < 0 ? 0 : tick > sampler.length ? sampler.length : tick;
+  if (sampler.tick != tick) sampler.fraction = 0;
+  return 0;
+}
+
+/// Loops of a tick, at the highest speed, are 2^60 in a step: counting ends before they overflow.
+void count_loops(ClipSampler& sampler, int64_t passed) {
+  const int64_t loops = sampler.loops + passed;
+  sampler.loops = loops < -kMaxLoops ? -kMaxLoops : loops > kMaxLoops ? kMaxLoops : loops;
 }
 
 /// Events before a tick, or before and at it.
@@ -174,7 +181,7 @@ Status set_clip_speed(ClipSampler& sampler, int32_t numerator, int32_t denominat
 
 void seek_clip(ClipSampler& sampler, int64_t tick) {
   sampler.fraction = 0;
-  put_position(sampler, tick);
+  (void)put_position(sampler, tick);
   sampler.loops = 0;
   sampler.fresh = true;
 }
@@ -194,7 +201,7 @@ EventRange advance_clip(ClipSampler& sampler, int64_t ticks) {
   range.from = sampler.tick + (sampler.fresh ? (backward ? 1 : -1) : 0);
   range.to = sampler.tick + moved;
   sampler.fresh = false;
-  put_position(sampler, range.to);
+  count_loops(sampler, put_position(sampler, range.to));
   if (!sampler.wraps) range.to = sampler.tick;
   range.index = backward ? count_events(*sampler.clip, range.from, false) - 1
                          : count_events(*sampler.clip, range.from, true);

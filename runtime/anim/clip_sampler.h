@@ -17,6 +17,7 @@ enum class Looping : uint8_t { kAsClip, kLoop, kOnce };
 // Then no product or sum of times overflows.
 constexpr int64_t kMaxStepTicks = int64_t{1} << 40;  // 26 minutes
 constexpr int32_t kMaxSpeed = 1 << 20;
+constexpr int64_t kMaxLoops = INT64_MAX / 4;
 
 struct PlayDesc {
   int64_t start_tick = 0;
@@ -33,7 +34,7 @@ constexpr uint32_t kSamplerRows = 6;  // what Catmull-Rom needs where a half-rat
 struct ClipSampler {
   const Clip* clip = nullptr;  // has to outlive the playing
   int64_t tick = 0;            // 0 ... length, or below it in a loop
-  int64_t loops = 0;           // completed; negative: backward
+  int64_t loops = 0;           // completed, kMaxLoops at most; negative: backward
   int64_t fraction = 0;        // of a tick, in units of 1 / speed_denominator
   int64_t length = 0;
   int32_t speed_numerator = 1, speed_denominator = 1;

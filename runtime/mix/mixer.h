@@ -77,8 +77,11 @@ struct PlayerState {
   uint8_t fresh, backward, zeros[2];
 };
 
+/// Where the time of a mixer ends, so that no sum or difference of times overflows: 51 years.
+constexpr int64_t kMaxMixerTime = INT64_MAX / 8;
+
 struct StateHeader {
-  int64_t now;    // ticks since the beginning
+  int64_t now;    // ticks since the beginning, kMaxMixerTime at most
   uint64_t seed;  // of the generators
 };
 
@@ -114,6 +117,7 @@ struct Mixer {
   Span<MixEvent> events;
   uint32_t event_count = 0;
   bool lost_events = false;  // the last step passed more of them than there is room for
+  bool in_batch = false;     // while a batch is checked
   float* stages = nullptr;   // [stage][lane]: the row after each stage of the last step, or null
 
   Span<uint8_t> state;

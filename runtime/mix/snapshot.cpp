@@ -17,7 +17,7 @@ namespace {
 
 constexpr char kMagic[8] = {'M', 'I', 'E', 'N', 'S', 'N', 'P', '\n'};
 constexpr uint32_t kVersion = 3;
-constexpr int64_t kMaxNow = INT64_MAX / 4;
+constexpr int64_t kMaxTime = kMaxMixerTime + 2 * kMaxFadeTicks;  // of what is still to come, too
 
 struct SnapshotHeader {
   char magic[8];
@@ -51,7 +51,7 @@ bool finite(std::initializer_list<float> values) {
 }
 
 bool is_duration(int64_t ticks) { return ticks >= 0 && ticks <= kMaxFadeTicks; }
-bool is_time(int64_t tick) { return tick >= -kMaxNow && tick <= kMaxNow; }
+bool is_time(int64_t tick) { return tick >= -kMaxTime && tick <= kMaxTime; }
 
 bool is_fade(const Fade& fade) {
   return is_time(fade.start) && is_duration(fade.ticks) &&
@@ -94,9 +94,9 @@ Status check_player(const Mixer& mixer, const PlayerState& player, uint32_t laye
       (player.wraps ? player.tick >= length : player.tick > length)) {
     return fail(error, Status::kMismatch, kNoOffset, "layer %u: the clip is another one", layer);
   }
-  const bool valid = player.tick >= 0 && is_time(player.loops) && player.speed_denominator >= 1 &&
-                     player.speed_denominator <= kMaxSpeed && player.fraction >= 0 &&
-                     player.fraction < player.speed_denominator &&
+  const bool valid = player.tick >= 0 && player.loops >= -kMaxLoops && player.loops <= kMaxLoops &&
+                     player.speed_denominator >= 1 && player.speed_denominator <= kMaxSpeed &&
+                     player.fraction >= 0 && player.fraction < player.speed_denominator &&
                      player.speed_numerator >= -kMaxSpeed && player.speed_numerator <= kMaxSpeed &&
                      player.wraps <= 1 && player.mirrored <= 1 && player.fresh <= 1 &&
                      player.backward <= 1 &&
@@ -126,7 +126,7 @@ bool all_finite(const SavedState& saved, Span<float> floats) {
 Status check_state(const Mixer& mixer, const SavedState& saved, const ClipFinder& clips,
                    Error& error) {
   const int64_t now = saved.read(*mixer.header).now;
-  if (now < 0 || now > kMaxNow) return wrong(error, "has a time out of range");
+  if (now < 0 || now > kMaxMixerTime) return wrong(error, "has a time out of range");
   uint64_t players = 0;
   for (uint32_t i = 0; i < mixer.layers.count; ++i) {
     if (!is_layer(mixer, saved, i, players)) {

@@ -331,6 +331,31 @@ TEST(ClipTime, AMillionLoopsDoNotDrift) {
   EXPECT_GT(own.sampler.loops, 1000000);
 }
 
+// A loop of one tick, played as fast as can be: each step has 2^60 of them.
+TEST(ClipTime, LoopsAreCountedAsFarAsTheirNumberReaches) {
+  ClipInput input(one_channel({0.5f}));
+  input.rate_numerator = static_cast<uint32_t>(kTicksPerSecond);
+  input.wraps = true;
+  const MadeClip made(input);
+  ASSERT_EQ(made.clip.length(true), 1);
+  for (const int32_t speed : {kMaxSpeed, -kMaxSpeed}) {
+    OwnSampler own(made.clip);
+    Error error;
+    ASSERT_EQ(set_clip_speed(own.sampler, speed, 1, error), Status::kOk);
+    for (int i = 1; i < 20; ++i) {
+      advance_clip(own.sampler, kMaxStepTicks);
+      const int64_t loops = i == 1 ? int64_t{1} << 60 : kMaxLoops;
+      EXPECT_EQ(own.sampler.loops, speed > 0 ? loops : -loops) << i;
+      EXPECT_EQ(own.sampler.tick, 0);
+    }
+    for (const int64_t tick : {INT64_MIN, INT64_MAX}) {
+      seek_clip(own.sampler, tick);
+      EXPECT_EQ(own.sampler.loops, 0);
+      advance_clip(own.sampler, -kMaxStepTicks);
+    }
+  }
+}
+
 TEST(ClipTime, ItDoesNotMatterHowTimeIsCutIntoSteps) {
   ClipInput input(phone_capture(1, 100));
   input.wraps = true;

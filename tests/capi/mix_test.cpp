@@ -230,6 +230,40 @@ TEST(Mixer, ABatchIsEachAlone) {
   const std::vector<float> before = row_of(together[0]);
   EXPECT_EQ(mien_mixer_step_batch(mixers.data(), nullptr, 5, kStep), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(row_of(together[0]), before);
+  mixers[4] = mixers[1];
+  EXPECT_EQ(mien_mixer_step_batch(mixers.data(), nullptr, 5, kStep), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(row_of(together[0]), before);
+  EXPECT_EQ(mien_mixer_step_batch(mixers.data(), nullptr, 4, kStep), MIEN_OK);
+}
+
+TEST(Mixer, TimeEndsWhereSumsOfTimesWouldOverflow) {
+  const Scene scene;
+  const MixHandle mix = scene.mix();
+  const MixerHandle mixer = Scene::mixer(mix);
+  size_t size = 0;
+  ASSERT_EQ(mien_mixer_snapshot(mixer.get(), nullptr, 0, &size, nullptr), MIEN_OK);
+  std::vector<uint8_t> snapshot(size);
+  ASSERT_EQ(mien_mixer_snapshot(mixer.get(), snapshot.data(), size, &size, nullptr), MIEN_OK);
+  const auto restore_at = [&](int64_t tick) {
+    memcpy(snapshot.data() + 24, &tick, sizeof(tick));  // behind the header
+    return mien_mixer_restore(mixer.get(), snapshot.data(), size, nullptr, 0, nullptr);
+  };
+  constexpr int64_t kEnd = (int64_t{1} << 60) - 1, kLongest = int64_t{1} << 40;
+  EXPECT_EQ(restore_at(kEnd + 1), MIEN_ERROR_INVALID_ARGUMENT);
+  ASSERT_EQ(restore_at(kEnd - kLongest), MIEN_OK);
+  EXPECT_EQ(mien_mixer_trigger(mixer.get(), 0, 1, kLongest), MIEN_OK);
+  EXPECT_EQ(mien_mixer_step(mixer.get(), kLongest, nullptr), MIEN_OK);
+  MienMixer* const one = mixer.get();
+  EXPECT_EQ(mien_mixer_step(one, 1, nullptr), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(mien_mixer_step_batch(&one, nullptr, 1, kLongest), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(mien_mixer_step(one, 0, nullptr), MIEN_OK);
+  MienMixerInfo info = sized<MienMixerInfo>();
+  ASSERT_EQ(mien_mixer_info(one, &info), MIEN_OK);
+  EXPECT_EQ(info.tick, kEnd);
+  // Whatever it was told to do until then fits into a snapshot.
+  EXPECT_EQ(mien_mixer_trigger(one, 0, 1, kLongest), MIEN_OK);
+  ASSERT_EQ(mien_mixer_snapshot(one, snapshot.data(), size, &size, nullptr), MIEN_OK);
+  EXPECT_EQ(mien_mixer_restore(one, snapshot.data(), size, nullptr, 0, nullptr), MIEN_OK);
 }
 
 TEST(Mixer, OutlivesItsMix) {

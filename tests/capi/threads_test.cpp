@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "tests/support/deform_rig.h"
+#include "tests/support/golden.h"
 #include "tests/support/mix_scene.h"
 
 namespace mien {
@@ -62,6 +63,68 @@ TEST(CapiThreads, InstancesOfOneRigDoNotDisturbEachOther) {
     EXPECT_TRUE(same_bits(span_of(expected[i]), span_of(found[i]))) << "result " << i;
   }
   EXPECT_FALSE(same_bits(span_of(expected[0]), span_of(expected[kFrames]))) << "they all do alike";
+}
+
+/// `count` characters, and what a batch makes of them in some frames.
+std::vector<float> play_batch(const RigHandle& rig, MienBatch* batch, int seed, uint32_t count,
+                              const MienParallelFor* parallel) {
+  const uint32_t lod_count = info_of(rig).lod_count;
+  std::vector<Character> characters;
+  std::vector<MienInstance*> instances;
+  std::vector<uint32_t> lods(count);
+  std::vector<float> results;
+  for (uint32_t i = 0; i < count; ++i) {
+    characters.emplace_back(rig);
+    instances.push_back(characters.back().instance.get());
+  }
+  for (int frame = 0; frame < 3; ++frame) {
+    for (uint32_t i = 0; i < count; ++i) {
+      lods[i] = animate(characters[i], seed + static_cast<int>(i / 2), frame, lod_count);
+    }
+    EXPECT_EQ(mien_rig_evaluate_batch(rig.get(), batch, instances.data(), lods.data(), count,
+                                      MIEN_STAGE_ALL, parallel),
+              MIEN_OK);
+  }
+  for (const Character& character : characters) {
+    const std::vector<float> one = character.results();
+    results.insert(results.end(), one.begin(), one.end());
+  }
+  return results;
+}
+
+// Rigs with all layers, and one large enough that columns of its matrix are shared.
+TEST(CapiThreads, BatchesOfOneRigDoNotDisturbEachOther) {
+  constexpr uint32_t kCount = 9;
+  for (const RigHandle& rig :
+       {small_rig(), create_rig(open_dna(golden::read_rig("ml_ext")).get())}) {
+    std::vector<std::vector<float>> expected(kThreads), found(kThreads);
+    const auto play = [&](int t) {
+      return play_batch(rig, create_batch(rig, kCount, 1).get(), t, kCount, nullptr);
+    };
+    for (size_t t = 0; t < kThreads; ++t) expected[t] = play(static_cast<int>(t));
+    on_threads(kThreads, [&](int t) { found[static_cast<size_t>(t)] = play(t); });
+    for (size_t t = 0; t < kThreads; ++t) {
+      EXPECT_TRUE(same_bits(span_of(expected[t]), span_of(found[t]))) << "thread " << t;
+    }
+  }
+}
+
+void run_on_four(void*, uint32_t count, void (*task)(void*, uint32_t), void* context) {
+  std::atomic<uint32_t> next{0};
+  on_threads(4, [&](int) {
+    for (uint32_t i = next++; i < count; i = next++) task(context, i);
+  });
+}
+constexpr MienParallelFor kFourThreads = {nullptr, run_on_four};
+
+TEST(CapiThreads, TasksOfABatchWriteToSeparatePlaces) {
+  constexpr uint32_t kCount = 130;
+  const RigHandle rig = small_rig();
+  const std::vector<float> alone =
+      play_batch(rig, create_batch(rig, kCount, 1).get(), 1, kCount, nullptr);
+  const std::vector<float> together =
+      play_batch(rig, create_batch(rig, kCount, 4).get(), 1, kCount, &kFourThreads);
+  EXPECT_TRUE(same_bits(span_of(alone), span_of(together)));
 }
 
 TEST(CapiThreads, RigsAreReadByAll) {
@@ -245,16 +308,9 @@ TEST(CapiThreads, TasksOfADeformationWriteToSeparatePlaces) {
   options.rows = options.columns = 130;
   options.meshes = 1;
   const Deformed d(random_deform_rig(1, options));
-  const auto run = [](void*, uint32_t count, void (*task)(void*, uint32_t), void* context) {
-    std::atomic<uint32_t> next{0};
-    on_threads(4, [&](int) {
-      for (uint32_t i = next++; i < count; i = next++) task(context, i);
-    });
-  };
-  const MienParallelFor parallel = {nullptr, run};
   Deformed::update(d.instance.get(), random_values(d.rig.get(), 1));
   for (uint32_t normals : {MIEN_NORMALS_SKINNED, MIEN_NORMALS_RECOMPUTED}) {
-    EXPECT_EQ(mien_deformer_instance_deform(d.instance.get(), 0, normals, &parallel), MIEN_OK);
+    EXPECT_EQ(mien_deformer_instance_deform(d.instance.get(), 0, normals, &kFourThreads), MIEN_OK);
   }
 }
 

@@ -13,14 +13,6 @@
 namespace mien {
 namespace {
 
-BatchHandle create_batch(const RigHandle& rig, uint32_t capacity, uint32_t tasks = 1) {
-  MienBatch* batch = nullptr;
-  MienError error = sized<MienError>();
-  const MienBatchDesc desc = batch_desc(capacity, tasks);
-  EXPECT_EQ(mien_batch_create(rig.get(), &desc, &batch, &error), MIEN_OK) << error.message;
-  return BatchHandle(batch);
-}
-
 /// Pairs of instances: one for the batch, one evaluated by itself, on a rig that keeps nothing.
 struct InstancePacket {
   RigHandle rig, plain_rig;

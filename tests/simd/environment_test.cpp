@@ -3,69 +3,13 @@
 // rounding. Results stay finite, near, and the same for an instance and in a batch.
 #include <gtest/gtest.h>
 
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
-
-#include <cfenv>
 #include <cmath>
 
+#include "tests/support/host_environment.h"
 #include "tests/support/many_rigs.h"
 
 namespace mien {
 namespace {
-
-// The word that governs floats, and its bits for subnormal results, and inputs, that count as 0.
-#if defined(__SSE2__)
-constexpr unsigned kFlushBits = 0x8040;
-unsigned control_word() { return _mm_getcsr(); }
-void set_control_word(unsigned word) { _mm_setcsr(word); }
-#elif defined(__aarch64__)
-constexpr unsigned kFlushBits = 1u << 24;
-unsigned control_word() {
-  uint64_t word;
-  asm volatile("mrs %0, fpcr" : "=r"(word));
-  return static_cast<unsigned>(word);
-}
-void set_control_word(unsigned word) { asm volatile("msr fpcr, %0" ::"r"(uint64_t{word})); }
-#elif defined(__arm__)
-constexpr unsigned kFlushBits = 1u << 24;
-unsigned control_word() {
-  unsigned word;
-  asm volatile("vmrs %0, fpscr" : "=r"(word));
-  return word;
-}
-void set_control_word(unsigned word) { asm volatile("vmsr fpscr, %0" ::"r"(word)); }
-#else
-constexpr unsigned kFlushBits = 0;  // RISC-V and s390x keep what is subnormal
-unsigned control_word() { return 0; }
-void set_control_word(unsigned) {}
-#endif
-
-struct Environment {
-  bool flushes;
-  int direction;
-};
-constexpr Environment kUsual = {false, FE_TONEAREST}, kFlushing = {true, FE_TONEAREST};
-constexpr Environment kHosts[] = {kFlushing,
-                                  {false, FE_DOWNWARD},
-                                  {false, FE_UPWARD},
-                                  {false, FE_TOWARDZERO},
-                                  {true, FE_TOWARDZERO}};
-
-/// The environment of the host, for as long as it lives.
-struct Host {
-  int direction = std::fegetround();
-  unsigned word = control_word();
-  explicit Host(const Environment& wanted) {
-    EXPECT_EQ(std::fesetround(wanted.direction), 0);
-    if (wanted.flushes) set_control_word(control_word() | kFlushBits);
-  }
-  ~Host() {
-    std::fesetround(direction);
-    set_control_word(word);
-  }
-};
 
 TEST(HostEnvironment, FlushesAndRoundsAsItIsTold) {
   volatile float small = 1e-38f, one = 1, three = 3;
@@ -79,10 +23,6 @@ TEST(HostEnvironment, FlushesAndRoundsAsItIsTold) {
   if (kFlushBits == 0) GTEST_SKIP() << "NOT TESTED: flush-to-zero; this processor has none";
   const Host turned(kFlushing);
   EXPECT_EQ(small * 0.1f, 0);
-}
-
-std::string told(const Environment& host) {
-  return "direction " + std::to_string(host.direction) + (host.flushes ? ", flushing" : "");
 }
 
 std::vector<float> results_of(const RigHandle& rig, const Environment& host, uint64_t seed,

@@ -190,4 +190,12 @@ inline Span<const float> span_of(const std::vector<float>& values) {
   return {values.data(), values.size()};
 }
 
+inline BatchHandle create_batch(const RigHandle& rig, uint32_t capacity, uint32_t tasks = 1) {
+  MienBatch* batch = nullptr;
+  MienError error = sized<MienError>();
+  const MienBatchDesc desc = batch_desc(capacity, tasks);
+  EXPECT_EQ(mien_batch_create(rig.get(), &desc, &batch, &error), MIEN_OK) << error.message;
+  return BatchHandle(batch);
+}
+
 }  // namespace mien

@@ -3143,7 +3143,7 @@ class ClipPlayerInfo(NamedTuple):
     """State of a player.
 
       tick: 0 to the length of the clip; with Looping.WRAP less than the length
-      loops: completed since creation or the last seek; negative: backward
+      loops: completed since creation or the last seek, 2^61 at most; negative: backward
       looping: Looping.CLAMP or Looping.WRAP
       is_damaged: a damaged curve was decoded and gave zeros
     """
@@ -4169,13 +4169,14 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_mixer_step": (
         (Status.INVALID_ARGUMENT,
-         "`ticks` is out of range"),
+         "`ticks` is out of range or leads beyond 2^60 ticks (51 years)"),
         (Status.MISMATCH,
          "the instance has another number of raw controls"),
     ),
     "mien_mixer_step_batch": (
         (Status.INVALID_ARGUMENT,
-         "`ticks` is out of range"),
+         "`ticks` is out of range or leads beyond 2^60 ticks (51 years); or a mixer is "
+         "listed twice"),
         (Status.MISMATCH,
          "the instance has another number of raw controls"),
     ),

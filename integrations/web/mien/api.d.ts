@@ -1161,7 +1161,7 @@ export interface ClipPlayerDesc {
 export interface ClipPlayerInfo {
   /** 0 to the length of the clip; with MIEN_LOOPING_WRAP less than the length */
   readonly tick: number;
-  /** completed since creation or the last seek; negative: backward */
+  /** completed since creation or the last seek, 2^61 at most; negative: backward */
   readonly loops: number;
   /** MIEN_LOOPING_CLAMP or MIEN_LOOPING_WRAP */
   readonly looping: Looping;
@@ -2830,14 +2830,14 @@ export interface Exports {
   /**
    * Advances by `ticks`, 0 to 2^40, and mixes. The raw controls go to `instance`, which may be NULL. Does
    * not allocate or lock.
-   * Fails with MIEN_ERROR_INVALID_ARGUMENT if `ticks` is out of range, MIEN_ERROR_MISMATCH if the instance
-   * has another number of raw controls.
+   * Fails with MIEN_ERROR_INVALID_ARGUMENT if `ticks` is out of range or leads beyond 2^60 ticks (51
+   * years), MIEN_ERROR_MISMATCH if the instance has another number of raw controls.
    */
   mien_mixer_step(mixer: number, ticks: bigint, instance: number): number;
   /**
    * Steps `count` mixers; instances[i] belongs to mixers[i]. `instances` may be NULL. The results are those
-   * of single calls. No mixer may occur twice. On failure no mixer has moved.
-   * Fails like mien_mixer_step().
+   * of single calls. On failure no mixer has moved.
+   * Fails like mien_mixer_step(), and with MIEN_ERROR_INVALID_ARGUMENT if a mixer is listed twice.
    */
   mien_mixer_step_batch(mixers: number, instances: number, count: number, ticks: bigint): number;
   /**

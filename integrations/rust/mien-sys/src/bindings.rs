@@ -1730,7 +1730,7 @@ pub struct MienClipPlayerInfo {
     pub struct_size: usize,
     /// 0 to the length of the clip; with `MIEN_LOOPING_WRAP` less than the length.
     pub tick: i64,
-    /// Completed since creation or the last seek; negative: backward.
+    /// Completed since creation or the last seek, 2^61 at most; negative: backward.
     pub loops: i64,
     /// `MIEN_LOOPING_CLAMP` or `MIEN_LOOPING_WRAP`.
     pub looping: u32,
@@ -4063,14 +4063,15 @@ extern "C" {
     /// Advances by `ticks`, 0 to 2^40, and mixes. The raw controls go to `instance`, which may be
     /// NULL. Does not allocate or lock.
     ///
-    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `ticks` is out of range, `MIEN_ERROR_MISMATCH`
-    /// if the instance has another number of raw controls.
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `ticks` is out of range or leads beyond 2^60
+    /// ticks (51 years), `MIEN_ERROR_MISMATCH` if the instance has another number of raw controls.
     pub fn mien_mixer_step(mixer: *mut MienMixer, ticks: i64, instance: *mut MienInstance) -> MienStatus;
 
     /// Steps `count` mixers; instances\[i\] belongs to mixers\[i\]. `instances` may be NULL. The
-    /// results are those of single calls. No mixer may occur twice. On failure no mixer has moved.
+    /// results are those of single calls. On failure no mixer has moved.
     ///
-    /// Fails like `mien_mixer_step()`.
+    /// Fails like `mien_mixer_step()`, and with `MIEN_ERROR_INVALID_ARGUMENT` if a mixer is listed
+    /// twice.
     pub fn mien_mixer_step_batch(mixers: *const *mut MienMixer, instances: *const *mut MienInstance, count: usize, ticks: i64) -> MienStatus;
 
     /// Returns the row of the last step, one float per lane: raw controls, then pose variables.

@@ -1479,7 +1479,7 @@ impl From<sys::MienClipInfo> for ClipInfo {
 pub struct ClipPlayerInfo {
     /// 0 to the length of the clip; with `Looping::WRAP` less than the length.
     pub tick: i64,
-    /// Completed since creation or the last seek; negative: backward.
+    /// Completed since creation or the last seek, 2^61 at most; negative: backward.
     pub loops: i64,
     /// `Looping::CLAMP` or `Looping::WRAP`.
     pub looping: Looping,
@@ -2243,11 +2243,11 @@ macro_rules! errors {
          - [`Status::INDEX`](crate::Status::INDEX) if the layer does not exist or is no stream"
     };
     (mien_mixer_step) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `ticks` is out of range\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `ticks` is out of range or leads beyond 2^60 ticks (51 years)\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if the instance has another number of raw controls"
     };
     (mien_mixer_step_batch) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `ticks` is out of range\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `ticks` is out of range or leads beyond 2^60 ticks (51 years); or a mixer is listed twice\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if the instance has another number of raw controls"
     };
     (mien_mixer_row) => {
