@@ -14,8 +14,7 @@
 #include "runtime/author/exact_math.h"
 #include "runtime/author/random.h"
 #include "tests/support/author_setup.h"
-#include "tests/support/deform_rig.h"
-#include "tests/support/rig_handles.h"
+#include "tests/support/played_rig.h"
 
 namespace mien::author {
 namespace {
@@ -49,69 +48,9 @@ const Authored& authored() {
   return made;
 }
 
-/// A rig as the library runs it.
-struct Played {
-  DnaHandle dna;
-  RigHandle rig;
-  Character character;
-  DeformerHandle deformer;
-  DeformerInstanceHandle instance;
-
-  explicit Played(const std::vector<uint8_t>& bytes, uint32_t isa = MIEN_ISA_ENVIRONMENT)
-      : dna(open_dna(bytes)), rig(create_rig(dna.get(), isa)), character(rig),
-        deformer(create_deformer(dna.get(), rig.get())),
-        instance(create_deformer_instance(deformer.get())) {}
-
-  void set(uint32_t control) {
-    for (float& value : character.raw) value = 0;
-    if (control < character.raw.count) character.raw[control] = 1;
-  }
-  std::vector<Vec3> deform(uint32_t lod) {
-    character.evaluate(lod);
-    EXPECT_EQ(mien_deformer_instance_update(instance.get(), character.instance.get()), MIEN_OK);
-    EXPECT_EQ(mien_deformer_instance_deform(instance.get(), lod, MIEN_NORMALS_NONE, nullptr),
-              MIEN_OK);
-    MienFloatView view = {};
-    EXPECT_EQ(mien_deformer_instance_positions(instance.get(), lod, &view), MIEN_OK);
-    std::vector<Vec3> out(view.count / 3);
-    for (size_t v = 0; v < out.size(); ++v) {
-      out[v] = {double{view.data[3 * v]}, double{view.data[3 * v + 1]},
-                double{view.data[3 * v + 2]}};
-    }
-    return out;
-  }
-  /// `vertices`: which of the head's the LOD has; empty: all.
-  double error(const AuthorSetup& head, uint32_t lod, double* max = nullptr,
-               Span<const uint32_t> vertices = {}) {
-    double squares = 0, energy = 0, longest = 0;
-    for (uint32_t s = 0; s < head.shapes.size(); ++s) {
-      set(s);
-      const std::vector<Vec3> points = deform(lod);
-      for (size_t i = 0; i < points.size(); ++i) {
-        const size_t v = vertices.empty() ? i : vertices[i];
-        const Vec3f f = head.displacements[s][v];
-        const Vec3 d = {double{f.x}, double{f.y}, double{f.z}};
-        const Vec3 rest = head.mesh.frame.to_internal(points[i]) - head.positions[v] - d;
-        squares += dot(rest, rest);
-        energy += dot(d, d);
-        longest = std::max(longest, length(rest));
-      }
-    }
-    if (max) *max = longest / head.mesh.diagonal;
-    return std::sqrt(squares / energy);
-  }
-};
-
 TEST(AuthorRig, FilesAreValidWithoutFindings) {
   const std::vector<uint8_t>& bytes = authored().bytes;
-  MienReport* report = nullptr;
-  ASSERT_EQ(mien_dna_validate_memory(bytes.data(), bytes.size(), nullptr, &report, nullptr),
-            MIEN_OK);
-  uint32_t errors = 0, warnings = 0;
-  EXPECT_EQ(mien_report_counts(report, &errors, &warnings), MIEN_OK);
-  EXPECT_EQ(errors, 0u);
-  EXPECT_EQ(warnings, 0u);
-  mien_report_destroy(report);
+  EXPECT_EQ(findings(bytes), 0u);
   EXPECT_TRUE(write_dna(open_dna(bytes).get()) == bytes) << "round trip";
 }
 
@@ -128,27 +67,49 @@ TEST(AuthorRig, NeutralIsTheMesh) {
   }
 }
 
+TEST(AuthorRig, AHeadThatTurnsKeepsAllDistancesOfItsFace) {
+  Played played(authored().bytes);
+  const dna::DnaView& view = played.dna->view;
+  std::vector<float> joints(view.defn.joint_names.count * size_t{9});
+  const float turned[] = {3, 1, -2, 20, -35, 50};  // of joint 2, the head
+  ASSERT_EQ(authored().head.bones[2].kind, BoneKind::kHead);
+  std::copy(std::begin(turned), std::end(turned), joints.begin() + 2 * 9);
+  ASSERT_EQ(mien_deformer_instance_update_from_values(played.instance.get(), joints.data(),
+                                                      joints.size(), nullptr, 0),
+            MIEN_OK);
+  const std::vector<Vec3> points = played.positions(0);
+  std::vector<size_t> face;  // carried by the head and what hangs below it
+  for (size_t v = 0; v < points.size(); ++v) {
+    const dna::VertexSkinWeights& w = view.geom.meshes[0].skin_weights[v];
+    bool below = true;
+    for (size_t i = 0; i < w.weights.count; ++i) below = below && w.joint_indices[i] >= 2;
+    if (below) face.push_back(v);
+  }
+  ASSERT_GT(face.size(), 100u);
+  double moved = 0;
+  for (size_t a : face) {
+    moved += length(points[a] - authored().head.positions[a]);
+    for (size_t b : face) {
+      const double was = length(authored().head.positions[a] - authored().head.positions[b]);
+      EXPECT_NEAR(length(points[a] - points[b]), was, 1e-5 * authored().head.mesh.diagonal);
+    }
+  }
+  EXPECT_GT(moved / static_cast<double>(face.size()), 1);
+}
+
 TEST(AuthorRig, TheReportTellsTheErrorOfTheEvaluatedFile) {
   Played played(authored().bytes);
   double max = 0;
-  EXPECT_NEAR(played.error(authored().head, 0, &max), authored().report.rig.error, 1e-4);
+  EXPECT_NEAR(played.error(authored().head.mesh, 0, &max), authored().report.rig.error, 1e-4);
   EXPECT_NEAR(max, authored().report.rig.max, 1e-5);
   for (uint32_t lod = 1; lod < 4; ++lod) {
-    EXPECT_NEAR(played.error(authored().head, lod), authored().report.lods[lod].error, 1e-4);
+    EXPECT_NEAR(played.error(authored().head.mesh, lod), authored().report.lods[lod].error, 1e-4);
   }
 }
 
 TEST(AuthorRig, LodsWithFewerTrianglesFollowTheirShapes) {
   const Authored made({}, 4, {}, 40, 0.5);
-  MienReport* found = nullptr;
-  ASSERT_EQ(
-      mien_dna_validate_memory(made.bytes.data(), made.bytes.size(), nullptr, &found, nullptr),
-      MIEN_OK);
-  uint32_t errors = 0, warnings = 0;
-  EXPECT_EQ(mien_report_counts(found, &errors, &warnings), MIEN_OK);
-  EXPECT_EQ(errors + warnings, 0u);
-  mien_report_destroy(found);
-
+  EXPECT_EQ(findings(made.bytes), 0u);
   Played played(made.bytes);
   const dna::DnaView& view = played.dna->view;
   ASSERT_EQ(view.geom.meshes.count, 4u);
@@ -156,8 +117,8 @@ TEST(AuthorRig, LodsWithFewerTrianglesFollowTheirShapes) {
     const LodReport& report = made.report.lods[lod];
     const dna::Mesh& mesh = view.geom.meshes[lod];
     EXPECT_EQ(mesh.positions.xs.count, report.vertices);
-    EXPECT_NEAR(played.error(made.head, lod, nullptr, made.lod_meshes[lod].vertices), report.error,
-                1e-4);
+    EXPECT_NEAR(played.error(made.head.mesh, lod, nullptr, made.lod_meshes[lod].vertices),
+                report.error, 1e-4);
     for (uint32_t v = 0; v < mesh.skin_weights.count; ++v) {
       double sum = 0;
       for (size_t i = 0; i < mesh.skin_weights[v].weights.count; ++i) {
@@ -361,7 +322,7 @@ TEST(AuthorRig, OtherAxesGiveTheSameFace) {
   EXPECT_EQ(axes.x_axis, 0);  // left
   EXPECT_EQ(axes.y_axis, 5);  // back
   EXPECT_EQ(axes.z_axis, 2);  // up
-  EXPECT_NEAR(played.error(made.head, 0), authored().report.rig.error, 1e-4);
+  EXPECT_NEAR(played.error(made.head.mesh, 0), authored().report.rig.error, 1e-4);
   // Opened in the first file's axes, it is the first file's face.
   MienCoordinateSystem system = mien_coordinate_system_default();
   const uint32_t left_up_front[3] = {MIEN_DIRECTION_LEFT, MIEN_DIRECTION_UP, MIEN_DIRECTION_FRONT};

@@ -373,6 +373,44 @@ TEST(FitShapes, ErrorsFallWithRotationsAlternationsAndBones) {
   EXPECT_LT(last, 0.6 * turned_error);
 }
 
+TEST(FitShapes, ErrorsFallWithInfluences) {
+  double last = 1;
+  for (const uint32_t influences : {2u, 4u, 8u, 12u}) {
+    AuthorSetup head;
+    make_author_head(5, 40, influences, 1, head);
+    Fitted fitted(head);
+    refit(head.mesh, fitted.motions, {}, {}, head.weights, head.weights);
+    fit_all(fitted.fitter, head.mesh, head.placement, head.weights, false, {}, fitted.motions);
+    const double error = fitted.error(head);
+    EXPECT_LT(error, 1.02 * last) << influences;
+    last = error;
+  }
+}
+
+TEST(FitShapes, OrderOfBonesDoesNotMatter) {
+  AuthorSetup head, other;
+  make_author_head(5, 40, 6, 1, head);
+  make_author_head(5, 40, 6, 1, other);
+  const uint16_t first = 4, last = static_cast<uint16_t>(other.bones.size() - 1);
+  std::reverse(other.bones.begin() + first, other.bones.end());
+  for (uint16_t& joint : other.joints) {
+    if (joint >= first) joint = static_cast<uint16_t>(first + last - joint);
+  }
+  Fitted a(head), b(other);
+  EXPECT_NEAR(a.error(head), b.error(other), 0.02 * a.error(head));
+  // Translations are solved at once, so they are the same.
+  FitOptions translations;
+  translations.rotations = false;
+  const Fitted x(head, translations), y(other, translations);
+  for (size_t s = 0; s < head.shapes.size(); ++s) {
+    for (uint32_t j = first; j <= last; ++j) {
+      const uint32_t there = first + last - j;
+      EXPECT_EQ(x.motions.active_in(s)[j], y.motions.active_in(s)[there]);
+      EXPECT_LT(difference(x.motions.of(s)[j], y.motions.of(s)[there]), 1e-6);
+    }
+  }
+}
+
 TEST(FitShapes, AnUnusedControlChangesNothing) {
   AuthorSetup head, more;
   make_author_head(6, 16, 4, 1, head);

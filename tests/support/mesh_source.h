@@ -97,10 +97,8 @@ struct TestMesh {
   }
 };
 
-/// The skin of the procedural head at a LOD, with its expressions if wanted.
-inline TestMesh procedural_mesh(uint32_t lod, bool with_shapes) {
-  AuthorSetup setup;
-  make_author_head(lod, 8, 4, 1, setup);
+/// The mesh of a setup, with its expressions if wanted.
+inline TestMesh mesh_of(const AuthorSetup& setup, bool with_shapes) {
   TestMesh out;
   for (const Vec3& p : setup.positions) out.vertex(p.x, p.y, p.z);
   for (size_t f = 0; f + 1 < setup.face_starts.size(); ++f) {
@@ -116,6 +114,13 @@ inline TestMesh procedural_mesh(uint32_t lod, bool with_shapes) {
     }
   }
   return out;
+}
+
+/// The skin of the procedural head at a LOD, with its expressions if wanted.
+inline TestMesh procedural_mesh(uint32_t lod, bool with_shapes) {
+  AuthorSetup setup;
+  make_author_head(lod, 8, 4, 1, setup);
+  return mesh_of(setup, with_shapes);
 }
 
 /// A UV sphere, as an eyeball or a head without a face.

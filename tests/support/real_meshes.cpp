@@ -9,10 +9,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <queue>
 #include <sstream>
 
-#include "runtime/author/random.h"
 #include "tests/support/golden.h"
 
 namespace mien::author {
@@ -158,147 +156,12 @@ bool load_makehuman(AuthorSetup& out) {
   return true;
 }
 
-namespace {
-
-/// k-means++ and Lloyd, the better of two.
-std::vector<Vec3> find_means(const std::vector<Vec3>& points, const std::vector<double>& weights,
-                             uint32_t count) {
-  Random random = Random::from_seed(1, 1);
-  std::vector<Vec3> best;
-  double best_energy = 1e300;
-  for (int run = 0; run < 2; ++run) {
-    std::vector<Vec3> means = {points[random.below(static_cast<uint32_t>(points.size()))]};
-    std::vector<double> nearest(points.size(), 1e300);
-    while (means.size() < count) {
-      double all = 0;
-      for (size_t i = 0; i < points.size(); ++i) {
-        const Vec3 d = points[i] - means.back();
-        nearest[i] = std::min(nearest[i], dot(d, d));
-        all += nearest[i] * weights[i];
-      }
-      double left = random.real() * all;
-      size_t i = 0;
-      while (i + 1 < points.size() && (left -= nearest[i] * weights[i]) > 0) ++i;
-      means.push_back(points[i]);
-    }
-    double energy = 0;
-    for (int round = 0; round < 12; ++round) {
-      energy = 0;
-      std::vector<Vec3> sums(count);
-      std::vector<double> masses(count);
-      for (size_t i = 0; i < points.size(); ++i) {
-        size_t group = 0;
-        double least = 1e300;
-        for (size_t j = 0; j < count; ++j) {
-          const Vec3 d = points[i] - means[j];
-          if (dot(d, d) < least) least = dot(d, d), group = j;
-        }
-        sums[group] = sums[group] + points[i] * weights[i];
-        masses[group] += weights[i];
-        energy += least * weights[i];
-      }
-      for (size_t j = 0; j < count; ++j) {
-        if (masses[j] > 0) means[j] = sums[j] * (1 / masses[j]);
-      }
-    }
-    if (energy < best_energy) best_energy = energy, best = means;
-  }
-  return best;
-}
-
-}  // namespace
-
-void add_bones_and_weights(uint32_t count, uint32_t influences, AuthorSetup& out) {
-  const size_t n = out.positions.size();
-  std::vector<double> motion(n);
-  for (const std::vector<Vec3f>& shape : out.displacements) {
-    for (size_t v = 0; v < n; ++v) {
-      const Vec3 d = {double{shape[v].x}, double{shape[v].y}, double{shape[v].z}};
-      motion[v] += dot(d, d) / static_cast<double>(out.displacements.size());
-    }
-  }
-  double mean = 0;
-  for (double& m : motion) {
-    m = std::sqrt(m);
-    mean += m / static_cast<double>(n);
-  }
-  std::vector<Vec3> points;
-  std::vector<double> weights;
-  for (uint32_t v = 0; v < n; ++v) {
-    if (motion[v] < 1e-4) continue;
-    out.mask.push_back(v);
-    points.push_back(out.positions[v]);
-    weights.push_back(0.15 + motion[v] / mean);
-  }
-  out.add_trunk();
-  const std::vector<Vec3> means = find_means(points, weights, count);
-  for (uint32_t j = 0; j < count; ++j) {
-    out.add_bone("FACIAL_" + std::to_string(j), means[j], BoneKind::kFacial, 3);
-  }
-
-  // The nearest bones along the surface, from where each comes closest to it.
-  std::vector<std::vector<std::pair<uint32_t, double>>> neighbors(n);
-  for (size_t i = 0; i < out.triangles.size(); ++i) {
-    const uint32_t a = out.triangles[i], b = out.triangles[i % 3 == 2 ? i - 2 : i + 1];
-    const double edge = length(out.positions[a] - out.positions[b]);
-    neighbors[a].push_back({b, edge});
-    neighbors[b].push_back({a, edge});
-  }
-  struct Step {
-    double way;
-    uint32_t vertex, bone;
-    bool operator<(const Step& o) const { return way > o.way; }
-  };
-  std::priority_queue<Step> steps;
-  std::vector<double> depth(count);
-  for (uint32_t j = 0; j < count; ++j) {
-    uint32_t nearest = 0;
-    for (uint32_t v = 1; v < n; ++v) {
-      if (length(out.positions[v] - means[j]) < length(out.positions[nearest] - means[j])) {
-        nearest = v;
-      }
-    }
-    depth[j] = length(out.positions[nearest] - means[j]);
-    steps.push({0, nearest, j});
-  }
-  const size_t m = influences;
-  std::vector<std::vector<std::pair<double, uint32_t>>> found(n);
-  while (!steps.empty()) {
-    const Step s = steps.top();
-    steps.pop();
-    auto& here = found[s.vertex];
-    const auto same = [&](const std::pair<double, uint32_t>& f) { return f.second == s.bone; };
-    if (here.size() > m || std::any_of(here.begin(), here.end(), same)) continue;
-    here.push_back({s.way, s.bone});
-    for (const auto& [v, edge] : neighbors[s.vertex]) {
-      if (found[v].size() <= m) steps.push({s.way + edge, v, s.bone});
-    }
-  }
-  out.joints.assign(n * m, 0);
-  out.weight_values.assign(n * m, 0);
-  for (size_t v = 0; v < n; ++v) {
-    auto& here = found[v];
-    for (auto& [way, bone] : here) way = std::max(1e-6, std::hypot(way, depth[bone]));
-    std::sort(here.begin(), here.end());
-    const double radius = here.size() > m ? here[m].first * 1.0001 : 1e9;
-    const size_t used = std::min(m, here.size());
-    double sum = 0;
-    std::vector<double> w(used);
-    for (size_t i = 0; i < used; ++i) {
-      const double x = (radius - here[i].first) / (radius * here[i].first);
-      w[i] = x * x;
-      sum += w[i];
-    }
-    if (used == 0) {
-      out.joints[v * m] = 2;  // head
-      out.weight_values[v * m] = 1;
-    }
-    for (size_t i = 0; i < used; ++i) {
-      out.joints[v * m + i] = static_cast<uint16_t>(4 + here[i].second);
-      out.weight_values[v * m + i] = static_cast<float>(w[i] / sum);
-    }
-  }
-  out.finish(influences);
+bool load_mediapipe(AuthorSetup& out) {
+  Obj obj;
+  if (!read_obj(real_mesh_folder() + "/mediapipe/canonical_face_model.obj", obj)) return false;
+  take(
+      obj, 1, [](size_t) { return true; }, out);
+  return true;
 }
 
 }  // namespace mien::author

@@ -247,6 +247,7 @@ void write_weights(const char* key, const WeightReport& weights, Json& json) {
   json.key(key).open("{");
   json.key("influences").whole(weights.max_influences);
   json.key("worst_sum").number(weights.worst_sum);
+  json.key("least").number(weights.least);
   json.key("split_supports").whole(weights.split_supports);
   json.key("roughness").number(weights.roughness);
   json.key("idle_bones").whole(weights.idle_bones);

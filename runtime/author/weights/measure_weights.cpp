@@ -55,6 +55,7 @@ bool measure_weights(const AuthorMesh& mesh, const Placement& placement, const S
     for (uint32_t i = 0; i < m; ++i) {
       const float weight = weights.weights[size_t{v} * m + i];
       sum += double{weight};
+      if (weight != 0) out.least = std::min(out.least, double{weight});
       used += weight > 0;
     }
     out.worst_sum = std::max(out.worst_sum, std::abs(sum - 1));

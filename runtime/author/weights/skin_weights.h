@@ -29,6 +29,7 @@ enum class Carrier : uint8_t { kSkin, kRigid, kNearestSkin };
 
 struct WeightReport {
   double worst_sum = 0;  // largest |sum - 1| of a vertex
+  double least = 1;      // smallest weight but for 0
   uint32_t max_influences = 0;
   uint32_t split_supports = 0;  // bones whose vertices are in several pieces
   double roughness = 0;         // 95th percentile over edges of |w_a - w_b| spacing / length

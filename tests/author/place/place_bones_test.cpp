@@ -6,64 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "runtime/author/place/place.h"
 #include "runtime/author/place/rank.h"
-#include "tests/support/mesh_source.h"
+#include "tests/support/placed_bones.h"
 
 namespace mien::author {
 namespace {
-
-struct Placed {
-  Arena arena{default_allocator()};
-  ReadMesh read;
-  Placement placement;
-  PlaceReport report;
-  Error error;
-  Status status;
-
-  Placed(const Placed&) = delete;
-  explicit Placed(TestMesh mesh, const PlaceOptions& options = {}) {
-    status = read_mesh(mesh.source(), arena, default_allocator(), read, error);
-    if (status != Status::kOk) return;
-    status =
-        place_bones(read.mesh, options, {}, arena, default_allocator(), placement, report, error);
-  }
-  Span<const Bone> facial() const {
-    return placement.bones.slice(placement.first_facial, placement.facial_count);
-  }
-  const Bone& bone(BoneKind kind) const {
-    for (const Bone& bone : placement.bones) {
-      if (bone.kind == kind) return bone;
-    }
-    ADD_FAILURE() << "no bone of kind " << int(kind);
-    return placement.bones[0];
-  }
-};
-
-PlaceOptions with_joints(uint32_t joints) {
-  PlaceOptions options;
-  options.facial_joints = joints;
-  return options;
-}
-
-double objective(const Placed& placed, const std::vector<Vec3>& bones) {
-  double sum = 0;
-  for (uint32_t v : placed.placement.mask) {
-    double best = 1e300;
-    for (const Vec3& b : bones) {
-      const Vec3 d = placed.read.mesh.positions[v] - b;
-      best = std::min(best, dot(d, d));
-    }
-    sum += best;
-  }
-  return sum;
-}
-
-std::vector<Vec3> places(Span<const Bone> bones) {
-  std::vector<Vec3> out;
-  for (const Bone& bone : bones) out.push_back(bone.position);
-  return out;
-}
 
 TEST(PlaceBones, PutsNeckHeadAndFaceWhereTheyAreOnAHead) {
   const Placed placed(procedural_mesh(3, false), with_joints(60));
@@ -88,81 +35,6 @@ TEST(PlaceBones, PutsNeckHeadAndFaceWhereTheyAreOnAHead) {
   }
 }
 
-TEST(PlaceBones, ReachesAFixedPointWithAnObjectiveThatNeverRises) {
-  for (const bool paper : {false, true}) {
-    PlaceOptions options = with_joints(80);
-    options.paper = paper;
-    const Placed placed(procedural_mesh(3, true), options);
-    ASSERT_EQ(placed.status, Status::kOk);
-    for (uint32_t r = 0; r < placed.report.run_count; ++r) {
-      const KMeansRun& run = placed.report.runs[r];
-      EXPECT_TRUE(run.never_rose) << r;
-      EXPECT_TRUE(run.converged || run.rounds == kMaxRounds) << r;
-      EXPECT_GE(run.objective, placed.report.runs[placed.report.chosen_run].objective) << r;
-    }
-  }
-}
-
-TEST(PlaceBones, BeatsAGridAndRandomVertices) {
-  PlaceOptions options = with_joints(100);
-  options.symmetry = Symmetry::kOff;
-  const Placed placed(procedural_mesh(2, false), options);
-  ASSERT_EQ(placed.status, Status::kOk);
-  const std::vector<Vec3> bones = places(placed.facial());
-  const double ours = objective(placed, bones);
-  const Span<const Vec3> all = placed.read.mesh.positions;
-  const Span<const uint32_t> mask = placed.placement.mask;
-  // At the mask vertex nearest to each place of a grid of 10 by 10 in x and y.
-  Vec3 low = all[mask[0]], high = low;
-  for (uint32_t v : mask) {
-    low = {std::min(low.x, all[v].x), std::min(low.y, all[v].y), 0};
-    high = {std::max(high.x, all[v].x), std::max(high.y, all[v].y), 0};
-  }
-  std::vector<Vec3> grid;
-  for (int i = 0; i < 100; ++i) {
-    const double x = low.x + (high.x - low.x) * (i % 10 + 0.5) / 10;
-    const double y = low.y + (high.y - low.y) * (i / 10 + 0.5) / 10;
-    uint32_t best = mask[0];
-    const auto off = [&](uint32_t v) { return std::hypot(all[v].x - x, all[v].y - y); };
-    for (uint32_t v : mask) best = off(v) < off(best) ? v : best;
-    grid.push_back(all[best]);
-  }
-  EXPECT_LT(ours, 0.70 * objective(placed, grid));
-  // The mean of many draws.
-  double chance = 0;
-  const int kDraws = 40;
-  Random random = Random::from_seed(5, 5);
-  for (int draw = 0; draw < kDraws; ++draw) {
-    std::vector<Vec3> points;
-    for (int i = 0; i < 100; ++i) {
-      points.push_back(all[mask[random.below(static_cast<uint32_t>(mask.count))]]);
-    }
-    chance += objective(placed, points) / kDraws;
-  }
-  EXPECT_LT(ours, 0.50 * chance);
-}
-
-TEST(PlaceBones, IsWithinThreePercentOfTheBestOfThirtyTwoStarts) {
-  for (const uint32_t count : {40u, 60u, 80u, 120u}) {
-    PlaceOptions options = with_joints(count);
-    const Placed placed(procedural_mesh(4, false), options);
-    const double ours = placed.report.runs[placed.report.chosen_run].objective;
-    // Runs of k-means++ from other seeds, as they end by themselves.
-    double best = 1e300;
-    uint32_t runs = 0;
-    for (options.seed = 100; runs < 32; ++options.seed) {
-      const Placed other(procedural_mesh(4, false), options);
-      for (uint32_t r = 0; r < other.report.run_count; ++r) {
-        if (other.report.runs[r].start != Start::kPlusPlus) continue;
-        best = std::min(best, other.report.runs[r].objective);
-        ++runs;
-      }
-    }
-    EXPECT_LE(ours, 1.03 * best) << count;
-    EXPECT_EQ(placed.report.runs[placed.report.run_count - 1].start, Start::kSwaps);
-  }
-}
-
 TEST(PlaceBones, SwapsOfMeansOnlyLowerTheObjective) {
   bool lower = false;
   for (const uint32_t count : {60u, 120u, 240u}) {
@@ -178,109 +50,6 @@ TEST(PlaceBones, SwapsOfMeansOnlyLowerTheObjective) {
     EXPECT_NEAR(swaps.objective, report.lod_objectives[0], 1e-6 * best) << "that of its bones";
   }
   EXPECT_TRUE(lower);
-}
-
-TEST(PlaceBones, MirrorsBonesExactlyOnASymmetricMesh) {
-  const Placed placed(procedural_mesh(3, true), with_joints(61));
-  ASSERT_EQ(placed.status, Status::kOk);
-  ASSERT_TRUE(placed.placement.symmetric);
-  EXPECT_EQ(placed.placement.facial_count, 61u);
-  const Span<const Bone> bones = placed.placement.bones;
-  const double plane = placed.placement.symmetry_plane;
-  for (uint32_t b = placed.placement.first_facial;
-       b < placed.placement.first_facial + placed.placement.facial_count; ++b) {
-    const Bone& twin = bones[bones[b].mirror];
-    EXPECT_EQ(twin.mirror, b);
-    EXPECT_NEAR(bones[b].position.x - plane, plane - twin.position.x, 1e-12);
-    EXPECT_EQ(bones[b].position.y, twin.position.y);
-    EXPECT_EQ(bones[b].position.z, twin.position.z);
-  }
-}
-
-/// The largest distance of a bone to the nearest one of the others, after `back` maps those here.
-template <class Back>
-double worst_distance(const Placed& from, const Placed& to, const Back& back) {
-  double worst = 0;
-  for (const Bone& a : from.placement.bones) {
-    double best = 1e300;
-    for (const Bone& b : to.placement.bones)
-      best = std::min(best, length(a.position - back(b.position)));
-    worst = std::max(worst, best);
-  }
-  return worst;
-}
-
-TEST(PlaceBones, FindsTheSameBonesInShuffledShiftedScaledAndTurnedMeshes) {
-  const PlaceOptions options = with_joints(80);
-  const TestMesh mesh = procedural_mesh(3, true);
-  const Placed placed(mesh, options);
-  ASSERT_EQ(placed.status, Status::kOk);
-  const double close = 1e-4 * placed.read.mesh.diagonal;
-
-  TestMesh shuffled = mesh;
-  shuffled.shuffle(3);
-  EXPECT_LE(worst_distance(placed, Placed(shuffled, options), [](Vec3 p) { return p; }), close);
-
-  TestMesh shifted = mesh;
-  shifted.transform([](double x, double y, double z) {
-    return std::array<double, 3>{x + 120.5, y - 31.25, z + 7};
-  });
-  const Placed there(shifted, options);
-  double worst = 0;  // but for the root, which stays at the origin
-  for (size_t b = 1; b < placed.placement.bones.count; ++b) {
-    const Vec3 p = there.placement.bones[b].position;
-    worst = std::max(worst, length(placed.placement.bones[b].position -
-                                   Vec3{p.x - 120.5, p.y + 31.25, p.z - 7}));
-  }
-  EXPECT_LE(worst, close);
-
-  TestMesh scaled = mesh;
-  scaled.transform([](double x, double y, double z) {
-    return std::array<double, 3>{100 * x, 100 * y, 100 * z};
-  });
-  EXPECT_LE(worst_distance(placed, Placed(scaled, options), [](Vec3 p) { return p * 0.01; }),
-            close);
-  scaled.unit = 0.01;
-  EXPECT_LE(worst_distance(placed, Placed(scaled, options), [](Vec3 p) { return p; }), close);
-
-  TestMesh turned = mesh;  // Z up, -Y to the front
-  turned.transform([](double x, double y, double z) { return std::array<double, 3>{x, -z, y}; });
-  turned.frame = {{0, 2, 1}, {1, 1, -1}};
-  EXPECT_LE(worst_distance(placed, Placed(turned, options), [](Vec3 p) { return p; }), close);
-
-  TestMesh mirrored = mesh;
-  mirrored.transform([](double x, double y, double z) { return std::array<double, 3>{-x, y, z}; });
-  EXPECT_LE(worst_distance(placed, Placed(mirrored, options),
-                           [](Vec3 p) {
-                             return Vec3{-p.x, p.y, p.z};
-                           }),
-            close);
-}
-
-TEST(PlaceBones, NestsTheBonesOfLodsAndLosesLittleByIt) {
-  const Placed placed(procedural_mesh(3, false), with_joints(120));
-  ASSERT_EQ(placed.status, Status::kOk);
-  const Span<const uint32_t> counts = placed.placement.lod_facial_counts;
-  ASSERT_EQ(counts.count, 8u);
-  EXPECT_EQ(counts[0], 120u);
-  for (size_t lod = 1; lod < 8; ++lod) EXPECT_LT(counts[lod], counts[lod - 1]) << lod;
-  for (size_t lod = 0; lod < 8; ++lod) {
-    // Whole pairs: the twin of a bone that stays does so too.
-    for (uint32_t b = 0; b < counts[lod]; ++b) {
-      EXPECT_LT(placed.placement.bones[placed.placement.first_facial + b].mirror,
-                placed.placement.first_facial + counts[lod]);
-    }
-    const Placed free(procedural_mesh(3, false), with_joints(counts[lod]));
-    const double ratio =
-        placed.report.lod_objectives[lod] / free.report.runs[free.report.chosen_run].objective;
-    EXPECT_LE(ratio, counts[lod] >= 60 ? 1.15 : counts[lod] >= 24 ? 1.30 : 1.60) << lod;
-  }
-}
-
-TEST(PlaceBones, LeavesNoPartOfTheFaceWithoutBones) {
-  const Placed placed(procedural_mesh(2, true), with_joints(120));
-  ASSERT_EQ(placed.status, Status::kOk);
-  EXPECT_LT(placed.report.uncovered, 0.01);
 }
 
 TEST(PlaceBones, NumbersFollowTheRankAndNamesAreDifferent) {
