@@ -300,7 +300,7 @@ struct Rig {
   uint32_t lod_count = 0;
   Units units;
 
-  // Control row: raw | PSD | ML | RBF | controls of layers that were not loaded.
+  // Control vector: raw | PSD | ML | RBF | controls of layers that were not loaded.
   uint32_t gui_count = 0, raw_count = 0, psd_count = 0, ml_count = 0, rbf_count = 0;
   uint32_t control_count = 0;
   uint32_t joint_count = 0, channel_count = 0, map_count = 0, mesh_count = 0, mask_count = 0;

@@ -62,7 +62,7 @@ inline uint32_t panel_bit(const JointMatrix& joints, uint32_t panel) {
   return kFirstPanelBit + (panel >> joints.panel_shift);
 }
 
-/// A range of the control row.
+/// A range of the control vector.
 struct ControlRange {
   uint32_t first = 0, end = 0;
 };

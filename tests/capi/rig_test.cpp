@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What mien.h tells about a rig: names and numbers, the control row, the neutral pose.
+// What mien.h tells about a rig: names and numbers, the control vector, the neutral pose.
 #include <cmath>
 
 #include "tests/support/rig_handles.h"

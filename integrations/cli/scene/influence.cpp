@@ -45,7 +45,7 @@ State state_of(PosedScene& scene, const Frame& frame) {
   return state;
 }
 
-/// Numbers of the control row by kind.
+/// Numbers of the control vector by kind.
 struct Row {
   uint32_t raw, psd, ml, rbf;  // counts
 

@@ -46,9 +46,9 @@ class Status(IntEnum):
     OK = 0
     #: a required pointer is NULL
     NULL_ARGUMENT = 1
-    #: a value outside its range, or a buffer that is too small
+    #: a value out of range, or a buffer that is too small
     INVALID_ARGUMENT = 2
-    #: struct_size is too small or above 4096, or unknown fields are not zero
+    #: struct_size is too small or above 4096, or a field unknown to the library is not zero
     STRUCT_SIZE = 3
     #: a handle of the wrong kind
     HANDLE = 4
@@ -56,15 +56,15 @@ class Status(IntEnum):
     MISMATCH = 5
     #: an index past the end
     INDEX = 6
-    #: a LOD that does not exist, or that the object has no memory for
+    #: a LOD that does not exist, or for which the object has no memory
     LOD = 7
     #: no such name or path
     NAME = 8
-    #: an instruction set that this CPU or build lacks
+    #: an instruction set that the CPU or the build does not support
     ISA = 9
     #: the allocator returned NULL
     MEMORY = 10
-    #: this build of the library opens baked files only
+    #: this build of the library only opens baked files
     UNSUPPORTED = 11
     #: the file cannot be opened
     FILE_OPEN = 20
@@ -74,9 +74,9 @@ class Status(IntEnum):
     FILE_WRITE = 22
     #: not a DNA file
     DNA_SIGNATURE = 30
-    #: a DNA file of a generation other than 2
+    #: a DNA file whose generation is not 2
     DNA_VERSION = 31
-    #: the file is shorter than its header or counts state
+    #: the file ends before the data that its header or counts announce
     DNA_TRUNCATED = 32
     #: offsets, sizes or counts contradict each other
     DNA_STRUCTURE = 33
@@ -86,29 +86,29 @@ class Status(IntEnum):
     DNA_LIMIT = 35
     #: a required layer is not loaded or not in the file
     DNA_LAYER = 36
-    #: a value without a meaning, or one that cannot be converted
+    #: an invalid value, or one that cannot be converted
     DNA_VALUE = 37
     #: not a baked file
     BAKED_SIGNATURE = 50
-    #: baked by another version or for another kind of machine
+    #: baked by another version of Mien, or for the other byte order
     BAKED_VERSION = 51
     #: the file is shorter than its header states
     BAKED_TRUNCATED = 52
     #: sizes, counts or indices contradict each other
     BAKED_STRUCTURE = 53
-    #: the bytes are not those that were written
+    #: the file has changed since it was written
     BAKED_CHECKSUM = 54
     #: the file does not contain the requested object
     BAKED_PART = 55
     #: not a clip
     CLIP_SIGNATURE = 60
-    #: built by another version
+    #: a clip in another version of the format
     CLIP_VERSION = 61
     #: the clip is shorter than its header states
     CLIP_TRUNCATED = 62
     #: sizes, counts or curves contradict each other
     CLIP_STRUCTURE = 63
-    #: the bytes are not those that were written
+    #: the clip has changed since it was written
     CLIP_CHECKSUM = 64
     #: a value that is not finite
     CLIP_VALUE = 65
@@ -116,15 +116,15 @@ class Status(IntEnum):
     CLIP_LIMIT = 66
     #: not a mix
     MIX_SIGNATURE = 70
-    #: written by another version
+    #: a mix in another version of the format
     MIX_VERSION = 71
     #: the file is shorter than its header states
     MIX_TRUNCATED = 72
     #: sizes or counts contradict each other, or a value is out of range
     MIX_STRUCTURE = 73
-    #: the bytes are not those that were written
+    #: the mix has changed since it was written
     MIX_CHECKSUM = 74
-    #: arrays of a mesh, shape or bone contradict each other
+    #: the arrays of a mesh, shape or bone contradict each other
     AUTHOR_MESH = 80
     #: a mesh that cannot be rigged; the message names the rule
     AUTHOR_REFUSED = 81
@@ -152,7 +152,7 @@ class Layer(IntFlag):
 
 
 class UnknownLayers(IntEnum):
-    """Layers of kinds that Mien does not know."""
+    """What to do with layers of unknown kinds."""
 
     #: keep their bytes and write them back unchanged
     KEEP = 0
@@ -162,9 +162,9 @@ class UnknownLayers(IntEnum):
 class FileAccess(IntEnum):
     """Values of enum MienFileAccess of the C interface."""
 
-    #: map the file; read it into memory if it cannot be mapped, as pipes
+    #: map the file; read it into memory if it cannot be mapped, such as a pipe
     MAP = 0
-    #: read the whole file into memory: safe if it is truncated later
+    #: read the whole file into memory: safe even if it is truncated later
     READ = 1
 
 
@@ -206,8 +206,8 @@ class RotationSequence(IntEnum):
 
 
 class FaceWinding(IntEnum):
-    """The side of a face a b c ... that (b - a) x (c - a) points to, computed from the coordinates
-    in the file, whichever way the axes point.
+    """The side of a face a b c ... to which (b - a) x (c - a) points. The cross product is
+    computed from the coordinates in the file, whatever the directions of its axes.
     """
 
     #: seen from outside: counter-clockwise with right-handed axes, clockwise with left-handed axes
@@ -216,20 +216,19 @@ class FaceWinding(IntEnum):
 
 
 class RotationRule(IntEnum):
-    """How Euler angles are converted to other axes. Joint values are sums of angles, which are
-    valid in one rotation sequence only: the first rule is the only one that is exact for all
-    rigs.
+    """How Euler angles are converted to other axes. Joint values are sums of angles, which have a
+    meaning in one rotation sequence only. So only the first rule is exact for all rigs.
     """
 
-    #: the sequence of the file, about the renamed axes: where x becomes z, xyz becomes zyx, xzy
-    #: becomes zxy, and so on
+    #: keep the sequence of the file and rename its axes: if x and z are exchanged, xyz becomes
+    #: zyx, xzy becomes zxy, and so on
     CARRIED = 0
     #: the requested sequence. Neutral poses, quaternion joints, twists, swings, ML joints and
     #: joints that rotate about one axis only are converted exactly; rigs with other joints are
     #: rejected with Status.DNA_VALUE
     EXACT = 1
-    #: the requested sequence, each column of the joint matrix on its own: exact while one control
-    #: is 1 and the others are 0, approximate for small angles
+    #: the requested sequence, converting each column of the joint matrix separately: exact if one
+    #: control is 1 and all others are 0, otherwise an approximation for small angles
     PER_COLUMN = 2
 
 
@@ -238,7 +237,7 @@ class FieldType(IntEnum):
 
     #: named fields
     RECORD = 0
-    #: records, strings or arrays; element i has the path of the list + [i]
+    #: records, strings or arrays; element i is at the path of the list + [i]
     LIST = 1
     STRING = 2
     #: numbers: one, or an array
@@ -276,7 +275,7 @@ class Isa(IntEnum):
 
 
 class RotationOutput(IntEnum):
-    """Form of the rotations among the joint values."""
+    """How joint values store rotations."""
 
     #: 9 values per joint: tx ty tz rx ry rz sx sy sz
     EULER = 0
@@ -290,39 +289,40 @@ class MlMasks(IntEnum):
     """
 
     #: 0: the outputs of the networks get their default (0, or 1 for the w of a quaternion). Other
-    #: values: the networks are evaluated. This is what files are made for.
+    #: values: the networks are evaluated. This is the behavior that DNA files are authored for.
     SWITCH = 0
     #: outputs are blended with their default by the mask, clamped to 0..1
     BLEND = 1
 
 
 class Storage(IntEnum):
-    """Storage of the large arrays that evaluation reads. Sums and results are 32-bit floats with
-    both. See docs/rig-evaluation.md, 4.9 "16-bit storage".
+    """How the large arrays that evaluation reads are stored. Sums and results are always 32-bit
+    floats. See docs/rig-evaluation.md, 4.9 "16-bit storage".
     """
 
     BIT_32 = 0
     #: half the memory. Network weights and columns of quaternion joints are IEEE half floats
     #: (rounded to nearest even, at most 65504 in magnitude); the joint matrix is 16-bit fixed
-    #: point, in units of the largest entry of the row / 32767
+    #: point, in units of 1/32767 of the largest entry of the row
     BIT_16 = 1
 
 
 class Arithmetic(IntEnum):
-    """On which instruction sets results have the same bits. See docs/numbers.md, 5 "Portable
+    """Which instruction sets give bit-identical results. See docs/numbers.md, 5 "Portable
     arithmetic".
     """
 
-    #: among AVX2, AVX-512 and NEON, which fuse multiply and add; and among scalar and SSE2
+    #: AVX2, AVX-512 and NEON, which fuse multiply and add, agree with each other; scalar and SSE2
+    #: agree with each other
     FAST = 0
-    #: on all, by not fusing anywhere. Rigs made of a DNA file are the same as far as the sine of
-    #: the C library is; a baked rig has the same bits on every machine.
+    #: all agree, because nothing is fused. A baked rig gives the same bits on every machine; a rig
+    #: created from a DNA file does if the C libraries compute the same sines.
     PORTABLE = 1
 
 
 class Reuse(IntEnum):
     """Whether an instance keeps results whose inputs have not changed since its last evaluation.
-    Results have the same bits with both.
+    The results are bit-identical either way.
     """
 
     UNCHANGED = 0
@@ -331,11 +331,11 @@ class Reuse(IntEnum):
 
 
 class Kind(IntEnum):
-    """Parts of a rig that are counted, most of them with names."""
+    """Kinds of parts of a rig. Most have names."""
 
     GUI_CONTROL = 0
     RAW_CONTROL = 1
-    #: correctives. DNA files have no names for them; here "psd0", "psd1", ...
+    #: correctives; unnamed in DNA files, here "psd0", "psd1", ...
     PSD_CONTROL = 2
     ML_CONTROL = 3
     RBF_CONTROL = 4
@@ -349,7 +349,7 @@ class Kind(IntEnum):
     JOINT_GROUP = 10
     #: without names
     RBF_SOLVER = 11
-    #: without names: a swing and the twists of the same inputs, or a twist alone
+    #: without names: a swing and the twists with the same inputs, or a twist alone
     TWIST_SWING = 12
 
 
@@ -370,12 +370,12 @@ class Stage(IntFlag):
 
 
 class Compose(IntEnum):
-    """How neutral rotation and delta of a joint are combined."""
+    """How the neutral rotation of a joint is combined with its delta."""
 
     #: neutral rotation * delta rotation: the delta rotates first
     PRODUCT = 0
-    #: the angles are added; requires RotationOutput.EULER. The same as the product where the
-    #: neutral rotation is zero.
+    #: the angles are added; requires RotationOutput.EULER. Equals the product where the neutral
+    #: rotation is zero.
     EULER_ADD = 1
 
 
@@ -388,20 +388,21 @@ class Weights(IntEnum):
 
 
 class Normals(IntEnum):
-    """Normals of deformed meshes; they have unit length. Normals without a direction (no area, no
-    faces) are the neutral ones. See docs/deformation.md, 3 "Normals".
+    """Normals of deformed meshes; they have unit length. Where no normal can be computed (no
+    faces, or faces without area), the neutral one is used. See docs/deformation.md, 3
+    "Normals".
     """
 
-    #: those of MienDeformerDesc.normals; there: recomputed
+    #: as MienDeformerDesc.normals says; in that field: recomputed
     DEFAULT = 0
-    #: leave normals as they are
+    #: leave normals unchanged
     NONE = 1
-    #: neutral normals rotated by the skin, correct for any scale; blend shape targets have no
-    #: influence
+    #: neutral normals rotated by the skinning, correct for any scale; blend shape targets have no
+    #: effect
     SKINNED = 2
-    #: the sum of the area vectors of the faces around the position. On hard edges, where this
-    #: differs from the stored normal by more than 30 degrees in the neutral pose, the stored
-    #: normal is rotated as the sum has rotated since.
+    #: the area-weighted mean of the normals of the faces around the position. On hard edges, where
+    #: this differs from the stored normal by more than 30 degrees in the neutral pose, the stored
+    #: normal is rotated by the rotation of this mean from the neutral pose.
     RECOMPUTED = 3
 
 
@@ -427,8 +428,8 @@ class VertexFormat(IntEnum):
 class BakedCheck(IntEnum):
     """What is checked when a baked file is used."""
 
-    #: all sizes, counts and indices: whatever the bytes are, no access is out of bounds. Numbers
-    #: are not checked, so their pages are read from disk when they are first used.
+    #: all sizes, counts and indices, so that no access is out of bounds whatever the bytes are.
+    #: Floats are not checked, so their pages are read from disk only when first used.
     SAFE = 0
     #: also the checksum of all bytes, which reads the whole file
     FULL = 1
@@ -446,17 +447,19 @@ class Looping(IntEnum):
 
 
 class Interpolation(IntEnum):
-    """How values between two frames are computed. They stay within the range of the two."""
+    """How values between two frames are computed. They stay within the range of these two frames.
+    """
 
     LINEAR = 0
     #: the value of the earlier frame
     STEP = 1
-    #: a Catmull-Rom spline, clamped to the range of the two frames
+    #: a Catmull-Rom spline, clamped to that range
     CATMULL_ROM = 2
 
 
 class LayerGroup(IntEnum):
-    """What a layer is for. Guards protect the result of base and speech from the other groups."""
+    """The purpose of a layer. Guards protect the result of base and speech from the other groups.
+    """
 
     BASE = 0
     SPEECH = 1
@@ -467,15 +470,15 @@ class LayerGroup(IntEnum):
 
 
 class BlendMode(IntEnum):
-    """How a layer changes a lane: o is the value so far, x that of the layer, a = weight * mask. A
-    lane for which the source of the layer has no value does not change.
+    """How a layer changes a lane: o is the value so far, x the value of the layer, a = weight *
+    mask. Lanes for which the layer's source has no value do not change.
     """
 
     #: o + a (x - o)
     OVERRIDE = 0
     #: o + a x
     ADD = 1
-    #: o + a x (1 - p), for x < 0 o + a x p; p is o clamped to 0 ... 1
+    #: o + a x (1 - p), or o + a x p if x < 0; p is o clamped to 0..1
     SCREEN = 2
     #: o + a max(0, x - o)
     MAX = 3
@@ -499,25 +502,25 @@ class LayerSource(IntEnum):
 class Generator(IntEnum):
     """What a layer generates from the seed of the mixer and the time."""
 
-    #: every `period` on average, at least 0.5 s apart. The wait starts over when earlier layers
-    #: raise the first lane above 0.6
+    #: blinks every `period` on average, at least 0.5 s apart. The wait starts over when earlier
+    #: layers raise the first lane above 0.6
     BLINK = 0
-    #: 0 to 1 in 40 % of the period, back to 0 in the rest
+    #: rises from 0 to 1 in 40 % of the period, then falls back to 0
     BREATH = 1
-    #: smooth between -1 and 1; a new random value every period
+    #: smooth noise between -1 and 1 with a new random value every period
     NOISE = 2
-    #: turns the eyes to a place with saccades: MienMixDesc.gaze. `lanes` are the left, up and
-    #: front of a MienGazeTarget, as earlier layers made them, then, if wanted, two lanes that get
-    #: what is left for the head, a MienGazeRest. `amounts` are fixation jitter across and up in
-    #: degrees, 0, and factors for the two lanes of the head. Blinks of the mix follow shifts of 20
-    #: degrees and more
+    #: turns the eyes to a target with saccades, by MienMixDesc.gaze. `lanes` are three lanes with
+    #: the left, up and front of a MienGazeTarget, read after the earlier layers, then optionally
+    #: two lanes that get the part left for the head (MienGazeRest). `amounts` are fixation jitter
+    #: sideways and up in degrees, 0, and factors for the two head lanes. Shifts of 20 degrees or
+    #: more make the blink layers of the mix blink
     GAZE = 3
 
 
 class Retrigger(IntEnum):
-    """What a trigger does while the reaction runs."""
+    """What a trigger does while the reaction is already running."""
 
-    #: extends the stimulus; strokes that ended or release start again
+    #: extends the stimulus; strokes that are releasing or over start again
     EXTEND = 0
     #: all strokes start again, at most once per cooldown
     RESTART = 1
@@ -525,8 +528,8 @@ class Retrigger(IntEnum):
 
 
 class Guard(IntFlag):
-    """Guards: distances in the face that emotions and reactions must not open while speech or a
-    blink closes them. Bits of MienMixDesc.guards.
+    """Built-in guards: gaps that emotions and reactions must not open while speech or a blink
+    closes them. Bits of MienMixDesc.guards.
     """
 
     #: between the lips, left, center and right, and from lower lip to upper teeth
@@ -539,12 +542,12 @@ class Guard(IntFlag):
 
 
 class Transition(IntEnum):
-    """How a layer changes to another clip. A layer that plays nothing fades in, except with a cut.
+    """How a layer changes to another clip. A layer that plays no clip fades in, except with a cut.
     """
 
     #: the old clip stops; each lane blends from its last value and speed
     INERTIAL = 0
-    #: both play; without a free player, as Transition.INERTIAL
+    #: both clips play; Transition.INERTIAL if no player is free
     CROSSFADE = 1
     #: immediate; transition_ticks is not used
     CUT = 2
@@ -2756,7 +2759,7 @@ class CoordinateSystem(NamedTuple):
       rotation_rule: RotationRule
       rotation_sequence: RotationSequence; ignored with RotationRule.CARRIED
       rotation_signs: of the angles about x, y, z. 1: rotates y to z, z to x, x to y. -1: the
-        other way. 0: the sign that leaves angles unchanged
+        other way. 0: whichever leaves the angles unchanged
       face_winding: FaceWinding
     """
 
@@ -2849,11 +2852,11 @@ class DnaLayer(NamedTuple):
     """An entry of the index table of the file. Files of version 2.1 have no index table; their
     sections are listed as the layers desc, defn, bhvr and geom.
 
-      layer: Layer that loads it. Layer.UNKNOWN: of an unknown kind
+      layer: Layer that loads it. Layer.UNKNOWN: no known kind
       version_major: of the layer: version_major.version_minor
-      is_loaded: it was read, not skipped or kept unread
+      is_loaded: it was parsed, not skipped or kept as bytes
       byte_offset: of its first byte in the file
-      code: such as "bhvr"; terminated
+      code: such as "bhvr"; null-terminated
     """
 
     layer: Layer
@@ -2875,11 +2878,11 @@ class DnaField(NamedTuple):
     """Copy of a MienDnaField.
 
       type: FieldType
-      is_array: an array of numbers, even if it has one element; not a single number or an element
-        of an array
+      is_array: an array of numbers, even if it has only one element; not a single number, nor an
+        element of an array
       count: elements of an array or list, bytes of a string, fields of a record; 1 for a number
-      byte_offset: of the bytes of a string, of an array or of one of its elements in the file;
-        None: other fields, and data that is not in the file
+      byte_offset: of a string, an array or an element of an array in the file; None: other
+        fields, and data that is not in the file
     """
 
     type: FieldType
@@ -2898,7 +2901,7 @@ class Finding(NamedTuple):
 
       severity: Severity
       status: the status of the failure; Status.OK for a warning
-      byte_offset: in the file; None: not about a place in the file
+      byte_offset: where in the file; None: nowhere in particular
       field: path as for mien_dna_field(), or the code of a layer
       message: what is wrong
     """
@@ -2924,7 +2927,7 @@ class RigInfo(NamedTuple):
       axes: Direction of x, y, z
       rotation_sequence: RotationSequence
       rotation_signs: 1 or -1, for the angles about x, y, z
-      control_count: length of the control row: raw, PSD, ML, RBF controls
+      control_count: length of the control vector: raw, PSD, ML, RBF controls
       joint_value_count: 9 or 10 per joint
       rotation_output: RotationOutput
       storage: Storage
@@ -2959,7 +2962,7 @@ class RigInfo(NamedTuple):
 
 
 class RigStatistics(NamedTuple):
-    """The work of an evaluation at a LOD, if all controls are active.
+    """The work of an evaluation at a LOD when all controls are active.
 
       psd_count: correctives computed
       joint_count: joints of the LOD
@@ -2968,8 +2971,9 @@ class RigStatistics(NamedTuple):
       animated_map_row_count: rows of the animated map table
       rbf_solver_count: RBF solvers of the LOD
       quaternion_joint_count: quaternion joints
-      joint_entry_count: of the joint matrix: 8 per block that is not all zeros
-      joint_byte_count: of the joint matrix; columns of controls that are 0 are not read
+      joint_entry_count: stored in the joint matrix: 8 per block that is not all zeros
+      joint_byte_count: of the joint matrix; an evaluation does not read the columns of controls
+        that are 0
     """
 
     lod: int
@@ -2992,11 +2996,11 @@ class RigStatistics(NamedTuple):
 
 class InstanceStatistics(NamedTuple):
     """What the joint stage reads for the current controls, at the LOD of the last evaluation
-    (initially LOD 0), if it reuses no results. Bytes are counted once, whatever the caches
-    hold.
+    (initially LOD 0), if it reuses no results. Each byte is counted once, regardless of CPU
+    caches.
 
       lod: of the last evaluation
-      control_count: of the control row: raw, PSD, ML and RBF controls
+      control_count: of the control vector: raw, PSD, ML and RBF controls
       active_control_count: controls that are not 0
       joint_column_count: columns of the joint matrix that active controls drive
       joint_entry_count: of these columns: 8 per block
@@ -3076,8 +3080,8 @@ class ClipInfo(NamedTuple):
       rate_numerator: frames per second, as a fraction
       changing_channel_count: channels whose value is not the same in all frames
       looping: Looping.CLAMP or Looping.WRAP
-      is_delta: values are differences
-      snap: largest step that a channel was rounded to. 0: none was
+      is_delta: as in MienClipDesc
+      snap: largest step to which a channel was rounded. 0: none was
       is_mapped: the file is mapped
       length: ticks
       file_bytes: size of the clip
@@ -3110,14 +3114,14 @@ class ClipInfo(NamedTuple):
 
 
 class ClipChannel(NamedTuple):
-    """A channel of a clip. Block counts, bits and max_error are known after mien_clip_build()
-    only: they are 0 for a clip that was opened.
+    """A channel of a clip. Block counts, bits and max_error are only known for a clip from
+    mien_clip_build(); they are 0 for a clip that was opened.
 
-      rest: value of a channel that does not change, else 0
+      rest: value of a channel that does not change; otherwise 0
       is_changing: the channel has a curve
       zero_blocks: blocks of 64 frames that are zero
       constant_blocks: blocks with one other value
-      grid_blocks: blocks of decimal or binary fractions
+      grid_blocks: blocks whose values are multiples of a decimal or binary fraction
       float_blocks: other blocks
       bits: of all blocks
       max_error: largest error of rounding to a step
@@ -3143,9 +3147,9 @@ class ClipPlayerInfo(NamedTuple):
     """State of a player.
 
       tick: 0 to the length of the clip; with Looping.WRAP less than the length
-      loops: completed since creation or the last seek, 2^61 at most; negative: backward
+      loops: loops completed since creation or the last seek, at most 2^61; negative: backward
       looping: Looping.CLAMP or Looping.WRAP
-      is_damaged: a damaged curve was decoded and gave zeros
+      is_damaged: a damaged curve was played, as zeros
     """
 
     tick: int
@@ -3187,8 +3191,8 @@ class MixerInfo(NamedTuple):
     """State of a mixer.
 
       tick: time since creation
-      event_count: events of clips that the last step passed
-      lost_events: it passed more than MienMixDesc.max_events
+      event_count: clip events that the last step passed
+      lost_events: there were more than MienMixDesc.max_events
     """
 
     tick: int
@@ -3502,7 +3506,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.DNA_LAYER,
          "`dna` was opened without its behavior"),
         (Status.DNA_VALUE,
-         "correctives depend on each other in a circle"),
+         "correctives depend on each other in a cycle"),
     ),
     "mien_rig_info": (),
     "mien_rig_count": (
@@ -3529,7 +3533,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_rig_lod_indices": (
         (Status.INVALID_ARGUMENT,
-         "`kind` is none of these five"),
+         "`kind` is not one of these five"),
         (Status.LOD,
          "the rig has no such LOD"),
     ),
@@ -3634,7 +3638,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INVALID_ARGUMENT,
          "an argument is outside its range"),
         (Status.MISMATCH,
-         "numbers or names of joints, channels or meshes differ from those of the rig"),
+         "the number or the names of joints, channels or meshes differ from those of the"
+         " rig"),
         (Status.ISA,
          "the requested instruction set is not available"),
         (Status.MEMORY,
@@ -3936,7 +3941,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INDEX,
          "the clip has fewer frames"),
         (Status.CLIP_STRUCTURE,
-         "a curve is damaged; its block is zero in `out_values`"),
+         "a curve is damaged; its block in `out_values` is zero"),
     ),
     "mien_clip_player_create": (
         (Status.INVALID_ARGUMENT,
@@ -3968,21 +3973,21 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     "mien_clip_binding_info": (),
     "mien_clip_binding_apply": (
         (Status.INVALID_ARGUMENT,
-         "a count is not that of clip and rig"),
+         "a count differs from that of the clip or the rig"),
     ),
     "mien_clip_binding_snaps": (
         (Status.INVALID_ARGUMENT,
          "`tolerance` is not a number above 0"),
         (Status.MISMATCH,
-         "`channel_count` is not that of the binding, or the binding is of another rig"),
+         "`channel_count` is not that of the binding, or the binding is for another rig"),
         (Status.MEMORY,
-         "there is none"),
+         "that returns NULL"),
     ),
     "mien_mix_create": (
         (Status.INVALID_ARGUMENT,
-         "a part of `desc` is out of range; the message names it"),
+         "a field of `desc` is out of range; the message names it"),
         (Status.MISMATCH,
-         "deformer or gaze are of another rig"),
+         "the deformer or the gaze is for another rig"),
         (Status.INDEX,
          "a landmark names a mesh, position or joint that does not exist"),
         (Status.MEMORY,
@@ -4032,7 +4037,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.NAME,
          "two of these controls have the same name"),
         (Status.MEMORY,
-         "there is none"),
+         "that returns NULL"),
         (Status.FILE_WRITE,
          "the file cannot be written"),
     ),
@@ -4078,8 +4083,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_gaze_create": (
         (Status.INVALID_ARGUMENT,
-         "one of the four directions has no raw control that turns an eye steadily "
-         "farther"),
+         "no raw control turns an eye monotonically in one of the four directions"),
         (Status.NAME,
          "there are no such joints"),
         (Status.MEMORY,
@@ -4100,10 +4104,10 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_mixer_play": (
         (Status.INVALID_ARGUMENT,
-         "a time, speed or enum value is out of range or a clip of differences would "
-         "override"),
+         "a time, speed or enum value is out of range or a delta clip would play in a "
+         "layer that overrides"),
         (Status.MISMATCH,
-         "the binding is of another clip or rig"),
+         "the binding is for another clip or rig"),
         (Status.INDEX,
          "the layer does not exist or has another source"),
         (Status.CLIP_LIMIT,
@@ -4113,7 +4117,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INVALID_ARGUMENT,
          "an argument is outside its range"),
         (Status.INDEX,
-         "the layer does not exist or plays no clips"),
+         "the layer does not exist or is not a clip layer"),
     ),
     "mien_mixer_set_weight": (
         (Status.INVALID_ARGUMENT,
@@ -4165,18 +4169,18 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.MISMATCH,
          "it has another number of channels"),
         (Status.INDEX,
-         "the layer does not exist or is no stream"),
+         "the layer does not exist or is not a stream"),
     ),
     "mien_mixer_step": (
         (Status.INVALID_ARGUMENT,
-         "`ticks` is out of range or leads beyond 2^60 ticks (51 years)"),
+         "`ticks` is out of range or the time would exceed 2^60 ticks (51 years)"),
         (Status.MISMATCH,
          "the instance has another number of raw controls"),
     ),
     "mien_mixer_step_batch": (
         (Status.INVALID_ARGUMENT,
-         "`ticks` is out of range or leads beyond 2^60 ticks (51 years); or a mixer is "
-         "listed twice"),
+         "`ticks` is out of range or the time would exceed 2^60 ticks (51 years); or a "
+         "mixer is listed twice"),
         (Status.MISMATCH,
          "the instance has another number of raw controls"),
     ),
@@ -4201,7 +4205,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INVALID_ARGUMENT,
          "the bytes are not a snapshot of this mix"),
         (Status.MISMATCH,
-         "a clip is missing or is not the one that played"),
+         "a clip is missing or is not the one that was playing"),
     ),
     "mien_solver_stack_create": (
         (Status.INVALID_ARGUMENT,
@@ -4221,16 +4225,16 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_solver_state_step": (
         (Status.INVALID_ARGUMENT,
-         "ticks or LOD are out of range"),
+         "`ticks` or the LOD is out of range"),
         (Status.MISMATCH,
-         "the instance has another deformer than the stack or the row is shorter than "
+         "instance and stack have different deformers or the row is shorter than "
          "MienSolverStackDesc.lane_count"),
     ),
     "mien_solver_state_step_batch": (
         (Status.INVALID_ARGUMENT,
-         "ticks or LOD are out of range"),
+         "`ticks` or the LOD is out of range"),
         (Status.MISMATCH,
-         "the instance has another deformer than the stack or the row is shorter than "
+         "instance and stack have different deformers or the row is shorter than "
          "MienSolverStackDesc.lane_count; or the states have different stacks"),
     ),
     "mien_solver_state_outputs": (

@@ -143,7 +143,7 @@ class Instance(Closable):
 
     @property
     def controls(self) -> Floats:
-        """float32 (controls,): the whole control row: raw, PSD, ML, RBF."""
+        """float32 (controls,): the whole control vector: raw, PSD, ML, RBF."""
         return self._view(lib.mien_instance_controls)
 
     @property

@@ -125,7 +125,7 @@ class RigView(Closable):
     @raises("mien_rig_psd_inputs")
     def psd_inputs(self, psd: int) -> Indices:
         """uint16 (n,): the controls whose product drives a corrective, as indices into the whole
-        control row."""
+        control vector."""
         return self._view(lib.mien_rig_psd_inputs, _api.MienIndex16View(), "H", f"corrective {psd}",
                           uint32(psd, "psd"))
 

@@ -10,9 +10,11 @@ export declare const Status: {
   readonly OK: 0;
   /** a required pointer is NULL */
   readonly NULL_ARGUMENT: 1;
-  /** a value outside its range, or a buffer that is too small */
+  /** a value out of range, or a buffer that is too small */
   readonly INVALID_ARGUMENT: 2;
-  /** struct_size is too small or above 4096, or unknown fields are not zero */
+  /**
+   * struct_size is too small or above 4096, or a field unknown to the library is not zero
+   */
   readonly STRUCT_SIZE: 3;
   /** a handle of the wrong kind */
   readonly HANDLE: 4;
@@ -20,15 +22,15 @@ export declare const Status: {
   readonly MISMATCH: 5;
   /** an index past the end */
   readonly INDEX: 6;
-  /** a LOD that does not exist, or that the object has no memory for */
+  /** a LOD that does not exist, or for which the object has no memory */
   readonly LOD: 7;
   /** no such name or path */
   readonly NAME: 8;
-  /** an instruction set that this CPU or build lacks */
+  /** an instruction set that the CPU or the build does not support */
   readonly ISA: 9;
   /** the allocator returned NULL */
   readonly MEMORY: 10;
-  /** this build of the library opens baked files only */
+  /** this build of the library only opens baked files */
   readonly UNSUPPORTED: 11;
   /** the file cannot be opened */
   readonly FILE_OPEN: 20;
@@ -38,9 +40,9 @@ export declare const Status: {
   readonly FILE_WRITE: 22;
   /** not a DNA file */
   readonly DNA_SIGNATURE: 30;
-  /** a DNA file of a generation other than 2 */
+  /** a DNA file whose generation is not 2 */
   readonly DNA_VERSION: 31;
-  /** the file is shorter than its header or counts state */
+  /** the file ends before the data that its header or counts announce */
   readonly DNA_TRUNCATED: 32;
   /** offsets, sizes or counts contradict each other */
   readonly DNA_STRUCTURE: 33;
@@ -50,29 +52,29 @@ export declare const Status: {
   readonly DNA_LIMIT: 35;
   /** a required layer is not loaded or not in the file */
   readonly DNA_LAYER: 36;
-  /** a value without a meaning, or one that cannot be converted */
+  /** an invalid value, or one that cannot be converted */
   readonly DNA_VALUE: 37;
   /** not a baked file */
   readonly BAKED_SIGNATURE: 50;
-  /** baked by another version or for another kind of machine */
+  /** baked by another version of Mien, or for the other byte order */
   readonly BAKED_VERSION: 51;
   /** the file is shorter than its header states */
   readonly BAKED_TRUNCATED: 52;
   /** sizes, counts or indices contradict each other */
   readonly BAKED_STRUCTURE: 53;
-  /** the bytes are not those that were written */
+  /** the file has changed since it was written */
   readonly BAKED_CHECKSUM: 54;
   /** the file does not contain the requested object */
   readonly BAKED_PART: 55;
   /** not a clip */
   readonly CLIP_SIGNATURE: 60;
-  /** built by another version */
+  /** a clip in another version of the format */
   readonly CLIP_VERSION: 61;
   /** the clip is shorter than its header states */
   readonly CLIP_TRUNCATED: 62;
   /** sizes, counts or curves contradict each other */
   readonly CLIP_STRUCTURE: 63;
-  /** the bytes are not those that were written */
+  /** the clip has changed since it was written */
   readonly CLIP_CHECKSUM: 64;
   /** a value that is not finite */
   readonly CLIP_VALUE: 65;
@@ -80,15 +82,15 @@ export declare const Status: {
   readonly CLIP_LIMIT: 66;
   /** not a mix */
   readonly MIX_SIGNATURE: 70;
-  /** written by another version */
+  /** a mix in another version of the format */
   readonly MIX_VERSION: 71;
   /** the file is shorter than its header states */
   readonly MIX_TRUNCATED: 72;
   /** sizes or counts contradict each other, or a value is out of range */
   readonly MIX_STRUCTURE: 73;
-  /** the bytes are not those that were written */
+  /** the mix has changed since it was written */
   readonly MIX_CHECKSUM: 74;
-  /** arrays of a mesh, shape or bone contradict each other */
+  /** the arrays of a mesh, shape or bone contradict each other */
   readonly AUTHOR_MESH: 80;
   /** a mesh that cannot be rigged; the message names the rule */
   readonly AUTHOR_REFUSED: 81;
@@ -117,7 +119,7 @@ export declare const Layer: {
 };
 export type Layer = number;
 
-/** Layers of kinds that Mien does not know. */
+/** What to do with layers of unknown kinds. */
 export declare const UnknownLayers: {
   /** keep their bytes and write them back unchanged */
   readonly KEEP: 0;
@@ -126,9 +128,9 @@ export declare const UnknownLayers: {
 export type UnknownLayers = (typeof UnknownLayers)[keyof typeof UnknownLayers];
 
 export declare const FileAccess: {
-  /** map the file; read it into memory if it cannot be mapped, as pipes */
+  /** map the file; read it into memory if it cannot be mapped, such as a pipe */
   readonly MAP: 0;
-  /** read the whole file into memory: safe if it is truncated later */
+  /** read the whole file into memory: safe even if it is truncated later */
   readonly READ: 1;
 };
 export type FileAccess = (typeof FileAccess)[keyof typeof FileAccess];
@@ -169,8 +171,8 @@ export declare const RotationSequence: {
 export type RotationSequence = (typeof RotationSequence)[keyof typeof RotationSequence];
 
 /**
- * The side of a face a b c ... that (b - a) x (c - a) points to, computed from the coordinates in the
- * file, whichever way the axes point.
+ * The side of a face a b c ... to which (b - a) x (c - a) points. The cross product is computed from
+ * the coordinates in the file, whatever the directions of its axes.
  */
 export declare const FaceWinding: {
   /**
@@ -182,12 +184,12 @@ export declare const FaceWinding: {
 export type FaceWinding = (typeof FaceWinding)[keyof typeof FaceWinding];
 
 /**
- * How Euler angles are converted to other axes. Joint values are sums of angles, which are valid in
- * one rotation sequence only: the first rule is the only one that is exact for all rigs.
+ * How Euler angles are converted to other axes. Joint values are sums of angles, which have a meaning
+ * in one rotation sequence only. So only the first rule is exact for all rigs.
  */
 export declare const RotationRule: {
   /**
-   * the sequence of the file, about the renamed axes: where x becomes z, xyz becomes zyx, xzy becomes zxy, and so on
+   * keep the sequence of the file and rename its axes: if x and z are exchanged, xyz becomes zyx, xzy becomes zxy, and so on
    */
   readonly CARRIED: 0;
   /**
@@ -195,7 +197,7 @@ export declare const RotationRule: {
    */
   readonly EXACT: 1;
   /**
-   * the requested sequence, each column of the joint matrix on its own: exact while one control is 1 and the others are 0, approximate for small angles
+   * the requested sequence, converting each column of the joint matrix separately: exact if one control is 1 and all others are 0, otherwise an approximation for small angles
    */
   readonly PER_COLUMN: 2;
 };
@@ -205,7 +207,7 @@ export type RotationRule = (typeof RotationRule)[keyof typeof RotationRule];
 export declare const FieldType: {
   /** named fields */
   readonly RECORD: 0;
-  /** records, strings or arrays; element i has the path of the list + [i] */
+  /** records, strings or arrays; element i is at the path of the list + [i] */
   readonly LIST: 1;
   readonly STRING: 2;
   /** numbers: one, or an array */
@@ -243,7 +245,7 @@ export declare const Isa: {
 };
 export type Isa = (typeof Isa)[keyof typeof Isa];
 
-/** Form of the rotations among the joint values. */
+/** How joint values store rotations. */
 export declare const RotationOutput: {
   /** 9 values per joint: tx ty tz rx ry rz sx sy sz */
   readonly EULER: 0;
@@ -258,7 +260,7 @@ export type RotationOutput = (typeof RotationOutput)[keyof typeof RotationOutput
  */
 export declare const MlMasks: {
   /**
-   * 0: the outputs of the networks get their default (0, or 1 for the w of a quaternion). Other values: the networks are evaluated. This is what files are made for.
+   * 0: the outputs of the networks get their default (0, or 1 for the w of a quaternion). Other values: the networks are evaluated. This is the behavior that DNA files are authored for.
    */
   readonly SWITCH: 0;
   /** outputs are blended with their default by the mask, clamped to 0..1 */
@@ -267,37 +269,36 @@ export declare const MlMasks: {
 export type MlMasks = (typeof MlMasks)[keyof typeof MlMasks];
 
 /**
- * Storage of the large arrays that evaluation reads. Sums and results are 32-bit floats with both.
+ * How the large arrays that evaluation reads are stored. Sums and results are always 32-bit floats.
  * See docs/rig-evaluation.md, 4.9 "16-bit storage".
  */
 export declare const Storage: {
   readonly BIT_32: 0;
   /**
-   * half the memory. Network weights and columns of quaternion joints are IEEE half floats (rounded to nearest even, at most 65504 in magnitude); the joint matrix is 16-bit fixed point, in units of the largest entry of the row / 32767
+   * half the memory. Network weights and columns of quaternion joints are IEEE half floats (rounded to nearest even, at most 65504 in magnitude); the joint matrix is 16-bit fixed point, in units of 1/32767 of the largest entry of the row
    */
   readonly BIT_16: 1;
 };
 export type Storage = (typeof Storage)[keyof typeof Storage];
 
 /**
- * On which instruction sets results have the same bits. See docs/numbers.md, 5 "Portable
- * arithmetic".
+ * Which instruction sets give bit-identical results. See docs/numbers.md, 5 "Portable arithmetic".
  */
 export declare const Arithmetic: {
   /**
-   * among AVX2, AVX-512 and NEON, which fuse multiply and add; and among scalar and SSE2
+   * AVX2, AVX-512 and NEON, which fuse multiply and add, agree with each other; scalar and SSE2 agree with each other
    */
   readonly FAST: 0;
   /**
-   * on all, by not fusing anywhere. Rigs made of a DNA file are the same as far as the sine of the C library is; a baked rig has the same bits on every machine.
+   * all agree, because nothing is fused. A baked rig gives the same bits on every machine; a rig created from a DNA file does if the C libraries compute the same sines.
    */
   readonly PORTABLE: 1;
 };
 export type Arithmetic = (typeof Arithmetic)[keyof typeof Arithmetic];
 
 /**
- * Whether an instance keeps results whose inputs have not changed since its last evaluation. Results
- * have the same bits with both.
+ * Whether an instance keeps results whose inputs have not changed since its last evaluation. The
+ * results are bit-identical either way.
  */
 export declare const Reuse: {
   readonly UNCHANGED: 0;
@@ -306,11 +307,11 @@ export declare const Reuse: {
 };
 export type Reuse = (typeof Reuse)[keyof typeof Reuse];
 
-/** Parts of a rig that are counted, most of them with names. */
+/** Kinds of parts of a rig. Most have names. */
 export declare const Kind: {
   readonly GUI_CONTROL: 0;
   readonly RAW_CONTROL: 1;
-  /** correctives. DNA files have no names for them; here "psd0", "psd1", ... */
+  /** correctives; unnamed in DNA files, here "psd0", "psd1", ... */
   readonly PSD_CONTROL: 2;
   readonly ML_CONTROL: 3;
   readonly RBF_CONTROL: 4;
@@ -324,7 +325,7 @@ export declare const Kind: {
   readonly JOINT_GROUP: 10;
   /** without names */
   readonly RBF_SOLVER: 11;
-  /** without names: a swing and the twists of the same inputs, or a twist alone */
+  /** without names: a swing and the twists with the same inputs, or a twist alone */
   readonly TWIST_SWING: 12;
 };
 export type Kind = (typeof Kind)[keyof typeof Kind];
@@ -345,12 +346,12 @@ export declare const Stage: {
 };
 export type Stage = number;
 
-/** How neutral rotation and delta of a joint are combined. */
+/** How the neutral rotation of a joint is combined with its delta. */
 export declare const Compose: {
   /** neutral rotation * delta rotation: the delta rotates first */
   readonly PRODUCT: 0;
   /**
-   * the angles are added; requires MIEN_ROTATION_OUTPUT_EULER. The same as the product where the neutral rotation is zero.
+   * the angles are added; requires MIEN_ROTATION_OUTPUT_EULER. Equals the product where the neutral rotation is zero.
    */
   readonly EULER_ADD: 1;
 };
@@ -365,20 +366,20 @@ export declare const Weights: {
 export type Weights = (typeof Weights)[keyof typeof Weights];
 
 /**
- * Normals of deformed meshes; they have unit length. Normals without a direction (no area, no faces)
- * are the neutral ones. See docs/deformation.md, 3 "Normals".
+ * Normals of deformed meshes; they have unit length. Where no normal can be computed (no faces, or faces
+ * without area), the neutral one is used. See docs/deformation.md, 3 "Normals".
  */
 export declare const Normals: {
-  /** those of MienDeformerDesc.normals; there: recomputed */
+  /** as MienDeformerDesc.normals says; in that field: recomputed */
   readonly DEFAULT: 0;
-  /** leave normals as they are */
+  /** leave normals unchanged */
   readonly NONE: 1;
   /**
-   * neutral normals rotated by the skin, correct for any scale; blend shape targets have no influence
+   * neutral normals rotated by the skinning, correct for any scale; blend shape targets have no effect
    */
   readonly SKINNED: 2;
   /**
-   * the sum of the area vectors of the faces around the position. On hard edges, where this differs from the stored normal by more than 30 degrees in the neutral pose, the stored normal is rotated as the sum has rotated since.
+   * the area-weighted mean of the normals of the faces around the position. On hard edges, where this differs from the stored normal by more than 30 degrees in the neutral pose, the stored normal is rotated by the rotation of this mean from the neutral pose.
    */
   readonly RECOMPUTED: 3;
 };
@@ -408,7 +409,7 @@ export type VertexFormat = (typeof VertexFormat)[keyof typeof VertexFormat];
 /** What is checked when a baked file is used. */
 export declare const BakedCheck: {
   /**
-   * all sizes, counts and indices: whatever the bytes are, no access is out of bounds. Numbers are not checked, so their pages are read from disk when they are first used.
+   * all sizes, counts and indices, so that no access is out of bounds whatever the bytes are. Floats are not checked, so their pages are read from disk only when first used.
    */
   readonly SAFE: 0;
   /** also the checksum of all bytes, which reads the whole file */
@@ -427,18 +428,20 @@ export declare const Looping: {
 };
 export type Looping = (typeof Looping)[keyof typeof Looping];
 
-/** How values between two frames are computed. They stay within the range of the two. */
+/**
+ * How values between two frames are computed. They stay within the range of these two frames.
+ */
 export declare const Interpolation: {
   readonly LINEAR: 0;
   /** the value of the earlier frame */
   readonly STEP: 1;
-  /** a Catmull-Rom spline, clamped to the range of the two frames */
+  /** a Catmull-Rom spline, clamped to that range */
   readonly CATMULL_ROM: 2;
 };
 export type Interpolation = (typeof Interpolation)[keyof typeof Interpolation];
 
 /**
- * What a layer is for. Guards protect the result of base and speech from the other groups.
+ * The purpose of a layer. Guards protect the result of base and speech from the other groups.
  */
 export declare const LayerGroup: {
   readonly BASE: 0;
@@ -451,15 +454,15 @@ export declare const LayerGroup: {
 export type LayerGroup = (typeof LayerGroup)[keyof typeof LayerGroup];
 
 /**
- * How a layer changes a lane: o is the value so far, x that of the layer, a = weight * mask. A lane for
- * which the source of the layer has no value does not change.
+ * How a layer changes a lane: o is the value so far, x the value of the layer, a = weight * mask. Lanes
+ * for which the layer's source has no value do not change.
  */
 export declare const BlendMode: {
   /** o + a (x - o) */
   readonly OVERRIDE: 0;
   /** o + a x */
   readonly ADD: 1;
-  /** o + a x (1 - p), for x < 0 o + a x p; p is o clamped to 0 ... 1 */
+  /** o + a x (1 - p), or o + a x p if x < 0; p is o clamped to 0..1 */
   readonly SCREEN: 2;
   /** o + a max(0, x - o) */
   readonly MAX: 3;
@@ -484,23 +487,23 @@ export type LayerSource = (typeof LayerSource)[keyof typeof LayerSource];
 /** What a layer generates from the seed of the mixer and the time. */
 export declare const Generator: {
   /**
-   * every `period` on average, at least 0.5 s apart. The wait starts over when earlier layers raise the first lane above 0.6
+   * blinks every `period` on average, at least 0.5 s apart. The wait starts over when earlier layers raise the first lane above 0.6
    */
   readonly BLINK: 0;
-  /** 0 to 1 in 40 % of the period, back to 0 in the rest */
+  /** rises from 0 to 1 in 40 % of the period, then falls back to 0 */
   readonly BREATH: 1;
-  /** smooth between -1 and 1; a new random value every period */
+  /** smooth noise between -1 and 1 with a new random value every period */
   readonly NOISE: 2;
   /**
-   * turns the eyes to a place with saccades: MienMixDesc.gaze. `lanes` are the left, up and front of a MienGazeTarget, as earlier layers made them, then, if wanted, two lanes that get what is left for the head, a MienGazeRest. `amounts` are fixation jitter across and up in degrees, 0, and factors for the two lanes of the head. Blinks of the mix follow shifts of 20 degrees and more
+   * turns the eyes to a target with saccades, by MienMixDesc.gaze. `lanes` are three lanes with the left, up and front of a MienGazeTarget, read after the earlier layers, then optionally two lanes that get the part left for the head (MienGazeRest). `amounts` are fixation jitter sideways and up in degrees, 0, and factors for the two head lanes. Shifts of 20 degrees or more make the blink layers of the mix blink
    */
   readonly GAZE: 3;
 };
 export type Generator = (typeof Generator)[keyof typeof Generator];
 
-/** What a trigger does while the reaction runs. */
+/** What a trigger does while the reaction is already running. */
 export declare const Retrigger: {
-  /** extends the stimulus; strokes that ended or release start again */
+  /** extends the stimulus; strokes that are releasing or over start again */
   readonly EXTEND: 0;
   /** all strokes start again, at most once per cooldown */
   readonly RESTART: 1;
@@ -509,8 +512,8 @@ export declare const Retrigger: {
 export type Retrigger = (typeof Retrigger)[keyof typeof Retrigger];
 
 /**
- * Guards: distances in the face that emotions and reactions must not open while speech or a blink closes
- * them. Bits of MienMixDesc.guards.
+ * Built-in guards: gaps that emotions and reactions must not open while speech or a blink closes them.
+ * Bits of MienMixDesc.guards.
  */
 export declare const Guard: {
   /** between the lips, left, center and right, and from lower lip to upper teeth */
@@ -524,12 +527,12 @@ export declare const Guard: {
 export type Guard = number;
 
 /**
- * How a layer changes to another clip. A layer that plays nothing fades in, except with a cut.
+ * How a layer changes to another clip. A layer that plays no clip fades in, except with a cut.
  */
 export declare const Transition: {
   /** the old clip stops; each lane blends from its last value and speed */
   readonly INERTIAL: 0;
-  /** both play; without a free player, as MIEN_TRANSITION_INERTIAL */
+  /** both clips play; MIEN_TRANSITION_INERTIAL if no player is free */
   readonly CROSSFADE: 1;
   /** immediate; transition_ticks is not used */
   readonly CUT: 2;
@@ -622,13 +625,13 @@ export type AuthorFlags = number;
 
 /**
  * Details of a failure, owned by the caller. A call that fails fills all fields; a call that succeeds
- * sets status to MIEN_OK and leaves the others as they are.
+ * sets status to MIEN_OK and leaves the other fields unchanged.
  */
 export interface Error {
-  /** in the file; MIEN_NO_OFFSET: not about a place in a file */
+  /** where in the file; MIEN_NO_OFFSET: nowhere in particular */
   readonly byteOffset: number | null;
   readonly status: Status;
-  /** what is wrong, where, and what to do; terminated, cut if too long */
+  /** what is wrong, where, and how to fix it; null-terminated, truncated if too long */
   readonly message: string;
 }
 
@@ -648,7 +651,7 @@ export interface CoordinateSystem {
   /** MIEN_ROTATION_SEQUENCE_...; ignored with MIEN_ROTATION_RULE_CARRIED */
   rotationSequence?: RotationSequence;
   /**
-   * of the angles about x, y, z. 1: rotates y to z, z to x, x to y. -1: the other way. 0: the sign that leaves angles unchanged
+   * of the angles about x, y, z. 1: rotates y to z, z to x, x to y. -1: the other way. 0: whichever leaves the angles unchanged
    */
   rotationSigns?: readonly number[];
   /** MIEN_FACE_WINDING_... */
@@ -661,9 +664,9 @@ export interface CoordinateSystem {
  * A rig converted to another coordinate system moves as before: evaluating it gives the joint values
  * of the original rig, converted. Raw controls that are components of rotations (read by RBF solvers,
  * twists or swings as quaternions, or named .qx .qy .qz .qw) are expected in the requested system.
- * Changes of axes and signs are exact, so converting back restores the original numbers; units round
- * once. Texture coordinates and unknown layers are not converted. A converted rig can be written; the
- * file is of version 2.8 if its own version cannot state the system.
+ * Changes of axes and signs are exact, so converting back restores the original numbers; a change of
+ * units rounds each number once. Texture coordinates and unknown layers are not converted. A converted
+ * rig can be written; the file gets version 2.8 if its own version cannot describe the system.
  */
 export interface DnaDesc {
   /** MIEN_LAYER_..., combined with |; the others are not read. 0: all */
@@ -676,7 +679,7 @@ export interface DnaDesc {
    * bit l keeps LOD l. Kept LODs are renumbered from 0; joints, meshes, channels and maps that none of them uses are dropped, and all indices renumbered. 0: all
    */
   lods?: number;
-  /** convert to this system. NULL: keep that of the file */
+  /** convert to this system. NULL: keep the file's own */
   system?: CoordinateSystem;
 }
 
@@ -737,17 +740,17 @@ export interface DnaInfo {
  * listed as the layers desc, defn, bhvr and geom.
  */
 export interface DnaLayer {
-  /** MIEN_LAYER_... that loads it. MIEN_LAYER_UNKNOWN: of an unknown kind */
+  /** MIEN_LAYER_... that loads it. MIEN_LAYER_UNKNOWN: no known kind */
   readonly layer: Layer;
   /** of the layer: version_major.version_minor */
   readonly versionMajor: number;
   readonly versionMinor: number;
-  /** it was read, not skipped or kept unread */
+  /** it was parsed, not skipped or kept as bytes */
   readonly isLoaded: boolean;
   /** of its first byte in the file */
   readonly byteOffset: number;
   readonly byteCount: number;
-  /** such as "bhvr"; terminated */
+  /** such as "bhvr"; null-terminated */
   readonly code: string;
 }
 
@@ -755,13 +758,13 @@ export interface DnaField {
   /** MIEN_FIELD_... */
   readonly type: FieldType;
   /**
-   * an array of numbers, even if it has one element; not a single number or an element of an array
+   * an array of numbers, even if it has only one element; not a single number, nor an element of an array
    */
   readonly isArray: boolean;
   /** elements of an array or list, bytes of a string, fields of a record; 1 for a number */
   readonly count: number;
   /**
-   * of the bytes of a string, of an array or of one of its elements in the file; MIEN_NO_OFFSET: other fields, and data that is not in the file
+   * of a string, an array or an element of an array in the file; MIEN_NO_OFFSET: other fields, and data that is not in the file
    */
   readonly byteOffset: number | null;
 }
@@ -769,7 +772,7 @@ export interface DnaField {
 /** How to write a DNA file. See docs/dna-format.md, 14.3 "Changing the version". */
 export interface WriteDesc {
   /**
-   * 1 to 8: write version 2.version; layers that it does not know are kept unless unknown_layers drops them, but 2.1 holds the four layers desc, defn, bhvr and geom only. 0: the version of the DNA
+   * 1 to 8: write version 2.version; layers that it does not define are kept unless unknown_layers drops them, but 2.1 can only hold the layers desc, defn, bhvr and geom. 0: the version of the DNA
    */
   version?: number;
   /** MIEN_UNKNOWN_LAYERS_... */
@@ -781,7 +784,7 @@ export interface Finding {
   readonly severity: Severity;
   /** the status of the failure; MIEN_OK for a warning */
   readonly status: Status;
-  /** in the file; MIEN_NO_OFFSET: not about a place in the file */
+  /** where in the file; MIEN_NO_OFFSET: nowhere in particular */
   readonly byteOffset: number | null;
   /** path as for mien_dna_field(), or the code of a layer */
   readonly field: string;
@@ -823,7 +826,7 @@ export interface RigInfo {
   readonly rotationSequence: RotationSequence;
   /** 1 or -1, for the angles about x, y, z */
   readonly rotationSigns: readonly number[];
-  /** length of the control row: raw, PSD, ML, RBF controls */
+  /** length of the control vector: raw, PSD, ML, RBF controls */
   readonly controlCount: number;
   /** 9 or 10 per joint */
   readonly jointValueCount: number;
@@ -839,7 +842,7 @@ export interface RigInfo {
   readonly instanceBytes: number;
 }
 
-/** The work of an evaluation at a LOD, if all controls are active. */
+/** The work of an evaluation at a LOD when all controls are active. */
 export interface RigStatistics {
   readonly lod: number;
   /** correctives computed */
@@ -856,9 +859,9 @@ export interface RigStatistics {
   readonly rbfSolverCount: number;
   /** quaternion joints */
   readonly quaternionJointCount: number;
-  /** of the joint matrix: 8 per block that is not all zeros */
+  /** stored in the joint matrix: 8 per block that is not all zeros */
   readonly jointEntryCount: number;
-  /** of the joint matrix; columns of controls that are 0 are not read */
+  /** of the joint matrix; an evaluation does not read the columns of controls that are 0 */
   readonly jointByteCount: number;
 }
 
@@ -867,12 +870,12 @@ export interface InstanceDesc {
 
 /**
  * What the joint stage reads for the current controls, at the LOD of the last evaluation (initially
- * LOD 0), if it reuses no results. Bytes are counted once, whatever the caches hold.
+ * LOD 0), if it reuses no results. Each byte is counted once, regardless of CPU caches.
  */
 export interface InstanceStatistics {
   /** of the last evaluation */
   readonly lod: number;
-  /** of the control row: raw, PSD, ML and RBF controls */
+  /** of the control vector: raw, PSD, ML and RBF controls */
   readonly controlCount: number;
   /** controls that are not 0 */
   readonly activeControlCount: number;
@@ -954,7 +957,7 @@ export interface Mesh {
   /** one index per vertex: its position */
   readonly vertexPositionIndices: Uint32Array;
   /**
-   * 3 indices per triangle: vertices, wound as in the file; faces with more corners are fans about their first corner
+   * 3 indices per triangle: vertices, wound as in the file; faces with more corners become fans about their first corner
    */
   readonly triangles: Uint32Array;
   /** one index per target: its blend shape channel; in file order */
@@ -987,13 +990,14 @@ export interface VertexStream {
  *
  *   positions  as floats; w is 1
  *   normals    in any format; w is 0
- *   tangents   in any format with w. The tangent points where u grows on the surface while v stays the
- *              same, perpendicular to the normal; w * cross(normal, tangent) points where v grows. w is
- *              1, or -1 where the texture is mirrored. If you flip v (1 - v), negate w.
+ *   tangents   in any format with w. The tangent points along the surface in the direction of growing u
+ *              at constant v, perpendicular to the normal; w * cross(normal, tangent) points in the
+ *              direction of growing v. w is 1, or -1 where the texture is mirrored. If you flip v (1 - v),
+ *              negate w.
  *
  * Neutral tangents are computed as by MikkTSpace, except that vertices are never split: where triangles
  * of both orientations meet, a vertex takes the orientation with the larger sum of angles. A vertex
- * without texture coordinates gets an arbitrary perpendicular of its normal, always the same one, and
+ * without texture coordinates gets an arbitrary, but reproducible, perpendicular of its normal and
  * w = 1. Tangents are skinned, and then made perpendicular to the written normal.
  * See docs/deformation.md, 4 "Tangents".
  */
@@ -1041,7 +1045,7 @@ export interface BakedDeformerDesc {
   /** MIEN_ISA_...; MIEN_ISA_BEST is that of the rig */
   isa?: Isa;
   /**
-   * MIEN_NORMALS_...: what MIEN_NORMALS_DEFAULT means for this deformer; here MIEN_NORMALS_DEFAULT is that of the deformer that was baked
+   * MIEN_NORMALS_...: what MIEN_NORMALS_DEFAULT means for this deformer; in this field MIEN_NORMALS_DEFAULT keeps the setting of the baked deformer
    */
   normals?: Normals;
 }
@@ -1061,7 +1065,7 @@ export interface ClipDesc {
   rateDenominator?: number;
   /** 1 to 2^28 */
   frameCount?: number;
-  /** at most 65535, of which at most 512 change */
+  /** at most 65535, of which at most 512 may change over time */
   channelCount?: number;
   /** one per channel, all different, not empty */
   names?: readonly string[];
@@ -1072,12 +1076,12 @@ export interface ClipDesc {
   /** one per channel, used instead of `snap`; may be NULL */
   snaps?: Float32Array | readonly number[];
   /**
-   * 0: values keep all bits. 2^-9, 2^-10 ... 2^-16: values are rounded to multiples of it, which makes the clip several times smaller
+   * 0: values keep all bits. 2^-9, 2^-10 ... 2^-16: values are rounded to multiples of this step, which makes the clip several times smaller
    */
   snap?: number;
   /** MIEN_LOOPING_... */
   looping?: Looping;
-  /** values are differences, to be added to other values */
+  /** a delta clip, whose values are added to other values */
   isDelta?: boolean;
   eventCount?: number;
   /** in any order; 0 <= tick < frame_count * ticks per frame */
@@ -1100,9 +1104,9 @@ export interface ClipInfo {
   readonly eventCount: number;
   /** MIEN_LOOPING_CLAMP or MIEN_LOOPING_WRAP */
   readonly looping: Looping;
-  /** values are differences */
+  /** as in MienClipDesc */
   readonly isDelta: boolean;
-  /** largest step that a channel was rounded to. 0: none was */
+  /** largest step to which a channel was rounded. 0: none was */
   readonly snap: number;
   /** the file is mapped */
   readonly isMapped: boolean;
@@ -1118,12 +1122,12 @@ export interface ClipInfo {
 }
 
 /**
- * A channel of a clip. Block counts, bits and max_error are known after mien_clip_build() only: they
- * are 0 for a clip that was opened.
+ * A channel of a clip. Block counts, bits and max_error are only known for a clip from
+ * mien_clip_build(); they are 0 for a clip that was opened.
  */
 export interface ClipChannel {
   readonly name: string;
-  /** value of a channel that does not change, else 0 */
+  /** value of a channel that does not change; otherwise 0 */
   readonly rest: number;
   /** the channel has a curve */
   readonly isChanging: boolean;
@@ -1131,7 +1135,7 @@ export interface ClipChannel {
   readonly zeroBlocks: number;
   /** blocks with one other value */
   readonly constantBlocks: number;
-  /** blocks of decimal or binary fractions */
+  /** blocks whose values are multiples of a decimal or binary fraction */
   readonly gridBlocks: number;
   /** other blocks */
   readonly floatBlocks: number;
@@ -1151,9 +1155,11 @@ export interface ClipPlayerDesc {
   speedNumerator?: number;
   /** 1 to 2^20. Both 0: 1 / 1 */
   speedDenominator?: number;
-  /** the initial position, as for mien_clip_player_seek() */
+  /** initial position, as for mien_clip_player_seek() */
   startTick?: number;
-  /** play backward as fast as forward, for 256 more bytes per changing channel */
+  /**
+   * backward playback costs no more than forward; takes 256 more bytes per changing channel
+   */
   reverse?: boolean;
 }
 
@@ -1161,11 +1167,11 @@ export interface ClipPlayerDesc {
 export interface ClipPlayerInfo {
   /** 0 to the length of the clip; with MIEN_LOOPING_WRAP less than the length */
   readonly tick: number;
-  /** completed since creation or the last seek, 2^61 at most; negative: backward */
+  /** loops completed since creation or the last seek, at most 2^61; negative: backward */
   readonly loops: number;
   /** MIEN_LOOPING_CLAMP or MIEN_LOOPING_WRAP */
   readonly looping: Looping;
-  /** a damaged curve was decoded and gave zeros */
+  /** a damaged curve was played, as zeros */
   readonly isDamaged: boolean;
 }
 
@@ -1178,7 +1184,7 @@ export interface MatrixEntry {
 
 /** How to bind a clip. */
 export interface ClipBindingDesc {
-  /** for channels whose names the rig lacks; may be NULL */
+  /** for channels whose names the rig does not have; may be NULL */
   matrix?: readonly MatrixEntry[];
   matrixCount?: number;
 }
@@ -1196,7 +1202,7 @@ export interface ClipBindingInfo {
   /** raw controls that are not driven */
   readonly extraControls: Uint16Array;
   /**
-   * channels that drive nothing: the rig lacks their names, or an earlier channel drives the same control
+   * channels that drive nothing: the rig has no such name, or an earlier channel drives the same control
    */
   readonly missingChannels: Uint16Array;
 }
@@ -1205,13 +1211,13 @@ export interface ClipBindingInfo {
 export interface MixLayer {
   /** of a generator, ticks */
   period?: number;
-  /** of a stream, ticks: rows are played this much after their times */
+  /** of a stream, ticks: rows are played this much later than their times */
   delay?: number;
-  /** one per lane, 0 to 1; those left out at the end are 0. NULL: 1 for all */
+  /** one per lane, 0 to 1; lanes beyond mask_count have 0. NULL: 1 for all */
   mask?: Float32Array | readonly number[];
-  /** lane of each channel of a stream, or the lanes that a generator moves */
+  /** the lane of each channel of a stream, or the lanes of a generator */
   lanes?: Uint16Array | readonly number[];
-  /** one per lane of a generator: scales its value */
+  /** one per lane of a generator: a factor for its value */
   amounts?: Float32Array | readonly number[];
   maskCount?: number;
   laneCount?: number;
@@ -1221,20 +1227,20 @@ export interface MixLayer {
   mode?: BlendMode;
   /** MIEN_LAYER_SOURCE_... */
   source?: LayerSource;
-  /** acts after the guards; not for base and speech */
+  /** acts after the guards; not allowed for base and speech */
   afterGuards?: boolean;
-  /** initial weight. 0 to 1; with MIEN_BLEND_MODE_ADD -1 to 1 */
+  /** initial weight. 0 to 1; -1 to 1 with MIEN_BLEND_MODE_ADD */
   weight?: number;
-  /** first of its poses in MienMixDesc.poses */
+  /** index of its first pose in MienMixDesc.poses */
   firstPose?: number;
   poseCount?: number;
   /** MIEN_GENERATOR_... */
   generator?: Generator;
-  /** most rows of a stream that can be queued. 0: 64; else 2 to 1024 */
+  /** capacity of a stream's queue, in rows. 0: 64; otherwise 2 to 1024 */
   streamFrames?: number;
 }
 
-/** Values of the lanes that a pose moves. */
+/** A pose: the lanes that it moves, and their values. */
 export interface MixPose {
   lanes?: Uint16Array | readonly number[];
   values?: Float32Array | readonly number[];
@@ -1242,18 +1248,18 @@ export interface MixPose {
 }
 
 /**
- * A part of a reaction: moves the lanes of a pose to its values and back. Times are in ticks.
+ * A part of a reaction: moves the lanes of a pose to its values and back to 0. Times are in ticks.
  */
 export interface MixStroke {
   /** after the trigger */
   delay?: number;
-  /** to strength * pose */
+  /** time to reach strength * pose */
   attack?: number;
-  /** after the attack; ignored if is_held */
+  /** time after the attack; ignored if is_held */
   hold?: number;
-  /** back to 0 */
+  /** time to return to 0 */
   release?: number;
-  /** in MienMixDesc.poses */
+  /** index in MienMixDesc.poses */
   pose?: number;
   /** MIEN_BLEND_MODE_... */
   mode?: BlendMode;
@@ -1261,35 +1267,37 @@ export interface MixStroke {
   isHeld?: boolean;
   /** moves exponentially; attack and release are time constants */
   isLag?: boolean;
-  /** by the level of the reaction, which is 1 if mien_mixer_trigger() starts it */
+  /** scaled by the level of the reaction, which is 1 if mien_mixer_trigger() started it */
   isScaled?: boolean;
 }
 
 /** What a face does in response to a stimulus, such as a bright light. */
 export interface MixReaction {
-  /** ticks; shortest time between two starts of strokes not held */
+  /** ticks; minimum time between two starts of strokes that are not held */
   cooldown?: number;
   /** time constant of adaptation to a lasting stimulus */
   adaptTicks?: number;
-  /** time constant of recovery after it */
+  /** time constant of recovery after the stimulus */
   recoverTicks?: number;
   /** at most 8 */
   strokes?: readonly MixStroke[];
   strokeCount?: number;
   /** MIEN_RETRIGGER_... */
   retrigger?: Retrigger;
-  /** guards leave it alone */
+  /** acts after the guards */
   afterGuards?: boolean;
-  /** share of the strength that remains after adaptation; 1: all */
+  /** share of the strength that remains after full adaptation; 1: all */
   adapted?: number;
-  /** mien_mixer_set_level() with this or more is a stimulus. 0: none is */
+  /**
+   * levels of this or more are a stimulus: mien_mixer_set_level(). 0: the reaction takes no levels
+   */
   levelOn?: number;
-  /** it ends below this, which is at most level_on */
+  /** the stimulus ends below this; at most level_on */
   levelOff?: number;
 }
 
 /**
- * Two lanes that move the face in opposite directions: where both are above 0, the smaller one times
+ * Two lanes that move the face in opposite directions. If both are above 0, the smaller one times
  * stiffness is subtracted from both.
  */
 export interface MixAntagonists {
@@ -1300,32 +1308,34 @@ export interface MixAntagonists {
 }
 
 /**
- * A place of a face: the middle of some positions of a mesh that LOD 0 shows, or of some joints.
+ * A point of the face: the mean of some positions of a mesh that LOD 0 shows, or of some joints.
  */
 export interface Landmark {
-  /** positions of the mesh, or joints */
+  /** indices of positions of the mesh, or of joints */
   points?: Uint32Array | readonly number[];
   /** 1 to 65536 */
   pointCount?: number;
-  /** whose positions they are. MIEN_NO_MESH: they are joints */
+  /** index of the mesh. MIEN_NO_MESH: the points are joints */
   mesh?: number;
 }
 
 /**
- * A guard for landmarks of the caller: the distance of `upper` above `lower`, along the axis that points
- * up, must not be opened.
+ * A guard with landmarks of the caller. It keeps the gap between them, the height of `upper` above `lower`
+ * along the axis that points up, from being opened.
  */
 export interface MixGuard {
   upper?: Landmark;
   lower?: Landmark;
-  /** raw control that makes both touch at 1. MIEN_NO_CONTROL: they do at rest */
+  /** raw control that closes the gap at 1. MIEN_NO_CONTROL: it is closed at rest */
   closedBy?: number;
-  /** acts no more than the largest weight of a speech layer */
+  /** acts at most as much as the largest weight of a speech layer */
   needsSpeech?: boolean;
-  /** millimeters by which later layers may open, 0 or more; 0.3 for the others */
+  /**
+   * millimeters by which later layers may open the gap, 0 or more; 0.3 for built-in guards
+   */
   tolerance?: number;
   /**
-   * acts where base and speech open by less, fully at 0. Millimeters above 0; 12 for lips, 6 for lids
+   * millimeters, above 0: acts if base and speech leave a smaller gap, fully at 0. Built-in guards: 12 for lips, 6 for lids, 4 for teeth
    */
   fOn?: number;
 }
@@ -1335,7 +1345,7 @@ export interface MixDesc {
   /** at most 16 */
   layers?: readonly MixLayer[];
   layerCount?: number;
-  /** at most 1024; of layers and strokes */
+  /** at most 1024; used by layers and strokes */
   poses?: readonly MixPose[];
   poseCount?: number;
   /** at most 16 */
@@ -1344,30 +1354,32 @@ export interface MixDesc {
   antagonists?: readonly MixAntagonists[];
   antagonistCount?: number;
   /**
-   * per lane its counterpart in the other half of the face, or itself. NULL: nothing can be played mirrored
+   * for each lane its counterpart in the other half of the face, or itself. NULL: clips cannot be played mirrored
    */
   mirror?: Uint16Array | readonly number[];
   /** limits per lane. NULL: none; both or neither */
   lower?: Float32Array | readonly number[];
   upper?: Float32Array | readonly number[];
-  /** act after the others; at most 8 with them */
+  /** act after the built-in ones; at most 8 guards in total */
   customGuards?: readonly MixGuard[];
   customGuardCount?: number;
-  /** for a layer with MIEN_GENERATOR_GAZE, copied; may be NULL */
+  /** for a layer with MIEN_GENERATOR_GAZE; may be NULL */
   gaze?: { readonly handle: number };
-  /** for measuring the guards; may be NULL if there are none */
+  /** to measure guards; may be NULL if there are none */
   deformer?: { readonly handle: number };
-  /** MIEN_GUARD_... bits; without landmarks a guard is left out */
+  /** MIEN_GUARD_... bits; a guard is left out if the rig lacks its landmarks */
   guards?: Guard;
-  /** pose variables; with the raw controls at most 4096 lanes */
+  /** pose variables; at most 4096 lanes with the raw controls */
   variableCount?: number;
-  /** clips that play at a time; a crossfade needs two. 0: two for each layer of clips */
+  /**
+   * clips that can play at the same time; a crossfade needs two. 0: two for each clip layer
+   */
   playerCount?: number;
-  /** of any clip. 0: as many as the rig has raw controls */
+  /** of any clip. 0: the number of raw controls */
   maxChannels?: number;
   /** of any clip. 0: max_channels, 512 at most */
   maxChangingChannels?: number;
-  /** that a step can report. 0: 64 */
+  /** events that one step can report. 0: 64 */
   maxEvents?: number;
   /** as in MienClipPlayerDesc */
   reverse?: boolean;
@@ -1395,11 +1407,11 @@ export interface MixInfo {
 }
 
 /**
- * A guard of a mix, as it was measured: the distance in millimeters is `rest`, the sum of gain times lane,
- * and a sum over pairs of lanes that share a corrective. docs/mixing.md, 4 "Guards".
+ * A guard of a mix, as it was measured: the distance in millimeters is `rest`, plus the sum of gain * lane,
+ * plus a sum over pairs of lanes that share a corrective. See docs/mixing.md, 4 "Guards".
  */
 export interface MixGuardInfo {
-  /** raw controls that change it, by falling gain */
+  /** raw controls that change the distance, by descending gain */
   readonly lanes: Uint16Array;
   /** 1 float per lane: millimeters at value 1 */
   readonly gains: Float32Array;
@@ -1411,19 +1423,20 @@ export interface MixGuardInfo {
   /** as in MienMixGuard */
   readonly tolerance: number;
   readonly fOn: number;
-  /** millimeters, root mean square over rows that were tried */
+  /** millimeters, root mean square over the measured rows */
   readonly fitError: number;
 }
 
 /** How to create a gaze. */
 export interface GazeDesc {
-  /** names of joints. NULL: L_Eye, R_Eye, FACIAL_L_Eye or FACIAL_R_Eye */
+  /** name of a joint. NULL: L_Eye or FACIAL_L_Eye */
   leftEye?: string;
+  /** name of a joint. NULL: R_Eye or FACIAL_R_Eye */
   rightEye?: string;
 }
 
 /**
- * A place in millimeters from the origin, in the model space of a rig before its head moves.
+ * A point in millimeters from the origin of the rig's model space, with the head in its neutral pose.
  */
 export interface GazeTarget {
   left?: number;
@@ -1431,18 +1444,18 @@ export interface GazeTarget {
   front?: number;
 }
 
-/** What was measured of the eyes. */
+/** What was measured on the eyes. */
 export interface GazeInfo {
-  /** their middles, about which they turn */
+  /** center of rotation */
   readonly leftEye: GazeTarget;
   readonly rightEye: GazeTarget;
-  /** degrees, the largest that was found where both directions turn at once */
+  /** degrees, largest error found when an eye turns sideways and up at once */
   readonly fitError: number;
 }
 
 /**
- * The part of a gaze that is beyond the reach of the eyes, for the head to turn: tangents of angles, the
- * mean of both eyes.
+ * The part of a gaze that the eyes cannot reach, left for the head to turn: tangents of angles, averaged
+ * over both eyes.
  */
 export interface GazeRest {
   readonly left: number;
@@ -1459,9 +1472,9 @@ export interface MixerDesc {
 
 /** How to play a clip in a layer. */
 export interface PlayDesc {
-  /** chosen by the caller: mien_mixer_restore() finds clip and binding by it */
+  /** chosen by the caller, to identify clip and binding in mien_mixer_restore() */
   clipId?: number;
-  /** of the clip */
+  /** in the clip */
   startTick?: number;
   /** 0 to 2^40 */
   transitionTicks?: number;
@@ -1474,13 +1487,13 @@ export interface PlayDesc {
   /** as in MienClipPlayerDesc */
   speedNumerator?: number;
   speedDenominator?: number;
-  /** ; needs MienMixDesc.mirror */
+  /** ; requires MienMixDesc.mirror */
   mirrored?: boolean;
 }
 
 /**
- * What a guard did in the last step. Distances are in millimeters, of the function of raw controls that was
- * measured on the rig; below 0 both sides overlap.
+ * What a guard did in the last step. Distances are in millimeters, computed by the function of raw controls
+ * that was measured on the rig; a negative distance means that both sides overlap.
  */
 export interface GuardState {
   /**
@@ -1489,18 +1502,18 @@ export interface GuardState {
   readonly name: string;
   /** raw controls that it may hold back */
   readonly controls: Uint16Array;
-  /** MIEN_GUARD_...; 0: it is of MienMixDesc.custom_guards */
+  /** MIEN_GUARD_...; 0: one of MienMixDesc.custom_guards */
   readonly kind: Guard;
   /** how much it acted, 0 to 1 */
   readonly activation: number;
-  /** after the last layer of base and speech */
+  /** distance after the last layer of base and speech */
   readonly protectedDistance: number;
-  /** after the later layers and reactions that come before the guards */
+  /** distance just before the guards, after the later layers and reactions */
   readonly wanted: number;
-  /** that it lets pass when fully active */
+  /** largest distance that the guard allows when fully active */
   readonly limit: number;
   /**
-   * that the guards left: above `limit` where it is less active, while it eases in, or where other controls part the sides
+   * distance after the guards: above `limit` if the guard is not fully active, while it eases in, or if other controls open the gap
    */
   readonly distance: number;
 }
@@ -1509,9 +1522,9 @@ export interface GuardState {
 export interface MixerInfo {
   /** time since creation */
   readonly tick: number;
-  /** events of clips that the last step passed */
+  /** clip events that the last step passed */
   readonly eventCount: number;
-  /** it passed more than MienMixDesc.max_events */
+  /** there were more than MienMixDesc.max_events */
   readonly lostEvents: boolean;
 }
 
@@ -1524,86 +1537,88 @@ export interface MixerClip {
 }
 
 /**
- * Turns a joint so that one of its axes points at a target: the shortest way, then about that axis so
- * that `up_axis` is as near to `up` as it can be. Directions may have any length.
+ * Aim constraint: turns a joint so that one of its axes points at a target, by the shortest rotation, then
+ * about that axis so that `up_axis` comes as near to `up` as possible. Directions may have any length.
  */
 export interface AimSolver {
   joint?: number;
-  /** its place is the target. MIEN_NO_JOINT: it is at three lanes of the row */
+  /** its position is the target. MIEN_NO_JOINT: three lanes of the row are */
   targetJoint?: number;
   /** first of these three: x y z in model space */
   targetLane?: number;
-  /** of the joint, not 0 */
+  /** aim axis, in the space of the joint; not 0 0 0 */
   axis?: readonly number[];
-  /** of the joint; 0 0 0: no turn about the axis */
+  /** in the space of the joint; 0 0 0: no rotation about the aim axis */
   upAxis?: readonly number[];
   /** in model space; 0 0 0: 0 1 0 */
   up?: readonly number[];
-  /** 0 to 180: farthest from where the neutral pose points. 0: no limit */
+  /** 0 to 180: largest angle from the neutral direction. 0: no limit */
   coneDegrees?: number;
   /** 0 to 1 */
   weight?: number;
 }
 
 /**
- * Lets a joint hang on another joint than its parent, as if the parent moved with that one. A lane says
- * which of the spaces. When it changes, the joint stays where it is, and what it is off is eased out.
+ * Space switch: moves a joint as if its parent were attached to another joint. A lane selects one of the
+ * spaces. When it changes, the joint stays where it is, and the difference to the new space eases out.
  */
 export interface SpaceSolver {
   /** 0 to 2^40 */
   easeTicks?: number;
-  /** joints. MIEN_NO_JOINT: model space */
+  /** indices of joints. MIEN_NO_JOINT: model space */
   spaces?: Uint16Array | readonly number[];
   /** 1 to 8 */
   spaceCount?: number;
-  /** of the row: its value, rounded, is a place in `spaces` */
+  /** of the row: its value, rounded, is an index in `spaces` */
   lane?: number;
   joint?: number;
 }
 
 /**
- * Lets the place of a joint swing about where the pose has it: a damped harmonic oscillator in model
- * space, advanced by its exact solution, so that it is stable for any step. Output 0 is its speed, in
- * units per second.
+ * Spring: lets the position of a joint swing about its position in the pose. It is a damped harmonic
+ * oscillator in model space, advanced by its exact solution, so it is stable for any time step. Output 0 is
+ * its speed, in translation units per second.
  */
 export interface SpringSolver {
   joint?: number;
   /** of the undamped spring, in Hertz; above 0 */
   frequency?: number;
-  /** share of the critical damping; 0 or more */
+  /** damping ratio, 0 or more; 1 is critical damping */
   damping?: number;
-  /** from the place in the pose, in model space */
+  /** rest position relative to the position in the pose, in model space */
   restOffset?: readonly number[];
-  /** farthest from the place of rest. 0: any */
+  /** largest distance from the rest position. 0: no limit */
   stretch?: number;
-  /** what jumps farther in a step takes the joint along. 0: never */
+  /**
+   * if the rest position jumps farther than this in a step, the joint jumps with it. 0: never
+   */
   teleport?: number;
 }
 
 /**
- * Gives joints a share of the twist of another joint about an axis. Their own twist is replaced. Output
- * 0 is the sine of half of the angle.
+ * Twist distribution: gives joints a share of another joint's twist about an axis, in place of their own
+ * twist. Output 0 is the sine of half the angle.
  */
 export interface TwistSolver {
   joints?: Uint16Array | readonly number[];
-  /** for each of these, -1 to 1: 0.5 is half of the angle */
+  /** one for each of these joints, -1 to 1; 0.5 is half the angle */
   shares?: Float32Array | readonly number[];
   /** 1 to 8 */
   jointCount?: number;
-  /** joint */
+  /** the joint whose twist is distributed */
   source?: number;
-  /** of the source and of all joints, not 0 */
+  /** in the space of the source and of each joint; not 0 0 0 */
   axis?: readonly number[];
 }
 
 /**
- * Moves a joint as another one was moved from its neutral pose, or as its mirror image.
+ * Copy: gives a joint the motion of another joint relative to its neutral pose, or the mirrored motion.
  */
 export interface CopySolver {
-  /** joint */
+  /** the joint whose motion is copied */
   source?: number;
   joint?: number;
-  /** as the mirror image */
+  /** mirror the motion */
   isMirrored?: boolean;
   /** from right to left in model space; 0 0 0: 1 0 0 */
   mirrorAxis?: readonly number[];
@@ -1611,32 +1626,32 @@ export interface CopySolver {
   weight?: number;
 }
 
-/** What a MienUserSolver sees of one character. */
+/** The data of one character that a MienUserSolver gets. */
 export interface SolverPose {
   /**
-   * 10 floats per joint: tx ty tz qx qy qz qw sx sy sz, relative to the parent. Those of its `writes` may be changed; quaternions of any length but 0
+   * 10 floats per joint: tx ty tz qx qy qz qw sx sy sz, relative to the parent. Joints in `writes` may be changed; quaternions of any length but 0
    */
   readonly locals: Float32Array | readonly number[];
   /**
-   * 16 floats per joint, as in mien_deformer_instance_joint_matrices(); up to date for its `reads`
+   * 16 floats per joint, as in mien_deformer_instance_joint_matrices(); up to date for joints in `reads`
    */
   readonly models: Float32Array | readonly number[];
-  /** 16 floats for each of its `previous_joints`, after the last step */
+  /** 16 floats for each joint in `previous_joints`, as the last step left it */
   readonly previous: Float32Array | readonly number[];
   /** MienSolverStackDesc.lane_count floats. NULL: there are none */
   readonly row: Float32Array | readonly number[];
-  /** MienUserSolver.output_count floats to publish */
+  /** MienUserSolver.output_count floats for the caller to read */
   readonly outputs: Float32Array | readonly number[];
-  /** MienUserSolver.state_bytes bytes, aligned to 8; zeros at first */
+  /** MienUserSolver.state_bytes bytes, aligned to 8; initially zero */
   readonly state: number;
   readonly lod: number;
-  /** the first step, or the character was moved to another place */
+  /** the first step, or the character was teleported */
   readonly isReset: boolean;
 }
 
-/** What a MienUserSolver is called with. */
+/** The argument of a MienUserSolver. */
 export interface SolverCall {
-  /** characters, 64 at most */
+  /** one for each of at most 64 characters */
   readonly poses: readonly SolverPose[];
   /** one per joint; a root is its own parent */
   readonly parents: Uint16Array | readonly number[];
@@ -1647,20 +1662,21 @@ export interface SolverCall {
 }
 
 /**
- * A solver of the caller. It runs on the thread that steps, and must not use the handles of the step.
+ * A custom solver. It runs on the thread that calls the step function, and must not use the handles passed
+ * to that function.
  */
 export interface UserSolver {
   /** passed to the function; must live as long as the stack and its states */
   user?: number;
   /**
-   * Changes the locals of some characters, and nothing else of them but outputs and state.
+   * Changes the locals of the characters in `call`, and their outputs and state, but nothing else.
    */
   solve?: number;
   /** joints whose model matrices it reads */
   reads?: Uint16Array | readonly number[];
-  /** joints whose locals it changes */
+  /** joints whose local transforms it changes */
   writes?: Uint16Array | readonly number[];
-  /** joints whose model matrices of the last step it reads */
+  /** joints whose model matrices after the last step it reads */
   previousJoints?: Uint16Array | readonly number[];
   readCount?: number;
   /** 1 or more */
@@ -1672,9 +1688,9 @@ export interface UserSolver {
   outputCount?: number;
 }
 
-/** One solver: one of the pointers is not NULL. */
+/** One solver: exactly one of the pointers aim ... custom is not NULL. */
 export interface Solver {
-  /** for messages. NULL: that of the kind */
+  /** for messages. NULL: the name of its kind */
   name?: string;
   /** may be NULL */
   aim?: AimSolver;
@@ -1688,7 +1704,7 @@ export interface Solver {
   copy?: CopySolver;
   /** may be NULL */
   custom?: UserSolver;
-  /** where it runs: bit l is LOD l. 0: at all */
+  /** bit l: runs at LOD l. 0: at all LODs */
   lods?: number;
 }
 
@@ -1697,9 +1713,11 @@ export interface SolverStackDesc {
   /** in the order in which they run; at most 256 */
   solvers?: readonly Solver[];
   solverCount?: number;
-  /** of the rows that steps get, at least. 0: they get none */
+  /** the rows passed to steps have this many lanes or more. 0: no row */
   laneCount?: number;
-  /** compare all joints before and after each solver, for mien_solver_state_undeclared() */
+  /**
+   * compare all joints before and after each solver, to find undeclared writes: mien_solver_state_undeclared()
+   */
   checkWrites?: boolean;
 }
 
@@ -1718,16 +1736,16 @@ export interface SolverStackInfo {
 export interface SolverStateDesc {
 }
 
-/** What solvers of one character get. */
+/** The input of the solvers of one character. */
 export interface SolverInput {
-  /** such as that of mien_mixer_row(). NULL: none */
+  /** such as the one from mien_mixer_row(). NULL: none */
   row?: Float32Array | readonly number[];
   /** at least MienSolverStackDesc.lane_count */
   rowCount?: number;
   /** 0 to 63 */
   lod?: number;
   /**
-   * the character was moved to another place: springs come to rest, and spaces do not ease
+   * the character was teleported, so springs come to rest and space switches do not ease
    */
   isReset?: boolean;
 }
@@ -1899,23 +1917,23 @@ export interface Exports {
    */
   mien_version(): number;
   /**
-   * Returns "DNA_TRUNCATED" for MIEN_ERROR_DNA_TRUNCATED, and "UNKNOWN" for other numbers. The string
-   * is static and terminated.
+   * Returns "DNA_TRUNCATED" for MIEN_ERROR_DNA_TRUNCATED, and "UNKNOWN" for unknown numbers. The string
+   * is static and null-terminated.
    */
   mien_status_name(status: number): number;
   /**
    * Returns the coordinate system of an engine or tool: "maya", "unreal", "unreal-mesh" (characters
    * look along y), "unity", "godot", "blender", "gltf", "opengl", "directx" or "houdini". The rotation
-   * rule is MIEN_ROTATION_RULE_CARRIED; rotation_sequence is that of the engine's Euler angles, and is
-   * used once you set another rule.
+   * rule is MIEN_ROTATION_RULE_CARRIED; rotation_sequence is that of the engine's Euler angles, and only
+   * takes effect if you set another rule.
    * Fails with MIEN_ERROR_NAME if the name is none of these.
    */
   mien_coordinate_system_find(name: number, out_system: number): number;
   /**
    * Returns the coordinate system of an engine or tool: "maya", "unreal", "unreal-mesh" (characters
    * look along y), "unity", "godot", "blender", "gltf", "opengl", "directx" or "houdini". The rotation
-   * rule is MIEN_ROTATION_RULE_CARRIED; rotation_sequence is that of the engine's Euler angles, and is
-   * used once you set another rule.
+   * rule is MIEN_ROTATION_RULE_CARRIED; rotation_sequence is that of the engine's Euler angles, and only
+   * takes effect if you set another rule.
    * Fails with MIEN_ERROR_NAME if the name is none of these.
    */
   mien_coordinate_system_find_n(name: number, name_count: number, out_system: number): number;
@@ -1931,12 +1949,12 @@ export interface Exports {
    */
   mien_dna_open_memory(bytes: number, size: number, desc: number, out_dna: number, error: number): number;
   /**
-   * Opens a DNA file through a stream. Reads the header, the index and the requested layers, each once
-   * and in one piece, into memory of the allocator.
+   * Opens a DNA file through a stream. Reads the header, the index and the requested layers, each
+   * with one read, into memory from the allocator.
    * Fails like mien_dna_open_file(), but not with MIEN_ERROR_FILE_OPEN.
    */
   mien_dna_open_stream(stream: number, desc: number, out_dna: number, error: number): number;
-  /** Closes a DNA. Rigs and deformers made from it stay valid; its views do not. */
+  /** Closes a DNA. Rigs and deformers created from it stay valid; views into it do not. */
   mien_dna_close(dna: number): void;
   /** Returns the properties of a DNA. */
   mien_dna_info(dna: number, out_info: number): number;
@@ -2058,36 +2076,36 @@ export interface Exports {
   /** Returns the number of errors and the number of warnings. */
   mien_report_counts(report: number, out_errors: number, out_warnings: number): number;
   /**
-   * Returns finding `index`, in the order of the checks. There are as many as errors and warnings.
+   * Returns finding `index`, in the order of the checks. Their number is that of errors plus warnings.
    * Fails with MIEN_ERROR_INDEX if `index` is past the last finding.
    */
   mien_report_finding(report: number, index: number, out_finding: number): number;
   /** Destroys a report. */
   mien_report_destroy(report: number): void;
-  /** Returns 1 if rigs can be created for an instruction set on this machine, else 0. */
+  /** Returns 1 if rigs can be created for instruction set `isa` on this machine, else 0. */
   mien_isa_available(isa: number): number;
   /**
-   * Returns "avx2" for MIEN_ISA_AVX2, and "unknown" for other numbers. The string is static and
-   * terminated.
+   * Returns "avx2" for MIEN_ISA_AVX2, and so on; "unknown" for unknown numbers. The string is static
+   * and null-terminated.
    */
   mien_isa_name(isa: number): number;
   /**
    * Packs the behavior of a DNA for evaluation. The rig is one block of memory; temporary memory is
    * released before the call returns. `dna` may be closed afterwards. Destroy with mien_rig_destroy().
    * Fails with MIEN_ERROR_DNA_LAYER if `dna` was opened without its behavior, MIEN_ERROR_DNA_VALUE if
-   * correctives depend on each other in a circle, MIEN_ERROR_DNA_LIMIT if the rig is too large,
+   * correctives depend on each other in a cycle, MIEN_ERROR_DNA_LIMIT if the rig is too large,
    * MIEN_ERROR_ISA if the requested instruction set is not available.
    * See docs/rig-evaluation.md and docs/dna-format.md, 13 "What is checked".
    */
   mien_rig_create(dna: number, desc: number, out_rig: number, error: number): number;
   /**
-   * Destroys a rig. It cannot be used any longer, but its instances, batches and deformers may be
-   * destroyed later: its memory is released with the last of them.
+   * Destroys a rig. The handle is invalid afterwards, but instances, batches and deformers of the rig may
+   * be destroyed later: its memory is released with the last of them.
    */
   mien_rig_destroy(rig: number): void;
   /** Returns the properties of a rig. */
   mien_rig_info(rig: number, out_info: number): number;
-  /** Returns how many parts of a kind the rig has. */
+  /** Returns the number of parts of a kind. */
   mien_rig_count(rig: number, kind: number, out_count: number): number;
   /**
    * Returns a name; "" for kinds without names.
@@ -2095,13 +2113,13 @@ export interface Exports {
    */
   mien_rig_name(rig: number, kind: number, index: number, out_name: number): number;
   /**
-   * Finds the index of a name: an exact match, the first of equal names. Takes O(log n).
+   * Finds the index of a name by exact match; of equal names, the first. Takes O(log n) time.
    * Fails with MIEN_ERROR_NAME if there is no such name, MIEN_ERROR_INVALID_ARGUMENT if `kind` has no
    * names.
    */
   mien_rig_find(rig: number, kind: number, name: number, out_index: number): number;
   /**
-   * Finds the index of a name: an exact match, the first of equal names. Takes O(log n).
+   * Finds the index of a name by exact match; of equal names, the first. Takes O(log n) time.
    * Fails with MIEN_ERROR_NAME if there is no such name, MIEN_ERROR_INVALID_ARGUMENT if `kind` has no
    * names.
    */
@@ -2109,8 +2127,8 @@ export interface Exports {
   /**
    * Returns the indices of the joints, blend shape channels, animated maps, meshes or RBF solvers that
    * a LOD lists, in file order.
-   * Fails with MIEN_ERROR_LOD if the rig has no such LOD, MIEN_ERROR_INVALID_ARGUMENT if `kind` is none
-   * of these five.
+   * Fails with MIEN_ERROR_LOD if the rig has no such LOD, MIEN_ERROR_INVALID_ARGUMENT if `kind` is not
+   * one of these five.
    * See docs/dna-format.md, 8.2 "LOD mappings".
    */
   mien_rig_lod_indices(rig: number, kind: number, lod: number, out_indices: number): number;
@@ -2130,7 +2148,7 @@ export interface Exports {
    */
   mien_rig_neutral_joint_values(rig: number, out_values: number): number;
   /**
-   * Returns the controls whose product gives corrective `psd`, as indices into the control row.
+   * Returns the controls whose product is corrective `psd`, as indices into the control vector.
    * Fails with MIEN_ERROR_INDEX if there is no such corrective.
    * See docs/rig-evaluation.md, 3.1 "Weights and inputs".
    */
@@ -2156,48 +2174,48 @@ export interface Exports {
   /** Destroys an instance. */
   mien_instance_destroy(instance: number): void;
   /**
-   * Returns an instance to its initial state: all inputs and results, at LOD 0.
+   * Resets an instance to its initial state: all inputs and results, at LOD 0.
    * See docs/rig-evaluation.md, 1.2 "Initial values".
    */
   mien_instance_reset(instance: number): number;
   /**
-   * Returns the GUI controls, to be written by the caller: one float per GUI control. They are inputs of
-   * mien_rig_map_gui_to_raw() only.
+   * Returns the GUI controls for the caller to write: one float per GUI control. Only
+   * mien_rig_map_gui_to_raw() reads them.
    * Contents change with mien_rig_map_raw_to_gui(), mien_instance_reset().
    */
   mien_instance_gui_controls(instance: number, out_view: number): number;
   /**
-   * Returns the raw controls, to be written by the caller: one float per raw control, typically 0 to 1,
-   * not clamped. They are the inputs of evaluation.
+   * Returns the raw controls for the caller to write: one float per raw control, typically 0 to 1, not
+   * clamped. They are the inputs of evaluation.
    * Contents change with mien_rig_map_gui_to_raw(), mien_instance_reset().
    */
   mien_instance_raw_controls(instance: number, out_view: number): number;
   /**
-   * Returns the region masks, to be written by the caller: one float per region of each mesh, 0 to 1,
+   * Returns the region masks for the caller to write: one float per region of each mesh, 0 to 1,
    * initially 1. They switch or blend machine-learned behavior (MIEN_ML_MASKS_...).
    * Contents change with mien_instance_reset().
    * See docs/rig-evaluation.md, 8.5 "Region masks".
    */
   mien_instance_ml_masks(instance: number, out_view: number): number;
   /**
-   * Returns the control row: one float per control, the raw, PSD, ML and RBF controls in this order.
+   * Returns the control vector: one float per control, the raw, PSD, ML and RBF controls in this order.
    * Contents change with evaluation, mien_rig_map_gui_to_raw(), mien_instance_reset() and writes to the raw
    * controls.
-   * See docs/rig-evaluation.md, 1.1 "Control row".
+   * See docs/rig-evaluation.md, 1.1 "Control vector".
    */
   mien_instance_controls(instance: number, out_view: number): number;
   /**
-   * Returns the PSD controls (correctives) of the control row: one float per PSD control.
+   * Returns the PSD controls (correctives) of the control vector: one float per PSD control.
    * Contents change with evaluation, mien_instance_reset().
    */
   mien_instance_psd_controls(instance: number, out_view: number): number;
   /**
-   * Returns the ML controls of the control row: one float per ML control.
+   * Returns the ML controls of the control vector: one float per ML control.
    * Contents change with evaluation, mien_instance_reset().
    */
   mien_instance_ml_controls(instance: number, out_view: number): number;
   /**
-   * Returns the RBF pose controls of the control row: one float per RBF control.
+   * Returns the RBF pose controls of the control vector: one float per RBF control.
    * Contents change with evaluation, mien_instance_reset().
    */
   mien_instance_rbf_controls(instance: number, out_view: number): number;
@@ -2228,23 +2246,23 @@ export interface Exports {
    */
   mien_instance_statistics(instance: number, out_statistics: number): number;
   /**
-   * Maps GUI controls to raw controls. Raw controls that the table drives are overwritten, clamped to
-   * 0..1; others are left alone. Does not allocate or lock.
+   * Maps GUI controls to raw controls. Raw controls that the rig's table drives are overwritten with
+   * values clamped to 0..1; others are left unchanged. Does not allocate or lock.
    * Fails with MIEN_ERROR_MISMATCH if `instance` belongs to another rig.
    * See docs/rig-evaluation.md, 2.3 "GUI controls to raw controls".
    */
   mien_rig_map_gui_to_raw(rig: number, instance: number): number;
   /**
    * Maps raw controls to GUI controls. Sets every GUI control to the value that maps to the current raw
-   * controls, or to 0 if there is none. Does not allocate or lock.
+   * controls, or to 0 if there is no such value. Does not allocate or lock.
    * Fails with MIEN_ERROR_MISMATCH if `instance` belongs to another rig.
    * See docs/rig-evaluation.md, 2.4 "Raw controls to GUI controls".
    */
   mien_rig_map_raw_to_gui(rig: number, instance: number): number;
   /**
-   * Evaluates all stages at a LOD. Results that the LOD does not reach have their initial value. Inputs
-   * must be finite; then results are finite. Changing the LOD between calls costs little: results are
-   * reset. Does not allocate or lock. Uses up to 48 KiB of stack.
+   * Evaluates all stages at a LOD. Results that the LOD does not drive have their initial value. Inputs
+   * must be finite; then the results are finite too. Changing the LOD between calls is cheap: it resets
+   * the results. Does not allocate or lock. Uses up to 48 KiB of stack.
    * Fails with MIEN_ERROR_LOD if the rig has no such LOD, MIEN_ERROR_MISMATCH if `instance` belongs to
    * another rig.
    * See docs/rig-evaluation.md, 1.3 "Order of evaluation".
@@ -2270,8 +2288,8 @@ export interface Exports {
   mien_batch_bytes(rig: number, desc: number, out_bytes: number): number;
   /**
    * Evaluates stages of `count` different instances of one rig; instance i at LOD lods[i]. The results
-   * have the same bits as those of mien_rig_evaluate_stages(), but columns of the joint matrix that
-   * several instances use are read once for up to 32 of them. Runs on the calling thread, or in tasks
+   * are bit-identical to those of mien_rig_evaluate_stages(), but columns of the joint matrix that several
+   * instances use are read only once for up to 32 of them. Runs on the calling thread, or in tasks
    * on `parallel`; `parallel` may be NULL. Does not allocate or lock. Uses up to 48 KiB of stack per
    * task. On failure no instance is evaluated.
    * Fails with MIEN_ERROR_LOD if the rig has no such LOD, MIEN_ERROR_MISMATCH if the batch or an
@@ -2313,14 +2331,14 @@ export interface Exports {
    *
    * Influences of weight 0 and faces of fewer than three corners are dropped. Meshes may lack faces,
    * weights, normals or texture coordinates: missing normals are computed from the faces, missing
-   * texture coordinates are 0. Stored normals tell which side of a face is outside; without them, the
-   * winding and the axes of the file do.
+   * texture coordinates are 0. Stored normals determine which side of a face is outside; without
+   * them, the winding and the axes of the file do.
    *
    * Fails with MIEN_ERROR_DNA_LAYER if `dna` was opened without MIEN_LAYER_GEOMETRY, MIEN_ERROR_MISMATCH
-   * if numbers or names of joints, channels or meshes differ from those of the rig, MIEN_ERROR_DNA_VALUE
-   * if a joint is its own ancestor or a position, delta or weight is not finite, MIEN_ERROR_DNA_LIMIT if
-   * a position has more than 65535 influences, MIEN_ERROR_ISA if the requested instruction set is not
-   * available.
+   * if the number or the names of joints, channels or meshes differ from those of the rig,
+   * MIEN_ERROR_DNA_VALUE if a joint is its own ancestor or a position, delta or weight is not finite,
+   * MIEN_ERROR_DNA_LIMIT if a position has more than 65535 influences, MIEN_ERROR_ISA if the requested
+   * instruction set is not available.
    * See docs/deformation.md.
    */
   mien_deformer_create(dna: number, rig: number, desc: number, out_deformer: number, error: number): number;
@@ -2336,7 +2354,7 @@ export interface Exports {
    */
   mien_deformer_mesh(deformer: number, mesh: number, out_mesh: number): number;
   /**
-   * Returns the influences of a position as they are used: `out_joints` gets one index per influence,
+   * Returns the influences of a position, as used for skinning: `out_joints` gets one index per influence,
    * `out_weights` gets one float per influence. There may be none.
    * Fails with MIEN_ERROR_INDEX if there is no such mesh or position.
    */
@@ -2363,8 +2381,8 @@ export interface Exports {
   /** Destroys a deformer instance. */
   mien_deformer_instance_destroy(deformer_instance: number): void;
   /**
-   * Takes over the joint values and channel weights of the last evaluation of `instance`, and computes
-   * the matrices of all joints. Meshes are deformed by mien_deformer_instance_deform(). Values that are
+   * Copies the joint values and channel weights of the last evaluation of `instance`, and computes the
+   * matrices of all joints. mien_deformer_instance_deform() then deforms meshes. Values that are
    * not finite give results that are not finite. Does not allocate or lock.
    * Fails with MIEN_ERROR_MISMATCH if `instance` belongs to a rig other than that of the deformer.
    * See docs/deformation.md, 1 "Joint transforms".
@@ -2389,9 +2407,9 @@ export interface Exports {
    */
   mien_deformer_instance_skin_matrices(deformer_instance: number, out_matrices: number): number;
   /**
-   * Writes the transforms of the last update, relative to the parents, to `out_transforms`: 10 floats per
-   * joint, tx ty tz qx qy qz qw sx sy sz, with quaternions of unit length. `count` is the capacity of
-   * `out_transforms`, in floats. Does not allocate or lock.
+   * Writes the joint transforms of the last update, relative to the parents, to `out_transforms`: 10
+   * floats per joint, tx ty tz qx qy qz qw sx sy sz, with quaternions of unit length. `count` is the
+   * capacity of `out_transforms`, in floats. Does not allocate or lock.
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if `count` is less than 10 * MienDeformerInfo.joint_count.
    */
   mien_deformer_instance_local_transforms(deformer_instance: number, out_transforms: number, count: number): number;
@@ -2406,10 +2424,10 @@ export interface Exports {
    */
   mien_deformer_instance_deform(deformer_instance: number, mesh: number, normals: number, parallel: number): number;
   /**
-   * Deforms the same mesh of `count` different instances of one deformer. The results have the same bits
-   * as those of mien_deformer_instance_deform(), but each part of the mesh is read once for all, and the
-   * total number of positions decides about tasks. `parallel` may be NULL. Does not allocate or lock.
-   * Uses up to 16 KiB of stack per task. On failure nothing is deformed.
+   * Deforms the same mesh of `count` different instances of one deformer. The results are bit-identical to
+   * those of mien_deformer_instance_deform(), but each part of the mesh is read only once for all of them,
+   * and the total number of positions decides whether tasks are used. `parallel` may be NULL. Does not
+   * allocate or lock. Uses up to 16 KiB of stack per task. On failure nothing is deformed.
    * Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_LOD if an instance has no memory for
    * it, MIEN_ERROR_MISMATCH if the instances have different deformers, MIEN_ERROR_INVALID_ARGUMENT if
    * an instance is listed twice.
@@ -2434,7 +2452,7 @@ export interface Exports {
   /**
    * Deforms a mesh as mien_deformer_instance_deform() does, and writes its vertices to memory of the
    * caller, such as a mapped vertex buffer. Each byte is written once, in the order of the vertices, and
-   * none is read, so the memory may be write-combined. Bytes between vertices are left alone. `parallel`
+   * none is read, so the memory may be write-combined. Bytes between vertices are left unchanged. `parallel`
    * may be NULL; the bytes are the same either way. The same positions, normals and tangents give the
    * same bytes on every instruction set. Does not allocate or lock. Uses up to 16 KiB of stack per task.
    * On failure nothing is deformed or written.
@@ -2463,7 +2481,7 @@ export interface Exports {
   mien_bake_memory(rig: number, deformer: number, buffer: number, capacity: number, out_size: number, error: number): number;
   /**
    * Opens a baked file in memory: `size` bytes. `bytes` must outlive the MienBaked and all objects made
-   * from it, unchanged, unless they are copied: with MIEN_FILE_READ, or if `bytes` is not a multiple of
+   * from it, unchanged, unless they are copied: with MIEN_FILE_READ, or if `bytes` is not aligned to
    * 64.
    * Fails like mien_baked_open_file(), but not with MIEN_ERROR_FILE_OPEN or MIEN_ERROR_FILE_READ.
    */
@@ -2528,7 +2546,7 @@ export interface Exports {
   /** Returns the properties of a clip. */
   mien_clip_info(clip: number, out_info: number): number;
   /**
-   * Returns a channel. Channels are in the order in which the clip was built. Its name is a view of the
+   * Returns a channel. Channels keep the order in which the clip was built. The name is a view into the
    * clip.
    * Fails with MIEN_ERROR_INDEX if `index` is out of range.
    */
@@ -2544,8 +2562,8 @@ export interface Exports {
    */
   mien_clip_find_channel_n(clip: number, name: number, name_count: number, out_index: number): number;
   /**
-   * Returns an event. Events are sorted by tick; those of one tick keep the order in which they were
-   * given. Its name is a view of the clip.
+   * Returns an event. Events are sorted by tick; those at the same tick keep the order in which they were
+   * given. The name is a view into the clip.
    * Fails with MIEN_ERROR_INDEX if `index` is out of range.
    */
   mien_clip_event(clip: number, index: number, out_event: number): number;
@@ -2559,11 +2577,11 @@ export interface Exports {
   /**
    * Copies `frame_count` frames, starting at `first_frame`: channel c of frame first_frame + n goes to
    * out_values[n * frame_stride + c]. frame_stride is at least the number of channels; 0 means that
-   * number. Each call decodes its first block of 64 frames from the start of the block, so many frames in
-   * one call cost less than the same frames one by one. Uses up to 36 KiB of stack.
+   * number. Each call decodes from the start of a block of 64 frames, so reading many frames in one
+   * call costs less than reading them one by one. Uses up to 36 KiB of stack.
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if frame_stride is too small, MIEN_ERROR_INDEX if the
-   * clip has fewer frames, MIEN_ERROR_CLIP_STRUCTURE if a curve is damaged; its block is zero in
-   * `out_values`.
+   * clip has fewer frames, MIEN_ERROR_CLIP_STRUCTURE if a curve is damaged; its block in `out_values` is
+   * zero.
    */
   mien_clip_read(clip: number, first_frame: number, frame_count: number, out_values: number, frame_stride: number, error: number): number;
   /**
@@ -2576,56 +2594,55 @@ export interface Exports {
   /** Returns the state of a player. */
   mien_clip_player_info(clip_player: number, out_info: number): number;
   /**
-   * Moves to a tick: modulo the length with MIEN_LOOPING_WRAP, else to the nearest in range. Passes no
-   * events; the next mien_clip_player_advance() also passes events at this tick, as after creation.
-   * Does not allocate or lock.
+   * Moves to a tick: modulo the length with MIEN_LOOPING_WRAP, otherwise clamped to the range. Reports no
+   * events; the next mien_clip_player_advance() also reports events at this tick, as it does after
+   * creation. Does not allocate or lock.
    */
   mien_clip_player_seek(clip_player: number, tick: bigint): number;
   /**
-   * Sets the speed for later calls of mien_clip_player_advance(). Does not allocate or
-   * lock.
+   * Sets the speed for later calls of mien_clip_player_advance(). Does not allocate or lock.
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if it is outside the range of MienClipPlayerDesc.
    */
   mien_clip_player_set_speed(clip_player: number, numerator: number, denominator: number): number;
   /**
    * Moves by `ticks` times the speed. `ticks` is -2^40 to 2^40 (26 minutes). Fractions of ticks are kept,
-   * so that the position does not depend on the size of steps. Does not allocate or lock.
+   * so the position does not depend on the step size. Does not allocate or lock.
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if `ticks` is out of range.
    */
   mien_clip_player_advance(clip_player: number, ticks: bigint): number;
   /**
    * Returns the next event that the last mien_clip_player_advance() passed. `out_found` is 1, or 0 after
    * the last event. An event is passed when the position reaches or crosses its tick in either
-   * direction, once per loop. Its name is a view of the clip. Does not allocate or lock.
+   * direction, once per loop. The name is a view into the clip. Does not allocate or lock.
    */
   mien_clip_player_next_event(clip_player: number, out_event: number, out_found: number): number;
   /**
-   * Returns the values at the position: one float per channel. At a frame they have the bits of the clip.
-   * Decodes the frames since the last call, or at most 64 after a jump; playing backward without
-   * MienClipPlayerDesc.reverse counts as jumps. Does not allocate or lock.
+   * Returns the values at the current position: one float per channel. Exactly at a frame they are
+   * bit-identical to those of the clip. Decodes the frames since the last call, or at most 64 after a jump;
+   * without MienClipPlayerDesc.reverse, each step backward is a jump. Does not allocate or lock.
    * Contents change with mien_clip_player_sample().
    */
   mien_clip_player_sample(clip_player: number, out_values: number): number;
   /**
-   * Binds a clip to a rig by names. A channel drives the raw control with its name; else the GUI control
-   * with its name, which is then mapped as by mien_rig_map_gui_to_raw(); else the controls of its entries
-   * in the matrix, which are summed in the order of the matrix. Names match without regard to case;
-   * `.` matches `_`; the prefix `CTRL_expressions.` may be missing. If several names match, only one that
-   * is equal counts. A raw control that a channel drives by name is driven by nothing else, and one that the
-   * matrix drives is not driven by GUI controls. Names without a match are not an error: see
-   * mien_clip_binding_info(). `clip` may be closed and `rig` may be destroyed afterwards. Destroy with
-   * mien_clip_binding_destroy().
+   * Binds a clip to a rig by names. A channel drives the raw control with its name. If there is none, it
+   * drives the GUI control with its name, which is then mapped as by mien_rig_map_gui_to_raw(). If there
+   * is none either, it drives the controls of its entries in the matrix, which are summed in the order of
+   * the matrix. Names match without regard to case; `.` matches `_`; the prefix `CTRL_expressions.` may be
+   * missing. If several names match, only an exact match counts. A raw control that a channel drives by
+   * name is driven by nothing else, and one that the matrix drives is not driven by GUI controls. Names
+   * without a match are not an error: see mien_clip_binding_info(). `clip` may be closed and `rig` may be
+   * destroyed afterwards. Destroy with mien_clip_binding_destroy().
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if a weight is not finite, MIEN_ERROR_CLIP_LIMIT if channels
    * drive more than 4095 GUI controls.
    */
   mien_clip_binding_create(clip: number, rig: number, desc: number, out_clip_binding: number, error: number): number;
   /**
-   * Gives a matrix that binds clips with the 52 expression names of ARKit, such as those of the Live Link Face
-   * app, to rigs that name raw controls in the other usual way (eyeBlinkL for eyeBlinkLeft). The same for
-   * every rig: channels whose names a rig has need no matrix, and entries whose controls it lacks are left out.
-   * docs/face-capture.md, 3 "ARKit expressions on raw controls" has the reasons for each entry. Writes as
-   * many entries as there is room for; `out_count` tells how many there are. Names are static.
-   * `out_entries` may be NULL if `capacity` is 0.
+   * Returns a matrix that binds clips with the 52 ARKit expression names, such as those of the Live Link
+   * Face app, to rigs with the other common naming of raw controls (eyeBlinkL for eyeBlinkLeft). It suits
+   * every rig: channels whose names the rig has do not use the matrix, and entries for missing controls are
+   * skipped. docs/face-capture.md, 3 "ARKit expressions on raw controls" explains the entries. Writes as
+   * many entries as fit; `out_count` is the total number. Names are static. `out_entries` may be NULL if
+   * `capacity` is 0.
    */
   mien_arkit_matrix(out_entries: number, capacity: number, out_count: number): number;
   /** Destroys a binding. */
@@ -2633,33 +2650,35 @@ export interface Exports {
   /** Returns what a binding found. */
   mien_clip_binding_info(clip_binding: number, out_info: number): number;
   /**
-   * Computes the raw controls that are driven and leaves the others as they are. `values` has one float
+   * Computes the raw controls that are driven and leaves the others unchanged. `values` has one float
    * per channel, as mien_clip_player_sample() returns them; `raw_controls` has one float per raw control,
-   * as mien_instance_raw_controls() returns them. Values that drive raw controls by name keep their bits;
-   * GUI controls give the bits of mien_rig_map_gui_to_raw(). Does not allocate or lock. Uses
-   * up to 16 KiB of stack.
-   * Fails with MIEN_ERROR_INVALID_ARGUMENT if a count is not that of clip and rig.
+   * as mien_instance_raw_controls() returns them. Values that drive raw controls by name are
+   * copied exactly; GUI controls give the same bits as mien_rig_map_gui_to_raw(). Does not allocate or
+   * lock. Uses up to 16 KiB of stack.
+   * Fails with MIEN_ERROR_INVALID_ARGUMENT if a count differs from that of the clip or the rig.
    */
   mien_clip_binding_apply(clip_binding: number, values: number, value_count: number, raw_controls: number, raw_control_count: number): number;
   /**
-   * Finds for each channel of a clip the coarsest step that cannot be seen, for MienClipDesc.snaps: of 2^-9 to
-   * 2^-16 the largest of which half moves no vertex that LOD 0 shows farther than the tolerance. `tolerance` is in
-   * millimeters, such as 0.02. Joints count if no mesh is shown. Tried at five values from 0 to 1, and of GUI controls
-   * from -1 on, with all other channels at 0. A channel that drives nothing gets 2^-11, one that
-   * even the finest step moves farther 0. Build a clip with all bits, bind it, and build it again
-   * with these steps. Evaluates and deforms the rig 10 times per channel or more, and takes memory from its
-   * allocator during the call.
-   * Fails with MIEN_ERROR_MEMORY if there is none, MIEN_ERROR_MISMATCH if `channel_count` is not that of the
-   * binding, or the binding is of another rig, MIEN_ERROR_INVALID_ARGUMENT if `tolerance` is not a number above 0.
+   * Finds for each channel of a clip the coarsest rounding step with no visible effect, for
+   * MienClipDesc.snaps: the largest of 2^-9 to 2^-16 of which half moves no vertex of LOD 0 by more than
+   * `tolerance`, in millimeters, such as 0.02. If LOD 0 has no meshes, joints are measured instead. Each
+   * channel is tried at five values from 0 to 1, and from -1 on if GUI controls are driven, with all other
+   * channels at 0. Channels that drive nothing get 2^-11; channels for which even the finest step is too
+   * coarse get 0. To use the steps, build a clip with all bits, bind it, then build it again with them.
+   * Evaluates and deforms the rig at least 10 times per channel, and takes memory from its allocator during
+   * the call.
+   * Fails with MIEN_ERROR_MEMORY if that returns NULL, MIEN_ERROR_MISMATCH if `channel_count` is not that of
+   * the binding, or the binding is for another rig, MIEN_ERROR_INVALID_ARGUMENT if `tolerance` is not a
+   * number above 0.
    */
   mien_clip_binding_snaps(clip_binding: number, deformer: number, tolerance: number, out_snaps: number, channel_count: number, error: number): number;
   /**
    * Creates a mix for a rig. `desc` is required. `rig` may be destroyed afterwards, and so may the
    * deformer. Measuring guards takes time: it evaluates and deforms the rig at LOD 0 for each raw control
-   * and for pairs that share a corrective. Destroy with mien_mix_destroy().
-   * Fails with MIEN_ERROR_MISMATCH if deformer or gaze are of another rig, MIEN_ERROR_INDEX if a landmark
-   * names a mesh, position or joint that does not exist, MIEN_ERROR_INVALID_ARGUMENT if a part of `desc` is
-   * out of range; the message names it.
+   * and for pairs of raw controls that share a corrective. Destroy with mien_mix_destroy().
+   * Fails with MIEN_ERROR_MISMATCH if the deformer or the gaze is for another rig, MIEN_ERROR_INDEX if a
+   * landmark names a mesh, position or joint that does not exist, MIEN_ERROR_INVALID_ARGUMENT if a field
+   * of `desc` is out of range; the message names it.
    */
   mien_mix_create(rig: number, desc: number, out_mix: number, error: number): number;
   /**
@@ -2676,129 +2695,134 @@ export interface Exports {
    */
   mien_mix_write_memory(mix: number, buffer: number, capacity: number, out_size: number, error: number): number;
   /**
-   * The same as text, for people and version control: a line for each number, with its place in the mix and
-   * the names of controls. Floats have nine digits, which give back their bits. It cannot be opened. Not
-   * terminated. `buffer` may be NULL with capacity 0 to get the size only.
+   * Writes a mix as text, for reading and for version control: one line for each number, with its path in
+   * the mix and the names of controls. Floats have nine digits, enough to restore their bits. The text
+   * cannot be opened as a mix, and is not null-terminated. `buffer` may be NULL with capacity 0 to get the
+   * size only.
    * Fails like mien_mix_write_memory().
    */
   mien_mix_write_text(mix: number, buffer: number, capacity: number, out_size: number, error: number): number;
-  /** Destroys a mix. Its mixers go on: the last of them releases it. */
+  /**
+   * Destroys a mix. Its mixers stay valid; its memory is released with the last of them.
+   */
   mien_mix_destroy(mix: number): void;
   /** Returns the properties of a mix. */
   mien_mix_info(mix: number, out_info: number): number;
   /**
-   * Returns what was measured of a guard. `guard_index` counts as in mien_mixer_set_guard(), from 0 to
+   * Returns the measured function of a guard. `guard_index` counts as in mien_mixer_set_guard(), from 0 to
    * MienMixInfo.guard_count - 1; mien_mixer_guard() has its name.
    * Fails with MIEN_ERROR_INDEX if there is no such guard.
    */
   mien_mix_guard(mix: number, guard_index: number, out_guard: number): number;
   /**
-   * Gives the strokes of a response to a light in the eyes, of which there are 5. Their poses are, from
+   * Returns a ready-made reaction to a light in the eyes, with 5 strokes. The caller provides its poses, from
    * `first_pose` on: lids closed; squint and lowered brows; gaze turned away; narrow pupils; head turned
-   * away. docs/mixing.md, 3 "Reactions" has the times. `out_reaction` gets these strokes and the rules of
-   * the reaction.
+   * away. docs/mixing.md, 3 "Reactions" lists the times. `out_reaction` refers to `out_strokes`.
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if `stroke_count` is less than 5.
    */
   mien_mix_glare(first_pose: number, out_strokes: number, stroke_count: number, out_reaction: number): number;
   /**
-   * Finds antagonists: pairs of raw controls that the two halves of one GUI control drive, and nothing
-   * else does. Writes as many as there is room for, with stiffness 1; `out_count` tells how many there are.
-   * `out_pairs` may be NULL if `capacity` is 0.
+   * Finds antagonists: pairs of raw controls that only the two halves of one GUI control drive. Writes as
+   * many as fit, with stiffness 1; `out_count` is the total number. `out_pairs` may be NULL if `capacity` is
+   * 0.
    */
   mien_mix_antagonists(rig: number, out_pairs: number, capacity: number, out_count: number): number;
   /**
    * Finds the counterparts of raw controls in the other half of the face, for MienMixDesc.mirror. Controls
-   * are counterparts if their names differ only in Left and Right or L and R and their motions agree, or
-   * if they move joints in mirrored ways. Others, and lanes beyond the raw controls, map to themselves.
-   * Evaluates the rig once for each raw control, and takes memory from its allocator during the call.
+   * are counterparts if their names differ only in Left and Right (or L and R) and their motions agree, or
+   * else if their motions are mirror images. Other controls, and lanes beyond the raw controls, map to
+   * themselves. Evaluates the rig once for each raw control, and takes memory from its allocator during
+   * the call.
    * Fails with MIEN_ERROR_MEMORY if that returns NULL, MIEN_ERROR_MISMATCH if `lane_count` is less than the
    * raw controls.
    */
   mien_mix_mirror(deformer: number, out_lanes: number, lane_count: number, error: number): number;
   /**
-   * Writes a mask for each raw control: the share of its joint motion, at value 1 and LOD 0, that is of
-   * some joint groups; a millimeter counts as much as a degree. Controls that move no joint, and lanes
-   * beyond the raw controls, get `otherwise_weight`. Evaluates the rig once for each raw control and
-   * group, and takes memory from its allocator during the call.
+   * Computes a mask that selects joint groups: for each raw control the share of its joint motion, at
+   * value 1 and LOD 0, that belongs to these groups. A millimeter counts as much as a degree. Controls
+   * that move no joint, and lanes beyond the raw controls, get `otherwise_weight`. Evaluates the rig once
+   * for each raw control and group, and takes memory from its allocator during the call.
    * Fails with MIEN_ERROR_MEMORY if that returns NULL, MIEN_ERROR_INDEX if a group does not exist,
    * MIEN_ERROR_MISMATCH if `lane_count` is less than the raw controls.
    */
   mien_mix_mask(rig: number, groups: number, group_count: number, otherwise_weight: number, out_mask: number, lane_count: number, error: number): number;
   /**
-   * Creates a gaze by measuring how raw controls turn the eyes: evaluates the rig twice per raw control and more.
-   * `deformer` may be destroyed afterwards. Destroy with mien_gaze_destroy().
-   * Fails with MIEN_ERROR_NAME if there are no such joints, MIEN_ERROR_INVALID_ARGUMENT if one of the
-   * four directions has no raw control that turns an eye steadily farther.
+   * Creates a gaze by measuring how raw controls turn the eyes, which evaluates the rig at least twice per
+   * raw control. `deformer` may be destroyed afterwards. Destroy with mien_gaze_destroy().
+   * Fails with MIEN_ERROR_NAME if there are no such joints, MIEN_ERROR_INVALID_ARGUMENT if no raw
+   * control turns an eye monotonically in one of the four directions.
    */
   mien_gaze_create(deformer: number, desc: number, out_gaze: number, error: number): number;
   /** Destroys a gaze. */
   mien_gaze_destroy(gaze: number): void;
-  /** Returns where the eyes are, so that a target can be placed before them. */
+  /** Returns where the eyes are, so that a target can be placed in front of them. */
   mien_gaze_info(gaze: number, out_info: number): number;
   /**
-   * Sets the raw controls of a row so that both eyes look at a target. Near targets make eyes converge.
+   * Sets the raw controls of a row so that both eyes look at a target. Eyes converge on near targets.
    * `out_rest` may be NULL. Does not allocate or lock.
    * Fails with MIEN_ERROR_MISMATCH if `row_count` is less than the raw controls, MIEN_ERROR_INVALID_ARGUMENT
    * if the target is not finite.
    */
   mien_gaze_look_at(gaze: number, target: number, row: number, row_count: number, out_rest: number): number;
   /**
-   * Creates a mixer at time 0, with one allocation. Nothing plays; the weights of poses and the pose
-   * variables are 0. `mix` may be destroyed before it. Destroy with mien_mixer_destroy().
+   * Creates a mixer at time 0, with one allocation. No clip plays; pose weights and pose variables are 0.
+   * `mix` may be destroyed before it. Destroy with mien_mixer_destroy().
    */
   mien_mixer_create(mix: number, desc: number, out_mixer: number, error: number): number;
   /** Destroys a mixer. */
   mien_mixer_destroy(mixer: number): void;
   /**
    * Plays a clip in a layer, from the next step on. `clip` and `clip_binding` must outlive their playback,
-   * including the transition to the next clip. On failure the layer goes on as before. Does not allocate or
+   * including the transition to the next clip. On failure the layer continues as before. Does not allocate or
    * lock.
    * Fails with MIEN_ERROR_INDEX if the layer does not exist or has another source, MIEN_ERROR_MISMATCH if
-   * the binding is of another clip or rig, MIEN_ERROR_INVALID_ARGUMENT if a time, speed or enum value is
-   * out of range or a clip of differences would override, MIEN_ERROR_CLIP_LIMIT if the clip is larger than
-   * the mix allows.
+   * the binding is for another clip or rig, MIEN_ERROR_INVALID_ARGUMENT if a time, speed or enum value is
+   * out of range or a delta clip would play in a layer that overrides, MIEN_ERROR_CLIP_LIMIT if the clip is
+   * larger than the mix allows.
    */
   mien_mixer_play(mixer: number, layer: number, clip: number, clip_binding: number, desc: number, error: number): number;
   /**
-   * Fades out the clip of a layer and ends it. Fades take 0 to 2^40 ticks, here and below; they start from
+   * Fades out the clip of a layer and stops it. Fades take 0 to 2^40 ticks, here and below; they start from
    * the current value and speed, and end with speed 0. Does not allocate or lock.
-   * Fails with MIEN_ERROR_INDEX if the layer does not exist or plays no clips.
+   * Fails with MIEN_ERROR_INDEX if the layer does not exist or is not a clip layer.
    */
   mien_mixer_stop(mixer: number, layer: number, fade_ticks: bigint): number;
   /**
-   * Fades the weight of a layer to `weight`, with the range of MienMixLayer.weight. Does not allocate or
+   * Fades the weight of a layer to `weight`, which has the range of MienMixLayer.weight. Does not allocate or
    * lock.
    * Fails with MIEN_ERROR_INDEX if the layer does not exist.
    */
   mien_mixer_set_weight(mixer: number, layer: number, weight: number, fade_ticks: bigint): number;
   /**
-   * Fades the weight of a pose to `weight`, 0 ... 1. `pose` counts from the first one of its layer. Weights
+   * Fades the weight of a pose to `weight`, 0 to 1. `pose` counts from the first pose of the layer. Weights
    * of a layer that add up to more than 1 are divided by their sum. Does not allocate or lock.
    * Fails with MIEN_ERROR_INDEX if the layer or its pose does not exist.
    */
   mien_mixer_set_pose_weight(mixer: number, layer: number, pose: number, weight: number, fade_ticks: bigint): number;
   /**
-   * Sets the `value` that a pose variable has at the start of each step. Does not allocate or lock.
+   * Sets the `value` that a pose variable has at the start of each step, before the layers. Does not
+   * allocate or lock.
    * Fails with MIEN_ERROR_INDEX if it does not exist, MIEN_ERROR_INVALID_ARGUMENT if the value is not
    * finite.
    */
   mien_mixer_set_variable(mixer: number, variable: number, value: number): number;
   /**
-   * Sets how much a guard acts: `activation` is 0 ... 1. If it is negative, the default, the guard acts as
-   * far as base and speech close its distance; those of lips and teeth act no more than the largest weight
-   * of a speech layer. mien_mixer_guard() tells which `guard_index` is which guard. Does not allocate or lock.
+   * Sets how much a guard acts: `activation` is 0 to 1, or negative for automatic, the default: the smaller
+   * the gap that base and speech leave, the more the guard acts; guards of lips and teeth act at most as
+   * much as the largest weight of a speech layer. mien_mixer_guard() returns the name for a `guard_index`.
+   * Does not allocate or lock.
    * Fails with MIEN_ERROR_INDEX if the guard does not exist, MIEN_ERROR_INVALID_ARGUMENT if `activation` is
    * above 1 or not a number.
    */
   mien_mixer_set_guard(mixer: number, guard_index: number, activation: number): number;
   /**
-   * Returns what a guard did in the last step. `guard_index` counts as in mien_mixer_set_guard(). Views are of
-   * the mix.
+   * Returns what a guard did in the last step. `guard_index` counts as in mien_mixer_set_guard(). Views point
+   * into the mix.
    * Fails with MIEN_ERROR_INDEX if the guard does not exist.
    */
   mien_mixer_guard(mixer: number, guard_index: number, out_state: number): number;
   /**
-   * Starts a reaction to a stimulus of `strength`, 0 ... 1, that lasts `hold_ticks`, at most 2^40; if
+   * Starts a reaction to a stimulus of `strength`, 0 to 1, that lasts for `hold_ticks`, at most 2^40; if
    * negative, until mien_mixer_release(). Does not allocate or lock.
    * Fails with MIEN_ERROR_INDEX if the reaction does not exist, MIEN_ERROR_INVALID_ARGUMENT if strength or
    * time is out of range.
@@ -2810,33 +2834,33 @@ export interface Exports {
    */
   mien_mixer_release(mixer: number, reaction: number): number;
   /**
-   * Sets the level, 0 ... 1, of what a reaction responds to, such as a brightness. Call it whenever that
-   * changes. From MienMixReaction.level_on on it is a stimulus of strength 1, which lasts until the level was
-   * below level_off for 50 ms: light that flickers is on. Strokes that are scaled follow the level meanwhile,
-   * without overshoot, 90 % of a change in 0.25 s. Does not allocate or lock.
+   * Sets the level of what a reaction responds to, such as a brightness, 0 to 1. Call it whenever the level
+   * changes. A level of MienMixReaction.level_on or more is a stimulus of strength 1, which ends once the
+   * level has been below level_off for 50 ms, so a flickering light counts as on. During the stimulus, scaled
+   * strokes follow the level without overshoot; 90 % of a change takes 0.25 s. Does not allocate or lock.
    * Fails with MIEN_ERROR_INDEX if the reaction does not exist, MIEN_ERROR_INVALID_ARGUMENT if it has no
    * level_on or `level` is out of range.
    */
   mien_mixer_set_level(mixer: number, reaction: number, level: number): number;
   /**
-   * Queues a row for a stream layer: one value per channel, for time `tick` of the mixer. One thread may call this
-   * while another one uses the mixer. `out_accepted` may be NULL; it is 0 for a row that is dropped because
-   * it is not newer than the last one or the queue is full. Does not allocate or lock.
-   * Fails with MIEN_ERROR_INDEX if the layer does not exist or is no stream, MIEN_ERROR_MISMATCH if it has
+   * Queues a row for a stream layer: one value per channel, for time `tick` of the mixer. One thread may call
+   * this while another one uses the mixer. `out_accepted` may be NULL; it is set to 0 if the row is dropped
+   * because it is not newer than the last one or the queue is full. Does not allocate or lock.
+   * Fails with MIEN_ERROR_INDEX if the layer does not exist or is not a stream, MIEN_ERROR_MISMATCH if it has
    * another number of channels, MIEN_ERROR_INVALID_ARGUMENT if a value is not finite or `tick` is 2^61 or
    * more.
    */
   mien_mixer_push(mixer: number, layer: number, tick: bigint, values: number, value_count: number, out_accepted: number): number;
   /**
-   * Advances by `ticks`, 0 to 2^40, and mixes. The raw controls go to `instance`, which may be NULL. Does
-   * not allocate or lock.
-   * Fails with MIEN_ERROR_INVALID_ARGUMENT if `ticks` is out of range or leads beyond 2^60 ticks (51
-   * years), MIEN_ERROR_MISMATCH if the instance has another number of raw controls.
+   * Advances the time by `ticks`, 0 to 2^40, and mixes. Writes the raw controls to `instance`, which may
+   * be NULL. Does not allocate or lock.
+   * Fails with MIEN_ERROR_INVALID_ARGUMENT if `ticks` is out of range or the time would exceed 2^60 ticks
+   * (51 years), MIEN_ERROR_MISMATCH if the instance has another number of raw controls.
    */
   mien_mixer_step(mixer: number, ticks: bigint, instance: number): number;
   /**
    * Steps `count` mixers; instances[i] belongs to mixers[i]. `instances` may be NULL. The results are those
-   * of single calls. On failure no mixer has moved.
+   * of single calls. On failure no mixer is advanced.
    * Fails like mien_mixer_step(), and with MIEN_ERROR_INVALID_ARGUMENT if a mixer is listed twice.
    */
   mien_mixer_step_batch(mixers: number, instances: number, count: number, ticks: bigint): number;
@@ -2857,25 +2881,24 @@ export interface Exports {
   /** Returns the state of a mixer. */
   mien_mixer_info(mixer: number, out_info: number): number;
   /**
-   * Returns an event of the last step and its layer. Its tick is in the time of the clip, and its name is a
-   * view of the clip.
+   * Returns an event of the last step and its layer. The tick is in the time of the clip, and the name is a
+   * view into the clip.
    * Fails with MIEN_ERROR_INDEX if `index` is out of range.
    */
   mien_mixer_event(mixer: number, index: number, out_event: number, out_layer: number): number;
   /**
-   * Writes the state of a mixer to memory: all that later steps depend on, except queued rows of streams.
+   * Writes the state of a mixer to memory: everything that later steps depend on, except queued stream rows.
    * Returns its size in `out_size`. `buffer` may be NULL with capacity 0 to get the size only. Snapshots
    * can be restored on 64-bit machines of the same byte order. Does not allocate or lock.
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small.
    */
   mien_mixer_snapshot(mixer: number, buffer: number, capacity: number, out_size: number, error: number): number;
   /**
-   * Restores a snapshot of a mixer of the same mix; later steps give the same bits. Rows of
-   * streams are not part of it. `clips` holds the clips that may be playing. The bytes are checked, whatever their origin.
-   * On failure the mixer does not change. Does not
-   * allocate or lock.
+   * Restores a snapshot of a mixer of the same mix; later steps give the same bits. Queued stream rows are
+   * not part of it. `clips` lists the clips that may have been playing. The bytes are validated, so they
+   * need not be trusted. On failure the mixer does not change. Does not allocate or lock.
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if the bytes are not a snapshot of this mix,
-   * MIEN_ERROR_MISMATCH if a clip is missing or is not the one that played.
+   * MIEN_ERROR_MISMATCH if a clip is missing or is not the one that was playing.
    */
   mien_mixer_restore(mixer: number, bytes: number, size: number, clips: number, clip_count: number, error: number): number;
   /**
@@ -2885,7 +2908,9 @@ export interface Exports {
    * is out of range, or if a solver reads a joint that a later one moves; the message names both.
    */
   mien_solver_stack_create(deformer: number, desc: number, out_solver_stack: number, error: number): number;
-  /** Destroys a solver stack. Its states go on: the last of them releases it. */
+  /**
+   * Destroys a solver stack. Its states stay valid; its memory is released with the last of them.
+   */
   mien_solver_stack_destroy(solver_stack: number): void;
   /** Returns the properties of a solver stack. */
   mien_solver_stack_info(solver_stack: number, out_info: number): number;
@@ -2897,37 +2922,38 @@ export interface Exports {
   /** Destroys a solver state. */
   mien_solver_state_destroy(solver_state: number): void;
   /**
-   * Runs the solvers on the pose of `deformer_instance`, which mien_deformer_instance_update() has to set
-   * before every step. `input` may be NULL: no row, LOD 0. `ticks`, the time since the last step, is 0 to
+   * Runs the solvers on the pose of `deformer_instance`. Call mien_deformer_instance_update() before every
+   * step. `input` may be NULL: no row, LOD 0. `ticks`, the time since the last step, is 0 to
    * 2^40. Does not allocate or lock.
-   * Fails with MIEN_ERROR_MISMATCH if the instance has another deformer than the stack or the row is
-   * shorter than MienSolverStackDesc.lane_count, MIEN_ERROR_INVALID_ARGUMENT if ticks or LOD are out of
+   * Fails with MIEN_ERROR_MISMATCH if instance and stack have different deformers or the row is
+   * shorter than MienSolverStackDesc.lane_count, MIEN_ERROR_INVALID_ARGUMENT if `ticks` or the LOD is out of
    * range.
    */
   mien_solver_state_step(solver_state: number, deformer_instance: number, input: number, ticks: bigint): number;
   /**
    * Steps `count` states of one stack; deformer_instances[i] and inputs[i] belong to solver_states[i].
    * `inputs` may be NULL. The results are those of single calls. No state or instance may occur twice. On
-   * failure nothing has moved. Does not allocate or lock. Uses up to 8 KiB of stack.
+   * failure nothing changes. Does not allocate or lock. Uses up to 8 KiB of stack.
    * Fails like mien_solver_state_step(), and with MIEN_ERROR_MISMATCH if the states have different
    * stacks.
    */
   mien_solver_state_step_batch(solver_states: number, deformer_instances: number, inputs: number, count: number, ticks: bigint): number;
   /**
-   * Returns what a solver has published in the last step, one float per output. `solver` counts in the order of the
-   * stack. Contents change with mien_solver_state_step(), mien_solver_state_step_batch().
+   * Returns the outputs of a solver in the last step, one float per output. `solver` is its index in the
+   * stack.
+   * Contents change with mien_solver_state_step(), mien_solver_state_step_batch().
    * Fails with MIEN_ERROR_INDEX if the solver does not exist.
    */
   mien_solver_state_outputs(solver_state: number, solver: number, out_values: number): number;
   /**
-   * Returns the transforms after the last step, relative to the parents: 10 floats per joint, tx ty tz qx
-   * qy qz qw sx sy sz. (mien_deformer_instance_local_transforms() gives those before it.)
+   * Returns the joint transforms after the last step, relative to the parents: 10 floats per joint, tx ty tz
+   * qx qy qz qw sx sy sz. (mien_deformer_instance_local_transforms() returns those before the step.)
    * Contents change with mien_solver_state_step(), mien_solver_state_step_batch().
    */
   mien_solver_state_transforms(solver_state: number, out_transforms: number): number;
   /**
-   * Returns the name of a solver that changed a joint which is not in its list in the last step, or an
-   * empty string. Contents change with mien_solver_state_step(), mien_solver_state_step_batch().
+   * Returns the name of a solver that changed a joint not in its `writes` in the last step, or an empty
+   * string. Contents change with mien_solver_state_step(), mien_solver_state_step_batch().
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if MienSolverStackDesc.check_writes was 0.
    */
   mien_solver_state_undeclared(solver_state: number, out_name: number): number;

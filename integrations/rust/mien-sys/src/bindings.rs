@@ -13,24 +13,24 @@ pub const MIEN_VERSION_MAJOR: u32 = 0;
 pub const MIEN_VERSION_MINOR: u32 = 1;
 pub const MIEN_VERSION_PATCH: u32 = 0;
 pub const MIEN_VERSION: u32 = 65536;
-/// Value of a byte offset where there is none.
+/// A byte offset that means "none".
 pub const MIEN_NO_OFFSET: u64 = 18446744073709551615;
 /// Ticks per second.
 pub const MIEN_TICKS_PER_SECOND: u32 = 705600000;
-/// No mesh: points are joints.
+/// No mesh: the points of a landmark are joints.
 pub const MIEN_NO_MESH: u32 = 4294967295;
 /// No raw control.
 pub const MIEN_NO_CONTROL: u32 = 65535;
-/// No joint, where a field holds the index of one.
+/// Value of a joint index that means no joint.
 pub const MIEN_NO_JOINT: u32 = 65535;
 
 // enum MienStatusCode
 pub const MIEN_OK: MienStatus = 0;
 /// A required pointer is NULL.
 pub const MIEN_ERROR_NULL_ARGUMENT: MienStatus = 1;
-/// A value outside its range, or a buffer that is too small.
+/// A value out of range, or a buffer that is too small.
 pub const MIEN_ERROR_INVALID_ARGUMENT: MienStatus = 2;
-/// `struct_size` is too small or above 4096, or unknown fields are not zero.
+/// `struct_size` is too small or above 4096, or a field unknown to the library is not zero.
 pub const MIEN_ERROR_STRUCT_SIZE: MienStatus = 3;
 /// A handle of the wrong kind.
 pub const MIEN_ERROR_HANDLE: MienStatus = 4;
@@ -38,15 +38,15 @@ pub const MIEN_ERROR_HANDLE: MienStatus = 4;
 pub const MIEN_ERROR_MISMATCH: MienStatus = 5;
 /// An index past the end.
 pub const MIEN_ERROR_INDEX: MienStatus = 6;
-/// A LOD that does not exist, or that the object has no memory for.
+/// A LOD that does not exist, or for which the object has no memory.
 pub const MIEN_ERROR_LOD: MienStatus = 7;
 /// No such name or path.
 pub const MIEN_ERROR_NAME: MienStatus = 8;
-/// An instruction set that this CPU or build lacks.
+/// An instruction set that the CPU or the build does not support.
 pub const MIEN_ERROR_ISA: MienStatus = 9;
 /// The allocator returned NULL.
 pub const MIEN_ERROR_MEMORY: MienStatus = 10;
-/// This build of the library opens baked files only.
+/// This build of the library only opens baked files.
 pub const MIEN_ERROR_UNSUPPORTED: MienStatus = 11;
 /// The file cannot be opened.
 pub const MIEN_ERROR_FILE_OPEN: MienStatus = 20;
@@ -56,9 +56,9 @@ pub const MIEN_ERROR_FILE_READ: MienStatus = 21;
 pub const MIEN_ERROR_FILE_WRITE: MienStatus = 22;
 /// Not a DNA file.
 pub const MIEN_ERROR_DNA_SIGNATURE: MienStatus = 30;
-/// A DNA file of a generation other than 2.
+/// A DNA file whose generation is not 2.
 pub const MIEN_ERROR_DNA_VERSION: MienStatus = 31;
-/// The file is shorter than its header or counts state.
+/// The file ends before the data that its header or counts announce.
 pub const MIEN_ERROR_DNA_TRUNCATED: MienStatus = 32;
 /// Offsets, sizes or counts contradict each other.
 pub const MIEN_ERROR_DNA_STRUCTURE: MienStatus = 33;
@@ -68,29 +68,29 @@ pub const MIEN_ERROR_DNA_REFERENCE: MienStatus = 34;
 pub const MIEN_ERROR_DNA_LIMIT: MienStatus = 35;
 /// A required layer is not loaded or not in the file.
 pub const MIEN_ERROR_DNA_LAYER: MienStatus = 36;
-/// A value without a meaning, or one that cannot be converted.
+/// An invalid value, or one that cannot be converted.
 pub const MIEN_ERROR_DNA_VALUE: MienStatus = 37;
 /// Not a baked file.
 pub const MIEN_ERROR_BAKED_SIGNATURE: MienStatus = 50;
-/// Baked by another version or for another kind of machine.
+/// Baked by another version of Mien, or for the other byte order.
 pub const MIEN_ERROR_BAKED_VERSION: MienStatus = 51;
 /// The file is shorter than its header states.
 pub const MIEN_ERROR_BAKED_TRUNCATED: MienStatus = 52;
 /// Sizes, counts or indices contradict each other.
 pub const MIEN_ERROR_BAKED_STRUCTURE: MienStatus = 53;
-/// The bytes are not those that were written.
+/// The file has changed since it was written.
 pub const MIEN_ERROR_BAKED_CHECKSUM: MienStatus = 54;
 /// The file does not contain the requested object.
 pub const MIEN_ERROR_BAKED_PART: MienStatus = 55;
 /// Not a clip.
 pub const MIEN_ERROR_CLIP_SIGNATURE: MienStatus = 60;
-/// Built by another version.
+/// A clip in another version of the format.
 pub const MIEN_ERROR_CLIP_VERSION: MienStatus = 61;
 /// The clip is shorter than its header states.
 pub const MIEN_ERROR_CLIP_TRUNCATED: MienStatus = 62;
 /// Sizes, counts or curves contradict each other.
 pub const MIEN_ERROR_CLIP_STRUCTURE: MienStatus = 63;
-/// The bytes are not those that were written.
+/// The clip has changed since it was written.
 pub const MIEN_ERROR_CLIP_CHECKSUM: MienStatus = 64;
 /// A value that is not finite.
 pub const MIEN_ERROR_CLIP_VALUE: MienStatus = 65;
@@ -98,15 +98,15 @@ pub const MIEN_ERROR_CLIP_VALUE: MienStatus = 65;
 pub const MIEN_ERROR_CLIP_LIMIT: MienStatus = 66;
 /// Not a mix.
 pub const MIEN_ERROR_MIX_SIGNATURE: MienStatus = 70;
-/// Written by another version.
+/// A mix in another version of the format.
 pub const MIEN_ERROR_MIX_VERSION: MienStatus = 71;
 /// The file is shorter than its header states.
 pub const MIEN_ERROR_MIX_TRUNCATED: MienStatus = 72;
 /// Sizes or counts contradict each other, or a value is out of range.
 pub const MIEN_ERROR_MIX_STRUCTURE: MienStatus = 73;
-/// The bytes are not those that were written.
+/// The mix has changed since it was written.
 pub const MIEN_ERROR_MIX_CHECKSUM: MienStatus = 74;
-/// Arrays of a mesh, shape or bone contradict each other.
+/// The arrays of a mesh, shape or bone contradict each other.
 pub const MIEN_ERROR_AUTHOR_MESH: MienStatus = 80;
 /// A mesh that cannot be rigged; the message names the rule.
 pub const MIEN_ERROR_AUTHOR_REFUSED: MienStatus = 81;
@@ -132,9 +132,9 @@ pub const MIEN_UNKNOWN_LAYERS_KEEP: u32 = 0;
 pub const MIEN_UNKNOWN_LAYERS_DROP: u32 = 1;
 
 // enum MienFileAccess
-/// Map the file; read it into memory if it cannot be mapped, as pipes.
+/// Map the file; read it into memory if it cannot be mapped, such as a pipe.
 pub const MIEN_FILE_MAP: u32 = 0;
-/// Read the whole file into memory: safe if it is truncated later.
+/// Read the whole file into memory: safe even if it is truncated later.
 pub const MIEN_FILE_READ: u32 = 1;
 
 // enum MienTranslationUnit
@@ -168,21 +168,21 @@ pub const MIEN_FACE_WINDING_OUTWARD: u32 = 0;
 pub const MIEN_FACE_WINDING_INWARD: u32 = 1;
 
 // enum MienRotationRule
-/// The sequence of the file, about the renamed axes: where x becomes z, xyz becomes zyx, xzy
-/// becomes zxy, and so on.
+/// Keep the sequence of the file and rename its axes: if x and z are exchanged, xyz becomes zyx,
+/// xzy becomes zxy, and so on.
 pub const MIEN_ROTATION_RULE_CARRIED: u32 = 0;
 /// The requested sequence. Neutral poses, quaternion joints, twists, swings, ML joints and joints
 /// that rotate about one axis only are converted exactly; rigs with other joints are rejected with
 /// `MIEN_ERROR_DNA_VALUE`.
 pub const MIEN_ROTATION_RULE_EXACT: u32 = 1;
-/// The requested sequence, each column of the joint matrix on its own: exact while one control is
-/// 1 and the others are 0, approximate for small angles.
+/// The requested sequence, converting each column of the joint matrix separately: exact if one
+/// control is 1 and all others are 0, otherwise an approximation for small angles.
 pub const MIEN_ROTATION_RULE_PER_COLUMN: u32 = 2;
 
 // enum MienFieldType
 /// Named fields.
 pub const MIEN_FIELD_RECORD: u32 = 0;
-/// Records, strings or arrays; element i has the path of the list + \[i\].
+/// Records, strings or arrays; element i is at the path of the list + \[i\].
 pub const MIEN_FIELD_LIST: u32 = 1;
 pub const MIEN_FIELD_STRING: u32 = 2;
 /// Numbers: one, or an array.
@@ -220,7 +220,7 @@ pub const MIEN_ROTATION_OUTPUT_QUATERNION: u32 = 1;
 
 // enum MienMlMasks
 /// 0: the outputs of the networks get their default (0, or 1 for the w of a quaternion). Other
-/// values: the networks are evaluated. This is what files are made for.
+/// values: the networks are evaluated. This is the behavior that DNA files are authored for.
 pub const MIEN_ML_MASKS_SWITCH: u32 = 0;
 /// Outputs are blended with their default by the mask, clamped to 0..1.
 pub const MIEN_ML_MASKS_BLEND: u32 = 1;
@@ -229,14 +229,15 @@ pub const MIEN_ML_MASKS_BLEND: u32 = 1;
 pub const MIEN_STORAGE_32_BIT: u32 = 0;
 /// Half the memory. Network weights and columns of quaternion joints are IEEE half floats (rounded
 /// to nearest even, at most 65504 in magnitude); the joint matrix is 16-bit fixed point, in units
-/// of the largest entry of the row / 32767.
+/// of 1/32767 of the largest entry of the row.
 pub const MIEN_STORAGE_16_BIT: u32 = 1;
 
 // enum MienArithmetic
-/// Among AVX2, AVX-512 and NEON, which fuse multiply and add; and among scalar and SSE2.
+/// AVX2, AVX-512 and NEON, which fuse multiply and add, agree with each other; scalar and SSE2
+/// agree with each other.
 pub const MIEN_ARITHMETIC_FAST: u32 = 0;
-/// On all, by not fusing anywhere. Rigs made of a DNA file are the same as far as the sine of the
-/// C library is; a baked rig has the same bits on every machine.
+/// All agree, because nothing is fused. A baked rig gives the same bits on every machine; a rig
+/// created from a DNA file does if the C libraries compute the same sines.
 pub const MIEN_ARITHMETIC_PORTABLE: u32 = 1;
 
 // enum MienReuse
@@ -247,7 +248,7 @@ pub const MIEN_REUSE_NOTHING: u32 = 1;
 // enum MienKind
 pub const MIEN_KIND_GUI_CONTROL: u32 = 0;
 pub const MIEN_KIND_RAW_CONTROL: u32 = 1;
-/// Correctives. DNA files have no names for them; here "psd0", "psd1", ...
+/// Correctives; unnamed in DNA files, here "psd0", "psd1", ...
 pub const MIEN_KIND_PSD_CONTROL: u32 = 2;
 pub const MIEN_KIND_ML_CONTROL: u32 = 3;
 pub const MIEN_KIND_RBF_CONTROL: u32 = 4;
@@ -261,7 +262,7 @@ pub const MIEN_KIND_ML_MASK: u32 = 9;
 pub const MIEN_KIND_JOINT_GROUP: u32 = 10;
 /// Without names.
 pub const MIEN_KIND_RBF_SOLVER: u32 = 11;
-/// Without names: a swing and the twists of the same inputs, or a twist alone.
+/// Without names: a swing and the twists with the same inputs, or a twist alone.
 pub const MIEN_KIND_TWIST_SWING: u32 = 12;
 
 // enum MienStage
@@ -280,7 +281,7 @@ pub const MIEN_STAGE_ALL: u32 = 63;
 // enum MienCompose
 /// Neutral rotation \* delta rotation: the delta rotates first.
 pub const MIEN_COMPOSE_PRODUCT: u32 = 0;
-/// The angles are added; requires `MIEN_ROTATION_OUTPUT_EULER`. The same as the product where the
+/// The angles are added; requires `MIEN_ROTATION_OUTPUT_EULER`. Equals the product where the
 /// neutral rotation is zero.
 pub const MIEN_COMPOSE_EULER_ADD: u32 = 1;
 
@@ -290,16 +291,16 @@ pub const MIEN_WEIGHTS_AS_STORED: u32 = 0;
 pub const MIEN_WEIGHTS_FIX: u32 = 1;
 
 // enum MienNormals
-/// Those of MienDeformerDesc.normals; there: recomputed.
+/// As MienDeformerDesc.normals says; in that field: recomputed.
 pub const MIEN_NORMALS_DEFAULT: u32 = 0;
-/// Leave normals as they are.
+/// Leave normals unchanged.
 pub const MIEN_NORMALS_NONE: u32 = 1;
-/// Neutral normals rotated by the skin, correct for any scale; blend shape targets have no
-/// influence.
+/// Neutral normals rotated by the skinning, correct for any scale; blend shape targets have no
+/// effect.
 pub const MIEN_NORMALS_SKINNED: u32 = 2;
-/// The sum of the area vectors of the faces around the position. On hard edges, where this differs
-/// from the stored normal by more than 30 degrees in the neutral pose, the stored normal is
-/// rotated as the sum has rotated since.
+/// The area-weighted mean of the normals of the faces around the position. On hard edges, where
+/// this differs from the stored normal by more than 30 degrees in the neutral pose, the stored
+/// normal is rotated by the rotation of this mean from the neutral pose.
 pub const MIEN_NORMALS_RECOMPUTED: u32 = 3;
 
 // enum MienVertexFormat
@@ -313,8 +314,8 @@ pub const MIEN_VERTEX_FORMAT_SNORM16X4: u32 = 2;
 pub const MIEN_VERTEX_FORMAT_SNORM10_10_10_2: u32 = 3;
 
 // enum MienBakedCheck
-/// All sizes, counts and indices: whatever the bytes are, no access is out of bounds. Numbers are
-/// not checked, so their pages are read from disk when they are first used.
+/// All sizes, counts and indices, so that no access is out of bounds whatever the bytes are.
+/// Floats are not checked, so their pages are read from disk only when first used.
 pub const MIEN_BAKED_CHECK_SAFE: u32 = 0;
 /// Also the checksum of all bytes, which reads the whole file.
 pub const MIEN_BAKED_CHECK_FULL: u32 = 1;
@@ -331,7 +332,7 @@ pub const MIEN_LOOPING_WRAP: u32 = 2;
 pub const MIEN_INTERPOLATION_LINEAR: u32 = 0;
 /// The value of the earlier frame.
 pub const MIEN_INTERPOLATION_STEP: u32 = 1;
-/// A Catmull-Rom spline, clamped to the range of the two frames.
+/// A Catmull-Rom spline, clamped to that range.
 pub const MIEN_INTERPOLATION_CATMULL_ROM: u32 = 2;
 
 // enum MienLayerGroup
@@ -347,7 +348,7 @@ pub const MIEN_LAYER_GROUP_LIFE: u32 = 4;
 pub const MIEN_BLEND_MODE_OVERRIDE: u32 = 0;
 /// O + a x.
 pub const MIEN_BLEND_MODE_ADD: u32 = 1;
-/// O + a x (1 - p), for x \< 0 o + a x p; p is o clamped to 0 ... 1.
+/// O + a x (1 - p), or o + a x p if x \< 0; p is o clamped to 0..1.
 pub const MIEN_BLEND_MODE_SCREEN: u32 = 2;
 /// O + a max(0, x - o).
 pub const MIEN_BLEND_MODE_MAX: u32 = 3;
@@ -365,22 +366,22 @@ pub const MIEN_LAYER_SOURCE_STREAM: u32 = 2;
 pub const MIEN_LAYER_SOURCE_GENERATOR: u32 = 3;
 
 // enum MienGenerator
-/// Every `period` on average, at least 0.5 s apart. The wait starts over when earlier layers raise
-/// the first lane above 0.6.
+/// Blinks every `period` on average, at least 0.5 s apart. The wait starts over when earlier
+/// layers raise the first lane above 0.6.
 pub const MIEN_GENERATOR_BLINK: u32 = 0;
-/// 0 to 1 in 40 % of the period, back to 0 in the rest.
+/// Rises from 0 to 1 in 40 % of the period, then falls back to 0.
 pub const MIEN_GENERATOR_BREATH: u32 = 1;
-/// Smooth between -1 and 1; a new random value every period.
+/// Smooth noise between -1 and 1 with a new random value every period.
 pub const MIEN_GENERATOR_NOISE: u32 = 2;
-/// Turns the eyes to a place with saccades: MienMixDesc.gaze. `lanes` are the left, up and front
-/// of a MienGazeTarget, as earlier layers made them, then, if wanted, two lanes that get what is
-/// left for the head, a MienGazeRest. `amounts` are fixation jitter across and up in degrees, 0,
-/// and factors for the two lanes of the head. Blinks of the mix follow shifts of 20 degrees and
-/// more.
+/// Turns the eyes to a target with saccades, by MienMixDesc.gaze. `lanes` are three lanes with the
+/// left, up and front of a MienGazeTarget, read after the earlier layers, then optionally two
+/// lanes that get the part left for the head (MienGazeRest). `amounts` are fixation jitter
+/// sideways and up in degrees, 0, and factors for the two head lanes. Shifts of 20 degrees or more
+/// make the blink layers of the mix blink.
 pub const MIEN_GENERATOR_GAZE: u32 = 3;
 
 // enum MienRetrigger
-/// Extends the stimulus; strokes that ended or release start again.
+/// Extends the stimulus; strokes that are releasing or over start again.
 pub const MIEN_RETRIGGER_EXTEND: u32 = 0;
 /// All strokes start again, at most once per cooldown.
 pub const MIEN_RETRIGGER_RESTART: u32 = 1;
@@ -398,7 +399,7 @@ pub const MIEN_GUARD_ALL: u32 = 7;
 // enum MienTransition
 /// The old clip stops; each lane blends from its last value and speed.
 pub const MIEN_TRANSITION_INERTIAL: u32 = 0;
-/// Both play; without a free player, as `MIEN_TRANSITION_INERTIAL`.
+/// Both clips play; `MIEN_TRANSITION_INERTIAL` if no player is free.
 pub const MIEN_TRANSITION_CROSSFADE: u32 = 1;
 /// Immediate; `transition_ticks` is not used.
 pub const MIEN_TRANSITION_CUT: u32 = 2;
@@ -515,9 +516,9 @@ pub struct MienBatch {
 ///          weights below 1e-5 in magnitude count as 0.
 /// ```
 ///
-/// Joints that a LOD does not list move with their parent. A position is shared by the faces
-/// around it; a vertex is a position with texture coordinates and a normal (a layout of the file),
-/// so a mesh has at least as many vertices as positions in use.
+/// Joints that a LOD does not list move with their parent. A position is shared by all faces
+/// around it; a vertex is a position with texture coordinates and a normal (a layout in DNA
+/// files). So a mesh has at least as many vertices as used positions.
 ///
 /// See docs/deformation.md, 1 "Joint transforms" and 2 "Positions".
 #[repr(C)]
@@ -535,9 +536,9 @@ pub struct MienDeformerInstance {
 
 /// An open baked file: a rig, and possibly its deformer, as they are in memory. They are used in
 /// place, so that programs can ship without DNA files. A baked file holds all options of its
-/// objects except the instruction set and MienReuse, and fits all machines of one byte order. The
-/// same objects give the same bytes. Keep the DNA: a later version of the library may fail to open
-/// the file with `MIEN_ERROR_BAKED_VERSION`. Immutable.
+/// objects except the instruction set and MienReuse, and works on all machines of one byte order.
+/// The same objects give the same bytes. Keep the DNA file: a later version of the library may
+/// refuse the baked file with `MIEN_ERROR_BAKED_VERSION`. Immutable.
 ///
 /// See docs/rig-evaluation.md, 9.5 "Baked files".
 #[repr(C)]
@@ -554,10 +555,10 @@ pub struct MienBaked {
 ///                          \___ MienClipBinding -> raw controls of a rig
 /// ```
 ///
-/// Times are integers, in ticks of 1 / `MIEN_TICKS_PER_SECOND` s. At common frame rates a frame is
-/// a whole number of ticks; at others it is rounded to the nearest. A clip is used in place:
-/// frames are decoded as they are played. Whatever its bytes are, decoded values are finite.
-/// Immutable.
+/// Times are integers, in ticks of 1 / `MIEN_TICKS_PER_SECOND` s. At common frame rates a frame
+/// lasts a whole number of ticks; at others its length is rounded to the nearest tick. A clip is
+/// used in place: frames are decoded while it plays. Decoded values are always finite, even if the
+/// bytes are damaged. Immutable.
 #[repr(C)]
 pub struct MienClip {
     _size: [u8; 0],
@@ -579,42 +580,42 @@ pub struct MienClipBinding {
     _opaque: Opaque,
 }
 
-/// What is mixed for one rig, and how. A row holds a value for each lane: first the raw controls
-/// of the rig, then pose variables, which are numbers of the caller that are mixed by the same
+/// What is mixed for one rig, and how. A row holds one value per lane. The lanes are the raw
+/// controls of the rig, then pose variables: numbers of the caller that are mixed by the same
 /// rules (gaze, head turn, breath). Each step of a MienMixer applies the layers in order, then
-/// reactions, guards, layers and reactions after the guards, antagonists, limits. docs/mixing.md
-/// explains each. Serves any number of mixers and threads. Immutable.
+/// reactions, guards, layers and reactions that act after the guards, antagonists, and limits.
+/// docs/mixing.md explains each stage. One mix serves any number of mixers and threads. Immutable.
 #[repr(C)]
 pub struct MienMix {
     _size: [u8; 0],
     _opaque: Opaque,
 }
 
-/// Which controls turn the eyes of a rig, and how far. Immutable.
+/// Which raw controls turn the eyes of a rig, and by how much. Immutable.
 #[repr(C)]
 pub struct MienGaze {
     _size: [u8; 0],
     _opaque: Opaque,
 }
 
-/// One character in a mix: the clips, fades and reactions that run. Only `mien_mixer_push()` may
-/// be called by another thread at the same time.
+/// One character in a mix: its running clips, fades and reactions. Another thread may only call
+/// `mien_mixer_push()` at the same time.
 #[repr(C)]
 pub struct MienMixer {
     _size: [u8; 0],
     _opaque: Opaque,
 }
 
-/// Solvers move joints of a deformer after the rig has posed them: eyes that hit a target, a cap
-/// that changes from hand to head, earrings that swing.
+/// Solvers move joints of a deformer after the rig has posed them: eyes aim at a target, a cap
+/// moves from hand to head, earrings swing.
 ///
 /// ```text
 /// mien_deformer_instance_update() -> mien_solver_state_step() -> mien_deformer_instance_deform()
 /// ```
 ///
-/// A step changes the matrices of the deformer instance in place. Lengths are in the translation
-/// unit of the rig, places in its model space. The same bits on every machine, for one character
-/// and for many. A stack serves any number of characters and threads. Immutable.
+/// A step changes the matrices of the deformer instance in place. Lengths are in the rig's
+/// translation unit, points in its model space. Results have the same bits on every machine,
+/// stepped alone or in a batch. A stack serves any number of characters and threads. Immutable.
 ///
 /// See docs/mixing.md, 6 "Solvers".
 #[repr(C)]
@@ -623,7 +624,7 @@ pub struct MienSolverStack {
     _opaque: Opaque,
 }
 
-/// One character: what its solvers remember between steps.
+/// One character: the state that its solvers keep between steps.
 #[repr(C)]
 pub struct MienSolverState {
     _size: [u8; 0],
@@ -638,15 +639,15 @@ pub struct MienAuthorReport {
 }
 
 /// Details of a failure, owned by the caller. A call that fails fills all fields; a call that
-/// succeeds sets status to `MIEN_OK` and leaves the others as they are.
+/// succeeds sets status to `MIEN_OK` and leaves the other fields unchanged.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienError {
     pub struct_size: usize,
-    /// In the file; `MIEN_NO_OFFSET`: not about a place in a file.
+    /// Where in the file; `MIEN_NO_OFFSET`: nowhere in particular.
     pub byte_offset: u64,
     pub status: MienStatus,
-    /// What is wrong, where, and what to do; terminated, cut if too long.
+    /// What is wrong, where, and how to fix it; null-terminated, truncated if too long.
     pub message: [c_char; 236],
 }
 
@@ -660,9 +661,9 @@ impl Default for MienError {
     }
 }
 
-/// Memory functions of the caller; NULL instead of a MienAllocator means the C library's heap. The
-/// struct is copied. Both functions must work until the object is destroyed, on every thread that
-/// creates or destroys objects with it.
+/// The caller's memory functions. Where a MienAllocator is NULL, the C library's heap is used. The
+/// struct is copied. Both functions must remain callable until the object is destroyed, from every
+/// thread that creates or destroys objects with this allocator.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienAllocator {
@@ -670,7 +671,7 @@ pub struct MienAllocator {
     pub user: *mut c_void,
     /// Returns `size` bytes aligned to `alignment` (a power of two, at most 64), or NULL.
     pub allocate: Option<unsafe extern "C" fn(user: *mut c_void, size: usize, alignment: usize) -> *mut c_void>,
-    /// Receives the size and alignment that the block was allocated with.
+    /// Releases a block. `size` and `alignment` are those it was allocated with.
     pub release: Option<unsafe extern "C" fn(user: *mut c_void, block: *mut c_void, size: usize, alignment: usize)>,
 }
 
@@ -688,9 +689,9 @@ impl Default for MienAllocator {
 pub struct MienParallelFor {
     /// Passed to the function.
     pub user: *mut c_void,
-    /// Calls task(context, i) once for each i \< count, in any order, on any threads, and returns
-    /// when all have finished. Tasks do not wait for each other and take about 10 microseconds
-    /// each.
+    /// Calls task(context, i) once for each i \< count, in any order and on any threads, and
+    /// returns when all calls have finished. Tasks never wait for each other; each takes about 10
+    /// us.
     pub run: Option<unsafe extern "C" fn(user: *mut c_void, count: u32, task: MienTask, context: *mut c_void)>,
 }
 
@@ -706,7 +707,7 @@ impl Default for MienParallelFor {
 #[derive(Clone, Copy)]
 pub struct MienStringView {
     pub data: *const c_char,
-    /// Bytes; not terminated.
+    /// Bytes; not null-terminated.
     pub count: usize,
 }
 
@@ -778,8 +779,8 @@ impl Default for MienIndex32View {
     }
 }
 
-/// A file that the caller reads, for example from an archive. `read` is called during the call
-/// that takes the stream, on its thread.
+/// A file read by the caller, for example from an archive. `read` is called only during the call
+/// that takes the stream, and on the same thread.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienStream {
@@ -817,8 +818,8 @@ pub struct MienCoordinateSystem {
     pub rotation_rule: u32,
     /// `MIEN_ROTATION_SEQUENCE_...`; ignored with `MIEN_ROTATION_RULE_CARRIED`.
     pub rotation_sequence: u32,
-    /// Of the angles about x, y, z. 1: rotates y to z, z to x, x to y. -1: the other way. 0: the
-    /// sign that leaves angles unchanged.
+    /// Of the angles about x, y, z. 1: rotates y to z, z to x, x to y. -1: the other way. 0:
+    /// whichever leaves the angles unchanged.
     pub rotation_signs: [i32; 3],
     /// `MIEN_FACE_WINDING_...`
     pub face_winding: u32,
@@ -842,9 +843,9 @@ impl Default for MienCoordinateSystem {
 /// values of the original rig, converted. Raw controls that are components of rotations (read by
 /// RBF solvers, twists or swings as quaternions, or named .qx .qy .qz .qw) are expected in the
 /// requested system. Changes of axes and signs are exact, so converting back restores the original
-/// numbers; units round once. Texture coordinates and unknown layers are not converted. A
-/// converted rig can be written; the file is of version 2.8 if its own version cannot state the
-/// system.
+/// numbers; a change of units rounds each number once. Texture coordinates and unknown layers are
+/// not converted. A converted rig can be written; the file gets version 2.8 if its own version
+/// cannot describe the system.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienDnaDesc {
@@ -860,7 +861,7 @@ pub struct MienDnaDesc {
     /// Bit l keeps LOD l. Kept LODs are renumbered from 0; joints, meshes, channels and maps that
     /// none of them uses are dropped, and all indices renumbered. 0: all.
     pub lods: u64,
-    /// Convert to this system. NULL: keep that of the file.
+    /// Convert to this system. NULL: keep the file's own.
     pub system: *const MienCoordinateSystem,
     pub allocator: *const MienAllocator,
 }
@@ -946,17 +947,17 @@ impl Default for MienDnaInfo {
 #[derive(Clone, Copy)]
 pub struct MienDnaLayer {
     pub struct_size: usize,
-    /// `MIEN_LAYER_...` that loads it. `MIEN_LAYER_UNKNOWN`: of an unknown kind.
+    /// `MIEN_LAYER_...` that loads it. `MIEN_LAYER_UNKNOWN`: no known kind.
     pub layer: u32,
     /// Of the layer: `version_major`.`version_minor`.
     pub version_major: u32,
     pub version_minor: u32,
-    /// It was read, not skipped or kept unread.
+    /// It was parsed, not skipped or kept as bytes.
     pub is_loaded: u32,
     /// Of its first byte in the file.
     pub byte_offset: u64,
     pub byte_count: u64,
-    /// Such as "bhvr"; terminated.
+    /// Such as "bhvr"; null-terminated.
     pub code: [c_char; 8],
 }
 
@@ -976,13 +977,13 @@ pub struct MienDnaField {
     pub struct_size: usize,
     /// `MIEN_FIELD_...`
     pub r#type: u32,
-    /// An array of numbers, even if it has one element; not a single number or an element of an
-    /// array.
+    /// An array of numbers, even if it has only one element; not a single number, nor an element
+    /// of an array.
     pub is_array: u32,
     /// Elements of an array or list, bytes of a string, fields of a record; 1 for a number.
     pub count: u64,
-    /// Of the bytes of a string, of an array or of one of its elements in the file;
-    /// `MIEN_NO_OFFSET`: other fields, and data that is not in the file.
+    /// Of a string, an array or an element of an array in the file; `MIEN_NO_OFFSET`: other
+    /// fields, and data that is not in the file.
     pub byte_offset: u64,
 }
 
@@ -1001,9 +1002,9 @@ impl Default for MienDnaField {
 #[derive(Clone, Copy)]
 pub struct MienWriteDesc {
     pub struct_size: usize,
-    /// 1 to 8: write version 2.version; layers that it does not know are kept unless
-    /// `unknown_layers` drops them, but 2.1 holds the four layers desc, defn, bhvr and geom only.
-    /// 0: the version of the DNA.
+    /// 1 to 8: write version 2.version; layers that it does not define are kept unless
+    /// `unknown_layers` drops them, but 2.1 can only hold the layers desc, defn, bhvr and geom. 0:
+    /// the version of the DNA.
     pub version: u32,
     /// `MIEN_UNKNOWN_LAYERS_...`
     pub unknown_layers: u32,
@@ -1027,7 +1028,7 @@ pub struct MienFinding {
     pub severity: u32,
     /// The status of the failure; `MIEN_OK` for a warning.
     pub status: MienStatus,
-    /// In the file; `MIEN_NO_OFFSET`: not about a place in the file.
+    /// Where in the file; `MIEN_NO_OFFSET`: nowhere in particular.
     pub byte_offset: u64,
     /// Path as for `mien_dna_field()`, or the code of a layer.
     pub field: MienStringView,
@@ -1110,7 +1111,7 @@ pub struct MienRigInfo {
     pub rotation_sequence: u32,
     /// 1 or -1, for the angles about x, y, z.
     pub rotation_signs: [i32; 3],
-    /// Length of the control row: raw, PSD, ML, RBF controls.
+    /// Length of the control vector: raw, PSD, ML, RBF controls.
     pub control_count: u32,
     /// 9 or 10 per joint.
     pub joint_value_count: u32,
@@ -1136,7 +1137,7 @@ impl Default for MienRigInfo {
     }
 }
 
-/// The work of an evaluation at a LOD, if all controls are active.
+/// The work of an evaluation at a LOD when all controls are active.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienRigStatistics {
@@ -1156,9 +1157,9 @@ pub struct MienRigStatistics {
     pub rbf_solver_count: u32,
     /// Quaternion joints.
     pub quaternion_joint_count: u32,
-    /// Of the joint matrix: 8 per block that is not all zeros.
+    /// Stored in the joint matrix: 8 per block that is not all zeros.
     pub joint_entry_count: u64,
-    /// Of the joint matrix; columns of controls that are 0 are not read.
+    /// Of the joint matrix; an evaluation does not read the columns of controls that are 0.
     pub joint_byte_count: u64,
 }
 
@@ -1190,14 +1191,15 @@ impl Default for MienInstanceDesc {
 }
 
 /// What the joint stage reads for the current controls, at the LOD of the last evaluation
-/// (initially LOD 0), if it reuses no results. Bytes are counted once, whatever the caches hold.
+/// (initially LOD 0), if it reuses no results. Each byte is counted once, regardless of CPU
+/// caches.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienInstanceStatistics {
     pub struct_size: usize,
     /// Of the last evaluation.
     pub lod: u32,
-    /// Of the control row: raw, PSD, ML and RBF controls.
+    /// Of the control vector: raw, PSD, ML and RBF controls.
     pub control_count: u32,
     /// Controls that are not 0.
     pub active_control_count: u32,
@@ -1332,7 +1334,7 @@ pub struct MienMesh {
     pub texture_coordinates: MienFloatView,
     /// One index per vertex: its position.
     pub vertex_position_indices: MienIndex32View,
-    /// 3 indices per triangle: vertices, wound as in the file; faces with more corners are fans
+    /// 3 indices per triangle: vertices, wound as in the file; faces with more corners become fans
     /// about their first corner.
     pub triangles: MienIndex32View,
     /// One index per target: its blend shape channel; in file order.
@@ -1397,16 +1399,17 @@ impl Default for MienVertexStream {
 /// ```text
 /// positions  as floats; w is 1
 /// normals    in any format; w is 0
-/// tangents   in any format with w. The tangent points where u grows on the surface while v stays the
-///            same, perpendicular to the normal; w * cross(normal, tangent) points where v grows. w is
-///            1, or -1 where the texture is mirrored. If you flip v (1 - v), negate w.
+/// tangents   in any format with w. The tangent points along the surface in the direction of growing u
+///            at constant v, perpendicular to the normal; w * cross(normal, tangent) points in the
+///            direction of growing v. w is 1, or -1 where the texture is mirrored. If you flip v (1 - v),
+///            negate w.
 /// ```
 ///
 /// Neutral tangents are computed as by MikkTSpace, except that vertices are never split: where
 /// triangles of both orientations meet, a vertex takes the orientation with the larger sum of
-/// angles. A vertex without texture coordinates gets an arbitrary perpendicular of its normal,
-/// always the same one, and w = 1. Tangents are skinned, and then made perpendicular to the
-/// written normal.
+/// angles. A vertex without texture coordinates gets an arbitrary, but reproducible, perpendicular
+/// of its normal and w = 1. Tangents are skinned, and then made perpendicular to the written
+/// normal.
 ///
 /// See docs/deformation.md, 4 "Tangents".
 #[repr(C)]
@@ -1511,8 +1514,8 @@ pub struct MienBakedDeformerDesc {
     pub struct_size: usize,
     /// `MIEN_ISA_...`; `MIEN_ISA_BEST` is that of the rig.
     pub isa: u32,
-    /// `MIEN_NORMALS_...`: what `MIEN_NORMALS_DEFAULT` means for this deformer; here
-    /// `MIEN_NORMALS_DEFAULT` is that of the deformer that was baked.
+    /// `MIEN_NORMALS_...`: what `MIEN_NORMALS_DEFAULT` means for this deformer; in this field
+    /// `MIEN_NORMALS_DEFAULT` keeps the setting of the baked deformer.
     pub normals: u32,
     pub allocator: *const MienAllocator,
 }
@@ -1557,7 +1560,7 @@ pub struct MienClipDesc {
     pub rate_denominator: u32,
     /// 1 to 2^28.
     pub frame_count: u32,
-    /// At most 65535, of which at most 512 change.
+    /// At most 65535, of which at most 512 may change over time.
     pub channel_count: u32,
     /// One per channel, all different, not empty.
     pub names: *const MienStringView,
@@ -1567,12 +1570,12 @@ pub struct MienClipDesc {
     pub frame_stride: usize,
     /// One per channel, used instead of `snap`; may be NULL.
     pub snaps: *const f32,
-    /// 0: values keep all bits. 2^-9, 2^-10 ... 2^-16: values are rounded to multiples of it,
-    /// which makes the clip several times smaller.
+    /// 0: values keep all bits. 2^-9, 2^-10 ... 2^-16: values are rounded to multiples of this
+    /// step, which makes the clip several times smaller.
     pub snap: f32,
     /// `MIEN_LOOPING_...`
     pub looping: u32,
-    /// Values are differences, to be added to other values.
+    /// A delta clip, whose values are added to other values.
     pub is_delta: u32,
     pub event_count: u32,
     /// In any order; 0 \<= tick \< `frame_count` \* ticks per frame.
@@ -1627,9 +1630,9 @@ pub struct MienClipInfo {
     pub event_count: u32,
     /// `MIEN_LOOPING_CLAMP` or `MIEN_LOOPING_WRAP`.
     pub looping: u32,
-    /// Values are differences.
+    /// As in MienClipDesc.
     pub is_delta: u32,
-    /// Largest step that a channel was rounded to. 0: none was.
+    /// Largest step to which a channel was rounded. 0: none was.
     pub snap: f32,
     /// The file is mapped.
     pub is_mapped: u32,
@@ -1654,14 +1657,14 @@ impl Default for MienClipInfo {
     }
 }
 
-/// A channel of a clip. Block counts, bits and `max_error` are known after `mien_clip_build()`
-/// only: they are 0 for a clip that was opened.
+/// A channel of a clip. Block counts, bits and `max_error` are only known for a clip from
+/// `mien_clip_build()`; they are 0 for a clip that was opened.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienClipChannel {
     pub struct_size: usize,
     pub name: MienStringView,
-    /// Value of a channel that does not change, else 0.
+    /// Value of a channel that does not change; otherwise 0.
     pub rest: f32,
     /// The channel has a curve.
     pub is_changing: u32,
@@ -1669,7 +1672,7 @@ pub struct MienClipChannel {
     pub zero_blocks: u32,
     /// Blocks with one other value.
     pub constant_blocks: u32,
-    /// Blocks of decimal or binary fractions.
+    /// Blocks whose values are multiples of a decimal or binary fraction.
     pub grid_blocks: u32,
     /// Other blocks.
     pub float_blocks: u32,
@@ -1704,9 +1707,9 @@ pub struct MienClipPlayerDesc {
     pub speed_numerator: i32,
     /// 1 to 2^20. Both 0: 1 / 1.
     pub speed_denominator: i32,
-    /// The initial position, as for `mien_clip_player_seek()`.
+    /// Initial position, as for `mien_clip_player_seek()`.
     pub start_tick: i64,
-    /// Play backward as fast as forward, for 256 more bytes per changing channel.
+    /// Backward playback costs no more than forward; takes 256 more bytes per changing channel.
     pub reverse: u32,
     /// 0.
     pub reserved: u32,
@@ -1730,11 +1733,11 @@ pub struct MienClipPlayerInfo {
     pub struct_size: usize,
     /// 0 to the length of the clip; with `MIEN_LOOPING_WRAP` less than the length.
     pub tick: i64,
-    /// Completed since creation or the last seek, 2^61 at most; negative: backward.
+    /// Loops completed since creation or the last seek, at most 2^61; negative: backward.
     pub loops: i64,
     /// `MIEN_LOOPING_CLAMP` or `MIEN_LOOPING_WRAP`.
     pub looping: u32,
-    /// A damaged curve was decoded and gave zeros.
+    /// A damaged curve was played, as zeros.
     pub is_damaged: u32,
 }
 
@@ -1772,7 +1775,7 @@ impl Default for MienMatrixEntry {
 #[derive(Clone, Copy)]
 pub struct MienClipBindingDesc {
     pub struct_size: usize,
-    /// For channels whose names the rig lacks; may be NULL.
+    /// For channels whose names the rig does not have; may be NULL.
     pub matrix: *const MienMatrixEntry,
     pub matrix_count: usize,
     pub allocator: *const MienAllocator,
@@ -1805,7 +1808,7 @@ pub struct MienClipBindingInfo {
     pub controls: MienIndex16View,
     /// Raw controls that are not driven.
     pub extra_controls: MienIndex16View,
-    /// Channels that drive nothing: the rig lacks their names, or an earlier channel drives the
+    /// Channels that drive nothing: the rig has no such name, or an earlier channel drives the
     /// same control.
     pub missing_channels: MienIndex16View,
 }
@@ -1826,13 +1829,13 @@ impl Default for MienClipBindingInfo {
 pub struct MienMixLayer {
     /// Of a generator, ticks.
     pub period: i64,
-    /// Of a stream, ticks: rows are played this much after their times.
+    /// Of a stream, ticks: rows are played this much later than their times.
     pub delay: i64,
-    /// One per lane, 0 to 1; those left out at the end are 0. NULL: 1 for all.
+    /// One per lane, 0 to 1; lanes beyond `mask_count` have 0. NULL: 1 for all.
     pub mask: *const f32,
-    /// Lane of each channel of a stream, or the lanes that a generator moves.
+    /// The lane of each channel of a stream, or the lanes of a generator.
     pub lanes: *const u16,
-    /// One per lane of a generator: scales its value.
+    /// One per lane of a generator: a factor for its value.
     pub amounts: *const f32,
     pub mask_count: u32,
     pub lane_count: u32,
@@ -1842,16 +1845,16 @@ pub struct MienMixLayer {
     pub mode: u32,
     /// `MIEN_LAYER_SOURCE_...`
     pub source: u32,
-    /// Acts after the guards; not for base and speech.
+    /// Acts after the guards; not allowed for base and speech.
     pub after_guards: u32,
-    /// Initial weight. 0 to 1; with `MIEN_BLEND_MODE_ADD` -1 to 1.
+    /// Initial weight. 0 to 1; -1 to 1 with `MIEN_BLEND_MODE_ADD`.
     pub weight: f32,
-    /// First of its poses in MienMixDesc.poses.
+    /// Index of its first pose in MienMixDesc.poses.
     pub first_pose: u32,
     pub pose_count: u32,
     /// `MIEN_GENERATOR_...`
     pub generator: u32,
-    /// Most rows of a stream that can be queued. 0: 64; else 2 to 1024.
+    /// Capacity of a stream's queue, in rows. 0: 64; otherwise 2 to 1024.
     pub stream_frames: u32,
     /// 0.
     pub reserved: u32,
@@ -1865,7 +1868,7 @@ impl Default for MienMixLayer {
     }
 }
 
-/// Values of the lanes that a pose moves.
+/// A pose: the lanes that it moves, and their values.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienMixPose {
@@ -1882,19 +1885,20 @@ impl Default for MienMixPose {
     }
 }
 
-/// A part of a reaction: moves the lanes of a pose to its values and back. Times are in ticks.
+/// A part of a reaction: moves the lanes of a pose to its values and back to 0. Times are in
+/// ticks.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienMixStroke {
     /// After the trigger.
     pub delay: i64,
-    /// To strength \* pose.
+    /// Time to reach strength \* pose.
     pub attack: i64,
-    /// After the attack; ignored if `is_held`.
+    /// Time after the attack; ignored if `is_held`.
     pub hold: i64,
-    /// Back to 0.
+    /// Time to return to 0.
     pub release: i64,
-    /// In MienMixDesc.poses.
+    /// Index in MienMixDesc.poses.
     pub pose: u32,
     /// `MIEN_BLEND_MODE_...`
     pub mode: u32,
@@ -1902,7 +1906,7 @@ pub struct MienMixStroke {
     pub is_held: u32,
     /// Moves exponentially; attack and release are time constants.
     pub is_lag: u32,
-    /// By the level of the reaction, which is 1 if `mien_mixer_trigger()` starts it.
+    /// Scaled by the level of the reaction, which is 1 if `mien_mixer_trigger()` started it.
     pub is_scaled: u32,
     /// 0.
     pub reserved: u32,
@@ -1920,24 +1924,25 @@ impl Default for MienMixStroke {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienMixReaction {
-    /// Ticks; shortest time between two starts of strokes not held.
+    /// Ticks; minimum time between two starts of strokes that are not held.
     pub cooldown: i64,
     /// Time constant of adaptation to a lasting stimulus.
     pub adapt_ticks: i64,
-    /// Time constant of recovery after it.
+    /// Time constant of recovery after the stimulus.
     pub recover_ticks: i64,
     /// At most 8.
     pub strokes: *const MienMixStroke,
     pub stroke_count: usize,
     /// `MIEN_RETRIGGER_...`
     pub retrigger: u32,
-    /// Guards leave it alone.
+    /// Acts after the guards.
     pub after_guards: u32,
-    /// Share of the strength that remains after adaptation; 1: all.
+    /// Share of the strength that remains after full adaptation; 1: all.
     pub adapted: f32,
-    /// `mien_mixer_set_level()` with this or more is a stimulus. 0: none is.
+    /// Levels of this or more are a stimulus: `mien_mixer_set_level()`. 0: the reaction takes no
+    /// levels.
     pub level_on: f32,
-    /// It ends below this, which is at most `level_on`.
+    /// The stimulus ends below this; at most `level_on`.
     pub level_off: f32,
     /// 0.
     pub reserved: u32,
@@ -1951,8 +1956,8 @@ impl Default for MienMixReaction {
     }
 }
 
-/// Two lanes that move the face in opposite directions: where both are above 0, the smaller one
-/// times stiffness is subtracted from both.
+/// Two lanes that move the face in opposite directions. If both are above 0, the smaller one times
+/// stiffness is subtracted from both.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienMixAntagonists {
@@ -1970,15 +1975,15 @@ impl Default for MienMixAntagonists {
     }
 }
 
-/// A place of a face: the middle of some positions of a mesh that LOD 0 shows, or of some joints.
+/// A point of the face: the mean of some positions of a mesh that LOD 0 shows, or of some joints.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienLandmark {
-    /// Positions of the mesh, or joints.
+    /// Indices of positions of the mesh, or of joints.
     pub points: *const u32,
     /// 1 to 65536.
     pub point_count: u32,
-    /// Whose positions they are. `MIEN_NO_MESH`: they are joints.
+    /// Index of the mesh. `MIEN_NO_MESH`: the points are joints.
     pub mesh: u32,
 }
 
@@ -1990,21 +1995,21 @@ impl Default for MienLandmark {
     }
 }
 
-/// A guard for landmarks of the caller: the distance of `upper` above `lower`, along the axis that
-/// points up, must not be opened.
+/// A guard with landmarks of the caller. It keeps the gap between them, the height of `upper`
+/// above `lower` along the axis that points up, from being opened.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienMixGuard {
     pub upper: MienLandmark,
     pub lower: MienLandmark,
-    /// Raw control that makes both touch at 1. `MIEN_NO_CONTROL`: they do at rest.
+    /// Raw control that closes the gap at 1. `MIEN_NO_CONTROL`: it is closed at rest.
     pub closed_by: u32,
-    /// Acts no more than the largest weight of a speech layer.
+    /// Acts at most as much as the largest weight of a speech layer.
     pub needs_speech: u32,
-    /// Millimeters by which later layers may open, 0 or more; 0.3 for the others.
+    /// Millimeters by which later layers may open the gap, 0 or more; 0.3 for built-in guards.
     pub tolerance: f32,
-    /// Acts where base and speech open by less, fully at 0. Millimeters above 0; 12 for lips, 6
-    /// for lids.
+    /// Millimeters, above 0: acts if base and speech leave a smaller gap, fully at 0. Built-in
+    /// guards: 12 for lips, 6 for lids, 4 for teeth.
     pub f_on: f32,
 }
 
@@ -2024,7 +2029,7 @@ pub struct MienMixDesc {
     /// At most 16.
     pub layers: *const MienMixLayer,
     pub layer_count: usize,
-    /// At most 1024; of layers and strokes.
+    /// At most 1024; used by layers and strokes.
     pub poses: *const MienMixPose,
     pub pose_count: usize,
     /// At most 16.
@@ -2032,30 +2037,30 @@ pub struct MienMixDesc {
     pub reaction_count: usize,
     pub antagonists: *const MienMixAntagonists,
     pub antagonist_count: usize,
-    /// Per lane its counterpart in the other half of the face, or itself. NULL: nothing can be
-    /// played mirrored.
+    /// For each lane its counterpart in the other half of the face, or itself. NULL: clips cannot
+    /// be played mirrored.
     pub mirror: *const u16,
     /// Limits per lane. NULL: none; both or neither.
     pub lower: *const f32,
     pub upper: *const f32,
-    /// Act after the others; at most 8 with them.
+    /// Act after the built-in ones; at most 8 guards in total.
     pub custom_guards: *const MienMixGuard,
     pub custom_guard_count: usize,
-    /// For a layer with `MIEN_GENERATOR_GAZE`, copied; may be NULL.
+    /// For a layer with `MIEN_GENERATOR_GAZE`; may be NULL.
     pub gaze: *const MienGaze,
-    /// For measuring the guards; may be NULL if there are none.
+    /// To measure guards; may be NULL if there are none.
     pub deformer: *const MienDeformer,
-    /// `MIEN_GUARD_...` bits; without landmarks a guard is left out.
+    /// `MIEN_GUARD_...` bits; a guard is left out if the rig lacks its landmarks.
     pub guards: u32,
-    /// Pose variables; with the raw controls at most 4096 lanes.
+    /// Pose variables; at most 4096 lanes with the raw controls.
     pub variable_count: u32,
-    /// Clips that play at a time; a crossfade needs two. 0: two for each layer of clips.
+    /// Clips that can play at the same time; a crossfade needs two. 0: two for each clip layer.
     pub player_count: u32,
-    /// Of any clip. 0: as many as the rig has raw controls.
+    /// Of any clip. 0: the number of raw controls.
     pub max_channels: u32,
     /// Of any clip. 0: `max_channels`, 512 at most.
     pub max_changing_channels: u32,
-    /// That a step can report. 0: 64.
+    /// Events that one step can report. 0: 64.
     pub max_events: u32,
     /// As in MienClipPlayerDesc.
     pub reverse: u32,
@@ -2122,13 +2127,14 @@ impl Default for MienMixInfo {
     }
 }
 
-/// A guard of a mix, as it was measured: the distance in millimeters is `rest`, the sum of gain
-/// times lane, and a sum over pairs of lanes that share a corrective. docs/mixing.md, 4 "Guards".
+/// A guard of a mix, as it was measured: the distance in millimeters is `rest`, plus the sum of
+/// gain \* lane, plus a sum over pairs of lanes that share a corrective. See docs/mixing.md, 4
+/// "Guards".
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienMixGuardInfo {
     pub struct_size: usize,
-    /// Raw controls that change it, by falling gain.
+    /// Raw controls that change the distance, by descending gain.
     pub lanes: MienIndex16View,
     /// 1 float per lane: millimeters at value 1.
     pub gains: MienFloatView,
@@ -2140,7 +2146,7 @@ pub struct MienMixGuardInfo {
     /// As in MienMixGuard.
     pub tolerance: f32,
     pub f_on: f32,
-    /// Millimeters, root mean square over rows that were tried.
+    /// Millimeters, root mean square over the measured rows.
     pub fit_error: f32,
 }
 
@@ -2159,8 +2165,9 @@ impl Default for MienMixGuardInfo {
 #[derive(Clone, Copy)]
 pub struct MienGazeDesc {
     pub struct_size: usize,
-    /// Names of joints. NULL: L\_Eye, R\_Eye, FACIAL\_L\_Eye or FACIAL\_R\_Eye.
+    /// Name of a joint. NULL: L\_Eye or FACIAL\_L\_Eye.
     pub left_eye: *const c_char,
+    /// Name of a joint. NULL: R\_Eye or FACIAL\_R\_Eye.
     pub right_eye: *const c_char,
     pub allocator: *const MienAllocator,
 }
@@ -2175,7 +2182,8 @@ impl Default for MienGazeDesc {
     }
 }
 
-/// A place in millimeters from the origin, in the model space of a rig before its head moves.
+/// A point in millimeters from the origin of the rig's model space, with the head in its neutral
+/// pose.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienGazeTarget {
@@ -2192,15 +2200,15 @@ impl Default for MienGazeTarget {
     }
 }
 
-/// What was measured of the eyes.
+/// What was measured on the eyes.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienGazeInfo {
     pub struct_size: usize,
-    /// Their middles, about which they turn.
+    /// Center of rotation.
     pub left_eye: MienGazeTarget,
     pub right_eye: MienGazeTarget,
-    /// Degrees, the largest that was found where both directions turn at once.
+    /// Degrees, largest error found when an eye turns sideways and up at once.
     pub fit_error: f32,
     /// 0.
     pub reserved: u32,
@@ -2216,8 +2224,8 @@ impl Default for MienGazeInfo {
     }
 }
 
-/// The part of a gaze that is beyond the reach of the eyes, for the head to turn: tangents of
-/// angles, the mean of both eyes.
+/// The part of a gaze that the eyes cannot reach, left for the head to turn: tangents of angles,
+/// averaged over both eyes.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienGazeRest {
@@ -2262,9 +2270,9 @@ impl Default for MienMixerDesc {
 #[derive(Clone, Copy)]
 pub struct MienPlayDesc {
     pub struct_size: usize,
-    /// Chosen by the caller: `mien_mixer_restore()` finds clip and binding by it.
+    /// Chosen by the caller, to identify clip and binding in `mien_mixer_restore()`.
     pub clip_id: u64,
-    /// Of the clip.
+    /// In the clip.
     pub start_tick: i64,
     /// 0 to 2^40.
     pub transition_ticks: i64,
@@ -2277,7 +2285,7 @@ pub struct MienPlayDesc {
     /// As in MienClipPlayerDesc.
     pub speed_numerator: i32,
     pub speed_denominator: i32,
-    /// ; needs MienMixDesc.mirror.
+    /// ; requires MienMixDesc.mirror.
     pub mirrored: u32,
 }
 
@@ -2291,8 +2299,8 @@ impl Default for MienPlayDesc {
     }
 }
 
-/// What a guard did in the last step. Distances are in millimeters, of the function of raw
-/// controls that was measured on the rig; below 0 both sides overlap.
+/// What a guard did in the last step. Distances are in millimeters, computed by the function of
+/// raw controls that was measured on the rig; a negative distance means that both sides overlap.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienGuardState {
@@ -2302,18 +2310,18 @@ pub struct MienGuardState {
     pub name: MienStringView,
     /// Raw controls that it may hold back.
     pub controls: MienIndex16View,
-    /// `MIEN_GUARD_...`; 0: it is of MienMixDesc.`custom_guards`.
+    /// `MIEN_GUARD_...`; 0: one of MienMixDesc.`custom_guards`.
     pub kind: u32,
     /// How much it acted, 0 to 1.
     pub activation: f32,
-    /// After the last layer of base and speech.
+    /// Distance after the last layer of base and speech.
     pub protected_distance: f32,
-    /// After the later layers and reactions that come before the guards.
+    /// Distance just before the guards, after the later layers and reactions.
     pub wanted: f32,
-    /// That it lets pass when fully active.
+    /// Largest distance that the guard allows when fully active.
     pub limit: f32,
-    /// That the guards left: above `limit` where it is less active, while it eases in, or where
-    /// other controls part the sides.
+    /// Distance after the guards: above `limit` if the guard is not fully active, while it eases
+    /// in, or if other controls open the gap.
     pub distance: f32,
 }
 
@@ -2334,9 +2342,9 @@ pub struct MienMixerInfo {
     pub struct_size: usize,
     /// Time since creation.
     pub tick: i64,
-    /// Events of clips that the last step passed.
+    /// Clip events that the last step passed.
     pub event_count: u32,
-    /// It passed more than MienMixDesc.`max_events`.
+    /// There were more than MienMixDesc.`max_events`.
     pub lost_events: u32,
 }
 
@@ -2368,23 +2376,24 @@ impl Default for MienMixerClip {
     }
 }
 
-/// Turns a joint so that one of its axes points at a target: the shortest way, then about that
-/// axis so that `up_axis` is as near to `up` as it can be. Directions may have any length.
+/// Aim constraint: turns a joint so that one of its axes points at a target, by the shortest
+/// rotation, then about that axis so that `up_axis` comes as near to `up` as possible. Directions
+/// may have any length.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienAimSolver {
     pub joint: u32,
-    /// Its place is the target. `MIEN_NO_JOINT`: it is at three lanes of the row.
+    /// Its position is the target. `MIEN_NO_JOINT`: three lanes of the row are.
     pub target_joint: u32,
     /// First of these three: x y z in model space.
     pub target_lane: u32,
-    /// Of the joint, not 0.
+    /// Aim axis, in the space of the joint; not 0 0 0.
     pub axis: [f32; 3],
-    /// Of the joint; 0 0 0: no turn about the axis.
+    /// In the space of the joint; 0 0 0: no rotation about the aim axis.
     pub up_axis: [f32; 3],
     /// In model space; 0 0 0: 0 1 0.
     pub up: [f32; 3],
-    /// 0 to 180: farthest from where the neutral pose points. 0: no limit.
+    /// 0 to 180: largest angle from the neutral direction. 0: no limit.
     pub cone_degrees: f32,
     /// 0 to 1.
     pub weight: f32,
@@ -2398,19 +2407,19 @@ impl Default for MienAimSolver {
     }
 }
 
-/// Lets a joint hang on another joint than its parent, as if the parent moved with that one. A
-/// lane says which of the spaces. When it changes, the joint stays where it is, and what it is off
-/// is eased out.
+/// Space switch: moves a joint as if its parent were attached to another joint. A lane selects one
+/// of the spaces. When it changes, the joint stays where it is, and the difference to the new
+/// space eases out.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienSpaceSolver {
     /// 0 to 2^40.
     pub ease_ticks: i64,
-    /// Joints. `MIEN_NO_JOINT`: model space.
+    /// Indices of joints. `MIEN_NO_JOINT`: model space.
     pub spaces: *const u16,
     /// 1 to 8.
     pub space_count: u32,
-    /// Of the row: its value, rounded, is a place in `spaces`.
+    /// Of the row: its value, rounded, is an index in `spaces`.
     pub lane: u32,
     pub joint: u32,
     /// 0.
@@ -2425,22 +2434,22 @@ impl Default for MienSpaceSolver {
     }
 }
 
-/// Lets the place of a joint swing about where the pose has it: a damped harmonic oscillator in
-/// model space, advanced by its exact solution, so that it is stable for any step. Output 0 is its
-/// speed, in units per second.
+/// Spring: lets the position of a joint swing about its position in the pose. It is a damped
+/// harmonic oscillator in model space, advanced by its exact solution, so it is stable for any
+/// time step. Output 0 is its speed, in translation units per second.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienSpringSolver {
     pub joint: u32,
     /// Of the undamped spring, in Hertz; above 0.
     pub frequency: f32,
-    /// Share of the critical damping; 0 or more.
+    /// Damping ratio, 0 or more; 1 is critical damping.
     pub damping: f32,
-    /// From the place in the pose, in model space.
+    /// Rest position relative to the position in the pose, in model space.
     pub rest_offset: [f32; 3],
-    /// Farthest from the place of rest. 0: any.
+    /// Largest distance from the rest position. 0: no limit.
     pub stretch: f32,
-    /// What jumps farther in a step takes the joint along. 0: never.
+    /// If the rest position jumps farther than this in a step, the joint jumps with it. 0: never.
     pub teleport: f32,
 }
 
@@ -2452,19 +2461,19 @@ impl Default for MienSpringSolver {
     }
 }
 
-/// Gives joints a share of the twist of another joint about an axis. Their own twist is replaced.
-/// Output 0 is the sine of half of the angle.
+/// Twist distribution: gives joints a share of another joint's twist about an axis, in place of
+/// their own twist. Output 0 is the sine of half the angle.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienTwistSolver {
     pub joints: *const u16,
-    /// For each of these, -1 to 1: 0.5 is half of the angle.
+    /// One for each of these joints, -1 to 1; 0.5 is half the angle.
     pub shares: *const f32,
     /// 1 to 8.
     pub joint_count: u32,
-    /// joint.
+    /// The joint whose twist is distributed.
     pub source: u32,
-    /// Of the source and of all joints, not 0.
+    /// In the space of the source and of each joint; not 0 0 0.
     pub axis: [f32; 3],
     /// 0.
     pub reserved: u32,
@@ -2478,14 +2487,15 @@ impl Default for MienTwistSolver {
     }
 }
 
-/// Moves a joint as another one was moved from its neutral pose, or as its mirror image.
+/// Copy: gives a joint the motion of another joint relative to its neutral pose, or the mirrored
+/// motion.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienCopySolver {
-    /// joint.
+    /// The joint whose motion is copied.
     pub source: u32,
     pub joint: u32,
-    /// As the mirror image.
+    /// Mirror the motion.
     pub is_mirrored: u32,
     /// From right to left in model space; 0 0 0: 1 0 0.
     pub mirror_axis: [f32; 3],
@@ -2501,26 +2511,26 @@ impl Default for MienCopySolver {
     }
 }
 
-/// What a MienUserSolver sees of one character.
+/// The data of one character that a MienUserSolver gets.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienSolverPose {
-    /// 10 floats per joint: tx ty tz qx qy qz qw sx sy sz, relative to the parent. Those of its
+    /// 10 floats per joint: tx ty tz qx qy qz qw sx sy sz, relative to the parent. Joints in
     /// `writes` may be changed; quaternions of any length but 0.
     pub locals: *mut f32,
-    /// 16 floats per joint, as in `mien_deformer_instance_joint_matrices()`; up to date for its
-    /// `reads`.
+    /// 16 floats per joint, as in `mien_deformer_instance_joint_matrices()`; up to date for joints
+    /// in `reads`.
     pub models: *const f32,
-    /// 16 floats for each of its `previous_joints`, after the last step.
+    /// 16 floats for each joint in `previous_joints`, as the last step left it.
     pub previous: *const f32,
     /// MienSolverStackDesc.`lane_count` floats. NULL: there are none.
     pub row: *const f32,
-    /// MienUserSolver.`output_count` floats to publish.
+    /// MienUserSolver.`output_count` floats for the caller to read.
     pub outputs: *mut f32,
-    /// MienUserSolver.`state_bytes` bytes, aligned to 8; zeros at first.
+    /// MienUserSolver.`state_bytes` bytes, aligned to 8; initially zero.
     pub state: *mut c_void,
     pub lod: u32,
-    /// The first step, or the character was moved to another place.
+    /// The first step, or the character was teleported.
     pub is_reset: u32,
 }
 
@@ -2532,11 +2542,11 @@ impl Default for MienSolverPose {
     }
 }
 
-/// What a MienUserSolver is called with.
+/// The argument of a MienUserSolver.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienSolverCall {
-    /// Characters, 64 at most.
+    /// One for each of at most 64 characters.
     pub poses: *const MienSolverPose,
     /// One per joint; a root is its own parent.
     pub parents: *const u16,
@@ -2554,20 +2564,21 @@ impl Default for MienSolverCall {
     }
 }
 
-/// A solver of the caller. It runs on the thread that steps, and must not use the handles of the
-/// step.
+/// A custom solver. It runs on the thread that calls the step function, and must not use the
+/// handles passed to that function.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienUserSolver {
     /// Passed to the function; must live as long as the stack and its states.
     pub user: *mut c_void,
-    /// Changes the locals of some characters, and nothing else of them but outputs and state.
+    /// Changes the locals of the characters in `call`, and their outputs and state, but nothing
+    /// else.
     pub solve: Option<unsafe extern "C" fn(user: *mut c_void, call: *const MienSolverCall)>,
     /// Joints whose model matrices it reads.
     pub reads: *const u16,
-    /// Joints whose locals it changes.
+    /// Joints whose local transforms it changes.
     pub writes: *const u16,
-    /// Joints whose model matrices of the last step it reads.
+    /// Joints whose model matrices after the last step it reads.
     pub previous_joints: *const u16,
     pub read_count: u32,
     /// 1 or more.
@@ -2589,11 +2600,11 @@ impl Default for MienUserSolver {
     }
 }
 
-/// One solver: one of the pointers is not NULL.
+/// One solver: exactly one of the pointers aim ... custom is not NULL.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienSolver {
-    /// For messages. NULL: that of the kind.
+    /// For messages. NULL: the name of its kind.
     pub name: *const c_char,
     /// May be NULL.
     pub aim: *const MienAimSolver,
@@ -2607,7 +2618,7 @@ pub struct MienSolver {
     pub copy: *const MienCopySolver,
     /// May be NULL.
     pub custom: *const MienUserSolver,
-    /// Where it runs: bit l is LOD l. 0: at all.
+    /// Bit l: runs at LOD l. 0: at all LODs.
     pub lods: u64,
 }
 
@@ -2627,9 +2638,10 @@ pub struct MienSolverStackDesc {
     /// In the order in which they run; at most 256.
     pub solvers: *const MienSolver,
     pub solver_count: usize,
-    /// Of the rows that steps get, at least. 0: they get none.
+    /// The rows passed to steps have this many lanes or more. 0: no row.
     pub lane_count: u32,
-    /// Compare all joints before and after each solver, for `mien_solver_state_undeclared()`.
+    /// Compare all joints before and after each solver, to find undeclared writes:
+    /// `mien_solver_state_undeclared()`.
     pub check_writes: u32,
     pub allocator: *const MienAllocator,
 }
@@ -2686,17 +2698,17 @@ impl Default for MienSolverStateDesc {
     }
 }
 
-/// What solvers of one character get.
+/// The input of the solvers of one character.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienSolverInput {
-    /// Such as that of `mien_mixer_row()`. NULL: none.
+    /// Such as the one from `mien_mixer_row()`. NULL: none.
     pub row: *const f32,
     /// At least MienSolverStackDesc.`lane_count`.
     pub row_count: usize,
     /// 0 to 63.
     pub lod: u32,
-    /// The character was moved to another place: springs come to rest, and spaces do not ease.
+    /// The character was teleported, so springs come to rest and space switches do not ease.
     pub is_reset: u32,
 }
 
@@ -2940,14 +2952,14 @@ extern "C" {
     /// header.
     pub fn mien_version() -> u32;
 
-    /// Returns "DNA\_TRUNCATED" for `MIEN_ERROR_DNA_TRUNCATED`, and "UNKNOWN" for other numbers.
-    /// The string is static and terminated.
+    /// Returns "DNA\_TRUNCATED" for `MIEN_ERROR_DNA_TRUNCATED`, and "UNKNOWN" for unknown numbers.
+    /// The string is static and null-terminated.
     pub fn mien_status_name(status: MienStatus) -> *const c_char;
 
     /// Returns the coordinate system of an engine or tool: "maya", "unreal", "unreal-mesh"
     /// (characters look along y), "unity", "godot", "blender", "gltf", "opengl", "directx" or
     /// "houdini". The rotation rule is `MIEN_ROTATION_RULE_CARRIED`; `rotation_sequence` is that
-    /// of the engine's Euler angles, and is used once you set another rule.
+    /// of the engine's Euler angles, and only takes effect if you set another rule.
     ///
     /// Fails with `MIEN_ERROR_NAME` if the name is none of these.
     pub fn mien_coordinate_system_find(name: *const c_char, out_system: *mut MienCoordinateSystem) -> MienStatus;
@@ -2955,7 +2967,7 @@ extern "C" {
     /// Returns the coordinate system of an engine or tool: "maya", "unreal", "unreal-mesh"
     /// (characters look along y), "unity", "godot", "blender", "gltf", "opengl", "directx" or
     /// "houdini". The rotation rule is `MIEN_ROTATION_RULE_CARRIED`; `rotation_sequence` is that
-    /// of the engine's Euler angles, and is used once you set another rule.
+    /// of the engine's Euler angles, and only takes effect if you set another rule.
     ///
     /// Fails with `MIEN_ERROR_NAME` if the name is none of these.
     pub fn mien_coordinate_system_find_n(name: *const c_char, name_count: usize, out_system: *mut MienCoordinateSystem) -> MienStatus;
@@ -2968,9 +2980,10 @@ extern "C" {
     /// Opens a DNA file of version 2.1 to 2.8, or the known layers of a later 2.x. Checks
     /// everything that it loads. Close with `mien_dna_close()`.
     ///
-    /// Numbers and names are read from the file when needed. Memory is used for lists: typically a
-    /// few percent of the size of the loaded layers, at most 20 times that size. Do not truncate
-    /// or overwrite a mapped file while it is open; replacing it by renaming is safe.
+    /// Numbers and names stay in the file and are read when needed. Memory is allocated for lists
+    /// only: typically a few percent of the size of the loaded layers, at most 20 times their
+    /// size. Do not truncate or overwrite a mapped file while it is open; replacing it by renaming
+    /// is safe.
     ///
     /// Fails with `MIEN_ERROR_FILE_OPEN` or `MIEN_ERROR_FILE_READ` if the file cannot be read,
     /// `MIEN_ERROR_DNA_SIGNATURE` or `MIEN_ERROR_DNA_VERSION` if it is not a DNA file of
@@ -2990,12 +3003,12 @@ extern "C" {
     pub fn mien_dna_open_memory(bytes: *const c_void, size: usize, desc: *const MienDnaDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
 
     /// Opens a DNA file through a stream. Reads the header, the index and the requested layers,
-    /// each once and in one piece, into memory of the allocator.
+    /// each with one read, into memory from the allocator.
     ///
     /// Fails like `mien_dna_open_file()`, but not with `MIEN_ERROR_FILE_OPEN`.
     pub fn mien_dna_open_stream(stream: *const MienStream, desc: *const MienDnaDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
 
-    /// Closes a DNA. Rigs and deformers made from it stay valid; its views do not.
+    /// Closes a DNA. Rigs and deformers created from it stay valid; views into it do not.
     pub fn mien_dna_close(dna: *mut MienDna);
 
     /// Returns the properties of a DNA.
@@ -3118,12 +3131,12 @@ extern "C" {
     /// the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field is not a string.
     pub fn mien_dna_read_string_n(dna: *const MienDna, path: *const c_char, path_count: usize, out_string: *mut MienStringView, error: *mut MienError) -> MienStatus;
 
-    /// Writes a DNA file in canonical form: if the original file was canonical and all of it was
-    /// loaded, the same bytes. Layers that were not loaded are written empty. Another version may
-    /// leave out layers that others need, such as the ML operations of networks; a file that could
-    /// not be opened is not written. The file is written under a temporary name and renamed, so
-    /// that a failure leaves `path` unchanged. An existing file keeps its permissions; a symbolic
-    /// link is followed, unless it leads nowhere.
+    /// Writes a DNA file in canonical form: byte for byte the original if that was canonical and
+    /// was loaded completely. Layers that were not loaded are written empty. Another version may
+    /// not have layers that others need, such as the ML operations of networks; a file that could
+    /// not be opened again is never written. The file is written under a temporary name and
+    /// renamed, so that a failure leaves `path` unchanged. An existing file keeps its permissions;
+    /// a symbolic link is followed, unless it leads nowhere.
     ///
     /// Fails with `MIEN_ERROR_FILE_WRITE` if the file cannot be written, `MIEN_ERROR_DNA_LAYER` if
     /// RBF behavior was loaded without the machine-learned behavior of its file (whose controls
@@ -3144,9 +3157,9 @@ extern "C" {
     pub fn mien_dna_write_memory(dna: *const MienDna, desc: *const MienWriteDesc, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
 
     /// Checks all layers of a file and collects the findings: at most 32 per field and 1000 in
-    /// total; the last one says if there are more. Returns `MIEN_OK` if the file could be checked,
-    /// whatever was found. The file is read into memory, so it may change meanwhile. Destroy with
-    /// `mien_report_destroy()`.
+    /// total; the last one tells whether there are more. Returns `MIEN_OK` if the file could be
+    /// checked, whatever was found. The file is read into memory first, so it may change during
+    /// the call. Destroy with `mien_report_destroy()`.
     ///
     /// Fails with `MIEN_ERROR_FILE_OPEN` or `MIEN_ERROR_FILE_READ` if the file cannot be read.
     ///
@@ -3159,7 +3172,7 @@ extern "C" {
     /// Returns the number of errors and the number of warnings.
     pub fn mien_report_counts(report: *const MienReport, out_errors: *mut u32, out_warnings: *mut u32) -> MienStatus;
 
-    /// Returns finding `index`, in the order of the checks. There are as many as errors and
+    /// Returns finding `index`, in the order of the checks. Their number is that of errors plus
     /// warnings.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if `index` is past the last finding.
@@ -3168,11 +3181,11 @@ extern "C" {
     /// Destroys a report.
     pub fn mien_report_destroy(report: *mut MienReport);
 
-    /// Returns 1 if rigs can be created for an instruction set on this machine, else 0.
+    /// Returns 1 if rigs can be created for instruction set `isa` on this machine, else 0.
     pub fn mien_isa_available(isa: u32) -> u32;
 
-    /// Returns "avx2" for `MIEN_ISA_AVX2`, and "unknown" for other numbers. The string is static
-    /// and terminated.
+    /// Returns "avx2" for `MIEN_ISA_AVX2`, and so on; "unknown" for unknown numbers. The string is
+    /// static and null-terminated.
     pub fn mien_isa_name(isa: u32) -> *const c_char;
 
     /// Packs the behavior of a DNA for evaluation. The rig is one block of memory; temporary
@@ -3180,21 +3193,21 @@ extern "C" {
     /// `mien_rig_destroy()`.
     ///
     /// Fails with `MIEN_ERROR_DNA_LAYER` if `dna` was opened without its behavior,
-    /// `MIEN_ERROR_DNA_VALUE` if correctives depend on each other in a circle,
+    /// `MIEN_ERROR_DNA_VALUE` if correctives depend on each other in a cycle,
     /// `MIEN_ERROR_DNA_LIMIT` if the rig is too large, `MIEN_ERROR_ISA` if the requested
     /// instruction set is not available.
     ///
     /// See docs/rig-evaluation.md and docs/dna-format.md, 13 "What is checked".
     pub fn mien_rig_create(dna: *const MienDna, desc: *const MienRigDesc, out_rig: *mut *mut MienRig, error: *mut MienError) -> MienStatus;
 
-    /// Destroys a rig. It cannot be used any longer, but its instances, batches and deformers may
-    /// be destroyed later: its memory is released with the last of them.
+    /// Destroys a rig. The handle is invalid afterwards, but instances, batches and deformers of
+    /// the rig may be destroyed later: its memory is released with the last of them.
     pub fn mien_rig_destroy(rig: *mut MienRig);
 
     /// Returns the properties of a rig.
     pub fn mien_rig_info(rig: *const MienRig, out_info: *mut MienRigInfo) -> MienStatus;
 
-    /// Returns how many parts of a kind the rig has.
+    /// Returns the number of parts of a kind.
     pub fn mien_rig_count(rig: *const MienRig, kind: u32, out_count: *mut u32) -> MienStatus;
 
     /// Returns a name; "" for kinds without names.
@@ -3202,13 +3215,13 @@ extern "C" {
     /// Fails with `MIEN_ERROR_INDEX` if `index` is not below `mien_rig_count()`.
     pub fn mien_rig_name(rig: *const MienRig, kind: u32, index: u32, out_name: *mut MienStringView) -> MienStatus;
 
-    /// Finds the index of a name: an exact match, the first of equal names. Takes O(log n).
+    /// Finds the index of a name by exact match; of equal names, the first. Takes O(log n) time.
     ///
     /// Fails with `MIEN_ERROR_NAME` if there is no such name, `MIEN_ERROR_INVALID_ARGUMENT` if
     /// `kind` has no names.
     pub fn mien_rig_find(rig: *const MienRig, kind: u32, name: *const c_char, out_index: *mut u32) -> MienStatus;
 
-    /// Finds the index of a name: an exact match, the first of equal names. Takes O(log n).
+    /// Finds the index of a name by exact match; of equal names, the first. Takes O(log n) time.
     ///
     /// Fails with `MIEN_ERROR_NAME` if there is no such name, `MIEN_ERROR_INVALID_ARGUMENT` if
     /// `kind` has no names.
@@ -3218,7 +3231,7 @@ extern "C" {
     /// solvers that a LOD lists, in file order.
     ///
     /// Fails with `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_INVALID_ARGUMENT` if
-    /// `kind` is none of these five.
+    /// `kind` is not one of these five.
     ///
     /// See docs/dna-format.md, 8.2 "LOD mappings".
     pub fn mien_rig_lod_indices(rig: *const MienRig, kind: u32, lod: u32, out_indices: *mut MienIndex16View) -> MienStatus;
@@ -3240,7 +3253,7 @@ extern "C" {
     /// See docs/rig-evaluation.md, 4.2 "Neutral pose".
     pub fn mien_rig_neutral_joint_values(rig: *const MienRig, out_values: *mut MienFloatView) -> MienStatus;
 
-    /// Returns the controls whose product gives corrective `psd`, as indices into the control row.
+    /// Returns the controls whose product is corrective `psd`, as indices into the control vector.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if there is no such corrective.
     ///
@@ -3269,51 +3282,51 @@ extern "C" {
     /// Destroys an instance.
     pub fn mien_instance_destroy(instance: *mut MienInstance);
 
-    /// Returns an instance to its initial state: all inputs and results, at LOD 0.
+    /// Resets an instance to its initial state: all inputs and results, at LOD 0.
     ///
     /// See docs/rig-evaluation.md, 1.2 "Initial values".
     pub fn mien_instance_reset(instance: *mut MienInstance) -> MienStatus;
 
-    /// Returns the GUI controls, to be written by the caller: one float per GUI control. They are
-    /// inputs of `mien_rig_map_gui_to_raw()` only.
+    /// Returns the GUI controls for the caller to write: one float per GUI control. Only
+    /// `mien_rig_map_gui_to_raw()` reads them.
     ///
     /// Contents change with `mien_rig_map_raw_to_gui()`, `mien_instance_reset()`.
     pub fn mien_instance_gui_controls(instance: *mut MienInstance, out_view: *mut MienMutableFloatView) -> MienStatus;
 
-    /// Returns the raw controls, to be written by the caller: one float per raw control, typically
-    /// 0 to 1, not clamped. They are the inputs of evaluation.
+    /// Returns the raw controls for the caller to write: one float per raw control, typically 0 to
+    /// 1, not clamped. They are the inputs of evaluation.
     ///
     /// Contents change with `mien_rig_map_gui_to_raw()`, `mien_instance_reset()`.
     pub fn mien_instance_raw_controls(instance: *mut MienInstance, out_view: *mut MienMutableFloatView) -> MienStatus;
 
-    /// Returns the region masks, to be written by the caller: one float per region of each mesh, 0
-    /// to 1, initially 1. They switch or blend machine-learned behavior (`MIEN_ML_MASKS_...`).
+    /// Returns the region masks for the caller to write: one float per region of each mesh, 0 to
+    /// 1, initially 1. They switch or blend machine-learned behavior (`MIEN_ML_MASKS_...`).
     ///
     /// Contents change with `mien_instance_reset()`.
     ///
     /// See docs/rig-evaluation.md, 8.5 "Region masks".
     pub fn mien_instance_ml_masks(instance: *mut MienInstance, out_view: *mut MienMutableFloatView) -> MienStatus;
 
-    /// Returns the control row: one float per control, the raw, PSD, ML and RBF controls in this
-    /// order.
+    /// Returns the control vector: one float per control, the raw, PSD, ML and RBF controls in
+    /// this order.
     ///
     /// Contents change with evaluation, `mien_rig_map_gui_to_raw()`, `mien_instance_reset()` and
     /// writes to the raw controls.
     ///
-    /// See docs/rig-evaluation.md, 1.1 "Control row".
+    /// See docs/rig-evaluation.md, 1.1 "Control vector".
     pub fn mien_instance_controls(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
 
-    /// Returns the PSD controls (correctives) of the control row: one float per PSD control.
+    /// Returns the PSD controls (correctives) of the control vector: one float per PSD control.
     ///
     /// Contents change with evaluation, `mien_instance_reset()`.
     pub fn mien_instance_psd_controls(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
 
-    /// Returns the ML controls of the control row: one float per ML control.
+    /// Returns the ML controls of the control vector: one float per ML control.
     ///
     /// Contents change with evaluation, `mien_instance_reset()`.
     pub fn mien_instance_ml_controls(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
 
-    /// Returns the RBF pose controls of the control row: one float per RBF control.
+    /// Returns the RBF pose controls of the control vector: one float per RBF control.
     ///
     /// Contents change with evaluation, `mien_instance_reset()`.
     pub fn mien_instance_rbf_controls(instance: *const MienInstance, out_view: *mut MienFloatView) -> MienStatus;
@@ -3347,8 +3360,8 @@ extern "C" {
     /// See docs/rig-evaluation.md, 9.6 "Statistics".
     pub fn mien_instance_statistics(instance: *const MienInstance, out_statistics: *mut MienInstanceStatistics) -> MienStatus;
 
-    /// Maps GUI controls to raw controls. Raw controls that the table drives are overwritten,
-    /// clamped to 0..1; others are left alone. Does not allocate or lock.
+    /// Maps GUI controls to raw controls. Raw controls that the rig's table drives are overwritten
+    /// with values clamped to 0..1; others are left unchanged. Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig.
     ///
@@ -3356,16 +3369,17 @@ extern "C" {
     pub fn mien_rig_map_gui_to_raw(rig: *const MienRig, instance: *mut MienInstance) -> MienStatus;
 
     /// Maps raw controls to GUI controls. Sets every GUI control to the value that maps to the
-    /// current raw controls, or to 0 if there is none. Does not allocate or lock.
+    /// current raw controls, or to 0 if there is no such value. Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_MISMATCH` if `instance` belongs to another rig.
     ///
     /// See docs/rig-evaluation.md, 2.4 "Raw controls to GUI controls".
     pub fn mien_rig_map_raw_to_gui(rig: *const MienRig, instance: *mut MienInstance) -> MienStatus;
 
-    /// Evaluates all stages at a LOD. Results that the LOD does not reach have their initial
-    /// value. Inputs must be finite; then results are finite. Changing the LOD between calls costs
-    /// little: results are reset. Does not allocate or lock. Uses up to 48 KiB of stack.
+    /// Evaluates all stages at a LOD. Results that the LOD does not drive have their initial
+    /// value. Inputs must be finite; then the results are finite too. Changing the LOD between
+    /// calls is cheap: it resets the results. Does not allocate or lock. Uses up to 48 KiB of
+    /// stack.
     ///
     /// Fails with `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if `instance`
     /// belongs to another rig.
@@ -3394,9 +3408,9 @@ extern "C" {
     pub fn mien_batch_bytes(rig: *const MienRig, desc: *const MienBatchDesc, out_bytes: *mut u64) -> MienStatus;
 
     /// Evaluates stages of `count` different instances of one rig; instance i at LOD lods\[i\].
-    /// The results have the same bits as those of `mien_rig_evaluate_stages()`, but columns of the
-    /// joint matrix that several instances use are read once for up to 32 of them. Runs on the
-    /// calling thread, or in tasks on `parallel`; `parallel` may be NULL. Does not allocate or
+    /// The results are bit-identical to those of `mien_rig_evaluate_stages()`, but columns of the
+    /// joint matrix that several instances use are read only once for up to 32 of them. Runs on
+    /// the calling thread, or in tasks on `parallel`; `parallel` may be NULL. Does not allocate or
     /// lock. Uses up to 48 KiB of stack per task. On failure no instance is evaluated.
     ///
     /// Fails with `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if the batch
@@ -3441,14 +3455,14 @@ extern "C" {
     ///
     /// Influences of weight 0 and faces of fewer than three corners are dropped. Meshes may lack
     /// faces, weights, normals or texture coordinates: missing normals are computed from the
-    /// faces, missing texture coordinates are 0. Stored normals tell which side of a face is
+    /// faces, missing texture coordinates are 0. Stored normals determine which side of a face is
     /// outside; without them, the winding and the axes of the file do.
     ///
     /// Fails with `MIEN_ERROR_DNA_LAYER` if `dna` was opened without `MIEN_LAYER_GEOMETRY`,
-    /// `MIEN_ERROR_MISMATCH` if numbers or names of joints, channels or meshes differ from those
-    /// of the rig, `MIEN_ERROR_DNA_VALUE` if a joint is its own ancestor or a position, delta or
-    /// weight is not finite, `MIEN_ERROR_DNA_LIMIT` if a position has more than 65535 influences,
-    /// `MIEN_ERROR_ISA` if the requested instruction set is not available.
+    /// `MIEN_ERROR_MISMATCH` if the number or the names of joints, channels or meshes differ from
+    /// those of the rig, `MIEN_ERROR_DNA_VALUE` if a joint is its own ancestor or a position,
+    /// delta or weight is not finite, `MIEN_ERROR_DNA_LIMIT` if a position has more than 65535
+    /// influences, `MIEN_ERROR_ISA` if the requested instruction set is not available.
     ///
     /// See docs/deformation.md.
     pub fn mien_deformer_create(dna: *const MienDna, rig: *const MienRig, desc: *const MienDeformerDesc, out_deformer: *mut *mut MienDeformer, error: *mut MienError) -> MienStatus;
@@ -3465,7 +3479,7 @@ extern "C" {
     /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh.
     pub fn mien_deformer_mesh(deformer: *const MienDeformer, mesh: u32, out_mesh: *mut MienMesh) -> MienStatus;
 
-    /// Returns the influences of a position as they are used: `out_joints` gets one index per
+    /// Returns the influences of a position, as used for skinning: `out_joints` gets one index per
     /// influence, `out_weights` gets one float per influence. There may be none.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh or position.
@@ -3493,10 +3507,9 @@ extern "C" {
     /// Destroys a deformer instance.
     pub fn mien_deformer_instance_destroy(deformer_instance: *mut MienDeformerInstance);
 
-    /// Takes over the joint values and channel weights of the last evaluation of `instance`, and
-    /// computes the matrices of all joints. Meshes are deformed by
-    /// `mien_deformer_instance_deform()`. Values that are not finite give results that are not
-    /// finite. Does not allocate or lock.
+    /// Copies the joint values and channel weights of the last evaluation of `instance`, and
+    /// computes the matrices of all joints. `mien_deformer_instance_deform()` then deforms meshes.
+    /// Values that are not finite give results that are not finite. Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_MISMATCH` if `instance` belongs to a rig other than that of the
     /// deformer.
@@ -3525,9 +3538,10 @@ extern "C" {
     /// `mien_deformer_instance_update_from_values()`.
     pub fn mien_deformer_instance_skin_matrices(deformer_instance: *const MienDeformerInstance, out_matrices: *mut MienFloatView) -> MienStatus;
 
-    /// Writes the transforms of the last update, relative to the parents, to `out_transforms`: 10
-    /// floats per joint, tx ty tz qx qy qz qw sx sy sz, with quaternions of unit length. `count`
-    /// is the capacity of `out_transforms`, in floats. Does not allocate or lock.
+    /// Writes the joint transforms of the last update, relative to the parents, to
+    /// `out_transforms`: 10 floats per joint, tx ty tz qx qy qz qw sx sy sz, with quaternions of
+    /// unit length. `count` is the capacity of `out_transforms`, in floats. Does not allocate or
+    /// lock.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `count` is less than 10 \*
     /// MienDeformerInfo.`joint_count`.
@@ -3544,11 +3558,11 @@ extern "C" {
     /// See docs/deformation.md, 2 "Positions" and 3 "Normals".
     pub fn mien_deformer_instance_deform(deformer_instance: *mut MienDeformerInstance, mesh: u32, normals: u32, parallel: *const MienParallelFor) -> MienStatus;
 
-    /// Deforms the same mesh of `count` different instances of one deformer. The results have the
-    /// same bits as those of `mien_deformer_instance_deform()`, but each part of the mesh is read
-    /// once for all, and the total number of positions decides about tasks. `parallel` may be
-    /// NULL. Does not allocate or lock. Uses up to 16 KiB of stack per task. On failure nothing is
-    /// deformed.
+    /// Deforms the same mesh of `count` different instances of one deformer. The results are
+    /// bit-identical to those of `mien_deformer_instance_deform()`, but each part of the mesh is
+    /// read only once for all of them, and the total number of positions decides whether tasks are
+    /// used. `parallel` may be NULL. Does not allocate or lock. Uses up to 16 KiB of stack per
+    /// task. On failure nothing is deformed.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_LOD` if an instance has
     /// no memory for it, `MIEN_ERROR_MISMATCH` if the instances have different deformers,
@@ -3576,7 +3590,7 @@ extern "C" {
     /// Deforms a mesh as `mien_deformer_instance_deform()` does, and writes its vertices to memory
     /// of the caller, such as a mapped vertex buffer. Each byte is written once, in the order of
     /// the vertices, and none is read, so the memory may be write-combined. Bytes between vertices
-    /// are left alone. `parallel` may be NULL; the bytes are the same either way. The same
+    /// are left unchanged. `parallel` may be NULL; the bytes are the same either way. The same
     /// positions, normals and tangents give the same bytes on every instruction set. Does not
     /// allocate or lock. Uses up to 16 KiB of stack per task. On failure nothing is deformed or
     /// written.
@@ -3615,11 +3629,11 @@ extern "C" {
     /// `MIEN_ERROR_INVALID_ARGUMENT` if `capacity` is too small.
     pub fn mien_bake_memory(rig: *const MienRig, deformer: *const MienDeformer, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
 
-    /// Opens a baked file. It is mapped, so processes that open the same file share its pages. Do
-    /// not truncate or overwrite a mapped file until all objects made from it are destroyed;
-    /// replacing it by renaming is safe. The header is checked now, the rest when objects are
-    /// created. One allocation, and one more for the bytes if the file is not mapped. Close with
-    /// `mien_baked_close()`.
+    /// Opens a baked file. By default it is mapped, so processes that open the same file share its
+    /// pages. Do not truncate or overwrite a mapped file until all objects made from it are
+    /// destroyed; replacing it by renaming is safe. The header is checked now, the rest when
+    /// objects are created. One allocation, and one more for the bytes if the file is not mapped.
+    /// Close with `mien_baked_close()`.
     ///
     /// Fails with `MIEN_ERROR_FILE_OPEN` or `MIEN_ERROR_FILE_READ` if the file cannot be read,
     /// `MIEN_ERROR_BAKED_SIGNATURE`, `MIEN_ERROR_BAKED_VERSION`, `MIEN_ERROR_BAKED_TRUNCATED` or
@@ -3629,7 +3643,7 @@ extern "C" {
 
     /// Opens a baked file in memory: `size` bytes. `bytes` must outlive the MienBaked and all
     /// objects made from it, unchanged, unless they are copied: with `MIEN_FILE_READ`, or if
-    /// `bytes` is not a multiple of 64.
+    /// `bytes` is not aligned to 64.
     ///
     /// Fails like `mien_baked_open_file()`, but not with `MIEN_ERROR_FILE_OPEN` or
     /// `MIEN_ERROR_FILE_READ`.
@@ -3673,9 +3687,9 @@ extern "C" {
     /// there are too many frames, channels or bytes.
     pub fn mien_clip_build(desc: *const MienClipDesc, out_clip: *mut *mut MienClip, error: *mut MienError) -> MienStatus;
 
-    /// Opens a clip. It is mapped; do not truncate or overwrite a mapped file until the clip is
-    /// closed and its players are destroyed; replacing it by renaming is safe. Names and events
-    /// are checked now, curves when they are decoded: a damaged one gives zeros (see
+    /// Opens a clip. By default it is mapped: do not truncate or overwrite the file until the clip
+    /// is closed and its players are destroyed; replacing it by renaming is safe. Names and events
+    /// are checked now, curves when they are decoded: damaged ones decode to zeros (see
     /// `mien_clip_verify()`). Close with `mien_clip_close()`.
     ///
     /// Fails with `MIEN_ERROR_FILE_OPEN` or `MIEN_ERROR_FILE_READ` if the file cannot be read,
@@ -3716,8 +3730,8 @@ extern "C" {
     /// Returns the properties of a clip.
     pub fn mien_clip_info(clip: *const MienClip, out_info: *mut MienClipInfo) -> MienStatus;
 
-    /// Returns a channel. Channels are in the order in which the clip was built. Its name is a
-    /// view of the clip.
+    /// Returns a channel. Channels keep the order in which the clip was built. The name is a view
+    /// into the clip.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if `index` is out of range.
     pub fn mien_clip_channel(clip: *const MienClip, index: u32, out_channel: *mut MienClipChannel) -> MienStatus;
@@ -3732,8 +3746,8 @@ extern "C" {
     /// Fails with `MIEN_ERROR_NAME` if there is none.
     pub fn mien_clip_find_channel_n(clip: *const MienClip, name: *const c_char, name_count: usize, out_index: *mut u32) -> MienStatus;
 
-    /// Returns an event. Events are sorted by tick; those of one tick keep the order in which they
-    /// were given. Its name is a view of the clip.
+    /// Returns an event. Events are sorted by tick; those at the same tick keep the order in which
+    /// they were given. The name is a view into the clip.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if `index` is out of range.
     pub fn mien_clip_event(clip: *const MienClip, index: u32, out_event: *mut MienClipEvent) -> MienStatus;
@@ -3747,13 +3761,13 @@ extern "C" {
 
     /// Copies `frame_count` frames, starting at `first_frame`: channel c of frame `first_frame` +
     /// n goes to `out_values`\[n \* `frame_stride` + c\]. `frame_stride` is at least the number of
-    /// channels; 0 means that number. Each call decodes its first block of 64 frames from the
-    /// start of the block, so many frames in one call cost less than the same frames one by one.
-    /// Uses up to 36 KiB of stack.
+    /// channels; 0 means that number. Each call decodes from the start of a block of 64 frames, so
+    /// reading many frames in one call costs less than reading them one by one. Uses up to 36 KiB
+    /// of stack.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `frame_stride` is too small, `MIEN_ERROR_INDEX`
     /// if the clip has fewer frames, `MIEN_ERROR_CLIP_STRUCTURE` if a curve is damaged; its block
-    /// is zero in `out_values`.
+    /// in `out_values` is zero.
     pub fn mien_clip_read(clip: *const MienClip, first_frame: u32, frame_count: u32, out_values: *mut f32, frame_stride: usize, error: *mut MienError) -> MienStatus;
 
     /// Creates a player, with one allocation. `clip` may be closed before the player is destroyed.
@@ -3766,9 +3780,9 @@ extern "C" {
     /// Returns the state of a player.
     pub fn mien_clip_player_info(clip_player: *const MienClipPlayer, out_info: *mut MienClipPlayerInfo) -> MienStatus;
 
-    /// Moves to a tick: modulo the length with `MIEN_LOOPING_WRAP`, else to the nearest in range.
-    /// Passes no events; the next `mien_clip_player_advance()` also passes events at this tick, as
-    /// after creation. Does not allocate or lock.
+    /// Moves to a tick: modulo the length with `MIEN_LOOPING_WRAP`, otherwise clamped to the
+    /// range. Reports no events; the next `mien_clip_player_advance()` also reports events at this
+    /// tick, as it does after creation. Does not allocate or lock.
     pub fn mien_clip_player_seek(clip_player: *mut MienClipPlayer, tick: i64) -> MienStatus;
 
     /// Sets the speed for later calls of `mien_clip_player_advance()`. Does not allocate or lock.
@@ -3777,46 +3791,45 @@ extern "C" {
     pub fn mien_clip_player_set_speed(clip_player: *mut MienClipPlayer, numerator: i32, denominator: i32) -> MienStatus;
 
     /// Moves by `ticks` times the speed. `ticks` is -2^40 to 2^40 (26 minutes). Fractions of ticks
-    /// are kept, so that the position does not depend on the size of steps. Does not allocate or
-    /// lock.
+    /// are kept, so the position does not depend on the step size. Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `ticks` is out of range.
     pub fn mien_clip_player_advance(clip_player: *mut MienClipPlayer, ticks: i64) -> MienStatus;
 
     /// Returns the next event that the last `mien_clip_player_advance()` passed. `out_found` is 1,
     /// or 0 after the last event. An event is passed when the position reaches or crosses its tick
-    /// in either direction, once per loop. Its name is a view of the clip. Does not allocate or
+    /// in either direction, once per loop. The name is a view into the clip. Does not allocate or
     /// lock.
     pub fn mien_clip_player_next_event(clip_player: *mut MienClipPlayer, out_event: *mut MienClipEvent, out_found: *mut u32) -> MienStatus;
 
-    /// Returns the values at the position: one float per channel. At a frame they have the bits of
-    /// the clip. Decodes the frames since the last call, or at most 64 after a jump; playing
-    /// backward without MienClipPlayerDesc.reverse counts as jumps. Does not allocate or lock.
+    /// Returns the values at the current position: one float per channel. Exactly at a frame they
+    /// are bit-identical to those of the clip. Decodes the frames since the last call, or at most
+    /// 64 after a jump; without MienClipPlayerDesc.reverse, each step backward is a jump. Does not
+    /// allocate or lock.
     ///
     /// Contents change with `mien_clip_player_sample()`.
     pub fn mien_clip_player_sample(clip_player: *mut MienClipPlayer, out_values: *mut MienFloatView) -> MienStatus;
 
-    /// Binds a clip to a rig by names. A channel drives the raw control with its name; else the
-    /// GUI control with its name, which is then mapped as by `mien_rig_map_gui_to_raw()`; else the
-    /// controls of its entries in the matrix, which are summed in the order of the matrix. Names
-    /// match without regard to case; `.` matches `_`; the prefix `CTRL_expressions.` may be
-    /// missing. If several names match, only one that is equal counts. A raw control that a
-    /// channel drives by name is driven by nothing else, and one that the matrix drives is not
-    /// driven by GUI controls. Names without a match are not an error: see
-    /// `mien_clip_binding_info()`. `clip` may be closed and `rig` may be destroyed afterwards.
-    /// Destroy with `mien_clip_binding_destroy()`.
+    /// Binds a clip to a rig by names. A channel drives the raw control with its name. If there is
+    /// none, it drives the GUI control with its name, which is then mapped as by
+    /// `mien_rig_map_gui_to_raw()`. If there is none either, it drives the controls of its entries
+    /// in the matrix, which are summed in the order of the matrix. Names match without regard to
+    /// case; `.` matches `_`; the prefix `CTRL_expressions.` may be missing. If several names
+    /// match, only an exact match counts. A raw control that a channel drives by name is driven by
+    /// nothing else, and one that the matrix drives is not driven by GUI controls. Names without a
+    /// match are not an error: see `mien_clip_binding_info()`. `clip` may be closed and `rig` may
+    /// be destroyed afterwards. Destroy with `mien_clip_binding_destroy()`.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if a weight is not finite, `MIEN_ERROR_CLIP_LIMIT`
     /// if channels drive more than 4095 GUI controls.
     pub fn mien_clip_binding_create(clip: *const MienClip, rig: *const MienRig, desc: *const MienClipBindingDesc, out_clip_binding: *mut *mut MienClipBinding, error: *mut MienError) -> MienStatus;
 
-    /// Gives a matrix that binds clips with the 52 expression names of ARKit, such as those of the
-    /// Live Link Face app, to rigs that name raw controls in the other usual way (eyeBlinkL for
-    /// eyeBlinkLeft). The same for every rig: channels whose names a rig has need no matrix, and
-    /// entries whose controls it lacks are left out. docs/face-capture.md, 3 "ARKit expressions on
-    /// raw controls" has the reasons for each entry. Writes as many entries as there is room for;
-    /// `out_count` tells how many there are. Names are static. `out_entries` may be NULL if
-    /// `capacity` is 0.
+    /// Returns a matrix that binds clips with the 52 ARKit expression names, such as those of the
+    /// Live Link Face app, to rigs with the other common naming of raw controls (eyeBlinkL for
+    /// eyeBlinkLeft). It suits every rig: channels whose names the rig has do not use the matrix,
+    /// and entries for missing controls are skipped. docs/face-capture.md, 3 "ARKit expressions on
+    /// raw controls" explains the entries. Writes as many entries as fit; `out_count` is the total
+    /// number. Names are static. `out_entries` may be NULL if `capacity` is 0.
     pub fn mien_arkit_matrix(out_entries: *mut MienMatrixEntry, capacity: usize, out_count: *mut usize) -> MienStatus;
 
     /// Destroys a binding.
@@ -3825,44 +3838,46 @@ extern "C" {
     /// Returns what a binding found.
     pub fn mien_clip_binding_info(clip_binding: *const MienClipBinding, out_info: *mut MienClipBindingInfo) -> MienStatus;
 
-    /// Computes the raw controls that are driven and leaves the others as they are. `values` has
-    /// one float per channel, as `mien_clip_player_sample()` returns them; `raw_controls` has one
+    /// Computes the raw controls that are driven and leaves the others unchanged. `values` has one
+    /// float per channel, as `mien_clip_player_sample()` returns them; `raw_controls` has one
     /// float per raw control, as `mien_instance_raw_controls()` returns them. Values that drive
-    /// raw controls by name keep their bits; GUI controls give the bits of
+    /// raw controls by name are copied exactly; GUI controls give the same bits as
     /// `mien_rig_map_gui_to_raw()`. Does not allocate or lock. Uses up to 16 KiB of stack.
     ///
-    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if a count is not that of clip and rig.
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if a count differs from that of the clip or the
+    /// rig.
     pub fn mien_clip_binding_apply(clip_binding: *const MienClipBinding, values: *const f32, value_count: usize, raw_controls: *mut f32, raw_control_count: usize) -> MienStatus;
 
-    /// Finds for each channel of a clip the coarsest step that cannot be seen, for
-    /// MienClipDesc.snaps: of 2^-9 to 2^-16 the largest of which half moves no vertex that LOD 0
-    /// shows farther than the tolerance. `tolerance` is in millimeters, such as 0.02. Joints count
-    /// if no mesh is shown. Tried at five values from 0 to 1, and of GUI controls from -1 on, with
-    /// all other channels at 0. A channel that drives nothing gets 2^-11, one that even the finest
-    /// step moves farther 0. Build a clip with all bits, bind it, and build it again with these
-    /// steps. Evaluates and deforms the rig 10 times per channel or more, and takes memory from
-    /// its allocator during the call.
+    /// Finds for each channel of a clip the coarsest rounding step with no visible effect, for
+    /// MienClipDesc.snaps: the largest of 2^-9 to 2^-16 of which half moves no vertex of LOD 0 by
+    /// more than `tolerance`, in millimeters, such as 0.02. If LOD 0 has no meshes, joints are
+    /// measured instead. Each channel is tried at five values from 0 to 1, and from -1 on if GUI
+    /// controls are driven, with all other channels at 0. Channels that drive nothing get 2^-11;
+    /// channels for which even the finest step is too coarse get 0. To use the steps, build a clip
+    /// with all bits, bind it, then build it again with them. Evaluates and deforms the rig at
+    /// least 10 times per channel, and takes memory from its allocator during the call.
     ///
-    /// Fails with `MIEN_ERROR_MEMORY` if there is none, `MIEN_ERROR_MISMATCH` if `channel_count`
-    /// is not that of the binding, or the binding is of another rig, `MIEN_ERROR_INVALID_ARGUMENT`
-    /// if `tolerance` is not a number above 0.
+    /// Fails with `MIEN_ERROR_MEMORY` if that returns NULL, `MIEN_ERROR_MISMATCH` if
+    /// `channel_count` is not that of the binding, or the binding is for another rig,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if `tolerance` is not a number above 0.
     pub fn mien_clip_binding_snaps(clip_binding: *const MienClipBinding, deformer: *const MienDeformer, tolerance: f32, out_snaps: *mut f32, channel_count: usize, error: *mut MienError) -> MienStatus;
 
     /// Creates a mix for a rig. `desc` is required. `rig` may be destroyed afterwards, and so may
     /// the deformer. Measuring guards takes time: it evaluates and deforms the rig at LOD 0 for
-    /// each raw control and for pairs that share a corrective. Destroy with `mien_mix_destroy()`.
+    /// each raw control and for pairs of raw controls that share a corrective. Destroy with
+    /// `mien_mix_destroy()`.
     ///
-    /// Fails with `MIEN_ERROR_MISMATCH` if deformer or gaze are of another rig, `MIEN_ERROR_INDEX`
-    /// if a landmark names a mesh, position or joint that does not exist,
-    /// `MIEN_ERROR_INVALID_ARGUMENT` if a part of `desc` is out of range; the message names it.
+    /// Fails with `MIEN_ERROR_MISMATCH` if the deformer or the gaze is for another rig,
+    /// `MIEN_ERROR_INDEX` if a landmark names a mesh, position or joint that does not exist,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if a field of `desc` is out of range; the message names it.
     pub fn mien_mix_create(rig: *const MienRig, desc: *const MienMixDesc, out_mix: *mut *mut MienMix, error: *mut MienError) -> MienStatus;
 
-    /// Opens a mix for a rig that has the controls which the mix uses; names match as in
-    /// `mien_clip_binding_create()`. Masks of the file leave other controls alone, limits do not
-    /// hold for them. Guards and gaze are those that were measured when the mix was created. `rig`
-    /// may be NULL: then the raw controls are those of the file, for looking into it or writing it
-    /// again. `rig` may be destroyed afterwards. Mixers of a hostile file may be large:
-    /// MienMixInfo.`mixer_bytes` tells. Destroy with `mien_mix_destroy()`.
+    /// Opens a mix for a rig, which must have all controls that the mix uses; names match as in
+    /// `mien_clip_binding_create()`. For other controls of the rig, the masks of the file are 0
+    /// and there are no limits. Guards and gaze are those measured when the mix was created. `rig`
+    /// may be NULL: then the raw controls are those of the file, to inspect it or to write it
+    /// again. `rig` may be destroyed afterwards. A hostile file may make mixers large: check
+    /// MienMixInfo.`mixer_bytes`. Destroy with `mien_mix_destroy()`.
     ///
     /// Fails with `MIEN_ERROR_FILE_OPEN` or `MIEN_ERROR_FILE_READ` if the file cannot be read,
     /// `MIEN_ERROR_MIX_SIGNATURE`, `MIEN_ERROR_MIX_VERSION`, `MIEN_ERROR_MIX_TRUNCATED`,
@@ -3877,14 +3892,14 @@ extern "C" {
     /// `MIEN_ERROR_FILE_READ`.
     pub fn mien_mix_open_memory(bytes: *const c_void, size: usize, rig: *const MienRig, desc: *const MienMixOpenDesc, out_mix: *mut *mut MienMix, error: *mut MienError) -> MienStatus;
 
-    /// Writes a mix to a file: all that was given to `mien_mix_create()` and what was measured
-    /// then, with the names of the controls that it uses. Equal mixes give the same bytes on every
-    /// machine, and so does a mix that was opened. The file is written under a temporary name and
-    /// renamed, so that a failure leaves `path` unchanged. Takes memory from the allocator of the
-    /// mix during the call.
+    /// Writes a mix to a file: the arguments of `mien_mix_create()`, what it measured, and the
+    /// names of the controls that the mix uses. Equal mixes give the same bytes on every machine;
+    /// a mix that was opened is written with the bytes of its file. The file is written under a
+    /// temporary name and renamed, so that a failure leaves `path` unchanged. Takes memory from
+    /// the allocator of the mix during the call.
     ///
-    /// Fails with `MIEN_ERROR_MEMORY` if there is none, `MIEN_ERROR_NAME` if two of these controls
-    /// have the same name, `MIEN_ERROR_FILE_WRITE` if the file cannot be written.
+    /// Fails with `MIEN_ERROR_MEMORY` if that returns NULL, `MIEN_ERROR_NAME` if two of these
+    /// controls have the same name, `MIEN_ERROR_FILE_WRITE` if the file cannot be written.
     pub fn mien_mix_write_file(mix: *const MienMix, path: *const c_char, error: *mut MienError) -> MienStatus;
 
     /// Writes a mix to memory and returns its size in `out_size`. `buffer` may be NULL with
@@ -3895,140 +3910,142 @@ extern "C" {
     /// and `MIEN_ERROR_NAME` if `mien_mix_write_file()` would fail with them.
     pub fn mien_mix_write_memory(mix: *const MienMix, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
 
-    /// The same as text, for people and version control: a line for each number, with its place in
-    /// the mix and the names of controls. Floats have nine digits, which give back their bits. It
-    /// cannot be opened. Not terminated. `buffer` may be NULL with capacity 0 to get the size
-    /// only.
+    /// Writes a mix as text, for reading and for version control: one line for each number, with
+    /// its path in the mix and the names of controls. Floats have nine digits, enough to restore
+    /// their bits. The text cannot be opened as a mix, and is not null-terminated. `buffer` may be
+    /// NULL with capacity 0 to get the size only.
     ///
     /// Fails like `mien_mix_write_memory()`.
     pub fn mien_mix_write_text(mix: *const MienMix, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
 
-    /// Destroys a mix. Its mixers go on: the last of them releases it.
+    /// Destroys a mix. Its mixers stay valid; its memory is released with the last of them.
     pub fn mien_mix_destroy(mix: *mut MienMix);
 
     /// Returns the properties of a mix.
     pub fn mien_mix_info(mix: *const MienMix, out_info: *mut MienMixInfo) -> MienStatus;
 
-    /// Returns what was measured of a guard. `guard_index` counts as in `mien_mixer_set_guard()`,
-    /// from 0 to MienMixInfo.`guard_count` - 1; `mien_mixer_guard()` has its name.
+    /// Returns the measured function of a guard. `guard_index` counts as in
+    /// `mien_mixer_set_guard()`, from 0 to MienMixInfo.`guard_count` - 1; `mien_mixer_guard()` has
+    /// its name.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if there is no such guard.
     pub fn mien_mix_guard(mix: *const MienMix, guard_index: u32, out_guard: *mut MienMixGuardInfo) -> MienStatus;
 
-    /// Gives the strokes of a response to a light in the eyes, of which there are 5. Their poses
-    /// are, from `first_pose` on: lids closed; squint and lowered brows; gaze turned away; narrow
-    /// pupils; head turned away. docs/mixing.md, 3 "Reactions" has the times. `out_reaction` gets
-    /// these strokes and the rules of the reaction.
+    /// Returns a ready-made reaction to a light in the eyes, with 5 strokes. The caller provides
+    /// its poses, from `first_pose` on: lids closed; squint and lowered brows; gaze turned away;
+    /// narrow pupils; head turned away. docs/mixing.md, 3 "Reactions" lists the times.
+    /// `out_reaction` refers to `out_strokes`.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `stroke_count` is less than 5.
     pub fn mien_mix_glare(first_pose: u32, out_strokes: *mut MienMixStroke, stroke_count: usize, out_reaction: *mut MienMixReaction) -> MienStatus;
 
-    /// Finds antagonists: pairs of raw controls that the two halves of one GUI control drive, and
-    /// nothing else does. Writes as many as there is room for, with stiffness 1; `out_count` tells
-    /// how many there are. `out_pairs` may be NULL if `capacity` is 0.
+    /// Finds antagonists: pairs of raw controls that only the two halves of one GUI control drive.
+    /// Writes as many as fit, with stiffness 1; `out_count` is the total number. `out_pairs` may
+    /// be NULL if `capacity` is 0.
     pub fn mien_mix_antagonists(rig: *const MienRig, out_pairs: *mut MienMixAntagonists, capacity: usize, out_count: *mut usize) -> MienStatus;
 
     /// Finds the counterparts of raw controls in the other half of the face, for
     /// MienMixDesc.mirror. Controls are counterparts if their names differ only in Left and Right
-    /// or L and R and their motions agree, or if they move joints in mirrored ways. Others, and
-    /// lanes beyond the raw controls, map to themselves. Evaluates the rig once for each raw
-    /// control, and takes memory from its allocator during the call.
+    /// (or L and R) and their motions agree, or else if their motions are mirror images. Other
+    /// controls, and lanes beyond the raw controls, map to themselves. Evaluates the rig once for
+    /// each raw control, and takes memory from its allocator during the call.
     ///
     /// Fails with `MIEN_ERROR_MEMORY` if that returns NULL, `MIEN_ERROR_MISMATCH` if `lane_count`
     /// is less than the raw controls.
     pub fn mien_mix_mirror(deformer: *const MienDeformer, out_lanes: *mut u16, lane_count: usize, error: *mut MienError) -> MienStatus;
 
-    /// Writes a mask for each raw control: the share of its joint motion, at value 1 and LOD 0,
-    /// that is of some joint groups; a millimeter counts as much as a degree. Controls that move
-    /// no joint, and lanes beyond the raw controls, get `otherwise_weight`. Evaluates the rig once
-    /// for each raw control and group, and takes memory from its allocator during the call.
+    /// Computes a mask that selects joint groups: for each raw control the share of its joint
+    /// motion, at value 1 and LOD 0, that belongs to these groups. A millimeter counts as much as
+    /// a degree. Controls that move no joint, and lanes beyond the raw controls, get
+    /// `otherwise_weight`. Evaluates the rig once for each raw control and group, and takes memory
+    /// from its allocator during the call.
     ///
     /// Fails with `MIEN_ERROR_MEMORY` if that returns NULL, `MIEN_ERROR_INDEX` if a group does not
     /// exist, `MIEN_ERROR_MISMATCH` if `lane_count` is less than the raw controls.
     pub fn mien_mix_mask(rig: *const MienRig, groups: *const u32, group_count: usize, otherwise_weight: f32, out_mask: *mut f32, lane_count: usize, error: *mut MienError) -> MienStatus;
 
-    /// Creates a gaze by measuring how raw controls turn the eyes: evaluates the rig twice per raw
-    /// control and more. `deformer` may be destroyed afterwards. Destroy with
+    /// Creates a gaze by measuring how raw controls turn the eyes, which evaluates the rig at
+    /// least twice per raw control. `deformer` may be destroyed afterwards. Destroy with
     /// `mien_gaze_destroy()`.
     ///
     /// Fails with `MIEN_ERROR_NAME` if there are no such joints, `MIEN_ERROR_INVALID_ARGUMENT` if
-    /// one of the four directions has no raw control that turns an eye steadily farther.
+    /// no raw control turns an eye monotonically in one of the four directions.
     pub fn mien_gaze_create(deformer: *const MienDeformer, desc: *const MienGazeDesc, out_gaze: *mut *mut MienGaze, error: *mut MienError) -> MienStatus;
 
     /// Destroys a gaze.
     pub fn mien_gaze_destroy(gaze: *mut MienGaze);
 
-    /// Returns where the eyes are, so that a target can be placed before them.
+    /// Returns where the eyes are, so that a target can be placed in front of them.
     pub fn mien_gaze_info(gaze: *const MienGaze, out_info: *mut MienGazeInfo) -> MienStatus;
 
-    /// Sets the raw controls of a row so that both eyes look at a target. Near targets make eyes
-    /// converge. `out_rest` may be NULL. Does not allocate or lock.
+    /// Sets the raw controls of a row so that both eyes look at a target. Eyes converge on near
+    /// targets. `out_rest` may be NULL. Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_MISMATCH` if `row_count` is less than the raw controls,
     /// `MIEN_ERROR_INVALID_ARGUMENT` if the target is not finite.
     pub fn mien_gaze_look_at(gaze: *const MienGaze, target: *const MienGazeTarget, row: *mut f32, row_count: usize, out_rest: *mut MienGazeRest) -> MienStatus;
 
-    /// Creates a mixer at time 0, with one allocation. Nothing plays; the weights of poses and the
-    /// pose variables are 0. `mix` may be destroyed before it. Destroy with
-    /// `mien_mixer_destroy()`.
+    /// Creates a mixer at time 0, with one allocation. No clip plays; pose weights and pose
+    /// variables are 0. `mix` may be destroyed before it. Destroy with `mien_mixer_destroy()`.
     pub fn mien_mixer_create(mix: *const MienMix, desc: *const MienMixerDesc, out_mixer: *mut *mut MienMixer, error: *mut MienError) -> MienStatus;
 
     /// Destroys a mixer.
     pub fn mien_mixer_destroy(mixer: *mut MienMixer);
 
     /// Plays a clip in a layer, from the next step on. `clip` and `clip_binding` must outlive
-    /// their playback, including the transition to the next clip. On failure the layer goes on as
-    /// before. Does not allocate or lock.
+    /// their playback, including the transition to the next clip. On failure the layer continues
+    /// as before. Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if the layer does not exist or has another source,
-    /// `MIEN_ERROR_MISMATCH` if the binding is of another clip or rig,
-    /// `MIEN_ERROR_INVALID_ARGUMENT` if a time, speed or enum value is out of range or a clip of
-    /// differences would override, `MIEN_ERROR_CLIP_LIMIT` if the clip is larger than the mix
-    /// allows.
+    /// `MIEN_ERROR_MISMATCH` if the binding is for another clip or rig,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if a time, speed or enum value is out of range or a delta
+    /// clip would play in a layer that overrides, `MIEN_ERROR_CLIP_LIMIT` if the clip is larger
+    /// than the mix allows.
     pub fn mien_mixer_play(mixer: *mut MienMixer, layer: u32, clip: *const MienClip, clip_binding: *const MienClipBinding, desc: *const MienPlayDesc, error: *mut MienError) -> MienStatus;
 
-    /// Fades out the clip of a layer and ends it. Fades take 0 to 2^40 ticks, here and below; they
-    /// start from the current value and speed, and end with speed 0. Does not allocate or lock.
+    /// Fades out the clip of a layer and stops it. Fades take 0 to 2^40 ticks, here and below;
+    /// they start from the current value and speed, and end with speed 0. Does not allocate or
+    /// lock.
     ///
-    /// Fails with `MIEN_ERROR_INDEX` if the layer does not exist or plays no clips.
+    /// Fails with `MIEN_ERROR_INDEX` if the layer does not exist or is not a clip layer.
     pub fn mien_mixer_stop(mixer: *mut MienMixer, layer: u32, fade_ticks: i64) -> MienStatus;
 
-    /// Fades the weight of a layer to `weight`, with the range of MienMixLayer.weight. Does not
-    /// allocate or lock.
+    /// Fades the weight of a layer to `weight`, which has the range of MienMixLayer.weight. Does
+    /// not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if the layer does not exist.
     pub fn mien_mixer_set_weight(mixer: *mut MienMixer, layer: u32, weight: f32, fade_ticks: i64) -> MienStatus;
 
-    /// Fades the weight of a pose to `weight`, 0 ... 1. `pose` counts from the first one of its
+    /// Fades the weight of a pose to `weight`, 0 to 1. `pose` counts from the first pose of the
     /// layer. Weights of a layer that add up to more than 1 are divided by their sum. Does not
     /// allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if the layer or its pose does not exist.
     pub fn mien_mixer_set_pose_weight(mixer: *mut MienMixer, layer: u32, pose: u32, weight: f32, fade_ticks: i64) -> MienStatus;
 
-    /// Sets the `value` that a pose variable has at the start of each step. Does not allocate or
-    /// lock.
+    /// Sets the `value` that a pose variable has at the start of each step, before the layers.
+    /// Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if it does not exist, `MIEN_ERROR_INVALID_ARGUMENT` if the
     /// value is not finite.
     pub fn mien_mixer_set_variable(mixer: *mut MienMixer, variable: u32, value: f32) -> MienStatus;
 
-    /// Sets how much a guard acts: `activation` is 0 ... 1. If it is negative, the default, the
-    /// guard acts as far as base and speech close its distance; those of lips and teeth act no
-    /// more than the largest weight of a speech layer. `mien_mixer_guard()` tells which
-    /// `guard_index` is which guard. Does not allocate or lock.
+    /// Sets how much a guard acts: `activation` is 0 to 1, or negative for automatic, the default:
+    /// the smaller the gap that base and speech leave, the more the guard acts; guards of lips and
+    /// teeth act at most as much as the largest weight of a speech layer. `mien_mixer_guard()`
+    /// returns the name for a `guard_index`. Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if the guard does not exist, `MIEN_ERROR_INVALID_ARGUMENT` if
     /// `activation` is above 1 or not a number.
     pub fn mien_mixer_set_guard(mixer: *mut MienMixer, guard_index: u32, activation: f32) -> MienStatus;
 
     /// Returns what a guard did in the last step. `guard_index` counts as in
-    /// `mien_mixer_set_guard()`. Views are of the mix.
+    /// `mien_mixer_set_guard()`. Views point into the mix.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if the guard does not exist.
     pub fn mien_mixer_guard(mixer: *const MienMixer, guard_index: u32, out_state: *mut MienGuardState) -> MienStatus;
 
-    /// Starts a reaction to a stimulus of `strength`, 0 ... 1, that lasts `hold_ticks`, at most
+    /// Starts a reaction to a stimulus of `strength`, 0 to 1, that lasts for `hold_ticks`, at most
     /// 2^40; if negative, until `mien_mixer_release()`. Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if the reaction does not exist, `MIEN_ERROR_INVALID_ARGUMENT`
@@ -4040,35 +4057,36 @@ extern "C" {
     /// Fails with `MIEN_ERROR_INDEX` if the reaction does not exist.
     pub fn mien_mixer_release(mixer: *mut MienMixer, reaction: u32) -> MienStatus;
 
-    /// Sets the level, 0 ... 1, of what a reaction responds to, such as a brightness. Call it
-    /// whenever that changes. From MienMixReaction.`level_on` on it is a stimulus of strength 1,
-    /// which lasts until the level was below `level_off` for 50 ms: light that flickers is on.
-    /// Strokes that are scaled follow the level meanwhile, without overshoot, 90 % of a change in
-    /// 0.25 s. Does not allocate or lock.
+    /// Sets the level of what a reaction responds to, such as a brightness, 0 to 1. Call it
+    /// whenever the level changes. A level of MienMixReaction.`level_on` or more is a stimulus of
+    /// strength 1, which ends once the level has been below `level_off` for 50 ms, so a flickering
+    /// light counts as on. During the stimulus, scaled strokes follow the level without overshoot;
+    /// 90 % of a change takes 0.25 s. Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if the reaction does not exist, `MIEN_ERROR_INVALID_ARGUMENT`
     /// if it has no `level_on` or `level` is out of range.
     pub fn mien_mixer_set_level(mixer: *mut MienMixer, reaction: u32, level: f32) -> MienStatus;
 
     /// Queues a row for a stream layer: one value per channel, for time `tick` of the mixer. One
-    /// thread may call this while another one uses the mixer. `out_accepted` may be NULL; it is 0
-    /// for a row that is dropped because it is not newer than the last one or the queue is full.
-    /// Does not allocate or lock.
+    /// thread may call this while another one uses the mixer. `out_accepted` may be NULL; it is
+    /// set to 0 if the row is dropped because it is not newer than the last one or the queue is
+    /// full. Does not allocate or lock.
     ///
-    /// Fails with `MIEN_ERROR_INDEX` if the layer does not exist or is no stream,
+    /// Fails with `MIEN_ERROR_INDEX` if the layer does not exist or is not a stream,
     /// `MIEN_ERROR_MISMATCH` if it has another number of channels, `MIEN_ERROR_INVALID_ARGUMENT`
     /// if a value is not finite or `tick` is 2^61 or more.
     pub fn mien_mixer_push(mixer: *mut MienMixer, layer: u32, tick: i64, values: *const f32, value_count: usize, out_accepted: *mut u32) -> MienStatus;
 
-    /// Advances by `ticks`, 0 to 2^40, and mixes. The raw controls go to `instance`, which may be
-    /// NULL. Does not allocate or lock.
+    /// Advances the time by `ticks`, 0 to 2^40, and mixes. Writes the raw controls to `instance`,
+    /// which may be NULL. Does not allocate or lock.
     ///
-    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `ticks` is out of range or leads beyond 2^60
-    /// ticks (51 years), `MIEN_ERROR_MISMATCH` if the instance has another number of raw controls.
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `ticks` is out of range or the time would
+    /// exceed 2^60 ticks (51 years), `MIEN_ERROR_MISMATCH` if the instance has another number of
+    /// raw controls.
     pub fn mien_mixer_step(mixer: *mut MienMixer, ticks: i64, instance: *mut MienInstance) -> MienStatus;
 
     /// Steps `count` mixers; instances\[i\] belongs to mixers\[i\]. `instances` may be NULL. The
-    /// results are those of single calls. On failure no mixer has moved.
+    /// results are those of single calls. On failure no mixer is advanced.
     ///
     /// Fails like `mien_mixer_step()`, and with `MIEN_ERROR_INVALID_ARGUMENT` if a mixer is listed
     /// twice.
@@ -4092,27 +4110,27 @@ extern "C" {
     /// Returns the state of a mixer.
     pub fn mien_mixer_info(mixer: *const MienMixer, out_info: *mut MienMixerInfo) -> MienStatus;
 
-    /// Returns an event of the last step and its layer. Its tick is in the time of the clip, and
-    /// its name is a view of the clip.
+    /// Returns an event of the last step and its layer. The tick is in the time of the clip, and
+    /// the name is a view into the clip.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if `index` is out of range.
     pub fn mien_mixer_event(mixer: *const MienMixer, index: u32, out_event: *mut MienClipEvent, out_layer: *mut u32) -> MienStatus;
 
-    /// Writes the state of a mixer to memory: all that later steps depend on, except queued rows
-    /// of streams. Returns its size in `out_size`. `buffer` may be NULL with capacity 0 to get the
-    /// size only. Snapshots can be restored on 64-bit machines of the same byte order. Does not
-    /// allocate or lock.
+    /// Writes the state of a mixer to memory: everything that later steps depend on, except queued
+    /// stream rows. Returns its size in `out_size`. `buffer` may be NULL with capacity 0 to get
+    /// the size only. Snapshots can be restored on 64-bit machines of the same byte order. Does
+    /// not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `capacity` is too small.
     pub fn mien_mixer_snapshot(mixer: *mut MienMixer, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
 
-    /// Restores a snapshot of a mixer of the same mix; later steps give the same bits. Rows of
-    /// streams are not part of it. `clips` holds the clips that may be playing. The bytes are
-    /// checked, whatever their origin. On failure the mixer does not change. Does not allocate or
-    /// lock.
+    /// Restores a snapshot of a mixer of the same mix; later steps give the same bits. Queued
+    /// stream rows are not part of it. `clips` lists the clips that may have been playing. The
+    /// bytes are validated, so they need not be trusted. On failure the mixer does not change.
+    /// Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if the bytes are not a snapshot of this mix,
-    /// `MIEN_ERROR_MISMATCH` if a clip is missing or is not the one that played.
+    /// `MIEN_ERROR_MISMATCH` if a clip is missing or is not the one that was playing.
     pub fn mien_mixer_restore(mixer: *mut MienMixer, bytes: *const c_void, size: usize, clips: *const MienMixerClip, clip_count: usize, error: *mut MienError) -> MienStatus;
 
     /// Creates a solver stack. `desc` is required. `deformer` may be destroyed before it. Destroy
@@ -4123,7 +4141,8 @@ extern "C" {
     /// that a later one moves; the message names both.
     pub fn mien_solver_stack_create(deformer: *const MienDeformer, desc: *const MienSolverStackDesc, out_solver_stack: *mut *mut MienSolverStack, error: *mut MienError) -> MienStatus;
 
-    /// Destroys a solver stack. Its states go on: the last of them releases it.
+    /// Destroys a solver stack. Its states stay valid; its memory is released with the last of
+    /// them.
     pub fn mien_solver_stack_destroy(solver_stack: *mut MienSolverStack);
 
     /// Returns the properties of a solver stack.
@@ -4136,40 +4155,41 @@ extern "C" {
     /// Destroys a solver state.
     pub fn mien_solver_state_destroy(solver_state: *mut MienSolverState);
 
-    /// Runs the solvers on the pose of `deformer_instance`, which
-    /// `mien_deformer_instance_update()` has to set before every step. `input` may be NULL: no
-    /// row, LOD 0. `ticks`, the time since the last step, is 0 to 2^40. Does not allocate or lock.
+    /// Runs the solvers on the pose of `deformer_instance`. Call `mien_deformer_instance_update()`
+    /// before every step. `input` may be NULL: no row, LOD 0. `ticks`, the time since the last
+    /// step, is 0 to 2^40. Does not allocate or lock.
     ///
-    /// Fails with `MIEN_ERROR_MISMATCH` if the instance has another deformer than the stack or the
-    /// row is shorter than MienSolverStackDesc.`lane_count`, `MIEN_ERROR_INVALID_ARGUMENT` if
-    /// ticks or LOD are out of range.
+    /// Fails with `MIEN_ERROR_MISMATCH` if instance and stack have different deformers or the row
+    /// is shorter than MienSolverStackDesc.`lane_count`, `MIEN_ERROR_INVALID_ARGUMENT` if `ticks`
+    /// or the LOD is out of range.
     pub fn mien_solver_state_step(solver_state: *mut MienSolverState, deformer_instance: *mut MienDeformerInstance, input: *const MienSolverInput, ticks: i64) -> MienStatus;
 
     /// Steps `count` states of one stack; `deformer_instances`\[i\] and inputs\[i\] belong to
     /// `solver_states`\[i\]. `inputs` may be NULL. The results are those of single calls. No state
-    /// or instance may occur twice. On failure nothing has moved. Does not allocate or lock. Uses
-    /// up to 8 KiB of stack.
+    /// or instance may occur twice. On failure nothing changes. Does not allocate or lock. Uses up
+    /// to 8 KiB of stack.
     ///
     /// Fails like `mien_solver_state_step()`, and with `MIEN_ERROR_MISMATCH` if the states have
     /// different stacks.
     pub fn mien_solver_state_step_batch(solver_states: *const *mut MienSolverState, deformer_instances: *const *mut MienDeformerInstance, inputs: *const MienSolverInput, count: usize, ticks: i64) -> MienStatus;
 
-    /// Returns what a solver has published in the last step, one float per output. `solver` counts
-    /// in the order of the stack. Contents change with `mien_solver_state_step()`,
-    /// `mien_solver_state_step_batch()`.
+    /// Returns the outputs of a solver in the last step, one float per output. `solver` is its
+    /// index in the stack.
+    ///
+    /// Contents change with `mien_solver_state_step()`, `mien_solver_state_step_batch()`.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if the solver does not exist.
     pub fn mien_solver_state_outputs(solver_state: *const MienSolverState, solver: u32, out_values: *mut MienFloatView) -> MienStatus;
 
-    /// Returns the transforms after the last step, relative to the parents: 10 floats per joint,
-    /// tx ty tz qx qy qz qw sx sy sz. (`mien_deformer_instance_local_transforms()` gives those
-    /// before it.)
+    /// Returns the joint transforms after the last step, relative to the parents: 10 floats per
+    /// joint, tx ty tz qx qy qz qw sx sy sz. (`mien_deformer_instance_local_transforms()` returns
+    /// those before the step.)
     ///
     /// Contents change with `mien_solver_state_step()`, `mien_solver_state_step_batch()`.
     pub fn mien_solver_state_transforms(solver_state: *const MienSolverState, out_transforms: *mut MienFloatView) -> MienStatus;
 
-    /// Returns the name of a solver that changed a joint which is not in its list in the last
-    /// step, or an empty string. Contents change with `mien_solver_state_step()`,
+    /// Returns the name of a solver that changed a joint not in its `writes` in the last step, or
+    /// an empty string. Contents change with `mien_solver_state_step()`,
     /// `mien_solver_state_step_batch()`.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if MienSolverStackDesc.`check_writes` was 0.

@@ -16,9 +16,9 @@ impl Status {
     pub const OK: Self = Self(0);
     /// A required pointer is NULL.
     pub const NULL_ARGUMENT: Self = Self(1);
-    /// A value outside its range, or a buffer that is too small.
+    /// A value out of range, or a buffer that is too small.
     pub const INVALID_ARGUMENT: Self = Self(2);
-    /// `struct_size` is too small or above 4096, or unknown fields are not zero.
+    /// `struct_size` is too small or above 4096, or a field unknown to the library is not zero.
     pub const STRUCT_SIZE: Self = Self(3);
     /// A handle of the wrong kind.
     pub const HANDLE: Self = Self(4);
@@ -26,15 +26,15 @@ impl Status {
     pub const MISMATCH: Self = Self(5);
     /// An index past the end.
     pub const INDEX: Self = Self(6);
-    /// A LOD that does not exist, or that the object has no memory for.
+    /// A LOD that does not exist, or for which the object has no memory.
     pub const LOD: Self = Self(7);
     /// No such name or path.
     pub const NAME: Self = Self(8);
-    /// An instruction set that this CPU or build lacks.
+    /// An instruction set that the CPU or the build does not support.
     pub const ISA: Self = Self(9);
     /// The allocator returned NULL.
     pub const MEMORY: Self = Self(10);
-    /// This build of the library opens baked files only.
+    /// This build of the library only opens baked files.
     pub const UNSUPPORTED: Self = Self(11);
     /// The file cannot be opened.
     pub const FILE_OPEN: Self = Self(20);
@@ -44,9 +44,9 @@ impl Status {
     pub const FILE_WRITE: Self = Self(22);
     /// Not a DNA file.
     pub const DNA_SIGNATURE: Self = Self(30);
-    /// A DNA file of a generation other than 2.
+    /// A DNA file whose generation is not 2.
     pub const DNA_VERSION: Self = Self(31);
-    /// The file is shorter than its header or counts state.
+    /// The file ends before the data that its header or counts announce.
     pub const DNA_TRUNCATED: Self = Self(32);
     /// Offsets, sizes or counts contradict each other.
     pub const DNA_STRUCTURE: Self = Self(33);
@@ -56,29 +56,29 @@ impl Status {
     pub const DNA_LIMIT: Self = Self(35);
     /// A required layer is not loaded or not in the file.
     pub const DNA_LAYER: Self = Self(36);
-    /// A value without a meaning, or one that cannot be converted.
+    /// An invalid value, or one that cannot be converted.
     pub const DNA_VALUE: Self = Self(37);
     /// Not a baked file.
     pub const BAKED_SIGNATURE: Self = Self(50);
-    /// Baked by another version or for another kind of machine.
+    /// Baked by another version of Mien, or for the other byte order.
     pub const BAKED_VERSION: Self = Self(51);
     /// The file is shorter than its header states.
     pub const BAKED_TRUNCATED: Self = Self(52);
     /// Sizes, counts or indices contradict each other.
     pub const BAKED_STRUCTURE: Self = Self(53);
-    /// The bytes are not those that were written.
+    /// The file has changed since it was written.
     pub const BAKED_CHECKSUM: Self = Self(54);
     /// The file does not contain the requested object.
     pub const BAKED_PART: Self = Self(55);
     /// Not a clip.
     pub const CLIP_SIGNATURE: Self = Self(60);
-    /// Built by another version.
+    /// A clip in another version of the format.
     pub const CLIP_VERSION: Self = Self(61);
     /// The clip is shorter than its header states.
     pub const CLIP_TRUNCATED: Self = Self(62);
     /// Sizes, counts or curves contradict each other.
     pub const CLIP_STRUCTURE: Self = Self(63);
-    /// The bytes are not those that were written.
+    /// The clip has changed since it was written.
     pub const CLIP_CHECKSUM: Self = Self(64);
     /// A value that is not finite.
     pub const CLIP_VALUE: Self = Self(65);
@@ -86,15 +86,15 @@ impl Status {
     pub const CLIP_LIMIT: Self = Self(66);
     /// Not a mix.
     pub const MIX_SIGNATURE: Self = Self(70);
-    /// Written by another version.
+    /// A mix in another version of the format.
     pub const MIX_VERSION: Self = Self(71);
     /// The file is shorter than its header states.
     pub const MIX_TRUNCATED: Self = Self(72);
     /// Sizes or counts contradict each other, or a value is out of range.
     pub const MIX_STRUCTURE: Self = Self(73);
-    /// The bytes are not those that were written.
+    /// The mix has changed since it was written.
     pub const MIX_CHECKSUM: Self = Self(74);
-    /// Arrays of a mesh, shape or bone contradict each other.
+    /// The arrays of a mesh, shape or bone contradict each other.
     pub const AUTHOR_MESH: Self = Self(80);
     /// A mesh that cannot be rigged; the message names the rule.
     pub const AUTHOR_REFUSED: Self = Self(81);
@@ -107,46 +107,46 @@ numbers!(Status, i32, [(0, "OK"), (1, "NULL_ARGUMENT"), (2, "INVALID_ARGUMENT"),
 pub(crate) fn describe(status: Status) -> &'static str {
     match status.0 {
         1 => "a required pointer is NULL",
-        2 => "a value outside its range, or a buffer that is too small",
-        3 => "struct_size is too small or above 4096, or unknown fields are not zero",
+        2 => "a value out of range, or a buffer that is too small",
+        3 => "struct_size is too small or above 4096, or a field unknown to the library is not zero",
         4 => "a handle of the wrong kind",
         5 => "objects that do not belong together",
         6 => "an index past the end",
-        7 => "a LOD that does not exist, or that the object has no memory for",
+        7 => "a LOD that does not exist, or for which the object has no memory",
         8 => "no such name or path",
-        9 => "an instruction set that this CPU or build lacks",
+        9 => "an instruction set that the CPU or the build does not support",
         10 => "the allocator returned NULL",
-        11 => "this build of the library opens baked files only",
+        11 => "this build of the library only opens baked files",
         20 => "the file cannot be opened",
         21 => "the file or stream cannot be read",
         22 => "the file cannot be written",
         30 => "not a DNA file",
-        31 => "a DNA file of a generation other than 2",
-        32 => "the file is shorter than its header or counts state",
+        31 => "a DNA file whose generation is not 2",
+        32 => "the file ends before the data that its header or counts announce",
         33 => "offsets, sizes or counts contradict each other",
         34 => "an index that refers to nothing",
         35 => "a count above the limit of the format or of Mien",
         36 => "a required layer is not loaded or not in the file",
-        37 => "a value without a meaning, or one that cannot be converted",
+        37 => "an invalid value, or one that cannot be converted",
         50 => "not a baked file",
-        51 => "baked by another version or for another kind of machine",
+        51 => "baked by another version of Mien, or for the other byte order",
         52 => "the file is shorter than its header states",
         53 => "sizes, counts or indices contradict each other",
-        54 => "the bytes are not those that were written",
+        54 => "the file has changed since it was written",
         55 => "the file does not contain the requested object",
         60 => "not a clip",
-        61 => "built by another version",
+        61 => "a clip in another version of the format",
         62 => "the clip is shorter than its header states",
         63 => "sizes, counts or curves contradict each other",
-        64 => "the bytes are not those that were written",
+        64 => "the clip has changed since it was written",
         65 => "a value that is not finite",
         66 => "more than a clip, player or binding can hold",
         70 => "not a mix",
-        71 => "written by another version",
+        71 => "a mix in another version of the format",
         72 => "the file is shorter than its header states",
         73 => "sizes or counts contradict each other, or a value is out of range",
-        74 => "the bytes are not those that were written",
-        80 => "arrays of a mesh, shape or bone contradict each other",
+        74 => "the mix has changed since it was written",
+        80 => "the arrays of a mesh, shape or bone contradict each other",
         81 => "a mesh that cannot be rigged; the message names the rule",
         82 => "the caller's progress function asked to stop",
         _ => "",
@@ -188,7 +188,7 @@ impl Layers {
 
 flags!(Layers, u32, [(0, "UNKNOWN"), (1, "DESCRIPTOR"), (2, "DEFINITION"), (4, "BEHAVIOR"), (8, "GEOMETRY"), (16, "MACHINE_LEARNED_BEHAVIOR"), (32, "RBF_BEHAVIOR"), (64, "JOINT_BEHAVIOR_METADATA"), (128, "TWIST_SWING_BEHAVIOR"), (255, "ALL")]);
 
-/// Layers of kinds that Mien does not know.
+/// What to do with layers of unknown kinds.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -212,9 +212,9 @@ numbers!(UnknownLayers, u32, [(0, "KEEP"), (1, "DROP")]);
 pub struct FileAccess(pub u32);
 
 impl FileAccess {
-    /// Map the file; read it into memory if it cannot be mapped, as pipes.
+    /// Map the file; read it into memory if it cannot be mapped, such as a pipe.
     pub const MAP: Self = Self(0);
-    /// Read the whole file into memory: safe if it is truncated later.
+    /// Read the whole file into memory: safe even if it is truncated later.
     pub const READ: Self = Self(1);
 }
 
@@ -300,8 +300,8 @@ impl RotationSequence {
 
 numbers!(RotationSequence, u32, [(0, "XYZ"), (1, "XZY"), (2, "YXZ"), (3, "YZX"), (4, "ZXY"), (5, "ZYX")]);
 
-/// The side of a face a b c ... that (b - a) x (c - a) points to, computed from the coordinates in
-/// the file, whichever way the axes point.
+/// The side of a face a b c ... to which (b - a) x (c - a) points. The cross product is computed
+/// from the coordinates in the file, whatever the directions of its axes.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -318,8 +318,8 @@ impl FaceWinding {
 
 numbers!(FaceWinding, u32, [(0, "OUTWARD"), (1, "INWARD")]);
 
-/// How Euler angles are converted to other axes. Joint values are sums of angles, which are valid
-/// in one rotation sequence only: the first rule is the only one that is exact for all rigs.
+/// How Euler angles are converted to other axes. Joint values are sums of angles, which have a
+/// meaning in one rotation sequence only. So only the first rule is exact for all rigs.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -327,15 +327,15 @@ numbers!(FaceWinding, u32, [(0, "OUTWARD"), (1, "INWARD")]);
 pub struct RotationRule(pub u32);
 
 impl RotationRule {
-    /// The sequence of the file, about the renamed axes: where x becomes z, xyz becomes zyx, xzy
-    /// becomes zxy, and so on.
+    /// Keep the sequence of the file and rename its axes: if x and z are exchanged, xyz becomes
+    /// zyx, xzy becomes zxy, and so on.
     pub const CARRIED: Self = Self(0);
     /// The requested sequence. Neutral poses, quaternion joints, twists, swings, ML joints and
     /// joints that rotate about one axis only are converted exactly; rigs with other joints are
     /// rejected with `Status::DNA_VALUE`.
     pub const EXACT: Self = Self(1);
-    /// The requested sequence, each column of the joint matrix on its own: exact while one control
-    /// is 1 and the others are 0, approximate for small angles.
+    /// The requested sequence, converting each column of the joint matrix separately: exact if one
+    /// control is 1 and all others are 0, otherwise an approximation for small angles.
     pub const PER_COLUMN: Self = Self(2);
 }
 
@@ -351,7 +351,7 @@ pub struct FieldType(pub u32);
 impl FieldType {
     /// Named fields.
     pub const RECORD: Self = Self(0);
-    /// Records, strings or arrays; element i has the path of the list + \[i\].
+    /// Records, strings or arrays; element i is at the path of the list + \[i\].
     pub const LIST: Self = Self(1);
     /// `MIEN_FIELD_STRING` in C.
     pub const STRING: Self = Self(2);
@@ -412,7 +412,7 @@ impl Isa {
 
 numbers!(Isa, u32, [(0, "BEST"), (1, "SCALAR"), (2, "SSE2"), (3, "AVX2"), (4, "AVX512"), (5, "NEON"), (1000, "ENVIRONMENT")]);
 
-/// Form of the rotations among the joint values.
+/// How joint values store rotations.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -439,7 +439,7 @@ pub struct MlMasks(pub u32);
 
 impl MlMasks {
     /// 0: the outputs of the networks get their default (0, or 1 for the w of a quaternion). Other
-    /// values: the networks are evaluated. This is what files are made for.
+    /// values: the networks are evaluated. This is the behavior that DNA files are authored for.
     pub const SWITCH: Self = Self(0);
     /// Outputs are blended with their default by the mask, clamped to 0..1.
     pub const BLEND: Self = Self(1);
@@ -447,8 +447,8 @@ impl MlMasks {
 
 numbers!(MlMasks, u32, [(0, "SWITCH"), (1, "BLEND")]);
 
-/// Storage of the large arrays that evaluation reads. Sums and results are 32-bit floats with
-/// both.
+/// How the large arrays that evaluation reads are stored. Sums and results are always 32-bit
+/// floats.
 ///
 /// See docs/rig-evaluation.md, 4.9 "16-bit storage".
 ///
@@ -462,13 +462,13 @@ impl Storage {
     pub const BIT_32: Self = Self(0);
     /// Half the memory. Network weights and columns of quaternion joints are IEEE half floats
     /// (rounded to nearest even, at most 65504 in magnitude); the joint matrix is 16-bit fixed
-    /// point, in units of the largest entry of the row / 32767.
+    /// point, in units of 1/32767 of the largest entry of the row.
     pub const BIT_16: Self = Self(1);
 }
 
 numbers!(Storage, u32, [(0, "BIT_32"), (1, "BIT_16")]);
 
-/// On which instruction sets results have the same bits. See docs/numbers.md, 5 "Portable
+/// Which instruction sets give bit-identical results. See docs/numbers.md, 5 "Portable
 /// arithmetic".
 ///
 /// A later library may give numbers that have no name here.
@@ -477,17 +477,18 @@ numbers!(Storage, u32, [(0, "BIT_32"), (1, "BIT_16")]);
 pub struct Arithmetic(pub u32);
 
 impl Arithmetic {
-    /// Among AVX2, AVX-512 and NEON, which fuse multiply and add; and among scalar and SSE2.
+    /// AVX2, AVX-512 and NEON, which fuse multiply and add, agree with each other; scalar and SSE2
+    /// agree with each other.
     pub const FAST: Self = Self(0);
-    /// On all, by not fusing anywhere. Rigs made of a DNA file are the same as far as the sine of
-    /// the C library is; a baked rig has the same bits on every machine.
+    /// All agree, because nothing is fused. A baked rig gives the same bits on every machine; a
+    /// rig created from a DNA file does if the C libraries compute the same sines.
     pub const PORTABLE: Self = Self(1);
 }
 
 numbers!(Arithmetic, u32, [(0, "FAST"), (1, "PORTABLE")]);
 
-/// Whether an instance keeps results whose inputs have not changed since its last evaluation.
-/// Results have the same bits with both.
+/// Whether an instance keeps results whose inputs have not changed since its last evaluation. The
+/// results are bit-identical either way.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -503,7 +504,7 @@ impl Reuse {
 
 numbers!(Reuse, u32, [(0, "UNCHANGED"), (1, "NOTHING")]);
 
-/// Parts of a rig that are counted, most of them with names.
+/// Kinds of parts of a rig. Most have names.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -515,7 +516,7 @@ impl Kind {
     pub const GUI_CONTROL: Self = Self(0);
     /// `MIEN_KIND_RAW_CONTROL` in C.
     pub const RAW_CONTROL: Self = Self(1);
-    /// Correctives. DNA files have no names for them; here "psd0", "psd1", ...
+    /// Correctives; unnamed in DNA files, here "psd0", "psd1", ...
     pub const PSD_CONTROL: Self = Self(2);
     /// `MIEN_KIND_ML_CONTROL` in C.
     pub const ML_CONTROL: Self = Self(3);
@@ -535,7 +536,7 @@ impl Kind {
     pub const JOINT_GROUP: Self = Self(10);
     /// Without names.
     pub const RBF_SOLVER: Self = Self(11);
-    /// Without names: a swing and the twists of the same inputs, or a twist alone.
+    /// Without names: a swing and the twists with the same inputs, or a twist alone.
     pub const TWIST_SWING: Self = Self(12);
 }
 
@@ -567,7 +568,7 @@ impl Stages {
 
 flags!(Stages, u32, [(1, "ML"), (2, "RBF"), (4, "PSD"), (8, "JOINTS"), (16, "BLEND_SHAPES"), (32, "ANIMATED_MAPS"), (63, "ALL")]);
 
-/// How neutral rotation and delta of a joint are combined.
+/// How the neutral rotation of a joint is combined with its delta.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -577,7 +578,7 @@ pub struct Compose(pub u32);
 impl Compose {
     /// Neutral rotation \* delta rotation: the delta rotates first.
     pub const PRODUCT: Self = Self(0);
-    /// The angles are added; requires `RotationOutput::EULER`. The same as the product where the
+    /// The angles are added; requires `RotationOutput::EULER`. Equals the product where the
     /// neutral rotation is zero.
     pub const EULER_ADD: Self = Self(1);
 }
@@ -600,8 +601,8 @@ impl Weights {
 
 numbers!(Weights, u32, [(0, "AS_STORED"), (1, "FIX")]);
 
-/// Normals of deformed meshes; they have unit length. Normals without a direction (no area, no
-/// faces) are the neutral ones. See docs/deformation.md, 3 "Normals".
+/// Normals of deformed meshes; they have unit length. Where no normal can be computed (no faces,
+/// or faces without area), the neutral one is used. See docs/deformation.md, 3 "Normals".
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -609,16 +610,16 @@ numbers!(Weights, u32, [(0, "AS_STORED"), (1, "FIX")]);
 pub struct Normals(pub u32);
 
 impl Normals {
-    /// Those of MienDeformerDesc.normals; there: recomputed.
+    /// As MienDeformerDesc.normals says; in that field: recomputed.
     pub const DEFAULT: Self = Self(0);
-    /// Leave normals as they are.
+    /// Leave normals unchanged.
     pub const NONE: Self = Self(1);
-    /// Neutral normals rotated by the skin, correct for any scale; blend shape targets have no
-    /// influence.
+    /// Neutral normals rotated by the skinning, correct for any scale; blend shape targets have no
+    /// effect.
     pub const SKINNED: Self = Self(2);
-    /// The sum of the area vectors of the faces around the position. On hard edges, where this
-    /// differs from the stored normal by more than 30 degrees in the neutral pose, the stored
-    /// normal is rotated as the sum has rotated since.
+    /// The area-weighted mean of the normals of the faces around the position. On hard edges,
+    /// where this differs from the stored normal by more than 30 degrees in the neutral pose, the
+    /// stored normal is rotated by the rotation of this mean from the neutral pose.
     pub const RECOMPUTED: Self = Self(3);
 }
 
@@ -656,8 +657,8 @@ numbers!(VertexFormat, u32, [(0, "FLOAT32X3"), (1, "FLOAT32X4"), (2, "SNORM16X4"
 pub struct BakedCheck(pub u32);
 
 impl BakedCheck {
-    /// All sizes, counts and indices: whatever the bytes are, no access is out of bounds. Numbers
-    /// are not checked, so their pages are read from disk when they are first used.
+    /// All sizes, counts and indices, so that no access is out of bounds whatever the bytes are.
+    /// Floats are not checked, so their pages are read from disk only when first used.
     pub const SAFE: Self = Self(0);
     /// Also the checksum of all bytes, which reads the whole file.
     pub const FULL: Self = Self(1);
@@ -683,7 +684,7 @@ impl Looping {
 
 numbers!(Looping, u32, [(0, "DEFAULT"), (1, "CLAMP"), (2, "WRAP")]);
 
-/// How values between two frames are computed. They stay within the range of the two.
+/// How values between two frames are computed. They stay within the range of these two frames.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -695,13 +696,13 @@ impl Interpolation {
     pub const LINEAR: Self = Self(0);
     /// The value of the earlier frame.
     pub const STEP: Self = Self(1);
-    /// A Catmull-Rom spline, clamped to the range of the two frames.
+    /// A Catmull-Rom spline, clamped to that range.
     pub const CATMULL_ROM: Self = Self(2);
 }
 
 numbers!(Interpolation, u32, [(0, "LINEAR"), (1, "STEP"), (2, "CATMULL_ROM")]);
 
-/// What a layer is for. Guards protect the result of base and speech from the other groups.
+/// The purpose of a layer. Guards protect the result of base and speech from the other groups.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -723,8 +724,8 @@ impl LayerGroup {
 
 numbers!(LayerGroup, u32, [(0, "BASE"), (1, "SPEECH"), (2, "EMOTION"), (3, "REACTION"), (4, "LIFE")]);
 
-/// How a layer changes a lane: o is the value so far, x that of the layer, a = weight \* mask. A
-/// lane for which the source of the layer has no value does not change.
+/// How a layer changes a lane: o is the value so far, x the value of the layer, a = weight \*
+/// mask. Lanes for which the layer's source has no value do not change.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -736,7 +737,7 @@ impl BlendMode {
     pub const OVERRIDE: Self = Self(0);
     /// O + a x.
     pub const ADD: Self = Self(1);
-    /// O + a x (1 - p), for x \< 0 o + a x p; p is o clamped to 0 ... 1.
+    /// O + a x (1 - p), or o + a x p if x \< 0; p is o clamped to 0..1.
     pub const SCREEN: Self = Self(2);
     /// O + a max(0, x - o).
     pub const MAX: Self = Self(3);
@@ -774,24 +775,24 @@ numbers!(LayerSource, u32, [(0, "CLIP"), (1, "POSES"), (2, "STREAM"), (3, "GENER
 pub struct Generator(pub u32);
 
 impl Generator {
-    /// Every `period` on average, at least 0.5 s apart. The wait starts over when earlier layers
-    /// raise the first lane above 0.6.
+    /// Blinks every `period` on average, at least 0.5 s apart. The wait starts over when earlier
+    /// layers raise the first lane above 0.6.
     pub const BLINK: Self = Self(0);
-    /// 0 to 1 in 40 % of the period, back to 0 in the rest.
+    /// Rises from 0 to 1 in 40 % of the period, then falls back to 0.
     pub const BREATH: Self = Self(1);
-    /// Smooth between -1 and 1; a new random value every period.
+    /// Smooth noise between -1 and 1 with a new random value every period.
     pub const NOISE: Self = Self(2);
-    /// Turns the eyes to a place with saccades: MienMixDesc.gaze. `lanes` are the left, up and
-    /// front of a MienGazeTarget, as earlier layers made them, then, if wanted, two lanes that get
-    /// what is left for the head, a MienGazeRest. `amounts` are fixation jitter across and up in
-    /// degrees, 0, and factors for the two lanes of the head. Blinks of the mix follow shifts of
-    /// 20 degrees and more.
+    /// Turns the eyes to a target with saccades, by MienMixDesc.gaze. `lanes` are three lanes with
+    /// the left, up and front of a MienGazeTarget, read after the earlier layers, then optionally
+    /// two lanes that get the part left for the head (MienGazeRest). `amounts` are fixation jitter
+    /// sideways and up in degrees, 0, and factors for the two head lanes. Shifts of 20 degrees or
+    /// more make the blink layers of the mix blink.
     pub const GAZE: Self = Self(3);
 }
 
 numbers!(Generator, u32, [(0, "BLINK"), (1, "BREATH"), (2, "NOISE"), (3, "GAZE")]);
 
-/// What a trigger does while the reaction runs.
+/// What a trigger does while the reaction is already running.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -799,7 +800,7 @@ numbers!(Generator, u32, [(0, "BLINK"), (1, "BREATH"), (2, "NOISE"), (3, "GAZE")
 pub struct Retrigger(pub u32);
 
 impl Retrigger {
-    /// Extends the stimulus; strokes that ended or release start again.
+    /// Extends the stimulus; strokes that are releasing or over start again.
     pub const EXTEND: Self = Self(0);
     /// All strokes start again, at most once per cooldown.
     pub const RESTART: Self = Self(1);
@@ -809,8 +810,8 @@ impl Retrigger {
 
 numbers!(Retrigger, u32, [(0, "EXTEND"), (1, "RESTART"), (2, "IGNORE")]);
 
-/// Guards: distances in the face that emotions and reactions must not open while speech or a blink
-/// closes them. Bits of MienMixDesc.guards.
+/// Built-in guards: gaps that emotions and reactions must not open while speech or a blink closes
+/// them. Bits of MienMixDesc.guards.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -830,7 +831,7 @@ impl Guard {
 
 flags!(Guard, u32, [(1, "LIPS"), (2, "LIDS"), (4, "TEETH"), (7, "ALL")]);
 
-/// How a layer changes to another clip. A layer that plays nothing fades in, except with a cut.
+/// How a layer changes to another clip. A layer that plays no clip fades in, except with a cut.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -840,7 +841,7 @@ pub struct Transition(pub u32);
 impl Transition {
     /// The old clip stops; each lane blends from its last value and speed.
     pub const INERTIAL: Self = Self(0);
-    /// Both play; without a free player, as `Transition::INERTIAL`.
+    /// Both clips play; `Transition::INERTIAL` if no player is free.
     pub const CROSSFADE: Self = Self(1);
     /// Immediate; `transition_ticks` is not used.
     pub const CUT: Self = Self(2);
@@ -1004,8 +1005,8 @@ pub struct CoordinateSystem {
     pub rotation_rule: RotationRule,
     /// `RotationSequence`; ignored with `RotationRule::CARRIED`.
     pub rotation_sequence: RotationSequence,
-    /// Of the angles about x, y, z. 1: rotates y to z, z to x, x to y. -1: the other way. 0: the
-    /// sign that leaves angles unchanged.
+    /// Of the angles about x, y, z. 1: rotates y to z, z to x, x to y. -1: the other way. 0:
+    /// whichever leaves the angles unchanged.
     pub rotation_signs: [i32; 3],
     /// Face winding.
     pub face_winding: FaceWinding,
@@ -1154,19 +1155,19 @@ impl From<sys::MienDnaInfo> for DnaInfo {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct DnaLayer {
-    /// `Layers` that loads it. `Layers::UNKNOWN`: of an unknown kind.
+    /// `Layers` that loads it. `Layers::UNKNOWN`: no known kind.
     pub layer: Layers,
     /// Of the layer: `version_major`.`version_minor`.
     pub version_major: u32,
     /// Version minor.
     pub version_minor: u32,
-    /// It was read, not skipped or kept unread.
+    /// It was parsed, not skipped or kept as bytes.
     pub is_loaded: bool,
     /// Of its first byte in the file.
     pub byte_offset: u64,
     /// Byte count.
     pub byte_count: u64,
-    /// Such as "bhvr"; terminated.
+    /// Such as "bhvr"; null-terminated.
     pub code: String,
 }
 
@@ -1190,13 +1191,13 @@ impl From<sys::MienDnaLayer> for DnaLayer {
 pub struct DnaField {
     /// Type.
     pub field_type: FieldType,
-    /// An array of numbers, even if it has one element; not a single number or an element of an
-    /// array.
+    /// An array of numbers, even if it has only one element; not a single number, nor an element
+    /// of an array.
     pub is_array: bool,
     /// Elements of an array or list, bytes of a string, fields of a record; 1 for a number.
     pub count: u64,
-    /// Of the bytes of a string, of an array or of one of its elements in the file; `None`: other
-    /// fields, and data that is not in the file.
+    /// Of a string, an array or an element of an array in the file; `None`: other fields, and data
+    /// that is not in the file.
     pub byte_offset: Option<u64>,
 }
 
@@ -1229,7 +1230,7 @@ pub struct RigInfo {
     pub rotation_sequence: RotationSequence,
     /// 1 or -1, for the angles about x, y, z.
     pub rotation_signs: [i32; 3],
-    /// Length of the control row: raw, PSD, ML, RBF controls.
+    /// Length of the control vector: raw, PSD, ML, RBF controls.
     pub control_count: usize,
     /// 9 or 10 per joint.
     pub joint_value_count: usize,
@@ -1266,7 +1267,7 @@ impl From<sys::MienRigInfo> for RigInfo {
     }
 }
 
-/// The work of an evaluation at a LOD, if all controls are active.
+/// The work of an evaluation at a LOD when all controls are active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct RigStatistics {
@@ -1286,9 +1287,9 @@ pub struct RigStatistics {
     pub rbf_solver_count: usize,
     /// Quaternion joints.
     pub quaternion_joint_count: usize,
-    /// Of the joint matrix: 8 per block that is not all zeros.
+    /// Stored in the joint matrix: 8 per block that is not all zeros.
     pub joint_entry_count: u64,
-    /// Of the joint matrix; columns of controls that are 0 are not read.
+    /// Of the joint matrix; an evaluation does not read the columns of controls that are 0.
     pub joint_byte_count: u64,
 }
 
@@ -1310,13 +1311,14 @@ impl From<sys::MienRigStatistics> for RigStatistics {
 }
 
 /// What the joint stage reads for the current controls, at the LOD of the last evaluation
-/// (initially LOD 0), if it reuses no results. Bytes are counted once, whatever the caches hold.
+/// (initially LOD 0), if it reuses no results. Each byte is counted once, regardless of CPU
+/// caches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct InstanceStatistics {
     /// Of the last evaluation.
     pub lod: u32,
-    /// Of the control row: raw, PSD, ML and RBF controls.
+    /// Of the control vector: raw, PSD, ML and RBF controls.
     pub control_count: usize,
     /// Controls that are not 0.
     pub active_control_count: usize,
@@ -1433,9 +1435,9 @@ pub struct ClipInfo {
     pub event_count: usize,
     /// `Looping::CLAMP` or `Looping::WRAP`.
     pub looping: Looping,
-    /// Values are differences.
+    /// As in MienClipDesc.
     pub is_delta: bool,
-    /// Largest step that a channel was rounded to. 0: none was.
+    /// Largest step to which a channel was rounded. 0: none was.
     pub snap: f32,
     /// The file is mapped.
     pub is_mapped: bool,
@@ -1479,11 +1481,11 @@ impl From<sys::MienClipInfo> for ClipInfo {
 pub struct ClipPlayerInfo {
     /// 0 to the length of the clip; with `Looping::WRAP` less than the length.
     pub tick: i64,
-    /// Completed since creation or the last seek, 2^61 at most; negative: backward.
+    /// Loops completed since creation or the last seek, at most 2^61; negative: backward.
     pub loops: i64,
     /// `Looping::CLAMP` or `Looping::WRAP`.
     pub looping: Looping,
-    /// A damaged curve was decoded and gave zeros.
+    /// A damaged curve was played, as zeros.
     pub is_damaged: bool,
 }
 
@@ -1541,9 +1543,9 @@ impl From<sys::MienMixInfo> for MixInfo {
 pub struct MixerInfo {
     /// Time since creation.
     pub tick: i64,
-    /// Events of clips that the last step passed.
+    /// Clip events that the last step passed.
     pub event_count: usize,
-    /// It passed more than MienMixDesc.`max_events`.
+    /// There were more than MienMixDesc.`max_events`.
     pub lost_events: bool,
 }
 
@@ -1750,7 +1752,7 @@ macro_rules! errors {
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the rig is too large\n\
          - [`Status::DNA_LAYER`](crate::Status::DNA_LAYER) if `dna` was opened without its behavior\n\
-         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if correctives depend on each other in a circle"
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if correctives depend on each other in a cycle"
     };
     (mien_rig_info) => {
         "- none with valid arguments"
@@ -1771,7 +1773,7 @@ macro_rules! errors {
          - [`Status::NAME`](crate::Status::NAME) if there is no such name"
     };
     (mien_rig_lod_indices) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `kind` is none of these five\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `kind` is not one of these five\n\
          - [`Status::LOD`](crate::Status::LOD) if the rig has no such LOD"
     };
     (mien_rig_variable_joint_values) => {
@@ -1876,7 +1878,7 @@ macro_rules! errors {
     };
     (mien_deformer_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MISMATCH`](crate::Status::MISMATCH) if numbers or names of joints, channels or meshes differ from those of the rig\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the number or the names of joints, channels or meshes differ from those of the rig\n\
          - [`Status::ISA`](crate::Status::ISA) if the requested instruction set is not available\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
@@ -2074,7 +2076,7 @@ macro_rules! errors {
     (mien_clip_read) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `frame_stride` is too small\n\
          - [`Status::INDEX`](crate::Status::INDEX) if the clip has fewer frames\n\
-         - [`Status::CLIP_STRUCTURE`](crate::Status::CLIP_STRUCTURE) if a curve is damaged; its block is zero in `out_values`"
+         - [`Status::CLIP_STRUCTURE`](crate::Status::CLIP_STRUCTURE) if a curve is damaged; its block in `out_values` is zero"
     };
     (mien_clip_player_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
@@ -2110,16 +2112,16 @@ macro_rules! errors {
         "- none with valid arguments"
     };
     (mien_clip_binding_apply) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a count is not that of clip and rig"
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a count differs from that of the clip or the rig"
     };
     (mien_clip_binding_snaps) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `tolerance` is not a number above 0\n\
-         - [`Status::MISMATCH`](crate::Status::MISMATCH) if `channel_count` is not that of the binding, or the binding is of another rig\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if there is none"
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if `channel_count` is not that of the binding, or the binding is for another rig\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if that returns NULL"
     };
     (mien_mix_create) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a part of `desc` is out of range; the message names it\n\
-         - [`Status::MISMATCH`](crate::Status::MISMATCH) if deformer or gaze are of another rig\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a field of `desc` is out of range; the message names it\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the deformer or the gaze is for another rig\n\
          - [`Status::INDEX`](crate::Status::INDEX) if a landmark names a mesh, position or joint that does not exist\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
     };
@@ -2147,7 +2149,7 @@ macro_rules! errors {
     };
     (mien_mix_write_file) => {
         "- [`Status::NAME`](crate::Status::NAME) if two of these controls have the same name\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if there is none\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if that returns NULL\n\
          - [`Status::FILE_WRITE`](crate::Status::FILE_WRITE) if the file cannot be written"
     };
     (mien_mix_write_memory) => {
@@ -2182,7 +2184,7 @@ macro_rules! errors {
          - [`Status::MEMORY`](crate::Status::MEMORY) if that returns NULL"
     };
     (mien_gaze_create) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if one of the four directions has no raw control that turns an eye steadily farther\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if no raw control turns an eye monotonically in one of the four directions\n\
          - [`Status::NAME`](crate::Status::NAME) if there are no such joints\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
     };
@@ -2198,14 +2200,14 @@ macro_rules! errors {
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
     };
     (mien_mixer_play) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a time, speed or enum value is out of range or a clip of differences would override\n\
-         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the binding is of another clip or rig\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a time, speed or enum value is out of range or a delta clip would play in a layer that overrides\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the binding is for another clip or rig\n\
          - [`Status::INDEX`](crate::Status::INDEX) if the layer does not exist or has another source\n\
          - [`Status::CLIP_LIMIT`](crate::Status::CLIP_LIMIT) if the clip is larger than the mix allows"
     };
     (mien_mixer_stop) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::INDEX`](crate::Status::INDEX) if the layer does not exist or plays no clips"
+         - [`Status::INDEX`](crate::Status::INDEX) if the layer does not exist or is not a clip layer"
     };
     (mien_mixer_set_weight) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
@@ -2240,14 +2242,14 @@ macro_rules! errors {
     (mien_mixer_push) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a value is not finite or `tick` is 2^61 or more\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if it has another number of channels\n\
-         - [`Status::INDEX`](crate::Status::INDEX) if the layer does not exist or is no stream"
+         - [`Status::INDEX`](crate::Status::INDEX) if the layer does not exist or is not a stream"
     };
     (mien_mixer_step) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `ticks` is out of range or leads beyond 2^60 ticks (51 years)\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `ticks` is out of range or the time would exceed 2^60 ticks (51 years)\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if the instance has another number of raw controls"
     };
     (mien_mixer_step_batch) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `ticks` is out of range or leads beyond 2^60 ticks (51 years); or a mixer is listed twice\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `ticks` is out of range or the time would exceed 2^60 ticks (51 years); or a mixer is listed twice\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if the instance has another number of raw controls"
     };
     (mien_mixer_row) => {
@@ -2268,7 +2270,7 @@ macro_rules! errors {
     };
     (mien_mixer_restore) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the bytes are not a snapshot of this mix\n\
-         - [`Status::MISMATCH`](crate::Status::MISMATCH) if a clip is missing or is not the one that played"
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if a clip is missing or is not the one that was playing"
     };
     (mien_solver_stack_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a number is out of range, or if a solver reads a joint that a later one moves; the message names both\n\
@@ -2283,12 +2285,12 @@ macro_rules! errors {
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
     };
     (mien_solver_state_step) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if ticks or LOD are out of range\n\
-         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the instance has another deformer than the stack or the row is shorter than MienSolverStackDesc.`lane_count`"
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `ticks` or the LOD is out of range\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if instance and stack have different deformers or the row is shorter than MienSolverStackDesc.`lane_count`"
     };
     (mien_solver_state_step_batch) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if ticks or LOD are out of range\n\
-         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the instance has another deformer than the stack or the row is shorter than MienSolverStackDesc.`lane_count`; or the states have different stacks"
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `ticks` or the LOD is out of range\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if instance and stack have different deformers or the row is shorter than MienSolverStackDesc.`lane_count`; or the states have different stacks"
     };
     (mien_solver_state_outputs) => {
         "- [`Status::INDEX`](crate::Status::INDEX) if the solver does not exist"

@@ -105,7 +105,7 @@ impl Instance {
 /// Outputs of the last evaluation.
 impl Instance {
     outputs! {
-        /// The whole control row: raw, PSD, ML, RBF.
+        /// The whole control vector: raw, PSD, ML, RBF.
         controls;
         /// Values of the correctives.
         psd_controls;
