@@ -554,7 +554,7 @@ class Transition(IntEnum):
 
 
 class Preset(IntEnum):
-    """Generated rigs."""
+    """Kinds of generated rigs."""
 
     #: small enough to read
     TINY = 0
@@ -566,11 +566,11 @@ class Preset(IntEnum):
     #: a synthetic rig of the size of a production body: 342 joints, moved by 72 RBF solvers with
     #: 670 poses, 22 twists and 16 swings; some are quaternion joints
     BODY = 4
-    #: a stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit as
-    #: raw controls with their names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the
-    #: designed head, other seeds are other people: skull, nose, jaw, age, hair and colors. Vertex
-    #: colors are in the metadata: key "mien.colors.<mesh name>", value base64 of 3 bytes (sRGB)
-    #: per vertex position of the mesh.
+    #: a stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 ARKit expressions as raw
+    #: controls of the same names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the
+    #: designed head; other seeds vary skull, nose, jaw, age, hair and colors. The metadata holds
+    #: vertex colors: key "mien.colors.<mesh name>", value base64 of 3 bytes (sRGB) per vertex
+    #: position of the mesh.
     HEAD = 5
 
 
@@ -583,22 +583,22 @@ class Generate(IntEnum):
 
 
 class BoneKind(IntEnum):
-    """What a bone is."""
+    """The role of a bone."""
 
     ROOT = 0
     NECK = 1
     HEAD = 2
     FACE = 3
-    #: moves with expressions; LODs keep the first ones
+    #: moves with expressions; each LOD keeps the first n of these
     FACIAL = 4
     JAW = 5
     EYE = 6
 
 
 class Symmetry(IntEnum):
-    """Whether the halves of the face are mirror images."""
+    """Whether both halves of the face are treated as mirror images."""
 
-    #: if mirrored positions lie within 0.5 % of the face from the surface
+    #: if mirrored positions lie within 0.5 % of the face's size of the surface
     AUTO = 0
     ON = 1
     OFF = 2
@@ -618,20 +618,20 @@ class MeshAxis(IntEnum):
 
 
 class AuthorFlags(IntFlag):
-    """How bones and weights are made, combined with |."""
+    """How bones and weights are computed, combined with |."""
 
-    #: the published method alone, with the neck cut: no symmetry, no weights by motion, no joints
+    #: only the published method, plus the neck cut: no symmetry, no weighting by motion, no joints
     #: for jaw and eyes
     PAPER = 1
-    #: the face mask may have parts of the neck
+    #: the face mask may include parts of the neck
     NO_NECK_CUT = 2
-    #: the face mask is what shapes move: for what is not human
+    #: the face mask is what shapes move: for heads that are not human
     MASK_FROM_SHAPES = 4
-    #: positions count by the area around them: for scans
+    #: weight positions by the area around them: for scans
     AREA_DENSITY = 8
-    #: what joints cannot do is left out, not written as targets
+    #: no blend shape targets for the motion that joints cannot produce
     NO_TARGETS = 16
-    #: groups by distance in space, not in depth: to compare with
+    #: group by distance in space, not in depth: for comparison
     GROUP_IN_SPACE = 32
 
 
@@ -4268,7 +4268,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.AUTHOR_REFUSED,
          "the mesh cannot be rigged"),
         (Status.AUTHOR_CANCELED,
-         "`progress` said so"),
+         "`progress` canceled"),
     ),
     "mien_author_report_json": (),
 }

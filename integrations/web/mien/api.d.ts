@@ -539,7 +539,7 @@ export declare const Transition: {
 };
 export type Transition = (typeof Transition)[keyof typeof Transition];
 
-/** Generated rigs. */
+/** Kinds of generated rigs. */
 export declare const Preset: {
   /** small enough to read */
   readonly TINY: 0;
@@ -554,7 +554,7 @@ export declare const Preset: {
    */
   readonly BODY: 4;
   /**
-   * a stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit as raw controls with their names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the designed head, other seeds are other people: skull, nose, jaw, age, hair and colors. Vertex colors are in the metadata: key "mien.colors.<mesh name>", value base64 of 3 bytes (sRGB) per vertex position of the mesh.
+   * a stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 ARKit expressions as raw controls of the same names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the designed head; other seeds vary skull, nose, jaw, age, hair and colors. The metadata holds vertex colors: key "mien.colors.<mesh name>", value base64 of 3 bytes (sRGB) per vertex position of the mesh.
    */
   readonly HEAD: 5;
 };
@@ -569,22 +569,22 @@ export declare const Generate: {
 };
 export type Generate = (typeof Generate)[keyof typeof Generate];
 
-/** What a bone is. */
+/** The role of a bone. */
 export declare const BoneKind: {
   readonly ROOT: 0;
   readonly NECK: 1;
   readonly HEAD: 2;
   readonly FACE: 3;
-  /** moves with expressions; LODs keep the first ones */
+  /** moves with expressions; each LOD keeps the first n of these */
   readonly FACIAL: 4;
   readonly JAW: 5;
   readonly EYE: 6;
 };
 export type BoneKind = (typeof BoneKind)[keyof typeof BoneKind];
 
-/** Whether the halves of the face are mirror images. */
+/** Whether both halves of the face are treated as mirror images. */
 export declare const Symmetry: {
-  /** if mirrored positions lie within 0.5 % of the face from the surface */
+  /** if mirrored positions lie within 0.5 % of the face's size of the surface */
   readonly AUTO: 0;
   readonly ON: 1;
   readonly OFF: 2;
@@ -604,21 +604,21 @@ export declare const MeshAxis: {
 };
 export type MeshAxis = (typeof MeshAxis)[keyof typeof MeshAxis];
 
-/** How bones and weights are made, combined with |. */
+/** How bones and weights are computed, combined with |. */
 export declare const AuthorFlags: {
   /**
-   * the published method alone, with the neck cut: no symmetry, no weights by motion, no joints for jaw and eyes
+   * only the published method, plus the neck cut: no symmetry, no weighting by motion, no joints for jaw and eyes
    */
   readonly PAPER: 1;
-  /** the face mask may have parts of the neck */
+  /** the face mask may include parts of the neck */
   readonly NO_NECK_CUT: 2;
-  /** the face mask is what shapes move: for what is not human */
+  /** the face mask is what shapes move: for heads that are not human */
   readonly MASK_FROM_SHAPES: 4;
-  /** positions count by the area around them: for scans */
+  /** weight positions by the area around them: for scans */
   readonly AREA_DENSITY: 8;
-  /** what joints cannot do is left out, not written as targets */
+  /** no blend shape targets for the motion that joints cannot produce */
   readonly NO_TARGETS: 16;
-  /** groups by distance in space, not in depth: to compare with */
+  /** group by distance in space, not in depth: for comparison */
   readonly GROUP_IN_SPACE: 32;
 };
 export type AuthorFlags = number;
@@ -1760,28 +1760,28 @@ export interface GenerateDesc {
   seed?: number;
 }
 
-/** A part of a mesh with a name: it becomes a mesh of the file. */
+/** A named part of the input mesh. It becomes a mesh of the DNA file. */
 export interface AuthorObject {
   /** 1 to 200 bytes */
   name?: string;
-  /** where the object before it ends */
+  /** the face after the last one of the object before it */
   firstFace?: number;
   faceCount?: number;
 }
 
-/** An expression: becomes a raw control of its name, 0 to 1. */
+/** An expression. It becomes a raw control of the same name, 0 to 1. */
 export interface AuthorShape {
   /** 1 to 200 bytes; all different */
   name?: string;
-  /** which positions move. NULL: all, in their order */
+  /** indices of the positions that move. NULL: all, in order */
   positions?: Uint32Array | readonly number[];
   /** of `positions`, or of the mesh */
   positionCount?: number;
-  /** 3 per position that moves, at full value */
+  /** 3 for each of these positions, with the control at 1 */
   displacements?: Float64Array | readonly number[];
 }
 
-/** A mesh to be rigged: a head, or the front of one, with whatever is inside. */
+/** A mesh to rig: a head, or the front of one, with everything inside it. */
 export interface AuthorMesh {
   /** 3 per position, in the unit and axes of MienAuthorDesc */
   positions?: Float64Array | readonly number[];
@@ -1789,15 +1789,15 @@ export interface AuthorMesh {
   /** corners of each face, 3 or more. NULL: all are triangles */
   faceSizes?: Uint32Array | readonly number[];
   faceCount?: number;
-  /** positions, face after face, counterclockwise from outside */
+  /** indices of positions, face by face, counterclockwise seen from outside */
   corners?: Uint32Array | readonly number[];
   cornerCount?: number;
   /** 2 per UV; may be NULL */
   uvs?: Float64Array | readonly number[];
   uvCount?: number;
-  /** one per corner. NULL: no UVs */
+  /** indices of UVs, one per corner. NULL: no UVs */
   cornerUvs?: Uint32Array | readonly number[];
-  /** NULL: one, named "head" */
+  /** NULL: a single object named "head" */
   objects?: readonly AuthorObject[];
   objectCount?: number;
   /** may be NULL */
@@ -1805,34 +1805,34 @@ export interface AuthorMesh {
   shapeCount?: number;
 }
 
-/** A bone of the caller. */
+/** A bone placed by the caller. */
 export interface AuthorBone {
   /** 1 to 200 bytes; all different */
   name?: string;
-  /** in the mesh, not relative to the parent */
+  /** in the space of the mesh, not relative to the parent */
   position?: readonly number[];
-  /** a bone before this one; the first one is its own parent */
+  /** index of an earlier bone; the first bone is its own parent */
   parent?: number;
-  /** MIEN_BONE_...: the first is the root, and facial ones stand in one run */
+  /** MIEN_BONE_...: the first bone is the root, and facial bones are consecutive */
   kind?: BoneKind;
 }
 
-/** Triangles of the caller: a LOD of the mesh. */
+/** A LOD of the mesh, made by the caller. */
 export interface AuthorLod {
   /**
-   * positions of the mesh, three for each triangle, all of one object. Objects without triangles are not in the LOD
+   * indices of positions of the mesh, three per triangle, all three in the same object. Objects without triangles are not in the LOD
    */
   corners?: Uint32Array | readonly number[];
   cornerCount?: number;
   /**
-   * one per corner. NULL: of the UVs that a position has in the mesh, those nearest to each other
+   * indices of UVs, one per corner. NULL: chosen from the UVs that each position has in the mesh, so that they are nearest to each other
    */
   cornerUvs?: Uint32Array | readonly number[];
 }
 
 /**
- * How a mesh is rigged. Bones, weights, depth_groups, mask, lod_joints, bone_groups, bone_motions and
- * lod_meshes are results of the caller, each in place of one stage.
+ * How to rig a mesh. bones, weights, depth_groups, mask, lod_joints, bone_groups, bone_motions and
+ * lod_meshes let the caller provide the result of one stage, which is then skipped.
  */
 export interface AuthorDesc {
   /** 1 to 7000. 0: 240 */
@@ -1841,15 +1841,15 @@ export interface AuthorDesc {
   influences?: number;
   /** 1 to 8. 0: 8 */
   lods?: number;
-  /** in depth, of which the front one is the face: 2 to 16. 0: 3 */
+  /** depth groups, of which the front one is the face: 2 to 16. 0: 3 */
   groups?: number;
-  /** of the starts of the search for bones */
+  /** of the initial guesses of bone placement */
   seed?: number;
-  /** centimeters of one unit of the mesh. 0: 1 */
+  /** centimeters per unit of the mesh. 0: 1 */
   unit?: number;
   /** MIEN_MESH_AXIS_... */
   up?: MeshAxis;
-  /** MIEN_MESH_AXIS_..., at a right angle to `up` */
+  /** MIEN_MESH_AXIS_..., perpendicular to `up` */
   front?: MeshAxis;
   /** MIEN_SYMMETRY_... */
   symmetry?: Symmetry;
@@ -1857,48 +1857,52 @@ export interface AuthorDesc {
   flags?: AuthorFlags;
   /** of the character; empty: "head" */
   name?: string;
-  /** the object with the face; empty: it is found */
+  /** name of the object with the face; empty: found automatically */
   faceObject?: string;
-  /** the caller's own. NULL: they are placed */
+  /** NULL: placed automatically */
   bones?: readonly AuthorBone[];
   boneCount?: number;
-  /** `influences` per position of the mesh, numbers of bones. NULL: weights are made */
+  /** indices of bones, `influences` per position of the mesh. NULL: weights are computed */
   weightJoints?: Uint16Array | readonly number[];
-  /** beside weight_joints; both or neither, and only with `bones` */
+  /** the weights for weight_joints; both or neither, and only with `bones` */
   weights?: Float32Array | readonly number[];
   /** may be NULL */
   parallel?: number;
   /** passed to the next function */
   progressUser?: number;
   /**
-   * Called on the calling thread with the name of the step that begins and a share from 0 to 1 that never falls. Returns 0 to go on; anything else cancels. May be NULL.
+   * Called on the calling thread with the name of the step that begins and the progress from 0 to 1, which never decreases. Returns 0 to continue; anything else cancels. May be NULL.
    */
   progress?: number;
   /**
-   * one per position of the mesh: its group in depth, below `groups`, 0 in front. NULL: found
+   * one per position of the mesh: its depth group, less than `groups`, 0 in front. NULL: computed
    */
   depthGroups?: Uint8Array | readonly number[];
-  /** one per position of the mesh: not 0 where facial bones are placed. NULL: found */
+  /**
+   * one per position of the mesh: nonzero in the face mask, where facial bones are placed. NULL: computed
+   */
   mask?: Uint8Array | readonly number[];
   /**
-   * facial joints of each of `lods` LODs at most, as mirrored pairs stay together; never rising, and the first has all. NULL: 240, 160, 110, 75, 50, 32, 20, 12, scaled to facial_joints
+   * maximum number of facial joints in each of `lods` LODs (mirrored pairs stay together); never increasing, and the first has all. NULL: 240, 160, 110, 75, 50, 32, 20, 12, scaled to facial_joints
    */
   lodJoints?: Uint32Array | readonly number[];
-  /** joint group of each of `bones`, 0 to 255. NULL: found */
+  /** joint group of each of `bones`, 0 to 255. NULL: computed */
   boneGroups?: Uint32Array | readonly number[];
   /**
-   * for each shape, for each of `bones` the motion at full value: translation, then degrees about X, Y, Z, applied in this order, in the unit and axes of the mesh. NULL: fitted to the shapes
+   * 6 numbers for each of `bones`, shape by shape, with the control at 1: translation, then degrees about X, Y, Z, applied in this order, in the unit and axes of the mesh. NULL: fitted
    */
   boneMotions?: Float64Array | readonly number[];
-  /** 1 to 24. 0: as many as have 75 rows each */
+  /** 1 to 24. 0: chosen so that each has about 75 rows */
   jointGroups?: number;
-  /** correctives for pairs of shapes that double their motion, at most as many. 0: none */
+  /**
+   * maximum number of correctives that damp pairs of shapes with overlapping motion. 0: none
+   */
   overlapCorrectives?: number;
   /**
-   * share of its triangles that each further LOD keeps of the LOD before: above 0, at most 1. 0: 0.5. 1: all
+   * share of the triangles of a LOD that the next one keeps: above 0, at most 1. 0: 0.5. 1: all
    */
   lodTriangles?: number;
-  /** LOD 1, LOD 2 and so on. NULL: made by lod_triangles */
+  /** LOD 1, LOD 2 and so on. NULL: made according to lod_triangles */
   lodMeshes?: readonly AuthorLod[];
   /** one less than `lods` */
   lodMeshCount?: number;
@@ -2963,15 +2967,14 @@ export interface Exports {
    */
   mien_dna_generate(desc: number, out_dna: number, error: number): number;
   /**
-   * Makes a rig from a mesh, with or without expressions, and opens it as a file of version 2.8: joints,
-   * skin weights of every LOD, and for each expression a raw control that moves them. The file has the
-   * axes of the mesh, in centimeters; positions keep their order, without those in no face. The same
-   * mesh, options and seed give the same bytes on any number of threads. `mesh` is required;
+   * Creates a rig from a mesh, with or without expressions, and opens it as a file of version 2.8: joints,
+   * skin weights for every LOD, and a raw control for each expression. The file has the axes of the mesh, in
+   * centimeters; positions keep their order, but positions that belong to no face are dropped. The same mesh,
+   * options and seed give the same bytes on any number of threads. `mesh` is required;
    * `out_report` may be NULL. Close with mien_dna_close() and mien_author_report_close().
    * Fails with MIEN_ERROR_AUTHOR_MESH if the arrays of the mesh or of the caller's results contradict
-   * each other,
-   * MIEN_ERROR_AUTHOR_REFUSED if the mesh cannot be rigged, MIEN_ERROR_AUTHOR_CANCELED if `progress`
-   * said so, MIEN_ERROR_DNA_LIMIT if the file would be too large.
+   * each other, MIEN_ERROR_AUTHOR_REFUSED if the mesh cannot be rigged, MIEN_ERROR_AUTHOR_CANCELED if
+   * `progress` canceled, MIEN_ERROR_DNA_LIMIT if the file would be too large.
    * See docs/authoring.md, 1 "What goes in and what comes out".
    */
   mien_author_rig(mesh: number, desc: number, out_dna: number, out_report: number, error: number): number;

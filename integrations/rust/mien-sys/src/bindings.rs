@@ -415,11 +415,11 @@ pub const MIEN_PRESET_LARGE: u32 = 3;
 /// A synthetic rig of the size of a production body: 342 joints, moved by 72 RBF solvers with 670
 /// poses, 22 twists and 16 swings; some are quaternion joints.
 pub const MIEN_PRESET_BODY: u32 = 4;
-/// A stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit as raw
-/// controls with their names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the designed
-/// head, other seeds are other people: skull, nose, jaw, age, hair and colors. Vertex colors are
-/// in the metadata: key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per vertex
-/// position of the mesh.
+/// A stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 ARKit expressions as raw
+/// controls of the same names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the designed
+/// head; other seeds vary skull, nose, jaw, age, hair and colors. The metadata holds vertex
+/// colors: key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per vertex position of
+/// the mesh.
 pub const MIEN_PRESET_HEAD: u32 = 5;
 
 // enum MienGenerate
@@ -432,13 +432,13 @@ pub const MIEN_BONE_ROOT: u32 = 0;
 pub const MIEN_BONE_NECK: u32 = 1;
 pub const MIEN_BONE_HEAD: u32 = 2;
 pub const MIEN_BONE_FACE: u32 = 3;
-/// Moves with expressions; LODs keep the first ones.
+/// Moves with expressions; each LOD keeps the first n of these.
 pub const MIEN_BONE_FACIAL: u32 = 4;
 pub const MIEN_BONE_JAW: u32 = 5;
 pub const MIEN_BONE_EYE: u32 = 6;
 
 // enum MienSymmetry
-/// If mirrored positions lie within 0.5 % of the face from the surface.
+/// If mirrored positions lie within 0.5 % of the face's size of the surface.
 pub const MIEN_SYMMETRY_AUTO: u32 = 0;
 pub const MIEN_SYMMETRY_ON: u32 = 1;
 pub const MIEN_SYMMETRY_OFF: u32 = 2;
@@ -454,18 +454,18 @@ pub const MIEN_MESH_AXIS_MINUS_Y: u32 = 5;
 pub const MIEN_MESH_AXIS_MINUS_Z: u32 = 6;
 
 // enum MienAuthorFlags
-/// The published method alone, with the neck cut: no symmetry, no weights by motion, no joints for
-/// jaw and eyes.
+/// Only the published method, plus the neck cut: no symmetry, no weighting by motion, no joints
+/// for jaw and eyes.
 pub const MIEN_AUTHOR_PAPER: u32 = 1;
-/// The face mask may have parts of the neck.
+/// The face mask may include parts of the neck.
 pub const MIEN_AUTHOR_NO_NECK_CUT: u32 = 2;
-/// The face mask is what shapes move: for what is not human.
+/// The face mask is what shapes move: for heads that are not human.
 pub const MIEN_AUTHOR_MASK_FROM_SHAPES: u32 = 4;
-/// Positions count by the area around them: for scans.
+/// Weight positions by the area around them: for scans.
 pub const MIEN_AUTHOR_AREA_DENSITY: u32 = 8;
-/// What joints cannot do is left out, not written as targets.
+/// No blend shape targets for the motion that joints cannot produce.
 pub const MIEN_AUTHOR_NO_TARGETS: u32 = 16;
-/// Groups by distance in space, not in depth: to compare with.
+/// Group by distance in space, not in depth: for comparison.
 pub const MIEN_AUTHOR_GROUP_IN_SPACE: u32 = 32;
 
 /// A checked, read-only view of a DNA file. Immutable.
@@ -631,7 +631,7 @@ pub struct MienSolverState {
     _opaque: Opaque,
 }
 
-/// What was found and measured while a rig was made; immutable.
+/// What was found and measured while authoring a rig. Immutable.
 #[repr(C)]
 pub struct MienAuthorReport {
     _size: [u8; 0],
@@ -2744,13 +2744,13 @@ impl Default for MienGenerateDesc {
     }
 }
 
-/// A part of a mesh with a name: it becomes a mesh of the file.
+/// A named part of the input mesh. It becomes a mesh of the DNA file.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienAuthorObject {
     /// 1 to 200 bytes.
     pub name: MienStringView,
-    /// Where the object before it ends.
+    /// The face after the last one of the object before it.
     pub first_face: u32,
     pub face_count: u32,
 }
@@ -2763,17 +2763,17 @@ impl Default for MienAuthorObject {
     }
 }
 
-/// An expression: becomes a raw control of its name, 0 to 1.
+/// An expression. It becomes a raw control of the same name, 0 to 1.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienAuthorShape {
     /// 1 to 200 bytes; all different.
     pub name: MienStringView,
-    /// Which positions move. NULL: all, in their order.
+    /// Indices of the positions that move. NULL: all, in order.
     pub positions: *const u32,
     /// Of `positions`, or of the mesh.
     pub position_count: usize,
-    /// 3 per position that moves, at full value.
+    /// 3 for each of these positions, with the control at 1.
     pub displacements: *const f64,
 }
 
@@ -2785,7 +2785,7 @@ impl Default for MienAuthorShape {
     }
 }
 
-/// A mesh to be rigged: a head, or the front of one, with whatever is inside.
+/// A mesh to rig: a head, or the front of one, with everything inside it.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienAuthorMesh {
@@ -2796,15 +2796,15 @@ pub struct MienAuthorMesh {
     /// Corners of each face, 3 or more. NULL: all are triangles.
     pub face_sizes: *const u32,
     pub face_count: usize,
-    /// Positions, face after face, counterclockwise from outside.
+    /// Indices of positions, face by face, counterclockwise seen from outside.
     pub corners: *const u32,
     pub corner_count: usize,
     /// 2 per UV; may be NULL.
     pub uvs: *const f64,
     pub uv_count: usize,
-    /// One per corner. NULL: no UVs.
+    /// Indices of UVs, one per corner. NULL: no UVs.
     pub corner_uvs: *const u32,
-    /// NULL: one, named "head".
+    /// NULL: a single object named "head".
     pub objects: *const MienAuthorObject,
     pub object_count: usize,
     /// May be NULL.
@@ -2822,17 +2822,17 @@ impl Default for MienAuthorMesh {
     }
 }
 
-/// A bone of the caller.
+/// A bone placed by the caller.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienAuthorBone {
     /// 1 to 200 bytes; all different.
     pub name: MienStringView,
-    /// In the mesh, not relative to the parent.
+    /// In the space of the mesh, not relative to the parent.
     pub position: [f64; 3],
-    /// A bone before this one; the first one is its own parent.
+    /// Index of an earlier bone; the first bone is its own parent.
     pub parent: u32,
-    /// `MIEN_BONE_...`: the first is the root, and facial ones stand in one run.
+    /// `MIEN_BONE_...`: the first bone is the root, and facial bones are consecutive.
     pub kind: u32,
 }
 
@@ -2844,16 +2844,16 @@ impl Default for MienAuthorBone {
     }
 }
 
-/// Triangles of the caller: a LOD of the mesh.
+/// A LOD of the mesh, made by the caller.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienAuthorLod {
-    /// Positions of the mesh, three for each triangle, all of one object. Objects without
-    /// triangles are not in the LOD.
+    /// Indices of positions of the mesh, three per triangle, all three in the same object. Objects
+    /// without triangles are not in the LOD.
     pub corners: *const u32,
     pub corner_count: usize,
-    /// One per corner. NULL: of the UVs that a position has in the mesh, those nearest to each
-    /// other.
+    /// Indices of UVs, one per corner. NULL: chosen from the UVs that each position has in the
+    /// mesh, so that they are nearest to each other.
     pub corner_uvs: *const u32,
 }
 
@@ -2865,8 +2865,9 @@ impl Default for MienAuthorLod {
     }
 }
 
-/// How a mesh is rigged. Bones, weights, `depth_groups`, mask, `lod_joints`, `bone_groups`,
-/// `bone_motions` and `lod_meshes` are results of the caller, each in place of one stage.
+/// How to rig a mesh. bones, weights, `depth_groups`, mask, `lod_joints`, `bone_groups`,
+/// `bone_motions` and `lod_meshes` let the caller provide the result of one stage, which is then
+/// skipped.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienAuthorDesc {
@@ -2877,15 +2878,15 @@ pub struct MienAuthorDesc {
     pub influences: u32,
     /// 1 to 8. 0: 8.
     pub lods: u32,
-    /// In depth, of which the front one is the face: 2 to 16. 0: 3.
+    /// Depth groups, of which the front one is the face: 2 to 16. 0: 3.
     pub groups: u32,
-    /// Of the starts of the search for bones.
+    /// Of the initial guesses of bone placement.
     pub seed: u64,
-    /// Centimeters of one unit of the mesh. 0: 1.
+    /// Centimeters per unit of the mesh. 0: 1.
     pub unit: f64,
     /// `MIEN_MESH_AXIS_...`
     pub up: u32,
-    /// `MIEN_MESH_AXIS_...`, at a right angle to `up`.
+    /// `MIEN_MESH_AXIS_...`, perpendicular to `up`.
     pub front: u32,
     /// `MIEN_SYMMETRY_...`
     pub symmetry: u32,
@@ -2893,45 +2894,47 @@ pub struct MienAuthorDesc {
     pub flags: u32,
     /// Of the character; empty: "head".
     pub name: MienStringView,
-    /// The object with the face; empty: it is found.
+    /// Name of the object with the face; empty: found automatically.
     pub face_object: MienStringView,
-    /// The caller's own. NULL: they are placed.
+    /// NULL: placed automatically.
     pub bones: *const MienAuthorBone,
     pub bone_count: usize,
-    /// `influences` per position of the mesh, numbers of bones. NULL: weights are made.
+    /// Indices of bones, `influences` per position of the mesh. NULL: weights are computed.
     pub weight_joints: *const u16,
-    /// Beside `weight_joints`; both or neither, and only with `bones`.
+    /// The weights for `weight_joints`; both or neither, and only with `bones`.
     pub weights: *const f32,
     /// May be NULL.
     pub parallel: *const MienParallelFor,
     /// Passed to the next function.
     pub progress_user: *mut c_void,
-    /// Called on the calling thread with the name of the step that begins and a share from 0 to 1
-    /// that never falls. Returns 0 to go on; anything else cancels. May be NULL.
+    /// Called on the calling thread with the name of the step that begins and the progress from 0
+    /// to 1, which never decreases. Returns 0 to continue; anything else cancels. May be NULL.
     pub progress: Option<unsafe extern "C" fn(user: *mut c_void, step: *const c_char, share: f64) -> i32>,
     pub allocator: *const MienAllocator,
-    /// One per position of the mesh: its group in depth, below `groups`, 0 in front. NULL: found.
+    /// One per position of the mesh: its depth group, less than `groups`, 0 in front. NULL:
+    /// computed.
     pub depth_groups: *const u8,
-    /// One per position of the mesh: not 0 where facial bones are placed. NULL: found.
+    /// One per position of the mesh: nonzero in the face mask, where facial bones are placed.
+    /// NULL: computed.
     pub mask: *const u8,
-    /// Facial joints of each of `lods` LODs at most, as mirrored pairs stay together; never
-    /// rising, and the first has all. NULL: 240, 160, 110, 75, 50, 32, 20, 12, scaled to
+    /// Maximum number of facial joints in each of `lods` LODs (mirrored pairs stay together);
+    /// never increasing, and the first has all. NULL: 240, 160, 110, 75, 50, 32, 20, 12, scaled to
     /// `facial_joints`.
     pub lod_joints: *const u32,
-    /// Joint group of each of `bones`, 0 to 255. NULL: found.
+    /// Joint group of each of `bones`, 0 to 255. NULL: computed.
     pub bone_groups: *const u32,
-    /// For each shape, for each of `bones` the motion at full value: translation, then degrees
-    /// about X, Y, Z, applied in this order, in the unit and axes of the mesh. NULL: fitted to the
-    /// shapes.
+    /// 6 numbers for each of `bones`, shape by shape, with the control at 1: translation, then
+    /// degrees about X, Y, Z, applied in this order, in the unit and axes of the mesh. NULL:
+    /// fitted.
     pub bone_motions: *const f64,
-    /// 1 to 24. 0: as many as have 75 rows each.
+    /// 1 to 24. 0: chosen so that each has about 75 rows.
     pub joint_groups: u32,
-    /// Correctives for pairs of shapes that double their motion, at most as many. 0: none.
+    /// Maximum number of correctives that damp pairs of shapes with overlapping motion. 0: none.
     pub overlap_correctives: u32,
-    /// Share of its triangles that each further LOD keeps of the LOD before: above 0, at most 1.
-    /// 0: 0.5. 1: all.
+    /// Share of the triangles of a LOD that the next one keeps: above 0, at most 1. 0: 0.5. 1:
+    /// all.
     pub lod_triangles: f64,
-    /// LOD 1, LOD 2 and so on. NULL: made by `lod_triangles`.
+    /// LOD 1, LOD 2 and so on. NULL: made according to `lod_triangles`.
     pub lod_meshes: *const MienAuthorLod,
     /// One less than `lods`.
     pub lod_mesh_count: usize,
@@ -4199,16 +4202,16 @@ extern "C" {
     /// size and sparsity, and simple geometry. Close with `mien_dna_close()`.
     pub fn mien_dna_generate(desc: *const MienGenerateDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
 
-    /// Makes a rig from a mesh, with or without expressions, and opens it as a file of version
-    /// 2.8: joints, skin weights of every LOD, and for each expression a raw control that moves
-    /// them. The file has the axes of the mesh, in centimeters; positions keep their order,
-    /// without those in no face. The same mesh, options and seed give the same bytes on any number
-    /// of threads. `mesh` is required; `out_report` may be NULL. Close with `mien_dna_close()` and
-    /// `mien_author_report_close()`.
+    /// Creates a rig from a mesh, with or without expressions, and opens it as a file of version
+    /// 2.8: joints, skin weights for every LOD, and a raw control for each expression. The file
+    /// has the axes of the mesh, in centimeters; positions keep their order, but positions that
+    /// belong to no face are dropped. The same mesh, options and seed give the same bytes on any
+    /// number of threads. `mesh` is required; `out_report` may be NULL. Close with
+    /// `mien_dna_close()` and `mien_author_report_close()`.
     ///
     /// Fails with `MIEN_ERROR_AUTHOR_MESH` if the arrays of the mesh or of the caller's results
     /// contradict each other, `MIEN_ERROR_AUTHOR_REFUSED` if the mesh cannot be rigged,
-    /// `MIEN_ERROR_AUTHOR_CANCELED` if `progress` said so, `MIEN_ERROR_DNA_LIMIT` if the file
+    /// `MIEN_ERROR_AUTHOR_CANCELED` if `progress` canceled, `MIEN_ERROR_DNA_LIMIT` if the file
     /// would be too large.
     ///
     /// See docs/authoring.md, 1 "What goes in and what comes out".

@@ -849,7 +849,7 @@ impl Transition {
 
 numbers!(Transition, u32, [(0, "INERTIAL"), (1, "CROSSFADE"), (2, "CUT")]);
 
-/// Generated rigs.
+/// Kinds of generated rigs.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -869,11 +869,11 @@ impl Preset {
     /// A synthetic rig of the size of a production body: 342 joints, moved by 72 RBF solvers with
     /// 670 poses, 22 twists and 16 swings; some are quaternion joints.
     pub const BODY: Self = Self(4);
-    /// A stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 expressions of ARKit as
-    /// raw controls with their names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the
-    /// designed head, other seeds are other people: skull, nose, jaw, age, hair and colors. Vertex
-    /// colors are in the metadata: key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB)
-    /// per vertex position of the mesh.
+    /// A stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 ARKit expressions as
+    /// raw controls of the same names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the
+    /// designed head; other seeds vary skull, nose, jaw, age, hair and colors. The metadata holds
+    /// vertex colors: key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per vertex
+    /// position of the mesh.
     pub const HEAD: Self = Self(5);
 }
 
@@ -894,7 +894,7 @@ impl Generate {
 
 numbers!(Generate, u32, [(1, "ML")]);
 
-/// What a bone is.
+/// The role of a bone.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -910,7 +910,7 @@ impl BoneKind {
     pub const HEAD: Self = Self(2);
     /// `MIEN_BONE_FACE` in C.
     pub const FACE: Self = Self(3);
-    /// Moves with expressions; LODs keep the first ones.
+    /// Moves with expressions; each LOD keeps the first n of these.
     pub const FACIAL: Self = Self(4);
     /// `MIEN_BONE_JAW` in C.
     pub const JAW: Self = Self(5);
@@ -920,7 +920,7 @@ impl BoneKind {
 
 numbers!(BoneKind, u32, [(0, "ROOT"), (1, "NECK"), (2, "HEAD"), (3, "FACE"), (4, "FACIAL"), (5, "JAW"), (6, "EYE")]);
 
-/// Whether the halves of the face are mirror images.
+/// Whether both halves of the face are treated as mirror images.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -928,7 +928,7 @@ numbers!(BoneKind, u32, [(0, "ROOT"), (1, "NECK"), (2, "HEAD"), (3, "FACE"), (4,
 pub struct Symmetry(pub u32);
 
 impl Symmetry {
-    /// If mirrored positions lie within 0.5 % of the face from the surface.
+    /// If mirrored positions lie within 0.5 % of the face's size of the surface.
     pub const AUTO: Self = Self(0);
     /// `MIEN_SYMMETRY_ON` in C.
     pub const ON: Self = Self(1);
@@ -964,7 +964,7 @@ impl MeshAxis {
 
 numbers!(MeshAxis, u32, [(0, "DEFAULT"), (1, "X"), (2, "Y"), (3, "Z"), (4, "MINUS_X"), (5, "MINUS_Y"), (6, "MINUS_Z")]);
 
-/// How bones and weights are made, combined with \|.
+/// How bones and weights are computed, combined with \|.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -972,18 +972,18 @@ numbers!(MeshAxis, u32, [(0, "DEFAULT"), (1, "X"), (2, "Y"), (3, "Z"), (4, "MINU
 pub struct AuthorFlags(pub u32);
 
 impl AuthorFlags {
-    /// The published method alone, with the neck cut: no symmetry, no weights by motion, no joints
-    /// for jaw and eyes.
+    /// Only the published method, plus the neck cut: no symmetry, no weighting by motion, no
+    /// joints for jaw and eyes.
     pub const PAPER: Self = Self(1);
-    /// The face mask may have parts of the neck.
+    /// The face mask may include parts of the neck.
     pub const NO_NECK_CUT: Self = Self(2);
-    /// The face mask is what shapes move: for what is not human.
+    /// The face mask is what shapes move: for heads that are not human.
     pub const MASK_FROM_SHAPES: Self = Self(4);
-    /// Positions count by the area around them: for scans.
+    /// Weight positions by the area around them: for scans.
     pub const AREA_DENSITY: Self = Self(8);
-    /// What joints cannot do is left out, not written as targets.
+    /// No blend shape targets for the motion that joints cannot produce.
     pub const NO_TARGETS: Self = Self(16);
-    /// Groups by distance in space, not in depth: to compare with.
+    /// Group by distance in space, not in depth: for comparison.
     pub const GROUP_IN_SPACE: Self = Self(32);
 }
 
@@ -2313,7 +2313,7 @@ macro_rules! errors {
          - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the file would be too large\n\
          - [`Status::AUTHOR_MESH`](crate::Status::AUTHOR_MESH) if the arrays of the mesh or of the caller's results contradict each other\n\
          - [`Status::AUTHOR_REFUSED`](crate::Status::AUTHOR_REFUSED) if the mesh cannot be rigged\n\
-         - [`Status::AUTHOR_CANCELED`](crate::Status::AUTHOR_CANCELED) if `progress` said so"
+         - [`Status::AUTHOR_CANCELED`](crate::Status::AUTHOR_CANCELED) if `progress` canceled"
     };
     (mien_author_report_json) => {
         "- none with valid arguments"
