@@ -144,9 +144,13 @@ Status check_state(const Mixer& mixer, const SavedState& saved, const ClipFinder
   }
   bool valid = true;
   for (const Fade& fade : mixer.pose_weights) valid = valid && is_fade(saved.read(fade));
-  for (const GeneratorState& generator : mixer.generators) {
-    const int64_t next = saved.read(generator).next;
-    valid = valid && next >= 0 && is_time(next) && (next == 0 || now - next <= kMaxFadeTicks);
+  for (uint32_t i = 0; i < mixer.generators.count; ++i) {
+    const MixLayer& layer = mixer.mix->layers[i];
+    const bool blinks = layer.source == LayerSource::kGenerator &&
+                        layer.generator == Generator::kBlink && !layer.lanes.empty();
+    const int64_t next = saved.read(mixer.generators[i]).next;
+    // A step goes through all blinks since then.
+    valid = valid && next >= 0 && is_time(next) && (!blinks || now - next <= kMaxFadeTicks);
   }
   for (const GazeState& gaze : mixer.gazes) {
     const GazeState state = saved.read(gaze);

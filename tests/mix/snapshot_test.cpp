@@ -165,6 +165,35 @@ TEST(Snapshot, RefusesOtherMixesMissingClipsAndLittleRoom) {
   EXPECT_EQ(restore(of_other_mix, bytes, all.sources), Status::kInvalidArgument);
 }
 
+// Else a step would go through all the blinks of 51 years.
+TEST(Snapshot, OfATimeLongAfterTheNextBlinkAreRefused) {
+  const Everything all;
+  OwnMixer own(all.mix), other(all.mix);
+  own.step(kStep);
+  std::vector<uint8_t> bytes = snapshot(own);
+  const size_t header = bytes.size() - own.mixer.state.count;
+  const auto offset_of = [&](const void* in_state) {
+    return header +
+           static_cast<size_t>(static_cast<const uint8_t*>(in_state) - own.mixer.state.data);
+  };
+  size_t blinks = 0;
+  for (uint32_t i = 0; i < all.mix->layers.count; ++i) {
+    const MixLayer& layer = all.mix->layers[i];
+    if (layer.source != LayerSource::kGenerator || layer.generator != Generator::kBlink) continue;
+    ++blinks;
+    for (const int64_t next : {int64_t{0}, kMaxMixerTime - kMaxFadeTicks - 1}) {
+      memcpy(&bytes[offset_of(&own.mixer.header->now)], &kMaxMixerTime, sizeof(kMaxMixerTime));
+      memcpy(&bytes[offset_of(&own.mixer.generators[i].next)], &next, sizeof(next));
+      EXPECT_EQ(restore(other, bytes, all.sources), Status::kInvalidArgument) << next;
+    }
+    const int64_t next = kMaxMixerTime - kMaxFadeTicks;
+    memcpy(&bytes[offset_of(&own.mixer.generators[i].next)], &next, sizeof(next));
+  }
+  EXPECT_EQ(blinks, 1u);
+  EXPECT_EQ(restore(other, bytes, all.sources), Status::kOk);
+  other.step(0);
+}
+
 TEST(Snapshot, DamagedOnesAreRefusedOrHarmless) {
   const Everything all;
   OwnMixer own(all.mix, 9);
