@@ -146,15 +146,16 @@ void guards(benchmark::State& state, float activation) {
   Guard all[kMaxGuards];
   for (uint32_t g = 0; g < kMaxGuards; ++g) all[g] = scene_guard(g, lanes);
   Rows rows;
-  alignas(64) float held[kLanes] = {}, free_row[kLanes], row[kLanes];
+  alignas(64) float held[kLanes] = {}, free_row[kLanes], back[kLanes], row[kLanes];
   memcpy(free_row, rows.row, sizeof(free_row));
   for (auto _ : state) {
-    memcpy(row, free_row, sizeof(row));
-    for (const Guard& guard : all) {
-      const float distance = guard_distance(guard, rows.x);
-      hold_guard(guard, rows.x, distance, activation, row);
+    float distances[kMaxGuards], activations[kMaxGuards];
+    for (uint32_t g = 0; g < kMaxGuards; ++g) {
+      distances[g] = guard_distance(all[g], rows.x);
+      activations[g] = activation;
     }
-    ease_guards(free_row, rows.x, kGuarded, 0.2f, held, row);
+    hold_guards({all, kMaxGuards}, rows.x, distances, activations, free_row, kGuarded, back, row);
+    ease_guards(free_row, rows.x, back, kGuarded, 0.2f, held, row);
     benchmark::ClobberMemory();
   }
 }

@@ -7,8 +7,11 @@
 
 #include <cstdint>
 
+#include "runtime/base/span.h"
+
 namespace mien {
 
+constexpr uint32_t kMaxGuards = 8;
 constexpr uint32_t kMaxGuardLanes = 24;
 constexpr uint32_t kMaxGuardPairs = 24;
 
@@ -31,6 +34,8 @@ struct Guard {
   float fit_error;        // of this function: root mean square over rows that were tried
   uint16_t lanes[kMaxGuardLanes];  // raw controls, by falling size of the gain: see hold_guard()
   float gains[kMaxGuardLanes];     // beside lanes
+  /// Bit i: lanes i - 1 and i, the same control of both halves of the face, go back by the same share.
+  uint32_t together;
   GuardPair pairs[kMaxGuardPairs];
   uint32_t kind;  // the caller's, for telling guards apart
 };
@@ -42,23 +47,29 @@ float guard_distance(const Guard& guard, const float* row);
 /// f(protected row).
 float guard_activation(const Guard& guard, float distance);
 
-/// Moves lanes of `row` back towards the protected row until f(row) is `distance`, which is f(protected
-/// row), or 0 if that is less, plus the tolerance; `activation` 0 ... 1 is the share of that move which
-/// is made. Lanes with the largest gains go first, so that the least of the row is lost. Lanes that
-/// open nothing keep their bits, and all do if the limit is kept. In closed form, as f is linear in
-/// each lane.
-void hold_guard(const Guard& guard, const float* protected_row, float distance, float activation,
-                float* row);
+/// What guards take off each of `count` lanes of the free row: `back`. With the activation 1, f(row)
+/// becomes f(protected row), or 0 if that is less, plus the tolerance; with less, it goes that share of
+/// the way. `distances` are f(protected row), [guard] as `activations`.
+///
+/// Each guard looks at the same row and of what several of them want of a lane the most counts; so
+/// their order makes no difference, and mirrored rows give mirrored results. Lanes with the largest
+/// gains go first, so that the least of the row is lost; both halves of a face go together
+/// (Guard::together). Lanes that open nothing stay. A guard is in closed form, as f is linear in each
+/// lane. What one took off may have helped another: then they look at the row once more.
+void hold_guards(Span<const Guard> guards, const float* protected_row, const float* distances,
+                 const float* activations, const float* free_row, uint32_t count, float* back,
+                 float* row);
+constexpr uint32_t kGuardSweeps = 2;
 
 /// The fastest that guards take hold of a lane or let go of it, per second. With speech at 8 phonemes
 /// a second what they hold back would jump otherwise.
 constexpr float kGuardSpeed = 12;
 
-/// After all guards, for `count` lanes: `row` is what they left of `free_row`. `held` is by how much
-/// lanes were moved in the last step, zeros at the beginning; it changes by `max_change` at most,
-/// kGuardSpeed times the seconds of the step. A lane never passes the protected row. Where nothing is
-/// held, bits stay.
-void ease_guards(const float* free_row, const float* protected_row, uint32_t count,
-                 float max_change, float* held, float* row);
+/// After hold_guards(): writes to `row` what is left of the free row. `held` is how far lanes were
+/// taken back in the last step, zeros at the beginning; it becomes `back`, but changes by `max_change`
+/// at most, kGuardSpeed times the seconds of the step. A lane never passes the protected row. Where
+/// nothing is held, bits stay.
+void ease_guards(const float* free_row, const float* protected_row, const float* back,
+                 uint32_t count, float max_change, float* held, float* row);
 
 }  // namespace mien

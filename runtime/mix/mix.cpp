@@ -200,6 +200,11 @@ Status check_guard(const MixDesc& desc, size_t i, Error& error) {
   }
   const Status status = check_lane_list(desc, {guard.lanes, guard.count}, true, "guard", i, error);
   if (status != Status::kOk) return status;
+  if (guard.together >> guard.count != 0 || (guard.together & (guard.together << 1 | 1)) != 0) {
+    return wrong(
+        error, "guard %zu: .together %u; a lane goes with the one before, in pairs of the %u lanes",
+        i, guard.together, guard.count);
+  }
   bool finite =
       first_beyond({guard.gains, guard.count}, -kLargestFloat, kLargestFloat) == guard.count;
   for (uint32_t k = 0; k < guard.pair_count; ++k) {

@@ -31,7 +31,6 @@ namespace mien {
 constexpr uint32_t kLaneStep = 16;
 constexpr uint32_t kMaxLanes = 4096;
 constexpr uint32_t kMaxLayers = 16;
-constexpr uint32_t kMaxGuards = 8;
 constexpr uint32_t kMaxPoses = 1024;
 
 // Layers

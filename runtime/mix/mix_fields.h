@@ -7,7 +7,7 @@
 
 namespace mien {
 
-constexpr uint32_t kMixVersion = 2;
+constexpr uint32_t kMixVersion = 3;
 constexpr size_t kMixHeaderSize = 24;  // with the offsets of ClipHeaderOffset
 constexpr size_t kMaxNameLength = 0xFFFF;
 
@@ -87,6 +87,7 @@ void walk(Walker& w, MixDesc& mix) {
     w.value("fit_error", guard.fit_error);
     w.count("lanes", guard.count, kMaxGuardLanes);
     for (uint32_t i = 0; i < guard.count; ++i) w.pair("gain", guard.lanes[i], guard.gains[i]);
+    w.value("together", guard.together);
     w.count("pairs", guard.pair_count, kMaxGuardPairs);
     for (uint32_t i = 0; i < guard.pair_count; ++i) {
       w.place("first", guard.pairs[i].first);

@@ -37,7 +37,7 @@ void place_mixer(Placer& placer, const Mix& mix, bool stages, Mixer& mixer) {
     mixer.stages = placer.array<float>(floats, kBlockAlignment).data;
   }
   mixer.row = placer.array<float>(mix.lane_count, kBlockAlignment);
-  mixer.guarded_rows = placer.array<float>(3 * mix.guarded.count);
+  mixer.guarded_rows = placer.array<float>(4 * mix.guarded.count);
   mixer.layer_row = placer.array<float>(layer_row_floats(mix), kBlockAlignment);
   mixer.scratch = placer.array<float>(mix.lane_count, kBlockAlignment);
   mixer.gui = placer.array<float>(mix.max_bound_gui, kBlockAlignment);

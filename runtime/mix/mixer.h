@@ -108,7 +108,7 @@ struct Mixer {
   size_t block_size = 0;
 
   Span<float> row;           // [lane] the result of the last step
-  Span<float> guarded_rows;  // [protected, free, held back][place in Mix::guarded]
+  Span<float> guarded_rows;  // [protected, free, back, result][place in Mix::guarded]
   Span<float> layer_row;     // [value of a lane], then [cover of a lane]
   Span<float> scratch;       // [lane]
   Span<float> gui;

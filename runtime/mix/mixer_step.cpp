@@ -201,7 +201,7 @@ void mix_pose_layer(Mixer& mixer, uint32_t index) {
   blend(mixer, index, weight, row, nullptr);
 }
 
-enum GuardedRow : uint32_t { kProtected, kFree, kHeldBack };
+enum GuardedRow : uint32_t { kProtected, kFree, kBack, kGuarded };
 
 float* guarded_row(const Mixer& mixer, GuardedRow which) {
   return mixer.guarded_rows.data + which * mixer.mix->guarded.count;
@@ -256,23 +256,26 @@ float activation_of(const Mixer& mixer, size_t guard, float distance, float spee
   return guard_activation(of, distance) * (of.needs_speech ? speech : 1.0f);
 }
 
-void hold_guards(Mixer& mixer, int64_t ticks) {
+void mix_guards(Mixer& mixer, int64_t ticks) {
   const Mix& mix = *mixer.mix;
   if (mix.guards.empty()) return;
-  const size_t count = mix.guarded.count;
+  const auto count = static_cast<uint32_t>(mix.guarded.count);
   gather_guarded(mixer, kFree);
-  memcpy(guarded_row(mixer, kHeldBack), guarded_row(mixer, kFree), count * sizeof(float));
   const float* const before = guarded_row(mixer, kProtected);
-  float* const row = guarded_row(mixer, kHeldBack);
+  const float* const free_row = guarded_row(mixer, kFree);
+  float* const row = guarded_row(mixer, kGuarded);
   const float speech = speech_weight(mixer);
+  float distances[kMaxGuards], activations[kMaxGuards];
   for (size_t i = 0; i < mix.guards.count; ++i) {
-    const Guard& guard = mix.guards[i];
-    const float distance = guard_distance(guard, before);
-    hold_guard(guard, before, distance, activation_of(mixer, i, distance, speech), row);
+    distances[i] = guard_distance(mix.guards[i], before);
+    activations[i] = activation_of(mixer, i, distances[i], speech);
   }
+  float* const back = guarded_row(mixer, kBack);
+  hold_guards({mix.guards.data, mix.guards.count}, before, distances, activations, free_row, count,
+              back, row);
   const double seconds = static_cast<double>(ticks) / kTicksPerSecond;
-  ease_guards(guarded_row(mixer, kFree), before, static_cast<uint32_t>(count),
-              static_cast<float>(kGuardSpeed * seconds), mixer.held.data, row);
+  ease_guards(free_row, before, back, count, static_cast<float>(kGuardSpeed * seconds),
+              mixer.held.data, row);
   for (size_t i = 0; i < count; ++i) mixer.row[mix.guarded[i]] = row[i];
 }
 
@@ -300,7 +303,7 @@ Status guard_state(const Mixer& mixer, uint32_t guard, GuardState& state, Error&
   state.lanes = {lanes.data, lanes.count};
   state.protected_distance = guard_distance(of, guarded_row(mixer, kProtected));
   state.wanted = guard_distance(of, guarded_row(mixer, kFree));
-  state.distance = guard_distance(of, guarded_row(mixer, kHeldBack));
+  state.distance = guard_distance(of, guarded_row(mixer, kGuarded));
   state.limit = std::max(state.protected_distance, 0.0f) + of.tolerance;
   state.activation = activation_of(mixer, guard, state.protected_distance, speech_weight(mixer));
   return Status::kOk;
@@ -321,7 +324,7 @@ void step_mixer(Mixer& mixer, int64_t ticks, float* out, size_t count, uint64_t*
   mix_reactions(mix, mixer.header->now, false, mixer.reactions, mixer.strokes, row);
   keep_stage(mixer, layer_count + kStageReactions);
   mix_layers(mixer, mix.first_after_reactions, layer_count, false, ticks);
-  hold_guards(mixer, ticks);
+  mix_guards(mixer, ticks);
   keep_stage(mixer, layer_count + kStageGuards);
   mix_layers(mixer, 0, layer_count, true, ticks);
   mix_reactions(mix, mixer.header->now, true, mixer.reactions, mixer.strokes, row);

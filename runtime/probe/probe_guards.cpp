@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/probe/probe_controls.h"
+
 namespace mien {
 namespace {
 
 constexpr float kLeastGain = 0.05f;       // millimeters: what is less is not worth a lane
 constexpr float kGainStep = 1 / 1024.0f;  // millimeters
 constexpr float kProbeValue = 0.5f;       // of the controls that are tried
+constexpr double kLeastOfHalves = 0.5;    // of the gain of a control, that its counterpart has
 constexpr uint32_t kFitRows = 64;
 
 float rounded(double gain) {
@@ -59,9 +62,22 @@ struct Measured {
   double rest = 0, contact = 0;
 };
 
+/// Puts controls whose counterparts in the other half of the face do about the same beside those.
+void join_halves(const Measured& measured, Span<const uint16_t> mirror, uint16_t* lanes,
+                 Guard& out) {
+  for (uint32_t i = 0; i + 1 < out.count; ++i) {
+    uint16_t* const other = std::find(lanes + i + 1, lanes + out.count, mirror[lanes[i]]);
+    if (other == lanes + out.count) continue;
+    const double gain = measured.gains[lanes[i]], its = measured.gains[*other];
+    if (gain * its < 0 || std::fabs(its) < kLeastOfHalves * std::fabs(gain)) continue;
+    std::rotate(lanes + i + 1, other, other + 1);
+    out.together |= 1u << ++i;
+  }
+}
+
 /// The lanes that matter most, alone or in a pair, by falling gain; then their pairs.
-void choose_lanes(const Measured& measured, Span<const PairOfControls> pairs, Span<uint16_t> order,
-                  Guard& out) {
+void choose_lanes(const Measured& measured, Span<const PairOfControls> pairs,
+                  Span<const uint16_t> mirror, Span<uint16_t> order, Guard& out) {
   for (size_t c = 0; c < order.count; ++c) {
     order[c] = static_cast<uint16_t>(c);
     measured.scores[c] = std::fabs(measured.gains[c]);
@@ -83,6 +99,7 @@ void choose_lanes(const Measured& measured, Span<const PairOfControls> pairs, Sp
     ++out.count;
   }
   std::sort(order.begin(), order.begin() + out.count, by(measured.gains));
+  join_halves(measured, mirror, order.data, out);
   for (uint32_t i = 0; i < out.count; ++i) {
     out.lanes[i] = order[i];
     out.gains[i] = rounded(measured.gains[order[i]]);
@@ -165,10 +182,11 @@ Status probe_guards(const Deformer& deformer, Span<const GuardDesc> descs,
   Span<PairOfControls> pairs;
   const Span<Measured> measured = arena.array<Measured>(descs.count);
   const Span<uint16_t> order = arena.array<uint16_t>(rig.raw_count);
+  const Span<uint16_t> mirror = arena.array<uint16_t>(rig.raw_count);
   const Span<float> tried = arena.array<float>(rig.raw_count);
   bool memory = probe.ready() && list_pairs(rig, arena, pairs) &&
                 (measured.data || descs.empty()) &&
-                ((order.data && tried.data) || rig.raw_count == 0);
+                ((order.data && mirror.data && tried.data) || rig.raw_count == 0);
   for (Measured& m : measured) {
     m.gains = arena.array<double>(rig.raw_count);
     m.scores = arena.array<double>(rig.raw_count);
@@ -177,6 +195,9 @@ Status probe_guards(const Deformer& deformer, Span<const GuardDesc> descs,
              (pairs.empty() || m.pair_gains.data);
   }
   if (!memory) return fail(error, Status::kMemory, kNoOffset, "no memory to probe guards");
+
+  const Status mirrored = find_mirror(deformer, allocator, mirror, error);
+  if (mirrored != Status::kOk) return mirrored;
 
   const Vec3 up = probe.axis(2) * probe.millimeters();
   const auto distance = [&](size_t guard) {
@@ -220,7 +241,7 @@ Status probe_guards(const Deformer& deformer, Span<const GuardDesc> descs,
     out[g].kind = descs[g].kind;
     out[g].needs_speech = descs[g].needs_speech;
     out[g].rest = rounded(m.rest - m.contact);
-    choose_lanes(m, pairs, order, out[g]);
+    choose_lanes(m, pairs, mirror, order, out[g]);
   }
 
   // Rows like those of faces: a few controls, in all strengths. The multiples of irrational numbers

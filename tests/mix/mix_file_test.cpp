@@ -329,6 +329,7 @@ TEST(MixFile, EveryFieldIsInTheBytesAndInTheText) {
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.fit_error = 9; },
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.gains[1] = 9; },
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.lanes[1] = 9; },
+      [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.together = 4; },
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.pairs[1].gain = 9; },
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.pair_count = 2; },
       [](GazeMix&, Stroke&, ReactionDesc&, Guard&, AntagonistPair& p) { p.stiffness = 1; },

@@ -551,7 +551,19 @@ TEST(MixRefuses, WhatIsOutOfRange) {
     guard.lanes[0] = 10;
     i.desc.guards = {&guard, 1};
   }));
+  for (uint32_t together : {1u, 1u << 2, 1u << 24, 6u}) {
+    EXPECT_TRUE(refused([&](MixInput& i) {
+      guard = Guard();
+      guard.f_on = 1;
+      guard.count = together == 6 ? 3 : 2;
+      for (uint16_t l = 0; l < 3; ++l) guard.lanes[l] = l;
+      guard.together = together;
+      i.desc.guards = {&guard, 1};
+    })) << together;
+  }
   EXPECT_TRUE(refused([&](MixInput& i) {
+    guard.together = 0;
+    guard.count = 1;
     guard.lanes[0] = 1;
     guard.f_on = 0;
     i.desc.guards = {&guard, 1};

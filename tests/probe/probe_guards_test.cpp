@@ -8,12 +8,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "runtime/author/dna_making.h"
+#include "runtime/probe/probe_controls.h"
 #include "tests/support/counting_allocator.h"
 #include "tests/support/deform_rig.h"
 #include "tests/support/face_poses.h"
@@ -104,10 +107,37 @@ bool is_mouth(const std::string& control) {
 float activation_of(const Guard& guard, const Pose& row) {
   return guard_activation(guard, guard_distance(guard, row.data()));
 }
-void hold(const Guard& guard, const Pose& protected_row, float activation, Pose& row) {
-  hold_guard(guard, protected_row.data(), guard_distance(guard, protected_row.data()), activation,
-             row.data());
-}
+/// The guards of some kinds; fully active, or as active as they find themselves.
+struct Guards {
+  std::vector<Guard> guards;
+
+  Guards(const GuardedHead& head, const std::vector<Kind>& kinds) {
+    for (Kind kind : kinds) guards.push_back(head.guards[head.index(kind)]);
+  }
+  /// How far they want lanes back.
+  Pose hold(const Pose& protected_row, const Pose& free_row, bool fully) const {
+    Pose back(free_row.size()), row(free_row.size());
+    std::vector<float> distances, activations;
+    for (const Guard& guard : guards) {
+      distances.push_back(guard_distance(guard, protected_row.data()));
+      activations.push_back(fully ? 1 : guard_activation(guard, distances.back()));
+    }
+    hold_guards({guards.data(), guards.size()}, protected_row.data(), distances.data(),
+                activations.data(), free_row.data(), static_cast<uint32_t>(row.size()), back.data(),
+                row.data());
+    return back;
+  }
+  /// What they leave when they have the time.
+  Pose left_by(const Pose& protected_row, const Pose& free_row) const {
+    const Pose back = hold(protected_row, free_row, true);
+    Pose row(back.size()), held(back.size());
+    ease_guards(free_row.data(), protected_row.data(), back.data(),
+                static_cast<uint32_t>(back.size()), std::numeric_limits<float>::infinity(),
+                held.data(), row.data());
+    return row;
+  }
+};
+const std::vector<Kind> kLips = {Kind::kLipsLeft, Kind::kLipsCenter, Kind::kLipsRight};
 
 /// What emotions do to some poses, with guards and without.
 struct Outcome {
@@ -119,6 +149,7 @@ struct Outcome {
 
 Outcome try_emotions(GuardedHead& head, const std::vector<Pose>& poses, std::vector<Kind> kinds) {
   Outcome out;
+  const Guards guards(head, kinds);
   std::vector<double> freely;
   double count = 0;
   for (const Pose& pose : poses) {
@@ -127,10 +158,8 @@ Outcome try_emotions(GuardedHead& head, const std::vector<Pose>& poses, std::vec
     for (const Pose& emotion : emotions_of(head.controls)) {
       for (float weight : {0.3f, 0.7f, 1.0f}) {
         const Pose free = over(pose, emotion, weight);
-        Pose held = free, masked = free;
-        for (Kind kind : kinds) {
-          hold(head.guards[head.index(kind)], pose, 1, held);
-        }
+        const Pose held = guards.left_by(pose, free);
+        Pose masked = free;
         for (size_t c = 0; c < masked.size(); ++c) {
           if (is_mouth(head.controls[c])) masked[c] = pose[c];
         }
@@ -245,6 +274,27 @@ TEST(ProbeGuards, FitsTheHeadToATenthOfAMillimeter) {
   }
 }
 
+TEST(ProbeGuards, JoinsTheHalvesOfTheFaceInTheMiddleOnly) {
+  for (uint64_t seed : kSeeds) {
+    const GuardedHead& h = head(seed);
+    const auto joined = [&h](Kind kind) {
+      const Guard& guard = h.guards[h.index(kind)];
+      std::set<std::string> names;
+      for (uint32_t i = 1; i < guard.count; ++i) {
+        if ((guard.together >> i & 1) == 0) continue;
+        names.insert(h.controls[guard.lanes[i - 1]] + " " + h.controls[guard.lanes[i]]);
+      }
+      return names;
+    };
+    for (const char* names : {"mouthLowerDownLeft mouthLowerDownRight",
+                              "mouthUpperUpLeft mouthUpperUpRight", "jawLeft jawRight"}) {
+      EXPECT_EQ(joined(Kind::kLipsCenter).count(names), 1u) << names;
+    }
+    EXPECT_EQ(joined(Kind::kLipsLeft), std::set<std::string>{"jawLeft jawRight"});
+    EXPECT_TRUE(joined(Kind::kLidsLeft).empty());
+  }
+}
+
 TEST(ProbeGuards, KnowsThatTheSealUndoesTheJaw) {
   GuardedHead& h = head(0);
   const Guard& lips = h.guards[h.index(Kind::kLipsCenter)];
@@ -344,8 +394,7 @@ TEST(GuardedSpeech, LipsStayClosedAndMostOfTheEmotionStays) {  // E1 to E3
     GuardedHead& h = head(seed);
     const std::vector<Pose> poses = poses_of(kClosedLips, h);
     for (const Pose& pose : poses) EXPECT_LT(h.distance(Kind::kLipsCenter, pose), 0.1);
-    const Outcome o =
-        try_emotions(h, poses, {Kind::kLipsLeft, Kind::kLipsCenter, Kind::kLipsRight});
+    const Outcome o = try_emotions(h, poses, kLips);
     EXPECT_GT(o.median_opened_freely, 1) << "the test bites";
     EXPECT_GT(o.opened_freely, 15);
     EXPECT_LE(o.opened_model, 0.3001);
@@ -353,6 +402,51 @@ TEST(GuardedSpeech, LipsStayClosedAndMostOfTheEmotionStays) {  // E1 to E3
     EXPECT_GE(o.kept, 0.80);
     EXPECT_GE(o.kept, o.kept_without_mouth + 0.20);
     RecordProperty("kept_" + std::to_string(seed), std::to_string(o.kept));
+    RecordProperty("kept_without_mouth_" + std::to_string(seed),
+                   std::to_string(o.kept_without_mouth));
+    RecordProperty("opened_" + std::to_string(seed), std::to_string(o.opened));
+    RecordProperty("opened_freely_" + std::to_string(seed), std::to_string(o.opened_freely));
+  }
+}
+
+TEST(GuardedSpeech, FacesThatAreEvenStayEvenAndMirroredOnesMirrored) {
+  for (uint64_t seed : kSeeds) {
+    GuardedHead& h = head(seed);
+    const Guards guards(h, kLips);
+    std::vector<uint16_t> mirror(h.controls.size());
+    Error error;
+    ASSERT_EQ(find_mirror(h.deformer, default_allocator(), {mirror.data(), mirror.size()}, error),
+              Status::kOk);
+    const auto mirrored = [&](const Pose& row) {
+      Pose out(row.size());
+      for (size_t c = 0; c < row.size(); ++c) out[mirror[c]] = row[c];
+      return out;
+    };
+    const auto difference = [](const Pose& a, const Pose& b) {
+      float most = 0;
+      for (size_t c = 0; c < a.size(); ++c) most = std::max(most, std::abs(a[c] - b[c]));
+      return most;
+    };
+    size_t even = 0, held_back = 0;
+    for (const Pose& pose : poses_of(kClosedLips, h)) {
+      for (Pose emotion : emotions_of(h.controls)) {
+        for (bool one_sided : {false, true}) {
+          for (size_t c = 0; one_sided && c < emotion.size(); ++c) {
+            if (mirror[c] > c) emotion[c] *= 0.25f;
+          }
+          const Pose free = over(pose, emotion, 1), held = guards.left_by(pose, free);
+          EXPECT_LE(difference(guards.left_by(mirrored(pose), mirrored(free)), mirrored(held)),
+                    1e-4f);
+          if (difference(free, mirrored(free)) == 0) {
+            ++even;
+            EXPECT_LE(difference(held, mirrored(held)), 1e-4f);
+          }
+          held_back += difference(free, held) > 0.1f;
+        }
+      }
+    }
+    EXPECT_GT(even, 50u);
+    EXPECT_GT(held_back, 200u);
   }
 }
 
@@ -401,6 +495,7 @@ Pose speech_at(const GuardedHead& h, double seconds) {
 
 TEST(GuardedSpeech, NoLaneIsFasterThanItsSourcesByMoreThanTheGuardsSpeed) {  // E5
   GuardedHead& h = head(0);
+  const Guards guards(h, kLips);
   for (double dt : {0.001, 1 / 60.0}) {
     double fastest = 0, fastest_source = 0, fastest_gain = 0;
     std::vector<double> opened, opened_freely;
@@ -411,12 +506,9 @@ TEST(GuardedSpeech, NoLaneIsFasterThanItsSourcesByMoreThanTheGuardsSpeed) {  // 
         const float ramp =
             static_cast<float>(std::clamp(std::min(beat, 1.4 - beat) / 0.3, 0.0, 1.0));
         const Pose speech = speech_at(h, time), free = over(speech, emotion, ramp);
-        Pose row = free;
-        for (Kind kind : {Kind::kLipsLeft, Kind::kLipsCenter, Kind::kLipsRight}) {
-          const Guard& guard = h.guards[h.index(kind)];
-          hold(guard, speech, activation_of(guard, speech), row);
-        }
-        ease_guards(free.data(), speech.data(), static_cast<uint32_t>(row.size()),
+        const Pose back = guards.hold(speech, free, false);
+        Pose row(free.size());
+        ease_guards(free.data(), speech.data(), back.data(), static_cast<uint32_t>(row.size()),
                     static_cast<float>(kGuardSpeed * dt), held.data(), row.data());
         for (size_t c = 0; !before.empty() && c < row.size(); ++c) {
           const double source =
@@ -445,23 +537,25 @@ TEST(GuardedSpeech, NoLaneIsFasterThanItsSourcesByMoreThanTheGuardsSpeed) {  // 
     std::sort(opened.begin(), opened.end());
     std::sort(opened_freely.begin(), opened_freely.end());
     EXPECT_LE(opened[opened.size() * 99 / 100], 0.5);
+    const auto within = std::upper_bound(opened.begin(), opened.end(), 0.5) - opened.begin();
+    RecordProperty(
+        "within_half_a_millimeter_" + std::to_string(dt),
+        std::to_string(static_cast<double>(within) / static_cast<double>(opened.size())));
     EXPECT_GT(opened_freely[opened_freely.size() * 9 / 10], 5);
   }
 }
 
 TEST(GuardedSpeech, AGuardThatIsNotActiveChangesNoBit) {  // E6
   GuardedHead& h = head(0);
+  const Guards guards(h, kLips);
   const Pose open = pose_of("jawOpen .7", h.controls);
   for (const Pose& emotion : emotions_of(h.controls)) {
     const Pose free = over(open, emotion, 1);
-    Pose row = free, held(row.size());
-    for (Kind kind : {Kind::kLipsLeft, Kind::kLipsCenter, Kind::kLipsRight}) {
-      const Guard& guard = h.guards[h.index(kind)];
-      EXPECT_EQ(activation_of(guard, open), 0);
-      hold(guard, open, 0, row);
-    }
-    ease_guards(free.data(), open.data(), static_cast<uint32_t>(row.size()), 0.2f, held.data(),
-                row.data());
+    for (const Guard& guard : guards.guards) EXPECT_EQ(activation_of(guard, open), 0);
+    const Pose back = guards.hold(open, free, false);
+    Pose row(free.size()), held(free.size());
+    ease_guards(free.data(), open.data(), back.data(), static_cast<uint32_t>(row.size()), 0.2f,
+                held.data(), row.data());
     EXPECT_EQ(memcmp(row.data(), free.data(), row.size() * sizeof(float)), 0);
   }
 }
