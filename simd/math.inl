@@ -9,7 +9,7 @@
 // | power_of_two          | whole -126 ... 127 | 0                                                |
 // | power_of_two_or_zero  | up to 126          | 2.5e-7 of its value; 0 up to -126                |
 // | exp_of_negative       | up to 0            | 2e-7 of its value; 0 below -87                   |
-// | quick_arc_cosine      | -1 ... 1           | 2e-8, before rounding; 0 above 1                 |
+// | quick_rotation_angle  | any                | 4e-8, before rounding                            |
 // | bounded_sine, _cosine | -pi/2 ... pi/2     | next terms of the series: below 7e-10            |
 // | sine_cosine           | finite             | 2 ulp                                            |
 // | arc_tangent(y, x)     | finite             | 2 ulp                                            |
@@ -77,40 +77,40 @@ inline V exp_of_negative(V x) {
 
 // Angles ------------------------------------------------------------------------------------------
 
-// sqrt(1 - |x|) times a polynomial (Abramowitz and Stegun 4.4.46), reflected for negative x.
+// The angle of a rotation whose quaternion has this real part, of either sign: 2 acos |w|, 0 where |w| is
+// 1 or more. sqrt(1 - |w|) times a polynomial (Abramowitz and Stegun 4.4.46), whose doubled coefficients
+// are the 2. (As acos(2 w^2 - 1) small angles would lose digits, and large ones need a reflection.)
 template <class V>
-inline V quick_arc_cosine(V x) {
+inline V quick_rotation_angle(V w) {
   using M = Make<V>;
-  const V a = at_most_or_nan(absolute(x), M::of(1.0f));
+  const V a = at_most_or_nan(absolute(w), M::of(1.0f));
   const V a2 = a * a;
-  const V low = (M::of(-0.0501743046f) * a + M::of(0.0889789874f)) * a2 +
-                (M::of(-0.2145988016f) * a + M::of(1.5707963050f));
-  const V high = (M::of(-0.0012624911f) * a + M::of(0.0066700901f)) * a2 +
-                 (M::of(-0.0170881256f) * a + M::of(0.0308918810f));
-  const V angle = (high * (a2 * a2) + low) * square_root(M::of(1.0f) - a);
-  return select(less(x, M::of(0.0f)), M::of(3.14159265f) - angle, angle);
+  const V low = (M::of(2 * -0.0501743046f) * a + M::of(2 * 0.0889789874f)) * a2 +
+                (M::of(2 * -0.2145988016f) * a + M::of(2 * 1.5707963050f));
+  const V high = (M::of(2 * -0.0012624911f) * a + M::of(2 * 0.0066700901f)) * a2 +
+                 (M::of(2 * -0.0170881256f) * a + M::of(2 * 0.0308918810f));
+  return (high * (a2 * a2) + low) * square_root(M::of(1.0f) - a);
+}
+
+/// p times powers of x, plus the terms: ((p x + term) x + term) ... (A loop over an array would stay one.)
+template <class V, class... Terms>
+inline V polynomial(V x, V p, Terms... terms) {
+  ((p = p * x + Make<V>::of(terms)), ...);
+  return p;
 }
 
 // Taylor series.
 template <class V>
 inline V bounded_sine(V x) {
-  using M = Make<V>;
   const V xx = x * x;
-  const float terms[] = {-2.50521084e-8f, 2.75573192e-6f, -1.98412698e-4f, 8.33333333e-3f,
-                         -1.66666667e-1f};
-  V p = M::of(1.60590438e-10f);
-  for (float term : terms) p = p * xx + M::of(term);
+  const V p = polynomial(xx, Make<V>::of(1.60590438e-10f), -2.50521084e-8f, 2.75573192e-6f,
+                         -1.98412698e-4f, 8.33333333e-3f, -1.66666667e-1f);
   return (p * xx) * x + x;
 }
 template <class V>
 inline V bounded_cosine(V x) {
-  using M = Make<V>;
-  const V xx = x * x;
-  const float terms[] = {2.08767570e-9f,  -2.75573192e-7f, 2.48015873e-5f,
-                         -1.38888889e-3f, 4.16666667e-2f,  -0.5f};
-  V p = M::of(-1.14707456e-11f);
-  for (float term : terms) p = p * xx + M::of(term);
-  return p * xx + M::of(1.0f);
+  return polynomial(x * x, Make<V>::of(-1.14707456e-11f), 2.08767570e-9f, -2.75573192e-7f,
+                    2.48015873e-5f, -1.38888889e-3f, 4.16666667e-2f, -0.5f, 1.0f);
 }
 
 // Full range --------------------------------------------------------------------------------------

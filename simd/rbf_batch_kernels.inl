@@ -4,6 +4,8 @@
 
 #pragma once
 
+#include <utility>  // index_sequence, a mere type
+
 #include "simd/quad.inl"
 #include "simd/rbf_kernels.inl"
 
@@ -100,8 +102,7 @@ inline VecPair batch_angle(const float* targets, size_t stride, const VecPair* i
   using M = Make<VecPair>;
   VecPair dot = M::of(targets[0]) * inputs[0];
   for (size_t k = 1; k < kCount; ++k) dot = dot + M::of(targets[k * stride]) * inputs[k];
-  const VecPair u = dot * dot;
-  return quick_arc_cosine((u + u) - M::of(1.0f));
+  return quick_rotation_angle(dot);
 }
 
 /// Distances of kCount numbers per rotation. One rotation stays in registers for all poses; of several
@@ -163,46 +164,47 @@ inline void weigh_poses(const RbfSolverPlan& solver, const RbfBatchArgs& args, s
   }
 }
 
-/// kPoses results of the inverse times the weights.
-template <size_t kPoses>
+/// Results of the inverse times the weights, for poses `pose` ...: P counts them. The pack makes each sum a
+/// register of its own.
+template <size_t... P>
 inline void batch_interpolate(const RbfSolverPlan& solver, const RbfBatchArgs& args, size_t pose,
-                              size_t lane) {
+                              size_t lane, std::index_sequence<P...>) {
   using M = Make<VecPair>;
   const size_t count = solver.pose_count;
-  const float* columns[kPoses];
-  VecPair sums[kPoses];
-  for (size_t p = 0; p < kPoses; ++p) {
-    const size_t at = pose + p;
-    columns[p] = args.inverses + solver.first_inverse + at / kBlockLanes * count * kBlockLanes +
-                 at % kBlockLanes;
-    sums[p] = M::of(0.0f);
-  }
+  const float* const inverses = args.inverses + solver.first_inverse;
+  const float* const columns[] = {inverses + (pose + P) / kBlockLanes * count * kBlockLanes +
+                                  (pose + P) % kBlockLanes...};
+  const float* const weights = args.weights[0] + lane;
+  VecPair sums[] = {(static_cast<void>(P), M::of(0.0f))...};
   for (size_t t = 0; t < count; ++t) {
-    const VecPair weight = M::from(args.weights[0] + t * kBatchLanes + lane);
-    for (size_t p = 0; p < kPoses; ++p) {
-      sums[p] = sums[p] + M::of(columns[p][t * kBlockLanes]) * weight;
-    }
+    const VecPair weight = M::from(weights + t * kBatchLanes);
+    ((sums[P] = sums[P] + M::of(columns[P][t * kBlockLanes]) * weight), ...);
   }
-  for (size_t p = 0; p < kPoses; ++p) {
-    store(args.weights[1] + (pose + p) * kBatchLanes + lane,
-          at_most(at_least(sums[p], M::of(0.0f)), M::of(1.0f)));
-  }
+  (store(args.weights[1] + (pose + P) * kBatchLanes + lane,
+         at_most(at_least(sums[P], M::of(0.0f)), M::of(1.0f))),
+   ...);
 }
 
-/// As sum_of() of rbf_kernels.inl; lanes that it adds without a pose are 0, and left out.
-inline VecPair batch_sum(const float* weights, size_t count) {
+/// Partial sum `i` of sum_of() of rbf_kernels.inl; of lanes without a pose 0.
+inline VecPair batch_partial_sum(const float* weights, size_t i, size_t count) {
   using M = Make<VecPair>;
-  VecPair sums[kBlockLanes];
-  for (size_t i = 0; i < kBlockLanes && i < count; ++i) {
-    sums[i] = M::from(weights + i * kBatchLanes);
-    for (size_t p = i + kBlockLanes; p < count; p += kBlockLanes) {
-      sums[i] = sums[i] + M::from(weights + p * kBatchLanes);
-    }
+  alignas(64) static constexpr float kNone[2 * kWidth] = {};
+  VecPair sum = M::from(i < count ? weights + i * kBatchLanes : kNone);
+  for (size_t p = i + kBlockLanes; p < count; p += kBlockLanes) {
+    sum = sum + M::from(weights + p * kBatchLanes);
   }
-  for (size_t half = kBlockLanes / 2; half > 0; half /= 2) {
-    for (size_t i = 0; i < half && i + half < count; ++i) sums[i] = sums[i] + sums[i + half];
+  return sum;
+}
+
+/// As sum_of(), whose halvings are these additions: partial sums i, i + kStep, i + 2 kStep ...
+template <size_t kStep = 1>
+[[gnu::always_inline]] inline VecPair batch_sum(const float* weights, size_t count, size_t i = 0) {
+  if constexpr (kStep == kBlockLanes) {
+    return batch_partial_sum(weights, i, count);
+  } else {
+    const VecPair sum = batch_sum<2 * kStep>(weights, count, i);
+    return sum + batch_sum<2 * kStep>(weights, count, i + kStep);
   }
-  return sums[0];
 }
 
 inline void batch_solver(const RbfSolverPlan& solver, const RbfBatchArgs& args, size_t lane) {
@@ -212,11 +214,13 @@ inline void batch_solver(const RbfSolverPlan& solver, const RbfBatchArgs& args, 
                        [&](const auto& weight_of) { weigh_poses(solver, args, lane, weight_of); });
   if (solver.interpolative) {
     size_t p = 0;
-    for (; p + 4 <= count; p += 4) batch_interpolate<4>(solver, args, p, lane);
+    for (; p + 4 <= count; p += 4) {
+      batch_interpolate(solver, args, p, lane, std::make_index_sequence<4>());
+    }
     switch (count - p) {
-      case 1: batch_interpolate<1>(solver, args, p, lane); break;
-      case 2: batch_interpolate<2>(solver, args, p, lane); break;
-      case 3: batch_interpolate<3>(solver, args, p, lane); break;
+      case 1: batch_interpolate(solver, args, p, lane, std::make_index_sequence<1>()); break;
+      case 2: batch_interpolate(solver, args, p, lane, std::make_index_sequence<2>()); break;
+      case 3: batch_interpolate(solver, args, p, lane, std::make_index_sequence<3>()); break;
       default: break;
     }
   }

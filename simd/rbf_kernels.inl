@@ -23,8 +23,8 @@ inline RotationInput rotation_input(const RbfSolverPlan& solver, const RbfArgs& 
   return {a, 3 * kBlockLanes};
 }
 
-// The angle between two rotations from the dot product of their quaternions; the sign of either
-// does not matter.
+// The angle between two rotations: the dot product of their quaternions is the real part of what is
+// between.
 template <class V>
 [[gnu::always_inline]] inline V angle_between(const float* targets, size_t stride,
                                               RotationInput input, size_t count) {
@@ -33,8 +33,7 @@ template <class V>
   for (size_t k = 1; k < count; ++k) {
     dot = dot + M::from(targets + k * stride) * M::of(input.first[k * input.step]);
   }
-  const V u = dot * dot;
-  return quick_arc_cosine((u + u) - M::of(1.0f));
+  return quick_rotation_angle(dot);
 }
 
 template <class V>

@@ -169,11 +169,13 @@ template <class V>
   const V u = select(upper, u1, u2), v = select(upper, zero - v1, v2), twice = u * v;
   const V third =
       arc_tangent(select(pole, twice + twice, vu - uv), select(pole, (u - v) * (u + v), uu + vv));
-  const V angles[3] = {select(pole, zero, first), second, third};
-  for (size_t i = 0; i < 3; ++i) {
-    const size_t axis = form.axes[i];
-    L::put(to, axis, angles[i] * M::of(form.from_radians[axis]));
-  }
+  // One by one: compilers would copy an array of them through memory, in parts.
+  const auto put = [&](size_t axis, V angle) {
+    L::put(to, axis, angle * M::of(form.from_radians[axis]));
+  };
+  put(form.axes[0], select(pole, zero, first));
+  put(form.axes[1], second);
+  put(form.axes[2], third);
 }
 
 void angles_from_quaternions(const EulerArgs& args) {
@@ -251,7 +253,7 @@ constexpr float kShortest = 1e-18f, kLongest = 1e18f;  // squared
 
 /// The squares of what is far from unit length would overflow, or vanish: it is made unit.
 template <class V>
-[[gnu::noinline]] void bound_lanes(LaneQuaternion<V>& q) {
+[[gnu::noinline]] LaneQuaternion<V> bound_lanes(LaneQuaternion<V> q) {
   constexpr size_t kCount = sizeof(V) / sizeof(float);
   alignas(64) float lanes[4][kCount];
   V* const parts[] = {&q.x, &q.y, &q.z, &q.w};
@@ -267,6 +269,7 @@ template <class V>
     for (auto& part : lanes) part[i] = static_cast<float>(double{part[i]} / length);
   }
   for (size_t k = 0; k < 4; ++k) *parts[k] = Make<V>::from(lanes[k]);
+  return q;
 }
 
 template <class V>
@@ -276,7 +279,14 @@ inline LaneQuaternion<V> bounded(LaneQuaternion<V> q) {
   const V size = absolute(q.x) + absolute(q.y) + absolute(q.z) + absolute(q.w);
   const V small = select(less(M::of(kShortest), squared), zero, size);
   const V far = select(less(squared, M::of(kLongest)), small, M::of(1.0f));
-  if (__builtin_expect(any(less(zero, far)), false)) bound_lanes(q);
+  if (__builtin_expect(any(less(zero, far)), false)) {
+    if constexpr (sizeof(V) == sizeof(Vec)) {
+      const LaneQuaternion<V> in = bound_lanes(q);
+      return {in.x, in.y, in.z, in.w};  // so that q stays in registers, where pairs do not fit
+    } else {
+      return bound_lanes(q);
+    }
+  }
   return q;
 }
 

@@ -19,7 +19,7 @@ void probe(const MathProbeArgs& args) {
       case MathFunction::kArcTangent: a = arc_tangent(M::from(args.y + i), x); break;
       case MathFunction::kArcCosine: a = arc_cosine(x); break;
       case MathFunction::kReciprocalRoot: a = reciprocal_root(x); break;
-      case MathFunction::kQuickArcCosine: a = quick_arc_cosine(x); break;
+      case MathFunction::kQuickRotationAngle: a = quick_rotation_angle(x); break;
       case MathFunction::kBoundedSineCosine:
         a = bounded_sine(x);
         b = bounded_cosine(x);

@@ -12,7 +12,7 @@ enum class MathFunction {
   kSineCosine,  // of x: a, b
   kArcTangent,  // of y, x
   kArcCosine,
-  kQuickArcCosine,
+  kQuickRotationAngle,
   kBoundedSineCosine,  // of x: a, b
   kReciprocalRoot,
   kExpOfNegative,

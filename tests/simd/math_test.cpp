@@ -246,18 +246,27 @@ TEST(MathFunctions, ArcCosines) {
   expect_within(
       2, x, {}, evaluate(MathFunction::kArcCosine, x, {}),
       [](double v, double) { return std::acos(v); }, no_b);
-  const Results quick = evaluate(MathFunction::kQuickArcCosine, x, {});
-  for (size_t i = 0; i < x.size(); ++i) {
-    ASSERT_NEAR(quick.a[i], std::acos(double{x[i]}), 5e-7) << x[i];
-  }
   // What rounding leaves beyond.
-  for (MathFunction function : {MathFunction::kArcCosine, MathFunction::kQuickArcCosine}) {
-    const Results beyond = evaluate(function, {1.0f, 1.0000001f, 2.0f, -1.0000001f}, {});
-    EXPECT_EQ(beyond.a[0], 0);
-    EXPECT_EQ(beyond.a[1], 0);
-    EXPECT_EQ(beyond.a[2], 0);
-    EXPECT_FLOAT_EQ(beyond.a[3], 3.14159274f);
+  const Results beyond =
+      evaluate(MathFunction::kArcCosine, {1.0f, 1.0000001f, 2.0f, -1.0000001f}, {});
+  EXPECT_EQ(beyond.a[0], 0);
+  EXPECT_EQ(beyond.a[1], 0);
+  EXPECT_EQ(beyond.a[2], 0);
+  EXPECT_FLOAT_EQ(beyond.a[3], 3.14159274f);
+}
+
+TEST(MathFunctions, QuickRotationAngle) {
+  std::vector<float> x = range(-1, 1, 400000);
+  for (float v = 1; v > 0.999f; v = std::nextafter(v, 0.0f)) x.push_back(v);
+  const Results angles = evaluate(MathFunction::kQuickRotationAngle, x, {});
+  for (size_t i = 0; i < x.size(); ++i) {
+    ASSERT_NEAR(angles.a[i], 2 * std::acos(std::fabs(double{x[i]})), 7e-7) << x[i];
   }
+  const Results special = evaluate(
+      MathFunction::kQuickRotationAngle,
+      {1.0f, -1.0f, 1.0000001f, -2.0f, kInfinity, std::numeric_limits<float>::quiet_NaN()}, {});
+  for (size_t i = 0; i < 5; ++i) EXPECT_EQ(special.a[i], 0) << i;
+  EXPECT_TRUE(std::isnan(special.a[5]));
 }
 
 TEST(MathFunctions, ReciprocalRootOfAllPositiveFloats) {
