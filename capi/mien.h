@@ -1037,7 +1037,7 @@ MIEN_CHECKED MienStatus mien_batch_bytes(const MienRig* rig, const MienBatchDesc
  * Fails with MIEN_ERROR_LOD if the rig has no such LOD, MIEN_ERROR_MISMATCH if the batch or an
  * instance belongs to another rig, MIEN_ERROR_INVALID_ARGUMENT if `count` exceeds
  * MienBatchDesc.capacity or an instance is listed twice.
- * See docs/numbers.md, 10 "One by one, in batches, with kept results". */
+ * See docs/numbers.md, 10 "One by one, in batches, with reused results". */
 MIEN_CHECKED MienStatus mien_rig_evaluate_batch(const MienRig* rig, MienBatch* batch,
                                                 MienInstance* const* instances, const uint32_t* lods,
                                                 uint32_t count, uint32_t stages,

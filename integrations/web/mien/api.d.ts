@@ -2299,7 +2299,7 @@ export interface Exports {
    * Fails with MIEN_ERROR_LOD if the rig has no such LOD, MIEN_ERROR_MISMATCH if the batch or an
    * instance belongs to another rig, MIEN_ERROR_INVALID_ARGUMENT if `count` exceeds
    * MienBatchDesc.capacity or an instance is listed twice.
-   * See docs/numbers.md, 10 "One by one, in batches, with kept results".
+   * See docs/numbers.md, 10 "One by one, in batches, with reused results".
    */
   mien_rig_evaluate_batch(rig: number, batch: number, instances: number, lods: number, count: number, stages: number, parallel: number): number;
   /**

@@ -3420,7 +3420,7 @@ extern "C" {
     /// or an instance belongs to another rig, `MIEN_ERROR_INVALID_ARGUMENT` if `count` exceeds
     /// MienBatchDesc.capacity or an instance is listed twice.
     ///
-    /// See docs/numbers.md, 10 "One by one, in batches, with kept results".
+    /// See docs/numbers.md, 10 "One by one, in batches, with reused results".
     pub fn mien_rig_evaluate_batch(rig: *const MienRig, batch: *mut MienBatch, instances: *const *mut MienInstance, lods: *const u32, count: u32, stages: u32, parallel: *const MienParallelFor) -> MienStatus;
 
     /// Evaluates the joint values of one joint group (`MIEN_KIND_JOINT_GROUP`), except those that
