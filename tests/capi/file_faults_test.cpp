@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <set>
 
 #include "tests/support/baked_bytes.h"
 #include "tests/support/counting_allocator.h"
@@ -125,6 +126,25 @@ size_t open_descriptors() {
   return count;
 }
 
+/// Functions of mien_api.json that read or write files or streams, by their names.
+std::set<std::string> functions_of_files() {
+  std::ifstream in(MIEN_API_FILE);
+  std::set<std::string> found;
+  std::string line;
+  while (std::getline(in, line)) {
+    const size_t at = line.find("\"name\": \"mien_");
+    if (at == std::string::npos) continue;
+    const std::string name = line.substr(at + 9, line.find('"', at + 9) - at - 9);
+    for (const char* end : {"_file", "_stream"}) {
+      const size_t length = strlen(end);
+      if (name.size() > length && name.compare(name.size() - length, length, end) == 0) {
+        found.insert(name);
+      }
+    }
+  }
+  return found;
+}
+
 /// Runs a call on a system that fails at the k-th of its calls. False if there are not as many.
 bool run_failing(size_t k, bool halves, const std::function<MienStatus()>& call, MienStatus& status,
                  std::string& failed) {
@@ -154,8 +174,20 @@ class FileFaults : public testing::Test {
     desc.names = names;
     desc.values = values;
     ASSERT_EQ(mien_clip_build(&desc, &clip, nullptr), MIEN_OK);
+    MienMixLayer layer = {};
+    MienMixDesc of_mix = sized<MienMixDesc>();
+    of_mix.layers = &layer;
+    of_mix.layer_count = 1;
+    ASSERT_EQ(mien_mix_create(rig.get(), &of_mix, &mix, nullptr), MIEN_OK);
+  }
+  /// If all tests ran.
+  static void TearDownTestSuite() {
+    const testing::TestSuite& suite = *testing::UnitTest::GetInstance()->current_test_suite();
+    if (suite.test_to_run_count() != suite.total_test_count()) return;
+    EXPECT_EQ(tested, functions_of_files());
   }
   void TearDown() override {
+    mien_mix_destroy(mix);
     mien_clip_close(clip);
     fs::remove_all(folder);
   }
@@ -167,7 +199,9 @@ class FileFaults : public testing::Test {
   }
 
   /// `open` gives a status, and closes what it opened after a look at it.
-  void expect_survives_reading(const std::function<MienStatus(MienError*)>& open) {
+  void expect_survives_reading(const char* function,
+                               const std::function<MienStatus(MienError*)>& open) {
+    tested.insert(function);
     const size_t descriptors = open_descriptors();
     for (const bool halves : {false, true}) {
       for (size_t k = 1;; ++k) {
@@ -191,7 +225,9 @@ class FileFaults : public testing::Test {
     }
   }
 
-  void expect_survives_writing(const std::function<MienStatus(const char*, MienError*)>& write) {
+  void expect_survives_writing(const char* function,
+                               const std::function<MienStatus(const char*, MienError*)>& write) {
+    tested.insert(function);
     const std::string to = path("file");
     ASSERT_EQ(write(to.c_str(), nullptr), MIEN_OK);
     const Bytes written = contents(to), old = {1, 2, 3};
@@ -234,13 +270,16 @@ class FileFaults : public testing::Test {
   DnaHandle dna;
   RigHandle rig;
   MienClip* clip = nullptr;
+  MienMix* mix = nullptr;
+  static std::set<std::string> tested;  // functions
 };
+std::set<std::string> FileFaults::tested;
 
 TEST_F(FileFaults, DnaFilesAreReadOrRefused) {
   const std::string file = path("a.dna");
   put(file, write_dna(dna.get()));
   for (const uint32_t access : {MIEN_FILE_MAP, MIEN_FILE_READ}) {
-    expect_survives_reading([&](MienError* error) {
+    expect_survives_reading("mien_dna_open_file", [&](MienError* error) {
       MienDnaDesc desc = sized<MienDnaDesc>();
       desc.file_access = access;
       MienDna* opened = nullptr;
@@ -258,7 +297,7 @@ TEST_F(FileFaults, DnaFilesAreReadOrRefused) {
 TEST_F(FileFaults, ReportsAreMadeOrRefused) {
   const std::string file = path("a.dna");
   put(file, write_dna(dna.get()));
-  expect_survives_reading([&](MienError* error) {
+  expect_survives_reading("mien_dna_validate_file", [&](MienError* error) {
     MienReport* report = nullptr;
     const MienStatus status = mien_dna_validate_file(file.c_str(), nullptr, &report, error);
     EXPECT_EQ(report != nullptr, status == MIEN_OK);
@@ -271,7 +310,7 @@ TEST_F(FileFaults, BakedFilesAreReadOrRefused) {
   const std::string file = path("a.mien");
   put(file, bake(rig.get()));
   for (const uint32_t access : {MIEN_FILE_MAP, MIEN_FILE_READ}) {
-    expect_survives_reading([&](MienError* error) {
+    expect_survives_reading("mien_baked_open_file", [&](MienError* error) {
       MienBakedDesc desc = sized<MienBakedDesc>();
       desc.file_access = access;
       desc.check = MIEN_BAKED_CHECK_FULL;
@@ -288,7 +327,7 @@ TEST_F(FileFaults, ClipsAreReadOrRefused) {
   const std::string file = path("a.clip");
   ASSERT_EQ(mien_clip_write_file(clip, file.c_str(), nullptr), MIEN_OK);
   for (const uint32_t access : {MIEN_FILE_MAP, MIEN_FILE_READ}) {
-    expect_survives_reading([&](MienError* error) {
+    expect_survives_reading("mien_clip_open_file", [&](MienError* error) {
       MienClipOpenDesc desc = sized<MienClipOpenDesc>();
       desc.file_access = access;
       MienClip* opened = nullptr;
@@ -300,15 +339,31 @@ TEST_F(FileFaults, ClipsAreReadOrRefused) {
   }
 }
 
+TEST_F(FileFaults, MixesAreReadOrRefused) {
+  const std::string file = path("a.mix");
+  ASSERT_EQ(mien_mix_write_file(mix, file.c_str(), nullptr), MIEN_OK);
+  expect_survives_reading("mien_mix_open_file", [&](MienError* error) {
+    MienMix* opened = nullptr;
+    const MienStatus status = mien_mix_open_file(file.c_str(), rig.get(), nullptr, &opened, error);
+    EXPECT_EQ(opened != nullptr, status == MIEN_OK);
+    mien_mix_destroy(opened);
+    return status;
+  });
+}
+
 TEST_F(FileFaults, FilesAreWrittenWholeOrNotAtAll) {
-  expect_survives_writing([&](const char* to, MienError* error) {
+  expect_survives_writing("mien_dna_write_file", [&](const char* to, MienError* error) {
     return mien_dna_write_file(dna.get(), to, nullptr, error);
   });
-  expect_survives_writing([&](const char* to, MienError* error) {
+  expect_survives_writing("mien_bake_file", [&](const char* to, MienError* error) {
     return mien_bake_file(rig.get(), nullptr, to, error);
   });
-  expect_survives_writing(
-      [&](const char* to, MienError* error) { return mien_clip_write_file(clip, to, error); });
+  expect_survives_writing("mien_clip_write_file", [&](const char* to, MienError* error) {
+    return mien_clip_write_file(clip, to, error);
+  });
+  expect_survives_writing("mien_mix_write_file", [&](const char* to, MienError* error) {
+    return mien_mix_write_file(mix, to, error);
+  });
 }
 
 // Every read of every stream ----------------------------------------------------------------------
@@ -319,7 +374,8 @@ TEST_F(FileFaults, StreamsMayFailAtEveryRead) {
   ASSERT_EQ(mien_clip_write_memory(clip, nullptr, 0, &size, nullptr), MIEN_OK);
   Bytes clip_bytes(size);
   ASSERT_EQ(mien_clip_write_memory(clip, clip_bytes.data(), size, &size, nullptr), MIEN_OK);
-  const auto survives = [](const Bytes& bytes, const auto& open) {
+  const auto survives = [](const char* function, const Bytes& bytes, const auto& open) {
+    tested.insert(function);
     for (const bool reads_short : {false, true}) {
       for (size_t k = 1;; ++k) {
         SCOPED_TRACE("read " + std::to_string(k));
@@ -344,7 +400,7 @@ TEST_F(FileFaults, StreamsMayFailAtEveryRead) {
       }
     }
   };
-  survives(dna_bytes,
+  survives("mien_dna_open_stream", dna_bytes,
            [](const MienStream& stream, const MienAllocator& allocator, MienError& error) {
              const auto desc = desc_with<MienDnaDesc>(&allocator);
              MienDna* opened = nullptr;
@@ -352,7 +408,7 @@ TEST_F(FileFaults, StreamsMayFailAtEveryRead) {
              mien_dna_close(opened);
              return status;
            });
-  survives(baked_bytes,
+  survives("mien_baked_open_stream", baked_bytes,
            [](const MienStream& stream, const MienAllocator& allocator, MienError& error) {
              const auto desc = desc_with<MienBakedDesc>(&allocator);
              MienBaked* opened = nullptr;
@@ -360,7 +416,7 @@ TEST_F(FileFaults, StreamsMayFailAtEveryRead) {
              mien_baked_close(opened);
              return status;
            });
-  survives(clip_bytes,
+  survives("mien_clip_open_stream", clip_bytes,
            [](const MienStream& stream, const MienAllocator& allocator, MienError& error) {
              const auto desc = desc_with<MienClipOpenDesc>(&allocator);
              MienClip* opened = nullptr;
