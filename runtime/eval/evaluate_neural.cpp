@@ -3,6 +3,7 @@
 // 8 "Machine-learned behavior").
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "runtime/eval/instance_packet.h"
@@ -63,21 +64,40 @@ void run_network(const Rig& rig, Instance& instance, const MlStep& step) {
   }
 }
 
-/// The same for several instances, one lane each.
-void run_network_together(const InstancePacket& those, const MlStep& step) {
+// Several instances: they are lanes ---------------------------------------------------------------
+
+/// The inputs of a step out of controls that are in lanes already: [control][32], the lanes of `those`.
+void gather_in_lanes(const Rig& rig, const float* controls, const MlStep& step, float* inputs) {
+  const uint32_t count = std::min(step.gather_count, rig.ml.layers[step.first_layer].input_count);
+  for (const uint16_t control : rig.ml.controls.slice(step.first_gather, count)) {
+    memcpy(inputs, controls + size_t{control} * kBatchLanes, kBatchLanes * sizeof(float));
+    inputs += kBatchLanes;
+  }
+}
+
+/// The same one by one.
+void gather_one_by_one(const InstancePacket& those, const MlStep& step, float* to) {
+  const Rig& rig = those.rig;
+  float* inputs[kBatchLanes];
+  for (uint32_t k = 0; k < those.count; ++k) {
+    inputs[k] = those.instances[k]->ml_layers[0].data;
+    gather(rig, *those.instances[k], step, inputs[k]);
+  }
+  rig.kernels->gather_lanes(inputs, those.count, rig.ml.layers[step.first_layer].input_count, to);
+}
+
+/// Layer after layer; returns the outputs of the last one in lanes. `controls` as for gather_in_lanes(), or
+/// null.
+const float* run_layers(const InstancePacket& those, const MlStep& step, const float* controls) {
   const Rig& rig = those.rig;
   const PacketScratch& scratch = *those.scratch;
   float* in = scratch.ml_layers[0].data;
   float* out = scratch.ml_layers[1].data;
-  const uint32_t input_count = rig.ml.layers[step.first_layer].input_count;
-  float *inputs[kBatchLanes], *outputs[kBatchLanes];
-  for (uint32_t k = 0; k < those.count; ++k) {
-    Instance& instance = *those.instances[k];
-    inputs[k] = instance.ml_layers[0].data;
-    outputs[k] = instance.ml_values.data + step.first_output;
-    gather(rig, instance, step, inputs[k]);
+  if (controls && step.gather_count >= rig.ml.layers[step.first_layer].input_count) {
+    gather_in_lanes(rig, controls, step, in);
+  } else {
+    gather_one_by_one(those, step, in);
   }
-  rig.kernels->gather_lanes(inputs, those.count, input_count, in);
   for (uint32_t l = 0; l < step.layer_count; ++l) {
     auto args = layer_args<DenseBatchArgs>(rig, rig.ml.layers[step.first_layer + l]);
     args.inputs = in;
@@ -87,7 +107,15 @@ void run_network_together(const InstancePacket& those, const MlStep& step) {
     rig.kernels->dense_batch(args);
     std::swap(in, out);
   }
-  rig.kernels->scatter_lanes(in, step.output_count, those.count, outputs, 0);
+  return in;
+}
+
+/// To where the step's outputs lie.
+void keep_values(const InstancePacket& those, const MlStep& step, const float* values) {
+  float* outputs[kBatchLanes];
+  for (uint32_t k = 0; k < those.count; ++k) outputs[k] = those.instances[k]->ml_values.data;
+  those.rig.kernels->scatter_lanes(values, step.output_count, those.count, outputs,
+                                   step.first_output);
 }
 
 /// A network step of those instances whose mask lets it run.
@@ -99,7 +127,7 @@ void run_networks(const InstancePacket& packet, const MlStep& step, const float*
   for (uint32_t i = 0; i < packet.count; ++i) {
     if (masks[i] > 0.0f) running[those.count++] = packet.instances[i];
   }
-  if (fills_lanes(those)) return run_network_together(those, step);
+  if (fills_lanes(those)) return keep_values(those, step, run_layers(those, step, nullptr));
   for (uint32_t i = 0; i < those.count; ++i) run_network(packet.rig, *running[i], step);
 }
 
@@ -123,13 +151,16 @@ float mask_of(const Rig& rig, const Instance& instance, const MlStep& step) {
   return mask > 0.0f ? (mask < 1.0f ? mask : 1.0f) : 0.0f;
 }
 
+uint32_t scatter_count(const Rig& rig, const MlStep& step, uint32_t lod) {
+  return std::min({step.scatter_count, step.output_count, rig.ml.limits[step.first_limit + lod]});
+}
+
 // Between 0 and 1 a mask blends with the default: 0, or 1 for the w of a quaternion. In the buffer,
 // for later steps, the default is 0.
 void scatter(const Rig& rig, Instance& instance, const MlStep& step, uint32_t lod, float mask) {
   const MlTable& ml = rig.ml;
   const float* values = instance.ml_values.data + step.first_output;
-  const uint32_t count =
-      std::min({step.scatter_count, step.output_count, ml.limits[step.first_limit + lod]});
+  const uint32_t count = scatter_count(rig, step, lod);
   const uint16_t* const to = ml.controls.data + step.first_scatter;
   float* const controls = instance.controls.data;
   if (mask == 1.0f) {
@@ -197,12 +228,53 @@ void clear_joint_controls(const Rig& rig, Instance& instance) {
 
 }  // namespace
 
+namespace {
+
+/// The controls that steps read, in lanes; null where lanes do not pay, or steps read what others write.
+const float* controls_in_lanes(const InstancePacket& packet) {
+  const Rig& rig = packet.rig;
+  if (!fills_lanes(packet) || (rig.feedback_stages & kStageMl) != 0) return nullptr;
+  uint32_t end = 0;
+  for (const MlStep& step : rig.ml.steps) {
+    for (const uint16_t control : rig.ml.controls.slice(step.first_gather, step.gather_count)) {
+      end = std::max<uint32_t>(end, control + 1u);
+    }
+  }
+  gather_controls(packet, end);
+  return packet.scratch->controls.data;
+}
+
+/// A network step that all instances run in full, and whose outputs are neighboring controls, without
+/// leaving the lanes. Returns whether it was one.
+bool run_in_lanes(const InstancePacket& packet, const MlStep& step, const float* masks,
+                  const float* controls) {
+  const Rig& rig = packet.rig;
+  if (!controls) return false;
+  float* to[kBatchLanes];
+  for (uint32_t i = 0; i < packet.count; ++i) {
+    if (masks[i] != 1.0f) return false;
+    to[i] = packet.instances[i]->controls.data;
+  }
+  const uint32_t count = scatter_count(rig, step, packet.lod);
+  const uint16_t* const targets = rig.ml.controls.data + step.first_scatter;
+  for (uint32_t i = 1; i < count; ++i) {
+    if (targets[i] != targets[0] + i) return false;
+  }
+  const float* const values = run_layers(packet, step, controls);
+  if (!rig.ml.dependencies.empty()) keep_values(packet, step, values);
+  if (count != 0) rig.kernels->scatter_lanes(values, count, packet.count, to, targets[0]);
+  return true;
+}
+
+}  // namespace
+
 void evaluate_ml(const InstancePacket& packet) {
   const Rig& rig = packet.rig;
   // What the last frame converted and no network writes in this one would be converted again.
   for (uint32_t i = 0; i < packet.count && rig.ml.converts; ++i) {
     clear_joint_controls(rig, *packet.instances[i]);
   }
+  const float* const controls = controls_in_lanes(packet);
   for (const MlStep& step : rig.ml.steps) {
     if (!is_active(step.lods, packet.lod)) continue;
     if (step.layer_count == 0) {
@@ -213,6 +285,7 @@ void evaluate_ml(const InstancePacket& packet) {
     for (uint32_t i = 0; i < packet.count; ++i) {
       masks[i] = mask_of(rig, *packet.instances[i], step);
     }
+    if (run_in_lanes(packet, step, masks, controls)) continue;
     run_networks(packet, step, masks);
     for (uint32_t i = 0; i < packet.count; ++i) {
       Instance& instance = *packet.instances[i];

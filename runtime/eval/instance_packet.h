@@ -4,7 +4,7 @@
 // computed for the whole packet, where that is faster; the bits are the same either way.
 //
 //     each instance:       what changed
-//     the packet:          ML: networks that many instances run
+//     the packet:          ML: networks that many instances run, in lanes from control to control
 //     each instance:       RBF
 //     the packet (batch):  PSD; of the joint matrix the columns that many instances use; rotations
 //     each instance:       PSD, joints, blend shapes, animated maps: what is left

@@ -105,7 +105,9 @@ TEST(Batch, OfNetworksWithMasks) {
           for (size_t i = 0; i < count; ++i) {
             for (size_t m = 0; m < packet.together[i].masks.count; ++m) {
               constexpr float kMasks[] = {1, 1, 0, 0.25f};
-              packet.together[i].masks[m] = packet.alone[i].masks[m] = kMasks[random.below(4)];
+              const float mask =
+                  kMasks[frame == 0 ? 0 : random.below(4)];  // first without leaving lanes
+              packet.together[i].masks[m] = packet.alone[i].masks[m] = mask;
             }
           }
           packet.evaluate(batch.get());
