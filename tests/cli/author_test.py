@@ -247,6 +247,45 @@ class AuthorTest(ProgramTest):
         self.assertEqual(report["mesh"]["objects"], 2)
         self.assertIn("brow", " ".join(self.names("out.dna", "meshes")))
 
+    def test_objects_that_are_not_named_are_left_out(self):
+        far = [(x, y + 100, z) for x, y, z in POSITIONS]
+        n, count = len(POSITIONS), len(FACES)
+        write("hat.obj", obj(POSITIONS + far, FACES + [tuple(v + n for v in face) for face in FACES],
+                             {0: "skin", count // 2: "scalp", count: "hat"}))
+        options = ("--joints", "20", "--lods", "1")
+        self.author(path("head.obj"), *options, name="head")
+        report = self.author(path("hat.obj"), "--objects", "scalp,skin", *options, name="bare")
+        head = json.loads(read("head.json"))
+        self.assertEqual(report["mesh"]["objects"], 2)
+        self.assertEqual([b["position"] for b in report["bones"]], [b["position"] for b in head["bones"]])
+        for names in ("skin,hair", "skin,", ","):
+            self.fails(INVALID, "author", path("hat.obj"), "--objects", names, "-o", path("no.dna"),
+                       says="skin, scalp, hat")
+
+    def test_what_is_rarely_meant_is_noted(self):
+        options = ("--lods", "1", "-o", path("odd.dna"))
+        many = run("author", path("head.glb"), "--joints", "400", *options).stderr
+        self.assertRegex(many, r"of \d+ facial joints weigh most at no position")
+        few = run("author", path("head.obj"), "--joints", "30", *options).stderr
+        self.assertEqual(few, "")
+        # A long snout is all of the front group.
+        snout = [(x, y, z + 30 * math.exp(-(x * x + (y + 2) ** 2) / 6) * (z > 0)) for x, y, z in POSITIONS]
+        said = run("author", write("snout.obj", obj(snout, FACES)), "--joints", "10", *options).stderr
+        self.assertRegex(said, r"the face mask has \d+ of \d+ places")
+
+    def test_the_report_has_every_figure_of_the_joint_groups_and_weights(self):
+        report = self.author(path("head.glb"), "--joints", "40", "--lods", "2")
+        groups = report["joint_groups"]
+        self.assertAlmostEqual(groups["density"], groups["nonzeros"] / groups["stored"], places=6)
+        self.assertEqual(len(groups["padding"]), 3)
+        before, removed, refitted = groups["rms_on_30_cm_mm"]
+        self.assertAlmostEqual(removed / before, groups["error_removed"] / groups["error_before"], places=5)
+        self.assertAlmostEqual(refitted / before, groups["error_refitted"] / groups["error_before"], places=5)
+        self.assertGreaterEqual(groups["faint"], 0)
+        for weights in (report["weights"], report["fitted_weights"]):
+            self.assertGreater(weights["least"], 0.9e-4)
+            self.assertLessEqual(weights["worst_sum"], 1e-6)
+
     def test_shapes_of_another_mesh_are_noted(self):
         options = ("--joints", "10", "--lods", "1", "-o", path("odd.dna"))
         self.assertNotIn("is it of this mesh", run("author", path("head.glb"), *options).stderr)
@@ -443,12 +482,34 @@ class AuthorTest(ProgramTest):
         self.assertEqual(process.returncode, 130)
         self.assertEqual(sorted(os.listdir(os.path.dirname(pipe))), before)
 
+    def test_an_interrupt_at_any_time_leaves_nothing(self):
+        self.ok("demo-head", "-o", path("slow.dna"))
+        self.ok("export", path("slow.dna"), "--lod", "3", "--bake-arkit", "-o", path("slow.glb"))
+        before = sorted(os.listdir(program.folder))
+        codes = set()
+        for wait in (0.02, 0.1, 0.25, 0.5, 0.8, 1.2, 1.7, 2.5):
+            process = subprocess.Popen([program.mien, "author", path("slow.glb"), "-o", path("no.dna"),
+                                        "--report", path("no.json"), "--pictures", path("none")],
+                                       stderr=subprocess.DEVNULL)
+            try:
+                process.wait(wait)
+            except subprocess.TimeoutExpired:
+                process.send_signal(signal.SIGINT)
+            codes.add(process.wait(60))
+            if 0 in codes:
+                break
+            self.assertEqual(sorted(os.listdir(program.folder)), before)
+        # Before it handles signals it ends by the signal itself.
+        self.assertTrue(codes <= {0, 130, -signal.SIGINT}, codes)
+        self.assertIn(130, codes)
+
     def test_real_meshes_where_there_are_some(self):
         if not os.path.isdir(SHARED):
             self.skipTest(f"no meshes in {SHARED}")
         mask = self.author(os.path.join(SHARED, "mediapipe", "canonical_face_model.obj"), "--joints",
                            "60", "--lods", "4")
         self.assertTrue(mask["face_only"])
+        self.assertIsNone(mask["neck"]["head_mean"])
         self.assertLess(mask["uncovered"], 0.01)
         ict = self.author(os.path.join(SHARED, "ict", "ict_neutral.obj"), "--joints", "120", "--lods", "1")
         self.assertTrue(ict["symmetry"]["enforced"])

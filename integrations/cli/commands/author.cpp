@@ -33,7 +33,7 @@ struct AuthorCommand {
   std::string joints = "240", influences = "8", lods = "8", seed = "1", groups = "3", threads = "0";
   std::string symmetry = "auto", residual = "targets", metric = "depth", up = "y", front = "z";
   std::string overlaps = "0", lod_triangles = "0.5";
-  std::string report, images, crop;
+  std::string report, images, crop, objects;
   bool paper = false, no_neck_cut = false, mask_from_shapes = false, area_density = false;
   OutputFile output;
 };
@@ -125,18 +125,44 @@ Crop parse_crop(const std::string& text) {
   return crop;
 }
 
-/// Leaves out faces with a corner outside. Positions keep their numbers, which shapes go by.
-void crop_mesh(const Crop& crop, const std::string& path, MeshFile& mesh) {
+/// The objects that are named, by number.
+std::vector<bool> parse_objects(const std::string& names, const std::string& path,
+                                const MeshFile& mesh) {
+  std::vector<bool> named(mesh.objects.size());
+  for (size_t at = 0, end = 0; end != std::string::npos; at = end + 1) {
+    end = names.find(',', at);
+    const std::string name = names.substr(at, end - at);
+    bool found = false;
+    std::string known;
+    for (size_t o = 0; o < mesh.objects.size(); ++o) {
+      if (mesh.objects[o].name == name) named[o] = found = true;
+      if (o < 12) known += (o > 0 ? ", " : "") + mesh.objects[o].name;
+    }
+    if (mesh.objects.size() > 12) known += ", ...";
+    if (!found) {
+      fail_mesh(shown_name(path), "", "it has no object \"" + name + "\"",
+                mesh.objects.empty() ? "leave out --objects" : "give some of: " + known);
+    }
+  }
+  return named;
+}
+
+/// Leaves out faces of other objects and those with a corner outside. Positions keep their numbers,
+/// which shapes go by.
+void keep_faces(const AuthorCommand& command, const Crop& crop, MeshFile& mesh) {
+  std::vector<bool> named(mesh.objects.size(), true);
+  if (!command.objects.empty()) named = parse_objects(command.objects, command.mesh, mesh);
   MeshFile kept;
   size_t corner = 0, face = 0;
-  for (const MeshObject& object : mesh.objects) {
+  for (size_t o = 0; o < mesh.objects.size(); ++o) {
+    const MeshObject& object = mesh.objects[o];
     MeshObject part = {object.name, static_cast<uint32_t>(kept.face_sizes.size()), 0};
     for (uint32_t f = 0; f < object.face_count; ++f) {
       const uint32_t size = mesh.face_sizes[face++];
       const uint32_t* corners = mesh.corners.data() + corner;
-      const bool inside = std::all_of(corners, corners + size, [&](uint32_t v) {
-        return crop.holds(&mesh.positions[size_t{3} * v]);
-      });
+      const bool inside = named[o] && std::all_of(corners, corners + size, [&](uint32_t v) {
+                            return crop.holds(&mesh.positions[size_t{3} * v]);
+                          });
       if (inside) {
         kept.face_sizes.push_back(size);
         kept.corners.insert(kept.corners.end(), corners, corners + size);
@@ -151,7 +177,7 @@ void crop_mesh(const Crop& crop, const std::string& path, MeshFile& mesh) {
     if (part.face_count > 0) kept.objects.push_back(part);
   }
   if (kept.face_sizes.empty()) {
-    fail_mesh(shown_name(path), "", "no face of it lies within --crop",
+    fail_mesh(shown_name(command.mesh), "", "no face of it lies within --crop",
               "the limits are in the unit and axes of the mesh");
   }
   mesh.face_sizes = std::move(kept.face_sizes);
@@ -248,11 +274,29 @@ void note_oddities(const AuthorCommand& command, const MeshFile& mesh, const Jso
   if (next > 0.5) {
     note(session, "another surface has " + std::to_string(std::lround(100 * next)) +
                       " % of the area of the face's: one face is rigged, the rest follows it or is "
-                      "rigid; choose with --face-object or --crop");
+                      "rigid; choose with --face-object, --objects or --crop");
   }
   const uint64_t facial = report["facial_joints"].get<uint64_t>();
   if (facial < parse_number("--joints", command.joints, 7000)) {
     note(session, "the face has room for " + std::to_string(facial) + " facial joints only");
+  }
+  const Json& weights = report[report["fit"].is_null() ? "weights" : "fitted_weights"];
+  const uint64_t idle = weights["idle_bones"].get<uint64_t>();
+  if (idle > facial / 10) {
+    note(session,
+         std::to_string(idle) + " of " + std::to_string(facial) +
+             " facial joints weigh most at no position: the mesh is coarse for as many; choose "
+             "with --joints");
+  }
+  if (const Json& groups = report["groups"]; !groups.is_null()) {
+    uint64_t places = 0;
+    for (const Json& count : groups["counts"]) places += count.get<uint64_t>();
+    const uint64_t mask = report["mask_places"].get<uint64_t>();
+    if (mask < places / 5) {
+      note(session, "the face mask has " + std::to_string(mask) + " of " + std::to_string(places) +
+                        " places: facial joints are there only; shapes, or --groups 2 "
+                        "--area-density, take in more");
+    }
   }
   if (report["face_only"].get<bool>()) {
     note(session,
@@ -318,7 +362,7 @@ void run(const AuthorCommand& command, const Session& session) {
   auto interrupt = std::make_unique<EndOnInterrupt>();
   MeshFile file = read_mesh_file(command.mesh);
   if (!command.shapes.empty()) file.shapes = read_shapes(command.shapes, file);
-  if (!command.crop.empty()) crop_mesh(crop, command.mesh, file);
+  if (!command.crop.empty() || !command.objects.empty()) keep_faces(command, crop, file);
   // glTF is in meters.
   if (command.unit.empty()) desc.unit = file.in_meters ? 100 : 1;
 
@@ -396,6 +440,10 @@ Command add_author_command(CLI::App& app, const Session& session) {
   author->add_option("--face-object", options->object, "Object with the face (default: found)")
       ->type_name("NAME");
   author
+      ->add_option("--objects", options->objects,
+                   "Keep these objects only: names with commas between")
+      ->type_name("NAMES");
+  author
       ->add_option("--groups", options->groups,
                    "Groups in depth, the front one is the face (default: 3)")
       ->type_name("N");
@@ -432,7 +480,7 @@ Command add_author_command(CLI::App& app, const Session& session) {
       "  mien author head.obj --shapes expressions/ -o head.dna --report report.json\n"
       "  mien author head.obj --joints 120 -o head.dna --pictures images/\n"
       "  mien author head.glb -o head.dna\n"
-      "  mien author body.obj --unit dm --crop -1,1,5,,, -o head.dna\n"
+      "  mien author body.obj --unit dm --objects body --crop -1,1,5,,, -o head.dna\n"
       "  mien author scan.obj --unit mm --up z --front -y -o head.dna");
   return {author, [options, &session] { run(*options, session); }};
 }

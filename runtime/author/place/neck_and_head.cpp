@@ -173,7 +173,8 @@ Status find_neck_and_head(Placing& placing, Vec3& neck, Vec3& head) {
 
   Vec3 axis = throat.found ? neck_axis(placing) : Vec3{};
   if (placing.symmetric) axis = normalized({0, axis.y, axis.z});
-  if (is_zero(axis)) axis = normalized(means.upper - means.lower);
+  const bool has_neck = !is_zero(axis);
+  if (!has_neck) axis = normalized(means.upper - means.lower);
   if (!(axis.y > 0)) axis = {0, 1, 0};
   neck = means.lower - axis * reach_down(placing, means.lower, -axis);
 
@@ -185,7 +186,9 @@ Status find_neck_and_head(Placing& placing, Vec3& neck, Vec3& head) {
   head = means.upper;
   // Not below the throat: the mean of the lower group lies within the neck.
   const double least = throat.found ? std::max(means.lower.y, throat.y) : means.lower.y;
-  head.y = std::min(std::max(head.y + rise, least), means.upper.y);
+  // A line through both means meets the vertical at the head's mean, which is no place to turn about.
+  const double most = has_neck ? means.upper.y : least;
+  head.y = std::min(std::max(head.y + rise, least), std::min(most, means.upper.y));
   hold(neck);
   hold(head);
   return Status::kOk;

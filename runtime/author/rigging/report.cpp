@@ -311,13 +311,22 @@ void write_fit(const Rigging& rigging, Json& json) {
     json.key("nonzeros").whole(groups.nonzeros);
     json.key("stored").whole(groups.stored);
     json.key("full").whole(groups.full);
+    json.key("density").number(static_cast<double>(groups.nonzeros) /
+                               static_cast<double>(std::max<uint64_t>(groups.stored, 1)));
     json.key("outliers").whole(groups.pruned.outliers);
+    json.key("faint").whole(groups.pruned.faint);
     json.key("padding").open("[");
     for (const double padding : groups.padding) json.number(padding);
     json.close("]");
     json.key("error_before").number(groups.before.error);
     json.key("error_removed").number(groups.removed.error);
     json.key("error_refitted").number(groups.refitted.error);
+    constexpr double kHead = 300;  // millimeters from corner to corner
+    json.key("rms_on_30_cm_mm").open("[");
+    for (const FitError* error : {&groups.before, &groups.removed, &groups.refitted}) {
+      json.number(error->rms * kHead);
+    }
+    json.close("]");
     json.close("}");
   }
   json.key("lods").open("[");
@@ -377,8 +386,14 @@ bool write_report(const MeshSource& source, const RiggingOptions& options, const
   json.key("face_only").boolean(place.face_only);
   json.key("neck").open("{");
   json.key("split").string(place.face_only ? "none" : split_name(place.neck_split));
-  json.key("head_mean").point(mesh.frame.to_file(place.head_mean));
-  json.key("neck_mean").point(mesh.frame.to_file(place.neck_mean));
+  for (const bool head : {true, false}) {  // of groups, which the front of a face has none of
+    json.key(head ? "head_mean" : "neck_mean");
+    if (place.face_only) {
+      json.word("null");
+    } else {
+      json.point(mesh.frame.to_file(head ? place.head_mean : place.neck_mean));
+    }
+  }
   json.close("}");
   json.key("symmetry").open("{");
   json.key("enforced").boolean(rigging.placement.symmetric);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -131,6 +132,29 @@ TEST(PlaceBones, RigsWhatIsNoHumanHead) {
     EXPECT_LT(length(bone.position - Vec3{10, 20, 30}), 7);
     EXPECT_GT(bone.position.z, 30);
   }
+}
+
+TEST(PlaceBones, AHeadWithoutNeckTurnsAboutALowPlace) {
+  const TestMesh whole = procedural_mesh(3, false);
+  TestMesh cropped;
+  cropped.positions = whole.positions;
+  size_t corner = 0;
+  for (const uint32_t size : whole.face_sizes) {
+    const std::vector<uint32_t> face(whole.corners.begin() + static_cast<ptrdiff_t>(corner),
+                                     whole.corners.begin() + static_cast<ptrdiff_t>(corner + size));
+    corner += size;
+    // The chin ends at -10.6.
+    if (std::all_of(face.begin(), face.end(),
+                    [&](uint32_t v) { return whole.positions[3 * v + 1] > -9; })) {
+      cropped.face(face);
+    }
+  }
+  const Placed placed(cropped, with_joints(30));
+  ASSERT_EQ(placed.status, Status::kOk) << placed.error.message;
+  EXPECT_FALSE(placed.report.throat.found);
+  const double head = placed.bone(BoneKind::kHead).position.y;
+  EXPECT_LT(head, 0) << "below the eyes";
+  EXPECT_GT(head, placed.bone(BoneKind::kNeck).position.y);
 }
 
 TEST(PlaceBones, HasNoMoreBonesThanPlaces) {
