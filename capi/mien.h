@@ -1531,7 +1531,8 @@ enum MienLooping {
     MIEN_LOOPING_WRAP = 2     /* starts over; the length is frames * ticks per frame */
 };
 
-/* A named moment of a clip, such as a phoneme. */
+/* A named moment of a clip, such as a phoneme. "close:lips", "close:lip-to-teeth" and "close:teeth" make guards
+ * of mixers active in layers of speech, for `value` seconds. */
 typedef struct MienClipEvent {
     int64_t tick;
     MienStringView name;

@@ -191,6 +191,7 @@ void fill_binding(const Clip& clip, const Rig& rig, Span<const MatrixEntry> matr
                   Scratch& scratch, Binding& binding) {
   binding.raw_count = rig.raw_count;
   binding.channel_count = clip.channel_count;
+  binding.closures = find_closures(clip);
   // Lists begin empty and grow within their room.
   binding.copies.count = binding.constants.count = 0;
   binding.sums.count = binding.terms.count = binding.rows.count = 0;

@@ -14,7 +14,7 @@
 // that the matrix drives is not driven by GUI controls.
 #pragma once
 
-#include "runtime/anim/clip.h"
+#include "runtime/anim/closures.h"
 #include "runtime/base/allocator.h"
 #include "runtime/rig/rig.h"
 
@@ -67,6 +67,7 @@ struct Binding {
   Span<uint16_t> missing_channels;  // of the clip: they drive nothing, because the rig lacks their
                                     // names or an earlier channel drives the same control
   Span<uint16_t> extra_controls;    // raw controls that nothing drives, ascending
+  Closures closures;                // of the clip
   uint32_t missing_entries = 0;     // of the matrix: no such channel or no such control
 };
 

@@ -154,6 +154,20 @@ Status open_clip(const uint8_t* bytes, size_t size, Clip& out, Error& error) {
   return Status::kOk;
 }
 
+int64_t count_events(const Clip& clip, int64_t tick, bool at_too) {
+  uint32_t begin = 0, end = clip.event_count;
+  while (begin < end) {
+    const uint32_t middle = (begin + end) / 2;
+    const int64_t here = clip.event_tick(middle);
+    if (here < tick || (at_too && here == tick)) {
+      begin = middle + 1;
+    } else {
+      end = middle;
+    }
+  }
+  return begin;
+}
+
 uint32_t find_channel(const Clip& clip, Span<const char> name) {
   for (uint32_t c = 0; c < clip.channel_count; ++c) {
     if (compare_names(clip.name(c), name) == 0) return c;

@@ -105,8 +105,12 @@ struct Clip {
   uint32_t changing(uint32_t i) const { return load<uint16_t>(at.changing, i); }
   ClipEvent event(uint32_t i) const {
     const uint8_t* entry = bytes + at.events + size_t{i} * kEventSize;
-    return {load_little_endian<int64_t>(entry), name(load_little_endian<uint32_t>(entry + 8)),
+    return {load_little_endian<int64_t>(entry), name(event_name(i)),
             load_little_endian<float>(entry + 12)};
+  }
+  /// Its place among the names.
+  uint32_t event_name(uint32_t i) const {
+    return load_little_endian<uint32_t>(bytes + at.events + size_t{i} * kEventSize + 8);
   }
   int64_t event_tick(uint32_t i) const {
     return load_little_endian<int64_t>(bytes + at.events + size_t{i} * kEventSize);
@@ -147,6 +151,9 @@ Status open_clip(const uint8_t* bytes, size_t size, Clip& out, Error& error);
 
 /// The first channel of a name, exactly as written; kNoChannel if there is none.
 uint32_t find_channel(const Clip& clip, Span<const char> name);
+
+/// Events before a tick, or before and at it.
+int64_t count_events(const Clip& clip, int64_t tick, bool at_too);
 
 /// How the bytes of names are ordered: negative, 0 or positive.
 int compare_names(Span<const char> a, Span<const char> b);

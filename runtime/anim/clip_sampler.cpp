@@ -39,21 +39,6 @@ void count_loops(ClipSampler& sampler, int64_t passed) {
   sampler.loops = loops < -kMaxLoops ? -kMaxLoops : loops > kMaxLoops ? kMaxLoops : loops;
 }
 
-/// Events before a tick, or before and at it.
-int64_t count_events(const Clip& clip, int64_t tick, bool at_too) {
-  uint32_t begin = 0, end = clip.event_count;
-  while (begin < end) {
-    const uint32_t middle = (begin + end) / 2;
-    const int64_t here = clip.event_tick(middle);
-    if (here < tick || (at_too && here == tick)) {
-      begin = middle + 1;
-    } else {
-      end = middle;
-    }
-  }
-  return begin;
-}
-
 /// Decodes a whole block for playing backward.
 void fill_block_rows(ClipSampler& sampler, uint32_t block) {
   const uint32_t first = block * kBlockFrames;

@@ -21,6 +21,18 @@ struct GuardPair {
   float gain;  // millimeters
 };
 
+/// Guards that a rig is searched for (runtime/probe/find_landmarks.cpp).
+enum class StandardGuard : uint8_t {
+  kLipsLeft,
+  kLipsCenter,
+  kLipsRight,
+  kLipToTeeth,
+  kLidsLeft,
+  kLidsRight,
+  kTeeth
+};
+constexpr uint32_t kStandardGuardCount = 7;
+
 /// A distance in millimeters; at 0 both sides touch, below they overlap:
 ///     f(row) = rest + sum of gain * lane + sum of gain * lane * lane over the pairs
 /// runtime/probe/probe_guards.h measures the gains on a rig.
@@ -37,7 +49,7 @@ struct Guard {
   /// Bit i: lanes i - 1 and i, the same control of both halves of the face, go back by the same share.
   uint32_t together;
   GuardPair pairs[kMaxGuardPairs];
-  uint32_t kind;  // the caller's, for telling guards apart
+  uint32_t kind;  // a StandardGuard, or none of them
 };
 
 /// f(row)

@@ -16,6 +16,20 @@ inline size_t layer_row_floats(const Mix& mix) { return size_t{2} * mix.lane_cou
 /// cover the same lanes all the time.
 size_t shown_floats(const Mix& mix, uint32_t layer);
 
+/// With what the layer fades in and out.
+inline float layer_weight(const LayerState& layer, BlendMode mode, int64_t now) {
+  const float lowest = mode == BlendMode::kAdd ? -1.0f : 0.0f;
+  const float wanted = fade_value(layer.weight, now), there = fade_value(layer.presence, now);
+  const float weight = wanted * (there < 1.0f ? (there > 0.0f ? there : 0.0f) : 1.0f);
+  return weight < 1.0f ? (weight > lowest ? weight : lowest) : 1.0f;
+}
+
+/// Of the current player in a crossfade.
+inline float cross_share(const LayerState& layer, int64_t now) {
+  const float s = fade_value(layer.cross, now);
+  return s < 1.0f ? (s > 0.0f ? s : 0.0f) : 1.0f;
+}
+
 /// One of the two rows of values of a player, and which lanes it covers.
 inline float* player_values(const Mix& mix, const Player& player, uint32_t row) {
   return player.rows.data + (row == 0 ? 0 : 2 * size_t{mix.lane_count});

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "runtime/mix/mixer_layers.h"
+#include "runtime/mix/speech.h"
 
 namespace mien {
 namespace {
@@ -32,13 +33,6 @@ void advance_players(Mixer& mixer, int64_t ticks) {
       report_events(mixer, i, advance_clip(mixer.players[layer.current].sampler, ticks));
     }
   }
-}
-
-float layer_weight(const LayerState& layer, BlendMode mode, int64_t now) {
-  const float lowest = mode == BlendMode::kAdd ? -1.0f : 0.0f;
-  const float wanted = fade_value(layer.weight, now), there = fade_value(layer.presence, now);
-  const float weight = wanted * (there < 1.0f ? (there > 0.0f ? there : 0.0f) : 1.0f);
-  return weight < 1.0f ? (weight > lowest ? weight : lowest) : 1.0f;
 }
 
 /// Where the row goes that a layer shows now: over the older one of its two.
@@ -90,8 +84,7 @@ void mix_clip_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
   }
   const Mix& mix = *mixer.mix;
   Player& current = mixer.players[layer.current];
-  float s = fade_value(layer.cross, now);
-  s = s < 1.0f ? (s > 0.0f ? s : 0.0f) : 1.0f;
+  const float s = cross_share(layer, now);
   if (s == 1.0f) release_player(mixer, layer.previous);
   float* shown = next_shown_row(mixer, index, ticks);
   if (layer.previous == kNoPlayer && !has_offsets(mixer, layer)) {
@@ -236,26 +229,6 @@ void mix_layers(Mixer& mixer, uint32_t begin, uint32_t end, bool after_guards, i
   }
 }
 
-/// The strongest layer of speech.
-float speech_weight(const Mixer& mixer) {
-  float speech = 0.0f;
-  for (size_t i = 0; i < mixer.layers.count; ++i) {
-    const MixLayer& layer = mixer.mix->layers[i];
-    if (layer.group != LayerGroup::kSpeech) continue;
-    const float weight = layer_weight(mixer.layers[i], layer.mode, mixer.header->now);
-    if (weight > speech) speech = weight;
-  }
-  return speech;
-}
-
-/// Of a guard whose distance is that in the protected row.
-float activation_of(const Mixer& mixer, size_t guard, float distance, float speech) {
-  const float wanted = mixer.guard_overrides[guard];
-  if (wanted >= 0.0f) return wanted;
-  const Guard& of = mixer.mix->guards[guard];
-  return guard_activation(of, distance) * (of.needs_speech ? speech : 1.0f);
-}
-
 void mix_guards(Mixer& mixer, int64_t ticks) {
   const Mix& mix = *mixer.mix;
   if (mix.guards.empty()) return;
@@ -264,7 +237,7 @@ void mix_guards(Mixer& mixer, int64_t ticks) {
   const float* const before = guarded_row(mixer, kProtected);
   const float* const free_row = guarded_row(mixer, kFree);
   float* const row = guarded_row(mixer, kGuarded);
-  const float speech = speech_weight(mixer);
+  const Speech speech = find_speech(mixer);
   float distances[kMaxGuards], activations[kMaxGuards];
   for (size_t i = 0; i < mix.guards.count; ++i) {
     distances[i] = guard_distance(mix.guards[i], before);
@@ -305,7 +278,7 @@ Status guard_state(const Mixer& mixer, uint32_t guard, GuardState& state, Error&
   state.wanted = guard_distance(of, guarded_row(mixer, kFree));
   state.distance = guard_distance(of, guarded_row(mixer, kGuarded));
   state.limit = std::max(state.protected_distance, 0.0f) + of.tolerance;
-  state.activation = activation_of(mixer, guard, state.protected_distance, speech_weight(mixer));
+  state.activation = activation_of(mixer, guard, state.protected_distance, find_speech(mixer));
   return Status::kOk;
 }
 

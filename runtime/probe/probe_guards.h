@@ -16,7 +16,7 @@ struct GuardDesc {
   float tolerance = 0.3f;           // see Guard
   float f_on = 12;
   bool needs_speech = true;
-  uint32_t kind = 7;  // of the Guard: one of StandardGuard, or none of them
+  uint32_t kind = kStandardGuardCount;  // of the Guard: a StandardGuard, or none of them
 };
 
 /// Evaluates and deforms the rig at LOD 0, with each raw control by itself, and with pairs of them
@@ -24,17 +24,6 @@ struct GuardDesc {
 /// all but the rarest. kInvalidArgument, kIndex, kMemory.
 Status probe_guards(const Deformer& deformer, Span<const GuardDesc> descs,
                     const Allocator& allocator, Span<Guard> out, Error& error);
-
-enum class StandardGuard : uint8_t {
-  kLipsLeft,
-  kLipsCenter,
-  kLipsRight,
-  kLipToTeeth,
-  kLidsLeft,
-  kLidsRight,
-  kTeeth
-};
-constexpr uint32_t kStandardGuardCount = 7;
 
 struct StandardGuards {
   GuardDesc descs[kStandardGuardCount];

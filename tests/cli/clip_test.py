@@ -170,6 +170,24 @@ class RoundTrip(ClipTest):
         table = self.ok("clip", "export", clip, "-o", path("events.csv"))
         self.assertIn("no place for its 2 events", str(table.stderr))
 
+    def test_events_that_close_lips(self):
+        frames = [{"raw": {"a": k / 4}} for k in range(60)]
+        events = [{"time": 0.25, "name": "M", "value": 0.125}, {"time": 0.5, "name": "ah"},
+                  {"time": 0.5, "name": "f", "value": 0.0625}]
+        clip = self.build(json.dumps({"rate": 60, "events": events, "frames": frames}),
+                          "--close", "m,b,p=lips", "--close", "F,v=lip-to-teeth")
+        self.ok("clip", "export", clip, "-o", path("events.json"))
+        with open(path("events.json"), encoding="utf-8") as file:
+            found = json.load(file)["events"]
+        self.assertEqual([(e["time"], e["name"], e["value"]) for e in found],
+                         [(0.25, "M", 0.125), (0.25, "close:lips", 0.125), (0.5, "ah", 0),
+                          (0.5, "f", 0.0625), (0.5, "close:lip-to-teeth", 0.0625)])
+        with open(path("bad.json"), "w", encoding="utf-8") as file:
+            json.dump({"rate": 60, "events": events, "frames": frames}, file)
+        for option, code in (("m=lip", 1), ("m", 1), ("=lips", 1), ("ah=lips", 2)):
+            self.fails(code, "clip", "build", path("bad.json"), "-o", path("bad.clip"), "--close",
+                       option)
+
 
 class Information(ClipTest):
     def test_json(self):

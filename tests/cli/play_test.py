@@ -190,6 +190,26 @@ class PlayTest(unittest.TestCase):
         self.assertEqual(free.value("browInnerUp", 60), held.value("browInnerUp", 60))
         self.assertLess(held.value("jawOpen", 60), free.value("jawOpen", 60) - 0.1)
 
+    def test_a_clip_says_when_lips_are_closed(self):
+        # A mouth at rest has closed lips, too: only who knows the phonemes tells a pause from an M.
+        write("talk.json", json.dumps({
+            "rate": 60, "frames": [{"raw": {"jawOpen": 0}}] * 121,
+            "events": [{"time": 1, "name": "M", "value": 0.1}]}))
+        awe = {"name": "awe", "group": "emotion", "mode": "screen", "source": {
+            "poses": {"awe": {"jawOpen": 0.5}}, "weights": {"awe": 1}}}
+        jaws = []
+        for options in ([], ["--close", "m,b,p=lips", "--close", "f,v=lip-to-teeth"],
+                        ["--close", "m,b,p=lips", "--close", "M=lip-to-teeth"]):
+            done = run("clip", "build", path("talk.json"), "-o", path("m.clip"), *options)
+            self.assertEqual(done.returncode, DONE, done.stderr.decode())
+            played = self.play({"guards": ["lips"], "layers": [
+                {**TALK, "source": {"clip": "m.clip"}}, awe]}, "--stages", "jawOpen")
+            jaws.append([played.value("jawOpen", frame) for frame in (30, 60, 63, 66, 90)])
+        self.assertLess(max(jaws[0]), 0.1, "closed by the distance all the time")
+        self.assertLess(max(jaws[1]), 0.1, "the guard of lip and teeth has no label")
+        self.assertEqual([jaws[2][0], jaws[2][4]], [0.5, 0.5], "in the pauses")
+        self.assertLess(max(jaws[2][1:4]), 0.05, "in the M")
+
     def test_a_guard_tells_why_it_holds_a_lane_back(self):
         scene = load(os.path.join(here, "../../examples/scene.json"))
         played = self.play(scene, "--stages", "jawOpen", "-o", path("why.json"), "-o", path("why.svg"))

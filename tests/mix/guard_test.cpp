@@ -415,5 +415,109 @@ TEST(GuardOfAMixer, IsRefusedWithPairsThatDoNotFit) {
   EXPECT_EQ(status_of({0, 1, 1}, kMaxGuardPairs + 1), Status::kInvalidArgument);
 }
 
+// Clips that say when lips are closed -------------------------------------------------------------
+
+/// Speech as a clip whose row never opens, so that the distance alone would hold all the time; an
+/// emotion that opens.
+struct LabeledSpeech {
+  Guard guard = some_guard();
+  MixInput input{4};
+  MixHandle mix;
+  BoundClip labeled, plain;
+
+  static ClipInput speech(std::vector<ClipInput::Event> events) {
+    Curves curves(1, 120);
+    ClipInput made(std::move(curves));
+    made.names = {"CTRL_expressions.control3"};
+    made.events = std::move(events);
+    return made;
+  }
+  explicit LabeledSpeech(StandardGuard kind = StandardGuard::kLipsCenter)
+      : labeled(speech({{1000 * kMillisecond, "close:lips", 0.1f}}), 4, {3}),
+        plain(speech({}), 4, {3}) {
+    guard.needs_speech = 1;
+    guard.kind = static_cast<uint32_t>(kind);
+    input.add(BlendMode::kOverride, LayerSource::kClip, LayerGroup::kSpeech);
+    LayerDesc& emotion = input.add(BlendMode::kScreen, LayerSource::kPoses, LayerGroup::kEmotion);
+    emotion.pose_count = 1;
+    emotion.first_pose = input.add_pose({0, 2}, {0.25f, 0.6f});
+    input.desc.guards = {&guard, 1};
+    mix = make_mix(input);
+  }
+  /// Of the guard, at some milliseconds.
+  static float activation(OwnMixer& own) {
+    GuardState state = {};
+    Error error;
+    EXPECT_EQ(guard_state(own.mixer, 0, state, error), Status::kOk);
+    return state.activation;
+  }
+};
+
+TEST(GuardOfAMixer, HoldsWhatAClipSaysAndNothingElseOfIt) {
+  const LabeledSpeech made;
+  OwnMixer own(made.mix);
+  own.play(0, made.labeled);
+  own.pose(1, 0, 1);
+  for (int step = 1; step <= 110; ++step) {
+    const Row row = own.step(kStep);
+    const int64_t ms = step * 1000 / 60;
+    if (ms < 870 || ms > 1290) {
+      EXPECT_EQ(row[2], 0.6f) << ms << ": a pause, in which joy may open the lips";
+      EXPECT_EQ(LabeledSpeech::activation(own), 0);
+    }
+    if (ms < 1000 || ms > 1100) continue;
+    EXPECT_EQ(LabeledSpeech::activation(own), 1) << ms;
+    EXPECT_NEAR(guard_distance(made.guard, row.data()), 0.5f, 1e-5f) << "in time";
+  }
+}
+
+TEST(GuardOfAMixer, OfAnotherKindOrClipIsClosedByTheDistance) {
+  for (StandardGuard kind : {StandardGuard::kLipToTeeth, StandardGuard::kTeeth,
+                             StandardGuard::kLidsLeft, StandardGuard(99)}) {
+    const LabeledSpeech made(kind);
+    OwnMixer own(made.mix);
+    own.play(0, made.labeled);
+    own.step(kStep);
+    EXPECT_EQ(LabeledSpeech::activation(own), 1) << static_cast<int>(kind);
+  }
+  const LabeledSpeech made;
+  OwnMixer own(made.mix);
+  own.play(0, made.plain);
+  own.step(kStep);
+  EXPECT_EQ(LabeledSpeech::activation(own), 1) << "a clip that says nothing";
+}
+
+TEST(GuardOfAMixer, GoesFromOneClipToTheOtherAsACrossfadeDoes) {
+  const LabeledSpeech made;
+  OwnMixer own(made.mix);
+  own.play(0, made.plain);
+  own.step(kStep);
+  own.play(0, made.labeled, Transition::kCrossfade, 400 * kMillisecond);
+  float before = 1;
+  for (int ms = 4; ms <= 400; ms += 4) {
+    own.step(4 * kMillisecond);
+    const float now = LabeledSpeech::activation(own);
+    EXPECT_LE(now, before + 1e-6f);
+    EXPECT_GE(now, before - 0.02f);
+    before = now;
+  }
+  EXPECT_EQ(before, 0);
+}
+
+TEST(GuardOfAMixer, OfALabeledClipIsAFunctionOfTimeAndOfTheWeight) {
+  const LabeledSpeech made;
+  OwnMixer fine(made.mix), coarse(made.mix);
+  for (OwnMixer* own : {&fine, &coarse}) {
+    own->play(0, made.labeled);
+    own->weight(0, 0.5f);
+  }
+  for (int step = 0; step < 60; ++step) {
+    for (int k = 0; k < 4; ++k) fine.step(kStep / 4);
+    coarse.step(kStep);
+    EXPECT_EQ(LabeledSpeech::activation(fine), LabeledSpeech::activation(coarse));
+  }
+  EXPECT_EQ(LabeledSpeech::activation(fine), 0.5f);
+}
+
 }  // namespace
 }  // namespace mien

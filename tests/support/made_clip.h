@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,8 +43,12 @@ struct ClipInput {
     name_views_ = views(names);
     event_views_.clear();
     event_name_views_.clear();
+    std::vector<std::string> unique;  // a name is stored once, however many events have it
     for (const Event& event : events) {
-      event_views_.push_back({event.tick, static_cast<uint32_t>(event_views_.size()), event.value});
+      const auto at = std::find(unique.begin(), unique.end(), event.name);
+      event_views_.push_back({event.tick, static_cast<uint32_t>(at - unique.begin()), event.value});
+      if (at != unique.end()) continue;
+      unique.push_back(event.name);
       event_name_views_.push_back({event.name.data(), event.name.size()});
     }
     ClipDesc desc;

@@ -38,6 +38,7 @@ struct BoundClip {
     binding.copies = {copies_.data(), copies_.size()};
     binding.constants = {constants_.data(), constants_.size()};
     binding.controls = {controls_.data(), controls_.size()};
+    binding.closures = find_closures(made.clip);
     source = {++last_id(), &made.clip, &binding};
   }
 

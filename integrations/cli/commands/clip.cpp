@@ -23,6 +23,7 @@ namespace {
 
 struct BuildOptions {
   std::string input, rate, snap, tolerance, rig, loop = "clamp", channels, minus;
+  std::vector<std::string> closures;
   bool resample = false;
   OutputFile output;
 };
@@ -265,6 +266,7 @@ void run_build(const BuildOptions& options, const Session& session) {
   refuse_replacing(options.output, {options.input});
   Take take = parse_take(read_text(options.input, "cannot read take"), shown_name(options.input));
   if (!options.channels.empty()) keep_channels(take, options.channels);
+  for (const std::string& closure : options.closures) add_closures(take, closure);
   const Rate rate = settle_rate(take, wanted, options.resample, session);
   if (!options.minus.empty()) subtract(take, options.minus, session);
 
@@ -555,6 +557,15 @@ Command add_clip_command(CLI::App& app, const Session& session) {
           "Make a clip of differences, for layers that add: from a frame of\nIN (its number, "
           "from 0 on), from another clip frame by frame, or\nnothing if IN has differences")
       ->type_name("FROM");
+  build_app
+      ->add_option(
+          "--close", build->closures,
+          "Events that close something for as many seconds as their value\nis, with commas "
+          "between: m,b,p=lips, f,v=lip-to-teeth, s,z=teeth.\nGuards hold on to that in "
+          "layers of speech. Can be repeated")
+      ->type_name("NAMES=WHAT")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   build_app->add_flag("--resample", build->resample,
                       "Interpolate rows that do not lie on a constant rate");
   build_app->footer(
@@ -569,6 +580,7 @@ Command add_clip_command(CLI::App& app, const Session& session) {
       "Examples:\n"
       "  mien clip build take.csv -o take.clip\n"
       "  mien clip build take.csv -o small.clip --snap 1/2048 --channels 'jaw*,mouth*'\n"
+      "  mien clip build talk.json -o talk.clip --close m,b,p=lips --close f,v=lip-to-teeth\n"
       "  mien clip build nod.csv -o nod.clip --minus 0\n"
       "  mien clip build phone.csv -o phone.clip --rig head.dna --tolerance 0.05\n"
       "  mien clip build phone.csv -o phone.clip --resample --rate 60");
@@ -592,7 +604,7 @@ Command add_clip_command(CLI::App& app, const Session& session) {
       ->required();
   export_app->footer(
       "Numbers have the digits that give the same floats back: building a clip of the file gives\n"
-      "the same frames. Events are not written.\n\n"
+      "the same frames. JSON has the events, too.\n\n"
       "Examples:\n"
       "  mien clip export take.clip -o take.csv\n"
       "  mien clip export take.clip -o frames.json\n"

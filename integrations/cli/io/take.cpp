@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/cli/io/take.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "integrations/cli/io/controls.h"
 #include "integrations/cli/io/failure.h"
 #include "integrations/cli/io/nearest_name.h"
+#include "integrations/cli/io/text.h"
 
 namespace mien::cli {
 
@@ -48,6 +50,32 @@ void keep_channels(Take& take, const std::string& patterns) {
   }
   take.names = std::move(names);
   take.values = std::move(values);
+}
+
+void add_closures(Take& take, const std::string& option) {
+  const std::vector<std::string> known = {"lips", "lip-to-teeth", "teeth"};
+  const size_t equals = option.rfind('=');
+  const std::string what = equals == std::string::npos ? "" : option.substr(equals + 1);
+  if (equals == 0 || std::find(known.begin(), known.end(), what) == known.end()) {
+    fail_usage("--close \"" + one_line(option) + "\"", "not names of events = what they close",
+               "write m,b,p=lips, or f,v=lip-to-teeth, or s,z=teeth");
+  }
+  const auto lower = [](std::string text) {
+    for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return text;
+  };
+  const std::string names = "," + lower(option.substr(0, equals)) + ",";
+  const size_t count = take.events.size();
+  for (size_t i = 0; i < count; ++i) {
+    const TakeEvent event = take.events[i];
+    if (names.find("," + lower(event.name) + ",") == std::string::npos) continue;
+    if (!(event.value > 0)) {
+      fail(kInvalid, "cannot build clip", take.shown + ", event \"" + one_line(event.name) + "\"",
+           "its value is not a time in seconds, so nothing says how long it closes",
+           "give it one, such as 0.08");
+    }
+    take.events.push_back({event.tick, "close:" + what, event.value});
+  }
 }
 
 void resample(Take& take, const Rate& rate) {

@@ -1050,7 +1050,10 @@ export interface BakedDeformerDesc {
   normals?: Normals;
 }
 
-/** A named moment of a clip, such as a phoneme. */
+/**
+ * A named moment of a clip, such as a phoneme. "close:lips", "close:lip-to-teeth" and "close:teeth" make guards
+ * of mixers active in layers of speech, for `value` seconds.
+ */
 export interface ClipEvent {
   tick?: number;
   name?: string;

@@ -1530,7 +1530,8 @@ impl Default for MienBakedDeformerDesc {
     }
 }
 
-/// A named moment of a clip, such as a phoneme.
+/// A named moment of a clip, such as a phoneme. "close:lips", "close:lip-to-teeth" and
+/// "close:teeth" make guards of mixers active in layers of speech, for `value` seconds.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienClipEvent {
