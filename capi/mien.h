@@ -2063,7 +2063,8 @@ MIEN_DEFAULT(MienMixDesc, mien_mix_desc_default)
  * and for pairs of raw controls that share a corrective. Destroy with mien_mix_destroy().
  * Fails with MIEN_ERROR_MISMATCH if the deformer or the gaze is for another rig, MIEN_ERROR_INDEX if a
  * landmark names a mesh, position or joint that does not exist, MIEN_ERROR_INVALID_ARGUMENT if a field
- * of `desc` is out of range; the message names it. */
+ * of `desc` is out of range; the message names it, MIEN_ERROR_DNA_LIMIT if guards are measured and raw
+ * controls times joints exceed 2^22. */
 MIEN_CHECKED MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc,
                                         MienMix** out_mix, MienError* error);
 
@@ -2167,7 +2168,7 @@ MIEN_CHECKED MienStatus mien_mix_glare(uint32_t first_pose, MienMixStroke* out_s
 
 /* Finds antagonists: pairs of raw controls that only the two halves of one GUI control drive. Writes as
  * many as fit, with stiffness 1; `out_count` is the total number. `out_pairs` may be NULL if `capacity` is
- * 0. */
+ * 0. Raw controls from 4096 on, which no mix has, are left out. */
 MIEN_CHECKED MienStatus mien_mix_antagonists(const MienRig* rig, MienMixAntagonists* out_pairs,
                                              size_t capacity, size_t* out_count);
 
@@ -2177,7 +2178,7 @@ MIEN_CHECKED MienStatus mien_mix_antagonists(const MienRig* rig, MienMixAntagoni
  * themselves. Evaluates the rig once for each raw control, and takes memory from its allocator during
  * the call.
  * Fails with MIEN_ERROR_MEMORY if that returns NULL, MIEN_ERROR_MISMATCH if `lane_count` is less than the
- * raw controls. */
+ * raw controls, MIEN_ERROR_DNA_LIMIT if raw controls times joints exceed 2^22. */
 MIEN_CHECKED MienStatus mien_mix_mirror(const MienDeformer* deformer, uint16_t* out_lanes,
                                         size_t lane_count, MienError* error);
 

@@ -68,6 +68,7 @@ uint16_t find_mirrored_name(const NameList& names, uint32_t index) {
 
 /// How three points at each joint are displaced: in the middle, to the front, and above it.
 constexpr uint32_t kMotionFloats = 9;
+constexpr uint32_t kMaxMotions = 1 << 22;  // 151 MB
 
 class Mirror {
  public:
@@ -187,31 +188,38 @@ int driven_half(const ControlTable& table, size_t row) {
 
 uint32_t find_antagonists(const Rig& rig, Span<AntagonistPair> out) {
   const ControlTable& table = rig.gui_to_raw;
-  const size_t rows = table.inputs.count;
+  // [raw control] the first row that drives it, if all its rows are of one half of one GUI control.
+  constexpr uint32_t kNoRow = ~uint32_t{0}, kMixed = kNoRow - 1;
+  uint32_t first_rows[kMaxLanes];
+  std::fill(first_rows, first_rows + kMaxLanes, kNoRow);
+  for (uint32_t r = 0; r < table.inputs.count; ++r) {
+    if (table.outputs[r] >= kMaxLanes) continue;
+    uint32_t& first = first_rows[table.outputs[r]];
+    if (first == kNoRow) {
+      first = r;
+    } else if (first != kMixed && (table.inputs[r] != table.inputs[first] ||
+                                   driven_half(table, r) != driven_half(table, first))) {
+      first = kMixed;
+    }
+  }
+  // Those of lower halves, by their GUI controls.
+  uint16_t lower[kMaxLanes];
+  uint32_t lower_count = 0;
+  for (uint16_t c = 0; c < kMaxLanes; ++c) {
+    if (first_rows[c] < kMixed && driven_half(table, first_rows[c]) == -1) lower[lower_count++] = c;
+  }
+  const auto gui_of = [&](uint16_t control) { return table.inputs[first_rows[control]]; };
+  std::sort(lower, lower + lower_count, [&](uint16_t x, uint16_t y) {
+    return gui_of(x) != gui_of(y) ? gui_of(x) < gui_of(y) : first_rows[x] < first_rows[y];
+  });
   uint32_t count = 0;
-  // True if all rows of the raw control of this row are of the same half of the same GUI control.
-  const auto is_alone = [&](size_t row) {
-    for (size_t r = 0; r < rows; ++r) {
-      if (table.outputs[r] != table.outputs[row]) continue;
-      if (table.inputs[r] != table.inputs[row]) return false;
-      if (driven_half(table, r) != driven_half(table, row)) return false;
-    }
-    return true;
-  };
-  const auto is_first = [&](size_t row) {
-    for (size_t r = 0; r < row; ++r) {
-      if (table.outputs[r] == table.outputs[row]) return false;
-    }
-    return true;
-  };
-  for (size_t a = 0; a < rows; ++a) {
-    if (driven_half(table, a) != 1 || !is_first(a) || !is_alone(a)) continue;
-    for (size_t b = 0; b < rows; ++b) {
-      if (table.inputs[b] != table.inputs[a] || driven_half(table, b) != -1 || !is_first(b) ||
-          !is_alone(b)) {
-        continue;
-      }
-      if (count < out.count) out[count] = {table.outputs[a], table.outputs[b], 1};
+  for (uint32_t r = 0; r < table.inputs.count; ++r) {
+    const uint16_t a = table.outputs[r];
+    if (a >= kMaxLanes || first_rows[a] != r || driven_half(table, r) != 1) continue;
+    const uint16_t* b = std::lower_bound(lower, lower + lower_count, table.inputs[r],
+                                         [&](uint16_t x, uint16_t gui) { return gui_of(x) < gui; });
+    for (; b != lower + lower_count && gui_of(*b) == table.inputs[r]; ++b) {
+      if (count < out.count) out[count] = {a, *b, 1};
       ++count;
     }
   }
@@ -220,6 +228,13 @@ uint32_t find_antagonists(const Rig& rig, Span<AntagonistPair> out) {
 
 Status find_mirror(const Deformer& deformer, const Allocator& allocator, Span<uint16_t> out,
                    Error& error) {
+  const Rig& rig = *deformer.rig;
+  if (uint64_t{rig.raw_count} * rig.joint_count > kMaxMotions) {
+    return fail(error, Status::kDnaLimit, kNoOffset,
+                "%u raw controls and %u joints: what each control does to each joint is compared, "
+                "for products up to %u",
+                rig.raw_count, rig.joint_count, kMaxMotions);
+  }
   Arena arena(allocator);
   RigProbe probe(deformer, allocator);
   if (!probe.ready()) return no_memory(error);

@@ -10,6 +10,7 @@
 
 #include "runtime/author/dna_making.h"
 #include "tests/support/counting_allocator.h"
+#include "tests/support/cpu_time.h"
 #include "tests/support/deform_rig.h"
 #include "tests/support/plain_rig.h"
 
@@ -75,6 +76,33 @@ TEST(Antagonists, AreDrivenByNothingElse) {
   EXPECT_EQ(pairs[0].b, 1);
 }
 
+// Rows of a file are as many as somebody likes: not each can be compared with each.
+TEST(Antagonists, OfLongTablesAreFoundAtOnce) {
+  PlainRig plain;
+  plain.gui_count = 2;
+  plain.raw_count = kMaxLanes + 2;
+  plain.joint_count = 1;
+  constexpr uint16_t kHalf = 1000;
+  for (int times = 0; times < 20; ++times) {
+    for (uint16_t c = 0; c < 2 * kHalf; ++c) {
+      if (c % 2 == 0) plain.gui_to_raw.push_back({1, c, 0, 1, 1, 0});
+      if (c % 2 == 1) plain.gui_to_raw.push_back({1, c, -1, 0, -1, 0});
+    }
+  }
+  // No lanes of a mix.
+  plain.gui_to_raw.push_back({0, kMaxLanes, 0, 1, 1, 0});
+  plain.gui_to_raw.push_back({0, kMaxLanes + 1, -1, 0, -1, 0});
+  const RigHandle rig = make_rig(plain);
+  std::vector<AntagonistPair> pairs(size_t{kHalf} * kHalf);
+  const double begin = cpu_seconds();
+  ASSERT_EQ(find_antagonists(*capi::object(rig.get()), {pairs.data(), pairs.size()}), pairs.size());
+  EXPECT_LT(cpu_seconds() - begin, 2) << "pairs of rows take hours";
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    ASSERT_EQ(pairs[i].a, 2 * (i / kHalf));
+    ASSERT_EQ(pairs[i].b, 2 * (i % kHalf) + 1);
+  }
+}
+
 // Mirror ----------------------------------------------------------------------------------------------
 
 std::vector<uint16_t> mirror_of(const ProbedHead& head) {
@@ -94,6 +122,22 @@ TEST(Mirror, PairsLeftAndRightAndKeepsTheMiddle) {
     if (right != std::string::npos) name.replace(right, 5, "Left");
     EXPECT_EQ(head().controls[map[c]], name);
     EXPECT_EQ(map[map[c]], c);
+  }
+}
+
+// A file of a megabyte could ask for a gigabyte.
+TEST(Mirror, RefusesMoreMotionsThanItCompares) {
+  PlainRig plain;
+  plain.raw_count = 4096;
+  for (const uint16_t joints : {uint16_t{1025}, uint16_t{1}}) {
+    plain.joint_count = joints;
+    Arena arena(default_allocator());
+    const DnaHandle dna = open_dna(write_view(to_view(plain, arena)));
+    const RigHandle rig = create_rig(dna.get());
+    const DeformerHandle deformer = create_deformer(dna.get(), rig.get());
+    std::vector<uint16_t> lanes(plain.raw_count);
+    EXPECT_EQ(mien_mix_mirror(deformer.get(), lanes.data(), lanes.size(), nullptr),
+              joints == 1 ? MIEN_OK : MIEN_ERROR_DNA_LIMIT);
   }
 }
 

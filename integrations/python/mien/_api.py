@@ -3992,6 +3992,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "a landmark names a mesh, position or joint that does not exist"),
         (Status.MEMORY,
          "there is no memory"),
+        (Status.DNA_LIMIT,
+         "guards are measured and raw controls times joints exceed 2^22"),
     ),
     "mien_mix_open_file": (
         (Status.INVALID_ARGUMENT,
@@ -4072,6 +4074,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "`lane_count` is less than the raw controls"),
         (Status.MEMORY,
          "that returns NULL"),
+        (Status.DNA_LIMIT,
+         "raw controls times joints exceed 2^22"),
     ),
     "mien_mix_mask": (
         (Status.MISMATCH,

@@ -2685,7 +2685,8 @@ export interface Exports {
    * and for pairs of raw controls that share a corrective. Destroy with mien_mix_destroy().
    * Fails with MIEN_ERROR_MISMATCH if the deformer or the gaze is for another rig, MIEN_ERROR_INDEX if a
    * landmark names a mesh, position or joint that does not exist, MIEN_ERROR_INVALID_ARGUMENT if a field
-   * of `desc` is out of range; the message names it.
+   * of `desc` is out of range; the message names it, MIEN_ERROR_DNA_LIMIT if guards are measured and raw
+   * controls times joints exceed 2^22.
    */
   mien_mix_create(rig: number, desc: number, out_mix: number, error: number): number;
   /**
@@ -2731,7 +2732,7 @@ export interface Exports {
   /**
    * Finds antagonists: pairs of raw controls that only the two halves of one GUI control drive. Writes as
    * many as fit, with stiffness 1; `out_count` is the total number. `out_pairs` may be NULL if `capacity` is
-   * 0.
+   * 0. Raw controls from 4096 on, which no mix has, are left out.
    */
   mien_mix_antagonists(rig: number, out_pairs: number, capacity: number, out_count: number): number;
   /**
@@ -2741,7 +2742,7 @@ export interface Exports {
    * themselves. Evaluates the rig once for each raw control, and takes memory from its allocator during
    * the call.
    * Fails with MIEN_ERROR_MEMORY if that returns NULL, MIEN_ERROR_MISMATCH if `lane_count` is less than the
-   * raw controls.
+   * raw controls, MIEN_ERROR_DNA_LIMIT if raw controls times joints exceed 2^22.
    */
   mien_mix_mirror(deformer: number, out_lanes: number, lane_count: number, error: number): number;
   /**

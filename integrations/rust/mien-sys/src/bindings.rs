@@ -3873,7 +3873,8 @@ extern "C" {
     ///
     /// Fails with `MIEN_ERROR_MISMATCH` if the deformer or the gaze is for another rig,
     /// `MIEN_ERROR_INDEX` if a landmark names a mesh, position or joint that does not exist,
-    /// `MIEN_ERROR_INVALID_ARGUMENT` if a field of `desc` is out of range; the message names it.
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if a field of `desc` is out of range; the message names it,
+    /// `MIEN_ERROR_DNA_LIMIT` if guards are measured and raw controls times joints exceed 2^22.
     pub fn mien_mix_create(rig: *const MienRig, desc: *const MienMixDesc, out_mix: *mut *mut MienMix, error: *mut MienError) -> MienStatus;
 
     /// Opens a mix for a rig, which must have all controls that the mix uses; names match as in
@@ -3945,7 +3946,7 @@ extern "C" {
 
     /// Finds antagonists: pairs of raw controls that only the two halves of one GUI control drive.
     /// Writes as many as fit, with stiffness 1; `out_count` is the total number. `out_pairs` may
-    /// be NULL if `capacity` is 0.
+    /// be NULL if `capacity` is 0. Raw controls from 4096 on, which no mix has, are left out.
     pub fn mien_mix_antagonists(rig: *const MienRig, out_pairs: *mut MienMixAntagonists, capacity: usize, out_count: *mut usize) -> MienStatus;
 
     /// Finds the counterparts of raw controls in the other half of the face, for
@@ -3955,7 +3956,8 @@ extern "C" {
     /// each raw control, and takes memory from its allocator during the call.
     ///
     /// Fails with `MIEN_ERROR_MEMORY` if that returns NULL, `MIEN_ERROR_MISMATCH` if `lane_count`
-    /// is less than the raw controls.
+    /// is less than the raw controls, `MIEN_ERROR_DNA_LIMIT` if raw controls times joints exceed
+    /// 2^22.
     pub fn mien_mix_mirror(deformer: *const MienDeformer, out_lanes: *mut u16, lane_count: usize, error: *mut MienError) -> MienStatus;
 
     /// Computes a mask that selects joint groups: for each raw control the share of its joint

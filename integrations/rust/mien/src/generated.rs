@@ -2123,7 +2123,8 @@ macro_rules! errors {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a field of `desc` is out of range; the message names it\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if the deformer or the gaze is for another rig\n\
          - [`Status::INDEX`](crate::Status::INDEX) if a landmark names a mesh, position or joint that does not exist\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if guards are measured and raw controls times joints exceed 2^22"
     };
     (mien_mix_open_file) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
@@ -2176,7 +2177,8 @@ macro_rules! errors {
     };
     (mien_mix_mirror) => {
         "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `lane_count` is less than the raw controls\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if that returns NULL"
+         - [`Status::MEMORY`](crate::Status::MEMORY) if that returns NULL\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if raw controls times joints exceed 2^22"
     };
     (mien_mix_mask) => {
         "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `lane_count` is less than the raw controls\n\
