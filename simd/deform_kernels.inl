@@ -24,21 +24,66 @@ void add_target(const TargetArgs& given) {
 // Squared lengths of what has a direction.
 constexpr float kMinSquared = 1e-36f, kMaxSquared = 3.4e38f;
 
-/// Writes the normal of a vertex: the vector normalized, or the neutral normal if it has no direction.
-inline void put_normal(const Quad& vector, uint32_t vertex, const float* neutral, float* normals) {
-  const size_t place = size_t{vertex & ~kHardEdge} * 3;
-  float squared;
-  const Quad unit = normalized4(vector, squared);
-  const bool has_direction = squared > kMinSquared && squared < kMaxSquared;
-  store3(normals + place, has_direction ? unit : load4(neutral + place));
+/// Normals are made in two steps, for some vertices at a time: vectors in scratch memory, then all of
+/// them normalized. One vertex after the other, its root and quotient would take longer than its
+/// skin, and the processor does not look far enough ahead to do something else meanwhile.
+constexpr uint32_t kChunkVertices = 256;
+
+/// Cuts positions into chunks of at most kChunkVertices vertices: calls run(first position, count,
+/// first_vertex). A position with more vertices comes several times, each time with some of them.
+template <class F>
+inline void for_each_chunk(const uint32_t* first_vertex, uint32_t count, F&& run) {
+  for (uint32_t i = 0, positions; i < count; i += positions) {
+    positions = count - i < kChunkVertices ? count - i : kChunkVertices;
+    while (positions > 1 && first_vertex[i + positions] - first_vertex[i] > kChunkVertices) {
+      positions /= 2;
+    }
+    const uint32_t end = first_vertex[i + positions];
+    const uint32_t* of_chunk = first_vertex + i;
+    uint32_t part[2] = {of_chunk[0]};
+    do {
+      if (end - part[0] > kChunkVertices || of_chunk == part) {
+        part[1] = end - part[0] > kChunkVertices ? part[0] + kChunkVertices : end;
+        of_chunk = part;
+      }
+      run(i, positions, of_chunk);
+      part[0] = of_chunk[positions];
+    } while (part[0] != end);
+  }
+}
+
+/// Normalizes a chunk of vectors, x y z * each, and writes them. What has no direction becomes the
+/// neutral normal.
+[[gnu::noinline]] void put_normals(float* vectors, const uint32_t* vertices, size_t count,
+                                   const float* neutral, float* normals) {
+  alignas(64) float scales[kChunkVertices];
+  uint32_t lost[kChunkVertices / kWidth], any_lost = 0;
+  for (size_t k = count; k % kWidth != 0; ++k) {
+    store4(vectors + k * 4, load4(vectors + count * 4 - 4));
+  }
+  for (size_t k = 0; k < count; k += kWidth) {
+    const Vec squared = squared_lengths(vectors + k * 4);
+    store(scales + k, divide(broadcast(1.0f), square_root(squared)));
+    const Vec limited = at_most(at_least(squared, broadcast(kMinSquared)), broadcast(kMaxSquared));
+    any_lost |= lost[k / kWidth] = different_lanes(squared, limited);
+  }
+  for (size_t k = 0; k < count; ++k) {
+    store3(normals + size_t{vertices[k] & ~kHardEdge} * 3,
+           load4(vectors + k * 4) * broadcast4(scales[k]));
+  }
+  for (size_t k = 0; any_lost != 0 && k < count; ++k) {
+    const size_t place = size_t{vertices[k] & ~kHardEdge} * 3;
+    if ((lost[k / kWidth] >> k % kWidth & 1) != 0) store3(normals + place, load4(neutral + place));
+  }
 }
 
 // Skinning ----------------------------------------------------------------------------------------
 
-constexpr size_t kVecsPerMatrix = 16 / kWidth;
+constexpr size_t kFloatsPerVec = sizeof(ColumnVec) / sizeof(float);
+constexpr size_t kVecsPerMatrix = 16 / kFloatsPerVec;
 
 template <class Add, size_t... K>
-inline void add_each(const Add& add, std::index_sequence<K...>) {
+[[gnu::always_inline]] inline void add_each(const Add& add, std::index_sequence<K...>) {
   (add(K + 1), ...);
 }
 
@@ -47,18 +92,19 @@ inline void add_each(const Add& add, std::index_sequence<K...>) {
 /// instead of loops keep each sum in a register, and unroll up to eight influences (kCount; 0 means
 /// any number).
 template <size_t kCount, size_t... V>
-inline void blend(const float* weights, const uint16_t* joints, const float* matrices, size_t count,
-                  Quad* columns, std::index_sequence<V...>) {
+[[gnu::always_inline]] inline void blend(const float* weights, const uint16_t* joints,
+                                         const float* matrices, size_t count, Quad* columns,
+                                         std::index_sequence<V...>) {
   const float* matrix = matrices + size_t{joints[0]} * 16;
-  const Vec first = broadcast(weights[0]);
-  Vec sums[] = {first * load(matrix + V * kWidth)...};
-  const auto add = [&](size_t k) {
+  const ColumnVec first = broadcast_column_vec(weights[0]);
+  ColumnVec sums[] = {first * load_column_vec(matrix + V * kFloatsPerVec)...};
+  const auto add = [&](size_t k) __attribute__((always_inline)) {
     const float* next = matrices + size_t{joints[k]} * 16;
-    const Vec weight = broadcast(weights[k]);
-    ((sums[V] = mul_add(weight, load(next + V * kWidth), sums[V])), ...);
+    const ColumnVec weight = broadcast_column_vec(weights[k]);
+    ((sums[V] = mul_add_column_vec(weight, load_column_vec(next + V * kFloatsPerVec), sums[V])),
+     ...);
   };
-  // Compilers vectorize the loop of the scalar kernels, but not the unrolled form.
-  if constexpr (kCount == 0 || kWidth == 1) {
+  if constexpr (kCount == 0) {
     for (size_t k = 1; k < count; ++k) add(k);
   } else {
     add_each(add, std::make_index_sequence<kCount - 1>());
@@ -66,29 +112,30 @@ inline void blend(const float* weights, const uint16_t* joints, const float* mat
   columns4(sums, columns);
 }
 
+/// Positions, tangents, and normals that are not normalized yet: x y z * one after the other.
 template <SkinNormals kMode, size_t kInfluences, bool kTangents>
-void skin_rows(const SkinArgs& given) {
+void skin_chunk(const SkinArgs& given, float* vectors) {
   const SkinArgs args = given;
   const size_t influences = kInfluences != 0 ? kInfluences : args.influences;
-  const uint32_t* vertex = args.vertices + args.first_vertex[0];
+  uint32_t vertex = args.first_vertex[0];
   alignas(16) static constexpr float kUnitW[4] = {0, 0, 0, 1};
   const Quad unit_w = load4(kUnitW);
   for (size_t i = 0; i < args.count; ++i) {
     Quad c[4];
     blend<kInfluences>(args.weights + i * influences, args.joints + i * influences, args.matrices,
                        influences, c, std::make_index_sequence<kVecsPerMatrix>());
-    const float* p = args.positions + i * 4;
+    const Quad p = load4(args.positions + i * 4);
     const Quad skinned =
-        mul_add4(c[0], broadcast4(p[0]),
-                 mul_add4(c[1], broadcast4(p[1]), mul_add4(c[2], broadcast4(p[2]), c[3])));
+        mul_add4(c[0], lane4<0>(p), mul_add4(c[1], lane4<1>(p), mul_add4(c[2], lane4<2>(p), c[3])));
     store3(args.out_positions + size_t{args.position_indices[i]} * 3, skinned);
+    const auto turned = [&c](const Quad& v) __attribute__((always_inline)) {
+      return mul_add4(c[0], lane4<0>(v), mul_add4(c[1], lane4<1>(v), c[2] * lane4<2>(v)));
+    };
     if constexpr (kTangents) {
       for (size_t k = args.first_vertex[i]; k < args.first_vertex[i + 1]; ++k) {
         const size_t place = size_t{args.vertices[k] & ~kHardEdge} * 4;
-        const float* t = args.tangents + place;
-        const Quad linear = mul_add4(c[0], broadcast4(t[0]),
-                                     mul_add4(c[1], broadcast4(t[1]), c[2] * broadcast4(t[2])));
-        store4(args.out_tangents + place, mul_add4(unit_w, broadcast4(t[3]), linear));
+        const Quad t = load4(args.tangents + place);
+        store4(args.out_tangents + place, mul_add4(unit_w, lane4<3>(t), turned(t)));
       }
     }
     if constexpr (kMode != SkinNormals::kNone) {
@@ -98,40 +145,57 @@ void skin_rows(const SkinArgs& given) {
         c[1] = cross4(z, x);
         c[2] = cross4(x, y);
       }
-      for (const uint32_t* end = args.vertices + args.first_vertex[i + 1]; vertex != end;
-           ++vertex) {
-        const float* n = args.normals + size_t{*vertex & ~kHardEdge} * 3;
-        put_normal(mul_add4(c[0], broadcast4(n[0]),
-                            mul_add4(c[1], broadcast4(n[1]), c[2] * broadcast4(n[2]))),
-                   *vertex, args.normals, args.out_normals);
+      for (const uint32_t end = args.first_vertex[i + 1]; vertex != end; ++vertex) {
+        const size_t place = size_t{args.vertices[vertex] & ~kHardEdge} * 3;
+        store4(vectors, turned(load4(args.normals + place)));
+        vectors += 4;
       }
     }
   }
 }
 
+using SkinChunk = void (*)(const SkinArgs& args, float* vectors);
+
 template <SkinNormals kMode>
-void skin_mode(const SkinArgs& args) {
+SkinChunk skin_chunk_for(const SkinArgs& args) {
   // Not unrolled: that would double the code for an optional output.
-  if (args.out_tangents) return skin_rows<kMode, 0, true>(args);
+  if (args.out_tangents) return skin_chunk<kMode, 0, true>;
+  if constexpr (kWidth == 1) return skin_chunk<kMode, 0, false>;
   switch (args.influences) {
-    case 1: return skin_rows<kMode, 1, false>(args);
-    case 2: return skin_rows<kMode, 2, false>(args);
-    case 3: return skin_rows<kMode, 3, false>(args);
-    case 4: return skin_rows<kMode, 4, false>(args);
-    case 5: return skin_rows<kMode, 5, false>(args);
-    case 6: return skin_rows<kMode, 6, false>(args);
-    case 7: return skin_rows<kMode, 7, false>(args);
-    case 8: return skin_rows<kMode, 8, false>(args);
-    default: return skin_rows<kMode, 0, false>(args);
+    case 1: return skin_chunk<kMode, 1, false>;
+    case 2: return skin_chunk<kMode, 2, false>;
+    case 3: return skin_chunk<kMode, 3, false>;
+    case 4: return skin_chunk<kMode, 4, false>;
+    case 5: return skin_chunk<kMode, 5, false>;
+    case 6: return skin_chunk<kMode, 6, false>;
+    case 7: return skin_chunk<kMode, 7, false>;
+    case 8: return skin_chunk<kMode, 8, false>;
+    default: return skin_chunk<kMode, 0, false>;
   }
 }
 
 void skin_positions(const SkinArgs& args) {
-  switch (args.mode) {
-    case SkinNormals::kNone: return skin_mode<SkinNormals::kNone>(args);
-    case SkinNormals::kMatrix: return skin_mode<SkinNormals::kMatrix>(args);
-    case SkinNormals::kCofactors: return skin_mode<SkinNormals::kCofactors>(args);
+  if (args.mode == SkinNormals::kNone) {
+    return skin_chunk_for<SkinNormals::kNone>(args)(args, nullptr);
   }
+  const SkinChunk skin = args.mode == SkinNormals::kMatrix
+                             ? skin_chunk_for<SkinNormals::kMatrix>(args)
+                             : skin_chunk_for<SkinNormals::kCofactors>(args);
+  alignas(64) float vectors[kChunkVertices * 4];
+  for_each_chunk(args.first_vertex, args.count,
+                 [&](uint32_t first, uint32_t count, const uint32_t* first_vertex) {
+                   SkinArgs chunk = args;
+                   chunk.positions += size_t{first} * 4;
+                   chunk.weights += size_t{first} * args.influences;
+                   chunk.joints += size_t{first} * args.influences;
+                   chunk.position_indices += first;
+                   chunk.first_vertex = first_vertex;
+                   chunk.count = count;
+                   skin(chunk, vectors);
+                   put_normals(vectors, args.vertices + first_vertex[0],
+                               first_vertex[count] - first_vertex[0], args.normals,
+                               args.out_normals);
+                 });
 }
 
 // Recomputed normals ------------------------------------------------------------------------------
@@ -169,21 +233,29 @@ inline Quad rotated_normal(const Quad& sum, const float* neutral_direction, cons
 
 void sum_normals(const NormalArgs& given) {
   const NormalArgs args = given;
-  const uint32_t* vertex = args.vertices + args.first_vertex[0];
-  for (size_t i = 0; i < args.count; ++i) {
-    Quad sum = broadcast4(0.0f);
-    for (size_t k = args.first_adjacent_face[i]; k < args.first_adjacent_face[i + 1]; ++k) {
-      sum = sum + load4(args.areas + size_t{args.adjacent_faces[k]} * 4);
-    }
-    for (const uint32_t* end = args.vertices + args.first_vertex[i + 1]; vertex != end; ++vertex) {
-      Quad normal = sum;
-      if ((*vertex & kHardEdge) != 0) {
-        const float* n = args.normals + size_t{*vertex & ~kHardEdge} * 3;
-        normal = rotated_normal(sum, args.neutral_directions + i * 4, n);
+  alignas(64) float vectors[kChunkVertices * 4];
+  const auto run = [&](uint32_t first, uint32_t count, const uint32_t* first_vertex) {
+    const uint32_t* const vertices = args.vertices + first_vertex[0];
+    const uint32_t* vertex = vertices;
+    float* vector = vectors;
+    for (size_t i = 0; i < count; ++i) {
+      const size_t position = first + i;
+      Quad sum = broadcast4(0.0f);
+      for (size_t k = args.first_adjacent_face[position];
+           k < args.first_adjacent_face[position + 1]; ++k) {
+        sum = sum + load4(args.areas + size_t{args.adjacent_faces[k]} * 4);
       }
-      put_normal(normal, *vertex, args.normals, args.out_normals);
+      for (const uint32_t* end = args.vertices + first_vertex[i + 1]; vertex != end;
+           ++vertex, vector += 4) {
+        const float* n = args.normals + size_t{*vertex & ~kHardEdge} * 3;
+        const bool hard = (*vertex & kHardEdge) != 0;
+        store4(vector, hard ? rotated_normal(sum, args.neutral_directions + position * 4, n) : sum);
+      }
     }
-  }
+    put_normals(vectors, vertices, static_cast<size_t>(vertex - vertices), args.normals,
+                args.out_normals);
+  };
+  for_each_chunk(args.first_vertex, args.count, run);
 }
 
 }  // namespace

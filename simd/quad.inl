@@ -14,11 +14,15 @@
 // | cross4                 | the cross product of the first three                                 |
 // | gather4, scatter4      | lane i from or to place at[i], or at[i * stride]                     |
 // | gather                 | a Vec: lane i from place at[i]                                       |
-// | normalized4(q, s)      | q / sqrt(s), s = z * z + (y * y + x * x) with mul_add                |
+// | lane4<k>               | lane k in each lane                                                  |
+// | squared_lengths        | of kWidth quads, 64-byte aligned: a Vec of z * z + (y * y + x * x),  |
+// |                        | with mul_add, of the first three lanes of each                       |
 // | different_lanes4(a, b) | bit k: the bits of lane k differ                                     |
 // | join_bits4(a, b, n)    | the low n bits of a, and above them those of b                       |
 // | transpose4             | four quads, rows to columns                                          |
-// | columns4(m, q)         | the four columns of a matrix of 16 floats in 16 / kWidth Vecs        |
+// | ColumnVec              | neighboring columns of a matrix: a Vec, of the scalar kernels a Quad |
+// | ..._column_vec         | load, broadcast, mul_add of ColumnVecs, as in vec.inl                |
+// | columns4(m, q)         | the four columns of a matrix in ColumnVecs                           |
 //
 // Some intrinsics stay. What xsimd 8.1 lacks: single lanes, parts of a vector, the bits of a mask,
 // four floats that fuse beside AVX2. On NEON it refines estimates of root and quotient, fuses only
@@ -37,7 +41,7 @@ struct Quad {
   float v[4];
 };
 template <class F>
-inline Quad lanes4(F&& f) {
+[[gnu::always_inline]] inline Quad lanes4(F&& f) {
   return {{f(0), f(1), f(2), f(3)}};
 }
 inline Quad load_big_endian4(const uint8_t* from) {
@@ -50,30 +54,42 @@ inline Quad load_big_endian4(const uint8_t* from) {
     return float_of(bits);
   });
 }
-inline Quad load4(const float* from) { return {{from[0], from[1], from[2], from[3]}}; }
-inline void store4(float* to, const Quad& q) {
+[[gnu::always_inline]] inline Quad load4(const float* from) {
+  return {{from[0], from[1], from[2], from[3]}};
+}
+[[gnu::always_inline]] inline void store4(float* to, const Quad& q) {
   for (int i = 0; i < 4; ++i) to[i] = q.v[i];
 }
-inline void store3(float* to, const Quad& q) {
+[[gnu::always_inline]] inline void store3(float* to, const Quad& q) {
   for (int i = 0; i < 3; ++i) to[i] = q.v[i];
 }
-inline Quad broadcast4(float value) { return {{value, value, value, value}}; }
-inline Quad operator+(const Quad& a, const Quad& b) {
+[[gnu::always_inline]] inline Quad broadcast4(float value) {
+  return {{value, value, value, value}};
+}
+[[gnu::always_inline]] inline Quad operator+(const Quad& a, const Quad& b) {
   return lanes4([&](int i) { return a.v[i] + b.v[i]; });
 }
-inline Quad operator-(const Quad& a, const Quad& b) {
+[[gnu::always_inline]] inline Quad operator-(const Quad& a, const Quad& b) {
   return lanes4([&](int i) { return a.v[i] - b.v[i]; });
 }
-inline Quad operator*(const Quad& a, const Quad& b) {
+[[gnu::always_inline]] inline Quad operator*(const Quad& a, const Quad& b) {
   return lanes4([&](int i) { return a.v[i] * b.v[i]; });
 }
-inline Quad mul_add4(const Quad& a, const Quad& b, const Quad& c) { return a * b + c; }
-inline Quad mul_sub4(const Quad& a, const Quad& b, const Quad& c) { return a * b - c; }
+[[gnu::always_inline]] inline Quad mul_add4(const Quad& a, const Quad& b, const Quad& c) {
+  return a * b + c;
+}
+[[gnu::always_inline]] inline Quad mul_sub4(const Quad& a, const Quad& b, const Quad& c) {
+  return a * b - c;
+}
 inline Quad divide4(const Quad& a, const Quad& b) {
   return lanes4([&](int i) { return a.v[i] / b.v[i]; });
 }
 inline Quad square_root4(const Quad& a) {
   return lanes4([&](int i) { return __builtin_sqrtf(a.v[i]); });
+}
+template <int kLane>
+[[gnu::always_inline]] inline Quad lane4(const Quad& a) {
+  return broadcast4(a.v[kLane]);
 }
 inline Quad yzx4(const Quad& a) { return {{a.v[1], a.v[2], a.v[0], a.v[3]}}; }
 inline Quad higher4(const Quad& a, const Quad& b) {
@@ -87,10 +103,6 @@ inline Quad gather4(const float* from, const uint16_t* at, size_t stride) {
 }
 inline void scatter4(float* to, const uint16_t* at, const Quad& q) {
   for (size_t i = 0; i < 4; ++i) to[at[i]] = q.v[i];
-}
-inline Quad normalized4(const Quad& q, float& squared) {
-  squared = q.v[2] * q.v[2] + (q.v[1] * q.v[1] + q.v[0] * q.v[0]);
-  return q * broadcast4(1.0f / __builtin_sqrtf(squared));
 }
 inline uint32_t different_lanes4(const Quad& a, const Quad& b) {
   uint32_t different = 0;
@@ -107,8 +119,17 @@ inline void transpose4(Quad& a, Quad& b, Quad& c, Quad& d) {
   Quad* const columns[4] = {&a, &b, &c, &d};
   for (int i = 0; i < 4; ++i) *columns[i] = lanes4([&](int k) { return rows[k].v[i]; });
 }
-inline void columns4(const Vec* m, Quad* columns) {
-  for (int i = 0; i < 4; ++i) columns[i] = load4(m + 4 * i);
+using ColumnVec = Quad;
+[[gnu::always_inline]] inline ColumnVec load_column_vec(const float* from) { return load4(from); }
+[[gnu::always_inline]] inline ColumnVec broadcast_column_vec(float value) {
+  return broadcast4(value);
+}
+[[gnu::always_inline]] inline ColumnVec mul_add_column_vec(const ColumnVec& a, const ColumnVec& b,
+                                                           const ColumnVec& c) {
+  return mul_add4(a, b, c);
+}
+[[gnu::always_inline]] inline void columns4(const ColumnVec* m, Quad* columns) {
+  for (int i = 0; i < 4; ++i) columns[i] = m[i];
 }
 
 #else
@@ -142,6 +163,10 @@ inline Quad mul_add4(Quad a, Quad b, Quad c) { return vfmaq_f32(c, a, b); }
 inline Quad mul_sub4(Quad a, Quad b, Quad c) { return vfmaq_f32(vnegq_f32(c), a, b); }
 inline Quad divide4(Quad a, Quad b) { return divide(a, b); }
 inline Quad square_root4(Quad a) { return square_root(a); }
+template <int kLane>
+inline Quad lane4(Quad a) {
+  return vdupq_laneq_f32(a, kLane);
+}
 inline Quad yzx4(Quad a) { return vextq_f32(vextq_f32(a, a, 3), a, 2); }
 inline Quad higher4(Quad a, Quad b) { return at_least(a, b); }
 inline Quad lower4(Quad a, Quad b) { return at_most(a, b); }
@@ -156,11 +181,6 @@ inline void scatter4(float* to, const uint16_t* at, Quad q) {
   vst1q_lane_f32(to + at[1], q, 1);
   vst1q_lane_f32(to + at[2], q, 2);
   vst1q_lane_f32(to + at[3], q, 3);
-}
-inline Quad normalized4(Quad q, float& squared) {
-  const float x = vgetq_lane_f32(q, 0), y = vgetq_lane_f32(q, 1), z = vgetq_lane_f32(q, 2);
-  squared = __builtin_fmaf(z, z, __builtin_fmaf(y, y, x * x));
-  return q * broadcast4(1.0f / __builtin_sqrtf(squared));
 }
 inline uint32_t different_lanes4(Quad a, Quad b) { return different_lanes(a, b); }
 inline void transpose4(Quad& a, Quad& b, Quad& c, Quad& d) {
@@ -187,18 +207,6 @@ inline Quad load_big_endian4(const uint8_t* from) {
   return _mm_castsi128_ps(_mm_shuffle_epi8(bytes, order));
 #endif
 }
-// In one lane: dividing four takes as long, and so do four roots.
-inline Quad normalized4(Quad q, float& squared) {
-  const __m128 y = _mm_shuffle_ps(q, q, 1), z = _mm_movehl_ps(q, q);
-#if defined(MIEN_KERNEL_SSE2)
-  const __m128 sum = _mm_add_ss(_mm_mul_ss(z, z), _mm_add_ss(_mm_mul_ss(y, y), _mm_mul_ss(q, q)));
-#else
-  const __m128 sum = _mm_fmadd_ss(z, z, _mm_fmadd_ss(y, y, _mm_mul_ss(q, q)));
-#endif
-  squared = _mm_cvtss_f32(sum);
-  const __m128 scale = _mm_div_ss(_mm_set_ss(1.0f), _mm_sqrt_ss(sum));
-  return q * Quad(_mm_shuffle_ps(scale, scale, 0));
-}
 #if defined(MIEN_KERNEL_SSE2)
 inline Quad mul_add4(Quad a, Quad b, Quad c) { return a * b + c; }
 inline Quad mul_sub4(Quad a, Quad b, Quad c) { return a * b - c; }
@@ -206,6 +214,10 @@ inline Quad mul_sub4(Quad a, Quad b, Quad c) { return a * b - c; }
 inline Quad mul_add4(Quad a, Quad b, Quad c) { return _mm_fmadd_ps(a, b, c); }
 inline Quad mul_sub4(Quad a, Quad b, Quad c) { return _mm_fmsub_ps(a, b, c); }
 #endif
+template <int kLane>
+inline Quad lane4(Quad a) {
+  return _mm_shuffle_ps(a, a, 0x55 * kLane);
+}
 inline Quad divide4(Quad a, Quad b) { return a / b; }
 inline Quad square_root4(Quad a) { return xsimd::sqrt(a); }
 inline Quad yzx4(Quad a) {
@@ -245,7 +257,13 @@ inline void transpose4(Quad& a, Quad& b, Quad& c, Quad& d) {
 
 #endif
 
-inline void columns4(const Vec* m, Quad* columns) {
+using ColumnVec = Vec;
+inline ColumnVec load_column_vec(const float* from) { return load(from); }
+inline ColumnVec broadcast_column_vec(float value) { return broadcast(value); }
+inline ColumnVec mul_add_column_vec(ColumnVec a, ColumnVec b, ColumnVec c) {
+  return mul_add(a, b, c);
+}
+inline void columns4(const ColumnVec* m, Quad* columns) {
 #if defined(MIEN_KERNEL_AVX2)
   for (int i = 0; i < 2; ++i) {
     columns[2 * i] = _mm256_castps256_ps128(m[i]);
@@ -257,11 +275,51 @@ inline void columns4(const Vec* m, Quad* columns) {
   columns[2] = _mm512_extractf32x4_ps(m[0], 2);
   columns[3] = _mm512_extractf32x4_ps(m[0], 3);
 #else
-  for (int i = 0; i < 4; ++i) columns[i] = m[i];
+  // Without a loop, which some compilers would keep, and the columns in memory for it.
+  columns[0] = m[0];
+  columns[1] = m[1];
+  columns[2] = m[2];
+  columns[3] = m[3];
 #endif
 }
 
 #endif
+
+inline Vec squared_lengths(const float* quads) {
+#if defined(MIEN_KERNEL_SCALAR)
+  const Vec x = quads[0], y = quads[1], z = quads[2];
+#elif defined(MIEN_KERNEL_AVX2)
+  const __m256 a = load(quads), b = load(quads + 8), c = load(quads + 16), d = load(quads + 24);
+  const __m256d ab = _mm256_castps_pd(_mm256_unpacklo_ps(a, b));
+  const __m256d cd = _mm256_castps_pd(_mm256_unpacklo_ps(c, d));
+  const __m256d ab_z = _mm256_castps_pd(_mm256_unpackhi_ps(a, b));
+  const __m256d cd_z = _mm256_castps_pd(_mm256_unpackhi_ps(c, d));
+  const Vec x = _mm256_castpd_ps(_mm256_unpacklo_pd(ab, cd));
+  const Vec y = _mm256_castpd_ps(_mm256_unpackhi_pd(ab, cd));
+  const Vec z = _mm256_castpd_ps(_mm256_unpacklo_pd(ab_z, cd_z));
+#elif defined(MIEN_KERNEL_AVX512)
+  const __m512 a = load(quads), b = load(quads + 16), c = load(quads + 32), d = load(quads + 48);
+  const __m512d ab = _mm512_castps_pd(_mm512_unpacklo_ps(a, b));
+  const __m512d cd = _mm512_castps_pd(_mm512_unpacklo_ps(c, d));
+  const __m512d ab_z = _mm512_castps_pd(_mm512_unpackhi_ps(a, b));
+  const __m512d cd_z = _mm512_castps_pd(_mm512_unpackhi_ps(c, d));
+  const Vec x = _mm512_castpd_ps(_mm512_unpacklo_pd(ab, cd));
+  const Vec y = _mm512_castpd_ps(_mm512_unpackhi_pd(ab, cd));
+  const Vec z = _mm512_castpd_ps(_mm512_unpacklo_pd(ab_z, cd_z));
+#else
+  Quad x = load4(quads), y = load4(quads + 4), z = load4(quads + 8), w = load4(quads + 12);
+  transpose4(x, y, z, w);
+#endif
+  const Vec sums = mul_add(z, z, mul_add(y, y, x * x));
+#if defined(MIEN_KERNEL_AVX2)
+  return _mm256_permutevar8x32_ps(sums, _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7));
+#elif defined(MIEN_KERNEL_AVX512)
+  return _mm512_permutexvar_ps(
+      _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15), sums);
+#else
+  return sums;
+#endif
+}
 
 // By single loads: gathers of processors are not faster, and some are slow by a fix of microcode.
 inline Vec gather(const float* from, const uint16_t* at) {

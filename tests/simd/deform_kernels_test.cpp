@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <vector>
 
 #include "simd/kernels.h"
@@ -251,6 +252,65 @@ TEST(KernelsDeform, AnyCount) {
       expect_near(part.recomputed(*kernels, count), part.recomputed(scalar, count), 1e-4f);
       expect_near(part.with_target(*kernels, count), part.with_target(scalar, count), 1e-6f);
     }
+  }
+}
+
+// Kernels make normals some hundred at a time. Few positions with many vertices give each vertex what
+// it gets alone.
+TEST(KernelsDeform, AnyNumberOfVerticesOfAPosition) {
+  MeshPart part(5);
+  const uint32_t counts[] = {1, 700, 0, 255, 256, 0, 257, 2, 512, 1};
+  const uint32_t count = static_cast<uint32_t>(std::size(counts));
+  part.first_vertex = {0};
+  part.vertices.clear();
+  for (const uint32_t n : counts) {
+    for (uint32_t i = 0; i < n; ++i) {
+      const uint32_t vertex = static_cast<uint32_t>(part.vertices.size());
+      part.vertices.push_back(vertex % 5 == 0 ? vertex | kHardEdge : vertex);
+    }
+    part.first_vertex.push_back(static_cast<uint32_t>(part.vertices.size()));
+  }
+  const size_t vertices = part.vertices.size();
+  Aligned normals(vertices * 3 + 1, &part.numbers), areas(kFaces * 4, &part.numbers);
+  for (int i = 0; i < 3; ++i) normals.data[30 + i] = 0;  // without a direction
+  for (const KernelTable* kernels : present()) {
+    SCOPED_TRACE(kernels->name);
+    std::vector<float> points(kPositions * 3), out[2], alone[2];
+    for (std::vector<float>* made : {out, alone}) {
+      for (int i = 0; i < 2; ++i) made[i].assign(vertices * 3, -9);
+    }
+    const auto make = [&](uint32_t position, uint32_t positions, const uint32_t* first_vertex,
+                          std::vector<float>* made) {
+      SkinArgs skin = {};
+      skin.positions = part.positions.data + position * 4;
+      skin.weights = part.weights.data + position * 3;
+      skin.joints = part.joints.data() + position * 3;
+      skin.matrices = part.matrices.data;
+      skin.position_indices = part.position_indices.data() + position;
+      skin.out_positions = points.data();
+      skin.first_vertex = first_vertex;
+      skin.vertices = part.vertices.data();
+      skin.normals = normals.data;
+      skin.out_normals = made[0].data();
+      skin.count = positions;
+      skin.influences = 3;
+      skin.mode = SkinNormals::kMatrix;
+      kernels->skin_positions(skin);
+      kernels->sum_normals({areas.data, part.first_adjacent_face.data() + position,
+                            part.adjacent_faces.data(), first_vertex, part.vertices.data(),
+                            normals.data, part.directions.data + position * 4, made[1].data(),
+                            positions});
+    };
+    make(0, count, part.first_vertex.data(), out);
+    for (uint32_t p = 0; p < count; ++p) {
+      for (uint32_t v = part.first_vertex[p]; v < part.first_vertex[p + 1]; ++v) {
+        const uint32_t one[] = {v, v + 1};
+        make(p, 1, one, alone);
+      }
+    }
+    EXPECT_EQ(out[0], alone[0]);
+    EXPECT_EQ(out[1], alone[1]);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(out[0][30 + i], 0);
   }
 }
 
