@@ -52,9 +52,6 @@ inline uint32_t width_of_code(uint32_t code) { return code >= 31 ? 32 : code; }
 
 /// Floats as numbers in the same order; -0 is just below +0.
 inline uint32_t ordered_from_bits(uint32_t bits) { return bits >> 31 ? ~bits : bits | 1u << 31; }
-inline uint32_t bits_from_ordered(uint32_t ordered) {
-  return ordered >> 31 ? ordered & ~(1u << 31) : ~ordered;
-}
 
 /// Groups of lanes: the i-th changing channel is lane i % kClipLanes of group i / kClipLanes.
 constexpr size_t clip_groups(size_t changing) { return (changing + kClipLanes - 1) / kClipLanes; }

@@ -61,6 +61,7 @@ struct LevelAt {
 };
 
 LevelAt level_at(const Level& level, int64_t now) {
+  if (level.offset == 0.0f && level.push == 0.0f) return {level.target, 0.0f};
   const float u =
       kLevelRate * fraction_of(now > level.start ? now - level.start : 0, kTicksPerSecond);
   const float half = decay(0.5f * u), left = half * half;  // so that it ends far below 2^-12

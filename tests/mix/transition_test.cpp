@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "tests/support/mix_setup.h"
 
@@ -181,8 +182,10 @@ TEST(Transitions, WithoutEndsOfOtherOnesAreContinuous) {  // C3
     const TwoClips setup(3, players);
     Random random = Random::from_seed(52, players);
     Playing run(setup, 0);
-    int triggers = 0, until = 100;
-    Row velocity(kLanes);
+    int triggers = 0, until = 100, compared = 0;
+    Row velocity(kLanes), first;
+    std::optional<Playing> to;  // the clip of an inertial transition that has just begun
+    Row last;
     for (int i = 0; triggers < 100 && i < 60000; ++i) {
       run.step();
       if (i == 0) run.before = run.row;
@@ -191,8 +194,19 @@ TEST(Transitions, WithoutEndsOfOtherOnesAreContinuous) {  // C3
         // than 1.875 / 0.2 s, and what it carries over was within this bound itself.
         const float changed = run.change(l) / kDt, limit = 2.6f + 2 * 1.875f / 0.2f;
         ASSERT_LE(std::fabs(changed), limit) << i << ", lane " << l;
-        velocity[l] = changed;
       }
+      if (to) to->step();
+      for (uint32_t l = 0; to && l < kLanes; ++l) {
+        // As of an undisturbed one: the speed that there was, and what the new clip moves.
+        const float d = last[l] - first[l], v = velocity[l], seconds = 0.2f;
+        if (d * v < 0 && 5 * std::fabs(d) < seconds * std::fabs(v)) continue;  // it lasts shorter
+        ++compared;
+        const float bound = 10 * std::fabs(d) / (seconds * seconds) + 4 * std::fabs(v) / seconds;
+        ASSERT_LE(std::fabs(run.change(l) - to->change(l) - v * kDt), bound * kDt * kDt + 2e-6f)
+            << i << ", lane " << l;
+      }
+      to.reset();
+      for (uint32_t l = 0; l < kLanes; ++l) velocity[l] = run.change(l) / kDt;
       if (--until > 0) continue;
       until = static_cast<int>(5 + random.below(250));
       ++triggers;
@@ -200,12 +214,17 @@ TEST(Transitions, WithoutEndsOfOtherOnesAreContinuous) {  // C3
       play.start_tick = random.below(9000) * kMillisecond;
       const auto transition = random.chance(0.5) ? Transition::kCrossfade : Transition::kInertial;
       const uint32_t clip = random.below(3);
-      const Row last = run.row;
+      last = run.row;
       run.own.play(0, setup.clips[clip], transition, 200 * kMillisecond, play);
+      if (transition == Transition::kInertial) {
+        to.emplace(setup, clip, play.start_tick);
+        first = to->row = to->own.step(0);
+      }
       const Row now = run.own.step(0);
       for (uint32_t l = 0; l < kLanes; ++l) ASSERT_NEAR(now[l], last[l], 1e-6f);
     }
     EXPECT_EQ(triggers, 100);
+    EXPECT_GT(compared, 300);
   }
 }
 
