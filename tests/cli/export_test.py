@@ -565,7 +565,7 @@ class Baking(ExportTest):
         self.fails(INVALID, "export", path("tiny.dna"), "-o", out, "--bake-arkit",
                    says=("no raw controls for", "--bake-arkit", "more"))
         self.fails(INVALID, "export", path("large.dna"), "-o", out, "--bake-arkit", "--set", "jawOpen=1",
-                   says="no weights")
+                   says="cannot be their weights")
         self.assertFalse(os.path.exists(out))
 
 

@@ -289,14 +289,15 @@ Command add_bench_command(CLI::App& app, const Session& session) {
   add_load_options(*bench, options->load);
   add_rig_options(*bench, options->evaluation);
   bench->get_option("--isa")->description(
-      "Instruction set, or all that this machine has\n(default: $MIEN_ISA, else the best)");
+      "Instruction set, or all that this machine has\n(default: $MIEN_ISA, otherwise the best)");
   bench->footer(
-      "Measures the processor time of a single thread, on one instruction set, at the finest, a\n"
-      "middle and the coarsest LOD; --lods names others, --json has all. CSR is the joint matrix "
+      "Measures the CPU time of a single thread, on one instruction set, at the finest, a middle\n"
+      "and the coarsest LOD; --lods selects others, --json has all. CSR is the joint matrix "
       "of\n"
       "the LOD in compressed sparse rows, one scalar dot product per row, measured in the same "
       "run.\n"
-      "A DNA file with geometry also gives whole frames: evaluation, joint matrices, meshes.\n\n"
+      "For a DNA file with geometry, also measures whole frames: evaluation, joint matrices, "
+      "meshes.\n\n"
       "Examples:\n"
       "  mien bench head.dna --quick\n"
       "  mien bench head.dna --isa all --json > times.json\n"

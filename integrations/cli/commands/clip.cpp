@@ -520,12 +520,13 @@ CLI::Option* add_clip_option(CLI::App& app, ClipOptions& options) {
 }  // namespace
 
 Command add_clip_command(CLI::App& app, const Session& session) {
-  CLI::App* clip = app.add_subcommand("clip", "Compress curves of controls, and read them back");
+  CLI::App* clip =
+      app.add_subcommand("clip", "Build, inspect and export clips: compressed control curves");
   clip->require_subcommand(1);
   clip->footer("'mien help clip build' shows the options of an action, with examples.");
 
   auto build = std::make_shared<BuildOptions>();
-  CLI::App* build_app = clip->add_subcommand("build", "Make a clip of a table or of frames");
+  CLI::App* build_app = clip->add_subcommand("build", "Build a clip from a table or from frames");
   build_app->add_option("IN", build->input, "CSV or JSON; - reads standard input")
       ->type_name("")
       ->required();
@@ -549,13 +550,13 @@ Command add_clip_command(CLI::App& app, const Session& session) {
       ->type_name("WORD");
   build_app
       ->add_option("--channels", build->channels,
-                   "Only these, with commas between; * stands for any characters")
+                   "Only these channels, separated by commas; * matches any characters")
       ->type_name("LIST");
   build_app
       ->add_option(
           "--minus", build->minus,
-          "Make a clip of differences, for layers that add: from a frame of\nIN (its number, "
-          "from 0 on), from another clip frame by frame, or\nnothing if IN has differences")
+          "Build a delta clip, for layers that add: subtract a frame of IN\n(its number, from 0 "
+          "on), or another clip frame by frame, or\nnothing if IN already has differences")
       ->type_name("FROM");
   build_app
       ->add_option(
@@ -567,7 +568,7 @@ Command add_clip_command(CLI::App& app, const Session& session) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   build_app->add_flag("--resample", build->resample,
-                      "Interpolate rows that do not lie on a constant rate");
+                      "Interpolate rows that do not fit a constant rate");
   build_app->footer(
       "IN is one of these, recognized by its content:\n"
       "  CSV        a header time,NAME,NAME,... and a row per frame; time in seconds\n"
@@ -586,13 +587,13 @@ Command add_clip_command(CLI::App& app, const Session& session) {
       "  mien clip build phone.csv -o phone.clip --resample --rate 60");
 
   auto info = std::make_shared<ClipOptions>();
-  CLI::App* info_app = clip->add_subcommand("info", "Show what a clip holds");
+  CLI::App* info_app = clip->add_subcommand("info", "Show what a clip contains");
   add_clip_option(*info_app, *info);
-  info_app->add_flag("--json", info->json, "As JSON");
+  info_app->add_flag("--json", info->json, "Print JSON");
 
   auto verify = std::make_shared<ClipOptions>();
   CLI::App* verify_app =
-      clip->add_subcommand("verify", "Check that the bytes of a clip are those that were written");
+      clip->add_subcommand("verify", "Check that a clip has not changed since it was written");
   add_clip_option(*verify_app, *verify);
 
   auto exported = std::make_shared<ClipOptions>();
@@ -603,8 +604,8 @@ Command add_clip_command(CLI::App& app, const Session& session) {
                      "File to write, .csv or .json; - is standard output, CSV")
       ->required();
   export_app->footer(
-      "Numbers have the digits that give the same floats back: building a clip of the file gives\n"
-      "the same frames. JSON has the events, too.\n\n"
+      "Numbers have enough digits to restore the same floats: building a clip from the file gives\n"
+      "the same frames. JSON keeps events, CSV cannot.\n\n"
       "Examples:\n"
       "  mien clip export take.clip -o take.csv\n"
       "  mien clip export take.clip -o frames.json\n"

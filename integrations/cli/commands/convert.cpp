@@ -27,8 +27,7 @@ void note_lost_layers(const RigFile& file, uint32_t version, const Session& sess
     if (code != "desc" && code != "defn" && code != "bhvr" && code != "geom") lost.push_back(code);
   }
   if (lost.empty()) return;
-  note(session,
-       file.shown + ": version 2.1 has no place for " + list_of(lost, "and") + ": left out");
+  note(session, file.shown + ": version 2.1 cannot store " + list_of(lost, "and") + ": left out");
 }
 
 void run(const ConvertOptions& options, const Session& session) {
@@ -53,14 +52,14 @@ void run(const ConvertOptions& options, const Session& session) {
 Command add_convert_command(CLI::App& app, const Session& session) {
   auto options = std::make_shared<ConvertOptions>();
   CLI::App* convert =
-      app.add_subcommand("convert", "Read a DNA file and write it, whole or in part");
+      app.add_subcommand("convert", "Convert a DNA file: version, layers, LODs, axes and units");
   convert->add_option("IN", options->input, "DNA file; - reads standard input")
       ->type_name("")
       ->required();
   add_output_options(*convert, options->output, "File to write; - is standard output")->required();
   convert
       ->add_option("--version", options->version,
-                   "Version to write, 2.1 to 2.8 (default: as it is)")
+                   "Version to write, 2.1 to 2.8 (default: that of IN)")
       ->type_name("V");
   convert
       ->add_option("--unknown", options->unknown,
@@ -68,7 +67,7 @@ Command add_convert_command(CLI::App& app, const Session& session) {
       ->type_name("WHAT");
   add_load_options(*convert, options->load);
   convert->footer(
-      "Without options the bytes stay the same, if the file was written the usual way.\n"
+      "Without options the output has the bytes of the input, if the input is in canonical form.\n"
       "IN and OUT may be the same file. Layers that are not loaded are written empty.\n\n"
       "Examples:\n"
       "  mien convert head.dna -o old.dna --version 2.2\n"

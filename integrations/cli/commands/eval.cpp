@@ -110,7 +110,8 @@ Command add_eval_command(CLI::App& app, const Session& session) {
   eval->add_option("RIG", options->rig, "DNA file or baked rig; - reads standard input")
       ->type_name("")
       ->required();
-  eval->add_option("-i,--input", options->input, "JSON with the controls; - reads standard input")
+  eval->add_option("-i,--input", options->input,
+                   "JSON with frames of controls; - reads standard input")
       ->type_name("FRAMES")
       ->required();
   add_output_options(*eval, options->output, "File to write; - is standard output (default)");
@@ -133,11 +134,12 @@ Command add_eval_command(CLI::App& app, const Session& session) {
       "     \"raw_after_gui\": {\"12\": 1.0}},         mapped to raw; then raw, or by index\n"
       "    {\"gui\": [0.0, ...], \"ml_mask\": [1, 0]}  region masks, in any frame\n"
       "  ]}\n"
-      "Controls that are not named keep their initial values. Every frame starts afresh at\n"
-      "every LOD.\n\n"
+      "Controls that are not named keep their initial values. Every frame starts from the\n"
+      "initial state, at every LOD.\n\n"
       "For long takes: csv has a header and a row per frame and LOD; jsonl a line with the names,\n"
       "then a line per frame and LOD; npy is an array [frame and LOD][joint][value] for NumPy, in\n"
-      "the order of 'mien info RIG --names joints'. The name of OUT tells the format, too.\n\n"
+      "the order of 'mien info RIG --names joints'. Without --format, the ending of OUT "
+      "decides.\n\n"
       "Examples:\n"
       "  mien eval head.dna --input frames.json -o out.json\n"
       "  mien eval head.dna --input take.json -o take.csv\n"

@@ -41,7 +41,7 @@ Format parse_format(const ExportOptions& options) {
   for (size_t i = 0; i < option_words("--format").size(); ++i) {
     if (ending == option_words("--format")[i]) return static_cast<Format>(i);
   }
-  fail_usage("-o " + options.output.path, "the name tells no format",
+  fail_usage("-o " + options.output.path, "the name does not tell the format",
              "let it end in .glb or .obj, or add --format");
 }
 
@@ -136,9 +136,10 @@ void note_lost_controls(ExportedRig& face, const gltf::ArkitControls& controls,
   }
   const auto lost = std::count(is_lost.begin(), is_lost.end(), true);
   if (lost == 0) return;
-  note(session, face.file.shown + ": " + std::to_string(lost) +
-                    " controls that were set are no ARKit expressions: a baked file has no place "
-                    "for them");
+  note(session,
+       face.file.shown + ": " + std::to_string(lost) +
+           " controls that were set are not ARKit expressions: a baked file has no targets "
+           "for them");
 }
 
 std::string baked_glb(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
@@ -147,7 +148,7 @@ std::string baked_glb(ExportedRig& face, const Frame& still, const std::vector<F
   const bool is_posed = !options.settings.empty() || !frames.empty();
   if (is_posed && !controls.by_name) {
     fail(kInvalid, kCannot, face.file.shown,
-         "not all ARKit expressions are controls of the rig, so controls are no weights of them",
+         "not all ARKit expressions are controls of the rig, so controls cannot be their weights",
          "leave out --bake-arkit, or --set and --animation");
   }
   gltf::RigScene scene = gltf::make_still_scene(*face.source, face.scene_options(options.glb));
@@ -168,7 +169,7 @@ std::string baked_glb(ExportedRig& face, const Frame& still, const std::vector<F
   if (options.mouth_close.empty() && !options.correctives &&
       report.max_close_with_jaw > kNotableClose * report.diagonal) {
     note(session, face.file.shown +
-                      ": on this rig mouthClose is another thing when the jaw is open; for "
+                      ": on this rig mouthClose moves differently when the jaw is open; for "
                       "captured data add --mouth-close jaw");
   }
 
@@ -254,41 +255,41 @@ Command add_export_command(CLI::App& app, const Session& session) {
       ->required();
   add_output_options(*command, options->output, "File to write, .glb or .obj; - is standard output")
       ->required();
-  command->add_option("--format", options->format, "glb or obj, where the name does not tell")
+  command->add_option("--format", options->format, "glb or obj (default: by the ending of OUT)")
       ->type_name("NAME");
   command
       ->add_option("--lod", options->lod,
-                   "LOD to export (default: 0), or all; a GLB has a scene for each")
+                   "LOD to export (default: 0), or all: a GLB with a scene for each")
       ->type_name("N");
   command
       ->add_option("--set", options->settings,
-                   "Set a control, by its name or what follows the last dot of it:\n"
-                   "jawOpen=0.6; again for others")
+                   "Set a control, by its name or the part after the last dot:\n"
+                   "jawOpen=0.6; may be repeated")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
   add_glb_options(*command, options->glb);
   command
       ->add_option("--animation", options->animation,
-                   "Frames as for 'mien eval', as an animation; - reads standard input")
+                   "Write frames as an animation: JSON as for 'mien eval'; - reads standard input")
       ->type_name("FRAMES");
   command->add_option("--fps", options->rate, "Frames per second (default: 30)")->type_name("N");
   command->add_flag("--bake-arkit", options->bake,
-                    "The 52 ARKit expressions as morph targets; of the bones head, neck and eyes\n"
-                    "stay. Prints how far these are off the full rig");
+                    "Write the 52 ARKit expressions as morph targets, with only the bones of\n"
+                    "head, neck and eyes. Prints the error compared with the full rig");
   command->add_flag("--correctives", options->correctives,
-                    "With --bake-arkit: targets for what two expressions do together, with what\n"
-                    "drives them in the extras");
+                    "With --bake-arkit: add targets for the correctives of two expressions; the\n"
+                    "extras of the mesh say what drives them");
   command
       ->add_option("--mouth-close", options->mouth_close,
-                   "mouthClose as a difference to neutral: alone (default), or to an open\n"
-                   "jaw, as captured data mean it: jaw")
+                   "Store mouthClose as the difference from the neutral face: alone (default),\n"
+                   "or from an open jaw, as captured data use it: jaw")
       ->type_name("WAY");
   command->footer(
-      "A GLB holds the skeleton, the skin and the blend shape channels as morph targets: what\n"
-      "the controls drive, not what drives it. --set gives the pose it opens in, --animation\n"
-      "one that moves. Meters, y up, the face to the front of z. Materials go by mesh names.\n"
-      "--lod all puts each LOD in a scene of its own; viewers show the first one. Beside an OBJ\n"
-      "file its materials go to a file of the same name that ends in .mtl.\n\n"
+      "A GLB holds the skeleton, the skin and the blend shape channels as morph targets, but not\n"
+      "the rig logic that drives them. --set chooses the pose in which it opens, --animation adds\n"
+      "an animation. Units are meters, y is up, the face looks toward +z. Materials are chosen by\n"
+      "mesh name. --lod all puts each LOD into its own scene; viewers show the first one. The\n"
+      "materials of an OBJ file are written to a file of the same name that ends in .mtl.\n\n"
       "Examples:\n"
       "  mien export head.dna -o head.glb\n"
       "  mien export head.dna -o smile.obj --set mouthSmileLeft=1\n"

@@ -41,7 +41,7 @@ void add_common_options(CLI::App* command, GenOptions& options, const std::strin
 
 Command add_gen_command(CLI::App& app, const Session& session) {
   auto options = std::make_shared<GenOptions>();
-  CLI::App* gen = app.add_subcommand("gen", "Make a synthetic rig");
+  CLI::App* gen = app.add_subcommand("gen", "Generate a synthetic rig");
   add_common_options(gen, *options, "The same number gives the same bytes everywhere (default: 0)");
   gen->add_option(
          "--preset", options->preset,
@@ -49,7 +49,7 @@ Command add_gen_command(CLI::App& app, const Session& session) {
          "solvers, twists and swings)")
       ->type_name("NAME");
   gen->add_flag("--ml", options->ml,
-                "With machine-learned behavior: networks, their operations, joints they move");
+                "Add machine-learned behavior: networks, their operations, joints that they move");
   gen->footer(
       "Examples:\n"
       "  mien gen -o tiny.dna\n"
@@ -65,12 +65,12 @@ Command add_gen_command(CLI::App& app, const Session& session) {
 Command add_demo_head_command(CLI::App& app, const Session& session) {
   auto options = std::make_shared<GenOptions>();
   options->preset = "head";
-  CLI::App* head = app.add_subcommand("demo-head", "Make a head to look at, with 52 expressions");
-  add_common_options(head, *options, "Another person for each number (default: 0)");
+  CLI::App* head = app.add_subcommand("demo-head", "Generate a stylized head with 52 expressions");
+  add_common_options(head, *options, "Each number gives another person (default: 0)");
   head->footer(
       "A stylized person: skin, eyes, teeth, tongue, hair, with vertex colors, correctives,\n"
-      "wrinkle maps and 8 LODs. Raw controls have the names of ARKit's coefficients;\n"
-      "mouthClose closes the lips over a jaw that is open.\n\n"
+      "wrinkle maps and 8 LODs. Raw controls have the names of the ARKit coefficients;\n"
+      "mouthClose closes the lips over an open jaw.\n\n"
       "Examples:\n"
       "  mien demo-head -o head.dna\n"
       "  mien render head.dna --set jawOpen=0.6 --set mouthSmileLeft=1 -o smile.png");

@@ -534,15 +534,15 @@ void run(const InfoOptions& options, const Session& session) {
 
 Command add_info_command(CLI::App& app, const Session& session) {
   auto options = std::make_shared<InfoOptions>();
-  CLI::App* info = app.add_subcommand("info", "Show what a rig holds");
+  CLI::App* info = app.add_subcommand("info", "Show what a rig contains");
   info->add_option("RIG", options->rig, "DNA file or baked rig; - reads standard input")
       ->type_name("")
       ->required();
-  info->add_flag("--json", options->json, "JSON, for other programs");
-  info->add_flag("--full", options->full, "Show long values of metadata whole");
+  info->add_flag("--json", options->json, "Print JSON");
+  info->add_flag("--full", options->full, "Do not shorten long metadata values");
   info->add_option(
           "--names", options->names,
-          "List names: " + list_of(option_words("--names"), "or") + "\n(comma between them)")
+          "List names: " + list_of(option_words("--names"), "or") + "\n(separated by commas)")
       ->type_name("KINDS");
   add_load_options(*info, options->load);
   add_rig_options(*info, options->evaluation);

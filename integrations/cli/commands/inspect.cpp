@@ -383,22 +383,22 @@ void run(const InspectCommand& command, const Session& session) {
 
 Command add_inspect_command(CLI::App& app, const Session& session) {
   auto command = std::make_shared<InspectCommand>();
-  CLI::App* inspect = app.add_subcommand("inspect", "Explain what a control does");
+  CLI::App* inspect = app.add_subcommand("inspect", "Show what a control does");
   add_scene_options(*inspect, command->scene);
   inspect->add_option("CONTROL", command->control, "A raw or GUI control, such as jawOpen")
       ->type_name("")
       ->required();
   inspect->add_option("--value", command->value, "Value of the control (default: 1)")
       ->type_name("V");
-  inspect->add_flag("--json", command->json, "Everything, as JSON");
+  inspect->add_flag("--json", command->json, "Print everything as JSON");
   add_render_output_options(*inspect, command->output,
                             "Also draw a heat map of what moves, and how far");
   inspect->footer(
       "Compares the neutral pose with the pose in which this control is set: joints (length of\n"
       "the translation, largest angle, largest change of scale), blend shape channels, animated\n"
       "maps, and positions of the meshes (those that move at least 1 % of the largest distance).\n"
-      "Lists the correctives that this control is an input of. For each, all of its inputs are\n"
-      "set: how far does that move the mesh beyond the sum of what the inputs do alone?\n\n"
+      "Lists the correctives of which this control is an input: for each, how far setting all of\n"
+      "its inputs moves the mesh beyond the sum of what each input does alone.\n\n"
       "Examples:\n"
       "  mien inspect head.dna jawOpen\n"
       "  mien inspect head.dna CTRL_C_jaw.ty --value 0.5 --json\n"

@@ -218,7 +218,7 @@ const Words& option_words(const std::string& option) {
 void add_load_options(CLI::App& app, LoadOptions& options) {
   const std::string group = "What to load";
   app.add_option("--layers", options.layers,
-                 "Only these, with commas between; what they need comes along:\n"
+                 "Layers to load, separated by commas; layers that they need are loaded too:\n"
                  "descriptor, definition, behavior, geometry,\n"
                  "geometry-without-blend-shapes, ml, rbf, joint-metadata,\n"
                  "twist-swing or all")
@@ -230,20 +230,22 @@ void add_load_options(CLI::App& app, LoadOptions& options) {
   app.add_option("--min-lod", options.min_lod, "Coarsest LOD to load: the larger number")
       ->type_name("N")
       ->group(group);
-  app.add_option("--lods", options.lods,
-                 "Only these LODs, as 0,2-4; wins over --max-lod and --min-lod.\nLoaded LODs are "
-                 "numbered anew from 0")
+  app.add_option(
+         "--lods", options.lods,
+         "Only these LODs, such as 0,2-4; overrides --max-lod and --min-lod.\nLoaded LODs are "
+         "renumbered from 0")
       ->type_name("LIST")
       ->group(group);
   app.add_option("--system", options.system,
                  "Convert to the axes, units and winding of:\n" + list_of(system_names(), "or") +
-                     "\n(default: as the file is)")
+                     "\n(default: those of the file)")
       ->type_name("NAME")
       ->group(group);
   app.add_option(
          "--rotation-order", options.rotation_order,
-         "Order of Euler angles with --system: carried along with the axes\n(default), exact "
-         "(the system's; refused where sums of angles\ncannot follow) or per-column")
+         "Order of Euler angles with --system: carried (default; the file's order,\nwith axes "
+         "renamed), exact (the system's; refused if sums of angles\ncannot be converted exactly) "
+         "or per-column")
       ->type_name("RULE")
       ->group(group);
 }
@@ -253,16 +255,16 @@ void add_rig_options(CLI::App& app, RigOptions& options, bool with_isa) {
   if (with_isa) {
     app.add_option("--isa", options.isa,
                    "Instruction set: " + list_of(option_words("--isa"), "or") +
-                       "\n(default: $MIEN_ISA, else the best of this machine)")
+                       "\n(default: $MIEN_ISA, otherwise the best of this machine)")
         ->type_name("NAME")
         ->group(group);
   }
   app.add_option("--storage", options.storage,
-                 "Matrices and weights: f32, or f16 (half the memory, 3 digits)")
+                 "Storage of matrices and weights: f32, or f16 (half the memory, about 3 digits)")
       ->type_name("TYPE")
       ->group(group);
   app.add_option("--rotation", options.rotation,
-                 "Rotations of joints: euler (9 values per joint) or quaternion (10)")
+                 "Joint rotations: euler (9 values per joint) or quaternion (10)")
       ->type_name("TYPE")
       ->group(group);
   app.add_option("--ml-masks", options.ml_masks,

@@ -264,37 +264,41 @@ Command add_play_command(CLI::App& app, const Session& session) {
   play->add_option("RIG", options->rig, "DNA file or baked rig")->type_name("")->required();
   play->add_option(
           "-o,--output", options->outputs,
-          "Files to write, by their endings: .json, .csv, .clip, .svg\n(lanes over time), .glb "
-          "(animation), .png (contact strip); may be\nrepeated (default: JSON on standard "
-          "output)")
+          "Files to write; the ending selects the format: .json, .csv,\n.clip, .svg (lanes over "
+          "time), .glb (animation), .png (contact\nstrip); may be repeated (default: JSON on "
+          "standard output)")
       ->type_name("OUT")
       ->expected(1)
       ->take_all();
   play->add_flag("--force", options->force, "Replace even an input or a read-only file");
-  play->add_option("--rate", options->rate, "Frames per second (default: the scene's, else 60)")
+  play->add_option("--rate", options->rate,
+                   "Frames per second (default: the scene's, otherwise 60)")
       ->type_name("R");
-  play->add_option("--seconds", options->seconds, "How long (default: the scene's)")
+  play->add_option("--seconds", options->seconds, "Length in seconds (default: the scene's)")
       ->type_name("S");
-  play->add_option("--seed", options->seed, "Of blinks, breath and noise (default: the scene's)")
+  play->add_option("--seed", options->seed,
+                   "Seed of blinks, breath and noise (default: the scene's)")
       ->type_name("N");
   play->add_option("--stages", options->stages,
-                   "Also tell for these controls which layer made their values, and\nwhich guards "
-                   "held them back; with commas between")
+                   "Also report for these controls, separated by commas, which layer\nmade their "
+                   "values, and which guards held them back")
       ->type_name("NAMES");
   play->add_option("--lod", options->strip.scene.lod,
                    "LOD of images and of a GLB (default: 0, the finest)")
       ->type_name("N");
   add_glb_options(*play, options->glb, "GLB");
-  const std::string clock = "By the clock";
-  play->add_option("--live", options->real_time.live,
-                   "Listen on a port: livelink://:11111 for the Live Link Face app,\n"
-                   "vmc://:39539 for VMC; from other machines too, unless a host is named.\n"
-                   "Drives the layer with the source {\"live\": true}, else all below the layers")
+  const std::string clock = "Real time";
+  play->add_option(
+          "--live", options->real_time.live,
+          "Listen on a port: livelink://:11111 for the Live Link Face app,\n"
+          "vmc://:39539 for VMC; from other machines too, unless a host is named.\n"
+          "Drives the layer with the source {\"live\": true}; without one, adds it before\nall "
+          "other layers")
       ->type_name("FROM")
       ->group(clock);
   play->add_option("--delay", options->real_time.delay,
-                   "Seconds by which live data are played later, which hides jitter\nand "
-                   "disorder (default: 0.05)")
+                   "Delay of live data in seconds, which hides jitter and packets in\nthe wrong "
+                   "order (default: 0.05)")
       ->type_name("S")
       ->group(clock);
   play->add_option("--send", options->real_time.send,
@@ -303,10 +307,10 @@ Command add_play_command(CLI::App& app, const Session& session) {
       ->group(clock);
   const std::string group = "Images";
   play->add_option("--every", options->strip.every,
-                   "Seconds from image to image (default: 16 images at most)")
+                   "Seconds between images (default: at most 16 images)")
       ->type_name("S")
       ->group(group);
-  play->add_option("--columns", options->strip.columns, "Images in a row (default: 8)")
+  play->add_option("--columns", options->strip.columns, "Images per row (default: 8)")
       ->type_name("N")
       ->group(group);
   play->add_option("--meshes", options->strip.scene.meshes,
@@ -315,7 +319,7 @@ Command add_play_command(CLI::App& app, const Session& session) {
       ->group(group);
   add_camera_options(*play, options->strip.output, group);
   play->footer(
-      "SCENE is one JSON object, in which everything may be left out:\n"
+      "SCENE is one JSON object, in which everything is optional:\n"
       "  {\"rate\": 60, \"seconds\": 4, \"seed\": 7,\n"
       "   \"layers\": [\n"
       "     {\"name\": \"talk\", \"group\": \"speech\",\n"
@@ -334,11 +338,12 @@ Command add_play_command(CLI::App& app, const Session& session) {
       "     {\"time\": 3, \"trigger\": \"glare\", \"strength\": 1, \"hold\": 1.5}]}\n\n"
       "{\"time\": 3, \"level\": \"glare\", \"value\": 0.8} says how bright the light is from then "
       "on: 0.5 or more is a glare, until it is below 0.35.\n"
-      "{\"generator\": \"gaze\"} turns the eyes to a place, the variables gaze.x, gaze.y and "
-      "gaze.z: "
-      "meters to the left, up and to the front of the middle of the eyes.\n"
-      "Clips are found from the folder of the scene. Channels with the names of ARKit drive rigs "
-      "that have other names by the table of docs/face-capture.md.\n\n"
+      "{\"generator\": \"gaze\"} turns the eyes to a point given by the variables gaze.x, gaze.y "
+      "and "
+      "gaze.z: meters to the left, up and to the front of the point between the eyes.\n"
+      "Paths of clips are relative to the folder of the scene. On rigs without ARKit names, "
+      "channels "
+      "with ARKit names drive the controls in the table of docs/face-capture.md.\n\n"
       "Examples:\n"
       "  mien play scene.json head.dna -o frames.json -o lanes.svg\n"
       "  mien play scene.json head.dna | mien eval head.dna --input -\n"
@@ -346,7 +351,7 @@ Command add_play_command(CLI::App& app, const Session& session) {
       "  mien play scene.json head.dna -o strip.png --every 0.1 --target mouth\n"
       "  mien play scene.json head.dna -o 'frame-%04d.png' --every 0.04\n"
       "  mien play scene.json head.dna --live livelink://:11111 --send vmc://127.0.0.1:39539\n\n"
-      "--live and --send play by the clock, for --seconds or until Ctrl-C; then outputs are "
+      "--live and --send play in real time, for --seconds or until Ctrl-C; then outputs are "
       "written.");
   return {play, [options, &session] {
             options->strip.scene.rig = options->rig;

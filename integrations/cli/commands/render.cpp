@@ -198,7 +198,7 @@ Command add_render_command(CLI::App& app, const Session& session) {
   add_scene_options(*render, command->scene);
   add_render_output_options(*render, command->output,
                             "File to write; - is standard output. With %04d in the name,\n"
-                            "every image becomes a file of its own");
+                            "each image is written to a separate file");
   render->get_option("--output")->required();
   render
       ->add_option("--set", command->settings,
@@ -208,30 +208,28 @@ Command add_render_command(CLI::App& app, const Session& session) {
   const std::string group = "Several images";
   render
       ->add_flag("--sheet", command->sheet,
-                 "An image for each raw control, set to 1, with its name")
+                 "One image per raw control, set to 1, labeled with its name")
       ->group(group);
   render
       ->add_option("--select", command->select,
                    "Only these controls of a sheet, for example jaw*,*Blink*")
       ->type_name("PATTERN")
       ->group(group);
-  render->add_option("--turntable", command->turntable, "N images from all around")
+  render->add_option("--turntable", command->turntable, "N images, turning around the head")
       ->type_name("N")
       ->group(group);
   render
       ->add_option("--frames", command->frames,
-                   "An image for each frame: JSON as for 'mien eval'; - reads\nstandard input")
+                   "One image per frame: JSON as for 'mien eval'; - reads\nstandard input")
       ->type_name("FRAMES")
       ->group(group);
-  render->add_option("--columns", command->columns, "Images in a row")
-      ->type_name("N")
-      ->group(group);
-  render->add_flag("--wireframe", command->wireframe, "Draw the edges of faces as well");
+  render->add_option("--columns", command->columns, "Images per row")->type_name("N")->group(group);
+  render->add_flag("--wireframe", command->wireframe, "Also draw the edges of faces");
   render->footer(
       "The default size is 640x640 pixels, or 256x256 for each of several images in one file.\n"
       "The light moves with the camera. Meshes have the colors of the metadata mien.colors.MESH\n"
-      "of the file (base64 of r g b for each position), else a material by their names: baked\n"
-      "files have no metadata.\n\n"
+      "of the file (base64 of r g b for each position), otherwise a material chosen by mesh name.\n"
+      "Baked files have no metadata.\n\n"
       "Examples:\n"
       "  mien render head.dna -o head.png\n"
       "  mien render head.dna --set jawOpen=0.7 --camera three-quarter -o open.png\n"

@@ -86,9 +86,10 @@ void add_scene_options(CLI::App& app, SceneArguments& arguments) {
       ->type_name("")
       ->required();
   app.add_option("--lod", arguments.lod, "LOD to show (default: 0, the finest)")->type_name("N");
-  app.add_option("--meshes", arguments.meshes,
-                 "Only these meshes, for example head*,teeth* (default: all but\nthose that need "
-                 "textures: shells of eyes, lashes, saliva)")
+  app.add_option(
+         "--meshes", arguments.meshes,
+         "Only these meshes, for example head*,teeth* (default: all except\nthose that need "
+         "textures: eye shells, lashes, saliva)")
       ->type_name("PATTERN");
 }
 
@@ -112,7 +113,7 @@ void add_camera_options(CLI::App& app, RenderOutputOptions& options, const std::
                      "joint names such as *lip* (default: everything; for sheets and\n"
                      "strips the face)")
           ->type_name("NAME"),
-      app.add_option("--size", options.size, "Pixels of an image, such as 640x480 or 640")
+      app.add_option("--size", options.size, "Size of an image in pixels, such as 640x480 or 640")
           ->type_name("WxH"),
       app.add_option("--background", options.background, "dark (default) or light")
           ->type_name("NAME"),

@@ -180,10 +180,10 @@ Command add_validate_command(CLI::App& app, const Session& session) {
   validate->add_option("RIG", options->rigs, "DNA or baked files; - reads standard input")
       ->type_name("")
       ->required();
-  validate->add_flag("--json", options->json, "JSON, for other programs");
+  validate->add_flag("--json", options->json, "Print JSON");
   validate->footer(
       "Exits with 0 if there are no errors (there may be warnings), with 2 if there are. All\n"
-      "files are checked, also after one that is not valid; --json of several is an array.\n\n"
+      "files are checked, even after one that is not valid; --json prints an array for several.\n\n"
       "Examples:\n"
       "  mien validate head.dna\n"
       "  mien validate characters/*.dna --quiet\n"

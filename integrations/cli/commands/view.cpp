@@ -33,7 +33,7 @@ void check_rig(const std::string& bytes, const std::string& shown) {
     check(status, &error, "cannot view", shown);
     mien_dna_close(dna);
   } else if (bytes.compare(0, 4, "glTF") != 0) {
-    fail(kInvalid, "cannot view", shown, "it is no DNA file, baked file or GLB",
+    fail(kInvalid, "cannot view", shown, "it is not a DNA file, baked file or GLB",
          "check what was given; poses and takes are dropped on the page");
   }
 }
@@ -92,21 +92,22 @@ void run(const ViewOptions& options, const Session& session) {
 
 Command add_view_command(CLI::App& app, const Session& session) {
   auto options = std::make_shared<ViewOptions>();
-  CLI::App* view = app.add_subcommand("view", "Look at a rig in the browser, with sliders");
+  CLI::App* view = app.add_subcommand("view", "Show a rig in the browser, with sliders");
   view->add_option("FILE", options->file,
                    "DNA file, baked rig or GLB; - reads standard input. Default: an empty page")
       ->type_name("");
-  view->add_option("--port", options->port, "Port of 127.0.0.1 (default: a free one)")
+  view->add_option("--port", options->port, "Port on 127.0.0.1 (default: a free one)")
       ->type_name("N");
-  view->add_flag("--no-open", options->no_open, "Print the address, and open no browser");
+  view->add_flag("--no-open", options->no_open, "Print the address without opening a browser");
   view->add_option("--page", options->page,
-                   "Folder of the viewer (default: beside the program, installed or built)")
+                   "Folder of the viewer (default: the one installed or built with the program)")
       ->type_name("FOLDER");
   view->footer(
       "Serves the viewer on this machine until it is interrupted, and opens the browser. The file "
       "is\n"
-      "read once and goes to the page alone; nothing leaves the machine. Other users of the\n"
-      "machine can open the address too.\n\n"
+      "read once and only sent to the page; nothing leaves the machine. Other users of the "
+      "machine\n"
+      "can open the address too.\n\n"
       "Examples:\n"
       "  mien view head.dna\n"
       "  mien view head.rig --port 8000 --no-open\n"

@@ -20,7 +20,7 @@ uint16_t parse_port(const std::string& option, const std::string& text, const st
     port = port * 10 + static_cast<uint32_t>(c - '0');
   }
   if (good && port <= 65535 && (port != 0 || !is_destination)) return static_cast<uint16_t>(port);
-  cli::fail_usage(option + " " + text, "the port is no number up to 65535",
+  cli::fail_usage(option + " " + text, "the port is not a number up to 65535",
                   "write it as vmc://127.0.0.1:39539");
 }
 
@@ -47,7 +47,8 @@ Address parse_address(const std::string& option, const std::string& text, bool i
                                  "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                  "0123456789.-") != std::string::npos;
   if (has_odd_bytes || address.host.size() > 253 || (is_destination && address.host.empty())) {
-    cli::fail_usage(option + " " + text, "this is no name or IPv4 address of a machine", advice);
+    cli::fail_usage(option + " " + text, "this is not the name or IPv4 address of a machine",
+                    advice);
   }
   return address;
 }
