@@ -581,7 +581,7 @@ Command add_clip_command(CLI::App& app, const Session& session) {
       "Examples:\n"
       "  mien clip build take.csv -o take.clip\n"
       "  mien clip build take.csv -o small.clip --snap 1/2048 --channels 'jaw*,mouth*'\n"
-      "  mien clip build talk.json -o talk.clip --close m,b,p=lips --close f,v=lip-to-teeth\n"
+      "  mien clip build talk.json -o talk.clip --close m,b,p=lips\n"
       "  mien clip build nod.csv -o nod.clip --minus 0\n"
       "  mien clip build phone.csv -o phone.clip --rig head.dna --tolerance 0.05\n"
       "  mien clip build phone.csv -o phone.clip --resample --rate 60");
