@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A clip: control curves at a constant rate, as a file that is used where it lies. Nothing in it
-// depends on where that is, on the machine, or on a rig: channels have names (binding.h).
+// A clip: control curves at a constant rate, in a file that is used in place. Its contents do not depend
+// on the address, the machine or a rig: channels have names (binding.h).
 //
 //     | header, 64 bytes
-//     | rest values, f32 each         by channel: of one that never changes its value, else 0
+//     | rest values, f32 each         by channel: its value if that never changes, else 0
 //     | ends of names, u32 each       by name: channels, then events
 //     | changing channels, u16 each   ascending
 //     | events, 16 bytes each         ascending ticks
@@ -16,9 +16,9 @@
 // sizes follow from the counts in the header: the file has no offsets to check. Numbers are
 // little-endian and may be read at any address.
 //
-// Channels keep the order in which they were given, so that exporting a clip gives back the table it
-// was built from. Neither hashes nor an order of names are stored, because a binding compares names
-// without regard to spelling and has to sort them itself.
+// Channels keep the order in which they were given, so that exporting a clip restores the table from
+// which it was built. The file stores neither hashes nor sorted names, because a binding ignores case and
+// has to sort the names itself.
 #pragma once
 
 #include "runtime/base/byte_order.h"
@@ -45,8 +45,8 @@ constexpr int64_t kMaxTicksPerFrame = int64_t{1} << 32;
 enum ClipFlags : uint32_t {
   kClipWraps = 1,     // after the last frame comes the first; else the last one stays
   kClipSnapped = 2,   // values were rounded when the clip was built
-  kClipHalfRate = 4,  // of the frames 1, 3, 5 ... none is stored: each is the mean of its neighbors
-  kClipIsDelta = 8,   // differences from a reference, to be added to something
+  kClipHalfRate = 4,  // frames 1, 3, 5 ... are not stored: each is the mean of its neighbors
+  kClipIsDelta = 8,   // values are differences from a reference, to be added to other values
 };
 
 /// Where the fields of the header are that are not in kClipFields.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Time -> values: a clip being played.
 //
-// The position is a whole number of ticks, and the fraction of a tick that a speed leaves is kept.
-// So loops are exact, and a time span leads to the same position however it is divided into steps.
-// Moving decodes nothing. Sampling decodes the frames it needs, cheaply if little time has passed.
+// The position is a whole number of ticks, plus the fraction of a tick that a speed leaves. So loops are
+// exact, and the position does not depend on the step size. Moving decodes nothing. Sampling decodes
+// the frames that it needs, which is cheap if little time has passed.
 #pragma once
 
 #include "runtime/anim/clip_block.h"
@@ -29,8 +29,8 @@ struct PlayDesc {
 
 constexpr uint32_t kSamplerRows = 6;  // what Catmull-Rom needs where a half-rate clip wraps
 
-/// One character's playing of one clip. Its memory is placed once, for clips of up to so many
-/// channels; starting another clip takes none.
+/// The playback of one clip for one character. Its memory is allocated once, for a maximum number of
+/// channels; starting another clip allocates nothing.
 struct ClipSampler {
   const Clip* clip = nullptr;  // has to outlive the playing
   int64_t tick = 0;            // 0 ... length, or below it in a loop
@@ -58,7 +58,7 @@ struct ClipSampler {
   uint32_t block_of_rows = 0;
 };
 
-/// How large clips may be that a sampler plays.
+/// The largest clip that a sampler can play.
 struct SamplerLimits {
   uint32_t channels = 0, changing_channels = 0;
   /// Takes 256 bytes more per changing channel, and makes a frame backward as cheap as one forward;
@@ -94,8 +94,8 @@ struct EventRange {
 /// in each loop, however time is divided into steps.
 EventRange advance_clip(ClipSampler& sampler, int64_t ticks);
 
-/// The next event of a step; false after the last. Events are not collected, as a step over many
-/// loops passes any number of them.
+/// The next event of a step; false after the last. Events are not collected in an array, because a step
+/// over many loops can pass any number of them.
 bool next_event(EventRange& range, ClipEvent& event);
 
 /// The same of the channels that change, in their order; `values` stays as it is.

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The baked file: compiled objects as they are in memory, used where they lie.
+// The baked file: compiled objects in their memory layout, used in place.
 //
 //     | header, 64 bytes | table of parts, 64 bytes each | part | part | ...
 //
 //     part:  | numbers, 8 bytes each | arrays: offset, count, element size | array | array | ...
 //
 // Parts begin at multiples of 64, in the order of the table, and so do their arrays; what is
-// between is zero. So an object has one image, and its offsets, which count from the beginning of
-// the part, do not depend on what else the file holds. A reader skips parts of a kind that it does
-// not know. Nothing in a file depends on the instruction set, on the size of a pointer, or on where
-// the file lies. Numbers are in the byte order of the machine that wrote them; a file of the other
-// order is refused.
+// between is zero. So equal objects have equal bytes, and the offsets of an object, which count from
+// the beginning of its part, do not depend on what else the file contains. A reader skips parts of
+// unknown kinds. Nothing in a file depends on the instruction set, on the size of a pointer, or on its
+// address. Numbers are in the byte order of the machine that wrote them; a file of the other order is
+// refused.
 #pragma once
 
 #include "runtime/base/arena.h"

@@ -31,7 +31,7 @@ class Arena {
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;
 
-  /// An estimate of the bytes that will be needed, so that one request serves them. A wrong estimate
+  /// An estimate of the bytes that will be needed, so that one request is enough. A wrong estimate
   /// costs another request, or memory that stays unused.
   void expect(size_t size) { expected_ = size; }
 
@@ -104,8 +104,8 @@ class Arena {
   size_t expected_ = 0;
 };
 
-/// Run the same placing code twice: over null to learn the size, then over the block.
-/// While it measures, the spans it gives have a count and no data.
+/// Run the same placing code twice: without memory to measure the size, then with the block.
+/// While measuring, the returned spans have a count but no data.
 class Placer {
  public:
   explicit Placer(void* block) : base_(static_cast<uint8_t*>(block)) {}
@@ -118,7 +118,7 @@ class Placer {
     return items;
   }
 
-  /// As the allocator left it: for large arrays of which every element will be written.
+  /// Not initialized: for large arrays of which every element will be written.
   template <class T>
   Span<T> unwritten_array(size_t count, size_t alignment = alignof(T)) {
     static_assert(std::is_trivially_destructible<T>::value, "a block destroys nothing");

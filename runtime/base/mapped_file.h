@@ -22,8 +22,7 @@ enum class FileAccess : uint32_t {
   kRead = 1,  // always read: the file may be truncated or rewritten while it is in use
 };
 
-/// Where reading stops: a device or a pipe may have no end. Files that are mapped are as long as they
-/// are.
+/// Where reading stops, because a device or a pipe may have no end. Mapped files have no such limit.
 struct FileLimits {
   /// What does not begin like this is not read any further: the caller sees it and refuses.
   const char* signature = nullptr;
@@ -38,13 +37,13 @@ Status open_file(const char* path, FileAccess access, const FileLimits& limits,
 void close_file(MappedFile& file);
 
 /// Writes to a temporary name in the same folder, then renames: a reader sees the old file or the whole
-/// new one, and a failure leaves nothing behind. An existing file keeps its permissions; where its owner
-/// or group cannot be kept, nobody gets more than everybody had. A symbolic link is followed, and
-/// refused if it leads nowhere. Devices and pipes are written to directly.
+/// new one, and a failure leaves nothing behind. An existing file keeps its permissions; if its group
+/// cannot be kept, the new group gets no more permissions than everyone had. A symbolic link is followed,
+/// and refused if it leads nowhere. Devices and pipes are written to directly.
 Status write_file(const char* path, const uint8_t* bytes, size_t size, const Allocator& allocator,
                   Error& error);
 
-// What the systems have in common ------------------------------------------------------------------
+// Common to all systems ------------------------------------------------------------------
 
 constexpr size_t kCopyAlignment = 64;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bytes that several objects read where they lie: a mapped file, a copy of it, or memory of the
-// caller. The last owner releases them.
+// Bytes that several objects read in place: a mapped file, a copy of it, or the caller's memory. The
+// last owner releases them.
 #pragma once
 
 #include <atomic>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// How compilers make vectors of plain loops.
+// Helps compilers to vectorize plain loops.
 #pragma once
 
 #include <cstring>
 
-// Before a loop of few, known turns over arrays: g++ would unroll it completely, and then make none.
+// Put this before a short loop with a known number of iterations over arrays: otherwise g++ unrolls it
+// completely and does not vectorize it.
 #if defined(__GNUC__)
 #define MIEN_VECTOR_LOOP _Pragma("GCC unroll 1")
 #else

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The compiled rig: everything that evaluation reads, in one block of memory, never changed after
-// it was made.
+// The compiled rig: everything that evaluation reads, in one block of memory. It never changes once
+// it is compiled.
 //
 //     | Rig | tables | correctives | joint matrix | neutral pose | LOD lists | names |
 //
-// Elements of arrays have no padding: what would be is a field of zeros, so that a rig has one
-// image (baked_rig.h).
+// Array elements have no implicit padding: gaps are explicit fields of zeros, so that equal rigs have
+// equal bytes in a baked file.
 //
 // A LOD never needs a list of what to evaluate: tables, correctives and joint rows are ordered so
 // that each LOD uses a prefix of what the LOD before it uses.
@@ -35,7 +35,7 @@ inline float saturated(double value) {
   return value < kLargestFloat ? static_cast<float>(value) : kLargestFloat;
 }
 
-/// What exists at each LOD, with LODs that are alike sharing a row.
+/// The items of each LOD. LODs with the same items share a row.
 struct LodLists {
   Span<uint16_t> row_of_lod;
   Span<uint32_t> first;  // [row], one more at the end
@@ -49,9 +49,8 @@ struct LodLists {
 };
 
 /// Piecewise-linear map (docs/rig-evaluation.md, 2 "Conditional tables"): row r fires when from <=
-/// input <= to and then adds slope * input + cut to its output. Of neighboring rows with the same
-/// input and output only the first that fires counts: `run_ends[r]` is the first row behind the
-/// neighbors of r.
+/// input <= to and then adds slope * input + cut to its output. In a run of consecutive rows with the
+/// same input and output only the first that fires counts: `run_ends[r]` is the row after the run of r.
 struct ControlTable {
   Span<uint16_t> inputs, outputs;
   Span<float> from, to, slope, cut;
@@ -80,14 +79,14 @@ struct PsdTable {
   Span<uint16_t> entry_of_psd;  // where corrective p stands
 };
 
-/// A joint whose angles a group makes a quaternion of, and the first of the group's rows that writes
-/// one: at the LODs that reach this row.
+/// A joint whose angles a group converts to a quaternion, and the first row of the group that writes
+/// an angle: the conversion runs at the LODs that use this row.
 struct AngleJoint {
   uint16_t joint;
   uint16_t first_row;
 };
 
-/// Where a rotation that was computed in lanes goes.
+/// Where to write a rotation that was computed in a lane.
 struct RotationOutput {
   uint64_t lods;  // bit l: at LOD l
   uint32_t lane;
@@ -97,8 +96,8 @@ struct RotationOutput {
 
 /// What a joint group does to rotations besides writing angles.
 ///
-/// Angles: with quaternion outputs, rotation rows write their angles behind the joint values, at
-/// 3 * joint, and the group's `angle_joints` are then made into quaternions.
+/// Angles: with quaternion outputs, rotation rows write their angles after all joint values, at
+/// 3 * joint; then those of the group's `angle_joints` are converted to quaternions.
 ///
 /// Turns: joints represented by quaternions (docs/rig-evaluation.md, 4.8 "Joints represented by
 /// quaternions").
@@ -108,8 +107,8 @@ struct GroupRotations {
 };
 
 /// The turns of all groups are packed into blocks of kBlockLanes, one lane each, as simd/kernels.h
-/// draws them: first those that more LODs reach, then those with more steps. A step is a column of
-/// the lane's group in which the joint turns; a LOD uses the first steps of a lane.
+/// draws them: turns used by more LODs first, then those with more steps. A step is a column of the
+/// lane's group that turns the joint; a LOD uses the first steps of a lane.
 struct RotationTable {
   Span<GroupRotations> groups;  // one for each joint group
   Span<AngleJoint> angle_joints;
@@ -125,7 +124,7 @@ struct RotationTable {
   uint32_t block_count() const { return static_cast<uint32_t>(first_steps.count - 1); }
 };
 
-/// How a solver measures, as files number it.
+/// The distance function of a solver; numbers as in files.
 enum RbfDistance : uint8_t { kEuclidean, kQuaternion, kSwingAngle, kTwistAngle };
 
 /// One RBF solver (docs/rig-evaluation.md, 6 "RBF solvers"), beside its plan.
@@ -133,7 +132,7 @@ struct RbfSolver {
   uint32_t first_pose;  // into RbfTable::poses
 };
 
-/// Reads swings or twists instead of inputs.
+/// Whether the solver compares swings or twists instead of whole rotations.
 inline bool takes_parts(const RbfSolverPlan& plan) {
   return plan.angle_inputs == 2 || plan.angle_inputs == 3;
 }
@@ -155,7 +154,7 @@ struct RbfTable {
   LodLists lod_solvers;
 };
 
-/// One layer of a neural network, as simd/kernels.h wants it.
+/// One layer of a neural network, in the layout of simd/kernels.h.
 struct NetworkLayer {
   uint64_t first_value;  // into MlTable::values
   uint32_t first_bias;   // into MlTable::biases
@@ -175,9 +174,9 @@ struct MlDependency {
   uint8_t zeros[3];
 };
 
-/// A step of the learned behavior (docs/rig-evaluation.md, 8 "Machine-learned behavior"): a network
-/// that runs, or a weighted sum. What gathers and scatters has become lists of controls. Its values
-/// go to `first_output` of the instance's ML buffer, and on to the controls of its scatter list.
+/// A step of machine-learned behavior (docs/rig-evaluation.md, 8 "Machine-learned behavior"): a network
+/// or a weighted sum. Gather and scatter operations are compiled to lists of controls. The results go to
+/// `first_output` of the instance's ML buffer, and from there to the controls of the scatter list.
 struct MlStep {
   uint64_t lods;                                // bit l: runs at LOD l
   uint32_t first_layer, layer_count;            // none: a weighted sum
@@ -190,13 +189,13 @@ struct MlStep {
 };
 constexpr uint32_t kNoMask = ~uint32_t{0};
 
-// Operations cost a file few bytes and may all run the same large network, so their number alone
-// does not bound memory. (Time: work.h.)
+// An operation takes few bytes in a file, and all may run the same large network, so the file size alone
+// does not bound the memory. (For time, see work.h.)
 constexpr size_t kMaxBufferFloats = size_t{4} << 20;
 
-/// A joint that learned behavior moves (docs/rig-evaluation.md, 8.6 "ML joints"). Controls of what
-/// it does not give are kNoControl; a rotation takes three or four controls from rotation_control
-/// on.
+/// A joint that machine-learned behavior moves (docs/rig-evaluation.md, 8.6 "ML joints"). Components that
+/// it does not drive are kNoControl; a rotation takes three or four consecutive controls, from
+/// rotation_control on.
 struct MlJoint {
   uint64_t lods;  // bit l: exists at LOD l
   uint16_t joint;
@@ -228,14 +227,14 @@ struct MlTable {
   Matrix3 to_rig;                     // the change of axes, for row vectors
 };
 
-/// Joints that follow a quaternion input: what swings with it, then what twists with it
+/// Joints that follow a quaternion input: first those that swing with it, then those that twist with it
 /// (docs/rig-evaluation.md, 7 "Twist and swing").
 struct TwistSwing {
   uint32_t first_output, output_count;  // into TwistSwingTable::outputs
 };
 
 /// The outputs of all set-ups are packed into blocks of kBlockLanes, one lane each, as simd/kernels.h
-/// draws them, those that more LODs reach first. They read controls alone, so their order counts only
+/// draws them, those used by more LODs first. They read controls only, so their order matters only
 /// where two of them write the same joint.
 struct TwistSwingTable {
   Span<TwistSwing> setups;
@@ -306,8 +305,8 @@ struct Rig {
   uint32_t joint_count = 0, channel_count = 0, map_count = 0, mesh_count = 0, mask_count = 0;
   bool quaternion_outputs = false;
   bool half_storage = false;
-  bool portable = false;         // the same bits on every instruction set
-  bool always_evaluate = false;  // instead of keeping results whose inputs did not change
+  bool portable = false;                        // the same bits on every instruction set
+  bool always_evaluate = false;                 // never reuse results whose inputs did not change
   uint32_t joint_attributes = kFileAttributes;  // per joint: 9, or 10 with quaternion outputs
   uint32_t joint_value_count() const { return joint_count * joint_attributes; }
   RotationConvention rotation;

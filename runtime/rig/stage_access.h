@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What each stage of an evaluation reads and writes, and the rule that decides which results an
-// instance may keep.
+// instance may reuse.
 //
 //     stage          reads                                               writes
 //     -------------  --------------------------------------------------  -----------------------------
@@ -14,20 +14,20 @@
 //     blend shapes   inputs of channels                                  channel weights
 //     animated maps  inputs of the map table                             map weights
 //
-// Besides, the caller writes raw controls and masks, and resetting an instance or entering a LOD
-// writes everything but these inputs.
+// In addition, the caller writes raw controls and masks; resetting an instance or changing its LOD
+// writes everything except these inputs.
 //
 // A stage is stale if running it might change something that it writes. The rule:
 //
-//     When a value changes, whoever changed it, all stages that read or write it become stale. The one
-//     exception is the stage that has just written it, unless it also reads it.
+//     When a value changes, all stages that read or write it become stale. The only exception is the
+//     stage that has just written it, unless it also reads it.
 //
-// It covers files whose stages write raw controls, overwrite each other, or read what is written
-// later (then the value is that of the previous frame). Only stale stages run. What a stage writes
-// depends on nothing but the values that it reads and the LOD, so the others would write what is
-// there already.
+// The rule covers files whose stages write raw controls, overwrite each other, or read values that are
+// written later (they then read the value of the previous frame). Only stale stages run. The results of
+// a stage depend only on the values that it reads and on the LOD, so the other stages would write the
+// values that are already there.
 //
-// Rig::control_uses has the rule as a table: for each control the stages that read or write it, and
+// Rig::control_uses is the rule as a table: for each control the stages that read or write it, and
 // the row panels of the joint matrix that read it. Instance::stale is a union of such entries.
 #pragma once
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// How much work a rig may ask for. Most tables cost a frame in proportion to their bytes. Two can ask
-// for more, since what they refer to is shared: RBF solvers, whose poses drive any number of controls,
-// and ML operations, which may all run one network or add up one list of values. Their work is counted
-// in steps of about a nanosecond, for a frame at each LOD, before anything is evaluated, and compared
-// with the bytes of the file.
+// Limits the work per frame that a file can cause. The cost of most tables is proportional to their
+// size. Two can cost more, because they share what they refer to: RBF solvers, whose poses drive any
+// number of controls, and ML operations, which may all run one network or sum one list of values.
+// Before anything is evaluated, their work is counted, in steps of about a nanosecond, for a frame at
+// each LOD, and compared with the size of the file.
 #pragma once
 
 #include "runtime/rig/rig.h"
@@ -17,8 +17,8 @@ constexpr uint64_t work_budget(uint64_t bytes) {
   return kStepsPerByte * (bytes > kLeastBytes ? bytes : kLeastBytes);
 }
 
-// These stop counting as soon as the budget is exceeded. They follow indices: of a rig out of a baked
-// file they expect that those were checked.
+// These stop counting as soon as the budget is exceeded. They follow indices, so the indices of a rig
+// from a baked file must have been checked before.
 
 /// Steps of the RBF solvers in a frame at each LOD.
 uint64_t count_rbf_steps(const Rig& rig, uint64_t budget);

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Solvers: what moves joints after the rig has posed them. Eyes that hit a target, a cap that changes
-// from hand to head, earrings that swing.
+// Solvers move joints after the rig has posed them: eyes aim at a target, a cap moves from hand to head,
+// earrings swing.
 //
 //     pose_joints() -> JointPose -> local transforms -> solver 0, 1, ... -> model and skin matrices
 //
 // A stack is an ordered list of solvers for one skeleton: immutable, shared by any number of
-// characters. Each solver says which joints it reads and writes. So the stack knows beforehand which
-// model matrices every solver makes stale, and computes just those again before they are read, and the
-// rest at the end. Joints are kept in depth-first order, where a joint and all below it are one range.
+// characters. Each solver declares which joints it reads and writes. So the stack knows in advance which
+// model matrices each solver makes stale; it updates only those that are read next, and the others at
+// the end. Joints are kept in depth-first order, where a joint and all below it are one range.
 //
-// A step writes the matrices of the pose in place; deformation reads them there. It allocates nothing
-// and locks nothing. The same bits for one character and for many.
+// A step writes the matrices of the pose in place, where deformation reads them. It allocates nothing
+// and locks nothing. Results are bit-identical for one character and for many.
 #pragma once
 
 #include "runtime/base/status.h"
@@ -18,7 +18,7 @@
 
 namespace mien {
 
-/// What a solver sees of one character. MienSolverPose has the same layout.
+/// The data of one character that a solver gets. MienSolverPose has the same layout.
 struct SolverPose {
   float* locals;          // [joint] kLocalTransformFloats relative to the parent, as
                           // write_local_transforms() has them: what a solver writes
@@ -28,7 +28,7 @@ struct SolverPose {
   float* outputs;         // SolverDesc::output_count numbers to publish
   void* state;            // SolverDesc::state_size bytes, zeros at first; aligned like a double
   uint32_t lod;
-  uint32_t reset;  // 1: the first step, or the character was moved to another place
+  uint32_t reset;  // 1: the first step, or the character was teleported
 };
 
 /// Some characters at a time. Must not allocate.
@@ -127,7 +127,7 @@ struct StackPose {
   JointPose* pose;   // as pose_joints() left it
   const float* row;  // for the solvers, or null
   uint32_t lod;
-  bool reset;  // moved to another place: springs come to rest, spaces do not ease
+  bool reset;  // teleported: springs come to rest, space switches do not ease
 };
 
 /// All of this stack, all different. `ticks` is 0 or more. At most kMaxStackPoses at a time.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The solvers that come with the library. Each is a struct of parameters and describe(), which gives
-// what create_stack() takes; the struct has to live until then. Lengths are in the rig's unit, places in
-// its model space. Nothing here calls the math library, so results have the same bits everywhere.
+// The built-in solvers. Each is a struct of parameters and a function describe(), which returns what
+// create_stack() takes; the struct must live until that call. Lengths are in the rig's unit, points in its
+// model space. Nothing here calls the math library, so results have the same bits everywhere.
 #pragma once
 
 #include "runtime/solve/solver_stack.h"
@@ -11,8 +11,8 @@ namespace mien {
 constexpr uint16_t kNoSolverJoint = 0xFFFF;
 constexpr uint32_t kMaxSolverJoints = 8;
 
-/// Turns a joint so that one of its axes points at a target: the shortest way, then about that axis so
-/// that `up_axis` is as near to `up` as it can be. Beyond the cone it points at the cone's edge.
+/// Turns a joint so that one of its axes points at a target, by the shortest rotation, then about that axis
+/// so that `up_axis` comes as near to `up` as possible. Beyond the cone it points at the cone's edge.
 struct AimSolver {
   uint16_t joint = 0;
   uint16_t target_joint = kNoSolverJoint;  // else the target is at three lanes of the row
@@ -29,9 +29,9 @@ struct AimSolver {
 };
 SolverDesc describe(const Skeleton& skeleton, AimSolver& solver);
 
-/// Lets a joint hang on another joint than its parent, as if the parent moved with that one. Which of
-/// the spaces, is the lane's value, rounded. When that changes, the joint stays where it is, and what
-/// it is off is eased out with a quintic.
+/// Moves a joint as if its parent were attached to another joint. The lane's value, rounded, selects one of
+/// the spaces. When it changes, the joint stays where it is, and the difference to the new space eases out
+/// by a quintic.
 struct SpaceSolver {
   uint16_t joint = 0;
   uint16_t spaces[kMaxSolverJoints] = {};  // kNoSolverJoint: model space
@@ -44,13 +44,13 @@ struct SpaceSolver {
 };
 SolverDesc describe(const Skeleton& skeleton, SpaceSolver& solver);
 
-/// Lets the place of a joint swing about where the pose has it: a damped harmonic oscillator in model
-/// space, advanced by its exact solution, so it is stable for any step and the same for any division
-/// of a time into steps while its goal rests. Output 0 is its speed.
+/// Lets the position of a joint swing about its position in the pose: a damped harmonic oscillator in model
+/// space, advanced by its exact solution, so it is stable for any step, and independent of the step size
+/// while its goal does not move. Output 0 is its speed.
 struct SpringSolver {
   uint16_t joint = 0;
   float frequency = 3;        // of the undamped spring, in Hertz; above 0
-  float damping = 0.3f;       // share of the critical damping, 0 ... 1 and beyond
+  float damping = 0.3f;       // damping ratio, 0 or more; 1 is critical damping
   float rest_offset[3] = {};  // from the pose's place, in model space
   float stretch = 1e9f;       // farthest from there
   float teleport = 1e9f;      // a goal that jumps farther in a step takes the joint along
