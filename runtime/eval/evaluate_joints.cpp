@@ -134,6 +134,24 @@ bool in_order(const JointMatrix& joints, uint32_t lod, const JointTile& tile) {
   return whole && joints.fits_tile();
 }
 
+/// Of one group, or of all. (Arguments by value: what is written could lie anywhere, for all the compiler
+/// knows, and a reference would be read again each time.)
+template <size_t kRows>
+void write_targets(const JointTarget* targets, uint32_t count, const float* sums, float* out,
+                   uint32_t only_group) {
+  const JointTarget* const end = targets + count;
+  if (only_group == kAllGroups) {
+    for (; targets != end; ++targets) {
+      memcpy(out + targets->output, sums + targets->packed_row, kRows * sizeof(float));
+    }
+    return;
+  }
+  for (; targets != end; ++targets) {
+    if (targets->group != only_group) continue;
+    memcpy(out + targets->output, sums + targets->packed_row, kRows * sizeof(float));
+  }
+}
+
 /// Writes the rows of one group, or of all.
 void write_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTile& tile,
                 uint32_t only_group) {
@@ -141,11 +159,7 @@ void write_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTil
   float* out = instance.joints_and_angles.data;
   const auto write = [&](uint32_t panel, const float* sums) {
     for_each_kind(rig, lod, panel, [&](const JointTarget* targets, uint32_t count, auto rows) {
-      for (uint32_t t = 0; t < count; ++t) {
-        const JointTarget& target = targets[t];
-        if (only_group != kAllGroups && target.group != only_group) continue;
-        memcpy(out + target.output, sums + target.packed_row, rows() * sizeof(float));
-      }
+      write_targets<decltype(rows)::value>(targets, count, sums, out, only_group);
     });
   };
   if (in_order(joints, lod, tile)) return write(joints.panel_count(), tile.sums);
