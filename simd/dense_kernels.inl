@@ -74,21 +74,29 @@ inline void sum_rows(const Weight* values, const DenseLayerArgs& args, size_t fi
    ...);
 }
 
-// Two sums each, and two inputs, have to fit the registers.
+// Two sums each, and two inputs, have to fit the registers; and weights, but for floats where they are
+// operands in memory.
 #if defined(MIEN_KERNEL_AVX512) || defined(MIEN_KERNEL_NEON)
+template <class Weight>
 constexpr size_t kMaxVecs = 8;
+#elif defined(MIEN_KERNEL_AVX2)
+template <class Weight>
+constexpr size_t kMaxVecs = sizeof(Weight) == sizeof(float) ? 7 : 6;
 #else
+template <class Weight>
 constexpr size_t kMaxVecs = 6;
 #endif
 
 template <class How, class Weight>
 void sum_layer(const Weight* values, const DenseLayerArgs& args) {
   const size_t vec_count = (args.row_count + kWidth - 1) / kWidth;
-  size_t walks = (vec_count + kMaxVecs - 1) / kMaxVecs;
+  size_t walks = (vec_count + kMaxVecs<Weight> - 1) / kMaxVecs<Weight>;
   for (size_t v = 0; walks != 0; --walks) {
     const size_t count = (vec_count - v + walks - 1) / walks;  // shared evenly
-    if constexpr (kMaxVecs > 6) {
+    if constexpr (kMaxVecs < Weight >> 6) {
       if (count == 7) sum_rows<How>(values, args, v, std::make_index_sequence<7>());
+    }
+    if constexpr (kMaxVecs < Weight >> 7) {
       if (count == 8) sum_rows<How>(values, args, v, std::make_index_sequence<8>());
     }
     switch (count) {
