@@ -272,6 +272,15 @@ class AuthorTest(ProgramTest):
         snout = [(x, y, z + 30 * math.exp(-(x * x + (y + 2) ** 2) / 6) * (z > 0)) for x, y, z in POSITIONS]
         said = run("author", write("snout.obj", obj(snout, FACES)), "--joints", "10", *options).stderr
         self.assertRegex(said, r"the face mask has \d+ of \d+ places")
+        # Lying on the back, and looking to the side.
+        lying = write("lying.obj", obj([(x, -z, y) for x, y, z in POSITIONS], FACES))
+        said = run("author", lying, "--joints", "30", *options).stderr
+        self.assertRegex(said, r"1\d\d % as wide or deep as it is high.*--up")
+        self.assertEqual(run("author", lying, "--joints", "30", "--up", "z", "--front=-y", *options).stderr, "")
+        aside = write("aside.obj", obj([(z, y, -x) for x, y, z in POSITIONS], FACES))
+        said = run("author", aside, "--joints", "30", *options).stderr
+        self.assertRegex(said, r"mirrored halves of the face are \d+ thousandths .*--front")
+        self.assertEqual(run("author", aside, "--joints", "30", "--front", "x", *options).stderr, "")
 
     def test_the_report_has_every_figure_of_the_joint_groups_and_weights(self):
         report = self.author(path("head.glb"), "--joints", "40", "--lods", "2")

@@ -257,6 +257,48 @@ Made make_rig(const AuthorCommand& command, MienAuthorDesc desc, const MeshFile&
   return out;
 }
 
+/// Signs of a mesh that lies or looks elsewhere than --up and --front say.
+void note_turned(const AuthorCommand& command, const MeshFile& mesh, const Json& report,
+                 const Session& session) {
+  const std::string how = "; if the mesh is turned, say how with --up and --front";
+  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+  for (const uint32_t v : mesh.corners) {
+    for (size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], mesh.positions[3 * size_t{v} + k]);
+      high[k] = std::max(high[k], mesh.positions[3 * size_t{v} + k]);
+    }
+  }
+  const size_t up = static_cast<size_t>(command.up.back() - 'x');
+  const double height = high[up] - low[up];
+  double across = 0;
+  for (size_t k = 0; k < 3; ++k) across = std::max(across, high[k] - low[k]);
+  if (across > 1.1 * height) {
+    note(session, "the mesh is " + std::to_string(std::lround(100 * across / height)) +
+                      " % as wide or deep as it is high" + how);
+  }
+  const Json& symmetry = report["symmetry"];
+  const double apart = symmetry["error"].get<double>();
+  if (command.symmetry == "auto" && !command.paper && !symmetry["enforced"].get<bool>()) {
+    note(session, "mirrored halves of the face are " + std::to_string(std::lround(1000 * apart)) +
+                      " thousandths of its size apart: joints are not mirrored" + how);
+  }
+  if (const Json& groups = report["groups"]; !groups.is_null()) {
+    uint64_t places = 0;
+    for (const Json& count : groups["counts"]) places += count.get<uint64_t>();
+    const uint64_t mask = report["mask_places"].get<uint64_t>();
+    if (mask < places / 5) {
+      note(session, "the face mask has " + std::to_string(mask) + " of " + std::to_string(places) +
+                        " places: facial joints are there only; shapes, or --groups 2 "
+                        "--area-density, take in more" +
+                        how);
+    }
+  }
+  if (!report["face_only"].get<bool>() && report["throat"].is_null() && !command.no_neck_cut) {
+    note(session,
+         "no throat found below the nose: the face mask is not cut off from the neck" + how);
+  }
+}
+
 /// Hints about what is not wrong, but rarely meant.
 void note_oddities(const AuthorCommand& command, const MeshFile& mesh, const Json& report,
                    const Session& session) {
@@ -288,25 +330,12 @@ void note_oddities(const AuthorCommand& command, const MeshFile& mesh, const Jso
              " facial joints weigh most at no position: the mesh is coarse for as many; choose "
              "with --joints");
   }
-  if (const Json& groups = report["groups"]; !groups.is_null()) {
-    uint64_t places = 0;
-    for (const Json& count : groups["counts"]) places += count.get<uint64_t>();
-    const uint64_t mask = report["mask_places"].get<uint64_t>();
-    if (mask < places / 5) {
-      note(session, "the face mask has " + std::to_string(mask) + " of " + std::to_string(places) +
-                        " places: facial joints are there only; shapes, or --groups 2 "
-                        "--area-density, take in more");
-    }
-  }
   if (report["face_only"].get<bool>()) {
     note(session,
          "a face without a back of the head: all of it is rigged; of a body, keep the head "
          "with --crop");
-  } else if (report["throat"].is_null() && !command.no_neck_cut) {
-    note(session,
-         "no throat found below the nose: the face mask is not cut off from the neck; if the mesh "
-         "is turned, say how with --up and --front");
   }
+  note_turned(command, mesh, report, session);
 }
 
 /// A folder for images, made if it is missing, and removed again if nothing was put into it.
