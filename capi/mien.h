@@ -1531,8 +1531,8 @@ enum MienLooping {
     MIEN_LOOPING_WRAP = 2     /* starts over; the length is frames * ticks per frame */
 };
 
-/* A named moment of a clip, such as a phoneme. "close:lips", "close:lip-to-teeth" and "close:teeth" make guards
- * of mixers active in layers of speech, for `value` seconds. */
+/* A named moment of a clip, such as a phoneme. In speech layers, events named "close:lips",
+ * "close:lip-to-teeth" and "close:teeth" activate the matching guards of the mixer for `value` seconds. */
 typedef struct MienClipEvent {
     int64_t tick;
     MienStringView name;

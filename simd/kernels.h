@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The kernel table: one per instruction set, all with the same meaning. Arrays in, arrays out;
-// nothing here knows of rigs or files. Declarations and plain structs only: this header is included
-// by files compiled for different instruction sets.
+// The kernel table: one per instruction set, all with the same functions. Arrays in, arrays out; kernels
+// do not depend on rigs or files. Declarations and plain structs only, because files that are compiled
+// for different instruction sets include this header.
 #pragma once
 
 #include <stddef.h>
@@ -13,7 +13,7 @@ namespace mien {
 enum class Isa : uint32_t { kBest = 0, kScalar = 1, kSse2 = 2, kAvx2 = 3, kAvx512 = 4, kNeon = 5 };
 constexpr uint32_t kIsaCount = 6;
 
-/// Rows per block of a dense layer and of other arrays in lanes, on every instruction set.
+/// Rows per block of a dense layer, and lanes per block of other arrays, on every instruction set.
 constexpr uint32_t kBlockLanes = 16;
 
 /// Rows per block of a joint matrix.
@@ -106,8 +106,8 @@ struct NonzeroArgs {
 ///
 /// over inputs[first_inputs[e]] ... inputs[first_inputs[e + 1] - 1], in this order; at least the
 /// lowest float. Returns the union of `marks` of the outputs whose bits changed. The run_lengths[e]
-/// entries from e on have the same number of inputs and do not read each other. Without branches that
-/// depend on numbers: nobody foresees which are active.
+/// entries from e on have the same number of inputs and do not read each other. No branch depends on
+/// values, because which controls are active cannot be predicted.
 struct PsdArgs {
   const uint16_t* outputs;
   const float* weights;
@@ -119,8 +119,8 @@ struct PsdArgs {
   uint32_t count;
 };
 
-/// The same for many characters, each in a lane: controls[32 * c + lane] for controls[c]. Bit k of
-/// changed[e] tells whether the bits of lane k did.
+/// The same for many characters, one lane each: controls[32 * c + lane] for controls[c]. Bit k of
+/// changed[e] is set if the value in lane k changed.
 struct PsdBatchArgs {
   const uint16_t* outputs;
   const float* weights;
@@ -150,10 +150,11 @@ struct JointBatchArgs {
   uint32_t lane_count;
   bool portable;  // as above
 };
-/// Blocks behind the last one that joint_batch may fetch ahead, as a hint: their numbers are read.
+/// Blocks after the last one that joint_batch may prefetch: it reads their numbers.
 constexpr uint32_t kBatchAhead = 16;
 
-/// Where the sums of neighboring packed rows go, if they are neighbors there, too: six, three or one.
+/// Where to write the sums of six, three or one neighboring packed rows that are also neighbors in the
+/// output.
 struct JointTarget {
   uint16_t packed_row;
   uint16_t output;  // joint value
@@ -176,9 +177,9 @@ struct ScatterTargetsArgs {
 ///
 ///     values   block 0: c0 r0..r15 | c1 r0..r15 | ... ; block 1: ...
 ///
-/// The even columns are summed, and the odd ones, and the two added: twice as many sums hide the
-/// wait for each other. Activation f: 0 itself, 1 max(0, v), 2 v or alpha * v below 0, 3 tanh, 4
-/// 1 / (1 + e^-v); tanh and the last are within 3e-7. What overflows saturates. Rows past
+/// Even and odd columns are summed separately, then added: twice as many sums hide the latency of
+/// additions. Activation f: 0 itself, 1 max(0, v), 2 v or alpha * v below 0, 3 tanh, 4
+/// 1 / (1 + e^-v); the errors of the last two are within 3e-7. What overflows saturates. Rows past
 /// row_count, up to the next 16, may be written.
 struct DenseLayerArgs {
   const void* values;   // floats or halves, 64-byte aligned
@@ -215,7 +216,7 @@ struct DenseBatchArgs {
   bool portable;
 };
 
-/// Turns of joints represented by quaternions, in blocks of 16, one lane each. The steps of block b
+/// Rotations of quaternion joints, in blocks of 16, one lane each. The steps of block b
 /// begin with step first_steps[b]:
 ///
 ///     values    step 0: x0..x15 y0..y15 z0..z15 w0..w15 | step 1: ...
@@ -321,7 +322,7 @@ struct TwistSwingBatchArgs {
 ///     0, 1       2^(d * scale)
 ///     2, 3, 4    max(0, 1 - (d * scale)^n) with n = 1, 3, 5
 ///
-/// What is not a number weighs 0. If interpolative, the inverse times the weights, clamped to 0..1.
+/// NaN has weight 0. If interpolative, the inverse times the weights, clamped to 0..1.
 /// Then all are divided by their sum, if that exceeds 1 or always.
 struct RbfSolverPlan {
   uint64_t first_target, first_inverse;
@@ -340,8 +341,8 @@ constexpr uint32_t kNoFirstControl = ~uint32_t{0};
 /// scale, where that exceeds the threshold, else 0. Nothing is fused: every instruction set gives
 /// the same bits. Solvers and inputs may lie anywhere, the rest is 64-byte aligned.
 ///
-/// First all rotations of the blocks named are parted, in blocks of 16 lanes: a, b, c, w, where a
-/// is the axis, and b and c follow it. A swing becomes 0, b, c, w; a twist a, 0, 0, w.
+/// First all rotations of these blocks are split, in blocks of 16 lanes, into a, b, c, w, where a is the
+/// axis of the twist, and b and c are the next two axes. A swing becomes 0, b, c, w; a twist a, 0, 0, w.
 struct RbfArgs {
   const RbfSolverPlan* solvers;
   const uint16_t* list;
@@ -404,8 +405,8 @@ struct JointLocalArgs {
 constexpr uint32_t kNeutralRows = 7, kDeltaRows = 10, kLocalRows = 16;
 
 /// Local transforms -> model and skin matrices, parents before children; joint order[i] has lane i.
-/// A joint without a delta takes the skin matrix of its parent as it is, a root the identity, so
-/// that its vertices keep their bits. A matrix is four columns of four floats, 64-byte aligned; its
+/// A joint without a delta copies the skin matrix of its parent, a root takes the identity, so that the
+/// vertices of a neutral pose keep their bits. A matrix is four columns of four floats, 64-byte aligned; its
 /// last row is 0 0 0 1. Nothing is fused, as above.
 struct JointTreeArgs {
   const uint16_t* order;
@@ -496,15 +497,15 @@ enum class VertexFormat : uint32_t {
   kSnorm10_10_10_2 = 3
 };
 
-/// Memory for one attribute of each vertex, `stride` bytes apart; data null: not wanted. Data and
-/// stride are multiples of 4.
+/// Memory for one attribute of each vertex, `stride` bytes apart. If data is null, the attribute is not
+/// written. Data and stride are multiples of 4.
 struct VertexStream {
   uint8_t* data;
   uint32_t stride;
   VertexFormat format;
 };
 
-/// Deformed vertices -> the memory of the caller, in the order of the vertices; each byte is
+/// Deformed vertices -> the caller's memory, in the order of the vertices; each byte is
 /// written once and never read. Tangents are made perpendicular to the normal and normalized; one
 /// that loses its direction becomes an arbitrary perpendicular. A fourth component is 1 for
 /// positions, 0 for normals, w for tangents.
@@ -523,7 +524,7 @@ struct VertexArgs {
   uint32_t count;
 };
 
-/// What becomes of a lane in a mix, with o the value so far, x that of the layer, a = weight * mask.
+/// How a layer changes a lane of a mix: o is the value so far, x the value of the layer, a = weight * mask.
 enum class BlendMode : uint8_t {
   kOverride,  // o + a (x - o)
   kAdd,       // o + a x
@@ -532,11 +533,11 @@ enum class BlendMode : uint8_t {
   kScale,     // o (1 + a (x - 1))
 };
 
-/// Blends `x` over `row`. `cover` is 1 in lanes that the source has a value for, 0 in the others and
-/// in between while a transition changes that, where x is already multiplied by it; null: 1
-/// everywhere. kAdd and kScreen do not need it, as x is 0 where it is 0.
+/// Blends `x` over `row`. `cover` is 1 in lanes for which the source has a value, 0 in the others, and in
+/// between during a transition from one to the other (x is then already multiplied by it); null: 1
+/// everywhere. kAdd and kScreen do not need it, because x is 0 where it is 0.
 ///
-/// A lane that nothing is added to keeps its bits, as with a = 0; kOverride with a = 1 and cover = 1
+/// A lane to which nothing is added keeps its bits, as with a = 0; kOverride with a = 1 and cover = 1
 /// gives those of x.
 struct BlendArgs {
   const float *x, *cover, *mask;
@@ -553,7 +554,7 @@ struct QuinticRows {
 
 constexpr uint32_t kClipLanes = 8;
 
-/// Where decoding of eight channels of a block of a clip stands (runtime/anim/clip_block.h).
+/// The decoder state of eight channels in a block of a clip (runtime/anim/clip_block.h).
 struct ClipLanes {
   uint32_t bit[kClipLanes];      // of the block: the next sample
   uint32_t width[kClipLanes];    // of the samples of the run at hand; 0 where none is coded
@@ -627,9 +628,9 @@ struct KernelTable {
   void (*cross_rows)(const float* from, const float* to, float s, size_t count, float* out);
   /// row += offset at u
   void (*add_quintics)(const QuinticRows& quintics, float u, size_t count, float* row);
-  /// What is not a number becomes the lower limit; -0 within the limits stays.
+  /// Clamps to the limits. NaN becomes the lower limit; -0 within the limits is kept.
   void (*limit_row)(const float* lower, const float* upper, size_t count, float* row);
-  /// Goes on by a sample in each lane of a block.
+  /// Decodes the next sample in each lane of a block.
   void (*next_samples)(const uint8_t* block, ClipLanes* groups, size_t count);
   /// row[kClipLanes * group + lane] = value. False if one would not be finite, which gives 0.
   bool (*sample_values)(const ClipLanes* groups, size_t count, float* row);

@@ -29,7 +29,7 @@ Status compile_rig(const dna::DnaView& view, const CompileOptions& options,
 // compilation.
 
 void place_controls(const dna::DnaView& view, Placer& placer, Rig& rig);
-/// kMemory (scratch), or kDnaValue for correctives that depend on each other in a circle.
+/// kMemory (scratch), or kDnaValue for correctives that depend on each other in a cycle.
 Status fill_controls(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
 
 /// Rows of one joint group that are computed in one block: what lies between them writes nothing.
@@ -60,7 +60,7 @@ struct PlannedColumn {
   uint32_t blocks[2];   // [is a pair]
 };
 
-/// What becomes of the joint groups, in scratch memory: found out once, before anything is placed.
+/// The plan for the joint groups, in scratch memory: made once, before anything is placed.
 struct JointPlan {
   Span<uint8_t> uses;               // of all rows of all groups
   Span<uint8_t> reaches;            // of all rows of all groups: how many LODs, counted from 0
@@ -91,7 +91,7 @@ void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach,
 /// After joints, twists and swings, and before the neutral pose.
 void fill_variable_joint_values(const dna::DnaView& view, Rig& rig);
 
-/// A joint represented by quaternions, of one group, before it has its lane.
+/// A quaternion joint of one group, before it is assigned a lane.
 struct PlannedTurn {
   uint64_t lods;  // bit l: a LOD turns it
   uint32_t group;
@@ -102,7 +102,7 @@ struct PlannedTurn {
   uint8_t reach;  // how many LODs, counted from 0
 };
 
-/// Rotations of joint groups, in scratch memory: found out once, before anything is placed.
+/// The plan for the rotations of joint groups, in scratch memory: made once, before anything is placed.
 struct RotationPlan {
   Span<GroupRotations> groups;
   Span<AngleJoint> angle_joints;

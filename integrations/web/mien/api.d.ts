@@ -1051,8 +1051,8 @@ export interface BakedDeformerDesc {
 }
 
 /**
- * A named moment of a clip, such as a phoneme. "close:lips", "close:lip-to-teeth" and "close:teeth" make guards
- * of mixers active in layers of speech, for `value` seconds.
+ * A named moment of a clip, such as a phoneme. In speech layers, events named "close:lips",
+ * "close:lip-to-teeth" and "close:teeth" activate the matching guards of the mixer for `value` seconds.
  */
 export interface ClipEvent {
   tick?: number;

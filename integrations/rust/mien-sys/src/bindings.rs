@@ -1530,8 +1530,9 @@ impl Default for MienBakedDeformerDesc {
     }
 }
 
-/// A named moment of a clip, such as a phoneme. "close:lips", "close:lip-to-teeth" and
-/// "close:teeth" make guards of mixers active in layers of speech, for `value` seconds.
+/// A named moment of a clip, such as a phoneme. In speech layers, events named "close:lips",
+/// "close:lip-to-teeth" and "close:teeth" activate the matching guards of the mixer for `value`
+/// seconds.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienClipEvent {
