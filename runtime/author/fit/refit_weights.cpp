@@ -140,6 +140,8 @@ struct RefitTask {
   double smoothness = 0;
   double typical = 0;  // squared displacements of a vertex, all shapes together, in the mean
   SkinWeights& out;
+  Span<double> sums;  // over the shapes, of each vertex: the first round keeps them for the others
+  uint32_t sums_each = 0;
 };
 
 double weight_of(const SkinWeights& weights, uint32_t vertex, uint16_t joint) {
@@ -167,8 +169,8 @@ bool find_neighbors_mean(const RefitTask& task, uint32_t v, const VertexWeights&
   return true;
 }
 
-/// What all shapes ask of the vertex. False if no bone of its own moves.
-bool sum_shapes(const RefitTask& task, uint32_t v, VertexWeights& w) {
+/// What all shapes ask of the vertex.
+void sum_shapes(const RefitTask& task, uint32_t v, VertexWeights& w) {
   SmallSystem& s = w.system;
   const Vec3 p = task.mesh.positions[v];
   for (size_t shape = 0; shape < task.mesh.shapes.count; ++shape) {
@@ -187,6 +189,32 @@ bool sum_shapes(const RefitTask& task, uint32_t v, VertexWeights& w) {
       for (uint32_t k = 0; k <= i; ++k) s.matrix[i][k] += dot(moved[i], moved[k]);
     }
   }
+}
+
+/// The same, from the sums of the first round if it is over.
+void find_sums(const RefitTask& task, uint32_t v, VertexWeights& w) {
+  SmallSystem& s = w.system;
+  const bool is_first = task.before.m == 0;
+  if (is_first) sum_shapes(task, v, w);
+  if (task.sums.empty()) return;
+  double* sum = &task.sums[size_t{v} * task.sums_each];
+  const auto keep = [&](double& value) {
+    if (is_first) {
+      *sum++ = value;
+    } else {
+      value = *sum++;
+    }
+  };
+  for (uint32_t i = 0; i < s.size; ++i) {
+    keep(s.right[i]);
+    for (uint32_t k = 0; k <= i; ++k) keep(s.matrix[i][k]);
+  }
+}
+
+/// The least squares of the vertex. False if no bone of its own moves.
+bool make_system(const RefitTask& task, uint32_t v, VertexWeights& w) {
+  SmallSystem& s = w.system;
+  find_sums(task, v, w);
   double trace = 0;
   for (uint32_t i = 0; i < s.size; ++i) trace += s.matrix[i][i];
   if (!(trace > 0)) return false;
@@ -221,7 +249,7 @@ void refit_vertex(const RefitTask& task, uint32_t v) {
   for (size_t i = 0; i < task.shared.count && !is_rigid; ++i) {
     if (!w.has(task.shared[i])) w.add(task.shared[i], 0);
   }
-  if (is_rigid || !sum_shapes(task, v, w)) {
+  if (is_rigid || !make_system(task, v, w)) {
     store(given, v, task.out);
     return;
   }
@@ -255,7 +283,12 @@ bool refit_weights(const AuthorMesh& mesh, const SurfaceGraph& graph, const Moti
   }
   std::copy(from.joints.begin(), from.joints.end(), given.joints.begin());
   std::copy(from.weights.begin(), from.weights.end(), given.weights.begin());
-  RefitTask task = {mesh, graph, motions, shared, given, {}, smoothness, 0, out};
+  RefitTask task = {mesh, graph, motions, shared, given, {}, smoothness, 0, out, {}, 0};
+  if (smoothness > 0) {
+    const size_t unknowns = from.m + shared.count;
+    task.sums_each = static_cast<uint32_t>(unknowns * (unknowns + 3) / 2);
+    if (!make(scratch, mesh.positions.count * task.sums_each, task.sums)) return false;
+  }
   for (const Shape& shape : mesh.shapes) {
     for (const uint32_t v : shape.moving) {
       const Vec3f d = shape.displacements[v];
