@@ -112,20 +112,19 @@ void fit_bone(const Fitter& fitter, const Footprints& f, uint32_t bone, bool is_
   const double half = fitter.options.max_degrees * kPi / 360;
   closest_rotation(map, is_rigid ? 1 : exact_sine(half), next.rows);
   next.shift = motion(m.center) + force * (1 / m.mass) - next.turn(m.center);
+  Affine further;
+  for (int r = 0; r < 3; ++r) further.rows[r] = next.rows[r] - motion.rows[r];
+  further.shift = next.shift - motion.shift;
   for (const Influenced& e : f.of(bone)) {
-    const Vec3 p = fitter.positions[e.vertex];
-    lane.rest[e.vertex] = lane.rest[e.vertex] - (next(p) - motion(p)) * double{e.weight};
+    lane.rest[e.vertex] =
+        lane.rest[e.vertex] - further(fitter.positions[e.vertex]) * double{e.weight};
   }
   motion = next;
 }
 
-}  // namespace
-
-void fit_motions(const Fitter& fitter, const Placement& placement, FitLane& lane,
-                 Span<const uint8_t> active, Span<Affine> motions) {
+void descend(const Fitter& fitter, const Placement& placement, FitLane& lane,
+             Span<const uint8_t> active, Span<Affine> motions) {
   const Footprints& f = fitter.footprints;
-  fit_translations(f, lane, active, motions);
-  if (!fitter.options.rotations) return;
   for (uint32_t sweep = 0; sweep < fitter.options.sweeps; ++sweep) {
     for (uint32_t j = 0; j < f.bone_count; ++j) {
       if (!active[j]) continue;
@@ -134,10 +133,44 @@ void fit_motions(const Fitter& fitter, const Placement& placement, FitLane& lane
   }
 }
 
+}  // namespace
+
+void fit_motions(const Fitter& fitter, const Placement& placement, FitLane& lane,
+                 Span<const uint8_t> active, Span<Affine> motions) {
+  fit_translations(fitter.footprints, lane, active, motions);
+  if (fitter.options.rotations) descend(fitter, placement, lane, active, motions);
+}
+
+namespace {
+
+/// What one shape asks of the rows.
+void start_rest(const Fitter& fitter, Span<const Vec3f> wanted, FitLane& lane) {
+  for (size_t row = 0; row < lane.rest.count; ++row) {
+    const Vec3f d = wanted[fitter.vertices.empty() ? row : fitter.vertices[row]];
+    lane.rest[row] = {double{d.x}, double{d.y}, double{d.z}};
+    if (!fitter.scales.empty()) lane.rest[row] = lane.rest[row] * fitter.scales[row];
+  }
+}
+
+/// Goes on from the motions as they are.
+void improve_motions(const Fitter& fitter, const Placement& placement, FitLane& lane,
+                     Span<const uint8_t> active, Span<Affine> motions) {
+  for (uint32_t j = 0; j < motions.count; ++j) {
+    if (!active[j]) continue;
+    for (const Influenced& e : fitter.footprints.of(j)) {
+      const Vec3 p = fitter.positions[e.vertex];
+      lane.rest[e.vertex] = lane.rest[e.vertex] - (motions[j](p) - p) * double{e.weight};
+    }
+  }
+  descend(fitter, placement, lane, active, motions);
+}
+
+}  // namespace
+
 void fit_all(Fitter& fitter, const AuthorMesh& mesh, const Placement& placement,
              const SkinWeights& weights, bool given, const ParallelFor& parallel,
              const Motions& out) {
-  fill_footprints(mesh.positions, weights, parallel, fitter.footprints);
+  fill_footprints(fitter.positions, weights, parallel, fitter.footprints);
   struct Task {
     Fitter& fitter;
     const AuthorMesh& mesh;
@@ -151,13 +184,19 @@ void fit_all(Fitter& fitter, const AuthorMesh& mesh, const Placement& placement,
         const Task& t = *static_cast<const Task*>(context);
         FitLane& lane = t.fitter.lanes[index];
         for (size_t s = index; s < t.mesh.shapes.count; s += kFitLanes) {
-          const Span<const Vec3f> wanted = t.mesh.shapes[s].displacements;
-          for (size_t v = 0; v < wanted.count; ++v) {
-            lane.rest[v] = {double{wanted[v].x}, double{wanted[v].y}, double{wanted[v].z}};
+          const Span<uint8_t> active = t.out.active_in(s);
+          const Span<Affine> motions = t.out.of(s);
+          start_rest(t.fitter, t.mesh.shapes[s].displacements, lane);
+          if (!t.given) find_support(t.fitter, lane, active);
+          const bool goes_on = t.given && t.fitter.options.rotations;
+          for (uint32_t j = 0; j < motions.count; ++j) {
+            if (!goes_on || !active[j]) motions[j] = Affine::identity();
           }
-          if (!t.given) find_support(t.fitter, lane, t.out.active_in(s));
-          for (Affine& a : t.out.of(s)) a = Affine::identity();
-          fit_motions(t.fitter, t.placement, lane, t.out.active_in(s), t.out.of(s));
+          if (goes_on) {
+            improve_motions(t.fitter, t.placement, lane, active, motions);
+          } else {
+            fit_motions(t.fitter, t.placement, lane, active, motions);
+          }
         }
       },
       &task);

@@ -14,10 +14,13 @@ namespace mien::author {
 
 struct FitOptions {
   bool rotations = true;
-  uint32_t sweeps = 4;        // of block descent over the bones
-  uint32_t alternations = 2;  // refits of the weights, each followed by a new fit; 0 keeps weights
-  double smoothness = 0.17;   // of the weights of LOD 0, for each edge between two bones
+  uint32_t sweeps = 6;         // of block descent over the bones
+  uint32_t alternations = 2;   // refits of the weights, each followed by a new fit; 0 keeps weights
+  uint32_t shared_rounds = 2;  // in which motions are fitted to all LODs, if there are several
+  double smoothness = 0.17;    // of the weights of LOD 0, for each edge between two bones
   double lod_smoothness = 0.05;  // of further LODs, whose joints have more to make up for
+  // Of weights to what they were, in squares: with less, some bones weigh most nowhere.
+  double pull = 0.01, lod_pull = 0.0025;
   double support = 1e-3;    // share of the largest energy from which on a bone moves with a shape
   double max_degrees = 30;  // rotation of a facial bone by one shape
 };
@@ -44,8 +47,11 @@ struct FitLane {
 };
 constexpr uint32_t kFitLanes = 8;
 
+/// Rows are the vertices of the mesh, or those of several LODs one below the other.
 struct Fitter {
   Span<const Vec3> positions;
+  Span<const uint32_t> vertices;  // of the mesh, which rows are; empty: row v is vertex v
+  Span<const double> scales;      // roots of what rows count; empty: one each
   Footprints footprints;
   FitLane lanes[kFitLanes];
   FitOptions options;
@@ -65,21 +71,22 @@ void find_support(const Fitter& fitter, FitLane& lane, Span<uint8_t> active);
 void fit_motions(const Fitter& fitter, const Placement& placement, FitLane& lane,
                  Span<const uint8_t> active, Span<Affine> motions);
 
-/// All shapes, with the weights as they are and bones where they are. `given`: keep `active` as it
-/// is, rather than find it.
+/// All shapes, with bones where they are and `weights`, those of each row times its scale. `given`:
+/// keeps `active` as it is, rather than find it, and goes on from the motions as they are if bones turn.
 void fit_all(Fitter& fitter, const AuthorMesh& mesh, const Placement& placement,
              const SkinWeights& weights, bool given, const ParallelFor& parallel,
              const Motions& out);
 
 /// Weights of each vertex that bring it closest to its displacements, all shapes together: not
-/// negative, summing to one, drawn to what they were. Of its influences in `from` and the `shared`
+/// negative, summing to one, drawn to what they were by `pull`. Of its influences in `from` and the `shared`
 /// bones those stay that `out` has room for; vertices of one influence are left rigid. With
 /// `smoothness` they are drawn to those of their neighbors, the more the higher it is. `out` may be
 /// `from`. False if memory ran out.
 constexpr uint32_t kMaxSharedBones = 4;
 bool refit_weights(const AuthorMesh& mesh, const SurfaceGraph& graph, const Motions& motions,
-                   Span<const uint16_t> shared, double smoothness, const ParallelFor& parallel,
-                   Arena& scratch, const SkinWeights& from, SkinWeights& out);
+                   Span<const uint16_t> shared, double smoothness, double pull,
+                   const ParallelFor& parallel, Arena& scratch, const SkinWeights& from,
+                   SkinWeights& out);
 
 /// The weights of LOD 0, as smooth as the options say, and every bone's in one piece.
 bool refit_finest(const AuthorMesh& mesh, const Placement& placement, const Motions& motions,

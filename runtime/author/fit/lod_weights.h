@@ -9,7 +9,7 @@
 namespace mien::author {
 
 /// Copies weights over the first `kept` facial bones and all others: each dropped bone hands its
-/// weight to the nearest one that is kept. False if memory ran out.
+/// weight to the nearest one that is kept. `to` may be `from`. False if memory ran out.
 bool collapse_weights(const Placement& placement, uint32_t kept, const SkinWeights& from,
                       Arena& scratch, SkinWeights& to);
 

@@ -138,6 +138,7 @@ struct RefitTask {
   const SkinWeights& from;
   SkinWeights before;  // of the last round; empty in the first
   double smoothness = 0;
+  double pull = 0;     // to what weights were
   double typical = 0;  // squared displacements of a vertex, all shapes together, in the mean
   SkinWeights& out;
   Span<double> sums;  // over the shapes, of each vertex: the first round keeps them for the others
@@ -218,7 +219,7 @@ bool make_system(const RefitTask& task, uint32_t v, VertexWeights& w) {
   double trace = 0;
   for (uint32_t i = 0; i < s.size; ++i) trace += s.matrix[i][i];
   if (!(trace > 0)) return false;
-  const double scale = trace / s.size, sum_row = 100.0 * 100.0 * scale, pull = 0.05 * 0.05 * scale;
+  const double scale = trace / s.size, sum_row = 100.0 * 100.0 * scale, pull = task.pull * scale;
   double mean[kMaxInfluences];
   const double smooth = task.before.m > 0 && find_neighbors_mean(task, v, w, mean)
                             ? task.smoothness * (scale + kTypical * task.typical)
@@ -271,8 +272,9 @@ void refit_vertex(const RefitTask& task, uint32_t v) {
 }  // namespace
 
 bool refit_weights(const AuthorMesh& mesh, const SurfaceGraph& graph, const Motions& motions,
-                   Span<const uint16_t> shared, double smoothness, const ParallelFor& parallel,
-                   Arena& scratch, const SkinWeights& from, SkinWeights& out) {
+                   Span<const uint16_t> shared, double smoothness, double pull,
+                   const ParallelFor& parallel, Arena& scratch, const SkinWeights& from,
+                   SkinWeights& out) {
   SkinWeights given = from, before;
   before.m = out.m;
   if (!make(scratch, from.joints.count, given.joints) ||
@@ -283,7 +285,7 @@ bool refit_weights(const AuthorMesh& mesh, const SurfaceGraph& graph, const Moti
   }
   std::copy(from.joints.begin(), from.joints.end(), given.joints.begin());
   std::copy(from.weights.begin(), from.weights.end(), given.weights.begin());
-  RefitTask task = {mesh, graph, motions, shared, given, {}, smoothness, 0, out, {}, 0};
+  RefitTask task = {mesh, graph, motions, shared, given, {}, smoothness, pull, 0, out, {}, 0};
   if (smoothness > 0) {
     const size_t unknowns = from.m + shared.count;
     task.sums_each = static_cast<uint32_t>(unknowns * (unknowns + 3) / 2);
@@ -344,8 +346,8 @@ bool refit_finest(const AuthorMesh& mesh, const Placement& placement, const Moti
   }
   // The more edges lie between two bones, the less may change along each.
   const double edges = spacing / mean_length(placement, graph, mesh.diagonal);
-  return refit_weights(mesh, graph, motions, shared, options.smoothness * edges, parallel, scratch,
-                       weights, weights) &&
+  return refit_weights(mesh, graph, motions, shared, options.smoothness * edges, options.pull,
+                       parallel, scratch, weights, weights) &&
          connect_supports(mesh, graph, placement, bone_of_kind(placement, BoneKind::kHead, 0),
                           scratch, weights);
 }
@@ -356,8 +358,8 @@ bool refit_lod(const AuthorMesh& mesh, const Motions& motions, Span<const uint16
   Arena scratch(allocator);
   SurfaceGraph graph;
   return make_surface_graph(mesh, scratch, scratch, graph) &&
-         refit_weights(mesh, graph, motions, shared, options.lod_smoothness, parallel, scratch,
-                       from, out);
+         refit_weights(mesh, graph, motions, shared, options.lod_smoothness, options.lod_pull,
+                       parallel, scratch, from, out);
 }
 
 }  // namespace mien::author

@@ -5,6 +5,7 @@
 
 #include "runtime/author/dna_making.h"
 #include "runtime/author/fit/lod_weights.h"
+#include "runtime/author/fit/stacked_lods.h"
 #include "runtime/author/rig_dna/rig_model.h"
 
 namespace mien::author {
@@ -44,6 +45,15 @@ double size_of_face(const AuthorMesh& mesh, const Placement& placement) {
   return length(high - low);
 }
 
+/// What weights of a further LOD begin with.
+struct LodStarts {
+  SkinWeights made;       // new ones for the bones that it keeps
+  SkinWeights collapsed;  // those of LOD 0 with dropped bones' on the nearest bone that is left
+  SkinWeights other;      // fitted, of the one that is not taken
+  bool has_new = false;
+  enum : uint8_t { kUndecided, kNew, kCollapsed } better = kUndecided;
+};
+
 class RigMaker {
  public:
   RigMaker(const AuthorMesh& mesh, const Placement& placement, const RigOptions& options,
@@ -54,9 +64,9 @@ class RigMaker {
         face_size_(size_of_face(mesh, placement)) {}
 
   bool make(Span<SkinWeights> weights, dna::DnaView& out) {
-    return find_controls() && make_deltas() &&
+    return find_controls() && make_deltas() && take_lods(weights) &&
            (options_.own_motions.empty() ? fit(weights[0]) : take_motions(weights[0])) &&
-           make_lods(weights) && write(out);
+           make_lods() && write(out);
   }
 
  private:
@@ -115,6 +125,73 @@ class RigMaker {
            make_motions(mesh_.shapes.count, bones, scratch_, motions_);
   }
 
+  /// Meshes of the LODs with the displacements of their vertices, and the weights that they have
+  /// before any fit.
+  bool take_lods(Span<SkinWeights> weights) {
+    const size_t count = placement_.lod_facial_counts.count;
+    if (!author::make(scratch_, count, lods_) || !author::make(scratch_, count, starts_) ||
+        !author::make(arena_, count, report_.lods)) {
+      return false;
+    }
+    for (uint32_t l = 0; l < count; ++l) {
+      if (!take_mesh(l, lods_[l], report_.lods[l])) return false;
+      lods_[l].weights = weights[0];
+      if (l > 0 && !make_starts(l, weights)) return false;
+    }
+    return true;
+  }
+
+  bool take_mesh(uint32_t l, FittedLod& lod, LodReport& report) {
+    lod.mesh = mesh_;
+    if (l < options_.lod_meshes.count) {
+      const LodMesh& own = options_.lod_meshes[l];
+      report.surface_rms = own.rms;
+      report.surface_max = own.max;
+      if (!own.vertices.empty()) {
+        lod.vertices = own.vertices;
+        lod.mesh = own.mesh;
+        if (!take_shapes(mesh_.shapes, own.vertices, scratch_, lod.mesh.shapes)) return false;
+      }
+    }
+    report.vertices = lod.mesh.positions.count;
+    report.triangles = lod.mesh.triangles.count / 3;
+    report.joints = static_cast<uint32_t>(placement_.bones.count) - placement_.facial_count +
+                    placement_.lod_facial_counts[l];
+    return true;
+  }
+
+  bool make_starts(uint32_t l, Span<SkinWeights> weights) {
+    FittedLod& lod = lods_[l];
+    LodStarts& starts = starts_[l];
+    starts.has_new = l < weights.count;
+    if (!make_rows(lod, weights[0].m, lod.weights) ||
+        !make_rows(lod, weights[0].m, starts.collapsed) ||
+        !make_rows(lod, weights[0].m, starts.other) ||
+        (starts.has_new && !make_rows(lod, weights[l].m, starts.made))) {
+      return false;
+    }
+    if (starts.has_new) take_rows(weights[l], lod, starts.made);
+    return true;
+  }
+
+  bool make_rows(const FittedLod& lod, uint32_t m, SkinWeights& out) {
+    out.m = m;
+    return author::make(scratch_, lod.mesh.positions.count * m, out.joints) &&
+           author::make(scratch_, lod.mesh.positions.count * m, out.weights);
+  }
+
+  /// Those of the LOD's vertices.
+  static void take_rows(const SkinWeights& all, const FittedLod& lod, SkinWeights& out) {
+    const size_t m = all.m;
+    for (size_t v = 0; v < lod.mesh.positions.count; ++v) {
+      const size_t from = lod.vertices.empty() ? v : lod.vertices[v];
+      for (size_t i = 0; i < m; ++i) {
+        out.joints[v * m + i] = all.joints[from * m + i];
+        out.weights[v * m + i] = all.weights[from * m + i];
+      }
+    }
+  }
+
   bool fit(SkinWeights& weights) {
     if (!starts("fit")) return false;
     if (mesh_.shapes.empty()) return true;
@@ -156,6 +233,7 @@ class RigMaker {
       if (!refit(mesh_, weights, weights)) return false;
       fit_all(fitter, mesh_, placement_, weights, true, options_.parallel, motions_);
     }
+    if (lods_.count > 1 && !options_.keep_weights && !share_motions(weights)) return false;
     // From here on motions are what the numbers of the file mean.
     deltas_of_motions(placement_, mesh_.frame, motions_, model_.deltas);
     return measure(weights, {}, groups.refitted);
@@ -196,115 +274,104 @@ class RigMaker {
     return true;
   }
 
-  bool make_lods(Span<SkinWeights> weights) {
-    const size_t count = placement_.lod_facial_counts.count;
-    Span<LodModel> lods;
-    if (!starts("levels of detail") || !author::make(scratch_, count, lods) ||
-        !author::make(arena_, count, report_.lods)) {
+  /// Motions that suit all LODs, and weights that suit them.
+  bool share_motions(SkinWeights& weights) {
+    if (!starts("all levels of detail")) return false;
+    Arena for_fit(allocator_);
+    StackedLods stacked;
+    Fitter fitter;
+    if (!stack_lods(lods_, for_fit, stacked) ||
+        !make_fitter(stacked.positions, placement_, weights.m, options_.fit, for_fit, fitter)) {
       return false;
     }
+    fitter.vertices = stacked.vertices;
+    fitter.scales = stacked.scales;
+    for (uint32_t round = 0; round < options_.fit.shared_rounds; ++round) {
+      for (uint32_t l = 1; l < lods_.count; ++l) {
+        if (!fit_lod_weights(l)) return false;
+      }
+      fill_weights(lods_, stacked);
+      fit_all(fitter, mesh_, placement_, stacked.weights, true, options_.parallel, motions_);
+      if (!refit(mesh_, weights, weights)) return false;
+    }
+    return true;
+  }
+
+  bool collapse(uint32_t l) {
+    Arena for_heirs(allocator_);
+    SkinWeights& out = starts_[l].collapsed;
+    take_rows(lods_[0].weights, lods_[l], out);
+    return collapse_weights(placement_, placement_.lod_facial_counts[l], out, for_heirs, out);
+  }
+
+  /// New weights and those that dropped bones leave are fitted to the motions. What does better the
+  /// first time is taken from then on.
+  bool fit_lod_weights(uint32_t l) {
+    FittedLod& lod = lods_[l];
+    LodStarts& starts = starts_[l];
+    const bool try_new = starts.has_new && starts.better != LodStarts::kCollapsed;
+    const bool try_collapsed = !starts.has_new || starts.better != LodStarts::kNew;
+    if (try_new && !refit(lod.mesh, starts.made, lod.weights)) return false;
+    if (!try_collapsed) return true;
+    if (!collapse(l) || !refit(lod.mesh, starts.collapsed, starts.other)) return false;
+    FitError with_new, with_collapsed;
+    if (try_new && (!measure(lod.mesh, lod.weights, {}, with_new) ||
+                    !measure(lod.mesh, starts.other, {}, with_collapsed))) {
+      return false;
+    }
+    const bool is_better = !try_new || with_collapsed.error < with_new.error;
+    if (is_better) std::swap(lod.weights, starts.other);
+    starts.better = is_better ? LodStarts::kCollapsed : LodStarts::kNew;
+    return true;
+  }
+
+  bool make_lods() {
+    Span<LodModel> lods;
+    if (!starts("levels of detail") || !author::make(scratch_, lods_.count, lods)) return false;
     model_.lods = lods;
-    for (uint32_t l = 0; l < count; ++l) {
-      if (!make_lod(l, weights, lods[l])) return false;
+    for (uint32_t l = 0; l < lods_.count; ++l) {
+      if ((l > 0 && !weigh_lod(l, report_.lods[l])) || !make_lod(l, lods[l])) return false;
       report_.lods[l].channels = model_.channels_in_lod(l);
     }
     return true;
   }
 
-  bool make_lod(uint32_t l, Span<SkinWeights> weights, LodModel& lod) {
-    LodReport& report = report_.lods[l];
-    const uint32_t kept = placement_.lod_facial_counts[l];
-    report.joints = static_cast<uint32_t>(placement_.bones.count) - placement_.facial_count + kept;
-    Arena for_lod(allocator_);
-    AuthorMesh mesh = mesh_;
-    if (!take_mesh(l, for_lod, mesh, lod, report) ||
-        !take_rows(weights[l < weights.count ? l : 0], lod, lod.weights)) {
-      return false;
-    }
+  /// Weights of a further LOD for the motions as they are written.
+  bool weigh_lod(uint32_t l, LodReport& report) {
+    FittedLod& lod = lods_[l];
+    const LodStarts& starts = starts_[l];
     FitError error;
-    SkinWeights finest, collapsed;
-    if (l > 0) {
-      if (!take_rows(weights[0], lod, finest) || !make_weights_like(finest, scratch_, collapsed) ||
-          !collapse_weights(placement_, kept, finest, scratch_, collapsed) ||
-          !measure(mesh, collapsed, {}, error)) {
-        return false;
-      }
-      report.collapsed_error = error.error;
-      if (l >= weights.count) lod.weights = collapsed;
+    if (!collapse(l) || !measure(lod.mesh, starts.collapsed, {}, error)) return false;
+    report.collapsed_error = report.new_error = error.error;
+    if (starts.has_new) {
+      if (!measure(lod.mesh, starts.made, {}, error)) return false;
+      report.new_error = error.error;
     }
-    if (!measure(mesh, lod.weights, {}, error)) return false;
-    report.new_error = error.error;
-    if (l > 0 && !options_.keep_weights) {
-      SkinWeights refitted;
-      if (!make_weights_like(finest, scratch_, refitted) || !refit(mesh, lod.weights, refitted)) {
-        return false;
-      }
-      lod.weights = refitted;
-      if (!measure(mesh, refitted, {}, error) || (report.collapsed_error < report.new_error &&
-                                                  !try_collapsed(mesh, collapsed, lod, error))) {
-        return false;
-      }
-    }
+    starts_[l].better = LodStarts::kUndecided;
+    if (!options_.keep_weights) return fit_lod_weights(l);
+    lod.weights = starts.has_new ? starts.made : starts.collapsed;
+    return true;
+  }
+
+  bool make_lod(uint32_t l, LodModel& lod) {
+    const FittedLod& fitted = lods_[l];
+    LodReport& report = report_.lods[l];
+    lod.mesh = &fitted.mesh;
+    lod.vertices = fitted.vertices;
+    lod.weights = fitted.weights;
+    FitError error;
+    if (!measure(fitted.mesh, lod.weights, {}, error)) return false;
     report.joints_error = error.error;
-    if (l == 0) report_.joints = error;
-    if (l < 2 && options_.residual_targets && !make_shape_targets(l, mesh, lod)) return false;
+    if (l == 0) {
+      report.new_error = error.error;
+      report_.joints = error;
+    }
+    if (l < 2 && options_.residual_targets && !make_shape_targets(l, fitted.mesh, lod))
+      return false;
     if (l == 0 && (!add_correctives(lod.weights) || !list_channels())) return false;
-    if (!measure(mesh, lod.weights, lod.targets, error)) return false;
+    if (!measure(fitted.mesh, lod.weights, lod.targets, error)) return false;
     report.error = error.error;
     if (l == 0) report_.rig = error;
-    return true;
-  }
-
-  /// The mesh of the LOD, with the displacements of its vertices in `arena`.
-  bool take_mesh(uint32_t l, Arena& arena, AuthorMesh& mesh, LodModel& lod, LodReport& report) {
-    lod.mesh = &mesh_;
-    if (l < options_.lod_meshes.count) {
-      const LodMesh& own = options_.lod_meshes[l];
-      report.surface_rms = own.rms;
-      report.surface_max = own.max;
-      if (!own.vertices.empty()) {
-        lod.mesh = &own.mesh;
-        lod.vertices = own.vertices;
-        mesh = own.mesh;
-        if (!take_shapes(mesh_.shapes, own.vertices, arena, mesh.shapes)) return false;
-      }
-    }
-    report.vertices = mesh.positions.count;
-    report.triangles = mesh.triangles.count / 3;
-    return true;
-  }
-
-  /// The rows of the LOD's vertices.
-  bool take_rows(const SkinWeights& all, const LodModel& lod, SkinWeights& out) {
-    out = all;
-    if (lod.vertices.empty()) return true;
-    const size_t count = lod.vertices.count, m = all.m;
-    if (!author::make(scratch_, count * m, out.joints) ||
-        !author::make(scratch_, count * m, out.weights)) {
-      return false;
-    }
-    for (size_t v = 0; v < count; ++v) {
-      for (size_t i = 0; i < m; ++i) {
-        out.joints[v * m + i] = all.joints[lod.vertices[v] * m + i];
-        out.weights[v * m + i] = all.weights[lod.vertices[v] * m + i];
-      }
-    }
-    return true;
-  }
-
-  /// Refits the other start, too, and keeps it if less is left.
-  bool try_collapsed(const AuthorMesh& mesh, const SkinWeights& collapsed, LodModel& lod,
-                     FitError& error) {
-    SkinWeights refitted;
-    FitError found;
-    if (!make_weights_like(collapsed, scratch_, refitted) || !refit(mesh, collapsed, refitted)) {
-      return false;
-    }
-    if (!measure(mesh, refitted, {}, found)) return false;
-    if (found.error < error.error) {
-      lod.weights = refitted;
-      error = found;
-    }
     return true;
   }
 
@@ -408,7 +475,9 @@ class RigMaker {
   RigModel model_;
   double face_size_;
   Motions motions_;
-  Span<Target> targets_;  // of LOD 0, by control
+  Span<FittedLod> lods_;
+  Span<LodStarts> starts_;  // of lods_; the first has none
+  Span<Target> targets_;    // of LOD 0, by control
 };
 
 }  // namespace

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// All LODs share one joint matrix. Motions that are fitted to the vertices of LOD 0 alone are those of
+// small footprints, and few of them do badly for the whole face. So vertices of every LOD, with the
+// weights that they have there, are rows of one least squares problem.
+#pragma once
+
+#include "runtime/author/fit/fit_shapes.h"
+
+namespace mien::author {
+
+/// A LOD while its weights are fitted.
+struct FittedLod {
+  AuthorMesh mesh;                // its vertices with their displacements
+  Span<const uint32_t> vertices;  // of LOD 0; empty: all of them
+  SkinWeights weights;            // of its vertices
+};
+
+struct StackedLods {
+  Span<uint32_t> rows;      // vertices of their LOD, LOD after LOD
+  Span<uint32_t> starts;    // LODs + 1, into `rows`
+  Span<Vec3> positions;     // of each row
+  Span<uint32_t> vertices;  // of LOD 0, of each row
+  Span<double> scales;      // of each row
+  SkinWeights weights;      // of each row, times its scale
+};
+
+/// Rows are all vertices of LOD 0, and of each further LOD at most about a quarter as many. False if
+/// memory ran out.
+bool stack_lods(Span<const FittedLod> lods, Arena& arena, StackedLods& out);
+
+/// Takes the weights of the LODs as they are now.
+void fill_weights(Span<const FittedLod> lods, const StackedLods& out);
+
+}  // namespace mien::author
