@@ -163,6 +163,60 @@ class AuthorTest(ProgramTest):
             self.assertAlmostEqual(error, errors[0][0], delta=0.01)
             self.assertAlmostEqual(throat, errors[0][1], places=3)
 
+    def test_glb_may_have_strides_normalized_numbers_and_sparse_targets(self):
+        count = len(POSITIONS)
+        blocks, views, accessors = b"", [], []
+
+        def view(data, **more):
+            nonlocal blocks
+            views.append({"buffer": 0, "byteOffset": len(blocks), "byteLength": len(data), **more})
+            blocks += data + b"\0" * (-len(data) % 4)
+            return len(views) - 1
+
+        def accessor(**all_of_it):
+            accessors.append(all_of_it)
+            return len(accessors) - 1
+
+        # Positions among other numbers, 20 bytes apart.
+        rows = b"".join(struct.pack("<f3ff", 7, *(0.01 * c for c in p), 9) for p in POSITIONS)
+        at = accessor(bufferView=view(rows, byteStride=20), byteOffset=4, componentType=5126, type="VEC3",
+                      count=count)
+        triangles = [v for f in FACES for v in (f[0], f[1], f[2], f[0], f[2], f[3])]
+        corners = accessor(bufferView=view(struct.pack(f"<{len(triangles)}H", *triangles)),
+                           componentType=5123, type="SCALAR", count=len(triangles))
+        targets = []
+        for name, kind in (("smile", "sparse"), ("jawOpen", "normalized")):
+            moved = {v: d for v, d in enumerate(SHAPES[name]) if max(map(abs, d)) > 1e-4}
+            if kind == "sparse":
+                numbers = view(struct.pack(f"<{len(moved)}H", *moved))
+                values = view(b"".join(struct.pack("<3f", *(0.01 * c for c in d)) for d in moved.values()))
+                targets.append(accessor(componentType=5126, type="VEC3", count=count,
+                                        sparse={"count": len(moved),
+                                                "indices": {"bufferView": numbers, "componentType": 5123},
+                                                "values": {"bufferView": values}}))
+            else:
+                data = b"".join(struct.pack("<3hxx", *(round(0.01 * c * 32767) for c in d))
+                                for d in SHAPES[name])
+                targets.append(accessor(bufferView=view(data, byteStride=8), componentType=5122, type="VEC3",
+                                        count=count, normalized=True))
+        root = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+                "extensionsUsed": ["KHR_mesh_quantization"], "extensionsRequired": ["KHR_mesh_quantization"],
+                "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": len(blocks)}],
+                "meshes": [{"name": "face", "extras": {"targetNames": ["smile", "jawOpen"]}, "primitives": [
+                    {"attributes": {"POSITION": at}, "indices": corners,
+                     "targets": [{"POSITION": target} for target in targets]}]}]}
+        text = json.dumps(root).encode()
+        text += b" " * (-len(text) % 4)
+        write("packed.glb", struct.pack("<4sII", b"glTF", 2, 20 + len(text) + 8 + len(blocks)) +
+              struct.pack("<II", len(text), 0x4E4F534A) + text +
+              struct.pack("<II", len(blocks), 0x004E4942) + blocks)
+        options = ("--joints", "30", "--lods", "1")
+        plain = self.author(path("head.glb"), *options, name="plain")
+        packed = self.author(path("packed.glb"), *options, name="packed")
+        self.assertEqual(plain["mask"], packed["mask"])
+        for shape, error in plain["fit"]["joints_per_shape"].items():
+            self.assertAlmostEqual(packed["fit"]["joints_per_shape"][shape], error, delta=0.01)
+
     def test_a_target_without_data_moves_nothing(self):
         def empty(root):
             target = root["meshes"][0]["primitives"][0]["targets"][1]["POSITION"]
