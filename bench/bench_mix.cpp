@@ -19,6 +19,7 @@
 #include "runtime/eval/evaluate.h"
 #include "runtime/mix/mix_rows.h"
 #include "tests/support/mix_scene.h"
+#include "tests/support/placed_guards.h"
 
 namespace mien::bench {
 namespace {
@@ -65,15 +66,16 @@ void masked_layer(benchmark::State& state, Isa isa, BlendMode mode, bool covered
   }
 }
 
-/// What a transition adds to a layer: offsets of the values and of what the clip covers.
-void inertial_transition(benchmark::State& state, Isa isa) {
+/// What a transition adds to a layer: offsets of the values; of what clips cover, too, if they differ
+/// in that.
+void inertial_transition(benchmark::State& state, Isa isa, size_t count) {
   const KernelTable* const kernels = kernels_for(isa);
   Rows rows;
   alignas(64) static float quintics[4][2 * kLanes];
   const QuinticRows out = {quintics[0], quintics[1], quintics[2], quintics[3]};
   start_quintics(rows.x, rows.x, rows.row, 0, 2 * kLanes, out);
   for (auto _ : state) {
-    kernels->add_quintics(out, 0.4f, 2 * kLanes, rows.row);
+    kernels->add_quintics(out, 0.4f, count, rows.x, rows.row);
     benchmark::ClobberMemory();
   }
 }
@@ -143,19 +145,22 @@ void dense_layers(benchmark::State& state, Isa isa) {
 void guards(benchmark::State& state, float activation) {
   constexpr uint32_t kGuarded = 48;
   const std::vector<uint16_t> lanes = first_lanes(kGuarded);
-  Guard all[kMaxGuards];
-  for (uint32_t g = 0; g < kMaxGuards; ++g) all[g] = scene_guard(g, lanes);
+  std::vector<Guard> all;
+  for (uint32_t g = 0; g < kMaxGuards; ++g) all.push_back(scene_guard(g, lanes));
+  const PlacedGuards placed(all);
   Rows rows;
-  alignas(64) float held[kLanes] = {}, free_row[kLanes], back[kLanes], row[kLanes];
-  memcpy(free_row, rows.row, sizeof(free_row));
+  alignas(64) float held[kLanes] = {}, back[kLanes], row[kLanes];
+  const float *const before = rows.x, *const free_row = rows.row;  // lane by lane: all have guards
+  scene_requires(placed.lanes.size() == kGuarded ? Status::kOk : Status::kMismatch);
   for (auto _ : state) {
     float distances[kMaxGuards], activations[kMaxGuards];
     for (uint32_t g = 0; g < kMaxGuards; ++g) {
-      distances[g] = guard_distance(all[g], rows.x);
+      distances[g] = guard_distance(placed.placed[g], before);
       activations[g] = activation;
     }
-    hold_guards({all, kMaxGuards}, rows.x, distances, activations, free_row, kGuarded, back, row);
-    ease_guards(free_row, rows.x, back, kGuarded, 0.2f, held, row);
+    hold_guards({placed.placed.data(), kMaxGuards}, before, distances, activations, free_row, back,
+                row);
+    ease_guards(free_row, before, back, kGuarded, 0.2f, held, row);
     benchmark::ClobberMemory();
   }
 }
@@ -338,7 +343,10 @@ const int kRegistered = [] {
       RegisterBenchmark((layer + "/clip").c_str(), masked_layer, own, each.mode, true);
       RegisterBenchmark((layer + "/poses").c_str(), masked_layer, own, each.mode, false);
     }
-    RegisterBenchmark(("inertial_transition/" + name).c_str(), inertial_transition, own);
+    const std::string transition = "inertial_transition/" + name;
+    RegisterBenchmark(transition.c_str(), inertial_transition, own, kLanes);
+    RegisterBenchmark((transition + "/other_channels").c_str(), inertial_transition, own,
+                      2 * kLanes);
     RegisterBenchmark(("dense_layers/" + name + "/8").c_str(), dense_layers, own)
         ->ArgName("characters")
         ->Arg(1)

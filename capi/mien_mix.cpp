@@ -335,10 +335,7 @@ MienStatus mien_mix_guard(const MienMix* handle, uint32_t guard, MienMixGuardInf
   if (guard >= mix.guards.count) return MIEN_ERROR_INDEX;
   const Guard& of = mix.guards[guard];
   MienMixGuardInfo info = {};
-  size_t first = 0;
-  for (uint32_t i = 0; i < guard; ++i) first += mix.guards[i].count;
-  const Span<uint16_t> lanes = mix.guard_lanes.slice(first, of.count);
-  info.lanes = {lanes.data, lanes.count};
+  info.lanes = {of.lanes, of.count};
   info.gains = {of.gains, of.count};
   info.needs_speech = of.needs_speech;
   info.pair_count = of.pair_count;

@@ -538,13 +538,14 @@ enum class BlendMode : uint8_t {
 /// everywhere. kAdd and kScreen do not need it, because x is 0 where it is 0.
 ///
 /// A lane to which nothing is added keeps its bits, as with a = 0; kOverride with a = 1 and cover = 1
-/// gives those of x.
+/// gives those of x. Weights and masks are at most 1.
 struct BlendArgs {
   const float *x, *cover, *mask;
   float* row;
   size_t count;
   float weight;
   BlendMode mode;
+  float scale = 1;  // of x; with a cover it is 1
 };
 
 /// Coefficients of one Quintic (runtime/mix/fade.h) per lane.
@@ -626,8 +627,9 @@ struct KernelTable {
   void (*blend_row)(const BlendArgs& args);
   /// out = from + s (to - from); the bits of `to` where they are equal or s is 1.
   void (*cross_rows)(const float* from, const float* to, float s, size_t count, float* out);
-  /// row += offset at u
-  void (*add_quintics)(const QuinticRows& quintics, float u, size_t count, float* row);
+  /// to = from + offset at u
+  void (*add_quintics)(const QuinticRows& quintics, float u, size_t count, const float* from,
+                       float* to);
   /// Clamps to the limits. NaN becomes the lower limit; -0 within the limits is kept.
   void (*limit_row)(const float* lower, const float* upper, size_t count, float* row);
   /// Decodes the next sample in each lane of a block.

@@ -8,6 +8,17 @@
 namespace mien::MIEN_KERNEL_ISA {
 namespace {
 
+/// Values of the source.
+struct Plain {
+  const float* x;
+  Vec operator()(size_t i) const { return load(x + i); }
+};
+struct Scaled {
+  const float* x;
+  Vec scale;
+  Vec operator()(size_t i) const { return scale * load(x + i); }
+};
+
 /// 1 and no lane of memory, or what the source covers.
 struct Covered {
   const float* cover;
@@ -41,15 +52,15 @@ struct BlendScale {
   Vec operator()(Vec o, Vec x, Vec c, Vec a) const { return a * (x - c) * o; }
 };
 
-template <bool kReplaces, class Added, class Cover>
-void blend_lanes(const BlendArgs& args, Added added, Cover cover) {
+template <bool kReplaces, class Added, class Values, class Cover>
+void blend_lanes(const BlendArgs& args, Added added, Values values, Cover cover) {
   const Vec weight = broadcast(args.weight), zero = broadcast(0.0f), one = broadcast(1.0f);
   // Read once: what is stored could be the arguments, for all that compilers know.
-  const float *const values = args.x, *const mask = args.mask;
+  const float* const mask = args.mask;
   float* const row = args.row;
   const size_t count = args.count;
   for (size_t i = 0; i < count; i += kWidth) {
-    const Vec o = load(row + i), x = load(values + i), c = cover(i);
+    const Vec o = load(row + i), x = values(i), c = cover(i);
     const Vec a = weight * load(mask + i);
     const Vec more = added(o, x, c, a);
     // -0 + 0 would be 0.
@@ -61,18 +72,26 @@ void blend_lanes(const BlendArgs& args, Added added, Cover cover) {
 
 template <bool kReplaces, class Added>
 void blend_covered(const BlendArgs& args, Added added) {
-  if (args.cover) {
-    blend_lanes<kReplaces>(args, added, Covered{args.cover});
-  } else {
-    blend_lanes<kReplaces>(args, added, Whole{});
-  }
+  const Plain values = {args.x};
+  if (args.cover) return blend_lanes<kReplaces>(args, added, values, Covered{args.cover});
+  if (args.scale == 1.0f) return blend_lanes<kReplaces>(args, added, values, Whole{});
+  blend_lanes<kReplaces>(args, added, Scaled{args.x, broadcast(args.scale)}, Whole{});
+}
+
+template <class Added>
+void blend_whole(const BlendArgs& args, Added added) {
+  if (args.scale == 1.0f) return blend_lanes<false>(args, added, Plain{args.x}, Whole{});
+  blend_lanes<false>(args, added, Scaled{args.x, broadcast(args.scale)}, Whole{});
 }
 
 void blend_row(const BlendArgs& args) {
   switch (args.mode) {
-    case BlendMode::kOverride: return blend_covered<true>(args, BlendOverride{});
-    case BlendMode::kAdd: return blend_lanes<false>(args, BlendAdd{}, Whole{});
-    case BlendMode::kScreen: return blend_lanes<false>(args, BlendScreen{}, Whole{});
+    case BlendMode::kOverride:
+      // With less weight no lane is replaced.
+      if (args.weight < 1.0f) return blend_covered<false>(args, BlendOverride{});
+      return blend_covered<true>(args, BlendOverride{});
+    case BlendMode::kAdd: return blend_whole(args, BlendAdd{});
+    case BlendMode::kScreen: return blend_whole(args, BlendScreen{});
     case BlendMode::kMax: return blend_covered<false>(args, BlendMax{});
     case BlendMode::kScale: return blend_covered<false>(args, BlendScale{});
   }
@@ -87,7 +106,8 @@ void cross_rows(const float* from, const float* to, float s, size_t count, float
   }
 }
 
-void add_quintics(const QuinticRows& quintics, float u, size_t count, float* row) {
+void add_quintics(const QuinticRows& quintics, float u, size_t count, const float* from,
+                  float* to) {
   const Vec at = broadcast(u), zero = broadcast(0.0f), one = broadcast(1.0f);
   for (size_t i = 0; i < count; i += kWidth) {
     const Vec c0 = load(quintics.c0 + i), v = at_most(at * load(quintics.rate + i), one);
@@ -95,7 +115,7 @@ void add_quintics(const QuinticRows& quintics, float u, size_t count, float* row
     const Vec inner = c0 + v * (load(quintics.c1 + i) + v * load(quintics.c2 + i));
     const Vec offset = w * w * w * inner;
     // Rounding near the end.
-    store(row + i, load(row + i) + select(less(offset * c0, zero), zero, offset));
+    store(to + i, load(from + i) + select(less(offset * c0, zero), zero, offset));
   }
 }
 

@@ -56,8 +56,9 @@ void set_constant(float value, Lane lane) {
 /// A channel in grid or float mode: leaves the reader at the next channel.
 void read_channel(BitReader& reader, BlockMode mode, uint32_t frame_count, Lane lane) {
   ClipLanes& lanes = lane.of;
-  const bool linear = reader.take(1) != 0, masked = reader.take(1) != 0;
-  const auto parameter = static_cast<uint32_t>(reader.take(mode == kBlockGrid ? 4 : 5));
+  const auto head = static_cast<uint32_t>(reader.take(mode == kBlockGrid ? 6 : 7));
+  const bool linear = (head & 1) != 0, masked = (head & 2) != 0;
+  const uint32_t parameter = head >> 2;
   const uint64_t samples = (masked ? read_mask(reader) : ~uint64_t{0}) & low_bits(frame_count);
   uint32_t first_width = 32 - parameter;
   if (mode == kBlockGrid) first_width = width_of_code(static_cast<uint32_t>(reader.take(5)));
@@ -89,6 +90,7 @@ void read_channel(BitReader& reader, BlockMode mode, uint32_t frame_count, Lane 
   lanes.widths[lane.at] = widths;
   lanes.width_bits[lane.at] = static_cast<uint8_t>(width_bits);
   lanes.least[lane.at] = static_cast<uint8_t>(least);
+  lanes.run_width[lane.at] = 0;
   lanes.left[lane.at] = 1;
   lanes.turn[lane.at] = 0;
   lanes.turns = 1;
@@ -134,12 +136,15 @@ bool read_block(BlockDecoder& decoder, uint32_t block, uint64_t& slack) {
 /// Lanes of zeros.
 void clear_groups(BlockDecoder& decoder) {
   for (ClipLanes& group : decoder.groups) {
-    group = {};
+    // What tells of runs is set where a channel has some.
     for (uint32_t k = 0; k < kClipLanes; ++k) {
+      group.bit[k] = group.width[k] = group.mask[k] = group.last[k] = group.slope[k] = 0;
+      group.linear[k] = group.present[k] = 0;
       group.unit[k] = 1;
       group.scale[k] = 1;
       group.turn[k] = kBlockFrames;
     }
+    group.turns = 0;
   }
 }
 

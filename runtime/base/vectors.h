@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Helps compilers to vectorize plain loops.
+// Helps compilers to vectorize and unroll plain loops.
 #pragma once
 
 #include <cstring>
@@ -10,6 +10,13 @@
 #define MIEN_VECTOR_LOOP _Pragma("GCC unroll 1")
 #else
 #define MIEN_VECTOR_LOOP
+#endif
+
+// Before a loop of a few loads and stores.
+#if defined(__GNUC__)
+#define MIEN_UNROLL_FOUR _Pragma("GCC unroll 4")
+#else
+#define MIEN_UNROLL_FOUR
 #endif
 
 namespace mien {

@@ -2,103 +2,89 @@
 #include "runtime/mix/guard.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include "runtime/base/bits.h"
-#include "runtime/base/vectors.h"
 
 namespace mien {
 namespace {
 
-constexpr uint32_t kQuad = 4;
 constexpr float kEnough = 5e-5f;  // millimeters beyond a limit that are not worth another sweep
-
-/// The guard's lanes of a row, then zeros up to a multiple of four.
-struct Values {
-  float of[kMaxGuardLanes];
-
-  Values(const Guard& guard, const float* row) {
-    const uint16_t* const at = guard.lanes;
-    uint32_t i = 0;
-    for (; i + kQuad <= guard.count; i += kQuad) {
-      store_four(of + i, row[at[i]], row[at[i + 1]], row[at[i + 2]], row[at[i + 3]]);
-    }
-    if (i == guard.count) return;
-    const auto value = [&](uint32_t k) { return i + k < guard.count ? row[at[i + k]] : 0.0f; };
-    store_four(of + i, value(0), value(1), value(2), value(3));
-  }
-};
 
 // By value and without branches, so that compilers make vectors of them.
 float higher(float a, float b) { return a > b ? a : b; }
 float lower(float a, float b) { return a < b ? a : b; }
 
-float distance(const Guard& guard, const Values& values) {
-  // Four sums at a time, which compilers make a vector.
-  float sums[kQuad] = {};
-  for (uint32_t i = 0; i < guard.count; i += kQuad) {
-    for (uint32_t k = 0; k < kQuad; ++k) sums[k] += guard.gains[i + k] * values.of[i + k];
-  }
-  float pairs = guard.rest;
-  for (uint32_t i = 0; i < guard.pair_count; ++i) {
-    const GuardPair& pair = guard.pairs[i];
-    pairs += pair.gain * values.of[pair.first] * values.of[pair.second];
-  }
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]) + pairs;
-}
+float size_of(float value) { return float_of(bits_of(value) & 0x7FFFFFFF); }
+
+/// How far a lane may go back, and what that closes while the others are as they have become; zeros
+/// if it opens nothing.
+struct Opening {
+  float change, closes;
+};
 
 /// Takes lanes back by what closes `excess` millimeters: `most` keeps the most that any guard wants.
-void hold_guard(const Guard& guard, const float* protected_row, float excess, Values& values,
-                float* most) {
-  uint32_t pairs_of[kMaxGuardLanes];  // bit p: pair p has the lane
-  for (uint32_t i = 0; i < guard.count; ++i) pairs_of[i] = 0;
-  for (uint32_t p = 0; p < guard.pair_count; ++p) {
-    pairs_of[guard.pairs[p].first] |= 1u << p;
-    pairs_of[guard.pairs[p].second] |= 1u << p;
-  }
-  float move[kMaxGuardLanes];
-  for (uint32_t begin = 0, end; begin < guard.count && excess > 0; begin = end) {
-    end = begin + 1 + (guard.together >> (begin + 1) & 1);
-    float opens = 0;
-    for (uint32_t i = begin; i < end; ++i) {
-      move[i] = 0;
-      const float change = values.of[i] - protected_row[guard.lanes[i]];
-      if (change == 0) continue;
-      // By how much the distance grows with the lane while the others are as they have become.
-      float slope = guard.gains[i];
-      for (uint32_t left = pairs_of[i]; left != 0; left &= left - 1) {
-        const GuardPair& pair = guard.pairs[lowest_bit(left)];
-        slope += pair.gain * values.of[pair.first == i ? pair.second : pair.first];
-      }
-      if (!(slope * change > 0)) continue;
-      opens += slope * change;
-      move[i] = change;
+void hold_guard(const PlacedGuard& guard, const float* protected_row, float excess,
+                const float* row, float* most) {
+  float values[kMaxGuardedLanes];
+  memcpy(values, row, guard.width * sizeof(float));
+  const auto opening = [&](uint32_t i) {
+    const uint32_t at = guard.places[i];
+    const float change = row[at] - protected_row[at];
+    if (change == 0) return Opening{};
+    float slope = guard.gains[i];
+    for (uint32_t p = guard.partner_begins[i]; p < guard.partner_begins[i + 1]; ++p) {
+      slope += guard.partners[p].gain * values[guard.partners[p].other];
     }
+    return slope * change > 0 ? Opening{change, slope * change} : Opening{};
+  };
+  const auto take_back = [&](uint32_t i, float moved) {
+    const uint32_t at = guard.places[i];
+    values[at] -= moved;
+    if (size_of(moved) > size_of(most[at])) most[at] = moved;
+  };
+  for (uint32_t i = 0; i < guard.count && excess > 0; ++i) {
+    const Opening one = opening(i);
+    if ((guard.together >> (i + 1) & 1) == 0) {
+      if (!(one.closes > 0)) continue;
+      const float share = one.closes > excess ? excess / one.closes : 1;
+      excess -= share * one.closes;
+      take_back(i, share * one.change);
+      continue;
+    }
+    const Opening two = opening(++i);
+    const float opens = one.closes + two.closes;
     if (!(opens > 0)) continue;
     // What a pair of the two makes of it: counted in full, so that the share is never too small.
-    float both = 0;
-    if (end - begin == 2) {
-      for (uint32_t left = pairs_of[begin] & pairs_of[begin + 1]; left != 0; left &= left - 1) {
-        both += guard.pairs[lowest_bit(left)].gain * move[begin] * move[begin + 1];
-      }
-    }
+    const float both = guard.both_gains[i] * one.change * two.change;
     const float closes = opens - higher(both, 0.0f);
     const float share = closes > excess ? excess / closes : 1;
     excess -= share * (opens - share * both);
-    for (uint32_t i = begin; i < end; ++i) {
-      const float moved = share * move[i];
-      values.of[i] -= moved;
-      float& of_lane = most[guard.lanes[i]];
-      if (std::fabs(moved) > std::fabs(of_lane)) of_lane = moved;
-    }
+    take_back(i - 1, share * one.change);
+    take_back(i, share * two.change);
+  }
+}
+
+/// What is left of a row after more was taken off.
+void take_off(const float* __restrict free_row, const float* __restrict more, uint32_t width,
+              float* __restrict back, float* __restrict row) {
+  for (uint32_t i = 0; i < width; ++i) {
+    const float all = back[i] + more[i];
+    back[i] = all;
+    row[i] = free_row[i] - all;
   }
 }
 
 }  // namespace
 
 float guard_distance(const Guard& guard, const float* row) {
-  return distance(guard, Values(guard, row));
+  float sum = guard.rest;
+  for (uint32_t i = 0; i < guard.count; ++i) sum += guard.gains[i] * row[guard.lanes[i]];
+  for (uint32_t i = 0; i < guard.pair_count; ++i) {
+    const GuardPair& pair = guard.pairs[i];
+    sum += pair.gain * row[guard.lanes[pair.first]] * row[guard.lanes[pair.second]];
+  }
+  return sum;
 }
 
 float guard_activation(const Guard& guard, float distance) {
@@ -106,12 +92,65 @@ float guard_activation(const Guard& guard, float distance) {
   return u * u * (3 - 2 * u);
 }
 
-void hold_guards(Span<const Guard> guards, const float* protected_row, const float* distances,
-                 const float* activations, const float* free_row, uint32_t count, float* back,
-                 float* row) {
-  memset(back, 0, count * sizeof(float));
-  memcpy(row, free_row, count * sizeof(float));
-  float more[kMaxGuards * kMaxGuardLanes];
+uint32_t list_guarded_lanes(Span<const Guard> guards, uint16_t* lanes) {
+  uint16_t* end = lanes;
+  for (const Guard& guard : guards) end = std::copy(guard.lanes, guard.lanes + guard.count, end);
+  std::sort(lanes, end);
+  return static_cast<uint32_t>(std::unique(lanes, end) - lanes);
+}
+
+void place_guard(const Guard& guard, Span<const uint16_t> guarded_lanes, PlacedGuard& out) {
+  out = {};
+  out.count = guard.count;
+  out.pair_count = guard.pair_count;
+  out.width = static_cast<uint32_t>((guarded_lanes.count + kGuardStep - 1) & ~(kGuardStep - 1));
+  out.together = guard.together;
+  out.rest = guard.rest;
+  out.tolerance = guard.tolerance;
+  for (uint32_t i = 0; i < guard.count; ++i) {
+    const uint16_t* const lanes = guarded_lanes.data;
+    const uint16_t* const at = std::lower_bound(lanes, lanes + guarded_lanes.count, guard.lanes[i]);
+    out.places[i] = static_cast<uint16_t>(at - lanes);
+    out.gains[i] = out.row_gains[out.places[i]] = guard.gains[i];
+  }
+  uint16_t partners = 0;
+  for (uint32_t i = 0; i < guard.count; ++i) {
+    for (uint32_t p = 0; p < guard.pair_count; ++p) {
+      const GuardPair& pair = guard.pairs[p];
+      if (pair.first != i && pair.second != i) continue;
+      const uint32_t other = pair.first == i ? pair.second : pair.first;
+      out.partners[partners++] = {out.places[i], out.places[other], pair.gain};
+      if (other + 1 == i) out.both_gains[i] += pair.gain;
+    }
+    out.partner_begins[i + 1] = partners;
+  }
+  for (uint32_t p = 0; p < guard.pair_count; ++p) {
+    const GuardPair& pair = guard.pairs[p];
+    out.pairs[p] = {out.places[pair.first], out.places[pair.second], pair.gain};
+  }
+}
+
+float guard_distance(const PlacedGuard& guard, const float* row) {
+  // Eight sums at a time, which compilers make vectors.
+  float sums[kGuardStep] = {};
+  for (uint32_t i = 0; i < guard.width; i += kGuardStep) {
+    for (uint32_t k = 0; k < kGuardStep; ++k) sums[k] += guard.row_gains[i + k] * row[i + k];
+  }
+  float products = guard.rest;
+  for (uint32_t i = 0; i < guard.pair_count; ++i) {
+    const PlacedGuard::Product& pair = guard.pairs[i];
+    products += pair.gain * row[pair.place] * row[pair.other];
+  }
+  for (uint32_t k = 0; k < kGuardStep / 2; ++k) sums[k] += sums[k + kGuardStep / 2];
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]) + products;
+}
+
+void hold_guards(Span<const PlacedGuard> guards, const float* protected_row, const float* distances,
+                 const float* activations, const float* free_row, float* back, float* row) {
+  const uint32_t width = guards[0].width;
+  memset(back, 0, width * sizeof(float));
+  memcpy(row, free_row, width * sizeof(float));
+  float more[kMaxGuardedLanes];
   float limits[kMaxGuards];
   uint32_t limited = 0;  // bit g: the limit of guard g is known
   bool moved = true;
@@ -119,9 +158,8 @@ void hold_guards(Span<const Guard> guards, const float* protected_row, const flo
     moved = false;
     for (uint32_t g = 0; g < guards.count; ++g) {
       if (!(activations[g] > 0)) continue;
-      const Guard& guard = guards[g];
-      Values values(guard, row);
-      const float open = distance(guard, values);
+      const PlacedGuard& guard = guards[g];
+      const float open = guard_distance(guard, row);
       if ((limited >> g & 1) == 0) {
         const float excess = open - higher(distances[g], 0.0f) - guard.tolerance;
         if (!(excess > 0)) continue;
@@ -130,14 +168,11 @@ void hold_guards(Span<const Guard> guards, const float* protected_row, const flo
       } else if (!(open > limits[g] + kEnough)) {
         continue;
       }
-      if (!moved) memset(more, 0, count * sizeof(float));
+      if (!moved) memset(more, 0, width * sizeof(float));
       moved = true;
-      hold_guard(guard, protected_row, open - limits[g], values, more);
+      hold_guard(guard, protected_row, open - limits[g], row, more);
     }
-    for (uint32_t i = 0; moved && i < count; ++i) {
-      back[i] += more[i];
-      row[i] = free_row[i] - back[i];
-    }
+    if (moved) take_off(free_row, more, width, back, row);
   }
 }
 

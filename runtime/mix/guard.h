@@ -59,18 +59,45 @@ float guard_distance(const Guard& guard, const float* row);
 /// f(protected row).
 float guard_activation(const Guard& guard, float distance);
 
-/// What guards take off each of `count` lanes of the free row: `back`. With the activation 1, f(row)
-/// becomes f(protected row), or 0 if that is less, plus the tolerance; with less, it goes that share of
-/// the way. `distances` are f(protected row), [guard] as `activations`.
+/// The lanes of all guards, ascending; returns how many: at most kMaxGuardedLanes.
+constexpr uint32_t kMaxGuardedLanes = kMaxGuards * kMaxGuardLanes;
+uint32_t list_guarded_lanes(Span<const Guard> guards, uint16_t* lanes);
+
+/// A guard as steps need it: for rows of the lanes of all guards, with zeros up to a multiple of
+/// kGuardStep.
+constexpr uint32_t kGuardStep = 8;
+struct PlacedGuard {
+  struct Product {
+    uint16_t place, other;
+    float gain;
+  };
+  uint32_t count, pair_count, width;
+  uint32_t together;
+  float rest, tolerance;
+  uint16_t places[kMaxGuardLanes];              // by falling size of the gain
+  float gains[kMaxGuardLanes];                  // beside places
+  float both_gains[kMaxGuardLanes];             // of pairs with the place before
+  uint16_t partner_begins[kMaxGuardLanes + 1];  // beside places, into partners
+  Product partners[2 * kMaxGuardPairs];  // pairs of the first of places, then of the second, ...
+  Product pairs[kMaxGuardPairs];
+  float row_gains[kMaxGuardedLanes];  // by place, to `width`; 0 where the guard has no lane
+};
+void place_guard(const Guard& guard, Span<const uint16_t> guarded_lanes, PlacedGuard& out);
+
+/// f(row), summed in another order.
+float guard_distance(const PlacedGuard& guard, const float* row);
+
+/// What guards take off each lane of the free row: `back`. With the activation 1, f(row) becomes
+/// f(protected row), or 0 if that is less, plus the tolerance; with less, it goes that share of the
+/// way. `distances` are f(protected row), [guard] as `activations`. Rows are as PlacedGuard says.
 ///
 /// Each guard looks at the same row and of what several of them want of a lane the most counts; so
 /// their order makes no difference, and mirrored rows give mirrored results. Lanes with the largest
 /// gains go first, so that the least of the row is lost; both halves of a face go together
 /// (Guard::together). Lanes that open nothing stay. A guard is in closed form, as f is linear in each
 /// lane. What one took off may have helped another: then they look at the row once more.
-void hold_guards(Span<const Guard> guards, const float* protected_row, const float* distances,
-                 const float* activations, const float* free_row, uint32_t count, float* back,
-                 float* row);
+void hold_guards(Span<const PlacedGuard> guards, const float* protected_row, const float* distances,
+                 const float* activations, const float* free_row, float* back, float* row);
 constexpr uint32_t kGuardSweeps = 2;
 
 /// The fastest that guards take hold of a lane or let go of it, per second. With speech at 8 phonemes

@@ -312,7 +312,12 @@ void place_mix(Placer& placer, const MixDesc& desc, Mix& mix) {
   size_t values = 0;
   for (const PoseDesc& pose : desc.poses) values += pose.lanes.count;
   mix.pose_ends = placer.array<uint32_t>(desc.poses.count);
-  mix.pose_runs = placer.array<uint8_t>(desc.poses.count);
+  mix.pose_rows = placer.array<Span<float>>(desc.poses.count);
+  for (size_t i = 0; i < desc.poses.count; ++i) {
+    if (desc.poses[i].lanes.count * 2 < mix.lane_count) continue;
+    const Span<float> row = placer.array<float>(mix.lane_count, kBlockAlignment);
+    if (!placer.measuring()) mix.pose_rows[i] = row;
+  }
   mix.pose_lanes = placer.array<uint16_t>(values);
   mix.pose_values = placer.array<float>(values);
   size_t strokes = 0;
@@ -321,9 +326,9 @@ void place_mix(Placer& placer, const MixDesc& desc, Mix& mix) {
   mix.strokes = placer.array<Stroke>(strokes);
   size_t guarded = 0;
   for (const Guard& guard : desc.guards) guarded += guard.count;
-  mix.guard_lanes = placer.array<uint16_t>(guarded);
-  mix.guarded = placer.array<uint16_t>(guarded);
   mix.guards = placer.array<Guard>(desc.guards.count);
+  mix.guarded = placer.array<uint16_t>(guarded);
+  mix.placed_guards = placer.array<PlacedGuard>(desc.guards.count);
   mix.antagonists = placer.array<AntagonistPair>(desc.antagonists.count);
   for (const LayerDesc& layer : desc.layers) {
     if (!is_gaze(layer)) continue;
@@ -350,7 +355,6 @@ void fill_gaze(const MixDesc& desc, const LayerDesc& layer, Mix& mix) {
 }
 
 void fill_layers(const MixDesc& desc, Mix& mix) {
-  const uint32_t lanes = mix.used_lanes();
   for (size_t i = 0; i < desc.layers.count; ++i) {
     const LayerDesc& from = desc.layers[i];
     MixLayer& layer = mix.layers[i];
@@ -379,7 +383,7 @@ void fill_layers(const MixDesc& desc, Mix& mix) {
         for (uint16_t lane : pose.lanes) layer.mask[lane] = mask_of(lane);
       }
     } else if (layer.source == LayerSource::kClip) {
-      for (uint32_t l = 0; l < lanes; ++l) layer.mask[l] = mask_of(l);
+      for (uint32_t l = 0; l < mix.raw_count; ++l) layer.mask[l] = mask_of(l);
     } else if (is_gaze(from)) {
       fill_gaze(desc, from, mix);
       for (uint16_t lane : mix.gaze_lanes) layer.mask[lane] = mask_of(lane);
@@ -394,24 +398,10 @@ void fill_layers(const MixDesc& desc, Mix& mix) {
 }
 
 void fill_guards(const MixDesc& desc, Mix& mix) {
-  size_t count = 0;
-  for (const Guard& guard : desc.guards) {
-    for (uint32_t i = 0; i < guard.count; ++i) {
-      mix.guard_lanes[count] = guard.lanes[i];
-      mix.guarded[count++] = guard.lanes[i];
-    }
-  }
-  uint16_t* const lanes = mix.guarded.data;
-  std::sort(lanes, lanes + count);
-  mix.guarded.count = static_cast<size_t>(std::unique(lanes, lanes + count) - lanes);
   copy_items(desc.guards, mix.guards);
-  for (Guard& guard : mix.guards) {
-    for (uint32_t i = 0; i < kMaxGuardLanes; ++i) {
-      const bool used = i < guard.count;
-      const uint16_t* at = std::lower_bound(lanes, mix.guarded.end(), guard.lanes[i]);
-      guard.lanes[i] = used ? static_cast<uint16_t>(at - lanes) : uint16_t{0};
-      if (!used) guard.gains[i] = 0;
-    }
+  mix.guarded.count = list_guarded_lanes(desc.guards, mix.guarded.data);
+  for (size_t g = 0; g < mix.guards.count; ++g) {
+    place_guard(mix.guards[g], mix.guarded, mix.placed_guards[g]);
   }
 }
 
@@ -423,9 +413,9 @@ void fill_mix(const MixDesc& desc, Mix& mix) {
     copy_items(pose.lanes, mix.pose_lanes.slice(end, pose.lanes.count));
     copy_items(pose.values, mix.pose_values.slice(end, pose.values.count));
     mix.pose_ends[i] = end += static_cast<uint32_t>(pose.lanes.count);
-    mix.pose_runs[i] = pose.lanes.count != 0;
-    for (size_t k = 1; k < pose.lanes.count; ++k) {
-      if (pose.lanes[k] != pose.lanes[k - 1] + 1) mix.pose_runs[i] = 0;
+    if (mix.pose_rows[i].empty()) continue;
+    for (size_t k = 0; k < pose.lanes.count; ++k) {
+      mix.pose_rows[i][pose.lanes[k]] = pose.values[k];
     }
   }
   uint32_t stroke = 0;

@@ -214,15 +214,15 @@ struct Mix {
   mutable std::atomic<uint32_t> owners{1};  // the creator and every mixer
 
   Span<MixLayer> layers;
-  Span<uint32_t> pose_ends;  // [pose] into pose_lanes and pose_values
-  Span<uint8_t> pose_runs;   // [pose] 1: each of its lanes is the one after that before
+  Span<uint32_t> pose_ends;     // [pose] into pose_lanes and pose_values
+  Span<Span<float>> pose_rows;  // [pose][lane], or empty if it has few lanes
   Span<uint16_t> pose_lanes;
   Span<float> pose_values;
   Span<Reaction> reactions;
   Span<Stroke> strokes;
-  Span<uint16_t> guard_lanes;  // of each guard, one after the other, as it was given
-  Span<uint16_t> guarded;      // the lanes of all guards, ascending
-  Span<Guard> guards;          // with lanes that are places in `guarded`
+  Span<Guard> guards;               // as they were given
+  Span<uint16_t> guarded;           // the lanes of all guards, ascending
+  Span<PlacedGuard> placed_guards;  // for rows of them
   Span<AntagonistPair> antagonists;
   bool has_gaze = false;  // a layer generates it
   GazeTable gaze;

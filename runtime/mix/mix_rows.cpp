@@ -1,29 +1,54 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/mix/mix_rows.h"
 
-#include "runtime/base/arena.h"
 #include "runtime/mix/fade.h"
 
 namespace mien {
+namespace {
 
-void blend_lanes(const Mix& mix, BlendMode mode, Span<const uint16_t> lanes, const float* values,
-                 const float* mask, float weight, float* row) {
-  if (weight == 0.0f) return;
-  // Gathered, so that there is one definition of blending.
-  for (size_t first = 0; first < lanes.count; first += kLaneStep) {
-    const size_t count = lanes.count - first < kLaneStep ? lanes.count - first : kLaneStep;
-    // Three arrays: compilers clear a larger one by an instruction that is slow to begin.
-    alignas(kBlockAlignment) float some_x[kLaneStep] = {};
-    alignas(kBlockAlignment) float some_mask[kLaneStep] = {};
-    alignas(kBlockAlignment) float some_row[kLaneStep] = {};
-    for (size_t i = 0; i < count; ++i) {
-      const uint16_t lane = lanes[first + i];
-      some_x[i] = values[first + i];
-      some_mask[i] = mask ? mask[lane] : 1.0f;
-      some_row[i] = row[lane];
+/// What a mode adds to a lane: the formulas of simd/mix_kernels.inl, with the same bits.
+template <BlendMode kMode>
+float added(float o, float x, float a) {
+  switch (kMode) {
+    case BlendMode::kOverride: return a * (x - o);
+    case BlendMode::kAdd: return a * x;
+    case BlendMode::kScreen: {
+      const float raised = o > 0.0f ? o : 0.0f, p = raised < 1.0f ? raised : 1.0f;
+      return a * x * (x < 0.0f ? p : 1.0f - p);
     }
-    mix.kernels->blend_row({some_x, nullptr, some_mask, some_row, kLaneStep, weight, mode});
-    for (size_t i = 0; i < count; ++i) row[lanes[first + i]] = some_row[i];
+    case BlendMode::kMax: return a * (x - o > 0.0f ? x - o : 0.0f);
+    case BlendMode::kScale: return a * (x - 1.0f) * o;
+  }
+  return 0.0f;
+}
+
+template <BlendMode kMode>
+void blend_each(Span<const uint16_t> lanes, const float* values, const float* mask, float weight,
+                float* row) {
+  for (size_t i = 0; i < lanes.count; ++i) {
+    float& o = row[lanes[i]];
+    const float x = values[i], a = mask ? weight * mask[lanes[i]] : weight;
+    const float more = added<kMode>(o, x, a);
+    if (kMode == BlendMode::kOverride && a == 1.0f) {
+      o = x;
+    } else if (more != 0.0f) {  // -0 + 0 would be 0
+      o += more;
+    }
+  }
+}
+
+}  // namespace
+
+void blend_lanes(BlendMode mode, Span<const uint16_t> lanes, const float* values, const float* mask,
+                 float weight, float* row) {
+  if (weight == 0.0f) return;
+  const auto blend = [&](auto each) { each(lanes, values, mask, weight, row); };
+  switch (mode) {
+    case BlendMode::kOverride: return blend(blend_each<BlendMode::kOverride>);
+    case BlendMode::kAdd: return blend(blend_each<BlendMode::kAdd>);
+    case BlendMode::kScreen: return blend(blend_each<BlendMode::kScreen>);
+    case BlendMode::kMax: return blend(blend_each<BlendMode::kMax>);
+    case BlendMode::kScale: return blend(blend_each<BlendMode::kScale>);
   }
 }
 

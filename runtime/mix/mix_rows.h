@@ -6,9 +6,9 @@
 
 namespace mien {
 
-/// Blends a value for each of some lanes over a row. `mask` is by the lanes of the row, or null: 1.
-void blend_lanes(const Mix& mix, BlendMode mode, Span<const uint16_t> lanes, const float* values,
-                 const float* mask, float weight, float* row);
+/// Blends a value for each of some lanes over a row, as KernelTable::blend_row does whole rows. `mask` is by the lanes of the row, or null: 1.
+void blend_lanes(BlendMode mode, Span<const uint16_t> lanes, const float* values, const float* mask,
+                 float weight, float* row);
 
 /// Offsets that lead from `last`, with the velocity that it has after `previous`, to `next`.
 /// `velocity_scale` makes the velocity times T out of last - previous.

@@ -250,13 +250,7 @@ struct MixContents {
                       from.level_on,
                       from.level_off};
     }
-    size_t first = 0;
-    for (size_t i = 0; i < guards.count; first += guards[i++].count) {
-      guards[i] = mix.guards[i];
-      for (uint32_t k = 0; k < guards[i].count; ++k) {
-        guards[i].lanes[k] = mix.guard_lanes[first + k];
-      }
-    }
+    for (size_t i = 0; i < guards.count; ++i) guards[i] = mix.guards[i];
     desc.variable_count = mix.variable_count;
     desc.layers = layers;
     desc.poses = poses;

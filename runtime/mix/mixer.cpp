@@ -37,7 +37,8 @@ void place_mixer(Placer& placer, const Mix& mix, bool stages, Mixer& mixer) {
     mixer.stages = placer.array<float>(floats, kBlockAlignment).data;
   }
   mixer.row = placer.array<float>(mix.lane_count, kBlockAlignment);
-  mixer.guarded_rows = placer.array<float>(4 * mix.guarded.count);
+  mixer.guarded_rows =
+      placer.array<float>(kGuardedRows * align_up(mix.guarded.count, kGuardStep), kBlockAlignment);
   mixer.layer_row = placer.array<float>(layer_row_floats(mix), kBlockAlignment);
   mixer.scratch = placer.array<float>(mix.lane_count, kBlockAlignment);
   mixer.gui = placer.array<float>(mix.max_bound_gui, kBlockAlignment);
@@ -58,6 +59,7 @@ void place_mixer(Placer& placer, const Mix& mix, bool stages, Mixer& mixer) {
     place_stream(placer, layer.stream_frames, static_cast<uint32_t>(layer.lanes.count), stream);
     if (!placer.measuring()) mixer.streams[i] = stream;
   }
+  mixer.cover_rests = placer.array<uint8_t>(mix.layers.count);
   mixer.events = placer.array<MixEvent>(mix.max_events);
   Placer state(nullptr);
   place_state(state, mix, mixer);

@@ -95,6 +95,10 @@ struct Player {
   Span<float> rows;  // [value of a lane], then [cover of a lane], then [value] of another step
 };
 
+/// Lanes of guards: as they protect them, as layers left them, what they take off, what is left.
+enum GuardedRow : uint32_t { kProtected, kFree, kBack, kGuarded };
+constexpr uint32_t kGuardedRows = 4;
+
 /// An event of a clip that the last step passed.
 struct MixEvent {
   uint32_t layer;
@@ -108,12 +112,13 @@ struct Mixer {
   size_t block_size = 0;
 
   Span<float> row;           // [lane] the result of the last step
-  Span<float> guarded_rows;  // [protected, free, back, result][place in Mix::guarded]
+  Span<float> guarded_rows;  // [GuardedRow][place in Mix::guarded], zeros up to kGuardStep
   Span<float> layer_row;     // [value of a lane], then [cover of a lane]
   Span<float> scratch;       // [lane]
   Span<float> gui;
   Span<Player> players;
-  Span<RowStream*> streams;  // [layer] null where it is none
+  Span<RowStream*> streams;   // [layer] null where it is none
+  Span<uint8_t> cover_rests;  // [layer] 1: its transition has no offsets of the cover
   Span<MixEvent> events;
   uint32_t event_count = 0;
   bool lost_events = false;  // the last step passed more of them than there is room for

@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "runtime/base/vectors.h"
+
 namespace mien {
 
 bool has_rows(const MixLayer& layer) {
@@ -38,8 +40,12 @@ void start_offsets(Mixer& mixer, uint32_t index, const float* next, int64_t star
   const bool moves = layer.shown_count == 2 && layer.shown_ticks > 0;
   const float* last = layer_row(mixer, index, kShown0 + layer.newest);
   const float* before = moves ? layer_row(mixer, index, kShown0 + (layer.newest ^ 1)) : last;
-  start_quintics(last, before, next, moves ? fraction_of(ticks, layer.shown_ticks) : 0.0f,
-                 shown_floats(*mixer.mix, index), quintic_rows(mixer, index));
+  const size_t floats = shown_floats(*mixer.mix, index), lanes = mixer.mix->lane_count;
+  const size_t cover_bytes = (floats > lanes ? floats - lanes : 0) * sizeof(float);
+  mixer.cover_rests[index] = memcmp(last + lanes, next + lanes, cover_bytes) == 0 &&
+                             memcmp(before + lanes, next + lanes, cover_bytes) == 0;
+  start_quintics(last, before, next, moves ? fraction_of(ticks, layer.shown_ticks) : 0.0f, floats,
+                 quintic_rows(mixer, index));
   layer.offset_start = start;
   layer.offset_ticks = ticks;
 }
@@ -55,6 +61,7 @@ void sample_player(Mixer& mixer, Player& player, uint32_t row, bool constants) {
   float* const values = player_values(mix, player, row);
   if (!player.mirrored && !constants && binding.sums.empty()) {
     const Span<const float> changing = sample_changing(player.sampler);
+    MIEN_UNROLL_FOUR
     for (const BoundCopy& copy : binding.copies) values[copy.control] = changing[copy.changing];
     return;
   }

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstring>
 
+#include "runtime/base/vectors.h"
 #include "runtime/mix/mixer_layers.h"
 #include "runtime/mix/speech.h"
 
@@ -46,25 +47,30 @@ float* next_shown_row(Mixer& mixer, uint32_t index, int64_t ticks) {
   return layer_row(mixer, index, kShown0 + layer.newest);
 }
 
-bool has_offsets(const Mixer& mixer, LayerState& layer) {
-  if (mixer.header->now - layer.offset_start >= layer.offset_ticks) layer.offset_ticks = 0;
-  return layer.offset_ticks != 0;
+bool has_offsets(const Mixer& mixer, const LayerState& layer) {
+  return mixer.header->now - layer.offset_start < layer.offset_ticks;
 }
 
-void add_offsets(Mixer& mixer, uint32_t index, float* shown) {
-  LayerState& layer = mixer.layers[index];
-  if (!has_offsets(mixer, layer)) return;
-  const int64_t elapsed = mixer.header->now - layer.offset_start;
-  mixer.mix->kernels->add_quintics(quintic_rows(mixer, index),
-                                   fraction_of(elapsed, layer.offset_ticks),
-                                   shown_floats(*mixer.mix, index), shown);
+/// What a layer shows: a row and the offsets of a transition, if there are some.
+void show_row(Mixer& mixer, uint32_t index, const float* row, float* shown) {
+  const LayerState& layer = mixer.layers[index];
+  const size_t floats = shown_floats(*mixer.mix, index), lanes = mixer.mix->lane_count;
+  size_t added = 0;
+  if (has_offsets(mixer, layer)) {
+    const int64_t elapsed = mixer.header->now - layer.offset_start;
+    added = floats > lanes && mixer.cover_rests[index] ? lanes : floats;
+    mixer.mix->kernels->add_quintics(quintic_rows(mixer, index),
+                                     fraction_of(elapsed, layer.offset_ticks), added, row, shown);
+  }
+  if (row != shown) memcpy(shown + added, row + added, (floats - added) * sizeof(float));
 }
 
 /// `cover` may be null: the layer's mask leaves out what its poses have no value for.
-void blend(Mixer& mixer, uint32_t index, float weight, const float* values, const float* cover) {
+void blend(Mixer& mixer, uint32_t index, float weight, const float* values, const float* cover,
+           float scale = 1.0f) {
   const MixLayer& layer = mixer.mix->layers[index];
-  mixer.mix->kernels->blend_row(
-      {values, cover, layer.mask.data, mixer.row.data, mixer.mix->lane_count, weight, layer.mode});
+  mixer.mix->kernels->blend_row({values, cover, layer.mask.data, mixer.row.data,
+                                 mixer.mix->lane_count, weight, layer.mode, scale});
 }
 
 void mix_clip_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
@@ -90,8 +96,10 @@ void mix_clip_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
   if (layer.previous == kNoPlayer && !has_offsets(mixer, layer)) {
     sample_player(mixer, current, layer.newest, false);
     layer.in_player[layer.newest] = 1;
+    // The mask leaves out lanes beyond the raw controls.
+    const bool covers_all = current.source.binding->controls.count == mix.raw_count;
     blend(mixer, index, weight, player_values(mix, current, layer.newest),
-          player_cover(mix, current));
+          covers_all ? nullptr : player_cover(mix, current));
     return;
   }
   layer.in_player[layer.newest] = 0;
@@ -100,10 +108,10 @@ void mix_clip_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
     Player& previous = mixer.players[layer.previous];
     sample_player(mixer, previous, 0, false);
     mix.kernels->cross_rows(previous.rows.data, current.rows.data, s, layer_row_floats(mix), shown);
+    show_row(mixer, index, shown, shown);
   } else {
-    memcpy(shown, current.rows.data, layer_row_floats(mix) * sizeof(float));
+    show_row(mixer, index, current.rows.data, shown);
   }
-  add_offsets(mixer, index, shown);
   blend(mixer, index, weight, shown, shown + mix.lane_count);
 }
 
@@ -133,9 +141,8 @@ void mix_stream_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
     start_offsets(mixer, index, row, now - ticks, kStreamLeadOver);
   }
   float* shown = next_shown_row(mixer, index, ticks);
-  memcpy(shown, row, floats * sizeof(float));
-  add_offsets(mixer, index, shown);
-  blend_lanes(mix, layer.mode, layer.lanes, shown, layer.mask.data, weight, mixer.row.data);
+  show_row(mixer, index, row, shown);
+  blend_lanes(layer.mode, layer.lanes, shown, layer.mask.data, weight, mixer.row.data);
 }
 
 void mix_generator(Mixer& mixer, uint32_t index, int64_t ticks) {
@@ -148,13 +155,13 @@ void mix_generator(Mixer& mixer, uint32_t index, int64_t ticks) {
     generate_gaze(mix.gaze, layer, seed, index, now, ticks, mixer.row.data, mixer.gazes[0],
                   mixer.scratch.data, values);
     // The lanes of the eyes, then those that get what is left for the head.
-    blend_lanes(mix, layer.mode, mix.gaze_lanes, values, layer.mask.data,
+    blend_lanes(layer.mode, mix.gaze_lanes, values, layer.mask.data,
                 layer_weight(mixer.layers[index], layer.mode, now), mixer.row.data);
     return;
   }
   const int64_t shift = mixer.gazes.empty() ? kNoShift : mixer.gazes[0].large_shift;
   generate(layer, seed, index, now, shift, mixer.row.data, mixer.generators[index], values);
-  blend_lanes(mix, layer.mode, layer.lanes, values, layer.mask.data,
+  blend_lanes(layer.mode, layer.lanes, values, layer.mask.data,
               layer_weight(mixer.layers[index], layer.mode, now), mixer.row.data);
 }
 
@@ -163,48 +170,60 @@ void add_scaled(const float* __restrict from, float scale, size_t count, float* 
   for (size_t i = 0; i < count; ++i) to[i] += scale * from[i];
 }
 
+void add_pose(const Mix& mix, uint32_t pose, float weight, float* row) {
+  const Span<float> whole = mix.pose_rows[pose];
+  if (!whole.empty()) return add_scaled(whole.data, weight, whole.count, row);
+  const uint32_t begin = pose == 0 ? 0 : mix.pose_ends[pose - 1];
+  const uint16_t* const lanes = mix.pose_lanes.data;
+  const float* const values = mix.pose_values.data;
+  for (uint32_t k = begin; k < mix.pose_ends[pose]; ++k) row[lanes[k]] += weight * values[k];
+}
+
 void mix_pose_layer(Mixer& mixer, uint32_t index) {
   const Mix& mix = *mixer.mix;
   const MixLayer& layer = mix.layers[index];
   const int64_t now = mixer.header->now;
   const float weight = layer_weight(mixer.layers[index], layer.mode, now);
   if (weight == 0.0f) return;
-  float* row = mixer.layer_row.data;
-  memset(row, 0, mix.lane_count * sizeof(float));
   const Span<Fade> fades = mixer.pose_weights.slice(layer.first_fade, layer.pose_count);
   float sum = 0.0f;
-  for (const Fade& fade : fades) {
-    const float w = fade_value(fade, now);
-    sum += w > 0.0f ? w : 0.0f;
+  uint32_t shown = 0, last = 0;
+  for (uint32_t p = 0; p < layer.pose_count; ++p) {
+    const float w = fade_value(fades[p], now);
+    if (!(w > 0.0f)) continue;
+    sum += w;
+    ++shown;
+    last = p;
   }
   const float scale = sum > 1.0f ? 1.0f / sum : 1.0f;
+  const Span<float> whole = shown == 1 ? mix.pose_rows[layer.first_pose + last] : Span<float>{};
+  if (!whole.empty()) {
+    return blend(mixer, index, weight, whole.data, nullptr, fade_value(fades[last], now) * scale);
+  }
+  float* row = mixer.layer_row.data;
+  memset(row, 0, mix.lane_count * sizeof(float));
   for (uint32_t p = 0; p < layer.pose_count; ++p) {
     const float w = fade_value(fades[p], now) * scale;
-    if (!(w > 0.0f)) continue;
-    const uint32_t pose = layer.first_pose + p;
-    const uint32_t begin = pose == 0 ? 0 : mix.pose_ends[pose - 1];
-    const uint32_t end = mix.pose_ends[pose];
-    const float* const values = mix.pose_values.data;
-    if (mix.pose_runs[pose]) {
-      add_scaled(values + begin, w, end - begin, row + mix.pose_lanes[begin]);
-      continue;
-    }
-    for (uint32_t k = begin; k < end; ++k) row[mix.pose_lanes[k]] += w * values[k];
+    if (w > 0.0f) add_pose(mix, layer.first_pose + p, w, row);
   }
   blend(mixer, index, weight, row, nullptr);
 }
 
-enum GuardedRow : uint32_t { kProtected, kFree, kBack, kGuarded };
-
 float* guarded_row(const Mixer& mixer, GuardedRow which) {
-  return mixer.guarded_rows.data + which * mixer.mix->guarded.count;
+  return mixer.guarded_rows.data + which * (mixer.guarded_rows.count / kGuardedRows);
 }
 
 /// Keeps what the row is now in the lanes of guards.
 void gather_guarded(Mixer& mixer, GuardedRow which) {
   const Span<uint16_t> lanes = mixer.mix->guarded;
-  float* kept = guarded_row(mixer, which);
-  for (size_t i = 0; i < lanes.count; ++i) kept[i] = mixer.row[lanes[i]];
+  const float* const row = mixer.row.data;
+  float* const kept = guarded_row(mixer, which);
+  size_t i = 0;
+  for (; i + 4 <= lanes.count; i += 4) {
+    const uint16_t* const at = &lanes[i];
+    store_four(kept + i, row[at[0]], row[at[1]], row[at[2]], row[at[3]]);
+  }
+  for (; i < lanes.count; ++i) kept[i] = row[lanes[i]];
 }
 
 void keep_stage(Mixer& mixer, uint32_t stage) {
@@ -240,16 +259,18 @@ void mix_guards(Mixer& mixer, int64_t ticks) {
   const Speech speech = find_speech(mixer);
   float distances[kMaxGuards], activations[kMaxGuards];
   for (size_t i = 0; i < mix.guards.count; ++i) {
-    distances[i] = guard_distance(mix.guards[i], before);
+    distances[i] = guard_distance(mix.placed_guards[i], before);
     activations[i] = activation_of(mixer, i, distances[i], speech);
   }
   float* const back = guarded_row(mixer, kBack);
-  hold_guards({mix.guards.data, mix.guards.count}, before, distances, activations, free_row, count,
-              back, row);
+  hold_guards(mix.placed_guards, before, distances, activations, free_row, back, row);
   const double seconds = static_cast<double>(ticks) / kTicksPerSecond;
   ease_guards(free_row, before, back, count, static_cast<float>(kGuardSpeed * seconds),
               mixer.held.data, row);
-  for (size_t i = 0; i < count; ++i) mixer.row[mix.guarded[i]] = row[i];
+  float* const all_lanes = mixer.row.data;
+  const uint16_t* const lanes = mix.guarded.data;
+  MIEN_UNROLL_FOUR
+  for (size_t i = 0; i < count; ++i) all_lanes[lanes[i]] = row[i];
 }
 
 void net_antagonists(const Mix& mix, float* row) {
@@ -270,13 +291,11 @@ Status guard_state(const Mixer& mixer, uint32_t guard, GuardState& state, Error&
     return fail(error, Status::kIndex, kNoOffset, "guard %u of %zu", guard, mix.guards.count);
   }
   const Guard& of = mix.guards[guard];
-  size_t first = 0;
-  for (uint32_t i = 0; i < guard; ++i) first += mix.guards[i].count;
-  const auto lanes = mix.guard_lanes.slice(first, of.count);
-  state.lanes = {lanes.data, lanes.count};
-  state.protected_distance = guard_distance(of, guarded_row(mixer, kProtected));
-  state.wanted = guard_distance(of, guarded_row(mixer, kFree));
-  state.distance = guard_distance(of, guarded_row(mixer, kGuarded));
+  const PlacedGuard& placed = mix.placed_guards[guard];
+  state.lanes = {of.lanes, of.count};
+  state.protected_distance = guard_distance(placed, guarded_row(mixer, kProtected));
+  state.wanted = guard_distance(placed, guarded_row(mixer, kFree));
+  state.distance = guard_distance(placed, guarded_row(mixer, kGuarded));
   state.limit = std::max(state.protected_distance, 0.0f) + of.tolerance;
   state.activation = activation_of(mixer, guard, state.protected_distance, find_speech(mixer));
   return Status::kOk;

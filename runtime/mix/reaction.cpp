@@ -86,7 +86,7 @@ void aim_level(const Mix& mix, uint32_t index, int64_t now, float target, Reacti
 void blend_pose(const Mix& mix, const Stroke& stroke, float weight, float* row) {
   const uint32_t begin = stroke.pose == 0 ? 0 : mix.pose_ends[stroke.pose - 1];
   const uint32_t count = mix.pose_ends[stroke.pose] - begin;
-  blend_lanes(mix, stroke.mode, mix.pose_lanes.slice(begin, count), &mix.pose_values.data[begin],
+  blend_lanes(stroke.mode, mix.pose_lanes.slice(begin, count), &mix.pose_values.data[begin],
               nullptr, weight, row);
 }
 

@@ -255,6 +255,7 @@ Status restore_snapshot(Mixer& mixer, Span<const uint8_t> bytes, const ClipFinde
       restore_player(mixer, mixer.players[player], state, source);
     }
   }
+  for (uint8_t& rests : mixer.cover_rests) rests = 0;  // their offsets are zeros then
   mixer.event_count = 0;
   mixer.lost_events = false;
   return Status::kOk;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/support/mix_setup.h"
+#include "tests/support/placed_guards.h"
 
 namespace mien {
 namespace {
@@ -40,14 +41,8 @@ void ease(const Row& free_row, const Row& protected_row, const Row& back, float 
 
 /// What guards leave of a row when they have the time.
 void hold(const std::vector<Guard>& guards, const Row& protected_row, float activation, Row& row) {
-  Row back(row.size()), held(row.size()), left(row.size());
-  std::vector<float> distances, activations(guards.size(), activation);
-  for (const Guard& guard : guards) {
-    distances.push_back(guard_distance(guard, protected_row.data()));
-  }
-  hold_guards({guards.data(), guards.size()}, protected_row.data(), distances.data(),
-              activations.data(), row.data(), static_cast<uint32_t>(row.size()), back.data(),
-              left.data());
+  Row held(row.size()), left(row.size());
+  const Row back = PlacedGuards(guards).back(protected_row, row, std::max(activation, 0.0f));
   ease(row, protected_row, back, kAtOnce, held, left);
   row = left;
 }
@@ -61,6 +56,9 @@ TEST(Guard, DistanceIsASumOfLanesAndOfProductsOfPairs) {
   const Row row = {0.5f, 0.5f, 0.25f, 1};
   EXPECT_FLOAT_EQ(guard_distance(guard, row.data()),
                   0.25f + 20 * 0.25f + 5 * 0.5f - 4 + 0.5f - 20 * 0.25f * 0.5f);
+  const PlacedGuards placed({guard});
+  EXPECT_FLOAT_EQ(guard_distance(placed.placed[0], placed.row_of(row).data()),
+                  guard_distance(guard, row.data()));
 }
 
 TEST(Guard, ActivationFallsFromContactToTheRangesEnd) {
@@ -358,9 +356,9 @@ TEST(GuardOfAMixer, TellsWhatItDid) {
     alone.pose(0, 0, 1);
     return alone.step(kStep);
   }();
-  EXPECT_EQ(state.protected_distance, guard_distance(made.guard, speech.data()));
+  EXPECT_FLOAT_EQ(state.protected_distance, guard_distance(made.guard, speech.data()));
   EXPECT_FLOAT_EQ(state.wanted, guard_distance(made.guard, wanted.data()));
-  EXPECT_EQ(state.distance, guard_distance(made.guard, row.data()));
+  EXPECT_FLOAT_EQ(state.distance, guard_distance(made.guard, row.data()));
   EXPECT_EQ(state.limit, std::max(state.protected_distance, 0.0f) + made.guard.tolerance);
   EXPECT_EQ(state.activation, guard_activation(made.guard, state.protected_distance));
   EXPECT_GT(state.wanted, state.limit + 0.1f);

@@ -20,6 +20,7 @@
 #include "tests/support/counting_allocator.h"
 #include "tests/support/deform_rig.h"
 #include "tests/support/face_poses.h"
+#include "tests/support/placed_guards.h"
 
 namespace mien {
 namespace {
@@ -109,23 +110,17 @@ float activation_of(const Guard& guard, const Pose& row) {
 }
 /// The guards of some kinds; fully active, or as active as they find themselves.
 struct Guards {
-  std::vector<Guard> guards;
+  PlacedGuards guards;
 
-  Guards(const GuardedHead& head, const std::vector<Kind>& kinds) {
+  Guards(const GuardedHead& head, const std::vector<Kind>& kinds) : guards(some(head, kinds)) {}
+  static std::vector<Guard> some(const GuardedHead& head, const std::vector<Kind>& kinds) {
+    std::vector<Guard> guards;
     for (Kind kind : kinds) guards.push_back(head.guards[head.index(kind)]);
+    return guards;
   }
   /// How far they want lanes back.
   Pose hold(const Pose& protected_row, const Pose& free_row, bool fully) const {
-    Pose back(free_row.size()), row(free_row.size());
-    std::vector<float> distances, activations;
-    for (const Guard& guard : guards) {
-      distances.push_back(guard_distance(guard, protected_row.data()));
-      activations.push_back(fully ? 1 : guard_activation(guard, distances.back()));
-    }
-    hold_guards({guards.data(), guards.size()}, protected_row.data(), distances.data(),
-                activations.data(), free_row.data(), static_cast<uint32_t>(row.size()), back.data(),
-                row.data());
-    return back;
+    return guards.back(protected_row, free_row, fully ? 1.0f : -1.0f);
   }
   /// What they leave when they have the time.
   Pose left_by(const Pose& protected_row, const Pose& free_row) const {
@@ -551,7 +546,7 @@ TEST(GuardedSpeech, AGuardThatIsNotActiveChangesNoBit) {  // E6
   const Pose open = pose_of("jawOpen .7", h.controls);
   for (const Pose& emotion : emotions_of(h.controls)) {
     const Pose free = over(open, emotion, 1);
-    for (const Guard& guard : guards.guards) EXPECT_EQ(activation_of(guard, open), 0);
+    for (const Guard& guard : guards.guards.as_given) EXPECT_EQ(activation_of(guard, open), 0);
     const Pose back = guards.hold(open, free, false);
     Pose row(free.size()), held(free.size());
     ease_guards(free.data(), open.data(), back.data(), static_cast<uint32_t>(row.size()), 0.2f,

@@ -138,7 +138,7 @@ TEST(AddQuintics, HasTheBitsOfAFade) {
     }
     const QuinticRows quintics = {c0.of, c1.of, c2.of, rate.of};
     EXPECT_TRUE(on_all(row, [&](const KernelTable& kernels, Row& out) {
-                  kernels.add_quintics(quintics, u, kLanes, out.of);
+                  kernels.add_quintics(quintics, u, kLanes, row.of, out.of);
                 }).same_bits(expected));
   }
 }
