@@ -21,7 +21,7 @@ _progress_type: Any = dict(_api.MienAuthorDesc._fields_)["progress"]
 
 
 class AuthorBone(NamedTuple):
-    """A bone of the caller.
+    """A bone placed by the caller.
 
     position: in the mesh, not relative to the parent
     parent:   index of a bone before this one; the first one is its own parent

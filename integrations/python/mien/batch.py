@@ -212,8 +212,8 @@ class Batch(Closable):
     @raises("mien_rig_evaluate_batch", but=(Status.MISMATCH,))
     def evaluate(self, lod: Union[int, Sequence[int]] = 0, stages: int = Stage.ALL,
                  threads: Optional[Executor] = None) -> None:
-        """Computes the outputs of all characters, at one LOD or at one for each: the bits that
-        evaluating each by itself gives. Other Python threads run meanwhile.
+        """Computes the outputs of all characters, at one LOD or at one for each, with the same bits as
+        evaluating each alone. Other Python threads run meanwhile.
 
         stages:  as at `Instance.evaluate`
         threads: such as a ThreadPoolExecutor, for up to `tasks` parts at once; the same bits

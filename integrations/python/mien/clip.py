@@ -193,7 +193,7 @@ class Clip(Closable):
 
     @raises("mien_clip_find_channel_n")
     def find(self, name: str) -> int:
-        """Number of the channel of a name."""
+        """Index of the channel with a name."""
         encoded, found = _encoded(name), ctypes.c_uint32()
         status = lib.mien_clip_find_channel_n(self._open(), encoded, len(encoded), _byref(found))
         if status:
@@ -213,7 +213,7 @@ class Clip(Closable):
 
     @raises("mien_clip_verify")
     def verify(self) -> None:
-        """Raises `ClipError` unless the bytes are those that were written."""
+        """Raises `ClipError` if the clip has changed since it was written."""
         error = MienError()
         status = lib.mien_clip_verify(self._open(), _byref(error))
         if status:
@@ -243,15 +243,15 @@ class Clip(Closable):
         return ClipPlayer(self, speed, looping, interpolation, start, reverse)
 
     def bind(self, rig: Any, matrix: Iterable[Tuple[str, str, float]] = ()) -> ClipBinding:
-        """Which channel drives which raw control of a `Rig`, by name; `matrix` has entries (channel,
+        """Maps channels to raw controls of a `Rig`, by name; `matrix` has entries (channel,
         control, weight) for channels with other names."""
         return ClipBinding(self, rig, matrix)
 
 
 @raises("mien_arkit_matrix")
 def arkit_matrix() -> List[Tuple[str, str, float]]:
-    """For `Clip.bind`: entries (expression, raw control, weight) that bind clips with the names of
-    ARKit to rigs that name their controls in the other usual way, eyeBlinkL for eyeBlinkLeft."""
+    """For `Clip.bind`: entries (expression, raw control, weight) that bind clips with ARKit names to
+    rigs with the other common naming of controls, eyeBlinkL for eyeBlinkLeft."""
     count = ctypes.c_size_t()
     status = lib.mien_arkit_matrix(None, 0, _byref(count))
     entries = (_api.MienMatrixEntry * count.value)()
@@ -268,7 +268,7 @@ def _fraction(speed: Any) -> Tuple[int, int]:
 
 
 class ClipPlayer(Closable):
-    """One character's playing of one clip, which it keeps. For one thread at a time."""
+    """Plays one clip for one character, and keeps the clip alive. For one thread at a time."""
 
     __slots__ = ()
 
@@ -290,7 +290,7 @@ class ClipPlayer(Closable):
 
     @property
     def info(self) -> ClipPlayerInfo:
-        """Where it stands."""
+        """The state of playback."""
         found = _api.MienClipPlayerInfo()
         status = lib.mien_clip_player_info(self._open(), _byref(found))
         if status:
@@ -305,7 +305,7 @@ class ClipPlayer(Closable):
 
     @raises("mien_clip_player_set_speed")
     def set_speed(self, speed: Any) -> None:
-        """Another speed from here on."""
+        """Sets the speed for later steps."""
         status = lib.mien_clip_player_set_speed(self._open(), *_fraction(speed))
         if status:
             fail(status, f"speed {speed}")
@@ -324,7 +324,8 @@ class ClipPlayer(Closable):
         return passed
 
     def sample(self) -> Any:
-        """Values of all channels here: float32, read-only, no copy; overwritten by the next call."""
+        """Values of all channels at the current position: float32, read-only, no copy; overwritten by
+        the next call."""
         handle, view = self._open(), _api.MienFloatView()
         status = lib.mien_clip_player_sample(handle, _byref(view))
         if status:
@@ -333,8 +334,8 @@ class ClipPlayer(Closable):
 
 
 class ClipBinding(Closable):
-    """Which channel of a clip drives which raw control of a rig. Immutable: any number of threads
-    may use it. Needs neither clip nor rig."""
+    """Maps channels of a clip to raw controls of a rig. Immutable: any number of threads may use it.
+    Clip and rig may be closed."""
 
     __slots__ = ("channel_count", "controls", "missing_channels", "extra_controls",
                  "missing_entries")
@@ -386,8 +387,9 @@ class ClipBinding(Closable):
 
     @raises("mien_clip_binding_snaps")
     def find_snaps(self, deformer: Any, tolerance: float = 0.02) -> List[float]:
-        """For `snaps` of `Clip.build`: per channel the coarsest step of which half moves no vertex
-        of a `Deformer` by more than `tolerance` millimeters. Takes some time."""
+        """For `snaps` of `Clip.build`: for each channel the coarsest step of which half moves no vertex
+        of a `Deformer` by more than `tolerance` millimeters. Slow: deforms the rig at least 10 times
+        per channel."""
         steps = (ctypes.c_float * self.channel_count)()
         error = MienError()
         status = lib.mien_clip_binding_snaps(self._open(), deformer._open(), float(tolerance), steps,

@@ -145,7 +145,7 @@ class Deformer(Closable):
 
     @raises("mien_deformer_influences")
     def influences(self, mesh: int, position: int) -> Tuple[Indices, Floats]:
-        """uint16 (n,) joints that hold a position, and float32 (n,) their weights."""
+        """uint16 (n,) joints that influence a position, and float32 (n,) their weights."""
         handle, joints, weights = self._open(), _api.MienIndex16View(), _api.MienFloatView()
         status = lib.mien_deformer_influences(handle, uint32(mesh, "mesh"),
                                               uint32(position, "position"), _byref(joints),
@@ -195,7 +195,7 @@ class Deformer(Closable):
 
 
 class DeformerInstance(Closable):
-    """What a deformer makes of one character. For one thread at a time: a second gets a BusyError.
+    """The deformed meshes of one character. For one thread at a time: a second gets a BusyError.
 
     Arrays are views of the pose's own memory, as at `Instance`: each stays the same, its contents
     change with each `update` or `deform`, and it keeps the memory alive after `close()`.
@@ -230,8 +230,8 @@ class DeformerInstance(Closable):
 
     @raises("mien_deformer_instance_update")
     def update(self, instance: Instance) -> None:
-        """Takes over joints and channels of the instance's last evaluation, and computes the
-        matrices of all joints; meshes follow with `deform`."""
+        """Copies joint values and channel weights of the instance's last evaluation, and computes the
+        matrices of all joints; then `deform` deforms meshes."""
         with self._alone() as handle, instance._alone() as evaluated:
             status = lib.mien_deformer_instance_update(handle, evaluated)
             if status:
@@ -314,7 +314,7 @@ class DeformerInstance(Closable):
 
     @raises("mien_deformer_instance_normals")
     def normals(self, mesh: int) -> Floats:
-        """float32 (vertices, 3) of the last `deform` that made normals."""
+        """float32 (vertices, 3) of the last `deform` that computed normals."""
         return self._view(lib.mien_deformer_instance_normals, f"mesh {mesh}", 3, uint32(mesh, "mesh"))
 
     @property

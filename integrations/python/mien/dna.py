@@ -71,7 +71,7 @@ class Dna(Closable):
         """Opens a file of versions 2.1 to 2.8 and checks everything that is loaded.
 
         layers: which `Layer`s to load, combined with |; what is not chosen is never touched
-        lods:   which LODs to keep, by number; they are numbered anew from 0. None keeps all
+        lods:   which LODs to keep, by number; they are renumbered from 0. None keeps all
         access: `FileAccess.MAP` does not read what is not chosen. If a mapped file is truncated while it is
                 open, the process may crash, so the default reads it all
         system: to convert everything to: a name ("unreal", "blender", see

@@ -182,7 +182,7 @@ class Instance(Closable):
         return self._view(lib.mien_instance_animated_maps)
 
     def statistics(self) -> InstanceStatistics:
-        """What the joint stage fetches for the controls as they are."""
+        """What the joint stage reads for the current controls."""
         found = _api.MienInstanceStatistics()
         status = lib.mien_instance_statistics(self._open(), _byref(found))
         if status:
@@ -239,7 +239,7 @@ class Instance(Closable):
         self._call(lib.mien_rig_evaluate_twist_swing, self._lod(lod), uint32(setup, "setup"))
 
     def reset(self) -> None:
-        """Everything as after creation."""
+        """Resets everything to the initial state."""
         if not self._lock.acquire(False):
             self._busy()
         try:

@@ -138,7 +138,7 @@ class Mix(MixView):
 
     @raises("mien_mix_write_text")
     def to_text(self) -> str:
-        """The same as text: a line for each number, for people and version control."""
+        """The mix as text, for reading and version control: one line for each number."""
         return self._written(lib.mien_mix_write_text).decode("utf-8", "surrogateescape")
 
     def _written(self, write: Any) -> bytes:
@@ -179,8 +179,8 @@ class Mix(MixView):
     @staticmethod
     @raises("mien_mix_mask")
     def find_mask(rig: Rig, groups: Iterable[int], lane_count: int, otherwise: float = 0.0) -> Any:
-        """For each raw control the share of its joint motion that is of some joint groups, float32;
-        `otherwise` for those that move no joint, and for pose variables."""
+        """For each raw control the share of its joint motion that belongs to some joint groups,
+        float32; `otherwise` for those that move no joint, and for pose variables."""
         numbers = [uint32(group, "group") for group in groups]
         list_of_groups = (ctypes.c_uint32 * len(numbers))(*numbers)
         values, address = new_array("f", index(lane_count))
@@ -193,7 +193,7 @@ class Mix(MixView):
 
 
 class Gaze(Closable):
-    """Which raw controls turn the eyes of a rig, and how far. Immutable: any number of threads may
+    """Which raw controls turn the eyes of a rig, and by how much. Immutable: any number of threads may
     use it. Needs no deformer once it is made.
 
     left_eye, right_eye: names of joints; None: those that heads usually have
@@ -220,7 +220,7 @@ class Gaze(Closable):
     @property
     @raises("mien_gaze_info")
     def eyes(self) -> Tuple[Tuple[float, float, float], Tuple[float, float, float]]:
-        """The middles of the left and the right eye, given like targets of `look_at`."""
+        """The centers of the left and the right eye, in the coordinates of `look_at`."""
         info = _api.MienGazeInfo()
         status = lib.mien_gaze_info(self._open(), _byref(info))
         if status:
@@ -231,9 +231,10 @@ class Gaze(Closable):
     @raises("mien_gaze_look_at")
     def look_at(self, target: Tuple[float, float, float],
                 instance: Instance) -> Tuple[float, float]:
-        """Sets the raw controls of an `Instance` so that both eyes look at a place: millimeters to
-        the left, up and to the front, in the model space of the rig before its head moves. Returns
-        what is beyond the reach of the eyes, for the head to turn: tangents of angles to the left and up."""
+        """Sets the raw controls of an `Instance` so that both eyes look at a point: millimeters to the
+        left, up and to the front, in the model space of the rig with its head in the neutral pose.
+        Returns the part that the eyes cannot reach, for the head to turn: tangents of angles to the
+        left and up."""
         left, up, front = (float(value) for value in target)
         to = _api.MienGazeTarget(left=left, up=up, front=front)
         rest, view = _api.MienGazeRest(), _api.MienMutableFloatView()

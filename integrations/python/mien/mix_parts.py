@@ -87,7 +87,7 @@ class MixLayer(NamedTuple):
     def gaze(cls, target: Sequence[Lane], head: Mapping[Lane, float] = {},
              jitter: Tuple[float, float] = (0.0, 0.0), period: int = TICKS_PER_SECOND // 4,
              group: int = LayerGroup.LIFE, weight: float = 1.0) -> MixLayer:
-        """Turns the eyes to a place, by the `gaze` of the mix.
+        """Turns the eyes to a target, by the `gaze` of the mix.
 
         target: three lanes, usually pose variables: millimeters to the left, up and to the front
         head:   two lanes with factors, which get what is left for the head
@@ -103,7 +103,7 @@ class Stroke(NamedTuple):
 
     is_held: holds as long as the stimulus lasts, instead of for `hold`
     is_lag:  moves exponentially; attack and release are time constants
-    is_scaled: by the level of the reaction, which is 1 if it was triggered
+    is_scaled: scaled by the level of the reaction, which is 1 if it was triggered
     """
 
     pose: Pose
@@ -151,7 +151,7 @@ NO_CONTROL: int = _api.MIEN_NO_CONTROL
 
 
 class Landmark(NamedTuple):
-    """A place of a face: the middle of some positions of a mesh that LOD 0 shows, or of some joints
+    """A point of the face: the mean of some positions of a mesh that LOD 0 shows, or of some joints
     (mesh None)."""
 
     points: Sequence[int]
@@ -159,7 +159,7 @@ class Landmark(NamedTuple):
 
 
 class CustomGuard(NamedTuple):
-    """A guard for landmarks of yours: the distance of `upper` above `lower` must not be opened.
+    """A guard with your landmarks: keeps the gap of `upper` above `lower` from being opened.
 
     closed_by: raw control that makes both touch at 1; NO_CONTROL: they do at rest
     tolerance: millimeters by which later layers may open
@@ -175,8 +175,8 @@ class CustomGuard(NamedTuple):
 
 
 def glare(poses: Sequence[Pose]) -> Reaction:
-    """A response to a light in the eyes. Its five poses: lids closed; squint and lowered brows; gaze
-    turned away; narrow pupils; head turned away. An empty one leaves its part out."""
+    """A ready-made reaction to a light in the eyes. Its five poses: lids closed; squint and lowered
+    brows; gaze turned away; narrow pupils; head turned away. An empty pose leaves its part out."""
     if len(poses) != 5:
         raise ArgumentError(f"{len(poses)} poses: a glare takes 5")
     strokes, reaction = (_api.MienMixStroke * 5)(), _api.MienMixReaction()

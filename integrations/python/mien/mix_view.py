@@ -18,7 +18,7 @@ _byref = ctypes.byref
 class GuardInfo(NamedTuple):
     """A guard as it was measured: millimeters = rest + sum of gain * lane + pairs of lanes.
 
-    fit_error: millimeters, root mean square over rows that were tried
+    fit_error: millimeters, root mean square over the measured rows
     """
 
     lanes: List[int]
@@ -33,7 +33,7 @@ class GuardInfo(NamedTuple):
 
 @raises("mien_mix_glare")
 class MixView(Closable):
-    """What a mix tells about itself. `Mix` adds how mixes are made. Immutable: any number of threads may
+    """The properties of a mix. `Mix` adds how mixes are made. Immutable: any number of threads may
     use it.
     """
 
@@ -63,7 +63,7 @@ class MixView(Closable):
                          bool(g.needs_speech), g.tolerance, g.f_on, g.fit_error)
 
     def variable(self, variable: Lane) -> int:
-        """Number of a pose variable."""
+        """Index of a pose variable."""
         if not isinstance(variable, str):
             return uint32(variable, "variable")
         if variable not in self.variables:

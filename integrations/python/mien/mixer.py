@@ -118,7 +118,7 @@ class Mixer(Closable):
 
     @raises("mien_mixer_stop")
     def stop(self, layer: int, fade: int = 0) -> None:
-        """Fades out the clip of a layer and ends it."""
+        """Fades out the clip of a layer and stops it."""
         self._call(lib.mien_mixer_stop, f"layer {layer}, fade {fade}", uint32(layer, "layer"),
                    _int(fade, 64, "fade"))
 
@@ -130,7 +130,7 @@ class Mixer(Closable):
 
     @raises("mien_mixer_set_pose_weight")
     def set_pose_weight(self, layer: int, pose: int, weight: float, fade: int = 0) -> None:
-        """Fades the weight of a pose, which counts from the first one of its layer."""
+        """Fades the weight of a pose; `pose` counts from the first one of the layer."""
         self._call(lib.mien_mixer_set_pose_weight,
                    f"layer {layer}, pose {pose}, weight {weight}, fade {fade}",
                    uint32(layer, "layer"), uint32(pose, "pose"), weight, _int(fade, 64, "fade"))
@@ -143,7 +143,7 @@ class Mixer(Closable):
 
     @raises("mien_mixer_set_guard")
     def set_guard(self, guard: int, activation: float) -> None:
-        """How much a guard acts, 0 to 1; negative: as it finds by itself."""
+        """Sets how much a guard acts, 0 to 1; negative: automatic."""
         self._call(lib.mien_mixer_set_guard, f"guard {guard}, {activation}",
                    uint32(guard, "guard"), activation)
 
@@ -160,8 +160,8 @@ class Mixer(Closable):
 
     @raises("mien_mixer_set_level")
     def set_level(self, reaction: int, level: float) -> None:
-        """The level, 0 to 1, of what a reaction responds to: from `Reaction.level_on` on a stimulus,
-        which ends when it was below `level_off` for 50 ms."""
+        """Sets the level, 0 to 1, of what a reaction responds to. `Reaction.level_on` or more is a
+        stimulus, which ends once the level has been below `level_off` for 50 ms."""
         self._call(lib.mien_mixer_set_level, f"reaction {reaction}, level {level}",
                    uint32(reaction, "reaction"), level)
 
@@ -240,7 +240,7 @@ class Mixer(Closable):
 
     @property
     def info(self) -> MixerInfo:
-        """Where it stands."""
+        """The state of the mixer."""
         found = _api.MienMixerInfo()
         status = lib.mien_mixer_info(self._open(), _byref(found))
         if status:
@@ -263,7 +263,8 @@ class Mixer(Closable):
 
     @raises("mien_mixer_restore")
     def restore(self, data: Any, clips: Mapping[int, Tuple[Clip, ClipBinding]] = {}) -> None:
-        """Goes on from a snapshot of a mixer of the same mix, to the bit. The bytes are checked.
+        """Restores a snapshot of a mixer of the same mix; later steps give the same bits. The bytes are
+        checked.
 
         clips: those that may be playing, by the `clip_id` of `play`
         """

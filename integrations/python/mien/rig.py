@@ -20,7 +20,7 @@ _byref = ctypes.byref
 
 
 class Rig(RigView):
-    """A rig made of a `Dna`. Immutable: any number of threads may use it at the same time.
+    """A rig made from a `Dna`. Immutable: any number of threads may use it at the same time.
 
         rig = mien.Rig(dna)
         face = rig.instance()

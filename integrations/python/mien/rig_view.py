@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a rig tells about itself: names, counts, lists. `Rig` adds how rigs are made and used."""
+"""The properties of a rig: names, counts, lists. `Rig` adds how rigs are made and used."""
 from __future__ import annotations
 
 import ctypes
@@ -43,7 +43,7 @@ class RigView(Closable):
     # ---- names and numbers ---------------------------------------------------------------------
 
     def count(self, kind: int) -> int:
-        """How many things of a `Kind` there are."""
+        """The number of parts of a `Kind`."""
         found = ctypes.c_uint32()
         status = lib.mien_rig_count(self._open(), uint32(kind, "kind"), _byref(found))
         if status:
@@ -52,7 +52,7 @@ class RigView(Closable):
 
     @raises("mien_rig_name")
     def name(self, kind: int, index: int) -> str:
-        """Name of a thing; "" for kinds without names."""
+        """Name of a part; "" for kinds without names."""
         view = _api.MienStringView()
         status = lib.mien_rig_name(self._open(), uint32(kind, "kind"), uint32(index, "index"),
                                    _byref(view))
@@ -69,7 +69,7 @@ class RigView(Closable):
 
     @raises("mien_rig_find_n")
     def find(self, kind: int, name: str) -> int:
-        """Index of the thing of a `Kind` with exactly this name, or UnknownNameError."""
+        """Index of the part of a `Kind` with exactly this name, or UnknownNameError."""
         encoded = name.encode("utf-8", "surrogateescape")
         found = ctypes.c_uint32()
         status = lib.mien_rig_find_n(self._open(), uint32(kind, "kind"), encoded, len(encoded),
@@ -81,7 +81,7 @@ class RigView(Closable):
         return found.value
 
     def raw_control(self, name: str) -> int:
-        """Index of a raw control: `find` with a memory."""
+        """Index of a raw control, cached."""
         found = self._raw_controls.get(name)
         if found is None:
             found = self._raw_controls[name] = self.find(Kind.RAW_CONTROL, name)

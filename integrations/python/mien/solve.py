@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Solvers: what moves joints after the rig has posed them."""
+"""Solvers, which move joints after the rig has posed them."""
 from __future__ import annotations
 
 import ctypes
@@ -29,7 +29,7 @@ class AimSolver(NamedTuple):
     """Turns a joint so that one of its axes points at a joint, or at three lanes of the row.
 
     up_axis, up:  of the joint, and where to turn it in model space as far as possible
-    cone_degrees: farthest from where the neutral pose points; 0 is no limit
+    cone_degrees: largest angle from the neutral direction; 0 is no limit
     lods:         at which it runs; None: at all
     """
 
@@ -45,7 +45,8 @@ class AimSolver(NamedTuple):
 
 
 class SpaceSolver(NamedTuple):
-    """Lets a joint hang on one of some joints, which a lane of the row chooses."""
+    """Space switch: moves a joint as if its parent were attached to one of some joints, selected by a
+    lane of the row."""
 
     joint: int
     spaces: Sequence[int]
@@ -55,11 +56,11 @@ class SpaceSolver(NamedTuple):
 
 
 class SpringSolver(NamedTuple):
-    """Lets the place of a joint swing about where the pose has it. Output 0 is its speed.
+    """Lets the position of a joint swing about its position in the pose. Output 0 is its speed.
 
-    damping:  share of the critical damping
-    stretch:  farthest from the place of rest; 0 is any
-    teleport: what jumps farther takes the joint along; 0 is never
+    damping:  damping ratio; 1 is critical damping
+    stretch:  largest distance from the rest position; 0 is no limit
+    teleport: if the rest position jumps farther in a step, the joint jumps with it; 0 is never
     """
 
     joint: int
@@ -72,7 +73,7 @@ class SpringSolver(NamedTuple):
 
 
 class TwistSolver(NamedTuple):
-    """Gives joints a share of the twist of another. Output 0 is the sine of half of the angle."""
+    """Gives joints a share of the twist of another joint. Output 0 is the sine of half the angle."""
 
     source: int
     axis: Vector
@@ -82,7 +83,7 @@ class TwistSolver(NamedTuple):
 
 
 class CopySolver(NamedTuple):
-    """Moves a joint as another one was moved, or as its mirror image."""
+    """Gives a joint the motion of another joint, or the mirrored motion."""
 
     source: int
     joint: int
@@ -93,7 +94,7 @@ class CopySolver(NamedTuple):
 
 
 class SolverPose(NamedTuple):
-    """What a custom solver sees of one character; arrays of its own memory.
+    """The data of one character for a custom solver; arrays of its own memory.
 
     locals:   float32 (joints, 10), writable: tx ty tz qx qy qz qw sx sy sz
     models:   float32 (joints, 16): columns of the model matrices
@@ -114,8 +115,8 @@ class SolverPose(NamedTuple):
 
 
 class CustomSolver(NamedTuple):
-    """A function of yours: solve(poses, ticks) changes `locals` of the joints that it `writes`. What
-    it raises comes out of the step."""
+    """Your own function: solve(poses, ticks) changes `locals` of the joints that it `writes`.
+    Exceptions are raised by the step."""
 
     solve: Callable[[List[SolverPose], int], None]
     writes: Sequence[int]
@@ -300,7 +301,7 @@ class SolverStack(Closable):
 
 
 class SolverState(Closable):
-    """What the solvers of one character remember. For one thread at a time: a second one gets a
+    """The state of the solvers of one character. For one thread at a time: a second one gets a
     BusyError."""
 
     __slots__ = ("_lock",)
@@ -334,7 +335,7 @@ class SolverState(Closable):
         """Runs the solvers on a pose, which `update` has to set before every step.
 
         row:      such as `Mixer.row`
-        is_reset: the character was moved to another place: springs come to rest
+        is_reset: the character was teleported: springs come to rest
         """
         step_states([self], [pose], ticks, None if row is None else [row], lod, is_reset)
 
@@ -360,8 +361,8 @@ class SolverState(Closable):
     @property
     @raises("mien_solver_state_undeclared")
     def undeclared(self) -> str:
-        """With `check_writes`: the solver that changed a joint which is not in its list in the last
-        step, or an empty string."""
+        """With `check_writes`: the solver that changed a joint not in its `writes` in the last step, or
+        an empty string."""
         handle, name = self._open(), _api.MienStringView()
         status = lib.mien_solver_state_undeclared(handle, _byref(name))
         if status:

@@ -321,7 +321,7 @@ impl OpenOptions {
         self
     }
 
-    /// Bit `l` keeps LOD `l` of the file; 0 keeps all. Kept LODs are numbered anew from 0, and
+    /// Bit `l` keeps LOD `l` of the file; 0 keeps all. Kept LODs are renumbered from 0, and
     /// what no kept LOD uses is dropped and the rest renumbered.
     /// [`Status::LOD`](crate::Status::LOD) if the file has none of them.
     pub fn lods(mut self, lods: u64) -> Self {
