@@ -361,11 +361,10 @@ void twist_swing(const TwistSwingArgs& args) {
 
 // Batches: lanes are characters, and what a joint has is the same for all of them ----------------------
 
-/// Calls f(first lane, where its rotation is in rows of quaternions). One vector at a time: two would not fit
-/// the registers.
-template <class F>
+/// Calls f(first lane, where its rotation is in rows of quaternions), V lanes at a time.
+template <class V, class F>
 inline void for_each_lane(size_t count, F&& f) {
-  for (size_t i = 0; i < count; i += kWidth) {
+  for (size_t i = 0; i < count; i += sizeof(V) / sizeof(float)) {
     f(i, i / kBlockLanes * 4 * kBlockLanes + i % kBlockLanes);
   }
 }
@@ -407,7 +406,8 @@ void turn_characters(const QuaternionBatchArgs& args) {
   const size_t blocks = (args.lane_count + kBlockLanes - 1) / kBlockLanes;
   for (size_t i = 0; i < args.count; ++i) {
     float* const out = args.rotations + i * blocks * 4 * kBlockLanes;
-    for_each_lane(args.lane_count, [&](size_t lane, size_t at) {
+    // Two vectors at a time would not fit the registers.
+    for_each_lane<Vec>(args.lane_count, [&](size_t lane, size_t at) {
       turn_characters<Value>(args, args.first + i, lane, out + at);
     });
   }
@@ -417,7 +417,18 @@ void quaternion_batch(const QuaternionBatchArgs& args) {
   args.halves ? turn_characters<uint16_t>(args) : turn_characters<float>(args);
 }
 
+/// Two vectors, where a row of a block has as many: what one waits for, the other has ready.
+constexpr auto twist_vec() {
+  if constexpr (2 * kWidth <= kBlockLanes) {
+    return Make<VecPair>();
+  } else {
+    return Make<Vec>();
+  }
+}
+
 void twist_swing_batch(const TwistSwingBatchArgs& args) {
+  using M = decltype(twist_vec());
+  using TwistVec = decltype(M::of(0.0f));
   const size_t blocks = (args.lane_count + kBlockLanes - 1) / kBlockLanes;
   for (size_t i = 0; i < args.count; ++i) {
     float* const out = args.rotations + i * blocks * 4 * kBlockLanes;
@@ -425,13 +436,14 @@ void twist_swing_batch(const TwistSwingBatchArgs& args) {
     const uint16_t* const inputs = args.inputs + block * 4 * kBlockLanes + output % kBlockLanes;
     const float* const lanes =
         args.lanes + block * kTwistSwingRows * kBlockLanes + output % kBlockLanes;
-    const auto row = [&](size_t r) { return broadcast(lanes[r * kBlockLanes]); };
-    for_each_lane(args.lane_count, [&](size_t lane, size_t at) {
+    const auto row = [&](size_t r) { return M::of(lanes[r * kBlockLanes]); };
+    for_each_lane<TwistVec>(args.lane_count, [&](size_t lane, size_t at) {
       const auto input = [&](size_t k) {
-        return load(args.controls + size_t{inputs[k * kBlockLanes]} * kBatchLanes + lane);
+        return M::from(args.controls + size_t{inputs[k * kBlockLanes]} * kBatchLanes + lane);
       };
-      const auto q = twist_or_swing(VecQuaternion{input(0), input(1), input(2), input(3)},
-                                    {row(0), row(1), row(2)}, row(3), row(4));
+      const auto q =
+          twist_or_swing(LaneQuaternion<TwistVec>{input(0), input(1), input(2), input(3)},
+                         {row(0), row(1), row(2)}, row(3), row(4));
       store(out + at, q.x);
       store(out + at + kBlockLanes, q.y);
       store(out + at + 2 * kBlockLanes, q.z);
