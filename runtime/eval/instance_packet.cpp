@@ -2,7 +2,6 @@
 #include "runtime/eval/instance_packet.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "runtime/eval/stages.h"
 
@@ -11,9 +10,8 @@ namespace {
 
 /// Lanes that are not zero.
 uint32_t count_users(const float* lanes) {
-  uint32_t bits[kBatchLanes], users = 0;
-  memcpy(bits, lanes, sizeof(bits));
-  for (uint32_t i = 0; i < kBatchLanes; ++i) users += bits[i] << 1 != 0;
+  uint32_t users = 0;
+  for (uint32_t i = 0; i < kBatchLanes; ++i) users += lanes[i] != 0.0f;
   return users;
 }
 
