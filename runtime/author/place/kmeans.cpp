@@ -12,11 +12,10 @@ namespace mien::author {
 
 // Starts: distances hold the squared distance to the means chosen so far -------------------------
 
-/// cut[0]: density that half of the points have; cut[1]: the median of those.
-void LloydRun::start_dense(bool plane, uint32_t from, uint32_t to, Span<const double> cut,
-                           Random* random) {
+/// Candidates are the denser half: those of the median density and more.
+void LloydRun::start_dense(bool plane, uint32_t from, uint32_t to, double median, Random* random) {
   const auto candidate = [&](uint32_t i) {
-    return may_start(plane, problem.points[i]) && problem.density[i] >= cut[0];
+    return may_start(plane, problem.points[i]) && problem.density[i] >= median;
   };
   uint32_t candidates = 0;
   for (uint32_t i = 0; i < n(); ++i) candidates += candidate(i);
@@ -29,7 +28,7 @@ void LloydRun::start_dense(bool plane, uint32_t from, uint32_t to, Span<const do
     uint32_t chosen = 0;
     for (uint32_t i = 0; i < n(); ++i) {
       if (any ? !may_start(plane, problem.points[i]) : !candidate(i)) continue;
-      const double density = problem.density[i] / cut[1];
+      const double density = problem.density[i] / median;
       double score = density;
       if (mean > from) {
         score = std::sqrt(distances[i]) * std::sqrt(std::sqrt(density < 0.1  ? 0.1
@@ -216,7 +215,7 @@ struct Task {
   uint64_t seed;
   Span<KMeansRun> runs;
   Span<RunArrays> arrays;  // per run
-  double cut[2];
+  double median;           // of the densities
 };
 
 void run_one(void* context, uint32_t index) {
@@ -231,7 +230,7 @@ void run_one(void* context, uint32_t index) {
     if (out.start == Start::kPlusPlus) {
       run.start_plus_plus(plane != 0, from, to, random);
     } else {
-      run.start_dense(plane != 0, from, to, {task.cut, 2},
+      run.start_dense(plane != 0, from, to, task.median,
                       out.start == Start::kDenseSpreadRandom ? &random : nullptr);
     }
   }
@@ -255,7 +254,7 @@ bool run_kmeans(const KMeansProblem& problem, uint64_t seed, const ParallelFor& 
   const uint32_t n = static_cast<uint32_t>(problem.points.count);
   Span<double> sorted;
   // Before the tasks: the caller's allocator serves the calling thread.
-  Task task = {&problem, seed, runs, {}, {}};
+  Task task = {&problem, seed, runs, {}, 0};
   if (!make(scratch, n, sorted) || !make(scratch, runs.count, task.arrays)) return false;
   for (uint32_t i = 0; i < runs.count; ++i) {
     if (!make(arena, problem.free_means + problem.plane_means, runs[i].means) ||
@@ -265,7 +264,7 @@ bool run_kmeans(const KMeansProblem& problem, uint64_t seed, const ParallelFor& 
   }
   for (uint32_t i = 0; i < n; ++i) sorted[i] = problem.density[i];
   std::sort(sorted.begin(), sorted.end());
-  task.cut[0] = task.cut[1] = sorted[n / 2];
+  task.median = sorted[n / 2];
   run_tasks(parallel, static_cast<uint32_t>(runs.count), run_one, &task);
   return true;
 }

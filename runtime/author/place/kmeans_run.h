@@ -46,7 +46,7 @@ struct LloydRun : RunArrays {
     return problem.plane_means == 0 || (at.x <= problem.plane_width) == plane;
   }
 
-  void start_dense(bool plane, uint32_t from, uint32_t to, Span<const double> cut, Random* random);
+  void start_dense(bool plane, uint32_t from, uint32_t to, double median, Random* random);
   void start_plus_plus(bool plane, uint32_t from, uint32_t to, Random& random);
   void sort_neighbors();
   bool assign();
