@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Threads for benchmarks, as a host has them: they exist before the clock starts, and look for more work
-// for a while before they sleep.
+// Threads for benchmarks, as a host has them: they exist before the clock starts, take work without a
+// lock, and look for more for a while before they sleep.
 #pragma once
 
 #include <atomic>
@@ -29,64 +29,92 @@ class ThreadPool {
   }
   MienParallelFor interface() { return {this, run}; }
 
+  /// Returns when all helpers look for work, as they do in the middle of a frame.
+  void rouse() {
+    std::atomic<uint32_t> here{0};
+    struct Meeting {
+      std::atomic<uint32_t>* here;
+      uint32_t all;
+    } meeting = {&here, static_cast<uint32_t>(threads_.size()) + 1};
+    run(
+        this, meeting.all,
+        [](void* context, uint32_t) {
+          const Meeting& m = *static_cast<Meeting*>(context);
+          m.here->fetch_add(1);
+          while (m.here->load() != m.all) std::this_thread::yield();
+        },
+        &meeting);
+  }
+
+  void wait_until_asleep() const {
+    while (sleepers_.load() != threads_.size()) std::this_thread::yield();
+  }
+
  private:
-  struct Work {
-    uint32_t count = 0;
-    void (*task)(void*, uint32_t) = nullptr;
-    void* context = nullptr;
-  };
   static void run(void* user, uint32_t count, void (*task)(void*, uint32_t), void* context) {
     ThreadPool& pool = *static_cast<ThreadPool*>(user);
-    std::unique_lock<std::mutex> lock(pool.mutex_);
-    pool.work_ = {count, task, context};
-    pool.next_ = 0;
-    pool.done_ = 0;
-    ++pool.posted_;
-    pool.wake_.notify_all();
-    pool.take(lock);
-    lock.unlock();
-    spin_until([&] { return pool.done_ == count; });
-    lock.lock();
-    pool.finished_.wait(lock, [&] { return pool.done_ == count; });
-    pool.work_ = {};
-  }
-  /// Up to some tens of microseconds: to sleep and to be woken takes longer than a batch.
-  template <class Condition>
-  static void spin_until(Condition&& is_met) {
-    for (int i = 0; i < 2000 && !is_met(); ++i) {
-#if defined(__x86_64__)
-      __builtin_ia32_pause();
-#endif
+    if (count == 0) return;
+    // Nobody reads these now: all tasks of the last work are done, and none of this one is offered.
+    pool.count_ = count;
+    pool.task_ = task;
+    pool.context_ = context;
+    pool.done_.store(0, std::memory_order_relaxed);
+    const uint64_t work = (pool.offer_.load(std::memory_order_relaxed) >> 32) + 1;
+    pool.offer_.store(work << 32 | count);
+    if (pool.sleepers_.load() != 0) {
+      { const std::lock_guard<std::mutex> lock(pool.mutex_); }
+      pool.wake_.notify_all();
+    }
+    pool.take();
+    for (uint32_t i = 0; pool.done_.load(std::memory_order_acquire) != count; ++i) {
+      i < kSpins ? pause() : std::this_thread::yield();
     }
   }
-  void take(std::unique_lock<std::mutex>& lock) {
-    while (next_ < work_.count) {
-      const uint32_t index = next_++;
-      const Work work = work_;
-      lock.unlock();
-      work.task(work.context, index);
-      lock.lock();
-      if (++done_ == work.count) finished_.notify_all();
+  /// Does tasks until none is left to begin.
+  void take() {
+    uint64_t offer = offer_.load(std::memory_order_acquire);
+    while ((offer & 0xFFFF'FFFF) != 0) {
+      if (!offer_.compare_exchange_weak(offer, offer - 1, std::memory_order_acq_rel)) continue;
+      // This work cannot end before this task does, so these are its own.
+      task_(context_, count_ - static_cast<uint32_t>(offer & 0xFFFF'FFFF));
+      done_.fetch_add(1, std::memory_order_release);
+      offer = offer_.load(std::memory_order_acquire);
     }
   }
   void help() {
-    uint32_t seen = 0;
+    uint64_t seen = 0;
+    const auto is_new = [&] { return offer_.load() >> 32 != seen; };
     for (;;) {
-      spin_until([&] { return posted_ != seen; });
-      std::unique_lock<std::mutex> lock(mutex_);
-      wake_.wait(lock, [&] { return over_ || posted_ != seen; });
-      if (over_) return;
-      seen = posted_;
-      take(lock);
+      for (uint32_t i = 0; i < kSpins && !is_new(); ++i) pause();
+      if (!is_new()) {
+        std::unique_lock<std::mutex> lock(mutex_);
+        sleepers_.fetch_add(1);
+        wake_.wait(lock, [&] { return over_ || is_new(); });
+        sleepers_.fetch_sub(1);
+        if (over_) return;
+      }
+      seen = offer_.load() >> 32;
+      take();
     }
   }
+  static void pause() {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#endif
+  }
 
+  static constexpr uint32_t kSpins = 2000;  // some tens of microseconds
   std::mutex mutex_;
-  std::condition_variable wake_, finished_;
+  std::condition_variable wake_;
   std::vector<std::thread> threads_;
-  Work work_;
-  uint32_t next_ = 0;
-  std::atomic<uint32_t> done_{0}, posted_{0};  // tasks of the work; works so far
+  uint32_t count_ = 0;
+  void (*task_)(void*, uint32_t) = nullptr;
+  void* context_ = nullptr;
+  // Which work it is, and how many of its tasks are not begun: one number, so that no thread takes a
+  // task of one work for one of the next.
+  alignas(64) std::atomic<uint64_t> offer_{0};
+  alignas(64) std::atomic<uint32_t> done_{0};
+  std::atomic<uint32_t> sleepers_{0};
   bool over_ = false;
 };
 

@@ -1277,7 +1277,7 @@ MIEN_CHECKED MienStatus mien_deformer_instance_local_transforms(
     const MienDeformerInstance* deformer_instance, float* out_transforms, size_t count);
 
 /* Computes the positions and normals of a mesh for the last update. Runs on the calling thread; meshes
- * of at least 16384 positions run in tasks of about 2048 on `parallel`. `parallel` may be NULL. The
+ * of at least 16384 positions run in tasks of about 1024 on `parallel`. `parallel` may be NULL. The
  * results have the same bits either way. Does not allocate or lock. Uses up to 16 KiB of stack per
  * task.
  * Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_LOD if `deformer_instance` has no

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kMinChannelWeight = 1e-5f;
 constexpr uint32_t kMinParallelPositions = 16384;
-constexpr uint32_t kTaskPositions = 2048;  // or faces, or vertices
+constexpr uint32_t kTaskPositions = 1024;  // or faces, or vertices
 constexpr uint32_t kTaskBlocks = kTaskPositions / kBlockPositions;
 constexpr uint32_t kMinTasks = 64;  // that skinning is cut into, if there are enough instances
 

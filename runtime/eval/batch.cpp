@@ -10,9 +10,23 @@ uint32_t block_row_count(const JointMatrix& joints) {
   return joints.panels[joints.panel_count()].first_block_row;
 }
 
-/// The most packets that `capacity` instances make: each LOD may leave one that is not full.
-size_t max_packets(const Rig& rig, uint32_t capacity) {
-  return std::min<size_t>(capacity, size_t{capacity} / kBatchLanes + rig.lod_count);
+/// Packets of fewer instances gain little from being packets.
+constexpr uint32_t kMinPacketLanes = 8;
+
+/// Packets for instances of one LOD: as few as possible, but an equal share for each task.
+uint32_t packets_for(uint32_t instances, uint32_t tasks) {
+  const uint32_t fewest = (instances + kBatchLanes - 1) / kBatchLanes;
+  const uint64_t even = (uint64_t{fewest} + tasks - 1) / tasks * tasks;
+  const uint32_t most = std::max(fewest, instances / kMinPacketLanes);
+  return static_cast<uint32_t>(std::min<uint64_t>(even, most));
+}
+
+/// The most packets that `capacity` instances make: packets_for() adds less than 1 to the instances of
+/// each LOD / kBatchLanes, and then less than `tasks`; and never exceeds 1 + instances / kMinPacketLanes.
+size_t max_packets(const Rig& rig, uint32_t capacity, uint32_t tasks) {
+  const size_t by_tasks = capacity / kBatchLanes + size_t{rig.lod_count} * tasks;
+  const size_t by_lanes = size_t{capacity} / kMinPacketLanes + rig.lod_count;
+  return std::min({size_t{capacity}, by_tasks, by_lanes});
 }
 
 /// Inputs or padded outputs of the widest layer. (Scratch of an instance also holds what steps gather
@@ -40,8 +54,9 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
   batch.lane_order.twists = placer.array<uint32_t>(rig.twist_swing.outputs.count);
   batch.order = placer.array<Instance*>(capacity);
   batch.lods = placer.array<uint32_t>(capacity);
-  batch.first_of_packet = placer.array<uint32_t>(max_packets(rig, capacity) + 1);
-  batch.tasks = placer.array<PacketScratch>(std::min<size_t>(tasks, max_packets(rig, capacity)));
+  batch.first_of_packet = placer.array<uint32_t>(max_packets(rig, capacity, tasks) + 1);
+  batch.tasks =
+      placer.array<PacketScratch>(std::min<size_t>(tasks, max_packets(rig, capacity, tasks)));
   const size_t layer_width = widest_layer(rig);
   const size_t tile_block_rows = std::min(block_row_count(joints), kMaxTileBlockRows);
   uint32_t max_poses = 0;
@@ -143,10 +158,13 @@ void evaluate_batch(Batch& batch, Instance* const* instances, const uint32_t* lo
   uint32_t begin[kMaxLods + 1] = {};
   for (uint32_t i = 0; i < count; ++i) ++begin[lods[i] + 1];
   batch.packet_count = 0;
+  const uint32_t tasks = parallel.run ? static_cast<uint32_t>(batch.tasks.count) : 1;
   for (uint32_t l = 0; l < batch.rig->lod_count; ++l) {
     const uint32_t of_lod = begin[l + 1];
-    for (uint32_t i = 0; i < of_lod; i += kBatchLanes) {
-      batch.first_of_packet[batch.packet_count++] = begin[l] + i;
+    const uint32_t packets = packets_for(of_lod, tasks);
+    for (uint64_t k = 0; k < packets; ++k) {
+      batch.first_of_packet[batch.packet_count++] =
+          begin[l] + static_cast<uint32_t>(k * of_lod / packets);
     }
     begin[l + 1] += begin[l];
   }

@@ -285,6 +285,30 @@ TEST(Batch, RefusesMisuse) {
   mien_batch_destroy(nullptr);
 }
 
+// As many tasks as there may be, until a task has fewer than eight instances.
+TEST(Batch, SharesInstancesAmongItsTasks) {
+  const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 2);
+  Random random = Random::from_seed(15, 1);
+  uint32_t tasks = 0;
+  const MienParallelFor counting = {
+      &tasks, [](void* user, uint32_t count, void (*task)(void*, uint32_t), void* context) {
+        *static_cast<uint32_t*>(user) = count;
+        for (uint32_t i = 0; i < count; ++i) task(context, i);
+      }};
+  const struct {
+    uint32_t instances, wanted, made;
+  } cases[] = {{1, 4, 1}, {15, 2, 1}, {16, 2, 2}, {64, 8, 8}, {96, 2, 2}, {150, 1000, 18}};
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.instances);
+    InstancePacket packet(dna.get(), sized<MienRigDesc>(), c.instances);
+    const BatchHandle batch = create_batch(packet.rig, c.instances, c.wanted);
+    packet.draw(random, 50, false, 1);
+    packet.evaluate(batch.get(), &counting);
+    packet.expect_equal();
+    EXPECT_EQ(tasks, c.made);
+  }
+}
+
 TEST(Batch, TakesOneBlockAndThenNothing) {
   const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 1);
   RigHandle rig = create_rig(dna.get());

@@ -3553,7 +3553,7 @@ extern "C" {
     pub fn mien_deformer_instance_local_transforms(deformer_instance: *const MienDeformerInstance, out_transforms: *mut f32, count: usize) -> MienStatus;
 
     /// Computes the positions and normals of a mesh for the last update. Runs on the calling
-    /// thread; meshes of at least 16384 positions run in tasks of about 2048 on `parallel`.
+    /// thread; meshes of at least 16384 positions run in tasks of about 1024 on `parallel`.
     /// `parallel` may be NULL. The results have the same bits either way. Does not allocate or
     /// lock. Uses up to 16 KiB of stack per task.
     ///
