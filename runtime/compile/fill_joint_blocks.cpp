@@ -7,15 +7,21 @@
 namespace mien {
 namespace {
 
+/// std::nearbyint() without a call: numbers near 1.5 * 2^23 are whole, so adding it rounds.
+float nearest_whole(float value) {
+  constexpr float kRounder = 12582912.0f;
+  return std::fabs(value) < 0x1p22f ? (value + kRounder) - kRounder : std::nearbyint(value);
+}
+
 int16_t add_fixed(int16_t to, float value, float scale) {
   if (!(scale > 0.0f)) return 0;
-  const float steps = static_cast<float>(to) + std::nearbyint(value / scale);
+  const float steps = static_cast<float>(to) + nearest_whole(value / scale);
   return static_cast<int16_t>(steps >= 32767.0f ? 32767.0f
                                                 : (steps > -32767.0f ? steps : -32767.0f));
 }
 
 /// Prefetches the next place of a column: there are too many columns for the processor to do it.
-void expect(const float* to) {
+void expect(const void* to) {
 #if defined(__GNUC__)
   __builtin_prefetch(to, 1);
 #else
@@ -139,7 +145,9 @@ const uint64_t* fill_rows(const dna::DnaView& view, const JointPlan& plan, const
     int16_t* const fixed = rig.joints.fixed_values.data;
     return read_blocks(view, plan, rows, word, reach, kernels,
                        [=, &rows](size_t place, const float* block) {
-                         add_fixed_rows(rows, block, scales, fixed + place * kJointBlockRows);
+                         int16_t* const to = fixed + place * kJointBlockRows;
+                         expect(to + 2 * kJointBlockRows);
+                         add_fixed_rows(rows, block, scales, to);
                        });
   }
   if (!rows.whole) {
