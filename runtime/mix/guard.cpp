@@ -15,8 +15,6 @@ constexpr float kEnough = 5e-5f;  // millimeters beyond a limit that are not wor
 float higher(float a, float b) { return a > b ? a : b; }
 float lower(float a, float b) { return a < b ? a : b; }
 
-float size_of(float value) { return float_of(bits_of(value) & 0x7FFFFFFF); }
-
 /// How far a lane may go back, and what that closes while the others are as they have become; zeros
 /// if it opens nothing.
 struct Opening {
@@ -28,6 +26,7 @@ void hold_guard(const PlacedGuard& guard, const float* protected_row, float exce
                 const float* row, float* most) {
   float values[kMaxGuardedLanes];
   memcpy(values, row, guard.width * sizeof(float));
+  // What else depends on values goes without branches: they are hard to foretell.
   const auto opening = [&](uint32_t i) {
     const uint32_t at = guard.places[i];
     const float change = row[at] - protected_row[at];
@@ -36,20 +35,22 @@ void hold_guard(const PlacedGuard& guard, const float* protected_row, float exce
     for (uint32_t p = guard.partner_begins[i]; p < guard.partner_begins[i + 1]; ++p) {
       slope += guard.partners[p].gain * values[guard.partners[p].other];
     }
-    return slope * change > 0 ? Opening{change, slope * change} : Opening{};
+    const float closes = higher(slope * change, 0.0f);
+    return Opening{closes > 0 ? change : 0.0f, closes};
   };
   const auto take_back = [&](uint32_t i, float moved) {
     const uint32_t at = guard.places[i];
     values[at] -= moved;
-    if (size_of(moved) > size_of(most[at])) most[at] = moved;
+    const uint32_t size = bits_of(moved) << 1, before = bits_of(most[at]) << 1;
+    most[at] = float_of(size > before ? bits_of(moved) : bits_of(most[at]));
   };
-  for (uint32_t i = 0; i < guard.count && excess > 0; ++i) {
+  for (uint32_t i = 0; i < guard.count; ++i) {
     const Opening one = opening(i);
     if ((guard.together >> (i + 1) & 1) == 0) {
-      if (!(one.closes > 0)) continue;
-      const float share = one.closes > excess ? excess / one.closes : 1;
-      excess -= share * one.closes;
-      take_back(i, share * one.change);
+      if (one.change == 0) continue;
+      if (one.closes > excess) return take_back(i, excess / one.closes * one.change);
+      excess -= one.closes;
+      take_back(i, one.change);
       continue;
     }
     const Opening two = opening(++i);
@@ -62,6 +63,7 @@ void hold_guard(const PlacedGuard& guard, const float* protected_row, float exce
     excess -= share * (opens - share * both);
     take_back(i - 1, share * one.change);
     take_back(i, share * two.change);
+    if (!(excess > 0)) return;
   }
 }
 
@@ -133,8 +135,10 @@ void place_guard(const Guard& guard, Span<const uint16_t> guarded_lanes, PlacedG
 float guard_distance(const PlacedGuard& guard, const float* row) {
   // Eight sums at a time, which compilers make vectors.
   float sums[kGuardStep] = {};
-  for (uint32_t i = 0; i < guard.width; i += kGuardStep) {
-    for (uint32_t k = 0; k < kGuardStep; ++k) sums[k] += guard.row_gains[i + k] * row[i + k];
+  const float* const gains = guard.row_gains;
+  const size_t width = guard.width;
+  for (size_t i = 0; i < width; i += kGuardStep) {
+    for (size_t k = 0; k < kGuardStep; ++k) sums[k] += gains[i + k] * row[i + k];
   }
   float products = guard.rest;
   for (uint32_t i = 0; i < guard.pair_count; ++i) {
