@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Deformation by instruction set: joints, skin, targets, normals, a whole frame of a head, vertex
-// output, and many characters. The head is the finest mesh of the bench rig (by default a generated
+// output, and many characters. `bytes` counts each array that is read or written once, however often and
+// from wherever it is; `copy` moves as many as a frame does, so it is how fast memory allows. The head is the finest mesh of the bench rig (by default a generated
 // one of 24,578 positions and 135,254 deltas), but each position has eight influences: the nearest
 // joints.
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include "bench/bench_support.h"
 #include "bench/thread_pool.h"
 #include "capi/dna_handle.h"
+#include "capi/handles.h"
 
 namespace mien::bench {
 namespace {
@@ -121,6 +123,40 @@ void count_vertices(benchmark::State& state, double characters = 1) {
                                                   benchmark::Counter::kIsIterationInvariantRate);
 }
 
+/// What a deformation reads and writes, all channels active or none.
+double bytes_of(uint32_t normals, bool targets) {
+  const DeformMesh& mesh = capi::object(deformer_for(MIEN_ISA_SCALAR))->meshes[0];
+  const auto size = [](auto&... spans) {
+    return (static_cast<double>(spans.count * sizeof(spans[0])) + ...);
+  };
+  double bytes =
+      size(mesh.sorted_positions, mesh.weights, mesh.joints, mesh.position_indices, mesh.positions);
+  if (targets) bytes += size(mesh.deltas, mesh.delta_indices);
+  if (normals != MIEN_NORMALS_NONE) bytes += size(mesh.first_vertex, mesh.vertices, mesh.normals);
+  if (normals == MIEN_NORMALS_SKINNED) bytes += size(mesh.normals);
+  if (normals == MIEN_NORMALS_RECOMPUTED) {
+    bytes += size(mesh.positions, mesh.first_adjacent_face, mesh.adjacent_faces);
+    bytes += size(mesh.faces, mesh.faces, mesh.faces);  // areas are as large, written and read
+  }
+  return bytes;
+}
+
+void count_bytes(benchmark::State& state, double bytes) {
+  state.counters["bytes"] = benchmark::Counter(bytes, benchmark::Counter::kIsIterationInvariantRate,
+                                               benchmark::Counter::kIs1024);
+}
+
+void copy(benchmark::State& state) {
+  const double bytes = bytes_of(MIEN_NORMALS_RECOMPUTED, true);
+  std::vector<uint8_t> from(static_cast<size_t>(bytes / 2), 1), to(from.size());
+  for (auto _ : state) {
+    std::copy(from.begin(), from.end(), to.begin());
+    benchmark::DoNotOptimize(to.data());
+    benchmark::ClobberMemory();
+  }
+  count_bytes(state, bytes);
+}
+
 void joints(benchmark::State& state, uint32_t isa) {
   Character character(isa, 1, 0);
   for (auto _ : state) character.update();
@@ -132,6 +168,7 @@ void deform(benchmark::State& state, uint32_t isa, uint32_t normals, uint32_t ch
   Character character(isa, 1, channels);
   for (auto _ : state) require(mien_deformer_instance_deform(character.pose, 0, normals, nullptr));
   count_vertices(state);
+  count_bytes(state, bytes_of(normals, channels == 100));
 }
 
 void frame(benchmark::State& state, uint32_t isa, uint32_t channels,
@@ -203,6 +240,7 @@ void threaded_frame(benchmark::State& state, uint32_t isa, unsigned threads) {
 }
 
 int registered = [] {
+  benchmark::RegisterBenchmark("copy", copy)->Unit(benchmark::kMicrosecond)->UseRealTime();
   for (uint32_t isa = MIEN_ISA_SCALAR; isa <= MIEN_ISA_NEON; ++isa) {
     if (!mien_isa_available(isa)) continue;
     const auto add = [&](const std::string& name, auto&&... arguments) {
