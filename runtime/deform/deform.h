@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Joint matrices and channel weights -> positions and normals of a mesh, also as vertices in the
-// memory of the caller. Nothing here allocates, locks or fails: the compiler has checked the
-// deformer, and the caller checks its arguments.
+// Joint matrices and channel weights -> positions and normals of a mesh; optionally also vertices in the
+// caller's memory. Nothing here allocates, locks or fails: the compiler has checked the deformer, and the
+// caller of these functions checks their arguments.
 #pragma once
 
 #include "runtime/base/parallel_for.h"
@@ -9,13 +9,13 @@
 
 namespace mien {
 
-/// Deforms one mesh of several instances, all of them different, of this deformer, and with memory
-/// for the mesh. `normals` is not kDefault.
+/// Deforms one mesh of several instances. They must be distinct instances of this deformer, with memory for
+/// the mesh. `normals` must not be kDefault.
 void deform(const Deformer& deformer, Span<DeformerInstance* const> instances, uint32_t mesh,
             Normals normals, const ParallelFor& parallel);
 
-/// The same, and then writes the vertices of each instance to its `output`, which is valid, and has
-/// a stream of tangents only if the deformer has tangents. docs/deformation.md, 5 "Vertex output".
+/// The same, and then writes the vertices of each instance to its `output`, which must be valid. It may
+/// have a stream of tangents only if the deformer has tangents. docs/deformation.md, 5 "Vertex output".
 void write_vertices(const Deformer& deformer, Span<DeformerInstance* const> instances,
                     uint32_t mesh, Normals normals, const ParallelFor& parallel);
 

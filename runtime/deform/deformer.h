@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The deformer: the geometry of a rig packed for deformation, in one block of memory, immutable
-// once compiled.
+// The deformer: the geometry of a rig, packed for deformation. One block of memory, immutable once
+// compiled.
 //
 //     | Deformer | skeleton | DeformMesh 0 ... n-1 | arrays of mesh 0 | arrays of mesh 1 | ...
 //
-// A mesh deforms its positions in a sorted order: by number of influences, then by the joint with
-// the largest weight. So neighbors run the same code and read the same matrices. A *sorted index*
-// is an index into this order; every other position index is that of the file.
+// The positions of a mesh are deformed in a sorted order: by number of influences, then by the joint with
+// the largest weight. So neighbors run the same code and read the same matrices. A *sorted index* is an
+// index into this order; all other position indices are those of the file.
 #pragma once
 
 #include "runtime/pose/skeleton.h"
@@ -28,14 +28,14 @@ struct SkinRun {
   uint32_t zero;
 };
 
-/// A run of deltas: those of one blend shape target in one block.
+/// The deltas of one blend shape target in one block.
 struct TargetRun {
   uint32_t target;
   uint32_t channel;
   uint32_t first_delta, count;
 };
 
-/// One mesh. Kernels load four floats where three are meant, so arrays of x y z end with one more float.
+/// One mesh. Kernels load four floats to get x y z, so arrays of x y z end with one more float ("+ 1").
 struct DeformMesh {
   uint32_t position_count = 0, vertex_count = 0, triangle_count = 0;
   uint32_t max_influences = 0, target_count = 0;
@@ -45,7 +45,7 @@ struct DeformMesh {
   // The neutral mesh, in the order of the file.
   Span<float> positions;                   // [position] x y z, + 1
   Span<float> normals;                     // [vertex] x y z, unit, + 1
-  Span<float> tangents;                    // [vertex] x y z, unit, w 1 or -1; if wanted
+  Span<float> tangents;                    // [vertex] x y z, unit, w 1 or -1; if requested
   Span<float> texture_coordinates;         // [vertex] u v
   Span<uint32_t> vertex_position_indices;  // [vertex]
   Span<uint32_t> triangles;                // [triangle][3] vertices
@@ -77,7 +77,7 @@ struct DeformMesh {
   uint32_t block_count() const { return (position_count + kBlockPositions - 1) / kBlockPositions; }
   uint32_t face_count() const { return static_cast<uint32_t>(faces.count / 4); }
 
-  /// A file names a mesh with six bytes, so one without geometry costs next to nothing.
+  /// A file can list a mesh with six bytes, so a mesh without geometry must take almost no memory.
   bool is_empty() const { return position_count == 0 && vertex_count == 0; }
   size_t array_alignment() const { return is_empty() ? alignof(float) : kBlockAlignment; }
 };
@@ -86,7 +86,7 @@ struct Deformer {
   uint32_t tag = 0;  // first, so that the C API recognizes its handles
   Allocator allocator;
   size_t block_size = 0;
-  size_t baked_size = 0;                    // of its part of a baked file, if its arrays are there
+  size_t baked_size = 0;                    // of its part of a baked file, if its arrays are in one
   mutable std::atomic<uint32_t> owners{1};  // the creator and every deformer instance
 
   const KernelTable* kernels = nullptr;
@@ -98,7 +98,7 @@ struct Deformer {
   Span<DeformMesh> meshes;
 };
 
-/// Tells the meshes, which are those of the rig, by which LODs they are shown.
+/// Sets DeformMesh::lods. The meshes are those of the rig.
 void mark_mesh_lods(const Rig& rig, const Span<DeformMesh>& meshes);
 
 /// The run that contains a sorted index.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One character in one pose: joint matrices, channel weights, and the deformed positions and normals
-// of its meshes, in one block of memory.
+// One character in one pose: its joint matrices, its channel weights, and the deformed positions and
+// normals of its meshes. One block of memory.
 //
 //     | DeformerInstance | joints | channels | DeformedMesh 0 ... n-1
 //     | positions, normals of mesh 0 | positions, normals of mesh 1 | ... | face areas | tangents
@@ -14,7 +14,7 @@ namespace mien {
 
 struct DeformedMesh {
   bool present = false;   // the instance has memory for this mesh
-  bool empty = false;     // which has no geometry
+  bool empty = false;     // the mesh has no geometry
   Span<float> positions;  // [position] x y z, + 1
   Span<float> normals;    // [vertex] x y z, + 1
 };
@@ -37,13 +37,13 @@ struct DeformerInstance {
 /// Bytes of an instance with memory for the meshes of some LODs: bit l is LOD l; 0 means all meshes.
 size_t deformer_instance_size(const Deformer& deformer, uint64_t lods);
 
-/// In the neutral pose. The instance owns the deformer with others. Null if memory ran out.
+/// Creates an instance in the neutral pose. It becomes an owner of the deformer. Null if memory ran out.
 DeformerInstance* create_deformer_instance(const Deformer& deformer, uint64_t lods,
                                            const Allocator& allocator);
 void destroy_deformer_instance(DeformerInstance* instance);
 
-/// Joint values and channel weights as evaluation returns them -> joint matrices. Null joint values
-/// mean no deltas; null channel weights mean all 0.
+/// Computes the joint matrices from joint values, and copies the channel weights; both are in the form that
+/// evaluation returns. Null joint values: no deltas. Null channel weights: all 0.
 void update_deformer_instance(DeformerInstance& instance, const float* joint_values,
                               const float* channel_weights);
 

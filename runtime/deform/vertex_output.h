@@ -13,18 +13,18 @@ struct VertexOutput {
   VertexStream positions, normals, tangents;
 };
 
-/// Bytes of one vertex.
+/// Bytes of one vertex in a format.
 size_t vertex_format_size(VertexFormat format);
 
-/// True if each stream has a format that its attribute allows, a stride of at least its size, data
-/// and stride at multiples of 4, and ends within the address space; if no two vertices share a byte;
-/// and if there is a stream at all.
+/// True if there is a stream, if no two vertices share a byte, and if each stream has a format that its
+/// attribute allows, a stride of at least the size of the format, data and stride that are multiples of 4,
+/// and an end within the address space.
 bool is_valid(const VertexOutput& output, uint32_t vertex_count);
 
 /// True if two outputs share a byte.
 bool overlap(const VertexOutput& a, const VertexOutput& b, uint32_t vertex_count);
 
-/// First byte of an output, and the byte after its last.
+/// The first byte of an output, and the byte after the last.
 struct VertexOutputRange {
   uintptr_t begin, end;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Many instances of one rig at once.
+// Evaluates many instances of one rig at once.
 //
 //     instances -> sorted by LOD -> instance packets of up to 32 -> tasks, each with its own scratch
 #pragma once
@@ -22,19 +22,19 @@ struct Batch {
 
   // Of the current evaluation.
   Span<Instance*> order;           // by LOD
-  Span<uint32_t> lods;             // beside order
+  Span<uint32_t> lods;             // of each instance in order
   Span<uint32_t> first_of_packet;  // into order, one more at the end
   uint32_t packet_count = 0, task_count = 0, stages = 0;
 };
 
 size_t batch_size(const Rig& rig, uint32_t capacity, uint32_t tasks);
 
-/// Becomes an owner of the rig. Null if memory ran out.
+/// The batch becomes an owner of the rig. Null if memory ran out.
 Batch* create_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, const Allocator& allocator);
 void destroy_batch(Batch* batch);
 
-/// Stages of all instances, with the bits of evaluate() of each. They differ, are of the batch's rig,
-/// and are no more than its capacity.
+/// Evaluates stages of all instances; each gets the bits that evaluate() gives. They must be distinct
+/// instances of the batch's rig, and at most its capacity.
 void evaluate_batch(Batch& batch, Instance* const* instances, const uint32_t* lods, uint32_t count,
                     uint32_t stages, const ParallelFor& parallel);
 

@@ -17,18 +17,18 @@ namespace mien {
 void map_gui_to_raw(const Rig& rig, Instance& instance);
 void map_raw_to_gui(const Rig& rig, Instance& instance);
 
-/// The given stages (MIEN_STAGE_...), in the order above. Those whose results could not change do
-/// not run (runtime/rig/stage_access.h).
+/// Evaluates the given stages (MIEN_STAGE_...), in the order above. Stages whose results cannot have
+/// changed do not run (runtime/rig/stage_access.h).
 void evaluate(const Rig& rig, Instance& instance, uint32_t lod, uint32_t stages);
 
-/// The joint values of one group. Other values are left alone, and so are values that a later group
-/// writes wherever this one does.
+/// Evaluates the joint values of one group. Other values do not change, and neither do values that a
+/// later group overrides wherever this group writes them.
 void evaluate_joint_group(const Rig& rig, Instance& instance, uint32_t lod, uint32_t group);
 
-/// The pose controls of one solver, whether the LOD lists it or not.
+/// Evaluates the pose controls of one solver, whether the LOD lists it or not.
 void evaluate_rbf_solver(const Rig& rig, Instance& instance, uint32_t lod, uint32_t solver);
 
-/// The joints of one twist and swing setup.
+/// Evaluates the joints of one twist and swing setup.
 void evaluate_twist_swing(const Rig& rig, Instance& instance, uint32_t lod, uint32_t setup);
 
 }  // namespace mien

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One character: its inputs, what was computed last, and scratch, in one block of memory.
+// One character: its inputs, its last results, and scratch, in one block of memory.
 //
 //     | Instance | controls: raw, PSD, ML, RBF | GUI | masks | joints | channels | maps | scratch |
 #pragma once
@@ -11,8 +11,8 @@ namespace mien {
 
 struct Instance {
   uint32_t tag = 0;       // first, for the C API to recognize its handles
-  uint32_t lod = 0;       // of the last evaluation: outputs that it does not reach are 0
-  bool in_batch = false;  // while a batch is checked
+  uint32_t lod = 0;       // of the last evaluation; outputs that this LOD does not have are 0
+  bool in_batch = false;  // while the arguments of a batch are checked
   const Rig* rig = nullptr;
   Allocator allocator;
   size_t block_size = 0;
@@ -21,13 +21,13 @@ struct Instance {
   Span<float> gui;
   Span<float> masks;
   Span<float> joints;
-  Span<float> joints_and_angles;  // joints; with quaternion outputs, 3 angles per joint behind them
+  Span<float> joints_and_angles;  // joints; with quaternion outputs, then 3 angles per joint
   Span<float> channels;
   Span<float> maps;
 
   // Reuse (runtime/rig/stage_access.h).
-  Span<float> previous_raw, previous_masks;  // when the last evaluation began
-  Span<float> before_writing;                // scratch: controls that a stage writes
+  Span<float> previous_raw, previous_masks;  // at the start of the last evaluation
+  Span<float> before_writing;                // scratch: old values of controls that a stage writes
   Uses stale = 0;                            // stages and row panels that must be evaluated
 
   Span<float> rotations;      // scratch: of the blocks of RotationTable, or of TwistSwingTable
@@ -42,14 +42,16 @@ struct Instance {
 /// Bytes of an instance of a rig.
 size_t instance_size(const Rig& rig);
 
-/// In its initial state, at LOD 0. Becomes an owner of the rig. Null if memory ran out.
+/// Creates an instance in its initial state, at LOD 0. It becomes an owner of the rig. Null if memory ran
+/// out.
 Instance* create_instance(const Rig& rig, const Allocator& allocator);
 void destroy_instance(Instance* instance);
 
-/// Outputs and intermediate results but controls as after creation: everything is stale.
+/// Resets outputs and intermediate results, but not controls, to their initial values. Everything becomes
+/// stale.
 void clear_results(Instance& instance);
 
-/// Inputs and outputs as after creation.
+/// Resets inputs and outputs to their initial values.
 void reset_instance(Instance& instance);
 
 }  // namespace mien

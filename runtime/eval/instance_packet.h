@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Instances of one LOD that are evaluated together: 1 in a single evaluation, up to 32 in a batch.
-// Both run the same stages in the same order. In a batch the correctives and the joint matrix are
-// computed for the whole packet, where that is faster; the bits are the same either way.
+// Both run the same stages in the same order. In a batch, networks, RBF solvers, correctives, the joint
+// matrix and rotations are computed for the whole packet where that is faster. The bits are the same.
 //
 //     each instance:       what changed
 //     the packet:          ML: networks that many instances run, in lanes from control to control
@@ -17,13 +17,14 @@ namespace mien {
 /// All blocks of the joint matrix by block row, each block row in order of its columns.
 struct BlockList {
   Span<uint32_t> starts;     // [block row] into blocks, one more at the end
-  Span<uint32_t> raw_ends;   // [block row] where the columns of raw controls end
+  Span<uint32_t> raw_ends;   // [block row] into blocks: where the columns of raw controls end
   Span<InputBlock> blocks;   // kBatchAhead more at the end
   uint32_t raw_columns = 0;  // columns of raw controls
 };
 
-/// Rotations that were compiled into lanes, in order of these: indices into RotationTable::turns and
-/// TwistSwingTable::outputs. Empty if a joint has two of a table: then the order of the table counts.
+/// The order of rotations that were compiled into lanes: indices into RotationTable::turns and
+/// TwistSwingTable::outputs. Empty if a table has two entries for one joint, because then the order of the
+/// table matters.
 struct LaneOrder {
   Span<uint32_t> turns, twists;
 };
@@ -31,22 +32,22 @@ struct LaneOrder {
 /// Scratch memory of a packet.
 struct PacketScratch {
   Span<float> controls;        // [control][32]
-  Span<uint32_t> changed;      // [corrective] a bit for each of the 32
-  Span<uint8_t> users;         // [column] how many of them use it
+  Span<uint32_t> changed;      // [corrective] one bit per instance
+  Span<uint8_t> users;         // [column] how many instances use it
   Span<float> sums;            // [32][packed row of a tile]
   Span<uint32_t> ends;         // [block row] into blocks
   Span<InputBlock> blocks;     // of used columns; those of a block row begin at BlockList::starts
   Span<float> ml_layers[2];    // [input or output][32] of the widest network layer
   Span<float> ml_weights;      // of a block of rows, in half storage
-  Span<float> rbf_rotations;   // as RbfBatchArgs has them
-  Span<float> rbf_weights[2];  // likewise
-  Span<float> rotations;       // of kBlockLanes joints, as QuaternionBatchArgs has them
+  Span<float> rbf_rotations;   // layout: RbfBatchArgs
+  Span<float> rbf_weights[2];  // layout: RbfBatchArgs
+  Span<float> rotations;       // of kBlockLanes joints; layout: QuaternionBatchArgs
 };
 
 struct InstancePacket {
   const Rig& rig;
   uint32_t lod;
-  Instance* const* instances;  // different ones
+  Instance* const* instances;  // distinct
   uint32_t count;              // up to kBatchLanes
   // Null in a single evaluation.
   const BlockList* block_list;
@@ -54,16 +55,16 @@ struct InstancePacket {
   const PacketScratch* scratch;
 };
 
-/// Whether what takes a lane for each instance pays: lanes without one cost as much.
+/// Whether kernels with one lane per instance are worth it: an empty lane costs as much as a full one.
 inline bool fills_lanes(const InstancePacket& packet) {
   return packet.scratch && packet.count > 1 && 2 * packet.count >= packet.rig.kernels->batch_step;
 }
 
-/// The pipeline. Stages as for evaluate().
+/// Runs the pipeline. `stages` as for evaluate().
 void evaluate_packet(const InstancePacket& packet, uint32_t stages);
 
-// For the pipeline: the PSD stage of all instances of a packet, and their joint stage.
-// gather_controls() of all comes first.
+// For the pipeline: the PSD stage and the joint stage of all instances of a packet. gather_controls() of
+// all controls has to run first.
 void gather_controls(const InstancePacket& packet, uint32_t count);
 void evaluate_psds_together(const InstancePacket& packet);
 void evaluate_joints_together(const InstancePacket& packet);

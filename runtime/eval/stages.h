@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The stages of an evaluation, one function each, for the pipeline in evaluate.cpp. The instance has
-// entered `lod`. Stages look at Instance::stale only where a comment says so.
+// The stages of an evaluation, one function each, for the pipeline (evaluate_packet()). The instance is
+// already at `lod`. Stages read Instance::stale only where a comment says so.
 #pragma once
 
 #include <cstring>
@@ -13,19 +13,19 @@ struct InstancePacket;
 
 // Controls (evaluate_controls.cpp) ----------------------------------------------------------------
 
-/// Marks what becomes stale, by note_written_psds().
+/// Calls note_written_psds() to mark what becomes stale.
 void evaluate_psds(const Rig& rig, Instance& instance, uint32_t lod);
 void evaluate_blend_shapes(const Rig& rig, Instance& instance, uint32_t lod);
 void evaluate_animated_maps(const Rig& rig, Instance& instance, uint32_t lod);
 
-/// The PSD stage has run. `uses` is the union of Rig::control_uses of the correctives that changed.
+/// Call this after the PSD stage. `uses` is the union of Rig::control_uses of the changed correctives.
 inline void note_written_psds(Instance& instance, Uses uses) {
   instance.stale = (instance.stale | uses) & ~Uses{kStagePsd};
 }
 
 // Networks (evaluate_neural.cpp) and RBF solvers (evaluate_rbf.cpp) -------------------------------
 
-// Both of all instances of the packet.
+// Both evaluate all instances of the packet.
 void evaluate_ml(const InstancePacket& packet);
 void evaluate_rbf(const InstancePacket& packet);
 /// One solver, whether the LOD lists it or not.
@@ -35,24 +35,24 @@ void solve_rbf(const Rig& rig, Instance& instance, uint32_t solver);
 
 constexpr uint32_t kAllGroups = ~uint32_t{0};
 
-/// Rows of the joint matrix, rotations, twists and swings, ML joints. Only stale panels are summed,
+/// Evaluates rows of the joint matrix, rotations, twists and swings, and ML joints. Sums only stale panels
 /// where that is enough.
 void evaluate_joints(const Rig& rig, Instance& instance, uint32_t lod);
 
-/// The joint stage by its parts: what comes before the rows of the joint matrix, the rows of stale
-/// panels, and, of all instances of a packet, what comes after them. Then neither the stage nor any panel
-/// is stale.
+/// The joint stage in three parts: what comes before the rows of the joint matrix; the rows of stale
+/// panels; what comes after them, for all instances of a packet. Then neither the stage nor any panel is
+/// stale.
 void begin_joints(const Rig& rig, Instance& instance, uint32_t lod);
 void evaluate_stale_rows(const Rig& rig, Instance& instance, uint32_t lod);
 void finish_joints(const InstancePacket& packet);
 
-/// Rows of the panels in `panels` (bits of Uses): of one group, or of all.
+/// Evaluates the rows of `panels` (bits of Uses), of one group or of all groups.
 void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, Uses panels,
                          uint32_t only_group);
 
-/// Neighboring panels of an accumulator tile, and the sums of the tile; those of the panels start
-/// from 0. There is room for the whole tile: a baked file is checked for blocks that add to block
-/// rows outside of their tile, not for the panel that they are in.
+/// Neighboring panels of an accumulator tile, and the sums of the tile; the sums of these panels start at
+/// 0. There is room for the whole tile, because the checks of baked files only make sure that blocks add
+/// to block rows of their tile, not of their panel.
 struct JointTile {
   uint32_t first_block_row;  // of the tile
   uint32_t first_panel, end_panel;
@@ -63,33 +63,33 @@ struct JointTile {
   }
 };
 
-/// Adds columns `first_column` and on, scales and saturates, and writes what the LOD has of a group
-/// or of all.
+/// Adds the columns from `first_column` on, scales and saturates the sums, and writes the joint values that
+/// the LOD has, of one group or of all groups.
 void finish_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTile& tile,
                  uint32_t first_column, uint32_t only_group);
 
-/// Writes all groups of a packet, from finished sums in lanes: [packed row of the tile][32].
+/// Writes all groups for a packet, from finished sums: [packed row of the tile][instance], 32 instances.
 void write_tile_together(const InstancePacket& packet, const JointTile& tile);
 
 // Rotations of joints (evaluate_rotations.cpp) ----------------------------------------------------
 
-/// The rotations of all groups, once their rows are written, and all twists and swings. In a batch
-/// the scratch memory has the controls.
+/// Applies the rotations of all groups, after their rows are written, and all twists and swings. In a
+/// batch, the scratch memory already has the controls.
 void turn_joints(const InstancePacket& packet);
 void twist_joints(const InstancePacket& packet);
 
-/// The rotations of neighboring groups.
+/// Applies the rotations of consecutive groups.
 void evaluate_rotations(const Rig& rig, Instance& instance, uint32_t lod, uint32_t first_group,
                         uint32_t group_count);
-/// Neighboring set-ups, in order.
+/// Applies consecutive setups, in order.
 void apply_twists_and_swings(const Rig& rig, Instance& instance, uint32_t lod, uint32_t first_setup,
                              uint32_t setup_count);
-/// A convention as kernels take it.
+/// A rotation convention in the form that kernels take.
 EulerForm euler_form(const RotationConvention& convention);
 
 // ML joints (evaluate_ml_joints.cpp) --------------------------------------------------------------
 
-/// ML joints are added to what the groups write, and start from no delta.
+/// ML joints are added to what the groups write; clear_ml_joints() sets them to no delta first.
 void clear_ml_joints(const Rig& rig, Instance& instance, uint32_t lod);
 void add_ml_joints(const Rig& rig, Instance& instance, uint32_t lod);
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Smooth change over time: an offset that a quintic brings to zero. Every fade, crossfade, transition
-// and envelope of the mixing layer is one of these.
+// Smooth change over time: a quintic brings an offset to zero. All fades, crossfades and transitions of
+// the mixing layer use it, and all envelopes of strokes but lags.
 //
 // With the offset d and its velocity v at the start, p = v T, u = t / T and w = 1 - u:
 //
 //     offset = w^3 (d + u (3 d + p) + u^2 (6 d + 3 p + q)),   q = max(0, -4 p - 10 d) for d >= 0
 //
-// At T offset, velocity and acceleration are zero. Where v leads towards zero, T is at most -5 d / v;
-// then the offset does not change its sign, and it does not for any v away from zero. q is half of
-// the acceleration at the start, times T^2. With v = 0 the offset is d (1 - s), where
+// At T the offset, its velocity and its acceleration are zero. The offset never changes its sign: if v
+// points toward zero, T is limited to -5 d / v; if v points away from zero, no limit is needed. q is half
+// of the acceleration at the start, times T^2. With v = 0 the offset is d (1 - s), where
 // s = 6 u^5 - 15 u^4 + 10 u^3. After D. Bollo, "Inertialization: High-Performance Animation
 // Transitions in Gears of War", GDC 2018.
 #pragma once
@@ -21,13 +21,13 @@ namespace mien {
 
 constexpr int64_t kMaxFadeTicks = int64_t{1} << 40;  // 26 minutes
 
-/// The coefficients of the offset, and how much shorter than T it lasts.
+/// The coefficients of the offset, and by what factor it is shorter than T.
 struct Quintic {
   float c0, c1, c2;
   float rate;  // T / duration, 1 or more
 };
 
-/// `p` is the velocity times T. What is not finite becomes an offset of zero.
+/// `p` is the velocity times T. If a coefficient is not finite, the offset is zero.
 inline Quintic quintic_from(float d, float p) {
   float rate = 1.0f;
   const float limit = -5.0f * d;
@@ -44,7 +44,7 @@ inline Quintic quintic_from(float d, float p) {
   return finite ? Quintic{d, c1, c2, rate} : Quintic{0.0f, 0.0f, 0.0f, 1.0f};
 }
 
-/// `u` of T, 0 or more. Exactly 0 from the end on.
+/// The offset at `u` = t / T, 0 or more. Exactly 0 from its end on.
 inline float quintic_at(const Quintic& quintic, float u) {
   const float scaled = u * quintic.rate;
   const float v = scaled < 1.0f ? scaled : 1.0f;
@@ -53,7 +53,7 @@ inline float quintic_at(const Quintic& quintic, float u) {
   return offset * quintic.c0 < 0.0f ? 0.0f : offset;  // rounding near the end
 }
 
-/// By u.
+/// The derivative by u.
 inline float quintic_slope(const Quintic& quintic, float u) {
   const float v = u * quintic.rate;
   if (!(v < 1.0f)) return 0.0f;
@@ -67,12 +67,12 @@ inline float fraction_of(int64_t ticks, int64_t of) {
   return static_cast<float>(static_cast<double>(ticks) / static_cast<double>(of));
 }
 
-/// A number on its way to a target. A function of the time alone, however it is divided into steps.
+/// A number that moves to a target. A function of time alone, however time is divided into steps.
 struct Fade {
   float target;
   Quintic offset;
   uint32_t zero;
-  int64_t start, ticks;  // ticks 0: it is there
+  int64_t start, ticks;  // ticks 0: it has arrived
 };
 
 inline float fade_value(const Fade& fade, int64_t now) {
@@ -80,14 +80,14 @@ inline float fade_value(const Fade& fade, int64_t now) {
   return fade.target + quintic_at(fade.offset, fraction_of(now - fade.start, fade.ticks));
 }
 
-/// Per tick.
+/// The velocity per tick.
 inline float fade_velocity(const Fade& fade, int64_t now) {
   if (now - fade.start >= fade.ticks) return 0.0f;
   const float slope = quintic_slope(fade.offset, fraction_of(now - fade.start, fade.ticks));
   return slope / static_cast<float>(fade.ticks);
 }
 
-/// From the value and the velocity that it has now.
+/// Starts from the current value and velocity.
 inline void start_fade(Fade& fade, int64_t now, float target, int64_t ticks) {
   const float value = fade_value(fade, now), velocity = fade_velocity(fade, now);
   fade.target = target;

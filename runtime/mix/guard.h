@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Guards: what speech or a blink needs stays, whatever later layers want.
+// Guards keep later layers from opening what speech or a blink closes.
 //
-// A guard knows a measured distance, say between the inner edges of the lips, as a function of a few
-// raw controls, and holds back what would make it larger than it is in the protected row.
+// A guard knows a distance, such as the gap between the inner edges of the lips, as a measured function of
+// a few raw controls. It holds back what would make the distance larger than it is in the protected row.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,13 @@ constexpr uint32_t kMaxGuards = 8;
 constexpr uint32_t kMaxGuardLanes = 24;
 constexpr uint32_t kMaxGuardPairs = 24;
 
-/// Two lanes, as numbers into Guard::lanes, that together do something else than each alone.
+/// Two lanes, as indices into Guard::lanes, whose product adds to the distance.
 struct GuardPair {
   uint16_t first, second;
   float gain;  // millimeters
 };
 
-/// Guards that a rig is searched for (runtime/probe/find_landmarks.cpp).
+/// The guards whose landmarks are searched for on a rig (runtime/probe/find_landmarks.cpp).
 enum class StandardGuard : uint8_t {
   kLipsLeft,
   kLipsCenter,
@@ -33,38 +33,39 @@ enum class StandardGuard : uint8_t {
 };
 constexpr uint32_t kStandardGuardCount = 7;
 
-/// A distance in millimeters; at 0 both sides touch, below they overlap:
+/// A distance in millimeters; at 0 both sides touch, below 0 they overlap:
 ///     f(row) = rest + sum of gain * lane + sum of gain * lane * lane over the pairs
 /// runtime/probe/probe_guards.h measures the gains on a rig.
 struct Guard {
   uint32_t count;  // of lanes
   uint32_t pair_count;
-  uint32_t needs_speech;  // 1: no more active than the layers of speech are; lips touch at rest too
+  uint32_t needs_speech;  // 1: at most as active as the speech layers, as lips touch at rest too
   float rest;             // f of a row of zeros
-  float f_on;             // active where f(protected row) is below, fully so at 0; above 0
-  float tolerance;        // by so much later layers may open
-  float fit_error;        // of this function: root mean square over rows that were tried
-  uint16_t lanes[kMaxGuardLanes];  // raw controls, by falling size of the gain: see hold_guard()
+  float f_on;             // active if f(protected row) is less than this, fully at 0; above 0
+  float tolerance;        // by which later layers may open the distance
+  float fit_error;        // of this function: root mean square over the measured rows
+  uint16_t lanes[kMaxGuardLanes];  // raw controls, by descending absolute gain
   float gains[kMaxGuardLanes];     // beside lanes
-  /// Bit i: lanes i - 1 and i, the same control of both halves of the face, go back by the same share.
+  /// Bit i: lanes i - 1 and i are the same control in both halves of the face; they go back by the same
+  /// share.
   uint32_t together;
   GuardPair pairs[kMaxGuardPairs];
-  uint32_t kind;  // a StandardGuard, or none of them
+  uint32_t kind;  // a StandardGuard, or any other number
 };
 
 /// f(row)
 float guard_distance(const Guard& guard, const float* row);
 
-/// 1 where the protected row closes, 0 where it is open by f_on or more, smooth between; `distance` is
-/// f(protected row).
+/// 1 if the distance in the protected row is 0 or less, 0 if it is f_on or more, smooth between;
+/// `distance` is f(protected row).
 float guard_activation(const Guard& guard, float distance);
 
-/// The lanes of all guards, ascending; returns how many: at most kMaxGuardedLanes.
+/// Lists the lanes of all guards in ascending order; returns their number, at most kMaxGuardedLanes.
 constexpr uint32_t kMaxGuardedLanes = kMaxGuards * kMaxGuardLanes;
 uint32_t list_guarded_lanes(Span<const Guard> guards, uint16_t* lanes);
 
-/// A guard as steps need it: for rows of the lanes of all guards, with zeros up to a multiple of
-/// kGuardStep.
+/// A guard in the form that steps use. Its rows hold only the lanes of all guards, then zeros up to a
+/// multiple of kGuardStep; a place is an index into such a row.
 constexpr uint32_t kGuardStep = 8;
 struct PlacedGuard {
   struct Product {
@@ -74,40 +75,42 @@ struct PlacedGuard {
   uint32_t count, pair_count, width;
   uint32_t together;
   float rest, tolerance;
-  uint16_t places[kMaxGuardLanes];              // by falling size of the gain
-  float gains[kMaxGuardLanes];                  // beside places
-  float both_gains[kMaxGuardLanes];             // of pairs with the place before
-  uint16_t partner_begins[kMaxGuardLanes + 1];  // beside places, into partners
+  uint16_t places[kMaxGuardLanes];              // by descending absolute gain
+  float gains[kMaxGuardLanes];                  // of places
+  float both_gains[kMaxGuardLanes];             // of the pair with the place before
+  uint16_t partner_begins[kMaxGuardLanes + 1];  // of places, into partners
   Product partners[2 * kMaxGuardPairs];  // pairs of the first of places, then of the second, ...
   Product pairs[kMaxGuardPairs];
   float row_gains[kMaxGuardedLanes];  // by place, to `width`; 0 where the guard has no lane
 };
 void place_guard(const Guard& guard, Span<const uint16_t> guarded_lanes, PlacedGuard& out);
 
-/// f(row), summed in another order.
+/// f(row), summed in a different order.
 float guard_distance(const PlacedGuard& guard, const float* row);
 
-/// What guards take off each lane of the free row: `back`. With the activation 1, f(row) becomes
-/// f(protected row), or 0 if that is less, plus the tolerance; with less, it goes that share of the
-/// way. `distances` are f(protected row), [guard] as `activations`. Rows are as PlacedGuard says.
+/// Computes how far guards take back each lane of the free row: `back`. The limit of a guard is
+/// f(protected row), or 0 if that is less, plus the tolerance. A guard with activation 1 brings f(row) down
+/// to its limit; with a smaller activation, that share of the way. `distances` are f(protected row), one
+/// per guard, as are `activations`. Rows have the lanes that PlacedGuard describes.
 ///
-/// Each guard looks at the same row and of what several of them want of a lane the most counts; so
-/// their order makes no difference, and mirrored rows give mirrored results. Lanes with the largest
-/// gains go first, so that the least of the row is lost; both halves of a face go together
-/// (Guard::together). Lanes that open nothing stay. A guard is in closed form, as f is linear in each
-/// lane. What one took off may have helped another: then they look at the row once more.
+/// All guards look at the same row. If several take back the same lane, the largest amount counts. So
+/// their order makes no difference, and mirrored rows give mirrored results. Lanes with the largest gains
+/// go first, so that as little as possible of the row is lost; both halves of a face go together
+/// (Guard::together). Lanes that do not open the distance stay. The amounts are in closed form, because f
+/// is linear in each lane. A lane that one guard took back may have helped another: then all guards look
+/// at the row once more.
 void hold_guards(Span<const PlacedGuard> guards, const float* protected_row, const float* distances,
                  const float* activations, const float* free_row, float* back, float* row);
 constexpr uint32_t kGuardSweeps = 2;
 
-/// The fastest that guards take hold of a lane or let go of it, per second. With speech at 8 phonemes
-/// a second what they hold back would jump otherwise.
+/// How fast the amount that guards take off a lane may change, per second. Without this limit it would
+/// jump in speech of 8 phonemes per second.
 constexpr float kGuardSpeed = 12;
 
-/// After hold_guards(): writes to `row` what is left of the free row. `held` is how far lanes were
-/// taken back in the last step, zeros at the beginning; it becomes `back`, but changes by `max_change`
-/// at most, kGuardSpeed times the seconds of the step. A lane never passes the protected row. Where
-/// nothing is held, bits stay.
+/// To be called after hold_guards(): writes to `row` what is left of the free row. `held` is how far lanes
+/// were taken back in the last step, initially zeros. It moves to `back`, by at most `max_change`, which is
+/// kGuardSpeed times the seconds of the step. A lane never goes beyond its value in the protected row.
+/// Lanes that are not held keep their bits.
 void ease_guards(const float* free_row, const float* protected_row, const float* back,
                  uint32_t count, float max_change, float* held, float* row);
 

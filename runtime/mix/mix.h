@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// What is mixed for one rig, and how: the immutable part, shared by any number of characters.
+// What is mixed for one rig, and how. Immutable, shared by any number of characters.
 //
 // A row holds a value for each lane:
 //
 //     | raw controls | pose variables | zeros up to a multiple of 16 |
 //
-// Pose variables are numbers beside the controls that are mixed by the same rules: gaze target, head
-// offset, breath. A step (mixer.h) goes through its stages in this order:
+// Pose variables are numbers of the caller that are mixed like controls: gaze target, head offset,
+// breath. A step (mixer.h) runs these stages in order:
 //
 //     layers, in their order    the row after the last one of base or speech is the protected row
-//     reactions                 behind the last layer that is not of the group life
-//     guards                    hold back what breaks the protected row
-//     layers and reactions that come after the guards
-//     antagonists               of two opposite lanes one is 0
+//     reactions                 after the last layer that is not of the group life
+//     guards                    hold back what opens a distance that the protected row closes
+//     layers and reactions that act after the guards
+//     antagonists               two opposite lanes cancel out
 //     limits
 #pragma once
 
@@ -36,19 +36,19 @@ constexpr uint32_t kMaxPoses = 1024;
 // Layers
 // ------------------------------------------------------------------------------------------------
 
-/// What a layer is for. Guards protect those of base and speech; layers act in the order in which
+/// The purpose of a layer. Guards protect the result of base and speech. Layers act in the order in which
 /// they are given.
 enum class LayerGroup : uint8_t { kBase, kSpeech, kEmotion, kReaction, kLife };
 constexpr uint32_t kLayerGroups = 5;
 
-/// BlendMode: simd/kernels.h. Lanes that a source has no channel or pose value for stay as they are.
+/// BlendMode: simd/kernels.h. A layer does not change lanes for which its source has no value.
 constexpr uint32_t kBlendModes = 5;
 
 /// Where the values of a layer come from.
 enum class LayerSource : uint8_t {
   kClip,       // a clip that is played
   kPoses,      // a weighted sum of poses
-  kStream,     // rows that arrive from outside
+  kStream,     // rows that another thread pushes
   kGenerator,  // blinks, gaze, breath, noise
 };
 constexpr uint32_t kLayerSources = 4;
@@ -57,7 +57,7 @@ enum class Generator : uint8_t { kBlink, kBreath, kNoise, kGaze };
 constexpr uint32_t kGenerators = 4;
 
 enum LayerFlags : uint32_t {
-  kLayerAfterGuards = 1,  // mixed after the guards, which leave it alone; not for base and speech
+  kLayerAfterGuards = 1,  // acts after the guards; not for base and speech
 };
 
 struct LayerDesc {
@@ -65,16 +65,16 @@ struct LayerDesc {
   BlendMode mode = BlendMode::kOverride;
   LayerSource source = LayerSource::kClip;
   uint32_t flags = 0;
-  float weight = 1;         // 0 ... 1, at the beginning
-  Span<const float> mask;   // [lane] 0 ... 1; those beyond its end are 0; empty: 1 everywhere
+  float weight = 1;         // the initial one; 0 ... 1, with kAdd -1 ... 1
+  Span<const float> mask;   // [lane] 0 ... 1; 0 for lanes beyond its end; empty: all 1
   uint32_t first_pose = 0;  // of kPoses
   uint32_t pose_count = 0;
-  Span<const uint16_t> lanes;  // of the channels of kStream; that kGenerator moves
-  Span<const float> amounts;   // beside the lanes of kGenerator
+  Span<const uint16_t> lanes;  // of the channels of kStream; or that kGenerator moves
+  Span<const float> amounts;   // of kGenerator: a factor for each of its lanes
   Generator generator = Generator::kBlink;
   int64_t period = 0;           // ticks; of kGenerator (generator.h)
-  int64_t delay = 0;            // ticks; with which kStream is played
-  uint32_t stream_frames = 64;  // that wait in kStream at most
+  int64_t delay = 0;            // ticks; kStream is played this much later than its times
+  uint32_t stream_frames = 64;  // capacity of the queue of kStream
 };
 
 struct MixLayer {
@@ -84,14 +84,14 @@ struct MixLayer {
   uint32_t flags;
   float weight;
   uint32_t first_pose, pose_count;
-  uint32_t first_fade;  // of the weights of its poses, among all such
+  uint32_t first_fade;  // of the weights of its poses, in Mixer::pose_weights
   Generator generator;
   uint32_t stream_frames;
   int64_t period, delay;
   Span<uint16_t> lanes;
   Span<float> amounts;
   Span<float> mask;  // [lane], 0 in the padding
-  bool has_mask;     // one was given
+  bool has_mask;     // the desc has one
 };
 
 /// The lanes of a pose that are not 0.
@@ -107,13 +107,13 @@ constexpr uint32_t kMaxReactions = 16;
 constexpr uint32_t kMaxStrokes = 8;  // of a reaction
 constexpr int64_t kUntilReleased = INT64_MAX;
 
-/// Leads the lanes of a pose towards its values and back. Times are in ticks.
+/// Moves the lanes of a pose to its values and back to 0. Times are in ticks.
 struct Stroke {
   uint32_t pose;
   BlendMode mode;
-  bool held;    // as long as the stimulus lasts; weaker as the reaction adapts, unless it lags
-  bool lags;    // exponentially; attack and release are time constants. Else by quintics
-  bool scaled;  // by the level of the reaction
+  bool held;    // stays as long as the stimulus lasts, and adapts unless it lags
+  bool lags;    // moves exponentially: attack and release are time constants. Else quintics
+  bool scaled;  // scaled by the level of the reaction
   int64_t delay, attack;
   int64_t hold;  // after the attack, if not held
   int64_t release;
@@ -121,8 +121,8 @@ struct Stroke {
 
 /// What a trigger does while the reaction runs.
 enum class Retrigger : uint8_t {
-  kExtend,   // the stimulus goes on; strokes that fall or rest begin again
-  kRestart,  // all strokes begin again
+  kExtend,   // extends the stimulus; strokes that fall or rest start again
+  kRestart,  // all strokes start again
   kIgnore,
 };
 
@@ -130,11 +130,11 @@ struct ReactionDesc {
   Span<const Stroke> strokes;
   Retrigger retrigger = Retrigger::kExtend;
   bool after_guards = false;
-  int64_t cooldown = 0;       // strokes that are not held begin at most so often
-  float adapted = 1;          // what remains of the strength if the stimulus lasts, 0 ... 1
+  int64_t cooldown = 0;       // minimum time between two starts of strokes that are not held
+  float adapted = 1;          // share of the strength that remains if the stimulus lasts, 0 ... 1
   int64_t adapt_ticks = 0;    // time constants of adaptation and
   int64_t recover_ticks = 0;  // of recovery after it
-  /// A level of level_on or more is a stimulus, until it is below level_off. level_on 0: it has no level.
+  /// A level of level_on or more is a stimulus, which ends below level_off. level_on 0: no levels.
   float level_on = 0, level_off = 0;  // 0 ... 1
 };
 
@@ -150,8 +150,8 @@ struct Reaction {
 // Antagonists
 // ------------------------------------------------------------------------------------------------
 
-/// Two lanes that move the face in opposite directions. If both are above 0, the smaller one is
-/// taken off both; with a stiffness below 1 that much of it.
+/// Two lanes that move the face in opposite directions. If both are above 0, the smaller one times
+/// stiffness is subtracted from both.
 struct AntagonistPair {
   uint16_t a, b;
   float stiffness;  // 0 ... 1
@@ -160,7 +160,7 @@ struct AntagonistPair {
 // The mix
 // ------------------------------------------------------------------------------------------------
 
-constexpr uint32_t kMaxBoundGuiControls = 4096;  // with the one that is always 0
+constexpr uint32_t kMaxBoundGuiControls = 4096;  // including the one that is always 0
 
 /// For MixDesc::max_bound_gui.
 inline uint32_t bound_gui_limit(uint32_t gui_count) {
@@ -171,28 +171,28 @@ inline uint32_t bound_gui_limit(uint32_t gui_count) {
 struct MixDesc {
   uint32_t raw_count = 0;       // raw controls of the rig
   uint32_t variable_count = 0;  // pose variables
-  /// Of the raw controls, for messages and mix_file.h. Null: they have none.
+  /// Names of the raw controls, for messages and mix_file.h. Null: they have none.
   const NameList* names = nullptr;
   Span<const LayerDesc> layers;
   Span<const PoseDesc> poses;
   Span<const ReactionDesc> reactions;
-  Span<const Guard> guards;  // in the order in which they act
+  Span<const Guard> guards;  // numbered in this order, which does not change results
   const GazeTable* gaze =
       nullptr;  // of the layer with Generator::kGaze, of which there is one at most
   Span<const AntagonistPair> antagonists;
-  /// [lane] of the same size in the other half of the face, itself in the middle: for what is played
-  /// mirrored. Empty: nothing can be.
+  /// [lane] The counterpart in the other half of the face, or the lane itself. Empty: clips cannot be
+  /// played mirrored.
   Span<const uint16_t> mirror;
-  /// [lane] Empty: none.
+  /// [lane] Limits. Empty: none.
   Span<const float> lower, upper;
-  /// How many clips play at a time, those that are faded out included, and how large they may be.
+  /// How many clips can play at the same time, including those that fade out, and how large they may be.
   uint32_t player_count = 0;
   uint32_t max_channels = 0, max_changing_channels = 0;
   uint32_t max_bound_gui = 0;   // largest Binding::gui_count
   bool plays_backward = false;  // SamplerLimits::reverse
-  uint32_t max_events = 64;     // that a step can report
-  /// Of the rig, so that its instruction set is used for all; the results are the same with any. Null:
-  /// the best.
+  uint32_t max_events = 64;     // capacity for the events of a step
+  /// The kernels of the rig, so that mixing uses the same instruction set. Null: the best one. Results are
+  /// the same with all.
   const KernelTable* kernels = nullptr;
 };
 
@@ -215,14 +215,14 @@ struct Mix {
 
   Span<MixLayer> layers;
   Span<uint32_t> pose_ends;     // [pose] into pose_lanes and pose_values
-  Span<Span<float>> pose_rows;  // [pose][lane], or empty if it has few lanes
+  Span<Span<float>> pose_rows;  // [pose][lane], or empty if the pose has few lanes
   Span<uint16_t> pose_lanes;
   Span<float> pose_values;
   Span<Reaction> reactions;
   Span<Stroke> strokes;
-  Span<Guard> guards;               // as they were given
+  Span<Guard> guards;               // as in the desc
   Span<uint16_t> guarded;           // the lanes of all guards, ascending
-  Span<PlacedGuard> placed_guards;  // for rows of them
+  Span<PlacedGuard> placed_guards;  // for rows of these lanes
   Span<AntagonistPair> antagonists;
   bool has_gaze = false;  // a layer generates it
   GazeTable gaze;
@@ -235,8 +235,8 @@ struct Mix {
   uint32_t used_lanes() const { return raw_count + variable_count; }
 };
 
-/// On success `out` is to be given back by release_mix(). kInvalidArgument, kIndex or kMemory; the
-/// message says which element is wrong.
+/// On success, release `out` with release_mix(). kInvalidArgument, kIndex or kMemory; the message names
+/// the element that is wrong.
 Status create_mix(const MixDesc& desc, const Allocator& allocator, Mix*& out, Error& error);
 void release_mix(const Mix* mix);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a mix says, once: for the reader and the writers of its file (mix_file.h).
+// The fields of a mix, listed once for the reader and the writers of its file (mix_file.h).
 #pragma once
 
 #include "runtime/anim/clip.h"
@@ -8,7 +8,7 @@
 namespace mien {
 
 constexpr uint32_t kMixVersion = 3;
-constexpr size_t kMixHeaderSize = 24;  // with the offsets of ClipHeaderOffset
+constexpr size_t kMixHeaderSize = 24;  // the offsets are those of ClipHeaderOffset
 constexpr size_t kMaxNameLength = 0xFFFF;
 
 constexpr const char* kGroups[] = {"base", "speech", "emotion", "reaction", "life"};
@@ -19,12 +19,12 @@ constexpr const char* kRetriggers[] = {"extend", "restart", "ignore"};
 
 // Fields ------------------------------------------------------------------------------------------
 
-/// The fields of a mix, in the order of the file. A walker takes
+/// Visits the fields of a mix in the order of the file. A walker has these functions:
 ///     value   a number; uint16_t is a lane
 ///     choice  an enum, with the names of its values
-///     pairs   lanes and a float beside each
+///     pairs   lanes with a float each
 ///     lanes   a list of lanes
-///     row     a number for each lane, or none; with what those have that the file does not know
+///     row     a number for each lane, or none; and a function for the lanes that the file does not have
 ///     list    elements, each of which is walked
 template <class Walker>
 void walk(Walker& w, MixDesc& mix) {
@@ -122,10 +122,10 @@ void walk(Walker& w, MixDesc& mix) {
 
 // Lanes of the file -------------------------------------------------------------------------------
 
-/// Lanes of a mix and of its file: | controls by name | pose variables |
+/// Maps the lanes of a mix to those of its file, | controls by name | pose variables |, and back.
 struct LaneMap {
   Span<uint16_t> lane_of;       // [lane of the file]
-  Span<uint16_t> file_lane_of;  // [lane of the mix] its place in the file
+  Span<uint16_t> file_lane_of;  // [lane of the mix]
   uint32_t name_count = 0;
 };
 constexpr uint16_t kNowhere = 0xFFFF;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the layers of a mixer play, and the rows that they have shown: for its commands and its step.
+// The players of layers and the rows that layers have shown; for mixer.cpp and mixer_step.cpp.
 #pragma once
 
 #include "runtime/mix/mix_rows.h"
@@ -7,16 +7,16 @@
 
 namespace mien {
 
-/// Layers that can lead over from what they have shown to something else.
+/// Whether a layer keeps the rows that it has shown, to blend from them: clip and stream layers.
 bool has_rows(const MixLayer& layer);
-/// Of the first `end` layers.
+/// How many of the first `end` layers do.
 size_t layers_with_rows(const Mix& mix, size_t end);
 inline size_t layer_row_floats(const Mix& mix) { return size_t{2} * mix.lane_count; }
-/// Of what a layer shows: values and cover of all lanes, or values of the channels of a stream, which
-/// cover the same lanes all the time.
+/// Floats of a row that a layer shows: values and cover of all lanes; of a stream only the values of its
+/// channels, because it always covers the same lanes.
 size_t shown_floats(const Mix& mix, uint32_t layer);
 
-/// With what the layer fades in and out.
+/// The weight of a layer, with its fades in and out.
 inline float layer_weight(const LayerState& layer, BlendMode mode, int64_t now) {
   const float lowest = mode == BlendMode::kAdd ? -1.0f : 0.0f;
   const float wanted = fade_value(layer.weight, now), there = fade_value(layer.presence, now);
@@ -24,13 +24,13 @@ inline float layer_weight(const LayerState& layer, BlendMode mode, int64_t now) 
   return weight < 1.0f ? (weight > lowest ? weight : lowest) : 1.0f;
 }
 
-/// Of the current player in a crossfade.
+/// The share of the current player in a crossfade.
 inline float cross_share(const LayerState& layer, int64_t now) {
   const float s = fade_value(layer.cross, now);
   return s < 1.0f ? (s > 0.0f ? s : 0.0f) : 1.0f;
 }
 
-/// One of the two rows of values of a player, and which lanes it covers.
+/// One of the two rows of values of a player, and its cover: which lanes it drives.
 inline float* player_values(const Mix& mix, const Player& player, uint32_t row) {
   return player.rows.data + (row == 0 ? 0 : 2 * size_t{mix.lane_count});
 }
@@ -41,10 +41,10 @@ inline const float* player_cover(const Mix& mix, const Player& player) {
 float* layer_row(Mixer& mixer, uint32_t layer, uint32_t row);
 QuinticRows quintic_rows(Mixer& mixer, uint32_t layer);
 
-/// Leads from the rows that the layer has shown last over to another row, beginning at `start`.
+/// Starts a transition at `start`: from the rows that the layer has shown last to `next`.
 void start_offsets(Mixer& mixer, uint32_t index, const float* next, int64_t start, int64_t ticks);
 
-/// The image of a lane on the other side of the face, if the player is mirrored.
+/// The counterpart of a lane in the other half of the face if the player is mirrored, else the lane.
 inline uint32_t played_lane(const Mix& mix, const Player& player, uint32_t lane) {
   return player.mirrored ? mix.mirror[lane] : lane;
 }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// How active guards are: by what speech closes, as its clips say or as the protected row has it.
+// How active guards are: by the closures that clips of speech label, or by the protected row.
 #pragma once
 
 #include "runtime/mix/mixer.h"
 
 namespace mien {
 
-/// A layer of speech, as guards see it.
+/// A speech layer, as guards see it.
 struct SpeechLayer {
   float weight;
-  float labeled[kClosures];  // the share of what it plays that says itself when this is closed,
-  float closed[kClosures];   // and how far it is closed according to that
+  float labeled[kClosures];  // share of what it plays that labels this closure,
+  float closed[kClosures];   // and how far it is closed according to these labels
 };
 
 struct Speech {
@@ -18,10 +18,10 @@ struct Speech {
   uint32_t count = 0;
 };
 
-/// What the layers of speech show now.
+/// The speech layers at the current time.
 Speech find_speech(const Mixer& mixer);
 
-/// Of a guard whose distance is that in the protected row. What clips say themselves counts for them
+/// The activation of a guard; `distance` is that in the protected row. For clips with labels, these count
 /// instead of the distance.
 float activation_of(const Mixer& mixer, size_t guard, float distance, const Speech& speech);
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Rows that arrive from outside, from a thread of their own: a ring with one producer and one
-// consumer and without locks.
+// Rows that another thread pushes: a ring with one producer and one consumer, without locks.
 //
-// They are played `delay` after their time, so that jitter up to it is not seen. Between two of them
-// the stream is linear. If none follows, it goes on as fast as before for 50 ms and fades out in
-// 250 ms. Where rows that come after all tell something else than what was shown, the layer leads
-// over to them (mixer.cpp).
+// Rows are played `delay` after their time, which hides jitter of up to this time. Values between two rows
+// are interpolated linearly. If no row follows, the last change is extrapolated for 50 ms, then the layer
+// fades out in 250 ms. If rows arrive later and differ from what was shown, the layer blends to them
+// (mixer_step.cpp).
 #pragma once
 
 #include <atomic>
@@ -26,25 +25,26 @@ struct RowStream {
   float* rows;     // [frame % capacity][channel]
   int64_t* ticks;  // [frame % capacity]
 
-  int64_t newest;  // the producer's: tick of its last frame, if there is one
+  int64_t newest;  // of the producer: tick of its last frame, if there is one
   bool has_newest;
 
-  // The consumer's:
+  // Of the consumer:
   float *last, *before;  // the last two frames taken
   int64_t last_tick, before_tick;
-  uint32_t taken;  // 0, 1, 2: how many of them are there
-  bool guessed;    // what was shown last was not between two frames
+  uint32_t taken;  // how many of them there are: 0, 1, 2
+  bool guessed;    // the values shown last were extrapolated
 };
 
 enum class StreamSample : uint8_t { kNone, kShown, kJumped, kLost };
 
 void place_stream(Placer& placer, uint32_t capacity, uint32_t channels, RowStream*& stream);
 
-/// False for a frame that is dropped: it is not newer than the last one, or there is no room.
+/// False if the frame is dropped, because it is not newer than the last one or there is no room.
 bool push_stream(RowStream& stream, int64_t tick, const float* values);
 
-/// Values at a time that does not go back. kJumped: they do not continue what was shown before.
-/// kLost: those of `kStreamAhead` after the last frame. kNone: no frame so far, no values.
+/// Computes the values at `tick`, which never goes back. kJumped: they do not continue the values shown
+/// before. kLost: `tick` is more than kStreamAhead after the last frame; the values are those of
+/// kStreamAhead after it. kNone: there is no frame yet, and no values.
 StreamSample sample_stream(RowStream& stream, int64_t tick, float* values);
 
 }  // namespace mien

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the controls of a rig turn its eyes, measured.
+// Measures how the controls of a rig turn its eyes.
 #pragma once
 
 #include "runtime/base/status.h"
@@ -8,13 +8,15 @@
 
 namespace mien {
 
-/// Of two joints, the eyes; find_eyes() knows them on rigs with common names. Takes for each direction
-/// the raw control that turns the eye farthest that way and little across. kIndex; kInvalidArgument
-/// if a direction has no such control, or one that turns back on its way; kMemory.
+/// Measures the gaze of two eye joints; find_eyes() finds them on rigs with the usual names. For each
+/// direction, takes the raw control that turns the eye farthest that way and little sideways of it. kIndex;
+/// kInvalidArgument if a direction has no such control, or if the control does not turn the eye
+/// monotonically; kMemory.
 Status probe_gaze(const Deformer& deformer, const uint32_t (&eyes)[2], const Allocator& allocator,
                   GazeTable& out, Error& error);
 
-/// Left and right eye: joints L_Eye and R_Eye, with FACIAL_ before or not. False if there are none.
+/// Finds the left and right eye: joints L_Eye and R_Eye, with or without the prefix FACIAL_. False if there
+/// are none.
 bool find_eyes(const Rig& rig, uint32_t (&eyes)[2]);
 
 }  // namespace mien
