@@ -2040,7 +2040,7 @@ typedef struct MienMixDesc {
                                               or itself. NULL: clips cannot be played mirrored */
     const float* lower;                    /* limits per lane. NULL: none; both or neither */
     const float* upper;
-    const MienMixGuard* custom_guards;     /* act after the built-in ones; at most 8 guards in total */
+    const MienMixGuard* custom_guards;     /* numbered after the built-in ones; at most 8 guards in total */
     size_t custom_guard_count;
     const MienGaze* gaze;                  /* for a layer with MIEN_GENERATOR_GAZE; may be NULL */
     const MienDeformer* deformer;          /* to measure guards; may be NULL if there are none */

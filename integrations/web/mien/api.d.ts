@@ -1363,7 +1363,7 @@ export interface MixDesc {
   /** limits per lane. NULL: none; both or neither */
   lower?: Float32Array | readonly number[];
   upper?: Float32Array | readonly number[];
-  /** act after the built-in ones; at most 8 guards in total */
+  /** numbered after the built-in ones; at most 8 guards in total */
   customGuards?: readonly MixGuard[];
   customGuardCount?: number;
   /** for a layer with MIEN_GENERATOR_GAZE; may be NULL */

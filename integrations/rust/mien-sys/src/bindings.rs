@@ -2045,7 +2045,7 @@ pub struct MienMixDesc {
     /// Limits per lane. NULL: none; both or neither.
     pub lower: *const f32,
     pub upper: *const f32,
-    /// Act after the built-in ones; at most 8 guards in total.
+    /// Numbered after the built-in ones; at most 8 guards in total.
     pub custom_guards: *const MienMixGuard,
     pub custom_guard_count: usize,
     /// For a layer with `MIEN_GENERATOR_GAZE`; may be NULL.
