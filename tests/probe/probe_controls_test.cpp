@@ -132,7 +132,8 @@ TEST(Mirror, RefusesMoreMotionsThanItCompares) {
   for (const uint16_t joints : {uint16_t{1025}, uint16_t{1}}) {
     plain.joint_count = joints;
     Arena arena(default_allocator());
-    const DnaHandle dna = open_dna(write_view(to_view(plain, arena)));
+    const std::vector<uint8_t> bytes = write_view(to_view(plain, arena));
+    const DnaHandle dna = open_dna(bytes);
     const RigHandle rig = create_rig(dna.get());
     const DeformerHandle deformer = create_deformer(dna.get(), rig.get());
     std::vector<uint16_t> lanes(plain.raw_count);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdlib>
+#include <new>
 
 namespace {
 size_t g_news = 0;
@@ -15,6 +16,10 @@ size_t g_news = 0;
   void* memory = malloc(size ? size : 1);
   if (!memory) abort();
   return memory;
+}
+[[gnu::noinline]] void* operator new(size_t size, const std::nothrow_t&) noexcept {
+  ++g_news;
+  return malloc(size ? size : 1);
 }
 [[gnu::noinline]] void operator delete(void* memory) noexcept { free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, size_t) noexcept { free(memory); }
