@@ -301,7 +301,8 @@ TEST(Binding, RefusesWeightsThatAreNotFinite) {
   for (float bad :
        {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
     const Matrix matrix = {{"capture", "wide", 1}, {"capture", "blink", bad}};
-    Binding* binding = reinterpret_cast<Binding*>(&bad);  // to be overwritten
+    Binding other;
+    Binding* binding = &other;  // to be overwritten
     Error error;
     EXPECT_EQ(bind_clip(made.clip, rig_of(rig), matrix, default_allocator(), binding, error),
               Status::kInvalidArgument);
