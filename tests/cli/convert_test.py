@@ -72,6 +72,23 @@ class Convert(ProgramTest):
         self.assertIn("zzzz", codes("--version", "2.3"))
         self.assertNotIn("zzzz", codes("--version", "2.3", "--unknown", "drop"))
 
+    def test_layers_that_a_version_lacks_are_dropped_with_a_note(self):
+        def codes(name):
+            return [layer["code"] for layer in self.json("info", path(name), "--json")["layers"]]
+        before = codes("small.dna")
+        for version in VERSIONS:
+            for unknown in ("keep", "drop"):
+                done = self.ok("convert", path("small.dna"), "-o", path("old.dna"), "--version",
+                               version, "--unknown", unknown)
+                after = codes("old.dna")
+                lost = [code for code in before if code not in after]
+                keeps = version in ("2.7", "2.8") or (unknown == "keep" and version != "2.1")
+                self.assertEqual(lost == [], keeps, (version, unknown, lost))
+                notes = [line for line in done.stderr.splitlines() if "left out" in line]
+                self.assertEqual(len(notes), 1 if lost else 0, done.stderr)
+                for code in lost:
+                    self.assertIn(code, notes[0])
+
     def test_layers_and_lods(self):
         self.ok("convert", path("medium.dna"), "-o", path("part.dna"), "--layers", "behavior",
                 "--max-lod", "2")

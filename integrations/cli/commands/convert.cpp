@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // mien convert: a DNA file read and written, whole or in part, in any version.
+#include <algorithm>
+
 #include "integrations/cli/commands/options.h"
 #include "integrations/cli/io/nearest_name.h"
 #include "integrations/cli/io/output.h"
@@ -16,18 +18,38 @@ struct ConvertOptions {
   LoadOptions load;
 };
 
-/// Only version 2.1 has no place for layers that it does not know.
-void note_lost_layers(const RigFile& file, uint32_t version, const Session& session) {
-  if (version != 1 || file.info.version == 1) return;
-  std::vector<std::string> lost;
-  for (uint32_t i = 0; i < file.info.layer_count; ++i) {
+std::vector<std::string> layer_codes(const MienDna* dna, const std::string& shown) {
+  auto info = sized<MienDnaInfo>();
+  check(mien_dna_info(dna, &info), nullptr, "cannot examine rig", shown);
+  std::vector<std::string> codes;
+  for (uint32_t i = 0; i < info.layer_count; ++i) {
     auto layer = sized<MienDnaLayer>();
-    check(mien_dna_layer(file.dna.get(), i, &layer), nullptr, "cannot examine rig", file.shown);
-    const std::string code = layer.code;
-    if (code != "desc" && code != "defn" && code != "bhvr" && code != "geom") lost.push_back(code);
+    check(mien_dna_layer(dna, i, &layer), nullptr, "cannot examine rig", shown);
+    codes.emplace_back(layer.code);
+  }
+  return codes;
+}
+
+/// Older versions lack layers: 2.1 has no place for them, later ones only if they are to be dropped.
+void note_lost_layers(const RigFile& file, const std::vector<char>& written,
+                      const std::string& path, const Session& session) {
+  auto desc = sized<MienDnaDesc>();
+  desc.layers = MIEN_LAYER_DESCRIPTOR;
+  auto error = sized<MienError>();
+  MienDna* opened = nullptr;
+  check(mien_dna_open_memory(written.data(), written.size(), &desc, &opened, &error), &error,
+        "cannot open what was written", path);
+  const Dna dna(opened);
+  const std::vector<std::string> kept = layer_codes(dna.get(), path);
+  std::vector<std::string> lost;
+  for (const std::string& code : layer_codes(file.dna.get(), file.shown)) {
+    if (std::find(kept.begin(), kept.end(), code) == kept.end()) lost.push_back(code);
   }
   if (lost.empty()) return;
-  note(session, file.shown + ": version 2.1 cannot store " + list_of(lost, "and") + ": left out");
+  auto info = sized<MienDnaInfo>();
+  check(mien_dna_info(dna.get(), &info), nullptr, "cannot examine what was written", path);
+  note(session, file.shown + ": version 2." + std::to_string(info.version) + " does not have " +
+                    list_of(lost, "and") + ": left out");
 }
 
 void run(const ConvertOptions& options, const Session& session) {
@@ -43,8 +65,8 @@ void run(const ConvertOptions& options, const Session& session) {
   refuse_replacing(options.output, {});  // a file may be converted in place
 
   const RigFile file = open_rig_file(options.input, desc, session);
-  note_lost_layers(file, write.version, session);
-  write_dna(file.dna.get(), write, options.output.path, session);
+  const std::vector<char> written = write_dna(file.dna.get(), write, options.output.path, session);
+  note_lost_layers(file, written, options.output.path, session);
 }
 
 }  // namespace

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/cli/io/write_dna.h"
 
-#include <vector>
-
 #include "integrations/cli/io/failure.h"
 #include "integrations/cli/io/handles.h"
 #include "integrations/cli/io/output.h"
 
 namespace mien::cli {
 
-void write_dna(const MienDna* dna, const MienWriteDesc& desc, const std::string& path,
-               const Session& session) {
+std::vector<char> write_dna(const MienDna* dna, const MienWriteDesc& desc, const std::string& path,
+                            const Session& session) {
   // Through memory, so that Output writes files, devices and standard output alike and cleans up
   // after an interrupt.
   const std::string shown = path == "-" ? "standard output" : path;
@@ -25,6 +23,7 @@ void write_dna(const MienDna* dna, const MienWriteDesc& desc, const std::string&
   output.write(bytes.data(), size);
   output.commit();
   note_written(session, path, size);
+  return bytes;
 }
 
 }  // namespace mien::cli

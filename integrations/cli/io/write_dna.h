@@ -3,14 +3,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "capi/mien.h"
 #include "integrations/cli/io/terminal.h"
 
 namespace mien::cli {
 
-/// Writes to a file, a device, or with "-" to standard output.
-void write_dna(const MienDna* dna, const MienWriteDesc& desc, const std::string& path,
-               const Session& session);
+/// Writes to a file, a device, or with "-" to standard output. Returns the bytes.
+std::vector<char> write_dna(const MienDna* dna, const MienWriteDesc& desc, const std::string& path,
+                            const Session& session);
 
 }  // namespace mien::cli
