@@ -11,6 +11,7 @@
 #include "tests/support/exercise_clip.h"
 #include "tests/support/long_run.h"
 #include "tests/support/made_clip.h"
+#include "tests/support/temporary_path.h"
 
 namespace mien {
 namespace {
@@ -130,7 +131,7 @@ TEST(Clip, IsReadAtAnyAddress) {
 
 TEST(Clip, IsUsedInAMappedFile) {
   const MadeClip made(small_input());
-  const std::string path = testing::TempDir() + "clip_test.clip";
+  const std::string path = temporary_path("clip");
   Error error;
   ASSERT_EQ(
       write_file(path.c_str(), made.bytes.data(), made.bytes.size(), default_allocator(), error),

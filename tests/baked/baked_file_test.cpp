@@ -2,7 +2,6 @@
 // The file around rigs and deformers: where it comes from, what belongs to it, and which files are
 // refused.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstddef>
 #include <cstdio>
@@ -11,6 +10,7 @@
 #include "tests/support/baked_bytes.h"
 #include "tests/support/long_run.h"
 #include "tests/support/memory_stream.h"
+#include "tests/support/temporary_path.h"
 #include "tests/support/tiny_rig.h"
 
 namespace mien {
@@ -19,7 +19,7 @@ namespace {
 using Bytes = std::vector<uint8_t>;
 
 struct TemporaryFile {
-  std::string path = testing::TempDir() + "baked_file_test_" + std::to_string(getpid());
+  std::string path = temporary_path("baked");
   ~TemporaryFile() { remove(path.c_str()); }
 };
 

@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/temporary_path.h"
+
 namespace mien {
 namespace {
 
@@ -26,7 +28,7 @@ fs::path any_length(const fs::path& path) {
 
 /// An empty folder, for as long as it lives.
 struct Folder {
-  fs::path path = fs::path(testing::TempDir()) / "mapped_file_test";
+  fs::path path = temporary_path("files");
 
   Folder() {
     std::error_code failed;

@@ -15,6 +15,7 @@
 #include "tests/support/memory_stream.h"
 #include "tests/support/mesh_source.h"
 #include "tests/support/rig_handles.h"
+#include "tests/support/temporary_path.h"
 #include "tests/support/tiny_rig.h"
 
 namespace mien {
@@ -53,7 +54,7 @@ struct Owned {
 struct World {
   CountingAllocator memory;
   const MienAllocator allocator = memory.get();
-  const fs::path folder = fs::path(testing::TempDir()) / "mien_every_allocation_test";
+  const fs::path folder = temporary_path("every_allocation");
   const std::string dna_file = path("a.dna"), baked_file = path("a.mien"),
                     clip_file = path("a.clip");
   const std::string mix_file = path("a.mix"), written_file = path("b");

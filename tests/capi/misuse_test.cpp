@@ -5,6 +5,8 @@
 
 #include <functional>
 
+#include "tests/support/temporary_path.h"
+
 namespace mien {
 namespace {
 
@@ -326,7 +328,7 @@ TEST_F(Misuse, InputStructs) {
     mien_dna_close(opened);
     return status;
   });
-  const std::string path = testing::TempDir() + "mien_misuse_structs.dna";
+  const std::string path = temporary_path("structs.dna");
   check_input_struct<MienWriteDesc>([&](const MienWriteDesc* desc, MienError* error) {
     size_t size = 1;
     const MienStatus status = mien_dna_write_memory(dna, desc, nullptr, 0, &size, error);
@@ -421,7 +423,7 @@ TEST_F(Misuse, ErrorsOfTheWrongSizeEndTheCall) {
   size_t size = 7;
   float number = 7;
   int64_t integer = 7;
-  const std::string path = testing::TempDir() + "mien_misuse_error.dna";
+  const std::string path = temporary_path("error.dna");
   const std::vector<Failing> calls = {
       [&](MienError* e) { return mien_dna_open_file("/dev/null", nullptr, &opened, e); },
       [&](MienError* e) { return mien_dna_field(dna, "desc.name", &field, e); },

@@ -8,6 +8,7 @@
 #include "tests/support/counting_allocator.h"
 #include "tests/support/misuse.h"
 #include "tests/support/plain_rig.h"
+#include "tests/support/temporary_path.h"
 
 namespace mien {
 namespace {
@@ -520,7 +521,7 @@ TEST(MixFile, IsOpenedForARigAndMixesTheSame) {
   plain.raw_count = 3;
   opened(bytes, make_rig(plain).get(), MIEN_ERROR_NAME);
 
-  const std::string path = testing::TempDir() + "/mien_mix_test.mix";
+  const std::string path = temporary_path("mix");
   ASSERT_EQ(mien_mix_write_file(mix.get(), path.c_str(), nullptr), MIEN_OK);
   MienMix* from_file = nullptr;
   ASSERT_EQ(mien_mix_open_file(path.c_str(), scene.rig.get(), nullptr, &from_file, nullptr),
@@ -584,7 +585,7 @@ TEST(MixFile, EveryFailedAllocationIsReportedAndNothingLeaks) {
   CountingAllocator counting;
   const MienAllocator allocator = counting.get();
   const MienMixOpenDesc desc = desc_with<MienMixOpenDesc>(&allocator);
-  const std::string path = testing::TempDir() + "/mien_mix_memory_test.mix";
+  const std::string path = temporary_path("mix");
   for (size_t fail_at = 1;; ++fail_at) {
     counting.restart();
     counting.fail_at = fail_at;
