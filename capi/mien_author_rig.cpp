@@ -124,7 +124,7 @@ MienStatus check_options(const MienAuthorDesc& desc, MienError* error) {
   }
   if (!(desc.unit >= 0 && desc.unit < 1e12)) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienAuthorDesc.unit is no positive number of centimeters");
+                      "MienAuthorDesc.unit is not a positive number of centimeters");
   }
   if (!(desc.lod_triangles >= 0 && desc.lod_triangles <= 1)) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,

@@ -255,10 +255,11 @@ MienStatus copy_path(const MienDna* dna, const char* path, size_t count, char (&
   if (MienStatus status = check(dna, "dna", error)) return status;
   if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
   if (count > kMaxPath || memchr(path, 0, count)) {
-    return give_error(error, MIEN_ERROR_NAME,
-                      "\"%.*s...\" is no field: its path of %zu bytes is longer than %zu or has a "
-                      "zero byte",
-                      static_cast<int>(std::min<size_t>(count, 60)), path, count, kMaxPath);
+    return give_error(
+        error, MIEN_ERROR_NAME,
+        "\"%.*s...\" is not a field: its path of %zu bytes is longer than %zu or has a "
+        "zero byte",
+        static_cast<int>(std::min<size_t>(count, 60)), path, count, kMaxPath);
   }
   memcpy(out, path, count);
   out[count] = 0;

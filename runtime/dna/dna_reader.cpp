@@ -368,7 +368,7 @@ class DnaReader {
     if (size_ < 3 || memcmp(header_, "DNA", 3) != 0) {
       return report(Status::kDnaSignature, 0, "",
                     size_ == 0 ? "the file is empty"
-                               : "the file does not start with \"DNA\": it is no DNA file");
+                               : "the file does not start with \"DNA\": it is not a DNA file");
     }
     if (size_ < kHeaderBytes) {
       return report(Status::kDnaTruncated, size_, "",

@@ -285,7 +285,7 @@ Status set_variable(Mixer& mixer, uint32_t variable, float value, Error& error) 
 Status push_row(Mixer& mixer, uint32_t index, int64_t tick, Span<const float> values,
                 bool* accepted, Error& error) {
   if (index >= mixer.streams.count || !mixer.streams[index]) {
-    return bad_layer(error, index, "it does not exist or is no stream");
+    return bad_layer(error, index, "it does not exist or is not a stream");
   }
   RowStream& stream = *mixer.streams[index];
   if (values.count != stream.channels) {

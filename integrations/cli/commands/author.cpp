@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -49,7 +50,8 @@ double parse_share(const char* option, const std::string& word) {
   char* end = nullptr;
   const double share = std::strtod(word.c_str(), &end);
   if (!word.empty() && *end == 0 && share > 0 && share <= 1) return share;
-  fail_usage(std::string(option) + " \"" + word + "\"", "this is not a number above 0, up to 1",
+  fail_usage(std::string(option) + " \"" + word + "\"",
+             "this is not a number above 0 and at most 1",
              "give a share: 0.5 keeps half, 1 keeps all");
 }
 
@@ -67,8 +69,8 @@ MienAuthorDesc parse_options(const AuthorCommand& command) {
   desc.up = MIEN_MESH_AXIS_X + static_cast<uint32_t>(parse_word("--up", command.up));
   desc.front = MIEN_MESH_AXIS_X + static_cast<uint32_t>(parse_word("--front", command.front));
   if (command.up.back() == command.front.back()) {
-    fail_usage("--up " + command.up + " --front " + command.front, "these are along the same axis",
-               "give two that stand at a right angle");
+    fail_usage("--up " + command.up + " --front " + command.front, "both are the same axis",
+               "give two different axes");
   }
   if (!command.unit.empty()) {
     constexpr double kCentimeters[] = {1, 100, 0.1, 10};
@@ -102,7 +104,7 @@ Crop parse_crop(const std::string& text) {
   Crop crop;
   const auto wrong = [&](const std::string& why) {
     fail_usage("--crop \"" + text + "\"", why,
-               "give X0,X1,Y0,Y1,Z0,Z1 in the unit of the mesh, nothing where there is no limit: "
+               "give X0,X1,Y0,Y1,Z0,Z1 in the unit of the mesh; leave a number out for no limit: "
                "-1,1,5,,,");
   };
   size_t at = 0;
@@ -120,7 +122,7 @@ Crop parse_crop(const std::string& text) {
     (i % 2 == 0 ? crop.low : crop.high)[i / 2] = value;
   }
   for (int i = 0; i < 3; ++i) {
-    if (crop.low[i] >= crop.high[i]) wrong("nothing lies between these");
+    if (crop.low[i] >= crop.high[i]) wrong("a lower limit is not below the upper one");
   }
   return crop;
 }
@@ -140,8 +142,8 @@ std::vector<bool> parse_objects(const std::string& names, const std::string& pat
     }
     if (mesh.objects.size() > 12) known += ", ...";
     if (!found) {
-      fail_mesh(shown_name(path), "", "it has no object \"" + name + "\"",
-                mesh.objects.empty() ? "leave out --objects" : "give some of: " + known);
+      fail_mesh(shown_name(path), "", "there is no object \"" + name + "\"",
+                mesh.objects.empty() ? "leave out --objects" : "its objects are: " + known);
     }
   }
   return named;
@@ -177,7 +179,7 @@ void keep_faces(const AuthorCommand& command, const Crop& crop, MeshFile& mesh) 
     if (part.face_count > 0) kept.objects.push_back(part);
   }
   if (kept.face_sizes.empty()) {
-    fail_mesh(shown_name(command.mesh), "", "no face of it lies within --crop",
+    fail_mesh(shown_name(command.mesh), "", "no face lies within --crop",
               "the limits are in the unit and axes of the mesh");
   }
   mesh.face_sizes = std::move(kept.face_sizes);
@@ -257,10 +259,16 @@ Made make_rig(const AuthorCommand& command, MienAuthorDesc desc, const MeshFile&
   return out;
 }
 
-/// Signs of a mesh that lies or looks elsewhere than --up and --front say.
+std::string one_decimal(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f", value);
+  return text;
+}
+
+/// Signs that the axes of the mesh are not those of --up and --front.
 void note_turned(const AuthorCommand& command, const MeshFile& mesh, const Json& report,
                  const Session& session) {
-  const std::string how = "; if the mesh is turned, say how with --up and --front";
+  const std::string how = "; if the mesh is rotated, give its axes with --up and --front";
   double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
   for (const uint32_t v : mesh.corners) {
     for (size_t k = 0; k < 3; ++k) {
@@ -279,61 +287,63 @@ void note_turned(const AuthorCommand& command, const MeshFile& mesh, const Json&
   const Json& symmetry = report["symmetry"];
   const double apart = symmetry["error"].get<double>();
   if (command.symmetry == "auto" && !command.paper && !symmetry["enforced"].get<bool>()) {
-    note(session, "mirrored halves of the face are " + std::to_string(std::lround(1000 * apart)) +
-                      " thousandths of its size apart: joints are not mirrored" + how);
+    note(session, "the halves of the face differ by " + one_decimal(100 * apart) +
+                      " % of its size, so joints are not mirrored" + how);
   }
   if (const Json& groups = report["groups"]; !groups.is_null()) {
-    uint64_t places = 0;
-    for (const Json& count : groups["counts"]) places += count.get<uint64_t>();
-    const uint64_t mask = report["mask_places"].get<uint64_t>();
-    if (mask < places / 5) {
-      note(session, "the face mask has " + std::to_string(mask) + " of " + std::to_string(places) +
-                        " places: facial joints are there only; shapes, or --groups 2 "
-                        "--area-density, take in more" +
+    uint64_t positions = 0;
+    for (const Json& count : groups["counts"]) positions += count.get<uint64_t>();
+    const uint64_t mask = report["mask_positions"].get<uint64_t>();
+    if (mask < positions / 5) {
+      note(session, "the face mask covers only " + std::to_string(mask) + " of " +
+                        std::to_string(positions) +
+                        " positions, and facial joints are placed there only; to extend it, give "
+                        "shapes or --groups 2 --area-density" +
                         how);
     }
   }
   if (!report["face_only"].get<bool>() && report["throat"].is_null() && !command.no_neck_cut) {
-    note(session,
-         "no throat found below the nose: the face mask is not cut off from the neck" + how);
+    note(session, "no throat was found below the nose, so the face mask includes the neck" + how);
   }
 }
 
-/// Hints about what is not wrong, but rarely meant.
+/// Notes about input that is valid but probably not what was meant.
 void note_oddities(const AuthorCommand& command, const MeshFile& mesh, const Json& report,
                    const Session& session) {
   const double size = report["mesh"]["diagonal"].get<double>();
   if (size < 10 || size > 300) {
-    note(session, "the face's mesh measures " + std::to_string(size) +
-                      " cm from corner to corner; choose the unit with --unit");
+    note(session, "the diagonal of the face mesh is " + one_decimal(size) +
+                      " cm long; if that is wrong, give the unit with --unit");
   }
   for (const MeshShape& shape : mesh.shapes) {
     if (find_incoherence(mesh, shape) < 0.5) continue;
     note(session,
-         "shape " + shape.name + " moves neighbors in different directions; is it of this mesh?");
+         "shape " + shape.name +
+             " moves neighboring vertices in different directions; does it belong to this mesh?");
   }
   const double next = report["mesh"]["next_area"].get<double>();
   if (next > 0.5) {
-    note(session, "another surface has " + std::to_string(std::lround(100 * next)) +
-                      " % of the area of the face's: one face is rigged, the rest follows it or is "
-                      "rigid; choose with --face-object, --objects or --crop");
+    note(session,
+         "another surface has " + std::to_string(std::lround(100 * next)) +
+             " % of the area of the face; only one face is rigged, the rest follows it or is "
+             "rigid: choose with --face-object, --objects or --crop");
   }
   const uint64_t facial = report["facial_joints"].get<uint64_t>();
   if (facial < parse_number("--joints", command.joints, 7000)) {
-    note(session, "the face has room for " + std::to_string(facial) + " facial joints only");
+    note(session, "the face has room for only " + std::to_string(facial) + " facial joints");
   }
   const Json& weights = report[report["fit"].is_null() ? "weights" : "fitted_weights"];
   const uint64_t idle = weights["idle_bones"].get<uint64_t>();
   if (idle > facial / 10) {
-    note(session,
-         std::to_string(idle) + " of " + std::to_string(facial) +
-             " facial joints weigh most at no position: the mesh is coarse for as many; choose "
-             "with --joints");
+    note(session, std::to_string(idle) + " of " + std::to_string(facial) +
+                      " facial joints have the largest weight of no vertex: the mesh is too coarse "
+                      "for so many; "
+                      "lower --joints");
   }
   if (report["face_only"].get<bool>()) {
     note(session,
-         "a face without a back of the head: all of it is rigged; of a body, keep the head "
-         "with --crop");
+         "the head has no back, so all of the mesh is taken as the face; to use only a part of a "
+         "mesh, give --crop");
   }
   note_turned(command, mesh, report, session);
 }

@@ -100,7 +100,7 @@ class Glb {
     const auto it = of.find(key);
     if (it == of.end()) return otherwise;
     if (!it->is_number_unsigned() || it->get<uint64_t>() > kMaxElements) {
-      fail("", std::string("\"") + key + "\" is no number from 0 to 2^28");
+      fail("", std::string("\"") + key + "\" is not a number from 0 to 2^28");
     }
     return it->get<size_t>();
   }
@@ -380,7 +380,8 @@ void Glb::add_node(size_t index, const Matrix& parent, int depth) {
     }
   }
   for (const Json& child : list(node, "children")) {
-    if (!child.is_number_unsigned()) fail("node " + std::to_string(index), "a child is no number");
+    if (!child.is_number_unsigned())
+      fail("node " + std::to_string(index), "a child is not a number");
     add_node(child.get<size_t>(), place, depth + 1);
   }
 }
@@ -389,7 +390,7 @@ MeshFile Glb::read() {
   const Matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
   if (!list(root_, "scenes").empty()) {
     for (const Json& node : list(element("scenes", whole(root_, "scene", 0)), "nodes")) {
-      if (!node.is_number_unsigned()) fail("", "a node of the scene is no number");
+      if (!node.is_number_unsigned()) fail("", "a node of the scene is not a number");
       add_node(node.get<size_t>(), identity, 0);
     }
   } else {

@@ -325,7 +325,7 @@ test("a Live Link Face recording plays, and one that does not fit says so", opti
   await page.run(() => document.getElementById("play").click());
   writeFileSync(csv, "Timecode,A\n0,0\n0,x\n");
   await open(csv);
-  assert.match(await text("error"), /line 3, A: "x" is no number/);
+  assert.match(await text("error"), /line 3, A: "x" is not a number/);
   page.errors.length = 0;
 });
 

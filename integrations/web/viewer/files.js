@@ -16,7 +16,7 @@ export function readCsv(text) {
     columns.forEach(([name, i], column) => {
       const value = Number(cells[i]);
       if (cells[i] === undefined || cells[i].trim() === "" || !Number.isFinite(value)) {
-        throw new Error(`line ${row + 2}, ${name}: "${cells[i] ?? ""}" is no number`);
+        throw new Error(`line ${row + 2}, ${name}: "${cells[i] ?? ""}" is not a number`);
       }
       values[row * columns.length + column] = value;
     });

@@ -110,7 +110,8 @@ Status group_in_depth(Placing& placing) {
   if (report.face_only) return Status::kOk;
   if (n < options.groups) {
     return fail(placing.error, Status::kAuthorRefused, kNoOffset,
-                "the skin has %zu places: %u groups in depth need as many", n, options.groups);
+                "the skin has only %zu positions, fewer than the %u groups in depth", n,
+                options.groups);
   }
   if (!make(placing.scratch, n, placing.group)) return no_memory(placing);
   if (!options.own_groups.empty()) return take_groups(placing);
@@ -218,10 +219,10 @@ Status find_mask(Placing& placing) {
     placing.in_mask[i] = in;
     count += in;
   }
-  report.mask_places = static_cast<uint32_t>(count);
+  report.mask_positions = static_cast<uint32_t>(count);
   if (count < 4) {
     return fail(placing.error, Status::kAuthorRefused, kNoOffset,
-                "the face mask has %zu of %zu places: at least 4 are needed", count, n);
+                "the face mask has %zu of %zu positions: at least 4 are needed", count, n);
   }
   if (!make(placing.scratch, count, placing.mask)) return no_memory(placing);
   count = 0;

@@ -45,7 +45,7 @@ struct PlaceReport {
   NeckSplit neck_split = NeckSplit::kNoNeck;
   Vec3 head_mean, neck_mean;
   Throat throat;
-  uint32_t mask_places = 0, added_by_shapes = 0;
+  uint32_t mask_positions = 0, added_by_shapes = 0;
   double symmetry_error = 0;  // mean distance of mirrored places to the mesh, part of the diagonal
   uint32_t asked_joints = 0;
   KMeansRun runs[kMaxRuns + 1];

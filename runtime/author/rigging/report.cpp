@@ -400,7 +400,7 @@ bool write_report(const MeshSource& source, const RiggingOptions& options, const
   json.key("error").number(place.symmetry_error);
   json.key("plane").number(rigging.placement.symmetry_plane);
   json.close("}");
-  json.key("mask_places").whole(place.mask_places);
+  json.key("mask_positions").whole(place.mask_positions);
   json.key("mask_added_by_shapes").whole(place.added_by_shapes);
   json.key("spacing").number(place.spacing);
   json.key("uncovered").number(place.uncovered);

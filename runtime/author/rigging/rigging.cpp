@@ -128,7 +128,7 @@ Status take_weights(const MeshSource& source, const RiggingOptions& options, con
       if (!(weight >= 0 && weight < 1e15f) ||
           own.joints[from + i] >= rigging.placement.bones.count) {
         return fail(error, Status::kAuthorMesh, kNoOffset,
-                    "influence %zu of position %zu is no weight of a bone", i, from / m);
+                    "influence %zu of position %zu is not a weight of a bone", i, from / m);
       }
       sum += double{weight};
     }

@@ -358,7 +358,7 @@ void check_skin_weights(Checker& c, const Field& at, const Mesh& mesh) {
     constexpr float kTolerance = 1e-3f;
     float sum = 0;
     for (uint32_t i = 0; i < vertex.weights.count; ++i) sum += vertex.weights[i];
-    if (!(std::fabs(sum - 1) <= kTolerance)) {  // also if it is no number
+    if (!(std::fabs(sum - 1) <= kTolerance)) {  // also if it is NaN
       c.warning(Field{&field, "weights"}, c.offset(vertex.weights), "the weights sum to %g",
                 static_cast<double>(sum));
     }

@@ -168,7 +168,7 @@ Status RotationControls::add_ml_joints(const DnaView& view, const CoordinateChan
         return fail(error, Status::kDnaValue, view.offset_of(joints.input_indices.data + 2 * i),
                     "mlbe.mlbJoints.inputIndices[%u]: control %u %s: the joint cannot be converted "
                     "to another system",
-                    i, control + part, role ? "moves another joint too" : "is no ML control");
+                    i, control + part, role ? "moves another joint too" : "is not an ML control");
       }
       role->moves_joint = true;
       role->unit = unit;

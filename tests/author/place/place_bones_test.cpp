@@ -162,7 +162,7 @@ TEST(PlaceBones, HasNoMoreBonesThanPlaces) {
   add_sphere(mesh, 0, 0, 0, 5, 4, 6);
   const Placed placed(mesh, with_joints(240));
   ASSERT_EQ(placed.status, Status::kOk) << placed.error.message;
-  EXPECT_LE(placed.placement.facial_count, placed.report.mask_places);
+  EXPECT_LE(placed.placement.facial_count, placed.report.mask_positions);
   EXPECT_GE(placed.placement.facial_count, 1u);
 }
 

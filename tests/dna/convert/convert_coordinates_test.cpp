@@ -791,7 +791,7 @@ TEST_F(LostControls, TwoJointsFollowOne) {
 
 TEST_F(LostControls, AJointFollowsARawControl) {
   tiny.mlbe.joints.input_indices = dna::be<uint16_t>(arena, {5, 6, 7, 1});
-  expect(mirrored, "is no ML control");
+  expect(mirrored, "is not an ML control");
 }
 
 // Arrays that were converted are no longer in the file; what is wrong with them is.
