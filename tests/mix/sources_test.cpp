@@ -102,6 +102,28 @@ TEST(Stream, WithLossJitterAndAGapMakesNoJump) {  // G4
   EXPECT_LE(largest, 1.875f / 0.25f);
 }
 
+TEST(Stream, FadesOutFromItsOwnTimeWhateverTheSteps) {  // F3
+  const StreamMix stream(0);
+  OwnMixer fine(stream.mix), coarse(stream.mix);
+  for (OwnMixer* own : {&fine, &coarse}) {
+    for (int ms : {0, 50, 100, 150, 200, 250, 300}) {
+      push(*own, ms * kMillisecond, {0.5f, 0.001f * static_cast<float>(ms), 1});
+    }
+  }
+  for (int ms = 16; ms < 1000; ms += 16) {
+    for (int k = 0; k < 3; ++k) fine.step(4 * kMillisecond);
+    const Row row = fine.step(4 * kMillisecond);
+    ASSERT_TRUE(same_bits(coarse.step(16 * kMillisecond), row)) << ms;
+    if (ms == 304) {
+      EXPECT_EQ(row[1], 0.5f);
+    } else if (ms == 480) {
+      EXPECT_NEAR(row[1], 0.25f, 0.03f) << "350 ms and half of 250 ms";
+    } else if (ms > 600) {
+      EXPECT_EQ(row[1], 0.0f);
+    }
+  }
+}
+
 TEST(Stream, DropsWhatIsLateOrTooMuchAndRefusesWhatIsNotFinite) {
   const StreamMix stream(0, 4);
   OwnMixer own(stream.mix);
@@ -185,6 +207,34 @@ TEST(Blinks, ComeAboutEveryPeriodAndCloseBothLids) {
   EXPECT_GT(last_right, 0.0f);
 }
 
+TEST(Blinks, CloseIn75StayFor25AndOpenIn150Milliseconds) {
+  MixInput input(kLanes);
+  const MixHandle mix = generator_mix(input, Generator::kBlink, 4 * kTicksPerSecond, {kTwo, 2},
+                                      {kOnes, 2}, BlendMode::kMax);
+  OwnMixer own(mix, 5);
+  std::vector<Row> rows;  // a millisecond apart
+  while (rows.size() < 10000) rows.push_back(own.step(kMillisecond));
+  int begins[2] = {};
+  for (uint32_t lane : kTwo) {
+    const auto first = [&](int from, auto&& is) {
+      while (from < 9999 && !is(rows[static_cast<size_t>(from)][lane])) ++from;
+      return from;
+    };
+    const int begin = first(0, [](float v) { return v > 0; });
+    const int closed = first(begin, [](float v) { return v == 1; });
+    const int opens = first(closed, [](float v) { return v < 1; });
+    const int open = first(opens, [](float v) { return v == 0; });
+    ASSERT_LT(open, 9999);
+    EXPECT_NEAR(closed - begin, 75, 1);
+    EXPECT_NEAR(opens - begin, 100, 1);
+    EXPECT_NEAR(open - begin, 250, 1);
+    EXPECT_NEAR(rows[static_cast<size_t>(begin + 37)][lane], 0.5f, 0.05f);
+    begins[lane - kTwo[0]] = begin;
+  }
+  EXPECT_GE(begins[1], begins[0]);
+  EXPECT_LE(begins[1], begins[0] + 10);
+}
+
 TEST(Blinks, WaitAfterThoseOfThePerformance) {
   MixInput input(kLanes);
   input.add(BlendMode::kOverride, LayerSource::kPoses).pose_count = 1;
@@ -228,6 +278,26 @@ TEST(Noise, IsSmoothBoundedAndDiffersByLaneAndSeed) {
   EXPECT_LT(std::fabs(sum[0]), 0.2f);
   EXPECT_GT(lanes, 19000);
   EXPECT_GT(seeds, 19000);
+}
+
+TEST(Generators, DoNotDependOnHowTimeIsDivided) {  // F3
+  for (Generator kind : {Generator::kBlink, Generator::kBreath, Generator::kNoise}) {
+    MixInput input(kLanes);
+    const MixHandle mix =
+        generator_mix(input, kind, kTicksPerSecond, {kTwo, 2}, {kOnes, 2}, BlendMode::kAdd);
+    OwnMixer fine(mix, 3), coarse(mix, 3), rare(mix, 3);
+    int moving = 0;
+    for (int i = 1; i <= 3600; ++i) {
+      const Row row = coarse.step(kTicksPerSecond / 60);
+      for (int k = 0; k < 3; ++k) fine.step(kTicksPerSecond / 240);
+      ASSERT_TRUE(same_bits(fine.step(kTicksPerSecond / 240), row)) << i;
+      moving += row[2] != 0;
+      if (i % 97 == 0) {
+        ASSERT_TRUE(same_bits(rare.step(97 * (kTicksPerSecond / 60)), row)) << i;
+      }
+    }
+    EXPECT_GT(moving, 500);
+  }
 }
 
 TEST(Generators, RefuseWhatIsOutOfRange) {
