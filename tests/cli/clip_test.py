@@ -122,7 +122,7 @@ class RoundTrip(ClipTest):
     def test_csv_in_the_dialects_of_programs(self):
         plain = self.build("time,a,b\n0,1,2\n1,3,4\n", name="plain")
         for text in ("time,a,b\r\n0,1,2\r\n1,3,4\r\n", "\ufefftime,a,b\n0,1,2\n1,3,4",
-                     'Time,"a","b"\n0, 1 ,2\n\n1,3,"4"\n\n'):
+                     'Time,"a","b"\n0, 1 ,2\n\n1,3,"4"\n\n', "time,a,b\r0,1,2\r1,3,4\r"):
             self.assertEqual(read(os.path.basename(self.build(text))),
                              read(os.path.basename(plain)), text)
 
@@ -144,7 +144,8 @@ class RoundTrip(ClipTest):
     def test_the_output_of_play(self):
         document = {"rig": "x", "rate": 30, "controls": ["b", "a"], "variables": ["gaze.x"],
                     "events": [], "frames": [{"time": 0, "raw": [1, 2], "variables": [0]},
-                                             {"time": 1 / 30, "raw": [3, 4], "stages": {}}]}
+                                             {"time": 1 / 30, "raw": [3, 4], "stages": {},
+                                              "guards": {}}]}
         clip = self.build(json.dumps(document))
         self.assertEqual(self.info(clip)["rate"], [30, 1])
         header, rows = self.rows(clip)
@@ -187,6 +188,8 @@ class RoundTrip(ClipTest):
         for option, code in (("m=lip", 1), ("m", 1), ("=lips", 1), ("ah=lips", 2)):
             self.fails(code, "clip", "build", path("bad.json"), "-o", path("bad.clip"), "--close",
                        option)
+        done = self.ok("clip", "build", path("bad.json"), "-o", path("bad.clip"), "--close", "b=lips")
+        self.assertIn("no event has one of these names", done.stderr)
 
 
 class Information(ClipTest):
@@ -327,6 +330,7 @@ class Choices(ClipTest):
         self.assertEqual(self.rows(self.build(text, "--channels", "browup"))[1], [[0, 4]])
         self.refuse_take(text, ["jawOpne", "did you mean \"jawOpen\"?"], "--channels",
                          "browUp,jawOpne")
+        self.refuse_take(text, "a name is empty", "--channels", "browUp,,jawOpen", code=USAGE)
 
     def test_loop(self):
         self.refuse_take("time,a\n0,1\n", "--loop", "--loop", "round", code=USAGE)
@@ -386,6 +390,16 @@ class LiveLink(ClipTest):
         clip = self.build(self.take(times), "--resample", "--rate", "60")
         self.assertEqual((self.info(clip)["frames"], self.info(clip)["rate"]), (61, [60, 1]))
 
+    def test_frames_that_were_left_out_are_noted(self):
+        times = [k / 60 for k in range(120) if not 40 < k < 70]
+        source = write("gap.csv", self.take(times))
+        done = self.ok("clip", "build", source, "-o", path("gap.clip"))
+        self.assertIn("1.983 s were recorded, the clip takes 2.000 s", done.stderr)
+        self.assertIn("--resample --rate 60", done.stderr)
+        done = self.ok("clip", "build", source, "-o", path("gap.clip"), "--resample", "--rate", "60")
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(self.info(path("gap.clip"))["frames"], 120)
+
     def test_what_is_wrong(self):
         good = self.take([0, 1 / 60])
         self.refuse_take(good.replace("00:00:00:01.000", "00:00:99:01.000"), ["row 3", "column 1"])
@@ -410,14 +424,16 @@ class WrongTakes(ClipTest):
     def test_tables(self):
         self.refuse_take("", "empty")
         self.refuse_take("time,a\n", "no rows")
-        self.refuse_take("jawOpen,a\n1,2\n", "the first column")
+        self.refuse_take("jawOpen,a\n1,2\n", ['the first column is "jawOpen", not "time"', "seconds"])
         self.refuse_take("time;a\n1;2\n", "commas")
+        self.refuse_take("\ufeffx,y\n0,1\n".encode("utf-16-le"), "UTF-16")
         self.refuse_take("time,a,\n0,1,\n", "column 3")
         self.refuse_take("time,a,b,a\n0,1,2,3\n", ["column 4", "column 2"])
-        self.refuse_take("time,a\n0,1\n1\n", ["row 3", "1 columns", "2"])
+        self.refuse_take("time,a\n0,1\n1\n", ["row 3", "1 column,", "2"])
         self.refuse_take("time,a\n0,1\n1,2,3\n", "row 3")
-        self.refuse_take("time,a\n0,\"1\n1,2\n", "row 2")
-        self.refuse_take("\0\0\0\0", "first column")
+        self.refuse_take("time,a\n0,\"1\n1,2\n", ["row 2", "quotation mark"])
+        self.refuse_take("time,\"a\n0,1\n1,2\n", ["row 1", "quotation mark"])
+        self.refuse_take("\0\0\0\0", "neither JSON")
 
     def test_json(self):
         for document, says in (
@@ -440,11 +456,12 @@ class WrongTakes(ClipTest):
                 ({"events": [{"time": -1, "name": "M"}], "frames": [{}]}, "its time is -1"),
                 ({"events": [{"tick": 0.5, "name": "M"}], "frames": [{}]}, "its tick is 0.5"),
                 ({"events": [{"tick": 0, "nam": "M"}], "frames": [{}]}, "no member \"nam\""),
-                ({"events": [{"time": 1, "name": "M"}], "frames": [{}]}, "after the last of 1 frames"),
+                ({"events": [{"time": 1, "name": "M"}], "frames": [{}]},
+                 "after the last of 1 frames, at 1 s"), ([1], "frames"),
                 ({"frames": [{"time": 1}, {"time": 0}]}, "ascend"),
                 ({"frames": [{"time": 1}, {}]}, "time")):
             self.refuse_take(json.dumps(document), says)
-        self.refuse_take('{"frames": [{"raw": {"a": 1e39}}]}', "1e39")
+        self.refuse_take('{"frames": [{"raw": {"a": 1e39}}]}', ["1e39", "byte 30"])
         self.refuse_take('{"frames": [{"raw": {"a": 1, "a": 2}}]}', "twice")
         self.refuse_take('{"frames": [', "wrong.in")
 

@@ -116,6 +116,13 @@ class PlayTest(unittest.TestCase):
         source["loop"] = True
         played = self.play({"rate": 30, "layers": [{**TALK, "source": source}]})
         self.assertLess(played.value("jawOpen", 60), 0.6)
+        # A third to the tick, which 0.333 would miss.
+        source = {"clip": "talk.clip", "speed": 0.33333333}
+        whole = self.play({"layers": [TALK]})
+        third = self.play({"seconds": 6, "layers": [{**TALK, "source": source}]})
+        self.assertEqual(third.curve("jawOpen")[::3], whole.curve("jawOpen"))
+        source["speed"] = 0
+        self.assertEqual(set(self.play({"layers": [{**TALK, "source": source}]}).curve("jawOpen")), {0})
 
     def test_weights_fade_at_their_times(self):
         played = self.play({"layers": [{**JOY, "mode": "override"}], "events": [
@@ -488,6 +495,25 @@ class PlayTest(unittest.TestCase):
         self.assertLess(held.value("eyeBlinkLeft", lips_closed), 0.01)
         self.assertGreater(held.value("eyeBlinkLeft", both), 0.95)
 
+    def test_variables_that_move_nothing_are_noted(self):
+        for name, says in (("pupill", b'did you mean "pupil"?'), ("light", b"begin with user."),
+                           ("user.light", b""), ("gaze.x", b"")):
+            scene = {"seconds": 0, "events": [{"time": 0, "variable": name, "value": 0.5}]}
+            done = run("play", write("scene.json", json.dumps(scene)), path("head.dna"))
+            self.assertEqual(json.loads(done.stdout)["variables"], [name])
+            self.assertEqual((says in done.stderr, done.stderr == b""), (True, says == b""))
+
+    def test_short_names_of_several_controls_are_ambiguous(self):
+        with open(path("head.dna"), "rb") as file:
+            dna = file.read()
+        with open(path("two.dna"), "wb") as file:
+            file.write(dna.replace(b"browInnerUp", b"two.jawOpen"))
+        for name, code in (("jawOpen", DONE), ("two.jawOpen", DONE), ("JAWOPEN", INVALID)):
+            layer = {"name": "x", "source": {"poses": {"p": {name: 1}}}}
+            done = run("play", write("scene.json", json.dumps({"layers": [layer]})), path("two.dna"))
+            self.assertEqual(done.returncode, code, done.stderr.decode())
+        self.assertIn(b"ambiguous", done.stderr)
+
     def test_wrong_scenes(self):
         joy = lambda **change: {"layers": [{**JOY, **change}]}
         event = lambda **e: {"layers": [TALK, JOY], "events": [{"time": 0, **e}],
@@ -501,13 +527,13 @@ class PlayTest(unittest.TestCase):
                 (joy(source={"poses": {"p": {"jawOpen": "x"}}}), "expected a number"),
                 (joy(source={"poses": {"p": {}}, "weights": {"q": 1}}), "no pose"),
                 (joy(source={"generator": "noise"}), "controls"),
-                (joy(source={"generator": "gaze", "eyes": ["a"]}), "not two"),
+                (joy(source={"generator": "gaze", "eyes": ["a"]}), "two names"),
                 (joy(source={"generator": "gaze", "eyes": ["a", "b"]}), "no joints"),
                 (joy(source={"generator": "gaze", "period": 1}), '"period"'),
                 ({"layers": [{"name": n, "source": {"generator": "gaze"}} for n in "ab"]}, "several"),
                 ({"layers": [{"name": "e", "source": {"generator": "gaze"}},
                              {**JOY, "source": {"poses": {"p": {"gaze.x": 1}}}}]}, "add or override"),
-                ({"layers": [TALK, TALK]}, "there twice"), ({"layers": [TALK] * 17}, "16"),
+                ({"layers": [TALK, TALK]}, 'two of them are named "talk"'), ({"layers": [TALK] * 17}, "16"),
                 ({"layers": [{**TALK, "source": {"clip": ""}}]}, "empty"),
                 ({"guards": ["lisp"]}, '"lips"'), ({"seconds": -1}, "seconds"),
                 ({"reactions": [{"name": "x", "preset": "gape"}]}, "glare"),
@@ -517,13 +543,22 @@ class PlayTest(unittest.TestCase):
                 (event(trigger="glare", strength=2), "events[0].strength"),
                 (event(level="glare", value=1.5), "events[0].value"),
                 (event(level="glare"), '"value"'), (event(level="galre", value=1), '"glare"'),
-                (event(variable="x"), '"value"')):
+                (event(variable="x"), '"value"'), (event(), "what happens"),
+                (event(layer="joy", weight=1, fad=1), '"fade"'),
+                (joy(source={"poses": {}}), "no poses"), ({"seed": -1}, "it is -1"),
+                ({"events": [{"time": 0, "trigger": "glare"}]}, '"glare" is not in the scene'),
+                (joy(source={"clpi": "x"}), '"clip"'),
+                (joy(mask={"controls": ["muoth*"]}), 'did you mean "mouth*"?'),
+                ('{"seed": 1, "seed": 2}', 'the key "seed" twice')):
             with self.subTest(says):
                 self.refused(scene, says)
         missing = {"layers": [{**TALK, "source": {"clip": "none.clip"}}]}
         self.refused(missing, "none.clip", code=FILE)
         self.refused({"layers": [TALK]}, ".svg", "-o", path("x.txt"), code=USAGE)
         self.refused({"layers": [TALK]}, "--rate", "--rate", "fast", code=USAGE)
+        done = run("play", "-", "-", stdin=b"{}")
+        self.assertEqual(done.returncode, USAGE)
+        self.assertIn(b"both", done.stderr)
         self.refused({"layers": [TALK]}, "jawOpne", "--stages", "jawOpne")
 
 

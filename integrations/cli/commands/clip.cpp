@@ -75,6 +75,23 @@ Rate parse_rate_option(const std::string& word) {
        "give the right --rate, or --resample to interpolate");
 }
 
+/// Every row of the app becomes a frame, also where it left frames out.
+void note_drift(const std::vector<double>& seconds, const Rate& rate, const Session& session) {
+  double most = 0;
+  for (size_t i = 0; i < seconds.size(); ++i) {
+    const double shown = seconds[0] + static_cast<double>(i) / rate.hertz();
+    most = std::max(most, std::abs(seconds[i] - shown));
+  }
+  if (most <= 1.5 / rate.hertz()) return;
+  char text[200];
+  snprintf(text, sizeof(text),
+           "%.3f s were recorded, the clip takes %.3f s: every row is a frame, up to %.3f s from "
+           "its time; --resample --rate 60 keeps the times",
+           seconds.back() - seconds.front(), static_cast<double>(seconds.size() - 1) / rate.hertz(),
+           most);
+  note(session, text);
+}
+
 /// The rate of the clip; the rows lie on it afterwards.
 Rate settle_rate(Take& take, const Rate& wanted, bool with_resampling, const Session& session) {
   Rate rate = wanted.known() ? wanted : take.rate;
@@ -96,17 +113,7 @@ Rate settle_rate(Take& take, const Rate& wanted, bool with_resampling, const Ses
   if (with_resampling) {
     resample(take, rate);
   } else if (take.is_live_link) {
-    const std::vector<double>& seconds = take.times.seconds;
-    const double span = seconds.back() - seconds.front();
-    const double length = static_cast<double>(seconds.size() - 1) / rate.hertz();
-    if (std::abs(span - length) > 1 / rate.hertz()) {
-      char text[160];
-      snprintf(text, sizeof(text),
-               "%.3f s were recorded, the clip takes %.3f s: every row is a frame; --resample "
-               "keeps the time",
-               span, length);
-      note(session, text);
-    }
+    note_drift(take.times.seconds, rate, session);
   } else {
     const size_t off = first_row_off(take.times, rate);
     if (off < take.row_count) fail_off(take, rate, off);
@@ -194,8 +201,8 @@ void subtract(Take& take, const std::string& minus, const Session& session) {
   if (error == std::errc() && stop == end) {
     if (frame >= take.row_count) {
       fail(kInvalid, "cannot build clip", take.shown,
-           "there is no frame " + minus + ", only " + grouped(take.row_count),
-           "give a lower number to --minus");
+           "there is no frame " + minus + " among its " + grouped(take.row_count) + " frames",
+           "give a lower number to --minus; the first frame is 0");
     }
     const std::vector<float> row(take.values.begin() + static_cast<long>(frame * channels),
                                  take.values.begin() + static_cast<long>((frame + 1) * channels));
@@ -232,6 +239,13 @@ void subtract(Take& take, const std::string& minus, const Session& session) {
   });
 }
 
+std::string seconds_text(int64_t ticks) {
+  char text[40];
+  snprintf(text, sizeof(text), "%.6g",
+           static_cast<double>(ticks) / static_cast<double>(MIEN_TICKS_PER_SECOND));
+  return text;
+}
+
 /// The events of a take, which are within its frames. Names stay in the take.
 std::vector<MienClipEvent> events_of(const Take& take, const Rate& rate) {
   // As clips round it; of wild rates building says more.
@@ -242,8 +256,8 @@ std::vector<MienClipEvent> events_of(const Take& take, const Rate& rate) {
     if (event.tick / frame >= static_cast<int64_t>(take.row_count)) {
       fail(kInvalid, "cannot build clip",
            take.shown + ", events[" + std::to_string(events.size()) + "]",
-           "it comes after the last of " + grouped(take.row_count) + " frames, at tick " +
-               std::to_string(event.tick),
+           "it comes after the last of " + grouped(take.row_count) + " frames, at " +
+               seconds_text(event.tick) + " s",
            "leave it out, or add frames");
     }
     events.push_back({event.tick, {event.name.data(), event.name.size()}, event.value, 0});
@@ -266,7 +280,10 @@ void run_build(const BuildOptions& options, const Session& session) {
   refuse_replacing(options.output, {options.input});
   Take take = parse_take(read_text(options.input, "cannot read take"), shown_name(options.input));
   if (!options.channels.empty()) keep_channels(take, options.channels);
-  for (const std::string& closure : options.closures) add_closures(take, closure);
+  for (const std::string& closure : options.closures) {
+    if (add_closures(take, closure) != 0) continue;
+    note(session, "--close " + one_line(closure) + ": no event has one of these names");
+  }
   const Rate rate = settle_rate(take, wanted, options.resample, session);
   if (!options.minus.empty()) subtract(take, options.minus, session);
 
@@ -360,9 +377,10 @@ std::string info_text(const ClipFile& file, const Session& session) {
   text += line("rate", rate_text({info.rate_numerator, info.rate_denominator}) + " per second");
   text += line("channels", grouped(info.channel_count) + ", of which " +
                                grouped(info.changing_channel_count) + " change");
-  char size[64];
-  snprintf(size, sizeof(size), ", %.1f times smaller than 32-bit floats", ratio(info));
-  text += line("size", size_text(info.file_bytes) + size);
+  char share[40];
+  snprintf(share, sizeof(share), " (%.1f times as much)", ratio(info));
+  text += line("size", size_text(info.file_bytes) + "; as 32-bit floats " +
+                           size_text(raw_bytes(info)) + (ratio(info) > 1 ? share : ""));
   text +=
       line("values", info.snap == 0
                          ? std::string("every bit kept")
@@ -403,16 +421,6 @@ void run_verify(const ClipOptions& options, const Session& session) {
 
 double frame_time(const MienClipInfo& info, uint32_t frame) {
   return static_cast<double>(frame) * info.rate_denominator / info.rate_numerator;
-}
-
-std::string csv_field(const std::string& name) {
-  // Blanks at the ends would be trimmed.
-  const bool plain = name.find_first_of(",\"\r\n") == std::string::npos &&
-                     name.find_first_of(" \t") != 0 && name.find_last_of(" \t") != name.size() - 1;
-  if (plain) return name;
-  std::string quoted = "\"";
-  for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
 }
 
 void export_csv(const ClipFile& file, Output& output) {
@@ -498,7 +506,7 @@ void run_export(const ClipOptions& options, const Session& session) {
   const std::string& path = options.output.path;
   const bool as_json = ends_with(path, ".json");
   if (!as_json && !ends_with(path, ".csv") && path != "-") {
-    fail_usage("-o " + path, "the name ends in neither .csv nor .json", "choose one of them");
+    fail_usage("-o " + path, "the ending of the name selects the format", "use .csv or .json");
   }
   refuse_replacing(options.output, {options.clip});
   const ClipFile file = open_clip_file(options.clip);

@@ -8,6 +8,7 @@
 
 #include "integrations/cli/commands/options.h"
 #include "integrations/cli/io/json_writer.h"
+#include "integrations/cli/io/text.h"
 
 namespace mien::cli {
 
@@ -188,14 +189,6 @@ class JsonLinesOutput : public BaseWriter {
 
   void end() override {}
 };
-
-/// A name in a field of its own, whatever is in it (RFC 4180).
-std::string csv_field(const std::string& name) {
-  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
-  std::string quoted = "\"";
-  for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
 
 class CsvOutput : public BaseWriter {
  public:

@@ -68,13 +68,16 @@ std::vector<uint16_t> watched_lanes(const std::string& names, RigLanes lanes) {
 
 /// Endings, and options that none of the outputs has a use for.
 void check_outputs(const std::vector<std::string>& outputs, const PlayOptions& options) {
+  if (options.scene == "-" && options.rig == "-") {
+    fail_usage("SCENE - RIG -", "both would be read from standard input", "put one in a file");
+  }
   for (const std::string& output : outputs) {
     const bool known = output == "-" ||
                        std::any_of(kEndings.begin(), kEndings.end(),
                                    [&](const std::string& end) { return ends_with(output, end); });
     if (!known) {
-      fail_usage("-o " + output, "the name ends in none of " + list_of(kEndings, "and"),
-                 "let it end in one of them");
+      fail_usage("-o " + output, "the ending of the name selects the format",
+                 "use " + list_of(kEndings, "or"));
     }
     refuse_replacing({output, options.force}, {options.scene, options.rig});
   }
@@ -336,6 +339,16 @@ Command add_play_command(CLI::App& app, const Session& session) {
       "     {\"time\": 1, \"layer\": \"joy\", \"weight\": 1, \"fade\": 0.4},\n"
       "     {\"time\": 2, \"layer\": \"talk\", \"play\": {\"clip\": \"other.clip\"}},\n"
       "     {\"time\": 3, \"trigger\": \"glare\", \"strength\": 1, \"hold\": 1.5}]}\n\n"
+      "Layers: the group is base, speech, emotion, reaction or life, the mode override, add, "
+      "screen, "
+      "max or scale. {\"generator\": ...} is blink, breath, noise or gaze; the first three take "
+      "\"controls\": {NAME: amount} and \"period\" in seconds. \"after_guards\": true lets a layer "
+      "do "
+      "what guards prevent. Guards are lips, lids and teeth.\n\n"
+      "Events of a layer: \"weight\", \"weights\" of poses or \"stop\": true, each with a \"fade\" "
+      "in "
+      "seconds; \"play\" with the \"transition\" inertial, crossfade or cut and its "
+      "\"duration\".\n\n"
       "{\"time\": 3, \"level\": \"glare\", \"value\": 0.8} says how bright the light is from then "
       "on: 0.5 or more is a glare, until it is below 0.35.\n"
       "{\"generator\": \"gaze\"} turns the eyes to a point given by the variables gaze.x, gaze.y "

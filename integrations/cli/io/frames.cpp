@@ -5,12 +5,12 @@
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <unordered_map>
 
 #include "integrations/cli/io/controls.h"
 #include "integrations/cli/io/failure.h"
 #include "integrations/cli/io/input.h"
+#include "integrations/cli/io/json_check.h"
 #include "integrations/cli/io/nearest_name.h"
 #include "integrations/cli/io/rig_file.h"
 
@@ -194,57 +194,6 @@ Frame parse_frame(const json& value, ControlNames& names, const std::string& whe
   return frame;
 }
 
-/// What a document would hide: a key that an object has twice, and where an error is.
-class JsonCheck : public json::json_sax_t {
- public:
-  explicit JsonCheck(const std::string& shown) : shown_(shown) {}
-
-  bool null() override { return true; }
-  bool boolean(bool) override { return true; }
-  bool number_integer(json::number_integer_t) override { return true; }
-  bool number_unsigned(json::number_unsigned_t) override { return true; }
-  bool number_float(json::number_float_t, const json::string_t&) override { return true; }
-  bool string(json::string_t&) override { return true; }
-  bool binary(json::binary_t&) override { return true; }
-  bool start_array(size_t) override { return true; }
-  bool end_array() override { return true; }
-
-  bool start_object(size_t) override {
-    keys_.emplace_back();
-    return true;
-  }
-  bool end_object() override {
-    keys_.pop_back();
-    return true;
-  }
-  bool key(json::string_t& key) override {
-    if (keys_.back().insert(key).second) return true;
-    fail(kInvalid, kCannot, shown_, "an object has the key \"" + key + "\" twice",
-         "leave one of them out");
-  }
-
-  bool parse_error(size_t position, const std::string&, const json::exception& error) override {
-    // Messages of the parser begin with a tag in brackets.
-    const std::string message = error.what();
-    const size_t tag = message.find("] ");
-    // Its only other error is a number past the range of a double.
-    const bool syntax = dynamic_cast<const json::parse_error*>(&error) != nullptr;
-    fail(kInvalid, kCannot, shown_ + ", byte " + std::to_string(position),
-         tag == std::string::npos ? message : message.substr(tag + 2),
-         syntax ? "give one JSON object: {\"frames\": [...]}" : "give finite numbers only");
-  }
-
- private:
-  const std::string& shown_;
-  std::vector<std::set<std::string>> keys_;  // of the objects around the current position
-};
-
-json parse_json(const std::string& text, const std::string& shown) {
-  JsonCheck check(shown);
-  json::sax_parse(text, &check);
-  return json::parse(text);
-}
-
 void assign(const std::vector<Assignment>& assignments, const MienMutableFloatView& view) {
   for (const Assignment& assignment : assignments) view.data[assignment.index] = assignment.value;
 }
@@ -253,7 +202,8 @@ void assign(const std::vector<Assignment>& assignments, const MienMutableFloatVi
 
 std::vector<Frame> parse_frames(const std::string& text, const MienRig* rig,
                                 const std::string& shown) {
-  const json document = parse_json(text, shown);
+  const json document =
+      parse_json<json>(text, kCannot, shown, "give one JSON object: {\"frames\": [...]}");
   if (!document.is_object() || !document.contains("frames") || !document["frames"].is_array()) {
     fail(kInvalid, kCannot, shown, "there is no list \"frames\"",
          "give one JSON object: {\"frames\": [...]}");

@@ -20,7 +20,8 @@ Take parse_take(std::string_view text, const std::string& shown) {
   constexpr std::string_view kMark = "\xef\xbb\xbf";  // of UTF-8
   if (text.substr(0, kMark.size()) == kMark) text.remove_prefix(kMark.size());
   const size_t first = text.find_first_not_of(" \t\r\n");
-  const bool is_json = first != std::string_view::npos && text[first] == '{';
+  const bool is_json =
+      first != std::string_view::npos && (text[first] == '{' || text[first] == '[');
   return is_json ? parse_json_take(text, shown) : parse_csv_take(text, shown);
 }
 
@@ -28,6 +29,7 @@ void keep_channels(Take& take, const std::string& patterns) {
   for (size_t begin = 0; begin <= patterns.size();) {
     const size_t comma = std::min(patterns.find(',', begin), patterns.size());
     const std::string one = patterns.substr(begin, comma - begin);
+    if (one.empty()) fail_usage("--channels " + patterns, "a name is empty", "remove a comma");
     bool matches = false;
     for (const std::string& name : take.names) matches = matches || matches_pattern(one, name);
     if (!matches) {
@@ -52,12 +54,12 @@ void keep_channels(Take& take, const std::string& patterns) {
   take.values = std::move(values);
 }
 
-void add_closures(Take& take, const std::string& option) {
+size_t add_closures(Take& take, const std::string& option) {
   const std::vector<std::string> known = {"lips", "lip-to-teeth", "teeth"};
   const size_t equals = option.rfind('=');
   const std::string what = equals == std::string::npos ? "" : option.substr(equals + 1);
   if (equals == 0 || std::find(known.begin(), known.end(), what) == known.end()) {
-    fail_usage("--close \"" + one_line(option) + "\"", "not names of events = what they close",
+    fail_usage("--close \"" + one_line(option) + "\"", "this is not NAMES=WHAT",
                "write m,b,p=lips, or f,v=lip-to-teeth, or s,z=teeth");
   }
   const auto lower = [](std::string text) {
@@ -71,11 +73,12 @@ void add_closures(Take& take, const std::string& option) {
     if (names.find("," + lower(event.name) + ",") == std::string::npos) continue;
     if (!(event.value > 0)) {
       fail(kInvalid, "cannot build clip", take.shown + ", event \"" + one_line(event.name) + "\"",
-           "its value is not a time in seconds, so nothing says how long it closes",
+           "its value, the seconds for which it closes, is not above 0",
            "give it one, such as 0.08");
     }
     take.events.push_back({event.tick, "close:" + what, event.value});
   }
+  return take.events.size() - count;
 }
 
 void resample(Take& take, const Rate& rate) {
@@ -84,7 +87,7 @@ void resample(Take& take, const Rate& rate) {
   const double span = seconds.back() - seconds.front();
   if (span * rate.hertz() * static_cast<double>(channels + 1) > 1e9) {
     fail(kInvalid, "cannot build clip", take.shown,
-         "its times are so far apart that there would be a thousand million values",
+         "its times are so far apart that there would be a billion values",
          "check the times, or give a lower --rate");
   }
   // The last row counts if it is at a frame, but for the rounding of times.

@@ -44,8 +44,9 @@ Take parse_json_take(std::string_view text, const std::string& shown);
 void keep_channels(Take& take, const std::string& patterns);
 
 /// Adds an event "close:WHAT" to each event of some names: "m,b,p=lips". Guards know these (docs/mixing.md,
-/// 4 "Guards"). Without regard to case. Exit code 1 for another form, 2 for an event without a time.
-void add_closures(Take& take, const std::string& option);
+/// 4 "Guards"). Without regard to case. Returns how many it added. Exit code 1 for another form, 2 for an
+/// event without a time.
+size_t add_closures(Take& take, const std::string& option);
 
 /// Rows at a constant rate, interpolated linearly between those that are there.
 void resample(Take& take, const Rate& rate);

@@ -22,7 +22,8 @@ class CsvReader {
  public:
   explicit CsvReader(std::string_view text) : text_(text) {}
 
-  size_t line() const { return line_; }  // of the row that was read last, from 1
+  size_t line() const { return line_; }              // of the row that was read last, from 1
+  size_t open_quote() const { return open_quote_; }  // line of one that is not closed, or 0
 
   /// False at the end. Rows without anything are left out.
   bool next(std::vector<std::string>& fields) {
@@ -46,17 +47,20 @@ class CsvReader {
   /// Whether another one follows in the row.
   bool read_field(std::string& field) {
     bool quoted = false, was_quoted = false;
+    size_t quote_line = 0;
     for (; at_ < text_.size(); ++at_) {
       const char c = text_[at_];
-      if (c == '\n') ++next_line_;
+      const bool ends_row = c == '\n' || (!quoted && is_return_alone());
+      if (ends_row) ++next_line_;
       if (quoted && c == '"' && at_ + 1 < text_.size() && text_[at_ + 1] == '"') {
         field += text_[++at_];
       } else if (c == '"' && (quoted || field.empty())) {
         quoted = !quoted;
         was_quoted = true;
+        quote_line = next_line_;
       } else if (quoted) {
         field += c;
-      } else if (c == ',' || c == '\n') {
+      } else if (c == ',' || ends_row) {
         ++at_;
         trim(field, was_quoted);
         return c == ',';
@@ -64,8 +68,14 @@ class CsvReader {
         field += c;
       }
     }
+    if (quoted) open_quote_ = quote_line;
     trim(field, was_quoted);
     return false;
+  }
+
+  /// As old programs end lines.
+  bool is_return_alone() const {
+    return text_[at_] == '\r' && at_ + 1 < text_.size() && text_[at_ + 1] != '\n';
   }
 
   static void trim(std::string& field, bool was_quoted) {
@@ -76,7 +86,7 @@ class CsvReader {
   }
 
   std::string_view text_;
-  size_t at_ = 0, line_ = 0, next_line_ = 1;
+  size_t at_ = 0, line_ = 0, next_line_ = 1, open_quote_ = 0;
 };
 
 bool is_word(const std::string& text, std::string_view lower) {
@@ -171,7 +181,7 @@ void add_time(Table& table, size_t line, const std::string& field) {
   }
   if (!seconds.empty() && time <= seconds.back()) {
     table.fail_cell(line, 0, "\"" + one_line(field) + "\" is not later than the row before",
-                    "sort the rows, and leave out those that are there twice");
+                    "sort the rows by time, and leave out duplicates");
   }
   seconds.push_back(time);
 }
@@ -182,12 +192,21 @@ void read_header(Table& table) {
   const bool live_link =
       header.size() > 2 && is_word(header[0], "timecode") && is_word(header[1], "blendshapecount");
   if (!live_link && !is_word(header[0], "time")) {
-    const bool other = header.size() == 1 && header[0].find_first_of(";\t") != std::string::npos;
+    const std::string first = "\"" + one_line(header[0].substr(0, 40)) + "\"";
+    if (header.size() == 1 && header[0].find_first_of(";\t") != std::string::npos) {
+      fail(kInvalid, kCannot, where, first + " is one column", "put commas between the columns");
+    }
+    const std::string& start = header[0];
+    if (start.compare(0, 2, "\xff\xfe") == 0 || start.compare(0, 2, "\xfe\xff") == 0) {
+      fail(kInvalid, kCannot, table.take.shown, "it is UTF-16 text", "save it as UTF-8");
+    }
+    if (header.size() > 1) {
+      fail(kInvalid, kCannot, where, "the first column is " + first + ", not \"time\"",
+           "put the time of each row there, in seconds, and name it time");
+    }
     fail(kInvalid, kCannot, where,
-         "the first column is \"" + one_line(header[0].substr(0, 40)) +
-             "\": this is neither JSON nor a table of controls",
-         other ? "put commas between the columns"
-               : "give a CSV with the header time,NAME,NAME,... or see 'mien help clip build'");
+         "it begins with " + first + ": this is neither JSON nor a table of controls",
+         "give a CSV with the header time,NAME,NAME,... or see 'mien help clip build'");
   }
   table.take.is_live_link = live_link;
   table.first_value = live_link ? 2 : 1;
@@ -220,13 +239,15 @@ Take parse_csv_take(std::string_view text, const std::string& shown) {
   }
   read_header(table);
   std::vector<std::string> fields;
-  while (reader.next(fields)) {
+  while (reader.open_quote() == 0 && reader.next(fields)) {
     const size_t line = reader.line();
+    if (reader.open_quote() != 0) break;
     if (fields.size() != table.header.size()) {
       fail(kInvalid, kCannot, shown + ", row " + std::to_string(line),
-           "it has " + std::to_string(fields.size()) + " columns, the header has " +
+           "it has " + std::to_string(fields.size()) +
+               (fields.size() == 1 ? " column" : " columns") + ", the header has " +
                std::to_string(table.header.size()),
-           "give every row as many");
+           "give all rows the same number of columns");
     }
     add_time(table, line, fields[0]);
     for (size_t c = table.first_value; c < fields.size(); ++c) {
@@ -235,9 +256,12 @@ Take parse_csv_take(std::string_view text, const std::string& shown) {
     take.lines.push_back(line);
     ++take.row_count;
   }
+  if (reader.open_quote() != 0) {
+    fail(kInvalid, kCannot, shown + ", row " + std::to_string(reader.open_quote()),
+         "a quotation mark opens there and none closes it", "close it, or leave it out");
+  }
   if (take.row_count == 0) {
-    fail(kInvalid, kCannot, shown, "there are no rows below the header",
-         "a clip has a frame or more");
+    fail(kInvalid, kCannot, shown, "there are no rows below the header", "add a row per frame");
   }
   return std::move(table.take);
 }

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <unordered_map>
 
 #include "capi/mien.h"
 #include "integrations/cli/io/failure.h"
+#include "integrations/cli/io/json_check.h"
 #include "integrations/cli/io/nearest_name.h"
 #include "integrations/cli/io/take.h"
 #include "integrations/cli/io/text.h"
@@ -24,33 +24,10 @@ constexpr const char* kCannot = "cannot build clip";
 constexpr const char* kExample = "give one JSON object: {\"frames\": [{\"raw\": {NAME: number}}]}";
 
 const std::vector<std::string> kIgnored = {"rig", "variables"};
-const std::vector<std::string> kIgnoredInFrames = {"variables", "stages"};
+const std::vector<std::string> kIgnoredInFrames = {"variables", "stages", "guards"};
 
 bool is_one_of(const std::string& key, const std::vector<std::string>& keys) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
-}
-
-json parse(std::string_view text, const std::string& shown) {
-  std::vector<std::set<std::string>> keys;
-  const auto watch = [&](int, json::parse_event_t event, json& value) {
-    if (event == json::parse_event_t::object_start) keys.emplace_back();
-    if (event == json::parse_event_t::object_end) keys.pop_back();
-    if (event == json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second) {
-      fail(kInvalid, kCannot, shown,
-           "an object has the key \"" + one_line(value.get<std::string>()) + "\" twice",
-           "leave one of them out");
-    }
-    return true;
-  };
-  try {
-    return json::parse(text, watch);
-  } catch (const json::exception& error) {
-    // Messages of the parser begin with a tag in brackets.
-    const std::string message = error.what();
-    const size_t tag = message.find("] ");
-    fail(kInvalid, kCannot, shown, tag == std::string::npos ? message : message.substr(tag + 2),
-         kExample);
-  }
 }
 
 struct Reader {
@@ -211,7 +188,7 @@ Take parse_json_take(std::string_view text, const std::string& shown) {
   Reader reader;
   Take& take = reader.take;
   take.shown = shown;
-  const json document = parse(text, shown);
+  const json document = parse_json<json>(text, kCannot, shown, kExample);
   if (!document.contains("frames") || !document["frames"].is_array() ||
       document["frames"].empty()) {
     fail(kInvalid, kCannot, shown, "there is no list \"frames\" with a frame", kExample);

@@ -43,6 +43,16 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
+std::string csv_field(const std::string& text) {
+  // Readers trim blanks at the ends.
+  const bool plain = text.find_first_of(",\"\r\n") == std::string::npos &&
+                     text.find_first_of(" \t") != 0 && text.find_last_of(" \t") != text.size() - 1;
+  if (plain) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
 std::string grouped(uint64_t number) {
   std::string text = std::to_string(number);
   for (size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");

@@ -15,6 +15,9 @@ size_t utf8_length(std::string_view text);
 /// Escapes control characters and bytes that are not UTF-8, so that the text stays on one line.
 std::string one_line(std::string_view text);
 
+/// A field of a CSV file, in quotes where it needs them (RFC 4180).
+std::string csv_field(const std::string& text);
+
 /// "1,234,567"
 std::string grouped(uint64_t number);
 

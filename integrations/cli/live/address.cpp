@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kSchemes[] = {"livelink://", "vmc://"};
 
 uint16_t parse_port(const std::string& option, const std::string& text, const std::string& digits,
-                    bool is_destination) {
+                    bool is_destination, const char* advice) {
   uint32_t port = 0;
   bool good = !digits.empty() && digits.size() <= 5;
   for (const char c : digits) {
@@ -20,8 +20,7 @@ uint16_t parse_port(const std::string& option, const std::string& text, const st
     port = port * 10 + static_cast<uint32_t>(c - '0');
   }
   if (good && port <= 65535 && (port != 0 || !is_destination)) return static_cast<uint16_t>(port);
-  cli::fail_usage(option + " " + text, "the port is not a number up to 65535",
-                  "write it as vmc://127.0.0.1:39539");
+  cli::fail_usage(option + " " + text, "the port is not a number up to 65535", advice);
 }
 
 }  // namespace
@@ -42,7 +41,7 @@ Address parse_address(const std::string& option, const std::string& text, bool i
   address.host = rest.substr(0, colon);
   address.port = colon == std::string::npos
                      ? (is_vmc ? kVmcPort : kLiveLinkPort)
-                     : parse_port(option, text, rest.substr(colon + 1), is_destination);
+                     : parse_port(option, text, rest.substr(colon + 1), is_destination, advice);
   const bool has_odd_bytes = address.host.find_first_not_of(
                                  "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                  "0123456789.-") != std::string::npos;

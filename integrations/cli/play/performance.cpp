@@ -9,6 +9,7 @@
 
 #include "integrations/cli/gltf/arkit_controls.h"
 #include "integrations/cli/io/failure.h"
+#include "integrations/cli/io/frame_rate.h"
 #include "integrations/cli/io/nearest_name.h"
 #include "integrations/cli/io/rig_file.h"
 #include "integrations/cli/io/text.h"
@@ -28,6 +29,8 @@ const NamedValues kSquintControls = {{"eyeSquintLeft", 0.8f},   {"eyeSquintRight
                                      {"eyeSquintInnerL", 0.8f}, {"eyeSquintInnerR", 0.8f},
                                      {"browDownL", 0.7f},       {"browDownR", 0.7f}};
 const char* const kGazeVariables[] = {"gaze.x", "gaze.y", "gaze.z", "head.left", "head.up"};
+const std::vector<std::string> kVariables = {"gaze.x",    "gaze.y",  "gaze.z", "head.left",
+                                             "head.turn", "head.up", "pupil",  "breath"};
 const NamedValues kPupilControls = {{"eyePupilNarrowL", 1}, {"eyePupilNarrowR", 1}};
 
 int64_t ticks_of(double seconds) {
@@ -55,9 +58,20 @@ Performance::Performance(const Script& script, const MienRig* rig, const MienDef
   for (size_t r = 0; r < script.reactions.size(); ++r) add_glare();
   for (const EventScript& event : script.events) {
     if (event.kind == EventKind::kPlay) clip(event.clip.path, event.where);
-    if (event.kind == EventKind::kVariable) lanes_.variable(event.variable);
+    if (event.kind == EventKind::kVariable) add_variable(event.variable);
   }
   make_mix(deformer);
+}
+
+/// One that neither a layer nor a reaction has may be meant for a solver of the host; or it is misspelled.
+void Performance::add_variable(const std::string& name) {
+  const std::vector<std::string>& used = lanes_.variables();
+  const bool known = std::find(used.begin(), used.end(), name) != used.end() ||
+                     std::find(kVariables.begin(), kVariables.end(), name) != kVariables.end();
+  lanes_.variable(name);
+  if (known || name.compare(0, 5, "user.") == 0) return;
+  note(session_, "the variable \"" + one_line(name) + "\" moves nothing; " +
+                     nearest_question(name, kVariables, "variables of your own begin with user."));
 }
 
 const Performance::BoundClip& Performance::clip(const std::string& path, const std::string& where) {
@@ -152,7 +166,7 @@ uint32_t Performance::add_pose(LaneValues values) {
 void Performance::add_layers() {
   for (size_t l = 0; l < script_.layers.size(); ++l) {
     const LayerScript& from = script_.layers[l];
-    const std::string where = script_.shown + ".layers[" + std::to_string(l) + "]";
+    const std::string where = script_.shown + ", layers[" + std::to_string(l) + "]";
     parts_.emplace_back();
     LayerParts& parts = parts_.back();
     MienMixLayer layer = {};
@@ -238,6 +252,9 @@ void Performance::add_glare() {
       of_mixer({{lanes_.variable("gaze.y")}, {-0.4f}}, MIEN_BLEND_MODE_ADD, script_.shown),
       pupils,
       {{lanes_.variable("head.turn")}, {0.3f}}};
+  if (poses[0].lanes.empty() && strokes_.empty()) {
+    note(session_, "the rig has no controls that blink: a glare does not close the eyes");
+  }
   const uint32_t first = add_pose(poses[0]);
   for (size_t i = 1; i < std::size(poses); ++i) add_pose(poses[i]);
   strokes_.emplace_back(std::size(poses));
@@ -316,9 +333,16 @@ void Performance::play(uint32_t layer, const ClipScript& what, uint32_t transiti
   desc.transition = transition;
   desc.transition_ticks = ticks_of(duration);
   if (what.loop) desc.looping = *what.loop ? MIEN_LOOPING_WRAP : MIEN_LOOPING_CLAMP;
-  constexpr int32_t kDenominator = 1000;
-  desc.speed_numerator = static_cast<int32_t>(std::lround(what.speed * kDenominator));
-  desc.speed_denominator = kDenominator;
+  // 0.3333333 is a third, so that loops keep step.
+  const double speed = std::abs(what.speed);
+  if (speed < 1e-6) {
+    desc.speed_numerator = 0;
+    desc.speed_denominator = 1;
+  } else {
+    const Rate fraction = nearest_rate(speed, 1e-7);
+    desc.speed_numerator = static_cast<int32_t>(fraction.numerator) * (what.speed < 0 ? -1 : 1);
+    desc.speed_denominator = static_cast<int32_t>(fraction.denominator);
+  }
   auto error = sized<MienError>();
   checked(mien_mixer_play(mixer_.get(), layer, bound.file.clip.get(), bound.binding.get(), &desc,
                           &error),
@@ -334,7 +358,7 @@ void Performance::start() {
   }
   for (uint32_t l = 0; l < script_.layers.size(); ++l) {
     const LayerScript& layer = script_.layers[l];
-    const std::string where = script_.shown + ".layers[" + std::to_string(l) + "]";
+    const std::string where = script_.shown + ", layers[" + std::to_string(l) + "]";
     if (layer.source == MIEN_LAYER_SOURCE_CLIP) play(l, layer.clip, MIEN_TRANSITION_CUT, 0, where);
     EventScript weights;
     weights.kind = EventKind::kWeights;

@@ -91,6 +91,7 @@ class Performance {
   uint32_t add_pose(LaneValues values);
   LaneValues of_mixer(LaneValues values, uint32_t mode, const std::string& where) const;
   float of_scene(size_t lane, float value) const;
+  void add_variable(const std::string& name);
   void find_eyes(const MienDeformer* deformer);
   void add_layers();
   void add_glare();

@@ -8,6 +8,7 @@
 #include "integrations/cli/io/failure.h"
 #include "integrations/cli/io/frame_rate.h"
 #include "integrations/cli/io/json_writer.h"
+#include "integrations/cli/io/text.h"
 #include "integrations/cli/play/lanes_svg.h"
 
 namespace mien::cli {
@@ -147,7 +148,7 @@ void write_json(const std::string& rig_name, const Performance& performance,
 void write_csv(const Performance& performance, const Recording& recording, Output& output) {
   const RigLanes& lanes = performance.lanes();
   std::string text = "time";
-  for (const std::string& name : lanes.controls()) text += "," + name;
+  for (const std::string& name : lanes.controls()) text += "," + csv_field(name);
   text += "\n";
   char digits[64];
   const auto append = [&](auto number) {

@@ -15,6 +15,7 @@ namespace mien::cli {
 namespace {
 
 constexpr const char* kCannot = "cannot play scene";
+constexpr const char* kHowToList = "'mien info RIG --names raw' lists the names";
 
 std::string in_small_letters(std::string_view word) {
   std::string small(word);
@@ -33,18 +34,20 @@ RigLanes::RigLanes(const MienRig* rig) {
   for (uint32_t i = 0; i < rig_count(rig, MIEN_KIND_RAW_CONTROL); ++i) {
     controls_.push_back(rig_name(rig, MIEN_KIND_RAW_CONTROL, i));
     by_name_.emplace(controls_.back(), i);
-    by_short_name_.emplace(in_small_letters(short_name(controls_.back())), i);
+    by_short_name_[in_small_letters(short_name(controls_.back()))].push_back(i);
   }
 }
 
-bool RigLanes::find_control(const std::string& name, size_t& index) const {
-  auto found = by_name_.find(name);
-  if (found == by_name_.end()) {
-    found = by_short_name_.find(in_small_letters(name));
-    if (found == by_short_name_.end()) return false;
+std::vector<size_t> RigLanes::find_controls(const std::string& name) const {
+  const auto whole = by_name_.find(name);
+  if (whole != by_name_.end()) return {whole->second};
+  const auto found = by_short_name_.find(in_small_letters(name));
+  if (found == by_short_name_.end()) return {};
+  std::vector<size_t> exact;
+  for (const size_t i : found->second) {
+    if (short_name(controls_[i]) == name) exact.push_back(i);
   }
-  index = found->second;
-  return true;
+  return exact.empty() ? found->second : exact;
 }
 
 uint16_t RigLanes::variable(const std::string& name) {
@@ -55,11 +58,17 @@ uint16_t RigLanes::variable(const std::string& name) {
 }
 
 uint16_t RigLanes::lane(const std::string& name, const std::string& where) {
-  size_t index = 0;
-  if (find_control(name, index)) return static_cast<uint16_t>(index);
+  const std::vector<size_t> found = find_controls(name);
+  if (found.size() > 1) {
+    fail(kInvalid, kCannot, where,
+         "\"" + one_line(name) + "\" is ambiguous: " + controls_[found[0]] + " or " +
+             controls_[found[1]],
+         "give the full name");
+  }
+  if (!found.empty()) return static_cast<uint16_t>(found[0]);
   if (is_variable_name(name)) return variable(name);
   fail(kInvalid, kCannot, where, "no raw control is named \"" + one_line(name) + "\"",
-       nearest_question(name, controls_, "'mien info RIG --names raw' lists the names"));
+       nearest_question(name, controls_, kHowToList));
 }
 
 LaneValues RigLanes::lanes(const NamedValues& values, const std::string& where) {
@@ -71,7 +80,7 @@ LaneValues RigLanes::lanes(const NamedValues& values, const std::string& where) 
     if (!found.lanes.empty() && found.lanes.back() == lane) {
       const size_t variable = lane - std::min<size_t>(lane, controls_.size());
       const std::string& name = lane < controls_.size() ? controls_[lane] : variables_[variable];
-      fail(kInvalid, kCannot, where, "\"" + name + "\" is there twice", "leave one of them out");
+      fail(kInvalid, kCannot, where, "\"" + name + "\" is listed twice", "leave one of them out");
     }
     found.lanes.push_back(lane);
     found.values.push_back(value);
@@ -81,9 +90,9 @@ LaneValues RigLanes::lanes(const NamedValues& values, const std::string& where) 
 
 LaneValues RigLanes::present(const NamedValues& values) const {
   std::vector<std::pair<uint16_t, float>> sorted;
-  size_t index = 0;
   for (const auto& [name, value] : values) {
-    if (find_control(name, index)) sorted.emplace_back(static_cast<uint16_t>(index), value);
+    const std::vector<size_t> found = find_controls(name);
+    if (!found.empty()) sorted.emplace_back(static_cast<uint16_t>(found[0]), value);
   }
   std::sort(sorted.begin(), sorted.end());
   LaneValues found;
@@ -104,6 +113,15 @@ HeadPose RigLanes::head(const float* row) const {
   return head;
 }
 
+std::vector<std::string> RigLanes::as_patterns(const std::string& pattern) const {
+  if (pattern.empty() || pattern.find('*') + 1 != pattern.size()) return controls_;
+  std::vector<std::string> beginnings;
+  for (const std::string& name : controls_) {
+    beginnings.push_back(std::string(short_name(name).substr(0, pattern.size() - 1)) + "*");
+  }
+  return beginnings;
+}
+
 std::vector<float> RigLanes::mask(const std::vector<std::string>& patterns, bool invert,
                                   const std::string& where) const {
   std::vector<float> mask(controls_.size(), invert ? 1.0f : 0.0f);
@@ -116,7 +134,7 @@ std::vector<float> RigLanes::mask(const std::vector<std::string>& patterns, bool
     }
     if (matches) continue;
     fail(kInvalid, kCannot, where, "no raw control matches \"" + one_line(pattern) + "\"",
-         nearest_question(pattern, controls_, "'mien info RIG --names raw' lists the names"));
+         nearest_question(pattern, as_patterns(pattern), kHowToList));
   }
   return mask;
 }

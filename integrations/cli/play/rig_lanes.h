@@ -40,11 +40,14 @@ class RigLanes {
                           const std::string& where) const;
 
  private:
-  bool find_control(const std::string& name, size_t& index) const;
+  /// The raw controls that a name can mean; several if it is ambiguous.
+  std::vector<size_t> find_controls(const std::string& name) const;
+  /// Names like a pattern: if it ends with its only *, beginnings of the same length.
+  std::vector<std::string> as_patterns(const std::string& pattern) const;
 
   std::vector<std::string> controls_, variables_;
-  // By name, and by short name in small letters; the first of equal ones.
-  std::map<std::string, size_t> by_name_, by_short_name_;
+  std::map<std::string, size_t> by_name_;
+  std::map<std::string, std::vector<size_t>> by_short_name_;  // in small letters
 };
 
 }  // namespace mien::cli

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "integrations/cli/io/failure.h"
+#include "integrations/cli/io/json_check.h"
 #include "integrations/cli/io/nearest_name.h"
 #include "integrations/cli/io/text.h"
 
@@ -29,6 +30,7 @@ const Words kGuards = {"lips", "lids", "teeth"};
 struct Node {
   const json& value;
   std::string where;
+  const char* separator = ".";  // between `where` and a key
 
   [[noreturn]] void wrong(const std::string& why, const std::string& what_to_do) const {
     fail(kInvalid, kCannot, where, why, what_to_do);
@@ -50,7 +52,7 @@ struct Node {
   Node at(const std::string& key) const {
     const auto found = value.find(key);
     if (found == value.end()) wrong("there is no \"" + key + "\"", "add it");
-    return {*found, where + "." + key};
+    return {*found, where + separator + key};
   }
   Node at(size_t index) const { return {value[index], where + "[" + std::to_string(index) + "]"}; }
   size_t count() const {
@@ -80,6 +82,7 @@ struct Node {
     const std::string found = text();
     const auto place = std::find(words.begin(), words.end(), found);
     if (place != words.end()) return static_cast<uint32_t>(place - words.begin());
+    if (words.empty()) wrong("\"" + one_line(found) + "\" is not in the scene", "add it");
     wrong("\"" + one_line(found) + "\" is not one of " + list_of(words, "and"),
           nearest_question(found, words, "choose one of them"));
   }
@@ -108,7 +111,8 @@ ClipScript read_clip(const Node& node) {
 void read_poses(const Node& source, LayerScript& layer) {
   source.require_object({"poses", "weights"});
   const Node poses = source.at("poses");
-  if (!poses.value.is_object() || poses.value.empty()) poses.not_a("an object of poses");
+  if (!poses.value.is_object()) poses.not_a("an object of poses");
+  if (poses.value.empty()) poses.wrong("there are no poses", "add {NAME: {CONTROL: value}}");
   for (const auto& [name, values] : poses.value.items()) {
     layer.poses.push_back({name, read_values({values, poses.where + "." + name})});
   }
@@ -124,7 +128,8 @@ void read_generator(const Node& source, LayerScript& layer) {
     if (source.has("jitter")) layer.jitter = static_cast<float>(source.at("jitter").number(0, 5));
     if (!source.has("eyes")) return;
     const Node eyes = source.at("eyes");
-    if (eyes.count() != 2) eyes.wrong("these are not two", "name the joints of left and right eye");
+    if (eyes.count() != 2)
+      eyes.wrong("there must be two names", "name the joints of the left and the right eye");
     for (size_t i = 0; i < 2; ++i) layer.eyes.push_back(eyes.at(i).text());
     return;
   }
@@ -166,10 +171,11 @@ LayerScript read_layer(const Node& node) {
     read_generator(source, layer);
   } else if (source.has("live")) {
     source.require_object({"live"});
-    if (!source.at("live").truth()) source.at("live").wrong("it is false", "write true");
+    if (!source.at("live").truth()) source.at("live").wrong("it must be true", "write true");
     layer.source = MIEN_LAYER_SOURCE_STREAM;
   } else {
-    source.wrong("this is no source", "give a clip, poses, a generator or \"live\": true");
+    source.require_object({"clip", "poses", "generator", "live"});
+    source.wrong("it names no source", "give a clip, poses, a generator or \"live\": true");
   }
   return layer;
 }
@@ -192,7 +198,7 @@ void read_layer_event(const Script& script, const Node& node, EventScript& event
   } else if (node.has("stop")) {
     node.require_object({"time", "layer", "stop", "fade"});
     event.kind = EventKind::kStop;
-    if (!node.at("stop").truth()) node.at("stop").wrong("it is false", "write true");
+    if (!node.at("stop").truth()) node.at("stop").wrong("it must be true", "write true");
   } else if (node.has("weights")) {
     node.require_object({"time", "layer", "weights", "fade"});
     event.kind = EventKind::kWeights;
@@ -233,8 +239,10 @@ EventScript read_event(const Script& script, const Node& node) {
     event.kind = EventKind::kVariable;
     event.variable = node.at("variable").text();
     event.weight = node.at("value").single();
-  } else {
+  } else if (node.has("layer")) {
     read_layer_event(script, node, event);
+  } else {
+    node.wrong("it does not say what happens", "add a layer, trigger, level or variable");
   }
   return event;
 }
@@ -245,8 +253,7 @@ void read_list(const Node& root, const char* key, size_t most, std::vector<Item>
   if (!root.has(key)) return;
   const Node list = root.at(key);
   if (list.count() > most) {
-    list.wrong("there are " + std::to_string(list.count()),
-               "give " + std::to_string(most) + " at most");
+    list.wrong("there are " + std::to_string(list.count()), "give at most " + std::to_string(most));
   }
   for (size_t i = 0; i < list.count(); ++i) out.push_back(read(list.at(i)));
 }
@@ -255,22 +262,16 @@ void refuse_same_names(const Node& root, const char* key, Words names) {
   std::sort(names.begin(), names.end());
   const auto twice = std::adjacent_find(names.begin(), names.end());
   if (twice == names.end()) return;
-  root.at(key).wrong("\"" + one_line(*twice) + "\" is there twice", "give each a name of its own");
+  root.at(key).wrong("two of them are named \"" + one_line(*twice) + "\"",
+                     "give each its own name");
 }
 
 }  // namespace
 
 Script parse_script(const std::string& text, const std::string& shown, bool live) {
-  json document;
-  try {
-    document = json::parse(text);
-  } catch (const json::exception& error) {
-    const std::string message = error.what();
-    const size_t tag = message.find("] ");
-    fail(kInvalid, kCannot, shown, tag == std::string::npos ? message : message.substr(tag + 2),
-         "give one JSON object; see 'mien help play'");
-  }
-  const Node root = {document, shown};
+  const json document =
+      parse_json<json>(text, kCannot, shown, "give one JSON object; see 'mien help play'");
+  const Node root = {document, shown, ", "};
   root.require_object({"rate", "seconds", "seed", "layers", "guards", "antagonists", "limits",
                        "reactions", "events"});
   Script script;
@@ -278,7 +279,9 @@ Script parse_script(const std::string& text, const std::string& shown, bool live
   if (root.has("rate")) script.rate = root.at("rate").number(1.0 / 6, 10000);
   if (root.has("seconds")) script.seconds = root.at("seconds").seconds();
   if (root.has("seed")) {
-    if (!root.at("seed").value.is_number_unsigned()) root.at("seed").not_a("a whole number");
+    if (!root.at("seed").value.is_number_unsigned())
+      root.at("seed").wrong("it is " + root.at("seed").value.dump(),
+                            "give a whole number, 0 or more");
     script.seed = root.at("seed").value.get<uint64_t>();
   }
   if (root.has("antagonists")) script.antagonists = root.at("antagonists").truth();
@@ -291,16 +294,16 @@ Script parse_script(const std::string& text, const std::string& shown, bool live
   const auto is_live = [](const LayerScript& l) { return l.source == MIEN_LAYER_SOURCE_STREAM; };
   const auto lives = std::count_if(script.layers.begin(), script.layers.end(), is_live);
   if (lives != 0 && !live) {
-    root.at("layers").wrong("one of them is live, and there is no live source",
+    root.at("layers").wrong("one of them is live, but nothing is received",
                             "add --live livelink://:11111 or --live vmc://:39539");
   }
-  if (lives > 1) root.at("layers").wrong("several are live", "leave one of them");
+  if (lives > 1) root.at("layers").wrong("several are live", "keep one of them");
   if (std::count_if(script.layers.begin(), script.layers.end(), is_gaze) > 1) {
-    root.at("layers").wrong("several turn the eyes", "leave one of them");
+    root.at("layers").wrong("several turn the eyes", "keep one of them");
   }
   if (lives == 0 && live) {
     if (script.layers.size() == 16) {
-      root.at("layers").wrong("there is no room for the live layer", "leave one out");
+      root.at("layers").wrong("there are 16 already, and --live adds one", "leave one out");
     }
     LayerScript added;
     added.name = "live";
