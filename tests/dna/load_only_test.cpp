@@ -239,13 +239,16 @@ TEST(LoadOnlyDeathTest, AForbiddenLayerThatIsChosenFaults) {
   const SpreadFile spread;
   for (const SpreadFile::Place& place : spread.places) {
     if (place.code == "abcd") continue;
+    // Compilers for some CPUs read the bytes of a number one by one, in any order.
+    std::string first = std::to_string(place.begin);
+    for (size_t i = 1; i < 4; ++i) first += "|" + std::to_string(place.begin + i);
     EXPECT_EXIT(
         {
           GuardedFile file(spread.bytes);
           file.forbid(place.begin, place.end);
           file.open(MIEN_LAYER_ALL);
         },
-        testing::ExitedWithCode(1), "touched byte " + std::to_string(place.begin) + " ")
+        testing::ExitedWithCode(1), "touched byte (" + first + ") ")
         << place.code;
   }
 }
