@@ -270,7 +270,7 @@ MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc, MienMix*
   MixDesc mix;
   mix.kernels = of.kernels;
   mix.raw_count = of.raw_count;
-  mix.names = &of.names[static_cast<size_t>(Kind::kRawControl)];
+  mix.names = of.names[static_cast<size_t>(Kind::kRawControl)];
   mix.variable_count = known.variable_count;
   const size_t lanes = size_t{of.raw_count} + known.variable_count;
   mix.layers = lists.layers;

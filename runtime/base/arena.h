@@ -136,4 +136,39 @@ class Placer {
   size_t used_ = 0;
 };
 
+/// Bytes of an object and its arrays in one block; `place(placer, object)` places the arrays.
+template <class T, class Place>
+size_t block_bytes(Place place) {
+  T measured;
+  Placer measure(nullptr);
+  measure.unwritten_array<T>(1);
+  place(measure, measured);
+  return measure.size();
+}
+
+/// Creates an object that has an `allocator` and a `block_size`, to be given back by release_block(). Null
+/// if memory ran out.
+template <class T, class Place>
+T* create_block(const Allocator& allocator, Place place) {
+  const size_t size = block_bytes<T>(place);
+  void* block = allocator.get(size, kBlockAlignment);
+  if (!block) return nullptr;
+  T* object = new (block) T;
+  object->allocator = allocator;
+  object->block_size = size;
+  Placer placer(block);
+  placer.unwritten_array<T>(1);
+  place(placer, *object);
+  return object;
+}
+
+template <class T>
+void release_block(T* object) {
+  if (!object) return;
+  const Allocator allocator = object->allocator;
+  const size_t size = object->block_size;
+  object->~T();
+  allocator.put(object, size, kBlockAlignment);
+}
+
 }  // namespace mien

@@ -27,13 +27,13 @@ float smooth_at(int64_t ticks, int64_t of) {
   return ticks <= 0 ? 0.0f : ticks >= of ? 1.0f : smooth(fraction_of(ticks, of));
 }
 
-int64_t interval(const MixLayer& layer, uint64_t seed, uint32_t stream, uint32_t index) {
+int64_t interval(const LayerDesc& layer, uint64_t seed, uint32_t stream, uint32_t index) {
   const int64_t range = layer.period > kBlinkGap ? 2 * (layer.period - kBlinkGap) : 0;
   return kBlinkGap + static_cast<int64_t>(static_cast<double>(range) *
                                           static_cast<double>(random_at(seed, stream, index)));
 }
 
-void blink(const MixLayer& layer, uint64_t seed, uint32_t stream, int64_t now, int64_t shift,
+void blink(const LayerDesc& layer, uint64_t seed, uint32_t stream, int64_t now, int64_t shift,
            const float* row, GeneratorState& state, float* out) {
   if (state.next == 0) state.next = interval(layer, seed, stream, 0);
   if (now < state.next && shift != kNoShift && shift < state.next) {
@@ -61,7 +61,7 @@ void blink(const MixLayer& layer, uint64_t seed, uint32_t stream, int64_t now, i
 
 }  // namespace
 
-void generate(const MixLayer& layer, uint64_t seed, uint32_t stream, int64_t now, int64_t shift,
+void generate(const LayerDesc& layer, uint64_t seed, uint32_t stream, int64_t now, int64_t shift,
               const float* row, GeneratorState& state, float* out) {
   if (layer.lanes.empty()) return;
   switch (layer.generator) {
@@ -127,7 +127,7 @@ void start_saccade(const GazeTable& table, const float* target, int64_t now, Gaz
 
 }  // namespace
 
-void generate_gaze(const GazeTable& table, const MixLayer& layer, uint64_t seed, uint32_t stream,
+void generate_gaze(const GazeTable& table, const LayerDesc& layer, uint64_t seed, uint32_t stream,
                    int64_t now, int64_t ticks, const float* row, GazeState& state, float* scratch,
                    float* out) {
   float target[3];

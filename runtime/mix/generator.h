@@ -23,7 +23,7 @@ struct GeneratorState {
 /// kNoise: smooth between -1 and 1; each lane has a new random number every period.
 /// `shift` is when the eyes last began a large turn (GazeState::large_shift). A blink begins with it if
 /// the last one began 0.5 s before or earlier.
-void generate(const MixLayer& layer, uint64_t seed, uint32_t stream, int64_t now, int64_t shift,
+void generate(const LayerDesc& layer, uint64_t seed, uint32_t stream, int64_t now, int64_t shift,
               const float* row, GeneratorState& state, float* out);
 
 constexpr float kBlinkSeen = 0.6f;
@@ -43,7 +43,7 @@ struct GazeState {
 /// kGaze: the eyes pursue a target that moves by less than kPursuitSpeed. Otherwise they make a saccade to
 /// it, which takes 21 ms plus 2.2 ms per degree and does not change its goal on the way. `out` gets values
 /// for Mix::gaze_lanes; `scratch` has as many lanes as a row.
-void generate_gaze(const GazeTable& table, const MixLayer& layer, uint64_t seed, uint32_t stream,
+void generate_gaze(const GazeTable& table, const LayerDesc& layer, uint64_t seed, uint32_t stream,
                    int64_t now, int64_t ticks, const float* row, GazeState& state, float* scratch,
                    float* out);
 

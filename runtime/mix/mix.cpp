@@ -40,8 +40,8 @@ Status check_lane_list(const MixDesc& desc, Span<const uint16_t> list, bool once
     uint64_t& word = seen[lane / 64];
     const uint64_t bit = uint64_t{1} << lane % 64;
     if (once && (word & bit) != 0) {
-      const bool named = desc.names && lane < desc.raw_count;
-      const Span<const char> name = named ? (*desc.names)[lane] : Span<char>{};
+      const bool named = lane < desc.names.count();
+      const Span<const char> name = named ? desc.names[lane] : Span<char>{};
       return fail(error, Status::kInvalidArgument, kNoOffset,
                   "%s %zu: .lanes[%zu] is %u%s%.*s, which it lists twice", of, index, i, lane,
                   named ? ", " : "", static_cast<int>(name.count), name.data ? name.data : "");
@@ -297,157 +297,144 @@ Status check_lanes(const MixDesc& desc, uint32_t lanes, Error& error) {
   return Status::kOk;
 }
 
-void place_mix(Placer& placer, const MixDesc& desc, Mix& mix) {
-  placer.unwritten_array<Mix>(1);
-  mix.layers = placer.array<MixLayer>(desc.layers.count);
-  for (size_t i = 0; i < desc.layers.count; ++i) {
-    const Span<float> mask = placer.array<float>(mix.lane_count, kBlockAlignment);
-    const Span<uint16_t> lanes = placer.array<uint16_t>(desc.layers[i].lanes.count);
-    const Span<float> amounts = placer.array<float>(desc.layers[i].amounts.count);
-    if (placer.measuring()) continue;
-    mix.layers[i].mask = mask;
-    mix.layers[i].lanes = lanes;
-    mix.layers[i].amounts = amounts;
+/// Copies a list, and with `keep_parts` what its elements refer to. While measuring, only takes the room.
+template <class T, class KeepParts>
+void keep(Placer& placer, Span<T>& list, KeepParts keep_parts) {
+  const auto copy = placer.array<std::remove_const_t<T>>(list.count);
+  for (size_t i = 0; i < list.count; ++i) {
+    auto item = list[i];
+    keep_parts(item);
+    if (!placer.measuring()) copy[i] = item;
   }
-  size_t values = 0;
-  for (const PoseDesc& pose : desc.poses) values += pose.lanes.count;
-  mix.pose_ends = placer.array<uint32_t>(desc.poses.count);
-  mix.pose_rows = placer.array<Span<float>>(desc.poses.count);
-  for (size_t i = 0; i < desc.poses.count; ++i) {
-    if (desc.poses[i].lanes.count * 2 < mix.lane_count) continue;
-    const Span<float> row = placer.array<float>(mix.lane_count, kBlockAlignment);
-    if (!placer.measuring()) mix.pose_rows[i] = row;
-  }
-  mix.pose_lanes = placer.array<uint16_t>(values);
-  mix.pose_values = placer.array<float>(values);
-  size_t strokes = 0;
-  for (const ReactionDesc& reaction : desc.reactions) strokes += reaction.strokes.count;
-  mix.reactions = placer.array<Reaction>(desc.reactions.count);
-  mix.strokes = placer.array<Stroke>(strokes);
-  size_t guarded = 0;
-  for (const Guard& guard : desc.guards) guarded += guard.count;
-  mix.guards = placer.array<Guard>(desc.guards.count);
-  mix.guarded = placer.array<uint16_t>(guarded);
-  mix.placed_guards = placer.array<PlacedGuard>(desc.guards.count);
-  mix.antagonists = placer.array<AntagonistPair>(desc.antagonists.count);
-  for (const LayerDesc& layer : desc.layers) {
-    if (!is_gaze(layer)) continue;
-    mix.gaze_lanes = placer.array<uint16_t>(8 + layer.lanes.count - 3);
-  }
-  mix.mirror = placer.array<uint16_t>(desc.mirror.count);
-  mix.lower = placer.array<float>(mix.lane_count, kBlockAlignment);
-  mix.upper = placer.array<float>(mix.lane_count, kBlockAlignment);
-  if (!desc.names) return;
-  mix.names.first = placer.array<uint32_t>(desc.names->first.count);
-  mix.names.chars = placer.array<char>(desc.names->chars.count);
+  if (!placer.measuring()) list = copy;
 }
 
 template <class T>
-void copy_items(Span<const T> from, Span<T> to) {
-  if (!from.empty()) memcpy(static_cast<void*>(to.data), from.data, from.count * sizeof(T));
+void keep(Placer& placer, Span<T>& list) {
+  keep(placer, list, [](const T&) {});
 }
 
-void fill_gaze(const MixDesc& desc, const LayerDesc& layer, Mix& mix) {
-  mix.has_gaze = true;
-  mix.gaze = *desc.gaze;
-  for (uint32_t i = 0; i < 8; ++i) mix.gaze_lanes[i] = mix.gaze.eyes[i / 4].lanes[i % 4];
-  for (size_t i = 3; i < layer.lanes.count; ++i) mix.gaze_lanes[5 + i] = layer.lanes[i];
-}
-
-void fill_layers(const MixDesc& desc, Mix& mix) {
-  for (size_t i = 0; i < desc.layers.count; ++i) {
-    const LayerDesc& from = desc.layers[i];
-    MixLayer& layer = mix.layers[i];
-    layer.group = from.group;
-    layer.mode = from.mode;
-    layer.source = from.source;
-    layer.flags = from.flags;
-    layer.weight = from.weight;
-    layer.first_pose = from.first_pose;
-    layer.pose_count = from.source == LayerSource::kPoses ? from.pose_count : 0;
-    layer.first_fade = mix.fade_count;
-    mix.fade_count += layer.pose_count;
-    layer.generator = from.generator;
-    layer.period = from.period;
-    layer.delay = from.delay;
-    layer.stream_frames = from.stream_frames;
-    copy_items(from.lanes, layer.lanes);
-    copy_items(from.amounts, layer.amounts);
-    layer.has_mask = !from.mask.empty();
-    const auto mask_of = [&](uint32_t lane) {
-      return from.mask.empty() ? 1.0f : lane < from.mask.count ? from.mask[lane] : 0.0f;
-    };
-    if (layer.source == LayerSource::kPoses) {
-      // Lanes that no pose has are left alone.
-      for (const PoseDesc& pose : desc.poses.slice(layer.first_pose, layer.pose_count)) {
-        for (uint16_t lane : pose.lanes) layer.mask[lane] = mask_of(lane);
-      }
-    } else if (layer.source == LayerSource::kClip) {
-      for (uint32_t l = 0; l < mix.raw_count; ++l) layer.mask[l] = mask_of(l);
-    } else if (is_gaze(from)) {
-      fill_gaze(desc, from, mix);
-      for (uint16_t lane : mix.gaze_lanes) layer.mask[lane] = mask_of(lane);
-    } else {
-      for (uint16_t lane : from.lanes) layer.mask[lane] = mask_of(lane);
+/// The mask where the source of a layer can have values; other lanes stay 0.
+void fill_mask(const Mix& mix, const LayerDesc& layer, Span<float> row) {
+  const auto fill = [&](size_t lane) {
+    row[lane] = layer.mask.empty() ? 1.0f : lane < layer.mask.count ? layer.mask[lane] : 0.0f;
+  };
+  if (layer.source == LayerSource::kClip) {
+    for (uint32_t l = 0; l < mix.raw_count; ++l) fill(l);
+  } else if (layer.source == LayerSource::kPoses) {
+    for (const PoseDesc& pose : mix.poses.slice(layer.first_pose, layer.pose_count)) {
+      for (uint16_t lane : pose.lanes) fill(lane);
     }
-    if (is_protected(layer.group)) mix.first_unprotected = static_cast<uint32_t>(i + 1);
-    if (layer.group != LayerGroup::kLife && layer.flags == 0) {
-      mix.first_after_reactions = static_cast<uint32_t>(i + 1);
-    }
+  } else {
+    const Span<const uint16_t> lanes = is_gaze(layer) ? mix.gaze_lanes : layer.lanes;
+    for (uint16_t lane : lanes) fill(lane);
   }
 }
 
-void fill_guards(const MixDesc& desc, Mix& mix) {
-  copy_items(desc.guards, mix.guards);
-  mix.guarded.count = list_guarded_lanes(desc.guards, mix.guarded.data);
+void place_gaze(Placer& placer, Mix& mix) {
+  const GazeTable* const table = mix.gaze;
+  mix.gaze = nullptr;
+  for (const LayerDesc& layer : mix.layers) {
+    if (!is_gaze(layer)) continue;
+    const Span<GazeTable> copy = placer.array<GazeTable>(1);
+    mix.gaze_lanes = placer.array<uint16_t>(8 + layer.lanes.count - 3);
+    if (placer.measuring()) return;
+    copy[0] = *table;
+    mix.gaze = copy.data;
+    for (uint32_t i = 0; i < 8; ++i) mix.gaze_lanes[i] = table->eyes[i / 4].lanes[i % 4];
+    for (size_t i = 3; i < layer.lanes.count; ++i) mix.gaze_lanes[5 + i] = layer.lanes[i];
+  }
+}
+
+void place_layers(Placer& placer, Mix& mix) {
+  mix.mask_rows = placer.array<Span<float>>(mix.layers.count);
+  mix.first_fades = placer.array<uint32_t>(mix.layers.count);
+  uint32_t i = 0;
+  keep(placer, mix.layers, [&](LayerDesc& layer) {
+    keep(placer, layer.lanes);
+    keep(placer, layer.amounts);
+    if (layer.source != LayerSource::kPoses) layer.pose_count = 0;
+    const Span<float> mask = placer.array<float>(mix.lane_count, kBlockAlignment);
+    if (!placer.measuring()) {
+      fill_mask(mix, layer, mask);
+      if (!layer.mask.empty()) layer.mask = mask.first(mix.used_lanes());
+      mix.mask_rows[i] = mask;
+      mix.first_fades[i] = mix.fade_count;
+    }
+    mix.fade_count += layer.pose_count;
+    ++i;
+    if (is_protected(layer.group)) mix.first_unprotected = i;
+    if (layer.group != LayerGroup::kLife && layer.flags == 0) mix.first_after_reactions = i;
+  });
+}
+
+void place_poses(Placer& placer, Mix& mix) {
+  mix.pose_rows = placer.array<Span<float>>(mix.poses.count);
+  uint32_t i = 0;
+  keep(placer, mix.poses, [&](PoseDesc& pose) {
+    keep(placer, pose.lanes);
+    keep(placer, pose.values);
+    const uint32_t number = i++;
+    if (pose.lanes.count * 2 < mix.lane_count) return;
+    const Span<float> row = placer.array<float>(mix.lane_count, kBlockAlignment);
+    if (placer.measuring()) return;
+    for (size_t k = 0; k < pose.lanes.count; ++k) row[pose.lanes[k]] = pose.values[k];
+    mix.pose_rows[number] = row;
+  });
+}
+
+void place_reactions(Placer& placer, Mix& mix) {
+  mix.first_strokes = placer.array<uint32_t>(mix.reactions.count);
+  uint32_t i = 0;
+  keep(placer, mix.reactions, [&](ReactionDesc& reaction) {
+    keep(placer, reaction.strokes);
+    if (!placer.measuring()) mix.first_strokes[i++] = mix.stroke_count;
+    mix.stroke_count += static_cast<uint32_t>(reaction.strokes.count);
+  });
+}
+
+void place_guards(Placer& placer, Mix& mix) {
+  size_t most = 0;
+  for (const Guard& guard : mix.guards) most += guard.count;
+  keep(placer, mix.guards);
+  mix.guarded = placer.array<uint16_t>(most);
+  mix.placed_guards = placer.array<PlacedGuard>(mix.guards.count);
+  if (placer.measuring()) return;
+  mix.guarded.count = list_guarded_lanes(mix.guards, mix.guarded.data);
   for (size_t g = 0; g < mix.guards.count; ++g) {
     place_guard(mix.guards[g], mix.guarded, mix.placed_guards[g]);
   }
 }
 
-void fill_mix(const MixDesc& desc, Mix& mix) {
-  fill_layers(desc, mix);
-  uint32_t end = 0;
-  for (size_t i = 0; i < desc.poses.count; ++i) {
-    const PoseDesc& pose = desc.poses[i];
-    copy_items(pose.lanes, mix.pose_lanes.slice(end, pose.lanes.count));
-    copy_items(pose.values, mix.pose_values.slice(end, pose.values.count));
-    mix.pose_ends[i] = end += static_cast<uint32_t>(pose.lanes.count);
-    if (mix.pose_rows[i].empty()) continue;
-    for (size_t k = 0; k < pose.lanes.count; ++k) {
-      mix.pose_rows[i][pose.lanes[k]] = pose.values[k];
-    }
-  }
-  uint32_t stroke = 0;
-  for (size_t i = 0; i < desc.reactions.count; ++i) {
-    const ReactionDesc& from = desc.reactions[i];
-    const auto count = static_cast<uint32_t>(from.strokes.count);
-    copy_items(from.strokes, mix.strokes.slice(stroke, count));
-    mix.reactions[i] = {stroke,
-                        stroke + count,
-                        from.retrigger,
-                        from.after_guards,
-                        {},
-                        from.adapted,
-                        from.level_on,
-                        from.level_off,
-                        from.cooldown,
-                        from.adapt_ticks,
-                        from.recover_ticks};
-    stroke += count;
-  }
-  fill_guards(desc, mix);
-  copy_items(desc.antagonists, mix.antagonists);
-  copy_items(desc.mirror, mix.mirror);
-  if (desc.names) {
-    copy_items(Span<const uint32_t>(desc.names->first), mix.names.first);
-    copy_items(Span<const char>(desc.names->chars), mix.names.chars);
-  }
-  mix.has_limits = !desc.lower.empty();
+void place_limits(Placer& placer, Mix& mix) {
+  mix.lower_row = placer.array<float>(mix.lane_count, kBlockAlignment);
+  mix.upper_row = placer.array<float>(mix.lane_count, kBlockAlignment);
+  if (placer.measuring()) return;
+  const bool limited = !mix.lower.empty();
   for (uint32_t l = 0; l < mix.used_lanes(); ++l) {
-    mix.lower[l] = desc.lower.empty() ? -kLargestFloat : desc.lower[l];
-    mix.upper[l] = desc.upper.empty() ? kLargestFloat : desc.upper[l];
+    mix.lower_row[l] = limited ? mix.lower[l] : -kLargestFloat;
+    mix.upper_row[l] = limited ? mix.upper[l] : kLargestFloat;
   }
+  if (!limited) return;
+  mix.lower = mix.lower_row.first(mix.used_lanes());
+  mix.upper = mix.upper_row.first(mix.used_lanes());
+}
+
+void place_mix(Placer& placer, const MixDesc& desc, Mix& mix) {
+  static_cast<MixDesc&>(mix) = desc;
+  mix.lane_count = static_cast<uint32_t>(align_up(mix.used_lanes(), kLaneStep));
+  place_gaze(placer, mix);
+  place_poses(placer, mix);
+  place_layers(placer, mix);  // their masks depend on gaze and poses
+  place_reactions(placer, mix);
+  place_guards(placer, mix);
+  place_limits(placer, mix);
+  keep(placer, mix.antagonists);
+  keep(placer, mix.mirror);
+  keep(placer, mix.names.first);
+  keep(placer, mix.names.chars);
+  mix.names.sorted = {};
+  if (!mix.kernels) mix.kernels = kernels_for(Isa::kBest);
 }
 
 /// FNV-1a
@@ -459,11 +446,11 @@ uint64_t hash_numbers(uint64_t hash, std::initializer_list<uint64_t> numbers) {
 }
 
 uint64_t fingerprint(const Mix& mix) {
-  uint64_t hash =
-      hash_numbers(0xCBF29CE484222325u, {mix.raw_count, mix.variable_count, mix.player_count,
-                                         mix.guards.count, mix.guarded.count, mix.layers.count,
-                                         mix.reactions.count, mix.strokes.count, mix.has_gaze});
-  for (const MixLayer& layer : mix.layers) {
+  uint64_t hash = hash_numbers(
+      0xCBF29CE484222325u,
+      {mix.raw_count, mix.variable_count, mix.player_count, mix.guards.count, mix.guarded.count,
+       mix.layers.count, mix.reactions.count, mix.stroke_count, mix.gaze != nullptr});
+  for (const LayerDesc& layer : mix.layers) {
     hash = hash_numbers(hash, {static_cast<uint64_t>(layer.mode),
                                static_cast<uint64_t>(layer.source), layer.pose_count});
   }
@@ -494,44 +481,21 @@ Status create_mix(const MixDesc& desc, const Allocator& allocator, Mix*& out, Er
   if (status == Status::kOk) status = check_reactions(desc, error);
   if (status != Status::kOk) return status;
 
-  Mix measured;
-  measured.lane_count = static_cast<uint32_t>(align_up(lanes, kLaneStep));
-  Placer measure(nullptr);
-  place_mix(measure, desc, measured);
-  void* block = allocator.get(measure.size(), kBlockAlignment);
-  if (!block) {
+  const auto place = [&](Placer& placer, Mix& mix) { place_mix(placer, desc, mix); };
+  out = create_block<Mix>(allocator, place);
+  if (!out) {
     return fail(error, Status::kMemory, kNoOffset, "no memory for a mix: %zu bytes",
-                measure.size());
+                block_bytes<Mix>(place));
   }
-  Mix& mix = *new (block) Mix;
-  mix.raw_count = desc.raw_count;
-  mix.variable_count = desc.variable_count;
-  mix.lane_count = measured.lane_count;
-  mix.player_count = desc.player_count;
-  mix.max_channels = desc.max_channels;
-  mix.max_changing_channels = desc.max_changing_channels;
-  mix.max_bound_gui = desc.max_bound_gui;
-  mix.max_events = desc.max_events;
-  mix.plays_backward = desc.plays_backward;
-  mix.kernels = desc.kernels ? desc.kernels : kernels_for(Isa::kBest);
-  mix.allocator = allocator;
-  mix.block_size = measure.size();
-  Placer placer(block);
-  place_mix(placer, desc, mix);
-  fill_mix(desc, mix);
-  mix.fingerprint = fingerprint(mix);
-  out = &mix;
+  out->fingerprint = fingerprint(*out);
   return Status::kOk;
 }
 
 void release_mix(const Mix* mix) {
   if (!mix || mix->owners.fetch_sub(1, std::memory_order_acq_rel) != 1) return;
   Mix* last = const_cast<Mix*>(mix);
-  const Allocator allocator = last->allocator;
-  const size_t size = last->block_size;
   last->tag = 0;
-  last->~Mix();
-  allocator.put(last, size, kBlockAlignment);
+  release_block(last);
 }
 
 }  // namespace mien

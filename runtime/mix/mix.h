@@ -77,23 +77,6 @@ struct LayerDesc {
   uint32_t stream_frames = 64;  // capacity of the queue of kStream
 };
 
-struct MixLayer {
-  LayerGroup group;
-  BlendMode mode;
-  LayerSource source;
-  uint32_t flags;
-  float weight;
-  uint32_t first_pose, pose_count;
-  uint32_t first_fade;  // of the weights of its poses, in Mixer::pose_weights
-  Generator generator;
-  uint32_t stream_frames;
-  int64_t period, delay;
-  Span<uint16_t> lanes;
-  Span<float> amounts;
-  Span<float> mask;  // [lane], 0 in the padding
-  bool has_mask;     // the desc has one
-};
-
 /// The lanes of a pose that are not 0.
 struct PoseDesc {
   Span<const uint16_t> lanes;
@@ -138,15 +121,6 @@ struct ReactionDesc {
   float level_on = 0, level_off = 0;  // 0 ... 1
 };
 
-struct Reaction {
-  uint32_t first_stroke, end_stroke;
-  Retrigger retrigger;
-  bool after_guards;
-  uint8_t zeros[2];
-  float adapted, level_on, level_off;
-  int64_t cooldown, adapt_ticks, recover_ticks;
-};
-
 // Antagonists
 // ------------------------------------------------------------------------------------------------
 
@@ -171,8 +145,7 @@ inline uint32_t bound_gui_limit(uint32_t gui_count) {
 struct MixDesc {
   uint32_t raw_count = 0;       // raw controls of the rig
   uint32_t variable_count = 0;  // pose variables
-  /// Names of the raw controls, for messages and mix_file.h. Null: they have none.
-  const NameList* names = nullptr;
+  NameList names;               // of the raw controls, for messages and mix_file.h; or none
   Span<const LayerDesc> layers;
   Span<const PoseDesc> poses;
   Span<const ReactionDesc> reactions;
@@ -196,41 +169,32 @@ struct MixDesc {
   const KernelTable* kernels = nullptr;
 };
 
-/// Immutable, in one block of memory.
-struct Mix {
-  uint32_t tag = 0;  // first, for the C API to recognize its handles
-  uint32_t raw_count = 0, variable_count = 0;
-  uint32_t lane_count = 0;  // with padding
-  uint32_t fade_count = 0;  // weights of poses in all layers
-  uint32_t player_count = 0, max_channels = 0, max_changing_channels = 0, max_bound_gui = 0;
-  uint32_t max_events = 0;
-  bool plays_backward = false;
+/// What the C API recognizes its handles by.
+struct MixTag {
+  uint32_t tag = 0;
+};
+
+/// Immutable, in one block of memory: a copy of the desc, and what steps need besides. Masks of the copy
+/// are 0 for lanes that the layer cannot change; there is no gaze if no layer generates it.
+struct Mix : MixTag, MixDesc {
+  uint32_t lane_count = 0;             // with padding
+  uint32_t fade_count = 0;             // weights of poses in all layers
+  uint32_t stroke_count = 0;           // of all reactions
   uint32_t first_unprotected = 0;      // layer after the last one of base or speech
   uint32_t first_after_reactions = 0;  // layer after the last one that precedes reactions
   uint64_t fingerprint = 0;            // of everything that a snapshot depends on
-  const KernelTable* kernels = nullptr;
   Allocator allocator;
   size_t block_size = 0;
   mutable std::atomic<uint32_t> owners{1};  // the creator and every mixer
 
-  Span<MixLayer> layers;
-  Span<uint32_t> pose_ends;     // [pose] into pose_lanes and pose_values
-  Span<Span<float>> pose_rows;  // [pose][lane], or empty if the pose has few lanes
-  Span<uint16_t> pose_lanes;
-  Span<float> pose_values;
-  Span<Reaction> reactions;
-  Span<Stroke> strokes;
-  Span<Guard> guards;               // as in the desc
-  Span<uint16_t> guarded;           // the lanes of all guards, ascending
-  Span<PlacedGuard> placed_guards;  // for rows of these lanes
-  Span<AntagonistPair> antagonists;
-  bool has_gaze = false;  // a layer generates it
-  GazeTable gaze;
-  Span<uint16_t> gaze_lanes;  // of the left and of the right eye, then those of the head
-  Span<uint16_t> mirror;      // [lane], or empty
-  bool has_limits = false;    // some were given
-  Span<float> lower, upper;   // [lane]
-  NameList names;             // of the raw controls, in no order, or none
+  Span<Span<float>> mask_rows;       // [layer][lane] the mask, 0 in the padding
+  Span<uint32_t> first_fades;        // [layer] of the weights of its poses, in Mixer::pose_weights
+  Span<Span<float>> pose_rows;       // [pose][lane], or empty if the pose has few lanes
+  Span<uint32_t> first_strokes;      // [reaction] in Mixer::strokes
+  Span<uint16_t> guarded;            // the lanes of all guards, ascending
+  Span<PlacedGuard> placed_guards;   // for rows of these lanes
+  Span<uint16_t> gaze_lanes;         // of the left and of the right eye, then those of the head
+  Span<float> lower_row, upper_row;  // [lane] limits, or none: the largest numbers
 
   uint32_t used_lanes() const { return raw_count + variable_count; }
 };

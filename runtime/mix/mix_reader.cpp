@@ -224,7 +224,7 @@ Status open_mix(Span<const uint8_t> bytes, const Rig* rig, const Allocator& allo
   if (reader.status == Status::kOk && reader.at != bytes.count) reader.refuse("its end");
   if (reader.status != Status::kOk) return reader.status;
   desc.raw_count = reader.raw_count;
-  desc.names = rig ? &rig->names[static_cast<size_t>(Kind::kRawControl)] : &reader.own_names;
+  desc.names = rig ? rig->names[static_cast<size_t>(Kind::kRawControl)] : reader.own_names;
   if (rig) desc.kernels = rig->kernels;
   desc.max_bound_gui = bound_gui_limit(rig ? rig->gui_count : 0);
   status = create_mix(desc, allocator, out, error);

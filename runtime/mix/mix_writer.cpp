@@ -199,79 +199,6 @@ struct MixText : MixOutput<MixText> {
   }
 };
 
-/// The description that a mix was made of, as far as it has an effect.
-struct MixContents {
-  MixDesc desc;
-  Span<LayerDesc> layers;
-  Span<PoseDesc> poses;
-  Span<ReactionDesc> reactions;
-  Span<Guard> guards;
-
-  bool fill(const Mix& mix, Arena& arena) {
-    layers = arena.array<LayerDesc>(mix.layers.count);
-    poses = arena.array<PoseDesc>(mix.pose_ends.count);
-    reactions = arena.array<ReactionDesc>(mix.reactions.count);
-    guards = arena.array<Guard>(mix.guards.count);
-    if (layers.count != mix.layers.count || poses.count != mix.pose_ends.count ||
-        reactions.count != mix.reactions.count || guards.count != mix.guards.count) {
-      return false;
-    }
-    for (size_t i = 0; i < layers.count; ++i) {
-      const MixLayer& from = mix.layers[i];
-      LayerDesc& to = layers[i];
-      to.group = from.group;
-      to.mode = from.mode;
-      to.source = from.source;
-      to.flags = from.flags;
-      to.weight = from.weight;
-      if (from.has_mask) to.mask = from.mask.first(mix.used_lanes());
-      to.first_pose = from.first_pose;
-      to.pose_count = from.pose_count;
-      to.lanes = from.lanes;
-      to.amounts = from.amounts;
-      to.generator = from.generator;
-      to.period = from.period;
-      to.delay = from.delay;
-      to.stream_frames = from.stream_frames;
-    }
-    for (uint32_t i = 0, begin = 0; i < poses.count; begin = mix.pose_ends[i++]) {
-      const uint32_t count = mix.pose_ends[i] - begin;
-      poses[i] = {mix.pose_lanes.slice(begin, count), mix.pose_values.slice(begin, count)};
-    }
-    for (size_t i = 0; i < reactions.count; ++i) {
-      const Reaction& from = mix.reactions[i];
-      reactions[i] = {mix.strokes.slice(from.first_stroke, from.end_stroke - from.first_stroke),
-                      from.retrigger,
-                      from.after_guards,
-                      from.cooldown,
-                      from.adapted,
-                      from.adapt_ticks,
-                      from.recover_ticks,
-                      from.level_on,
-                      from.level_off};
-    }
-    for (size_t i = 0; i < guards.count; ++i) guards[i] = mix.guards[i];
-    desc.variable_count = mix.variable_count;
-    desc.layers = layers;
-    desc.poses = poses;
-    desc.reactions = reactions;
-    desc.guards = guards;
-    desc.gaze = mix.has_gaze ? &mix.gaze : nullptr;
-    desc.antagonists = mix.antagonists;
-    desc.mirror = mix.mirror;
-    if (mix.has_limits) {
-      desc.lower = mix.lower.first(mix.used_lanes());
-      desc.upper = mix.upper.first(mix.used_lanes());
-    }
-    desc.player_count = mix.player_count;
-    desc.max_channels = mix.max_channels;
-    desc.max_changing_channels = mix.max_changing_channels;
-    desc.max_events = mix.max_events;
-    desc.plays_backward = mix.plays_backward;
-    return true;
-  }
-};
-
 /// Finds the lanes that a walk meets.
 struct LaneFinder : MixOutput<LaneFinder> {
   Span<uint16_t> used;  // [lane of the mix] kNowhere: not yet
@@ -301,15 +228,15 @@ struct LaneFinder : MixOutput<LaneFinder> {
 };
 
 /// What writing needs, in an arena.
-Status prepare(const Mix& mix, Arena& arena, MixContents& contents, LaneMap& map, Error& error) {
+Status prepare(const Mix& mix, MixDesc& desc, Arena& arena, LaneMap& map, Error& error) {
   map.lane_of = arena.array<uint16_t>(mix.used_lanes() + 1);
   map.file_lane_of = arena.array<uint16_t>(mix.used_lanes() + 1);  // never nothing
-  if (!map.lane_of.data || !map.file_lane_of.data || !contents.fill(mix, arena)) {
+  if (!map.lane_of.data || !map.file_lane_of.data) {
     return fail(error, Status::kMemory, kNoOffset, "no memory to write a mix");
   }
   std::fill(map.file_lane_of.begin(), map.file_lane_of.end(), kNowhere);
   LaneFinder finder(map.file_lane_of);
-  walk(finder, contents.desc);
+  walk(finder, desc);
   for (uint16_t l = 0; l < mix.raw_count; ++l) {
     if (map.file_lane_of[l] != kNowhere) map.lane_of[map.name_count++] = l;
   }
@@ -346,14 +273,14 @@ Status prepare(const Mix& mix, Arena& arena, MixContents& contents, LaneMap& map
 Status write_mix(const Mix& mix, Span<uint8_t> out, size_t& size, Error& error) {
   size = 0;
   Arena arena(mix.allocator);
-  MixContents contents;
+  MixDesc desc = mix;
   LaneMap map;
-  const Status status = prepare(mix, arena, contents, map, error);
+  const Status status = prepare(mix, desc, arena, map, error);
   if (status != Status::kOk) return status;
   MixBytes writer(mix, map, out);
   writer.put(kMixMagic, sizeof(kMixMagic));
   writer.size = kMixHeaderSize;
-  walk(writer, contents.desc);
+  walk(writer, desc);
   size = writer.size;
   if (size > out.count) return Status::kOk;
   store_little_endian(out.data + kAtVersion, kMixVersion);
@@ -365,12 +292,12 @@ Status write_mix(const Mix& mix, Span<uint8_t> out, size_t& size, Error& error) 
 Status write_mix_text(const Mix& mix, Span<char> out, size_t& size, Error& error) {
   size = 0;
   Arena arena(mix.allocator);
-  MixContents contents;
+  MixDesc desc = mix;
   LaneMap map;
-  const Status status = prepare(mix, arena, contents, map, error);
+  const Status status = prepare(mix, desc, arena, map, error);
   if (status != Status::kOk) return status;
   MixText writer(mix, map, out);
-  walk(writer, contents.desc);
+  walk(writer, desc);
   size = writer.size;
   return Status::kOk;
 }

@@ -21,9 +21,9 @@ void place_state(Placer& placer, const Mix& mix, Mixer& mixer) {
   mixer.variables = placer.array<float>(mix.variable_count);
   mixer.held = placer.array<float>(mix.guarded.count);
   mixer.generators = placer.array<GeneratorState>(mix.layers.count);
-  mixer.gazes = placer.array<GazeState>(mix.has_gaze ? 1 : 0);
+  mixer.gazes = placer.array<GazeState>(mix.gaze ? 1 : 0);
   mixer.reactions = placer.array<ReactionState>(mix.reactions.count);
-  mixer.strokes = placer.array<StrokeState>(mix.strokes.count);
+  mixer.strokes = placer.array<StrokeState>(mix.stroke_count);
   mixer.guard_overrides = placer.array<float>(mix.guards.count);
   mixer.layer_rows = placer.array<float>(
       layers_with_rows(mix, mix.layers.count) * kLayerRows * layer_row_floats(mix),
@@ -31,7 +31,6 @@ void place_state(Placer& placer, const Mix& mix, Mixer& mixer) {
 }
 
 void place_mixer(Placer& placer, const Mix& mix, bool stages, Mixer& mixer) {
-  placer.array<Mixer>(1);
   if (stages) {
     const size_t floats = size_t{stage_count(mix)} * mix.lane_count;
     mixer.stages = placer.array<float>(floats, kBlockAlignment).data;
@@ -53,7 +52,7 @@ void place_mixer(Placer& placer, const Mix& mix, bool stages, Mixer& mixer) {
   }
   mixer.streams = placer.array<RowStream*>(mix.layers.count);
   for (size_t i = 0; i < mix.layers.count; ++i) {
-    const MixLayer& layer = mix.layers[i];
+    const LayerDesc& layer = mix.layers[i];
     if (layer.source != LayerSource::kStream) continue;
     RowStream* stream = nullptr;
     place_stream(placer, layer.stream_frames, static_cast<uint32_t>(layer.lanes.count), stream);
@@ -102,22 +101,16 @@ Status bad_layer(Error& error, uint32_t layer, const char* why) {
 // ------------------------------------------------------------------------------------------------
 
 size_t mixer_size(const Mix& mix, bool stages) {
-  Mixer mixer;
-  Placer measure(nullptr);
-  place_mixer(measure, mix, stages, mixer);
-  return measure.size();
+  return block_bytes<Mixer>(
+      [&](Placer& placer, Mixer& mixer) { place_mixer(placer, mix, stages, mixer); });
 }
 
 Mixer* create_mixer(const Mix& mix, uint64_t seed, bool stages, const Allocator& allocator) {
-  const size_t size = mixer_size(mix, stages);
-  void* block = allocator.get(size, kBlockAlignment);
-  if (!block) return nullptr;
-  Mixer mixer;
+  Mixer* const created = create_block<Mixer>(
+      allocator, [&](Placer& placer, Mixer& mixer) { place_mixer(placer, mix, stages, mixer); });
+  if (!created) return nullptr;
+  Mixer& mixer = *created;
   mixer.mix = &mix;
-  mixer.allocator = allocator;
-  mixer.block_size = size;
-  Placer placer(block);
-  place_mixer(placer, mix, stages, mixer);
   mixer.header->seed = seed;
   for (uint32_t i = 0; i < mix.layers.count; ++i) {
     LayerState& layer = mixer.layers[i];
@@ -133,7 +126,7 @@ Mixer* create_mixer(const Mix& mix, uint64_t seed, bool stages, const Allocator&
   for (float& activation : mixer.guard_overrides) activation = -1.0f;
   for (GazeState& gaze : mixer.gazes) gaze.large_shift = kNoShift;
   mix.owners.fetch_add(1, std::memory_order_relaxed);
-  return new (block) Mixer(mixer);
+  return created;
 }
 
 size_t state_size(const Mix& mix) {
@@ -146,8 +139,7 @@ size_t state_size(const Mix& mix) {
 void destroy_mixer(Mixer* mixer) {
   if (!mixer) return;
   const Mix* const mix = mixer->mix;
-  const Allocator allocator = mixer->allocator;
-  allocator.put(mixer, mixer->block_size, kBlockAlignment);
+  release_block(mixer);
   release_mix(mix);
 }
 
@@ -264,8 +256,8 @@ Status set_pose_weight(Mixer& mixer, uint32_t index, uint32_t pose, float weight
   if (!(weight >= 0.0f && weight <= 1.0f) || fade_ticks < 0 || fade_ticks > kMaxFadeTicks) {
     return bad_fade(error, "pose", pose, weight, 0.0f, fade_ticks);
   }
-  start_fade(mixer.pose_weights[mixer.mix->layers[index].first_fade + pose], mixer.header->now,
-             weight, fade_ticks);
+  start_fade(mixer.pose_weights[mixer.mix->first_fades[index] + pose], mixer.header->now, weight,
+             fade_ticks);
   return Status::kOk;
 }
 

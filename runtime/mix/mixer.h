@@ -130,7 +130,7 @@ struct Mixer {
   StateHeader* header = nullptr;
   Span<LayerState> layers;
   Span<PlayerState> player_states;  // written for snapshots
-  Span<Fade> pose_weights;          // MixLayer::first_fade
+  Span<Fade> pose_weights;          // Mix::first_fades
   Span<float> variables;            // [pose variable] at the start of each step
   Span<float> held;                 // [place in Mix::guarded] how far guards took it back
   Span<GeneratorState> generators;  // [layer]

@@ -7,13 +7,13 @@
 
 namespace mien {
 
-bool has_rows(const MixLayer& layer) {
+bool has_rows(const LayerDesc& layer) {
   return layer.source == LayerSource::kClip || layer.source == LayerSource::kStream;
 }
 
 size_t layers_with_rows(const Mix& mix, size_t end) {
   size_t count = 0;
-  for (const MixLayer& layer : mix.layers.first(end)) count += has_rows(layer);
+  for (const LayerDesc& layer : mix.layers.first(end)) count += has_rows(layer);
   return count;
 }
 

@@ -8,7 +8,7 @@
 namespace mien {
 
 /// Whether a layer keeps the rows that it has shown, to blend from them: clip and stream layers.
-bool has_rows(const MixLayer& layer);
+bool has_rows(const LayerDesc& layer);
 /// How many of the first `end` layers do.
 size_t layers_with_rows(const Mix& mix, size_t end);
 inline size_t layer_row_floats(const Mix& mix) { return size_t{2} * mix.lane_count; }

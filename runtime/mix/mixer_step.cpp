@@ -68,8 +68,8 @@ void show_row(Mixer& mixer, uint32_t index, const float* row, float* shown) {
 /// `cover` may be null: the layer's mask leaves out what its poses have no value for.
 void blend(Mixer& mixer, uint32_t index, float weight, const float* values, const float* cover,
            float scale = 1.0f) {
-  const MixLayer& layer = mixer.mix->layers[index];
-  mixer.mix->kernels->blend_row({values, cover, layer.mask.data, mixer.row.data,
+  const LayerDesc& layer = mixer.mix->layers[index];
+  mixer.mix->kernels->blend_row({values, cover, mixer.mix->mask_rows[index].data, mixer.row.data,
                                  mixer.mix->lane_count, weight, layer.mode, scale});
 }
 
@@ -117,7 +117,7 @@ void mix_clip_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
 
 void mix_stream_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
   const Mix& mix = *mixer.mix;
-  const MixLayer& layer = mix.layers[index];
+  const LayerDesc& layer = mix.layers[index];
   LayerState& state = mixer.layers[index];
   RowStream& stream = *mixer.streams[index];
   const int64_t now = mixer.header->now;
@@ -142,26 +142,26 @@ void mix_stream_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
   }
   float* shown = next_shown_row(mixer, index, ticks);
   show_row(mixer, index, row, shown);
-  blend_lanes(layer.mode, layer.lanes, shown, layer.mask.data, weight, mixer.row.data);
+  blend_lanes(layer.mode, layer.lanes, shown, mix.mask_rows[index].data, weight, mixer.row.data);
 }
 
 void mix_generator(Mixer& mixer, uint32_t index, int64_t ticks) {
   const Mix& mix = *mixer.mix;
-  const MixLayer& layer = mix.layers[index];
+  const LayerDesc& layer = mix.layers[index];
   const int64_t now = mixer.header->now;
   float* values = mixer.layer_row.data;
   const uint64_t seed = mixer.header->seed;
   if (layer.generator == Generator::kGaze) {
-    generate_gaze(mix.gaze, layer, seed, index, now, ticks, mixer.row.data, mixer.gazes[0],
+    generate_gaze(*mix.gaze, layer, seed, index, now, ticks, mixer.row.data, mixer.gazes[0],
                   mixer.scratch.data, values);
     // The lanes of the eyes, then those that get what is left for the head.
-    blend_lanes(layer.mode, mix.gaze_lanes, values, layer.mask.data,
+    blend_lanes(layer.mode, mix.gaze_lanes, values, mix.mask_rows[index].data,
                 layer_weight(mixer.layers[index], layer.mode, now), mixer.row.data);
     return;
   }
   const int64_t shift = mixer.gazes.empty() ? kNoShift : mixer.gazes[0].large_shift;
   generate(layer, seed, index, now, shift, mixer.row.data, mixer.generators[index], values);
-  blend_lanes(layer.mode, layer.lanes, values, layer.mask.data,
+  blend_lanes(layer.mode, layer.lanes, values, mix.mask_rows[index].data,
               layer_weight(mixer.layers[index], layer.mode, now), mixer.row.data);
 }
 
@@ -173,19 +173,18 @@ void add_scaled(const float* __restrict from, float scale, size_t count, float* 
 void add_pose(const Mix& mix, uint32_t pose, float weight, float* row) {
   const Span<float> whole = mix.pose_rows[pose];
   if (!whole.empty()) return add_scaled(whole.data, weight, whole.count, row);
-  const uint32_t begin = pose == 0 ? 0 : mix.pose_ends[pose - 1];
-  const uint16_t* const lanes = mix.pose_lanes.data;
-  const float* const values = mix.pose_values.data;
-  for (uint32_t k = begin; k < mix.pose_ends[pose]; ++k) row[lanes[k]] += weight * values[k];
+  const uint16_t* const lanes = mix.poses[pose].lanes.data;
+  const Span<const float> values = mix.poses[pose].values;
+  for (size_t k = 0; k < values.count; ++k) row[lanes[k]] += weight * values[k];
 }
 
 void mix_pose_layer(Mixer& mixer, uint32_t index) {
   const Mix& mix = *mixer.mix;
-  const MixLayer& layer = mix.layers[index];
+  const LayerDesc& layer = mix.layers[index];
   const int64_t now = mixer.header->now;
   const float weight = layer_weight(mixer.layers[index], layer.mode, now);
   if (weight == 0.0f) return;
-  const Span<Fade> fades = mixer.pose_weights.slice(layer.first_fade, layer.pose_count);
+  const Span<Fade> fades = mixer.pose_weights.slice(mix.first_fades[index], layer.pose_count);
   float sum = 0.0f;
   uint32_t shown = 0, last = 0;
   for (uint32_t p = 0; p < layer.pose_count; ++p) {
@@ -322,7 +321,7 @@ void step_mixer(Mixer& mixer, int64_t ticks, float* out, size_t count, uint64_t*
   mix_reactions(mix, mixer.header->now, true, mixer.reactions, mixer.strokes, row);
   net_antagonists(mix, row);
   keep_stage(mixer, layer_count + kStageAntagonists);
-  mix.kernels->limit_row(mix.lower.data, mix.upper.data, mix.lane_count, row);
+  mix.kernels->limit_row(mix.lower_row.data, mix.upper_row.data, mix.lane_count, row);
   keep_stage(mixer, layer_count + kStageLimits);
 
   if (out) memcpy(out, row, count * sizeof(float));

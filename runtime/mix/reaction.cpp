@@ -70,24 +70,25 @@ LevelAt level_at(const Level& level, int64_t now) {
   return {level.target + (level.offset + both * u) * left, (level.push - both * u) * left};
 }
 
-/// At once if nothing shows that it is scaled.
-void aim_level(const Mix& mix, uint32_t index, int64_t now, float target, ReactionState& state,
+Span<StrokeState> strokes_of(const Mix& mix, uint32_t index, Span<StrokeState> strokes) {
+  return strokes.slice(mix.first_strokes[index], mix.reactions[index].strokes.count);
+}
+
+/// At once if nothing shows that it is scaled. `strokes` are those of the reaction.
+void aim_level(const ReactionDesc& reaction, int64_t now, float target, ReactionState& state,
                Span<const StrokeState> strokes) {
   if (state.level.target == target) return;
-  const Reaction& reaction = mix.reactions[index];
   bool shows = false;
-  for (uint32_t s = reaction.first_stroke; s < reaction.end_stroke; ++s) {
-    shows = shows || (mix.strokes[s].scaled && strokes[s].phase != kStrokeRests);
+  for (size_t s = 0; s < strokes.count; ++s) {
+    shows = shows || (reaction.strokes[s].scaled && strokes[s].phase != kStrokeRests);
   }
   if (!shows) state.level = {target, 0.0f, 0.0f, 0, now};
   follow_level(state.level, now, target);
 }
 
 void blend_pose(const Mix& mix, const Stroke& stroke, float weight, float* row) {
-  const uint32_t begin = stroke.pose == 0 ? 0 : mix.pose_ends[stroke.pose - 1];
-  const uint32_t count = mix.pose_ends[stroke.pose] - begin;
-  blend_lanes(stroke.mode, mix.pose_lanes.slice(begin, count), &mix.pose_values.data[begin],
-              nullptr, weight, row);
+  const PoseDesc& pose = mix.poses[stroke.pose];
+  blend_lanes(stroke.mode, pose.lanes, pose.values.data, nullptr, weight, row);
 }
 
 }  // namespace
@@ -113,14 +114,15 @@ void follow_level(Level& level, int64_t now, float target) {
 }
 
 void trigger_reaction(const Mix& mix, uint32_t index, int64_t now, float strength,
-                      int64_t hold_ticks, Span<ReactionState> states, Span<StrokeState> strokes) {
-  const Reaction& reaction = mix.reactions[index];
+                      int64_t hold_ticks, Span<ReactionState> states, Span<StrokeState> all) {
+  const ReactionDesc& reaction = mix.reactions[index];
+  const Span<StrokeState> strokes = strokes_of(mix, index, all);
   ReactionState& state = states[index];
   const bool running = state.running != 0;
   const bool cooled = !running || now - state.triggered >= reaction.cooldown;
   if (running && reaction.retrigger == Retrigger::kIgnore) return;
   // Who triggers without a level means all of it.
-  if (!state.level_is_on) aim_level(mix, index, now, 1.0f, state, strokes);
+  if (!state.level_is_on) aim_level(reaction, now, 1.0f, state, strokes);
   const int64_t end = hold_ticks == kUntilReleased ? kUntilReleased : now + hold_ticks;
   const bool lasted = running && state.stimulus_end >= now;
   state.stimulus_end = !lasted || end > state.stimulus_end ? end : state.stimulus_end;
@@ -131,8 +133,8 @@ void trigger_reaction(const Mix& mix, uint32_t index, int64_t now, float strengt
   if (!lasted) start_lag(state.gain, now, reaction.adapted, reaction.adapt_ticks);
   const bool restarts = reaction.retrigger == Retrigger::kRestart && cooled;
   bool began = false;
-  for (uint32_t s = reaction.first_stroke; s < reaction.end_stroke; ++s) {
-    const Stroke& stroke = mix.strokes[s];
+  for (size_t s = 0; s < strokes.count; ++s) {
+    const Stroke& stroke = reaction.strokes[s];
     StrokeState& now_at = strokes[s];
     advance_stroke(stroke, state, now, now_at);
     if (now_at.phase == kStrokeWaits) continue;
@@ -150,7 +152,7 @@ void trigger_reaction(const Mix& mix, uint32_t index, int64_t now, float strengt
 
 void set_reaction_level(const Mix& mix, uint32_t index, int64_t now, float level,
                         Span<ReactionState> states, Span<StrokeState> strokes) {
-  const Reaction& reaction = mix.reactions[index];
+  const ReactionDesc& reaction = mix.reactions[index];
   ReactionState& state = states[index];
   const bool lasts = state.running && state.stimulus_end > now;
   if (state.level_is_on && level < reaction.level_off) {
@@ -160,7 +162,7 @@ void set_reaction_level(const Mix& mix, uint32_t index, int64_t now, float level
     return;
   }
   if (!state.level_is_on && level < reaction.level_on) return;
-  aim_level(mix, index, now, level, state, strokes);
+  aim_level(reaction, now, level, state, strokes_of(mix, index, strokes));
   if (state.level_is_on) return;
   if (lasts) {
     state.level_is_on = 1;
@@ -178,9 +180,9 @@ void release_reaction(uint32_t index, int64_t now, Span<ReactionState> states) {
 }
 
 void mix_reactions(const Mix& mix, int64_t now, bool after_guards, Span<ReactionState> states,
-                   Span<StrokeState> strokes, float* row) {
+                   Span<StrokeState> all, float* row) {
   for (uint32_t r = 0; r < mix.reactions.count; ++r) {
-    const Reaction& reaction = mix.reactions[r];
+    const ReactionDesc& reaction = mix.reactions[r];
     ReactionState& state = states[r];
     if (!state.running || reaction.after_guards != after_guards) continue;
     if (now >= state.stimulus_end && state.gain.target != 1.0f) {
@@ -189,9 +191,10 @@ void mix_reactions(const Mix& mix, int64_t now, bool after_guards, Span<Reaction
     const float left = lag_left(state.gain, now);
     const float gain = state.gain.target + state.gain.offset.c0 * left;
     const float level = level_value(state.level, now);
+    const Span<StrokeState> strokes = strokes_of(mix, r, all);
     bool running = state.gain.target != 1.0f || left != 0.0f;
-    for (uint32_t s = reaction.first_stroke; s < reaction.end_stroke; ++s) {
-      const Stroke& stroke = mix.strokes[s];
+    for (size_t s = 0; s < strokes.count; ++s) {
+      const Stroke& stroke = reaction.strokes[s];
       advance_stroke(stroke, state, now, strokes[s]);
       running = running || strokes[s].phase != kStrokeRests;
       float weight =

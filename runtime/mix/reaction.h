@@ -56,7 +56,7 @@ float decay(float x);
 /// Starts a reaction. If it is already running, its Retrigger rule applies.
 void trigger_reaction(const Mix& mix, uint32_t reaction, int64_t now, float strength,
                       int64_t hold_ticks, Span<ReactionState> states, Span<StrokeState> strokes);
-/// Sets the level. A level of Reaction::level_on or more is a stimulus of strength 1; it ends once the level
+/// Sets the level. A level of ReactionDesc::level_on or more is a stimulus of strength 1; it ends once the level
 /// has been below level_off for kLevelLinger. During the stimulus, scaled strokes follow the level.
 void set_reaction_level(const Mix& mix, uint32_t reaction, int64_t now, float level,
                         Span<ReactionState> states, Span<StrokeState> strokes);

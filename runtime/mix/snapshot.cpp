@@ -145,7 +145,7 @@ Status check_state(const Mixer& mixer, const SavedState& saved, const ClipFinder
   bool valid = true;
   for (const Fade& fade : mixer.pose_weights) valid = valid && is_fade(saved.read(fade));
   for (uint32_t i = 0; i < mixer.generators.count; ++i) {
-    const MixLayer& layer = mixer.mix->layers[i];
+    const LayerDesc& layer = mixer.mix->layers[i];
     const bool blinks = layer.source == LayerSource::kGenerator &&
                         layer.generator == Generator::kBlink && !layer.lanes.empty();
     const int64_t next = saved.read(mixer.generators[i]).next;

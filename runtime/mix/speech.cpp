@@ -38,7 +38,7 @@ uint32_t closure_of(const Guard& guard) {
 Speech find_speech(const Mixer& mixer) {
   Speech speech;
   for (size_t i = 0; i < mixer.layers.count; ++i) {
-    const MixLayer& layer = mixer.mix->layers[i];
+    const LayerDesc& layer = mixer.mix->layers[i];
     if (layer.group != LayerGroup::kSpeech) continue;
     const LayerState& state = mixer.layers[i];
     const float weight = layer_weight(state, layer.mode, mixer.header->now);

@@ -101,7 +101,7 @@ TEST(Determinism, DifferentSeedsChangeTheLanesOfLifeOnly) {  // F4
   SceneActor one(scene, 1), two(scene, 2);
   // Lanes that generators have, and what guards and antagonists couple with them.
   std::vector<bool> life(scene.mix->lane_count);
-  for (const MixLayer& layer : scene.mix->layers) {
+  for (const LayerDesc& layer : scene.mix->layers) {
     if (layer.source != LayerSource::kGenerator) continue;
     for (uint16_t lane : layer.lanes) life[lane] = true;
   }

@@ -100,7 +100,7 @@ struct GazeMix {
     layer.lanes = {place, 5};
     layer.amounts = {amounts, 5};
     input.desc.gaze = &gaze;
-    input.desc.names = &named.list();
+    input.desc.names = named.list();
   }
 };
 
@@ -143,7 +143,7 @@ TEST(MixFile, MixesLikeTheOriginal) {
 TEST(MixFile, OpensForARigWithOtherOrderSpellingAndMoreControls) {
   const NamedRig named(numbered(6));
   MixInput input(6, 1);
-  input.desc.names = &named.rig.names[static_cast<size_t>(Kind::kRawControl)];
+  input.desc.names = named.rig.names[static_cast<size_t>(Kind::kRawControl)];
   const Row mask = {1, 0.5f, 0, 1, 1, 1, 0.25f};
   LayerDesc& layer = input.add(BlendMode::kAdd, LayerSource::kPoses);
   layer.pose_count = 1;
@@ -197,10 +197,10 @@ TEST(MixFile, IsNotWrittenWithoutNamesOrWithOneTwice) {
   EXPECT_EQ(write_mix(*make_mix(input), {}, size, error), Status::kName);
   EXPECT_EQ(size, 0u);
   const NamedRig twice({"a", "b", "a"}), unused({"a", "b", "b"});
-  input.desc.names = &twice.rig.names[static_cast<size_t>(Kind::kRawControl)];
+  input.desc.names = twice.rig.names[static_cast<size_t>(Kind::kRawControl)];
   EXPECT_EQ(write_mix_text(*make_mix(input), {}, size, error), Status::kName);
   EXPECT_NE(std::string(error.message).find("named a"), std::string::npos) << error.message;
-  input.desc.names = &unused.rig.names[static_cast<size_t>(Kind::kRawControl)];
+  input.desc.names = unused.rig.names[static_cast<size_t>(Kind::kRawControl)];
   EXPECT_EQ(write_mix(*make_mix(input), {}, size, error), Status::kOk)
       << "nothing refers to the second b";
 }
@@ -208,7 +208,7 @@ TEST(MixFile, IsNotWrittenWithoutNamesOrWithOneTwice) {
 TEST(MixFile, TextHasALineForEachNumberAndKeepsNamesInTheirLine) {
   const NamedRig named({"jaw Open\n", "lip:low"});
   MixInput input(2, 1);
-  input.desc.names = &named.rig.names[static_cast<size_t>(Kind::kRawControl)];
+  input.desc.names = named.rig.names[static_cast<size_t>(Kind::kRawControl)];
   LayerDesc& layer = input.add(BlendMode::kScreen, LayerSource::kPoses, LayerGroup::kEmotion);
   layer.pose_count = 1;
   layer.weight = 1.0f / 3;

@@ -178,7 +178,7 @@ TEST(Snapshot, OfATimeLongAfterTheNextBlinkAreRefused) {
   };
   size_t blinks = 0;
   for (uint32_t i = 0; i < all.mix->layers.count; ++i) {
-    const MixLayer& layer = all.mix->layers[i];
+    const LayerDesc& layer = all.mix->layers[i];
     if (layer.source != LayerSource::kGenerator || layer.generator != Generator::kBlink) continue;
     ++blinks;
     for (const int64_t next : {int64_t{0}, kMaxMixerTime - kMaxFadeTicks - 1}) {

@@ -201,7 +201,7 @@ struct MixScene {
     MixDesc desc;
     desc.raw_count = raws;
     desc.variable_count = 1;
-    desc.names = &names;
+    desc.names = names;
     desc.layers = {layers, kLayers};
     desc.poses = {poses.data(), poses.size()};
     desc.reactions = {&glare, 1};
