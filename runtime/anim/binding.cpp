@@ -16,6 +16,8 @@ constexpr uint8_t kByChannel = 1, kByMatrix = 2, kByGui = 3;
 
 /// Memory for the time of binding. Targets are raw controls, then GUI controls.
 struct Scratch {
+  Allocator allocator;
+  size_t block_size = 0;
   Span<uint16_t> raw_order, gui_order, channel_order;
   Span<uint8_t> driven_by;          // [target]
   Span<uint8_t> is_used;            // [channel]
@@ -36,19 +38,19 @@ struct Scratch {
   }
 };
 
-/// Room for the most that there can be.
+/// Lists begin empty, with room for the most that there can be.
 void place_binding(Placer& placer, const Clip& clip, const Rig& rig, size_t entries,
                    Binding& binding) {
-  placer.array<Binding>(1);
-  binding.copies = placer.array<BoundCopy>(clip.changing_count);
-  binding.constants = placer.array<BoundCopy>(clip.channel_count - clip.changing_count);
-  binding.sums = placer.array<BoundSum>(clip.channel_count + entries);
-  binding.terms = placer.array<BoundTerm>(clip.channel_count + entries);
-  binding.rows = placer.array<BoundRow>(rig.gui_to_raw.inputs.count);
-  binding.mapped_controls = placer.array<uint16_t>(rig.raw_count);
-  binding.controls = placer.array<uint16_t>(rig.raw_count);
-  binding.missing_channels = placer.array<uint16_t>(clip.channel_count);
-  binding.extra_controls = placer.array<uint16_t>(rig.raw_count);
+  const uint32_t channels = clip.channel_count, raws = rig.raw_count;
+  binding.copies = placer.array<BoundCopy>(clip.changing_count).first(0);
+  binding.constants = placer.array<BoundCopy>(channels - clip.changing_count).first(0);
+  binding.sums = placer.array<BoundSum>(channels + entries).first(0);
+  binding.terms = placer.array<BoundTerm>(channels + entries).first(0);
+  binding.rows = placer.array<BoundRow>(rig.gui_to_raw.inputs.count).first(0);
+  binding.mapped_controls = placer.array<uint16_t>(raws).first(0);
+  binding.controls = placer.array<uint16_t>(raws).first(0);
+  binding.missing_channels = placer.array<uint16_t>(channels).first(0);
+  binding.extra_controls = placer.array<uint16_t>(raws).first(0);
 }
 
 template <class T>
@@ -192,11 +194,6 @@ void fill_binding(const Clip& clip, const Rig& rig, Span<const MatrixEntry> matr
   binding.raw_count = rig.raw_count;
   binding.channel_count = clip.channel_count;
   binding.closures = find_closures(clip);
-  // Lists begin empty and grow within their room.
-  binding.copies.count = binding.constants.count = 0;
-  binding.sums.count = binding.terms.count = binding.rows.count = 0;
-  binding.mapped_controls.count = binding.controls.count = 0;
-  binding.missing_channels.count = binding.extra_controls.count = 0;
   Binder binder = {clip, rig, matrix, scratch, binding};
   binder.find_targets();
   binder.bind_matrix();
@@ -217,35 +214,24 @@ Status bind_clip(const Clip& clip, const Rig& rig, Span<const MatrixEntry> matri
     return fail(error, Status::kInvalidArgument, kNoOffset,
                 "entry %zu of the matrix: the weight is not a finite number", e);
   }
-  Binding placed;
-  Scratch scratch;
-  Placer measure(nullptr), measure_scratch(nullptr);
-  place_binding(measure, clip, rig, matrix.count, placed);
-  scratch.place(measure_scratch, clip, rig, matrix.count);
-  const size_t scratch_size = measure_scratch.size() + kBlockAlignment;  // never nothing
-  void* block = allocator.get(measure.size(), kBlockAlignment);
-  void* scratch_block = allocator.get(scratch_size, kBlockAlignment);
-  if (!block || !scratch_block) {
-    allocator.put(block, measure.size(), kBlockAlignment);
-    allocator.put(scratch_block, scratch_size, kBlockAlignment);
+  auto* const scratch = create_block<Scratch>(allocator, [&](Placer& placer, Scratch& lists) {
+    lists.place(placer, clip, rig, matrix.count);
+  });
+  out = create_block<Binding>(allocator, [&](Placer& placer, Binding& binding) {
+    place_binding(placer, clip, rig, matrix.count, binding);
+  });
+  if (!scratch || !out) {
+    release_block(scratch);
+    release_block(out);
+    out = nullptr;
     return fail(error, Status::kMemory, kNoOffset, "no memory to bind a clip");
   }
-  Placer placer(block), scratch_placer(scratch_block);
-  place_binding(placer, clip, rig, matrix.count, placed);
-  scratch.place(scratch_placer, clip, rig, matrix.count);
-  fill_binding(clip, rig, matrix, scratch, placed);
-  allocator.put(scratch_block, scratch_size, kBlockAlignment);
-  placed.allocator = allocator;
-  placed.block_size = measure.size();
-  out = new (block) Binding(placed);
+  fill_binding(clip, rig, matrix, *scratch, *out);
+  release_block(scratch);
   return Status::kOk;
 }
 
-void release_binding(Binding* binding) {
-  if (!binding) return;
-  const Allocator allocator = binding->allocator;
-  allocator.put(binding, binding->block_size, kBlockAlignment);
-}
+void release_binding(Binding* binding) { release_block(binding); }
 
 void apply_binding(const Binding& binding, Span<const float> values, Span<float> gui,
                    Span<float> raw_controls, bool constants) {

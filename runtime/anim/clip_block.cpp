@@ -235,13 +235,14 @@ void decode_frame(BlockDecoder& decoder, uint32_t frame, float* row) {
   write_row(decoder, row);
 }
 
+constexpr size_t kMaxGroups = clip_groups(kMaxChangingChannels);
+
 bool read_frames(const Clip& clip, uint32_t first, uint32_t count, float* out, size_t stride) {
   assert(first <= clip.frame_count && count <= clip.frame_count - first);
-  ClipLanes groups[clip_groups(kMaxChangingChannels)];
+  ClipLanes groups[kMaxGroups];
   float row[kMaxChangingChannels], before[kMaxChangingChannels];
   BlockDecoder decoder;
-  begin_decoding(clip, *kernels_for(Isa::kBest), {groups, clip_groups(kMaxChangingChannels)},
-                 decoder);
+  begin_decoding(clip, *kernels_for(Isa::kBest), {groups, kMaxGroups}, decoder);
   const bool half_rate = clip.has(kClipHalfRate);
   for (uint32_t f = first; f < first + count; ++f, out += stride) {
     const bool is_mean = half_rate && f % 2 == 1;
@@ -262,11 +263,10 @@ Status verify_clip(const Clip& clip, Error& error) {
                 "the bytes are not those that were written: the clip is damaged; fetch it again or "
                 "build it again");
   }
-  ClipLanes groups[clip_groups(kMaxChangingChannels)];
+  ClipLanes groups[kMaxGroups];
   float row[kMaxChangingChannels];
   BlockDecoder decoder;
-  begin_decoding(clip, *kernels_for(Isa::kBest), {groups, clip_groups(kMaxChangingChannels)},
-                 decoder);
+  begin_decoding(clip, *kernels_for(Isa::kBest), {groups, kMaxGroups}, decoder);
   for (uint32_t block = 0; block < clip.block_count(); ++block) {
     const uint64_t slack = enter_block(decoder, block);
     while (decoder.next < decoder.end) {

@@ -13,7 +13,9 @@ namespace {
 
 /// What is found out before anything is written.
 struct Build {
-  const ClipDesc& desc;
+  Allocator allocator;
+  size_t block_size = 0;
+  ClipDesc desc;
   Clip clip;                   // counts, flags, rate and layout of what is made
   Span<uint16_t> by_name;      // channels
   Span<uint8_t> is_changing;   // [channel]
@@ -211,8 +213,7 @@ void write_tables(const Build& build, size_t size, uint8_t* file) {
   }
 }
 
-Status build_with_scratch(Build& build, const Allocator& allocator, Span<ChannelReport> reports,
-                          ClipBytes& out, Error& error) {
+Status build_with_scratch(Build& build, Span<ChannelReport> reports, ClipBytes& out, Error& error) {
   const ClipDesc& desc = build.desc;
   Clip& clip = build.clip;
   clip.rate_numerator = desc.rate_numerator;
@@ -243,13 +244,13 @@ Status build_with_scratch(Build& build, const Allocator& allocator, Span<Channel
     return fail(error, Status::kClipLimit, kNoOffset,
                 "the curves take more than 4 GB; make several clips of them");
   }
-  auto* file = static_cast<uint8_t*>(allocator.get(size, kBlockAlignment));
+  auto* file = static_cast<uint8_t*>(build.allocator.get(size, kBlockAlignment));
   if (!file) return fail(error, Status::kMemory, kNoOffset, "no memory for the clip");
   memset(file, 0, size);
   encode_blocks(build, file, reports);
   write_tables(build, size, file);
   store_little_endian(file + kAtChecksum, clip_checksum(file, size));
-  out = {allocator, file, static_cast<size_t>(size)};
+  out = {build.allocator, file, static_cast<size_t>(size)};
   return Status::kOk;
 }
 
@@ -270,16 +271,13 @@ Status build_clip(const ClipDesc& desc, const Allocator& allocator, Span<Channel
   if (!reports.empty() && reports.count != desc.names.count) {
     return wrong(error, "reports: not one for each channel");
   }
-  Build build = {desc, {}, {}, {}, {}, {}};
-  Placer measure(nullptr);
-  build.place(measure);
-  const size_t scratch_size = measure.size() + kBlockAlignment;  // never nothing
-  void* scratch = allocator.get(scratch_size, kBlockAlignment);
-  if (!scratch) return fail(error, Status::kMemory, kNoOffset, "no memory to build a clip");
-  Placer placer(scratch);
-  build.place(placer);
-  const Status built = build_with_scratch(build, allocator, reports, out, error);
-  allocator.put(scratch, scratch_size, kBlockAlignment);
+  auto* const build = create_block<Build>(allocator, [&](Placer& placer, Build& made) {
+    made.desc = desc;
+    made.place(placer);
+  });
+  if (!build) return fail(error, Status::kMemory, kNoOffset, "no memory to build a clip");
+  const Status built = build_with_scratch(*build, reports, out, error);
+  release_block(build);
   return built;
 }
 

@@ -128,6 +128,18 @@ class Placer {
     return {static_cast<T*>(at), count};
   }
 
+  /// Replaces a list by a copy in the block. While measuring, only takes the room.
+  template <class T>
+  void keep(Span<T>& list, size_t alignment = alignof(T)) {
+    static_assert(std::is_trivially_copyable<T>::value, "copied as bytes");
+    const auto copy = unwritten_array<std::remove_const_t<T>>(list.count, alignment);
+    if (measuring()) return;
+    if (list.count != 0) {
+      memcpy(static_cast<void*>(copy.data), list.data, list.count * sizeof(T));
+    }
+    list = copy;
+  }
+
   bool measuring() const { return base_ == nullptr; }
   size_t size() const { return align_up(used_, kBlockAlignment); }
 
@@ -154,11 +166,11 @@ T* create_block(const Allocator& allocator, Place place) {
   void* block = allocator.get(size, kBlockAlignment);
   if (!block) return nullptr;
   T* object = new (block) T;
-  object->allocator = allocator;
-  object->block_size = size;
   Placer placer(block);
   placer.unwritten_array<T>(1);
   place(placer, *object);
+  object->allocator = allocator;
+  object->block_size = size;
   return object;
 }
 

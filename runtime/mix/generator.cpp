@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "runtime/base/vector.h"
 #include "runtime/mix/fade.h"
 
 namespace mien {
@@ -19,6 +20,12 @@ float random_at(uint64_t seed, uint64_t stream, uint64_t index) {
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
   z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
   return static_cast<float>((z ^ (z >> 31)) >> 40) * (1.0f / 16777216.0f);
+}
+
+/// Noise from -1 to 1 at `u` 0 ... 1 of the way from a cell to the next.
+float noise_at(uint64_t seed, uint64_t stream, uint64_t cell, float u) {
+  const float a = random_at(seed, stream, cell), b = random_at(seed, stream, cell + 1);
+  return 2.0f * (a + u * (b - a)) - 1.0f;
 }
 
 float smooth(float u) { return u * u * u * (10.0f + u * (6.0f * u - 15.0f)); }
@@ -77,9 +84,7 @@ void generate(const LayerDesc& layer, uint64_t seed, uint32_t stream, int64_t no
       const auto cell = static_cast<uint64_t>(now / layer.period);
       const float s = smooth_at(now % layer.period, layer.period);
       for (size_t i = 0; i < layer.lanes.count; ++i) {
-        const uint64_t lane = (uint64_t{stream} << 32) + i;
-        const float a = random_at(seed, lane, cell), b = random_at(seed, lane, cell + 1);
-        out[i] = layer.amounts[i] * (2.0f * (a + s * (b - a)) - 1.0f);
+        out[i] = layer.amounts[i] * noise_at(seed, (uint64_t{stream} << 32) + i, cell, s);
       }
       break;
     }
@@ -91,26 +96,17 @@ void generate(const LayerDesc& layer, uint64_t seed, uint32_t stream, int64_t no
 
 namespace {
 
+Vec3 vector(const float* v) { return {v[0], v[1], v[2]}; }
+
 /// Degrees between two places as the eyes see them. The chord instead of an arc cosine: 1 % less at 60.
 float angle_between(const GazeTable& table, const float* a, const float* b) {
-  double unit[2][3];
-  for (int which = 0; which < 2; ++which) {
-    const float* place = which == 0 ? a : b;
-    double square = 0;
-    for (int k = 0; k < 3; ++k) {
-      const double middle =
-          0.5 * (double{table.eyes[0].center[k]} + double{table.eyes[1].center[k]});
-      unit[which][k] = double{place[k]} - middle;
-      square += unit[which][k] * unit[which][k];
-    }
-    const double scale = square > 0 ? 1 / std::sqrt(square) : 0;
-    for (double& part : unit[which]) part *= scale;
-  }
-  double square = 0;
-  for (int k = 0; k < 3; ++k) {
-    square += (unit[0][k] - unit[1][k]) * (unit[0][k] - unit[1][k]);
-  }
-  const double chord = std::sqrt(square);
+  const Vec3 middle = (vector(table.eyes[0].center) + vector(table.eyes[1].center)) * 0.5;
+  const auto direction = [&](const float* place) {
+    const Vec3 way = vector(place) - middle;
+    return is_zero(way) ? way : unit(way);
+  };
+  const Vec3 between = direction(a) - direction(b);
+  const double square = dot(between, between), chord = std::sqrt(square);
   return static_cast<float>(57.29577951308232 * chord * (1 + square / 24));
 }
 
@@ -159,9 +155,7 @@ void generate_gaze(const GazeTable& table, const LayerDesc& layer, uint64_t seed
   const auto cell = static_cast<uint64_t>(now / layer.period);
   const float u = smooth_at(now % layer.period, layer.period);
   for (uint32_t k = 0; k < 2; ++k) {
-    const uint64_t lane = (uint64_t{stream} << 32) + k;
-    const float a = random_at(seed, lane, cell), b = random_at(seed, lane, cell + 1);
-    const float noise = 2.0f * (a + u * (b - a)) - 1.0f;
+    const float noise = noise_at(seed, (uint64_t{stream} << 32) + k, cell, u);
     const float distance = place[2] - table.eyes[0].center[2];
     place[k] += layer.amounts[k] * 0.017453292f * noise * (distance > 1.0f ? distance : 1.0f);
   }

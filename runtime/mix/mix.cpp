@@ -297,21 +297,16 @@ Status check_lanes(const MixDesc& desc, uint32_t lanes, Error& error) {
   return Status::kOk;
 }
 
-/// Copies a list, and with `keep_parts` what its elements refer to. While measuring, only takes the room.
+/// Placer::keep() for a list of which the elements refer to other lists: `keep_parts` keeps those.
 template <class T, class KeepParts>
-void keep(Placer& placer, Span<T>& list, KeepParts keep_parts) {
-  const auto copy = placer.array<std::remove_const_t<T>>(list.count);
+void keep(Placer& placer, Span<const T>& list, KeepParts keep_parts) {
+  const Span<T> copy = placer.array<T>(list.count);
   for (size_t i = 0; i < list.count; ++i) {
-    auto item = list[i];
+    T item = list[i];
     keep_parts(item);
     if (!placer.measuring()) copy[i] = item;
   }
   if (!placer.measuring()) list = copy;
-}
-
-template <class T>
-void keep(Placer& placer, Span<T>& list) {
-  keep(placer, list, [](const T&) {});
 }
 
 /// The mask where the source of a layer can have values; other lanes stay 0.
@@ -351,8 +346,8 @@ void place_layers(Placer& placer, Mix& mix) {
   mix.first_fades = placer.array<uint32_t>(mix.layers.count);
   uint32_t i = 0;
   keep(placer, mix.layers, [&](LayerDesc& layer) {
-    keep(placer, layer.lanes);
-    keep(placer, layer.amounts);
+    placer.keep(layer.lanes);
+    placer.keep(layer.amounts);
     if (layer.source != LayerSource::kPoses) layer.pose_count = 0;
     const Span<float> mask = placer.array<float>(mix.lane_count, kBlockAlignment);
     if (!placer.measuring()) {
@@ -372,8 +367,8 @@ void place_poses(Placer& placer, Mix& mix) {
   mix.pose_rows = placer.array<Span<float>>(mix.poses.count);
   uint32_t i = 0;
   keep(placer, mix.poses, [&](PoseDesc& pose) {
-    keep(placer, pose.lanes);
-    keep(placer, pose.values);
+    placer.keep(pose.lanes);
+    placer.keep(pose.values);
     const uint32_t number = i++;
     if (pose.lanes.count * 2 < mix.lane_count) return;
     const Span<float> row = placer.array<float>(mix.lane_count, kBlockAlignment);
@@ -387,7 +382,7 @@ void place_reactions(Placer& placer, Mix& mix) {
   mix.first_strokes = placer.array<uint32_t>(mix.reactions.count);
   uint32_t i = 0;
   keep(placer, mix.reactions, [&](ReactionDesc& reaction) {
-    keep(placer, reaction.strokes);
+    placer.keep(reaction.strokes);
     if (!placer.measuring()) mix.first_strokes[i++] = mix.stroke_count;
     mix.stroke_count += static_cast<uint32_t>(reaction.strokes.count);
   });
@@ -396,7 +391,7 @@ void place_reactions(Placer& placer, Mix& mix) {
 void place_guards(Placer& placer, Mix& mix) {
   size_t most = 0;
   for (const Guard& guard : mix.guards) most += guard.count;
-  keep(placer, mix.guards);
+  placer.keep(mix.guards);
   mix.guarded = placer.array<uint16_t>(most);
   mix.placed_guards = placer.array<PlacedGuard>(mix.guards.count);
   if (placer.measuring()) return;
@@ -429,10 +424,10 @@ void place_mix(Placer& placer, const MixDesc& desc, Mix& mix) {
   place_reactions(placer, mix);
   place_guards(placer, mix);
   place_limits(placer, mix);
-  keep(placer, mix.antagonists);
-  keep(placer, mix.mirror);
-  keep(placer, mix.names.first);
-  keep(placer, mix.names.chars);
+  placer.keep(mix.antagonists);
+  placer.keep(mix.mirror);
+  placer.keep(mix.names.first);
+  placer.keep(mix.names.chars);
   mix.names.sorted = {};
   if (!mix.kernels) mix.kernels = kernels_for(Isa::kBest);
 }

@@ -16,9 +16,16 @@ template <class To>
 struct MixOutput {
   To& to() { return static_cast<To&>(*this); }
   void count(const char* name, uint32_t number, uint32_t) { to().value(name, number); }
+  template <class T, class Names>
+  void choice(const char* name, T number, const Names&) {
+    to().value(name, static_cast<uint8_t>(number));
+  }
   void pair(const char* name, uint16_t lane, float value) {
     to().value(name, lane);
     to().value(name, value);
+  }
+  void lanes(const char* name, Span<const uint16_t> list) {
+    for (uint16_t lane : list) to().value(name, lane);
   }
   void keep(const GazeTable&, const GazeTable*) {}
   template <class T, class Fields>
@@ -29,49 +36,53 @@ struct MixOutput {
       to().element(name, i, [&] { fields(item); });
     }
   }
+  template <class Fields>
+  void element(const char*, size_t, Fields fields) {
+    fields();
+  }
 };
 
 /// Counts bytes, and writes those for which there is room.
+struct Sink {
+  uint8_t* data;
+  size_t room;
+  size_t size = 0;
+
+  void put(const void* bytes, size_t count) {
+    if (size <= room && count <= room - size && count != 0) memcpy(data + size, bytes, count);
+    size += count;
+  }
+};
+
 struct MixBytes : MixOutput<MixBytes> {
   const Mix& mix;
   const LaneMap& map;
-  Span<uint8_t> out;
-  size_t size = 0;
+  Sink& sink;
 
-  MixBytes(const Mix& m, const LaneMap& lanes, Span<uint8_t> to) : mix(m), map(lanes), out(to) {}
+  MixBytes(const Mix& m, const LaneMap& lanes, Sink& to) : mix(m), map(lanes), sink(to) {}
 
-  void put(const void* bytes, size_t count) {
-    if (size <= out.count && count <= out.count - size && count != 0) {
-      memcpy(out.data + size, bytes, count);
-    }
-    size += count;
+  void place(const char*, uint16_t number) {
+    number = to_little_endian(number);
+    sink.put(&number, sizeof(number));
   }
   template <class T>
   void value(const char*, T number) {
     number = to_little_endian(number);
-    put(&number, sizeof(number));
+    sink.put(&number, sizeof(number));
   }
   void value(const char*, bool flag) { value("", static_cast<uint8_t>(flag)); }
   void value(const char*, uint16_t lane) { place("", map.file_lane_of[lane]); }
-  void place(const char*, uint16_t number) {
-    number = to_little_endian(number);
-    put(&number, sizeof(number));
-  }
-  template <class T, class Names>
-  void choice(const char*, T number, const Names&) {
-    value("", static_cast<uint8_t>(number));
-  }
   void names(const char*, uint32_t) {
     value("", map.name_count);
     for (uint32_t i = 0; i < map.name_count; ++i) {
       const Span<char> name = mix.names[map.lane_of[i]];
       value("", static_cast<uint32_t>(name.count));
-      put(name.data, name.count);
+      sink.put(name.data, name.count);
     }
   }
   void lanes(const char*, Span<const uint16_t> list) {
     value("", static_cast<uint32_t>(list.count));
-    for (uint16_t lane : list) value("", lane);
+    MixOutput::lanes("", list);
   }
   void pairs(const char*, Span<const uint16_t> list, Span<const float> values) {
     lanes("", list);
@@ -84,29 +95,17 @@ struct MixBytes : MixOutput<MixBytes> {
       value("", numbers[map.lane_of[i]]);
     }
   }
-  template <class Fields>
-  void element(const char*, size_t, Fields fields) {
-    fields();
-  }
 };
 
-/// Counts characters, and writes those for which there is room.
 struct MixText : MixOutput<MixText> {
   const Mix& mix;
   const LaneMap& map;
-  Span<char> out;
-  size_t size = 0;
+  Sink& sink;
   char path[64] = "";
 
-  MixText(const Mix& m, const LaneMap& lanes, Span<char> to) : mix(m), map(lanes), out(to) {}
+  MixText(const Mix& m, const LaneMap& lanes, Sink& to) : mix(m), map(lanes), sink(to) {}
 
-  void put(const char* text, size_t count) {
-    if (size <= out.count && count <= out.count - size && count != 0) {
-      memcpy(out.data + size, text, count);
-    }
-    size += count;
-  }
-  void put(const char* text) { put(text, strlen(text)); }
+  void put(const char* text) { sink.put(text, strlen(text)); }
   void put_lane(uint16_t lane) {
     char text[16];
     if (lane >= mix.raw_count) {
@@ -129,7 +128,7 @@ struct MixText : MixOutput<MixText> {
     for (const char* c = text; *c; ++c) {
       const bool known = strchr("0123456789+-e", *c) != nullptr;
       if (known) {
-        put(c, 1);
+        sink.put(c, 1);
       } else if (!pointed) {
         put(".");
         pointed = true;
@@ -167,15 +166,13 @@ struct MixText : MixOutput<MixText> {
   void names(const char* name, uint32_t) {
     for (uint32_t i = 0; i < map.name_count; ++i) value(name, map.lane_of[i]);
   }
-  void pair(const char* name, uint16_t lane, float number) {
+  template <class T>
+  void pair(const char* name, uint16_t lane, T number) {
     begin(name);
     put_lane(lane);
     put(" ");
     put_number(number);
     put("\n");
-  }
-  void lanes(const char* name, Span<const uint16_t> list) {
-    for (uint16_t lane : list) value(name, lane);
   }
   void pairs(const char* name, Span<const uint16_t> list, Span<const float> values) {
     for (size_t i = 0; i < list.count; ++i) pair(name, list[i], values[i]);
@@ -183,11 +180,7 @@ struct MixText : MixOutput<MixText> {
   template <class T, class Otherwise>
   void row(const char* name, Span<const T> numbers, Otherwise) {
     for (size_t i = 0; i < map.lane_of.count && !numbers.empty(); ++i) {
-      begin(name);
-      put_lane(map.lane_of[i]);
-      put(" ");
-      put_number(numbers[map.lane_of[i]]);
-      put("\n");
+      pair(name, map.lane_of[i], numbers[map.lane_of[i]]);
     }
   }
   template <class Fields>
@@ -208,12 +201,7 @@ struct LaneFinder : MixOutput<LaneFinder> {
   void value(const char*, T) {}
   void value(const char*, uint16_t lane) { used[lane] = 0; }
   void place(const char*, uint16_t) {}
-  template <class T, class Names>
-  void choice(const char*, T, const Names&) {}
   void names(const char*, uint32_t) {}
-  void lanes(const char*, Span<const uint16_t> list) {
-    for (uint16_t lane : list) used[lane] = 0;
-  }
   void pairs(const char*, Span<const uint16_t> list, Span<const float>) { lanes("", list); }
   template <class T, class Otherwise>
   void row(const char*, Span<const T> numbers, Otherwise otherwise) {
@@ -221,14 +209,10 @@ struct LaneFinder : MixOutput<LaneFinder> {
       if (numbers[l] != otherwise(l)) used[l] = 0;
     }
   }
-  template <class Fields>
-  void element(const char*, size_t, Fields fields) {
-    fields();
-  }
 };
 
-/// What writing needs, in an arena.
-Status prepare(const Mix& mix, MixDesc& desc, Arena& arena, LaneMap& map, Error& error) {
+/// The lanes of the file, in an arena.
+Status map_lanes(const Mix& mix, MixDesc& desc, Arena& arena, LaneMap& map, Error& error) {
   map.lane_of = arena.array<uint16_t>(mix.used_lanes() + 1);
   map.file_lane_of = arena.array<uint16_t>(mix.used_lanes() + 1);  // never nothing
   if (!map.lane_of.data || !map.file_lane_of.data) {
@@ -268,20 +252,28 @@ Status prepare(const Mix& mix, MixDesc& desc, Arena& arena, LaneMap& map, Error&
   return Status::kOk;
 }
 
+template <class Output>
+Status write(const Mix& mix, Sink& sink, Error& error) {
+  Arena arena(mix.allocator);
+  MixDesc desc = mix;
+  LaneMap map;
+  const Status status = map_lanes(mix, desc, arena, map, error);
+  if (status != Status::kOk) return status;
+  Output output(mix, map, sink);
+  walk(output, desc);
+  return Status::kOk;
+}
+
 }  // namespace
 
 Status write_mix(const Mix& mix, Span<uint8_t> out, size_t& size, Error& error) {
   size = 0;
-  Arena arena(mix.allocator);
-  MixDesc desc = mix;
-  LaneMap map;
-  const Status status = prepare(mix, desc, arena, map, error);
+  Sink sink = {out.data, out.count};
+  sink.put(kMixMagic, sizeof(kMixMagic));
+  sink.size = kMixHeaderSize;
+  const Status status = write<MixBytes>(mix, sink, error);
   if (status != Status::kOk) return status;
-  MixBytes writer(mix, map, out);
-  writer.put(kMixMagic, sizeof(kMixMagic));
-  writer.size = kMixHeaderSize;
-  walk(writer, desc);
-  size = writer.size;
+  size = sink.size;
   if (size > out.count) return Status::kOk;
   store_little_endian(out.data + kAtVersion, kMixVersion);
   store_little_endian(out.data + kAtSize, uint64_t{size});
@@ -290,16 +282,10 @@ Status write_mix(const Mix& mix, Span<uint8_t> out, size_t& size, Error& error) 
 }
 
 Status write_mix_text(const Mix& mix, Span<char> out, size_t& size, Error& error) {
-  size = 0;
-  Arena arena(mix.allocator);
-  MixDesc desc = mix;
-  LaneMap map;
-  const Status status = prepare(mix, desc, arena, map, error);
-  if (status != Status::kOk) return status;
-  MixText writer(mix, map, out);
-  walk(writer, desc);
-  size = writer.size;
-  return Status::kOk;
+  Sink sink = {reinterpret_cast<uint8_t*>(out.data), out.count};
+  const Status status = write<MixText>(mix, sink, error);
+  size = status == Status::kOk ? sink.size : 0;
+  return status;
 }
 
 }  // namespace mien

@@ -83,16 +83,26 @@ void set_cover(Mixer& mixer, Player& player) {
   }
 }
 
-Status bad_fade(Error& error, const char* of, uint32_t index, float weight, float lowest,
-                int64_t ticks) {
+Status bad_layer(Error& error, uint32_t layer, const char* why) {
+  return fail(error, Status::kIndex, kNoOffset, "layer %u: %s", layer, why);
+}
+
+Status check_index(const char* of, uint32_t index, size_t count, Error& error) {
+  if (index < count) return Status::kOk;
+  return fail(error, Status::kIndex, kNoOffset, "%s %u of %zu", of, index, count);
+}
+
+/// Fades a weight from now on.
+Status fade_to(const Mixer& mixer, Fade& fade, const char* of, uint32_t index, float weight,
+               float lowest, int64_t ticks, Error& error) {
+  if (weight >= lowest && weight <= 1.0f && ticks >= 0 && ticks <= kMaxFadeTicks) {
+    start_fade(fade, mixer.header->now, weight, ticks);
+    return Status::kOk;
+  }
   return fail(
       error, Status::kInvalidArgument, kNoOffset,
       "%s %u: weight %g in %lld ticks; weights are %g ... 1, times 0 ... 2^40 ticks (26 minutes)",
       of, index, double{weight}, static_cast<long long>(ticks), double{lowest});
-}
-
-Status bad_layer(Error& error, uint32_t layer, const char* why) {
-  return fail(error, Status::kIndex, kNoOffset, "layer %u: %s", layer, why);
 }
 
 }  // namespace
@@ -230,22 +240,16 @@ Status stop_layer(Mixer& mixer, uint32_t index, int64_t fade_ticks, Error& error
   if (index >= mixer.layers.count || mixer.mix->layers[index].source != LayerSource::kClip) {
     return bad_layer(error, index, "it does not exist or plays no clips");
   }
-  if (fade_ticks < 0 || fade_ticks > kMaxFadeTicks) {
-    return bad_fade(error, "layer", index, 0.0f, 0.0f, fade_ticks);
-  }
-  start_fade(mixer.layers[index].presence, mixer.header->now, 0.0f, fade_ticks);
-  return Status::kOk;
+  return fade_to(mixer, mixer.layers[index].presence, "layer", index, 0.0f, 0.0f, fade_ticks,
+                 error);
 }
 
 Status set_layer_weight(Mixer& mixer, uint32_t index, float weight, int64_t fade_ticks,
                         Error& error) {
   if (index >= mixer.layers.count) return bad_layer(error, index, "it does not exist");
   const float lowest = mixer.mix->layers[index].mode == BlendMode::kAdd ? -1.0f : 0.0f;
-  if (!(weight >= lowest && weight <= 1.0f) || fade_ticks < 0 || fade_ticks > kMaxFadeTicks) {
-    return bad_fade(error, "layer", index, weight, lowest, fade_ticks);
-  }
-  start_fade(mixer.layers[index].weight, mixer.header->now, weight, fade_ticks);
-  return Status::kOk;
+  return fade_to(mixer, mixer.layers[index].weight, "layer", index, weight, lowest, fade_ticks,
+                 error);
 }
 
 Status set_pose_weight(Mixer& mixer, uint32_t index, uint32_t pose, float weight,
@@ -253,19 +257,13 @@ Status set_pose_weight(Mixer& mixer, uint32_t index, uint32_t pose, float weight
   if (index >= mixer.layers.count || pose >= mixer.mix->layers[index].pose_count) {
     return bad_layer(error, index, "it does not exist or has no such pose");
   }
-  if (!(weight >= 0.0f && weight <= 1.0f) || fade_ticks < 0 || fade_ticks > kMaxFadeTicks) {
-    return bad_fade(error, "pose", pose, weight, 0.0f, fade_ticks);
-  }
-  start_fade(mixer.pose_weights[mixer.mix->first_fades[index] + pose], mixer.header->now, weight,
-             fade_ticks);
-  return Status::kOk;
+  Fade& fade = mixer.pose_weights[mixer.mix->first_fades[index] + pose];
+  return fade_to(mixer, fade, "pose", pose, weight, 0.0f, fade_ticks, error);
 }
 
 Status set_variable(Mixer& mixer, uint32_t variable, float value, Error& error) {
-  if (variable >= mixer.variables.count) {
-    return fail(error, Status::kIndex, kNoOffset, "pose variable %u of %zu", variable,
-                mixer.variables.count);
-  }
+  const Status status = check_index("pose variable", variable, mixer.variables.count, error);
+  if (status != Status::kOk) return status;
   if (!std::isfinite(value)) {
     return fail(error, Status::kInvalidArgument, kNoOffset,
                 "pose variable %u: the value is not finite", variable);
@@ -300,10 +298,8 @@ Status push_row(Mixer& mixer, uint32_t index, int64_t tick, Span<const float> va
 }
 
 Status trigger(Mixer& mixer, uint32_t reaction, float strength, int64_t hold_ticks, Error& error) {
-  if (reaction >= mixer.reactions.count) {
-    return fail(error, Status::kIndex, kNoOffset, "reaction %u of %zu", reaction,
-                mixer.reactions.count);
-  }
+  const Status status = check_index("reaction", reaction, mixer.reactions.count, error);
+  if (status != Status::kOk) return status;
   if (!(strength >= 0.0f && strength <= 1.0f) || hold_ticks < 0 ||
       (hold_ticks > kMaxFadeTicks && hold_ticks != kUntilReleased)) {
     return fail(
@@ -318,19 +314,15 @@ Status trigger(Mixer& mixer, uint32_t reaction, float strength, int64_t hold_tic
 }
 
 Status end_stimulus(Mixer& mixer, uint32_t reaction, Error& error) {
-  if (reaction >= mixer.reactions.count) {
-    return fail(error, Status::kIndex, kNoOffset, "reaction %u of %zu", reaction,
-                mixer.reactions.count);
-  }
+  const Status status = check_index("reaction", reaction, mixer.reactions.count, error);
+  if (status != Status::kOk) return status;
   release_reaction(reaction, mixer.header->now, mixer.reactions);
   return Status::kOk;
 }
 
 Status set_level(Mixer& mixer, uint32_t reaction, float level, Error& error) {
-  if (reaction >= mixer.reactions.count) {
-    return fail(error, Status::kIndex, kNoOffset, "reaction %u of %zu", reaction,
-                mixer.reactions.count);
-  }
+  const Status status = check_index("reaction", reaction, mixer.reactions.count, error);
+  if (status != Status::kOk) return status;
   if (mixer.mix->reactions[reaction].level_on == 0.0f || !(level >= 0.0f && level <= 1.0f)) {
     return fail(error, Status::kInvalidArgument, kNoOffset,
                 "reaction %u: level %g; levels are 0 ... 1, of reactions with .level_on above 0",
@@ -342,10 +334,8 @@ Status set_level(Mixer& mixer, uint32_t reaction, float level, Error& error) {
 }
 
 Status set_guard(Mixer& mixer, uint32_t guard, float activation, Error& error) {
-  if (guard >= mixer.guard_overrides.count) {
-    return fail(error, Status::kIndex, kNoOffset, "guard %u of %zu", guard,
-                mixer.guard_overrides.count);
-  }
+  const Status status = check_index("guard", guard, mixer.guard_overrides.count, error);
+  if (status != Status::kOk) return status;
   if (!(activation <= 1.0f)) {
     return fail(error, Status::kInvalidArgument, kNoOffset,
                 "guard %u: activation %g; it must be 0 ... 1, or negative for the guard's own",

@@ -6,6 +6,7 @@
 // Its bytes may come from anywhere. All that is used as an index or takes part in arithmetic of
 // times is checked before anything changes; numbers that are only computed with may have any finite
 // value.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -25,6 +26,8 @@ struct SnapshotHeader {
   uint64_t fingerprint;
 };
 
+constexpr char kOutOfRange[] = "has a number out of range: it is damaged";
+
 Status wrong(Error& error, const char* what) {
   return fail(error, Status::kInvalidArgument, kNoOffset, "the snapshot %s", what);
 }
@@ -43,19 +46,15 @@ struct SavedState {
   }
 };
 
-bool finite(std::initializer_list<float> values) {
-  for (float value : values) {
-    if (!std::isfinite(value)) return false;
-  }
-  return true;
-}
-
 bool is_duration(int64_t ticks) { return ticks >= 0 && ticks <= kMaxFadeTicks; }
 bool is_time(int64_t tick) { return tick >= -kMaxTime && tick <= kMaxTime; }
 
-bool is_fade(const Fade& fade) {
-  return is_time(fade.start) && is_duration(fade.ticks) &&
-         finite({fade.target, fade.offset.c0, fade.offset.c1, fade.offset.c2}) &&
+// What may stand in a snapshot; of numbers that are only computed with, all finite ones.
+bool valid(float value) { return std::isfinite(value); }
+
+bool valid(const Fade& fade) {
+  return is_time(fade.start) && is_duration(fade.ticks) && valid(fade.target) &&
+         valid(fade.offset.c0) && valid(fade.offset.c1) && valid(fade.offset.c2) &&
          fade.offset.rate >= 0.0f;
 }
 
@@ -70,8 +69,8 @@ bool is_layer(const Mixer& mixer, const SavedState& saved, uint32_t index, uint6
     }
     players |= uint64_t{1} << player;
   }
-  return (layer.current != kNoPlayer || layer.previous == kNoPlayer) && is_fade(layer.weight) &&
-         is_fade(layer.presence) && is_fade(layer.cross) && layer.shown_count <= 2 &&
+  return (layer.current != kNoPlayer || layer.previous == kNoPlayer) && valid(layer.weight) &&
+         valid(layer.presence) && valid(layer.cross) && layer.shown_count <= 2 &&
          layer.newest <= 1 && layer.in_player[0] == 0 && layer.in_player[1] == 0 &&
          is_duration(layer.shown_ticks) && is_time(layer.offset_start) &&
          is_duration(layer.offset_ticks);
@@ -94,33 +93,44 @@ Status check_player(const Mixer& mixer, const PlayerState& player, uint32_t laye
       (player.wraps ? player.tick >= length : player.tick > length)) {
     return fail(error, Status::kMismatch, kNoOffset, "layer %u: the clip is another one", layer);
   }
-  const bool valid = player.tick >= 0 && player.loops >= -kMaxLoops && player.loops <= kMaxLoops &&
-                     player.speed_denominator >= 1 && player.speed_denominator <= kMaxSpeed &&
-                     player.fraction >= 0 && player.fraction < player.speed_denominator &&
-                     player.speed_numerator >= -kMaxSpeed && player.speed_numerator <= kMaxSpeed &&
-                     player.wraps <= 1 && player.mirrored <= 1 && player.fresh <= 1 &&
-                     player.backward <= 1 &&
-                     player.interpolation <= static_cast<uint8_t>(Interpolation::kCatmullRom) &&
-                     (!player.mirrored || !mixer.mix->mirror.empty());
-  return valid ? Status::kOk
-               : wrong(error, "has a player in a state that none can be in: it is damaged");
+  const bool possible =
+      player.tick >= 0 && player.loops >= -kMaxLoops && player.loops <= kMaxLoops &&
+      player.speed_denominator >= 1 && player.speed_denominator <= kMaxSpeed &&
+      player.fraction >= 0 && player.fraction < player.speed_denominator &&
+      player.speed_numerator >= -kMaxSpeed && player.speed_numerator <= kMaxSpeed &&
+      player.wraps <= 1 && player.mirrored <= 1 && player.fresh <= 1 && player.backward <= 1 &&
+      player.interpolation <= static_cast<uint8_t>(Interpolation::kCatmullRom) &&
+      (!player.mirrored || !mixer.mix->mirror.empty());
+  return possible ? Status::kOk
+                  : wrong(error, "has a player in a state that none can be in: it is damaged");
 }
 
-bool is_reaction(const ReactionState& reaction) {
+bool valid(const ReactionState& reaction) {
   return is_time(reaction.triggered) &&
          (is_time(reaction.stimulus_end) || reaction.stimulus_end == kUntilReleased) &&
-         is_fade(reaction.gain) && finite({reaction.strength}) && reaction.running <= 1 &&
+         valid(reaction.gain) && valid(reaction.strength) && reaction.running <= 1 &&
          is_time(reaction.level.start) && std::fabs(reaction.level.target) <= 1 &&
          std::fabs(reaction.level.offset) <= 1e6f && std::fabs(reaction.level.push) <= 1e6f &&
          reaction.level_is_on <= 1;
 }
 
-/// What is left: numbers that are only computed with.
-bool all_finite(const SavedState& saved, Span<float> floats) {
-  for (const float& value : floats) {
-    if (!std::isfinite(saved.read(value))) return false;
+bool valid(const StrokeState& stroke) {
+  return valid(stroke.envelope) && is_time(stroke.begin) && stroke.phase <= kStrokeFalls;
+}
+
+bool valid(const GazeState& gaze) {
+  bool near = true;
+  for (int k = 0; k < 3; ++k) {
+    near = near && std::fabs(gaze.from[k]) <= 1e6f && std::fabs(gaze.to[k]) <= 1e6f;
   }
-  return true;
+  return near && is_time(gaze.start) && is_duration(gaze.duration) && is_time(gaze.large_shift) &&
+         gaze.begun <= 1;
+}
+
+template <class T>
+bool all_valid(const SavedState& saved, Span<T> in_mixer) {
+  return std::all_of(in_mixer.begin(), in_mixer.end(),
+                     [&](const T& item) { return valid(saved.read(item)); });
 }
 
 Status check_state(const Mixer& mixer, const SavedState& saved, const ClipFinder& clips,
@@ -142,34 +152,21 @@ Status check_state(const Mixer& mixer, const SavedState& saved, const ClipFinder
       if (status != Status::kOk) return status;
     }
   }
-  bool valid = true;
-  for (const Fade& fade : mixer.pose_weights) valid = valid && is_fade(saved.read(fade));
   for (uint32_t i = 0; i < mixer.generators.count; ++i) {
     const LayerDesc& layer = mixer.mix->layers[i];
     const bool blinks = layer.source == LayerSource::kGenerator &&
                         layer.generator == Generator::kBlink && !layer.lanes.empty();
     const int64_t next = saved.read(mixer.generators[i]).next;
     // A step goes through all blinks since then.
-    valid = valid && next >= 0 && is_time(next) && (!blinks || now - next <= kMaxFadeTicks);
-  }
-  for (const GazeState& gaze : mixer.gazes) {
-    const GazeState state = saved.read(gaze);
-    valid = valid && is_time(state.start) && is_duration(state.duration) &&
-            is_time(state.large_shift) && state.begun <= 1;
-    for (int k = 0; k < 3; ++k) {
-      valid = valid && std::fabs(state.from[k]) <= 1e6f && std::fabs(state.to[k]) <= 1e6f;
+    if (next < 0 || !is_time(next) || (blinks && now - next > kMaxFadeTicks)) {
+      return wrong(error, kOutOfRange);
     }
   }
-  for (const ReactionState& reaction : mixer.reactions) {
-    valid = valid && is_reaction(saved.read(reaction));
-  }
-  for (const StrokeState& stroke : mixer.strokes) {
-    const StrokeState state = saved.read(stroke);
-    valid = valid && is_fade(state.envelope) && is_time(state.begin) && state.phase <= kStrokeFalls;
-  }
-  valid = valid && all_finite(saved, mixer.variables) && all_finite(saved, mixer.guard_overrides) &&
-          all_finite(saved, mixer.held) && all_finite(saved, mixer.layer_rows);
-  return valid ? Status::kOk : wrong(error, "has a number out of range: it is damaged");
+  const bool all = all_valid(saved, mixer.pose_weights) && all_valid(saved, mixer.gazes) &&
+                   all_valid(saved, mixer.reactions) && all_valid(saved, mixer.strokes) &&
+                   all_valid(saved, mixer.variables) && all_valid(saved, mixer.guard_overrides) &&
+                   all_valid(saved, mixer.held) && all_valid(saved, mixer.layer_rows);
+  return all ? Status::kOk : wrong(error, kOutOfRange);
 }
 
 PlayerState saved_player(const Player& player) {

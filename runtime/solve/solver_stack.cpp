@@ -15,46 +15,36 @@ constexpr size_t kStateAlignment = alignof(double);
 
 /// Joints depth first, in scratch memory.
 struct DepthFirst {
-  Span<uint16_t> order;     // [place] joint
-  Span<uint16_t> place;     // [joint]
-  Span<uint16_t> ends;      // [joint] place behind all that hang on it
-  Span<uint16_t> next;      // [joint] next joint with the same parent, or itself
-  Span<uint16_t> children;  // [joint] first child, or itself
+  Span<uint16_t> order;  // [place] joint
+  Span<uint16_t> place;  // [joint]
+  Span<uint16_t> ends;   // [joint] place behind all that hang on it
+  Span<uint16_t> next;   // [joint] while sorting: place of its next child
 
   JointRange below(uint16_t joint) const { return {place[joint], ends[joint]}; }
 };
 
 bool sort_depth_first(const Skeleton& skeleton, Arena& scratch, DepthFirst& out) {
   const uint32_t count = skeleton.joint_count;
-  for (Span<uint16_t>* list : {&out.order, &out.place, &out.ends, &out.next, &out.children}) {
+  for (Span<uint16_t>* list : {&out.order, &out.place, &out.ends, &out.next}) {
     *list = scratch.array<uint16_t>(count);
-    if (!list->data && count != 0) return false;
+    if (list->count != count) return false;
   }
-  for (uint32_t j = 0; j < count; ++j) out.next[j] = out.children[j] = static_cast<uint16_t>(j);
-  for (uint32_t i = count; i-- > 0;) {  // so that first children come first
+  const Span<uint16_t> sizes =
+      out.ends;  // of a joint and all that hang on it, until its end is known
+  for (uint32_t i = count;
+       i-- > 0;) {  // parents come before their children in the skeleton's order
     const uint16_t joint = skeleton.order[i], parent = skeleton.parents[joint];
-    if (parent == joint) continue;
-    if (out.children[parent] != parent) out.next[joint] = out.children[parent];
-    out.children[parent] = joint;
+    ++sizes[joint];
+    if (parent != joint) sizes[parent] = static_cast<uint16_t>(sizes[parent] + sizes[joint]);
   }
-  uint16_t place = 0;
-  for (uint16_t root : skeleton.order) {
-    if (skeleton.parents[root] != root) continue;
-    uint16_t joint = root;
-    for (bool down = true;;) {
-      if (down) {
-        out.order[place] = joint;
-        out.place[joint] = place++;
-        if (out.children[joint] != joint) {
-          joint = out.children[joint];
-          continue;
-        }
-      }
-      out.ends[joint] = place;
-      if (joint == root) break;
-      down = out.next[joint] != joint;
-      joint = down ? out.next[joint] : skeleton.parents[joint];
-    }
+  uint16_t next_root = 0;
+  for (uint16_t joint : skeleton.order) {
+    const uint16_t parent = skeleton.parents[joint];
+    uint16_t& place = parent == joint ? next_root : out.next[parent];
+    out.order[place] = joint;
+    out.place[joint] = place;
+    out.next[joint] = static_cast<uint16_t>(place + 1);
+    out.ends[joint] = place = static_cast<uint16_t>(place + sizes[joint]);
   }
   return true;
 }
@@ -62,18 +52,18 @@ bool sort_depth_first(const Skeleton& skeleton, Arena& scratch, DepthFirst& out)
 bool overlap(JointRange a, JointRange b) { return a.first < b.end && b.first < a.end; }
 
 /// Adds a range, and what it touches, as one.
-uint32_t add_range(Span<JointRange> ranges, uint32_t count, JointRange range) {
-  uint32_t kept = 0;
-  for (uint32_t i = 0; i < count; ++i) {
-    if (overlap(ranges[i], range)) {
-      range.first = std::min(range.first, ranges[i].first);
-      range.end = std::max(range.end, ranges[i].end);
+void add_range(Span<JointRange>& ranges, JointRange range) {
+  size_t kept = 0;
+  for (const JointRange& other : ranges) {
+    if (overlap(other, range)) {
+      range.first = std::min(range.first, other.first);
+      range.end = std::max(range.end, other.end);
     } else {
-      ranges[kept++] = ranges[i];
+      ranges[kept++] = other;
     }
   }
-  ranges[kept++] = range;
-  return kept;
+  ranges.data[kept] = range;
+  ranges.count = kept + 1;
 }
 
 Status check_joints(const Skeleton& skeleton, const SolverDesc& solver, Error& error) {
@@ -110,73 +100,78 @@ Status check_order(Span<const SolverDesc> solvers, const DepthFirst& tree, Error
   return Status::kOk;
 }
 
-/// What is stale before each solver, and what of this it reads. Ranges go to `out` if it has memory.
-uint32_t plan_updates(Span<const SolverDesc> descs, const DepthFirst& tree, Span<JointRange> stale,
-                      Stack& stack, Span<JointRange> out) {
-  uint32_t stale_count = 0, used = 0;
-  for (size_t i = 0; i < descs.count; ++i) {
-    if (out.data) stack.solvers[i].first_update = used;
-    for (uint32_t r = 0; r < stale_count;) {
-      const bool reads =
-          std::any_of(descs[i].reads.begin(), descs[i].reads.end(), [&](uint16_t joint) {
-            return tree.place[joint] >= stale[r].first && tree.place[joint] < stale[r].end;
-          });
+Solver planned_solver(const SolverDesc& from, Stack& plan) {
+  Solver solver = {};
+  solver.name = {from.name, strlen(from.name) + 1};
+  solver.solve = from.solve;
+  solver.params = {static_cast<const uint8_t*>(from.params), from.params_size};
+  solver.lods = from.lods;
+  solver.writes = from.writes;
+  solver.previous = from.previous;
+  solver.first_previous = plan.previous_count;
+  solver.first_output = plan.output_count;
+  solver.state_at = plan.state_size;
+  plan.previous_count += static_cast<uint32_t>(from.previous.count);
+  plan.output_count += from.output_count;
+  plan.state_size += align_up(from.state_size, kStateAlignment);
+  return solver;
+}
+
+/// Of lists in scratch memory; the stack gets copies. False if memory ran out.
+bool plan_stack(const StackDesc& desc, const DepthFirst& tree, Arena& scratch, Stack& plan) {
+  const size_t joints = tree.order.count;
+  size_t writes = 0;
+  for (const SolverDesc& solver : desc.solvers) writes += solver.writes.count;
+  Span<JointRange> stale = scratch.array<JointRange>(joints);
+  plan.order = tree.order;
+  plan.solvers = scratch.array<Solver>(desc.solvers.count);
+  plan.changed = scratch.array<JointRange>(joints);
+  plan.updates = scratch.array<JointRange>(writes);  // each write makes one range stale at most
+  if (stale.count != joints || plan.changed.count != joints || plan.updates.count != writes ||
+      plan.solvers.count != desc.solvers.count) {
+    return false;
+  }
+  stale.count = plan.changed.count = plan.updates.count = 0;
+  const auto update = [&](size_t r) { plan.updates.data[plan.updates.count++] = stale[r]; };
+  for (size_t i = 0; i < desc.solvers.count; ++i) {
+    const SolverDesc& from = desc.solvers[i];
+    Solver& solver = plan.solvers[i] = planned_solver(from, plan);
+    // What is stale before it runs and what of this it reads.
+    solver.first_update = static_cast<uint32_t>(plan.updates.count);
+    for (size_t r = 0; r < stale.count;) {
+      const JointRange range = stale[r];
+      const bool reads = std::any_of(from.reads.begin(), from.reads.end(), [&](uint16_t joint) {
+        return tree.place[joint] >= range.first && tree.place[joint] < range.end;
+      });
       if (!reads) {
         ++r;
         continue;
       }
-      if (out.data) out[used] = stale[r];
-      ++used;
-      stale[r] = stale[--stale_count];
+      update(r);
+      stale[r] = stale[stale.count - 1];
+      --stale.count;
     }
-    if (out.data) stack.solvers[i].update_count = used - stack.solvers[i].first_update;
-    for (uint16_t joint : descs[i].writes) {
-      stale_count = add_range(stale, stale_count, tree.below(joint));
+    solver.update_count = static_cast<uint32_t>(plan.updates.count) - solver.first_update;
+    for (uint16_t joint : from.writes) {
+      add_range(stale, tree.below(joint));
+      add_range(plan.changed, tree.below(joint));
     }
   }
-  if (out.data) {
-    stack.first_last_update = used;
-    std::copy_n(stale.begin(), stale_count, out.begin() + used);
-  }
-  return used + stale_count;
+  plan.first_last_update = static_cast<uint32_t>(plan.updates.count);
+  for (size_t r = 0; r < stale.count; ++r) update(r);
+  return true;
 }
 
-struct StackPlan {
-  Span<const SolverDesc> descs;
-  uint32_t update_count, changed_count;
-};
-
-void place_stack(const StackPlan& plan, Placer& placer, Stack& stack) {
-  placer.array<Stack>(1);
-  stack.order = placer.array<uint16_t>(stack.skeleton->joint_count);
-  stack.solvers = placer.array<Solver>(plan.descs.count);
-  stack.updates = placer.array<JointRange>(plan.update_count);
-  stack.changed = placer.array<JointRange>(plan.changed_count);
-  stack.state_size = 0;
-  stack.previous_count = stack.output_count = 0;
-  for (size_t i = 0; i < plan.descs.count; ++i) {
-    const SolverDesc& desc = plan.descs[i];
-    Solver solver = {};
-    solver.solve = desc.solve;
-    solver.lods = desc.lods;
-    const Span<char> name = placer.array<char>(strlen(desc.name) + 1);
-    const Span<uint8_t> params = placer.array<uint8_t>(desc.params_size, kBlockAlignment);
-    solver.params = params.data;
-    solver.writes = placer.array<uint16_t>(desc.writes.count);
-    solver.previous = placer.array<uint16_t>(desc.previous.count);
-    solver.first_previous = stack.previous_count;
-    solver.first_output = stack.output_count;
-    solver.state_at = stack.state_size;
-    stack.previous_count += static_cast<uint32_t>(desc.previous.count);
-    stack.output_count += desc.output_count;
-    stack.state_size += align_up(desc.state_size, kStateAlignment);
-    if (placer.measuring()) continue;
-    memcpy(name.data, desc.name, name.count);
-    solver.name = name.data;
-    if (params.count != 0) memcpy(params.data, desc.params, params.count);
-    std::copy(desc.writes.begin(), desc.writes.end(), solver.writes.begin());
-    std::copy(desc.previous.begin(), desc.previous.end(), solver.previous.begin());
-    stack.solvers[i] = solver;
+void place_stack(Placer& placer, Stack& stack) {
+  placer.keep(stack.order);
+  placer.keep(stack.solvers);
+  placer.keep(stack.updates);
+  placer.keep(stack.changed);
+  for (Solver& solver : stack.solvers) {
+    placer.keep(solver.name);
+    placer.keep(solver.params, kBlockAlignment);
+    placer.keep(solver.writes);
+    placer.keep(solver.previous);
   }
 }
 
@@ -195,45 +190,26 @@ Status create_stack(const Skeleton& skeleton, const StackDesc& desc, const Alloc
   }
   Arena scratch(allocator);
   DepthFirst tree;
-  const Span<JointRange> ranges = scratch.array<JointRange>(size_t{skeleton.joint_count} + 1);
-  if (!ranges.data || !sort_depth_first(skeleton, scratch, tree)) return no_memory(error);
+  if (!sort_depth_first(skeleton, scratch, tree)) return no_memory(error);
   const Status status = check_order(desc.solvers, tree, error);
   if (status != Status::kOk) return status;
-
-  Stack stack;
-  stack.skeleton = &skeleton;
-  stack.allocator = allocator;
-  stack.check_writes = desc.check_writes;
-  StackPlan plan = {desc.solvers, plan_updates(desc.solvers, tree, ranges, stack, {}), 0};
-  for (const SolverDesc& solver : desc.solvers) {
-    for (uint16_t joint : solver.writes) {
-      plan.changed_count = add_range(ranges, plan.changed_count, tree.below(joint));
-    }
-  }
-  Placer measure(nullptr);
-  place_stack(plan, measure, stack);
-  stack.block_size = measure.size();
-  void* block = allocator.get(stack.block_size, kBlockAlignment);
-  if (!block) return no_memory(error);
-  Placer placer(block);
-  place_stack(plan, placer, stack);
-  std::copy(tree.order.begin(), tree.order.end(), stack.order.begin());
-  std::copy_n(ranges.begin(), plan.changed_count, stack.changed.begin());
-  plan_updates(desc.solvers, tree, ranges, stack, stack.updates);
-  out = new (block) Stack(stack);
-  return Status::kOk;
+  Stack plan;
+  plan.skeleton = &skeleton;
+  plan.check_writes = desc.check_writes;
+  if (!plan_stack(desc, tree, scratch, plan)) return no_memory(error);
+  out = create_block<Stack>(allocator, [&](Placer& placer, Stack& stack) {
+    stack = plan;
+    place_stack(placer, stack);
+  });
+  return out ? Status::kOk : no_memory(error);
 }
 
-void release_stack(Stack* stack) {
-  if (!stack) return;
-  const Allocator allocator = stack->allocator;
-  allocator.put(stack, stack->block_size, kBlockAlignment);
-}
+void release_stack(Stack* stack) { release_block(stack); }
 
 namespace {
 
-void place_state(const Stack& stack, Placer& placer, StackState& state) {
-  placer.array<StackState>(1);
+void place_state(Placer& placer, const Stack& stack, StackState& state) {
+  state.stack = &stack;
   const size_t floats = size_t{stack.skeleton->joint_count} * kLocalTransformFloats;
   state.locals = placer.array<float>(floats, kBlockAlignment);
   state.previous = placer.array<float>(size_t{stack.previous_count} * kMatrixFloats);
@@ -245,32 +221,42 @@ void place_state(const Stack& stack, Placer& placer, StackState& state) {
 }  // namespace
 
 size_t stack_state_size(const Stack& stack) {
-  StackState state;
-  Placer measure(nullptr);
-  place_state(stack, measure, state);
-  return measure.size();
+  return block_bytes<StackState>(
+      [&](Placer& placer, StackState& state) { place_state(placer, stack, state); });
 }
 
 StackState* create_stack_state(const Stack& stack, const Allocator& allocator) {
-  StackState state;
-  state.stack = &stack;
-  state.allocator = allocator;
-  state.block_size = stack_state_size(stack);
-  void* block = allocator.get(state.block_size, kBlockAlignment);
-  if (!block) return nullptr;
-  Placer placer(block);
-  place_state(stack, placer, state);
-  return new (block) StackState(state);
+  return create_block<StackState>(
+      allocator, [&](Placer& placer, StackState& state) { place_state(placer, stack, state); });
 }
 
-void destroy_stack_state(StackState* state) {
-  if (!state) return;
-  const Allocator allocator = state->allocator;
-  allocator.put(state, state->block_size, kBlockAlignment);
-}
+void destroy_stack_state(StackState* state) { release_block(state); }
 
 // Stepping
 // ------------------------------------------------------------------------------------------------
+
+namespace {
+
+void put_last_row(float* matrix) {
+  matrix[3] = matrix[7] = matrix[11] = 0.0f;
+  matrix[15] = 1.0f;
+}
+
+/// out = a * b in double precision; both of four columns with a last row of 0 0 0 1, which those of b may
+/// lack.
+template <class T>
+void multiply(const float* a, const T* b, size_t column, float* out) {
+  for (int c = 0; c < 4; ++c, b += column) {
+    for (int r = 0; r < 3; ++r) {
+      double value = double{a[r]} * b[0] + double{a[4 + r]} * b[1] + double{a[8 + r]} * b[2];
+      if (c == 3) value += a[12 + r];
+      out[c * 4 + r] = static_cast<float>(value);
+    }
+  }
+  put_last_row(out);
+}
+
+}  // namespace
 
 void update_models(const Stack& stack, JointRange range, const float* locals, float* models) {
   for (uint32_t place = range.first; place < range.end; ++place) {
@@ -284,18 +270,12 @@ void update_models(const Stack& stack, JointRange range, const float* locals, fl
         {s * (x * z + w * y) * t[9], s * (y * z - w * x) * t[9], (1 - s * (x * x + y * y)) * t[9]},
         {t[0], t[1], t[2]}};
     float* out = models + size_t{joint} * kMatrixFloats;
-    const float* p = models + size_t{parent} * kMatrixFloats;
-    for (int c = 0; c < 4; ++c) {
-      for (int r = 0; r < 3; ++r) {
-        double value = local[c][r];
-        if (parent != joint) {
-          value = p[r] * local[c][0] + p[4 + r] * local[c][1] + p[8 + r] * local[c][2];
-          if (c == 3) value += p[12 + r];
-        }
-        out[c * 4 + r] = static_cast<float>(value);
-      }
-      out[c * 4 + 3] = c == 3 ? 1.0f : 0.0f;
+    if (parent != joint) {
+      multiply(models + size_t{parent} * kMatrixFloats, local[0], 3, out);
+      continue;
     }
+    for (int i = 0; i < 12; ++i) out[i / 3 * 4 + i % 3] = static_cast<float>(local[i / 3][i % 3]);
+    put_last_row(out);
   }
 }
 
@@ -312,21 +292,10 @@ void note_scales(const Stack& stack, const StackState& state, JointPose& pose) {
   }
 }
 
-/// skin = model * inverse bind, both of four columns with a last row of 0 0 0 1.
 void update_skins(const Stack& stack, JointRange range, JointPose& pose) {
   for (uint32_t place = range.first; place < range.end; ++place) {
     const size_t at = size_t{stack.order[place]} * kMatrixFloats;
-    const float *m = pose.model.data + at, *b = stack.skeleton->inverse_bind.data + at;
-    float* out = pose.skin.data + at;
-    for (int c = 0; c < 4; ++c) {
-      for (int r = 0; r < 3; ++r) {
-        double value = double{m[r]} * b[c * 4] + double{m[4 + r]} * b[c * 4 + 1] +
-                       double{m[8 + r]} * b[c * 4 + 2];
-        if (c == 3) value += m[12 + r];
-        out[c * 4 + r] = static_cast<float>(value);
-      }
-      out[c * 4 + 3] = c == 3 ? 1.0f : 0.0f;
-    }
+    multiply(pose.model.data + at, stack.skeleton->inverse_bind.data + at, 4, pose.skin.data + at);
   }
 }
 
@@ -354,7 +323,7 @@ void note_undeclared(const Solver& solver, StackState& state) {
     if (memcmp(state.checked.data + at, state.locals.data + at, bytes) == 0) continue;
     const uint16_t* const begin = solver.writes.begin();
     const uint16_t* const end = solver.writes.end();
-    if (std::find(begin, end, j) == end) state.undeclared = solver.name;
+    if (std::find(begin, end, j) == end) state.undeclared = solver.name.data;
   }
 }
 
@@ -380,7 +349,7 @@ void run_solver(const Stack& stack, const Solver& solver, Span<const StackPose> 
     pose.reset = character.reset || state.fresh;
   }
   if (count == 0) return;
-  solver.solve({*stack.skeleton, solver.params, ticks, poses, count});
+  solver.solve({*stack.skeleton, solver.params.data, ticks, poses, count});
   if (!stack.check_writes) return;
   for (const StackPose& character : characters) {
     if (solver.lods >> character.lod & 1) note_undeclared(solver, *character.state);

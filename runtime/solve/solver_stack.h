@@ -59,11 +59,11 @@ struct JointRange {
 };
 
 struct Solver {
-  const char* name;
+  Span<const char> name;  // with a zero at its end
   SolverFunction* solve;
-  const void* params;
+  Span<const uint8_t> params;
   uint64_t lods;
-  Span<uint16_t> writes, previous;
+  Span<const uint16_t> writes, previous;
   uint32_t first_update, update_count;  // ranges that are stale before it runs and that it reads
   uint32_t first_previous, first_output;
   size_t state_at;

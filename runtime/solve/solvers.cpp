@@ -83,9 +83,16 @@ Vec3 neutral_place(const Skeleton& skeleton, uint32_t joint) {
 
 double seconds(int64_t ticks) { return static_cast<double>(ticks) / kTicksPerSecond; }
 
+/// create_stack() refuses joints that do not exist.
+bool exists(const Skeleton& skeleton, uint32_t joint) { return joint < skeleton.joint_count; }
+uint16_t parent_of(const Skeleton& skeleton, uint16_t joint) {
+  return exists(skeleton, joint) ? skeleton.parents[joint] : joint;
+}
+
 template <class Params>
 SolverDesc basic(const char* name, SolverFunction* function, const Params& params,
-                 Span<const uint16_t> reads, Span<const uint16_t> writes) {
+                 Span<const uint16_t> reads, Span<const uint16_t> writes, size_t state_size = 0,
+                 uint32_t output_count = 0) {
   SolverDesc desc;
   desc.name = name;
   desc.solve = function;
@@ -93,6 +100,8 @@ SolverDesc basic(const char* name, SolverFunction* function, const Params& param
   desc.params_size = sizeof(Params);
   desc.reads = reads;
   desc.writes = writes;
+  desc.state_size = static_cast<uint32_t>(state_size);
+  desc.output_count = output_count;
   return desc;
 }
 
@@ -166,7 +175,7 @@ void solve_space(const SolverArgs& args) {
     Rotation carrier;
     Vec3 target;
     const Vec3 offset = vector(out);
-    const float* bind = matrix(skeleton.bind.data, p.parent);
+    const float* bind = matrix(skeleton.bind.data, skeleton.parents[p.joint]);
     const bool root = is_root(skeleton, p.joint);
     const Vec3 in_bind = root ? offset : transformed(bind, offset, 1);
     if (space == kNoSolverJoint) {
@@ -330,49 +339,38 @@ void solve_copy(const SolverArgs& args) {
 }  // namespace
 
 SolverDesc describe(const Skeleton& skeleton, AimSolver& s) {
-  const bool valid = s.joint < skeleton.joint_count;  // create_stack() refuses it otherwise
-  s.parent = valid ? skeleton.parents[s.joint] : s.joint;
-  const Vec3 rest =
-      valid ? turn(neutral_rotation(skeleton, s.joint), vector(s.axis)) : Vec3{0, 0, 1};
-  const double values[3] = {rest.x, rest.y, rest.z};
-  for (int k = 0; k < 3; ++k) s.cone_axis[k] = static_cast<float>(values[k]);
+  const bool valid = exists(skeleton, s.joint);
+  set_place(s.cone_axis,
+            valid ? turn(neutral_rotation(skeleton, s.joint), vector(s.axis)) : Vec3{0, 0, 1});
   s.reads[0] = s.joint;
-  s.reads[1] = s.parent;
+  s.reads[1] = parent_of(skeleton, s.joint);
   s.reads[2] = s.target_joint;
   const size_t reads = s.target_joint == kNoSolverJoint ? 2 : 3;
   return basic("aim", solve_aim, s, {s.reads, reads}, {&s.joint, 1});
 }
 
 SolverDesc describe(const Skeleton& skeleton, SpaceSolver& s) {
-  s.parent = s.joint < skeleton.joint_count ? skeleton.parents[s.joint] : s.joint;
+  const uint16_t parent = parent_of(skeleton, s.joint);
   if (s.space_count > kMaxSolverJoints) s.space_count = kMaxSolverJoints;
-  if (s.space_count == 0) s.spaces[s.space_count++] = s.parent;
+  if (s.space_count == 0) s.spaces[s.space_count++] = parent;
   size_t reads = 0;
-  s.reads[reads++] = s.parent;
+  s.reads[reads++] = parent;
   for (uint32_t i = 0; i < s.space_count; ++i) {
     if (s.spaces[i] != kNoSolverJoint) s.reads[reads++] = s.spaces[i];
   }
-  SolverDesc desc = basic("space", solve_space, s, {s.reads, reads}, {&s.joint, 1});
-  desc.state_size = sizeof(SpaceState);
-  return desc;
+  return basic("space", solve_space, s, {s.reads, reads}, {&s.joint, 1}, sizeof(SpaceState));
 }
 
 SolverDesc describe(const Skeleton& skeleton, SpringSolver& s) {
-  s.parent = s.joint < skeleton.joint_count ? skeleton.parents[s.joint] : s.joint;
   s.reads[0] = s.joint;
-  s.reads[1] = s.parent;
-  SolverDesc desc = basic("spring", solve_spring, s, {s.reads, 2}, {&s.joint, 1});
-  desc.state_size = sizeof(SpringState);
-  desc.output_count = 1;
-  return desc;
+  s.reads[1] = parent_of(skeleton, s.joint);
+  return basic("spring", solve_spring, s, {s.reads, 2}, {&s.joint, 1}, sizeof(SpringState), 1);
 }
 
 SolverDesc describe(const Skeleton&, TwistSolver& s) {
   if (s.joint_count > kMaxSolverJoints) s.joint_count = kMaxSolverJoints;
   s.reads[0] = s.source;
-  SolverDesc desc = basic("twist", solve_twist, s, {s.reads, 1}, {s.joints, s.joint_count});
-  desc.output_count = 1;
-  return desc;
+  return basic("twist", solve_twist, s, {s.reads, 1}, {s.joints, s.joint_count}, 0, 1);
 }
 
 SolverDesc describe(const Skeleton&, CopySolver& s) {

@@ -24,7 +24,6 @@ struct AimSolver {
   float weight = 1;              // 0 ... 1
   // Set by describe().
   float cone_axis[3] = {};  // in the space of the parent
-  uint16_t parent = 0;
   uint16_t reads[3] = {};
 };
 SolverDesc describe(const Skeleton& skeleton, AimSolver& solver);
@@ -38,9 +37,7 @@ struct SpaceSolver {
   uint32_t space_count = 0;
   uint32_t lane = 0;
   int64_t ease_ticks = 0;
-  // Set by describe().
-  uint16_t parent = 0;
-  uint16_t reads[kMaxSolverJoints + 1] = {};
+  uint16_t reads[kMaxSolverJoints + 1] = {};  // set by describe()
 };
 SolverDesc describe(const Skeleton& skeleton, SpaceSolver& solver);
 
@@ -54,9 +51,7 @@ struct SpringSolver {
   float rest_offset[3] = {};  // from the pose's place, in model space
   float stretch = 1e9f;       // farthest from there
   float teleport = 1e9f;      // a goal that jumps farther in a step takes the joint along
-  // Set by describe().
-  uint16_t parent = 0;
-  uint16_t reads[2] = {};
+  uint16_t reads[2] = {};     // set by describe()
 };
 SolverDesc describe(const Skeleton& skeleton, SpringSolver& solver);
 
