@@ -48,25 +48,67 @@ inline bool is_finished(uint8_t function) { return function < 2 || function > 4;
 inline Vec load_weights(const float* from) { return load(from); }
 inline Vec load_weights(const uint16_t* from) { return load_half(from); }
 
+/// Inputs that are 0 change no sum; rounding products apart is rare, and does without the code.
+template <class How>
+constexpr bool kSkipsZeros = false;
+template <>
+constexpr bool kSkipsZeros<AsFast> = true;
+
+/// Layers with more columns are summed with all of them.
+constexpr size_t kMaxSparseColumns = 512;
+
+/// Finds the inputs that are not 0: bit c % 64 of words[c / 64]. Returns whether there are others.
+inline bool find_inputs(const float* inputs, size_t count, uint64_t* words) {
+  if (count > kMaxSparseColumns) return false;
+  uint64_t zeros = 0;
+  for (size_t first = 0; first < count; first += 64) {
+    const size_t left = count - first < 64 ? count - first : 64;
+    uint64_t word = 0;
+    for (size_t i = 0; i < left; i += kWidth) {
+      const Vec size = absolute(load(inputs + first + i));
+      word |= uint64_t{different_lanes(size, broadcast(0.0f))} << i;
+    }
+    const uint64_t all = ~uint64_t{0} >> (64 - left);
+    words[first / 64] = word & all;
+    zeros |= ~word & all;
+  }
+  return zeros != 0;
+}
+
 /// The sums of sizeof...(K) neighboring vectors of rows in one walk over the columns, even and odd
-/// ones apart. The pack makes each sum a register of its own.
+/// ones apart: over those in `words`, or over all if it is null. The pack makes each sum a register of
+/// its own.
 template <class How, class Weight, size_t... K>
-inline void sum_rows(const Weight* values, const DenseLayerArgs& args, size_t first_vec,
-                     std::index_sequence<K...>) {
+inline void sum_rows(const Weight* values, const DenseLayerArgs& args, const uint64_t* words,
+                     size_t first_vec, std::index_sequence<K...>) {
   const size_t column_count = args.column_count, block_size = column_count * kBlockLanes;
+  const float* const inputs = args.inputs;
   const Weight* const rows[] = {values + (first_vec + K) / kVecsPerBlock * block_size +
                                 (first_vec + K) % kVecsPerBlock * kWidth...};
   Vec even[] = {(static_cast<void>(K), broadcast(0.0f))...};
   Vec odd[] = {(static_cast<void>(K), broadcast(0.0f))...};
-  size_t c = 0;
-  for (; c + 2 <= column_count; c += 2) {
-    const Vec first = broadcast(args.inputs[c]), second = broadcast(args.inputs[c + 1]);
-    ((even[K] = How::mul_add(load_weights(rows[K] + c * kBlockLanes), first, even[K])), ...);
-    ((odd[K] = How::mul_add(load_weights(rows[K] + (c + 1) * kBlockLanes), second, odd[K])), ...);
-  }
-  if (c < column_count) {
-    const Vec last = broadcast(args.inputs[c]);
-    ((even[K] = How::mul_add(load_weights(rows[K] + c * kBlockLanes), last, even[K])), ...);
+  const auto add = [&](size_t c, auto& sums) {
+    const Vec input = broadcast(inputs[c]);
+    ((sums[K] = How::mul_add(load_weights(rows[K] + c * kBlockLanes), input, sums[K])), ...);
+  };
+  if (!kSkipsZeros<How> || !words) {
+    size_t c = 0;
+    for (; c + 2 <= column_count; c += 2) {
+      add(c, even);
+      add(c + 1, odd);
+    }
+    if (c < column_count) add(c, even);
+  } else {
+    constexpr uint64_t kEven = 0x5555'5555'5555'5555;
+    const auto add_each = [&](size_t first, uint64_t bits, auto& sums) {
+      for (; bits != 0; bits &= bits - 1) {
+        add(first + static_cast<size_t>(__builtin_ctzll(bits)), sums);
+      }
+    };
+    for (size_t first = 0; first < column_count; first += 64) {
+      add_each(first, words[first / 64] & kEven, even);
+      add_each(first, words[first / 64] & ~kEven, odd);
+    }
   }
   const Finish finish(args.function);
   (store(args.outputs + (first_vec + K) * kWidth,
@@ -91,21 +133,25 @@ template <class How, class Weight>
 void sum_layer(const Weight* values, const DenseLayerArgs& args) {
   const size_t vec_count = (args.row_count + kWidth - 1) / kWidth;
   size_t walks = (vec_count + kMaxVecs<Weight> - 1) / kMaxVecs<Weight>;
+  uint64_t found[kMaxSparseColumns / 64];
+  const uint64_t* words = nullptr;
+  if (kSkipsZeros<How> && args.sparse && find_inputs(args.inputs, args.column_count, found))
+    words = found;
   for (size_t v = 0; walks != 0; --walks) {
     const size_t count = (vec_count - v + walks - 1) / walks;  // shared evenly
     if constexpr (kMaxVecs < Weight >> 6) {
-      if (count == 7) sum_rows<How>(values, args, v, std::make_index_sequence<7>());
+      if (count == 7) sum_rows<How>(values, args, words, v, std::make_index_sequence<7>());
     }
     if constexpr (kMaxVecs < Weight >> 7) {
-      if (count == 8) sum_rows<How>(values, args, v, std::make_index_sequence<8>());
+      if (count == 8) sum_rows<How>(values, args, words, v, std::make_index_sequence<8>());
     }
     switch (count) {
-      case 1: sum_rows<How>(values, args, v, std::make_index_sequence<1>()); break;
-      case 2: sum_rows<How>(values, args, v, std::make_index_sequence<2>()); break;
-      case 3: sum_rows<How>(values, args, v, std::make_index_sequence<3>()); break;
-      case 4: sum_rows<How>(values, args, v, std::make_index_sequence<4>()); break;
-      case 5: sum_rows<How>(values, args, v, std::make_index_sequence<5>()); break;
-      case 6: sum_rows<How>(values, args, v, std::make_index_sequence<6>()); break;
+      case 1: sum_rows<How>(values, args, words, v, std::make_index_sequence<1>()); break;
+      case 2: sum_rows<How>(values, args, words, v, std::make_index_sequence<2>()); break;
+      case 3: sum_rows<How>(values, args, words, v, std::make_index_sequence<3>()); break;
+      case 4: sum_rows<How>(values, args, words, v, std::make_index_sequence<4>()); break;
+      case 5: sum_rows<How>(values, args, words, v, std::make_index_sequence<5>()); break;
+      case 6: sum_rows<How>(values, args, words, v, std::make_index_sequence<6>()); break;
       default: break;
     }
     v += count;

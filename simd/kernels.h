@@ -192,6 +192,9 @@ struct DenseLayerArgs {
   uint8_t function;
   bool halves;
   bool portable;  // products are rounded before they are added, on every instruction set
+  /// Many inputs may be 0: those are looked for and skipped, which changes no bit of a result but the sign
+  /// of one that is 0. Inputs are then 64-byte aligned and read in whole blocks.
+  bool sparse;
 };
 
 /// The same layer for many characters, one lane each, with the same bits:

@@ -151,11 +151,13 @@ void fill_networks(const DnaView& view, bool half_storage, MlTable& ml) {
           if (half_storage) {
             ml.halves[at] = half_from_float(weight);
           } else {
-            ml.values[at] = weight;
+            ml.values[at] = saturated(weight);
           }
         }
       }
-      copy_array(from.biases, ml.biases.slice(bias, from.biases.count));
+      for (uint32_t r = 0; r < from.biases.count; ++r) {
+        ml.biases[bias + r] = from.biases[r] + 0.0f;  // 0 for -0: see docs/numbers.md, 4
+      }
       value += layer_values(from);
       bias += padded(from.biases.count);
     }

@@ -58,6 +58,7 @@ void run_network(const Rig& rig, Instance& instance, const MlStep& step) {
     auto args = layer_args<DenseLayerArgs>(rig, rig.ml.layers[step.first_layer + l]);
     const bool last = l + 1 == step.layer_count;
     args.inputs = in;
+    args.sparse = l == 0 || rig.ml.layers[step.first_layer + l - 1].function == 1;
     args.outputs = last ? instance.ml_values.data + step.first_output : out;
     rig.kernels->dense_layer(args);
     std::swap(in, out);

@@ -168,6 +168,11 @@ TEST(Batch, OfEntriesThatAreNotFinite) {
     for (uint32_t c = 0; c < 5; ++c) group.values.push_back(awkward[(row + 3 * c + row * c) % 7]);
   }
   plain.groups = {group};
+  PlainNetworkLayer layer;
+  layer.biases = {-0.0f, 1, -1};
+  for (uint32_t i = 0; i < 12; ++i) layer.weights.push_back(awkward[(i + i / 4) % 7]);
+  layers.networks = {{{0, 1, 2, 3}, {4, 5, 6}, {layer}}};
+  layers.ml_count = 3;
   const LayerFile file(layers);
   Random random = Random::from_seed(15, 1);
   for_each_rig_desc([&](const MienRigDesc& desc) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "runtime/author/random.h"
@@ -60,7 +61,7 @@ TEST(DenseLayer, EveryActivationAndSize) {
         }
         for (const KernelTable* table : present()) {
           table->dense_layer({values.data, biases.data, inputs.data(), outputs.data, 0.1f, columns,
-                              row_count, function, false, false});
+                              row_count, function, false, false, false});
           for (uint32_t r = 0; r < row_count; ++r) {
             double sum = biases.data[r], size = std::fabs(sum);
             for (uint32_t c = 0; c < columns; ++c) {
@@ -88,7 +89,7 @@ TEST(DenseLayer, WhatOverflowsSaturates) {
   for (const KernelTable* table : present()) {
     for (uint8_t function = 0; function <= 4; ++function) {
       table->dense_layer({values.data, biases.data, &input, outputs.data, 0.5f, 1, kBlockLanes,
-                          function, false, false});
+                          function, false, false, false});
       for (uint32_t r = 0; r < kBlockLanes; ++r) EXPECT_TRUE(std::isfinite(outputs.data[r]));
     }
   }
@@ -105,47 +106,93 @@ struct AlignedHalves {
   uint16_t* data;
 };
 
+/// A layer that is evaluated for many lanes at once and for each of them.
+struct RandomLayer {
+  uint32_t columns, row_count;
+  double zeros;  // share of the inputs
+};
+
+void expect_same_bits(const KernelTable* table, const RandomLayer& layer, uint32_t round,
+                      Random& random) {
+  const uint32_t columns = layer.columns, row_count = layer.row_count;
+  const uint32_t lanes = 1 + random.below(kBatchLanes);
+  const uint32_t rows = (row_count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
+  const auto function = static_cast<uint8_t>(round % 5);
+  const bool is_half = round / 5 % 2, portable = round / 10 % 2;
+  Aligned values(size_t{rows} * columns), biases(rows), inputs(size_t{columns} * kBatchLanes),
+      outputs(size_t{rows} * kBatchLanes), scratch(size_t{columns} * kBlockLanes), single(rows),
+      of_lane((columns + kBlockLanes - 1) / kBlockLanes * kBlockLanes);
+  for (size_t i = 0; i < size_t{rows} * columns; ++i) {
+    values.data[i] = static_cast<float>(random.between(-1, 1));
+  }
+  for (uint32_t r = 0; r < rows; ++r) biases.data[r] = static_cast<float>(random.between(-2, 2));
+  for (size_t i = 0; i < size_t{columns} * kBatchLanes; ++i) {
+    const bool zero = random.between(0, 1) < layer.zeros;
+    inputs.data[i] = zero ? (i % 3 ? 0.0f : -0.0f) : static_cast<float>(random.between(-2, 2));
+  }
+  if (round % 7 == 0 && columns > 0) {  // sums that saturate
+    values.data[0] = 3e38f;
+    for (uint32_t k = 0; k < kBatchLanes; ++k) inputs.data[k] *= 10;
+  }
+  const AlignedHalves halves(values.data, size_t{rows} * columns);
+  const void* weights = is_half ? static_cast<const void*>(halves.data) : values.data;
+  table->dense_batch({weights, biases.data, inputs.data, outputs.data, scratch.data, 0.1f, columns,
+                      row_count, lanes, function, is_half, portable});
+  for (uint32_t k = 0; k < lanes; ++k) {
+    std::fill_n(of_lane.data, of_lane.storage.size() - 16, 7.0f);  // behind the last: not looked at
+    for (uint32_t c = 0; c < columns; ++c) of_lane.data[c] = inputs.data[c * kBatchLanes + k];
+    for (const bool sparse : {false, true}) {
+      table->dense_layer({weights, biases.data, of_lane.data, single.data, 0.1f, columns, row_count,
+                          function, is_half, portable, sparse});
+      for (uint32_t r = 0; r < row_count; ++r) {
+        ASSERT_EQ(std::memcmp(&outputs.data[r * kBatchLanes + k], &single.data[r], sizeof(float)),
+                  0)
+            << table->name << ", round " << round << ", lane " << k << ", row " << r << ": "
+            << outputs.data[r * kBatchLanes + k] << ", not " << single.data[r]
+            << (sparse ? ", sparse" : "");
+      }
+    }
+  }
+}
+
 // Every function, floats and halves, fast and portable, any number of lanes.
 TEST(DenseBatch, HasTheBitsOfOneByOne) {
   Random random = Random::from_seed(11, 9);
   for (const KernelTable* table : present()) {
     for (uint32_t round = 0; round < 120; ++round) {
-      const uint32_t columns = random.below(70), row_count = 1 + random.below(50);
-      const uint32_t lanes = 1 + random.below(kBatchLanes);
-      const uint32_t rows = (row_count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
-      const auto function = static_cast<uint8_t>(round % 5);
-      const bool is_half = round / 5 % 2, portable = round / 10 % 2;
-      Aligned values(size_t{rows} * columns), biases(rows), inputs(size_t{columns} * kBatchLanes),
-          outputs(size_t{rows} * kBatchLanes), scratch(size_t{columns} * kBlockLanes), single(rows);
-      for (size_t i = 0; i < size_t{rows} * columns; ++i) {
-        values.data[i] = static_cast<float>(random.between(-1, 1));
-      }
-      for (uint32_t r = 0; r < rows; ++r)
-        biases.data[r] = static_cast<float>(random.between(-2, 2));
-      for (size_t i = 0; i < size_t{columns} * kBatchLanes; ++i) {
-        inputs.data[i] = static_cast<float>(random.between(-2, 2));
-      }
-      if (round % 7 == 0 && columns > 0) {  // sums that saturate
-        values.data[0] = 3e38f;
-        for (uint32_t k = 0; k < kBatchLanes; ++k) inputs.data[k] *= 10;
-      }
-      const AlignedHalves halves(values.data, size_t{rows} * columns);
-      const void* weights = is_half ? static_cast<const void*>(halves.data) : values.data;
-      table->dense_batch({weights, biases.data, inputs.data, outputs.data, scratch.data, 0.1f,
-                          columns, row_count, lanes, function, is_half, portable});
-      std::vector<float> of_lane(columns);
-      for (uint32_t k = 0; k < lanes; ++k) {
-        for (uint32_t c = 0; c < columns; ++c) of_lane[c] = inputs.data[c * kBatchLanes + k];
-        table->dense_layer({weights, biases.data, of_lane.data(), single.data, 0.1f, columns,
-                            row_count, function, is_half, portable});
-        for (uint32_t r = 0; r < row_count; ++r) {
-          ASSERT_EQ(std::memcmp(&outputs.data[r * kBatchLanes + k], &single.data[r], sizeof(float)),
-                    0)
-              << table->name << ", round " << round << ", lane " << k << ", row " << r << ": "
-              << outputs.data[r * kBatchLanes + k] << ", not " << single.data[r];
-        }
-      }
+      expect_same_bits(table, {random.below(70), 1 + random.below(50), 0.0}, round, random);
     }
+  }
+}
+
+// Few zeros, most, nothing else; more columns than fit a word, and more than zeros are looked for in.
+TEST(DenseLayer, SkipsZerosWithTheSameBits) {
+  Random random = Random::from_seed(11, 10);
+  for (const KernelTable* table : present()) {
+    for (uint32_t round = 0; round < 120; ++round) {
+      const uint32_t most = round % 8 == 0 ? 600 : round % 4 == 0 ? 200 : 70;
+      const double zeros[] = {0.1, 0.75, 1.0};
+      expect_same_bits(table, {random.below(most), 1 + random.below(120), zeros[round % 3]}, round,
+                       random);
+    }
+  }
+}
+
+// What is skipped is not read: zeros times weights that are not finite would be NaN.
+TEST(DenseLayer, LeavesOutTheColumnsOfZeros) {
+  constexpr uint32_t kColumns = 70;
+  Aligned values(kColumns * kBlockLanes), biases(kBlockLanes), inputs(80), outputs(kBlockLanes);
+  for (uint32_t c = 0; c < kColumns; ++c) {
+    inputs.data[c] = c % 5 == 0 ? 1.0f : 0.0f;
+    for (uint32_t r = 0; r < kBlockLanes; ++r) {
+      values.data[c * kBlockLanes + r] =
+          c % 5 == 0 ? 1.0f : std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  for (const KernelTable* table : present()) {
+    table->dense_layer({values.data, biases.data, inputs.data, outputs.data, 0, kColumns,
+                        kBlockLanes, 0, false, false, true});
+    for (uint32_t r = 0; r < kBlockLanes; ++r) EXPECT_EQ(outputs.data[r], 14.0f) << table->name;
   }
 }
 
@@ -162,7 +209,8 @@ TEST(DenseLayer, EveryFiniteHalfIsReadExactly) {
   std::copy(all.begin(), all.end(), halves.data);
   const float one = 1;
   for (const KernelTable* table : present()) {
-    table->dense_layer({halves.data, biases.data, &one, outputs.data, 0, 1, count, 0, true, false});
+    table->dense_layer(
+        {halves.data, biases.data, &one, outputs.data, 0, 1, count, 0, true, false, false});
     for (uint32_t i = 0; i < count; ++i) {
       ASSERT_EQ(outputs.data[i], float_from_half(all[i])) << table->name << ", " << all[i];
     }
@@ -185,8 +233,9 @@ TEST(DenseLayer, HalvesGiveWhatTheirFloatsGive) {
         values.data[i] = float_from_half(halves.data[i]);
       }
       for (const KernelTable* table : present()) {
-        DenseLayerArgs args = {values.data, biases.data, inputs.data(), expected.data, 0, columns,
-                               row_count,   3,           false,         false};
+        DenseLayerArgs args = {values.data, biases.data, inputs.data(), expected.data,
+                               0,           columns,     row_count,     3,
+                               false,       false,       false};
         table->dense_layer(args);
         args.values = halves.data;
         args.outputs = outputs.data;
