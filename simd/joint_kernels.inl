@@ -52,6 +52,13 @@ inline void add_blocks(const Value* values, float* const* sums, BlockVec input,
   }
 }
 
+template <class How, class Value, size_t... P>
+inline void add_last_singles(const Value* values, const uint16_t* block_rows, float* sums,
+                             BlockVec input, std::index_sequence<P...> each) {
+  float* const to[] = {sums_of(sums, block_rows[P])...};
+  add_blocks<How>(values, to, input, each);
+}
+
 template <class How, class Value>
 inline void add_singles(const Value* values, const uint16_t* block_rows, size_t count, float* sums,
                         BlockVec input) {
@@ -62,9 +69,14 @@ inline void add_singles(const Value* values, const uint16_t* block_rows, size_t 
                            sums_of(sums, b[3])};
     add_blocks<How>(values + i * kJointBlockRows, four, input, std::make_index_sequence<4>());
   }
-  for (; i < count; ++i) {
-    float* const one[] = {sums_of(sums, block_rows[i])};
-    add_blocks<How>(values + i * kJointBlockRows, one, input, std::make_index_sequence<1>());
+  const auto add_last = [&](auto each) {
+    add_last_singles<How>(values + i * kJointBlockRows, block_rows + i, sums, input, each);
+  };
+  switch (count - i) {
+    case 1: add_last(std::make_index_sequence<1>()); break;
+    case 2: add_last(std::make_index_sequence<2>()); break;
+    case 3: add_last(std::make_index_sequence<3>()); break;
+    default: break;
   }
 }
 
@@ -97,6 +109,16 @@ inline void add_pairs(const Value* values, const uint16_t* block_rows, size_t co
 
 #else
 
+template <class How, class Value, size_t... P>
+inline void add_last_pairs(const Value* values, const uint16_t* block_rows, float* sums,
+                           BlockVec input, std::index_sequence<P...>) {
+  float* const to[] = {sums_of(sums, block_rows[P] & kPairBlockRows)...};
+  float* const both[] = {
+      (to[P / 2] + P % 2 * kJointBlockRows)...,
+      (to[(P + sizeof...(P)) / 2] + (P + sizeof...(P)) % 2 * kJointBlockRows)...};
+  add_blocks<How>(values, both, input, std::make_index_sequence<2 * sizeof...(P)>());
+}
+
 template <class How, class Value>
 inline void add_pairs(const Value* values, const uint16_t* block_rows, size_t count, float* sums,
                       float input_value) {
@@ -112,30 +134,18 @@ inline void add_pairs(const Value* values, const uint16_t* block_rows, size_t co
     add_blocks<How>(values + (i + 2) * 2 * kJointBlockRows, others, input,
                     std::make_index_sequence<4>());
   }
-  for (; i + 2 <= count; i += 2) {
-    float* const a = sums_of(sums, block_rows[i] & kPairBlockRows);
-    float* const b = sums_of(sums, block_rows[i + 1] & kPairBlockRows);
-    float* const four[] = {a, a + kJointBlockRows, b, b + kJointBlockRows};
-    add_blocks<How>(values + i * 2 * kJointBlockRows, four, input, std::make_index_sequence<4>());
-  }
-  if (i < count) {
-    float* const a = sums_of(sums, block_rows[i] & kPairBlockRows);
-    float* const two[] = {a, a + kJointBlockRows};
-    add_blocks<How>(values + i * 2 * kJointBlockRows, two, input, std::make_index_sequence<2>());
+  const auto add_last = [&](auto each) {
+    add_last_pairs<How>(values + i * 2 * kJointBlockRows, block_rows + i, sums, input, each);
+  };
+  switch (count - i) {
+    case 1: add_last(std::make_index_sequence<1>()); break;
+    case 2: add_last(std::make_index_sequence<2>()); break;
+    case 3: add_last(std::make_index_sequence<3>()); break;
+    default: break;
   }
 }
 
 #endif
-
-/// The processor fetches ahead within a run by itself, but cannot know where the next one begins.
-template <class Value>
-inline void expect(const Value* values, const uint16_t* block_rows, const JointRun& run) {
-  constexpr size_t kLine = 64 / sizeof(Value), kLines = 4;
-  const Value* const pairs = values + size_t{run.start.first_pair} * kJointBlockRows;
-  for (size_t i = 0; i < kLines; ++i) __builtin_prefetch(pairs + i * kLine);
-  __builtin_prefetch(values + size_t{run.start.first_single} * kJointBlockRows);
-  __builtin_prefetch(block_rows + run.start.pair_entry);
-}
 
 template <class How, class Value>
 inline void add_columns(const JointColumnsArgs& args) {
@@ -145,7 +155,6 @@ inline void add_columns(const JointColumnsArgs& args) {
   float* const sums = args.sums;
   const JointRun* const end = args.runs + args.run_count;
   for (const JointRun* run = args.runs; run < end; ++run) {
-    expect(values, block_rows, run[run + 1 < end]);
     add_pairs<How>(values + size_t{run->start.first_pair} * kJointBlockRows,
                    block_rows + run->start.pair_entry, run->pair_count, sums, run->input);
     add_singles<How>(values + size_t{run->start.first_single} * kJointBlockRows,
