@@ -57,7 +57,9 @@ inline void for_each_chunk(const uint32_t* first_vertex, uint32_t count, F&& run
 [[gnu::noinline]] void put_normals(float* vectors, const uint32_t* vertices, size_t count,
                                    const float* neutral, float* normals) {
   alignas(64) float scales[kChunkVertices];
-  uint32_t lost[kChunkVertices / kWidth], any_lost = 0;
+  static_assert(kWidth <= 16);
+  uint16_t lost[kChunkVertices / kWidth];  // lanes
+  uint32_t any_lost = 0;
   for (size_t k = count; k % kWidth != 0; ++k) {
     store4(vectors + k * 4, load4(vectors + count * 4 - 4));
   }
@@ -65,7 +67,9 @@ inline void for_each_chunk(const uint32_t* first_vertex, uint32_t count, F&& run
     const Vec squared = squared_lengths(vectors + k * 4);
     store(scales + k, divide(broadcast(1.0f), square_root(squared)));
     const Vec limited = at_most(at_least(squared, broadcast(kMinSquared)), broadcast(kMaxSquared));
-    any_lost |= lost[k / kWidth] = different_lanes(squared, limited);
+    const uint32_t lanes = different_lanes(squared, limited);
+    any_lost |= lanes;
+    lost[k / kWidth] = static_cast<uint16_t>(lanes);
   }
   for (size_t k = 0; k < count; ++k) {
     store3(normals + size_t{vertices[k] & ~kHardEdge} * 3,
