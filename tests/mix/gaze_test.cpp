@@ -123,6 +123,20 @@ TEST(Gazes, PursueWhatMovesSlowly) {
   }
 }
 
+TEST(Gazes, PursueUpTo30DegreesASecondAndJumpAboveThat) {
+  const Gazing gazing;
+  for (float degrees : {29.0f, 31.0f}) {  // a second
+    OwnMixer own(gazing.mix);
+    look(own, 0, 0, 1000);
+    own.step(kTicksPerSecond / 60);
+    const float left = 1000 * degrees * 0.01745329f / 60;
+    look(own, left, 0, 1000);
+    const float shown = degrees < 30 ? left : 0;
+    EXPECT_TRUE(same_bits(eyes(own.step(kTicksPerSecond / 60)), eyes_at(shown, 0, 1000)))
+        << degrees;
+  }
+}
+
 TEST(Gazes, LeaveToTheHeadWhatEyesDoNotReach) {
   const Gazing gazing;
   OwnMixer own(gazing.mix);

@@ -131,6 +131,52 @@ TEST(Glare, ActsWhenAndWhereItShould) {  // D1 to D6
   EXPECT_EQ(lit.mixer.reactions[0].running, 0);
 }
 
+TEST(Glare, StrokesStartAndTakeAsLongAsTheyShould) {
+  const FaceMix face;
+  OwnMixer plain = face.start(), lit = face.start();
+  Recording without, with;
+  for (int ms = 1; ms <= 2600; ++ms) {
+    without.step(plain);
+    with.step(lit);
+    if (ms == 2000) fire(lit);
+  }
+  const struct {
+    uint16_t lane;
+    float pose;
+    int delay, attack;
+  } strokes[] = {{kSquint, 0.9f, 90, 150},
+                 {kBrow, 0.7f, 90, 150},
+                 {kGaze, -0.4f, 200, 120},
+                 {kHead, 0.3f, 180, 350}};
+  for (const auto& stroke : strokes) {
+    // What of the pose is on top of the row without the light, in mode screen or add.
+    const auto share = [&](int ms) {
+      const float below = without.rows[2000 + ms][stroke.lane];
+      const float room = stroke.lane < kRaw ? 1 - below : 1;
+      return (with.rows[2000 + ms][stroke.lane] - below) / (stroke.pose * room);
+    };
+    const auto adapted = [](int ms) { return 0.6 + 0.4 * std::exp(-ms / 1500.0); };
+    const int middle = stroke.delay + stroke.attack / 2, end = stroke.delay + stroke.attack;
+    EXPECT_EQ(share(stroke.delay), 0) << stroke.lane;
+    EXPECT_GT(share(stroke.delay + 3), 0) << stroke.lane;
+    EXPECT_NEAR(share(middle), 0.5 * adapted(middle), 0.002) << stroke.lane;
+    EXPECT_LT(share(end - 10), 0.9999 * adapted(end - 10)) << stroke.lane;
+    EXPECT_NEAR(share(end), adapted(end), 0.001) << stroke.lane;
+  }
+  for (uint16_t lid : {kLidLeft, kLidRight}) {  // in mode max, for a time of its own
+    const auto share = [&](int ms) {
+      const float below = without.rows[2000 + ms][lid];
+      return (with.rows[2000 + ms][lid] - below) / (1 - below);
+    };
+    EXPECT_NEAR(share(60 + 35), 0.5f, 1e-4f);
+    EXPECT_LT(share(60 + 65), 0.999f);
+    EXPECT_NEAR(share(60 + 70), 1, 1e-6f);
+    EXPECT_NEAR(share(60 + 70 + 60), 1, 1e-6f);
+    EXPECT_NEAR(share(60 + 70 + 60 + 110), 0.5f, 1e-4f);
+    EXPECT_EQ(share(60 + 70 + 60 + 220), 0);
+  }
+}
+
 TEST(Glare, AdaptsWhileTheLightStays) {
   const FaceMix face;
   OwnMixer lit = face.start();
