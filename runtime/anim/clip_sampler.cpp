@@ -11,12 +11,11 @@ constexpr uint32_t kNoFrame = ~uint32_t{0};
 
 int64_t floor_div(int64_t a, int64_t b) { return a / b - (a % b < 0); }
 
-bool valid_speed(int32_t numerator, int32_t denominator) {
-  return numerator >= -kMaxSpeed && numerator <= kMaxSpeed && denominator >= 1 &&
-         denominator <= kMaxSpeed;
-}
-
-Status bad_speed(Error& error) {
+Status check_speed(int32_t numerator, int32_t denominator, Error& error) {
+  if (numerator >= -kMaxSpeed && numerator <= kMaxSpeed && denominator >= 1 &&
+      denominator <= kMaxSpeed) {
+    return Status::kOk;
+  }
   return fail(error, Status::kInvalidArgument, kNoOffset,
               "a speed is a fraction of whole numbers up to %d, the lower one above 0", kMaxSpeed);
 }
@@ -132,7 +131,8 @@ void place_clip_sampler(Placer& placer, const SamplerLimits& limits, ClipSampler
 }
 
 Status start_clip(ClipSampler& sampler, const Clip& clip, const PlayDesc& desc, Error& error) {
-  if (!valid_speed(desc.speed_numerator, desc.speed_denominator)) return bad_speed(error);
+  const Status status = check_speed(desc.speed_numerator, desc.speed_denominator, error);
+  if (status != Status::kOk) return status;
   const bool wraps =
       desc.looping == Looping::kLoop || (desc.looping == Looping::kAsClip && clip.has(kClipWraps));
   if (clip.channel_count > sampler.values.count || clip.changing_count > sampler.sampled.count) {
@@ -157,7 +157,8 @@ Status start_clip(ClipSampler& sampler, const Clip& clip, const PlayDesc& desc, 
 }
 
 Status set_clip_speed(ClipSampler& sampler, int32_t numerator, int32_t denominator, Error& error) {
-  if (!valid_speed(numerator, denominator)) return bad_speed(error);
+  const Status status = check_speed(numerator, denominator, error);
+  if (status != Status::kOk) return status;
   sampler.fraction = sampler.fraction * denominator / sampler.speed_denominator;
   sampler.speed_numerator = numerator;
   sampler.speed_denominator = denominator;

@@ -79,7 +79,7 @@ void set_cover(Mixer& mixer, Player& player) {
   const Mix& mix = *mixer.mix;
   memset(player.rows.data, 0, player.rows.count * sizeof(float));
   for (uint16_t lane : player.source.binding->controls) {
-    player.rows[mix.lane_count + played_lane(mix, player, lane)] = 1.0f;
+    player.rows[mix.lane_count + (player.mirrored ? mix.mirror[lane] : lane)] = 1.0f;
   }
 }
 

@@ -44,10 +44,6 @@ QuinticRows quintic_rows(Mixer& mixer, uint32_t layer);
 /// Starts a transition at `start`: from the rows that the layer has shown last to `next`.
 void start_offsets(Mixer& mixer, uint32_t index, const float* next, int64_t start, int64_t ticks);
 
-/// The counterpart of a lane in the other half of the face if the player is mirrored, else the lane.
-inline uint32_t played_lane(const Mix& mix, const Player& player, uint32_t lane) {
-  return player.mirrored ? mix.mirror[lane] : lane;
-}
 void release_player(Mixer& mixer, uint16_t& player);
 
 }  // namespace mien

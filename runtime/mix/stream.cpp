@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/mix/stream.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "runtime/mix/fade.h"
@@ -58,25 +59,21 @@ StreamSample sample_stream(RowStream& stream, int64_t tick, float* values) {
   const int64_t age = tick - stream.last_tick;
   const bool jumped = stream.guessed && (took || has_next);
   stream.guessed = !has_next && age > 0;
-  const float* to = stream.last;
+  // The values move on from the last frame by a share of the change from `from` to `to`.
+  const float *from = stream.before, *to = stream.last;
   float s = 0.0f;
   if (has_next) {
     const uint32_t slot = tail % stream.capacity;
+    from = stream.last;
     to = stream.rows + size_t{slot} * stream.channels;
     s = fraction_of(age, stream.ticks[slot] - stream.last_tick);
-    for (uint32_t i = 0; i < stream.channels; ++i) {
-      values[i] = stream.last[i] + s * (to[i] - stream.last[i]);
-    }
-    return jumped ? StreamSample::kJumped : StreamSample::kShown;
-  }
-  const int64_t between = stream.last_tick - stream.before_tick;
-  if (stream.taken == 2 && between <= 2 * kStreamAhead) {
-    s = fraction_of(age < kStreamAhead ? age : kStreamAhead, between);
+  } else if (stream.taken == 2 && stream.last_tick - stream.before_tick <= 2 * kStreamAhead) {
+    s = fraction_of(std::min(age, kStreamAhead), stream.last_tick - stream.before_tick);
   }
   for (uint32_t i = 0; i < stream.channels; ++i) {
-    values[i] = stream.last[i] + s * (stream.last[i] - stream.before[i]);
+    values[i] = stream.last[i] + s * (to[i] - from[i]);
   }
-  if (age > kStreamAhead) return StreamSample::kLost;
+  if (!has_next && age > kStreamAhead) return StreamSample::kLost;
   return jumped ? StreamSample::kJumped : StreamSample::kShown;
 }
 

@@ -86,8 +86,7 @@ Status check_order(Span<const SolverDesc> solvers, const DepthFirst& tree, Error
       if (std::find(own.begin(), own.end(), joint) != own.end()) continue;  // to change it further
       for (size_t later = i + 1; later < solvers.count; ++later) {
         for (uint16_t moved : solvers[later].writes) {
-          const JointRange range = tree.below(moved);
-          if (tree.place[joint] < range.first || tree.place[joint] >= range.end) continue;
+          if (!tree.below(moved).has(tree.place[joint])) continue;
           return fail(
               error, Status::kInvalidArgument, kNoOffset,
               "solver %s reads joint %u, which the later solver %s moves: change the order, "
@@ -140,9 +139,8 @@ bool plan_stack(const StackDesc& desc, const DepthFirst& tree, Arena& scratch, S
     solver.first_update = static_cast<uint32_t>(plan.updates.count);
     for (size_t r = 0; r < stale.count;) {
       const JointRange range = stale[r];
-      const bool reads = std::any_of(from.reads.begin(), from.reads.end(), [&](uint16_t joint) {
-        return tree.place[joint] >= range.first && tree.place[joint] < range.end;
-      });
+      const bool reads = std::any_of(from.reads.begin(), from.reads.end(),
+                                     [&](uint16_t joint) { return range.has(tree.place[joint]); });
       if (!reads) {
         ++r;
         continue;

@@ -56,6 +56,7 @@ struct SolverDesc {
 
 struct JointRange {
   uint16_t first, end;  // into Stack::order
+  bool has(uint16_t place) const { return place >= first && place < end; }
 };
 
 struct Solver {

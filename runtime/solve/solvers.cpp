@@ -8,13 +8,7 @@
 
 namespace mien {
 
-using solve::between;
-using solve::inverse;
-using solve::part_of;
-using solve::Rotation;
-using solve::rotation_of;
-using solve::turn;
-using solve::unit;
+using namespace solve;
 
 namespace {
 
@@ -289,13 +283,13 @@ void solve_twist(const SolverArgs& args) {
   const Rotation from_neutral = inverse(neutral_rotation(args.skeleton, p.source));
   for (uint32_t i = 0; i < args.count; ++i) {
     const SolverPose& pose = args.poses[i];
-    const Rotation twist = solve::twist_of(from_neutral * rotation(local(pose, p.source)), axis);
+    const Rotation twist = twist_of(from_neutral * rotation(local(pose, p.source)), axis);
     const double sign = twist.w < 0 ? -1 : 1;
     pose.outputs[0] = static_cast<float>(sign * dot({twist.x, twist.y, twist.z}, axis));
     for (uint32_t k = 0; k < p.joint_count; ++k) {
       const Rotation neutral = neutral_rotation(args.skeleton, p.joints[k]);
       const Rotation now = inverse(neutral) * rotation(local(pose, p.joints[k]));
-      const Rotation swing = now * inverse(solve::twist_of(now, axis));
+      const Rotation swing = now * inverse(twist_of(now, axis));
       const Rotation part = part_of(twist, std::fabs(double{p.shares[k]}));
       set_rotation(local(pose, p.joints[k]),
                    unit(neutral * swing * (p.shares[k] < 0 ? inverse(part) : part)));
