@@ -2,9 +2,8 @@
 // Mixing: its parts on rows of 256 lanes, and whole steps of a character beside the evaluation of its
 // rig, so that their ratio comes from one run.
 //
-// The character is the one of tests/support/mix_scene.h with everything on: two clips, a stream,
-// moods, a reaction, blinks, breath, noise, six guards. A quarter of the rig's raw controls is active;
-// the clip of the speech moves half of them.
+// The character is the one of face_scene.h: two clips, a stream, moods, a reaction, blinks, breath,
+// noise, six measured guards. A quarter of the rig's raw controls is active.
 //
 // Counters: `of_evaluation` is the time of a step by that of an evaluation in the same run, `step` and
 // `evaluation` are these times in seconds, medians per character; `active` is the mean share of raw
@@ -14,11 +13,10 @@
 #include <chrono>
 #include <ctime>
 
-#include "bench/bench_support.h"
+#include "bench/face_scene.h"
 #include "capi/handles.h"
 #include "runtime/eval/evaluate.h"
 #include "runtime/mix/mix_rows.h"
-#include "tests/support/mix_scene.h"
 #include "tests/support/placed_guards.h"
 
 namespace mien::bench {
@@ -178,16 +176,14 @@ const MienRig* rig_for(uint32_t isa) {
   return rigs[isa];
 }
 
-/// The scene on the rig: a quarter of the raw controls, drawn at random, is moved.
+/// The scene on the rig: a quarter of the raw controls is moved.
 const MixScene& scene(uint32_t isa) {
   static const MixScene* scenes[MIEN_ISA_NEON + 1] = {};
   if (!scenes[isa]) {
+    static const MeasuredHead head = measure_head();
     const uint32_t raws = capi::object(rig_for(MIEN_ISA_SCALAR))->raw_count;
-    std::vector<uint16_t> lanes = first_lanes(raws);
-    Random random = Random::from_seed(3, 0);
-    for (uint32_t i = 0; i + 1 < raws; ++i) std::swap(lanes[i], lanes[i + random.below(raws - i)]);
-    lanes.resize(raws * 4 / 15);  // some rest at times
-    scenes[isa] = new MixScene(raws, lanes, kernels_for(static_cast<Isa>(isa)));
+    const FaceScene face(head, raws, raws / 4);
+    scenes[isa] = new MixScene(face.parts, kernels_for(static_cast<Isa>(isa)));
   }
   return *scenes[isa];
 }
@@ -305,7 +301,7 @@ void whole_step(benchmark::State& state, uint32_t isa, uint32_t count) {
 }
 
 void single_steps(benchmark::State& state) {
-  const size_t kSteps = std::getenv("STEPS") ? 3000 : 100000;
+  constexpr size_t kSteps = 100000;
   using Clock = std::chrono::steady_clock;
   std::vector<double> times(kSteps);
   for (auto _ : state) {

@@ -31,7 +31,7 @@ TEST(Determinism, OfAMinuteOnEveryInstructionSet) {  // F1
   for (uint32_t isa = 1; isa < kIsaCount; ++isa) {
     const KernelTable* kernels = kernels_for(static_cast<Isa>(isa));
     if (!kernels) continue;
-    const MixScene scene(kRaws, {}, kernels);
+    const MixScene scene(kRaws, kernels);
     const uint64_t hash = minute_of(scene, 1);
     EXPECT_EQ(hash, kMinute) << kernels->name << std::hex << ": 0x" << hash;
   }

@@ -17,7 +17,7 @@ TEST(HostEnvironment, LeavesMixingNearAndWithinItsLimits) {
     const KernelTable* const kernels = kernels_for(static_cast<Isa>(isa));
     if (!kernels) continue;
     SCOPED_TRACE(kernels->name);
-    const MixScene scene(24, {}, kernels);
+    const MixScene scene(24, kernels);
     const uint32_t lanes = scene.mix->used_lanes();
     for (const Environment& host : kHosts) {
       SceneActor usual(scene, 5), other(scene, 5);

@@ -25,24 +25,28 @@ inline void scene_requires(Status status) {
   if (status != Status::kOk) abort();
 }
 
-/// A clip of all raw controls, and its binding. Of `moved` each follows a smooth curve of its own
-/// between 0 and 1; the others rest at 0.
+/// Smooth curves between 0 and 1, one for each of `moved`; the other raw controls rest at 0.
+inline std::vector<float> scene_curves(uint64_t seed, uint32_t raw_count,
+                                       const std::vector<uint16_t>& moved, uint32_t frames) {
+  Random random = Random::from_seed(seed, 0);
+  std::vector<float> values(size_t{raw_count} * frames);
+  for (uint16_t lane : moved) {
+    const double period = random.between(40, 100), phase = random.real();
+    for (uint32_t f = 0; f < frames; ++f) {
+      const double t = f / period + phase, x = t - static_cast<double>(static_cast<int64_t>(t));
+      values[size_t{f} * raw_count + lane] = static_cast<float>(16 * x * x * (1 - x) * (1 - x));
+    }
+  }
+  return values;
+}
+
+/// A clip of all raw controls, and its binding. `values`: [frame][raw control].
 struct SceneClip {
   ClipBytes file;
   Clip clip;
   Binding binding = {};
 
-  SceneClip(uint64_t seed, uint32_t raw_count, const std::vector<uint16_t>& moved, uint32_t frames,
-            bool wraps) {
-    Random random = Random::from_seed(seed, 0);
-    std::vector<float> values(size_t{raw_count} * frames);
-    for (uint16_t lane : moved) {
-      const double period = random.between(40, 100), phase = random.real();
-      for (uint32_t f = 0; f < frames; ++f) {
-        const double t = f / period + phase, x = t - static_cast<double>(static_cast<int64_t>(t));
-        values[size_t{f} * raw_count + lane] = static_cast<float>(16 * x * x * (1 - x) * (1 - x));
-      }
-    }
+  SceneClip(const std::vector<float>& values, uint32_t raw_count, bool wraps) {
     std::vector<std::string> names;
     std::vector<Span<const char>> views;
     for (uint16_t c = 0; c < raw_count; ++c) {
@@ -53,7 +57,7 @@ struct SceneClip {
     const Span<const char> event_name = views[0];
     const ClipEventDesc event = {kSceneStep, 0, 1};
     ClipDesc desc;
-    desc.frame_count = frames;
+    desc.frame_count = static_cast<uint32_t>(values.size() / raw_count);
     desc.values = values.data();
     desc.names = {views.data(), views.size()};
     desc.events = {&event, 1};
@@ -105,48 +109,83 @@ inline Guard scene_guard(uint64_t seed, const std::vector<uint16_t>& moved) {
   return guard;
 }
 
+/// What differs between scenes.
+struct SceneParts {
+  static constexpr uint32_t kClips = 3, kMoods = 4, kPoses = kMoods + 1 + kGlareStrokes;
+
+  struct Pose {
+    std::vector<uint16_t> lanes;
+    std::vector<float> values;
+  };
+  uint32_t raw_count = 0;
+  std::vector<uint16_t> moved;       // raw controls, all of which something moves
+  std::vector<float> clips[kClips];  // [frame][raw control]; the third is played as speech
+  std::vector<float> speech_mask;    // [lane]
+  std::vector<uint16_t> channels;    // of the stream
+  std::vector<uint16_t> blinks;      // lanes of the generator
+  std::vector<uint16_t> small;       // lanes of breath and noise
+  Pose poses[kPoses];                // moods, what scales over the guards, the strokes of the glare
+  std::vector<Guard> guards;
+};
+
+/// All at random. `moved`: the raw controls that something moves; empty: all.
+inline SceneParts random_scene(uint32_t raws, std::vector<uint16_t> moved = {}) {
+  SceneParts parts;
+  parts.raw_count = raws;
+  for (uint16_t l = 0; moved.size() < raws && moved.size() == l; ++l) moved.push_back(l);
+  const auto lane = [&moved](size_t i) { return moved[i % moved.size()]; };
+  const std::vector<uint16_t> half(moved.begin(),
+                                   moved.begin() + static_cast<long>(moved.size() / 2));
+  for (uint32_t i = 0; i < SceneParts::kClips; ++i) {
+    parts.clips[i] = scene_curves(80 + i, raws, i == 2 ? half : moved, 100 + 50 * i);
+  }
+  for (uint32_t l = 0; l <= raws; ++l) {
+    parts.speech_mask.push_back(l % 4 == 0 ? 0.0f : l % 4 == 1 ? 0.5f : 1.0f);
+  }
+  for (uint32_t i = 0; i < 20 && i < moved.size(); ++i) parts.channels.push_back(lane(3 * i));
+  parts.blinks = {lane(0), lane(1)};
+  parts.small = {lane(2), lane(3), lane(4), lane(5)};
+  for (uint32_t p = 0; p < SceneParts::kPoses; ++p) {
+    for (uint32_t i = 0; i < 12 && i < moved.size(); ++i) {
+      const bool variable = i == 0 && p == SceneParts::kPoses - 1;
+      parts.poses[p].lanes.push_back(variable ? static_cast<uint16_t>(raws) : lane(7 * p + i));
+      parts.poses[p].values.push_back(0.1f * static_cast<float>(1 + (p + i) % 9));
+    }
+  }
+  for (uint32_t g = 0; g < 6; ++g) parts.guards.push_back(scene_guard(g, moved));
+  parts.moved = std::move(moved);
+  return parts;
+}
+
 struct MixScene {
   enum Layer : uint32_t { kBase, kLive, kSpeech, kMood, kBlinks, kBreathing, kFidget, kOverGuards };
-  static constexpr uint32_t kLayers = 8, kMoods = 4, kChannels = 20, kClips = 3;
+  static constexpr uint32_t kLayers = 8, kMoods = SceneParts::kMoods, kClips = SceneParts::kClips;
+  static constexpr uint32_t kMaxChannels = 24;
 
   uint32_t raw_count;
-  std::vector<uint16_t> moved;
   std::deque<SceneClip> clips;
   std::vector<ClipSource> sources;
   Mix* mix = nullptr;
 
-  /// `moved_lanes`: the raw controls that something moves; empty: all.
-  explicit MixScene(uint32_t raws, std::vector<uint16_t> moved_lanes = {},
-                    const KernelTable* kernels = nullptr)
-      : raw_count(raws), moved(std::move(moved_lanes)) {
-    if (moved.empty()) {
-      for (uint16_t l = 0; l < raws; ++l) moved.push_back(l);
-    }
-    const std::vector<uint16_t> half(moved.begin(),
-                                     moved.begin() + static_cast<long>(moved.size() / 2));
+  explicit MixScene(uint32_t raws, const KernelTable* kernels = nullptr)
+      : MixScene(random_scene(raws), kernels) {}
+
+  MixScene(const SceneParts& parts, const KernelTable* kernels) : raw_count(parts.raw_count) {
     for (uint32_t i = 0; i < kClips; ++i) {
-      clips.emplace_back(80 + i, raws, i == 2 ? half : moved, 100 + 50 * i, i > 0);
+      clips.emplace_back(parts.clips[i], raw_count, i > 0);
       sources.push_back({i + 1, &clips[i].clip, &clips[i].binding});
     }
-    const auto lane = [this](size_t i) { return moved[i % moved.size()]; };
-    const uint32_t lanes = raws + 1;
-    std::vector<float> mouth(lanes), amounts(4, 0.5f), lower(lanes, 0.0f), upper(lanes, 1.0f);
-    lower[raws] = -10, upper[raws] = 10;
-    for (uint32_t l = 0; l < lanes; ++l) mouth[l] = l % 4 == 0 ? 0.0f : l % 4 == 1 ? 0.5f : 1.0f;
-    std::vector<uint16_t> channels, mirror, pose_lanes[kPoses], eyes = {lane(0), lane(1)};
-    std::vector<uint16_t> small = {lane(2), lane(3), lane(4), lane(5)};
-    for (uint32_t i = 0; i < kChannels && i < moved.size(); ++i) channels.push_back(lane(3 * i));
-    for (uint16_t l = 0; l < lanes; ++l) mirror.push_back(l < raws && (l ^ 1u) < raws ? l ^ 1 : l);
-    std::vector<float> pose_values[kPoses];
+    const uint32_t lanes = raw_count + 1;
+    std::vector<float> amounts(4, 0.5f), lower(lanes, 0.0f), upper(lanes, 1.0f);
+    lower[raw_count] = -10, upper[raw_count] = 10;
+    std::vector<uint16_t> mirror;
+    for (uint16_t l = 0; l < lanes; ++l) {
+      mirror.push_back(l < raw_count && (l ^ 1u) < raw_count ? l ^ 1 : l);
+    }
     std::vector<PoseDesc> poses;
-    for (uint32_t p = 0; p < kPoses; ++p) {
-      for (uint32_t i = 0; i < kPoseLanes && i < moved.size(); ++i) {
-        pose_lanes[p].push_back(i == 0 && p == kPoses - 1 ? static_cast<uint16_t>(raws)
-                                                          : lane(7 * p + i));
-        pose_values[p].push_back(0.1f * static_cast<float>(1 + (p + i) % 9));
-      }
-      poses.push_back({{pose_lanes[p].data(), pose_lanes[p].size()},
-                       {pose_values[p].data(), pose_values[p].size()}});
+    for (const SceneParts::Pose& pose : parts.poses) {
+      poses.push_back(
+          {{pose.lanes.data(), pose.lanes.size()}, {pose.values.data(), pose.values.size()}});
     }
 
     LayerDesc layers[kLayers];
@@ -163,16 +202,16 @@ struct MixScene {
     set(kBreathing, LayerGroup::kLife, BlendMode::kAdd, LayerSource::kGenerator);
     set(kFidget, LayerGroup::kLife, BlendMode::kAdd, LayerSource::kGenerator);
     set(kOverGuards, LayerGroup::kEmotion, BlendMode::kScale, LayerSource::kPoses);
-    layers[kLive].lanes = {channels.data(), channels.size()};
+    layers[kLive].lanes = {parts.channels.data(), parts.channels.size()};
     layers[kLive].delay = 50 * kSceneMillisecond;
     layers[kLive].weight = 0.5f;
-    layers[kSpeech].mask = {mouth.data(), mouth.size()};
+    layers[kSpeech].mask = {parts.speech_mask.data(), parts.speech_mask.size()};
     layers[kMood].pose_count = kMoods;
     layers[kOverGuards].first_pose = kMoods;
     layers[kOverGuards].weight = 0;  // without pose weights it scales to 0
     layers[kOverGuards].pose_count = 1;
     layers[kOverGuards].flags = kLayerAfterGuards;
-    const std::vector<uint16_t>* generated[] = {&eyes, &small, &small};
+    const std::vector<uint16_t>* generated[] = {&parts.blinks, &parts.small, &parts.small};
     for (uint32_t g = 0; g < 3; ++g) {
       LayerDesc& layer = layers[kBlinks + g];
       layer.generator = static_cast<Generator>(g);
@@ -183,35 +222,33 @@ struct MixScene {
     Stroke strokes[kGlareStrokes];
     glare_strokes(kMoods + 1, strokes);
     const ReactionDesc glare = glare_reaction(strokes);
-    std::vector<Guard> guards;
-    for (uint32_t g = 0; g < 6; ++g) guards.push_back(scene_guard(g, moved));
     std::vector<AntagonistPair> antagonists;
-    for (size_t i = 0; i < 96 && 2 * i + 1 < moved.size(); i += 2) {
-      antagonists.push_back({lane(i), lane(i + 1), 0.25f});
+    for (size_t i = 0; i < 96 && 2 * i + 1 < parts.moved.size(); i += 2) {
+      antagonists.push_back({parts.moved[i], parts.moved[i + 1], 0.25f});
     }
 
     std::string chars;
     std::vector<uint32_t> ends = {0};
-    for (uint32_t l = 0; l < raws; ++l) {
+    for (uint32_t l = 0; l < raw_count; ++l) {
       chars += "control" + std::to_string(l);
       ends.push_back(static_cast<uint32_t>(chars.size()));
     }
     const NameList names = {{ends.data(), ends.size()}, {&chars[0], chars.size()}, {}};
 
     MixDesc desc;
-    desc.raw_count = raws;
+    desc.raw_count = raw_count;
     desc.variable_count = 1;
     desc.names = names;
     desc.layers = {layers, kLayers};
     desc.poses = {poses.data(), poses.size()};
     desc.reactions = {&glare, 1};
-    desc.guards = {guards.data(), guards.size()};
+    desc.guards = {parts.guards.data(), parts.guards.size()};
     desc.antagonists = {antagonists.data(), antagonists.size()};
     desc.mirror = {mirror.data(), mirror.size()};
     desc.lower = {lower.data(), lower.size()};
     desc.upper = {upper.data(), upper.size()};
     desc.player_count = 4;
-    desc.max_channels = desc.max_changing_channels = raws;
+    desc.max_channels = desc.max_changing_channels = raw_count;
     desc.kernels = kernels;
     Error error;
     scene_requires(create_mix(desc, default_allocator(), mix, error));
@@ -227,9 +264,6 @@ struct MixScene {
               return true;
             }};
   }
-
- private:
-  static constexpr uint32_t kPoses = kMoods + 1 + kGlareStrokes, kPoseLanes = 12;
 };
 
 /// Plays the scene at random; what it does depends on the random numbers alone.
@@ -265,7 +299,7 @@ struct SceneActor {
   }
 
   void push(Random& random) {
-    float row[MixScene::kChannels];
+    float row[MixScene::kMaxChannels];
     const auto count = static_cast<uint32_t>(mixer->streams[MixScene::kLive]->channels);
     for (uint32_t c = 0; c < count; ++c) row[c] = static_cast<float>(random.below(1025)) / 1024;
     const int64_t now = mixer->header->now;
