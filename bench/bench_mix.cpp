@@ -149,15 +149,13 @@ void guards(benchmark::State& state, float activation) {
   Rows rows;
   alignas(64) float held[kLanes] = {}, back[kLanes], row[kLanes];
   const float *const before = rows.x, *const free_row = rows.row;  // lane by lane: all have guards
-  scene_requires(placed.lanes.size() == kGuarded ? Status::kOk : Status::kMismatch);
+  scene_requires(placed.table.lanes.count == kGuarded ? Status::kOk : Status::kMismatch);
   for (auto _ : state) {
-    float distances[kMaxGuards], activations[kMaxGuards];
-    for (uint32_t g = 0; g < kMaxGuards; ++g) {
-      distances[g] = guard_distance(placed.placed[g], before);
-      activations[g] = activation;
-    }
-    hold_guards({placed.placed.data(), kMaxGuards}, before, distances, activations, free_row, back,
-                row);
+    alignas(64) float distances[kMaxGuards];
+    float activations[kMaxGuards];
+    guard_distances(placed.table, before, distances);
+    for (float& each : activations) each = activation;
+    hold_guards(placed.table, before, distances, activations, free_row, back, row);
     ease_guards(free_row, before, back, kGuarded, 0.2f, held, row);
     benchmark::ClobberMemory();
   }

@@ -75,7 +75,8 @@ class FaceScene {
     place_guards();
     make_clips();
     make_poses();
-    for (size_t c = 0; c < head_.controls.size() && parts.channels.size() < 20; ++c) {
+    for (size_t c = 0; c < head_.controls.size() && parts.channels.size() < MixScene::kChannels;
+         ++c) {
       if (!is_mouth(c)) parts.channels.push_back(parts.moved[c]);
     }
     parts.blinks = lanes_of("eyeBlink 1");

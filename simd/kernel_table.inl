@@ -59,6 +59,7 @@ const KernelTable kTable = {kIsa,
                             cross_rows,
                             add_quintics,
                             limit_row,
+                            guard_distances,
                             next_samples,
                             sample_values};
 

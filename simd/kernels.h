@@ -556,6 +556,15 @@ struct QuinticRows {
   float *c0, *c1, *c2, *rate;
 };
 
+/// The distances of eight guards as functions of a row (runtime/mix/guard.h): the rest of each guard,
+/// then its gain for each place of the row, then for each product of two places.
+constexpr uint32_t kGuardVector = 8;
+struct GuardGains {
+  const float* gains;        // [1 + place_count + product_count][kGuardVector], 64-byte aligned
+  const uint16_t* products;  // [product] the places of both
+  uint32_t place_count, product_count;  // multiples of 4
+};
+
 constexpr uint32_t kClipLanes = 8;
 
 /// The decoder state of eight channels in a block of a clip (runtime/anim/clip_block.h).
@@ -635,6 +644,9 @@ struct KernelTable {
                        float* to);
   /// Clamps to the limits. NaN becomes the lower limit; -0 within the limits is kept.
   void (*limit_row)(const float* lower, const float* upper, size_t count, float* row);
+  /// out[g] = rest of guard g + sum of gain * row[place] + sum of gain * (row[a] * row[b]); four partial
+  /// sums, each of every fourth place and product. `out` is 64-byte aligned.
+  void (*guard_distances)(const GuardGains& guards, const float* row, float* out);
   /// Decodes the next sample in each lane of a block.
   void (*next_samples)(const uint8_t* block, ClipLanes* groups, size_t count);
   /// row[kClipLanes * group + lane] = value. False if one would not be finite, which gives 0.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rows of a mix: a layer over those before it, one clip into another, transitions, limits.
+// Rows of a mix: a layer over those before it, one clip into another, transitions, limits; the
+// distances of guards.
 
 #pragma once
 
@@ -124,6 +125,45 @@ void limit_row(const float* lower, const float* upper, size_t count, float* row)
     const Vec v = load(row + i);
     const Vec limited = at_most(at_least(v, load(lower + i)), load(upper + i));
     store(row + i, select(equal(v, limited), v, limited));
+  }
+}
+
+/// The distances of all guards at once. A partial sum waits for itself only.
+constexpr size_t kGuardVecs = kGuardVector / kBlockWidth;
+struct GuardSums {
+  BlockVec of[4][kGuardVecs];
+
+  void add(size_t sum, const float* gains, float factor) {
+    const BlockVec x = broadcast_block(factor);
+    for (size_t v = 0; v < kGuardVecs; ++v) {
+      of[sum][v] = of[sum][v] + x * load_block(gains + v * kBlockWidth);
+    }
+  }
+};
+
+void guard_distances(const GuardGains& guards, const float* row, float* out) {
+  GuardSums sums;
+  for (size_t v = 0; v < kGuardVecs; ++v) {
+    sums.of[0][v] = load_block(guards.gains + v * kBlockWidth);
+    for (size_t sum = 1; sum < 4; ++sum) sums.of[sum][v] = broadcast_block(0.0f);
+  }
+  const float* gains = guards.gains + kGuardVector;
+  for (size_t i = 0; i < guards.place_count; i += 4, gains += 4 * kGuardVector) {
+    sums.add(0, gains, row[i]);
+    sums.add(1, gains + kGuardVector, row[i + 1]);
+    sums.add(2, gains + 2 * kGuardVector, row[i + 2]);
+    sums.add(3, gains + 3 * kGuardVector, row[i + 3]);
+  }
+  const uint16_t* at = guards.products;
+  for (size_t i = 0; i < guards.product_count; i += 4, at += 8, gains += 4 * kGuardVector) {
+    sums.add(0, gains, row[at[0]] * row[at[1]]);
+    sums.add(1, gains + kGuardVector, row[at[2]] * row[at[3]]);
+    sums.add(2, gains + 2 * kGuardVector, row[at[4]] * row[at[5]]);
+    sums.add(3, gains + 3 * kGuardVector, row[at[6]] * row[at[7]]);
+  }
+  for (size_t v = 0; v < kGuardVecs; ++v) {
+    store_block(out + v * kBlockWidth,
+                (sums.of[0][v] + sums.of[1][v]) + (sums.of[2][v] + sums.of[3][v]));
   }
 }
 

@@ -225,10 +225,9 @@ Span<const float> sample_changing(ClipSampler& sampler) {
   const auto t =
       static_cast<float>(static_cast<double>(past) / static_cast<double>(clip.ticks_per_frame));
   const float* b = row(at);
-  float* out = sampler.sampled.data;
-  if (past == 0 || sampler.interpolation == Interpolation::kStep) {
-    memcpy(out, b, count * sizeof(float));
-  } else if (sampler.interpolation == Interpolation::kLinear) {
+  if (past == 0 || sampler.interpolation == Interpolation::kStep) return {b, count};
+  float* const out = sampler.sampled.data;
+  if (sampler.interpolation == Interpolation::kLinear) {
     linear(b, row(at + 1), t, count, out);
   } else {
     const float *a = row(at - 1), *c = row(at + 1), *d = row(at + 2);

@@ -98,7 +98,8 @@ EventRange advance_clip(ClipSampler& sampler, int64_t ticks);
 /// over many loops can pass any number of them.
 bool next_event(EventRange& range, ClipEvent& event);
 
-/// The same of the channels that change, in their order; `values` stays as it is.
+/// The same of the channels that change, in their order; `values` stays as it is. The result stays until
+/// the next call.
 Span<const float> sample_changing(ClipSampler& sampler);
 
 /// The values of all channels at the sampler's position, which stay until the next call. At a frame

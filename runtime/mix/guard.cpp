@@ -22,10 +22,10 @@ struct Opening {
 };
 
 /// Takes lanes back by what closes `excess` millimeters: `most` keeps the most that any guard wants.
-void hold_guard(const PlacedGuard& guard, const float* protected_row, float excess,
+void hold_guard(const PlacedGuard& guard, uint32_t width, const float* protected_row, float excess,
                 const float* row, float* most) {
   float values[kMaxGuardedLanes];
-  memcpy(values, row, guard.width * sizeof(float));
+  memcpy(values, row, width * sizeof(float));
   // What else depends on values goes without branches: they are hard to foretell.
   const auto opening = [&](uint32_t i) {
     const uint32_t at = guard.places[i];
@@ -33,7 +33,7 @@ void hold_guard(const PlacedGuard& guard, const float* protected_row, float exce
     if (change == 0) return Opening{};
     float slope = guard.gains[i];
     for (uint32_t p = guard.partner_begins[i]; p < guard.partner_begins[i + 1]; ++p) {
-      slope += guard.partners[p].gain * values[guard.partners[p].other];
+      slope += guard.partners[p].gain * values[guard.partners[p].place];
     }
     const float closes = higher(slope * change, 0.0f);
     return Opening{closes > 0 ? change : 0.0f, closes};
@@ -94,26 +94,38 @@ float guard_activation(const Guard& guard, float distance) {
   return u * u * (3 - 2 * u);
 }
 
-uint32_t list_guarded_lanes(Span<const Guard> guards, uint16_t* lanes) {
+namespace {
+
+/// Lists the lanes of all guards in ascending order; returns their number.
+size_t list_lanes(Span<const Guard> guards, uint16_t* lanes) {
   uint16_t* end = lanes;
   for (const Guard& guard : guards) end = std::copy(guard.lanes, guard.lanes + guard.count, end);
   std::sort(lanes, end);
-  return static_cast<uint32_t>(std::unique(lanes, end) - lanes);
+  return static_cast<size_t>(std::unique(lanes, end) - lanes);
 }
 
-void place_guard(const Guard& guard, Span<const uint16_t> guarded_lanes, PlacedGuard& out) {
-  out = {};
+/// Where a product stands in the list, which it joins if it is new.
+uint32_t find_product(uint16_t a, uint16_t b, uint16_t* products, uint32_t& count) {
+  if (a > b) std::swap(a, b);
+  uint32_t i = 0;
+  while (i < count && (products[2 * i] != a || products[2 * i + 1] != b)) ++i;
+  if (i == count) {
+    products[2 * i] = a;
+    products[2 * i + 1] = b;
+    ++count;
+  }
+  return i;
+}
+
+void place_guard(const Guard& guard, Span<const uint16_t> lanes, PlacedGuard& out) {
   out.count = guard.count;
-  out.pair_count = guard.pair_count;
-  out.width = static_cast<uint32_t>((guarded_lanes.count + kGuardStep - 1) & ~(kGuardStep - 1));
   out.together = guard.together;
-  out.rest = guard.rest;
   out.tolerance = guard.tolerance;
   for (uint32_t i = 0; i < guard.count; ++i) {
-    const uint16_t* const lanes = guarded_lanes.data;
-    const uint16_t* const at = std::lower_bound(lanes, lanes + guarded_lanes.count, guard.lanes[i]);
-    out.places[i] = static_cast<uint16_t>(at - lanes);
-    out.gains[i] = out.row_gains[out.places[i]] = guard.gains[i];
+    const uint16_t* const end = lanes.data + lanes.count;
+    out.places[i] =
+        static_cast<uint16_t>(std::lower_bound(lanes.data, end, guard.lanes[i]) - lanes.data);
+    out.gains[i] = guard.gains[i];
   }
   uint16_t partners = 0;
   for (uint32_t i = 0; i < guard.count; ++i) {
@@ -121,60 +133,86 @@ void place_guard(const Guard& guard, Span<const uint16_t> guarded_lanes, PlacedG
       const GuardPair& pair = guard.pairs[p];
       if (pair.first != i && pair.second != i) continue;
       const uint32_t other = pair.first == i ? pair.second : pair.first;
-      out.partners[partners++] = {out.places[i], out.places[other], pair.gain};
+      out.partners[partners++] = {out.places[other], pair.gain};
       if (other + 1 == i) out.both_gains[i] += pair.gain;
     }
     out.partner_begins[i + 1] = partners;
   }
-  for (uint32_t p = 0; p < guard.pair_count; ++p) {
-    const GuardPair& pair = guard.pairs[p];
-    out.pairs[p] = {out.places[pair.first], out.places[pair.second], pair.gain};
-  }
 }
 
-float guard_distance(const PlacedGuard& guard, const float* row) {
-  // Eight sums at a time, which compilers make vectors.
-  float sums[kGuardStep] = {};
-  const float* const gains = guard.row_gains;
-  const size_t width = guard.width;
-  for (size_t i = 0; i < width; i += kGuardStep) {
-    for (size_t k = 0; k < kGuardStep; ++k) sums[k] += gains[i + k] * row[i + k];
-  }
-  float products = guard.rest;
-  for (uint32_t i = 0; i < guard.pair_count; ++i) {
-    const PlacedGuard::Product& pair = guard.pairs[i];
-    products += pair.gain * row[pair.place] * row[pair.other];
-  }
-  for (uint32_t k = 0; k < kGuardStep / 2; ++k) sums[k] += sums[k + kGuardStep / 2];
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]) + products;
+constexpr uint32_t round_up(size_t count, uint32_t step) {
+  return static_cast<uint32_t>((count + step - 1) / step * step);
 }
 
-void hold_guards(Span<const PlacedGuard> guards, const float* protected_row, const float* distances,
+}  // namespace
+
+void place_guards(Placer& placer, Span<const Guard> guards, const KernelTable* kernels,
+                  GuardTable& out) {
+  size_t max_lanes = 0, max_products = 0;
+  for (const Guard& guard : guards) {
+    max_lanes += guard.count;
+    max_products += guard.pair_count;
+  }
+  max_products = round_up(max_products, 4);
+  out.lanes = placer.array<uint16_t>(max_lanes);
+  out.guards = placer.array<PlacedGuard>(guards.count);
+  const Span<uint16_t> products = placer.array<uint16_t>(2 * max_products);
+  const Span<float> gains = placer.array<float>(
+      (1 + round_up(max_lanes, kGuardStep) + max_products) * kGuardVector, kBlockAlignment);
+  out.kernels = kernels;
+  if (placer.measuring()) return;
+  out.lanes.count = list_lanes(guards, out.lanes.data);
+  out.width = round_up(out.lanes.count, kGuardStep);
+  uint32_t product_count = 0;
+  for (size_t g = 0; g < guards.count; ++g) {
+    const Guard& guard = guards[g];
+    PlacedGuard& placed = out.guards[g];
+    place_guard(guard, out.lanes, placed);
+    gains[g] = guard.rest;
+    for (uint32_t i = 0; i < guard.count; ++i) {
+      gains[(1 + placed.places[i]) * kGuardVector + g] += guard.gains[i];
+    }
+    for (uint32_t p = 0; p < guard.pair_count; ++p) {
+      const GuardPair& pair = guard.pairs[p];
+      const uint32_t row = 1 + out.width +
+                           find_product(placed.places[pair.first], placed.places[pair.second],
+                                        products.data, product_count);
+      gains[row * kGuardVector + g] += pair.gain;
+    }
+  }
+  out.gains.gains = gains.data;
+  out.gains.products = products.data;
+  out.gains.place_count = out.width;
+  out.gains.product_count = round_up(product_count, 4);
+}
+
+void hold_guards(const GuardTable& table, const float* protected_row, const float* distances,
                  const float* activations, const float* free_row, float* back, float* row) {
-  const uint32_t width = guards[0].width;
+  const uint32_t width = table.width;
   memset(back, 0, width * sizeof(float));
   memcpy(row, free_row, width * sizeof(float));
   float more[kMaxGuardedLanes];
   float limits[kMaxGuards];
+  alignas(kBlockAlignment) float open[kMaxGuards];
   uint32_t limited = 0;  // bit g: the limit of guard g is known
   bool moved = true;
   for (uint32_t sweep = 0; moved && sweep < kGuardSweeps; ++sweep) {
     moved = false;
-    for (uint32_t g = 0; g < guards.count; ++g) {
+    guard_distances(table, row, open);
+    for (uint32_t g = 0; g < table.guards.count; ++g) {
       if (!(activations[g] > 0)) continue;
-      const PlacedGuard& guard = guards[g];
-      const float open = guard_distance(guard, row);
+      const PlacedGuard& guard = table.guards[g];
       if ((limited >> g & 1) == 0) {
-        const float excess = open - higher(distances[g], 0.0f) - guard.tolerance;
+        const float excess = open[g] - higher(distances[g], 0.0f) - guard.tolerance;
         if (!(excess > 0)) continue;
-        limits[g] = open - activations[g] * excess;
+        limits[g] = open[g] - activations[g] * excess;
         limited |= 1u << g;
-      } else if (!(open > limits[g] + kEnough)) {
+      } else if (!(open[g] > limits[g] + kEnough)) {
         continue;
       }
       if (!moved) memset(more, 0, width * sizeof(float));
       moved = true;
-      hold_guard(guard, protected_row, open - limits[g], row, more);
+      hold_guard(guard, width, protected_row, open[g] - limits[g], row, more);
     }
     if (moved) take_off(free_row, more, width, back, row);
   }

@@ -7,11 +7,12 @@
 
 #include <cstdint>
 
-#include "runtime/base/span.h"
+#include "runtime/base/arena.h"
+#include "simd/kernels.h"
 
 namespace mien {
 
-constexpr uint32_t kMaxGuards = 8;
+constexpr uint32_t kMaxGuards = kGuardVector;
 constexpr uint32_t kMaxGuardLanes = 24;
 constexpr uint32_t kMaxGuardPairs = 24;
 
@@ -60,33 +61,43 @@ float guard_distance(const Guard& guard, const float* row);
 /// `distance` is f(protected row).
 float guard_activation(const Guard& guard, float distance);
 
-/// Lists the lanes of all guards in ascending order; returns their number, at most kMaxGuardedLanes.
 constexpr uint32_t kMaxGuardedLanes = kMaxGuards * kMaxGuardLanes;
-uint32_t list_guarded_lanes(Span<const Guard> guards, uint16_t* lanes);
 
 /// A guard in the form that steps use. Its rows hold only the lanes of all guards, then zeros up to a
 /// multiple of kGuardStep; a place is an index into such a row.
 constexpr uint32_t kGuardStep = 8;
 struct PlacedGuard {
-  struct Product {
-    uint16_t place, other;
+  struct Partner {
+    uint16_t place;
     float gain;
   };
-  uint32_t count, pair_count, width;
-  uint32_t together;
-  float rest, tolerance;
+  uint32_t count, together;
+  float tolerance;
   uint16_t places[kMaxGuardLanes];              // by descending absolute gain
   float gains[kMaxGuardLanes];                  // of places
   float both_gains[kMaxGuardLanes];             // of the pair with the place before
   uint16_t partner_begins[kMaxGuardLanes + 1];  // of places, into partners
-  Product partners[2 * kMaxGuardPairs];  // pairs of the first of places, then of the second, ...
-  Product pairs[kMaxGuardPairs];
-  float row_gains[kMaxGuardedLanes];  // by place, to `width`; 0 where the guard has no lane
+  Partner partners[2 * kMaxGuardPairs];  // in pairs with the first of places, then the second, ...
 };
-void place_guard(const Guard& guard, Span<const uint16_t> guarded_lanes, PlacedGuard& out);
 
-/// f(row), summed in a different order.
-float guard_distance(const PlacedGuard& guard, const float* row);
+/// All guards of a mix.
+struct GuardTable {
+  Span<uint16_t> lanes;  // that they have, ascending
+  uint32_t width = 0;    // of rows
+  Span<PlacedGuard> guards;
+  GuardGains gains = {};
+  const KernelTable* kernels = nullptr;
+};
+
+/// To be called twice, as Placer says.
+void place_guards(Placer& placer, Span<const Guard> guards, const KernelTable* kernels,
+                  GuardTable& out);
+
+/// f(row) of each guard, summed in a different order; `out` has room for kMaxGuards and is aligned to
+/// kBlockAlignment.
+inline void guard_distances(const GuardTable& guards, const float* row, float* out) {
+  guards.kernels->guard_distances(guards.gains, row, out);
+}
 
 /// Computes how far guards take back each lane of the free row: `back`. The limit of a guard is
 /// f(protected row), or 0 if that is less, plus the tolerance. A guard with activation 1 brings f(row) down
@@ -99,7 +110,7 @@ float guard_distance(const PlacedGuard& guard, const float* row);
 /// (Guard::together). Lanes that do not open the distance stay. The amounts are in closed form, because f
 /// is linear in each lane. A lane that one guard took back may have helped another: then all guards look
 /// at the row once more.
-void hold_guards(Span<const PlacedGuard> guards, const float* protected_row, const float* distances,
+void hold_guards(const GuardTable& guards, const float* protected_row, const float* distances,
                  const float* activations, const float* free_row, float* back, float* row);
 constexpr uint32_t kGuardSweeps = 2;
 

@@ -388,19 +388,6 @@ void place_reactions(Placer& placer, Mix& mix) {
   });
 }
 
-void place_guards(Placer& placer, Mix& mix) {
-  size_t most = 0;
-  for (const Guard& guard : mix.guards) most += guard.count;
-  placer.keep(mix.guards);
-  mix.guarded = placer.array<uint16_t>(most);
-  mix.placed_guards = placer.array<PlacedGuard>(mix.guards.count);
-  if (placer.measuring()) return;
-  mix.guarded.count = list_guarded_lanes(mix.guards, mix.guarded.data);
-  for (size_t g = 0; g < mix.guards.count; ++g) {
-    place_guard(mix.guards[g], mix.guarded, mix.placed_guards[g]);
-  }
-}
-
 void place_limits(Placer& placer, Mix& mix) {
   mix.lower_row = placer.array<float>(mix.lane_count, kBlockAlignment);
   mix.upper_row = placer.array<float>(mix.lane_count, kBlockAlignment);
@@ -422,14 +409,15 @@ void place_mix(Placer& placer, const MixDesc& desc, Mix& mix) {
   place_poses(placer, mix);
   place_layers(placer, mix);  // their masks depend on gaze and poses
   place_reactions(placer, mix);
-  place_guards(placer, mix);
+  if (!mix.kernels) mix.kernels = kernels_for(Isa::kBest);
+  placer.keep(mix.guards);
+  place_guards(placer, mix.guards, mix.kernels, mix.guard_table);
   place_limits(placer, mix);
   placer.keep(mix.antagonists);
   placer.keep(mix.mirror);
   placer.keep(mix.names.first);
   placer.keep(mix.names.chars);
   mix.names.sorted = {};
-  if (!mix.kernels) mix.kernels = kernels_for(Isa::kBest);
 }
 
 /// FNV-1a
@@ -442,9 +430,9 @@ uint64_t hash_numbers(uint64_t hash, std::initializer_list<uint64_t> numbers) {
 
 uint64_t fingerprint(const Mix& mix) {
   uint64_t hash = hash_numbers(
-      0xCBF29CE484222325u,
-      {mix.raw_count, mix.variable_count, mix.player_count, mix.guards.count, mix.guarded.count,
-       mix.layers.count, mix.reactions.count, mix.stroke_count, mix.gaze != nullptr});
+      0xCBF29CE484222325u, {mix.raw_count, mix.variable_count, mix.player_count, mix.guards.count,
+                            mix.guard_table.lanes.count, mix.layers.count, mix.reactions.count,
+                            mix.stroke_count, mix.gaze != nullptr});
   for (const LayerDesc& layer : mix.layers) {
     hash = hash_numbers(hash, {static_cast<uint64_t>(layer.mode),
                                static_cast<uint64_t>(layer.source), layer.pose_count});

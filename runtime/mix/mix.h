@@ -187,12 +187,11 @@ struct Mix : MixTag, MixDesc {
   size_t block_size = 0;
   mutable std::atomic<uint32_t> owners{1};  // the creator and every mixer
 
-  Span<Span<float>> mask_rows;       // [layer][lane] the mask, 0 in the padding
-  Span<uint32_t> first_fades;        // [layer] of the weights of its poses, in Mixer::pose_weights
-  Span<Span<float>> pose_rows;       // [pose][lane], or empty if the pose has few lanes
-  Span<uint32_t> first_strokes;      // [reaction] in Mixer::strokes
-  Span<uint16_t> guarded;            // the lanes of all guards, ascending
-  Span<PlacedGuard> placed_guards;   // for rows of these lanes
+  Span<Span<float>> mask_rows;   // [layer][lane] the mask, 0 in the padding
+  Span<uint32_t> first_fades;    // [layer] of the weights of its poses, in Mixer::pose_weights
+  Span<Span<float>> pose_rows;   // [pose][lane], or empty if the pose has few lanes
+  Span<uint32_t> first_strokes;  // [reaction] in Mixer::strokes
+  GuardTable guard_table;
   Span<uint16_t> gaze_lanes;         // of the left and of the right eye, then those of the head
   Span<float> lower_row, upper_row;  // [lane] limits, or none: the largest numbers
 

@@ -19,7 +19,7 @@ void place_state(Placer& placer, const Mix& mix, Mixer& mixer) {
   mixer.player_states = placer.array<PlayerState>(mix.player_count);
   mixer.pose_weights = placer.array<Fade>(mix.fade_count);
   mixer.variables = placer.array<float>(mix.variable_count);
-  mixer.held = placer.array<float>(mix.guarded.count);
+  mixer.held = placer.array<float>(mix.guard_table.lanes.count);
   mixer.generators = placer.array<GeneratorState>(mix.layers.count);
   mixer.gazes = placer.array<GazeState>(mix.gaze ? 1 : 0);
   mixer.reactions = placer.array<ReactionState>(mix.reactions.count);
@@ -36,8 +36,8 @@ void place_mixer(Placer& placer, const Mix& mix, bool stages, Mixer& mixer) {
     mixer.stages = placer.array<float>(floats, kBlockAlignment).data;
   }
   mixer.row = placer.array<float>(mix.lane_count, kBlockAlignment);
-  mixer.guarded_rows =
-      placer.array<float>(kGuardedRows * align_up(mix.guarded.count, kGuardStep), kBlockAlignment);
+  mixer.guarded_rows = placer.array<float>(
+      kGuardedRows * align_up(mix.guard_table.lanes.count, kGuardStep), kBlockAlignment);
   mixer.layer_row = placer.array<float>(layer_row_floats(mix), kBlockAlignment);
   mixer.scratch = placer.array<float>(mix.lane_count, kBlockAlignment);
   mixer.gui = placer.array<float>(mix.max_bound_gui, kBlockAlignment);

@@ -112,7 +112,7 @@ struct Mixer {
   size_t block_size = 0;
 
   Span<float> row;           // [lane] the result of the last step
-  Span<float> guarded_rows;  // [GuardedRow][place in Mix::guarded], zeros up to kGuardStep
+  Span<float> guarded_rows;  // [GuardedRow][place in GuardTable::lanes], zeros up to kGuardStep
   Span<float> layer_row;     // values of all lanes, then their cover
   Span<float> scratch;       // [lane]
   Span<float> gui;
@@ -132,7 +132,7 @@ struct Mixer {
   Span<PlayerState> player_states;  // written for snapshots
   Span<Fade> pose_weights;          // Mix::first_fades
   Span<float> variables;            // [pose variable] at the start of each step
-  Span<float> held;                 // [place in Mix::guarded] how far guards took it back
+  Span<float> held;                 // [place in GuardTable::lanes] how far guards took it back
   Span<GeneratorState> generators;  // [layer]
   Span<GazeState> gazes;            // one if there is a gaze layer
   Span<ReactionState> reactions;

@@ -98,8 +98,13 @@ void mix_clip_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
     layer.in_player[layer.newest] = 1;
     // The mask leaves out lanes beyond the raw controls.
     const bool covers_all = current.source.binding->controls.count == mix.raw_count;
-    blend(mixer, index, weight, player_values(mix, current, layer.newest),
-          covers_all ? nullptr : player_cover(mix, current));
+    const float* const values = player_values(mix, current, layer.newest);
+    const LayerDesc& of = mix.layers[index];
+    if (covers_all && of.mask.empty() && of.mode == BlendMode::kOverride && weight == 1.0f) {
+      memcpy(mixer.row.data, values, mix.raw_count * sizeof(float));
+      return;
+    }
+    blend(mixer, index, weight, values, covers_all ? nullptr : player_cover(mix, current));
     return;
   }
   layer.in_player[layer.newest] = 0;
@@ -214,7 +219,7 @@ float* guarded_row(const Mixer& mixer, GuardedRow which) {
 
 /// Keeps what the row is now in the lanes of guards.
 void gather_guarded(Mixer& mixer, GuardedRow which) {
-  const Span<uint16_t> lanes = mixer.mix->guarded;
+  const Span<uint16_t> lanes = mixer.mix->guard_table.lanes;
   const float* const row = mixer.row.data;
   float* const kept = guarded_row(mixer, which);
   size_t i = 0;
@@ -250,24 +255,26 @@ void mix_layers(Mixer& mixer, uint32_t begin, uint32_t end, bool after_guards, i
 void mix_guards(Mixer& mixer, int64_t ticks) {
   const Mix& mix = *mixer.mix;
   if (mix.guards.empty()) return;
-  const auto count = static_cast<uint32_t>(mix.guarded.count);
+  const GuardTable& table = mix.guard_table;
+  const auto count = static_cast<uint32_t>(table.lanes.count);
   gather_guarded(mixer, kFree);
   const float* const before = guarded_row(mixer, kProtected);
   const float* const free_row = guarded_row(mixer, kFree);
   float* const row = guarded_row(mixer, kGuarded);
   const Speech speech = find_speech(mixer);
-  float distances[kMaxGuards], activations[kMaxGuards];
+  alignas(kBlockAlignment) float distances[kMaxGuards];
+  float activations[kMaxGuards];
+  guard_distances(table, before, distances);
   for (size_t i = 0; i < mix.guards.count; ++i) {
-    distances[i] = guard_distance(mix.placed_guards[i], before);
     activations[i] = activation_of(mixer, i, distances[i], speech);
   }
   float* const back = guarded_row(mixer, kBack);
-  hold_guards(mix.placed_guards, before, distances, activations, free_row, back, row);
+  hold_guards(table, before, distances, activations, free_row, back, row);
   const double seconds = static_cast<double>(ticks) / kTicksPerSecond;
   ease_guards(free_row, before, back, count, static_cast<float>(kGuardSpeed * seconds),
               mixer.held.data, row);
   float* const all_lanes = mixer.row.data;
-  const uint16_t* const lanes = mix.guarded.data;
+  const uint16_t* const lanes = table.lanes.data;
   MIEN_UNROLL_FOUR
   for (size_t i = 0; i < count; ++i) all_lanes[lanes[i]] = row[i];
 }
@@ -290,11 +297,15 @@ Status guard_state(const Mixer& mixer, uint32_t guard, GuardState& state, Error&
     return fail(error, Status::kIndex, kNoOffset, "guard %u of %zu", guard, mix.guards.count);
   }
   const Guard& of = mix.guards[guard];
-  const PlacedGuard& placed = mix.placed_guards[guard];
+  const auto distance = [&](GuardedRow row) {
+    alignas(kBlockAlignment) float all[kMaxGuards];
+    guard_distances(mix.guard_table, guarded_row(mixer, row), all);
+    return all[guard];
+  };
   state.lanes = {of.lanes, of.count};
-  state.protected_distance = guard_distance(placed, guarded_row(mixer, kProtected));
-  state.wanted = guard_distance(placed, guarded_row(mixer, kFree));
-  state.distance = guard_distance(placed, guarded_row(mixer, kGuarded));
+  state.protected_distance = distance(kProtected);
+  state.wanted = distance(kFree);
+  state.distance = distance(kGuarded);
   state.limit = std::max(state.protected_distance, 0.0f) + of.tolerance;
   state.activation = activation_of(mixer, guard, state.protected_distance, find_speech(mixer));
   return Status::kOk;
@@ -331,7 +342,12 @@ void step_mixer(Mixer& mixer, int64_t ticks, float* out, size_t count, uint64_t*
 void step_mixers(Span<Mixer* const> mixers, int64_t ticks, float* const* outs, size_t count,
                  uint64_t* active, size_t active_stride) {
   for (size_t i = 0; i < mixers.count; ++i) {
-    step_mixer(*mixers[i], ticks, outs[i], count, active ? active + i * active_stride : nullptr);
+    // The first one's scratch serves all of its mix, so that it stays in the cache.
+    Mixer& mixer = *mixers[i];
+    const Span<float> own = mixer.layer_row;
+    if (mixer.mix == mixers[0]->mix) mixer.layer_row = mixers[0]->layer_row;
+    step_mixer(mixer, ticks, outs[i], count, active ? active + i * active_stride : nullptr);
+    mixer.layer_row = own;
   }
 }
 

@@ -101,8 +101,11 @@ float decay(float x) {
   const float r = x - static_cast<float>(n) * 0.693147181f;
   float power = 1.0f;
   for (int i = 0; i < n; ++i) power *= 0.5f;
-  float sum = 1.0f;
-  for (int i = 9; i >= 1; --i) sum = 1.0f - r * sum / static_cast<float>(i);
+  // exp(-r) by its series, without divisions: they would wait for each other.
+  constexpr float kSeries[] = {-1.0f / 362880, 1.0f / 40320, -1.0f / 5040, 1.0f / 720, -1.0f / 120,
+                               1.0f / 24,      -1.0f / 6,    0.5f,         -1.0f,      1.0f};
+  float sum = 0.0f;
+  for (float term : kSeries) sum = sum * r + term;
   return power * sum;
 }
 

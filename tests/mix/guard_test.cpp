@@ -57,8 +57,7 @@ TEST(Guard, DistanceIsASumOfLanesAndOfProductsOfPairs) {
   EXPECT_FLOAT_EQ(guard_distance(guard, row.data()),
                   0.25f + 20 * 0.25f + 5 * 0.5f - 4 + 0.5f - 20 * 0.25f * 0.5f);
   const PlacedGuards placed({guard});
-  EXPECT_FLOAT_EQ(guard_distance(placed.placed[0], placed.row_of(row).data()),
-                  guard_distance(guard, row.data()));
+  EXPECT_FLOAT_EQ(placed.distances(row)[0], guard_distance(guard, row.data()));
 }
 
 TEST(Guard, ActivationFallsFromContactToTheRangesEnd) {

@@ -163,5 +163,41 @@ TEST(LimitRow, HoldsWhateverComesAndKeepsZerosSigns) {
   }
 }
 
+// Distances of guards ------------------------------------------------------------------------------
+
+TEST(GuardDistances, AreRestPlacesAndProductsOnEveryInstructionSet) {
+  constexpr uint32_t kProducts = 8, kTerms = 1 + kLanes + kProducts;
+  Random random = Random::from_seed(6, 0);
+  alignas(64) float gains[kTerms * kGuardVector];
+  for (float& gain : gains) gain = static_cast<float>(random.between(-8, 8));
+  uint16_t products[2 * kProducts];
+  for (uint16_t& place : products) place = static_cast<uint16_t>(random.below(kLanes));
+  const Row row(random, 0, 1);
+  for (uint32_t product_count : {0u, 4u, kProducts}) {
+    for (uint32_t place_count : {0u, 8u, uint32_t{kLanes}}) {
+      // Those of products come after those of places.
+      const GuardGains guards = {gains, products, place_count, product_count};
+      const Row out = on_all(Row(), [&](const KernelTable& kernels, Row& own) {
+        kernels.guard_distances(guards, row.of, own.of);
+      });
+      for (size_t g = 0; g < kGuardVector; ++g) {
+        const float* gain = gains + g;
+        double sum = double{*gain};
+        for (uint32_t i = 0; i < place_count; ++i) {
+          sum += double{*(gain += kGuardVector)} * double{row.of[i]};
+        }
+        for (uint32_t p = 0; p < product_count; ++p) {
+          const double product =
+              double{row.of[products[2 * p]]} * double{row.of[products[2 * p + 1]]};
+          sum += double{*(gain += kGuardVector)} * product;
+        }
+        EXPECT_NEAR(double{out.of[g]}, sum, 1e-4)
+            << g << ": " << place_count << ", " << product_count;
+      }
+      for (size_t i = kGuardVector; i < kLanes; ++i) EXPECT_EQ(out.of[i], 0) << "beyond the guards";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mien

@@ -160,7 +160,7 @@ inline SceneParts random_scene(uint32_t raws, std::vector<uint16_t> moved = {}) 
 struct MixScene {
   enum Layer : uint32_t { kBase, kLive, kSpeech, kMood, kBlinks, kBreathing, kFidget, kOverGuards };
   static constexpr uint32_t kLayers = 8, kMoods = SceneParts::kMoods, kClips = SceneParts::kClips;
-  static constexpr uint32_t kMaxChannels = 24;
+  static constexpr uint32_t kChannels = 20;
 
   uint32_t raw_count;
   std::deque<SceneClip> clips;
@@ -299,7 +299,7 @@ struct SceneActor {
   }
 
   void push(Random& random) {
-    float row[MixScene::kMaxChannels];
+    float row[MixScene::kChannels];
     const auto count = static_cast<uint32_t>(mixer->streams[MixScene::kLive]->channels);
     for (uint32_t c = 0; c < count; ++c) row[c] = static_cast<float>(random.below(1025)) / 1024;
     const int64_t now = mixer->header->now;
