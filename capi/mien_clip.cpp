@@ -25,21 +25,10 @@ namespace {
 /// An empty clip with room for `report_count` reports.
 MienStatus new_clip(const Allocator& allocator, size_t report_count, MienClip*& out,
                     MienError* error) {
-  const auto place = [&](Placer& placer) {
-    placer.array<MienClip>(1);
-    return placer.array<ChannelReport>(report_count);
-  };
-  Placer measure(nullptr);
-  place(measure);
-  void* block = allocator.get(measure.size(), kBlockAlignment);
-  if (!block) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a clip");
-  Placer placer(block);
-  const Span<ChannelReport> reports = place(placer);
-  out = new (block) MienClip;
-  out->allocator = allocator;
-  out->block_size = measure.size();
-  out->reports = reports;
-  return MIEN_OK;
+  out = create_block<MienClip>(allocator, [&](Placer& placer, MienClip& clip) {
+    clip.reports = placer.array<ChannelReport>(report_count);
+  });
+  return out ? MIEN_OK : give_error(error, MIEN_ERROR_MEMORY, "no memory for a clip");
 }
 
 /// Checks the bytes and hands `clip` out, or releases it.
@@ -68,6 +57,8 @@ Span<const char> text(const MienStringView& view) { return {view.data, view.coun
 
 /// The caller's lists as the builder takes them, in a block of memory for the time of the call.
 struct BuildLists {
+  Allocator allocator;
+  size_t block_size = 0;
   Span<Span<const char>> names, event_names;
   Span<uint8_t> snaps;
   Span<ClipEventDesc> events;
@@ -150,18 +141,13 @@ MienStatus mien_clip_build(const MienClipDesc* desc, MienClip** out_clip, MienEr
   MienClip* clip = nullptr;
   if (MienStatus status = new_clip(allocator, known.channel_count, clip, error)) return status;
 
-  BuildLists lists;
-  Placer measure(nullptr);
-  lists.place(measure, known);
-  const size_t scratch_size = measure.size() + kBlockAlignment;  // never nothing
-  void* scratch = allocator.get(scratch_size, kBlockAlignment);
-  if (!scratch) {
+  auto* const lists = create_block<BuildLists>(
+      allocator, [&](Placer& placer, BuildLists& made) { made.place(placer, known); });
+  if (!lists) {
     release_clip_handle(clip);
     return give_error(error, MIEN_ERROR_MEMORY, "no memory to build a clip");
   }
-  Placer placer(scratch);
-  lists.place(placer, known);
-  lists.fill(known);
+  lists->fill(known);
 
   ClipDesc build;
   const bool has_rate = known.rate_numerator != 0;
@@ -170,15 +156,15 @@ MienStatus mien_clip_build(const MienClipDesc* desc, MienClip** out_clip, MienEr
   build.frame_count = known.frame_count;
   build.values = known.values;
   build.frame_stride = known.frame_stride;
-  build.names = {lists.names.data, lists.names.count};
-  build.snaps = {lists.snaps.data, lists.snaps.count};
-  build.events = {lists.events.data, lists.events.count};
-  build.event_names = {lists.event_names.data, lists.event_names.count};
+  build.names = lists->names;
+  build.snaps = lists->snaps;
+  build.events = lists->events;
+  build.event_names = lists->event_names;
   build.wraps = known.looping == MIEN_LOOPING_WRAP;
   build.is_delta = known.is_delta != 0;
   Error detail;
   const Status built = build_clip(build, allocator, clip->reports, clip->own, detail);
-  allocator.put(scratch, scratch_size, kBlockAlignment);
+  release_block(lists);
   if (built != Status::kOk) {
     release_clip_handle(clip);
     return give_error(detail, error);
@@ -209,10 +195,7 @@ void release_clip_handle(const MienClip* clip) {
   last->tag = 0;
   if (last->file.bytes) close_file(last->file);
   release_clip(last->own);
-  const Allocator allocator = last->allocator;
-  const size_t size = last->block_size;
-  last->~MienClip();
-  allocator.put(last, size, kBlockAlignment);
+  release_block(last);
 }
 
 }  // namespace mien::capi
@@ -328,18 +311,12 @@ SamplerLimits limits_of(const Clip& clip, bool reverse) {
   return {clip.channel_count, clip.changing_count, reverse};
 }
 
-MienClipPlayer* place_player(Placer& placer, const SamplerLimits& limits, ClipSampler& sampler) {
-  const Span<MienClipPlayer> player = placer.array<MienClipPlayer>(1, kBlockAlignment);
-  place_clip_sampler(placer, limits, sampler);
-  return player.data;
-}
-
-size_t player_size(const SamplerLimits& limits) {
-  Placer measure(nullptr);
-  ClipSampler sampler;
-  place_player(measure, limits, sampler);
-  return measure.size();
-}
+struct PlacePlayer {
+  SamplerLimits limits;
+  void operator()(Placer& placer, MienClipPlayer& player) const {
+    place_clip_sampler(placer, limits, player.sampler);
+  }
+};
 
 }  // namespace
 
@@ -363,7 +340,7 @@ MienStatus mien_clip_info(const MienClip* handle, MienClipInfo* out_info) {
   info.length = clip.length(wraps);
   info.file_bytes = clip.size;
   info.memory_bytes = handle->block_size + handle->file.capacity + handle->own.size;
-  info.player_bytes = player_size(limits_of(clip, false));
+  info.player_bytes = block_bytes<MienClipPlayer>(PlacePlayer{limits_of(clip, false)});
   write_struct(out_info, info);
   return MIEN_OK;
 }
@@ -482,21 +459,12 @@ MienStatus mien_clip_player_create(const MienClip* clip, const MienClipPlayerDes
   constexpr Looping kLoopings[] = {Looping::kAsClip, Looping::kOnce, Looping::kLoop};
   play.looping = kLoopings[known.looping];
 
-  const SamplerLimits limits = limits_of(clip->view, known.reverse != 0);
-  const size_t size = player_size(limits);
-  void* block = allocator.get(size, kBlockAlignment);
-  if (!block) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a player of a clip");
-  Placer placer(block);
-  ClipSampler sampler;
-  place_player(placer, limits, sampler);
-  auto* player = new (block) MienClipPlayer;
-  player->allocator = allocator;
-  player->block_size = size;
-  player->sampler = sampler;
+  auto* const player = create_block<MienClipPlayer>(
+      allocator, PlacePlayer{limits_of(clip->view, known.reverse != 0)});
+  if (!player) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a player of a clip");
   Error detail;
   if (start_clip(player->sampler, clip->view, play, detail) != Status::kOk) {
-    player->~MienClipPlayer();
-    allocator.put(block, size, kBlockAlignment);
+    release_block(player);
     return give_error(detail, error);
   }
   player->clip = clip;
@@ -509,11 +477,8 @@ MienStatus mien_clip_player_create(const MienClip* clip, const MienClipPlayerDes
 void mien_clip_player_destroy(MienClipPlayer* player) {
   if (check(player) != MIEN_OK) return;
   const MienClip* clip = player->clip;
-  const Allocator allocator = player->allocator;
-  const size_t size = player->block_size;
   player->tag = 0;
-  player->~MienClipPlayer();
-  allocator.put(player, size, kBlockAlignment);
+  release_block(player);
   release_clip_handle(clip);
 }
 

@@ -24,7 +24,7 @@ struct MixReader {
   size_t at = kMixHeaderSize;
   Status status = Status::kOk;
   uint32_t raw_count = 0, lane_count = 0;  // of the mix
-  NameList own_names = {};                 // without a rig
+  NameList listed = {};                    // the names of the file
   LaneMap map = {};
 
   void refuse(Status why) {
@@ -121,18 +121,18 @@ struct MixReader {
 
   void names(const char* name, uint32_t variable_count) {
     const uint32_t count = bounded(kMaxLanes, sizeof(uint32_t));
-    const Span<Span<const char>> list = room<Span<const char>>(count);
-    size_t chars = 0;
-    for (size_t i = 0; i < list.count; ++i) {
+    listed.first = room<uint32_t>(size_t{count} + 1);
+    listed.chars = room<char>(bytes.count - at);  // more than all names
+    for (uint32_t i = 0; i < count && status == Status::kOk; ++i) {
       const auto length = number<uint32_t>();
       if (length > kMaxNameLength) return refuse(name);
       const uint8_t* from = take(length);
       if (!from) return;
-      list[i] = {reinterpret_cast<const char*>(from), length};
-      if (i > 0 && compare_names(list[i - 1], list[i]) >= 0) return refuse(name);
-      chars += length;
+      const uint32_t begin = listed.first[i];
+      if (length != 0) memcpy(listed.chars.data + begin, from, length);
+      listed.first[i + 1] = begin + length;
+      if (i > 0 && compare_names(listed[i - 1], listed[i]) >= 0) return refuse(name);
     }
-    if (status != Status::kOk) return;
     raw_count = rig ? rig->raw_count : count;
     if (raw_count > kMaxLanes || variable_count > kMaxLanes - raw_count) {
       return refuse("more lanes than a mix can have");
@@ -141,24 +141,15 @@ struct MixReader {
     map.name_count = count;
     map.lane_of = room<uint16_t>(size_t{count} + variable_count + 1);
     if (status != Status::kOk) return;
+    listed.chars.count = listed.first[count];
     map.lane_of.count = size_t{count} + variable_count;
+    for (uint32_t i = 0; i < count; ++i) map.lane_of[i] = static_cast<uint16_t>(i);
     for (uint32_t v = 0; v < variable_count; ++v) {
       map.lane_of[count + v] = static_cast<uint16_t>(raw_count + v);
     }
-    rig ? find(list) : own(list, chars);
+    if (rig) find_names();
   }
-  void own(Span<const Span<const char>> list, size_t chars) {
-    own_names.first = room<uint32_t>(list.count + 1);
-    own_names.chars = room<char>(chars);
-    if (status != Status::kOk) return;
-    uint32_t end = 0;
-    for (uint32_t i = 0; i < list.count; ++i) {
-      if (list[i].count != 0) memcpy(own_names.chars.data + end, list[i].data, list[i].count);
-      own_names.first[i + 1] = end += static_cast<uint32_t>(list[i].count);
-      map.lane_of[i] = static_cast<uint16_t>(i);
-    }
-  }
-  void find(Span<const Span<const char>> list) {
+  void find_names() {
     const RigNames rig_names = {rig->names[static_cast<size_t>(Kind::kRawControl)]};
     NameIndex<RigNames> index = {rig_names, room<uint16_t>(raw_count)};
     const Span<uint8_t> taken = room<uint8_t>(raw_count);
@@ -166,23 +157,25 @@ struct MixReader {
     index.sort();
     size_t missing = 0;
     char text[160] = "";
-    for (size_t i = 0; i < list.count; ++i) {
-      const uint32_t lane = index.find(list[i]);
+    for (uint32_t i = 0; i < listed.count(); ++i) {
+      const Span<const char> name = listed[i];
+      const uint32_t lane = index.find(name);
       if (lane != kNoName && !taken[lane]) {
         taken[lane] = 1;
         map.lane_of[i] = static_cast<uint16_t>(lane);
         continue;
       }
       const size_t length = strlen(text);
-      if (length + list[i].count + 8 < sizeof(text)) {
+      if (length + name.count + 8 < sizeof(text)) {
         snprintf(text + length, sizeof(text) - length, "%s%.*s", missing ? ", " : "",
-                 static_cast<int>(list[i].count), list[i].data);
+                 static_cast<int>(name.count), name.data);
       }
       ++missing;
     }
     if (missing == 0) return;
     refuse(fail(error, Status::kName, kNoOffset,
-                "the rig lacks %zu of the %zu controls of the mix: %s", missing, list.count, text));
+                "the rig lacks %zu of the %u controls of the mix: %s", missing, listed.count(),
+                text));
   }
 };
 
@@ -224,7 +217,7 @@ Status open_mix(Span<const uint8_t> bytes, const Rig* rig, const Allocator& allo
   if (reader.status == Status::kOk && reader.at != bytes.count) reader.refuse("its end");
   if (reader.status != Status::kOk) return reader.status;
   desc.raw_count = reader.raw_count;
-  desc.names = rig ? rig->names[static_cast<size_t>(Kind::kRawControl)] : reader.own_names;
+  desc.names = rig ? rig->names[static_cast<size_t>(Kind::kRawControl)] : reader.listed;
   if (rig) desc.kernels = rig->kernels;
   desc.max_bound_gui = bound_gui_limit(rig ? rig->gui_count : 0);
   status = create_mix(desc, allocator, out, error);
