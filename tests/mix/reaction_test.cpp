@@ -177,6 +177,22 @@ TEST(Glare, StrokesStartAndTakeAsLongAsTheyShould) {
   }
 }
 
+TEST(Glare, TriggeredAgainActsAtTheLargerOfBothStrengths) {
+  const FaceMix face;
+  const auto gaze_after = [&face](float first, float second) {
+    OwnMixer lit = face.start();
+    fire(lit, kUntilReleased, first);
+    lit.step(250 * kMillisecond);  // the gaze is on its way
+    fire(lit, kUntilReleased, second);
+    return lit.step(350 * kMillisecond)[kGaze];
+  };
+  const float full = gaze_after(1, 1);
+  EXPECT_LT(full, -0.3f);
+  EXPECT_FLOAT_EQ(gaze_after(0.4f, 1), full);
+  EXPECT_FLOAT_EQ(gaze_after(1, 0.4f), full);
+  EXPECT_FLOAT_EQ(gaze_after(0.4f, 0.4f), 0.4f * full);
+}
+
 TEST(Glare, AdaptsWhileTheLightStays) {
   const FaceMix face;
   OwnMixer lit = face.start();

@@ -50,6 +50,15 @@ struct Everything {
     input.desc.reactions = {&glare, 1};
     const AntagonistPair pair = {3, 4, 1};
     input.desc.antagonists = {&pair, 1};
+    Guard guard = {};  // which is always a bit active, so it is easing much of the time
+    guard.f_on = 100;
+    guard.tolerance = 0.1f;
+    guard.count = 4;
+    for (uint16_t i = 0; i < 4; ++i) {
+      guard.lanes[i] = static_cast<uint16_t>(5 + i);
+      guard.gains[i] = 8 - static_cast<float>(i);
+    }
+    input.desc.guards = {&guard, 1};
     mix = make_mix(input);
   }
 
