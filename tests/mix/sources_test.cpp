@@ -102,6 +102,27 @@ TEST(Stream, WithLossJitterAndAGapMakesNoJump) {  // G4
   EXPECT_LE(largest, 1.875f / 0.25f);
 }
 
+TEST(Stream, BlendsToRowsThatDoNotGoOnAsWasGuessed) {  // G4
+  const StreamMix stream(0, 64);
+  OwnMixer own(stream.mix);
+  for (int ms = 0; ms <= 440; ms += 20) {
+    push(own, ms * kMillisecond,
+         {ms < 400 ? 0.4f : 0.4f + 0.001f * static_cast<float>(ms - 400), 0, 0});
+  }
+  float before = own.step(470 * kMillisecond)[1];
+  EXPECT_NEAR(before, 0.47f, 1e-4f) << "30 ms after the last row";
+  for (int ms = 470; ms <= 700; ms += 25) push(own, ms * kMillisecond, {0.1f, 0, 0});
+  float fastest = 0;
+  for (int ms = 471; ms <= 600; ++ms) {
+    const float now = own.step(kMillisecond)[1];
+    fastest = std::max(fastest, std::fabs(now - before) * 1000);
+    before = now;
+  }
+  EXPECT_EQ(before, 0.1f);
+  EXPECT_GT(fastest, 5.0f);
+  EXPECT_LE(fastest, 1 + 1.875f * 0.38f / 0.1f) << "its own speed and that of a blend in 100 ms";
+}
+
 TEST(Stream, FadesOutFromItsOwnTimeWhateverTheSteps) {  // F3
   const StreamMix stream(0);
   OwnMixer fine(stream.mix), coarse(stream.mix);

@@ -310,6 +310,7 @@ TEST(ProbeGuards, LidsTouchWhenTheyBlink) {
       EXPECT_NEAR(guard_distance(lids, blink.data()), 0, 0.01);
       EXPECT_NEAR(guard_distance(lids, rest.data()), h.distance(kind, rest), 0.01);
       EXPECT_EQ(activation_of(lids, rest), 0);
+      EXPECT_GT(activation_of(lids, pose_of("eyeBlink .85", h.controls)), 0.5f);
     }
   }
 }

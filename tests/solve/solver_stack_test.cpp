@@ -113,6 +113,22 @@ TEST(SolverStack, ModelMatricesAreThoseOfADoubleReference) {  // H1
   EXPECT_GT(worst, 0);
 }
 
+TEST(SolverStack, RotationsOfAnyLengthCountAsUnitOnes) {
+  SolvedRig rig(4, 12);
+  rig.pose(2, 0.1);
+  const StackHandle stack = make_stack(rig.skeleton, {});
+  std::vector<float> locals(size_t{rig.joint_count()} * kLocalTransformFloats);
+  write_local_transforms(rig.skeleton, rig.joints(), locals.data());
+  const JointRange all = {0, static_cast<uint16_t>(rig.joint_count())};
+  std::vector<float> unit_models(rig.joints().model.count), models = unit_models;
+  update_models(*stack, all, locals.data(), unit_models.data());
+  for (size_t j = 0; j < rig.joint_count(); ++j) {
+    for (size_t k = 3; k < 7; ++k) locals[j * kLocalTransformFloats + k] *= 3;
+  }
+  update_models(*stack, all, locals.data(), models.data());
+  for (size_t i = 0; i < models.size(); ++i) EXPECT_NEAR(models[i], unit_models[i], 1e-4) << i;
+}
+
 TEST(SolverStack, UpdatesOfPartsHaveTheBitsOfAFullOne) {  // H1
   SolvedRig rig(5, 30);
   std::mt19937 random(2);

@@ -117,6 +117,20 @@ TEST(Aim, StopsAtTheEdgeOfItsCone) {  // H4
   EXPECT_GT(outside, 50);
 }
 
+TEST(Aim, StopsAtTheEdgeAlsoJustOutsideOfIt) {  // H4
+  const double cone = 0.4;
+  for (double off : {-0.002, 0.002}) {
+    AimCase c(7);
+    c.aim.cone_cosine = static_cast<float>(std::cos(cone));
+    describe(c.rig.skeleton, c.aim);  // finds the axis of the cone
+    const uint16_t parent = c.rig.skeleton.parents[c.aim.joint];
+    const Vec3 rest = turn(rotation_of(c.rig.model(parent)), vector(c.aim.cone_axis));
+    const Vec3 across = unit(cross(rest, random_direction(c.random)));
+    const Vec3 wanted = rest * std::cos(cone + off) + across * std::sin(cone + off);
+    EXPECT_NEAR(angle(c.aimed(c.at() + wanted * 20), rest), std::min(cone, cone + off), 1e-4);
+  }
+}
+
 TEST(Aim, ConeIsAboutWhereTheNeutralPosePoints) {
   AimCase c(3);
   c.rig.neutral_pose();
