@@ -195,7 +195,8 @@ void hold_guards(const GuardTable& table, const float* protected_row, const floa
   float limits[kMaxGuards];
   alignas(kBlockAlignment) float open[kMaxGuards];
   uint32_t limited = 0;  // bit g: the limit of guard g is known
-  bool moved = true;
+  bool moved = false;
+  for (uint32_t g = 0; g < table.guards.count; ++g) moved = moved || activations[g] > 0;
   for (uint32_t sweep = 0; moved && sweep < kGuardSweeps; ++sweep) {
     moved = false;
     guard_distances(table, row, open);
