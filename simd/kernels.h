@@ -59,12 +59,13 @@ struct JointColumnsArgs {
 
 /// Rows of a file, which are big-endian floats at any address, to blocks of a joint matrix:
 ///
-///     blocks[8 * c + r] = rows[r][c]    for c < count
+///     blocks[c][r] = rows[r][c]    for c < count
 ///
 /// Infinities become the largest float of their sign, NaN the lowest. Reads nothing behind the rows.
+/// Columns may share a block: then the last one stays.
 struct BlockRowsArgs {
   const uint8_t* rows[kJointBlockRows];
-  float* blocks;  // 16-byte aligned
+  float* const* blocks;  // [column] 32-byte aligned
   size_t count;
 };
 
@@ -634,6 +635,16 @@ struct KernelTable {
   void (*sum_normals)(const NormalArgs& args);
   void (*write_vertices)(const VertexArgs& args);
   void (*read_block_rows)(const BlockRowsArgs& args);
+  /// Of rows of big-endian floats at any address, one row behind the other: bit c % 64 of word c / 64 of
+  /// each row is set if the number in column c is neither 0 nor -0. Bits behind the last column are 0.
+  void (*mark_nonzeros)(const uint8_t* values, size_t rows, size_t columns, uint64_t* words);
+  /// The largest magnitude up to 3.4e38 of big-endian floats; larger ones, infinities and NaN do not
+  /// count.
+  float (*largest_magnitude)(const uint8_t* values, size_t count);
+  /// Blocks of a joint matrix in units of the scales of their rows, rounded to the nearest, at most
+  /// 32767 in magnitude; 0 where the scale is not positive. `count` is even; `blocks` and `fixed` are
+  /// 64-byte aligned.
+  void (*fix_blocks)(const float* blocks, const float* scales, size_t count, int16_t* fixed);
   // Rows of a mix: 64-byte aligned, counts are multiples of 16. Every lane is computed alone and
   // nothing is fused, so all instruction sets give the same bits.
   void (*blend_row)(const BlendArgs& args);

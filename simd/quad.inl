@@ -20,6 +20,9 @@
 // | different_lanes4(a, b) | bit k: the bits of lane k differ                                     |
 // | join_bits4(a, b, n)    | the low n bits of a, and above them those of b                       |
 // | transpose4             | four quads, rows to columns                                          |
+// | QuadPair               | two quads, in one vector where there is one so wide                  |
+// | ..._pair4              | load_big_endian of either half, saturate, transpose, store of        |
+// |                        | QuadPairs; store to memory aligned to the pair                       |
 // | ColumnVec              | neighboring columns of a matrix: a Vec, of the scalar kernels a Quad |
 // | ..._column_vec         | load, broadcast, mul_add of ColumnVecs, as in vec.inl                |
 // | columns4(m, q)         | the four columns of a matrix in ColumnVecs                           |
@@ -45,14 +48,7 @@ template <class F>
   return {{f(0), f(1), f(2), f(3)}};
 }
 inline Quad load_big_endian4(const uint8_t* from) {
-  return lanes4([&](int i) {
-    uint32_t bits;
-    __builtin_memcpy(&bits, from + 4 * i, sizeof(bits));
-#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    bits = __builtin_bswap32(bits);
-#endif
-    return float_of(bits);
-  });
+  return lanes4([&](int i) { return load_big_endian(from + 4 * i); });
 }
 [[gnu::always_inline]] inline Quad load4(const float* from) {
   return {{from[0], from[1], from[2], from[3]}};
@@ -156,9 +152,7 @@ inline void store3(float* to, Quad q) {
   vst1_f32(to, vget_low_f32(q));
   vst1q_lane_f32(to + 2, q, 2);
 }
-inline Quad load_big_endian4(const uint8_t* from) {
-  return vreinterpretq_f32_u8(vrev32q_u8(vld1q_u8(from)));
-}
+inline Quad load_big_endian4(const uint8_t* from) { return load_big_endian(from); }
 inline Quad mul_add4(Quad a, Quad b, Quad c) { return vfmaq_f32(c, a, b); }
 inline Quad mul_sub4(Quad a, Quad b, Quad c) { return vfmaq_f32(vnegq_f32(c), a, b); }
 inline Quad divide4(Quad a, Quad b) { return divide(a, b); }
@@ -197,17 +191,8 @@ inline void store3(float* to, Quad q) {
   _mm_storel_pi(reinterpret_cast<__m64*>(to), q);
   _mm_store_ss(to + 2, _mm_movehl_ps(q, q));
 }
-inline Quad load_big_endian4(const uint8_t* from) {
-  const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
 #if defined(MIEN_KERNEL_SSE2)
-  const __m128i pairs = _mm_or_si128(_mm_slli_epi16(bytes, 8), _mm_srli_epi16(bytes, 8));
-  return _mm_castsi128_ps(_mm_shufflehi_epi16(_mm_shufflelo_epi16(pairs, 0xB1), 0xB1));
-#else
-  const __m128i order = _mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12);
-  return _mm_castsi128_ps(_mm_shuffle_epi8(bytes, order));
-#endif
-}
-#if defined(MIEN_KERNEL_SSE2)
+inline Quad load_big_endian4(const uint8_t* from) { return load_big_endian(from); }
 inline Quad mul_add4(Quad a, Quad b, Quad c) { return a * b + c; }
 inline Quad mul_sub4(Quad a, Quad b, Quad c) { return a * b - c; }
 #else
@@ -320,6 +305,50 @@ inline Vec squared_lengths(const float* quads) {
   return sums;
 #endif
 }
+
+#if defined(MIEN_KERNEL_AVX2) || defined(MIEN_KERNEL_AVX512)
+using QuadPair = BlockVec;
+inline QuadPair load_big_endian_pair4(const uint8_t* low, const uint8_t* high) {
+  const __m128i of_four = _mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12);
+  const __m128i a = _mm_loadu_si128(reinterpret_cast<const __m128i*>(low));
+  const __m128i b = _mm_loadu_si128(reinterpret_cast<const __m128i*>(high));
+  return _mm256_castsi256_ps(
+      _mm256_shuffle_epi8(_mm256_inserti128_si256(_mm256_castsi128_si256(a), b, 1),
+                          _mm256_broadcastsi128_si256(of_four)));
+}
+inline QuadPair saturate_pair4(QuadPair q) {
+  const QuadPair largest(3.40282347e38f);
+  return xsimd::min(xsimd::max(q, -largest), largest);
+}
+inline void transpose_pair4(QuadPair& a, QuadPair& b, QuadPair& c, QuadPair& d) {
+  const __m256 ac = _mm256_unpacklo_ps(a, c), ac_high = _mm256_unpackhi_ps(a, c);
+  const __m256 bd = _mm256_unpacklo_ps(b, d), bd_high = _mm256_unpackhi_ps(b, d);
+  a = _mm256_unpacklo_ps(ac, bd);
+  b = _mm256_unpackhi_ps(ac, bd);
+  c = _mm256_unpacklo_ps(ac_high, bd_high);
+  d = _mm256_unpackhi_ps(ac_high, bd_high);
+}
+inline void store_pair4(float* to, QuadPair q) { store_block(to, q); }
+#else
+struct QuadPair {
+  Quad low, high;
+};
+inline QuadPair load_big_endian_pair4(const uint8_t* low, const uint8_t* high) {
+  return {load_big_endian4(low), load_big_endian4(high)};
+}
+inline QuadPair saturate_pair4(const QuadPair& q) {
+  const Quad largest = broadcast4(3.40282347e38f), lowest = broadcast4(-3.40282347e38f);
+  return {lower4(higher4(q.low, lowest), largest), lower4(higher4(q.high, lowest), largest)};
+}
+inline void transpose_pair4(QuadPair& a, QuadPair& b, QuadPair& c, QuadPair& d) {
+  transpose4(a.low, b.low, c.low, d.low);
+  transpose4(a.high, b.high, c.high, d.high);
+}
+inline void store_pair4(float* to, const QuadPair& q) {
+  store4(to, q.low);
+  store4(to + 4, q.high);
+}
+#endif
 
 // By single loads: gathers of processors are not faster, and some are slow by a fix of microcode.
 inline Vec gather(const float* from, const uint16_t* at) {

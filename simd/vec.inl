@@ -8,9 +8,12 @@
 // | Vec                    | kWidth floats                                                        |
 // | Mask                   | kWidth booleans                                                      |
 // | load                   | from memory aligned to the vector                                    |
+// | load_big_endian        | from any address, bytes of each float in the order of files          |
 // | load_half              | kWidth halves (IEEE binary16) as floats, exact for finite ones; from |
 // |                        | memory aligned to half a vector                                      |
 // | store                  | to any address                                                       |
+// | store_fixed            | whole numbers up to 32767 in magnitude, as 16-bit integers, to       |
+// |                        | memory aligned to half a vector                                      |
 // | store_first            | the leading floats, fewer than kWidth, to any address                |
 // | broadcast              | the same float in each lane                                          |
 // | + - *                  | rounded once each, never fused: kernels are built without contraction|
@@ -27,6 +30,8 @@
 // | with_sign(v, s)        | the magnitude of v, the sign bit of s                                |
 // | flip_sign(v, s)        | -v where the sign bit of s is set                                    |
 // | shift_bits<n>(v)       | the bits of each float, moved up by n                                |
+// | nonzero_of_file        | of 32 floats as load_big_endian reads them, bit k: number k is       |
+// |                        | neither 0 nor -0                                                     |
 // | different_lanes(a, b)  | bit k: the bits of lane k differ                                     |
 // | sum_of_lanes           | of 16 lanes, in kVecsPerBlock vectors: one half is added to the      |
 // |                        | other until one is left                                              |
@@ -119,7 +124,16 @@ inline Vec load_half(const uint16_t* from) {
   // exponent, 15 instead of 127, and is exact for subnormal halves, too.
   return float_of((*from & 0x8000u) << 16 | (*from & 0x7FFFu) << 13) * 0x1p112f;
 }
+inline Vec load_big_endian(const uint8_t* from) {
+  uint32_t bits;
+  __builtin_memcpy(&bits, from, sizeof(bits));
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+  bits = __builtin_bswap32(bits);
+#endif
+  return float_of(bits);
+}
 inline void store(float* to, Vec value) { *to = value; }
+inline void store_fixed(int16_t* to, Vec value) { *to = static_cast<int16_t>(value); }
 inline void store_first(float*, Vec, size_t) {}
 inline Vec broadcast(float value) { return value; }
 inline Vec mul_add(Vec a, Vec b, Vec c) { return a * b + c; }
@@ -141,6 +155,13 @@ inline Vec shift_bits(Vec v) {
   return float_of(bits_of(v) << kBits);
 }
 inline uint32_t different_lanes(Vec a, Vec b) { return bits_of(a) != bits_of(b); }
+inline uint32_t nonzero_of_file(const uint8_t* from) {
+  uint32_t nonzero = 0;
+  for (uint32_t i = 0; i < 32; ++i) {
+    nonzero |= uint32_t{(bits_of(load_big_endian(from + i * 4)) << 1) != 0} << i;
+  }
+  return nonzero;
+}
 
 using BlockVec = Vec;
 constexpr size_t kBlockWidth = 1;
@@ -195,7 +216,41 @@ using Mask = Vec::batch_bool_type;
 using Bits = xsimd::batch<int32_t, Vec::arch_type>;
 
 inline Vec load(const float* from) { return Vec::load_aligned(from); }
+inline Vec load_big_endian(const uint8_t* from) {
+#if defined(MIEN_KERNEL_SSE2)
+  const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+  const __m128i pairs = _mm_or_si128(_mm_slli_epi16(bytes, 8), _mm_srli_epi16(bytes, 8));
+  return _mm_castsi128_ps(_mm_shufflehi_epi16(_mm_shufflelo_epi16(pairs, 0xB1), 0xB1));
+#elif defined(MIEN_KERNEL_NEON)
+  return vreinterpretq_f32_u8(vrev32q_u8(vld1q_u8(from)));
+#else
+  const __m128i of_four = _mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12);
+#if defined(MIEN_KERNEL_AVX2)
+  return _mm256_castsi256_ps(
+      _mm256_shuffle_epi8(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)),
+                          _mm256_broadcastsi128_si256(of_four)));
+#else
+  return _mm512_castsi512_ps(
+      _mm512_shuffle_epi8(_mm512_loadu_si512(from), _mm512_broadcast_i32x4(of_four)));
+#endif
+#endif
+}
 inline void store(float* to, Vec value) { value.store_unaligned(to); }
+inline void store_fixed(int16_t* to, Vec value) {
+#if defined(MIEN_KERNEL_SSE2)
+  const __m128i wide = _mm_cvttps_epi32(value);
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(to), _mm_packs_epi32(wide, wide));
+#elif defined(MIEN_KERNEL_NEON)
+  vst1_s16(to, vqmovn_s32(vcvtq_s32_f32(value)));
+#elif defined(MIEN_KERNEL_AVX2)
+  const __m256i wide = _mm256_cvttps_epi32(value);
+  _mm_store_si128(reinterpret_cast<__m128i*>(to),
+                  _mm_packs_epi32(_mm256_castsi256_si128(wide), _mm256_extracti128_si256(wide, 1)));
+#else
+  _mm256_store_si256(reinterpret_cast<__m256i*>(to),
+                     _mm512_cvtepi32_epi16(_mm512_cvttps_epi32(value)));
+#endif
+}
 inline void store_first(float* to, Vec value, size_t count) {
 #if defined(MIEN_KERNEL_AVX512)
   _mm512_mask_storeu_ps(to, static_cast<__mmask16>((1u << count) - 1), value);
@@ -289,6 +344,44 @@ inline uint32_t different_lanes(Vec a, Vec b) {
 #endif
 }
 #endif
+
+// By intrinsics: the bits of several masks at once. The sign is the highest bit of the first byte.
+inline uint32_t nonzero_of_file(const uint8_t* from) {
+#if defined(MIEN_KERNEL_NEON)
+  uint32_t bits = 0;
+  for (size_t i = 0; i < 32; i += kWidth) {
+    bits |= different_lanes(shift_bits<1>(load_big_endian(from + i * 4)), broadcast(0.0f)) << i;
+  }
+  return bits;
+#elif defined(MIEN_KERNEL_AVX512)
+  const __m512i size = _mm512_set1_epi32(static_cast<int>(0xFFFFFF7F));
+  const uint32_t low = _mm512_test_epi32_mask(_mm512_loadu_si512(from), size);
+  return low | uint32_t{_mm512_test_epi32_mask(_mm512_loadu_si512(from + 64), size)} << 16;
+#elif defined(MIEN_KERNEL_AVX2)
+  const __m256i size = _mm256_set1_epi32(static_cast<int>(0xFFFFFF7F));
+  const auto zeros = [=](size_t i) {
+    const __m256i v = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from + i * 32));
+    return _mm256_cmpeq_epi32(_mm256_and_si256(v, size), _mm256_setzero_si256());
+  };
+  const __m256i low = _mm256_packs_epi32(zeros(0), zeros(1));
+  const __m256i high = _mm256_packs_epi32(zeros(2), zeros(3));
+  // Fours of each half of each vector, in the order 0 2 4 6 1 3 5 7.
+  const __m256i order = _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7);
+  return ~static_cast<uint32_t>(
+      _mm256_movemask_epi8(_mm256_permutevar8x32_epi32(_mm256_packs_epi16(low, high), order)));
+#else
+  const __m128i size = _mm_set1_epi32(static_cast<int>(0xFFFFFF7F));
+  const auto zeros = [=](size_t i) {
+    const __m128i v = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from + i * 16));
+    return _mm_cmpeq_epi32(_mm_and_si128(v, size), _mm_setzero_si128());
+  };
+  const auto bits = [&](size_t i) {
+    return static_cast<uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(
+        _mm_packs_epi32(zeros(i), zeros(i + 1)), _mm_packs_epi32(zeros(i + 2), zeros(i + 3)))));
+  };
+  return ~(bits(0) | bits(4) << 16);
+#endif
+}
 
 // Blocks of a joint matrix ------------------------------------------------------------------------
 

@@ -49,13 +49,19 @@ class Arena {
   /// `count` value-initialized elements; data is null if memory ran out (or count is 0).
   template <class T>
   Span<T> array(size_t count) {
+    const Span<T> items = unwritten_array<T>(count);
+    for (size_t i = 0; i < items.count; ++i) new (items.data + i) T();
+    return items;
+  }
+
+  /// Not initialized: for large arrays that are written before they are read.
+  template <class T>
+  Span<T> unwritten_array(size_t count) {
     static_assert(std::is_trivially_destructible<T>::value, "an arena destroys nothing");
     if (count == 0 || count > SIZE_MAX / 2 / sizeof(T)) return {};
     void* memory = allocate(count * sizeof(T), alignof(T));
     if (!memory) return {};
-    T* items = static_cast<T*>(memory);
-    for (size_t i = 0; i < count; ++i) new (items + i) T();
-    return {items, count};
+    return {static_cast<T*>(memory), count};
   }
 
   /// Bytes taken from the allocator so far.

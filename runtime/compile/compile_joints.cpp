@@ -4,7 +4,6 @@
 //
 //     block rows of rows (plan_block_rows.cpp)  ->  panels  ->  blocks by column
 #include <algorithm>
-#include <cmath>
 
 #include "runtime/base/bits.h"
 #include "runtime/compile/joint_blocks.h"
@@ -40,117 +39,81 @@ void for_each_panel(const JointPlan& plan, F&& f) {
 
 // Blocks ----------------------------------------------------------------------------------------
 
-uint32_t words_of(const dna::JointGroup& group) {
-  return (group.input_indices.count + kWordBits - 1) / kWordBits;
-}
-
-/// used[c]: not zero if some of the rows is not zero in column `first` + c. A count that the compiler
-/// knows, so that it makes vector code.
-template <uint32_t kCount>
-void merge_columns(const FileRows& rows, uint32_t first, uint32_t* used) {
-  uint32_t merged[kCount];
-  for (uint32_t c = 0; c < kCount; ++c) {
-    uint32_t bits = 0;
-    for (uint32_t k = 0; k < kJointBlockRows; ++k) bits |= file_bits(rows.value(k, first + c));
-    merged[c] = magnitude(bits);
-  }
-  memcpy(used, merged, sizeof(merged));
-}
-
-/// Bit c: some of the rows is not zero in column `first` + c, of `count` columns.
-uint64_t columns_used(const FileRows& rows, uint32_t first, uint32_t count) {
-  uint32_t used[kWordBits] = {};
-  uint32_t c = 0;
-  for (; c + kStrip <= count; c += kStrip) merge_columns<kStrip>(rows, first + c, used + c);
-  for (; c + 4 <= count; c += 4) merge_columns<4>(rows, first + c, used + c);
-  for (; c < count; ++c) merge_columns<1>(rows, first + c, used + c);
-  uint8_t flags[kWordBits];
-  for (c = 0; c < kWordBits; ++c) flags[c] = used[c] != 0;
-  uint64_t bits = 0;
-  for (c = 0; c < kWordBits; c += 8) {
-    // The product brings byte i, which is 0 or 1, to bit 56 + i.
-    uint64_t bytes = 0;
-    for (uint32_t i = 0; i < 8; ++i) bytes |= uint64_t{flags[c + i]} << 8 * i;
-    bits |= (bytes * 0x0102040810204080u >> 56) << c;
-  }
-  return bits;
-}
-
-/// Which blocks are not all zeros: the one pass over the numbers that planning takes.
-Status find_blocks(const dna::DnaView& view, Arena& scratch, JointPlan& plan, Error& error) {
+/// Which blocks are not all zeros.
+Status find_blocks(Arena& scratch, JointPlan& plan, Error& error) {
   size_t words = 0;
-  for (const PlannedRows& rows : plan.rows) words += words_of(view.bhvr.joints.groups[rows.group]);
-  plan.blocks = scratch.array<uint64_t>(words);
+  for (const PlannedRows& rows : plan.rows) words += plan.groups[rows.group].words_per_row;
+  plan.blocks = scratch.unwritten_array<uint64_t>(words);
   if (words && !plan.blocks.data) return no_scratch(error);
   uint64_t* word = plan.blocks.data;
   for (const PlannedRows& rows : plan.rows) {
-    const dna::JointGroup& group = view.bhvr.joints.groups[rows.group];
-    const FileRows file(group, rows);
-    const uint32_t columns = group.input_indices.count;
-    for (uint32_t c = 0; c < columns; c += kWordBits) {
-      *word++ = columns_used(file, c, std::min(columns - c, kWordBits));
+    const GroupColumns& group = plan.groups[rows.group];
+    for (uint32_t w = 0; w < group.words_per_row; ++w) {
+      uint64_t used = 0;
+      for (uint32_t k = 0; k < rows.row_count; ++k) used |= group.row(rows.rows[k])[w];
+      *word++ = used;
     }
   }
   return Status::kOk;
 }
 
-/// Calls f(column of the group, control) for the blocks of rows; `word` is the first of theirs.
-/// Returns the first word of the next rows.
+/// Calls f(control) for the blocks of rows; `word` is the first of theirs. Returns the first word of
+/// the next rows.
 template <class F>
-const uint64_t* for_each_block(const dna::Array<uint16_t>& inputs, const uint64_t* word, F&& f) {
-  for (uint32_t from = 0; from < inputs.count; from += kWordBits) {
-    for (uint64_t bits = *word++; bits != 0; bits &= bits - 1) {
-      const uint32_t c = from + lowest_bit(bits);
-      f(c, inputs[c]);
-    }
+const uint64_t* for_each_block(const Span<uint16_t> inputs, const uint64_t* word, F&& f) {
+  const uint16_t* const end = inputs.end();
+  for (const uint16_t* from = inputs.data; from < end; from += kWordBits) {
+    for (uint64_t bits = *word++; bits != 0; bits &= bits - 1) f(from[lowest_bit(bits)]);
   }
   return word;
 }
 
 /// Finds the blocks that make pairs, and counts both kinds.
-Status pair_blocks(const dna::DnaView& view, const Rig& rig, Arena& scratch, JointPlan& plan,
-                   Error& error) {
+Status pair_blocks(const Rig& rig, Arena& scratch, JointPlan& plan, Error& error) {
   size_t most = 0;
   for (uint64_t word : plan.blocks) most += bit_count(word);
   const uint32_t block_row_count = plan.block_row_count();
   const Span<uint8_t> halves_of_control = scratch.array<uint8_t>(rig.control_count);
-  plan.halves = scratch.array<BlockHalves>(most);
+  plan.halves = scratch.unwritten_array<BlockHalves>(most + 1);  // one is written in vain
+
   plan.first_halves = scratch.array<uint32_t>(block_row_count / 2 + 1);
   plan.places = scratch.array<uint32_t>(rig.control_count);
-  if ((rig.control_count && (!halves_of_control.data || !plan.places.data)) ||
-      (most && !plan.halves.data) || !plan.first_halves.data) {
+  if ((rig.control_count && (!halves_of_control.data || !plan.places.data)) || !plan.halves.data ||
+      !plan.first_halves.data) {
     return no_scratch(error);
   }
   uint8_t* const halves_of = halves_of_control.data;
-  BlockHalves* const found = plan.halves.data;
-  uint32_t end = 0;
+  PlannedColumn* const columns = plan.columns.data;
+  BlockHalves* next = plan.halves.data;
   const uint64_t* word = plan.blocks.data;
   for (uint32_t b = 0; b < block_row_count; b += 2) {
+    BlockHalves* const first = next;
     for (uint32_t i = plan.first_rows[b]; i < plan.first_rows[b + 2]; ++i) {
       PlannedRows& rows = plan.rows[i];
-      const uint32_t half = 1 + rows.block_row % 2;
-      uint32_t again = 0;
+      const uint8_t half = 1 << rows.block_row % 2;
+      uint32_t before = 0;
       // Without branches: nobody foresees what is a pair.
-      word = for_each_block(view.bhvr.joints.groups[rows.group].input_indices, word,
-                            [&](uint32_t, uint32_t control) {
-                              const uint32_t halves = halves_of[control];
-                              found[end].control = static_cast<uint16_t>(control);
-                              end += halves == 0;
-                              again |= halves & half;
-                              halves_of[control] = static_cast<uint8_t>(halves | half);
-                            });
-      rows.whole = rows.row_count == kJointBlockRows && again == 0;
+      word = for_each_block(plan.groups[rows.group].inputs, word, [&](size_t control) {
+        const uint8_t halves = halves_of[control];
+        halves_of[control] = halves | half;
+        next->control = static_cast<uint16_t>(control);
+        next += halves == 0;
+        before |= halves;
+      });
+      rows.whole = rows.row_count == kJointBlockRows && (before & half) == 0;
     }
-    for (uint32_t k = plan.first_halves[b / 2]; k < end; ++k) {
-      uint8_t& halves = halves_of[found[k].control];
-      found[k].halves = halves;
-      ++plan.columns[found[k].control].entries[halves == kBothHalves];
-      halves = 0;
+    for (BlockHalves* found = first; found != next; ++found) {
+      const size_t control = found->control;
+      const uint8_t halves = halves_of[control];
+      found->is_pair = halves == 3;
+      found->is_second = halves == 2;
+      ++columns[control].next[found->is_pair].entry;
+      halves_of[control] = 0;
     }
-    plan.first_halves[b / 2 + 1] = end;
+    plan.first_halves[b / 2 + 1] = static_cast<uint32_t>(next - plan.halves.data);
   }
   for (const PlannedColumn& column : plan.columns) {
-    const uint32_t pairs = column.entries[1], singles = column.entries[0];
+    const uint32_t pairs = column.next[1].entry, singles = column.next[0].entry;
     plan.column_count += pairs + singles != 0;
     plan.entry_count += pairs + singles;
     plan.block_count += size_t{2} * (pairs + (singles + 1) / 2);
@@ -211,18 +174,42 @@ void for_each_target(const dna::DnaView& view, const JointPlan& plan, const Rig&
   pass();
 }
 
+/// Lists the targets of each panel, and behind them those of all panels at once.
+Status plan_targets(const dna::DnaView& view, const Rig& rig, Arena& scratch, JointPlan& plan,
+                    Error& error) {
+  const bool all = plan.block_row_count() <= kMaxTileBlockRows;
+  size_t most = 0;
+  for (const PlannedRows& rows : plan.rows) most += rows.row_count;
+  plan.targets = scratch.unwritten_array<PlannedTarget>(all ? 2 * most : most);
+  plan.first_targets = scratch.array<uint32_t>(plan.panel_ends + 1);
+  if ((most && !plan.targets.data) || !plan.first_targets.data) return no_scratch(error);
+  uint32_t panel = 0, first = 0, count = 0;
+  const auto list = [&](uint32_t from, uint32_t to) {
+    for_each_target(view, plan, rig, from, to,
+                    [&](const JointTarget& target, uint32_t kind, uint8_t reach) {
+                      plan.targets[count++] = {target, static_cast<uint8_t>(kind), reach};
+                    });
+  };
+  for_each_panel(plan, [&](uint32_t block_row) {
+    list(first, block_row);  // of the panel that ends here
+    plan.first_targets[panel++] = count;
+    first = block_row;
+  });
+  if (all) list(0, plan.block_row_count());
+  plan.first_targets[panel] = count;
+  plan.targets.count = count;
+  return Status::kOk;
+}
+
 /// Of a panel, or with the number behind the last one of all panels. Returns where they end.
-uint32_t fill_targets(const dna::DnaView& view, const JointPlan& plan, uint32_t panel, Rig& rig) {
+uint32_t fill_targets(const JointPlan& plan, uint32_t panel, Rig& rig) {
   JointMatrix& joints = rig.joints;
   // Where targets of each kind and reach begin, the farthest first.
   uint32_t begin[kTargetKinds][kMaxLods + 2] = {};
-  const bool all = panel == joints.panel_count();
-  const uint32_t first_block_row = all ? 0 : joints.panels[panel].first_block_row;
-  const uint32_t end_block_row = joints.panels[all ? panel : panel + 1].first_block_row;
-  for_each_target(view, plan, rig, first_block_row, end_block_row,
-                  [&](const JointTarget&, uint32_t kind, uint8_t reach) {
-                    ++begin[kind][rig.lod_count - reach + 1];
-                  });
+  const uint32_t first = plan.first_targets[panel];
+  const Span<PlannedTarget> targets =
+      plan.targets.slice(first, plan.first_targets[panel + 1] - first);
+  for (const PlannedTarget& t : targets) ++begin[t.kind][rig.lod_count - t.reach + 1];
   uint32_t next = joints.panels[panel].first_target;
   uint16_t* at_lod = joints.targets_at_lod.data + size_t{panel} * kTargetKinds * rig.lod_count;
   for (auto& kind : begin) {
@@ -234,11 +221,10 @@ uint32_t fill_targets(const dna::DnaView& view, const JointPlan& plan, uint32_t 
     for (uint32_t l = 0; l <= rig.lod_count; ++l) kind[l] += next;
     next += of_kind;
   }
-  for_each_target(view, plan, rig, first_block_row, end_block_row,
-                  [&](const JointTarget& target, uint32_t kind, uint8_t reach) {
-                    joints.targets[begin[kind][rig.lod_count - reach]++] = target;
-                  });
-  if (!all) return next;
+  for (const PlannedTarget& t : targets) {
+    joints.targets[begin[t.kind][rig.lod_count - t.reach]++] = t.target;
+  }
+  if (panel != joints.panel_count()) return next;
   // By now each begin[] is where the targets of that reach end.
   JointTarget* from = joints.targets.data + joints.panels[panel].first_target;
   for (const auto& kind : begin) {
@@ -254,37 +240,36 @@ uint32_t fill_targets(const dna::DnaView& view, const JointPlan& plan, uint32_t 
 }
 
 /// The largest entry of a row becomes the largest 16-bit number.
-void fill_scales(const dna::DnaView& view, const JointPlan& plan, JointMatrix& joints) {
+void fill_scales(const dna::DnaView& view, const JointPlan& plan, Rig& rig) {
   for (const PlannedRows& rows : plan.rows) {
     const dna::JointGroup& group = view.bhvr.joints.groups[rows.group];
     float* scales =
-        joints.scales.data + size_t{rows.block_row} * kJointBlockRows + rows.first_in_block;
+        rig.joints.scales.data + size_t{rows.block_row} * kJointBlockRows + rows.first_in_block;
     for (uint32_t k = 0; k < rows.row_count; ++k) {
       const uint8_t* row = row_values(group, rows.rows[k]);
-      float largest = 0.0f;
-      for (uint32_t c = 0; c < group.input_indices.count; ++c) {
-        const float size = std::fabs(load_big_endian<float>(row + size_t{c} * sizeof(float)));
-        if (size <= 3.4e38f) largest = std::max(largest, size);
-      }
-      scales[k] = largest / 32767.0f;
+      scales[k] = rig.kernels->largest_magnitude(row, group.input_indices.count) / 32767.0f;
     }
   }
 }
 
-/// Rows that are not in the matrix (they turn joints, or are overridden) mark what they read, too.
-void mark_other_rows(const dna::DnaView& view, const JointPlan& plan, Span<uint8_t> reach) {
-  size_t at = 0;
-  for (const dna::JointGroup& group : view.bhvr.joints.groups) {
-    for (uint32_t r = 0; r < group.output_indices.count; ++r) {
-      const uint8_t row_reach = plan.reaches[at];
-      if (plan.uses[at++] != kUnused || is_zero(group, r)) continue;
-      const uint8_t* values = row_values(group, r);
-      for (uint32_t c = 0; c < group.input_indices.count; ++c) {
-        if (magnitude_bits(values + size_t{c} * sizeof(float)) == 0) continue;
-        uint8_t& control_reach = reach[group.input_indices[c]];
-        control_reach = std::max(control_reach, row_reach);
+/// How many LODs, counted from 0, read each control through a joint group. Rows that are not in the
+/// matrix (they turn joints, or are overridden) count, too.
+void mark_reach(const JointPlan& plan, Span<uint8_t> reach) {
+  const uint8_t* rows = plan.reaches.data;
+  for (const GroupColumns& group : plan.groups) {
+    const uint32_t row_count = group.row_count;
+    for (uint32_t w = 0; w < group.words_per_row; ++w) {
+      uint64_t seen = 0;  // the first row that is not zero reaches farthest
+      for (uint32_t r = 0; r < row_count && rows[r] != 0; ++r) {
+        const uint64_t used = group.row(r)[w];
+        for (uint64_t bits = used & ~seen; bits != 0; bits &= bits - 1) {
+          uint8_t& of_control = reach[group.inputs[w * kWordBits + lowest_bit(bits)]];
+          of_control = std::max(of_control, rows[r]);
+        }
+        seen |= used;
       }
     }
+    rows += row_count;
   }
 }
 
@@ -294,15 +279,13 @@ void place_columns(JointPlan& plan, JointMatrix& joints) {
   std::fill(joints.column_of_control.begin(), joints.column_of_control.end(), kNoColumn);
   for (uint32_t control = 0; control < plan.columns.count; ++control) {
     PlannedColumn& column = plan.columns[control];
-    const uint32_t pairs = column.entries[1], singles = column.entries[0];
+    const uint32_t pairs = column.next[1].entry, singles = column.next[0].entry;
     if (pairs + singles == 0) continue;
     joints.columns[k] = static_cast<uint16_t>(control);
     joints.column_of_control[control] = k;
     joints.starts[k++] = {block, entry, block + 2 * pairs, entry + pairs};
-    column.blocks[1] = block;
-    column.blocks[0] = block + 2 * pairs;
-    column.entries[1] = entry;
-    column.entries[0] = entry + pairs;
+    column.next[1] = {entry, block};
+    column.next[0] = {entry + pairs, block + 2 * pairs};
     block += 2 * pairs + singles;
     entry += pairs + singles;
     if (singles % 2 != 0) {
@@ -348,24 +331,15 @@ Status plan_joints(const dna::DnaView& view, const Rig& rig, Arena& scratch, Joi
                    Error& error) {
   plan.columns = scratch.array<PlannedColumn>(rig.control_count);
   if (rig.control_count && !plan.columns.data) return no_scratch(error);
-  Status status = plan_block_rows(view, rig, scratch, plan, error);
-  if (status == Status::kOk) status = find_blocks(view, scratch, plan, error);
-  if (status == Status::kOk) status = pair_blocks(view, rig, scratch, plan, error);
+  Status status = find_nonzeros(view, rig, scratch, plan, error);
+  if (status == Status::kOk) status = plan_block_rows(view, rig, scratch, plan, error);
+  if (status == Status::kOk) status = find_blocks(scratch, plan, error);
+  if (status == Status::kOk) status = pair_blocks(rig, scratch, plan, error);
   if (status != Status::kOk) return status;
 
   plan.panel_size = panel_size(plan.block_row_count(), plan.block_count, plan.column_count);
-  uint32_t last = 0;
-  for_each_panel(plan, [&](uint32_t block_row) {
-    ++plan.panel_ends;
-    for_each_target(view, plan, rig, last, block_row,
-                    [&](const JointTarget&, uint32_t, uint8_t) { ++plan.target_count; });
-    last = block_row;
-  });
-  if (plan.block_row_count() <= kMaxTileBlockRows) {
-    for_each_target(view, plan, rig, 0, plan.block_row_count(),
-                    [&](const JointTarget&, uint32_t, uint8_t) { ++plan.target_count; });
-  }
-  return Status::kOk;
+  for_each_panel(plan, [&](uint32_t) { ++plan.panel_ends; });
+  return plan_targets(view, rig, scratch, plan, error);
 }
 
 void place_joints(const dna::DnaView& view, const JointPlan& plan, Placer& placer, Rig& rig) {
@@ -388,7 +362,7 @@ void place_joints(const dna::DnaView& view, const JointPlan& plan, Placer& place
   joints.parts = placer.array<ColumnPart>(plan.column_count * plan.panel_ends);
   joints.panels = placer.array<JointPanel>(plan.panel_ends);
   joints.panels_at_lod = placer.array<uint32_t>(rig.lod_count);
-  joints.targets = placer.array<JointTarget>(plan.target_count);
+  joints.targets = placer.array<JointTarget>(plan.targets.count);
   joints.targets_at_lod = placer.array<uint16_t>(plan.panel_ends * kTargetKinds * rig.lod_count);
 
   const auto& groups = view.bhvr.joints.groups;
@@ -406,7 +380,7 @@ void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach,
           static_cast<uint16_t>(rows_at_lod(groups[g].lods, l));
     }
   }
-  mark_other_rows(view, plan, reach);
+  mark_reach(plan, reach);
 
   for (uint8_t use : plan.uses) joints.contested |= use == kContested;
   uint32_t panel = 0;
@@ -415,15 +389,15 @@ void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach,
   const uint32_t panel_count = joints.panel_count();
   while (panel_count > uint64_t{kPanelBits} << joints.panel_shift) ++joints.panel_shift;
   for (uint32_t c = 0; c < panel_count; ++c) {
-    joints.panels[c + 1].first_target = fill_targets(view, plan, c, rig);
+    joints.panels[c + 1].first_target = fill_targets(plan, c, rig);
     const uint8_t panel_reach = plan.block_row_reaches[joints.panels[c].first_block_row];
     for (uint32_t l = 0; l < panel_reach; ++l) joints.panels_at_lod[l] = c + 1;
   }
-  if (joints.fits_tile()) fill_targets(view, plan, panel_count, rig);
-  if (rig.half_storage) fill_scales(view, plan, joints);
+  if (joints.fits_tile()) fill_targets(plan, panel_count, rig);
+  if (rig.half_storage) fill_scales(view, plan, rig);
 
   place_columns(plan, joints);
-  fill_joint_blocks(view, plan, reach, rig);
+  fill_joint_blocks(view, plan, rig);
   if (!joints.first_row_blocks.empty()) {
     list_blocks_by_row(joints, joints.first_row_blocks, joints.row_blocks);
   }

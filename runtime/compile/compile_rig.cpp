@@ -210,6 +210,7 @@ uint32_t count_controls(const DnaView& view) {
 
 void count_things(const DnaView& view, const CompileOptions& options, Rig& rig) {
   const dna::Definition& defn = view.defn;
+  rig.kernels = options.kernels;
   rig.quaternion_outputs = options.quaternion_outputs;
   rig.half_storage = options.half_storage;
   rig.portable = options.portable;
@@ -292,8 +293,9 @@ size_t scratch_bytes(const DnaView& view, const Rig& rig) {
                  size_t{view.bhvr.controls.psds.rows.count} * 8 + size_t{rig.psd_count} * 24;
   for (const dna::JointGroup& group : view.bhvr.joints.groups) {
     const size_t rows = group.output_indices.count, blocks = rows / kJointBlockRows + 2;
-    bytes +=
-        rows * 3 + blocks * (2 * sizeof(PlannedRows) + group.input_indices.count * 5 + 40) + 128;
+    bytes += rows * (3 + 2 * sizeof(PlannedTarget)) + group.input_indices.count * 2 +
+             rows * ((group.input_indices.count + 63) / 64) * 8 +
+             blocks * (2 * sizeof(PlannedRows) + group.input_indices.count * 5 + 40) + 184;
   }
   return bytes;
 }
@@ -360,7 +362,7 @@ Status compile_rig(const DnaView& view, const CompileOptions& options, const All
   Status status = plan_joints(view, measured, scratch, joints, error);
   if (status != Status::kOk) return status;
   RotationPlan rotations;
-  status = plan_rotations(view, measured, scratch, rotations, error);
+  status = plan_rotations(view, joints, measured, scratch, rotations, error);
   if (status != Status::kOk) return status;
   Placer measure(nullptr);
   measure.array<Rig>(1);
@@ -382,7 +384,6 @@ Status compile_rig(const DnaView& view, const CompileOptions& options, const All
   Rig* rig = new (block) Rig;
   rig->allocator = allocator;
   rig->block_size = measure.size();
-  rig->kernels = options.kernels;
   rig->ml.blend_masks = options.blend_masks;
   count_things(view, options, *rig);
   status = place_all(view, joints, rotations, placer, *rig, error);

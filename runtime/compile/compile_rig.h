@@ -32,6 +32,23 @@ void place_controls(const dna::DnaView& view, Placer& placer, Rig& rig);
 /// kMemory (scratch), or kDnaValue for correctives that depend on each other in a cycle.
 Status fill_controls(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
 
+/// What the planning of a joint group asks for often.
+struct GroupColumns {
+  Span<uint16_t> inputs;   // controls
+  Span<uint64_t> nonzero;  // [row][column / 64] bit column % 64: the number is not zero
+  uint32_t row_count, words_per_row;
+
+  const uint64_t* row(uint32_t r) const { return nonzero.data + size_t{r} * words_per_row; }
+  bool is_nonzero(uint32_t r, uint32_t column) const {
+    return (row(r)[column / 64] >> column % 64 & 1) != 0;
+  }
+  bool is_zero(uint32_t r) const {
+    uint64_t any = 0;
+    for (uint32_t w = 0; w < words_per_row; ++w) any |= row(r)[w];
+    return any == 0;
+  }
+};
+
 /// Rows of one joint group that are computed in one block: what lies between them writes nothing.
 struct PlannedRows {
   uint32_t group;
@@ -49,29 +66,41 @@ struct PlannedRows {
 /// What a control has in two neighboring block rows, of which the first has an even number.
 struct BlockHalves {
   uint16_t control;
-  uint16_t halves;  // bit 0: a block in the first one; bit 1: in the second one
+  uint8_t is_pair;    // a block in both
+  uint8_t is_second;  // only one, in the second
 };
-constexpr uint32_t kBothHalves = 3;
 
 /// The blocks of a control, single ones and pairs: first how many entries there are, then where the
 /// next of either kind goes.
 struct PlannedColumn {
-  uint32_t entries[2];  // [is a pair] into JointMatrix::block_rows
-  uint32_t blocks[2];   // [is a pair]
+  struct Next {
+    uint32_t entry;  // into JointMatrix::block_rows
+    uint32_t block;
+  } next[2];  // [is a pair]
+};
+
+/// A target before its panel is sorted.
+struct PlannedTarget {
+  JointTarget target;
+  uint8_t kind;   // into kTargetRows
+  uint8_t reach;  // how many LODs, counted from 0
 };
 
 /// The plan for the joint groups, in scratch memory: made once, before anything is placed.
 struct JointPlan {
+  Span<GroupColumns> groups;
   Span<uint8_t> uses;               // of all rows of all groups
   Span<uint8_t> reaches;            // of all rows of all groups: how many LODs, counted from 0
   Span<PlannedRows> rows;           // by block row
   Span<uint32_t> first_rows;        // [block row] into rows, one more at the end
   Span<uint8_t> block_row_reaches;  // never rises
   size_t used_blocks = 0;           // those of block_count that are no filling
-  size_t block_count = 0, entry_count = 0, column_count = 0, target_count = 0;
-  uint32_t panel_size = 0;      // block rows
-  size_t panel_ends = 0;        // panels, and one more
-  Span<PlannedColumn> columns;  // [control]
+  size_t block_count = 0, entry_count = 0, column_count = 0;
+  uint32_t panel_size = 0;       // block rows
+  size_t panel_ends = 0;         // panels, and one more
+  Span<PlannedTarget> targets;   // by panel, then those of all panels if they fit a tile
+  Span<uint32_t> first_targets;  // [panel] into targets, one more; and one at the end
+  Span<PlannedColumn> columns;   // [control]
   Span<uint32_t> places;  // [control] its last block of an even block row, or before the odd one's
   Span<uint64_t> blocks;  // by rows, a bit for each column of their group: not all zeros
   Span<BlockHalves> halves;     // by pairs of block rows
@@ -104,6 +133,7 @@ struct PlannedTurn {
 
 /// The plan for the rotations of joint groups, in scratch memory: made once, before anything is placed.
 struct RotationPlan {
+  Span<GroupColumns> columns;  // [group]
   Span<GroupRotations> groups;
   Span<AngleJoint> angle_joints;
   Span<PlannedTurn> turns;       // by group
@@ -114,9 +144,9 @@ struct RotationPlan {
   size_t step_count = 0;         // of all blocks
 };
 
-/// kMemory (scratch).
-Status plan_rotations(const dna::DnaView& view, const Rig& rig, Arena& scratch, RotationPlan& plan,
-                      Error& error);
+/// After that of the joints. kMemory (scratch).
+Status plan_rotations(const dna::DnaView& view, const JointPlan& joints, const Rig& rig,
+                      Arena& scratch, RotationPlan& plan, Error& error);
 void place_rotations(const RotationPlan& plan, Placer& placer, Rig& rig);
 void fill_rotations(const dna::DnaView& view, const RotationPlan& plan, Rig& rig);
 

@@ -56,14 +56,14 @@ uint32_t list_angle_joints(const dna::DnaView& view, const dna::JointGroup& grou
   return count;
 }
 
-uint32_t list_turns(const dna::DnaView& view, uint32_t g, const Span<uint32_t>& position,
-                    PlannedTurn* out) {
+uint32_t list_turns(const dna::DnaView& view, const GroupColumns& columns, uint32_t g,
+                    const Span<uint32_t>& position, PlannedTurn* out) {
   const dna::JointGroup& group = view.bhvr.joints.groups[g];
   uint32_t count = 0;
   for (uint32_t r = 0; r < group.output_indices.count; ++r) {
     const uint32_t output = group.output_indices[r], joint = output / kFileAttributes;
     if (kind_of(view, false, output) != RowKind::kTurn) continue;
-    if (r >= rows_at_lod(group.lods, 0) || is_zero(group, r)) continue;
+    if (r >= rows_at_lod(group.lods, 0) || columns.is_zero(r)) continue;
     if (position[joint] == kNone) {
       position[joint] = count;
       out[count] = {};
@@ -84,12 +84,12 @@ uint32_t list_turns(const dna::DnaView& view, uint32_t g, const Span<uint32_t>& 
 
 /// Calls f(index) for the columns that turn a joint, of the first `count` in the order of its group.
 template <class F>
-void for_each_step(const dna::JointGroup& group, const PlannedTurn& turn, const uint32_t* order,
+void for_each_step(const GroupColumns& columns, const PlannedTurn& turn, const uint32_t* order,
                    uint32_t count, F&& f) {
   for (uint32_t k = 0; k < count; ++k) {
-    uint32_t any = 0;
+    bool any = false;
     for (const uint32_t row : turn.rows) {
-      if (row != kNone) any |= magnitude_bits(row_values(group, row) + size_t{order[k]} * 4);
+      any = any || (row != kNone && columns.is_nonzero(row, order[k]));
     }
     if (any) f(k);
   }
@@ -123,9 +123,10 @@ void fill_step(const dna::JointGroup& group, const PlannedTurn& turn, uint32_t c
 
 }  // namespace
 
-Status plan_rotations(const dna::DnaView& view, const Rig& rig, Arena& arena, RotationPlan& plan,
-                      Error& error) {
+Status plan_rotations(const dna::DnaView& view, const JointPlan& joints, const Rig& rig,
+                      Arena& arena, RotationPlan& plan, Error& error) {
   const auto& groups = view.bhvr.joints.groups;
+  plan.columns = joints.groups;
   size_t turns = 0, angle_joints = 0, columns = 0, widest = 0;
   for (const dna::JointGroup& group : groups) {
     if (rig.quaternion_outputs) {
@@ -167,7 +168,10 @@ Status plan_rotations(const dna::DnaView& view, const Rig& rig, Arena& arena, Ro
           list_angle_joints(view, group, scratch.position, plan.angle_joints.data + angle_joint);
       angle_joint += rotations.angle_joint_count;
     }
-    if (turns) rotations.turn_count = list_turns(view, g, scratch.position, plan.turns.data + turn);
+    if (turns) {
+      rotations.turn_count =
+          list_turns(view, plan.columns[g], g, scratch.position, plan.turns.data + turn);
+    }
     plan.first_columns[g] = column;
     if (rotations.turn_count == 0) continue;
     const Span<uint32_t> order = plan.order.slice(column, group.input_indices.count);
@@ -177,7 +181,7 @@ Status plan_rotations(const dna::DnaView& view, const Rig& rig, Arena& arena, Ro
     for (uint32_t i = 0; i < rotations.turn_count; ++i, ++turn) {
       PlannedTurn& planned = plan.turns[turn];
       uint32_t* at_lod = plan.used_at_lod.data + size_t{turn} * rig.lod_count;
-      for_each_step(group, planned, order.data, used, [&](uint32_t k) {
+      for_each_step(plan.columns[g], planned, order.data, used, [&](uint32_t k) {
         ++planned.steps;
         for (uint32_t l = 0; l < rig.lod_count; ++l) {
           at_lod[l] += (planned.lods >> l & 1) && k < scratch.columns_at_lod[l];
@@ -251,8 +255,10 @@ void fill_rotations(const dna::DnaView& view, const RotationPlan& plan, Rig& rig
     const uint32_t* order = plan.order.data + first;
     const uint32_t lane = turn.lane % kBlockLanes;
     size_t step = table.first_steps[turn.lane / kBlockLanes];
-    for_each_step(group, turn, order, plan.first_columns[turn.group + 1] - first, [&](uint32_t k) {
-      table.columns[step * kBlockLanes + lane] = group.input_indices[order[k]];
+    const GroupColumns& columns = plan.columns[turn.group];
+    const uint32_t count = plan.first_columns[turn.group + 1] - first;
+    for_each_step(columns, turn, order, count, [&](uint32_t k) {
+      table.columns[step * kBlockLanes + lane] = columns.inputs[order[k]];
       fill_step(group, turn, order[k], step++ * 4 * kBlockLanes + lane, rig);
     });
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
+#include <algorithm>
+#include <cstring>
 
 #include "runtime/base/bits.h"
 #include "runtime/compile/joint_blocks.h"
@@ -7,20 +8,7 @@
 namespace mien {
 namespace {
 
-/// std::nearbyint() without a call: numbers near 1.5 * 2^23 are whole, so adding it rounds.
-float nearest_whole(float value) {
-  constexpr float kRounder = 12582912.0f;
-  return std::fabs(value) < 0x1p22f ? (value + kRounder) - kRounder : std::nearbyint(value);
-}
-
-int16_t add_fixed(int16_t to, float value, float scale) {
-  if (!(scale > 0.0f)) return 0;
-  const float steps = static_cast<float>(to) + nearest_whole(value / scale);
-  return static_cast<int16_t>(steps >= 32767.0f ? 32767.0f
-                                                : (steps > -32767.0f ? steps : -32767.0f));
-}
-
-/// Prefetches the next place of a column: there are too many columns for the processor to do it.
+/// Prefetches a place of a column: there are too many columns for the processor to do it.
 void expect(const void* to) {
 #if defined(__GNUC__)
   __builtin_prefetch(to, 1);
@@ -29,47 +17,38 @@ void expect(const void* to) {
 #endif
 }
 
-/// Blocks of up to 64 columns, as all their rows would stand alone in their block row.
-struct BlockTile {
-  alignas(kBlockAlignment) float blocks[kWordBits * kJointBlockRows];
+/// Up to 64 columns of some rows, as the rows would stand alone in their block row.
+void read_columns(const KernelTable& kernels, const PlannedRows& rows, const FileRows& file,
+                  uint32_t from, uint32_t count, float* const* blocks) {
+  static constexpr uint8_t kZeros[kWordBits * sizeof(float)] = {};
+  BlockRowsArgs args;
+  std::fill(args.rows, args.rows + kJointBlockRows, kZeros);
+  for (uint32_t k = 0; k < file.count; ++k)
+    args.rows[rows.first_in_block + k] = file.value(k, from);
+  args.blocks = blocks;
+  args.count = count;
+  kernels.read_block_rows(args);
+}
 
-  void read(const KernelTable& kernels, const PlannedRows& rows, const FileRows& file,
-            uint32_t from, uint32_t count) {
-    static constexpr uint8_t kZeros[kWordBits * sizeof(float)] = {};
-    BlockRowsArgs args;
-    std::fill(args.rows, args.rows + kJointBlockRows, kZeros);
-    for (uint32_t k = 0; k < file.count; ++k) {
-      args.rows[rows.first_in_block + k] = file.value(k, from);
-    }
-    args.blocks = blocks;
-    args.count = count;
-    kernels.read_block_rows(args);
-  }
-};
-
-/// Adds the rows to a block that others have begun.
-void add_rows(const PlannedRows& rows, const float* from, float* block) {
-  const uint32_t end = rows.first_in_block + rows.row_count;
-  for (uint32_t r = rows.first_in_block; r < end; ++r) {
+/// Adds rows to a block that others have begun. Rows of others get 0, which leaves them as they are.
+/// By way of a copy, so that the compiler makes vector code.
+void add_rows(const float* from, float* block) {
+  float sums[kJointBlockRows];
+  for (uint32_t r = 0; r < kJointBlockRows; ++r) {
     // Both are finite, so the sum may be infinite, but not NaN.
-    block[r] = std::clamp(block[r] + from[r], -kLargestFloat, kLargestFloat);
+    const float sum = block[r] + from[r];
+    const float least = sum > -kLargestFloat ? sum : -kLargestFloat;
+    sums[r] = least < kLargestFloat ? least : kLargestFloat;
   }
+  memcpy(block, sums, sizeof(sums));
 }
 
-void add_fixed_rows(const PlannedRows& rows, const float* from, const float* scales,
-                    int16_t* block) {
-  const uint32_t end = rows.first_in_block + rows.row_count;
-  for (uint32_t r = rows.first_in_block; r < end; ++r) {
-    block[r] = add_fixed(block[r], from[r], scales[r]);
+void add_rows(const int16_t* from, int16_t* block) {
+  int16_t sums[kJointBlockRows];
+  for (uint32_t r = 0; r < kJointBlockRows; ++r) {
+    sums[r] = static_cast<int16_t>(std::clamp(block[r] + from[r], -32767, 32767));
   }
-}
-
-/// The first of the rows that is not zero reaches farthest.
-void mark_reach(const PlannedRows& rows, const FileRows& file, uint32_t column,
-                uint8_t& control_reach) {
-  for (uint32_t k = 0; k < file.count && rows.reaches[k] > control_reach; ++k) {
-    if (magnitude_bits(file.value(k, column)) != 0) control_reach = rows.reaches[k];
-  }
+  memcpy(block, sums, sizeof(sums));
 }
 
 /// Where a panel begins in the columns.
@@ -77,8 +56,8 @@ void fill_parts(uint32_t panel, const JointPlan& plan, JointMatrix& joints) {
   ColumnPart* part = joints.parts.data + panel;
   for (size_t k = 0; k < joints.columns.count; ++k, part += joints.panels.count) {
     const PlannedColumn& column = plan.columns[joints.columns[k]];
-    *part = {static_cast<uint16_t>(column.entries[1] - joints.starts[k].pair_entry),
-             static_cast<uint16_t>(column.entries[0] - joints.starts[k].single_entry)};
+    *part = {static_cast<uint16_t>(column.next[1].entry - joints.starts[k].pair_entry),
+             static_cast<uint16_t>(column.next[0].entry - joints.starts[k].single_entry)};
   }
 }
 
@@ -95,78 +74,118 @@ void place_blocks(const JointPlan& plan, uint32_t b, JointMatrix& joints) {
   PlannedColumn* const columns = plan.columns.data;
   uint32_t* const places = plan.places.data;
   uint16_t* const block_rows = joints.block_rows.data;
+  float* const values = joints.values.data;
   const BlockHalves* const end = plan.halves.data + plan.first_halves[b / 2 + 1];
   for (const BlockHalves* at = plan.halves.data + plan.first_halves[b / 2]; at != end; ++at) {
-    PlannedColumn& column = columns[at->control];
-    const uint32_t pair = at->halves == kBothHalves, missing = at->halves == 2;
-    block_rows[column.entries[pair]++] = static_cast<uint16_t>((b + missing) * kBlockRowUnit);
-    const uint32_t place = column.blocks[pair] - missing;
-    places[at->control] = place;
-    column.blocks[pair] += 1 + pair;
+    const size_t control = at->control, is_pair = at->is_pair;
+    const uint32_t is_second = at->is_second;
+    PlannedColumn::Next& next = columns[control].next[is_pair];
+    const uint32_t entry = next.entry, block = next.block;
+    next.entry = entry + 1;
+    next.block = block + 1 + static_cast<uint32_t>(is_pair);
+    block_rows[entry] = static_cast<uint16_t>((b + is_second) * kBlockRowUnit);
+    places[control] = block - is_second;
     if (!zeros) continue;
-    for (uint32_t half = 0; half < 2; ++half) {
-      if (whole[half] || !(at->halves >> half & 1)) continue;
-      float* const block = joints.values.data + size_t{place + half} * kJointBlockRows;
-      std::fill(block, block + kJointBlockRows, 0.0f);
+    for (uint32_t half = is_second; half < is_second + 1 + is_pair; ++half) {
+      if (whole[half]) continue;
+      float* const zero = values + size_t{block - is_second + half} * kJointBlockRows;
+      std::fill(zero, zero + kJointBlockRows, 0.0f);
     }
   }
 }
 
-/// Calls put(place, block) for the blocks of some rows, whose first word in plan.blocks is `word`.
-/// Returns that of the next rows.
-template <class Put>
-const uint64_t* read_blocks(const dna::DnaView& view, const JointPlan& plan,
-                            const PlannedRows& rows, const uint64_t* word,
-                            const Span<uint8_t>& reach, const KernelTable& kernels, Put&& put) {
-  const dna::JointGroup& group = view.bhvr.joints.groups[rows.group];
-  const dna::Array<uint16_t> inputs = group.input_indices;
-  const FileRows file(group, rows);
-  const uint32_t* const places = plan.places.data;
-  const uint32_t half = rows.block_row % 2;
-  const uint8_t farthest = rows.reach();
-  BlockTile tile;
-  for (uint32_t from = 0; from < inputs.count; from += kWordBits) {
-    tile.read(kernels, rows, file, from, std::min(inputs.count - from, kWordBits));
-    for (uint64_t bits = *word++; bits != 0; bits &= bits - 1) {
-      const uint32_t c = lowest_bit(bits), control = inputs[from + c];
-      if (farthest > reach[control]) mark_reach(rows, file, from + c, reach[control]);
-      put(size_t{places[control] + half}, tile.blocks + size_t{c} * kJointBlockRows);
-    }
+/// Where the blocks of up to 64 columns go.
+struct BlockPlaces {
+  const uint16_t* inputs;
+  const uint32_t* places;
+  uint32_t half;
+
+  uint32_t at(uint32_t c) const { return places[inputs[c]] + half; }
+};
+
+/// Reads the blocks of some rows, up to 64 columns at a time, to `blocks`; the first of their words in
+/// plan.blocks is `word`. Returns that of the next rows.
+/// Calls before(column count, bits, places), which may still change `blocks`, and after(bits, places),
+/// with a bit for each column that has a block.
+template <class Before, class After>
+const uint64_t* read_blocks(const KernelTable& kernels, const JointPlan& plan,
+                            const PlannedRows& rows, const FileRows& file, const uint64_t* word,
+                            float* const* blocks, Before&& before, After&& after) {
+  const Span<uint16_t> inputs = plan.groups[rows.group].inputs;
+  const auto columns = static_cast<uint32_t>(inputs.count);
+  for (uint32_t from = 0; from < columns; from += kWordBits) {
+    const uint64_t bits = *word++;
+    const BlockPlaces places = {inputs.data + from, plan.places.data, rows.block_row % 2};
+    const uint32_t count = std::min(columns - from, kWordBits);
+    before(count, bits, places);
+    read_columns(kernels, rows, file, from, count, blocks);
+    after(bits, places);
   }
   return word;
 }
 
+/// Rows that fill their block row alone: the kernel writes their blocks where they belong.
+const uint64_t* move_rows(const KernelTable& kernels, const JointPlan& plan,
+                          const PlannedRows& rows, const FileRows& file, const uint64_t* word,
+                          float* values) {
+  alignas(kBlockAlignment) float unused[kJointBlockRows];
+  float* blocks[kWordBits];
+  return read_blocks(
+      kernels, plan, rows, file, word, blocks,
+      [&](uint32_t count, uint64_t bits, const BlockPlaces& places) {
+        std::fill(blocks, blocks + count, static_cast<float*>(unused));
+        for (; bits != 0; bits &= bits - 1) {
+          const uint32_t c = lowest_bit(bits);
+          blocks[c] = values + size_t{places.at(c)} * kJointBlockRows;
+          expect(blocks[c]);
+        }
+      },
+      [](uint64_t, const BlockPlaces&) {});
+}
+
+/// Reads blocks to a tile and adds them to those of the rig, which others may have begun. Calls
+/// change(tile) between the two.
+template <class T, class Change>
+const uint64_t* merge_rows(const KernelTable& kernels, const JointPlan& plan,
+                           const PlannedRows& rows, const FileRows& file, const uint64_t* word,
+                           T* values, Change&& change) {
+  alignas(kBlockAlignment) float tile[kWordBits * kJointBlockRows] = {};
+  float* blocks[kWordBits];
+  for (uint32_t c = 0; c < kWordBits; ++c) blocks[c] = tile + size_t{c} * kJointBlockRows;
+  return read_blocks(
+      kernels, plan, rows, file, word, blocks, [](uint32_t, uint64_t, const BlockPlaces&) {},
+      [&](uint64_t bits, const BlockPlaces& places) {
+        const T* const from = change(tile);
+        for (; bits != 0; bits &= bits - 1) {
+          const uint32_t c = lowest_bit(bits);
+          add_rows(from + size_t{c} * kJointBlockRows,
+                   values + size_t{places.at(c)} * kJointBlockRows);
+        }
+      });
+}
+
 const uint64_t* fill_rows(const dna::DnaView& view, const JointPlan& plan, const PlannedRows& rows,
-                          const uint64_t* word, const Span<uint8_t>& reach, const Rig& rig) {
+                          const uint64_t* word, const Rig& rig) {
+  const FileRows file(view.bhvr.joints.groups[rows.group], rows);
   const KernelTable& kernels = *rig.kernels;
-  float* const values = rig.joints.values.data;
+  const JointMatrix& joints = rig.joints;
   if (rig.half_storage) {
-    const float* scales = rig.joints.scales.data + size_t{rows.block_row} * kJointBlockRows;
-    int16_t* const fixed = rig.joints.fixed_values.data;
-    return read_blocks(view, plan, rows, word, reach, kernels,
-                       [=, &rows](size_t place, const float* block) {
-                         int16_t* const to = fixed + place * kJointBlockRows;
-                         expect(to + 2 * kJointBlockRows);
-                         add_fixed_rows(rows, block, scales, to);
-                       });
+    const float* scales = joints.scales.data + size_t{rows.block_row} * kJointBlockRows;
+    alignas(kBlockAlignment) int16_t fixed[kWordBits * kJointBlockRows];
+    return merge_rows(kernels, plan, rows, file, word, joints.fixed_values.data,
+                      [&](const float* tile) {
+                        kernels.fix_blocks(tile, scales, kWordBits, fixed);
+                        return fixed;
+                      });
   }
-  if (!rows.whole) {
-    return read_blocks(view, plan, rows, word, reach, kernels,
-                       [=, &rows](size_t place, const float* block) {
-                         add_rows(rows, block, values + place * kJointBlockRows);
-                       });
-  }
-  return read_blocks(view, plan, rows, word, reach, kernels, [=](size_t place, const float* block) {
-    float* const to = values + place * kJointBlockRows;
-    expect(to + 2 * kJointBlockRows);
-    memcpy(to, block, kJointBlockRows * sizeof(float));
-  });
+  if (rows.whole) return move_rows(kernels, plan, rows, file, word, joints.values.data);
+  return merge_rows(kernels, plan, rows, file, word, joints.values.data,
+                    [](const float* tile) { return tile; });
 }
 
 }  // namespace
 
-void fill_joint_blocks(const dna::DnaView& view, const JointPlan& plan, Span<uint8_t> reach,
-                       Rig& rig) {
+void fill_joint_blocks(const dna::DnaView& view, const JointPlan& plan, Rig& rig) {
   JointMatrix& joints = rig.joints;
   const uint64_t* word = plan.blocks.data;
   uint32_t panel = 0;
@@ -174,7 +193,7 @@ void fill_joint_blocks(const dna::DnaView& view, const JointPlan& plan, Span<uin
     if (joints.panels[panel].first_block_row == b) fill_parts(panel++, plan, joints);
     place_blocks(plan, b, joints);
     for (uint32_t i = plan.first_rows[b]; i < plan.first_rows[b + 2]; ++i) {
-      word = fill_rows(view, plan, plan.rows[i], word, reach, rig);
+      word = fill_rows(view, plan, plan.rows[i], word, rig);
     }
   }
   fill_parts(panel, plan, joints);

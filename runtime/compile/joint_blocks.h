@@ -24,8 +24,7 @@ struct FileRows {
 };
 
 /// The one pass that reads the numbers to keep them: fills the blocks, their block rows and the parts of
-/// columns. `plan` says where columns begin; `reach` grows to what the rows reach.
-void fill_joint_blocks(const dna::DnaView& view, const JointPlan& plan, Span<uint8_t> reach,
-                       Rig& rig);
+/// columns. `plan` says where columns begin.
+void fill_joint_blocks(const dna::DnaView& view, const JointPlan& plan, Rig& rig);
 
 }  // namespace mien

@@ -36,10 +36,11 @@ Status find_reaches(const dna::DnaView& view, const Rig& rig, Arena& scratch,
 
 /// Of rows with the same output the last one counts, at each LOD anew: a row is overridden where a
 /// later one is reached. Rows of zeros write nothing, so that they override nothing.
-Status choose_rows(const dna::DnaView& view, const Rig& rig, const Span<uint8_t>& reaches,
-                   Arena& scratch, Span<uint8_t>& uses, Error& error) {
+Status choose_rows(const dna::DnaView& view, const Rig& rig, Arena& scratch, JointPlan& plan,
+                   Error& error) {
   const auto& groups = view.bhvr.joints.groups;
-  const size_t row_count = reaches.count;
+  const size_t row_count = plan.reaches.count;
+  Span<uint8_t>& uses = plan.uses;
   uses = scratch.array<uint8_t>(row_count);
   const uint32_t outputs = output_limit(rig);
   Span<uint8_t> overridden = scratch.array<uint8_t>(outputs);  // leading LODs taken by later rows
@@ -53,8 +54,8 @@ Status choose_rows(const dna::DnaView& view, const Rig& rig, const Span<uint8_t>
     for (uint32_t r = group.output_indices.count; r-- > 0;) {
       --at;
       const uint32_t output = output_of(view, rig, group.output_indices[r]);
-      const uint8_t reach = reaches[at];
-      if (output == kNoOutput || reach == 0 || is_zero(group, r)) continue;
+      const uint8_t reach = plan.reaches[at];
+      if (output == kNoOutput || reach == 0 || plan.groups[g].is_zero(r)) continue;
       if (reach <= overridden[output]) continue;
       uses[at] = kUsed;
       if (writer[output] != 0) {
@@ -211,12 +212,44 @@ uint32_t number_block_rows(Span<BlockRowDraft>& drafts, size_t first, uint32_t n
 
 }  // namespace
 
+Status find_nonzeros(const dna::DnaView& view, const Rig& rig, Arena& scratch, JointPlan& plan,
+                     Error& error) {
+  const auto& groups = view.bhvr.joints.groups;
+  const auto words_per_row = [](const dna::JointGroup& group) {
+    return (group.input_indices.count + kWordBits - 1) / kWordBits;
+  };
+  size_t inputs = 0, words = 0;
+  for (const dna::JointGroup& group : groups) {
+    inputs += group.input_indices.count;
+    words += size_t{group.output_indices.count} * words_per_row(group);
+  }
+  plan.groups = scratch.array<GroupColumns>(groups.count);
+  Span<uint16_t> all_inputs = scratch.unwritten_array<uint16_t>(inputs);
+  Span<uint64_t> all_words = scratch.unwritten_array<uint64_t>(words);
+  if ((groups.count && !plan.groups.data) || (words && !all_words.data) ||
+      (inputs && !all_inputs.data)) {
+    return no_scratch(error);
+  }
+  for (uint32_t g = 0; g < groups.count; ++g) {
+    const dna::JointGroup& group = groups[g];
+    GroupColumns& columns = plan.groups[g];
+    columns.row_count = group.output_indices.count;
+    columns.words_per_row = words_per_row(group);
+    columns.inputs = {all_inputs.data, group.input_indices.count};
+    columns.nonzero = {all_words.data, size_t{columns.row_count} * columns.words_per_row};
+    all_inputs.data += columns.inputs.count;
+    all_words.data += columns.nonzero.count;
+    copy_array(group.input_indices, columns.inputs);
+    rig.kernels->mark_nonzeros(group.values.data, columns.row_count, columns.inputs.count,
+                               columns.nonzero.data);
+  }
+  return Status::kOk;
+}
+
 Status plan_block_rows(const dna::DnaView& view, const Rig& rig, Arena& scratch, JointPlan& plan,
                        Error& error) {
   Status status = find_reaches(view, rig, scratch, plan.reaches, error);
-  if (status == Status::kOk) {
-    status = choose_rows(view, rig, plan.reaches, scratch, plan.uses, error);
-  }
+  if (status == Status::kOk) status = choose_rows(view, rig, scratch, plan, error);
   Span<uint16_t> order;
   if (status == Status::kOk) status = order_rows(view, plan.reaches, scratch, order, error);
   if (status != Status::kOk) return status;
@@ -246,8 +279,8 @@ Status plan_block_rows(const dna::DnaView& view, const Rig& rig, Arena& scratch,
         for (uint32_t k = 0; k < n; ++k) rows.reaches[k] = reaches[from[k]];
       });
   for (uint32_t g = 0; g < groups.count; ++g) {
-    for (uint32_t c = 0; c < groups[g].input_indices.count; ++c) {
-      const uint32_t bit = groups[g].input_indices[c] % 1024;
+    for (uint16_t input : plan.groups[g].inputs) {
+      const uint32_t bit = input % 1024;
       signatures[g].words[bit / kWordBits] |= uint64_t{1} << bit % kWordBits;
     }
   }

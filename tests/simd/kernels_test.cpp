@@ -597,14 +597,115 @@ TEST(ReadBlockRowsKernel, ReadsRowsOfFilesAtAnyAddress) {
       }
       alignas(64) float blocks[22 * kJointBlockRows];
       std::fill(std::begin(blocks), std::end(blocks), 7.0f);
-      args.blocks = blocks;
+      // In another order; where two columns share a block, the last one stays.
+      float* places[21];
+      for (uint32_t c = 0; c < count; ++c) {
+        places[c] = blocks + size_t{count - 1 - c} * kJointBlockRows;
+      }
+      if (count % 5 == 0 && count > 0) {
+        for (uint32_t c = 0; c < count; ++c) places[c] = blocks + size_t{c} * kJointBlockRows;
+        places[0] = places[count - 1];
+      }
+      args.blocks = places;
       args.count = count;
       kernels->read_block_rows(args);
-      for (size_t i = 0; i < expected.size(); ++i) {
-        ASSERT_EQ(bits_of(blocks[i]), bits_of(expected[i]))
-            << kernels->name << ' ' << count << ' ' << i;
+      for (uint32_t c = 0; c < count; ++c) {
+        if (c == 0 && places[0] == places[count - 1] && count > 1) continue;
+        for (uint32_t r = 0; r < kJointBlockRows; ++r) {
+          ASSERT_EQ(bits_of(places[c][r]), bits_of(expected[c * kJointBlockRows + r]))
+              << kernels->name << ' ' << count << ' ' << c << ' ' << r;
+        }
+      }
+      if (count % 5 == 0 && count > 1) {
+        for (uint32_t r = 0; r < kJointBlockRows; ++r) ASSERT_EQ(blocks[r], 7.0f);
       }
       for (size_t i = expected.size(); i < std::size(blocks); ++i) ASSERT_EQ(blocks[i], 7.0f);
+    }
+  }
+}
+
+/// Big-endian, at an address that is not aligned; a checker of memory sees what is read behind them.
+struct FileNumbers {
+  std::vector<uint8_t> bytes;
+  explicit FileNumbers(const std::vector<float>& values) : bytes(1 + values.size() * 4) {
+    for (size_t i = 0; i < values.size(); ++i) {
+      for (uint32_t k = 0; k < 4; ++k) {
+        bytes[1 + i * 4 + k] = static_cast<uint8_t>(bits_of(values[i]) >> (24 - 8 * k));
+      }
+    }
+  }
+  const uint8_t* data() const { return bytes.data() + 1; }
+};
+
+TEST(MarkNonzerosKernel, MarksWhatIsNeitherZeroNorMinusZero) {
+  const float special[] = {0.0f,  -0.0f, 1e-45f, -1e-45f,       0.0f,
+                           -0.0f, 1.0f,  0.0f,   std::nanf(""), -2e38f};
+  for (const KernelTable* kernels : present_kernels()) {
+    for (const uint32_t columns :
+         {0u, 1u, 7u, 31u, 32u, 33u, 63u, 64u, 65u, 96u, 100u, 128u, 150u}) {
+      const uint32_t rows = 5, words_per_row = (columns + 63) / 64;
+      std::vector<float> values(size_t{rows} * columns);
+      std::vector<uint64_t> expected(size_t{rows} * words_per_row),
+          words(expected.size() + 1, ~0ull);
+      for (uint32_t i = 0; i < values.size(); ++i) {
+        values[i] = special[(i * 7 + i / 11) % 10];
+        const uint64_t bit = uint64_t{(bits_of(values[i]) & 0x7FFFFFFF) != 0} << i % columns % 64;
+        expected[i / columns * words_per_row + i % columns / 64] |= bit;
+      }
+      const FileNumbers file(values);
+      kernels->mark_nonzeros(file.data(), rows, columns, words.data());
+      for (size_t w = 0; w < expected.size(); ++w) {
+        ASSERT_EQ(words[w], expected[w]) << kernels->name << ' ' << columns << ' ' << w;
+      }
+      EXPECT_EQ(words.back(), ~0ull);
+    }
+  }
+}
+
+TEST(LargestMagnitudeKernel, TakesWhatIsUpToTheLimit) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const float above = std::nextafter(3.4e38f, kInfinity);
+  for (const KernelTable* kernels : present_kernels()) {
+    EXPECT_EQ(kernels->largest_magnitude(nullptr, 0), 0.0f);
+    for (uint32_t count = 1; count <= 40; ++count) {
+      for (uint32_t at = 0; at < count; ++at) {
+        std::vector<float> values(count);
+        for (uint32_t i = 0; i < count; ++i) {
+          const float too_large[] = {above, -kInfinity, std::nanf(""), -0.0f};
+          values[i] = i % 3 == 0 ? too_large[i / 3 % 4] : 0.25f / static_cast<float>(i + 1);
+        }
+        for (const float largest : {-2.5f, 3.4e38f}) {
+          values[at] = largest;
+          const FileNumbers file(values);
+          ASSERT_EQ(kernels->largest_magnitude(file.data(), count), std::fabs(largest))
+              << kernels->name << ' ' << count << ' ' << at;
+        }
+      }
+    }
+  }
+}
+
+TEST(FixBlocksKernel, CountsStepsOfTheScalesOfRows) {
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  alignas(64) const float scales[kJointBlockRows] = {1, 0.5f, 3, 0, -1, 1e-45f, kLargest, 0.1f};
+  const float values[] = {0,      0.5f,     1.5f,      2.5f,   -2.5f, 40000,
+                          -40000, kLargest, -kLargest, 1e-45f, -7};
+  for (const KernelTable* kernels : present_kernels()) {
+    for (size_t count = 2; count <= 6; count += 2) {
+      alignas(64) float blocks[6 * kJointBlockRows];
+      alignas(64) int16_t fixed[7 * kJointBlockRows];
+      std::fill(std::begin(fixed), std::end(fixed), int16_t{123});
+      for (size_t i = 0; i < std::size(blocks); ++i) blocks[i] = values[i * 3 % 11];
+      kernels->fix_blocks(blocks, scales, count, fixed);
+      for (size_t i = 0; i < std::size(fixed); ++i) {
+        int16_t expected = 123;
+        if (i < count * kJointBlockRows) {
+          const float scale = scales[i % kJointBlockRows];
+          const float steps = scale > 0 ? std::nearbyint(blocks[i] / scale) : 0.0f;
+          expected = static_cast<int16_t>(std::clamp(steps, -32767.0f, 32767.0f));
+        }
+        ASSERT_EQ(fixed[i], expected) << kernels->name << ' ' << count << ' ' << i;
+      }
     }
   }
 }
