@@ -365,8 +365,8 @@ struct RbfArgs {
 };
 
 /// The same for many characters, one lane each, with the same bits. Controls of lane k are
-/// controls[32 * c + k]; results of a solver go to rows[k] + first_control, or to results[k] +
-/// first_lane. For lanes k < lane_count; up to 32 are computed.
+/// controls[32 * c + k]; results of a solver go to rows[k] + first_control and to the lanes of its
+/// controls, or to results[k] + first_lane. For lanes k < lane_count; up to 32 are computed.
 struct RbfBatchArgs {
   const RbfSolverPlan* solvers;
   const uint16_t* list;
@@ -378,9 +378,9 @@ struct RbfBatchArgs {
   const float* inverses;
   const float* pose_scales;
   const float* pose_factors;
-  const float* controls;  // 64-byte aligned, and so are the next three
-  float* rotations;       // [block][lane][4][32]: scratch
-  float* weights[2];      // [pose of the largest solver][32]: scratch
+  float* controls;    // 64-byte aligned, and so are the next three
+  float* rotations;   // [block][lane][4][32]: scratch
+  float* weights[2];  // [pose of the largest solver][32]: scratch
   float* const* rows;
   float* const* results;
   uint32_t block_count;

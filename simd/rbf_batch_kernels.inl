@@ -207,6 +207,12 @@ template <size_t kStep = 1>
   }
 }
 
+/// Where the results of a solver go: the lanes of its controls, or else scratch memory.
+inline float* results_of(const RbfSolverPlan& solver, const RbfBatchArgs& args) {
+  if (solver.first_control == kNoFirstControl) return args.weights[solver.interpolative];
+  return args.controls + size_t{solver.first_control} * kBatchLanes;
+}
+
 inline void batch_solver(const RbfSolverPlan& solver, const RbfBatchArgs& args, size_t lane) {
   using M = Make<VecPair>;
   const size_t count = solver.pose_count;
@@ -224,7 +230,8 @@ inline void batch_solver(const RbfSolverPlan& solver, const RbfBatchArgs& args, 
       default: break;
     }
   }
-  float* weights = args.weights[solver.interpolative] + lane;
+  const float* const weights = args.weights[solver.interpolative] + lane;
+  float* const results = results_of(solver, args) + lane;
   const VecPair zero = M::of(0.0f), one = M::of(1.0f), sum = batch_sum(weights, count);
   const auto divides = solver.always_normalize ? less(zero, sum) : less(one, sum);
   VecPair scale = select(divides, divide(one, sum), one);
@@ -234,7 +241,7 @@ inline void batch_solver(const RbfSolverPlan& solver, const RbfBatchArgs& args, 
   const float* const pose_factors = args.pose_factors + solver.first_lane;
   for (size_t p = 0; p < count; ++p) {
     const VecPair value = M::from(weights + p * kBatchLanes) * scale * M::of(pose_scales[p]);
-    store(weights + p * kBatchLanes, keep(less(threshold, value), value) * M::of(pose_factors[p]));
+    store(results + p * kBatchLanes, keep(less(threshold, value), value) * M::of(pose_factors[p]));
   }
 }
 
@@ -273,7 +280,7 @@ void rbf_batch(const RbfBatchArgs& args) {
     if (solver.pose_count == 0) continue;
     for (size_t lane = 0; lane < lane_count; lane += kPairLanes) batch_solver(solver, args, lane);
     const bool direct = solver.first_control != kNoFirstControl;
-    scatter_lanes(args.weights[solver.interpolative], solver.pose_count, lane_count,
+    scatter_lanes(results_of(solver, args), solver.pose_count, lane_count,
                   direct ? args.rows : args.results,
                   direct ? solver.first_control : solver.first_lane);
   }

@@ -106,8 +106,9 @@ InstancePacket stale_ones(const InstancePacket& packet, uint32_t stages, Instanc
 }
 
 /// A stage that takes all those instances at once.
+template <class F>
 void run_packet(const InstancePacket& packet, uint32_t stage, const ControlRange& writes,
-                void (*evaluate_stage)(const InstancePacket& those)) {
+                const F& evaluate_stage) {
   if (stage == 0) return;
   Instance* stale[kBatchLanes];
   const InstancePacket those = stale_ones(packet, stage, stale);
@@ -120,12 +121,17 @@ void run_packet(const InstancePacket& packet, uint32_t stage, const ControlRange
 }
 
 /// Correctives and joints of the instances that need either: it is not known before which of them
-/// new correctives will move. One alone is left to the stages themselves.
-void run_together(const InstancePacket& packet, uint32_t stages) {
+/// new correctives will move. One alone is left to the stages themselves. `after_rbf`: evaluate_rbf()
+/// returned true for the whole packet.
+void run_together(const InstancePacket& packet, uint32_t stages, bool after_rbf) {
   Instance* changed[kBatchLanes];
   const InstancePacket those = stale_ones(packet, stages, changed);
   if (those.count < 2) return;
-  gather_controls(those, packet.rig.control_count);
+  if (after_rbf && those.count == packet.count) {
+    gather_after_rbf(those);
+  } else {
+    gather_controls(those, 0, packet.rig.control_count);
+  }
   if (stages & kStagePsd) evaluate_psds_together(those);
   if (stages & kStageJoints) evaluate_joints_together(those);
 }
@@ -141,8 +147,11 @@ void evaluate_packet(const InstancePacket& packet, uint32_t stages) {
   }
   if ((stale & stages) == 0) return;
   run_packet(packet, stages & kStageMl, rig.ml_writes, evaluate_ml);
-  run_packet(packet, stages & kStageRbf, rig.rbf_writes, evaluate_rbf);
-  if (packet.scratch) run_together(packet, stages & (kStagePsd | kStageJoints));
+  bool after_rbf = false;
+  run_packet(packet, stages & kStageRbf, rig.rbf_writes, [&](const InstancePacket& those) {
+    after_rbf = evaluate_rbf(those) && those.count == packet.count;
+  });
+  if (packet.scratch) run_together(packet, stages & (kStagePsd | kStageJoints), after_rbf);
   run(packet, stages & kStagePsd, evaluate_psds);
   run(packet, stages & kStageJoints, evaluate_joints);
   run(packet, stages & kStageBlendShapes, evaluate_blend_shapes);

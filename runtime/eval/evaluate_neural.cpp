@@ -241,7 +241,7 @@ const float* controls_in_lanes(const InstancePacket& packet) {
       end = std::max<uint32_t>(end, control + 1u);
     }
   }
-  gather_controls(packet, end);
+  gather_controls(packet, 0, end);
   return packet.scratch->controls.data;
 }
 

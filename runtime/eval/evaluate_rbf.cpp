@@ -114,6 +114,15 @@ void solve_alone(const Rig& rig, Instance& instance, const Span<uint16_t>& solve
   for (uint16_t solver : solvers) drive_pose_controls(rig, solver, instance);
 }
 
+/// Behind the last control that a solver reads.
+uint32_t inputs_end(const RbfTable& rbf) {
+  uint32_t end = 0;
+  for (const auto* inputs : {&rbf.inputs, &rbf.rotations}) {
+    for (const uint16_t control : *inputs) end = std::max<uint32_t>(end, control + 1u);
+  }
+  return end;
+}
+
 /// Of solvers that do not read what others write.
 void solve_together(const InstancePacket& packet, const Span<uint16_t>& solvers) {
   const RbfTable& rbf = packet.rig.rbf;
@@ -123,11 +132,7 @@ void solve_together(const InstancePacket& packet, const Span<uint16_t>& solvers)
     rows[i] = packet.instances[i]->controls.data;
     results[i] = packet.instances[i]->rbf_results.data;
   }
-  uint32_t last = 0;
-  for (const auto* inputs : {&rbf.inputs, &rbf.rotations}) {
-    for (const uint16_t control : *inputs) last = std::max<uint32_t>(last, control);
-  }
-  gather_controls(packet, last + 1);
+  gather_controls(packet, 0, inputs_end(rbf));
   RbfBatchArgs args;
   args.solvers = rbf.plans.data;
   args.list = solvers.data;
@@ -158,13 +163,32 @@ void solve_together(const InstancePacket& packet, const Span<uint16_t>& solvers)
 
 }  // namespace
 
-void evaluate_rbf(const InstancePacket& packet) {
+bool evaluate_rbf(const InstancePacket& packet) {
   const Rig& rig = packet.rig;
-  if (rig.rbf_count == 0) return;  // without a pose control there is nothing to drive
+  if (rig.rbf_count == 0) return false;  // without a pose control there is nothing to drive
   const Span<uint16_t> solvers = rig.rbf.lod_solvers.at(packet.lod);
-  if (solvers.empty()) return;
-  if (rig.rbf.independent && fills_lanes(packet)) return solve_together(packet, solvers);
-  for (uint32_t i = 0; i < packet.count; ++i) solve_alone(rig, *packet.instances[i], solvers);
+  if (solvers.empty()) return false;
+  if (!rig.rbf.independent || !fills_lanes(packet)) {
+    for (uint32_t i = 0; i < packet.count; ++i) solve_alone(rig, *packet.instances[i], solvers);
+    return false;
+  }
+  solve_together(packet, solvers);
+  // Lanes without an instance would not be 0.
+  return packet.count == kBatchLanes &&
+         std::all_of(solvers.begin(), solvers.end(), [&](uint16_t solver) {
+           return rig.rbf.plans[solver].first_control != kNoFirstControl;
+         });
+}
+
+void gather_after_rbf(const InstancePacket& packet) {
+  const RbfTable& rbf = packet.rig.rbf;
+  uint32_t at = inputs_end(rbf);
+  for (const uint16_t solver : rbf.lod_solvers.at(packet.lod)) {
+    const RbfSolverPlan& plan = rbf.plans[solver];
+    if (plan.first_control > at) gather_controls(packet, at, plan.first_control);
+    at = std::max<uint32_t>(at, plan.first_control + plan.pose_count);
+  }
+  gather_controls(packet, at, packet.rig.control_count);
 }
 
 }  // namespace mien

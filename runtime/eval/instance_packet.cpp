@@ -127,10 +127,11 @@ void evaluate_shared_rows(const InstancePacket& packet, const SharedColumns& sha
 }  // namespace
 
 // Unused lanes are 0.
-void gather_controls(const InstancePacket& packet, uint32_t count) {
+void gather_controls(const InstancePacket& packet, uint32_t first, uint32_t end) {
   const float* from[kBatchLanes];
-  for (uint32_t i = 0; i < packet.count; ++i) from[i] = packet.instances[i]->controls.data;
-  packet.rig.kernels->gather_lanes(from, packet.count, count, packet.scratch->controls.data);
+  for (uint32_t i = 0; i < packet.count; ++i) from[i] = packet.instances[i]->controls.data + first;
+  packet.rig.kernels->gather_lanes(from, packet.count, end - first,
+                                   packet.scratch->controls.data + size_t{first} * kBatchLanes);
 }
 
 void evaluate_psds_together(const InstancePacket& packet) {

@@ -5,7 +5,7 @@
 //
 //     each instance:       what changed
 //     the packet:          ML: networks that many instances run, in lanes from control to control
-//     each instance:       RBF
+//     the packet:          RBF solvers that do not read each other's results, in lanes
 //     the packet (batch):  PSD; of the joint matrix the columns that many instances use; rotations
 //     each instance:       PSD, joints, blend shapes, animated maps: what is left
 #pragma once
@@ -63,9 +63,13 @@ inline bool fills_lanes(const InstancePacket& packet) {
 /// Runs the pipeline. `stages` as for evaluate().
 void evaluate_packet(const InstancePacket& packet, uint32_t stages);
 
-// For the pipeline: the PSD stage and the joint stage of all instances of a packet. gather_controls() of
-// all controls has to run first.
-void gather_controls(const InstancePacket& packet, uint32_t count);
+/// Fetches controls `first` ... `end` - 1 into the lanes of the scratch memory.
+void gather_controls(const InstancePacket& packet, uint32_t first, uint32_t end);
+/// The controls that evaluate_rbf() left out, if it returned true for the same instances.
+void gather_after_rbf(const InstancePacket& packet);
+
+// For the pipeline: the PSD stage and the joint stage of all instances of a packet. All controls have to be
+// in the lanes of the scratch memory.
 void evaluate_psds_together(const InstancePacket& packet);
 void evaluate_joints_together(const InstancePacket& packet);
 

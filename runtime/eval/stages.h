@@ -27,7 +27,8 @@ inline void note_written_psds(Instance& instance, Uses uses) {
 
 // Both evaluate all instances of the packet.
 void evaluate_ml(const InstancePacket& packet);
-void evaluate_rbf(const InstancePacket& packet);
+/// Returns whether the lanes of the scratch memory have the controls that it read and wrote.
+bool evaluate_rbf(const InstancePacket& packet);
 /// One solver, whether the LOD lists it or not.
 void solve_rbf(const Rig& rig, Instance& instance, uint32_t solver);
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <thread>
 
+#include "simd/kernels.h"
 #include "tests/support/counting_allocator.h"
 #include "tests/support/layer_rig.h"
 #include "tests/support/many_rigs.h"
@@ -133,6 +134,64 @@ TEST(Batch, OfALargeRig) {
         packet.evaluate(batch.get());
         packet.expect_equal();
       }
+    }
+  }
+}
+
+// In full packets, the results of RBF solvers stay in lanes for the joints, which read all controls here: also
+// those of solvers that a LOD leaves out, before and behind the others. At a new LOD all instances are
+// evaluated; then some have not changed.
+TEST(Batch, OfSolversInFullPackets) {
+  Random random = Random::from_seed(12, 2);
+  LayerRig layers;
+  PlainRig& plain = layers.base;
+  plain.lod_count = 3;
+  plain.raw_count = 4;
+  plain.joint_count = 2;
+  layers.ml_count = 2;
+  layers.rbf_count = 8;
+  PlainNetworkLayer layer;
+  for (uint32_t i = 0; i < 8; ++i)
+    layer.weights.push_back(static_cast<float>(random.between(-1, 1)));
+  layer.biases = {0.25f, 1};
+  layers.networks = {{{0, 1, 2, 3}, {layers.first_ml(), 5}, {layer}}};
+  for (uint16_t s = 0; s < 2; ++s) {
+    PlainRbfSolver solver;
+    solver.inputs = {0, 1, 2};
+    for (uint16_t p = 0; p < 4; ++p) {
+      const auto pose = static_cast<uint16_t>(4 * s + p);
+      solver.poses.push_back(pose);
+      for (uint32_t i = 0; i < 3; ++i) {
+        solver.targets.push_back(static_cast<float>(random.between(0, 1)));
+      }
+      layers.poses.push_back({1, {}, {static_cast<uint16_t>(layers.first_rbf() + pose)}, {1}});
+    }
+    layers.solvers.push_back(solver);
+  }
+  layers.lod_solvers = {{0, 1}, {1}, {0}};
+  PlainGroup group;
+  group.lods = {18, 18, 18};
+  for (uint16_t c = 0; c < layers.control_count(); ++c) group.inputs.push_back(c);
+  for (uint16_t row = 0; row < 18; ++row) {
+    group.outputs.push_back(row);
+    for (size_t c = 0; c < group.inputs.size(); ++c) {
+      group.values.push_back(static_cast<float>(random.between(-1, 1)));
+    }
+  }
+  plain.groups = {group};
+  const LayerFile file(layers);
+  for (uint32_t isa : present_isas()) {
+    MienRigDesc desc = sized<MienRigDesc>();
+    desc.isa = isa;
+    InstancePacket packet(file.dna.get(), desc, 2 * kBatchLanes);
+    const BatchHandle batch = create_batch(packet.rig, 2 * kBatchLanes);
+    for (uint32_t lod : {0, 0, 1, 1, 2, 0}) {
+      SCOPED_TRACE(std::string(mien_isa_name(isa)) + ", LOD " + std::to_string(lod));
+      packet.draw(random, 100, false, 1);
+      std::fill(packet.lods.begin(), packet.lods.end(), lod);
+      if (random.below(3) == 0) packet.evaluate(batch.get(), nullptr, MIEN_STAGE_RBF);
+      packet.evaluate(batch.get());
+      packet.expect_equal();
     }
   }
 }

@@ -551,7 +551,7 @@ TEST(RbfSolvers, BatchHasTheBitsOfOneByOne) {
       std::vector<float*> rows, out;
       for (auto& row : together) rows.push_back(row.data());
       for (auto& row : results) out.push_back(row.data());
-      Aligned lanes(size_t{kControls} * kBatchLanes), parts(4 * kBlockLanes * kBatchLanes),
+      Aligned lanes(size_t{control} * kBatchLanes), parts(4 * kBlockLanes * kBatchLanes),
           weights(kPoses * kBatchLanes), mixed(kPoses * kBatchLanes);
       table->gather_lanes(rows.data(), lane_count, kControls, lanes.data);
       for (uint32_t c = 0; c < kControls; ++c) {
@@ -592,7 +592,12 @@ TEST(RbfSolvers, BatchHasTheBitsOfOneByOne) {
         EXPECT_EQ(std::memcmp(alone[k].data(), expected_controls[k].data(), control * 4), 0) << k;
         ASSERT_EQ(std::memcmp(alone[k].data(), together[k].data(), control * 4), 0) << k;
         for (const RbfSolverPlan& plan : plans) {
-          if (plan.first_control != kNoFirstControl) continue;
+          if (plan.first_control != kNoFirstControl) {
+            for (uint32_t c = plan.first_control; c < plan.first_control + plan.pose_count; ++c) {
+              ASSERT_EQ(std::memcmp(&lanes.data[c * kBatchLanes + k], &together[k][c], 4), 0);
+            }
+            continue;
+          }
           ASSERT_EQ(std::memcmp(&results_alone[k][plan.first_lane], &results[k][plan.first_lane],
                                 plan.pose_count * sizeof(float)),
                     0)
