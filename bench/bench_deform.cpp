@@ -171,12 +171,11 @@ void deform(benchmark::State& state, uint32_t isa, uint32_t normals, uint32_t ch
   count_bytes(state, bytes_of(normals, channels == 100));
 }
 
-void frame(benchmark::State& state, uint32_t isa, uint32_t channels,
-           const MienParallelFor* parallel) {
+void frame(benchmark::State& state, uint32_t isa, uint32_t channels) {
   Character character(isa, 1, channels);
   for (auto _ : state) {
     character.update();
-    require(mien_deformer_instance_deform(character.pose, 0, MIEN_NORMALS_RECOMPUTED, parallel));
+    require(mien_deformer_instance_deform(character.pose, 0, MIEN_NORMALS_RECOMPUTED, nullptr));
   }
   MienMesh mesh = sized<MienMesh>();
   require(mien_deformer_mesh(deformer_for(isa), 0, &mesh));
@@ -233,10 +232,35 @@ void packet(benchmark::State& state, uint32_t isa, bool together) {
   count_vertices(state, kCharacters);
 }
 
-void threaded_frame(benchmark::State& state, uint32_t isa, unsigned threads) {
-  ThreadPool pool(threads - 1);
-  const MienParallelFor parallel = pool.interface();
-  frame(state, isa, 100, &parallel);
+/// A frame of one head.
+void head_on_threads(benchmark::State& state, uint32_t isa) {
+  Character character(isa, 1, 100);
+  compare_two_threads(state, [&](const MienParallelFor* threads) {
+    character.update();
+    require(mien_deformer_instance_deform(character.pose, 0, MIEN_NORMALS_RECOMPUTED, threads));
+  });
+}
+
+/// Joints of all characters, each a task of the host's, then their meshes in one call.
+void pose_deform_on_threads(benchmark::State& state, uint32_t isa, uint32_t count) {
+  std::vector<std::unique_ptr<Character>> characters;
+  std::vector<MienDeformerInstance*> poses;
+  for (uint32_t i = 0; i < count; ++i) {
+    characters.push_back(std::make_unique<Character>(isa, i, 10));
+    poses.push_back(characters.back()->pose);
+  }
+  const auto update = [](void* context, uint32_t i) {
+    (*static_cast<std::vector<std::unique_ptr<Character>>*>(context))[i]->update();
+  };
+  compare_two_threads(state, [&](const MienParallelFor* threads) {
+    if (threads) {
+      threads->run(threads->user, count, update, &characters);
+    } else {
+      for (uint32_t i = 0; i < count; ++i) update(&characters, i);
+    }
+    require(mien_deformer_instance_deform_batch(poses.data(), poses.size(), 0, MIEN_NORMALS_SKINNED,
+                                                threads));
+  });
 }
 
 int registered = [] {
@@ -253,9 +277,8 @@ int registered = [] {
     add("skin_and_normals", deform, isa, MIEN_NORMALS_SKINNED, 0u);
     add("skin_and_recomputed", deform, isa, MIEN_NORMALS_RECOMPUTED, 0u);
     add("targets_and_skin", deform, isa, MIEN_NORMALS_NONE, 100u);
-    add("frame", frame, isa, 100u, nullptr);
-    add("frame_few_channels", frame, isa, 8u, nullptr);
-    add("frame_two_threads", threaded_frame, isa, 2u);
+    add("frame", frame, isa, 100u);
+    add("frame_few_channels", frame, isa, 8u);
     add("targets_skin_and_normals", deform, isa, MIEN_NORMALS_SKINNED, 100u);
     add("vertices_float", vertices, isa, false, false);
     add("vertices_packed", vertices, isa, true, false);
@@ -263,6 +286,13 @@ int registered = [] {
     add("vertices_tangents_packed", vertices, isa, true, true);
     add("eight_characters_one_by_one", packet, isa, false);
     add("eight_characters_together", packet, isa, true);
+    const auto compare = [&](const std::string& name, auto&&... arguments) {
+      benchmark::RegisterBenchmark((name + "/" + mien_isa_name(isa)).c_str(), arguments...)
+          ->Unit(benchmark::kMicrosecond)
+          ->UseManualTime();
+    };
+    compare("two_threads_head", head_on_threads, isa);
+    compare("two_threads_pose_deform_64", pose_deform_on_threads, isa, 64u);
   }
   return 0;
 }();

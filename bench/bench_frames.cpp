@@ -6,11 +6,10 @@
 // Counters: `frame` is the time of a frame in seconds (an iteration is 64 frames), `of_full` that
 // time by the one of a full evaluation in the same run, `moving` the number of raw controls that
 // change from frame to frame, `touched` the share of the joint rows whose groups read a control or
-// a corrective that changes, `per_character` a packet's time by its number, `speedup` how much faster a
-// packet is on two threads that wait for it, `speedup_asleep` if one of them sleeps.
+// a corrective that changes, `per_character` a packet's time by its number, `speedup` and
+// `speedup_asleep` as compare_two_threads() says.
 #include <algorithm>
 #include <cctype>
-#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <memory>
@@ -236,44 +235,10 @@ struct Characters {
   }
 };
 
-/// In one call on two threads. `speedup` is the time of the same call on one by that, `speedup_asleep` with a
-/// thread that must be woken first: medians of calls that take turns. They tell something only while
-/// nothing else runs.
+/// In one call on two threads.
 void packet_on_threads(benchmark::State& state, uint32_t isa, uint32_t count, double activity) {
-  // The first call of a turn finds the results of half of the characters in the cache of the other
-  // processor, where the turn before left them.
-  constexpr int kTurn = 4;
   Characters characters(isa, count, activity, 2);
-  ThreadPool pool(1);
-  const MienParallelFor parallel = pool.interface();
-  const auto time_of = [&characters](const MienParallelFor* threads) {
-    const auto start = std::chrono::steady_clock::now();
-    characters.evaluate(threads);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
-  std::vector<double> one, two, asleep;
-  while (state.KeepRunningBatch(kTurn)) {
-    for (int i = 0; i < kTurn; ++i) {
-      const double seconds = time_of(nullptr);
-      if (i != 0) one.push_back(seconds);
-    }
-    pool.wait_until_asleep();
-    asleep.push_back(time_of(&parallel));
-    pool.rouse();
-    double turn = 0;
-    for (int i = 0; i < kTurn; ++i) {
-      const double seconds = time_of(&parallel);
-      if (i != 0) two.push_back(seconds);
-      turn += seconds;
-    }
-    state.SetIterationTime(turn);
-  }
-  const auto median = [](std::vector<double>& times) {
-    std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
-    return times[times.size() / 2];
-  };
-  state.counters["speedup"] = median(one) / median(two);
-  state.counters["speedup_asleep"] = median(one) / median(asleep);
+  compare_two_threads(state, [&](const MienParallelFor* threads) { characters.evaluate(threads); });
 }
 
 /// In one call or in one for each.

@@ -3,7 +3,11 @@
 // lock, and look for more for a while before they sleep.
 #pragma once
 
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -117,5 +121,45 @@ class ThreadPool {
   std::atomic<uint32_t> sleepers_{0};
   bool over_ = false;
 };
+
+/// Times work(threads) on two threads. Counters: `speedup` is its time on one thread by that,
+/// `speedup_asleep` with a thread that must be woken first: medians of calls that take turns. They tell
+/// something only while nothing else runs. The clock is set by hand: ->UseManualTime().
+template <class Work>
+void compare_two_threads(benchmark::State& state, Work&& work) {
+  // The first call of a turn finds results in the cache of the other processor, where the turn before
+  // left them.
+  constexpr int kTurn = 4;
+  ThreadPool pool(1);
+  const MienParallelFor parallel = pool.interface();
+  const auto time_of = [&work](const MienParallelFor* threads) {
+    const auto start = std::chrono::steady_clock::now();
+    work(threads);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  std::vector<double> one, two, asleep;
+  while (state.KeepRunningBatch(kTurn)) {
+    for (int i = 0; i < kTurn; ++i) {
+      const double seconds = time_of(nullptr);
+      if (i != 0) one.push_back(seconds);
+    }
+    pool.wait_until_asleep();
+    asleep.push_back(time_of(&parallel));
+    pool.rouse();
+    double turn = 0;
+    for (int i = 0; i < kTurn; ++i) {
+      const double seconds = time_of(&parallel);
+      if (i != 0) two.push_back(seconds);
+      turn += seconds;
+    }
+    state.SetIterationTime(turn);
+  }
+  const auto median = [](std::vector<double>& times) {
+    std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
+    return times[times.size() / 2];
+  };
+  state.counters["speedup"] = median(one) / median(two);
+  state.counters["speedup_asleep"] = median(one) / median(asleep);
+}
 
 }  // namespace mien::bench
