@@ -209,6 +209,15 @@ void vertices(benchmark::State& state, uint32_t isa, bool packed, bool tangents)
                                                   nullptr));
   }
   count_vertices(state);
+  const DeformMesh& arrays = capi::object(deformer_for(MIEN_ISA_SCALAR))->meshes[0];
+  const auto size = [](const auto& span) {
+    return static_cast<double>(span.count * sizeof(span[0]));
+  };
+  double bytes = bytes_of(MIEN_NORMALS_SKINNED, true) + static_cast<double>(memory.size()) +
+                 size(arrays.vertex_position_indices) + size(arrays.positions) +
+                 size(arrays.normals);  // deformed ones, which are as large, read again
+  if (tangents) bytes += 3 * size(arrays.tangents);  // neutral; skinned ones written and read
+  count_bytes(state, bytes);
 }
 
 /// Eight characters: one after the other, or together.
