@@ -90,10 +90,9 @@ struct MixBytes : MixOutput<MixBytes> {
   }
   template <class T, class Otherwise>
   void row(const char*, Span<const T> numbers, Otherwise) {
-    value("", !numbers.empty());
-    for (size_t i = 0; i < map.lane_of.count && !numbers.empty(); ++i) {
-      value("", numbers[map.lane_of[i]]);
-    }
+    const bool there = !numbers.empty() && map.lane_of.count != 0;  // else it is as if left out
+    value("", there);
+    for (size_t i = 0; there && i < map.lane_of.count; ++i) value("", numbers[map.lane_of[i]]);
   }
 };
 
