@@ -399,7 +399,7 @@ class Bench(ProgramTest):
 
     def test_json(self):
         result = self.json("bench", path("tiny.dna"), "--quick", "--json", "--isa", "all")
-        self.assertEqual(list(result), ["rig", "cpu", "compiler", "csr", "rows", "frames"])
+        self.assertEqual(list(result), ["rig", "cpu", "compiler", "csr", "rows", "stages", "frames"])
         lods = self.json("info", path("tiny.dna"), "--json")["lod_count"]
         self.assertEqual([row["lod"] for row in result["csr"]], list(range(lods)))
         for row in result["csr"]:
@@ -434,6 +434,25 @@ class Bench(ProgramTest):
             self.assertEqual(max(by_activity), by_activity[-1])
         self.assertGreater(max(max(of_all) for of_all in touched.values()), 0)
 
+    def test_stages_that_the_rig_has(self):
+        last = ["joints_ns", "blend_shapes_ns", "animated_maps_ns", "evaluate_ns"]
+        make("gen", "-o", path("body_to_time.dna"), "--preset", "body")
+        for name, first in (("tiny.dna", ["psd_ns"]), ("body_to_time.dna", ["rbf_ns"])):
+            result = self.json("bench", path(name), "--quick", "--json", "--isa", "all", "--lods", "0")
+            isas = list(dict.fromkeys(row["isa"] for row in result["rows"]))
+            self.assertEqual([(row["isa"], row["characters"]) for row in result["stages"]],
+                             [(isa, count) for isa in isas for count in (1, 64)])
+            for row in result["stages"]:
+                stages = [key for key in row if key.endswith("_ns")]
+                self.assertEqual(stages[:1] + stages[-1:], first + last[-1:])
+                self.assertIn("joints_ns", stages)
+                for stage in stages:
+                    self.assertGreater(row[stage], 0)
+                self.assertLess(row["joints_ns"], 2 * row["evaluate_ns"])
+        text = self.ok("bench", path("tiny.dna"), "--quick", "--isa", "all").stdout.decode()
+        self.assertIn("Stages at LOD 0", text)
+        self.assertRegex(text, r"\nscalar( +[0-9.]+)+ +1\.0( +[0-9.]+)+ +1\.0\n")
+
     def test_frames_of_a_file_with_geometry(self):
         result = self.json("bench", path("tiny.dna"), "--quick", "--json", "--isa", "all")
         isas = list(dict.fromkeys(row["isa"] for row in result["rows"]))
@@ -463,7 +482,7 @@ class Bench(ProgramTest):
     def test_text(self):
         text = self.ok("bench", path("tiny.dna"), "--quick", "--lods", "0", "--isa", "scalar").stdout.decode()
         self.assertIn("x CSR", text)
-        self.assertEqual(len([line for line in text.splitlines() if line.startswith("scalar")]), 7)
+        self.assertEqual(len([line for line in text.splitlines() if line.startswith("scalar")]), 8)
         self.fails(USAGE, "bench", path("tiny.dna"), "--layers", "definition")
 
 

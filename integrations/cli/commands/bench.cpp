@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// mien bench: evaluation times per LOD and instruction set, compared with a plain sparse matrix, and
-// times of whole frames.
+// mien bench: evaluation times per LOD and instruction set, compared with a plain sparse matrix, times
+// of stages, and of whole frames.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "integrations/cli/commands/baked_rig.h"
 #include "integrations/cli/commands/bench_frame.h"
 #include "integrations/cli/commands/bench_measurement.h"
+#include "integrations/cli/commands/bench_stage.h"
 #include "integrations/cli/io/dna_fields.h"
 #include "integrations/cli/io/json_writer.h"
 #include "integrations/cli/io/text.h"
@@ -47,7 +49,8 @@ std::string compiler_name() {
 
 using FrameRows = std::vector<FrameRow>;
 
-void write_json(const Measurement& measured, const FrameRows& frames, const std::string& name) {
+void write_json(const Measurement& measured, const StageTable& stages, const FrameRows& frames,
+                const std::string& name) {
   Output output("-");
   JsonWriter json(output);
   using Layout = JsonWriter::Layout;
@@ -85,6 +88,23 @@ void write_json(const Measurement& measured, const FrameRows& frames, const std:
     json.key("joints_ns");
     json.fixed(row.joints_ns, 1);
     json.member("bytes_touched", row.bytes_touched);
+    json.end_object();
+  }
+  json.end_array();
+  json.key("stages");
+  json.begin_array(Layout::kLines);
+  for (const StageRow& row : stages.rows) {
+    json.begin_object();
+    json.member("isa", mien_isa_name(row.engine->info.isa));
+    json.member("storage", row.engine->info.storage == MIEN_STORAGE_16_BIT ? "f16" : "f32");
+    json.member("lod", stages.lod);
+    json.key("activity");
+    json.shortest(kActivities[kStageActivity]);
+    json.member("characters", row.characters);
+    for (size_t s = 0; s < row.ns.size(); ++s) {
+      json.key(stages.stages[s].member);
+      json.fixed(row.ns[s], 1);
+    }
     json.end_object();
   }
   json.end_array();
@@ -126,6 +146,46 @@ std::string row_name(const MienRigInfo& info) {
   return mien_isa_name(info.isa) + std::string(half ? ", 16 bits" : "");
 }
 
+/// Both numbers of characters of an instruction set in one line.
+void write_stages(const StageTable& table, Output& output, bool colors) {
+  output.write(
+      "\nStages at LOD " + std::to_string(table.lod) + ", " +
+      std::to_string(std::lround(100 * kActivities[kStageActivity])) +
+      " % active, microseconds per character. joints: joint groups, then twists and\nswings, then "
+      "joints of networks. x scalar: the scalar time of all stages / this one, in the same "
+      "run.\n\n");
+  const size_t width = 11 * table.stages.size() + 10;
+  char line[64];
+  std::string head(15, ' '), columns;
+  for (const char* title : {"1 character", "64 characters"}) {
+    const std::string text = title;
+    head += std::string(width - text.size() - 12, ' ') + text + std::string(12, ' ');
+  }
+  for (const Stage& stage : table.stages) {
+    std::snprintf(line, sizeof(line), " %10s", stage.name);
+    columns += line;
+  }
+  columns += "  x scalar";
+  output.write(paint(head.substr(0, head.find_last_not_of(' ') + 1), Style::kBold, colors) + "\n");
+  output.write(paint(std::string(15, ' ') + columns + columns, Style::kBold, colors) + "\n");
+  const bool has_scalar = table.rows[0].engine->info.isa == MIEN_ISA_SCALAR;
+  for (size_t r = 0; r < table.rows.size(); ++r) {
+    const StageRow& row = table.rows[r];
+    std::string text;
+    if (r % 2 == 0) {
+      std::snprintf(line, sizeof(line), "%-15s", row_name(row.engine->info).c_str());
+      text = line;
+    }
+    for (const double ns : row.ns) {
+      std::snprintf(line, sizeof(line), " %10.2f", ns / 1000);
+      text += line;
+    }
+    const double ratio = table.rows[r % 2].ns.back() / std::max(row.ns.back(), 1.0);
+    std::snprintf(line, sizeof(line), has_scalar ? " %9.1f" : "         -", ratio);
+    output.write(text + line + (r % 2 == 1 ? "\n" : ""));
+  }
+}
+
 void write_frames(const FrameRows& frames, Output& output, bool colors) {
   if (frames.empty()) return;
   output.write(
@@ -159,8 +219,8 @@ void write_frames(const FrameRows& frames, Output& output, bool colors) {
   }
 }
 
-void write_text(const Measurement& measured, const FrameRows& frames, const std::string& name,
-                const Session& session) {
+void write_text(const Measurement& measured, const StageTable& stages, const FrameRows& frames,
+                const std::string& name, const Session& session) {
   Output output("-");
   const bool colors = session.terminal.out_colors;
   const size_t samples = measured.rows.empty() ? 0 : measured.rows[0].joints_samples.size();
@@ -211,6 +271,7 @@ void write_text(const Measurement& measured, const FrameRows& frames, const std:
                   row.lod, 100 * kActivities[row.activity]);
     output.write(line + times_text(row, csr_ns_at(row.lod)) + "\n");
   }
+  write_stages(stages, output, colors);
   write_frames(frames, output, colors);
   output.commit();
 }
@@ -263,16 +324,17 @@ void run(BenchOptions options, const Session& session) {
   Measurement measured = prepare_measurement(source, descs, choose_lods);
   const BenchPlan& plan = options.quick ? kQuickPlan : kFullPlan;
   measure(measured, plan, session);
+  const BenchPlan short_plan = {plan.min_rounds, plan.max_rounds, plan.seconds / 4};
+  const StageTable stages = measure_stages(measured, short_plan, session);
   FrameRows frames;
   if (dna && (desc.layers & MIEN_LAYER_GEOMETRY) != 0) {
-    frames =
-        measure_frames(*dna, descs, {plan.min_rounds, plan.max_rounds, plan.seconds / 4}, session);
+    frames = measure_frames(*dna, descs, short_plan, session);
   }
   const std::string name = dna ? read_string(*dna, "desc.name") : source.shown;
   if (options.json) {
-    write_json(measured, frames, name);
+    write_json(measured, stages, frames, name);
   } else {
-    write_text(measured, frames, name, session);
+    write_text(measured, stages, frames, name, session);
   }
 }
 
@@ -296,6 +358,7 @@ Command add_bench_command(CLI::App& app, const Session& session) {
       "of\n"
       "the LOD in compressed sparse rows, one scalar dot product per row, measured in the same "
       "run.\n"
+      "Then the stages of an evaluation are measured one by one, at 25 % activity.\n"
       "For a DNA file with geometry, also measures whole frames: evaluation, joint matrices, "
       "meshes.\n\n"
       "Examples:\n"

@@ -88,23 +88,13 @@ void prepare_csr(Measurement& made, const RigFile& file, std::mt19937& random) {
   for (float& x : made.csr_x) x = static_cast<float>(random() >> 8) / 16777216.0f;
 }
 
-void set_controls(const Engine& engine, uint32_t instances, const ControlSets& controls,
-                  bool shared, size_t from) {
-  for (uint32_t c = 0; c < instances; ++c) {
-    const size_t sets = std::max(instances, kInstances);
-    const float* source = controls.of(shared, (c + from) % sets);
-    std::copy(source, source + controls.count, engine.raw[c].data);
-  }
-}
-
 /// Bytes of the joint matrix that the evaluation of one instance reads: the mean over kInstances.
 uint64_t bytes_touched(const Engine& engine, uint32_t lod, const ControlSets& controls,
                        bool shared) {
   set_controls(engine, kInstances, controls, shared, 0);
-  const std::vector<uint32_t> lods(kInstances, lod);
-  check(mien_rig_evaluate_batch(engine.rig.get(), engine.batch.get(), engine.handles.data(),
-                                lods.data(), kInstances, MIEN_STAGE_ALL, nullptr),
-        nullptr, "cannot evaluate", "");
+  Evaluator evaluate(engine, lod, kInstances);
+  evaluate(MIEN_STAGE_ALL);
+  evaluate.check_status();
   uint64_t sum = 0;
   for (uint32_t c = 0; c < kInstances; ++c) {
     auto statistics = sized<MienInstanceStatistics>();
@@ -116,23 +106,14 @@ uint64_t bytes_touched(const Engine& engine, uint32_t lod, const ControlSets& co
 }
 
 void sample_row(BenchRow& row, const ControlSets& controls, size_t number) {
-  const Engine& engine = *row.engine;
-  const MienRig* rig = engine.rig.get();
   // A single instance has other controls in every sample.
-  set_controls(engine, row.instances, controls, row.shared, number);
-  MienStatus failed = MIEN_OK;
-  const std::vector<uint32_t> lods(row.instances, row.lod);
-  const auto evaluate = [&](uint32_t stages) {
-    failed |= row.instances == 1
-                  ? mien_rig_evaluate_stages(rig, engine.handles[0], row.lod, stages)
-                  : mien_rig_evaluate_batch(rig, engine.batch.get(), engine.handles.data(),
-                                            lods.data(), row.instances, stages, nullptr);
-  };
+  set_controls(*row.engine, row.instances, controls, row.shared, number);
+  Evaluator evaluate(*row.engine, row.lod, row.instances);
   const auto time = [&](uint32_t stages) { return time_per_pass([&] { evaluate(stages); }); };
   evaluate(MIEN_STAGE_ALL);  // resets what another LOD has written
   const double evaluate_ns = time(MIEN_STAGE_ALL);
   const double joints_ns = time(MIEN_STAGE_JOINTS);
-  if (failed != MIEN_OK) check(failed, nullptr, "cannot evaluate", "");
+  evaluate.check_status();
   row.evaluate_samples.push_back(evaluate_ns / row.instances);
   row.joints_samples.push_back(joints_ns / row.instances);
 }
@@ -147,6 +128,27 @@ void sample_csr(CsrRow& row, Measurement& measurement) {
 }
 
 }  // namespace
+
+void set_controls(const Engine& engine, uint32_t instances, const ControlSets& controls,
+                  bool shared, size_t from) {
+  for (uint32_t c = 0; c < instances; ++c) {
+    const size_t sets = std::max(instances, kInstances);
+    const float* source = controls.of(shared, (c + from) % sets);
+    std::copy(source, source + controls.count, engine.raw[c].data);
+  }
+}
+
+void Evaluator::operator()(uint32_t stages) {
+  const MienRig* rig = engine_.rig.get();
+  status_ |= lods_.size() == 1 ? mien_rig_evaluate_stages(rig, engine_.handles[0], lods_[0], stages)
+                               : mien_rig_evaluate_batch(
+                                     rig, engine_.batch.get(), engine_.handles.data(), lods_.data(),
+                                     static_cast<uint32_t>(lods_.size()), stages, nullptr);
+}
+
+void Evaluator::check_status() const {
+  if (status_ != MIEN_OK) check(status_, nullptr, "cannot evaluate", "");
+}
 
 Measurement prepare_measurement(const BenchSource& source, const std::vector<MienRigDesc>& descs,
                                 const std::function<std::vector<uint32_t>(uint32_t)>& choose_lods) {

@@ -65,6 +65,26 @@ struct Engine {
   Batch batch;
 };
 
+/// Gives the first instances their controls: set `from` and those after it, in a circle.
+void set_controls(const Engine& engine, uint32_t instances, const ControlSets& controls,
+                  bool shared, size_t from);
+
+/// Evaluates MIEN_STAGE_... of the first instances at one LOD: several as a batch.
+class Evaluator {
+ public:
+  Evaluator(const Engine& engine, uint32_t lod, uint32_t instances)
+      : engine_(engine), lods_(instances, lod) {}
+
+  void operator()(uint32_t stages);
+  /// Ends the program if an evaluation failed.
+  void check_status() const;
+
+ private:
+  const Engine& engine_;
+  const std::vector<uint32_t> lods_;
+  MienStatus status_ = MIEN_OK;
+};
+
 /// One row of the results. Times are for one instance.
 struct BenchRow {
   const Engine* engine;
