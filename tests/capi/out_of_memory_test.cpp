@@ -525,7 +525,7 @@ TEST_F(OutOfMemory, FewRequestsForALargeRig) {
   EXPECT_LE(create_requests, 2u) << "the rig, and scratch memory";
   EXPECT_LE(open_peak, file.size());
   EXPECT_LE(create_peak, file.size());
-  EXPECT_LE(create_peak, info.rig_bytes + info.rig_bytes / 4) << "scratch memory";
+  EXPECT_LE(create_peak, info.rig_bytes + info.rig_bytes * 3 / 10) << "scratch memory";
   mien_dna_close(dna);
   mien_rig_destroy(rig);
   EXPECT_TRUE(counter.clean()) << counter.first_wrong;
