@@ -448,7 +448,6 @@ class Bench(ProgramTest):
                 self.assertIn("joints_ns", stages)
                 for stage in stages:
                     self.assertGreater(row[stage], 0)
-                self.assertLess(row["joints_ns"], 2 * row["evaluate_ns"])
         text = self.ok("bench", path("tiny.dna"), "--quick", "--isa", "all").stdout.decode()
         self.assertIn("Stages at LOD 0", text)
         self.assertRegex(text, r"\nscalar( +[0-9.]+)+ +1\.0( +[0-9.]+)+ +1\.0\n")
