@@ -201,7 +201,7 @@ void write_frames(const FrameRows& frames, Output& output, bool colors) {
   output.write(paint(line, Style::kBold, colors));
   std::snprintf(line, sizeof(line), "%-15s", "");
   output.write(paint(line + std::string(columns) + columns, Style::kBold, colors) + "\n");
-  constexpr size_t kColumns = std::size(kFrameCharacters);
+  constexpr size_t kColumns = std::size(kCharacters);
   const bool has_scalar = frames[0].info.isa == MIEN_ISA_SCALAR;
   for (size_t i = 0; i < frames.size(); i += kColumns) {
     std::snprintf(line, sizeof(line), "%-15s", row_name(frames[i].info).c_str());

@@ -115,7 +115,7 @@ std::vector<FrameRow> measure_frames(const RigFile& file, const std::vector<Mien
   if (!has_geometry(file)) return {};
   std::vector<FramePacket> packets;
   for (const MienRigDesc& desc : descs) packets.push_back(make_packet(file, desc));
-  std::vector<FrameSamples> samples(packets.size() * std::size(kFrameCharacters));
+  std::vector<FrameSamples> samples(packets.size() * std::size(kCharacters));
   Progress progress(session, "measuring frames", 1);
   const double start = work_ns();
   for (size_t round = 0; round < plan.max_rounds; ++round) {
@@ -124,13 +124,13 @@ std::vector<FrameRow> measure_frames(const RigFile& file, const std::vector<Mien
     progress.at_share(std::min(share, 1.0));
     FrameSamples* at = samples.data();
     for (const FramePacket& packet : packets) {
-      for (const uint32_t characters : kFrameCharacters) sample_frame(packet, characters, *at++);
+      for (const uint32_t characters : kCharacters) sample_frame(packet, characters, *at++);
     }
   }
   std::vector<FrameRow> rows;
   FrameSamples* at = samples.data();
   for (const FramePacket& packet : packets) {
-    for (const uint32_t characters : kFrameCharacters) {
+    for (const uint32_t characters : kCharacters) {
       rows.push_back({rig_info(packet.rig.get()), characters, median(at->evaluate),
                       median(at->pose), median(at->deform)});
       ++at;

@@ -8,8 +8,6 @@
 
 namespace mien::cli {
 
-constexpr uint32_t kFrameCharacters[] = {1, kInstances};
-
 /// Times are for one character.
 struct FrameRow {
   MienRigInfo info;

@@ -23,6 +23,8 @@ constexpr double kActivities[] = {0.05, 0.08, 0.25, 0.5, 1.0};
 constexpr size_t kActivityCount = std::size(kActivities);
 
 constexpr uint32_t kInstances = 64;
+/// The rows of stages and of frames.
+constexpr uint32_t kCharacters[] = {1, kInstances};
 
 // Many instances of LOD 0 at one activity.
 constexpr uint32_t kManyInstances = 512;

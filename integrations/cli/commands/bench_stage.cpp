@@ -32,7 +32,7 @@ StageTable measure_stages(const Measurement& measurement, const BenchPlan& plan,
   table.lod = measurement.lods[0];
   table.stages = stages_of(measurement.engines[0].rig.get());
   for (const Engine& engine : measurement.engines) {
-    for (const uint32_t characters : {1u, kInstances}) {
+    for (const uint32_t characters : kCharacters) {
       table.rows.push_back({&engine, characters, std::vector<double>(table.stages.size())});
     }
   }
