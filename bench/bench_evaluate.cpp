@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Evaluation by instruction set, LOD and share of active controls; stages by themselves; and
-// yardsticks, so that numbers of two machines compare: the joint matrix in compressed rows, and RBF
-// solvers as anyone would write them. For the stages of a body, or of a head with networks:
+// Evaluation by instruction set, LOD and share of active controls, with controls that stay and with frames
+// that have nothing in common ("changing"); stages by themselves; and yardsticks, so that numbers of two
+// machines compare: the joint matrix in compressed rows, and RBF solvers as anyone would write them. For the
+// stages of a body, or of a head with networks:
 //
 //     MIEN_BENCH_RIG=body.dna build/release/bench/bench_evaluate --benchmark_filter='/lod0/25%'
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -26,8 +28,9 @@ const MienRig* rig_for(uint32_t isa) {
 }
 
 /// The first of a random order of the controls are active: values in (0, 1].
-void activate(MienMutableFloatView raw, int percent) {
-  std::mt19937 random(7);
+void activate(MienMutableFloatView raw, int percent, uint32_t seed = 7) {
+  std::fill(raw.data, raw.data + raw.count, 0.0f);
+  std::mt19937 random(seed);
   std::vector<size_t> order(raw.count);
   for (size_t i = 0; i < raw.count; ++i) order[i] = i;
   for (size_t i = 0; i + 1 < raw.count; ++i) {
@@ -73,6 +76,32 @@ void evaluate(benchmark::State& state, uint32_t isa, uint32_t lod, int percent, 
   MienRigStatistics statistics = sized<MienRigStatistics>();
   require(mien_rig_statistics(rig, lod, &statistics));
   state.counters["matrix_bytes"] = static_cast<double>(statistics.joint_byte_count);
+  mien_instance_destroy(instance);
+}
+
+/// Frames that have nothing in common, in turn: what a branch predictor learns from one is of little use for
+/// the next.
+constexpr uint32_t kChangingFrames = 64;
+
+void evaluate_changing(benchmark::State& state, uint32_t isa, uint32_t lod, int percent) {
+  const MienRig* rig = rig_for(isa);
+  MienInstance* instance = nullptr;
+  MienError error = sized<MienError>();
+  require(mien_instance_create(rig, nullptr, &instance, &error), error);
+  MienMutableFloatView raw = {};
+  require(mien_instance_raw_controls(instance, &raw));
+  std::vector<float> frames;
+  for (uint32_t f = 0; f < kChangingFrames; ++f) {
+    activate(raw, percent, f);
+    frames.insert(frames.end(), raw.data, raw.data + raw.count);
+  }
+  uint32_t frame = 0;
+  for (auto _ : state) {
+    std::copy_n(frames.data() + frame * raw.count, raw.count, raw.data);
+    frame = (frame + 1) % kChangingFrames;
+    require(mien_rig_evaluate(rig, instance, lod));
+    benchmark::ClobberMemory();
+  }
   mien_instance_destroy(instance);
 }
 
@@ -157,6 +186,11 @@ const int kRegistered = [] {
     if (!mien_isa_available(isa)) continue;
     for (uint32_t lod = 0; lod < info.lod_count; ++lod) {
       for (int percent : {5, 25, 50, 100}) {
+        if (lod == 0) {
+          const std::string name = std::string("changing/") + mien_isa_name(isa) + "/lod0/" +
+                                   std::to_string(percent) + "%";
+          benchmark::RegisterBenchmark(name.c_str(), evaluate_changing, isa, lod, percent);
+        }
         for (const auto& stage : stages) {
           // The stages by themselves where they weigh most.
           if (stage.stages != MIEN_STAGE_ALL && (lod != 0 || percent != 25)) continue;

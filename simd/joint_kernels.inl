@@ -171,38 +171,91 @@ void add_columns(const JointColumnsArgs& args) {
 void joint_columns(const JointColumnsArgs& args) { add_columns<float>(args); }
 void joint_columns_fixed(const JointColumnsArgs& args) { add_columns<int16_t>(args); }
 
-// Here sums stay in registers, and what is read is values and inputs: for matrices with many columns of few
-// blocks, most of them in use.
+// Here sums stay in registers, and what is read is values and inputs, zeros and all: for small matrices
+// most of whose columns are in use.
+
+/// Vectors that the rows of a strip are cut into.
+struct InBlocks {
+  using Rows = BlockVec;
+  static constexpr size_t kRows = kBlockWidth;
+  static Rows broadcast(float value) { return broadcast_block(value); }
+  static Rows load(const float* from) { return load_block(from); }
+  template <class Value>
+  static Rows load_values(const Value* from) {
+    return load_block(from);
+  }
+  static void store(float* to, Rows sums) { store_block(to, sums); }
+};
+#if defined(MIEN_KERNEL_AVX512)
+struct InPairs {
+  using Rows = Vec;
+  static constexpr size_t kRows = kWidth;
+  static Rows broadcast(float value) { return avx512::broadcast(value); }
+  static Rows load(const float* from) { return Rows::load_unaligned(from); }
+  template <class Value>
+  static Rows load_values(const Value* from) {
+    return load_pair(from);
+  }
+  static void store(float* to, Rows sums) { sums.store_unaligned(to); }
+};
+#else
+using InPairs = InBlocks;
+#endif
+
+template <class In, size_t kBlockRows>
+using VecsOf = std::make_index_sequence<kBlockRows * kJointBlockRows / In::kRows>;
+
+/// V counts the vectors of neighboring rows; the values of the next input are `stride` behind.
+template <class How, class In, class Value, size_t... V>
+inline void sum_strip(const Value* values, size_t stride, const uint16_t* inputs, size_t count,
+                      const float* controls, float* sums, std::index_sequence<V...>) {
+  using Rows = typename In::Rows;
+  Rows sum[] = {In::load(sums + V * In::kRows)...};
+  for (size_t i = 0; i < count; ++i, values += stride) {
+    const Rows input = In::broadcast(controls[inputs[i]]);
+    ((sum[V] = How::mul_add(In::load_values(values + V * In::kRows), input, sum[V])), ...);
+  }
+  (In::store(sums + V * In::kRows, sum[V]), ...);
+}
+
 template <class How, class Value>
-inline void sum_rows(const JointRowsArgs& args) {
-  const Value* const values = static_cast<const Value*>(args.values);
-  const float* const inputs = args.inputs;
-  constexpr size_t kVecs = kJointBlockRows / kBlockWidth;
-  const InputBlock* block = args.blocks + args.first_blocks[0];
-  for (size_t b = 0; b < args.block_row_count; ++b) {
-    BlockVec sums[kVecs];
-    for (BlockVec& sum : sums) sum = broadcast_block(0.0f);
-    for (const InputBlock* const end = args.blocks + args.first_blocks[b + 1]; block != end;
-         ++block) {
-      const Value* const from = values + size_t{block->block} * kJointBlockRows;
-      const BlockVec input = broadcast_block(inputs[block->input]);
-      for (size_t v = 0; v < kVecs; ++v) {
-        sums[v] = How::mul_add(load_block(from + v * kBlockWidth), input, sums[v]);
+inline void sum_strips(const JointStripsArgs& args) {
+  for (const RowStrip* strip = args.strips; strip != args.strips + args.strip_count; ++strip) {
+    const size_t block_rows = strip[1].first_block_row - strip->first_block_row;
+    const size_t stride = block_rows * kJointBlockRows;
+    const Value* values =
+        static_cast<const Value*>(args.values) + size_t{strip->first_block} * kJointBlockRows;
+    const uint16_t* const inputs = args.inputs + strip->first_input;
+    const size_t input_count = strip[1].first_input - strip->first_input;
+    float* sums = args.sums + size_t{strip->first_block_row} * kJointBlockRows;
+    const auto sum = [&](auto in, auto each) {
+      sum_strip<How, decltype(in)>(values, stride, inputs, input_count, args.controls, sums, each);
+    };
+    if constexpr (kWidth == 1) {
+      // The sums of one block row fit the registers.
+      for (size_t b = 0; b < block_rows; ++b, values += kJointBlockRows, sums += kJointBlockRows) {
+        sum(InBlocks(), VecsOf<InBlocks, 1>());
       }
+      continue;
     }
-    for (size_t v = 0; v < kVecs; ++v) {
-      store_block(args.sums + b * kJointBlockRows + v * kBlockWidth, sums[v]);
+    switch (block_rows) {
+      case 1: sum(InBlocks(), VecsOf<InBlocks, 1>()); break;
+      case 2: sum(InPairs(), VecsOf<InPairs, 2>()); break;
+      case 3: sum(InBlocks(), VecsOf<InBlocks, 3>()); break;
+      case 4: sum(InPairs(), VecsOf<InPairs, 4>()); break;
+      case 5: sum(InBlocks(), VecsOf<InBlocks, 5>()); break;
+      default: sum(InPairs(), VecsOf<InPairs, kMaxStripBlockRows>()); break;
     }
   }
 }
 
 template <class Value>
-void sum_rows(const JointRowsArgs& args) {
-  args.portable ? sum_rows<AsPortable, Value>(args) : sum_rows<AsFast, Value>(args);
+void sum_strips(const JointStripsArgs& args) {
+  args.portable ? sum_strips<AsPortable, Value>(args) : sum_strips<AsFast, Value>(args);
 }
 
-void joint_rows(const JointRowsArgs& args) { sum_rows<float>(args); }
-void joint_rows_fixed(const JointRowsArgs& args) { sum_rows<int16_t>(args); }
+void joint_strips(const JointStripsArgs& args) { sum_strips<float>(args); }
+void joint_strips_fixed(const JointStripsArgs& args) { sum_strips<int16_t>(args); }
 
 inline Vec finished(Vec sum) { return saturate(sum) + broadcast(0.0f); }
 

@@ -75,19 +75,28 @@ struct InputBlock {
   uint32_t input;
 };
 
-/// The sums of neighboring block rows, each of its own blocks, which are in order of the columns:
+/// At most kMaxStripBlockRows neighboring block rows of a joint matrix, and the inputs that one of them has a
+/// block for. A strip ends where the next one begins; one more comes at the end.
+struct RowStrip {
+  uint32_t first_block_row;
+  uint32_t first_block, first_input;
+};
+constexpr uint32_t kMaxStripBlockRows = 6;
+
+/// The same by strips: for the inputs i of the strip that block row b belongs to, in order,
 ///
-///     sums[8 * b + r] = the sum over i of values(blocks[i].block, r) * inputs[blocks[i].input]
+///     sums[8 * b + r] += values(i, b, r) * controls[inputs[i]]
 ///
-/// for first_blocks[b] <= i < first_blocks[b + 1]: those of joint_columns, plus 0 times columns that
-/// have no run.
-struct JointRowsArgs {
-  const void* values;            // as for joint_columns
-  const uint32_t* first_blocks;  // [block row], one more at the end
-  const InputBlock* blocks;
-  const float* inputs;
-  float* sums;  // 64-byte aligned
-  uint32_t block_row_count;
+///     values  strip 0: | input 0: b0 r0 ... r7, b1 r0 ... r7, ... | input 1: ... | ... | strip 1: ...
+///
+/// Strips of an even number of block rows begin with an even block.
+struct JointStripsArgs {
+  const void* values;  // float, or int16_t; 64-byte aligned
+  const uint16_t* inputs;
+  const RowStrip* strips;  // one more at the end
+  const float* controls;
+  float* sums;  // where block row 0 is; 64-byte aligned
+  uint32_t strip_count;
   bool portable;  // as above
 };
 
@@ -595,8 +604,8 @@ struct KernelTable {
   const char* name;
   void (*joint_columns)(const JointColumnsArgs& args);        // of floats
   void (*joint_columns_fixed)(const JointColumnsArgs& args);  // of 16-bit integers
-  void (*joint_rows)(const JointRowsArgs& args);
-  void (*joint_rows_fixed)(const JointRowsArgs& args);
+  void (*joint_strips)(const JointStripsArgs& args);
+  void (*joint_strips_fixed)(const JointStripsArgs& args);
   void (*joint_batch)(const JointBatchArgs& args);
   void (*joint_batch_fixed)(const JointBatchArgs& args);
   void (*scatter_targets)(const ScatterTargetsArgs& args);

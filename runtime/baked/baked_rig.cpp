@@ -9,7 +9,7 @@ namespace mien {
 namespace {
 
 /// To be raised whenever the list of numbers or arrays, or the meaning of one, changes.
-constexpr uint32_t kRigPartVersion = 6;
+constexpr uint32_t kRigPartVersion = 7;
 
 template <class AnyRig, class Visitor>
 void visit_numbers(AnyRig& rig, Visitor& visitor) {
@@ -26,6 +26,7 @@ void visit_numbers(AnyRig& rig, Visitor& visitor) {
   each(rig.control_count, rig.joint_count, rig.channel_count, rig.map_count, rig.mesh_count);
   each(rig.mask_count, rig.joint_attributes);
   each(rig.joints.contested, rig.joints.group_count, rig.joints.panel_shift);
+  each(rig.joints.first_strip_column);
   each(rig.rbf.independent);
   for (auto* range : {&rig.ml_writes, &rig.rbf_writes}) each(range->first, range->end);
   each(rig.feedback_stages);
@@ -83,7 +84,7 @@ void visit_arrays(AnyRig& rig, Visitor& visitor) {
   for (auto& names : rig.names) each(names.first, names.sorted);
   each(joints.columns, joints.column_of_control, joints.starts, joints.panels, joints.targets);
   each(joints.panels_at_lod, joints.targets_at_lod, joints.group_rows_at_lod);
-  each(joints.parts, joints.block_rows, joints.first_row_blocks, joints.row_blocks);
+  each(joints.parts, joints.block_rows, joints.strips, joints.strip_inputs);
 
   // Any values of these are safe.
   for (auto& names : rig.names) each(names.chars);
@@ -95,11 +96,12 @@ void visit_arrays(AnyRig& rig, Visitor& visitor) {
   each(rbf.targets, rbf.inverses, ml.default_is_one, ml.biases, ml.values, ml.halves);
   each(rotations.lane_steps_at_lod, rotations.values, rotations.halves, rig.twist_swing.lanes);
   each(joints.scales, joints.values, joints.fixed_values);
+  each(joints.strip_values, joints.strip_fixed_values);
 }
 
 // Sums of their fields: padding would give one rig two images. No size depends on that of a pointer.
 static_assert(sizeof(JointColumn) == 16 && sizeof(ColumnPart) == 4 && sizeof(JointPanel) == 8 &&
-                  sizeof(JointTarget) == 6 && sizeof(AngleJoint) == 4 && sizeof(InputBlock) == 8,
+                  sizeof(JointTarget) == 6 && sizeof(AngleJoint) == 4 && sizeof(RowStrip) == 12,
               "");
 static_assert(sizeof(GroupRotations) == 16 && sizeof(RotationOutput) == 16 &&
                   sizeof(RbfSolver) == 4,

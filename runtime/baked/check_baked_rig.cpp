@@ -317,25 +317,32 @@ bool check_tiles(const JointMatrix& joints) {
   return good;
 }
 
-/// As many as the columns have: what is summed takes no longer than they do.
-bool check_blocks_by_row(const RigChecker& c, size_t blocks) {
+bool check_strips(const RigChecker& c) {
   const JointMatrix& joints = c.rig.joints;
-  const Span<uint32_t>& first = joints.first_row_blocks;
-  if (first.empty()) return c.ok(joints.row_blocks.empty(), "blocks by block row");
+  const Span<RowStrip>& strips = joints.strips;
+  const size_t values = joints.strip_values.count + joints.strip_fixed_values.count;
+  if (strips.empty()) {
+    return c.ok(joints.strip_inputs.empty() && values == 0, "strips of the joint matrix");
+  }
+  const size_t count = strips.count - 1;
   const uint32_t block_rows = joints.panels[joints.panel_count()].first_block_row;
-  if (!c.ok(joints.fits_tile() && first.count == size_t{block_rows} + 1 &&
-                joints.row_blocks.count <= blocks &&
-                is_runs(first, block_rows, joints.row_blocks.count),
-            "blocks by block row")) {
-    return false;
+  bool good = strips[0].first_block_row == 0 && strips[0].first_block == 0 &&
+              strips[0].first_input == 0 && strips[count].first_block_row == block_rows &&
+              strips[count].first_input == joints.strip_inputs.count &&
+              uint64_t{strips[count].first_block} * kJointBlockRows == values;
+  for (size_t s = 0; s < count; ++s) {
+    const uint64_t rows = uint64_t{strips[s + 1].first_block_row} - strips[s].first_block_row;
+    const uint64_t inputs = uint64_t{strips[s + 1].first_input} - strips[s].first_input;
+    good &= rows - 1 < kMaxStripBlockRows && strips[s].first_block % 2 == 0 &&
+            inputs <= joints.strip_inputs.count &&
+            uint64_t{strips[s + 1].first_block} - strips[s].first_block - rows * inputs <= 1;
   }
-  Extent<uint32_t> block, input;
-  for (const InputBlock& of_row : joints.row_blocks) {
-    block.add(of_row.block);
-    input.add(of_row.input);
-  }
-  return c.ok(joints.row_blocks.empty() || (block.max < blocks && input.max < c.rig.control_count),
-              "blocks by block row");
+  const bool stored = c.rig.half_storage ? joints.strip_values.empty() && joints.values.empty()
+                                         : joints.strip_fixed_values.empty();
+  return c.ok(good && stored && joints.fits_tile() &&
+                  joints.first_strip_column < joints.columns.count &&
+                  below(joints.strip_inputs, c.rig.control_count),
+              "strips of the joint matrix");
 }
 
 bool check_blocks(const RigChecker& c, size_t blocks) {
@@ -391,8 +398,7 @@ bool check_joints(const RigChecker& c) {
   return c.ok(stored && values % kJointBlockRows == 0, "values of the joint matrix") &&
          c.ok(joints.group_rows_at_lod.count == uint64_t{joints.group_count} * rig.lod_count,
               "joint groups") &&
-         check_targets(c) && check_blocks(c, values / kJointBlockRows) &&
-         check_blocks_by_row(c, values / kJointBlockRows);
+         check_targets(c) && check_blocks(c, values / kJointBlockRows) && check_strips(c);
 }
 
 // Rotations ---------------------------------------------------------------------------------------

@@ -94,7 +94,6 @@ struct JointPlan {
   Span<PlannedRows> rows;           // by block row
   Span<uint32_t> first_rows;        // [block row] into rows, one more at the end
   Span<uint8_t> block_row_reaches;  // never rises
-  size_t used_blocks = 0;           // those of block_count that are no filling
   size_t block_count = 0, entry_count = 0, column_count = 0;
   uint32_t panel_size = 0;       // block rows
   size_t panel_ends = 0;         // panels, and one more
@@ -105,6 +104,10 @@ struct JointPlan {
   Span<uint64_t> blocks;  // by rows, a bit for each column of their group: not all zeros
   Span<BlockHalves> halves;     // by pairs of block rows
   Span<uint32_t> first_halves;  // [block row / 2] into halves, one more at the end
+
+  Span<RowStrip> strips;        // one more at the end; while they are filled, of the inputs so far
+  Span<uint32_t> strip_of_row;  // [block row]
+  uint32_t first_strip_control = 0;
 
   uint32_t block_row_count() const { return static_cast<uint32_t>(block_row_reaches.count); }
 };

@@ -91,9 +91,25 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
   }
 }
 
+/// Lists all blocks by block row, each in order of its columns, with controls as inputs.
 void fill_block_list(const Rig& rig, BlockList& list) {
   const JointMatrix& joints = rig.joints;
-  list_blocks_by_row(joints, list.starts, list.blocks);
+  const uint32_t panels = joints.panel_count();
+  Span<uint32_t>& first = list.starts;
+  for (size_t k = 0; k < joints.columns.count; ++k) {
+    joints.for_each_block(k, panels, [&](uint32_t, uint32_t block_row) { ++first[block_row + 1]; });
+  }
+  const size_t block_rows = first.count - 1;
+  for (size_t b = 0; b < block_rows; ++b) first[b + 1] += first[b];
+  // Filling moves each first to that of the next block row: they are moved back afterwards.
+  for (size_t k = 0; k < joints.columns.count; ++k) {
+    const uint32_t control = joints.columns[k];
+    joints.for_each_block(k, panels, [&](uint32_t block, uint32_t block_row) {
+      list.blocks[first[block_row]++] = {block, control};
+    });
+  }
+  for (size_t b = block_rows; b > 0; --b) first[b] = first[b - 1];
+  first[0] = 0;
   for (const uint16_t control : joints.columns) list.raw_columns += control < rig.raw_count;
   for (size_t b = 0; b < list.raw_ends.count; ++b) {
     uint32_t& end = list.raw_ends[b] = list.starts[b];

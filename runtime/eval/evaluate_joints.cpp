@@ -25,12 +25,12 @@ inline void skip(const ColumnPart& before, JointRun& run) {
   run.single_count -= before.singles;
 }
 
-/// Adds the columns from `first_column` on whose controls are not 0, in order.
+/// Adds the columns from `first_column` to `end_column` whose controls are not 0, in order.
 void add_columns(const Rig& rig, const Instance& instance, const JointTile& tile,
-                 uint32_t first_column) {
+                 uint32_t first_column, size_t end_column) {
   constexpr uint32_t kMaxRuns = 256, kWords = 16;  // at a time
   const JointMatrix& joints = rig.joints;
-  if (first_column >= joints.columns.count) return;
+  if (first_column >= end_column) return;
   JointRun runs[kMaxRuns];
   const bool fixed = joints.values.empty();
   const auto kernel = fixed ? rig.kernels->joint_columns_fixed : rig.kernels->joint_columns;
@@ -46,7 +46,8 @@ void add_columns(const Rig& rig, const Instance& instance, const JointTile& tile
   const uint32_t* const column_of_control = joints.column_of_control.data;
   const size_t panel_ends = joints.panels.count;
   const uint32_t first_panel = tile.first_panel, end_panel = tile.end_panel;
-  const uint32_t first_control = joints.columns[first_column], control_count = rig.control_count;
+  const uint32_t first_control = joints.columns[first_column];
+  const uint32_t end_control = joints.columns[end_column - 1] + 1u;
   const float* const controls = instance.controls.data;
   JointRun* run = runs;
   const auto add_runs = [&] {
@@ -54,9 +55,9 @@ void add_columns(const Rig& rig, const Instance& instance, const JointTile& tile
     kernel(args);
     run = runs;
   };
-  for (uint32_t first = first_control / 64 * 64; first < control_count; first += 64 * kWords) {
+  for (uint32_t first = first_control / 64 * 64; first < end_control; first += 64 * kWords) {
     uint64_t words[kWords];
-    const uint32_t count = std::min(control_count - first, 64 * kWords);
+    const uint32_t count = std::min(end_control - first, 64 * kWords);
     rig.kernels->nonzero({controls + first, words, count});
     if (first < first_control) words[0] &= ~uint64_t{0} << (first_control - first);
     for (uint32_t w = 0; w * 64 < count; ++w) {
@@ -79,34 +80,48 @@ void add_columns(const Rig& rig, const Instance& instance, const JointTile& tile
   add_runs();
 }
 
-/// Whether summing block row by block row, zeros and all, is faster than column by column: from half the
-/// columns on, where rows are listed.
-bool sums_by_row(const Rig& rig, const Instance& instance) {
+/// Whether the strips, zeros and all, take less time than their columns: from half of these on.
+bool sums_by_strips(const Rig& rig, const Instance& instance) {
   constexpr uint32_t kWords = 16;
-  if (rig.joints.row_blocks.empty()) return false;
+  const JointMatrix& joints = rig.joints;
+  if (joints.strips.empty()) return false;
+  const uint32_t first_control = joints.columns[joints.first_strip_column];
+  uint64_t mask = ~uint64_t{0} << first_control % 64;
   size_t active = 0;
-  for (uint32_t first = 0; first < rig.control_count; first += 64 * kWords) {
+  for (uint32_t first = first_control / 64 * 64; first < rig.control_count; first += 64 * kWords) {
     uint64_t words[kWords];
     const uint32_t count = std::min(rig.control_count - first, 64 * kWords);
     rig.kernels->nonzero({instance.controls.data + first, words, count});
-    for (uint32_t w = 0; w * 64 < count; ++w) active += bit_count(words[w]);
+    for (uint32_t w = 0; w * 64 < count; ++w, mask = ~uint64_t{0}) {
+      active += bit_count(words[w] & mask);
+    }
   }
-  return 2 * active >= rig.joints.columns.count;
+  return 2 * active >= joints.columns.count - joints.first_strip_column;
 }
 
-void sum_by_row(const Rig& rig, const Instance& instance, const JointTile& tile) {
+/// The strips that reach into the panels of the tile, after the columns before them. The tile begins with
+/// block row 0: a matrix that has strips fits one.
+void sum_by_strips(const Rig& rig, const Instance& instance, const JointTile& tile) {
   const JointMatrix& joints = rig.joints;
-  const uint32_t first = joints.panels[tile.first_panel].first_block_row;
-  const bool fixed = joints.values.empty();
-  JointRowsArgs args;
-  args.values = fixed ? static_cast<const void*>(joints.fixed_values.data) : joints.values.data;
-  args.first_blocks = joints.first_row_blocks.data + first;
-  args.blocks = joints.row_blocks.data;
-  args.inputs = instance.controls.data;
-  args.sums = tile.of_panel(joints, tile.first_panel);
-  args.block_row_count = joints.panels[tile.end_panel].first_block_row - first;
+  const RowStrip* first = joints.strips.data;
+  while (first[1].first_block_row <= joints.panels[tile.first_panel].first_block_row) ++first;
+  const RowStrip* end = first;
+  while (end->first_block_row < joints.panels[tile.end_panel].first_block_row) ++end;
+  std::fill(tile.sums + size_t{first->first_block_row} * kJointBlockRows,
+            tile.sums + size_t{end->first_block_row} * kJointBlockRows, 0.0f);
+  add_columns(rig, instance, tile, 0, joints.first_strip_column);
+
+  const bool fixed = joints.strip_values.empty();
+  JointStripsArgs args;
+  args.values =
+      fixed ? static_cast<const void*>(joints.strip_fixed_values.data) : joints.strip_values.data;
+  args.inputs = joints.strip_inputs.data;
+  args.strips = first;
+  args.controls = instance.controls.data;
+  args.sums = tile.sums;
+  args.strip_count = static_cast<uint32_t>(end - first);
   args.portable = rig.portable;
-  (fixed ? rig.kernels->joint_rows_fixed : rig.kernels->joint_rows)(args);
+  (fixed ? rig.kernels->joint_strips_fixed : rig.kernels->joint_strips)(args);
 }
 
 /// Calls f(targets, their count, their rows as a constant) for the targets of a panel that a LOD writes;
@@ -180,7 +195,7 @@ bool holds_group(const JointMatrix& joints, uint32_t panel, uint32_t group) {
 
 void finish_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTile& tile,
                  uint32_t first_column, uint32_t only_group) {
-  add_columns(rig, instance, tile, first_column);
+  add_columns(rig, instance, tile, first_column, rig.joints.columns.count);
   const JointMatrix& joints = rig.joints;
   float* const sums = tile.of_panel(joints, tile.first_panel);
   float* const end = tile.of_panel(joints, tile.end_panel);
@@ -217,7 +232,7 @@ void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, Uses 
     return (panels >> panel_bit(joints, panel) & 1) != 0 &&
            (only_group == kAllGroups || holds_group(joints, panel, only_group));
   };
-  const bool by_row = sums_by_row(rig, instance);
+  const bool by_strips = sums_by_strips(rig, instance);
   // Each run of panels goes over all columns: a few panels more cost less than another run.
   constexpr uint32_t kBridge = 4;
   // 32 KiB: with 8 KiB for the runs of columns, the largest stack use of evaluation.
@@ -236,13 +251,13 @@ void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, Uses 
       if (wanted(n)) c = n + 1;
     }
     tile.end_panel = c;
-    if (by_row) {
-      sum_by_row(rig, instance, tile);
+    if (by_strips) {
+      sum_by_strips(rig, instance, tile);
     } else {
       std::fill(tile.of_panel(joints, tile.first_panel), tile.of_panel(joints, c), 0.0f);
     }
     const auto columns = static_cast<uint32_t>(joints.columns.count);
-    finish_tile(rig, instance, lod, tile, by_row ? columns : 0, only_group);
+    finish_tile(rig, instance, lod, tile, by_strips ? columns : 0, only_group);
   }
 }
 

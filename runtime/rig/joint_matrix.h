@@ -73,10 +73,13 @@ struct JointMatrix {
   Span<JointTarget> targets;
   Span<uint16_t> targets_at_lod;  // [panel, or all][kind][lod]: leading ones of the kind
 
-  // The same blocks by block row, each in order of its columns, with controls as inputs. Only of a matrix
-  // whose columns have few blocks, else both are empty.
-  Span<uint32_t> first_row_blocks;  // [block row] into row_blocks, one more at the end
-  Span<InputBlock> row_blocks;
+  // The columns from first_strip_column on once more, by strips of block rows, with zeros where a block row
+  // has no block. Only where that is small and most of these columns may be in use, else all are empty.
+  uint32_t first_strip_column = 0;
+  Span<RowStrip> strips;        // one more at the end
+  Span<uint16_t> strip_inputs;  // controls, ascending in each strip
+  Span<float> strip_values;     // or
+  Span<int16_t> strip_fixed_values;
 
   Span<uint16_t> group_rows_at_lod;  // [group][lod]: leading rows of the group, as in the file
   bool contested = false;            // some output is written by rows of different panels
@@ -128,26 +131,5 @@ struct JointMatrix {
     }
   }
 };
-
-/// Lists all blocks by block row, each in order of its columns, with controls as inputs: `first` has an
-/// element for each block row and one more, all 0.
-inline void list_blocks_by_row(const JointMatrix& joints, Span<uint32_t>& first,
-                               Span<InputBlock>& blocks) {
-  const uint32_t panels = joints.panel_count();
-  for (size_t k = 0; k < joints.columns.count; ++k) {
-    joints.for_each_block(k, panels, [&](uint32_t, uint32_t block_row) { ++first[block_row + 1]; });
-  }
-  const size_t block_rows = first.count - 1;
-  for (size_t b = 0; b < block_rows; ++b) first[b + 1] += first[b];
-  // Filling moves each first to that of the next block row: they are moved back afterwards.
-  for (size_t k = 0; k < joints.columns.count; ++k) {
-    const uint32_t control = joints.columns[k];
-    joints.for_each_block(k, panels, [&](uint32_t block, uint32_t block_row) {
-      blocks[first[block_row]++] = {block, control};
-    });
-  }
-  for (size_t b = block_rows; b > 0; --b) first[b] = first[b - 1];
-  first[0] = 0;
-}
 
 }  // namespace mien

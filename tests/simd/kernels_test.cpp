@@ -201,29 +201,50 @@ class JointMatrix {
     return {sums, sums + sum_count() * kBatchLanes};
   }
 
-  /// Sums of one character, all block rows in one call, from 0; nothing beside them is touched.
-  std::vector<float> run_rows(const KernelTable& kernels) {
+  /// The same sums by strips of all sizes, whose inputs are all columns; nothing beside them is touched.
+  std::vector<float> run_strips(const KernelTable& kernels) {
     const float untouched = 12345.0f;
-    std::vector<float> storage(16 + kGuard + sum_count() + kGuard, untouched), inputs;
+    std::vector<float> storage(16 + kGuard + sum_count() + kGuard, untouched),
+        controls(3, untouched);
     float* const sums = aligned(storage.data()) + kGuard;
-    for (const JointRun& run : runs_) inputs.push_back(run.input);
-    std::vector<InputBlock> blocks(3);  // of block rows before
-    std::vector<uint32_t> first_blocks = {3};
-    for (uint32_t b = 0; b < block_row_count_; ++b) {
-      for_each_block([&](size_t i, size_t block, size_t block_row) {
-        if (block_row != b) return;
-        blocks.push_back({static_cast<uint32_t>(block), static_cast<uint32_t>(i)});
-      });
-      first_blocks.push_back(static_cast<uint32_t>(blocks.size()));
+    std::copy(initial_.begin(), initial_.end(), sums);
+    for (const JointRun& run : runs_) controls.push_back(run.input);
+    const auto column_count = static_cast<uint32_t>(runs_.size());
+    std::vector<RowStrip> strips = {{0, 2, 3}};
+    std::vector<uint16_t> inputs(3);
+    for (uint32_t b = 0; b < block_row_count_; b = strips.back().first_block_row) {
+      const uint32_t most = static_cast<uint32_t>(strips.size() - 1) % kMaxStripBlockRows + 1;
+      const uint32_t end = std::min(block_row_count_, b + most);
+      const uint32_t end_block = strips.back().first_block + (end - b) * column_count;
+      for (uint32_t i = 0; i < column_count; ++i) inputs.push_back(static_cast<uint16_t>(3 + i));
+      strips.push_back({end, end_block + end_block % 2, static_cast<uint32_t>(inputs.size())});
     }
-    JointRowsArgs args = {};
-    args.values = values();
-    args.first_blocks = first_blocks.data();
-    args.blocks = blocks.data();
+    const size_t value_count = size_t{strips.back().first_block} * kJointBlockRows;
+    std::vector<float> floats(value_count + 16);
+    std::vector<int16_t> integers(value_count + 32);
+    for (size_t s = 0; s + 1 < strips.size(); ++s) {
+      const RowStrip strip = strips[s], next = strips[s + 1];
+      for_each_block([&](size_t i, size_t block, size_t block_row) {
+        if (block_row < strip.first_block_row || block_row >= next.first_block_row) return;
+        const size_t to = strip.first_block + block_row - strip.first_block_row +
+                          i * (next.first_block_row - strip.first_block_row);
+        for (size_t r = 0; r < kJointBlockRows; ++r) {
+          aligned(floats.data())[to * kJointBlockRows + r] =
+              float_values()[block * kJointBlockRows + r];
+          aligned(integers.data())[to * kJointBlockRows + r] =
+              integer_values()[block * kJointBlockRows + r];
+        }
+      });
+    }
+    JointStripsArgs args = {};
+    args.values = aligned(floats.data());
+    if (fixed_) args.values = aligned(integers.data());
     args.inputs = inputs.data();
+    args.strips = strips.data();
+    args.controls = controls.data();
     args.sums = sums;
-    args.block_row_count = block_row_count_;
-    (fixed_ ? kernels.joint_rows_fixed : kernels.joint_rows)(args);
+    args.strip_count = static_cast<uint32_t>(strips.size() - 1);
+    (fixed_ ? kernels.joint_strips_fixed : kernels.joint_strips)(args);
     for (size_t i = 0; i < kGuard; ++i) {
       EXPECT_EQ(sums[-1 - static_cast<ptrdiff_t>(i)], untouched);
       EXPECT_EQ(sums[sum_count() + i], untouched);
@@ -360,14 +381,18 @@ TEST(JointColumnsKernel, TestDataTellsTheFamiliesApart) {
   EXPECT_NE(matrix.expected<float>(fused), matrix.expected<float>(rounded_twice));
 }
 
-TEST(JointRowsKernel, BitEqualToColumns) {
+TEST(JointStripsKernel, BitEqualToColumns) {
   for_each_matrix([](JointMatrix& matrix, const KernelTable& kernels) {
+    const auto compare = [&] {
+      const std::vector<float> columns = matrix.run(kernels), strips = matrix.run_strips(kernels);
+      for (size_t i = 0; i < columns.size(); ++i) {
+        ASSERT_EQ(bits_of(strips[i] + 0.0f), bits_of(columns[i] + 0.0f)) << "sum " << i;
+      }
+    };
+    compare();
     for (uint32_t k : {0u, 3u}) {
       matrix.become(k);
-      const std::vector<float> columns = matrix.run(kernels), rows = matrix.run_rows(kernels);
-      for (size_t i = 0; i < columns.size(); ++i) {
-        ASSERT_EQ(bits_of(rows[i] + 0.0f), bits_of(columns[i] + 0.0f)) << "sum " << i;
-      }
+      compare();
     }
   });
 }
