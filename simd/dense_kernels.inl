@@ -48,11 +48,11 @@ inline bool is_finished(uint8_t function) { return function < 2 || function > 4;
 inline Vec load_weights(const float* from) { return load(from); }
 inline Vec load_weights(const uint16_t* from) { return load_half(from); }
 
-/// Inputs that are 0 change no sum; rounding products apart is rare, and does without the code.
+/// Rounding products apart is rare, and does without the code that skips inputs of 0.
 template <class How>
-constexpr bool kSkipsZeros = false;
+constexpr bool kIsFast = false;
 template <>
-constexpr bool kSkipsZeros<AsFast> = true;
+constexpr bool kIsFast<AsFast> = true;
 
 /// Layers with more columns are summed with all of them.
 constexpr size_t kMaxSparseColumns = 512;
@@ -75,6 +75,12 @@ inline bool find_inputs(const float* inputs, size_t count, uint64_t* words) {
   return zeros != 0;
 }
 
+/// Four inputs to a load, because loads are what takes the time: as many of weights as multiply-adds, and
+/// those of inputs. But widening halves takes longer than loading them, other than on AVX2, and products
+/// that are rounded apart leave no register for the four.
+template <class How, class Weight>
+constexpr bool kByFour = kIsFast<How> && (sizeof(Weight) == sizeof(float) || kIsa == Isa::kAvx2);
+
 /// The sums of sizeof...(K) neighboring vectors of rows in one walk over the columns, even and odd
 /// ones apart: over those in `words`, or over all if it is null. The pack makes each sum a register of
 /// its own.
@@ -87,22 +93,32 @@ inline void sum_rows(const Weight* values, const DenseLayerArgs& args, const uin
                                 (first_vec + K) % kVecsPerBlock * kWidth...};
   Vec even[] = {(static_cast<void>(K), broadcast(0.0f))...};
   Vec odd[] = {(static_cast<void>(K), broadcast(0.0f))...};
-  const auto add = [&](size_t c, auto& sums) {
-    const Vec input = broadcast(inputs[c]);
+  const auto add = [&](size_t c, Vec input, auto& sums) {
     ((sums[K] = How::mul_add(load_weights(rows[K] + c * kBlockLanes), input, sums[K])), ...);
   };
-  if (!kSkipsZeros<How> || !words) {
+  if (!kIsFast<How> || !words) {
     size_t c = 0;
-    for (; c + 2 <= column_count; c += 2) {
-      add(c, even);
-      add(c + 1, odd);
+    for (; kByFour<How, Weight> && c + 4 <= column_count; c += 4) {
+      auto four = load_four(inputs + c);
+      add(c, one_of<0>(four), even);
+      take_after(four, even[sizeof...(K) - 1]);
+      add(c + 1, one_of<1>(four), odd);
+      take_after(four, odd[sizeof...(K) - 1]);
+      add(c + 2, one_of<2>(four), even);
+      take_after(four, even[sizeof...(K) - 1]);
+      add(c + 3, one_of<3>(four), odd);
     }
-    if (c < column_count) add(c, even);
+    for (; c + 2 <= column_count; c += 2) {
+      add(c, broadcast(inputs[c]), even);
+      add(c + 1, broadcast(inputs[c + 1]), odd);
+    }
+    if (c < column_count) add(c, broadcast(inputs[c]), even);
   } else {
     constexpr uint64_t kEven = 0x5555'5555'5555'5555;
     const auto add_each = [&](size_t first, uint64_t bits, auto& sums) {
       for (; bits != 0; bits &= bits - 1) {
-        add(first + static_cast<size_t>(__builtin_ctzll(bits)), sums);
+        const size_t c = first + static_cast<size_t>(__builtin_ctzll(bits));
+        add(c, broadcast(inputs[c]), sums);
       }
     };
     for (size_t first = 0; first < column_count; first += 64) {
@@ -116,14 +132,14 @@ inline void sum_rows(const Weight* values, const DenseLayerArgs& args, const uin
    ...);
 }
 
-// Two sums each, and two inputs, have to fit the registers; and weights, but for floats where they are
-// operands in memory.
+// Two sums each, and two of inputs, have to fit the registers; and weights, but for floats where they are
+// operands in memory. Of halves on AVX2 there is room for more, which takes longer.
 #if defined(MIEN_KERNEL_AVX512) || defined(MIEN_KERNEL_NEON)
 template <class Weight>
 constexpr size_t kMaxVecs = 8;
 #elif defined(MIEN_KERNEL_AVX2)
 template <class Weight>
-constexpr size_t kMaxVecs = sizeof(Weight) == sizeof(float) ? 7 : 6;
+constexpr size_t kMaxVecs = sizeof(Weight) == sizeof(float) ? 7 : 4;
 #else
 template <class Weight>
 constexpr size_t kMaxVecs = 6;
@@ -131,29 +147,34 @@ constexpr size_t kMaxVecs = 6;
 
 template <class How, class Weight>
 void sum_layer(const Weight* values, const DenseLayerArgs& args) {
-  const size_t vec_count = (args.row_count + kWidth - 1) / kWidth;
-  size_t walks = (vec_count + kMaxVecs<Weight> - 1) / kMaxVecs<Weight>;
   uint64_t found[kMaxSparseColumns / 64];
   const uint64_t* words = nullptr;
-  if (kSkipsZeros<How> && args.sparse && find_inputs(args.inputs, args.column_count, found))
+  if (kIsFast<How> && args.sparse && find_inputs(args.inputs, args.column_count, found))
     words = found;
-  for (size_t v = 0; walks != 0; --walks) {
-    const size_t count = (vec_count - v + walks - 1) / walks;  // shared evenly
+  const uint32_t vec_count = (args.row_count + kWidth - 1) / kWidth;
+  const auto walk = [&](uint32_t v, auto vecs) { sum_rows<How>(values, args, words, v, vecs); };
+  const auto walk_over = [&](uint32_t v, uint32_t count) {
     if constexpr (kMaxVecs < Weight >> 6) {
-      if (count == 7) sum_rows<How>(values, args, words, v, std::make_index_sequence<7>());
+      if (count == 7) return walk(v, std::make_index_sequence<7>());
     }
     if constexpr (kMaxVecs < Weight >> 7) {
-      if (count == 8) sum_rows<How>(values, args, words, v, std::make_index_sequence<8>());
+      if (count == 8) return walk(v, std::make_index_sequence<8>());
     }
     switch (count) {
-      case 1: sum_rows<How>(values, args, words, v, std::make_index_sequence<1>()); break;
-      case 2: sum_rows<How>(values, args, words, v, std::make_index_sequence<2>()); break;
-      case 3: sum_rows<How>(values, args, words, v, std::make_index_sequence<3>()); break;
-      case 4: sum_rows<How>(values, args, words, v, std::make_index_sequence<4>()); break;
-      case 5: sum_rows<How>(values, args, words, v, std::make_index_sequence<5>()); break;
-      case 6: sum_rows<How>(values, args, words, v, std::make_index_sequence<6>()); break;
-      default: break;
+      case 1: return walk(v, std::make_index_sequence<1>());
+      case 2: return walk(v, std::make_index_sequence<2>());
+      case 3: return walk(v, std::make_index_sequence<3>());
+      case 4: return walk(v, std::make_index_sequence<4>());
+      case 5: return walk(v, std::make_index_sequence<5>());
+      case 6: return walk(v, std::make_index_sequence<6>());
+      default: return;
     }
+  };
+  uint32_t walks = (vec_count + kMaxVecs<Weight> - 1) / kMaxVecs<Weight>;
+  for (uint32_t v = 0; walks != 0; --walks) {
+    const uint32_t left = vec_count - v;
+    const uint32_t count = walks == 1 ? left : (left + walks - 1) / walks;  // shared evenly
+    walk_over(v, count);
     v += count;
   }
 }

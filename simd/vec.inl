@@ -16,6 +16,10 @@
 // |                        | memory aligned to half a vector                                      |
 // | store_first            | the leading floats, fewer than kWidth, to any address                |
 // | broadcast              | the same float in each lane                                          |
+// | load_four, one_of<n>   | four floats from any address, and number n of them in each lane: less|
+// |                        | work for the cache than four broadcasts                              |
+// | take_after             | for compilers, changes the four once a sum is known: else they make  |
+// |                        | one_of all numbers first, where no registers are left for those      |
 // | + - *                  | rounded once each, never fused: kernels are built without contraction|
 // | divide, square_root    | correctly rounded                                                    |
 // | mul_add(a, b, c)       | a * b + c: rounded once on AVX2, AVX-512 and NEON, twice on scalar   |
@@ -136,6 +140,15 @@ inline void store(float* to, Vec value) { *to = value; }
 inline void store_fixed(int16_t* to, Vec value) { *to = static_cast<int16_t>(value); }
 inline void store_first(float*, Vec, size_t) {}
 inline Vec broadcast(float value) { return value; }
+struct FourFloats {
+  const float* from;
+};
+inline FourFloats load_four(const float* from) { return {from}; }
+template <int kNumber>
+inline Vec one_of(FourFloats four) {
+  return four.from[kNumber];
+}
+inline void take_after(FourFloats&, Vec&) {}
 inline Vec mul_add(Vec a, Vec b, Vec c) { return a * b + c; }
 inline Vec square_root(Vec v) { return __builtin_sqrtf(v); }
 inline Vec divide(Vec a, Vec b) { return a / b; }
@@ -278,6 +291,37 @@ inline void store_first(float* to, Vec value, size_t count) {
 #endif
 }
 inline Vec broadcast(float value) { return Vec(value); }
+inline Vec load_four(const float* from) {
+#if defined(MIEN_KERNEL_SSE2)
+  return _mm_loadu_ps(from);
+#elif defined(MIEN_KERNEL_NEON)
+  return vld1q_f32(from);
+#elif defined(MIEN_KERNEL_AVX2)
+  return _mm256_broadcast_ps(reinterpret_cast<const __m128*>(from));
+#else
+  return _mm512_broadcast_f32x4(_mm_loadu_ps(from));
+#endif
+}
+template <int kNumber>
+inline Vec one_of(Vec four) {
+#if defined(MIEN_KERNEL_SSE2)
+  return _mm_castsi128_ps(_mm_shuffle_epi32(_mm_castps_si128(four), kNumber * 0x55));
+#elif defined(MIEN_KERNEL_NEON)
+  return vdupq_laneq_f32(four, kNumber);
+#elif defined(MIEN_KERNEL_AVX2)
+  return _mm256_permute_ps(four, kNumber * 0x55);
+#else
+  return _mm512_permute_ps(four, kNumber * 0x55);
+#endif
+}
+inline void take_after([[maybe_unused]] Vec& four, [[maybe_unused]] Vec& sum) {
+#if defined(MIEN_KERNEL_AVX2)
+  __m256 later = four, sooner = sum;
+  asm("" : "+x"(later), "+x"(sooner));
+  four = later;
+  sum = sooner;
+#endif
+}
 inline Vec absolute(Vec v) { return xsimd::abs(v); }
 inline Mask less(Vec a, Vec b) { return a < b; }
 inline Mask equal(Vec a, Vec b) { return a == b; }
