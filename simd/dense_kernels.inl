@@ -6,6 +6,7 @@
 #include <utility>  // index_sequence, a mere type
 
 #include "simd/math.inl"
+#include "simd/quad.inl"
 
 namespace mien::MIEN_KERNEL_ISA {
 namespace {
@@ -47,6 +48,17 @@ inline bool is_finished(uint8_t function) { return function < 2 || function > 4;
 
 inline Vec load_weights(const float* from) { return load(from); }
 inline Vec load_weights(const uint16_t* from) { return load_half(from); }
+
+/// Vectors are written because vectors are read: a read that takes parts of several writes waits for the
+/// last of them to reach the cache.
+void gather_inputs(const float* from, const uint16_t* at, size_t count, float* to) {
+  size_t i = 0;
+  for (; i + kWidth <= count; i += kWidth) store(to + i, gather(from, at + i));
+  if (i == count) return;
+  uint16_t last[kWidth] = {};
+  for (size_t k = 0; i + k < count; ++k) last[k] = at[i + k];
+  store(to + i, gather(from, last));
+}
 
 /// Rounding products apart is rare, and does without the code that skips inputs of 0.
 template <class How>

@@ -616,6 +616,8 @@ struct KernelTable {
   /// sums[i] = sums[i] * scales[i] (unless scales is null), saturated, plus 0; count is a multiple
   /// of 16, both are 64-byte aligned.
   void (*finish_sums)(float* sums, const float* scales, size_t count);
+  /// Inputs of a layer: to[i] = from[at[i]] for i < count; more, up to the next 16, may be written.
+  void (*gather_inputs)(const float* from, const uint16_t* at, size_t count, float* to);
   void (*dense_layer)(const DenseLayerArgs& args);
   void (*dense_batch)(const DenseBatchArgs& args);
   void (*quaternion_joints)(const QuaternionJointArgs& args);

@@ -17,10 +17,8 @@ bool is_active(uint64_t lods, uint32_t lod) { return lods >> lod & 1; }
 void gather(const Rig& rig, Instance& instance, const MlStep& step, float* inputs) {
   const MlTable& ml = rig.ml;
   if (step.gather_count != 0) {
-    const float* const controls = instance.controls.data;
-    for (uint16_t control : ml.controls.slice(step.first_gather, step.gather_count)) {
-      *inputs++ = controls[control];
-    }
+    rig.kernels->gather_inputs(instance.controls.data, ml.controls.data + step.first_gather,
+                               step.gather_count, inputs);
     return;
   }
   for (const MlDependency& from :
@@ -156,6 +154,13 @@ uint32_t scatter_count(const Rig& rig, const MlStep& step, uint32_t lod) {
   return std::min({step.scatter_count, step.output_count, rig.ml.limits[step.first_limit + lod]});
 }
 
+/// Whether controls follow one another, as those of most networks do.
+bool are_neighbors(const uint16_t* controls, uint32_t count) {
+  uint32_t elsewhere = 0;
+  for (uint32_t i = 1; i < count; ++i) elsewhere |= controls[i] - controls[0] - i;
+  return elsewhere == 0;
+}
+
 // Between 0 and 1 a mask blends with the default: 0, or 1 for the w of a quaternion. In the buffer,
 // for later steps, the default is 0.
 void scatter(const Rig& rig, Instance& instance, const MlStep& step, uint32_t lod, float mask) {
@@ -165,7 +170,11 @@ void scatter(const Rig& rig, Instance& instance, const MlStep& step, uint32_t lo
   const uint16_t* const to = ml.controls.data + step.first_scatter;
   float* const controls = instance.controls.data;
   if (mask == 1.0f) {
-    for (uint32_t i = 0; i < count; ++i) controls[to[i]] = values[i];
+    if (count != 0 && are_neighbors(to, count)) {
+      std::copy(values, values + count, controls + to[0]);
+    } else {
+      for (uint32_t i = 0; i < count; ++i) controls[to[i]] = values[i];
+    }
     return;
   }
   for (uint32_t i = 0; i < count; ++i) {
@@ -258,9 +267,7 @@ bool run_in_lanes(const InstancePacket& packet, const MlStep& step, const float*
   }
   const uint32_t count = scatter_count(rig, step, packet.lod);
   const uint16_t* const targets = rig.ml.controls.data + step.first_scatter;
-  for (uint32_t i = 1; i < count; ++i) {
-    if (targets[i] != targets[0] + i) return false;
-  }
+  if (!are_neighbors(targets, count)) return false;
   const float* const values = run_layers(packet, step, controls);
   if (!rig.ml.dependencies.empty()) keep_values(packet, step, values);
   if (count != 0) rig.kernels->scatter_lanes(values, count, packet.count, to, targets[0]);

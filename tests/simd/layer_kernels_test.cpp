@@ -196,6 +196,28 @@ TEST(DenseLayer, LeavesOutTheColumnsOfZeros) {
   }
 }
 
+// Counts around every vector, from a list that ends with the last number; nothing behind the next 16 is
+// written.
+TEST(GatherInputs, TakesEachFromItsPlace) {
+  constexpr uint32_t kFrom = 70;
+  float from[kFrom];
+  for (uint32_t i = 0; i < kFrom; ++i) from[i] = static_cast<float>(i) + 0.5f;
+  for (const KernelTable* table : present()) {
+    for (uint32_t count = 0; count <= 65; ++count) {
+      std::vector<uint16_t> at(count);
+      for (uint32_t i = 0; i < count; ++i) at[i] = static_cast<uint16_t>((i * 37 + 69) % kFrom);
+      const uint32_t padded = (count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
+      Aligned to(padded + 1);
+      std::fill_n(to.data, padded + 1, -1.0f);
+      table->gather_inputs(from, at.data(), count, to.data);
+      for (uint32_t i = 0; i < count; ++i) {
+        ASSERT_EQ(to.data[i], from[at[i]]) << table->name << ", " << count;
+      }
+      ASSERT_EQ(to.data[padded], -1.0f) << table->name << ", " << count;
+    }
+  }
+}
+
 // A layer of one column: each half comes out as it is.
 TEST(DenseLayer, EveryFiniteHalfIsReadExactly) {
   std::vector<uint16_t> all;
