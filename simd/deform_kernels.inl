@@ -13,10 +13,18 @@ namespace {
 void add_target(const TargetArgs& given) {
   const TargetArgs args = given;  // a local copy: no store can alias it
   const Quad weight = broadcast4(args.weight);
-  for (size_t i = 0; i < args.count; ++i) {
+  const auto add = [&](size_t i) {
     float* at = args.positions + size_t{args.indices[i]} * 4;
     store4(at, mul_add4(weight, load4(args.deltas + i * 3), load4(at)));
+  };
+  size_t i = 0;
+  for (; i + 4 <= args.count; i += 4) {
+    add(i);
+    add(i + 1);
+    add(i + 2);
+    add(i + 3);
   }
+  for (; i < args.count; ++i) add(i);
 }
 
 // Normals -----------------------------------------------------------------------------------------
