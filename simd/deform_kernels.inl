@@ -84,8 +84,8 @@ inline void for_each_chunk(const uint32_t* first_vertex, uint32_t count, F&& run
            load4(vectors + k * 4) * broadcast4(scales[k]));
   }
   for (size_t k = 0; any_lost != 0 && k < count; ++k) {
-    const size_t place = size_t{vertices[k] & ~kHardEdge} * 3;
-    if ((lost[k / kWidth] >> k % kWidth & 1) != 0) store3(normals + place, load4(neutral + place));
+    if ((lost[k / kWidth] >> k % kWidth & 1) == 0) continue;
+    store3(normals + size_t{vertices[k] & ~kHardEdge} * 3, load4(neutral + k * 4));
   }
 }
 
@@ -124,14 +124,25 @@ template <size_t kCount, size_t... V>
   columns4(sums, columns);
 }
 
+/// Without the translation.
+[[gnu::always_inline]] inline Quad turned4(const Quad* c, const Quad& v) {
+  return mul_add4(c[0], lane4<0>(v), mul_add4(c[1], lane4<1>(v), c[2] * lane4<2>(v)));
+}
+
+/// What skin_chunk() makes besides positions: normals by the matrix, or whatever the arguments ask for.
+/// Looking at them for each position takes time, but one more template for each mode, with tangents and
+/// without, would more than double the code.
+enum class Skinned { kNothing, kNormals, kAny };
+
 /// Positions, tangents, and normals that are not normalized yet: x y z * one after the other.
-template <SkinNormals kMode, size_t kInfluences, bool kTangents>
+template <Skinned kOut, size_t kInfluences>
 void skin_chunk(const SkinArgs& given, float* vectors) {
   const SkinArgs args = given;
   const size_t influences = kInfluences != 0 ? kInfluences : args.influences;
-  uint32_t vertex = args.first_vertex[0];
+  const uint32_t first_vertex = args.first_vertex[0];
   alignas(16) static constexpr float kUnitW[4] = {0, 0, 0, 1};
   const Quad unit_w = load4(kUnitW);
+  size_t vertex = 0;
   for (size_t i = 0; i < args.count; ++i) {
     Quad c[4];
     blend<kInfluences>(args.weights + i * influences, args.joints + i * influences, args.matrices,
@@ -140,59 +151,57 @@ void skin_chunk(const SkinArgs& given, float* vectors) {
     const Quad skinned =
         mul_add4(c[0], lane4<0>(p), mul_add4(c[1], lane4<1>(p), mul_add4(c[2], lane4<2>(p), c[3])));
     store3(args.out_positions + size_t{args.position_indices[i]} * 3, skinned);
-    const auto turned = [&c](const Quad& v) __attribute__((always_inline)) {
-      return mul_add4(c[0], lane4<0>(v), mul_add4(c[1], lane4<1>(v), c[2] * lane4<2>(v)));
-    };
-    if constexpr (kTangents) {
-      for (size_t k = args.first_vertex[i]; k < args.first_vertex[i + 1]; ++k) {
-        const size_t place = size_t{args.vertices[k] & ~kHardEdge} * 4;
-        const Quad t = load4(args.tangents + place);
-        store4(args.out_tangents + place, mul_add4(unit_w, lane4<3>(t), turned(t)));
+    if constexpr (kOut == Skinned::kNothing) continue;
+
+    const size_t end = args.first_vertex[i + 1] - first_vertex;
+    if (kOut == Skinned::kAny && args.out_tangents) {
+      for (size_t k = vertex; k != end; ++k) {
+        const Quad t = load_lanes4(args.tangents + k * 4);
+        store4(args.out_tangents + size_t{args.vertices[k] & ~kHardEdge} * 4,
+               mul_add4(unit_w, lane4<3>(t), turned4(c, t)));
       }
     }
-    if constexpr (kMode != SkinNormals::kNone) {
-      if constexpr (kMode == SkinNormals::kCofactors) {
-        const Quad x = c[0], y = c[1], z = c[2];
-        c[0] = cross4(y, z);
-        c[1] = cross4(z, x);
-        c[2] = cross4(x, y);
-      }
-      for (const uint32_t end = args.first_vertex[i + 1]; vertex != end; ++vertex) {
-        const size_t place = size_t{args.vertices[vertex] & ~kHardEdge} * 3;
-        store4(vectors, turned(load4(args.normals + place)));
-        vectors += 4;
-      }
+    if (kOut == Skinned::kAny && args.mode == SkinNormals::kCofactors) {
+      const Quad x = c[0], y = c[1], z = c[2];
+      c[0] = cross4(y, z);
+      c[1] = cross4(z, x);
+      c[2] = cross4(x, y);
+    }
+    if (kOut == Skinned::kAny && args.mode == SkinNormals::kNone) {
+      vertex = end;
+      continue;
+    }
+    for (; vertex != end; ++vertex) {
+      store4(vectors + vertex * 4, turned4(c, load_lanes4(args.normals + vertex * 4)));
     }
   }
 }
 
 using SkinChunk = void (*)(const SkinArgs& args, float* vectors);
 
-template <SkinNormals kMode>
+template <Skinned kOut>
 SkinChunk skin_chunk_for(const SkinArgs& args) {
-  // Not unrolled: that would double the code for an optional output.
-  if (args.out_tangents) return skin_chunk<kMode, 0, true>;
-  if constexpr (kWidth == 1) return skin_chunk<kMode, 0, false>;
+  if constexpr (kWidth == 1) return skin_chunk<kOut, 0>;
   switch (args.influences) {
-    case 1: return skin_chunk<kMode, 1, false>;
-    case 2: return skin_chunk<kMode, 2, false>;
-    case 3: return skin_chunk<kMode, 3, false>;
-    case 4: return skin_chunk<kMode, 4, false>;
-    case 5: return skin_chunk<kMode, 5, false>;
-    case 6: return skin_chunk<kMode, 6, false>;
-    case 7: return skin_chunk<kMode, 7, false>;
-    case 8: return skin_chunk<kMode, 8, false>;
-    default: return skin_chunk<kMode, 0, false>;
+    case 1: return skin_chunk<kOut, 1>;
+    case 2: return skin_chunk<kOut, 2>;
+    case 3: return skin_chunk<kOut, 3>;
+    case 4: return skin_chunk<kOut, 4>;
+    case 5: return skin_chunk<kOut, 5>;
+    case 6: return skin_chunk<kOut, 6>;
+    case 7: return skin_chunk<kOut, 7>;
+    case 8: return skin_chunk<kOut, 8>;
+    default: return skin_chunk<kOut, 0>;
   }
 }
 
 void skin_positions(const SkinArgs& args) {
-  if (args.mode == SkinNormals::kNone) {
-    return skin_chunk_for<SkinNormals::kNone>(args)(args, nullptr);
+  if (args.mode == SkinNormals::kNone && !args.out_tangents) {
+    return skin_chunk_for<Skinned::kNothing>(args)(args, nullptr);
   }
-  const SkinChunk skin = args.mode == SkinNormals::kMatrix
-                             ? skin_chunk_for<SkinNormals::kMatrix>(args)
-                             : skin_chunk_for<SkinNormals::kCofactors>(args);
+  const SkinChunk skin = args.mode == SkinNormals::kMatrix && !args.out_tangents
+                             ? skin_chunk_for<Skinned::kNormals>(args)
+                             : skin_chunk_for<Skinned::kAny>(args);
   alignas(64) float vectors[kChunkVertices * 4];
   for_each_chunk(args.first_vertex, args.count,
                  [&](uint32_t first, uint32_t count, const uint32_t* first_vertex) {
@@ -202,11 +211,14 @@ void skin_positions(const SkinArgs& args) {
                    chunk.joints += size_t{first} * args.influences;
                    chunk.position_indices += first;
                    chunk.first_vertex = first_vertex;
+                   chunk.vertices += first_vertex[0];
+                   chunk.normals += size_t{first_vertex[0]} * 4;
+                   chunk.tangents += args.out_tangents ? size_t{first_vertex[0]} * 4 : 0;
                    chunk.count = count;
                    skin(chunk, vectors);
-                   put_normals(vectors, args.vertices + first_vertex[0],
-                               first_vertex[count] - first_vertex[0], args.normals,
-                               args.out_normals);
+                   if (args.mode == SkinNormals::kNone) return;
+                   put_normals(vectors, chunk.vertices, first_vertex[count] - first_vertex[0],
+                               chunk.normals, args.out_normals);
                  });
 }
 
@@ -248,24 +260,25 @@ void sum_normals(const NormalArgs& given) {
   alignas(64) float vectors[kChunkVertices * 4];
   const auto run = [&](uint32_t first, uint32_t count, const uint32_t* first_vertex) {
     const uint32_t* const vertices = args.vertices + first_vertex[0];
-    const uint32_t* vertex = vertices;
-    float* vector = vectors;
+    const float* const normals = args.normals + size_t{first_vertex[0]} * 4;
+    size_t vertex = 0;
     for (size_t i = 0; i < count; ++i) {
       const size_t position = first + i;
+      const uint32_t* face = args.adjacent_faces + args.first_adjacent_face[position];
+      const uint32_t* const last = args.adjacent_faces + args.first_adjacent_face[position + 1];
+      const auto area = [&](size_t k) { return load4(args.areas + size_t{face[k]} * 4); };
       Quad sum = broadcast4(0.0f);
-      for (size_t k = args.first_adjacent_face[position];
-           k < args.first_adjacent_face[position + 1]; ++k) {
-        sum = sum + load4(args.areas + size_t{args.adjacent_faces[k]} * 4);
-      }
-      for (const uint32_t* end = args.vertices + first_vertex[i + 1]; vertex != end;
-           ++vertex, vector += 4) {
-        const float* n = args.normals + size_t{*vertex & ~kHardEdge} * 3;
-        const bool hard = (*vertex & kHardEdge) != 0;
-        store4(vector, hard ? rotated_normal(sum, args.neutral_directions + position * 4, n) : sum);
+      // Most positions of a mesh of quads have four faces.
+      for (; last - face >= 4; face += 4) sum = sum + area(0) + area(1) + area(2) + area(3);
+      for (; face != last; ++face) sum = sum + area(0);
+      for (const size_t end = first_vertex[i + 1] - first_vertex[0]; vertex != end; ++vertex) {
+        store4(vectors + vertex * 4, sum);
+        if ((vertices[vertex] & kHardEdge) == 0) continue;
+        store4(vectors + vertex * 4,
+               rotated_normal(sum, args.neutral_directions + position * 4, normals + vertex * 4));
       }
     }
-    put_normals(vectors, vertices, static_cast<size_t>(vertex - vertices), args.normals,
-                args.out_normals);
+    put_normals(vectors, vertices, vertex, normals, args.out_normals);
   };
   for_each_chunk(args.first_vertex, args.count, run);
 }

@@ -454,12 +454,14 @@ constexpr uint32_t kHardEdge = 0x8000'0000;
 ///     positions   x y z * of each
 ///     weights     `influences` for each position; joints likewise
 ///     matrices    skin matrices by joint, 64-byte aligned
+///     normals     x y z * of vertices[k] at 4 * k
+///     tangents    x y z w of vertices[k] at 4 * k
 ///
 /// Writes position i to out_positions[3 * position_indices[i]]. Its vertices are vertices[k] for
 /// first_vertex[i] <= k < first_vertex[i + 1]; their normals are transformed, normalized, and
 /// written to out_normals[3 * vertex]. A normal that loses its direction is copied instead. Unless
 /// out_tangents is null, their tangents are transformed by the blended matrix and written to
-/// out_tangents[4 * vertex], not normalized, with their w. Reads one float past each normal.
+/// out_tangents[4 * vertex], not normalized, with their w.
 struct SkinArgs {
   const float* positions;
   const float* weights;
@@ -471,7 +473,7 @@ struct SkinArgs {
   const uint32_t* vertices;
   const float* normals;
   float* out_normals;
-  const float* tangents;  // [vertex] x y z w
+  const float* tangents;
   float* out_tangents;
   uint32_t count;
   uint32_t influences;
@@ -496,7 +498,7 @@ struct NormalArgs {
   const uint32_t* adjacent_faces;
   const uint32_t* first_vertex;  // [position], + 1
   const uint32_t* vertices;
-  const float* normals;             // [vertex] x y z, neutral
+  const float* normals;             // neutral: x y z * of vertices[k] at 4 * k
   const float* neutral_directions;  // [position] x y z *
   float* out_normals;
   uint32_t count;

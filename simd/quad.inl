@@ -5,6 +5,7 @@
 // | name                   | meaning                                                              |
 // |------------------------|----------------------------------------------------------------------|
 // | load4, store4, store3  | from and to any address; store3 writes the first three               |
+// | load_lanes4            | load4 for lane4: one load, not one for each lane                     |
 // | broadcast4             | the same float in each lane                                          |
 // | + - *                  | rounded once each, never fused                                       |
 // | mul_add4, mul_sub4     | a * b + c, a * b - c: fused where mul_add of vec.inl is              |
@@ -53,6 +54,7 @@ inline Quad load_big_endian4(const uint8_t* from) {
 [[gnu::always_inline]] inline Quad load4(const float* from) {
   return {{from[0], from[1], from[2], from[3]}};
 }
+[[gnu::always_inline]] inline Quad load_lanes4(const float* from) { return load4(from); }
 [[gnu::always_inline]] inline void store4(float* to, const Quad& q) {
   for (int i = 0; i < 4; ++i) to[i] = q.v[i];
 }
@@ -152,6 +154,7 @@ inline void store3(float* to, Quad q) {
   vst1_f32(to, vget_low_f32(q));
   vst1q_lane_f32(to + 2, q, 2);
 }
+inline Quad load_lanes4(const float* from) { return load4(from); }
 inline Quad load_big_endian4(const uint8_t* from) { return load_big_endian(from); }
 inline Quad mul_add4(Quad a, Quad b, Quad c) { return vfmaq_f32(c, a, b); }
 inline Quad mul_sub4(Quad a, Quad b, Quad c) { return vfmaq_f32(vnegq_f32(c), a, b); }
@@ -199,6 +202,13 @@ inline Quad mul_sub4(Quad a, Quad b, Quad c) { return a * b - c; }
 inline Quad mul_add4(Quad a, Quad b, Quad c) { return _mm_fmadd_ps(a, b, c); }
 inline Quad mul_sub4(Quad a, Quad b, Quad c) { return _mm_fmsub_ps(a, b, c); }
 #endif
+inline Quad load_lanes4(const float* from) {
+  Quad q = load4(from);
+#if !defined(MIEN_KERNEL_SSE2)
+  __asm__("" : "+x"(q.data));  // the compiler no longer knows that it came from memory
+#endif
+  return q;
+}
 template <int kLane>
 inline Quad lane4(Quad a) {
   return _mm_shuffle_ps(a, a, 0x55 * kLane);

@@ -100,14 +100,9 @@ inline void make_perpendicular(const Quads& n, Quads& t) {
   t.y = t.y * scale;
   t.z = t.z * scale;
 
-  float least[4], left[4];
-  store4(least, before * broadcast4(kMinSquaredPart));
-  store4(left, squared);
-  uint32_t lost = 0;
-  for (uint32_t k = 0; k < 4; ++k) {
-    const bool has_direction = left[k] > least[k] && left[k] > 1e-36f && left[k] < 3.4e38f;
-    lost |= uint32_t{!has_direction} << k;
-  }
+  const Quad least = higher4(before * broadcast4(kMinSquaredPart), broadcast4(kMinSquared));
+  const uint32_t lost =
+      different_lanes4(squared, lower4(higher4(squared, least), broadcast4(kMaxSquared)));
   if (lost == 0) return;
   float normals[3][4], tangents[3][4];
   store4(normals[0], n.x);

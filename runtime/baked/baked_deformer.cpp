@@ -9,7 +9,7 @@ namespace mien {
 namespace {
 
 /// To be raised whenever the list of numbers or arrays, or the meaning of one, changes.
-constexpr uint32_t kDeformerPartVersion = 1;
+constexpr uint32_t kDeformerPartVersion = 2;
 
 static_assert(sizeof(SkinRun) == 24 && sizeof(TargetRun) == 16, "no padding");
 
@@ -33,7 +33,8 @@ void visit(AnyDeformer& deformer, Visitor& visitor) {
   arrays(skeleton.neutral, skeleton.neutral_angles, skeleton.bind, skeleton.inverse_bind);
   for (auto& mesh : deformer.meshes) {
     arrays(mesh.positions, mesh.normals, mesh.tangents, mesh.texture_coordinates,
-           mesh.sorted_positions, mesh.weights, mesh.deltas, mesh.neutral_directions);
+           mesh.sorted_positions, mesh.weights, mesh.deltas, mesh.sorted_normals,
+           mesh.sorted_tangents, mesh.neutral_directions);
   }
 }
 

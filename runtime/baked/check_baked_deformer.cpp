@@ -153,6 +153,8 @@ bool check_surface(const DeformerChecker& c, const DeformMesh& mesh) {
                   below(mesh.adjacent_faces, mesh.face_count()),
               "faces") &&
          c.ok(mesh.vertices.count == mesh.vertex_count &&
+                  mesh.sorted_normals.count == size_t{mesh.vertex_count} * 4 &&
+                  mesh.sorted_tangents.count == mesh.tangents.count &&
                   mesh.first_vertex.count == positions + 1 &&
                   is_runs(mesh.first_vertex, positions, mesh.vertices.count) &&
                   mesh.first_vertex[positions] == mesh.vertex_count && check_vertex_lists(mesh),

@@ -169,6 +169,8 @@ void place_surface(const MeshPlan& plan, bool tangents, Placer& placer, DeformMe
   mesh.adjacent_faces = placer.array<uint32_t>(plan.face_count * 4, alignment);
   mesh.first_vertex = placer.array<uint32_t>(positions + 1, alignment);
   mesh.vertices = placer.array<uint32_t>(vertices, alignment);
+  mesh.sorted_normals = placer.array<float>(vertices * 4, alignment);
+  mesh.sorted_tangents = placer.array<float>(tangents ? vertices * 4 : 0, alignment);
   mesh.neutral_directions = placer.array<float>(positions * 4, alignment);
 }
 
@@ -198,10 +200,12 @@ Status fill_surface(const MeshSource& source, DeformMesh& mesh) {
   for (uint32_t p = 0; p < mesh.position_count; ++p) {
     store(directions[p], mesh.neutral_directions.data + size_t{mesh.sorted_indices[p]} * 4);
   }
-  for (uint32_t& vertex : mesh.vertices) {
+  for (size_t i = 0; i < mesh.vertices.count; ++i) {
+    uint32_t& vertex = mesh.vertices[i];
     const Vec3 recomputed = directions[mesh.vertex_position_indices[vertex]];
     float* stored = mesh.normals.data + size_t{vertex} * 3;
     if (is_zero(load(stored))) store(recomputed, stored);
+    std::copy(stored, stored + 3, mesh.sorted_normals.data + i * 4);
     if (dot(load(stored), recomputed) < kHardEdgeCosine) vertex |= kHardEdge;
   }
   return source.options.tangents ? fill_tangents(source, inward, mesh) : Status::kOk;

@@ -112,9 +112,9 @@ void skin_block(const Job& job, DeformerInstance& instance, uint32_t block) {
     args.out_positions = out.positions.data;
     args.first_vertex = mesh.first_vertex.data + from;
     args.vertices = mesh.vertices.data;
-    args.normals = mesh.normals.data;
+    args.normals = mesh.sorted_normals.data;
     args.out_normals = out.normals.data;
-    args.tangents = mesh.tangents.data;
+    args.tangents = mesh.sorted_tangents.data;
     args.out_tangents = job.tangents ? instance.tangents.data : nullptr;
     args.count = to - from;
     args.influences = run->influences;
@@ -166,7 +166,7 @@ void normal_task(void* context, uint32_t index) {
   args.adjacent_faces = mesh.adjacent_faces.data;
   args.first_vertex = mesh.first_vertex.data + first;
   args.vertices = mesh.vertices.data;
-  args.normals = mesh.normals.data;
+  args.normals = mesh.sorted_normals.data;
   args.neutral_directions = mesh.neutral_directions.data + size_t{first} * 4;
   args.out_normals = instance.meshes[job.mesh_index].normals.data;
   args.count = std::min(kTaskPositions, mesh.position_count - first);

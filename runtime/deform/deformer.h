@@ -72,6 +72,8 @@ struct DeformMesh {
   Span<uint32_t> adjacent_faces;       // faces around each position
   Span<uint32_t> first_vertex;         // [sorted index], + 1
   Span<uint32_t> vertices;             // vertices of each position, some with kHardEdge
+  Span<float> sorted_normals;          // normals in the order of `vertices`: x y z 0
+  Span<float> sorted_tangents;         // tangents in the order of `vertices`, if requested
   Span<float> neutral_directions;      // [sorted index] x y z 0: recomputed neutral normal
 
   uint32_t block_count() const { return (position_count + kBlockPositions - 1) / kBlockPositions; }

@@ -132,7 +132,7 @@ TEST(KernelsDeform, JointsHaveTheSameBitsEverywhere) {
 /// A random part of a mesh: one vertex in five lies on a hard edge, one face in eight has no area.
 struct MeshPart {
   Numbers numbers;
-  Aligned positions, weights, matrices, normals, directions;
+  Aligned positions, weights, matrices, deltas, normals, directions;
   std::vector<uint16_t> joints;
   std::vector<uint32_t> position_indices, first_vertex = {0}, vertices, faces,
                                           first_adjacent_face = {0}, adjacent_faces;
@@ -140,7 +140,11 @@ struct MeshPart {
   explicit MeshPart(uint32_t seed)
       : numbers(seed), positions(kPositions * 4, &numbers),
         weights(kPositions * kMaxInfluences, &numbers), matrices(kJoints * 16, &numbers),
-        normals(kPositions * 3 * 3 + 1, &numbers), directions(kPositions * 4, &numbers) {
+        deltas(kPositions * 3 * 3 + 1, &numbers), normals(kPositions * 3 * 4, nullptr),
+        directions(kPositions * 4, &numbers) {
+    for (uint32_t i = 0; i < kPositions * 3 * 4; ++i) {
+      normals.data[i] = i % 4 < 3 ? deltas.data[i / 4 * 3 + i % 4] : 9;
+    }
     for (uint32_t i = 0; i < kPositions * kMaxInfluences; ++i) {
       joints.push_back(static_cast<uint16_t>(numbers.below(kJoints)));
     }
@@ -203,7 +207,7 @@ struct MeshPart {
     for (uint32_t i = 0; i < count; ++i) at.push_back(static_cast<uint16_t>(i * 7 % kPositions));
     Aligned result(kPositions * 4, nullptr);
     std::copy(positions.data, positions.data + kPositions * 4, result.data);
-    kernels.add_target({normals.data, at.data(), result.data, 0.7f, count});
+    kernels.add_target({deltas.data, at.data(), result.data, 0.7f, count});
     std::vector<float> points;
     for (uint32_t i = 0; i < kPositions; ++i) {
       points.insert(points.end(), result.data + i * 4, result.data + i * 4 + 3);
@@ -271,8 +275,8 @@ TEST(KernelsDeform, AnyNumberOfVerticesOfAPosition) {
     part.first_vertex.push_back(static_cast<uint32_t>(part.vertices.size()));
   }
   const size_t vertices = part.vertices.size();
-  Aligned normals(vertices * 3 + 1, &part.numbers), areas(kFaces * 4, &part.numbers);
-  for (int i = 0; i < 3; ++i) normals.data[30 + i] = 0;  // without a direction
+  Aligned normals(vertices * 4, &part.numbers), areas(kFaces * 4, &part.numbers);
+  for (int i = 0; i < 3; ++i) normals.data[40 + i] = 0;  // without a direction
   for (const KernelTable* kernels : present()) {
     SCOPED_TRACE(kernels->name);
     std::vector<float> points(kPositions * 3), out[2], alone[2];
