@@ -32,6 +32,9 @@ COLUMNS = [("5 %", 0.05, 1, False), ("8 %", 0.08, 1, False), ("25 %", 0.25, 1, F
 OTHER_COLUMNS = [("25 %", 0.25, 1, False), ("100 %", 1.0, 1, False),
                  ("64 instances, 25 %", 0.25, 64, False)]
 FRAME_COLUMNS = [("frame", 1), ("frame, 64 characters", 64)]
+# In the order of evaluation; what is not in a rig is left out by the program.
+STAGES = [("networks", "ml_ns"), ("RBF", "rbf_ns"), ("correctives", "psd_ns"), ("joints", "joints_ns"),
+          ("blend shapes", "blend_shapes_ns"), ("animated maps", "animated_maps_ns"), ("all", "evaluate_ns")]
 # For bars on light and on dark pages.
 COLORS = {"scalar": "#8b949e", "sse2": "#bf8700", "avx2": "#2f81f7", "avx512": "#8957e5",
            "neon": "#2da44e"}
@@ -48,13 +51,13 @@ def medians(paths):
     differs between the fastest and the slowest, in the middle."""
     runs = [trimmed(json.loads(Path(path).read_text(encoding="utf-8"))) for path in paths]
     spreads = []
-    for key in ("csr", "rows", "frames"):
+    for key in ("csr", "rows", "stages", "frames"):
         for rows in zip(*(run.get(key, []) for run in runs), strict=True):
             times = {field: [row[field] for row in rows] for field in rows[0] if field.endswith("_ns")}
             if len({json.dumps({k: v for k, v in row.items() if k not in times}) for row in rows}) > 1:
                 sys.exit("chart.py: these are not runs of the same: " + ", ".join(paths))
             rows[0].update((field, statistics.median(values)) for field, values in times.items())
-            if "evaluate_ns" in times:
+            if "evaluate_ns" in times and key != "stages":
                 spreads.append((max(times["evaluate_ns"]) - min(times["evaluate_ns"])) /
                                rows[0]["evaluate_ns"])
     return {**runs[0], "runs": len(runs), "spread": statistics.median(spreads)}
@@ -130,6 +133,26 @@ def other_table(result):
     return lines
 
 
+def stage_rows(result):
+    """[(rig, its stages)] with the best instruction set that most machines have."""
+    runs = [{**result["runs"][0], "name": "large head"}] + result.get("others", [])
+    return [(run["name"], row) for run in runs for row in run.get("stages", [])
+            if row["isa"] in ("avx2", "neon")]
+
+
+def stage_table(result):
+    rows = stage_rows(result)
+    if not rows:
+        return []
+    lines = ["", f"Their stages at 25 %, {rows[0][1]['isa']}, microseconds per character.", "",
+             "| |" + "|".join(f" {name} " for name, _ in STAGES) + "|", "|---|" + "---|" * len(STAGES)]
+    for name, row in rows:
+        cells = [f" {row[key] / 1000:.2f} " if key in row else " " for _, key in STAGES]
+        many = "" if row["characters"] == 1 else f", {row['characters']} characters"
+        lines.append(f"| {name}{many} |" + "|".join(cells) + "|")
+    return lines
+
+
 def of_runs(result):
     run = result["runs"][0]
     if run.get("runs", 1) == 1:
@@ -154,7 +177,7 @@ def table(result):
         cells = [f" {values[name][0] / 1000:.1f} ({values[name][1]:.1f}x) "
                  if name in values else " " for name, *_ in COLUMNS]
         lines.append(f"| {label} |" + "|".join(cells) + "|")
-    return lines + other_table(result) + loading(result)
+    return lines + other_table(result) + stage_table(result) + loading(result)
 
 
 def loading(result):
@@ -210,6 +233,34 @@ def bars(title, rows, names, y):
     return out, y
 
 
+def stage_bars(rows, y):
+    """A bar for each row, cut into its stages."""
+    if not rows:
+        return [], y
+    stages = STAGES[:-1]
+    shades = ["#8957e5", "#d29922", "#2da44e", "#2f81f7", "#bf3989", "#8b949e"]
+    left, bar, wide = 250, 18, 460
+    y += 20
+    out = [f'<text x="8" y="{y}">Stages at 25 %, {rows[0][1]["isa"]}, share of the time</text>']
+    x = 300
+    for (name, _), shade in zip(stages, shades, strict=True):
+        out.append(f'<rect x="{x}" y="{y - 9}" width="10" height="10" fill="{shade}"/>')
+        out.append(f'<text x="{x + 13}" y="{y}" font-size="10">{html.escape(name)}</text>')
+        x += 24 + 6 * len(name)
+    y += 12
+    for name, row in rows:
+        many = "" if row["characters"] == 1 else f", {row['characters']} characters"
+        out.append(f'<text x="8" y="{y + 12}" font-size="11">{html.escape(name + many)}</text>')
+        whole, x = sum(row.get(key, 0) for _, key in stages), float(left)
+        for (_, key), shade in zip(stages, shades, strict=True):
+            width = wide * row.get(key, 0) / whole
+            out.append(f'<rect x="{x:.1f}" y="{y}" width="{width:.1f}" height="{bar - 3}" fill="{shade}"/>')
+            x += width
+        out.append(f'<text x="{x + 5:.1f}" y="{y + 11}" font-size="10">{row["evaluate_ns"] / 1000:.1f} us</text>')
+        y += bar
+    return out, y + 14
+
+
 def chart(result):
     out, y = bars("Whole evaluation, times as fast as compressed sparse rows", series(result),
                   [name for name, *_ in COLUMNS], 20)
@@ -217,6 +268,8 @@ def chart(result):
         more, y = bars(f"{run['name']}, times as fast as scalar code", other_series(run),
                        [name for name, *_ in OTHER_COLUMNS + FRAME_COLUMNS], y + 20)
         out += more
+    more, y = stage_bars(stage_rows(result), y)
+    out += more
     height = y + 4
     head = [f'<svg xmlns="http://www.w3.org/2000/svg" width="760" height="{height}" '
             f'viewBox="0 0 760 {height}" font-family="sans-serif" font-size="12">',
