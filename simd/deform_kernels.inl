@@ -261,21 +261,31 @@ void sum_normals(const NormalArgs& given) {
   const auto run = [&](uint32_t first, uint32_t count, const uint32_t* first_vertex) {
     const uint32_t* const vertices = args.vertices + first_vertex[0];
     const float* const normals = args.normals + size_t{first_vertex[0]} * 4;
-    size_t vertex = 0;
+    const auto area = [&](size_t k) {
+      return load4(args.areas + size_t{args.adjacent_faces[k]} * 4);
+    };
+    size_t face = args.first_adjacent_face[first], vertex = 0;
+    uint32_t any_hard = 0;
     for (size_t i = 0; i < count; ++i) {
-      const size_t position = first + i;
-      const uint32_t* face = args.adjacent_faces + args.first_adjacent_face[position];
-      const uint32_t* const last = args.adjacent_faces + args.first_adjacent_face[position + 1];
-      const auto area = [&](size_t k) { return load4(args.areas + size_t{face[k]} * 4); };
+      const size_t faces_end = args.first_adjacent_face[first + i + 1];
       Quad sum = broadcast4(0.0f);
       // Most positions of a mesh of quads have four faces.
-      for (; last - face >= 4; face += 4) sum = sum + area(0) + area(1) + area(2) + area(3);
-      for (; face != last; ++face) sum = sum + area(0);
+      for (; face + 4 <= faces_end; face += 4) {
+        sum = sum + area(face) + area(face + 1) + area(face + 2) + area(face + 3);
+      }
+      for (; face != faces_end; ++face) sum = sum + area(face);
       for (const size_t end = first_vertex[i + 1] - first_vertex[0]; vertex != end; ++vertex) {
         store4(vectors + vertex * 4, sum);
-        if ((vertices[vertex] & kHardEdge) == 0) continue;
-        store4(vectors + vertex * 4,
-               rotated_normal(sum, args.neutral_directions + position * 4, normals + vertex * 4));
+        any_hard |= vertices[vertex] & kHardEdge;
+      }
+    }
+    // Apart: in the loop above, what is rare would take registers from the sums.
+    for (size_t i = 0; any_hard != 0 && i < count; ++i) {
+      const float* direction = args.neutral_directions + (first + i) * 4;
+      for (size_t k = first_vertex[i] - first_vertex[0]; k < first_vertex[i + 1] - first_vertex[0];
+           ++k) {
+        if ((vertices[k] & kHardEdge) == 0) continue;
+        store4(vectors + k * 4, rotated_normal(load4(vectors + k * 4), direction, normals + k * 4));
       }
     }
     put_normals(vectors, vertices, vertex, normals, args.out_normals);
