@@ -1017,7 +1017,8 @@ typedef struct MienBatchDesc {
 } MienBatchDesc;
 MIEN_DEFAULT(MienBatchDesc, mien_batch_desc_default)
 
-/* Creates a batch: one allocation of mien_batch_bytes(). `rig` may be destroyed before it. Destroy with
+/* Creates a batch: one allocation of mien_batch_bytes(), which with 16-bit storage includes the weights of
+ * networks as floats, 4 bytes each. `rig` may be destroyed before it. Destroy with
  * mien_batch_destroy(). */
 MIEN_CHECKED MienStatus mien_batch_create(const MienRig* rig, const MienBatchDesc* desc,
                                           MienBatch** out_batch, MienError* error);

@@ -49,6 +49,10 @@ inline bool is_finished(uint8_t function) { return function < 2 || function > 4;
 inline Vec load_weights(const float* from) { return load(from); }
 inline Vec load_weights(const uint16_t* from) { return load_half(from); }
 
+void floats_from_halves(const uint16_t* from, size_t count, float* to) {
+  for (size_t i = 0; i < count; i += kWidth) store(to + i, load_half(from + i));
+}
+
 /// Vectors are written because vectors are read: a read that takes parts of several writes waits for the
 /// last of them to reach the cache.
 void gather_inputs(const float* from, const uint16_t* at, size_t count, float* to) {
@@ -211,43 +215,14 @@ void dense_layer(const DenseLayerArgs& args) {
 
 // Batches: lanes are characters, and a weight is the same for all of them -----------------------------
 
-/// The weights of a block as floats: those of column c begin at c * kBlockLanes.
-struct BlockWeights {
-  const float* floats;
-  void begin(size_t, size_t) const {}
-  void reach(size_t, size_t) const {}
-};
-
-/// Halves of a block that become floats, column by column, a few before they are multiplied: beside the
-/// multiply-adds this takes less time than in a loop of its own.
-struct WidenedWeights {
-  static constexpr size_t kAhead = 8;  // columns; even, as every other one is summed
-  const uint16_t* halves;
-  float* floats;
-  void widen(size_t c) const {
-    const uint16_t* const from = halves + c * kBlockLanes;
-    float* const to = floats + c * kBlockLanes;
-#pragma GCC unroll 4
-    for (size_t v = 0; v < kVecsPerBlock; ++v) store(to + v * kWidth, load_half(from + v * kWidth));
-  }
-  void begin(size_t first_column, size_t column_count) const {
-    for (size_t c = first_column; c < kAhead && c < column_count; c += 2) widen(c);
-  }
-  void reach(size_t c, size_t column_count) const {
-    if (c + kAhead < column_count) widen(c + kAhead);
-  }
-};
-
 /// The sums over every other column of neighboring rows, R counts them, for kBatchVecs vectors of lanes.
-template <class How, class Weights, size_t... R>
-inline void sum_columns(const Weights& weights, const float* inputs, size_t first_column,
+template <class How, size_t... R>
+inline void sum_columns(const float* weights, const float* inputs, size_t first_column,
                         size_t column_count, VecPair* sums, std::index_sequence<R...>) {
   VecPair sum[] = {(static_cast<void>(R), Make<VecPair>::of(0.0f))...};
-  weights.begin(first_column, column_count);
   for (size_t c = first_column; c < column_count; c += 2) {
-    weights.reach(c, column_count);
     const Vec a = load(inputs + c * kBatchLanes), b = load(inputs + c * kBatchLanes + kWidth);
-    const float* const column = weights.floats + c * kBlockLanes;
+    const float* const column = weights + c * kBlockLanes;
     // Row by row: compilers would load all weights first, for which there are no registers left.
     const auto add = [&](VecPair& to, float value) {
       const Vec weight = broadcast(value);
@@ -267,8 +242,8 @@ constexpr size_t kMaxDenseRows = 6;
 #endif
 
 /// Rows `row` ... and lanes `lane` ...; `weights` begin with those of the first row.
-template <class How, size_t kRows, class Weights>
-inline void sum_batch_rows(const DenseBatchArgs& args, const Weights& weights, size_t row,
+template <class How, size_t kRows>
+inline void sum_batch_rows(const DenseBatchArgs& args, const float* weights, size_t row,
                            size_t lane, const Finish& finish) {
   constexpr std::make_index_sequence<kRows> kEach;
   VecPair even[kRows], odd[kRows];
@@ -282,51 +257,26 @@ inline void sum_batch_rows(const DenseBatchArgs& args, const Weights& weights, s
   }
 }
 
-/// The rows of a block, from `row` on; the first of its lanes are done already, from `lane` on.
-template <class How>
-void sum_batch_block(const DenseBatchArgs& args, const float* weights, size_t row, size_t end,
-                     size_t lane, const Finish& finish) {
-  while (row < end) {
-    const bool many = end - row > 4;  // what is computed ends with the block
-    for (; lane < args.lane_count; lane += 2 * kWidth) {
-      if (many) {
-        sum_batch_rows<How, kMaxDenseRows>(args, BlockWeights{weights}, row, lane, finish);
-      } else {
-        sum_batch_rows<How, 4>(args, BlockWeights{weights}, row, lane, finish);
-      }
-    }
-    lane = 0;
-    weights += many ? kMaxDenseRows : 4;
-    row += many ? kMaxDenseRows : 4;
-  }
-}
-
 /// Sums are more than a core has multiply-adds under way.
-template <class How, class Weight>
-void sum_batch(const DenseBatchArgs& args) {
-  const size_t column_count = args.column_count, row_count = args.row_count;
-  const Weight* values = static_cast<const Weight*>(args.values);
-  const Finish finish(args.function);
-  for (size_t block = 0; block < row_count; block += kBlockLanes) {
-    const size_t end = block + kBlockLanes < row_count ? block + kBlockLanes : row_count;
-    const Weight* const of_block = values + block * column_count;
-    if constexpr (sizeof(Weight) == sizeof(float)) {
-      sum_batch_block<How>(args, of_block, block, end, 0, finish);
-    } else {
-      const WidenedWeights widened{of_block, args.scratch};
-      if (end - block > 4) {
-        sum_batch_rows<How, kMaxDenseRows>(args, widened, block, 0, finish);
-      } else {
-        sum_batch_rows<How, 4>(args, widened, block, 0, finish);
-      }
-      sum_batch_block<How>(args, args.scratch, block, end, 2 * kWidth, finish);
-    }
-  }
-}
-
 template <class How>
 void sum_batch(const DenseBatchArgs& args) {
-  args.halves ? sum_batch<How, uint16_t>(args) : sum_batch<How, float>(args);
+  const Finish finish(args.function);
+  for (size_t block = 0; block < args.row_count; block += kBlockLanes) {
+    const float* weights = args.values + block * args.column_count;
+    const size_t end = block + kBlockLanes < args.row_count ? block + kBlockLanes : args.row_count;
+    for (size_t row = block; row < end;) {
+      const bool many = end - row > 4;  // what is computed ends with the block
+      for (size_t lane = 0; lane < args.lane_count; lane += 2 * kWidth) {
+        if (many) {
+          sum_batch_rows<How, kMaxDenseRows>(args, weights, row, lane, finish);
+        } else {
+          sum_batch_rows<How, 4>(args, weights, row, lane, finish);
+        }
+      }
+      weights += many ? kMaxDenseRows : 4;
+      row += many ? kMaxDenseRows : 4;
+    }
+  }
 }
 
 void dense_batch(const DenseBatchArgs& args) {

@@ -215,17 +215,15 @@ struct DenseLayerArgs {
 /// For lanes k < lane_count; those up to the next multiple of batch_step are computed as well. Rows past
 /// row_count, up to the next 16, may be written.
 struct DenseBatchArgs {
-  const void* values;   // as for dense_layer
+  const float* values;  // as for dense_layer, but never halves
   const float* biases;  // as for dense_layer
   const float* inputs;  // 64-byte aligned, and so are those that follow
   float* outputs;
-  float* scratch;  // of halves: 16 floats for each column
   float alpha;
   uint32_t column_count;
   uint32_t row_count;
   uint32_t lane_count;
   uint8_t function;
-  bool halves;
   bool portable;
 };
 
@@ -620,6 +618,8 @@ struct KernelTable {
   void (*finish_sums)(float* sums, const float* scales, size_t count);
   /// Inputs of a layer: to[i] = from[at[i]] for i < count; more, up to the next 16, may be written.
   void (*gather_inputs)(const float* from, const uint16_t* at, size_t count, float* to);
+  /// count is a multiple of 16, both are 64-byte aligned.
+  void (*floats_from_halves)(const uint16_t* from, size_t count, float* to);
   void (*dense_layer)(const DenseLayerArgs& args);
   void (*dense_batch)(const DenseBatchArgs& args);
   void (*quaternion_joints)(const QuaternionJointArgs& args);

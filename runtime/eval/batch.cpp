@@ -52,6 +52,7 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
   batch.block_list.blocks = placer.array<InputBlock>(block_count);
   batch.lane_order.turns = placer.array<uint32_t>(rig.rotations.turns.count);
   batch.lane_order.twists = placer.array<uint32_t>(rig.twist_swing.outputs.count);
+  batch.ml_values = placer.array<float>(rig.ml.halves.count, kBlockAlignment);
   batch.order = placer.array<Instance*>(capacity);
   batch.lods = placer.array<uint32_t>(capacity);
   batch.first_of_packet = placer.array<uint32_t>(max_packets(rig, capacity, tasks) + 1);
@@ -76,8 +77,6 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
     for (Span<float>& layer : scratch.ml_layers) {
       layer = placer.array<float>(layer_width * kBatchLanes, kBlockAlignment);
     }
-    scratch.ml_weights =
-        placer.array<float>(rig.half_storage ? layer_width * kBlockLanes : 0, kBlockAlignment);
     // A rig whose solvers read what others write solves them one by one.
     const size_t lanes = rig.rbf.independent ? kBatchLanes : 0;
     scratch.rbf_rotations = placer.array<float>(rig.rbf.rotations.count * lanes, kBlockAlignment);
@@ -154,6 +153,9 @@ Batch* create_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, const All
   rig.owners.fetch_add(1, std::memory_order_relaxed);
 
   fill_block_list(rig, batch->block_list);
+  const size_t values =
+      rig.ml.halves.count / kBlockLanes * kBlockLanes;  // layers fill whole blocks
+  rig.kernels->floats_from_halves(rig.ml.halves.data, values, batch->ml_values.data);
   order_lanes(rig.rotations.turns, batch->lane_order.turns);
   order_lanes(rig.twist_swing.outputs, batch->lane_order.twists);
   return batch;
@@ -198,9 +200,10 @@ void evaluate_batch(Batch& batch, Instance* const* instances, const uint32_t* lo
     const Batch& b = *static_cast<const Batch*>(context);
     for (uint32_t c = index; c < b.packet_count; c += b.task_count) {
       const uint32_t first = b.first_of_packet[c], end = b.first_of_packet[c + 1];
-      evaluate_packet({*b.rig, b.lods[first], b.order.data + first, end - first, &b.block_list,
-                       &b.lane_order, &b.tasks[index]},
-                      b.stages);
+      evaluate_packet(
+          {*b.rig, b.lods[first], b.order.data + first, end - first, &b.block_list, &b.lane_order,
+           b.rig->half_storage ? b.ml_values.data : b.rig->ml.values.data, &b.tasks[index]},
+          b.stages);
     }
   };
   run_tasks(parallel, batch.task_count, task, &batch);

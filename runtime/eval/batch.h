@@ -18,6 +18,8 @@ struct Batch {
 
   BlockList block_list;
   LaneOrder lane_order;
+  Span<float>
+      ml_values;  // the halves of the rig's networks as floats: faster than to convert them in each packet
   Span<PacketScratch> tasks;
 
   // Of the current evaluation.

@@ -32,13 +32,7 @@ void gather(const Rig& rig, Instance& instance, const MlStep& step, float* input
 template <class Args>
 Args layer_args(const Rig& rig, const NetworkLayer& layer) {
   Args args = {};
-  args.halves = rig.half_storage;
   args.portable = rig.portable;
-  if (args.halves) {
-    args.values = rig.ml.halves.data + layer.first_value;
-  } else {
-    args.values = rig.ml.values.data + layer.first_value;
-  }
   args.biases = rig.ml.biases.data + layer.first_bias;
   args.alpha = layer.alpha;
   args.column_count = layer.input_count;
@@ -53,8 +47,15 @@ void run_network(const Rig& rig, Instance& instance, const MlStep& step) {
   float* out = instance.ml_layers[1].data;
   gather(rig, instance, step, in);
   for (uint32_t l = 0; l < step.layer_count; ++l) {
-    auto args = layer_args<DenseLayerArgs>(rig, rig.ml.layers[step.first_layer + l]);
+    const NetworkLayer& layer = rig.ml.layers[step.first_layer + l];
+    auto args = layer_args<DenseLayerArgs>(rig, layer);
     const bool last = l + 1 == step.layer_count;
+    args.halves = rig.half_storage;
+    if (args.halves) {
+      args.values = rig.ml.halves.data + layer.first_value;
+    } else {
+      args.values = rig.ml.values.data + layer.first_value;
+    }
     args.inputs = in;
     args.sparse = l == 0 || rig.ml.layers[step.first_layer + l - 1].function == 1;
     args.outputs = last ? instance.ml_values.data + step.first_output : out;
@@ -98,10 +99,11 @@ const float* run_layers(const InstancePacket& those, const MlStep& step, const f
     gather_one_by_one(those, step, in);
   }
   for (uint32_t l = 0; l < step.layer_count; ++l) {
-    auto args = layer_args<DenseBatchArgs>(rig, rig.ml.layers[step.first_layer + l]);
+    const NetworkLayer& layer = rig.ml.layers[step.first_layer + l];
+    auto args = layer_args<DenseBatchArgs>(rig, layer);
+    args.values = those.ml_values + layer.first_value;
     args.inputs = in;
     args.outputs = out;
-    args.scratch = scratch.ml_weights.data;
     args.lane_count = those.count;
     rig.kernels->dense_batch(args);
     std::swap(in, out);

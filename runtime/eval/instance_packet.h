@@ -38,7 +38,6 @@ struct PacketScratch {
   Span<uint32_t> ends;         // [block row] into blocks
   Span<InputBlock> blocks;     // of used columns; those of a block row begin at BlockList::starts
   Span<float> ml_layers[2];    // [input or output][32] of the widest network layer
-  Span<float> ml_weights;      // of a block of rows, in half storage
   Span<float> rbf_rotations;   // layout: RbfBatchArgs
   Span<float> rbf_weights[2];  // layout: RbfBatchArgs
   Span<float> rotations;       // of kBlockLanes joints; layout: QuaternionBatchArgs
@@ -52,6 +51,7 @@ struct InstancePacket {
   // Null in a single evaluation.
   const BlockList* block_list;
   const LaneOrder* lane_order;
+  const float* ml_values;  // weights of networks, floats in any storage
   const PacketScratch* scratch;
 };
 

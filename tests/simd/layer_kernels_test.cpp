@@ -120,7 +120,7 @@ void expect_same_bits(const KernelTable* table, const RandomLayer& layer, uint32
   const auto function = static_cast<uint8_t>(round % 5);
   const bool is_half = round / 5 % 2, portable = round / 10 % 2;
   Aligned values(size_t{rows} * columns), biases(rows), inputs(size_t{columns} * kBatchLanes),
-      outputs(size_t{rows} * kBatchLanes), scratch(size_t{columns} * kBlockLanes), single(rows),
+      outputs(size_t{rows} * kBatchLanes), single(rows),
       of_lane((columns + kBlockLanes - 1) / kBlockLanes * kBlockLanes);
   for (size_t i = 0; i < size_t{rows} * columns; ++i) {
     values.data[i] = static_cast<float>(random.between(-1, 1));
@@ -135,9 +135,10 @@ void expect_same_bits(const KernelTable* table, const RandomLayer& layer, uint32
     for (uint32_t k = 0; k < kBatchLanes; ++k) inputs.data[k] *= 10;
   }
   const AlignedHalves halves(values.data, size_t{rows} * columns);
+  if (is_half) table->floats_from_halves(halves.data, size_t{rows} * columns, values.data);
   const void* weights = is_half ? static_cast<const void*>(halves.data) : values.data;
-  table->dense_batch({weights, biases.data, inputs.data, outputs.data, scratch.data, 0.1f, columns,
-                      row_count, lanes, function, is_half, portable});
+  table->dense_batch({values.data, biases.data, inputs.data, outputs.data, 0.1f, columns, row_count,
+                      lanes, function, portable});
   for (uint32_t k = 0; k < lanes; ++k) {
     std::fill_n(of_lane.data, of_lane.storage.size() - 16, 7.0f);  // behind the last: not looked at
     for (uint32_t c = 0; c < columns; ++c) of_lane.data[c] = inputs.data[c * kBatchLanes + k];
@@ -226,14 +227,16 @@ TEST(DenseLayer, EveryFiniteHalfIsReadExactly) {
   }
   const auto count = static_cast<uint32_t>(all.size());
   ASSERT_EQ(count % kBlockLanes, 0u);
-  Aligned biases(count), outputs(count);
+  Aligned biases(count), outputs(count), floats(count);
   AlignedHalves halves(biases.data, count);
   std::copy(all.begin(), all.end(), halves.data);
   const float one = 1;
   for (const KernelTable* table : present()) {
     table->dense_layer(
         {halves.data, biases.data, &one, outputs.data, 0, 1, count, 0, true, false, false});
+    table->floats_from_halves(halves.data, count, floats.data);
     for (uint32_t i = 0; i < count; ++i) {
+      ASSERT_EQ(floats.data[i], outputs.data[i]) << table->name << ", " << all[i];
       ASSERT_EQ(outputs.data[i], float_from_half(all[i])) << table->name << ", " << all[i];
     }
   }

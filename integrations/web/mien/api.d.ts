@@ -2285,7 +2285,8 @@ export interface Exports {
    */
   mien_rig_evaluate_stages(rig: number, instance: number, lod: number, stages: number): number;
   /**
-   * Creates a batch: one allocation of mien_batch_bytes(). `rig` may be destroyed before it. Destroy with
+   * Creates a batch: one allocation of mien_batch_bytes(), which with 16-bit storage includes the weights of
+   * networks as floats, 4 bytes each. `rig` may be destroyed before it. Destroy with
    * mien_batch_destroy().
    */
   mien_batch_create(rig: number, desc: number, out_batch: number, error: number): number;

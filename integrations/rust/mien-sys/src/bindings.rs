@@ -3402,8 +3402,9 @@ extern "C" {
     /// See docs/rig-evaluation.md, 9.3 "Partial evaluation".
     pub fn mien_rig_evaluate_stages(rig: *const MienRig, instance: *mut MienInstance, lod: u32, stages: u32) -> MienStatus;
 
-    /// Creates a batch: one allocation of `mien_batch_bytes()`. `rig` may be destroyed before it.
-    /// Destroy with `mien_batch_destroy()`.
+    /// Creates a batch: one allocation of `mien_batch_bytes()`, which with 16-bit storage includes
+    /// the weights of networks as floats, 4 bytes each. `rig` may be destroyed before it. Destroy
+    /// with `mien_batch_destroy()`.
     pub fn mien_batch_create(rig: *const MienRig, desc: *const MienBatchDesc, out_batch: *mut *mut MienBatch, error: *mut MienError) -> MienStatus;
 
     /// Destroys a batch.
