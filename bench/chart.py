@@ -144,7 +144,7 @@ def stage_table(result):
     rows = stage_rows(result)
     if not rows:
         return []
-    lines = ["", f"Their stages at 25 %, {rows[0][1]['isa']}, microseconds per character.", "",
+    lines = ["", f"Their stages at 25 %, each timed by itself, {rows[0][1]['isa']}, microseconds per character.", "",
              "| |" + "|".join(f" {name} " for name, _ in STAGES) + "|", "|---|" + "---|" * len(STAGES)]
     for name, row in rows:
         cells = [f" {row[key] / 1000:.2f} " if key in row else " " for _, key in STAGES]
