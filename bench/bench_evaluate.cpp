@@ -58,13 +58,18 @@ void run(const MienRig* rig, MienInstance* instance, uint32_t lod, uint32_t stag
   }
 }
 
-void evaluate(benchmark::State& state, uint32_t isa, uint32_t lod, int percent, uint32_t stages) {
-  const MienRig* rig = rig_for(isa);
+MienInstance* create_instance(const MienRig* rig, MienMutableFloatView* raw) {
   MienInstance* instance = nullptr;
   MienError error = sized<MienError>();
   require(mien_instance_create(rig, nullptr, &instance, &error), error);
+  require(mien_instance_raw_controls(instance, raw));
+  return instance;
+}
+
+void evaluate(benchmark::State& state, uint32_t isa, uint32_t lod, int percent, uint32_t stages) {
+  const MienRig* rig = rig_for(isa);
   MienMutableFloatView raw = {};
-  require(mien_instance_raw_controls(instance, &raw));
+  MienInstance* instance = create_instance(rig, &raw);
   activate(raw, percent);
   require(mien_rig_evaluate(rig, instance, lod));
   uint32_t set_ups = 0;
@@ -85,11 +90,8 @@ constexpr uint32_t kChangingFrames = 64;
 
 void evaluate_changing(benchmark::State& state, uint32_t isa, uint32_t lod, int percent) {
   const MienRig* rig = rig_for(isa);
-  MienInstance* instance = nullptr;
-  MienError error = sized<MienError>();
-  require(mien_instance_create(rig, nullptr, &instance, &error), error);
   MienMutableFloatView raw = {};
-  require(mien_instance_raw_controls(instance, &raw));
+  MienInstance* instance = create_instance(rig, &raw);
   std::vector<float> frames;
   for (uint32_t f = 0; f < kChangingFrames; ++f) {
     activate(raw, percent, f);
@@ -140,12 +142,9 @@ void csr(benchmark::State& state, uint32_t lod) {
 void plain_rbf(benchmark::State& state) {
   const PlainRbf rbf = read_plain_rbf(behavior());
   const MienRig* rig = rig_for(MIEN_ISA_SCALAR);
-  MienInstance* instance = nullptr;
-  MienError error = sized<MienError>();
-  require(mien_instance_create(rig, nullptr, &instance, &error), error);
   MienMutableFloatView raw = {};
+  MienInstance* instance = create_instance(rig, &raw);
   MienFloatView expected = {};
-  require(mien_instance_raw_controls(instance, &raw));
   require(mien_instance_controls(instance, &expected));
   activate(raw, 25);
   require(mien_rig_evaluate_stages(rig, instance, 0, MIEN_STAGE_RBF));
