@@ -27,4 +27,12 @@ struct FileRows {
 /// columns. `plan` says where columns begin.
 void fill_joint_blocks(const dna::DnaView& view, const JointPlan& plan, Rig& rig);
 
+/// Cuts block rows into strips, if strips are worth their memory: a block row joins the one before if then
+/// less is read. kMemory (scratch).
+Status plan_strips(const dna::DnaView& view, const Rig& rig, Arena& scratch, JointPlan& plan,
+                   Error& error);
+void place_strips(const Rig& rig, const JointPlan& plan, Placer& placer, JointMatrix& joints);
+/// Copies the blocks, which are in place.
+void fill_strips(const JointPlan& plan, JointMatrix& joints);
+
 }  // namespace mien
