@@ -236,15 +236,15 @@ inline void sum_strips(const JointStripsArgs& args) {
       for (size_t b = 0; b < block_rows; ++b, values += kJointBlockRows, sums += kJointBlockRows) {
         sum(InBlocks(), VecsOf<InBlocks, 1>());
       }
-      continue;
-    }
-    switch (block_rows) {
-      case 1: sum(InBlocks(), VecsOf<InBlocks, 1>()); break;
-      case 2: sum(InPairs(), VecsOf<InPairs, 2>()); break;
-      case 3: sum(InBlocks(), VecsOf<InBlocks, 3>()); break;
-      case 4: sum(InPairs(), VecsOf<InPairs, 4>()); break;
-      case 5: sum(InBlocks(), VecsOf<InBlocks, 5>()); break;
-      default: sum(InPairs(), VecsOf<InPairs, kMaxStripBlockRows>()); break;
+    } else {
+      switch (block_rows) {
+        case 1: sum(InBlocks(), VecsOf<InBlocks, 1>()); break;
+        case 2: sum(InPairs(), VecsOf<InPairs, 2>()); break;
+        case 3: sum(InBlocks(), VecsOf<InBlocks, 3>()); break;
+        case 4: sum(InPairs(), VecsOf<InPairs, 4>()); break;
+        case 5: sum(InBlocks(), VecsOf<InBlocks, 5>()); break;
+        default: sum(InPairs(), VecsOf<InPairs, kMaxStripBlockRows>()); break;
+      }
     }
   }
 }

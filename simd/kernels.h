@@ -83,7 +83,8 @@ struct RowStrip {
 };
 constexpr uint32_t kMaxStripBlockRows = 6;
 
-/// The same by strips: for the inputs i of the strip that block row b belongs to, in order,
+/// Columns added as joint_columns does, strip by strip: for the inputs i of the strip that block row b belongs
+/// to, in order,
 ///
 ///     sums[8 * b + r] += values(i, b, r) * controls[inputs[i]]
 ///

@@ -36,6 +36,14 @@ Status plan_strips(const dna::DnaView& view, const Rig& rig, Arena& scratch, Joi
   uint32_t count = 0;
   size_t rows = 0, inputs = 0;  // of the last strip
   size_t end_block = 0, end_input = 0;
+  const auto begin_strip = [&](uint32_t block_row) {
+    end_block += rows * inputs;
+    end_block += end_block % 2;  // filled up, for strips that begin with an even block
+    end_input += inputs;
+    rows = inputs = 0;
+    plan.strips[count++] = {block_row, static_cast<uint32_t>(end_block),
+                            static_cast<uint32_t>(end_input)};
+  };
   for (uint32_t b = 0; b < block_row_count; ++b) {
     const auto for_each_input = [&](auto&& f) {
       const BlockHalves* const end = plan.halves.data + plan.first_halves[b / 2 + 1];
@@ -48,28 +56,15 @@ Status plan_strips(const dna::DnaView& view, const Rig& rig, Arena& scratch, Joi
     for_each_input([&](uint32_t last) { ++alone, together += last != count; });
     const bool joins = count != 0 && rows < kMaxStripBlockRows &&
                        reads(rows + 1, together) <= reads(rows, inputs) + reads(1, alone);
-    if (joins) {
-      inputs = together;
-    } else {
-      end_block += rows * inputs;
-      end_input += inputs;
-      // Filled up for what begins with an even block.
-      end_block += end_block % 2;
-      plan.strips[count++] = {b, static_cast<uint32_t>(end_block),
-                              static_cast<uint32_t>(end_input)};
-      rows = 0;
-      inputs = alone;
-    }
+    if (!joins) begin_strip(b);
+    inputs = joins ? together : alone;
     ++rows;
     for_each_input([&](uint32_t& last) { last = count; });
     plan.strip_of_row[b] = count - 1;
   }
-  end_block += rows * inputs;
-  end_input += inputs;
-  plan.strips[count] = {block_row_count, static_cast<uint32_t>(end_block),
-                        static_cast<uint32_t>(end_input)};
+  begin_strip(block_row_count);
   const bool used = end_block != 0 && end_block <= kMaxBlocks;
-  plan.strips.count = used ? count + 1 : 0;
+  plan.strips.count = used ? count : 0;
   return Status::kOk;
 }
 
@@ -88,11 +83,11 @@ void place_strips(const Rig& rig, const JointPlan& plan, Placer& placer, JointMa
 
 void fill_strips(const JointPlan& plan, JointMatrix& joints) {
   if (plan.strips.empty()) return;
-  // Meanwhile plan.strips says where the next input of each strip goes.
   const auto copy = [&](auto& from, auto& to, uint32_t block, size_t place) {
     const auto* const values = from.data + size_t{block} * kJointBlockRows;
     std::copy_n(values, kJointBlockRows, to.data + place * kJointBlockRows);
   };
+  // From here on plan.strips says where the next input of each strip goes.
   std::copy(plan.strips.begin(), plan.strips.end(), joints.strips.begin());
   uint32_t& first = joints.first_strip_column;
   while (joints.columns[first] < plan.first_strip_control) ++first;

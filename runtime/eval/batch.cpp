@@ -153,8 +153,8 @@ Batch* create_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, const All
   rig.owners.fetch_add(1, std::memory_order_relaxed);
 
   fill_block_list(rig, batch->block_list);
-  const size_t values =
-      rig.ml.halves.count / kBlockLanes * kBlockLanes;  // layers fill whole blocks
+  // Layers fill whole blocks.
+  const size_t values = rig.ml.halves.count / kBlockLanes * kBlockLanes;
   rig.kernels->floats_from_halves(rig.ml.halves.data, values, batch->ml_values.data);
   order_lanes(rig.rotations.turns, batch->lane_order.turns);
   order_lanes(rig.twist_swing.outputs, batch->lane_order.twists);

@@ -18,8 +18,7 @@ struct Batch {
 
   BlockList block_list;
   LaneOrder lane_order;
-  Span<float>
-      ml_values;  // the halves of the rig's networks as floats: faster than to convert them in each packet
+  Span<float> ml_values;  // the halves of the rig's networks as floats: no packet converts them
   Span<PacketScratch> tasks;
 
   // Of the current evaluation.
